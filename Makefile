@@ -70,6 +70,11 @@ run: ## the whole way: a mechanism's energies, its motion, its firmware on an em
 	@CC="$(CC)" mk/setup/deps.sh host plot firmware
 	@$(MAKE) run-now
 
+.PHONY: rig
+rig: ## the rig's firmware on this machine, its rotor a model's, its console for any terminal program
+	@CC="$(CC)" mk/setup/deps.sh host
+	@$(MAKE) rig-now
+
 .PHONY: pil
 pil: ## processor in the loop: the rig's firmware on BOARD against a plant of its own, and its tape everywhere
 	@CC="$(CC)" mk/setup/deps.sh host firmware

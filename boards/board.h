@@ -35,6 +35,14 @@ _Noreturn void board_exit(int code);
 uint32_t board_ticks(void);
 extern const uint32_t board_ticks_per_s;
 
+/* Wait until the clock has reached `ticks`, which must be less than half its range ahead; return at once when it has
+ * already. The PC sleeps meanwhile. */
+void board_wait_until(uint32_t ticks);
+
+/* Open the console for a dialogue (hal_console_read()): on the PC a pseudo-terminal, whose name is printed. False, and why
+ * is printed, when there is none. Boards with a UART have it open. */
+bool board_converse(void);
+
 /* The processor's own count of its cycles, wrapping at 2^32. board_cycles_start() switches it on and says whether there
  * is one that counts: on silicon with a Cortex-M3, M4, M7 or M33 (DWT's CYCCNT); not on the PC, not in emulators, whose
  * time is none. Where there is none board_cycles() is 0. */

@@ -58,6 +58,7 @@ unsigned wh_orders_put(const wh_orders *orders, uint8_t *bytes, unsigned room) {
     wh_bytes_put(&out, orders->until_ticks, 4);
     wh_bytes_put(&out, orders->acted_timer, 4);
     wh_bytes_put(&out, orders->busy_timer, 4);
+    wh_bytes_put(&out, orders->step_timer, 4);
     wh_bytes_put(&out, orders->watchdog_ticks, 4);
     wh_bytes_put(&out, orders->flags, 1);
     wh_bytes_put(&out, orders->outputs, 1);
@@ -72,6 +73,7 @@ bool wh_orders_get(wh_orders *orders, const uint8_t *bytes, unsigned length) {
     orders->until_ticks = wh_bytes_get(&in, 4);
     orders->acted_timer = wh_bytes_get(&in, 4);
     orders->busy_timer = wh_bytes_get(&in, 4);
+    orders->step_timer = wh_bytes_get(&in, 4);
     orders->watchdog_ticks = wh_bytes_get(&in, 4);
     orders->flags = (uint8_t)wh_bytes_get(&in, 1);
     orders->outputs = (unsigned)wh_bytes_get(&in, 1);

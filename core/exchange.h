@@ -69,7 +69,9 @@ enum { WH_ORDER_ALIVE = 1 }; /* wh_orders.flags: the watchdog is kicked */
 typedef struct wh_orders {
     uint32_t until_ticks; /* to be told again then */
     uint32_t acted_timer; /* counts from the readings' arrival until the outputs were set, */
-    uint32_t busy_timer;  /* and until these orders were sent */
+    uint32_t busy_timer;  /* and until these orders were sent; */
+    uint32_t
+        step_timer; /* of the longest control step since the last orders; 0: it tells of none */
     uint32_t
         watchdog_ticks; /* so long without WH_ORDER_ALIVE: outputs go to zero for good; 0: never */
     uint8_t flags;
@@ -118,7 +120,7 @@ typedef struct wh_reset {
 } wh_reset;
 
 /* The longest payloads; of readings it is the longer. */
-#define WH_ORDERS_BYTES (18U + 4U * WH_SIGNALS_MAX)
+#define WH_ORDERS_BYTES (22U + 4U * WH_SIGNALS_MAX)
 #define WH_RESET_BYTES (1U + WH_REMEMBER_MAX)
 #define WH_READINGS_BYTES (3U + 5U * WH_EDGES_MAX + 10U * WH_SAMPLES_MAX)
 

@@ -59,6 +59,19 @@ MATRIX := two_mass_relative cartesian_flight
 $(eval $(call program,scenes,boards/programs/scenes.c,scenes whirl))
 $(eval $(call program,firmware,boards/programs/rig.c,whirl rig virtual scenes))
 
+# What runs once in a while is made small, so that what runs each step has the flash.
+$(foreach o,$(STATION_C) boards/programs/rig.c boards/programs/station.c core/text.c \
+    $(VIRTUAL_C) core/rig/swing_guess.c core/rig/life.c,$(B)/$(BOARD)/$(o:.c=.o)): FILE_FLAGS = -Os
+
+# The rig's firmware with a console: here on a pseudo-terminal.
+STATION := $(ELF)/station.elf
+$(B)/station: $(call objects,float,boards/programs/station.c boards/host/board.c boards/host/terminal.c) \
+    $(call libraries,float,station rig virtual whirl scenes)
+	$(link)
+$(STATION): $(call objects,$(BOARD),boards/programs/station.c) $(BOARD_OBJECTS) \
+    $(call libraries,$(BOARD),station rig virtual whirl scenes)
+	$(link_board)
+
 # Firmware whose plant is at the other end of a line (`whirl pil`), of families that have one: BOARD_LINK.
 define pil_program
 $(B)/$(1): $(call objects,float,$(2) boards/host/board.c boards/host/link.c) $(call libraries,float,$(3))
@@ -68,9 +81,10 @@ $(ELF)/$(1).elf: $(call objects,$(BOARD),$(2) $(BOARD_LINK)) $(BOARD_OBJECTS) $(
 endef
 $(eval $(call pil_program,pil_rig,boards/programs/pil_rig.c,frames rig whirl scenes))
 $(eval $(call pil_program,pil_swing,boards/programs/pil_swing.c,frames rig whirl scenes))
+$(eval $(call pil_program,pil_dialled,boards/programs/pil_dialled.c,frames rig whirl scenes))
 $(eval $(call pil_program,pil_carriage,boards/programs/pil_carriage.c,frames rig whirl scenes))
 $(eval $(call pil_program,pil_cart,boards/programs/pil_cart.c,frames whirl))
-PIL_PROGRAMS := pil_rig pil_swing pil_carriage pil_cart
+PIL_PROGRAMS := pil_rig pil_swing pil_dialled pil_carriage pil_cart
 PIL_IMAGES := $(if $(BOARD_LINK),$(PIL_PROGRAMS:%=$(ELF)/%.elf))
 
 # On BOARD and on an M3: the tape of one on the other.
@@ -86,7 +100,7 @@ pil-now: $(B)/whirl
 # Only the test framework takes something from a C library: the jump out of a failed test.
 $(ELF)/tests.elf: IMAGE_LIBS := -lc
 $(ELF)/tests.elf: $(call objects,$(BOARD),$(CORE_TEST_PARTS)) $(BOARD_OBJECTS) \
-    $(call libraries,$(BOARD),scenes rig virtual whirl)
+    $(call libraries,$(BOARD),scenes station rig virtual whirl)
 	$(link_board)
 
 emulate = $(call BOARD_EMULATE,$(1))
@@ -95,7 +109,7 @@ ifeq ($(BOARD_IMAGES),single)
 include mk/single.mk
 else
 # The images that are held to the firmware rules and whose sizes are told.
-IMAGES := $(ELF)/scenes.elf $(ELF)/firmware.elf
+IMAGES := $(ELF)/scenes.elf $(ELF)/firmware.elf $(STATION)
 
 # Programs that touch what guards the stack, and must not come back (tests/boards/guard.sh).
 GUARDS := $(patsubst tests/boards/%.c,$(ELF)/%.elf,$(wildcard tests/boards/guard_*.c))
@@ -104,7 +118,7 @@ $(GUARDS): $(ELF)/%.elf: $(B)/$(BOARD)/tests/boards/%.o $(BOARD_OBJECTS) $(call 
 
 .PHONY: board-images board-tests run-suites print-hashes print-matrix-hashes bench-matrix
 board-images: $(IMAGES)
-board-tests: $(ELF)/tests.elf $(GUARDS) $(PIL_IMAGES)
+board-tests: $(ELF)/tests.elf $(GUARDS) $(PIL_IMAGES) $(STATION)
 run-suites: # the portable suites, then what guards the stack
 	@status=0; $(call emulate,$(ELF)/tests.elf) || status=1; sh tests/boards/guard.sh $(BOARD) || status=1; exit $$status
 print-hashes: # a line for each scene, with the hash of its last state

@@ -26,7 +26,7 @@ PC_BOARD_C := $(PROGRAM_C) $(wildcard boards/host/*.c)
 objects: $(call objects,host,$(WHIRL_MAIN_C) $(WHIRL_C) $(GEN)/builtin_models.c $(HOST_TEST_C) \
         $(wildcard tests/tools/*.c tests/fuzz/*.c) $(HOST_TOOL_C)) \
     $(call objects,float,$(PORTABLE_C) $(PC_BOARD_C) $(CORE_TEST_C) $(SCENE_C)) \
-    $(call objects,double,$(CORE_C) $(RIG_C) $(CORE_TEST_C) $(SCENE_C))
+    $(call objects,double,$(CORE_C) $(RIG_C) $(STATION_C) $(CORE_TEST_C) $(SCENE_C))
 board-objects: board-own-objects $(call objects,$(BOARD),$(PORTABLE_C) $(PROGRAM_C) $(CORE_TEST_C) $(SCENE_C))
 board-own-objects: $(call objects,$(BOARD),$(BOARD_SOURCES) $(BOARD_LINK) $(wildcard tests/boards/guard_*.c))
 
@@ -56,7 +56,7 @@ TIDY_C := $(filter-out $(TARGET_C),$(filter %.c,$(C_FILES)))
 gate-tidy:
 	@$(call need,clang-tidy)
 	@$(call tidy,$(TIDY_C),$(LINT_FLAGS))
-	@$(call tidy,$(CORE_C) $(RIG_C),$(LINT_FLAGS) -DWH_DOUBLE=1)
+	@$(call tidy,$(CORE_C) $(RIG_C) $(STATION_C),$(LINT_FLAGS) -DWH_DOUBLE=1)
 	+@$(foreach b,$(BOARDS),$(call on_board,$(b),tidy-board) &&) true
 
 .PHONY: tidy-board

@@ -4,7 +4,11 @@
 RIG_STEP_MOST ?= 1500
 $(eval $(call program,rig_steps,boards/programs/rig_steps.c,whirl rig virtual scenes))
 
-.PHONY: rig-steps-now rig-truth-now faults-now
+.PHONY: rig-now rig-steps-now rig-truth-now faults-now
+rig-now: $(GEN)/.stamp
+	@$(MAKE) $(B)/station
+	@exec $(B)/station
+
 rig-steps-now: $(GEN)/.stamp
 	@$(MAKE) $(ELF)/rig_steps.elf $(PLUGIN)
 	@BOARD=$(BOARD) CC=$(BOARD_CC) NM=$(BOARD_NM) PLUGIN=$(PLUGIN) \
@@ -21,12 +25,17 @@ FAULTS_BOARD := $(if $(filter command environment,$(firstword $(origin BOARD))),
 RUNS ?= $(if $(FAULTS_BOARD),2000,20000)
 FAULTS_OUT := build/faults$(addprefix _,$(FAULTS_BOARD)).md
 faults-now: $(GEN)/.stamp
-	@$(MAKE) build/tools/faults $(if $(FAULTS_BOARD),$(ELF)/pil_rig.elf,$(B)/pil_rig)
-	@build/tools/faults --firmware $(if $(FAULTS_BOARD),$(ELF)/pil_rig.elf --board $(BOARD),$(B)/pil_rig) \
+	@$(MAKE) build/tools/faults $(if $(FAULTS_BOARD),$(ELF)/pil_dialled.elf,$(B)/pil_dialled)
+	@build/tools/faults --firmware $(if $(FAULTS_BOARD),$(ELF)/pil_dialled.elf --board $(BOARD),$(B)/pil_dialled) \
 	    --runs $(RUNS) --seed $(SEED) >$(FAULTS_OUT); code=$$?; cat $(FAULTS_OUT); exit $$code
 
-# What the last campaign on this machine found, between the marks of docs/rig.md.
+# Its longest control steps once more, counted from outside.
 ##@ Tests and quality
+.PHONY: rig-worst
+rig-worst: $(PLUGIN) ## the longest control steps of the last make faults BOARD=..., counted by the emulator (a minute)
+	@NM=$(BOARD_NM) PLUGIN=$(PLUGIN) mk/count/rig_worst.sh build/whirl $(ELF)/pil_dialled.elf build/faults_$(BOARD).md
+
+# What the last campaign on this machine found, between the marks of docs/rig.md.
 .PHONY: faults-page
 faults-page: ## docs/rig.md shows what the last make faults found
 	@[ -s build/faults.md ] || { echo "faults-page: no build/faults.md: make faults first" >&2; exit 1; }

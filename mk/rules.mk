@@ -85,9 +85,10 @@ GEN := build/gen
 # C files that belong to Whirl, for the gates. The lists follow the folders by themselves.
 CORE_C := $(wildcard core/*.c)
 RIG_C := $(wildcard core/rig/*.c)
+STATION_C := $(wildcard core/station/*.c)
 VIRTUAL_C := $(wildcard hal/virtual/*.c)
 FRAMES_C := $(wildcard hal/frames/*.c)
-PORTABLE_C := $(CORE_C) $(RIG_C) $(VIRTUAL_C) $(FRAMES_C)
+PORTABLE_C := $(CORE_C) $(RIG_C) $(STATION_C) $(VIRTUAL_C) $(FRAMES_C)
 PROGRAM_C := $(wildcard boards/programs/*.c)
 BOARD_C := $(wildcard boards/*/*.c)
 HOST_TOOL_C := $(wildcard mk/*/*.c)

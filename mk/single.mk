@@ -47,7 +47,7 @@ $(SINGLE)/shared.a: $(call objects,$(BOARD),$(filter-out tests/core/test_%,$(wil
 	$(Q)rm -f $@ && $(AR) rcs $@ $^
 
 $(SINGLE)/suite_%.elf: $(B)/$(BOARD)/tests/core/test_%.o $(call objects,$(BOARD),tests/main.c $(UNITY_DIR)/unity.c) \
-    $(SINGLE)/shared.a $(BOARD_OBJECTS) $(call libraries,$(BOARD),scenes rig virtual whirl)
+    $(SINGLE)/shared.a $(BOARD_OBJECTS) $(call libraries,$(BOARD),scenes station rig virtual whirl)
 	@mkdir -p $(@D)
 	$(say) LINK $@
 	$(Q)sh tests/suites.sh tests/core/test_$*.c >$(@:.elf=.c)

@@ -46,10 +46,10 @@ $(foreach b,host float double $(BOARD),$(call objects,$(b),$(CORE_TEST_PARTS) $(
     | $(UNITY_DIR)/unity.c
 
 $(B)/tests/core_float: $(call objects,float,$(CORE_TEST_PARTS)) \
-    $(call libraries,float,scenes rig virtual whirl)
+    $(call libraries,float,scenes station rig virtual whirl)
 	$(link)
 
-$(B)/tests/core_double: $(call objects,double,$(CORE_TEST_PARTS)) $(call libraries,double,scenes rig whirl)
+$(B)/tests/core_double: $(call objects,double,$(CORE_TEST_PARTS)) $(call libraries,double,scenes station rig whirl)
 	$(link)
 
 $(B)/tests/host: $(call objects,host,$(HOST_TEST_PARTS)) $(LIB_HOST) \
@@ -57,7 +57,7 @@ $(B)/tests/host: $(call objects,host,$(HOST_TEST_PARTS)) $(LIB_HOST) \
 	$(link)
 
 TEST_PROGRAMS := $(B)/tests/core_double $(B)/tests/core_float $(B)/tests/host $(B)/tools/mechanisms $(B)/tools/linkages $(B)/tools/price_fit $(B)/tools/price_fit_fixed \
-    $(B)/pil_rig $(B)/pil_swing $(B)/pil_carriage $(B)/pil_cart $(B)/tools/faults
+    $(B)/pil_rig $(B)/pil_swing $(B)/pil_dialled $(B)/pil_carriage $(B)/pil_cart $(B)/tools/faults $(B)/station
 
 .PHONY: test-programs
 test-programs: $(TEST_PROGRAMS)

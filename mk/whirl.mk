@@ -7,6 +7,7 @@ MODELS := $(sort $(wildcard core/models/*.whirl))
 # Of every build of the portable code:
 #   libwhirl    the core, all that a scene needs
 #   librig      the rig's controller
+#   libstation  its console
 #   libvirtual  the rig's hardware, played by a scene
 #   libframes   hardware at the other end of a line
 #   libscenes   the generated scenes
@@ -17,6 +18,7 @@ libraries = $(patsubst %,$(B)/$(1)/lib%.a,$(2))
 define portable_libraries
 $(call library,$(B)/$(1)/libwhirl.a,$(call objects,$(1),$(CORE_C)))
 $(call library,$(B)/$(1)/librig.a,$(call objects,$(1),$(RIG_C)))
+$(call library,$(B)/$(1)/libstation.a,$(call objects,$(1),$(STATION_C)))
 $(call library,$(B)/$(1)/libvirtual.a,$(call objects,$(1),$(VIRTUAL_C)))
 $(call library,$(B)/$(1)/libframes.a,$(call objects,$(1),$(FRAMES_C)))
 $(call scenes_library,$(B)/$(1)/libscenes.a,$(1))

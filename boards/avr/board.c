@@ -16,7 +16,7 @@ const char *const board_name = BOARD_NAME;
 void board_start(void) {
     UBRR0 = BAUD_DIVISOR;
     UCSR0A = _BV(U2X0);
-    UCSR0B = _BV(TXEN0);
+    UCSR0B = _BV(TXEN0) | _BV(RXEN0);
 }
 
 void hal_console_write(const char *bytes, unsigned count) {
@@ -30,6 +30,24 @@ void hal_console_write(const char *bytes, unsigned count) {
         UDR0 = (uint8_t)bytes[i];
     }
 }
+
+unsigned hal_console_read(char *bytes, unsigned room) {
+    unsigned count = 0;
+    while (count < room && (UCSR0A & _BV(RXC0)) != 0) {
+        bytes[count++] = (char)UDR0;
+    }
+    return count;
+}
+
+unsigned hal_console_offer(const char *bytes, unsigned count) {
+    unsigned taken = 0;
+    while (taken < count && (UCSR0A & _BV(UDRE0)) != 0) {
+        UDR0 = (uint8_t)bytes[taken++];
+    }
+    return taken;
+}
+
+bool board_converse(void) { return true; }
 
 /* The code stands in the first general purpose register when the processor falls asleep with its interrupts off:
  * mk/count/avr_run.c reads it there. On silicon that is all that happens. */

@@ -13,6 +13,8 @@ void board_start(void) {
 
 void hal_console_write(const char *bytes, unsigned count) { uart_write(bytes, count); }
 
+bool board_converse(void) { return true; }
+
 /* Semihosting's SYS_EXIT_EXTENDED (Arm semihosting specification, 0x20): the emulator or debugger
  * ends with our code. With nobody listening the breakpoint becomes a hard fault, whose handler
  * comes here again: the second time there is nothing left to do but stop. */

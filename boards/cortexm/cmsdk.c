@@ -9,7 +9,9 @@
 #define UART_CTRL (BOARD_UART + 0x8U)
 #define UART_BAUDDIV (BOARD_UART + 0x10U)
 #define UART_STATE_TX_FULL 1U
+#define UART_STATE_RX_FULL 2U
 #define UART_CTRL_TX_ENABLE 1U
+#define UART_CTRL_RX_ENABLE 2U
 
 #define TIMER_CTRL (BOARD_TIMER + 0x0U)
 #define TIMER_VALUE (BOARD_TIMER + 0x4U)
@@ -18,7 +20,7 @@
 
 void uart_start(void) {
     REGISTER(UART_BAUDDIV) = BOARD_UART_DIVISOR;
-    REGISTER(UART_CTRL) = UART_CTRL_TX_ENABLE;
+    REGISTER(UART_CTRL) = UART_CTRL_TX_ENABLE | UART_CTRL_RX_ENABLE;
 }
 
 /* The transmitter never gets ready before it is switched on: a program that forgot board_start()
@@ -32,6 +34,22 @@ void uart_write(const char *bytes, unsigned count) {
         }
         REGISTER(UART_DATA) = (uint8_t)bytes[i];
     }
+}
+
+unsigned hal_console_read(char *bytes, unsigned room) {
+    unsigned count = 0;
+    while (count < room && (REGISTER(UART_STATE) & UART_STATE_RX_FULL) != 0) {
+        bytes[count++] = (char)REGISTER(UART_DATA);
+    }
+    return count;
+}
+
+unsigned hal_console_offer(const char *bytes, unsigned count) {
+    unsigned taken = 0;
+    while (taken < count && (REGISTER(UART_STATE) & UART_STATE_TX_FULL) == 0) {
+        REGISTER(UART_DATA) = (uint8_t)bytes[taken++];
+    }
+    return taken;
 }
 
 void timer_start(void) {

@@ -41,6 +41,14 @@ uint32_t board_ticks(void) {
     return (uint32_t)(seconds * board_ticks_per_s + nanoseconds / 1000U);
 }
 
+void board_wait_until(uint32_t ticks) {
+    for (int32_t left = (int32_t)(ticks - board_ticks()); left > 0;
+         left = (int32_t)(ticks - board_ticks())) {
+        const struct timespec nap = {.tv_sec = left / 1000000, .tv_nsec = left % 1000000 * 1000};
+        (void)nanosleep(&nap, NULL); /* a signal ends it early, and it is looked at again */
+    }
+}
+
 void board_stack_paint(void) {}
 unsigned board_stack_used_bytes(void) { return 0; }
 unsigned board_stack_size_bytes(void) { return 0; }

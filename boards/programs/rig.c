@@ -10,53 +10,30 @@
 #include <stddef.h>
 
 #include "boards/board.h"
-#include "core/arithmetic.h"
 #include "core/rig/datasheet.h"
-#include "core/scene.h"
 #include "core/text.h"
 #include "hal/clock.h"
 #include "hal/console.h"
 #include "hal/loadcell.h"
 #include "hal/motor.h"
 #include "hal/reset.h"
-#include "hal/slots.h"
 #include "hal/stop.h"
 #include "hal/watchdog.h"
+#include "rig_control.h"
 #include "rig_report.h"
-#include "trip_memory.h"
-
-/* The rig's only hardware so far is played by the model; a real one comes with its own hal. */
-#ifndef HAL_VIRTUAL
-#define HAL_VIRTUAL 1
-#endif
-#if HAL_VIRTUAL
-#include "hal/virtual/virtual_rig.h"
-#endif
-
-/* The model that goes with the rotor: rig_fixed of core/models/eccentric.whirl, in control steps (mk/whirl.mk). */
-extern const wh_scene rig_observed;
-#ifndef HAL_FRAMES
-#define HAL_FRAMES 0
-#endif
-#if HAL_FRAMES
-#include "hal/frames/rig_frames.h"
-#endif
 
 /* On a carriage, with what an operator has dialled in (pil_carriage.c). */
 #ifndef RIG_CARRIAGE
 #define RIG_CARRIAGE 0
 #endif
+/* At other set-points than one, and with gravity fed forward in parts (pil_dialled.c). */
+#ifndef RIG_DIALLED
+#define RIG_DIALLED 0
+#endif
 #if RIG_CARRIAGE
 static wh_carriage carriage;
 static float displacement_m; /* of the carriage, by what was measured */
 #endif
-
-_Static_assert(HAL_TICKS_PER_S == WH_RIG_TICKS_PER_S, "one clock");
-_Static_assert((int)HAL_LOAD_SATURATED == (int)WH_LOAD_SATURATED &&
-                   (int)HAL_LOAD_DISCONNECTED == (int)WH_LOAD_DISCONNECTED &&
-                   (int)HAL_LOAD_LATE == (int)WH_LOAD_LATE &&
-                   (int)HAL_LOAD_REPEATED == (int)WH_LOAD_REPEATED,
-               "one list of a sample's states");
 
 /* The set-point of the run. */
 #ifndef RIG_TARGET_RPM
@@ -68,15 +45,9 @@ _Static_assert((int)HAL_LOAD_SATURATED == (int)WH_LOAD_SATURATED &&
 #define RIG_SWINGS 0
 #endif
 
-#define CONTROL_TICKS 2000U /* 500 Hz, as wh_rig_standard.step_s */
-#define WATCHDOG_TICKS (10U * CONTROL_TICKS)
-
 /* The rotor must rest before `arm`: one that turned on before the reset gets so long. */
 #define PATIENCE_TICKS (120U * HAL_TICKS_PER_S)
 
-/* Static, not on the stack: it holds the samples of a turn. */
-static wh_rig rig;
-static trip_memory memory;
 static float target_radps = RIG_TARGET_RPM * WH_RIG_RADPS_PER_RPM;
 
 /* To whoever judges a run in the loop (docs/pil.md). */
@@ -117,9 +88,8 @@ static void put_state(uint32_t started_ticks) {
     hal_console_write(text.bytes, text.length);
 }
 
-#if RIG_CARRIAGE
-/* What the operator has dialled in, once the dials have been read. */
-static void take_dials(wh_rig_config *config) {
+#if RIG_CARRIAGE || RIG_DIALLED
+static void wait_for_dials(void) {
     const uint32_t started = hal_clock_ticks();
     for (uint32_t waited = 0; waited <= HAL_DIAL_TICKS; waited += CONTROL_TICKS) {
         hal_clock_wait_until(started + waited + CONTROL_TICKS);
@@ -127,10 +97,30 @@ static void take_dials(wh_rig_config *config) {
         while (hal_loadcell_take(&none_yet)) {
         }
     }
+}
+#endif
+
+/* What the operator has dialled in. */
+#if RIG_CARRIAGE
+static void take_dials(wh_rig_config *config) {
+    wait_for_dials();
     carriage = (wh_carriage){.disc_m = hal_frames_dial(HAL_DIAL_RADIUS),
                              .ratio = hal_frames_dial(HAL_DIAL_RATIO)};
     target_radps = hal_frames_dial(HAL_DIAL_SPEED);
     wh_carriage_mount(config, &carriage);
+}
+#elif RIG_DIALLED
+static void take_dials(wh_rig_config *config) {
+    if (hal_reset_cause() != HAL_RESET_POWER_ON) {
+        return; /* nothing will be ordered, and what has tripped is to be told at once */
+    }
+    wait_for_dials();
+    target_radps = hal_frames_dial(HAL_DIAL_TARGET);
+    const float fed = hal_frames_dial(HAL_DIAL_FEED);
+    if (fed < 0.0f || fed > 0.0f) {
+        config->feeds = WH_FEED_ALWAYS;
+        config->feed.weight_Nm *= fed;
+    }
 }
 #endif
 
@@ -150,38 +140,6 @@ static void put_plant_hash(void) {
     hal_console_write(text.bytes, text.length);
 }
 #endif
-
-static wh_rig_inputs inputs_now(void) {
-    return (wh_rig_inputs){.now_ticks = hal_clock_ticks(),
-                           .supply_V = hal_motor_supply_V(),
-                           .stop_pressed = hal_stop_pressed(),
-                           .watchdog_has_cut = hal_watchdog_has_cut()};
-}
-
-static void obey(const wh_rig_command *command) {
-    switch (command->way) {
-    case WH_MOTOR_DRIVES: hal_motor_set_voltage(command->volts); break;
-    case WH_MOTOR_BRAKES: hal_motor_off(HAL_MOTOR_BRAKE); break;
-    case WH_MOTOR_COASTS: hal_motor_off(HAL_MOTOR_COAST); break;
-    }
-}
-
-static void control(const wh_rig_config *config) {
-    hal_slot_pulse pulse;
-    if (hal_slots_take(
-            &pulse)) { /* one a step: a storm must not hold it up, and stamps do not age */
-        wh_rig_pulse(config, &rig, pulse.sensor, pulse.ticks);
-    }
-    hal_load_sample sample;
-    while (hal_loadcell_take(&sample)) {
-        wh_rig_load(config, &rig, sample.ticks, sample.raw, (wh_load_status)sample.status);
-    }
-    const wh_rig_inputs inputs = inputs_now();
-    const wh_rig_command command = wh_rig_step(config, &rig, &inputs);
-    obey(&command);
-    trip_memory_keep(&memory, &rig);
-    hal_watchdog_kick(); /* tripped too: a watchdog that resets would start all over */
-}
 
 /* Who gives the orders: `arm` once the rotor rests, then `start`. A rig that was reset, or stopped, it leaves alone:
  * somebody has to look at it first. */
@@ -252,17 +210,6 @@ static operator_step run(const wh_rig_config *config) {
     return operator_at;
 }
 
-/* Why hal_clock_start() failed. */
-static const char *why_no_hardware(void) {
-#if HAL_VIRTUAL
-    const wh_status status = hal_virtual_rig_instance()->status;
-    if (status != WH_OK) {
-        return wh_status_text(status);
-    }
-#endif
-    return "the hardware does not answer";
-}
-
 /* Before anything has moved. */
 static void refuse(const char *why) {
     put("NOT STARTED: ");
@@ -301,29 +248,24 @@ int main(void) {
     put("\n");
 #if RIG_CARRIAGE
     hal_frames_with_dials();
+#elif RIG_DIALLED
+    hal_frames_with_bench_dials();
 #endif
-    if (!hal_clock_start()) {
-        refuse(why_no_hardware());
+    const char *why = why_not_started();
+    if (why != NULL) {
+        refuse(why);
     }
-    if (wh_arithmetic_wrong(wh_arithmetic) != WH_PROBED_COUNT) {
-        hal_motor_off(HAL_MOTOR_COAST);
-        refuse(wh_status_text(WH_E_ARITHMETIC));
-    }
-    wh_rig_config config = wh_rig_standard;
-    config.measure.cell = (wh_cell_config){.newton_per_count = HAL_LOADCELL_N_PER_COUNT,
-                                           .period_ticks = HAL_LOADCELL_PERIOD_TICKS,
-                                           .raw_max = HAL_LOADCELL_RAW_MAX};
-    wh_rig_slots(&config, HAL_SLOT_LEAD_DEG / WH_RIG_DEG_PER_RAD);
-    config.observer.scene = &rig_observed;
+    wh_rig_config config = rig_configuration();
     config.swings = RIG_SWINGS != 0;
-#if RIG_CARRIAGE
+#if RIG_CARRIAGE || RIG_DIALLED
     take_dials(&config);
 #endif
     const operator_step ended = run(&config);
     put_end(ended);
     if (rig.has_result) {
         put_result(&config, &rig.result,
-                   RIG_CARRIAGE ? target_radps : WH_RIG_NOMINAL_RPM * WH_RIG_RADPS_PER_RPM);
+                   RIG_CARRIAGE || RIG_DIALLED ? target_radps
+                                               : WH_RIG_NOMINAL_RPM * WH_RIG_RADPS_PER_RPM);
 #if RIG_CARRIAGE
         put_carriage(&config, &carriage, displacement_m);
 #endif

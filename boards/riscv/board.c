@@ -16,6 +16,7 @@ const uint32_t board_ticks_per_s = BOARD_TICKS_PER_S;
 #define UART_LINE_STATUS BYTE_REGISTER(BOARD_UART + 5U)
 #define UART_EIGHT_BITS 0x03U
 #define UART_DIVISOR_ACCESS 0x80U
+#define UART_RX_READY 0x01U
 #define UART_TX_EMPTY 0x20U
 
 void uart_start(void) {
@@ -37,6 +38,24 @@ void uart_write(const char *bytes, unsigned count) {
 void board_start(void) { uart_start(); }
 
 void hal_console_write(const char *bytes, unsigned count) { uart_write(bytes, count); }
+
+unsigned hal_console_read(char *bytes, unsigned room) {
+    unsigned count = 0;
+    while (count < room && (UART_LINE_STATUS & UART_RX_READY) != 0) {
+        bytes[count++] = (char)UART_DATA;
+    }
+    return count;
+}
+
+unsigned hal_console_offer(const char *bytes, unsigned count) {
+    unsigned taken = 0;
+    while (taken < count && (UART_LINE_STATUS & UART_TX_EMPTY) != 0) {
+        UART_DATA = (uint8_t)bytes[taken++];
+    }
+    return taken;
+}
+
+bool board_converse(void) { return true; }
 
 /* The low word of mtime, which runs from reset. */
 uint32_t board_ticks(void) { return REGISTER(BOARD_TIMER); }

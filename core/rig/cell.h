@@ -40,13 +40,21 @@ typedef struct wh_load {
     wh_load_status status;
 } wh_load;
 
-#define wh_cell_load WH_NAME(wh_cell_load)
 #define wh_load_text WH_NAME(wh_load_text)
 
 /* The force behind a sample of `raw` counts, stamped `ticks`, of which the hardware says `status`. At
  * full scale it is saturated, whatever the hardware says. */
-wh_load wh_cell_load(const wh_cell_config *config, uint32_t ticks, int32_t raw,
-                     wh_load_status status);
+WH_INLINE wh_load wh_cell_load(const wh_cell_config *config, uint32_t ticks, int32_t raw,
+                               wh_load_status status) {
+    wh_load load;
+    load.ticks = ticks - config->delay_ticks;
+    load.force_N = config->newton_per_count * (wh_real)raw - config->offset_N;
+    load.status = status;
+    if (status == WH_LOAD_OK && (raw >= config->raw_max || raw <= -config->raw_max)) {
+        load.status = WH_LOAD_SATURATED;
+    }
+    return load;
+}
 
 /* The status in words, for consoles. */
 const char *wh_load_text(wh_load_status status);

@@ -27,29 +27,6 @@ void wh_guard_trip(wh_guard *guard, wh_trip reason) {
     }
 }
 
-void wh_guard_load(const wh_guard_config *config, wh_guard *guard, const wh_speed *speed,
-                   const wh_load *load, bool turning, bool needed) {
-    if (load->status == WH_LOAD_REPEATED) {
-        return;
-    }
-    guard->load_ticks = load->ticks;
-    guard->load_good = load->status != WH_LOAD_SATURATED && load->status != WH_LOAD_DISCONNECTED;
-    if (needed && !guard->load_good) {
-        wh_guard_trip(guard, WH_TRIP_LOAD_CELL);
-    }
-    /* measured in turns, not in time: the load of a jammed rotor stands still as well. And one pulse a
-     * sample: all that a late controller finds waiting are no turns of the samples behind them. */
-    guard->still_pulses += speed->taken != guard->load_pulses ? 1U : 0U;
-    guard->load_pulses = speed->taken;
-    const wh_real still_N = config->load_still_kgm * speed->turn_radps * speed->turn_radps;
-    if (!turning || !(WH_ABS(load->force_N - guard->still_N) <= still_N)) {
-        guard->still_pulses = 0;
-        guard->still_N = load->force_N;
-    } else if (guard->still_pulses >= config->stuck_pulses) {
-        wh_guard_trip(guard, WH_TRIP_LOAD_CELL);
-    }
-}
-
 #define CASE(name, number, words) \
     case name: return words;
 

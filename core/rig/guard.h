@@ -75,7 +75,6 @@ typedef struct wh_guard {
 #define wh_guard_allows WH_NAME(wh_guard_allows)
 #define wh_guard_bound_radps WH_NAME(wh_guard_bound_radps)
 #define wh_guard_trip WH_NAME(wh_guard_trip)
-#define wh_guard_load WH_NAME(wh_guard_load)
 #define wh_trip_text WH_NAME(wh_trip_text)
 
 void wh_guard_start(wh_guard *guard, uint32_t now_ticks);
@@ -154,8 +153,28 @@ WH_INLINE bool wh_guard_supply(const wh_guard_config *config, wh_real supply_V) 
 
 /* Look at a load sample, the tare in it, in every state. `turning`: the load must be changing with the rotor's turns;
  * `needed`: a bad one stops the rig. A sample that repeats the last one is none. */
-void wh_guard_load(const wh_guard_config *config, wh_guard *guard, const wh_speed *speed,
-                   const wh_load *load, bool turning, bool needed);
+WH_INLINE void wh_guard_load(const wh_guard_config *config, wh_guard *guard, const wh_speed *speed,
+                             const wh_load *load, bool turning, bool needed) {
+    if (load->status == WH_LOAD_REPEATED) {
+        return;
+    }
+    guard->load_ticks = load->ticks;
+    guard->load_good = load->status != WH_LOAD_SATURATED && load->status != WH_LOAD_DISCONNECTED;
+    if (needed && !guard->load_good) {
+        wh_guard_trip(guard, WH_TRIP_LOAD_CELL);
+    }
+    /* measured in turns, not in time: the load of a jammed rotor stands still as well. And one pulse a
+     * sample: all that a late controller finds waiting are no turns of the samples behind them. */
+    guard->still_pulses += speed->taken != guard->load_pulses ? 1U : 0U;
+    guard->load_pulses = speed->taken;
+    const wh_real still_N = config->load_still_kgm * speed->turn_radps * speed->turn_radps;
+    if (!turning || !(WH_ABS(load->force_N - guard->still_N) <= still_N)) {
+        guard->still_pulses = 0;
+        guard->still_N = load->force_N;
+    } else if (guard->still_pulses >= config->stuck_pulses) {
+        wh_guard_trip(guard, WH_TRIP_LOAD_CELL);
+    }
+}
 
 /* True while load samples still come. */
 WH_INLINE bool wh_guard_load_comes(const wh_guard_config *config, const wh_guard *guard,

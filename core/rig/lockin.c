@@ -247,11 +247,11 @@ static void place_next(wh_lockin *lockin) {
 }
 
 /* Half nodes, a few; true when the turn is through. */
-static bool take_samples(wh_lockin *lockin) {
+static bool take_samples(wh_lockin *lockin, unsigned halves) {
     if (lockin->stage == WH_LOCKIN_BEGINS) {
         drop_stale(lockin, lockin->next.begin_ticks);
     }
-    for (unsigned half = 0; half < WH_LOCKIN_HALVES_AT_ONCE; half++) {
+    for (unsigned half = 0; half < halves; half++) {
         if (lockin->place == WH_LOCKIN_NOWHERE) {
             place_next(lockin);
             continue;
@@ -330,7 +330,8 @@ static void begin_turn(wh_lockin *lockin) {
     lockin->stage = WH_LOCKIN_BEGINS;
 }
 
-bool wh_lockin_work(const wh_rotor_config *rotor, const wh_cell_config *cell, wh_lockin *lockin) {
+bool wh_lockin_work(const wh_rotor_config *rotor, const wh_cell_config *cell, wh_lockin *lockin,
+                    unsigned halves) {
     const wh_lockin_turn *turn = &lockin->next;
     switch (lockin->stage) {
     case WH_LOCKIN_WAITS:
@@ -360,7 +361,7 @@ bool wh_lockin_work(const wh_rotor_config *rotor, const wh_cell_config *cell, wh
         break;
     case WH_LOCKIN_BEGINS:
     case WH_LOCKIN_SUMS:
-        if (take_samples(lockin)) {
+        if (take_samples(lockin, halves)) {
             lockin->stage = WH_LOCKIN_ENDS;
         }
         break;

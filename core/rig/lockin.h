@@ -168,8 +168,10 @@ void wh_lockin_gap(wh_lockin *lockin);
 /* A sample of the load, in order of time. One that is not ok, or not newer than the last, is left out. */
 void wh_lockin_load(wh_lockin *lockin, const wh_load *load);
 
-/* A bounded piece of the work, once a control step. Returns true when lockin->turn is new. */
-bool wh_lockin_work(const wh_rotor_config *rotor, const wh_cell_config *cell, wh_lockin *lockin);
+/* A bounded piece of the work, once a control step: of a turn's sums so many half nodes, WH_LOCKIN_HALVES_AT_ONCE where
+ * nothing else is to be done. Returns true when lockin->turn is new. */
+bool wh_lockin_work(const wh_rotor_config *rotor, const wh_cell_config *cell, wh_lockin *lockin,
+                    unsigned halves);
 
 /* Why a turn does not count, in words. */
 const char *wh_turn_text(wh_turn_fault fault);

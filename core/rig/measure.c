@@ -50,8 +50,13 @@ void wh_measure_load(wh_measure *measure, const wh_load *load, bool at_rest) {
     }
 }
 
-void wh_measure_work(const wh_measure_config *config, wh_measure *measure) {
+void wh_measure_work(const wh_measure_config *config, wh_measure *measure, unsigned halves) {
     wh_measured *force = &measure->result.force;
+    const bool sums = measure->due == 0 && measure->lockin.stage <= WH_LOCKIN_SUMS &&
+                      measure->lockin.stage >= WH_LOCKIN_BEGINS;
+    if (!sums && halves < WH_LOCKIN_HALVES_AT_ONCE) {
+        return; /* what cannot be made smaller waits for a step that has nothing else to do */
+    }
     if (measure->due == 2U) {
         wh_merge_mean(&config->result, &config->rotor, &measure->merge, &measure->lockin.angle,
                       measure->tare.mean_N, force);
@@ -63,7 +68,7 @@ void wh_measure_work(const wh_measure_config *config, wh_measure *measure) {
         measure->due--;
         return;
     }
-    if (!wh_lockin_work(&config->rotor, &config->cell, &measure->lockin)) {
+    if (!wh_lockin_work(&config->rotor, &config->cell, &measure->lockin, halves)) {
         return;
     }
     /* turns that lie within the record as a whole */

@@ -88,7 +88,8 @@ void wh_observer_step(const wh_observer_config *config, wh_observer *observer, u
         voltage = drive < coasting ? coasting : drive;
     }
     state->input[0] = voltage + observer->torque_Nm / config->stall_Nm;
-    const uint32_t steps = late_ticks / observer->step_ticks;
+    const uint32_t due = late_ticks / observer->step_ticks;
+    const uint32_t steps = due < WH_OBSERVER_STEPS_AT_ONCE ? due : WH_OBSERVER_STEPS_AT_ONCE;
     const uint32_t way_ticks = steps * observer->step_ticks;
     const wh_real before_radps = state->real[0];
     wh_status status = WH_OK;

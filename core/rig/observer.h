@@ -98,6 +98,7 @@ wh_status wh_observer_start(const wh_observer_config *config, wh_observer *obser
  * the rated voltage, that the motor has had since the last call. A call that comes more than
  * WH_OBSERVER_STEPS_MOST steps of the scene late begins anew. */
 #define WH_OBSERVER_STEPS_MOST 8U
+#define WH_OBSERVER_STEPS_AT_ONCE 2U /* of the scene in one call: what is late comes up by and by */
 void wh_observer_step(const wh_observer_config *config, wh_observer *observer, uint32_t now_ticks,
                       wh_real drive);
 

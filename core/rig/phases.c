@@ -110,7 +110,7 @@ static void settle(wh_run *run, const wh_run_scene *scene) {
     if (off_target(run, scene) > config->settle_band_radps) {
         run->band_ticks = now;
     }
-    if (wh_rig_since_s(run->band_ticks, now) >= config->settle_s) {
+    if (!scene->busy && wh_rig_since_s(run->band_ticks, now) >= config->settle_s) {
         wh_measure_record(scene->measuring, scene->measure, run->target_radps, now);
         enter(run, WH_PHASE_RECORD, now);
     } else if (wh_rig_since_s(run->since_ticks, now) > config->settle_max_s) {
@@ -124,7 +124,8 @@ static bool record(wh_run *run, const wh_run_scene *scene) {
         return false;
     }
     wh_measure *measure = scene->measure;
-    if (wh_measure_lasts(measure, scene->now_ticks) || !wh_measure_end(measure, scene->now_ticks)) {
+    if (wh_measure_lasts(measure, scene->now_ticks) || scene->busy ||
+        !wh_measure_end(measure, scene->now_ticks)) {
         return false;
     }
     if (measure->merge.turns == 0) {

@@ -114,7 +114,6 @@ static void doubt(wh_pulses *pulses) {
 static void decide(wh_pulses *pulses, const wh_pulse *pulse) {
     const wh_pulse suspect = pulses->suspect;
     wh_speed without;
-    wh_speed suspected;
     wh_speed both;
     pulses->suspects = false;
     pulses->alert = false;
@@ -124,8 +123,7 @@ static void decide(wh_pulses *pulses, const wh_pulse *pulse) {
         take_next(pulses, pulse, &without);
         return;
     }
-    const bool was_true = with(&pulses->speed, &suspect, &suspected);
-    const bool both_are = was_true && with(&suspected, pulse, &both);
+    const bool both_are = with(&pulses->suspected, pulse, &both);
     /* one that is none, and a true one lost as well: less likely than that both are true, however fast */
     const bool fits = both_are && both.lost == pulses->speed.lost &&
                       (is_likely(pulses, &both) || without.lost > pulses->speed.lost);
@@ -134,9 +132,7 @@ static void decide(wh_pulses *pulses, const wh_pulse *pulse) {
         take_next(pulses, pulse, &without);
         return;
     }
-    if (was_true) {
-        take_next(pulses, &suspect, &suspected);
-    }
+    take_next(pulses, &suspect, &pulses->suspected);
     if (both_are) {
         take_next(pulses, pulse, &both);
     } else {
@@ -194,6 +190,7 @@ void wh_pulses_take(wh_pulses *pulses, unsigned sensor, uint32_t ticks) {
     pulses->alert = early > ALERT_PART;
     if (!trusted && (is_fast(pulses, &after) || early > pulses->window)) {
         pulses->suspect = pulse;
+        pulses->suspected = after;
         pulses->suspects = true;
         return;
     }

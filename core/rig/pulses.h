@@ -38,7 +38,8 @@ typedef struct wh_pulses {
     bool slow;
     wh_real window;       /* so early, as a part of a turn, a pulse may come; ditto */
     wh_real climb_radps2; /* a turn's speed may rise by so much each second; ditto */
-    wh_pulse suspect;     /* when `suspects` */
+    wh_pulse suspect;     /* when `suspects`, */
+    wh_speed suspected;   /* and the speed with it */
     bool suspects;
     bool waits; /* the last pulse is not sure yet: */
     wh_mark last;

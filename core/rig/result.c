@@ -6,6 +6,8 @@
 #include "polar.h"
 
 #define PI WH_R(3.141592653589793)
+/* Of gravity, fed forward: then it is fed wrongly, or does not reach the arms, and what turns them is not known. */
+#define FED_LEFT_MOST WH_R(0.15)
 
 static wh_real square_of(wh_real x) { return x * x; }
 
@@ -131,6 +133,9 @@ void wh_merge_mean(const wh_result_config *config, const wh_rotor_config *rotor,
     measured->at_mark_N[0] = merge->at_mark_N[0] - tare_N;
     measured->at_mark_N[1] = merge->split_turns > 0 ? merge->at_mark_N[1] - tare_N : WH_R(0.0);
     measured->residual_N = WH_SQRT(merge->residual_N2);
+    if (angle->fed && angle->whole_rad > WH_R(0.0)) {
+        measured->left_part = WH_ABS(merge->swing_rad) / angle->whole_rad;
+    }
     const wh_real x = merge->in_phase_N;
     const wh_real y = -merge->quadrature_N;
     wh_polar(x, y, &measured->amplitude_N, &measured->phase_rad);
@@ -163,12 +168,12 @@ void wh_merge_mean(const wh_result_config *config, const wh_rotor_config *rotor,
                           (n * merge->turn_s * (wh_real)WH_RIG_TICKS_PER_S);
     const wh_real amplitude2 =
         square_of(config->amplitude_floor) + square_of(WH_R(1.5) * swing * lag) + square_of(third) +
-        square_of(WH_R(3.0) * quadrature * quadrature) + square_of(WH_R(0.04) * cut) +
+        square_of(WH_R(3.0) * quadrature * quadrature) + square_of(WH_R(0.01) * cut) +
         square_of(WH_R(0.5) * angle->twice_rad * rotor->yields_tolerance);
     measured->amplitude_half_N = WH_SQRT(along_N2 + amplitude2 * size2);
     measured->phase_half_rad =
         WH_SQRT(across_N2 / size2 + t2 * marks_rad2(merge, angle, measured->jitter_s) +
-                square_of(lag) + square_of(third) + square_of(turned) + square_of(WH_R(0.4) * cut) +
+                square_of(lag) + square_of(third) + square_of(turned) + square_of(WH_R(0.1) * cut) +
                 square_of(drift) + square_of(config->phase_floor_rad));
 }
 
@@ -217,6 +222,9 @@ static wh_why reason(const wh_result_config *config, const wh_rotor_config *roto
     if (WH_ABS(merge->swing_rad) > WH_R(0.0) &&
         (merge->split_turns == 0 || !(heavier <= WH_R(1.0) + config->inertia_off))) {
         return WH_WHY_ROTOR;
+    }
+    if (measured->left_part >= FED_LEFT_MOST) {
+        return WH_WHY_FED;
     }
     if (WH_ABS(measured->mean_N) > config->mean_off * expected) {
         return WH_WHY_MEAN;

@@ -42,6 +42,7 @@ typedef enum wh_quality { WH_GOOD, WH_DOUBTFUL, WH_REFUSED } wh_quality;
     X(WH_WHY_OUTLIERS, WH_DOUBTFUL, "more than one sample in a hundred was left out") \
     X(WH_WHY_RESIDUAL, WH_DOUBTFUL, "noise or other orders than the first are large") \
     X(WH_WHY_ROTOR, WH_DOUBTFUL, "the second sensor's marks do not fit the rotor") \
+    X(WH_WHY_FED, WH_DOUBTFUL, "gravity is fed forward, and a seventh of it or more is left") \
     X(WH_WHY_MEAN, WH_DOUBTFUL, "the mean force is not zero: the tare has moved") \
     X(WH_WHY_WIDE, WH_DOUBTFUL, "the interval is wider than a twentieth of the force")
 
@@ -105,6 +106,7 @@ typedef struct wh_measured {
     wh_real residual_N; /* rms of what orders 0 to 2 leave */
     wh_real jitter_s;   /* of the marks, standard deviation */
     wh_real inertia_kgm2;
+    wh_real left_part;    /* of gravity, either way, where it is fed forward; else 0 */
     wh_real at_mark_N[2]; /* the tare taken off */
 } wh_measured;
 

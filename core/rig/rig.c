@@ -70,6 +70,7 @@ void wh_rig_pulse(const wh_rig_config *config, wh_rig *rig, unsigned sensor, uin
 void wh_rig_load(const wh_rig_config *config, wh_rig *rig, uint32_t ticks, int32_t raw,
                  wh_load_status status) {
     const wh_load load = wh_cell_load(&config->measure.cell, ticks, raw, status);
+    rig->loads++;
     const bool needed = rig->state == WH_LIFE_ARMED || rig->run.phase != WH_PHASE_NONE;
     wh_guard_load(&config->guard, &rig->guard, &rig->pulses.speed, &load,
                   wh_run_is_closed(&rig->run), needed);
@@ -257,8 +258,12 @@ static void watch(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs 
 /* --- where the rotor is --------------------------------------------------------------------------- */
 
 static void observe(const wh_rig_config *config, wh_rig *rig, uint32_t now_ticks) {
+    const uint32_t before_ticks = rig->observer.ticks;
     wh_observer_step(&config->observer, &rig->observer, now_ticks,
                      rig->command.volts / config->run.rated_V);
+    if (rig->observer.ticks - before_ticks > rig->observer.step_ticks) {
+        rig->loads++; /* two steps of it are as much as a sample more */
+    }
     if (!rig->busy && rig->pulses.speed.taken != rig->observed) {
         rig->busy = true;
         rig->observed = rig->pulses.speed.taken;
@@ -321,6 +326,7 @@ static void live(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs *
                                 .impossible_radps = config->impossible_radps,
                                 .supply_V = inputs->supply_V,
                                 .fed = rig->feed.part >= WH_R(1.0),
+                                .busy = rig->busy,
                                 .now_ticks = inputs->now_ticks};
     if (wh_run_step(&rig->run, &scene)) {
         rig->result = rig->measure.result;
@@ -329,16 +335,30 @@ static void live(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs *
     }
 }
 
+/* How much of a turn's sums there is time for: a late controller finds samples, and the observer's steps, for more than one
+ * step and none for the next. Where a mark may get sure, and the rotor is observed, there is less. */
+static unsigned halves(const wh_rig *rig) {
+    if (rig->loads != 1U) {
+        return rig->loads == 0 ? WH_LOCKIN_HALVES_AT_ONCE + 1U : 1U;
+    }
+    return WH_LOCKIN_HALVES_AT_ONCE - (rig->fed && rig->pulses.waits ? 1U : 0U);
+}
+
+/* A pulse is work enough for one step, and so is a mark: it waits, unless pulses come so fast that marks would be lost. */
+#define MARKS_WAIT 1U
+
 static void measure(const wh_rig_config *config, wh_rig *rig, uint32_t now_ticks) {
     wh_mark mark;
-    while (wh_pulses_mark(&rig->pulses, now_ticks, &mark)) {
+    if ((!rig->busy || rig->pulses.marks > MARKS_WAIT) &&
+        wh_pulses_mark(&rig->pulses, now_ticks, &mark)) {
         wh_measure_mark(&rig->measure, &mark);
         rig->busy = true;
     }
     if (wh_run_drives(&rig->run) && !rig->busy) {
-        wh_measure_work(&config->measure, &rig->measure);
+        wh_measure_work(&config->measure, &rig->measure, halves(rig));
     }
     rig->busy = false;
+    rig->loads = 0;
 }
 
 /* Motor off: it swings out after a run, or has, and what that tells is worked on. */
@@ -360,6 +380,13 @@ static wh_rig_command command_of(const wh_rig_config *config, wh_rig *rig,
     return (wh_rig_command){brakes ? WH_MOTOR_BRAKES : WH_MOTOR_COASTS, WH_R(0.0)};
 }
 
+/* What has tripped is not done any more in this step. */
+static void follow_trip(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs *inputs) {
+    if (rig->guard.trip != WH_TRIP_NONE && rig->state != WH_LIFE_TRIPPED) {
+        finds(config, rig, inputs, WH_EVENT_TRIP);
+    }
+}
+
 wh_rig_command wh_rig_step(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs *inputs) {
     if (rig->fed && wh_run_is_closed(&rig->run)) {
         observe(config, rig, inputs->now_ticks);
@@ -370,12 +397,11 @@ wh_rig_command wh_rig_step(const wh_rig_config *config, wh_rig *rig, const wh_ri
     }
     take_orders(config, rig, inputs);
     const wh_rig_phase phase = rig->run.phase;
+    follow_trip(config, rig, inputs);
     live(config, rig, inputs);
     rig->busy = rig->busy || rig->run.phase != phase;
     measure(config, rig, inputs->now_ticks);
-    if (rig->guard.trip != WH_TRIP_NONE && rig->state != WH_LIFE_TRIPPED) {
-        finds(config, rig, inputs, WH_EVENT_TRIP);
-    }
+    follow_trip(config, rig, inputs);
     if (!wh_run_drives(&rig->run)) {
         swing(config, rig);
     }

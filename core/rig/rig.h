@@ -75,9 +75,10 @@ typedef struct wh_rig {
     uint32_t since_ticks;   /* the state began */
     uint32_t pulses_ever;
     uint32_t pulses_before; /* `arm` */
-    /* a pulse or a mark is work enough for one step: the measurement waits for the next */
+    /* a pulse or a mark is work enough for one step: the rest waits for the next */
     bool busy;
-    bool rested; /* motor off, and the rotor rests, or will not: all that can be done is done */
+    uint8_t loads; /* samples since the last step: more than one leave it time for less */
+    bool rested;   /* motor off, and the rotor rests, or will not: all that can be done is done */
     /* it rests: no pulses; where those cannot be believed, after all the time it may take */
     bool at_rest;
     wh_rig_result result; /* of the last run that was through; kept until the next is */

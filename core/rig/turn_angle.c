@@ -59,14 +59,36 @@ static void add_carriage(const wh_rotor_config *config, wh_turn_angle *angle, wh
     angle->second_cosine -= angle->twice_rad * turned.sine;
 }
 
+/* A motor that cannot brake as much as is asked of it: what it leaves of gravity is a pulse, S g (-sin(theta - gamma) - k)
+ * where that is above 0, which has twice the angle in it. k is what holds the speed, over S g: it falls by the pulse's mean. */
+static void add_cut(const wh_rotor_config *config, wh_turn_angle *angle, wh_real speed_radps) {
+    const wh_real weight_Nm = config->mass_moment_kgm * config->gravity_mps2;
+    const wh_real braking_Nm = config->damping_Nms * speed_radps;
+    if (!angle->fed || !(braking_Nm < weight_Nm)) {
+        angle->cut = WH_R(0.0);
+        return;
+    }
+    /* 1 - k: q - 0.3 q^(3/2), the pulse's mean, is what it would be without; Newton's first step */
+    const wh_real first = WH_R(1.0) - braking_Nm / weight_Nm;
+    const wh_real root = WH_SQRT(first);
+    const wh_real cut = first + WH_R(0.3) * first * root / (WH_R(1.0) - WH_R(0.45) * root);
+    const wh_real second = WH_R(0.6) * cut * WH_SQRT(cut) * (WH_R(1.0) - WH_R(0.72) * cut);
+    angle->cut = cut;
+    const wh_real turning = WH_R(2.0) * angle->inertia_kgm2 * speed_radps;
+    const wh_real sum = WH_SQRT(turning * turning + config->damping_Nms * config->damping_Nms);
+    const wh_real size = weight_Nm * second / (WH_R(2.0) * speed_radps * sum);
+    const wh_real sine = config->damping_Nms / sum;
+    const wh_real lambda = sine * (WH_R(1.0) + WH_R(0.16666667) * sine * sine);
+    const wh_wave turned = wave_of(lambda - WH_R(2.0) * angle->lag_rad);
+    angle->second_cosine += size * turned.cosine;
+    angle->second_sine -= size * turned.sine;
+}
+
 void wh_turn_angle_shape(const wh_rotor_config *config, wh_turn_angle *angle, wh_real speed_radps) {
     const wh_real weight_Nm = config->mass_moment_kgm * config->gravity_mps2;
     const wh_real turning = angle->inertia_kgm2 * speed_radps;
     const wh_real sum = WH_SQRT(turning * turning + config->damping_Nms * config->damping_Nms);
     angle->whole_rad = weight_Nm / (speed_radps * sum);
-    const wh_real brakes_Nm = config->damping_Nms * speed_radps;
-    angle->cut =
-        angle->fed && brakes_Nm < weight_Nm ? WH_R(1.0) - brakes_Nm / weight_Nm : WH_R(0.0);
     const wh_real swing = angle->part * angle->whole_rad;
     angle->swing_rad =
         swing < SWING_MOST ? swing > -SWING_MOST ? swing : -SWING_MOST : SWING_MOST; /* NaN too */
@@ -81,6 +103,7 @@ void wh_turn_angle_shape(const wh_rotor_config *config, wh_turn_angle *angle, wh
     angle->second_sine = second * (WH_R(1.0) - WH_R(0.5) * half * half);
     angle->second_cosine = -second * half * (WH_R(1.0) - half * half * (WH_R(1.0) / WH_R(6.0)));
     add_carriage(config, angle, speed_radps);
+    add_cut(config, angle, speed_radps);
 
     /* base + what is added at the begin is the mark's angle, and u there is base + psi - gamma */
     const wh_real begins = config->mark_rad[0] + angle->lag_rad - config->gravity_rad;

@@ -1,8 +1,11 @@
 /* rig_frames.c: the rig's hal_ functions, on a plant at the other end of a line.
  *
- * Names are those of docs/plants/rig.whirl, with dials of docs/plants/carriage.whirl. Time stands still while the
+ * Names are those of docs/plants/rig.whirl, with dials of its own or of docs/plants/carriage.whirl. Time stands still while the
  * controller computes; how long it took goes with the outputs, and the plant makes them wait so long. */
 #include "rig_frames.h"
+
+#include <stddef.h>
+
 #include "hal/clock.h"
 #include "hal/loadcell.h"
 #include "hal/motor.h"
@@ -64,40 +67,45 @@ static const wh_signal signals[] = {
 #define ROW(channel, word, si) {.kind = WH_SIGNAL_NOTE, .name = (word), .unit = (si)},
     HAL_NOTE_ROWS(ROW)
 #undef ROW
-#define DIAL(which, word, si, largest) \
+};
+
+#define DIAL(which, word, si, most) \
     {.kind = WH_SIGNAL_SAMPLE, \
      .name = (word), \
      .unit = (si), \
-     .low = 0.0f, \
-     .high = (largest), \
-     .per_count = (largest)*DIAL_PER_COUNT, \
+     .low = -(most), \
+     .high = (most), \
+     .per_count = (most)*DIAL_PER_COUNT, \
      .period_ticks = HAL_DIAL_TICKS},
-        HAL_DIAL_ROWS(DIAL)
-#undef DIAL
 #define ROW(channel, word, si) {.kind = WH_SIGNAL_NOTE, .name = (word), .unit = (si)},
-            HAL_DIAL_NOTE_ROWS(ROW)
+static const wh_signal carriage_signals[] = {HAL_DIAL_ROWS(DIAL) HAL_DIAL_NOTE_ROWS(ROW)};
+static const wh_signal bench_signals[] = {HAL_BENCH_DIAL_ROWS(DIAL)};
 #undef ROW
-};
+#undef DIAL
 
-#define ONE(...) +1U
-enum { SIGNALS_OF_DIALS = HAL_DIAL_ROWS(ONE) HAL_DIAL_NOTE_ROWS(ONE) };
-#undef ONE
-_Static_assert(sizeof signals / sizeof signals[0] <= WH_SIGNALS_MAX, "room for all");
+enum {
+    SIGNALS = sizeof signals / sizeof signals[0],
+    CARRIAGE_SIGNALS = sizeof carriage_signals / sizeof carriage_signals[0],
+    BENCH_SIGNALS = sizeof bench_signals / sizeof bench_signals[0]
+};
+_Static_assert(SIGNALS + CARRIAGE_SIGNALS <= WH_SIGNALS_MAX, "room for all");
+_Static_assert(SIGNALS + BENCH_SIGNALS <= WH_SIGNALS_MAX, "room for all");
 
 /* The board's one plant: hardware is global. */
 static hal_turns plant;
 static float supply_V = SUPPLY_RATED_V;
 static bool stop_pressed = true; /* until it is looked at */
-static bool has_dials;
+static uint32_t load_ticks;      /* stamp of the last sample of the load, */
+static bool load_seen;           /* when there was one */
+static const wh_signal *dials;   /* and notes; NULL: it has none */
+static unsigned dial_signals;
 static float dial[HAL_DIALS];
+_Static_assert((int)HAL_BENCH_DIALS <= (int)HAL_DIALS, "room for either's");
 
 static void see_dial(const wh_sample *sample) {
-#define LARGEST(which, word, si, largest) (largest),
-    static const float largest[] = {HAL_DIAL_ROWS(LARGEST)};
-#undef LARGEST
     const unsigned which = (unsigned)sample->channel - DIALS;
-    if (which < HAL_DIALS) {
-        dial[which] = (float)sample->raw * (largest[which] * DIAL_PER_COUNT);
+    if (which < HAL_DIALS && which < dial_signals) {
+        dial[which] = (float)sample->raw * dials[which].per_count;
     }
 }
 
@@ -116,12 +124,21 @@ static void see_levels(void) {
 }
 
 bool hal_clock_start(void) {
-    const unsigned count = sizeof signals / sizeof signals[0];
-    const wh_hello hello = {.program = has_dials ? "rig_dials" : "rig",
+    static wh_signal all[WH_SIGNALS_MAX];
+    unsigned count = 0;
+    for (unsigned i = 0; i < SIGNALS; i++) {
+        all[count++] = signals[i];
+    }
+    for (unsigned i = 0; i < dial_signals; i++) {
+        all[count++] = dials[i];
+    }
+    const wh_hello hello = {.program = dials == NULL               ? "rig"
+                                       : dials == carriage_signals ? "rig_dials"
+                                                                   : "rig_dialled",
                             .ticks_per_s = HAL_TICKS_PER_S,
                             .start_ticks = 0U - WRAP_AFTER_S * HAL_TICKS_PER_S,
-                            .signal = signals,
-                            .signals = has_dials ? count : count - SIGNALS_OF_DIALS};
+                            .signal = all,
+                            .signals = count};
     return hal_turns_start(&plant, &hello);
 }
 
@@ -154,7 +171,19 @@ float hal_motor_supply_V(void) { return supply_V; }
 
 void hal_frames_note(unsigned channel, float value) { hal_turns_note(&plant, channel, value); }
 
-void hal_frames_with_dials(void) { has_dials = true; }
+void hal_frames_step_begins(void) { hal_turns_step_begins(&plant); }
+
+void hal_frames_step_ends(void) { hal_turns_step_ends(&plant); }
+
+void hal_frames_with_dials(void) {
+    dials = carriage_signals;
+    dial_signals = CARRIAGE_SIGNALS;
+}
+
+void hal_frames_with_bench_dials(void) {
+    dials = bench_signals;
+    dial_signals = BENCH_SIGNALS;
+}
 
 float hal_frames_dial(unsigned which) { return which < HAL_DIALS ? dial[which] : 0.0f; }
 
@@ -180,8 +209,12 @@ bool hal_loadcell_take(hal_load_sample *sample) {
             return false;
         }
     } while (one.channel != CELL_FORCE);
-    *sample =
-        (hal_load_sample){.ticks = one.ticks, .raw = one.raw, .status = load_status(one.status)};
+    const bool again = load_seen && one.ticks == load_ticks;
+    load_seen = true;
+    load_ticks = one.ticks;
+    *sample = (hal_load_sample){.ticks = one.ticks,
+                                .raw = one.raw,
+                                .status = again ? HAL_LOAD_REPEATED : load_status(one.status)};
     return true;
 }
 

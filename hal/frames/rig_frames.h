@@ -30,20 +30,29 @@ enum {
 /* From now on; it goes with the outputs when the controller waits next. */
 void hal_frames_note(unsigned channel, float value);
 
+/* Round each control step, without what it takes to read sensors, to set outputs and to print: see
+ * hal_turns_step_begins(). They are calls, so that whoever counts from outside finds them, too. */
+void hal_frames_step_begins(void);
+void hal_frames_step_ends(void);
+
 /* What an operator dials in before a run, and the notes that go with it: of programs that ask for dials before
- * hal_clock_start(). X(name, word, unit, largest), the notes above but for the largest. */
+ * hal_clock_start(). X(name, word, unit, largest either way), the notes above but for the largest. */
 #define HAL_DIAL_ROWS(X) \
     X(HAL_DIAL_SPEED, "dial_speed", "rad/s", 64.0f) \
     X(HAL_DIAL_RADIUS, "dial_radius", "m", 1.0f) \
     X(HAL_DIAL_RATIO, "dial_ratio", "1", 16.0f)
 #define HAL_DIAL_NOTE_ROWS(X) X(HAL_NOTE_DISPLACEMENT, "displacement", "m")
 
-enum {
+/* Those of the rig on its bench: set-point; gravity's torque that is fed forward in every run, as a part of what it should be,
+ * 0: all of it, where the set-point asks for it. */
+#define HAL_BENCH_DIAL_ROWS(X) \
+    X(HAL_DIAL_TARGET, "dial_speed", "rad/s", 64.0f) \
+    X(HAL_DIAL_FEED, "dial_feed", "1", 4.0f)
+
 #define ROW(name, word, unit, largest) name,
-    HAL_DIAL_ROWS(ROW)
+enum { HAL_DIAL_ROWS(ROW) HAL_DIALS };
+enum { HAL_BENCH_DIAL_ROWS(ROW) HAL_BENCH_DIALS };
 #undef ROW
-        HAL_DIALS
-};
 enum {
     HAL_NOTES_BEFORE_DIALS = HAL_NOTE_RESET,
 #define ROW(name, word, unit) name,
@@ -53,8 +62,9 @@ enum {
 
 #define HAL_DIAL_TICKS 100000U /* from one reading of a dial to the next */
 
-/* Before hal_clock_start(): the bench has dials. */
+/* Before hal_clock_start(): the carriage has dials, or the bench. */
 void hal_frames_with_dials(void);
+void hal_frames_with_bench_dials(void);
 
 /* As last read; 0 before that. */
 float hal_frames_dial(unsigned which);

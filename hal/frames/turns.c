@@ -97,6 +97,10 @@ bool hal_turns_start(hal_turns *turns, const wh_hello *hello) {
     if (length == 0 || !hal_link_open()) {
         return false;
     }
+    hal_turns_step_begins(turns);
+    hal_turns_step_ends(turns);
+    turns->nothing_timer = turns->orders.step_timer;
+    turns->orders.step_timer = 0;
     send(turns, WH_FRAME_HELLO, 0, length);
     hear(turns);
     return true;
@@ -113,6 +117,15 @@ void hal_turns_set(hal_turns *turns, unsigned channel, float value) {
 void hal_turns_note(hal_turns *turns, unsigned channel, float value) {
     if (channel < turns->orders.outputs - turns->outputs) {
         turns->orders.output[turns->outputs + channel] = value;
+    }
+}
+
+void hal_turns_step_begins(hal_turns *turns) { turns->step_timer = hal_link_timer(); }
+
+void hal_turns_step_ends(hal_turns *turns) {
+    const uint32_t took = hal_link_timer() - turns->step_timer - turns->nothing_timer;
+    if ((int32_t)(took - turns->orders.step_timer) > 0) {
+        turns->orders.step_timer = took;
     }
 }
 
@@ -137,6 +150,7 @@ void hal_turns_wait(hal_turns *turns, uint32_t until_ticks) {
     send(turns, WH_FRAME_ORDERS, turns->sequence,
          wh_orders_put(orders, turns->payload, sizeof turns->payload));
     orders->flags = 0;
+    orders->step_timer = 0;
     turns->sequence++;
     hear(turns);
 }

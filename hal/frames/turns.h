@@ -18,6 +18,8 @@ typedef struct hal_turns {
     uint32_t arrived_timer; /* the last readings */
     uint16_t sequence;      /* of the readings that are waited for */
     bool acted;             /* outputs were set since */
+    uint32_t step_timer;    /* the control step that is under way began */
+    uint32_t nothing_timer; /* what is counted round nothing */
     unsigned outputs;       /* of orders.output; behind them stand the notes */
     wh_orders orders;
     wh_readings readings; /* what is not yet taken begins at: */
@@ -43,6 +45,10 @@ void hal_turns_set(hal_turns *turns, unsigned channel, float value);
 
 /* What the controller tells of itself, from now on: a note, of this channel. It takes no time. */
 void hal_turns_note(hal_turns *turns, unsigned channel, float value);
+
+/* Round each control step: orders tell what the longest took, apart from the rest that is done between two waits. */
+void hal_turns_step_begins(hal_turns *turns);
+void hal_turns_step_ends(hal_turns *turns);
 
 /* What outlives a reset, from now on: then turns->reset has it when we start again. count <= WH_REMEMBER_MAX. */
 void hal_turns_remember(hal_turns *turns, const uint8_t *bytes, unsigned count);

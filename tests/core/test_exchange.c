@@ -39,7 +39,7 @@ static void test_orders(void) {
             orders_in.output[i] = draw_float();
         }
         const unsigned length = wh_orders_put(&orders_in, bytes, WH_ORDERS_BYTES);
-        TEST_ASSERT_EQUAL_UINT(18U + 4U * outputs, length);
+        TEST_ASSERT_EQUAL_UINT(22U + 4U * outputs, length);
         expect_length(length, get_orders);
         TEST_ASSERT_TRUE(get_orders(length));
         TEST_ASSERT_EQUAL_UINT32(orders_in.until_ticks, orders_out.until_ticks);
@@ -53,7 +53,7 @@ static void test_orders(void) {
         TEST_ASSERT_EQUAL_UINT(0, wh_orders_put(&orders_in, bytes, length - 1U));
     }
     bytes[17] = WH_SIGNALS_MAX + 1U; /* how many there are */
-    TEST_ASSERT_FALSE(wh_orders_get(&orders_out, bytes, 18U + 4U * (WH_SIGNALS_MAX + 1U)));
+    TEST_ASSERT_FALSE(wh_orders_get(&orders_out, bytes, 22U + 4U * (WH_SIGNALS_MAX + 1U)));
 }
 
 static wh_readings readings_in;

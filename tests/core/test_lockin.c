@@ -116,7 +116,7 @@ static void run(const made_up *made, unsigned wanted) {
         }
         load.force_N = force_N;
         wh_lockin_load(&lockin, &load);
-        if (wh_lockin_work(&rotor, &cell, &lockin)) {
+        if (wh_lockin_work(&rotor, &cell, &lockin, WH_LOCKIN_HALVES_AT_ONCE)) {
             turns[turns_done++] = lockin.turn;
         }
     }
@@ -366,7 +366,7 @@ static void test_samples_stay_in_their_room(void) {
         const wh_load load = {.ticks = i * PERIOD_TICKS, .force_N = (wh_real)i};
         wh_lockin_load(&lockin, &load);
         TEST_ASSERT_TRUE(lockin.first < WH_LOCKIN_SAMPLES && lockin.count <= WH_LOCKIN_SAMPLES);
-        TEST_ASSERT_FALSE(wh_lockin_work(&rotor, &cell, &lockin));
+        TEST_ASSERT_FALSE(wh_lockin_work(&rotor, &cell, &lockin, WH_LOCKIN_HALVES_AT_ONCE));
     }
     TEST_ASSERT_EQUAL_UINT(WH_LOCKIN_SAMPLES, lockin.count);
     TEST_ASSERT_EQUAL_UINT32((2U * WH_LOCKIN_SAMPLES + 7U) * PERIOD_TICKS, lockin.taken_ticks);

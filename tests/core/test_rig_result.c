@@ -239,6 +239,18 @@ static void test_every_reason_has_its_case(void) {
         conclude(&wh_rig_standard.measure.result);
         TEST_ASSERT_TRUE(measured.why == (i < 2U ? WH_WHY_NONE : WH_WHY_ROTOR));
     }
+    for (int side = -1; side <= 1;
+         side += 2) { /* gravity that is fed forward, and what is left of it */
+        for (unsigned i = 0; i < 2; i++) {
+            TEST_ASSERT_TRUE(why_of(full_N, WH_R(0.0), plain, 10, 0) == WH_WHY_NONE);
+            const wh_real part = WH_ABS(merge.swing_rad) / angle.whole_rad;
+            angle.fed = true;
+            merge.swing_rad *= (wh_real)side * (i == 0 ? WH_R(0.14) : WH_R(0.16)) / part;
+            conclude(&wh_rig_standard.measure.result);
+            TEST_ASSERT_TRUE(measured.why == (i == 0 ? WH_WHY_NONE : WH_WHY_FED));
+            angle.fed = false;
+        }
+    }
     /* what is not a number is refused */
     const wh_real nan = (wh_real)__builtin_nanf("");
     TEST_ASSERT_TRUE(why_of(nan, WH_R(0.0), plain, 10, 0) == WH_WHY_AMPLITUDE);

@@ -30,6 +30,9 @@ const char *rig_tripped_when(void); /* NOTE=VALUE */
 const char *rig_trip_word(int trip);
 /* The shaft's limit. */
 double rig_limit_rpm(void);
+double rig_nominal_rpm(void);
+/* The fastest that a drive which ignores the voltage may make of a run at target_rpm until it is off. */
+double rig_caught_rpm(double target_rpm);
 
 /* --- what is wished ----------------------------------------------------------------------------------------------------*/
 
@@ -47,6 +50,8 @@ typedef struct campaign {
 
 /* Its firmware runs in an emulator, which counts instructions. */
 bool campaign_is_emulated(const campaign *c);
+/* It has an operator's dials. */
+bool campaign_has_dials(const campaign *c);
 
 /* --- what is drawn (faults_draw.c) -----------------------------------------------------------------------------------*/
 
@@ -58,13 +63,22 @@ const char *campaign_row_word(unsigned row);
 typedef struct campaign_case {
     unsigned row;
     unsigned stage;
-    uint32_t seed;    /* of this run */
+    uint32_t seed; /* of this run */
+    double target_rpm;
+    bool breaks;      /* there is a fault beside the noise, */
+    bool from_start;  /* and from the start */
     bool drives;      /* the plant itself drives beyond what the controller asks for */
     bool calibration; /* only calibration can tell: a result that is off by it is no lie */
     bool runs_away;   /* the drive ignores the voltage */
     bool delays;      /* the controller, or what it says: its watchdog may cut */
     char words[400];  /* of --fault: the fault, and the noise that every run has */
 } campaign_case;
+
+/* Its fault is the only one. */
+bool campaign_is_alone(const campaign_case *one);
+
+/* There is a fault to draw: of the word that is asked for, for this firmware. */
+bool campaign_has_any(const campaign *c);
 
 /* Run i of the campaign. */
 void campaign_draw(campaign_case *one, const campaign *c, unsigned i);
@@ -100,6 +114,7 @@ typedef struct verdict {
         lie; /* a good result is off by so much more than its interval and 1 %; as a share of the truth */
     bool
         lasting; /* a drive that is on ignores the voltage for longer than it may take to stop it */
+    double target_rpm;
     double began_rpm;  /* the speed then */
     double off_s;      /* from then until the enable was off; -1: it was not */
     double caught_rpm; /* the fastest instant until then */
@@ -111,10 +126,11 @@ typedef struct verdict {
     bool latched; /* it does not */
     double time_s;
     uint64_t overruns;
-    uint32_t steps
-        [STEP_BINS]; /* answers by what they took until the outputs were set; none where it is not counted */
-    double most;   /* instructions of one, */
-    double most_s; /* then */
+    uint32_t steps[STEP_BINS]; /* control steps by what they took; none where it is not counted */
+    double most;               /* instructions of one, */
+    double most_s;             /* then */
+    double loop;               /* of all that is done between two waits: HAL, steps and printing, */
+    double start;              /* and before the loop */
 } verdict;
 
 enum { JUDGE_TURNS = 64 };
@@ -142,8 +158,7 @@ typedef struct judge {
     bound force;
     double per_count; /* instructions; 0: they are not counted */
     double ticks_per_s;
-    bool stepped; /* it has answered before */
-    int at_duty;  /* in orders.output; -1: there is none */
+    int at_duty; /* in orders.output; -1: there is none */
     int at_enable;
     int at_note[HAL_NOTES];
     /* Of the turn that is under way: */

@@ -19,7 +19,7 @@ typedef enum size_drawn {
     ONE_OF_INERTIA
 } size_drawn;
 
-enum { NO_CHANNEL, ANY_SENSOR, ONE_SENSOR, SUPPLY_CHANNEL };
+enum { NO_CHANNEL, ANY_SENSOR, ONE_SENSOR, SUPPLY_CHANNEL, FEED_CHANNEL };
 enum {
     DRIVES = 1,
     RUNS_AWAY = 2,
@@ -28,7 +28,9 @@ enum {
     HEALTHY = 16,
     AFTER_TRIP = 32, /* something else trips the rig first */
     STARVED = 64,    /* the watchdog resets, and does not cut */
-    DELAYS = 128     /* so that the watchdog may cut */
+    DELAYS = 128,    /* so that the watchdog may cut */
+    FED = 256,   /* gravity is fed forward in every run: of firmware with dials, from the start */
+    TURNED = 512 /* with the wrong sign */
 };
 
 static const struct {
@@ -84,8 +86,31 @@ static const struct {
     {FAULT_RESET, LOG, 1e-3, 0.1, NO_CHANNEL, 0},
     {FAULT_RESET, LOG, 1e-3, 0.1, NO_CHANNEL, AFTER_TRIP | DELAYS},
     {FAULT_HANG, LOG, 5e-3, 1, NO_CHANNEL, STARVED | DELAYS},
+    {FAULT_READS, EVEN, 0.7, 1.3, FEED_CHANNEL, FED},
+    {FAULT_READS, EVEN, -1, -1, FEED_CHANNEL, FED | TURNED},
+    {FAULT_EDGE_PLACE, EVEN, -3, 3, ANY_SENSOR, FED | CALIBRATION},
 };
-enum { ROWS = sizeof rows / sizeof rows[0] };
+enum { ROWS = sizeof rows / sizeof rows[0], TWO_FAULTS = ROWS };
+#define TWO_WORD "two faults"
+#define TWO_PART 0.1 /* of the runs: something else breaks, too */
+
+/* A row that may break beside another one: while the rig runs, and not what is judged by when it begins. */
+static bool may_be_second(unsigned row) {
+    const fault_kind kind = rows[row].kind;
+    return (rows[row].is & (RUNS_AWAY | COUNTED_ONLY | HEALTHY | AFTER_TRIP | STARVED | FED)) ==
+               0 &&
+           kind != FAULT_STOP && kind != FAULT_RESET && fault_rows[kind].place != FAULT_PARAMETER;
+}
+
+/* --- what an operator dials in --------------------------------------------------------------------------------------*/
+
+#define NOMINAL_PART 0.25 /* of the runs, at the rig's nominal speed; */
+#define SLOW_PART 0.25    /* and as many slower than it goes without gravity fed forward */
+#define FED_PART 0.2      /* of the others it is fed all the same */
+#define SLOWEST_RPM 100.0
+#define SLOW_RPM 170.0
+#define FASTEST_RPM 360.0
+#define RADPS_PER_RPM 0.10471975511965977
 
 /* What trips a rig that is armed or in a run, and an idle one at the latest when it is ordered to be. */
 static const char *const trips[] = {"cell-open",  "cell-dead", "edge-dead",
@@ -94,9 +119,17 @@ static const char *const trips[] = {"cell-open",  "cell-dead", "edge-dead",
 /* Few, since each is a plant of its own. */
 static const double inertias[] = {0.5, 0.7, 1.4, 2.0, 3.0, 4.0, 6.0};
 
-unsigned campaign_rows(void) { return ROWS; }
+unsigned campaign_rows(void) { return ROWS + 1; }
 
 const char *campaign_row_word(unsigned row) {
+    if (row == TWO_FAULTS) {
+        return TWO_WORD;
+    }
+    if ((rows[row].is & FED) != 0) {
+        return (rows[row].is & TURNED) != 0        ? "feed-turned"
+               : rows[row].channel == FEED_CHANNEL ? "feed-part"
+                                                   : "edge-place-fed";
+    }
     return (rows[row].is & HEALTHY) != 0         ? "none"
            : (rows[row].is & AFTER_TRIP) != 0    ? "reset-tripped"
            : (rows[row].is & STARVED) != 0       ? "hang-resets"
@@ -109,9 +142,13 @@ typedef struct drawing {
     uint64_t count;
 } drawing;
 
-/* From 0 to below 1. */
+/* From 0 to below 1. The hash alone is all but linear in the run's number: runs with one draw in common would have them all
+ * (Stafford's thirteenth mix; test_campaign.c looks for it). */
 static double draw(drawing *d) {
-    const uint64_t bits = wh_hash_u64(wh_hash_u64(d->hash, d->count++), 0x64726177U);
+    uint64_t bits = wh_hash_u64(wh_hash_u64(d->hash, d->count++), 0x64726177U);
+    bits = (bits ^ (bits >> 30)) * UINT64_C(0xBF58476D1CE4E5B9);
+    bits = (bits ^ (bits >> 27)) * UINT64_C(0x94D049BB133111EB);
+    bits ^= bits >> 31;
     return (double)(bits >> 11) * 0x1p-53;
 }
 
@@ -155,6 +192,7 @@ static void put_channel(text *t, drawing *d, int channel) {
     const unsigned which = channel == ANY_SENSOR       ? draw_of(d, 3)
                            : channel == ONE_SENSOR     ? 1 + draw_of(d, 2)
                            : channel == SUPPLY_CHANNEL ? 2
+                           : channel == FEED_CHANNEL   ? 5
                                                        : 0;
     if (which > 0) {
         put(t, ":%u", which);
@@ -174,51 +212,118 @@ static void put_duration(text *t, drawing *d) {
 
 bool campaign_is_emulated(const campaign *c) { return strstr(c->firmware, ".elf") != NULL; }
 
+bool campaign_is_alone(const campaign_case *one) { return one->row != TWO_FAULTS; }
+
+bool campaign_has_dials(const campaign *c) { return strstr(c->firmware, "pil_dialled") != NULL; }
+
+/* The operator's dials are the fourth and fifth sample. */
+static void put_dials(text *t, drawing *d, campaign_case *one, bool fed) {
+    const double which = draw(d);
+    one->target_rpm = which < NOMINAL_PART ? rig_nominal_rpm()
+                      : which < NOMINAL_PART + SLOW_PART
+                          ? SLOWEST_RPM + draw(d) * (SLOW_RPM - SLOWEST_RPM)
+                          : SLOW_RPM + draw(d) * (FASTEST_RPM - SLOW_RPM);
+    put(t, ",%s:4=%.4f", fault_rows[FAULT_READS].word, one->target_rpm * RADPS_PER_RPM);
+    if (draw(d) < FED_PART || fed) {
+        put(t, ",%s:5=1", fault_rows[FAULT_READS].word);
+    }
+}
+
+static void put_fault(text *t, drawing *d, unsigned row, const rig_stage *stage,
+                      campaign_case *one) {
+    const fault_kind kind = rows[row].kind;
+    const unsigned is = rows[row].is;
+    const double size = draw_size(d, row);
+    put(t, ",%s", fault_rows[kind].word);
+    put_channel(t, d, rows[row].channel);
+    if (rows[row].how != NO_SIZE) {
+        put(t, "=%.4g", size);
+    }
+    if ((is & AFTER_TRIP) != 0) {
+        put(t, "@%s~%.6g", rig_tripped_when(), draw_log(d, 1e-3, 5.0));
+    } else if (fault_rows[kind].place != FAULT_PARAMETER && (is & FED) == 0) {
+        put_time(t, d, stage);
+        if (kind != FAULT_RESET) {
+            put_duration(t, d);
+        }
+    }
+    one->delays = one->delays || (is & DELAYS) != 0;
+    one->drives = one->drives || (is & DRIVES) != 0 ||
+                  ((kind == FAULT_SUPPLY || kind == FAULT_MOTOR) && size > 1.0);
+    one->calibration = one->calibration || (is & CALIBRATION) != 0 ||
+                       (kind == FAULT_CELL_GAIN && fabs(size - 1.0) < GAIN_CALIBRATION);
+}
+
+/* A second fault, before the row's own. What is to be off in time after the first must not be delayed. */
+static void put_second(text *t, drawing *d, const campaign *c, unsigned first,
+                       const rig_stage *stage, campaign_case *one) {
+    const bool two = draw(d) < TWO_PART;
+    const bool asked = c->only != NULL && strcmp(c->only, TWO_WORD) == 0;
+    const fault_kind kind = rows[first].kind;
+    const bool halts = kind == FAULT_STOP || kind == FAULT_RESET || (rows[first].is & STARVED) != 0;
+    if (!asked && (!two || c->only != NULL)) {
+        return;
+    }
+    unsigned row = 0;
+    do {
+        row = draw_of(d, ROWS);
+    } while (!may_be_second(row) || (halts && (rows[row].is & DELAYS) != 0));
+    put_fault(t, d, row, stage, one);
+    one->row = TWO_FAULTS;
+}
+
+static bool may_be_first(const campaign *c, unsigned row) {
+    const unsigned is = rows[row].is;
+    const bool two = c->only != NULL && strcmp(c->only, TWO_WORD) == 0;
+    return (campaign_is_emulated(c) || (is & COUNTED_ONLY) == 0) &&
+           (campaign_has_dials(c) || (is & FED) == 0) &&
+           (two               ? (is & HEALTHY) == 0
+            : c->only != NULL ? strcmp(c->only, campaign_row_word(row)) == 0
+                              : true);
+}
+
+bool campaign_has_any(const campaign *c) {
+    bool any = false;
+    for (unsigned row = 0; row < ROWS; row++) {
+        any = any || may_be_first(c, row);
+    }
+    return any;
+}
+
 void campaign_draw(campaign_case *one, const campaign *c, unsigned i) {
     drawing d = {.hash = wh_hash_u64(wh_hash_u64(WH_HASH_START, c->seed), i)};
     rig_stage stage[RIG_STAGES_MAX];
     const unsigned stages = rig_stages(stage);
-    *one = (campaign_case){.seed = (uint32_t)(wh_hash_u64(d.hash, 0x73656564U) >> 32)};
+    *one = (campaign_case){.seed = (uint32_t)(wh_hash_u64(d.hash, 0x73656564U) >> 32),
+                           .target_rpm = rig_nominal_rpm(),
+                           .drives = c->also != NULL,
+                           .delays = c->also != NULL};
     do {
         one->row = draw_of(&d, ROWS);
-    } while ((!campaign_is_emulated(c) && (rows[one->row].is & COUNTED_ONLY) != 0) ||
-             (c->only != NULL && strcmp(c->only, campaign_row_word(one->row)) != 0));
-    const fault_kind kind = rows[one->row].kind;
-    const unsigned is = rows[one->row].is;
+    } while (!may_be_first(c, one->row));
+    const unsigned row = one->row;
+    const unsigned is = rows[row].is;
     one->stage = draw_of(&d, stages);
     text t = {one->words, sizeof one->words};
     put(&t, NOISE);
+    if (campaign_has_dials(c)) {
+        put_dials(&t, &d, one, (is & FED) != 0 && rows[row].channel != FEED_CHANNEL);
+    }
     if (c->also != NULL) {
         put(&t, ",%s", c->also);
-        one->drives = true;
     }
     if ((is & HEALTHY) != 0) {
         return;
     }
+    one->breaks = true;
+    one->from_start = (is & FED) != 0;
+    one->runs_away = (is & RUNS_AWAY) != 0;
+    put_second(&t, &d, c, row, &stage[one->stage], one);
     if ((is & AFTER_TRIP) != 0) {
         put(&t, ",%s", trips[draw_of(&d, sizeof trips / sizeof trips[0])]);
         put_time(&t, &d, &stage[one->stage]);
     } else if ((is & STARVED) != 0) {
         put(&t, ",%s", fault_rows[FAULT_WATCHDOG_RESETS].word);
     }
-    const double size = draw_size(&d, one->row);
-    put(&t, ",%s", fault_rows[kind].word);
-    put_channel(&t, &d, rows[one->row].channel);
-    if (rows[one->row].how != NO_SIZE) {
-        put(&t, "=%.4g", size);
-    }
-    if ((is & AFTER_TRIP) != 0) {
-        put(&t, "@%s~%.6g", rig_tripped_when(), draw_log(&d, 1e-3, 5.0));
-    } else if (fault_rows[kind].place != FAULT_PARAMETER) {
-        put_time(&t, &d, &stage[one->stage]);
-        if (kind != FAULT_RESET) {
-            put_duration(&t, &d);
-        }
-    }
-    one->runs_away = (is & RUNS_AWAY) != 0;
-    one->delays = (is & DELAYS) != 0 || c->also != NULL;
-    one->drives = one->drives || (is & DRIVES) != 0 ||
-                  ((kind == FAULT_SUPPLY || kind == FAULT_MOTOR) && size > 1.0);
-    one->calibration =
-        (is & CALIBRATION) != 0 || (kind == FAULT_CELL_GAIN && fabs(size - 1.0) < GAIN_CALIBRATION);
+    put_fault(&t, &d, row, &stage[one->stage], one);
 }

@@ -178,11 +178,11 @@ static double off_by(const judge *j, unsigned turns) {
 
 static void look_for_fault(judge *j) {
     const fault_case *f = &j->plan->fault[j->plan->count - 1U];
-    if (j->plan->count > 1 && f->happened && !j->began) {
+    if (j->of->breaks && f->happened && !j->began) {
+        const bool always = j->of->from_start || fault_rows[f->kind].place == FAULT_PARAMETER;
         j->began = true;
         j->verdict.happened = true;
-        j->verdict.stage =
-            fault_rows[f->kind].place == FAULT_PARAMETER ? -1 : rig_stage_of(j->told);
+        j->verdict.stage = always ? -1 : rig_stage_of(j->told);
     }
 }
 
@@ -226,17 +226,20 @@ static void take_notes(judge *j, const wh_orders *orders) {
     }
 }
 
-/* The first answer says who it is, before there is a loop. */
+/* Of several between two answers, where one was late, the longest. */
 static void count_step(judge *j, double time_s, const wh_orders *orders) {
-    const double instructions = (double)orders->acted_timer * j->per_count;
+    const double instructions = (double)orders->step_timer * j->per_count;
+    const double loop = (double)orders->busy_timer * j->per_count;
     verdict *v = &j->verdict;
-    if (j->stepped && instructions > 0.0) {
+    if (instructions > 0.0) {
         const unsigned bin = (unsigned)(instructions / STEP_BIN);
         v->steps[bin < STEP_BINS ? bin : STEP_BINS - 1]++;
         v->most_s = instructions > v->most ? time_s : v->most_s;
         v->most = instructions > v->most ? instructions : v->most;
+        v->loop = loop > v->loop ? loop : v->loop;
+    } else {
+        v->start = loop > v->start ? loop : v->start;
     }
-    j->stepped = true;
 }
 
 /* A controller that has tripped may watch the rotor for a long time. */
@@ -266,7 +269,9 @@ static void hear(void *of, double time_s, wh_orders *orders, double *late_s) {
     let_go(j, time_s);
     if (ignores && enabled && j->ignored_s < 0.0) {
         j->ignored_s = f->begin_s > j->enabled_s ? f->begin_s : j->enabled_s;
-        j->verdict.lasting = f->begin_s + f->duration_s - j->ignored_s >= LASTING_S;
+        /* beside another fault nobody can say when it may be seen */
+        j->verdict.lasting =
+            campaign_is_alone(j->of) && f->begin_s + f->duration_s - j->ignored_s >= LASTING_S;
         j->verdict.began_rpm = j->speed_rpm;
     }
     if (j->verdict.lasting && !enabled && j->verdict.off_s < 0.0) {
@@ -276,12 +281,13 @@ static void hear(void *of, double time_s, wh_orders *orders, double *late_s) {
 }
 
 tap judge_tap(judge *j, const campaign_case *of, const fault_plan *plan, double *until_s) {
-    *j = (judge){.of = of,
-                 .plan = plan,
-                 .until_s = until_s,
-                 .off_since_s = -1.0,
-                 .ignored_s = -1.0,
-                 .verdict = {.row = of->row, .stage = -1, .off_s = -1.0}};
+    *j = (judge){
+        .of = of,
+        .plan = plan,
+        .until_s = until_s,
+        .off_since_s = -1.0,
+        .ignored_s = -1.0,
+        .verdict = {.row = of->row, .target_rpm = of->target_rpm, .stage = -1, .off_s = -1.0}};
     return (tap){.name = "judge", .of = j, .start = start, .orders = hear, .watch = watch};
 }
 

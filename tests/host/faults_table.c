@@ -8,9 +8,8 @@
 #define OVERSPEED_SHARE 0.02 /* of all runs, allowed */
 #define CAUGHT_S 0.25        /* a drive that ignores the voltage is off after so long, */
 #define CAUGHT_REST_S 0.35   /* from rest after so long, */
-#define CAUGHT_RPM 470.0     /* and no faster, swings within a turn included */
 #define TURNING_RPM 250.0    /* slower it is as from rest */
-enum { WORST = 10, TRIPS = 32 };
+enum { WORST = 10, LONGEST = 20, TRIPS = 32 };
 
 static bool is_lie(const verdict *v) { return v->lie > 0.0; }
 static bool is_hang(const verdict *v) { return v->outcome == OUTCOME_HANG; }
@@ -19,7 +18,8 @@ static bool is_overspeed(const verdict *v) { return v->overspeed; }
 static bool is_cut(const verdict *v) { return v->cut; }
 static bool is_not_caught(const verdict *v) {
     const double most_s = v->began_rpm < TURNING_RPM ? CAUGHT_REST_S : CAUGHT_S;
-    return v->lasting && !(v->off_s >= 0.0 && v->off_s <= most_s && v->caught_rpm <= CAUGHT_RPM);
+    return v->lasting && !(v->off_s >= 0.0 && v->off_s <= most_s &&
+                           v->caught_rpm <= rig_caught_rpm(v->target_rpm));
 }
 
 static bool is_not_halted(const verdict *v) { return v->halted && v->halted_s < 0.0; }
@@ -152,6 +152,21 @@ static double by_lie(const verdict *v) { return v->lie; }
 static double by_off(const verdict *v) { return v->off_s < 0.0 ? 1e9 : v->off_s; }
 static double by_speed(const verdict *v) { return v->turn_rpm; }
 
+/* What is worst of those not shown yet; count: none. */
+static unsigned next_worst(const verdict *all, unsigned count, bool (*is)(const verdict *v),
+                           double (*by)(const verdict *v), bool *shown) {
+    unsigned worst = count;
+    for (unsigned i = 0; i < count; i++) {
+        if (is(&all[i]) && !shown[i] && (worst == count || by(&all[i]) > by(&all[worst]))) {
+            worst = i;
+        }
+    }
+    if (worst < count) {
+        shown[worst] = true;
+    }
+    return worst;
+}
+
 static void print_worst(FILE *out, const campaign *c, const verdict *all, unsigned count,
                         const char *what, bool (*is)(const verdict *v),
                         double (*by)(const verdict *v)) {
@@ -159,14 +174,7 @@ static void print_worst(FILE *out, const campaign *c, const verdict *all, unsign
     const unsigned found = count_of(all, count, -1, is);
     fprintf(out, "\n%s: %u of %u runs\n", what, found, count);
     for (unsigned n = 0; n < found && n < WORST; n++) {
-        unsigned worst = count;
-        for (unsigned i = 0; i < count; i++) {
-            if (is(&all[i]) && !shown[i] && (worst == count || by(&all[i]) > by(&all[worst]))) {
-                worst = i;
-            }
-        }
-        const verdict *v = &all[worst];
-        shown[worst] = true;
+        const verdict *v = &all[next_worst(all, count, is, by, shown)];
         fprintf(out, "\n    # run %u: ", v->run);
         if (is == is_lie) {
             fprintf(out, "off by %.3g %% more than it may be", 100.0 * v->lie);
@@ -243,30 +251,54 @@ static void print_halts(FILE *out, const verdict *all, unsigned count) {
 }
 
 static bool takes_time(const verdict *v) {
-    static const char *const words[] = {"slow", "late", "hang"}; /* and hang-resets */
+    static const char *const words[] = {"slow", "late", "hang", "two faults"}; /* and hang-resets */
     const char *word = campaign_row_word(v->row);
     bool takes = false;
-    for (int i = 0; i < 3; i++) {
+    for (int i = 0; i < 4; i++) {
         takes = takes || strncmp(word, words[i], strlen(words[i])) == 0;
     }
     return takes;
 }
 
-/* Where the emulator counts them: until the outputs are set, of runs in which nothing makes computing slower. */
+static bool has_steps(const verdict *v) { return v->most > 0.0; }
+static double by_step(const verdict *v) { return v->most; }
+
+/* Each with the words that repeat its run: mk/count/rig_worst.sh counts them once more. */
+static void print_longest(FILE *out, const campaign *c, const verdict *all, unsigned count) {
+    bool *shown = room(count, sizeof *shown);
+    fprintf(out, "\nThe longest control steps of %d runs:\n", LONGEST);
+    for (unsigned n = 0; n < LONGEST; n++) {
+        const unsigned i = next_worst(all, count, has_steps, by_step, shown);
+        if (i < count) {
+            fprintf(out, "\n    # run %u: step of %.0f instructions, at t = %.3f s\n    ",
+                    all[i].run, all[i].most, all[i].most_s);
+            campaign_print_command(out, c, all[i].run);
+            fputc('\n', out);
+        }
+    }
+    free(shown);
+}
+
+/* Where the emulator counts them. */
 static void print_steps(FILE *out, const campaign *c, const verdict *all, unsigned count) {
     uint64_t steps[STEP_BINS] = {0};
     uint64_t sum = 0;
     uint64_t overruns = 0;
-    const verdict *most = NULL;
+    double loop = 0.0;
+    double start = 0.0;
     for (unsigned i = 0; i < count; i++) {
-        for (int bin = 0; bin < STEP_BINS && !takes_time(&all[i]); bin++) {
-            steps[bin] += all[i].steps[bin];
-            sum += all[i].steps[bin];
+        const verdict *v = &all[i];
+        for (int bin = 0; bin < STEP_BINS; bin++) {
+            steps[bin] += v->steps[bin];
+            sum += v->steps[bin];
         }
-        overruns += takes_time(&all[i]) ? 0 : all[i].overruns;
-        most = !takes_time(&all[i]) && (most == NULL || all[i].most > most->most) ? &all[i] : most;
+        if (!takes_time(v)) {
+            overruns += v->overruns;
+            loop = v->loop > loop ? v->loop : loop;
+            start = v->start > start ? v->start : start;
+        }
     }
-    if (sum == 0 || most == NULL) {
+    if (sum == 0) {
         return;
     }
     fputs("\n| instructions of a control step | steps |\n|---|---|\n", out);
@@ -274,10 +306,11 @@ static void print_steps(FILE *out, const campaign *c, const verdict *all, unsign
         fprintf(out, "| %s%d | %llu |\n", bin == STEP_BINS - 1 ? "from " : "below ",
                 STEP_BIN * (bin + (bin < STEP_BINS - 1)), (unsigned long long)steps[bin]);
     }
-    fprintf(out, "\nThe longest: %.0f instructions, at t = %.3f s. Overruns: %llu.\n\n    ",
-            most->most, most->most_s, (unsigned long long)overruns);
-    campaign_print_command(out, c, most->run);
-    fputc('\n', out);
+    fprintf(out,
+            "\nWhere nothing takes time by itself: with HAL and printing between two waits at most "
+            "%.0f, before the first step %.0f; overruns: %llu.\n",
+            loop, start, (unsigned long long)overruns);
+    print_longest(out, c, all, count);
 }
 
 int campaign_print(FILE *out, const campaign *c, const verdict *all, unsigned count) {

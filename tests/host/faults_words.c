@@ -53,3 +53,28 @@ const char *rig_tripped_when(void) {
 const char *rig_trip_word(int trip) { return wh_trip_text((wh_trip)trip); }
 
 double rig_limit_rpm(void) { return (double)WH_RIG_SHAFT_LIMIT_RPM; }
+
+double rig_nominal_rpm(void) { return (double)WH_RIG_NOMINAL_RPM; }
+
+/* Two marks that tell lie within a turn of any instant, but one within its first sixth shows too little (docs/rig.md): until
+ * then, and a control period, full voltage drives, and on top is what gravity makes of a turn. */
+#define CAUGHT_RPM 470.0 /* of runs at the nominal speed, or less */
+#define TURNS (7.0 / 6.0)
+#define LAG_S 0.23 /* of the rotor under full voltage, towards: */
+#define FULL_RPM 568.0
+#define PERIOD_S 2e-3
+#define STEP_S 1e-5
+#define INERTIA_KGM2 5.77e-3
+
+double rig_caught_rpm(double target_rpm) {
+    const double weight_Nm = (double)(WH_RIG_MASS_MOMENT_KGM * WH_RIG_GRAVITY_MPS2);
+    double rpm = target_rpm;
+    double turns = 0.0;
+    for (double left_s = PERIOD_S; left_s > 0.0; left_s -= turns < TURNS ? 0.0 : STEP_S) {
+        rpm += (FULL_RPM - rpm) / LAG_S * STEP_S;
+        turns += rpm / 60.0 * STEP_S;
+    }
+    const double per_radps = (double)WH_RIG_RADPS_PER_RPM;
+    const double fastest = rpm + weight_Nm / (INERTIA_KGM2 * rpm * per_radps) / per_radps;
+    return fastest > CAUGHT_RPM ? fastest : CAUGHT_RPM;
+}

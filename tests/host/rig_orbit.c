@@ -214,7 +214,7 @@ void rig_measure(const rig_orbit *orbit, const rig_noise *noise, const wh_rotor_
         const wh_load load =
             wh_cell_load(&cell, begin + i * 2000U, (int32_t)lround(raw), WH_LOAD_OK);
         wh_lockin_load(&lockin, &load);
-        if (wh_lockin_work(rotor, &cell, &lockin) && ++done > before) {
+        if (wh_lockin_work(rotor, &cell, &lockin, WH_LOCKIN_HALVES_AT_ONCE) && ++done > before) {
             wh_merge_add(&judged, rotor, &merge, &lockin.turn, &lockin.angle);
         }
     }

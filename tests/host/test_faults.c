@@ -10,45 +10,6 @@
 
 void suite_faults(void);
 
-/* --- what is drawn -----------------------------------------------------------------------------------------------------*/
-
-static void test_draws(void) {
-    unsigned drawn[CAMPAIGN_ROWS_MAX] = {0};
-    unsigned stages[RIG_STAGES_MAX] = {0};
-    const campaign all = {.firmware = "x.elf", .seed = 3};
-    TEST_ASSERT_TRUE(campaign_rows() <= CAMPAIGN_ROWS_MAX);
-    for (unsigned i = 0; i < 4000; i++) {
-        campaign_case one;
-        campaign_case again;
-        fault_plan plan = {.count = 0};
-        campaign_draw(&one, &all, i);
-        campaign_draw(&again, &all, i);
-        TEST_ASSERT_EQUAL_STRING(one.words, again.words);
-        TEST_ASSERT_EQUAL_UINT32(one.seed, again.seed);
-        TEST_ASSERT_TRUE_MESSAGE(fault_read(&plan, one.words), one.words);
-        const char *word = campaign_row_word(one.row);
-        const bool twice = strcmp(word, "reset-tripped") == 0 || strcmp(word, "hang-resets") == 0;
-        TEST_ASSERT_EQUAL_UINT(strcmp(word, "none") == 0 ? 1 : twice ? 3 : 2, plan.count);
-        TEST_ASSERT_TRUE(strlen(one.words) + 1 < sizeof one.words);
-        drawn[one.row]++;
-        stages[one.stage]++;
-    }
-    rig_stage stage[RIG_STAGES_MAX];
-    for (unsigned s = 0; s < rig_stages(stage); s++) {
-        TEST_ASSERT_TRUE(stages[s] > 300);
-        TEST_ASSERT_TRUE(stage[s].span_s > 0.0 && strchr(stage[s].when, '=') != NULL);
-    }
-    for (unsigned row = 0; row < campaign_rows(); row++) {
-        campaign_case one;
-        TEST_ASSERT_TRUE(drawn[row] > 30);
-        const campaign only = {
-            .firmware = "x.elf", .seed = 1, .only = campaign_row_word(row), .also = "jam"};
-        campaign_draw(&one, &only, 2);
-        TEST_ASSERT_TRUE(strstr(one.words, ",jam") != NULL && one.drives);
-        TEST_ASSERT_EQUAL_STRING(campaign_row_word(row), campaign_row_word(one.row));
-    }
-}
-
 /* --- the judge -------------------------------------------------------------------------------------------------------*/
 
 #define AMPLITUDE_N 42.0
@@ -135,7 +96,8 @@ static verdict judged(const made_up *m) {
     judge j;
     double until_s = 100.0;
     fault_plan plan = {.seed = 1};
-    const campaign_case of = {.drives = m->drives,
+    const campaign_case of = {.breaks = m->fault != NULL,
+                              .drives = m->drives,
                               .calibration = m->calibration,
                               .runs_away = m->runs_away,
                               .delays = m->delays};
@@ -369,7 +331,6 @@ static void test_hangs(void) {
 }
 
 void suite_faults(void) {
-    RUN_TEST(test_draws);
     RUN_TEST(test_truth);
     RUN_TEST(test_no_lies);
     RUN_TEST(test_speeds);

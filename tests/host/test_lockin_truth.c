@@ -142,9 +142,20 @@ static void test_the_truth_is_what_theory_says(void) {
 
 /* --- bias and scatter ------------------------------------------------------------------------------- */
 
-/* At most 0.5 % and 0.5 degrees of bias, and no more scatter than 1.3 times what the noise of so many samples leaves.
- * Jitter of the marks moves the phase by at least that of the mean of the marks, which is added there: 20 marks, each
- * known to 60 us, do not tell the angle better. It moves the swing E as well, and the amplitude by 3/2 E dE. */
+/* No more scatter than 1.3 times what the noise of so many samples leaves. Jitter of the marks moves the phase by at least
+ * that of the mean of the marks, which is added there: 20 marks, each known to 60 us, do not tell the angle better. It
+ * moves the swing E as well, and the amplitude by 3/2 E dE. */
+static void check_scatter(const rig_noise *noise) {
+    const double samples = TURNS * orbit.turn_s / 0.002;
+    const double cells = 1.3 * noise->cell_N * sqrt(2.0 / samples) / orbit.amplitude_N;
+    const double marks =
+        1.3 * noise->jitter_s * 2.0 * 3.14159265358979323846 / (orbit.turn_s * sqrt((double)TURNS));
+    const double few = full() ? 1.0 : 1.3; /* runs: their scatter scatters */
+    check_below(fabs(bias(0)) + few * hypot(cells, 1.5 * orbit.swing * marks), rms(0));
+    check_below(fabs(bias(1)) + few * hypot(cells, marks), rms(1));
+}
+
+/* At most 0.5 % and 0.5 degrees of bias, and the scatter as above. */
 static void test_bias_and_scatter(void) {
     static const double rpm[] = {170.0, 200.0, 260.0, 330.0, 360.0};
     for (unsigned k = 0; k < 5; k++) {
@@ -154,15 +165,9 @@ static void test_bias_and_scatter(void) {
                                      .jitter_s = i < 2U ? 0.0 : 60e-6};
             measure_many(&noise, few_or_all(10, 200), 1000U * k + 250U * i);
             print_row(rpm[k], &noise);
-            const double samples = TURNS * orbit.turn_s / 0.002;
-            const double cells = 1.3 * noise.cell_N * sqrt(2.0 / samples) / orbit.amplitude_N;
-            const double marks = 1.3 * noise.jitter_s * 2.0 * 3.14159265358979323846 /
-                                 (orbit.turn_s * sqrt((double)TURNS));
             TEST_ASSERT_DOUBLE_WITHIN(0.005, 0.0, bias(0));
             TEST_ASSERT_DOUBLE_WITHIN(0.5 / DEG, 0.0, bias(1));
-            const double few = full() ? 1.0 : 1.3; /* runs: their scatter scatters */
-            check_below(fabs(bias(0)) + few * hypot(cells, 1.5 * orbit.swing * marks), rms(0));
-            check_below(fabs(bias(1)) + few * hypot(cells, marks), rms(1));
+            check_scatter(&noise);
         }
     }
 }
@@ -266,31 +271,28 @@ static void print_fed(const fed_kind *kind, double rpm, const rig_noise *noise) 
 }
 
 /* At the speed at which the motor just brakes as much as is asked of it, and faster: up to 30 % too much or too little fed,
- * of rotors with half as much inertia more or 30 % less, within 1 % and 1 degree. At 100 rpm, where the rotor would not get
- * over the top by itself, that holds for the right part; and beyond 1 degree it is wherever there is nothing to brake
- * with, by no more than 1.5. */
+ * of rotors with half as much inertia more or 30 % less, within 1 % and 1 degree. Slower, where the rotor would not get
+ * over the top by itself and the motor cannot brake enough, that holds for the right part. */
 static void test_what_is_fed_does_not_show(void) {
-    static const double rpm[] = {130.0, 170.0, 250.0, 330.0, 100.0, 100.0};
+    static const double rpm[] = {100.0, 107.0, 115.0, 123.0, 130.0, 170.0, 250.0, 330.0};
     static const fed_kind kinds[] = {
         {1.0, 0.0, 1.0, 1.0},   {1.1, 0.0, 1.0, 1.0}, {0.7, 0.0, 1.0, 1.0}, {1.0, 0.02, 1.0, 1.0},
         {1.0, -0.02, 1.0, 1.0}, {0.9, 0.0, 1.5, 1.0}, {1.1, 0.0, 0.7, 1.0}, {1.0, 0.0, 1.0, 3.0}};
-    const rig_noise noise = {.cell_N = 0.07, .jitter_s = 60e-6};
     rotor.fed_tolerance_rad = (wh_real)0.02;
-    for (unsigned k = 0; k < 6; k++) {
-        for (unsigned i = 0; i < 8; i++) {
-            const bool slow = rpm[k] < 120.0;
-            if (slow && i != (k == 4U ? 0U : 7U)) {
-                continue;
-            }
-            feed(&kinds[i], rpm[k]);
-            measure_many(&noise, few_or_all(5, 200), 600000U + 1000U * k + 100U * i);
-            print_fed(&kinds[i], rpm[k], &noise);
+    for (unsigned k = 0; k < 8; k++) {
+        const bool slow = rpm[k] < 125.0;
+        for (unsigned i = 0; i < 16; i += slow && i % 8U == 0 ? 7U : 1U) {
+            const fed_kind *kind = &kinds[i % 8U];
+            const rig_noise noise = {.cell_N = i < 8U ? 0.07 : 1.0, .jitter_s = 60e-6};
+            feed(kind, rpm[k]);
+            measure_many(&noise, few_or_all(3, 200), 600000U + 1000U * k + 100U * i);
+            print_fed(kind, rpm[k], &noise);
             TEST_ASSERT_DOUBLE_WITHIN(0.01, 0.0, bias(0));
-            TEST_ASSERT_DOUBLE_WITHIN((k == 4U ? 1.5 : 1.0) / DEG, 0.0, bias(1));
-            if (slow) { /* and then it is said */
-                TEST_ASSERT_EQUAL_UINT(found.runs, found.covered[1]);
+            TEST_ASSERT_DOUBLE_WITHIN(1.0 / DEG, 0.0, bias(1));
+            check_scatter(&noise);
+            if (slow) { /* and what is left of it is said */
+                TEST_ASSERT_TRUE(found.covered[1] >= found.runs * 9U / 10U);
                 TEST_ASSERT_TRUE(found.covered[0] >= found.runs * 9U / 10U);
-                check_below(2.5 * rms(1), median_half(1));
             }
         }
     }

@@ -232,14 +232,12 @@ static bool read_words(int count, char **words, campaign *c) {
     return count % 2 == 1 && c->firmware != NULL;
 }
 
-static bool has_row(const char *only) {
-    for (unsigned row = 0; row < campaign_rows(); row++) {
-        if (only == NULL || strcmp(only, campaign_row_word(row)) == 0) {
-            return true;
-        }
+static bool has_row(const campaign *c) {
+    const bool has = campaign_has_any(c);
+    if (!has) {
+        fprintf(stderr, "faults: error: no fault is called '%s', with %s\n", c->only, c->firmware);
     }
-    fprintf(stderr, "faults: error: no fault is called '%s'\n", only);
-    return false;
+    return has;
 }
 
 int main(int count, char **words) {
@@ -249,7 +247,7 @@ int main(int count, char **words) {
                   .runs = 20000,
                   .seed = 1,
                   .jobs = 2};
-    if (!read_words(count, words, &c) || !has_row(c.only)) {
+    if (!read_words(count, words, &c) || !has_row(&c)) {
         fprintf(stderr,
                 "usage: faults --firmware IMAGE [--board B] [--runs N] [--seed S] [--jobs J] "
                 "[--step 200us] [--only KIND] [--also FAULTS]\n");

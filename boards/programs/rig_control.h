@@ -1,0 +1,134 @@
+/* rig_control.h: the rig's controller between the hal_ functions: what every program of the rig does each control step. A
+ * part of such a program, of which there is one in an image. */
+#ifndef PROGRAMS_RIG_CONTROL_H
+#define PROGRAMS_RIG_CONTROL_H
+
+#include <stddef.h>
+
+#include "core/arithmetic.h"
+#include "core/rig/rig.h"
+#include "core/scene.h"
+#include "hal/clock.h"
+#include "hal/loadcell.h"
+#include "hal/motor.h"
+#include "hal/slots.h"
+#include "hal/stop.h"
+#include "hal/watchdog.h"
+#include "trip_memory.h"
+
+/* The rig's only hardware so far is played by the model; a real one comes with its own hal. */
+#ifndef HAL_VIRTUAL
+#define HAL_VIRTUAL 1
+#endif
+#if HAL_VIRTUAL
+#include "hal/virtual/virtual_rig.h"
+#endif
+#ifndef HAL_FRAMES
+#define HAL_FRAMES 0
+#endif
+#if HAL_FRAMES
+#include "hal/frames/rig_frames.h"
+#endif
+
+/* The model that goes with the rotor: rig_fixed of core/models/eccentric.whirl, in control steps (mk/whirl.mk). */
+extern const wh_scene rig_observed;
+
+_Static_assert(HAL_TICKS_PER_S == WH_RIG_TICKS_PER_S, "one clock");
+_Static_assert((int)HAL_LOAD_SATURATED == (int)WH_LOAD_SATURATED &&
+                   (int)HAL_LOAD_DISCONNECTED == (int)WH_LOAD_DISCONNECTED &&
+                   (int)HAL_LOAD_LATE == (int)WH_LOAD_LATE &&
+                   (int)HAL_LOAD_REPEATED == (int)WH_LOAD_REPEATED,
+               "one list of a sample's states");
+
+#define CONTROL_TICKS 2000U /* 500 Hz, as wh_rig_standard.step_s */
+#define WATCHDOG_TICKS (10U * CONTROL_TICKS)
+#define SAMPLES_MOST \
+    2U /* a step, beside a pulse one; what else a late one finds goes to the next */
+
+/* Static, not on the stack: it holds the samples of a turn. */
+static wh_rig rig;
+static trip_memory memory;
+
+static wh_rig_inputs inputs_now(void) {
+    return (wh_rig_inputs){.now_ticks = hal_clock_ticks(),
+                           .supply_V = hal_motor_supply_V(),
+                           .stop_pressed = hal_stop_pressed(),
+                           .watchdog_has_cut = hal_watchdog_has_cut()};
+}
+
+static void obey(const wh_rig_command *command) {
+    switch (command->way) {
+    case WH_MOTOR_DRIVES: hal_motor_set_voltage(command->volts); break;
+    case WH_MOTOR_BRAKES: hal_motor_off(HAL_MOTOR_BRAKE); break;
+    case WH_MOTOR_COASTS: hal_motor_off(HAL_MOTOR_COAST); break;
+    }
+}
+
+static wh_rig_command step(const wh_rig_config *config, const hal_slot_pulse *pulse,
+                           const hal_load_sample *sample, unsigned samples) {
+    const wh_rig_inputs inputs = inputs_now();
+#if HAL_FRAMES
+    hal_frames_step_begins();
+#endif
+    if (pulse != NULL) {
+        wh_rig_pulse(config, &rig, pulse->sensor, pulse->ticks);
+    }
+    for (unsigned i = 0; i < samples; i++) {
+        wh_rig_load(config, &rig, sample[i].ticks, sample[i].raw, (wh_load_status)sample[i].status);
+    }
+    const wh_rig_command command = wh_rig_step(config, &rig, &inputs);
+#if HAL_FRAMES
+    hal_frames_step_ends();
+#endif
+    return command;
+}
+
+static void control(const wh_rig_config *config) {
+    hal_slot_pulse pulse;
+    hal_load_sample sample[SAMPLES_MOST];
+    unsigned samples = 0;
+    /* one a step: a storm must not hold it up, and stamps do not age */
+    const bool pulsed = hal_slots_take(&pulse);
+    while (samples < (pulsed ? 1U : SAMPLES_MOST) && hal_loadcell_take(&sample[samples])) {
+        samples += sample[samples].status != HAL_LOAD_REPEATED ? 1U : 0U;
+    }
+    const wh_rig_command command = step(config, pulsed ? &pulse : NULL, sample, samples);
+    obey(&command);
+    trip_memory_keep(&memory, &rig);
+    hal_watchdog_kick(); /* tripped too: a watchdog that resets would start all over */
+}
+
+/* The standard rig with this hardware's cell and sensors. */
+static wh_rig_config rig_configuration(void) {
+    wh_rig_config config = wh_rig_standard;
+    config.measure.cell = (wh_cell_config){.newton_per_count = HAL_LOADCELL_N_PER_COUNT,
+                                           .period_ticks = HAL_LOADCELL_PERIOD_TICKS,
+                                           .raw_max = HAL_LOADCELL_RAW_MAX};
+    wh_rig_slots(&config, HAL_SLOT_LEAD_DEG / WH_RIG_DEG_PER_RAD);
+    config.observer.scene = &rig_observed;
+    return config;
+}
+
+static const char *why_no_hardware(void) {
+#if HAL_VIRTUAL
+    const wh_status status = hal_virtual_rig_instance()->status;
+    if (status != WH_OK) {
+        return wh_status_text(status);
+    }
+#endif
+    return "the hardware does not answer";
+}
+
+/* Start the hardware, and look whether the arithmetic is that of the tests. Why not, the motor off; or NULL. */
+static const char *why_not_started(void) {
+    if (!hal_clock_start()) {
+        return why_no_hardware();
+    }
+    if (wh_arithmetic_wrong(wh_arithmetic) != WH_PROBED_COUNT) {
+        hal_motor_off(HAL_MOTOR_COAST);
+        return wh_status_text(WH_E_ARITHMETIC);
+    }
+    return NULL;
+}
+
+#endif

@@ -1,0 +1,68 @@
+/* station.c: the rig's firmware with a console (core/station): whoever is at it gives the orders.
+ *
+ * It never ends. Where the model plays the hardware (hal/virtual), the model's time is held to the clock's. */
+#include "core/station/station.h"
+
+#include "boards/board.h"
+#include "hal/clock.h"
+#include "hal/console.h"
+#include "hal/motor.h"
+#include "hal/watchdog.h"
+#include "rig_control.h"
+#include "rig_report.h"
+
+/* What the console may take in a control step: at 115,200 baud 23 bytes come and go. */
+#define BYTES_A_STEP 32U
+
+static wh_station station;
+
+static void converse(void) {
+    char bytes[BYTES_A_STEP];
+    wh_station_take(&station, bytes, hal_console_read(bytes, sizeof bytes));
+    wh_station_step(&station, &rig);
+    const unsigned waiting = wh_station_peek(&station, bytes, sizeof bytes);
+    wh_station_drop(&station, hal_console_offer(bytes, waiting));
+}
+
+#if HAL_VIRTUAL
+/* A control period of the board's clock. One that was held up for long (a debugger, a laptop that slept) goes on from now. */
+static void keep_time(uint32_t *due_ticks) {
+    const uint32_t period_ticks = board_ticks_per_s / (HAL_TICKS_PER_S / CONTROL_TICKS);
+    *due_ticks += period_ticks;
+    if ((int32_t)(board_ticks() - *due_ticks) > (int32_t)(100U * period_ticks)) {
+        *due_ticks = board_ticks();
+    }
+    board_wait_until(*due_ticks);
+}
+#endif
+
+int main(void) {
+    board_start();
+    if (!board_converse()) {
+        board_exit(2);
+    }
+    const char *why = why_not_started();
+    if (why != NULL) {
+        put("NOT STARTED: ");
+        put(why);
+        put("\r\n");
+        board_exit(2);
+    }
+    const wh_rig_config config = rig_configuration();
+    uint32_t due = hal_clock_ticks();
+#if HAL_VIRTUAL
+    uint32_t paced = board_ticks();
+#endif
+    trip_memory_start(&memory, &config, &rig, due);
+    wh_station_start(&station, "rig", board_name);
+    hal_watchdog_start(WATCHDOG_TICKS);
+    for (;;) {
+        due += CONTROL_TICKS;
+        hal_clock_wait_until(due);
+        control(&config);
+        converse();
+#if HAL_VIRTUAL
+        keep_time(&paced);
+#endif
+    }
+}

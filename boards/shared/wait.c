@@ -1,0 +1,7 @@
+/* wait.c: board.h's waiting, where there is nothing else to do. */
+#include "boards/board.h"
+
+void board_wait_until(uint32_t ticks) {
+    while ((int32_t)(board_ticks() - ticks) < 0) {
+    }
+}

@@ -1,0 +1,110 @@
+/* line.c: bytes from a terminal to lines, and a line to its words. */
+#include "line.h"
+
+enum { BACKSPACE = 0x08, TAB = 0x09, FEED = 0x0A, RETURN = 0x0D, ESCAPE = 0x1B, DELETE = 0x7F };
+enum { NO_KEY, AFTER_ESCAPE, IN_SEQUENCE };
+
+static void forget(wh_line *line) {
+    line->length = 0;
+    line->text[0] = '\0';
+    line->bad = false;
+    line->ended = false;
+}
+
+/* An arrow key sends Escape, [ or O, and then up to a letter: that must not begin the next line. */
+static bool belongs_to_key(wh_line *line, unsigned char byte) {
+    const unsigned key = line->key;
+    line->key = NO_KEY;
+    if (key == AFTER_ESCAPE && (byte == '[' || byte == 'O')) {
+        line->key = IN_SEQUENCE;
+        return true;
+    }
+    if (key == IN_SEQUENCE && byte >= 0x20U && byte < DELETE) {
+        line->key = byte < 0x40U ? IN_SEQUENCE : NO_KEY;
+        return true;
+    }
+    return false;
+}
+
+static wh_line_event end_line(wh_line *line) {
+    line->ended = true;
+    return line->bad ? WH_LINE_BAD : WH_LINE_WHOLE;
+}
+
+wh_line_event wh_line_take(wh_line *line, char character) {
+    const unsigned char byte = (unsigned char)character;
+    const bool second = line->returned && byte == FEED;
+    line->returned = byte == RETURN;
+    if (second) {
+        return WH_LINE_NOTHING;
+    }
+    if (line->ended) {
+        forget(line);
+    }
+    if (belongs_to_key(line, byte)) {
+        return WH_LINE_NOTHING;
+    }
+    switch (byte) {
+    case RETURN:
+    case FEED: return end_line(line);
+    case ESCAPE:
+        forget(line);
+        line->key = AFTER_ESCAPE;
+        return WH_LINE_ESCAPE;
+    case BACKSPACE:
+    case DELETE: line->length -= line->length > 0 ? 1U : 0U; break;
+    default:
+        if (line->length >= WH_LINE_MOST || (byte != TAB && (byte < 0x20U || byte > DELETE))) {
+            line->bad = true;
+        } else {
+            line->text[line->length++] = character;
+        }
+    }
+    line->text[line->length] = '\0';
+    return WH_LINE_NOTHING;
+}
+
+static bool is_blank(char character) { return character == ' ' || character == TAB; }
+
+wh_words wh_line_split(char *text) {
+    wh_words words = {.count = 0};
+    for (char *at = text; *at != '\0';) {
+        while (is_blank(*at)) {
+            *at++ = '\0';
+        }
+        if (*at == '\0') {
+            break;
+        }
+        if (words.count < WH_LINE_WORDS) {
+            words.word[words.count] = at;
+        }
+        words.count++;
+        while (*at != '\0' && !is_blank(*at)) {
+            at++;
+        }
+    }
+    return words;
+}
+
+bool wh_line_number(const char *word, wh_real *number) {
+    const bool negative = word[0] == '-';
+    const char *at = word + (negative || word[0] == '+' ? 1 : 0);
+    uint32_t digits = 0;
+    unsigned count = 0;
+    wh_real scale = WH_R(1.0);
+    bool point = false;
+    for (; *at != '\0'; at++) {
+        if (*at == '.' && !point) {
+            point = true;
+            continue;
+        }
+        if (*at < '0' || *at > '9' || ++count > 9U) {
+            return false;
+        }
+        digits = 10U * digits + (uint32_t)(*at - '0');
+        scale *= point ? WH_R(10.0) : WH_R(1.0);
+    }
+    const wh_real value = (wh_real)digits / scale;
+    *number = negative ? -value : value;
+    return count > 0;
+}

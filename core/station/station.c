@@ -1,0 +1,341 @@
+/* station.c: the rig's console: what each line asks for, and its answer. */
+#include "station.h"
+
+#include "core/text.h"
+
+#define RPM_PER_RADPS (WH_R(1.0) / WH_RIG_RADPS_PER_RPM)
+#define ANSWER_BYTES 240U
+#define ESCAPE_KEY '\x1b'
+#define DIALOGUE 1U /* a program at the other end asks `id` for it */
+
+/* What a command has to work with. */
+typedef struct request {
+    wh_station *station;
+    wh_rig *rig;
+    const wh_words *words;
+    wh_text *answer;
+} request;
+
+/* --- lines out ------------------------------------------------------------------------------------ */
+
+static void send(wh_station *station, wh_text *text) {
+    wh_text_add(text, "\r\n");
+    if (text->truncated || !wh_ring_put(&station->out, text->bytes, text->length)) {
+        station->lost_answers++;
+    }
+}
+
+static void add_refused(wh_text *text, unsigned number, const char *why) {
+    wh_text_add(text, "ERR ");
+    wh_text_add_unsigned(text, number);
+    wh_text_add_char(text, ' ');
+    wh_text_add(text, why);
+}
+
+static void refuse(const request *r, wh_station_error error) {
+    add_refused(r->answer, (unsigned)error, wh_station_error_text(error));
+}
+
+/* " name=value", a blank in what is a word as _ */
+static void add_word(wh_text *text, const char *name, const char *word) {
+    wh_text_add_char(text, ' ');
+    wh_text_add(text, name);
+    wh_text_add_char(text, '=');
+    for (; *word != '\0'; word++) {
+        wh_text_add_char(text, *word == ' ' ? '_' : *word);
+    }
+}
+
+static void add_number(wh_text *text, const char *name, wh_real number, unsigned decimals) {
+    add_word(text, name, "");
+    wh_text_add_fixed(text, number, decimals);
+}
+
+static void add_count(wh_text *text, const char *name, uint32_t count) {
+    add_word(text, name, "");
+    wh_text_add_unsigned(text, count);
+}
+
+/* To a person, behind all values. */
+static void add_words(wh_text *text, const char *words) {
+    wh_text_add(text, ": ");
+    wh_text_add(text, words);
+}
+
+/* --- what it can be asked -------------------------------------------------------------------------- */
+
+static bool is(const char *word, const char *name) {
+    while (*word != '\0' && *word == *name) {
+        word++;
+        name++;
+    }
+    return *word == *name;
+}
+
+/* The answer comes when the rig has one. */
+static void order(const request *r, wh_rig_event event, wh_real value) {
+    r->station->answers = r->rig->answers;
+    if (wh_rig_post(r->rig, event, value)) {
+        r->station->waits = true;
+    } else {
+        add_refused(r->answer, WH_REFUSED_QUEUE, wh_refusal_text(WH_REFUSED_QUEUE));
+    }
+}
+
+static void order_speed(const request *r, wh_rig_event event) {
+    wh_real speed_rpm = WH_R(0.0);
+    if (r->words->count < 2U || !wh_line_number(r->words->word[1], &speed_rpm)) {
+        refuse(r, WH_STATION_NO_NUMBER);
+        return;
+    }
+    order(r, event, speed_rpm * WH_RIG_RADPS_PER_RPM);
+}
+
+static void do_id(const request *r) {
+    wh_text_add(r->answer, "OK");
+    add_word(r->answer, "program", r->station->program);
+    add_word(r->answer, "board", r->station->board);
+    add_count(r->answer, "dialogue", DIALOGUE);
+}
+
+static void do_arm(const request *r) { order(r, WH_EVENT_ARM, WH_R(0.0)); }
+static void do_start(const request *r) { order_speed(r, WH_EVENT_START); }
+static void do_set(const request *r) { order_speed(r, WH_EVENT_SET); }
+static void do_stop(const request *r) { order(r, WH_EVENT_STOP, WH_R(0.0)); }
+static void do_clear(const request *r) { order(r, WH_EVENT_CLEAR, WH_R(0.0)); }
+
+static void do_status(const request *r) {
+    const wh_rig *rig = r->rig;
+    const bool runs = rig->run.phase != WH_PHASE_NONE;
+    wh_text_add(r->answer, "OK");
+    add_word(r->answer, "state", wh_rig_stage_text(wh_rig_stage(rig)));
+    if (rig->pulses.speed.known) {
+        add_number(r->answer, "speed_rpm", rig->pulses.speed.turn_radps * RPM_PER_RADPS, 2);
+    } else {
+        const bool rests = rig->guard.quiet && !wh_run_drives(&rig->run);
+        add_word(r->answer, "speed_rpm", rests ? "0.00" : "?");
+    }
+    add_number(r->answer, "set_rpm", runs ? rig->run.target_radps * RPM_PER_RADPS : WH_R(0.0), 2);
+    add_number(r->answer, "motor_V", rig->command.volts, 2);
+    add_count(r->answer, "trip", (uint32_t)rig->guard.trip);
+    add_word(r->answer, "result",
+             rig->has_result ? wh_quality_text(rig->result.force.quality) : "none");
+    add_count(r->answer, "lost_answers", r->station->lost_answers);
+    add_count(r->answer, "lost_bytes", r->station->lost_bytes);
+}
+
+static void do_measure(const request *r) {
+    const wh_measured *force = &r->rig->result.force;
+    if (!r->rig->has_result) {
+        refuse(r, WH_STATION_NO_RESULT);
+        return;
+    }
+    wh_text_add(r->answer, "OK");
+    add_word(r->answer, "result", wh_quality_text(force->quality));
+    add_count(r->answer, "turns", force->turns);
+    add_number(r->answer, "speed_rpm", force->speed_radps * RPM_PER_RADPS, 2);
+    add_number(r->answer, "force_N", force->amplitude_N, 3);
+    add_number(r->answer, "force_half_N", force->amplitude_half_N, 4);
+    add_number(r->answer, "phase_deg", force->phase_rad * WH_RIG_DEG_PER_RAD, 3);
+    add_number(r->answer, "phase_half_deg", force->phase_half_rad * WH_RIG_DEG_PER_RAD, 4);
+    add_number(r->answer, "expected_N", force->expected_N, 3);
+    add_words(r->answer, wh_why_text(force->why));
+}
+
+static void do_fault(const request *r) {
+    const wh_trip_record *record = &r->rig->record;
+    const wh_trip trip = r->rig->guard.trip;
+    wh_text_add(r->answer, "OK");
+    add_count(r->answer, "trip", (uint32_t)trip);
+    if (trip != WH_TRIP_NONE && record->trip == trip) {
+        add_word(r->answer, "in", wh_phase_text(record->phase));
+        add_number(r->answer, "speed_rpm", record->speed_radps * RPM_PER_RADPS, 2);
+        add_number(r->answer, "motor_V", record->volts, 2);
+        add_number(r->answer, "supply_V", record->supply_V, 2);
+    }
+    add_words(r->answer, wh_trip_text(trip));
+}
+
+static void do_talk(const request *r) {
+    const char *word = r->words->count > 1U ? r->words->word[1] : "";
+    if (!is(word, "on") && !is(word, "off")) {
+        refuse(r, WH_STATION_ON_OFF);
+        return;
+    }
+    r->station->talks = is(word, "on");
+    r->station->stage = wh_rig_stage(r->rig);
+    wh_text_add(r->answer, "OK");
+}
+
+static void do_help(const request *r);
+
+typedef struct command {
+    const char *name;
+    unsigned words_most;
+    void (*run)(const request *r);
+    const char *follows;
+    const char *words;
+} command;
+
+#define COMMAND(name, most, follows, words) {#name, most, do_##name, follows, words},
+static const command commands[] = {WH_COMMAND_ROWS(COMMAND)};
+#define COMMANDS ((unsigned)(sizeof commands / sizeof commands[0]))
+
+static const command *command_of(const char *name) {
+    for (unsigned i = 0; i < COMMANDS; i++) {
+        if (is(name, commands[i].name)) {
+            return &commands[i];
+        }
+    }
+    return NULL;
+}
+
+static void do_help(const request *r) {
+    if (r->words->count < 2U) {
+        wh_text_add(r->answer, "OK");
+        for (unsigned i = 0; i < COMMANDS; i++) {
+            wh_text_add_char(r->answer, ' ');
+            wh_text_add(r->answer, commands[i].name);
+        }
+        return;
+    }
+    const command *asked = command_of(r->words->word[1]);
+    if (asked == NULL) {
+        refuse(r, WH_STATION_NO_COMMAND);
+        return;
+    }
+    wh_text_add(r->answer, "OK ");
+    wh_text_add(r->answer, asked->name);
+    wh_text_add(r->answer, asked->follows[0] != '\0' ? " " : "");
+    wh_text_add(r->answer, asked->follows);
+    wh_text_add(r->answer, ": ");
+    wh_text_add(r->answer, asked->words);
+}
+
+/* --- lines in ------------------------------------------------------------------------------------- */
+
+static void obey(const request *r, wh_line_event event) {
+    if (event == WH_LINE_BAD) {
+        refuse(r, WH_STATION_LINE);
+        return;
+    }
+    if (r->words->count == 0) {
+        return; /* nothing was asked */
+    }
+    const command *asked = command_of(r->words->word[0]);
+    if (asked == NULL) {
+        refuse(r, WH_STATION_NO_COMMAND);
+    } else if (r->words->count - 1U > asked->words_most) {
+        refuse(r, WH_STATION_WORDS);
+    } else {
+        asked->run(r);
+    }
+}
+
+static void echo(wh_station *station, char byte, unsigned before) {
+    if (byte == '\r' || byte == '\n') {
+        (void)wh_ring_put(&station->out, "\r\n", 2);
+    } else if (station->line.length < before) {
+        (void)wh_ring_put(&station->out, "\b \b", 3);
+    } else if (station->line.length > before) {
+        (void)wh_ring_put(&station->out, &byte, 1);
+    }
+}
+
+/* The next line of what came, as far as it has come. */
+static wh_line_event next_line(wh_station *station) {
+    char byte;
+    while (wh_ring_peek(&station->in, &byte, 1) == 1U) {
+        wh_ring_drop(&station->in, 1);
+        const unsigned before = station->line.ended ? 0 : station->line.length;
+        const bool pair = station->line.returned && byte == '\n';
+        const wh_line_event event = wh_line_take(&station->line, byte);
+        if (station->talks && !pair) {
+            echo(station, byte, before);
+        }
+        if (event == WH_LINE_WHOLE || event == WH_LINE_BAD) {
+            return event;
+        }
+    }
+    return WH_LINE_NOTHING;
+}
+
+static void answer_order(wh_station *station, const wh_rig *rig) {
+    char bytes[ANSWER_BYTES];
+    wh_text text;
+    wh_text_start(&text, bytes, sizeof bytes);
+    if (rig->answer == WH_ALLOWED) {
+        wh_text_add(&text, "OK ");
+        wh_text_add(&text, wh_rig_event_text(rig->asked));
+    } else {
+        add_refused(&text, (unsigned)rig->answer, wh_refusal_text(rig->answer));
+    }
+    station->waits = false;
+    send(station, &text);
+}
+
+static void tell_stage(wh_station *station, const wh_rig *rig) {
+    char bytes[ANSWER_BYTES];
+    wh_text text;
+    wh_text_start(&text, bytes, sizeof bytes);
+    station->stage = wh_rig_stage(rig);
+    wh_text_add(&text, "# ");
+    wh_text_add(&text, wh_rig_stage_text(station->stage));
+    if (rig->guard.trip != WH_TRIP_NONE) {
+        wh_text_add(&text, ": ");
+        wh_text_add(&text, wh_trip_text(rig->guard.trip));
+    }
+    send(station, &text);
+}
+
+void wh_station_start(wh_station *station, const char *program, const char *board) {
+    *station = (wh_station){.program = program, .board = board};
+}
+
+void wh_station_take(wh_station *station, const char *bytes, unsigned count) {
+    for (unsigned i = 0; i < count; i++) {
+        if (bytes[i] == ESCAPE_KEY) {
+            station->escaped = true; /* what waits was typed before it */
+            wh_ring_drop(&station->in, wh_ring_waiting(&station->in));
+        }
+        station->lost_bytes += wh_ring_put(&station->in, bytes + i, 1) ? 0U : 1U;
+    }
+}
+
+void wh_station_step(wh_station *station, wh_rig *rig) {
+    if (station->talks && station->stage != wh_rig_stage(rig)) {
+        tell_stage(station, rig);
+    }
+    if (station->waits && rig->answers != station->answers) {
+        answer_order(station, rig);
+    }
+    if (station->waits) {
+        return;
+    }
+    char bytes[ANSWER_BYTES];
+    wh_text text;
+    wh_words words = {.count = 0};
+    wh_text_start(&text, bytes, sizeof bytes);
+    const request r = {station, rig, &words, &text};
+    if (station->escaped) {
+        station->escaped = false;
+        order(&r, WH_EVENT_STOP, WH_R(0.0));
+    } else {
+        const wh_line_event event = next_line(station);
+        if (event == WH_LINE_NOTHING) {
+            return;
+        }
+        words = wh_line_split(station->line.text);
+        obey(&r, event);
+    }
+    if (text.length > 0) {
+        send(station, &text);
+    }
+}
+
+const char *wh_station_error_text(wh_station_error error) {
+#define WH_STATION_CASE(name, number, words) \
+    case name: return words;
+    switch (error) { WH_STATION_ERROR_ROWS(WH_STATION_CASE) }
+    return "unknown error";
+}

@@ -1,0 +1,98 @@
+/* station.h: the rig's console: a line in, a line out.
+ *
+ *     OK name=value name=value: words         ERR number words
+ *
+ * For a person at any terminal, and for a program at the other end of a serial line. It waits for nobody: bytes come and
+ * go through rings, and an answer that finds no room, because nobody reads, is dropped whole and counted.
+ *
+ *     every control step, after wh_rig_step() and what the motor is told:
+ *         wh_station_take(&station, bytes, count)         what has come
+ *         wh_station_step(&station, &rig)                 one line's worth of work at most
+ *         count = wh_station_peek(&station, bytes, room)  what wants out: as many as the console takes,
+ *         wh_station_drop(&station, taken)                and those are gone
+ *
+ * Orders go to the rig by wh_rig_post(), and what became of them is the answer. The Escape key is `stop`, before anything
+ * that waits. */
+#ifndef WH_STATION_STATION_H
+#define WH_STATION_STATION_H
+
+#include "core/rig/rig.h"
+#include "line.h"
+#include "ring.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* X(name, most words after it, what follows, words) */
+#define WH_COMMAND_ROWS(X) \
+    X(help, 1, "[COMMAND]", "the commands, or what one does") \
+    X(id, 0, "", "program, board, version of this dialogue") \
+    X(arm, 0, "", "allow a start, for a minute") \
+    X(start, 1, "RPM", "a test run at this set-point") \
+    X(set, 1, "RPM", "another set-point, while it runs") \
+    X(stop, 0, "", "motor off; also the Escape key, at once") \
+    X(status, 0, "", "state, speed, voltages, load, trip") \
+    X(measure, 0, "", "the last result, its intervals, its verdict") \
+    X(fault, 0, "", "the trip that is latched, and what was then") \
+    X(clear, 0, "", "a trip whose cause is gone") \
+    X(talk, 1, "on|off", "echo what is typed, tell of each new state")
+
+/* Why a line is refused, beside the rig's own refusals (wh_refusal, 1 ... 99): X(name, number, words). Numbers stay. */
+#define WH_STATION_ERROR_ROWS(X) \
+    X(WH_STATION_NO_COMMAND, 100, "no such command; help lists them") \
+    X(WH_STATION_LINE, 101, "the line is too long, or has what is no character") \
+    X(WH_STATION_WORDS, 102, "too many words") \
+    X(WH_STATION_NO_NUMBER, 103, "a number is wanted, such as 330 or 330.5") \
+    X(WH_STATION_NO_RESULT, 104, "no run has given a result yet") \
+    X(WH_STATION_ON_OFF, 105, "on or off is wanted")
+
+#define WH_STATION_NAME(name, number, words) name = (number),
+typedef enum wh_station_error { WH_STATION_ERROR_ROWS(WH_STATION_NAME) } wh_station_error;
+#undef WH_STATION_NAME
+
+typedef struct wh_station {
+    const char *program; /* the caller's, */
+    const char *board;
+    wh_ring in;
+    wh_ring out;
+    wh_line line;
+    bool talks;
+    bool escaped;          /* stop, before anything else */
+    bool waits;            /* for what becomes of an order */
+    uint32_t answers;      /* rig->answers when it was given */
+    unsigned stage;        /* as last told */
+    uint32_t lost_bytes;   /* that came while there was no room, */
+    uint32_t lost_answers; /* and answers that had none */
+} wh_station;
+
+#define wh_station_start WH_NAME(wh_station_start)
+#define wh_station_take WH_NAME(wh_station_take)
+#define wh_station_step WH_NAME(wh_station_step)
+#define wh_station_error_text WH_NAME(wh_station_error_text)
+
+void wh_station_start(wh_station *station, const char *program, const char *board);
+
+/* Bytes that came. Looks for Escape at once. */
+void wh_station_take(wh_station *station, const char *bytes, unsigned count);
+
+/* Does what the oldest line asks for, if the one before is answered. */
+void wh_station_step(wh_station *station, wh_rig *rig);
+
+/* What wants out: the oldest bytes, `room` at most; returns how many. */
+static inline unsigned wh_station_peek(const wh_station *station, char *bytes, unsigned room) {
+    return wh_ring_peek(&station->out, bytes, room);
+}
+
+/* So many of them are out. */
+static inline void wh_station_drop(wh_station *station, unsigned count) {
+    wh_ring_drop(&station->out, count);
+}
+
+const char *wh_station_error_text(wh_station_error error);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,123 @@
+#!/bin/sh
+# station.sh: the rig's console on a pseudo-terminal of this machine, and on the UART of an emulated board: each line is
+# answered, nothing moves without arm and start, and whatever ends the program leaves nothing behind.
+. "$(dirname "$0")/../checks.sh"
+
+station=${STATION:-build/station}
+RIG_TTY=$scratch/rig.tty
+export RIG_TTY
+running=
+trap 'kill $running 2>/dev/null; rm -rf "$scratch"' EXIT
+
+begin() {
+    "$station" >"$scratch/said" 2>"$scratch/err" </dev/null &
+    running=$!
+    for _ in 1 2 3 4 5 6 7 8 9 10; do
+        [ -e "$RIG_TTY" ] && break
+        sleep 0.1
+    done
+    exec 3<>"$RIG_TTY"
+}
+# ask LINE: its answer goes to $answer
+ask() {
+    printf '%s\r' "$1" >&3
+    answer=
+    hear
+}
+hear() {
+    IFS= read -r answer <&3
+    answer=${answer%"$(printf '\r')"}
+}
+# says LINE BEGIN WHAT
+says() {
+    ask "$1"
+    case $answer in
+    "$2"*) status=0 ;;
+    *) status=1 ;;
+    esac
+    echo "$1: $answer" >"$scratch/heard"
+    verdict $status "$3" "$scratch/heard"
+}
+# soon BEGIN: status says it within ten seconds
+soon() {
+    for _ in 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17 18 19 20; do
+        ask status
+        case $answer in "$1"*) return 0 ;; esac
+        sleep 0.5
+    done
+    echo "status: $answer" >"$scratch/heard"
+    return 1
+}
+# converse BOARD: from reset to a stop
+converse() {
+    says id "OK program=rig board=$1 dialogue=1" "$1: it says what it is"
+    says 'start 330' 'ERR 1 ' "$1: nothing starts that is not armed"
+    soon 'OK state=idle speed_rpm=0.00'
+    verdict $? "$1: the rotor is known to rest" "$scratch/heard"
+    says arm 'OK arm' "$1: arm"
+    says 'start 330' 'OK start' "$1: start"
+    soon 'OK state=ramp '
+    verdict $? "$1: the rotor turns" "$scratch/heard"
+    says 'set 20' 'ERR 14 ' "$1: a set-point that cannot be held is refused while it runs"
+    printf 'half a line\033' >&3
+    hear
+    [ "$answer" = 'OK stop' ]
+    verdict $? "$1: Escape stops" "$scratch/heard"
+    says 'talk on' 'OK' "$1: it will talk"
+    ask fault
+    [ "$answer" = fault ] && hear && [ "$answer" = 'OK trip=0: no fault' ]
+    verdict $? "$1: what is typed is seen, and answered" "$scratch/heard"
+}
+
+begin
+grep -qF "$RIG_TTY" "$scratch/said"
+verdict $? "the terminal's name is said"
+converse host
+exec 3>&-
+exec 3<>"$RIG_TTY"
+ask 'talk off' # the echo, then the answer
+hear
+says fault 'OK trip=0' "somebody else is at the terminal, and is answered"
+exec 3>&-
+for signal in INT TERM HUP; do
+    [ -n "$running" ] || begin
+    kill -s $signal "$running"
+    wait "$running" 2>/dev/null
+    status=$?
+    running=
+    [ ! -e "$RIG_TTY" ] && [ ! -L "$RIG_TTY" ] && [ $status -gt 128 ]
+    verdict $? "ended by $signal ($status): no link is left"
+done
+
+# A link that an earlier run left is replaced; a file is not.
+ln -s /nowhere "$RIG_TTY"
+begin
+says id 'OK ' "a dead link is replaced"
+exec 3>&-
+kill "$running" && wait "$running" 2>/dev/null
+running=
+echo mine >"$RIG_TTY"
+"$station" >"$scratch/said" 2>"$scratch/err" </dev/null
+[ $? -eq 2 ] && [ "$(cat "$RIG_TTY")" = mine ] && grep -q 'hint: RIG_TTY' "$scratch/err"
+verdict $? "a file in its place stays, and is named"
+rm "$RIG_TTY"
+RIG_TTY=$scratch/none/rig.tty "$station" >"$scratch/said" 2>"$scratch/err" </dev/null
+[ $? -eq 2 ] && grep -q 'none/rig.tty: error: ' "$scratch/err"
+verdict $? "a folder that is not there is named"
+
+# The same image as on a board, its UART a pseudo-terminal of the emulator's.
+image=build/mps2-an386/station.elf
+if [ -f $image ] && command -v qemu-system-arm >/dev/null; then
+    qemu-system-arm -M mps2-an386 -display none -monitor none -serial pty -kernel $image \
+        -semihosting-config enable=on,target=native >"$scratch/emulator" 2>&1 </dev/null &
+    running=$!
+    for _ in 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17 18 19 20; do
+        terminal=$(grep -o '/dev/[^ ]*' "$scratch/emulator") && break
+        sleep 0.1
+    done
+    stty -F "$terminal" raw -echo
+    exec 3<>"$terminal"
+    converse mps2-an386
+    exec 3>&-
+fi
+exit $failed

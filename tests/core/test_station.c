@@ -1,0 +1,339 @@
+/* test_station.c: the rig's console: each line has its answer, orders do what they do without it, nobody who does not read
+ * disturbs the rig. */
+#include "core/station/station.h"
+
+#include <string.h>
+
+#include "core/text.h"
+#include "draw.h"
+#include "even_rig.h"
+#include "unity.h"
+
+void suite_station(void);
+
+static even_rig even;
+static even_rig twin;
+static wh_station station;
+static uint64_t seed;
+static char heard[WH_RING_BYTES + 1U];
+static unsigned heard_length;
+
+static void begin(void) {
+    even_start(&even);
+    even_rest(&even);
+    wh_station_start(&station, "rig", "here");
+    heard_length = 0;
+}
+
+static void type(const char *line) { wh_station_take(&station, line, (unsigned)strlen(line)); }
+
+/* One control period of the firmware. */
+static void period(void) {
+    even_step(&even);
+    wh_station_step(&station, &even.rig);
+}
+
+/* What wants out, as much as there is room for. */
+static void hear(void) {
+    const unsigned count =
+        wh_station_peek(&station, heard + heard_length, (unsigned)sizeof heard - 1U - heard_length);
+    wh_station_drop(&station, count);
+    heard_length += count;
+    heard[heard_length] = '\0';
+}
+
+/* The answer to a line, without its end. */
+static const char *ask(const char *line) {
+    heard_length = 0;
+    type(line);
+    type("\n");
+    for (unsigned i = 0; i < 3; i++) {
+        period();
+    }
+    hear();
+    TEST_ASSERT_TRUE(heard_length >= 4U);
+    TEST_ASSERT_TRUE(heard[heard_length - 2U] == '\r' && heard[heard_length - 1U] == '\n');
+    heard[heard_length - 2U] = '\0';
+    TEST_ASSERT_TRUE(strchr(heard, '\n') == NULL); /* one line */
+    return heard;
+}
+
+static void check_begins(const char *with, const char *answer) {
+    TEST_ASSERT_EQUAL_STRING_LEN(with, answer, strlen(with));
+}
+
+/* --- what each command says ------------------------------------------------------------------------ */
+
+static void test_help_knows_every_command(void) {
+    begin();
+    char list[WH_RING_BYTES];
+    strcpy(list, ask("help"));
+    TEST_ASSERT_EQUAL_STRING("OK help id arm start set stop status measure fault clear talk", list);
+    wh_words words = wh_line_split(list + 3);
+    for (unsigned i = 0; i < WH_LINE_WORDS; i++) {
+        char line[40] = "help ";
+        strcat(line, words.word[i]);
+        const char *answer = ask(line);
+        check_begins("OK ", answer);
+        check_begins(words.word[i], answer + 3);
+    }
+    TEST_ASSERT_EQUAL_STRING("OK start RPM: a test run at this set-point", ask("help start"));
+    check_begins("ERR 100 ", ask("help me"));
+    TEST_ASSERT_EQUAL_STRING("OK program=rig board=here dialogue=1", ask("id"));
+}
+
+static void test_refusals_have_their_numbers(void) {
+    static const struct {
+        const char *line;
+        const char *answer;
+    } rows[] = {{"go", "ERR 100 "},
+                {"ARM", "ERR 100 "},
+                {"arms", "ERR 100 "},
+                {"ar", "ERR 100 "},
+                {"arm now", "ERR 102 "},
+                {"start", "ERR 103 "},
+                {"start fast", "ERR 103 "},
+                {"start 3 3", "ERR 102 "},
+                {"start 330", "ERR 1 "},
+                {"set", "ERR 103 "},
+                {"set 200", "ERR 7 "},
+                {"clear", "ERR 6 "},
+                {"measure", "ERR 104 "},
+                {"talk", "ERR 105 "},
+                {"talk loud", "ERR 105 "},
+                {"\x01", "ERR 101 "},
+                {"stop", "OK stop"},
+                {"arm", "OK arm"},
+                {"arm", "ERR 2 "},
+                {"start 20", "ERR 14 "},
+                {"start -330", "ERR 14 "},
+                {"start 900", "ERR 14 "},
+                {"start 330", "OK start"},
+                {"arm", "ERR 3 "},
+                {"start 330", "ERR 3 "},
+                {"set 300.5", "OK set"},
+                {"set 9", "ERR 14 "},
+                {"clear", "ERR 6 "},
+                {"fault", "OK trip=0: no fault"}};
+    begin();
+    for (unsigned i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        check_begins(rows[i].answer, ask(rows[i].line));
+    }
+    TEST_ASSERT_TRUE(even.rig.state == WH_LIFE_RUNNING);
+    TEST_ASSERT_FLOAT_WITHIN(1e-3f, 300.5f * (float)EVEN_RPM, (float)even.rig.run.target_radps);
+}
+
+static void test_a_whole_run(void) {
+    begin();
+    check_begins("OK state=idle speed_rpm=0.00 set_rpm=0.00 motor_V=0.00 trip=0 result=none",
+                 ask("status"));
+    check_begins("OK", ask("arm"));
+    check_begins("OK", ask("start 330"));
+    check_begins("OK state=tare ", ask("status"));
+    even_go_on_until(&even, WH_PHASE_SPIN_UP);
+    check_begins("OK state=spin_up speed_rpm=? set_rpm=330.00 ", ask("status"));
+    even_go_on_until(&even, WH_PHASE_RECORD);
+    check_begins("OK state=record speed_rpm=330.0", ask("status"));
+    even_go_on_until(&even, WH_PHASE_RAMP_DOWN);
+    check_begins("OK result=good turns=1", ask("measure"));
+    TEST_ASSERT_NOT_NULL(strstr(heard, " speed_rpm=330.0"));
+    TEST_ASSERT_NOT_NULL(strstr(heard, " force_N=42.0"));
+    TEST_ASSERT_NOT_NULL(strstr(heard, ": nothing against it"));
+    check_begins("OK state=ramp_down ", ask("status"));
+    check_begins("OK", ask("stop"));
+    TEST_ASSERT_TRUE(even.command.way != WH_MOTOR_DRIVES);
+}
+
+static void test_a_trip_is_told_and_cleared(void) {
+    begin();
+    ask("arm");
+    ask("start 330");
+    even_go_on_until(&even, WH_PHASE_RECORD);
+    even.inputs.supply_V = WH_R(40.0);
+    even_step(&even);
+    even.inputs.supply_V = WH_RIG_RATED_V;
+    check_begins("OK trip=11 in=record speed_rpm=330.0", ask("fault"));
+    TEST_ASSERT_NOT_NULL(strstr(heard, " supply_V=40.00: the motor's supply is out of its range"));
+    check_begins("OK state=tripped ", ask("status"));
+    check_begins("ERR 5 ", ask("arm"));
+    check_begins("ERR 11 ", ask("clear"));
+    even_go_on_until(&even, EVEN_NEVER);
+    check_begins("OK clear", ask("clear"));
+    check_begins("OK trip=0: no fault", ask("fault"));
+}
+
+/* --- who reads, who types -------------------------------------------------------------------------- */
+
+/* Escape is there before what was typed before it, in whatever is half done. */
+static void test_escape_stops_at_once(void) {
+    for (unsigned i = 0; i < 40; i++) {
+        begin();
+        ask("arm");
+        ask("start 330");
+        even_go_on_until(&even, i % 2U == 0 ? WH_PHASE_RAMP : WH_PHASE_RECORD);
+        heard_length = 0;
+        for (unsigned k = 0; k < i; k++) {
+            type(k % 3U == 0 ? "status\n" : k % 3U == 1U ? "set 200\n" : "he");
+        }
+        type("\x1b");
+        period(); /* an order before it may be waiting for its answer */
+        period();
+        TEST_ASSERT_TRUE(even.command.way != WH_MOTOR_DRIVES);
+        TEST_ASSERT_TRUE(even.rig.state == WH_LIFE_STOPPING);
+        period();
+        hear();
+        TEST_ASSERT_NOT_NULL(strstr(heard, "OK stop\r\n"));
+        check_begins("OK state=coast", ask("status"));
+    }
+}
+
+/* Many lines at once: an answer each, in their order. */
+static void test_lines_wait_for_each_other(void) {
+    begin();
+    type("arm\rstart 330\r\nstatus\nnonsense\n\nset 250\r");
+    for (unsigned i = 0; i < 12; i++) {
+        period();
+    }
+    hear();
+    const char *wanted[] = {"OK arm\r\n", "OK start\r\n", "OK state=tare", "ERR 100", "OK set\r\n"};
+    const char *at = heard;
+    for (unsigned i = 0; i < 5; i++) {
+        at = strstr(at, wanted[i]);
+        TEST_ASSERT_NOT_NULL(at);
+        at++;
+    }
+    unsigned lines = 0;
+    for (at = heard; *at != '\0'; at++) {
+        lines += *at == '\n' ? 1U : 0U;
+    }
+    TEST_ASSERT_EQUAL_UINT(5, lines); /* the empty one asks for nothing */
+}
+
+static void test_a_person_sees_what_is_typed(void) {
+    begin();
+    check_begins("OK", ask("talk on"));
+    heard_length = 0;
+    type("armm\x7f\r\n");
+    for (unsigned i = 0; i < 4; i++) {
+        period();
+    }
+    hear();
+    TEST_ASSERT_EQUAL_STRING("armm\b \b\r\n# armed\r\nOK arm\r\n", heard);
+    type("talk off\n");
+    period();
+    heard_length = 0;
+    period();
+    hear();
+    TEST_ASSERT_NOT_NULL(strstr(heard, "talk off\r\nOK\r\n"));
+    TEST_ASSERT_EQUAL_STRING("OK stop", ask("stop"));
+}
+
+/* Nobody reads: answers are lost whole, and counted; what is there is whole lines. Then somebody reads again. */
+static void test_nobody_reads(void) {
+    begin();
+    for (unsigned i = 0; i < 30; i++) {
+        type("status\n");
+        period();
+    }
+    hear();
+    TEST_ASSERT_TRUE(heard[heard_length - 1U] == '\n');
+    unsigned told = 0;
+    for (const char *at = strstr(heard, "OK state=idle"); at != NULL;
+         at = strstr(at + 1, "OK state=idle")) {
+        told++;
+    }
+    TEST_ASSERT_EQUAL_UINT(30, told + station.lost_answers);
+    TEST_ASSERT_TRUE(station.lost_answers > 0 && station.lost_bytes == 0);
+    TEST_ASSERT_NULL(strstr(ask("status"), "lost_answers=0"));
+    /* and more than can wait */
+    char many[WH_RING_BYTES + 10U];
+    memset(many, 'x', sizeof many);
+    wh_station_take(&station, many, sizeof many);
+    TEST_ASSERT_EQUAL_UINT32(10, station.lost_bytes);
+}
+
+/* Whatever is typed, and whether or not somebody reads: the rig does what it does when the same orders are posted, and
+ * each answer is the rig's. */
+static void test_orders_are_those_that_are_posted(void) {
+    static const struct {
+        const char *line;
+        wh_rig_event event;
+        wh_real value;
+    } orders[] = {{"arm", WH_EVENT_ARM, WH_R(0.0)},
+                  {"start 330", WH_EVENT_START, WH_R(330.0) * EVEN_RPM},
+                  {"start 1000", WH_EVENT_START, WH_R(1000.0) * EVEN_RPM},
+                  {"set 250", WH_EVENT_SET, WH_R(250.0) * EVEN_RPM},
+                  {"stop", WH_EVENT_STOP, WH_R(0.0)},
+                  {"clear", WH_EVENT_CLEAR, WH_R(0.0)}};
+    seed = 5;
+    begin();
+    twin = even;
+    unsigned allowed = 0;
+    for (unsigned i = 0; i < 400U; i++) {
+        const unsigned k = draw_one_of(&seed, draw_one_in(&seed, 3) ? 6 : 2);
+        const wh_real supply_V = draw_one_in(&seed, 20) ? WH_R(5.0) : WH_RIG_RATED_V;
+        even.inputs.supply_V = supply_V;
+        twin.inputs.supply_V = supply_V;
+        heard_length = 0;
+        type(orders[k].line);
+        type(draw_one_in(&seed, 2) ? "\r\n" : "\n");
+        period(); /* read, */
+        even_step(&twin);
+        period(); /* taken, answered */
+        const wh_refusal answer = even_order(&twin, orders[k].event, orders[k].value);
+        if (!draw_one_in(&seed, 8)) {
+            hear();
+            check_begins(answer == WH_ALLOWED ? "OK " : "ERR ", heard);
+            allowed += answer == WH_ALLOWED ? 1U : 0U;
+        }
+        const unsigned steps = draw_one_of(&seed, draw_one_in(&seed, 6) ? 6000 : 60);
+        for (unsigned step = 0; step < steps; step++) {
+            period();
+            even_step(&twin);
+        }
+        hear();
+        TEST_ASSERT_TRUE(memcmp(&even.command, &twin.command, sizeof even.command) == 0);
+        TEST_ASSERT_TRUE(even.rig.state == twin.rig.state && even.rig.answers == twin.rig.answers);
+        TEST_ASSERT_EQUAL_UINT(wh_rig_stage(&twin.rig), wh_rig_stage(&even.rig));
+    }
+    TEST_ASSERT_TRUE(allowed > 60U);
+}
+
+/* Any bytes: no answer without its end, and no more answers than lines. */
+static void test_any_bytes(void) {
+    static const char *const pieces[] = {"arm",    "start", " 330", "stop",    "\n",
+                                         "\r\n",   "\x1b",  "help", " ",       "talk on",
+                                         "status", "\b",    "\xff", "measure", "fault"};
+    seed = 9;
+    begin();
+    uint32_t lines_in = 0;
+    uint32_t lines_out = 0;
+    for (unsigned i = 0; i < 20000U; i++) {
+        const char *piece = pieces[draw_one_of(&seed, 15)];
+        type(piece);
+        lines_in += strpbrk(piece, "\n\x1b") != NULL ? 1U : 0U;
+        even.rig.answers += station.waits ? 1U : 0U; /* as if taken: the rig is another test's */
+        even.rig.orders = 0;
+        wh_station_step(&station, &even.rig);
+        station.talks = false; /* an echo is no answer */
+        heard_length = 0;
+        hear();
+        TEST_ASSERT_TRUE(heard_length == 0 || heard[heard_length - 1U] == '\n');
+        lines_out += heard_length > 0 ? 1U : 0U;
+    }
+    TEST_ASSERT_TRUE(lines_out <= lines_in && lines_out > 1000U);
+    TEST_ASSERT_TRUE(station.lost_answers == 0);
+}
+
+void suite_station(void) {
+    RUN_TEST(test_help_knows_every_command);
+    RUN_TEST(test_refusals_have_their_numbers);
+    RUN_TEST(test_a_whole_run);
+    RUN_TEST(test_a_trip_is_told_and_cleared);
+    RUN_TEST(test_escape_stops_at_once);
+    RUN_TEST(test_lines_wait_for_each_other);
+    RUN_TEST(test_a_person_sees_what_is_typed);
+    RUN_TEST(test_nobody_reads);
+    RUN_TEST(test_orders_are_those_that_are_posted);
+    RUN_TEST(test_any_bytes);
+}
