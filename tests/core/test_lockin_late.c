@@ -54,6 +54,9 @@ static wh_real load_of(const stream *from, int32_t since_mark) {
 
 /* So many control steps of it; the turns that come of it, TURNS at most. */
 static unsigned play(const stream *from, wh_lockin *to, unsigned steps, wh_lockin_turn *turns) {
+    /* as the rig: a step without samples does more */
+    const unsigned halves = from->held + from->hold_more == 0 ? WH_LOCKIN_HALVES_AT_ONCE
+                                                              : WH_LOCKIN_HALVES_AT_ONCE + 1U;
     const int32_t mark = (int32_t)from->lead * (int32_t)PERIOD_TICKS - 777;
     unsigned done = 0;
     unsigned given = 0;
@@ -81,7 +84,7 @@ static unsigned play(const stream *from, wh_lockin *to, unsigned steps, wh_locki
                                   .status = WH_LOAD_OK};
             wh_lockin_load(to, &load);
         }
-        if (wh_lockin_work(&rotor, &cell, to) && done < TURNS) {
+        if (wh_lockin_work(&rotor, &cell, to, halves) && done < TURNS) {
             turns[done++] = to->turn;
         }
     }
