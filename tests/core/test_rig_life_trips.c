@@ -267,7 +267,54 @@ static void test_a_reset_while_the_rotor_turns(void) {
     check_tripped(WH_TRIP_RUNS_ON);
 }
 
+/* --- who turns the rotor ----------------------------------------------------------------------------- */
+
+/* Armed, a rotor may shiver: two pulses. With the third somebody turns it. */
+static void test_armed_is_no_more_when_somebody_turns_the_rotor(void) {
+    for (unsigned i = 0; i < 8U; i++) { /* of either sensor */
+        even_arm(&even);
+        for (unsigned pulses = 1; pulses <= 3U; pulses++) {
+            wh_rig_pulse(&even.config, &even.rig, i >> (pulses - 1U) & 1U, even.inputs.now_ticks);
+            even_steps(&even, 3);
+            TEST_ASSERT_TRUE(even.rig.state == (pulses <= 2U ? WH_LIFE_ARMED : WH_LIFE_IDLE));
+        }
+    }
+}
+
+/* However long a rotor rests, the pulses of a hand that turns it then are not compared with those before: the timer wraps after
+ * 72 minutes, and half of that is a time to come. */
+static void test_rest_may_last_any_time(void) {
+    for (unsigned i = 0; i < 24U; i++) {
+        even_start(&even);
+        even_rest(&even);
+        even_turn_by_hand(&even, WH_R(60.0));
+        even_steps(&even, 800);
+        even_turn_by_hand(&even, WH_R(0.0));
+        const uint32_t last = even.rig.pulses.speed.ticks;
+        const uint32_t rejected = even.rig.pulses.rejected;
+        even_rest(&even);
+        TEST_ASSERT_FALSE(even.rig.pulses.speed.running);
+        const uint32_t wakes =
+            last + (i % 3U == 0 ? UINT32_C(0x80000000) : 0U) + UINT32_C(5000) * i;
+        for (unsigned s = 0; s < 4294U; s++) { /* a second each */
+            even.inputs.now_ticks += 1000000U - EVEN_STEP_TICKS;
+            even_step(&even);
+            if (s > 5U && wakes - even.inputs.now_ticks < 2000000U) {
+                break;
+            }
+        }
+        even.inputs.now_ticks = wakes;
+        even_turn_by_hand(&even, WH_R(60.0));
+        even_steps(&even, 1600);
+        TEST_ASSERT_TRUE(even.rig.guard.trip == WH_TRIP_NONE && even.rig.state == WH_LIFE_IDLE);
+        TEST_ASSERT_EQUAL_UINT32(rejected, even.rig.pulses.rejected);
+        TEST_ASSERT_FLOAT_WITHIN(0.1f, 60.0f, (float)(even.rig.pulses.speed.turn_radps / EVEN_RPM));
+    }
+}
+
 void suite_rig_life_trips(void) {
+    RUN_TEST(test_armed_is_no_more_when_somebody_turns_the_rotor);
+    RUN_TEST(test_rest_may_last_any_time);
     RUN_TEST(test_trips_latch);
     RUN_TEST(test_a_reset_without_a_trip_is_idle);
     RUN_TEST(test_a_trip_for_its_pulses_waits_longer);

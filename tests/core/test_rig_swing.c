@@ -5,6 +5,7 @@
 #include "core/angle.h"
 #include "core/rig/datasheet.h"
 #include "core/rig/rig.h"
+#include "core/root.h"
 #include "draw.h"
 #include "even_rig.h"
 #include "rotor.h"
@@ -26,6 +27,12 @@ typedef struct drawn {
     unsigned lose; /* every so manieth pulse, 0: none */
     unsigned add;  /* behind every so manieth a pulse that is none */
 } drawn;
+
+/* Since the rotor began to swing: passages of sensor 1 and their speeds. */
+#define PASSED_MOST 64U
+static uint32_t passed_ticks[PASSED_MOST];
+static wh_real passed_radps[PASSED_MOST];
+static unsigned passed;
 
 static wh_real drawn_between(wh_real least, wh_real most) {
     return least + (most - least) * draw_whole(&seed, 0, 10000) / WH_R(10000.0);
@@ -63,6 +70,10 @@ static void give(const wh_rig_config *config, const drawn *rotor, rotor_state *s
         if (rotor->lose == 0 || *pulses % rotor->lose != 0) {
             wh_swing_pulse(&swing, state->mark_sensor[i], state->mark_ticks[i]);
         }
+        if (swing.swings && state->mark_sensor[i] == 0 && passed < PASSED_MOST) {
+            passed_ticks[passed] = state->mark_ticks[i];
+            passed_radps[passed++] = WH_ABS(state->speed_radps);
+        }
         if (rotor->add > 0 && *pulses % rotor->add == 0) {
             wh_swing_pulse(&swing, draw_one_of(&seed, 2), state->mark_ticks[i] + 20000U);
         }
@@ -79,14 +90,23 @@ static wh_swung swing_out(const wh_rig_config *config, const drawn *rotor, bool 
     unsigned pulses = 0;
     uint32_t quiet = 0;
     swing = (wh_swing){.free = false};
+    passed = 0;
     wh_swing_step(&config->swing, &config->measure.rotor, &swing, true, false);
     for (unsigned i = 0; i < 30000U && quiet < REST_TICKS; i++) {
         give(config, rotor, &state, &pulses, &quiet);
     }
     TEST_ASSERT_TRUE(quiet >= REST_TICKS);
     wh_swing_step(&config->swing, &config->measure.rotor, &swing, false, rests);
+    unsigned pass = 0;
+    wh_real soft_rad2 = WH_R(1.0);
     for (uint32_t i = 0; i < 100000U && wh_swing_works(&swing); i++) {
         wh_swing_step(&config->swing, &config->measure.rotor, &swing, false, rests);
+        if (swing.piece == WH_SWING_GOES &&
+            swing.pass != pass) { /* pulses count more from pass to pass */
+            TEST_ASSERT_TRUE(swing.pass == 0 || swing.soft_rad2 <= WH_R(0.5) * soft_rad2);
+            pass = swing.pass;
+            soft_rad2 = swing.soft_rad2;
+        }
     }
     TEST_ASSERT_FALSE(wh_swing_works(&swing));
     return swing.result;
@@ -118,6 +138,32 @@ static void test_places_are_found_of_rotors_that_nobody_knows(void) {
     }
     TEST_ASSERT_TRUE(found * 10U >= runs * 8U);
     TEST_ASSERT_TRUE(covered * 20U >= found * 18U);
+}
+
+/* A pass does not begin with a swing that comes near the top, where times tell all of the amplitude and a guess of them nothing,
+ * while there are enough behind it. */
+static void test_a_pass_begins_behind_swings_near_the_top(void) {
+    const wh_rig_config config = standard();
+    unsigned near_top = 0;
+    seed = 6;
+    for (unsigned i = 0; i < 60U; i++) {
+        const drawn rotor = draw_rotor(WH_R(0.004), WH_R(0.012));
+        const wh_swung swung = swing_out(&config, &rotor, true);
+        const wh_real root = WH_SQRT(rotor.kind.weight_Nm / rotor.kind.inertia_kgm2);
+        const wh_real first = passed_radps[0] / root; /* 2: it would get to the top */
+        if (first > WH_R(1.92) && first < WH_R(2.0) && passed > 20U && passed < PASSED_MOST) {
+            near_top++; /* 147 degrees and more */
+            unsigned at = 0;
+            while (at < passed && passed_ticks[at] != swing.kept_ticks[swing.first]) {
+                at++;
+            }
+            TEST_ASSERT_TRUE(at > 0 && at < passed);
+            TEST_ASSERT_TRUE(passed_radps[at] < WH_R(1.92) * root);
+            TEST_ASSERT_EQUAL_UINT(passed - at, swing.passed);
+        }
+        TEST_ASSERT_TRUE(swung.why >= WH_SWING_FOUND);
+    }
+    TEST_ASSERT_TRUE(near_top > 4U);
 }
 
 /* A lost pulse, or one too many, is left out or makes the swing no swing; it does not move a sensor. */
@@ -321,6 +367,7 @@ static void test_the_regression_finds_what_was_measured(void) {
 
 void suite_rig_swing(void) {
     RUN_TEST(test_places_are_found_of_rotors_that_nobody_knows);
+    RUN_TEST(test_a_pass_begins_behind_swings_near_the_top);
     RUN_TEST(test_pulses_that_are_none_move_no_sensor);
     RUN_TEST(test_what_is_no_free_swing_is_refused_by_name);
     RUN_TEST(test_pulses_of_no_rotor_find_nothing);

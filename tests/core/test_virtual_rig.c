@@ -139,6 +139,9 @@ static void test_slowest_and_fastest_set_points_run(void) {
         plant_begin(&on, targets_rpm[i]);
         plant_go_on_to_the_end(&on);
         check_measurement(targets_rpm[i]);
+        /* and take the voltage that the supply is asked for */
+        TEST_ASSERT_FLOAT_WITHIN(0.5f, wh_run_needs_V(&on.config.run, targets_rpm[i] * RPM),
+                                 on.rig.result.volts);
         plant_check_stopped(&on);
     }
 }

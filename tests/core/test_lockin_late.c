@@ -1,0 +1,171 @@
+/* test_lockin_late.c: what the lock-in finds does not hang on when its samples arrive, nor on what it was told before it was
+ * made to forget. */
+#include "core/angle.h"
+#include "core/rig/lockin.h"
+#include "core/rig/rig.h"
+#include "draw.h"
+
+#include "unity.h"
+
+void suite_lockin_late(void);
+
+#define PERIOD_TICKS UINT32_C(2000)
+#define TURN_TICKS UINT32_C(181818) /* 330 rpm */
+#define TURNS 5U
+
+static uint64_t seed;
+static wh_rotor_config rotor;
+static const wh_cell_config cell = {
+    .newton_per_count = WH_R(0.01), .period_ticks = PERIOD_TICKS, .raw_max = INT32_C(32767)};
+static wh_lockin lockin;
+static wh_lockin fresh;
+
+/* A rotor that turns evenly, and its samples: turn 0 begins `lead` samples behind the first one, or before it (< 0). */
+typedef struct stream {
+    uint32_t ticks; /* of the first sample */
+    int lead;
+    wh_real mean_N;
+    wh_real cosine_N;
+    wh_real sine_N;
+    wh_real ripple_N;   /* of the third order */
+    unsigned held;      /* so many steps none arrives, and then all that wait */
+    unsigned hold_more; /* one step of so many, 0: none, begins a hold of up to 12 */
+} stream;
+
+static stream draw_stream(void) {
+    return (stream){.ticks = (uint32_t)draw_bits(&seed) * 2U,
+                    .lead = (int)draw_one_of(&seed, 30),
+                    .mean_N = draw_broken(&seed, -60, 60),
+                    .cosine_N = draw_broken(&seed, -40, 40),
+                    .sine_N = draw_broken(&seed, -40, 40),
+                    .ripple_N = draw_broken(&seed, -1, 1)};
+}
+
+static wh_real load_of(const stream *from, int32_t since_mark) {
+    const wh_real turns = (wh_real)since_mark / (wh_real)TURN_TICKS;
+    wh_real sine;
+    wh_real cosine;
+    wh_real third;
+    wh_real unused;
+    wh_sincos(wh_phase_from_rad(WH_RIG_TWO_PI * turns), &sine, &cosine);
+    wh_sincos(wh_phase_from_rad(WH_R(3.0) * WH_RIG_TWO_PI * turns), &third, &unused);
+    return from->mean_N + from->cosine_N * cosine + from->sine_N * sine + from->ripple_N * third;
+}
+
+/* So many control steps of it; the turns that come of it, TURNS at most. */
+static unsigned play(const stream *from, wh_lockin *to, unsigned steps, wh_lockin_turn *turns) {
+    /* as the rig: a step without samples does more */
+    const unsigned halves = from->held + from->hold_more == 0 ? WH_LOCKIN_HALVES_AT_ONCE
+                                                              : WH_LOCKIN_HALVES_AT_ONCE + 1U;
+    const int32_t mark = (int32_t)from->lead * (int32_t)PERIOD_TICKS - 777;
+    unsigned done = 0;
+    unsigned given = 0;
+    unsigned hold = from->held;
+    uint32_t quarter = 0;
+    for (unsigned i = 0; i < steps; i++) {
+        const int32_t now =
+            ((int32_t)i + (from->lead < 0 ? from->lead : 0)) * (int32_t)PERIOD_TICKS;
+        for (; now >= mark + (int32_t)(quarter * (TURN_TICKS / 4U) + quarter / 4U * 2U);
+             quarter++) {
+            const uint32_t at =
+                from->ticks + (uint32_t)mark + quarter * (TURN_TICKS / 4U) + quarter / 4U * 2U;
+            if (quarter % 4U < 2U) {
+                wh_lockin_mark(to, quarter % 4U, at, quarter);
+            }
+        }
+        hold -= hold > 0 ? 1U : 0U;
+        if (hold == 0 && from->hold_more > 0 && draw_one_in(&seed, from->hold_more)) {
+            hold = 1U + draw_one_of(&seed, 12);
+        }
+        for (; hold == 0 && (int32_t)given * (int32_t)PERIOD_TICKS <= now; given++) {
+            const int32_t since = (int32_t)given * (int32_t)PERIOD_TICKS;
+            const wh_load load = {.ticks = from->ticks + (uint32_t)since,
+                                  .force_N = load_of(from, since - mark),
+                                  .status = WH_LOAD_OK};
+            wh_lockin_load(to, &load);
+        }
+        if (wh_lockin_work(&rotor, &cell, to, halves) && done < TURNS) {
+            turns[done++] = to->turn;
+        }
+    }
+    return done;
+}
+
+static void check_near(wh_real wanted, wh_real found, wh_real most) {
+    TEST_ASSERT_TRUE(WH_ABS(wanted - found) <= most);
+}
+
+static void check_same(const wh_lockin_turn *wanted, const wh_lockin_turn *turn, wh_real most_N) {
+    TEST_ASSERT_EQUAL_UINT32(wanted->begin_ticks, turn->begin_ticks);
+    TEST_ASSERT_EQUAL_UINT32(wanted->turn_ticks, turn->turn_ticks);
+    TEST_ASSERT_EQUAL_UINT(wanted->samples, turn->samples);
+    TEST_ASSERT_EQUAL_UINT(wanted->outliers, turn->outliers);
+    for (unsigned k = 0; k < WH_LOCKIN_ORDERS; k++) {
+        check_near(wanted->force_N.at[k], turn->force_N.at[k], most_N);
+    }
+    check_near(wanted->mean_N, turn->mean_N, most_N);
+    check_near(wanted->residual_N, turn->residual_N, most_N);
+    for (unsigned k = 0; k < 2U; k++) {
+        check_near(wanted->at_mark_N[k], turn->at_mark_N[k], most_N);
+    }
+}
+
+static void begin(uint64_t from) {
+    seed = from;
+    rotor = wh_rig_standard.measure.rotor;
+    rotor.gravity_mps2 = WH_R(0.0);
+    rotor.mark_rad[0] = WH_R(0.0);
+    rotor.mark_rad[1] = WH_R(0.25) * WH_RIG_TWO_PI;
+}
+
+/* Samples that come late, single ones, some together, or none until a turn is over: each turn is the same to the bit. */
+static void test_late_samples_change_nothing(void) {
+    static wh_lockin_turn wanted[TURNS];
+    static wh_lockin_turn found[TURNS];
+    begin(1);
+    for (unsigned i = 0; i < 40U; i++) {
+        stream from = draw_stream();
+        const unsigned steps = 6U * (TURN_TICKS / PERIOD_TICKS + 1U) + 80U;
+        wh_lockin_start(&rotor, &lockin);
+        TEST_ASSERT_EQUAL_UINT(TURNS, play(&from, &lockin, steps, wanted));
+        from.held = draw_one_of(&seed, (unsigned)from.lead + 110U);
+        from.hold_more = i % 2U == 0 ? 0U : 15U;
+        wh_lockin_start(&rotor, &lockin);
+        TEST_ASSERT_EQUAL_UINT(TURNS, play(&from, &lockin, steps, found));
+        for (unsigned k = 0; k < TURNS; k++) {
+            check_same(&wanted[k], &found[k], WH_R(0.0));
+            TEST_ASSERT_TRUE(wanted[k].fault == found[k].fault);
+        }
+    }
+}
+
+/* Whatever it was told, and wherever that broke off: what comes then is found as from the start. Only whether the first turn is
+ * as long as one before it may be known, and with it what the second one is expected to show. */
+static void test_what_was_forgotten_changes_nothing(void) {
+    static wh_lockin_turn wanted[TURNS];
+    static wh_lockin_turn found[TURNS];
+    begin(2);
+    for (unsigned i = 0; i < 40U; i++) {
+        const stream before = draw_stream();
+        stream from = draw_stream();
+        from.lead = (int)draw_one_of(&seed, 12) - 6;
+        const unsigned steps = 6U * (TURN_TICKS / PERIOD_TICKS + 1U) + 80U;
+        wh_lockin_start(&rotor, &fresh);
+        TEST_ASSERT_EQUAL_UINT(TURNS, play(&from, &fresh, steps, wanted));
+        wh_lockin_start(&rotor, &lockin);
+        (void)play(&before, &lockin, draw_one_of(&seed, 500), found);
+        const uint32_t refused = lockin.refused;
+        wh_lockin_forget(&rotor, &lockin);
+        TEST_ASSERT_EQUAL_UINT(TURNS, play(&from, &lockin, steps, found));
+        TEST_ASSERT_EQUAL_UINT32(refused, lockin.refused);
+        for (unsigned k = 0; k < TURNS; k++) {
+            check_same(&wanted[k], &found[k], k == 0 ? WH_R(0.0) : WH_R(0.05));
+            TEST_ASSERT_TRUE(k < 2U || wanted[k].fault == found[k].fault);
+        }
+    }
+}
+
+void suite_lockin_late(void) {
+    RUN_TEST(test_late_samples_change_nothing);
+    RUN_TEST(test_what_was_forgotten_changes_nothing);
+}
