@@ -292,13 +292,25 @@ void wh_station_start(wh_station *station, const char *program, const char *boar
     *station = (wh_station){.program = program, .board = board};
 }
 
+/* "start 330" that lost a byte may be "start 30": a line without all of its bytes is made one that is refused. */
+static void take_byte(wh_station *station, char byte) {
+    static const char spoilt[] = {'\1', '\n'};
+    if (byte == ESCAPE_KEY) {
+        station->escaped = true; /* what waits was typed before it */
+        station->spoils = false;
+        wh_ring_drop(&station->in, wh_ring_waiting(&station->in));
+    }
+    if (!station->spoils && wh_ring_put(&station->in, &byte, 1)) {
+        return;
+    }
+    station->lost_bytes++;
+    const bool ends = byte == '\r' || byte == '\n';
+    station->spoils = !(ends && wh_ring_put(&station->in, spoilt, sizeof spoilt));
+}
+
 void wh_station_take(wh_station *station, const char *bytes, unsigned count) {
     for (unsigned i = 0; i < count; i++) {
-        if (bytes[i] == ESCAPE_KEY) {
-            station->escaped = true; /* what waits was typed before it */
-            wh_ring_drop(&station->in, wh_ring_waiting(&station->in));
-        }
-        station->lost_bytes += wh_ring_put(&station->in, bytes + i, 1) ? 0U : 1U;
+        take_byte(station, bytes[i]);
     }
 }
 

@@ -59,6 +59,7 @@ typedef struct wh_station {
     wh_line line;
     bool talks;
     bool escaped;          /* stop, before anything else */
+    bool spoils;           /* bytes were lost, and so is the line to its end */
     bool waits;            /* for what becomes of an order */
     uint32_t answers;      /* rig->answers when it was given */
     unsigned stage;        /* as last told */

@@ -252,6 +252,30 @@ static void test_nobody_reads(void) {
     TEST_ASSERT_EQUAL_UINT32(10, station.lost_bytes);
 }
 
+/* Lines that come faster than they are worked on: a line is obeyed as it was typed, or refused as no line. */
+static void test_no_line_is_obeyed_that_lost_bytes(void) {
+    seed = 12;
+    begin();
+    unsigned obeyed = 0;
+    unsigned refused = 0;
+    for (unsigned i = 0; i < 4000U; i++) {
+        const unsigned lines = draw_one_of(&seed, draw_one_in(&seed, 40) ? 100 : 2);
+        for (unsigned k = 0; k < lines; k++) {
+            type("help start\r\n");
+        }
+        heard_length = 0;
+        wh_station_step(&station, &even.rig);
+        hear();
+        if (heard_length > 0) {
+            const bool whole = strncmp(heard, "OK start RPM", 12) == 0;
+            check_begins(whole ? "OK start RPM" : "ERR 101 ", heard);
+            obeyed += whole ? 1U : 0U;
+            refused += whole ? 0U : 1U;
+        }
+    }
+    TEST_ASSERT_TRUE(obeyed > 1000U && refused > 20U && station.lost_bytes > 1000U);
+}
+
 /* Whatever is typed, and whether or not somebody reads: the rig does what it does when the same orders are posted, and
  * each answer is the rig's. */
 static void test_orders_are_those_that_are_posted(void) {
@@ -334,6 +358,7 @@ void suite_station(void) {
     RUN_TEST(test_lines_wait_for_each_other);
     RUN_TEST(test_a_person_sees_what_is_typed);
     RUN_TEST(test_nobody_reads);
+    RUN_TEST(test_no_line_is_obeyed_that_lost_bytes);
     RUN_TEST(test_orders_are_those_that_are_posted);
     RUN_TEST(test_any_bytes);
 }
