@@ -35,6 +35,10 @@ LINK_EXTRA ?=
 # "none" leaves out the commands that need processes and signals, for hosts without (WebAssembly).
 SYSTEM ?= posix
 
+# What works at the same time: as much as there are processors, unless make is told (-j).
+JOBS ?= $(shell nproc 2>/dev/null || echo 1)
+PARALLEL = $(if $(filter -j% --jobserver%,$(MAKEFLAGS)),,-j$(JOBS))
+
 include mk/rules.mk
 include mk/whirl.mk
 include mk/tests.mk
@@ -68,17 +72,17 @@ deps: ## install the Debian packages that are missing for everything below
 .PHONY: run
 run: ## the whole way: a mechanism's energies, its motion, its firmware on an emulated board
 	@CC="$(CC)" mk/setup/deps.sh host plot firmware
-	@$(MAKE) run-now
+	@$(MAKE) $(PARALLEL) run-now
 
 .PHONY: rig
-rig: ## the rig's firmware on this machine, its rotor a model's, its console for any terminal program
-	@CC="$(CC)" mk/setup/deps.sh host
-	@$(MAKE) rig-now
+rig: ## the rig's firmware on this machine (with BOARD= in its emulator), its rotor a model's, its console for any terminal program
+	@CC="$(CC)" mk/setup/deps.sh host $(if $(ASKED_BOARD),$(BOARD_DEPS))
+	@$(MAKE) $(PARALLEL) rig-now
 
 .PHONY: pil
 pil: ## processor in the loop: the rig's firmware on BOARD against a plant of its own, and its tape everywhere
 	@CC="$(CC)" mk/setup/deps.sh host firmware
-	@$(MAKE) pil-now
+	@$(MAKE) $(PARALLEL) pil-now
 
 .PHONY: whirl
 whirl: $(B)/whirl ## the command line program, build/whirl
@@ -86,16 +90,22 @@ whirl: $(B)/whirl ## the command line program, build/whirl
 ##@ Tests and quality
 
 .PHONY: test
-test: ## every test on this machine and on the emulated board; ends with "N passed, N failed"
+test: ## the tests, on this machine and on the emulated board (what takes longer: check); ends with "N passed, N failed"
 	@UNITY="$(UNITY)" CC="$(CC)" mk/setup/deps.sh host plot firmware tests
 	@UNITY="$(UNITY)" mk/setup/unity.sh build/unity
-	@$(MAKE) test-now
+	@$(MAKE) $(PARALLEL) test-now
 
 .PHONY: check
 check: ## the quality gates: warnings, layout, lint, sanitizers, firmware rules, equal bits
 	@UNITY="$(UNITY)" CC="$(CC)" mk/setup/deps.sh
 	@UNITY="$(UNITY)" mk/setup/unity.sh build/unity
-	@$(MAKE) check-now
+	@$(MAKE) $(PARALLEL) check-now
+
+.PHONY: full
+full: ## all cases of what `make test` and `make check` take fewer of; ends with "N passed, N failed" (a quarter of an hour)
+	@UNITY="$(UNITY)" CC="$(CC)" mk/setup/deps.sh
+	@UNITY="$(UNITY)" mk/setup/unity.sh build/unity
+	@$(MAKE) $(PARALLEL) full-now
 
 .PHONY: hashes
 hashes: ## the same bits from every compiler, optimisation level, board and the interpreter
@@ -139,12 +149,12 @@ properties: ## random linkages and hybrids against their energies in numbers: PR
 rig-truth: ## the rig's measurement against the truth, its intervals against 1,000 noisy runs of each kind (a minute)
 	@UNITY="$(UNITY)" CC="$(CC)" mk/setup/deps.sh host tests
 	@UNITY="$(UNITY)" mk/setup/unity.sh build/unity
-	@$(MAKE) rig-truth-now
+	@$(MAKE) $(PARALLEL) rig-truth-now
 
 .PHONY: faults
 faults: ## the rig's controller against faults of plant and links: RUNS (20,000: half an hour; with BOARD= in its emulator 2,000), SEED
-	@CC="$(CC)" mk/setup/deps.sh host $(if $(filter command environment,$(firstword $(origin BOARD))),firmware boards)
-	@$(MAKE) faults-now
+	@CC="$(CC)" mk/setup/deps.sh host $(if $(ASKED_BOARD),firmware boards)
+	@$(MAKE) $(PARALLEL) faults-now
 
 .PHONY: sine-exhaustive
 sine-exhaustive: $(B)/tools/sine_exhaustive ## the sine's worst error, over all 2^32 angles (minutes)

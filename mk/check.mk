@@ -1,10 +1,9 @@
 # check.mk: the quality gates of `make check`. Each is a target of its own, gate-NAME; tests/gates.sh
 # runs them, keeps what they say in build/check/NAME.log and prints a line for each.
 
-GATES := house gcc clang format cppcheck tidy full sanitizers memcheck bad-input firmware size boards libm avr cycles hashes
+GATES := house gcc clang format cppcheck tidy long sanitizers memcheck bad-input firmware size boards libm avr cycles hashes
 GATES += hosts
 LINT_FLAGS := -std=c11 $(WARN) -I. $(UNITY_FLAGS) -D_POSIX_C_SOURCE=200809L
-JOBS := 2
 
 .PHONY: check-now
 check-now: $(GEN)/.stamp
@@ -72,12 +71,21 @@ gate-cppcheck:
 	    --suppressions-list=mk/setup/cppcheck.txt -I. -Itests -I$(UNITY_DIR) \
 	    $(filter %.c,$(C_FILES))
 
-# --- all cases of what `make test` takes fewer of, to be quick --------------------------------------------
-# These ask for WHIRL_FULL. `rest`: what `make test` does whole is not done again.
+# --- what `make test` leaves out, to be quick ---------------------------------------------------------------
+gated = "host suites that make test leaves out" 'build/tests/host $(HOST_GATED)'
+gate-long: $(GEN)/.stamp
+	@$(MAKE) test-programs
+	@WHIRL=build/whirl TEST_SECONDS=900 sh tests/run.sh build/check/log_long \
+	    $(call run_cli,$(filter tests/cli/emitted_c.sh,$(CLI_FEW))) $(gated) \
+	    $(call run_cli,$(filter-out tests/cli/emitted_c.sh,$(CLI_FEW)) $(CLI_GATED))
+
+# --- all cases of what `make test` takes fewer of -----------------------------------------------------------
+# These ask for WHIRL_FULL. `rest`: what `make test` and gate-long do whole is not done again.
 CLI_FULL = $(shell grep -l WHIRL_FULL $(CLI_TESTS))
 FULL_LIST := build/check/full.list
 full_part = "host suites$(comma) all cases$(comma) part $(1) of 3" 'build/tests/host $$(sh tests/part.sh $(FULL_LIST) $(1) 3)'
-gate-full: $(GEN)/.stamp
+.PHONY: full-now
+full-now: $(GEN)/.stamp
 	@$(MAKE) test-programs
 	@mkdir -p $(dir $(FULL_LIST)) && grep -l few_or_all tests/host/test_*.c | sed 's|.*/||' >$(FULL_LIST)
 	@WHIRL_FULL=rest WHIRL=build/whirl TEST_SECONDS=900 sh tests/run.sh build/check/log_full \

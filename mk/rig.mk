@@ -2,12 +2,21 @@
 
 # A control step of the rig on BOARD: no more instructions than this.
 RIG_STEP_MOST ?= 1500
+# The board that was named, if any: without one, the firmware runs as a program of this machine.
+ASKED_BOARD := $(if $(filter command environment,$(firstword $(origin BOARD))),$(BOARD))
 $(eval $(call program,rig_steps,boards/programs/rig_steps.c,whirl rig virtual scenes))
 
 .PHONY: rig-now rig-steps-now rig-truth-now faults-now
 rig-now: $(GEN)/.stamp
+ifeq ($(ASKED_BOARD),)
 	@$(MAKE) $(B)/station
 	@exec $(B)/station
+else
+	@[ -n "$(BOARD_SERIAL)" ] || { echo "make: the emulator of $(BOARD) is not known to give a serial line" >&2; exit 2; }
+	@$(call need,$(BOARD_EMULATOR))
+	@$(MAKE) $(STATION)
+	@exec $(call BOARD_SERIAL,$(STATION))
+endif
 
 rig-steps-now: $(GEN)/.stamp
 	@$(MAKE) $(ELF)/rig_steps.elf $(PLUGIN)
@@ -21,12 +30,11 @@ rig-truth-now: $(GEN)/.stamp
 	@WHIRL_FULL=1 build/tests/host lockin_truth
 
 # Faults in the plant and the links of the rig's firmware: of this machine; with BOARD= given, in its emulator.
-FAULTS_BOARD := $(if $(filter command environment,$(firstword $(origin BOARD))),$(BOARD))
-RUNS ?= $(if $(FAULTS_BOARD),2000,20000)
-FAULTS_OUT := build/faults$(addprefix _,$(FAULTS_BOARD)).md
+RUNS ?= $(if $(ASKED_BOARD),2000,20000)
+FAULTS_OUT := build/faults$(addprefix _,$(ASKED_BOARD)).md
 faults-now: $(GEN)/.stamp
-	@$(MAKE) build/tools/faults $(if $(FAULTS_BOARD),$(ELF)/pil_dialled.elf,$(B)/pil_dialled)
-	@build/tools/faults --firmware $(if $(FAULTS_BOARD),$(ELF)/pil_dialled.elf --board $(BOARD),$(B)/pil_dialled) \
+	@$(MAKE) build/tools/faults $(if $(ASKED_BOARD),$(ELF)/pil_dialled.elf,$(B)/pil_dialled)
+	@build/tools/faults --firmware $(if $(ASKED_BOARD),$(ELF)/pil_dialled.elf --board $(BOARD),$(B)/pil_dialled) \
 	    --runs $(RUNS) --seed $(SEED) >$(FAULTS_OUT); code=$$?; cat $(FAULTS_OUT); exit $$code
 
 # Its longest control steps once more, counted from outside.

@@ -20,6 +20,8 @@
 #   BOARD_EMULATOR the emulator's command
 #   BOARD_EMULATE  $(call BOARD_EMULATE,program.elf) runs it for BOARD_SECONDS at most; console on stdout,
 #                  exit status the program's; more emulator options may be appended
+#   BOARD_SERIAL   $(call BOARD_SERIAL,program.elf) runs it until it is ended, its console a pseudo-terminal that the
+#                  emulator names (may be missing)
 #
 # Another family asks for what it takes and sets the same variables. No rules here: paths are from the repository's root.
 $(call board_needs,BOARD_MACHINE BOARD_CPU BOARD_SECONDS,: it stands before the include of boards/cortexm/cortexm.mk)
@@ -44,3 +46,5 @@ BOARD_LINK     := boards/cortexm/link.c
 BOARD_EMULATOR := qemu-system-arm
 BOARD_EMULATE   = timeout $(BOARD_SECONDS) $(BOARD_EMULATOR) -M $(BOARD_MACHINE) -nographic \
                   -semihosting-config enable=on,target=native -kernel $(1) </dev/null
+BOARD_SERIAL    = $(BOARD_EMULATOR) -M $(BOARD_MACHINE) -display none -monitor none -serial pty \
+                  -semihosting-config enable=on,target=native -kernel $(1)

@@ -2,10 +2,10 @@
 # emitted_c.sh: `whirl derive --as c` compiles by itself without a warning, in float and in double, with
 # gcc and with clang, and steps to the same bits as the interpreter, a step or many a call: for every built-in scene, every file
 # of tests/mechanisms, and scenes made for the odd corners of the operation list.
-# There are four builds, and the list of scenes is in four parts. `make test` compiles the first part by the build that programs
-# have and the second by the one that differs most from it; WHIRL_FULL=rest (make gate-full) the other two parts by these, and
-# the first two by the other two builds; WHIRL_FULL=1 (make full) all by all. With WHIRL_FEW=1 (sanitizers, where the program is
-# what is tested) every other one is derived and interpreted, and nothing compiled.
+# There are four builds, and the list of scenes is in four parts. `make gate-long` compiles the first part by the build that programs
+# have and the second by the one that differs most from it; WHIRL_FULL=rest (make full) the other two parts by these, and
+# the first two by the other two builds; WHIRL_FULL=1 (make full) all by all. With WHIRL_FEW=1 (make test, and the
+# sanitizers, where the program is what is tested) every other one is derived and interpreted, and nothing compiled.
 . "$(dirname "$0")/../checks.sh"
 
 compared=0
@@ -281,7 +281,7 @@ part_of() {
         echo $((2 * $(ones $(($1 & 0x155))) + $(ones "$1")))
     fi
 }
-# What both parts that `make test` compiles need; all else needs all.
+# What both parts that gate-long compiles need; all else needs all.
 wanted() { # NUMBER
     [ -n "${WHIRL_FULL:-}${WHIRL_FEW:-}" ] || [ "$(part_of "$1")" -lt 2 ]
 }

@@ -5,7 +5,7 @@
 . "$(dirname "$0")/../checks.sh"
 
 build=$(dirname "$whirl")
-runs=60
+runs=45
 [ -z "${WHIRL_FULL:-}" ] || runs=120
 rig="docs/plants/rig.whirl --step 200us --firmware $build/pil_rig"
 
@@ -82,7 +82,7 @@ verdict $? "and one that was pressed before it armed is not forgotten" "$scratch
 
 # --- stopped, and reset ---------------------------------------------------------------------------------------------------
 # Of each class some, at drawn instants: off at once, idle or tripped as before, and nothing starts by itself.
-few=12
+few=8
 [ -z "${WHIRL_FULL:-}" ] || few=30
 for only in stop reset reset-tripped hang-resets; do
     timeout 300 "$build/tools/faults" --firmware "$build/pil_rig" --only $only --runs $few --seed 9 >"$scratch/halts" 2>"$scratch/err" &&

@@ -1,6 +1,6 @@
 #!/bin/sh
 # measure.sh: what `whirl choose` promises where it can count is what the line that it prints counts: mechanisms drawn anew, and
-# with WHIRL_FULL (1, or rest: make gate-full) more of them and built-in scenes with contacts; on the emulated board of `make test`.
+# with WHIRL_FULL (1, or rest: make full) more of them and built-in scenes with contacts; on the emulated board of `make test`.
 . "$(dirname "$0")/../checks.sh"
 
 if ! command -v arm-none-eabi-gcc >/dev/null 2>&1 || ! command -v qemu-system-arm >/dev/null 2>&1; then
