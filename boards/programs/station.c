@@ -54,7 +54,7 @@ int main(void) {
     uint32_t paced = board_ticks();
 #endif
     trip_memory_start(&memory, &config, &rig, due);
-    wh_station_start(&station, "rig", board_name);
+    wh_station_start(&station, "rig", board_name, HAL_TICKS_PER_S / CONTROL_TICKS);
     hal_watchdog_start(WATCHDOG_TICKS);
     for (;;) {
         due += CONTROL_TICKS;

@@ -6,6 +6,7 @@
 #define RPM_PER_RADPS (WH_R(1.0) / WH_RIG_RADPS_PER_RPM)
 #define ANSWER_BYTES 240U
 #define ESCAPE_KEY '\x1b'
+#define HOST_MOST_S WH_R(3600.0)
 #define DIALOGUE 1U /* a program at the other end asks `id` for it */
 
 /* What a command has to work with. */
@@ -122,6 +123,7 @@ static void do_status(const request *r) {
              rig->has_result ? wh_quality_text(rig->result.force.quality) : "none");
     add_count(r->answer, "lost_answers", r->station->lost_answers);
     add_count(r->answer, "lost_bytes", r->station->lost_bytes);
+    add_count(r->answer, "host_losses", r->station->host_losses);
 }
 
 static void do_measure(const request *r) {
@@ -154,6 +156,17 @@ static void do_fault(const request *r) {
         add_number(r->answer, "supply_V", record->supply_V, 2);
     }
     add_words(r->answer, wh_trip_text(trip));
+}
+
+static void do_host(const request *r) {
+    wh_real limit_s = WH_R(0.0);
+    const bool said = r->words->count > 1U && wh_line_number(r->words->word[1], &limit_s);
+    if (!said || !(limit_s <= HOST_MOST_S) || (limit_s < WH_R(1.0) && limit_s != WH_R(0.0))) {
+        refuse(r, WH_STATION_SECONDS);
+        return;
+    }
+    r->station->host_steps = (uint32_t)(limit_s * (wh_real)r->station->steps_per_s);
+    wh_text_add(r->answer, "OK");
 }
 
 static void do_talk(const request *r) {
@@ -288,8 +301,26 @@ static void tell_stage(wh_station *station, const wh_rig *rig) {
     send(station, &text);
 }
 
-void wh_station_start(wh_station *station, const char *program, const char *board) {
-    *station = (wh_station){.program = program, .board = board};
+/* Whether just now whoever gives the orders has been silent for too long: the rig is told, once. */
+static bool host_is_lost(wh_station *station, wh_rig *rig) {
+    if (station->host_steps == 0 || station->silent_steps > station->host_steps) {
+        return false;
+    }
+    station->silent_steps++;
+    if (station->silent_steps <= station->host_steps) {
+        return false;
+    }
+    if (!wh_rig_post(rig, WH_EVENT_HOST_LOST, WH_R(0.0))) {
+        station->silent_steps--; /* no room: in the next step */
+        return false;
+    }
+    station->host_losses++;
+    return true;
+}
+
+void wh_station_start(wh_station *station, const char *program, const char *board,
+                      uint32_t steps_per_s) {
+    *station = (wh_station){.program = program, .board = board, .steps_per_s = steps_per_s};
 }
 
 /* "start 330" that lost a byte may be "start 30": a line without all of its bytes is made one that is refused. */
@@ -309,6 +340,7 @@ static void take_byte(wh_station *station, char byte) {
 }
 
 void wh_station_take(wh_station *station, const char *bytes, unsigned count) {
+    station->silent_steps = count > 0 ? 0 : station->silent_steps;
     for (unsigned i = 0; i < count; i++) {
         take_byte(station, bytes[i]);
     }
@@ -321,8 +353,8 @@ void wh_station_step(wh_station *station, wh_rig *rig) {
     if (station->waits && rig->answers != station->answers) {
         answer_order(station, rig);
     }
-    if (station->waits) {
-        return;
+    if (station->waits || host_is_lost(station, rig)) {
+        return; /* an order's answer is the next one, as no two are in the queue */
     }
     char bytes[ANSWER_BYTES];
     wh_text text;

@@ -36,6 +36,7 @@ extern "C" {
     X(measure, 0, "", "the last result, its intervals, its verdict") \
     X(fault, 0, "", "the trip that is latched, and what was then") \
     X(clear, 0, "", "a trip whose cause is gone") \
+    X(host, 1, "SECONDS", "a run ends when nothing is heard for so long; 0: never") \
     X(talk, 1, "on|off", "echo what is typed, tell of each new state")
 
 /* Why a line is refused, beside the rig's own refusals (wh_refusal, 1 ... 99): X(name, number, words). Numbers stay. */
@@ -45,7 +46,8 @@ extern "C" {
     X(WH_STATION_WORDS, 102, "too many words") \
     X(WH_STATION_NO_NUMBER, 103, "a number is wanted, such as 330 or 330.5") \
     X(WH_STATION_NO_RESULT, 104, "no run has given a result yet") \
-    X(WH_STATION_ON_OFF, 105, "on or off is wanted")
+    X(WH_STATION_ON_OFF, 105, "on or off is wanted") \
+    X(WH_STATION_SECONDS, 106, "0 or a number of seconds from 1 to 3600 is wanted")
 
 #define WH_STATION_NAME(name, number, words) name = (number),
 typedef enum wh_station_error { WH_STATION_ERROR_ROWS(WH_STATION_NAME) } wh_station_error;
@@ -57,6 +59,7 @@ typedef struct wh_station {
     wh_ring in;
     wh_ring out;
     wh_line line;
+    uint32_t steps_per_s; /* of wh_station_step(): the caller's, too */
     bool talks;
     bool escaped;          /* stop, before anything else */
     bool spoils;           /* bytes were lost, and so is the line to its end */
@@ -65,6 +68,9 @@ typedef struct wh_station {
     unsigned stage;        /* as last told */
     uint32_t lost_bytes;   /* that came while there was no room, */
     uint32_t lost_answers; /* and answers that had none */
+    uint32_t host_steps;   /* so many without a byte, and the host is lost; 0: never */
+    uint32_t silent_steps;
+    uint32_t host_losses;
 } wh_station;
 
 #define wh_station_start WH_NAME(wh_station_start)
@@ -72,12 +78,15 @@ typedef struct wh_station {
 #define wh_station_step WH_NAME(wh_station_step)
 #define wh_station_error_text WH_NAME(wh_station_error_text)
 
-void wh_station_start(wh_station *station, const char *program, const char *board);
+/* `steps_per_s`: how often wh_station_step() is called. Nobody is watched at first. */
+void wh_station_start(wh_station *station, const char *program, const char *board,
+                      uint32_t steps_per_s);
 
 /* Bytes that came. Looks for Escape at once. */
 void wh_station_take(wh_station *station, const char *bytes, unsigned count);
 
-/* Does what the oldest line asks for, if the one before is answered. */
+/* Does what the oldest line asks for, if the one before is answered. Where who gives the orders has not been heard for as
+ * long as `host` said, the rig gets WH_EVENT_HOST_LOST, once: its configuration says what that ends. */
 void wh_station_step(wh_station *station, wh_rig *rig);
 
 /* What wants out: the oldest bytes, `room` at most; returns how many. */

@@ -11,6 +11,8 @@
 
 void suite_station(void);
 
+#define STEPS_PER_S (WH_RIG_TICKS_PER_S / EVEN_STEP_TICKS)
+
 static even_rig even;
 static even_rig twin;
 static wh_station station;
@@ -21,7 +23,7 @@ static unsigned heard_length;
 static void begin(void) {
     even_start(&even);
     even_rest(&even);
-    wh_station_start(&station, "rig", "here");
+    wh_station_start(&station, "rig", "here", STEPS_PER_S);
     heard_length = 0;
 }
 
@@ -68,7 +70,8 @@ static void test_help_knows_every_command(void) {
     begin();
     char list[WH_RING_BYTES];
     strcpy(list, ask("help"));
-    TEST_ASSERT_EQUAL_STRING("OK help id arm start set stop status measure fault clear talk", list);
+    TEST_ASSERT_EQUAL_STRING("OK help id arm start set stop status measure fault clear host talk",
+                             list);
     wh_words words = wh_line_split(list + 3);
     for (unsigned i = 0; i < WH_LINE_WORDS; i++) {
         char line[40] = "help ";
@@ -101,6 +104,14 @@ static void test_refusals_have_their_numbers(void) {
                 {"measure", "ERR 104 "},
                 {"talk", "ERR 105 "},
                 {"talk loud", "ERR 105 "},
+                {"host", "ERR 106 "},
+                {"host name", "ERR 106 "},
+                {"host -1", "ERR 106 "},
+                {"host 0.9", "ERR 106 "},
+                {"host 3600.5", "ERR 106 "},
+                {"host 3600", "OK"},
+                {"host 1", "OK"},
+                {"host 0", "OK"},
                 {"\x01", "ERR 101 "},
                 {"stop", "OK stop"},
                 {"arm", "OK arm"},

@@ -1,0 +1,86 @@
+/* test_station_host.c: the rig's console, and somebody at it who goes away. */
+#include "core/station/station.h"
+
+#include <string.h>
+
+#include "draw.h"
+#include "even_rig.h"
+#include "unity.h"
+
+void suite_station_host(void);
+
+#define STEPS_PER_S (WH_RIG_TICKS_PER_S / EVEN_STEP_TICKS)
+
+static even_rig even;
+static wh_station station;
+static uint64_t seed;
+
+static void type(const char *line) { wh_station_take(&station, line, (unsigned)strlen(line)); }
+
+/* One control period of the firmware. */
+static void period(void) {
+    even_step(&even);
+    wh_station_step(&station, &even.rig);
+}
+
+/* Typed, and allowed. */
+static void obey(const char *line) {
+    char heard[WH_RING_BYTES];
+    type(line);
+    type("\n");
+    for (unsigned i = 0; i < 3; i++) {
+        period();
+    }
+    const unsigned count = wh_station_peek(&station, heard, sizeof heard);
+    wh_station_drop(&station, count);
+    TEST_ASSERT_TRUE(count > 3U && memcmp(heard, "OK", 2) == 0);
+}
+
+/* What a host does that types now and then, and then no more: a run ends when nothing was heard for as long as it had
+ * said, to the step, and as the rig was configured; without a limit, or as long as there are bytes, it goes on. */
+static void test_a_host_that_is_gone(void) {
+    seed = 31;
+    unsigned ends = 0;
+    for (unsigned i = 0; i < 60U; i++) {
+        const uint32_t limit_s = i % 3U == 2U ? 0 : (uint32_t)(1U + draw_one_of(&seed, 4));
+        char line[] = "host 0";
+        line[5] = (char)('0' + limit_s);
+        even_start(&even);
+        even_rest(&even);
+        wh_station_start(&station, "rig", "here", STEPS_PER_S);
+        even.config.host_loss_stops = i % 3U == 0;
+        obey(line);
+        obey("arm");
+        obey("start 330");
+        even_go_on_until(&even, (wh_rig_phase)(WH_PHASE_TARE + draw_one_of(&seed, 5)));
+        for (unsigned k = draw_one_of(&seed, 5); k > 0; k--) { /* heard: any byte will do */
+            type(draw_one_in(&seed, 2) ? "\n" : "\b");
+            for (uint32_t step = 0; limit_s > 0 && step < limit_s * STEPS_PER_S; step++) {
+                period();
+            }
+            TEST_ASSERT_TRUE(station.host_losses == 0);
+        }
+        type("\n");
+        uint32_t silent = 0;
+        while (even.rig.state == WH_LIFE_RUNNING) {
+            period();
+            silent++;
+            TEST_ASSERT_TRUE(silent < 60U * STEPS_PER_S);
+        }
+        /* Said in one step, taken in the next. */
+        const uint32_t most = limit_s * STEPS_PER_S + 2U;
+        const bool stops = limit_s > 0 && even.config.host_loss_stops;
+        TEST_ASSERT_TRUE(!stops || silent <= most);
+        const bool stopped = stops && silent == most;
+        for (unsigned step = 0; step < 10U * STEPS_PER_S; step++) {
+            period();
+        }
+        TEST_ASSERT_TRUE(stopped || even_is_done(&even));
+        ends += stopped ? 1U : 0U;
+        TEST_ASSERT_EQUAL_UINT32(limit_s > 0 ? 1 : 0, station.host_losses);
+        obey("arm"); /* and is heard again */
+    }
+    TEST_ASSERT_TRUE(ends >= 10U);
+}
+
+void suite_station_host(void) { RUN_TEST(test_a_host_that_is_gone); }
