@@ -6,11 +6,6 @@
 /* A turn's samples are through within a fraction of the next turn. */
 #define LAST_TURN_MAX_S WH_R(0.5)
 
-void wh_measure_start(const wh_measure_config *config, wh_measure *measure) {
-    *measure = (wh_measure){.records = false};
-    wh_lockin_start(&config->rotor, &measure->lockin);
-}
-
 void wh_measure_begin(const wh_measure_config *config, wh_measure *measure) {
     measure->tare = (wh_tare){.count = 0};
     measure->records = false;

@@ -47,7 +47,6 @@ typedef struct wh_measure {
     wh_rig_result result;    /* grows with each turn of the record */
 } wh_measure;
 
-#define wh_measure_start WH_NAME(wh_measure_start)
 #define wh_measure_begin WH_NAME(wh_measure_begin)
 #define wh_measure_mark WH_NAME(wh_measure_mark)
 #define wh_measure_load WH_NAME(wh_measure_load)
@@ -56,10 +55,7 @@ typedef struct wh_measure {
 #define wh_measure_lasts WH_NAME(wh_measure_lasts)
 #define wh_measure_end WH_NAME(wh_measure_end)
 
-/* Before the first use. */
-void wh_measure_start(const wh_measure_config *config, wh_measure *measure);
-
-/* A run begins, with the tare. */
+/* A run begins, with the tare: before anything else, all else of *measure zero. */
 void wh_measure_begin(const wh_measure_config *config, wh_measure *measure);
 
 /* A mark that is sure, in order of time. */

@@ -26,7 +26,6 @@ void wh_rig_start(const wh_rig_config *config, wh_rig *rig, uint32_t now_ticks,
     *rig = (wh_rig){.state = WH_LIFE_IDLE};
     wh_pulses_start(&rig->pulses, config->impossible_radps);
     wh_guard_start(&rig->guard, now_ticks);
-    wh_measure_start(&config->measure, &rig->measure);
     (void)wh_observer_start(&config->observer, &rig->observer,
                             now_ticks); /* then it is never valid */
     enter(rig, WH_LIFE_IDLE, now_ticks);

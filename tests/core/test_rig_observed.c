@@ -1,5 +1,7 @@
 /* test_rig_observed.c: the rig's controller with an observer beside it, on a rotor that turns evenly (even_rig.c): what the
  * observer is told of the pulses, and that each run begins with one that knows nothing. */
+#include <string.h>
+
 #include "build/gen/scenes.h"
 #include "core/rig/observer.h"
 #include "draw.h"
@@ -107,7 +109,76 @@ static void test_a_step_with_a_pulse_works_on_no_turn(void) {
     TEST_ASSERT_TRUE(pulses > 40U && works > 400U);
 }
 
+/* Where gravity is not fed forward nobody pays for an observer. */
+static void test_unfed_nothing_is_observed(void) {
+    arm();
+    even.config.feeds = WH_FEED_NEVER;
+    TEST_ASSERT_TRUE(even_order(&even, WH_EVENT_START, WH_R(330.0) * EVEN_RPM) == WH_ALLOWED);
+    const uint32_t ticks = even.rig.observer.ticks;
+    even_go_on_until(&even, WH_PHASE_RAMP_DOWN);
+    TEST_ASSERT_TRUE(even.rig.run.phase == WH_PHASE_RAMP_DOWN);
+    TEST_ASSERT_EQUAL_UINT32(ticks, even.rig.observer.ticks);
+    TEST_ASSERT_FALSE(even.rig.observer.runs || even.rig.observer.marked);
+}
+
+/* Pulses of sensors that there are not, in any phase: they are counted, and that is all. */
+static void test_a_sensor_that_is_none(void) {
+    static even_rig twin;
+    seed = 77;
+    for (wh_rig_phase phase = WH_PHASE_TARE; phase <= WH_PHASE_RAMP_DOWN; phase++) {
+        even_reach(&even, phase);
+        twin = even;
+        uint32_t given = 0;
+        for (unsigned i = 0; i < 400U; i++) {
+            if (draw_one_in(&seed, 20)) {
+                const unsigned sensor = WH_SPEED_SENSORS + draw_one_of(&seed, 40);
+                wh_rig_pulse(&even.config, &even.rig, sensor, even.inputs.now_ticks + 500U);
+                given++;
+            }
+            even_step(&even);
+            even_step(&twin);
+            TEST_ASSERT_TRUE(memcmp(&even.command, &twin.command, sizeof even.command) == 0);
+            TEST_ASSERT_TRUE(even.rig.run.phase == twin.rig.run.phase);
+            TEST_ASSERT_TRUE(memcmp(even.rig.run.tare_pulses, twin.rig.run.tare_pulses,
+                                    sizeof even.rig.run.tare_pulses) == 0);
+        }
+        TEST_ASSERT_TRUE(given > 5U);
+        TEST_ASSERT_EQUAL_UINT32(twin.rig.pulses.speed.taken, even.rig.pulses.speed.taken);
+    }
+}
+
+/* Marks that nobody took wait, as many as there is room for, and come in their order. */
+static void test_marks_come_in_their_order(void) {
+    wh_pulses pulses;
+    wh_mark mark;
+    seed = 4;
+    wh_pulses_start(&pulses, WH_R(84.0));
+    pulses.bound_radps = WH_R(84.0);
+    uint32_t ticks = UINT32_MAX - 500000U;
+    uint32_t taken = 0;
+    uint32_t before = ticks;
+    for (unsigned i = 0; i < 200U; i++) {
+        const unsigned running = 1U + draw_one_of(&seed, WH_PULSES_MARKS);
+        for (unsigned k = 0; k < running; k++) {
+            ticks += taken % 2U == 0 ? 135000U : 45000U; /* 333 rpm, the sensors a quarter apart */
+            wh_pulses_take(&pulses, taken % 2U == 0 ? 0U : 1U, ticks);
+            taken++;
+        }
+        unsigned marks = 0;
+        while (wh_pulses_mark(&pulses, ticks + 30000U, &mark)) {
+            TEST_ASSERT_TRUE((int32_t)(mark.pulse.ticks - before) > 0);
+            before = mark.pulse.ticks;
+            marks++;
+        }
+        TEST_ASSERT_TRUE(i < 2U || marks == running);
+        TEST_ASSERT_TRUE(i < 2U || before == ticks);
+    }
+}
+
 void suite_rig_observed(void) {
+    RUN_TEST(test_unfed_nothing_is_observed);
+    RUN_TEST(test_a_sensor_that_is_none);
+    RUN_TEST(test_marks_come_in_their_order);
     RUN_TEST(test_a_step_with_a_pulse_works_on_no_turn);
     RUN_TEST(test_each_pulse_is_told_once);
     RUN_TEST(test_each_run_begins_with_an_observer_that_knows_nothing);

@@ -140,6 +140,24 @@ static void test_places_are_found_of_rotors_that_nobody_knows(void) {
     TEST_ASSERT_TRUE(covered * 20U >= found * 18U);
 }
 
+/* Pulses that scatter more than was configured say so themselves, and the intervals are as wide as they are few. */
+static void test_rough_pulses_have_wide_intervals(void) {
+    const wh_rig_config config = standard();
+    unsigned covered = 0;
+    unsigned told = 0;
+    seed = 21;
+    for (unsigned i = 0; i < 60U; i++) {
+        drawn rotor = draw_rotor(WH_R(0.02), WH_R(0.06));
+        rotor.kind.jitter_s = WH_R(2e-3);
+        const wh_swung swung = swing_out(&config, &rotor, true);
+        const wh_real off = swung.place_rad[0] - rotor.place_rad[0];
+        const bool tells = swung.why == WH_SWING_FOUND || swung.why == WH_SWING_WIDE;
+        told += tells ? 1U : 0U;
+        covered += tells && WH_ABS(off) <= swung.half_rad[0] ? 1U : 0U;
+    }
+    TEST_ASSERT_TRUE(told >= 20U && covered * 100U >= told * 90U);
+}
+
 /* A pass does not begin with a swing that comes near the top, where times tell all of the amplitude and a guess of them nothing,
  * while there are enough behind it. */
 static void test_a_pass_begins_behind_swings_near_the_top(void) {
@@ -366,6 +384,7 @@ static void test_the_regression_finds_what_was_measured(void) {
 }
 
 void suite_rig_swing(void) {
+    RUN_TEST(test_rough_pulses_have_wide_intervals);
     RUN_TEST(test_places_are_found_of_rotors_that_nobody_knows);
     RUN_TEST(test_a_pass_begins_behind_swings_near_the_top);
     RUN_TEST(test_pulses_that_are_none_move_no_sensor);
