@@ -52,7 +52,7 @@ gate-format:
 # One process a file, so that two cores have work to the end. The core is linted as double, too.
 tidy = printf '%s\n' $(1) | xargs -n 1 -P $(JOBS) sh -c 'clang-tidy --quiet "$$1" -- $(2)' _
 TIDY_C := $(filter-out $(TARGET_C),$(filter %.c,$(C_FILES)))
-gate-tidy:
+gate-tidy: $(GEN)/.stamp
 	@$(call need,clang-tidy)
 	@$(call tidy,$(TIDY_C),$(LINT_FLAGS))
 	@$(call tidy,$(CORE_C) $(RIG_C) $(STATION_C),$(LINT_FLAGS) -DWH_DOUBLE=1)

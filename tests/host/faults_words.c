@@ -62,15 +62,15 @@ double rig_nominal_rpm(void) { return (double)WH_RIG_NOMINAL_RPM; }
 #define TURNS (7.0 / 6.0)
 #define LAG_S 0.23 /* of the rotor under full voltage, towards: */
 #define FULL_RPM 568.0
-#define PERIOD_S 2e-3
 #define STEP_S 1e-5
+#define PERIOD_STEPS 200 /* the control period, 2 ms */
 #define INERTIA_KGM2 5.77e-3
 
 double rig_caught_rpm(double target_rpm) {
     const double weight_Nm = (double)(WH_RIG_MASS_MOMENT_KGM * WH_RIG_GRAVITY_MPS2);
     double rpm = target_rpm;
     double turns = 0.0;
-    for (double left_s = PERIOD_S; left_s > 0.0; left_s -= turns < TURNS ? 0.0 : STEP_S) {
+    for (unsigned late = 0; late < PERIOD_STEPS; late += turns >= TURNS) {
         rpm += (FULL_RPM - rpm) / LAG_S * STEP_S;
         turns += rpm / 60.0 * STEP_S;
     }

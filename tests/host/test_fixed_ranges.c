@@ -79,7 +79,8 @@ static void test_ranges_and_steps_of_all_sizes(void) {
         char *text = room_words("mechanism m\n%sscene s { until 1 [s] }\n", wide[k]);
         derived d = derived_scene(text, "s");
         derived_expect(&d, text);
-        for (int power = -9; power <= 300; power += power < 12 ? (int)few_or_all(4, 1) : (int)few_or_all(96, 32)) {
+        for (int power = -9; power <= 300;
+             power += power < 12 ? (int)few_or_all(4, 1) : (int)few_or_all(96, 32)) {
             for (size_t n = 0; n < sizeof step_s / sizeof step_s[0]; n += few_or_all(2, 1)) {
                 const double size = pow(10.0, power);
                 char *report;

@@ -10,10 +10,10 @@
 #include <string.h>
 
 #include "bits.h"
+#include "command.h"
 #include "derived.h"
 #include "host/number/decimal.h"
 #include "host/number/hex.h"
-#include "command.h"
 #include "unity.h"
 
 void suite_number_text(void);
