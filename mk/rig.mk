@@ -27,7 +27,7 @@ rig-steps-now: $(GEN)/.stamp
 # The measurement against the truth, and its intervals against 1,000 noisy runs of each kind.
 rig-truth-now: $(GEN)/.stamp
 	@$(MAKE) build/tests/host
-	@WHIRL_FULL=1 build/tests/host lockin_truth
+	@WHIRL_FULL=1 build/tests/host lockin_truth slope_truth
 
 # Faults in the plant and the links of the rig's firmware: of this machine; with BOARD= given, in its emulator.
 RUNS ?= $(if $(ASKED_BOARD),2000,20000)
@@ -53,7 +53,7 @@ faults-page: ## docs/rig.md shows what the last make faults found
 
 # Thirty bugs as somebody would write them, and who notices: the rig's suites, else a small campaign of faults.
 RIG_SUITES := rig rig_guard rig_law rig_run rig_steps rig_life rig_life_trips rig_life_random rig_pulses rig_pulses_fast \
-    rig_result rig_standard rig_feed rig_observer rig_observed rig_parts rig_swing virtual_rig virtual_rig_faults lockin lockin_late
+    rig_result rig_slope rig_standard rig_feed rig_observer rig_observed rig_parts rig_swing virtual_rig virtual_rig_faults lockin lockin_late
 .PHONY: rig-bugs
 rig-bugs: build/tests/core_float build/tools/faults $(B)/pil_rig ## bugs put into the rig's controller: does a test notice? (minutes; in a copy of the tree)
 	@MAKE="$(MAKE)" ROWS=mk/mutants/rig_bugs.rows TOP=build/rig_bugs PROGRAM=build/tests/core_float SUITES="$(RIG_SUITES)" \
