@@ -65,7 +65,7 @@ $(foreach o,$(STATION_C) boards/programs/rig.c boards/programs/station.c \
 
 # The rig's firmware with a console: here on a pseudo-terminal.
 STATION := $(ELF)/station.elf
-$(B)/station: $(call objects,float,boards/programs/station.c boards/host/board.c boards/host/terminal.c) \
+$(B)/station: $(call objects,float,boards/programs/station.c boards/host/board.c boards/host/terminal.c boards/host/settings.c) \
     $(call libraries,float,station rig virtual whirl scenes)
 	$(link)
 $(STATION): $(call objects,$(BOARD),boards/programs/station.c) $(BOARD_OBJECTS) \

@@ -16,7 +16,9 @@
 #ifndef WH_STATION_STATION_H
 #define WH_STATION_STATION_H
 
+#include "conf.h"
 #include "core/rig/rig.h"
+#include "errors.h"
 #include "line.h"
 #include "ring.h"
 
@@ -36,26 +38,15 @@ extern "C" {
     X(measure, 0, "", "the last result, its intervals, its verdict") \
     X(fault, 0, "", "the trip that is latched, and what was then") \
     X(clear, 0, "", "a trip whose cause is gone") \
+    X(conf, 3, "list [FROM]|get NAME|set NAME VALUE|save|default", \
+      "the settings; written while the rig is idle") \
     X(host, 1, "SECONDS", "a run ends when nothing is heard for so long; 0: never") \
     X(talk, 1, "on|off", "echo what is typed, tell of each new state")
-
-/* Why a line is refused, beside the rig's own refusals (wh_refusal, 1 ... 99): X(name, number, words). Numbers stay. */
-#define WH_STATION_ERROR_ROWS(X) \
-    X(WH_STATION_NO_COMMAND, 100, "no such command; help lists them") \
-    X(WH_STATION_LINE, 101, "the line is too long, or has what is no character") \
-    X(WH_STATION_WORDS, 102, "too many words") \
-    X(WH_STATION_NO_NUMBER, 103, "a number is wanted, such as 330 or 330.5") \
-    X(WH_STATION_NO_RESULT, 104, "no run has given a result yet") \
-    X(WH_STATION_ON_OFF, 105, "on or off is wanted") \
-    X(WH_STATION_SECONDS, 106, "0 or a number of seconds from 1 to 3600 is wanted")
-
-#define WH_STATION_NAME(name, number, words) name = (number),
-typedef enum wh_station_error { WH_STATION_ERROR_ROWS(WH_STATION_NAME) } wh_station_error;
-#undef WH_STATION_NAME
 
 typedef struct wh_station {
     const char *program; /* the caller's, */
     const char *board;
+    wh_conf *conf; /* NULL: there are no settings */
     wh_ring in;
     wh_ring out;
     wh_line line;
@@ -76,9 +67,9 @@ typedef struct wh_station {
 #define wh_station_start WH_NAME(wh_station_start)
 #define wh_station_take WH_NAME(wh_station_take)
 #define wh_station_step WH_NAME(wh_station_step)
-#define wh_station_error_text WH_NAME(wh_station_error_text)
 
-/* `steps_per_s`: how often wh_station_step() is called. Nobody is watched at first. */
+/* `steps_per_s`: how often wh_station_step() is called. Nobody is watched at first. What else there is (conf) the caller
+ * puts in afterwards. */
 void wh_station_start(wh_station *station, const char *program, const char *board,
                       uint32_t steps_per_s);
 
@@ -98,8 +89,6 @@ static inline unsigned wh_station_peek(const wh_station *station, char *bytes, u
 static inline void wh_station_drop(wh_station *station, unsigned count) {
     wh_ring_drop(&station->out, count);
 }
-
-const char *wh_station_error_text(wh_station_error error);
 
 #ifdef __cplusplus
 }

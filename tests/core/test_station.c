@@ -70,7 +70,7 @@ static void test_help_knows_every_command(void) {
     begin();
     char list[WH_RING_BYTES];
     strcpy(list, ask("help"));
-    TEST_ASSERT_EQUAL_STRING("OK help id arm start set stop status measure fault clear host talk",
+    TEST_ASSERT_EQUAL_STRING("OK help id arm start set stop status measure fault clear conf host talk",
                              list);
     wh_words words = wh_line_split(list + 3);
     for (unsigned i = 0; i < WH_LINE_WORDS; i++) {
@@ -102,6 +102,7 @@ static void test_refusals_have_their_numbers(void) {
                 {"set 200", "ERR 7 "},
                 {"clear", "ERR 6 "},
                 {"measure", "ERR 104 "},
+                {"conf list", "ERR 114 "},
                 {"talk", "ERR 105 "},
                 {"talk loud", "ERR 105 "},
                 {"host", "ERR 106 "},
