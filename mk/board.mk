@@ -70,7 +70,7 @@ endif
 
 # The rig's firmware with a console: here on a pseudo-terminal.
 STATION := $(ELF)/station.elf
-$(B)/station: $(call objects,float,boards/programs/station.c boards/host/board.c boards/host/terminal.c) \
+$(B)/station: $(call objects,float,boards/programs/station.c boards/host/board.c boards/host/terminal.c boards/host/settings.c) \
     $(call libraries,float,station rig virtual whirl scenes)
 	$(link)
 # A board with hardware of its own has the rig's, and no model: what is flashed never ends, and knows no debugger.

@@ -27,7 +27,7 @@ rig-steps-now: $(GEN)/.stamp
 # The measurement against the truth, and its intervals against 1,000 noisy runs of each kind.
 rig-truth-now: $(GEN)/.stamp
 	@$(MAKE) build/tests/host
-	@WHIRL_FULL=1 build/tests/host lockin_truth
+	@WHIRL_FULL=1 build/tests/host lockin_truth slope_truth
 
 # Faults in the plant and the links of the rig's firmware: of this machine; with BOARD= given, in its emulator.
 RUNS ?= $(if $(ASKED_BOARD),2000,20000)
@@ -51,11 +51,33 @@ faults-page: ## docs/rig.md shows what the last make faults found
 	    /<!-- faults: begin -->/ { held = 1; print ""; while ((getline line <"build/faults.md") > 0) print line; print "" }' \
 	    docs/rig.md >build/rig_page.md && cp build/rig_page.md docs/rig.md
 
+# The suites that ask the rig's controller, in a program of their own: what a change of the controller takes to be asked.
+RIG_SUITES := $(patsubst tests/core/test_%.c,%,$(sort $(wildcard $(addprefix tests/core/test_,rig*.c virtual_rig*.c lockin*.c station*.c))))
+RIG_TEST_C := $(filter-out tests/core/test_%,$(CORE_TEST_C)) $(RIG_SUITES:%=tests/core/test_%.c)
+$(eval $(call listed,$(B)/tests/rig_suites.list,$(RIG_SUITES)))
+$(B)/tests/rig_suites.c: tests/suites.sh $(B)/tests/rig_suites.list $(RIG_TEST_C)
+	$(say) GEN $@
+	$(Q)sh $< $(RIG_SUITES:%=tests/core/test_%.c) >$@
+rig_tests = $(call objects,$(1),$(RIG_TEST_C) $(B)/tests/rig_suites.c $(UNITY_DIR)/unity.c) $(call libraries,$(1),scenes station rig $(2) whirl)
+$(B)/tests/rig_float: $(call rig_tests,float,virtual)
+	$(link)
+$(B)/tests/rig_double: $(call rig_tests,double)
+	$(link)
+
 # Thirty bugs as somebody would write them, and who notices: the rig's suites, else a small campaign of faults.
-RIG_SUITES := rig rig_guard rig_law rig_run rig_steps rig_life rig_life_trips rig_life_random rig_pulses rig_pulses_fast \
-    rig_result rig_standard rig_feed rig_observer rig_observed rig_parts rig_swing virtual_rig virtual_rig_faults lockin lockin_late
+RIG_CAMPAIGN = build/tools/faults --firmware $(1) --runs 60 --seed 1
 .PHONY: rig-bugs
-rig-bugs: build/tests/core_float build/tools/faults $(B)/pil_rig ## bugs put into the rig's controller: does a test notice? (minutes; in a copy of the tree)
-	@MAKE="$(MAKE)" ROWS=mk/mutants/rig_bugs.rows TOP=build/rig_bugs PROGRAM=build/tests/core_float SUITES="$(RIG_SUITES)" \
-	    MORE="build/tools/faults build/pil_rig" LAST="build/tools/faults --firmware build/pil_rig --runs 60 --seed 1" HELD=95 \
+rig-bugs: build/tests/rig_float build/tools/faults $(B)/pil_rig ## bugs put into the rig's controller: does a test notice? (minutes; in a copy of the tree)
+	@MAKE="$(MAKE)" ROWS=mk/mutants/rig_bugs.rows TOP=build/rig_bugs PROGRAM=build/tests/rig_float SUITES="$(RIG_SUITES)" \
+	    MORE="build/tools/faults build/pil_rig" LAST="$(call RIG_CAMPAIGN,build/pil_rig)" HELD=95 \
 	    sh mk/mutants/guards.sh
+
+# The same of changes drawn at random, as `make mutants` draws and tells them.
+.PHONY: rig-mutants
+rig-mutants: ## small changes of the rig's controller: do its suites, else a small campaign, notice? MUTANTS (100), SEED (half an hour)
+	@UNITY="$(UNITY)" CC="$(CC)" mk/setup/deps.sh host tests
+	@UNITY="$(UNITY)" mk/setup/unity.sh build/unity
+	@MAKE="$(MAKE)" TOP=build/rig_mutants FOLDERS=core/rig MUTANTS=$(or $(MUTANTS),100) CORE=rig STAGES="double float last" \
+	    BUILDS="build/tests/rig_double build/tests/rig_float build/tools/faults build/pil_dialled" ALWAYS=campaign \
+	    LAST_BUILDS="build/tools/faults build/pil_dialled" LAST="$(call RIG_CAMPAIGN,build/pil_dialled)" \
+	    sh mk/mutants/mutants.sh

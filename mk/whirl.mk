@@ -77,7 +77,8 @@ $(GEN)/.stamp: # if it is missing: by the main configuration, with none of the s
 endif
 
 # What includes their headers.
-$(foreach b,host float double $(BOARD),$(patsubst %,$(B)/$(b)/%.o,tests/core/test_scenes boards/programs/size)): \
+$(foreach b,host float double $(BOARD),$(patsubst %,$(B)/$(b)/%.o,boards/programs/size \
+    $(addprefix tests/core/,fed_rotor test_rig_bounds test_rig_observed test_rig_observer test_scenes))): \
     | $(GEN)/.stamp
 
 # --- make run -----------------------------------------------------------------------------------

@@ -11,15 +11,20 @@
 #include "hal/watchdog.h"
 #include "rig_control.h"
 #include "rig_report.h"
+#include "rig_settings.h"
 
 /* What the console may take in a control step: at 115,200 baud 23 bytes come and go. */
 #define BYTES_A_STEP 32U
 
 static wh_station station;
+static wh_rig_config config;
+static wh_conf conf;
+static wh_tel tel;
 
 static void converse(void) {
     char bytes[BYTES_A_STEP];
     wh_station_take(&station, bytes, hal_console_read(bytes, sizeof bytes));
+    wh_station_see(&station, &config, &rig, &seen);
     wh_station_step(&station, &rig);
     const unsigned waiting = wh_station_peek(&station, bytes, sizeof bytes);
     wh_station_drop(&station, hal_console_offer(bytes, waiting));
@@ -51,6 +56,13 @@ static void keep_time(uint32_t *due_ticks) {
 }
 #endif
 
+/* What was held up for long, as by a sector's erase, goes on from now, and does not catch up step by step. */
+static uint32_t next_step(uint32_t due_ticks) {
+    const uint32_t now = hal_clock_ticks();
+    const bool late = (int32_t)(now - due_ticks) > (int32_t)WATCHDOG_TICKS;
+    return (late ? now : due_ticks) + CONTROL_TICKS;
+}
+
 int main(void) {
     board_start();
     if (!board_converse()) {
@@ -63,7 +75,7 @@ int main(void) {
         put("\r\n");
         board_exit(2);
     }
-    const wh_rig_config config = rig_configuration();
+    wh_conf_start(&conf, own_configuration, &settings_memory, &config);
     uint32_t due = hal_clock_ticks();
 #if HAL_VIRTUAL
     uint32_t paced = board_ticks();
@@ -71,9 +83,11 @@ int main(void) {
     trip_memory_start(&memory, &config, &rig, due);
     tell_reset();
     wh_station_start(&station, "rig", board_name, HAL_TICKS_PER_S / CONTROL_TICKS);
+    station.conf = &conf;
+    station.tel = &tel;
     hal_watchdog_start(WATCHDOG_TICKS);
     for (;;) {
-        due += CONTROL_TICKS;
+        due = next_step(due);
         hal_clock_wait_until(due);
         control(&config);
         converse();

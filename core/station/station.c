@@ -1,7 +1,9 @@
 /* station.c: the rig's console: what each line asks for, and its answer. */
 #include "station.h"
 
-#include "core/text.h"
+#include "answer.h"
+#include "conf_answer.h"
+#include "tel_answer.h"
 
 #define RPM_PER_RADPS (WH_R(1.0) / WH_RIG_RADPS_PER_RPM)
 #define ANSWER_BYTES 240U
@@ -26,52 +28,11 @@ static void send(wh_station *station, wh_text *text) {
     }
 }
 
-static void add_refused(wh_text *text, unsigned number, const char *why) {
-    wh_text_add(text, "ERR ");
-    wh_text_add_unsigned(text, number);
-    wh_text_add_char(text, ' ');
-    wh_text_add(text, why);
-}
-
 static void refuse(const request *r, wh_station_error error) {
-    add_refused(r->answer, (unsigned)error, wh_station_error_text(error));
-}
-
-/* " name=value", a blank in what is a word as _ */
-static void add_word(wh_text *text, const char *name, const char *word) {
-    wh_text_add_char(text, ' ');
-    wh_text_add(text, name);
-    wh_text_add_char(text, '=');
-    for (; *word != '\0'; word++) {
-        wh_text_add_char(text, *word == ' ' ? '_' : *word);
-    }
-}
-
-static void add_number(wh_text *text, const char *name, wh_real number, unsigned decimals) {
-    add_word(text, name, "");
-    wh_text_add_fixed(text, number, decimals);
-}
-
-static void add_count(wh_text *text, const char *name, uint32_t count) {
-    add_word(text, name, "");
-    wh_text_add_unsigned(text, count);
-}
-
-/* To a person, behind all values. */
-static void add_words(wh_text *text, const char *words) {
-    wh_text_add(text, ": ");
-    wh_text_add(text, words);
+    wh_answer_refused(r->answer, (unsigned)error, wh_station_error_text(error));
 }
 
 /* --- what it can be asked -------------------------------------------------------------------------- */
-
-static bool is(const char *word, const char *name) {
-    while (*word != '\0' && *word == *name) {
-        word++;
-        name++;
-    }
-    return *word == *name;
-}
 
 /* The answer comes when the rig has one. */
 static void order(const request *r, wh_rig_event event, wh_real value) {
@@ -79,7 +40,7 @@ static void order(const request *r, wh_rig_event event, wh_real value) {
     if (wh_rig_post(r->rig, event, value)) {
         r->station->waits = true;
     } else {
-        add_refused(r->answer, WH_REFUSED_QUEUE, wh_refusal_text(WH_REFUSED_QUEUE));
+        wh_answer_refused(r->answer, WH_REFUSED_QUEUE, wh_refusal_text(WH_REFUSED_QUEUE));
     }
 }
 
@@ -94,9 +55,9 @@ static void order_speed(const request *r, wh_rig_event event) {
 
 static void do_id(const request *r) {
     wh_text_add(r->answer, "OK");
-    add_word(r->answer, "program", r->station->program);
-    add_word(r->answer, "board", r->station->board);
-    add_count(r->answer, "dialogue", DIALOGUE);
+    wh_answer_word(r->answer, "program", r->station->program);
+    wh_answer_word(r->answer, "board", r->station->board);
+    wh_answer_count(r->answer, "dialogue", DIALOGUE);
 }
 
 static void do_arm(const request *r) { order(r, WH_EVENT_ARM, WH_R(0.0)); }
@@ -109,21 +70,22 @@ static void do_status(const request *r) {
     const wh_rig *rig = r->rig;
     const bool runs = rig->run.phase != WH_PHASE_NONE;
     wh_text_add(r->answer, "OK");
-    add_word(r->answer, "state", wh_rig_stage_text(wh_rig_stage(rig)));
+    wh_answer_word(r->answer, "state", wh_rig_stage_text(wh_rig_stage(rig)));
     if (rig->pulses.speed.known) {
-        add_number(r->answer, "speed_rpm", rig->pulses.speed.turn_radps * RPM_PER_RADPS, 2);
+        wh_answer_number(r->answer, "speed_rpm", rig->pulses.speed.turn_radps * RPM_PER_RADPS, 2);
     } else {
         const bool rests = rig->guard.quiet && !wh_run_drives(&rig->run);
-        add_word(r->answer, "speed_rpm", rests ? "0.00" : "?");
+        wh_answer_word(r->answer, "speed_rpm", rests ? "0.00" : "?");
     }
-    add_number(r->answer, "set_rpm", runs ? rig->run.target_radps * RPM_PER_RADPS : WH_R(0.0), 2);
-    add_number(r->answer, "motor_V", rig->command.volts, 2);
-    add_count(r->answer, "trip", (uint32_t)rig->guard.trip);
-    add_word(r->answer, "result",
-             rig->has_result ? wh_quality_text(rig->result.force.quality) : "none");
-    add_count(r->answer, "lost_answers", r->station->lost_answers);
-    add_count(r->answer, "lost_bytes", r->station->lost_bytes);
-    add_count(r->answer, "host_losses", r->station->host_losses);
+    wh_answer_number(r->answer, "set_rpm", runs ? rig->run.target_radps * RPM_PER_RADPS : WH_R(0.0),
+                     2);
+    wh_answer_number(r->answer, "motor_V", rig->command.volts, 2);
+    wh_answer_count(r->answer, "trip", (uint32_t)rig->guard.trip);
+    wh_answer_word(r->answer, "result",
+                   rig->has_result ? wh_quality_text(rig->result.force.quality) : "none");
+    wh_answer_count(r->answer, "lost_answers", r->station->lost_answers);
+    wh_answer_count(r->answer, "lost_bytes", r->station->lost_bytes);
+    wh_answer_count(r->answer, "host_losses", r->station->host_losses);
 }
 
 static void do_measure(const request *r) {
@@ -133,29 +95,50 @@ static void do_measure(const request *r) {
         return;
     }
     wh_text_add(r->answer, "OK");
-    add_word(r->answer, "result", wh_quality_text(force->quality));
-    add_count(r->answer, "turns", force->turns);
-    add_number(r->answer, "speed_rpm", force->speed_radps * RPM_PER_RADPS, 2);
-    add_number(r->answer, "force_N", force->amplitude_N, 3);
-    add_number(r->answer, "force_half_N", force->amplitude_half_N, 4);
-    add_number(r->answer, "phase_deg", force->phase_rad * WH_RIG_DEG_PER_RAD, 3);
-    add_number(r->answer, "phase_half_deg", force->phase_half_rad * WH_RIG_DEG_PER_RAD, 4);
-    add_number(r->answer, "expected_N", force->expected_N, 3);
-    add_words(r->answer, wh_why_text(force->why));
+    wh_answer_word(r->answer, "result", wh_quality_text(force->quality));
+    wh_answer_count(r->answer, "turns", force->turns);
+    wh_answer_number(r->answer, "speed_rpm", force->speed_radps * RPM_PER_RADPS, 2);
+    wh_answer_number(r->answer, "force_N", force->amplitude_N, 3);
+    wh_answer_number(r->answer, "force_half_N", force->amplitude_half_N, 4);
+    wh_answer_number(r->answer, "phase_deg", force->phase_rad * WH_RIG_DEG_PER_RAD, 3);
+    wh_answer_number(r->answer, "phase_half_deg", force->phase_half_rad * WH_RIG_DEG_PER_RAD, 4);
+    wh_answer_number(r->answer, "expected_N", force->expected_N, 3);
+    wh_answer_words(r->answer, wh_why_text(force->why));
 }
 
 static void do_fault(const request *r) {
     const wh_trip_record *record = &r->rig->record;
     const wh_trip trip = r->rig->guard.trip;
     wh_text_add(r->answer, "OK");
-    add_count(r->answer, "trip", (uint32_t)trip);
+    wh_answer_count(r->answer, "trip", (uint32_t)trip);
     if (trip != WH_TRIP_NONE && record->trip == trip) {
-        add_word(r->answer, "in", wh_phase_text(record->phase));
-        add_number(r->answer, "speed_rpm", record->speed_radps * RPM_PER_RADPS, 2);
-        add_number(r->answer, "motor_V", record->volts, 2);
-        add_number(r->answer, "supply_V", record->supply_V, 2);
+        wh_answer_word(r->answer, "in", wh_phase_text(record->phase));
+        wh_answer_number(r->answer, "speed_rpm", record->speed_radps * RPM_PER_RADPS, 2);
+        wh_answer_number(r->answer, "motor_V", record->volts, 2);
+        wh_answer_number(r->answer, "supply_V", record->supply_V, 2);
     }
-    add_words(r->answer, wh_trip_text(trip));
+    wh_answer_words(r->answer, wh_trip_text(trip));
+}
+
+static void do_conf(const request *r) {
+    const bool idle = r->rig->state == WH_LIFE_IDLE;
+    const wh_station_error error = r->station->conf != NULL
+                                       ? wh_conf_answer(r->station->conf, r->words, idle, r->answer)
+                                       : WH_STATION_NOT_HERE;
+    if (error != WH_STATION_FINE) {
+        refuse(r, error);
+    }
+}
+
+static void do_tel(const request *r) {
+    wh_station *station = r->station;
+    const wh_station_error error =
+        station->tel != NULL && station->cell != NULL
+            ? wh_tel_answer(station->tel, station->cell, r->words, r->answer)
+            : WH_STATION_NOT_HERE;
+    if (error != WH_STATION_FINE) {
+        refuse(r, error);
+    }
 }
 
 static void do_host(const request *r) {
@@ -171,11 +154,11 @@ static void do_host(const request *r) {
 
 static void do_talk(const request *r) {
     const char *word = r->words->count > 1U ? r->words->word[1] : "";
-    if (!is(word, "on") && !is(word, "off")) {
+    if (!wh_answer_is(word, "on") && !wh_answer_is(word, "off")) {
         refuse(r, WH_STATION_ON_OFF);
         return;
     }
-    r->station->talks = is(word, "on");
+    r->station->talks = wh_answer_is(word, "on");
     r->station->stage = wh_rig_stage(r->rig);
     wh_text_add(r->answer, "OK");
 }
@@ -196,7 +179,7 @@ static const command commands[] = {WH_COMMAND_ROWS(COMMAND)};
 
 static const command *command_of(const char *name) {
     for (unsigned i = 0; i < COMMANDS; i++) {
-        if (is(name, commands[i].name)) {
+        if (wh_answer_is(name, commands[i].name)) {
             return &commands[i];
         }
     }
@@ -281,7 +264,7 @@ static void answer_order(wh_station *station, const wh_rig *rig) {
         wh_text_add(&text, "OK ");
         wh_text_add(&text, wh_rig_event_text(rig->asked));
     } else {
-        add_refused(&text, (unsigned)rig->answer, wh_refusal_text(rig->answer));
+        wh_answer_refused(&text, (unsigned)rig->answer, wh_refusal_text(rig->answer));
     }
     station->waits = false;
     send(station, &text);
@@ -321,6 +304,17 @@ static bool host_is_lost(wh_station *station, wh_rig *rig) {
 void wh_station_start(wh_station *station, const char *program, const char *board,
                       uint32_t steps_per_s) {
     *station = (wh_station){.program = program, .board = board, .steps_per_s = steps_per_s};
+    station->in = (wh_ring){.size = WH_STATION_IN_BYTES, .bytes = station->in_bytes};
+    station->out = (wh_ring){.size = WH_STATION_OUT_BYTES, .bytes = station->out_bytes};
+}
+
+void wh_station_see(wh_station *station, const wh_rig_config *config, const wh_rig *rig,
+                    const wh_seen *seen) {
+    station->seen = *seen;
+    station->cell = &config->measure.cell;
+    if (station->tel != NULL) {
+        wh_tel_step(station->tel, config, rig, seen, &station->out, WH_STATION_KEPT_BYTES);
+    }
 }
 
 /* "start 330" that lost a byte may be "start 30": a line without all of its bytes is made one that is refused. */
@@ -375,11 +369,4 @@ void wh_station_step(wh_station *station, wh_rig *rig) {
     if (text.length > 0) {
         send(station, &text);
     }
-}
-
-const char *wh_station_error_text(wh_station_error error) {
-#define WH_STATION_CASE(name, number, words) \
-    case name: return words;
-    switch (error) { WH_STATION_ERROR_ROWS(WH_STATION_CASE) }
-    return "unknown error";
 }

@@ -13,15 +13,25 @@
 # NEVER     an extended regular expression: those that it matches are not asked
 # JOBS      how many work at the same time, each in a copy of its own, with niceness NICE
 #
+# What is asked, as mk/rig.mk has it for the rig alone:
+# STAGES    of a change of the core, what is built and asked one after the other: the portable suites in `double` and in
+#           `float`, `host` (the program, its suites and scripts), and `last`
+# CORE      the portable suites' programs are build/tests/CORE_float and CORE_double
+# LAST      what else is asked, where no suite failed: a command; LAST_BUILDS: what it needs built
+# BUILDS    what all of them are made by
+# TOP       the copies' folder
+#
 # What was found stays in build/mutants/FOLDER.SEED.*: broken off, it goes on where it was. When tests change,
 # only what had survived is tried again; when the folder's code changes, it starts anew.
 set -eu
 
 : "${FOLDERS:=core core/contact* core/rig host/algebra host/derive}" "${MUTANTS:=80}" "${EXCEPT:=^$}"
 : "${LONGEST:=10}" "${ALWAYS:=}" "${NEVER:=^$}" "${JOBS:=2}" "${SEED:=$(date +%s)}" "${NICE:=19}" "${MAKE:=make}"
-top=build/mutants
+: "${STAGES:=double host float}" "${CORE:=core}" "${LAST:=}" "${LAST_BUILDS:=}" "${BUILDS:=test-programs}"
+top=${TOP:=build/mutants}
 here=mk/mutants
-export LONGEST ALWAYS NEVER
+asked="$LONGEST.$ALWAYS.$NEVER.$STAGES.$CORE.$LAST"
+export LONGEST ALWAYS NEVER STAGES CORE LAST LAST_BUILDS
 
 # --- copies -------------------------------------------------------------------------------------------
 # Times are kept, so that nothing is compiled that is up to date. The first copy is never changed; the
@@ -43,29 +53,29 @@ mkdir -p "$top"
 if [ "$(cat "$top/sum" 2>/dev/null || true)" != "$sum" ]; then
     rm -rf "$top/sum" "$top"/src*
     copy . "$top/src"
-    (cd "$top/src" && $MAKE build/whirl && $MAKE build/gen/.stamp && $MAKE test-programs) >"$top/build.log" 2>&1 || {
+    (cd "$top/src" && $MAKE build/whirl && $MAKE build/gen/.stamp && $MAKE $BUILDS) >"$top/build.log" 2>&1 || {
         tail "$top/build.log" >&2
         exit 1
     }
     echo "$sum" >"$top/sum"
 fi
 for job in $(seq "$JOBS"); do
-    if [ -e "$top/src$job/.changed" ] || [ ! -e "$top/src$job/build/tests/host" ]; then
+    if [ -e "$top/src$job/.changed" ] || [ ! -e "$top/src$job/build/tests/${CORE}_float" ]; then
         copy "$top/src" "$top/src$job"
     fi
 done
 
 # --- what every test takes on the tree as it is ---------------------------------------------------------
 # Lines: seconds of a processor, "host", "float", "double" or "cli", the suite's or script's name.
-if [ "$(cat "$top/times.sum" 2>/dev/null || true)" != "$sum.$LONGEST.$ALWAYS.$NEVER" ]; then
+if [ "$(cat "$top/times.sum" 2>/dev/null || true)" != "$sum.$asked" ]; then
     touch "$top/times"
     sh "$here/times.sh" "$top/src" "$PWD/$top/times" >"$top/times.new"
     mv "$top/times.new" "$top/times"
-    echo "$sum.$LONGEST.$ALWAYS.$NEVER" >"$top/times.sum"
+    echo "$sum.$asked" >"$top/times.sum"
 fi
 # What survived is tried again when there are other tests or more of them; what a test killed that is not to be asked,
 # too.
-tests_sum=$(sum_of_all tests).$LONGEST.$ALWAYS.$NEVER
+tests_sum=$(sum_of_all tests).$(echo "$asked" | cksum | tr -d ' ')
 
 # --- the draw, the work, the table ----------------------------------------------------------------------
 echo "Mutants drawn with SEED=$SEED, $MUTANTS a folder; tests of up to $LONGEST s."

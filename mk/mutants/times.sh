@@ -1,6 +1,6 @@
 #!/bin/sh
 # times.sh TREE KNOWN: what each suite and each script takes in a built tree, quickest first:
-#   seconds of a processor, "host", "float", "double" or "cli", its name
+#   seconds of a processor, "host", "float", "double", "cli" or "last", its name
 # Each is run, and must pass: what fails on the tree as it is would kill every change. What KNOWN, a file of such
 # lines, says to take longer than LONGEST is not run again, and what NEVER matches is not run at all. A suite that will
 # not be asked for its length is not run to its end: what it had taken by then stands for its time. Scripts that say
@@ -38,9 +38,11 @@ told() { # told KIND NAME PROGRAM...
 }
 
 {
+    [ -z "$LAST" ] || told last campaign sh -c "$LAST"
     for build in host float double; do
-        program=build/tests/core_$build
-        list=build/tests/core_suites.c
+        case " $STAGES " in *" $build "*) ;; *) continue ;; esac
+        program=build/tests/${CORE}_$build
+        list=build/tests/${CORE}_suites.c
         if [ "$build" = host ]; then
             program=build/tests/host
             list=build/tests/host_suites.c
@@ -50,6 +52,7 @@ told() { # told KIND NAME PROGRAM...
         done
     done
     for script in tests/cli/*.sh; do
+        case " $STAGES " in *" host "*) ;; *) break ;; esac
         case $script in
         */embed_* | */emitted_c.sh | */effects_cost_nothing.sh | */flags.sh | */interrupt.sh | */no_libm.sh) continue ;;
         */suites.sh | */worst_step_marks.sh | */columns.sh) continue ;;

@@ -4,6 +4,7 @@
 # builds it in TOP/srcJOB, tests it, and writes what came of it to NAME.found:
 #   number  refused | same | killed | survived  by what  TESTS
 # refused: it does not compile. same: the same objects, thus no mutant. TESTS names the tests' state.
+# Settings by the environment: those of mutants.sh.
 set -u
 
 top=$(cd "$1" && pwd)
@@ -88,9 +89,15 @@ usable() { # usable KIND SUITE
     case $1 in
     cli) differ build/whirl ;;
     host) differ build/tests/host ;;
+    last)
+        for built in $LAST_BUILDS; do
+            ! differ "$built" || return 0
+        done
+        return 1
+        ;;
     *)
         [ "$2" != scenes ] || [ "${file%.c}" != "$file" ] || return 1
-        differ "build/tests/core_$1"
+        differ "build/tests/${CORE}_$1"
         ;;
     esac
 }
@@ -101,7 +108,8 @@ run() { # run SECONDS KIND NAME
     case $2 in
     cli) set -- sh "$3" ;;
     host) set -- build/tests/host "$3" ;;
-    *) set -- "build/tests/core_$2" "$3" ;;
+    last) set -- sh -c "$LAST" ;;
+    *) set -- "build/tests/${CORE}_$2" "$3" ;;
     esac
     { (ulimit -t "$limit" && ulimit -v 4000000 && ulimit -c 0 &&
         WHIRL=build/whirl exec timeout --kill-after=5 $((limit * 10 + 60)) "$@") </dev/null; } >"$log.test" 2>&1
@@ -142,12 +150,13 @@ try() { # try NAME NUMBER FILE LINE COLUMN LENGTH REPLACEMENT
     file=$3
     apply "$3" "$4" "$5" "$6" "$7"
     stages="host"
-    case $3 in core/*) stages="double host float" ;; esac
+    case $3 in core/*) stages=$STAGES ;; esac
     came="same$tab-"
-    for stage in $stages; do # one third of what there is to build is built and asked after the other
+    for stage in $stages; do # one part of what there is to build is built and asked after the other
         case $stage in
         host) programs="build/whirl build/tests/host" ;;
-        *) programs="build/tests/core_$stage" ;;
+        last) programs=$LAST_BUILDS ;;
+        *) programs="build/tests/${CORE}_$stage" ;;
         esac
         if ! build $programs; then
             came="refused$tab-"

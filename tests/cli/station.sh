@@ -5,7 +5,8 @@
 
 station=${STATION:-build/station}
 RIG_TTY=$scratch/rig.tty
-export RIG_TTY
+RIG_SETTINGS=$scratch/rig.settings
+export RIG_TTY RIG_SETTINGS
 running=
 trap 'kill $running 2>/dev/null; rm -rf "$scratch"' EXIT
 
@@ -54,7 +55,10 @@ converse() {
     says 'start 330' 'ERR 1 ' "$1: nothing starts that is not armed"
     soon 'OK state=idle speed_rpm=0.00'
     verdict $? "$1: the rotor is known to rest" "$scratch/heard"
+    says 'conf set phase_floor 0.5' 'OK phase_floor=0.5' "$1: a setting is set"
+    says 'conf save' "OK sequence=${2:-1}" "$1: and saved"
     says arm 'OK arm' "$1: arm"
+    says 'conf save' 'ERR 107 ' "$1: settings are written in idle only"
     says 'start 330' 'OK start' "$1: start"
     soon 'OK state=ramp '
     verdict $? "$1: the rotor turns" "$scratch/heard"
@@ -80,7 +84,11 @@ hear
 says fault 'OK trip=0' "somebody else is at the terminal, and is answered"
 exec 3>&-
 for signal in INT TERM HUP; do
-    [ -n "$running" ] || begin
+    if [ -z "$running" ]; then
+        begin
+        says 'conf get phase_floor' 'OK phase_floor=0.5 ' "$signal: what was saved is there the next time"
+        exec 3>&-
+    fi
     kill -s $signal "$running"
     wait "$running" 2>/dev/null
     status=$?

@@ -1,4 +1,4 @@
-/* settings.c: for the project's own build: scenes with every setting that `whirl price` tries, as C, and their state
+/* emit_settings.c: for the project's own build: scenes with every setting that `whirl price` tries, as C, and their state
  * hashes (tests/settings_hashes.sh). */
 #include <stdio.h>
 #include <stdlib.h>

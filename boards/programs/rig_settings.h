@@ -1,0 +1,24 @@
+/* rig_settings.h: the rig's settings (core/station/conf.h) in the board's memory (hal/settings.h). A part of a program of
+ * the rig, behind rig_control.h. */
+#ifndef PROGRAMS_RIG_SETTINGS_H
+#define PROGRAMS_RIG_SETTINGS_H
+
+#include "core/station/conf.h"
+#include "hal/settings.h"
+
+_Static_assert(WH_STORE_SLOT_BYTES <= HAL_SETTINGS_BYTES, "a slot holds a record");
+
+/* While a sector is erased nobody kicks. */
+static bool erase_patiently(unsigned slot) {
+    hal_watchdog_start(2U * HAL_SETTINGS_TICKS);
+    const bool erased = hal_settings_erase(slot);
+    hal_watchdog_start(WATCHDOG_TICKS);
+    return erased;
+}
+
+static const wh_store_memory settings_memory = {
+    .erase = erase_patiently, .write = hal_settings_write, .read = hal_settings_read};
+
+static void own_configuration(wh_rig_config *config) { *config = rig_configuration(); }
+
+#endif

@@ -1,0 +1,327 @@
+/* conf.c: the rig's settings as numbers that have names. */
+#include "conf.h"
+
+#include <stddef.h>
+
+#include "answer.h"
+#include "core/frame.h"
+#include "core/root.h"
+#include "line.h"
+
+#define DEG WH_RIG_DEG_PER_RAD
+#define RPM (WH_R(1.0) / WH_RIG_RADPS_PER_RPM)
+
+#define ROW(name, number, kind, unit, least, most, words) \
+    {#name, unit, words, WH_R(least), WH_R(most), number, kind},
+static const wh_conf_row rows[] = {WH_CONF_ROWS(ROW)};
+#undef ROW
+
+#define ENTRY_BYTES 5U /* a setting's number, and its value */
+_Static_assert(WH_CONF_COUNT *ENTRY_BYTES <= WH_STORE_PAYLOAD_MOST, "all settings fit into a slot");
+
+const wh_conf_row *wh_conf_row_of(wh_conf_id id) { return &rows[id]; }
+
+wh_conf_id wh_conf_find(const char *name) {
+    unsigned id = 0;
+    while (id < WH_CONF_COUNT && !wh_answer_is(name, rows[id].name)) {
+        id++;
+    }
+    return (wh_conf_id)id;
+}
+
+/* --- a configuration's settings ---------------------------------------------------------------------- */
+
+static wh_real of_switch(bool on) { return on ? WH_R(1.0) : WH_R(0.0); }
+
+static wh_real value_of(const wh_rig_config *c, wh_conf_id id) {
+    const wh_real lead_rad = c->swing.lead_rad;
+    switch (id) {
+    case WH_CONF_mass_moment: return c->measure.rotor.mass_moment_kgm;
+    case WH_CONF_inertia: return c->measure.rotor.inertia_kgm2;
+    case WH_CONF_damping: return c->measure.rotor.damping_Nms;
+    case WH_CONF_damping_tolerance: return c->measure.rotor.damping_tolerance;
+    case WH_CONF_gravity: return c->measure.rotor.gravity_mps2;
+    case WH_CONF_gravity_angle: return c->measure.rotor.gravity_rad * DEG;
+    case WH_CONF_mount_factor: return c->measure.result.mount_factor;
+    case WH_CONF_sensor1: return (c->measure.rotor.mark_rad[0] + lead_rad) * DEG;
+    case WH_CONF_sensor2: return (c->measure.rotor.mark_rad[1] + lead_rad) * DEG;
+    case WH_CONF_slot_lead: return lead_rad * DEG;
+    case WH_CONF_cell_scale: return WH_ABS(c->measure.cell.newton_per_count) * WH_R(1000.0);
+    case WH_CONF_cell_reversed: return of_switch(c->measure.cell.newton_per_count < WH_R(0.0));
+    case WH_CONF_cell_offset: return c->measure.cell.offset_N;
+    case WH_CONF_cell_delay: return (wh_real)c->measure.cell.delay_ticks;
+    case WH_CONF_amplitude_floor: return c->measure.result.amplitude_floor;
+    case WH_CONF_phase_floor: return c->measure.result.phase_floor_rad * DEG;
+    case WH_CONF_record_time: return c->measure.record_s;
+    case WH_CONF_record_turns: return c->measure.record_turns;
+    case WH_CONF_settle_time: return c->run.settle_s;
+    case WH_CONF_settle_band: return c->run.settle_band_radps * RPM;
+    case WH_CONF_ramp: return c->run.drive.ramp_radps2 * RPM;
+    case WH_CONF_gain: return c->run.drive.proportional_V_per_radps;
+    case WH_CONF_gain_integral: return c->run.drive.integral_V_per_rad;
+    case WH_CONF_spin_up: return c->run.spin_up_V;
+    case WH_CONF_speed_least: return c->guard.target_min_radps * RPM;
+    case WH_CONF_speed_most: return c->guard.target_max_radps * RPM;
+    case WH_CONF_speed_limit: return c->guard.limit_radps * RPM;
+    case WH_CONF_supply_least: return c->guard.supply_min_V;
+    case WH_CONF_supply_most: return c->guard.supply_max_V;
+    case WH_CONF_armed_time: return c->armed_max_s;
+    case WH_CONF_rest_time: return c->rest_max_s;
+    case WH_CONF_stop_brakes: return of_switch(c->stop_brakes);
+    case WH_CONF_swings: return of_switch(c->swings);
+    case WH_CONF_host_loss_stops: return of_switch(c->host_loss_stops);
+    case WH_CONF_feeds: return (wh_real)c->feeds;
+    case WH_CONF_yields: return c->measure.rotor.yields_kgm2;
+    case WH_CONF_COUNT: break;
+    }
+    return WH_R(0.0);
+}
+
+static bool is_on(wh_real value) { return value > WH_R(0.5); }
+
+/* What is derived of several settings is put by put_rotor(), put_sensors() and put_cell(). */
+static void put(wh_rig_config *c, wh_conf_id id, wh_real value) {
+    switch (id) {
+    case WH_CONF_mass_moment: c->measure.rotor.mass_moment_kgm = value; break;
+    case WH_CONF_inertia: c->measure.rotor.inertia_kgm2 = value; break;
+    case WH_CONF_damping: c->measure.rotor.damping_Nms = value; break;
+    case WH_CONF_damping_tolerance: c->measure.rotor.damping_tolerance = value; break;
+    case WH_CONF_gravity: c->measure.rotor.gravity_mps2 = value; break;
+    case WH_CONF_gravity_angle:
+        c->measure.rotor.gravity_rad = value / DEG;
+        c->feed.gravity_rad = value / DEG;
+        break;
+    case WH_CONF_mount_factor: c->measure.result.mount_factor = value; break;
+    case WH_CONF_sensor1:
+    case WH_CONF_sensor2:
+    case WH_CONF_slot_lead:
+    case WH_CONF_cell_scale:
+    case WH_CONF_cell_reversed: break;
+    case WH_CONF_cell_offset: c->measure.cell.offset_N = value; break;
+    case WH_CONF_cell_delay: c->measure.cell.delay_ticks = (uint32_t)value; break;
+    case WH_CONF_amplitude_floor: c->measure.result.amplitude_floor = value; break;
+    case WH_CONF_phase_floor: c->measure.result.phase_floor_rad = value / DEG; break;
+    case WH_CONF_record_time: c->measure.record_s = value; break;
+    case WH_CONF_record_turns: c->measure.record_turns = value; break;
+    case WH_CONF_settle_time: c->run.settle_s = value; break;
+    case WH_CONF_settle_band: c->run.settle_band_radps = value / RPM; break;
+    case WH_CONF_ramp: c->run.drive.ramp_radps2 = value / RPM; break;
+    case WH_CONF_gain: c->run.drive.proportional_V_per_radps = value; break;
+    case WH_CONF_gain_integral: c->run.drive.integral_V_per_rad = value; break;
+    case WH_CONF_spin_up: c->run.spin_up_V = value; break;
+    case WH_CONF_speed_least: c->guard.target_min_radps = value / RPM; break;
+    case WH_CONF_speed_most: c->guard.target_max_radps = value / RPM; break;
+    case WH_CONF_speed_limit: c->guard.limit_radps = value / RPM; break;
+    case WH_CONF_supply_least: c->guard.supply_min_V = value; break;
+    case WH_CONF_supply_most: c->guard.supply_max_V = value; break;
+    case WH_CONF_armed_time: c->armed_max_s = value; break;
+    case WH_CONF_rest_time: c->rest_max_s = value; break;
+    case WH_CONF_stop_brakes: c->stop_brakes = is_on(value); break;
+    case WH_CONF_swings: c->swings = is_on(value); break;
+    case WH_CONF_host_loss_stops: c->host_loss_stops = is_on(value); break;
+    case WH_CONF_feeds:
+        c->feeds = is_on(value - WH_R(1.0)) ? WH_FEED_ALWAYS
+                   : is_on(value)           ? WH_FEED_SLOW
+                                            : WH_FEED_NEVER;
+        break;
+    case WH_CONF_yields: c->measure.rotor.yields_kgm2 = value; break;
+    case WH_CONF_COUNT: break;
+    }
+}
+
+/* --- into the rig's configuration --------------------------------------------------------------------- */
+
+static bool same(wh_real one, wh_real other) { return one >= other && one <= other; }
+
+static bool is_set(const wh_conf *conf, wh_conf_id id) {
+    return !same(conf->value[id], conf->standard[id]);
+}
+
+/* What gravity and the masses' force do elsewhere, in proportion: docs/rig.md has the reasons. */
+static void put_rotor(const wh_conf *conf, wh_rig_config *c) {
+    const wh_real moment = conf->value[WH_CONF_mass_moment];
+    const wh_real moments = moment / conf->standard[WH_CONF_mass_moment];
+    const wh_real weights = moments * (conf->value[WH_CONF_gravity] / WH_RIG_GRAVITY_MPS2);
+    const wh_real inertias = conf->value[WH_CONF_inertia] / conf->standard[WH_CONF_inertia];
+    c->feed.weight_Nm = moment * conf->value[WH_CONF_gravity];
+    c->guard.load_still_kgm *=
+        moments * conf->value[WH_CONF_mount_factor] / conf->standard[WH_CONF_mount_factor];
+    c->guard.fall_radps *= WH_SQRT(weights / inertias);
+}
+
+static void put_sensors(const wh_conf *conf, wh_rig_config *c) {
+    const wh_real lead_deg = conf->value[WH_CONF_slot_lead];
+    wh_rig_slots(c, lead_deg / DEG);
+    c->measure.rotor.mark_rad[0] = (conf->value[WH_CONF_sensor1] - lead_deg) / DEG;
+    c->measure.rotor.mark_rad[1] = (conf->value[WH_CONF_sensor2] - lead_deg) / DEG;
+    c->observer.mark_rad[0] = c->measure.rotor.mark_rad[0];
+    c->observer.mark_rad[1] = c->measure.rotor.mark_rad[1];
+}
+
+static void put_cell(const wh_conf *conf, wh_rig_config *c) {
+    const wh_real scale = conf->value[WH_CONF_cell_scale] / WH_R(1000.0);
+    c->measure.cell.newton_per_count = is_on(conf->value[WH_CONF_cell_reversed]) ? -scale : scale;
+}
+
+static void renew(const wh_conf *conf) {
+    wh_rig_config *c = conf->config;
+    conf->own(c);
+    for (unsigned id = 0; id < WH_CONF_COUNT; id++) {
+        if (is_set(conf, (wh_conf_id)id)) {
+            put(c, (wh_conf_id)id, conf->value[id]);
+        }
+    }
+    if (is_set(conf, WH_CONF_mass_moment) || is_set(conf, WH_CONF_gravity) ||
+        is_set(conf, WH_CONF_inertia) || is_set(conf, WH_CONF_mount_factor)) {
+        put_rotor(conf, c);
+    }
+    if (is_set(conf, WH_CONF_sensor1) || is_set(conf, WH_CONF_sensor2) ||
+        is_set(conf, WH_CONF_slot_lead)) {
+        put_sensors(conf, c);
+    }
+    if (is_set(conf, WH_CONF_cell_scale) || is_set(conf, WH_CONF_cell_reversed)) {
+        put_cell(conf, c);
+    }
+}
+
+/* --- what may be set ----------------------------------------------------------------------------------- */
+
+static bool in_range(wh_conf_id id, wh_real value) {
+    const wh_conf_row *row = &rows[id];
+    return value >= row->least && value <= row->most &&
+           ((wh_conf_kind)row->kind == WH_CONF_REAL || same(value, (wh_real)(int32_t)value));
+}
+
+static bool go_together(const wh_conf *conf) {
+    const wh_real *value = conf->value;
+    return value[WH_CONF_speed_least] < value[WH_CONF_speed_most] &&
+           value[WH_CONF_speed_most] < value[WH_CONF_speed_limit] &&
+           value[WH_CONF_supply_least] < value[WH_CONF_supply_most];
+}
+
+wh_conf_status wh_conf_set(wh_conf *conf, wh_conf_id id, wh_real value) {
+    const wh_real kept = (wh_real)(float)value; /* as memory has it */
+    if (!in_range(id, value)) {
+        return WH_CONF_RANGE;
+    }
+    const wh_real before = conf->value[id];
+    conf->value[id] = kept;
+    if (!go_together(conf)) {
+        conf->value[id] = before;
+        return WH_CONF_AGAINST;
+    }
+    renew(conf);
+    return WH_CONF_DONE;
+}
+
+/* --- words ------------------------------------------------------------------------------------------------ */
+
+static const char *words_of(wh_conf_id id) {
+#define WORDS(kind, word) \
+    case kind: return word;
+    switch ((wh_conf_kind)rows[id].kind) { WH_CONF_KIND_ROWS(WORDS) case WH_CONF_KINDS : break; }
+#undef WORDS
+    return "";
+}
+
+static bool is_choice(wh_conf_id id) {
+    const wh_conf_kind kind = (wh_conf_kind)rows[id].kind;
+    return kind != WH_CONF_REAL && kind != WH_CONF_WHOLE;
+}
+
+/* Behind the next '|'; NULL when there is none. */
+static const char *next_word(const char *at) {
+    while (*at != '\0' && *at != '|') {
+        at++;
+    }
+    return *at == '|' ? at + 1 : NULL;
+}
+
+const char *wh_conf_text(wh_conf_id id, wh_real value) {
+    const char *at = is_choice(id) ? words_of(id) : NULL;
+    for (int32_t i = (int32_t)value; at != NULL && i > 0; i--) {
+        at = next_word(at);
+    }
+    return at;
+}
+
+static bool begins(const char *word, const char *with) {
+    while (*with != '\0' && *with != '|' && *with == *word) {
+        with++;
+        word++;
+    }
+    return *with == '\0' && (*word == '\0' || *word == '|');
+}
+
+wh_conf_status wh_conf_type(wh_conf *conf, wh_conf_id id, const char *typed) {
+    wh_real value = WH_R(0.0);
+    if (!is_choice(id)) {
+        return wh_line_number(typed, &value) ? wh_conf_set(conf, id, value) : WH_CONF_VALUE;
+    }
+    const char *word = words_of(id);
+    while (word != NULL && !begins(word, typed)) {
+        word = next_word(word);
+        value += WH_R(1.0);
+    }
+    return word != NULL && *typed != '\0' ? wh_conf_set(conf, id, value) : WH_CONF_VALUE;
+}
+
+/* --- all of them ------------------------------------------------------------------------------------------- */
+
+void wh_conf_default(wh_conf *conf) {
+    for (unsigned id = 0; id < WH_CONF_COUNT; id++) {
+        conf->value[id] = conf->standard[id];
+    }
+    renew(conf);
+}
+
+static void take(wh_conf *conf, unsigned number, wh_real value) {
+    for (unsigned id = 0; id < WH_CONF_COUNT; id++) {
+        if (rows[id].number == number && in_range((wh_conf_id)id, value)) {
+            conf->value[id] = value;
+        }
+    }
+}
+
+void wh_conf_start(wh_conf *conf, void (*own)(wh_rig_config *config), const wh_store_memory *memory,
+                   wh_rig_config *config) {
+    uint8_t payload[WH_STORE_PAYLOAD_MOST];
+    *conf = (wh_conf){.own = own, .memory = memory, .config = config};
+    own(config);
+    for (unsigned id = 0; id < WH_CONF_COUNT; id++) {
+        conf->standard[id] = (wh_real)(float)value_of(config, (wh_conf_id)id);
+        conf->value[id] = conf->standard[id];
+    }
+    const int count =
+        memory != NULL ? wh_store_load(memory, payload, sizeof payload, &conf->sequence) : -1;
+    if (count <= 0) {
+        return;
+    }
+    wh_bytes bytes = {.from = payload, .room = (unsigned)count};
+    while (bytes.room - bytes.at >= ENTRY_BYTES) {
+        const unsigned number = wh_bytes_get(&bytes, 1);
+        take(conf, number, (wh_real)wh_bytes_get_float(&bytes));
+    }
+    if (go_together(conf)) {
+        renew(conf);
+    } else {
+        wh_conf_default(conf);
+    }
+}
+
+wh_conf_status wh_conf_save(wh_conf *conf) {
+    uint8_t payload[WH_STORE_PAYLOAD_MOST];
+    wh_bytes bytes = {.to = payload, .room = sizeof payload};
+    for (unsigned id = 0; id < WH_CONF_COUNT; id++) {
+        if (is_set(conf, (wh_conf_id)id)) {
+            wh_bytes_put(&bytes, rows[id].number, 1);
+            wh_bytes_put_float(&bytes, (float)conf->value[id]);
+        }
+    }
+    if (conf->memory == NULL || !wh_store_save(conf->memory, payload, bytes.at)) {
+        return WH_CONF_FAILED;
+    }
+    return wh_store_load(conf->memory, payload, sizeof payload, &conf->sequence) < 0
+               ? WH_CONF_FAILED
+               : WH_CONF_DONE;
+}

@@ -1,0 +1,12 @@
+/* errors.c: why a line at the console is refused, in words. */
+#include "errors.h"
+
+const char *wh_station_error_text(wh_station_error error) {
+#define WH_STATION_CASE(name, number, words) \
+    case name: return words;
+    switch (error) {
+        WH_STATION_ERROR_ROWS(WH_STATION_CASE)
+    case WH_STATION_FINE: break;
+    }
+    return "unknown error";
+}

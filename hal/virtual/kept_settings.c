@@ -1,0 +1,42 @@
+/* kept_settings.c: hal/settings.h in plain memory: of a rig that is played, gone with it. */
+#include "core/real.h"
+#include "hal/settings.h"
+
+#if !WH_DOUBLE
+
+enum { SLOTS = 2 };
+
+static uint8_t kept[SLOTS][HAL_SETTINGS_BYTES];
+
+static bool within(unsigned slot, unsigned at, unsigned count) {
+    return slot < SLOTS && at <= HAL_SETTINGS_BYTES && count <= HAL_SETTINGS_BYTES - at;
+}
+
+bool hal_settings_erase(unsigned slot) {
+    for (unsigned i = 0; slot < SLOTS && i < HAL_SETTINGS_BYTES; i++) {
+        kept[slot][i] = 0xFF;
+    }
+    return slot < SLOTS;
+}
+
+bool hal_settings_write(unsigned slot, unsigned at, const uint8_t *bytes, unsigned count) {
+    if (!within(slot, at, count)) {
+        return false;
+    }
+    for (unsigned i = 0; i < count; i++) {
+        kept[slot][at + i] = bytes[i];
+    }
+    return true;
+}
+
+bool hal_settings_read(unsigned slot, unsigned at, uint8_t *bytes, unsigned count) {
+    if (!within(slot, at, count)) {
+        return false;
+    }
+    for (unsigned i = 0; i < count; i++) {
+        bytes[i] = kept[slot][at + i];
+    }
+    return true;
+}
+
+#endif

@@ -1,0 +1,248 @@
+/* test_store.c: settings in two slots: after a write that is torn at whatever byte they are the old or the new, and what is
+ * written next is kept. */
+#include "core/station/store.h"
+
+#include <string.h>
+
+#include "draw.h"
+#include "unity.h"
+
+void suite_store(void);
+
+#define SLOT_BYTES 256U
+#define FOREVER UINT32_MAX
+
+static uint8_t flash[WH_STORE_SLOTS][SLOT_BYTES];
+static uint8_t photo[WH_STORE_SLOTS][SLOT_BYTES];
+static uint32_t left;  /* bytes that can still be erased or written before the supply fails */
+static bool scattered; /* an erase that fails has been at all bytes at once */
+static bool one_sided; /* writes can make zeros only, as flash does */
+static uint64_t seed;
+
+static void start_flash(void) {
+    memset(flash, 0xFF, sizeof flash);
+    left = FOREVER;
+    scattered = false;
+    one_sided = true;
+}
+
+/* A byte on its way from `was` to `becomes`: some of its bits have arrived. */
+static uint8_t torn(uint8_t was, uint8_t becomes) {
+    const uint8_t arrived = (uint8_t)draw_bits(&seed);
+    return (uint8_t)((was & ~arrived) | (becomes & arrived));
+}
+
+static void put(unsigned slot, unsigned at, uint8_t byte) {
+    if (left == 0) {
+        return;
+    }
+    left -= left != FOREVER ? 1U : 0U;
+    flash[slot][at] = left == 0 ? torn(flash[slot][at], byte) : byte;
+}
+
+static bool erase(unsigned slot) {
+    TEST_ASSERT_TRUE(slot < WH_STORE_SLOTS);
+    if (scattered && left < SLOT_BYTES) {
+        for (unsigned i = 0; i < SLOT_BYTES && left > 0; i++) {
+            flash[slot][i] = torn(flash[slot][i], 0xFF);
+        }
+        left = 0;
+    }
+    for (unsigned i = 0; i < SLOT_BYTES; i++) {
+        put(slot, i, 0xFF);
+    }
+    return left > 0;
+}
+
+static bool write(unsigned slot, unsigned at, const uint8_t *bytes, unsigned count) {
+    TEST_ASSERT_TRUE(slot < WH_STORE_SLOTS && at % 4U == 0 && at + count <= SLOT_BYTES);
+    for (unsigned i = 0; i < count; i++) {
+        TEST_ASSERT_TRUE(left == 0 || !one_sided || flash[slot][at + i] == 0xFF);
+        put(slot, at + i, bytes[i]);
+    }
+    return left > 0;
+}
+
+static bool read(unsigned slot, unsigned at, uint8_t *bytes, unsigned count) {
+    TEST_ASSERT_TRUE(slot < WH_STORE_SLOTS && at + count <= SLOT_BYTES);
+    memcpy(bytes, flash[slot] + at, count);
+    return true;
+}
+
+static const wh_store_memory memory = {erase, write, read};
+
+typedef struct payload {
+    uint8_t bytes[WH_STORE_PAYLOAD_MOST];
+    int count; /* -1: none */
+} payload;
+
+static payload draw_payload(void) {
+    payload p = {.count = (int)draw_one_of(&seed, draw_one_in(&seed, 3) ? 12U : 241U)};
+    for (int i = 0; i < p.count; i++) {
+        p.bytes[i] = (uint8_t)(draw_one_in(&seed, 4) ? 0xFFU : draw_bits(&seed));
+    }
+    return p;
+}
+
+static bool save(const payload *p) { return wh_store_save(&memory, p->bytes, (unsigned)p->count); }
+
+static bool is_loaded(const payload *p) {
+    uint8_t bytes[WH_STORE_PAYLOAD_MOST];
+    uint32_t sequence;
+    const int count = wh_store_load(&memory, bytes, sizeof bytes, &sequence);
+    TEST_ASSERT_TRUE((count < 0) == (sequence == 0));
+    return count == p->count && (count <= 0 || memcmp(bytes, p->bytes, (unsigned)count) == 0);
+}
+
+/* The record as the header of store.h has it, with a CRC of another making. */
+static void put_by_hand(unsigned slot, const payload *p, uint32_t sequence) {
+    uint8_t *to = flash[slot];
+    uint32_t crc = 0xFFFFFFFFU;
+    const unsigned length = 8U + (unsigned)p->count;
+    to[0] = 0x01;
+    to[1] = 0x57;
+    to[2] = (uint8_t)p->count;
+    to[3] = (uint8_t)((unsigned)p->count >> 8);
+    for (unsigned i = 0; i < 4U; i++) {
+        to[4U + i] = (uint8_t)(sequence >> 8U * i);
+    }
+    memcpy(to + 8, p->bytes, (unsigned)p->count);
+    for (unsigned bit = 0; bit < 8U * length; bit++) {
+        const uint32_t in = (uint32_t)(to[bit / 8U] >> bit % 8U) & 1U;
+        crc = (crc >> 1) ^ (((crc ^ in) & 1U) != 0 ? 0xEDB88320U : 0U);
+    }
+    for (unsigned i = 0; i < 4U; i++) {
+        to[length + i] = (uint8_t)(~crc >> 8U * i);
+    }
+}
+
+/* A new one, a second, and so on: each is what is loaded. */
+static void test_what_is_saved_is_loaded(void) {
+    seed = 3;
+    start_flash();
+    const payload none = {.count = -1};
+    TEST_ASSERT_TRUE(is_loaded(&none));
+    for (unsigned i = 0; i < 300U; i++) {
+        const payload p = draw_payload();
+        TEST_ASSERT_TRUE(save(&p) && is_loaded(&p));
+    }
+    const uint8_t many[WH_STORE_PAYLOAD_MOST + 1U] = {0};
+    TEST_ASSERT_FALSE(wh_store_save(&memory, many, sizeof many));
+    uint8_t few[1];
+    uint32_t sequence;
+    payload p = draw_payload();
+    p.count = 2;
+    TEST_ASSERT_TRUE(save(&p));
+    TEST_ASSERT_EQUAL_INT(-1, wh_store_load(&memory, few, sizeof few, &sequence));
+    TEST_ASSERT_EQUAL_UINT32(302, sequence - 0U + 1U);
+}
+
+/* The supply fails at every byte that is erased or written: old or new, nothing else; and what is saved then is kept. */
+static void test_torn_at_every_byte(void) {
+    seed = 4;
+    unsigned old = 0;
+    unsigned new = 0;
+    for (unsigned round = 0; round < 8U; round++) {
+        start_flash();
+        payload before = {.count = -1};
+        for (unsigned i = 0; i < round; i++) { /* none, one slot, both */
+            before = draw_payload();
+            TEST_ASSERT_TRUE(save(&before));
+        }
+        const payload after = draw_payload();
+        const uint32_t all = SLOT_BYTES + WH_STORE_FIXED_BYTES + (uint32_t)after.count;
+        memcpy(photo, flash, sizeof flash);
+        for (uint32_t at = 0; at <= all + 1U; at++) {
+            for (unsigned way = 0; way < 2U; way++) {
+                memcpy(flash, photo, sizeof flash);
+                scattered = way == 1U;
+                left = at;
+                const bool said = save(&after);
+                left = FOREVER;
+                const bool is_new = is_loaded(&after);
+                TEST_ASSERT_TRUE(is_new || is_loaded(&before));
+                TEST_ASSERT_TRUE(is_new || !said); /* what it says is there, is */
+                TEST_ASSERT_TRUE(at <= all || said);
+                old += is_new ? 0U : 1U;
+                new += is_new ? 1U : 0U;
+                const payload next = draw_payload();
+                TEST_ASSERT_TRUE(save(&next) && is_loaded(&next));
+            }
+        }
+    }
+    TEST_ASSERT_TRUE(old > 5000U && new >= 8U);
+}
+
+/* A bit of the newest that has turned: the one before counts. */
+static void test_every_bit(void) {
+    seed = 5;
+    for (unsigned round = 0; round < 4U; round++) {
+        start_flash();
+        payload before = draw_payload();
+        for (unsigned i = 0; i < round; i++) {
+            TEST_ASSERT_TRUE(save(&before));
+        }
+        before = draw_payload();
+        TEST_ASSERT_TRUE(save(&before));
+        const payload after = draw_payload();
+        TEST_ASSERT_TRUE(save(&after));
+        const unsigned slot = (round + 1U) % 2U;
+        for (unsigned bit = 0; bit < 8U * (WH_STORE_FIXED_BYTES + (unsigned)after.count); bit++) {
+            flash[slot][bit / 8U] = (uint8_t)(flash[slot][bit / 8U] ^ 1U << bit % 8U);
+            TEST_ASSERT_TRUE(is_loaded(&before));
+            flash[slot][bit / 8U] = (uint8_t)(flash[slot][bit / 8U] ^ 1U << bit % 8U);
+        }
+        TEST_ASSERT_TRUE(is_loaded(&after));
+    }
+}
+
+static uint32_t after_it(uint32_t sequence) { return sequence == UINT32_MAX ? 1U : sequence + 1U; }
+
+/* Sequences wrap; and the format is the one that is written down. */
+static void test_sequences_wrap(void) {
+    static const uint32_t first[] = {1U, 0x7FFFFFFFU, 0xFFFFFFFEU, 0xFFFFFFFFU};
+    seed = 6;
+    for (unsigned i = 0; i < 8U; i++) {
+        start_flash();
+        const payload one = draw_payload();
+        const payload two = draw_payload();
+        const uint32_t second = after_it(first[i / 2U]);
+        put_by_hand(i % 2U, &one, first[i / 2U]);
+        TEST_ASSERT_TRUE(is_loaded(&one));
+        put_by_hand(1U - i % 2U, &two, second);
+        TEST_ASSERT_TRUE(is_loaded(&two));
+        memcpy(photo, flash, sizeof flash);
+        const payload three = draw_payload();
+        TEST_ASSERT_TRUE(save(&three) && is_loaded(&three));
+        TEST_ASSERT_TRUE(memcmp(photo[1U - i % 2U], flash[1U - i % 2U], SLOT_BYTES) == 0);
+        memcpy(photo, flash, sizeof flash);
+        put_by_hand(i % 2U, &three, after_it(second));
+        TEST_ASSERT_TRUE(memcmp(photo, flash, sizeof flash) == 0); /* byte by byte */
+    }
+}
+
+/* Memory that fails is said to have, and another format is none. */
+static void test_failing_memory(void) {
+    seed = 7;
+    start_flash();
+    payload p = draw_payload();
+    TEST_ASSERT_TRUE(save(&p));
+    left = 0;
+    payload q = draw_payload();
+    TEST_ASSERT_FALSE(save(&q));
+    left = FOREVER;
+    TEST_ASSERT_TRUE(is_loaded(&p));
+    const payload none = {.count = -1};
+    put_by_hand(0, &p, 9);
+    flash[0][0] = 0x02;
+    memset(flash[1], 0, SLOT_BYTES);
+    TEST_ASSERT_TRUE(is_loaded(&none));
+}
+
+void suite_store(void) {
+    RUN_TEST(test_what_is_saved_is_loaded);
+    RUN_TEST(test_torn_at_every_byte);
+    RUN_TEST(test_every_bit);
+    RUN_TEST(test_sequences_wrap);
+    RUN_TEST(test_failing_memory);
+}
