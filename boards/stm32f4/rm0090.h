@@ -59,11 +59,23 @@
 #define FLASH_ACR_LATENCY 7U
 #define FLASH_ACR_ICEN (1U << 9)
 #define FLASH_ACR_DCEN (1U << 10)
+#define FLASH_ACR_DCRST (1U << 12)
+#define FLASH_KEYR 0x40023C04U
+#define FLASH_KEY1 0x45670123U
+#define FLASH_KEY2 0xCDEF89ABU
 #define FLASH_OPTKEYR 0x40023C08U
 #define FLASH_OPTKEY1 0x08192A3BU
 #define FLASH_OPTKEY2 0x4C5D6E7FU
 #define FLASH_SR 0x40023C0CU
+#define FLASH_SR_ERRORS 0xF2U /* operation, protection, alignment, size, sequence; a one clears */
 #define FLASH_SR_BSY (1U << 16)
+#define FLASH_CR 0x40023C10U
+#define FLASH_CR_PG (1U << 0)
+#define FLASH_CR_SER (1U << 1)
+#define FLASH_CR_SNB(sector) ((sector) << 3)
+#define FLASH_CR_PSIZE_32 (2U << 8) /* from 2.7 V */
+#define FLASH_CR_STRT (1U << 16)
+#define FLASH_CR_LOCK (1U << 31)
 #define FLASH_OPTCR 0x40023C14U
 #define FLASH_OPTCR_OPTLOCK (1U << 0)
 #define FLASH_OPTCR_OPTSTRT (1U << 1)
@@ -165,7 +177,6 @@
 #define IWDG_KR_UNLOCK 0x5555U
 #define IWDG_KR_START 0xCCCCU
 #define IWDG_PR 0x40003004U
-#define IWDG_PR_4 0U
 #define IWDG_RLR 0x40003008U
 #define IWDG_SR 0x4000300CU
 

@@ -51,7 +51,7 @@ graphs() {
 
 # worst_stack ROOT: answers of stack.awk, to $work/stack.
 worst_stack() {
-    { sed 's/^/symbol /' "$work/symbols" && xargs cat <"$work/graphs"; } |
+    { sed 's/^/symbol /' "$work/symbols" && sed '/^#/d; s/^/pointer /' "$here/pointers.rows" && xargs cat <"$work/graphs"; } |
         awk -v root="$1" -f "$here/stack.awk" | sort -u >"$work/stack"
     if grep -E '^(recursion|unbounded)' "$work/stack" >&2; then
         echo "size.sh: $elf: the stack of $1 has no bound" >&2

@@ -17,6 +17,14 @@
 /* Descriptors as the emulator inherits them. */
 enum { CONSOLE = 10, TEST = 11, LOG = 12 };
 
+static pid_t running;
+
+static void end_running(void) {
+    if (running > 0) {
+        (void)kill(running, SIGKILL);
+    }
+}
+
 _Noreturn static void give_up(const char *what) {
     fprintf(stderr, "emulated: %s: %s\n", what, strerror(errno));
     exit(2);
@@ -89,6 +97,10 @@ void emulated_start(emulated *e, const char *machine, const char *elf, unsigned 
     if (e->process < 0) {
         give_up("no process");
     }
+    running = e->process;
+    if (running > 0 && atexit(end_running) != 0) {
+        give_up("no end");
+    }
     if (e->process == 0) {
         if (dup2(console[1], CONSOLE) < 0 || dup2(test[1], TEST) < 0 || dup2(log[1], LOG) < 0) {
             _exit(127);
@@ -106,6 +118,7 @@ void emulated_start(emulated *e, const char *machine, const char *elf, unsigned 
 void emulated_end(emulated *e) {
     (void)kill(e->process, SIGKILL);
     (void)waitpid(e->process, NULL, 0);
+    running = 0;
     (void)close(e->console);
     (void)close(e->test);
     (void)close(e->log);
