@@ -29,7 +29,7 @@ END {
         }
     }
     printf "%s: %d mutants, %d killed (%d by a crash, %d by a time limit), %d survived: %.1f %%" \
-           " (not compiled %d, same objects %d)\n", folder, mutants, killed, crashed, endless, survived,
+           " (not compiled %d, same objects %d)\n", row, mutants, killed, crashed, endless, survived,
            mutants ? 100 * killed / mutants : 0, refused, same
     for (i = 1; i <= survived; i++) {
         n = left[i]

@@ -1,5 +1,5 @@
-/* test_lockin_late.c: what the lock-in finds does not hang on when its samples arrive, nor on what it was told before it was
- * made to forget. */
+/* test_lockin_late.c: what the lock-in finds does not hang on when its samples arrive, nor on where between them a turn begins,
+ * nor on what it was told before it was made to forget. */
 #include "core/angle.h"
 #include "core/rig/lockin.h"
 #include "core/rig/rig.h"
@@ -24,6 +24,7 @@ static wh_lockin fresh;
 typedef struct stream {
     uint32_t ticks; /* of the first sample */
     int lead;
+    int32_t behind_ticks; /* so much before the sample it begins near */
     wh_real mean_N;
     wh_real cosine_N;
     wh_real sine_N;
@@ -35,6 +36,7 @@ typedef struct stream {
 static stream draw_stream(void) {
     return (stream){.ticks = (uint32_t)draw_bits(&seed) * 2U,
                     .lead = (int)draw_one_of(&seed, 30),
+                    .behind_ticks = 777,
                     .mean_N = draw_broken(&seed, -60, 60),
                     .cosine_N = draw_broken(&seed, -40, 40),
                     .sine_N = draw_broken(&seed, -40, 40),
@@ -57,7 +59,7 @@ static unsigned play(const stream *from, wh_lockin *to, unsigned steps, wh_locki
     /* as the rig: a step without samples does more */
     const unsigned halves = from->held + from->hold_more == 0 ? WH_LOCKIN_HALVES_AT_ONCE
                                                               : WH_LOCKIN_HALVES_AT_ONCE + 1U;
-    const int32_t mark = (int32_t)from->lead * (int32_t)PERIOD_TICKS - 777;
+    const int32_t mark = (int32_t)from->lead * (int32_t)PERIOD_TICKS - from->behind_ticks;
     unsigned done = 0;
     unsigned given = 0;
     unsigned hold = from->held;
@@ -165,7 +167,38 @@ static void test_what_was_forgotten_changes_nothing(void) {
     }
 }
 
+/* A turn that begins, ends or is split at a sample, or so many ticks beside one: it is as right as any other. */
+static void test_marks_may_fall_on_samples(void) {
+    static wh_lockin_turn found[TURNS];
+    begin(3);
+    for (int32_t beside = -3; beside <= 3; beside++) {
+        for (int32_t turn = 0; turn <= (int32_t)TURNS; turn++) {
+            for (int32_t split = 0; split < 2; split++) {
+                stream from = draw_stream();
+                from.lead = 6;
+                from.ripple_N = WH_R(0.0);
+                const int32_t into =
+                    turn * (int32_t)TURN_TICKS + split * (int32_t)(TURN_TICKS / 4U);
+                from.behind_ticks = (into + beside) % (int32_t)PERIOD_TICKS;
+                const unsigned steps = 6U * (TURN_TICKS / PERIOD_TICKS + 1U) + 80U;
+                wh_lockin_start(&rotor, &lockin);
+                TEST_ASSERT_EQUAL_UINT(TURNS, play(&from, &lockin, steps, found));
+                for (unsigned k = 2; k < TURNS; k++) {
+                    TEST_ASSERT_TRUE(found[k].fault == WH_TURN_OK);
+                    TEST_ASSERT_TRUE(found[k].samples >= 90U && found[k].samples <= 91U);
+                    check_near(from.mean_N, found[k].force_N.at[0], WH_R(0.01));
+                    check_near(from.cosine_N, found[k].force_N.at[1], WH_R(0.01));
+                    check_near(from.sine_N, found[k].force_N.at[2], WH_R(0.01));
+                    check_near(from.mean_N + from.cosine_N, found[k].at_mark_N[0], WH_R(0.05));
+                    check_near(from.mean_N + from.sine_N, found[k].at_mark_N[1], WH_R(0.05));
+                }
+            }
+        }
+    }
+}
+
 void suite_lockin_late(void) {
+    RUN_TEST(test_marks_may_fall_on_samples);
     RUN_TEST(test_late_samples_change_nothing);
     RUN_TEST(test_what_was_forgotten_changes_nothing);
 }

@@ -129,6 +129,34 @@ static void test_normal_equations_hold(void) {
     }
 }
 
+/* What a deviation's square is: its unknown, where the right side is that unknown's unit vector. Weak rows and strong ones. */
+static void test_a_deviation_is_the_inverses_diagonal(void) {
+    seed = 14;
+    for (unsigned i = 0; i < 100U; i++) {
+        const wh_real zero[N] = {WH_R(0.0)};
+        wh_normal normal;
+        wh_normal_start(&normal, zero);
+        const unsigned rows = draw_one_of(&seed, 12);
+        for (unsigned j = 0; j < rows; j++) {
+            wh_real row[N];
+            for (unsigned k = 0; k < N; k++) {
+                row[k] = draw_broken(&seed, -1, 1);
+            }
+            wh_normal_add(&normal, row, WH_R(0.0), drawn_between(WH_R(0.1), WH_R(20.0)));
+        }
+        wh_normal_factor(&normal);
+        for (unsigned which = 0; which < N; which++) {
+            for (unsigned k = 0; k < N; k++) {
+                normal.right[k] = k == which ? WH_R(1.0) : WH_R(0.0);
+            }
+            wh_normal_solve(&normal);
+            const wh_real deviation = wh_normal_deviation(&normal, which);
+            TEST_ASSERT_FLOAT_WITHIN(1e-4f, (float)normal.right[which],
+                                     (float)(deviation * deviation));
+        }
+    }
+}
+
 /* --- pulses -------------------------------------------------------------------------------------------- */
 
 /* With the motor off a rotor is no faster than over the last interval in which it was not driven: one that began as the motor
@@ -346,6 +374,7 @@ void suite_rig_parts(void) {
     RUN_TEST(test_polar_of_every_size);
     RUN_TEST(test_a_split_says_how_far_the_mark_was_off);
     RUN_TEST(test_normal_equations_hold);
+    RUN_TEST(test_a_deviation_is_the_inverses_diagonal);
     RUN_TEST(test_the_last_interval_bounds_what_coasts);
     RUN_TEST(test_doubt_grows_by_two_and_shrinks_by_one);
     RUN_TEST(test_the_second_pulse_is_suspected_where_it_is_fast);

@@ -273,6 +273,28 @@ static void test_a_pulse_too_many_while_it_settles(void) { check_places(WH_PHASE
 
 static void test_a_pulse_too_many_on_the_ramp(void) { check_places(WH_PHASE_RAMP); }
 
+/* Two that are none, each between two true ones, with so many true ones between them: each is found. */
+static void test_two_pulses_too_many(void) {
+    seed = 7;
+    for (unsigned i = 0; i < 240U; i++) {
+        make_train(speeds_rpm[draw_one_of(&seed, SPEEDS)]);
+        give_train(0);
+        const unsigned first = DISTURBED + draw_one_of(&seed, 2);
+        for (unsigned k = 0; k < 2U; k++) {
+            const unsigned at = first + k * (1U + i % 3U);
+            const uint32_t gap = train[at + 1U].ticks - train[at].ticks;
+            give(draw_one_of(&seed, 2),
+                 train[at].ticks + gap / 8U + (uint32_t)(draw_bits(&seed) % (gap / 4U * 3U)),
+                 false);
+        }
+        stand_in(WH_PHASE_RECORD);
+        const outcome out = play(0);
+        check_marks(&out, 0);
+        TEST_ASSERT_EQUAL_UINT32(2, rig.pulses.rejected);
+        TEST_ASSERT_TRUE(rig.guard.trip == WH_TRIP_NONE && out.off_rpm <= WH_R(2.0));
+    }
+}
+
 /* --- some too few --------------------------------------------------------------------------------- */
 
 /* One is bridged, more are a gap: the position begins afresh, the speed stays. */
@@ -367,6 +389,7 @@ void suite_rig_pulses(void) {
     RUN_TEST(test_a_pulse_too_many_in_the_record);
     RUN_TEST(test_a_pulse_too_many_while_it_settles);
     RUN_TEST(test_a_pulse_too_many_on_the_ramp);
+    RUN_TEST(test_two_pulses_too_many);
     RUN_TEST(test_lost_pulses);
     RUN_TEST(test_stamps_from_the_future);
     RUN_TEST(test_bounces);

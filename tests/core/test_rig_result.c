@@ -295,6 +295,44 @@ static void test_every_reason_has_its_case(void) {
     TEST_ASSERT_TRUE(why_of(nan, WH_R(0.0), plain, 10, 0) == WH_WHY_AMPLITUDE);
 }
 
+/* The part of gravity that is left is told where it is fed forward and pulls, and is 0 else. */
+static void test_what_is_left_of_gravity(void) {
+    for (unsigned i = 0; i < 4U; i++) {
+        begin();
+        rotor.gravity_mps2 = i < 2U ? rotor.gravity_mps2 : WH_R(0.0);
+        wh_turn_angle_start(&rotor, &angle);
+        wh_turn_angle_feed(&angle, i % 2U == 0);
+        wh_turn_angle_shape(&rotor, &angle, WH_R(330.0) * WH_RIG_RADPS_PER_RPM);
+        for (unsigned k = 0; k < 10U; k++) {
+            const wh_lockin_turn turn = turn_of(WH_R(42.0), WH_R(0.0), k);
+            add(&turn);
+        }
+        merge.swing_rad = WH_R(-0.125) * angle.whole_rad;
+        conclude(&wh_rig_standard.measure.result);
+        TEST_ASSERT_FLOAT_WITHIN(1e-6f, i == 0 ? 0.125f : 0.0f, (float)measured.left_part);
+    }
+}
+
+/* Of one turn nothing scatters, and of a load that is none there is no phase: no interval is told, and none is not a number. */
+static void test_without_scatter_or_load_there_is_no_interval(void) {
+    for (unsigned turns = 0; turns <= 3U; turns++) {
+        for (unsigned loads = 0; loads < 2U; loads++) {
+            begin();
+            for (unsigned i = 0; i < turns; i++) {
+                const wh_lockin_turn turn =
+                    turn_of(loads == 1U ? WH_R(42.0) : WH_R(0.0), WH_R(0.0), i);
+                add(&turn);
+            }
+            conclude(&wh_rig_standard.measure.result);
+            const bool tells = turns >= 2U && loads == 1U;
+            TEST_ASSERT_TRUE((measured.amplitude_half_N > WH_R(0.0)) == tells);
+            TEST_ASSERT_TRUE((measured.phase_half_rad > WH_R(0.0)) == tells);
+            TEST_ASSERT_TRUE(measured.amplitude_half_N < WH_R(42.0));
+            TEST_ASSERT_TRUE(measured.phase_half_rad < WH_R(1.0));
+        }
+    }
+}
+
 /* A carriage of three times the masses' weight takes a quarter of the force away. */
 static void test_the_mount_decides_what_is_expected(void) {
     begin();
@@ -390,6 +428,8 @@ void suite_rig_result(void) {
     RUN_TEST(test_floors_are_kept);
     RUN_TEST(test_jitter_is_found);
     RUN_TEST(test_every_reason_has_its_case);
+    RUN_TEST(test_what_is_left_of_gravity);
+    RUN_TEST(test_without_scatter_or_load_there_is_no_interval);
     RUN_TEST(test_the_mount_decides_what_is_expected);
     RUN_TEST(test_every_reason_has_words_of_its_own);
     RUN_TEST(test_noise_is_no_motion);

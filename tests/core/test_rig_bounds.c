@@ -1,0 +1,203 @@
+/* test_rig_bounds.c: what is bounded in the rig's controller: how much of the work a control step does, how long a ramp may
+ * take, what of the tare is still known behind it, limits of the tare that are allowed themselves; and a stage in words. */
+#include "build/gen/scenes.h"
+#include "core/rig/observer.h"
+#include "draw.h"
+#include "even_rig.h"
+
+#include "unity.h"
+
+void suite_rig_bounds(void);
+
+static even_rig even;
+static uint64_t seed;
+
+/* Armed, with an observer; `trusted`: every mark is a good one to it, or none. */
+static void arm(bool trusted) {
+    even_arm(&even);
+    wh_observer_config *observing = &even.config.observer;
+    observing->scene = &rig_fixed;
+    observing->trusted_rad = observing->lost_rad = trusted ? WH_R(3.2) : WH_R(0.0);
+    observing->trusted_marks = 1000000U;
+    even.config.feeds = WH_FEED_ALWAYS;
+    TEST_ASSERT_TRUE(wh_observer_start(observing, &even.rig.observer, even.inputs.now_ticks) ==
+                     WH_OK);
+}
+
+/* --- a step's work --------------------------------------------------------------------------------------- */
+
+/* Marks that wait, as many as there is room for: a step takes one, but a single one only when no pulse came. */
+static void test_a_single_mark_waits_for_a_step_without_a_pulse(void) {
+    static even_rig twin;
+    even_reach(&even, WH_PHASE_SETTLE);
+    while (even.rig.pulses.waits || even.rig.pulses.marks > 0) {
+        even_step(&even); /* the last pulse's mark is taken */
+    }
+    twin = even;
+    for (unsigned marks = 0; marks <= WH_PULSES_MARKS; marks++) {
+        for (unsigned pulse = 0; pulse < 2U; pulse++) {
+            even = twin;
+            for (unsigned i = 0; i < marks; i++) {
+                even.rig.pulses.mark[i] = even.rig.pulses.last;
+            }
+            even.rig.pulses.marks = marks;
+            even.rig.busy = pulse == 1U;
+            const uint32_t ever = even.rig.pulses_ever;
+            even_step(&even);
+            TEST_ASSERT_EQUAL_UINT32(ever, even.rig.pulses_ever);
+            const unsigned taken = marks == 0 || (marks == 1U && pulse == 1U) ? 0U : 1U;
+            TEST_ASSERT_EQUAL_UINT(marks - taken, even.rig.pulses.marks);
+        }
+    }
+}
+
+/* Half nodes of the turn's sums since then; -1 where that cannot be told. */
+static int halves_since(const wh_lockin *before) {
+    const wh_lockin *now = &even.rig.measure.lockin;
+    if (before->stage != WH_LOCKIN_SUMS || now->stage != WH_LOCKIN_SUMS || now->count < 4U ||
+        before->place == WH_LOCKIN_BEGIN || now->place == WH_LOCKIN_END ||
+        before->next.begin_ticks != now->next.begin_ticks) {
+        return -1;
+    }
+    const int nodes = (int)now->next.samples + (int)now->next.outliers - (int)before->next.samples -
+                      (int)before->next.outliers;
+    return 2 * nodes + (now->place != WH_LOCKIN_NOWHERE ? 1 : 0) -
+           (before->place != WH_LOCKIN_NOWHERE ? 1 : 0);
+}
+
+/* A controller that is late, by up to three steps, with samples that came meanwhile or none: of a turn's sums four half nodes
+ * are worked on where there is no sample, three where there is one (two while a mark is not sure and gravity is fed), one where
+ * there are more, or where the observer has come up by two steps. Where a pulse or a mark was work enough: none. */
+static void test_a_step_works_on_as_much_of_a_turn_as_there_is_time_for(void) {
+    static wh_lockin before;
+    unsigned times[5] = {0};
+    for (unsigned fed = 0; fed < 2U; fed++) {
+        seed = 1U + fed;
+        arm(true);
+        even.config.feeds = fed == 1U ? WH_FEED_ALWAYS : WH_FEED_NEVER;
+        even.config.measure.record_s = WH_R(8.0);
+        TEST_ASSERT_TRUE(even_order(&even, WH_EVENT_START, WH_R(330.0) * EVEN_RPM) == WH_ALLOWED);
+        even_go_on_until(&even, WH_PHASE_RECORD);
+        for (unsigned i = 0; i < 3000U && even.rig.run.phase == WH_PHASE_RECORD; i++) {
+            const unsigned late = draw_one_in(&seed, 4) ? draw_one_of(&seed, 3) : 0U;
+            unsigned samples = 1;
+            if (draw_one_in(&seed, 4)) {
+                even.fails = (even_failure){.in = WH_PHASE_RECORD, .lose_samples = 1};
+                samples = 0;
+            }
+            for (unsigned k = 0; k < late; k++) { /* what it would have heard */
+                even.inputs.now_ticks += EVEN_STEP_TICKS;
+                if (draw_one_in(&seed, 2)) {
+                    wh_rig_load(&even.config, &even.rig, even.inputs.now_ticks - 500U,
+                                EVEN_TARE_RAW, WH_LOAD_OK);
+                    samples++;
+                }
+            }
+            before = even.rig.measure.lockin;
+            const uint32_t observed = even.rig.observer.ticks;
+            const uint32_t ever = even.rig.pulses_ever;
+            const bool waited = even.rig.pulses.waits;
+            even_step(&even);
+            const bool two =
+                even.rig.fed && even.rig.observer.ticks - observed > even.rig.observer.step_ticks;
+            const unsigned work = samples + (two ? 1U : 0U);
+            const bool unsure = even.rig.fed && even.rig.pulses.waits;
+            const int most = work == 0 ? 4 : work > 1U ? 1 : unsure ? 2 : 3;
+            const int done = halves_since(&before);
+            if (done >= 0) {
+                const bool marks = waited != even.rig.pulses.waits || ever != even.rig.pulses_ever;
+                TEST_ASSERT_TRUE(done == most || (done == 0 && (marks || unsure)));
+                times[done]++;
+            }
+        }
+    }
+    for (unsigned k = 0; k < 5U; k++) {
+        TEST_ASSERT_TRUE(times[k] > 20U);
+    }
+}
+
+/* --- phases ----------------------------------------------------------------------------------------------- */
+
+/* A set-point that needs gravity fed forward, and an observer that never gets there: the ramp takes the time it may, and trips. */
+static void test_a_ramp_takes_no_longer_than_it_may(void) {
+    for (unsigned i = 0; i < 3U; i++) {
+        arm(false);
+        even.config.run.ramp_max_s = WH_R(6.0) + WH_R(2.0) * (wh_real)i;
+        TEST_ASSERT_TRUE(even_order(&even, WH_EVENT_START, WH_R(120.0) * EVEN_RPM) == WH_ALLOWED);
+        even_go_on_until(&even, WH_PHASE_RAMP);
+        unsigned steps = 0;
+        for (; even.rig.run.phase == WH_PHASE_RAMP && steps < 10000U; steps++) {
+            even_step(&even);
+        }
+        TEST_ASSERT_EQUAL_UINT((6U + 2U * i) * 500U + 1U, steps);
+        TEST_ASSERT_TRUE(even.rig.guard.trip == WH_TRIP_UNSETTLED);
+    }
+}
+
+/* Pulses of a rotor that hangs and shivers: behind the tare no turn has begun with them. */
+static void test_what_was_seen_at_rest_begins_no_turn(void) {
+    for (unsigned pulses = 0; pulses <= 2U; pulses++) {
+        even_begin(&even, WH_RIG_NOMINAL_RPM, &(even_failure){.in = EVEN_NEVER});
+        for (unsigned i = 0; i < pulses; i++) {
+            even_steps(&even, 50);
+            wh_rig_pulse(&even.config, &even.rig, 0, even.inputs.now_ticks);
+        }
+        even_steps(&even, 20);
+        TEST_ASSERT_TRUE(even.rig.run.phase == WH_PHASE_TARE);
+        even_go_on_until(&even, WH_PHASE_SPIN_UP);
+        TEST_ASSERT_TRUE(even.rig.run.phase == WH_PHASE_SPIN_UP);
+        TEST_ASSERT_FALSE(even.rig.measure.lockin.open || even.rig.pulses.speed.running);
+    }
+}
+
+/* --- limits ------------------------------------------------------------------------------------------------ */
+
+/* Readings that scatter as much as is still: so much is, and the next number beyond it is not; and likewise the mean's error. */
+static void test_limits_of_the_tare_are_allowed(void) {
+    seed = 3;
+    for (unsigned i = 0; i < 200U; i++) {
+        const uint32_t spare = UINT32_C(1) << (1U + draw_one_of(&seed, 7)); /* divides exactly */
+        const wh_real noise_N2 = draw_one_in(&seed, 3) ? WH_R(0.0) : draw_whole(&seed, 1, 64);
+        const wh_real still_N = draw_whole(&seed, 0, 8);
+        const wh_real most_N2 = WH_R(2.0) * noise_N2 + still_N * still_N;
+        wh_tare tare = {.count = spare + 1U, .changes_N2 = WH_R(2.0) * noise_N2 * (wh_real)spare};
+        wh_tare_config config = {.samples = 250, .still_N = still_N, .most_N = WH_R(1e9)};
+        tare.square_N2 = most_N2 * (wh_real)spare;
+        TEST_ASSERT_TRUE(wh_tare_is_still(&config, &tare));
+        config.most_N = wh_tare_error_N(&tare);
+        TEST_ASSERT_TRUE(wh_tare_is_still(&config, &tare));
+        config.most_N *= WH_R(1.0) - WH_R(0x1p-20);
+        TEST_ASSERT_TRUE(wh_tare_is_still(&config, &tare) == !(most_N2 > WH_R(0.0)));
+        config.most_N = WH_R(1e9);
+        tare.square_N2 = tare.square_N2 * (WH_R(1.0) + WH_R(0x1p-20)) + WH_R(0x1p-40);
+        TEST_ASSERT_FALSE(wh_tare_is_still(&config, &tare));
+    }
+}
+
+/* --- words -------------------------------------------------------------------------------------------------- */
+
+/* A number below the phases' is a state, and any other a phase. */
+static void test_a_stage_is_a_state_or_a_phase(void) {
+    for (unsigned stage = 0; stage < 2U * WH_RIG_STAGE_OF_PHASE; stage++) {
+        const bool state = stage < WH_RIG_STAGE_OF_PHASE;
+        const char *words = state ? wh_life_text((wh_life)stage)
+                                  : wh_phase_text((wh_rig_phase)(stage - WH_RIG_STAGE_OF_PHASE));
+        TEST_ASSERT_TRUE(wh_rig_stage_text(stage) == words);
+    }
+    for (wh_life state = WH_LIFE_IDLE; state < WH_LIVES; state++) {
+        for (wh_rig_phase phase = WH_PHASE_NONE; phase < WH_PHASES; phase++) {
+            const wh_rig rig = {.state = state, .run = {.phase = phase}};
+            const char *words = phase == WH_PHASE_NONE ? wh_life_text(state) : wh_phase_text(phase);
+            TEST_ASSERT_TRUE(wh_rig_stage_text(wh_rig_stage(&rig)) == words);
+        }
+    }
+}
+
+void suite_rig_bounds(void) {
+    RUN_TEST(test_a_single_mark_waits_for_a_step_without_a_pulse);
+    RUN_TEST(test_a_step_works_on_as_much_of_a_turn_as_there_is_time_for);
+    RUN_TEST(test_a_ramp_takes_no_longer_than_it_may);
+    RUN_TEST(test_what_was_seen_at_rest_begins_no_turn);
+    RUN_TEST(test_limits_of_the_tare_are_allowed);
+    RUN_TEST(test_a_stage_is_a_state_or_a_phase);
+}

@@ -1,0 +1,290 @@
+/* test_rig_swing_pulses.c: what is kept of a swing's pulses, against the story they were made from; the guess that its times
+ * give, against the rotor (rotor.c) that made them; how much of the work a step does; steps in which a rotor turns back,
+ * against many small ones. */
+#include "core/angle.h"
+#include "core/rig/datasheet.h"
+#include "core/rig/free_swing.h"
+#include "core/rig/rig.h"
+#include "core/rig/swing_guess.h"
+#include "core/root.h"
+#include "draw.h"
+#include "rotor.h"
+
+#include "unity.h"
+
+void suite_rig_swing_pulses(void);
+
+static uint64_t seed;
+static wh_swing swing;
+
+static wh_real drawn_between(wh_real least, wh_real most) {
+    return least + (most - least) * draw_whole(&seed, 0, 10000) / WH_R(10000.0);
+}
+
+static bool near(wh_real found, wh_real wanted, wh_real most) {
+    return WH_ABS(found - wanted) <= most;
+}
+
+/* --- what is kept ---------------------------------------------------------------------------------------- */
+
+/* A rotor that turns and then swings: its pulses in their order, the one with which it first comes back past sensor 1, and
+ * how often it passes that from there on. */
+#define STORY_MOST 120U
+typedef struct story {
+    uint32_t ticks[STORY_MOST];
+    uint8_t sensor[STORY_MOST];
+    unsigned pulses;
+    unsigned first;
+    unsigned passed;
+} story;
+
+static void tell(story *of, unsigned sensor) {
+    const uint32_t before = of->pulses > 0 ? of->ticks[of->pulses - 1U]
+                                           : UINT32_MAX - 2000000U + draw_one_of(&seed, 60000);
+    of->sensor[of->pulses] = (uint8_t)sensor;
+    of->ticks[of->pulses++] = before + 40000U + draw_one_of(&seed, 60000);
+}
+
+/* So many turns; then half swings, to the right over sensor 2 and back past it while they are wide, else not. */
+static void draw_story(story *of, unsigned turns) {
+    *of = (story){.pulses = 0};
+    for (unsigned i = 0; i < turns; i++) {
+        tell(of, 0);
+        tell(of, 1);
+    }
+    const unsigned swings = 1U + draw_one_of(&seed, 12);
+    unsigned wide = draw_one_of(&seed, 4);
+    for (unsigned i = 0; i < swings; i++) {
+        tell(of, 0);
+        of->passed += i > 0 ? 1U : 0U;
+        if (wide > 0) {
+            wide--;
+            tell(of, 1);
+            tell(of, 1);
+        }
+        tell(of, 0);
+        of->first = i == 0 ? of->pulses - 1U : of->first;
+        of->passed++;
+    }
+}
+
+static void give(const story *of, unsigned lost) {
+    const wh_rig_config *config = &wh_rig_standard;
+    swing = (wh_swing){.free = false};
+    wh_swing_step(&config->swing, &config->measure.rotor, &swing, true, false);
+    for (unsigned i = 0; i < of->pulses; i++) {
+        if (i != lost) {
+            wh_swing_pulse(&swing, of->sensor[i], of->ticks[i]);
+        }
+        if (draw_one_in(&seed, 8)) { /* of a sensor that there is not */
+            wh_swing_pulse(&swing, WH_SWING_SENSORS + draw_one_of(&seed, 5), of->ticks[i] + 500U);
+        }
+    }
+}
+
+/* The last pulses before the rotor came back, it, and what follows, for as long as there is room; the last of sensor 1 too. */
+static void check_kept(const story *of) {
+    const unsigned turning = of->first < WH_SWING_TURNING ? of->first : WH_SWING_TURNING;
+    const unsigned from = of->first - turning;
+    const unsigned all = of->pulses - from;
+    TEST_ASSERT_TRUE(swing.swings);
+    TEST_ASSERT_EQUAL_UINT(turning, swing.first);
+    TEST_ASSERT_EQUAL_UINT(of->passed, swing.passed);
+    TEST_ASSERT_EQUAL_UINT(all < WH_SWING_PULSES ? all : WH_SWING_PULSES, swing.kept);
+    for (unsigned i = 0; i < swing.kept; i++) {
+        TEST_ASSERT_EQUAL_UINT32(of->ticks[from + i], swing.kept_ticks[i]);
+        TEST_ASSERT_EQUAL_UINT(of->sensor[from + i], swing.kept_sensor[i]);
+    }
+    unsigned last = 0;
+    for (unsigned i = of->pulses; i-- > of->first && last < WH_SWING_LAST;) {
+        if (of->sensor[i] == 0) {
+            TEST_ASSERT_EQUAL_UINT32(of->ticks[i], swing.last_ticks[last++]);
+        }
+    }
+}
+
+static void test_what_is_kept_of_a_swing(void) {
+    static story told;
+    seed = 1;
+    for (unsigned i = 0; i < 300U; i++) {
+        draw_story(&told, draw_one_of(&seed, 20));
+        give(&told, STORY_MOST);
+        check_kept(&told);
+    }
+}
+
+/* A pulse that is lost while the rotor still turns looks as if it came back; then it is seen to turn, and what is kept of the
+ * swing is what was kept had none been lost. */
+static void test_a_pulse_lost_while_it_turns_changes_nothing(void) {
+    static story told;
+    seed = 2;
+    for (unsigned i = 0; i < 300U; i++) {
+        draw_story(&told, 8U + draw_one_of(&seed, 16));
+        give(&told, 1U + draw_one_of(&seed, told.first - WH_SWING_TURNING - 6U));
+        check_kept(&told);
+    }
+}
+
+/* --- the guess ------------------------------------------------------------------------------------------- */
+
+/* A rotor with open leads, from some turns to rest. Returns its speed as it first came back past sensor 1. */
+static wh_real swing_out(const rotor_kind *kind) {
+    const wh_rig_config *config = &wh_rig_standard;
+    const wh_real over_radps = WH_R(2.0) * WH_SQRT(kind->weight_Nm / kind->inertia_kgm2);
+    rotor_state state = {.ticks = UINT32_MAX - 3000000U,
+                         .seed = seed,
+                         .speed_radps = over_radps * drawn_between(WH_R(1.15), WH_R(1.4))};
+    uint32_t quiet = 0;
+    wh_real first_radps = WH_R(0.0);
+    swing = (wh_swing){.free = false};
+    wh_swing_step(&config->swing, &config->measure.rotor, &swing, true, false);
+    while (quiet < 1500000U) {
+        rotor_turn(kind, &state, WH_R(0.0), 2000U);
+        quiet += 2000U;
+        for (unsigned i = 0; i < state.marks; i++) {
+            quiet = 0;
+            wh_swing_pulse(&swing, state.mark_sensor[i], state.mark_ticks[i]);
+            first_radps = swing.swings && swing.passed == 1U && state.mark_sensor[i] == 0
+                              ? state.speed_radps
+                              : first_radps;
+        }
+    }
+    return first_radps;
+}
+
+/* How fast the rotor first came back, gravity and friction over its inertia: as near as the guess says of itself, the first
+ * two within some 10 %. */
+static void test_a_guess_is_as_near_as_it_says(void) {
+    unsigned told = 0;
+    unsigned near_it = 0;
+    seed = 3;
+    for (unsigned i = 0; i < 60U; i++) {
+        rotor_kind kind = rotor_nominal();
+        kind.stall_Nm = WH_R(0.0);
+        kind.slot_rad = WH_R(2.0) / WH_RIG_DEG_PER_RAD;
+        kind.inertia_kgm2 *= drawn_between(WH_R(0.5), WH_R(2.0));
+        kind.drag_Nms = drawn_between(WH_R(0.0), WH_R(0.001));
+        kind.friction_Nm = drawn_between(WH_R(0.002), WH_R(0.05));
+        const wh_real first_radps = swing_out(&kind);
+        if (!swing.swings || swing.passed < 4U) {
+            continue;
+        }
+        told++;
+        wh_swing_guess(&wh_rig_standard.swing, &swing);
+        const wh_real gravity = kind.weight_Nm / kind.inertia_kgm2;
+        const wh_real friction = kind.friction_Nm / kind.inertia_kgm2;
+        const wh_real truth[] = {first_radps, gravity, friction};
+        for (unsigned k = 0; k < 3U; k++) {
+            const unsigned at = WH_SWING_RATE + k;
+            TEST_ASSERT_TRUE(WH_ABS(swing.guess[at] - truth[k]) <= swing.within[at]);
+            TEST_ASSERT_TRUE(swing.x[at] == swing.guess[at]);
+        }
+        TEST_ASSERT_FLOAT_WITHIN(0.2f * (float)gravity, (float)gravity,
+                                 (float)swing.guess[WH_SWING_GRAVITY]);
+        near_it += near(swing.guess[WH_SWING_GRAVITY], gravity, WH_R(0.1) * gravity) ? 1U : 0U;
+        TEST_ASSERT_FLOAT_WITHIN(-0.08f * (float)first_radps, (float)first_radps,
+                                 (float)swing.guess[WH_SWING_RATE]);
+    }
+    TEST_ASSERT_TRUE(told > 30U && near_it * 10U > told * 7U);
+}
+
+/* --- the work -------------------------------------------------------------------------------------------- */
+
+/* At most so many steps of the equation are done in one control step, of so many ticks. */
+#define EQUATION_STEPS 3
+#define EQUATION_TICKS 8000
+
+/* What may be next in the step after each piece of the work, as bits. */
+static unsigned may_follow(wh_swing_piece piece) {
+    switch (piece) {
+    case WH_SWING_GOES: return 1U << WH_SWING_GOES | 1U << WH_SWING_FACTORS;
+    case WH_SWING_FACTORS: return 1U << WH_SWING_SOLVES;
+    case WH_SWING_SOLVES:
+        return 1U << WH_SWING_PASSES | 1U << WH_SWING_GUESSES | 1U << WH_SWING_ENDS;
+    case WH_SWING_PASSES: return 1U << WH_SWING_GOES;
+    case WH_SWING_GUESSES: return 1U << WH_SWING_PASSES;
+    case WH_SWING_ENDS: return 1U << WH_SWING_ENDS;
+    }
+    return 0;
+}
+
+/* A control step has time for one piece of the work: no two are done in one, and of the equation no more steps than three. */
+static void test_a_control_step_does_one_piece_of_the_work(void) {
+    const wh_rig_config *config = &wh_rig_standard;
+    unsigned times[WH_SWING_ENDS + 1] = {0};
+    seed = 5;
+    for (unsigned i = 0; i < 4U; i++) {
+        rotor_kind kind = rotor_nominal();
+        kind.stall_Nm = WH_R(0.0);
+        kind.slot_rad = WH_R(2.0) / WH_RIG_DEG_PER_RAD;
+        kind.inertia_kgm2 *= drawn_between(WH_R(0.5), WH_R(2.0));
+        kind.friction_Nm = drawn_between(WH_R(0.01), WH_R(0.03));
+        (void)swing_out(&kind);
+        wh_swing_step(&config->swing, &config->measure.rotor, &swing, false, true);
+        for (uint32_t k = 0; k < 100000U && wh_swing_works(&swing); k++) {
+            const wh_swing_piece piece = swing.piece;
+            const uint32_t ticks = swing.ticks;
+            const unsigned at = swing.at;
+            wh_swing_step(&config->swing, &config->measure.rotor, &swing, false, true);
+            times[piece]++;
+            TEST_ASSERT_TRUE((may_follow(piece) >> swing.piece & 1U) != 0);
+            if (piece == WH_SWING_GOES && swing.at == at && swing.piece == piece) {
+                const int32_t moved = (int32_t)(swing.ticks - ticks);
+                TEST_ASSERT_TRUE(moved <= EQUATION_STEPS * EQUATION_TICKS &&
+                                 moved >= -EQUATION_STEPS * EQUATION_TICKS);
+            }
+        }
+        TEST_ASSERT_TRUE(swing.result.why >= WH_SWING_FOUND);
+    }
+    for (unsigned k = 0; k <= WH_SWING_ENDS; k++) {
+        TEST_ASSERT_TRUE(times[k] >= 4U);
+    }
+}
+
+/* --- turning back ----------------------------------------------------------------------------------------- */
+
+/* A step in which the rotor turns back, or is held by friction where it would, and what follows of it from each cause: as many
+ * small steps have it. Forwards and backwards in time. */
+static void test_a_step_that_turns_back_is_many_small_ones(void) {
+    const unsigned pieces = 64U;
+    const wh_real most[WH_FREE_CAUSES] = {WH_R(2e-3), WH_R(5e-3), WH_R(1e-4), WH_R(2e-4),
+                                          WH_R(1e-3)};
+    unsigned turned = 0;
+    unsigned held = 0;
+    seed = 4;
+    for (unsigned i = 0; i < 400U; i++) {
+        const wh_real h = i % 2U == 0 ? WH_R(0.004) : WH_R(-0.004);
+        const wh_real way = i % 4U < 2U ? WH_R(1.0) : WH_R(-1.0);
+        const wh_real cause[WH_FREE_CAUSES] = {
+            way * drawn_between(WH_R(0.0), WH_R(1.5)),
+            way * h * drawn_between(WH_R(2.0), WH_R(30.0)), drawn_between(WH_R(40.0), WH_R(80.0)),
+            drawn_between(WH_R(0.0), WH_R(24.0)), drawn_between(WH_R(0.0), WH_R(0.5))};
+        wh_free_rotor one;
+        wh_free_rotor many;
+        wh_free_rotor_start(&one, cause[WH_FREE_Q], cause[WH_FREE_RATE]);
+        many = one;
+        wh_free_rotor_step(cause, &one, h);
+        for (unsigned k = 0; k < pieces; k++) {
+            wh_free_rotor_step(cause, &many, h / (wh_real)pieces);
+        }
+        turned += one.rate_radps * cause[WH_FREE_RATE] < WH_R(0.0) ? 1U : 0U;
+        const bool holds = WH_ABS(one.rate_radps) < WH_R(1e-6);
+        held += holds ? 1U : 0U;
+        TEST_ASSERT_TRUE(near(one.q_rad, many.q_rad, WH_R(1e-3)));
+        TEST_ASSERT_TRUE(near(one.rate_radps, many.rate_radps, WH_R(1e-3)));
+        for (unsigned k = 0; k < WH_FREE_CAUSES; k++) {
+            const bool same = near(one.rate_by[k], many.rate_by[k], most[k]);
+            /* what is all but held hangs on the last bit of what holds it */
+            TEST_ASSERT_TRUE(same || (holds && WH_ABS(many.rate_radps) < WH_R(1e-3)));
+        }
+    }
+    TEST_ASSERT_TRUE(turned > 100U && held > 10U);
+}
+
+void suite_rig_swing_pulses(void) {
+    RUN_TEST(test_what_is_kept_of_a_swing);
+    RUN_TEST(test_a_pulse_lost_while_it_turns_changes_nothing);
+    RUN_TEST(test_a_guess_is_as_near_as_it_says);
+    RUN_TEST(test_a_control_step_does_one_piece_of_the_work);
+    RUN_TEST(test_a_step_that_turns_back_is_many_small_ones);
+}

@@ -1,0 +1,118 @@
+/* test_rig_turn_angle.c: how the angle within a turn follows what a turn shows: the derivatives that intervals are made of,
+ * against differences between rotors whose inertia, or part of gravity, is found by halving. */
+#include "core/rig/datasheet.h"
+#include "core/rig/rig.h"
+#include "draw.h"
+
+#include "unity.h"
+
+void suite_rig_turn_angle(void);
+
+#define LITTLE_RAD WH_R(0.004)
+
+static uint64_t seed;
+
+static wh_real drawn_between(wh_real least, wh_real most) {
+    return least + (most - least) * draw_whole(&seed, 0, 10000) / WH_R(10000.0);
+}
+
+/* A turn: the rotor as it is told, its speed, and its inertia or the part of gravity that is left. */
+typedef struct turn {
+    wh_rotor_config rotor;
+    wh_real speed_radps;
+    bool fed;
+} turn;
+
+static wh_turn_angle shaped(const turn *of, wh_real found) {
+    wh_turn_angle angle;
+    wh_turn_angle_start(&of->rotor, &angle);
+    wh_turn_angle_feed(&angle, of->fed);
+    if (of->fed) {
+        angle.part = found;
+    } else {
+        angle.inertia_kgm2 = found;
+    }
+    for (unsigned i = 0; i < 3U; i++) {
+        wh_turn_angle_shape(&of->rotor, &angle, of->speed_radps);
+    }
+    return angle;
+}
+
+/* By how much the rotor is beyond sensor 2 at that part of the turn's time. */
+static wh_real beyond(const turn *of, wh_real found, wh_real split) {
+    const wh_turn_angle angle = shaped(of, found);
+    return wh_turn_angle_at(&angle, split) - of->rotor.mark_rad[1];
+}
+
+/* base_rad where sensor 2's mark comes at that part of the turn's time: by halving, from either side of `about`. */
+static wh_real base_at(const turn *of, wh_real about, wh_real split) {
+    wh_real low = about - WH_R(0.5) * (of->fed ? WH_R(1.0) : about);
+    wh_real high = about + WH_R(0.5) * (of->fed ? WH_R(1.0) : about);
+    const bool rises = beyond(of, high, split) > beyond(of, low, split);
+    for (unsigned i = 0; i < 30U; i++) {
+        const wh_real middle = WH_R(0.5) * (low + high);
+        if ((beyond(of, middle, split) > WH_R(0.0)) == rises) {
+            high = middle;
+        } else {
+            low = middle;
+        }
+    }
+    return shaped(of, WH_R(0.5) * (low + high)).base_rad;
+}
+
+static wh_real by_mark(const turn *of, wh_real about, wh_real split) {
+    turn more = *of;
+    turn less = *of;
+    more.rotor.mark_rad[1] += LITTLE_RAD;
+    less.rotor.mark_rad[1] -= LITTLE_RAD;
+    return (base_at(&more, about, split) - base_at(&less, about, split)) / (WH_R(2.0) * LITTLE_RAD);
+}
+
+/* A lag that is larger is gravity that pulls from further back. */
+static wh_real by_lag(const turn *of, wh_real about, wh_real split) {
+    turn more = *of;
+    turn less = *of;
+    more.rotor.gravity_rad -= WH_R(4.0) * LITTLE_RAD;
+    less.rotor.gravity_rad += WH_R(4.0) * LITTLE_RAD;
+    return (base_at(&more, about, split) - base_at(&less, about, split)) / (WH_R(8.0) * LITTLE_RAD);
+}
+
+static void check_near(wh_real found, wh_real wanted, wh_real most) {
+    TEST_ASSERT_TRUE(WH_ABS(found - wanted) <= most);
+}
+
+/* How the base follows sensor 2's mark, and a lag that is another, where the split says the inertia, or the part of gravity that
+ * is left; gravity along an axis, or some degrees off it. */
+static void test_derivatives_are_what_differences_show(void) {
+    seed = 1;
+    for (unsigned i = 0; i < 100U; i++) {
+        turn of = {.rotor = wh_rig_standard.measure.rotor, .fed = i % 2U == 1U};
+        const wh_real about = of.fed ? drawn_between(WH_R(-0.3), WH_R(0.3))
+                                     : of.rotor.inertia_kgm2 * drawn_between(WH_R(1.0), WH_R(2.0));
+        of.speed_radps = drawn_between(WH_R(28.0), WH_R(42.0));
+        of.rotor.gravity_rad = WH_R(0.25) * WH_RIG_TWO_PI * draw_whole(&seed, 0, 3) +
+                               drawn_between(WH_R(-0.25), WH_R(0.25));
+        of.rotor.mark_rad[0] = drawn_between(WH_R(-0.1), WH_R(0.1));
+        of.rotor.mark_rad[1] = of.rotor.mark_rad[0] + drawn_between(WH_R(1.5), WH_R(1.65));
+        wh_real split = WH_R(0.25);
+        for (unsigned k = 0; k < 30U; k++) {
+            split -= beyond(&of, about, split) / WH_RIG_TWO_PI;
+        }
+        wh_turn_angle angle = shaped(&of, about);
+        (void)wh_turn_angle_split(&of.rotor, &angle, split);
+        const wh_real swing = WH_ABS(angle.swing_rad);
+        const wh_real steep = angle.base_per_quadrature * angle.base_per_quadrature;
+        const wh_real bent =
+            swing * (WH_R(1.0) + steep); /* what differences show of the second order */
+        check_near(by_mark(&of, about, split), angle.base_per_split,
+                   WH_R(0.003) + WH_R(0.25) * bent);
+        const wh_real lag = by_lag(&of, about, split);
+        check_near(lag, angle.base_per_lag, swing * (WH_R(0.003) + WH_R(0.4) * bent) + WH_R(2e-5));
+        if (of.fed) { /* a lag is a swing a quarter turn on, of that part of this one */
+            check_near(WH_ABS(lag), swing * WH_ABS(angle.base_per_quadrature),
+                       swing * (WH_R(0.003) + WH_R(0.5) * bent) + WH_R(2e-5));
+        }
+    }
+}
+
+void suite_rig_turn_angle(void) { RUN_TEST(test_derivatives_are_what_differences_show); }
