@@ -24,7 +24,7 @@ $$(if $$(filter-out 1,$$(words $$(BOARD_WHEN)))$$(filter-out $(board_whens),$$(B
     $$(error boards/$(1)/board.mk: BOARD_WHEN is '$$(strip $$(BOARD_WHEN))': one of $(board_whens)))
 $$(call board_needs,$(board_of_family),: its family sets it (boards/cortexm/cortexm.mk))
 boards_$$(strip $$(BOARD_WHEN)) += $(1)
-boards_flashed += $$(if $$(BOARD_FLASHED),$(1))
+boards_flashed := $$(strip $$(boards_flashed) $$(if $$(BOARD_FLASHED),$(1)))
 $$(foreach v,$$(filter-out $(board_before),$$(filter BOARD_%,$$(.VARIABLES))),$$(eval undefine $$(v)))
 endef
 $(foreach b,$(BOARDS_ALL),$(eval $(call read_board,$(b))))

@@ -18,14 +18,16 @@ static uint32_t address_of(unsigned slot, unsigned at) {
 }
 
 /* No erase takes two seconds, at whatever speed this loop goes round. */
-static bool is_done(void) {
+static bool rests(void) {
     for (uint32_t i = 0; i < 100000000U; i++) {
         if ((reg_load(FLASH_SR) & FLASH_SR_BSY) == 0) {
-            return (reg_load(FLASH_SR) & FLASH_SR_ERRORS) == 0;
+            return true;
         }
     }
     return false;
 }
+
+static bool is_done(void) { return rests() && (reg_load(FLASH_SR) & FLASH_SR_ERRORS) == 0; }
 
 static void unlock(void) {
     reg_store(FLASH_KEYR, FLASH_KEY1);
@@ -42,7 +44,7 @@ static void forget_cached(void) {
 }
 
 bool hal_settings_erase(unsigned slot) {
-    if (!within(slot, 0, 0) || !is_done()) {
+    if (!within(slot, 0, 0) || !rests()) {
         return false;
     }
     const uint32_t order = FLASH_CR_SER | FLASH_CR_SNB(FIRST_SECTOR + slot) | FLASH_CR_PSIZE_32;
@@ -57,7 +59,7 @@ bool hal_settings_erase(unsigned slot) {
 
 /* Words; the bytes behind the last stay ones. */
 bool hal_settings_write(unsigned slot, unsigned at, const uint8_t *bytes, unsigned count) {
-    if (!within(slot, at, count) || at % 4U != 0) {
+    if (!within(slot, at, count) || at % 4U != 0 || !rests()) {
         return false;
     }
     bool done = true;
