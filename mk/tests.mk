@@ -188,14 +188,15 @@ $(B)/tools/faults: $(call objects,host,tests/tools/faults.c $(wildcard tests/hos
 FUZZERS := $(patsubst tests/fuzz/%.c,build/fuzz/%.fuzzer,$(wildcard tests/fuzz/fuzz_*.c))
 SANITIZE := address,undefined,float-cast-overflow
 
-build/fuzz/%.fuzzer: build/fuzz/host/tests/fuzz/%.o $(LIB_HOST) $(LIB_FLOAT) $(LIB_DOUBLE)
+FUZZED := $(LIB_HOST) $(call libraries,float,station rig whirl) $(LIB_DOUBLE)
+build/fuzz/%.fuzzer: build/fuzz/host/tests/fuzz/%.o $(FUZZED)
 	$(say) LINK $@
 	$(Q)$(CC) $(NATIVE) -fsanitize=fuzzer -o $@ $(filter %.o,$^) \
 	    -Wl,--start-group $(filter %.a,$^) -Wl,--end-group -lm
 
 # What they found worth keeping, once more, without a fuzzer.
 KEPT_INPUTS := $(patsubst tests/fuzz/%.c,$(B)/fuzz/%.kept,$(wildcard tests/fuzz/fuzz_*.c))
-$(B)/fuzz/%.kept: $(B)/host/tests/fuzz/%.o $(B)/host/tests/fuzz/kept.o $(LIB_HOST) $(LIB_FLOAT) $(LIB_DOUBLE)
+$(B)/fuzz/%.kept: $(B)/host/tests/fuzz/%.o $(B)/host/tests/fuzz/kept.o $(FUZZED)
 	@mkdir -p $(@D)
 	$(link)
 

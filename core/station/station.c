@@ -3,6 +3,7 @@
 
 #include "answer.h"
 #include "conf_answer.h"
+#include "selftest.h"
 #include "tel_answer.h"
 
 #define RPM_PER_RADPS (WH_R(1.0) / WH_RIG_RADPS_PER_RPM)
@@ -133,11 +134,21 @@ static void do_conf(const request *r) {
 static void do_tel(const request *r) {
     wh_station *station = r->station;
     const wh_station_error error =
-        station->tel != NULL && station->cell != NULL
-            ? wh_tel_answer(station->tel, station->cell, r->words, r->answer)
+        station->tel != NULL && station->config != NULL
+            ? wh_tel_answer(station->tel, &station->config->measure.cell, r->words, r->answer)
             : WH_STATION_NOT_HERE;
     if (error != WH_STATION_FINE) {
         refuse(r, error);
+    }
+}
+
+static void do_selftest(const request *r) {
+    if (r->station->config == NULL) {
+        refuse(r, WH_STATION_NOT_HERE);
+    } else if (r->rig->state != WH_LIFE_IDLE) {
+        refuse(r, WH_STATION_BUSY);
+    } else {
+        wh_selftest_answer(r->station->config, r->rig, &r->station->seen, r->answer);
     }
 }
 
@@ -311,7 +322,7 @@ void wh_station_start(wh_station *station, const char *program, const char *boar
 void wh_station_see(wh_station *station, const wh_rig_config *config, const wh_rig *rig,
                     const wh_seen *seen) {
     station->seen = *seen;
-    station->cell = &config->measure.cell;
+    station->config = config;
     if (station->tel != NULL) {
         wh_tel_step(station->tel, config, rig, seen, &station->out, WH_STATION_KEPT_BYTES);
     }
