@@ -41,7 +41,11 @@ void wh_selftest_answer(const wh_rig_config *config, const wh_rig *rig, const wh
     wh_text parts;
     bool all = true;
     wh_text_start(&parts, bytes, sizeof bytes);
-    add_part(&parts, "arithmetic", wh_arithmetic_wrong(wh_arithmetic) == WH_PROBED_COUNT, &all);
+    const wh_scene *scene = config->observer.scene;
+    add_part(&parts, "arithmetic",
+             scene == NULL || scene->arithmetic == NULL ||
+                 wh_arithmetic_wrong(scene->arithmetic) == WH_PROBED_COUNT,
+             &all);
     add_part(&parts, "clock", !seen->inputs.clock_is_fallback, &all);
     add_part(&parts, "watchdog", !seen->inputs.watchdog_has_cut, &all);
     add_part(&parts, "supply", wh_guard_supply(&config->guard, seen->inputs.supply_V), &all);

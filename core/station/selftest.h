@@ -13,7 +13,7 @@ extern "C" {
 
 /* "OK selftest=good|bad", then each part, with what was seen in the last control step:
  *
- *   arithmetic  that of the tests (core/arithmetic.h)
+ *   arithmetic  of the observer's scene, where there is one, is that of the tests (core/arithmetic.h)
  *   clock       not its fallback
  *   watchdog    has not cut the drive
  *   supply      within its range
