@@ -1,5 +1,7 @@
-/* frame.c: framing: CRC, coding without zeros, numbers in bytes. */
+/* frame.c: framing: CRC, numbers in bytes. */
 #include "frame.h"
+
+#include "cobs.h"
 
 #define CRC_START 0xFFFFFFFFU
 
@@ -23,52 +25,22 @@ uint32_t wh_frame_crc(uint32_t crc, const uint8_t *bytes, unsigned count) {
 
 /* --- writing -----------------------------------------------------------------------------------------*/
 
-/* Blocks of up to 254 bytes without a zero, each behind a byte that says where the next zero would be. */
 typedef struct coder {
-    uint8_t *bytes;
-    unsigned room;
-    unsigned at;   /* the next byte */
-    unsigned head; /* the byte in front of this block */
+    wh_cobs cobs;
     uint32_t crc;
-    bool full;
 } coder;
-
-static void put_raw(coder *c, uint8_t byte) {
-    if (c->at < c->room) {
-        c->bytes[c->at++] = byte;
-    } else {
-        c->full = true;
-    }
-}
-
-static void close_block(coder *c) {
-    if (!c->full) {
-        c->bytes[c->head] = (uint8_t)(c->at - c->head);
-    }
-    c->head = c->at;
-    put_raw(c, 0);
-}
-
-static void put_coded(coder *c, uint8_t byte) {
-    if (byte != 0) {
-        put_raw(c, byte);
-    }
-    if (byte == 0 || c->at - c->head == 255U) {
-        close_block(c);
-    }
-}
 
 static void put(coder *c, uint32_t number, unsigned size) {
     for (unsigned i = 0; i < size; i++) {
         const uint8_t byte = (uint8_t)(number >> 8U * i);
         c->crc = crc_step(c->crc, byte);
-        put_coded(c, byte);
+        wh_cobs_put(&c->cobs, byte);
     }
 }
 
 unsigned wh_frame_write(const wh_frame *frame, uint8_t *bytes, unsigned room) {
-    coder c = {.bytes = bytes, .room = room, .crc = CRC_START};
-    put_raw(&c, 0);
+    coder c = {.crc = CRC_START};
+    wh_cobs_start(&c.cobs, bytes, room);
     put(&c, WH_FRAME_VERSION, 1);
     put(&c, frame->kind, 1);
     put(&c, frame->sequence, 2);
@@ -77,32 +49,13 @@ unsigned wh_frame_write(const wh_frame *frame, uint8_t *bytes, unsigned room) {
         put(&c, frame->payload[i], 1);
     }
     put(&c, c.crc ^ CRC_START, 4);
-    close_block(&c); /* the head that it opens is the zero that ends the frame */
-    return c.full ? 0 : c.at;
+    return wh_cobs_end(&c.cobs);
 }
 
 /* --- reading -----------------------------------------------------------------------------------------*/
 
 void wh_frame_reader_start(wh_frame_reader *reader, uint8_t *bytes, unsigned room) {
     *reader = (wh_frame_reader){.bytes = bytes, .room = room};
-}
-
-/* In place: what is decoded is never longer. Returns its length; 0 when it is no coded frame. */
-static unsigned decode(uint8_t *bytes, unsigned length) {
-    unsigned to = 0;
-    for (unsigned at = 0; at < length;) {
-        const unsigned block = bytes[at++];
-        if (block - 1U > length - at) {
-            return 0;
-        }
-        for (unsigned i = 1; i < block; i++) {
-            bytes[to++] = bytes[at++];
-        }
-        if (block < 255U && at < length) {
-            bytes[to++] = 0;
-        }
-    }
-    return to;
 }
 
 static bool parse(const uint8_t *bytes, unsigned length, wh_frame *frame) {
@@ -132,7 +85,7 @@ bool wh_frame_take(wh_frame_reader *reader, uint8_t byte, wh_frame *frame) {
     const unsigned length = reader->length;
     const bool nothing = length == 0; /* two zeros on end: a sender may begin with one */
     const bool good =
-        !reader->too_long && parse(reader->bytes, decode(reader->bytes, length), frame);
+        !reader->too_long && parse(reader->bytes, wh_cobs_decode(reader->bytes, length), frame);
     reader->dropped += !good && !nothing;
     reader->length = 0;
     reader->too_long = false;

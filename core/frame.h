@@ -5,8 +5,7 @@
  *     version 1 | kind 1 | sequence 2 | ticks 4 | payload 0 .. | CRC-32 4
  *
  * The CRC is that of IEEE 802.3 over all before it. The whole is coded so that no byte of it is zero, and a zero byte
- * ends it: consistent overhead byte stuffing (Cheshire & Baker, IEEE/ACM Transactions on Networking 7, 1999), one byte
- * in 254 more. So a reader that comes in the middle, or has lost bytes, is in step again after the next zero. What does
+ * ends it (cobs.h). So a reader that comes in the middle, or has lost bytes, is in step again after the next zero. What does
  * not end in the right CRC is dropped and counted; what it was is not known.
  *
  * No memory but the caller's; the same code on every machine.

@@ -8,6 +8,7 @@
 #include "core/arithmetic.h"
 #include "core/rig/rig.h"
 #include "core/scene.h"
+#include "core/station/seen.h"
 #include "hal/clock.h"
 #include "hal/loadcell.h"
 #include "hal/motor.h"
@@ -45,9 +46,12 @@ _Static_assert((int)HAL_LOAD_SATURATED == (int)WH_LOAD_SATURATED &&
 #define SAMPLES_MOST \
     2U /* a step, beside a pulse one; what else a late one finds goes to the next */
 
+_Static_assert(SAMPLES_MOST <= WH_SEEN_SAMPLES, "all are seen");
+
 /* Static, not on the stack: it holds the samples of a turn. */
 static wh_rig rig;
 static trip_memory memory;
+static wh_seen seen; /* in the last control step */
 
 static wh_rig_inputs inputs_now(void) {
     return (wh_rig_inputs){.now_ticks = hal_clock_ticks(),
@@ -67,6 +71,7 @@ static void obey(const wh_rig_command *command) {
 static wh_rig_command step(const wh_rig_config *config, const hal_slot_pulse *pulse,
                            const hal_load_sample *sample, unsigned samples) {
     const wh_rig_inputs inputs = inputs_now();
+    seen.inputs = inputs;
 #if HAL_FRAMES
     hal_frames_step_begins();
 #endif
@@ -83,6 +88,17 @@ static wh_rig_command step(const wh_rig_config *config, const hal_slot_pulse *pu
     return command;
 }
 
+static void see(const hal_slot_pulse *pulse, const hal_load_sample *sample, unsigned samples) {
+    seen.pulsed = pulse != NULL;
+    seen.sensor = pulse != NULL ? pulse->sensor : 0;
+    seen.pulse_ticks = pulse != NULL ? pulse->ticks : 0;
+    seen.samples = samples;
+    for (unsigned i = 0; i < samples; i++) {
+        seen.sample[i] =
+            (wh_seen_sample){sample[i].ticks, sample[i].raw, (wh_load_status)sample[i].status};
+    }
+}
+
 static void control(const wh_rig_config *config) {
     hal_slot_pulse pulse;
     hal_load_sample sample[SAMPLES_MOST];
@@ -94,6 +110,7 @@ static void control(const wh_rig_config *config) {
     }
     const wh_rig_command command = step(config, pulsed ? &pulse : NULL, sample, samples);
     obey(&command);
+    see(pulsed ? &pulse : NULL, sample, samples);
     trip_memory_keep(&memory, &rig);
     hal_watchdog_kick(); /* tripped too: a watchdog that resets would start all over */
 }

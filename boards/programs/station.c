@@ -18,10 +18,12 @@
 static wh_station station;
 static wh_rig_config config;
 static wh_conf conf;
+static wh_tel tel;
 
 static void converse(void) {
     char bytes[BYTES_A_STEP];
     wh_station_take(&station, bytes, hal_console_read(bytes, sizeof bytes));
+    wh_station_see(&station, &config, &rig, &seen);
     wh_station_step(&station, &rig);
     const unsigned waiting = wh_station_peek(&station, bytes, sizeof bytes);
     wh_station_drop(&station, hal_console_offer(bytes, waiting));
@@ -66,6 +68,7 @@ int main(void) {
     trip_memory_start(&memory, &config, &rig, due);
     wh_station_start(&station, "rig", board_name, HAL_TICKS_PER_S / CONTROL_TICKS);
     station.conf = &conf;
+    station.tel = &tel;
     hal_watchdog_start(WATCHDOG_TICKS);
     for (;;) {
         due = next_step(due);

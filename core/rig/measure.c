@@ -57,7 +57,8 @@ void wh_measure_work(const wh_measure_config *config, wh_measure *measure, unsig
                       measure->tare.mean_N, force);
         force->left_out += measure->lockin.skipped - measure->skipped_before;
     } else if (measure->due == 1U) {
-        wh_merge_judge(&config->result, &config->rotor, &measure->merge, force);
+        wh_merge_judge(&config->result, &config->rotor, &measure->merge, &measure->lockin.angle,
+                       force);
     }
     if (measure->due > 0) {
         measure->due--;

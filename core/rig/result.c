@@ -1,6 +1,7 @@
 /* result.c: turns merged to a measurement that says how wrong it may be. */
 #include "result.h"
 
+#include "core/angle.h"
 #include "core/root.h"
 #include "datasheet.h"
 #include "polar.h"
@@ -8,6 +9,10 @@
 #define PI WH_R(3.141592653589793)
 /* Of gravity, fed forward: then it is fed wrongly, or does not reach the arms, and what turns them is not known. */
 #define FED_LEFT_MOST WH_R(0.15)
+
+/* The speed's swing, beside what the phase may be off: of a rotor whose damping is not the one configured the split makes
+ * 1/sqrt(2) of it an error of the phase. */
+#define SWING_OFF_RAD WH_R(0.01)
 
 static wh_real square_of(wh_real x) { return x * x; }
 
@@ -72,6 +77,8 @@ void wh_merge_add(const wh_result_config *config, const wh_rotor_config *rotor, 
     const wh_real quadrature = turn->force_N.at[2] - merge->quadrature_N;
     merge->in_phase_N += part * in_phase;
     merge->quadrature_N += part * quadrature;
+    merge->second_N[0] += part * (turn->force_N.at[3] - merge->second_N[0]);
+    merge->second_N[1] += part * (turn->force_N.at[4] - merge->second_N[1]);
     merge->scatter_N2[0] += in_phase * (turn->force_N.at[1] - merge->in_phase_N);
     merge->scatter_N2[1] += in_phase * (turn->force_N.at[2] - merge->quadrature_N);
     merge->scatter_N2[2] += quadrature * (turn->force_N.at[2] - merge->quadrature_N);
@@ -179,6 +186,27 @@ void wh_merge_mean(const wh_result_config *config, const wh_rotor_config *rotor,
 
 /* --- verdict ------------------------------------------------------------------------------------ */
 
+/* By how much the load says that the speed's swing, E in the direction psi - gamma as an arrow, is another than the
+ * reference's. Over the rotor's own angle the force's second order is 3/2 E/(1 + 3/2 E^2) of its first, in that direction;
+ * where the reference's swing is off by an arrow it shows that once more with the weight of 1/2, together 2. Less twice the
+ * first order's phase it hardly hangs on a delay, and not on the cell's gain. */
+static wh_real swing_off(const wh_rotor_config *rotor, const wh_merge *merge,
+                         const wh_turn_angle *angle, const wh_measured *measured) {
+    if (!(angle->whole_rad > WH_R(0.0)) || !(measured->amplitude_N > WH_R(0.0))) {
+        return WH_R(0.0);
+    }
+    wh_real sine;
+    wh_real cosine;
+    wh_sincos(
+        wh_phase_from_rad(angle->lag_rad - rotor->gravity_rad + WH_R(2.0) * measured->phase_rad),
+        &sine, &cosine);
+    const wh_real swing = WH_R(1.5) * merge->swing_rad;
+    const wh_real part = (WH_R(1.0) + merge->swing_rad * swing) / measured->amplitude_N;
+    const wh_real along = part * merge->second_N[0] - swing * cosine;
+    const wh_real across = part * merge->second_N[1] + swing * sine;
+    return WH_R(0.5) * WH_SQRT(along * along + across * across);
+}
+
 static wh_why reason(const wh_result_config *config, const wh_rotor_config *rotor,
                      const wh_merge *merge, const wh_measured *measured) {
     const wh_real expected = measured->expected_N;
@@ -232,13 +260,17 @@ static wh_why reason(const wh_result_config *config, const wh_rotor_config *roto
     if (half > WH_R(0.05) * measured->amplitude_N) {
         return WH_WHY_WIDE;
     }
+    if (measured->swing_off_rad > measured->phase_half_rad + SWING_OFF_RAD) {
+        return WH_WHY_SWING;
+    }
     return WH_WHY_NONE;
 }
 
 void wh_merge_judge(const wh_result_config *config, const wh_rotor_config *rotor,
-                    const wh_merge *merge, wh_measured *measured) {
+                    const wh_merge *merge, const wh_turn_angle *angle, wh_measured *measured) {
 #define WH_WHY_QUALITY(name, its_quality, words) (uint8_t)(its_quality),
     static const uint8_t qualities[] = {WH_WHY_ROWS(WH_WHY_QUALITY)};
+    measured->swing_off_rad = swing_off(rotor, merge, angle, measured);
     measured->why = reason(config, rotor, merge, measured);
     measured->quality = (wh_quality)qualities[measured->why];
 }

@@ -44,7 +44,8 @@ typedef enum wh_quality { WH_GOOD, WH_DOUBTFUL, WH_REFUSED } wh_quality;
     X(WH_WHY_ROTOR, WH_DOUBTFUL, "the second sensor's marks do not fit the rotor") \
     X(WH_WHY_FED, WH_DOUBTFUL, "gravity is fed forward, and a seventh of it or more is left") \
     X(WH_WHY_MEAN, WH_DOUBTFUL, "the mean force is not zero: the tare has moved") \
-    X(WH_WHY_WIDE, WH_DOUBTFUL, "the interval is wider than a twentieth of the force")
+    X(WH_WHY_WIDE, WH_DOUBTFUL, "the interval is wider than a twentieth of the force") \
+    X(WH_WHY_SWING, WH_DOUBTFUL, "the load shows another speed within the turn than the rotor's")
 
 #define WH_WHY_NAME(name, quality, words) name,
 typedef enum wh_why { WH_WHY_ROWS(WH_WHY_NAME) WH_WHYS } wh_why;
@@ -71,6 +72,7 @@ typedef struct wh_merge {
     uint32_t outliers;
     wh_real in_phase_N; /* means over the turns */
     wh_real quadrature_N;
+    wh_real second_N[2];   /* of twice the angle: cosine, sine */
     wh_real scatter_N2[3]; /* sums of squares about them: in phase, both, quadrature */
     wh_real mean_N;
     wh_real residual_N2;
@@ -106,6 +108,8 @@ typedef struct wh_measured {
     wh_real residual_N; /* rms of what orders 0 to 2 leave */
     wh_real jitter_s;   /* of the marks, standard deviation */
     wh_real inertia_kgm2;
+    wh_real
+        swing_off_rad; /* by how much the load says that the speed's swing is another, as an arrow */
     wh_real left_part;    /* of gravity, either way, where it is fed forward; else 0 */
     wh_real at_mark_N[2]; /* the tare taken off */
 } wh_measured;
@@ -128,7 +132,7 @@ void wh_merge_mean(const wh_result_config *config, const wh_rotor_config *rotor,
 
 /* Quality and reason of what wh_merge_mean() has found. */
 void wh_merge_judge(const wh_result_config *config, const wh_rotor_config *rotor,
-                    const wh_merge *merge, wh_measured *measured);
+                    const wh_merge *merge, const wh_turn_angle *angle, wh_measured *measured);
 
 /* Student's factor, two-sided, 95 %. Within 0.3 % for 2 and more degrees of freedom, 0 for none. */
 wh_real wh_student(uint32_t freedom);

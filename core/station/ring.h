@@ -10,24 +10,25 @@
 extern "C" {
 #endif
 
-#define WH_RING_BYTES 512U /* a power of two */
-
-/* All zeros: empty. */
 typedef struct wh_ring {
     uint32_t put; /* bytes so far, wrapping; those that wait are the difference */
     uint32_t taken;
-    char bytes[WH_RING_BYTES];
+    uint32_t size; /* a power of two */
+    char *bytes;   /* the caller's */
 } wh_ring;
 
 static inline uint32_t wh_ring_waiting(const wh_ring *ring) { return ring->put - ring->taken; }
+static inline uint32_t wh_ring_room(const wh_ring *ring) {
+    return ring->size - wh_ring_waiting(ring);
+}
 
 /* All of them, or none: what is half a line helps nobody. */
 static inline bool wh_ring_put(wh_ring *ring, const char *bytes, uint32_t count) {
-    if (count > WH_RING_BYTES - wh_ring_waiting(ring)) {
+    if (count > wh_ring_room(ring)) {
         return false;
     }
     for (uint32_t i = 0; i < count; i++) {
-        ring->bytes[(ring->put + i) % WH_RING_BYTES] = bytes[i];
+        ring->bytes[(ring->put + i) & (ring->size - 1U)] = bytes[i];
     }
     ring->put += count;
     return true;
@@ -38,7 +39,7 @@ static inline uint32_t wh_ring_peek(const wh_ring *ring, char *bytes, uint32_t r
     const uint32_t waiting = wh_ring_waiting(ring);
     const uint32_t count = waiting < room ? waiting : room;
     for (uint32_t i = 0; i < count; i++) {
-        bytes[i] = ring->bytes[(ring->taken + i) % WH_RING_BYTES];
+        bytes[i] = ring->bytes[(ring->taken + i) & (ring->size - 1U)];
     }
     return count;
 }

@@ -3,6 +3,7 @@
 
 #include "answer.h"
 #include "conf_answer.h"
+#include "tel_answer.h"
 
 #define RPM_PER_RADPS (WH_R(1.0) / WH_RIG_RADPS_PER_RPM)
 #define ANSWER_BYTES 240U
@@ -124,6 +125,17 @@ static void do_conf(const request *r) {
     const wh_station_error error = r->station->conf != NULL
                                        ? wh_conf_answer(r->station->conf, r->words, idle, r->answer)
                                        : WH_STATION_NOT_HERE;
+    if (error != WH_STATION_FINE) {
+        refuse(r, error);
+    }
+}
+
+static void do_tel(const request *r) {
+    wh_station *station = r->station;
+    const wh_station_error error =
+        station->tel != NULL && station->cell != NULL
+            ? wh_tel_answer(station->tel, station->cell, r->words, r->answer)
+            : WH_STATION_NOT_HERE;
     if (error != WH_STATION_FINE) {
         refuse(r, error);
     }
@@ -292,6 +304,17 @@ static bool host_is_lost(wh_station *station, wh_rig *rig) {
 void wh_station_start(wh_station *station, const char *program, const char *board,
                       uint32_t steps_per_s) {
     *station = (wh_station){.program = program, .board = board, .steps_per_s = steps_per_s};
+    station->in = (wh_ring){.size = WH_STATION_IN_BYTES, .bytes = station->in_bytes};
+    station->out = (wh_ring){.size = WH_STATION_OUT_BYTES, .bytes = station->out_bytes};
+}
+
+void wh_station_see(wh_station *station, const wh_rig_config *config, const wh_rig *rig,
+                    const wh_seen *seen) {
+    station->seen = *seen;
+    station->cell = &config->measure.cell;
+    if (station->tel != NULL) {
+        wh_tel_step(station->tel, config, rig, seen, &station->out, WH_STATION_KEPT_BYTES);
+    }
 }
 
 /* "start 330" that lost a byte may be "start 30": a line without all of its bytes is made one that is refused. */

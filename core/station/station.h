@@ -6,6 +6,7 @@
  * go through rings, and an answer that finds no room, because nobody reads, is dropped whole and counted.
  *
  *     every control step, after wh_rig_step() and what the motor is told:
+ *         wh_station_see(&station, &config, &rig, &seen)  for telemetry, where there is one
  *         wh_station_take(&station, bytes, count)         what has come
  *         wh_station_step(&station, &rig)                 one line's worth of work at most
  *         count = wh_station_peek(&station, bytes, room)  what wants out: as many as the console takes,
@@ -21,6 +22,8 @@
 #include "errors.h"
 #include "line.h"
 #include "ring.h"
+#include "seen.h"
+#include "telemetry.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -40,13 +43,24 @@ extern "C" {
     X(clear, 0, "", "a trip whose cause is gone") \
     X(conf, 3, "list [FROM]|get NAME|set NAME VALUE|save|default", \
       "the settings; written while the rig is idle") \
+    X(tel, 2, "list|schema CHANNEL|rate N|off|fmt FORMAT|ring [pulse|fault|off|read]", \
+      "telemetry beside this text; off at first") \
     X(host, 1, "SECONDS", "a run ends when nothing is heard for so long; 0: never") \
     X(talk, 1, "on|off", "echo what is typed, tell of each new state")
 
+/* What waits: bytes that came; and that want out, of which half are the console's own. */
+#define WH_STATION_IN_BYTES 512U
+#define WH_STATION_OUT_BYTES 1024U
+#define WH_STATION_KEPT_BYTES (WH_STATION_OUT_BYTES / 2U)
+
+/* It must not be moved once it is started. */
 typedef struct wh_station {
     const char *program; /* the caller's, */
     const char *board;
-    wh_conf *conf; /* NULL: there are no settings */
+    wh_conf *conf;              /* NULL: there are no settings */
+    wh_tel *tel;                /* NULL: there is no telemetry */
+    const wh_cell_config *cell; /* of it */
+    wh_seen seen;               /* in the last step */
     wh_ring in;
     wh_ring out;
     wh_line line;
@@ -62,19 +76,26 @@ typedef struct wh_station {
     uint32_t host_steps;   /* so many without a byte, and the host is lost; 0: never */
     uint32_t silent_steps;
     uint32_t host_losses;
+    char in_bytes[WH_STATION_IN_BYTES];
+    char out_bytes[WH_STATION_OUT_BYTES];
 } wh_station;
 
 #define wh_station_start WH_NAME(wh_station_start)
 #define wh_station_take WH_NAME(wh_station_take)
+#define wh_station_see WH_NAME(wh_station_see)
 #define wh_station_step WH_NAME(wh_station_step)
 
-/* `steps_per_s`: how often wh_station_step() is called. Nobody is watched at first. What else there is (conf) the caller
+/* `steps_per_s`: how often wh_station_step() is called. Nobody is watched at first. What else there is (conf, tel) the caller
  * puts in afterwards. */
 void wh_station_start(wh_station *station, const char *program, const char *board,
                       uint32_t steps_per_s);
 
 /* Bytes that came. Looks for Escape at once. */
 void wh_station_take(wh_station *station, const char *bytes, unsigned count);
+
+/* What the last control step saw. What telemetry has to say of it takes none of the console's room. */
+void wh_station_see(wh_station *station, const wh_rig_config *config, const wh_rig *rig,
+                    const wh_seen *seen);
 
 /* Does what the oldest line asks for, if the one before is answered. Where who gives the orders has not been heard for as
  * long as `host` said, the rig gets WH_EVENT_HOST_LOST, once: its configuration says what that ends. */

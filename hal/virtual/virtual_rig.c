@@ -171,7 +171,7 @@ static void step(hal_virtual_rig *rig) {
     if (rig->status == WH_OK) {
         rig->status = wh_scene_step(rig->scene, &rig->state);
     }
-    during.way = (float)(rig->state.angle[0] - angle);
+    during.way = (float)(int32_t)(rig->state.angle[0] - angle); /* a slice is short */
     during.after = hal_virtual_rig_speed_radps(rig) * scale;
     if (rig->status == WH_OK) {
         watch_slots(rig, &during, rig->ticks);

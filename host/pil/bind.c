@@ -99,6 +99,12 @@ static void rename_signal(const char *renames, const char *name, char *other) {
     }
 }
 
+/* What its ends stand for, in counts, must be numbers that a sample has. */
+static bool fits_counts(const wh_signal *s) {
+    return (double)s->low / (double)s->per_count >= (double)INT32_MIN &&
+           (double)s->high / (double)s->per_count <= (double)INT32_MAX;
+}
+
 static bool has_good_range(const bound *b) {
     const wh_signal *s = &b->signal;
     const bool ordered = isfinite(s->low) && isfinite(s->high) && s->low <= s->high;
@@ -110,8 +116,16 @@ static bool has_good_range(const bound *b) {
                 "ticks\nhint: low <= high; a sample needs a period and a value a count\n",
                 s->name, (double)s->low, (double)s->high, (double)s->per_count,
                 (unsigned)s->period_ticks);
+        return false;
     }
-    return ordered && sampled;
+    if (s->kind == WH_SIGNAL_SAMPLE && !fits_counts(s)) {
+        fprintf(stderr,
+                "whirl pil: error: the firmware declares '%s' from %g to %g, %g a count: more "
+                "counts than 32 bits have\nhint: a coarser count, or a narrower range\n",
+                s->name, (double)s->low, (double)s->high, (double)s->per_count);
+        return false;
+    }
+    return true;
 }
 
 static bool bind_one(bound *b, const image *im, const char *renames) {

@@ -1,10 +1,13 @@
 /* lockstep.c: firmware and plant in turns. */
 #include "lockstep.h"
 
+#include <math.h>
 #include <time.h>
 
 #include "talk.h"
 
+/* A firmware may catch up on what it has missed, so many times with no time in between. */
+#define STANDING_MOST 10000U
 #define PIECE_S 0.1
 #define WATCHED_PIECE_S 1e-3
 
@@ -28,6 +31,7 @@ typedef struct loop {
     double ticks_per_s;
     double per_count; /* instructions */
     bool watched;
+    unsigned standing; /* exchanges since the plant's time went on */
 } loop;
 
 static double plant_s(const loop *l) { return plant_now(&l->plant) / l->ticks_per_s; }
@@ -136,6 +140,37 @@ static bool plant_goes_on(loop *l, const wh_orders *orders, double late_s) {
     return true;
 }
 
+/* An output that is no number is a bug of the firmware's; what hardware would make of it, nobody knows. */
+static bool are_numbers(loop *l, const wh_orders *orders) {
+    for (unsigned i = 0; i < l->binding.count; i++) {
+        const bound *b = &l->binding.bound[i];
+        if (b->signal.kind == WH_SIGNAL_OUTPUT && isnan(orders->output[b->channel])) {
+            fprintf(stderr,
+                    "whirl pil: error: the firmware set '%s' to what is no number (NaN) at t = "
+                    "%.9g s\nhint: a quotient of zeros, or the root of less than zero\n",
+                    b->signal.name, plant_s(l));
+            l->report->end = LOCKSTEP_FAILED;
+            return false;
+        }
+    }
+    return true;
+}
+
+/* Where computing takes no time, nothing else ends this. */
+static bool time_goes_on(loop *l, double before_ticks) {
+    l->standing = plant_now(&l->plant) > before_ticks ? 0 : l->standing + 1;
+    if (l->standing < STANDING_MOST) {
+        return true;
+    }
+    fprintf(stderr,
+            "whirl pil: error: time stands still at t = %.9g s: the firmware has %u times asked to "
+            "be told again at once\nhint: hal_turns_wait() takes a time that is still to come, in "
+            "ticks of the firmware's timer\n",
+            plant_s(l), STANDING_MOST);
+    l->report->end = LOCKSTEP_FAILED;
+    return false;
+}
+
 static bool is_over(loop *l) {
     const bool over = plant_s(l) >= l->talk.wish->until_s;
     l->report->end = over ? LOCKSTEP_LET_GO : l->report->end;
@@ -167,10 +202,11 @@ static void take_turns(loop *l) {
             !talk_hear(&l->talk, &orders)) {
             return;
         }
+        const double before_ticks = plant_now(&l->plant);
         double late_s = 0.0;
         tell_taps_orders(l, &orders, &late_s);
-        if (!plant_goes_on(l, &orders, late_s) || is_over(l) ||
-            (l->plant.reset.now && !restart(l))) {
+        if (!are_numbers(l, &orders) || !plant_goes_on(l, &orders, late_s) || is_over(l) ||
+            !time_goes_on(l, before_ticks) || (l->plant.reset.now && !restart(l))) {
             return;
         }
     }

@@ -262,10 +262,7 @@ static plant_event convert(const bound *b, double value) {
         value = low;
         e.status = WH_SAMPLE_SATURATED;
     }
-    const double counts = value / (double)b->signal.per_count;
-    e.raw = counts >= 2147483647.0    ? INT32_MAX
-            : counts <= -2147483648.0 ? INT32_MIN
-                                      : (int32_t)number_floor(counts + 0.5);
+    e.raw = (int32_t)number_floor(value / (double)b->signal.per_count + 0.5); /* bind.c: it fits */
     return e;
 }
 

@@ -1,7 +1,8 @@
 /* plant.h: a scene as a controller's hardware: it runs in double, and sensors stand around it.
  *
  * Time is in ticks of the controller's timer since the plant's start. The scene runs in its own steps, which are finer;
- * edges are located within a step, on the cubic through its ends; samples are those of the first step's end at or after
+ * edges are located within a step, on the cubic through its ends, of what is on one side of the level at one end and on the
+ * other at the next (the cubic alone does not tell a turn within the step from a stop or a blow); samples are those of the first step's end at or after
  * their instant, and so are changes of the outputs. */
 #ifndef PIL_PLANT_H
 #define PIL_PLANT_H

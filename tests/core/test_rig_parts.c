@@ -285,6 +285,7 @@ static void test_limits_of_a_verdict_are_allowed(void) {
     config.inertia_off = WH_R(0.5);
     wh_rotor_config rotor = wh_rig_standard.measure.rotor;
     rotor.inertia_kgm2 = WH_R(0.25);
+    const wh_turn_angle level = {.whole_rad = WH_R(0.0)}; /* nothing to see in the second order */
     const wh_merge merge = {.samples = 1000, .swing_rad = WH_R(0.01), .split_turns = 12};
     const wh_measured right = {.turns = 12,
                                .amplitude_N = WH_R(64.0),
@@ -317,7 +318,7 @@ static void test_limits_of_a_verdict_are_allowed(void) {
         rows[12].measured.turns = 3U - beyond;
         rows[13].measured.phase_rad = WH_R(-0.5) * WH_R(3.141592653589793) * by;
         for (unsigned i = 0; i < sizeof rows / sizeof rows[0]; i++) {
-            wh_merge_judge(&config, &rotor, &merge, &rows[i].measured);
+            wh_merge_judge(&config, &rotor, &merge, &level, &rows[i].measured);
             TEST_ASSERT_TRUE((rows[i].measured.why == rows[i].why) == (beyond > 0));
         }
     }

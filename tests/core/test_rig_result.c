@@ -1,4 +1,5 @@
 /* test_rig_result.c: turns merged, against sums done anew; what each reason for doubt needs; the tare. */
+#include "core/angle.h"
 #include "core/rig/datasheet.h"
 #include "core/rig/polar.h"
 #include "core/rig/rig.h"
@@ -21,6 +22,21 @@ static wh_real scatter(void) {
     return ((wh_real)(scattered() >> 40) / WH_R(16777216.0) - WH_R(0.5)) * WH_R(3.4641016);
 }
 
+/* The second order that a rotor's force has beside this first one when its speed swings by so much, in this direction: by
+ * energy, a rotor without losses has w^2 = A + B cos(theta + lag), and F = S (w^2 cos theta + w' sin theta). */
+static void put_second(wh_lockin_turn *turn, wh_real swing_rad, wh_real lag_rad) {
+    wh_real size_N;
+    wh_real phase_rad;
+    wh_polar(turn->force_N.at[1], -turn->force_N.at[2], &size_N, &phase_rad);
+    const wh_real per =
+        WH_R(2.0) * swing_rad / (WH_R(1.0) + WH_R(1.5) * swing_rad * swing_rad); /* B/A */
+    wh_real sine;
+    wh_real cosine;
+    wh_sincos(wh_phase_from_rad(lag_rad + WH_R(2.0) * phase_rad), &sine, &cosine);
+    turn->force_N.at[3] = WH_R(0.75) * per * size_N * cosine;
+    turn->force_N.at[4] = WH_R(-0.75) * per * size_N * sine;
+}
+
 static wh_lockin_turn turn_of(wh_real in_phase, wh_real quadrature, unsigned number) {
     wh_lockin_turn turn = {.begin_ticks = UINT32_MAX - 300000U + number * TURN_TICKS,
                            .turn_ticks = TURN_TICKS,
@@ -28,6 +44,7 @@ static wh_lockin_turn turn_of(wh_real in_phase, wh_real quadrature, unsigned num
                            .split_seen = true};
     turn.force_N.at[1] = in_phase;
     turn.force_N.at[2] = quadrature;
+    put_second(&turn, angle.swing_rad, angle.lag_rad);
     turn.mean_N = WH_R(56.0);
     turn.residual_N = WH_R(0.1);
     turn.at_mark_N[0] = WH_R(98.0);
@@ -49,7 +66,7 @@ static void add(const wh_lockin_turn *turn) {
 
 static void conclude(const wh_result_config *config) {
     wh_merge_mean(config, &rotor, &merge, &angle, WH_R(56.0), &measured);
-    wh_merge_judge(config, &rotor, &merge, &measured);
+    wh_merge_judge(config, &rotor, &merge, &angle, &measured);
 }
 
 /* --- Student's factor ----------------------------------------------------------------------------- */
@@ -245,11 +262,33 @@ static void test_every_reason_has_its_case(void) {
             TEST_ASSERT_TRUE(why_of(full_N, WH_R(0.0), plain, 10, 0) == WH_WHY_NONE);
             const wh_real part = WH_ABS(merge.swing_rad) / angle.whole_rad;
             angle.fed = true;
-            merge.swing_rad *= (wh_real)side * (i == 0 ? WH_R(0.14) : WH_R(0.16)) / part;
+            const wh_real left = (wh_real)side * (i == 0 ? WH_R(0.14) : WH_R(0.16)) / part;
+            merge.swing_rad *= left;
+            merge.second_N[0] *= left;
+            merge.second_N[1] *= left;
             conclude(&wh_rig_standard.measure.result);
             TEST_ASSERT_TRUE(measured.why == (i == 0 ? WH_WHY_NONE : WH_WHY_FED));
             angle.fed = false;
         }
+    }
+    for (unsigned i = 0; i < 8U;
+         i++) { /* a second order of another swing: larger, smaller, earlier, later */
+        static const wh_real turns[] = {WH_R(0.0), WH_R(0.5), WH_R(0.25), WH_R(-0.25)};
+        TEST_ASSERT_TRUE(why_of(full_N, WH_R(0.0), plain, 10, 0) == WH_WHY_NONE);
+        TEST_ASSERT_FLOAT_WITHIN(1e-5f, 0.0f, (float)measured.swing_off_rad);
+        const wh_real off_rad =
+            (i < 4U ? WH_R(0.98) : WH_R(1.02)) * (WH_R(0.01) + measured.phase_half_rad);
+        wh_real sine;
+        wh_real cosine;
+        wh_sincos(wh_phase_from_rad(WH_RIG_TWO_PI * turns[i % 4U]), &sine, &cosine);
+        const wh_real more_N = WH_R(2.0) * off_rad * full_N /
+                               (WH_R(1.0) + WH_R(1.5) * merge.swing_rad * merge.swing_rad);
+        merge.second_N[0] += more_N * cosine;
+        merge.second_N[1] += more_N * sine;
+        conclude(&wh_rig_standard.measure.result);
+        TEST_ASSERT_FLOAT_WITHIN(1e-5f, (float)off_rad, (float)measured.swing_off_rad);
+        TEST_ASSERT_TRUE(measured.why == (i < 4U ? WH_WHY_NONE : WH_WHY_SWING));
+        TEST_ASSERT_TRUE(measured.quality == (i < 4U ? WH_GOOD : WH_DOUBTFUL));
     }
     /* what is not a number is refused */
     const wh_real nan = (wh_real)__builtin_nanf("");

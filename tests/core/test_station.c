@@ -17,7 +17,7 @@ static even_rig even;
 static even_rig twin;
 static wh_station station;
 static uint64_t seed;
-static char heard[WH_RING_BYTES + 1U];
+static char heard[WH_STATION_OUT_BYTES + 1U];
 static unsigned heard_length;
 
 static void begin(void) {
@@ -68,10 +68,10 @@ static void check_begins(const char *with, const char *answer) {
 
 static void test_help_knows_every_command(void) {
     begin();
-    char list[WH_RING_BYTES];
+    char list[WH_STATION_OUT_BYTES];
     strcpy(list, ask("help"));
-    TEST_ASSERT_EQUAL_STRING("OK help id arm start set stop status measure fault clear conf host talk",
-                             list);
+    TEST_ASSERT_EQUAL_STRING(
+        "OK help id arm start set stop status measure fault clear conf tel host talk", list);
     wh_words words = wh_line_split(list + 3);
     for (unsigned i = 0; i < WH_LINE_WORDS; i++) {
         char line[40] = "help ";
@@ -103,6 +103,7 @@ static void test_refusals_have_their_numbers(void) {
                 {"clear", "ERR 6 "},
                 {"measure", "ERR 104 "},
                 {"conf list", "ERR 114 "},
+                {"tel list", "ERR 114 "},
                 {"talk", "ERR 105 "},
                 {"talk loud", "ERR 105 "},
                 {"host", "ERR 106 "},
@@ -258,7 +259,7 @@ static void test_nobody_reads(void) {
     TEST_ASSERT_TRUE(station.lost_answers > 0 && station.lost_bytes == 0);
     TEST_ASSERT_NULL(strstr(ask("status"), "lost_answers=0"));
     /* and more than can wait */
-    char many[WH_RING_BYTES + 10U];
+    char many[WH_STATION_IN_BYTES + 10U];
     memset(many, 'x', sizeof many);
     wh_station_take(&station, many, sizeof many);
     TEST_ASSERT_EQUAL_UINT32(10, station.lost_bytes);

@@ -20,7 +20,7 @@ static even_rig even;
 static wh_station station;
 static wh_conf conf;
 static uint64_t seed;
-static char heard[WH_RING_BYTES + 1U];
+static char heard[WH_STATION_OUT_BYTES + 1U];
 static uint8_t kept[WH_STORE_SLOTS][SLOT_BYTES];
 static bool memory_fails;
 

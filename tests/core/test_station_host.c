@@ -25,7 +25,7 @@ static void period(void) {
 
 /* Typed, and allowed. */
 static void obey(const char *line) {
-    char heard[WH_RING_BYTES];
+    char heard[WH_STATION_OUT_BYTES];
     type(line);
     type("\n");
     for (unsigned i = 0; i < 3; i++) {

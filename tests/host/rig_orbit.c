@@ -219,5 +219,5 @@ void rig_measure(const rig_orbit *orbit, const rig_noise *noise, const wh_rotor_
         }
     }
     wh_merge_mean(&judged, rotor, &merge, &lockin.angle, (wh_real)orbit->tare_N, measured);
-    wh_merge_judge(&judged, rotor, &merge, measured);
+    wh_merge_judge(&judged, rotor, &merge, &lockin.angle, measured);
 }

@@ -200,6 +200,51 @@ static void test_samples(void) {
     }
 }
 
+/* What a range's ends stand for is refused unless 32 bits have it; what is taken reaches both ends, to the last count. */
+static void test_ranges(void) {
+    const plant_wish wish = {.seed = 1};
+    uint64_t seed = 3;
+    int taken = 0;
+    fputs("(refusals of ranges follow)\n", stderr);
+    for (int round = 0; round < 100; round++) {
+        const wh_signal s = {.kind = WH_SIGNAL_SAMPLE,
+                             .name = "x",
+                             .unit = "m",
+                             .low = (float)random_between(&seed, -0.9, 0.0),
+                             .high = (float)random_between(&seed, 0.0, 0.9),
+                             .per_count = (float)pow(10.0, random_between(&seed, -11.0, -8.5)),
+                             .period_ticks = 1000};
+        const double least = (double)s.low / (double)s.per_count;
+        const double most = (double)s.high / (double)s.per_count;
+        if (least < -2147483648.0 || most > 2147483647.0) {
+            open_bench(0.0, 0.0, 1e-3, &wish);
+            binding b;
+            const wh_hello of = {.program = "p", .ticks_per_s = 1000, .signal = &s, .signals = 1};
+            TEST_ASSERT_FALSE(bind_signals(&b, &of, bench.image, NULL));
+            close_bench();
+            continue;
+        }
+        wh_readings r;
+        taken++;
+        add(s);
+        open_bench(0.0, 0.0, 1e-3, &wish); /* x = cos(10 t) */
+        TEST_ASSERT_TRUE(plant_advance(&on, 1000.0));
+        plant_read(&on, &r);
+        TEST_ASSERT_EQUAL_UINT(1, r.samples);
+        TEST_ASSERT_EQUAL_INT(WH_SAMPLE_SATURATED, r.sample[0].status);
+        TEST_ASSERT_TRUE(fabs((double)r.sample[0].raw - most) <= 0.5);
+        for (int read = 1; read <= 157; read++) {
+            TEST_ASSERT_TRUE(plant_advance(&on, 1000.0 + 2000.0 * read));
+            plant_read(&on, &r);
+        }
+        TEST_ASSERT_EQUAL_UINT(2, r.samples);
+        TEST_ASSERT_EQUAL_INT(WH_SAMPLE_SATURATED, r.sample[0].status);
+        TEST_ASSERT_TRUE(fabs((double)r.sample[0].raw - least) <= 0.5);
+        close_bench();
+    }
+    TEST_ASSERT_TRUE(taken > 20 && taken < 80);
+}
+
 /* More than a reading holds: the newest are lost, and counted. */
 static void test_too_many(void) {
     const plant_wish wish = {.seed = 1};
@@ -262,7 +307,7 @@ static void test_notes(void) {
     close_bench();
 }
 
-/* What the firmware declared is what the plant takes; what is no number is the least. */
+/* What the firmware declared is what the plant takes; what is no number, at which a run ends (lockstep.c), is the least. */
 static void test_held_orders(void) {
     const float asked[] = {5.0F, -5.0F, 0.5F, NAN};
     const double taken[] = {2.0, -2.0, 0.5, -2.0};
@@ -356,6 +401,7 @@ void suite_plant(void) {
     RUN_TEST(test_edges_of_a_length);
     RUN_TEST(test_jitter);
     RUN_TEST(test_samples);
+    RUN_TEST(test_ranges);
     RUN_TEST(test_too_many);
     RUN_TEST(test_late_orders);
     RUN_TEST(test_notes);

@@ -1,0 +1,53 @@
+/* capture.c: the control steps round a trigger. */
+#include "capture.h"
+
+#define HALF (WH_CAPTURE_STEPS / 2U)
+#define PULSED 3U
+#define TRIGGERED 4U
+#define TRIPPED 8U
+
+void wh_capture_start(wh_capture *capture, wh_capture_trigger trigger) {
+    capture->trigger = trigger;
+    capture->full = false;
+    capture->triggered = false;
+    capture->left = HALF;
+    capture->count = 0;
+    capture->next = 0;
+}
+
+static bool triggers(const wh_capture *capture, uint8_t flags) {
+    switch (capture->trigger) {
+    case WH_CAPTURE_PULSE: return (flags & PULSED) != 0 && capture->count >= HALF;
+    case WH_CAPTURE_FAULT: return (flags & TRIPPED) != 0;
+    case WH_CAPTURE_OFF:
+    case WH_CAPTURE_TRIGGERS: break;
+    }
+    return false;
+}
+
+void wh_capture_step(wh_capture *capture, const wh_captured *step, uint32_t now_ticks) {
+    if (capture->trigger == WH_CAPTURE_OFF || capture->full) {
+        return;
+    }
+    wh_captured *to = &capture->step[capture->next];
+    if (capture->count == 0) {
+        capture->first_ticks = now_ticks;
+    } else if (capture->count == WH_CAPTURE_STEPS) { /* the oldest makes room */
+        const uint16_t second = capture->step[(capture->next + 1U) % WH_CAPTURE_STEPS].ticks;
+        capture->first_ticks += (uint16_t)(second - to->ticks);
+    }
+    *to = *step;
+    if (!capture->triggered && triggers(capture, step->flags)) {
+        capture->triggered = true;
+        to->flags |= TRIGGERED;
+    }
+    capture->next = (capture->next + 1U) % WH_CAPTURE_STEPS;
+    capture->count += capture->count < WH_CAPTURE_STEPS ? 1U : 0U;
+    capture->left -= capture->triggered ? 1U : 0U;
+    capture->full = capture->left == 0;
+}
+
+const wh_captured *wh_capture_at(const wh_capture *capture, unsigned i) {
+    const unsigned oldest = capture->next + WH_CAPTURE_STEPS - capture->count;
+    return &capture->step[(oldest + i) % WH_CAPTURE_STEPS];
+}

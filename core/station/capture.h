@@ -1,0 +1,63 @@
+/* capture.h: the control steps round a trigger: a ring that goes on until half of it is behind the trigger. */
+#ifndef WH_STATION_CAPTURE_H
+#define WH_STATION_CAPTURE_H
+
+#include "core/rig/rig.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#define WH_CAPTURE_STEPS 192U /* 0.38 s at 500 Hz */
+#define WH_CAPTURE_BYTES 8U   /* of a step, as a frame has it */
+
+/* What triggers it: X(trigger, word) */
+#define WH_CAPTURE_ROWS(X) \
+    X(WH_CAPTURE_OFF, "off") \
+    X(WH_CAPTURE_PULSE, "pulse") /* a slot pulse */ \
+    X(WH_CAPTURE_FAULT, "fault") /* a trip */
+
+#define WH_CAPTURE_NAME(trigger, word) trigger,
+typedef enum wh_capture_trigger {
+    WH_CAPTURE_ROWS(WH_CAPTURE_NAME) WH_CAPTURE_TRIGGERS
+} wh_capture_trigger;
+#undef WH_CAPTURE_NAME
+
+typedef struct wh_captured {
+    uint16_t ticks; /* of the step, their low half */
+    int16_t load;   /* as telemetry has it */
+    uint16_t drive_mV;
+    uint8_t flags; /* 1, 2: a pulse of sensor 0, 1; 4: it is the trigger; 8: tripped */
+    uint8_t stage;
+} wh_captured;
+
+/* All zeros: off. */
+typedef struct wh_capture {
+    wh_capture_trigger trigger;
+    bool full;
+    bool triggered;
+    unsigned left;        /* steps to come behind the trigger */
+    unsigned count;       /* steps that are kept, */
+    unsigned next;        /* and where the next goes */
+    uint32_t first_ticks; /* of the oldest, all of them */
+    wh_captured step[WH_CAPTURE_STEPS];
+} wh_capture;
+
+#define wh_capture_start WH_NAME(wh_capture_start)
+#define wh_capture_step WH_NAME(wh_capture_step)
+#define wh_capture_at WH_NAME(wh_capture_at)
+
+/* Anew, for this trigger. It counts once half of the ring is filled; what comes before is no trigger. */
+void wh_capture_start(wh_capture *capture, wh_capture_trigger trigger);
+
+/* A control step, less than 65 ms behind the one before; its flags without 4. `now_ticks`: the whole of them. */
+void wh_capture_step(wh_capture *capture, const wh_captured *step, uint32_t now_ticks);
+
+/* Step i of those that are kept, the oldest first. */
+const wh_captured *wh_capture_at(const wh_capture *capture, unsigned i);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,32 @@
+/* seen.h: what a control step saw, for who looks on: telemetry, self-test. */
+#ifndef WH_STATION_SEEN_H
+#define WH_STATION_SEEN_H
+
+#include "core/rig/rig.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#define WH_SEEN_SAMPLES 2U
+
+typedef struct wh_seen_sample {
+    uint32_t ticks;
+    int32_t raw;
+    wh_load_status status;
+} wh_seen_sample;
+
+typedef struct wh_seen {
+    wh_rig_inputs inputs;
+    bool pulsed; /* the next two are of this step */
+    unsigned sensor;
+    uint32_t pulse_ticks;
+    unsigned samples; /* so many of: */
+    wh_seen_sample sample[WH_SEEN_SAMPLES];
+} wh_seen;
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

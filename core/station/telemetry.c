@@ -1,0 +1,259 @@
+/* telemetry.c: frames, or lines for plotters, of what the rig does. */
+#include "telemetry.h"
+
+#include "answer.h"
+#include "core/cobs.h"
+#include "core/frame.h"
+
+#define SUM_BYTES 2U
+#define LINE_BYTES (1U + WH_COBS_BYTES(WH_TEL_HEAD_BYTES + WH_TEL_PAYLOAD_MOST + SUM_BYTES))
+#define TEXT_BYTES 96U
+#define NONE_16 0xFFFFU
+
+/* Where it goes, and what of. */
+typedef struct sight {
+    wh_tel *tel;
+    const wh_rig_config *config;
+    const wh_rig *rig;
+    const wh_seen *seen;
+    wh_ring *out;
+    uint32_t kept;
+} sight;
+
+/* --- numbers ------------------------------------------------------------------------------------------ */
+
+/* Rounded, within 16 bits; NONE_16 for what is none. */
+static uint16_t in_16(wh_real number) {
+    if (!(number >= WH_R(0.0))) {
+        return number < WH_R(0.0) ? 0 : NONE_16;
+    }
+    const wh_real up = number + WH_R(0.5);
+    return number < WH_R(65534.0) ? (uint16_t)up : 65534U;
+}
+
+static int16_t load_of(const wh_cell_config *cell, const wh_seen_sample *sample) {
+    if (sample->status == WH_LOAD_SATURATED || sample->status == WH_LOAD_DISCONNECTED) {
+        return WH_TEL_NO_LOAD;
+    }
+    const int32_t value = sample->raw / (int32_t)(1U << wh_tel_shift(cell));
+    return (int16_t)(value > 32767 ? 32767 : value < -32767 ? -32767 : value);
+}
+
+static uint16_t drive_mV(const wh_rig *rig) { return in_16(rig->command.volts * WH_R(1000.0)); }
+
+/* In 1/50 rpm. */
+static uint16_t speed_50(const wh_rig *rig) {
+    const wh_speed *speed = &rig->pulses.speed;
+    if (!speed->known) {
+        return rig->guard.quiet ? 0 : NONE_16;
+    }
+    return in_16(speed->turn_radps * (WH_R(50.0) / WH_RIG_RADPS_PER_RPM));
+}
+
+/* --- frames ------------------------------------------------------------------------------------------- */
+
+static wh_bytes begin_frame(const sight *s, wh_tel_channel channel, uint32_t ticks) {
+    wh_tel *tel = s->tel;
+    wh_bytes bytes = {.to = tel->bytes, .room = WH_TEL_HEAD_BYTES + WH_TEL_PAYLOAD_MOST};
+    wh_bytes_put(&bytes, 0x80U + (uint32_t)channel, 1);
+    wh_bytes_put(&bytes, tel->sequence[channel]++, 2);
+    wh_bytes_put(&bytes, tel->dropped, 2);
+    wh_bytes_put(&bytes, ticks, 4);
+    return bytes;
+}
+
+/* Whole, or not at all. */
+static void send_frame(const sight *s, const wh_bytes *frame) {
+    uint8_t line[LINE_BYTES];
+    wh_cobs cobs;
+    const uint16_t sum = wh_crc16(WH_CRC16_START, frame->to, frame->at);
+    line[0] = 0;
+    wh_cobs_start(&cobs, line + 1, sizeof line - 1U);
+    for (unsigned i = 0; i < frame->at; i++) {
+        wh_cobs_put(&cobs, frame->to[i]);
+    }
+    wh_cobs_put(&cobs, (uint8_t)sum);
+    wh_cobs_put(&cobs, (uint8_t)(sum >> 8));
+    const unsigned count = 1U + wh_cobs_end(&cobs);
+    if (wh_ring_room(s->out) < s->kept + count || !wh_ring_put(s->out, (const char *)line, count)) {
+        s->tel->dropped++;
+    }
+}
+
+static void send_run(const sight *s) {
+    wh_tel *tel = s->tel;
+    if (tel->samples == 0) {
+        return;
+    }
+    wh_bytes bytes = begin_frame(s, WH_TEL_RUN, tel->first_ticks);
+    wh_bytes_put(&bytes, speed_50(s->rig), 2);
+    wh_bytes_put(&bytes, drive_mV(s->rig), 2);
+    wh_bytes_put(&bytes, wh_rig_stage(s->rig), 1);
+    for (unsigned i = 0; i < tel->samples; i++) {
+        wh_bytes_put(&bytes, (uint16_t)tel->load[i], 2);
+    }
+    send_frame(s, &bytes);
+    tel->samples = 0;
+}
+
+static void send_event(const sight *s, wh_tel_event what, unsigned value, uint32_t ticks) {
+    wh_bytes bytes = begin_frame(s, WH_TEL_EVENT, ticks);
+    wh_bytes_put(&bytes, (uint32_t)what, 1);
+    wh_bytes_put(&bytes, value, 1);
+    send_frame(s, &bytes);
+}
+
+/* Of the ring none is dropped: it waits for room. */
+static void send_ring(const sight *s) {
+    wh_tel *tel = s->tel;
+    const wh_capture *capture = &tel->capture;
+    if (wh_ring_room(s->out) < s->kept + LINE_BYTES) {
+        return;
+    }
+    wh_bytes bytes = begin_frame(s, WH_TEL_RING, tel->read_ticks);
+    for (unsigned i = 0; i < WH_TEL_SAMPLES && tel->read_at < capture->count; i++) {
+        const wh_captured *step = wh_capture_at(capture, tel->read_at);
+        wh_bytes_put(&bytes, step->ticks, 2);
+        wh_bytes_put(&bytes, (uint16_t)step->load, 2);
+        wh_bytes_put(&bytes, step->drive_mV, 2);
+        wh_bytes_put(&bytes, step->flags, 1);
+        wh_bytes_put(&bytes, step->stage, 1);
+        tel->read_at++;
+        if (tel->read_at < capture->count) {
+            tel->read_ticks +=
+                (uint16_t)(wh_capture_at(capture, tel->read_at)->ticks - step->ticks);
+        }
+    }
+    send_frame(s, &bytes);
+    tel->reads = tel->read_at < capture->count;
+}
+
+/* --- lines -------------------------------------------------------------------------------------------- */
+
+/* "name:number" */
+static void add_named(wh_text *text, const char *before, const char *name, wh_real number,
+                      unsigned decimals) {
+    wh_text_add(text, before);
+    wh_text_add(text, name);
+    wh_text_add_char(text, ':');
+    wh_text_add_fixed(text, number, decimals);
+}
+
+static void send_text(const sight *s, wh_real force_N) {
+    static const char *const before[WH_TEL_FORMATS][2] = {
+        [WH_TEL_TELEPLOT] = {">", "\r\n>"}, [WH_TEL_ARDUINO] = {"", ","}};
+    char bytes[TEXT_BYTES];
+    wh_text text;
+    const char *const *with = before[s->tel->format];
+    wh_text_start(&text, bytes, sizeof bytes);
+    add_named(&text, with[0], "load_N", force_N, 3);
+    if (speed_50(s->rig) != NONE_16) {
+        add_named(&text, with[1], "speed_rpm", (wh_real)speed_50(s->rig) * WH_R(0.02), 2);
+    }
+    add_named(&text, with[1], "drive_V", s->rig->command.volts, 3);
+    wh_text_add(&text, "\r\n");
+    if (text.truncated || wh_ring_room(s->out) < s->kept + text.length ||
+        !wh_ring_put(s->out, text.bytes, text.length)) {
+        s->tel->dropped++;
+    }
+}
+
+/* --- a control step ------------------------------------------------------------------------------------- */
+
+static void take_sample(const sight *s, const wh_seen_sample *sample) {
+    wh_tel *tel = s->tel;
+    const wh_cell_config *cell = &s->config->measure.cell;
+    if (sample->status == WH_LOAD_REPEATED || ++tel->passed < tel->every) {
+        return;
+    }
+    tel->passed = 0;
+    const wh_load load = wh_cell_load(cell, sample->ticks, sample->raw, sample->status);
+    const wh_seen_sample judged = {sample->ticks, sample->raw, load.status};
+    if (tel->format != WH_TEL_FRAMES) {
+        if (load_of(cell, &judged) != WH_TEL_NO_LOAD) {
+            send_text(s, load.force_N);
+        }
+        return;
+    }
+    const uint32_t period = cell->period_ticks * tel->every;
+    const uint32_t due = tel->first_ticks + tel->samples * period;
+    if (load.ticks - due + period / 8U > period / 4U) {
+        send_run(s); /* what there is: these are no neighbours */
+    }
+    if (tel->samples == 0) {
+        tel->first_ticks = load.ticks;
+    }
+    tel->load[tel->samples++] = load_of(cell, &judged);
+    if (tel->samples == WH_TEL_SAMPLES) {
+        send_run(s);
+    }
+}
+
+static void take_events(const sight *s) {
+    wh_tel *tel = s->tel;
+    const wh_seen *seen = s->seen;
+    const unsigned stage = wh_rig_stage(s->rig);
+    const unsigned trip = (unsigned)s->rig->guard.trip;
+    if (seen->pulsed) {
+        send_event(s, WH_TEL_PULSE, seen->sensor, seen->pulse_ticks);
+    }
+    if (stage != tel->stage) {
+        tel->stage = stage;
+        send_event(s, WH_TEL_STATE, stage, seen->inputs.now_ticks);
+    } else if (trip != tel->trip) {
+        tel->trip = trip;
+        send_event(s, WH_TEL_TRIP, trip, seen->inputs.now_ticks);
+    }
+}
+
+static void capture_step(const sight *s) {
+    const wh_seen *seen = s->seen;
+    const wh_cell_config *cell = &s->config->measure.cell;
+    const unsigned pulse = seen->pulsed ? 1U << (seen->sensor & 1U) : 0U;
+    const unsigned tripped = s->rig->guard.trip != WH_TRIP_NONE ? 8U : 0U;
+    const wh_captured step = {.ticks = (uint16_t)seen->inputs.now_ticks,
+                              .load = seen->samples > 0
+                                          ? load_of(cell, &seen->sample[seen->samples - 1U])
+                                          : (int16_t)WH_TEL_NO_LOAD,
+                              .drive_mV = drive_mV(s->rig),
+                              .flags = (uint8_t)(pulse | tripped),
+                              .stage = (uint8_t)wh_rig_stage(s->rig)};
+    wh_capture_step(&s->tel->capture, &step, seen->inputs.now_ticks);
+}
+
+void wh_tel_rate(wh_tel *tel, uint32_t every) {
+    tel->every = every;
+    tel->passed = 0;
+    tel->samples = 0;
+    tel->stage = NONE_16; /* told anew */
+    tel->trip = NONE_16;
+}
+
+bool wh_tel_read(wh_tel *tel) {
+    if (!tel->capture.full) {
+        return false;
+    }
+    tel->reads = true;
+    tel->read_at = 0;
+    tel->read_ticks = tel->capture.first_ticks;
+    return true;
+}
+
+void wh_tel_step(wh_tel *tel, const wh_rig_config *config, const wh_rig *rig, const wh_seen *seen,
+                 wh_ring *out, uint32_t kept) {
+    const sight s = {tel, config, rig, seen, out, kept};
+    if (tel->capture.trigger != WH_CAPTURE_OFF && !tel->capture.full) {
+        capture_step(&s);
+    }
+    if (tel->every > 0) {
+        if (tel->format == WH_TEL_FRAMES) {
+            take_events(&s);
+        }
+        for (unsigned i = 0; i < seen->samples; i++) {
+            take_sample(&s, &seen->sample[i]);
+        }
+    }
+    if (tel->reads) {
+        send_ring(&s);
+    }
+}

@@ -1,0 +1,162 @@
+/* tel_bench.c: a station with telemetry on made-up samples and pulses, and who hears it. */
+#include "tel_bench.h"
+
+#include <string.h>
+
+#include "draw.h"
+#include "unity.h"
+
+tel_bench bench;
+
+void tel_begin(void) {
+    even_start(&bench.even);
+    even_rest(&bench.even);
+    wh_station_start(&bench.station, "rig", "here", STEPS_PER_S);
+    bench.tel = (wh_tel){.every = 0};
+    bench.station.tel = &bench.tel;
+    memset(&bench.heard, 0, sizeof bench.heard);
+    memset(&bench.got, 0, sizeof bench.got);
+    bench.samples.put = bench.samples.taken = bench.pulses.put = bench.pulses.taken = 0;
+    bench.cell_ticks = bench.even.inputs.now_ticks;
+}
+
+void tel_type(const char *line) {
+    wh_station_take(&bench.station, line, (unsigned)strlen(line));
+    wh_station_take(&bench.station, "\n", 1);
+}
+
+/* --- what is heard ------------------------------------------------------------------------------------- */
+
+/* Whichever of a kind is the next with this time and value; those before it were dropped. Where samples do not come evenly
+ * their times are told within an eighth of what lies between them. */
+static void find_sample(uint32_t ticks, int32_t value) {
+    const uint32_t within = bench.got.uneven ? bench.tel.every * EVEN_STEP_TICKS / 8U : 0;
+    while (bench.samples.taken < bench.samples.put &&
+           (ticks - bench.samples.ticks[bench.samples.taken % TRUTHS] + within > 2U * within ||
+            bench.samples.value[bench.samples.taken % TRUTHS] != value)) {
+        bench.samples.taken++;
+    }
+    TEST_ASSERT_TRUE(bench.samples.taken < bench.samples.put);
+    bench.samples.taken++;
+}
+
+static void find_pulse(uint32_t ticks, int32_t sensor) {
+    while (bench.pulses.taken < bench.pulses.put &&
+           bench.pulses.ticks[bench.pulses.taken % TRUTHS] != ticks) {
+        bench.pulses.taken++;
+    }
+    TEST_ASSERT_TRUE(bench.pulses.taken < bench.pulses.put);
+    TEST_ASSERT_EQUAL_INT32(bench.pulses.value[bench.pulses.taken % TRUTHS], sensor);
+    bench.pulses.taken++;
+}
+
+void tel_hear_frame(const wire_frame *frame) {
+    TEST_ASSERT_TRUE(frame->channel < WH_TEL_CHANNELS);
+    if (bench.got.any[frame->channel]) {
+        bench.got.gaps += (uint16_t)(frame->sequence - bench.got.next[frame->channel]);
+    } else {
+        bench.got.gaps += frame->sequence;
+    }
+    bench.got.any[frame->channel] = true;
+    bench.got.next[frame->channel] = (uint16_t)(frame->sequence + 1U);
+    bench.got.dropped = frame->dropped;
+    bench.got.frames++;
+    if (bench.got.blind) {
+        return;
+    }
+    if (frame->channel == WH_TEL_RUN) {
+        const unsigned count = (frame->count - 5U) / 2U;
+        TEST_ASSERT_TRUE(count >= 1U && count <= 10U && frame->count == 5U + 2U * count);
+        for (unsigned i = 0; i < count; i++) {
+            const int16_t load = (int16_t)wire_number(frame->payload + 5U + 2U * i, 2);
+            find_sample(frame->ticks + i * bench.tel.every * EVEN_STEP_TICKS, load);
+        }
+        bench.got.loads += count;
+    } else if (frame->channel == WH_TEL_EVENT) {
+        TEST_ASSERT_EQUAL_UINT(2, frame->count);
+        if (frame->payload[0] == WH_TEL_PULSE) {
+            find_pulse(frame->ticks, frame->payload[1]);
+        }
+    }
+}
+
+/* The line takes so many bytes in a control step. */
+void tel_hear(unsigned bytes) {
+    char room[64];
+    while (bytes > 0) {
+        const unsigned most = bytes < sizeof room ? bytes : (unsigned)sizeof room;
+        const unsigned count = wh_station_peek(&bench.station, room, most);
+        wh_station_drop(&bench.station, count);
+        for (unsigned i = 0; i < count; i++) {
+            wire_frame frame;
+            if (wire_take(&bench.heard, (uint8_t)room[i], &frame)) {
+                tel_hear_frame(&frame);
+            }
+        }
+        if (count < most) {
+            return;
+        }
+        bytes -= most;
+    }
+}
+
+/* --- what is seen --------------------------------------------------------------------------------------- */
+
+static void draw_sample(bool evenly) {
+    const wh_cell_config *cell = &bench.even.config.measure.cell;
+    wh_seen_sample *sample = &bench.seen.sample[bench.seen.samples++];
+    const unsigned shift = wh_tel_shift(cell);
+    sample->ticks = bench.cell_ticks;
+    sample->raw = (int32_t)draw_whole(&bench.seed, -cell->raw_max, cell->raw_max);
+    sample->status = WH_LOAD_OK;
+    if (!evenly && draw_one_in(&bench.seed, 30)) {
+        sample->status = (wh_load_status)draw_one_of(&bench.seed, WH_LOAD_STATUSES);
+    }
+    const bool full = sample->status == WH_LOAD_OK &&
+                      (sample->raw >= cell->raw_max || sample->raw <= -cell->raw_max);
+    const bool none =
+        full || sample->status == WH_LOAD_SATURATED || sample->status == WH_LOAD_DISCONNECTED;
+    if (sample->status == WH_LOAD_REPEATED) {
+        return;
+    }
+    bench.samples.ticks[bench.samples.put % TRUTHS] = bench.cell_ticks - cell->delay_ticks;
+    bench.samples.value[bench.samples.put % TRUTHS] = none ? -32768 : sample->raw / (1 << shift);
+    bench.samples.put++;
+}
+
+void tel_draw_seen(bool evenly) {
+    bench.seen = (wh_seen){.inputs = bench.even.inputs};
+    bench.cell_ticks += EVEN_STEP_TICKS;
+    if (evenly || !draw_one_in(&bench.seed, 40)) {
+        draw_sample(evenly);
+    }
+    if (!evenly && draw_one_in(&bench.seed, 50)) { /* two at once, or a break */
+        bench.cell_ticks += draw_one_in(&bench.seed, 2) ? EVEN_STEP_TICKS : 777U;
+        draw_sample(evenly);
+    }
+    bench.seen.pulsed = draw_one_in(&bench.seed, 45);
+    if (bench.seen.pulsed) {
+        bench.seen.sensor = draw_one_of(&bench.seed, 2);
+        bench.seen.pulse_ticks = bench.even.inputs.now_ticks - draw_one_of(&bench.seed, 1999);
+        bench.pulses.ticks[bench.pulses.put % TRUTHS] = bench.seen.pulse_ticks;
+        bench.pulses.value[bench.pulses.put % TRUTHS] = (int32_t)bench.seen.sensor;
+        bench.pulses.put += bench.tel.every > 0 && bench.tel.format == WH_TEL_FRAMES ? 1U : 0U;
+    }
+}
+
+/* One control period of the firmware; the line takes so many bytes of it. */
+void tel_period(bool evenly, unsigned bytes) {
+    even_step(&bench.even);
+    tel_draw_seen(evenly);
+    wh_station_see(&bench.station, &bench.even.config, &bench.even.rig, &bench.seen);
+    wh_station_step(&bench.station, &bench.even.rig);
+    tel_hear(bytes);
+}
+
+void tel_turn_on(const char *rate) {
+    tel_type(rate);
+    tel_period(true, FREE);
+    TEST_ASSERT_TRUE(bench.tel.every > 0);
+    bench.samples.taken = bench.samples.put; /* from now on */
+    bench.pulses.taken = bench.pulses.put;
+}

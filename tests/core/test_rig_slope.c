@@ -1,0 +1,283 @@
+/* test_rig_slope.c: what the load's second order says of a motor whose torque line nobody knows: rotors with drawn slopes,
+ * integrated over their angle, measured by a lock-in that believes in the one configured. */
+#include "core/angle.h"
+#include "core/rig/datasheet.h"
+#include "core/rig/rig.h"
+#include "core/root.h"
+#include "draw.h"
+
+#include "unity.h"
+
+void suite_rig_slope(void);
+
+#define STEPS 512U /* of the angle, a turn */
+#define PERIOD_TICKS 2000U
+#define BEFORE 14U /* turns, in which the inertia is found */
+#define TURNS 8U
+#define DEG (WH_R(1.0) / WH_RIG_DEG_PER_RAD)
+
+static uint64_t seed;
+static wh_rotor_config rotor; /* what the measurement believes */
+static wh_lockin lockin;
+static wh_measured measured;
+
+static wh_real drawn_between(wh_real least, wh_real most) {
+    return least + (most - least) * draw_whole(&seed, 0, 65535) / WH_R(65535.0);
+}
+
+static wh_wave wave_of(wh_real rad) {
+    wh_wave wave;
+    wh_sincos(wh_phase_from_rad(rad), &wave.sine, &wave.cosine);
+    return wave;
+}
+
+/* --- the rotor that there is ---------------------------------------------------------------------------- */
+
+typedef struct plant {
+    wh_real speed_radps; /* about its mean */
+    wh_real inertia_kgm2;
+    wh_real slope_Nms;
+    wh_real gravity_rad;
+    uint32_t late_ticks; /* samples are so much older than their stamps say */
+    wh_real gain;        /* of the cell */
+} plant;
+
+/* Its steady turn, at angles of STEPS steps from sensor 1's mark on. */
+static wh_real part_at[STEPS + 1U]; /* of the turn's time */
+static wh_real force_N[STEPS + 1U];
+static wh_real turn_s;
+static wh_real along_rad; /* of the angle less an even one over the time: its part with the sine, */
+static wh_real across_rad; /* and with the cosine */
+static wh_real truth_N;    /* S <w^2> over the angle: the first order, in line with the masses */
+
+static wh_real acceleration(const plant *p, wh_real theta, wh_real speed) {
+    const wh_real weight_Nm = rotor.mass_moment_kgm * rotor.gravity_mps2;
+    return (p->slope_Nms * (p->speed_radps - speed) -
+            weight_Nm * wave_of(theta - p->gravity_rad).sine) /
+           p->inertia_kgm2;
+}
+
+static wh_real bend(const plant *p, wh_real theta, wh_real speed) {
+    return acceleration(p, theta, speed) / speed;
+}
+
+/* A turn that begins at this speed: the speed at its end. */
+static wh_real turn(const plant *p, wh_real speed) {
+    const wh_real h = WH_RIG_TWO_PI / (wh_real)STEPS;
+    const wh_real from = rotor.mark_rad[0];
+    wh_real time = WH_R(0.0);
+    truth_N = WH_R(0.0);
+    for (unsigned i = 0; i <= STEPS; i++) {
+        const wh_real theta = from + h * (wh_real)i;
+        const wh_wave at = wave_of(theta);
+        part_at[i] = time;
+        force_N[i] = rotor.mass_moment_kgm *
+                     (speed * speed * at.cosine + acceleration(p, theta, speed) * at.sine);
+        if (i == STEPS) {
+            break;
+        }
+        truth_N += rotor.mass_moment_kgm * speed * speed / (wh_real)STEPS;
+        const wh_real half = WH_R(0.5) * h;
+        const wh_real k1 = bend(p, theta, speed);
+        const wh_real k2 = bend(p, theta + half, speed + half * k1);
+        const wh_real k3 = bend(p, theta + half, speed + half * k2);
+        const wh_real k4 = bend(p, theta + h, speed + h * k3);
+        const wh_real next = speed + h / WH_R(6.0) * (k1 + WH_R(2.0) * (k2 + k3) + k4);
+        const wh_real middle = WH_R(0.5) * (speed + next) +
+                               h / WH_R(8.0) * (k1 - bend(p, theta + h, next)); /* Hermite's */
+        time += h / WH_R(6.0) * (WH_R(1.0) / speed + WH_R(4.0) / middle + WH_R(1.0) / next);
+        speed = next;
+    }
+    turn_s = time;
+    return speed;
+}
+
+/* The turn that ends as it begins, by secants; then the swing of its angle, over the time. */
+static void integrate(const plant *p) {
+    wh_real speed = p->speed_radps;
+    for (unsigned round = 0; round < 6U; round++) {
+        const wh_real off = turn(p, speed) - speed;
+        const wh_real more = speed * WH_R(1.01);
+        const wh_real slope = (turn(p, more) - more - off) / (more - speed);
+        speed -= off / slope;
+    }
+    TEST_ASSERT_TRUE(WH_ABS(turn(p, speed) - speed) < WH_R(3e-5) * speed);
+    for (unsigned i = 0; i < STEPS; i++) {
+        part_at[i] /= turn_s;
+    }
+    part_at[STEPS] = WH_R(1.0);
+    /* trapezoids; base is what makes the mean of the rest vanish */
+    wh_real base = WH_R(0.0);
+    const wh_real from = rotor.mark_rad[0];
+    for (unsigned pass = 0; pass < 2U; pass++) {
+        wh_real sum[3] = {WH_R(0.0), WH_R(0.0), WH_R(0.0)};
+        for (unsigned i = 0; i < STEPS; i++) {
+            const wh_real before = i == 0 ? part_at[STEPS - 1U] - WH_R(1.0) : part_at[i - 1U];
+            const wh_real weight = WH_R(0.5) * (part_at[i + 1U] - before);
+            const wh_real even = base + WH_RIG_TWO_PI * part_at[i];
+            const wh_real rest = from + WH_RIG_TWO_PI / (wh_real)STEPS * (wh_real)i - even;
+            const wh_wave at = wave_of(even);
+            sum[0] += weight * rest;
+            sum[1] += WH_R(2.0) * weight * rest * at.sine;
+            sum[2] += WH_R(2.0) * weight * rest * at.cosine;
+        }
+        base += sum[0];
+        along_rad = sum[1];
+        across_rad = sum[2];
+    }
+}
+
+/* --- its measurement -------------------------------------------------------------------------------------- */
+
+/* The force when this part of the turn's time is over. */
+static wh_real force_at(wh_real part) {
+    unsigned low = 0;
+    unsigned high = STEPS;
+    while (high - low > 1U) {
+        const unsigned middle = (low + high) / 2U;
+        if (part_at[middle] <= part) {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    const wh_real way = (part - part_at[low]) / (part_at[low + 1U] - part_at[low]);
+    return force_N[low] + way * (force_N[low + 1U] - force_N[low]);
+}
+
+static void measure(const plant *p) {
+    const wh_result_config *config = &wh_rig_standard.measure.result;
+    const wh_cell_config cell = {
+        .newton_per_count = WH_R(0.01), .period_ticks = PERIOD_TICKS, .raw_max = INT32_C(32767)};
+    const uint32_t turn_ticks = (uint32_t)(turn_s * (wh_real)WH_RIG_TICKS_PER_S);
+    const uint32_t split_ticks = (uint32_t)(part_at[STEPS / 4U] * (wh_real)turn_ticks);
+    const uint32_t begin = (uint32_t)draw_bits(&seed) * 2U; /* of the first turn */
+    wh_merge merge = {.turns = 0};
+    uint32_t due = 0; /* ticks since then: of the next mark, */
+    uint32_t marks = 0;
+    unsigned done = 0;
+    wh_lockin_start(&rotor, &lockin);
+    for (uint32_t now = 777U; done < BEFORE + TURNS; now += PERIOD_TICKS) {
+        while (due <= now) {
+            wh_lockin_mark(&lockin, marks % 2U, begin + due, marks / 2U * 4U + marks % 2U);
+            marks++;
+            due = marks / 2U * turn_ticks + (marks % 2U) * split_ticks;
+        }
+        const uint32_t then = (now + turn_ticks - p->late_ticks) % turn_ticks;
+        const wh_load load = {.ticks = begin + now,
+                              .force_N = WH_R(56.0) +
+                                         p->gain * force_at((wh_real)then / (wh_real)turn_ticks),
+                              .status = WH_LOAD_OK};
+        wh_lockin_load(&lockin, &load);
+        if (wh_lockin_work(&rotor, &cell, &lockin, WH_LOCKIN_HALVES_AT_ONCE) && ++done > BEFORE) {
+            wh_merge_add(config, &rotor, &merge, &lockin.turn, &lockin.angle);
+        }
+        TEST_ASSERT_TRUE(now < 60U * turn_ticks);
+    }
+    wh_merge_mean(config, &rotor, &merge, &lockin.angle, WH_R(56.0), &measured);
+    wh_merge_judge(config, &rotor, &merge, &lockin.angle, &measured);
+    TEST_ASSERT_EQUAL_UINT32(TURNS, measured.turns);
+}
+
+static void believe(wh_real gravity, wh_real gravity_rad) {
+    rotor = wh_rig_standard.measure.rotor;
+    rotor.gravity_mps2 *= gravity;
+    rotor.mark_rad[0] = -DEG;
+    rotor.mark_rad[1] = WH_R(0.25) * WH_RIG_TWO_PI - DEG;
+    rotor.gravity_rad = gravity_rad;
+}
+
+/* 165 to 360 rpm, the plane of the arms upright or inclined, and `line` times the slope that is believed. */
+static plant draw_plant(wh_real line) {
+    believe(draw_one_in(&seed, 2) ? WH_R(1.0) : drawn_between(WH_R(0.5), WH_R(1.0)),
+            drawn_between(WH_R(-0.05), WH_R(0.05)));
+    return (plant){.speed_radps = draw_one_in(&seed, 3) ? drawn_between(WH_R(24.0), WH_R(38.0))
+                                                        : drawn_between(WH_R(18.0), WH_R(24.0)),
+                   .inertia_kgm2 = rotor.inertia_kgm2 * drawn_between(WH_R(0.85), WH_R(1.4)),
+                   .slope_Nms = rotor.damping_Nms * line,
+                   .gravity_rad = rotor.gravity_rad,
+                   .gain = WH_R(1.0)};
+}
+
+/* By how much the swing of the lock-in's angle is another than the rotor's, as an arrow. */
+static wh_real arrow_off(void) {
+    const wh_wave lag = wave_of(lockin.angle.lag_rad - rotor.gravity_rad);
+    const wh_real along = lockin.angle.swing_rad * lag.cosine - along_rad;
+    const wh_real across = lockin.angle.swing_rad * lag.sine - across_rad;
+    return WH_SQRT(along * along + across * across);
+}
+
+/* --- tests -------------------------------------------------------------------------------------------------- */
+
+/* Slopes of 0.2 to 1.6 times the one believed: what the second order says of the swing is what the integrated rotor says, to
+ * the third order of the swing, which the angle within a turn leaves out. What is good is right, and a slope that is right
+ * makes no doubt. */
+static void test_the_load_tells_of_another_slope(void) {
+    unsigned good = 0;
+    unsigned doubted = 0;
+    unsigned would_lie = 0;
+    seed = 51;
+    for (unsigned run = 0; run < 60U; run++) {
+        const bool right = run % 4U == 0;
+        const plant p = draw_plant(right ? drawn_between(WH_R(0.95), WH_R(1.05))
+                                         : drawn_between(WH_R(0.2), WH_R(1.6)));
+        integrate(&p);
+        measure(&p);
+        const wh_real swing = lockin.angle.swing_rad;
+        const wh_real differ = arrow_off();
+        TEST_ASSERT_TRUE(WH_ABS(measured.swing_off_rad - differ) <
+                         WH_R(1e-3) + WH_R(0.08) * differ + WH_R(0.6) * swing * swing * swing);
+        const wh_real amplitude_off =
+            WH_ABS(measured.amplitude_N - truth_N) / truth_N - measured.amplitude_half_N / truth_N;
+        const wh_real phase_off = WH_ABS(measured.phase_rad) - measured.phase_half_rad;
+        const bool lies = amplitude_off > WH_R(0.01) || phase_off > WH_R(0.01);
+        TEST_ASSERT_TRUE(!lies || measured.quality != WH_GOOD);
+        TEST_ASSERT_TRUE(!right || measured.why == WH_WHY_NONE);
+        good += measured.quality == WH_GOOD ? 1U : 0U;
+        doubted += measured.why == WH_WHY_SWING ? 1U : 0U;
+        would_lie += lies && measured.why == WH_WHY_SWING ? 1U : 0U;
+    }
+    TEST_ASSERT_TRUE(good >= 15U && doubted >= 8U && would_lie >= 4U);
+}
+
+/* A delay and the cell's gain are not mistaken for a slope, and do not hide one. */
+static void test_calibration_does_not_matter(void) {
+    seed = 52;
+    for (unsigned run = 0; run < 16U; run++) {
+        plant p = draw_plant(run % 2U == 0 ? WH_R(1.0) : WH_R(0.5));
+        integrate(&p);
+        measure(&p);
+        const wh_real before = measured.swing_off_rad;
+        const wh_real phase_rad = measured.phase_rad;
+        const wh_real swing = lockin.angle.swing_rad;
+        p.late_ticks = (uint32_t)draw_whole(&seed, 0, 1800);
+        p.gain = drawn_between(WH_R(0.97), WH_R(1.03));
+        measure(&p);
+        const wh_real late_rad =
+            WH_RIG_TWO_PI * (wh_real)p.late_ticks / (wh_real)WH_RIG_TICKS_PER_S / turn_s;
+        TEST_ASSERT_FLOAT_WITHIN(1e-3f + 0.06f * (float)late_rad, (float)-late_rad,
+                                 (float)(measured.phase_rad - phase_rad));
+        /* a rotor that swings is later by an angle that swings, too: a fault of the angle, that shows with half its weight */
+        const wh_real shows = WH_R(0.35) * swing * late_rad + WH_R(3e-4);
+        TEST_ASSERT_FLOAT_WITHIN((float)shows, (float)before, (float)measured.swing_off_rad);
+    }
+}
+
+/* Arms that turn in a level plane do not swing, and there is nothing to compare. */
+static void test_a_level_plane_says_nothing(void) {
+    seed = 53;
+    for (unsigned run = 0; run < 4U; run++) {
+        plant p = draw_plant(drawn_between(WH_R(0.3), WH_R(1.5)));
+        rotor.gravity_mps2 = WH_R(0.0);
+        integrate(&p);
+        measure(&p);
+        TEST_ASSERT_TRUE(measured.why == WH_WHY_NONE);
+        TEST_ASSERT_FLOAT_WITHIN(0.0f, 0.0f, (float)measured.swing_off_rad);
+    }
+}
+
+void suite_rig_slope(void) {
+    RUN_TEST(test_the_load_tells_of_another_slope);
+    RUN_TEST(test_calibration_does_not_matter);
+    RUN_TEST(test_a_level_plane_says_nothing);
+}
