@@ -62,7 +62,7 @@ $(B)/tests/host: $(call objects,host,$(HOST_TEST_PARTS)) $(LIB_HOST) \
 	$(link)
 
 TEST_PROGRAMS := $(B)/tests/core_double $(B)/tests/core_float $(B)/tests/host $(B)/tools/mechanisms $(B)/tools/linkages $(B)/tools/price_fit $(B)/tools/price_fit_fixed \
-    $(B)/pil_rig $(B)/pil_swing $(B)/pil_dialled $(B)/pil_carriage $(B)/pil_cart $(B)/tools/faults $(B)/station
+    $(B)/pil_rig $(B)/pil_swing $(B)/pil_dialled $(B)/pil_carriage $(B)/pil_cart $(B)/tools/faults $(B)/station $(B)/tools/sim_station $(B)/tools/tel_check
 
 .PHONY: test-programs
 test-programs: $(TEST_PROGRAMS) $(B)/tests/quick_suites.list
@@ -161,6 +161,13 @@ $(B)/tools/precision: $(call objects,host,tests/tools/precision.c) $(LIB_HOST) $
 # Energies and the centre of mass over many steps.
 $(B)/tools/long_runs: $(call objects,host,tests/tools/long_runs.c tests/host/motion.c $(UNITY_DIR)/unity.c) \
     $(LIB_HOST) $(LIB_FLOAT) $(LIB_DOUBLE)
+	$(link)
+
+# The rig's station in simulated time, on a line of a given speed; and who reads what that brought, for itself.
+$(B)/tools/sim_station: $(call objects,float,boards/programs/station.c tests/tools/sim_board.c) \
+    $(call libraries,float,station rig virtual whirl scenes)
+	$(link)
+$(B)/tools/tel_check: $(call objects,host,tests/tools/tel_check.c)
 	$(link)
 
 # Generated mechanisms, all of which derive.
