@@ -37,7 +37,7 @@ extern "C" {
     X(start, 1, "RPM", "a test run at this set-point") \
     X(set, 1, "RPM", "another set-point, while it runs") \
     X(stop, 0, "", "motor off; also the Escape key, at once") \
-    X(status, 0, "", "state, speed, voltages, load, trip") \
+    X(status, 0, "", "state, speeds, voltage, trip, last verdict, losses") \
     X(measure, 0, "", "the last result, its intervals, its verdict") \
     X(fault, 0, "", "the trip that is latched, and what was then") \
     X(clear, 0, "", "a trip whose cause is gone") \
