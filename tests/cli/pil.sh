@@ -304,13 +304,13 @@ verdict $? "and the scene is still there"
 # child PID: its first child; state PID: R, S, T, Z or nothing, as Linux has them
 child() { sed -n "s/^\([0-9]*\) (.*) [A-Za-z] $1 .*/\1/p" /proc/[0-9]*/stat 2>/dev/null | head -n 1; }
 state() { sed 's/.*) \([A-Za-z]\) .*/\1/' "/proc/$1/stat" 2>/dev/null; }
-# begin IMAGE: $host and $guest, with the line between them at work
+# begin IMAGE: $host and $guest, with the line between them at work; a busy machine may take half a minute to get there
 begin() {
     # shellcheck disable=SC2086
     timeout 60 "$whirl" pil $rig --step 2us --patience 1 --firmware "$1" >"$scratch/out" 2>"$scratch/err" &
     wrapper=$!
     host= guest=
-    for _ in $(seq 200); do
+    for _ in $(seq 1500); do
         host=$(child "$wrapper")
         [ -z "$host" ] || guest=$(child "$host")
         [ -z "$guest" ] || ! grep -aq tare "$scratch/out" || return 0
