@@ -27,6 +27,9 @@ bool hear(const char *begin, char *line, unsigned room, unsigned ms);
 /* A line to the console; its answer goes to line[room] and begins so. */
 bool answers(const char *order, const char *begin, char *line, unsigned room);
 
+/* The same where the line may be lost on its way, because nobody listens yet: it is said again every few seconds. */
+bool answers_at_last(const char *order, const char *begin, char *line, unsigned room);
+
 /* Stores that were logged, by their number. */
 const emulated_store_seen *seen_at(uint64_t number);
 bool is(const emulated_store_seen *seen, const char *device, uint32_t offset);

@@ -74,20 +74,35 @@ bool hear(const char *begin, char *line, unsigned room, unsigned ms) {
     return no("only other lines than '%s...'", begin);
 }
 
-bool answers(const char *order, const char *begin, char *line, unsigned room) {
-    char typed[120];
+/* What was said before is no answer. */
+static bool answered(const char *order, char *line, unsigned room, unsigned ms) {
+    char typed[500];
+    while (emulated_hear(&board, line, room, 0)) {
+    }
     (void)snprintf(typed, sizeof typed, "%s\r", order);
     emulated_say(&board, typed);
-    for (unsigned lines = 0; lines < 20; lines++) {
-        if (!emulated_hear(&board, line, room, 20000)) {
-            return no("'%.40s' is not answered", order);
-        }
+    for (unsigned lines = 0; lines < 50 && emulated_hear(&board, line, room, ms); lines++) {
         if (line[0] != '#' && line[0] != '\0') {
+            return true;
+        }
+    }
+    return no("'%.40s' is not answered", order);
+}
+
+bool answers(const char *order, const char *begin, char *line, unsigned room) {
+    return answered(order, line, room, 60000) &&
+           (strncmp(line, begin, strlen(begin)) == 0 ||
+            no("'%.40s': '%.150s', not '%s...'", order, line, begin));
+}
+
+bool answers_at_last(const char *order, const char *begin, char *line, unsigned room) {
+    for (unsigned i = 0; i < 10; i++) {
+        if (answered(order, line, room, 4000)) {
             return strncmp(line, begin, strlen(begin)) == 0 ||
                    no("'%.40s': '%.150s', not '%s...'", order, line, begin);
         }
     }
-    return no("'%.40s' is not answered", order);
+    return false;
 }
 
 const emulated_store_seen *seen_at(uint64_t number) {

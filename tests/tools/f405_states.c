@@ -18,7 +18,7 @@
 
 static bool says_state(char *state, unsigned room, unsigned *trip) {
     char line[300];
-    if (!answers("status", "OK state=", line, sizeof line)) {
+    if (!answers_at_last("status", "OK state=", line, sizeof line)) {
         return false;
     }
     const char *end = strstr(line, " speed_rpm=");
@@ -133,7 +133,7 @@ static bool faults_once(unsigned number, unsigned *changed) {
     const uint32_t stage = emulated_load(&board, symbol("kept_state"));
     set_mark(0xFA000000U + number);
     const char *begin = inject((fault_kind)below(FAULT_KINDS));
-    if (!hear("# reset: ", line, sizeof line, 20000)) {
+    if (!hear("# reset: ", line, sizeof line, 60000)) {
         return false;
     }
     const char *report = line + strlen("# reset: fault: ");
@@ -195,7 +195,7 @@ static bool resets_once(unsigned number) {
     if (!marked(0x5E000000U + number, &mark) || !starts_after(mark)) {
         return false;
     }
-    if (!hear("# reset: other", line, sizeof line, 20000)) {
+    if (!hear("# reset: other", line, sizeof line, 60000)) {
         return no("in %s: the cause is not told", state);
     }
     emulated_wait(&board, 20);
