@@ -46,6 +46,19 @@ static void print_notes(FILE *out, const lockstep_report *r) {
     fputs(r->notes > 0 ? "\n" : "", out);
 }
 
+/* Of a replay: what the command stream was held to, and how far. */
+static const char *as_on_tape(lockstep_end end) {
+    switch (end) {
+    case LOCKSTEP_DONE:
+    case LOCKSTEP_LET_GO: return ", as on the tape";
+    case LOCKSTEP_DIFFERENT: return ", not as on the tape";
+    case LOCKSTEP_BAD:
+    case LOCKSTEP_FAILED:
+    case LOCKSTEP_STOPPED: break;
+    }
+    return ", as on the tape so far: its rest was not played";
+}
+
 void pil_print(FILE *out, const lockstep_wish *wish, const image *im, const lockstep_report *r) {
     fprintf(out, "\nfirmware           %s on board %s, %s\n", r->program, r->board,
             wish->guest.image);
@@ -64,9 +77,7 @@ void pil_print(FILE *out, const lockstep_wish *wish, const image *im, const lock
                 r->time_s / r->wall_s);
     }
     fprintf(out, "\ncommand stream     0x%016" PRIx64 "%s\n", r->hash,
-            im != NULL                     ? ""
-            : r->end == LOCKSTEP_DIFFERENT ? ", not as on the tape"
-                                           : ", as on the tape");
+            im != NULL ? "" : as_on_tape(r->end));
     if (im != NULL) {
         fprintf(out, "plant's state      0x%016" PRIx64 "\n", r->plant_hash);
     }

@@ -299,18 +299,29 @@ refused 2 'over' "$scratch/mine.whirl" --tape "$scratch/mine.whirl" --firmware "
 cmp -s docs/plants/cart.whirl "$scratch/mine.whirl"
 verdict $? "and the scene is still there"
 
+# --- a replay that is interrupted says how far it came, at whichever exchange ------------------------------------------------
+for after in 0.02 0.05 0.1 0.2; do
+    timeout --signal=INT $after "$whirl" pil --replay "$scratch/pc.tape" --firmware "$build/pil_rig" >"$scratch/out" 2>"$scratch/err"
+    case $(sed -n "s/^exchanges  *\([0-9]*\) .*/\1/p" "$scratch/out") in
+    "$(sed -n "s/^exchanges  *\([0-9]*\) .*/\1/p" "$scratch/pc")") said=tape ;; # it was quicker
+    *) said="tape so far: its rest was not played" ;;
+    esac
+    [ ! -s "$scratch/out" ] || grep -aq "^command stream .*, as on the $said$" "$scratch/out"
+    verdict $? "a replay interrupted after $after s: as on the $said"
+done
+
 # --- nothing is left behind ----------------------------------------------------------------------------------------------
 # Seconds of plant time in steps of 2 us: long enough to be killed in the middle.
 # child PID: its first child; state PID: R, S, T, Z or nothing, as Linux has them
 child() { sed -n "s/^\([0-9]*\) (.*) [A-Za-z] $1 .*/\1/p" /proc/[0-9]*/stat 2>/dev/null | head -n 1; }
 state() { sed 's/.*) \([A-Za-z]\) .*/\1/' "/proc/$1/stat" 2>/dev/null; }
-# begin IMAGE: $host and $guest, with the line between them at work
+# begin IMAGE: $host and $guest, with the line between them at work; a busy machine may take half a minute to get there
 begin() {
     # shellcheck disable=SC2086
     timeout 60 "$whirl" pil $rig --step 2us --patience 1 --firmware "$1" >"$scratch/out" 2>"$scratch/err" &
     wrapper=$!
     host= guest=
-    for _ in $(seq 200); do
+    for _ in $(seq 1500); do
         host=$(child "$wrapper")
         [ -z "$host" ] || guest=$(child "$host")
         [ -z "$guest" ] || ! grep -aq tare "$scratch/out" || return 0
