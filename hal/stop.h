@@ -18,6 +18,9 @@ extern "C" {
  * broken. It is not debounced: the first contact counts. */
 bool hal_stop_pressed(void);
 
+/* False before it was looked at for the first time, and where its line is broken: then pressed says nothing of a button. */
+bool hal_stop_heard(void);
+
 #ifdef __cplusplus
 }
 #endif

@@ -35,6 +35,7 @@ static const command commands[] = {
     {"prove", command_prove, "SCENE|FILE[:SCENE] ...", "until when it is proved to be the motion"},
     {"map", command_map, "SCENE|FILE[:SCENE] ...", "which pairs of two values a run survives"},
     {"pil", command_pil, "SCENE --firmware IMAGE", "firmware in an emulator against a scene"},
+    {"monitor", command_monitor, "PORT", "a rig's console, its telemetry recorded"},
     {"emit-settings", command_emit_settings, NULL, NULL},
 #endif
     {"emit-scenes", command_emit_scenes, NULL, NULL},

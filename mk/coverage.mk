@@ -26,3 +26,13 @@ coverage: ## lines and branches of the core that the portable suites reach; fail
 coverage-now: $(GEN)/.stamp
 	+@$(COVERAGE_BUILD) $(COVERAGE)/tests/core_float $(COVERAGE)/tests/core_double
 	@LINES_LEAST=$(LINES_LEAST) BRANCHES_LEAST=$(BRANCHES_LEAST) sh mk/coverage/coverage.sh $(COVERAGE)
+
+# The program and its suites with a call at the head of each block, for `make mutants` (mk/mutants/reach.c), in a copy of the tree
+# where REACHED is set. Generated scenes have none: a change of the core does not compile them anew there.
+ifdef REACHED
+$(foreach b,host float double,$(foreach d,core host tests/core tests/host,$(eval $(B)/$(b)/$(d)/%.o: FILE_FLAGS += $(REACHED))))
+LINK_EXTRA += $(call objects,host,mk/mutants/reach.c)
+.PHONY: reachers
+reachers: $(call objects,host,mk/mutants/reach.c)
+	@$(MAKE) $(B)/whirl $(B)/tests/host
+endif

@@ -37,6 +37,12 @@ faults-now: $(GEN)/.stamp
 	@build/tools/faults --firmware $(if $(ASKED_BOARD),$(ELF)/pil_dialled.elf --board $(BOARD),$(B)/pil_dialled) \
 	    --runs $(RUNS) --seed $(SEED) >$(FAULTS_OUT); code=$$?; cat $(FAULTS_OUT); exit $$code
 
+# Telemetry over a line of 115,200, 57,600 and 9,600 baud, in simulated time: every sample is there, or is counted as lost.
+TEL_SECONDS ?= 3600
+.PHONY: tel-hour
+tel-hour: $(B)/whirl $(B)/station $(B)/tools/sim_station $(B)/tools/tel_check ## an hour of telemetry at three speeds of the line, simulated (minutes; TEL_SECONDS=n)
+	@WHIRL=$(B)/whirl TEL_SECONDS=$(TEL_SECONDS) sh tests/cli/monitor.sh
+
 # Its longest control steps once more, counted from outside.
 ##@ Tests and quality
 .PHONY: rig-worst
@@ -78,6 +84,6 @@ rig-mutants: ## small changes of the rig's controller: do its suites, else a sma
 	@UNITY="$(UNITY)" CC="$(CC)" mk/setup/deps.sh host tests
 	@UNITY="$(UNITY)" mk/setup/unity.sh build/unity
 	@MAKE="$(MAKE)" TOP=build/rig_mutants FOLDERS=core/rig MUTANTS=$(or $(MUTANTS),100) CORE=rig STAGES="double float last" \
-	    BUILDS="build/tests/rig_double build/tests/rig_float build/tools/faults build/pil_dialled" ALWAYS=campaign \
+	    BUILDS="build/tests/rig_double build/tests/rig_float build/tools/faults build/pil_dialled" ALWAYS=campaign SLACK=$(or $(SLACK),100) \
 	    LAST_BUILDS="build/tools/faults build/pil_dialled" LAST="$(call RIG_CAMPAIGN,build/pil_dialled)" \
 	    sh mk/mutants/mutants.sh

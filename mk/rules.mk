@@ -95,8 +95,8 @@ HOST_TOOL_C := $(wildcard mk/*/*.c)
 WHIRL_MAIN_C := $(wildcard host/*.c)
 WHIRL_C := $(wildcard host/*/*.c)
 ifeq ($(SYSTEM),none)
-WHIRL_C := $(filter-out $(addprefix host/commands/,run.c sweep.c price.c choose.c settings.c pricing.c pricing_open.c \
-    pricing_scene.c trust.c trusting.c map.c pil.c prove.c interrupts.c) host/map/% host/pil/% host/sweep/% \
+WHIRL_C := $(filter-out $(addprefix host/commands/,run.c sweep.c price.c choose.c emit_settings.c pricing.c pricing_open.c \
+    pricing_scene.c trust.c trusting.c map.c pil.c monitor.c prove.c interrupts.c) host/map/% host/monitor/% host/pil/% host/sweep/% \
     host/plot/% host/price/% host/trust/% host/prove/%,$(WHIRL_C))
 endif
 TEST_C := $(wildcard tests/*.c tests/*/*.c)

@@ -62,7 +62,7 @@ $(B)/tests/host: $(call objects,host,$(HOST_TEST_PARTS)) $(LIB_HOST) \
 	$(link)
 
 TEST_PROGRAMS := $(B)/tests/core_double $(B)/tests/core_float $(B)/tests/host $(B)/tools/mechanisms $(B)/tools/linkages $(B)/tools/price_fit $(B)/tools/price_fit_fixed \
-    $(B)/pil_rig $(B)/pil_swing $(B)/pil_dialled $(B)/pil_carriage $(B)/pil_cart $(B)/tools/faults $(B)/station
+    $(B)/pil_rig $(B)/pil_swing $(B)/pil_dialled $(B)/pil_carriage $(B)/pil_cart $(B)/tools/faults $(B)/station $(B)/tools/sim_station $(B)/tools/tel_check
 
 .PHONY: test-programs
 test-programs: $(TEST_PROGRAMS) $(B)/tests/quick_suites.list
@@ -163,6 +163,13 @@ $(B)/tools/long_runs: $(call objects,host,tests/tools/long_runs.c tests/host/mot
     $(LIB_HOST) $(LIB_FLOAT) $(LIB_DOUBLE)
 	$(link)
 
+# The rig's station in simulated time, on a line of a given speed; and who reads what that brought, for itself.
+$(B)/tools/sim_station: $(call objects,float,boards/programs/station.c tests/tools/sim_board.c) \
+    $(call libraries,float,station rig virtual whirl scenes)
+	$(link)
+$(B)/tools/tel_check: $(call objects,host,tests/tools/tel_check.c)
+	$(link)
+
 # Generated mechanisms, all of which derive.
 $(B)/tools/mechanisms: $(call objects,host,tests/tools/mechanisms.c tests/host/mechanism.c) $(LIB_HOST) \
     $(LIB_FLOAT) $(LIB_DOUBLE)
@@ -181,14 +188,15 @@ $(B)/tools/faults: $(call objects,host,tests/tools/faults.c $(wildcard tests/hos
 FUZZERS := $(patsubst tests/fuzz/%.c,build/fuzz/%.fuzzer,$(wildcard tests/fuzz/fuzz_*.c))
 SANITIZE := address,undefined,float-cast-overflow
 
-build/fuzz/%.fuzzer: build/fuzz/host/tests/fuzz/%.o $(LIB_HOST) $(LIB_FLOAT) $(LIB_DOUBLE)
+FUZZED := $(LIB_HOST) $(call libraries,float,station rig whirl) $(LIB_DOUBLE)
+build/fuzz/%.fuzzer: build/fuzz/host/tests/fuzz/%.o $(FUZZED)
 	$(say) LINK $@
 	$(Q)$(CC) $(NATIVE) -fsanitize=fuzzer -o $@ $(filter %.o,$^) \
 	    -Wl,--start-group $(filter %.a,$^) -Wl,--end-group -lm
 
 # What they found worth keeping, once more, without a fuzzer.
 KEPT_INPUTS := $(patsubst tests/fuzz/%.c,$(B)/fuzz/%.kept,$(wildcard tests/fuzz/fuzz_*.c))
-$(B)/fuzz/%.kept: $(B)/host/tests/fuzz/%.o $(B)/host/tests/fuzz/kept.o $(LIB_HOST) $(LIB_FLOAT) $(LIB_DOUBLE)
+$(B)/fuzz/%.kept: $(B)/host/tests/fuzz/%.o $(B)/host/tests/fuzz/kept.o $(FUZZED)
 	@mkdir -p $(@D)
 	$(link)
 

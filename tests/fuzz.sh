@@ -1,6 +1,6 @@
 #!/bin/sh
-# fuzz.sh SECONDS FUZZER...: run each fuzzer, for so many seconds, on a copy of the built-in models, the broken files and
-# what was kept of the runs before (tests/fuzz/kept). Words to try are in tests/fuzz/NAME.dict, if there is one.
+# fuzz.sh SECONDS FUZZER...: run each fuzzer, for so many seconds, on a copy of what was kept of the runs before
+# (tests/fuzz/kept); those of the language on the built-in models and the broken files, too. Words to try are in tests/fuzz/NAME.dict, if there is one.
 set -u
 
 seconds=${1:?usage: fuzz.sh SECONDS FUZZER...}
@@ -11,8 +11,9 @@ for fuzzer in "$@"; do
     corpus=${fuzzer%.fuzzer}.corpus
     found=${fuzzer%.fuzzer}.found
     mkdir -p "$corpus" "$found"
-    cp core/models/*.whirl "$corpus/"
-    cp tests/bad/* "$corpus/"
+    case $fuzzer in
+    *fuzz_lang.fuzzer | *fuzz_derive.fuzzer) cp core/models/*.whirl tests/bad/* "$corpus/" ;;
+    esac
     kept=tests/fuzz/kept/$(basename "$fuzzer" .fuzzer)
     [ ! -d "$kept" ] || cp "$kept"/* "$corpus/"
     log=${fuzzer%.fuzzer}.log

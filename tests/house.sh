@@ -44,7 +44,8 @@ trust: base core image number run
 prove: base core image lang number run
 map: base core derive image lang number plot run sweep trust
 pil: base core image number run
-commands: base derive emit fixed image lang map number pil plot price prove run show sweep trust
+monitor: base core number plot
+commands: base derive emit fixed image lang map monitor number pil plot price prove run show sweep trust
 '
 
 # included FILE...: "FILE FOLDER" for each folder of core or host that a file names in an include

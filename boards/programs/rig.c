@@ -89,38 +89,51 @@ static void put_state(uint32_t started_ticks) {
 }
 
 #if RIG_CARRIAGE || RIG_DIALLED
-static void wait_for_dials(void) {
+/* A dial may be read late, or a reading be lost: so long at most. */
+#define DIALS_MOST_TICKS (20U * HAL_DIAL_TICKS)
+
+/* False: they are not heard. */
+static bool wait_for_dials(void) {
     const uint32_t started = hal_clock_ticks();
-    for (uint32_t waited = 0; waited <= HAL_DIAL_TICKS; waited += CONTROL_TICKS) {
+    for (uint32_t waited = 0;
+         waited <= HAL_DIAL_TICKS || (waited <= DIALS_MOST_TICKS && !hal_frames_dials_heard());
+         waited += CONTROL_TICKS) {
         hal_clock_wait_until(started + waited + CONTROL_TICKS);
         hal_load_sample none_yet;
         while (hal_loadcell_take(&none_yet)) {
         }
     }
+    return hal_frames_dials_heard();
 }
 #endif
 
-/* What the operator has dialled in. */
+/* What the operator has dialled in. False: nobody knows. */
 #if RIG_CARRIAGE
-static void take_dials(wh_rig_config *config) {
-    wait_for_dials();
+static bool take_dials(wh_rig_config *config) {
+    if (!wait_for_dials()) {
+        return false;
+    }
     carriage = (wh_carriage){.disc_m = hal_frames_dial(HAL_DIAL_RADIUS),
                              .ratio = hal_frames_dial(HAL_DIAL_RATIO)};
     target_radps = hal_frames_dial(HAL_DIAL_SPEED);
     wh_carriage_mount(config, &carriage);
+    return true;
 }
 #elif RIG_DIALLED
-static void take_dials(wh_rig_config *config) {
+static bool take_dials(wh_rig_config *config) {
     if (hal_reset_cause() != HAL_RESET_POWER_ON) {
-        return; /* nothing will be ordered, and what has tripped is to be told at once */
+        return true; /* nothing will be ordered, and what has tripped is to be told at once */
     }
-    wait_for_dials();
+    if (!wait_for_dials()) {
+        return false;
+    }
     target_radps = hal_frames_dial(HAL_DIAL_TARGET);
     const float fed = hal_frames_dial(HAL_DIAL_FEED);
     if (fed < 0.0f || fed > 0.0f) {
         config->feeds = WH_FEED_ALWAYS;
         config->feed.weight_Nm *= fed;
     }
+    return true;
 }
 #endif
 
@@ -148,20 +161,32 @@ typedef enum operator_step {
     HAS_ARMED,
     HAS_STARTED,
     WAS_RESET,
-    WAS_STOPPED
+    WAS_STOPPED,
+    STOP_SILENT /* nobody knows whether stop is pressed */
 } operator_step;
+
+/* A stop input that was not heard yet may still be: what it says then counts before the rig is armed. */
+static void look_at_stop(operator_step *at, bool rests) {
+    if (!hal_stop_pressed()) {
+        return;
+    }
+    if (hal_stop_heard()) {
+        *at = WAS_STOPPED;
+    } else if (*at == HAS_ARMED || *at == HAS_STARTED || (*at == WAITS_FOR_REST && rests)) {
+        *at = STOP_SILENT;
+    }
+}
 
 /* Returns true when there is nothing more to wait for. */
 static bool operate(operator_step *at, uint32_t waited_ticks) {
-    if (hal_stop_pressed()) {
-        *at = WAS_STOPPED;
-    }
+    const bool rests = rig.guard.quiet || waited_ticks > PATIENCE_TICKS;
+    look_at_stop(at, rests);
     if (rig.state == WH_LIFE_TRIPPED) {
         return rig.rested;
     }
     switch (*at) {
     case WAITS_FOR_REST:
-        if (rig.guard.quiet || waited_ticks > PATIENCE_TICKS) {
+        if (rests) {
             *at = HAS_ARMED;
             (void)wh_rig_post(&rig, WH_EVENT_ARM, 0.0f);
         }
@@ -173,7 +198,7 @@ static bool operate(operator_step *at, uint32_t waited_ticks) {
     case HAS_STARTED: break;
     case WAS_RESET:
     case WAS_STOPPED:
-        return rig.state == WH_LIFE_IDLE && (rig.guard.quiet || waited_ticks > PATIENCE_TICKS);
+    case STOP_SILENT: return rig.state == WH_LIFE_IDLE && rests;
     }
     return (rig.state == WH_LIFE_IDLE && !wh_swing_works(&rig.swing)) || rig.answer != WH_ALLOWED;
 }
@@ -231,6 +256,9 @@ static void put_end(operator_step ended) {
     } else if (ended == WAS_STOPPED) {
         put("STOPPED: ");
         end = "the stop input was pressed";
+    } else if (ended == STOP_SILENT) {
+        put("STOPPED: ");
+        end = "the stop input is not heard";
     } else if (ended != WAS_RESET && !rig.has_result) {
         put("REFUSED: ");
         end = wh_refusal_text(rig.answer);
@@ -258,7 +286,9 @@ int main(void) {
     wh_rig_config config = rig_configuration();
     config.swings = RIG_SWINGS != 0;
 #if RIG_CARRIAGE || RIG_DIALLED
-    take_dials(&config);
+    if (!take_dials(&config)) {
+        refuse("the dials are not heard");
+    }
 #endif
     const operator_step ended = run(&config);
     put_end(ended);

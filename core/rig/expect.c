@@ -9,7 +9,7 @@
 #define FIRST_PART WH_R(0.8)   /* of where it is led: from rest it takes time to get there */
 #define SLOW_RADPS WH_R(16.0)  /* a pulse or two of a rotor that brakes are slower */
 
-void wh_expect_pulses(const wh_guard_config *guard, const wh_run_config *running, const wh_run *run,
+void wh_expect_pulses(const wh_guard_config *guard, const wh_run_config *running, wh_run *run,
                       wh_pulses *pulses, uint32_t ticks) {
     const wh_rig_phase phase = run->phase;
     const wh_speed *speed = &pulses->speed;
@@ -19,8 +19,11 @@ void wh_expect_pulses(const wh_guard_config *guard, const wh_run_config *running
     pulses->bound_radps = wh_guard_bound_radps(guard, part * led.base_radps, !from_rest);
     pulses->climb_radps2 = led.jumps
                                ? guard->climb_start_radps2
-                               : wh_guard_climb_radps2(guard, led.base_radps - speed->turn_radps,
+                               : wh_guard_climb_radps2(guard, led.lead_radps - speed->turn_radps,
                                                        wh_run_is_closed(run));
+    /* it falls as the rotor does, and rises with what leads it alone: a drive that runs away does not take it along */
+    run->left_radps =
+        speed->known && speed->turn_radps < led.base_radps ? speed->turn_radps : led.base_radps;
     pulses->window = phase == WH_PHASE_RECORD
                          ? RECORD_PART * running->record_band_radps / run->target_radps
                          : (phase == WH_PHASE_SETTLE ? SETTLE_WINDOW : RAMP_WINDOW);

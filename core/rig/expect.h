@@ -12,8 +12,8 @@ extern "C" {
 #define wh_expect_pulses WH_NAME(wh_expect_pulses)
 #define wh_expect_slower WH_NAME(wh_expect_slower)
 
-/* Before a pulse captured at `ticks` is taken: bounds and window for it. */
-void wh_expect_pulses(const wh_guard_config *guard, const wh_run_config *running, const wh_run *run,
+/* Before a pulse captured at `ticks` is taken: bounds and window for it, and what is left of the rotor's speed by then. */
+void wh_expect_pulses(const wh_guard_config *guard, const wh_run_config *running, wh_run *run,
                       wh_pulses *pulses, uint32_t ticks);
 
 /* Before that, with the motor off: nothing makes the rotor faster again than it was between its last two pulses, but

@@ -34,7 +34,7 @@ void wh_run_off(wh_run *run, wh_real speed_radps, uint32_t now_ticks) {
 
 wh_led wh_run_led(const wh_run_config *config, const wh_run *run, uint32_t ticks) {
     if (!wh_run_drives(run)) {
-        return (wh_led){.base_radps = run->off_radps};
+        return (wh_led){.lead_radps = run->off_radps, .base_radps = run->off_radps};
     }
     /* without load the motor goes where the voltage takes it; once the rotor follows it is the set-point that leads */
     const wh_real led = run->volts / config->rated_V * config->no_load_radps;
@@ -42,7 +42,10 @@ wh_led wh_run_led(const wh_run_config *config, const wh_run *run, uint32_t ticks
     const bool opens = run->phase == WH_PHASE_SPIN_UP;
     const wh_real closed_s = wh_rig_since_s(run->closed_ticks, ticks);
     const bool starts = opens || (led > setpoint && closed_s < START_S);
-    return (wh_led){.base_radps = starts ? led : setpoint, .jumps = opens || closed_s < JUMP_S};
+    const wh_real lead = starts ? led : setpoint;
+    return (wh_led){.lead_radps = lead,
+                    .base_radps = lead > run->left_radps ? lead : run->left_radps,
+                    .jumps = opens || closed_s < JUMP_S};
 }
 
 wh_real wh_run_needs_V(const wh_run_config *config, wh_real speed_radps) {

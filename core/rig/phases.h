@@ -56,6 +56,9 @@ typedef struct wh_run {
     wh_real target_radps;
     wh_real volts;     /* mean voltage of the motor that is asked for */
     wh_real off_radps; /* motor off: no faster than this */
+    /* motor on: what is left of a speed to which it once was led, at the last pulse. Nobody can slow a rotor as fast as a
+     * set-point falls whose drive stage does not brake */
+    wh_real left_radps;
     uint32_t tare_pulses[WH_SPEED_SENSORS];
     wh_drive drive;
 } wh_run;
@@ -106,7 +109,8 @@ WH_INLINE bool wh_run_is_closed(const wh_run *run) {
 
 /* Where the rotor is led at a pulse's time, for the guard. */
 typedef struct wh_led {
-    wh_real base_radps; /* no faster than this */
+    wh_real lead_radps; /* to here, */
+    wh_real base_radps; /* and it is no faster than this: it may not have got so slow yet */
     bool jumps;         /* its first turns' speeds lie far apart */
 } wh_led;
 wh_led wh_run_led(const wh_run_config *config, const wh_run *run, uint32_t ticks);

@@ -4,15 +4,23 @@
 #include <stddef.h>
 
 #include "answer.h"
+#include "brief.h"
 #include "core/frame.h"
 #include "core/root.h"
 #include "line.h"
 
-#define DEG WH_RIG_DEG_PER_RAD
-#define RPM (WH_R(1.0) / WH_RIG_RADPS_PER_RPM)
+#define UNIT(name, number) UNITS_##name,
+enum { WH_CONF_UNIT_ROWS(UNIT) UNITS };
+#undef UNIT
+#define UNIT(name, number) WH_R(number),
+static const wh_real per_unit[UNITS] = {WH_CONF_UNIT_ROWS(UNIT)};
+#undef UNIT
+#define DEG per_unit[UNITS_DEG]
 
-#define ROW(name, number, kind, unit, least, most, words) \
-    {#name, unit, words, WH_R(least), WH_R(most), number, kind},
+#define ROW(name, number, kind, unit, least, most, member, units, words) \
+    {#name,       unit,          WH_SAY(words), \
+     WH_R(least), WH_R(most),    number, \
+     kind,        UNITS_##units, offsetof(wh_rig_config, member)},
 static const wh_conf_row rows[] = {WH_CONF_ROWS(ROW)};
 #undef ROW
 
@@ -31,101 +39,49 @@ wh_conf_id wh_conf_find(const char *name) {
 
 /* --- a configuration's settings ---------------------------------------------------------------------- */
 
-static wh_real of_switch(bool on) { return on ? WH_R(1.0) : WH_R(0.0); }
-
-static wh_real value_of(const wh_rig_config *c, wh_conf_id id) {
-    const wh_real lead_rad = c->swing.lead_rad;
-    switch (id) {
-    case WH_CONF_mass_moment: return c->measure.rotor.mass_moment_kgm;
-    case WH_CONF_inertia: return c->measure.rotor.inertia_kgm2;
-    case WH_CONF_damping: return c->measure.rotor.damping_Nms;
-    case WH_CONF_damping_tolerance: return c->measure.rotor.damping_tolerance;
-    case WH_CONF_gravity: return c->measure.rotor.gravity_mps2;
-    case WH_CONF_gravity_angle: return c->measure.rotor.gravity_rad * DEG;
-    case WH_CONF_mount_factor: return c->measure.result.mount_factor;
-    case WH_CONF_sensor1: return (c->measure.rotor.mark_rad[0] + lead_rad) * DEG;
-    case WH_CONF_sensor2: return (c->measure.rotor.mark_rad[1] + lead_rad) * DEG;
-    case WH_CONF_slot_lead: return lead_rad * DEG;
-    case WH_CONF_cell_scale: return WH_ABS(c->measure.cell.newton_per_count) * WH_R(1000.0);
-    case WH_CONF_cell_reversed: return of_switch(c->measure.cell.newton_per_count < WH_R(0.0));
-    case WH_CONF_cell_offset: return c->measure.cell.offset_N;
-    case WH_CONF_cell_delay: return (wh_real)c->measure.cell.delay_ticks;
-    case WH_CONF_amplitude_floor: return c->measure.result.amplitude_floor;
-    case WH_CONF_phase_floor: return c->measure.result.phase_floor_rad * DEG;
-    case WH_CONF_record_time: return c->measure.record_s;
-    case WH_CONF_record_turns: return c->measure.record_turns;
-    case WH_CONF_settle_time: return c->run.settle_s;
-    case WH_CONF_settle_band: return c->run.settle_band_radps * RPM;
-    case WH_CONF_ramp: return c->run.drive.ramp_radps2 * RPM;
-    case WH_CONF_gain: return c->run.drive.proportional_V_per_radps;
-    case WH_CONF_gain_integral: return c->run.drive.integral_V_per_rad;
-    case WH_CONF_spin_up: return c->run.spin_up_V;
-    case WH_CONF_speed_least: return c->guard.target_min_radps * RPM;
-    case WH_CONF_speed_most: return c->guard.target_max_radps * RPM;
-    case WH_CONF_speed_limit: return c->guard.limit_radps * RPM;
-    case WH_CONF_supply_least: return c->guard.supply_min_V;
-    case WH_CONF_supply_most: return c->guard.supply_max_V;
-    case WH_CONF_armed_time: return c->armed_max_s;
-    case WH_CONF_rest_time: return c->rest_max_s;
-    case WH_CONF_stop_brakes: return of_switch(c->stop_brakes);
-    case WH_CONF_swings: return of_switch(c->swings);
-    case WH_CONF_host_loss_stops: return of_switch(c->host_loss_stops);
-    case WH_CONF_feeds: return (wh_real)c->feeds;
-    case WH_CONF_yields: return c->measure.rotor.yields_kgm2;
-    case WH_CONF_COUNT: break;
-    }
-    return WH_R(0.0);
-}
-
 static bool is_on(wh_real value) { return value > WH_R(0.5); }
 
-/* What is derived of several settings is put by put_rotor(), put_sensors() and put_cell(). */
+/* The member that a row names: of the type that goes with its kind. */
+static void *member_of(wh_rig_config *c, const wh_conf_row *row) {
+    return (uint8_t *)c + row->place;
+}
+
+static wh_real value_of(wh_rig_config *c, wh_conf_id id) {
+    const wh_conf_row *row = &rows[id];
+    const void *member = member_of(c, row);
+    if (id == WH_CONF_cell_reversed) {
+        return *(const wh_real *)member < WH_R(0.0) ? WH_R(1.0) : WH_R(0.0);
+    }
+    switch ((wh_conf_kind)row->kind) {
+    case WH_CONF_WHOLE: return (wh_real) * (const uint32_t *)member;
+    case WH_CONF_SWITCH: return *(const bool *)member ? WH_R(1.0) : WH_R(0.0);
+    case WH_CONF_FEEDS: return (wh_real) * (const wh_feed_when *)member;
+    case WH_CONF_REAL:
+    case WH_CONF_KINDS: break;
+    }
+    wh_real value = *(const wh_real *)member;
+    if (id == WH_CONF_sensor1 || id == WH_CONF_sensor2) {
+        value += c->swing.lead_rad;
+    }
+    if (id == WH_CONF_cell_scale) {
+        value = WH_ABS(value);
+    }
+    return value * per_unit[row->units];
+}
+
+/* What comes of several settings is put by put_rotor(), put_sensors() and put_cell(), behind these. */
 static void put(wh_rig_config *c, wh_conf_id id, wh_real value) {
-    switch (id) {
-    case WH_CONF_mass_moment: c->measure.rotor.mass_moment_kgm = value; break;
-    case WH_CONF_inertia: c->measure.rotor.inertia_kgm2 = value; break;
-    case WH_CONF_damping: c->measure.rotor.damping_Nms = value; break;
-    case WH_CONF_damping_tolerance: c->measure.rotor.damping_tolerance = value; break;
-    case WH_CONF_gravity: c->measure.rotor.gravity_mps2 = value; break;
-    case WH_CONF_gravity_angle:
-        c->measure.rotor.gravity_rad = value / DEG;
-        c->feed.gravity_rad = value / DEG;
-        break;
-    case WH_CONF_mount_factor: c->measure.result.mount_factor = value; break;
-    case WH_CONF_sensor1:
-    case WH_CONF_sensor2:
-    case WH_CONF_slot_lead:
-    case WH_CONF_cell_scale:
-    case WH_CONF_cell_reversed: break;
-    case WH_CONF_cell_offset: c->measure.cell.offset_N = value; break;
-    case WH_CONF_cell_delay: c->measure.cell.delay_ticks = (uint32_t)value; break;
-    case WH_CONF_amplitude_floor: c->measure.result.amplitude_floor = value; break;
-    case WH_CONF_phase_floor: c->measure.result.phase_floor_rad = value / DEG; break;
-    case WH_CONF_record_time: c->measure.record_s = value; break;
-    case WH_CONF_record_turns: c->measure.record_turns = value; break;
-    case WH_CONF_settle_time: c->run.settle_s = value; break;
-    case WH_CONF_settle_band: c->run.settle_band_radps = value / RPM; break;
-    case WH_CONF_ramp: c->run.drive.ramp_radps2 = value / RPM; break;
-    case WH_CONF_gain: c->run.drive.proportional_V_per_radps = value; break;
-    case WH_CONF_gain_integral: c->run.drive.integral_V_per_rad = value; break;
-    case WH_CONF_spin_up: c->run.spin_up_V = value; break;
-    case WH_CONF_speed_least: c->guard.target_min_radps = value / RPM; break;
-    case WH_CONF_speed_most: c->guard.target_max_radps = value / RPM; break;
-    case WH_CONF_speed_limit: c->guard.limit_radps = value / RPM; break;
-    case WH_CONF_supply_least: c->guard.supply_min_V = value; break;
-    case WH_CONF_supply_most: c->guard.supply_max_V = value; break;
-    case WH_CONF_armed_time: c->armed_max_s = value; break;
-    case WH_CONF_rest_time: c->rest_max_s = value; break;
-    case WH_CONF_stop_brakes: c->stop_brakes = is_on(value); break;
-    case WH_CONF_swings: c->swings = is_on(value); break;
-    case WH_CONF_host_loss_stops: c->host_loss_stops = is_on(value); break;
-    case WH_CONF_feeds:
-        c->feeds = is_on(value - WH_R(1.0)) ? WH_FEED_ALWAYS
-                   : is_on(value)           ? WH_FEED_SLOW
-                                            : WH_FEED_NEVER;
-        break;
-    case WH_CONF_yields: c->measure.rotor.yields_kgm2 = value; break;
-    case WH_CONF_COUNT: break;
+    const wh_conf_row *row = &rows[id];
+    void *member = member_of(c, row);
+    if (id == WH_CONF_cell_reversed) {
+        return;
+    }
+    switch ((wh_conf_kind)row->kind) {
+    case WH_CONF_WHOLE: *(uint32_t *)member = (uint32_t)value; break;
+    case WH_CONF_SWITCH: *(bool *)member = is_on(value); break;
+    case WH_CONF_FEEDS: *(wh_feed_when *)member = (wh_feed_when)(int)value; break;
+    case WH_CONF_REAL: *(wh_real *)member = value / per_unit[row->units]; break;
+    case WH_CONF_KINDS: break;
     }
 }
 
@@ -144,6 +100,7 @@ static void put_rotor(const wh_conf *conf, wh_rig_config *c) {
     const wh_real weights = moments * (conf->value[WH_CONF_gravity] / WH_RIG_GRAVITY_MPS2);
     const wh_real inertias = conf->value[WH_CONF_inertia] / conf->standard[WH_CONF_inertia];
     c->feed.weight_Nm = moment * conf->value[WH_CONF_gravity];
+    c->feed.gravity_rad = c->measure.rotor.gravity_rad;
     c->guard.load_still_kgm *=
         moments * conf->value[WH_CONF_mount_factor] / conf->standard[WH_CONF_mount_factor];
     c->guard.fall_radps *= WH_SQRT(weights / inertias);
@@ -159,7 +116,7 @@ static void put_sensors(const wh_conf *conf, wh_rig_config *c) {
 }
 
 static void put_cell(const wh_conf *conf, wh_rig_config *c) {
-    const wh_real scale = conf->value[WH_CONF_cell_scale] / WH_R(1000.0);
+    const wh_real scale = conf->value[WH_CONF_cell_scale] / per_unit[UNITS_MILLI];
     c->measure.cell.newton_per_count = is_on(conf->value[WH_CONF_cell_reversed]) ? -scale : scale;
 }
 
@@ -172,7 +129,8 @@ static void renew(const wh_conf *conf) {
         }
     }
     if (is_set(conf, WH_CONF_mass_moment) || is_set(conf, WH_CONF_gravity) ||
-        is_set(conf, WH_CONF_inertia) || is_set(conf, WH_CONF_mount_factor)) {
+        is_set(conf, WH_CONF_inertia) || is_set(conf, WH_CONF_mount_factor) ||
+        is_set(conf, WH_CONF_gravity_angle)) {
         put_rotor(conf, c);
     }
     if (is_set(conf, WH_CONF_sensor1) || is_set(conf, WH_CONF_sensor2) ||

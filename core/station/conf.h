@@ -14,7 +14,7 @@
 extern "C" {
 #endif
 
-#define WH_CONF_NAME(name, number, kind, unit, least, most, words) WH_CONF_##name,
+#define WH_CONF_NAME(name, number, kind, unit, least, most, member, units, words) WH_CONF_##name,
 typedef enum wh_conf_id { WH_CONF_ROWS(WH_CONF_NAME) WH_CONF_COUNT } wh_conf_id;
 #undef WH_CONF_NAME
 
@@ -30,6 +30,8 @@ typedef struct wh_conf_row {
     wh_real most;
     uint8_t number;
     uint8_t kind; /* a wh_conf_kind */
+    uint8_t units;
+    uint16_t place; /* of the member */
 } wh_conf_row;
 
 /* What became of a value. */

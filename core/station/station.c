@@ -2,7 +2,9 @@
 #include "station.h"
 
 #include "answer.h"
+#include "brief.h"
 #include "conf_answer.h"
+#include "selftest.h"
 #include "tel_answer.h"
 
 #define RPM_PER_RADPS (WH_R(1.0) / WH_RIG_RADPS_PER_RPM)
@@ -133,11 +135,21 @@ static void do_conf(const request *r) {
 static void do_tel(const request *r) {
     wh_station *station = r->station;
     const wh_station_error error =
-        station->tel != NULL && station->cell != NULL
-            ? wh_tel_answer(station->tel, station->cell, r->words, r->answer)
+        station->tel != NULL && station->config != NULL
+            ? wh_tel_answer(station->tel, &station->config->measure.cell, r->words, r->answer)
             : WH_STATION_NOT_HERE;
     if (error != WH_STATION_FINE) {
         refuse(r, error);
+    }
+}
+
+static void do_selftest(const request *r) {
+    if (r->station->config == NULL) {
+        refuse(r, WH_STATION_NOT_HERE);
+    } else if (r->rig->state != WH_LIFE_IDLE) {
+        refuse(r, WH_STATION_BUSY);
+    } else {
+        wh_selftest_answer(r->station->config, r->rig, &r->station->seen, r->answer);
     }
 }
 
@@ -168,22 +180,36 @@ static void do_help(const request *r);
 typedef struct command {
     const char *name;
     unsigned words_most;
-    void (*run)(const request *r);
     const char *follows;
     const char *words;
 } command;
 
-#define COMMAND(name, most, follows, words) {#name, most, do_##name, follows, words},
+#define COMMAND(name, most, follows, words) {#name, most, follows, WH_SAY(words)},
 static const command commands[] = {WH_COMMAND_ROWS(COMMAND)};
-#define COMMANDS ((unsigned)(sizeof commands / sizeof commands[0]))
+#undef COMMAND
+#define COMMAND(name, most, follows, words) COMMAND_##name,
+typedef enum command_id { WH_COMMAND_ROWS(COMMAND) COMMANDS } command_id;
+#undef COMMAND
 
-static const command *command_of(const char *name) {
-    for (unsigned i = 0; i < COMMANDS; i++) {
-        if (wh_answer_is(name, commands[i].name)) {
-            return &commands[i];
-        }
+/* COMMANDS: there is none of this name. */
+static command_id command_of(const char *name) {
+    unsigned id = 0;
+    while (id < COMMANDS && !wh_answer_is(name, commands[id].name)) {
+        id++;
     }
-    return NULL;
+    return (command_id)id;
+}
+
+/* By cases, not by pointers: what calls through a pointer itself (settings) would look like recursion to who bounds the
+ * stack. */
+static void run(const request *r, command_id id) {
+#define COMMAND(name, most, follows, words) \
+    case COMMAND_##name: do_##name(r); break;
+    switch (id) {
+        WH_COMMAND_ROWS(COMMAND)
+    case COMMANDS: break;
+    }
+#undef COMMAND
 }
 
 static void do_help(const request *r) {
@@ -195,11 +221,12 @@ static void do_help(const request *r) {
         }
         return;
     }
-    const command *asked = command_of(r->words->word[1]);
-    if (asked == NULL) {
+    const command_id id = command_of(r->words->word[1]);
+    if (id == COMMANDS) {
         refuse(r, WH_STATION_NO_COMMAND);
         return;
     }
+    const command *asked = &commands[id];
     wh_text_add(r->answer, "OK ");
     wh_text_add(r->answer, asked->name);
     wh_text_add(r->answer, asked->follows[0] != '\0' ? " " : "");
@@ -218,13 +245,13 @@ static void obey(const request *r, wh_line_event event) {
     if (r->words->count == 0) {
         return; /* nothing was asked */
     }
-    const command *asked = command_of(r->words->word[0]);
-    if (asked == NULL) {
+    const command_id asked = command_of(r->words->word[0]);
+    if (asked == COMMANDS) {
         refuse(r, WH_STATION_NO_COMMAND);
-    } else if (r->words->count - 1U > asked->words_most) {
+    } else if (r->words->count - 1U > commands[asked].words_most) {
         refuse(r, WH_STATION_WORDS);
     } else {
-        asked->run(r);
+        run(r, asked);
     }
 }
 
@@ -311,7 +338,7 @@ void wh_station_start(wh_station *station, const char *program, const char *boar
 void wh_station_see(wh_station *station, const wh_rig_config *config, const wh_rig *rig,
                     const wh_seen *seen) {
     station->seen = *seen;
-    station->cell = &config->measure.cell;
+    station->config = config;
     if (station->tel != NULL) {
         wh_tel_step(station->tel, config, rig, seen, &station->out, WH_STATION_KEPT_BYTES);
     }

@@ -37,7 +37,7 @@ extern "C" {
     X(start, 1, "RPM", "a test run at this set-point") \
     X(set, 1, "RPM", "another set-point, while it runs") \
     X(stop, 0, "", "motor off; also the Escape key, at once") \
-    X(status, 0, "", "state, speed, voltages, load, trip") \
+    X(status, 0, "", "state, speeds, voltage, trip, last verdict, losses") \
     X(measure, 0, "", "the last result, its intervals, its verdict") \
     X(fault, 0, "", "the trip that is latched, and what was then") \
     X(clear, 0, "", "a trip whose cause is gone") \
@@ -45,6 +45,7 @@ extern "C" {
       "the settings; written while the rig is idle") \
     X(tel, 2, "list|schema CHANNEL|rate N|off|fmt FORMAT|ring [pulse|fault|off|read]", \
       "telemetry beside this text; off at first") \
+    X(selftest, 0, "", "what can be known while it rests: arithmetic, cell, supply, stop") \
     X(host, 1, "SECONDS", "a run ends when nothing is heard for so long; 0: never") \
     X(talk, 1, "on|off", "echo what is typed, tell of each new state")
 
@@ -57,10 +58,10 @@ extern "C" {
 typedef struct wh_station {
     const char *program; /* the caller's, */
     const char *board;
-    wh_conf *conf;              /* NULL: there are no settings */
-    wh_tel *tel;                /* NULL: there is no telemetry */
-    const wh_cell_config *cell; /* of it */
-    wh_seen seen;               /* in the last step */
+    wh_conf *conf;               /* NULL: there are no settings */
+    wh_tel *tel;                 /* NULL: there is no telemetry */
+    const wh_rig_config *config; /* in the last step, */
+    wh_seen seen;                /* and what that saw */
     wh_ring in;
     wh_ring out;
     wh_line line;

@@ -47,7 +47,11 @@ static void list(const wh_tel *tel, const wh_cell_config *cell, wh_text *answer)
     wh_text_add(answer, "OK");
     wh_answer_count(answer, "rate", tel->every > 0 ? cell_per_s(cell) / tel->every : 0);
     wh_answer_word(answer, "fmt", format_word(tel->format));
-    wh_answer_count(answer, "dropped", tel->dropped);
+    uint32_t dropped = 0;
+    for (unsigned i = 0; i < WH_TEL_CHANNELS; i++) {
+        dropped += tel->dropped[i];
+    }
+    wh_answer_count(answer, "dropped", dropped);
     add_channels(answer);
 }
 
@@ -151,6 +155,7 @@ static wh_station_error rate(wh_tel *tel, const wh_cell_config *cell, const char
     wh_tel_rate(tel, most / per_s);
     wh_text_add(answer, "OK");
     wh_answer_count(answer, "rate", per_s);
+    wh_answer_count(answer, "period_ticks", cell->period_ticks * tel->every);
     return WH_STATION_FINE;
 }
 

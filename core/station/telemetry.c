@@ -57,13 +57,13 @@ static wh_bytes begin_frame(const sight *s, wh_tel_channel channel, uint32_t tic
     wh_bytes bytes = {.to = tel->bytes, .room = WH_TEL_HEAD_BYTES + WH_TEL_PAYLOAD_MOST};
     wh_bytes_put(&bytes, 0x80U + (uint32_t)channel, 1);
     wh_bytes_put(&bytes, tel->sequence[channel]++, 2);
-    wh_bytes_put(&bytes, tel->dropped, 2);
+    wh_bytes_put(&bytes, tel->dropped[channel], 2);
     wh_bytes_put(&bytes, ticks, 4);
     return bytes;
 }
 
 /* Whole, or not at all. */
-static void send_frame(const sight *s, const wh_bytes *frame) {
+static void send_frame(const sight *s, wh_tel_channel channel, const wh_bytes *frame) {
     uint8_t line[LINE_BYTES];
     wh_cobs cobs;
     const uint16_t sum = wh_crc16(WH_CRC16_START, frame->to, frame->at);
@@ -76,7 +76,7 @@ static void send_frame(const sight *s, const wh_bytes *frame) {
     wh_cobs_put(&cobs, (uint8_t)(sum >> 8));
     const unsigned count = 1U + wh_cobs_end(&cobs);
     if (wh_ring_room(s->out) < s->kept + count || !wh_ring_put(s->out, (const char *)line, count)) {
-        s->tel->dropped++;
+        s->tel->dropped[channel]++;
     }
 }
 
@@ -92,7 +92,7 @@ static void send_run(const sight *s) {
     for (unsigned i = 0; i < tel->samples; i++) {
         wh_bytes_put(&bytes, (uint16_t)tel->load[i], 2);
     }
-    send_frame(s, &bytes);
+    send_frame(s, WH_TEL_RUN, &bytes);
     tel->samples = 0;
 }
 
@@ -100,7 +100,7 @@ static void send_event(const sight *s, wh_tel_event what, unsigned value, uint32
     wh_bytes bytes = begin_frame(s, WH_TEL_EVENT, ticks);
     wh_bytes_put(&bytes, (uint32_t)what, 1);
     wh_bytes_put(&bytes, value, 1);
-    send_frame(s, &bytes);
+    send_frame(s, WH_TEL_EVENT, &bytes);
 }
 
 /* Of the ring none is dropped: it waits for room. */
@@ -124,7 +124,7 @@ static void send_ring(const sight *s) {
                 (uint16_t)(wh_capture_at(capture, tel->read_at)->ticks - step->ticks);
         }
     }
-    send_frame(s, &bytes);
+    send_frame(s, WH_TEL_RING, &bytes);
     tel->reads = tel->read_at < capture->count;
 }
 
@@ -154,7 +154,7 @@ static void send_text(const sight *s, wh_real force_N) {
     wh_text_add(&text, "\r\n");
     if (text.truncated || wh_ring_room(s->out) < s->kept + text.length ||
         !wh_ring_put(s->out, text.bytes, text.length)) {
-        s->tel->dropped++;
+        s->tel->dropped[WH_TEL_RUN]++;
     }
 }
 

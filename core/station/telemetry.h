@@ -6,7 +6,7 @@
  *
  * and on the line it stands between two zeros. Text has no zero, and its second byte is no 0x80 or more: whoever looks at
  * what stands between two zeros knows by its second byte what it is, and text can be shown as it comes. `sequence` is the
- * channel's and counts also frames that are dropped here, for want of room; `dropped` counts these, of all channels, so
+ * channel's and counts also frames that are dropped here, for want of room; `dropped` counts the channel's that were, so
  * what a gap in the sequence has more was lost on the way. Both wrap.
  *
  * Channels describe themselves: WH_TEL_CHANNEL_ROWS, and `tel schema` at the console.
@@ -68,8 +68,8 @@ typedef struct wh_tel {
     uint32_t passed;
     wh_tel_format format;
     uint16_t sequence[WH_TEL_CHANNELS];
-    uint16_t dropped;
-    unsigned samples; /* of the frame that is under way: */
+    uint16_t dropped[WH_TEL_CHANNELS]; /* of text: of WH_TEL_RUN */
+    unsigned samples;                  /* of the frame that is under way: */
     uint32_t first_ticks;
     int16_t load[WH_TEL_SAMPLES];
     unsigned stage; /* as last told */

@@ -94,29 +94,45 @@ _Static_assert(SIGNALS + BENCH_SIGNALS <= WH_SIGNALS_MAX, "room for all");
 /* The board's one plant: hardware is global. */
 static hal_turns plant;
 static float supply_V = SUPPLY_RATED_V;
-static bool stop_pressed = true; /* until it is looked at */
-static uint32_t load_ticks;      /* stamp of the last sample of the load, */
-static bool load_seen;           /* when there was one */
-static const wh_signal *dials;   /* and notes; NULL: it has none */
+static bool stop_pressed;
+static bool stop_heard;        /* until then, and when nothing came for long, */
+static uint32_t stop_ticks;    /* since this reading arrived, it counts as pressed */
+static uint32_t load_ticks;    /* stamp of the last sample of the load, */
+static bool load_seen;         /* when there was one */
+static const wh_signal *dials; /* and notes; NULL: it has none */
 static unsigned dial_signals;
 static float dial[HAL_DIALS];
+static bool dial_heard[HAL_DIALS];
 _Static_assert((int)HAL_BENCH_DIALS <= (int)HAL_DIALS, "room for either's");
 
 static void see_dial(const wh_sample *sample) {
     const unsigned which = (unsigned)sample->channel - DIALS;
     if (which < HAL_DIALS && which < dial_signals) {
         dial[which] = (float)sample->raw * dials[which].per_count;
+        dial_heard[which] = true;
     }
+}
+
+/* Longer than the guard waits for the load cell: where all readings stay away, that is what is told. */
+#define STOP_SILENCE_TICKS (25U * HAL_STOP_PERIOD_TICKS)
+
+static void see_stop(const wh_sample *sample) {
+    stop_pressed = sample->raw != 0 || sample->status != WH_SAMPLE_GOOD;
+    stop_heard = true;
+    stop_ticks = plant.ticks;
 }
 
 /* The newest of what is not yet taken. */
 static void see_levels(void) {
+    if (plant.ticks - stop_ticks > STOP_SILENCE_TICKS) {
+        stop_heard = false; /* and stays so: these times wrap */
+    }
     for (unsigned i = plant.sample; i < plant.readings.samples; i++) {
         const wh_sample *sample = &plant.readings.sample[i];
         if (sample->channel == SUPPLY) {
             supply_V = (float)sample->raw * SUPPLY_V_PER_COUNT;
         } else if (sample->channel == STOP) {
-            stop_pressed = sample->raw != 0 || sample->status != WH_SAMPLE_GOOD;
+            see_stop(sample);
         } else if (sample->channel >= DIALS) {
             see_dial(sample);
         }
@@ -187,6 +203,15 @@ void hal_frames_with_bench_dials(void) {
 
 float hal_frames_dial(unsigned which) { return which < HAL_DIALS ? dial[which] : 0.0f; }
 
+bool hal_frames_dials_heard(void) {
+    for (unsigned i = 0; i < dial_signals && i < HAL_DIALS; i++) {
+        if (dials[i].kind == WH_SIGNAL_SAMPLE && !dial_heard[i]) {
+            return false;
+        }
+    }
+    return true;
+}
+
 bool hal_slots_take(hal_slot_pulse *pulse) {
     wh_edge edge;
     if (!hal_turns_take_edge(&plant, &edge)) {
@@ -224,7 +249,9 @@ void hal_watchdog_kick(void) { hal_turns_alive(&plant); }
 
 bool hal_watchdog_has_cut(void) { return hal_turns_is_cut(&plant); }
 
-bool hal_stop_pressed(void) { return stop_pressed; }
+bool hal_stop_pressed(void) { return stop_pressed || !stop_heard; }
+
+bool hal_stop_heard(void) { return stop_heard; }
 
 _Static_assert(sizeof plant.reset.remembered >= HAL_REMEMBER_BYTES, "the line takes them");
 

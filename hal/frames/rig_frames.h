@@ -3,6 +3,8 @@
 #ifndef HAL_FRAMES_RIG_FRAMES_H
 #define HAL_FRAMES_RIG_FRAMES_H
 
+#include <stdbool.h>
+
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -68,6 +70,9 @@ void hal_frames_with_bench_dials(void);
 
 /* As last read; 0 before that. */
 float hal_frames_dial(unsigned which);
+
+/* Was each of them read? */
+bool hal_frames_dials_heard(void);
 
 #ifdef __cplusplus
 }

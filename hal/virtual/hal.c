@@ -49,6 +49,8 @@ bool hal_watchdog_has_cut(void) { return board_rig.cut; }
 
 bool hal_stop_pressed(void) { return board_rig.stop_pressed; }
 
+bool hal_stop_heard(void) { return true; }
+
 hal_reset hal_reset_cause(void) { return board_rig.cause; }
 
 void hal_remember(const void *bytes, unsigned count) {

@@ -15,6 +15,7 @@ int command_trust(int count, char **words);
 int command_prove(int count, char **words);
 int command_map(int count, char **words);
 int command_pil(int count, char **words);
+int command_monitor(int count, char **words);
 int command_emit_scenes(int count, char **words);
 int command_emit_settings(int count, char **words);
 int command_hashes(int count, char **words);

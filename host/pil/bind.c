@@ -150,20 +150,36 @@ static bool bind_one(bound *b, const image *im, const char *renames) {
     return has_good_range(b);
 }
 
-/* A name that the firmware does not have would rename nothing, without a word. */
+/* What is against a renaming, or NULL. A name that the firmware does not have would rename nothing, without a word, and
+ * so would the second of two. */
+static const char *against(const binding *b, const char *renames, const char *at, size_t length) {
+    const size_t name = strcspn(at, "=");
+    if (name == 0 || name >= length || name + 1U == length) {
+        return "it is no NAME=OTHER";
+    }
+    for (const char *before = renames; before < at; before += strcspn(before, ",") + 1U) {
+        if (strncmp(before, at, name + 1U) == 0) {
+            return "the firmware's signal is renamed already";
+        }
+    }
+    for (unsigned i = 0; i < b->count; i++) {
+        const char *known = b->bound[i].signal.name;
+        if (strlen(known) == name && strncmp(at, known, name) == 0) {
+            return NULL;
+        }
+    }
+    return "the firmware has no signal of that name";
+}
+
 static bool all_are_used(const binding *b, const char *renames) {
     for (const char *at = renames; at != NULL;) {
         const size_t length = strcspn(at, ",");
-        bool found = false;
-        for (unsigned i = 0; i < b->count; i++) {
-            const size_t name = strlen(b->bound[i].signal.name);
-            found = found || (strncmp(at, b->bound[i].signal.name, name) == 0 && at[name] == '=');
-        }
-        if (!found) {
+        const char *why = against(b, renames, at, length);
+        if (why != NULL) {
             fprintf(stderr,
-                    "whirl pil: error: --bind '%.*s': the firmware has no signal of that name\n"
+                    "whirl pil: error: --bind '%.*s': %s\n"
                     "hint: --bind NAME=OTHER, the firmware's name first\n",
-                    (int)length, at);
+                    (int)length, at, why);
             return false;
         }
         at = at[length] == ',' ? at + length + 1 : NULL;

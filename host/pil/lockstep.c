@@ -244,12 +244,33 @@ static bool has_places(const loop *l, unsigned places) {
     return has;
 }
 
+/* What is late is on its way meanwhile; for what does not fit there the plant would have no room, and firmware starved. */
+static bool has_room(const loop *l, double delay_s) {
+    double most = 0.0;
+    for (unsigned i = 0; i < l->binding.count; i++) {
+        const wh_signal *s = &l->binding.bound[i].signal;
+        most += s->kind == WH_SIGNAL_SAMPLE
+                    ? 1.0 + delay_s * (double)l->talk.hello.ticks_per_s / (double)s->period_ticks
+                    : 0.0;
+    }
+    const bool has = most <= (double)PLANT_PENDING;
+    if (!has) {
+        fprintf(
+            stderr,
+            "whirl pil: error: --delay %g s: %.0f samples of this firmware would be on their way, and "
+            "there is room for %d\n"
+            "hint: a shorter delay, or --fault cell-late of one channel\n",
+            delay_s, most, PLANT_PENDING);
+    }
+    return has;
+}
+
 void lockstep_run(const lockstep_wish *wish, const image *im, lockstep_report *report) {
     loop l = {.report = report};
     *report = (lockstep_report){.end = LOCKSTEP_DONE};
     if (talk_start(&l.talk, wish, report, wish->tape)) {
         if (bind_signals(&l.binding, &l.talk.hello, im, wish->renames) &&
-            has_places(&l, wish->plant.places)) {
+            has_places(&l, wish->plant.places) && has_room(&l, wish->plant.delay_s)) {
             run_bound(&l, im);
         } else {
             report->end = LOCKSTEP_BAD;

@@ -13,28 +13,8 @@ here=mk/mutants
 : "${MAKE:=make}" "${ROWS:=$here/guards.rows}" "${TOP:=build/guards}" "${PROGRAM:=build/tests/host}"
 : "${SUITES:=}" "${LAST:=}" "${MORE:=}" "${HELD:=100}"
 top=$TOP
-parts="Makefile README.md mk core hal boards host tests docs"
-# A copy that is there already may have been built of a guard taken away: what is the same stays, with its time, and what is
-# put back is newer than what was built of it.
-if [ -d "$top/tree" ]; then
-    # shellcheck disable=SC2086 # a list
-    find $parts -type f | while read -r file; do
-        mkdir -p "$top/tree/$(dirname "$file")"
-        cmp -s "$file" "$top/tree/$file" || cp "$file" "$top/tree/$file"
-    done
-    # shellcheck disable=SC2086
-    (cd "$top/tree" && find $parts -type f) | while read -r file; do
-        [ -e "$file" ] || rm "$top/tree/$file"
-    done
-else
-    mkdir -p "$top/tree/build"
-    for part in $parts; do
-        cp -a "$part" "$top/tree/"
-    done
-fi
-for part in host float double gen unity tests tools whirl; do
-    [ -e "$top/tree/build/$part" ] || [ ! -e "build/$part" ] || cp -a "build/$part" "$top/tree/build/"
-done
+mkdir -p "$top"
+sh "$here/tree.sh" "$top/tree"
 # shellcheck disable=SC2086 # lists
 build() { (cd "$top/tree" && $MAKE "$PROGRAM" $MORE) >"$top/build.log" 2>&1; }
 build || { tail "$top/build.log" >&2; exit 1; }

@@ -9,8 +9,10 @@
 # SEED      of the draw; printed
 # EXCEPT    an extended regular expression: files that it matches are left alone
 # LONGEST   seconds: a suite or script that takes longer on the tree as it is, is not run
+# PATIENCE  seconds: a change that tests which take so long together did not notice has survived
 # ALWAYS    an extended regular expression: those that it matches are run, however long they take
 # NEVER     an extended regular expression: those that it matches are not asked
+# SLACK     how many times as long as it works a test may take, waiting for others: more on a busy machine
 # JOBS      how many work at the same time, each in a copy of its own, with niceness NICE
 #
 # What is asked, as mk/rig.mk has it for the rig alone:
@@ -19,6 +21,7 @@
 # CORE      the portable suites' programs are build/tests/CORE_float and CORE_double
 # LAST      what else is asked, where no suite failed: a command; LAST_BUILDS: what it needs built
 # BUILDS    what all of them are made by
+# REACH     kinds of tests, "host" and "cli", of which only those are asked that reach the changed line
 # TOP       the copies' folder
 #
 # What was found stays in build/mutants/FOLDER.SEED.*: broken off, it goes on where it was. When tests change,
@@ -26,50 +29,69 @@
 set -eu
 
 : "${FOLDERS:=core core/contact* core/rig host/algebra host/derive}" "${MUTANTS:=80}" "${EXCEPT:=^$}"
-: "${LONGEST:=10}" "${ALWAYS:=}" "${NEVER:=^$}" "${JOBS:=2}" "${SEED:=$(date +%s)}" "${NICE:=19}" "${MAKE:=make}"
+: "${LONGEST:=60}" "${PATIENCE:=600}" "${SLACK:=10}" "${ALWAYS:=}" "${NEVER:=^$}" "${JOBS:=2}" "${SEED:=$(date +%s)}" "${NICE:=19}" "${MAKE:=make}"
 : "${STAGES:=double host float}" "${CORE:=core}" "${LAST:=}" "${LAST_BUILDS:=}" "${BUILDS:=test-programs}"
+case " $STAGES " in *" host "*) : "${REACH=host cli}" ;; *) REACH="" ;; esac
 top=${TOP:=build/mutants}
 here=mk/mutants
-asked="$LONGEST.$ALWAYS.$NEVER.$STAGES.$CORE.$LAST"
-export LONGEST ALWAYS NEVER STAGES CORE LAST LAST_BUILDS
+asked="$LONGEST.$PATIENCE.$REACH.$ALWAYS.$NEVER.$STAGES.$CORE.$LAST"
+export JOBS LONGEST PATIENCE SLACK REACH ALWAYS NEVER STAGES CORE LAST LAST_BUILDS
 
 # --- copies -------------------------------------------------------------------------------------------
 # Times are kept, so that nothing is compiled that is up to date. The first copy is never changed; the
 # others, one a job, are put back from it after each change.
 sum_of() { cat "$@" | cksum | tr -d ' '; }
-sum_of_all() { find "$@" -type f | sort | xargs cat | cksum | tr -d ' '; }
+sum_of_all() { find "$@" -type f ! -path docs/testing.md | sort | xargs cat | cksum | tr -d ' '; }
 sum=$(sum_of_all Makefile core hal boards host tests docs)
-copy() { # copy FROM TO
-    rm -rf "$2"
-    mkdir -p "$2/build"
-    for part in Makefile README.md mk core hal boards host tests docs; do
-        cp -a "$1/$part" "$2/"
-    done
-    for part in host float double gen unity tests tools whirl; do
-        [ ! -e "$1/build/$part" ] || cp -a "$1/build/$part" "$2/build/"
-    done
-}
-mkdir -p "$top"
-if [ "$(cat "$top/sum" 2>/dev/null || true)" != "$sum" ]; then
-    rm -rf "$top/sum" "$top"/src*
-    copy . "$top/src"
-    (cd "$top/src" && $MAKE build/whirl && $MAKE build/gen/.stamp && $MAKE $BUILDS) >"$top/build.log" 2>&1 || {
+made() { # made TREE COMMAND...: run there, quietly
+    tree=$1
+    shift
+    (cd "$tree" && "$@") >"$top/build.log" 2>&1 || {
         tail "$top/build.log" >&2
         exit 1
     }
+}
+mkdir -p "$top"
+if [ "$(cat "$top/sum" 2>/dev/null || true)" != "$sum" ]; then
+    rm -rf "$top/sum" "$top"/src[0-9]*
+    sh "$here/tree.sh" "$top/src"
+    made "$top/src" sh -c "$MAKE build/whirl && $MAKE build/gen/.stamp && $MAKE $BUILDS"
     echo "$sum" >"$top/sum"
 fi
 for job in $(seq "$JOBS"); do
-    if [ -e "$top/src$job/.changed" ] || [ ! -e "$top/src$job/build/tests/${CORE}_float" ]; then
-        copy "$top/src" "$top/src$job"
+    if [ -e "$top/src$job/.changed" ] || [ ! -e "$top/src$job/.whole" ]; then
+        rm -rf "$top/src$job"
+        cp -a "$top/src" "$top/src$job"
+        touch "$top/src$job/.whole"
     fi
 done
 
-# --- what every test takes on the tree as it is ---------------------------------------------------------
-# Lines: seconds of a processor, "host", "float", "double" or "cli", the suite's or script's name.
+# --- what every test takes on the tree as it is, and what it reaches --------------------------------------
+# A copy whose programs mark what they reach; the lines that each block of them has code of.
+if [ -n "$REACH" ] && [ "$(cat "$top/reach/sum" 2>/dev/null || true)" != "$sum" ]; then
+    mkdir -p "$top/reach"
+    if [ ! -d "$top/reaching" ]; then
+        cp -a "$top/src" "$top/reaching.new"
+        for part in core host tests; do
+            rm -rf "$top/reaching.new"/build/*/"$part"
+        done
+        mv "$top/reaching.new" "$top/reaching"
+    fi
+    sh "$here/tree.sh" "$top/reaching"
+    made "$top/reaching" $MAKE reachers \
+        REACHED="-Og -Wno-maybe-uninitialized -Wno-format-truncation -fsanitize-coverage=trace-pc"
+    find core host -name '*.[ch]' >"$top/reach/files"
+    for program in whirl tests/host; do
+        objdump -dl --no-show-raw-insn "$top/reaching/build/$program" |
+            awk -f "$here/blocks.awk" "$top/reach/files" - >"$top/reach/${program#*/}.blocks"
+    done
+    awk -v all=1 -f "$here/lines.awk" "$top/reach/whirl.blocks" "$top/reach/host.blocks" >"$top/reach/counted"
+    echo "$sum" >"$top/reach/sum"
+fi
+# Lines: seconds of a processor, "host", "float", "double" or "cli", the suite's or script's name, a sum.
 if [ "$(cat "$top/times.sum" 2>/dev/null || true)" != "$sum.$asked" ]; then
     touch "$top/times"
-    sh "$here/times.sh" "$top/src" "$PWD/$top/times" >"$top/times.new"
+    nice -n "$NICE" sh "$here/times.sh" "$top/src" "$PWD/$top/times" >"$top/times.new"
     mv "$top/times.new" "$top/times"
     echo "$sum.$asked" >"$top/times.sum"
 fi
@@ -78,7 +100,7 @@ fi
 tests_sum=$(sum_of_all tests).$(echo "$asked" | cksum | tr -d ' ')
 
 # --- the draw, the work, the table ----------------------------------------------------------------------
-echo "Mutants drawn with SEED=$SEED, $MUTANTS a folder; tests of up to $LONGEST s."
+echo "Mutants drawn with SEED=$SEED, $MUTANTS a folder; tests of up to $LONGEST s, of up to $PATIENCE s together."
 tables=""
 set -f # patterns among the rows stay what they are
 patterns=$(printf '%s\n' $FOLDERS | grep -F '*' || true)

@@ -33,7 +33,7 @@ END {
            mutants ? 100 * killed / mutants : 0, refused, same
     for (i = 1; i <= survived; i++) {
         n = left[i]
-        printf "  %s:%d: %s: %s\n", file[n], line[n], kind[n], shown(n)
+        printf "  %s:%d: %s: %s (%s)\n", file[n], line[n], kind[n], shown(n), by[n] == "0 asked" ? "not reached" : by[n]
     }
 }
 

@@ -3,10 +3,11 @@
 # the next change that no job has taken and that NAME.found does not have, until MUTANTS of it are mutants;
 # builds it in TOP/srcJOB, tests it, and writes what came of it to NAME.found:
 #   number  refused | same | killed | survived  by what  TESTS
-# refused: it does not compile. same: the same objects, thus no mutant. TESTS names the tests' state.
+# refused: it does not compile. same: the same objects, thus no mutant. survived: by what was asked. TESTS names the tests' state.
 # Settings by the environment: those of mutants.sh.
 set -u
 
+here=$(cd "$(dirname "$0")" && pwd)
 top=$(cd "$1" && pwd)
 job=$2
 mutants=$3
@@ -65,9 +66,19 @@ changed_objects() {
 }
 
 # --- tests ----------------------------------------------------------------------------------------------
+# Those that reach the changed line.
+reaching() { # reaching FILE LINE
+    (cd "$top/reach" && grep -s -H "^$1 " counted *.lines) |
+        awk -v file="$1" -v line="$2" -f "$here/reaching.awk" "$base/$1" -
+}
+
 # Quick ones first, and those that killed before: in this row, and a little what killed in other rows or draws.
-order() {
-    awk -F '\t' -v own="$1" -v longest="$LONGEST" -v always="$ALWAYS" -v never="$NEVER" '
+order() { # order FOUND REACHING
+    awk -F '\t' -v own="$1" -v longest="$LONGEST" -v always="$ALWAYS" -v never="$NEVER" -v kinds=" $REACH " '
+        FILENAME == ARGV[1] {
+            reaches[$1] = 1
+            next
+        }
         FILENAME ~ /\.found$/ {
             if ($2 == "killed") {
                 sub(/ \(.*/, "", $3)
@@ -77,10 +88,15 @@ order() {
         }
         {
             split($0, t, " ")
+            test = t[2] "." t[3]
+            gsub("/", "_", test)
+            if (index(kinds, " " t[2] " ") && !("all" in reaches) && !(test in reaches)) {
+                next
+            }
             if ((t[1] <= longest || (always != "" && t[3] ~ always)) && t[3] !~ never) {
                 print -(kills[t[2] " " t[3]] + 0.1) / (t[1] + 0.03), t[1], t[2], t[3]
             }
-        }' "$top"/*.found "$top/times" | sort -n | cut -d ' ' -f 2-
+        }' "$2" "$top"/*.found "$top/times" | sort -n | cut -d ' ' -f 2-
 }
 
 # A suite of a program in which nothing changed has nothing to say; neither has one of generated scenes, when
@@ -102,15 +118,9 @@ usable() { # usable KIND SUITE
     esac
 }
 
-# A test that takes six times its time of the processor and five seconds has lost its way; one that waits for another process
-# may take no more than so long by the clock. The portable suites wait for nobody, but on a busy machine for the processor.
+# A test that takes six times its time of the processor and five seconds has lost its way; so has one that waits.
 run() { # run SECONDS KIND NAME
     limit=$(awk -v s="$1" 'BEGIN { print int(6 * s + 5) }')
-    clock=$((limit * 10 + 60))
-    case $2 in
-    double | float) clock=$((limit * 1000)) ;;
-    last) clock=$((limit * 100)) ;;
-    esac
     case $2 in
     cli) set -- sh "$3" ;;
     host) set -- build/tests/host "$3" ;;
@@ -118,11 +128,11 @@ run() { # run SECONDS KIND NAME
     *) set -- "build/tests/${CORE}_$2" "$3" ;;
     esac
     { (ulimit -t "$limit" && ulimit -v 4000000 && ulimit -c 0 &&
-        WHIRL=build/whirl exec timeout --kill-after=5 $clock "$@") </dev/null; } >"$log.test" 2>&1
+        WHIRL=build/whirl exec timeout --kill-after=5 $((limit * SLACK + 60)) "$@") </dev/null; } >"$log.test" 2>&1
 }
 
 judge() { # judge NAME STAGE: what the tests say that can be run once that is built, into `came`
-    order "$1.found" >"$log.order"
+    order "$1.found" "$log.reaching" >"$log.order"
     checked=""
     while read -r took program suite; do
         [ "$program" = "$2" ] || [ "$program.$2" = cli.host ] || continue
@@ -137,6 +147,12 @@ judge() { # judge NAME STAGE: what the tests say that can be run once that is bu
             checked="$checked $program:yes"
             ;;
         esac
+        spent=$(awk -v spent="$spent" -v took="$took" 'BEGIN { print spent + took }')
+        if [ "${spent%.*}" -ge "$PATIENCE" ]; then
+            came="survived${tab}others were not asked"
+            return
+        fi
+        asked=$((asked + 1))
         run "$took" "$program" "$suite"
         status=$?
         if [ "$status" -ne 0 ]; then
@@ -149,7 +165,7 @@ judge() { # judge NAME STAGE: what the tests say that can be run once that is bu
             return
         fi
     done <"$log.order"
-    came="survived$tab-"
+    came="survived${tab}$asked asked"
 }
 
 try() { # try NAME NUMBER FILE LINE COLUMN LENGTH REPLACEMENT
@@ -158,6 +174,9 @@ try() { # try NAME NUMBER FILE LINE COLUMN LENGTH REPLACEMENT
     stages="host"
     case $3 in core/*) stages=$STAGES ;; esac
     came="same$tab-"
+    asked=0
+    spent=0
+    if [ -n "$REACH" ]; then reaching "$3" "$4"; fi >"$log.reaching"
     for stage in $stages; do # one part of what there is to build is built and asked after the other
         case $stage in
         host) programs="build/whirl build/tests/host" ;;

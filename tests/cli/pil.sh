@@ -112,6 +112,35 @@ for board in $boards pc; do
     verdict $? "its tape gives the same answers on $board" "$scratch/out"
 done
 
+# --- readings that are late, or silent ------------------------------------------------------------------------------------
+# So late as they are, the run begins, and by so much is the phase off: 1980 degrees a second at 330 rpm.
+first=$(number 'its phase to the masses' "$scratch/pc")
+for delay in $(awk -v n=$((2 * rounds)) 'BEGIN { srand(5); for (i = 0; i < n; i++) print 0.05 + 9 * rand() }'); do
+    # shellcheck disable=SC2086
+    timeout 60 "$whirl" pil $rig --step 200us --firmware "$build/pil_rig" --delay "${delay}ms" >"$scratch/late" 2>"$scratch/err"
+    close_to "$(number 'its phase to the masses' "$scratch/late")" "$(awk -v d="$delay" -v p="$first" 'BEGIN { print p - 1.98 * d }')" 0.1 &&
+        close_to "$(number 'measured \/ formula' "$scratch/late")" 100 0.5
+    verdict $? "--delay ${delay}ms: the rig runs, and its phase is off by as much" "$scratch/late"
+done
+# shellcheck disable=SC2086
+timeout 60 "$whirl" pil $rig --step 200us --firmware "$build/pil_dialled" --set speed=250rpm --delay 12ms >"$scratch/late" 2>"$scratch/err"
+close_to "$(number speed "$scratch/late")" 250 0.5
+verdict $? "a dial that is read late is waited for" "$scratch/late"
+# shellcheck disable=SC2086
+timeout 60 "$whirl" pil $rig --step 200us --firmware "$build/pil_dialled" --fault cell-dead:4 >"$scratch/late" 2>"$scratch/err"
+[ $? -eq 1 ] && grep -aq '^NOT STARTED: the dials are not heard' "$scratch/late"
+verdict $? "and one that is not heard starts nothing" "$scratch/late"
+# A stop input whose line is broken is none that is not pressed, from the start or at any time; the motor is off.
+for when in $(awk -v n=$((2 * rounds)) 'BEGIN { srand(6); print 0; for (i = 0; i < n; i++) print 1.7 + 9 * rand() }'); do
+    # shellcheck disable=SC2086
+    timeout 60 "$whirl" pil $rig --step 200us --firmware "$build/pil_rig" --fault "cell-dead:3@${when}s" --tape "$scratch/silent.tape" \
+        >"$scratch/silent" 2>"$scratch/err"
+    [ $? -eq 1 ] && grep -aq '^STOPPED: the stop input is not heard' "$scratch/silent" &&
+        "$whirl" pil --read "$scratch/silent.tape" |
+        awk -F, -v when="$when" '$5 == "duty" { duty = $6 } $2 > when + 0.054 && duty != 0 { bad++ } END { exit bad != 0 }'
+    verdict $? "a stop input that is silent from $when s on stops the rig" "$scratch/silent"
+done
+
 # --- any scene ----------------------------------------------------------------------------------------------------------
 for start in 0.1 -0.1 0.17; do
     timeout 60 "$whirl" pil docs/plants/cart.whirl --start theta=$start --firmware "$build/pil_cart" >"$scratch/cart" 2>"$scratch/err" &&
@@ -222,6 +251,10 @@ sed 's/theta/tilt/g' docs/plants/cart.whirl >"$scratch/tilt.whirl"
 refused 2 "reads 'theta', which" "$scratch/tilt.whirl" --firmware "$build/pil_cart"
 refused 2 "'push' is in N, and 'duty' of 'rig_coupled' in 1" rig_coupled --bind push=duty --firmware "$build/pil_cart"
 refused 2 'no signal of that name' docs/plants/cart.whirl --bind pull=push --firmware "$build/pil_cart"
+refused 2 'is no NAME=OTHER' docs/plants/cart.whirl --bind push --firmware "$build/pil_cart"
+refused 2 'is renamed already' docs/plants/cart.whirl --bind push=push,push=push --firmware "$build/pil_cart"
+refused 2 'there is room for' docs/plants/cart.whirl --delay 10s --firmware "$build/pil_cart"
+refused 2 'there is room for' $rig --delay 0.1 --firmware "$build/pil_rig"
 refused 2 'numbers between commas' docs/plants/cart.whirl --place 1,x --firmware "$build/pil_cart"
 refused 2 'is not a time' docs/plants/cart.whirl --delay 3kg --firmware "$build/pil_cart"
 refused 2 "no board 'pdp11'" rig_coupled --board pdp11 --firmware "$build/pil_rig"
@@ -244,7 +277,7 @@ done <<'END'
 --patience --patience_takes_a_number -1 0 nan inf 1e7 empty
 --place --place_.*:_numbers_between_commas nan inf -inf 1e999 , 1, ,1 0x10 1,nan empty
 --place --place_has_[2-9]_places,_and_the_firmware 0,0,0
---bind no_signal_of_that_name = =push , push=push, ,push=push push empty
+--bind is_no_NAME=OTHER = =push , push=push, ,push=push push empty
 --bind sets_'' push= push=,push=
 --board no_board nan , empty
 --tape cannot_be_written /dev/null/x empty
@@ -271,13 +304,13 @@ verdict $? "and the scene is still there"
 # child PID: its first child; state PID: R, S, T, Z or nothing, as Linux has them
 child() { sed -n "s/^\([0-9]*\) (.*) [A-Za-z] $1 .*/\1/p" /proc/[0-9]*/stat 2>/dev/null | head -n 1; }
 state() { sed 's/.*) \([A-Za-z]\) .*/\1/' "/proc/$1/stat" 2>/dev/null; }
-# begin IMAGE: $host and $guest, with the line between them at work
+# begin IMAGE: $host and $guest, with the line between them at work; a busy machine may take half a minute to get there
 begin() {
     # shellcheck disable=SC2086
     timeout 60 "$whirl" pil $rig --step 2us --patience 1 --firmware "$1" >"$scratch/out" 2>"$scratch/err" &
     wrapper=$!
     host= guest=
-    for _ in $(seq 200); do
+    for _ in $(seq 1500); do
         host=$(child "$wrapper")
         [ -z "$host" ] || guest=$(child "$host")
         [ -z "$guest" ] || ! grep -aq tare "$scratch/out" || return 0

@@ -52,14 +52,14 @@ static void find_pulse(uint32_t ticks, int32_t sensor) {
 
 void tel_hear_frame(const wire_frame *frame) {
     TEST_ASSERT_TRUE(frame->channel < WH_TEL_CHANNELS);
-    if (bench.got.any[frame->channel]) {
-        bench.got.gaps += (uint16_t)(frame->sequence - bench.got.next[frame->channel]);
-    } else {
-        bench.got.gaps += frame->sequence;
-    }
+    const uint16_t gap = (uint16_t)(frame->sequence - bench.got.next[frame->channel]);
+    const uint16_t dropped = (uint16_t)(frame->dropped - bench.got.before[frame->channel]);
+    TEST_ASSERT_TRUE(bench.got.broken || gap == dropped);
+    bench.got.gaps += gap;
+    bench.got.dropped += dropped;
+    bench.got.before[frame->channel] = frame->dropped;
     bench.got.any[frame->channel] = true;
     bench.got.next[frame->channel] = (uint16_t)(frame->sequence + 1U);
-    bench.got.dropped = frame->dropped;
     bench.got.frames++;
     if (bench.got.blind) {
         return;

@@ -21,9 +21,11 @@ typedef struct tel_truth {
 
 typedef struct tel_counts {
     unsigned frames;
-    uint32_t gaps; /* in the sequences of all channels */
-    uint16_t dropped;
+    uint32_t gaps;    /* in the sequences of all channels */
+    uint32_t dropped; /* as frames say */
+    uint16_t before[WH_TEL_CHANNELS];
     unsigned loads;
+    bool broken; /* the line loses frames, too */
     bool uneven; /* samples do not come evenly */
     bool blind;  /* what frames hold is not looked at */
     bool any[WH_TEL_CHANNELS];

@@ -71,7 +71,8 @@ static void test_help_knows_every_command(void) {
     char list[WH_STATION_OUT_BYTES];
     strcpy(list, ask("help"));
     TEST_ASSERT_EQUAL_STRING(
-        "OK help id arm start set stop status measure fault clear conf tel host talk", list);
+        "OK help id arm start set stop status measure fault clear conf tel selftest host talk",
+        list);
     wh_words words = wh_line_split(list + 3);
     for (unsigned i = 0; i < WH_LINE_WORDS; i++) {
         char line[40] = "help ";
@@ -104,6 +105,7 @@ static void test_refusals_have_their_numbers(void) {
                 {"measure", "ERR 104 "},
                 {"conf list", "ERR 114 "},
                 {"tel list", "ERR 114 "},
+                {"selftest", "ERR 114 "},
                 {"talk", "ERR 105 "},
                 {"talk loud", "ERR 105 "},
                 {"host", "ERR 106 "},

@@ -141,6 +141,7 @@ static void test_losses_are_counted(void) {
 static void test_a_bad_line(void) {
     bench.seed = 44;
     tel_begin();
+    bench.got.broken = true;
     tel_turn_on("tel rate 500");
     for (unsigned i = 0; i < 20000U; i++) {
         char bytes[WH_STATION_OUT_BYTES];
@@ -196,7 +197,7 @@ static void test_control_is_undisturbed(void) {
                          0);
         TEST_ASSERT_EQUAL_UINT(wh_rig_stage(&twin.rig), wh_rig_stage(&bench.even.rig));
     }
-    TEST_ASSERT_TRUE(even_is_done(&bench.even) && bench.tel.dropped > 50U &&
+    TEST_ASSERT_TRUE(even_is_done(&bench.even) && bench.tel.dropped[WH_TEL_RUN] > 50U &&
                      bench.got.frames > 300U);
     TEST_ASSERT_EQUAL_UINT(0, bench.heard.bad);
 }

@@ -74,7 +74,8 @@ static void check_read(unsigned end, bool by_pulse) {
     }
     TEST_ASSERT_EQUAL_UINT(1, triggers);
     TEST_ASSERT_EQUAL_UINT(bench.tel.capture.count, row);
-    TEST_ASSERT_EQUAL_UINT(0, bench.heard.bad + bench.tel.dropped);
+    TEST_ASSERT_EQUAL_UINT(0, bench.heard.bad + bench.tel.dropped[WH_TEL_RUN] +
+                                  bench.tel.dropped[WH_TEL_RING]);
 }
 
 static void test_the_ring_has_what_was(void) {
@@ -171,9 +172,9 @@ static void test_answers_and_refusals(void) {
          "12=settle 13=record 14=ramp_down 15=coast\r\n"},
         {"tel fmt arduino", "OK fmt=arduino\r\n"},
         {"tel rate 500", "ERR 116 "},
-        {"tel rate 1", "OK rate=1\r\n"},
+        {"tel rate 1", "OK rate=1 period_ticks=1000000\r\n"},
         {"tel fmt frames", "OK fmt=frames\r\n"},
-        {"tel rate 250", "OK rate=250\r\n"},
+        {"tel rate 250", "OK rate=250 period_ticks=4000\r\n"},
         {"tel fmt arduino", "ERR 116 "},
         {"tel off", "OK\r\n"},
         {"tel list", "OK rate=0 fmt=frames "}};

@@ -1,0 +1,296 @@
+/* recording.c: see recording.h. */
+#include "recording.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "host/base/room.h"
+#include "host/plot/plot.h"
+
+/* Of the rig's clock (1 MHz). */
+#define TICKS_PER_S 1e6
+/* Events come a control step or two behind what they tell of. */
+#define SETTLED_US 50000
+/* How long a pulse is shown. */
+#define PULSE_US 100
+#define ROWS_MOST 100000
+/* More of a channel's frames cannot be missing: then the rig began anew. */
+#define GAP_MOST 0x8000U
+
+enum { EVENT_PULSE, EVENT_STATE, EVENT_TRIP };
+
+void recording_begin(recording *r, FILE *csv, FILE *waves, FILE *ring, bool plots) {
+    *r = (recording){.csv = csv, .waves = waves, .ring = ring, .plots = plots, .every = 1};
+}
+
+/* --- sequences and times ---------------------------------------------------------------------------------- */
+
+static int64_t time_of(recording *r, uint32_t ticks) {
+    if (!r->timed) {
+        r->timed = true;
+        r->ticks = ticks;
+    }
+    return r->time_us + (int32_t)(ticks - r->ticks);
+}
+
+/* What was told at last is what others are near to. */
+static void go_on(recording *r, uint32_t ticks) {
+    r->time_us = time_of(r, ticks);
+    r->ticks = ticks;
+}
+
+void recording_anew(recording *r) {
+    r->counts.restarts += r->timed;
+    r->time_us = r->expects ? r->expected_us : r->time_us;
+    r->timed = false; /* the next ticks are this time's */
+    memset(r->channel, 0, sizeof r->channel);
+    r->expects = false;
+}
+
+static void count(recording *r, const wire_frame *frame) {
+    recording_channel *c = &r->channel[frame->channel];
+    const uint16_t gap = (uint16_t)(frame->sequence - c->next);
+    if (c->any && gap >= GAP_MOST) {
+        recording_anew(r);
+    } else if (c->any) {
+        r->counts.lost += gap;
+        r->counts.dropped += (uint16_t)(frame->dropped - c->dropped);
+    }
+    c->any = true;
+    c->next = (uint16_t)(frame->sequence + 1U);
+    c->dropped = frame->dropped;
+    r->counts.frames++;
+}
+
+/* --- a run's samples --------------------------------------------------------------------------------------- */
+
+static void put_number(FILE *to, bool there, double value) {
+    if (there) {
+        fprintf(to, ",%.9g", value);
+    } else {
+        fputc(',', to);
+    }
+}
+
+/* Names and signals, once they are known. */
+static void head(recording *r, const schema_channel *c) {
+    if (r->headed) {
+        return;
+    }
+    r->headed = true;
+    r->columns = 1 + c->eaches + c->onces;
+    if (r->waves != NULL) {
+        r->vcd = vcd_new(r->waves, "telemetry, recorded by whirl monitor");
+    }
+    if (r->csv != NULL) {
+        fputs("time", r->csv);
+    }
+    for (int i = 0; i < c->eaches + c->onces; i++) {
+        const schema_field *field = i < c->eaches ? &c->each[i] : &c->once[i - c->eaches];
+        if (r->csv != NULL) {
+            fprintf(r->csv, ",%s", field->name);
+        }
+        r->signal[i] = r->vcd != NULL ? vcd_real(r->vcd, field->name) : -1;
+    }
+    if (r->csv != NULL) {
+        fputs("\r\n", r->csv);
+    }
+    if (r->vcd != NULL) {
+        r->trip = vcd_real(r->vcd, "trip");
+        r->pulse[0] = vcd_wire(r->vcd, "slot1");
+        r->pulse[1] = vcd_wire(r->vcd, "slot2");
+        for (int i = 0; i < 2; i++) {
+            vcd_change(r->vcd, r->pulse[i], 0, 0.0);
+        }
+    }
+}
+
+/* Every second of what there is, and from now on. */
+static void thin_out(recording *r) {
+    const size_t row = (size_t)r->columns;
+    for (int64_t i = 0; i < r->rows / 2; i++) {
+        memmove(r->row + (size_t)i * row, r->row + (size_t)(2 * i) * row, row * sizeof r->row[0]);
+    }
+    r->rows /= 2;
+    r->every *= 2;
+}
+
+static void keep_row(recording *r, const double *values) {
+    if (!r->plots || ++r->skipped < r->every) {
+        return;
+    }
+    r->skipped = 0;
+    if (r->rows == ROWS_MOST) {
+        thin_out(r);
+    }
+    if (r->rows == r->room) {
+        r->room = r->room > 0 ? 2 * r->room : 1024;
+        r->row = room_more(r->row, r->room * r->columns, sizeof r->row[0]);
+    }
+    memcpy(r->row + (size_t)(r->rows++ * r->columns), values,
+           (size_t)r->columns * sizeof values[0]);
+}
+
+/* One sample: its own values, then those that the frame has once. */
+static void take_sample(recording *r, const schema_channel *c, int64_t time_us, const uint8_t *each,
+                        const uint8_t *once) {
+    double values[1 + 2 * SCHEMA_FIELDS];
+    values[0] = (double)time_us / TICKS_PER_S;
+    if (r->csv != NULL) {
+        fprintf(r->csv, "%.6f", values[0]);
+    }
+    for (int i = 0; i < c->eaches + c->onces; i++) {
+        const bool is_each = i < c->eaches;
+        const schema_field *field = is_each ? &c->each[i] : &c->once[i - c->eaches];
+        const bool there = schema_value(field, is_each ? each : once, &values[1 + i]);
+        *(is_each ? &each : &once) += field->size;
+        if (r->csv != NULL) {
+            put_number(r->csv, there, values[1 + i]);
+        }
+        if (!there) {
+            values[1 + i] = NAN;
+        }
+        if (r->vcd != NULL) {
+            vcd_change(r->vcd, r->signal[i], time_us, values[1 + i]);
+        }
+    }
+    if (r->csv != NULL) {
+        fputs("\r\n", r->csv);
+    }
+    keep_row(r, values);
+    r->counts.samples++;
+}
+
+static void take_run(recording *r, const schema_channel *c, const wire_frame *frame) {
+    const unsigned once = schema_bytes(c->once, c->onces);
+    const unsigned each = schema_bytes(c->each, c->eaches);
+    if (each == 0 || frame->length < once || (frame->length - once) % each != 0) {
+        r->counts.strange++;
+        return;
+    }
+    const int64_t begin_us = time_of(r, frame->ticks);
+    const int64_t period_us = c->period_ticks;
+    head(r, c);
+    if (r->expects && period_us > 0 && begin_us > r->expected_us + period_us / 2) {
+        r->counts.lost_samples +=
+            (uint64_t)((begin_us - r->expected_us + period_us / 2) / period_us);
+    }
+    const unsigned samples = (frame->length - once) / each;
+    for (unsigned i = 0; i < samples; i++) {
+        take_sample(r, c, begin_us + (int64_t)i * period_us, frame->payload + once + i * each,
+                    frame->payload);
+    }
+    r->expects = true;
+    r->expected_us = begin_us + (int64_t)samples * period_us;
+    go_on(r, frame->ticks);
+    if (r->vcd != NULL) {
+        vcd_settle(r->vcd, r->expected_us - SETTLED_US);
+    }
+}
+
+/* --- events, and the ring ------------------------------------------------------------------------------------ */
+
+static void take_event(recording *r, const schema_channel *run, const wire_frame *frame) {
+    if (frame->length != 2U) {
+        r->counts.strange++;
+        return;
+    }
+    const int64_t time_us = time_of(r, frame->ticks);
+    const unsigned value = frame->payload[1];
+    const bool pulses = frame->payload[0] == EVENT_PULSE && value < 2U;
+    r->counts.pulses += pulses;
+    if (run->known) {
+        head(r, run);
+    }
+    if (r->vcd == NULL) {
+        return;
+    }
+    if (pulses) {
+        vcd_change(r->vcd, r->pulse[value], time_us, 1.0);
+        vcd_change(r->vcd, r->pulse[value], time_us + PULSE_US, 0.0);
+    } else if (frame->payload[0] == EVENT_TRIP) {
+        vcd_change(r->vcd, r->trip, time_us, value);
+    }
+}
+
+static void take_ring(recording *r, const schema_channel *c, const wire_frame *frame) {
+    const unsigned each = schema_bytes(c->each, c->eaches);
+    if (each < 2U || c->each[0].size != 2U || frame->length % each != 0) {
+        r->counts.strange++;
+        return;
+    }
+    if (r->ring == NULL) {
+        return;
+    }
+    if (!r->ring_headed) {
+        r->ring_headed = true;
+        fputs("time", r->ring);
+        for (int i = 1; i < c->eaches; i++) {
+            fprintf(r->ring, ",%s", c->each[i].name);
+        }
+        fputs("\r\n", r->ring);
+    }
+    uint32_t ticks = frame->ticks;
+    for (const uint8_t *at = frame->payload; at < frame->payload + frame->length;) {
+        ticks += (uint16_t)((unsigned)at[0] + ((unsigned)at[1] << 8) - ticks); /* their low half */
+        fprintf(r->ring, "%.6f", (double)time_of(r, ticks) / TICKS_PER_S);
+        at += 2;
+        for (int i = 1; i < c->eaches; i++) {
+            double value;
+            const bool there = schema_value(&c->each[i], at, &value);
+            put_number(r->ring, there, value);
+            at += c->each[i].size;
+        }
+        fputs("\r\n", r->ring);
+    }
+}
+
+void recording_frame(recording *r, const schema *s, const wire_frame *frame) {
+    if (frame->channel >= SCHEMA_CHANNELS || !s->channel[frame->channel].known) {
+        r->counts.strange++;
+        return;
+    }
+    const schema_channel *c = &s->channel[frame->channel];
+    count(r, frame);
+    switch (frame->channel) {
+    case RECORDING_RUN: take_run(r, c, frame); break;
+    case RECORDING_EVENT: take_event(r, &s->channel[RECORDING_RUN], frame); break;
+    case RECORDING_RING: take_ring(r, c, frame); break;
+    default: break;
+    }
+}
+
+/* --- the end ---------------------------------------------------------------------------------------------------- */
+
+bool recording_plot(const recording *r, const schema *s, const char *file) {
+    const schema_channel *c = &s->channel[RECORDING_RUN];
+    curve curves[2 * SCHEMA_FIELDS];
+    char names[2 * SCHEMA_FIELDS][SCHEMA_NAME];
+    int count_of = 0;
+    for (int i = 0; i + 1 < r->columns; i++) {
+        const schema_field *field = i < c->eaches ? &c->each[i] : &c->once[i - c->eaches];
+        snprintf(names[i], sizeof names[i], "%s", field->name);
+        char *unit = strchr(names[i], '[');
+        if (unit == NULL) {
+            continue; /* a state is no curve */
+        }
+        unit[-1] = '\0';
+        unit[strlen(unit) - 1U] = '\0';
+        curves[count_of++] = (curve){.name = names[i], .unit = unit + 1, .column = i + 1};
+    }
+    if (r->rows == 0 || count_of == 0) {
+        fputs("whirl monitor: error: nothing to plot: no samples came\n", stderr);
+        return false;
+    }
+    return plot_draw(file, "rig", curves, count_of, r->row, (int)r->rows, r->columns, 0.0);
+}
+
+void recording_end(recording *r) {
+    if (r->vcd != NULL) {
+        (void)vcd_end(r->vcd);
+    }
+    free(r->row);
+    r->vcd = NULL;
+    r->row = NULL;
+}

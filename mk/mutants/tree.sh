@@ -1,0 +1,33 @@
+#!/bin/sh
+# tree.sh TREE: a copy of the tree and of what was built, in the folder TREE. One that is there already is renewed and may have been
+# built of something else: what is the same stays, with its time, and what differs is newer than what was built of it.
+set -eu
+export LC_ALL=C
+tree=$1
+parts="Makefile README.md mk core hal boards host tests docs"
+if [ ! -d "$tree" ]; then
+    rm -rf "$tree.new"
+    mkdir -p "$tree.new/build"
+    # shellcheck disable=SC2086 # a list
+    cp -a $parts "$tree.new/"
+    for part in host float double gen unity tests tools whirl pil_rig pil_swing pil_dialled pil_carriage pil_cart station; do
+        [ ! -e "build/$part" ] || cp -a "build/$part" "$tree.new/build/"
+    done
+    mv "$tree.new" "$tree"
+    exit 0
+fi
+for part in $parts; do
+    diff -rq "$part" "$tree/$part" || true
+done | while read -r what from in to rest; do
+    case $what in
+    Files) cp "$from" "$to" ;;
+    Only) # "Only in FOLDER: NAME"
+        in=${in%:}
+        case $in in
+        "$tree"/*) rm -rf "${in:?}/$to" ;;
+        *) cp -r "$in/$to" "$tree/$in/" ;;
+        esac
+        ;;
+    *) echo "tree.sh: $what $from $in $to $rest" >&2 && exit 1 ;;
+    esac
+done

@@ -1,0 +1,159 @@
+#!/bin/sh
+# monitor.sh: `whirl monitor` records a rig's telemetry without loss, or counts what is lost, as the tests' own decoder counts
+# it; nobody's reading disturbs the rig; the line may go and come back. Simulated time (tests/tools/sim_board.c):
+# TEL_SECONDS of it, a minute unless told, at 115,200 baud and less.
+. "$(dirname "$0")/../checks.sh"
+
+tools=${TOOLS:-build/tools}
+seconds=${TEL_SECONDS:-60}
+trap 'kill $running 2>/dev/null; rm -rf "$scratch"' EXIT
+running=
+
+# record BAUD: in $scratch: raw, csv, vcd, text (what the rig said), said (what monitor said), plant, counts
+record() {
+    rm -f "$scratch/tty"
+    SIM_LINK=$scratch/tty SIM_SECONDS=$seconds SIM_BAUD=$1 "$tools/sim_station" 2>"$scratch/plant" </dev/null &
+    rig=$!
+    until [ -e "$scratch/tty" ]; do sleep 0.02; done
+    "$whirl" monitor "$scratch/tty" --csv "$scratch/csv" --vcd "$scratch/vcd" --raw "$scratch/raw" \
+        >"$scratch/text" 2>"$scratch/said" </dev/null &
+    running=$!
+    wait $rig
+    kill -INT $running
+    wait $running
+    status=$?
+    running=
+    "$tools/tel_check" "$scratch/raw" >"$scratch/counts"
+    verdict $status "$1 baud: Ctrl-C ends it in order" "$scratch/said"
+}
+# of NAME: a count of the tests' decoder
+of() { sed -n "s/.*$1 \([0-9]*\).*/\1/p" "$scratch/counts"; }
+# told: what monitor says of the same
+told() {
+    grep -q ": $(of samples) samples, $(of pulses) pulses in $(of frames) frames; lost: $(of missing) frames ($(of dropped) for want of room in the rig), $(of gaps) samples; damaged: 0\$" \
+        "$scratch/said"
+}
+
+SIM_ALONE=1 SIM_SECONDS=$seconds "$tools/sim_station" 2>"$scratch/alone"
+SIM_ALONE=1 SIM_TEL=1 SIM_SECONDS=$seconds "$tools/sim_station" 2>"$scratch/unread"
+cmp -s "$scratch/alone" "$scratch/unread" && grep -q '^plant .* steps$' "$scratch/alone"
+verdict $? "telemetry that nobody reads does not disturb the rig" "$scratch/unread"
+
+whole=115200
+[ "$seconds" -le 60 ] || whole="115200 57600"
+for baud in $whole; do
+    record $baud
+    [ "$(of missing)" = 0 ] && [ "$(of twice)" = 0 ] && [ "$(of damaged)" = 0 ] && [ "$(of gaps)" = 0 ] &&
+        [ "$(of samples)" -gt $((seconds * 500 - 1000)) ] && [ "$(of pulses)" -gt $((seconds * 3 / 2)) ]
+    verdict $? "$baud baud, $seconds s: none lost, none twice ($(cat "$scratch/counts"))" "$scratch/counts"
+    told
+    verdict $? "$baud baud: monitor counts as much" "$scratch/said"
+    cmp -s "$scratch/alone" "$scratch/plant"
+    verdict $? "$baud baud: somebody who reads does not disturb the rig" "$scratch/plant"
+    [ "$(grep -c '^\(OK\|ERR\) ' "$scratch/text")" -eq $((4 * (seconds / 60))) ]
+    verdict $? "$baud baud: every order's answer has come through" "$scratch/text"
+done
+
+# What was recorded: by the tests' decoder, by itself once more from what --raw has kept.
+"$tools/tel_check" "$scratch/raw" --csv 0.00678744752 2>/dev/null >"$scratch/wanted"
+tr -d '\r' <"$scratch/csv" | sed 1d | awk -F, '{ printf "%s,%.6g\n", $1, $2 }' |
+    awk -F, -v wanted="$scratch/wanted" '
+        { getline line <wanted; split(line, is, ","); off = is[2] - $2
+          if (is[1] != $1 || off > 2e-4 || off < -2e-4) { print NR ": " $0 " is " line; exit 1 } n = NR }
+        END { exit !(n > 1000) }' >"$scratch/err"
+verdict $? "the records are what the tests' decoder reads"
+head -n 1 "$scratch/csv" | tr -d '\r' | grep -qxF 'time,load [N],speed [rpm],drive [V],state'
+verdict $? "their columns have units" "$scratch/csv"
+"$whirl" monitor "$scratch/raw" --csv - --vcd "$scratch/vcd2" --quiet >"$scratch/csv2" 2>"$scratch/err" &&
+    cmp -s "$scratch/csv" "$scratch/csv2" && cmp -s "$scratch/vcd" "$scratch/vcd2"
+verdict $? "and the same from the file that --raw has kept"
+awk -v pulses="$(of pulses)" '
+    /^\$timescale 1us \$end/ { scale = 1 }
+    /^\$var/ { if (!($2 == "wire" && $3 == 1) && !($2 == "real" && $3 == 64)) bad = "$var " $0
+               if ($5 ~ /^slot/) wire[$4] = 1
+               signals++ }
+    /^#/ { at = substr($0, 2) + 0; if (!timed++) last = -1; if (at <= last && timed > 1) bad = "time " $0; last = at }
+    /^[01]/ { if (substr($0, 1, 1) == 1) rises++ }
+    END { if (rises != pulses) bad = rises " pulses of " pulses
+          if (bad || !scale || signals != 7) { print bad; exit 1 } }' "$scratch/vcd" >"$scratch/err"
+verdict $? "waves: wires of one bit and reals, time that goes on, every pulse"
+
+record 9600
+[ "$(of dropped)" -gt 100 ] && [ "$(of missing)" = "$(of dropped)" ] && [ "$(of twice)" = 0 ] && [ "$(of damaged)" = 0 ]
+verdict $? "9600 baud: what is lost is counted by the rig ($(cat "$scratch/counts"))" "$scratch/counts"
+told
+verdict $? "9600 baud: and by monitor" "$scratch/said"
+cmp -s "$scratch/alone" "$scratch/plant"
+verdict $? "9600 baud: the rig is not disturbed" "$scratch/plant"
+"$whirl" monitor "$scratch/raw" --strict >/dev/null 2>"$scratch/err"
+[ $? -eq 1 ] && grep -q 'error: something was lost, and --strict' "$scratch/err"
+verdict $? "--strict fails of that" "$scratch/err"
+"$whirl" monitor "$scratch/raw" --csv /dev/full >/dev/null 2>"$scratch/err"
+[ $? -eq 1 ] && grep -q '^/dev/full: error: ' "$scratch/err"
+verdict $? "records that cannot be written are no records" "$scratch/err"
+
+# refused HINT WORD...: exit status 2, and this is said
+refused() {
+    wanted=$1
+    shift
+    "$whirl" monitor "$@" >/dev/null 2>"$scratch/err" </dev/null
+    [ $? -eq 2 ] && grep -q -- "$wanted" "$scratch/err"
+    verdict $? "refused: monitor $*" "$scratch/err"
+}
+if command -v gnuplot >/dev/null; then
+    "$whirl" monitor "$scratch/raw" --plot "$scratch/plot.svg" --quiet >/dev/null 2>"$scratch/err" && grep -q '<svg' "$scratch/plot.svg"
+    verdict $? "it is drawn" "$scratch/err"
+fi
+refused 'usage: whirl monitor PORT' --rate 500
+refused 'cannot be opened' "$scratch/none"
+refused '--rate takes a whole number' "$scratch/raw" --rate 2.5
+refused 'no such speed' "$scratch/raw" --baud 7
+refused 'ends in .svg or .png' "$scratch/raw" --plot a.txt
+refused 'cannot share a file' "$scratch/raw" --csv "$scratch/x" --vcd "$scratch/x"
+refused 'would be written over' "$scratch/raw" --raw "$scratch/raw"
+refused "takes a file's name" "$scratch/raw" --vcd -
+
+# The line goes away, and comes back; then what is typed goes to the rig.
+RIG_TTY=$scratch/rig.tty RIG_SETTINGS=$scratch/settings
+export RIG_TTY RIG_SETTINGS
+station() {
+    build/station >/dev/null 2>&1 </dev/null &
+    rig=$!
+    until [ -e "$RIG_TTY" ]; do sleep 0.02; done
+}
+# until TEXT FILE
+until_said() {
+    for _ in 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17 18 19 20 21 22 23 24 25 26 27 28 29 30; do
+        grep -q "$1" "$2" 2>/dev/null && return 0
+        sleep 0.1
+    done
+    return 1
+}
+rm -f "$scratch/raw" "$scratch/csv"
+station
+mkfifo "$scratch/keys"
+"$whirl" monitor "$RIG_TTY" --raw "$scratch/raw" --csv "$scratch/csv" >"$scratch/text" 2>"$scratch/said" <"$scratch/keys" &
+running=$!
+exec 4>"$scratch/keys"
+until_said '^[0-9]' "$scratch/csv" # samples
+kill $rig && wait $rig 2>/dev/null
+until_said 'is gone; waiting' "$scratch/said"
+verdict $? "it is told that the line is gone" "$scratch/said"
+: >"$scratch/raw"
+station
+until_said 'rate=500 ' "$scratch/raw"
+echo id >&4
+until_said '^OK program=rig board=host' "$scratch/text"
+verdict $? "the rig is back, asked anew, and what is typed goes to it" "$scratch/text"
+sleep 0.3
+kill -INT $running
+wait $running
+status=$?
+running=
+exec 4>&-
+[ $status -eq 0 ] && grep -q 'opened 2 times, the rig began anew 1 times' "$scratch/said" && grep -q ' lost: 0 frames' "$scratch/said"
+verdict $? "nothing is taken for lost that another rig would have sent" "$scratch/said"
+tr -d '\r' <"$scratch/csv" | awk -F, 'NR > 1 { if ($1 <= last && NR > 2) bad = 1; last = $1 } END { exit bad || NR < 100 }'
+verdict $? "and time goes on in the records" "$scratch/csv"
+kill $rig && wait $rig 2>/dev/null
+exit $failed

@@ -1,0 +1,152 @@
+/* test_rig_lead.c: rotors that do not get slower as fast as they are led: a drive stage that does not brake, and up to six
+ * times the inertia. That is no over-speed; a drive that runs away meanwhile is. */
+#include <stddef.h>
+
+#include "draw.h"
+#include "even_rig.h"
+#include "rotor.h"
+#include "unity.h"
+
+void suite_rig_lead(void);
+
+static wh_rig rig;
+static wh_rig_config config;
+static rotor_kind kind;
+static rotor_state rotor;
+static wh_real fastest_radps; /* since it was last forgotten */
+
+/* Of all inertias, mostly without a brake. */
+static void draw_rotor(uint64_t *seed) {
+    kind = rotor_nominal();
+    kind.inertia_kgm2 *= draw_broken(seed, 1, 6);
+    kind.friction_Nm = WH_R(0.01) * draw_whole(seed, 0, 4);
+    kind.freewheels = !draw_one_in(seed, 4);
+    kind.jitter_s = WH_R(60e-6);
+    rotor = (rotor_state){.ticks = UINT32_MAX - 3000000U, .seed = draw_bits(seed)};
+    fastest_radps = WH_R(0.0);
+}
+
+static void begin(wh_rig_phase phase, wh_real target_radps) {
+    config = even_config();
+    wh_rig_start(&config, &rig, rotor.ticks, NULL);
+    wh_run_start(&rig.run, target_radps, rotor.ticks);
+    rig.state = WH_LIFE_RUNNING;
+    rig.run.phase = phase;
+    rig.run.closed_ticks = rotor.ticks - 5U * WH_RIG_TICKS_PER_S;
+}
+
+/* `drive`: whatever is asked for; below zero: as asked for. */
+static void go_on(wh_real drive, unsigned steps) {
+    wh_rig_inputs inputs = {.supply_V = WH_RIG_RATED_V};
+    for (unsigned step = 0; step < steps && rig.state == WH_LIFE_RUNNING; step++) {
+        rotor_turn(&kind, &rotor, drive < WH_R(0.0) ? rig.command.volts / WH_RIG_RATED_V : drive,
+                   EVEN_STEP_TICKS);
+        fastest_radps = rotor.speed_radps > fastest_radps ? rotor.speed_radps : fastest_radps;
+        for (unsigned i = 0; i < rotor.marks; i++) {
+            wh_rig_pulse(&config, &rig, rotor.mark_sensor[i], rotor.mark_ticks[i]);
+        }
+        inputs.now_ticks = rotor.ticks;
+        wh_rig_load(&config, &rig, rotor.ticks, step % 2U == 0 ? 3000 : -3000, WH_LOAD_OK);
+        rig.command = wh_rig_step(&config, &rig, &inputs);
+    }
+}
+
+#define AS_ASKED WH_R(-1.0)
+
+/* It turns at this speed, settled. */
+static void turns_at(wh_real speed_radps) {
+    const wh_real torque_Nm = kind.drag_Nms * speed_radps + kind.friction_Nm;
+    const wh_real volts =
+        WH_RIG_RATED_V * (speed_radps / kind.no_load_radps + torque_Nm / kind.stall_Nm);
+    rotor.speed_radps = speed_radps;
+    begin(WH_PHASE_SETTLE, speed_radps);
+    rig.run.volts = volts;
+    wh_drive_start(&rig.run.drive, speed_radps, volts);
+    rig.command = (wh_rig_command){WH_MOTOR_DRIVES, volts};
+    go_on(AS_ASKED, 700);
+    TEST_ASSERT_TRUE(rig.guard.trip == WH_TRIP_NONE);
+}
+
+static void leads_to(wh_real target_radps) {
+    TEST_ASSERT_TRUE(wh_rig_post(&rig, WH_EVENT_SET, target_radps));
+}
+
+static void test_a_rotor_that_cannot_follow_is_not_too_fast(void) {
+    uint64_t seed = 11;
+    unsigned left_behind = 0;
+    for (unsigned trial = 0; trial < 40U; trial++) {
+        draw_rotor(&seed);
+        turns_at(draw_broken(&seed, 250, 360) * EVEN_RPM);
+        const wh_real target_radps = draw_broken(&seed, 170, 240) * EVEN_RPM;
+        leads_to(target_radps);
+        go_on(AS_ASKED, 2500);
+        TEST_ASSERT_TRUE(rig.guard.trip == WH_TRIP_NONE);
+        /* the guard's bound of the set-point alone */
+        left_behind +=
+            rig.pulses.speed.turn_radps >
+                    wh_guard_bound_radps(&config.guard, rig.run.drive.setpoint_radps, true)
+                ? 1U
+                : 0U;
+    }
+    TEST_ASSERT_TRUE(left_behind >= 4U);
+}
+
+static void test_one_that_spin_up_took_too_far_is_not_either(void) {
+    uint64_t seed = 12;
+    for (unsigned trial = 0; trial < 40U; trial++) {
+        draw_rotor(&seed);
+        kind.friction_Nm = WH_R(0.0);
+        const wh_real target_radps = draw_broken(&seed, 170, 190) * EVEN_RPM;
+        begin(WH_PHASE_SPIN_UP, target_radps);
+        rig.run.volts = config.run.spin_up_V;
+        rig.command = (wh_rig_command){WH_MOTOR_DRIVES, rig.run.volts};
+        go_on(AS_ASKED, 6000);
+        TEST_ASSERT_TRUE(rig.guard.trip == WH_TRIP_NONE || rig.guard.trip == WH_TRIP_UNSETTLED);
+        TEST_ASSERT_TRUE(fastest_radps < config.guard.limit_radps);
+    }
+}
+
+/* As docs/rig.md has it, of a rotor that is led to slow down and follows, or does not. */
+static void test_a_runaway_on_the_way_down_is_seen(void) {
+    uint64_t seed = 13;
+    for (unsigned trial = 0; trial < 60U; trial++) {
+        draw_rotor(&seed);
+        turns_at(WH_RIG_NOMINAL_RPM * EVEN_RPM);
+        leads_to(WH_R(200.0) * EVEN_RPM);
+        go_on(AS_ASKED, (unsigned)(draw_bits(&seed) % 1000U));
+        TEST_ASSERT_TRUE(rig.guard.trip == WH_TRIP_NONE);
+        const uint32_t begins_ticks = rotor.ticks;
+        const bool slow = rotor.speed_radps < WH_R(250.0) * EVEN_RPM;
+        fastest_radps = WH_R(0.0);
+        go_on(WH_R(1.0), 1000);
+        TEST_ASSERT_TRUE(rig.guard.trip == WH_TRIP_OVERSPEED);
+        TEST_ASSERT_TRUE(fastest_radps < WH_R(470.0) * EVEN_RPM);
+        if (kind.inertia_kgm2 < WH_R(1.5) * WH_RIG_INERTIA_KGM2) {
+            TEST_ASSERT_TRUE(rotor.ticks - begins_ticks <= (slow ? 350000U : 250000U));
+        }
+    }
+}
+
+/* What is left of its speed does not rise with the rotor: one that is driven to no more than 390 rpm is seen as well. */
+static void test_a_slow_runaway_on_the_way_down_is_seen(void) {
+    uint64_t seed = 14;
+    for (unsigned trial = 0; trial < 20U; trial++) {
+        draw_rotor(&seed);
+        kind.freewheels = false;
+        turns_at(WH_R(300.0) * EVEN_RPM);
+        leads_to(WH_R(180.0) * EVEN_RPM);
+        go_on(AS_ASKED, 900U + (unsigned)(draw_bits(&seed) % 500U));
+        TEST_ASSERT_TRUE(rig.guard.trip == WH_TRIP_NONE);
+        fastest_radps = WH_R(0.0);
+        go_on(WH_R(0.65), 2000);
+        TEST_ASSERT_TRUE(rig.guard.trip == WH_TRIP_OVERSPEED);
+        TEST_ASSERT_TRUE(fastest_radps < WH_R(350.0) * EVEN_RPM);
+    }
+}
+
+void suite_rig_lead(void) {
+    RUN_TEST(test_a_slow_runaway_on_the_way_down_is_seen);
+    RUN_TEST(test_a_rotor_that_cannot_follow_is_not_too_fast);
+    RUN_TEST(test_one_that_spin_up_took_too_far_is_not_either);
+    RUN_TEST(test_a_runaway_on_the_way_down_is_seen);
+}

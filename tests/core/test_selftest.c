@@ -1,0 +1,93 @@
+/* test_selftest.c: the console's self-test: each part that is bad is told, and no other. */
+#include <string.h>
+
+#include "core/station/station.h"
+#include "even_rig.h"
+#include "unity.h"
+
+void suite_selftest(void);
+
+static even_rig even;
+static wh_station station;
+static wh_seen seen;
+static char heard[WH_STATION_OUT_BYTES + 1U];
+
+static void begin(void) {
+    even_start(&even);
+    even_rest(&even);
+    wh_station_start(&station, "rig", "here", WH_RIG_TICKS_PER_S / EVEN_STEP_TICKS);
+    seen = (wh_seen){.inputs = even.inputs, .samples = 1};
+    seen.sample[0] = (wh_seen_sample){even.inputs.now_ticks, EVEN_TARE_RAW, WH_LOAD_OK};
+}
+
+static const char *ask(void) {
+    wh_station_see(&station, &even.config, &even.rig, &seen);
+    wh_station_take(&station, "selftest\n", 9);
+    wh_station_step(&station, &even.rig);
+    const unsigned count = wh_station_peek(&station, heard, sizeof heard - 1U);
+    wh_station_drop(&station, count);
+    heard[count] = '\0';
+    return heard;
+}
+
+static void test_good(void) {
+    begin();
+    TEST_ASSERT_EQUAL_STRING(
+        "OK selftest=good arithmetic=good clock=good watchdog=good supply=good "
+        "cell=good stop=good rotor=good swing=none\r\n",
+        ask());
+}
+
+/* One thing that is wrong, or several. */
+static void test_each_part(void) {
+    static const char *const parts[] = {"clock", "watchdog", "supply", "cell",
+                                        "cell",  "cell",     "stop",   "rotor"};
+    for (unsigned mask = 0; mask < 256U; mask++) {
+        char bad[64];
+        begin();
+        seen.inputs.clock_is_fallback = (mask & 1U) != 0;
+        seen.inputs.watchdog_has_cut = (mask & 2U) != 0;
+        seen.inputs.supply_V = (mask & 4U) != 0 ? WH_R(3.0) : WH_RIG_RATED_V;
+        seen.sample[0].raw = (mask & 8U) != 0 ? -30000 : EVEN_TARE_RAW;
+        even.rig.guard.load_good = (mask & 16U) == 0;
+        even.rig.guard.load_ticks -= (mask & 32U) != 0 ? 30000U : 0U;
+        seen.inputs.stop_pressed = (mask & 64U) != 0;
+        even.rig.guard.quiet = (mask & 128U) == 0;
+        const char *answer = ask();
+        TEST_ASSERT_NOT_NULL(strstr(answer, mask == 0 ? "OK selftest=good " : "OK selftest=bad "));
+        for (unsigned i = 0; i < 8U; i++) {
+            const unsigned same = parts[i][0] == 'c' && parts[i][1] == 'e' ? 56U : 1U << i;
+            strcpy(bad, " ");
+            strcat(bad, parts[i]);
+            strcat(bad, (mask & same) != 0 ? "=bad " : "=good ");
+            TEST_ASSERT_NOT_NULL_MESSAGE(strstr(answer, bad), bad);
+        }
+    }
+}
+
+static void test_the_swing(void) {
+    begin();
+    even.rig.swing.result = (wh_swung){.why = WH_SWING_FOUND};
+    even.rig.swing.result.place_rad[0] = WH_R(-0.02);
+    even.rig.swing.result.half_rad[0] = WH_R(0.002);
+    TEST_ASSERT_NOT_NULL(strstr(ask(), "selftest=bad "));
+    TEST_ASSERT_NOT_NULL(strstr(heard, " swing=bad place_deg=-1.15 place_half_deg=0.11\r\n"));
+    even.rig.swing.result.place_rad[0] = WH_R(0.004);
+    TEST_ASSERT_NOT_NULL(strstr(ask(), "selftest=good "));
+    TEST_ASSERT_NOT_NULL(strstr(heard, " swing=good place_deg=0.23 "));
+    even.rig.swing.result.why = WH_SWING_FEW;
+    TEST_ASSERT_NOT_NULL(strstr(ask(), " swing=none\r\n"));
+}
+
+static void test_only_in_idle(void) {
+    begin();
+    TEST_ASSERT_EQUAL_INT(WH_ALLOWED, even_order(&even, WH_EVENT_ARM, WH_R(0.0)));
+    TEST_ASSERT_NOT_NULL(strstr(ask(), "ERR 107 "));
+}
+
+void suite_selftest(void) {
+    RUN_TEST(test_good);
+    RUN_TEST(test_each_part);
+    RUN_TEST(test_the_swing);
+    RUN_TEST(test_only_in_idle);
+}

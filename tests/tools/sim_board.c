@@ -1,0 +1,191 @@
+/* sim_board.c: board.h on this machine in simulated time, for hours of the rig's station in seconds: time passes as fast as
+ * it is waited for, and the serial line, a pseudo-terminal, takes as many bytes of it as its speed allows.
+ *
+ *   SIM_SECONDS  how long it runs (60 unless told); each minute it is given the orders of a run
+ *   SIM_BAUD     the line's speed (115200); a byte is ten bits
+ *   SIM_LINK     a link to the terminal
+ *   SIM_ALONE    nobody reads: what the terminal does not take at once is not taken
+ *   SIM_TEL      telemetry is on from the beginning, also where nobody asks for it
+ *
+ * For the first second time is the clock's, so that whoever reads can ask first. After that it stands still while whoever
+ * reads has not yet read what the line has brought, unless alone: a reader on a slow machine loses nothing by that. Ends
+ * with the hash of the plant's state on standard error: commands that were the same give the same. */
+#define _XOPEN_SOURCE 700
+
+#include <errno.h>
+#include <fcntl.h>
+#include <inttypes.h>
+#include <poll.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/ioctl.h>
+#include <termios.h>
+#include <time.h>
+#include <unistd.h>
+
+#include "boards/board.h"
+#include "hal/virtual/virtual_rig.h"
+
+enum { BITS = 10, FIFO = 16, PATIENCE_MS = 20000, ASKING_US = 1000000 };
+
+const char *const board_name = "sim";
+const uint32_t board_ticks_per_s = 1000000U;
+
+static uint64_t now_us;
+static uint32_t last_ticks;
+static uint64_t until_us;
+static uint64_t credit; /* of the line, in bytes a million */
+static uint64_t baud;
+static bool alone;
+static int line = -1;
+static int other_end = -1;
+static const char *link_name;
+static unsigned ordered; /* orders that were given, of this minute's */
+static uint64_t minute;
+
+static const struct {
+    double at_s; /* of each minute */
+    const char *line;
+} orders[] = {
+    {0.5, ""}, {3.0, "arm\n"}, {3.5, "start 330\n"}, {20.0, "set 250\n"}, {50.0, "stop\n"}};
+enum { ORDERS = sizeof orders / sizeof orders[0] };
+
+static double setting(const char *name, double usual) {
+    const char *text = getenv(name);
+    return text != NULL && text[0] != '\0' ? strtod(text, NULL) : usual;
+}
+
+void board_start(void) {
+    until_us = (uint64_t)(setting("SIM_SECONDS", 60.0) * 1e6);
+    baud = (uint64_t)setting("SIM_BAUD", 115200.0);
+    alone = getenv("SIM_ALONE") != NULL;
+    link_name = getenv("SIM_LINK");
+}
+
+void hal_console_write(const char *bytes, unsigned count) { (void)fwrite(bytes, 1, count, stderr); }
+
+/* Whoever reads gets what is on its way. */
+static void let_read(void) {
+    const struct timespec nap = {.tv_nsec = 10000000L};
+    int left = 1;
+    for (int i = 0; i < 1000 && left > 0 && !alone; i++) {
+        if (ioctl(other_end, FIONREAD, &left) != 0) {
+            break;
+        }
+        (void)nanosleep(&nap, NULL);
+    }
+}
+
+_Noreturn void board_exit(int code) {
+    const hal_virtual_rig *plant = hal_virtual_rig_instance();
+    if (line >= 0) {
+        let_read();
+    }
+    if (link_name != NULL) {
+        (void)unlink(link_name);
+    }
+    fprintf(stderr, "plant %016" PRIx64 " after %" PRIu64 " steps\n",
+            plant->scene != NULL ? wh_scene_hash(plant->scene, &plant->state) : 0,
+            plant->scene != NULL ? plant->state.steps : 0);
+    exit(code);
+}
+
+uint32_t board_ticks(void) { return (uint32_t)now_us; }
+
+void board_wait_until(uint32_t ticks) {
+    const uint32_t passed = ticks - last_ticks;
+    last_ticks = ticks;
+    now_us += passed;
+    credit += passed * (baud / BITS);
+    const uint64_t most = FIFO * UINT64_C(1000000) + passed * (baud / BITS);
+    credit = credit < most ? credit : most;
+    if (now_us >= until_us) {
+        board_exit(0);
+    }
+    if (!alone && now_us < ASKING_US) {
+        const struct timespec nap = {.tv_nsec = (long)passed * 1000L};
+        (void)nanosleep(&nap, NULL);
+    }
+}
+
+bool board_converse(void) {
+    struct termios plain;
+    line = posix_openpt(O_RDWR | O_NOCTTY);
+    const char *name =
+        line >= 0 && grantpt(line) == 0 && unlockpt(line) == 0 ? ptsname(line) : NULL;
+    other_end = name != NULL ? open(name, O_RDWR | O_NOCTTY) : -1;
+    if (other_end < 0 || tcgetattr(other_end, &plain) != 0) {
+        return false;
+    }
+    plain.c_iflag = 0;
+    plain.c_oflag = 0;
+    plain.c_lflag = 0;
+    if (tcsetattr(other_end, TCSANOW, &plain) != 0 ||
+        fcntl(line, F_SETFL, fcntl(line, F_GETFL) | O_NONBLOCK) != 0 ||
+        (link_name != NULL && symlink(name, link_name) != 0)) {
+        return false;
+    }
+    if (!alone) { /* until somebody is there */
+        struct pollfd wait = {.fd = line, .events = POLLIN};
+        (void)poll(&wait, 1, PATIENCE_MS);
+    }
+    return true;
+}
+
+/* The orders of each minute, each whole, as if typed. */
+static unsigned order(char *bytes, unsigned room) {
+    const double at_s = (double)(now_us - minute * 60000000U) / 1e6;
+    if (at_s >= 60.0) {
+        minute++;
+        ordered = 0;
+        return 0;
+    }
+    if (ordered == ORDERS || at_s < orders[ordered].at_s || strlen(orders[ordered].line) > room) {
+        return 0;
+    }
+    const bool turns_on = ordered == 0 && minute == 0 && getenv("SIM_TEL") != NULL;
+    const char *given = turns_on ? "tel rate 500\n" : orders[ordered].line;
+    const unsigned count = (unsigned)strlen(given);
+    memcpy(bytes, given, count);
+    ordered++;
+    return count;
+}
+
+unsigned hal_console_read(char *bytes, unsigned room) {
+    static char typed[256]; /* a line of the reader's is not cut by an order */
+    static unsigned length;
+    const ssize_t more = alone ? 0 : read(line, typed + length, sizeof typed - length);
+    length += more > 0 ? (unsigned)more : 0U;
+    const char *end = memchr(typed, '\n', length);
+    if (end != NULL && (unsigned)(end - typed) < room) {
+        const unsigned count = (unsigned)(end - typed) + 1U;
+        memcpy(bytes, typed, count);
+        length -= count;
+        memmove(typed, typed + count, length);
+        return count;
+    }
+    return order(bytes, room);
+}
+
+unsigned hal_console_offer(const char *bytes, unsigned count) {
+    const unsigned most = (unsigned)(credit / 1000000U);
+    unsigned done = 0;
+    count = count < most ? count : most;
+    while (done < count) {
+        struct pollfd wait = {.fd = line, .events = POLLOUT};
+        const ssize_t taken = write(line, bytes + done, count - done);
+        done += taken > 0 ? (unsigned)taken : 0U;
+        if (alone || (done < count && poll(&wait, 1, PATIENCE_MS) == 0)) {
+            break;
+        }
+    }
+    credit -= done * UINT64_C(1000000);
+    return done;
+}
+
+void board_stack_paint(void) {}
+unsigned board_stack_used_bytes(void) { return 0; }
+unsigned board_stack_size_bytes(void) { return 0; }
+bool board_cycles_start(void) { return false; }
+uint32_t board_cycles(void) { return 0; }
