@@ -149,7 +149,7 @@ static void take_sample(recording *r, const schema_channel *c, int64_t time_us, 
             put_number(r->csv, there, values[1 + i]);
         }
         if (!there) {
-            values[1 + i] = NAN;
+            values[1 + i] = (double)NAN;
         }
         if (r->vcd != NULL) {
             vcd_change(r->vcd, r->signal[i], time_us, values[1 + i]);

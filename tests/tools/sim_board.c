@@ -147,7 +147,9 @@ static unsigned order(char *bytes, unsigned room) {
     const bool turns_on = ordered == 0 && minute == 0 && getenv("SIM_TEL") != NULL;
     const char *given = turns_on ? "tel rate 500\n" : orders[ordered].line;
     const unsigned count = (unsigned)strlen(given);
-    memcpy(bytes, given, count);
+    for (unsigned i = 0; i < count; i++) {
+        bytes[i] = given[i];
+    }
     ordered++;
     return count;
 }
