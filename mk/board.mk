@@ -77,15 +77,16 @@ $(B)/station: $(call objects,float,boards/programs/station.c boards/host/board.c
 FLASHED_OBJECTS := $(call objects,$(BOARD),$(BOARD_FLASHED))
 FLASHED_IMAGES := $(if $(BOARD_FLASHED),$(STATION))
 $(STATION): $(call objects,$(BOARD),boards/programs/station.c) $(or $(FLASHED_OBJECTS),$(BOARD_OBJECTS)) \
-    $(call libraries,$(BOARD),station rig $(if $(BOARD_FLASHED),,virtual) whirl scenes)
+    $(if $(BOARD_FLASHED),$(call objects,$(BOARD),$(GEN)/rig_observed.c)) \
+    $(call libraries,$(BOARD),station rig whirl $(if $(BOARD_FLASHED),,virtual scenes))
 	$(link_board)
 
 # Tests of what is flashed, in the emulator (tests/boards/f405.sh): the same code but for sensors that it does not have.
 ifneq ($(BOARD_FLASHED),)
 without_sensors = $(filter-out %/cell.o %/slots.o %/stop.o,$(FLASHED_OBJECTS))
 $(ELF)/bench_plant.elf: BOARD_LDLIBS += -Wl,--wrap=hal_motor_set_voltage -Wl,--wrap=hal_motor_off
-$(ELF)/bench_plant.elf: $(call objects,$(BOARD),boards/programs/station.c tests/boards/f405_plant.c) $(without_sensors) \
-    $(call libraries,$(BOARD),station rig virtual whirl scenes)
+$(ELF)/bench_plant.elf: $(call objects,$(BOARD),boards/programs/station.c tests/boards/f405_plant.c \
+    $(GEN)/rig_observed.c $(GEN)/rig_fixed.c) $(without_sensors) $(call libraries,$(BOARD),station rig virtual whirl)
 	$(link_board)
 $(ELF)/bench_slots.elf: $(call objects,$(BOARD),tests/boards/f405_slots.c boards/stm32f4/slots_exti.c) \
     $(filter-out %/slots.o,$(FLASHED_OBJECTS)) $(call libraries,$(BOARD),whirl)
