@@ -2,8 +2,12 @@
 # check_image.sh ELF...: fail if a firmware image contains what firmware here must not contain:
 # a heap, the C library's mathematics or printing, or double-precision arithmetic in software.
 # NM names the nm to use; it defaults to arm-none-eabi-nm.
+# FLASHED lists those of them that are flashed, for a board of its own: these must hold no breakpoint, which without a debugger is
+# a fault, and no way out of main(). OBJDUMP shows their code.
 set -u
 NM=${NM:-arm-none-eabi-nm}
+OBJDUMP=${OBJDUMP:-arm-none-eabi-objdump}
+FLASHED=${FLASHED:-}
 
 if [ $# -eq 0 ]; then
     echo "usage: $0 ELF..." >&2
@@ -11,7 +15,25 @@ if [ $# -eq 0 ]; then
 fi
 
 failed=0
+# only_flashed ELF: complain about what an image that is flashed must not hold.
+only_flashed() {
+    if ! code=$("$OBJDUMP" -d "$1"); then
+        return 1
+    fi
+    printf '%s\n' "$code" | awk -v elf="$1" '
+        /^[0-9a-f]+ <.*>:$/ { where = $2; main_seen += where == "<main>:" }
+        /\tbkpt/ { print elf ": a breakpoint in " where; bad = 1 }
+        where == "<main>:" && /\t(bx\tlr|(pop|ldmia).*pc\}|ldr.*\tpc, \[sp)/ { print elf ": main() returns"; bad = 1 }
+        END {
+            if (main_seen != 1) { print elf ": has no main()"; bad = 1 }
+            exit bad
+        }'
+}
+
 for elf in "$@"; do
+    case " $FLASHED " in
+    *" $elf "*) only_flashed "$elf" || failed=1 ;;
+    esac
     if ! symbols=$("$NM" "$elf"); then
         exit 2
     fi

@@ -13,7 +13,8 @@
 extern "C" {
 #endif
 
-/* 16-bit converter, full scale +-50 lbf (222.41 N): 6.79 mN a count. */
+/* Counts of 16 bits, full scale +-50 lbf (222.41 N): 6.79 mN a count, whatever the converter has. Ticks are those of the
+ * instant that the force was there: where a converter's samples are averaged, the middle of them. */
 #define HAL_LOADCELL_FULL_SCALE_N 222.41108f
 #define HAL_LOADCELL_RAW_MAX 32767
 #define HAL_LOADCELL_N_PER_COUNT (HAL_LOADCELL_FULL_SCALE_N / 32768.0f)
@@ -31,7 +32,7 @@ typedef enum hal_load_status {
 } hal_load_status;
 
 typedef struct hal_load_sample {
-    uint32_t ticks; /* of the capture timer (clock.h) when it was taken */
+    uint32_t ticks; /* of the capture timer (clock.h) when the force was there */
     int32_t raw;    /* counts; +-full scale when the cell is overloaded */
     uint8_t status; /* a hal_load_status */
 } hal_load_sample;

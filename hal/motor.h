@@ -21,6 +21,17 @@ void hal_motor_set_voltage(float volts);
  * hal_clock_start(). */
 void hal_motor_off(hal_motor_off_way way);
 
+/* What the drive stage says. */
+enum {
+    HAL_MOTOR_CUT =
+        1, /* it was cut beside the software, by stop or by its own fault: off until the next hal_motor_off() */
+    HAL_MOTOR_FAULT = 2, /* stop is pressed, or the drive stage has a fault: it cannot be driven */
+    HAL_MOTOR_NO_SUPPLY = 4 /* none is measured: it is not driven */
+};
+
+/* These bits together; 0: nothing is wrong, or nobody looks. */
+unsigned hal_motor_status(void);
+
 /* The supply, V, as last measured: at least once a control step. */
 float hal_motor_supply_V(void);
 

@@ -5,6 +5,8 @@
 #ifndef HAL_RESET_H
 #define HAL_RESET_H
 
+#include <stdint.h>
+
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -12,16 +14,26 @@ extern "C" {
 typedef enum hal_reset {
     HAL_RESET_POWER_ON, /* the supply came: nothing is remembered */
     HAL_RESET_WATCHDOG, /* the watchdog was not kicked, and resets the processor instead of cutting the drive */
-    HAL_RESET_OTHER /* a pin, a dip of the supply, a debugger */
+    HAL_RESET_OTHER, /* a pin, a debugger; or it is not known */
+    HAL_RESET_FAULT, /* the program's own, or the crystal's: the motor went off, then it was noted */
+    HAL_RESET_SUPPLY /* a dip of the processor's supply */
 } hal_reset;
 
 /* Why, from hal_clock_start() (clock.h) on. */
 hal_reset hal_reset_cause(void);
 
+/* Why in words, for consoles: of a fault also what and where, when, and in which state. Never empty; at most room - 1
+ * bytes and a zero. Returns how many without it. */
+unsigned hal_reset_words(char *words, unsigned room);
+
+/* What the program is at, as a number of its own: a fault's record has the last. One store; every control step. */
+void hal_reset_mark(uint32_t state);
+
 /* So many bytes can outlive a reset. */
 #define HAL_REMEMBER_BYTES 32U
 
-/* From now on these bytes outlive a reset, in place of what did before; count <= HAL_REMEMBER_BYTES, 0: nothing does. */
+/* From now on these bytes outlive a reset, in place of what did before; count <= HAL_REMEMBER_BYTES, 0: nothing does. A
+ * reset in the middle leaves what was before. Not from an interrupt. */
 void hal_remember(const void *bytes, unsigned count);
 
 /* What was remembered when the processor started goes to bytes[HAL_REMEMBER_BYTES]; returns how many there are. 0 after a

@@ -26,6 +26,11 @@ typedef struct hal_slot_pulse {
  * 8 pulses are kept between calls; when more came, the newest are lost. */
 bool hal_slots_take(hal_slot_pulse *pulse);
 
+/* So often since the start pulses were lost, or may have been: one came before the one ahead of it was read, or the room was
+ * full. Then no more are looked at until one is taken, so that a storm of them takes no time: how many there were is not
+ * known. */
+uint32_t hal_slots_overruns(void);
+
 #ifdef __cplusplus
 }
 #endif

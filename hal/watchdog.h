@@ -9,8 +9,9 @@
 extern "C" {
 #endif
 
-/* Arm the watchdog: from now on the drive is cut, for good, when
- * hal_watchdog_kick() stays away for more than `timeout_ticks`. Cannot be disarmed. */
+/* Arm the watchdog: from now on the drive is cut when hal_watchdog_kick() stays away for more than `timeout_ticks`. Cannot be
+ * disarmed. Either it cuts the drive for good, or it resets the processor (hal/reset.h), in whose reset the drive is off;
+ * one with an oscillator of its own may take up to three times as long. */
 void hal_watchdog_start(uint32_t timeout_ticks);
 
 /* The controller is alive. Does not bring a cut motor back. */

@@ -24,6 +24,7 @@ $$(if $$(filter-out 1,$$(words $$(BOARD_WHEN)))$$(filter-out $(board_whens),$$(B
     $$(error boards/$(1)/board.mk: BOARD_WHEN is '$$(strip $$(BOARD_WHEN))': one of $(board_whens)))
 $$(call board_needs,$(board_of_family),: its family sets it (boards/cortexm/cortexm.mk))
 boards_$$(strip $$(BOARD_WHEN)) += $(1)
+boards_flashed := $$(strip $$(boards_flashed) $$(if $$(BOARD_FLASHED),$(1)))
 $$(foreach v,$$(filter-out $(board_before),$$(filter BOARD_%,$$(.VARIABLES))),$$(eval undefine $$(v)))
 endef
 $(foreach b,$(BOARDS_ALL),$(eval $(call read_board,$(b))))
@@ -63,14 +64,36 @@ $(eval $(call program,firmware,boards/programs/rig.c,whirl rig virtual scenes))
 $(foreach o,$(STATION_C) boards/programs/rig.c boards/programs/station.c \
     $(VIRTUAL_C) core/rig/swing_guess.c core/rig/life.c core/text.c core/frame.c core/cobs.c,$(B)/$(BOARD)/$(o:.c=.o)): FILE_FLAGS = -Os
 
+ifneq ($(BOARD_FLASHED),)
+$(B)/$(BOARD)/boards/programs/station.o: FILE_FLAGS += -DHAL_VIRTUAL=0
+endif
+
 # The rig's firmware with a console: here on a pseudo-terminal.
 STATION := $(ELF)/station.elf
 $(B)/station: $(call objects,float,boards/programs/station.c boards/host/board.c boards/host/terminal.c boards/host/settings.c) \
     $(call libraries,float,station rig virtual whirl scenes)
 	$(link)
-$(STATION): $(call objects,$(BOARD),boards/programs/station.c) $(BOARD_OBJECTS) \
+# A board with hardware of its own has the rig's, and no model: what is flashed never ends, and knows no debugger.
+FLASHED_OBJECTS := $(call objects,$(BOARD),$(BOARD_FLASHED))
+FLASHED_IMAGES := $(if $(BOARD_FLASHED),$(STATION))
+$(STATION): $(call objects,$(BOARD),boards/programs/station.c) $(or $(FLASHED_OBJECTS),$(BOARD_OBJECTS)) \
+    $(call libraries,$(BOARD),station rig $(if $(BOARD_FLASHED),,virtual) whirl scenes)
+	$(link_board)
+
+# Tests of what is flashed, in the emulator (tests/boards/f405.sh): the same code but for sensors that it does not have.
+ifneq ($(BOARD_FLASHED),)
+without_sensors = $(filter-out %/cell.o %/slots.o %/stop.o,$(FLASHED_OBJECTS))
+$(ELF)/bench_plant.elf: BOARD_LDLIBS += -Wl,--wrap=hal_motor_set_voltage -Wl,--wrap=hal_motor_off
+$(ELF)/bench_plant.elf: $(call objects,$(BOARD),boards/programs/station.c tests/boards/f405_plant.c) $(without_sensors) \
     $(call libraries,$(BOARD),station rig virtual whirl scenes)
 	$(link_board)
+$(ELF)/bench_slots.elf: $(call objects,$(BOARD),tests/boards/f405_slots.c boards/stm32f4/slots_exti.c) \
+    $(filter-out %/slots.o,$(FLASHED_OBJECTS)) $(call libraries,$(BOARD),whirl)
+	$(link_board)
+FLASHED_TESTS := $(ELF)/bench_plant.elf $(ELF)/bench_slots.elf
+endif
+build/tools/f405: $(call objects,host,$(addprefix tests/tools/,f405.c f405_seen.c f405_states.c emulated.c))
+	$(link)
 
 # Firmware whose plant is at the other end of a line (`whirl pil`), of families that have one: BOARD_LINK.
 define pil_program

@@ -1,7 +1,7 @@
 # check.mk: the quality gates of `make check`. Each is a target of its own, gate-NAME; tests/gates.sh
 # runs them, keeps what they say in build/check/NAME.log and prints a line for each.
 
-GATES := house gcc clang format cppcheck tidy long sanitizers memcheck bad-input firmware size boards libm avr cycles hashes
+GATES := house gcc clang format cppcheck tidy long sanitizers memcheck bad-input firmware flashed size boards libm avr cycles hashes
 GATES += hosts
 LINT_FLAGS := -std=c11 $(WARN) -I. $(UNITY_FLAGS) -D_POSIX_C_SOURCE=200809L
 
@@ -27,7 +27,7 @@ objects: $(call objects,host,$(WHIRL_MAIN_C) $(WHIRL_C) $(GEN)/builtin_models.c 
     $(call objects,float,$(PORTABLE_C) $(PC_BOARD_C) $(CORE_TEST_C) $(SCENE_C)) \
     $(call objects,double,$(CORE_C) $(RIG_C) $(STATION_C) $(CORE_TEST_C) $(SCENE_C))
 board-objects: board-own-objects $(call objects,$(BOARD),$(PORTABLE_C) $(PROGRAM_C) $(CORE_TEST_C) $(SCENE_C))
-board-own-objects: $(call objects,$(BOARD),$(BOARD_SOURCES) $(BOARD_LINK) $(wildcard tests/boards/guard_*.c))
+board-own-objects: $(call objects,$(BOARD),$(sort $(BOARD_SOURCES) $(BOARD_FLASHED)) $(BOARD_LINK) $(wildcard tests/boards/guard_*.c))
 
 # Where the main configuration has these very settings, as in CI (.ci/run), what it compiled already counts. Other gates
 # take both compilers' objects from where these two put them.
@@ -60,7 +60,7 @@ gate-tidy: $(GEN)/.stamp
 
 .PHONY: tidy-board
 tidy-board:
-	@$(call tidy,$(BOARD_SOURCES) $(BOARD_LINK) $(wildcard tests/boards/guard_*.c),$(BOARD_TIDY) $(LINT_FLAGS))
+	@$(call tidy,$(sort $(BOARD_SOURCES) $(BOARD_FLASHED)) $(BOARD_LINK) $(wildcard tests/boards/guard_*.c),$(BOARD_TIDY) $(LINT_FLAGS))
 
 gate-cppcheck:
 	@$(call need,cppcheck)
@@ -151,7 +151,21 @@ gate-bad-input:
 gate-firmware:
 	@for board in $(BOARDS); do $(MAKE) B=build BOARD=$$board image-rules || exit 1; done
 image-rules: board-images $(PIL_IMAGES)
-	@NM=$(BOARD_NM) sh boards/check_image.sh $(IMAGES) $(PIL_IMAGES)
+	@NM=$(BOARD_NM) OBJDUMP=$(BOARD_OBJDUMP) FLASHED="$(FLASHED_IMAGES)" sh boards/check_image.sh $(IMAGES) $(PIL_IMAGES)
+
+# Boards with hardware of their own: what is flashed onto each, held to these rules, compiled and linted; its bytes and stack;
+# and one of them in the emulator, few cases.
+gate-flashed: $(GEN)/.stamp
+	+@$(foreach b,$(boards_flashed),$(call on_board,$(b),BOARD_EXTRA=-Werror flashed-rules tidy-board) &&) true
+	+@$(call on_board,netduinoplus2,BOARD_EXTRA=-Werror flashed-tests)
+	@sh tests/boards/f405.sh 6 12
+.PHONY: flashed-rules flashed-tests
+flashed-rules: board-own-objects $(STATION)
+	@NM=$(BOARD_NM) OBJDUMP=$(BOARD_OBJDUMP) FLASHED="$(STATION)" sh boards/check_image.sh $(STATION)
+	@mkdir -p $(FIGURES)
+	@BOARD=$(BOARD) CC=$(BOARD_CC) NM=$(BOARD_NM) SIZE=$(BOARD_SIZE) OBJECTS=$(ELF) FLASH_MOST=57344 RAM_MOST=17408 \
+	    FLAGS="$(call TOLD,$(BOARD_CFLAGS))" mk/size/size.sh $(FIGURES)/size.csv $(STATION)
+flashed-tests: $(FLASHED_TESTS) $(STATION) build/tools/f405
 
 gate-size:
 	@for board in $(BOARDS); do $(MAKE) BOARD=$$board size-now || exit 1; done

@@ -84,6 +84,6 @@ rig-mutants: ## small changes of the rig's controller: do its suites, else a sma
 	@UNITY="$(UNITY)" CC="$(CC)" mk/setup/deps.sh host tests
 	@UNITY="$(UNITY)" mk/setup/unity.sh build/unity
 	@MAKE="$(MAKE)" TOP=build/rig_mutants FOLDERS=core/rig MUTANTS=$(or $(MUTANTS),100) CORE=rig STAGES="double float last" \
-	    BUILDS="build/tests/rig_double build/tests/rig_float build/tools/faults build/pil_dialled" ALWAYS=campaign \
+	    BUILDS="build/tests/rig_double build/tests/rig_float build/tools/faults build/pil_dialled" ALWAYS=campaign SLACK=$(or $(SLACK),100) \
 	    LAST_BUILDS="build/tools/faults build/pil_dialled" LAST="$(call RIG_CAMPAIGN,build/pil_dialled)" \
 	    sh mk/mutants/mutants.sh

@@ -57,7 +57,11 @@ $(B)/tests/core_float: $(call objects,float,$(CORE_TEST_PARTS)) \
 $(B)/tests/core_double: $(call objects,double,$(CORE_TEST_PARTS)) $(call libraries,double,scenes station rig whirl)
 	$(link)
 
-$(B)/tests/host: $(call objects,host,$(HOST_TEST_PARTS)) $(LIB_HOST) \
+# Drivers of the STM32F405 on played registers (tests/host/test_f405_*.c), with one board's data.
+FAKED_C := $(addprefix boards/stm32f4/,clock.c flash.c motor.c pins.c slots.c stop.c watchdog.c)
+$(B)/host/boards/stm32f4/%.o: FILE_FLAGS = -DBOARD_REGISTERS_FAKED=1 -Iboards/netduinoplus2
+
+$(B)/tests/host: $(call objects,host,$(HOST_TEST_PARTS) $(FAKED_C)) $(LIB_HOST) \
     $(call libraries,float,scenes rig whirl) $(LIB_DOUBLE) | $(B)/pil_cart
 	$(link)
 

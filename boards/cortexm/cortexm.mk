@@ -40,7 +40,7 @@ BOARD_LDFLAGS  := $(BOARD_CPU) -nostdlib -Tboards/$(BOARD)/board.ld -L. -Wl,--gc
 BOARD_LDLIBS   := -lgcc
 BOARD_TIDY     := --target=arm-none-eabi $(filter -mcpu=%,$(BOARD_CPU)) -ffreestanding -Iboards/$(BOARD)
 BOARD_SOURCES  := boards/cortexm/startup.c boards/cortexm/guard.c boards/cortexm/board.c \
-                  boards/cortexm/fault.c boards/cortexm/cmsdk.c boards/shared/mem.c boards/shared/stack.c \
+                  boards/cortexm/fault.c boards/cortexm/fault_words.c boards/cortexm/demo.c boards/cortexm/cmsdk.c boards/shared/mem.c boards/shared/stack.c \
                   boards/shared/wait.c
 BOARD_LINK     := boards/cortexm/link.c
 BOARD_EMULATOR := qemu-system-arm

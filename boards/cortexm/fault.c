@@ -1,15 +1,21 @@
-/* fault.c: a fault says what happened and where, then ends the program with a failure. */
+/* fault.c: every exception that nobody takes: what the board drives is off, then what happened and where is noted. */
 #include "cortexm.h"
-
-#include "boards/board.h"
-#include "core/text.h"
 
 void board_fault_report(const uint32_t *frame, uint32_t exception);
 
-/* The stacked frame is where SP points (this program runs on the main stack only). The report runs
- * on a stack of its own: after an overflow the old one is of no use. */
+#define SAFE_STORE(address, value) \
+    __asm__ volatile("ldr r0, =%c0\n\t" \
+                     "ldr r1, =%c1\n\t" \
+                     "str r1, [r0]" \
+                     : \
+                     : "i"(address), "i"(value));
+
+/* The stacked frame is where SP points (this program runs on the main stack only). What follows runs on a stack of its own:
+ * after an overflow the old one is of no use. */
 __attribute__((naked)) void board_fault(void) {
-    __asm__ volatile("mov r0, sp\n\t"
+    BOARD_SAFE_ROWS(SAFE_STORE)
+    __asm__ volatile("cpsid i\n\t"
+                     "mov r0, sp\n\t"
                      "mrs r1, ipsr\n\t"
                      "ldr r2, =board_fault_stack_top\n\t"
                      "mov sp, r2\n\t"
@@ -18,100 +24,41 @@ __attribute__((naked)) void board_fault(void) {
                      ".ltorg");
 }
 
-static const char *name_of(uint32_t exception) {
-    switch (exception) {
-    case 2: return "NMI";
-    case 3: return "HardFault";
-    case 4: return "MemManage";
-    case 5: return "BusFault";
-    case 6: return "UsageFault";
-    case 11: return "SVCall";
-    case 12: return "DebugMonitor";
-    case 14: return "PendSV";
-    case 15: return "SysTick";
-    default: return exception < 16 ? "reserved exception" : "unexpected interrupt";
-    }
-}
-
-static void add_register(wh_text *text, const char *name, uint32_t value) {
-    wh_text_add(text, name);
-    wh_text_add(text, " 0x");
-    wh_text_add_hex(text, value, 8);
-}
+#define WEAK_VECTOR(number, name) __attribute__((weak, alias("board_fault"))) void on_##name(void);
+CORTEXM_VECTOR_ROWS(WEAK_VECTOR)
+BOARD_VECTOR_ROWS(WEAK_VECTOR)
 
 /* Armv8-M's, when the stack pointer would have passed MSPLIM; nothing was stacked below it then. */
 #define STACK_LIMIT_PASSED (1U << 20)
 
+#define CFSR_MEMORY_ADDRESS (1U << 7)
+#define CFSR_BUS_ADDRESS (1U << 15)
+
 #if __ARM_ARCH >= 7
-/* The causes that come up in practice (Armv7-M Architecture Reference Manual, B3.2.15). */
-static const char *cause_of(uint32_t cfsr) {
-    static const struct {
-        uint32_t bit;
-        const char *text;
-    } causes[] = {
-        {1U << 0, "instruction fetch denied"},
-        {1U << 1, "data access denied"},
-        {1U << 4, "stack unusable"},
-        {1U << 8, "instruction fetch failed"},
-        {1U << 9, "bus error"},
-        {1U << 10, "imprecise bus error"},
-        {1U << 12, "stack unusable"},
-        {1U << 16, "undefined instruction"},
-        {1U << 17, "jump to a non-Thumb address"},
-        {1U << 18, "bad exception return"},
-        {1U << 19, "no FPU or FPU switched off"},
-        {STACK_LIMIT_PASSED, "stack limit passed"},
-        {1U << 24, "unaligned access"},
-        {1U << 25, "division by zero"},
-    };
-    for (unsigned i = 0; i < sizeof causes / sizeof causes[0]; i++) {
-        if ((cfsr & causes[i].bit) != 0) {
-            return causes[i].text;
-        }
+static void note_status(board_fault_facts *facts) {
+    facts->cfsr = REGISTER(SCB_CFSR);
+    facts->hfsr = REGISTER(SCB_HFSR);
+    if ((facts->cfsr & CFSR_BUS_ADDRESS) != 0) {
+        facts->address = REGISTER(SCB_BFAR);
+    } else if ((facts->cfsr & CFSR_MEMORY_ADDRESS) != 0) {
+        facts->address = REGISTER(SCB_MMFAR);
     }
-    return "no cause given";
 }
 #endif
 
 __attribute__((used)) _Noreturn void board_fault_report(const uint32_t *frame, uint32_t exception) {
-    char line[240];
-    wh_text text;
     const uintptr_t at = (uintptr_t)frame;
+    board_fault_facts facts = {.exception = exception, .sp = (uint32_t)at};
 #if __ARM_ARCH >= 7
-    const uint32_t cfsr = REGISTER(SCB_CFSR);
-#else
-    const uint32_t cfsr = 0;
+    note_status(&facts);
 #endif
-    const bool overflow = at < (uintptr_t)board_stack_limit || (cfsr & STACK_LIMIT_PASSED) != 0;
-    wh_text_start(&text, line, sizeof line);
-    wh_text_add(&text, "\nfault: ");
-    wh_text_add(&text, name_of(exception));
-    if (exception >= 16) {
-        wh_text_add_char(&text, ' ');
-        wh_text_add_unsigned(&text, exception - 16U);
+    if (at < (uintptr_t)board_stack_limit || (facts.cfsr & STACK_LIMIT_PASSED) != 0) {
+        facts.stack = BOARD_STACK_OVERFLOW;
+    } else if (at + 8U * sizeof *frame > (uintptr_t)board_stack_top) {
+        facts.stack = BOARD_STACK_ASTRAY;
+    } else { /* r0-r3, r12, lr, pc, xpsr */
+        facts.lr = frame[5];
+        facts.pc = frame[6];
     }
-    if (overflow || at + 8U * sizeof *frame > (uintptr_t)board_stack_top) {
-        wh_text_add(&text, overflow ? ", stack overflow" : ", stack pointer astray");
-        add_register(&text, ", SP", (uint32_t)at);
-    } else {
-        /* r0-r3, r12, lr, pc, xpsr */
-        add_register(&text, ", PC", frame[6]);
-        add_register(&text, " LR", frame[5]);
-    }
-#if __ARM_ARCH >= 7
-    add_register(&text, " CFSR", cfsr);
-    add_register(&text, " HFSR", REGISTER(SCB_HFSR));
-    if ((cfsr & (1U << 15)) != 0) {
-        add_register(&text, " at", REGISTER(SCB_BFAR));
-    } else if ((cfsr & (1U << 7)) != 0) {
-        add_register(&text, " at", REGISTER(SCB_MMFAR));
-    }
-    wh_text_add(&text, " (");
-    wh_text_add(&text, cause_of(cfsr));
-    wh_text_add_char(&text, ')');
-#endif
-    wh_text_add_char(&text, '\n');
-    uart_start();
-    uart_write(text.bytes, text.length);
-    board_exit(70);
+    board_fault_ends(&facts);
 }

@@ -1,4 +1,4 @@
-/* startup.c: from reset to main(): vector table, memory, FPU, stack paint. */
+/* startup.c: from reset to main(): clocks, memory, FPU, vector table, stack paint. */
 #include "cortexm.h"
 
 #include "boards/board.h"
@@ -7,13 +7,20 @@ _Noreturn void board_reset(void);
 
 typedef void (*vector)(void);
 
-/* Sixteen system vectors, then the chip's interrupts. This program uses no interrupt: any that
- * arrives is a fault and says so. */
+#define CORE_ROW(number, name) [(number)] = on_##name,
+#define CHIP_ROW(number, name) [16 + (number)] = on_##name,
+
+/* A row overrides what the range before it says: that is meant. */
+#pragma GCC diagnostic ignored "-Woverride-init"
+
+/* Sixteen system vectors, then the chip's interrupts. Rows take the place of the fault handler, which has all the others. */
 __attribute__((section(".vectors"), used)) static const vector vectors[16 + BOARD_INTERRUPTS] = {
+    [2 ... 16 + BOARD_INTERRUPTS - 1] = board_fault,
     [0] = (vector)(uintptr_t)board_stack_top,
     [1] = (vector)(uintptr_t)board_reset,
-    [2 ... 16 + BOARD_INTERRUPTS - 1] = board_fault,
-};
+    CORTEXM_VECTOR_ROWS(CORE_ROW) BOARD_VECTOR_ROWS(CHIP_ROW)};
+
+board_clock board_clock_is;
 
 static void enable_fpu(void) {
 #if defined(__ARM_FP)
@@ -22,12 +29,21 @@ static void enable_fpu(void) {
 #endif
 }
 
-_Noreturn void board_reset(void) {
-    enable_fpu();
-    board_fill_memory();
+/* A loader in ROM leaves the table its own. */
+static void take_vectors(void) {
 #if __ARM_ARCH >= 7
+    REGISTER(SCB_VTOR) = (uint32_t)(uintptr_t)vectors;
     REGISTER(SCB_SHCSR) |= 7U << 16; /* usage, bus and memory faults by their own names */
+    __asm__ volatile("dsb" ::: "memory");
 #endif
+}
+
+_Noreturn void board_reset(void) {
+    take_vectors();
+    enable_fpu();
+    const board_clock clock = board_clock_start();
+    board_fill_memory();
+    board_clock_is = clock;
     board_guard_stack();
     board_stack_paint();
     board_exit(main());

@@ -57,6 +57,7 @@ static wh_rig_inputs inputs_now(void) {
     return (wh_rig_inputs){.now_ticks = hal_clock_ticks(),
                            .supply_V = hal_motor_supply_V(),
                            .stop_pressed = hal_stop_pressed(),
+                           .clock_is_fallback = hal_clock_source_now() == HAL_CLOCK_FALLBACK,
                            .watchdog_has_cut = hal_watchdog_has_cut()};
 }
 
@@ -112,6 +113,7 @@ static void control(const wh_rig_config *config) {
     obey(&command);
     see(pulsed ? &pulse : NULL, sample, samples);
     trip_memory_keep(&memory, &rig);
+    hal_reset_mark(wh_rig_stage(&rig));
     hal_watchdog_kick(); /* tripped too: a watchdog that resets would start all over */
 }
 
@@ -138,7 +140,7 @@ static const char *why_no_hardware(void) {
 
 /* Start the hardware, and look whether the arithmetic is that of the tests. Why not, the motor off; or NULL. */
 static const char *why_not_started(void) {
-    if (!hal_clock_start()) {
+    if (hal_clock_start() != HAL_STARTED) {
         return why_no_hardware();
     }
     if (wh_arithmetic_wrong(wh_arithmetic) != WH_PROBED_COUNT) {

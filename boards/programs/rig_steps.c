@@ -96,7 +96,7 @@ static bool run(const trial *tried) {
     config.observer.scene = &rig_observed;
     config.feeds = tried->fed ? WH_FEED_ALWAYS : wh_rig_standard.feeds;
     config.swings = tried->swings;
-    if (!hal_clock_start()) {
+    if (hal_clock_start() != HAL_STARTED) {
         return false;
     }
     const unsigned first = intervals;

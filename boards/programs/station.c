@@ -7,6 +7,7 @@
 #include "hal/clock.h"
 #include "hal/console.h"
 #include "hal/motor.h"
+#include "hal/reset.h"
 #include "hal/watchdog.h"
 #include "rig_control.h"
 #include "rig_report.h"
@@ -27,6 +28,20 @@ static void converse(void) {
     wh_station_step(&station, &rig);
     const unsigned waiting = wh_station_peek(&station, bytes, sizeof bytes);
     wh_station_drop(&station, hal_console_offer(bytes, waiting));
+}
+
+/* A start that nobody has asked for is told, by itself, before anything else. */
+static void tell_reset(void) {
+    char words[200];
+    if (hal_reset_cause() != HAL_RESET_POWER_ON) {
+        const unsigned count = hal_reset_words(words, sizeof words);
+        put("\r\n# reset: "); /* whatever line was under way has ended */
+        hal_console_write(words, count);
+        put("\r\n");
+    }
+    if (hal_clock_source_now() == HAL_CLOCK_FALLBACK) {
+        put("# the crystal does not answer: no run until it does\r\n");
+    }
 }
 
 #if HAL_VIRTUAL
@@ -66,6 +81,7 @@ int main(void) {
     uint32_t paced = board_ticks();
 #endif
     trip_memory_start(&memory, &config, &rig, due);
+    tell_reset();
     wh_station_start(&station, "rig", board_name, HAL_TICKS_PER_S / CONTROL_TICKS);
     station.conf = &conf;
     station.tel = &tel;

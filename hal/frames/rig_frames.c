@@ -6,6 +6,7 @@
 
 #include <stddef.h>
 
+#include "core/text.h"
 #include "hal/clock.h"
 #include "hal/loadcell.h"
 #include "hal/motor.h"
@@ -139,7 +140,7 @@ static void see_levels(void) {
     }
 }
 
-bool hal_clock_start(void) {
+hal_start hal_clock_start(void) {
     static wh_signal all[WH_SIGNALS_MAX];
     unsigned count = 0;
     for (unsigned i = 0; i < SIGNALS; i++) {
@@ -155,16 +156,30 @@ bool hal_clock_start(void) {
                             .start_ticks = 0U - WRAP_AFTER_S * HAL_TICKS_PER_S,
                             .signal = all,
                             .signals = count};
-    return hal_turns_start(&plant, &hello);
+    return hal_turns_start(&plant, &hello) ? HAL_STARTED : HAL_START_NO_PLANT;
 }
 
+hal_clock_source hal_clock_source_now(void) { return HAL_CLOCK_PLAYED; }
+
+uint32_t hal_clock_tolerance_ppm(void) { return 0; }
+
 uint32_t hal_clock_ticks(void) { return plant.ticks; }
+
+static uint32_t late_ticks;
 
 void hal_clock_wait_until(uint32_t ticks) {
     if ((int32_t)(ticks - plant.ticks) > 0) {
         hal_turns_wait(&plant, ticks);
         see_levels();
     }
+    const uint32_t late = plant.ticks - ticks;
+    late_ticks = late > late_ticks ? late : late_ticks;
+}
+
+uint32_t hal_clock_late_ticks(void) {
+    const uint32_t most = late_ticks;
+    late_ticks = 0;
+    return most;
 }
 
 /* NaN: 0. */
@@ -182,6 +197,8 @@ void hal_motor_off(hal_motor_off_way way) {
     hal_turns_set(&plant, DUTY, 0.0f);
     hal_turns_set(&plant, ENABLE, way == HAL_MOTOR_BRAKE ? 1.0f : 0.0f);
 }
+
+unsigned hal_motor_status(void) { return hal_turns_is_cut(&plant) ? HAL_MOTOR_CUT : 0U; }
 
 float hal_motor_supply_V(void) { return supply_V; }
 
@@ -220,6 +237,9 @@ bool hal_slots_take(hal_slot_pulse *pulse) {
     *pulse = (hal_slot_pulse){.ticks = edge.ticks, .sensor = edge.channel};
     return true;
 }
+
+/* The line's: edges and samples together. */
+uint32_t hal_slots_overruns(void) { return plant.lost; }
 
 static uint8_t load_status(uint8_t status) {
     return status == WH_SAMPLE_GOOD        ? HAL_LOAD_OK
@@ -260,6 +280,17 @@ hal_reset hal_reset_cause(void) {
            : plant.reset.cause == WH_RESET_WATCHDOG ? HAL_RESET_WATCHDOG
                                                     : HAL_RESET_OTHER;
 }
+
+unsigned hal_reset_words(char *words, unsigned room) {
+    wh_text text;
+    wh_text_start(&text, words, room);
+    wh_text_add(&text, plant.reset.cause == 0                   ? "power on"
+                       : plant.reset.cause == WH_RESET_WATCHDOG ? "watchdog"
+                                                                : "other");
+    return text.length;
+}
+
+void hal_reset_mark(uint32_t state) { (void)state; /* who plays the plant hears of it by notes */ }
 
 void hal_remember(const void *bytes, unsigned count) { hal_turns_remember(&plant, bytes, count); }
 

@@ -1,4 +1,5 @@
 /* hal.c: the hal_ functions, on one virtual rig. */
+#include "core/text.h"
 #include "hal/clock.h"
 #include "hal/loadcell.h"
 #include "hal/motor.h"
@@ -15,23 +16,45 @@ static hal_virtual_rig board_rig;
 
 hal_virtual_rig *hal_virtual_rig_instance(void) { return &board_rig; }
 
-bool hal_clock_start(void) {
+hal_start hal_clock_start(void) {
     const bool again = board_rig.in_reset;
     board_rig.in_reset = false;
-    return again ? board_rig.status == WH_OK : hal_virtual_rig_start(&board_rig, &rig_fixed);
+    const bool starts =
+        again ? board_rig.status == WH_OK : hal_virtual_rig_start(&board_rig, &rig_fixed);
+    return starts ? HAL_STARTED : HAL_START_NO_PLANT;
 }
+
+hal_clock_source hal_clock_source_now(void) { return HAL_CLOCK_PLAYED; }
+
+uint32_t hal_clock_tolerance_ppm(void) { return 0; }
 
 uint32_t hal_clock_ticks(void) { return board_rig.ticks; }
 
-void hal_clock_wait_until(uint32_t ticks) { hal_virtual_rig_advance(&board_rig, ticks); }
+static uint32_t late_ticks;
+
+void hal_clock_wait_until(uint32_t ticks) {
+    hal_virtual_rig_advance(&board_rig, ticks);
+    const uint32_t late = board_rig.ticks - ticks;
+    late_ticks = late > late_ticks ? late : late_ticks;
+}
+
+uint32_t hal_clock_late_ticks(void) {
+    const uint32_t most = late_ticks;
+    late_ticks = 0;
+    return most;
+}
 
 void hal_motor_set_voltage(float volts) { hal_virtual_rig_set_voltage(&board_rig, volts); }
 
 void hal_motor_off(hal_motor_off_way way) { hal_virtual_rig_motor_off(&board_rig, way); }
 
+unsigned hal_motor_status(void) { return board_rig.cut ? HAL_MOTOR_CUT : 0U; }
+
 float hal_motor_supply_V(void) { return board_rig.supply_V; }
 
 bool hal_slots_take(hal_slot_pulse *pulse) { return hal_virtual_rig_take_pulse(&board_rig, pulse); }
+
+uint32_t hal_slots_overruns(void) { return board_rig.overruns; }
 
 bool hal_loadcell_take(hal_load_sample *sample) {
     return hal_virtual_rig_take_sample(&board_rig, sample);
@@ -52,6 +75,17 @@ bool hal_stop_pressed(void) { return board_rig.stop_pressed; }
 bool hal_stop_heard(void) { return true; }
 
 hal_reset hal_reset_cause(void) { return board_rig.cause; }
+
+unsigned hal_reset_words(char *words, unsigned room) {
+    wh_text text;
+    wh_text_start(&text, words, room);
+    wh_text_add(&text, board_rig.cause == HAL_RESET_POWER_ON   ? "power on"
+                       : board_rig.cause == HAL_RESET_WATCHDOG ? "watchdog"
+                                                               : "other");
+    return text.length;
+}
+
+void hal_reset_mark(uint32_t state) { (void)state; /* nothing of a model's faults */ }
 
 void hal_remember(const void *bytes, unsigned count) {
     const uint8_t *from = bytes;

@@ -95,6 +95,8 @@ static void add_pulse(hal_virtual_rig *rig, unsigned sensor, uint32_t ticks) {
     }
     if (rig->pulses < HAL_VIRTUAL_PULSES) {
         rig->pulse[rig->pulses++] = (hal_slot_pulse){.ticks = ticks, .sensor = (uint8_t)sensor};
+    } else {
+        rig->overruns++;
     }
 }
 

@@ -58,6 +58,7 @@ typedef struct hal_virtual_rig {
     int32_t last_raw;
     hal_slot_pulse pulse[HAL_VIRTUAL_PULSES];
     unsigned pulses;
+    uint32_t overruns; /* pulses that found no room */
     hal_load_sample sample[HAL_VIRTUAL_SAMPLES];
     unsigned samples;
     bool watched; /* the watchdog is armed */

@@ -2,7 +2,8 @@
 # deps.sh GROUP...: install the Debian packages that a make target needs, and only those missing.
 #
 # Groups: host (compiler), plot, firmware (Arm compiler and emulator), boards (other processors'), tests, quality
-# (linters, sanitizers, AVR), bench; hosts (other compilers, C libraries and processors), octave and peers (other solvers) only when they are named.
+# (linters, sanitizers, AVR), bench; hosts (other compilers, C libraries and processors), flash (programmers and a debugger),
+# octave and peers (other solvers) only when they are named.
 # What is there already is recognised by its command or file, not by its package, so a compiler from elsewhere
 # counts. With nothing missing this says nothing and takes milliseconds. What will be installed is told before, with
 # what needs it and the size; where it cannot be, the line that does it (exit status 1).
@@ -118,6 +119,12 @@ hosts() {
     want nodejs "running WebAssembly" have node
 }
 
+flash() {
+    want openocd "programming and debugging through a probe" have openocd
+    want dfu-util "programming through USB" have dfu-util
+    want gdb-multiarch "the debugger" have gdb-multiarch
+}
+
 octave() {
     want octave "running the generated Octave files" have octave-cli
 }
@@ -144,6 +151,7 @@ for group in "$@"; do
     quality) part="make check" ;;
     bench) part="make bench" ;;
     hosts) part="make hosts" ;;
+    flash) part="make flash" ;;
     octave) part="octave-check" ;;
     peers) part="bench-peers" ;;
     *)

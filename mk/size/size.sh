@@ -10,8 +10,10 @@
 #   ram       variables, without the stack
 #   computed  worst stack from the call graph: OBJECTS holds the objects with gcc's .ci files, and
 #             the linker's map beside the image (.map for .elf) says which of them are in it
+#   handlers  the deepest interrupt handler (on_NAME), where the image has some: all have one priority
 # Fails on recursion, on a frame of unbounded size, and if the stack's room is too small for the
-# computed worst case.
+# computed worst case, a handler and what the processor stacks for it and for a fault included; and on more flash than
+# FLASH_MOST or more memory, the stacks included, than RAM_MOST, where these are given.
 set -eu
 here=$(dirname "$0")
 . "$here/../count/common.sh"
@@ -49,7 +51,7 @@ graphs() {
 
 # worst_stack ROOT: answers of stack.awk, to $work/stack.
 worst_stack() {
-    { sed 's/^/symbol /' "$work/symbols" && xargs cat <"$work/graphs"; } |
+    { sed 's/^/symbol /' "$work/symbols" && sed '/^#/d; s/^/pointer /' "$here/pointers.rows" && xargs cat <"$work/graphs"; } |
         awk -v root="$1" -f "$here/stack.awk" | sort -u >"$work/stack"
     if grep -E '^(recursion|unbounded)' "$work/stack" >&2; then
         echo "size.sh: $elf: the stack of $1 has no bound" >&2
@@ -67,8 +69,8 @@ for elf in "$@"; do
         awk -v want="$1" 'index(" " want " ", " " $1 " ") { sum += $2 } END { print sum + 0 }' \
             "$work/sections"
     }
-    flash=$(bytes_of ".text .ARM.exidx .data")
-    ram=$(bytes_of ".data .bss")
+    flash=$(bytes_of ".vectors .text .ARM.exidx .data")
+    ram=$(bytes_of ".data .bss .noinit")
     room=$("$NM" -t d "$elf" | awk '
         $3 == "board_stack_limit" { low = $1 } $3 == "board_stack_top" { top = $1 }
         END { print top - low }')
@@ -88,6 +90,21 @@ for elf in "$@"; do
     row "flash bytes" "$flash"
     row "ram bytes (without stack)" "$ram"
     row "stack bytes (computed)" "$computed"
+    handlers=0
+    for handler in $("$NM" "$elf" | awk '$2 == "T" && $3 ~ /^on_/ { print $3 }'); do
+        deep=$(worst_stack "$handler")
+        [ "$deep" -le "$handlers" ] || handlers=$deep
+    done
+    if [ "$handlers" -gt 0 ]; then
+        stacked=112 # 26 words with the FPU's registers, and the alignment (Armv7-M Architecture Reference Manual, B1.5.7)
+        computed=$((computed + handlers + 2 * stacked))
+        echo "             with the deepest interrupt, $handlers, and a fault in it: $computed"
+    fi
+    all_ram=$((ram + $(bytes_of .stack)))
+    if [ "$flash" -gt "${FLASH_MOST:-$flash}" ] || [ "$all_ram" -gt "${RAM_MOST:-$all_ram}" ]; then
+        echo "size.sh: $elf: $flash bytes of flash, $all_ram of memory: more than ${FLASH_MOST:-} or ${RAM_MOST:-}" >&2
+        touch "$work/failed"
+    fi
     if [ "$computed" -gt "$room" ]; then
         echo "size.sh: $elf: the stack needs $computed bytes and has $room" >&2
         touch "$work/failed"

@@ -6,7 +6,8 @@
 # "recursion NAME" and fails.
 #
 # A call through a pointer may reach any kept function that nobody calls by name: that is never too
-# little as long as functions whose address is taken are not also called directly.
+# little as long as functions whose address is taken are not also called directly. Lines "pointer CALLER CALLEE..." (pointers.rows)
+# say of a caller that it reaches these alone.
 
 function plain(title) {
     sub(/^.*:/, "", title) # file-local functions are titled file:name
@@ -61,11 +62,16 @@ function depth(at,    i, n, callee, deep, best) {
 
 $1 == "symbol" { kept[$2] = 1 }
 
+$1 == "pointer" {
+    for (i = 3; i <= NF; i++) { leads[$2] = leads[$2] " " $i }
+}
+
 $1 == "node:" {
     title = text("title")
     label = text("label")
     if (match(label, /[0-9]+ bytes \([a-z,]+\)/)) {
         if (!(title in frame)) { node[++nodes] = title }
+        title_of[plain(title)] = title
         frame[title] = substr(label, RSTART, RLENGTH) + 0
         if (substr(label, RSTART, RLENGTH) ~ /dynamic\)/) { dynamic[title] = 1 }
     }
@@ -74,12 +80,26 @@ $1 == "node:" {
 $1 == "edge:" {
     from = text("sourcename")
     to = text("targetname")
+    if (to == "__indirect_call" && plain(from) in leads) {
+        led[++leds] = from
+        next
+    }
     edge[from, ++edges[from]] = to
     # Only callers that are themselves in the program count as direct callers.
     if (plain(from) in kept) { called[to] = 1 }
 }
 
 END {
+    for (i = 1; i <= leds; i++) {
+        n = split(leads[plain(led[i])], callees, " ")
+        for (k = 1; k <= n; k++) {
+            if (callees[k] in title_of) {
+                to = title_of[callees[k]]
+                edge[led[i], ++edges[led[i]]] = to
+                called[to] = 1
+            }
+        }
+    }
     bytes = depth(root)
     path = plain(root)
     for (at = root; at in next_of && !(at in shown); at = next_of[at]) {

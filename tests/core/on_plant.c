@@ -53,7 +53,7 @@ wh_refusal plant_order(on_plant *on, wh_rig_event event, float value) {
 }
 
 static void begin_control(on_plant *on) {
-    TEST_ASSERT_TRUE(hal_clock_start());
+    TEST_ASSERT_TRUE(hal_clock_start() == HAL_STARTED);
     trip_memory_start(&on->memory, &on->config, &on->rig, hal_clock_ticks());
     hal_watchdog_start(10U * CONTROL_TICKS);
 }

@@ -188,6 +188,49 @@ static void test_a_guess_is_as_near_as_it_says(void) {
     TEST_ASSERT_TRUE(told > 30U && near_it * 10U > told * 7U);
 }
 
+/* Half a swing's time over that of a small one, 2/pi K(k), by the arithmetic and geometric mean; k2 = k^2. */
+static wh_real longer_by(wh_real k2) {
+    wh_real a = WH_R(1.0);
+    wh_real b = WH_SQRT(WH_R(1.0) - k2);
+    for (unsigned i = 0; i < 8U; i++) {
+        const wh_real mean = WH_R(0.5) * (a + b);
+        b = WH_SQRT(a * b);
+        a = mean;
+    }
+    return WH_R(1.0) / a;
+}
+
+/* A first swing of any width up to where it all but gets to the top, small ones behind it: how wide it was is guessed by its time
+ * alone, as the pendulum's integral has it. */
+static void test_the_first_swings_width_is_told_by_its_time(void) {
+    seed = 6;
+    for (unsigned i = 0; i < 300U; i++) {
+        const wh_real near_top = drawn_between(WH_R(0.03), WH_R(0.2));
+        const wh_real sine =
+            i % 2U == 0 ? drawn_between(WH_R(0.42), WH_R(0.96)) : WH_R(1.0) - near_top * near_top;
+        /* on straight lines between eight points */
+        const wh_real part = sine > WH_R(0.96)   ? WH_R(0.009)
+                             : sine > WH_R(0.55) ? WH_R(0.017)
+                                                 : WH_R(0.045);
+        const wh_real root = drawn_between(WH_R(5.0), WH_R(10.0));
+        const wh_real half_s = WH_R(0.5) * WH_RIG_TWO_PI / root;
+        swing = (wh_swing){.swings = true, .passed = 20, .kept = 20};
+        wh_real passed_s = WH_R(0.0);
+        const uint32_t begin = (uint32_t)draw_bits(&seed) * 2U;
+        for (unsigned k = 0; k < 20U; k++) {
+            swing.kept_ticks[k] = begin + (uint32_t)(passed_s * (wh_real)WH_RIG_TICKS_PER_S);
+            passed_s += k == 0 ? half_s * longer_by(sine * sine) : half_s;
+        }
+        for (unsigned k = 0; k < WH_SWING_LAST; k++) {
+            swing.last_ticks[k] = swing.kept_ticks[19U - k];
+        }
+        wh_swing_guess(&wh_rig_standard.swing, &swing);
+        const wh_real wanted_radps = WH_R(-2.0) * root * sine;
+        TEST_ASSERT_FLOAT_WITHIN((float)(-part * wanted_radps), (float)wanted_radps,
+                                 (float)swing.guess[WH_SWING_RATE]);
+    }
+}
+
 /* --- the work -------------------------------------------------------------------------------------------- */
 
 /* At most so many steps of the equation are done in one control step, of so many ticks. */
@@ -285,6 +328,7 @@ void suite_rig_swing_pulses(void) {
     RUN_TEST(test_what_is_kept_of_a_swing);
     RUN_TEST(test_a_pulse_lost_while_it_turns_changes_nothing);
     RUN_TEST(test_a_guess_is_as_near_as_it_says);
+    RUN_TEST(test_the_first_swings_width_is_told_by_its_time);
     RUN_TEST(test_a_control_step_does_one_piece_of_the_work);
     RUN_TEST(test_a_step_that_turns_back_is_many_small_ones);
 }

@@ -1,0 +1,20 @@
+/* Olimex STM32-H405: STM32F405RG, 8 MHz crystal. Pins are on its extension headers by their chip's names; PA0 is its
+ * button, so the slot sensors are on PA1 and PA2. */
+#ifndef BOARD_DATA_H
+#define BOARD_DATA_H
+
+#define BOARD_NAME "stm32-h405"
+#define BOARD_CRYSTAL_HZ 8000000U
+#define BOARD_PLL_M 4U
+#define BOARD_PLL_N 168U
+
+#define BOARD_SLOT_PINS PIN('A', 1), PIN('A', 2)
+#define BOARD_SLOT_CHANNELS 2U, 3U /* of TIM2 */
+#define BOARD_CELL_PIN PIN('C', 0)
+#define BOARD_CELL_INPUT 10U
+#define BOARD_SUPPLY_PIN PIN('C', 1)
+#define BOARD_SUPPLY_INPUT 11U
+
+#include "boards/stm32f4/stm32f405.h"
+
+#endif

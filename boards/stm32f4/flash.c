@@ -1,0 +1,89 @@
+/* flash.c: settings in sectors 1 and 2 of the chip's flash, 16 KB each (RM0090, 3.6), which the linker leaves free
+ * (stm32f405.ld). An erase takes 0.25 to 0.5 s, and the core waits for its next instruction as long. */
+#include "hal/settings.h"
+
+#include "stm32f4.h"
+
+#define FIRST_SECTOR 1U
+#define SECTOR_BYTES 0x4000U
+#define FIRST_ADDRESS 0x08004000U
+#define SLOTS 2U
+
+static bool within(unsigned slot, unsigned at, unsigned count) {
+    return slot < SLOTS && at <= HAL_SETTINGS_BYTES && count <= HAL_SETTINGS_BYTES - at;
+}
+
+static uint32_t address_of(unsigned slot, unsigned at) {
+    return FIRST_ADDRESS + SECTOR_BYTES * slot + at;
+}
+
+/* No erase takes two seconds, at whatever speed this loop goes round. */
+static bool rests(void) {
+    for (uint32_t i = 0; i < 100000000U; i++) {
+        if ((reg_load(FLASH_SR) & FLASH_SR_BSY) == 0) {
+            return true;
+        }
+    }
+    return false;
+}
+
+static bool is_done(void) { return rests() && (reg_load(FLASH_SR) & FLASH_SR_ERRORS) == 0; }
+
+static void unlock(void) {
+    reg_store(FLASH_KEYR, FLASH_KEY1);
+    reg_store(FLASH_KEYR, FLASH_KEY2);
+    reg_store(FLASH_SR, FLASH_SR_ERRORS); /* of before */
+}
+
+/* What the data cache still has of a sector that was erased is wrong (3.5.2). */
+static void forget_cached(void) {
+    reg_clear(FLASH_ACR, FLASH_ACR_DCEN);
+    reg_set(FLASH_ACR, FLASH_ACR_DCRST);
+    reg_clear(FLASH_ACR, FLASH_ACR_DCRST);
+    reg_set(FLASH_ACR, FLASH_ACR_DCEN);
+}
+
+bool hal_settings_erase(unsigned slot) {
+    if (!within(slot, 0, 0) || !rests()) {
+        return false;
+    }
+    const uint32_t order = FLASH_CR_SER | FLASH_CR_SNB(FIRST_SECTOR + slot) | FLASH_CR_PSIZE_32;
+    unlock();
+    reg_store(FLASH_CR, order);
+    reg_store(FLASH_CR, order | FLASH_CR_STRT);
+    const bool done = is_done();
+    reg_store(FLASH_CR, FLASH_CR_LOCK);
+    forget_cached();
+    return done;
+}
+
+/* Words; the bytes behind the last stay ones. */
+bool hal_settings_write(unsigned slot, unsigned at, const uint8_t *bytes, unsigned count) {
+    if (!within(slot, at, count) || at % 4U != 0 || !rests()) {
+        return false;
+    }
+    bool done = true;
+    unlock();
+    reg_store(FLASH_CR, FLASH_CR_PG | FLASH_CR_PSIZE_32);
+    for (unsigned i = 0; i < count && done; i += 4U) {
+        uint32_t word = 0;
+        for (unsigned k = 0; k < 4U; k++) {
+            word |= (uint32_t)(i + k < count ? bytes[i + k] : 0xFFU) << (8U * k);
+        }
+        reg_store(address_of(slot, at + i), word);
+        done = is_done();
+    }
+    reg_store(FLASH_CR, FLASH_CR_LOCK);
+    return done;
+}
+
+bool hal_settings_read(unsigned slot, unsigned at, uint8_t *bytes, unsigned count) {
+    if (!within(slot, at, count)) {
+        return false;
+    }
+    for (unsigned i = 0; i < count; i++) {
+        const uint32_t address = address_of(slot, at + i);
+        bytes[i] = (uint8_t)(reg_load(address & ~3U) >> (8U * (address & 3U)));
+    }
+    return true;
+}

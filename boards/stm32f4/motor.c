@@ -1,0 +1,84 @@
+/* motor.c: the drive stage: TIM1's channel 1 as a PWM of 20 kHz on its complementary output alone (RM0090, 17.3 and table
+ * 94), the enable on a pin, and the break input, which takes both stop and the drive stage's fault.
+ *
+ * The break (active low, pulled down: a broken wire is pressed) clears MOE with no software in the way, so does a crystal
+ * that stops, and so does a debugger that halts the core; then the output is at its idle level, low. It cannot be set again
+ * while the break is there. A core that locks up does not clear it on this chip: that is left to the watchdog. */
+#include "hal/motor.h"
+
+#include "hal/stop.h"
+
+#include "stm32f4.h"
+
+#define PWM_Hz 20000U
+#define TIM1_FUNCTION 1U
+
+static uint32_t whole; /* the compare value that is always on */
+static bool driving;
+static bool cut;
+
+void stm32f4_motor_start(void) {
+    stm32f4_pin_set(BOARD_PIN_ENABLE, false);
+    stm32f4_pin_is(BOARD_PIN_ENABLE, PIN_OUTPUT, PULL_NONE, 0);
+    stm32f4_pin_set(BOARD_PIN_ENABLE, false); /* its port may have had no clock before */
+    reg_set(RCC_APB2ENR, RCC_APB2ENR_TIM1);
+    (void)reg_load(RCC_APB2ENR);
+    reg_set(DBGMCU_APB2_FZ, DBGMCU_APB2_FZ_TIM1);
+    whole = stm32f4_clocks_now()->timer1_Hz / PWM_Hz;
+    stm32f4_pin_is(BOARD_PIN_BREAK, PIN_ALTERNATE, PULL_DOWN, TIM1_FUNCTION);
+    reg_store(TIM_CR1(TIM1), 0);
+    reg_store(TIM_CR2(TIM1), 0); /* idle level OIS1N: low */
+    reg_store(TIM_PSC(TIM1), 0);
+    reg_store(TIM_ARR(TIM1), whole - 1U);
+    reg_store(TIM_CCR(TIM1, 1U), 0);
+    reg_store(TIM_CCMR(TIM1, 0U), TIM_CCMR_OC1M_PWM_1); /* no preload: a new value counts at once */
+    reg_store(TIM_CCER(TIM1), TIM_CCER_CC1NE);
+    reg_store(TIM_EGR(TIM1), TIM_EGR_UG);
+    reg_store(TIM_BDTR(TIM1), BOARD_MOTOR_BDTR);
+    reg_store(TIM_CR1(TIM1), TIM_CR1_CEN);
+    stm32f4_pin_is(BOARD_PIN_PWM, PIN_ALTERNATE, PULL_DOWN, TIM1_FUNCTION);
+    driving = false;
+    cut = false;
+}
+
+static bool is_cut(void) {
+    cut = cut || (driving && (reg_load(TIM_BDTR(TIM1)) & TIM_BDTR_MOE) == 0);
+    return cut;
+}
+
+/* NaN, and no supply: 0. */
+static uint32_t compare_of(float volts) {
+    const float supply_V = hal_motor_supply_V();
+    if (!(volts > 0.0f) || !(supply_V > 0.0f)) {
+        return 0;
+    }
+    return volts >= supply_V ? whole : (uint32_t)(volts / supply_V * (float)whole);
+}
+
+void hal_motor_set_voltage(float volts) {
+    const uint32_t compare = compare_of(volts);
+    if (driving) {
+        if (!is_cut()) {
+            reg_store(TIM_CCR(TIM1, 1U), compare);
+        }
+        return;
+    }
+    reg_store(TIM_CCR(TIM1, 1U), compare);
+    reg_store(TIM_SR(TIM1), ~TIM_SR_BIF);
+    stm32f4_pin_set(BOARD_PIN_ENABLE, true);
+    reg_store(TIM_BDTR(TIM1), BOARD_MOTOR_BDTR | TIM_BDTR_MOE);
+    driving = true;
+}
+
+/* The output first: that store is also a fault's first (BOARD_SAFE_ROWS). */
+void hal_motor_off(hal_motor_off_way way) {
+    reg_store(TIM_BDTR(TIM1), BOARD_MOTOR_BDTR);
+    stm32f4_pin_set(BOARD_PIN_ENABLE, way == HAL_MOTOR_BRAKE);
+    driving = false;
+    cut = false;
+}
+
+unsigned hal_motor_status(void) {
+    return (is_cut() ? HAL_MOTOR_CUT : 0U) | (hal_stop_pressed() ? HAL_MOTOR_FAULT : 0U) |
+           (hal_motor_supply_V() > 0.0f ? 0U : HAL_MOTOR_NO_SUPPLY);
+}

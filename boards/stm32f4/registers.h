@@ -1,0 +1,28 @@
+/* registers.h: access to the chip's registers, by address. On the PC tests take it over and see every access in its order
+ * (tests/host/fake_registers.h). */
+#ifndef BOARDS_STM32F4_REGISTERS_H
+#define BOARDS_STM32F4_REGISTERS_H
+
+#include <stdint.h>
+
+#ifndef BOARD_REGISTERS_FAKED
+#define BOARD_REGISTERS_FAKED 0
+#endif
+
+#if BOARD_REGISTERS_FAKED
+uint32_t reg_load(uint32_t address);
+void reg_store(uint32_t address, uint32_t value);
+#else
+#include "boards/shared/metal.h"
+static inline uint32_t reg_load(uint32_t address) { return REGISTER(address); }
+static inline void reg_store(uint32_t address, uint32_t value) { REGISTER(address) = value; }
+#endif
+
+/* Those bits of `mask` become `bits`, the others stay. Not against an interrupt that does the same. */
+static inline void reg_change(uint32_t address, uint32_t mask, uint32_t bits) {
+    reg_store(address, (reg_load(address) & ~mask) | bits);
+}
+static inline void reg_set(uint32_t address, uint32_t bits) { reg_change(address, 0, bits); }
+static inline void reg_clear(uint32_t address, uint32_t bits) { reg_change(address, bits, 0); }
+
+#endif

@@ -1,0 +1,69 @@
+/* reset.c: why the chip starts (RM0090, 7.3.21), and what it still knows of before (boards/cortexm/kept.h). */
+#include "hal/reset.h"
+#include "boards/cortexm/kept.h"
+#include "core/text.h"
+
+#include "stm32f4.h"
+
+static hal_reset cause;
+static bool known;
+static board_fault_record fault;
+
+/* A start sets the flag of its pin, too: the others come first. Where no flag is set, as in an emulator, memory that still
+ * knows of before tells that it is no power-on. */
+static hal_reset cause_of(uint32_t flags, bool knows_of_before, bool faulted) {
+    if ((flags & (RCC_CSR_IWDGRSTF | RCC_CSR_WWDGRSTF)) != 0) {
+        return HAL_RESET_WATCHDOG;
+    }
+    if ((flags & RCC_CSR_PORRSTF) != 0) {
+        return HAL_RESET_POWER_ON;
+    }
+    if ((flags & RCC_CSR_BORRSTF) != 0) {
+        return HAL_RESET_SUPPLY;
+    }
+    if (faulted) {
+        return HAL_RESET_FAULT;
+    }
+    return flags == 0 && !knows_of_before ? HAL_RESET_POWER_ON : HAL_RESET_OTHER;
+}
+
+hal_reset hal_reset_cause(void) {
+    const uint32_t all = RCC_CSR_LPWRRSTF | RCC_CSR_WWDGRSTF | RCC_CSR_IWDGRSTF | RCC_CSR_SFTRSTF |
+                         RCC_CSR_PORRSTF | RCC_CSR_PINRSTF | RCC_CSR_BORRSTF;
+    if (!known) {
+        known = true;
+        const bool knows_of_before = board_kept_anything();
+        const bool faulted = board_kept_take_fault(&fault);
+        cause = cause_of(reg_load(RCC_CSR) & all, knows_of_before, faulted);
+        reg_set(RCC_CSR, RCC_CSR_RMVF);
+    }
+    return cause;
+}
+
+static const char *words_of(hal_reset what) {
+    switch (what) {
+    case HAL_RESET_POWER_ON: return "power on";
+    case HAL_RESET_WATCHDOG: return "watchdog";
+    case HAL_RESET_OTHER: return "other";
+    case HAL_RESET_FAULT: return "fault:";
+    case HAL_RESET_SUPPLY: return "supply";
+    }
+    return "";
+}
+
+unsigned hal_reset_words(char *words, unsigned room) {
+    wh_text text;
+    wh_text_start(&text, words, room);
+    const hal_reset what = hal_reset_cause();
+    wh_text_add(&text, words_of(what));
+    if (what == HAL_RESET_FAULT) {
+        board_fault_words(&text, &fault.facts);
+        wh_text_add(&text, ", tick ");
+        wh_text_add_unsigned(&text, fault.ticks);
+        wh_text_add(&text, ", state ");
+        wh_text_add_unsigned(&text, fault.state);
+        wh_text_add(&text, ", faults ");
+        wh_text_add_unsigned(&text, fault.faults);
+    }
+    return text.length;
+}

@@ -1,0 +1,52 @@
+/* slots_exti.c: the slot sensors as plain external interrupts (RM0090, 12.2), stamped when the interrupt is entered: for
+ * pins that no timer captures, and for QEMU, which has these lines and no capture. A stamp is late by what held the
+ * interrupt up, some microseconds, and nothing filters. Lines 0 and 1, whatever BOARD_SLOT_PINS are. */
+#include "hal/slots.h"
+
+#include "boards/board.h"
+#include "pulse_ring.h"
+#include "stm32f4.h"
+
+#define EXTI0_IRQ 6U
+#define EXTI1_IRQ 7U
+#define LINES 3U
+
+static pulse_ring ring;
+
+void stm32f4_slots_start(void) {
+    reg_set(RCC_APB2ENR, RCC_APB2ENR_SYSCFG);
+    stm32f4_pin_is(PIN('A', 0), PIN_INPUT, PULL_DOWN, 0);
+    stm32f4_pin_is(PIN('A', 1), PIN_INPUT, PULL_DOWN, 0);
+    reg_change(SYSCFG_EXTICR(0), 0xFFU, 0); /* port A */
+    reg_set(EXTI_RTSR, LINES);
+    reg_store(EXTI_PR, LINES);
+    reg_store(EXTI_IMR, LINES);
+    stm32f4_interrupt(EXTI0_IRQ);
+    stm32f4_interrupt(EXTI1_IRQ);
+}
+
+/* QEMU asks for the interrupt at either edge; only a rising one is pending. */
+static void see(uint8_t sensor) {
+    const uint32_t ticks = board_ticks();
+    if ((reg_load(EXTI_PR) & 1U << sensor) == 0) {
+        return;
+    }
+    reg_store(EXTI_PR, 1U << sensor);
+    if (!pulse_ring_put(&ring, ticks, sensor)) {
+        reg_store(EXTI_IMR, 0);
+    }
+}
+
+void on_exti0(void) { see(0); }
+void on_exti1(void) { see(1); }
+
+bool hal_slots_take(hal_slot_pulse *pulse) {
+    const bool there = pulse_ring_take(&ring, pulse);
+    if (there && reg_load(EXTI_IMR) == 0) {
+        reg_store(EXTI_PR, LINES);
+        reg_store(EXTI_IMR, LINES);
+    }
+    return there;
+}
+
+uint32_t hal_slots_overruns(void) { return ring.overruns; }

@@ -1,0 +1,62 @@
+/* stm32f4.h: what the drivers of the STM32F405 share. Boards are data: boards/NAME/board_data.h says crystal and pins. */
+#ifndef BOARDS_STM32F4_H
+#define BOARDS_STM32F4_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "boards/cortexm/cortexm.h"
+#include "registers.h"
+#include "rm0090.h"
+
+/* Clocks after board_clock_start(), Hz (RM0090, 7.2, figure 21): timers of a divided bus run at twice its clock. */
+typedef struct stm32f4_clocks {
+    uint32_t core_Hz;
+    uint32_t timer1_Hz; /* of TIM1, on APB2 */
+    uint32_t timers_Hz; /* of TIM2 and TIM3, on APB1 */
+    uint32_t usart_Hz;  /* APB2 */
+    uint32_t tolerance_ppm;
+} stm32f4_clocks;
+const stm32f4_clocks *stm32f4_clocks_now(void);
+
+typedef enum stm32f4_pin_mode {
+    PIN_INPUT,
+    PIN_OUTPUT,
+    PIN_ALTERNATE,
+    PIN_ANALOGUE
+} stm32f4_pin_mode;
+
+typedef enum stm32f4_pin_pull { PULL_NONE, PULL_UP, PULL_DOWN } stm32f4_pin_pull;
+
+/* Also gives its port a clock. `function`: 0 ... 15, of PIN_ALTERNATE. */
+void stm32f4_pin_is(unsigned pin, stm32f4_pin_mode mode, stm32f4_pin_pull pull, unsigned function);
+/* One store each: also from a fault's handler. */
+void stm32f4_pin_set(unsigned pin, bool high);
+bool stm32f4_pin_is_high(unsigned pin);
+
+/* Let an interrupt of the chip through. All have one priority: none interrupts another, and a fault interrupts each. */
+void stm32f4_interrupt(unsigned number);
+
+/* Interrupts off, from here to stm32f4_go_on(): what was is handed back. */
+static inline uint32_t stm32f4_hold(void) {
+    uint32_t before = 0;
+#if !BOARD_REGISTERS_FAKED
+    __asm__ volatile("mrs %0, primask\n\tcpsid i" : "=r"(before) : : "memory");
+#endif
+    return before;
+}
+static inline void stm32f4_go_on(uint32_t before) {
+#if BOARD_REGISTERS_FAKED
+    (void)before;
+#else
+    __asm__ volatile("msr primask, %0" : : "r"(before) : "memory");
+#endif
+}
+
+/* Parts of the rig's hardware, each started by hal_clock_start() (rig_clock.c). */
+void stm32f4_motor_start(void);
+void stm32f4_slots_start(void);
+void stm32f4_cell_start(void);
+void stm32f4_brown_out_start(void);
+
+#endif

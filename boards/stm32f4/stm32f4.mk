@@ -1,0 +1,23 @@
+# stm32f4.mk: boards with an STM32F405: what boards/cortexm has, with clocks, console and time base of this chip, and the rig's
+# hardware. Programs that end, with an exit status, are for the emulator; what is flashed never does:
+#
+#   BOARD_FLASHED  the board's code of images that are flashed, the rig's hardware in it, in the place of BOARD_SOURCES
+#                  (may be missing: then the rig's hardware is a model's)
+BOARD_MACHINE  := netduinoplus2
+BOARD_CPU      := -mcpu=cortex-m4 -mthumb -mfpu=fpv4-sp-d16 -mfloat-abi=hard
+BOARD_MATH     := -fno-math-errno
+include boards/cortexm/cortexm.mk
+# The whole rig is to have 40 KB of flash; steps of -Os take some more instructions, of which there are enough (docs/boards.md).
+BOARD_CFLAGS   := $(subst -O2,-Os,$(BOARD_CFLAGS))
+# Semihosting would come into every image with it.
+BOARD_LINK     :=
+BOARD_COMMON   := $(filter-out boards/cortexm/cmsdk.c boards/cortexm/demo.c,$(BOARD_SOURCES)) \
+                  $(addprefix boards/stm32f4/,clock.c pins.c time_base.c usart.c)
+BOARD_SOURCES  := $(BOARD_COMMON) boards/cortexm/demo.c
+BOARD_FLASHED  := $(BOARD_COMMON) boards/cortexm/flashed.c boards/cortexm/kept.c \
+                  $(addprefix boards/stm32f4/,brown_out.c cell.c flash.c motor.c reset.c rig_clock.c slots.c stop.c watchdog.c)
+# Its console is serial interface 6, the emulator's sixth.
+BOARD_SERIALS   = -display none -monitor none -serial null -serial null -serial null -serial null -serial null -serial
+BOARD_EMULATE   = timeout $(BOARD_SECONDS) $(BOARD_EMULATOR) -M $(BOARD_MACHINE) $(BOARD_SERIALS) stdio \
+                  -semihosting-config enable=on,target=native -kernel $(1) </dev/null
+BOARD_SERIAL    = $(BOARD_EMULATOR) -M $(BOARD_MACHINE) $(BOARD_SERIALS) pty -kernel $(1)

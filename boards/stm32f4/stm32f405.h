@@ -1,0 +1,28 @@
+/* stm32f405.h: what all boards with an STM32F405 have in common; a board's data is crystal and pins.
+ *
+ * TIM1's channel 1 comes out, as its complement alone, on PB13: on each of these boards that pin is on a header, and so are
+ * PB14 and PA6, TIM1's break. */
+#ifndef BOARDS_STM32F405_H
+#define BOARDS_STM32F405_H
+
+#include "rm0090.h"
+
+#define BOARD_INTERRUPTS STM32F4_INTERRUPTS
+#define BOARD_VECTOR_ROWS STM32F4_VECTOR_ROWS
+#define BOARD_TICKS_PER_S 1000000U
+
+#define BOARD_PIN_TX PIN('C', 6)
+#define BOARD_PIN_RX PIN('C', 7)
+#define BOARD_PIN_PWM PIN('B', 13)
+#define BOARD_PIN_ENABLE PIN('B', 14)
+#define BOARD_PIN_BREAK PIN('A', 6)
+
+/* How TIM1's outputs are held (motor.c); without MOE they are at their idle level, low. */
+#define BOARD_MOTOR_BDTR (TIM_BDTR_LOCK_2 | TIM_BDTR_OSSI | TIM_BDTR_OSSR | TIM_BDTR_BKE)
+
+/* A fault's first stores (boards/cortexm/fault.c): TIM1's outputs to their idle level, then the enable low. */
+#define BOARD_SAFE_ROWS(X) \
+    X(TIM_BDTR(TIM1), BOARD_MOTOR_BDTR) \
+    X(GPIO_BSRR(BOARD_PIN_ENABLE / 16U), 1U << (BOARD_PIN_ENABLE % 16U + 16U))
+
+#endif

@@ -1,0 +1,7 @@
+/* stop.c: the stop input is the break's pin (motor.c), high while all is well: the chain of stop contacts feeds it, the drive
+ * stage's fault output pulls it down. */
+#include "hal/stop.h"
+
+#include "stm32f4.h"
+
+bool hal_stop_pressed(void) { return !stm32f4_pin_is_high(BOARD_PIN_BREAK); }

@@ -1,0 +1,36 @@
+/* watchdog.c: the independent watchdog (RM0090, 21), which resets the chip; in a reset the drive is off. Its oscillator has 17
+ * to 47 kHz: it never bites before the time, and within 2.8 times of it. It stands still while a debugger halts the core,
+ * which switches the motor off by itself. */
+#include "hal/watchdog.h"
+
+#include "hal/clock.h"
+#include "stm32f4.h"
+
+#define FASTEST_Hz 47000U
+#define LONGEST 4095U
+#define DIVIDERS 7U /* by 4, 8, ... 256 */
+
+/* May be called again, with another time. */
+void hal_watchdog_start(uint32_t timeout_ticks) {
+    const uint64_t clocks =
+        ((uint64_t)timeout_ticks * FASTEST_Hz + HAL_TICKS_PER_S - 1U) / HAL_TICKS_PER_S;
+    uint32_t divider = 0;
+    while (divider + 1U < DIVIDERS && clocks >> (2U + divider) >= LONGEST) {
+        divider++;
+    }
+    const uint64_t counts = (clocks >> (2U + divider)) + 1U;
+    reg_set(DBGMCU_APB1_FZ, DBGMCU_APB1_FZ_IWDG);
+    reg_store(IWDG_KR, IWDG_KR_START); /* and with it its oscillator */
+    reg_store(IWDG_KR, IWDG_KR_UNLOCK);
+    reg_store(IWDG_PR, divider);
+    reg_store(IWDG_RLR, counts < LONGEST ? (uint32_t)counts : LONGEST);
+    /* both values take five of its clocks, 300 us at most, to get there (21.4.4) */
+    for (uint32_t i = 0; i < 100000U && reg_load(IWDG_SR) != 0; i++) {
+    }
+    reg_store(IWDG_KR, IWDG_KR_RELOAD);
+}
+
+void hal_watchdog_kick(void) { reg_store(IWDG_KR, IWDG_KR_RELOAD); }
+
+/* It resets. */
+bool hal_watchdog_has_cut(void) { return false; }

@@ -1,0 +1,82 @@
+/* f405_plant.c: rotor, slot sensors, load cell, supply and stop, played by hal/virtual inside an image that is otherwise what
+ * is flashed: an emulated STM32F405 has none of them. Drivers of clock, console, motor, watchdog and memory are the board's; the
+ * linker lets the plant hear what the motor is told (--wrap). The rotor turns on in a reset.
+ *
+ * From outside, by these names: */
+#include <stdint.h>
+
+#include "boards/board.h"
+#include "hal/loadcell.h"
+#include "hal/motor.h"
+#include "hal/slots.h"
+#include "hal/stop.h"
+#include "hal/virtual/virtual_rig.h"
+
+extern volatile uint32_t bench_stop;   /* not 0: stop is pressed */
+extern volatile uint32_t bench_silent; /* not 0: the load cell gives no more samples */
+extern volatile uint32_t bench_rest;   /* not 0: the rotor is held, and let go at rest */
+volatile uint32_t bench_stop;
+volatile uint32_t bench_silent;
+volatile uint32_t bench_rest;
+
+#define KNOWN 0x91A9C3D5U
+__attribute__((section(".noinit"))) static uint32_t known;
+__attribute__((section(".noinit"))) static hal_virtual_rig plant;
+static uint32_t ahead_ticks; /* the plant's time is ahead of the board's */
+
+void stm32f4_cell_start(void);
+void stm32f4_slots_start(void);
+void hear_voltage(float volts) __asm__("__wrap_hal_motor_set_voltage");
+void hear_off(hal_motor_off_way way) __asm__("__wrap_hal_motor_off");
+void tell_voltage(float volts) __asm__("__real_hal_motor_set_voltage");
+void tell_off(hal_motor_off_way way) __asm__("__real_hal_motor_off");
+
+static void go_on(void) {
+    if (bench_rest != 0) {
+        bench_rest = 0;
+        (void)hal_virtual_rig_start(&plant, &rig_fixed);
+        ahead_ticks = plant.ticks - board_ticks();
+    }
+    hal_virtual_rig_advance(&plant, board_ticks() + ahead_ticks);
+}
+
+void stm32f4_cell_start(void) {
+    if (known == KNOWN) {
+        hal_virtual_rig_reset(&plant, HAL_RESET_OTHER);
+    } else {
+        (void)hal_virtual_rig_start(&plant, &rig_fixed);
+        known = KNOWN;
+    }
+    ahead_ticks = plant.ticks - board_ticks();
+}
+
+void stm32f4_slots_start(void) {}
+
+void hear_voltage(float volts) {
+    hal_virtual_rig_set_voltage(&plant, volts);
+    tell_voltage(volts);
+}
+
+void hear_off(hal_motor_off_way way) {
+    tell_off(way);
+    hal_virtual_rig_motor_off(&plant, way);
+}
+
+bool hal_slots_take(hal_slot_pulse *pulse) {
+    go_on();
+    const bool there = hal_virtual_rig_take_pulse(&plant, pulse);
+    pulse->ticks -= there ? ahead_ticks : 0U;
+    return there;
+}
+
+uint32_t hal_slots_overruns(void) { return plant.overruns; }
+
+bool hal_loadcell_take(hal_load_sample *sample) {
+    const bool there = hal_virtual_rig_take_sample(&plant, sample);
+    sample->ticks -= there ? ahead_ticks : 0U;
+    return there && bench_silent == 0;
+}
+
+float hal_motor_supply_V(void) { return HAL_VIRTUAL_RATED_V; }
+
+bool hal_stop_pressed(void) { return bench_stop != 0; }

@@ -1,0 +1,55 @@
+/* emulated.h: a board in QEMU with its image, seen and moved from outside: its console, its memory and interrupt lines
+ * (qtest), and every store to a device that the emulator does not have, in their order (-d unimp).
+ *
+ * For the tools of tests/boards. Whatever is wrong with the emulator itself ends the program with a message. */
+#ifndef TESTS_TOOLS_EMULATED_H
+#define TESTS_TOOLS_EMULATED_H
+
+#include <stdbool.h>
+#include <stdint.h>
+#include <sys/types.h>
+
+#define EMULATED_STORES 4096U /* the newest are kept */
+
+typedef struct emulated_store_seen {
+    char device[12]; /* QEMU's name: timer[1], GPIOB, I2S2ext (the watchdog is in that block) */
+    uint32_t offset;
+    uint32_t value;
+} emulated_store_seen;
+
+typedef struct emulated {
+    pid_t process;
+    int console;
+    int test;
+    int log;
+    char heard[262144]; /* of the console, not yet taken */
+    unsigned heard_bytes;
+    char said[256]; /* qtest's answer */
+    unsigned said_bytes;
+    char logged[512]; /* a line under way */
+    unsigned logged_bytes;
+    emulated_store_seen store[EMULATED_STORES];
+    uint64_t stores; /* seen since the start */
+} emulated;
+
+/* `serial`: so many interfaces come before the console. Each instruction takes 2^shift ns of the board's time. */
+void emulated_start(emulated *e, const char *machine, const char *elf, unsigned serial,
+                    unsigned shift);
+void emulated_end(emulated *e);
+
+/* To the console. */
+void emulated_say(emulated *e, const char *words);
+
+/* The console's next line without its end, or false after so many milliseconds. */
+bool emulated_hear(emulated *e, char *line, unsigned room, unsigned ms);
+
+/* Let so many milliseconds pass, and take what comes. */
+void emulated_wait(emulated *e, unsigned ms);
+
+uint32_t emulated_load(emulated *e, uint32_t address);
+void emulated_store(emulated *e, uint32_t address, uint32_t value);
+
+/* A line into a device, by its path and number, is high or low. */
+void emulated_set_line(emulated *e, const char *path, unsigned number, bool high);
+
+#endif

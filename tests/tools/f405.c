@@ -1,0 +1,221 @@
+/* f405.c: an STM32F405's firmware in QEMU's netduinoplus2, seen and moved from outside.
+ *
+ *     f405 boot|console|time IMAGE [TIMES [SEED]]      of what is flashed (station.elf)
+ *     f405 slots|storm IMAGE ...                       of tests/boards/f405_slots.c
+ *     f405 faults|resets IMAGE ...                     of the firmware with a plant inside (tests/boards/f405_plant.c)
+ *
+ * Prints "ok - ..." or "not ok - ..." lines; exit status 1 if one is not. QEMU has no registers of the motor's timer, but
+ * logs each store to one: their order is what is looked at. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "tests/tools/f405.h"
+
+#define MACHINE "netduinoplus2"
+#define SERIALS_BEFORE 5U
+#define SHIFT 7U       /* 128 ns an instruction: a slower chip than the true one */
+#define SHIFT_STORM 4U /* 16 ns: still slower, but so that the storm outside is a storm inside */
+#define EXTI "/machine/unattached/device[0]/exti"
+
+/* --- what is flashed --------------------------------------------------------------------------- */
+
+static bool boots(unsigned times) {
+    char line[300];
+    (void)times;
+    return answers("id", "OK program=rig board=netduinoplus2 ", line, sizeof line) &&
+           (board.stores > 0 || no("no store is logged")) &&
+           answers("arm", "ERR 8 ", line, sizeof line) && /* its stop line is broken there */
+           answers("start 330", "ERR 1 ", line, sizeof line);
+}
+
+static bool converses(unsigned times) {
+    static const struct {
+        const char *order;
+        const char *answer;
+    } said[] = {{"id", "OK program="},     {"fault", "OK trip=0"}, {"clear", "ERR 6 "},
+                {"measure", "ERR 104 "},   {"set 20", "ERR 7 "},   {"nonsense", "ERR 100 "},
+                {"start much", "ERR 103"}, {"host 0", "OK"}};
+    char line[300];
+    char many[900] = "";
+    for (unsigned i = 0; i < times; i++) {
+        const unsigned which = below(sizeof said / sizeof said[0]);
+        if (!answers(said[which].order, said[which].answer, line, sizeof line)) {
+            return false;
+        }
+    }
+    memset(many, 'x', 400); /* at once, as no cable has them: more than the ring takes */
+    many[400] = '\0';
+    emulated_say(&board, many);
+    emulated_wait(&board, 300);
+    if (!answers_at_last("", "ERR 101", line, sizeof line)) {
+        return false;
+    }
+    many[0] = '\0';
+    for (unsigned i = 0; i < 10;
+         i++) { /* in one go: the interrupt takes them, a line a control step is answered */
+        strcat(many, i % 2 == 0 ? "id\r" : "fault\r");
+    }
+    emulated_say(&board, many);
+    for (unsigned i = 0; i < 10; i++) {
+        if (!emulated_hear(&board, line, sizeof line, 60000) ||
+            strncmp(line, i % 2 == 0 ? "OK program" : "OK trip", 7) != 0) {
+            return no("line %u of ten in one go is not answered", i + 1);
+        }
+    }
+    return answers("status", "OK ", line, sizeof line) &&
+           (strstr(line, "lost_answers=0 lost_bytes=0") != NULL || no("lost some: %s", line));
+}
+
+static bool keeps_time(unsigned times) {
+    char line[300];
+    if (!answers("id", "OK ", line, sizeof line)) {
+        return false;
+    }
+    for (unsigned i = 0; i < times; i++) {
+        uint64_t from = board.stores;
+        const uint32_t began = emulated_load(&board, TIM2_CNT);
+        emulated_wait(&board, 200 + below(300));
+        const uint32_t passed = emulated_load(&board, TIM2_CNT) - began;
+        emulated_wait(&board, 20);
+        unsigned kicked = 0;
+        from = board.stores - from < EMULATED_STORES ? from : board.stores - EMULATED_STORES;
+        for (uint64_t n = from; n < board.stores; n++) {
+            kicked += kicks(seen_at(n)) ? 1U : 0U;
+        }
+        /* both readings are taken some time before or after the log's end: 20 ms more, of emulated time it is less */
+        const double periods = (double)passed / 2000.0;
+        if (passed < 2000 || kicked + 2.0 < periods || kicked > periods + 30.0) {
+            return no("%u control periods in %.1f of 2 ms", kicked, periods);
+        }
+    }
+    return true;
+}
+
+/* --- slot pulses through the interrupt ----------------------------------------------------------- */
+
+static unsigned told; /* edges, since it was asked last */
+
+static bool ask_late(unsigned *late, unsigned *overruns, unsigned *periods) {
+    char line[100];
+    told = 0;
+    emulated_say(&board, "l");
+    for (unsigned lines = 0; lines < 5000; lines++) {
+        if (!emulated_hear(&board, line, sizeof line, 60000)) {
+            return no("'l' is not answered");
+        }
+        unsigned numbers[3];
+        if (numbers_of(line, numbers, 3) == 3) {
+            *late = numbers[0];
+            *overruns = numbers[1];
+            *periods = numbers[2];
+            return true;
+        }
+        told++;
+    }
+    return no("'l' is not answered");
+}
+
+static bool sees_edges(unsigned times) {
+    char line[100];
+    unsigned late;
+    unsigned overruns;
+    unsigned periods;
+    if (!ask_late(&late, &overruns, &periods)) {
+        return false;
+    }
+    for (unsigned i = 0; i < times; i++) {
+        const unsigned sensor = below(2);
+        unsigned said[2]; /* sensor, ticks */
+        const uint32_t before = emulated_load(&board, TIM2_CNT);
+        emulated_set_line(&board, EXTI, sensor, true);
+        const uint32_t after = emulated_load(&board, TIM2_CNT);
+        emulated_set_line(&board, EXTI, sensor, false); /* no pulse */
+        if (!emulated_hear(&board, line, sizeof line, 60000) || numbers_of(line, said, 2) != 2) {
+            return no("edge %u is not told", i);
+        }
+        /* an interrupt takes some tens of instructions of 0.128 us */
+        if (said[0] != sensor || said[1] - before > after - before + 20U) {
+            return no("edge %u of sensor %u between %u and %u: '%s'", i, sensor, (unsigned)before,
+                      (unsigned)after, line);
+        }
+    }
+    return !emulated_hear(&board, line, sizeof line, 300) || no("one more: '%s'", line);
+}
+
+static bool survives_storm(unsigned times) {
+    unsigned late;
+    unsigned overruns;
+    unsigned before;
+    unsigned periods;
+    if (!ask_late(&late, &overruns, &before)) {
+        return false;
+    }
+    const uint32_t began = emulated_load(&board, TIM2_CNT);
+    for (unsigned i = 0; i < times; i++) {
+        emulated_set_line(&board, EXTI, i % 2, true);
+        emulated_set_line(&board, EXTI, i % 2, false);
+        emulated_wait(&board, 1); /* asked all the time, it would not get on */
+    }
+    const uint32_t took = emulated_load(&board, TIM2_CNT) - began;
+    const double per_s = 1e6 * times / took;
+    if (!ask_late(&late, &overruns, &periods)) {
+        return false;
+    }
+    printf("# %u edges, %.0f a second, %u told, latest wait %u ticks, %u overruns\n", times, per_s,
+           told, late, overruns);
+    return (late <= 200 || no("a period ended %u ticks late", late)) &&
+           (periods - before + 3U >= took / 2000U ||
+            no("%u periods in %u ticks", periods - before, (unsigned)took)) &&
+           (per_s > 2000.0 || no("only %.0f edges a second: no storm", per_s)) &&
+           (told > 100 || no("only %u of %u edges are told", told, times));
+}
+
+static int failed;
+
+static void verdict(bool good, const char *what) {
+    printf("%s - %s%s%s\n", good ? "ok" : "not ok", what, good ? "" : ": ", good ? "" : why);
+    failed |= !good;
+}
+
+int main(int count, char **words) {
+    static const struct {
+        const char *name;
+        bool (*holds)(unsigned times);
+        unsigned times;
+        const char *what;
+    } tests[] = {
+        {"boot", boots, 1, "boots though no clock ever answers, converses, and refuses to arm"},
+        {"console", converses, 40, "each line is answered, through the receive interrupt"},
+        {"time", keeps_time, 3, "control periods are 2 ms of timer 2"},
+        {"slots", sees_edges, 100, "each edge once, its sensor, its time between before and after"},
+        {"storm", survives_storm, 2000, "a storm of edges does not hold up the control period"},
+        {"faults", all_faults, 12,
+         "a fault in whatever state: off first, then the record, reset, report; a trip stays"},
+        {"resets", all_resets, 20,
+         "a reset at whatever instant: not driven, idle or still tripped, its cause told"},
+    };
+    if (count < 3) {
+        fprintf(stderr, "usage: f405 TEST IMAGE [TIMES [SEED]]\n");
+        return 2;
+    }
+    image = words[2];
+    const unsigned long seed = count > 4 ? strtoul(words[4], NULL, 10) : 1UL;
+    for (unsigned i = 0; i < sizeof tests / sizeof tests[0]; i++) {
+        if (strcmp(words[1], tests[i].name) == 0) {
+            char what[200];
+            const unsigned times =
+                count > 3 ? (unsigned)strtoul(words[3], NULL, 10) : tests[i].times;
+            draw_from(seed);
+            emulated_start(&board, MACHINE, image, SERIALS_BEFORE,
+                           tests[i].holds == survives_storm ? SHIFT_STORM : SHIFT);
+            (void)snprintf(what, sizeof what, "%s, %u times, seed %lu: %s", tests[i].name, times,
+                           seed, tests[i].what);
+            verdict(starts_after(0) && tests[i].holds(times), what);
+            emulated_end(&board);
+            return failed;
+        }
+    }
+    fprintf(stderr, "f405: no test '%s'\n", words[1]);
+    return 2;
+}
