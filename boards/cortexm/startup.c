@@ -20,8 +20,6 @@ __attribute__((section(".vectors"), used)) static const vector vectors[16 + BOAR
     [1] = (vector)(uintptr_t)board_reset,
     CORTEXM_VECTOR_ROWS(CORE_ROW) BOARD_VECTOR_ROWS(CHIP_ROW)};
 
-board_clock board_clock_is;
-
 static void enable_fpu(void) {
 #if defined(__ARM_FP)
     REGISTER(SCB_CPACR) |= 0xFU << 20;
@@ -41,9 +39,8 @@ static void take_vectors(void) {
 _Noreturn void board_reset(void) {
     take_vectors();
     enable_fpu();
-    const board_clock clock = board_clock_start();
+    board_clock_start();
     board_fill_memory();
-    board_clock_is = clock;
     board_guard_stack();
     board_stack_paint();
     board_exit(main());

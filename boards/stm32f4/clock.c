@@ -53,7 +53,10 @@ static board_clock fall_back(void) {
     return BOARD_CLOCK_FALLBACK;
 }
 
-board_clock board_clock_start(void) {
+/* Memory that the start-up code does not fill: written before it does. */
+__attribute__((section(".noinit"))) board_clock board_clock_is;
+
+static board_clock set_up(void) {
     if (!to_own_oscillator()) {
         return BOARD_CLOCK_GIVEN;
     }
@@ -85,6 +88,8 @@ board_clock board_clock_start(void) {
     reg_set(RCC_CR, RCC_CR_CSSON);
     return BOARD_CLOCK_CRYSTAL;
 }
+
+void board_clock_start(void) { board_clock_is = set_up(); }
 
 const stm32f4_clocks *stm32f4_clocks_now(void) {
     static const stm32f4_clocks crystal = {.core_Hz = PLL_OUT_Hz / 2U,

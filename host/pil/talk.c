@@ -29,10 +29,16 @@ static void say_silent(const talk *t) {
             t->guest.wish.patience_s);
 }
 
+/* A key that interrupts is for all in the terminal, and the firmware may end by it first. */
+static lockstep_end when_ended(const talk *t) {
+    const volatile sig_atomic_t *stop = t->guest.wish.stop;
+    return stop != NULL && *stop ? LOCKSTEP_STOPPED : LOCKSTEP_DONE;
+}
+
 static bool hear_frame(talk *t, wh_frame *frame) {
     switch (guest_receive(&t->guest, frame)) {
     case GUEST_FRAME: break;
-    case GUEST_ENDED: t->report->end = LOCKSTEP_DONE; return false;
+    case GUEST_ENDED: t->report->end = when_ended(t); return false;
     case GUEST_SILENT:
         say_silent(t);
         t->report->end = LOCKSTEP_FAILED;
@@ -67,7 +73,7 @@ static bool say(talk *t, const wh_frame *frame) {
     case GUEST_ENDED:
     case GUEST_SILENT: break;
     }
-    t->report->end = LOCKSTEP_DONE; /* how it ended tells the rest */
+    t->report->end = when_ended(t); /* how it ended tells the rest */
     return false;
 }
 

@@ -153,11 +153,11 @@ static void state_bytes_are_those_of_the_header(void) {
     }
 }
 
-/* The table has every board there is, and none that there is not. */
+/* The table has every board there is, and none that there is not; an STM32F405 is priced as its processor, mps2-an386. */
 static void every_board_has_a_row(void) {
     char path[128];
     char line[64];
-    FILE *boards = popen("ls boards/*/board.mk", "r");
+    FILE *boards = popen("grep -L stm32f4.mk boards/*/board.mk", "r");
     int count = 0;
     TEST_ASSERT_NOT_NULL(boards);
     while (fgets(path, sizeof path, boards) != NULL) {
