@@ -299,9 +299,9 @@ refused 2 'over' "$scratch/mine.whirl" --tape "$scratch/mine.whirl" --firmware "
 cmp -s docs/plants/cart.whirl "$scratch/mine.whirl"
 verdict $? "and the scene is still there"
 
-# --- a replay that is interrupted says how far it came, at whichever exchange ------------------------------------------------
+# --- a replay that is interrupted says how far it came, at whichever exchange (by one signal: the second ends it at once) ---
 for after in 0.02 0.05 0.1 0.2; do
-    timeout --signal=INT $after "$whirl" pil --replay "$scratch/pc.tape" --firmware "$build/pil_rig" >"$scratch/out" 2>"$scratch/err"
+    timeout --foreground --signal=INT $after "$whirl" pil --replay "$scratch/pc.tape" --firmware "$build/pil_rig" >"$scratch/out" 2>"$scratch/err"
     case $(sed -n "s/^exchanges  *\([0-9]*\) .*/\1/p" "$scratch/out") in
     "$(sed -n "s/^exchanges  *\([0-9]*\) .*/\1/p" "$scratch/pc")") said=tape ;; # it was quicker
     *) said="tape so far: its rest was not played" ;;
