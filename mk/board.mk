@@ -1,6 +1,8 @@
 # board.mk: images for BOARD, from its boards/<board>/board.mk (variables only, explained in boards/cortexm/cortexm.mk).
 
 BOARDS_ALL := $(sort $(patsubst boards/%/board.mk,%,$(wildcard boards/*/board.mk)))
+# Those that `whirl price` has a row for: an STM32F405 is priced as its processor, mps2-an386.
+BOARDS_PRICED := $(sort $(patsubst boards/%/board.mk,%,$(shell grep -L stm32f4.mk boards/*/board.mk)))
 ifeq ($(filter $(BOARD),$(BOARDS_ALL)),)
 $(error There is no boards/$(BOARD)/board.mk. Boards: $(BOARDS_ALL))
 endif

@@ -27,12 +27,12 @@ price-now: price-runs-now
 	@$(MAKE) price-pages
 
 price-runs-now: build/whirl
-	@JOBS=$(CURVE_JOBS) mk/curves/runs.sh $(CURVES)/runs $(CURVE_EFFORT) $(CURVE_SCENES) -- $(BOARDS_ALL)
+	@JOBS=$(CURVE_JOBS) mk/curves/runs.sh $(CURVES)/runs $(CURVE_EFFORT) $(CURVE_SCENES) -- $(BOARDS_PRICED)
 	@JOBS=$(CURVE_JOBS) mk/curves/runs.sh $(CURVES)/others $(CURVE_EFFORT_OTHERS) $(curve_others)
 
 price-drawn-now: build/whirl
 	@mkdir -p $(FIGURES) docs/figures
-	@FINEST=$(CURVE_FINEST) mk/curves/curves.sh $(CURVES)/runs $(FIGURES)/price.csv $(CURVE_SCENES) -- $(BOARDS_ALL) -- $(CURVE_COUNTED)
+	@FINEST=$(CURVE_FINEST) mk/curves/curves.sh $(CURVES)/runs $(FIGURES)/price.csv $(CURVE_SCENES) -- $(BOARDS_PRICED) -- $(CURVE_COUNTED)
 	@awk -F, -v OFS=, -v out=$(CURVES)/runs -v counted="$(CURVE_COUNTED)" -f mk/curves/words.awk \
 	    -f mk/curves/decades.awk -f mk/curves/published.awk $(FIGURES)/price.csv >docs/figures/price.csv
 	@awk -F, -v OFS=, -v methods="$(CURVE_METHODS)" -f mk/curves/words.awk -f mk/curves/decades.awk -f mk/curves/scenes.awk \
@@ -52,10 +52,10 @@ price-pages: ## the tables of docs/price.md, docs/fronts.md and README.md, anew 
 
 # Every scene, every setting, every board: rows only.
 price-all-now: build/whirl
-	@JOBS=$(CURVE_JOBS) mk/curves/runs.sh $(CURVES)/all $(CURVE_EFFORT) $(curve_scenes_all) -- $(BOARDS_ALL)
+	@JOBS=$(CURVE_JOBS) mk/curves/runs.sh $(CURVES)/all $(CURVE_EFFORT) $(curve_scenes_all) -- $(BOARDS_PRICED)
 	@mkdir -p $(FIGURES)
 	@mk/curves/curves.sh $(CURVES)/all $(FIGURES)/price_all.csv $$(cd $(CURVES)/all && ls *.csv | grep -v @ | sed 's/\.csv$$//') -- \
-	    $(BOARDS_ALL) --
+	    $(BOARDS_PRICED) --
 	@echo "Every row: $(FIGURES)/price_all.csv"
 
 price-again: build/whirl ## what docs/figures/price.csv says was counted, once more, from its command lines: SCENES, SOME (minutes)

@@ -126,7 +126,7 @@ bench-board: $(PRICED_IMAGES) $(if $(filter single,$(BOARD_IMAGES)),$(AVR_RUN),$
 	    mk/count/board_rows.sh $(FIGURES)/boards.csv $(ELF)/priced $(PRICED)
 
 bench-boards-now: $(GEN)/.stamp
-	+@for board in $(BOARDS_ALL); do $(MAKE) BOARD=$$board bench-board || exit 1; done
+	+@for board in $(BOARDS_PRICED); do $(MAKE) BOARD=$$board bench-board || exit 1; done
 	@awk -F, -f mk/count/boards_table.awk $(FIGURES)/boards.csv >build/boards.md
 	@mk/price/into_page.sh build/boards.md docs/price.md boards
 	@cat build/boards.md
@@ -217,7 +217,7 @@ price_some = awk '/--(matrix|tables)/ ? few++ % 2 == 0 : plain++ % $(1) < 2' $(P
 price-rows-now: build/whirl build/tools/mechanisms
 	@rm -rf $(PRICE_OUT) && mkdir -p $(PRICE_OUT)
 	@WHIRL=build/whirl mk/price/cases.sh $(PRICE_OUT) 1 40 160 >$(PRICE_OUT)/all
-	+@for board in $(BOARDS_ALL); do \
+	+@for board in $(BOARDS_PRICED); do \
 	    case " $(PRICE_WHOLE) " in *" $$board "*) cp $(PRICE_OUT)/all $(PRICE_OUT)/cases ;; *) $(call price_some,5) ;; esac; \
 	    $(MAKE) BOARD=$$board price-measure-board || true; done
 	+@$(call price_some,8); $(MAKE) price-measure-host NUMBERS="float double" || true
@@ -242,7 +242,7 @@ FIXED_OUT := build/cost_fixed
 price-rows-fixed-now: build/whirl
 	@rm -rf $(FIXED_OUT) && mkdir -p $(FIXED_OUT)
 	@WHIRL=build/whirl sh mk/price/cases_fixed.sh $(FIXED_OUT) 1 160 >$(FIXED_OUT)/cases
-	+@for board in $(BOARDS_ALL); do \
+	+@for board in $(BOARDS_PRICED); do \
 	    $(MAKE) BOARD=$$board NUMBERS=fixed PRICE_OUT=$(FIXED_OUT) price-measure-board || true; done
 	@wc -l <$(FIXED_OUT)/rows.csv
 
@@ -255,7 +255,7 @@ price-fit-fixed: build/tools/price_fit_fixed ## the same of fixed point, from bu
 
 # Scenes of another seed, which nothing was fitted to or judged by: PRICE_SEED, PRICE_CHECKED boards.
 PRICE_SEED ?= 5
-PRICE_CHECKED ?= $(BOARDS_ALL)
+PRICE_CHECKED ?= $(BOARDS_PRICED)
 price-check: build/whirl build/tools/price_fit build/tools/mechanisms ## predicted prices against counted ones, of scenes drawn anew, on every board (minutes)
 	@rm -rf build/cost_check && mkdir -p build/cost_check
 	@WHIRL=build/whirl mk/price/cases.sh build/cost_check $(PRICE_SEED) 6 20 | awk 'NR % 3 > 0' >build/cost_check/cases
