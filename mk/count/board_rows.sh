@@ -45,7 +45,7 @@ fi
 [ -s "$csv" ] || echo "commit,compiler,flags,board,scene,setting,instructions,cycles,cycles_obtained,flash_bytes,ram_bytes,stack_bytes" >"$csv"
 for scene in "$@"; do
     bytes=$("$SIZE" -A "$folder/size_$scene.elf" | awk '
-        $1 == ".text" || $1 == ".ARM.exidx" || $1 == ".data" { flash += $2 }
+        $1 == ".vectors" || $1 == ".text" || $1 == ".ARM.exidx" || $1 == ".data" { flash += $2 }
         $1 == ".data" || $1 == ".bss" { ram += $2 }
         END { print flash "," ram }')
     awk -F, -v scene="$scene" -v bytes="$bytes" '

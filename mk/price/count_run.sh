@@ -78,7 +78,7 @@ compile "$gen.c" "$mine/plain.o"
 compile boards/programs/size.c "$mine/size.o" -include "$gen.h" "-DPRICE_SCENE=$id"
 link "$mine/size.elf" "$mine/size.o" "$mine/plain.o"
 "$BOARD_SIZE" -A "$mine/size.elf" | awk '
-    $1 == ".text" || $1 == ".ARM.exidx" || $1 == ".data" { flash += $2 }
+    $1 == ".vectors" || $1 == ".text" || $1 == ".ARM.exidx" || $1 == ".data" { flash += $2 }
     $1 == ".data" || $1 == ".bss" { ram += $2 }
     END { print flash, ram }' >"$work/bytes"
 

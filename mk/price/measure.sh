@@ -66,7 +66,7 @@ if [ "$1" = case ]; then
         if $BOARD_CC $BOARD_LDFLAGS -o "$mine.elf" "$mine.image.o" "$mine.o" $BOARD_OBJECTS "$lib" "$LIB_BOARD" $BOARD_LDLIBS \
             2>"$mine.errors"; then
             "$BOARD_SIZE" -A "$mine.elf" | awk -v id="$id" '
-                $1 == ".text" || $1 == ".ARM.exidx" || $1 == ".data" { flash += $2 }
+                $1 == ".vectors" || $1 == ".text" || $1 == ".ARM.exidx" || $1 == ".data" { flash += $2 }
                 $1 == ".data" || $1 == ".bss" { ram += $2 }
                 END { print id, flash, ram }' >"$mine.bytes"
         else

@@ -38,7 +38,7 @@ bytes_of() {
     $BOARD_CC $BOARD_CFLAGS "-DPRICE_SCENE=p${n}_$1" -include "$c.h" -c boards/programs/size.c -o "$c.image.o"
     $BOARD_CC $BOARD_LDFLAGS -o "$c.elf" "$c.image.o" "$c.o" $BOARD_OBJECTS "$LIB_BOARD" $BOARD_LDLIBS
     "$BOARD_SIZE" -A "$c.elf" | awk '
-        $1 == ".text" || $1 == ".ARM.exidx" { flash += $2 }
+        $1 == ".vectors" || $1 == ".text" || $1 == ".ARM.exidx" { flash += $2 }
         $1 == ".data" { flash += $2; ram += $2 }
         $1 == ".bss" { ram += $2 }
         END { print flash, ram }'
