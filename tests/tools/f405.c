@@ -83,10 +83,11 @@ static bool keeps_time(unsigned times) {
         for (uint64_t n = from; n < board.stores; n++) {
             kicked += kicks(seen_at(n)) ? 1U : 0U;
         }
-        /* both readings are taken some time before or after the log's end: 20 ms more, of emulated time it is less */
+        /* the log ends between the second and the third reading, however fast the emulator is against the clock here */
         const double periods = (double)passed / 2000.0;
-        if (passed < 2000 || kicked + 2.0 < periods || kicked > periods + 30.0) {
-            return no("%u control periods in %.1f of 2 ms", kicked, periods);
+        const double at_most = (double)(emulated_load(&board, TIM2_CNT) - began) / 2000.0;
+        if (passed < 2000 || kicked + 2.0 < periods || kicked > at_most + 30.0) {
+            return no("%u control periods in %.1f to %.1f of 2 ms", kicked, periods, at_most);
         }
     }
     return true;
@@ -143,6 +144,9 @@ static bool sees_edges(unsigned times) {
     return !emulated_hear(&board, line, sizeof line, 300) || no("one more: '%s'", line);
 }
 
+/* Edges between two rests of the emulator's clock against ours: on a quick machine one would be a breeze. */
+#define BURST 8U
+
 static bool survives_storm(unsigned times) {
     unsigned late;
     unsigned overruns;
@@ -155,7 +159,9 @@ static bool survives_storm(unsigned times) {
     for (unsigned i = 0; i < times; i++) {
         emulated_set_line(&board, EXTI, i % 2, true);
         emulated_set_line(&board, EXTI, i % 2, false);
-        emulated_wait(&board, 1); /* asked all the time, it would not get on */
+        if (i % BURST == BURST - 1) {
+            emulated_wait(&board, 1); /* asked all the time, it would not get on */
+        }
     }
     const uint32_t took = emulated_load(&board, TIM2_CNT) - began;
     const double per_s = 1e6 * times / took;
