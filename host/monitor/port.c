@@ -44,7 +44,7 @@ static bool make_plain(port *p, double baud) {
 
 bool port_open(port *p, const char *name, double baud) {
     *p = (port){.file = open(name, O_RDWR | O_NOCTTY | O_NONBLOCK)};
-    if (p->file < 0 && (errno == EACCES || errno == EROFS || errno == EISDIR)) {
+    if (p->file < 0 && (errno == EACCES || errno == EROFS)) {
         p->file = open(name, O_RDONLY | O_NOCTTY | O_NONBLOCK);
     }
     if (p->file < 0) {

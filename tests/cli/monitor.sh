@@ -106,6 +106,7 @@ if command -v gnuplot >/dev/null; then
 fi
 refused 'usage: whirl monitor PORT' --rate 500
 refused 'cannot be opened' "$scratch/none"
+refused 'cannot be opened: Is a directory' "$scratch"
 refused '--rate takes a whole number' "$scratch/raw" --rate 2.5
 refused 'no such speed' "$scratch/raw" --baud 7
 refused 'ends in .svg or .png' "$scratch/raw" --plot a.txt
