@@ -76,11 +76,11 @@ void wh_lockin_mark(wh_lockin *lockin, unsigned sensor, uint32_t ticks, uint32_t
     lockin->most_equal = 0;
 }
 
-void wh_lockin_feed(wh_lockin *lockin, bool fed) {
+void wh_lockin_feed(wh_lockin *lockin, bool fed, wh_real stall_Nm_per_V) {
     if (lockin->angle.fed != fed) {
         wh_lockin_gap(lockin);
-        wh_turn_angle_feed(&lockin->angle, fed);
     }
+    wh_turn_angle_feed(&lockin->angle, fed, stall_Nm_per_V);
 }
 
 void wh_lockin_gap(wh_lockin *lockin) {

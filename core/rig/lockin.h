@@ -160,7 +160,7 @@ void wh_lockin_mark(wh_lockin *lockin, unsigned sensor, uint32_t ticks, uint32_t
 
 /* Gravity is fed forward from now on, or no longer: see wh_turn_angle_feed(). The turn that is under way does not count
  * when that changes. */
-void wh_lockin_feed(wh_lockin *lockin, bool fed);
+void wh_lockin_feed(wh_lockin *lockin, bool fed, wh_real stall_Nm_per_V);
 
 /* The count of quarter turns has begun afresh: the turn that is under way does not count. */
 void wh_lockin_gap(wh_lockin *lockin);

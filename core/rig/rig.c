@@ -129,7 +129,7 @@ static void follow(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs
         wh_run_set(&rig->run, order->value, now);
         rig->fed = feeds(config, order->value);
         if (!rig->fed) {
-            wh_lockin_feed(&rig->measure.lockin, false);
+            wh_lockin_feed(&rig->measure.lockin, false, WH_R(0.0));
         }
         break;
     case WH_EVENT_STOP:
@@ -278,8 +278,10 @@ static wh_real feed_V(const wh_rig_config *config, wh_rig *rig, uint32_t now_tic
         return WH_R(0.0);
     }
     if (rig->measure.lockin.angle.fed != (rig->feed.part >= WH_R(1.0))) {
-        wh_lockin_feed(&rig->measure.lockin, rig->feed.part >= WH_R(1.0));
+        wh_lockin_feed(&rig->measure.lockin, rig->feed.part >= WH_R(1.0),
+                       config->feed.stall_Nm / config->run.rated_V);
     }
+    rig->measure.lockin.angle.held_V = rig->run.volts;
     return config->run.rated_V *
            wh_feed_step(&config->feed, &rig->feed, &rig->observer, now_ticks, config->run.step_s);
 }

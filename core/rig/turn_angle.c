@@ -32,7 +32,8 @@ void wh_turn_angle_start(const wh_rotor_config *config, wh_turn_angle *angle) {
     angle->begin_rad = config->mark_rad[0] - config->gravity_rad;
 }
 
-void wh_turn_angle_feed(wh_turn_angle *angle, bool fed) {
+void wh_turn_angle_feed(wh_turn_angle *angle, bool fed, wh_real stall_Nm_per_V) {
+    angle->stall_Nm_per_V = stall_Nm_per_V;
     if (angle->fed != fed) {
         angle->fed = fed;
         angle->part = fed ? WH_R(0.0) : WH_R(1.0);
@@ -60,18 +61,15 @@ static void add_carriage(const wh_rotor_config *config, wh_turn_angle *angle, wh
 }
 
 /* A motor that cannot brake as much as is asked of it: what it leaves of gravity is a pulse, S g (-sin(theta - gamma) - k)
- * where that is above 0, which has twice the angle in it. k is what holds the speed, over S g: it falls by the pulse's mean. */
+ * where that is above 0, which has twice the angle in it. k is what the drive's own voltage gives at standstill, over S g. */
 static void add_cut(const wh_rotor_config *config, wh_turn_angle *angle, wh_real speed_radps) {
     const wh_real weight_Nm = config->mass_moment_kgm * config->gravity_mps2;
-    const wh_real braking_Nm = config->damping_Nms * speed_radps;
-    if (!angle->fed || !(braking_Nm < weight_Nm)) {
+    const wh_real held_Nm = angle->held_V * angle->stall_Nm_per_V;
+    if (!angle->fed || !(held_Nm < weight_Nm)) {
         angle->cut = WH_R(0.0);
         return;
     }
-    /* 1 - k: q - 0.3 q^(3/2), the pulse's mean, is what it would be without; Newton's first step */
-    const wh_real first = WH_R(1.0) - braking_Nm / weight_Nm;
-    const wh_real root = WH_SQRT(first);
-    const wh_real cut = first + WH_R(0.3) * first * root / (WH_R(1.0) - WH_R(0.45) * root);
+    const wh_real cut = WH_R(1.0) - held_Nm / weight_Nm;
     const wh_real second = WH_R(0.6) * cut * WH_SQRT(cut) * (WH_R(1.0) - WH_R(0.72) * cut);
     angle->cut = cut;
     const wh_real turning = WH_R(2.0) * angle->inertia_kgm2 * speed_radps;

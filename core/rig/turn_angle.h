@@ -14,8 +14,8 @@
  * mark gives E, thus I. What stays assumed is c, which the split does not show.
  *
  * Where gravity is fed forward (feed.h) a part of it is left, of either sign: E is that part of the above. The split then
- * tells the part, and I stays what it was found to be before. A motor that gets no voltage below 0 brakes with c omega at
- * most: where that is less than S g it is cut off, and more than a sine is left.
+ * tells the part, and I stays what it was found to be before. A motor that gets no voltage below 0 cannot take away more
+ * than the drive's own voltage gives: where that is less than S g it is cut off, and more than a sine is left.
  *
  * On a carriage of mass M that gives way along theta = 0, the arms, of mass m, turn the more easily the more they lie across:
  * by D = S^2/(M + m) at most, as I - D sin^2 theta. They then speed up twice a turn, and to the first order theta has
@@ -52,6 +52,8 @@ typedef struct wh_rotor_config {
 typedef struct wh_turn_angle {
     wh_real inertia_kgm2; /* as found so far */
     bool fed;
+    wh_real stall_Nm_per_V; /* while fed; */
+    wh_real held_V;    /* the drive's voltage less what is fed: kept up to date by whoever drives */
     wh_real part;      /* of gravity that is left, as found so far: 1 when it is not fed */
     uint32_t splits;   /* turns that inertia or part come from */
     wh_real whole_rad; /* E of all of gravity */
@@ -79,8 +81,8 @@ typedef struct wh_turn_angle {
 void wh_turn_angle_start(const wh_rotor_config *config, wh_turn_angle *angle);
 
 /* From now on gravity is fed forward, or no longer: what is left of it is found anew, the inertia kept. Without a change
- * nothing happens. */
-void wh_turn_angle_feed(wh_turn_angle *angle, bool fed);
+ * that stays. stall_Nm_per_V > 0: the motor's torque at standstill. */
+void wh_turn_angle_feed(wh_turn_angle *angle, bool fed, wh_real stall_Nm_per_V);
 
 /* The angle's shape at a mean speed > 0, with the inertia as found so far. Bounded work; each call takes
  * begin_rad closer, and from one turn to the next little is left to do. */

@@ -212,11 +212,12 @@ static void test_what_is_left_is_found_from_the_split(void) {
         const wh_real speed = rpm[k / 4U] * RPM;
         wh_turn_angle wanted;
         wh_turn_angle_start(&rotor, &wanted);
-        wh_turn_angle_feed(&wanted, true);
+        wh_turn_angle_feed(&wanted, true, WH_R(0.0625));
         wanted.part = parts[k % 4U];
         wh_turn_angle found;
         wh_turn_angle_start(&rotor, &found);
-        wh_turn_angle_feed(&found, true);
+        wh_turn_angle_feed(&found, true, WH_R(0.0625));
+        wanted.held_V = found.held_V = WH_R(24.0);
         for (unsigned i = 0; i < 4; i++) {
             wh_turn_angle_shape(&rotor, &wanted, speed);
         }
@@ -225,7 +226,7 @@ static void test_what_is_left_is_found_from_the_split(void) {
             split -= (wh_turn_angle_at(&wanted, split) - rotor.mark_rad[1]) / WH_RIG_TWO_PI;
         }
         for (unsigned i = 0; i < 12; i++) {
-            wh_turn_angle_feed(&found, true); /* nothing new */
+            wh_turn_angle_feed(&found, true, WH_R(0.0625)); /* nothing new */
             wh_turn_angle_shape(&rotor, &found, speed);
             wh_turn_angle_split(&rotor, &found, split);
         }
@@ -238,28 +239,34 @@ static void test_what_is_left_is_found_from_the_split(void) {
             TEST_ASSERT_FLOAT_WITHIN(2e-4f, (float)wh_turn_angle_at(&wanted, part),
                                      (float)wh_turn_angle_at(&found, part));
         }
-        wh_turn_angle_feed(&found, false);
+        wh_turn_angle_feed(&found, false, WH_R(0.0625));
         TEST_ASSERT_TRUE(found.part == WH_R(1.0) && found.splits == 0);
     }
 }
 
-/* The turn under way when that changes does not count, and the interval is wider for it. */
+/* The turn under way when that changes does not count; what a motor that cannot brake leaves is what the drive's voltage
+ * lacks to gravity's torque, whatever the speed. */
 static void test_the_lockin_is_told(void) {
     static wh_lockin lockin;
     const wh_rotor_config *rotor = &wh_rig_standard.measure.rotor;
     wh_lockin_start(rotor, &lockin);
     wh_lockin_mark(&lockin, 0, 1000, 0);
-    wh_lockin_feed(&lockin, false);
+    wh_lockin_feed(&lockin, false, WH_R(0.0625));
     TEST_ASSERT_TRUE(lockin.open && lockin.skipped == 0);
-    wh_lockin_feed(&lockin, true);
+    wh_lockin_feed(&lockin, true, WH_R(0.0625));
     TEST_ASSERT_TRUE(!lockin.open && lockin.skipped == 1U && lockin.angle.fed);
     wh_lockin_mark(&lockin, 0, 2000, 4);
-    wh_lockin_feed(&lockin, true);
+    wh_lockin_feed(&lockin, true, WH_R(0.0625));
     TEST_ASSERT_TRUE(lockin.open && lockin.skipped == 1U);
+    const wh_real weight_Nm = rotor->mass_moment_kgm * rotor->gravity_mps2;
+    lockin.angle.held_V = WH_R(16.0) * weight_Nm;
     wh_turn_angle_shape(rotor, &lockin.angle, WH_R(100.0) * RPM);
-    /* q - (sin x - (1 - q) x)/pi = 0.243, cos x = 1 - q: what braking with 0.757 of S g cannot hold back */
-    TEST_ASSERT_FLOAT_WITHIN(2e-3f, 0.2908f, (float)lockin.angle.cut);
-    wh_turn_angle_shape(rotor, &lockin.angle, WH_R(140.0) * RPM);
+    TEST_ASSERT_TRUE(lockin.angle.cut == WH_R(0.0));
+    lockin.angle.held_V = WH_R(0.71) * WH_R(16.0) * weight_Nm;
+    wh_turn_angle_shape(rotor, &lockin.angle, WH_R(100.0) * RPM);
+    TEST_ASSERT_FLOAT_WITHIN(1e-6f, 0.29f, (float)lockin.angle.cut);
+    wh_lockin_feed(&lockin, false, WH_R(0.0625));
+    wh_turn_angle_shape(rotor, &lockin.angle, WH_R(100.0) * RPM);
     TEST_ASSERT_TRUE(lockin.angle.cut == WH_R(0.0));
 }
 

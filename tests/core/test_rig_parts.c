@@ -74,7 +74,8 @@ static void test_a_split_says_how_far_the_mark_was_off(void) {
         rotor.mark_rad[1] = rotor.mark_rad[0] + drawn_between(WH_R(1.4), WH_R(1.7));
         wh_turn_angle angle;
         wh_turn_angle_start(&rotor, &angle);
-        wh_turn_angle_feed(&angle, draw_one_in(&seed, 2));
+        wh_turn_angle_feed(&angle, draw_one_in(&seed, 2), WH_R(0.0625));
+        angle.held_V = WH_R(24.0);
         for (unsigned turn = 0; turn < 3U; turn++) {
             wh_turn_angle_shape(&rotor, &angle, drawn_between(WH_R(25.0), WH_R(40.0)));
             const wh_real split = drawn_between(WH_R(0.22), WH_R(0.28));

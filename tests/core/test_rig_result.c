@@ -301,7 +301,8 @@ static void test_what_is_left_of_gravity(void) {
         begin();
         rotor.gravity_mps2 = i < 2U ? rotor.gravity_mps2 : WH_R(0.0);
         wh_turn_angle_start(&rotor, &angle);
-        wh_turn_angle_feed(&angle, i % 2U == 0);
+        wh_turn_angle_feed(&angle, i % 2U == 0, WH_R(0.0625));
+        angle.held_V = WH_R(24.0);
         wh_turn_angle_shape(&rotor, &angle, WH_R(330.0) * WH_RIG_RADPS_PER_RPM);
         for (unsigned k = 0; k < 10U; k++) {
             const wh_lockin_turn turn = turn_of(WH_R(42.0), WH_R(0.0), k);

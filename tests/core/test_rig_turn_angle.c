@@ -26,7 +26,8 @@ typedef struct turn {
 static wh_turn_angle shaped(const turn *of, wh_real found) {
     wh_turn_angle angle;
     wh_turn_angle_start(&of->rotor, &angle);
-    wh_turn_angle_feed(&angle, of->fed);
+    wh_turn_angle_feed(&angle, of->fed, WH_R(0.0625));
+    angle.held_V = of->rotor.damping_Nms * of->speed_radps / WH_R(0.0625);
     if (of->fed) {
         angle.part = found;
     } else {

@@ -36,7 +36,8 @@ typedef struct rig_orbit {
     double amplitude_N;
     double phase_rad;
     bool fed;
-    double swing; /* half the range of the speed, over its mean */
+    double drive_Nm; /* the motor's torque at standstill, without what it is fed of gravity */
+    double swing;    /* half the range of the speed, over its mean */
 } rig_orbit;
 
 /* The steady turn at this mean speed. The marks are where the arms are lead_rad short of the sensors. */

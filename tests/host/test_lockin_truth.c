@@ -290,7 +290,8 @@ static void test_what_is_fed_does_not_show(void) {
             TEST_ASSERT_DOUBLE_WITHIN(0.01, 0.0, bias(0));
             TEST_ASSERT_DOUBLE_WITHIN(1.0 / DEG, 0.0, bias(1));
             check_scatter(&noise);
-            if (slow) { /* and what is left of it is said */
+            if (slow) { /* whatever the friction; and what is left of it is said */
+                TEST_ASSERT_DOUBLE_WITHIN(0.4 / DEG, 0.0, bias(1));
                 TEST_ASSERT_TRUE(found.covered[1] >= found.runs * 9U / 10U);
                 TEST_ASSERT_TRUE(found.covered[0] >= found.runs * 9U / 10U);
             }
