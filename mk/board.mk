@@ -37,6 +37,13 @@ include boards/$(BOARD)/board.mk
 BOARD_EXTRA ?=
 $(eval $(call build,$(BOARD),$(BOARD_CC),$(BOARD_CFLAGS) $(WARN) $(BOARD_EXTRA)))
 
+# What is flashed may be a build of its own, as on a chip with little memory: BOARD_FLASHED_FLAGS.
+FLASHED := $(BOARD)$(if $(BOARD_FLASHED_FLAGS),-flashed)
+ifneq ($(BOARD_FLASHED_FLAGS),)
+$(eval $(call build,$(FLASHED),$(BOARD_CC),$(BOARD_CFLAGS) $(BOARD_FLASHED_FLAGS) $(WARN) $(BOARD_EXTRA)))
+$(eval $(call portable_libraries,$(FLASHED)))
+endif
+
 ELF := $(B)/$(BOARD)
 BOARD_OBJECTS := $(call objects,$(BOARD),$(BOARD_SOURCES))
 $(eval $(call portable_libraries,$(BOARD)))
@@ -67,7 +74,7 @@ $(foreach o,$(STATION_C) boards/programs/rig.c boards/programs/station.c \
     $(VIRTUAL_C) core/rig/swing_guess.c core/rig/life.c core/text.c core/frame.c core/cobs.c,$(B)/$(BOARD)/$(o:.c=.o)): FILE_FLAGS = -Os
 
 ifneq ($(BOARD_FLASHED),)
-$(B)/$(BOARD)/boards/programs/station.o: FILE_FLAGS += -DHAL_VIRTUAL=0
+$(B)/$(FLASHED)/boards/programs/station.o: FILE_FLAGS += -DHAL_VIRTUAL=0
 endif
 
 # The rig's firmware with a console: here on a pseudo-terminal.
@@ -76,15 +83,18 @@ $(B)/station: $(call objects,float,boards/programs/station.c boards/host/board.c
     $(call libraries,float,station rig virtual whirl scenes)
 	$(link)
 # A board with hardware of its own has the rig's, and no model: what is flashed never ends, and knows no debugger.
-FLASHED_OBJECTS := $(call objects,$(BOARD),$(BOARD_FLASHED))
+FLASHED_OBJECTS := $(call objects,$(FLASHED),$(BOARD_FLASHED))
 FLASHED_IMAGES := $(if $(BOARD_FLASHED),$(STATION))
-$(STATION): $(call objects,$(BOARD),boards/programs/station.c) $(or $(FLASHED_OBJECTS),$(BOARD_OBJECTS)) \
-    $(if $(BOARD_FLASHED),$(call objects,$(BOARD),$(GEN)/rig_observed.c)) \
-    $(call libraries,$(BOARD),station rig whirl $(if $(BOARD_FLASHED),,virtual scenes))
+ifneq ($(BOARD_FLASHED_LDFLAGS),)
+$(STATION): BOARD_LDFLAGS := $(BOARD_FLASHED_LDFLAGS)
+endif
+$(STATION): $(call objects,$(FLASHED),boards/programs/station.c) $(or $(FLASHED_OBJECTS),$(BOARD_OBJECTS)) \
+    $(if $(BOARD_FLASHED),$(call objects,$(FLASHED),$(GEN)/rig_observed.c)) \
+    $(call libraries,$(FLASHED),station rig whirl $(if $(BOARD_FLASHED),,virtual scenes))
 	$(link_board)
 
 # Tests of what is flashed, in the emulator (tests/boards/f405.sh): the same code but for sensors that it does not have.
-ifneq ($(BOARD_FLASHED),)
+ifneq ($(filter boards/stm32f4/%,$(BOARD_FLASHED)),)
 without_sensors = $(filter-out %/cell.o %/slots.o %/stop.o,$(FLASHED_OBJECTS))
 $(ELF)/bench_plant.elf: BOARD_LDLIBS += -Wl,--wrap=hal_motor_set_voltage -Wl,--wrap=hal_motor_off
 $(ELF)/bench_plant.elf: $(call objects,$(BOARD),boards/programs/station.c tests/boards/f405_plant.c \

@@ -31,6 +31,11 @@
 #include "hal/frames/rig_frames.h"
 #endif
 
+/* 0, as a small chip's build may say: no model goes with the rotor, and gravity is not fed forward. */
+#ifndef RIG_FEEDS
+#define RIG_FEEDS 1
+#endif
+
 /* The model that goes with the rotor: rig_fixed of core/models/eccentric.whirl, in control steps (mk/whirl.mk). */
 extern const wh_scene rig_observed;
 
@@ -43,10 +48,15 @@ _Static_assert((int)HAL_LOAD_SATURATED == (int)WH_LOAD_SATURATED &&
 
 #define CONTROL_TICKS 2000U /* 500 Hz, as wh_rig_standard.step_s */
 #define WATCHDOG_TICKS (10U * CONTROL_TICKS)
-#define SAMPLES_MOST \
-    2U /* a step, beside a pulse one; what else a late one finds goes to the next */
+/* A step, and one with a pulse; what else a late one finds goes to the next. A small chip's build may say less. */
+#ifndef RIG_SAMPLES_MOST
+#define RIG_SAMPLES_MOST 2U
+#endif
+#ifndef RIG_SAMPLES_WITH_PULSE
+#define RIG_SAMPLES_WITH_PULSE 1U
+#endif
 
-_Static_assert(SAMPLES_MOST <= WH_SEEN_SAMPLES, "all are seen");
+_Static_assert(RIG_SAMPLES_MOST <= WH_SEEN_SAMPLES, "all are seen");
 
 /* Static, not on the stack: it holds the samples of a turn. */
 static wh_rig rig;
@@ -102,11 +112,12 @@ static void see(const hal_slot_pulse *pulse, const hal_load_sample *sample, unsi
 
 static void control(const wh_rig_config *config) {
     hal_slot_pulse pulse;
-    hal_load_sample sample[SAMPLES_MOST];
+    hal_load_sample sample[RIG_SAMPLES_MOST];
     unsigned samples = 0;
     /* one a step: a storm must not hold it up, and stamps do not age */
     const bool pulsed = hal_slots_take(&pulse);
-    while (samples < (pulsed ? 1U : SAMPLES_MOST) && hal_loadcell_take(&sample[samples])) {
+    while (samples < (pulsed ? RIG_SAMPLES_WITH_PULSE : RIG_SAMPLES_MOST) &&
+           hal_loadcell_take(&sample[samples])) {
         samples += sample[samples].status != HAL_LOAD_REPEATED ? 1U : 0U;
     }
     const wh_rig_command command = step(config, pulsed ? &pulse : NULL, sample, samples);
@@ -118,14 +129,17 @@ static void control(const wh_rig_config *config) {
 }
 
 /* The standard rig with this hardware's cell and sensors. */
-static wh_rig_config rig_configuration(void) {
-    wh_rig_config config = wh_rig_standard;
-    config.measure.cell = (wh_cell_config){.newton_per_count = HAL_LOADCELL_N_PER_COUNT,
-                                           .period_ticks = HAL_LOADCELL_PERIOD_TICKS,
-                                           .raw_max = HAL_LOADCELL_RAW_MAX};
-    wh_rig_slots(&config, HAL_SLOT_LEAD_DEG / WH_RIG_DEG_PER_RAD);
-    config.observer.scene = &rig_observed;
-    return config;
+static void rig_configuration(wh_rig_config *config) {
+    *config = wh_rig_standard;
+    config->measure.cell = (wh_cell_config){.newton_per_count = HAL_LOADCELL_N_PER_COUNT,
+                                            .period_ticks = HAL_LOADCELL_PERIOD_TICKS,
+                                            .raw_max = HAL_LOADCELL_RAW_MAX};
+    wh_rig_slots(config, HAL_SLOT_LEAD_DEG / WH_RIG_DEG_PER_RAD);
+#if RIG_FEEDS
+    config->observer.scene = &rig_observed;
+#else
+    config->feeds = WH_FEED_NEVER;
+#endif
 }
 
 static const char *why_no_hardware(void) {

@@ -19,7 +19,9 @@
 static wh_station station;
 static wh_rig_config config;
 static wh_conf conf;
+#if WH_STATION_TELEMETRY
 static wh_tel tel;
+#endif
 
 static void converse(void) {
     char bytes[BYTES_A_STEP];
@@ -84,7 +86,9 @@ int main(void) {
     tell_reset();
     wh_station_start(&station, "rig", board_name, HAL_TICKS_PER_S / CONTROL_TICKS);
     station.conf = &conf;
+#if WH_STATION_TELEMETRY
     station.tel = &tel;
+#endif
     hal_watchdog_start(WATCHDOG_TICKS);
     for (;;) {
         due = next_step(due);

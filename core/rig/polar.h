@@ -2,18 +2,44 @@
 #ifndef WH_RIG_POLAR_H
 #define WH_RIG_POLAR_H
 
-#include "core/real.h"
+#include "core/angle.h"
 
 #ifdef __cplusplus
 extern "C" {
 #endif
 
 #define wh_polar WH_NAME(wh_polar)
+#define wh_polar_begin WH_NAME(wh_polar_begin)
 
 /* x = radius cos(angle), y = radius sin(angle) without square root and arc tangent: the angle is
  * improved with the core's own sine until y vanishes in the turned frame. angle_rad: -pi ... pi.
  * (0, 0) gives 0 and 0. */
 void wh_polar(wh_real x, wh_real y, wh_real *radius, wh_real *angle_rad);
+
+/* The same in pieces: the angle to begin with, then WH_POLAR_ROUNDS rounds. |t| <= 1 at first and each takes it to about its
+ * fifth power: four are plenty. */
+#define WH_POLAR_ROUNDS 4U
+wh_real wh_polar_begin(wh_real x, wh_real y);
+
+/* Some rounds. */
+WH_INLINE void wh_polar_rounds(wh_real x, wh_real y, unsigned rounds, wh_real *radius,
+                               wh_real *angle_rad) {
+    wh_real angle = *angle_rad;
+    wh_real along = WH_R(0.0);
+    for (unsigned round = 0; round < rounds; round++) {
+        wh_real sine;
+        wh_real cosine;
+        wh_sincos(wh_phase_from_rad(angle), &sine, &cosine);
+        along = x * cosine + y * sine;
+        if (!(along > WH_R(0.0))) {
+            break;
+        }
+        const wh_real t = (y * cosine - x * sine) / along;
+        angle += t * (WH_R(1.0) - t * t * (WH_R(1.0) / WH_R(3.0)));
+    }
+    *radius = along;
+    *angle_rad = angle;
+}
 
 #ifdef __cplusplus
 }

@@ -1,7 +1,6 @@
 /* turn_angle.c: the rotor's angle within a turn, from the two sensors' marks and the rotor's lag. */
 #include "turn_angle.h"
 
-#include "core/angle.h"
 #include "core/root.h"
 #include "datasheet.h"
 
@@ -82,7 +81,7 @@ static void add_cut(const wh_rotor_config *config, wh_turn_angle *angle, wh_real
     angle->second_sine -= size * turned.sine;
 }
 
-void wh_turn_angle_shape(const wh_rotor_config *config, wh_turn_angle *angle, wh_real speed_radps) {
+static void shape_swing(const wh_rotor_config *config, wh_turn_angle *angle, wh_real speed_radps) {
     const wh_real weight_Nm = config->mass_moment_kgm * config->gravity_mps2;
     const wh_real turning = angle->inertia_kgm2 * speed_radps;
     const wh_real sum = WH_SQRT(turning * turning + config->damping_Nms * config->damping_Nms);
@@ -102,7 +101,9 @@ void wh_turn_angle_shape(const wh_rotor_config *config, wh_turn_angle *angle, wh
     angle->second_cosine = -second * half * (WH_R(1.0) - half * half * (WH_R(1.0) / WH_R(6.0)));
     add_carriage(config, angle, speed_radps);
     add_cut(config, angle, speed_radps);
+}
 
+static void shape_begin(const wh_rotor_config *config, wh_turn_angle *angle) {
     /* base + what is added at the begin is the mark's angle, and u there is base + psi - gamma */
     const wh_real begins = config->mark_rad[0] + angle->lag_rad - config->gravity_rad;
     for (unsigned round = 0; round < 2U; round++) {
@@ -110,13 +111,44 @@ void wh_turn_angle_shape(const wh_rotor_config *config, wh_turn_angle *angle, wh
         angle->begin_rad -= (angle->begin_rad + added(angle, u) - begins) /
                             (WH_R(1.0) + angle->swing_rad * u.cosine);
     }
+}
+
+static void shape_base(const wh_rotor_config *config, wh_turn_angle *angle) {
     angle->base_rad = config->mark_rad[0] - added(angle, wave_of(angle->begin_rad));
 }
 
+void wh_turn_angle_shape(const wh_rotor_config *config, wh_turn_angle *angle, wh_real speed_radps) {
+    shape_swing(config, angle, speed_radps);
+    shape_begin(config, angle);
+    shape_base(config, angle);
+}
+
+void wh_turn_angle_shape_piece(const wh_rotor_config *config, wh_turn_angle *angle,
+                               wh_real speed_radps, unsigned piece) {
+    if (piece == 0) {
+        shape_swing(config, angle, speed_radps);
+    } else if (piece == 1U) {
+        shape_begin(config, angle);
+    } else {
+        shape_base(config, angle);
+    }
+}
+
 wh_real wh_turn_angle_split(const wh_rotor_config *config, wh_turn_angle *angle, wh_real split) {
+    wh_turn_angle_split_waves(angle, split);
+    return wh_turn_angle_split_rest(config, angle, split);
+}
+
+void wh_turn_angle_split_waves(wh_turn_angle *angle, wh_real split) {
+    angle->split_from = wave_of(angle->begin_rad);
+    angle->split_to = wave_of(angle->begin_rad + WH_RIG_TWO_PI * split);
+}
+
+wh_real wh_turn_angle_split_rest(const wh_rotor_config *config, wh_turn_angle *angle,
+                                 wh_real split) {
     const wh_real passed = WH_RIG_TWO_PI * split;
-    const wh_wave from = wave_of(angle->begin_rad);
-    const wh_wave to = wave_of(angle->begin_rad + passed);
+    const wh_wave from = angle->split_from;
+    const wh_wave to = angle->split_to;
     const wh_real off = config->mark_rad[1] - (angle->base_rad + passed + added(angle, to));
     const wh_real swing = angle->swing_rad;
     if (!(angle->whole_rad > WH_R(0.0))) {

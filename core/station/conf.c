@@ -5,6 +5,7 @@
 
 #include "answer.h"
 #include "brief.h"
+#include "core/flash.h"
 #include "core/frame.h"
 #include "core/root.h"
 #include "line.h"
@@ -21,17 +22,21 @@ static const wh_real per_unit[UNITS] = {WH_CONF_UNIT_ROWS(UNIT)};
     {#name,       unit,          WH_SAY(words), \
      WH_R(least), WH_R(most),    number, \
      kind,        UNITS_##units, offsetof(wh_rig_config, member)},
-static const wh_conf_row rows[] = {WH_CONF_ROWS(ROW)};
+static const wh_conf_row rows[] WH_FLASH = {WH_CONF_ROWS(ROW)};
 #undef ROW
 
 #define ENTRY_BYTES 5U /* a setting's number, and its value */
 _Static_assert(WH_CONF_COUNT *ENTRY_BYTES <= WH_STORE_PAYLOAD_MOST, "all settings fit into a slot");
 
-const wh_conf_row *wh_conf_row_of(wh_conf_id id) { return &rows[id]; }
+wh_conf_row wh_conf_row_of(wh_conf_id id) {
+    wh_conf_row row;
+    wh_flash_copy(&row, &rows[id], sizeof row);
+    return row;
+}
 
 wh_conf_id wh_conf_find(const char *name) {
     unsigned id = 0;
-    while (id < WH_CONF_COUNT && !wh_answer_is(name, rows[id].name)) {
+    while (id < WH_CONF_COUNT && !wh_answer_is(name, wh_conf_row_of((wh_conf_id)id).name)) {
         id++;
     }
     return (wh_conf_id)id;
@@ -47,12 +52,12 @@ static void *member_of(wh_rig_config *c, const wh_conf_row *row) {
 }
 
 static wh_real value_of(wh_rig_config *c, wh_conf_id id) {
-    const wh_conf_row *row = &rows[id];
-    const void *member = member_of(c, row);
+    const wh_conf_row row = wh_conf_row_of(id);
+    const void *member = member_of(c, &row);
     if (id == WH_CONF_cell_reversed) {
         return *(const wh_real *)member < WH_R(0.0) ? WH_R(1.0) : WH_R(0.0);
     }
-    switch ((wh_conf_kind)row->kind) {
+    switch ((wh_conf_kind)row.kind) {
     case WH_CONF_WHOLE: return (wh_real) * (const uint32_t *)member;
     case WH_CONF_SWITCH: return *(const bool *)member ? WH_R(1.0) : WH_R(0.0);
     case WH_CONF_FEEDS: return (wh_real) * (const wh_feed_when *)member;
@@ -66,21 +71,21 @@ static wh_real value_of(wh_rig_config *c, wh_conf_id id) {
     if (id == WH_CONF_cell_scale) {
         value = WH_ABS(value);
     }
-    return value * per_unit[row->units];
+    return value * per_unit[row.units];
 }
 
 /* What comes of several settings is put by put_rotor(), put_sensors() and put_cell(), behind these. */
 static void put(wh_rig_config *c, wh_conf_id id, wh_real value) {
-    const wh_conf_row *row = &rows[id];
-    void *member = member_of(c, row);
+    const wh_conf_row row = wh_conf_row_of(id);
+    void *member = member_of(c, &row);
     if (id == WH_CONF_cell_reversed) {
         return;
     }
-    switch ((wh_conf_kind)row->kind) {
+    switch ((wh_conf_kind)row.kind) {
     case WH_CONF_WHOLE: *(uint32_t *)member = (uint32_t)value; break;
     case WH_CONF_SWITCH: *(bool *)member = is_on(value); break;
     case WH_CONF_FEEDS: *(wh_feed_when *)member = (wh_feed_when)(int)value; break;
-    case WH_CONF_REAL: *(wh_real *)member = value / per_unit[row->units]; break;
+    case WH_CONF_REAL: *(wh_real *)member = value / per_unit[row.units]; break;
     case WH_CONF_KINDS: break;
     }
 }
@@ -145,9 +150,9 @@ static void renew(const wh_conf *conf) {
 /* --- what may be set ----------------------------------------------------------------------------------- */
 
 static bool in_range(wh_conf_id id, wh_real value) {
-    const wh_conf_row *row = &rows[id];
-    return value >= row->least && value <= row->most &&
-           ((wh_conf_kind)row->kind == WH_CONF_REAL || same(value, (wh_real)(int32_t)value));
+    const wh_conf_row row = wh_conf_row_of(id);
+    return value >= row.least && value <= row.most &&
+           ((wh_conf_kind)row.kind == WH_CONF_REAL || same(value, (wh_real)(int32_t)value));
 }
 
 static bool go_together(const wh_conf *conf) {
@@ -157,10 +162,19 @@ static bool go_together(const wh_conf *conf) {
            value[WH_CONF_supply_least] < value[WH_CONF_supply_most];
 }
 
+/* A program without the observer's scene feeds nothing forward, and one that cannot work on a swing has none. */
+static bool is_absent(const wh_conf *conf, wh_conf_id id, wh_real value) {
+    return is_on(value) && ((id == WH_CONF_feeds && conf->config->observer.scene == NULL) ||
+                            (id == WH_CONF_swings && !WH_RIG_SWINGS));
+}
+
 wh_conf_status wh_conf_set(wh_conf *conf, wh_conf_id id, wh_real value) {
     const wh_real kept = (wh_real)(float)value; /* as memory has it */
     if (!in_range(id, value)) {
         return WH_CONF_RANGE;
+    }
+    if (is_absent(conf, id, value)) {
+        return WH_CONF_ABSENT;
     }
     const wh_real before = conf->value[id];
     conf->value[id] = kept;
@@ -177,22 +191,24 @@ wh_conf_status wh_conf_set(wh_conf *conf, wh_conf_id id, wh_real value) {
 static const char *words_of(wh_conf_id id) {
 #define WORDS(kind, word) \
     case kind: return word;
-    switch ((wh_conf_kind)rows[id].kind) { WH_CONF_KIND_ROWS(WORDS) case WH_CONF_KINDS : break; }
+    switch ((wh_conf_kind)wh_conf_row_of(id).kind) {
+        WH_CONF_KIND_ROWS(WORDS) case WH_CONF_KINDS : break;
+    }
 #undef WORDS
     return "";
 }
 
 static bool is_choice(wh_conf_id id) {
-    const wh_conf_kind kind = (wh_conf_kind)rows[id].kind;
+    const wh_conf_kind kind = (wh_conf_kind)wh_conf_row_of(id).kind;
     return kind != WH_CONF_REAL && kind != WH_CONF_WHOLE;
 }
 
 /* Behind the next '|'; NULL when there is none. */
 static const char *next_word(const char *at) {
-    while (*at != '\0' && *at != '|') {
+    while (wh_word_at(at) != '\0' && wh_word_at(at) != '|') {
         at++;
     }
-    return *at == '|' ? at + 1 : NULL;
+    return wh_word_at(at) == '|' ? at + 1 : NULL;
 }
 
 const char *wh_conf_text(wh_conf_id id, wh_real value) {
@@ -204,11 +220,11 @@ const char *wh_conf_text(wh_conf_id id, wh_real value) {
 }
 
 static bool begins(const char *word, const char *with) {
-    while (*with != '\0' && *with != '|' && *with == *word) {
+    while (*with != '\0' && *with != '|' && *with == wh_word_at(word)) {
         with++;
         word++;
     }
-    return *with == '\0' && (*word == '\0' || *word == '|');
+    return *with == '\0' && (wh_word_at(word) == '\0' || wh_word_at(word) == '|');
 }
 
 wh_conf_status wh_conf_type(wh_conf *conf, wh_conf_id id, const char *typed) {
@@ -235,7 +251,8 @@ void wh_conf_default(wh_conf *conf) {
 
 static void take(wh_conf *conf, unsigned number, wh_real value) {
     for (unsigned id = 0; id < WH_CONF_COUNT; id++) {
-        if (rows[id].number == number && in_range((wh_conf_id)id, value)) {
+        if (wh_conf_row_of((wh_conf_id)id).number == number && in_range((wh_conf_id)id, value) &&
+            !is_absent(conf, (wh_conf_id)id, value)) {
             conf->value[id] = value;
         }
     }
@@ -257,7 +274,7 @@ void wh_conf_start(wh_conf *conf, void (*own)(wh_rig_config *config), const wh_s
     }
     wh_bytes bytes = {.from = payload, .room = (unsigned)count};
     while (bytes.room - bytes.at >= ENTRY_BYTES) {
-        const unsigned number = wh_bytes_get(&bytes, 1);
+        const unsigned number = (unsigned)wh_bytes_get(&bytes, 1);
         take(conf, number, (wh_real)wh_bytes_get_float(&bytes));
     }
     if (go_together(conf)) {
@@ -272,7 +289,7 @@ wh_conf_status wh_conf_save(wh_conf *conf) {
     wh_bytes bytes = {.to = payload, .room = sizeof payload};
     for (unsigned id = 0; id < WH_CONF_COUNT; id++) {
         if (is_set(conf, (wh_conf_id)id)) {
-            wh_bytes_put(&bytes, rows[id].number, 1);
+            wh_bytes_put(&bytes, wh_conf_row_of((wh_conf_id)id).number, 1);
             wh_bytes_put_float(&bytes, (float)conf->value[id]);
         }
     }

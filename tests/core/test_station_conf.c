@@ -38,7 +38,19 @@ static bool read(unsigned slot, unsigned at, uint8_t *bytes, unsigned count) {
 }
 static const wh_store_memory memory = {erase, write, read};
 
-static void own(wh_rig_config *config) { *config = even_config(); }
+/* A program that has an observer: it is not started here. */
+static const wh_scene observed = {.angles = 1};
+static void own(wh_rig_config *config) {
+    *config = even_config();
+    config->observer.scene = &observed;
+}
+
+/* And one that has none. */
+static void own_unobserved(wh_rig_config *config) {
+    own(config);
+    config->observer.scene = NULL;
+    config->feeds = WH_FEED_NEVER;
+}
 
 static void begin(void) {
     memset(kept, 0xFF, sizeof kept);
@@ -123,11 +135,11 @@ static wh_real where(const wh_rig_config *c, const char *name) {
     return places[i].value;
 }
 
-static bool is_whole(const wh_conf_row *row) { return (wh_conf_kind)row->kind != WH_CONF_REAL; }
+static bool is_whole(wh_conf_row row) { return (wh_conf_kind)row.kind != WH_CONF_REAL; }
 
-static wh_real draw_value(const wh_conf_row *row) {
+static wh_real draw_value(wh_conf_row row) {
     const wh_real part = draw_whole(&seed, 0, 1000) / 1000;
-    const wh_real value = row->least + part * (row->most - row->least);
+    const wh_real value = row.least + part * (row.most - row.least);
     return is_whole(row) ? (wh_real)(int32_t)(value + WH_R(0.5)) : (wh_real)(float)value;
 }
 
@@ -136,15 +148,15 @@ static wh_real draw_value(const wh_conf_row *row) {
 static void test_rows(void) {
     begin();
     for (unsigned i = 0; i < WH_CONF_COUNT; i++) {
-        const wh_conf_row *row = wh_conf_row_of((wh_conf_id)i);
-        TEST_ASSERT_TRUE(row->least < row->most && row->number > 0);
-        TEST_ASSERT_TRUE(strchr(row->name, ' ') == NULL && strlen(row->name) > 0);
-        TEST_ASSERT_TRUE(conf.value[i] >= row->least && conf.value[i] <= row->most);
+        const wh_conf_row row = wh_conf_row_of((wh_conf_id)i);
+        TEST_ASSERT_TRUE(row.least < row.most && row.number > 0);
+        TEST_ASSERT_TRUE(strchr(row.name, ' ') == NULL && strlen(row.name) > 0);
+        TEST_ASSERT_TRUE(conf.value[i] >= row.least && conf.value[i] <= row.most);
         for (unsigned k = 0; k < i; k++) {
-            const wh_conf_row *other = wh_conf_row_of((wh_conf_id)k);
-            TEST_ASSERT_TRUE(other->number != row->number && strcmp(other->name, row->name) != 0);
+            const wh_conf_row other = wh_conf_row_of((wh_conf_id)k);
+            TEST_ASSERT_TRUE(other.number != row.number && strcmp(other.name, row.name) != 0);
         }
-        TEST_ASSERT_EQUAL_UINT(i, wh_conf_find(row->name));
+        TEST_ASSERT_EQUAL_UINT(i, wh_conf_find(row.name));
     }
     TEST_ASSERT_EQUAL_UINT(WH_CONF_COUNT, wh_conf_find("mass"));
     TEST_ASSERT_EQUAL_UINT(WH_CONF_COUNT, wh_conf_find(""));
@@ -170,10 +182,10 @@ static void test_values_have_their_places(void) {
             against += status == WH_CONF_AGAINST ? 1U : 0U;
         }
         for (unsigned i = 0; i < WH_CONF_COUNT; i++) {
-            const wh_conf_row *row = wh_conf_row_of((wh_conf_id)i);
+            const wh_conf_row row = wh_conf_row_of((wh_conf_id)i);
             const float size = (float)WH_ABS(wanted[i]);
             TEST_ASSERT_FLOAT_WITHIN_MESSAGE(size * 1e-5f + 2e-5f, (float)wanted[i],
-                                             (float)where(&even.config, row->name), row->name);
+                                             (float)where(&even.config, row.name), row.name);
         }
         TEST_ASSERT_TRUE(even.config.observer.mark_rad[0] == even.config.measure.rotor.mark_rad[0]);
         const wh_rig_config then = even.config;
@@ -356,6 +368,21 @@ static void test_refusals(void) {
     check_begins("ERR 114 ", ask("conf list"));
 }
 
+/* What this program has not is refused by its name; also where another program has kept it. */
+static void test_what_is_not_there(void) {
+    static const uint8_t always[] = {35, 0, 0, 0, 0x40, 18, 0, 0, 0x20, 0x41};
+    begin();
+    TEST_ASSERT_TRUE(wh_store_save(&memory, always, sizeof always));
+    wh_conf_start(&conf, own_unobserved, &memory, &even.config);
+    check_begins("OK feeds=never", ask("conf get feeds"));
+    check_begins("OK record_turns=10", ask("conf get record_turns"));
+    check_begins("ERR 114 ", ask("conf set feeds always"));
+    check_begins("ERR 114 ", ask("conf set feeds slow"));
+    check_begins("OK feeds=never", ask("conf set feeds never"));
+    wh_conf_start(&conf, own, &memory, &even.config);
+    check_begins("OK feeds=always", ask("conf get feeds"));
+}
+
 /* What is set is what measures: a cell that is twice as sensitive, masses that are half. */
 static void test_a_run_with_settings(void) {
     begin();
@@ -376,5 +403,6 @@ void suite_station_conf(void) {
     RUN_TEST(test_what_is_stored_of_others);
     RUN_TEST(test_list_has_all_and_can_be_typed);
     RUN_TEST(test_refusals);
+    RUN_TEST(test_what_is_not_there);
     RUN_TEST(test_a_run_with_settings);
 }
