@@ -68,6 +68,17 @@ $(foreach o,$(STATION_C) boards/programs/rig.c boards/programs/station.c \
 
 ifneq ($(BOARD_FLASHED),)
 $(B)/$(BOARD)/boards/programs/station.o: FILE_FLAGS += -DHAL_VIRTUAL=0
+# What is said to people goes through mk/size/pack.awk (core/packed_words.h), 2 KB of flash less: all files that have WH_WORDS().
+PACKED := $(call objects,$(BOARD),boards/cortexm/fault_words.c core/rig/guard.c core/rig/life.c core/rig/result.c \
+    $(addprefix core/station/,conf.c errors.c station.c tel_answer.c))
+compile_packed = $(BOARD_CC) $(BOARD_CFLAGS) $(WARN) $(BOARD_EXTRA) $(FILE_FLAGS)
+$(PACKED:.o=.words): $(B)/$(BOARD)/%.words: %.c $(B)/$(BOARD)/.flags
+	@mkdir -p $(@D)
+	$(Q)$(compile_packed) -MMD -MP -MT $@ -MF $(@:.words=.d) -E $< -o $@
+$(PACKED): %.o: %.words mk/size/pack.awk core/word_pairs.h
+	$(say) CC "$@ (packed)"
+	$(Q)awk -f mk/size/pack.awk core/word_pairs.h $< >$*.i
+	$(Q)$(compile_packed) -c $*.i -o $@
 # From a compiler's cache an object comes without its call graph, and mk/size/size.sh would not know what stack it takes.
 $(B)/$(BOARD)/%.o: export CCACHE_DISABLE := 1
 endif
