@@ -68,6 +68,8 @@ $(foreach o,$(STATION_C) boards/programs/rig.c boards/programs/station.c \
 
 ifneq ($(BOARD_FLASHED),)
 $(B)/$(BOARD)/boards/programs/station.o: FILE_FLAGS += -DHAL_VIRTUAL=0
+# From a compiler's cache an object comes without its call graph, and mk/size/size.sh would not know what stack it takes.
+$(B)/$(BOARD)/%.o: export CCACHE_DISABLE := 1
 endif
 
 # The rig's firmware with a console: here on a pseudo-terminal.
@@ -78,6 +80,8 @@ $(B)/station: $(call objects,float,boards/programs/station.c boards/host/board.c
 # A board with hardware of its own has the rig's, and no model: what is flashed never ends, and knows no debugger.
 FLASHED_OBJECTS := $(call objects,$(BOARD),$(BOARD_FLASHED))
 FLASHED_IMAGES := $(if $(BOARD_FLASHED),$(STATION))
+# What mk/size/size.sh holds them to.
+SIZE_MOST := $(if $(FLASHED_IMAGES),$(BOARD_MOST) MOST_OF="$(FLASHED_IMAGES)")
 $(STATION): $(call objects,$(BOARD),boards/programs/station.c) $(or $(FLASHED_OBJECTS),$(BOARD_OBJECTS)) \
     $(if $(BOARD_FLASHED),$(call objects,$(BOARD),$(GEN)/rig_observed.c)) \
     $(call libraries,$(BOARD),station rig whirl $(if $(BOARD_FLASHED),,virtual scenes))

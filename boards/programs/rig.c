@@ -283,7 +283,8 @@ int main(void) {
     if (why != NULL) {
         refuse(why);
     }
-    wh_rig_config config = rig_configuration();
+    wh_rig_config config;
+    own_configuration(&config);
     config.swings = RIG_SWINGS != 0;
 #if RIG_CARRIAGE || RIG_DIALLED
     if (!take_dials(&config)) {

@@ -117,15 +117,14 @@ static void control(const wh_rig_config *config) {
     hal_watchdog_kick(); /* tripped too: a watchdog that resets would start all over */
 }
 
-/* The standard rig with this hardware's cell and sensors. */
-static wh_rig_config rig_configuration(void) {
-    wh_rig_config config = wh_rig_standard;
-    config.measure.cell = (wh_cell_config){.newton_per_count = HAL_LOADCELL_N_PER_COUNT,
-                                           .period_ticks = HAL_LOADCELL_PERIOD_TICKS,
-                                           .raw_max = HAL_LOADCELL_RAW_MAX};
-    wh_rig_slots(&config, HAL_SLOT_LEAD_DEG / WH_RIG_DEG_PER_RAD);
-    config.observer.scene = &rig_observed;
-    return config;
+/* The standard rig with this hardware's cell and sensors. In its place: a copy more is half a kilobyte of stack. */
+static void own_configuration(wh_rig_config *config) {
+    *config = wh_rig_standard;
+    config->measure.cell = (wh_cell_config){.newton_per_count = HAL_LOADCELL_N_PER_COUNT,
+                                            .period_ticks = HAL_LOADCELL_PERIOD_TICKS,
+                                            .raw_max = HAL_LOADCELL_RAW_MAX};
+    wh_rig_slots(config, HAL_SLOT_LEAD_DEG / WH_RIG_DEG_PER_RAD);
+    config->observer.scene = &rig_observed;
 }
 
 static const char *why_no_hardware(void) {
@@ -138,12 +137,13 @@ static const char *why_no_hardware(void) {
     return "the hardware does not answer";
 }
 
-/* Start the hardware, and look whether the arithmetic is that of the tests. Why not, the motor off; or NULL. */
+/* Start the hardware, and look whether the arithmetic is that of the tests: by the model's file, which has the flags of all of
+ * the image. Why not, the motor off; or NULL. */
 static const char *why_not_started(void) {
     if (hal_clock_start() != HAL_STARTED) {
         return why_no_hardware();
     }
-    if (wh_arithmetic_wrong(wh_arithmetic) != WH_PROBED_COUNT) {
+    if (wh_arithmetic_wrong(rig_observed.arithmetic) != WH_PROBED_COUNT) {
         hal_motor_off(HAL_MOTOR_COAST);
         return wh_status_text(WH_E_ARITHMETIC);
     }

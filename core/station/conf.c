@@ -18,9 +18,8 @@ static const wh_real per_unit[UNITS] = {WH_CONF_UNIT_ROWS(UNIT)};
 #define DEG per_unit[UNITS_DEG]
 
 #define ROW(name, number, kind, unit, least, most, member, units, words) \
-    {#name,       unit,          WH_SAY(words), \
-     WH_R(least), WH_R(most),    number, \
-     kind,        UNITS_##units, offsetof(wh_rig_config, member)},
+    {#name,  unit, WH_SAY(words), WH_R(least), WH_R(most), offsetof(wh_rig_config, member), \
+     number, kind, UNITS_##units},
 static const wh_conf_row rows[] = {WH_CONF_ROWS(ROW)};
 #undef ROW
 

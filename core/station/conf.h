@@ -28,10 +28,10 @@ typedef struct wh_conf_row {
     const char *words;
     wh_real least;
     wh_real most;
-    uint8_t number;
-    uint8_t kind; /* a wh_conf_kind */
-    uint8_t units;
     uint16_t place; /* of the member */
+    uint8_t number;
+    unsigned char kind : 4; /* a wh_conf_kind */
+    unsigned char units : 4;
 } wh_conf_row;
 
 /* What became of a value. */

@@ -50,7 +50,7 @@ extern "C" {
     X(talk, 1, "on|off", "echo what is typed, tell of each new state")
 
 /* What waits: bytes that came; and that want out, of which half are the console's own. */
-#define WH_STATION_IN_BYTES 512U
+#define WH_STATION_IN_BYTES 256U
 #define WH_STATION_OUT_BYTES 1024U
 #define WH_STATION_KEPT_BYTES (WH_STATION_OUT_BYTES / 2U)
 
