@@ -31,7 +31,7 @@ static const command_usage usage = {
     .tail =
         "  --csv FILE           records; - is standard output (the summary then goes to standard error)\n"
         "  --columns FILE       the same between spaces, for Octave's load; - as for --csv\n"
-        "  --vcd FILE           the same for waveform viewers (GTKWave), and what contacts do; - as for --csv\n"
+        "  --vcd FILE           the same for waveform viewers, and what contacts do; - as for --csv\n"
         "  --every 2ms          spacing of the records, a whole number of steps (default: every step)\n"
         "  --plot FILE.svg|.png coordinates and outputs over time, drawn by gnuplot\n"
         "  --strict[=LIMIT]     fail when more than LIMIT (1e-3) of the largest entry of the energy books\n"
