@@ -50,15 +50,15 @@ WH_INLINE wh_real wh_flash_real(const wh_real *from) {
 
 /* Bytes of a constant that is WH_FLASH. */
 WH_INLINE void wh_flash_copy(void *to, const void *from, unsigned count) {
+#if defined(__AVR_HAVE_LPMX__) && !WH_DOUBLE
     uint8_t *bytes = (uint8_t *)to;
     const uint8_t *at = (const uint8_t *)from;
     for (unsigned i = 0; i < count; i++) {
-#if defined(__AVR_HAVE_LPMX__) && !WH_DOUBLE
         __asm__("lpm %0, Z" : "=r"(bytes[i]) : "z"(&at[i]));
-#else
-        bytes[i] = at[i];
-#endif
     }
+#else
+    __builtin_memcpy(to, from, count);
+#endif
 }
 
 WH_INLINE char wh_word_at(const char *at) {

@@ -168,29 +168,24 @@ static bool fraction_digits(uint16_t *fraction, unsigned decimals, bool odd_whol
     return odd || !all_zero(fraction, FRACTION_LIMBS - 1U);
 }
 
+#if WH_DOUBLE
+typedef uint64_t mantissa_bits;
+#else
+typedef uint32_t mantissa_bits;
+#endif
+
 /* The mantissa's bits into one long fixed-point number, zero so far: fraction limbs, then whole limbs. False: it is longer.
  * Bits below 2^-160 belong to doubles below 2^-107: far from any tie at 18 decimals. */
 static bool lay(const parts *number, uint16_t *limb) {
-    uint64_t bits = number->mantissa;
     int place = number->exponent + 16 * (int)FRACTION_LIMBS;
-    for (; bits != 0; bits >>= 16, place += 16) {
-        const uint16_t piece = (uint16_t)bits;
-        if (place < 0) {
-            limb[0] = (uint16_t)(limb[0] | (place > -16 ? piece >> -place : 0));
+    for (mantissa_bits bits = (mantissa_bits)number->mantissa; bits != 0; bits >>= 1, place++) {
+        if ((bits & 1U) == 0 || place < 0) {
             continue;
         }
-        const unsigned at = (unsigned)place / 16U;
-        const uint32_t laid = (uint32_t)piece << ((unsigned)place % 16U);
-        const uint16_t high = (uint16_t)(laid >> 16);
-        if ((at >= LIMBS && laid != 0) || (at + 1U >= LIMBS && high != 0)) {
+        if (place >= 16 * (int)LIMBS) {
             return false;
         }
-        if (at < LIMBS) {
-            limb[at] = (uint16_t)(limb[at] | (uint16_t)laid);
-        }
-        if (high != 0) {
-            limb[at + 1U] = high;
-        }
+        limb[place / 16] = (uint16_t)(limb[place / 16] | (1U << (place % 16)));
     }
     return true;
 }

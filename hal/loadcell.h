@@ -14,7 +14,7 @@ extern "C" {
 #endif
 
 /* Counts of 16 bits, full scale +-50 lbf (222.41 N): 6.79 mN a count, whatever the converter has. Ticks are those of the
- * instant that the force was there: where a converter's samples are averaged, the middle of them. */
+ * instant that the force was there: where a converter's samples are averaged, the middle of them (averaged.h). */
 #define HAL_LOADCELL_FULL_SCALE_N 222.41108f
 #define HAL_LOADCELL_RAW_MAX 32767
 #define HAL_LOADCELL_N_PER_COUNT (HAL_LOADCELL_FULL_SCALE_N / 32768.0f)

@@ -75,6 +75,21 @@ $(foreach o,$(STATION_C) boards/programs/rig.c boards/programs/station.c \
 
 ifneq ($(BOARD_FLASHED),)
 $(B)/$(FLASHED)/boards/programs/station.o: FILE_FLAGS += -DHAL_VIRTUAL=0
+# From a compiler's cache an object comes without its call graph, and mk/size/size.sh would not know what stack it takes.
+$(B)/$(BOARD)/%.o: export CCACHE_DISABLE := 1
+endif
+ifneq ($(findstring -DWH_WORDS_PACKED=1,$(BOARD_CFLAGS)),)
+# What is said to people goes through mk/size/pack.awk (core/packed_words.h), 2 KB of flash less: all files that have WH_WORDS().
+PACKED := $(call objects,$(BOARD),boards/cortexm/fault_words.c core/rig/guard.c core/rig/life.c core/rig/result.c \
+    $(addprefix core/station/,conf.c errors.c station.c tel_answer.c))
+compile_packed = $(BOARD_CC) $(BOARD_CFLAGS) $(WARN) $(BOARD_EXTRA) $(FILE_FLAGS)
+$(PACKED:.o=.words): $(B)/$(BOARD)/%.words: %.c $(B)/$(BOARD)/.flags
+	@mkdir -p $(@D)
+	$(Q)$(compile_packed) -MMD -MP -MT $@ -MF $(@:.words=.d) -E $< -o $@
+$(PACKED): %.o: %.words mk/size/pack.awk core/word_pairs.h
+	$(say) CC "$@ (packed)"
+	$(Q)awk -f mk/size/pack.awk core/word_pairs.h $< >$*.i
+	$(Q)$(compile_packed) -c $*.i -o $@
 endif
 
 # The rig's firmware with a console: here on a pseudo-terminal.
@@ -85,6 +100,8 @@ $(B)/station: $(call objects,float,boards/programs/station.c boards/host/board.c
 # A board with hardware of its own has the rig's, and no model: what is flashed never ends, and knows no debugger.
 FLASHED_OBJECTS := $(call objects,$(FLASHED),$(BOARD_FLASHED))
 FLASHED_IMAGES := $(if $(BOARD_FLASHED),$(STATION))
+# What mk/size/size.sh holds them to.
+SIZE_MOST := $(if $(FLASHED_IMAGES),$(BOARD_MOST) MOST_OF="$(FLASHED_IMAGES)")
 ifneq ($(BOARD_FLASHED_LDFLAGS),)
 $(STATION): BOARD_LDFLAGS := $(BOARD_FLASHED_LDFLAGS)
 endif

@@ -163,8 +163,7 @@ gate-flashed: $(GEN)/.stamp
 flashed-rules: board-own-objects $(STATION)
 	@NM=$(BOARD_NM) OBJDUMP=$(BOARD_OBJDUMP) FLASHED="$(STATION)" sh boards/check_image.sh $(STATION)
 	@mkdir -p $(FIGURES)
-	@BOARD=$(BOARD) CC=$(BOARD_CC) NM=$(BOARD_NM) SIZE=$(BOARD_SIZE) OBJECTS=$(ELF) FLASH_MOST=57344 RAM_MOST=17408 \
-	    FLAGS="$(call TOLD,$(BOARD_CFLAGS))" mk/size/size.sh $(FIGURES)/size.csv $(STATION)
+	@$(call size_of,$(STATION))
 flashed-tests: $(FLASHED_TESTS) $(STATION) build/tools/f405
 
 gate-size:

@@ -58,8 +58,10 @@ $(B)/tests/core_double: $(call objects,double,$(CORE_TEST_PARTS)) $(call librari
 	$(link)
 
 # Drivers of the STM32F405 on played registers (tests/host/test_f405_*.c), with one board's data.
-FAKED_C := $(addprefix boards/stm32f4/,clock.c flash.c motor.c pins.c slots.c stop.c watchdog.c)
+FAKED_C := $(addprefix boards/stm32f4/,cell.c clock.c flash.c motor.c pins.c slots.c stop.c time_base.c watchdog.c)
 $(B)/host/boards/stm32f4/%.o: FILE_FLAGS = -DBOARD_REGISTERS_FAKED=1 -Iboards/netduinoplus2
+# The motor's tests say themselves what the supply is.
+$(B)/host/boards/stm32f4/cell.o: FILE_FLAGS = -DBOARD_REGISTERS_FAKED=1 -Iboards/netduinoplus2 -Dhal_motor_supply_V=converted_supply_V
 
 $(B)/tests/host: $(call objects,host,$(HOST_TEST_PARTS) $(FAKED_C)) $(LIB_HOST) \
     $(call libraries,float,scenes rig whirl) $(LIB_DOUBLE) | $(B)/pil_cart

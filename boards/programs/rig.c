@@ -284,7 +284,7 @@ int main(void) {
         refuse(why);
     }
     wh_rig_config config;
-    rig_configuration(&config);
+    own_configuration(&config);
     config.swings = RIG_SWINGS != 0;
 #if RIG_CARRIAGE || RIG_DIALLED
     if (!take_dials(&config)) {

@@ -31,11 +31,6 @@
 #include "hal/frames/rig_frames.h"
 #endif
 
-/* 0, as a small chip's build may say: no model goes with the rotor, and gravity is not fed forward. */
-#ifndef RIG_FEEDS
-#define RIG_FEEDS 1
-#endif
-
 /* The model that goes with the rotor: rig_fixed of core/models/eccentric.whirl, in control steps (mk/whirl.mk). */
 extern const wh_scene rig_observed;
 
@@ -128,14 +123,14 @@ static void control(const wh_rig_config *config) {
     hal_watchdog_kick(); /* tripped too: a watchdog that resets would start all over */
 }
 
-/* The standard rig with this hardware's cell and sensors. */
-static void rig_configuration(wh_rig_config *config) {
+/* The standard rig with this hardware's cell and sensors. In its place: a copy more is half a kilobyte of stack. */
+static void own_configuration(wh_rig_config *config) {
     *config = wh_rig_standard;
     config->measure.cell = (wh_cell_config){.newton_per_count = HAL_LOADCELL_N_PER_COUNT,
                                             .period_ticks = HAL_LOADCELL_PERIOD_TICKS,
                                             .raw_max = HAL_LOADCELL_RAW_MAX};
     wh_rig_slots(config, HAL_SLOT_LEAD_DEG / WH_RIG_DEG_PER_RAD);
-#if RIG_FEEDS
+#if WH_RIG_FEEDS
     config->observer.scene = &rig_observed;
 #else
     config->feeds = WH_FEED_NEVER;
@@ -152,14 +147,15 @@ static const char *why_no_hardware(void) {
     return "the hardware does not answer";
 }
 
-/* Start the hardware, and look whether the arithmetic is that of the tests. Why not, the motor off; or NULL. */
+/* Start the hardware, and look whether the arithmetic is that of the tests: by the model's file, which has the flags of all of
+ * the image. Why not, the motor off; or NULL. */
 static const char *why_not_started(void) {
     if (hal_clock_start() != HAL_STARTED) {
         return why_no_hardware();
     }
-    if (wh_arithmetic_wrong(wh_arithmetic) != WH_PROBED_COUNT) {
+    if (wh_arithmetic_wrong(rig_observed.arithmetic) != WH_PROBED_COUNT) {
         hal_motor_off(HAL_MOTOR_COAST);
-        return wh_status_text(WH_E_ARITHMETIC);
+        return "compiled or set up for other arithmetic than IEEE 754"; /* without all other texts of a wh_status */
     }
     return NULL;
 }

@@ -19,6 +19,4 @@ static bool erase_patiently(unsigned slot) {
 static const wh_store_memory settings_memory = {
     .erase = erase_patiently, .write = hal_settings_write, .read = hal_settings_read};
 
-static void own_configuration(wh_rig_config *config) { rig_configuration(config); }
-
 #endif

@@ -1,12 +1,13 @@
 /* cell.c: load cell and supply by the chip's 12-bit converter (RM0090, 13 and 10).
  *
  * Timer 3 starts 32,000 conversions of the pair a second; DMA lays them down, and interrupts when half of its memory is
- * full: 64 pairs, 2 ms. A sample is their mean, stamped with the middle of them, so that it has no delay left; a force that
- * turns at 6 Hz comes out 0.02 % too small. One count of the converter is 109 mN; the mean of 64 has 1.7 mN, if there is
+ * full: 64 pairs, 2 ms. A sample is their mean, stamped with the middle of them, so that it has no delay left, and comes
+ * when the next is there, by which what a mean takes from a crest is made up for. One count of the converter is 109 mN; the mean of 64 has 1.7 mN, if there is
  * noise of half a count, and is handed on in steps of 6.8 mN.
  *
  * The amplifier puts no force at half of the reference. At either end it is saturated; a whole sample at the lower end is a
  * broken wire, which is pulled down there. */
+#include "hal/averaged.h"
 #include "hal/loadcell.h"
 #include "hal/motor.h"
 
@@ -43,7 +44,7 @@ static void start_dma(void) {
     reg_store(DMA2_S0CR, 0);
     reg_store(DMA2_LIFCR, DMA2_S0_ALL_FLAGS);
     reg_store(DMA2_S0PAR, ADC1_DR);
-    reg_store(DMA2_S0M0AR, (uint32_t)(uintptr_t)pair);
+    reg_store(DMA2_S0M0AR, reg_address(pair));
     reg_store(DMA2_S0NDTR, 2U * PAIRS * 2U);
     const uint32_t settings = DMA_CR_PRIORITY_HIGH | DMA_CR_MSIZE_16 | DMA_CR_PSIZE_16 |
                               DMA_CR_MINC | DMA_CR_CIRC | DMA_CR_TCIE | DMA_CR_HTIE;
@@ -95,6 +96,33 @@ static hal_load_status status_of(uint32_t least, uint32_t most) {
                                         : HAL_LOAD_OK;
 }
 
+/* The last two means, of which there are so many. */
+static hal_load_sample mean[2];
+static unsigned means;
+
+/* The means of a converter that went on all the time. */
+static bool follows(const hal_load_sample *before, const hal_load_sample *sample) {
+    const uint32_t passed = sample->ticks - before->ticks;
+    return before->status == HAL_LOAD_OK && sample->status == HAL_LOAD_OK &&
+           passed > PAIRS_TICKS / 2U && passed < PAIRS_TICKS + PAIRS_TICKS / 2U;
+}
+
+/* The mean before this one is a sample now. */
+static void hand_on(const hal_load_sample *sample) {
+    if (means > 0 && head - tail < SAMPLES_KEPT) {
+        volatile hal_load_sample *to = &samples[head % SAMPLES_KEPT];
+        const bool between = means > 1U && follows(&mean[0], &mean[1]) && follows(&mean[1], sample);
+        to->ticks = mean[1].ticks;
+        to->raw =
+            between ? hal_averaged_middle(mean[0].raw, mean[1].raw, sample->raw) : mean[1].raw;
+        to->status = mean[1].status;
+        head++;
+    }
+    mean[0] = mean[1];
+    mean[1] = *sample;
+    means += means < 2U ? 1U : 0U;
+}
+
 /* 64 counts of 12 bits are 18 bits: four to one of ours. */
 static void average(unsigned half, uint32_t ticks) {
     uint32_t sum = 0;
@@ -109,13 +137,10 @@ static void average(unsigned half, uint32_t ticks) {
         most = count > most ? count : most;
     }
     supply_sum = supply;
-    if (head - tail < SAMPLES_KEPT) {
-        volatile hal_load_sample *to = &samples[head % SAMPLES_KEPT];
-        to->ticks = ticks;
-        to->raw = ((int32_t)sum - (int32_t)PAIRS * MIDDLE) / 4;
-        to->status = (uint8_t)status_of(least, most);
-        head++;
-    }
+    const hal_load_sample sample = {.ticks = ticks,
+                                    .raw = ((int32_t)sum - (int32_t)PAIRS * MIDDLE) / 4,
+                                    .status = (uint8_t)status_of(least, most)};
+    hand_on(&sample);
 }
 
 /* Both flags at once: a whole half was not looked at, and is being overwritten: it is left out. */

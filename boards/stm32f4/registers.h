@@ -12,10 +12,13 @@
 #if BOARD_REGISTERS_FAKED
 uint32_t reg_load(uint32_t address);
 void reg_store(uint32_t address, uint32_t value);
+uint32_t reg_address(volatile void *memory);
 #else
 #include "boards/shared/metal.h"
 static inline uint32_t reg_load(uint32_t address) { return REGISTER(address); }
 static inline void reg_store(uint32_t address, uint32_t value) { REGISTER(address) = value; }
+/* Memory as DMA is told of it. */
+static inline uint32_t reg_address(volatile void *memory) { return (uint32_t)(uintptr_t)memory; }
 #endif
 
 /* Those bits of `mask` become `bits`, the others stay. Not against an interrupt that does the same. */

@@ -11,9 +11,10 @@
 #define USART6_IRQ 71U
 #define USART6_FUNCTION 8U
 
-/* Powers of two: indices count on and wrap. A control step of 2 ms takes 23 bytes at most. */
+/* Powers of two: indices count on and wrap. A control step of 2 ms takes 23 bytes at most, and in each the console gives out as
+ * many as there is room for: its answers wait with itself. */
 #define IN_BYTES 128U
-#define OUT_BYTES 512U
+#define OUT_BYTES 128U
 
 static volatile char in[IN_BYTES];
 static volatile uint32_t in_head; /* the interrupt's */

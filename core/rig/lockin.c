@@ -339,6 +339,7 @@ static void begin_turn(wh_lockin *lockin) {
 
 /* --- pieces ------------------------------------------------------------------------------------- */
 
+#if WH_RIG_SMALL_PIECES
 /* So many are done in one go, or one after the other: true when the last is. */
 static bool last_piece(wh_lockin *lockin, unsigned pieces) {
     lockin->piece++;
@@ -348,17 +349,19 @@ static bool last_piece(wh_lockin *lockin, unsigned pieces) {
     lockin->piece = 0;
     return true;
 }
+#endif
 
 /* True when the shape is there. */
 static bool shape(const wh_rotor_config *rotor, wh_lockin *lockin) {
     const wh_real speed_radps =
         WH_RIG_TWO_PI * (wh_real)WH_RIG_TICKS_PER_S / (wh_real)lockin->next.turn_ticks;
-    if (WH_RIG_SMALL_PIECES) {
-        wh_turn_angle_shape_piece(rotor, &lockin->angle, speed_radps, lockin->piece);
-        return last_piece(lockin, WH_TURN_ANGLE_SHAPES);
-    }
+#if WH_RIG_SMALL_PIECES
+    wh_turn_angle_shape_piece(rotor, &lockin->angle, speed_radps, lockin->piece);
+    return last_piece(lockin, WH_TURN_ANGLE_SHAPES);
+#else
     wh_turn_angle_shape(rotor, &lockin->angle, speed_radps);
     return true;
+#endif
 }
 
 /* True when sensor 2's mark has said what it can. */
@@ -369,14 +372,17 @@ static bool correct(const wh_rotor_config *rotor, wh_lockin *lockin) {
     }
     const wh_real split =
         (wh_real)(turn->split_ticks - turn->begin_ticks) / (wh_real)turn->turn_ticks;
-    if (WH_RIG_SMALL_PIECES && lockin->piece == 0) {
+#if WH_RIG_SMALL_PIECES
+    if (lockin->piece == 0) {
         wh_turn_angle_split_waves(&lockin->angle, split);
-    } else if (WH_RIG_SMALL_PIECES) {
-        wh_turn_angle_split_rest(rotor, &lockin->angle, split);
     } else {
-        wh_turn_angle_split(rotor, &lockin->angle, split);
+        wh_turn_angle_split_rest(rotor, &lockin->angle, split);
     }
-    return !WH_RIG_SMALL_PIECES || last_piece(lockin, 2);
+    return last_piece(lockin, 2);
+#else
+    wh_turn_angle_split(rotor, &lockin->angle, split);
+    return true;
+#endif
 }
 
 /* True when the turn's result is there. */

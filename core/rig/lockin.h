@@ -34,12 +34,7 @@ extern "C" {
 #define WH_LOCKIN_SAMPLES 384U /* that can wait: a turn at 100 rpm, 2 ms a sample, and a quarter */
 #endif
 #define WH_LOCKIN_HALVES_AT_ONCE 3U /* half nodes worked on in one control step, */
-/* Where a float's product takes 200 cycles (1): one half node in a control step, and what is one piece of work elsewhere is done in
- * several, in steps without a sample. Other pieces, the same numbers. */
-#ifndef WH_RIG_SMALL_PIECES
-#define WH_RIG_SMALL_PIECES 0
-#endif
-#define WH_LOCKIN_STALE_AT_ONCE 8U /* and so many samples dropped that belong to no turn */
+#define WH_LOCKIN_STALE_AT_ONCE 8U  /* and so many samples dropped that belong to no turn */
 
 /* Why a turn does not count: X(name, words). */
 #define WH_TURN_ROWS(X) \

@@ -58,13 +58,13 @@ static void merge_piece(const wh_measure_config *config, wh_measure *measure) {
         wh_merge_judge(&config->result, &config->rotor, &measure->merge, angle, force);
         return;
     }
-    if (WH_RIG_SMALL_PIECES) {
-        wh_merge_mean_piece(&config->result, &config->rotor, &measure->merge, angle,
-                            measure->tare.mean_N, force, piece);
-    } else {
-        wh_merge_mean(&config->result, &config->rotor, &measure->merge, angle, measure->tare.mean_N,
-                      force);
-    }
+#if WH_RIG_SMALL_PIECES
+    wh_merge_mean_piece(&config->result, &config->rotor, &measure->merge, angle,
+                        measure->tare.mean_N, force, piece);
+#else
+    wh_merge_mean(&config->result, &config->rotor, &measure->merge, angle, measure->tare.mean_N,
+                  force);
+#endif
     if (piece == 0) {
         force->left_out += measure->lockin.skipped - measure->skipped_before;
     }

@@ -2,7 +2,7 @@
 #ifndef WH_RIG_POLAR_H
 #define WH_RIG_POLAR_H
 
-#include "core/angle.h"
+#include "core/real.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -10,6 +10,7 @@ extern "C" {
 
 #define wh_polar WH_NAME(wh_polar)
 #define wh_polar_begin WH_NAME(wh_polar_begin)
+#define wh_polar_rounds WH_NAME(wh_polar_rounds)
 
 /* x = radius cos(angle), y = radius sin(angle) without square root and arc tangent: the angle is
  * improved with the core's own sine until y vanishes in the turned frame. angle_rad: -pi ... pi.
@@ -20,26 +21,7 @@ void wh_polar(wh_real x, wh_real y, wh_real *radius, wh_real *angle_rad);
  * fifth power: four are plenty. */
 #define WH_POLAR_ROUNDS 4U
 wh_real wh_polar_begin(wh_real x, wh_real y);
-
-/* Some rounds. */
-WH_INLINE void wh_polar_rounds(wh_real x, wh_real y, unsigned rounds, wh_real *radius,
-                               wh_real *angle_rad) {
-    wh_real angle = *angle_rad;
-    wh_real along = WH_R(0.0);
-    for (unsigned round = 0; round < rounds; round++) {
-        wh_real sine;
-        wh_real cosine;
-        wh_sincos(wh_phase_from_rad(angle), &sine, &cosine);
-        along = x * cosine + y * sine;
-        if (!(along > WH_R(0.0))) {
-            break;
-        }
-        const wh_real t = (y * cosine - x * sine) / along;
-        angle += t * (WH_R(1.0) - t * t * (WH_R(1.0) / WH_R(3.0)));
-    }
-    *radius = along;
-    *angle_rad = angle;
-}
+void wh_polar_rounds(wh_real x, wh_real y, unsigned rounds, wh_real *radius, wh_real *angle_rad);
 
 #ifdef __cplusplus
 }

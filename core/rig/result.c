@@ -2,6 +2,7 @@
 #include "result.h"
 
 #include "core/angle.h"
+#include "core/packed_words.h"
 #include "core/root.h"
 #include "datasheet.h"
 #include "polar.h"
@@ -142,12 +143,6 @@ WH_INLINE void begin_mean(const wh_merge *merge, const wh_turn_angle *angle, wh_
     if (angle->fed && angle->whole_rad > WH_R(0.0)) {
         measured->left_part = WH_ABS(merge->swing_rad) / angle->whole_rad;
     }
-    measured->phase_rad = wh_polar_begin(merge->in_phase_N, -merge->quadrature_N);
-}
-
-WH_INLINE void turn_mean(const wh_merge *merge, wh_measured *measured, unsigned rounds) {
-    wh_polar_rounds(merge->in_phase_N, -merge->quadrature_N, rounds, &measured->amplitude_N,
-                    &measured->phase_rad);
 }
 
 WH_INLINE wh_real size2_of(const wh_merge *merge) {
@@ -163,15 +158,15 @@ WH_INLINE wh_real t2_of(const wh_merge *merge) {
     return student * student;
 }
 
-/* Scatter along the mean and across it, in the halves' places for now. */
-WH_INLINE void scatter_of_mean(const wh_merge *merge, wh_real size2, wh_real t2,
-                               wh_measured *measured) {
+WH_INLINE void jitter_of_marks(const wh_merge *merge, wh_measured *measured) {
     if (merge->jitters > 0) {
         measured->jitter_s = WH_SQRT(merge->jitter_s2 / (WH_R(6.0) * (wh_real)merge->jitters));
     }
-    if (!has_halves(merge, size2)) {
-        return;
-    }
+}
+
+/* Scatter along the mean and across it, in the halves' places for now. */
+WH_INLINE void scatter_of_mean(const wh_merge *merge, wh_real size2, wh_real t2,
+                               wh_measured *measured) {
     const wh_real x = merge->in_phase_N;
     const wh_real y = -merge->quadrature_N;
     const wh_real *s = merge->scatter_N2;
@@ -224,32 +219,43 @@ WH_INLINE void phase_half(const wh_result_config *config, const wh_merge *merge,
         square_of(WH_R(0.1) * by->cut) + square_of(drift) + square_of(config->phase_floor_rad));
 }
 
+#if WH_RIG_SMALL_PIECES
 void wh_merge_mean_piece(const wh_result_config *config, const wh_rotor_config *rotor,
                          const wh_merge *merge, const wh_turn_angle *angle, wh_real tare_N,
                          wh_measured *measured, unsigned piece) {
     if (piece == 0) {
         begin_mean(merge, angle, tare_N, measured);
+        measured->phase_rad = wh_polar_begin(merge->in_phase_N, -merge->quadrature_N);
         return;
     }
     if (merge->turns == 0) {
+        measured->phase_rad = WH_R(0.0);
         return;
     }
     if (piece < 3U) {
-        turn_mean(merge, measured, WH_POLAR_ROUNDS / 2U);
+        wh_polar_rounds(merge->in_phase_N, -merge->quadrature_N, WH_POLAR_ROUNDS / 2U,
+                        &measured->amplitude_N, &measured->phase_rad);
         return;
     }
     const wh_real size2 = size2_of(merge);
     if (piece == 3U) {
+        jitter_of_marks(merge, measured);
+    }
+    if (!has_halves(merge, size2)) {
+        return;
+    }
+    if (piece == 3U) {
         scatter_of_mean(merge, size2, t2_of(merge), measured);
-    } else if (has_halves(merge, size2)) {
-        const parts_off by = off_of(rotor, merge, angle);
-        if (piece == 4U) {
-            amplitude_half(config, rotor, merge, angle, size2, &by, measured);
-        } else {
-            phase_half(config, merge, angle, size2, t2_of(merge), &by, measured);
-        }
+        return;
+    }
+    const parts_off by = off_of(rotor, merge, angle);
+    if (piece == 4U) {
+        amplitude_half(config, rotor, merge, angle, size2, &by, measured);
+    } else {
+        phase_half(config, merge, angle, size2, t2_of(merge), &by, measured);
     }
 }
+#endif
 
 void wh_merge_mean(const wh_result_config *config, const wh_rotor_config *rotor,
                    const wh_merge *merge, const wh_turn_angle *angle, wh_real tare_N,
@@ -258,15 +264,17 @@ void wh_merge_mean(const wh_result_config *config, const wh_rotor_config *rotor,
     if (merge->turns == 0) {
         return;
     }
+    wh_polar(merge->in_phase_N, -merge->quadrature_N, &measured->amplitude_N, &measured->phase_rad);
+    jitter_of_marks(merge, measured);
     const wh_real size2 = size2_of(merge);
-    const wh_real t2 = t2_of(merge);
-    turn_mean(merge, measured, WH_POLAR_ROUNDS);
-    scatter_of_mean(merge, size2, t2, measured);
-    if (has_halves(merge, size2)) {
-        const parts_off by = off_of(rotor, merge, angle);
-        amplitude_half(config, rotor, merge, angle, size2, &by, measured);
-        phase_half(config, merge, angle, size2, t2, &by, measured);
+    if (!has_halves(merge, size2)) {
+        return;
     }
+    const wh_real t2 = t2_of(merge);
+    const parts_off by = off_of(rotor, merge, angle);
+    scatter_of_mean(merge, size2, t2, measured);
+    amplitude_half(config, rotor, merge, angle, size2, &by, measured);
+    phase_half(config, merge, angle, size2, t2, &by, measured);
 }
 
 /* --- verdict ------------------------------------------------------------------------------------ */
@@ -362,12 +370,12 @@ void wh_merge_judge(const wh_result_config *config, const wh_rotor_config *rotor
 
 const char *wh_why_text(wh_why why) {
 #define WH_WHY_CASE(name, quality, words) \
-    case name: return words;
+    case name: return WH_WORDS(words);
     switch (why) {
         WH_WHY_ROWS(WH_WHY_CASE)
     case WH_WHYS: break;
     }
-    return "unknown reason";
+    return WH_WORDS("unknown reason");
 }
 
 const char *wh_quality_text(wh_quality quality) {

@@ -131,11 +131,13 @@ void wh_merge_mean(const wh_result_config *config, const wh_rotor_config *rotor,
                    const wh_merge *merge, const wh_turn_angle *angle, wh_real tare_N,
                    wh_measured *measured);
 
-/* The same in pieces, each once, in their order: 0 ... WH_MERGE_MEAN_PIECES - 1. Until the last *measured is under way. */
 #define WH_MERGE_MEAN_PIECES 6U
+#if WH_RIG_SMALL_PIECES
+/* The same in pieces, each once, in their order: 0 ... WH_MERGE_MEAN_PIECES - 1. Until the last *measured is under way. */
 void wh_merge_mean_piece(const wh_result_config *config, const wh_rotor_config *rotor,
                          const wh_merge *merge, const wh_turn_angle *angle, wh_real tare_N,
                          wh_measured *measured, unsigned piece);
+#endif
 
 /* Quality and reason of what wh_merge_mean() has found. */
 void wh_merge_judge(const wh_result_config *config, const wh_rotor_config *rotor,
@@ -144,7 +146,7 @@ void wh_merge_judge(const wh_result_config *config, const wh_rotor_config *rotor
 /* Student's factor, two-sided, 95 %. Within 0.3 % for 2 and more degrees of freedom, 0 for none. */
 wh_real wh_student(uint32_t freedom);
 
-/* In words, for consoles. */
+/* In words, for consoles; why, as WH_WORDS() has it (core/packed_words.h). */
 const char *wh_why_text(wh_why why);
 const char *wh_quality_text(wh_quality quality);
 

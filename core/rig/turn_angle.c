@@ -81,7 +81,8 @@ static void add_cut(const wh_rotor_config *config, wh_turn_angle *angle, wh_real
     angle->second_sine -= size * turned.sine;
 }
 
-static void shape_swing(const wh_rotor_config *config, wh_turn_angle *angle, wh_real speed_radps) {
+WH_INLINE void shape_swing(const wh_rotor_config *config, wh_turn_angle *angle,
+                           wh_real speed_radps) {
     const wh_real weight_Nm = config->mass_moment_kgm * config->gravity_mps2;
     const wh_real turning = angle->inertia_kgm2 * speed_radps;
     const wh_real sum = WH_SQRT(turning * turning + config->damping_Nms * config->damping_Nms);
@@ -103,7 +104,7 @@ static void shape_swing(const wh_rotor_config *config, wh_turn_angle *angle, wh_
     add_cut(config, angle, speed_radps);
 }
 
-static void shape_begin(const wh_rotor_config *config, wh_turn_angle *angle) {
+WH_INLINE void shape_begin(const wh_rotor_config *config, wh_turn_angle *angle) {
     /* base + what is added at the begin is the mark's angle, and u there is base + psi - gamma */
     const wh_real begins = config->mark_rad[0] + angle->lag_rad - config->gravity_rad;
     for (unsigned round = 0; round < 2U; round++) {
@@ -113,7 +114,7 @@ static void shape_begin(const wh_rotor_config *config, wh_turn_angle *angle) {
     }
 }
 
-static void shape_base(const wh_rotor_config *config, wh_turn_angle *angle) {
+WH_INLINE void shape_base(const wh_rotor_config *config, wh_turn_angle *angle) {
     angle->base_rad = config->mark_rad[0] - added(angle, wave_of(angle->begin_rad));
 }
 
@@ -123,6 +124,7 @@ void wh_turn_angle_shape(const wh_rotor_config *config, wh_turn_angle *angle, wh
     shape_base(config, angle);
 }
 
+#if WH_RIG_SMALL_PIECES
 void wh_turn_angle_shape_piece(const wh_rotor_config *config, wh_turn_angle *angle,
                                wh_real speed_radps, unsigned piece) {
     if (piece == 0) {
@@ -133,22 +135,11 @@ void wh_turn_angle_shape_piece(const wh_rotor_config *config, wh_turn_angle *ang
         shape_base(config, angle);
     }
 }
+#endif
 
-wh_real wh_turn_angle_split(const wh_rotor_config *config, wh_turn_angle *angle, wh_real split) {
-    wh_turn_angle_split_waves(angle, split);
-    return wh_turn_angle_split_rest(config, angle, split);
-}
-
-void wh_turn_angle_split_waves(wh_turn_angle *angle, wh_real split) {
-    angle->split_from = wave_of(angle->begin_rad);
-    angle->split_to = wave_of(angle->begin_rad + WH_RIG_TWO_PI * split);
-}
-
-wh_real wh_turn_angle_split_rest(const wh_rotor_config *config, wh_turn_angle *angle,
-                                 wh_real split) {
-    const wh_real passed = WH_RIG_TWO_PI * split;
-    const wh_wave from = angle->split_from;
-    const wh_wave to = angle->split_to;
+/* u's waves at the turn's begin and where it is split are known. */
+WH_INLINE wh_real split_by(const wh_rotor_config *config, wh_turn_angle *angle, wh_real passed,
+                           wh_wave from, wh_wave to) {
     const wh_real off = config->mark_rad[1] - (angle->base_rad + passed + added(angle, to));
     const wh_real swing = angle->swing_rad;
     if (!(angle->whole_rad > WH_R(0.0))) {
@@ -190,6 +181,24 @@ wh_real wh_turn_angle_split_rest(const wh_rotor_config *config, wh_turn_angle *a
     angle->inertia_kgm2 *= WH_R(1.0) + change / (wh_real)turns_averaged;
     return off;
 }
+
+wh_real wh_turn_angle_split(const wh_rotor_config *config, wh_turn_angle *angle, wh_real split) {
+    const wh_real passed = WH_RIG_TWO_PI * split;
+    return split_by(config, angle, passed, wave_of(angle->begin_rad),
+                    wave_of(angle->begin_rad + passed));
+}
+
+#if WH_RIG_SMALL_PIECES
+void wh_turn_angle_split_waves(wh_turn_angle *angle, wh_real split) {
+    angle->split_from = wave_of(angle->begin_rad);
+    angle->split_to = wave_of(angle->begin_rad + WH_RIG_TWO_PI * split);
+}
+
+wh_real wh_turn_angle_split_rest(const wh_rotor_config *config, wh_turn_angle *angle,
+                                 wh_real split) {
+    return split_by(config, angle, WH_RIG_TWO_PI * split, angle->split_from, angle->split_to);
+}
+#endif
 
 wh_real wh_turn_angle_at(const wh_turn_angle *angle, wh_real part) {
     const wh_real passed = WH_RIG_TWO_PI * part;

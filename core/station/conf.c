@@ -18,25 +18,38 @@ static const wh_real per_unit[UNITS] = {WH_CONF_UNIT_ROWS(UNIT)};
 #undef UNIT
 #define DEG per_unit[UNITS_DEG]
 
+/* Where words stay in flash, so do these. */
+#if defined(WH_WORDS_FROM)
+#define ROWS_KEPT WH_FLASH
+#else
+#define ROWS_KEPT
+#endif
+
 #define ROW(name, number, kind, unit, least, most, member, units, words) \
-    {#name,       unit,          WH_SAY(words), \
-     WH_R(least), WH_R(most),    number, \
-     kind,        UNITS_##units, offsetof(wh_rig_config, member)},
-static const wh_conf_row rows[] WH_FLASH = {WH_CONF_ROWS(ROW)};
+    {#name,  unit, WH_SAY(words), WH_R(least), WH_R(most), offsetof(wh_rig_config, member), \
+     number, kind, UNITS_##units},
+static const wh_conf_row rows[] ROWS_KEPT = {WH_CONF_ROWS(ROW)};
 #undef ROW
 
 #define ENTRY_BYTES 5U /* a setting's number, and its value */
 _Static_assert(WH_CONF_COUNT *ENTRY_BYTES <= WH_STORE_PAYLOAD_MOST, "all settings fit into a slot");
 
-wh_conf_row wh_conf_row_of(wh_conf_id id) {
-    wh_conf_row row;
-    wh_flash_copy(&row, &rows[id], sizeof row);
-    return row;
+#if defined(WH_WORDS_FROM)
+static const wh_conf_row *row_in(wh_conf_row *room, unsigned id) {
+    wh_flash_copy(room, &rows[id], sizeof *room);
+    return room;
 }
+#define ROW_IN(room, id) row_in(room, id)
+#else
+#define ROW_IN(room, id) ((void)(room), &rows[id])
+#endif
+#define ROW(id) ROW_IN(&(wh_conf_row){.name = NULL}, id)
+
+const wh_conf_row *wh_conf_row_of(wh_conf_id id, wh_conf_row *room) { return ROW_IN(room, id); }
 
 wh_conf_id wh_conf_find(const char *name) {
     unsigned id = 0;
-    while (id < WH_CONF_COUNT && !wh_answer_is(name, wh_conf_row_of((wh_conf_id)id).name)) {
+    while (id < WH_CONF_COUNT && !wh_answer_is(name, ROW(id)->name)) {
         id++;
     }
     return (wh_conf_id)id;
@@ -52,12 +65,12 @@ static void *member_of(wh_rig_config *c, const wh_conf_row *row) {
 }
 
 static wh_real value_of(wh_rig_config *c, wh_conf_id id) {
-    const wh_conf_row row = wh_conf_row_of(id);
-    const void *member = member_of(c, &row);
+    const wh_conf_row *row = ROW(id);
+    const void *member = member_of(c, row);
     if (id == WH_CONF_cell_reversed) {
         return *(const wh_real *)member < WH_R(0.0) ? WH_R(1.0) : WH_R(0.0);
     }
-    switch ((wh_conf_kind)row.kind) {
+    switch ((wh_conf_kind)row->kind) {
     case WH_CONF_WHOLE: return (wh_real) * (const uint32_t *)member;
     case WH_CONF_SWITCH: return *(const bool *)member ? WH_R(1.0) : WH_R(0.0);
     case WH_CONF_FEEDS: return (wh_real) * (const wh_feed_when *)member;
@@ -71,21 +84,21 @@ static wh_real value_of(wh_rig_config *c, wh_conf_id id) {
     if (id == WH_CONF_cell_scale) {
         value = WH_ABS(value);
     }
-    return value * per_unit[row.units];
+    return value * per_unit[row->units];
 }
 
 /* What comes of several settings is put by put_rotor(), put_sensors() and put_cell(), behind these. */
 static void put(wh_rig_config *c, wh_conf_id id, wh_real value) {
-    const wh_conf_row row = wh_conf_row_of(id);
-    void *member = member_of(c, &row);
+    const wh_conf_row *row = ROW(id);
+    void *member = member_of(c, row);
     if (id == WH_CONF_cell_reversed) {
         return;
     }
-    switch ((wh_conf_kind)row.kind) {
+    switch ((wh_conf_kind)row->kind) {
     case WH_CONF_WHOLE: *(uint32_t *)member = (uint32_t)value; break;
     case WH_CONF_SWITCH: *(bool *)member = is_on(value); break;
     case WH_CONF_FEEDS: *(wh_feed_when *)member = (wh_feed_when)(int)value; break;
-    case WH_CONF_REAL: *(wh_real *)member = value / per_unit[row.units]; break;
+    case WH_CONF_REAL: *(wh_real *)member = value / per_unit[row->units]; break;
     case WH_CONF_KINDS: break;
     }
 }
@@ -150,9 +163,9 @@ static void renew(const wh_conf *conf) {
 /* --- what may be set ----------------------------------------------------------------------------------- */
 
 static bool in_range(wh_conf_id id, wh_real value) {
-    const wh_conf_row row = wh_conf_row_of(id);
-    return value >= row.least && value <= row.most &&
-           ((wh_conf_kind)row.kind == WH_CONF_REAL || same(value, (wh_real)(int32_t)value));
+    const wh_conf_row *row = ROW(id);
+    return value >= row->least && value <= row->most &&
+           ((wh_conf_kind)row->kind == WH_CONF_REAL || same(value, (wh_real)(int32_t)value));
 }
 
 static bool go_together(const wh_conf *conf) {
@@ -162,10 +175,10 @@ static bool go_together(const wh_conf *conf) {
            value[WH_CONF_supply_least] < value[WH_CONF_supply_most];
 }
 
-/* A program without the observer's scene feeds nothing forward, and one that cannot work on a swing has none. */
-static bool is_absent(const wh_conf *conf, wh_conf_id id, wh_real value) {
-    return is_on(value) && ((id == WH_CONF_feeds && conf->config->observer.scene == NULL) ||
-                            (id == WH_CONF_swings && !WH_RIG_SWINGS));
+/* What this program is built without. */
+static bool is_absent(wh_conf_id id, wh_real value) {
+    return is_on(value) &&
+           ((id == WH_CONF_feeds && !WH_RIG_FEEDS) || (id == WH_CONF_swings && !WH_RIG_SWINGS));
 }
 
 wh_conf_status wh_conf_set(wh_conf *conf, wh_conf_id id, wh_real value) {
@@ -173,7 +186,7 @@ wh_conf_status wh_conf_set(wh_conf *conf, wh_conf_id id, wh_real value) {
     if (!in_range(id, value)) {
         return WH_CONF_RANGE;
     }
-    if (is_absent(conf, id, value)) {
+    if (is_absent(id, value)) {
         return WH_CONF_ABSENT;
     }
     const wh_real before = conf->value[id];
@@ -191,15 +204,13 @@ wh_conf_status wh_conf_set(wh_conf *conf, wh_conf_id id, wh_real value) {
 static const char *words_of(wh_conf_id id) {
 #define WORDS(kind, word) \
     case kind: return word;
-    switch ((wh_conf_kind)wh_conf_row_of(id).kind) {
-        WH_CONF_KIND_ROWS(WORDS) case WH_CONF_KINDS : break;
-    }
+    switch ((wh_conf_kind)ROW(id)->kind) { WH_CONF_KIND_ROWS(WORDS) case WH_CONF_KINDS : break; }
 #undef WORDS
     return "";
 }
 
 static bool is_choice(wh_conf_id id) {
-    const wh_conf_kind kind = (wh_conf_kind)wh_conf_row_of(id).kind;
+    const wh_conf_kind kind = (wh_conf_kind)ROW(id)->kind;
     return kind != WH_CONF_REAL && kind != WH_CONF_WHOLE;
 }
 
@@ -251,8 +262,8 @@ void wh_conf_default(wh_conf *conf) {
 
 static void take(wh_conf *conf, unsigned number, wh_real value) {
     for (unsigned id = 0; id < WH_CONF_COUNT; id++) {
-        if (wh_conf_row_of((wh_conf_id)id).number == number && in_range((wh_conf_id)id, value) &&
-            !is_absent(conf, (wh_conf_id)id, value)) {
+        if (ROW(id)->number == number && in_range((wh_conf_id)id, value) &&
+            !is_absent((wh_conf_id)id, value)) {
             conf->value[id] = value;
         }
     }
@@ -289,7 +300,7 @@ wh_conf_status wh_conf_save(wh_conf *conf) {
     wh_bytes bytes = {.to = payload, .room = sizeof payload};
     for (unsigned id = 0; id < WH_CONF_COUNT; id++) {
         if (is_set(conf, (wh_conf_id)id)) {
-            wh_bytes_put(&bytes, wh_conf_row_of((wh_conf_id)id).number, 1);
+            wh_bytes_put(&bytes, ROW(id)->number, 1);
             wh_bytes_put_float(&bytes, (float)conf->value[id]);
         }
     }

@@ -28,10 +28,10 @@ typedef struct wh_conf_row {
     const char *words;
     wh_real least;
     wh_real most;
-    uint8_t number;
-    uint8_t kind; /* a wh_conf_kind */
-    uint8_t units;
     uint16_t place; /* of the member */
+    uint8_t number;
+    unsigned char kind : 4; /* a wh_conf_kind */
+    unsigned char units : 4;
 } wh_conf_row;
 
 /* What became of a value. */
@@ -68,7 +68,8 @@ typedef struct wh_conf {
 void wh_conf_start(wh_conf *conf, void (*own)(wh_rig_config *config), const wh_store_memory *memory,
                    wh_rig_config *config);
 
-wh_conf_row wh_conf_row_of(wh_conf_id id);
+/* *room is for it where constants stay in flash (core/flash.h). */
+const wh_conf_row *wh_conf_row_of(wh_conf_id id, wh_conf_row *room);
 
 /* WH_CONF_COUNT when there is none of this name. */
 wh_conf_id wh_conf_find(const char *name);

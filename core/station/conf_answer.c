@@ -21,6 +21,11 @@ static void add_value(wh_text *answer, const char *name, wh_conf_id id, wh_real 
     }
 }
 
+static void add_setting(wh_text *answer, const wh_conf *conf, wh_conf_id id) {
+    wh_conf_row room;
+    add_value(answer, wh_conf_row_of(id, &room)->name, id, conf->value[id]);
+}
+
 static wh_station_error list(const wh_conf *conf, const wh_words *words, wh_text *answer) {
     wh_real from = WH_R(0.0);
     if (words->count > 3U) {
@@ -35,7 +40,7 @@ static wh_station_error list(const wh_conf *conf, const wh_words *words, wh_text
     wh_answer_count(answer, "settings", WH_CONF_COUNT);
     for (; id < WH_CONF_COUNT; id++) {
         const unsigned before = answer->length;
-        add_value(answer, wh_conf_row_of((wh_conf_id)id).name, (wh_conf_id)id, conf->value[id]);
+        add_setting(answer, conf, (wh_conf_id)id);
         if (answer->truncated || answer->length + LIST_TAIL > answer->size) {
             wh_answer_back(answer, before);
             break;
@@ -53,17 +58,18 @@ static wh_station_error get(const wh_conf *conf, wh_conf_id id, wh_text *answer)
         WH_CONF_KIND_ROWS(WORD)
 #undef WORD
     };
-    const wh_conf_row row = wh_conf_row_of(id);
+    wh_conf_row room;
+    const wh_conf_row *row = wh_conf_row_of(id, &room);
     wh_text_add(answer, "OK");
-    add_value(answer, row.name, id, conf->value[id]);
-    wh_answer_word(answer, "type", kinds[row.kind]);
+    add_value(answer, row->name, id, conf->value[id]);
+    wh_answer_word(answer, "type", kinds[row->kind]);
     if (wh_conf_text(id, conf->value[id]) == NULL) {
-        wh_answer_word(answer, "unit", row.unit);
-        wh_answer_exact(answer, "least", row.least);
-        wh_answer_exact(answer, "most", row.most);
+        wh_answer_word(answer, "unit", row->unit);
+        wh_answer_exact(answer, "least", row->least);
+        wh_answer_exact(answer, "most", row->most);
     }
     add_value(answer, "default", id, conf->standard[id]);
-    wh_answer_words(answer, row.words);
+    wh_answer_words(answer, row->words);
     return WH_STATION_FINE;
 }
 
@@ -84,7 +90,7 @@ static wh_station_error set(wh_conf *conf, wh_conf_id id, const char *typed, wh_
     const wh_conf_status status = wh_conf_type(conf, id, typed);
     if (status == WH_CONF_DONE) {
         wh_text_add(answer, "OK");
-        add_value(answer, wh_conf_row_of(id).name, id, conf->value[id]);
+        add_setting(answer, conf, id);
     }
     return refused(status);
 }

@@ -56,7 +56,7 @@ extern "C" {
 
 /* What waits: bytes that came; and that want out, of which half are the console's own. */
 #ifndef WH_STATION_IN_BYTES
-#define WH_STATION_IN_BYTES 512U
+#define WH_STATION_IN_BYTES 256U
 #endif
 #ifndef WH_STATION_OUT_BYTES
 #define WH_STATION_OUT_BYTES 1024U

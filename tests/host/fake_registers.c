@@ -7,7 +7,15 @@
 uint32_t reg_load(uint32_t address);
 void reg_store(uint32_t address, uint32_t value);
 
+uint32_t reg_address(volatile void *memory);
+
 fake_chip fake;
+
+/* Static memory: it stays where it is. */
+#define MEMORIES 8U
+#define MEMORY_BASE UINT32_C(0x20000000)
+#define MEMORY_BYTES UINT32_C(0x4000)
+static volatile void *memories[MEMORIES];
 
 static struct {
     uint32_t address;
@@ -55,4 +63,19 @@ void reg_store(uint32_t address, uint32_t value) {
     } else {
         fake_put(address, value);
     }
+}
+
+uint32_t reg_address(volatile void *memory) {
+    for (unsigned i = 0; i < MEMORIES; i++) {
+        if (memories[i] == NULL || memories[i] == memory) {
+            memories[i] = memory;
+            return MEMORY_BASE + i * MEMORY_BYTES;
+        }
+    }
+    abort();
+}
+
+volatile void *fake_memory(uint32_t address) {
+    const uint32_t place = (address - MEMORY_BASE) / MEMORY_BYTES;
+    return place < MEMORIES ? memories[place] : NULL;
 }

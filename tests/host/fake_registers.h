@@ -29,4 +29,7 @@ void fake_start(uint32_t (*load)(uint32_t), void (*store)(uint32_t, uint32_t));
 uint32_t fake_get(uint32_t address);
 void fake_put(uint32_t address, uint32_t value);
 
+/* The memory that DMA was told of by this address, of 32 bits on every machine; NULL: it was told of none. */
+volatile void *fake_memory(uint32_t address);
+
 #endif

@@ -4,6 +4,7 @@
 #include <math.h>
 
 #include "core/rig/rig.h"
+#include "hal/averaged.h"
 #include "hal/loadcell.h"
 #include "hal/slots.h"
 #include "tests/scattered.h"
@@ -169,6 +170,20 @@ static double force_at(const rig_orbit *orbit, double t_s) {
     return orbit->force_N[k] + (at - whole) * (orbit->force_N[k + 1U] - orbit->force_N[k]);
 }
 
+/* The mean of a coarse converter's counts around that time, as the cell's. */
+static int32_t mean_at(const rig_orbit *orbit, const rig_noise *noise, double t_s,
+                       double on_top_N) {
+    double sum = 0.0;
+    for (unsigned i = 0; i < noise->conversions; i++) {
+        const double at_s = t_s + 0.002 * (((double)i + 0.5) / noise->conversions - 0.5);
+        const double force_N = noise->mute ? 0.0 : (1.0 + noise->gain_off) * force_at(orbit, at_s);
+        sum +=
+            round((force_N + on_top_N) / noise->conversion_N + noise->conversion_counts * normal());
+    }
+    const double mean_N = noise->conversion_N * sum / noise->conversions;
+    return (int32_t)lround(mean_N / (double)HAL_LOADCELL_N_PER_COUNT);
+}
+
 void rig_measure(const rig_orbit *orbit, const rig_noise *noise, const wh_rotor_config *rotor,
                  unsigned before, unsigned turns, uint64_t scattered_seed, wh_measured *measured) {
     static wh_lockin lockin;
@@ -190,6 +205,7 @@ void rig_measure(const rig_orbit *orbit, const rig_noise *noise, const wh_rotor_
     double due_s = first_mark_s + noise->jitter_s * normal();
     unsigned done = 0;
     double shown_N = orbit->tare_N;
+    int32_t mean[3] = {0};
     for (uint32_t i = 1; merge.turns + merge.left_out < turns && done < before + turns; i++) {
         const double now_s = i * 0.002;
         while (due_s <= now_s) { /* the timer drops fractions */
@@ -202,9 +218,10 @@ void rig_measure(const rig_orbit *orbit, const rig_noise *noise, const wh_rotor_
                     noise->jitter_s * normal();
         }
         const double t_s = now_s - first_mark_s + (1.0 + noise->turned_by) * orbit->turn_s;
-        double force_N = orbit->tare_N +
-                         (noise->mute ? 0.0 : (1.0 + noise->gain_off) * force_at(orbit, t_s)) +
-                         noise->cell_N * normal() + noise->hum_N * sin(2.0 * PI * 60.0 * now_s);
+        const double on_top_N =
+            orbit->tare_N + noise->cell_N * normal() + noise->hum_N * sin(2.0 * PI * 60.0 * now_s);
+        double force_N =
+            on_top_N + (noise->mute ? 0.0 : (1.0 + noise->gain_off) * force_at(orbit, t_s));
         if (noise->spikes > 0.0 && uniform() < noise->spikes) {
             force_N += noise->spike_N;
         }
@@ -212,9 +229,16 @@ void rig_measure(const rig_orbit *orbit, const rig_noise *noise, const wh_rotor_
         if (now_s < frozen_from_s || now_s > frozen_from_s + noise->frozen_s) {
             shown_N = force_N;
         }
-        const double raw = shown_N / (double)HAL_LOADCELL_N_PER_COUNT;
-        const wh_load load =
-            wh_cell_load(&cell, begin + i * 2000U, (int32_t)lround(raw), WH_LOAD_OK);
+        int32_t raw = (int32_t)lround(shown_N / (double)HAL_LOADCELL_N_PER_COUNT);
+        uint32_t stamp = begin + i * HAL_LOADCELL_PERIOD_TICKS;
+        if (noise->conversions > 0) {
+            mean[0] = mean[1];
+            mean[1] = mean[2];
+            mean[2] = mean_at(orbit, noise, t_s, on_top_N);
+            raw = hal_averaged_middle(mean[0], mean[1], mean[2]);
+            stamp -= HAL_LOADCELL_PERIOD_TICKS;
+        }
+        const wh_load load = wh_cell_load(&cell, stamp, raw, WH_LOAD_OK);
         wh_lockin_load(&lockin, &load);
         if (wh_lockin_work(rotor, &cell, &lockin, WH_LOCKIN_HALVES_AT_ONCE) && ++done > before) {
             wh_merge_add(&judged, rotor, &merge, &lockin.turn, &lockin.angle);

@@ -46,6 +46,12 @@ void rig_orbit_find(const rig_plant *plant, double speed_rpm, double lead_rad, r
 typedef struct rig_noise {
     double cell_N;   /* standard deviations: of each sample's force, */
     double jitter_s; /* and of each mark's time */
+    /* a converter that is coarser than the cell's counts, and its driver: a sample is what a mean of so many conversions,
+     * evenly over its 2 ms, says with those beside it (hal/averaged.h); each conversion has whole counts of so much, which
+     * the converter's own noise moves by so many. 0: none */
+    unsigned conversions;
+    double conversion_N;
+    double conversion_counts;
     /* faults of the cell, all 0 for none */
     double gain_off;  /* it shows so much more, as a part */
     double hum_N;     /* amplitude of what a mains of 60 Hz adds */
