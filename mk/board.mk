@@ -125,6 +125,13 @@ endif
 build/tools/f405: $(call objects,host,$(addprefix tests/tools/,f405.c f405_seen.c f405_states.c emulated.c))
 	$(link)
 
+# The rig's firmware on an AVR, with the rig round its pins (tests/boards/atmega.sh).
+build/tools/atmega: $(call objects,host,$(addprefix tests/tools/,atmega.c atmega_slots.c atmega_states.c mega.c)) \
+    $(call objects,float,$(GEN)/rig_fixed.c) $(call libraries,float,virtual whirl)
+	$(say) LINK $@
+	@mkdir -p $(@D)
+	$(Q)$(CC) $(NATIVE) $(LINK_EXTRA) -o $@ $(filter %.o,$^) $(GROUP) $(filter %.a,$^) $(GROUP_END) -lsimavr -lelf -lm
+
 # Firmware whose plant is at the other end of a line (`whirl pil`), of families that have one: BOARD_LINK.
 define pil_program
 $(B)/$(1): $(call objects,float,$(2) boards/host/board.c boards/host/link.c) $(call libraries,float,$(3))
@@ -196,7 +203,7 @@ on_board = $(MAKE) -s BOARD=$(1) $(2)
 emulate-command: # of an image named IMAGE
 	@echo '$(call emulate,IMAGE)'
 
--include $(wildcard $(patsubst %.c,$(ELF)/%.d,$(UNITY_DIR)/unity.c $(PORTABLE_C) $(BOARD_C) $(TEST_C) $(SCENE_C) $(B)/tests/core_suites.c))
+-include $(wildcard $(foreach b,$(sort $(BOARD) $(FLASHED)),$(patsubst %.c,$(B)/$(b)/%.d,$(UNITY_DIR)/unity.c $(PORTABLE_C) $(BOARD_C) $(TEST_C) $(SCENE_C) $(B)/tests/core_suites.c)))
 
 .PHONY: emulate-now
 emulate-now: $(GEN)/.stamp

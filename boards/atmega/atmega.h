@@ -62,6 +62,24 @@ static inline atmega_instant atmega_instant_of(uint16_t count) {
 /* It as ticks. */
 uint32_t atmega_ticks_of(atmega_instant at);
 
+/* The watchdog, from now on resetting after 2048 << twice of its oscillator's clocks (DS 12.5.2); the second store within four
+ * clocks of the first. */
+static inline void atmega_watch(uint8_t twice) {
+    const uint8_t change = _BV(WDCE) | _BV(WDE);
+    const uint8_t settings =
+        (uint8_t)(_BV(WDE) | ((twice & 8U) != 0 ? _BV(WDP3) : 0U) | (twice & 7U));
+    const uint8_t before = atmega_hold();
+    __asm__ volatile("wdr");
+    WDTCSR = change;
+    WDTCSR = settings;
+    atmega_go_on(before);
+}
+
+/* The supply as it was when a sample of the load was last taken (cell.c): parts of ATMEGA_WHOLE a volt; 0: there is none. A division
+ * for each would be one in control steps that have no time for it. */
+#define ATMEGA_WHOLE 25600.0f
+float atmega_parts_per_V(void);
+
 /* Parts of the rig's hardware, each started by hal_clock_start() (rig_clock.c). */
 void atmega_motor_start(void);
 void atmega_slots_start(void);

@@ -35,7 +35,7 @@ _Static_assert(F_CPU / 32U == 1000000U / TIMER_COUNT_TICKS, "the prescaler's 32n
 #define REFERENCE _BV(REFS0)
 #define CONVERTER (_BV(ADEN) | _BV(ADPS2) | _BV(ADPS1) | _BV(ADPS0)) /* a 128th: 125 kHz */
 
-/* The divider before the supply's input: 50 V at the reference. */
+/* The divider before the supply's input: 50 V at the reference. Measured with each sample of the cell, not each control step. */
 #define SUPPLY_V_PER_COUNT (50.0f / 1024.0f)
 
 #define SAMPLES_KEPT 4U /* a power of two */
@@ -50,6 +50,8 @@ static volatile cell_sample kept[SAMPLES_KEPT];
 static volatile uint8_t head; /* the interrupt's */
 static volatile uint8_t tail;
 static volatile uint16_t supply_sum;
+static float supply_V;
+static float parts_per_V;
 
 /* Of the sample that is under way; the interrupt's alone. */
 static uint8_t place;
@@ -63,6 +65,7 @@ void atmega_cell_start(void) {
     ADCSRA = CONVERTER;
     TCCR2A = _BV(WGM21); /* up to OCR2A */
     OCR2A = TICK_TICKS / TIMER_COUNT_TICKS - 1U;
+    OCR2B = OCR2A / 2U;
     TCNT2 = 0;
     TIFR2 = _BV(OCF2A);
     TIMSK2 = _BV(OCIE2A);
@@ -76,10 +79,12 @@ static uint8_t status_now(void) {
                                  : HAL_LOAD_OK);
 }
 
-/* The tick was a little before now: by what its timer has counted since. */
-static void hand_over(void) {
+/* A sample is whole: by an interrupt of its own, so that those of ticks have less to save. The tick was a little before now: by what
+ * its timer has counted since. */
+ISR(TIMER2_COMPB_vect) {
     const uint16_t late = (uint16_t)(TCNT2 * (TIMER_COUNT_TICKS * ATMEGA_COUNTS_PER_TICK));
     const uint16_t count = (uint16_t)(TCNT4 - late);
+    TIMSK2 = _BV(OCIE2A);
     if ((uint8_t)(head - tail) < SAMPLES_KEPT) {
         volatile cell_sample *to = &kept[head % SAMPLES_KEPT];
         const atmega_instant at = atmega_instant_of(count);
@@ -96,29 +101,37 @@ static void hand_over(void) {
 /* What began a tick ago has ended 96 us ago. */
 ISR(TIMER2_COMPA_vect) {
     const uint16_t count = ADC;
-    const uint8_t ended = place;
-    uint8_t next = (uint8_t)(ended + 1U);
+    uint8_t next = (uint8_t)(place + 1U);
     if (next == ALL_TICKS) {
         next = 0;
     }
     place = next;
-    ADMUX = REFERENCE | (next < CELL_TICKS ? ATMEGA_CELL_INPUT : ATMEGA_SUPPLY_INPUT);
+    ADMUX = next < CELL_TICKS ? REFERENCE | ATMEGA_CELL_INPUT : REFERENCE | ATMEGA_SUPPLY_INPUT;
     ADCSRA = CONVERTER | _BV(ADSC);
-    if (ended < CELL_TICKS) {
+    if (next != 0 && next <= CELL_TICKS) {
         sum += count;
         if (count == 0 || count == FULL) {
             saturated = true;
         }
         if (next == CELL_TICKS) {
-            hand_over();
+            TIFR2 = _BV(OCF2B);
+            TIMSK2 = _BV(OCIE2A) | _BV(OCIE2B);
         }
-    } else if (ended >= ALL_TICKS - SUPPLY_TICKS) {
+    } else if (next == 0 || next > ALL_TICKS - SUPPLY_TICKS) {
         supply += count;
         if (next == 0) {
             supply_sum = supply;
             supply = 0;
         }
     }
+}
+
+static void renew_supply(void) {
+    const uint8_t before = atmega_hold();
+    const uint16_t counts = supply_sum;
+    atmega_go_on(before);
+    supply_V = (float)counts * (SUPPLY_V_PER_COUNT / (float)SUPPLY_TICKS);
+    parts_per_V = counts > 0 ? ATMEGA_WHOLE / supply_V : 0.0f;
 }
 
 /* Sixteen counts of 10 bits are 14 bits: a quarter of ours. */
@@ -132,12 +145,10 @@ bool hal_loadcell_take(hal_load_sample *sample) {
     sample->raw = ((int32_t)from->sum - (int32_t)(CELL_TICKS * MIDDLE)) * 4;
     sample->status = from->status;
     tail++;
+    renew_supply();
     return true;
 }
 
-float hal_motor_supply_V(void) {
-    const uint8_t before = atmega_hold();
-    const uint16_t counts = supply_sum;
-    atmega_go_on(before);
-    return (float)counts * (SUPPLY_V_PER_COUNT / (float)SUPPLY_TICKS);
-}
+float hal_motor_supply_V(void) { return supply_V; }
+
+float atmega_parts_per_V(void) { return parts_per_V; }

@@ -3,8 +3,6 @@
  *
  * Off first: before any of them does anything else the enable's pin is low, by an instruction that needs neither a register nor the
  * stack. */
-#include <avr/wdt.h>
-
 #include "boards/board.h"
 #include "hal/motor.h"
 
@@ -22,13 +20,22 @@ __attribute__((naked, used, section(".init0"))) void atmega_off_first(void) {
 /* Kept, not cleared: the start-up code has not come to the variables yet. */
 __attribute__((section(".noinit"))) static volatile uint8_t flags;
 
-/* Behind the stack's setting-up. A watchdog that has bitten goes on biting, every 16 ms, until its flag is gone. */
-__attribute__((naked, used, section(".init3"))) void atmega_see_reset(void);
-__attribute__((naked, used, section(".init3"))) void atmega_see_reset(void) {
+/* A watchdog that has bitten goes on biting, every 16 ms, until its flag is gone. */
+__attribute__((used)) void atmega_see_reset(void);
+__attribute__((used)) void atmega_see_reset(void) {
+    const uint8_t change = _BV(WDCE) | _BV(WDE);
     TCCR1A = 0;
     flags = MCUSR;
     MCUSR = 0;
-    wdt_disable();
+    __asm__ volatile("wdr");
+    WDTCSR = change;
+    WDTCSR = 0;
+}
+
+/* Where the stack has been set up, and before the variables are. */
+__attribute__((naked, used, section(".init3"))) void atmega_first(void);
+__attribute__((naked, used, section(".init3"))) void atmega_first(void) {
+    __asm__ volatile("call atmega_see_reset");
 }
 
 uint8_t atmega_reset_flags(void) { return flags; }
@@ -38,7 +45,7 @@ _Noreturn void atmega_fault(atmega_fault_kind kind, uint32_t at) {
     hal_motor_off(HAL_MOTOR_COAST);
     cli();
     atmega_keep_fault(kind, at, atmega_ticks());
-    wdt_enable(WDTO_15MS);
+    atmega_watch(0);
     for (;;) {
         __asm__ volatile("" ::: "memory");
     }

@@ -9,8 +9,10 @@
 
 #include "atmega.h"
 
-#define WHOLE 400U  /* F_CPU/2 / 20 kHz */
-#define PARTS 64.0f /* of a step are carried on */
+#define WHOLE 400U /* F_CPU/2 / 20 kHz */
+#define PARTS 64U  /* of a step are carried on */
+_Static_assert((float)(WHOLE *PARTS) >= ATMEGA_WHOLE && (float)(WHOLE * PARTS) <= ATMEGA_WHOLE,
+               "all of the supply");
 
 static bool driving;
 static uint16_t carried; /* parts of a step that are owed */
@@ -32,19 +34,15 @@ void atmega_motor_start(void) {
 
 /* NaN, and no supply: 0. */
 static uint16_t parts_of(float volts) {
-    const float supply_V = hal_motor_supply_V();
-    if (!(volts > 0.0f) || !(supply_V > 0.0f)) {
-        return 0;
-    }
-    return volts >= supply_V ? (uint16_t)(WHOLE * (unsigned)PARTS)
-                             : (uint16_t)(volts / supply_V * ((float)WHOLE * PARTS));
+    const float parts = volts * atmega_parts_per_V();
+    return !(parts > 0.0f) ? 0U : parts >= ATMEGA_WHOLE ? WHOLE * PARTS : (uint16_t)parts;
 }
 
 void hal_motor_set_voltage(float volts) {
     const uint16_t parts = parts_of(volts);
     const uint16_t owed = parts + carried;
-    uint16_t steps = owed / (uint16_t)PARTS;
-    carried = owed % (uint16_t)PARTS;
+    uint16_t steps = owed / PARTS;
+    carried = owed % PARTS;
     steps = steps < WHOLE ? steps : WHOLE;
     OCR1A = steps;
     if (!driving) {

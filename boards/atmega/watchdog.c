@@ -2,8 +2,6 @@
  * kHz, within 15 %: it never bites before the time, and within 2.4 times of it. */
 #include "hal/watchdog.h"
 
-#include <avr/wdt.h>
-
 #include "atmega.h"
 #include "boards/avr/stack.h"
 
@@ -16,9 +14,7 @@ void hal_watchdog_start(uint32_t timeout_ticks) {
     while (twice < LONGEST && SHORTEST_TICKS << twice < timeout_ticks) {
         twice++;
     }
-    const uint8_t before = atmega_hold();
-    wdt_enable(twice);
-    atmega_go_on(before);
+    atmega_watch(twice);
 }
 
 /* Once a control step: what else nobody would notice is looked at here. */
@@ -26,7 +22,7 @@ void hal_watchdog_kick(void) {
     if (!avr_stack_is_whole()) {
         atmega_fault(ATMEGA_FAULT_STACK, 0);
     }
-    wdt_reset();
+    __asm__ volatile("wdr");
 }
 
 /* It resets. */

@@ -109,8 +109,9 @@ static void control(const wh_rig_config *config) {
     hal_slot_pulse pulse;
     hal_load_sample sample[RIG_SAMPLES_MOST];
     unsigned samples = 0;
-    /* one a step: a storm must not hold it up, and stamps do not age */
-    const bool pulsed = hal_slots_take(&pulse);
+    /* one a step: a storm must not hold it up, and stamps do not age; where a sample had to wait for one, that is first */
+    const bool owed = RIG_SAMPLES_WITH_PULSE == 0U && seen.pulsed;
+    const bool pulsed = !owed && hal_slots_take(&pulse);
     while (samples < (pulsed ? RIG_SAMPLES_WITH_PULSE : RIG_SAMPLES_MOST) &&
            hal_loadcell_take(&sample[samples])) {
         samples += sample[samples].status != HAL_LOAD_REPEATED ? 1U : 0U;

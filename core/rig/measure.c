@@ -52,22 +52,22 @@ void wh_measure_load(wh_measure *measure, const wh_load *load, bool at_rest) {
 static void merge_piece(const wh_measure_config *config, wh_measure *measure) {
     wh_measured *force = &measure->result.force;
     const wh_turn_angle *angle = &measure->lockin.angle;
-    const unsigned piece = MERGE_PIECES - measure->due;
-    measure->due--;
-    if (measure->due == 0) {
+    const bool begins = measure->due == MERGE_PIECES;
+    if (measure->due == 1U) {
         wh_merge_judge(&config->result, &config->rotor, &measure->merge, angle, force);
-        return;
-    }
+    } else {
 #if WH_RIG_SMALL_PIECES
-    wh_merge_mean_piece(&config->result, &config->rotor, &measure->merge, angle,
-                        measure->tare.mean_N, force, piece);
+        wh_merge_mean_piece(&config->result, &config->rotor, &measure->merge, angle,
+                            measure->tare.mean_N, force, MERGE_PIECES - measure->due);
 #else
-    wh_merge_mean(&config->result, &config->rotor, &measure->merge, angle, measure->tare.mean_N,
-                  force);
+        wh_merge_mean(&config->result, &config->rotor, &measure->merge, angle, measure->tare.mean_N,
+                      force);
 #endif
-    if (piece == 0) {
-        force->left_out += measure->lockin.skipped - measure->skipped_before;
+        if (begins) {
+            force->left_out += measure->lockin.skipped - measure->skipped_before;
+        }
     }
+    measure->due--;
 }
 
 static void add_turn(const wh_measure_config *config, wh_measure *measure) {

@@ -271,8 +271,8 @@ void wh_merge_mean(const wh_result_config *config, const wh_rotor_config *rotor,
         return;
     }
     const wh_real t2 = t2_of(merge);
-    const parts_off by = off_of(rotor, merge, angle);
     scatter_of_mean(merge, size2, t2, measured);
+    const parts_off by = off_of(rotor, merge, angle);
     amplitude_half(config, rotor, merge, angle, size2, &by, measured);
     phase_half(config, merge, angle, size2, t2, &by, measured);
 }

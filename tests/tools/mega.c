@@ -29,7 +29,7 @@ enum {
 #define ENABLE 0x40U
 #define PWM 0x20U
 #define COM1A1 0x80U
-#define EEPE 0x02U
+#define SET_EEPE 0x9AF9U /* sbi EECR, EEPE */
 #define EEMPE 0x04U
 #define STOP_PIN 4U
 #define BYTE_CYCLES (MEGA_HZ / 11520U)
@@ -190,6 +190,12 @@ static struct {
     uint64_t began;
 } seen;
 
+static void forget_times(void) {
+    seen.waits = false;
+    seen.steps = false;
+    seen.began = 0;
+}
+
 static uint32_t return_address(void) {
     const unsigned sp = mega_sp();
     const uint8_t *at = avr->data + sp;
@@ -222,12 +228,6 @@ static void see_times(void) {
     }
 }
 
-static void forget_times(void) {
-    seen.waits = false;
-    seen.steps = false;
-    seen.began = 0;
-}
-
 static void say_byte(void) {
     if (said_bytes > 0 && avr->cycle >= said_cycle) {
         avr_raise_irq(avr_io_getirq(avr, AVR_IOCTL_UART_GETIRQ('0'), UART_IRQ_INPUT),
@@ -238,18 +238,19 @@ static void say_byte(void) {
     }
 }
 
+/* simavr writes a byte at once: what is about to be executed tells. */
 static void see_eeprom(void) {
-    static bool writes;
-    const uint8_t control = avr->data[REG_EECR];
-    const bool now = (control & EEPE) != 0;
-    if (now && !writes && mega_on_eeprom != NULL) {
+    const uint16_t word = (uint16_t)(avr->flash[avr->pc] | avr->flash[avr->pc + 1U] << 8);
+    if (word == SET_EEPE && (avr->data[REG_EECR] & EEMPE) != 0) {
         mega_on_eeprom(word_at(REG_EEAR));
     }
-    writes = now;
 }
 
 bool mega_step(void) {
     const uint64_t before = avr->cycle;
+    if (mega_on_eeprom != NULL) {
+        see_eeprom();
+    }
     const int state = avr_run(avr);
     if (avr->cycle < before) { /* a reset begins the count anew */
         fail("the cycles' count went back");
@@ -260,11 +261,13 @@ bool mega_step(void) {
     if (edge_count > 0) {
         give_edges();
     }
+    if (avr->pc == 0) {
+        forget_times(); /* a reset, or what looks like one */
+    }
     see_times();
     if (said_bytes > 0) {
         say_byte();
     }
-    see_eeprom();
     return state != cpu_Done && state != cpu_Crashed;
 }
 
@@ -411,8 +414,29 @@ uint32_t mega_pc(void) { return avr->pc; }
 void mega_set_pc(uint32_t at) { avr->pc = at; }
 uint16_t mega_sp(void) { return word_at(REG_SPL); }
 
+/* As a call does: the address in words, three bytes, the highest at the lowest place. */
+void mega_push_pc(void) {
+    const uint16_t sp = mega_sp();
+    const uint32_t words = avr->pc / 2U;
+    avr->data[sp] = (uint8_t)words;
+    avr->data[sp - 1U] = (uint8_t)(words >> 8);
+    avr->data[sp - 2U] = (uint8_t)(words >> 16);
+    avr->data[REG_SPL] = (uint8_t)(sp - 3U);
+    avr->data[REG_SPL + 1U] = (uint8_t)((sp - 3U) >> 8);
+}
+
+uint16_t mega_set_flash(uint32_t at, uint16_t word) {
+    const uint16_t before = (uint16_t)(avr->flash[at] | avr->flash[at + 1U] << 8);
+    avr->flash[at] = (uint8_t)word;
+    avr->flash[at + 1U] = (uint8_t)(word >> 8);
+    return before;
+}
+
 uint8_t *mega_eeprom(void) {
     avr_eeprom_desc_t all = {.ee = eeprom, .offset = 0, .size = sizeof eeprom};
-    avr_ioctl(avr, AVR_IOCTL_EEPROM_GET, &all);
+    if (avr != NULL) {
+        avr_ioctl(avr, AVR_IOCTL_EEPROM_GET, &all);
+    }
+    eeprom_known = true;
     return eeprom;
 }

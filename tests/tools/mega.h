@@ -52,8 +52,8 @@ void mega_set_pc(uint32_t at);
 void mega_push_pc(void);
 uint16_t mega_sp(void);
 
-/* Flash as it is executed, two bytes. */
-void mega_set_flash(uint32_t at, uint16_t word);
+/* Flash as it is executed, two bytes; returns what was there. */
+uint16_t mega_set_flash(uint32_t at, uint16_t word);
 
 /* An address of flash, or of memory as mega_data() has it; 0: there is no such symbol. */
 uint32_t mega_symbol(const char *name);
