@@ -157,11 +157,21 @@ GUARDS := $(patsubst tests/boards/%.c,$(ELF)/%.elf,$(wildcard tests/boards/guard
 $(GUARDS): $(ELF)/%.elf: $(B)/$(BOARD)/tests/boards/%.o $(BOARD_OBJECTS) $(call libraries,$(BOARD),whirl)
 	$(link_board)
 
+# What only this board has, for those who look at each file.
+BOARD_OWN_C = $(sort $(BOARD_SOURCES) $(BOARD_FLASHED)) $(BOARD_LINK) $(BOARD_WATCHDOG) \
+    $(wildcard tests/boards/guard_*.c $(if $(BOARD_WATCHDOG),tests/boards/watchdog.c))
+
+# The watchdog, of boards that have one (tests/boards/watchdog.sh).
+WATCHDOG := $(if $(BOARD_WATCHDOG),$(ELF)/watchdog.elf)
+$(ELF)/watchdog.elf: $(call objects,$(BOARD),tests/boards/watchdog.c $(BOARD_WATCHDOG)) $(BOARD_OBJECTS) $(call libraries,$(BOARD),whirl)
+	$(link_board)
+
 .PHONY: board-images board-tests run-suites print-hashes print-matrix-hashes bench-matrix
 board-images: $(IMAGES)
-board-tests: $(ELF)/tests.elf $(GUARDS) $(PIL_IMAGES) $(STATION)
-run-suites: # the portable suites, then what guards the stack
-	@status=0; $(call emulate,$(ELF)/tests.elf) || status=1; sh tests/boards/guard.sh $(BOARD) || status=1; exit $$status
+board-tests: $(ELF)/tests.elf $(GUARDS) $(WATCHDOG) $(PIL_IMAGES) $(STATION)
+run-suites: # the portable suites, what guards the stack, and the watchdog
+	@status=0; $(call emulate,$(ELF)/tests.elf) || status=1; sh tests/boards/guard.sh $(BOARD) || status=1; \
+	    sh tests/boards/watchdog.sh $(BOARD) || status=1; exit $$status
 print-hashes: # a line for each scene, with the hash of its last state
 	@$(call need,$(BOARD_EMULATOR))
 	@$(call emulate,$(ELF)/scenes.elf)

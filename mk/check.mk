@@ -27,7 +27,7 @@ objects: $(call objects,host,$(WHIRL_MAIN_C) $(WHIRL_C) $(GEN)/builtin_models.c 
     $(call objects,float,$(PORTABLE_C) $(PC_BOARD_C) $(CORE_TEST_C) $(SCENE_C)) \
     $(call objects,double,$(CORE_C) $(RIG_C) $(STATION_C) $(CORE_TEST_C) $(SCENE_C))
 board-objects: board-own-objects $(call objects,$(BOARD),$(PORTABLE_C) $(PROGRAM_C) $(CORE_TEST_C) $(SCENE_C))
-board-own-objects: $(call objects,$(BOARD),$(sort $(BOARD_SOURCES) $(BOARD_FLASHED)) $(BOARD_LINK) $(wildcard tests/boards/guard_*.c))
+board-own-objects: $(call objects,$(BOARD),$(BOARD_OWN_C))
 
 # Where the main configuration has these very settings, as in CI (.ci/run), what it compiled already counts. Other gates
 # take both compilers' objects from where these two put them.
@@ -60,7 +60,7 @@ gate-tidy: $(GEN)/.stamp
 
 .PHONY: tidy-board
 tidy-board:
-	@$(call tidy,$(sort $(BOARD_SOURCES) $(BOARD_FLASHED)) $(BOARD_LINK) $(wildcard tests/boards/guard_*.c),$(BOARD_TIDY) $(LINT_FLAGS))
+	@$(call tidy,$(BOARD_OWN_C),$(BOARD_TIDY) $(LINT_FLAGS))
 
 gate-cppcheck:
 	@$(call need,cppcheck)
