@@ -1,7 +1,7 @@
 # check.mk: the quality gates of `make check`. Each is a target of its own, gate-NAME; tests/gates.sh
 # runs them, keeps what they say in build/check/NAME.log and prints a line for each.
 
-GATES := house gcc clang format cppcheck tidy long sanitizers memcheck bad-input firmware flashed size boards libm avr cycles hashes
+GATES := house gcc clang format cppcheck tidy long sanitizers memcheck bad-input fuzz firmware flashed size boards libm avr cycles hashes
 GATES += hosts
 LINT_FLAGS := -std=c11 $(WARN) -I. $(UNITY_FLAGS) -D_POSIX_C_SOURCE=200809L
 
@@ -27,7 +27,7 @@ objects: $(call objects,host,$(WHIRL_MAIN_C) $(WHIRL_C) $(GEN)/builtin_models.c 
     $(call objects,float,$(PORTABLE_C) $(PC_BOARD_C) $(CORE_TEST_C) $(SCENE_C)) \
     $(call objects,double,$(CORE_C) $(RIG_C) $(STATION_C) $(CORE_TEST_C) $(SCENE_C))
 board-objects: board-own-objects $(call objects,$(BOARD),$(PORTABLE_C) $(PROGRAM_C) $(CORE_TEST_C) $(SCENE_C))
-board-own-objects: $(call objects,$(BOARD),$(sort $(BOARD_SOURCES) $(BOARD_FLASHED)) $(BOARD_LINK) $(wildcard tests/boards/guard_*.c))
+board-own-objects: $(call objects,$(BOARD),$(BOARD_OWN_C))
 
 # Where the main configuration has these very settings, as in CI (.ci/run), what it compiled already counts. Other gates
 # take both compilers' objects from where these two put them.
@@ -60,7 +60,7 @@ gate-tidy: $(GEN)/.stamp
 
 .PHONY: tidy-board
 tidy-board:
-	@$(call tidy,$(sort $(BOARD_SOURCES) $(BOARD_FLASHED)) $(BOARD_LINK) $(wildcard tests/boards/guard_*.c),$(BOARD_TIDY) $(LINT_FLAGS))
+	@$(call tidy,$(BOARD_OWN_C),$(BOARD_TIDY) $(LINT_FLAGS))
 
 gate-cppcheck:
 	@$(call need,cppcheck)
@@ -144,6 +144,13 @@ gate-bad-input:
 	+@$(ASAN_BUILD) build/asan/whirl
 	@sh tests/bad_input.sh build/asan/whirl
 	+@$(ASAN_BUILD) kept-now
+
+# What reads a line, from the console and from a rig: anew each time, a minute each, at the same time.
+GATE_FUZZ_SECONDS ?= 60
+gate-fuzz:
+	@$(call need,clang)
+	+@$(FUZZ_BUILD) $(FUZZERS_OF_LINES)
+	@printf '%s\n' $(FUZZERS_OF_LINES) | xargs -n 1 -P $(JOBS) sh tests/fuzz.sh $(GATE_FUZZ_SECONDS)
 
 # --- firmware -------------------------------------------------------------------------------------
 # No heap, no libm, no double arithmetic and no recursion in any image's symbols.

@@ -215,7 +215,12 @@ FUZZERS := $(patsubst tests/fuzz/%.c,build/fuzz/%.fuzzer,$(wildcard tests/fuzz/f
 SANITIZE := address,undefined,float-cast-overflow
 
 FUZZED := $(LIB_HOST) $(call libraries,float,station rig whirl) $(LIB_DOUBLE)
-build/fuzz/%.fuzzer: build/fuzz/host/tests/fuzz/%.o $(FUZZED)
+# What reads lines takes little of it, and `make check` fuzzes it anew each time.
+FUZZERS_OF_LINES := build/fuzz/fuzz_console.fuzzer build/fuzz/fuzz_wire.fuzzer
+$(filter-out $(FUZZERS_OF_LINES),$(FUZZERS)): $(FUZZED)
+build/fuzz/fuzz_console.fuzzer: $(call libraries,float,station rig whirl)
+build/fuzz/fuzz_wire.fuzzer: $(call objects,host,$(wildcard host/monitor/*.c host/base/*.c host/plot/*.c) host/number/decimal.c host/number/functions.c) $(call objects,double,$(wildcard core/function*.c)) $(call libraries,float,whirl)
+build/fuzz/%.fuzzer: build/fuzz/host/tests/fuzz/%.o
 	$(say) LINK $@
 	$(Q)$(CC) $(NATIVE) -fsanitize=fuzzer -o $@ $(filter %.o,$^) \
 	    -Wl,--start-group $(filter %.a,$^) -Wl,--end-group -lm
@@ -229,8 +234,8 @@ $(B)/fuzz/%.kept: $(B)/host/tests/fuzz/%.o $(B)/host/tests/fuzz/kept.o $(FUZZED)
 .PHONY: fuzz-now fuzz-programs kept-now
 kept-now: $(KEPT_INPUTS)
 	@sh tests/fuzz/kept.sh $^
+FUZZ_BUILD = $(MAKE) B=build/fuzz CC=clang OPT=-O1 EXTRA="-fsanitize=fuzzer-no-link,$(SANITIZE) -fno-sanitize-recover=all"
 fuzz-programs: $(FUZZERS)
 fuzz-now:
-	@$(MAKE) B=build/fuzz CC=clang OPT=-O1 \
-	    EXTRA="-fsanitize=fuzzer-no-link,$(SANITIZE) -fno-sanitize-recover=all" fuzz-programs
+	@$(FUZZ_BUILD) fuzz-programs
 	@sh tests/fuzz.sh $(FUZZ_SECONDS) $(FUZZERS)

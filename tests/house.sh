@@ -29,7 +29,7 @@ arrows='
 core:
 base: core
 number: core
-plot: number
+plot: base number
 lang: base number
 algebra: base lang
 image: base core number

@@ -3,6 +3,8 @@
 #ifndef WH_STATION_BRIEF_H
 #define WH_STATION_BRIEF_H
 
+#include "core/packed_words.h"
+
 #ifndef WH_STATION_BRIEF
 #define WH_STATION_BRIEF 0
 #endif
@@ -10,7 +12,7 @@
 #if WH_STATION_BRIEF
 #define WH_SAY(words) ""
 #else
-#define WH_SAY(words) words
+#define WH_SAY(words) WH_WORDS(words)
 #endif
 
 #endif

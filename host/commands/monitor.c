@@ -13,8 +13,6 @@
 #include "host/monitor/dialogue.h"
 #include "host/monitor/port.h"
 #include "host/monitor/recording.h"
-#include "host/number/decimal.h"
-#include "host/number/functions.h"
 #include "host/plot/gnuplot.h"
 #include "host/plot/plot.h"
 #include "interrupts.h"
@@ -81,24 +79,12 @@ typedef struct monitor {
 /* --- options ------------------------------------------------------------------------------------------------ */
 
 static bool take_number(int count, char **words, int *at, monitor_options *o, bool *bad) {
-    const struct {
-        const char *option;
-        double *number;
-        double least;
-        double most;
-        const char *hint;
-    } rows[] = {{"--rate", &o->rate, 1.0, 100000.0, "samples a second: --rate 500"},
-                {"--for", &o->for_s, 0.0, 1e9, "in seconds: --for 60"},
-                {"--baud", &o->baud, 1.0, 1e7, "9600 to 230400: --baud 115200"}};
-    for (size_t i = 0; i < sizeof rows / sizeof rows[0] && !*bad; i++) {
-        const char *value = options_value(count, words, at, rows[i].option, bad);
-        if (value != NULL) {
-            *bad = !options_number("monitor", rows[i].option, value, rows[i].least, rows[i].most,
-                                   rows[i].hint, rows[i].number);
-            return true;
-        }
-    }
-    return false;
+    const number_option rows[] = {
+        {"--rate", &o->rate, 1.0, 100000.0, true, "samples a second: --rate 500"},
+        {"--for", &o->for_s, 0.0, 1e9, false, "in seconds: --for 60"},
+        {"--baud", &o->baud, 1.0, 1e7, false, "9600 to 230400: --baud 115200"}};
+    return options_take_number("monitor", rows, sizeof rows / sizeof rows[0], count, words, at,
+                               bad);
 }
 
 static bool take_one(int count, char **words, int *at, void *options, bool *bad) {
@@ -147,10 +133,6 @@ static bool are_apart(const monitor_options *o) {
 }
 
 static bool are_possible(const monitor_options *o) {
-    if (number_floor(o->rate) < o->rate) {
-        fputs("whirl monitor: error: --rate takes a whole number\nhint: --rate 500\n", stderr);
-        return false;
-    }
     if (!port_has_speed(o->baud)) {
         fputs("whirl monitor: error: --baud: no such speed\n"
               "hint: 9600, 19200, 38400, 57600, 115200 or 230400\n",

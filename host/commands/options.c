@@ -10,6 +10,7 @@
 #include "host/fixed/engine_fixed.h"
 #include "host/image/turned.h"
 #include "host/number/decimal.h"
+#include "host/number/functions.h"
 #include "host/run/methods.h"
 
 typedef struct option_row {
@@ -293,6 +294,25 @@ bool options_number(const char *command, const char *option, const char *text, d
                 command, option, least, most, text, hint);
     }
     return good;
+}
+
+bool options_take_number(const char *command, const number_option *options, size_t options_count,
+                         int count, char **words, int *at, bool *bad) {
+    for (size_t i = 0; i < options_count && !*bad; i++) {
+        const number_option *o = &options[i];
+        const char *value = options_value(count, words, at, o->option, bad);
+        if (value == NULL) {
+            continue;
+        }
+        *bad = !options_number(command, o->option, value, o->least, o->most, o->hint, o->number);
+        if (!*bad && o->whole && number_floor(*o->number) < *o->number) {
+            fprintf(stderr, "whirl %s: error: %s takes a whole number, not '%.40s'\nhint: %s\n",
+                    command, o->option, value, o->hint);
+            *bad = true;
+        }
+        return true;
+    }
+    return false;
 }
 
 static bool take_cells(const char *command, const char *value, int *cells) {

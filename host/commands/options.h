@@ -93,6 +93,21 @@ const char *options_value(int count, char **words, int *at, const char *name, bo
 bool options_number(const char *command, const char *option, const char *text, double least,
                     double most, const char *hint, double *number);
 
+/* An option that takes a number between two bounds, both allowed. */
+typedef struct number_option {
+    const char *option;
+    double *number; /* where it goes */
+    double least;
+    double most;
+    bool whole; /* it must be a whole one */
+    const char *hint;
+} number_option;
+
+/* If words[*at] is one of these options, takes its number, steps *at past it and returns true. What is wrong with it is
+ * reported and sets *bad. */
+bool options_take_number(const char *command, const number_option *options, size_t options_count,
+                         int count, char **words, int *at, bool *bad);
+
 /* What changes an instance: --set, --start, --with, --without, --step, --until. */
 typedef struct change_options {
     const char **sets;

@@ -114,37 +114,13 @@ static bool take_words(int count, char **words, int *at, pil_options *o, bool *b
     return false;
 }
 
-/* Another option, or a whole number. */
-static bool is_seed(const char *option, const char *text, const pil_options *o) {
-    const bool good = number_floor(o->seed) == o->seed;
-    if (!good) {
-        fprintf(stderr, "whirl pil: error: %s takes a whole number, not '%.40s'\nhint: --seed 7\n",
-                option, text);
-    }
-    return good;
-}
-
 static bool take_numbers(int count, char **words, int *at, pil_options *o, bool *bad) {
-    const struct {
-        const char *option;
-        double *number;
-        double least;
-        double most;
-        const char *hint;
-    } rows[] = {{"--seed", &o->seed, 0.0, 4294967295.0, "a whole number: --seed 7"},
-                {"--clock", &o->clock_Hz, 1e3, 1e11, "in Hz: --clock 16e6"},
-                {"--cycles", &o->cycles, 0.0, 1e4, "cycles an instruction: --cycles 1.5"},
-                {"--patience", &o->patience_s, 0.01, 1e6, "in seconds: --patience 10"}};
-    for (size_t i = 0; i < sizeof rows / sizeof rows[0] && !*bad; i++) {
-        const char *value = options_value(count, words, at, rows[i].option, bad);
-        if (value != NULL) {
-            *bad = !options_number("pil", rows[i].option, value, rows[i].least, rows[i].most,
-                                   rows[i].hint, rows[i].number) ||
-                   !is_seed(rows[i].option, value, o);
-            return true;
-        }
-    }
-    return false;
+    const number_option rows[] = {
+        {"--seed", &o->seed, 0.0, 4294967295.0, true, "a whole number: --seed 7"},
+        {"--clock", &o->clock_Hz, 1e3, 1e11, false, "in Hz: --clock 16e6"},
+        {"--cycles", &o->cycles, 0.0, 1e4, false, "cycles an instruction: --cycles 1.5"},
+        {"--patience", &o->patience_s, 0.01, 1e6, false, "in seconds: --patience 10"}};
+    return options_take_number("pil", rows, sizeof rows / sizeof rows[0], count, words, at, bad);
 }
 
 static bool take_one(int count, char **words, int *at, void *options, bool *bad) {

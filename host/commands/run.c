@@ -31,6 +31,7 @@ static const command_usage usage = {
     .tail =
         "  --csv FILE           records; - is standard output (the summary then goes to standard error)\n"
         "  --columns FILE       the same between spaces, for Octave's load; - as for --csv\n"
+        "  --vcd FILE           the same for waveform viewers, and what contacts do; - as for --csv\n"
         "  --every 2ms          spacing of the records, a whole number of steps (default: every step)\n"
         "  --plot FILE.svg|.png coordinates and outputs over time, drawn by gnuplot\n"
         "  --strict[=LIMIT]     fail when more than LIMIT (1e-3) of the largest entry of the energy books\n"
@@ -101,6 +102,8 @@ static bool take_one(int count, char **words, int *at, void *options, bool *bad)
         o->settings.csv = value;
     } else if (!*bad && (value = options_value(count, words, at, "--columns", bad)) != NULL) {
         o->settings.columns = value;
+    } else if (!*bad && (value = options_value(count, words, at, "--vcd", bad)) != NULL) {
+        o->settings.vcd = value;
     } else if (!*bad && (value = options_value(count, words, at, "--every", bad)) != NULL) {
         o->every = value;
     } else if (!*bad && (value = options_value(count, words, at, "--plot", bad)) != NULL) {
@@ -116,9 +119,11 @@ static bool files_are_apart(const simulation_settings *s) {
     const struct {
         const char *option;
         const char *file;
-    } outputs[] = {{"--csv", s->csv}, {"--columns", s->columns}, {"--plot", s->plot}};
-    for (int i = 0; i < 3; i++) {
-        for (int k = i + 1; k < 3; k++) {
+    } outputs[] = {
+        {"--csv", s->csv}, {"--columns", s->columns}, {"--vcd", s->vcd}, {"--plot", s->plot}};
+    const int count = (int)(sizeof outputs / sizeof outputs[0]);
+    for (int i = 0; i < count; i++) {
+        for (int k = i + 1; k < count; k++) {
             if (outputs[i].file != NULL && outputs[k].file != NULL &&
                 files_same(outputs[i].file, outputs[k].file)) {
                 fprintf(stderr, "whirl run: error: %s and %s cannot share a file\n",
@@ -131,8 +136,8 @@ static bool files_are_apart(const simulation_settings *s) {
 }
 
 static bool read_options(int count, char **words, run_options *o) {
-    static const char *const own[] = {"--csv",    "--columns", "--every", "--plot",
-                                      "--strict", "--quiet",   NULL};
+    static const char *const own[] = {"--csv",  "--columns", "--vcd",   "--every",
+                                      "--plot", "--strict",  "--quiet", NULL};
     const target_reader reader = {
         .command = "run", .groups = usage.groups, .own = own, .take = take_one};
     if (!target_read(&reader, count, words, &o->common, o, &o->target) ||
@@ -146,6 +151,7 @@ static bool read_options(int count, char **words, run_options *o) {
 static bool model_would_be_lost(const source_model *from, const simulation_settings *s) {
     return source_would_be_lost(from, "--csv", s->csv, "") ||
            source_would_be_lost(from, "--columns", s->columns, "") ||
+           source_would_be_lost(from, "--vcd", s->vcd, "") ||
            source_would_be_lost(from, "--plot", s->plot, "");
 }
 

@@ -44,7 +44,7 @@ trusting trusting_look(const image *im, const image *plain, simulation_settings 
 }
 
 void trusting_say(const trusting *t, const simulation_settings *s, bool doubted) {
-    FILE *out = is_stdout(s->csv) || is_stdout(s->columns) ? stderr : stdout;
+    FILE *out = is_stdout(s->csv) || is_stdout(s->columns) || is_stdout(s->vcd) ? stderr : stdout;
     if (s->quiet) {
         return;
     }

@@ -346,6 +346,11 @@ static int run_happened(const void *of, engine_event *list) {
     return 0;
 }
 
+static void run_modes(const void *of, int *mode) {
+    (void)of;
+    (void)mode;
+}
+
 static uint64_t run_evaluations(const void *of, uint64_t *most) {
     *most = 0;
     return 4 * run_steps(of);
@@ -367,12 +372,8 @@ static double run_unit(const void *of, int i) {
 
 static uint64_t run_saturated(const void *of) { return ((const fixed_run *)of)->state.saturated; }
 
-const engine_kind engine_fixed = {"fixed",       9,
-                                  run_start,     run_stop,
-                                  run_step,      run_set_input,
-                                  run_state,     run_outputs,
-                                  run_hash,      run_steps,
-                                  run_fault,     run_events,
-                                  run_happened,  run_evaluations,
-                                  run_ledger,    run_component_off,
-                                  run_saturated, run_unit};
+const engine_kind engine_fixed = {
+    "fixed",      9,           run_start,       run_stop,   run_step,          run_set_input,
+    run_state,    run_outputs, run_hash,        run_steps,  run_fault,         run_events,
+    run_happened, run_modes,   run_evaluations, run_ledger, run_component_off, run_saturated,
+    run_unit};

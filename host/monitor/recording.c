@@ -81,7 +81,7 @@ static void head(recording *r, const schema_channel *c) {
     r->headed = true;
     r->columns = 1 + c->eaches + c->onces;
     if (r->waves != NULL) {
-        r->vcd = vcd_new(r->waves, "telemetry, recorded by whirl monitor");
+        r->vcd = vcd_new(r->waves, "telemetry, recorded by whirl monitor", 6, "rig", 9);
     }
     if (r->csv != NULL) {
         fputs("time", r->csv);
@@ -91,15 +91,15 @@ static void head(recording *r, const schema_channel *c) {
         if (r->csv != NULL) {
             fprintf(r->csv, ",%s", field->name);
         }
-        r->signal[i] = r->vcd != NULL ? vcd_real(r->vcd, field->name) : -1;
+        r->signal[i] = r->vcd != NULL ? vcd_real(r->vcd, field->name, NULL) : -1;
     }
     if (r->csv != NULL) {
         fputs("\r\n", r->csv);
     }
     if (r->vcd != NULL) {
-        r->trip = vcd_real(r->vcd, "trip");
-        r->pulse[0] = vcd_wire(r->vcd, "slot1");
-        r->pulse[1] = vcd_wire(r->vcd, "slot2");
+        r->trip = vcd_real(r->vcd, "trip", NULL);
+        r->pulse[0] = vcd_wire(r->vcd, "slot1", NULL);
+        r->pulse[1] = vcd_wire(r->vcd, "slot2", NULL);
         for (int i = 0; i < 2; i++) {
             vcd_change(r->vcd, r->pulse[i], 0, 0.0);
         }
@@ -151,7 +151,7 @@ static void take_sample(recording *r, const schema_channel *c, int64_t time_us, 
         if (!there) {
             values[1 + i] = (double)NAN;
         }
-        if (r->vcd != NULL) {
+        if (r->vcd != NULL && isfinite(values[1 + i])) {
             vcd_change(r->vcd, r->signal[i], time_us, values[1 + i]);
         }
     }

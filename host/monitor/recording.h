@@ -6,8 +6,8 @@
 #include <stdint.h>
 #include <stdio.h>
 
+#include "host/plot/vcd.h"
 #include "schema.h"
-#include "vcd.h"
 #include "wire.h"
 
 /* What was lost, and where. */

@@ -12,6 +12,8 @@
 typedef struct engine_event {
     int contact;
     int mode;
+    double at_s;  /* since the step began */
+    bool strikes; /* a stop or a hold gave an impulse */
 } engine_event;
 
 typedef struct engine_kind {
@@ -32,6 +34,8 @@ typedef struct engine_kind {
     uint64_t (*events)(const void *run, uint64_t *overruns);
     /* Of the last step, in their order, list[WH_EVENT_LOG]; returns how many. */
     int (*happened)(const void *run, engine_event *list);
+    /* The contacts' modes, mode[contacts]; at the start those that hold when the first step begins. */
+    void (*modes)(const void *run, int *mode);
     /* Evaluations of the accelerations since the start; *most: declared for one step with contacts. */
     uint64_t (*evaluations)(const void *run, uint64_t *most);
     /* The books so far: total[entries], error[accounts] (the numerical drift); SI. */

@@ -76,14 +76,20 @@ typedef struct layout {
 static const layout csv = {"", ",", "\r\n", " "};
 static const layout plain = {"% ", " ", "\n", ""};
 
+char *records_name(const record_column *c) {
+    char *name = room_words("%s", c->name);
+    for (int k = 0; k < c->primes; k++) {
+        char *of = name;
+        name = room_words("der(%s)", of);
+        free(of);
+    }
+    return name;
+}
+
 static void write_name(const record_column *c, FILE *out, const layout *l) {
-    for (int k = 0; k < c->primes; k++) {
-        fputs("der(", out);
-    }
-    fputs(c->name, out);
-    for (int k = 0; k < c->primes; k++) {
-        fputc(')', out);
-    }
+    char *name = records_name(c);
+    fputs(name, out);
+    free(name);
     if (!image_shows_si(c->unit)) {
         fprintf(out, "%s[%s]", l->unit, c->unit->shown);
     }

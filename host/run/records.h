@@ -34,6 +34,8 @@ typedef struct records {
 /* `out` stays the caller's. */
 records *records_open(FILE *out, const image *im, const engine_kind *kind);
 void records_close(records *r);
+/* der(theta), without its unit; the caller frees it. */
+char *records_name(const record_column *c);
 void records_header(records *r);
 /* Read the run's state into r->row; time is given, since it is steps * step. */
 void records_read(records *r, void *run, double time_s);

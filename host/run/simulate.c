@@ -17,6 +17,7 @@
 #include "records.h"
 #include "slow.h"
 #include "summary.h"
+#include "traces.h"
 #include "undefined.h"
 #include "verdict.h"
 
@@ -28,6 +29,8 @@ typedef struct simulation {
     verdict *verdict;
     FILE *csv;
     FILE *columns;
+    FILE *vcd;
+    traces *traces; /* NULL without --vcd */
     envelope *plot; /* NULL without --plot */
     uint64_t steps; /* wanted */
     double wall_s;  /* spent stepping */
@@ -77,7 +80,16 @@ static bool open_files(simulation *sim) {
         fprintf(stderr, "whirl run: error: --plot draws .svg and .png files, not '%s'\n", s->plot);
         return false;
     }
-    if (!open_records(s->csv, &sim->csv) || !open_records(s->columns, &sim->columns)) {
+    int power;
+    if (s->vcd != NULL && !traces_power(sim->image, s->every, &power)) {
+        fputs("whirl run: error: --vcd counts times in femtoseconds at the finest, up to 2^52 of a "
+              "unit: these records lie closer\n"
+              "hint: a larger --every; --csv has no such limit\n",
+              stderr);
+        return false;
+    }
+    if (!open_records(s->csv, &sim->csv) || !open_records(s->columns, &sim->columns) ||
+        !open_records(s->vcd, &sim->vcd)) {
         return false;
     }
     if (s->plot != NULL) {
@@ -147,10 +159,16 @@ static void tell_outputs(simulation *sim) {
                s->name, text);
 }
 
+static bool has_records(const simulation *sim) {
+    return sim->csv != NULL || sim->columns != NULL || sim->vcd != NULL;
+}
+
 /* Enter the present state wherever it belongs. */
 static void enter(simulation *sim, uint64_t step) {
-    const bool record =
-        (sim->csv != NULL || sim->columns != NULL) && (step % sim->settings->every == 0);
+    const bool record = has_records(sim) && step % sim->settings->every == 0;
+    if (sim->traces != NULL) {
+        traces_step(sim->traces, sim->run, step);
+    }
     verdict_enter(sim->verdict, sim->run);
     tell_energies(sim);
     if (!record && sim->plot == NULL) {
@@ -160,6 +178,9 @@ static void enter(simulation *sim, uint64_t step) {
     watch_outputs(sim, sim->records->row[0]);
     if (record) {
         sim->write_failed = !records_write(sim->records) || sim->write_failed;
+        if (sim->traces != NULL) {
+            sim->write_failed = !traces_record(sim->traces, step) || sim->write_failed;
+        }
     }
     if (sim->plot != NULL) {
         envelope_enter(sim->plot, sim->records->row);
@@ -228,8 +249,7 @@ static void say_interrupted(const simulation *sim) {
     const uint64_t done = sim->settings->kind->steps(sim->run);
     const double step_s = sim->image->step_s;
     fprintf(stderr, "whirl run: interrupted at t = %.9g s of %.9g s%s\n", (double)done * step_s,
-            (double)sim->steps * step_s,
-            sim->csv != NULL || sim->columns != NULL ? "; the records so far are kept" : "");
+            (double)sim->steps * step_s, has_records(sim) ? "; the records so far are kept" : "");
 }
 
 /* Held at an end of their ranges, which is no error of the run's but hardly what was meant. */
@@ -317,13 +337,16 @@ simulation_result simulate(const image *im, const simulation_settings *s, unsign
         sim.records->out = sim.csv;
         sim.records->plain = sim.columns;
         records_header(sim.records);
+        sim.traces = sim.vcd != NULL ? traces_open(sim.vcd, sim.records, s->every) : NULL;
         const wh_status status = loop(&sim, &interrupted);
         verdict_end(sim.verdict, sim.run, status != WH_OK, s->stop);
         result = judge(&sim, status, interrupted);
         *against = sim.verdict->against;
         const bool csv_written = flush_records(s->csv, sim.csv);
         const bool columns_written = flush_records(s->columns, sim.columns);
-        if (!csv_written || !columns_written) {
+        traces_close(sim.traces);
+        const bool traces_written = flush_records(s->vcd, sim.vcd);
+        if (!csv_written || !columns_written || !traces_written) {
             result = SIMULATION_BAD_FILE;
         }
         if (status == WH_OK && interrupted) {
@@ -334,9 +357,9 @@ simulation_result simulate(const image *im, const simulation_settings *s, unsign
             const uint64_t done = s->kind->steps(sim.run);
             const uint64_t samples = (done + 63) / 64;
             const double sampled = (double)samples;
-            summary_print(sim.csv == stdout || sim.columns == stdout ? stderr : stdout, im, s->kind,
-                          sim.run, sim.verdict->books, &sim.verdict->balance,
-                          sampled > 0.0 ? 1e9 * sim.wall_s / sampled : 0.0);
+            const bool taken = sim.csv == stdout || sim.columns == stdout || sim.vcd == stdout;
+            summary_print(taken ? stderr : stdout, im, s->kind, sim.run, sim.verdict->books,
+                          &sim.verdict->balance, sampled > 0.0 ? 1e9 * sim.wall_s / sampled : 0.0);
         }
         if (s->plot != NULL && result != SIMULATION_BAD_FILE && !draw(&sim)) {
             result = SIMULATION_BAD_FILE;
@@ -346,6 +369,7 @@ simulation_result simulate(const image *im, const simulation_settings *s, unsign
     }
     close_records(sim.csv);
     close_records(sim.columns);
+    close_records(sim.vcd);
     verdict_close(sim.verdict);
     records_close(sim.records);
     envelope_free(sim.plot);

@@ -11,6 +11,7 @@ typedef struct simulation_settings {
     uint64_t every;      /* steps between records */
     const char *csv;     /* file, "-" for standard output, or NULL */
     const char *columns; /* file of plain columns, "-" for standard output, or NULL */
+    const char *vcd;     /* file of a value change dump, "-" for standard output, or NULL */
     const char *plot;    /* .svg or .png, or NULL */
     bool quiet;
     double
