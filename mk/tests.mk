@@ -2,6 +2,7 @@
 #
 # tests/core   portable suites: run here in double and in float, and on the emulated board
 # tests/host   suites of the program's own parts, on this machine
+# tests/chip   drivers of the STM32F405, on a chip that is played from its manual
 # tests/cli    scripts that drive build/whirl; each prints "ok - ..." or "not ok - ..." lines
 # Suites join by themselves: a file tests/*/test_x.c that defines `void suite_x(void)`. A test program takes
 # names of suites (build/tests/host lang) and runs only those.
@@ -72,7 +73,8 @@ $(B)/tests/host: $(call objects,host,$(HOST_TEST_PARTS) $(FAKED_C)) $(LIB_HOST) 
 CHIP_TEST_C := tests/main.c $(sort $(wildcard tests/chip/*.c))
 CHIP_DRIVERS_C := boards/cortexm/board.c boards/cortexm/fault_words.c boards/shared/wait.c $(addprefix boards/stm32f4/,brown_out.c cell.c clock.c flash.c motor.c pins.c reset.c \
     rig_clock.c slots.c stop.c time_base.c usart.c watchdog.c)
-$(eval $(call build,chip,$(CC),$(FLAGS_host) -DBOARD_REGISTERS_FAKED=1 -Iboards/netduinoplus2))
+CHIP_FLAGS := -DBOARD_REGISTERS_FAKED=1 -Iboards/netduinoplus2
+$(eval $(call build,chip,$(CC),$(FLAGS_host) $(CHIP_FLAGS)))
 $(B)/chip/tests/%.o $(B)/chip/$(B)/tests/%.o: FILE_FLAGS = $(UNITY_FLAGS) $(LESS_O2)
 CHIP_TEST_PARTS := $(CHIP_TEST_C) $(B)/tests/chip_suites.c $(UNITY_DIR)/unity.c
 $(call objects,chip,$(CHIP_TEST_PARTS)): | $(UNITY_DIR)/unity.c
@@ -95,6 +97,7 @@ test-programs: $(TEST_PROGRAMS) $(B)/tests/quick_suites.list
 
 # --- running ------------------------------------------------------------------------------------
 # tests/run.sh takes pairs: what it is, and the command.
+RUN_CHIP = "drivers of the STM32F405 on a played chip" $(B)/tests/chip
 RUN_CORE = "portable suites, double" $(B)/tests/core_double "portable suites, float" $(B)/tests/core_float
 # The host suites in four parts, so that all processors have work to the end; what takes longest goes first.
 part = "host suites$(comma) part $(1) of 4" '$(B)/tests/host $$(sh tests/part.sh $(2) $(1) 4)'
@@ -118,7 +121,7 @@ build_board_tests = $(foreach b,$(1),$(call on_board,$(b),board-tests) &&) true
 test-now: $(GEN)/.stamp
 	@$(MAKE) test-programs
 	+@$(call build_board_tests,$(BOARDS_TEST))
-	@WHIRL=build/whirl sh tests/run.sh build/tests/log $(RUN_LONG) $(RUN_HOST) $(RUN_BOARD) $(RUN_CLI) $(RUN_CORE)
+	@WHIRL=build/whirl sh tests/run.sh build/tests/log $(RUN_LONG) $(RUN_HOST) $(RUN_BOARD) $(RUN_CLI) $(RUN_CHIP) $(RUN_CORE)
 
 ##@ Tests and quality
 # Parts of it, for while one works on something.

@@ -4,7 +4,18 @@
 
 #include "tests/chip/inner.h"
 
-enum { SR = 0x00, CR1 = 0x04, CR2 = 0x08, SMPR1 = 0x0C, SMPR2 = 0x10, SQR1 = 0x2C, SQR2 = 0x30, SQR3 = 0x34, DR = 0x4C, CCR = 0x304 };
+enum {
+    SR = 0x00,
+    CR1 = 0x04,
+    CR2 = 0x08,
+    SMPR1 = 0x0C,
+    SMPR2 = 0x10,
+    SQR1 = 0x2C,
+    SQR2 = 0x30,
+    SQR3 = 0x34,
+    DR = 0x4C,
+    CCR = 0x304
+};
 #define EOC BIT(1)
 #define STRT BIT(4)
 #define OVR BIT(5)
@@ -21,7 +32,7 @@ static struct {
     uint32_t ccr;
     uint64_t stable_at; /* behind ADON */
     bool busy, sampled;
-    unsigned at;        /* of the group */
+    unsigned at; /* of the group */
     uint64_t hold_at, end_at;
     uint16_t value;
     bool late;
@@ -38,9 +49,13 @@ static uint64_t clock_units(void) {
     return units_of(hertz);
 }
 
-static unsigned members(void) { return (*reg(CR1) & SCAN) != 0 ? FIELD(*reg(SQR1), 20, 4) + 1U : 1U; }
+static unsigned members(void) {
+    return (*reg(CR1) & SCAN) != 0 ? FIELD(*reg(SQR1), 20, 4) + 1U : 1U;
+}
 static unsigned input_at(unsigned at) {
-    return at < 6 ? FIELD(*reg(SQR3), 5U * at, 5) : at < 12 ? FIELD(*reg(SQR2), 5U * (at - 6U), 5) : FIELD(*reg(SQR1), 5U * (at - 12U), 5);
+    return at < 6    ? FIELD(*reg(SQR3), 5U * at, 5)
+           : at < 12 ? FIELD(*reg(SQR2), 5U * (at - 6U), 5)
+                     : FIELD(*reg(SQR1), 5U * (at - 12U), 5);
 }
 
 /* DS8626, table 9: pins of ADC1's inputs. */
@@ -57,8 +72,8 @@ static void pin_is_wired(unsigned input) {
 static void begin_member(void) {
     static const uint16_t cycles[8] = {3, 15, 28, 56, 84, 112, 144, 480};
     const unsigned input = input_at(adc.at);
-    const uint32_t sampling =
-        cycles[input >= 10 ? FIELD(*reg(SMPR1), 3U * (input - 10U), 3) : FIELD(*reg(SMPR2), 3U * input, 3)];
+    const uint32_t sampling = cycles[input >= 10 ? FIELD(*reg(SMPR1), 3U * (input - 10U), 3)
+                                                 : FIELD(*reg(SMPR2), 3U * input, 3)];
     static const uint8_t bits[4] = {12, 10, 8, 6};
     pin_is_wired(input);
     adc.sampled = false;
@@ -88,14 +103,17 @@ static void begin_group(void) {
 }
 
 void adc_trigger(unsigned event) {
-    if ((*reg(CR2) & ADON) != 0 && (FIELD(*reg(CR2), 28, 2) & 1U) != 0 && FIELD(*reg(CR2), 24, 4) == event) {
+    if ((*reg(CR2) & ADON) != 0 && (FIELD(*reg(CR2), 28, 2) & 1U) != 0 &&
+        FIELD(*reg(CR2), 24, 4) == event) {
         begin_group();
     }
 }
 
 void chip_adc_overruns(void) { adc.late = true; }
 
-static uint64_t adc_next(void) { return !adc.busy ? CHIP_NEVER : !adc.sampled ? adc.hold_at : adc.end_at; }
+static uint64_t adc_next(void) {
+    return !adc.busy ? CHIP_NEVER : !adc.sampled ? adc.hold_at : adc.end_at;
+}
 
 static uint16_t converted(void) {
     const double s = chip_s();
@@ -216,12 +234,29 @@ static bool adc_pending(unsigned interrupt) {
                                ((*reg(SR) & EOC) != 0 && (*reg(CR1) & BIT(5)) != 0));
 }
 
-const part adc_part = {.name = "ADC1", .base = AT_ADC1, .bytes = 0x308, .clock_register = 0x44, .clock_bit = BIT(8),
-                       .load = adc_load, .store = adc_store, .reset = adc_reset, .next = adc_next, .happens = adc_happens,
+const part adc_part = {.name = "ADC1",
+                       .base = AT_ADC1,
+                       .bytes = 0x308,
+                       .clock_register = 0x44,
+                       .clock_bit = BIT(8),
+                       .load = adc_load,
+                       .store = adc_store,
+                       .reset = adc_reset,
+                       .next = adc_next,
+                       .happens = adc_happens,
                        .pending = adc_pending};
 
 /* --- DMA2, stream 0 --------------------------------------------------------------------------------- */
-enum { LISR = 0x00, LIFCR = 0x08, S0CR = 0x10, S0NDTR = 0x14, S0PAR = 0x18, S0M0AR = 0x1C, S0M1AR = 0x20, S0FCR = 0x24 };
+enum {
+    LISR = 0x00,
+    LIFCR = 0x08,
+    S0CR = 0x10,
+    S0NDTR = 0x14,
+    S0PAR = 0x18,
+    S0M0AR = 0x1C,
+    S0M1AR = 0x20,
+    S0FCR = 0x24
+};
 #define EN BIT(0)
 #define CIRC BIT(8)
 #define TEIF BIT(3)
@@ -239,14 +274,16 @@ void dma_request_adc(void) {
         return; /* nobody takes it: an overrun comes of the next */
     }
     volatile uint16_t *memory = (volatile uint16_t *)memory_at(dma.m0ar);
-    if (dma.par != AT_ADC1 + DR || memory == NULL || FIELD(dma.cr, 6, 2) != 0 || FIELD(dma.cr, 11, 2) != 1 ||
-        FIELD(dma.cr, 13, 2) != 1 || (dma.cr & BIT(9)) != 0 || (dma.cr & BIT(10)) == 0) {
+    if (dma.par != AT_ADC1 + DR || memory == NULL || FIELD(dma.cr, 6, 2) != 0 ||
+        FIELD(dma.cr, 11, 2) != 1 || FIELD(dma.cr, 13, 2) != 1 || (dma.cr & BIT(9)) != 0 ||
+        (dma.cr & BIT(10)) == 0) {
         forbidden("the stream takes no half words of the ADC into memory: CR 0x%08x", dma.cr);
         dma.flags |= TEIF;
         dma.cr &= ~EN;
         return;
     }
-    memory[dma.whole - dma.left] = adc_taken(dma.left == 1); /* of a circular stream, too: the last of each round */
+    memory[dma.whole - dma.left] =
+        adc_taken(dma.left == 1); /* of a circular stream, too: the last of each round */
     dma.left--;
     if (dma.left == dma.whole / 2U) {
         dma.flags |= HTIF;
@@ -327,5 +364,12 @@ static bool dma_pending(unsigned interrupt) {
                                ((dma.flags & TEIF) != 0 && (dma.cr & BIT(2)) != 0));
 }
 
-const part dma_part = {.name = "DMA2", .base = AT_DMA2, .bytes = 0xD0, .clock_register = 0x30, .clock_bit = BIT(22),
-                       .load = dma_load, .store = dma_store, .reset = dma_reset, .pending = dma_pending};
+const part dma_part = {.name = "DMA2",
+                       .base = AT_DMA2,
+                       .bytes = 0xD0,
+                       .clock_register = 0x30,
+                       .clock_bit = BIT(22),
+                       .load = dma_load,
+                       .store = dma_store,
+                       .reset = dma_reset,
+                       .pending = dma_pending};

@@ -11,15 +11,13 @@
 #include "boards/stm32f4/registers.h"
 #include "tests/chip/inner.h"
 
-uint32_t reg_hold(void);
-void reg_go_on(uint32_t before);
-
 chip_world world;
 void (*chip_stored)(void);
 
-static const part *const parts[] = {&rcc_part,  &pwr_part,   &flash_part, &flash_memory_part, &gpio_part,
-                                    &tim1_part, &tim2_part,  &tim3_part,  &adc_part,          &dma_part,
-                                    &usart_part, &iwdg_part, &nvic_part,  &scb_part,          &dbgmcu_part};
+static const part *const parts[] = {&rcc_part,  &pwr_part,  &flash_part, &flash_memory_part,
+                                    &gpio_part, &tim1_part, &tim2_part,  &tim3_part,
+                                    &adc_part,  &dma_part,  &usart_part, &iwdg_part,
+                                    &nvic_part, &scb_part,  &dbgmcu_part};
 #define PARTS (sizeof parts / sizeof *parts)
 
 #define INTERRUPTS 82U /* RM0090, table 62 */
@@ -31,7 +29,8 @@ static struct {
     uint64_t now;
     uint64_t random;
     uint64_t begun, may_take, power_at;
-    uint64_t quiet_until; /* nothing happens by itself before, and no interrupt comes: 0 where that is not known */
+    uint64_t
+        quiet_until; /* nothing happens by itself before, and no interrupt comes: 0 where that is not known */
     jmp_buf back;
     bool trying, masked, handling, in_nmi, halted, nmi_taken, passing;
     bool power_ends;
@@ -239,7 +238,8 @@ static void time_passes(void) {
         run_until(flash_busy_until());
     }
     const uint32_t hertz = core_Hz();
-    const uint64_t until = chip.now + world.access_cycles * (CHIP_UNITS_PER_S / (hertz > 0 ? hertz : 1000000U));
+    const uint64_t until =
+        chip.now + world.access_cycles * (CHIP_UNITS_PER_S / (hertz > 0 ? hertz : 1000000U));
     if (!chip.handling) {
         chip.handled = 0;
     }
@@ -338,7 +338,9 @@ volatile void *memory_at(uint32_t address) {
 /* --- NVIC, SCB (Armv7-M Architecture Reference Manual, B3.4, B3.2) ------------------------------------ */
 static uint32_t nvic_load(uint32_t offset) {
     const uint32_t i = (offset % 0x80U) / 4U;
-    return offset < 0x100U && i < 3 ? chip.enabled[i] : offset < 0x200U && i < 3 ? chip.set_pending[i] : 0;
+    return offset < 0x100U && i < 3   ? chip.enabled[i]
+           : offset < 0x200U && i < 3 ? chip.set_pending[i]
+                                      : 0;
 }
 static void nvic_store(uint32_t offset, uint32_t value) {
     const uint32_t i = (offset % 0x80U) / 4U;
@@ -365,12 +367,12 @@ static void nvic_reset(chip_cause cause) {
     chip.handling = false;
     chip.nmi_taken = false;
 }
-unsigned long chip_interrupts(unsigned number) { return number < INTERRUPTS ? chip.taken[number] : 0; }
+unsigned long chip_interrupts(unsigned number) {
+    return number < INTERRUPTS ? chip.taken[number] : 0;
+}
 
 #define AIRCR 0x0CU
-static uint32_t scb_load(uint32_t offset) {
-    return offset == AIRCR ? 0xFA050000U : 0;
-}
+static uint32_t scb_load(uint32_t offset) { return offset == AIRCR ? 0xFA050000U : 0; }
 static void scb_store(uint32_t offset, uint32_t value) {
     if (offset == AIRCR) {
         if (value >> 16 != 0x05FAU) {
@@ -381,9 +383,14 @@ static void scb_store(uint32_t offset, uint32_t value) {
     }
 }
 
-const part nvic_part = {.name = "NVIC", .base = AT_NVIC, .bytes = 0x400, .load = nvic_load, .store = nvic_store,
+const part nvic_part = {.name = "NVIC",
+                        .base = AT_NVIC,
+                        .bytes = 0x400,
+                        .load = nvic_load,
+                        .store = nvic_store,
                         .reset = nvic_reset};
-const part scb_part = {.name = "SCB", .base = AT_SCB, .bytes = 0x90, .load = scb_load, .store = scb_store};
+const part scb_part = {
+    .name = "SCB", .base = AT_SCB, .bytes = 0x90, .load = scb_load, .store = scb_store};
 
 unsigned chip_resets(void) { return chip.resets; }
 

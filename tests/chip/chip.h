@@ -34,13 +34,14 @@ typedef enum chip_end {
 
 /* What the world around the chip is. Anything may be changed at any time but by chip_crystal_stops(). */
 typedef struct chip_world {
-    bool crystal;             /* answers */
-    uint64_t crystal_units;   /* that it takes to start */
-    bool pll;                 /* locks */
-    uint64_t watchdog_Hz;     /* LSI: 17 to 47 kHz */
+    bool crystal;                              /* answers */
+    uint64_t crystal_units;                    /* that it takes to start */
+    bool pll;                                  /* locks */
+    uint64_t watchdog_Hz;                      /* LSI: 17 to 47 kHz */
     double (*volts)(unsigned input, double s); /* at an ADC1 input, at a time; NULL: 0 */
     double vdda_V;
-    unsigned access_cycles;   /* of the core, that each access to a register takes, with what is computed around it */
+    unsigned
+        access_cycles; /* of the core, that each access to a register takes, with what is computed around it */
 } chip_world;
 extern chip_world world;
 
@@ -83,7 +84,8 @@ void chip_forgive(void);
 typedef enum chip_level { CHIP_LOW, CHIP_HIGH, CHIP_OPEN } chip_level;
 typedef enum chip_resistor { CHIP_NO_RESISTOR, CHIP_TO_GROUND, CHIP_TO_SUPPLY } chip_resistor;
 void chip_pin_drive(char port, unsigned pin, chip_level level);
-void chip_pin_drive_at(uint64_t when, char port, unsigned pin, chip_level level); /* times do not go back */
+void chip_pin_drive_at(uint64_t when, char port, unsigned pin,
+                       chip_level level); /* times do not go back */
 void chip_pin_resistor(char port, unsigned pin, chip_resistor resistor);
 chip_level chip_pin(char port, unsigned pin); /* CHIP_OPEN: nothing says */
 

@@ -29,12 +29,14 @@ static unsigned erases[12];
 static uint32_t option_bytes;
 static unsigned option_writes;
 
+typedef enum flash_work { NOTHING, ERASES, PROGRAMS, OPTIONS_CHANGE } flash_work;
+
 static struct {
     uint32_t acr, sr, cr, optcr;
     unsigned keys, option_keys; /* 0, 1: one was right; 2: open; 3: shut until a reset */
     uint64_t busy_until;
     bool looked; /* BSY was seen to be 0 since the operation before */
-    enum { NOTHING, ERASES, PROGRAMS, OPTIONS_CHANGE } does;
+    flash_work does;
     uint32_t at, value; /* of what it does */
     struct {
         bool used;
@@ -44,9 +46,15 @@ static struct {
     unsigned oldest;
 } f;
 
-static uint32_t sector_of(uint32_t at) { return at < 0x10000U ? at / 0x4000U : at < 0x20000U ? 4U : at / 0x20000U + 4U; }
-static uint32_t sector_start(uint32_t sector) { return sector < 4 ? sector * 0x4000U : sector == 4 ? 0x10000U : (sector - 4U) * 0x20000U; }
-static uint32_t sector_bytes(uint32_t sector) { return sector < 4 ? 0x4000U : sector == 4 ? 0x10000U : 0x20000U; }
+static uint32_t sector_of(uint32_t at) {
+    return at < 0x10000U ? at / 0x4000U : at < 0x20000U ? 4U : at / 0x20000U + 4U;
+}
+static uint32_t sector_start(uint32_t sector) {
+    return sector < 4 ? sector * 0x4000U : sector == 4 ? 0x10000U : (sector - 4U) * 0x20000U;
+}
+static uint32_t sector_bytes(uint32_t sector) {
+    return sector < 4 ? 0x4000U : sector == 4 ? 0x10000U : 0x20000U;
+}
 
 /* Table 10, 2.7 to 3.6 V: 30 MHz for each wait state. */
 void flash_clock_is(uint32_t hertz) {
@@ -78,7 +86,7 @@ static void ends(void) {
 
 static uint64_t flash_next(void) { return f.does != NOTHING ? f.busy_until : CHIP_NEVER; }
 
-static void begins(int what, uint32_t at, uint32_t value, uint64_t us) {
+static void begins(flash_work what, uint32_t at, uint32_t value, uint64_t us) {
     if (!f.looked) {
         forbidden("a flash operation without a look at BSY before");
     }
@@ -98,7 +106,7 @@ void flash_power_goes(void) {
         }
     } else if (f.does == PROGRAMS) {
         for (unsigned i = 0; i < 4; i++) {
-            memory[f.at + i] &= (uint8_t)(f.value >> (8U * i)) | (uint8_t)drawn();
+            memory[f.at + i] &= (uint8_t)(f.value >> (8U * i) | drawn());
         }
     } else if (f.does == OPTIONS_CHANGE) {
         option_bytes = (drawn() & 1U) != 0 ? f.value : option_bytes; /* worse is not told of */
@@ -121,7 +129,8 @@ void flash_new(void) {
     flash_reset(CHIP_BY_POWER);
 }
 
-static unsigned key(unsigned had, uint32_t value, uint32_t first, uint32_t second, const char *which) {
+static unsigned key(unsigned had, uint32_t value, uint32_t first, uint32_t second,
+                    const char *which) {
     if (had == 0 && value == first) {
         return 1;
     }
@@ -135,9 +144,7 @@ static unsigned key(unsigned had, uint32_t value, uint32_t first, uint32_t secon
 static uint32_t flash_load(uint32_t offset) {
     switch (offset) {
     case ACR: return f.acr;
-    case SR:
-        f.looked = (f.sr & BSY) == 0;
-        return f.sr;
+    case SR: f.looked = (f.sr & BSY) == 0; return f.sr;
     case CR: return f.cr;
     case OPTCR: return f.optcr;
     case KEYR:
@@ -172,7 +179,8 @@ static void control(uint32_t value) {
     } else if ((option_bytes & BIT(16U + sector)) == 0) {
         f.sr |= WRPERR;
     } else {
-        static const uint16_t least_ms[4] = {400, 300, 250, 250}; /* table 40, typical, and twice that */
+        static const uint16_t least_ms[4] = {400, 300, 250,
+                                             250}; /* table 40, typical, and twice that */
         const uint32_t ms = least_ms[FIELD(value, 8, 2)];
         begins(ERASES, sector, 0, 1000U * (ms + drawn() % ms));
     }
@@ -193,7 +201,8 @@ static void options(uint32_t value) {
     }
     if (begin) {
         if (((value ^ option_bytes) & 0x0FFFFFE0U & OPTIONS) != 0) {
-            forbidden("option bytes beside the brown-out level: 0x%08x for 0x%08x", value, option_bytes);
+            forbidden("option bytes beside the brown-out level: 0x%08x for 0x%08x", value,
+                      option_bytes);
         }
         begins(OPTIONS_CHANGE, 0, value & OPTIONS, 1000U * (250U + drawn() % 250U));
     }
@@ -228,8 +237,14 @@ static void flash_store(uint32_t offset, uint32_t value) {
     }
 }
 
-const part flash_part = {.name = "FLASH", .base = AT_FLASH, .bytes = 0x18, .load = flash_load, .store = flash_store,
-                         .reset = flash_reset, .next = flash_next, .happens = ends};
+const part flash_part = {.name = "FLASH",
+                         .base = AT_FLASH,
+                         .bytes = 0x18,
+                         .load = flash_load,
+                         .store = flash_store,
+                         .reset = flash_reset,
+                         .next = flash_next,
+                         .happens = ends};
 
 /* --- its memory, on the bus ------------------------------------------------------------------------- */
 static uint32_t word_of(const uint8_t *bytes) {
@@ -245,7 +260,8 @@ static uint32_t memory_load(uint32_t at) {
     for (unsigned i = 0; i < LINES; i++) {
         if (f.line[i].used && f.line[i].address == address) {
             if (memcmp(f.line[i].bytes, memory + address, LINE_BYTES) != 0) {
-                forbidden("the cache of data gives what was at 0x%08x before the erase", AT_FLASH_MEMORY + at);
+                forbidden("the cache of data gives what was at 0x%08x before the erase",
+                          AT_FLASH_MEMORY + at);
             }
             return word_of(f.line[i].bytes + at % LINE_BYTES);
         }
@@ -285,11 +301,16 @@ static void memory_store(uint32_t at, uint32_t value) {
     }
 }
 
-const part flash_memory_part = {.name = "flash memory", .base = AT_FLASH_MEMORY, .bytes = FLASH_MEMORY_BYTES,
-                                .load = memory_load, .store = memory_store};
+const part flash_memory_part = {.name = "flash memory",
+                                .base = AT_FLASH_MEMORY,
+                                .bytes = FLASH_MEMORY_BYTES,
+                                .load = memory_load,
+                                .store = memory_store};
 
 uint8_t chip_flash_byte(uint32_t address) { return memory[address - AT_FLASH_MEMORY]; }
-void chip_flash_byte_is(uint32_t address, uint8_t byte) { memory[address - AT_FLASH_MEMORY] = byte; }
+void chip_flash_byte_is(uint32_t address, uint8_t byte) {
+    memory[address - AT_FLASH_MEMORY] = byte;
+}
 unsigned chip_flash_erases(unsigned sector) { return erases[sector]; }
 uint32_t chip_option_bytes(void) { return option_bytes; }
 unsigned chip_option_writes(void) { return option_writes; }

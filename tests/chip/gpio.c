@@ -4,7 +4,18 @@
 #include "tests/chip/inner.h"
 
 #define PORTS 9U
-enum { MODER = 0x00, OTYPER = 0x04, OSPEEDR = 0x08, PUPDR = 0x0C, IDR = 0x10, ODR = 0x14, BSRR = 0x18, LCKR = 0x1C, AFRL = 0x20, AFRH = 0x24 };
+enum {
+    MODER = 0x00,
+    OTYPER = 0x04,
+    OSPEEDR = 0x08,
+    PUPDR = 0x0C,
+    IDR = 0x10,
+    ODR = 0x14,
+    BSRR = 0x18,
+    LCKR = 0x1C,
+    AFRL = 0x20,
+    AFRH = 0x24
+};
 enum { INPUT, OUTPUT, FUNCTION, ANALOGUE };
 
 bool port_is_clocked(unsigned port);
@@ -24,11 +35,12 @@ static const struct {
     wire is;
     uint8_t channel;
 } functions[] = {
-    {'A', 7, 1, TIM1_CH1N, 0}, {'B', 13, 1, TIM1_CH1N, 0}, {'A', 6, 1, TIM1_BKIN, 0}, {'B', 12, 1, TIM1_BKIN, 0},
-    {'A', 0, 1, TIM2_IN, 1},   {'A', 5, 1, TIM2_IN, 1},    {'A', 15, 1, TIM2_IN, 1},  {'A', 1, 1, TIM2_IN, 2},
-    {'B', 3, 1, TIM2_IN, 2},   {'A', 2, 1, TIM2_IN, 3},    {'B', 10, 1, TIM2_IN, 3},  {'A', 3, 1, TIM2_IN, 4},
-    {'B', 11, 1, TIM2_IN, 4},  {'C', 6, 8, USART6_TX, 0},  {'C', 7, 8, USART6_RX, 0}, {'A', 13, 0, DEBUG, 0},
-    {'A', 14, 0, DEBUG, 0},
+    {'A', 7, 1, TIM1_CH1N, 0},  {'B', 13, 1, TIM1_CH1N, 0}, {'A', 6, 1, TIM1_BKIN, 0},
+    {'B', 12, 1, TIM1_BKIN, 0}, {'A', 0, 1, TIM2_IN, 1},    {'A', 5, 1, TIM2_IN, 1},
+    {'A', 15, 1, TIM2_IN, 1},   {'A', 1, 1, TIM2_IN, 2},    {'B', 3, 1, TIM2_IN, 2},
+    {'A', 2, 1, TIM2_IN, 3},    {'B', 10, 1, TIM2_IN, 3},   {'A', 3, 1, TIM2_IN, 4},
+    {'B', 11, 1, TIM2_IN, 4},   {'C', 6, 8, USART6_TX, 0},  {'C', 7, 8, USART6_RX, 0},
+    {'A', 13, 0, DEBUG, 0},     {'A', 14, 0, DEBUG, 0},
 };
 #define FUNCTIONS (sizeof functions / sizeof *functions)
 
@@ -41,7 +53,9 @@ static struct {
 } edges[EDGES];
 static unsigned edges_from, edges_to;
 
-static uint32_t mode_of(unsigned port, unsigned pin) { return FIELD(ports[port].r[MODER / 4U], 2U * pin, 2); }
+static uint32_t mode_of(unsigned port, unsigned pin) {
+    return FIELD(ports[port].r[MODER / 4U], 2U * pin, 2);
+}
 static uint32_t function_of(unsigned port, unsigned pin) {
     return FIELD(ports[port].r[(pin < 8 ? AFRL : AFRH) / 4U], 4U * (pin % 8U), 4);
 }
@@ -52,8 +66,8 @@ bool pin_is_analogue(unsigned port, unsigned pin) { return mode_of(port, pin) ==
 
 static const uint8_t *function_row(unsigned port, unsigned pin, wire is) {
     for (unsigned i = 0; i < FUNCTIONS; i++) {
-        if (functions[i].is == is && functions[i].port == (char)('A' + port) && functions[i].pin == pin &&
-            pin_is_function(port, pin, functions[i].function)) {
+        if (functions[i].is == is && functions[i].port == (char)('A' + port) &&
+            functions[i].pin == pin && pin_is_function(port, pin, functions[i].function)) {
             return &functions[i].channel;
         }
     }
@@ -85,10 +99,12 @@ static chip_level level_of(unsigned port, unsigned pin) {
     if (inside != CHIP_OPEN) {
         return inside;
     }
-    if (ports[port].resistor[pin] != CHIP_NO_RESISTOR) { /* of 10 kOhm: stronger than the chip's own, of 40 */
+    if (ports[port].resistor[pin] !=
+        CHIP_NO_RESISTOR) { /* of 10 kOhm: stronger than the chip's own, of 40 */
         return ports[port].resistor[pin] == CHIP_TO_SUPPLY ? CHIP_HIGH : CHIP_LOW;
     }
-    const uint32_t pull = mode_of(port, pin) == ANALOGUE ? 0 : FIELD(ports[port].r[PUPDR / 4U], 2U * pin, 2);
+    const uint32_t pull =
+        mode_of(port, pin) == ANALOGUE ? 0 : FIELD(ports[port].r[PUPDR / 4U], 2U * pin, 2);
     return pull == 1 ? CHIP_HIGH : pull == 2 ? CHIP_LOW : CHIP_OPEN;
 }
 
@@ -114,8 +130,8 @@ void pins_changed(void) { tim1_break_input(); }
 bool break_pin_is_high(void);
 bool break_pin_is_high(void) {
     for (unsigned i = 0; i < FUNCTIONS; i++) {
-        if (functions[i].is == TIM1_BKIN &&
-            function_row((unsigned)(functions[i].port - 'A'), functions[i].pin, TIM1_BKIN) != NULL) {
+        if (functions[i].is == TIM1_BKIN && function_row((unsigned)(functions[i].port - 'A'),
+                                                         functions[i].pin, TIM1_BKIN) != NULL) {
             return pin_input((unsigned)(functions[i].port - 'A'), functions[i].pin);
         }
     }
@@ -145,7 +161,9 @@ void chip_pin_resistor(char port, unsigned pin, chip_resistor resistor) {
     ports[port - 'A'].resistor[pin] = resistor;
 }
 
-static uint64_t gpio_next(void) { return edges_from != edges_to ? edges[edges_from % EDGES].when : CHIP_NEVER; }
+static uint64_t gpio_next(void) {
+    return edges_from != edges_to ? edges[edges_from % EDGES].when : CHIP_NEVER;
+}
 static void gpio_happens(void) {
     const unsigned at = edges_from++ % EDGES;
     ports[edges[at].port].driven[edges[at].pin] = (chip_level)edges[at].level;
@@ -200,7 +218,9 @@ static void gpio_store(uint32_t offset, uint32_t value) {
     switch (offset % 0x400U) {
     case IDR: forbidden("store of IDR"); break;
     case ODR: r[ODR / 4U] = value & 0xFFFFU; break;
-    case BSRR: r[ODR / 4U] = (r[ODR / 4U] & ~(value >> 16)) | (value & 0xFFFFU); break; /* setting wins */
+    case BSRR:
+        r[ODR / 4U] = (r[ODR / 4U] & ~(value >> 16)) | (value & 0xFFFFU);
+        break; /* setting wins */
     case LCKR: forbidden("LCKR: the played chip has none"); break;
     default: r[offset % 0x400U / 4U] = value; break;
     }
@@ -237,5 +257,11 @@ void pins_new(void) {
     edges_from = edges_to = 0;
 }
 
-const part gpio_part = {.name = "GPIO", .base = AT_GPIOA, .bytes = PORTS * 0x400U, .load = gpio_load, .store = gpio_store,
-                        .reset = gpio_reset, .next = gpio_next, .happens = gpio_happens};
+const part gpio_part = {.name = "GPIO",
+                        .base = AT_GPIOA,
+                        .bytes = PORTS * 0x400U,
+                        .load = gpio_load,
+                        .store = gpio_store,
+                        .reset = gpio_reset,
+                        .next = gpio_next,
+                        .happens = gpio_happens};

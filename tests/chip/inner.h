@@ -40,20 +40,23 @@ typedef struct part {
     uint32_t (*load)(uint32_t offset);
     void (*store)(uint32_t offset, uint32_t value);
     void (*reset)(chip_cause cause);
-    uint64_t (*next)(void);  /* when something happens by itself */
-    void (*happens)(void);   /* it is that time */
+    uint64_t (*next)(void);              /* when something happens by itself */
+    void (*happens)(void);               /* it is that time */
     bool (*pending)(unsigned interrupt); /* does it ask for this one? */
 } part;
 
-extern const part rcc_part, pwr_part, flash_part, flash_memory_part, gpio_part, tim1_part, tim2_part, tim3_part, adc_part,
-    dma_part, usart_part, iwdg_part, nvic_part, scb_part, dbgmcu_part;
+extern const part rcc_part, pwr_part, flash_part, flash_memory_part, gpio_part, tim1_part,
+    tim2_part, tim3_part, adc_part, dma_part, usart_part, iwdg_part, nvic_part, scb_part,
+    dbgmcu_part;
 
 /* chip.c */
 __attribute__((format(printf, 1, 2))) void forbidden(const char *words, ...);
 uint64_t now_units(void);
 bool core_halted(void);
 uint64_t drawn(void); /* a random number */
-void core_resets(chip_cause cause); /* does not return to the program; in chip_pass() it does: the chip is reset there */
+void core_resets(
+    chip_cause
+        cause); /* does not return to the program; in chip_pass() it does: the chip is reset there */
 volatile void *memory_at(uint32_t address); /* that reg_address() told of */
 
 /* rcc.c: Hz, 0: the clock does not run. */
@@ -64,7 +67,7 @@ uint32_t apb2_Hz(void);
 bool part_is_clocked(const part *which);
 bool pll_is_on(void);
 bool lsi_is_on(void);
-void lsi_forced(void); /* by the watchdog */
+void lsi_forced(void);             /* by the watchdog */
 uint64_t units_of(uint32_t hertz); /* a period */
 /* Told by rcc.c around a change of clocks. */
 void timers_hold_counts(void);

@@ -22,7 +22,9 @@ static uint64_t count_units(void) {
 }
 
 /* The prescaler runs by itself: the first count may be nearly none. */
-static void reload(void) { w.bites_at = now_units() + w.rlr_used * count_units() + drawn() % (count_units() + 1U); }
+static void reload(void) {
+    w.bites_at = now_units() + w.rlr_used * count_units() + drawn() % (count_units() + 1U);
+}
 
 void iwdg_holds(void) { w.held_at = now_units(); }
 void iwdg_goes_on(void) {
@@ -73,7 +75,8 @@ static uint32_t iwdg_load(uint32_t offset) {
 
 /* "Up to five periods" of the oscillator, which has to run. */
 static uint64_t update_ends(void) {
-    return w.runs || lsi_is_on() ? now_units() + period_units() * (1U + drawn() % 5U) : CHIP_NEVER - 1U;
+    return w.runs || lsi_is_on() ? now_units() + period_units() * (1U + drawn() % 5U)
+                                 : CHIP_NEVER - 1U;
 }
 
 static void iwdg_store(uint32_t offset, uint32_t value) {
@@ -125,5 +128,11 @@ static void iwdg_reset(chip_cause cause) {
     iwdg_new();
 }
 
-const part iwdg_part = {.name = "IWDG", .base = AT_IWDG, .bytes = 0x10, .load = iwdg_load, .store = iwdg_store,
-                        .reset = iwdg_reset, .next = iwdg_next, .happens = iwdg_happens};
+const part iwdg_part = {.name = "IWDG",
+                        .base = AT_IWDG,
+                        .bytes = 0x10,
+                        .load = iwdg_load,
+                        .store = iwdg_store,
+                        .reset = iwdg_reset,
+                        .next = iwdg_next,
+                        .happens = iwdg_happens};

@@ -4,7 +4,16 @@
 #include "tests/chip/inner.h"
 
 #define REGISTERS 34U
-enum { CR = 0x00, PLLCFGR = 0x04, CFGR = 0x08, CIR = 0x0C, AHB1ENR = 0x30, APB1ENR = 0x40, APB2ENR = 0x44, CSR = 0x74 };
+enum {
+    CR = 0x00,
+    PLLCFGR = 0x04,
+    CFGR = 0x08,
+    CIR = 0x0C,
+    AHB1ENR = 0x30,
+    APB1ENR = 0x40,
+    APB2ENR = 0x44,
+    CSR = 0x74
+};
 
 #define HSION BIT(0)
 #define HSIRDY BIT(1)
@@ -23,10 +32,12 @@ enum { CR = 0x00, PLLCFGR = 0x04, CFGR = 0x08, CIR = 0x0C, AHB1ENR = 0x30, APB1E
 
 static struct {
     uint32_t r[REGISTERS];
-    uint64_t hsi_at, hse_at, pll_at, lsi_at; /* when each gets ready; CHIP_NEVER: not, or is already */
+    uint64_t hsi_at, hse_at, pll_at,
+        lsi_at; /* when each gets ready; CHIP_NEVER: not, or is already */
     bool crystal_runs, lsi_forced, vos_1;
     uint32_t core, hclk;
-    uint32_t enabled_late; /* a register whose bit was just set, and which: its part may not be the next that is touched */
+    uint32_t
+        enabled_late; /* a register whose bit was just set, and which: its part may not be the next that is touched */
 } rcc;
 
 static uint32_t *reg(uint32_t offset) { return &rcc.r[offset / 4U]; }
@@ -177,7 +188,8 @@ static void control(uint32_t value) {
             forbidden("PLL on before its crystal is ready");
         }
         pll_is_allowed();
-        rcc.pll_at = world.pll ? now_units() + (75U + drawn() % 225U) * CHIP_UNITS_PER_US : CHIP_NEVER;
+        rcc.pll_at =
+            world.pll ? now_units() + (75U + drawn() % 225U) * CHIP_UNITS_PER_US : CHIP_NEVER;
     }
     if ((off & HSION) != 0) {
         *reg(CR) &= ~HSIRDY;
@@ -213,9 +225,7 @@ static void rcc_store(uint32_t offset, uint32_t value) {
         *reg(CFGR) = (*reg(CFGR) & (3U << 2)) | (value & ~(uint32_t)(3U << 2));
         switch_source();
         break;
-    case CIR:
-        *reg(CIR) = (value & 0x7F00U) | (*reg(CIR) & 0xFFU & ~(value >> 16));
-        break;
+    case CIR: *reg(CIR) = (value & 0x7F00U) | (*reg(CIR) & 0xFFU & ~(value >> 16)); break;
     case CSR:
         if ((value & RMVF) != 0) {
             *reg(CSR) &= 0x00FFFFFFU;
@@ -327,13 +337,20 @@ bool port_is_clocked(unsigned port);
 bool port_is_clocked(unsigned port) {
     if (rcc.enabled_late == AHB1ENR) {
         rcc.enabled_late = 0;
-        forbidden("port %c is touched at once behind its clock's enable (ES0182, 2.1.13)", (char)('A' + port));
+        forbidden("port %c is touched at once behind its clock's enable (ES0182, 2.1.13)",
+                  (char)('A' + port));
     }
     return (*reg(AHB1ENR) & BIT(port)) != 0;
 }
 
-const part rcc_part = {.name = "RCC", .base = AT_RCC, .bytes = REGISTERS * 4U, .load = rcc_load, .store = rcc_store,
-                       .reset = rcc_reset, .next = rcc_next, .happens = rcc_happens};
+const part rcc_part = {.name = "RCC",
+                       .base = AT_RCC,
+                       .bytes = REGISTERS * 4U,
+                       .load = rcc_load,
+                       .store = rcc_store,
+                       .reset = rcc_reset,
+                       .next = rcc_next,
+                       .happens = rcc_happens};
 
 /* --- PWR: CR's VOS, bit 14 alone on this chip -------------------------------------------------------- */
 static uint32_t pwr[2];
@@ -351,12 +368,20 @@ static void pwr_reset(chip_cause cause) {
     pwr[0] = BIT(14);
     pwr[1] = 0;
 }
-const part pwr_part = {.name = "PWR", .base = AT_PWR, .bytes = 8, .clock_register = APB1ENR, .clock_bit = BIT(28),
-                       .load = pwr_load, .store = pwr_store, .reset = pwr_reset};
+const part pwr_part = {.name = "PWR",
+                       .base = AT_PWR,
+                       .bytes = 8,
+                       .clock_register = APB1ENR,
+                       .clock_bit = BIT(28),
+                       .load = pwr_load,
+                       .store = pwr_store,
+                       .reset = pwr_reset};
 
 /* --- DBGMCU: which clocks stop when a debugger holds the core; not reset by a reset of the system ------- */
 static uint32_t dbgmcu[4];
-static uint32_t dbgmcu_load(uint32_t offset) { return offset == 0 ? 0x10076413U : dbgmcu[offset / 4U]; }
+static uint32_t dbgmcu_load(uint32_t offset) {
+    return offset == 0 ? 0x10076413U : dbgmcu[offset / 4U];
+}
 static void dbgmcu_store(uint32_t offset, uint32_t value) { dbgmcu[offset / 4U] = value; }
 static void dbgmcu_reset(chip_cause cause) {
     if (cause == CHIP_BY_POWER) {
@@ -366,5 +391,9 @@ static void dbgmcu_reset(chip_cause cause) {
 bool debug_stops(uint32_t offset, unsigned bit) {
     return core_halted() && (dbgmcu[offset / 4U] & BIT(bit)) != 0;
 }
-const part dbgmcu_part = {.name = "DBGMCU", .base = AT_DBGMCU, .bytes = 16, .load = dbgmcu_load, .store = dbgmcu_store,
+const part dbgmcu_part = {.name = "DBGMCU",
+                          .base = AT_DBGMCU,
+                          .bytes = 16,
+                          .load = dbgmcu_load,
+                          .store = dbgmcu_store,
                           .reset = dbgmcu_reset};

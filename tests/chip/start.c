@@ -18,8 +18,8 @@ static uint8_t image[16384];
 static size_t image_bytes;
 
 /* Byte by byte: a sanitizer has guards of its own between variables. */
-__attribute__((no_sanitize("address", "undefined"), noinline)) static void put(volatile uint8_t *to, const uint8_t *from,
-                                                                              size_t count) {
+__attribute__((no_sanitize("address", "undefined"), noinline)) static void
+put(volatile uint8_t *to, const uint8_t *from, size_t count) {
     for (size_t i = 0; i < count; i++) {
         to[i] = from != NULL ? from[i] : 0;
     }

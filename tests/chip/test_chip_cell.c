@@ -50,7 +50,9 @@ static void collect(unsigned samples) {
 }
 
 static double offset_V, swing_V, turns_Hz, phase;
-static double sine(double s) { return MIDDLE_V + offset_V + swing_V * sin(2.0 * PI * turns_Hz * s + phase); }
+static double sine(double s) {
+    return MIDDLE_V + offset_V + swing_V * sin(2.0 * PI * turns_Hz * s + phase);
+}
 
 /* What the samples say of a sine of known frequency: amplitude, and the time it is off; least squares at their stamps. */
 static void fit(double *amplitude, double *late_s, double *mean) {
@@ -103,7 +105,8 @@ static void begin(uint64_t seed) {
 static void test_sines(void) {
     for (unsigned i = 0; i < 14; i++) {
         begin(i + 1U);
-        turns_Hz = i % 2U == 0 ? 3.0 + (double)(scattered() % 1000U) / 250.0 : 25.0 + (double)(scattered() % 1000U) / 66.0;
+        turns_Hz = i % 2U == 0 ? 3.0 + (double)(scattered() % 1000U) / 250.0
+                               : 25.0 + (double)(scattered() % 1000U) / 66.0;
         swing_V = 0.7 + (double)(scattered() % 800U) / 1000.0;
         phase = (double)(scattered() % 6283U) / 1000.0;
         offset_V = 0.1 * ((double)(scattered() % 1000U) / 1000.0 - 0.5);
@@ -117,8 +120,10 @@ static void test_sines(void) {
         double mean = 0;
         fit(&amplitude, &late_s, &mean);
         TEST_ASSERT_DOUBLE_WITHIN(0.0005, 1.0, amplitude / (swing_V * RAW_OF_V));
-        TEST_ASSERT_DOUBLE_WITHIN_MESSAGE(1.5e-6, 0.0, late_s, "stamps are not in the window's middle");
-        TEST_ASSERT_DOUBLE_WITHIN(9.0, offset_V * RAW_OF_V, mean); /* a converter cuts off: half a count of 12 bits */
+        TEST_ASSERT_DOUBLE_WITHIN_MESSAGE(1.5e-6, 0.0, late_s,
+                                          "stamps are not in the window's middle");
+        TEST_ASSERT_DOUBLE_WITHIN(9.0, offset_V * RAW_OF_V,
+                                  mean); /* a converter cuts off: half a count of 12 bits */
     }
 }
 
@@ -143,7 +148,8 @@ static void test_parabolas(void) {
         for (unsigned at = 0; at < got_count; at++) {
             const double V = parabola(got_s[at]);
             if (fabs(got_s[at] - bend_from) < 0.008) {
-                TEST_ASSERT_DOUBLE_WITHIN(12.0, (V - MIDDLE_V) * RAW_OF_V - 8.0, got[at].raw); /* uncorrected: 99 */
+                TEST_ASSERT_DOUBLE_WITHIN(12.0, (V - MIDDLE_V) * RAW_OF_V - 8.0,
+                                          got[at].raw); /* uncorrected: 99 */
                 seen++;
             }
         }
@@ -162,8 +168,8 @@ static void test_ends(void) {
     static const struct {
         double V;
         uint8_t status;
-    } rows[] = {{3.3, HAL_LOAD_SATURATED}, {1.65, HAL_LOAD_OK},       {5.0, HAL_LOAD_SATURATED}, {3.0, HAL_LOAD_OK},
-                {0.0, HAL_LOAD_DISCONNECTED}, {0.3, HAL_LOAD_OK}};
+    } rows[] = {{3.3, HAL_LOAD_SATURATED}, {1.65, HAL_LOAD_OK},          {5.0, HAL_LOAD_SATURATED},
+                {3.0, HAL_LOAD_OK},        {0.0, HAL_LOAD_DISCONNECTED}, {0.3, HAL_LOAD_OK}};
     for (unsigned i = 0; i < sizeof rows / sizeof *rows; i++) {
         level_V = rows[i].V;
         chip_pass_us(10000); /* those of before, and those that have both */
@@ -172,7 +178,8 @@ static void test_ends(void) {
         for (unsigned at = 0; at < got_count; at++) {
             TEST_ASSERT_EQUAL(rows[i].status, got[at].status);
             if (rows[i].V > 3.2) {
-                TEST_ASSERT_INT_WITHIN(16, HAL_LOADCELL_RAW_MAX, got[at].raw); /* the last count of 12 bits */
+                TEST_ASSERT_INT_WITHIN(16, HAL_LOADCELL_RAW_MAX,
+                                       got[at].raw); /* the last count of 12 bits */
             } else if (rows[i].status == HAL_LOAD_OK) {
                 TEST_ASSERT_DOUBLE_WITHIN(17.0, (rows[i].V - MIDDLE_V) * RAW_OF_V, got[at].raw);
             }
@@ -191,11 +198,13 @@ static void test_clipped_for_a_moment(void) {
     collect(200);
     unsigned marked = 0;
     for (unsigned at = 0; at < got_count; at++) {
-        const double next = fmod(got_s[at] + 0.001, 0.05); /* the window's end, since the last clip began */
+        const double next =
+            fmod(got_s[at] + 0.001, 0.05); /* the window's end, since the last clip began */
         const bool has = next < 0.00238 && next > 0.00005;
         marked += got[at].status == HAL_LOAD_SATURATED ? 1U : 0U;
         if (has && next > 0.0003 && next < 0.0021) {
-            TEST_ASSERT_EQUAL_MESSAGE(HAL_LOAD_SATURATED, got[at].status, "a clipped sample is called good");
+            TEST_ASSERT_EQUAL_MESSAGE(HAL_LOAD_SATURATED, got[at].status,
+                                      "a clipped sample is called good");
         }
         if (got[at].status == HAL_LOAD_OK) {
             TEST_ASSERT_TRUE_MESSAGE(abs(got[at].raw) < 2500, "a good sample that is none");
@@ -214,7 +223,8 @@ static void test_kept(void) {
     run_take();
     TEST_ASSERT_TRUE(got_count >= 4);
     for (unsigned at = 0; at < 4; at++) {
-        TEST_ASSERT_TRUE_MESSAGE(got[at].ticks - then < 12000U || then - got[at].ticks < 4100U, "the oldest are not kept");
+        TEST_ASSERT_TRUE_MESSAGE(got[at].ticks - then < 12000U || then - got[at].ticks < 4100U,
+                                 "the oldest are not kept");
     }
 }
 
@@ -246,8 +256,8 @@ static void test_core_that_stood(void) {
         unsigned good = 0;
         for (unsigned at = 0; at < got_count; at++) {
             if (got[at].status == HAL_LOAD_OK && fabs(remainder(got_s[at], 0.5)) > 0.005) {
-                TEST_ASSERT_DOUBLE_WITHIN_MESSAGE(40.0, (ramp(got_s[at]) - MIDDLE_V) * RAW_OF_V, got[at].raw,
-                                                  "a sample is not of its stamp");
+                TEST_ASSERT_DOUBLE_WITHIN_MESSAGE(40.0, (ramp(got_s[at]) - MIDDLE_V) * RAW_OF_V,
+                                                  got[at].raw, "a sample is not of its stamp");
                 good++;
             }
         }

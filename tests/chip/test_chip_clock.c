@@ -28,7 +28,8 @@ static void test_crystals_that_start(void) {
     scattered_state = 1;
     for (unsigned i = 0; i < 20; i++) {
         chip_wired(scattered());
-        world.crystal_units = (200U + scattered() % 5000U) * CHIP_UNITS_PER_US; /* DS8626, table 36: 2 ms usually */
+        world.crystal_units =
+            (200U + scattered() % 5000U) * CHIP_UNITS_PER_US; /* DS8626, table 36: 2 ms usually */
         chip_reset(CHIP_BY_POWER);
         TEST_ASSERT_EQUAL(CHIP_RETURNED, chip_start(&how));
         TEST_ASSERT_EQUAL_STRING("none", chip_violation());
@@ -39,7 +40,8 @@ static void test_crystals_that_start(void) {
         TEST_ASSERT_EQUAL(168000000, now.core_Hz);
         TEST_ASSERT_EQUAL(42000000, now.apb1_Hz);
         TEST_ASSERT_EQUAL(84000000, now.apb2_Hz);
-        TEST_ASSERT_TRUE(ppm_over(0.05) < 25.0 && ppm_over(0.05) > -25.0); /* a tick in 50 ms is 20 */
+        TEST_ASSERT_TRUE(ppm_over(0.05) < 25.0 &&
+                         ppm_over(0.05) > -25.0); /* a tick in 50 ms is 20 */
     }
 }
 
@@ -49,7 +51,8 @@ static void fallback_is_taken(uint64_t most_ms) {
     TEST_ASSERT_EQUAL(CHIP_RETURNED, chip_start(&how));
     TEST_ASSERT_EQUAL_STRING("none", chip_violation());
     TEST_ASSERT_EQUAL(HAL_STARTED, how);
-    TEST_ASSERT_TRUE_MESSAGE(chip_now() - then < most_ms * 1000U * CHIP_UNITS_PER_US, "the start waits too long");
+    TEST_ASSERT_TRUE_MESSAGE(chip_now() - then < most_ms * 1000U * CHIP_UNITS_PER_US,
+                             "the start waits too long");
     TEST_ASSERT_EQUAL(HAL_CLOCK_FALLBACK, hal_clock_source_now());
     TEST_ASSERT_EQUAL(10000, hal_clock_tolerance_ppm());
     TEST_ASSERT_EQUAL(16000000, chip_clocks_now().core_Hz);
@@ -70,7 +73,8 @@ static void test_no_lock(void) {
 
 /* From any of its resets the chip starts as from the first. */
 static void test_from_every_reset(void) {
-    static const chip_cause causes[] = {CHIP_BY_DIP, CHIP_BY_PIN, CHIP_BY_WATCHDOG, CHIP_BY_SOFTWARE};
+    static const chip_cause causes[] = {CHIP_BY_DIP, CHIP_BY_PIN, CHIP_BY_WATCHDOG,
+                                        CHIP_BY_SOFTWARE};
     for (unsigned i = 0; i < sizeof causes / sizeof *causes; i++) {
         chip_on(4 + i);
         chip_pass_us(10000);
@@ -102,7 +106,8 @@ static void test_waits(void) {
     target = chip_tim2_count() - 1000U;
     const uint64_t then = chip_now();
     TEST_ASSERT_EQUAL(CHIP_RETURNED, chip_try(wait_there));
-    TEST_ASSERT_TRUE_MESSAGE(chip_now() - then < 20U * CHIP_UNITS_PER_US, "it waits for what is past");
+    TEST_ASSERT_TRUE_MESSAGE(chip_now() - then < 20U * CHIP_UNITS_PER_US,
+                             "it waits for what is past");
     TEST_ASSERT_TRUE(hal_clock_late_ticks() >= 1000U);
     TEST_ASSERT_EQUAL_STRING("none", chip_violation());
 }

@@ -21,13 +21,15 @@ static void run(void (*what)(void)) {
 
 static void test_rate(void) {
     chip_on(1);
-    TEST_ASSERT_DOUBLE_WITHIN(0.005, 1.0, (double)CHIP_UNITS_PER_S * 10.0 / 115200.0 / (double)chip_serial_byte_units());
+    TEST_ASSERT_DOUBLE_WITHIN(
+        0.005, 1.0, (double)CHIP_UNITS_PER_S * 10.0 / 115200.0 / (double)chip_serial_byte_units());
     chip_wired(2);
     world.crystal = false;
     hal_start how = HAL_START_NO_TIMER;
     chip_reset(CHIP_BY_POWER);
     TEST_ASSERT_EQUAL(CHIP_RETURNED, chip_start(&how));
-    TEST_ASSERT_DOUBLE_WITHIN(0.01, 1.0, (double)CHIP_UNITS_PER_S * 10.0 / 115200.0 / (double)chip_serial_byte_units());
+    TEST_ASSERT_DOUBLE_WITHIN(
+        0.01, 1.0, (double)CHIP_UNITS_PER_S * 10.0 / 115200.0 / (double)chip_serial_byte_units());
 }
 
 /* What is written waits until all is out, what is offered does not; in order, each once, in bursts, with a pause or none. */
@@ -48,7 +50,8 @@ static void test_out(void) {
             count = room;
         } else {
             run(offer);
-            TEST_ASSERT_TRUE_MESSAGE(chip_now() - then < 500U * CHIP_UNITS_PER_US, "an offer waits");
+            TEST_ASSERT_TRUE_MESSAGE(chip_now() - then < 500U * CHIP_UNITS_PER_US,
+                                     "an offer waits");
             TEST_ASSERT_TRUE(count <= room);
         }
         memcpy(mine + said, bytes, count);
@@ -144,7 +147,8 @@ static void lost(bool held) {
     chip_on(7U + (held ? 1U : 0U));
     const uint64_t byte_units = chip_serial_byte_units();
     for (unsigned rounds = 0; rounds < 20; rounds++) {
-        const unsigned many = held ? 5U + (unsigned)(scattered() % 40U) : 200U + (unsigned)(scattered() % 100U);
+        const unsigned many =
+            held ? 5U + (unsigned)(scattered() % 40U) : 200U + (unsigned)(scattered() % 100U);
         for (unsigned i = 0; i < many; i++) {
             chip_serial_comes(chip_now() + (i + 1U) * byte_units, (uint8_t)(1U + i % 250U));
         }
@@ -175,7 +179,8 @@ static void lost(bool held) {
                 gap = true;
                 zeros++;
             } else if (seen[i] != 251U) {
-                TEST_ASSERT_TRUE_MESSAGE(seen[i] == next || gap, "some are missing, and no zero says so");
+                TEST_ASSERT_TRUE_MESSAGE(seen[i] == next || gap,
+                                         "some are missing, and no zero says so");
                 gap = false;
                 next = seen[i] % 250U + 1U;
             } else {

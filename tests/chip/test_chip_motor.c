@@ -106,7 +106,8 @@ static void test_what_is_out_of_range(void) {
     static const struct {
         float volts;
         unsigned high;
-    } rows[] = {{NAN, 0}, {-1.0F, 0}, {-INFINITY, 0}, {0.0F, 0}, {100.0F, TICKS}, {INFINITY, TICKS}, {3e38F, TICKS}};
+    } rows[] = {{NAN, 0},        {-1.0F, 0},        {-INFINITY, 0}, {0.0F, 0},
+                {100.0F, TICKS}, {INFINITY, TICKS}, {3e38F, TICKS}};
     chip_on(4);
     chip_pass_us(10000);
     for (unsigned i = 0; i < 2U * sizeof rows / sizeof *rows; i++) {

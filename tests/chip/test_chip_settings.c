@@ -24,7 +24,8 @@ static void run(void (*what)(void)) {
     const uint64_t then = chip_now();
     TEST_ASSERT_EQUAL(CHIP_RETURNED, chip_try(what));
     TEST_ASSERT_EQUAL_STRING("none", chip_violation());
-    TEST_ASSERT_TRUE_MESSAGE(chip_now() - then <= HAL_SETTINGS_TICKS * CHIP_UNITS_PER_US, "longer than a call may take");
+    TEST_ASSERT_TRUE_MESSAGE(chip_now() - then <= HAL_SETTINGS_TICKS * CHIP_UNITS_PER_US,
+                             "longer than a call may take");
 }
 
 /* Both slots against memory of the test's own, through erases and writes of any length; nothing else is touched. */
@@ -43,7 +44,8 @@ static void test_slots(void) {
         run(erase);
         TEST_ASSERT_TRUE(good);
         memset(mine[slot], 0xFF, sizeof mine[slot]);
-        for (at = 4U * (unsigned)(scattered() % 10U); at < HAL_SETTINGS_BYTES; at += (count + 3U) / 4U * 4U) {
+        for (at = 4U * (unsigned)(scattered() % 10U); at < HAL_SETTINGS_BYTES;
+             at += (count + 3U) / 4U * 4U) {
             const unsigned room = HAL_SETTINGS_BYTES - at;
             count = 1U + (unsigned)(scattered() % (room < 90U ? room : 90U));
             for (unsigned b = 0; b < count; b++) {
@@ -179,7 +181,8 @@ static void test_torn_at_any_instant(void) {
         one_more();
         /* half of them in the erase, half in what is written behind it */
         chip_power_off_at(chip_now() + (i % 2U == 0 ? scattered() % (CHIP_UNITS_PER_S / 3U)
-                                                    : CHIP_UNITS_PER_S / 4U + scattered() % (CHIP_UNITS_PER_S / 4U)));
+                                                    : CHIP_UNITS_PER_S / 4U +
+                                                          scattered() % (CHIP_UNITS_PER_S / 4U)));
         if (chip_try(save) == CHIP_POWER_OFF) {
             torn++;
         }

@@ -43,7 +43,8 @@ static void begin(uint64_t seed) {
 static void pulse_at(uint64_t units, uint8_t sensor, uint64_t high_us) {
     made[made_count].units = units;
     made[made_count].sensor = sensor;
-    made[made_count].ticks = chip_tim2_count() + (uint32_t)((units - chip_now()) / CHIP_UNITS_PER_US);
+    made[made_count].ticks =
+        chip_tim2_count() + (uint32_t)((units - chip_now()) / CHIP_UNITS_PER_US);
     made_count++;
     chip_pin_drive_at(units, 'A', sensor, CHIP_HIGH);
     chip_pin_drive_at(units + high_us * CHIP_UNITS_PER_US, 'A', sensor, CHIP_LOW);
@@ -56,7 +57,8 @@ static void all_are_there(void) {
     TEST_ASSERT_EQUAL(made_count, got_count);
     for (unsigned i = 0; i < made_count; i++) {
         TEST_ASSERT_EQUAL(made[i].sensor, got[i].sensor);
-        TEST_ASSERT_TRUE_MESSAGE(got[i].ticks - made[i].ticks + 1U <= LATE_MOST, "a stamp is not its edge's");
+        TEST_ASSERT_TRUE_MESSAGE(got[i].ticks - made[i].ticks + 1U <= LATE_MOST,
+                                 "a stamp is not its edge's");
     }
 }
 
@@ -65,8 +67,8 @@ static void turn(unsigned pulses, uint32_t from_ticks) {
     chip_tim2_count_is(from_ticks);
     for (unsigned i = 0; i < pulses; i++) {
         const uint64_t gap_us = (i % 5U == 0 ? 20000U : 300U) + scattered() % 3000U;
-        pulse_at(chip_now() + gap_us * CHIP_UNITS_PER_US + scattered() % CHIP_UNITS_PER_US, (uint8_t)(scattered() % 2U),
-                 50U + scattered() % 150U);
+        pulse_at(chip_now() + gap_us * CHIP_UNITS_PER_US + scattered() % CHIP_UNITS_PER_US,
+                 (uint8_t)(scattered() % 2U), 50U + scattered() % 150U);
         for (uint64_t passed = 0; passed <= gap_us + 250U; passed += 1000U) {
             chip_pass_us(1000U);
             run_take(ROOM);
@@ -101,7 +103,8 @@ static void test_together(void) {
         }
         const uint64_t at = chip_now() + CHIP_UNITS_PER_US * (1000U + scattered() % 10U);
         const uint8_t first = (uint8_t)(scattered() % 2U);
-        const uint64_t apart_us = 4U + scattered() % 8U; /* two samples of the filter at least: other ticks */
+        const uint64_t apart_us =
+            4U + scattered() % 8U; /* two samples of the filter at least: other ticks */
         made_count = got_count = 0;
         pulse_at(at, first, 100);
         made[1] = made[0];
@@ -127,7 +130,8 @@ static void test_spikes(void) {
     for (unsigned i = 0; i < 200; i++) {
         const unsigned pin = (unsigned)(scattered() % 2U);
         chip_pin_drive('A', pin, CHIP_HIGH);
-        chip_pass(scattered() % (21U * CHIP_UNITS_PER_US / 2U)); /* eight samples take 10.7 us at least */
+        chip_pass(scattered() %
+                  (21U * CHIP_UNITS_PER_US / 2U)); /* eight samples take 10.7 us at least */
         chip_pin_drive('A', pin, CHIP_LOW);
         chip_pass_us(20U + scattered() % 100U);
     }
@@ -209,7 +213,8 @@ static void storm(uint64_t period_us, uint64_t ms) {
         run_take(ROOM);
         taken += got_count;
         for (unsigned i = 1; i < got_count; i++) {
-            TEST_ASSERT_TRUE_MESSAGE((int32_t)(got[i].ticks - got[i - 1U].ticks) >= 0, "not in order of time");
+            TEST_ASSERT_TRUE_MESSAGE((int32_t)(got[i].ticks - got[i - 1U].ticks) >= 0,
+                                     "not in order of time");
         }
     }
     TEST_ASSERT_TRUE(taken > 0);

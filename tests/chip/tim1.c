@@ -3,7 +3,24 @@
 
 #include "tests/chip/inner.h"
 
-enum { CR1 = 0x00, CR2 = 0x04, SMCR = 0x08, DIER = 0x0C, SR = 0x10, EGR = 0x14, CCMR1 = 0x18, CCMR2 = 0x1C, CCER = 0x20, CNT = 0x24, PSC = 0x28, ARR = 0x2C, RCR = 0x30, CCR1 = 0x34, BDTR = 0x44, DMAR = 0x4C };
+enum {
+    CR1 = 0x00,
+    CR2 = 0x04,
+    SMCR = 0x08,
+    DIER = 0x0C,
+    SR = 0x10,
+    EGR = 0x14,
+    CCMR1 = 0x18,
+    CCMR2 = 0x1C,
+    CCER = 0x20,
+    CNT = 0x24,
+    PSC = 0x28,
+    ARR = 0x2C,
+    RCR = 0x30,
+    CCR1 = 0x34,
+    BDTR = 0x44,
+    DMAR = 0x4C
+};
 #define CC1E BIT(0)
 #define CC1P BIT(1)
 #define CC1NE BIT(2)
@@ -41,7 +58,8 @@ static bool counts(void) {
     return (*reg(CR1) & 1U) != 0 && t.arr > 0 && apb2_timer_Hz() > 0 && !debug_stops(0x0C, 0);
 }
 static uint32_t count_now(void) {
-    return counts() ? t.count + (uint32_t)((now_units() - t.base) / chip_tim1_tick_units()) : t.count;
+    return counts() ? t.count + (uint32_t)((now_units() - t.base) / chip_tim1_tick_units())
+                    : t.count;
 }
 void tim1_hold_count(void) {
     t.count = count_now();
@@ -60,7 +78,9 @@ static void update(void) {
 }
 
 static uint64_t tim1_next(void) {
-    return counts() ? t.base + (t.arr + 1U - (t.count <= t.arr ? t.count : t.arr)) * chip_tim1_tick_units() : CHIP_NEVER;
+    return counts() ? t.base + (t.arr + 1U - (t.count <= t.arr ? t.count : t.arr)) *
+                                   chip_tim1_tick_units()
+                    : CHIP_NEVER;
 }
 
 static bool break_is_active(void) {
@@ -117,7 +137,8 @@ chip_level tim1_ch1n(void) {
             const bool active = (ccer & CC1E) != 0 ? !reference() : reference();
             return active != inverted ? CHIP_HIGH : CHIP_LOW;
         }
-        return (bdtr & OSSR) != 0 && (ccer & CC1E) != 0 ? (inverted ? CHIP_HIGH : CHIP_LOW) : CHIP_OPEN;
+        return (bdtr & OSSR) != 0 && (ccer & CC1E) != 0 ? (inverted ? CHIP_HIGH : CHIP_LOW)
+                                                        : CHIP_OPEN;
     }
     if ((bdtr & OSSI) == 0 || (ccer & (CC1E | CC1NE)) == 0) {
         return CHIP_OPEN;
@@ -211,6 +232,14 @@ static bool tim1_pending(unsigned interrupt) {
            (interrupt == 27 && (asked & 0x1EU) != 0);
 }
 
-const part tim1_part = {.name = "TIM1", .base = AT_TIM1, .bytes = 0x50, .clock_register = 0x44, .clock_bit = BIT(0),
-                        .load = tim1_load, .store = tim1_store, .reset = tim1_reset, .next = tim1_next, .happens = tim1_happens,
+const part tim1_part = {.name = "TIM1",
+                        .base = AT_TIM1,
+                        .bytes = 0x50,
+                        .clock_register = 0x44,
+                        .clock_bit = BIT(0),
+                        .load = tim1_load,
+                        .store = tim1_store,
+                        .reset = tim1_reset,
+                        .next = tim1_next,
+                        .happens = tim1_happens,
                         .pending = tim1_pending};

@@ -4,7 +4,22 @@
 
 #include "tests/chip/inner.h"
 
-enum { CR1 = 0x00, CR2 = 0x04, SMCR = 0x08, DIER = 0x0C, SR = 0x10, EGR = 0x14, CCMR1 = 0x18, CCMR2 = 0x1C, CCER = 0x20, CNT = 0x24, PSC = 0x28, ARR = 0x2C, CCR1 = 0x34, OR = 0x50 };
+enum {
+    CR1 = 0x00,
+    CR2 = 0x04,
+    SMCR = 0x08,
+    DIER = 0x0C,
+    SR = 0x10,
+    EGR = 0x14,
+    CCMR1 = 0x18,
+    CCMR2 = 0x1C,
+    CCER = 0x20,
+    CNT = 0x24,
+    PSC = 0x28,
+    ARR = 0x2C,
+    CCR1 = 0x34,
+    OR = 0x50
+};
 #define CEN BIT(0)
 #define UDIS BIT(1)
 #define URS BIT(2)
@@ -16,10 +31,10 @@ typedef struct timer {
     uint32_t r[21];
     uint32_t psc, arr; /* in use */
     uint64_t count, base;
-    uint64_t most;       /* the widest count */
+    uint64_t most; /* the widest count */
     unsigned interrupt;
-    unsigned debug_bit;  /* of DBGMCU_APB1_FZ */
-    unsigned trigger;    /* of the ADC's, by its update */
+    unsigned debug_bit; /* of DBGMCU_APB1_FZ */
+    unsigned trigger;   /* of the ADC's, by its update */
     struct {
         bool level, filtered;
         uint64_t accepted_at; /* when the filter lets the new level through */
@@ -31,9 +46,12 @@ static timer tim3 = {.most = 0xFFFF, .interrupt = 29, .debug_bit = 1, .trigger =
 
 static uint32_t *reg(timer *t, uint32_t offset) { return &t->r[offset / 4U]; }
 
-static uint64_t tick_units(const timer *t) { return units_of(apb1_timer_Hz()) * ((uint64_t)t->psc + 1U); }
+static uint64_t tick_units(const timer *t) {
+    return units_of(apb1_timer_Hz()) * ((uint64_t)t->psc + 1U);
+}
 static bool counts(timer *t) {
-    return (*reg(t, CR1) & CEN) != 0 && t->arr > 0 && apb1_timer_Hz() > 0 && !debug_stops(0x08, t->debug_bit);
+    return (*reg(t, CR1) & CEN) != 0 && t->arr > 0 && apb1_timer_Hz() > 0 &&
+           !debug_stops(0x08, t->debug_bit);
 }
 static uint64_t count_now(timer *t) {
     return counts(t) ? t->count + (now_units() - t->base) / tick_units(t) : t->count;
@@ -41,7 +59,8 @@ static uint64_t count_now(timer *t) {
 /* Keeps the part of a tick that has passed, while the clock stays. */
 static void hold(timer *t, bool clock_changes) {
     const uint64_t count = count_now(t);
-    t->base = counts(t) && !clock_changes ? t->base + (count - t->count) * tick_units(t) : now_units();
+    t->base =
+        counts(t) && !clock_changes ? t->base + (count - t->count) * tick_units(t) : now_units();
     t->count = count;
 }
 void timers_hold_counts(void) {
@@ -59,7 +78,10 @@ static void update_event(timer *t) {
 }
 
 static uint64_t overflow_at(timer *t) {
-    return counts(t) ? t->base + ((uint64_t)t->arr + 1U - (t->count <= t->arr ? t->count : t->arr)) * tick_units(t) : CHIP_NEVER;
+    return counts(t)
+               ? t->base + ((uint64_t)t->arr + 1U - (t->count <= t->arr ? t->count : t->arr)) *
+                               tick_units(t)
+               : CHIP_NEVER;
 }
 
 static uint64_t next_of(timer *t) {
@@ -70,7 +92,9 @@ static uint64_t next_of(timer *t) {
     return next;
 }
 
-static uint32_t mode_of(timer *t, unsigned i) { return *reg(t, i < 2 ? CCMR1 : CCMR2) >> (8U * (i % 2U)) & 0xFFU; }
+static uint32_t mode_of(timer *t, unsigned i) {
+    return *reg(t, i < 2 ? CCMR1 : CCMR2) >> (8U * (i % 2U)) & 0xFFU;
+}
 
 /* A capture (18.3.5): into CCRx, its flag, and the one for a capture that the flag before it was still up for. */
 static void capture(timer *t, unsigned i) {
@@ -242,9 +266,25 @@ void chip_tim2_count_is(uint32_t count) {
 }
 uint32_t chip_tim2_count(void) { return (uint32_t)(count_now(&tim2) % ((uint64_t)tim2.arr + 1U)); }
 
-const part tim2_part = {.name = "TIM2", .base = AT_TIM2, .bytes = 0x54, .clock_register = 0x40, .clock_bit = BIT(0),
-                        .load = tim2_load, .store = tim2_store, .reset = tim2_reset, .next = tim2_next, .happens = tim2_happens,
+const part tim2_part = {.name = "TIM2",
+                        .base = AT_TIM2,
+                        .bytes = 0x54,
+                        .clock_register = 0x40,
+                        .clock_bit = BIT(0),
+                        .load = tim2_load,
+                        .store = tim2_store,
+                        .reset = tim2_reset,
+                        .next = tim2_next,
+                        .happens = tim2_happens,
                         .pending = tim2_pending};
-const part tim3_part = {.name = "TIM3", .base = AT_TIM3, .bytes = 0x54, .clock_register = 0x40, .clock_bit = BIT(1),
-                        .load = tim3_load, .store = tim3_store, .reset = tim3_reset, .next = tim3_next, .happens = tim3_happens,
+const part tim3_part = {.name = "TIM3",
+                        .base = AT_TIM3,
+                        .bytes = 0x54,
+                        .clock_register = 0x40,
+                        .clock_bit = BIT(1),
+                        .load = tim3_load,
+                        .store = tim3_store,
+                        .reset = tim3_reset,
+                        .next = tim3_next,
+                        .happens = tim3_happens,
                         .pending = tim3_pending};

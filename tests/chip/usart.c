@@ -47,7 +47,9 @@ unsigned chip_serial_sent(void) { return sent_count; }
 uint8_t chip_serial_byte(unsigned at) { return sent[at % SENT]; }
 
 static uint64_t out_at(void) { return u.shifting ? u.end_at : CHIP_NEVER; }
-static uint64_t in_at(void) { return coming_from != coming_to ? coming[coming_from % COMING].when : CHIP_NEVER; }
+static uint64_t in_at(void) {
+    return coming_from != coming_to ? coming[coming_from % COMING].when : CHIP_NEVER;
+}
 static uint64_t usart_next(void) { return out_at() < in_at() ? out_at() : in_at(); }
 
 static void shift(uint8_t byte) {
@@ -103,7 +105,9 @@ static uint32_t usart_load(uint32_t offset) {
 
 static void usart_store(uint32_t offset, uint32_t value) {
     switch (offset) {
-    case SR: u.sr &= value | ~(uint32_t)(BIT(9) | BIT(8) | TC | RXNE); break; /* rc_w0, these alone */
+    case SR:
+        u.sr &= value | ~(uint32_t)(BIT(9) | BIT(8) | TC | RXNE);
+        break; /* rc_w0, these alone */
     case DR:
         if ((u.cr1 & (UE | TE)) != (UE | TE)) {
             forbidden("a byte to a USART that does not send");
@@ -142,7 +146,8 @@ static void usart_store(uint32_t offset, uint32_t value) {
 
 static bool usart_pending(unsigned interrupt) {
     return interrupt == 71 && (((u.sr & (RXNE | ORE)) != 0 && (u.cr1 & BIT(5)) != 0) ||
-                               ((u.sr & TXE) != 0 && (u.cr1 & BIT(7)) != 0) || ((u.sr & TC) != 0 && (u.cr1 & BIT(6)) != 0));
+                               ((u.sr & TXE) != 0 && (u.cr1 & BIT(7)) != 0) ||
+                               ((u.sr & TC) != 0 && (u.cr1 & BIT(6)) != 0));
 }
 
 static void usart_reset(chip_cause cause) {
@@ -155,6 +160,14 @@ void usart_new(void) {
     usart_reset(CHIP_BY_POWER);
 }
 
-const part usart_part = {.name = "USART6", .base = AT_USART6, .bytes = 0x1C, .clock_register = 0x44, .clock_bit = BIT(5),
-                         .load = usart_load, .store = usart_store, .reset = usart_reset, .next = usart_next, .happens = usart_happens,
+const part usart_part = {.name = "USART6",
+                         .base = AT_USART6,
+                         .bytes = 0x1C,
+                         .clock_register = 0x44,
+                         .clock_bit = BIT(5),
+                         .load = usart_load,
+                         .store = usart_store,
+                         .reset = usart_reset,
+                         .next = usart_next,
+                         .happens = usart_happens,
                          .pending = usart_pending};
