@@ -23,7 +23,7 @@ PC_BOARD_C := $(PROGRAM_C) $(wildcard boards/host/*.c)
 
 .PHONY: objects board-objects board-own-objects
 objects: $(call objects,host,$(WHIRL_MAIN_C) $(WHIRL_C) $(GEN)/builtin_models.c $(HOST_TEST_C) \
-        $(wildcard tests/tools/*.c tests/fuzz/*.c) $(HOST_TOOL_C)) \
+        $(wildcard tests/tools/*.c tests/fuzz/*.c) $(HOST_TOOL_C)) $(call objects,chip,$(CHIP_TEST_C) $(CHIP_DRIVERS_C)) \
     $(call objects,float,$(PORTABLE_C) $(PC_BOARD_C) $(CORE_TEST_C) $(SCENE_C)) \
     $(call objects,double,$(CORE_C) $(RIG_C) $(STATION_C) $(CORE_TEST_C) $(SCENE_C))
 board-objects: board-own-objects $(call objects,$(BOARD),$(PORTABLE_C) $(PROGRAM_C) $(CORE_TEST_C) $(SCENE_C))
@@ -51,10 +51,12 @@ gate-format:
 
 # One process a file, so that two cores have work to the end. The core is linted as double, too.
 tidy = printf '%s\n' $(1) | xargs -n 1 -P $(JOBS) sh -c 'clang-tidy --quiet "$$1" -- $(2)' _
-TIDY_C := $(filter-out $(TARGET_C),$(filter %.c,$(C_FILES)))
+CHIP_TIDY_C := $(filter tests/chip/%,$(CHIP_TEST_C))
+TIDY_C := $(filter-out $(TARGET_C) $(CHIP_TIDY_C),$(filter %.c,$(C_FILES)))
 gate-tidy: $(GEN)/.stamp
 	@$(call need,clang-tidy)
 	@$(call tidy,$(TIDY_C),$(LINT_FLAGS))
+	@$(call tidy,$(CHIP_TIDY_C),$(LINT_FLAGS) $(CHIP_FLAGS))
 	@$(call tidy,$(CORE_C) $(RIG_C) $(STATION_C),$(LINT_FLAGS) -DWH_DOUBLE=1)
 	+@$(foreach b,$(BOARDS),$(call on_board,$(b),tidy-board) &&) true
 
@@ -120,7 +122,7 @@ asan-run: test-programs $(B)/whirl
 	@env -u MAKEFLAGS -u MFLAGS -u MAKEOVERRIDES -u B -u SCENE_OPT -u MAIN $(MAIN) \
 	    ASAN_OPTIONS="malloc_context_size=5:$$ASAN_OPTIONS" WHIRL_FEW=1 WHIRL=$(B)/whirl TEST_SECONDS=900 \
 	    sh tests/run.sh $(B)/tests/log $(call asan_cli,$(CLI_LONG)) $(call run_host,$(ASAN_LIST)) \
-	    $(call asan_cli,$(filter-out $(CLI_LONG),$(CLI_TESTS))) $(RUN_CORE)
+	    $(call asan_cli,$(filter-out $(CLI_LONG),$(CLI_TESTS))) $(RUN_CHIP) $(RUN_CORE)
 
 gate-sanitizers:
 	+@$(ASAN_BUILD) asan-run
