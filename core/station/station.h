@@ -23,6 +23,7 @@
 #include "line.h"
 #include "ring.h"
 #include "seen.h"
+#include "tape_state.h"
 #include "telemetry.h"
 
 #ifdef __cplusplus
@@ -43,7 +44,9 @@ extern "C" {
     X(clear, 0, "", "a trip whose cause is gone") \
     X(conf, 3, "list [FROM]|get NAME|set NAME VALUE|save|default", \
       "the settings; written while the rig is idle") \
-    X(tel, 2, "list|schema CHANNEL|rate N|off|fmt FORMAT|ring [pulse|fault|off|read]", \
+    X(tel, 2, \
+      "list|schema CHANNEL|rate N|off|fmt FORMAT|" WH_OF_TAPES( \
+          "tape on|off|") "ring [pulse|fault|off|read]", \
       "telemetry beside this text; off at first") \
     X(selftest, 0, "", "what can be known while it rests: arithmetic, cell, supply, stop") \
     X(host, 1, "SECONDS", "a run ends when nothing is heard for so long; 0: never") \
@@ -60,6 +63,7 @@ typedef struct wh_station {
     const char *board;
     wh_conf *conf;               /* NULL: there are no settings */
     wh_tel *tel;                 /* NULL: there is no telemetry */
+    wh_tape *tape;               /* NULL: and no tape (tape_out.h) */
     const wh_rig_config *config; /* in the last step, */
     wh_seen seen;                /* and what that saw */
     wh_ring in;
