@@ -68,8 +68,19 @@ $(foreach o,$(STATION_C) boards/programs/rig.c boards/programs/station.c \
 
 ifneq ($(BOARD_FLASHED),)
 $(B)/$(BOARD)/boards/programs/station.o: FILE_FLAGS += -DHAL_VIRTUAL=0
+# What is said to people goes through mk/size/pack.awk (core/packed_words.h), 2 KB of flash less: all files that have WH_WORDS().
+PACKED := $(call objects,$(BOARD),boards/cortexm/fault_words.c core/rig/guard.c core/rig/life.c core/rig/result.c \
+    $(addprefix core/station/,conf.c errors.c station.c tel_answer.c))
+compile_packed = $(BOARD_CC) $(BOARD_CFLAGS) $(WARN) $(BOARD_EXTRA) $(FILE_FLAGS)
+$(PACKED:.o=.words): $(B)/$(BOARD)/%.words: %.c $(B)/$(BOARD)/.flags
+	@mkdir -p $(@D)
+	$(Q)$(compile_packed) -MMD -MP -MT $@ -MF $(@:.words=.d) -E $< -o $@
+$(PACKED): %.o: %.words mk/size/pack.awk core/word_pairs.h
+	$(say) CC "$@ (packed)"
+	$(Q)awk -f mk/size/pack.awk core/word_pairs.h $< >$*.i
+	$(Q)$(compile_packed) -c $*.i -o $@
 # From a compiler's cache an object comes without its call graph, and mk/size/size.sh would not know what stack it takes.
-$(B)/$(BOARD)/%.o: export CCACHE_DISABLE := 1
+$(foreach f,boards/% core/% $(GEN)/rig_observed,$(B)/$(BOARD)/$(f).o): export CCACHE_DISABLE := 1
 endif
 
 # The rig's firmware with a console: here on a pseudo-terminal.
@@ -147,11 +158,21 @@ GUARDS := $(patsubst tests/boards/%.c,$(ELF)/%.elf,$(wildcard tests/boards/guard
 $(GUARDS): $(ELF)/%.elf: $(B)/$(BOARD)/tests/boards/%.o $(BOARD_OBJECTS) $(call libraries,$(BOARD),whirl)
 	$(link_board)
 
+# What only this board has, for those who look at each file.
+BOARD_OWN_C = $(sort $(BOARD_SOURCES) $(BOARD_FLASHED)) $(BOARD_LINK) $(BOARD_WATCHDOG) \
+    $(wildcard tests/boards/guard_*.c $(if $(BOARD_WATCHDOG),tests/boards/watchdog.c))
+
+# The watchdog, of boards that have one (tests/boards/watchdog.sh).
+WATCHDOG := $(if $(BOARD_WATCHDOG),$(ELF)/watchdog.elf)
+$(ELF)/watchdog.elf: $(call objects,$(BOARD),tests/boards/watchdog.c $(BOARD_WATCHDOG)) $(BOARD_OBJECTS) $(call libraries,$(BOARD),whirl)
+	$(link_board)
+
 .PHONY: board-images board-tests run-suites print-hashes print-matrix-hashes bench-matrix
 board-images: $(IMAGES)
-board-tests: $(ELF)/tests.elf $(GUARDS) $(PIL_IMAGES) $(STATION)
-run-suites: # the portable suites, then what guards the stack
-	@status=0; $(call emulate,$(ELF)/tests.elf) || status=1; sh tests/boards/guard.sh $(BOARD) || status=1; exit $$status
+board-tests: $(ELF)/tests.elf $(GUARDS) $(WATCHDOG) $(PIL_IMAGES) $(STATION)
+run-suites: # the portable suites, what guards the stack, and the watchdog
+	@status=0; $(call emulate,$(ELF)/tests.elf) || status=1; sh tests/boards/guard.sh $(BOARD) || status=1; \
+	    sh tests/boards/watchdog.sh $(BOARD) || status=1; exit $$status
 print-hashes: # a line for each scene, with the hash of its last state
 	@$(call need,$(BOARD_EMULATOR))
 	@$(call emulate,$(ELF)/scenes.elf)

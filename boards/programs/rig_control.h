@@ -133,7 +133,7 @@ static const char *why_not_started(void) {
     }
     if (wh_arithmetic_wrong(rig_observed.arithmetic) != WH_PROBED_COUNT) {
         hal_motor_off(HAL_MOTOR_COAST);
-        return wh_status_text(WH_E_ARITHMETIC);
+        return "compiled or set up for other arithmetic than IEEE 754"; /* without all other texts of a wh_status */
     }
     return NULL;
 }

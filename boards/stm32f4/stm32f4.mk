@@ -12,8 +12,8 @@ include boards/cortexm/cortexm.mk
 # What is switched off beside copies code for speed, or moves it to where it needs more registers: 1.4 % of the flash. Without it
 # gcc takes values for uninitialized that are not.
 BOARD_CFLAGS   := $(subst -O2,-Os,$(BOARD_CFLAGS)) -fno-thread-jumps -fno-if-conversion -fno-move-loop-invariants \
-                  -fno-schedule-insns2 -fno-tree-sink -fno-tree-dominator-opts -fno-shrink-wrap \
-                  -Wno-maybe-uninitialized
+                  -fno-schedule-insns2 -fno-tree-sink -fno-tree-dominator-opts -fno-shrink-wrap -fno-ssa-phiopt \
+                  -Wno-maybe-uninitialized -DWH_WORDS_PACKED=1
 # And control steps are not recorded: 2 kB.
 BOARD_CFLAGS   += -DWH_STATION_TAPE=0
 # Semihosting would come into every image with it.
@@ -23,7 +23,7 @@ BOARD_COMMON   := $(filter-out boards/cortexm/cmsdk.c boards/cortexm/demo.c,$(BO
 BOARD_SOURCES  := $(BOARD_COMMON) boards/cortexm/demo.c
 BOARD_FLASHED  := $(BOARD_COMMON) boards/cortexm/flashed.c boards/cortexm/kept.c \
                   $(addprefix boards/stm32f4/,brown_out.c cell.c flash.c motor.c reset.c rig_clock.c slots.c stop.c watchdog.c)
-BOARD_MOST     := FLASH_MOST=51200 RAM_MOST=12288
+BOARD_MOST     := FLASH_MOST=49152 RAM_MOST=12288
 # Its console is serial interface 6, the emulator's sixth.
 BOARD_SERIALS   = -display none -monitor none -serial null -serial null -serial null -serial null -serial null -serial
 BOARD_EMULATE   = timeout $(BOARD_SECONDS) $(BOARD_EMULATOR) -M $(BOARD_MACHINE) $(BOARD_SERIALS) stdio \

@@ -1,6 +1,7 @@
 /* guard.c: what stops the rig. */
 #include "guard.h"
 
+#include "core/packed_words.h"
 #include "core/root.h"
 #include "datasheet.h"
 
@@ -28,9 +29,9 @@ void wh_guard_trip(wh_guard *guard, wh_trip reason) {
 }
 
 #define CASE(name, number, words) \
-    case name: return words;
+    case name: return WH_WORDS(words);
 
 const char *wh_trip_text(wh_trip reason) {
     switch (reason) { WH_TRIP_ROWS(CASE) }
-    return "unknown reason";
+    return WH_WORDS("unknown reason");
 }

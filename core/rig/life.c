@@ -1,6 +1,8 @@
 /* life.c: the rig's life cycle, as one table. */
 #include "life.h"
 
+#include "core/packed_words.h"
+
 #define TO(state) \
     { WH_LIFE_##state, WH_ALLOWED }
 #define NO(state, why) \
@@ -33,7 +35,7 @@ wh_life_rule wh_life_rule_of(wh_life state, wh_rig_event event) {
 /* The words of a row, without or with a number. */
 /* clang-format off */
 #define CASE(name, words) case name: return words;
-#define NUMBERED_CASE(name, number, words) case name: return words;
+#define NUMBERED_CASE(name, number, words) case name: return WH_WORDS(words);
 /* clang-format on */
 
 const char *wh_life_text(wh_life state) {
@@ -57,5 +59,5 @@ const char *wh_refusal_text(wh_refusal refusal) {
         WH_REFUSAL_ROWS(NUMBERED_CASE)
     case WH_REFUSALS: break;
     }
-    return "unknown refusal";
+    return WH_WORDS("unknown refusal");
 }

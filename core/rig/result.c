@@ -2,6 +2,7 @@
 #include "result.h"
 
 #include "core/angle.h"
+#include "core/packed_words.h"
 #include "core/root.h"
 #include "datasheet.h"
 #include "polar.h"
@@ -277,12 +278,12 @@ void wh_merge_judge(const wh_result_config *config, const wh_rotor_config *rotor
 
 const char *wh_why_text(wh_why why) {
 #define WH_WHY_CASE(name, quality, words) \
-    case name: return words;
+    case name: return WH_WORDS(words);
     switch (why) {
         WH_WHY_ROWS(WH_WHY_CASE)
     case WH_WHYS: break;
     }
-    return "unknown reason";
+    return WH_WORDS("unknown reason");
 }
 
 const char *wh_quality_text(wh_quality quality) {

@@ -1,6 +1,8 @@
 /* answer.c: how the console's answers are put together. */
 #include "answer.h"
 
+#include "core/packed_words.h"
+
 bool wh_answer_is(const char *word, const char *name) {
     while (*word != '\0' && *word == *name) {
         word++;
@@ -13,7 +15,7 @@ void wh_answer_refused(wh_text *text, unsigned number, const char *why) {
     wh_text_add(text, "ERR ");
     wh_text_add_unsigned(text, number);
     wh_text_add_char(text, ' ');
-    wh_text_add(text, why);
+    wh_text_add_words(text, why);
 }
 
 void wh_answer_word(wh_text *text, const char *name, const char *word) {
@@ -59,7 +61,7 @@ void wh_answer_count(wh_text *text, const char *name, uint32_t count) {
 
 void wh_answer_words(wh_text *text, const char *words) {
     wh_text_add(text, ": ");
-    wh_text_add(text, words);
+    wh_text_add_words(text, words);
 }
 
 void wh_answer_back(wh_text *text, unsigned length) {

@@ -20,7 +20,7 @@ extern "C" {
 /* Are these the same? */
 bool wh_answer_is(const char *word, const char *name);
 
-/* "ERR number why" */
+/* "ERR number why", as WH_WORDS() has it (core/packed_words.h). */
 void wh_answer_refused(wh_text *text, unsigned number, const char *why);
 
 /* " name=word", a blank in what is a word as _ */
@@ -31,7 +31,7 @@ void wh_answer_number(wh_text *text, const char *name, wh_real number, unsigned 
 void wh_answer_exact(wh_text *text, const char *name, wh_real number);
 void wh_answer_count(wh_text *text, const char *name, uint32_t count);
 
-/* ": words", to a person, behind all values. */
+/* ": words", to a person, behind all values; ditto. */
 void wh_answer_words(wh_text *text, const char *words);
 
 /* Take back what was added since it had this length. */

@@ -4,6 +4,8 @@
 #ifndef WH_STATION_BRIEF_H
 #define WH_STATION_BRIEF_H
 
+#include "core/packed_words.h"
+
 #ifndef WH_STATION_BRIEF
 #define WH_STATION_BRIEF 0
 #endif
@@ -11,18 +13,18 @@
 #if WH_STATION_BRIEF
 #define WH_SAY(words) ""
 #else
-#define WH_SAY(words) words
+#define WH_SAY(words) WH_WORDS(words)
 #endif
 
 #ifndef WH_STATION_TAPE
 #define WH_STATION_TAPE 1
 #endif
 
-/* Of words, what is of tapes; of rows, those. */
+/* Of rows, those of tapes. */
 #if WH_STATION_TAPE
-#define WH_OF_TAPES(words) words
+#define WH_OF_TAPES(rows) rows
 #else
-#define WH_OF_TAPES(words)
+#define WH_OF_TAPES(rows)
 #endif
 
 #endif

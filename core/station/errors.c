@@ -10,5 +10,5 @@ const char *wh_station_error_text(wh_station_error error) {
         WH_STATION_ERROR_ROWS(WH_STATION_CASE)
     case WH_STATION_FINE: break;
     }
-    return "unknown error";
+    return WH_SAY("unknown error");
 }

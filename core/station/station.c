@@ -201,7 +201,7 @@ typedef struct command {
     const char *words;
 } command;
 
-#define COMMAND(name, most, follows, words) {#name, most, follows, WH_SAY(words)},
+#define COMMAND(name, most, follows, words) {#name, most, WH_WORDS(follows), WH_SAY(words)},
 static const command commands[] = {WH_COMMAND_ROWS(COMMAND)};
 #undef COMMAND
 #define COMMAND(name, most, follows, words) COMMAND_##name,
@@ -247,9 +247,8 @@ static void do_help(const request *r) {
     wh_text_add(r->answer, "OK ");
     wh_text_add(r->answer, asked->name);
     wh_text_add(r->answer, asked->follows[0] != '\0' ? " " : "");
-    wh_text_add(r->answer, asked->follows);
-    wh_text_add(r->answer, ": ");
-    wh_text_add(r->answer, asked->words);
+    wh_text_add_words(r->answer, asked->follows);
+    wh_answer_words(r->answer, asked->words);
 }
 
 /* --- lines in ------------------------------------------------------------------------------------- */
@@ -323,7 +322,7 @@ static void tell_stage(wh_station *station, const wh_rig *rig) {
     wh_text_add(&text, wh_rig_stage_text(station->stage));
     if (rig->guard.trip != WH_TRIP_NONE) {
         wh_text_add(&text, ": ");
-        wh_text_add(&text, wh_trip_text(rig->guard.trip));
+        wh_text_add_words(&text, wh_trip_text(rig->guard.trip));
     }
     send(station, &text);
 }

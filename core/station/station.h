@@ -30,6 +30,14 @@
 extern "C" {
 #endif
 
+/* A literal each (core/packed_words.h). */
+#if WH_STATION_TAPE
+#define WH_TEL_FOLLOWS \
+    "list|schema CHANNEL|rate N|off|fmt FORMAT|tape on|off|ring [pulse|fault|off|read]"
+#else
+#define WH_TEL_FOLLOWS "list|schema CHANNEL|rate N|off|fmt FORMAT|ring [pulse|fault|off|read]"
+#endif
+
 /* X(name, most words after it, what follows, words) */
 #define WH_COMMAND_ROWS(X) \
     X(help, 1, "[COMMAND]", "the commands, or what one does") \
@@ -44,10 +52,7 @@ extern "C" {
     X(clear, 0, "", "a trip whose cause is gone") \
     X(conf, 3, "list [FROM]|get NAME|set NAME VALUE|save|default", \
       "the settings; written while the rig is idle") \
-    X(tel, 2, \
-      "list|schema CHANNEL|rate N|off|fmt FORMAT|" WH_OF_TAPES( \
-          "tape on|off|") "ring [pulse|fault|off|read]", \
-      "telemetry beside this text; off at first") \
+    X(tel, 2, WH_TEL_FOLLOWS, "telemetry beside this text; off at first") \
     X(selftest, 0, "", "what can be known while it rests: arithmetic, cell, supply, stop") \
     X(host, 1, "SECONDS", "a run ends when nothing is heard for so long; 0: never") \
     X(talk, 1, "on|off", "echo what is typed, tell of each new state")

@@ -4,6 +4,7 @@
 #include <stddef.h>
 
 #include "answer.h"
+#include "core/packed_words.h"
 
 /* What a run's frame has of speed and drive, telemetry.c. */
 #define RPM_PER_COUNT WH_R(0.02)
@@ -124,7 +125,7 @@ static void add_scaled(wh_text *answer, const char *name, wh_real scale, unsigne
 }
 
 static void schema_run(const wh_tel *tel, const wh_cell_config *cell, wh_text *answer) {
-    wh_text_add(answer, "OK channel=0 name=run");
+    wh_text_add_words(answer, WH_WORDS("OK channel=0 name=run"));
     wh_answer_count(answer, "period_ticks",
                     cell->period_ticks * (tel->every > 0 ? tel->every : 1U));
     wh_answer_word(answer, "once", "");
@@ -133,15 +134,16 @@ static void schema_run(const wh_tel *tel, const wh_cell_config *cell, wh_text *a
     wh_text_add(answer, ",state:u1:1");
     wh_answer_word(answer, "each", "");
     add_load(cell, answer);
-    wh_answer_words(answer, "i2 -32768, u2 65535: none");
+    wh_answer_words(answer, WH_WORDS("i2 -32768, u2 65535: none"));
 }
 
 static void schema_ring(const wh_cell_config *cell, wh_text *answer) {
-    wh_text_add(answer, "OK channel=2 name=ring period_ticks=0 once= each=ticks:u2:1,");
+    wh_text_add_words(answer,
+                      WH_WORDS("OK channel=2 name=ring period_ticks=0 once= each=ticks:u2:1,"));
     add_load(cell, answer);
     add_scaled(answer, ",drive[V]", V_PER_COUNT, 3);
-    wh_text_add(answer, ",flags:u1:1,state:u1:1");
-    wh_answer_words(answer, "flags 1, 2 pulse, 4 trigger, 8 tripped");
+    wh_text_add_words(answer, WH_WORDS(",flags:u1:1,state:u1:1"));
+    wh_answer_words(answer, WH_WORDS("flags 1, 2 pulse, 4 trigger, 8 tripped"));
 }
 
 static void schema_states(wh_text *answer) {
@@ -163,15 +165,16 @@ static wh_station_error schema(const wh_tel *tel, const wh_cell_config *cell, co
     if (wh_answer_is(name, "run")) {
         schema_run(tel, cell, answer);
     } else if (wh_answer_is(name, "event")) {
-        wh_text_add(answer,
-                    "OK channel=1 name=event period_ticks=0 once=what:u1:1,value:u1:1 each=");
-        wh_answer_words(answer, "what 0 pulse of sensor, 1 state, 2 trip");
+        wh_text_add_words(
+            answer,
+            WH_WORDS("OK channel=1 name=event period_ticks=0 once=what:u1:1,value:u1:1 each="));
+        wh_answer_words(answer, WH_WORDS("what 0 pulse of sensor, 1 state, 2 trip"));
     } else if (wh_answer_is(name, "ring")) {
         schema_ring(cell, answer);
 #if WH_STATION_TAPE
     } else if (wh_answer_is(name, "tape")) {
-        wh_text_add(answer, "OK channel=3 name=tape period_ticks=0 once= each=");
-        wh_answer_words(answer, "control steps, for whirl monitor --tape");
+        wh_text_add_words(answer, WH_WORDS("OK channel=3 name=tape period_ticks=0 once= each="));
+        wh_answer_words(answer, WH_WORDS("control steps, for whirl monitor --tape"));
 #endif
     } else if (wh_answer_is(name, "states")) {
         schema_states(answer);

@@ -33,9 +33,16 @@ static bool converses(unsigned times) {
     static const struct {
         const char *order;
         const char *answer;
-    } said[] = {{"id", "OK program="},     {"fault", "OK trip=0"}, {"clear", "ERR 6 "},
-                {"measure", "ERR 104 "},   {"set 20", "ERR 7 "},   {"nonsense", "ERR 100 "},
-                {"start much", "ERR 103"}, {"host 0", "OK"}};
+    } said[] = {{"id", "OK program="},
+                {"host 0", "OK"},
+                /* to the end: what is flashed has its words packed */
+                {"fault", "OK trip=0: no fault"},
+                {"clear", "ERR 6 there is no trip to clear"},
+                {"measure", "ERR 104 no run has given a result yet"},
+                {"set 20", "ERR 7 the rig is not running"},
+                {"nonsense", "ERR 100 no such command; help lists them"},
+                {"start much", "ERR 103 a number is wanted, such as 330 or 330.5"},
+                {"help clear", "OK clear: a trip whose cause is gone"}};
     char line[300];
     char many[900] = "";
     for (unsigned i = 0; i < times; i++) {

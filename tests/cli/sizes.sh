@@ -1,0 +1,50 @@
+#!/bin/sh
+# sizes.sh: mk/size/size.sh holds an image to the flash and the memory that it may have, each to the byte, and does not where it
+# does not know what stack main() takes. Images are played: what size, nm and gcc say of them, drawn at random.
+. "$(dirname "$0")/../checks.sh"
+
+mkdir "$scratch/objects"
+echo '#!/bin/sh
+cat "${0%/*}/sections"' >"$scratch/size"
+echo '#!/bin/sh
+cat "${0%/*}/symbols"' >"$scratch/nm"
+chmod +x "$scratch/size" "$scratch/nm"
+echo "LOAD $scratch/objects/main.o" >"$scratch/station.map"
+
+# image FLASH VARIABLES FRAME: an image of so many bytes, main() with such a frame.
+image() {
+    printf '.vectors 100 0\n.text %d 0\n.bss %d 0\n.noinit 30 0\n.stack 5000 0\n' $(($1 - 100)) $(($2 - 30)) >"$scratch/sections"
+    printf '00001000 A board_stack_limit\n00005096 A board_stack_top\n0 T board_reset\n0 T main\n' >"$scratch/symbols"
+    printf 'node: { title: "board_reset" label: "board_reset\\na.c:1\\n8 bytes (static)" }
+node: { title: "main" label: "main\\na.c:2\\n%d bytes (static)" }
+edge: { sourcename: "board_reset" targetname: "main" label: "a.c:3" }\n' "$3" >"$scratch/objects/main.ci"
+}
+
+# sizes FLASH_MOST RAM_MOST: what size.sh says.
+sizes() {
+    BOARD=played CC="${CC:-cc}" FLAGS=- SIZE=$scratch/size NM=$scratch/nm OBJECTS=$scratch/objects FLASH_MOST=$1 RAM_MOST=$2 \
+        MOST_OF="$scratch/station.elf" mk/size/size.sh "$scratch/sizes.csv" "$scratch/station.elf" >"$scratch/out" 2>"$scratch/err"
+}
+
+awk -v seed="${WHIRL_SEED:-1}" 'BEGIN {
+    srand(seed)
+    for (i = 0; i < 3; i++) { print 200 + int(60000 * rand()), 31 + int(9000 * rand()), 8 * int(400 * rand()), 1 + int(3000 * rand()) }
+}' >"$scratch/drawn"
+while read -r flash variables frame over; do
+    image "$flash" "$variables" "$frame"
+    memory=$((variables + frame + 8))
+    sizes "$flash" "$memory"
+    verdict $? "$flash bytes of flash and $memory of memory, of as many"
+    ! sizes $((flash - over)) "$memory" && grep -q "$flash bytes of flash, $over more than" "$scratch/err" &&
+        [ "$(wc -l <"$scratch/err")" -eq 1 ]
+    verdict $? "$over bytes of flash too many are told"
+    ! sizes "$flash" $((memory - over)) && grep -q "$memory bytes of memory, .*, $over more than" "$scratch/err" &&
+        [ "$(wc -l <"$scratch/err")" -eq 1 ]
+    verdict $? "$over bytes of memory too many are told"
+done <"$scratch/drawn"
+
+sed '/title: "main"/d' "$scratch/objects/main.ci" >"$scratch/less" && mv "$scratch/less" "$scratch/objects/main.ci"
+! sizes 99999 99999 && grep -q 'no call graph of main' "$scratch/err"
+verdict $? "an image without main()'s call graph is refused"
+
+exit $failed
