@@ -23,7 +23,7 @@ BOARD_COMMON   := $(filter-out boards/cortexm/cmsdk.c boards/cortexm/demo.c,$(BO
 BOARD_SOURCES  := $(BOARD_COMMON) boards/cortexm/demo.c
 BOARD_FLASHED  := $(BOARD_COMMON) boards/cortexm/flashed.c boards/cortexm/kept.c \
                   $(addprefix boards/stm32f4/,brown_out.c cell.c flash.c motor.c reset.c rig_clock.c slots.c stop.c watchdog.c)
-BOARD_MOST     := FLASH_MOST=49152 RAM_MOST=12288
+BOARD_MOST     := FLASH_MOST=49664 RAM_MOST=12288
 # Its console is serial interface 6, the emulator's sixth.
 BOARD_SERIALS   = -display none -monitor none -serial null -serial null -serial null -serial null -serial null -serial
 BOARD_EMULATE   = timeout $(BOARD_SECONDS) $(BOARD_EMULATOR) -M $(BOARD_MACHINE) $(BOARD_SERIALS) stdio \
