@@ -14,6 +14,8 @@ include boards/cortexm/cortexm.mk
 BOARD_CFLAGS   := $(subst -O2,-Os,$(BOARD_CFLAGS)) -fno-thread-jumps -fno-if-conversion -fno-move-loop-invariants \
                   -fno-schedule-insns2 -fno-tree-sink -fno-tree-dominator-opts -fno-shrink-wrap -fno-ssa-phiopt \
                   -Wno-maybe-uninitialized -DWH_WORDS_PACKED=1
+# And control steps are not recorded: 2 kB.
+BOARD_CFLAGS   += -DWH_STATION_TAPE=0
 # Semihosting would come into every image with it.
 BOARD_LINK     :=
 BOARD_COMMON   := $(filter-out boards/cortexm/cmsdk.c boards/cortexm/demo.c,$(BOARD_SOURCES)) \
