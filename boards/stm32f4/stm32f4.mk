@@ -11,6 +11,8 @@ BOARD_MATH     := -fno-math-errno
 include boards/cortexm/cortexm.mk
 # The whole rig is to have 40 KB of flash; steps of -Os take some more instructions, of which there are enough (docs/boards.md).
 BOARD_CFLAGS   := $(subst -O2,-Os,$(BOARD_CFLAGS)) -DWH_WORDS_PACKED=1
+# And control steps are not recorded: 2 kB.
+BOARD_CFLAGS   += -DWH_STATION_TAPE=0
 # What copies code for speed, or moves it to where it needs more registers, is switched off where no control step is longer for it.
 # Without it gcc takes values for uninitialized that are not.
 BOARD_SMALL    := -fno-thread-jumps -fno-if-conversion -fno-move-loop-invariants -fno-schedule-insns2 -fno-tree-sink \
