@@ -71,12 +71,11 @@ $(eval $(call program,firmware,boards/programs/rig.c,whirl rig virtual scenes))
 
 # What runs once in a while is made small, so that what runs each step has the flash.
 $(foreach o,$(STATION_C) boards/programs/rig.c boards/programs/station.c \
-    $(VIRTUAL_C) core/rig/swing_guess.c core/rig/life.c core/text.c core/frame.c core/cobs.c,$(B)/$(BOARD)/$(o:.c=.o)): FILE_FLAGS = -Os
+    $(VIRTUAL_C) core/rig/swing_guess.c core/rig/life.c core/text.c core/frame.c core/cobs.c core/step_tape.c core/packed_words.c $(BOARD_FLASHED),$(B)/$(BOARD)/$(o:.c=.o)): \
+    FILE_FLAGS = -Os $(BOARD_SMALL)
 
 ifneq ($(BOARD_FLASHED),)
 $(B)/$(FLASHED)/boards/programs/station.o: FILE_FLAGS += -DHAL_VIRTUAL=0
-# From a compiler's cache an object comes without its call graph, and mk/size/size.sh would not know what stack it takes.
-$(B)/$(BOARD)/%.o: export CCACHE_DISABLE := 1
 endif
 ifneq ($(findstring -DWH_WORDS_PACKED=1,$(BOARD_CFLAGS)),)
 # What is said to people goes through mk/size/pack.awk (core/packed_words.h), 2 KB of flash less: all files that have WH_WORDS().
@@ -90,6 +89,8 @@ $(PACKED): %.o: %.words mk/size/pack.awk core/word_pairs.h
 	$(say) CC "$@ (packed)"
 	$(Q)awk -f mk/size/pack.awk core/word_pairs.h $< >$*.i
 	$(Q)$(compile_packed) -c $*.i -o $@
+# From a compiler's cache an object comes without its call graph, and mk/size/size.sh would not know what stack it takes.
+$(foreach f,boards/% core/% $(GEN)/rig_observed,$(B)/$(BOARD)/$(f).o): export CCACHE_DISABLE := 1
 endif
 
 # The rig's firmware with a console: here on a pseudo-terminal.
@@ -144,7 +145,8 @@ $(eval $(call pil_program,pil_swing,boards/programs/pil_swing.c,frames rig whirl
 $(eval $(call pil_program,pil_dialled,boards/programs/pil_dialled.c,frames rig whirl scenes))
 $(eval $(call pil_program,pil_carriage,boards/programs/pil_carriage.c,frames rig whirl scenes))
 $(eval $(call pil_program,pil_cart,boards/programs/pil_cart.c,frames whirl))
-PIL_PROGRAMS := pil_rig pil_swing pil_dialled pil_carriage pil_cart
+$(eval $(call pil_program,pil_taped,boards/programs/pil_taped.c,frames station rig whirl scenes))
+PIL_PROGRAMS := pil_rig pil_swing pil_dialled pil_carriage pil_cart pil_taped
 PIL_IMAGES := $(if $(BOARD_LINK),$(PIL_PROGRAMS:%=$(ELF)/%.elf))
 
 # On BOARD and on an M3: the tape of one on the other.
@@ -176,11 +178,23 @@ GUARDS := $(patsubst tests/boards/%.c,$(ELF)/%.elf,$(wildcard tests/boards/guard
 $(GUARDS): $(ELF)/%.elf: $(B)/$(BOARD)/tests/boards/%.o $(BOARD_OBJECTS) $(call libraries,$(BOARD),whirl)
 	$(link_board)
 
+# What only this board has, for those who look at each file.
+BOARD_OWN_C = $(sort $(BOARD_SOURCES) $(if $(BOARD_FLASHED_FLAGS),,$(BOARD_FLASHED))) $(BOARD_LINK) $(BOARD_WATCHDOG) \
+    $(wildcard tests/boards/guard_*.c $(if $(BOARD_WATCHDOG),tests/boards/watchdog.c))
+# And that of a build of its own.
+BOARD_FLASHED_C = $(if $(BOARD_FLASHED_FLAGS),$(BOARD_FLASHED))
+
+# The watchdog, of boards that have one (tests/boards/watchdog.sh).
+WATCHDOG := $(if $(BOARD_WATCHDOG),$(ELF)/watchdog.elf)
+$(ELF)/watchdog.elf: $(call objects,$(BOARD),tests/boards/watchdog.c $(BOARD_WATCHDOG)) $(BOARD_OBJECTS) $(call libraries,$(BOARD),whirl)
+	$(link_board)
+
 .PHONY: board-images board-tests run-suites print-hashes print-matrix-hashes bench-matrix
 board-images: $(IMAGES)
-board-tests: $(ELF)/tests.elf $(GUARDS) $(PIL_IMAGES) $(STATION)
-run-suites: # the portable suites, then what guards the stack
-	@status=0; $(call emulate,$(ELF)/tests.elf) || status=1; sh tests/boards/guard.sh $(BOARD) || status=1; exit $$status
+board-tests: $(ELF)/tests.elf $(GUARDS) $(WATCHDOG) $(PIL_IMAGES) $(STATION)
+run-suites: # the portable suites, what guards the stack, and the watchdog
+	@status=0; $(call emulate,$(ELF)/tests.elf) || status=1; sh tests/boards/guard.sh $(BOARD) || status=1; \
+	    sh tests/boards/watchdog.sh $(BOARD) || status=1; exit $$status
 print-hashes: # a line for each scene, with the hash of its last state
 	@$(call need,$(BOARD_EMULATOR))
 	@$(call emulate,$(ELF)/scenes.elf)

@@ -1,7 +1,7 @@
 # check.mk: the quality gates of `make check`. Each is a target of its own, gate-NAME; tests/gates.sh
 # runs them, keeps what they say in build/check/NAME.log and prints a line for each.
 
-GATES := house gcc clang format cppcheck tidy long sanitizers memcheck bad-input firmware flashed size boards libm avr cycles hashes
+GATES := house gcc clang format cppcheck tidy long sanitizers memcheck bad-input fuzz firmware flashed size boards libm avr cycles hashes
 GATES += hosts
 LINT_FLAGS := -std=c11 $(WARN) -I. $(UNITY_FLAGS) -D_POSIX_C_SOURCE=200809L
 
@@ -23,12 +23,11 @@ PC_BOARD_C := $(PROGRAM_C) $(wildcard boards/host/*.c)
 
 .PHONY: objects board-objects board-own-objects
 objects: $(call objects,host,$(WHIRL_MAIN_C) $(WHIRL_C) $(GEN)/builtin_models.c $(HOST_TEST_C) \
-        $(wildcard tests/tools/*.c tests/fuzz/*.c) $(HOST_TOOL_C)) \
+        $(wildcard tests/tools/*.c tests/fuzz/*.c) $(HOST_TOOL_C)) $(call objects,chip,$(CHIP_TEST_C) $(CHIP_DRIVERS_C)) \
     $(call objects,float,$(PORTABLE_C) $(PC_BOARD_C) $(CORE_TEST_C) $(SCENE_C)) \
     $(call objects,double,$(CORE_C) $(RIG_C) $(STATION_C) $(CORE_TEST_C) $(SCENE_C))
 board-objects: board-own-objects $(call objects,$(BOARD),$(PORTABLE_C) $(PROGRAM_C) $(CORE_TEST_C) $(SCENE_C))
-board-own-objects: $(call objects,$(BOARD),$(sort $(BOARD_SOURCES)) $(BOARD_LINK) $(wildcard tests/boards/guard_*.c)) \
-    $(call objects,$(FLASHED),$(BOARD_FLASHED))
+board-own-objects: $(call objects,$(BOARD),$(BOARD_OWN_C)) $(call objects,$(FLASHED),$(BOARD_FLASHED_C))
 
 # Where the main configuration has these very settings, as in CI (.ci/run), what it compiled already counts. Other gates
 # take both compilers' objects from where these two put them.
@@ -52,16 +51,18 @@ gate-format:
 
 # One process a file, so that two cores have work to the end. The core is linted as double, too.
 tidy = printf '%s\n' $(1) | xargs -n 1 -P $(JOBS) sh -c 'clang-tidy --quiet "$$1" -- $(2)' _
-TIDY_C := $(filter-out $(TARGET_C),$(filter %.c,$(C_FILES)))
+CHIP_TIDY_C := $(filter tests/chip/%,$(CHIP_TEST_C))
+TIDY_C := $(filter-out $(TARGET_C) $(CHIP_TIDY_C),$(filter %.c,$(C_FILES)))
 gate-tidy: $(GEN)/.stamp
 	@$(call need,clang-tidy)
 	@$(call tidy,$(TIDY_C),$(LINT_FLAGS))
+	@$(call tidy,$(CHIP_TIDY_C),$(LINT_FLAGS) $(CHIP_FLAGS))
 	@$(call tidy,$(CORE_C) $(RIG_C) $(STATION_C),$(LINT_FLAGS) -DWH_DOUBLE=1)
 	+@$(foreach b,$(BOARDS),$(call on_board,$(b),tidy-board) &&) true
 
 .PHONY: tidy-board
 tidy-board:
-	@$(call tidy,$(sort $(BOARD_SOURCES) $(BOARD_FLASHED)) $(BOARD_LINK) $(wildcard tests/boards/guard_*.c),$(BOARD_TIDY) $(LINT_FLAGS))
+	@$(call tidy,$(sort $(BOARD_OWN_C) $(BOARD_FLASHED_C)),$(BOARD_TIDY) $(LINT_FLAGS))
 
 gate-cppcheck:
 	@$(call need,cppcheck)
@@ -121,7 +122,7 @@ asan-run: test-programs $(B)/whirl
 	@env -u MAKEFLAGS -u MFLAGS -u MAKEOVERRIDES -u B -u SCENE_OPT -u MAIN $(MAIN) \
 	    ASAN_OPTIONS="malloc_context_size=5:$$ASAN_OPTIONS" WHIRL_FEW=1 WHIRL=$(B)/whirl TEST_SECONDS=900 \
 	    sh tests/run.sh $(B)/tests/log $(call asan_cli,$(CLI_LONG)) $(call run_host,$(ASAN_LIST)) \
-	    $(call asan_cli,$(filter-out $(CLI_LONG),$(CLI_TESTS))) $(RUN_CORE)
+	    $(call asan_cli,$(filter-out $(CLI_LONG),$(CLI_TESTS))) $(RUN_CHIP) $(RUN_CORE)
 
 gate-sanitizers:
 	+@$(ASAN_BUILD) asan-run
@@ -145,6 +146,13 @@ gate-bad-input:
 	+@$(ASAN_BUILD) build/asan/whirl
 	@sh tests/bad_input.sh build/asan/whirl
 	+@$(ASAN_BUILD) kept-now
+
+# What reads a line, from the console and from a rig: anew each time, a minute each, at the same time.
+GATE_FUZZ_SECONDS ?= 60
+gate-fuzz:
+	@$(call need,clang)
+	+@$(FUZZ_BUILD) $(FUZZERS_OF_LINES)
+	@printf '%s\n' $(FUZZERS_OF_LINES) | xargs -n 1 -P $(JOBS) sh tests/fuzz.sh $(GATE_FUZZ_SECONDS)
 
 # --- firmware -------------------------------------------------------------------------------------
 # No heap, no libm, no double arithmetic and no recursion in any image's symbols.

@@ -20,7 +20,7 @@ endif
 
 rig-steps-now: $(GEN)/.stamp
 	@$(MAKE) $(ELF)/rig_steps.elf $(PLUGIN)
-	@BOARD=$(BOARD) CC=$(BOARD_CC) NM=$(BOARD_NM) PLUGIN=$(PLUGIN) \
+	@BOARD=$(BOARD) CC=$(BOARD_CC) NM=$(BOARD_NM) PLUGIN=$(PLUGIN) TIMING=$(BOARD_TIMING) \
 	    EMULATE="$(subst timeout $(BOARD_SECONDS),timeout 900,$(call emulate,$(ELF)/rig_steps.elf))" \
 	    mk/count/rig_steps.sh $(ELF)/rig_steps.elf $(RIG_STEP_MOST)
 

@@ -2,6 +2,7 @@
 #
 # tests/core   portable suites: run here in double and in float, and on the emulated board
 # tests/host   suites of the program's own parts, on this machine
+# tests/chip   drivers of the STM32F405, on a chip that is played from its manual
 # tests/cli    scripts that drive build/whirl; each prints "ok - ..." or "not ok - ..." lines
 # Suites join by themselves: a file tests/*/test_x.c that defines `void suite_x(void)`. A test program takes
 # names of suites (build/tests/host lang) and runs only those.
@@ -32,7 +33,7 @@ $(UNITY_DIR)/unity.c:
 	@UNITY="$(UNITY)" mk/setup/unity.sh $(UNITY_DIR)
 
 # --- programs -----------------------------------------------------------------------------------
-$(B)/tests/core_suites.list $(B)/tests/host_suites.list: $(B)/tests/%_suites.list: FORCE
+$(foreach t,core host chip,$(B)/tests/$(t)_suites.list): $(B)/tests/%_suites.list: FORCE
 	@mkdir -p $(@D)
 	@ls tests/$*/ | cmp -s - $@ || ls tests/$*/ >$@
 
@@ -41,7 +42,7 @@ $(B)/tests/quick_suites.list: $(B)/tests/host_suites.list mk/tests.mk
 
 $(B)/tests/core_suites.c: $(CORE_TEST_C)
 $(B)/tests/host_suites.c: $(HOST_TEST_C)
-$(B)/tests/core_suites.c $(B)/tests/host_suites.c: $(B)/tests/%_suites.c: tests/suites.sh $(B)/tests/%_suites.list
+$(foreach t,core host chip,$(B)/tests/$(t)_suites.c): $(B)/tests/%_suites.c: tests/suites.sh $(B)/tests/%_suites.list
 	$(say) GEN $@
 	$(Q)sh $< tests/$*/test_*.c >$@
 
@@ -67,14 +68,36 @@ $(B)/tests/host: $(call objects,host,$(HOST_TEST_PARTS) $(FAKED_C)) $(LIB_HOST) 
     $(call libraries,float,scenes rig whirl) $(LIB_DOUBLE) | $(B)/pil_cart
 	$(link)
 
-TEST_PROGRAMS := $(B)/tests/core_double $(B)/tests/core_float $(B)/tests/host $(B)/tools/mechanisms $(B)/tools/linkages $(B)/tools/price_fit $(B)/tools/price_fit_fixed \
-    $(B)/pil_rig $(B)/pil_swing $(B)/pil_dialled $(B)/pil_carriage $(B)/pil_cart $(B)/tools/faults $(B)/station $(B)/tools/sim_station $(B)/tools/tel_check
+# The same drivers, all of them, on a chip that is played from its manual (tests/chip), which takes interrupts and resets: the
+# drivers' variables are in sections of their own, so that a start of the chip can put them back to what the image has.
+CHIP_TEST_C := tests/main.c $(sort $(wildcard tests/chip/*.c))
+CHIP_DRIVERS_C := boards/cortexm/board.c boards/cortexm/fault_words.c boards/shared/wait.c $(addprefix boards/stm32f4/,brown_out.c cell.c clock.c flash.c motor.c pins.c reset.c \
+    rig_clock.c slots.c stop.c time_base.c usart.c watchdog.c)
+CHIP_FLAGS := -DBOARD_REGISTERS_FAKED=1 -Iboards/netduinoplus2
+$(eval $(call build,chip,$(CC),$(FLAGS_host) $(CHIP_FLAGS)))
+$(B)/chip/tests/%.o $(B)/chip/$(B)/tests/%.o: FILE_FLAGS = $(UNITY_FLAGS) $(LESS_O2)
+CHIP_TEST_PARTS := $(CHIP_TEST_C) $(B)/tests/chip_suites.c $(UNITY_DIR)/unity.c
+$(call objects,chip,$(CHIP_TEST_PARTS)): | $(UNITY_DIR)/unity.c
+$(B)/tests/chip_suites.c: $(CHIP_TEST_C)
+$(B)/chip/drivers.o: $(call objects,chip,$(CHIP_DRIVERS_C))
+	$(say) LINK $@
+	$(Q)ld -r -o $@ $^
+	$(Q)objcopy --set-section-flags .bss=alloc,load,contents,data --rename-section .bss=drivers_bss \
+	    --rename-section .data=drivers_data $@
+-include $(wildcard $(patsubst %.c,$(B)/chip/%.d,$(CHIP_TEST_PARTS) $(CHIP_DRIVERS_C)))
+
+$(B)/tests/chip: $(call objects,chip,$(CHIP_TEST_PARTS)) $(B)/chip/drivers.o $(call libraries,float,station whirl)
+	$(link)
+
+TEST_PROGRAMS := $(B)/tests/chip $(B)/tests/core_double $(B)/tests/core_float $(B)/tests/host $(B)/tools/mechanisms $(B)/tools/linkages $(B)/tools/price_fit $(B)/tools/price_fit_fixed \
+    $(B)/pil_rig $(B)/pil_swing $(B)/pil_dialled $(B)/pil_carriage $(B)/pil_cart $(B)/pil_taped $(B)/tools/faults $(B)/station $(B)/tools/sim_station $(B)/tools/tel_check
 
 .PHONY: test-programs
 test-programs: $(TEST_PROGRAMS) $(B)/tests/quick_suites.list
 
 # --- running ------------------------------------------------------------------------------------
 # tests/run.sh takes pairs: what it is, and the command.
+RUN_CHIP = "drivers of the STM32F405 on a played chip" $(B)/tests/chip
 RUN_CORE = "portable suites, double" $(B)/tests/core_double "portable suites, float" $(B)/tests/core_float
 # The host suites in four parts, so that all processors have work to the end; what takes longest goes first.
 part = "host suites$(comma) part $(1) of 4" '$(B)/tests/host $$(sh tests/part.sh $(2) $(1) 4)'
@@ -98,7 +121,7 @@ build_board_tests = $(foreach b,$(1),$(call on_board,$(b),board-tests) &&) true
 test-now: $(GEN)/.stamp
 	@$(MAKE) test-programs
 	+@$(call build_board_tests,$(BOARDS_TEST))
-	@WHIRL=build/whirl sh tests/run.sh build/tests/log $(RUN_LONG) $(RUN_HOST) $(RUN_BOARD) $(RUN_CLI) $(RUN_CORE)
+	@WHIRL=build/whirl sh tests/run.sh build/tests/log $(RUN_LONG) $(RUN_HOST) $(RUN_BOARD) $(RUN_CLI) $(RUN_CHIP) $(RUN_CORE)
 
 ##@ Tests and quality
 # Parts of it, for while one works on something.
@@ -195,7 +218,12 @@ FUZZERS := $(patsubst tests/fuzz/%.c,build/fuzz/%.fuzzer,$(wildcard tests/fuzz/f
 SANITIZE := address,undefined,float-cast-overflow
 
 FUZZED := $(LIB_HOST) $(call libraries,float,station rig whirl) $(LIB_DOUBLE)
-build/fuzz/%.fuzzer: build/fuzz/host/tests/fuzz/%.o $(FUZZED)
+# What reads lines takes little of it, and `make check` fuzzes it anew each time.
+FUZZERS_OF_LINES := build/fuzz/fuzz_console.fuzzer build/fuzz/fuzz_wire.fuzzer
+$(filter-out $(FUZZERS_OF_LINES),$(FUZZERS)): $(FUZZED)
+build/fuzz/fuzz_console.fuzzer: $(call libraries,float,station rig whirl)
+build/fuzz/fuzz_wire.fuzzer: $(call objects,host,$(wildcard host/monitor/*.c host/base/*.c host/plot/*.c) host/number/decimal.c host/number/functions.c) $(call objects,double,$(wildcard core/function*.c)) $(call libraries,float,whirl)
+build/fuzz/%.fuzzer: build/fuzz/host/tests/fuzz/%.o
 	$(say) LINK $@
 	$(Q)$(CC) $(NATIVE) -fsanitize=fuzzer -o $@ $(filter %.o,$^) \
 	    -Wl,--start-group $(filter %.a,$^) -Wl,--end-group -lm
@@ -209,8 +237,8 @@ $(B)/fuzz/%.kept: $(B)/host/tests/fuzz/%.o $(B)/host/tests/fuzz/kept.o $(FUZZED)
 .PHONY: fuzz-now fuzz-programs kept-now
 kept-now: $(KEPT_INPUTS)
 	@sh tests/fuzz/kept.sh $^
+FUZZ_BUILD = $(MAKE) B=build/fuzz CC=clang OPT=-O1 EXTRA="-fsanitize=fuzzer-no-link,$(SANITIZE) -fno-sanitize-recover=all"
 fuzz-programs: $(FUZZERS)
 fuzz-now:
-	@$(MAKE) B=build/fuzz CC=clang OPT=-O1 \
-	    EXTRA="-fsanitize=fuzzer-no-link,$(SANITIZE) -fno-sanitize-recover=all" fuzz-programs
+	@$(FUZZ_BUILD) fuzz-programs
 	@sh tests/fuzz.sh $(FUZZ_SECONDS) $(FUZZERS)

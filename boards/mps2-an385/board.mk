@@ -5,4 +5,5 @@ BOARD_MATH     :=
 BOARD_SECONDS  := 900
 BOARD_TIMING   := m3
 BOARD_WHEN     := check
+BOARD_WATCHDOG := boards/cortexm/cmsdk_watchdog.c
 include boards/cortexm/cortexm.mk

@@ -6,4 +6,5 @@ BOARD_MATH     := -fno-math-errno
 BOARD_SECONDS  := 60
 BOARD_TIMING   := m4
 BOARD_WHEN     := test
+BOARD_WATCHDOG := boards/cortexm/cmsdk_watchdog.c
 include boards/cortexm/cortexm.mk

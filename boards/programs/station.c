@@ -2,6 +2,7 @@
  *
  * It never ends. Where the model plays the hardware (hal/virtual), the model's time is held to the clock's. */
 #include "core/station/station.h"
+#include "core/station/tape_out.h"
 
 #include "boards/board.h"
 #include "hal/clock.h"
@@ -22,12 +23,21 @@ static wh_conf conf;
 #if WH_STATION_TELEMETRY
 static wh_tel tel;
 #endif
+#if WH_STATION_TAPE
+static wh_tape tape;
+#endif
 
 static void converse(void) {
     char bytes[BYTES_A_STEP];
     wh_station_take(&station, bytes, hal_console_read(bytes, sizeof bytes));
     wh_station_see(&station, &config, &rig, &seen);
+#if WH_STATION_TAPE
+    wh_tape_see(&station, &rig);
+#endif
     wh_station_step(&station, &rig);
+#if WH_STATION_TAPE
+    wh_tape_orders(&station, &rig);
+#endif
     const unsigned waiting = wh_station_peek(&station, bytes, sizeof bytes);
     wh_station_drop(&station, hal_console_offer(bytes, waiting));
 }
@@ -88,6 +98,9 @@ int main(void) {
     station.conf = &conf;
 #if WH_STATION_TELEMETRY
     station.tel = &tel;
+#endif
+#if WH_STATION_TAPE
+    station.tape = &tape;
 #endif
     hal_watchdog_start(WATCHDOG_TICKS);
     for (;;) {

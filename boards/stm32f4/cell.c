@@ -20,8 +20,12 @@
 #define PAIRS_TICKS (PAIRS * (BOARD_TICKS_PER_S / 1000U) / (PAIRS_PER_S / 1000U))
 _Static_assert(PAIRS_TICKS == HAL_LOADCELL_PERIOD_TICKS, "a sample each period");
 
-/* From the middle of the pairs to the interrupt behind the last: half of them less half of one, and a conversion of two. */
-#define BEHIND_TICKS (PAIRS_TICKS / 2U - PAIRS_TICKS / PAIRS / 2U + 9U)
+/* From the middle of the forces to the interrupt behind the last pair: half of the pairs less half of one; what is behind the
+ * 4 us of sampling, at whose end the force is held, of 9 us that two conversions take. */
+#define BEHIND_TICKS (PAIRS_TICKS / 2U - (PAIRS_TICKS / PAIRS + 1U) / 2U + 5U)
+
+/* STM32F405's data sheet, table 67. */
+#define ADC_HZ_MOST 36000000U
 
 #define FULL 4095U
 #define MIDDLE 2048
@@ -52,7 +56,7 @@ static void start_dma(void) {
     reg_store(DMA2_S0CR, settings | DMA_CR_EN);
 }
 
-/* 84 clocks of 21 MHz for the sampling and 12 for the rest: 4.6 us each. */
+/* 84 clocks of 21 MHz for the sampling and 12 for the rest: 4.6 us each; of 8 MHz, the fallback's, 12 us. */
 static void sample_for(unsigned input) {
     const bool upper = input >= 10U;
     const unsigned shift = 3U * (upper ? input - 10U : input);
@@ -64,7 +68,9 @@ static void start_converter(void) {
     (void)reg_load(RCC_APB2ENR);
     stm32f4_pin_is(BOARD_CELL_PIN, PIN_ANALOGUE, PULL_NONE, 0);
     stm32f4_pin_is(BOARD_SUPPLY_PIN, PIN_ANALOGUE, PULL_NONE, 0);
-    reg_store(ADC_CCR, ADC_CCR_ADCPRE_4);
+    if (stm32f4_clocks_now()->usart_Hz > 2U * ADC_HZ_MOST) {
+        reg_store(ADC_CCR, ADC_CCR_ADCPRE_4); /* it is half of APB2 without */
+    }
     sample_for(BOARD_CELL_INPUT);
     sample_for(BOARD_SUPPLY_INPUT);
     reg_store(ADC1_SQR1, ADC_SQR1_LENGTH(2U));
@@ -143,16 +149,13 @@ static void average(unsigned half, uint32_t ticks) {
     hand_on(&sample);
 }
 
-/* Both flags at once: a whole half was not looked at, and is being overwritten: it is left out. */
+/* How far DMA has come says which half is whole, and since when: an interrupt that was held up takes the newest one, with its
+ * own stamp. */
 void on_dma2_stream0(void) {
     const uint32_t now = board_ticks();
-    const uint32_t flags = reg_load(DMA2_LISR) & DMA2_S0_ALL_FLAGS;
-    reg_store(DMA2_LIFCR, flags);
-    if ((flags & DMA2_S0_WHOLE) != 0) {
-        average(1, now - BEHIND_TICKS);
-    } else if ((flags & DMA2_S0_HALF) != 0) {
-        average(0, now - BEHIND_TICKS);
-    }
+    reg_store(DMA2_LIFCR, DMA2_S0_ALL_FLAGS);
+    const uint32_t laid = (2U * PAIRS * 2U - reg_load(DMA2_S0NDTR)) / 2U;
+    average(laid < PAIRS ? 1U : 0U, now - BEHIND_TICKS - laid % PAIRS * PAIRS_TICKS / PAIRS);
 }
 
 bool hal_loadcell_take(hal_load_sample *sample) {

@@ -18,9 +18,7 @@ static bool driving;
 static bool cut;
 
 void stm32f4_motor_start(void) {
-    stm32f4_pin_set(BOARD_PIN_ENABLE, false);
-    stm32f4_pin_is(BOARD_PIN_ENABLE, PIN_OUTPUT, PULL_NONE, 0);
-    stm32f4_pin_set(BOARD_PIN_ENABLE, false); /* its port may have had no clock before */
+    stm32f4_pin_is(BOARD_PIN_ENABLE, PIN_OUTPUT, PULL_NONE, 0); /* low, as a reset leaves it */
     reg_set(RCC_APB2ENR, RCC_APB2ENR_TIM1);
     (void)reg_load(RCC_APB2ENR);
     reg_set(DBGMCU_APB2_FZ, DBGMCU_APB2_FZ_TIM1);

@@ -13,6 +13,9 @@
 uint32_t reg_load(uint32_t address);
 void reg_store(uint32_t address, uint32_t value);
 uint32_t reg_address(volatile void *memory);
+/* Interrupts off, and as they were (stm32f4.h). */
+uint32_t reg_hold(void);
+void reg_go_on(uint32_t before);
 #else
 #include "boards/shared/metal.h"
 static inline uint32_t reg_load(uint32_t address) { return REGISTER(address); }

@@ -39,15 +39,17 @@ void stm32f4_interrupt(unsigned number);
 
 /* Interrupts off, from here to stm32f4_go_on(): what was is handed back. */
 static inline uint32_t stm32f4_hold(void) {
+#if BOARD_REGISTERS_FAKED
+    return reg_hold();
+#else
     uint32_t before = 0;
-#if !BOARD_REGISTERS_FAKED
     __asm__ volatile("mrs %0, primask\n\tcpsid i" : "=r"(before) : : "memory");
-#endif
     return before;
+#endif
 }
 static inline void stm32f4_go_on(uint32_t before) {
 #if BOARD_REGISTERS_FAKED
-    (void)before;
+    reg_go_on(before);
 #else
     __asm__ volatile("msr primask, %0" : : "r"(before) : "memory");
 #endif

@@ -51,8 +51,8 @@ static void keep(char byte) {
     }
 }
 
-/* Reading the status, then the data, clears what both say (30.6.1). A byte that was overrun leaves a zero, as one does that
- * found no room: no line with it is obeyed. */
+/* Reading the status, then the data, clears what both say (30.6.1). Bytes that were overrun, which came behind this one, leave
+ * a zero before the next, as those do that found no room: no line with it is obeyed. */
 static void fetch(void) {
     for (unsigned i = 0; i < IN_BYTES; i++) {
         const uint32_t status = reg_load(USART_SR);
@@ -60,13 +60,14 @@ static void fetch(void) {
             return;
         }
         const char byte = (char)(reg_load(USART_DR) & 0xFFU);
-        if (lost || (status & USART_SR_ORE) != 0) {
+        if (lost) {
             lost = false;
             keep('\0');
         }
         if ((status & USART_SR_RXNE) != 0) {
             keep(byte);
         }
+        lost = lost || (status & USART_SR_ORE) != 0;
     }
 }
 

@@ -18,7 +18,7 @@ static uint32_t clocks_in(uint32_t ticks) {
     return FASTEST_KHZ * (ticks / TICKS_PER_MS) + (rest + TICKS_PER_MS - 1U) / TICKS_PER_MS;
 }
 
-/* May be called again, with another time. */
+/* May be called again, with another time: also in the last moment of the one before. */
 void hal_watchdog_start(uint32_t timeout_ticks) {
     const uint32_t clocks = clocks_in(timeout_ticks);
     uint32_t divider = 0;
@@ -28,6 +28,7 @@ void hal_watchdog_start(uint32_t timeout_ticks) {
     const uint32_t counts = (clocks >> (2U + divider)) + 1U;
     reg_set(DBGMCU_APB1_FZ, DBGMCU_APB1_FZ_IWDG);
     reg_store(IWDG_KR, IWDG_KR_START); /* and with it its oscillator */
+    reg_store(IWDG_KR, IWDG_KR_RELOAD);
     reg_store(IWDG_KR, IWDG_KR_UNLOCK);
     reg_store(IWDG_PR, divider);
     reg_store(IWDG_RLR, counts < LONGEST ? counts : LONGEST);

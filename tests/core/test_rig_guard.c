@@ -64,6 +64,32 @@ static void test_over_speed_trips(void) {
     TEST_ASSERT_TRUE(trip_at(WH_R(200.0), 2) == WH_TRIP_RUNS_ON);
 }
 
+/* Whatever is known of the last pulses: a turn that is too fast trips as soon as nothing takes it back, and so do two fast
+ * intervals running. */
+static void test_over_speed_trips_when_it_is_sure(void) {
+    const wh_guard_config *config = &wh_rig_standard.guard;
+    for (unsigned i = 0; i < 96U; i++) {
+        const bool known = i % 2U == 1U;
+        const bool waits = i / 2U % 2U == 1U;
+        const bool too_fast = i / 4U % 2U == 1U;
+        const bool driven = i / 8U % 2U == 1U;
+        const unsigned alternate = i / 16U % 2U;
+        const unsigned fast = i / 32U;
+        const wh_pulses pulses = {
+            .speed = {.known = known,
+                      .turn_radps = config->limit_radps + (too_fast ? WH_R(0.01) : WH_R(-0.01))},
+            .waits = waits,
+            .fast = fast,
+            .alternate = alternate};
+        wh_guard guard = {.trip = WH_TRIP_NONE};
+        wh_guard_speed(config, &guard, &pulses, WH_TRIP_OVERSPEED, driven);
+        const bool turns = driven || alternate > 0;
+        const bool sure = known && too_fast && (!waits || fast > 0);
+        TEST_ASSERT_EQUAL_INT(turns && (sure || fast > 1U) ? WH_TRIP_OVERSPEED : WH_TRIP_NONE,
+                              guard.trip);
+    }
+}
+
 /* Two marks that climb and an interval beyond the bound are a runaway; less than that is none. */
 static void test_what_climbs_and_is_fast_trips(void) {
     const wh_guard_config *config = &wh_rig_standard.guard;
@@ -247,6 +273,7 @@ void suite_rig_guard(void) {
     RUN_TEST(test_speed_limit_follows_from_the_shaft);
     RUN_TEST(test_guard_refuses_set_points);
     RUN_TEST(test_over_speed_trips);
+    RUN_TEST(test_over_speed_trips_when_it_is_sure);
     RUN_TEST(test_what_climbs_and_is_fast_trips);
     RUN_TEST(test_lost_pulses_and_silence_trip);
     RUN_TEST(test_the_bound_is_what_gravity_makes_of_a_speed);

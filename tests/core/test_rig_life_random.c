@@ -80,6 +80,41 @@ static void test_a_result_outlives_what_comes_after(void) {
     }
 }
 
+/* A record whose speed leaves it ends in a trip, and brings no result, whether there was one before or not. */
+static void test_a_record_that_is_left_brings_no_result(void) {
+    for (unsigned before = 0; before < 2U; before++) {
+        for (unsigned i = 0; i < 6U; i++) {
+            even_start(&even);
+            if (before > 0) {
+                even_run(&even, WH_R(330.0), &(even_failure){.in = EVEN_NEVER});
+            }
+            const wh_real amplitude_N = even.rig.result.force.amplitude_N;
+            even_rest(&even);
+            TEST_ASSERT_TRUE(even_order(&even, WH_EVENT_ARM, WH_R(0.0)) == WH_ALLOWED);
+            TEST_ASSERT_TRUE(even_order(&even, WH_EVENT_START, WH_R(250.0) * EVEN_RPM) ==
+                             WH_ALLOWED);
+            even_go_on_until(&even, WH_PHASE_RECORD);
+            even_steps(&even, 300U + 60U * i);
+            even_turn_by_hand(&even, i % 2U == 0 ? WH_R(235.0) : WH_R(265.0));
+            even_steps(&even, 600);
+            TEST_ASSERT_TRUE(even.rig.state == WH_LIFE_TRIPPED &&
+                             even.rig.guard.trip == WH_TRIP_UNSETTLED);
+            TEST_ASSERT_TRUE(even.rig.has_result == (before > 0));
+            if (before > 0) {
+                TEST_ASSERT_FLOAT_WITHIN(0.0f, (float)amplitude_N,
+                                         (float)even.rig.result.force.amplitude_N);
+            }
+        }
+    }
+}
+
+/* A rotor that rests has no speed left to lead anything by. */
+static void test_rest_leaves_no_speed(void) {
+    even_run(&even, WH_R(330.0), &(even_failure){.in = EVEN_NEVER});
+    even_rest(&even);
+    TEST_ASSERT_FLOAT_WITHIN(0.0f, 0.0f, (float)even.rig.run.off_radps);
+}
+
 /* --- anything --------------------------------------------------------------------------------------- */
 
 static wh_real any_value(void) {
@@ -251,6 +286,8 @@ void suite_rig_life_random(void) {
     RUN_TEST(test_another_set_point_while_it_runs);
     RUN_TEST(test_the_run_before_does_not_count);
     RUN_TEST(test_a_result_outlives_what_comes_after);
+    RUN_TEST(test_a_record_that_is_left_brings_no_result);
+    RUN_TEST(test_rest_leaves_no_speed);
     RUN_TEST(test_what_holds_whatever_is_ordered);
     RUN_TEST(test_what_holds_for_hours);
 }

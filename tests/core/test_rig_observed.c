@@ -121,6 +121,31 @@ static void test_unfed_nothing_is_observed(void) {
     TEST_ASSERT_FALSE(even.rig.observer.runs || even.rig.observer.marked);
 }
 
+/* Fed no longer, by another set-point: the measurement's reference knows in that very step, and again when it is fed. */
+static void test_the_reference_knows_who_is_fed(void) {
+    arm();
+    even.config.feeds = WH_FEED_SLOW;
+    TEST_ASSERT_TRUE(even_order(&even, WH_EVENT_START, WH_R(120.0) * EVEN_RPM) == WH_ALLOWED);
+    for (unsigned i = 0; i < 4U; i++) {
+        const wh_turn_angle *angle = &even.rig.measure.lockin.angle;
+        for (unsigned k = 0; k < 6000U && !angle->fed; k++) {
+            even.rig.feed.part =
+                WH_R(1.0); /* faded in, whatever the observer makes of a rotor that is none */
+            even_step(&even);
+        }
+        TEST_ASSERT_TRUE(angle->fed);
+        TEST_ASSERT_FLOAT_WITHIN(0.0f, (float)even.rig.run.volts, (float)angle->held_V);
+        TEST_ASSERT_TRUE(even_order(&even, WH_EVENT_SET, (WH_R(200.0) + (wh_real)i) * EVEN_RPM) ==
+                         WH_ALLOWED);
+        TEST_ASSERT_FALSE(angle->fed);
+        TEST_ASSERT_TRUE(angle->part >= WH_R(1.0));
+        even_steps(&even, 300);
+        TEST_ASSERT_FALSE(angle->fed);
+        TEST_ASSERT_TRUE(even_order(&even, WH_EVENT_SET, (WH_R(120.0) + (wh_real)i) * EVEN_RPM) ==
+                         WH_ALLOWED);
+    }
+}
+
 /* Pulses of sensors that there are not, in any phase: they are counted, and that is all. */
 static void test_a_sensor_that_is_none(void) {
     static even_rig twin;
@@ -177,6 +202,7 @@ static void test_marks_come_in_their_order(void) {
 
 void suite_rig_observed(void) {
     RUN_TEST(test_unfed_nothing_is_observed);
+    RUN_TEST(test_the_reference_knows_who_is_fed);
     RUN_TEST(test_a_sensor_that_is_none);
     RUN_TEST(test_marks_come_in_their_order);
     RUN_TEST(test_a_step_with_a_pulse_works_on_no_turn);

@@ -271,6 +271,11 @@ static void test_a_control_step_does_one_piece_of_the_work(void) {
             wh_swing_step(&config->swing, &config->measure.rotor, &swing, false, true);
             times[piece]++;
             TEST_ASSERT_TRUE((may_follow(piece) >> swing.piece & 1U) != 0);
+            if (piece ==
+                WH_SWING_PASSES) { /* each pass sets out at the first passage, to the next pulse */
+                TEST_ASSERT_TRUE(swing.at == swing.first + 1U);
+                TEST_ASSERT_TRUE(swing.ticks == swing.kept_ticks[swing.first]);
+            }
             if (piece == WH_SWING_GOES && swing.at == at && swing.piece == piece) {
                 const int32_t moved = (int32_t)(swing.ticks - ticks);
                 TEST_ASSERT_TRUE(moved <= EQUATION_STEPS * EQUATION_TICKS &&

@@ -83,7 +83,7 @@ static bool boots(unsigned times) {
 
 static double number_of(const char *name) {
     const char *at = strstr(answer, name);
-    return at == NULL ? -1.0 : atof(at + strlen(name));
+    return at == NULL ? -1.0 : strtod(at + strlen(name), NULL);
 }
 
 /* Until the run is through, asking for nothing, or for the state all the time. */
@@ -108,6 +108,7 @@ static bool measures(unsigned rpm, bool busy) {
         return false;
     }
     const mega_times *times = mega_times_now();
+    const uint64_t period = PERIOD_CYCLES;
     const double force_N = number_of("force_N=");
     const double expected_N = number_of("expected_N=");
     const double phase_deg = number_of("phase_deg=");
@@ -117,7 +118,7 @@ static bool measures(unsigned rpm, bool busy) {
         "# cycles of %llu control steps: mean %llu, worst %llu (%.1f %% of a period), with an answer "
         "%llu; %llu began late\n",
         (unsigned long long)times->steps, (unsigned long long)(times->sum_step / times->steps),
-        (unsigned long long)times->worst_step, 100.0 * (double)times->worst_step / PERIOD_CYCLES,
+        (unsigned long long)times->worst_step, 100.0 * (double)times->worst_step / (double)period,
         (unsigned long long)times->worst_loop, (unsigned long long)times->late);
     return (fabs(force_N - expected_N) < 0.002 * expected_N ||
             no("%.3f N instead of %.3f", force_N, expected_N)) &&

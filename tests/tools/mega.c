@@ -166,8 +166,8 @@ static void on_convert(struct avr_irq_t *irq, uint32_t value, void *data) {
     } asked = {.value = value};
     (void)irq;
     (void)data;
-    const float step_cycles = (float)(plant.step_ticks * MEGA_CYCLES_PER_US);
-    const float part = 1.0f - (float)(int64_t)(plant_cycle - avr->cycle) / step_cycles;
+    const uint32_t step_cycles = plant.step_ticks * MEGA_CYCLES_PER_US;
+    const float part = 1.0f - (float)(int64_t)(plant_cycle - avr->cycle) / (float)step_cycles;
     const float load_N = force_N[0] + part * (force_N[1] - force_N[0]);
     const float mV = asked.mux.src == 0
                          ? 2500.0f + load_N / HAL_LOADCELL_FULL_SCALE_N * 2500.0f + noise_mV()
@@ -354,8 +354,9 @@ void mega_say(const char *line) {
     if (said_bytes + length + 1U > sizeof said) {
         fail("too much is said at once");
     }
-    memcpy(said + said_bytes, line, length);
-    said_bytes += (unsigned)length;
+    for (size_t i = 0; i < length; i++) {
+        said[said_bytes++] = line[i];
+    }
     said[said_bytes++] = '\r';
 }
 

@@ -1,0 +1,34 @@
+/* cmsdk_watchdog.c: hal/watchdog.h on Arm's CMSDK APB watchdog (Cortex-M System Design Kit Technical Reference Manual, 4.4), as
+ * on the MPS2 boards: one that resets. It counts down twice: at the end of the first count it asks for the interrupt,
+ * which is the NMI there, at the end of the second it resets, so after twice the timeout. */
+#include "cortexm.h"
+
+#include "hal/clock.h"
+#include "hal/watchdog.h"
+
+#define WATCHDOG_LOAD (BOARD_WATCHDOG + 0x000U)
+#define WATCHDOG_CONTROL (BOARD_WATCHDOG + 0x008U)
+#define WATCHDOG_CLEAR (BOARD_WATCHDOG + 0x00CU)
+#define WATCHDOG_LOCK (BOARD_WATCHDOG + 0xC00U)
+#define WATCHDOG_CONTROL_INTERRUPT 1U
+#define WATCHDOG_CONTROL_RESET 2U
+#define WATCHDOG_KEY 0x1ACCE551U
+
+#define TICKS_MOST (UINT32_MAX / (BOARD_TICKS_PER_S / HAL_TICKS_PER_S))
+
+void hal_watchdog_start(uint32_t timeout_ticks) {
+    const uint32_t ticks = timeout_ticks < TICKS_MOST ? timeout_ticks : TICKS_MOST;
+    REGISTER(WATCHDOG_LOCK) = WATCHDOG_KEY;
+    REGISTER(WATCHDOG_LOAD) = ticks * (BOARD_TICKS_PER_S / HAL_TICKS_PER_S);
+    REGISTER(WATCHDOG_CONTROL) = WATCHDOG_CONTROL_INTERRUPT | WATCHDOG_CONTROL_RESET;
+    REGISTER(WATCHDOG_LOCK) = 0;
+}
+
+/* Clearing the interrupt loads the count anew, whether there was one or not. */
+void hal_watchdog_kick(void) {
+    REGISTER(WATCHDOG_LOCK) = WATCHDOG_KEY;
+    REGISTER(WATCHDOG_CLEAR) = 1;
+    REGISTER(WATCHDOG_LOCK) = 0;
+}
+
+bool hal_watchdog_has_cut(void) { return false; }

@@ -1,0 +1,25 @@
+#!/bin/sh
+# watchdog.sh BOARD: the watchdog of BOARD, if it has one (tests/boards/watchdog.c, in build/BOARD): kicked in time it is
+# silent; left alone it interrupts not before its time and resets before three times that. In the board's own time,
+# whatever this machine does. Prints "ok - ..." or "not ok - ..." lines.
+set -u
+
+board=$1
+image=build/$board/watchdog.elf
+[ -e "$image" ] || exit 0
+emulate=$(MAKEFLAGS="" make -s BOARD="$board" emulate-command) || exit 1
+said=$(mktemp)
+trap 'rm -f "$said"' EXIT
+sh -c "$(echo "$emulate" | sed "s:IMAGE:$image:") -icount shift=5" >"$said" 2>&1
+status=$?
+if tr -d '\r' <"$said" | awk -v status="$status" '
+    /^kicked for / && $3 >= 1800000 && $3 < 1810000 { kicked = 1 }
+    kicked && /^interrupted after / && $3 >= 50000 && $3 < 50100 { interrupted = 1 }
+    interrupted && /^reset after / && $3 >= 50000 && $3 <= 150000 { reset = 1 }
+    END { exit !(reset && status == 0) }'; then
+    echo "ok - $board, watchdog: $(tr -d '\r' <"$said" | grep ' after ' | paste -sd, -); 50,000 us are allowed without a kick"
+else
+    echo "not ok - $board, watchdog: exit status $status, and it said"
+    sed 's/^/    /' "$said"
+    exit 1
+fi

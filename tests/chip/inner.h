@@ -1,0 +1,117 @@
+/* inner.h: what the parts of the played chip have in common. */
+#ifndef TESTS_CHIP_INNER_H
+#define TESTS_CHIP_INNER_H
+
+#include "tests/chip/chip.h"
+
+/* Addresses: RM0090, table 1 (memory map). */
+#define AT_TIM2 0x40000000U
+#define AT_TIM3 0x40000400U
+#define AT_IWDG 0x40003000U
+#define AT_PWR 0x40007000U
+#define AT_TIM1 0x40010000U
+#define AT_USART6 0x40011400U
+#define AT_ADC1 0x40012000U
+#define AT_SYSCFG 0x40013800U
+#define AT_EXTI 0x40013C00U
+#define AT_GPIOA 0x40020000U
+#define AT_RCC 0x40023800U
+#define AT_FLASH 0x40023C00U
+#define AT_DMA2 0x40026400U
+#define AT_FLASH_MEMORY 0x08000000U
+#define FLASH_MEMORY_BYTES 0x100000U
+#define AT_RAM 0x20000000U
+#define AT_DBGMCU 0xE0042000U
+#define AT_NVIC 0xE000E100U
+#define AT_SCB 0xE000ED00U
+
+/* Bit n; a field's value. */
+#define BIT(n) (UINT32_C(1) << (n))
+#define FIELD(value, low, bits) (((value) >> (low)) & ((UINT32_C(1) << (bits)) - 1U))
+
+/* A part: registers at an address, a clock that it needs, and what it does by itself. All but name, base and bytes may be
+ * NULL. */
+typedef struct part {
+    const char *name;
+    uint32_t base;
+    uint32_t bytes;
+    uint32_t clock_register; /* of RCC: offset, 0: none */
+    uint32_t clock_bit;
+    uint32_t (*load)(uint32_t offset);
+    void (*store)(uint32_t offset, uint32_t value);
+    void (*reset)(chip_cause cause);
+    uint64_t (*next)(void);              /* when something happens by itself */
+    void (*happens)(void);               /* it is that time */
+    bool (*pending)(unsigned interrupt); /* does it ask for this one? */
+} part;
+
+extern const part rcc_part, pwr_part, flash_part, flash_memory_part, gpio_part, tim1_part,
+    tim2_part, tim3_part, adc_part, dma_part, usart_part, iwdg_part, nvic_part, scb_part,
+    dbgmcu_part;
+
+/* chip.c */
+__attribute__((format(printf, 1, 2))) void forbidden(const char *words, ...);
+uint64_t now_units(void);
+bool core_halted(void);
+uint64_t drawn(void); /* a random number */
+void core_resets(
+    chip_cause
+        cause); /* does not return to the program; in chip_pass() it does: the chip is reset there */
+volatile void *memory_at(uint32_t address); /* that reg_address() told of */
+
+/* rcc.c: Hz, 0: the clock does not run. */
+uint32_t core_Hz(void);
+uint32_t apb1_timer_Hz(void);
+uint32_t apb2_timer_Hz(void);
+uint32_t apb2_Hz(void);
+bool part_is_clocked(const part *which);
+bool pll_is_on(void);
+bool lsi_is_on(void);
+void lsi_forced(void);             /* by the watchdog */
+uint64_t units_of(uint32_t hertz); /* a period */
+/* Told by rcc.c around a change of clocks. */
+void timers_hold_counts(void);
+void timers_go_on(void);
+void tim1_hold_count(void);
+void tim1_go_on(void);
+bool nmi_pending(void);
+
+/* flash.c */
+void flash_clock_is(uint32_t hertz);
+bool flash_busy(void);
+uint64_t flash_busy_until(void);
+void flash_power_goes(void);
+void flash_new(void);
+
+/* gpio.c: the level at a pin as an input sees it, and what is selected there. */
+bool pin_is_function(unsigned port, unsigned pin, unsigned function);
+bool pin_is_analogue(unsigned port, unsigned pin);
+bool pin_input(unsigned port, unsigned pin);
+void pins_changed(void); /* an output did */
+void pins_new(void);
+
+/* tim1.c: what it gives to PB13 as TIM1_CH1N: CHIP_OPEN: nothing. */
+chip_level tim1_ch1n(void);
+void tim1_break_input(void);  /* the pin may have changed */
+void tim1_clock_failed(void); /* CSS */
+
+/* timers.c */
+void tim2_input(unsigned channel, bool high); /* 1 ... 4 */
+
+/* adc.c: TIM3's update, as its trigger output; which event of EXTSEL that is. */
+void adc_trigger(unsigned event);
+bool adc_dma_takes(uint16_t *value);
+void dma_request_adc(void);
+
+/* dbgmcu */
+bool debug_stops(uint32_t offset, unsigned bit);
+
+/* The debugger holds the core; it is about to let go. */
+void iwdg_holds(void);
+void iwdg_goes_on(void);
+
+void usart_new(void);
+void iwdg_new(void);
+void tim1_new(void);
+
+#endif

@@ -1,0 +1,111 @@
+/* start.c: how an image starts on the played chip: clocks, variables, devices, as boards/cortexm/startup.c has it; and memory that
+ * a reset leaves alone. */
+#include "tests/chip/start.h"
+
+#include <string.h>
+
+#include "boards/cortexm/kept.h"
+#include "hal/clock.h"
+
+#include "unity.h"
+
+/* What the linker puts around the drivers' variables (mk/tests.mk). */
+extern uint8_t __start_drivers_bss[], __stop_drivers_bss[];
+/* There is none while no variable has an initial value. */
+__attribute__((weak)) extern uint8_t __start_drivers_data[], __stop_drivers_data[];
+
+static uint8_t image[16384];
+static size_t image_bytes;
+
+/* Byte by byte: a sanitizer has guards of its own between variables. */
+__attribute__((no_sanitize("address", "undefined"), noinline)) static void
+put(volatile uint8_t *to, const uint8_t *from, size_t count) {
+    for (size_t i = 0; i < count; i++) {
+        to[i] = from != NULL ? from[i] : 0;
+    }
+}
+
+__attribute__((constructor, no_sanitize("address", "undefined"))) static void keep_image(void) {
+    image_bytes = (size_t)(__stop_drivers_data - __start_drivers_data);
+    if (image_bytes <= sizeof image) {
+        for (size_t i = 0; i < image_bytes; i++) {
+            image[i] = ((volatile uint8_t *)__start_drivers_data)[i];
+        }
+    }
+}
+
+void drivers_as_flashed(void) {
+    put(__start_drivers_data, image, image_bytes);
+    put(__start_drivers_bss, NULL, (size_t)(__stop_drivers_bss - __start_drivers_bss));
+}
+
+double (*chip_cell_V)(double s);
+double chip_supply_V;
+static double quiet_cell(double s) {
+    (void)s;
+    return 1.65;
+}
+static double chip_volts(unsigned input, double s) {
+    return input == 10 ? chip_cell_V(s) : input == 11 ? chip_supply_V / 10.0 : 0.0;
+}
+
+static bool anything_kept;
+void chip_memory_keeps(bool anything) { anything_kept = anything; }
+bool board_kept_anything(void) { return anything_kept; }
+bool board_kept_take_fault(board_fault_record *record) {
+    (void)record;
+    return false;
+}
+
+static hal_start started;
+static void start_all(void) {
+    board_clock_start();
+    drivers_as_flashed();
+    board_start();
+    started = hal_clock_start();
+}
+
+chip_end chip_start(hal_start *how) {
+    const chip_end end = chip_try(start_all);
+    *how = started;
+    return end;
+}
+
+static void start_clocks(void) {
+    board_clock_start();
+    drivers_as_flashed();
+}
+void chip_clocks_on(uint64_t seed) {
+    chip_wired(seed);
+    chip_clocks_again();
+}
+void chip_clocks_again(void) {
+    chip_reset(CHIP_BY_POWER);
+    TEST_ASSERT_EQUAL(CHIP_RETURNED, chip_try(start_clocks));
+    TEST_ASSERT_EQUAL_STRING("none", chip_violation());
+}
+
+/* Wiring as docs/boards.md has it. */
+void chip_wired(uint64_t seed) {
+    chip_new(seed);
+    chip_pin_resistor('B', 13, CHIP_TO_GROUND);
+    chip_pin_resistor('B', 14, CHIP_TO_GROUND);
+    chip_pin_resistor('A', 6, CHIP_TO_GROUND);
+    chip_pin_drive('A', 6, CHIP_HIGH);
+    chip_pin_drive('A', 0, CHIP_LOW);
+    chip_pin_drive('A', 1, CHIP_LOW);
+    chip_pin_drive('C', 7, CHIP_HIGH);
+    world.volts = chip_volts;
+    chip_cell_V = quiet_cell;
+    chip_supply_V = 12.0;
+    anything_kept = false;
+}
+
+void chip_on(uint64_t seed) {
+    hal_start how = HAL_START_NO_TIMER;
+    chip_wired(seed);
+    chip_reset(CHIP_BY_POWER);
+    TEST_ASSERT_EQUAL(CHIP_RETURNED, chip_start(&how));
+    TEST_ASSERT_EQUAL(HAL_STARTED, how);
+    TEST_ASSERT_EQUAL_STRING("none", chip_violation());
+}

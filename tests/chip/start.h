@@ -1,0 +1,27 @@
+/* start.h: an image's start on the played chip. */
+#ifndef TESTS_CHIP_START_H
+#define TESTS_CHIP_START_H
+
+#include "boards/board.h"
+#include "hal/clock.h"
+#include "tests/chip/chip.h"
+
+/* Clocks, variables, console and time base, the rig's hardware. *how: what hal_clock_start() said, when it came so far. */
+chip_end chip_start(hal_start *how);
+
+/* Memory that outlives a reset holds something of before (boards/cortexm/kept.c), or nothing. */
+void chip_memory_keeps(bool anything);
+
+/* A chip on a Netduino Plus 2 wired as docs/boards.md has it: resistors, closed stop chain, quiet sensors; no power yet. */
+void chip_wired(uint64_t seed);
+extern double (*chip_cell_V)(double s); /* at A0, at a time */
+extern double chip_supply_V;            /* of which A1 has a tenth */
+
+/* The same with its power on and the image started; a test fails if it does not, or violates anything. */
+void chip_on(uint64_t seed);
+
+/* Its clocks alone, for what needs no more; the same chip again, behind a power-off. */
+void chip_clocks_on(uint64_t seed);
+void chip_clocks_again(void);
+
+#endif

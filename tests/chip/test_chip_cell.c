@@ -1,0 +1,330 @@
+/* test_chip_cell.c: the load cell's samples on a chip played from the manual: each is the force at its stamp. */
+#include <math.h>
+#include <stdlib.h>
+
+#include "unity.h"
+
+#include "hal/loadcell.h"
+#include "hal/motor.h"
+#include "hal/settings.h"
+#include "tests/chip/start.h"
+#include "tests/scattered.h"
+
+void suite_chip_cell(void);
+
+#define PI 3.14159265358979323846
+#define MIDDLE_V 1.65
+#define RAW_OF_V (32768.0 / 1.65)
+
+#define ROOM 2048U
+static hal_load_sample got[ROOM];
+static double got_s[ROOM]; /* when it was there, of the chip's time */
+static unsigned got_count;
+
+/* A tick of the timer in the chip's time: it is half its range from now at most. */
+static double second_of(uint32_t tick) {
+    return chip_s() - (double)(int32_t)(chip_tim2_count() - tick) / 1e6;
+}
+static void take(void) {
+    while (got_count < ROOM && hal_loadcell_take(&got[got_count])) {
+        got_s[got_count] = second_of(got[got_count].ticks);
+        got_count++;
+    }
+}
+static void run_take(void) {
+    TEST_ASSERT_EQUAL(CHIP_RETURNED, chip_try(take));
+    TEST_ASSERT_EQUAL_STRING("none", chip_violation());
+}
+/* So many of the force as it is now: what was on its way before is left out. */
+static void collect(unsigned samples) {
+    for (unsigned i = 0; i < 4; i++) {
+        chip_pass_us(2000);
+        run_take();
+    }
+    got_count = 0;
+    for (unsigned i = 0; i < samples + 5U && got_count < samples; i++) {
+        chip_pass_us(2000);
+        run_take();
+    }
+    TEST_ASSERT_TRUE(got_count >= samples);
+}
+
+static double offset_V, swing_V, turns_Hz, phase;
+static double sine(double s) {
+    return MIDDLE_V + offset_V + swing_V * sin(2.0 * PI * turns_Hz * s + phase);
+}
+
+/* What the samples say of a sine of known frequency: amplitude, and the time it is off; least squares at their stamps. */
+static void fit(double *amplitude, double *late_s, double *mean) {
+    double m[3][4] = {{0}};
+    const double from = got_s[0];
+    for (unsigned i = 0; i < got_count; i++) {
+        const double w = 2.0 * PI * turns_Hz * (got_s[i] - from);
+        const double row[4] = {1.0, cos(w), sin(w), (double)got[i].raw};
+        for (unsigned j = 0; j < 3; j++) {
+            for (unsigned k = 0; k < 4; k++) {
+                m[j][k] += row[j] * row[k];
+            }
+        }
+    }
+    for (unsigned j = 0; j < 3; j++) {
+        for (unsigned i = 0; i < 3; i++) {
+            const double by = i != j ? m[i][j] / m[j][j] : 0.0;
+            for (unsigned k = j; k < 4; k++) {
+                m[i][k] -= by * m[j][k];
+            }
+        }
+    }
+    const double c = m[1][3] / m[1][1];
+    const double s = m[2][3] / m[2][2];
+    *mean = m[0][3] / m[0][0];
+    *amplitude = hypot(c, s);
+    const double said = atan2(c, s);
+    const double is = 2.0 * PI * turns_Hz * from + phase;
+    *late_s = remainder(is - said, 2.0 * PI) / (2.0 * PI * turns_Hz);
+}
+
+static void begin(uint64_t seed) {
+    scattered_state = seed * 7919U + 1U;
+    chip_on(scattered());
+    chip_cell_V = sine;
+    got_count = 0;
+    offset_V = 0;
+    swing_V = 0;
+    turns_Hz = 1;
+    chip_tim2_count_is(seed % 3U == 0 ? UINT32_MAX - 50000U : (uint32_t)scattered());
+    for (unsigned i = 0; i < 6; i++) { /* what was on its way when the timer was set */
+        chip_pass_us(2000);
+        run_take();
+    }
+    got_count = 0;
+}
+
+/* Amplitude to 0.05 %, and stamps that are where the force was: to 1.5 us. Frequencies of the rig, and such at which a mean
+ * alone would show a percent too little. */
+static void test_sines(void) {
+    for (unsigned i = 0; i < 14; i++) {
+        begin(i + 1U);
+        turns_Hz = i % 2U == 0 ? 3.0 + (double)(scattered() % 1000U) / 250.0
+                               : 25.0 + (double)(scattered() % 1000U) / 66.0;
+        swing_V = 0.7 + (double)(scattered() % 800U) / 1000.0;
+        phase = (double)(scattered() % 6283U) / 1000.0;
+        offset_V = 0.1 * ((double)(scattered() % 1000U) / 1000.0 - 0.5);
+        collect(220);
+        for (unsigned at = 0; at < got_count; at++) {
+            TEST_ASSERT_EQUAL(HAL_LOAD_OK, got[at].status);
+            TEST_ASSERT_EQUAL(at * HAL_LOADCELL_PERIOD_TICKS, got[at].ticks - got[0].ticks);
+        }
+        double amplitude = 0;
+        double late_s = 0;
+        double mean = 0;
+        fit(&amplitude, &late_s, &mean);
+        TEST_ASSERT_DOUBLE_WITHIN(0.0005, 1.0, amplitude / (swing_V * RAW_OF_V));
+        TEST_ASSERT_DOUBLE_WITHIN_MESSAGE(1.5e-6, 0.0, late_s,
+                                          "stamps are not in the window's middle");
+        TEST_ASSERT_DOUBLE_WITHIN(9.0, offset_V * RAW_OF_V,
+                                  mean); /* a converter cuts off: half a count of 12 bits */
+    }
+}
+
+/* A parabola is exactly what the correction of a mean is for; a count of the converter is 16 of these. */
+static double bend_from;
+static double parabola(double s) {
+    const double t = s - bend_from;
+    return 0.3 + 15000.0 * t * t;
+}
+static void test_parabolas(void) {
+    for (unsigned i = 0; i < 10; i++) {
+        begin(40U + i);
+        chip_pass(scattered() % (2000U * CHIP_UNITS_PER_US));
+        bend_from = chip_s() + 0.013;
+        chip_cell_V = parabola;
+        got_count = 0;
+        for (unsigned step = 0; step < 14; step++) {
+            chip_pass_us(2000);
+            run_take();
+        }
+        unsigned seen = 0;
+        for (unsigned at = 0; at < got_count; at++) {
+            const double V = parabola(got_s[at]);
+            if (fabs(got_s[at] - bend_from) < 0.008) {
+                TEST_ASSERT_DOUBLE_WITHIN(12.0, (V - MIDDLE_V) * RAW_OF_V - 8.0,
+                                          got[at].raw); /* uncorrected: 99 */
+                seen++;
+            }
+        }
+        TEST_ASSERT_TRUE(seen >= 6);
+    }
+}
+
+static double level_V;
+static double level(double s) {
+    (void)s;
+    return level_V;
+}
+static void test_ends(void) {
+    begin(60);
+    chip_cell_V = level;
+    static const struct {
+        double V;
+        uint8_t status;
+    } rows[] = {{3.3, HAL_LOAD_SATURATED}, {1.65, HAL_LOAD_OK},          {5.0, HAL_LOAD_SATURATED},
+                {3.0, HAL_LOAD_OK},        {0.0, HAL_LOAD_DISCONNECTED}, {0.3, HAL_LOAD_OK}};
+    for (unsigned i = 0; i < sizeof rows / sizeof *rows; i++) {
+        level_V = rows[i].V;
+        chip_pass_us(10000); /* those of before, and those that have both */
+        run_take();
+        collect(5);
+        for (unsigned at = 0; at < got_count; at++) {
+            TEST_ASSERT_EQUAL(rows[i].status, got[at].status);
+            if (rows[i].V > 3.2) {
+                TEST_ASSERT_INT_WITHIN(16, HAL_LOADCELL_RAW_MAX,
+                                       got[at].raw); /* the last count of 12 bits */
+            } else if (rows[i].status == HAL_LOAD_OK) {
+                TEST_ASSERT_DOUBLE_WITHIN(17.0, (rows[i].V - MIDDLE_V) * RAW_OF_V, got[at].raw);
+            }
+        }
+    }
+}
+
+/* A force that is clipped in a part of the window only: the sample that has it is none of a force. */
+static double clipped(double s) {
+    const double in_turn = fmod(s, 0.05);
+    return in_turn < 0.0004 ? 4.0 : MIDDLE_V;
+}
+static void test_clipped_for_a_moment(void) {
+    begin(61);
+    chip_cell_V = clipped;
+    collect(200);
+    unsigned marked = 0;
+    for (unsigned at = 0; at < got_count; at++) {
+        const double next =
+            fmod(got_s[at] + 0.001, 0.05); /* the window's end, since the last clip began */
+        const bool has = next < 0.00238 && next > 0.00005;
+        marked += got[at].status == HAL_LOAD_SATURATED ? 1U : 0U;
+        if (has && next > 0.0003 && next < 0.0021) {
+            TEST_ASSERT_EQUAL_MESSAGE(HAL_LOAD_SATURATED, got[at].status,
+                                      "a clipped sample is called good");
+        }
+        if (got[at].status == HAL_LOAD_OK) {
+            TEST_ASSERT_TRUE_MESSAGE(abs(got[at].raw) < 2500, "a good sample that is none");
+        }
+    }
+    TEST_ASSERT_TRUE(marked >= 7);
+}
+
+/* Four at least are kept; the newest are lost. */
+static void test_kept(void) {
+    begin(62);
+    run_take();
+    got_count = 0;
+    const uint32_t then = chip_tim2_count();
+    chip_pass_us(40000);
+    run_take();
+    TEST_ASSERT_TRUE(got_count >= 4);
+    for (unsigned at = 0; at < 4; at++) {
+        TEST_ASSERT_TRUE_MESSAGE(got[at].ticks - then < 12000U || then - got[at].ticks < 4100U,
+                                 "the oldest are not kept");
+    }
+}
+
+static void erase(void) { (void)hal_settings_erase(0); }
+
+/* The core stands still, for an erase or by a debugger, at any instant and for any time, while the force changes: what is
+ * then called good is the force at its stamp all the same. */
+static double ramp(double s) { return 0.4 + 2.4 * fabs(remainder(s, 1.0)); }
+static void test_core_that_stood(void) {
+    for (unsigned i = 0; i < 30; i++) {
+        begin(70U + i);
+        chip_cell_V = ramp;
+        chip_pass_us(20000);
+        run_take();
+        chip_pass(scattered() % (4000U * CHIP_UNITS_PER_US));
+        got_count = 0;
+        if (i % 5U == 0) {
+            TEST_ASSERT_EQUAL(CHIP_RETURNED, chip_try(erase));
+        } else {
+            chip_halt(true);
+            chip_pass((scattered() % 30000U) * CHIP_UNITS_PER_US);
+            chip_halt(false);
+        }
+        for (unsigned step = 0; step < 20; step++) {
+            run_take();
+            chip_pass_us(1000);
+        }
+        run_take();
+        unsigned good = 0;
+        for (unsigned at = 0; at < got_count; at++) {
+            if (got[at].status == HAL_LOAD_OK && fabs(remainder(got_s[at], 0.5)) > 0.005) {
+                TEST_ASSERT_DOUBLE_WITHIN_MESSAGE(40.0, (ramp(got_s[at]) - MIDDLE_V) * RAW_OF_V,
+                                                  got[at].raw, "a sample is not of its stamp");
+                good++;
+            }
+        }
+        TEST_ASSERT_TRUE(good >= 5);
+    }
+}
+
+/* An overrun of the converter ends its requests (13.8.1). The driver does not begin anew: no sample comes any more, which the
+ * controller takes for a cell that is silent, and none that is wrong. A reset brings them back. */
+static void test_overrun(void) {
+    begin(110);
+    chip_cell_V = ramp;
+    chip_pass_us(10000);
+    run_take();
+    chip_adc_overruns();
+    chip_pass_us(20000);
+    run_take();
+    got_count = 0;
+    for (unsigned step = 0; step < 40; step++) {
+        chip_pass_us(1000);
+        run_take();
+    }
+    TEST_ASSERT_EQUAL(0, got_count);
+    hal_start how = HAL_START_NO_TIMER;
+    chip_reset(CHIP_BY_SOFTWARE);
+    TEST_ASSERT_EQUAL(CHIP_RETURNED, chip_start(&how));
+    collect(5);
+}
+
+/* On the chip's own oscillator, too: a pair is converted before the next is asked for, and the force is told as it is. */
+static void test_fallback(void) {
+    hal_start how = HAL_START_NO_TIMER;
+    chip_wired(111);
+    world.crystal = false;
+    chip_reset(CHIP_BY_POWER);
+    TEST_ASSERT_EQUAL(CHIP_RETURNED, chip_start(&how));
+    chip_cell_V = ramp;
+    collect(20);
+    for (unsigned at = 0; at < got_count; at++) {
+        TEST_ASSERT_EQUAL(at * HAL_LOADCELL_PERIOD_TICKS, got[at].ticks - got[0].ticks);
+        if (fabs(remainder(got_s[at], 0.5)) > 0.005) {
+            TEST_ASSERT_DOUBLE_WITHIN(40.0, (ramp(got_s[at]) - MIDDLE_V) * RAW_OF_V, got[at].raw);
+        }
+    }
+}
+
+/* The supply beside it: as it was within the last 2 ms. */
+static float supply;
+static void read_supply(void) { supply = hal_motor_supply_V(); }
+static void test_supply(void) {
+    begin(120);
+    for (unsigned i = 0; i < 30; i++) {
+        chip_supply_V = (double)(scattered() % 3200U) / 100.0;
+        chip_pass_us(6000);
+        TEST_ASSERT_EQUAL(CHIP_RETURNED, chip_try(read_supply));
+        TEST_ASSERT_DOUBLE_WITHIN(0.012, chip_supply_V, (double)supply);
+    }
+}
+
+void suite_chip_cell(void) {
+    RUN_TEST(test_sines);
+    RUN_TEST(test_parabolas);
+    RUN_TEST(test_ends);
+    RUN_TEST(test_clipped_for_a_moment);
+    RUN_TEST(test_kept);
+    RUN_TEST(test_core_that_stood);
+    RUN_TEST(test_overrun);
+    RUN_TEST(test_fallback);
+    RUN_TEST(test_supply);
+}

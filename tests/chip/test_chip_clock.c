@@ -1,0 +1,148 @@
+/* test_chip_clock.c: the STM32F405's start and its time, on a chip played from the manual: every limit of clock tree and flash
+ * holds at every instant, and no clock that does not answer holds the start up for long. */
+#include "unity.h"
+
+#include "hal/console.h"
+#include "hal/motor.h"
+#include "tests/chip/start.h"
+#include "tests/scattered.h"
+
+void suite_chip_clock(void);
+
+static hal_start how;
+static uint32_t ticks;
+static void read_ticks(void) { ticks = hal_clock_ticks(); }
+
+/* Ticks of the timer over so many s that pass, ppm off a microsecond. */
+static double ppm_over(double s) {
+    TEST_ASSERT_EQUAL(CHIP_RETURNED, chip_try(read_ticks));
+    const uint32_t before = ticks;
+    const uint64_t then = chip_now();
+    chip_pass((uint64_t)(s * (double)CHIP_UNITS_PER_S));
+    TEST_ASSERT_EQUAL(CHIP_RETURNED, chip_try(read_ticks));
+    const double us = (double)(chip_now() - then) / (double)CHIP_UNITS_PER_US;
+    return ((double)(ticks - before) / us - 1.0) * 1e6;
+}
+
+static void test_crystals_that_start(void) {
+    scattered_state = 1;
+    for (unsigned i = 0; i < 20; i++) {
+        chip_wired(scattered());
+        world.crystal_units =
+            (200U + scattered() % 5000U) * CHIP_UNITS_PER_US; /* DS8626, table 36: 2 ms usually */
+        chip_reset(CHIP_BY_POWER);
+        TEST_ASSERT_EQUAL(CHIP_RETURNED, chip_start(&how));
+        TEST_ASSERT_EQUAL_STRING("none", chip_violation());
+        TEST_ASSERT_EQUAL(HAL_STARTED, how);
+        TEST_ASSERT_EQUAL(HAL_CLOCK_CRYSTAL, hal_clock_source_now());
+        TEST_ASSERT_EQUAL(100, hal_clock_tolerance_ppm());
+        const chip_clocks now = chip_clocks_now();
+        TEST_ASSERT_EQUAL(168000000, now.core_Hz);
+        TEST_ASSERT_EQUAL(42000000, now.apb1_Hz);
+        TEST_ASSERT_EQUAL(84000000, now.apb2_Hz);
+        TEST_ASSERT_TRUE(ppm_over(0.05) < 25.0 &&
+                         ppm_over(0.05) > -25.0); /* a tick in 50 ms is 20 */
+    }
+}
+
+static void fallback_is_taken(uint64_t most_ms) {
+    const uint64_t then = chip_now();
+    chip_reset(CHIP_BY_POWER);
+    TEST_ASSERT_EQUAL(CHIP_RETURNED, chip_start(&how));
+    TEST_ASSERT_EQUAL_STRING("none", chip_violation());
+    TEST_ASSERT_EQUAL(HAL_STARTED, how);
+    TEST_ASSERT_TRUE_MESSAGE(chip_now() - then < most_ms * 1000U * CHIP_UNITS_PER_US,
+                             "the start waits too long");
+    TEST_ASSERT_EQUAL(HAL_CLOCK_FALLBACK, hal_clock_source_now());
+    TEST_ASSERT_EQUAL(10000, hal_clock_tolerance_ppm());
+    TEST_ASSERT_EQUAL(16000000, chip_clocks_now().core_Hz);
+    TEST_ASSERT_TRUE(ppm_over(0.05) < 25.0 && ppm_over(0.05) > -25.0);
+}
+
+static void test_no_crystal(void) {
+    chip_wired(2);
+    world.crystal = false;
+    fallback_is_taken(1000);
+}
+
+static void test_no_lock(void) {
+    chip_wired(3);
+    world.pll = false;
+    fallback_is_taken(1000);
+}
+
+/* From any of its resets the chip starts as from the first. */
+static void test_from_every_reset(void) {
+    static const chip_cause causes[] = {CHIP_BY_DIP, CHIP_BY_PIN, CHIP_BY_WATCHDOG,
+                                        CHIP_BY_SOFTWARE};
+    for (unsigned i = 0; i < sizeof causes / sizeof *causes; i++) {
+        chip_on(4 + i);
+        chip_pass_us(10000);
+        chip_reset(causes[i]);
+        TEST_ASSERT_EQUAL(CHIP_RETURNED, chip_start(&how));
+        TEST_ASSERT_EQUAL_STRING("none", chip_violation());
+        TEST_ASSERT_EQUAL(168000000, chip_clocks_now().core_Hz);
+    }
+}
+
+static uint32_t target;
+static void wait_there(void) { hal_clock_wait_until(target); }
+
+/* Never early, at most 0.1 ms late, also over the timer's wrap and with interrupts. */
+static void test_waits(void) {
+    scattered_state = 5;
+    chip_on(5);
+    for (unsigned i = 0; i < 60; i++) {
+        if (i % 3 == 0) {
+            chip_tim2_count_is(UINT32_MAX - (uint32_t)(scattered() % 2000U));
+        }
+        const uint32_t ahead = (uint32_t)(scattered() % 3000U);
+        target = chip_tim2_count() + ahead;
+        TEST_ASSERT_EQUAL(CHIP_RETURNED, chip_try(wait_there));
+        const uint32_t late = chip_tim2_count() - target;
+        TEST_ASSERT_TRUE_MESSAGE(late < 100U, "not within 0.1 ms behind what was asked");
+        TEST_ASSERT_TRUE(hal_clock_late_ticks() <= late);
+    }
+    target = chip_tim2_count() - 1000U;
+    const uint64_t then = chip_now();
+    TEST_ASSERT_EQUAL(CHIP_RETURNED, chip_try(wait_there));
+    TEST_ASSERT_TRUE_MESSAGE(chip_now() - then < 20U * CHIP_UNITS_PER_US,
+                             "it waits for what is past");
+    TEST_ASSERT_TRUE(hal_clock_late_ticks() >= 1000U);
+    TEST_ASSERT_EQUAL_STRING("none", chip_violation());
+}
+
+static void drive(void) { hal_motor_set_voltage(6.0F); }
+
+/* A crystal that stops while the motor turns: hardware has the output low before the NMI. */
+static void test_crystal_dies(void) {
+    scattered_state = 6;
+    for (unsigned i = 0; i < 10; i++) {
+        chip_on(scattered());
+        chip_pass_us(5000);
+        TEST_ASSERT_EQUAL(CHIP_RETURNED, chip_try(drive));
+        unsigned high = 0;
+        for (unsigned at = 0; at < 100; at++) {
+            chip_pass(CHIP_UNITS_PER_US + scattered() % CHIP_UNITS_PER_US);
+            high += chip_pin('B', 13) == CHIP_HIGH ? 1U : 0U;
+        }
+        TEST_ASSERT_TRUE(high > 20 && high < 80);
+        chip_pass(scattered() % (100U * CHIP_UNITS_PER_US));
+        chip_crystal_stops();
+        TEST_ASSERT_EQUAL_MESSAGE(CHIP_LOW, chip_pin('B', 13), "the output at once");
+        chip_pass_us(1);
+        TEST_ASSERT_TRUE_MESSAGE(chip_nmi_taken(), "the crystal's guard raises no NMI");
+        chip_pass_us(1000);
+        TEST_ASSERT_EQUAL(CHIP_LOW, chip_pin('B', 13));
+        TEST_ASSERT_EQUAL_STRING("none", chip_violation());
+    }
+}
+
+void suite_chip_clock(void) {
+    RUN_TEST(test_crystals_that_start);
+    RUN_TEST(test_no_crystal);
+    RUN_TEST(test_no_lock);
+    RUN_TEST(test_from_every_reset);
+    RUN_TEST(test_waits);
+    RUN_TEST(test_crystal_dies);
+}

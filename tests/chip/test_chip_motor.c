@@ -1,0 +1,264 @@
+/* test_chip_motor.c: the motor's PWM, enable and break on a chip played from the manual: what comes out of the pins. */
+#include <math.h>
+
+#include "unity.h"
+
+#include "hal/motor.h"
+#include "hal/stop.h"
+#include "tests/chip/start.h"
+#include "tests/scattered.h"
+
+void suite_chip_motor(void);
+
+static float volts;
+static hal_motor_off_way way;
+static unsigned status;
+static float supply_V;
+static bool pressed;
+static void set(void) { hal_motor_set_voltage(volts); }
+static void off(void) { hal_motor_off(way); }
+static void look(void) {
+    status = hal_motor_status();
+    supply_V = hal_motor_supply_V();
+    pressed = hal_stop_pressed();
+}
+static void run(void (*what)(void)) {
+    TEST_ASSERT_EQUAL(CHIP_RETURNED, chip_try(what));
+    TEST_ASSERT_EQUAL_STRING("none", chip_violation());
+}
+static void set_to(float V) {
+    volts = V;
+    run(set);
+}
+
+#define PERIOD_UNITS (CHIP_UNITS_PER_S / 20000U)
+#define TICKS 8400U
+
+/* Ticks of one period that the pin is high. */
+static unsigned high_ticks(void) {
+    unsigned high = 0;
+    for (unsigned i = 0; i < TICKS; i++) {
+        high += chip_pin('B', 13) == CHIP_HIGH ? 1U : 0U;
+        chip_pass(PERIOD_UNITS / TICKS);
+    }
+    return high;
+}
+static void is_low_for(uint64_t units) {
+    for (unsigned i = 0; i < 20; i++) {
+        TEST_ASSERT_EQUAL_MESSAGE(CHIP_LOW, chip_pin('B', 13), "PWM is to be low");
+        chip_pass(units / 20U);
+    }
+    TEST_ASSERT_EQUAL(CHIP_LOW, chip_pin('B', 13));
+}
+static bool enabled(void) { return chip_pin('B', 14) == CHIP_HIGH; }
+
+/* In reset, and before anything was started, also where off is called then. */
+static void test_before_the_start(void) {
+    chip_wired(1);
+    chip_reset(CHIP_BY_POWER);
+    is_low_for(PERIOD_UNITS);
+    TEST_ASSERT_EQUAL(CHIP_LOW, chip_pin('B', 14));
+    way = HAL_MOTOR_COAST;
+    TEST_ASSERT_EQUAL(CHIP_RETURNED, chip_try(off));
+    is_low_for(PERIOD_UNITS);
+    TEST_ASSERT_EQUAL(CHIP_LOW, chip_pin('B', 14));
+    chip_forgive(); /* its parts have no clock yet: the stores go nowhere, and nothing is on */
+    chip_on(1);
+    is_low_for(PERIOD_UNITS);
+    TEST_ASSERT_EQUAL(CHIP_LOW, chip_pin('B', 14));
+}
+
+/* Through the whole start no instant at which anything is driven. */
+static void never_driven(void) {
+    TEST_ASSERT_FALSE(chip_pin('B', 13) == CHIP_HIGH);
+    TEST_ASSERT_FALSE(chip_pin('B', 14) == CHIP_HIGH);
+}
+static void test_through_the_start(void) {
+    hal_start how = HAL_START_NO_TIMER;
+    chip_wired(2);
+    chip_reset(CHIP_BY_POWER);
+    chip_stored = never_driven;
+    TEST_ASSERT_EQUAL(CHIP_RETURNED, chip_start(&how));
+    chip_stored = NULL;
+}
+
+static void test_duty(void) {
+    scattered_state = 3;
+    for (unsigned chips = 0; chips < 6; chips++) {
+        chip_on(scattered());
+        chip_supply_V = 6.0 + (double)(scattered() % 2400U) / 100.0;
+        chip_pass_us(20000);
+        run(look);
+        TEST_ASSERT_DOUBLE_WITHIN(0.02, chip_supply_V, (double)supply_V);
+        for (unsigned i = 0; i < 5; i++) {
+            const float V = (float)(scattered() % 10001U) / 10000.0F * supply_V;
+            set_to(V);
+            chip_pass(scattered() % PERIOD_UNITS);
+            TEST_ASSERT_TRUE(enabled());
+            run(look);
+            TEST_ASSERT_DOUBLE_WITHIN(1.01, (double)V / (double)supply_V * TICKS, high_ticks());
+            TEST_ASSERT_EQUAL(0, status);
+        }
+    }
+}
+
+static void test_what_is_out_of_range(void) {
+    static const struct {
+        float volts;
+        unsigned high;
+    } rows[] = {{NAN, 0},        {-1.0F, 0},        {-INFINITY, 0}, {0.0F, 0},
+                {100.0F, TICKS}, {INFINITY, TICKS}, {3e38F, TICKS}};
+    chip_on(4);
+    chip_pass_us(10000);
+    for (unsigned i = 0; i < 2U * sizeof rows / sizeof *rows; i++) {
+        if (i == sizeof rows / sizeof *rows) {
+            set_to(5.0F); /* and from a voltage */
+        }
+        set_to(rows[i % (sizeof rows / sizeof *rows)].volts);
+        TEST_ASSERT_EQUAL(rows[i % (sizeof rows / sizeof *rows)].high, high_ticks());
+        TEST_ASSERT_TRUE(enabled());
+    }
+    way = HAL_MOTOR_COAST;
+    run(off);
+    set_to(NAN);
+    TEST_ASSERT_EQUAL(0, high_ticks());
+}
+
+/* The first store of off is enough, at any instant of the period and of any duty. */
+static unsigned stores;
+static void first_store(void) {
+    if (stores++ == 0) {
+        is_low_for(PERIOD_UNITS);
+    }
+}
+static void test_off_at_once(void) {
+    scattered_state = 5;
+    chip_on(5);
+    chip_pass_us(10000);
+    for (unsigned i = 0; i < 60; i++) {
+        set_to((float)(scattered() % 13U));
+        if (i % 4 == 3) {
+            way = (scattered() & 1U) != 0 ? HAL_MOTOR_COAST : HAL_MOTOR_BRAKE;
+            run(off); /* it is off already */
+        }
+        chip_pass(scattered() % (3U * PERIOD_UNITS));
+        way = (scattered() & 1U) != 0 ? HAL_MOTOR_COAST : HAL_MOTOR_BRAKE;
+        stores = 0;
+        chip_stored = first_store;
+        run(off);
+        chip_stored = NULL;
+        is_low_for(PERIOD_UNITS);
+        TEST_ASSERT_EQUAL(way == HAL_MOTOR_BRAKE, enabled());
+        run(look);
+        TEST_ASSERT_EQUAL(0, status);
+    }
+}
+
+/* Stop, or the drive stage's fault: low without any software, until the next off, however short it was and whatever is ordered. */
+static void test_break(void) {
+    scattered_state = 6;
+    chip_on(6);
+    chip_pass_us(10000);
+    for (unsigned i = 0; i < 60; i++) {
+        set_to(1.0F + (float)(scattered() % 12U));
+        chip_pass(scattered() % (2U * PERIOD_UNITS));
+        chip_pin_drive('A', 6, (scattered() & 1U) != 0 ? CHIP_LOW : CHIP_OPEN);
+        TEST_ASSERT_EQUAL_MESSAGE(CHIP_LOW, chip_pin('B', 13), "with no software in the way");
+        const bool stays = (scattered() & 1U) != 0;
+        if (stays) {
+            is_low_for(PERIOD_UNITS);
+            run(look);
+            TEST_ASSERT_TRUE(pressed);
+            TEST_ASSERT_EQUAL(HAL_MOTOR_CUT | HAL_MOTOR_FAULT, status);
+            set_to(12.0F);
+            is_low_for(PERIOD_UNITS);
+        }
+        chip_pass(scattered() % CHIP_UNITS_PER_US);
+        chip_pin_drive('A', 6, CHIP_HIGH);
+        is_low_for(PERIOD_UNITS);
+        for (unsigned again = 0; again < 3; again++) {
+            set_to(12.0F);
+            is_low_for(PERIOD_UNITS);
+            run(look);
+            TEST_ASSERT_FALSE(pressed);
+            TEST_ASSERT_EQUAL(HAL_MOTOR_CUT, status);
+        }
+        way = HAL_MOTOR_COAST;
+        run(off);
+        is_low_for(PERIOD_UNITS);
+        run(look);
+        TEST_ASSERT_EQUAL(0, status);
+        set_to(12.0F);
+        TEST_ASSERT_EQUAL(TICKS, high_ticks());
+    }
+}
+
+/* Ordered while it is pressed: it does not come by itself when it is let go. */
+static void test_ordered_while_pressed(void) {
+    chip_on(7);
+    chip_pass_us(10000);
+    chip_pin_drive('A', 6, CHIP_LOW);
+    set_to(6.0F);
+    is_low_for(PERIOD_UNITS);
+    run(look);
+    TEST_ASSERT_TRUE((status & HAL_MOTOR_FAULT) != 0);
+    chip_pin_drive('A', 6, CHIP_HIGH);
+    is_low_for(PERIOD_UNITS);
+    set_to(6.0F);
+    is_low_for(PERIOD_UNITS);
+    run(look);
+    TEST_ASSERT_EQUAL(HAL_MOTOR_CUT, status);
+}
+
+static void test_no_supply(void) {
+    chip_on(8);
+    chip_supply_V = 0.0;
+    chip_pass_us(10000);
+    set_to(6.0F);
+    run(look);
+    TEST_ASSERT_TRUE(supply_V <= 0.0F);
+    TEST_ASSERT_EQUAL(HAL_MOTOR_NO_SUPPLY, status);
+    TEST_ASSERT_EQUAL(0, high_ticks());
+}
+
+/* A debugger that holds the core, anywhere: off; and on again as it was when it lets go. */
+static void test_debugger(void) {
+    scattered_state = 9;
+    chip_on(9);
+    chip_pass_us(10000);
+    for (unsigned i = 0; i < 20; i++) {
+        set_to(6.0F);
+        chip_pass(scattered() % (3U * PERIOD_UNITS));
+        chip_halt(true);
+        is_low_for(3U * PERIOD_UNITS);
+        chip_halt(false);
+        chip_pass(PERIOD_UNITS);
+    }
+}
+
+/* Each reset, at any instant: both pins are let go, and the resistors hold them low. */
+static void test_reset_at_any_instant(void) {
+    scattered_state = 10;
+    for (unsigned i = 0; i < 12; i++) {
+        chip_on(scattered());
+        chip_pass_us(6000);
+        set_to(12.0F);
+        chip_pass(scattered() % (3U * PERIOD_UNITS));
+        chip_reset((chip_cause)(scattered() % 5U));
+        is_low_for(PERIOD_UNITS);
+        TEST_ASSERT_EQUAL(CHIP_LOW, chip_pin('B', 14));
+    }
+}
+
+void suite_chip_motor(void) {
+    RUN_TEST(test_before_the_start);
+    RUN_TEST(test_through_the_start);
+    RUN_TEST(test_duty);
+    RUN_TEST(test_what_is_out_of_range);
+    RUN_TEST(test_off_at_once);
+    RUN_TEST(test_break);
+    RUN_TEST(test_ordered_while_pressed);
+    RUN_TEST(test_no_supply);
+    RUN_TEST(test_debugger);
+    RUN_TEST(test_reset_at_any_instant);
+}

@@ -1,0 +1,95 @@
+/* test_chip_reset.c: why the chip started, and its brown-out level, on a chip played from the manual. */
+#include "unity.h"
+
+#include "hal/reset.h"
+#include "tests/chip/start.h"
+#include "tests/scattered.h"
+
+void suite_chip_reset(void);
+
+static hal_start how;
+static hal_reset cause;
+static unsigned length;
+static char words[128];
+static void ask(void) {
+    cause = hal_reset_cause();
+    length = hal_reset_words(words, sizeof words);
+}
+static void start_and_ask(void) {
+    TEST_ASSERT_EQUAL(CHIP_RETURNED, chip_start(&how));
+    TEST_ASSERT_EQUAL(HAL_STARTED, how);
+    TEST_ASSERT_EQUAL(CHIP_RETURNED, chip_try(ask));
+    TEST_ASSERT_EQUAL_STRING("none", chip_violation());
+    TEST_ASSERT_TRUE(length > 0 && length < sizeof words && words[length] == 0);
+}
+
+/* Each start tells its own cause, whichever came before. */
+static void test_causes(void) {
+    static const hal_reset told[] = {[CHIP_BY_POWER] = HAL_RESET_POWER_ON,
+                                     [CHIP_BY_DIP] = HAL_RESET_SUPPLY,
+                                     [CHIP_BY_PIN] = HAL_RESET_OTHER,
+                                     [CHIP_BY_WATCHDOG] = HAL_RESET_WATCHDOG,
+                                     [CHIP_BY_SOFTWARE] = HAL_RESET_OTHER};
+    scattered_state = 1;
+    chip_wired(1);
+    for (unsigned i = 0; i < 80; i++) {
+        const chip_cause by = i == 0 ? CHIP_BY_POWER : (chip_cause)(scattered() % 5U);
+        chip_memory_keeps(by != CHIP_BY_POWER);
+        chip_reset(by);
+        start_and_ask();
+        TEST_ASSERT_EQUAL(told[by], cause);
+        chip_pass_us(scattered() % 3000U);
+    }
+}
+
+/* Room for words is kept to. */
+static void test_words_are_cut(void) {
+    chip_on(2);
+    for (unsigned room = 1; room < 20; room++) {
+        words[room] = 'x';
+        length = hal_reset_words(words, room);
+        TEST_ASSERT_TRUE(length < room && words[length] == 0);
+        TEST_ASSERT_EQUAL('x', words[room]);
+    }
+}
+
+#define LEVEL(options) ((options) >> 2 & 3U) /* BOR_LEV: 0 is level 3, 3 is off (3.9.10) */
+
+/* From any level, level 3; nothing else of the option bytes changes (that is a violation); and it is written once. */
+static void test_brown_out(void) {
+    chip_wired(3);
+    chip_reset(CHIP_BY_POWER);
+    TEST_ASSERT_EQUAL(3, LEVEL(chip_option_bytes()));
+    start_and_ask();
+    chip_pass_us(1000000);
+    TEST_ASSERT_EQUAL(0, LEVEL(chip_option_bytes()));
+    TEST_ASSERT_EQUAL_HEX32(0x0FFFAAE0U, chip_option_bytes());
+    TEST_ASSERT_EQUAL(1, chip_option_writes());
+    for (unsigned i = 0; i < 5; i++) {
+        chip_reset((chip_cause)i);
+        start_and_ask();
+        TEST_ASSERT_EQUAL(1, chip_option_writes());
+    }
+}
+
+/* The power goes while they are written, at any instant: the next start does it. */
+static void test_brown_out_torn(void) {
+    scattered_state = 4;
+    for (unsigned i = 0; i < 15; i++) {
+        chip_wired(scattered());
+        chip_reset(CHIP_BY_POWER);
+        chip_power_off_at(chip_now() + scattered() % (CHIP_UNITS_PER_S / 4U));
+        (void)chip_start(&how);
+        chip_power_stays();
+        chip_reset(CHIP_BY_POWER);
+        start_and_ask();
+        TEST_ASSERT_EQUAL_HEX32(0x0FFFAAE0U, chip_option_bytes());
+    }
+}
+
+void suite_chip_reset(void) {
+    RUN_TEST(test_causes);
+    RUN_TEST(test_words_are_cut);
+    RUN_TEST(test_brown_out);
+    RUN_TEST(test_brown_out_torn);
+}

@@ -1,0 +1,245 @@
+/* test_chip_slots.c: pulses of the slot sensors on a chip played from the manual: each once, with the time of its edge, in order. */
+#include "unity.h"
+
+#include "hal/slots.h"
+#include "tests/chip/start.h"
+#include "tests/scattered.h"
+
+void suite_chip_slots(void);
+
+#define ROOM 4096U
+static struct {
+    uint64_t units;
+    uint32_t ticks; /* of the timer, when it was */
+    uint8_t sensor;
+} made[ROOM];
+static unsigned made_count;
+static hal_slot_pulse got[ROOM];
+static unsigned got_count;
+static uint32_t overruns;
+static unsigned most;
+
+static void take(void) {
+    for (unsigned i = 0; i < most && got_count < ROOM && hal_slots_take(&got[got_count]); i++) {
+        got_count++;
+    }
+    overruns = hal_slots_overruns();
+}
+static void run_take(unsigned at_most) {
+    most = at_most;
+    TEST_ASSERT_EQUAL(CHIP_RETURNED, chip_try(take));
+    TEST_ASSERT_EQUAL_STRING("none", chip_violation());
+}
+
+static void begin(uint64_t seed) {
+    scattered_state = seed;
+    chip_on(scattered());
+    made_count = got_count = 0;
+    run_take(ROOM);
+    got_count = 0;
+}
+
+/* A pulse to come: high for so long. The timer's reading then follows from now, a tick being a microsecond. */
+static void pulse_at(uint64_t units, uint8_t sensor, uint64_t high_us) {
+    made[made_count].units = units;
+    made[made_count].sensor = sensor;
+    made[made_count].ticks =
+        chip_tim2_count() + (uint32_t)((units - chip_now()) / CHIP_UNITS_PER_US);
+    made_count++;
+    chip_pin_drive_at(units, 'A', sensor, CHIP_HIGH);
+    chip_pin_drive_at(units + high_us * CHIP_UNITS_PER_US, 'A', sensor, CHIP_LOW);
+}
+
+/* What the filter takes (12 microseconds), and a tick of rounding. */
+#define LATE_MOST 14U
+
+static void all_are_there(void) {
+    TEST_ASSERT_EQUAL(made_count, got_count);
+    for (unsigned i = 0; i < made_count; i++) {
+        TEST_ASSERT_EQUAL(made[i].sensor, got[i].sensor);
+        TEST_ASSERT_TRUE_MESSAGE(got[i].ticks - made[i].ticks + 1U <= LATE_MOST,
+                                 "a stamp is not its edge's");
+    }
+}
+
+/* Both sensors, pulses of a monostable's length, from 300 us apart to 100 ms, looked for each millisecond. */
+static void turn(unsigned pulses, uint32_t from_ticks) {
+    chip_tim2_count_is(from_ticks);
+    for (unsigned i = 0; i < pulses; i++) {
+        const uint64_t gap_us = (i % 5U == 0 ? 20000U : 300U) + scattered() % 3000U;
+        pulse_at(chip_now() + gap_us * CHIP_UNITS_PER_US + scattered() % CHIP_UNITS_PER_US,
+                 (uint8_t)(scattered() % 2U), 50U + scattered() % 150U);
+        for (uint64_t passed = 0; passed <= gap_us + 250U; passed += 1000U) {
+            chip_pass_us(1000U);
+            run_take(ROOM);
+        }
+    }
+    chip_pass_us(2000);
+    run_take(ROOM);
+}
+
+static void test_random_edges(void) {
+    begin(1);
+    const uint32_t before = overruns;
+    turn(300, 5000);
+    all_are_there();
+    TEST_ASSERT_EQUAL(before, overruns);
+}
+
+static void test_over_the_wrap(void) {
+    for (unsigned i = 0; i < 8; i++) {
+        begin(2 + i);
+        turn(20, UINT32_MAX - (uint32_t)(scattered() % 60000U));
+        all_are_there();
+    }
+}
+
+/* Both sensors at once, or nearly: in order of time, though one interrupt may have both; over the wrap, too. */
+static void test_together(void) {
+    begin(11);
+    for (unsigned i = 0; i < 200; i++) {
+        if (i % 4U == 0) {
+            chip_tim2_count_is(UINT32_MAX - (uint32_t)(scattered() % 1020U));
+        }
+        const uint64_t at = chip_now() + CHIP_UNITS_PER_US * (1000U + scattered() % 10U);
+        const uint8_t first = (uint8_t)(scattered() % 2U);
+        const uint64_t apart_us =
+            4U + scattered() % 8U; /* two samples of the filter at least: other ticks */
+        made_count = got_count = 0;
+        pulse_at(at, first, 100);
+        made[1] = made[0];
+        made[1].sensor = (uint8_t)(1U - first);
+        made_count = 1;
+        /* edges are kept in order of time: the second's rise comes before the first's fall */
+        chip_pass(at - chip_now());
+        chip_pass(apart_us * CHIP_UNITS_PER_US);
+        chip_pin_drive('A', 1U - first, CHIP_HIGH);
+        made[1].ticks = chip_tim2_count();
+        made_count = 2;
+        chip_pass_us(300);
+        chip_pin_drive('A', 1U - first, CHIP_LOW);
+        chip_pass_us(300);
+        run_take(ROOM);
+        all_are_there();
+    }
+}
+
+/* What is shorter than the filter is none; both levels. */
+static void test_spikes(void) {
+    begin(12);
+    for (unsigned i = 0; i < 200; i++) {
+        const unsigned pin = (unsigned)(scattered() % 2U);
+        chip_pin_drive('A', pin, CHIP_HIGH);
+        chip_pass(scattered() %
+                  (21U * CHIP_UNITS_PER_US / 2U)); /* eight samples take 10.7 us at least */
+        chip_pin_drive('A', pin, CHIP_LOW);
+        chip_pass_us(20U + scattered() % 100U);
+    }
+    run_take(ROOM);
+    TEST_ASSERT_EQUAL(0, got_count);
+    TEST_ASSERT_EQUAL(0, overruns);
+}
+
+/* A level that is high when the timer starts is no pulse; its fall is none. */
+static void test_high_at_the_start(void) {
+    hal_start how = HAL_START_NO_TIMER;
+    chip_wired(13);
+    chip_pin_drive('A', 0, CHIP_HIGH);
+    chip_pin_drive('A', 1, CHIP_HIGH);
+    chip_reset(CHIP_BY_POWER);
+    TEST_ASSERT_EQUAL(CHIP_RETURNED, chip_start(&how));
+    got_count = 0;
+    chip_pass_us(1000);
+    run_take(ROOM);
+    const unsigned at_start = got_count;
+    chip_pin_drive('A', 0, CHIP_LOW);
+    chip_pin_drive('A', 1, CHIP_LOW);
+    chip_pass_us(1000);
+    run_take(ROOM);
+    TEST_ASSERT_EQUAL_MESSAGE(at_start, got_count, "a fall was taken for a pulse");
+    /* The input reads low before its pin is given to it, so that one rise each may be seen, and no more. */
+    TEST_ASSERT_TRUE(at_start <= 2U);
+}
+
+/* Pulses while nobody takes any: the oldest are kept, at least 8; overruns are counted; and it goes on. */
+static void test_full(void) {
+    scattered_state = 14;
+    for (unsigned round = 0; round < 10; round++) {
+        begin(scattered() | 1U);
+        const uint32_t before = overruns;
+        for (unsigned i = 0; i < 40; i++) {
+            const uint64_t at = chip_now() + (100U + scattered() % 400U) * CHIP_UNITS_PER_US;
+            pulse_at(at, (uint8_t)(scattered() % 2U), 40);
+            chip_pass(at + 60U * CHIP_UNITS_PER_US - chip_now());
+        }
+        run_take(ROOM);
+        TEST_ASSERT_TRUE_MESSAGE(got_count >= 8U, "at least eight are kept");
+        for (unsigned i = 0; i < 8; i++) {
+            TEST_ASSERT_EQUAL(made[i].sensor, got[i].sensor);
+            TEST_ASSERT_TRUE(got[i].ticks - made[i].ticks + 1U <= LATE_MOST);
+        }
+        TEST_ASSERT_TRUE_MESSAGE(overruns - before >= 1U, "nobody was told that some are lost");
+        for (unsigned i = 1; i < got_count; i++) {
+            TEST_ASSERT_TRUE((int32_t)(got[i].ticks - got[i - 1U].ticks) >= 0);
+        }
+        chip_pass_us(1000);
+        run_take(ROOM);
+        made_count = got_count = 0;
+        turn(5, chip_tim2_count());
+        all_are_there();
+    }
+}
+
+/* 5 kHz and 30 kHz into both while the loop looks once a millisecond: interrupts take a bounded part of the time. */
+static void storm(uint64_t period_us, uint64_t ms) {
+    begin(15 + period_us);
+    const uint64_t end = chip_now() + ms * 1000U * CHIP_UNITS_PER_US;
+    const unsigned long before = chip_interrupts(28);
+    const uint32_t overruns_before = overruns;
+    unsigned taken = 0;
+    while (chip_now() < end) {
+        const uint64_t until = chip_now() + 1000U * CHIP_UNITS_PER_US;
+        while (chip_now() < until) {
+            for (unsigned pin = 0; pin < 2; pin++) {
+                chip_pin_drive('A', pin, CHIP_HIGH);
+            }
+            chip_pass(period_us * CHIP_UNITS_PER_US / 2U);
+            for (unsigned pin = 0; pin < 2; pin++) {
+                chip_pin_drive('A', pin, CHIP_LOW);
+            }
+            chip_pass(period_us * CHIP_UNITS_PER_US / 2U);
+        }
+        got_count = 0;
+        run_take(ROOM);
+        taken += got_count;
+        for (unsigned i = 1; i < got_count; i++) {
+            TEST_ASSERT_TRUE_MESSAGE((int32_t)(got[i].ticks - got[i - 1U].ticks) >= 0,
+                                     "not in order of time");
+        }
+    }
+    TEST_ASSERT_TRUE(taken > 0);
+    TEST_ASSERT_TRUE_MESSAGE(chip_interrupts(28) - before <= 40U * ms, "a storm takes the time");
+    if (period_us < 100U) {
+        TEST_ASSERT_TRUE(overruns > overruns_before);
+    }
+    /* Behind it all is as before. */
+    chip_pass_us(3000);
+    run_take(ROOM);
+    made_count = got_count = 0;
+    turn(5, chip_tim2_count());
+    all_are_there();
+}
+static void test_storms(void) {
+    storm(200, 40);
+    storm(33, 40);
+}
+
+void suite_chip_slots(void) {
+    RUN_TEST(test_random_edges);
+    RUN_TEST(test_over_the_wrap);
+    RUN_TEST(test_together);
+    RUN_TEST(test_spikes);
+    RUN_TEST(test_high_at_the_start);
+    RUN_TEST(test_full);
+    RUN_TEST(test_storms);
+}

@@ -1,0 +1,130 @@
+/* test_chip_watchdog.c: the watchdog on a chip played from the manual, at any speed that its oscillator may have: never before
+ * its time, and within three times of it. */
+#include "unity.h"
+
+#include "hal/motor.h"
+#include "hal/watchdog.h"
+#include "tests/chip/start.h"
+#include "tests/scattered.h"
+
+void suite_chip_watchdog(void);
+
+static uint32_t timeout;
+static void start(void) { hal_watchdog_start(timeout); }
+static void kick(void) { hal_watchdog_kick(); }
+static void drive(void) { hal_motor_set_voltage(6.0F); }
+static void run(void (*what)(void)) {
+    TEST_ASSERT_EQUAL_MESSAGE(CHIP_RETURNED, chip_try(what), "it bites meanwhile");
+    TEST_ASSERT_EQUAL_STRING("none", chip_violation());
+}
+
+static void begin(void) {
+    chip_on(scattered());
+    world.watchdog_Hz = 17000U + scattered() % 30001U;
+}
+
+/* As long as it is allowed, but for what the call itself takes. */
+static void is_quiet_for(uint32_t ticks) {
+    const unsigned before = chip_resets();
+    chip_pass_us(ticks > 20U ? ticks - 20U : 0);
+    TEST_ASSERT_EQUAL_MESSAGE(before, chip_resets(), "it bites before its time");
+}
+
+static void bites_by(uint64_t ticks) {
+    const unsigned before = chip_resets();
+    chip_pass_us(ticks);
+    TEST_ASSERT_EQUAL_MESSAGE(before + 1U, chip_resets(), "it does not bite in time");
+    TEST_ASSERT_EQUAL(CHIP_LOW, chip_pin('B', 13));
+    TEST_ASSERT_EQUAL(CHIP_LOW, chip_pin('B', 14));
+}
+
+static uint32_t drawn_timeout(void) {
+    static const uint32_t decades[8] = {8000, 20000, 8000,   20000,
+                                        8000, 20000, 200000, 2000000}; /* from 2 ms */
+    const uint32_t most = decades[scattered() % 8U];
+    return most / 4U + (uint32_t)(scattered() % most);
+}
+
+static void test_any_time_and_speed(void) {
+    scattered_state = 1;
+    for (unsigned i = 0; i < 40; i++) {
+        begin();
+        timeout = i < 20 ? 20000U : drawn_timeout();
+        if (i < 3) {
+            world.watchdog_Hz = (uint64_t[]){17000, 32000, 47000}[i];
+        }
+        run(start);
+        run(drive);
+        for (unsigned times = 0; times < 6; times++) {
+            is_quiet_for(times < 2 ? timeout : (uint32_t)(scattered() % (timeout / 8U)));
+            run(kick);
+        }
+        is_quiet_for(timeout);
+        bites_by(2U * (uint64_t)timeout + 40U);
+    }
+}
+
+/* Longer for an erase, then short again, at any time and soon behind each other. */
+static void test_other_times(void) {
+    scattered_state = 2;
+    for (unsigned i = 0; i < 8; i++) {
+        begin();
+        timeout = 20000;
+        run(start);
+        for (unsigned rounds = 0; rounds < 2; rounds++) {
+            for (unsigned times = (unsigned)(scattered() % 4U); times > 0; times--) {
+                is_quiet_for((uint32_t)(scattered() % timeout));
+                run(kick);
+            }
+            timeout = 500000U + (uint32_t)(scattered() % 700000U);
+            run(start);
+            if (scattered() % 4U == 0) {
+                is_quiet_for(timeout);
+                run(kick);
+            }
+            timeout = 20000U;
+            run(start);
+            is_quiet_for(timeout);
+            run(kick);
+        }
+        is_quiet_for(timeout);
+        bites_by(2U * (uint64_t)timeout + 40U);
+    }
+}
+
+/* Told another time in the last moment: that is a sign of life, too. */
+static void test_told_late(void) {
+    scattered_state = 4;
+    for (unsigned i = 0; i < 40; i++) {
+        begin();
+        world.watchdog_Hz = 46000U + scattered() % 1001U;
+        timeout = 20000;
+        run(start);
+        is_quiet_for(timeout);
+        timeout = 30000U + (uint32_t)(scattered() % 20000U);
+        run(start);
+        is_quiet_for(timeout);
+        run(kick);
+    }
+}
+
+/* Held by a debugger it stands still, and goes on behind it. */
+static void test_debugger(void) {
+    scattered_state = 3;
+    begin();
+    timeout = 20000;
+    run(start);
+    chip_halt(true);
+    is_quiet_for(1000000);
+    chip_halt(false);
+    run(kick);
+    is_quiet_for(timeout);
+    bites_by(60000);
+}
+
+void suite_chip_watchdog(void) {
+    RUN_TEST(test_any_time_and_speed);
+    RUN_TEST(test_other_times);
+    RUN_TEST(test_told_late);
+    RUN_TEST(test_debugger);
+}

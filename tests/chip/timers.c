@@ -1,0 +1,290 @@
+/* timers.c: TIM2 and TIM3 of the played chip: counting, captures behind their filters, updates that trigger: RM0090,
+ * chapter 18. */
+#include <string.h>
+
+#include "tests/chip/inner.h"
+
+enum {
+    CR1 = 0x00,
+    CR2 = 0x04,
+    SMCR = 0x08,
+    DIER = 0x0C,
+    SR = 0x10,
+    EGR = 0x14,
+    CCMR1 = 0x18,
+    CCMR2 = 0x1C,
+    CCER = 0x20,
+    CNT = 0x24,
+    PSC = 0x28,
+    ARR = 0x2C,
+    CCR1 = 0x34,
+    OR = 0x50
+};
+#define CEN BIT(0)
+#define UDIS BIT(1)
+#define URS BIT(2)
+#define UIF BIT(0)
+#define FLAGS 0x1E5FU
+#define TIM3_TRGO 8U /* of ADC's EXTSEL (table 69) */
+
+typedef struct timer {
+    uint32_t r[21];
+    uint32_t psc, arr; /* in use */
+    uint64_t count, base;
+    uint64_t most; /* the widest count */
+    unsigned interrupt;
+    unsigned debug_bit; /* of DBGMCU_APB1_FZ */
+    unsigned trigger;   /* of the ADC's, by its update */
+    struct {
+        bool level, filtered;
+        uint64_t accepted_at; /* when the filter lets the new level through */
+    } input[4];
+} timer;
+
+static timer tim2 = {.most = UINT32_MAX, .interrupt = 28, .debug_bit = 0, .trigger = 6};
+static timer tim3 = {.most = 0xFFFF, .interrupt = 29, .debug_bit = 1, .trigger = TIM3_TRGO};
+
+static uint32_t *reg(timer *t, uint32_t offset) { return &t->r[offset / 4U]; }
+
+static uint64_t tick_units(const timer *t) {
+    return units_of(apb1_timer_Hz()) * ((uint64_t)t->psc + 1U);
+}
+static bool counts(timer *t) {
+    return (*reg(t, CR1) & CEN) != 0 && t->arr > 0 && apb1_timer_Hz() > 0 &&
+           !debug_stops(0x08, t->debug_bit);
+}
+static uint64_t count_now(timer *t) {
+    return counts(t) ? t->count + (now_units() - t->base) / tick_units(t) : t->count;
+}
+/* Keeps the part of a tick that has passed, while the clock stays. */
+static void hold(timer *t, bool clock_changes) {
+    const uint64_t count = count_now(t);
+    t->base =
+        counts(t) && !clock_changes ? t->base + (count - t->count) * tick_units(t) : now_units();
+    t->count = count;
+}
+void timers_hold_counts(void) {
+    hold(&tim2, true);
+    hold(&tim3, true);
+}
+void timers_go_on(void) {}
+
+static void update_event(timer *t) {
+    t->psc = *reg(t, PSC);
+    t->arr = *reg(t, ARR);
+    if (FIELD(*reg(t, CR2), 4, 3) == 2) {
+        adc_trigger(t->trigger);
+    }
+}
+
+static uint64_t overflow_at(timer *t) {
+    return counts(t)
+               ? t->base + ((uint64_t)t->arr + 1U - (t->count <= t->arr ? t->count : t->arr)) *
+                               tick_units(t)
+               : CHIP_NEVER;
+}
+
+static uint64_t next_of(timer *t) {
+    uint64_t next = overflow_at(t);
+    for (unsigned i = 0; i < 4; i++) {
+        next = t->input[i].accepted_at < next ? t->input[i].accepted_at : next;
+    }
+    return next;
+}
+
+static uint32_t mode_of(timer *t, unsigned i) {
+    return *reg(t, i < 2 ? CCMR1 : CCMR2) >> (8U * (i % 2U)) & 0xFFU;
+}
+
+/* A capture (18.3.5): into CCRx, its flag, and the one for a capture that the flag before it was still up for. */
+static void capture(timer *t, unsigned i) {
+    const uint32_t cc = *reg(t, CCER) >> (4U * i) & 0xFU;
+    const uint32_t mode = mode_of(t, i);
+    const bool rising = t->input[i].filtered;
+    const bool wanted = (cc & 0xAU) == 0xAU || ((cc & 2U) != 0) != rising;
+    if ((cc & 1U) == 0 || (mode & 3U) != 1 || !wanted) {
+        return;
+    }
+    if ((mode & 0xCU) != 0) {
+        forbidden("a capture of some edges only");
+    }
+    *reg(t, CCR1 + 4U * i) = (uint32_t)(count_now(t) % ((uint64_t)t->arr + 1U));
+    if ((*reg(t, SR) & BIT(1U + i)) != 0) {
+        *reg(t, SR) |= BIT(9U + i);
+    }
+    *reg(t, SR) |= BIT(1U + i);
+}
+
+/* IC1F: how many samples agree, and how far apart they are (18.4.7), in units. */
+static void filter(timer *t, unsigned i, unsigned *samples, uint64_t *apart) {
+    static const uint8_t many[16] = {0, 2, 4, 8, 6, 8, 6, 8, 6, 8, 5, 6, 8, 5, 6, 8};
+    static const uint8_t divided[16] = {1, 1, 1, 1, 2, 2, 4, 4, 8, 8, 16, 16, 16, 32, 32, 32};
+    const uint32_t f = mode_of(t, i) >> 4;
+    const uint32_t dts = f < 4 ? 0 : FIELD(*reg(t, CR1), 8, 2);
+    *samples = many[f];
+    *apart = units_of(apb1_timer_Hz()) * divided[f] << dts;
+}
+
+void tim2_input(unsigned channel, bool high) {
+    timer *t = &tim2;
+    const unsigned i = channel - 1U;
+    if (t->input[i].level == high) {
+        return;
+    }
+    t->input[i].level = high;
+    if (high == t->input[i].filtered) {
+        t->input[i].accepted_at = CHIP_NEVER; /* it went back in time */
+        return;
+    }
+    unsigned samples = 0;
+    uint64_t apart = 0;
+    filter(t, i, &samples, &apart);
+    if (samples == 0) {
+        t->input[i].accepted_at = now_units() + 3U * apart; /* the synchronizer */
+    } else {
+        const uint64_t first = (now_units() / apart + 1U) * apart;
+        t->input[i].accepted_at = first + (samples - 1U) * apart;
+    }
+}
+
+static void happens_to(timer *t) {
+    for (unsigned i = 0; i < 4; i++) {
+        if (t->input[i].accepted_at <= now_units()) {
+            t->input[i].accepted_at = CHIP_NEVER;
+            t->input[i].filtered = t->input[i].level;
+            capture(t, i);
+        }
+    }
+    if (overflow_at(t) <= now_units()) {
+        t->count = 0;
+        t->base = now_units();
+        if ((*reg(t, CR1) & UDIS) == 0) {
+            *reg(t, SR) |= UIF;
+            update_event(t);
+        }
+    }
+}
+
+static uint32_t load_of(timer *t, uint32_t offset) {
+    if (offset == CNT) {
+        return (uint32_t)(count_now(t) % ((uint64_t)t->arr + 1U));
+    }
+    if (offset >= CCR1 && offset <= CCR1 + 12U) {
+        const unsigned i = (offset - CCR1) / 4U;
+        if ((mode_of(t, i) & 3U) != 0) {
+            *reg(t, SR) &= ~BIT(1U + i); /* reading takes CCxIF away, not CCxOF */
+        }
+    }
+    return offset == EGR ? 0 : *reg(t, offset);
+}
+
+static void store_of(timer *t, uint32_t offset, uint32_t value) {
+    hold(t, false);
+    switch (offset) {
+    case CR1:
+        if ((value & 0x78U) != 0) {
+            forbidden("a timer that does not count up for ever");
+        }
+        *reg(t, CR1) = value;
+        break;
+    case SR: *reg(t, SR) &= value; break; /* rc_w0 */
+    case EGR:
+        if ((value & 1U) != 0) {
+            t->count = 0;
+            t->base = now_units();
+            if ((*reg(t, CR1) & UDIS) == 0) {
+                *reg(t, SR) |= (*reg(t, CR1) & URS) != 0 ? 0 : UIF;
+                update_event(t);
+            }
+        }
+        break;
+    case CNT:
+        t->count = value & t->most;
+        t->base = now_units();
+        break;
+    case ARR:
+        *reg(t, ARR) = value & (uint32_t)t->most;
+        if ((*reg(t, CR1) & BIT(7)) == 0) {
+            t->arr = *reg(t, ARR);
+        }
+        break;
+    case PSC: *reg(t, PSC) = value & 0xFFFFU; break;
+    case CCMR1:
+    case CCMR2:
+        for (unsigned i = 0; i < 2; i++) {
+            const unsigned channel = i + (offset == CCMR2 ? 2U : 0U);
+            const uint32_t other = (value ^ *reg(t, offset)) >> (8U * i) & 3U;
+            if (other != 0 && (*reg(t, CCER) >> (4U * channel) & 1U) != 0) {
+                forbidden("CC%uS while the channel is on", channel + 1U);
+            }
+        }
+        *reg(t, offset) = value;
+        break;
+    default: *reg(t, offset) = value; break;
+    }
+}
+
+static void reset_of(timer *t) {
+    memset(t->r, 0, sizeof t->r);
+    t->psc = 0;
+    t->arr = (uint32_t)t->most;
+    *reg(t, ARR) = t->arr;
+    t->count = 0;
+    t->base = now_units();
+    for (unsigned i = 0; i < 4; i++) {
+        t->input[i].filtered = t->input[i].level = false;
+        t->input[i].accepted_at = CHIP_NEVER;
+    }
+}
+
+static bool pending_of(timer *t, unsigned interrupt) {
+    return interrupt == t->interrupt && (*reg(t, SR) & *reg(t, DIER) & 0x5FU) != 0;
+}
+
+static uint32_t tim2_load(uint32_t offset) { return load_of(&tim2, offset); }
+static void tim2_store(uint32_t offset, uint32_t value) { store_of(&tim2, offset, value); }
+static void tim2_reset(chip_cause cause) {
+    (void)cause;
+    reset_of(&tim2);
+}
+static uint64_t tim2_next(void) { return next_of(&tim2); }
+static void tim2_happens(void) { happens_to(&tim2); }
+static bool tim2_pending(unsigned interrupt) { return pending_of(&tim2, interrupt); }
+static uint32_t tim3_load(uint32_t offset) { return load_of(&tim3, offset); }
+static void tim3_store(uint32_t offset, uint32_t value) { store_of(&tim3, offset, value); }
+static void tim3_reset(chip_cause cause) {
+    (void)cause;
+    reset_of(&tim3);
+}
+static uint64_t tim3_next(void) { return next_of(&tim3); }
+static void tim3_happens(void) { happens_to(&tim3); }
+static bool tim3_pending(unsigned interrupt) { return pending_of(&tim3, interrupt); }
+
+void chip_tim2_count_is(uint32_t count) {
+    tim2.count = count;
+    tim2.base = now_units();
+}
+uint32_t chip_tim2_count(void) { return (uint32_t)(count_now(&tim2) % ((uint64_t)tim2.arr + 1U)); }
+
+const part tim2_part = {.name = "TIM2",
+                        .base = AT_TIM2,
+                        .bytes = 0x54,
+                        .clock_register = 0x40,
+                        .clock_bit = BIT(0),
+                        .load = tim2_load,
+                        .store = tim2_store,
+                        .reset = tim2_reset,
+                        .next = tim2_next,
+                        .happens = tim2_happens,
+                        .pending = tim2_pending};
+const part tim3_part = {.name = "TIM3",
+                        .base = AT_TIM3,
+                        .bytes = 0x54,
+                        .clock_register = 0x40,
+                        .clock_bit = BIT(1),
+                        .load = tim3_load,
+                        .store = tim3_store,
+                        .reset = tim3_reset,
+                        .next = tim3_next,
+                        .happens = tim3_happens,
+                        .pending = tim3_pending};
