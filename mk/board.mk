@@ -167,6 +167,12 @@ $(ELF)/tests.elf: $(call objects,$(BOARD),$(CORE_TEST_PARTS)) $(BOARD_OBJECTS) \
 
 emulate = $(call BOARD_EMULATE,$(1))
 
+# What only this board has, for those who look at each file.
+BOARD_OWN_C = $(sort $(BOARD_SOURCES) $(if $(BOARD_FLASHED_FLAGS),,$(BOARD_FLASHED))) $(BOARD_LINK) $(BOARD_WATCHDOG) \
+    $(wildcard tests/boards/guard_*.c $(if $(BOARD_WATCHDOG),tests/boards/watchdog.c))
+# And that of a build of its own.
+BOARD_FLASHED_C = $(if $(BOARD_FLASHED_FLAGS),$(BOARD_FLASHED))
+
 ifeq ($(BOARD_IMAGES),single)
 include mk/single.mk
 else
@@ -177,12 +183,6 @@ IMAGES := $(ELF)/scenes.elf $(ELF)/firmware.elf $(STATION)
 GUARDS := $(patsubst tests/boards/%.c,$(ELF)/%.elf,$(wildcard tests/boards/guard_*.c))
 $(GUARDS): $(ELF)/%.elf: $(B)/$(BOARD)/tests/boards/%.o $(BOARD_OBJECTS) $(call libraries,$(BOARD),whirl)
 	$(link_board)
-
-# What only this board has, for those who look at each file.
-BOARD_OWN_C = $(sort $(BOARD_SOURCES) $(if $(BOARD_FLASHED_FLAGS),,$(BOARD_FLASHED))) $(BOARD_LINK) $(BOARD_WATCHDOG) \
-    $(wildcard tests/boards/guard_*.c $(if $(BOARD_WATCHDOG),tests/boards/watchdog.c))
-# And that of a build of its own.
-BOARD_FLASHED_C = $(if $(BOARD_FLASHED_FLAGS),$(BOARD_FLASHED))
 
 # The watchdog, of boards that have one (tests/boards/watchdog.sh).
 WATCHDOG := $(if $(BOARD_WATCHDOG),$(ELF)/watchdog.elf)

@@ -77,7 +77,7 @@ static inline void atmega_watch(uint8_t twice) {
 
 /* The supply as it was when a sample of the load was last taken (cell.c): parts of ATMEGA_WHOLE a volt; 0: there is none. A division
  * for each would be one in control steps that have no time for it. */
-#define ATMEGA_WHOLE 25600.0f
+#define ATMEGA_WHOLE 25600U
 float atmega_parts_per_V(void);
 
 /* Parts of the rig's hardware, each started by hal_clock_start() (rig_clock.c). */

@@ -131,7 +131,7 @@ static void renew_supply(void) {
     const uint16_t counts = supply_sum;
     atmega_go_on(before);
     supply_V = (float)counts * (SUPPLY_V_PER_COUNT / (float)SUPPLY_TICKS);
-    parts_per_V = counts > 0 ? ATMEGA_WHOLE / supply_V : 0.0f;
+    parts_per_V = counts > 0 ? (float)ATMEGA_WHOLE / supply_V : 0.0f;
 }
 
 /* Sixteen counts of 10 bits are 14 bits: a quarter of ours. */

@@ -11,8 +11,7 @@
 
 #define WHOLE 400U /* F_CPU/2 / 20 kHz */
 #define PARTS 64U  /* of a step are carried on */
-_Static_assert((float)(WHOLE *PARTS) >= ATMEGA_WHOLE && (float)(WHOLE * PARTS) <= ATMEGA_WHOLE,
-               "all of the supply");
+_Static_assert(WHOLE *PARTS == ATMEGA_WHOLE, "all of the supply");
 
 static bool driving;
 static uint16_t carried; /* parts of a step that are owed */
@@ -35,7 +34,7 @@ void atmega_motor_start(void) {
 /* NaN, and no supply: 0. */
 static uint16_t parts_of(float volts) {
     const float parts = volts * atmega_parts_per_V();
-    return !(parts > 0.0f) ? 0U : parts >= ATMEGA_WHOLE ? WHOLE * PARTS : (uint16_t)parts;
+    return !(parts > 0.0f) ? 0U : parts >= (float)ATMEGA_WHOLE ? WHOLE * PARTS : (uint16_t)parts;
 }
 
 void hal_motor_set_voltage(float volts) {
