@@ -64,7 +64,8 @@ $(eval $(call program,firmware,boards/programs/rig.c,whirl rig virtual scenes))
 
 # What runs once in a while is made small, so that what runs each step has the flash.
 $(foreach o,$(STATION_C) boards/programs/rig.c boards/programs/station.c \
-    $(VIRTUAL_C) core/rig/swing_guess.c core/rig/life.c core/text.c core/frame.c core/cobs.c core/step_tape.c,$(B)/$(BOARD)/$(o:.c=.o)): FILE_FLAGS = -Os
+    $(VIRTUAL_C) core/rig/swing_guess.c core/rig/life.c core/text.c core/frame.c core/cobs.c core/step_tape.c core/packed_words.c $(BOARD_FLASHED),$(B)/$(BOARD)/$(o:.c=.o)): \
+    FILE_FLAGS = -Os $(BOARD_SMALL)
 
 ifneq ($(BOARD_FLASHED),)
 $(B)/$(BOARD)/boards/programs/station.o: FILE_FLAGS += -DHAL_VIRTUAL=0
