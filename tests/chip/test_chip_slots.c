@@ -190,6 +190,55 @@ static void test_full(void) {
     }
 }
 
+/* The core stands while edges come, one of each sensor: their time was taken all the same, and they come in order. */
+static void test_core_that_stood(void) {
+    begin(19);
+    for (unsigned i = 0; i < 100; i++) {
+        if (i % 4U == 0) {
+            chip_tim2_count_is(UINT32_MAX - (uint32_t)(scattered() % 3000U));
+        }
+        made_count = got_count = 0;
+        const uint8_t first = (uint8_t)(scattered() % 2U);
+        chip_pass_us(100);
+        chip_halt(true);
+        for (unsigned n = 0; n < 2; n++) {
+            chip_pass_us(120U + scattered() % 1200U);
+            made[made_count].sensor = (uint8_t)(first ^ n);
+            made[made_count].ticks = chip_tim2_count();
+            chip_pin_drive('A', made[made_count++].sensor, CHIP_HIGH);
+            chip_pass_us(50);
+            chip_pin_drive('A', first ^ n, CHIP_LOW);
+        }
+        chip_pass_us(scattered() % 2000U);
+        chip_halt(false);
+        chip_pass_us(10);
+        run_take(ROOM);
+        all_are_there();
+    }
+    TEST_ASSERT_EQUAL(0, overruns);
+}
+
+/* An edge over one that was not read yet: one of them is lost, and that is told. */
+static void test_overrun(void) {
+    begin(20);
+    for (unsigned i = 0; i < 40; i++) {
+        const uint32_t before = overruns;
+        made_count = got_count = 0;
+        chip_halt(true);
+        for (unsigned n = 0; n < 2; n++) {
+            chip_pin_drive('A', i % 2U, CHIP_HIGH);
+            chip_pass_us(50U + scattered() % 200U);
+            chip_pin_drive('A', i % 2U, CHIP_LOW);
+            chip_pass_us(50U + scattered() % 200U);
+        }
+        chip_halt(false);
+        chip_pass_us(10);
+        run_take(ROOM);
+        TEST_ASSERT_EQUAL(1, got_count);
+        TEST_ASSERT_EQUAL(before + 1U, overruns);
+    }
+}
+
 /* 5 kHz and 30 kHz into both while the loop looks once a millisecond: interrupts take a bounded part of the time. */
 static void storm(uint64_t period_us, uint64_t ms) {
     begin(15 + period_us);
@@ -240,6 +289,8 @@ void suite_chip_slots(void) {
     RUN_TEST(test_together);
     RUN_TEST(test_spikes);
     RUN_TEST(test_high_at_the_start);
+    RUN_TEST(test_core_that_stood);
+    RUN_TEST(test_overrun);
     RUN_TEST(test_full);
     RUN_TEST(test_storms);
 }
