@@ -267,7 +267,7 @@ static void storm(uint64_t period_us, uint64_t ms) {
         }
     }
     TEST_ASSERT_TRUE(taken > 0);
-    TEST_ASSERT_TRUE_MESSAGE(chip_interrupts(28) - before <= 40U * ms, "a storm takes the time");
+    TEST_ASSERT_TRUE_MESSAGE(chip_interrupts(28) - before <= 20U * ms, "a storm takes the time");
     if (period_us < 100U) {
         TEST_ASSERT_TRUE(overruns > overruns_before);
     }
