@@ -34,6 +34,7 @@ typedef enum chip_end {
 
 /* What the world around the chip is. Anything may be changed at any time but by chip_crystal_stops(). */
 typedef struct chip_world {
+    uint32_t crystal_Hz;
     bool crystal;                              /* answers */
     uint64_t crystal_units;                    /* that it takes to start */
     bool pll;                                  /* locks */

@@ -5,7 +5,7 @@
 
 folder=$(dirname "$whirl")/tests
 
-for name in host chip core_double core_float; do
+for name in host chip_netduinoplus2 core_double core_float; do
     program=$folder/$name
     "$program" no_such_suite >"$scratch/out" 2>"$scratch/err"
     [ $? -eq 2 ] && [ ! -s "$scratch/out" ] &&
@@ -13,7 +13,8 @@ for name in host chip core_double core_float; do
     verdict $? "$name refuses a suite that is not there"
 
     case $name in
-    host | chip) sources=tests/$name ;;
+    host) sources=tests/host ;;
+    chip_*) sources=tests/chip ;;
     *) sources=tests/core ;;
     esac
     listed=$(sed -n 's/^hint: one of //p' "$scratch/err" | tr -d ',' | tr ' ' '\n' | sort)
