@@ -100,29 +100,28 @@ void wh_text_add_hex(wh_text *text, uint64_t value, unsigned digits) {
     }
 }
 
+#if WH_DOUBLE
+enum { MANTISSA_BITS = 52, EXPONENT_MAX = 0x7ff, BIAS = 1023 + MANTISSA_BITS };
+typedef uint64_t real_bits;
+#else
+enum { MANTISSA_BITS = 23, EXPONENT_MAX = 0xff, BIAS = 127 + MANTISSA_BITS };
+typedef uint32_t real_bits;
+#endif
+
 /* A float or double taken apart: magnitude = mantissa * 2^exponent. */
 typedef struct parts {
-    uint64_t mantissa;
+    real_bits mantissa;
     int exponent;
     bool negative;
     bool special; /* infinity (mantissa 0) or not-a-number */
 } parts;
 
 static parts parts_of(wh_real value) {
-#if WH_DOUBLE
-    enum { MANTISSA_BITS = 52, EXPONENT_MAX = 0x7ff, BIAS = 1023 + MANTISSA_BITS };
     const union {
-        double value;
-        uint64_t bits;
+        wh_real value;
+        real_bits bits;
     } as = {.value = value};
-#else
-    enum { MANTISSA_BITS = 23, EXPONENT_MAX = 0xff, BIAS = 127 + MANTISSA_BITS };
-    const union {
-        float value;
-        uint32_t bits;
-    } as = {.value = value};
-#endif
-    const uint64_t hidden = UINT64_C(1) << MANTISSA_BITS;
+    const real_bits hidden = (real_bits)1 << MANTISSA_BITS;
     const int exponent = (int)((as.bits >> MANTISSA_BITS) & EXPONENT_MAX);
     parts result = {
         .mantissa = as.bits & (hidden - 1U),
@@ -167,7 +166,7 @@ void wh_text_add_fixed(wh_text *text, wh_real value, unsigned decimals) {
 
     /* Lay the mantissa's bits into one long fixed-point number: fraction limbs, then whole limbs. */
     uint16_t limb[FRACTION_LIMBS + WHOLE_LIMBS] = {0};
-    for (int bit = 0; bit < 53; bit++) {
+    for (int bit = 0; bit <= MANTISSA_BITS; bit++) {
         if (((number.mantissa >> bit) & 1U) == 0) {
             continue;
         }

@@ -64,7 +64,8 @@ $(eval $(call program,firmware,boards/programs/rig.c,whirl rig virtual scenes))
 
 # What runs once in a while is made small, so that what runs each step has the flash.
 $(foreach o,$(STATION_C) boards/programs/rig.c boards/programs/station.c \
-    $(VIRTUAL_C) core/rig/swing_guess.c core/rig/life.c core/text.c core/frame.c core/cobs.c,$(B)/$(BOARD)/$(o:.c=.o)): FILE_FLAGS = -Os
+    $(VIRTUAL_C) core/rig/swing_guess.c core/rig/life.c core/text.c core/frame.c core/cobs.c core/step_tape.c core/packed_words.c $(BOARD_FLASHED),$(B)/$(BOARD)/$(o:.c=.o)): \
+    FILE_FLAGS = -Os $(BOARD_SMALL)
 
 ifneq ($(BOARD_FLASHED),)
 $(B)/$(BOARD)/boards/programs/station.o: FILE_FLAGS += -DHAL_VIRTUAL=0
@@ -125,7 +126,8 @@ $(eval $(call pil_program,pil_swing,boards/programs/pil_swing.c,frames rig whirl
 $(eval $(call pil_program,pil_dialled,boards/programs/pil_dialled.c,frames rig whirl scenes))
 $(eval $(call pil_program,pil_carriage,boards/programs/pil_carriage.c,frames rig whirl scenes))
 $(eval $(call pil_program,pil_cart,boards/programs/pil_cart.c,frames whirl))
-PIL_PROGRAMS := pil_rig pil_swing pil_dialled pil_carriage pil_cart
+$(eval $(call pil_program,pil_taped,boards/programs/pil_taped.c,frames station rig whirl scenes))
+PIL_PROGRAMS := pil_rig pil_swing pil_dialled pil_carriage pil_cart pil_taped
 PIL_IMAGES := $(if $(BOARD_LINK),$(PIL_PROGRAMS:%=$(ELF)/%.elf))
 
 # On BOARD and on an M3: the tape of one on the other.

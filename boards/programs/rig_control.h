@@ -15,6 +15,7 @@
 #include "hal/slots.h"
 #include "hal/stop.h"
 #include "hal/watchdog.h"
+#include "rig_own.h"
 #include "trip_memory.h"
 
 /* The rig's only hardware so far is played by the model; a real one comes with its own hal. */
@@ -30,9 +31,6 @@
 #if HAL_FRAMES
 #include "hal/frames/rig_frames.h"
 #endif
-
-/* The model that goes with the rotor: rig_fixed of core/models/eccentric.whirl, in control steps (mk/whirl.mk). */
-extern const wh_scene rig_observed;
 
 _Static_assert(HAL_TICKS_PER_S == WH_RIG_TICKS_PER_S, "one clock");
 _Static_assert((int)HAL_LOAD_SATURATED == (int)WH_LOAD_SATURATED &&
@@ -115,16 +113,6 @@ static void control(const wh_rig_config *config) {
     trip_memory_keep(&memory, &rig);
     hal_reset_mark(wh_rig_stage(&rig));
     hal_watchdog_kick(); /* tripped too: a watchdog that resets would start all over */
-}
-
-/* The standard rig with this hardware's cell and sensors. In its place: a copy more is half a kilobyte of stack. */
-static void own_configuration(wh_rig_config *config) {
-    *config = wh_rig_standard;
-    config->measure.cell = (wh_cell_config){.newton_per_count = HAL_LOADCELL_N_PER_COUNT,
-                                            .period_ticks = HAL_LOADCELL_PERIOD_TICKS,
-                                            .raw_max = HAL_LOADCELL_RAW_MAX};
-    wh_rig_slots(config, HAL_SLOT_LEAD_DEG / WH_RIG_DEG_PER_RAD);
-    config->observer.scene = &rig_observed;
 }
 
 static const char *why_no_hardware(void) {

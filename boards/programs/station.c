@@ -2,6 +2,7 @@
  *
  * It never ends. Where the model plays the hardware (hal/virtual), the model's time is held to the clock's. */
 #include "core/station/station.h"
+#include "core/station/tape_out.h"
 
 #include "boards/board.h"
 #include "hal/clock.h"
@@ -20,12 +21,21 @@ static wh_station station;
 static wh_rig_config config;
 static wh_conf conf;
 static wh_tel tel;
+#if WH_STATION_TAPE
+static wh_tape tape;
+#endif
 
 static void converse(void) {
     char bytes[BYTES_A_STEP];
     wh_station_take(&station, bytes, hal_console_read(bytes, sizeof bytes));
     wh_station_see(&station, &config, &rig, &seen);
+#if WH_STATION_TAPE
+    wh_tape_see(&station, &rig);
+#endif
     wh_station_step(&station, &rig);
+#if WH_STATION_TAPE
+    wh_tape_orders(&station, &rig);
+#endif
     const unsigned waiting = wh_station_peek(&station, bytes, sizeof bytes);
     wh_station_drop(&station, hal_console_offer(bytes, waiting));
 }
@@ -85,6 +95,9 @@ int main(void) {
     wh_station_start(&station, "rig", board_name, HAL_TICKS_PER_S / CONTROL_TICKS);
     station.conf = &conf;
     station.tel = &tel;
+#if WH_STATION_TAPE
+    station.tape = &tape;
+#endif
     hal_watchdog_start(WATCHDOG_TICKS);
     for (;;) {
         due = next_step(due);

@@ -3,17 +3,20 @@
 #
 #   BOARD_FLASHED  the board's code of images that are flashed, the rig's hardware in it, in the place of BOARD_SOURCES
 #                  (may be missing: then the rig's hardware is a model's)
+#   BOARD_SMALL    flags of its files that no control step of the rig runs (mk/board.mk)
 #   BOARD_MOST     of such an image: bytes of flash, and of memory with the worst stack. `make size` fails beyond
 BOARD_MACHINE  := netduinoplus2
 BOARD_CPU      := -mcpu=cortex-m4 -mthumb -mfpu=fpv4-sp-d16 -mfloat-abi=hard
 BOARD_MATH     := -fno-math-errno
 include boards/cortexm/cortexm.mk
 # The whole rig is to have 40 KB of flash; steps of -Os take some more instructions, of which there are enough (docs/boards.md).
-# What is switched off beside copies code for speed, or moves it to where it needs more registers: 1.4 % of the flash. Without it
-# gcc takes values for uninitialized that are not.
-BOARD_CFLAGS   := $(subst -O2,-Os,$(BOARD_CFLAGS)) -fno-thread-jumps -fno-if-conversion -fno-move-loop-invariants \
-                  -fno-schedule-insns2 -fno-tree-sink -fno-tree-dominator-opts -fno-shrink-wrap -fno-ssa-phiopt \
-                  -Wno-maybe-uninitialized -DWH_WORDS_PACKED=1
+BOARD_CFLAGS   := $(subst -O2,-Os,$(BOARD_CFLAGS)) -DWH_WORDS_PACKED=1
+# And control steps are not recorded: 2 kB.
+BOARD_CFLAGS   += -DWH_STATION_TAPE=0
+# What copies code for speed, or moves it to where it needs more registers, is switched off where no control step is longer for it.
+# Without it gcc takes values for uninitialized that are not.
+BOARD_SMALL    := -fno-thread-jumps -fno-if-conversion -fno-move-loop-invariants -fno-schedule-insns2 -fno-tree-sink \
+                  -fno-tree-dominator-opts -fno-shrink-wrap -fno-ssa-phiopt -Wno-maybe-uninitialized
 # Semihosting would come into every image with it.
 BOARD_LINK     :=
 BOARD_COMMON   := $(filter-out boards/cortexm/cmsdk.c boards/cortexm/demo.c,$(BOARD_SOURCES)) \
@@ -21,7 +24,7 @@ BOARD_COMMON   := $(filter-out boards/cortexm/cmsdk.c boards/cortexm/demo.c,$(BO
 BOARD_SOURCES  := $(BOARD_COMMON) boards/cortexm/demo.c
 BOARD_FLASHED  := $(BOARD_COMMON) boards/cortexm/flashed.c boards/cortexm/kept.c \
                   $(addprefix boards/stm32f4/,brown_out.c cell.c flash.c motor.c reset.c rig_clock.c slots.c stop.c watchdog.c)
-BOARD_MOST     := FLASH_MOST=49152 RAM_MOST=12288
+BOARD_MOST     := FLASH_MOST=49664 RAM_MOST=12288
 # Its console is serial interface 6, the emulator's sixth.
 BOARD_SERIALS   = -display none -monitor none -serial null -serial null -serial null -serial null -serial null -serial
 BOARD_EMULATE   = timeout $(BOARD_SECONDS) $(BOARD_EMULATOR) -M $(BOARD_MACHINE) $(BOARD_SERIALS) stdio \

@@ -240,6 +240,30 @@ static void take(wh_conf *conf, unsigned number, wh_real value) {
     }
 }
 
+static void take_all(wh_conf *conf, const uint8_t *payload, unsigned count) {
+    wh_bytes bytes = {.from = payload, .room = count};
+    while (bytes.room - bytes.at >= ENTRY_BYTES) {
+        const unsigned number = wh_bytes_get(&bytes, 1);
+        take(conf, number, (wh_real)wh_bytes_get_float(&bytes));
+    }
+    if (go_together(conf)) {
+        renew(conf);
+    } else {
+        wh_conf_default(conf);
+    }
+}
+
+#if WH_STATION_TAPE
+void wh_conf_take(wh_conf *conf, const uint8_t *payload, unsigned count) {
+    take_all(conf, payload, count);
+}
+
+unsigned wh_conf_is_set(const wh_conf *conf, wh_conf_id id, float *value) {
+    *value = (float)conf->value[id];
+    return is_set(conf, id) ? rows[id].number : 0U;
+}
+#endif
+
 void wh_conf_start(wh_conf *conf, void (*own)(wh_rig_config *config), const wh_store_memory *memory,
                    wh_rig_config *config) {
     uint8_t payload[WH_STORE_PAYLOAD_MOST];
@@ -254,16 +278,7 @@ void wh_conf_start(wh_conf *conf, void (*own)(wh_rig_config *config), const wh_s
     if (count <= 0) {
         return;
     }
-    wh_bytes bytes = {.from = payload, .room = (unsigned)count};
-    while (bytes.room - bytes.at >= ENTRY_BYTES) {
-        const unsigned number = wh_bytes_get(&bytes, 1);
-        take(conf, number, (wh_real)wh_bytes_get_float(&bytes));
-    }
-    if (go_together(conf)) {
-        renew(conf);
-    } else {
-        wh_conf_default(conf);
-    }
+    take_all(conf, payload, (unsigned)count);
 }
 
 wh_conf_status wh_conf_save(wh_conf *conf) {

@@ -2,10 +2,20 @@
 #ifndef WH_STATION_ERRORS_H
 #define WH_STATION_ERRORS_H
 
+#include "brief.h"
 #include "core/real.h"
 
 #ifdef __cplusplus
 extern "C" {
+#endif
+
+/* A literal each (core/packed_words.h). */
+#if WH_STATION_TAPE
+#define WH_TEL_HOW_WORDS \
+    "list, schema CHANNEL, rate N, off, fmt FORMAT, tape on|off or ring [pulse|fault|off|read] is wanted"
+#else
+#define WH_TEL_HOW_WORDS \
+    "list, schema CHANNEL, rate N, off, fmt FORMAT or ring [pulse|fault|off|read] is wanted"
 #endif
 
 /* Why a line is refused, beside the rig's own refusals (wh_refusal, 1 ... 99): X(name, number, words). Numbers stay. */
@@ -25,13 +35,13 @@ extern "C" {
     X(WH_STATION_CONF_AGAINST, 112, "it goes against another setting: least, most and limit") \
     X(WH_STATION_CONF_FAILED, 113, "the memory for settings failed; what was saved before stays") \
     X(WH_STATION_NOT_HERE, 114, "this program has none") \
-    X(WH_STATION_TEL_HOW, 115, \
-      "list, schema CHANNEL, rate N, off, fmt FORMAT or ring [pulse|fault|off|read] is wanted") \
+    X(WH_STATION_TEL_HOW, 115, WH_TEL_HOW_WORDS) \
     X(WH_STATION_TEL_RATE, 116, \
       "samples a second that part the cell's rate are wanted; with text 100 at most") \
     X(WH_STATION_TEL_CHANNEL, 117, "no such channel; tel list has them") \
     X(WH_STATION_TEL_FORMAT, 118, "frames, teleplot or arduino is wanted") \
-    X(WH_STATION_TEL_RING, 119, "the ring has nothing to be read yet")
+    X(WH_STATION_TEL_RING, 119, "the ring has nothing to be read yet") \
+    WH_OF_TAPES(X(WH_STATION_TAPED, 120, "not while a tape is recorded; tel tape off ends it"))
 
 #define WH_STATION_NAME(name, number, words) name = (number),
 typedef enum wh_station_error {

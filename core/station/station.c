@@ -122,8 +122,24 @@ static void do_fault(const request *r) {
     wh_answer_words(r->answer, wh_trip_text(trip));
 }
 
+#if WH_STATION_TAPE
+/* Does a tape hold what this would change? */
+static bool is_taped(const request *r) {
+    const wh_tape *tape = r->station->tape;
+    const char *what = r->words->count > 1U ? r->words->word[1] : "";
+    return tape != NULL && wh_tape_holds(tape) &&
+           (wh_answer_is(what, "set") || wh_answer_is(what, "default"));
+}
+#endif
+
 static void do_conf(const request *r) {
     const bool idle = r->rig->state == WH_LIFE_IDLE;
+#if WH_STATION_TAPE
+    if (is_taped(r)) {
+        refuse(r, WH_STATION_TAPED);
+        return;
+    }
+#endif
     const wh_station_error error = r->station->conf != NULL
                                        ? wh_conf_answer(r->station->conf, r->words, idle, r->answer)
                                        : WH_STATION_NOT_HERE;
@@ -136,7 +152,8 @@ static void do_tel(const request *r) {
     wh_station *station = r->station;
     const wh_station_error error =
         station->tel != NULL && station->config != NULL
-            ? wh_tel_answer(station->tel, &station->config->measure.cell, r->words, r->answer)
+            ? wh_tel_answer(station->tel, station->tape, &station->config->measure.cell, r->words,
+                            r->answer)
             : WH_STATION_NOT_HERE;
     if (error != WH_STATION_FINE) {
         refuse(r, error);

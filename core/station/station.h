@@ -23,10 +23,19 @@
 #include "line.h"
 #include "ring.h"
 #include "seen.h"
+#include "tape_state.h"
 #include "telemetry.h"
 
 #ifdef __cplusplus
 extern "C" {
+#endif
+
+/* A literal each (core/packed_words.h). */
+#if WH_STATION_TAPE
+#define WH_TEL_FOLLOWS \
+    "list|schema CHANNEL|rate N|off|fmt FORMAT|tape on|off|ring [pulse|fault|off|read]"
+#else
+#define WH_TEL_FOLLOWS "list|schema CHANNEL|rate N|off|fmt FORMAT|ring [pulse|fault|off|read]"
 #endif
 
 /* X(name, most words after it, what follows, words) */
@@ -43,8 +52,7 @@ extern "C" {
     X(clear, 0, "", "a trip whose cause is gone") \
     X(conf, 3, "list [FROM]|get NAME|set NAME VALUE|save|default", \
       "the settings; written while the rig is idle") \
-    X(tel, 2, "list|schema CHANNEL|rate N|off|fmt FORMAT|ring [pulse|fault|off|read]", \
-      "telemetry beside this text; off at first") \
+    X(tel, 2, WH_TEL_FOLLOWS, "telemetry beside this text; off at first") \
     X(selftest, 0, "", "what can be known while it rests: arithmetic, cell, supply, stop") \
     X(host, 1, "SECONDS", "a run ends when nothing is heard for so long; 0: never") \
     X(talk, 1, "on|off", "echo what is typed, tell of each new state")
@@ -60,6 +68,7 @@ typedef struct wh_station {
     const char *board;
     wh_conf *conf;               /* NULL: there are no settings */
     wh_tel *tel;                 /* NULL: there is no telemetry */
+    wh_tape *tape;               /* NULL: and no tape (tape_out.h) */
     const wh_rig_config *config; /* in the last step, */
     wh_seen seen;                /* and what that saw */
     wh_ring in;

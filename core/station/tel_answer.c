@@ -44,7 +44,40 @@ static const char *trigger_word(wh_capture_trigger trigger) {
     return "";
 }
 
-static void list(const wh_tel *tel, const wh_cell_config *cell, wh_text *answer) {
+#if WH_STATION_TAPE
+static const char *tape_word(const wh_tape *tape) {
+#define WORD(name, word) \
+    case name: return word;
+    switch (tape->state) { WH_TAPE_STATE_ROWS(WORD) case WH_TAPE_STATES : break; }
+#undef WORD
+    return "";
+}
+
+static void add_tape(const wh_tape *tape, wh_text *answer) {
+    if (tape != NULL) {
+        wh_answer_word(answer, "tape", tape_word(tape));
+    }
+}
+
+static wh_station_error set_tape(wh_tape *tape, const char *word, wh_text *answer) {
+    if (tape == NULL) {
+        return WH_STATION_NOT_HERE;
+    }
+    if (wh_answer_is(word, "on")) {
+        wh_tape_on(tape);
+    } else if (wh_answer_is(word, "off")) {
+        wh_tape_off(tape);
+    } else {
+        return WH_STATION_TEL_HOW;
+    }
+    wh_text_add(answer, "OK");
+    add_tape(tape, answer);
+    return WH_STATION_FINE;
+}
+#endif
+
+static void list(const wh_tel *tel, const wh_tape *tape, const wh_cell_config *cell,
+                 wh_text *answer) {
     wh_text_add(answer, "OK");
     wh_answer_count(answer, "rate", tel->every > 0 ? cell_per_s(cell) / tel->every : 0);
     wh_answer_word(answer, "fmt", format_word(tel->format));
@@ -54,6 +87,11 @@ static void list(const wh_tel *tel, const wh_cell_config *cell, wh_text *answer)
     }
     wh_answer_count(answer, "dropped", dropped);
     add_channels(answer);
+#if WH_STATION_TAPE
+    add_tape(tape, answer);
+#else
+    (void)tape;
+#endif
 }
 
 static void ring_told(const wh_tel *tel, wh_text *answer) {
@@ -133,6 +171,11 @@ static wh_station_error schema(const wh_tel *tel, const wh_cell_config *cell, co
         wh_answer_words(answer, WH_WORDS("what 0 pulse of sensor, 1 state, 2 trip"));
     } else if (wh_answer_is(name, "ring")) {
         schema_ring(cell, answer);
+#if WH_STATION_TAPE
+    } else if (wh_answer_is(name, "tape")) {
+        wh_text_add_words(answer, WH_WORDS("OK channel=3 name=tape period_ticks=0 once= each="));
+        wh_answer_words(answer, WH_WORDS("control steps, for whirl monitor --tape"));
+#endif
     } else if (wh_answer_is(name, "states")) {
         schema_states(answer);
     } else {
@@ -203,12 +246,17 @@ static wh_station_error set_ring(wh_tel *tel, const char *word, wh_text *answer)
     return WH_STATION_FINE;
 }
 
-static wh_station_error without_word(wh_tel *tel, const wh_cell_config *cell, const char *what,
-                                     wh_text *answer) {
+static wh_station_error without_word(wh_tel *tel, wh_tape *tape, const wh_cell_config *cell,
+                                     const char *what, wh_text *answer) {
     if (wh_answer_is(what, "list")) {
-        list(tel, cell, answer);
+        list(tel, tape, cell, answer);
     } else if (wh_answer_is(what, "off")) {
         wh_tel_rate(tel, 0);
+#if WH_STATION_TAPE
+        if (tape != NULL) {
+            wh_tape_off(tape);
+        }
+#endif
         wh_text_add(answer, "OK");
     } else if (wh_answer_is(what, "ring")) {
         ring_told(tel, answer);
@@ -218,11 +266,11 @@ static wh_station_error without_word(wh_tel *tel, const wh_cell_config *cell, co
     return WH_STATION_FINE;
 }
 
-wh_station_error wh_tel_answer(wh_tel *tel, const wh_cell_config *cell, const wh_words *words,
-                               wh_text *answer) {
+wh_station_error wh_tel_answer(wh_tel *tel, wh_tape *tape, const wh_cell_config *cell,
+                               const wh_words *words, wh_text *answer) {
     const char *what = words->count > 1U ? words->word[1] : "";
     if (words->count < 3U) {
-        return without_word(tel, cell, what, answer);
+        return without_word(tel, tape, cell, what, answer);
     }
     const char *word = words->word[2];
     if (wh_answer_is(what, "schema")) {
@@ -234,5 +282,10 @@ wh_station_error wh_tel_answer(wh_tel *tel, const wh_cell_config *cell, const wh
     if (wh_answer_is(what, "fmt")) {
         return set_format(tel, cell, word, answer);
     }
+#if WH_STATION_TAPE
+    if (wh_answer_is(what, "tape")) {
+        return set_tape(tape, word, answer);
+    }
+#endif
     return wh_answer_is(what, "ring") ? set_ring(tel, word, answer) : WH_STATION_TEL_HOW;
 }

@@ -6,7 +6,8 @@
 #include "core/frame.h"
 
 #define SUM_BYTES 2U
-#define LINE_BYTES (1U + WH_COBS_BYTES(WH_TEL_HEAD_BYTES + WH_TEL_PAYLOAD_MOST + SUM_BYTES))
+#define LINE_BYTES_OF(count) (1U + WH_COBS_BYTES(WH_TEL_HEAD_BYTES + (count) + SUM_BYTES))
+#define LINE_BYTES LINE_BYTES_OF(WH_TEL_PAYLOAD_MOST)
 #define TEXT_BYTES 96U
 #define NONE_16 0xFFFFU
 
@@ -63,7 +64,7 @@ static wh_bytes begin_frame(const sight *s, wh_tel_channel channel, uint32_t tic
 }
 
 /* Whole, or not at all. */
-static void send_frame(const sight *s, wh_tel_channel channel, const wh_bytes *frame) {
+static bool send_frame(const sight *s, wh_tel_channel channel, const wh_bytes *frame) {
     uint8_t line[LINE_BYTES];
     wh_cobs cobs;
     const uint16_t sum = wh_crc16(WH_CRC16_START, frame->to, frame->at);
@@ -77,8 +78,30 @@ static void send_frame(const sight *s, wh_tel_channel channel, const wh_bytes *f
     const unsigned count = 1U + wh_cobs_end(&cobs);
     if (wh_ring_room(s->out) < s->kept + count || !wh_ring_put(s->out, (const char *)line, count)) {
         s->tel->dropped[channel]++;
+        return false;
     }
+    return true;
 }
+
+static bool has_room(const wh_ring *out, uint32_t kept, unsigned count) {
+    return wh_ring_room(out) >= kept + LINE_BYTES_OF(count);
+}
+
+#if WH_STATION_TAPE
+bool wh_tel_has_room(const wh_ring *out, uint32_t kept, unsigned count) {
+    return has_room(out, kept, count);
+}
+
+bool wh_tel_send(wh_tel *tel, wh_tel_channel channel, uint32_t ticks, const uint8_t *payload,
+                 unsigned count, wh_ring *out, uint32_t kept) {
+    const sight s = {.tel = tel, .out = out, .kept = kept};
+    wh_bytes bytes = begin_frame(&s, channel, ticks);
+    for (unsigned i = 0; i < count; i++) {
+        wh_bytes_put(&bytes, payload[i], 1);
+    }
+    return send_frame(&s, channel, &bytes);
+}
+#endif
 
 static void send_run(const sight *s) {
     wh_tel *tel = s->tel;
@@ -92,7 +115,7 @@ static void send_run(const sight *s) {
     for (unsigned i = 0; i < tel->samples; i++) {
         wh_bytes_put(&bytes, (uint16_t)tel->load[i], 2);
     }
-    send_frame(s, WH_TEL_RUN, &bytes);
+    (void)send_frame(s, WH_TEL_RUN, &bytes);
     tel->samples = 0;
 }
 
@@ -100,14 +123,14 @@ static void send_event(const sight *s, wh_tel_event what, unsigned value, uint32
     wh_bytes bytes = begin_frame(s, WH_TEL_EVENT, ticks);
     wh_bytes_put(&bytes, (uint32_t)what, 1);
     wh_bytes_put(&bytes, value, 1);
-    send_frame(s, WH_TEL_EVENT, &bytes);
+    (void)send_frame(s, WH_TEL_EVENT, &bytes);
 }
 
 /* Of the ring none is dropped: it waits for room. */
 static void send_ring(const sight *s) {
     wh_tel *tel = s->tel;
     const wh_capture *capture = &tel->capture;
-    if (wh_ring_room(s->out) < s->kept + LINE_BYTES) {
+    if (!has_room(s->out, s->kept, WH_TEL_PAYLOAD_MOST)) {
         return;
     }
     wh_bytes bytes = begin_frame(s, WH_TEL_RING, tel->read_ticks);
@@ -124,7 +147,7 @@ static void send_ring(const sight *s) {
                 (uint16_t)(wh_capture_at(capture, tel->read_at)->ticks - step->ticks);
         }
     }
-    send_frame(s, WH_TEL_RING, &bytes);
+    (void)send_frame(s, WH_TEL_RING, &bytes);
     tel->reads = tel->read_at < capture->count;
 }
 

@@ -13,6 +13,7 @@
 #include "host/monitor/dialogue.h"
 #include "host/monitor/port.h"
 #include "host/monitor/recording.h"
+#include "host/monitor/taping.h"
 #include "host/plot/gnuplot.h"
 #include "host/plot/plot.h"
 #include "interrupts.h"
@@ -32,6 +33,8 @@ static const command_usage usage = {
         "  --csv FILE           samples, as records: time, then what the rig says it tells, with its units;\n"
         "                       - is standard output (what the rig says then goes to standard error)\n"
         "  --vcd FILE           samples as real numbers, slot pulses as wires, for waveform viewers\n"
+        "  --tape FILE          all that control steps see and answer, for whirl pil --replay; the rig, once\n"
+        "                       it is idle, starts anew\n"
         "  --ring FILE          what `tel ring read` brings, as records\n"
         "  --plot FILE.svg|.png samples over time, drawn by gnuplot at the end\n"
         "  --raw FILE           all bytes that come, as they come\n"
@@ -47,8 +50,9 @@ static const command_usage usage = {
             [EXIT_ROW_OF(EXIT_INTERRUPTED)] = NULL}};
 
 /* What can be written: a file each. */
-enum { CSV, VCD, RING, RAW, PLOT, OUTPUTS };
-static const char *const output_option[OUTPUTS] = {"--csv", "--vcd", "--ring", "--raw", "--plot"};
+enum { CSV, VCD, RING, TAPE, RAW, PLOT, OUTPUTS };
+static const char *const output_option[OUTPUTS] = {"--csv",  "--vcd", "--ring",
+                                                   "--tape", "--raw", "--plot"};
 
 typedef struct monitor_options {
     common_options common;
@@ -68,6 +72,7 @@ typedef struct monitor {
     schema schema;
     dialogue dialogue;
     recording recording;
+    taping taping;
     FILE *file[OUTPUTS];
     FILE *shown; /* what the rig says */
     bool open;
@@ -147,8 +152,8 @@ static bool are_possible(const monitor_options *o) {
 }
 
 static bool read_options(int count, char **words, monitor_options *o) {
-    static const char *const own[] = {"--csv", "--vcd",  "--ring",   "--plot",  "--raw", "--rate",
-                                      "--for", "--baud", "--strict", "--quiet", NULL};
+    static const char *const own[] = {"--csv",  "--vcd", "--ring", "--tape",   "--plot",  "--raw",
+                                      "--rate", "--for", "--baud", "--strict", "--quiet", NULL};
     const target_reader reader = {.command = "monitor", .own = own, .take = take_one};
     return target_read(&reader, count, words, &o->common, o, &o->port) &&
            target_is_there(o->port, &usage) && are_possible(o);
@@ -180,7 +185,7 @@ static bool open_line(monitor *m) {
     m->open = true;
     m->times++;
     wire_forget(&m->wire);
-    m->dialogue = (dialogue){.rate = (int)m->o->rate};
+    m->dialogue = (dialogue){.rate = (int)m->o->rate, .tapes = m->o->output[TAPE] != NULL};
     if (m->line.is_line) {
         (void)port_write(&m->line, "\n",
                          1); /* what somebody has begun to type is no question's begin */
@@ -196,12 +201,20 @@ static void take_text(monitor *m, const char *line) {
     if (m->line.is_line && dialogue_answer(&m->dialogue, line)) {
         if (m->dialogue.asked == DIALOGUE_LISTED && m->dialogue.was_off) {
             recording_anew(&m->recording);
+            taping_anew(&m->taping);
         }
         ask(m);
         return;
     }
     fprintf(m->shown, "%s\n", line);
     fflush(m->shown);
+}
+
+static void take_frame(monitor *m) {
+    recording_frame(&m->recording, &m->schema, &m->wire.frame);
+    if (m->file[TAPE] != NULL && m->wire.frame.channel == RECORDING_TAPE) {
+        taping_frame(&m->taping, &m->wire.frame);
+    }
 }
 
 static void take_bytes(monitor *m, const uint8_t *bytes, int count) {
@@ -211,7 +224,7 @@ static void take_bytes(monitor *m, const uint8_t *bytes, int count) {
     for (int i = 0; i < count; i++) {
         switch (wire_take(&m->wire, bytes[i])) {
         case WIRE_TEXT: take_text(m, m->wire.line); break;
-        case WIRE_FRAME: recording_frame(&m->recording, &m->schema, &m->wire.frame); break;
+        case WIRE_FRAME: take_frame(m); break;
         case WIRE_NOTHING: break;
         }
     }
@@ -303,7 +316,16 @@ static bool close_outputs(monitor *m) {
 
 static bool lost_any(const monitor *m) {
     const recording_counts *c = &m->recording.counts;
-    return c->lost > 0 || c->strange > 0 || m->wire.damaged > 0;
+    return c->lost > 0 || c->strange > 0 || m->wire.damaged > 0 || m->taping.lost;
+}
+
+static void tell_tape(const monitor *m) {
+    const taping *t = &m->taping;
+    fprintf(stderr, "whirl monitor: tape: %" PRIu64 " control steps, %.3f s%s%s\n", t->steps,
+            (double)t->length_ticks / 1e6, t->lost ? "; it ends there: " : "",
+            t->lost   ? t->why
+            : t->over ? ""
+                      : "; no more of it was heard");
 }
 
 static void tell(const monitor *m) {
@@ -324,9 +346,36 @@ static void tell(const monitor *m) {
                 " times\n",
                 m->times, c->restarts);
     }
+    if (m->file[TAPE] != NULL && m->taping.began) {
+        tell_tape(m);
+    }
     if (m->dialogue.refused[0] != '\0') {
         fprintf(stderr, "whirl monitor: the rig refused: %s\n", m->dialogue.refused);
     }
+}
+
+/* What of the tape is still to come, and its end. */
+static void hear_tape_out(monitor *m) {
+    uint8_t bytes[BYTES];
+    const int64_t began_ms = now_ms();
+    while (m->taping.began && !m->taping.over && now_ms() - began_ms < ANSWER_MS) {
+        const int count = port_read(&m->line, bytes, sizeof bytes, WAIT_MS, NULL);
+        if (count < 0) {
+            return;
+        }
+        take_bytes(m, bytes, count);
+    }
+}
+
+static bool has_tape(const monitor *m) {
+    if (m->file[TAPE] != NULL && !m->taping.began) {
+        fprintf(stderr,
+                "whirl monitor: error: no tape was begun%s%s\n"
+                "hint: it begins while the rig is idle: `status`, then `stop` or `clear`\n",
+                m->taping.over ? ": " : "", m->taping.over ? m->taping.why : "");
+        return false;
+    }
+    return true;
 }
 
 static int run(monitor *m) {
@@ -343,19 +392,22 @@ static int run(monitor *m) {
     }
     recording_begin(&m->recording, m->file[CSV], m->file[VCD], m->file[RING],
                     m->o->output[PLOT] != NULL);
+    m->taping.out = m->file[TAPE];
     interrupts_catch_waiting();
     listen(m);
     if (m->open && m->line.is_line) {
         (void)port_write(&m->line, "tel off\n", 8);
+        hear_tape_out(m);
     }
     port_close(&m->line);
     bool good =
         m->o->output[PLOT] == NULL || recording_plot(&m->recording, &m->schema, m->o->output[PLOT]);
     recording_end(&m->recording);
-    good = close_outputs(m) && good;
     if (!m->o->quiet) {
         tell(m);
     }
+    good = has_tape(m) && good;
+    good = close_outputs(m) && good;
     if (m->o->strict && lost_any(m)) {
         fputs("whirl monitor: error: something was lost, and --strict\n", stderr);
         good = false;

@@ -4,14 +4,16 @@
 #include <stdio.h>
 #include <string.h>
 
-/* The rate last: its frames then find all described. */
-static const char *const questions[] = {"talk off",        "tel list",          "tel off",
-                                        "tel fmt frames",  "tel schema run",    "tel schema event",
-                                        "tel schema ring", "tel schema states", "tel rate"};
-enum { QUESTIONS = sizeof questions / sizeof questions[0], LIST = 1, RATE = QUESTIONS - 1 };
+/* The rate behind what describes its frames, the tape last. */
+static const char *const questions[] = {
+    "talk off",         "tel list",        "tel off",           "tel fmt frames", "tel schema run",
+    "tel schema event", "tel schema ring", "tel schema states", "tel rate",       "tel tape on"};
+enum { QUESTIONS = sizeof questions / sizeof questions[0], LIST = 1, RATE = QUESTIONS - 2 };
+
+static int count_of(const dialogue *d) { return d->tapes ? QUESTIONS : QUESTIONS - 1; }
 
 const char *dialogue_question(const dialogue *d, char line[DIALOGUE_LINE]) {
-    if (d->asked >= QUESTIONS) {
+    if (d->asked >= count_of(d)) {
         return NULL;
     }
     if (d->asked == RATE) {
@@ -42,6 +44,6 @@ bool dialogue_answer(dialogue *d, const char *line) {
         d->was_off = strstr(line, " rate=0 ") != NULL;
     }
     d->asked++;
-    d->done = d->asked == QUESTIONS;
+    d->done = d->asked == count_of(d);
     return true;
 }

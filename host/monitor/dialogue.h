@@ -9,10 +9,11 @@ enum { DIALOGUE_LINE = 48 };
 /* So many are answered, and was_off is known. */
 enum { DIALOGUE_LISTED = 2 };
 
-/* All zeros but `rate`: nothing asked yet. */
+/* All zeros but `rate` and `tapes`: nothing asked yet. */
 typedef struct dialogue {
-    int rate;  /* samples a second */
-    int asked; /* the question that waits for its answer */
+    int rate;   /* samples a second */
+    bool tapes; /* a tape is wanted */
+    int asked;  /* the question that waits for its answer */
     bool done;
     bool was_off;                /* telemetry was off: the rig is new, or another one */
     char refused[DIALOGUE_LINE]; /* the question that was not answered with OK, if any */

@@ -54,14 +54,15 @@ typedef struct recording {
     recording_counts counts;
 } recording;
 
-/* The run's channel, the events' and the ring's, as core/station/telemetry.h numbers them. */
-enum { RECORDING_RUN, RECORDING_EVENT, RECORDING_RING };
+/* The run's channel, the events', the ring's and the tape's, as core/station/telemetry.h numbers them. */
+enum { RECORDING_RUN, RECORDING_EVENT, RECORDING_RING, RECORDING_TAPE };
 
 void recording_begin(recording *r, FILE *csv, FILE *waves, FILE *ring, bool plots);
 
 /* The rig began anew: its clock and its counts have nothing to do with what was before. */
 void recording_anew(recording *r);
 
+/* Of the tape's they are counted. */
 void recording_frame(recording *r, const schema *s, const wire_frame *frame);
 
 /* Draws, where it plots; false when that failed, told. */

@@ -72,6 +72,17 @@ static wh_real load_of(const made_up *made, wh_real part) {
            made->third_N * cosine_of(WH_R(3.0) * theta);
 }
 
+/* A step has time for one piece of the work: two are never done in one. */
+static void check_one_piece(wh_lockin_stage stage) {
+    const wh_lockin_stage now = lockin.stage;
+    const bool sums = stage == WH_LOCKIN_BEGINS || stage == WH_LOCKIN_SUMS;
+    TEST_ASSERT_TRUE(stage == WH_LOCKIN_WAITS  ? now == stage
+                     : stage == WH_LOCKIN_ENDS ? now == WH_LOCKIN_WAITS
+                     : sums                    ? now >= stage && now <= WH_LOCKIN_ENDS
+                                               : now == stage + 1);
+    TEST_ASSERT_TRUE(stage != WH_LOCKIN_RESHAPES || lockin.place == WH_LOCKIN_NOWHERE);
+}
+
 /* Run until `wanted` turns are done, or for as many and three more. */
 static void run(const made_up *made, unsigned wanted) {
     wh_lockin_start(&rotor, &lockin);
@@ -116,7 +127,10 @@ static void run(const made_up *made, unsigned wanted) {
         }
         load.force_N = force_N;
         wh_lockin_load(&lockin, &load);
-        if (wh_lockin_work(&rotor, &cell, &lockin, WH_LOCKIN_HALVES_AT_ONCE)) {
+        const wh_lockin_stage stage = lockin.stage;
+        const bool done = wh_lockin_work(&rotor, &cell, &lockin, WH_LOCKIN_HALVES_AT_ONCE);
+        check_one_piece(stage);
+        if (done) {
             turns[turns_done++] = lockin.turn;
         }
     }

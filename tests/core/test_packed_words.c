@@ -54,8 +54,8 @@ static void test_any_bytes_unpack(void) {
     scattered_state = 29;
     for (unsigned i = 0; i < 2000; i++) {
         char packed[MOST + 1U];
-        char wanted[512];
-        char bytes[512];
+        char wanted[256];
+        char bytes[256];
         wh_text text;
         const unsigned count = i < ROWS ? 1U : (unsigned)(scattered() >> 40) % (MOST + 1U);
         for (unsigned k = 0; k < count; k++) {
@@ -76,7 +76,7 @@ static void test_any_bytes_unpack(void) {
 static void test_what_does_not_fit_is_cut(void) {
     for (unsigned size = 1; size < 40; size++) {
         const char packed[] = {'a', (char)(FIRST + ROWS - 1U), 'b', (char)(FIRST + 4U), 'c', '\0'};
-        char wanted[512];
+        char wanted[256];
         char bytes[64];
         wh_text text;
         const unsigned all = spread(packed, wanted);

@@ -116,4 +116,34 @@ static void test_derivatives_are_what_differences_show(void) {
     }
 }
 
-void suite_rig_turn_angle(void) { RUN_TEST(test_derivatives_are_what_differences_show); }
+/* One call from nothing is nearly there: what a turn is measured by that comes first. */
+static void test_a_shape_is_found_at_once(void) {
+    seed = 31;
+    wh_real worst = WH_R(0.0);
+    for (unsigned i = 0; i < 500U; i++) {
+        turn of = {.rotor = wh_rig_standard.measure.rotor,
+                   .speed_radps = drawn_between(WH_R(170.0), WH_R(360.0)) * WH_RIG_RADPS_PER_RPM};
+        of.rotor.gravity_rad = drawn_between(WH_R(-3.0), WH_R(3.0));
+        of.rotor.inertia_kgm2 *= drawn_between(WH_R(0.7), WH_R(1.5));
+        wh_turn_angle once;
+        wh_turn_angle often;
+        wh_turn_angle_start(&of.rotor, &once);
+        wh_turn_angle_start(&of.rotor, &often);
+        wh_turn_angle_shape(&of.rotor, &once, of.speed_radps);
+        for (unsigned k = 0; k < 8U; k++) {
+            wh_turn_angle_shape(&of.rotor, &often, of.speed_radps);
+        }
+        for (unsigned k = 0; k < 8U; k++) {
+            const wh_real part = (wh_real)k / WH_R(8.0);
+            const wh_real off =
+                WH_ABS(wh_turn_angle_at(&once, part) - wh_turn_angle_at(&often, part));
+            worst = off > worst ? off : worst;
+        }
+    }
+    TEST_ASSERT_TRUE(worst < WH_R(2.5e-4));
+}
+
+void suite_rig_turn_angle(void) {
+    RUN_TEST(test_a_shape_is_found_at_once);
+    RUN_TEST(test_derivatives_are_what_differences_show);
+}

@@ -6,6 +6,7 @@
  *   SIM_LINK     a link to the terminal
  *   SIM_ALONE    nobody reads: what the terminal does not take at once is not taken
  *   SIM_TEL      telemetry is on from the beginning, also where nobody asks for it
+ *   SIM_SEED     settings, orders, a supply that is not steady, and what fails of the hardware, drawn from it
  *
  * For the first second time is the clock's, so that whoever reads can ask first. After that it stands still while whoever
  * reads has not yet read what the line has brought, unless alone: a reader on a slow machine loses nothing by that. Ends
@@ -26,6 +27,7 @@
 
 #include "boards/board.h"
 #include "hal/virtual/virtual_rig.h"
+#include "tests/core/draw.h"
 
 enum { BITS = 10, FIFO = 16, PATIENCE_MS = 20000, ASKING_US = 1000000 };
 
@@ -41,6 +43,8 @@ static bool alone;
 static int line = -1;
 static int other_end = -1;
 static const char *link_name;
+static uint64_t seed;    /* 0: nothing is drawn */
+static unsigned drawn;   /* lines that were */
 static unsigned ordered; /* orders that were given, of this minute's */
 static uint64_t minute;
 
@@ -61,6 +65,7 @@ void board_start(void) {
     baud = (uint64_t)setting("SIM_BAUD", 115200.0);
     alone = getenv("SIM_ALONE") != NULL;
     link_name = getenv("SIM_LINK");
+    seed = (uint64_t)setting("SIM_SEED", 0.0);
 }
 
 void hal_console_write(const char *bytes, unsigned count) { (void)fwrite(bytes, 1, count, stderr); }
@@ -91,6 +96,57 @@ _Noreturn void board_exit(int code) {
     exit(code);
 }
 
+/* --- what is drawn --------------------------------------------------------------------------------------------- */
+
+static bool happens(unsigned one_in) { return draw_one_of(&seed, one_in) == 0; }
+
+/* A control step of hardware that fails now and then. */
+static void disturb(void) {
+    hal_virtual_rig *plant = hal_virtual_rig_instance();
+    hal_virtual_faults *faults = &plant->faults;
+    plant->supply_V = HAL_VIRTUAL_RATED_V * (0.99f + 0.0001f * (float)draw_one_of(&seed, 201));
+    if (happens(1500)) {
+        faults->lose_pulses[draw_one_of(&seed, 2)] += 1U + draw_one_of(&seed, 2);
+    }
+    if (happens(1500)) {
+        faults->lose_samples += 1U + draw_one_of(&seed, 5);
+    }
+    if (happens(20000)) {
+        faults->stuck_load_cell = !faults->stuck_load_cell;
+    }
+    if (happens(20000)) {
+        faults->dead_sensor[draw_one_of(&seed, 2)] = true;
+    }
+    if (happens(30000)) {
+        faults->runaway_motor = !faults->runaway_motor;
+    }
+    plant->stop_pressed = plant->stop_pressed ? !happens(300) : happens(15000);
+}
+
+/* Settings at first, then orders; "" for none now. */
+static const char *draw_line(void) {
+    static char words[40];
+    static const char *const numbers[] = {"conf set gain 0.%02u\n", "conf set settle_time 0.%02u\n",
+                                          "conf set record_turns %u\n",
+                                          "conf set cell_offset 0.%02u\n"};
+    enum { NUMBERS = sizeof numbers / sizeof numbers[0] };
+    words[0] = '\0';
+    if (drawn < NUMBERS) {
+        snprintf(words, sizeof words, numbers[drawn], 10U + draw_one_of(&seed, 20));
+    } else if (drawn == NUMBERS) {
+        snprintf(words, sizeof words, "conf set feeds %s\n", happens(2) ? "always" : "slow");
+    } else if (now_us > 2 * ASKING_US && happens(250)) {
+        const char *const orders_of[] = {"arm\n",      "arm\n",    "start %u\n", "start %u\n",
+                                         "start %u\n", "set %u\n", "clear\n",    "stop\n"};
+        const unsigned which = draw_one_of(&seed, happens(4) ? 8 : 7);
+        snprintf(words, sizeof words, orders_of[which], 100U + draw_one_of(&seed, 260));
+    }
+    drawn += words[0] != '\0';
+    return words;
+}
+
+/* --- board.h ------------------------------------------------------------------------------------------------------ */
+
 uint32_t board_ticks(void) { return (uint32_t)now_us; }
 
 void board_wait_until(uint32_t ticks) {
@@ -102,6 +158,9 @@ void board_wait_until(uint32_t ticks) {
     credit = credit < most ? credit : most;
     if (now_us >= until_us) {
         board_exit(0);
+    }
+    if (seed != 0) {
+        disturb();
     }
     if (!alone && now_us < ASKING_US) {
         const struct timespec nap = {.tv_nsec = (long)passed * 1000L};
@@ -133,6 +192,15 @@ bool board_converse(void) {
     return true;
 }
 
+static unsigned give(const char *given, char *bytes) {
+    unsigned count = 0;
+    while (given[count] != '\0') {
+        bytes[count] = given[count];
+        count++;
+    }
+    return count;
+}
+
 /* The orders of each minute, each whole, as if typed. */
 static unsigned order(char *bytes, unsigned room) {
     const double at_s = (double)(now_us - minute * 60000000U) / 1e6;
@@ -146,15 +214,15 @@ static unsigned order(char *bytes, unsigned room) {
     }
     const bool turns_on = ordered == 0 && minute == 0 && getenv("SIM_TEL") != NULL;
     const char *given = turns_on ? "tel rate 500\n" : orders[ordered].line;
-    const unsigned count = (unsigned)strlen(given);
-    for (unsigned i = 0; i < count; i++) {
-        bytes[i] = given[i];
-    }
     ordered++;
-    return count;
+    return give(given, bytes);
 }
 
 unsigned hal_console_read(char *bytes, unsigned room) {
+    const char *line_drawn = seed != 0 && room >= 32U ? draw_line() : "";
+    if (line_drawn[0] != '\0') {
+        return give(line_drawn, bytes);
+    }
     static char typed[256]; /* a line of the reader's is not cut by an order */
     static unsigned length;
     const ssize_t more = alone ? 0 : read(line, typed + length, sizeof typed - length);
@@ -167,7 +235,7 @@ unsigned hal_console_read(char *bytes, unsigned room) {
         memmove(typed, typed + count, length);
         return count;
     }
-    return order(bytes, room);
+    return seed != 0 ? 0U : order(bytes, room);
 }
 
 unsigned hal_console_offer(const char *bytes, unsigned count) {

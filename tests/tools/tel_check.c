@@ -12,7 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { CHANNELS = 3, PERIOD = 2000 };
+enum { CHANNELS = 4, PERIOD = 2000 };
 
 typedef struct counts {
     uint64_t frames, samples, pulses, missing, dropped, twice, gaps;

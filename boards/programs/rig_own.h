@@ -1,0 +1,25 @@
+/* rig_own.h: the configuration that the rig's programs have by themselves: settings begin with it. A part of such a program, of
+ * which there is one in an image. */
+#ifndef PROGRAMS_RIG_OWN_H
+#define PROGRAMS_RIG_OWN_H
+
+#include "core/rig/datasheet.h"
+#include "core/rig/rig.h"
+#include "core/scene.h"
+#include "hal/loadcell.h"
+#include "hal/slots.h"
+
+/* The model that goes with the rotor: rig_fixed of core/models/eccentric.whirl, in control steps (mk/whirl.mk). */
+extern const wh_scene rig_observed;
+
+/* The standard rig with this hardware's cell and sensors. In its place: a copy more is half a kilobyte of stack. */
+static void own_configuration(wh_rig_config *config) {
+    *config = wh_rig_standard;
+    config->measure.cell = (wh_cell_config){.newton_per_count = HAL_LOADCELL_N_PER_COUNT,
+                                            .period_ticks = HAL_LOADCELL_PERIOD_TICKS,
+                                            .raw_max = HAL_LOADCELL_RAW_MAX};
+    wh_rig_slots(config, HAL_SLOT_LEAD_DEG / WH_RIG_DEG_PER_RAD);
+    config->observer.scene = &rig_observed;
+}
+
+#endif
