@@ -23,7 +23,8 @@ PC_BOARD_C := $(PROGRAM_C) $(wildcard boards/host/*.c)
 
 .PHONY: objects board-objects board-own-objects
 objects: $(call objects,host,$(WHIRL_MAIN_C) $(WHIRL_C) $(GEN)/builtin_models.c $(HOST_TEST_C) \
-        $(wildcard tests/tools/*.c tests/fuzz/*.c) $(HOST_TOOL_C)) $(call objects,chip,$(CHIP_TEST_C) $(CHIP_DRIVERS_C)) \
+        $(wildcard tests/tools/*.c tests/fuzz/*.c) $(HOST_TOOL_C)) $(call objects,chip,$(CHIP_TEST_C)) \
+    $(foreach b,$(CHIP_BOARDS),$(call objects,chip_$(b),$(CHIP_DRIVERS_C))) \
     $(call objects,float,$(PORTABLE_C) $(PC_BOARD_C) $(CORE_TEST_C) $(SCENE_C)) \
     $(call objects,double,$(CORE_C) $(RIG_C) $(STATION_C) $(CORE_TEST_C) $(SCENE_C))
 board-objects: board-own-objects $(call objects,$(BOARD),$(PORTABLE_C) $(PROGRAM_C) $(CORE_TEST_C) $(SCENE_C))

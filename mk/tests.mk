@@ -74,22 +74,30 @@ CHIP_TEST_C := tests/main.c $(sort $(wildcard tests/chip/*.c))
 CHIP_DRIVERS_C := boards/cortexm/board.c boards/cortexm/fault_words.c boards/shared/wait.c $(addprefix boards/stm32f4/,brown_out.c cell.c clock.c flash.c motor.c pins.c reset.c \
     rig_clock.c slots.c stop.c time_base.c usart.c watchdog.c)
 CHIP_FLAGS := -DBOARD_REGISTERS_FAKED=1 -Iboards/netduinoplus2
+CHIP_BOARDS := netduinoplus2 stm32-h405 feather-f405
 $(eval $(call build,chip,$(CC),$(FLAGS_host) $(CHIP_FLAGS)))
 $(B)/chip/tests/%.o $(B)/chip/$(B)/tests/%.o: FILE_FLAGS = $(UNITY_FLAGS) $(LESS_O2)
 CHIP_TEST_PARTS := $(CHIP_TEST_C) $(B)/tests/chip_suites.c $(UNITY_DIR)/unity.c
 $(call objects,chip,$(CHIP_TEST_PARTS)): | $(UNITY_DIR)/unity.c
 $(B)/tests/chip_suites.c: $(CHIP_TEST_C)
-$(B)/chip/drivers.o: $(call objects,chip,$(CHIP_DRIVERS_C))
-	$(say) LINK $@
-	$(Q)ld -r -o $@ $^
-	$(Q)objcopy --set-section-flags .bss=alloc,load,contents,data --rename-section .bss=drivers_bss \
-	    --rename-section .data=drivers_data $@
--include $(wildcard $(patsubst %.c,$(B)/chip/%.d,$(CHIP_TEST_PARTS) $(CHIP_DRIVERS_C)))
 
-$(B)/tests/chip: $(call objects,chip,$(CHIP_TEST_PARTS)) $(B)/chip/drivers.o $(call libraries,float,station whirl)
-	$(link)
+# chip_board BOARD: the suites with the drivers of one board.
+define chip_board
+$(eval $(call build,chip_$(1),$(CC),$(FLAGS_host) -DBOARD_REGISTERS_FAKED=1 -Iboards/$(1)))
+$(B)/chip_$(1)/drivers.o: $(call objects,chip_$(1),$(CHIP_DRIVERS_C))
+	$$(say) LINK $$@
+	$$(Q)ld -r -o $$@ $$^
+	$$(Q)objcopy --set-section-flags .bss=alloc,load,contents,data --rename-section .bss=drivers_bss \
+	    --rename-section .data=drivers_data $$@
 
-TEST_PROGRAMS := $(B)/tests/chip $(B)/tests/core_double $(B)/tests/core_float $(B)/tests/host $(B)/tools/mechanisms $(B)/tools/linkages $(B)/tools/price_fit $(B)/tools/price_fit_fixed \
+$(B)/tests/chip_$(1): $(call objects,chip,$(CHIP_TEST_PARTS)) $(B)/chip_$(1)/drivers.o $(call libraries,float,station whirl)
+	$$(link)
+endef
+$(foreach b,$(CHIP_BOARDS),$(eval $(call chip_board,$(b))))
+-include $(wildcard $(patsubst %.c,$(B)/chip/%.d,$(CHIP_TEST_PARTS)) \
+    $(foreach b,$(CHIP_BOARDS),$(patsubst %.c,$(B)/chip_$(b)/%.d,$(CHIP_DRIVERS_C))))
+
+TEST_PROGRAMS := $(CHIP_BOARDS:%=$(B)/tests/chip_%) $(B)/tests/core_double $(B)/tests/core_float $(B)/tests/host $(B)/tools/mechanisms $(B)/tools/linkages $(B)/tools/price_fit $(B)/tools/price_fit_fixed \
     $(B)/pil_rig $(B)/pil_swing $(B)/pil_dialled $(B)/pil_carriage $(B)/pil_cart $(B)/pil_taped $(B)/tools/faults $(B)/station $(B)/tools/sim_station $(B)/tools/tel_check
 
 .PHONY: test-programs
@@ -97,7 +105,9 @@ test-programs: $(TEST_PROGRAMS) $(B)/tests/quick_suites.list
 
 # --- running ------------------------------------------------------------------------------------
 # tests/run.sh takes pairs: what it is, and the command.
-RUN_CHIP = "drivers of the STM32F405 on a played chip" $(B)/tests/chip
+# What no board has of its own is run once.
+RUN_CHIP = $(foreach b,$(CHIP_BOARDS),"drivers of the STM32F405 on a played chip$(comma) $(b)" \
+    "$(B)/tests/chip_$(b) $(if $(filter netduinoplus2,$(b)),,chip_clock chip_slots chip_cell)")
 RUN_CORE = "portable suites, double" $(B)/tests/core_double "portable suites, float" $(B)/tests/core_float
 # The host suites in four parts, so that all processors have work to the end; what takes longest goes first.
 part = "host suites$(comma) part $(1) of 4" '$(B)/tests/host $$(sh tests/part.sh $(2) $(1) 4)'

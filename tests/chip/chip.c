@@ -403,7 +403,8 @@ void chip_new(uint64_t seed) {
     chip.may_take = 5U * CHIP_UNITS_PER_S;
     chip_stored = NULL;
     memset(memories, 0, sizeof memories);
-    world = (chip_world){.crystal = true,
+    world = (chip_world){.crystal_Hz = 25000000U,
+                         .crystal = true,
                          .crystal_units = 2000U * CHIP_UNITS_PER_US,
                          .pll = true,
                          .watchdog_Hz = 32000,

@@ -34,6 +34,7 @@ typedef enum chip_end {
 
 /* What the world around the chip is. Anything may be changed at any time but by chip_crystal_stops(). */
 typedef struct chip_world {
+    uint32_t crystal_Hz;
     bool crystal;                              /* answers */
     uint64_t crystal_units;                    /* that it takes to start */
     bool pll;                                  /* locks */
@@ -118,6 +119,7 @@ void chip_flash_byte_is(uint32_t address, uint8_t byte);
 unsigned chip_flash_erases(unsigned sector);
 void chip_protect_sector(unsigned sector); /* by its option byte */
 unsigned chip_option_writes(void);
+bool chip_options_are_locked(void);
 uint32_t chip_option_bytes(void); /* FLASH_OPTCR's bits that they are, as power finds them */
 
 /* Interrupts taken since the chip was new, by number. */

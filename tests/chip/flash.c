@@ -314,6 +314,7 @@ void chip_flash_byte_is(uint32_t address, uint8_t byte) {
 unsigned chip_flash_erases(unsigned sector) { return erases[sector]; }
 uint32_t chip_option_bytes(void) { return option_bytes; }
 unsigned chip_option_writes(void) { return option_writes; }
+bool chip_options_are_locked(void) { return (f.optcr & OPTLOCK) != 0; }
 void chip_protect_sector(unsigned sector) {
     option_bytes &= ~BIT(16U + sector);
     f.optcr &= ~BIT(16U + sector);

@@ -27,9 +27,6 @@ enum {
 #define RMVF BIT(24)
 #define HSI_HZ 16000000U
 
-/* The board's crystal (boards/netduinoplus2). */
-#define CRYSTAL_HZ 25000000U
-
 static struct {
     uint32_t r[REGISTERS];
     uint64_t hsi_at, hse_at, pll_at,
@@ -52,7 +49,7 @@ uint64_t units_of(uint32_t hertz) {
     return CHIP_UNITS_PER_S / hertz;
 }
 
-static uint32_t crystal_Hz(void) { return rcc.crystal_runs ? CRYSTAL_HZ : 0; }
+static uint32_t crystal_Hz(void) { return rcc.crystal_runs ? world.crystal_Hz : 0; }
 
 static uint32_t pll_input(void) {
     const uint32_t m = FIELD(*reg(PLLCFGR), 0, 6);
@@ -147,7 +144,7 @@ static void pll_is_allowed(void) {
     if (in < 950000U || in > 2100000U) { /* DS8626, table 38 */
         forbidden("PLL input %u Hz", in);
     }
-    if (n < 192 || n > 432 || vco < 192000000U || vco > 432000000U) {
+    if (n < 50 || n > 432 || vco < 192000000U || vco > 432000000U) {
         forbidden("PLL's oscillator at %u Hz, N %u", vco, n);
     }
     if (pll_Hz() > 168000000U) {

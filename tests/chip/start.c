@@ -39,6 +39,28 @@ void drivers_as_flashed(void) {
     put(__start_drivers_bss, NULL, (size_t)(__stop_drivers_bss - __start_drivers_bss));
 }
 
+/* What docs/boards.md's table has; the inputs of ADC1 by DS8626, table 9. */
+const chip_wiring *chip_wires(void) {
+    static const chip_wiring boards[] = {
+        {"netduinoplus2", 25000000U, {'A', 'A'}, {0, 1}, 10, 11},
+        {"stm32-h405", 8000000U, {'A', 'A'}, {1, 2}, 10, 11},
+        {"feather-f405", 12000000U, {'A', 'B'}, {5, 11}, 14, 15},
+    };
+    for (unsigned i = 0; i < sizeof boards / sizeof *boards; i++) {
+        if (strcmp(boards[i].board, board_name) == 0) {
+            return &boards[i];
+        }
+    }
+    TEST_FAIL_MESSAGE(board_name);
+    return NULL;
+}
+void chip_slot_is(unsigned sensor, chip_level level) {
+    chip_pin_drive(chip_wires()->slot_port[sensor], chip_wires()->slot_pin[sensor], level);
+}
+void chip_slot_is_at(uint64_t when, unsigned sensor, chip_level level) {
+    chip_pin_drive_at(when, chip_wires()->slot_port[sensor], chip_wires()->slot_pin[sensor], level);
+}
+
 double (*chip_cell_V)(double s);
 double chip_supply_V;
 static double quiet_cell(double s) {
@@ -46,7 +68,10 @@ static double quiet_cell(double s) {
     return 1.65;
 }
 static double chip_volts(unsigned input, double s) {
-    return input == 10 ? chip_cell_V(s) : input == 11 ? chip_supply_V / 10.0 : 0.0;
+    const chip_wiring *wires = chip_wires();
+    return input == wires->cell_input     ? chip_cell_V(s)
+           : input == wires->supply_input ? chip_supply_V / 10.0
+                                          : 0.0;
 }
 
 static bool anything_kept;
@@ -92,8 +117,9 @@ void chip_wired(uint64_t seed) {
     chip_pin_resistor('B', 14, CHIP_TO_GROUND);
     chip_pin_resistor('A', 6, CHIP_TO_GROUND);
     chip_pin_drive('A', 6, CHIP_HIGH);
-    chip_pin_drive('A', 0, CHIP_LOW);
-    chip_pin_drive('A', 1, CHIP_LOW);
+    chip_slot_is(0, CHIP_LOW);
+    chip_slot_is(1, CHIP_LOW);
+    world.crystal_Hz = chip_wires()->crystal_Hz;
     chip_pin_drive('C', 7, CHIP_HIGH);
     world.volts = chip_volts;
     chip_cell_V = quiet_cell;

@@ -12,10 +12,23 @@ chip_end chip_start(hal_start *how);
 /* Memory that outlives a reset holds something of before (boards/cortexm/kept.c), or nothing. */
 void chip_memory_keeps(bool anything);
 
-/* A chip on a Netduino Plus 2 wired as docs/boards.md has it: resistors, closed stop chain, quiet sensors; no power yet. */
+/* What differs between the boards. */
+typedef struct chip_wiring {
+    const char *board; /* whose data the drivers of this program have */
+    uint32_t crystal_Hz;
+    char slot_port[2];
+    uint8_t slot_pin[2];
+    uint8_t cell_input, supply_input; /* of ADC1 */
+} chip_wiring;
+const chip_wiring *chip_wires(void);
+/* The level of a slot sensor, now or at a time. */
+void chip_slot_is(unsigned sensor, chip_level level);
+void chip_slot_is_at(uint64_t when, unsigned sensor, chip_level level);
+
+/* A chip on its board, wired as docs/boards.md has it: resistors, closed stop chain, quiet sensors; no power yet. */
 void chip_wired(uint64_t seed);
-extern double (*chip_cell_V)(double s); /* at A0, at a time */
-extern double chip_supply_V;            /* of which A1 has a tenth */
+extern double (*chip_cell_V)(double s); /* at the load cell's pin, at a time */
+extern double chip_supply_V;            /* of which its pin has a tenth */
 
 /* The same with its power on and the image started; a test fails if it does not, or violates anything. */
 void chip_on(uint64_t seed);

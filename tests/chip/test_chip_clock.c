@@ -109,6 +109,7 @@ static void test_waits(void) {
     TEST_ASSERT_TRUE_MESSAGE(chip_now() - then < 20U * CHIP_UNITS_PER_US,
                              "it waits for what is past");
     TEST_ASSERT_TRUE(hal_clock_late_ticks() >= 1000U);
+    TEST_ASSERT_EQUAL(0, hal_clock_late_ticks()); /* since the last call */
     TEST_ASSERT_EQUAL_STRING("none", chip_violation());
 }
 

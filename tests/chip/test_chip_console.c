@@ -66,6 +66,35 @@ static void test_out(void) {
     }
 }
 
+/* The same where much happens between two accesses, and bytes come, so that interrupts come in between as well. */
+static void test_out_between_accesses(void) {
+    scattered_state = 10;
+    chip_on(10);
+    const unsigned from = chip_serial_sent();
+    unsigned said = 0;
+    for (unsigned i = 0; i < 400; i++) {
+        world.access_cycles = 500U + (unsigned)(scattered() % 4000U);
+        const uint64_t byte_units = chip_serial_byte_units();
+        for (unsigned b = 0; b < 3; b++) {
+            chip_serial_comes(chip_now() + b * byte_units + scattered() % byte_units, 'x');
+        }
+        room = 1U + (unsigned)(scattered() % 30U);
+        for (unsigned b = 0; b < room; b++) {
+            bytes[b] = (char)((said + b) % 253U);
+        }
+        run(offer);
+        said += count;
+        chip_pass_us(3U * 87U + scattered() % 5000U);
+        room = sizeof bytes;
+        run(take);
+    }
+    chip_pass_us(30000);
+    TEST_ASSERT_EQUAL(said, chip_serial_sent() - from);
+    for (unsigned i = 0; i < said; i++) {
+        TEST_ASSERT_EQUAL(i % 253U, chip_serial_byte(from + i));
+    }
+}
+
 /* Offered without an end: the line is never idle, at least 11,000 bytes a second. */
 static void test_out_is_full(void) {
     chip_on(4);
@@ -236,6 +265,7 @@ static void test_from_a_fault(void) {
 void suite_chip_console(void) {
     RUN_TEST(test_rate);
     RUN_TEST(test_out);
+    RUN_TEST(test_out_between_accesses);
     RUN_TEST(test_out_is_full);
     RUN_TEST(test_in);
     RUN_TEST(test_both);

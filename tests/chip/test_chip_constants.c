@@ -1,6 +1,7 @@
 /* test_chip_constants.c: every constant of boards/stm32f4/rm0090.h against a second source: ST's own header for the chip
- * (stm32f405xx.h of STM32CubeF4: bases, interrupts, converter, flash) and headers made of ST's SVD files (clocks, timers,
- * converter, debug), where the drivers' author had the manual. A constant that has no row here is found by the count. */
+ * (stm32f405xx.h of STM32CubeF4: bases, offsets, interrupts) and headers made of its SVD files (clocks, flash, timers, DMA,
+ * converter, serial interface, watchdog, debug), where the drivers' author had the manual. A constant without a row here is
+ * found. */
 #include <stdbool.h>
 #include <stdint.h>
 #include <stdio.h>

@@ -3,6 +3,7 @@
 
 #include "unity.h"
 
+#include "boards/stm32f4/stm32f4.h"
 #include "hal/motor.h"
 #include "hal/stop.h"
 #include "tests/chip/start.h"
@@ -154,6 +155,28 @@ static void test_off_at_once(void) {
     }
 }
 
+/* A fault's first stores (boards/cortexm/fault.c makes them before it touches the stack): the first is enough, the second takes
+ * the enable. */
+static void fault_stores(void) {
+#define SAFE_STORE(address, value) reg_store((address), (value));
+    BOARD_SAFE_ROWS(SAFE_STORE)
+}
+static void test_fault_from_anywhere(void) {
+    scattered_state = 11;
+    for (unsigned i = 0; i < 12; i++) {
+        chip_on(scattered());
+        chip_pass_us(6000);
+        set_to(1.0F + (float)(scattered() % 12U));
+        chip_pass(scattered() % (3U * PERIOD_UNITS));
+        stores = 0;
+        chip_stored = first_store;
+        run(fault_stores);
+        chip_stored = NULL;
+        is_low_for(PERIOD_UNITS);
+        TEST_ASSERT_FALSE(enabled());
+    }
+}
+
 /* Stop, or the drive stage's fault: low without any software, until the next off, however short it was and whatever is ordered. */
 static void test_break(void) {
     scattered_state = 6;
@@ -256,6 +279,7 @@ void suite_chip_motor(void) {
     RUN_TEST(test_duty);
     RUN_TEST(test_what_is_out_of_range);
     RUN_TEST(test_off_at_once);
+    RUN_TEST(test_fault_from_anywhere);
     RUN_TEST(test_break);
     RUN_TEST(test_ordered_while_pressed);
     RUN_TEST(test_no_supply);

@@ -65,10 +65,12 @@ static void test_brown_out(void) {
     TEST_ASSERT_EQUAL(0, LEVEL(chip_option_bytes()));
     TEST_ASSERT_EQUAL_HEX32(0x0FFFAAE0U, chip_option_bytes());
     TEST_ASSERT_EQUAL(1, chip_option_writes());
+    TEST_ASSERT_TRUE(chip_options_are_locked());
     for (unsigned i = 0; i < 5; i++) {
         chip_reset((chip_cause)i);
         start_and_ask();
         TEST_ASSERT_EQUAL(1, chip_option_writes());
+        TEST_ASSERT_TRUE(chip_options_are_locked());
     }
 }
 

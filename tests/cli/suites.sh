@@ -5,7 +5,7 @@
 
 folder=$(dirname "$whirl")/tests
 
-for name in host core_double core_float; do
+for name in host chip_netduinoplus2 core_double core_float; do
     program=$folder/$name
     "$program" no_such_suite >"$scratch/out" 2>"$scratch/err"
     [ $? -eq 2 ] && [ ! -s "$scratch/out" ] &&
@@ -14,6 +14,7 @@ for name in host core_double core_float; do
 
     case $name in
     host) sources=tests/host ;;
+    chip_*) sources=tests/chip ;;
     *) sources=tests/core ;;
     esac
     listed=$(sed -n 's/^hint: one of //p' "$scratch/err" | tr -d ',' | tr ' ' '\n' | sort)
@@ -32,7 +33,7 @@ done
     sed -n 's/^\([^:]*\):[0-9]*:.*:PASS$/\1/p' "$scratch/out" | grep -v '^tests/main.c$' | uniq >"$scratch/files" &&
     printf 'tests/core/test_%s.c\n' lcp sine text | diff - "$scratch/files" >"$scratch/err"
 verdict $? "lines name the file of their suite"
-for kind in core host; do
+for kind in core host chip; do
     sh tests/suites.sh tests/$kind/test_*.c | sed -n 's/^    {"\(suite_.*\)", "\(.*\)", .*/\2:void \1(void) {/p' >"$scratch/table"
     grep -oH '^void suite_[a-z0-9_]*(void) {' tests/$kind/test_*.c | sort -u >"$scratch/there"
     [ -s "$scratch/there" ] && sort "$scratch/table" | diff "$scratch/there" - >"$scratch/err"
