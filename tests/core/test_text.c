@@ -116,7 +116,7 @@ static void test_fixed_sign(void) {
         for (unsigned i = 0; i < 100; i++) {
             random = random * UINT32_C(1664525) + UINT32_C(1013904223);
             wh_real value = half * (WH_R(1.0) + (wh_real)(random >> 8) * WH_R(0x1p-24));
-            for (unsigned k = (random >> 4) % 20U; k < 10U; k++) {
+            for (unsigned k = (unsigned)((random >> 4) % 20U); k < 10U; k++) {
                 value *= WH_R(0.5);
             }
             for (unsigned k = 10; k < (random >> 4) % 20U; k++) {
