@@ -252,7 +252,8 @@ static bool take_samples(wh_lockin *lockin, unsigned halves) {
     if (lockin->stage == WH_LOCKIN_BEGINS) {
         drop_stale(lockin, lockin->next.begin_ticks);
     }
-    for (unsigned half = 0; half < halves; half++) {
+    const unsigned most = WH_RIG_SMALL_PIECES && halves > 1U ? 1U : halves;
+    for (unsigned half = 0; half < most; half++) {
         if (lockin->place == WH_LOCKIN_NOWHERE) {
             place_next(lockin);
             continue;

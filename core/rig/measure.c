@@ -77,15 +77,14 @@ static void add_turn(const wh_measure_config *config, wh_measure *measure) {
     measure->due = (uint8_t)MERGE_PIECES;
 }
 
-void wh_measure_work(const wh_measure_config *config, wh_measure *measure, unsigned halves,
-                     bool whole) {
-    const bool sums = measure->due == 0 && !measure->adds &&
-                      measure->lockin.stage <= WH_LOCKIN_SUMS &&
+void wh_measure_work(const wh_measure_config *config, wh_measure *measure, unsigned halves) {
+    const bool adds = WH_RIG_SMALL_PIECES && measure->adds;
+    const bool sums = measure->due == 0 && !adds && measure->lockin.stage <= WH_LOCKIN_SUMS &&
                       measure->lockin.stage >= WH_LOCKIN_BEGINS;
-    if (!sums && !whole) {
+    if (!sums && halves < WH_LOCKIN_HALVES_AT_ONCE) {
         return; /* what cannot be made smaller waits for a step that has nothing else to do */
     }
-    if (measure->adds) {
+    if (adds) {
         add_turn(config, measure);
         return;
     }
@@ -99,10 +98,12 @@ void wh_measure_work(const wh_measure_config *config, wh_measure *measure, unsig
     /* turns that lie within the record as a whole */
     const wh_lockin_turn *turn = &measure->lockin.turn;
     const bool begins_within = (int32_t)(turn->begin_ticks - measure->begin_ticks) >= 0;
-    measure->adds =
-        begins_within && wh_measure_lasts(measure, turn->begin_ticks + turn->turn_ticks);
-    if (measure->adds && !WH_RIG_SMALL_PIECES) {
-        add_turn(config, measure);
+    if (begins_within && wh_measure_lasts(measure, turn->begin_ticks + turn->turn_ticks)) {
+        if (WH_RIG_SMALL_PIECES) {
+            measure->adds = true;
+        } else {
+            add_turn(config, measure);
+        }
     }
 }
 

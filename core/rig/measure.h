@@ -65,10 +65,9 @@ void wh_measure_mark(wh_measure *measure, const wh_mark *mark);
 /* A sample: of the tare, or of a turning rotor. */
 void wh_measure_load(wh_measure *measure, const wh_load *load, bool at_rest);
 
-/* A bounded piece of the work, once a control step: of a turn's sums so many half nodes; what cannot be made smaller where there
- * is time for it, `whole`. */
-void wh_measure_work(const wh_measure_config *config, wh_measure *measure, unsigned halves,
-                     bool whole);
+/* A bounded piece of the work, once a control step; of a turn's sums so many half nodes. What cannot be made smaller is done
+ * where they are WH_LOCKIN_HALVES_AT_ONCE or more. */
+void wh_measure_work(const wh_measure_config *config, wh_measure *measure, unsigned halves);
 
 /* The record begins now, at a speed > 0; what an earlier one merged is forgotten. */
 void wh_measure_record(const wh_measure_config *config, wh_measure *measure, wh_real speed_radps,

@@ -340,17 +340,12 @@ static void live(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs *
  * step and none for the next. Where a mark may get sure, and the rotor is observed, there is less. */
 static unsigned halves(const wh_rig *rig) {
     if (WH_RIG_SMALL_PIECES) {
-        return rig->loads <= 1U ? 1U : 0U;
+        return rig->loads == 0 ? WH_LOCKIN_HALVES_AT_ONCE : rig->loads == 1U ? 1U : 0U;
     }
     if (rig->loads != 1U) {
         return rig->loads == 0 ? WH_LOCKIN_HALVES_AT_ONCE + 1U : 1U;
     }
     return WH_LOCKIN_HALVES_AT_ONCE - (rig->fed && rig->pulses.waits ? 1U : 0U);
-}
-
-/* And for what cannot be made smaller. */
-static bool has_time(const wh_rig *rig, unsigned of_sums) {
-    return WH_RIG_SMALL_PIECES ? rig->loads == 0 : of_sums >= WH_LOCKIN_HALVES_AT_ONCE;
 }
 
 /* A pulse is work enough for one step, and so is a mark: it waits, unless pulses come so fast that marks would be lost. */
@@ -364,8 +359,7 @@ static void measure(const wh_rig_config *config, wh_rig *rig, uint32_t now_ticks
         rig->busy = true;
     }
     if (wh_run_drives(&rig->run) && !rig->busy) {
-        const unsigned of_sums = halves(rig);
-        wh_measure_work(&config->measure, &rig->measure, of_sums, has_time(rig, of_sums));
+        wh_measure_work(&config->measure, &rig->measure, halves(rig));
     }
     rig->busy = false;
     rig->loads = 0;
