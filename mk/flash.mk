@@ -11,7 +11,7 @@ DFU_COMMAND = dfu-util -d 0483:df11 -a 0 -s 0x0800C000 -D $(ELF)/station_code.bi
     dfu-util -d 0483:df11 -a 0 -s 0x08000000:leave -D $(ELF)/station_vectors.bin
 DEBUG_COMMAND = gdb-multiarch $(STATION) -ex 'target extended-remote | $(OPENOCD_FOR) -c "gdb_port pipe; log_output $(ELF)/openocd.log"'
 
-flash_asks = $(if $(BOARD_FLASHED),,$(error $(BOARD) has no hardware that is flashed: BOARD= one of $(boards_flashed)))$(if $(filter $(1),$(PROBE)),,$(error PROBE is '$(PROBE)': one of $(1)))
+flash_asks = $(if $(filter boards/atmega/%,$(BOARD_FLASHED)),$(error docs/boards.md says how $(BOARD) is flashed: make does that for an STM32F405 only))$(if $(BOARD_FLASHED),,$(error $(BOARD) has no hardware that is flashed: BOARD= one of $(boards_flashed)))$(if $(filter $(1),$(PROBE)),,$(error PROBE is '$(PROBE)': one of $(1)))
 
 ##@ Boards
 .PHONY: flash debug flash-now debug-now
