@@ -23,7 +23,7 @@ only_flashed() {
     printf '%s\n' "$code" | awk -v elf="$1" '
         /^[0-9a-f]+ <.*>:$/ { where = $2; main_seen += where == "<main>:" }
         /\tbkpt/ { print elf ": a breakpoint in " where; bad = 1 }
-        where == "<main>:" && /\t(bx\tlr|(pop|ldmia).*pc\}|ldr.*\tpc, \[sp)/ { print elf ": main() returns"; bad = 1 }
+        where == "<main>:" && /\t(ret$|bx\tlr|(pop|ldmia).*pc\}|ldr.*\tpc, \[sp)/ { print elf ": main() returns"; bad = 1 }
         END {
             if (main_seen != 1) { print elf ": has no main()"; bad = 1 }
             exit bad

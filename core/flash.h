@@ -7,7 +7,10 @@
  *
  *     const wh_real table[2] WH_FLASH = {WH_R(1.0), WH_R(0.5)};
  *     wh_real half = wh_flash_real(&table[1]);
- */
+ *
+ * Words are other people's pointers, and nobody knows of one whether it was a constant. Where WH_WORDS_FROM is defined (with
+ * a linker's script that does it: boards/atmega) constant words stay in flash, at addresses from there on, where no memory is;
+ * whoever reads a word that may be one asks by wh_word_at(). */
 #ifndef WH_FLASH_H
 #define WH_FLASH_H
 
@@ -44,4 +47,29 @@ WH_INLINE wh_real wh_flash_real(const wh_real *from) {
 }
 
 #endif
+
+/* Bytes of a constant that is WH_FLASH. */
+WH_INLINE void wh_flash_copy(void *to, const void *from, unsigned count) {
+#if defined(__AVR_HAVE_LPMX__) && !WH_DOUBLE
+    uint8_t *bytes = (uint8_t *)to;
+    const uint8_t *at = (const uint8_t *)from;
+    for (unsigned i = 0; i < count; i++) {
+        __asm__("lpm %0, Z" : "=r"(bytes[i]) : "z"(&at[i]));
+    }
+#else
+    __builtin_memcpy(to, from, count);
+#endif
+}
+
+WH_INLINE char wh_word_at(const char *at) {
+#if defined(__AVR_HAVE_LPMX__) && defined(WH_WORDS_FROM)
+    if ((uintptr_t)at >= WH_WORDS_FROM) {
+        char character;
+        __asm__("lpm %0, Z" : "=r"(character) : "z"(at));
+        return character;
+    }
+#endif
+    return *at;
+}
+
 #endif

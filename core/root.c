@@ -24,9 +24,14 @@ typedef union real_bits {
     word bits;
 } real_bits;
 
-#if WH_DOUBLE
+/* 1: also a float's root by bits, as where a product of 64 bits takes longer than 25 comparisons. The same bits. */
+#ifndef WH_ROOT_BY_BITS
+#define WH_ROOT_BY_BITS 0
+#endif
 
-/* sqrt(x) * 2^52 to the nearest, of x * 2^52: one bit after the other, the highest first. */
+#if WH_DOUBLE || WH_ROOT_BY_BITS
+
+/* sqrt(x) * 2^52 (float: 2^23) to the nearest, of x times as much: one bit after the other, the highest first. */
 static word root_of(word x) {
     word rest = x << 1;
     word twice = 0; /* the root so far, two times, in the place of the next bit */

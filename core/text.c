@@ -1,11 +1,14 @@
 /* text.c: numbers as text, exactly and without the C library. */
 #include "text.h"
 
+#include "flash.h"
+
 /* Sixteen bits a limb, low limb first: quotient and remainder by ten then need no more than a
  * 32-bit division, which every machine has or gets cheaply. */
 #define WHOLE_LIMBS 8U     /* 2^128: above every float */
 #define FRACTION_LIMBS 10U /* 2^-160: below every float's last bit (2^-149) */
-#define WHOLE_DIGITS 39U   /* of 2^128 */
+#define LIMBS (FRACTION_LIMBS + WHOLE_LIMBS)
+#define WHOLE_DIGITS 39U /* of 2^128 */
 
 void wh_text_start(wh_text *text, char *bytes, unsigned size) {
     text->bytes = bytes;
@@ -25,8 +28,8 @@ void wh_text_add_char(wh_text *text, char character) {
 }
 
 void wh_text_add(wh_text *text, const char *string) {
-    while (*string != '\0') {
-        wh_text_add_char(text, *string++);
+    for (char next = wh_word_at(string); next != '\0'; next = wh_word_at(++string)) {
+        wh_text_add_char(text, next);
     }
 }
 
@@ -41,6 +44,12 @@ static bool all_zero(const uint16_t *limb, unsigned limbs) {
 /* limb[] / 10 in place; returns the remainder. */
 static unsigned divide_by_ten(uint16_t *limb, unsigned limbs) {
     uint32_t rest = 0;
+    if (limbs ==
+        1U) { /* as most numbers are at last; a processor of 8 bits divides 16 in a third of the time */
+        const uint16_t value = limb[0];
+        limb[0] = (uint16_t)(value / 10U);
+        return value % 10U;
+    }
     for (unsigned i = limbs; i-- > 0;) {
         const uint32_t value = (rest << 16) | limb[i];
         limb[i] = (uint16_t)(value / 10U);
@@ -64,8 +73,11 @@ static unsigned multiply_by_ten(uint16_t *limb, unsigned limbs) {
 static unsigned digits_of(uint16_t *limb, unsigned limbs, uint8_t *digit) {
     unsigned count = 0;
     do {
+        while (limbs > 1U && limb[limbs - 1U] == 0) {
+            limbs--;
+        }
         digit[count++] = (uint8_t)divide_by_ten(limb, limbs);
-    } while (!all_zero(limb, limbs));
+    } while (limbs > 1U || limb[0] != 0);
     return count;
 }
 
@@ -79,7 +91,8 @@ void wh_text_add_unsigned(wh_text *text, uint64_t value) {
     uint16_t limb[4];
     uint8_t digit[WHOLE_DIGITS] = {0};
     for (unsigned i = 0; i < 4; i++) {
-        limb[i] = (uint16_t)(value >> (16U * i));
+        limb[i] = (uint16_t)value;
+        value >>= 16;
     }
     add_digits(text, digit, digits_of(limb, 4, digit));
 }
@@ -96,7 +109,7 @@ void wh_text_add_signed(wh_text *text, int64_t value) {
 void wh_text_add_hex(wh_text *text, uint64_t value, unsigned digits) {
     while (digits > 0) {
         digits--;
-        wh_text_add_char(text, "0123456789abcdef"[(value >> (4U * digits)) & 0xfU]);
+        wh_text_add_char(text, wh_word_at(&"0123456789abcdef"[(value >> (4U * digits)) & 0xfU]));
     }
 }
 
@@ -139,8 +152,12 @@ static parts parts_of(wh_real value) {
  * whether the magnitude must be rounded up; `odd_whole` settles a tie when decimals is 0. */
 static bool fraction_digits(uint16_t *fraction, unsigned decimals, bool odd_whole, uint8_t *digit) {
     bool odd = odd_whole;
+    unsigned zeros = 0; /* at the low end they stay */
     for (unsigned i = decimals; i-- > 0;) {
-        digit[i] = (uint8_t)multiply_by_ten(fraction, FRACTION_LIMBS);
+        while (zeros < FRACTION_LIMBS && fraction[zeros] == 0) {
+            zeros++;
+        }
+        digit[i] = (uint8_t)multiply_by_ten(fraction + zeros, FRACTION_LIMBS - zeros);
         odd = (digit[i] & 1U) != 0;
     }
     const uint16_t top = fraction[FRACTION_LIMBS - 1U];
@@ -148,6 +165,28 @@ static bool fraction_digits(uint16_t *fraction, unsigned decimals, bool odd_whol
         return top > 0x8000U;
     }
     return odd || !all_zero(fraction, FRACTION_LIMBS - 1U);
+}
+
+#if WH_DOUBLE
+typedef uint64_t mantissa_bits;
+#else
+typedef uint32_t mantissa_bits;
+#endif
+
+/* The mantissa's bits into one long fixed-point number, zero so far: fraction limbs, then whole limbs. False: it is longer.
+ * Bits below 2^-160 belong to doubles below 2^-107: far from any tie at 18 decimals. */
+static bool lay(const parts *number, uint16_t *limb) {
+    int place = number->exponent + 16 * (int)FRACTION_LIMBS;
+    for (mantissa_bits bits = (mantissa_bits)number->mantissa; bits != 0; bits >>= 1, place++) {
+        if ((bits & 1U) == 0 || place < 0) {
+            continue;
+        }
+        if (place >= 16 * (int)LIMBS) {
+            return false;
+        }
+        limb[place / 16] = (uint16_t)(limb[place / 16] | (1U << (place % 16)));
+    }
+    return true;
 }
 
 void wh_text_add_fixed(wh_text *text, wh_real value, unsigned decimals) {
@@ -164,21 +203,10 @@ void wh_text_add_fixed(wh_text *text, wh_real value, unsigned decimals) {
         decimals = WH_TEXT_DECIMALS_MAX;
     }
 
-    /* Lay the mantissa's bits into one long fixed-point number: fraction limbs, then whole limbs. */
-    uint16_t limb[FRACTION_LIMBS + WHOLE_LIMBS] = {0};
-    for (int bit = 0; bit <= MANTISSA_BITS; bit++) {
-        if (((number.mantissa >> bit) & 1U) == 0) {
-            continue;
-        }
-        const int place = number.exponent + bit + 16 * (int)FRACTION_LIMBS;
-        if (place >= 16 * (int)(FRACTION_LIMBS + WHOLE_LIMBS)) {
-            wh_text_add(text, number.negative ? "-huge" : "huge");
-            return;
-        }
-        /* Bits below 2^-160 belong to doubles below 2^-107: far from any tie at 18 decimals. */
-        if (place >= 0) {
-            limb[place / 16] = (uint16_t)(limb[place / 16] | (1U << (place % 16)));
-        }
+    uint16_t limb[LIMBS] = {0};
+    if (!lay(&number, limb)) {
+        wh_text_add(text, number.negative ? "-huge" : "huge");
+        return;
     }
 
     uint8_t digit[WH_TEXT_DECIMALS_MAX + WHOLE_DIGITS] = {0};

@@ -19,8 +19,11 @@ extern "C" {
 #define HAL_LOADCELL_RAW_MAX 32767
 #define HAL_LOADCELL_N_PER_COUNT (HAL_LOADCELL_FULL_SCALE_N / 32768.0f)
 
-/* Time between samples, as in Almesallmy (2006), I.3.2.1: 2 ms. */
+/* Time between samples, as in Almesallmy (2006), I.3.2.1: 2 ms; a whole number of control steps. A chip that has no time for
+ * so many says so in its build. */
+#ifndef HAL_LOADCELL_PERIOD_TICKS
 #define HAL_LOADCELL_PERIOD_TICKS 2000U
+#endif
 
 /* What the converter says of a sample; wh_load_status of core/rig/cell.h has the same. */
 typedef enum hal_load_status {

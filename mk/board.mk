@@ -37,6 +37,13 @@ include boards/$(BOARD)/board.mk
 BOARD_EXTRA ?=
 $(eval $(call build,$(BOARD),$(BOARD_CC),$(BOARD_CFLAGS) $(WARN) $(BOARD_EXTRA)))
 
+# What is flashed may be a build of its own, as on a chip with little memory: BOARD_FLASHED_FLAGS.
+FLASHED := $(BOARD)$(if $(BOARD_FLASHED_FLAGS),-flashed)
+ifneq ($(BOARD_FLASHED_FLAGS),)
+$(eval $(call build,$(FLASHED),$(BOARD_CC),$(BOARD_CFLAGS) $(BOARD_FLASHED_FLAGS) $(WARN) $(BOARD_EXTRA)))
+$(eval $(call portable_libraries,$(FLASHED)))
+endif
+
 ELF := $(B)/$(BOARD)
 BOARD_OBJECTS := $(call objects,$(BOARD),$(BOARD_SOURCES))
 $(eval $(call portable_libraries,$(BOARD)))
@@ -68,7 +75,9 @@ $(foreach o,$(STATION_C) boards/programs/rig.c boards/programs/station.c \
     FILE_FLAGS = -Os $(BOARD_SMALL)
 
 ifneq ($(BOARD_FLASHED),)
-$(B)/$(BOARD)/boards/programs/station.o: FILE_FLAGS += -DHAL_VIRTUAL=0
+$(B)/$(FLASHED)/boards/programs/station.o: FILE_FLAGS += -DHAL_VIRTUAL=0
+endif
+ifneq ($(findstring -DWH_WORDS_PACKED=1,$(BOARD_CFLAGS)),)
 # What is said to people goes through mk/size/pack.awk (core/packed_words.h), 2 KB of flash less: all files that have WH_WORDS().
 PACKED := $(call objects,$(BOARD),boards/cortexm/fault_words.c core/rig/guard.c core/rig/life.c core/rig/result.c \
     $(addprefix core/station/,conf.c errors.c station.c tel_answer.c))
@@ -90,17 +99,20 @@ $(B)/station: $(call objects,float,boards/programs/station.c boards/host/board.c
     $(call libraries,float,station rig virtual whirl scenes)
 	$(link)
 # A board with hardware of its own has the rig's, and no model: what is flashed never ends, and knows no debugger.
-FLASHED_OBJECTS := $(call objects,$(BOARD),$(BOARD_FLASHED))
+FLASHED_OBJECTS := $(call objects,$(FLASHED),$(BOARD_FLASHED))
 FLASHED_IMAGES := $(if $(BOARD_FLASHED),$(STATION))
 # What mk/size/size.sh holds them to.
 SIZE_MOST := $(if $(FLASHED_IMAGES),$(BOARD_MOST) MOST_OF="$(FLASHED_IMAGES)")
-$(STATION): $(call objects,$(BOARD),boards/programs/station.c) $(or $(FLASHED_OBJECTS),$(BOARD_OBJECTS)) \
-    $(if $(BOARD_FLASHED),$(call objects,$(BOARD),$(GEN)/rig_observed.c)) \
-    $(call libraries,$(BOARD),station rig whirl $(if $(BOARD_FLASHED),,virtual scenes))
+ifneq ($(BOARD_FLASHED_LDFLAGS),)
+$(STATION): BOARD_LDFLAGS := $(BOARD_FLASHED_LDFLAGS)
+endif
+$(STATION): $(call objects,$(FLASHED),boards/programs/station.c) $(or $(FLASHED_OBJECTS),$(BOARD_OBJECTS)) \
+    $(if $(BOARD_FLASHED),$(call objects,$(FLASHED),$(GEN)/rig_observed.c)) \
+    $(call libraries,$(FLASHED),station rig whirl $(if $(BOARD_FLASHED),,virtual scenes))
 	$(link_board)
 
 # Tests of what is flashed, in the emulator (tests/boards/f405.sh): the same code but for sensors that it does not have.
-ifneq ($(BOARD_FLASHED),)
+ifneq ($(filter boards/stm32f4/%,$(BOARD_FLASHED)),)
 without_sensors = $(filter-out %/cell.o %/slots.o %/stop.o,$(FLASHED_OBJECTS))
 $(ELF)/bench_plant.elf: BOARD_LDLIBS += -Wl,--wrap=hal_motor_set_voltage -Wl,--wrap=hal_motor_off
 $(ELF)/bench_plant.elf: $(call objects,$(BOARD),boards/programs/station.c tests/boards/f405_plant.c \
@@ -113,6 +125,13 @@ FLASHED_TESTS := $(ELF)/bench_plant.elf $(ELF)/bench_slots.elf
 endif
 build/tools/f405: $(call objects,host,$(addprefix tests/tools/,f405.c f405_seen.c f405_states.c emulated.c))
 	$(link)
+
+# The rig's firmware on an AVR, with the rig round its pins (tests/boards/atmega.sh).
+build/tools/atmega: $(call objects,host,$(addprefix tests/tools/,atmega.c atmega_slots.c atmega_states.c mega.c)) \
+    $(call objects,float,$(GEN)/rig_fixed.c) $(call libraries,float,virtual whirl)
+	$(say) LINK $@
+	@mkdir -p $(@D)
+	$(Q)$(CC) $(NATIVE) $(LINK_EXTRA) -o $@ $(filter %.o,$^) $(GROUP) $(filter %.a,$^) $(GROUP_END) -lsimavr -lelf -lm
 
 # Firmware whose plant is at the other end of a line (`whirl pil`), of families that have one: BOARD_LINK.
 define pil_program
@@ -148,6 +167,12 @@ $(ELF)/tests.elf: $(call objects,$(BOARD),$(CORE_TEST_PARTS)) $(BOARD_OBJECTS) \
 
 emulate = $(call BOARD_EMULATE,$(1))
 
+# What only this board has, for those who look at each file.
+BOARD_OWN_C = $(sort $(BOARD_SOURCES) $(if $(BOARD_FLASHED_FLAGS),,$(BOARD_FLASHED))) $(BOARD_LINK) $(BOARD_WATCHDOG) \
+    $(wildcard tests/boards/guard_*.c $(if $(BOARD_WATCHDOG),tests/boards/watchdog.c))
+# And that of a build of its own.
+BOARD_FLASHED_C = $(if $(BOARD_FLASHED_FLAGS),$(BOARD_FLASHED))
+
 ifeq ($(BOARD_IMAGES),single)
 include mk/single.mk
 else
@@ -158,10 +183,6 @@ IMAGES := $(ELF)/scenes.elf $(ELF)/firmware.elf $(STATION)
 GUARDS := $(patsubst tests/boards/%.c,$(ELF)/%.elf,$(wildcard tests/boards/guard_*.c))
 $(GUARDS): $(ELF)/%.elf: $(B)/$(BOARD)/tests/boards/%.o $(BOARD_OBJECTS) $(call libraries,$(BOARD),whirl)
 	$(link_board)
-
-# What only this board has, for those who look at each file.
-BOARD_OWN_C = $(sort $(BOARD_SOURCES) $(BOARD_FLASHED)) $(BOARD_LINK) $(BOARD_WATCHDOG) \
-    $(wildcard tests/boards/guard_*.c $(if $(BOARD_WATCHDOG),tests/boards/watchdog.c))
 
 # The watchdog, of boards that have one (tests/boards/watchdog.sh).
 WATCHDOG := $(if $(BOARD_WATCHDOG),$(ELF)/watchdog.elf)
@@ -196,7 +217,7 @@ on_board = $(MAKE) -s BOARD=$(1) $(2)
 emulate-command: # of an image named IMAGE
 	@echo '$(call emulate,IMAGE)'
 
--include $(wildcard $(patsubst %.c,$(ELF)/%.d,$(UNITY_DIR)/unity.c $(PORTABLE_C) $(BOARD_C) $(TEST_C) $(SCENE_C) $(B)/tests/core_suites.c))
+-include $(wildcard $(foreach b,$(sort $(BOARD) $(FLASHED)),$(patsubst %.c,$(B)/$(b)/%.d,$(UNITY_DIR)/unity.c $(PORTABLE_C) $(BOARD_C) $(TEST_C) $(SCENE_C) $(B)/tests/core_suites.c)))
 
 .PHONY: emulate-now
 emulate-now: $(GEN)/.stamp

@@ -28,7 +28,7 @@ objects: $(call objects,host,$(WHIRL_MAIN_C) $(WHIRL_C) $(GEN)/builtin_models.c 
     $(call objects,float,$(PORTABLE_C) $(PC_BOARD_C) $(CORE_TEST_C) $(SCENE_C)) \
     $(call objects,double,$(CORE_C) $(RIG_C) $(STATION_C) $(CORE_TEST_C) $(SCENE_C))
 board-objects: board-own-objects $(call objects,$(BOARD),$(PORTABLE_C) $(PROGRAM_C) $(CORE_TEST_C) $(SCENE_C))
-board-own-objects: $(call objects,$(BOARD),$(BOARD_OWN_C))
+board-own-objects: $(call objects,$(BOARD),$(BOARD_OWN_C)) $(call objects,$(FLASHED),$(BOARD_FLASHED_C))
 
 # Where the main configuration has these very settings, as in CI (.ci/run), what it compiled already counts. Other gates
 # take both compilers' objects from where these two put them.
@@ -63,7 +63,7 @@ gate-tidy: $(GEN)/.stamp
 
 .PHONY: tidy-board
 tidy-board:
-	@$(call tidy,$(BOARD_OWN_C),$(BOARD_TIDY) $(LINT_FLAGS))
+	@$(call tidy,$(sort $(BOARD_OWN_C) $(BOARD_FLASHED_C)),$(BOARD_TIDY) $(LINT_FLAGS))
 
 gate-cppcheck:
 	@$(call need,cppcheck)
@@ -173,8 +173,7 @@ gate-flashed: $(GEN)/.stamp
 flashed-rules: board-own-objects $(STATION)
 	@NM=$(BOARD_NM) OBJDUMP=$(BOARD_OBJDUMP) FLASHED="$(STATION)" sh boards/check_image.sh $(STATION)
 	@mkdir -p $(FIGURES)
-	@BOARD=$(BOARD) CC=$(BOARD_CC) NM=$(BOARD_NM) SIZE=$(BOARD_SIZE) OBJECTS=$(ELF) $(SIZE_MOST) \
-	    FLAGS="$(call TOLD,$(BOARD_CFLAGS))" mk/size/size.sh $(FIGURES)/size.csv $(STATION)
+	@$(call size_of,$(STATION))
 flashed-tests: $(FLASHED_TESTS) $(STATION) build/tools/f405
 
 gate-size:
@@ -188,12 +187,14 @@ gate-libm:
 	@sh tests/no_libm.sh build/libm/gcc/whirl build/libm/clang/whirl
 
 # --- AVR: the table in flash, and equal bits, in every dialect; from C++, too ------------------------
-gate-avr: build/whirl
+gate-avr: build/whirl $(GEN)/.stamp
 	@$(call need,avr-gcc)
 	@$(call need,simavr)
 	@sh tests/embed/avr.sh build/whirl build/check/avr
 	@$(MAKE) BOARD=atmega328p build/avr_run
 	@sh tests/boards/avr_cycles.sh build/avr_run build/check/avr_cycles
+	+@$(call on_board,atmega2560,BOARD_EXTRA=-Werror build/atmega2560/station.elf build/tools/atmega)
+	@sh tests/boards/atmega.sh 330 4 3
 
 # --- boards that `make test` does not take: the suites, and what guards the stack --------------------------
 BOARDS_CHECKED = $(filter-out $(BOARDS_TEST),$(BOARDS))

@@ -136,14 +136,25 @@ cycles-agree: $(ELF)/bench.elf $(PLUGIN)
 	@BOARD=$(BOARD) NM=$(BOARD_NM) OBJDUMP=$(BOARD_OBJDUMP) TIMING=$(BOARD_TIMING) PLUGIN=$(PLUGIN) \
 	    EMULATE="$(call emulate,$(ELF)/bench.elf)" mk/count/cycles_agree.sh $(ELF)/bench.elf
 
+# Flash, memory and stack of images: by what the compiler says of calls; or by the code, where a family says so (BOARD_SIZE_BY).
+size_of = BOARD=$(BOARD) CC=$(BOARD_CC) NM=$(BOARD_NM) SIZE=$(BOARD_SIZE) OBJDUMP=$(BOARD_OBJDUMP) OBJECTS=$(ELF) $(SIZE_MOST) \
+    FLAGS="$(call TOLD,$(BOARD_CFLAGS))" $(or $(BOARD_SIZE_BY),mk/size/size.sh) $(FIGURES)/size.csv $(1)
+
+ifeq ($(BOARD_IMAGES),single)
+size-now: $(GEN)/.stamp
+	@[ -n "$(BOARD_FLASHED)" ] || { echo "size: $(BOARD) has an image a scene, and none of the rig" >&2; exit 2; }
+	@$(MAKE) $(STATION)
+	@mkdir -p $(FIGURES)
+	@$(call size_of,$(STATION))
+else
 size-now: $(GEN)/.stamp
 	@$(MAKE) board-images
 	@mkdir -p $(FIGURES)
-	@BOARD=$(BOARD) CC=$(BOARD_CC) NM=$(BOARD_NM) SIZE=$(BOARD_SIZE) OBJECTS=$(ELF) $(SIZE_MOST) \
-	    FLAGS="$(call TOLD,$(BOARD_CFLAGS))" mk/size/size.sh $(FIGURES)/size.csv $(IMAGES)
+	@$(call size_of,$(IMAGES))
 	@SIZE=$(BOARD_SIZE) mk/size/libraries.sh $(call libraries,$(BOARD),whirl rig virtual scenes)
 	@CC=$(BOARD_CC) CPU="$(BOARD_CPU)" SIZE=$(BOARD_SIZE) mk/size/functions.sh $(call libraries,$(BOARD),whirl)
 	@list=boards/$(BOARD)/most_bytes.txt; [ ! -f $$list ] || SIZE=$(BOARD_SIZE) mk/size/most.sh $(ELF)/$(GEN) $$list
+endif
 
 ##@ Boards
 .PHONY: size-files size-files-now

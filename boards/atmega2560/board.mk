@@ -5,4 +5,4 @@ BOARD_RAM      := 8K
 BOARD_STACK    := 1K
 BOARD_SECONDS  := 1800
 BOARD_WHEN     := all
-include boards/avr/avr.mk
+include boards/atmega/atmega.mk

@@ -26,6 +26,6 @@ BOARD_LDFLAGS  := $(BOARD_CPU) -Wl,--gc-sections \
                   -Wl,--defsym=__DATA_REGION_LENGTH__=$(BOARD_RAM)-$(BOARD_STACK)
 BOARD_LDLIBS   :=
 BOARD_TIDY     := --target=avr $(BOARD_CPU) -ffreestanding -DF_CPU=16000000UL -isystem /usr/lib/avr/include -Iboards/$(BOARD)
-BOARD_SOURCES  := boards/avr/startup.c boards/avr/board.c boards/avr/clock.c boards/shared/wait.c
+BOARD_SOURCES  := boards/avr/startup.c boards/avr/board.c boards/avr/clock.c boards/avr/stack.c boards/shared/wait.c
 BOARD_EMULATOR := build/avr_run
 BOARD_EMULATE   = timeout $(BOARD_SECONDS) $(BOARD_EMULATOR) mcu=$(BOARD_MCU) hz=16000000 $(1) </dev/null

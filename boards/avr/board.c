@@ -1,5 +1,5 @@
-/* board.c: board.h on the AVR family (Microchip ATmega328P and ATmega2560 data sheets): the first USART, the stack's
- * paint, and an end that the emulator understands. The C library's start-up code has filled the memory. */
+/* board.c: board.h on the AVR family (Microchip ATmega328P and ATmega2560 data sheets): the first USART, and
+ * an end that the emulator understands. The C library's start-up code has filled the memory. */
 #include "boards/board.h"
 
 #include <avr/interrupt.h>
@@ -59,26 +59,6 @@ _Noreturn void board_exit(int code) {
         sleep_cpu();
     }
 }
-
-/* The stack has what the variables leave. No part of the chip guards it. */
-extern uint8_t _end;
-#define PAINT 0xA5U
-
-void board_stack_paint(void) {
-    for (volatile uint8_t *at = &_end; (uintptr_t)at < SP - 2U; at++) {
-        *at = PAINT;
-    }
-}
-
-unsigned board_stack_used_bytes(void) {
-    const volatile uint8_t *at = &_end;
-    while ((uintptr_t)at < RAMEND && *at == PAINT) {
-        at++;
-    }
-    return (unsigned)(RAMEND + 1U - (uintptr_t)at);
-}
-
-unsigned board_stack_size_bytes(void) { return (unsigned)(RAMEND + 1U - (uintptr_t)&_end); }
 
 bool board_cycles_start(void) { return false; }
 uint32_t board_cycles(void) { return 0; }

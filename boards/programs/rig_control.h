@@ -41,10 +41,15 @@ _Static_assert((int)HAL_LOAD_SATURATED == (int)WH_LOAD_SATURATED &&
 
 #define CONTROL_TICKS 2000U /* 500 Hz, as wh_rig_standard.step_s */
 #define WATCHDOG_TICKS (10U * CONTROL_TICKS)
-#define SAMPLES_MOST \
-    2U /* a step, beside a pulse one; what else a late one finds goes to the next */
+/* A step, and one with a pulse; what else a late one finds goes to the next. A small chip's build may say less. */
+#ifndef RIG_SAMPLES_MOST
+#define RIG_SAMPLES_MOST 2U
+#endif
+#ifndef RIG_SAMPLES_WITH_PULSE
+#define RIG_SAMPLES_WITH_PULSE 1U
+#endif
 
-_Static_assert(SAMPLES_MOST <= WH_SEEN_SAMPLES, "all are seen");
+_Static_assert(RIG_SAMPLES_MOST <= WH_SEEN_SAMPLES, "all are seen");
 
 /* Static, not on the stack: it holds the samples of a turn. */
 static wh_rig rig;
@@ -100,11 +105,13 @@ static void see(const hal_slot_pulse *pulse, const hal_load_sample *sample, unsi
 
 static void control(const wh_rig_config *config) {
     hal_slot_pulse pulse;
-    hal_load_sample sample[SAMPLES_MOST];
+    hal_load_sample sample[RIG_SAMPLES_MOST];
     unsigned samples = 0;
-    /* one a step: a storm must not hold it up, and stamps do not age */
-    const bool pulsed = hal_slots_take(&pulse);
-    while (samples < (pulsed ? 1U : SAMPLES_MOST) && hal_loadcell_take(&sample[samples])) {
+    /* one a step: a storm must not hold it up, and stamps do not age; where a sample had to wait for one, that is first */
+    const bool owed = RIG_SAMPLES_WITH_PULSE == 0U && seen.pulsed;
+    const bool pulsed = !owed && hal_slots_take(&pulse);
+    while (samples < (pulsed ? RIG_SAMPLES_WITH_PULSE : RIG_SAMPLES_MOST) &&
+           hal_loadcell_take(&sample[samples])) {
         samples += sample[samples].status != HAL_LOAD_REPEATED ? 1U : 0U;
     }
     const wh_rig_command command = step(config, pulsed ? &pulse : NULL, sample, samples);
@@ -131,7 +138,7 @@ static const char *why_not_started(void) {
     if (hal_clock_start() != HAL_STARTED) {
         return why_no_hardware();
     }
-    if (wh_arithmetic_wrong(rig_observed.arithmetic) != WH_PROBED_COUNT) {
+    if (wh_arithmetic_wrong(OWN_ARITHMETIC) != WH_PROBED_COUNT) {
         hal_motor_off(HAL_MOTOR_COAST);
         return "compiled or set up for other arithmetic than IEEE 754"; /* without all other texts of a wh_status */
     }

@@ -12,6 +12,13 @@
 /* The model that goes with the rotor: rig_fixed of core/models/eccentric.whirl, in control steps (mk/whirl.mk). */
 extern const wh_scene rig_observed;
 
+/* What the arithmetic is probed by: that of the model, where there is one. */
+#if WH_RIG_FEEDS
+#define OWN_ARITHMETIC (rig_observed.arithmetic)
+#else
+#define OWN_ARITHMETIC (wh_arithmetic)
+#endif
+
 /* The standard rig with this hardware's cell and sensors. In its place: a copy more is half a kilobyte of stack. */
 static void own_configuration(wh_rig_config *config) {
     *config = wh_rig_standard;
@@ -19,7 +26,11 @@ static void own_configuration(wh_rig_config *config) {
                                             .period_ticks = HAL_LOADCELL_PERIOD_TICKS,
                                             .raw_max = HAL_LOADCELL_RAW_MAX};
     wh_rig_slots(config, HAL_SLOT_LEAD_DEG / WH_RIG_DEG_PER_RAD);
+#if WH_RIG_FEEDS
     config->observer.scene = &rig_observed;
+#else
+    config->feeds = WH_FEED_NEVER;
+#endif
 }
 
 #endif

@@ -20,7 +20,9 @@
 static wh_station station;
 static wh_rig_config config;
 static wh_conf conf;
+#if WH_STATION_TELEMETRY
 static wh_tel tel;
+#endif
 #if WH_STATION_TAPE
 static wh_tape tape;
 #endif
@@ -94,7 +96,9 @@ int main(void) {
     tell_reset();
     wh_station_start(&station, "rig", board_name, HAL_TICKS_PER_S / CONTROL_TICKS);
     station.conf = &conf;
+#if WH_STATION_TELEMETRY
     station.tel = &tel;
+#endif
 #if WH_STATION_TAPE
     station.tape = &tape;
 #endif

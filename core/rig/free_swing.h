@@ -31,6 +31,11 @@
 extern "C" {
 #endif
 
+/* 0, as a small chip's build may say: no swing is looked at. */
+#ifndef WH_RIG_SWINGS
+#define WH_RIG_SWINGS 1
+#endif
+
 #define wh_swing_pulse WH_NAME(wh_swing_pulse)
 #define wh_swing_step WH_NAME(wh_swing_step)
 #define wh_swing_doubt WH_NAME(wh_swing_doubt)

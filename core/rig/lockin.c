@@ -30,6 +30,7 @@ void wh_lockin_start(const wh_rotor_config *rotor, wh_lockin *lockin) {
 
 void wh_lockin_forget(const wh_rotor_config *rotor, wh_lockin *lockin) {
     lockin->stage = WH_LOCKIN_WAITS;
+    lockin->piece = 0;
     lockin->count = 0;
     lockin->taken = false;
     lockin->any = false;
@@ -289,8 +290,8 @@ static wh_turn_fault fault_of(const wh_cell_config *cell, const wh_lockin *locki
     return lockin->expects ? WH_TURN_OK : WH_TURN_FIRST;
 }
 
-/* The turn is through: from its sums to its result. */
-static void end_turn(const wh_cell_config *cell, wh_lockin *lockin) {
+/* The turn is through: from its sums to its orders, and to its result. */
+static void end_sums(wh_lockin *lockin) {
     wh_lockin_turn *turn = &lockin->next;
     weigh_last(lockin, lockin->last.theta_rad, lockin->last.part);
     wh_real square = lockin->square / WH_RIG_TWO_PI;
@@ -299,6 +300,12 @@ static void end_turn(const wh_cell_config *cell, wh_lockin *lockin) {
         square -= (i == 0 ? WH_R(1.0) : WH_R(0.5)) * more * more;
         turn->force_N.at[i] = lockin->expected_N.at[i] + more;
     }
+    lockin->square = square;
+}
+
+static void end_turn(const wh_cell_config *cell, wh_lockin *lockin) {
+    wh_lockin_turn *turn = &lockin->next;
+    const wh_real square = lockin->square;
     const wh_real samples = (wh_real)turn->samples;
     const wh_real spare = samples - (wh_real)WH_LOCKIN_ORDERS;
     turn->residual_N =
@@ -330,9 +337,70 @@ static void begin_turn(wh_lockin *lockin) {
     lockin->stage = WH_LOCKIN_BEGINS;
 }
 
+/* --- pieces ------------------------------------------------------------------------------------- */
+
+#if WH_RIG_SMALL_PIECES
+/* So many are done in one go, or one after the other: true when the last is. */
+static bool last_piece(wh_lockin *lockin, unsigned pieces) {
+    lockin->piece++;
+    if (lockin->piece < pieces) {
+        return false;
+    }
+    lockin->piece = 0;
+    return true;
+}
+#endif
+
+/* True when the shape is there. */
+static bool shape(const wh_rotor_config *rotor, wh_lockin *lockin) {
+    const wh_real speed_radps =
+        WH_RIG_TWO_PI * (wh_real)WH_RIG_TICKS_PER_S / (wh_real)lockin->next.turn_ticks;
+#if WH_RIG_SMALL_PIECES
+    wh_turn_angle_shape_piece(rotor, &lockin->angle, speed_radps, lockin->piece);
+    return last_piece(lockin, WH_TURN_ANGLE_SHAPES);
+#else
+    wh_turn_angle_shape(rotor, &lockin->angle, speed_radps);
+    return true;
+#endif
+}
+
+/* True when sensor 2's mark has said what it can. */
+static bool correct(const wh_rotor_config *rotor, wh_lockin *lockin) {
+    const wh_lockin_turn *turn = &lockin->next;
+    if (!turn->split_seen || !is_steady(lockin, STILL_PART)) {
+        return true;
+    }
+    const wh_real split =
+        (wh_real)(turn->split_ticks - turn->begin_ticks) / (wh_real)turn->turn_ticks;
+#if WH_RIG_SMALL_PIECES
+    if (lockin->piece == 0) {
+        wh_turn_angle_split_waves(&lockin->angle, split);
+    } else {
+        wh_turn_angle_split_rest(rotor, &lockin->angle, split);
+    }
+    return last_piece(lockin, 2);
+#else
+    wh_turn_angle_split(rotor, &lockin->angle, split);
+    return true;
+#endif
+}
+
+/* True when the turn's result is there. */
+static bool end(const wh_cell_config *cell, wh_lockin *lockin) {
+    if (lockin->piece == 0) {
+        end_sums(lockin);
+        if (WH_RIG_SMALL_PIECES) {
+            lockin->piece = 1;
+            return false;
+        }
+    }
+    lockin->piece = 0;
+    end_turn(cell, lockin);
+    return true;
+}
+
 bool wh_lockin_work(const wh_rotor_config *rotor, const wh_cell_config *cell, wh_lockin *lockin,
                     unsigned halves) {
-    const wh_lockin_turn *turn = &lockin->next;
     switch (lockin->stage) {
     case WH_LOCKIN_WAITS:
         if (lockin->open) {
@@ -340,24 +408,19 @@ bool wh_lockin_work(const wh_rotor_config *rotor, const wh_cell_config *cell, wh
         }
         break;
     case WH_LOCKIN_SHAPES:
-        wh_turn_angle_shape(rotor, &lockin->angle,
-                            WH_RIG_TWO_PI * (wh_real)WH_RIG_TICKS_PER_S /
-                                (wh_real)turn->turn_ticks);
-        lockin->stage = WH_LOCKIN_CORRECTS;
+        if (shape(rotor, lockin)) {
+            lockin->stage = WH_LOCKIN_CORRECTS;
+        }
         break;
     case WH_LOCKIN_CORRECTS:
-        if (turn->split_seen && is_steady(lockin, STILL_PART)) {
-            wh_turn_angle_split(rotor, &lockin->angle,
-                                (wh_real)(turn->split_ticks - turn->begin_ticks) /
-                                    (wh_real)turn->turn_ticks);
+        if (correct(rotor, lockin)) {
+            lockin->stage = WH_LOCKIN_RESHAPES;
         }
-        lockin->stage = WH_LOCKIN_RESHAPES;
         break;
     case WH_LOCKIN_RESHAPES:
-        wh_turn_angle_shape(rotor, &lockin->angle,
-                            WH_RIG_TWO_PI * (wh_real)WH_RIG_TICKS_PER_S /
-                                (wh_real)turn->turn_ticks);
-        begin_turn(lockin);
+        if (shape(rotor, lockin)) {
+            begin_turn(lockin);
+        }
         break;
     case WH_LOCKIN_BEGINS:
     case WH_LOCKIN_SUMS:
@@ -366,7 +429,9 @@ bool wh_lockin_work(const wh_rotor_config *rotor, const wh_cell_config *cell, wh
         }
         break;
     case WH_LOCKIN_ENDS:
-        end_turn(cell, lockin);
+        if (!end(cell, lockin)) {
+            break;
+        }
         lockin->stage = WH_LOCKIN_WAITS;
         return true;
     }

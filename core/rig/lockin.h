@@ -29,7 +29,10 @@
 extern "C" {
 #endif
 
+/* What a small chip's build may set: it has less memory, and less time in a control step. */
+#ifndef WH_LOCKIN_SAMPLES
 #define WH_LOCKIN_SAMPLES 384U /* that can wait: a turn at 100 rpm, 2 ms a sample, and a quarter */
+#endif
 #define WH_LOCKIN_HALVES_AT_ONCE 3U /* half nodes worked on in one control step, */
 #define WH_LOCKIN_STALE_AT_ONCE 8U  /* and so many samples dropped that belong to no turn */
 
@@ -68,7 +71,7 @@ typedef struct wh_lockin_turn {
 } wh_lockin_turn;
 
 typedef enum wh_lockin_stage {
-    WH_LOCKIN_WAITS, /* for a mark */
+    WH_LOCKIN_WAITS, /* for a mark; lockin->piece counts what of a stage is done, where it is done in pieces */
     WH_LOCKIN_SHAPES,
     WH_LOCKIN_CORRECTS,
     WH_LOCKIN_RESHAPES,
@@ -97,6 +100,7 @@ typedef struct wh_lockin_node {
 
 typedef struct wh_lockin {
     wh_lockin_stage stage;
+    uint8_t piece;
     wh_turn_angle angle;
     wh_lockin_turn turn; /* the last one that is done */
 

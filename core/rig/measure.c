@@ -10,6 +10,7 @@ void wh_measure_begin(const wh_measure_config *config, wh_measure *measure) {
     measure->tare = (wh_tare){.count = 0};
     measure->records = false;
     measure->due = 0;
+    measure->adds = false;
     wh_lockin_forget(&config->rotor, &measure->lockin);
 }
 
@@ -45,23 +46,51 @@ void wh_measure_load(wh_measure *measure, const wh_load *load, bool at_rest) {
     }
 }
 
-void wh_measure_work(const wh_measure_config *config, wh_measure *measure, unsigned halves) {
+/* Pieces in which turns are merged to a result: the last is its verdict. */
+#define MERGE_PIECES (WH_RIG_SMALL_PIECES ? WH_MERGE_MEAN_PIECES + 1U : 2U)
+
+static void merge_piece(const wh_measure_config *config, wh_measure *measure) {
     wh_measured *force = &measure->result.force;
-    const bool sums = measure->due == 0 && measure->lockin.stage <= WH_LOCKIN_SUMS &&
+    const wh_turn_angle *angle = &measure->lockin.angle;
+    const bool begins = measure->due == MERGE_PIECES;
+    if (measure->due == 1U) {
+        wh_merge_judge(&config->result, &config->rotor, &measure->merge, angle, force);
+    } else {
+#if WH_RIG_SMALL_PIECES
+        wh_merge_mean_piece(&config->result, &config->rotor, &measure->merge, angle,
+                            measure->tare.mean_N, force, MERGE_PIECES - measure->due);
+#else
+        wh_merge_mean(&config->result, &config->rotor, &measure->merge, angle, measure->tare.mean_N,
+                      force);
+#endif
+        if (begins) {
+            force->left_out += measure->lockin.skipped - measure->skipped_before;
+        }
+    }
+    measure->due--;
+}
+
+static void add_turn(const wh_measure_config *config, wh_measure *measure) {
+    wh_merge_add(&config->result, &config->rotor, &measure->merge, &measure->lockin.turn,
+                 &measure->lockin.angle);
+    measure->adds = false;
+    measure->due = (uint8_t)MERGE_PIECES;
+}
+
+void wh_measure_work(const wh_measure_config *config, wh_measure *measure, unsigned halves,
+                     bool whole) {
+    const bool sums = measure->due == 0 && !measure->adds &&
+                      measure->lockin.stage <= WH_LOCKIN_SUMS &&
                       measure->lockin.stage >= WH_LOCKIN_BEGINS;
-    if (!sums && halves < WH_LOCKIN_HALVES_AT_ONCE) {
+    if (!sums && !whole) {
         return; /* what cannot be made smaller waits for a step that has nothing else to do */
     }
-    if (measure->due == 2U) {
-        wh_merge_mean(&config->result, &config->rotor, &measure->merge, &measure->lockin.angle,
-                      measure->tare.mean_N, force);
-        force->left_out += measure->lockin.skipped - measure->skipped_before;
-    } else if (measure->due == 1U) {
-        wh_merge_judge(&config->result, &config->rotor, &measure->merge, &measure->lockin.angle,
-                       force);
+    if (measure->adds) {
+        add_turn(config, measure);
+        return;
     }
     if (measure->due > 0) {
-        measure->due--;
+        merge_piece(config, measure);
         return;
     }
     if (!wh_lockin_work(&config->rotor, &config->cell, &measure->lockin, halves)) {
@@ -70,10 +99,10 @@ void wh_measure_work(const wh_measure_config *config, wh_measure *measure, unsig
     /* turns that lie within the record as a whole */
     const wh_lockin_turn *turn = &measure->lockin.turn;
     const bool begins_within = (int32_t)(turn->begin_ticks - measure->begin_ticks) >= 0;
-    if (begins_within && wh_measure_lasts(measure, turn->begin_ticks + turn->turn_ticks)) {
-        wh_merge_add(&config->result, &config->rotor, &measure->merge, turn,
-                     &measure->lockin.angle);
-        measure->due = 2;
+    measure->adds =
+        begins_within && wh_measure_lasts(measure, turn->begin_ticks + turn->turn_ticks);
+    if (measure->adds && !WH_RIG_SMALL_PIECES) {
+        add_turn(config, measure);
     }
 }
 
@@ -86,6 +115,7 @@ void wh_measure_record(const wh_measure_config *config, wh_measure *measure, wh_
     measure->records = true;
     measure->begin_ticks = now_ticks;
     measure->due = 0;
+    measure->adds = false;
     measure->peaks = false;
     measure->ends = false;
     measure->skipped_before = measure->lockin.skipped;
@@ -94,9 +124,10 @@ void wh_measure_record(const wh_measure_config *config, wh_measure *measure, wh_
 bool wh_measure_end(wh_measure *measure, uint32_t now_ticks) {
     const bool late =
         wh_rig_since_s(measure->begin_ticks, now_ticks) > measure->record_s + LAST_TURN_MAX_S;
-    if (!measure->ends && (measure->lockin.stage == WH_LOCKIN_WAITS || late) && measure->due == 0) {
+    if (!measure->ends && (measure->lockin.stage == WH_LOCKIN_WAITS || late) && measure->due == 0 &&
+        !measure->adds) {
         measure->ends = true;
-        measure->due = 2;
+        measure->due = (uint8_t)MERGE_PIECES;
     }
     if (!measure->ends || measure->due > 0) {
         return false;

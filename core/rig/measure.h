@@ -40,7 +40,8 @@ typedef struct wh_measure {
     bool records;
     uint32_t begin_ticks;    /* of the record, */
     wh_real record_s;        /* and how long it lasts */
-    uint8_t due;             /* pieces of work that the last turn has left */
+    uint8_t due;             /* pieces of work that the last turn has left, */
+    bool adds;               /* before them: the turn itself */
     bool peaks;              /* low_N and high_N are of something */
     bool ends;               /* the record's last turn is through */
     uint32_t skipped_before; /* turns, when the record began */
@@ -64,8 +65,10 @@ void wh_measure_mark(wh_measure *measure, const wh_mark *mark);
 /* A sample: of the tare, or of a turning rotor. */
 void wh_measure_load(wh_measure *measure, const wh_load *load, bool at_rest);
 
-/* A bounded piece of the work, once a control step; of a turn's sums so many half nodes. */
-void wh_measure_work(const wh_measure_config *config, wh_measure *measure, unsigned halves);
+/* A bounded piece of the work, once a control step: of a turn's sums so many half nodes; what cannot be made smaller where there
+ * is time for it, `whole`. */
+void wh_measure_work(const wh_measure_config *config, wh_measure *measure, unsigned halves,
+                     bool whole);
 
 /* The record begins now, at a speed > 0; what an earlier one merged is forgotten. */
 void wh_measure_record(const wh_measure_config *config, wh_measure *measure, wh_real speed_radps,

@@ -5,16 +5,21 @@
 
 #define PI WH_R(3.141592653589793)
 
-void wh_polar(wh_real x, wh_real y, wh_real *radius, wh_real *angle_rad) {
-    wh_real angle = WH_R(0.0);
+WH_INLINE wh_real begin(wh_real x, wh_real y) {
     if (WH_ABS(y) > WH_ABS(x)) {
-        angle = y < WH_R(0.0) ? WH_R(-0.5) * PI : WH_R(0.5) * PI;
-    } else if (x < WH_R(0.0)) {
-        angle = y < WH_R(0.0) ? -PI : PI;
+        return y < WH_R(0.0) ? WH_R(-0.5) * PI : WH_R(0.5) * PI;
     }
+    if (x < WH_R(0.0)) {
+        return y < WH_R(0.0) ? -PI : PI;
+    }
+    return WH_R(0.0);
+}
+
+WH_INLINE void go_round(wh_real x, wh_real y, unsigned rounds, wh_real *radius,
+                        wh_real *angle_rad) {
+    wh_real angle = *angle_rad;
     wh_real along = WH_R(0.0);
-    /* |t| <= 1 at first and each round takes it to about its fifth power: four are plenty */
-    for (unsigned round = 0; round < 4; round++) {
+    for (unsigned round = 0; round < rounds; round++) {
         wh_real sine;
         wh_real cosine;
         wh_sincos(wh_phase_from_rad(angle), &sine, &cosine);
@@ -26,5 +31,17 @@ void wh_polar(wh_real x, wh_real y, wh_real *radius, wh_real *angle_rad) {
         angle += t * (WH_R(1.0) - t * t * (WH_R(1.0) / WH_R(3.0)));
     }
     *radius = along;
+    *angle_rad = angle;
+}
+
+wh_real wh_polar_begin(wh_real x, wh_real y) { return begin(x, y); }
+
+void wh_polar_rounds(wh_real x, wh_real y, unsigned rounds, wh_real *radius, wh_real *angle_rad) {
+    go_round(x, y, rounds, radius, angle_rad);
+}
+
+void wh_polar(wh_real x, wh_real y, wh_real *radius, wh_real *angle_rad) {
+    wh_real angle = begin(x, y);
+    go_round(x, y, WH_POLAR_ROUNDS, radius, &angle);
     *angle_rad = angle;
 }

@@ -20,13 +20,13 @@ static wh_real turn_ticks(const wh_speed *speed) {
     return WH_RIG_TWO_PI / speed->turn_radps * (wh_real)WH_RIG_TICKS_PER_S;
 }
 
-/* How much earlier than a turn after its sensor's last one a pulse comes, ticks; 0 where nobody knows. */
-static wh_real early_ticks(const wh_speed *speed, const wh_pulse *pulse) {
+/* How much earlier than a turn (its ticks) after its sensor's last one a pulse comes, ticks; 0 where nobody knows. */
+static wh_real early_ticks(const wh_speed *speed, const wh_pulse *pulse, wh_real turn) {
     if (!speed->known || !speed->seen[pulse->sensor] ||
         speed->quarter - speed->seen_quarter[pulse->sensor] > 3U) {
         return WH_R(0.0);
     }
-    return turn_ticks(speed) - (wh_real)(pulse->ticks - speed->seen_ticks[pulse->sensor]);
+    return turn - (wh_real)(pulse->ticks - speed->seen_ticks[pulse->sensor]);
 }
 
 /* --- what is sure -------------------------------------------------------------------------------- */
@@ -140,17 +140,17 @@ static void decide(wh_pulses *pulses, const wh_pulse *pulse) {
     }
 }
 
-/* The sensor of the last pulse again, within that part of a turn. */
-static bool soon_after(const wh_pulses *pulses, const wh_pulse *pulse, wh_real part) {
+/* The sensor of the last pulse again, within that part of a turn of so many ticks. */
+static bool soon_after(const wh_pulses *pulses, const wh_pulse *pulse, wh_real part, wh_real turn) {
     const wh_pulse *last = &pulses->last.pulse;
     return pulses->waits && pulses->speed.known && pulse->sensor == last->sensor &&
-           (wh_real)(pulse->ticks - last->ticks) < part * turn_ticks(&pulses->speed);
+           (wh_real)(pulse->ticks - last->ticks) < part * turn;
 }
 
 /* A pulse that cannot follow the last one: is it that one which is none? */
-static void compare(wh_pulses *pulses, const wh_pulse *pulse) {
+static void compare(wh_pulses *pulses, const wh_pulse *pulse, wh_real turn) {
     wh_speed instead;
-    if (soon_after(pulses, pulse, BOUNCE_PART)) {
+    if (soon_after(pulses, pulse, BOUNCE_PART, turn)) {
         pulses->rejected++;
     } else {
         doubt(pulses);
@@ -159,8 +159,9 @@ static void compare(wh_pulses *pulses, const wh_pulse *pulse) {
         !with(&pulses->before, pulse, &instead) || !is_likely(pulses, &instead)) {
         return;
     }
-    const wh_real last = early_ticks(&pulses->before, &pulses->last.pulse);
-    const wh_real this = early_ticks(&pulses->before, pulse);
+    const wh_real before = turn_ticks(&pulses->before);
+    const wh_real last = early_ticks(&pulses->before, &pulses->last.pulse, before);
+    const wh_real this = early_ticks(&pulses->before, pulse, before);
     if (WH_ABS(this) < WH_ABS(last)) {
         accept(pulses, pulse, &instead);
     }
@@ -177,13 +178,13 @@ void wh_pulses_take(wh_pulses *pulses, unsigned sensor, uint32_t ticks) {
         return;
     }
     wh_speed after;
-    if (soon_after(pulses, &pulse, TWICE_PART) || !with(&pulses->speed, &pulse, &after)) {
-        compare(pulses, &pulse);
+    const wh_real turn = pulses->speed.known ? turn_ticks(&pulses->speed) : WH_R(0.0);
+    if (soon_after(pulses, &pulse, TWICE_PART, turn) || !with(&pulses->speed, &pulse, &after)) {
+        compare(pulses, &pulse, turn);
         return;
     }
-    const wh_real early = pulses->speed.known
-                              ? early_ticks(&pulses->speed, &pulse) / turn_ticks(&pulses->speed)
-                              : WH_R(0.0);
+    const wh_real early =
+        pulses->speed.known ? early_ticks(&pulses->speed, &pulse, turn) / turn : WH_R(0.0);
     /* where one interval was fast, or the last pulse early, the next is the speed's */
     const bool trusted =
         !pulses->speed.running || pulses->fast > 0 || pulses->alert || is_sudden(pulses, &after);

@@ -125,9 +125,8 @@ static wh_real marks_rad2(const wh_merge *merge, const wh_turn_angle *angle, wh_
     return shared + split;
 }
 
-void wh_merge_mean(const wh_result_config *config, const wh_rotor_config *rotor,
-                   const wh_merge *merge, const wh_turn_angle *angle, wh_real tare_N,
-                   wh_measured *measured) {
+WH_INLINE void begin_mean(const wh_merge *merge, const wh_turn_angle *angle, wh_real tare_N,
+                          wh_measured *measured) {
     *measured = (wh_measured){.turns = merge->turns,
                               .left_out = merge->left_out,
                               .outliers = merge->outliers,
@@ -144,45 +143,138 @@ void wh_merge_mean(const wh_result_config *config, const wh_rotor_config *rotor,
     if (angle->fed && angle->whole_rad > WH_R(0.0)) {
         measured->left_part = WH_ABS(merge->swing_rad) / angle->whole_rad;
     }
-    const wh_real x = merge->in_phase_N;
-    const wh_real y = -merge->quadrature_N;
-    wh_polar(x, y, &measured->amplitude_N, &measured->phase_rad);
+}
+
+WH_INLINE wh_real size2_of(const wh_merge *merge) {
+    return merge->in_phase_N * merge->in_phase_N + merge->quadrature_N * merge->quadrature_N;
+}
+
+WH_INLINE bool has_halves(const wh_merge *merge, wh_real size2) {
+    return merge->turns >= 2U && size2 > WH_R(0.0);
+}
+
+WH_INLINE wh_real t2_of(const wh_merge *merge) {
+    const wh_real student = wh_student(merge->turns - 1U);
+    return student * student;
+}
+
+WH_INLINE void jitter_of_marks(const wh_merge *merge, wh_measured *measured) {
     if (merge->jitters > 0) {
         measured->jitter_s = WH_SQRT(merge->jitter_s2 / (WH_R(6.0) * (wh_real)merge->jitters));
     }
-    const wh_real size2 = x * x + y * y;
-    if (merge->turns < 2U || !(size2 > WH_R(0.0))) {
-        return;
-    }
-    /* scatter along the mean and across it */
+}
+
+/* Scatter along the mean and across it, in the halves' places for now. */
+WH_INLINE void scatter_of_mean(const wh_merge *merge, wh_real size2, wh_real t2,
+                               wh_measured *measured) {
+    const wh_real x = merge->in_phase_N;
+    const wh_real y = -merge->quadrature_N;
     const wh_real *s = merge->scatter_N2;
     const wh_real both = WH_R(2.0) * x * y * s[1];
     const wh_real n = (wh_real)merge->turns;
-    const wh_real student = wh_student(merge->turns - 1U);
-    const wh_real t2 = student * student;
     const wh_real factor = t2 / (n * (n - WH_R(1.0)) * size2);
-    const wh_real along_N2 = factor * (x * x * s[0] - both + y * y * s[2]);
-    const wh_real across_N2 = factor * (y * y * s[0] + both + x * x * s[2]);
+    measured->amplitude_half_N = factor * (x * x * s[0] - both + y * y * s[2]);
+    measured->phase_half_rad = factor * (y * y * s[0] + both + x * x * s[2]);
+}
 
+/* What is off beside the scatter: the parts that amplitude and phase share. */
+typedef struct parts_off {
+    wh_real third;
+    wh_real lag;
+    wh_real quadrature;
+    wh_real cut; /* what a motor that cannot brake enough leaves (tests/host/test_lockin_truth.c) */
+} parts_off;
+
+WH_INLINE parts_off off_of(const wh_rotor_config *rotor, const wh_merge *merge,
+                           const wh_turn_angle *angle) {
     const wh_real swing = merge->swing_rad;
-    const wh_real third = WH_R(0.125) * swing * swing * swing;
-    const wh_real lag = WH_ABS(angle->base_per_lag) * rotor->damping_tolerance * angle->lag_rad;
-    /* fed at another angle, gravity leaves a swing that the split takes for one a quarter turn on */
-    const wh_real quadrature = angle->fed ? rotor->fed_tolerance_rad * angle->whole_rad : WH_R(0.0);
-    const wh_real turned = quadrature * angle->base_per_quadrature;
-    /* what a motor that cannot brake enough leaves (tests/host/test_lockin_truth.c) */
-    const wh_real cut = angle->cut * angle->cut;
-    const wh_real drift = WH_R(0.5) * (wh_real)(int32_t)(merge->last_ticks - merge->first_ticks) /
-                          (n * merge->turn_s * (wh_real)WH_RIG_TICKS_PER_S);
+    return (parts_off){
+        .third = WH_R(0.125) * swing * swing * swing,
+        .lag = WH_ABS(angle->base_per_lag) * rotor->damping_tolerance * angle->lag_rad,
+        /* fed at another angle, gravity leaves a swing that the split takes for one a quarter turn on */
+        .quadrature = angle->fed ? rotor->fed_tolerance_rad * angle->whole_rad : WH_R(0.0),
+        .cut = angle->cut * angle->cut};
+}
+
+WH_INLINE void amplitude_half(const wh_result_config *config, const wh_rotor_config *rotor,
+                              const wh_merge *merge, const wh_turn_angle *angle, wh_real size2,
+                              const parts_off *by, wh_measured *measured) {
     const wh_real amplitude2 =
-        square_of(config->amplitude_floor) + square_of(WH_R(1.5) * swing * lag) + square_of(third) +
-        square_of(WH_R(3.0) * quadrature * quadrature) + square_of(WH_R(0.01) * cut) +
+        square_of(config->amplitude_floor) + square_of(WH_R(1.5) * merge->swing_rad * by->lag) +
+        square_of(by->third) + square_of(WH_R(3.0) * by->quadrature * by->quadrature) +
+        square_of(WH_R(0.01) * by->cut) +
         square_of(WH_R(0.5) * angle->twice_rad * rotor->yields_tolerance);
-    measured->amplitude_half_N = WH_SQRT(along_N2 + amplitude2 * size2);
-    measured->phase_half_rad =
-        WH_SQRT(across_N2 / size2 + t2 * marks_rad2(merge, angle, measured->jitter_s) +
-                square_of(lag) + square_of(third) + square_of(turned) + square_of(WH_R(0.1) * cut) +
-                square_of(drift) + square_of(config->phase_floor_rad));
+    measured->amplitude_half_N = WH_SQRT(measured->amplitude_half_N + amplitude2 * size2);
+}
+
+WH_INLINE void phase_half(const wh_result_config *config, const wh_merge *merge,
+                          const wh_turn_angle *angle, wh_real size2, wh_real t2,
+                          const parts_off *by, wh_measured *measured) {
+    const wh_real turned = by->quadrature * angle->base_per_quadrature;
+    const wh_real drift = WH_R(0.5) * (wh_real)(int32_t)(merge->last_ticks - merge->first_ticks) /
+                          ((wh_real)merge->turns * merge->turn_s * (wh_real)WH_RIG_TICKS_PER_S);
+    measured->phase_half_rad = WH_SQRT(
+        measured->phase_half_rad / size2 + t2 * marks_rad2(merge, angle, measured->jitter_s) +
+        square_of(by->lag) + square_of(by->third) + square_of(turned) +
+        square_of(WH_R(0.1) * by->cut) + square_of(drift) + square_of(config->phase_floor_rad));
+}
+
+#if WH_RIG_SMALL_PIECES
+void wh_merge_mean_piece(const wh_result_config *config, const wh_rotor_config *rotor,
+                         const wh_merge *merge, const wh_turn_angle *angle, wh_real tare_N,
+                         wh_measured *measured, unsigned piece) {
+    if (piece == 0) {
+        begin_mean(merge, angle, tare_N, measured);
+        measured->phase_rad = wh_polar_begin(merge->in_phase_N, -merge->quadrature_N);
+        return;
+    }
+    if (merge->turns == 0) {
+        measured->phase_rad = WH_R(0.0);
+        return;
+    }
+    if (piece < 3U) {
+        wh_polar_rounds(merge->in_phase_N, -merge->quadrature_N, WH_POLAR_ROUNDS / 2U,
+                        &measured->amplitude_N, &measured->phase_rad);
+        return;
+    }
+    const wh_real size2 = size2_of(merge);
+    if (piece == 3U) {
+        jitter_of_marks(merge, measured);
+    }
+    if (!has_halves(merge, size2)) {
+        return;
+    }
+    if (piece == 3U) {
+        scatter_of_mean(merge, size2, t2_of(merge), measured);
+        return;
+    }
+    const parts_off by = off_of(rotor, merge, angle);
+    if (piece == 4U) {
+        amplitude_half(config, rotor, merge, angle, size2, &by, measured);
+    } else {
+        phase_half(config, merge, angle, size2, t2_of(merge), &by, measured);
+    }
+}
+#endif
+
+void wh_merge_mean(const wh_result_config *config, const wh_rotor_config *rotor,
+                   const wh_merge *merge, const wh_turn_angle *angle, wh_real tare_N,
+                   wh_measured *measured) {
+    begin_mean(merge, angle, tare_N, measured);
+    if (merge->turns == 0) {
+        return;
+    }
+    wh_polar(merge->in_phase_N, -merge->quadrature_N, &measured->amplitude_N, &measured->phase_rad);
+    jitter_of_marks(merge, measured);
+    const wh_real size2 = size2_of(merge);
+    if (!has_halves(merge, size2)) {
+        return;
+    }
+    const wh_real t2 = t2_of(merge);
+    scatter_of_mean(merge, size2, t2, measured);
+    const parts_off by = off_of(rotor, merge, angle);
+    amplitude_half(config, rotor, merge, angle, size2, &by, measured);
+    phase_half(config, merge, angle, size2, t2, &by, measured);
 }
 
 /* --- verdict ------------------------------------------------------------------------------------ */

@@ -116,6 +116,7 @@ typedef struct wh_measured {
 
 #define wh_merge_add WH_NAME(wh_merge_add)
 #define wh_merge_mean WH_NAME(wh_merge_mean)
+#define wh_merge_mean_piece WH_NAME(wh_merge_mean_piece)
 #define wh_merge_judge WH_NAME(wh_merge_judge)
 #define wh_student WH_NAME(wh_student)
 #define wh_why_text WH_NAME(wh_why_text)
@@ -129,6 +130,14 @@ void wh_merge_add(const wh_result_config *config, const wh_rotor_config *rotor, 
 void wh_merge_mean(const wh_result_config *config, const wh_rotor_config *rotor,
                    const wh_merge *merge, const wh_turn_angle *angle, wh_real tare_N,
                    wh_measured *measured);
+
+#define WH_MERGE_MEAN_PIECES 6U
+#if WH_RIG_SMALL_PIECES
+/* The same in pieces, each once, in their order: 0 ... WH_MERGE_MEAN_PIECES - 1. Until the last *measured is under way. */
+void wh_merge_mean_piece(const wh_result_config *config, const wh_rotor_config *rotor,
+                         const wh_merge *merge, const wh_turn_angle *angle, wh_real tare_N,
+                         wh_measured *measured, unsigned piece);
+#endif
 
 /* Quality and reason of what wh_merge_mean() has found. */
 void wh_merge_judge(const wh_result_config *config, const wh_rotor_config *rotor,

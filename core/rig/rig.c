@@ -61,7 +61,7 @@ void wh_rig_pulse(const wh_rig_config *config, wh_rig *rig, unsigned sensor, uin
         rig->run.tare_pulses[sensor]++;
     }
     wh_pulses_take(&rig->pulses, sensor, ticks);
-    if (!wh_run_drives(&rig->run)) {
+    if (WH_RIG_SWINGS && !wh_run_drives(&rig->run)) {
         wh_swing_pulse(&rig->swing, sensor, ticks);
     }
 }
@@ -339,10 +339,18 @@ static void live(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs *
 /* How much of a turn's sums there is time for: a late controller finds samples, and the observer's steps, for more than one
  * step and none for the next. Where a mark may get sure, and the rotor is observed, there is less. */
 static unsigned halves(const wh_rig *rig) {
+    if (WH_RIG_SMALL_PIECES) {
+        return rig->loads <= 1U ? 1U : 0U;
+    }
     if (rig->loads != 1U) {
         return rig->loads == 0 ? WH_LOCKIN_HALVES_AT_ONCE + 1U : 1U;
     }
     return WH_LOCKIN_HALVES_AT_ONCE - (rig->fed && rig->pulses.waits ? 1U : 0U);
+}
+
+/* And for what cannot be made smaller. */
+static bool has_time(const wh_rig *rig, unsigned of_sums) {
+    return WH_RIG_SMALL_PIECES ? rig->loads == 0 : of_sums >= WH_LOCKIN_HALVES_AT_ONCE;
 }
 
 /* A pulse is work enough for one step, and so is a mark: it waits, unless pulses come so fast that marks would be lost. */
@@ -356,7 +364,8 @@ static void measure(const wh_rig_config *config, wh_rig *rig, uint32_t now_ticks
         rig->busy = true;
     }
     if (wh_run_drives(&rig->run) && !rig->busy) {
-        wh_measure_work(&config->measure, &rig->measure, halves(rig));
+        const unsigned of_sums = halves(rig);
+        wh_measure_work(&config->measure, &rig->measure, of_sums, has_time(rig, of_sums));
     }
     rig->busy = false;
     rig->loads = 0;
@@ -403,7 +412,7 @@ wh_rig_command wh_rig_step(const wh_rig_config *config, wh_rig *rig, const wh_ri
     rig->busy = rig->busy || rig->run.phase != phase;
     measure(config, rig, inputs->now_ticks);
     follow_trip(config, rig, inputs);
-    if (!wh_run_drives(&rig->run)) {
+    if (WH_RIG_SWINGS && !wh_run_drives(&rig->run)) {
         swing(config, rig);
     }
     rig->command = command_of(config, rig, inputs);

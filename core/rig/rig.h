@@ -32,6 +32,11 @@ typedef enum wh_feed_when {
     WH_FEED_ALWAYS
 } wh_feed_when;
 
+/* 0, as a small chip's build may say: observer.scene is NULL, and nothing can be fed forward. */
+#ifndef WH_RIG_FEEDS
+#define WH_RIG_FEEDS 1
+#endif
+
 typedef struct wh_rig_config {
     wh_run_config run;
     wh_guard_config guard;

@@ -41,11 +41,11 @@ bool wh_speed_pulse(wh_speed *speed, unsigned sensor, uint32_t ticks) {
     const uint32_t ahead = (sensor - speed->quarter) % QUARTERS;
     const uint32_t moved = ahead == 0 ? QUARTERS : ahead;
     const uint32_t interval = ticks - speed->ticks;
-    if (interval == 0 || radps(moved, interval) > speed->impossible_radps) {
+    const wh_real interval_radps = interval > 0 ? radps(moved, interval) : WH_R(0.0);
+    if (interval == 0 || interval_radps > speed->impossible_radps) {
         speed->rejected++;
         return false;
     }
-    const wh_real interval_radps = radps(moved, interval);
     /* what else it might be is a whole turn further on: four quarters late, or (order reversed) two */
     const wh_real due_quarters = (wh_real)moved * speed->turn_radps / interval_radps;
     if (speed->known && due_quarters > (wh_real)(moved + 1U)) {

@@ -1,7 +1,6 @@
 /* turn_angle.c: the rotor's angle within a turn, from the two sensors' marks and the rotor's lag. */
 #include "turn_angle.h"
 
-#include "core/angle.h"
 #include "core/root.h"
 #include "datasheet.h"
 
@@ -82,7 +81,8 @@ static void add_cut(const wh_rotor_config *config, wh_turn_angle *angle, wh_real
     angle->second_sine -= size * turned.sine;
 }
 
-void wh_turn_angle_shape(const wh_rotor_config *config, wh_turn_angle *angle, wh_real speed_radps) {
+WH_INLINE void shape_swing(const wh_rotor_config *config, wh_turn_angle *angle,
+                           wh_real speed_radps) {
     const wh_real weight_Nm = config->mass_moment_kgm * config->gravity_mps2;
     const wh_real turning = angle->inertia_kgm2 * speed_radps;
     const wh_real sum = WH_SQRT(turning * turning + config->damping_Nms * config->damping_Nms);
@@ -102,7 +102,9 @@ void wh_turn_angle_shape(const wh_rotor_config *config, wh_turn_angle *angle, wh
     angle->second_cosine = -second * half * (WH_R(1.0) - half * half * (WH_R(1.0) / WH_R(6.0)));
     add_carriage(config, angle, speed_radps);
     add_cut(config, angle, speed_radps);
+}
 
+WH_INLINE void shape_begin(const wh_rotor_config *config, wh_turn_angle *angle) {
     /* base + what is added at the begin is the mark's angle, and u there is base + psi - gamma */
     const wh_real begins = config->mark_rad[0] + angle->lag_rad - config->gravity_rad;
     for (unsigned round = 0; round < 2U; round++) {
@@ -110,13 +112,34 @@ void wh_turn_angle_shape(const wh_rotor_config *config, wh_turn_angle *angle, wh
         angle->begin_rad -= (angle->begin_rad + added(angle, u) - begins) /
                             (WH_R(1.0) + angle->swing_rad * u.cosine);
     }
+}
+
+WH_INLINE void shape_base(const wh_rotor_config *config, wh_turn_angle *angle) {
     angle->base_rad = config->mark_rad[0] - added(angle, wave_of(angle->begin_rad));
 }
 
-wh_real wh_turn_angle_split(const wh_rotor_config *config, wh_turn_angle *angle, wh_real split) {
-    const wh_real passed = WH_RIG_TWO_PI * split;
-    const wh_wave from = wave_of(angle->begin_rad);
-    const wh_wave to = wave_of(angle->begin_rad + passed);
+void wh_turn_angle_shape(const wh_rotor_config *config, wh_turn_angle *angle, wh_real speed_radps) {
+    shape_swing(config, angle, speed_radps);
+    shape_begin(config, angle);
+    shape_base(config, angle);
+}
+
+#if WH_RIG_SMALL_PIECES
+void wh_turn_angle_shape_piece(const wh_rotor_config *config, wh_turn_angle *angle,
+                               wh_real speed_radps, unsigned piece) {
+    if (piece == 0) {
+        shape_swing(config, angle, speed_radps);
+    } else if (piece == 1U) {
+        shape_begin(config, angle);
+    } else {
+        shape_base(config, angle);
+    }
+}
+#endif
+
+/* u's waves at the turn's begin and where it is split are known. */
+WH_INLINE wh_real split_by(const wh_rotor_config *config, wh_turn_angle *angle, wh_real passed,
+                           wh_wave from, wh_wave to) {
     const wh_real off = config->mark_rad[1] - (angle->base_rad + passed + added(angle, to));
     const wh_real swing = angle->swing_rad;
     if (!(angle->whole_rad > WH_R(0.0))) {
@@ -158,6 +181,24 @@ wh_real wh_turn_angle_split(const wh_rotor_config *config, wh_turn_angle *angle,
     angle->inertia_kgm2 *= WH_R(1.0) + change / (wh_real)turns_averaged;
     return off;
 }
+
+wh_real wh_turn_angle_split(const wh_rotor_config *config, wh_turn_angle *angle, wh_real split) {
+    const wh_real passed = WH_RIG_TWO_PI * split;
+    return split_by(config, angle, passed, wave_of(angle->begin_rad),
+                    wave_of(angle->begin_rad + passed));
+}
+
+#if WH_RIG_SMALL_PIECES
+void wh_turn_angle_split_waves(wh_turn_angle *angle, wh_real split) {
+    angle->split_from = wave_of(angle->begin_rad);
+    angle->split_to = wave_of(angle->begin_rad + WH_RIG_TWO_PI * split);
+}
+
+wh_real wh_turn_angle_split_rest(const wh_rotor_config *config, wh_turn_angle *angle,
+                                 wh_real split) {
+    return split_by(config, angle, WH_RIG_TWO_PI * split, angle->split_from, angle->split_to);
+}
+#endif
 
 wh_real wh_turn_angle_at(const wh_turn_angle *angle, wh_real part) {
     const wh_real passed = WH_RIG_TWO_PI * part;

@@ -28,10 +28,16 @@
 #ifndef WH_RIG_TURN_ANGLE_H
 #define WH_RIG_TURN_ANGLE_H
 
-#include "core/real.h"
+#include "core/angle.h"
 
 #ifdef __cplusplus
 extern "C" {
+#endif
+
+/* Where a float's product takes 200 cycles (1): one half node in a control step, and what is one piece of work elsewhere is done in
+ * several, in steps without a sample. Other pieces, the same numbers. */
+#ifndef WH_RIG_SMALL_PIECES
+#define WH_RIG_SMALL_PIECES 0
 #endif
 
 typedef struct wh_rotor_config {
@@ -69,12 +75,19 @@ typedef struct wh_turn_angle {
     wh_real base_per_lag;   /* and a lag that does not, the split kept; */
     /* and a swing a quarter turn on from E, which the split takes for E */
     wh_real base_per_quadrature;
+#if WH_RIG_SMALL_PIECES
+    wh_wave split_from; /* of u, at the turn's begin and where it is split */
+    wh_wave split_to;
+#endif
 } wh_turn_angle;
 
 #define wh_turn_angle_start WH_NAME(wh_turn_angle_start)
 #define wh_turn_angle_feed WH_NAME(wh_turn_angle_feed)
 #define wh_turn_angle_shape WH_NAME(wh_turn_angle_shape)
+#define wh_turn_angle_shape_piece WH_NAME(wh_turn_angle_shape_piece)
 #define wh_turn_angle_split WH_NAME(wh_turn_angle_split)
+#define wh_turn_angle_split_waves WH_NAME(wh_turn_angle_split_waves)
+#define wh_turn_angle_split_rest WH_NAME(wh_turn_angle_split_rest)
 #define wh_turn_angle_at WH_NAME(wh_turn_angle_at)
 
 /* Forget what was found. */
@@ -88,10 +101,24 @@ void wh_turn_angle_feed(wh_turn_angle *angle, bool fed, wh_real stall_Nm_per_V);
  * begin_rad closer, and from one turn to the next little is left to do. */
 void wh_turn_angle_shape(const wh_rotor_config *config, wh_turn_angle *angle, wh_real speed_radps);
 
+#if WH_RIG_SMALL_PIECES
+/* The same in pieces, each once, in their order: 0 ... WH_TURN_ANGLE_SHAPES - 1. */
+#define WH_TURN_ANGLE_SHAPES 3U
+void wh_turn_angle_shape_piece(const wh_rotor_config *config, wh_turn_angle *angle,
+                               wh_real speed_radps, unsigned piece);
+#endif
+
 /* Sensor 2's mark came when the part `split` (0 to 1) of the turn's time was over: correct the inertia, or the
  * part of gravity that is left, for which the shape must be that of this turn's speed. Returns by how much the mark was
  * off, rad. */
 wh_real wh_turn_angle_split(const wh_rotor_config *config, wh_turn_angle *angle, wh_real split);
+
+#if WH_RIG_SMALL_PIECES
+/* The same in two pieces: first its waves, then the rest. */
+void wh_turn_angle_split_waves(wh_turn_angle *angle, wh_real split);
+wh_real wh_turn_angle_split_rest(const wh_rotor_config *config, wh_turn_angle *angle,
+                                 wh_real split);
+#endif
 
 /* theta when the part `part` (0 to 1) of the turn's time is over. */
 wh_real wh_turn_angle_at(const wh_turn_angle *angle, wh_real part);

@@ -1,14 +1,15 @@
 /* answer.c: how the console's answers are put together. */
 #include "answer.h"
 
+#include "core/flash.h"
 #include "core/packed_words.h"
 
 bool wh_answer_is(const char *word, const char *name) {
-    while (*word != '\0' && *word == *name) {
+    while (wh_word_at(word) != '\0' && wh_word_at(word) == wh_word_at(name)) {
         word++;
         name++;
     }
-    return *word == *name;
+    return wh_word_at(word) == wh_word_at(name);
 }
 
 void wh_answer_refused(wh_text *text, unsigned number, const char *why) {
@@ -22,8 +23,8 @@ void wh_answer_word(wh_text *text, const char *name, const char *word) {
     wh_text_add_char(text, ' ');
     wh_text_add(text, name);
     wh_text_add_char(text, '=');
-    for (; *word != '\0'; word++) {
-        wh_text_add_char(text, *word == ' ' ? '_' : *word);
+    for (char next = wh_word_at(word); next != '\0'; next = wh_word_at(++word)) {
+        wh_text_add_char(text, next == ' ' ? '_' : next);
     }
 }
 

@@ -5,6 +5,7 @@
 
 #include "answer.h"
 #include "brief.h"
+#include "core/flash.h"
 #include "core/frame.h"
 #include "core/root.h"
 #include "line.h"
@@ -17,20 +18,38 @@ static const wh_real per_unit[UNITS] = {WH_CONF_UNIT_ROWS(UNIT)};
 #undef UNIT
 #define DEG per_unit[UNITS_DEG]
 
+/* Where words stay in flash, so do these. */
+#if defined(WH_WORDS_FROM)
+#define ROWS_KEPT WH_FLASH
+#else
+#define ROWS_KEPT
+#endif
+
 #define ROW(name, number, kind, unit, least, most, member, units, words) \
     {#name,  unit, WH_SAY(words), WH_R(least), WH_R(most), offsetof(wh_rig_config, member), \
      number, kind, UNITS_##units},
-static const wh_conf_row rows[] = {WH_CONF_ROWS(ROW)};
+static const wh_conf_row rows[] ROWS_KEPT = {WH_CONF_ROWS(ROW)};
 #undef ROW
 
 #define ENTRY_BYTES 5U /* a setting's number, and its value */
 _Static_assert(WH_CONF_COUNT *ENTRY_BYTES <= WH_STORE_PAYLOAD_MOST, "all settings fit into a slot");
 
-const wh_conf_row *wh_conf_row_of(wh_conf_id id) { return &rows[id]; }
+#if defined(WH_WORDS_FROM)
+static const wh_conf_row *row_in(wh_conf_row *room, unsigned id) {
+    wh_flash_copy(room, &rows[id], sizeof *room);
+    return room;
+}
+#define ROW_IN(room, id) row_in(room, id)
+#else
+#define ROW_IN(room, id) ((void)(room), &rows[id])
+#endif
+#define ROW(id) ROW_IN(&(wh_conf_row){.name = NULL}, id)
+
+const wh_conf_row *wh_conf_row_of(wh_conf_id id, wh_conf_row *room) { return ROW_IN(room, id); }
 
 wh_conf_id wh_conf_find(const char *name) {
     unsigned id = 0;
-    while (id < WH_CONF_COUNT && !wh_answer_is(name, rows[id].name)) {
+    while (id < WH_CONF_COUNT && !wh_answer_is(name, ROW(id)->name)) {
         id++;
     }
     return (wh_conf_id)id;
@@ -46,7 +65,7 @@ static void *member_of(wh_rig_config *c, const wh_conf_row *row) {
 }
 
 static wh_real value_of(wh_rig_config *c, wh_conf_id id) {
-    const wh_conf_row *row = &rows[id];
+    const wh_conf_row *row = ROW(id);
     const void *member = member_of(c, row);
     if (id == WH_CONF_cell_reversed) {
         return *(const wh_real *)member < WH_R(0.0) ? WH_R(1.0) : WH_R(0.0);
@@ -70,7 +89,7 @@ static wh_real value_of(wh_rig_config *c, wh_conf_id id) {
 
 /* What comes of several settings is put by put_rotor(), put_sensors() and put_cell(), behind these. */
 static void put(wh_rig_config *c, wh_conf_id id, wh_real value) {
-    const wh_conf_row *row = &rows[id];
+    const wh_conf_row *row = ROW(id);
     void *member = member_of(c, row);
     if (id == WH_CONF_cell_reversed) {
         return;
@@ -144,7 +163,7 @@ static void renew(const wh_conf *conf) {
 /* --- what may be set ----------------------------------------------------------------------------------- */
 
 static bool in_range(wh_conf_id id, wh_real value) {
-    const wh_conf_row *row = &rows[id];
+    const wh_conf_row *row = ROW(id);
     return value >= row->least && value <= row->most &&
            ((wh_conf_kind)row->kind == WH_CONF_REAL || same(value, (wh_real)(int32_t)value));
 }
@@ -156,10 +175,19 @@ static bool go_together(const wh_conf *conf) {
            value[WH_CONF_supply_least] < value[WH_CONF_supply_most];
 }
 
+/* What this program is built without. */
+static bool is_absent(wh_conf_id id, wh_real value) {
+    return is_on(value) &&
+           ((id == WH_CONF_feeds && !WH_RIG_FEEDS) || (id == WH_CONF_swings && !WH_RIG_SWINGS));
+}
+
 wh_conf_status wh_conf_set(wh_conf *conf, wh_conf_id id, wh_real value) {
     const wh_real kept = (wh_real)(float)value; /* as memory has it */
     if (!in_range(id, value)) {
         return WH_CONF_RANGE;
+    }
+    if (is_absent(id, value)) {
+        return WH_CONF_ABSENT;
     }
     const wh_real before = conf->value[id];
     conf->value[id] = kept;
@@ -176,22 +204,22 @@ wh_conf_status wh_conf_set(wh_conf *conf, wh_conf_id id, wh_real value) {
 static const char *words_of(wh_conf_id id) {
 #define WORDS(kind, word) \
     case kind: return word;
-    switch ((wh_conf_kind)rows[id].kind) { WH_CONF_KIND_ROWS(WORDS) case WH_CONF_KINDS : break; }
+    switch ((wh_conf_kind)ROW(id)->kind) { WH_CONF_KIND_ROWS(WORDS) case WH_CONF_KINDS : break; }
 #undef WORDS
     return "";
 }
 
 static bool is_choice(wh_conf_id id) {
-    const wh_conf_kind kind = (wh_conf_kind)rows[id].kind;
+    const wh_conf_kind kind = (wh_conf_kind)ROW(id)->kind;
     return kind != WH_CONF_REAL && kind != WH_CONF_WHOLE;
 }
 
 /* Behind the next '|'; NULL when there is none. */
 static const char *next_word(const char *at) {
-    while (*at != '\0' && *at != '|') {
+    while (wh_word_at(at) != '\0' && wh_word_at(at) != '|') {
         at++;
     }
-    return *at == '|' ? at + 1 : NULL;
+    return wh_word_at(at) == '|' ? at + 1 : NULL;
 }
 
 const char *wh_conf_text(wh_conf_id id, wh_real value) {
@@ -203,11 +231,11 @@ const char *wh_conf_text(wh_conf_id id, wh_real value) {
 }
 
 static bool begins(const char *word, const char *with) {
-    while (*with != '\0' && *with != '|' && *with == *word) {
+    while (*with != '\0' && *with != '|' && *with == wh_word_at(word)) {
         with++;
         word++;
     }
-    return *with == '\0' && (*word == '\0' || *word == '|');
+    return *with == '\0' && (wh_word_at(word) == '\0' || wh_word_at(word) == '|');
 }
 
 wh_conf_status wh_conf_type(wh_conf *conf, wh_conf_id id, const char *typed) {
@@ -234,7 +262,8 @@ void wh_conf_default(wh_conf *conf) {
 
 static void take(wh_conf *conf, unsigned number, wh_real value) {
     for (unsigned id = 0; id < WH_CONF_COUNT; id++) {
-        if (rows[id].number == number && in_range((wh_conf_id)id, value)) {
+        if (ROW(id)->number == number && in_range((wh_conf_id)id, value) &&
+            !is_absent((wh_conf_id)id, value)) {
             conf->value[id] = value;
         }
     }
@@ -243,7 +272,7 @@ static void take(wh_conf *conf, unsigned number, wh_real value) {
 static void take_all(wh_conf *conf, const uint8_t *payload, unsigned count) {
     wh_bytes bytes = {.from = payload, .room = count};
     while (bytes.room - bytes.at >= ENTRY_BYTES) {
-        const unsigned number = wh_bytes_get(&bytes, 1);
+        const unsigned number = (unsigned)wh_bytes_get(&bytes, 1);
         take(conf, number, (wh_real)wh_bytes_get_float(&bytes));
     }
     if (go_together(conf)) {
@@ -286,7 +315,7 @@ wh_conf_status wh_conf_save(wh_conf *conf) {
     wh_bytes bytes = {.to = payload, .room = sizeof payload};
     for (unsigned id = 0; id < WH_CONF_COUNT; id++) {
         if (is_set(conf, (wh_conf_id)id)) {
-            wh_bytes_put(&bytes, rows[id].number, 1);
+            wh_bytes_put(&bytes, ROW(id)->number, 1);
             wh_bytes_put_float(&bytes, (float)conf->value[id]);
         }
     }

@@ -41,6 +41,7 @@ typedef enum wh_conf_status {
     WH_CONF_VALUE,   /* no number, or no word, for it */
     WH_CONF_RANGE,   /* outside its range */
     WH_CONF_AGAINST, /* it goes against another setting */
+    WH_CONF_ABSENT,  /* this program has not what it would switch on */
     WH_CONF_FAILED   /* the memory failed */
 } wh_conf_status;
 
@@ -69,7 +70,8 @@ typedef struct wh_conf {
 void wh_conf_start(wh_conf *conf, void (*own)(wh_rig_config *config), const wh_store_memory *memory,
                    wh_rig_config *config);
 
-const wh_conf_row *wh_conf_row_of(wh_conf_id id);
+/* *room is for it where constants stay in flash (core/flash.h). */
+const wh_conf_row *wh_conf_row_of(wh_conf_id id, wh_conf_row *room);
 
 /* WH_CONF_COUNT when there is none of this name. */
 wh_conf_id wh_conf_find(const char *name);

@@ -4,6 +4,7 @@
 #include <stddef.h>
 
 #include "answer.h"
+#include "core/flash.h"
 
 /* Of an answer, for what `conf list` says behind the settings. */
 #define LIST_TAIL 12U
@@ -15,9 +16,14 @@ static void add_value(wh_text *answer, const char *name, wh_conf_id id, wh_real 
         return;
     }
     wh_answer_word(answer, name, "");
-    while (*word != '\0' && *word != '|') {
-        wh_text_add_char(answer, *word++);
+    for (char next = wh_word_at(word); next != '\0' && next != '|'; next = wh_word_at(++word)) {
+        wh_text_add_char(answer, next);
     }
+}
+
+static void add_setting(wh_text *answer, const wh_conf *conf, wh_conf_id id) {
+    wh_conf_row room;
+    add_value(answer, wh_conf_row_of(id, &room)->name, id, conf->value[id]);
 }
 
 static wh_station_error list(const wh_conf *conf, const wh_words *words, wh_text *answer) {
@@ -34,7 +40,7 @@ static wh_station_error list(const wh_conf *conf, const wh_words *words, wh_text
     wh_answer_count(answer, "settings", WH_CONF_COUNT);
     for (; id < WH_CONF_COUNT; id++) {
         const unsigned before = answer->length;
-        add_value(answer, wh_conf_row_of((wh_conf_id)id)->name, (wh_conf_id)id, conf->value[id]);
+        add_setting(answer, conf, (wh_conf_id)id);
         if (answer->truncated || answer->length + LIST_TAIL > answer->size) {
             wh_answer_back(answer, before);
             break;
@@ -52,7 +58,8 @@ static wh_station_error get(const wh_conf *conf, wh_conf_id id, wh_text *answer)
         WH_CONF_KIND_ROWS(WORD)
 #undef WORD
     };
-    const wh_conf_row *row = wh_conf_row_of(id);
+    wh_conf_row room;
+    const wh_conf_row *row = wh_conf_row_of(id, &room);
     wh_text_add(answer, "OK");
     add_value(answer, row->name, id, conf->value[id]);
     wh_answer_word(answer, "type", kinds[row->kind]);
@@ -72,6 +79,7 @@ static wh_station_error refused(wh_conf_status status) {
     case WH_CONF_VALUE: return WH_STATION_CONF_VALUE;
     case WH_CONF_RANGE: return WH_STATION_CONF_RANGE;
     case WH_CONF_AGAINST: return WH_STATION_CONF_AGAINST;
+    case WH_CONF_ABSENT: return WH_STATION_NOT_HERE;
     case WH_CONF_FAILED: return WH_STATION_CONF_FAILED;
     case WH_CONF_DONE: break;
     }
@@ -82,7 +90,7 @@ static wh_station_error set(wh_conf *conf, wh_conf_id id, const char *typed, wh_
     const wh_conf_status status = wh_conf_type(conf, id, typed);
     if (status == WH_CONF_DONE) {
         wh_text_add(answer, "OK");
-        add_value(answer, wh_conf_row_of(id)->name, id, conf->value[id]);
+        add_setting(answer, conf, id);
     }
     return refused(status);
 }

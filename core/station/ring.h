@@ -3,8 +3,7 @@
 #ifndef WH_STATION_RING_H
 #define WH_STATION_RING_H
 
-#include <stdbool.h>
-#include <stdint.h>
+#include "core/flash.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -28,7 +27,7 @@ static inline bool wh_ring_put(wh_ring *ring, const char *bytes, uint32_t count)
         return false;
     }
     for (uint32_t i = 0; i < count; i++) {
-        ring->bytes[(ring->put + i) & (ring->size - 1U)] = bytes[i];
+        ring->bytes[(ring->put + i) & (ring->size - 1U)] = wh_word_at(&bytes[i]);
     }
     ring->put += count;
     return true;

@@ -151,7 +151,7 @@ static void do_conf(const request *r) {
 static void do_tel(const request *r) {
     wh_station *station = r->station;
     const wh_station_error error =
-        station->tel != NULL && station->config != NULL
+        WH_STATION_TELEMETRY && station->tel != NULL && station->config != NULL
             ? wh_tel_answer(station->tel, station->tape, &station->config->measure.cell, r->words,
                             r->answer)
             : WH_STATION_NOT_HERE;
@@ -246,7 +246,7 @@ static void do_help(const request *r) {
     const command *asked = &commands[id];
     wh_text_add(r->answer, "OK ");
     wh_text_add(r->answer, asked->name);
-    wh_text_add(r->answer, asked->follows[0] != '\0' ? " " : "");
+    wh_text_add(r->answer, wh_word_at(asked->follows) != '\0' ? " " : "");
     wh_text_add_words(r->answer, asked->follows);
     wh_answer_words(r->answer, asked->words);
 }
@@ -355,7 +355,7 @@ void wh_station_see(wh_station *station, const wh_rig_config *config, const wh_r
                     const wh_seen *seen) {
     station->seen = *seen;
     station->config = config;
-    if (station->tel != NULL) {
+    if (WH_STATION_TELEMETRY && station->tel != NULL) {
         wh_tel_step(station->tel, config, rig, seen, &station->out, WH_STATION_KEPT_BYTES);
     }
 }

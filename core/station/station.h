@@ -57,9 +57,18 @@ extern "C" {
     X(host, 1, "SECONDS", "a run ends when nothing is heard for so long; 0: never") \
     X(talk, 1, "on|off", "echo what is typed, tell of each new state")
 
+/* 0, as a small chip's build may say: station->tel stays NULL, and nothing of telemetry is linked. */
+#ifndef WH_STATION_TELEMETRY
+#define WH_STATION_TELEMETRY 1
+#endif
+
 /* What waits: bytes that came; and that want out, of which half are the console's own. */
+#ifndef WH_STATION_IN_BYTES
 #define WH_STATION_IN_BYTES 256U
+#endif
+#ifndef WH_STATION_OUT_BYTES
 #define WH_STATION_OUT_BYTES 1024U
+#endif
 #define WH_STATION_KEPT_BYTES (WH_STATION_OUT_BYTES / 2U)
 
 /* It must not be moved once it is started. */
@@ -113,7 +122,7 @@ void wh_station_step(wh_station *station, wh_rig *rig);
 
 /* What wants out: the oldest bytes, `room` at most; returns how many. */
 static inline unsigned wh_station_peek(const wh_station *station, char *bytes, unsigned room) {
-    return wh_ring_peek(&station->out, bytes, room);
+    return (unsigned)wh_ring_peek(&station->out, bytes, room);
 }
 
 /* So many of them are out. */

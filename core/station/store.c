@@ -22,7 +22,7 @@ static record read_slot(const wh_store_memory *memory, unsigned slot, uint8_t *b
     }
     wh_bytes head = {.from = bytes, .room = HEAD_BYTES};
     const uint32_t format = wh_bytes_get(&head, 2);
-    found.count = wh_bytes_get(&head, 2);
+    found.count = (unsigned)wh_bytes_get(&head, 2);
     found.sequence = wh_bytes_get(&head, 4);
     found.payload = bytes + HEAD_BYTES;
     if (format != FORMAT || found.count > WH_STORE_PAYLOAD_MOST ||

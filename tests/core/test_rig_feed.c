@@ -4,6 +4,8 @@
 #include "core/rig/datasheet.h"
 #include "core/rig/lockin.h"
 #include "core/rig/rig.h"
+#include "core/root.h"
+#include "draw.h"
 #include "fed_rotor.h"
 
 #include "unity.h"
@@ -270,6 +272,63 @@ static void test_the_lockin_is_told(void) {
     TEST_ASSERT_TRUE(lockin.angle.cut == WH_R(0.0));
 }
 
+static double root(double x) { return (double)WH_SQRT((wh_real)x); }
+
+/* (1/pi) of the integral of (cos y - k) cos 2y over where cos y > k, by the middle rule. */
+static double second_of_pulse(double k) {
+    double sum = 0.0;
+    for (unsigned i = 0; i < 4096U; i++) {
+        wh_real sine;
+        wh_real cosine;
+        wh_sincos(wh_phase_from_rad(WH_RIG_TWO_PI * ((wh_real)i + WH_R(0.5)) / WH_R(4096.0)), &sine,
+                  &cosine);
+        const double over = (double)cosine - k;
+        sum += over > 0.0 ? over * (2.0 * (double)cosine * (double)cosine - 1.0) : 0.0;
+    }
+    return sum * 2.0 / 4096.0;
+}
+
+/* What a motor that cannot brake leaves is a torque that comes twice a turn, and the rotor's answer to it is that of inertia and
+ * slope: J theta'' + c theta' = -W cos 2 theta. However steep the slope. */
+static void test_the_answer_to_a_pulse(void) {
+    uint64_t seed = 77;
+    for (unsigned i = 0; i < 60U; i++) {
+        wh_rotor_config rotor = wh_rig_standard.measure.rotor;
+        rotor.mark_rad[0] = -DEG;
+        rotor.damping_Nms = WH_R(0.01) * draw_whole(&seed, 2, 4);
+        const wh_real speed = draw_whole(&seed, 70, 120) * RPM;
+        const wh_real cut = WH_R(0.01) * draw_whole(&seed, 3, 35);
+        const wh_real weight_Nm = rotor.mass_moment_kgm * rotor.gravity_mps2;
+        wh_turn_angle angle;
+        wh_turn_angle_start(&rotor, &angle);
+        wh_turn_angle_feed(&angle, true, WH_R(0.0625));
+        angle.held_V = (WH_R(1.0) - cut) * WH_R(16.0) * weight_Nm;
+        for (unsigned k = 0; k < 6U; k++) {
+            wh_turn_angle_shape(&rotor, &angle, speed);
+        }
+        const double turning = 2.0 * (double)angle.inertia_kgm2 * (double)speed;
+        const double slope = (double)rotor.damping_Nms;
+        const double size = (double)weight_Nm * second_of_pulse(1.0 - (double)cut) /
+                            (2.0 * (double)speed * root(turning * turning + slope * slope));
+        /* by components, over the angle without it, so that none of it is lost by where it is looked at */
+        double off[2] = {0.0, 0.0};
+        for (unsigned k = 0; k < 64U; k++) {
+            const wh_real part = (wh_real)k / WH_R(64.0);
+            const wh_real even = angle.base_rad + WH_RIG_TWO_PI * part;
+            wh_real sine;
+            wh_real cosine;
+            wh_sincos(wh_phase_from_rad(WH_R(2.0) * (even - rotor.gravity_rad)), &sine, &cosine);
+            const double wave = (double)(wh_turn_angle_at(&angle, part) - even);
+            off[0] += wave * (double)cosine / 32.0;
+            off[1] += wave * (double)sine / 32.0;
+        }
+        const double sum = root(turning * turning + slope * slope);
+        const double most = 0.01 * size + 1e-5;
+        TEST_ASSERT_FLOAT_WITHIN((float)most, (float)(size * turning / sum), (float)off[0]);
+        TEST_ASSERT_FLOAT_WITHIN((float)most, (float)(-size * slope / sum), (float)off[1]);
+    }
+}
+
 void suite_rig_feed(void) {
     RUN_TEST(test_it_says_gravitys_voltage);
     RUN_TEST(test_it_says_nothing_without_an_angle);
@@ -281,4 +340,5 @@ void suite_rig_feed(void) {
     RUN_TEST(test_lost_marks_take_it_away);
     RUN_TEST(test_what_is_left_is_found_from_the_split);
     RUN_TEST(test_the_lockin_is_told);
+    RUN_TEST(test_the_answer_to_a_pulse);
 }

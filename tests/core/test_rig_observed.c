@@ -139,6 +139,7 @@ static void test_the_reference_knows_who_is_fed(void) {
                          WH_ALLOWED);
         TEST_ASSERT_FALSE(angle->fed);
         TEST_ASSERT_TRUE(angle->part >= WH_R(1.0));
+        TEST_ASSERT_FLOAT_WITHIN(0.0f, 0.0f, (float)even.rig.feed.part); /* fades in anew */
         even_steps(&even, 300);
         TEST_ASSERT_FALSE(angle->fed);
         TEST_ASSERT_TRUE(even_order(&even, WH_EVENT_SET, (WH_R(120.0) + (wh_real)i) * EVEN_RPM) ==

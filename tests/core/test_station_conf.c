@@ -136,12 +136,14 @@ static wh_real draw_value(const wh_conf_row *row) {
 static void test_rows(void) {
     begin();
     for (unsigned i = 0; i < WH_CONF_COUNT; i++) {
-        const wh_conf_row *row = wh_conf_row_of((wh_conf_id)i);
+        wh_conf_row room;
+        const wh_conf_row *row = wh_conf_row_of((wh_conf_id)i, &room);
         TEST_ASSERT_TRUE(row->least < row->most && row->number > 0);
         TEST_ASSERT_TRUE(strchr(row->name, ' ') == NULL && strlen(row->name) > 0);
         TEST_ASSERT_TRUE(conf.value[i] >= row->least && conf.value[i] <= row->most);
         for (unsigned k = 0; k < i; k++) {
-            const wh_conf_row *other = wh_conf_row_of((wh_conf_id)k);
+            wh_conf_row next;
+            const wh_conf_row *other = wh_conf_row_of((wh_conf_id)k, &next);
             TEST_ASSERT_TRUE(other->number != row->number && strcmp(other->name, row->name) != 0);
         }
         TEST_ASSERT_EQUAL_UINT(i, wh_conf_find(row->name));
@@ -163,14 +165,16 @@ static void test_values_have_their_places(void) {
         memcpy(wanted, conf.value, sizeof wanted);
         for (unsigned k = draw_one_of(&seed, 6); k > 0; k--) {
             const wh_conf_id id = (wh_conf_id)draw_one_of(&seed, WH_CONF_COUNT);
-            const wh_real value = draw_value(wh_conf_row_of(id));
+            wh_conf_row place;
+            const wh_real value = draw_value(wh_conf_row_of(id, &place));
             const wh_conf_status status = wh_conf_set(&conf, id, value);
             TEST_ASSERT_TRUE(status == WH_CONF_DONE || status == WH_CONF_AGAINST);
             wanted[id] = status == WH_CONF_DONE ? value : wanted[id];
             against += status == WH_CONF_AGAINST ? 1U : 0U;
         }
         for (unsigned i = 0; i < WH_CONF_COUNT; i++) {
-            const wh_conf_row *row = wh_conf_row_of((wh_conf_id)i);
+            wh_conf_row room;
+            const wh_conf_row *row = wh_conf_row_of((wh_conf_id)i, &room);
             const float size = (float)WH_ABS(wanted[i]);
             TEST_ASSERT_FLOAT_WITHIN_MESSAGE(size * 1e-5f + 2e-5f, (float)wanted[i],
                                              (float)where(&even.config, row->name), row->name);

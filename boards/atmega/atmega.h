@@ -1,0 +1,117 @@
+/* atmega.h: what the drivers of the ATmega2560 share. Places in its data sheet (DS40002211A) are given as "DS 17.3". Which timer
+ * does what is the chip's, so pins are here, by their names on the chip and on an Arduino Mega:
+ *
+ *   timer 1    PWM on OC1A, PB5 (D11); enable on PB6 (D12); stop on PB4 (D10)
+ *   timer 2    starts the converter 5000 times a second: load cell on ADC0 (A0), supply on ADC1 (A1)
+ *   timer 4, 5 the time base, and capture of sensor 1 on ICP4, PL0 (D49), of sensor 2 on ICP5, PL1 (D48)
+ *   USART 0    the console: out PE1 (D1), in PE0 (D0) */
+#ifndef BOARDS_ATMEGA_H
+#define BOARDS_ATMEGA_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include <avr/interrupt.h>
+#include <avr/io.h>
+
+#include "board_data.h"
+
+#define ATMEGA_PWM_BIT PB5
+#define ATMEGA_ENABLE_BIT PB6
+#define ATMEGA_STOP_BIT PB4
+#define ATMEGA_CELL_INPUT 0U
+#define ATMEGA_SUPPLY_INPUT 1U
+
+/* Interrupts off, from here to atmega_go_on(): what was is handed back. */
+static inline uint8_t atmega_hold(void) {
+    const uint8_t before = SREG;
+    cli();
+    return before;
+}
+static inline void atmega_go_on(uint8_t before) { SREG = before; }
+
+/* Timers 4 and 5 count the same, two to a tick (time_base.c). */
+#define ATMEGA_COUNTS_PER_TICK 2U
+void atmega_time_base_start(void);
+
+/* Now, with interrupts off. */
+uint32_t atmega_ticks(void);
+
+/* An instant as an interrupt keeps it, for whoever takes it within 4 s: the count, and how often it had wrapped. */
+typedef struct atmega_instant {
+    uint16_t count;
+    uint8_t wraps;
+} atmega_instant;
+
+/* The interrupts' own: wraps so far, the lowest byte. */
+extern volatile uint8_t atmega_wraps;
+
+/* Within an interrupt: when both timers showed `count`, which was less than half a wrap ago. */
+static inline atmega_instant atmega_instant_of(uint16_t count) {
+    atmega_instant at = {count, atmega_wraps};
+    const uint16_t now = TCNT4; /* first: a wrap behind it is not of interest */
+    const bool pending = (TIFR4 & _BV(TOV4)) != 0;
+    if (count >= 0x8000U && now < 0x8000U) { /* it was before the last wrap */
+        at.wraps = (uint8_t)(at.wraps - (pending ? 0U : 1U));
+    } else if (pending && count < 0x8000U) {
+        at.wraps++;
+    }
+    return at;
+}
+
+/* It as ticks. */
+uint32_t atmega_ticks_of(atmega_instant at);
+
+/* The watchdog, from now on resetting after 2048 << twice of its oscillator's clocks (DS 12.5.2); the second store within four
+ * clocks of the first. */
+static inline void atmega_watch(uint8_t twice) {
+    const uint8_t change = _BV(WDCE) | _BV(WDE);
+    const uint8_t settings =
+        (uint8_t)(_BV(WDE) | ((twice & 8U) != 0 ? _BV(WDP3) : 0U) | (twice & 7U));
+    const uint8_t before = atmega_hold();
+    __asm__ volatile("wdr");
+    WDTCSR = change;
+    WDTCSR = settings;
+    atmega_go_on(before);
+}
+
+/* The supply as it was when a sample of the load was last taken (cell.c): parts of ATMEGA_WHOLE a volt; 0: there is none. A division
+ * for each would be one in control steps that have no time for it. */
+#define ATMEGA_WHOLE 25600U
+float atmega_parts_per_V(void);
+
+/* Parts of the rig's hardware, each started by hal_clock_start() (rig_clock.c). */
+void atmega_motor_start(void);
+void atmega_slots_start(void);
+void atmega_cell_start(void);
+
+/* What is a fault on a chip that has none in hardware. */
+typedef enum atmega_fault_kind {
+    ATMEGA_FAULT_NONE,
+    ATMEGA_FAULT_STRAY,  /* an interrupt that nobody takes */
+    ATMEGA_FAULT_STACK,  /* the stack has come down to the variables */
+    ATMEGA_FAULT_RESTART /* the program began anew, and there was no reset: it ran astray */
+} atmega_fault_kind;
+
+/* The motor off, a record of it kept, a reset. `at`: where it was, a byte's address; 0: not known. */
+_Noreturn void atmega_fault(atmega_fault_kind kind, uint32_t at);
+
+/* A fault's record, in memory that a reset leaves alone. */
+typedef struct atmega_fault_record {
+    uint8_t kind; /* an atmega_fault_kind */
+    uint32_t at;
+    uint32_t ticks;  /* of the clock, which begins anew with each start */
+    uint32_t state;  /* hal_reset_mark()'s last */
+    uint16_t faults; /* so many since the power came, this one included */
+    uint16_t sum;
+} atmega_fault_record;
+
+void atmega_keep_fault(atmega_fault_kind kind, uint32_t at, uint32_t ticks);
+
+/* What there is of the start before, once; false: none. */
+bool atmega_take_fault(atmega_fault_record *record);
+
+/* MCUSR as the processor started (DS 12.5.1); 0: there was no reset. */
+uint8_t atmega_reset_flags(void);
+
+#endif

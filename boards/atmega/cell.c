@@ -1,0 +1,154 @@
+/* cell.c: load cell and supply by the chip's 10-bit converter (DS 26).
+ *
+ * Timer 2 starts a conversion every 200 us: sixteen of the cell, the rest of the supply, which makes a sample each 8 ms. A
+ * sample is the mean of its sixteen, stamped with the middle of them, so that it has no delay left; a force that turns at 6 Hz
+ * comes out 0.06 % too small. One count of the converter is 0.434 N; the mean of sixteen has 0.03 N where the force moves by
+ * some counts meanwhile, and less than half a count where it does not: 0.22 N.
+ *
+ * The amplifier puts no force at half of the reference, the chip's own supply. At either end it is saturated; a whole sample
+ * at the lower end is a broken wire, which is pulled down there. */
+#include "hal/loadcell.h"
+#include "hal/motor.h"
+
+#include "atmega.h"
+
+#define TICK_TICKS 200U
+#define CELL_TICKS 16U
+#define ALL_TICKS (HAL_LOADCELL_PERIOD_TICKS / TICK_TICKS)
+#define SUPPLY_TICKS \
+    8U /* the last of them: what is measured with most of the others is of no use */
+_Static_assert(ALL_TICKS *TICK_TICKS == HAL_LOADCELL_PERIOD_TICKS &&
+                   ALL_TICKS >= CELL_TICKS + SUPPLY_TICKS && ALL_TICKS <= 255U,
+               "a sample each period");
+
+/* Timer 2 counts each 2 us. */
+#define TIMER_COUNT_TICKS 2U
+_Static_assert(F_CPU / 32U == 1000000U / TIMER_COUNT_TICKS, "the prescaler's 32nd");
+
+/* Sampled and held one and a half clocks of 125 kHz after the start (DS 26.4). */
+#define HELD_TICKS 12U
+/* From the middle of the sixteen to the tick behind the last. */
+#define BEHIND_TICKS (CELL_TICKS * TICK_TICKS / 2U + TICK_TICKS / 2U - HELD_TICKS)
+
+#define FULL 1023U
+#define MIDDLE 512U
+#define REFERENCE _BV(REFS0)
+#define CONVERTER (_BV(ADEN) | _BV(ADPS2) | _BV(ADPS1) | _BV(ADPS0)) /* a 128th: 125 kHz */
+
+/* The divider before the supply's input: 50 V at the reference. Measured with each sample of the cell, not each control step. */
+#define SUPPLY_V_PER_COUNT (50.0f / 1024.0f)
+
+#define SAMPLES_KEPT 4U /* a power of two */
+
+typedef struct cell_sample {
+    atmega_instant at; /* the end of its last conversion's tick */
+    uint16_t sum;
+    uint8_t status;
+} cell_sample;
+
+static volatile cell_sample kept[SAMPLES_KEPT];
+static volatile uint8_t head; /* the interrupt's */
+static volatile uint8_t tail;
+static volatile uint16_t supply_sum;
+static float supply_V;
+static float parts_per_V;
+
+/* Of the sample that is under way; the interrupt's alone. */
+static uint8_t place;
+static uint16_t sum;
+static uint16_t supply;
+static bool saturated;
+
+void atmega_cell_start(void) {
+    DIDR0 = _BV(ATMEGA_CELL_INPUT) | _BV(ATMEGA_SUPPLY_INPUT);
+    ADMUX = REFERENCE | ATMEGA_CELL_INPUT;
+    ADCSRA = CONVERTER;
+    TCCR2A = _BV(WGM21); /* up to OCR2A */
+    OCR2A = TICK_TICKS / TIMER_COUNT_TICKS - 1U;
+    OCR2B = OCR2A / 2U;
+    TCNT2 = 0;
+    TIFR2 = _BV(OCF2A);
+    TIMSK2 = _BV(OCIE2A);
+    TCCR2B = _BV(CS21) | _BV(CS20);
+    place = CELL_TICKS; /* what ends at the first tick is none */
+}
+
+static uint8_t status_now(void) {
+    return (uint8_t)(sum == 0    ? HAL_LOAD_DISCONNECTED
+                     : saturated ? HAL_LOAD_SATURATED
+                                 : HAL_LOAD_OK);
+}
+
+/* A sample is whole: by an interrupt of its own, so that those of ticks have less to save. The tick was a little before now: by what
+ * its timer has counted since. */
+ISR(TIMER2_COMPB_vect) {
+    const uint16_t late = (uint16_t)(TCNT2 * (TIMER_COUNT_TICKS * ATMEGA_COUNTS_PER_TICK));
+    const uint16_t count = (uint16_t)(TCNT4 - late);
+    TIMSK2 = _BV(OCIE2A);
+    if ((uint8_t)(head - tail) < SAMPLES_KEPT) {
+        volatile cell_sample *to = &kept[head % SAMPLES_KEPT];
+        const atmega_instant at = atmega_instant_of(count);
+        to->at.count = at.count;
+        to->at.wraps = at.wraps;
+        to->sum = sum;
+        to->status = status_now();
+        head++;
+    }
+    sum = 0;
+    saturated = false;
+}
+
+/* What began a tick ago has ended 96 us ago. */
+ISR(TIMER2_COMPA_vect) {
+    const uint16_t count = ADC;
+    uint8_t next = (uint8_t)(place + 1U);
+    if (next == ALL_TICKS) {
+        next = 0;
+    }
+    place = next;
+    ADMUX = next < CELL_TICKS ? REFERENCE | ATMEGA_CELL_INPUT : REFERENCE | ATMEGA_SUPPLY_INPUT;
+    ADCSRA = CONVERTER | _BV(ADSC);
+    if (next != 0 && next <= CELL_TICKS) {
+        sum += count;
+        if (count == 0 || count == FULL) {
+            saturated = true;
+        }
+        if (next == CELL_TICKS) {
+            TIFR2 = _BV(OCF2B);
+            TIMSK2 = _BV(OCIE2A) | _BV(OCIE2B);
+        }
+    } else if (next == 0 || next > ALL_TICKS - SUPPLY_TICKS) {
+        supply += count;
+        if (next == 0) {
+            supply_sum = supply;
+            supply = 0;
+        }
+    }
+}
+
+static void renew_supply(void) {
+    const uint8_t before = atmega_hold();
+    const uint16_t counts = supply_sum;
+    atmega_go_on(before);
+    supply_V = (float)counts * (SUPPLY_V_PER_COUNT / (float)SUPPLY_TICKS);
+    parts_per_V = counts > 0 ? (float)ATMEGA_WHOLE / supply_V : 0.0f;
+}
+
+/* Sixteen counts of 10 bits are 14 bits: a quarter of ours. */
+bool hal_loadcell_take(hal_load_sample *sample) {
+    if (tail == head) {
+        return false;
+    }
+    const volatile cell_sample *from = &kept[tail % SAMPLES_KEPT];
+    const atmega_instant at = {from->at.count, from->at.wraps};
+    sample->ticks = atmega_ticks_of(at) - BEHIND_TICKS;
+    sample->raw = ((int32_t)from->sum - (int32_t)(CELL_TICKS * MIDDLE)) * 4;
+    sample->status = from->status;
+    tail++;
+    renew_supply();
+    return true;
+}
+
+float hal_motor_supply_V(void) { return supply_V; }
+
+float atmega_parts_per_V(void) { return parts_per_V; }

@@ -1,0 +1,86 @@
+/* eeprom.c: settings in the chip's EEPROM (DS 8.6), two slots of 256 bytes. Its bytes are erased and written one by one, 1.8 ms
+ * each: a slot takes 0.46 s at most. Bytes that are what they shall be are left alone. */
+#include "hal/settings.h"
+
+#include "atmega.h"
+
+#define FIRST \
+    256U /* a supply that fails may spoil the byte that the address register shows: 0 after a reset */
+#define SLOTS 2U
+#define ERASED 0xFFU
+#define ERASE _BV(EEPM0)
+#define WRITE _BV(EEPM1)
+_Static_assert(FIRST + SLOTS * HAL_SETTINGS_BYTES <= E2END + 1U, "it has room");
+
+static bool within(unsigned slot, unsigned at, unsigned count) {
+    return slot < SLOTS && at <= HAL_SETTINGS_BYTES && count <= HAL_SETTINGS_BYTES - at;
+}
+
+static uint16_t address_of(unsigned slot, unsigned at) {
+    return (uint16_t)(FIRST + slot * HAL_SETTINGS_BYTES + at);
+}
+
+/* No byte takes 20 ms, at whatever speed this loop goes round. */
+static bool rests(void) {
+    for (uint16_t i = 0; i < 60000U; i++) {
+        if ((EECR & _BV(EEPE)) == 0) {
+            return true;
+        }
+    }
+    return false;
+}
+
+static uint8_t load(uint16_t address) {
+    EEAR = address;
+    EECR |= _BV(EERE);
+    return EEDR;
+}
+
+/* The second store within four clocks of the first. False: the byte is not what it should be. */
+static bool program(uint16_t address, uint8_t mode, uint8_t byte) {
+    if (!rests()) {
+        return false;
+    }
+    EEAR = address;
+    EEDR = byte;
+    const uint8_t before = atmega_hold();
+    EECR = mode;
+    EECR |= _BV(EEMPE);
+    EECR |= _BV(EEPE);
+    atmega_go_on(before);
+    return rests() && load(address) == byte;
+}
+
+bool hal_settings_erase(unsigned slot) {
+    if (!within(slot, 0, 0) || !rests()) {
+        return false;
+    }
+    bool done = true;
+    for (unsigned at = 0; at < HAL_SETTINGS_BYTES && done; at++) {
+        const uint16_t address = address_of(slot, at);
+        done = load(address) == ERASED || program(address, ERASE, ERASED);
+    }
+    return done;
+}
+
+bool hal_settings_write(unsigned slot, unsigned at, const uint8_t *bytes, unsigned count) {
+    if (!within(slot, at, count) || at % 4U != 0 || !rests()) {
+        return false;
+    }
+    bool done = true;
+    for (unsigned i = 0; i < count && done; i++) {
+        const uint16_t address = address_of(slot, at + i);
+        done = load(address) == bytes[i] || program(address, WRITE, bytes[i]);
+    }
+    return done;
+}
+
+bool hal_settings_read(unsigned slot, unsigned at, uint8_t *bytes, unsigned count) {
+    if (!within(slot, at, count) || !rests()) {
+        return false;
+    }
+    for (unsigned i = 0; i < count; i++) {
+        bytes[i] = load(address_of(slot, at + i));
+    }
+    return true;
+}

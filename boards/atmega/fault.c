@@ -1,0 +1,66 @@
+/* fault.c: what is a fault on a chip that knows none: an interrupt that nobody takes, a stack that has come down to the variables,
+ * and a program that began anew without a reset, as one does that ran astray: erased flash leads to address 0.
+ *
+ * Off first: before any of them does anything else the enable's pin is low, by an instruction that needs neither a register nor the
+ * stack. */
+#include "boards/board.h"
+#include "hal/motor.h"
+
+#include "atmega.h"
+
+#define OFF "cbi 0x05, 6\n\t" /* PORTB's enable */
+_Static_assert(ATMEGA_ENABLE_BIT == 6, "the bit that OFF clears");
+
+/* The first piece of the start-up code, after a reset and without one. */
+__attribute__((naked, used, section(".init0"))) void atmega_off_first(void);
+__attribute__((naked, used, section(".init0"))) void atmega_off_first(void) {
+    __asm__ volatile(OFF "cli");
+}
+
+/* Kept, not cleared: the start-up code has not come to the variables yet. */
+__attribute__((section(".noinit"))) static volatile uint8_t flags;
+
+/* A watchdog that has bitten goes on biting, every 16 ms, until its flag is gone. */
+__attribute__((used)) void atmega_see_reset(void);
+__attribute__((used)) void atmega_see_reset(void) {
+    const uint8_t change = _BV(WDCE) | _BV(WDE);
+    TCCR1A = 0;
+    flags = MCUSR;
+    MCUSR = 0;
+    __asm__ volatile("wdr");
+    WDTCSR = change;
+    WDTCSR = 0;
+}
+
+/* Where the stack has been set up, and before the variables are. */
+__attribute__((naked, used, section(".init3"))) void atmega_first(void);
+__attribute__((naked, used, section(".init3"))) void atmega_first(void) {
+    __asm__ volatile("call atmega_see_reset");
+}
+
+uint8_t atmega_reset_flags(void) { return flags; }
+
+/* Record, then a reset by the watchdog: there is no other that the program can ask for. */
+_Noreturn void atmega_fault(atmega_fault_kind kind, uint32_t at) {
+    hal_motor_off(HAL_MOTOR_COAST);
+    cli();
+    atmega_keep_fault(kind, at, atmega_ticks());
+    atmega_watch(0);
+    for (;;) {
+        __asm__ volatile("" ::: "memory");
+    }
+}
+
+/* `sp`: below the return address, three bytes, the highest first. */
+__attribute__((used)) _Noreturn void atmega_stray(const uint8_t *sp);
+__attribute__((used)) _Noreturn void atmega_stray(const uint8_t *sp) {
+    const uint32_t words = (uint32_t)sp[1] << 16 | (uint16_t)((uint16_t)sp[2] << 8) | sp[3];
+    atmega_fault(ATMEGA_FAULT_STRAY, 2U * words);
+}
+
+ISR(BADISR_vect, ISR_NAKED) {
+    __asm__ volatile(OFF "clr __zero_reg__\n\t"
+                         "in r24, __SP_L__\n\t"
+                         "in r25, __SP_H__\n\t"
+                         "jmp atmega_stray");
+}

@@ -1,0 +1,72 @@
+/* motor.c: the drive stage: timer 1 as a PWM of 20 kHz on OC1A, phase correct (DS 17.9.4), the enable on a pin. Both pins are low
+ * where the timer does not have them.
+ *
+ * The PWM has 400 steps, 60 mV of 24 V: what a step leaves of the voltage that was asked for is added to the next, so that the mean
+ * is exact. */
+#include "hal/motor.h"
+
+#include "hal/stop.h"
+
+#include "atmega.h"
+
+#define WHOLE 400U /* F_CPU/2 / 20 kHz */
+#define PARTS 64U  /* of a step are carried on */
+_Static_assert(WHOLE *PARTS == ATMEGA_WHOLE, "all of the supply");
+
+static bool driving;
+static uint16_t carried; /* parts of a step that are owed */
+
+/* Off from the first store on; the pins' level behind the timer is low. */
+void atmega_motor_start(void) {
+    PORTB &= (uint8_t)~_BV(ATMEGA_ENABLE_BIT);
+    PORTB &= (uint8_t)~_BV(ATMEGA_PWM_BIT);
+    TCCR1A = 0;
+    DDRB |= _BV(ATMEGA_ENABLE_BIT);
+    DDRB |= _BV(ATMEGA_PWM_BIT);
+    DDRB &= (uint8_t)~_BV(ATMEGA_STOP_BIT);
+    PORTB |= _BV(ATMEGA_STOP_BIT); /* pulled up: a broken wire is pressed (stop.c) */
+    ICR1 = WHOLE;
+    OCR1A = 0;
+    TCCR1B = _BV(WGM13) | _BV(CS10);
+    driving = false;
+}
+
+/* NaN, and no supply: 0. */
+static uint16_t parts_of(float volts) {
+    const float parts = volts * atmega_parts_per_V();
+    return !(parts > 0.0f) ? 0U : parts >= (float)ATMEGA_WHOLE ? WHOLE * PARTS : (uint16_t)parts;
+}
+
+void hal_motor_set_voltage(float volts) {
+    const uint16_t parts = parts_of(volts);
+    const uint16_t owed = parts + carried;
+    uint16_t steps = owed / PARTS;
+    carried = owed % PARTS;
+    steps = steps < WHOLE ? steps : WHOLE;
+    OCR1A = steps;
+    if (!driving) {
+        driving = true;
+        carried = 0;
+        PORTB |= _BV(ATMEGA_ENABLE_BIT);
+        TCCR1A = _BV(COM1A1) | _BV(WGM11);
+    }
+}
+
+/* The enable first, by one instruction: it is also a fault's first (fault.c). */
+void hal_motor_off(hal_motor_off_way way) {
+    if (way != HAL_MOTOR_BRAKE) {
+        PORTB &= (uint8_t)~_BV(ATMEGA_ENABLE_BIT);
+    }
+    TCCR1A = _BV(WGM11); /* off the pin, which is low */
+    if (way == HAL_MOTOR_BRAKE) {
+        PORTB |= _BV(ATMEGA_ENABLE_BIT);
+    }
+    driving = false;
+    carried = 0;
+}
+
+/* Nothing cuts it beside the software. */
+unsigned hal_motor_status(void) {
+    return (hal_stop_pressed() ? HAL_MOTOR_FAULT : 0U) |
+           (hal_motor_supply_V() > 0.0f ? 0U : HAL_MOTOR_NO_SUPPLY);
+}

@@ -1,0 +1,198 @@
+/* atmega_states.c: faults, resets and a supply that fails, in whatever state the rig is. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "tests/tools/atmega.h"
+
+enum { EXTERNAL = 2, BROWN_OUT = 4 }; /* flags of MCUSR */
+#define HANG 0xCFFFU                  /* rjmp to itself */
+
+/* A state as it is drawn: idle, armed, in a run at some time of it, or tripped. True: a trip is latched. */
+static bool draw_state(bool *tripped) {
+    *tripped = false;
+    switch (below(4)) {
+    case 0: mega_start(image); return mega_run(20 + below(1000));
+    case 1:
+        mega_start(image);
+        mega_run(1600);
+        return asks("arm", "OK arm") && mega_run(1 + below(500));
+    case 2: return runs(200 + below(150), 10 + below(7000));
+    default:
+        *tripped = true;
+        if (!runs(250, 2600 + below(2000))) {
+            return false;
+        }
+        mega_supply_V = 8.0f; /* out of its range */
+        mega_run(60);
+        mega_supply_V = 24.0f;
+        return mega_run(100) && asks("fault", "OK trip=11");
+    }
+}
+
+/* So long the enable may be on behind a fault: instructions that were under way. */
+#define OFF_CYCLES 40U
+
+static bool is_off_within(uint64_t cycles) {
+    const uint64_t end = mega_cycle() + cycles;
+    while (mega_motor_now().enabled) {
+        if (mega_cycle() > end || !mega_step()) {
+            return no("the motor is on %llu cycles later", (unsigned long long)cycles);
+        }
+    }
+    return true;
+}
+
+/* It starts anew: says why, never drives by itself, and is as it was. */
+static bool begins_anew(const char *cause, bool tripped) {
+    const uint64_t end = mega_cycle() + MEGA_HZ / 5U;
+    char line[300] = "";
+    if (!mega_hear(line, sizeof line, 200) || strncmp(line, cause, strlen(cause)) != 0) {
+        return no("it says '%s', not '%s'", line, cause);
+    }
+    while (mega_cycle() < end) {
+        if (!mega_step()) {
+            return no("it ended");
+        }
+        if (mega_motor_now().enabled) {
+            return no("it drives after a reset");
+        }
+    }
+    return asks("status", tripped ? "OK state=tripped" : "OK state=idle") &&
+           asks("fault", tripped ? "OK trip=11" : "OK trip=0") && asks("start 330", "ERR ");
+}
+
+static bool hangs(void) {
+    const uint32_t kick = mega_symbol("hal_watchdog_kick");
+    const uint16_t was = mega_set_flash(kick, HANG);
+    const uint64_t began = mega_cycle();
+    bool off = true;
+    while (mega_pc() != 0) {
+        if (mega_cycle() - began > MEGA_HZ / 10U || !mega_step()) {
+            off = no("the watchdog has not bitten within 100 ms");
+            break;
+        }
+    }
+    mega_set_flash(kick, was);
+    return off && is_off_within(0) && begins_anew("# reset: watchdog", false);
+}
+
+static bool one_fault(unsigned kind, bool tripped) {
+    if (kind == 0) { /* an interrupt that nobody takes */
+        mega_push_pc();
+        mega_set_pc(4U * 9U);
+        return is_off_within(OFF_CYCLES) &&
+               begins_anew("# reset: fault: an interrupt that nobody takes", tripped);
+    }
+    if (kind ==
+        1) { /* the stack's lowest byte: looked at with each kick, the motor is off a control period later */
+        mega_data()[mega_symbol("_end")] ^= 0xFFU;
+        return is_off_within(MEGA_HZ / 400U) &&
+               begins_anew("# reset: fault: the stack came down", tripped);
+    }
+    mega_set_pc(0); /* it ran astray: flash that is erased leads there */
+    return is_off_within(OFF_CYCLES) && begins_anew("# reset: fault: it began anew", tripped);
+}
+
+bool all_faults(unsigned times) {
+    for (unsigned i = 0; i < times; i++) {
+        bool tripped = false;
+        const unsigned kind = i % 4U;
+        if (kind == 3U ? !runs(250, 10 + below(6000)) || !hangs()
+                       : !draw_state(&tripped) || !one_fault(kind, tripped)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+bool all_resets(unsigned times) {
+    for (unsigned i = 0; i < times; i++) {
+        bool tripped = false;
+        const bool dips = below(2) == 1;
+        if (!draw_state(&tripped)) {
+            return false;
+        }
+        for (unsigned steps = below(60000); steps > 0; steps--) {
+            mega_step();
+        }
+        mega_reset(dips ? BROWN_OUT : EXTERNAL);
+        if (mega_motor_now().enabled ||
+            !begins_anew(dips ? "# reset: supply" : "# reset: other", tripped)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/* --- settings ---------------------------------------------------------------------------------------- */
+
+#define TORN_MOST 1024U
+static uint8_t (
+    *torn)[MEGA_EEPROM_BYTES]; /* as it is when a byte is about to change, that byte spoilt */
+static unsigned torn_count;
+
+static void tear(unsigned address) {
+    if (torn_count < TORN_MOST) {
+        memcpy(torn[torn_count], mega_eeprom(), MEGA_EEPROM_BYTES);
+        torn[torn_count][address % MEGA_EEPROM_BYTES] = (uint8_t)below(256);
+        torn_count++;
+    }
+}
+
+/* Whatever byte was under way, it has the old value or the new one. */
+static bool is_either(const char *old, const char *new, unsigned *news) {
+    for (unsigned k = 0; k < torn_count; k++) {
+        memcpy(mega_eeprom(), torn[k], MEGA_EEPROM_BYTES);
+        mega_start(image);
+        mega_run(10);
+        if (!asks("conf get sensor2", "OK sensor2=")) {
+            return false;
+        }
+        const bool is_new = strncmp(answer, new, strlen(new)) == 0;
+        if (!is_new && strncmp(answer, old, strlen(old)) != 0) {
+            return no("torn at write %u of %u: %s", k, torn_count, answer);
+        }
+        *news += is_new ? 1U : 0U;
+    }
+    return torn_count > 10U || no("only %u bytes were written", torn_count);
+}
+
+/* Saved four times, so that both slots are erased and written. */
+bool keeps_settings(unsigned times) {
+    static const char *const values[] = {"90", "91.5", "88.25", "90.75", "89.5"};
+    static uint8_t saved[MEGA_EEPROM_BYTES];
+    unsigned cases = 0;
+    unsigned news = 0;
+    bool good = true;
+    (void)times;
+    torn = malloc(sizeof *torn * TORN_MOST);
+    if (torn == NULL) {
+        return no("no memory");
+    }
+    memset(mega_eeprom(), 0xFF, MEGA_EEPROM_BYTES);
+    for (unsigned i = 0; good && i < 4; i++) {
+        char old[40];
+        char new[40];
+        char set[40];
+        snprintf(old, sizeof old, "OK sensor2=%s ", values[i]);
+        snprintf(new, sizeof new, "OK sensor2=%s ", values[i + 1U]);
+        snprintf(set, sizeof set, "conf set sensor2 %s", values[i + 1U]);
+        mega_start(image);
+        mega_run(20);
+        torn_count = 0;
+        mega_on_eeprom = tear;
+        good = asks("conf get sensor2", old) && asks(set, "OK sensor2") &&
+               asks("conf save", "OK sequence");
+        mega_on_eeprom = NULL;
+        memcpy(saved, mega_eeprom(), sizeof saved);
+        good = good && is_either(old, new, &news);
+        cases += torn_count;
+        memcpy(mega_eeprom(), saved, sizeof saved);
+    }
+    free(torn);
+    printf(
+        "# %u bytes of which each was spoilt as it was written: the new value %u times, else the old\n",
+        cases, news);
+    return good;
+}
