@@ -12,6 +12,9 @@ chip_end chip_start(hal_start *how);
 /* Memory that outlives a reset holds something of before (boards/cortexm/kept.c), or nothing. */
 void chip_memory_keeps(bool anything);
 
+/* A suite's seed, not 0: as it is usually, or by WHIRL_SEED another. */
+uint64_t chip_seed(uint64_t usual);
+
 /* What differs between the boards. */
 typedef struct chip_wiring {
     const char *board; /* whose data the drivers of this program have */

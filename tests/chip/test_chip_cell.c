@@ -85,7 +85,7 @@ static void fit(double *amplitude, double *late_s, double *mean) {
 }
 
 static void begin(uint64_t seed) {
-    scattered_state = seed * 7919U + 1U;
+    scattered_state = chip_seed(seed * 7919U + 1U);
     chip_on(scattered());
     chip_cell_V = sine;
     got_count = 0;

@@ -2,7 +2,7 @@
  * holds at every instant, and no clock that does not answer holds the start up for long. */
 #include "unity.h"
 
-#include "hal/console.h"
+#include "boards/stm32f4/registers.h"
 #include "hal/motor.h"
 #include "tests/chip/start.h"
 #include "tests/scattered.h"
@@ -25,7 +25,7 @@ static double ppm_over(double s) {
 }
 
 static void test_crystals_that_start(void) {
-    scattered_state = 1;
+    scattered_state = chip_seed(1);
     for (unsigned i = 0; i < 20; i++) {
         chip_wired(scattered());
         world.crystal_units =
@@ -71,6 +71,59 @@ static void test_no_lock(void) {
     fallback_is_taken(1000);
 }
 
+/* A crystal that takes its time, or the driver's patience: one source or the other, and all limits hold. */
+static void test_crystals_that_are_late(void) {
+    scattered_state = chip_seed(7);
+    unsigned taken = 0;
+    for (unsigned i = 0; i < 30; i++) {
+        chip_wired(scattered());
+        world.crystal_units =
+            (scattered() % 15000U + (i % 2U == 0 ? 0U : 30000U)) * CHIP_UNITS_PER_US;
+        chip_reset(CHIP_BY_POWER);
+        TEST_ASSERT_EQUAL(CHIP_RETURNED, chip_start(&how));
+        chip_pass_us(60000);
+        TEST_ASSERT_EQUAL_STRING("none", chip_violation());
+        const bool crystal = hal_clock_source_now() == HAL_CLOCK_CRYSTAL;
+        TEST_ASSERT_EQUAL(crystal ? 168000000U : 16000000U, chip_clocks_now().core_Hz);
+        TEST_ASSERT_TRUE(ppm_over(0.05) < 25.0 && ppm_over(0.05) > -25.0);
+        taken += crystal ? 1U : 0U;
+    }
+    TEST_ASSERT_EQUAL(15, taken);
+}
+
+/* A loader in ROM that left the core on its own loop, with its crystal, buses and wait states. */
+#define RCC_AT(offset) (0x40023800U + (offset))
+static void wait_for(uint32_t offset, uint32_t bit) {
+    while ((reg_load(RCC_AT(offset)) & bit) == 0) {
+    }
+}
+static void loader(void) {
+    reg_store(RCC_AT(0x00U), reg_load(RCC_AT(0x00U)) | 0x10000U);
+    wait_for(0x00U, 0x20000U);
+    reg_store(RCC_AT(0x04U), 16U | 240U << 6 | 1U << 16 | 5U << 24); /* 60 MHz of HSI */
+    reg_store(RCC_AT(0x00U), reg_load(RCC_AT(0x00U)) | 0x1000000U);
+    wait_for(0x00U, 0x2000000U);
+    reg_store(0x40023C00U, 1U);
+    reg_store(RCC_AT(0x08U), 4U << 10);
+    reg_store(RCC_AT(0x08U), 4U << 10 | 2U);
+    wait_for(0x08U, 8U);
+    reg_store(RCC_AT(0x30U), 0x00100007U);
+    (void)reg_load(RCC_AT(0x30U));
+}
+static void test_behind_a_loader(void) {
+    for (unsigned i = 0; i < 5; i++) {
+        chip_wired(30 + i);
+        chip_reset(CHIP_BY_POWER);
+        TEST_ASSERT_EQUAL(CHIP_RETURNED, chip_try(loader));
+        TEST_ASSERT_EQUAL(60000000, chip_clocks_now().core_Hz);
+        TEST_ASSERT_EQUAL(CHIP_RETURNED, chip_start(&how));
+        TEST_ASSERT_EQUAL_STRING("none", chip_violation());
+        TEST_ASSERT_EQUAL(HAL_CLOCK_CRYSTAL, hal_clock_source_now());
+        TEST_ASSERT_EQUAL(168000000, chip_clocks_now().core_Hz);
+        TEST_ASSERT_TRUE(ppm_over(0.05) < 25.0 && ppm_over(0.05) > -25.0);
+    }
+}
+
 /* From any of its resets the chip starts as from the first. */
 static void test_from_every_reset(void) {
     static const chip_cause causes[] = {CHIP_BY_DIP, CHIP_BY_PIN, CHIP_BY_WATCHDOG,
@@ -90,7 +143,7 @@ static void wait_there(void) { hal_clock_wait_until(target); }
 
 /* Never early, at most 0.1 ms late, also over the timer's wrap and with interrupts. */
 static void test_waits(void) {
-    scattered_state = 5;
+    scattered_state = chip_seed(5);
     chip_on(5);
     for (unsigned i = 0; i < 60; i++) {
         if (i % 3 == 0) {
@@ -117,7 +170,7 @@ static void drive(void) { hal_motor_set_voltage(6.0F); }
 
 /* A crystal that stops while the motor turns: hardware has the output low before the NMI. */
 static void test_crystal_dies(void) {
-    scattered_state = 6;
+    scattered_state = chip_seed(6);
     for (unsigned i = 0; i < 10; i++) {
         chip_on(scattered());
         chip_pass_us(5000);
@@ -143,6 +196,8 @@ void suite_chip_clock(void) {
     RUN_TEST(test_crystals_that_start);
     RUN_TEST(test_no_crystal);
     RUN_TEST(test_no_lock);
+    RUN_TEST(test_crystals_that_are_late);
+    RUN_TEST(test_behind_a_loader);
     RUN_TEST(test_from_every_reset);
     RUN_TEST(test_waits);
     RUN_TEST(test_crystal_dies);

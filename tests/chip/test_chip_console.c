@@ -35,7 +35,7 @@ static void test_rate(void) {
 /* What is written waits until all is out, what is offered does not; in order, each once, in bursts, with a pause or none. */
 static void test_out(void) {
     static uint8_t mine[16384];
-    scattered_state = 2;
+    scattered_state = chip_seed(2);
     chip_on(3);
     unsigned from = chip_serial_sent();
     unsigned said = 0;
@@ -68,7 +68,7 @@ static void test_out(void) {
 
 /* The same where much happens between two accesses, and bytes come, so that interrupts come in between as well. */
 static void test_out_between_accesses(void) {
-    scattered_state = 10;
+    scattered_state = chip_seed(10);
     chip_on(10);
     const unsigned from = chip_serial_sent();
     unsigned said = 0;
@@ -110,7 +110,7 @@ static void test_out_is_full(void) {
 /* What comes, however it is spaced: in order, none lost while it is read each control step. */
 static void test_in(void) {
     static uint8_t mine[4096];
-    scattered_state = 5;
+    scattered_state = chip_seed(5);
     chip_on(5);
     unsigned made = 0;
     unsigned got = 0;
@@ -137,7 +137,7 @@ static void test_in(void) {
 
 /* Both at once. */
 static void test_both(void) {
-    scattered_state = 6;
+    scattered_state = chip_seed(6);
     chip_on(6);
     const unsigned from = chip_serial_sent();
     const uint64_t byte_units = chip_serial_byte_units();
@@ -177,7 +177,7 @@ static void lost(bool held) {
     const uint64_t byte_units = chip_serial_byte_units();
     for (unsigned rounds = 0; rounds < 20; rounds++) {
         const unsigned many =
-            held ? 5U + (unsigned)(scattered() % 40U) : 200U + (unsigned)(scattered() % 100U);
+            held ? 8U + (unsigned)(scattered() % 40U) : 200U + (unsigned)(scattered() % 100U);
         for (unsigned i = 0; i < many; i++) {
             chip_serial_comes(chip_now() + (i + 1U) * byte_units, (uint8_t)(1U + i % 250U));
         }
@@ -223,11 +223,11 @@ static void lost(bool held) {
     }
 }
 static void test_nobody_reads(void) {
-    scattered_state = 7;
+    scattered_state = chip_seed(7);
     lost(false);
 }
 static void test_core_that_stood(void) {
-    scattered_state = 8;
+    scattered_state = chip_seed(8);
     lost(true);
 }
 
@@ -240,7 +240,7 @@ static void write_held(void) {
     reg_go_on(before);
 }
 static void test_from_a_fault(void) {
-    scattered_state = 9;
+    scattered_state = chip_seed(9);
     for (unsigned i = 0; i < 20; i++) {
         chip_on(scattered());
         room = (unsigned)(scattered() % 60U);

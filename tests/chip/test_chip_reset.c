@@ -30,7 +30,7 @@ static void test_causes(void) {
                                      [CHIP_BY_PIN] = HAL_RESET_OTHER,
                                      [CHIP_BY_WATCHDOG] = HAL_RESET_WATCHDOG,
                                      [CHIP_BY_SOFTWARE] = HAL_RESET_OTHER};
-    scattered_state = 1;
+    scattered_state = chip_seed(1);
     chip_wired(1);
     for (unsigned i = 0; i < 80; i++) {
         const chip_cause by = i == 0 ? CHIP_BY_POWER : (chip_cause)(scattered() % 5U);
@@ -76,7 +76,7 @@ static void test_brown_out(void) {
 
 /* The power goes while they are written, at any instant: the next start does it. */
 static void test_brown_out_torn(void) {
-    scattered_state = 4;
+    scattered_state = chip_seed(4);
     for (unsigned i = 0; i < 15; i++) {
         chip_wired(scattered());
         chip_reset(CHIP_BY_POWER);

@@ -32,7 +32,7 @@ static void run_take(unsigned at_most) {
 }
 
 static void begin(uint64_t seed) {
-    scattered_state = seed;
+    scattered_state = chip_seed(seed);
     chip_on(scattered());
     made_count = got_count = 0;
     run_take(ROOM);
@@ -50,14 +50,16 @@ static void pulse_at(uint64_t units, uint8_t sensor, uint64_t high_us) {
     chip_slot_is_at(units + high_us * CHIP_UNITS_PER_US, sensor, CHIP_LOW);
 }
 
-/* What the filter takes (12 microseconds), and a tick of rounding. */
+/* What the filter takes, 10.7 to 12.2 us (18.4.7: eight samples of 84 MHz by 4 and by 32), and two roundings to ticks. */
+#define LATE_LEAST 10U
 #define LATE_MOST 14U
 
 static void all_are_there(void) {
     TEST_ASSERT_EQUAL(made_count, got_count);
     for (unsigned i = 0; i < made_count; i++) {
         TEST_ASSERT_EQUAL(made[i].sensor, got[i].sensor);
-        TEST_ASSERT_TRUE_MESSAGE(got[i].ticks - made[i].ticks + 1U <= LATE_MOST,
+        TEST_ASSERT_TRUE_MESSAGE(got[i].ticks - made[i].ticks - LATE_LEAST <=
+                                     LATE_MOST - LATE_LEAST,
                                  "a stamp is not its edge's");
     }
 }
@@ -163,7 +165,7 @@ static void test_high_at_the_start(void) {
 
 /* Pulses while nobody takes any: the oldest are kept, at least 8; overruns are counted; and it goes on. */
 static void test_full(void) {
-    scattered_state = 14;
+    scattered_state = chip_seed(14);
     for (unsigned round = 0; round < 10; round++) {
         begin(scattered() | 1U);
         const uint32_t before = overruns;
@@ -176,7 +178,7 @@ static void test_full(void) {
         TEST_ASSERT_TRUE_MESSAGE(got_count >= 8U, "at least eight are kept");
         for (unsigned i = 0; i < 8; i++) {
             TEST_ASSERT_EQUAL(made[i].sensor, got[i].sensor);
-            TEST_ASSERT_TRUE(got[i].ticks - made[i].ticks + 1U <= LATE_MOST);
+            TEST_ASSERT_TRUE(got[i].ticks - made[i].ticks - LATE_LEAST <= LATE_MOST - LATE_LEAST);
         }
         TEST_ASSERT_TRUE_MESSAGE(overruns - before >= 1U, "nobody was told that some are lost");
         for (unsigned i = 1; i < got_count; i++) {

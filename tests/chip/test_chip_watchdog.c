@@ -46,7 +46,7 @@ static uint32_t drawn_timeout(void) {
 }
 
 static void test_any_time_and_speed(void) {
-    scattered_state = 1;
+    scattered_state = chip_seed(1);
     for (unsigned i = 0; i < 40; i++) {
         begin();
         timeout = i < 20 ? 20000U : drawn_timeout();
@@ -60,13 +60,14 @@ static void test_any_time_and_speed(void) {
             run(kick);
         }
         is_quiet_for(timeout);
-        bites_by(2U * (uint64_t)timeout + 40U);
+        bites_by(timeout == 20000U ? 36000U
+                                   : 2U * (uint64_t)timeout); /* docs/boards.md: 20 to 56 ms */
     }
 }
 
 /* Longer for an erase, then short again, at any time and soon behind each other. */
 static void test_other_times(void) {
-    scattered_state = 2;
+    scattered_state = chip_seed(2);
     for (unsigned i = 0; i < 8; i++) {
         begin();
         timeout = 20000;
@@ -94,7 +95,7 @@ static void test_other_times(void) {
 
 /* Told another time in the last moment: that is a sign of life, too. */
 static void test_told_late(void) {
-    scattered_state = 4;
+    scattered_state = chip_seed(4);
     for (unsigned i = 0; i < 40; i++) {
         begin();
         world.watchdog_Hz = 46000U + scattered() % 1001U;
@@ -110,7 +111,7 @@ static void test_told_late(void) {
 
 /* Held by a debugger it stands still, and goes on behind it. */
 static void test_debugger(void) {
-    scattered_state = 3;
+    scattered_state = chip_seed(3);
     begin();
     timeout = 20000;
     run(start);
