@@ -24,8 +24,12 @@ enum {
     WH_FRAME_ORDERS = 2,
     WH_FRAME_READINGS = 3,
     WH_FRAME_RESET = 4, /* to a controller that starts again, before its first readings: wh_reset */
-    WH_FRAME_REMEMBER =
-        5 /* from the controller, before its orders: bytes that outlive a reset, 0 to WH_REMEMBER_MAX */
+    /* from the controller, before its orders: bytes that outlive a reset, 0 to WH_REMEMBER_MAX */
+    WH_FRAME_REMEMBER = 5,
+    /* over a line that tells neither when a controller starts nor when it ends: to one, before its first readings, to say its
+     * hello again; and from one, in place of orders: it ends, with this status (4 bytes) */
+    WH_FRAME_ASK = 6,
+    WH_FRAME_END = 7
 };
 
 #define WH_SIGNALS_MAX 20U /* of all kinds together */

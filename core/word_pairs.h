@@ -5,7 +5,7 @@
 #ifndef WH_WORD_PAIRS_H
 #define WH_WORD_PAIRS_H
 
-#define WH_WORD_PAIRS_DEEP 8U /* pairs within pairs, at most */
+enum { WH_WORD_PAIRS_DEEP = 8 }; /* pairs within pairs, at most */
 
 #define WH_WORD_PAIR_ROWS(X) \
     X(128, 101, 32)  /* "e " */ \

@@ -146,8 +146,15 @@ $(eval $(call pil_program,pil_dialled,boards/programs/pil_dialled.c,frames rig w
 $(eval $(call pil_program,pil_carriage,boards/programs/pil_carriage.c,frames rig whirl scenes))
 $(eval $(call pil_program,pil_cart,boards/programs/pil_cart.c,frames whirl))
 $(eval $(call pil_program,pil_taped,boards/programs/pil_taped.c,frames station rig whirl scenes))
+# Over the board's own console, of every board that has room for it; here on a pseudo-terminal.
+$(B)/pil_line: $(call objects,float,boards/programs/pil_line.c boards/shared/link_console.c boards/host/board.c boards/host/terminal.c) \
+    $(call libraries,float,frames rig whirl scenes)
+	$(link)
+$(ELF)/pil_line.elf: $(call objects,$(BOARD),boards/programs/pil_line.c boards/shared/link_console.c) $(BOARD_OBJECTS) \
+    $(call libraries,$(BOARD),frames rig whirl scenes)
+	$(link_board)
 PIL_PROGRAMS := pil_rig pil_swing pil_dialled pil_carriage pil_cart pil_taped
-PIL_IMAGES := $(if $(BOARD_LINK),$(PIL_PROGRAMS:%=$(ELF)/%.elf))
+PIL_IMAGES := $(if $(BOARD_LINK),$(PIL_PROGRAMS:%=$(ELF)/%.elf) $(ELF)/pil_line.elf)
 
 # On BOARD and on an M3: the tape of one on the other.
 PIL_BOARDS := $(BOARD) $(filter-out $(BOARD),mps2-an385)

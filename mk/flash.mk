@@ -1,17 +1,21 @@
 # flash.mk: what is flashed onto a board of its own, and a debugger on it. Both print the command that does it.
 PROBE ?= stlink
 PROBES := stlink cmsis-dap dfu
+# The rig with its console; or its control software with the plant at the other end of that line (`whirl pil --port`).
+PROGRAM ?= station
+PROGRAMS := station pil_line
+FLASH_IMAGE := $(ELF)/$(PROGRAM).elf
 
 # Sectors that the image has are erased and written, no others: settings stay.
 OPENOCD_FOR = openocd -f interface/$(PROBE).cfg -f target/stm32f4x.cfg
-FLASH_COMMAND = $(if $(filter dfu,$(PROBE)),$(DFU_COMMAND),$(OPENOCD_FOR) -c "program $(STATION) verify reset exit")
+FLASH_COMMAND = $(if $(filter dfu,$(PROBE)),$(DFU_COMMAND),$(OPENOCD_FOR) -c "program $(FLASH_IMAGE) verify reset exit")
 # The loader in the chip's ROM (BOOT0 high in a reset, USB) takes plain bytes, in two pieces: the vectors last, so that a
 # transfer that broke off does not start.
-DFU_COMMAND = dfu-util -d 0483:df11 -a 0 -s 0x0800C000 -D $(ELF)/station_code.bin && \
-    dfu-util -d 0483:df11 -a 0 -s 0x08000000:leave -D $(ELF)/station_vectors.bin
-DEBUG_COMMAND = gdb-multiarch $(STATION) -ex 'target extended-remote | $(OPENOCD_FOR) -c "gdb_port pipe; log_output $(ELF)/openocd.log"'
+DFU_COMMAND = dfu-util -d 0483:df11 -a 0 -s 0x0800C000 -D $(ELF)/flash_code.bin && \
+    dfu-util -d 0483:df11 -a 0 -s 0x08000000:leave -D $(ELF)/flash_vectors.bin
+DEBUG_COMMAND = gdb-multiarch $(FLASH_IMAGE) -ex 'target extended-remote | $(OPENOCD_FOR) -c "gdb_port pipe; log_output $(ELF)/openocd.log"'
 
-flash_asks = $(if $(filter boards/atmega/%,$(BOARD_FLASHED)),$(error docs/boards.md says how $(BOARD) is flashed: make does that for an STM32F405 only))$(if $(BOARD_FLASHED),,$(error $(BOARD) has no hardware that is flashed: BOARD= one of $(boards_flashed)))$(if $(filter $(1),$(PROBE)),,$(error PROBE is '$(PROBE)': one of $(1)))
+flash_asks = $(if $(filter boards/atmega/%,$(BOARD_FLASHED)),$(error docs/boards.md says how $(BOARD) is flashed: make does that for an STM32F405 only))$(if $(BOARD_FLASHED),,$(error $(BOARD) has no hardware that is flashed: BOARD= one of $(boards_flashed)))$(if $(filter $(1),$(PROBE)),,$(error PROBE is '$(PROBE)': one of $(1)))$(if $(filter $(PROGRAMS),$(PROGRAM)),,$(error PROGRAM is '$(PROGRAM)': one of $(PROGRAMS)))
 
 ##@ Boards
 .PHONY: flash debug flash-now debug-now
@@ -20,9 +24,9 @@ flash: ## the rig's firmware onto BOARD, by PROBE=stlink, cmsis-dap or dfu (inst
 	@CC="$(CC)" mk/setup/deps.sh host firmware flash
 	@$(MAKE) $(PARALLEL) flash-now
 flash-now: $(GEN)/.stamp
-	@$(MAKE) $(STATION)
-	@$(BOARD_OBJCOPY) -O binary -j .vectors $(STATION) $(ELF)/station_vectors.bin
-	@$(BOARD_OBJCOPY) -O binary -R .vectors $(STATION) $(ELF)/station_code.bin
+	@$(MAKE) $(FLASH_IMAGE)
+	@$(BOARD_OBJCOPY) -O binary -j .vectors $(FLASH_IMAGE) $(ELF)/flash_vectors.bin
+	@$(BOARD_OBJCOPY) -O binary -R .vectors $(FLASH_IMAGE) $(ELF)/flash_code.bin
 	@echo '$(subst ','\'',$(FLASH_COMMAND))'
 	@$(FLASH_COMMAND)
 
@@ -31,7 +35,7 @@ debug: ## a debugger on BOARD's firmware, by PROBE=stlink or cmsis-dap; halting 
 	@CC="$(CC)" mk/setup/deps.sh host firmware flash
 	@$(MAKE) $(PARALLEL) debug-now
 debug-now: $(GEN)/.stamp
-	@$(MAKE) $(STATION)
+	@$(MAKE) $(FLASH_IMAGE)
 	@echo '$(subst ','\'',$(DEBUG_COMMAND))'
 	@$(DEBUG_COMMAND)
 

@@ -34,17 +34,17 @@ typedef struct wh_tape {
 } wh_tape;
 
 /* From the next time that the rig is idle on; anew where it runs already. */
-WH_INLINE void wh_tape_on(wh_tape *tape) { *tape = (wh_tape){.state = WH_TAPE_WAITS}; }
+WH_INLINE void wh_tape_on(wh_tape *out) { *out = (wh_tape){.state = WH_TAPE_WAITS}; }
 
 /* Settings are the tape's, and must stay. */
-WH_INLINE bool wh_tape_holds(const wh_tape *tape) {
-    return tape->state == WH_TAPE_WAITS || tape->state == WH_TAPE_RUNS;
+WH_INLINE bool wh_tape_holds(const wh_tape *out) {
+    return out->state == WH_TAPE_WAITS || out->state == WH_TAPE_RUNS;
 }
 
-WH_INLINE void wh_tape_off(wh_tape *tape) {
-    if (wh_tape_holds(tape)) {
-        tape->state = WH_TAPE_ENDS;
-        tape->end = WH_TAPED_OFF;
+WH_INLINE void wh_tape_off(wh_tape *out) {
+    if (wh_tape_holds(out)) {
+        out->state = WH_TAPE_ENDS;
+        out->end = WH_TAPED_OFF;
     }
 }
 

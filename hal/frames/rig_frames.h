@@ -37,6 +37,9 @@ void hal_frames_note(unsigned channel, float value);
 void hal_frames_step_begins(void);
 void hal_frames_step_ends(void);
 
+/* The program ends: see hal_turns_end(). */
+void hal_frames_end(int status);
+
 /* What an operator dials in before a run, and the notes that go with it: of programs that ask for dials before
  * hal_clock_start(). X(name, word, unit, largest either way), the notes above but for the largest. */
 #define HAL_DIAL_ROWS(X) \

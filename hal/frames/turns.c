@@ -66,13 +66,17 @@ static void look_for_reset(hal_turns *turns, const wh_frame *frame) {
     }
 }
 
-/* Readings that are not the next ones, or none that this version knows, are not for us. */
-static void hear(hal_turns *turns) {
+/* Readings that are not the next ones, or none that this version knows, are not for us. `hello_bytes`: while nothing was
+ * heard yet, so many of turns->payload are the hello. */
+static void hear(hal_turns *turns, unsigned hello_bytes) {
     wh_frame frame;
     wh_readings news;
     do {
         receive(turns, &frame);
         look_for_reset(turns, &frame);
+        if (hello_bytes > 0 && frame.kind == WH_FRAME_ASK) {
+            send(turns, WH_FRAME_HELLO, 0, hello_bytes);
+        }
     } while (frame.version != WH_FRAME_VERSION || frame.kind != WH_FRAME_READINGS ||
              frame.sequence != turns->sequence ||
              !wh_readings_get(&news, frame.payload, frame.length));
@@ -102,8 +106,14 @@ bool hal_turns_start(hal_turns *turns, const wh_hello *hello) {
     turns->nothing_timer = turns->orders.step_timer;
     turns->orders.step_timer = 0;
     send(turns, WH_FRAME_HELLO, 0, length);
-    hear(turns);
+    hear(turns, length);
     return true;
+}
+
+void hal_turns_end(hal_turns *turns, int status) {
+    wh_bytes bytes = {.to = turns->payload, .room = sizeof turns->payload};
+    wh_bytes_put(&bytes, (uint32_t)status, 4);
+    send(turns, WH_FRAME_END, turns->sequence, bytes.at);
 }
 
 void hal_turns_set(hal_turns *turns, unsigned channel, float value) {
@@ -152,7 +162,7 @@ void hal_turns_wait(hal_turns *turns, uint32_t until_ticks) {
     orders->flags = 0;
     orders->step_timer = 0;
     turns->sequence++;
-    hear(turns);
+    hear(turns, 0);
 }
 
 bool hal_turns_take_edge(hal_turns *turns, wh_edge *edge) {

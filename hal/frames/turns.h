@@ -40,6 +40,9 @@ typedef struct hal_turns {
  * and signals; the rest is the board's. Outputs are 0. False: there is no line, or the hello is too long. */
 bool hal_turns_start(hal_turns *turns, const wh_hello *hello);
 
+/* The program ends, with this status: of one whose end the line does not tell (WH_FRAME_END). */
+void hal_turns_end(hal_turns *turns, int status);
+
 /* An output from now on, of this channel. */
 void hal_turns_set(hal_turns *turns, unsigned channel, float value);
 

@@ -1,4 +1,5 @@
 /* pil.c: `whirl pil`: a firmware image against a scene as its plant, or against a tape. */
+#include <errno.h>
 #include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
@@ -9,6 +10,7 @@
 #include "files.h"
 #include "host/base/room.h"
 #include "host/base/unwritten.h"
+#include "host/monitor/port.h"
 #include "host/number/decimal.h"
 #include "host/number/functions.h"
 #include "host/pil/fault.h"
@@ -29,6 +31,7 @@
 static const command_usage usage = {
     .head =
         "usage: whirl pil SCENE|MECHANISM[:SCENE]|FILE[:SCENE] --firmware IMAGE [options]\n"
+        "       whirl pil ... --port PORT [options], of firmware that is on a board\n"
         "       whirl pil --replay TAPE --firmware IMAGE [options]\n"
         "       whirl pil --read TAPE [--csv FILE]\n"
         "\n"
@@ -41,6 +44,8 @@ static const command_usage usage = {
     .groups = OPTIONS_CHANGE | OPTIONS_STEP | OPTIONS_ENGINE,
     .tail =
         "  --firmware IMAGE     the program: build/BOARD/pil_rig.elf, build/pil_rig, or your own\n"
+        "  --port PORT          it is at the other end of a serial line: /dev/ttyUSB0, /dev/pts/3\n"
+        "  --baud N             of that line (default: 115200)\n"
         "  --board B            which machine QEMU is: mps2-an386 (Cortex-M4F; when left out), mps2-an385\n"
         "                       (M3), mps2-an500 (M7), mps2-an505 (M33)\n"
         "  --tape FILE          keep all that goes over the line\n"
@@ -76,6 +81,7 @@ typedef struct pil_options {
     common_options common;
     const char *target;
     const char *firmware;
+    const char *port; /* a serial line to it */
     const char *board;
     const char *tape;
     const char *replay;
@@ -90,6 +96,7 @@ typedef struct pil_options {
     double clock_Hz;
     double cycles;
     double patience_s;
+    double baud;
     bool quiet;
     bool kinds; /* of faults are listed */
 } pil_options;
@@ -103,7 +110,7 @@ static bool take_words(int count, char **words, int *at, pil_options *o, bool *b
     } rows[] = {{"--firmware", &o->firmware}, {"--board", &o->board}, {"--tape", &o->tape},
                 {"--replay", &o->replay},     {"--read", &o->read},   {"--csv", &o->csv},
                 {"--bind", &o->bind},         {"--place", &o->place}, {"--jitter", &o->jitter},
-                {"--delay", &o->delay}};
+                {"--delay", &o->delay},       {"--port", &o->port}};
     for (size_t i = 0; i < sizeof rows / sizeof rows[0] && !*bad; i++) {
         const char *value = options_value(count, words, at, rows[i].option, bad);
         if (value != NULL) {
@@ -119,6 +126,7 @@ static bool take_numbers(int count, char **words, int *at, pil_options *o, bool 
         {"--seed", &o->seed, 0.0, 4294967295.0, true, "a whole number: --seed 7"},
         {"--clock", &o->clock_Hz, 1e3, 1e11, false, "in Hz: --clock 16e6"},
         {"--cycles", &o->cycles, 0.0, 1e4, false, "cycles an instruction: --cycles 1.5"},
+        {"--baud", &o->baud, 1.0, 1e7, true, "a speed of serial lines: --baud 115200"},
         {"--patience", &o->patience_s, 0.01, 1e6, false, "in seconds: --patience 10"}};
     return options_take_number("pil", rows, sizeof rows / sizeof rows[0], count, words, at, bad);
 }
@@ -174,7 +182,18 @@ static bool go_together(const pil_options *o) {
               stderr);
         return false;
     }
-    if (o->firmware == NULL) {
+    if (o->port != NULL && (o->firmware != NULL || o->board != NULL || !port_has_speed(o->baud))) {
+        fprintf(
+            stderr,
+            o->firmware != NULL || o->board != NULL
+                ? "whirl pil: error: --port takes no %s: the firmware is on its board\n"
+                : "whirl pil: error: no %s has the speed of --baud\nhint: 115200, 57600, 9600\n",
+            o->firmware != NULL ? "--firmware"
+            : o->board != NULL  ? "--board"
+                                : "serial line");
+        return false;
+    }
+    if (o->firmware == NULL && o->port == NULL) {
         fprintf(stderr, "whirl pil: error: no --firmware IMAGE\nhint: make pil-images builds "
                         "build/mps2-an386/pil_rig.elf, which runs against docs/plants/rig.whirl\n");
         return false;
@@ -207,7 +226,7 @@ static bool read_options(int count, char **words, pil_options *o) {
     static const char *const own[] = {"--firmware", "--board", "--tape",   "--replay",   "--read",
                                       "--csv",      "--bind",  "--place",  "--jitter",   "--delay",
                                       "--seed",     "--clock", "--cycles", "--patience", "--fault",
-                                      "--faults",   "--quiet", NULL};
+                                      "--port",     "--baud",  "--faults", "--quiet",    NULL};
     const target_reader reader = {
         .command = "pil", .groups = usage.groups, .own = own, .take = take_one};
     return target_read(&reader, count, words, &o->common, o, &o->target) && is_known_board(o) &&
@@ -292,6 +311,34 @@ static int tell(const pil_options *o, const lockstep_wish *wish, const image *im
     return code_of(r);
 }
 
+/* The line to a board, if that is where the firmware is. */
+static bool open_line(const pil_options *o, lockstep_wish *wish, port *line) {
+    if (o->port == NULL) {
+        return true;
+    }
+    if (!port_open(line, o->port, o->baud)) {
+        fprintf(stderr,
+                "%s: error: cannot be opened: %s\nhint: is the board plugged in? ls /dev/tty*\n",
+                o->port, strerror(errno));
+        return false;
+    }
+    if (!line->is_line) {
+        fprintf(stderr, "%s: error: no serial line: nobody answers there\n", o->port);
+        port_close(line);
+        return false;
+    }
+    wish->guest.by_line = true;
+    wish->guest.line = line->file;
+    wish->guest.image = o->port;
+    return true;
+}
+
+static void close_line(const pil_options *o, port *line) {
+    if (o->port != NULL) {
+        port_close(line);
+    }
+}
+
 /* --- against a scene ----------------------------------------------------------------------------------------------*/
 
 static bool open_tape(const pil_options *o, const source_model *from, FILE **file) {
@@ -299,7 +346,8 @@ static bool open_tape(const pil_options *o, const source_model *from, FILE **fil
     if (o->tape == NULL) {
         return true;
     }
-    if (source_would_be_lost(from, "--tape", o->tape, "") || files_same(o->tape, o->firmware)) {
+    if (source_would_be_lost(from, "--tape", o->tape, "") ||
+        (o->firmware != NULL && files_same(o->tape, o->firmware))) {
         fprintf(stderr, "whirl pil: error: --tape would be written over a file that is read\n");
         return false;
     }
@@ -324,8 +372,13 @@ static int run_image(const pil_options *o, const source_model *from, const image
     if (o->common.change.until != NULL) {
         wish->until_s = im->until_s;
     }
+    port line;
+    if (!open_line(o, wish, &line)) {
+        return EXIT_BAD_INPUT;
+    }
     interrupts_catch_waiting();
     lockstep_run(wish, im, &report);
+    close_line(o, &line);
     if (wish->tape != NULL && fclose(wish->tape) != 0 && report.end != LOCKSTEP_BAD) {
         unwritten_say(o->tape);
         report.end = LOCKSTEP_FAILED;
@@ -390,10 +443,15 @@ static int run_source(pil_options *o, source_model *from) {
 }
 
 static int replay(const pil_options *o) {
-    const lockstep_wish wish = wish_of(o);
+    lockstep_wish wish = wish_of(o);
     lockstep_report report;
+    port line;
+    if (!open_line(o, &wish, &line)) {
+        return EXIT_BAD_INPUT;
+    }
     interrupts_catch_waiting();
     lockstep_replay(&wish, o->replay, &report);
+    close_line(o, &line);
     return tell(o, &wish, NULL, &report);
 }
 
@@ -402,7 +460,8 @@ int command_pil(int count, char **words) {
                      .seed = 1.0,
                      .clock_Hz = CLOCK_HZ,
                      .cycles = CYCLES,
-                     .patience_s = PATIENCE_S};
+                     .patience_s = PATIENCE_S,
+                     .baud = 115200.0};
     if (options_help(count, words, &usage)) {
         return EXIT_DONE;
     }

@@ -120,6 +120,11 @@ static bool make_line(int down[2], int up[2]) {
 bool guest_start(guest *g, const guest_wish *wish) {
     *g = (guest){.wish = *wish, .up = -1, .down = -1};
     wh_frame_reader_start(&g->reader, g->frame, sizeof g->frame);
+    if (wish->by_line) {
+        g->up = wish->line;
+        g->down = wish->line;
+        return true;
+    }
     if (!look_at_image(wish->image, &g->emulated)) {
         return false;
     }
@@ -179,7 +184,7 @@ guest_heard guest_receive(guest *g, wh_frame *frame) {
             return heard;
         }
         const ssize_t count = read(g->up, g->line, sizeof g->line);
-        if (count == 0 || (count < 0 && errno != EINTR)) {
+        if (count == 0 || (count < 0 && errno != EINTR && errno != EAGAIN)) {
             return GUEST_ENDED;
         }
         g->line_at = 0;
@@ -187,12 +192,17 @@ guest_heard guest_receive(guest *g, wh_frame *frame) {
     }
 }
 
-/* A pipe takes a few kilobytes without waiting, and in turns there is never more than one frame in it. */
+/* A pipe takes a few kilobytes without waiting, and in turns there is never more than one frame in it. A serial line is
+ * slower. */
 guest_heard guest_send(guest *g, const uint8_t *bytes, unsigned count) {
+    struct pollfd line = {.fd = g->down, .events = POLLOUT};
     for (unsigned done = 0; done < count;) {
         const ssize_t more = write(g->down, bytes + done, count - done);
-        if (more < 0 && errno != EINTR) {
+        if (more < 0 && errno != EINTR && errno != EAGAIN) {
             return GUEST_ENDED;
+        }
+        if (more < 0 && errno == EAGAIN) {
+            (void)poll(&line, 1, POLL_MS);
         }
         done += more > 0 ? (unsigned)more : 0;
         if (more < 0 && is_stopped(g)) {
@@ -228,6 +238,11 @@ static bool wait_for_end(const guest *g, int *status) {
 guest_end_status guest_end(guest *g) {
     guest_end_status end = {.status = -1};
     int status = 0;
+    if (g->wish.by_line) {
+        g->up = -1;
+        g->down = -1;
+        return end;
+    }
     close_line(&g->down);
     close_line(&g->up);
     if (g->pid == 0) {

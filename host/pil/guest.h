@@ -21,6 +21,9 @@
 #define GUEST_NOT_RUN 127
 
 typedef struct guest_wish {
+    bool
+        by_line; /* there is no process: it is at the other end of the line `line`, which stays the caller's */
+    int line;
     const char *image;                 /* an ELF file: for Arm, or a program of this machine */
     const char *board;                 /* QEMU's machine */
     bool mute;                         /* what it says to people is not shown */

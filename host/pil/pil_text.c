@@ -73,7 +73,7 @@ void pil_print(FILE *out, const lockstep_wish *wish, const image *im, const lock
     fprintf(out, "exchanges          %" PRIu64 " in %.9g s of the plant's time", r->exchanges,
             r->time_s);
     if (im != NULL && r->wall_s > 0.0) {
-        fprintf(out, "; %.0f a second, %.0f x real time", (double)r->exchanges / r->wall_s,
+        fprintf(out, "; %.0f a second, %.3g x real time", (double)r->exchanges / r->wall_s,
                 r->time_s / r->wall_s);
     }
     fprintf(out, "\ncommand stream     0x%016" PRIx64 "%s\n", r->hash,

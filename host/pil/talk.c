@@ -5,6 +5,8 @@
 
 #include "core/hash.h"
 
+#define ASK_S 0.25 /* from asking for a hello to asking again */
+
 /* --- frames ---------------------------------------------------------------------------------------------------*/
 
 static void keep_on_tape(talk *t, const uint8_t *bytes, unsigned count) {
@@ -87,9 +89,35 @@ bool talk_tell(talk *t, uint32_t ticks, const wh_readings *readings) {
     return say(t, &frame);
 }
 
-/* The next frame that is not there to be remembered. */
+/* Asks for what it says next: its hello, or that its end was heard. */
+static guest_heard ask(talk *t) {
+    uint8_t coded[WH_FRAME_BYTES(0)];
+    const wh_frame frame = {.kind = WH_FRAME_ASK};
+    return guest_send(&t->guest, coded, wh_frame_write(&frame, coded, sizeof coded));
+}
+
+static bool take_end(talk *t, const wh_frame *frame) {
+    wh_bytes bytes = {.from = frame->payload, .room = frame->length};
+    t->said_end = frame->length == 4U;
+    t->end_status = (int)(int32_t)wh_bytes_get(&bytes, 4);
+    if (!t->said_end) {
+        return fail(t, "an end that is none");
+    }
+    (void)ask(t);
+    t->report->end = when_ended(t);
+    return false;
+}
+
+/* The next frame that is not there to be remembered. A firmware that was asked for its hello more than once says it as
+ * often, before its first orders. */
 static bool hear_past_remembered(talk *t, wh_frame *frame) {
     while (hear_frame(t, frame)) {
+        if (frame->kind == WH_FRAME_END) {
+            return take_end(t, frame);
+        }
+        if (frame->kind == WH_FRAME_HELLO && t->wish->guest.by_line && t->sequence == 0) {
+            continue;
+        }
         if (frame->kind != WH_FRAME_REMEMBER) {
             return true;
         }
@@ -164,6 +192,19 @@ static void say_no_hello(talk *t) {
 }
 
 /* Into the caller's words and signals. */
+static bool take_hello_frame(talk *t, const wh_frame *frame, wh_hello *hello, wh_signal *signal,
+                             uint8_t *words, unsigned room) {
+    if (frame->kind != WH_FRAME_HELLO || frame->length > room) {
+        return fail(t, "no hello");
+    }
+    memcpy(words, frame->payload, frame->length);
+    if (!wh_hello_get(hello, signal, words, frame->length) || hello->ticks_per_s == 0) {
+        return fail(t, "a hello that is none");
+    }
+    keep_heard(t, frame);
+    return true;
+}
+
 static bool take_hello(talk *t, wh_hello *hello, wh_signal *signal, uint8_t *words, unsigned room) {
     wh_frame frame;
     if (!hear_frame(t, &frame)) {
@@ -172,19 +213,42 @@ static bool take_hello(talk *t, wh_hello *hello, wh_signal *signal, uint8_t *wor
         }
         return false;
     }
-    if (frame.kind != WH_FRAME_HELLO || frame.length > room) {
-        return fail(t, "no hello");
+    return take_hello_frame(t, &frame, hello, signal, words, room);
+}
+
+/* Over a line: whoever waits there for a plant's first word says its hello again. What else comes is of a time before. */
+static bool ask_for_hello(talk *t) {
+    const double patience_s = t->guest.wish.patience_s;
+    wh_frame frame;
+    guest_heard heard = GUEST_SILENT;
+    t->guest.wish.patience_s = ASK_S;
+    for (double waited_s = 0.0; waited_s < patience_s && heard == GUEST_SILENT; waited_s += ASK_S) {
+        heard = ask(t);
+        while (heard == GUEST_FRAME) {
+            heard = guest_receive(&t->guest, &frame);
+            if (heard == GUEST_FRAME && frame.kind == WH_FRAME_HELLO) {
+                t->guest.wish.patience_s = patience_s;
+                return take_hello_frame(t, &frame, &t->hello, t->signal, t->words, sizeof t->words);
+            }
+        }
     }
-    memcpy(words, frame.payload, frame.length);
-    if (!wh_hello_get(hello, signal, words, frame.length) || hello->ticks_per_s == 0) {
-        return fail(t, "a hello that is none");
+    t->report->end = heard == GUEST_STOPPED ? LOCKSTEP_STOPPED : LOCKSTEP_BAD;
+    if (heard != GUEST_STOPPED) {
+        fprintf(stderr,
+                "whirl pil: error: no hello has come over the line in %g s\n"
+                "hint: reset the board, whose firmware may be in the middle of another run; is it "
+                "pil_line.elf, and --baud its speed?\n",
+                patience_s);
     }
-    keep_heard(t, &frame);
-    return true;
+    return false;
 }
 
 static bool hear_hello(talk *t) {
-    if (!take_hello(t, &t->hello, t->signal, t->words, sizeof t->words)) {
+    if (t->wish->guest.by_line) {
+        if (!ask_for_hello(t)) {
+            return false;
+        }
+    } else if (!take_hello(t, &t->hello, t->signal, t->words, sizeof t->words)) {
         return false;
     }
     for (unsigned i = 0; i < t->hello.signals; i++) {
@@ -236,6 +300,9 @@ bool talk_restart(talk *t, uint32_t ticks, const wh_reset *reset) {
                             .ticks = ticks,
                             .payload = payload,
                             .length = wh_reset_put(reset, payload, sizeof payload)};
+    if (t->wish->guest.by_line) {
+        return fail(t, "nothing that resets it: over a line nobody does");
+    }
     (void)guest_end(&t->guest);
     if (!guest_start(&t->guest, &t->wish->guest)) {
         t->report->end = LOCKSTEP_FAILED;
@@ -260,6 +327,14 @@ void talk_end(talk *t) {
     const bool failed_alone = t->report->end == LOCKSTEP_DONE;
     t->report->status = guest_end(&t->guest);
     if (!failed_alone) {
+        return;
+    }
+    if (t->wish->guest.by_line) {
+        t->report->status.status = t->end_status;
+        if (!t->said_end) {
+            fprintf(stderr, "whirl pil: error: the line is gone\n");
+            t->report->end = LOCKSTEP_FAILED;
+        }
         return;
     }
     if (t->report->status.killed) {

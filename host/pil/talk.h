@@ -14,7 +14,9 @@ typedef struct talk {
     unsigned outputs;                /* that it declares, and notes behind them */
     uint16_t sequence;               /* of the last readings */
     wh_reset remembered;             /* what the firmware wants to find after a reset */
-    FILE *tape;                      /* or NULL */
+    bool said_end;                   /* the firmware, with this status: WH_FRAME_END */
+    int end_status;
+    FILE *tape; /* or NULL */
 } talk;
 
 /* Starts the guest and hears its hello. False: report->end says why, and it was reported. */

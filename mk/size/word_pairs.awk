@@ -66,7 +66,7 @@ END {
     print "#ifndef WH_WORD_PAIRS_H"
     print "#define WH_WORD_PAIRS_H"
     print ""
-    print "#define WH_WORD_PAIRS_DEEP " DEEP "U /* pairs within pairs, at most */"
+    print "enum { WH_WORD_PAIRS_DEEP = " DEEP " }; /* pairs within pairs, at most */"
     print ""
     print "#define WH_WORD_PAIR_ROWS(X)" rows
     print ""

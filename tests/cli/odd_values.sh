@@ -35,7 +35,7 @@ while read -r command any words; do
     verdict $? "whirl $command: $asked options refuse what is no value" "$scratch/passed"
     rm -f "$scratch/passed"
 done <<END
-run --csv,--columns,--strict $gear
+run --csv,--columns,--vcd,--strict $gear
 derive --header $gear --as c
 describe - $gear
 sweep --csv,--measure $gear --over r=0.1..0.2:2
@@ -73,6 +73,7 @@ while read -r command option words; do
 done <<END
 run --csv thomson_a
 run --columns thomson_a
+run --vcd thomson_a
 run --plot thomson_a
 derive --header thomson_a --as c
 sweep --csv $gear --over r=0.1..0.2:300

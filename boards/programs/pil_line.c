@@ -1,0 +1,15 @@
+/* pil_line.c: pil_dialled.c over the board's own serial line (boards/shared/link_console.c), for `whirl pil --port`: who is
+ * at the other end does not see a program end, and is told. */
+#include "boards/board.h"
+#include "hal/frames/rig_frames.h"
+#include "hal/link.h"
+
+static _Noreturn void tell_and_exit(int status) {
+    uint8_t heard;
+    hal_frames_end(status);
+    (void)hal_link_read(&heard, 1); /* it has been told */
+    board_exit(status);
+}
+
+#define board_exit tell_and_exit
+#include "pil_dialled.c" // NOLINT(bugprone-suspicious-include): the same program

@@ -1,0 +1,114 @@
+#!/bin/sh
+# pil_line.sh: `whirl pil --port`: firmware at the other end of a serial line, played by a pseudo-terminal: of this machine's
+# program (build/pil_line), and of a board's own UART in QEMU. The same command stream as through pipes; what an operator
+# dials in, ends and refusals come over the line, too; and what is wrong with a line is told.
+. "$(dirname "$0")/../checks.sh"
+
+build=$(dirname "$whirl")
+plant=docs/plants/rig.whirl
+board=
+trap 'kill -9 $board 2>/dev/null; rm -rf "$scratch"' EXIT
+
+# plug: a board is there, waiting: $scratch/tty
+plug() {
+    rm -f "$scratch/tty"
+    RIG_TTY=$scratch/tty "$build/pil_line" >"$scratch/said" 2>&1 &
+    board=$!
+    i=0
+    while [ ! -e "$scratch/tty" ] && [ $i -lt 100 ]; do
+        sleep 0.05
+        i=$((i + 1))
+    done
+}
+unplug() {
+    kill -9 $board 2>/dev/null
+    wait $board 2>/dev/null
+    board=
+}
+# run WORD...: over the line
+run() {
+    timeout 120 "$whirl" pil "$plant" --port "$scratch/tty" --step 200us "$@" >"$scratch/out" 2>"$scratch/err"
+}
+stream() { sed -n 's/^command stream  *//p' "$1"; }
+
+# --- runs ---------------------------------------------------------------------------------------------------------------
+for case in '--set speed=330rpm' '--set speed=120rpm --jitter 20us --seed 5' '--set speed=250rpm --fault edge-dead:2@9s'; do
+    # shellcheck disable=SC2086 # words
+    timeout 120 "$whirl" pil "$plant" --firmware "$build/pil_dialled" --step 200us --cycles 0 $case >"$scratch/pipes" 2>/dev/null
+    wanted=$?
+    plug
+    # shellcheck disable=SC2086
+    run --tape "$scratch/tape" $case
+    got=$?
+    wait $board
+    ended=$?
+    board=
+    [ $got -eq $wanted ] && [ $ended -eq $wanted ] && [ -n "$(stream "$scratch/out")" ] &&
+        [ "$(stream "$scratch/out")" = "$(stream "$scratch/pipes")" ]
+    verdict $? "$case: status $wanted, and the same command stream as through pipes" "$scratch/err"
+done
+"$whirl" pil --replay "$scratch/tape" --firmware "$build/pil_dialled" >"$scratch/out" 2>&1
+[ "$(stream "$scratch/out" | cut -d, -f1)" = "$(stream "$scratch/pipes")" ]
+verdict $? "its tape is one of any firmware's" "$scratch/out"
+plug
+timeout 120 "$whirl" pil --replay "$scratch/tape" --port "$scratch/tty" >"$scratch/out" 2>"$scratch/err"
+[ $? -le 1 ] && grep -q 'as on the tape' "$scratch/out"
+verdict $? "a tape is replayed over the line" "$scratch/err"
+unplug
+
+# --- what is wrong with a line -------------------------------------------------------------------------------------------
+refused() { # refused STATUS WORDS WORD...: with that status and an error that has these words
+    status=$1
+    words=$2
+    shift 2
+    timeout 60 "$whirl" pil "$@" >"$scratch/out" 2>"$scratch/err"
+    [ $? -eq "$status" ] && grep -q "$words" "$scratch/err"
+    verdict $? "$words" "$scratch/err"
+}
+refused 2 'takes no --firmware' "$plant" --port "$scratch/tty" --firmware "$build/pil_rig"
+refused 2 'takes no --board' "$plant" --port "$scratch/tty" --board mps2-an386
+refused 2 'has the speed of --baud' "$plant" --port "$scratch/tty" --baud 12345
+refused 2 'cannot be opened' "$plant" --port "$scratch/none"
+refused 2 'no serial line' "$plant" --port /dev/null
+plug
+kill -STOP $board
+refused 1 'has said nothing for 0.6 s' "$plant" --port "$scratch/tty" --patience 0.6 # but its hello
+kill -CONT $board
+run --until 1s --set speed=330rpm
+[ $? -eq 0 ]
+verdict $? "who was asked before there was an answer is not confused by it" "$scratch/err"
+refused 2 'no hello has come over the line in 0.6 s' "$plant" --port "$scratch/tty" --patience 0.6
+unplug
+for seed in 1 2 3; do # gone, at some instant
+    plug
+    (
+        sleep 0.$((seed * 3))
+        kill -9 $board
+    ) &
+    run --seed $seed --set speed=330rpm
+    [ $? -eq 1 ] && grep -q 'the line is gone' "$scratch/err" && grep -q '^exchanges' "$scratch/out"
+    verdict $? "a board that goes away is told, and what it had done" "$scratch/err"
+    unplug
+done 2>/dev/null
+
+# --- a board's UART, in the emulator ---------------------------------------------------------------------------------------
+image=build/mps2-an386/pil_line.elf
+if command -v qemu-system-arm >/dev/null 2>&1 && [ -e "$image" ]; then
+    qemu-system-arm -M mps2-an386 -display none -monitor none -serial pty -icount shift=6,align=off,sleep=off \
+        -semihosting-config enable=on,target=native -kernel "$image" >"$scratch/qemu" 2>&1 &
+    board=$!
+    i=0
+    while ! grep -qs /dev/pts "$scratch/qemu" && [ $i -lt 100 ]; do
+        sleep 0.05
+        i=$((i + 1))
+    done
+    timeout 120 "$whirl" pil "$plant" --port "$(grep -o '/dev/pts/[0-9]*' "$scratch/qemu")" --step 200us --until 0.3s \
+        --set speed=330rpm --patience 60 --tape "$scratch/tape" >"$scratch/out" 2>"$scratch/err"
+    [ $? -eq 0 ] && grep -q 'on board mps2-an386' "$scratch/out"
+    verdict $? "firmware on an emulated board's UART" "$scratch/err"
+    unplug
+    "$whirl" pil --replay "$scratch/tape" --firmware "$build/pil_dialled" >"$scratch/out" 2>&1
+    grep -q 'as on the tape' "$scratch/out"
+    verdict $? "answers as this machine's does" "$scratch/out"
+fi
+exit $failed
