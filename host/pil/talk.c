@@ -222,7 +222,7 @@ static bool ask_for_hello(talk *t) {
     wh_frame frame;
     guest_heard heard = GUEST_SILENT;
     t->guest.wish.patience_s = ASK_S;
-    for (double waited_s = 0.0; waited_s < patience_s && heard == GUEST_SILENT; waited_s += ASK_S) {
+    for (unsigned asked = 0; asked * ASK_S < patience_s && heard == GUEST_SILENT; asked++) {
         heard = ask(t);
         while (heard == GUEST_FRAME) {
             heard = guest_receive(&t->guest, &frame);
