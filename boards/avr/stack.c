@@ -5,28 +5,28 @@
 
 #include "boards/board.h"
 
-extern uint8_t _end;
+extern uint8_t _end[]; /* of the variables, by the linker */
 #define PAINT 0xA5U
 #define LOWEST 4U
 
 void board_stack_paint(void) {
-    for (volatile uint8_t *at = &_end; (uintptr_t)at < SP - 2U; at++) {
+    for (volatile uint8_t *at = _end; (uintptr_t)at < SP - 2U; at++) {
         *at = PAINT;
     }
 }
 
 unsigned board_stack_used_bytes(void) {
-    const volatile uint8_t *at = &_end;
+    const volatile uint8_t *at = _end;
     while ((uintptr_t)at < RAMEND && *at == PAINT) {
         at++;
     }
     return (unsigned)(RAMEND + 1U - (uintptr_t)at);
 }
 
-unsigned board_stack_size_bytes(void) { return (unsigned)(RAMEND + 1U - (uintptr_t)&_end); }
+unsigned board_stack_size_bytes(void) { return (unsigned)(RAMEND + 1U - (uintptr_t)_end); }
 
 bool avr_stack_is_whole(void) {
-    const volatile uint8_t *at = &_end;
+    const volatile uint8_t *at = _end;
     for (uint8_t i = 0; i < LOWEST; i++) {
         if (at[i] != PAINT) {
             return false;
