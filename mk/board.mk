@@ -49,6 +49,7 @@ BOARD_OBJECTS := $(call objects,$(BOARD),$(BOARD_SOURCES))
 $(eval $(call portable_libraries,$(BOARD)))
 
 define link_board
+	@mkdir -p $(@D)
 	$(say) LINK $@
 	$(Q)$(BOARD_CC) $(BOARD_LDFLAGS) -Wl,-Map=$(@:.elf=.map) -o $@ $(filter %.o,$^) \
 	    -Wl,--start-group $(filter %.a,$^) -Wl,--end-group $(IMAGE_LIBS) $(BOARD_LDLIBS)
