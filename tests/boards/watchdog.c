@@ -2,7 +2,6 @@
  * and then resets. watchdog.sh looks at what it says. */
 #include "hal/watchdog.h"
 #include "boards/board.h"
-#include "boards/cortexm/cortexm.h"
 #include "core/text.h"
 #include "hal/clock.h"
 
@@ -19,6 +18,7 @@ KEPT static volatile uint32_t interrupted_at;
 KEPT static volatile uint32_t last_seen;
 
 /* As a fault's handler: what follows is the reset. */
+void on_nmi(void);
 void on_nmi(void) {
     interrupted_at = board_ticks();
     stage = stage == WAITING ? INTERRUPTED : 0;
