@@ -7,10 +7,13 @@
 
 bool hal_link_open(void) { return board_converse(); }
 
-/* By polling: a device that keeps one byte loses none that way. */
+/* By polling, every 20 us: a byte takes 87 us at 115,200 baud, and a device may keep but one. */
+#define POLLS_PER_S 50000U
+
 unsigned hal_link_read(uint8_t *bytes, unsigned room) {
-    unsigned count = 0;
+    unsigned count = hal_console_read((char *)bytes, room);
     while (count == 0) {
+        board_wait_until(board_ticks() + board_ticks_per_s / POLLS_PER_S);
         count = hal_console_read((char *)bytes, room);
     }
     return count;

@@ -158,8 +158,7 @@ bool guest_start(guest *g, const guest_wish *wish) {
 static bool is_stopped(const guest *g) { return g->wish.stop != NULL && *g->wish.stop != 0; }
 
 /* Waits until the line can be read; in pieces, so that an interrupt that came before the wait is seen. */
-static guest_heard wait_to_read(const guest *g) {
-    const double end_s = now_s() + g->wish.patience_s;
+static guest_heard wait_to_read(const guest *g, double end_s) {
     struct pollfd line = {.fd = g->up, .events = POLLIN};
     do {
         if (is_stopped(g)) {
@@ -172,14 +171,19 @@ static guest_heard wait_to_read(const guest *g) {
     return GUEST_SILENT;
 }
 
+/* What is no frame is as good as silence: a line that babbles must come to an end. */
 guest_heard guest_receive(guest *g, wh_frame *frame) {
+    const double end_s = now_s() + g->wish.patience_s;
     for (;;) {
         while (g->line_at < g->line_end) {
             if (wh_frame_take(&g->reader, g->line[g->line_at++], frame)) {
                 return GUEST_FRAME;
             }
         }
-        const guest_heard heard = wait_to_read(g);
+        if (now_s() > end_s) {
+            return is_stopped(g) ? GUEST_STOPPED : GUEST_SILENT;
+        }
+        const guest_heard heard = wait_to_read(g, end_s);
         if (heard != GUEST_FRAME) {
             return heard;
         }

@@ -9,16 +9,19 @@ plant=docs/plants/rig.whirl
 board=
 trap 'kill -9 $board 2>/dev/null; rm -rf "$scratch"' EXIT
 
-# plug: a board is there, waiting: $scratch/tty
-plug() {
-    rm -f "$scratch/tty"
-    RIG_TTY=$scratch/tty "$build/pil_line" >"$scratch/said" 2>&1 &
-    board=$!
+wait_for_tty() {
     i=0
     while [ ! -e "$scratch/tty" ] && [ $i -lt 100 ]; do
         sleep 0.05
         i=$((i + 1))
     done
+}
+# plug: a board is there, waiting: $scratch/tty
+plug() {
+    rm -f "$scratch/tty"
+    RIG_TTY=$scratch/tty "$build/pil_line" >"$scratch/said" 2>&1 &
+    board=$!
+    wait_for_tty
 }
 unplug() {
     kill -9 $board 2>/dev/null
@@ -78,6 +81,18 @@ run --until 1s --set speed=330rpm
 [ $? -eq 0 ]
 verdict $? "who was asked before there was an answer is not confused by it" "$scratch/err"
 refused 2 'no hello has come over the line in 0.6 s' "$plant" --port "$scratch/tty" --patience 0.6
+unplug
+rm -f "$scratch/tty" # a rig that answers all the time, and never says a hello
+RIG_TTY=$scratch/tty "$build/station" >"$scratch/said" 2>&1 &
+board=$!
+wait_for_tty
+while printf 'id\r'; do sleep 0.02; done >"$scratch/tty" 2>/dev/null &
+asks=$!
+timeout 10 "$whirl" pil "$plant" --port "$scratch/tty" --patience 0.6 >"$scratch/out" 2>"$scratch/err"
+[ $? -eq 2 ] && grep -q 'no hello has come' "$scratch/err"
+verdict $? "who babbles is as good as silent" "$scratch/err"
+kill -9 $asks 2>/dev/null
+wait $asks 2>/dev/null
 unplug
 for seed in 1 2 3; do # gone, at some instant
     plug
