@@ -124,8 +124,8 @@ wanted_count=$(wc -l <"$scratch/scenes")
 
 # --- one build -------------------------------------------------------------------------------------------------------------
 can_fuse=$(grep -c -m 1 -w fma /proc/cpuinfo 2>/dev/null)
-# The emulator's programs end; what is for images that are flashed has no place in them.
-demo_sources=$(ls boards/cortexm/*.c | grep -vE '/(flashed|kept)\.c$')
+# The emulator's programs end, and speak to nobody else; what is for images that are flashed has no place in them, nor has a line.
+demo_sources=$(ls boards/cortexm/*.c boards/shared/*.c | grep -vE '/(flashed|kept|link|link_console|cmsdk_watchdog)\.c$')
 board=boards/mps2-an386
 emulate="timeout 60 qemu-system-arm -M mps2-an386 -nographic -semihosting-config enable=on,target=native -kernel"
 board_flags="-mcpu=cortex-m4 -mthumb -mfpu=fpv4-sp-d16 -mfloat-abi=hard -ffreestanding -I$board"
@@ -143,7 +143,7 @@ compile() { # compile COMPILER REAL FLAGS...: $scratch/program, with what was sa
     # shellcheck disable=SC2086 # lists of words
     if [ "$by" = arm-none-eabi-gcc ]; then
         $by $own $board_flags "$@" -nostdlib -T$board/board.ld -L. -o "$scratch/program" \
-            "$scratch"/build/gen/*.c core/*.c boards/programs/scenes.c $demo_sources boards/shared/*.c -lgcc
+            "$scratch"/build/gen/*.c core/*.c boards/programs/scenes.c $demo_sources -lgcc
     elif [ "$link" = "$all" ]; then
         $by $own "$@" -o "$scratch/program" "$scratch"/build/gen/*.c core/*.c \
             boards/programs/scenes.c boards/host/board.c
