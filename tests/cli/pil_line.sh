@@ -94,13 +94,14 @@ verdict $? "who babbles is as good as silent" "$scratch/err"
 kill -9 $asks 2>/dev/null
 wait $asks 2>/dev/null
 unplug
-for seed in 1 2 3; do # gone, at some instant
+for seed in 1 2 3; do # gone, at some instant: when so much is on the tape
     plug
+    : >"$scratch/tape"
     (
-        sleep 0.$((seed * 3))
+        while [ "$(wc -c <"$scratch/tape")" -lt $((seed * 30000)) ]; do sleep 0.02; done
         kill -9 $board
     ) &
-    run --seed $seed --set speed=330rpm
+    run --seed $seed --set speed=330rpm --tape "$scratch/tape"
     [ $? -eq 1 ] && grep -q 'the line is gone' "$scratch/err" && grep -q '^exchanges' "$scratch/out"
     verdict $? "a board that goes away is told, and what it had done" "$scratch/err"
     unplug
