@@ -220,8 +220,9 @@ static void adc_store(uint32_t offset, uint32_t value) {
         }
         *reg(offset) = value;
         break;
+    case CR1: *reg(CR1) = value; break;
     case DR: break;
-    default: *reg(offset) = value; break;
+    default: forbidden("store of ADC + 0x%03x", offset); break;
     }
 }
 
@@ -307,7 +308,7 @@ static uint32_t dma_load(uint32_t offset) {
     case S0M0AR: return dma.m0ar;
     case S0M1AR: return dma.m1ar;
     case S0FCR: return dma.fcr;
-    default: return 0;
+    default: forbidden("load of DMA2 + 0x%02x", offset); return 0;
     }
 }
 

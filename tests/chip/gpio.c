@@ -221,8 +221,13 @@ static void gpio_store(uint32_t offset, uint32_t value) {
     case BSRR:
         r[ODR / 4U] = (r[ODR / 4U] & ~(value >> 16)) | (value & 0xFFFFU);
         break; /* setting wins */
-    case LCKR: forbidden("LCKR: the played chip has none"); break;
-    default: r[offset % 0x400U / 4U] = value; break;
+    case MODER:
+    case OTYPER:
+    case OSPEEDR:
+    case PUPDR:
+    case AFRL:
+    case AFRH: r[offset % 0x400U / 4U] = value; break;
+    default: forbidden("store of GPIO + 0x%02x", offset % 0x400U); break;
     }
     debug_stays(port);
     for (unsigned pin = 0; pin < 16; pin++) {

@@ -69,7 +69,7 @@ static uint32_t iwdg_load(uint32_t offset) {
         }
         return w.rlr;
     case SR: return (w.pr_at != CHIP_NEVER ? PVU : 0) | (w.rlr_at != CHIP_NEVER ? RVU : 0);
-    default: return 0;
+    default: forbidden("load of IWDG + 0x%02x", offset); return 0;
     }
 }
 

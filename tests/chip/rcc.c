@@ -66,7 +66,7 @@ static uint32_t system_Hz(void) {
     case 0: return HSI_HZ;
     case 1: return crystal_Hz();
     case 2: return pll_Hz();
-    default: return 0;
+    default: forbidden("SW: there is no fourth source"); return 0;
     }
 }
 
@@ -238,12 +238,7 @@ static void rcc_store(uint32_t offset, uint32_t value) {
         rcc.enabled_late = (value & ~*reg(offset)) != 0 ? offset : 0;
         *reg(offset) = value;
         break;
-    default:
-        *reg(offset) = value;
-        if (offset >= 0x10 && offset <= 0x24 && value != 0) {
-            forbidden("resets of parts: the played chip has none");
-        }
-        break;
+    default: forbidden("store of RCC + 0x%02x", offset); break;
     }
 }
 

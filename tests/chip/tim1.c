@@ -122,7 +122,11 @@ static bool reference(void) {
     case 5: return true;
     case 6: return count < t.ccr1;
     case 7: return count >= t.ccr1;
-    default: return false;
+    case 0: /* frozen, as a reset has left it */
+    case 4: return false;
+    default:
+        forbidden("OC1M: a match toggles or sets, which the played chip does not");
+        return false;
     }
 }
 
@@ -151,7 +155,17 @@ static uint32_t tim1_load(uint32_t offset) {
     switch (offset) {
     case CNT: return count_now() % (t.arr + 1U);
     case EGR: return 0;
-    default: return *reg(offset);
+    case CR1:
+    case CR2:
+    case DIER:
+    case SR:
+    case CCMR1:
+    case CCER:
+    case PSC:
+    case ARR:
+    case CCR1:
+    case BDTR: return *reg(offset);
+    default: forbidden("load of TIM1 + 0x%02x", offset); return 0;
     }
 }
 
@@ -211,7 +225,12 @@ static void tim1_store(uint32_t offset, uint32_t value) {
         }
         tim1_break_input(); /* MOE stays off while a break is active */
         break;
-    default: *reg(offset) = next; break;
+    case CR1:
+    case CR2:
+    case DIER:
+    case CCMR1:
+    case CCER: *reg(offset) = next; break;
+    default: forbidden("store of TIM1 + 0x%02x", offset); break;
     }
     tim1_break_input();
 }

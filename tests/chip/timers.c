@@ -220,7 +220,10 @@ static void store_of(timer *t, uint32_t offset, uint32_t value) {
         }
         *reg(t, offset) = value;
         break;
-    default: *reg(t, offset) = value; break;
+    case CR2:
+    case DIER:
+    case CCER: *reg(t, offset) = value; break;
+    default: forbidden("store of a timer + 0x%02x", offset); break;
     }
 }
 

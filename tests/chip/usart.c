@@ -99,7 +99,7 @@ static uint32_t usart_load(uint32_t offset) {
     case CR1: return u.cr1;
     case CR2: return u.cr2;
     case CR3: return u.cr3;
-    default: return 0;
+    default: forbidden("load of USART6 + 0x%02x", offset); return 0;
     }
 }
 
@@ -140,7 +140,7 @@ static void usart_store(uint32_t offset, uint32_t value) {
     }
     case CR2: u.cr2 = value; break;
     case CR3: u.cr3 = value; break;
-    default: break;
+    default: forbidden("store of USART6 + 0x%02x", offset); break;
     }
 }
 

@@ -11,23 +11,27 @@ enum { EXTERNAL = 2, BROWN_OUT = 4 }; /* flags of MCUSR */
 /* A state as it is drawn: idle, armed, in a run at some time of it, or tripped. True: a trip is latched. */
 static bool draw_state(bool *tripped) {
     *tripped = false;
-    switch (below(4)) {
-    case 0: mega_start(image); return mega_run(20 + below(1000));
-    case 1:
+    const unsigned state = below(4);
+    if (state == 0) {
+        mega_start(image);
+        return mega_run(20 + below(1000));
+    }
+    if (state == 1U) {
         mega_start(image);
         mega_run(1600);
         return asks("arm", "OK arm") && mega_run(1 + below(500));
-    case 2: return runs(200 + below(150), 10 + below(7000));
-    default:
-        *tripped = true;
-        if (!runs(250, 2600 + below(2000))) {
-            return false;
-        }
-        mega_supply_V = 8.0f; /* out of its range */
-        mega_run(60);
-        mega_supply_V = 24.0f;
-        return mega_run(100) && asks("fault", "OK trip=11");
     }
+    if (state == 2U) {
+        return runs(200 + below(150), 10 + below(7000));
+    }
+    *tripped = true;
+    if (!runs(250, 2600 + below(2000))) {
+        return false;
+    }
+    mega_supply_V = 8.0f; /* out of its range */
+    mega_run(60);
+    mega_supply_V = 24.0f;
+    return mega_run(100) && asks("fault", "OK trip=11");
 }
 
 /* So long the enable may be on behind a fault: instructions that were under way. */
