@@ -71,7 +71,7 @@ $(B)/tests/host: $(call objects,host,$(HOST_TEST_PARTS) $(FAKED_C)) $(LIB_HOST) 
 # The same drivers, all of them, on a chip that is played from its manual (tests/chip), which takes interrupts and resets: the
 # drivers' variables are in sections of their own, so that a start of the chip can put them back to what the image has.
 CHIP_TEST_C := tests/main.c $(sort $(wildcard tests/chip/*.c))
-CHIP_DRIVERS_C := boards/cortexm/board.c boards/cortexm/fault_words.c boards/shared/wait.c $(addprefix boards/stm32f4/,brown_out.c cell.c clock.c flash.c motor.c pins.c reset.c \
+CHIP_DRIVERS_C := boards/cortexm/board.c boards/cortexm/fault_words.c $(addprefix boards/shared/,reset_words.c rig_time.c wait.c) $(addprefix boards/stm32f4/,brown_out.c cell.c clock.c flash.c motor.c pins.c reset.c \
     rig_clock.c slots.c stop.c time_base.c usart.c watchdog.c)
 CHIP_FLAGS := -DBOARD_REGISTERS_FAKED=1 -Iboards/netduinoplus2
 CHIP_BOARDS := netduinoplus2 stm32-h405 feather-f405

@@ -125,7 +125,7 @@ wanted_count=$(wc -l <"$scratch/scenes")
 # --- one build -------------------------------------------------------------------------------------------------------------
 can_fuse=$(grep -c -m 1 -w fma /proc/cpuinfo 2>/dev/null)
 # The emulator's programs end, and speak to nobody else; what is for images that are flashed has no place in them, nor has a line.
-demo_sources=$(ls boards/cortexm/*.c boards/shared/*.c | grep -vE '/(flashed|kept|link|link_console|cmsdk_watchdog)\.c$')
+demo_sources=$(ls boards/cortexm/*.c boards/shared/*.c | grep -vE '/(flashed|kept|link|link_console|cmsdk_watchdog|remembered|reset_words|rig_time)\.c$')
 board=boards/mps2-an386
 emulate="timeout 60 qemu-system-arm -M mps2-an386 -nographic -semihosting-config enable=on,target=native -kernel"
 board_flags="-mcpu=cortex-m4 -mthumb -mfpu=fpv4-sp-d16 -mfloat-abi=hard -ffreestanding -I$board"

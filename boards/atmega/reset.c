@@ -4,6 +4,7 @@
 #include "core/text.h"
 
 #include "atmega.h"
+#include "boards/shared/reset_words.h"
 
 static hal_reset cause;
 static bool known;
@@ -46,32 +47,9 @@ static const char *words_of_fault(atmega_fault_kind kind) {
     return " unknown, PC ";
 }
 
-static const char *words_of(hal_reset what) {
-    switch (what) {
-    case HAL_RESET_POWER_ON: return "power on";
-    case HAL_RESET_WATCHDOG: return "watchdog";
-    case HAL_RESET_OTHER: return "other";
-    case HAL_RESET_FAULT: return "fault:";
-    case HAL_RESET_SUPPLY: return "supply";
-    }
-    return "";
-}
-
-unsigned hal_reset_words(char *words, unsigned room) {
-    wh_text text;
-    wh_text_start(&text, words, room);
-    const hal_reset what = hal_reset_cause();
-    wh_text_add(&text, words_of(what));
-    if (what == HAL_RESET_FAULT) {
-        wh_text_add(&text, words_of_fault((atmega_fault_kind)fault.kind));
-        wh_text_add(&text, "0x");
-        wh_text_add_hex(&text, fault.at, 5);
-        wh_text_add(&text, ", tick ");
-        wh_text_add_unsigned(&text, fault.ticks);
-        wh_text_add(&text, ", state ");
-        wh_text_add_unsigned(&text, fault.state);
-        wh_text_add(&text, ", faults ");
-        wh_text_add_unsigned(&text, fault.faults);
-    }
-    return text.length;
+board_fault_when board_fault_told(wh_text *text) {
+    wh_text_add(text, words_of_fault((atmega_fault_kind)fault.kind));
+    wh_text_add(text, "0x");
+    wh_text_add_hex(text, fault.at, 5);
+    return (board_fault_when){.ticks = fault.ticks, .state = fault.state, .faults = fault.faults};
 }

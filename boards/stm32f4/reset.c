@@ -1,6 +1,7 @@
 /* reset.c: why the chip starts (RM0090, 7.3.21), and what it still knows of before (boards/cortexm/kept.h). */
 #include "hal/reset.h"
 #include "boards/cortexm/kept.h"
+#include "boards/shared/reset_words.h"
 #include "core/text.h"
 
 #include "stm32f4.h"
@@ -40,30 +41,7 @@ hal_reset hal_reset_cause(void) {
     return cause;
 }
 
-static const char *words_of(hal_reset what) {
-    switch (what) {
-    case HAL_RESET_POWER_ON: return "power on";
-    case HAL_RESET_WATCHDOG: return "watchdog";
-    case HAL_RESET_OTHER: return "other";
-    case HAL_RESET_FAULT: return "fault:";
-    case HAL_RESET_SUPPLY: return "supply";
-    }
-    return "";
-}
-
-unsigned hal_reset_words(char *words, unsigned room) {
-    wh_text text;
-    wh_text_start(&text, words, room);
-    const hal_reset what = hal_reset_cause();
-    wh_text_add(&text, words_of(what));
-    if (what == HAL_RESET_FAULT) {
-        board_fault_words(&text, &fault.facts);
-        wh_text_add(&text, ", tick ");
-        wh_text_add_unsigned(&text, fault.ticks);
-        wh_text_add(&text, ", state ");
-        wh_text_add_unsigned(&text, fault.state);
-        wh_text_add(&text, ", faults ");
-        wh_text_add_unsigned(&text, fault.faults);
-    }
-    return text.length;
+board_fault_when board_fault_told(wh_text *text) {
+    board_fault_words(text, &fault.facts);
+    return (board_fault_when){.ticks = fault.ticks, .state = fault.state, .faults = fault.faults};
 }

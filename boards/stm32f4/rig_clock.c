@@ -1,24 +1,12 @@
-/* rig_clock.c: hal/clock.h on timer 2, which board_start() has started; and the start of the rig's other hardware. */
+/* rig_clock.c: the start of the rig's hardware, and what its clock is (its time: boards/shared/rig_time.c). */
 #include "hal/clock.h"
 
 #include "boards/board.h"
+#include "boards/shared/rig_time.h"
 #include "hal/reset.h"
 #include "stm32f4.h"
 
 _Static_assert(BOARD_TICKS_PER_S == HAL_TICKS_PER_S, "one clock");
-
-static uint32_t late_most;
-
-/* It counts within a microsecond, and waiting for one that does not would never end. */
-static bool counts(void) {
-    const uint32_t first = board_ticks();
-    for (uint32_t i = 0; i < 10000U; i++) {
-        if (board_ticks() != first) {
-            return true;
-        }
-    }
-    return false;
-}
 
 /* The motor first: it is off from here on whatever else fails. */
 hal_start hal_clock_start(void) {
@@ -27,21 +15,7 @@ hal_start hal_clock_start(void) {
     stm32f4_brown_out_start();
     stm32f4_slots_start();
     stm32f4_cell_start();
-    return counts() ? HAL_STARTED : HAL_START_NO_TIMER;
-}
-
-uint32_t hal_clock_ticks(void) { return board_ticks(); }
-
-void hal_clock_wait_until(uint32_t ticks) {
-    board_wait_until(ticks);
-    const uint32_t late = board_ticks() - ticks;
-    late_most = late > late_most ? late : late_most;
-}
-
-uint32_t hal_clock_late_ticks(void) {
-    const uint32_t most = late_most;
-    late_most = 0;
-    return most;
+    return board_ticks_go_on() ? HAL_STARTED : HAL_START_NO_TIMER;
 }
 
 hal_clock_source hal_clock_source_now(void) {

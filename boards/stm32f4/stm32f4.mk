@@ -23,6 +23,7 @@ BOARD_COMMON   := $(filter-out boards/cortexm/cmsdk.c boards/cortexm/demo.c,$(BO
                   $(addprefix boards/stm32f4/,clock.c pins.c time_base.c usart.c)
 BOARD_SOURCES  := $(BOARD_COMMON) boards/cortexm/demo.c
 BOARD_FLASHED  := $(BOARD_COMMON) boards/cortexm/flashed.c boards/cortexm/kept.c \
+                  $(addprefix boards/shared/,remembered.c reset_words.c rig_time.c) \
                   $(addprefix boards/stm32f4/,brown_out.c cell.c flash.c motor.c reset.c rig_clock.c slots.c stop.c watchdog.c)
 BOARD_MOST     := FLASH_MOST=49664 RAM_MOST=12288
 # Its console is serial interface 6, the emulator's sixth.

@@ -11,6 +11,9 @@ extern const char *image; /* its file */
 __attribute__((format(printf, 1, 2))) bool no(const char *form, ...);
 extern char why[300];
 
+/* So much later than an answer what the log has of it may come, where the machine is busy. */
+#define LOG_BEHIND_MS 5000U
+
 void draw_from(unsigned long seed);
 /* Scattered: 0 ... limit - 1. */
 unsigned below(unsigned limit);

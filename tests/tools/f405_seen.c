@@ -134,9 +134,6 @@ static bool is_logged(uint32_t value, uint64_t *number) {
     return false;
 }
 
-/* The log is behind where the machine is busy. */
-#define LOG_BEHIND_MS 5000U
-
 bool marked(uint32_t value, uint64_t *number) {
     for (unsigned ms = 0; !is_logged(value, number); ms++) {
         if (ms == LOG_BEHIND_MS) {

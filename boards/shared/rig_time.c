@@ -1,0 +1,33 @@
+/* rig_time.c: hal/clock.h's time: board_ticks(), and how late who waits for it comes. */
+#include "rig_time.h"
+
+#include "boards/board.h"
+#include "hal/clock.h"
+
+static uint32_t late_most;
+
+#define LOOKS 10000U
+
+bool board_ticks_go_on(void) {
+    const uint32_t first = board_ticks();
+    for (uint16_t i = 0; i < LOOKS; i++) {
+        if (board_ticks() != first) {
+            return true;
+        }
+    }
+    return false;
+}
+
+uint32_t hal_clock_ticks(void) { return board_ticks(); }
+
+void hal_clock_wait_until(uint32_t ticks) {
+    board_wait_until(ticks);
+    const uint32_t late = board_ticks() - ticks;
+    late_most = late > late_most ? late : late_most;
+}
+
+uint32_t hal_clock_late_ticks(void) {
+    const uint32_t most = late_most;
+    late_most = 0;
+    return most;
+}
