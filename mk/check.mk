@@ -75,11 +75,13 @@ gate-cppcheck:
 	    $(filter %.c,$(C_FILES))
 
 # --- what `make test` leaves out, to be quick ---------------------------------------------------------------
-gated = "host suites that make test leaves out" 'build/tests/host $(HOST_GATED)'
+gated = "host suites that make test leaves out$(comma) part $(1) of 2" 'build/tests/host $(2)'
 gate-long: $(GEN)/.stamp
 	@$(MAKE) test-programs
+	+@$(call build_board_tests,$(BOARDS_TEST))
 	@WHIRL=build/whirl TEST_SECONDS=900 sh tests/run.sh build/check/log_long \
-	    $(call run_cli,$(filter tests/cli/emitted_c.sh,$(CLI_FEW))) $(gated) \
+	    $(call run_cli,$(filter tests/cli/emitted_c.sh,$(CLI_FEW))) \
+	    $(call gated,1,$(wordlist 1,9,$(HOST_GATED))) $(call gated,2,$(wordlist 10,99,$(HOST_GATED))) \
 	    $(call run_cli,$(filter-out tests/cli/emitted_c.sh,$(CLI_FEW)) $(CLI_GATED))
 
 # --- all cases of what `make test` takes fewer of -----------------------------------------------------------
