@@ -124,11 +124,11 @@ $(ELF)/bench_slots.elf: $(call objects,$(BOARD),tests/boards/f405_slots.c boards
 	$(link_board)
 FLASHED_TESTS := $(ELF)/bench_plant.elf $(ELF)/bench_slots.elf
 endif
-build/tools/f405: $(call objects,host,$(addprefix tests/tools/,f405.c f405_seen.c f405_states.c emulated.c))
+build/tools/f405: $(call objects,host,$(addprefix tests/tools/,board_tests.c f405.c f405_seen.c f405_states.c emulated.c))
 	$(link)
 
 # The rig's firmware on an AVR, with the rig round its pins (tests/boards/atmega.sh).
-build/tools/atmega: $(call objects,host,$(addprefix tests/tools/,atmega.c atmega_slots.c atmega_states.c mega.c)) \
+build/tools/atmega: $(call objects,host,$(addprefix tests/tools/,atmega.c board_tests.c atmega_slots.c atmega_states.c mega.c)) \
     $(call objects,float,$(GEN)/rig_fixed.c) $(call libraries,float,virtual whirl)
 	$(say) LINK $@
 	@mkdir -p $(@D)

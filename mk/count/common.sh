@@ -17,6 +17,21 @@ compiler_of() {
     echo "${1##*/} $version"
 }
 
+# figures_into FILE: rows of $BOARD's images, by row(), go there; $work is a folder that goes with us.
+figures_into() {
+    csv=$1
+    work=$(mktemp -d)
+    trap 'rm -rf "$work"' EXIT
+    commit=$(commit_of_checkout)
+    compiler=$(compiler_of "$CC")
+    [ -s "$csv" ] || echo "$CSV_HEADER" >"$csv"
+}
+
+# row METRIC VALUE: of the image $name.
+row() {
+    echo "$commit,$BOARD,$compiler,\"$FLAGS\",$name,float,-,$1,$2" >>"$csv"
+}
+
 # CSV rows on stdin as a table: one line a scene.
 table() {
     awk -F, '

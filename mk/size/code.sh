@@ -11,18 +11,9 @@ set -eu
 here=$(dirname "$0")
 . "$here/../count/common.sh"
 
-csv=$1
+figures_into "$1"
 shift
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-commit=$(commit_of_checkout)
-compiler=$(compiler_of "$CC")
-[ -s "$csv" ] || echo "$CSV_HEADER" >"$csv"
 status=0
-
-row() {
-    echo "$commit,$BOARD,$compiler,\"$FLAGS\",$name,float,-,$1,$2" >>"$csv"
-}
 
 # worst_stack ROOT: answers of code_stack.awk, to $work/stack.
 worst_stack() {

@@ -18,17 +18,8 @@ set -eu
 here=$(dirname "$0")
 . "$here/../count/common.sh"
 
-csv=$1
+figures_into "$1"
 shift
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-commit=$(commit_of_checkout)
-compiler=$(compiler_of "$CC")
-[ -s "$csv" ] || echo "$CSV_HEADER" >"$csv"
-
-row() {
-    echo "$commit,$BOARD,$compiler,\"$FLAGS\",$name,float,-,$1,$2" >>"$csv"
-}
 
 # graphs: the .ci files of the objects in the image, from its map: objects by their path, members of
 # archives by their name.

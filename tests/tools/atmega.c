@@ -4,7 +4,6 @@
  *
  * Prints "ok - ..." or "not ok - ..." lines, and figures behind #; exit status 1 if one is not. */
 #include <math.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -14,23 +13,7 @@
 #define PERIOD_CYCLES (MEGA_HZ / 500U)
 #define STEP_MOST (PERIOD_CYCLES * 85U / 100U)
 
-const char *image;
 char answer[400];
-static char why[300];
-static uint32_t drawn;
-
-bool no(const char *form, ...) {
-    va_list arguments;
-    va_start(arguments, form);
-    vsnprintf(why, sizeof why, form, arguments);
-    va_end(arguments);
-    return false;
-}
-
-unsigned below(unsigned limit) {
-    drawn = drawn * 1664525U + 1013904223U;
-    return (unsigned)((uint64_t)drawn * limit >> 32);
-}
 
 bool asks(const char *order, const char *begin) {
     return mega_answers(order, begin, answer, sizeof answer) ||
@@ -131,21 +114,8 @@ static bool measures(unsigned rpm, bool busy) {
 static bool is_given(unsigned rpm) { return measures(rpm, false); }
 static bool is_busy(unsigned rpm) { return measures(rpm, true); }
 
-static int failed;
-
-static void verdict(bool good, const char *what) {
-    printf("%s - %s%s%s\n", good ? "ok" : "not ok", what, good ? "" : ": ", good ? "" : why);
-    fflush(stdout);
-    failed |= !good;
-}
-
 int main(int count, char **words) {
-    static const struct {
-        const char *name;
-        bool (*holds)(unsigned times);
-        unsigned times;
-        const char *what;
-    } tests[] = {
+    static const board_test tests[] = {
         {"boot", boots, 1, "boots, converses, and refuses by name what it is built without"},
         {"run", is_given, 330,
          "a run gives the force; no control step takes more than 85 % of its period"},
@@ -158,19 +128,8 @@ int main(int count, char **words) {
          "a reset at any instant: not driven, idle or tripped as before, its cause told"},
         {"settings", keeps_settings, 1, "settings torn at any byte are the old or the new"},
     };
-    if (count < 3) {
-        fprintf(stderr, "usage: atmega TEST IMAGE [TIMES [SEED]]\n");
-        return 2;
-    }
-    image = words[2];
-    drawn = count > 4 ? (uint32_t)strtoul(words[4], NULL, 0) : 1U;
-    for (unsigned i = 0; i < sizeof tests / sizeof tests[0]; i++) {
-        if (strcmp(tests[i].name, words[1]) == 0) {
-            const unsigned times = count > 3 ? (unsigned)strtoul(words[3], NULL, 0) : 0U;
-            verdict(tests[i].holds(times > 0 ? times : tests[i].times), tests[i].what);
-            return failed;
-        }
-    }
-    fprintf(stderr, "atmega: there is no test '%s'\n", words[1]);
-    return 2;
+    board_test asked;
+    return board_test_asked(count, words, tests, sizeof tests / sizeof tests[0], &asked) == NULL
+               ? 2
+               : board_test_tell(asked.holds(asked.times), asked.what);
 }

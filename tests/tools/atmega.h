@@ -2,15 +2,8 @@
 #ifndef TESTS_TOOLS_ATMEGA_H
 #define TESTS_TOOLS_ATMEGA_H
 
+#include "tests/tools/board_tests.h"
 #include "tests/tools/mega.h"
-
-extern const char *image;
-
-/* Why not; returns false. */
-__attribute__((format(printf, 1, 2))) bool no(const char *form, ...);
-
-/* Scattered: 0 ... limit - 1. */
-unsigned below(unsigned limit);
 
 /* A line, and its answer, which begins so. */
 bool asks(const char *order, const char *begin);

@@ -126,9 +126,9 @@ static bool ask_late(unsigned *late, unsigned *overruns, unsigned *periods) {
 
 static bool sees_edges(unsigned times) {
     char line[100];
-    unsigned late;
-    unsigned overruns;
-    unsigned periods;
+    unsigned late = 0;
+    unsigned overruns = 0;
+    unsigned periods = 0;
     if (!ask_late(&late, &overruns, &periods)) {
         return false;
     }
@@ -155,10 +155,10 @@ static bool sees_edges(unsigned times) {
 #define BURST 8U
 
 static bool survives_storm(unsigned times) {
-    unsigned late;
-    unsigned overruns;
-    unsigned before;
-    unsigned periods;
+    unsigned late = 0;
+    unsigned overruns = 0;
+    unsigned before = 0;
+    unsigned periods = 0;
     if (!ask_late(&late, &overruns, &before)) {
         return false;
     }
@@ -184,20 +184,8 @@ static bool survives_storm(unsigned times) {
            (told > 100 || no("only %u of %u edges are told", told, times));
 }
 
-static int failed;
-
-static void verdict(bool good, const char *what) {
-    printf("%s - %s%s%s\n", good ? "ok" : "not ok", what, good ? "" : ": ", good ? "" : why);
-    failed |= !good;
-}
-
 int main(int count, char **words) {
-    static const struct {
-        const char *name;
-        bool (*holds)(unsigned times);
-        unsigned times;
-        const char *what;
-    } tests[] = {
+    static const board_test tests[] = {
         {"boot", boots, 1, "boots though no clock ever answers, converses, and refuses to arm"},
         {"console", converses, 40, "each line is answered, through the receive interrupt"},
         {"time", keeps_time, 3, "control periods are 2 ms of timer 2"},
@@ -208,27 +196,16 @@ int main(int count, char **words) {
         {"resets", all_resets, 20,
          "a reset at whatever instant: not driven, idle or still tripped, its cause told"},
     };
-    if (count < 3) {
-        fprintf(stderr, "usage: f405 TEST IMAGE [TIMES [SEED]]\n");
+    board_test asked;
+    char what[300];
+    if (board_test_asked(count, words, tests, sizeof tests / sizeof tests[0], &asked) == NULL) {
         return 2;
     }
-    image = words[2];
-    const unsigned long seed = count > 4 ? strtoul(words[4], NULL, 10) : 1UL;
-    for (unsigned i = 0; i < sizeof tests / sizeof tests[0]; i++) {
-        if (strcmp(words[1], tests[i].name) == 0) {
-            char what[200];
-            const unsigned times =
-                count > 3 ? (unsigned)strtoul(words[3], NULL, 10) : tests[i].times;
-            draw_from(seed);
-            emulated_start(&board, MACHINE, image, SERIALS_BEFORE,
-                           tests[i].holds == survives_storm ? SHIFT_STORM : SHIFT);
-            (void)snprintf(what, sizeof what, "%s, %u times, seed %lu: %s", tests[i].name, times,
-                           seed, tests[i].what);
-            verdict(starts_after(0) && tests[i].holds(times), what);
-            emulated_end(&board);
-            return failed;
-        }
-    }
-    fprintf(stderr, "f405: no test '%s'\n", words[1]);
-    return 2;
+    emulated_start(&board, MACHINE, image, SERIALS_BEFORE,
+                   asked.holds == survives_storm ? SHIFT_STORM : SHIFT);
+    (void)snprintf(what, sizeof what, "%s, %u times, seed %s: %s", asked.name, asked.times,
+                   count > 4 ? words[4] : "1", asked.what);
+    const int failed = board_test_tell(starts_after(0) && asked.holds(asked.times), what);
+    emulated_end(&board);
+    return failed;
 }

@@ -1,22 +1,14 @@
-/* f405.h: what the tests of f405.c share: the emulated board, what was seen of it, and why a test does not hold. */
+/* f405.h: what the tests of f405.c share: the emulated board, and what was seen of it. */
 #ifndef TESTS_TOOLS_F405_H
 #define TESTS_TOOLS_F405_H
 
+#include "tests/tools/board_tests.h"
 #include "tests/tools/emulated.h"
 
 extern emulated board;
-extern const char *image; /* its file */
-
-/* Why not; returns false. */
-__attribute__((format(printf, 1, 2))) bool no(const char *form, ...);
-extern char why[300];
 
 /* So much later than an answer what the log has of it may come, where the machine is busy. */
 #define LOG_BEHIND_MS 5000U
-
-void draw_from(unsigned long seed);
-/* Scattered: 0 ... limit - 1. */
-unsigned below(unsigned limit);
 
 /* Where the image has this name; 0: nowhere. */
 uint32_t symbol(const char *name);

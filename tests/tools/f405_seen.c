@@ -3,31 +3,14 @@
 
 #include "tests/tools/f405.h"
 
-#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-#include "tests/scattered.h"
 
 #define TIM1_MARK 0x40010038U
 #define MOE 0x8000U
 
 emulated board;
-const char *image;
-char why[300];
-
-void draw_from(unsigned long seed) { scattered_state = 0x9E3779B97F4A7C15U + seed; }
-
-unsigned below(unsigned limit) { return (unsigned)(scattered() >> 33) % limit; }
-
-__attribute__((format(printf, 1, 2))) bool no(const char *form, ...) {
-    va_list list;
-    va_start(list, form);
-    (void)vsnprintf(why, sizeof why, form, list);
-    va_end(list);
-    return false;
-}
 
 uint32_t symbol(const char *name) {
     char line[300];
