@@ -380,9 +380,7 @@ static bool has_tape(const monitor *m) {
 
 static int run(monitor *m) {
     if (!open_line(m)) {
-        fprintf(stderr,
-                "%s: error: cannot be opened: %s\nhint: build/rig.tty is that of make rig\n",
-                m->o->port, strerror(errno));
+        port_say_unopened(m->o->port, "build/rig.tty is that of make rig");
         return EXIT_BAD_INPUT;
     }
     if (!open_outputs(m)) {

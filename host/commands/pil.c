@@ -1,5 +1,4 @@
 /* pil.c: `whirl pil`: a firmware image against a scene as its plant, or against a tape. */
-#include <errno.h>
 #include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
@@ -317,9 +316,7 @@ static bool open_line(const pil_options *o, lockstep_wish *wish, port *line) {
         return true;
     }
     if (!port_open(line, o->port, o->baud)) {
-        fprintf(stderr,
-                "%s: error: cannot be opened: %s\nhint: is the board plugged in? ls /dev/tty*\n",
-                o->port, strerror(errno));
+        port_say_unopened(o->port, "is the board plugged in? ls /dev/tty*");
         return false;
     }
     if (!line->is_line) {

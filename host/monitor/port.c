@@ -4,6 +4,8 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <poll.h>
+#include <stdio.h>
+#include <string.h>
 #include <unistd.h>
 
 enum { WRITE_MS = 1000 };
@@ -58,6 +60,12 @@ bool port_open(port *p, const char *name, double baud) {
         return false;
     }
     return true;
+}
+
+void port_say_unopened(const char *name, const char *hint) {
+    const int reason = errno;
+    fprintf(stderr, "%s: error: cannot be opened: %s\nhint: %s\n", name[0] != '\0' ? name : "''",
+            strerror(reason), hint);
 }
 
 void port_close(port *p) {

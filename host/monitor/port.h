@@ -20,6 +20,9 @@ bool port_has_speed(double baud);
 /* Open it: without echo and conversion, at this speed. False, errno tells why, when it is not there. */
 bool port_open(port *p, const char *name, double baud);
 
+/* On standard error: it cannot be opened, why, as errno has it, and what may help. */
+void port_say_unopened(const char *name, const char *hint);
+
 /* As it was before. */
 void port_close(port *p);
 

@@ -72,6 +72,8 @@ refused 2 'takes no --firmware' "$plant" --port "$scratch/tty" --firmware "$buil
 refused 2 'takes no --board' "$plant" --port "$scratch/tty" --board mps2-an386
 refused 2 'has the speed of --baud' "$plant" --port "$scratch/tty" --baud 12345
 refused 2 'cannot be opened' "$plant" --port "$scratch/none"
+refused 2 "^'': error: cannot be opened" "$plant" --port ''
+refused 2 'Is a directory' "$plant" --port "$scratch"
 refused 2 'no serial line' "$plant" --port /dev/null
 plug
 kill -STOP $board
