@@ -17,7 +17,7 @@ board_needs = $(foreach v,$(1),$(if $(strip $(value $(v))),,$(error boards/$(boa
 board_before := $(filter BOARD_%,$(.VARIABLES))
 
 # Every board is read, so that none drops out unseen; then it is forgotten, but for what takes it: boards_test,
-# boards_check, boards_all.
+# boards_check, boards_all; for what is flashed; and for what has no room for the portable suites.
 define read_board
 board := $(1)
 include boards/$(1)/board.mk
@@ -27,6 +27,7 @@ $$(if $$(filter-out 1,$$(words $$(BOARD_WHEN)))$$(filter-out $(board_whens),$$(B
 $$(call board_needs,$(board_of_family),: its family sets it (boards/cortexm/cortexm.mk))
 boards_$$(strip $$(BOARD_WHEN)) += $(1)
 boards_flashed := $$(strip $$(boards_flashed) $$(if $$(BOARD_FLASHED),$(1)))
+boards_without_suites += $$(if $$(filter none,$$(BOARD_SUITES)),$(1))
 $$(foreach v,$$(filter-out $(board_before),$$(filter BOARD_%,$$(.VARIABLES))),$$(eval undefine $$(v)))
 endef
 $(foreach b,$(BOARDS_ALL),$(eval $(call read_board,$(b))))
@@ -215,7 +216,7 @@ print-matrix-hashes: $(ELF)/scenes_matrix.elf # of linear scenes, a step as one 
 endif
 
 # A board is built and run by a make of its own: $(call on_board,NAME,TARGET).
-BOARDS_TEST := $(sort $(BOARD) $(boards_test))
+BOARDS_TEST := $(sort $(filter-out $(boards_without_suites),$(BOARD)) $(boards_test))
 BOARDS := $(sort $(BOARD) $(boards_test) $(boards_check))
 # Those with an image for each scene run so many steps of it at most: what takes this machine seconds takes them hours.
 BOARDS_SINGLE := $(patsubst boards/%/too_large.txt,%,$(wildcard boards/*/too_large.txt))

@@ -199,7 +199,7 @@ gate-avr: build/whirl $(GEN)/.stamp
 	@sh tests/boards/atmega.sh 330 4 3
 
 # --- boards that `make test` does not take: the suites, and what guards the stack --------------------------
-BOARDS_CHECKED = $(filter-out $(BOARDS_TEST),$(BOARDS))
+BOARDS_CHECKED = $(filter-out $(BOARDS_TEST) $(boards_without_suites),$(BOARDS))
 gate-boards: $(GEN)/.stamp
 	+@$(call build_board_tests,$(BOARDS_CHECKED))
 	@sh tests/run.sh build/check/log_boards $(foreach b,$(BOARDS_CHECKED),$(call run_board,$(b)))

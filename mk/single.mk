@@ -80,6 +80,6 @@ too-large-now: $(AVR_RUN)
 	    if $(MAKE) -s $(SINGLE)/$$image.elf >$(SINGLE)/$$image.log 2>&1; then \
 	        status=0; $(call emulate,$(SINGLE)/$$image.elf) >/dev/null 2>&1 || status=$$?; \
 	        [ $$status -eq 123 ] || continue; \
-	    elif ! grep -qE 'region|overflowed' $(SINGLE)/$$image.log; then cat $(SINGLE)/$$image.log; exit 1; fi; \
+	    elif ! grep -qE 'region|overflowed|is too large' $(SINGLE)/$$image.log; then cat $(SINGLE)/$$image.log; exit 1; fi; \
 	    echo $$image | sed 's/_/ /' >>$(TOO_LARGE); done
 	@cat $(TOO_LARGE)

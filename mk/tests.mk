@@ -160,11 +160,12 @@ test-board: $(GEN)/.stamp ## the portable suites alone, on the emulated boards t
 	@sh tests/run.sh build/tests/log $(RUN_BOARD)
 
 # Every board, and what its images hold.
+BOARDS_SUITES := $(filter-out $(boards_without_suites),$(BOARDS_ALL))
 .PHONY: test-boards-now
 test-boards-now: $(GEN)/.stamp
-	+@$(call build_board_tests,$(BOARDS_ALL))
+	+@$(call build_board_tests,$(BOARDS_SUITES))
 	+@$(foreach b,$(BOARDS_ALL),$(call on_board,$(b),image-rules) &&) true
-	@TEST_BEGINS=1 TEST_SECONDS=7200 sh tests/run.sh build/tests/log_boards $(foreach b,$(BOARDS_ALL),$(call run_board,$(b)))
+	@TEST_BEGINS=1 TEST_SECONDS=7200 sh tests/run.sh build/tests/log_boards $(foreach b,$(BOARDS_SUITES),$(call run_board,$(b)))
 
 # Generated mechanisms against references of another kind; the seed is printed, and a new one taken unless it is given.
 PROPERTIES ?= 1000

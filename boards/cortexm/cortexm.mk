@@ -6,6 +6,7 @@
 #   BOARD_SECONDS  how long a program may run
 #   BOARD_TIMING   the core whose cycles mk/count/thumb_cycles.h estimates, if any
 #   BOARD_WATCHDOG its hal/watchdog.h, of hardware that a program may take (tests/boards/watchdog.c); may be missing
+#   BOARD_SUITES   `none`: the portable suites are too large for it; may be missing
 #   BOARD_WHEN     what takes the board by itself: `test`, `check` or `all` (mk/board.mk)
 #
 # This sets

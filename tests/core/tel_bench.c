@@ -107,7 +107,7 @@ static void draw_sample(bool evenly) {
     wh_seen_sample *sample = &bench.seen.sample[bench.seen.samples++];
     const unsigned shift = wh_tel_shift(cell);
     sample->ticks = bench.cell_ticks;
-    sample->raw = (int32_t)draw_whole(&bench.seed, -cell->raw_max, cell->raw_max);
+    sample->raw = (int32_t)draw_whole(&bench.seed, (int)-cell->raw_max, (int)cell->raw_max);
     sample->status = WH_LOAD_OK;
     if (!evenly && draw_one_in(&bench.seed, 30)) {
         sample->status = (wh_load_status)draw_one_of(&bench.seed, WH_LOAD_STATUSES);

@@ -9,7 +9,8 @@
 #define STEPS_PER_S (WH_RIG_TICKS_PER_S / EVEN_STEP_TICKS)
 #define FREE 4096U /* bytes a step: a line that is never full */
 #define AT_115200 23U
-#define TRUTHS 1024U
+/* Of a chip whose int has 16 bits no type is as large; what it has room for does not run there. */
+#define TRUTHS (sizeof(int) > 2U ? 1024U : 64U)
 
 /* What was sent, and has not been heard yet. */
 typedef struct tel_truth {
