@@ -158,13 +158,21 @@ static bool would_do(advice *a, double most_s, bool saturated, char text[CURE_TE
     return text[0] != '\0';
 }
 
-/* Options: so many small steps round a float's sums away, unless they are compensated. */
-static const char *options_text(const advice *a, double step_s, char text[STEP_TEXT]) {
+/* Options with which what was looked at is resolved: so many small steps round a float's sums away, unless they are
+ * compensated; and a crude method that would take too many of them has none, but the one that resolved it has. */
+static const char *options_text(const advice *a, const watch_look *look, char text[STEP_TEXT]) {
+    const wh_method own = method_of(a->image);
+    const double own_s = linearised_nice_s(step_by_look_s(a, look));
+    const bool crude = wh_methods[own].order < wh_methods[WH_METHOD_DEFAULT].order &&
+                       !(own_s * STEPS_MORE > a->watch->step_s);
+    const double step_s = crude ? linearised_nice_s(look->fine_step_s) : own_s;
     const bool rounds = a->kind == &engine_float && !a->image->settings.compensated &&
                         step_s * FLOAT_MORE <= a->watch->step_s;
     char step[STEP_WORD];
     step_text(step_s, step);
-    snprintf(text, STEP_TEXT, "--step %s%s", step, rounds ? " --compensated" : "");
+    snprintf(text, STEP_TEXT, "%s%s%s--step %s%s", crude ? "--method " : "",
+             crude ? wh_methods[WH_METHOD_DEFAULT].word : "", crude ? " " : "", step,
+             rounds ? " --compensated" : "");
     return text;
 }
 
@@ -204,7 +212,7 @@ static char *at_one_go(const advice *a) {
     if (!l->resolved) {
         return NULL;
     }
-    options_text(a, linearised_nice_s(step_by_look_s(a, l)), step);
+    options_text(a, l, step);
     return singular ? room_words("these coordinates are singular about t = %.6g s; %s would "
                                  "do, or others",
                                  l->singular_s, step)
@@ -288,7 +296,7 @@ static void say_singular(FILE *out, const advice *a) {
         fprintf(out,
                 "hint: %s resolves it; coordinates that are not singular there need no "
                 "smaller step\n",
-                options_text(a, linearised_nice_s(step_by_look_s(a, s)), step));
+                options_text(a, s, step));
     } else {
         fprintf(out,
                 "hint: steps down to %s do not resolve it: take coordinates that are not singular "

@@ -18,7 +18,8 @@ bool modes_values(int n, const double *matrix, complex_number *value);
 
 /* Of the motion x' = A x at `slope[n]`, what the eigenvalue `value` contributes to it: part[n], complex: the projection
  * of the slope on its eigenvectors, by inverse iteration from the slope. share[n]: each component's participation factor,
- * |left_i right_i|, in sum one: whose motion it is, whatever the units. False where it cannot be told apart. */
+ * |left_i right_i|, in sum one: whose motion it is, whatever the units. False where it cannot be told apart, and where the
+ * slope has nothing of it to the bit: what stands still beside it, and takes no part. */
 bool modes_part(int n, const double *matrix, complex_number value, const double *slope,
                 complex_number *part, double *share);
 

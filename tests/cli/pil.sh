@@ -106,7 +106,7 @@ verdict $? "a trip is latched through two resets, and told" "$scratch/reset"
 for board in $boards pc; do
     image=build/$board/pil_rig.elf
     [ $board != pc ] || image=$build/pil_rig
-    timeout 60 "$whirl" pil --replay "$scratch/reset.tape" --firmware "$image" --board ${boards%% *} >"$scratch/out" 2>"$scratch/err"
+    timeout 60 "$whirl" pil --replay "$scratch/reset.tape" --firmware "$image" ${boards:+--board ${boards%% *}} >"$scratch/out" 2>"$scratch/err"
     [ $? -eq 1 ] && grep -aq "^command stream  *$(line 'command stream' "$scratch/reset"), as on the tape$" "$scratch/out" &&
         [ "$(line exchanges "$scratch/out" | cut -d' ' -f1-3)" = "$(line exchanges "$scratch/reset" | cut -d' ' -f1-3)" ]
     verdict $? "its tape gives the same answers on $board" "$scratch/out"

@@ -338,6 +338,34 @@ static void test_slow_lines(void) {
     }
 }
 
+/* An end that is ordered waits until there is room, for what was not out yet, too: nothing of it is lost. */
+static void test_an_end_waits_for_room(void) {
+    for (unsigned k = 0; k < 60U; k++) {
+        begin_tape(163U + k);
+        const unsigned first = 20U + draw_one_of(&bench.seed, 60);
+        for (unsigned i = 0; i < first; i++) {
+            period(FREE);
+        }
+        const unsigned deaf = draw_one_of(&bench.seed, 90);
+        for (unsigned i = 0; i < deaf && tape.state == WH_TAPE_RUNS; i++) {
+            period(0);
+        }
+        tel_type("tel tape off");
+        const unsigned slow = draw_one_of(&bench.seed, 20);
+        for (unsigned i = 0; i < slow; i++) {
+            period(i % 4U);
+        }
+        for (unsigned i = 0; i < 40U; i++) {
+            period(FREE);
+        }
+        TEST_ASSERT_TRUE(got.ended);
+        if (got.why == WH_TAPED_OFF) {
+            TEST_ASSERT_FALSE(got.missing);
+            TEST_ASSERT_EQUAL_UINT(seen_steps, got.steps);
+        }
+    }
+}
+
 static void even_own(wh_rig_config *config) { *config = even_config(); }
 
 static void answers(const char *line, const char *begins) {
@@ -383,6 +411,7 @@ void suite_step_tape(void) {
 #if WH_STATION_TAPE
     RUN_TEST(test_all_steps);
     RUN_TEST(test_slow_lines);
+    RUN_TEST(test_an_end_waits_for_room);
     RUN_TEST(test_answers);
 #endif
 }

@@ -74,6 +74,7 @@ static void check_read(unsigned end, bool by_pulse) {
     }
     TEST_ASSERT_EQUAL_UINT(1, triggers);
     TEST_ASSERT_EQUAL_UINT(bench.tel.capture.count, row);
+    TEST_ASSERT_NULL(strstr(bench.heard.text, "ERR "));
     TEST_ASSERT_EQUAL_UINT(0, bench.heard.bad + bench.tel.dropped[WH_TEL_RUN] +
                                   bench.tel.dropped[WH_TEL_RING]);
 }

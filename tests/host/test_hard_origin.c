@@ -51,13 +51,14 @@ static double step_named(const char *text) {
 /* --- r -> 0 ---------------------------------------------------------------------------------------------------- */
 
 /* A straight flight past the origin at a distance: how far off it ends, m. */
-static double passage_off_m(double d_m, double step_s, const engine_kind *kind, bool compensated) {
+static double passage_by(wh_method method, double d_m, double step_s, const engine_kind *kind,
+                         bool compensated) {
     char set[40];
     motion m;
     snprintf(set, sizeof set, "d=%.17g", d_m);
     motion_open_file(&m, HARD "polar.whirl", "", "polar_passes",
                      (stepping){.kind = kind,
-                                .method = WH_RK4,
+                                .method = method,
                                 .compensated = compensated,
                                 .step_s = step_s,
                                 .set = set});
@@ -65,6 +66,10 @@ static double passage_off_m(double d_m, double step_s, const engine_kind *kind, 
     const double off = hypot(motion_value(&m, "x") - 0.5, motion_value(&m, "y") - d_m);
     motion_close(&m);
     return went ? off : (double)INFINITY;
+}
+
+static double passage_off_m(double d_m, double step_s, const engine_kind *kind, bool compensated) {
+    return passage_by(WH_RK4, d_m, step_s, kind, compensated);
 }
 
 static void test_past_the_origin_of_polar_coordinates(void) {
@@ -102,6 +107,62 @@ static void test_past_the_origin_of_polar_coordinates(void) {
     printf("  %u passages: %u end more than 2 cm off, all told, cured to %.1e m; %u sound\n", cases,
            off_course, cured_m, sound);
     TEST_ASSERT_TRUE(off_course > cases / 10 && sound > cases / 10);
+}
+
+/* The method that a hint names, or the run's own. */
+static wh_method method_named(const char *hint, wh_method own) {
+    const char *at = strstr(hint, "--method ");
+    for (int m = 0; at != NULL && m < WH_METHODS; m++) {
+        const size_t size = strlen(wh_methods[m].word);
+        if (strncmp(at + 9, wh_methods[m].word, size) == 0 && strchr(" ;,", at[9 + size]) != NULL) {
+            return (wh_method)m;
+        }
+    }
+    return own;
+}
+
+/* Crude methods miss it by more, and would take steps that are no steps any more: what is named can be done, and is
+ * done. (It used to be `--step 0ns`.) */
+static void test_past_the_origin_by_crude_methods(void) {
+    static const wh_method crude[] = {WH_EULER, WH_SEMI_IMPLICIT_EULER, WH_HEUN, WH_NYSTROEM3};
+    dice d = dice_of("crude", 15006);
+    const unsigned cases = dice_cases(few_or_all(12, 120));
+    unsigned cures = 0;
+    unsigned others = 0;
+    double cured_m = 0.0;
+    for (unsigned i = 0; i < cases; i++) {
+        const wh_method own = crude[i % 4];
+        const double d_m = pow(10.0, dice_between(&d, -4.0, -2.5));
+        char set[40];
+        char about[SAID_SIZE + 100];
+        said what;
+        snprintf(set, sizeof set, "d=%.17g", d_m);
+        static const char target[] = HARD "polar.whirl";
+        const char *words[] = {target,  "--quiet", "--method", wh_methods[own].word,
+                               "--set", set,       NULL};
+        command_say(command_run, words, &what);
+        snprintf(about, sizeof about, "%s past %.3g m: %s", wh_methods[own].word, d_m, what.err);
+        TEST_ASSERT_NOT_NULL_MESSAGE(strstr(what.err, "singular"), about);
+        const char *resolves = strstr(what.err, " resolves it");
+        TEST_ASSERT_NOT_NULL_MESSAGE(resolves, about);
+        const char *hint = resolves;
+        while (strncmp(hint, "hint: ", 6) != 0) {
+            hint--;
+        }
+        const double step_s = step_named(hint);
+        const wh_method method = method_named(hint, own);
+        /* at 1 m/s the turn takes d/u: a hundredth of that and less is more than it needs */
+        TEST_ASSERT_TRUE_MESSAGE(step_s >= d_m / 200.0 && step_s < 1e-3, about);
+        const double now_m = passage_by(method, d_m, step_s, &engine_double, false);
+        snprintf(about + strlen(about), 40, " -> %.3g m", now_m);
+        TEST_ASSERT_TRUE_MESSAGE(now_m < 2e-3, about);
+        cured_m = fmax(cured_m, now_m);
+        cures++;
+        others += method != own ? 1U : 0U;
+    }
+    printf("  %u passages by crude methods: %u by another, cured to %.1e m\n", cures, others,
+           cured_m);
+    TEST_ASSERT_TRUE(others > 0 && others < cures);
 }
 
 /* Straight through: with nothing that turns it, r changes its sign and nothing else happens, unless a stage meets the
@@ -229,6 +290,7 @@ static void test_past_the_origin_of_spherical_coordinates(void) {
 
 void suite_hard_origin(void) {
     RUN_TEST(test_past_the_origin_of_polar_coordinates);
+    RUN_TEST(test_past_the_origin_by_crude_methods);
     RUN_TEST(test_through_the_origin);
     RUN_TEST(test_past_the_origin_of_spherical_coordinates);
 }

@@ -241,8 +241,53 @@ static void test_parts_add_up_to_the_motion(void) {
     }
 }
 
+/* Blocks that do not touch, in any order: those that the slope has nothing of take no part, however fast they are, and
+ * the others have all of it. (Each used to be given the motion of one that moves.) */
+static void test_what_stands_still_takes_no_part(void) {
+    dice d = dice_of("modes at rest", 2320);
+    unsigned still = 0;
+    for (unsigned n = few_or_all(300, 10000); n > 0; n--) {
+        known k = draw_blocks(&d, dice_one_of(&d, 2) == 0 ? 0.5 : 4.0);
+        int block[MOST];
+        bool rests[MOST] = {false};
+        double slope[MOST];
+        memcpy(block, k.block, sizeof block);
+        for (int i = 0; i < k.n; i++) {
+            rests[i] = block[i] == i ? dice_one_of(&d, 2) == 0 : rests[block[i]];
+            slope[i] = rests[i] ? 0.0 : dice_between(&d, 0.1, 1.0);
+        }
+        for (int turn = 0; turn < k.n; turn++) {
+            const int i = (int)dice_one_of(&d, (unsigned)k.n);
+            const int j = (int)dice_one_of(&d, (unsigned)k.n);
+            const double kept = slope[i];
+            exchange(&k, i, j);
+            slope[i] = slope[j];
+            slope[j] = kept;
+        }
+        for (int i = 0; i < k.n; i++) {
+            measure(&k, i, ldexp(1.0, (int)dice_one_of(&d, 21) - 10));
+        }
+        double sum[MOST] = {0.0};
+        for (int m = 0; m < k.n; m++) {
+            complex_number part[MOST];
+            double share[MOST];
+            const bool told = modes_part(k.n, k.a, k.value[m], slope, part, share);
+            TEST_ASSERT_EQUAL(!rests[m], told);
+            still += rests[m] ? 1 : 0;
+            for (int i = 0; i < k.n; i++) {
+                sum[i] += part[i].re;
+            }
+        }
+        for (int i = 0; i < k.n; i++) {
+            TEST_ASSERT_DOUBLE_WITHIN(1e-6 * fabs(slope[i]), slope[i], sum[i]);
+        }
+    }
+    printf("  %u eigenvalues of what stands still have no part\n", still);
+}
+
 void suite_modes(void) {
     RUN_TEST(test_values_of_known_matrices);
     RUN_TEST(test_values_of_hard_matrices);
     RUN_TEST(test_parts_add_up_to_the_motion);
+    RUN_TEST(test_what_stands_still_takes_no_part);
 }

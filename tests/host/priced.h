@@ -1,0 +1,37 @@
+/* priced.h: for the quick suites of host/price: scenes of a text each as the places of trials, and which settings they have
+ * an image of. */
+#ifndef TESTS_HOST_PRICED_H
+#define TESTS_HOST_PRICED_H
+
+#include "derived.h"
+#include "host/commands/pricing_scene.h"
+
+enum { PRICED_POINTS = 3 };
+
+typedef struct priced {
+    derived d[PRICED_POINTS];
+    pricing_scene *scene[PRICED_POINTS];
+    overrides changes;
+    grid grid;
+    diags *errors;
+    /* Is there an image with this step, 0 for the scene's own? NULL: wherever the scenes take the setting. */
+    bool (*takes)(const setting *s, double step_s);
+    int asked; /* images so far */
+    char place[32];
+    trial_source source;
+    trial_wish wish;
+    trials trial;
+} priced;
+
+/* Scenes `s` of so many texts. */
+void priced_open(priced *p, const char *const *texts, int points);
+/* Trials of these, with their references: what trial_begin() says. */
+bool priced_begin(priced *p, const char *board, whole_ratio spacing, int count, const char *of);
+void priced_close(priced *p);
+/* The image of a place. To be freed. */
+image *priced_image(priced *p, int point, const setting *s, const char *step);
+
+/* A plain setting. */
+setting priced_setting(wh_method method, const engine_kind *number);
+
+#endif
