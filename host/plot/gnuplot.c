@@ -146,7 +146,8 @@ bool gnuplot_close(gnuplot *g) {
     const bool written = ferror(g->to) == 0;
     const int code = pclose(g->to);
     signal(SIGPIPE, g->before);
-    const bool drawn = written && code == 0 && is_whole(g->file);
+    const bool whole = is_whole(g->file);
+    const bool drawn = written && code == 0 && whole;
     if (g->said != NULL) {
         if (!drawn) {
             show_said(g->said);
@@ -154,7 +155,8 @@ bool gnuplot_close(gnuplot *g) {
         fclose(g->said);
     }
     if (!drawn) {
-        fprintf(stderr, "whirl: error: gnuplot could not draw %s\n", g->file);
+        fprintf(stderr, "whirl: error: gnuplot could not draw %s\n%s", g->file,
+                code == 0 && !whole ? "hint: is the disk full?\n" : "");
     }
     return drawn;
 }
