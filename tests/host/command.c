@@ -87,6 +87,11 @@ const char *said_words(const char *text, const char *words) {
     return text + strlen(words);
 }
 
+const char *said_exactly(const char *text, const char *words) {
+    TEST_ASSERT_EQUAL_STRING_LEN(words, text, strlen(words));
+    return text + strlen(words);
+}
+
 const char *said_number(const char *text, double *number) {
     char *behind;
     *number = strtod(text, &behind);

@@ -21,6 +21,8 @@ double said_step_s(const char *word);
 /* Text read bit by bit; each fails the test where it does not go on so, and returns what is behind it. Blanks may stand in
  * front. Words as they are; a number; what there is up to the next blank, in word[size]. */
 const char *said_words(const char *text, const char *words);
+const char *said_exactly(const char *text,
+                         const char *words); /* no blanks but those of the words */
 const char *said_number(const char *text, double *number);
 const char *said_word(const char *text, char *word, size_t size);
 

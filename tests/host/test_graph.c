@@ -224,6 +224,10 @@ static void test_simple(void) {
                               (g->node[n->right].kind == NODE_MULTIPLE || n->left == n->right));
             TEST_ASSERT_FALSE(n->kind == NODE_RATIO && (g->node[n->right].kind == NODE_MULTIPLE ||
                                                         g->node[n->right].kind == NODE_NUMBER));
+            const bool has_two = n->kind == NODE_SUM || n->kind == NODE_DIFFERENCE ||
+                                 n->kind == NODE_PRODUCT || n->kind == NODE_RATIO ||
+                                 n->kind == NODE_COSINE;
+            TEST_ASSERT_TRUE(has_two ? n->right >= 0 : n->right == -1);
             if (n->kind == NODE_COSINE) {
                 TEST_ASSERT_EQUAL_INT(i - 1, n->right);
                 TEST_ASSERT_TRUE(g->node[i - 1].kind == NODE_SINE &&
