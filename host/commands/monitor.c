@@ -124,6 +124,10 @@ static void go_on(monitor *m) {
 
 static void take_text(monitor *m, const char *line) {
     const int asked = m->dialogue.asked;
+    const bool typed = m->dialogue.done || !m->line.is_line;
+    if (typed && strncmp(line, "OK rate=", 8) == 0 && strstr(line, " period_ticks=") != NULL) {
+        recording_asked(&m->recording);
+    }
     if (schema_take(&m->schema, line) && !m->line.is_line) {
         return;
     }

@@ -179,14 +179,17 @@ until_said 'rate=500 ' "$scratch/raw"
 echo id >&4
 until_said '^OK program=rig board=host' "$scratch/text"
 verdict $? "the rig is back, asked anew, and what is typed goes to it" "$scratch/text"
+echo 'tel off' >&4
+sleep 0.2
+echo 'tel rate 250' >&4
 sleep 0.3
 kill -INT $running
 wait $running
 status=$?
 running=
 exec 4>&-
-[ $status -eq 0 ] && grep -q 'opened 2 times, the rig began anew 1 times' "$scratch/said" && grep -q ' lost: 0 frames' "$scratch/said"
-verdict $? "nothing is taken for lost that another rig would have sent" "$scratch/said"
+[ $status -eq 0 ] && grep -q 'opened 2 times, the rig began anew 1 times' "$scratch/said" && grep -q ' lost: 0 frames .*, 0 samples; damaged: 0$' "$scratch/said"
+verdict $? "nothing is taken for lost that another rig would have sent, or that nobody has asked for" "$scratch/said"
 tr -d '\r' <"$scratch/csv" | awk -F, 'NR > 1 { if ($1 <= last && NR > 2) bad = 1; last = $1 } END { exit bad || NR < 100 }'
 verdict $? "and time goes on in the records" "$scratch/csv"
 kill $rig && wait $rig 2>/dev/null

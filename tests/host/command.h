@@ -26,6 +26,10 @@ const char *said_exactly(const char *text,
 const char *said_number(const char *text, double *number);
 const char *said_word(const char *text, char *word, size_t size);
 
+/* From the first on what is said on standard error is kept, up to the second, which returns it: static. */
+void errors_catch(void);
+const char *errors_caught(void);
+
 /* Writes a model's text into a file of its own, whose name it returns; static. Gone with model_drop(). */
 const char *model_keep(const char *text);
 void model_drop(void);
