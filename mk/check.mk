@@ -109,11 +109,11 @@ ASAN_BUILD = $(MAKE) MAIN="CC='$(CC)' OPT='$(OPT)' EXTRA='$(EXTRA)'" B=build/asa
 # Scripts that run no instrumented program, or have it do what other scripts or a suite have it do, too.
 CLI_NOT_ASAN := $(foreach t,boards enclosures flags fresh headers help map no_libm runners setup structure,tests/cli/$(t).sh)
 # And what is left to `make sanitizers-all`: scripts and suites that derive and step as others do, to compare digits.
-CLI_LESS_ASAN := $(foreach t,asked_first carriage effects_cost_nothing embed_names figures measure price price_predicts recorded_bits \
-    settings_bits swing,\
+CLI_LESS_ASAN := $(foreach t,asked_first carriage effects_cost_nothing embed_names emitted_c figures measure price \
+    price_predicts recorded_bits settings_bits swing,\
     tests/cli/$(t).sh)
-HOST_LESS_ASAN := contact_bound exact_books far_origin force_free hybrids ledger_scenes methods prove_drawn reference rounding \
-    tape_gauge trajectory trust_scenes turned turned_errors
+HOST_LESS_ASAN := choice contact_bound contact_rest contact_start contact_together exact_books far_origin force_free hybrids \
+    ledger_scenes map methods prove_drawn reference rounding tape_gauge trajectory trust_scenes turned turned_errors
 ASAN_LIST = $(B)/tests/asan_suites.list
 asan_cli = $(call run_cli,$(filter-out $(CLI_NOT_ASAN) $(CLI_LESS_ASAN),$(1)))
 # What scripts make themselves belongs to the main configuration, and must have its settings, not ours: with ours it would

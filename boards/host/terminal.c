@@ -19,11 +19,17 @@
 static int line = -1;
 static int other_end = -1; /* kept open: the line is there whether or not somebody is at it */
 static const char *link_name;
+static char own_terminal[64];
 
-/* For exit() and signals: what may be called there. */
+/* For exit() and signals: what may be called there. A link to another terminal is that of a program that has begun since. */
 static void remove_link(void) {
     if (link_name != NULL) {
-        (void)unlink(link_name);
+        char to[sizeof own_terminal];
+        const ssize_t length = readlink(link_name, to, sizeof to);
+        if (length == (ssize_t)strlen(own_terminal) &&
+            memcmp(to, own_terminal, (size_t)length) == 0) {
+            (void)unlink(link_name);
+        }
         link_name = NULL;
     }
 }
@@ -40,6 +46,10 @@ static bool make_link(const char *terminal) {
     const char *wanted = getenv("RIG_TTY");
     wanted = wanted != NULL && wanted[0] != '\0' ? wanted : "build/rig.tty";
     if (lstat(wanted, &there) == 0 && S_ISLNK(there.st_mode)) {
+        if (access(wanted, F_OK) == 0) {
+            fprintf(stderr, "%s was another terminal's: RIG_TTY names a place for one more\n",
+                    wanted);
+        }
         (void)unlink(wanted);
     }
     if (symlink(terminal, wanted) != 0) {
@@ -47,6 +57,7 @@ static bool make_link(const char *terminal) {
                 wanted, strerror(errno));
         return false;
     }
+    snprintf(own_terminal, sizeof own_terminal, "%s", terminal);
     link_name = wanted;
     return atexit(remove_link) == 0 && signal(SIGINT, end_by) != SIG_ERR &&
            signal(SIGTERM, end_by) != SIG_ERR && signal(SIGHUP, end_by) != SIG_ERR;

@@ -8,62 +8,15 @@
 #include <unistd.h>
 
 #include "commands.h"
-#include "files.h"
 #include "host/base/unwritten.h"
 #include "host/monitor/dialogue.h"
 #include "host/monitor/port.h"
 #include "host/monitor/recording.h"
 #include "host/monitor/taping.h"
-#include "host/plot/gnuplot.h"
-#include "host/plot/plot.h"
 #include "interrupts.h"
-#include "target.h"
+#include "monitor_options.h"
 
-enum { WAIT_MS = 100, AGAIN_MS = 300, ANSWER_MS = 1500, BYTES = 4096, TYPED = 256 };
-
-static const command_usage usage = {
-    .head =
-        "usage: whirl monitor PORT [options]\n"
-        "\n"
-        "A rig's console on a serial line or a pseudo-terminal: what is typed goes to the rig, what it says\n"
-        "is shown, and its telemetry is recorded, until Ctrl-C. Where the line goes away it is waited for.\n"
-        "PORT may be a file that --raw has kept: what it holds is recorded, and that is all.\n"
-        "\n",
-    .tail =
-        "  --csv FILE           samples, as records: time, then what the rig says it tells, with its units;\n"
-        "                       - is standard output (what the rig says then goes to standard error)\n"
-        "  --vcd FILE           samples as real numbers, slot pulses as wires, for waveform viewers\n"
-        "  --tape FILE          all that control steps see and answer, for whirl pil --replay; the rig, once\n"
-        "                       it is idle, starts anew\n"
-        "  --ring FILE          what `tel ring read` brings, as records\n"
-        "  --plot FILE.svg|.png samples over time, drawn by gnuplot at the end\n"
-        "  --raw FILE           all bytes that come, as they come\n"
-        "  --rate N             samples a second (default: 500)\n"
-        "  --for S              end after so many seconds\n"
-        "  --baud B             the line's speed (default: 115200)\n"
-        "  --strict             fail when anything was lost\n"
-        "  --quiet              no summary\n",
-    .why = {[EXIT_ROW_OF(EXIT_DONE)] = "Ctrl-C, --for, or the end of a file",
-            [EXIT_ROW_OF(EXIT_RUN_FAILED)] =
-                "what was recorded could not be written, or --strict and something was lost",
-            [EXIT_ROW_OF(EXIT_BAD_INPUT)] = "",
-            [EXIT_ROW_OF(EXIT_INTERRUPTED)] = NULL}};
-
-/* What can be written: a file each. */
-enum { CSV, VCD, RING, TAPE, RAW, PLOT, OUTPUTS };
-static const char *const output_option[OUTPUTS] = {"--csv",  "--vcd", "--ring",
-                                                   "--tape", "--raw", "--plot"};
-
-typedef struct monitor_options {
-    common_options common;
-    const char *port;
-    const char *output[OUTPUTS];
-    double rate;
-    double for_s;
-    double baud;
-    bool strict;
-    bool quiet;
-} monitor_options;
+enum { WAIT_MS = 100, AGAIN_MS = 300, ANSWER_MS = 1500, KEPT_MS = 1000, BYTES = 4096, TYPED = 256 };
 
 typedef struct monitor {
     const monitor_options *o;
@@ -77,87 +30,14 @@ typedef struct monitor {
     FILE *shown; /* what the rig says */
     bool open;
     bool typing; /* standard input has not ended */
+    bool live;   /* a line, no file that has kept one */
+    bool met;    /* the rig has answered, once at least */
+    bool begun;  /* and has sent what was left of a time before */
+    int unheard; /* questions since the line was opened that nobody has answered */
     int64_t asked_ms;
-    uint64_t times; /* that the line was opened */
+    int64_t kept_ms; /* when all records were in their files */
+    uint64_t times;  /* that the line was opened */
 } monitor;
-
-/* --- options ------------------------------------------------------------------------------------------------ */
-
-static bool take_number(int count, char **words, int *at, monitor_options *o, bool *bad) {
-    const number_option rows[] = {
-        {"--rate", &o->rate, 1.0, 100000.0, true, "samples a second: --rate 500"},
-        {"--for", &o->for_s, 0.0, 1e9, false, "in seconds: --for 60"},
-        {"--baud", &o->baud, 1.0, 1e7, false, "9600 to 230400: --baud 115200"}};
-    return options_take_number("monitor", rows, sizeof rows / sizeof rows[0], count, words, at,
-                               bad);
-}
-
-static bool take_one(int count, char **words, int *at, void *options, bool *bad) {
-    monitor_options *o = options;
-    for (int i = 0; i < OUTPUTS && !*bad; i++) {
-        const char *value = options_value(count, words, at, output_option[i], bad);
-        if (value != NULL) {
-            o->output[i] = value;
-            return true;
-        }
-    }
-    if (*bad || take_number(count, words, at, o, bad) || *bad) {
-        return !*bad;
-    }
-    const bool strict = strcmp(words[*at], "--strict") == 0;
-    const bool quiet = strcmp(words[*at], "--quiet") == 0;
-    o->strict = o->strict || strict;
-    o->quiet = o->quiet || quiet;
-    *at += strict || quiet;
-    return strict || quiet;
-}
-
-static bool are_apart(const monitor_options *o) {
-    for (int i = 0; i < OUTPUTS; i++) {
-        if (o->output[i] == NULL) {
-            continue;
-        }
-        if (strcmp(o->output[i], "-") == 0 && i != CSV) {
-            fprintf(stderr, "whirl monitor: error: %s takes a file's name\n", output_option[i]);
-            return false;
-        }
-        if (files_same(o->output[i], o->port)) {
-            fprintf(stderr, "whirl monitor: error: %s would be written over %s\n", output_option[i],
-                    o->port);
-            return false;
-        }
-        for (int k = 0; k < i; k++) {
-            if (o->output[k] != NULL && files_same(o->output[i], o->output[k])) {
-                fprintf(stderr, "whirl monitor: error: %s and %s cannot share a file\n",
-                        output_option[k], output_option[i]);
-                return false;
-            }
-        }
-    }
-    return true;
-}
-
-static bool are_possible(const monitor_options *o) {
-    if (!port_has_speed(o->baud)) {
-        fputs("whirl monitor: error: --baud: no such speed\n"
-              "hint: 9600, 19200, 38400, 57600, 115200 or 230400\n",
-              stderr);
-        return false;
-    }
-    if (o->output[PLOT] != NULL && !plot_can_draw(o->output[PLOT])) {
-        fputs("whirl monitor: error: --plot takes a name that ends in .svg or .png\n", stderr);
-        return false;
-    }
-    return are_apart(o) && (o->output[PLOT] == NULL || gnuplot_is_there());
-}
-
-static bool read_options(int count, char **words, monitor_options *o) {
-    static const char *const own[] = {"--csv",  "--vcd", "--ring", "--tape",   "--plot",  "--raw",
-                                      "--rate", "--for", "--baud", "--strict", "--quiet", NULL};
-    const target_reader reader = {.command = "monitor", .own = own, .take = take_one};
-    return target_read(&reader, count, words, &o->common, o, &o->port) &&
-           target_is_there(o->port, &usage) && are_possible(o);
-}
 
 /* --- the line ------------------------------------------------------------------------------------------------- */
 
@@ -178,12 +58,24 @@ static void ask(monitor *m) {
     }
 }
 
+static void ask_again(monitor *m) {
+    if (++m->unheard == 2 && m->dialogue.asked < DIALOGUE_MET) {
+        fprintf(stderr,
+                "whirl monitor: nobody answers at %s; asking on\n"
+                "hint: is it the rig's console, is --baud its speed, is nobody else at it?\n",
+                m->o->port);
+    }
+    ask(m);
+}
+
 static bool open_line(monitor *m) {
     if (!port_open(&m->line, m->o->port, m->o->baud)) {
         return false;
     }
     m->open = true;
     m->times++;
+    m->unheard = 0;
+    port_forget(&m->line);
     wire_forget(&m->wire);
     m->dialogue = (dialogue){.rate = (int)m->o->rate, .tapes = m->o->output[TAPE] != NULL};
     if (m->line.is_line) {
@@ -194,23 +86,64 @@ static bool open_line(monitor *m) {
     return true;
 }
 
+/* Half a frame and a line that is broken have what a terminal would obey; from a rig that has not answered yet they are
+ * no words. */
+static void show(const monitor *m, const char *line) {
+    char shown[WIRE_LINE + 1];
+    size_t count = 0;
+    bool clean = true;
+    for (; line[count] != '\0' && count < WIRE_LINE; count++) {
+        const unsigned char c = (unsigned char)line[count];
+        const bool is_text = (c >= 0x20U && c < 0x7fU) || c == '\t';
+        shown[count] = is_text ? line[count] : '?';
+        clean = clean && is_text;
+    }
+    shown[count] = '\0';
+    if (clean || m->met || !m->line.is_line) {
+        fprintf(m->shown, "%s\n", shown);
+        fflush(m->shown);
+    }
+}
+
+/* The next question; what it has told by now. */
+static void go_on(monitor *m) {
+    m->met = true;
+    if (m->dialogue.asked == DIALOGUE_OFF && !m->begun) {
+        m->begun = true;
+        m->wire.damaged = 0; /* of a time before */
+    }
+    if (m->dialogue.asked == DIALOGUE_LISTED && m->dialogue.was_off) {
+        recording_anew(&m->recording);
+        taping_anew(&m->taping);
+    }
+    if (m->dialogue.done && m->dialogue.refused[0] != '\0') {
+        fprintf(stderr, "whirl monitor: the rig refused: %s\n", m->dialogue.refused);
+    }
+    ask(m);
+}
+
 static void take_text(monitor *m, const char *line) {
+    const int asked = m->dialogue.asked;
+    const bool typed = m->dialogue.done || !m->line.is_line;
+    if (typed && strncmp(line, "OK rate=", 8) == 0 && strstr(line, " period_ticks=") != NULL) {
+        recording_asked(&m->recording);
+    }
     if (schema_take(&m->schema, line) && !m->line.is_line) {
         return;
     }
     if (m->line.is_line && dialogue_answer(&m->dialogue, line)) {
-        if (m->dialogue.asked == DIALOGUE_LISTED && m->dialogue.was_off) {
-            recording_anew(&m->recording);
-            taping_anew(&m->taping);
+        if (m->dialogue.asked > asked) {
+            go_on(m);
         }
-        ask(m);
         return;
     }
-    fprintf(m->shown, "%s\n", line);
-    fflush(m->shown);
+    show(m, line);
 }
 
 static void take_frame(monitor *m) {
+    if (m->line.is_line && !m->begun) {
+        return; /* of a time before */
+    }
     recording_frame(&m->recording, &m->schema, &m->wire.frame);
     if (m->file[TAPE] != NULL && m->wire.frame.channel == RECORDING_TAPE) {
         taping_frame(&m->taping, &m->wire.frame);
@@ -248,6 +181,20 @@ static bool written(const monitor *m) {
     return true;
 }
 
+/* Whatever ends this program: what it has heard a second ago is in the files. */
+static void keep_records(monitor *m) {
+    const int64_t now = now_ms();
+    if (now - m->kept_ms < KEPT_MS) {
+        return;
+    }
+    m->kept_ms = now;
+    for (int i = 0; i < OUTPUTS; i++) {
+        if (m->file[i] != NULL) {
+            (void)fflush(m->file[i]); /* ferror() is asked for */
+        }
+    }
+}
+
 /* Until it is to end. */
 static void listen(monitor *m) {
     const int64_t began_ms = now_ms();
@@ -277,8 +224,9 @@ static void listen(monitor *m) {
             take_typed(m);
         }
         if (m->line.is_line && !m->dialogue.done && now_ms() - m->asked_ms > ANSWER_MS) {
-            ask(m);
+            ask_again(m);
         }
+        keep_records(m);
     }
 }
 
@@ -349,9 +297,6 @@ static void tell(const monitor *m) {
     if (m->file[TAPE] != NULL && m->taping.began) {
         tell_tape(m);
     }
-    if (m->dialogue.refused[0] != '\0') {
-        fprintf(stderr, "whirl monitor: the rig refused: %s\n", m->dialogue.refused);
-    }
 }
 
 /* What of the tape is still to come, and its end. */
@@ -378,11 +323,27 @@ static bool has_tape(const monitor *m) {
     return true;
 }
 
+/* Of a line that was to be recorded: has anybody been there who could send it? */
+static bool has_source(const monitor *m) {
+    bool wanted = m->live && (!m->met || m->dialogue.rate_refused);
+    bool any = false;
+    for (int i = 0; i < OUTPUTS; i++) {
+        any = any || (i != RAW && m->o->output[i] != NULL);
+    }
+    wanted = wanted && any && m->recording.counts.samples == 0;
+    if (wanted) {
+        fprintf(stderr, "whirl monitor: error: nothing was recorded: %s%s\n", m->o->port,
+                m->met ? " sends no samples at this --rate" : " has not answered");
+    }
+    return !wanted;
+}
+
 static int run(monitor *m) {
     if (!open_line(m)) {
         port_say_unopened(m->o->port, "build/rig.tty is that of make rig");
         return EXIT_BAD_INPUT;
     }
+    m->live = m->line.is_line;
     if (!open_outputs(m)) {
         (void)close_outputs(m);
         port_close(&m->line);
@@ -397,9 +358,10 @@ static int run(monitor *m) {
         (void)port_write(&m->line, "tel off\n", 8);
         hear_tape_out(m);
     }
+    bool good = has_source(m);
     port_close(&m->line);
-    bool good =
-        m->o->output[PLOT] == NULL || recording_plot(&m->recording, &m->schema, m->o->output[PLOT]);
+    good = good && (m->o->output[PLOT] == NULL ||
+                    recording_plot(&m->recording, &m->schema, m->o->output[PLOT]));
     recording_end(&m->recording);
     if (!m->o->quiet) {
         tell(m);
@@ -415,11 +377,11 @@ static int run(monitor *m) {
 
 int command_monitor(int count, char **words) {
     monitor_options o = {.common = options_defaults(), .rate = 500.0, .baud = 115200.0};
-    if (options_help(count, words, &usage)) {
+    if (options_help(count, words, &monitor_usage)) {
         return EXIT_DONE;
     }
     int code = EXIT_BAD_INPUT;
-    if (read_options(count, words, &o)) {
+    if (monitor_options_read(count, words, &o)) {
         static monitor m;
         m = (monitor){.o = &o, .typing = true};
         code = run(&m);

@@ -23,6 +23,7 @@
 
 #define FINE_STEP "50us"
 #define PATIENCE_S 10.0
+#define BAUD 115200.0
 #define LONGEST_S 3600.0
 #define CLOCK_HZ 16e6
 #define CYCLES 1.5
@@ -95,7 +96,7 @@ typedef struct pil_options {
     double clock_Hz;
     double cycles;
     double patience_s;
-    double baud;
+    double baud; /* 0: not said */
     bool quiet;
     bool kinds; /* of faults are listed */
 } pil_options;
@@ -167,6 +168,8 @@ static bool is_read_alone(const pil_options *o) {
     return true;
 }
 
+static double baud_of(const pil_options *o) { return o->baud > 0.0 ? o->baud : BAUD; }
+
 /* What stands together, and what does not. */
 static bool go_together(const pil_options *o) {
     if (o->kinds) {
@@ -181,7 +184,12 @@ static bool go_together(const pil_options *o) {
               stderr);
         return false;
     }
-    if (o->port != NULL && (o->firmware != NULL || o->board != NULL || !port_has_speed(o->baud))) {
+    if (o->port == NULL && o->baud > 0.0) {
+        fputs("whirl pil: error: --baud is the speed of a --port\n", stderr);
+        return false;
+    }
+    if (o->port != NULL &&
+        (o->firmware != NULL || o->board != NULL || !port_has_speed(baud_of(o)))) {
         fprintf(
             stderr,
             o->firmware != NULL || o->board != NULL
@@ -315,7 +323,7 @@ static bool open_line(const pil_options *o, lockstep_wish *wish, port *line) {
     if (o->port == NULL) {
         return true;
     }
-    if (!port_open(line, o->port, o->baud)) {
+    if (!port_open(line, o->port, baud_of(o))) {
         port_say_unopened(o->port, "is the board plugged in? ls /dev/tty*");
         return false;
     }
@@ -457,8 +465,7 @@ int command_pil(int count, char **words) {
                      .seed = 1.0,
                      .clock_Hz = CLOCK_HZ,
                      .cycles = CYCLES,
-                     .patience_s = PATIENCE_S,
-                     .baud = 115200.0};
+                     .patience_s = PATIENCE_S};
     if (options_help(count, words, &usage)) {
         return EXIT_DONE;
     }

@@ -13,8 +13,8 @@ static bool take_target(const target_reader *r, const char *word, const char **t
             fprintf(stderr, "whirl %s: error: more than one thing to %s: %s\n", r->command,
                     r->command, word);
         } else {
-            fprintf(stderr, "whirl %s: error: one scene at a time, not also '%s'\n", r->command,
-                    word);
+            fprintf(stderr, "whirl %s: error: one %s at a time, not also '%s'\n", r->command,
+                    r->one != NULL ? r->one : "scene", word);
         }
         return false;
     }

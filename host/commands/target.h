@@ -13,7 +13,8 @@ typedef struct target_reader {
     unsigned groups;        /* of the common options that it takes */
     const char *const *own; /* the words of its own options, NULL at the end */
     target_take *take;
-    bool derives; /* what is no scene will do, too: another word for a second one */
+    const char *one; /* what there is one of at a time; NULL: a scene */
+    bool derives;    /* what is no scene will do, too: another word for a second one */
 } target_reader;
 
 /* All options, of both kinds, and the one word that is none: *target, NULL when there is no such word. False when

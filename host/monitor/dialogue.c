@@ -4,11 +4,23 @@
 #include <stdio.h>
 #include <string.h>
 
-/* The rate behind what describes its frames, the tape last. */
-static const char *const questions[] = {
-    "talk off",         "tel list",        "tel off",           "tel fmt frames", "tel schema run",
-    "tel schema event", "tel schema ring", "tel schema states", "tel rate",       "tel tape on"};
-enum { QUESTIONS = sizeof questions / sizeof questions[0], LIST = 1, RATE = QUESTIONS - 2 };
+/* The rate behind what describes its frames, the tape last. The first has an answer that nothing else is: until it comes,
+ * what is heard may have been said to somebody before. */
+static const struct {
+    const char *words;
+    const char *answer; /* how it begins */
+} questions[] = {{"id", "OK program="},
+                 {"talk off", "OK"},
+                 {"tel list", "OK rate="},
+                 {"tel off", "OK"},
+                 {"tel fmt frames", "OK fmt="},
+                 {"tel schema run", "OK channel=0"},
+                 {"tel schema event", "OK channel=1"},
+                 {"tel schema ring", "OK channel=2"},
+                 {"tel schema states", "OK 0="},
+                 {"tel rate", "OK rate="},
+                 {"tel tape on", "OK tape="}};
+enum { QUESTIONS = sizeof questions / sizeof questions[0], LIST = 2, RATE = QUESTIONS - 2 };
 
 static int count_of(const dialogue *d) { return d->tapes ? QUESTIONS : QUESTIONS - 1; }
 
@@ -17,11 +29,17 @@ const char *dialogue_question(const dialogue *d, char line[DIALOGUE_LINE]) {
         return NULL;
     }
     if (d->asked == RATE) {
-        snprintf(line, DIALOGUE_LINE, "%s %d\n", questions[RATE], d->rate);
+        snprintf(line, DIALOGUE_LINE, "%s %d\n", questions[RATE].words, d->rate);
     } else {
-        snprintf(line, DIALOGUE_LINE, "%s\n", questions[d->asked]);
+        snprintf(line, DIALOGUE_LINE, "%s\n", questions[d->asked].words);
     }
     return line;
+}
+
+/* Those that are OK alone are nothing else. */
+static bool begins(const char *line, const char *answer) {
+    return strcmp(answer, "OK") == 0 ? strcmp(line, answer) == 0
+                                     : strncmp(line, answer, strlen(answer)) == 0;
 }
 
 bool dialogue_answer(dialogue *d, const char *line) {
@@ -33,13 +51,17 @@ bool dialogue_answer(dialogue *d, const char *line) {
     if (strcmp(line, question) == 0) {
         return true; /* its echo */
     }
-    const bool good = strncmp(line, "OK", 2) == 0;
-    if (!good && strncmp(line, "ERR ", 4) != 0) {
-        return false;
+    const bool met = d->asked >= DIALOGUE_MET;
+    const char *from = met ? line : strstr(line, questions[0].answer); /* behind half a frame */
+    const bool good = from != NULL && begins(from, questions[d->asked].answer);
+    const bool refuses = met && strncmp(line, "ERR ", 4) == 0;
+    if (!good && !refuses) {
+        return strncmp(line, "OK", 2) == 0 || strncmp(line, "ERR ", 4) == 0;
     }
-    if (!good && d->refused[0] == '\0') {
-        snprintf(d->refused, sizeof d->refused, "%s", question);
+    if (refuses && d->refused[0] == '\0') {
+        snprintf(d->refused, sizeof d->refused, "%s: %s", question, line);
     }
+    d->rate_refused = d->rate_refused || (refuses && d->asked == RATE);
     if (d->asked == LIST) {
         d->was_off = strstr(line, " rate=0 ") != NULL;
     }

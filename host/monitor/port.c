@@ -6,6 +6,7 @@
 #include <poll.h>
 #include <stdio.h>
 #include <string.h>
+#include <sys/file.h>
 #include <unistd.h>
 
 enum { WRITE_MS = 1000 };
@@ -44,6 +45,15 @@ static bool make_plain(port *p, double baud) {
            tcsetattr(p->file, TCSANOW, &plain) == 0;
 }
 
+/* Who reads what another one waits for, takes it away from him. */
+static bool have_alone(int file) {
+    if (flock(file, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) {
+        return true; /* or nobody can know */
+    }
+    errno = EBUSY;
+    return false;
+}
+
 bool port_open(port *p, const char *name, double baud) {
     *p = (port){.file = open(name, O_RDWR | O_NOCTTY | O_NONBLOCK)};
     if (p->file < 0 && (errno == EACCES || errno == EROFS)) {
@@ -53,7 +63,7 @@ bool port_open(port *p, const char *name, double baud) {
         return false;
     }
     p->is_line = isatty(p->file) != 0;
-    if (p->is_line && !make_plain(p, baud)) {
+    if (p->is_line && (!have_alone(p->file) || !make_plain(p, baud))) {
         const int why = errno;
         close(p->file);
         errno = why;
@@ -62,10 +72,16 @@ bool port_open(port *p, const char *name, double baud) {
     return true;
 }
 
+void port_forget(const port *p) {
+    if (p->is_line) {
+        (void)tcflush(p->file, TCIFLUSH);
+    }
+}
+
 void port_say_unopened(const char *name, const char *hint) {
     const int reason = errno;
     fprintf(stderr, "%s: error: cannot be opened: %s\nhint: %s\n", name[0] != '\0' ? name : "''",
-            strerror(reason), hint);
+            strerror(reason), reason == EBUSY ? "another program is at this line" : hint);
 }
 
 void port_close(port *p) {

@@ -17,8 +17,12 @@ typedef struct port {
 /* True for a speed that there is a name of. */
 bool port_has_speed(double baud);
 
-/* Open it: without echo and conversion, at this speed. False, errno tells why, when it is not there. */
+/* Open it: without echo and conversion, at this speed. False, errno tells why, when it is not there, or (EBUSY) another
+ * program that asks for a line alone, as this does, has it. */
 bool port_open(port *p, const char *name, double baud);
+
+/* What has come of a line and was not read is not to be read. */
+void port_forget(const port *p);
 
 /* On standard error: it cannot be opened, why, as errno has it, and what may help. */
 void port_say_unopened(const char *name, const char *hint);

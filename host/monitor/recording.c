@@ -48,6 +48,8 @@ void recording_anew(recording *r) {
     r->expects = false;
 }
 
+void recording_asked(recording *r) { r->expects = false; }
+
 static void count(recording *r, const wire_frame *frame) {
     recording_channel *c = &r->channel[frame->channel];
     const uint16_t gap = (uint16_t)(frame->sequence - c->next);

@@ -62,6 +62,9 @@ void recording_begin(recording *r, FILE *csv, FILE *waves, FILE *ring, bool plot
 /* The rig began anew: its clock and its counts have nothing to do with what was before. */
 void recording_anew(recording *r);
 
+/* Somebody has asked for samples anew, perhaps at another rate: none of those until the next that come was sent. */
+void recording_asked(recording *r);
+
 /* Of the tape's they are counted. */
 void recording_frame(recording *r, const schema *s, const wire_frame *frame);
 

@@ -10,6 +10,7 @@
 #define STANDING_MOST 10000U
 #define PIECE_S 0.1
 #define WATCHED_PIECE_S 1e-3
+#define PIECE_STEPS 1e4 /* at most: steps may be as short as they like */
 
 static double now_s(void) {
     struct timespec t;
@@ -94,7 +95,9 @@ static bool advance(loop *l, double until_ticks) {
     const lockstep_wish *wish = l->talk.wish;
     const double most = wish->until_s * l->ticks_per_s;
     const double end = until_ticks < most ? until_ticks : most;
-    const double piece = (l->watched ? WATCHED_PIECE_S : PIECE_S) * l->ticks_per_s;
+    const double wished = (l->watched ? WATCHED_PIECE_S : PIECE_S) * l->ticks_per_s;
+    const double most_at_once = PIECE_STEPS * l->plant.step_ticks;
+    const double piece = wished < most_at_once ? wished : most_at_once;
     const unsigned resets = l->plant.reset.count;
     while (!plant_has_reached(&l->plant, end) && l->plant.reset.count == resets) {
         const double next = plant_now(&l->plant) + piece;

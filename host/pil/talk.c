@@ -26,9 +26,11 @@ static void keep_heard(talk *t, const wh_frame *frame) {
 static void say_silent(const talk *t) {
     fprintf(stderr,
             "whirl pil: error: the firmware has said nothing for %g s\n"
-            "hint: an endless loop, or a read that nobody answers; --patience says how long to "
-            "wait\n",
-            t->guest.wish.patience_s);
+            "hint: %s; --patience says how long to wait\n",
+            t->guest.wish.patience_s,
+            t->wish->guest.by_line
+                ? "a frame that the line has damaged is not asked for again: reset the board"
+                : "an endless loop, or a read that nobody answers");
 }
 
 /* A key that interrupts is for all in the terminal, and the firmware may end by it first. */

@@ -5,6 +5,7 @@
 #include <signal.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 static const char *ending_of(const char *file) {
@@ -118,11 +119,35 @@ bool gnuplot_open(gnuplot *g, const char *file, int height) {
     return true;
 }
 
+/* gnuplot does not see that a disk is full, and says that all is well: has the file the end of such a picture? What is no
+ * file, such as a pipe, cannot be asked. */
+static bool is_whole(const char *file) {
+    char last[17] = {0};
+    struct stat about;
+    if (stat(file, &about) != 0 || S_ISFIFO(about.st_mode)) {
+        return true;
+    }
+    FILE *picture = fopen(file, "rb");
+    const bool there =
+        picture != NULL && fseek(picture, -16, SEEK_END) == 0 && fread(last, 1, 16, picture) == 16;
+    if (picture != NULL) {
+        fclose(picture);
+    }
+    const char *end = strcmp(ending_of(file), "svg") == 0 ? "</svg>" : "IEND";
+    for (size_t i = 0; there && i + strlen(end) <= 16; i++) {
+        if (memcmp(last + i, end, strlen(end)) == 0) {
+            return true;
+        }
+    }
+    return false;
+}
+
 bool gnuplot_close(gnuplot *g) {
     const bool written = ferror(g->to) == 0;
     const int code = pclose(g->to);
     signal(SIGPIPE, g->before);
-    const bool drawn = written && code == 0;
+    const bool whole = is_whole(g->file);
+    const bool drawn = written && code == 0 && whole;
     if (g->said != NULL) {
         if (!drawn) {
             show_said(g->said);
@@ -130,7 +155,8 @@ bool gnuplot_close(gnuplot *g) {
         fclose(g->said);
     }
     if (!drawn) {
-        fprintf(stderr, "whirl: error: gnuplot could not draw %s\n", g->file);
+        fprintf(stderr, "whirl: error: gnuplot could not draw %s\n%s", g->file,
+                code == 0 && !whole ? "hint: is the disk full?\n" : "");
     }
     return drawn;
 }

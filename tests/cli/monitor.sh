@@ -103,6 +103,13 @@ refused() {
 if command -v gnuplot >/dev/null; then
     "$whirl" monitor "$scratch/raw" --plot "$scratch/plot.svg" --quiet >/dev/null 2>"$scratch/err" && grep -q '<svg' "$scratch/plot.svg"
     verdict $? "it is drawn" "$scratch/err"
+    (
+        trap '' XFSZ # a file that can take no more, as on a full disk
+        ulimit -f 8
+        "$whirl" monitor "$scratch/raw" --plot "$scratch/plot.svg" --quiet
+    ) >/dev/null 2>"$scratch/err"
+    [ $? -eq 1 ] && grep -q 'could not draw' "$scratch/err"
+    verdict $? "half a picture is none" "$scratch/err"
 fi
 refused 'usage: whirl monitor PORT' --rate 500
 refused 'cannot be opened' "$scratch/none"
@@ -113,6 +120,8 @@ refused 'ends in .svg or .png' "$scratch/raw" --plot a.txt
 refused 'cannot share a file' "$scratch/raw" --csv "$scratch/x" --vcd "$scratch/x"
 refused 'would be written over' "$scratch/raw" --raw "$scratch/raw"
 refused "takes a file's name" "$scratch/raw" --vcd -
+refused '--for takes a number from' "$scratch/raw" --for 0
+refused 'one line at a time' "$scratch/raw" "$scratch/csv"
 
 # The line goes away, and comes back; then what is typed goes to the rig.
 RIG_TTY=$scratch/rig.tty RIG_SETTINGS=$scratch/settings
@@ -132,6 +141,30 @@ until_said() {
 }
 rm -f "$scratch/raw" "$scratch/csv"
 station
+# What was left in the line: half a word, and telemetry of a program that was killed; nothing of it is taken for the rig's.
+"$whirl" monitor "$RIG_TTY" --csv "$scratch/csv" >/dev/null 2>&1 </dev/null &
+running=$!
+until_said '^[0-9]' "$scratch/csv"
+verdict $? "records are in their file before it ends" "$scratch/csv"
+kill -9 $running && wait $running 2>/dev/null
+rm -f "$scratch/csv"
+printf sta >"$RIG_TTY"
+"$whirl" monitor "$RIG_TTY" --csv "$scratch/csv" --strict --for 0.6 >"$scratch/text" 2>"$scratch/said" </dev/null &
+running=$!
+until_said '^[0-9]' "$scratch/csv"
+refused 'another program is at this line' "$RIG_TTY" --for 1
+wait $running && [ ! -s "$scratch/text" ] && ! grep -qv ' samples, 0 pulses in .* lost: 0 .*damaged: 0$' "$scratch/said"
+verdict $? "what was in the line before is nobody's answer, nobody's words and no loss" "$scratch/said"
+running=
+"$whirl" monitor "$RIG_TTY" --csv "$scratch/csv" --rate 7 --for 0.5 --quiet >"$scratch/text" 2>"$scratch/said" </dev/null
+[ $? -eq 1 ] && grep -q 'refused: tel rate 7: ERR 116 ' "$scratch/said" && grep -q 'error: nothing was recorded' "$scratch/said"
+verdict $? "a rate that the rig refuses is no success" "$scratch/said"
+kill -STOP $rig
+"$whirl" monitor "$RIG_TTY" --csv "$scratch/csv" --for 0.2 --quiet >"$scratch/text" 2>"$scratch/said" </dev/null
+[ $? -eq 1 ] && grep -q 'nothing was recorded: .* has not answered' "$scratch/said"
+verdict $? "nor a rig that does not answer" "$scratch/said"
+kill -CONT $rig
+rm -f "$scratch/csv"
 mkfifo "$scratch/keys"
 "$whirl" monitor "$RIG_TTY" --raw "$scratch/raw" --csv "$scratch/csv" >"$scratch/text" 2>"$scratch/said" <"$scratch/keys" &
 running=$!
@@ -146,14 +179,17 @@ until_said 'rate=500 ' "$scratch/raw"
 echo id >&4
 until_said '^OK program=rig board=host' "$scratch/text"
 verdict $? "the rig is back, asked anew, and what is typed goes to it" "$scratch/text"
+echo 'tel off' >&4
+sleep 0.2
+echo 'tel rate 250' >&4
 sleep 0.3
 kill -INT $running
 wait $running
 status=$?
 running=
 exec 4>&-
-[ $status -eq 0 ] && grep -q 'opened 2 times, the rig began anew 1 times' "$scratch/said" && grep -q ' lost: 0 frames' "$scratch/said"
-verdict $? "nothing is taken for lost that another rig would have sent" "$scratch/said"
+[ $status -eq 0 ] && grep -q 'opened 2 times, the rig began anew 1 times' "$scratch/said" && grep -q ' lost: 0 frames .*, 0 samples; damaged: 0$' "$scratch/said"
+verdict $? "nothing is taken for lost that another rig would have sent, or that nobody has asked for" "$scratch/said"
 tr -d '\r' <"$scratch/csv" | awk -F, 'NR > 1 { if ($1 <= last && NR > 2) bad = 1; last = $1 } END { exit bad || NR < 100 }'
 verdict $? "and time goes on in the records" "$scratch/csv"
 kill $rig && wait $rig 2>/dev/null

@@ -309,6 +309,14 @@ for after in 0.02 0.05 0.1 0.2; do
     [ ! -s "$scratch/out" ] || grep -aq "^command stream .*, as on the $said$" "$scratch/out"
     verdict $? "a replay interrupted after $after s: as on the $said"
 done
+for step in 1e-12s 1e-9s 10us; do # however long it is to the next exchange
+    timeout --foreground --kill-after=2 --signal=INT 0.15 "$whirl" pil docs/plants/rig.whirl --step $step --until 1000s \
+        --firmware "$build/pil_rig" >"$scratch/out" 2>"$scratch/err"
+    got=$? # 137 is the second signal's, 124 the time's
+    [ $got -eq 124 ] && grep -q '^exchanges' "$scratch/out"
+    verdict $? "a run with steps of $step is interrupted, and told ($got)" "$scratch/err"
+done
+refused 2 'is the speed of a --port' docs/plants/rig.whirl --firmware "$build/pil_rig" --baud 9600
 
 # --- nothing is left behind ----------------------------------------------------------------------------------------------
 # Seconds of plant time in steps of 2 us: long enough to be killed in the middle.

@@ -105,7 +105,7 @@ check "a single point is drawn" grep -q "<use xlink:href='#gpPt6'.*/>" "$scratch
 # --- gnuplot's own words: a stand-in that warns, and one that fails -----------------------------------
 mkdir "$scratch/bin"
 for code in 0 1; do
-    printf '#!/bin/sh\ncat >/dev/null\necho "a word of gnuplot" >&2\nexit %s\n' $code >"$scratch/bin/gnuplot"
+    printf '#!/bin/sh\ncat >/dev/null\necho "<svg>a picture</svg>"\necho "a word of gnuplot" >&2\nexit %s\n' $code >"$scratch/bin/gnuplot"
     chmod +x "$scratch/bin/gnuplot"
     PATH=$scratch/bin:$PATH "$whirl" run epicyclic_from_rest --until 10ms --plot "$scratch/x.svg" >"$scratch/out" 2>"$scratch/err"
     got=$?
@@ -116,5 +116,21 @@ for code in 0 1; do
         [ $got -ne 0 ] && grep -q '^a word of gnuplot$' "$scratch/err" && grep -q 'could not draw' "$scratch/err"
         verdict $? "gnuplot fails: what it said is shown"
     fi
+done
+
+# --- a file that takes no more, as on a full disk: gnuplot says that all is well -----------------------
+for kind in svg png; do
+    "$whirl" run epicyclic_from_rest --until 1s --quiet --plot "$scratch/whole.$kind" 2>"$scratch/err"
+    check "a whole picture is one: $kind" [ $? -eq 0 ]
+    blocks=$((($(wc -c <"$scratch/whole.$kind") - 1) / 512))
+    for most in 1 $((blocks / 2)) $blocks; do # the last one lacks less than 512 bytes
+        (
+            trap '' XFSZ
+            ulimit -f "$most"
+            "$whirl" run epicyclic_from_rest --until 1s --quiet --plot "$scratch/half.$kind"
+        ) 2>"$scratch/err"
+        [ $? -eq 2 ] && grep -q "could not draw $scratch/half.$kind" "$scratch/err"
+        verdict $? "$most of $blocks blocks of a picture are none: $kind" "$scratch/err"
+    done
 done
 exit $failed

@@ -102,6 +102,16 @@ ln -s /nowhere "$RIG_TTY"
 begin
 says id 'OK ' "a dead link is replaced"
 exec 3>&-
+first=$running
+RIG_SETTINGS=$scratch/others "$station" >"$scratch/said" 2>"$scratch/err" </dev/null &
+running=$!
+for _ in 1 2 3 4 5 6 7 8 9 10; do
+    grep -q 'console is' "$scratch/said" && break
+    sleep 0.1
+done
+kill "$first" && wait "$first" 2>/dev/null
+grep -q "was another terminal's" "$scratch/err" && [ -e "$RIG_TTY" ]
+verdict $? "a second rig says whose link it takes, and keeps it when the first one ends" "$scratch/err"
 kill "$running" && wait "$running" 2>/dev/null
 running=
 echo mine >"$RIG_TTY"

@@ -81,8 +81,33 @@ double said_step_s(const char *word) {
                                                : 1.0);
 }
 
+static int kept_stderr = -1;
+static FILE *caught;
+
+void errors_catch(void) {
+    fflush(stderr);
+    caught = tmpfile();
+    kept_stderr = dup(STDERR_FILENO);
+    TEST_ASSERT_TRUE(caught != NULL && kept_stderr >= 0);
+    TEST_ASSERT_TRUE(dup2(fileno(caught), STDERR_FILENO) >= 0);
+}
+
+const char *errors_caught(void) {
+    static char text[SAID_SIZE];
+    fflush(stderr);
+    TEST_ASSERT_TRUE(dup2(kept_stderr, STDERR_FILENO) >= 0);
+    close(kept_stderr);
+    read_back(caught, text);
+    return text;
+}
+
 const char *said_words(const char *text, const char *words) {
     text += strspn(text, " ");
+    TEST_ASSERT_EQUAL_STRING_LEN(words, text, strlen(words));
+    return text + strlen(words);
+}
+
+const char *said_exactly(const char *text, const char *words) {
     TEST_ASSERT_EQUAL_STRING_LEN(words, text, strlen(words));
     return text + strlen(words);
 }

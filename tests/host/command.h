@@ -21,8 +21,14 @@ double said_step_s(const char *word);
 /* Text read bit by bit; each fails the test where it does not go on so, and returns what is behind it. Blanks may stand in
  * front. Words as they are; a number; what there is up to the next blank, in word[size]. */
 const char *said_words(const char *text, const char *words);
+const char *said_exactly(const char *text,
+                         const char *words); /* no blanks but those of the words */
 const char *said_number(const char *text, double *number);
 const char *said_word(const char *text, char *word, size_t size);
+
+/* From the first on what is said on standard error is kept, up to the second, which returns it: static. */
+void errors_catch(void);
+const char *errors_caught(void);
 
 /* Writes a model's text into a file of its own, whose name it returns; static. Gone with model_drop(). */
 const char *model_keep(const char *text);

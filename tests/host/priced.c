@@ -2,6 +2,7 @@
 #include "priced.h"
 
 #include <stdio.h>
+#include <stdlib.h>
 
 #include "unity.h"
 
@@ -9,7 +10,7 @@ static image *make(void *context, int point, const setting *s, const char *step,
                    const char *until) {
     priced *p = context;
     p->asked++;
-    if (p->takes != NULL && !p->takes(s)) {
+    if (p->takes != NULL && !p->takes(s, step != NULL ? strtod(step, NULL) : 0.0)) {
         return NULL;
     }
     return p->scene[point]->source.make(p->scene[point], 0, s, step, until);

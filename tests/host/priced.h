@@ -14,8 +14,9 @@ typedef struct priced {
     overrides changes;
     grid grid;
     diags *errors;
-    bool (*takes)(const setting *s); /* NULL: all that the scenes take */
-    int asked;                       /* images so far */
+    /* Is there an image with this step, 0 for the scene's own? NULL: wherever the scenes take the setting. */
+    bool (*takes)(const setting *s, double step_s);
+    int asked; /* images so far */
     char place[32];
     trial_source source;
     trial_wish wish;

@@ -366,6 +366,12 @@ static void test_line(void) {
         lost += stays;
     }
     TEST_ASSERT_INT_WITHIN(60, READS / 2, lost);
+    run_with("orders-lost=1",
+             &ill); /* from the first on: there are as many outputs, and none was ever set */
+    for (int i = 1; i <= READS; i++) {
+        TEST_ASSERT_EQUAL_UINT(2, ill.orders[i].outputs);
+        TEST_ASSERT_TRUE(ill.orders[i].output[0] == 0.0f && ill.orders[i].output[1] == 0.0f);
+    }
     run_with("readings-lost=0.5", &ill);
     TEST_ASSERT_INT_WITHIN(120, READS, ill.samples);
     run_with("readings-lost=1@0.5", &ill);

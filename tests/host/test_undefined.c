@@ -110,7 +110,10 @@ static void make(trial *t, dice *d) {
     t->step_s = 1e-3 * (1.0 + dice_one_of(d, 5));
     t->end_s = c / v;
     t->ends_later = t->victim == RESTITUTION;
-    state(t, forms[form], d);
+    /* Where what is named stands on a line of its own, the message still has the statement's. */
+    const bool named = t->victim != HELD && dice_one_of(d, 2) == 0;
+    state(t, named ? "e" : forms[form], d);
+    const int blank = (int)dice_one_of(d, 4);
     char around[200];
     if (t->victim == SETTING) { /* is taken at a moment behind the end */
         snprintf(around, sizeof around, "when x crosses c + 0.1 [m] { %s }", t->statement);
@@ -118,17 +121,18 @@ static void make(trial *t, dice *d) {
     } else {
         snprintf(around, sizeof around, "%s%s", t->statement, t->victim == CROSSING ? " }" : "");
     }
-    const int blank = (int)dice_one_of(d, 4);
     snprintf(t->text, sizeof t->text,
              "mechanism trial\n" /* 1 */
              "coordinate x [m]\ncoordinate y [m]\n"
              "parameter c = %.9f [m]\nparameter u = 1 [m]\n"
              "let d = (c - x)/u\n"
+             "let e = %s\n"
              "T = 1 [kg]*(x'^2 + 2*y'^2)/2\n"
              "%.*s%s\n"
              "scene moves { start x' = %.9f [m/s], y' = %s\n step %.6f [s]\n until 5 [s] }\n",
-             c, blank, "\n\n\n\n", around, v, slides ? "30 [m/s]" : "0", t->step_s);
-    t->line = 8 + blank;
+             c, named ? forms[form] : "1", blank, "\n\n\n\n", around, v, slides ? "30 [m/s]" : "0",
+             t->step_s);
+    t->line = 9 + blank;
 }
 
 /* "... after t = 1.2 s": the number, or -1. */

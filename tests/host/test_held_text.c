@@ -1,0 +1,265 @@
+/* test_held_text.c: what `whirl prove` says of drawn findings (host/prove/held_text.h), read back: numbers that are not less
+ * than what was found, nor much more; which state is told of at the end; rows to the last bit. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "drawn_image.h"
+#include "host/base/room.h"
+#include "host/prove/held_text.h"
+#include "unity.h"
+
+void suite_held_text(void);
+
+static dice die;
+static drawn_image drawn;
+static exact_state states[DRAWN_STATES];
+static held_state found_states[DRAWN_STATES];
+static exact_motion of;
+static held_wish wish;
+static held_found found;
+
+static double drawn_size(void) {
+    return dice_one_of(&die, 8) == 0
+               ? 0.0
+               : dice_between(&die, 1.0, 10.0) * pow(10.0, dice_between(&die, -20.0, 3.0));
+}
+
+static void draw(void) {
+    drawn_image_draw(&drawn, &die, MATRIX_NONE);
+    drawn.im.settings.method = (wh_method)dice_one_of(&die, 2);
+    of = (exact_motion){.states = 2 * drawn.im.count, .state = states};
+    wish = (held_wish){.motion = &of, .image = &drawn.im, .kind = &engine_float};
+    found = (held_found){.state = found_states,
+                         .states = of.states,
+                         .tube_steps = dice_one_of(&die, 1000000),
+                         .tube_s = dice_between(&die, 0.0, 30.0),
+                         .end = (held_end)dice_one_of(&die, HELD_STOPPED + 1)};
+    wish.kind = dice_one_of(&die, 2) == 0 ? &engine_float : &engine_double;
+    const unsigned likely = 1 + dice_one_of(&die, 4);
+    for (int i = 0; i < of.states; i++) {
+        held_state *s = &found_states[i];
+        states[i] = (exact_state){i / 2, i % 2};
+        *s = (held_state){.verdict = dice_one_of(&die, likely) == 0
+                                         ? HELD_TO_THE_END
+                                         : (held_verdict)dice_one_of(&die, HELD_UNENDED + 1),
+                          .within = drawn_size(),
+                          .until_s = 0.001 * dice_one_of(&die, 20),
+                          .off = drawn_size(),
+                          .radius = drawn_size()};
+        s->begun =
+            s->verdict == HELD_TO_THE_END || s->verdict == HELD_UNENDED || dice_one_of(&die, 3) > 0;
+    }
+}
+
+static char *said_of(void) {
+    char *text = NULL;
+    size_t length = 0;
+    FILE *out = room_text(&text, &length);
+    held_print(out, &found, &wish);
+    room_text_end(out);
+    return text;
+}
+
+static const char *read_time(const char *at, double wanted_s) {
+    double time_s;
+    at = said_number(at, &time_s);
+    TEST_ASSERT_TRUE(fabs(time_s - wanted_s) <= 1e-14 * fabs(wanted_s));
+    return at;
+}
+
+/* So many places are shown of it: not less than it is, and not more than the next but one that so many places have. */
+static const char *read_not_less(const char *at, const image_unit *unit, double si, int places) {
+    const long double wanted =
+        (long double)si * (long double)unit->divisor / (long double)unit->scale;
+    char word[40];
+    double number;
+    (void)said_word(at, word, sizeof word);
+    at = said_number(at, &number);
+    TEST_ASSERT_EQUAL_size_t((size_t)places, strcspn(strchr(word, '.') + 1, "e"));
+    TEST_ASSERT_TRUE_MESSAGE((long double)number >= wanted * (1.0L - 4e-16L), "less");
+    const long double unit_of_last = powl(10.0L, floorl(log10l(fmaxl(wanted, 1e-300L))) - places);
+    TEST_ASSERT_TRUE_MESSAGE((long double)number <= wanted + 1.1L * unit_of_last, "more");
+    TEST_ASSERT_TRUE_MESSAGE(si > 0.0 || number == 0.0, "nothing");
+    return at;
+}
+
+static const char *said_behind(const char *at, const held_state *s) {
+    switch (s->verdict) {
+    case HELD_TO_THE_END: return said_exactly(at, "\n");
+    case HELD_LEFT: return said_exactly(at, "; behind it off by more: proved\n");
+    case HELD_UNTOLD: return said_exactly(at, "; behind it the tube is too wide to tell\n");
+    case HELD_UNENDED: break;
+    }
+    switch (found.end) {
+    case HELD_AT_END: return said_exactly(at, "\n");
+    case HELD_RUN_ENDS: return said_exactly(at, "; there the run fails\n");
+    case HELD_NO_STEP: return said_exactly(at, "; there the tube ends\n");
+    case HELD_SPENT: return said_exactly(at, "; there the effort is spent\n");
+    case HELD_STOPPED: return said_exactly(at, "; there it was interrupted\n");
+    }
+    return at;
+}
+
+static const char *said_state(const char *at, int i, const char *name) {
+    const held_state *s = &found.state[i];
+    const image_unit *unit = &drawn.unit[i / 2][i % 2];
+    const char *shown = strcmp(unit->shown, "1") == 0 ? "" : unit->shown;
+    at = said_exactly(at, "  ");
+    at = said_exactly(at, name);
+    at = said_exactly(at, " ");
+    if (!s->begun) {
+        at = said_words(at, "never ");
+    } else if (s->verdict == HELD_TO_THE_END) {
+        at = said_words(at, "to the end ");
+    } else {
+        at = read_time(at, s->until_s);
+    }
+    at = said_words(at, "within ");
+    at = read_not_less(at, unit, s->within, 2);
+    at = said_exactly(at, " ");
+    at = said_exactly(at, shown);
+    at = said_exactly(at, ": ");
+    if (!s->begun) {
+        return said_exactly(at, s->verdict == HELD_LEFT ? "its start is off by more: proved\n"
+                                                        : "its start is not known so well\n");
+    }
+    at = said_exactly(at, "off by at most ");
+    at = read_not_less(at, unit, s->off, 1);
+    at = said_exactly(at, ", the tube ");
+    at = read_not_less(at, unit, 2.0 * s->radius, 1);
+    at = said_exactly(at, " wide");
+    return said_behind(at, s);
+}
+
+static const char *name_of(int i, char *text) {
+    snprintf(text, 40, "%s%s", drawn.unknown[i / 2].name, i % 2 == 0 ? "" : "'");
+    return text;
+}
+
+/* Of those that are not proved to the end the one that never was, the first of these; else the first that ends. -1: none. */
+static int first_that_is_not(void) {
+    for (int i = 0; i < found.states; i++) {
+        if (!found.state[i].begun) {
+            return i;
+        }
+    }
+    for (int ms = 0; ms < 20; ms++) {
+        for (int i = 0; i < found.states; i++) {
+            const held_state *s = &found.state[i];
+            if (s->verdict != HELD_TO_THE_END && lround(s->until_s * 1000.0) == ms) {
+                return i;
+            }
+        }
+    }
+    return -1;
+}
+
+static const char *said_end(const char *at, double end_s) {
+    const int first = first_that_is_not();
+    char name[40];
+    if (first < 0) {
+        at = said_exactly(at, "proved to the end, t = ");
+        return said_exactly(read_time(at, end_s), " s\n");
+    }
+    if (!found.state[first].begun) {
+        at = said_exactly(at, "nothing is proved: ");
+        at = said_exactly(at, name_of(first, name));
+        return said_exactly(at, " is not within at the start\n");
+    }
+    at = said_exactly(at, "proved until t = ");
+    at = read_time(at, found.state[first].until_s);
+    at = said_exactly(at, " s of ");
+    at = said_exactly(read_time(at, end_s), " s");
+    if (found.state[first].verdict != HELD_UNENDED) {
+        at = said_exactly(at, ": ");
+        at = said_exactly(at, name_of(first, name));
+        at = said_exactly(at, " is the first that is not");
+    }
+    return said_exactly(at, "\n");
+}
+
+static void test_words(void) {
+    for (unsigned c = 0; c < dice_cases(usual_or(300, 100)); c++) {
+        char name[40];
+        draw();
+        const image *im = &drawn.im;
+        const double end_s = (double)im->steps * (double)im->step.numerator / 1000.0;
+        char *text = said_of();
+        const char *at =
+            said_exactly(text, im->title[0] != '\0' ? "drawn: of no mechanism\n  " : "drawn\n  ");
+        at = said_exactly(at, wh_methods[im->settings.method].title);
+        at = said_exactly(at, im->settings.compensated ? " compensated, " : ", ");
+        at = said_exactly(at, wish.kind == &engine_float ? "float, step " : "double, step ");
+        at = read_time(at, im->step_s);
+        at = said_exactly(at, " s, ");
+        at = read_time(at, (double)im->steps);
+        at = said_exactly(at, " steps to t = ");
+        at = read_time(at, end_s);
+        at = said_exactly(
+            at, " s\n  held against a tube round the exact motion: Taylor steps of order 26, ");
+        at = read_time(at, (double)found.tube_steps);
+        at = said_exactly(at, " of them to t = ");
+        at = read_time(at, found.tube_s);
+        at = said_exactly(at, " s\n\nproved at the end of every step until [s]\n");
+        for (int i = 0; i < found.states; i++) {
+            at = said_state(at, i, name_of(i, name));
+        }
+        at = said_end(at, end_s);
+        TEST_ASSERT_EQUAL_STRING("", at);
+        free(text);
+    }
+}
+
+static const char *read_exactly(const char *at, double wanted) {
+    double number;
+    at = said_number(at, &number);
+    TEST_ASSERT_TRUE(number == wanted);
+    return at;
+}
+
+static void test_rows(void) {
+    for (unsigned c = 0; c < dice_cases(usual_or(100, 40)); c++) {
+        enclosure exact[DRAWN_STATES] = {{0.0, 0.0}};
+        double run[DRAWN_STATES] = {0.0};
+        char name[40];
+        char *text = NULL;
+        size_t length = 0;
+        draw();
+        const uint64_t step = dice_one_of(&die, 1000000);
+        FILE *out = room_text(&text, &length);
+        held_rows_head(out, &wish);
+        for (int i = 0; i < of.states; i++) {
+            run[i] = dice_between(&die, -1.0, 1.0) * pow(10.0, dice_between(&die, -200.0, 200.0));
+            exact[i] = (enclosure){run[i] - fabs(run[i]) * 1e-15, run[i] * (1.0 / 3.0)};
+        }
+        held_row(out, &wish, step, exact, run);
+        room_text_end(out);
+        const char *at = said_exactly(text, "time [s]");
+        for (int i = 0; i < of.states; i++) {
+            static const char *const parts[] = {" least [", " most [", " run ["};
+            for (int part = 0; part < 3; part++) {
+                at = said_exactly(at, ",");
+                at = said_exactly(at, name_of(i, name));
+                at = said_exactly(at, parts[part]);
+                at = said_exactly(at, drawn.unit[i / 2][i % 2].si);
+                at = said_exactly(at, "]");
+            }
+        }
+        at = said_exactly(at, "\r\n");
+        at = read_time(at, (double)step * (double)drawn.im.step.numerator / 1000.0);
+        for (int i = 0; i < of.states; i++) {
+            at = read_exactly(said_exactly(at, ","), exact[i].low);
+            at = read_exactly(said_exactly(at, ","), exact[i].high);
+            at = read_exactly(said_exactly(at, ","), run[i]);
+        }
+        TEST_ASSERT_EQUAL_STRING("\r\n", at);
+        free(text);
+    }
+}
+
+void suite_held_text(void) {
+    die = dice_of("held_text", 45);
+    RUN_TEST(test_words);
+    RUN_TEST(test_rows);
+}

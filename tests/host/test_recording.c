@@ -1,0 +1,489 @@
+/* test_recording.c: a rig's telemetry as records, waves and counts (host/monitor/recording.h): frames of drawn channels, of
+ * which some are lost, of clocks that wrap and of rigs that begin anew, against what the test writes itself of the same
+ * numbers. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "command.h"
+#include "host/base/room.h"
+#include "host/monitor/recording.h"
+#include "unity.h"
+
+void suite_recording(void);
+
+enum { PAYLOAD_MOST = 400, PULSES_MOST = 200 };
+
+static dice die;
+
+/* A rig, and what should come of what it says. */
+typedef struct told {
+    schema s;
+    recording r;
+    char *csv;
+    char *waves;
+    char *ring;
+    size_t length[3];
+    char *wanted_csv;
+    char *wanted_ring;
+    size_t wanted_length[2];
+    FILE *to_csv;
+    FILE *to_ring;
+    recording_counts counts;
+    int64_t time_us;     /* where the next sample is, */
+    int64_t last_us;     /* and the last frame of a run was */
+    uint32_t ticks_of_0; /* the rig's clock at time 0 */
+    bool begun;          /* something has come since the rig began */
+    bool run_came;
+    uint16_t next[SCHEMA_CHANNELS];
+    uint16_t dropped[SCHEMA_CHANNELS];
+    bool any[SCHEMA_CHANNELS];
+    int pulses;
+    int64_t pulse_us[PULSES_MOST];
+    unsigned pulse_of[PULSES_MOST];
+    int64_t free_from_us[2]; /* the last pulse is over */
+    int64_t trip_us;
+    unsigned trip;
+    int64_t sample_us; /* the last, */
+    double sample;     /* and its first field; NAN: none */
+} told;
+
+static told t;
+
+static uint32_t drawn_32(void) {
+    return dice_one_of(&die, 65536U) << 16 | dice_one_of(&die, 65536U);
+}
+
+static schema_field drawn_field(const char *what, int i) {
+    static const unsigned sizes[] = {1, 2, 2, 4};
+    schema_field f = {.size = sizes[dice_one_of(&die, 4)],
+                      .is_signed = dice_one_of(&die, 2) == 0,
+                      .scale = dice_between(&die, 1e-4, 1.0),
+                      .offset =
+                          dice_one_of(&die, 2) == 0 ? 0.0 : dice_between(&die, -100.0, 100.0)};
+    snprintf(f.name, sizeof f.name, "%s%d%s", what, i, dice_one_of(&die, 3) == 0 ? "" : " [N]");
+    return f;
+}
+
+static schema_channel drawn_channel(int eaches, int onces, uint32_t period_ticks) {
+    schema_channel c = {
+        .known = true, .period_ticks = period_ticks, .onces = onces, .eaches = eaches};
+    for (int i = 0; i < eaches; i++) {
+        c.each[i] = drawn_field("each", i);
+    }
+    for (int i = 0; i < onces; i++) {
+        c.once[i] = drawn_field("once", i);
+    }
+    return c;
+}
+
+static void head_of(FILE *to, const schema_channel *c, int from) {
+    fputs("time", to);
+    for (int i = from; i < c->eaches; i++) {
+        fprintf(to, ",%s", c->each[i].name);
+    }
+    for (int i = 0; i < c->onces; i++) {
+        fprintf(to, ",%s", c->once[i].name);
+    }
+    fputs("\r\n", to);
+}
+
+static void begin(bool files, bool plots) {
+    t = (told){.ticks_of_0 = drawn_32()};
+    t.s.channel[RECORDING_RUN] =
+        drawn_channel(1 + (int)dice_one_of(&die, 4), (int)dice_one_of(&die, 4),
+                      1000U + 1000U * dice_one_of(&die, 5));
+    t.s.channel[RECORDING_RING] = drawn_channel(2 + (int)dice_one_of(&die, 4), 0, 0);
+    t.s.channel[RECORDING_RING].each[0].size = 2;
+    t.s.channel[RECORDING_EVENT].known = true;
+    t.sample = (double)NAN;
+    t.to_csv = room_text(&t.wanted_csv, &t.wanted_length[0]);
+    t.to_ring = room_text(&t.wanted_ring, &t.wanted_length[1]);
+    recording_begin(&t.r, files ? room_text(&t.csv, &t.length[0]) : NULL,
+                    files ? room_text(&t.waves, &t.length[1]) : NULL,
+                    files ? room_text(&t.ring, &t.length[2]) : NULL, plots);
+}
+
+static void end(void) {
+    recording_end(&t.r);
+    TEST_ASSERT_TRUE(t.r.vcd == NULL && t.r.row == NULL);
+    room_text_end(t.to_csv);
+    room_text_end(t.to_ring);
+    if (t.r.csv != NULL) {
+        room_text_end(t.r.csv);
+        room_text_end(t.r.waves);
+        room_text_end(t.r.ring);
+    }
+}
+
+static void drop(void) {
+    free(t.csv);
+    free(t.waves);
+    free(t.ring);
+    free(t.wanted_csv);
+    free(t.wanted_ring);
+}
+
+/* --- frames -----------------------------------------------------------------------------------------------------*/
+
+/* A field's bytes, drawn, behind at[]; and how a record writes it. Returns the value, NAN where there is none. */
+static double put_field(const schema_field *f, uint8_t *at, char *words) {
+    const uint32_t usual = drawn_32() >> (32U - 8U * f->size);
+    const bool none = f->size == 2 && dice_one_of(&die, 5) == 0;
+    const uint32_t raw = none ? (f->is_signed ? 0x8000U : 0xFFFFU) : usual;
+    const int64_t whole = 256LL << (8U * (f->size - 1U));
+    const int64_t number = f->is_signed && raw >= (uint64_t)whole / 2U ? (int64_t)raw - whole : raw;
+    for (unsigned i = 0; i < f->size; i++) {
+        at[i] = (uint8_t)(raw >> 8U * i);
+    }
+    const bool is_none = f->size == 2 && (f->is_signed ? number == -32768 : number == 65535);
+    const double value = (double)number * f->scale + f->offset;
+    words[0] = '\0';
+    if (!is_none) {
+        snprintf(words, 40, "%.9g", value);
+    }
+    return is_none ? (double)NAN : value;
+}
+
+static void send(unsigned channel, int64_t time_us, const uint8_t *payload, unsigned length) {
+    const wire_frame frame = {.channel = channel,
+                              .sequence = channel < SCHEMA_CHANNELS ? t.next[channel] : 0,
+                              .dropped = channel < SCHEMA_CHANNELS ? t.dropped[channel] : 0,
+                              .ticks = t.ticks_of_0 + (uint32_t)time_us,
+                              .payload = payload,
+                              .length = length};
+    recording_frame(&t.r, &t.s, &frame);
+    if (channel < SCHEMA_CHANNELS) {
+        t.next[channel]++;
+        t.any[channel] = true;
+        t.counts.frames++;
+    }
+}
+
+/* Some frames do not come, of which the rig had dropped some. */
+static void lose(unsigned channel) {
+    if (t.any[channel] && dice_one_of(&die, 4) == 0) {
+        const unsigned lost =
+            dice_one_of(&die, 3) == 0 ? dice_one_of(&die, 0x7FFF) : dice_one_of(&die, 3);
+        const unsigned dropped = lost > 0 ? dice_one_of(&die, lost + 1U) : 0;
+        t.next[channel] = (uint16_t)(t.next[channel] + lost);
+        t.dropped[channel] = (uint16_t)(t.dropped[channel] + dropped);
+        t.counts.lost += lost;
+        t.counts.dropped += dropped;
+    }
+}
+
+/* Between the samples, so that nobody need wonder which is first. */
+static int64_t about_now_us(void) { return t.time_us + 1 + (int64_t)dice_one_of(&die, 900); }
+
+static void send_run(void) {
+    const schema_channel *c = &t.s.channel[RECORDING_RUN];
+    uint8_t payload[PAYLOAD_MOST];
+    char once_words[SCHEMA_FIELDS][40];
+    double once[SCHEMA_FIELDS] = {0.0};
+    unsigned at = 0;
+    lose(RECORDING_RUN);
+    if (t.run_came && dice_one_of(&die, 3) == 0) { /* samples are missing */
+        const uint32_t lost = dice_one_of(&die, 8) == 0 ? 40000 : 1 + dice_one_of(&die, 5);
+        t.time_us += (int64_t)lost * c->period_ticks;
+        t.counts.lost_samples += lost;
+    }
+    const int64_t jitter_us =
+        (int64_t)dice_one_of(&die, c->period_ticks / 4) * (t.run_came ? 1 : 0);
+    const int64_t begin_us = t.time_us + jitter_us;
+    for (int i = 0; i < c->onces; i++) {
+        once[i] = put_field(&c->once[i], payload + at, once_words[i]);
+        at += c->once[i].size;
+    }
+    const unsigned samples = dice_one_of(&die, 5);
+    if (t.counts.samples == 0 && !t.r.headed) {
+        head_of(t.to_csv, c, 0);
+    }
+    for (unsigned k = 0; k < samples; k++) {
+        const int64_t time_us = begin_us + (int64_t)(k * c->period_ticks);
+        fprintf(t.to_csv, "%.6f", (double)time_us / 1e6);
+        for (int i = 0; i < c->eaches; i++) {
+            char words[40];
+            const double value = put_field(&c->each[i], payload + at, words);
+            at += c->each[i].size;
+            fprintf(t.to_csv, ",%s", words);
+            if (i == 0 && isfinite(value)) {
+                t.sample = value;
+            }
+        }
+        for (int i = 0; i < c->onces; i++) {
+            fprintf(t.to_csv, ",%s", once_words[i]);
+            TEST_ASSERT_TRUE(once_words[i][0] != '\0' || isnan(once[i]));
+        }
+        fputs("\r\n", t.to_csv);
+        t.sample_us = time_us;
+    }
+    send(RECORDING_RUN, begin_us, payload, at);
+    t.counts.samples += samples;
+    t.time_us = begin_us + (int64_t)(samples * c->period_ticks);
+    t.last_us = begin_us;
+    t.run_came = true;
+}
+
+static void send_ring(void) {
+    const schema_channel *c = &t.s.channel[RECORDING_RING];
+    uint8_t payload[PAYLOAD_MOST];
+    unsigned at = 0;
+    lose(RECORDING_RING);
+    const int64_t begin_us = t.time_us;
+    const unsigned rows = dice_one_of(&die, 6);
+    if (!t.r.ring_headed) {
+        head_of(t.to_ring, c, 1);
+    }
+    int64_t time_us = begin_us;
+    for (unsigned k = 0; k < rows; k++) {
+        time_us += dice_one_of(&die, 60000); /* their low half alone is told */
+        const uint32_t ticks = t.ticks_of_0 + (uint32_t)time_us;
+        payload[at++] = (uint8_t)ticks;
+        payload[at++] = (uint8_t)(ticks >> 8);
+        fprintf(t.to_ring, "%.6f", (double)time_us / 1e6);
+        for (int i = 1; i < c->eaches; i++) {
+            char words[40];
+            (void)put_field(&c->each[i], payload + at, words);
+            at += c->each[i].size;
+            fprintf(t.to_ring, ",%s", words);
+        }
+        fputs("\r\n", t.to_ring);
+    }
+    send(RECORDING_RING, begin_us, payload, at);
+}
+
+static void send_event(void) {
+    uint8_t payload[2] = {(uint8_t)dice_one_of(&die, 4), (uint8_t)dice_one_of(&die, 4)};
+    const int64_t time_us = about_now_us();
+    if (payload[0] == 0 && payload[1] < 2) {
+        const unsigned sensor = payload[1];
+        if (time_us < t.free_from_us[sensor] || t.pulses == PULSES_MOST) {
+            return; /* one at a time */
+        }
+        t.free_from_us[sensor] = time_us + 101;
+        t.pulse_us[t.pulses] = time_us;
+        t.pulse_of[t.pulses++] = sensor;
+        t.counts.pulses++;
+    } else if (payload[0] == 2) {
+        if (time_us <= t.trip_us) {
+            return;
+        }
+        t.trip_us = time_us;
+        t.trip = payload[1];
+    }
+    lose(RECORDING_EVENT);
+    send(RECORDING_EVENT, time_us, payload, 2);
+}
+
+/* What no schema tells of, and what is not as its schema says. */
+static void send_strange(void) {
+    static const uint8_t payload[PAYLOAD_MOST];
+    const schema_channel *run = &t.s.channel[RECORDING_RUN];
+    const schema_channel *ring = &t.s.channel[RECORDING_RING];
+    const unsigned once = schema_bytes(run->once, run->onces);
+    t.counts.strange++;
+    switch (dice_one_of(&die, 6)) {
+    case 0: send(SCHEMA_CHANNELS + dice_one_of(&die, 9), t.time_us, payload, 4); return;
+    case 1:
+        recording_frame(&t.r, &t.s, &(wire_frame){.channel = 6, .payload = payload, .length = 3});
+        return;
+    case 2: send(RECORDING_EVENT, t.time_us, payload, dice_one_of(&die, 2) == 0 ? 1 : 3); return;
+    case 3:
+        if (once > 0) {
+            send(RECORDING_RUN, t.time_us, payload, once - 1U);
+            return;
+        }
+        break;
+    case 4:
+        if (schema_bytes(run->each, run->eaches) > 1) {
+            send(RECORDING_RUN, t.time_us, payload,
+                 once + schema_bytes(run->each, run->eaches) + 1U);
+            return;
+        }
+        break;
+    default:
+        send(RECORDING_RING, t.time_us, payload, schema_bytes(ring->each, ring->eaches) + 1U);
+        return;
+    }
+    t.counts.strange--;
+}
+
+/* The rig begins anew: its clock is another, its counts begin at zero; the first sample is where one was expected. Told by
+ * its line, or found by a sequence that goes back. */
+static void begin_anew(void) {
+    if (!t.begun || !t.run_came) {
+        return;
+    }
+    const bool is_told = dice_one_of(&die, 2) == 0;
+    const uint16_t before = t.next[RECORDING_RUN];
+    t.ticks_of_0 = drawn_32();
+    memset(t.any, 0, sizeof t.any);
+    for (int i = 0; i < SCHEMA_CHANNELS; i++) {
+        t.next[i] = (uint16_t)drawn_32();
+        t.dropped[i] = (uint16_t)drawn_32();
+    }
+    if (is_told) {
+        recording_anew(&t.r);
+    } else {
+        t.next[RECORDING_RUN] = (uint16_t)(before - 1U - dice_one_of(&die, 0x7FFF));
+    }
+    t.counts.restarts++;
+    t.run_came = false;
+    send_run();
+}
+
+static void send_any(void) {
+    const unsigned kind = dice_one_of(&die, 10);
+    t.begun = true;
+    if (kind < 4 || t.counts.samples == 0) {
+        send_run();
+    } else if (kind < 5) {
+        send_ring();
+    } else if (kind < 7) {
+        send_event();
+    } else if (kind < 8) {
+        send_strange();
+    } else if (kind < 9) {
+        lose(RECORDING_TAPE);
+        send(RECORDING_TAPE, t.time_us, (const uint8_t *)"", 0);
+    } else {
+        begin_anew();
+    }
+}
+
+/* --- waves ------------------------------------------------------------------------------------------------------*/
+
+/* A signal's value at a time, as the dump has it; NAN where it has none yet. `name` is the last word of its line. */
+static double dumped(const char *name, int64_t time_us) {
+    char var[80];
+    char id[12] = "";
+    double value = (double)NAN;
+    long long now = -1;
+    snprintf(var, sizeof var, " %s $end\n", name);
+    const char *at = strstr(t.waves, var);
+    TEST_ASSERT_NOT_NULL_MESSAGE(at, var);
+    while (at[-1] != ' ') {
+        at--;
+    }
+    const char *id_at = at;
+    snprintf(id, sizeof id, "%.*s", (int)strcspn(id_at, " "), id_at);
+    for (const char *line = strstr(t.waves, "$enddefinitions"); line != NULL;
+         line = strchr(line, '\n')) {
+        line += line[0] == '\n' ? 1 : 0;
+        if (*line == '#') {
+            now = strtoll(line + 1, NULL, 10);
+        } else if (now <= time_us && (*line == 'r' || *line == '0' || *line == '1')) {
+            char *behind = NULL;
+            const double number = *line == 'r' ? strtod(line + 1, &behind) : *line - '0';
+            const char *of = *line == 'r' ? behind + 1 : line + 1;
+            if (strncmp(of, id, strlen(id)) == 0 && of[strlen(id)] == '\n') {
+                value = number;
+            }
+        }
+    }
+    return value;
+}
+
+static void expect_waves(void) {
+    static const char *const slots[] = {"slot1", "slot2"};
+    for (int i = 0; i < t.pulses; i++) {
+        const char *slot = slots[t.pulse_of[i]];
+        TEST_ASSERT_TRUE(dumped(slot, t.pulse_us[i]) == 1.0 &&
+                         dumped(slot, t.pulse_us[i] + 99) == 1.0);
+        TEST_ASSERT_TRUE(dumped(slot, t.pulse_us[i] + 100) == 0.0);
+        TEST_ASSERT_TRUE(t.pulse_us[i] == 0 || dumped(slot, t.pulse_us[i] - 1) == 0.0);
+    }
+    if (t.trip_us > 0) {
+        TEST_ASSERT_TRUE(dumped("trip", t.trip_us) == (double)t.trip);
+    }
+    if (isfinite(t.sample)) {
+        const bool has_unit = strchr(t.s.channel[RECORDING_RUN].each[0].name, '[') != NULL;
+        const double got = dumped(has_unit ? "each0_N" : "each0", t.sample_us);
+        TEST_ASSERT_TRUE(fabs(got - t.sample) <= 1e-8 * fabs(t.sample));
+    }
+}
+
+static void expect_counts(void) {
+    const recording_counts *is = &t.r.counts;
+    TEST_ASSERT_EQUAL_UINT64(t.counts.frames, is->frames);
+    TEST_ASSERT_EQUAL_UINT64(t.counts.samples, is->samples);
+    TEST_ASSERT_EQUAL_UINT64(t.counts.pulses, is->pulses);
+    TEST_ASSERT_EQUAL_UINT64(t.counts.lost, is->lost);
+    TEST_ASSERT_EQUAL_UINT64(t.counts.dropped, is->dropped);
+    TEST_ASSERT_EQUAL_UINT64(t.counts.lost_samples, is->lost_samples);
+    TEST_ASSERT_EQUAL_UINT64(t.counts.strange, is->strange);
+    TEST_ASSERT_EQUAL_UINT64(t.counts.restarts, is->restarts);
+}
+
+static void test_streams(void) {
+    unsigned pulses = 0;
+    for (unsigned c = 0; c < dice_cases(usual_or(40, 15)); c++) {
+        begin(true, false);
+        for (int i = 0; i < 60; i++) {
+            send_any();
+        }
+        expect_counts();
+        end();
+        TEST_ASSERT_EQUAL_STRING(t.wanted_csv, t.csv);
+        TEST_ASSERT_EQUAL_STRING(t.wanted_ring, t.ring);
+        expect_waves();
+        pulses += (unsigned)t.pulses;
+        drop();
+    }
+    TEST_ASSERT_TRUE(pulses > 10);
+}
+
+/* Without files it counts all the same. */
+static void test_without_files(void) {
+    for (unsigned c = 0; c < dice_cases(usual_or(10, 5)); c++) {
+        begin(false, c % 2 == 0);
+        for (int i = 0; i < 40; i++) {
+            send_any();
+        }
+        expect_counts();
+        TEST_ASSERT_EQUAL_INT64(c % 2 == 0 ? (int64_t)t.counts.samples : 0, t.r.rows);
+        end();
+        drop();
+    }
+}
+
+/* What is plotted is thinned out where it is too much: evenly, and none of it is another sample. */
+static void test_thinned_out(void) {
+    begin(false, true);
+    t.s.channel[RECORDING_RUN] = drawn_channel(1, 0, 1000);
+    t.s.channel[RECORDING_RUN].each[0] = (schema_field){.name = "n [N]", .size = 4, .scale = 1.0};
+    const unsigned samples = 230000U + dice_one_of(&die, 20000);
+    for (unsigned i = 0; i < samples; i++) {
+        uint8_t payload[4] = {(uint8_t)i, (uint8_t)(i >> 8), (uint8_t)(i >> 16), 0};
+        send(RECORDING_RUN, (int64_t)i * 1000, payload, 4);
+    }
+    TEST_ASSERT_EQUAL_INT64(4, t.r.every);
+    TEST_ASSERT_TRUE(t.r.rows >= samples / 4U && t.r.rows <= samples / 4U + 1U);
+    TEST_ASSERT_EQUAL_INT(2, t.r.columns);
+    for (int64_t i = 0; i < t.r.rows; i++) {
+        TEST_ASSERT_TRUE(fabs(t.r.row[2 * i] - (double)(4 * i) * 1e-3) < 1e-9 &&
+                         t.r.row[2 * i + 1] == (double)(4 * i));
+    }
+    end();
+    drop();
+}
+
+static void test_nothing_to_plot(void) {
+    begin(false, true);
+    errors_catch();
+    const bool drawn = recording_plot(&t.r, &t.s, "/nowhere/at all.svg");
+    TEST_ASSERT_EQUAL_STRING("whirl monitor: error: nothing to plot: no samples came\n",
+                             errors_caught());
+    TEST_ASSERT_FALSE(drawn);
+    end();
+    drop();
+}
+
+void suite_recording(void) {
+    die = dice_of("recording", 48);
+    RUN_TEST(test_streams);
+    RUN_TEST(test_without_files);
+    RUN_TEST(test_thinned_out);
+    RUN_TEST(test_nothing_to_plot);
+}

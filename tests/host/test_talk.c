@@ -1,0 +1,314 @@
+/* test_talk.c: a firmware at the other end of a line, as the program hears it (host/pil/talk.h), drawn: what is heard, kept and
+ * mixed into the hash, against what the test has written; and each thing that a firmware may say wrong, by its words. */
+#include <math.h>
+#include <signal.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/cobs.h"
+#include "drawn_talk.h"
+#include "host/base/room.h"
+#include "host/pil/talk.h"
+#include "unity.h"
+
+void suite_talk(void);
+
+static void expect_same(const stream *wanted, const uint8_t *bytes, size_t length) {
+    TEST_ASSERT_EQUAL_size_t(wanted->length, length);
+    TEST_ASSERT_TRUE(memcmp(wanted->bytes, bytes, length) == 0);
+}
+
+/* All of it, kept on a tape; then its end. Its hello is asked for first, and its end is answered by the same word. */
+static void test_heard_and_kept(void) {
+    for (unsigned c = 0; c < dice_cases(usual_or(30, 12)); c++) {
+        static talk t;
+        static stream heard;
+        static stream wanted;
+        char *kept = NULL;
+        size_t length = 0;
+        talk_draw();
+        talk_tape_all(talk_drawn.turns);
+        talk_say_all(talk_drawn.turns);
+        const int status = (int)talk_one_of(256) - 128;
+        talk_put_end(&talk_line, status, 4);
+        talk_open_line(true);
+        FILE *onto = room_text(&kept, &length);
+        errors_catch();
+        TEST_ASSERT_TRUE(talk_start(&t, &talk_wish, &talk_report, onto));
+        TEST_ASSERT_EQUAL_UINT(talk_drawn.outputs, t.outputs);
+        TEST_ASSERT_TRUE(talk_is_same_hello(&talk_drawn.hello, &t.hello));
+        for (unsigned i = 0; i < talk_drawn.turns; i++) {
+            wh_orders orders;
+            TEST_ASSERT_TRUE(talk_tell(&t, talk_drawn.ticks[i], &talk_drawn.readings[i]) &&
+                             talk_hear(&t, &orders));
+            TEST_ASSERT_EQUAL_HEX32(talk_drawn.orders[i].until_ticks, orders.until_ticks);
+            TEST_ASSERT_EQUAL_HEX32(talk_drawn.orders[i].busy_timer, orders.busy_timer);
+            talk_expect_report(LOCKSTEP_DONE, i + 1U);
+            if (talk_drawn.remembers[i] != 99) {
+                TEST_ASSERT_EQUAL_UINT(talk_drawn.remembers[i], t.remembered.count);
+                TEST_ASSERT_TRUE(memcmp(t.remembered.remembered, talk_drawn.remembered[i],
+                                        talk_drawn.remembers[i]) == 0);
+            }
+        }
+        wh_orders none;
+        TEST_ASSERT_FALSE(talk_hear(&t, &none));
+        talk_end(&t);
+        TEST_ASSERT_EQUAL_STRING("", errors_caught());
+        talk_expect_report(LOCKSTEP_DONE, talk_drawn.turns);
+        TEST_ASSERT_EQUAL_INT(status, talk_report.status.status);
+        room_text_end(onto);
+        expect_same(&talk_on_tape, (const uint8_t *)kept,
+                    length); /* hello and turns, as they were sent */
+        free(kept);
+        wanted.length = 0;
+        talk_put(&wanted, WH_FRAME_ASK, 0, 0, NULL, 0);
+        for (unsigned i = 0; i < talk_drawn.turns; i++) {
+            talk_put_readings(&wanted, i);
+        }
+        talk_put(&wanted, WH_FRAME_ASK, 0, 0, NULL, 0);
+        talk_close_line(&heard);
+        expect_same(&wanted, heard.bytes, heard.length);
+    }
+}
+
+/* After a good hello and the first turn the firmware says what is in `line` from here on: the second is not heard, so. */
+static void expect_unheard(lockstep_end end, const char *why, bool closed) {
+    static talk t;
+    static stream heard;
+    wh_orders orders;
+    talk_open_line(closed);
+    errors_catch();
+    TEST_ASSERT_TRUE(talk_start(&t, &talk_wish, &talk_report, NULL));
+    TEST_ASSERT_TRUE(talk_tell(&t, talk_drawn.ticks[0], &talk_drawn.readings[0]) &&
+                     talk_hear(&t, &orders));
+    TEST_ASSERT_FALSE(talk_tell(&t, talk_drawn.ticks[1], &talk_drawn.readings[1]) &&
+                      talk_hear(&t, &orders));
+    talk_end(&t);
+    const char *told = errors_caught();
+    TEST_ASSERT_EQUAL_INT(end, talk_report.end);
+    TEST_ASSERT_NOT_NULL_MESSAGE(strstr(told, why), told);
+    TEST_ASSERT_EQUAL_UINT64(1, talk_report.exchanges);
+    talk_close_line(&heard);
+}
+
+/* The last frame of the line as another version's: coded once more. */
+static void make_version(uint8_t version, unsigned from) {
+    uint8_t plain[2000];
+    uint8_t room[2000];
+    wh_frame frame = {.length = 0};
+    wh_frame_reader reader;
+    wh_frame_reader_start(&reader, room, sizeof room);
+    for (unsigned i = from; i < talk_line.length; i++) {
+        (void)wh_frame_take(&reader, talk_line.bytes[i], &frame);
+    }
+    wh_bytes out = {.to = plain, .room = sizeof plain};
+    wh_bytes_put(&out, version, 1);
+    wh_bytes_put(&out, frame.kind, 1);
+    wh_bytes_put(&out, frame.sequence, 2);
+    wh_bytes_put(&out, frame.ticks, 4);
+    TEST_ASSERT_TRUE(frame.payload != NULL && frame.length < sizeof plain / 2);
+    for (unsigned i = 0; frame.payload != NULL && i < frame.length; i++) {
+        plain[out.at + i] = frame.payload[i];
+    }
+    out.at += frame.length;
+    wh_bytes_put(&out, wh_frame_crc(0, plain, out.at), 4);
+    wh_cobs cobs;
+    wh_cobs_start(&cobs, talk_line.bytes + from, STREAM - from);
+    for (unsigned i = 0; i < out.at; i++) {
+        wh_cobs_put(&cobs, plain[i]);
+    }
+    talk_line.length = from + wh_cobs_end(&cobs);
+}
+
+static void test_wrong_words(void) {
+    for (unsigned c = 0; c < dice_cases(usual_or(30, 22)); c++) {
+        uint8_t payload[WH_ORDERS_BYTES + 4];
+        talk_draw();
+        talk_drawn.remembers[1] = 99;
+        talk_say_all(1);
+        const unsigned from = talk_line.length;
+        const unsigned length = wh_orders_put(&talk_drawn.orders[1], payload, sizeof payload);
+        switch (c % 11) {
+        case 0:
+            talk_put_orders(&talk_line, 1, 2);
+            expect_unheard(LOCKSTEP_FAILED,
+                           "error: the firmware sent a frame that is no answer in exchange 1\n",
+                           true);
+            break;
+        case 1:
+            talk_put(&talk_line, WH_FRAME_READINGS, 1, 0, payload, length);
+            expect_unheard(LOCKSTEP_FAILED, "a frame that is no answer in exchange 1\n", true);
+            break;
+        case 2:
+            talk_put(&talk_line, WH_FRAME_ORDERS, 1, 0, payload, length - 1U);
+            expect_unheard(LOCKSTEP_FAILED, "orders that are none in exchange 1\n", true);
+            break;
+        case 3:
+            talk_drawn.orders[1].outputs++;
+            talk_put_orders(&talk_line, 1, 1);
+            expect_unheard(LOCKSTEP_FAILED, "orders that are none in exchange 1\n", true);
+            break;
+        case 4:
+            talk_put(&talk_line, WH_FRAME_REMEMBER, 1, 0, talk_drawn.remembered[1],
+                     WH_REMEMBER_MAX + 1U);
+            talk_put_orders(&talk_line, 1, 1);
+            expect_unheard(LOCKSTEP_FAILED, "more than can be remembered in exchange 1\n", true);
+            break;
+        case 5:
+            talk_put_end(&talk_line, 0, talk_one_of(2) == 0 ? 3 : 5);
+            expect_unheard(LOCKSTEP_FAILED, "an end that is none in exchange 1\n", true);
+            break;
+        case 6:
+            expect_unheard(LOCKSTEP_FAILED, "whirl pil: error: the line is gone\n", true);
+            break;
+        case 7:
+            talk_put_orders(&talk_line, 1, 1);
+            make_version(WH_FRAME_VERSION + 1U, from);
+            expect_unheard(
+                LOCKSTEP_BAD,
+                "the firmware speaks version 2 of the exchange, this program version 1\n", true);
+            break;
+        case 8:
+            talk_put_hello(&talk_line, &talk_drawn.hello);
+            expect_unheard(LOCKSTEP_FAILED, "a frame that is no answer in exchange 1\n", true);
+            break;
+        case 9:
+            talk_put_end(&talk_line, 3, 4);
+            expect_unheard(LOCKSTEP_DONE, "", true);
+            TEST_ASSERT_EQUAL_INT(3, talk_report.status.status);
+            break;
+        default:
+            if (c < 11) { /* it takes its time */
+                expect_unheard(LOCKSTEP_FAILED, "the firmware has said nothing for 0.05 s\n",
+                               false);
+            }
+        }
+    }
+}
+
+/* None, one that is none, one of no time: the line is closed behind it. Stale words before a good one do not matter. */
+static void test_hellos(void) {
+    for (unsigned c = 0; c < 5; c++) {
+        static talk t;
+        static stream heard;
+        static const char *const words[] = {
+            "no hello has come over the line in 0.05 s\n",
+            "the firmware sent a hello that is none in exchange 0\n",
+            "the firmware sent a hello that is none in exchange 0\n", "", ""};
+        static const lockstep_end why[] = {LOCKSTEP_BAD, LOCKSTEP_FAILED, LOCKSTEP_FAILED,
+                                           LOCKSTEP_DONE, LOCKSTEP_STOPPED};
+        static volatile sig_atomic_t stop;
+        talk_draw();
+        talk_line.length = 0;
+        talk_put_orders(&talk_line, 0, 0);
+        talk_put_end(&talk_line, 0, 4);
+        talk_drawn.hello.ticks_per_s = c == 2 ? 0 : 1000000;
+        if (c == 1) {
+            talk_put(&talk_line, WH_FRAME_HELLO, 0, 0, talk_drawn.remembered[0], 20);
+        } else if (c == 2 || c == 3) {
+            talk_put_hello(&talk_line, &talk_drawn.hello);
+        }
+        talk_open_line(c != 4);
+        stop = c == 4;
+        talk_wish.guest.stop = &stop;
+        errors_catch();
+        const bool good = talk_start(&t, &talk_wish, &talk_report, NULL);
+        const char *told = errors_caught();
+        TEST_ASSERT_TRUE(good == (c == 3));
+        TEST_ASSERT_EQUAL_INT(why[c], talk_report.end);
+        TEST_ASSERT_NOT_NULL_MESSAGE(strstr(told, words[c]), told);
+        TEST_ASSERT_TRUE(c != 3 || t.guest.wish.patience_s == 0.05);
+        talk_close_line(&heard);
+    }
+}
+
+/* Somebody interrupts while it is silent, or as it ends. */
+static void test_interrupted(void) {
+    for (int closed = 0; closed < 2; closed++) {
+        static talk t;
+        static stream heard;
+        static volatile sig_atomic_t stop;
+        wh_orders orders;
+        talk_draw();
+        talk_say_all(1);
+        talk_open_line(closed == 1);
+        stop = 0;
+        talk_wish.guest.stop = &stop;
+        talk_wish.guest.patience_s = 20.0;
+        errors_catch();
+        TEST_ASSERT_TRUE(talk_start(&t, &talk_wish, &talk_report, NULL));
+        TEST_ASSERT_TRUE(talk_hear(&t, &orders));
+        stop = 1;
+        TEST_ASSERT_FALSE(talk_hear(&t, &orders));
+        talk_end(&t);
+        TEST_ASSERT_EQUAL_STRING("", errors_caught());
+        TEST_ASSERT_EQUAL_INT(LOCKSTEP_STOPPED, talk_report.end);
+        talk_close_line(&heard);
+    }
+}
+
+/* A line has nobody who resets: said, and nothing is sent. */
+static void test_no_reset(void) {
+    static talk t;
+    static stream heard;
+    talk_draw();
+    talk_say_all(0);
+    talk_open_line(true);
+    errors_catch();
+    TEST_ASSERT_TRUE(talk_start(&t, &talk_wish, &talk_report, NULL));
+    TEST_ASSERT_FALSE(talk_restart(&t, 5, &(wh_reset){.cause = WH_RESET_WATCHDOG}));
+    const char *told = errors_caught();
+    TEST_ASSERT_NOT_NULL_MESSAGE(strstr(told, "nothing that resets it"), told);
+    TEST_ASSERT_EQUAL_INT(LOCKSTEP_FAILED, talk_report.end);
+    talk_close_line(&heard);
+}
+
+/* All that matters of a hello makes it another one; who speaks and how it counts does not. */
+static void test_same_hello(void) {
+    for (unsigned c = 0; c < dice_cases(usual_or(40, 20)); c++) {
+        wh_signal signal[WH_SIGNALS_MAX];
+        talk_draw();
+        for (int change = 0; change < 14; change++) {
+            wh_hello other = talk_drawn.hello;
+            memcpy(signal, talk_drawn.signal, sizeof signal);
+            other.signal = signal;
+            wh_signal *s = &signal[talk_one_of(talk_drawn.hello.signals)];
+            switch (change) {
+            case 0: break;
+            case 1: other.board = "another"; break;
+            case 2: other.timer_per_s++; break;
+            case 3: other.program = "another"; break;
+            case 4: other.ticks_per_s++; break;
+            case 5: other.start_ticks++; break;
+            case 6: other.signals--; break;
+            case 7: s->kind = s->kind == WH_SIGNAL_EDGE ? WH_SIGNAL_SAMPLE : WH_SIGNAL_EDGE; break;
+            case 8: s->name = "another"; break;
+            case 9: s->unit = "m"; break;
+            case 10: s->low = nextafterf(s->low, 0.0F); break;
+            case 11: s->high = nextafterf(s->high, 0.0F); break;
+            case 12: s->per_count = nextafterf(s->per_count, 0.0F); break;
+            default: s->period_ticks++;
+            }
+            TEST_ASSERT_EQUAL(change < 3, talk_is_same_hello(&talk_drawn.hello, &other));
+            TEST_ASSERT_EQUAL(change < 3, talk_is_same_hello(&other, &talk_drawn.hello));
+        }
+        /* a count of the timer in ns, of 64 each instruction */
+        const double per_s = 1e3 + 1e4 * talk_one_of(100000);
+        talk_drawn.hello.timer_per_s = (uint32_t)per_s;
+        TEST_ASSERT_TRUE(fabs(talk_instructions_per_count(&talk_drawn.hello) *
+                                  (double)talk_drawn.hello.timer_per_s -
+                              15625000.0) < 1.0);
+        talk_drawn.hello.timer_per_s = 0;
+        TEST_ASSERT_TRUE(talk_instructions_per_count(&talk_drawn.hello) == 0.0);
+    }
+}
+
+void suite_talk(void) {
+    talk_die(dice_of("talk", 49));
+    RUN_TEST(test_heard_and_kept);
+    RUN_TEST(test_wrong_words);
+    RUN_TEST(test_hellos);
+    RUN_TEST(test_interrupted);
+    RUN_TEST(test_no_reset);
+    RUN_TEST(test_same_hello);
+}

@@ -1,0 +1,366 @@
+/* test_zonotope.c: what a point may be off, as a sum of generators (host/prove/zonotope.h), under drawn maps: against support
+ * functions in long double, how far a set reaches in a direction. A convex set holds another if it reaches as far in all;
+ * and how much further it may reach is known in closed form. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "command.h"
+#include "host/prove/zonotope.h"
+#include "unity.h"
+
+void suite_zonotope(void);
+
+enum { SIZE = 4, MOST = 24, DIRECTIONS = 12 };
+
+static dice die;
+
+/* A copy in long double, so that what it was is still there when it has been mapped. */
+typedef struct exact_set {
+    int n;
+    int count;
+    long double drift[SIZE];
+    long double generator[MOST][SIZE];
+} exact_set;
+
+static exact_set copy_of(const zonotope *z) {
+    exact_set s = {.n = z->n, .count = z->count};
+    TEST_ASSERT_TRUE(z->count <= z->most && z->count <= MOST);
+    for (int i = 0; i < z->n; i++) {
+        s.drift[i] = (long double)z->drift[i];
+        for (int k = 0; k < z->count; k++) {
+            s.generator[k][i] = (long double)z->generator[k * z->n + i];
+        }
+    }
+    return s;
+}
+
+static long double along(int n, const long double *a, const long double *b) {
+    long double sum = 0.0L;
+    for (int i = 0; i < n; i++) {
+        sum += a[i] * b[i];
+    }
+    return sum;
+}
+
+/* How far it reaches in the direction. */
+static long double reach_of(const exact_set *s, const long double *direction) {
+    long double sum = along(s->n, s->drift, direction);
+    for (int k = 0; k < s->count; k++) {
+        sum += fabsl(along(s->n, s->generator[k], direction));
+    }
+    return sum;
+}
+
+static long double length_of(int n, const long double *a) { return sqrtl(along(n, a, a)); }
+
+/* An axis, one way or the other, or any direction; of length 1. */
+static void draw_direction(int n, long double *direction) {
+    const int axis = (int)dice_one_of(&die, 2U * (unsigned)n);
+    for (int i = 0; i < n; i++) {
+        direction[i] = axis < n ? (long double)dice_between(&die, -1.0, 1.0) : 0.0L;
+    }
+    direction[axis % n] += axis < n || dice_one_of(&die, 2) == 0 ? 1.0L : -1.0L;
+    const long double length = length_of(n, direction);
+    for (int i = 0; i < n; i++) {
+        direction[i] /= length;
+    }
+}
+
+/* A map: a turn and a stretch, each entry of a radius. */
+static void draw_map(int n, double radius, enclosure *map) {
+    for (int i = 0; i < n * n; i++) {
+        const double middle = dice_between(&die, -0.7, 0.7) + (i % (n + 1) == 0 ? 0.5 : 0.0);
+        map[i] = (enclosure){middle - radius, middle + radius};
+    }
+}
+
+static void draw_box(int n, double radius, enclosure *box) {
+    for (int i = 0; i < n; i++) {
+        const double middle = dice_between(&die, -1.0, 1.0);
+        const double own = dice_one_of(&die, 4) == 0 ? 0.0 : dice_between(&die, 0.0, radius);
+        box[i] = (enclosure){middle - own, middle + own};
+    }
+}
+
+static long double drawn_in(enclosure a) {
+    const unsigned where = dice_one_of(&die, 3);
+    return where == 0   ? (long double)a.low
+           : where == 1 ? (long double)a.high
+                        : (long double)dice_between(&die, a.low, a.high);
+}
+
+/* How far `before` reaches there once one of the maps has mapped it and the box is added. */
+static long double mapped_reach(const exact_set *before, const enclosure *map,
+                                const enclosure *more, const long double *direction) {
+    const int n = before->n;
+    long double back[SIZE] = {0.0L};
+    long double sum = 0.0L;
+    for (int i = 0; i < n; i++) {
+        for (int j = 0; j < n; j++) {
+            back[j] += drawn_in(map[i * n + j]) * direction[i];
+        }
+        sum += direction[i] * (long double)(direction[i] > 0.0L ? more[i].high : more[i].low);
+    }
+    return sum + reach_of(before, back);
+}
+
+static zonotope *drawn_zonotope(int n, int most, unsigned maps) {
+    enclosure map[SIZE * SIZE] = {{0.0, 0.0}};
+    enclosure more[SIZE] = {{0.0, 0.0}};
+    zonotope *z = zonotope_new(n, most);
+    for (unsigned k = 0; k < maps; k++) {
+        draw_map(n, 0.0, map);
+        draw_box(n, 0.3, more);
+        zonotope_map(z, map, more);
+    }
+    return z;
+}
+
+static void test_new(void) {
+    for (int n = 1; n <= SIZE; n++) {
+        for (int most = 0; most <= MOST; most++) {
+            zonotope *z = zonotope_new(n, most);
+            enclosure box[SIZE] = {{0.0, 0.0}};
+            TEST_ASSERT_EQUAL_INT(most < 4 * n ? 4 * n : most, z->most);
+            TEST_ASSERT_TRUE(z->n == n && z->count == 0);
+            zonotope_box(z, box);
+            for (int i = 0; i < n; i++) {
+                TEST_ASSERT_TRUE(enclosure_is_zero(box[i]));
+            }
+            zonotope_free(z);
+        }
+    }
+}
+
+/* Nothing that any of the maps makes of it is lost, however often it is reduced; without a reduction next to nothing is
+ * added, and with one no more than what a box along axes is larger than what is in it: so many generators that are as
+ * short as the shortest, each of which may become sqrt(n) as long. */
+static void test_mapped(void) {
+    unsigned reductions = 0;
+    for (unsigned c = 0; c < dice_cases(usual_or(150, 50)); c++) {
+        const int n = 1 + (int)dice_one_of(&die, SIZE);
+        const int most = 4 * n + (int)dice_one_of(&die, (unsigned)(MOST - 4 * SIZE) + 1);
+        const double radius =
+            dice_one_of(&die, 2) == 0 ? 0.0 : pow(10.0, dice_between(&die, -9, -2));
+        zonotope *z = drawn_zonotope(n, most, 0);
+        for (int step = 0; step < 12; step++) {
+            enclosure map[SIZE * SIZE] = {{0.0, 0.0}};
+            enclosure more[SIZE] = {{0.0, 0.0}};
+            const exact_set before = copy_of(z);
+            draw_map(n, radius, map);
+            draw_box(n, pow(10.0, dice_between(&die, -6, 0)), more);
+            zonotope_map(z, map, more);
+            const exact_set now = copy_of(z);
+            const bool reduced = before.count + 2 * n > z->most;
+            TEST_ASSERT_TRUE(now.count <= (reduced ? z->most / 2 + 2 * n : before.count + n));
+            TEST_ASSERT_TRUE(!reduced || now.count >= z->most / 2 + n);
+            long double size = 1.0L;
+            long double shorter = 0.0L; /* all that became a box, lengths */
+            long double length[MOST] = {0.0L};
+            for (int k = 0; k < before.count; k++) {
+                long double to[SIZE] = {0.0L};
+                for (int i = 0; i < n * n; i++) {
+                    const long double middle =
+                        ((long double)map[i].low + (long double)map[i].high) / 2;
+                    to[i / n] += middle * before.generator[k][i % n];
+                }
+                length[k] = length_of(n, to);
+                size += length[k];
+            }
+            if (reduced) {
+                reductions++;
+                for (int k = z->most / 2; k < before.count; k++) { /* selection: the shortest */
+                    int least = 0;
+                    for (int l = 1; l < before.count; l++) {
+                        least = length[l] < length[least] ? l : least;
+                    }
+                    shorter += length[least] * sqrtl((long double)n); /* of 1-norms as short */
+                    length[least] = (long double)INFINITY;
+                }
+            }
+            for (int d = 0; d < DIRECTIONS; d++) {
+                long double direction[SIZE] = {0.0L};
+                draw_direction(n, direction);
+                const long double wanted = mapped_reach(&before, map, more, direction);
+                const long double got = reach_of(&now, direction);
+                TEST_ASSERT_TRUE_MESSAGE(got >= wanted - 1e-17L * size, "something is lost");
+                /* entries that are off by the radius, each of n of them in n rows */
+                const long double wide =
+                    4.0L * (long double)(radius * n) * (size + 2.0L * length_of(n, before.drift));
+                const long double least = n == 1 ? 0.0L : sqrtl((long double)n) * shorter;
+                TEST_ASSERT_TRUE_MESSAGE(got <= wanted + least + wide * 3.0L + 1e-12L * size,
+                                         "too wide");
+            }
+        }
+        zonotope_free(z);
+    }
+    TEST_ASSERT_TRUE(reductions > 50);
+}
+
+/* What is kept are the longest, as they were. */
+static void test_longest_are_kept(void) {
+    for (unsigned c = 0; c < dice_cases(usual_or(60, 20)); c++) {
+        const int n = 2 + (int)dice_one_of(&die, SIZE - 1);
+        zonotope *z = zonotope_new(n, MOST);
+        const enclosure zero[SIZE] = {{0.0, 0.0}};
+        enclosure map[SIZE * SIZE] = {{0.0, 0.0}};
+        double sum[MOST] = {0.0};
+        z->count = z->most;
+        for (int k = 0; k < z->count; k++) {
+            sum[k] = 0.0;
+            for (int i = 0; i < n; i++) {
+                const int sixteenths = (int)dice_one_of(&die, 321) - 160;
+                z->generator[k * n + i] = 0.0625 * sixteenths;
+                sum[k] += fabs(z->generator[k * n + i]);
+            }
+        }
+        for (int i = 0; i < n * n; i++) { /* doubled: no rounding but of no size */
+            map[i] = enclosure_of(i % (n + 1) == 0 ? 2.0 : 0.0);
+        }
+        const exact_set before = copy_of(z);
+        zonotope_map(z, map, zero);
+        bool found[MOST] = {false};
+        for (int k = 0; k < MOST / 2; k++) {
+            double now = 0.0;
+            int which = -1;
+            for (int l = 0; l < before.count && which < 0; l++) {
+                bool same = !found[l];
+                for (int i = 0; i < n; i++) {
+                    same = same && fabsl((long double)z->generator[k * n + i] -
+                                         2.0L * before.generator[l][i]) < 1e-12L;
+                }
+                which = same ? l : -1;
+            }
+            TEST_ASSERT_TRUE_MESSAGE(which >= 0, "one that was not there");
+            found[which] = true;
+            now = sum[which];
+            for (int l = 0; l < before.count; l++) {
+                TEST_ASSERT_TRUE_MESSAGE(found[l] || sum[l] <= now, "a longer one is gone");
+            }
+        }
+        TEST_ASSERT_TRUE(z->count >= MOST / 2 + n && z->count <= MOST / 2 + 2 * n);
+        zonotope_free(z);
+    }
+}
+
+static void test_box(void) {
+    for (unsigned c = 0; c < dice_cases(usual_or(60, 20)); c++) {
+        const int n = 1 + (int)dice_one_of(&die, SIZE);
+        zonotope *z = drawn_zonotope(n, MOST, 1 + dice_one_of(&die, 8));
+        const exact_set s = copy_of(z);
+        enclosure box[SIZE] = {{0.0, 0.0}};
+        zonotope_box(z, box);
+        for (int i = 0; i < n; i++) {
+            long double direction[SIZE] = {0.0L};
+            direction[i] = 1.0L;
+            const long double high = reach_of(&s, direction);
+            direction[i] = -1.0L;
+            const long double low = -reach_of(&s, direction);
+            const long double size = fabsl(high) + fabsl(low);
+            TEST_ASSERT_TRUE((long double)box[i].low <= low + 1e-18L * size &&
+                             (long double)box[i].high >= high - 1e-18L * size);
+            TEST_ASSERT_TRUE((long double)box[i].low >= low - 1e-14L * size &&
+                             (long double)box[i].high <= high + 1e-14L * size);
+        }
+        zonotope_free(z);
+    }
+}
+
+/* The inverse of what is nearly orthogonal, from its transpose: Newton's iteration. */
+static void inverse_of(int n, const double *axes, long double *inverse) {
+    long double rest[SIZE * SIZE] = {0.0L};
+    long double next[SIZE * SIZE] = {0.0L};
+    for (int i = 0; i < n * n; i++) {
+        inverse[i] = (long double)axes[i % n * n + i / n];
+    }
+    for (int pass = 0; pass < 3; pass++) { /* X += X (1 - A X) */
+        for (int i = 0; i < n * n; i++) {
+            rest[i] = i % (n + 1) == 0 ? 1.0L : 0.0L;
+            for (int j = 0; j < n; j++) {
+                rest[i] -= (long double)axes[i / n * n + j] * inverse[j * n + i % n];
+            }
+        }
+        for (int i = 0; i < n * n; i++) {
+            next[i] = inverse[i];
+            for (int j = 0; j < n; j++) {
+                next[i] += inverse[i / n * n + j] * rest[j * n + i % n];
+            }
+        }
+        memcpy(inverse, next, (size_t)n * (size_t)n * sizeof *next);
+    }
+}
+
+/* Axes that are orthogonal, the first along the longest generator; and the least that holds it along them. */
+static void expect_frame(const zonotope *z) {
+    const int n = z->n;
+    const exact_set s = copy_of(z);
+    double axes[SIZE * SIZE] = {0.0};
+    enclosure off[SIZE] = {{0.0, 0.0}};
+    long double inverse[SIZE * SIZE] = {0.0L};
+    zonotope_frame(z, axes, off);
+    for (int i = 0; i < n; i++) {
+        for (int j = 0; j < n; j++) {
+            double sum = i == j ? -1.0 : 0.0;
+            for (int k = 0; k < n; k++) {
+                sum += axes[k * n + i] * axes[k * n + j];
+            }
+            TEST_ASSERT_TRUE(fabs(sum) < 1e-13);
+        }
+    }
+    int longest = 0;
+    for (int k = 1; k < s.count; k++) {
+        longest = length_of(n, s.generator[k]) > length_of(n, s.generator[longest]) ? k : longest;
+    }
+    const long double length = s.count > 0 ? length_of(n, s.generator[longest]) : 0.0L;
+    if (length > 0.0L) {
+        long double sum = 0.0L;
+        for (int i = 0; i < n; i++) {
+            sum += (long double)axes[i * n] * s.generator[longest][i];
+        }
+        TEST_ASSERT_TRUE(fabsl(sum) > length * (1.0L - 1e-13L));
+    }
+    long double size = length_of(n, s.drift);
+    for (int k = 0; k < s.count; k++) {
+        size += length_of(n, s.generator[k]);
+    }
+    inverse_of(n, axes, inverse);
+    for (int i = 0; i < n; i++) {
+        long double back[SIZE] = {0.0L};
+        for (int j = 0; j < n; j++) {
+            back[j] = -inverse[i * n + j];
+        }
+        const long double high = reach_of(&s, &inverse[i * n]);
+        const long double low = -reach_of(&s, back);
+        TEST_ASSERT_TRUE((long double)off[i].low <= low + 1e-17L * size &&
+                         (long double)off[i].high >= high - 1e-17L * size);
+        TEST_ASSERT_TRUE((long double)off[i].low >= low - 1e-12L * size &&
+                         (long double)off[i].high <= high + 1e-12L * size);
+    }
+}
+
+static void test_frame(void) {
+    for (unsigned c = 0; c < dice_cases(usual_or(80, 25)); c++) {
+        const int n = 1 + (int)dice_one_of(&die, SIZE);
+        zonotope *z = drawn_zonotope(n, MOST, dice_one_of(&die, 9));
+        expect_frame(z);
+        /* all along one line, and one of no length */
+        z->count = 3;
+        for (int i = 0; i < n; i++) {
+            z->generator[i] = 1.0;
+            z->generator[n + i] = -2.0;
+            z->generator[2 * n + i] = 0.0;
+        }
+        expect_frame(z);
+        zonotope_free(z);
+    }
+}
+
+void suite_zonotope(void) {
+    die = dice_of("zonotope", 43);
+    RUN_TEST(test_new);
+    RUN_TEST(test_mapped);
+    RUN_TEST(test_longest_are_kept);
+    RUN_TEST(test_box);
+    RUN_TEST(test_frame);
+}
