@@ -100,12 +100,13 @@ static double longest_of(const linearised *l, wh_method method, double share) {
     for (int i = 0; i < l->motions; i++) {
         const linear_motion *each = &l->motion[i];
         const double size = complex_size(each->value);
-        complex_number direction = {each->value.re / size, each->value.im / size};
-        if (fabs(direction.re) < DAMPING_LEAST) {
-            direction.re = 0.0;
+        limits_motion along = limits_scaled(linearised_as(each), 1.0 / size);
+        if (fabs(along.value.re) < DAMPING_LEAST) {
+            along.value.re = 0.0;
+            along.rates.re = fabs(along.rates.re) < 2.0 * DAMPING_LEAST ? 0.0 : along.rates.re;
         }
-        if (size > 0.0 && direction.re <= 0.0 && each->share >= share) {
-            const double longest_s = limits_interval(method, l->form, direction) / size;
+        if (size > 0.0 && along.value.re <= 0.0 && each->share >= share) {
+            const double longest_s = limits_interval(method, l->form, along) / size;
             limit_s = number_least(longest_s, limit_s);
         }
     }

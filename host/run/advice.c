@@ -84,7 +84,7 @@ static const char *done_text(const linearised *l, const linear_motion *m, char t
     if (m->ripple > 0.0) {
         snprintf(text, DONE_TEXT, "lets its energy go %.3g %% up and down",
                  100.0 * number_least(m->ripple, 1.0));
-    } else if (limits_growth(l->method, l->form, m->value, l->step_s) <=
+    } else if (limits_growth(l->method, l->form, linearised_as(m), l->step_s) <=
                limits_exact(m->value, l->step_s)) {
         const double left = 1.0 - number_least(m->off, 1.0);
         snprintf(text, DONE_TEXT, "takes %.3g %% of its energy over the run",
@@ -365,7 +365,7 @@ void advice_say_diverged(FILE *out, advice *a) {
     for (int i = 0; i < l->motions && found == NULL; i++) {
         const linear_motion *m = &l->motion[i];
         if (m->value.re <= 1e-6 * complex_size(m->value) &&
-            limits_growth(l->method, l->form, m->value, l->step_s) > 1.001) {
+            limits_growth(l->method, l->form, linearised_as(m), l->step_s) > 1.001) {
             found = m;
         }
     }
@@ -375,7 +375,7 @@ void advice_say_diverged(FILE *out, advice *a) {
     if (found != NULL) {
         char carried[CARRIED_TEXT];
         char cure[CURE_TEXT];
-        const double limit = limits_interval(l->method, l->form, found->value);
+        const double limit = limits_interval(l->method, l->form, linearised_as(found));
         int kept = 0;
         while (kept < l->motions && l->motion[kept].time_s <= found->time_s) {
             l->motion[kept].share =

@@ -13,6 +13,8 @@
 #define MOTION_LEAST 1e-2
 /* Less than this is no part in the motion. */
 #define SHARE_LEAST 1e-6
+/* What left and right vectors have in common, of what they could: less is rounding. */
+#define ALONE_LEAST 1e-6
 /* Of steps: from 1000 s down. */
 #define DECADES 16
 
@@ -86,10 +88,36 @@ static int next_of(const linearised *l, int n, const complex_number *value, doub
 }
 
 /* The larger of what is lost of its amplitude and what its energy goes up and down by. */
-static double off_of(const linearised *l, wh_method method, complex_number value, double step_s) {
-    return number_most(limits_off(method, l->form, value, step_s, l->span_s),
-                       limits_ripple(method, l->form, value, step_s));
+static double off_of(const linearised *l, wh_method method, limits_motion m, double step_s) {
+    return number_most(limits_off(method, l->form, m, step_s, l->span_s),
+                       limits_ripple(method, l->form, m, step_s));
 }
+
+/* What rates make of the accelerations of the motion part[n], as far as one number can say it: that of w'C u/w'u, w and u
+ * being its left and right vectors of the places' q'' = C q' - K q. It is exact where C and K share their vectors. */
+static complex_number rates_of(const field *f, const double *matrix, complex_number value,
+                               const complex_number *left, const complex_number *part) {
+    complex_number by_rates = {0.0, 0.0};
+    complex_number all = {0.0, 0.0};
+    double size = 0.0;
+    for (int p = 0; p < f->n; p++) {
+        const int v = f->next[p];
+        if (v < 0) {
+            continue;
+        }
+        all = complex_plus_times(all, left[v], part[p]);
+        size += complex_size(left[v]) * complex_size(part[p]);
+        for (int q = 0; q < f->n; q++) {
+            const double entry = f->next[q] >= 0 ? matrix[v * f->n + f->next[q]] : 0.0;
+            const complex_number moved = {entry * part[q].re, entry * part[q].im};
+            by_rates = complex_plus_times(by_rates, left[v], moved);
+        }
+    }
+    return complex_size(all) > ALONE_LEAST * size ? complex_over(by_rates, all)
+                                                  : limits_plain(value).rates;
+}
+
+limits_motion linearised_as(const linear_motion *m) { return (limits_motion){m->value, m->rates}; }
 
 static void add_record(const watch *w, int record, const double *size, linearised *l) {
     field *f = w->field;
@@ -99,8 +127,9 @@ static void add_record(const watch *w, int record, const double *size, linearise
     double *share = slope + n;
     double *off = share + n;
     double *range = off + n;
-    complex_number *value = room(2 * (int64_t)n, sizeof *value);
+    complex_number *value = room(3 * (int64_t)n, sizeof *value);
     complex_number *part = value + n;
+    complex_number *left = part + n;
     const double *x = w->record + record * (ptrdiff_t)n;
     for (int i = 0; i < n; i++) {
         range[i] = number_most(w->high[i] - w->low[i], 1e-3 * fabs(x[i]));
@@ -109,7 +138,7 @@ static void add_record(const watch *w, int record, const double *size, linearise
         modes_values(n, matrix, value)) {
         field_slope(f, w->record_s[record], x, slope);
         for (int i = 0; i < n; i++) {
-            off[i] = off_of(l, l->method, value[i], l->step_s);
+            off[i] = off_of(l, l->method, limits_plain(value[i]), l->step_s);
         }
         const int most = n > LINEARISED_SMALL ? MOTIONS_A_RECORD / 4 : MOTIONS_A_RECORD;
         for (int k = 0; k < most && l->motions < LINEARISED_MOST; k++) {
@@ -117,11 +146,13 @@ static void add_record(const watch *w, int record, const double *size, linearise
             if (i < 0) {
                 break;
             }
-            linear_motion m = {.value = value[i], .time_s = w->record_s[record], .off = off[i]};
+            linear_motion m = {.value = value[i], .time_s = w->record_s[record]};
             off[i] = -1.0;
-            m.ripple = limits_ripple(l->method, l->form, value[i], l->step_s);
-            m.ripple = m.ripple >= m.off ? m.ripple : 0.0;
-            if (modes_part(n, matrix, value[i], slope, part, share)) {
+            if (modes_part(n, matrix, value[i], slope, part, left, share)) {
+                m.rates = rates_of(f, matrix, value[i], left, part);
+                m.off = off_of(l, l->method, linearised_as(&m), l->step_s);
+                m.ripple = limits_ripple(l->method, l->form, linearised_as(&m), l->step_s);
+                m.ripple = m.ripple >= m.off ? m.ripple : 0.0;
                 m.share = share_of(w, size, part, value[i].im);
                 carriers(w, share, &m);
                 l->motion[l->motions++] = m;
@@ -177,8 +208,8 @@ double linearised_off(const linearised *l, wh_method method, double step_s) {
     double most = 0.0;
     for (int i = 0; i < l->motions; i++) {
         const linear_motion *m = &l->motion[i];
-        const double off = off_of(l, method, m->value, step_s);
-        const double growth = limits_growth(method, l->form, m->value, step_s);
+        const double off = off_of(l, method, linearised_as(m), step_s);
+        const double growth = limits_growth(method, l->form, linearised_as(m), step_s);
         /* what grows needs no share: it takes one */
         const bool grows = growth > 1.0 + 1e-9 && m->value.re <= 0.0 && off > 1e3;
         most = number_most(most, grows ? off : 2.0 * m->share * off);

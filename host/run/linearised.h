@@ -13,6 +13,7 @@ enum { LINEARISED_MOST = 8 * WATCH_RECORDS };
 
 typedef struct linear_motion {
     complex_number value; /* 1/s; im >= 0 */
+    complex_number rates; /* 1/s; limits.h says of what */
     double time_s;        /* the record's */
     double
         share; /* of a component's energy, at most of all: the square of its part in the slope; at most 1 */
@@ -31,6 +32,9 @@ typedef struct linearised {
     double step_s;
     wh_method method;
 } linearised;
+
+/* As limits.h takes it. */
+limits_motion linearised_as(const linear_motion *m);
 
 /* Of a run that `method` stepped. Free with linearised_free(). */
 linearised *linearised_of(const watch *w, wh_method method);

@@ -33,15 +33,20 @@ double complex_size(cn z) {
     return most * number_root(re * re + im * im);
 }
 
-static cn over(cn a, cn b) {
+cn complex_plus_times(cn a, cn b, cn c) {
+    return (cn){a.re + b.re * c.re - b.im * c.im, a.im + b.re * c.im + b.im * c.re};
+}
+
+cn complex_over(cn a, cn b) {
     const double size = complex_size(b);
     return scaled(times(a, scaled(mirrored(b), 1.0 / size)), 1.0 / size);
 }
 
-static cn root(cn z) {
-    const double size = complex_size(z);
-    const double re = number_root(0.5 * (size + z.re));
-    const double im = number_root(0.5 * number_most(size - z.re, 0.0));
+cn complex_root(cn z) {
+    const double more = number_root(0.5 * (complex_size(z) + fabs(z.re)));
+    const double less = more > 0.0 ? 0.5 * fabs(z.im) / more : 0.0;
+    const double re = z.re < 0.0 ? less : more;
+    const double im = z.re < 0.0 ? more : less;
     return (cn){re, z.im < 0.0 ? -im : im};
 }
 
@@ -129,7 +134,7 @@ static cn wilkinson(const cn *h, int n, int last) {
     const cn c = h[last * n + last - 1];
     const cn d = h[last * n + last];
     const cn half = scaled(minus(a, d), 0.5);
-    const cn off = root(plus(times(half, half), times(b, c)));
+    const cn off = complex_root(plus(times(half, half), times(b, c)));
     const cn middle = scaled(plus(a, d), 0.5);
     const cn one = plus(middle, off);
     const cn two = minus(middle, off);
@@ -244,7 +249,7 @@ static void solve(int n, cn *a, cn *x, double least) {
             a[c * n + c] = (cn){least, 0.0};
         }
         for (int i = c + 1; i < n; i++) {
-            const cn factor = over(a[i * n + c], a[c * n + c]);
+            const cn factor = complex_over(a[i * n + c], a[c * n + c]);
             for (int j = c; j < n; j++) {
                 a[i * n + j] = minus(a[i * n + j], times(factor, a[c * n + j]));
             }
@@ -255,7 +260,7 @@ static void solve(int n, cn *a, cn *x, double least) {
         for (int j = i + 1; j < n; j++) {
             x[i] = minus(x[i], times(a[i * n + j], x[j]));
         }
-        x[i] = over(x[i], a[i * n + i]);
+        x[i] = complex_over(x[i], a[i * n + i]);
     }
 }
 
@@ -306,7 +311,7 @@ static bool is_vector(int n, const double *a, bool transposed, cn value, const c
     return off <= VECTOR_OFF * most;
 }
 
-bool modes_part(int n, const double *matrix, cn value, const double *slope, cn *part,
+bool modes_part(int n, const double *matrix, cn value, const double *slope, cn *part, cn *left_of,
                 double *share) {
     double *a = room((int64_t)n * n + n, sizeof *a);
     double *scale = a + (ptrdiff_t)n * n;
@@ -335,7 +340,9 @@ bool modes_part(int n, const double *matrix, cn value, const double *slope, cn *
     told = told && complex_size(both) > 1e-9;
     for (int i = 0; i < n; i++) {
         share[i] = told ? share[i] / shares : 0.0;
-        part[i] = told ? scaled(times(right[i], over(along, both)), scale[i]) : (cn){0.0, 0.0};
+        left_of[i] = told ? scaled(left[i], 1.0 / scale[i]) : (cn){0.0, 0.0};
+        part[i] =
+            told ? scaled(times(right[i], complex_over(along, both)), scale[i]) : (cn){0.0, 0.0};
     }
     free(a);
     free(h);

@@ -10,6 +10,10 @@ typedef struct complex_number {
 } complex_number;
 
 double complex_size(complex_number z);
+complex_number complex_plus_times(complex_number a, complex_number b,
+                                  complex_number c); /* a + b c */
+complex_number complex_over(complex_number a, complex_number b);
+complex_number complex_root(complex_number z); /* that with re >= 0 */
 
 /* value[n] of matrix[n * n], row by row, in no order. Balanced, brought to Hessenberg's form by elimination, then QR
  * steps with Wilkinson's shift in complex numbers (Golub & Van Loan, Matrix Computations, 4th ed., chapter 7). False:
@@ -17,10 +21,11 @@ double complex_size(complex_number z);
 bool modes_values(int n, const double *matrix, complex_number *value);
 
 /* Of the motion x' = A x at `slope[n]`, what the eigenvalue `value` contributes to it: part[n], complex: the projection
- * of the slope on its eigenvectors, by inverse iteration from the slope. share[n]: each component's participation factor,
+ * of the slope on its eigenvectors, by inverse iteration from the slope. left[n]: of a state x the sum of left_i x_i is its part of
+ * it, but for a factor. share[n]: each component's participation factor,
  * |left_i right_i|, in sum one: whose motion it is, whatever the units. False where it cannot be told apart, and where the
  * slope has nothing of it to the bit: what stands still beside it, and takes no part. */
 bool modes_part(int n, const double *matrix, complex_number value, const double *slope,
-                complex_number *part, double *share);
+                complex_number *part, complex_number *left, double *share);
 
 #endif

@@ -246,16 +246,14 @@ void show_separate(const show *s, bool *first) {
     *first = false;
 }
 
-/* The factors of one side of the fraction bar: +1 above, -1 below. Returns how many there are. */
-int show_factors(const show *s, const piece *p, int side, bool *first) {
-    int count = 0;
+/* The factors of one side of the fraction bar: +1 above, -1 below. */
+void show_factors(const show *s, const piece *p, int side, bool *first) {
     for (int rank = 0; rank < RANKS; rank++) {
         for (int i = 0; i < p->mono->count; i++) {
             const mono_factor *f = &p->mono->factors[i];
             if (show_rank(f->atom) == rank && (f->exponent > 0.0) == (side > 0)) {
                 show_separate(s, first);
                 show_atom(s, f->atom, fabs(f->exponent));
-                count++;
             }
         }
         for (int wave = 0; wave < 2 && rank == 3 && side > 0; wave++) {
@@ -264,11 +262,9 @@ int show_factors(const show *s, const piece *p, int side, bool *first) {
                 show_separate(s, first);
                 show_call(s, wave == 0 ? FN_SIN : FN_COS, p->angle, NULL);
                 show_exponent(s, exponent);
-                count++;
             }
         }
     }
-    return count;
 }
 
 int show_count_below(const piece *p) {

@@ -133,7 +133,7 @@ static void take_rounding(twins *t, const rounded *r) {
         for (int i = k + 1; i < t->columns; i++) {
             const record_column *above = &t->shape->column[i];
             if (above->unknown == c->unknown && above->primes == c->primes + 1) {
-                slope = t->column[i].rounding * above->unit->divisor / above->unit->scale;
+                slope = t->column[i].rounding * above->unit->scale / above->unit->divisor;
             }
         }
         const int result = result_of(r->image, c->unknown, c->primes + 1);

@@ -64,6 +64,92 @@ static void check_state(const char *text, const image *im) {
     }
 }
 
+/* --- the text for readers ------------------------------------------------------------------------------------ */
+
+/* The words of a line that begins with these, blanks apart from each other as they like: " real [0] X [m] 0 carriage". */
+static bool has_row(const char *text, const char *row) {
+    for (const char *line = text; line != NULL; line = strchr(line, '\n')) {
+        const char *at = line += *line == '\n';
+        const char *want = row;
+        for (;;) {
+            at += strspn(at, " ");
+            want += strspn(want, " ");
+            if (*want == '\0') {
+                break;
+            }
+            const size_t length = strcspn(want, " ");
+            if (strncmp(at, want, length) != 0 || (at[length] != ' ' && at[length] != '\n')) {
+                break;
+            }
+            at += length;
+            want += length;
+        }
+        if (*want == '\0' && *at == '\n') {
+            return true;
+        }
+    }
+    return false;
+}
+
+static void expect_row(const char *text, const char *row) {
+    if (!has_row(text, row)) {
+        printf("  no row '%s' in\n%s", row, text);
+        TEST_FAIL_MESSAGE(row);
+    }
+}
+
+static void expect_quantities(const char *text, const char *kind, const image_quantity *q,
+                              int count, bool valued) {
+    for (int i = 0; i < count; i++) {
+        char row[600];
+        char value[40] = "";
+        snprintf(value, sizeof value, "%.9g", q[i].value);
+        snprintf(row, sizeof row, "%s[%d] %s [%s] %s %s", kind, i, q[i].name, q[i].unit.si,
+                 valued ? value : "", q[i].text);
+        expect_row(text, row);
+    }
+}
+
+/* What an image has stands in it, each on its own row. */
+static void check_text(const image *im) {
+    char *text = NULL;
+    size_t size = 0;
+    char row[600];
+    FILE *out = open_memstream(&text, &size);
+    TEST_ASSERT_NOT_NULL(out);
+    describe_text(out, im, "x.whirl");
+    fclose(out);
+    for (int i = 0; i < im->angles + im->reals; i++) {
+        const component c = image_component(im, i);
+        const image_unknown *u = &im->unknown[c.unknown];
+        const bool turns = i < im->angles;
+        const int index = turns ? i : i - im->angles;
+        char primes[20];
+        TEST_ASSERT_TRUE(c.primes >= 0 && (size_t)c.primes < sizeof primes);
+        memset(primes, '\'', (size_t)c.primes);
+        primes[c.primes] = '\0';
+        snprintf(row, sizeof row, "%s[%d] %s%s [%s] %.9g %s", turns ? "angle " : "real  ", index,
+                 u->name, primes, u->unit[c.primes].si,
+                 turns ? im->start_rad[index] : im->start_real[index],
+                 c.primes == 0 ? u->text : "");
+        expect_row(text, row);
+    }
+    expect_quantities(text, "input ", im->input, im->inputs, true);
+    expect_quantities(text, "output", im->output, im->own_outputs, false);
+    expect_quantities(text, "param ", im->parameter, im->parameters, true);
+    for (int i = 0; i < im->effects; i++) {
+        snprintf(row, sizeof row, "with %s: %s", im->effect[i].name, im->effect[i].text);
+        TEST_ASSERT_EQUAL_MESSAGE(im->effect[i].with, has_row(text, row), row);
+    }
+    const tape_cost cost = tape_count(im->list[IMAGE_STEP]);
+    snprintf(row, sizeof row, "step %d %d %d %d %d %d", im->list[IMAGE_STEP]->results,
+             cost.arithmetic, cost.divisions, cost.roots, cost.waves, cost.calls);
+    expect_row(text, row);
+    free(text);
+}
+
+/* --- every scene ------------------------------------------------------------------------------------------ */
+
 static int check_scene(const scene *s) {
     derived d = derived_builtin(s->name);
     derived_expect(&d, s->name);
@@ -88,6 +174,7 @@ static int check_scene(const scene *s) {
     expect_number(text, "lists/step/results", im->list[IMAGE_STEP]->results);
     expect_number(text, "lists/step/operations", tape_operations(im->list[IMAGE_STEP]));
     check_state(text, im);
+    check_text(im);
     free(text);
     derived_free(&d);
     return 1;

@@ -1,5 +1,5 @@
 /* test_first_order.c: the first-order form that `whirl derive` prints, of mechanisms with drawn names: each component's slope
- * is the one that has its name and a prime, and the components' letter is no coordinate's. */
+ * is the one that has its name and a prime, and the components' letter is no coordinate's. And the effects above it. */
 #include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -7,6 +7,7 @@
 
 #include "command.h"
 #include "derived.h"
+#include "host/commands/commands.h"
 #include "host/show/show_equations.h"
 #include "unity.h"
 
@@ -108,4 +109,36 @@ static void test_slopes_of_components(void) {
     }
 }
 
-void suite_first_order(void) { RUN_TEST(test_slopes_of_components); }
+/* What a scene calls for is told with its own words, and nothing of what it leaves out. */
+static void test_effects_are_told(void) {
+    enum { EFFECTS = 4 };
+    static const char text[] =
+        "mechanism m\ncoordinate x [m]\nT = 1 [kg]*x'^2/2\n"
+        "effect e0 \"word 0\" { V += 1 [N]*x }\neffect e1 \"word 1\" { V += 2 [N]*x }\n"
+        "effect e2 \"word 2\" { F += 1 [N*s/m]*x'^2/2 }\neffect e3 \"word 3\" { V += 3 [N]*x }\n";
+    const char *file = model_keep(text);
+    for (unsigned with = 1; with < 1U << EFFECTS; with++) {
+        char list[40] = "";
+        said what;
+        for (unsigned k = 0; k < EFFECTS; k++) {
+            const size_t length = strlen(list);
+            if ((with >> k & 1U) != 0) {
+                snprintf(list + length, sizeof list - length, "%se%u", length > 0 ? "," : "", k);
+            }
+        }
+        const char *words[] = {file, "--with", list, NULL};
+        command_say(command_derive, words, &what);
+        TEST_ASSERT_EQUAL_INT_MESSAGE(0, what.status, what.err);
+        for (unsigned k = 0; k < EFFECTS; k++) {
+            char line[60];
+            snprintf(line, sizeof line, "  with       e%u         word %u\n", k, k);
+            TEST_ASSERT_EQUAL((with >> k & 1U) != 0, strstr(what.out, line) != NULL);
+        }
+    }
+    model_drop();
+}
+
+void suite_first_order(void) {
+    RUN_TEST(test_slopes_of_components);
+    RUN_TEST(test_effects_are_told);
+}

@@ -217,13 +217,15 @@ static void test_parts_add_up_to_the_motion(void) {
         }
         for (int m = 0; m < k.n; m++) {
             complex_number part[MOST];
+            complex_number left[MOST];
+            complex_number other_left[MOST];
             complex_number other_part[MOST];
             double share[MOST];
             double other_share[MOST];
             double all = 0.0;
-            TEST_ASSERT_TRUE(modes_part(k.n, k.a, k.value[m], slope, part, share));
-            TEST_ASSERT_TRUE(
-                modes_part(k.n, other.a, k.value[m], other_slope, other_part, other_share));
+            TEST_ASSERT_TRUE(modes_part(k.n, k.a, k.value[m], slope, part, left, share));
+            TEST_ASSERT_TRUE(modes_part(k.n, other.a, k.value[m], other_slope, other_part,
+                                        other_left, other_share));
             expect_eigenvector(&k, k.value[m], part, size);
             for (int i = 0; i < k.n; i++) {
                 sum[i].re += part[i].re;
@@ -270,8 +272,9 @@ static void test_what_stands_still_takes_no_part(void) {
         double sum[MOST] = {0.0};
         for (int m = 0; m < k.n; m++) {
             complex_number part[MOST];
+            complex_number left[MOST];
             double share[MOST];
-            const bool told = modes_part(k.n, k.a, k.value[m], slope, part, share);
+            const bool told = modes_part(k.n, k.a, k.value[m], slope, part, left, share);
             TEST_ASSERT_EQUAL(!rests[m], told);
             still += rests[m] ? 1 : 0;
             for (int i = 0; i < k.n; i++) {

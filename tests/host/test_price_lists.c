@@ -403,7 +403,69 @@ static void test_zeros_change_what_arithmetic_is_given_and_not_how_much(void) {
     }
 }
 
+/* An angle is moved by a whole number of units: converted once a place and once at the end, with sums that carry what is
+ * rounded three times more. Only where the list reads it and it is not turned on is it placed. */
+static void test_angles_are_converted_once_a_place(void) {
+    derived d = derived_scene(pendulum, "s");
+    derived_expect(&d, pendulum);
+    for (int m = 0; m < WH_METHODS; m++) {
+        const wh_tableau *by = wh_tableau_of((wh_method)m);
+        for (int how = 0; how < 8; how++) {
+            const bool turned = (how & 1) != 0;
+            const bool carries = (how & 2) != 0 && (how & 4) != 0;
+            int places = 0;
+            for (unsigned s = 0; s < by->stages && !turned; s++) {
+                bool again = false; /* does it stand where an earlier one does? */
+                for (unsigned e = 0; e < s && by->places != NULL; e++) {
+                    again = again || (by->places->node[e] == by->places->node[s] &&
+                                      memcmp(&by->places->reach[e], &by->places->reach[s],
+                                             sizeof by->places->reach[s]) == 0);
+                }
+                const bool away = s > 0 || (by->places != NULL && by->places->node[0] != 0);
+                places += away && !again;
+            }
+            d.image->settings.method = (wh_method)m;
+            d.image->settings.compensated = (how & 2) != 0;
+            operands given = {.is_float = (how & 4) != 0};
+            const step_work w = step_work_of(d.image, turned, true, false, &given);
+            TEST_ASSERT_TRUE_MESSAGE(w.conversions == places + 1 + (carries ? 3 : 0),
+                                     wh_methods[m].word);
+        }
+    }
+    derived_free(&d);
+}
+
+/* Of a step as one matrix: a product for each angle that is moved, and what carries its rounding; eight sums or
+ * nine for each real that is carried; and the sizes of all reals added up to be checked. */
+static void test_matrices_take_what_moves_and_is_carried(void) {
+    derived d = derived_scene(pendulum, "s");
+    derived_expect(&d, pendulum);
+    image *im = d.image;
+    const int angles = im->angles;
+    TEST_ASSERT_TRUE(angles == 1 && im->reals == 3);
+    for (int how = 0; how < 8; how++) {
+        im->angles = (how & 1) != 0 ? 1 : 0;
+        im->settings.compensated = (how & 2) != 0;
+        operands given = {.is_float = (how & 4) != 0, .real = {0.0, 1.0, 0.25}};
+        const bool carries = im->settings.compensated;
+        const double each = given.is_float ? 9.0 : 8.0;
+        const bool carries_angle = carries && given.is_float && im->angles > 0;
+        const step_work w = step_work_of_matrix(im, &given);
+        const double checks = im->angles == 0 && !carries && given.is_float ? 0.0 : 3.0;
+        TEST_ASSERT_TRUE(w.products == im->angles + (carries_angle ? 1 : 0));
+        TEST_ASSERT_TRUE(w.conversions == im->angles + (carries_angle ? 3 : 0));
+        TEST_ASSERT_TRUE(w.zero_products == 0.0 && w.zero_conversions == 0.0);
+        TEST_ASSERT_TRUE(w.sums ==
+                         checks + (carries ? 1.75 * each : 0.0) + (carries_angle ? 4.0 : 0.0));
+        TEST_ASSERT_TRUE(w.zero_sums == (carries ? 1.25 * each : 0.0));
+    }
+    im->angles = angles;
+    derived_free(&d);
+}
+
 void suite_price_lists(void) {
+    RUN_TEST(test_angles_are_converted_once_a_place);
+    RUN_TEST(test_matrices_take_what_moves_and_is_carried);
     RUN_TEST(test_all_operations_are_counted_once);
     RUN_TEST(test_what_operations_are_given_is_added_up);
     RUN_TEST(test_what_the_step_has_is_not_counted_again);

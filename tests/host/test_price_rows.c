@@ -1,0 +1,487 @@
+/* test_price_rows.c: sums of a row's figures and an image's features (host/price/cost_row.h, cost_figure.h, cost.h,
+ * cost_fixed.h), drawn or as they are kept, against sums by hand; and the boards that there are. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "command.h"
+#include "derived.h"
+#include "host/fixed/fixed_plan.h"
+#include "host/image/core_rows.h"
+#include "host/price/cost.h"
+#include "host/price/cost_fixed.h"
+#include "host/price/cost_row.h"
+#include "host/run/start.h"
+#include "unity.h"
+
+#include "host/price/cost_fixed_rows.h"
+#include "host/price/cost_rows.h"
+
+void suite_price_rows(void);
+
+static bool near(double a, double b) { return fabs(a - b) <= 1e-12 * (fabs(a) + fabs(b)); }
+
+/* --- drawn fits ------------------------------------------------------------------------------------------*/
+
+static void draw_fit(dice *d, cost_fit *fit, double feature[COST_FEATURES]) {
+    *fit = (cost_fit){.cases = 9,
+                      .slack = dice_between(d, 0.0, 500.0),
+                      .largest = dice_between(d, 100.0, 3000.0),
+                      .is_parted = dice_one_of(d, 3) > 0};
+    for (int c = 0; c < COST_CLASSES; c++) {
+        fit->bound[c] = dice_between(d, 1.1, 4.0);
+    }
+    for (int f = 0; f < COST_FEATURES; f++) {
+        const bool there = dice_one_of(d, 4) == 0;
+        fit->figure[f] = there ? dice_between(d, 0.1, 20.0) : 0.0;
+        fit->part[f] = dice_between(d, 0.0, 0.2);
+        feature[f] = dice_one_of(d, 3) == 0 ? 1 + dice_one_of(d, 9) : 0.0;
+    }
+    static const cost_feature classes[] = {COST_F_BOOKS, COST_F_CODE_CALLS, COST_F_MATRIX,
+                                           COST_F_CELLS};
+    for (int i = 0; i < 4; i++) {
+        feature[classes[i]] = dice_one_of(d, 3) == 0 ? 2.0 : 0.0;
+    }
+}
+
+static void test_drawn_sums_and_their_bounds(void) {
+    dice d = dice_of("price_rows", 81);
+    int of[COST_CLASSES] = {0};
+    for (unsigned n = 0; n < dice_cases(few_or_all(500, 20000)); n++) {
+        cost_fit fit;
+        double feature[COST_FEATURES];
+        draw_fit(&d, &fit, feature);
+        double sum = 0.0;
+        for (int f = 0; f < COST_FEATURES; f++) {
+            sum += fit.figure[f] * feature[f];
+        }
+        int unseen = -1;
+        const double have = cost_fit_at(&fit, feature, &unseen);
+        TEST_ASSERT_TRUE(near(have, sum) && unseen == -1);
+        /* of the sum, what is more than any fitted row had of a feature */
+        double more = 0.0;
+        for (int f = 0; f < COST_FEATURES; f++) {
+            more += fmax(0.0, fit.figure[f] * feature[f] / sum - fit.part[f]);
+        }
+        const cost_class own = feature[COST_F_BOOKS] > 0        ? COST_BOOKING
+                               : feature[COST_F_CODE_CALLS] > 0 ? COST_CALLING
+                               : feature[COST_F_MATRIX] > 0     ? COST_AS_MATRIX
+                               : feature[COST_F_CELLS] > 0      ? COST_TABLED
+                                                                : COST_PLAIN;
+        const cost_class is = fit.is_parted && more > 0.05 ? COST_FAR : own;
+        of[is]++;
+        TEST_ASSERT_EQUAL_INT(is, cost_class_at(&fit, feature, sum));
+        const double bound = fmax(fit.bound[is], fit.bound[own]);
+        TEST_ASSERT_TRUE(near(cost_bound_at(&fit, feature, sum),
+                              sum > fit.largest ? bound + (bound - 1.0) : bound));
+        TEST_ASSERT_TRUE(near(cost_most(&fit, sum, bound), sum * bound + fit.slack));
+        TEST_ASSERT_TRUE(near(cost_least(&fit, sum, bound), fmax(0.0, (sum - fit.slack) / bound)));
+        TEST_ASSERT_TRUE(cost_class_at(&fit, feature, -1.0) == own);
+        /* a feature that no fitted scene has, unless the image has none of it either */
+        const int at = (int)dice_one_of(&d, COST_FEATURES);
+        const double before = feature[at];
+        fit.figure[at] = COST_UNSEEN;
+        feature[at] = 0.0;
+        TEST_ASSERT_TRUE(cost_fit_at(&fit, feature, &unseen) >= 0.0 && unseen == -1);
+        feature[at] = before + 1.0;
+        TEST_ASSERT_TRUE(cost_fit_at(&fit, feature, &unseen) < 0.0 && unseen == at);
+    }
+    for (int c = 0; c < COST_CLASSES; c++) {
+        TEST_ASSERT_TRUE(of[c] > 0);
+    }
+}
+
+static void test_figures_are_made_of_figures(void) {
+    dice d = dice_of("price_rows figures", 82);
+    for (int n = 0; n < 300; n++) {
+        const double value = dice_between(&d, 1.0, 99.0);
+        const cost_figure known = cost_known(value, COST_EXACT);
+        TEST_ASSERT_TRUE(known.value == value && known.least == value && known.most == value);
+        TEST_ASSERT_TRUE(known.basis == COST_EXACT && known.of == COST_EXACT && known.bound == 1.0);
+        const cost_figure mean = {COST_PREDICTED, COST_MEASURED, value, 0.5 * value, 3 * value, 3};
+        const double spread = dice_between(&d, 1.0, 2.0);
+        const cost_figure longest = cost_longest(mean, spread);
+        TEST_ASSERT_TRUE(near(longest.value, value * spread));
+        TEST_ASSERT_TRUE(near(longest.most, 3.0 * value * spread) && longest.least == mean.least);
+        TEST_ASSERT_TRUE(longest.basis == COST_PREDICTED && longest.bound == 3.0);
+        const cost_board board = {.cycles_least = dice_between(&d, 0.2, 1.0),
+                                  .cycles_most = dice_between(&d, 2.0, 5.0)};
+        const cost_figure ranged = cost_ranged(&board, &mean);
+        TEST_ASSERT_TRUE(near(ranged.least, board.cycles_least * 0.5 * value));
+        TEST_ASSERT_TRUE(near(ranged.most, board.cycles_most * 3.0 * value));
+        TEST_ASSERT_TRUE(ranged.value == 0.0 && ranged.bound == 1.0);
+        TEST_ASSERT_TRUE(ranged.basis == COST_RANGE && ranged.of == COST_PREDICTED);
+        const cost_figure nothing = {0};
+        TEST_ASSERT_EQUAL_INT(COST_NOT_KNOWN, cost_ranged(&board, &nothing).basis);
+        TEST_ASSERT_TRUE(cost_ranged(&board, &nothing).most == 0.0);
+        TEST_ASSERT_TRUE(near(cost_bound_of(5.0, 4.0, 1.5), 2.0));
+        TEST_ASSERT_TRUE(cost_bound_of(4.0, 4.0, 1.5) == 1.5);
+    }
+}
+
+/* --- boards ----------------------------------------------------------------------------------------------*/
+
+static void test_boards_are_found_by_their_names(void) {
+    static const struct {
+        const char *name;
+        bool fpu, in_double;
+        int registers;
+    } rows[] = {{"atmega328p", false, false, 0},    {"atmega2560", false, false, 0},
+                {"mps2-an385-m0", false, false, 0}, {"mps2-an385", false, false, 0},
+                {"mps2-an386", true, false, 32},    {"mps2-an500", true, false, 32},
+                {"mps2-an505", true, false, 32},    {"rv32imac", false, false, 0},
+                {"rv32imafc", true, false, 32},     {"host", true, true, 16}};
+    TEST_ASSERT_EQUAL_INT(10, cost_board_count);
+    for (int i = 0; i < cost_board_count; i++) {
+        const cost_board *b = cost_board_named(rows[i].name);
+        TEST_ASSERT_EQUAL_PTR(&cost_boards[i], b);
+        TEST_ASSERT_EQUAL_INT(!rows[i].fpu, cost_is_soft(b, COST_FLOAT));
+        TEST_ASSERT_EQUAL_INT(!rows[i].in_double, cost_is_soft(b, COST_DOUBLE));
+        TEST_ASSERT_EQUAL_INT(rows[i].registers, cost_registers(b, COST_FLOAT));
+        TEST_ASSERT_EQUAL_INT(rows[i].in_double ? 16 : 0, cost_registers(b, COST_DOUBLE));
+        TEST_ASSERT_EQUAL_INT(b->cycles == COST_RANGE, b->cycles_most > b->cycles_least);
+        TEST_ASSERT_TRUE(b->cycles == COST_RANGE || b->cycles_most == 0.0);
+    }
+    TEST_ASSERT_NULL(cost_board_named("mps2-an38"));
+    TEST_ASSERT_NULL(cost_board_named(""));
+    static const char *const words[] = {"not known", "exact",     "predicted", "measured",
+                                        "estimated", "simulated", "range"};
+    for (int i = 0; i < COST_BASES; i++) {
+        TEST_ASSERT_EQUAL_STRING(words[i], cost_basis_words[i]);
+    }
+}
+
+/* --- prices as they are kept -----------------------------------------------------------------------------*/
+
+/* One quantity, from the row: its sum, and between what; not known where anything is not. */
+static cost_figure by_hand(const cost_fit *fit, const double *feature, cost_basis of) {
+    double sum = 0.0;
+    bool seen = fit->cases > 0;
+    for (int f = 0; f < COST_FEATURES; f++) {
+        seen = seen && (fit->figure[f] >= 0.0 || feature[f] == 0.0);
+        sum += fit->figure[f] * feature[f];
+    }
+    const double bound = seen && sum > 0.0 ? cost_bound_at(fit, feature, sum) : 9.0;
+    if (!seen || sum <= 0.0 || bound > 4.0) {
+        return (cost_figure){0};
+    }
+    const double most = sum * bound + fit->slack;
+    return (cost_figure){COST_PREDICTED, of,        sum, fmax(0.0, (sum - fit->slack) / bound),
+                         most,           most / sum};
+}
+
+static void expect_figure(const cost_figure *want, const cost_figure *have, const char *what) {
+    TEST_ASSERT_EQUAL_INT_MESSAGE(want->basis, have->basis, what);
+    TEST_ASSERT_EQUAL_INT_MESSAGE(want->of, have->of, what);
+    TEST_ASSERT_TRUE_MESSAGE(near(want->value, have->value), what);
+    TEST_ASSERT_TRUE_MESSAGE(near(want->least, have->least), what);
+    TEST_ASSERT_TRUE_MESSAGE(near(want->most, have->most), what);
+    TEST_ASSERT_TRUE_MESSAGE(near(want->bound, have->bound), what);
+}
+
+static cost_figure longest_of(cost_figure f, double spread) {
+    f.value *= spread;
+    f.most *= spread;
+    return f;
+}
+
+static cost_figure range_of(const cost_board *b, cost_figure f) {
+    return f.basis == COST_NOT_KNOWN ? f : (cost_figure){COST_RANGE,
+                                                         COST_PREDICTED,
+                                                         0.0,
+                                                         f.least * b->cycles_least,
+                                                         f.most * b->cycles_most,
+                                                         1.0};
+}
+
+/* As the instructions of the step are to those of a smooth one. */
+static cost_figure events_of(cost_figure cycles, cost_figure step, double smooth) {
+    if (step.basis != COST_PREDICTED || !(smooth > 0.0) || cycles.basis == COST_NOT_KNOWN) {
+        return (cost_figure){0};
+    }
+    const double share = step.value / smooth;
+    cycles.value *= share;
+    cycles.least *= share / step.bound;
+    cycles.most *= share * step.bound;
+    cycles.bound *= cycles.basis == COST_PREDICTED ? step.bound : 1.0;
+    return cycles;
+}
+
+static const char *const scenes[] = {
+    "mechanism m\ncoordinate x [m]\nT = 1 [kg]*x'^2/2\nV = 9 [N/m]*x^2/2\n"
+    "scene s { start x = 1 [m]; step 1 [ms]; until 1 [s]\n"
+    "range x = -2 .. 2 [m], x' = -9 .. 9 [m/s] }\n",
+    "mechanism m\ncoordinate a [rad]\ncoordinate x [m]\ninput u = 1 [N]\n"
+    "T = 2 [kg]*x'^2/2 + 1 [kg]*((x' + 1 [m]*a'*cos(a))^2 + (1 [m]*a'*sin(a))^2)/2\n"
+    "V = -8 [J]*cos(a) + 3 [N/m]*x^2/2\nQ(x) = u\n"
+    "scene s { start a = 1 [rad]; step 1 [ms]; until 1 [s]\n"
+    "range x = -2 .. 2 [m], x' = -9 .. 9 [m/s], a' = -20 .. 20 [rad/s], u = -2 .. 2 [N] }\n",
+    "mechanism m\nstate y\nequation y' + 4 [1/s]*y + 1 [1/s]*y^3 = 1 [1/s]\n"
+    "scene s { start y = 3; step 1 [ms]; until 1 [s]\nrange y = -4 .. 4 }\n",
+    "mechanism m\ncoordinate x [m]\nT = 1 [kg]*x'^2/2\nV = 1 [kg]*9.81 [m/s^2]*x\n"
+    "stop x >= 0 [m] restitution 0.5\n"
+    "scene s { start x = 1 [m]; step 1 [ms]; until 1 [s] }\n"};
+enum { SCENES = sizeof scenes / sizeof scenes[0] };
+
+static const cost_row *row_named(const char *board, cost_number number) {
+    const cost_row *found = NULL;
+    for (size_t i = 0; i < sizeof cost_rows / sizeof cost_rows[0]; i++) {
+        if (cost_rows[i].number == number && strcmp(cost_rows[i].board, board) == 0) {
+            found = &cost_rows[i];
+        }
+    }
+    return found;
+}
+
+static int check_price(const image *im, const cost_board *b, cost_number number) {
+    const cost c = cost_of(im, b, number);
+    const cost_row *row = row_named(b->name, number);
+    const bool contacts = im->contacts > 0;
+    const double real = number == COST_DOUBLE ? 8.0 : 4.0;
+    TEST_ASSERT_EQUAL_INT(contacts ? COST_NOT_KNOWN : COST_EXACT, c.state_bytes.basis);
+    TEST_ASSERT_TRUE(contacts ||
+                     c.state_bytes.value == 8.0 * im->angles + real * core_memory_reals(im));
+    char word[40];
+    snprintf(word, sizeof word, " %s ", wh_methods[im->settings.method].word);
+    if (row == NULL || strstr(row->methods, word) == NULL) {
+        TEST_ASSERT_TRUE(!c.predictable && c.why[0] != '\0');
+        TEST_ASSERT_EQUAL_INT(COST_NOT_KNOWN, c.instructions.basis);
+        return 0;
+    }
+    double feature[COST_FEATURES];
+    cost_counts counts = cost_counts_of(im, b, number);
+    counts.smooth = 1.0;
+    cost_features(&counts, feature);
+    cost_figure steps = by_hand(&row->fit[COST_OF_INSTRUCTIONS], feature, COST_MEASURED);
+    cost_figure worst = longest_of(steps, row->spread);
+    cost_figure cycles = b->cycles == COST_RANGE
+                             ? range_of(b, steps)
+                             : by_hand(&row->fit[COST_OF_CYCLES], feature, b->cycles);
+    cost_figure cycles_worst =
+        b->cycles == COST_RANGE ? range_of(b, worst) : longest_of(cycles, row->spread_cycles);
+    cost_figure flash = by_hand(&row->fit[COST_OF_FLASH], feature, COST_MEASURED);
+    cost_figure ram = by_hand(&row->fit[COST_OF_RAM], feature, COST_MEASURED);
+    cost_figure stack = by_hand(&row->fit[COST_OF_STACK], feature, COST_MEASURED);
+    if (contacts) {
+        const double smooth = steps.value;
+        counts.smooth = smooth;
+        cost_features(&counts, feature);
+        steps = by_hand(&row->fit[COST_OF_CONTACT_MEAN], feature, COST_MEASURED);
+        worst = by_hand(&row->fit[COST_OF_CONTACT_WORST], feature, COST_MEASURED);
+        cycles_worst = events_of(cycles, worst, smooth);
+        cycles = events_of(cycles, steps, smooth);
+        flash = ram = stack = (cost_figure){0};
+        TEST_ASSERT_NOT_NULL(strstr(c.why, "with contacts must be measured"));
+    }
+    TEST_ASSERT_TRUE(c.predictable);
+    expect_figure(&steps, &c.instructions, b->name);
+    expect_figure(&worst, &c.instructions_worst, b->name);
+    expect_figure(&cycles, &c.cycles, b->name);
+    expect_figure(&cycles_worst, &c.cycles_worst, b->name);
+    expect_figure(&flash, &c.flash_bytes, b->name);
+    expect_figure(&ram, &c.ram_bytes, b->name);
+    expect_figure(&stack, &c.stack_bytes, b->name);
+    return c.instructions.basis == COST_PREDICTED;
+}
+
+static void test_prices_are_those_sums(void) {
+    int known = 0;
+    for (int n = 0; n < SCENES; n++) {
+        derived d = derived_scene(scenes[n], "s");
+        derived_expect(&d, scenes[n]);
+        diags *unsaid = diags_new();
+        for (int b = 0; b < cost_board_count; b++) {
+            for (int m = 0; m < WH_METHODS; m++) {
+                d.image->settings.method = (wh_method)m;
+                if (start_has_method(d.image, (wh_method)m, unsaid)) {
+                    known += check_price(d.image, &cost_boards[b], COST_FLOAT);
+                    known += check_price(d.image, &cost_boards[b], COST_DOUBLE);
+                }
+            }
+        }
+        diags_free(unsaid);
+        const cost none = cost_of(d.image, &cost_boards[0], COST_FIXED);
+        TEST_ASSERT_TRUE(!none.predictable && none.why[0] != '\0');
+        derived_free(&d);
+    }
+    printf("  %d prices\n", known);
+    TEST_ASSERT_TRUE(known > 200);
+}
+
+/* --- fixed point -----------------------------------------------------------------------------------------*/
+
+static cost_figure fixed_by_hand(const cost_fixed_fit *fit, cost_quantity q, const double *feature,
+                                 cost_basis of) {
+    double sum = 0.0;
+    bool seen = fit->cases > 0;
+    for (int f = 0; f < COST_FIXED_FEATURES; f++) {
+        if ((cost_fixed_taken[f] & 1U << q) != 0) {
+            seen = seen && (fit->figure[f] >= 0.0 || feature[f] == 0.0);
+            sum += fit->figure[f] * feature[f];
+        }
+    }
+    if (!seen || sum <= 0.0) {
+        return (cost_figure){0};
+    }
+    const double bound = sum > fit->largest ? fit->bound + fit->bound - 1.0 : fit->bound;
+    return (cost_figure){COST_PREDICTED, of, sum, sum / bound, sum * bound, bound};
+}
+
+static void check_fixed(const image *im, const cost_board *b) {
+    const cost c = cost_fixed_of(im, b);
+    const cost_fixed_row *row = NULL;
+    for (size_t i = 0; i < sizeof cost_fixed_rows / sizeof cost_fixed_rows[0]; i++) {
+        row = strcmp(cost_fixed_rows[i].board, b->name) == 0 ? &cost_fixed_rows[i] : row;
+    }
+    TEST_ASSERT_EQUAL_INT(COST_EXACT, c.state_bytes.basis);
+    if (row == NULL) {
+        TEST_ASSERT_TRUE(!c.predictable && c.why[0] != '\0');
+        return;
+    }
+    double feature[COST_FIXED_FEATURES];
+    cost_fixed_features(im, feature);
+    const cost_figure steps = fixed_by_hand(&row->fit[COST_OF_INSTRUCTIONS], COST_OF_INSTRUCTIONS,
+                                            feature, COST_MEASURED);
+    const cost_figure worst = longest_of(steps, row->spread);
+    const bool range = b->cycles == COST_RANGE;
+    const cost_figure cycles =
+        range ? range_of(b, steps)
+              : fixed_by_hand(&row->fit[COST_OF_CYCLES], COST_OF_CYCLES, feature, b->cycles);
+    const cost_figure cycles_worst =
+        range ? range_of(b, worst) : longest_of(cycles, row->spread_cycles);
+    const cost_figure flash =
+        fixed_by_hand(&row->fit[COST_OF_FLASH], COST_OF_FLASH, feature, COST_MEASURED);
+    const cost_figure ram =
+        fixed_by_hand(&row->fit[COST_OF_RAM], COST_OF_RAM, feature, COST_MEASURED);
+    const cost_figure stack =
+        fixed_by_hand(&row->fit[COST_OF_STACK], COST_OF_STACK, feature, COST_MEASURED);
+    TEST_ASSERT_TRUE(c.predictable);
+    expect_figure(&steps, &c.instructions, b->name);
+    expect_figure(&worst, &c.instructions_worst, b->name);
+    expect_figure(&cycles, &c.cycles, b->name);
+    expect_figure(&cycles_worst, &c.cycles_worst, b->name);
+    expect_figure(&flash, &c.flash_bytes, b->name);
+    expect_figure(&ram, &c.ram_bytes, b->name);
+    expect_figure(&stack, &c.stack_bytes, b->name);
+}
+
+/* Shifts as they are taken: to the right, to the left, and their bits beyond whole bytes. */
+typedef struct shifts {
+    int right, left, bits, constants;
+} shifts;
+
+static void add_shift(const fixed_list *l, fixed_operand from, int sign, shifts *s) {
+    if (l->op[from.op].code == FIXED_CONSTANT) {
+        s->constants += sign > 0;
+        return;
+    }
+    s->right += sign * from.shift > 0;
+    s->left += sign * from.shift < 0;
+    s->bits += abs(from.shift) % 8;
+}
+
+/* What the list holds, by walking it. */
+static void check_fixed_counts(const image *im) {
+    const fixed_list *l = ((const fixed_plan *)im->fixed)->list;
+    double feature[COST_FIXED_FEATURES];
+    cost_fixed_features(im, feature);
+    int of[FIXED_MOST + 1] = {0};
+    shifts s = {0, 0, 0, 0};
+    int by_constant = 0;
+    int by_short = 0;
+    int leaves = 0;
+    int all = 0;
+    int searched = 0;
+    for (int i = 0; i < l->count; i++) {
+        const fixed_op *o = &l->op[i];
+        if (!o->used) {
+            continue;
+        }
+        of[o->code]++;
+        all += o->code != FIXED_CONSTANT;
+        leaves += o->code == FIXED_LINEAR || o->code == FIXED_RATE || o->code == FIXED_INPUT;
+        searched += o->code == FIXED_QUOTIENT && o->spread > 1;
+        if (o->code == FIXED_SUM || o->code == FIXED_DIFFERENCE || o->code >= FIXED_SAME) {
+            add_shift(l, o->a, 1, &s);
+        }
+        if (o->code == FIXED_SUM || o->code == FIXED_DIFFERENCE || o->code >= FIXED_LEAST) {
+            add_shift(l, o->b, 1, &s);
+        }
+        if (o->code == FIXED_PRODUCT) {
+            s.bits += o->by % 8;
+            bool is = false;
+            bool half = false;
+            const fixed_operand *const factors[] = {&o->a, &o->b};
+            for (int k = 0; k < 2; k++) {
+                const fixed_operand *f = factors[k];
+                if (l->op[f->op].code == FIXED_CONSTANT) {
+                    is = true;
+                    half = half || ((uint64_t)(uint32_t)f->number << f->shift) % 65536 == 0;
+                }
+                add_shift(l, *f, -1, &s);
+            }
+            by_constant += is;
+            by_short += half;
+        }
+    }
+    const int sums = of[FIXED_SUM] + of[FIXED_DIFFERENCE];
+    TEST_ASSERT_TRUE(feature[COST_X_ONE] == 1.0 && feature[COST_X_SUMS] == sums);
+    TEST_ASSERT_TRUE(feature[COST_X_PRODUCTS] == of[FIXED_PRODUCT] - by_constant);
+    TEST_ASSERT_TRUE(feature[COST_X_BY_CONSTANT] == by_constant - by_short);
+    TEST_ASSERT_TRUE(feature[COST_X_BY_SHORT] == by_short);
+    TEST_ASSERT_TRUE(feature[COST_X_QUOTIENTS] == of[FIXED_QUOTIENT]);
+    TEST_ASSERT_TRUE(feature[COST_X_SEARCHED] == searched);
+    TEST_ASSERT_TRUE(feature[COST_X_ROUNDED] == s.right && feature[COST_X_SCALED] == s.left);
+    TEST_ASSERT_TRUE(feature[COST_X_BITS] == s.bits);
+    TEST_ASSERT_TRUE(feature[COST_X_CONSTANTS] == s.constants);
+    TEST_ASSERT_TRUE(feature[COST_X_SAME] == of[FIXED_SAME]);
+    TEST_ASSERT_TRUE(feature[COST_X_CHOICES] ==
+                     of[FIXED_ABS] + of[FIXED_SIGN] + of[FIXED_LEAST] + of[FIXED_MOST]);
+    TEST_ASSERT_TRUE(feature[COST_X_LEAVES] == leaves);
+    TEST_ASSERT_TRUE(feature[COST_X_WAVE_ALONE] == (of[FIXED_PHASE] == 1));
+    TEST_ASSERT_TRUE(feature[COST_X_WAVES] == (of[FIXED_PHASE] > 1 ? of[FIXED_PHASE] : 0));
+    const int operations = all - of[FIXED_SINE] - of[FIXED_COSINE];
+    TEST_ASSERT_TRUE(feature[COST_X_LIES_OPERATIONS] == all ||
+                     feature[COST_X_LIES_OPERATIONS] == operations);
+    TEST_ASSERT_TRUE(feature[COST_X_CALLED] == (feature[COST_X_LIES_OPERATIONS] > 80));
+    TEST_ASSERT_TRUE(feature[COST_X_NUMBERS] == im->reals + im->inputs);
+    const bool second = im->form == WH_SECOND_ORDER;
+    const int components = second ? im->coordinates : im->angles + im->reals;
+    TEST_ASSERT_TRUE(feature[COST_X_LIES_COMPONENTS] == components);
+    TEST_ASSERT_TRUE(feature[COST_X_ANGLES] + feature[COST_X_STILL_ANGLES] ==
+                     (second ? im->angles : 0));
+    TEST_ASSERT_TRUE(feature[COST_X_PLACES] + feature[COST_X_STILL_PLACES] ==
+                     (second ? im->coordinates - im->angles : 0));
+    TEST_ASSERT_TRUE(feature[COST_X_FIRSTS] == (second ? 0 : im->reals));
+}
+
+static void test_prices_in_fixed_point_are_those_sums(void) {
+    for (int n = 0; n < SCENES - 1; n++) {
+        derived d = derived_scene(scenes[n], "s");
+        derived_expect(&d, scenes[n]);
+        const cost none = cost_fixed_of(d.image, &cost_boards[0]);
+        TEST_ASSERT_TRUE(!none.predictable && none.why[0] != '\0');
+        TEST_ASSERT_EQUAL_INT(COST_NOT_KNOWN, none.state_bytes.basis);
+        diags *errors = diags_new();
+        fixed_plan *plan = fixed_plan_make(d.image, errors);
+        TEST_ASSERT_NOT_NULL_MESSAGE(plan, scenes[n]);
+        d.image->fixed = plan;
+        check_fixed_counts(d.image);
+        for (int b = 0; b < cost_board_count; b++) {
+            check_fixed(d.image, &cost_boards[b]);
+        }
+        d.image->fixed = NULL;
+        fixed_plan_free(plan);
+        diags_free(errors);
+        derived_free(&d);
+    }
+}
+
+void suite_price_rows(void) {
+    RUN_TEST(test_drawn_sums_and_their_bounds);
+    RUN_TEST(test_figures_are_made_of_figures);
+    RUN_TEST(test_boards_are_found_by_their_names);
+    RUN_TEST(test_prices_are_those_sums);
+    RUN_TEST(test_prices_in_fixed_point_are_those_sums);
+}
