@@ -168,7 +168,50 @@ static void test_no_picture(void) {
     unlink(PICTURE);
 }
 
+/* A panel a unit, in the order in which units first stand: each is written once. */
+static void test_a_panel_a_unit(void) {
+    enum { CURVES = 6, UNITS = 4 };
+    static const char *const units[UNITS] = {"unita", "unitb", "unitc", "unitd"};
+    static const char *const names[CURVES] = {"first",  "second", "third",
+                                              "fourth", "fifth",  "sixth"};
+    static double data[3 * (CURVES + 1)];
+    if (!gnuplot_is_there()) {
+        TEST_IGNORE_MESSAGE("no gnuplot here");
+    }
+    dice d = dice_of("panels", 5202);
+    for (unsigned round = 0; round < 8U; round++) {
+        curve curves[CURVES];
+        unsigned written[UNITS] = {0};
+        for (int r = 0; r < 3 * (CURVES + 1); r++) {
+            data[r] = dice_between(&d, -5.0, 5.0);
+        }
+        for (int r = 0; r < 3; r++) {
+            data[r * (CURVES + 1)] = r;
+        }
+        for (int k = 0; k < CURVES; k++) {
+            const unsigned unit = dice_one_of(&d, UNITS);
+            curves[k] = (curve){names[k], units[unit], k + 1};
+            written[unit] = 1;
+        }
+        TEST_ASSERT_TRUE(plot_draw(PICTURE, "title", curves, CURVES, data, 3, CURVES + 1, 0.0));
+        char *text = shown();
+        for (int u = 0; u < UNITS; u++) {
+            unsigned found = 0;
+            for (const char *at = text; (at = strstr(at, units[u])) != NULL; at++) {
+                found++;
+            }
+            TEST_ASSERT_EQUAL_UINT(written[u], found);
+        }
+        for (int k = 0; k < CURVES; k++) {
+            find(text, names[k]);
+        }
+        free(text);
+    }
+    unlink(PICTURE);
+}
+
 void suite_plot(void) {
     RUN_TEST(test_texts_are_no_commands);
+    RUN_TEST(test_a_panel_a_unit);
     RUN_TEST(test_no_picture);
 }

@@ -1,0 +1,382 @@
+/* test_stepping.c: one run of a sweep, measured (host/sweep/stepping.h): against samples that the test takes of the same steps,
+ * and closed forms of the motions; which samples count; how a run is given up; and why one has no measures, by its words. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "command.h"
+#include "derived.h"
+#include "host/base/room.h"
+#include "host/run/slow.h"
+#include "host/run/verdict.h"
+#include "host/sweep/stepping.h"
+#include "unity.h"
+
+void suite_stepping(void);
+
+#define PI 3.14159265358979323846
+
+enum { MEASURES_MOST = 8, SAMPLES_MOST = 6000 };
+
+static dice die;
+
+/* What came of a point. */
+typedef struct measured_point {
+    bool good;
+    double value[MEASURES_MOST + 1];
+    point_notes notes;
+    char *reason;
+    char *errors;
+} measured_point;
+
+static measured_point measure(const measuring *w, const image *im, bool (*abandon)(void)) {
+    measured_point p = {.reason = NULL};
+    size_t length[2];
+    FILE *reason = room_text(&p.reason, &length[0]);
+    FILE *out = room_text(&p.errors, &length[1]);
+    diags *errors = diags_new();
+    p.good = stepping_measure(w, im, abandon, p.value, errors, reason, &p.notes);
+    diags_flush(errors, out);
+    diags_free(errors);
+    room_text_end(reason);
+    room_text_end(out);
+    return p;
+}
+
+static void drop(measured_point *p) {
+    free(p->reason);
+    free(p->errors);
+}
+
+static derived scene_of(const char *text) {
+    derived s = derived_scene(text, "s");
+    derived_expect(&s, text);
+    return s;
+}
+
+static const engine_kind *drawn_kind(void) {
+    return dice_one_of(&die, 2) == 0 ? &engine_float : &engine_double;
+}
+
+/* --- against samples of one's own ------------------------------------------------------------------------------*/
+
+/* A swing, an angle that turns, and an output of both. */
+static derived drawn_swing(double *omega_radps) {
+    char text[1000];
+    const double k = dice_between(&die, 250.0, 900.0);
+    *omega_radps = sqrt(k / 2.0);
+    snprintf(text, sizeof text,
+             "mechanism m\ncoordinate a [rad]\ncoordinate x [m]\n"
+             "T = 1 [kg]*x'^2 + 0.5 [kg*m^2]*a'^2\nV = %.17g [N/m]*x^2/2\n"
+             "output both [m] = 2*x + 0.1 [m]*sin(a)\noutput rate [m/s] = x'\n"
+             "output little [m] = 1 [m] + 1e-9*x\n"
+             "scene s { start x = 0.5 [m], a' = %.6f [rad/s]; step 1 [ms]; until %.4f [s] }\n",
+             k, dice_between(&die, -3.0, 3.0), dice_between(&die, 1.5, 3.0));
+    return scene_of(text);
+}
+
+static double sample_of(const engine_kind *kind, void *run, channel from) {
+    double angle_rad[8];
+    double real[16];
+    double output[8];
+    kind->state(run, angle_rad, real);
+    kind->outputs(run, output);
+    switch (from.where) {
+    case FROM_ANGLE: return angle_rad[from.index];
+    case FROM_REAL: return real[from.index];
+    case FROM_OUTPUT: break;
+    }
+    return output[from.index];
+}
+
+/* What the measure comes to, of samples from `from` on. */
+static double worth(measure_kind kind, const double *sample, int from, int count) {
+    double least = sample[from];
+    double most = sample[from];
+    long double sum = 0.0L;
+    for (int i = from; i < count; i++) {
+        least = fmin(least, sample[i]);
+        most = fmax(most, sample[i]);
+        sum += (i == from || i == count - 1 ? 0.5L : 1.0L) * (long double)sample[i];
+    }
+    switch (kind) {
+    case MEASURE_FINAL: return sample[count - 1];
+    case MEASURE_MAX: return most;
+    case MEASURE_MIN: return least;
+    case MEASURE_AMPLITUDE: return (most - least) / 2.0;
+    case MEASURE_MEAN: return (double)(sum / (long double)(count - 1 - from));
+    case MEASURE_PERIOD: break;
+    }
+    return (double)NAN;
+}
+
+static void test_samples(void) {
+    static double sample[MEASURES_MOST][SAMPLES_MOST];
+    for (unsigned c = 0; c < dice_cases(usual_or(12, 5)); c++) {
+        double omega_radps;
+        derived s = drawn_swing(&omega_radps);
+        const image *im = s.image;
+        const engine_kind *kind = drawn_kind();
+        const int from = c % 3 == 0 ? 0 : (int)dice_one_of(&die, (unsigned)im->steps - 1U);
+        measured list[MEASURES_MOST];
+        measuring w = {.kind = kind,
+                       .from_s = 0.001 * from,
+                       .list = list,
+                       .count = 1 + (int)dice_one_of(&die, MEASURES_MOST)};
+        TEST_ASSERT_TRUE(im->angles == 1 && im->reals == 3 && im->steps < SAMPLES_MOST);
+        for (int i = 0; i < w.count; i++) {
+            const unsigned where = dice_one_of(&die, c % 4 == 0 ? 2 : 3); /* without outputs, too */
+            list[i] = (measured){.kind = (measure_kind)dice_one_of(&die, MEASURE_MEAN + 1),
+                                 .name = "m",
+                                 .from = {.where = FROM_ANGLE}};
+            if (where == 1) {
+                list[i].from.where = FROM_REAL;
+                list[i].from.index = (int)dice_one_of(&die, 3);
+            } else if (where == 2) {
+                list[i].from.where = FROM_OUTPUT;
+                list[i].from.index = (int)dice_one_of(&die, 2);
+            }
+        }
+        void *run = kind->start(im);
+        verdict *v = verdict_open(im, kind);
+        for (int step = 0; step <= (int)im->steps; step++) {
+            verdict_enter(v, run);
+            for (int i = 0; i < w.count; i++) {
+                sample[i][step] = sample_of(kind, run, list[i].from);
+            }
+            TEST_ASSERT_EQUAL_INT(WH_OK, step < (int)im->steps ? kind->step(run) : WH_OK);
+        }
+        verdict_end(v, run, false, NULL);
+        measured_point p = measure(&w, im, NULL);
+        TEST_ASSERT_TRUE_MESSAGE(p.good, p.reason);
+        TEST_ASSERT_EQUAL_STRING("", p.reason);
+        for (int i = 0; i < w.count; i++) {
+            const double wanted = worth(list[i].kind, sample[i], from, (int)im->steps + 1);
+            const bool is_sum = list[i].kind == MEASURE_MEAN || list[i].kind == MEASURE_AMPLITUDE;
+            TEST_ASSERT_TRUE(fabs(p.value[i] - wanted) <= (is_sum ? 1e-11 : 0.0));
+        }
+        TEST_ASSERT_TRUE(v->balance.known && p.value[w.count] == v->balance.ratio);
+        TEST_ASSERT_EQUAL_UINT(v->against, p.notes.against);
+        TEST_ASSERT_EQUAL_INT(slow_count(kind, im, run), p.notes.slow);
+        TEST_ASSERT_EQUAL_UINT64(0, p.notes.overruns);
+        verdict_close(v);
+        kind->stop(run);
+        drop(&p);
+        derived_free(&s);
+    }
+}
+
+/* Its period is that of the spring, whatever is measured beside it; float angles that hardly turn are counted. */
+static void test_period(void) {
+    for (unsigned c = 0; c < dice_cases(usual_or(6, 3)); c++) {
+        double omega_radps;
+        derived s = drawn_swing(&omega_radps);
+        const measured list[] = {{MEASURE_FINAL, "f", {FROM_OUTPUT, 0}},
+                                 {MEASURE_PERIOD, "p", {FROM_OUTPUT, 1}},
+                                 {MEASURE_PERIOD, "q", {FROM_REAL, 0}}};
+        const measuring w = {.kind = drawn_kind(), .from_s = 0.1, .list = list, .count = 3};
+        measured_point p = measure(&w, s.image, NULL);
+        TEST_ASSERT_TRUE_MESSAGE(p.good, p.reason);
+        for (int i = 1; i < 3; i++) {
+            TEST_ASSERT_TRUE(fabs(p.value[i] * omega_radps / (2.0 * PI) - 1.0) < 1e-3);
+        }
+        drop(&p);
+        derived_free(&s);
+    }
+    /* what hardly swings has a period, as far as its numbers tell it apart from rounding */
+    double omega_radps;
+    derived little = drawn_swing(&omega_radps);
+    const measured period = {MEASURE_PERIOD, "l", {FROM_OUTPUT, 2}};
+    const engine_kind *const kinds[] = {&engine_float, &engine_double};
+    for (int i = 0; i < 2; i++) {
+        const measuring w = {.kind = kinds[i], .list = &period, .count = 1};
+        measured_point p = measure(&w, little.image, NULL);
+        TEST_ASSERT_TRUE(i == 0 ? isnan(p.value[0])
+                                : fabs(p.value[0] * omega_radps / (2.0 * PI) - 1.0) < 1e-3);
+        TEST_ASSERT_TRUE_MESSAGE(p.good, p.reason);
+        drop(&p);
+    }
+    derived_free(&little);
+    derived slow = scene_of("mechanism m\ncoordinate a [rad]\nT = 1 [kg*m^2]*a'^2/2\n"
+                            "scene s { start a' = 1e-7 [rad/s]; step 1 [ms]; until 1 [s] }\n");
+    const measured end = {MEASURE_FINAL, "a", {FROM_ANGLE, 0}};
+    for (int i = 0; i < 2; i++) {
+        const measuring w = {.kind = kinds[i], .list = &end, .count = 1};
+        measured_point p = measure(&w, slow.image, NULL);
+        TEST_ASSERT_EQUAL_INT(i == 0 ? 1 : 0, p.notes.slow);
+        drop(&p);
+    }
+    derived_free(&slow);
+}
+
+/* --- given up, and failed --------------------------------------------------------------------------------------*/
+
+#define CLOCK "mechanism m\nstate x [s]\nequation x' = 1\n"
+
+static unsigned asked;
+static unsigned give_up_at;
+
+static bool abandon(void) { return ++asked == give_up_at; }
+
+/* Asked in front of every 4096th step: what it has counted until then is what is measured. Never at the end. */
+static void test_given_up(void) {
+    derived s = scene_of(
+        "mechanism m\nstate x [s]\nequation x' = 1\nscene s { step 1 [ms]; until 12.288 [s] }\n");
+    const measured end = {MEASURE_FINAL, "x", {FROM_REAL, 0}};
+    const measuring w = {.kind = &engine_double, .list = &end, .count = 1};
+    TEST_ASSERT_EQUAL_UINT64(12288, s.image->steps);
+    for (give_up_at = 1; give_up_at <= 5; give_up_at++) {
+        asked = 0;
+        measured_point p = measure(&w, s.image, abandon);
+        TEST_ASSERT_EQUAL_UINT(give_up_at < 4 ? give_up_at : 3, asked);
+        const double wanted_s = give_up_at < 4 ? 4.096 * (give_up_at - 1.0) : 12.288;
+        TEST_ASSERT_TRUE(p.good && fabs(p.value[0] - wanted_s) < 1e-9);
+        TEST_ASSERT_TRUE(isnan(p.value[1])); /* it has no energies */
+        drop(&p);
+    }
+    derived_free(&s);
+    /* any number of steps, where no sample is kept */
+    derived longest = scene_of(CLOCK "scene s { step 1 [ms]; until 200000 [s] }\n");
+    const measured most = {MEASURE_MAX, "x", {FROM_REAL, 0}};
+    const measuring of_most = {.kind = &engine_double, .list = &most, .count = 1};
+    asked = 0;
+    give_up_at = 2;
+    measured_point p = measure(&of_most, longest.image, abandon);
+    TEST_ASSERT_TRUE(p.good && fabs(p.value[0] - 4.096) < 1e-9);
+    drop(&p);
+    derived_free(&longest);
+}
+
+/* It has no measures, which is said: a reason on a line of its own, or an error at its place. */
+static void expect_failed(const char *text, const measuring *w, const char *reason,
+                          const char *error) {
+    derived s = scene_of(text);
+    measured_point p = measure(w, s.image, NULL);
+    TEST_ASSERT_FALSE(p.good);
+    TEST_ASSERT_EQUAL_STRING(reason, p.reason);
+    TEST_ASSERT_TRUE_MESSAGE(
+        error[0] != '\0' ? strstr(p.errors, error) != NULL : p.errors[0] == '\0', p.errors);
+    drop(&p);
+    derived_free(&s);
+}
+
+static void test_failed(void) {
+    measured list = {MEASURE_MEAN, "mean(x)", {FROM_REAL, 0}};
+    measuring w = {.kind = &engine_double, .list = &list, .count = 1};
+    w.from_s = 1.5;
+    expect_failed(CLOCK "scene s { step 1 [ms]; until 1 [s] }\n", &w,
+                  "--from 1.5 s lies behind the last step", "");
+    list.kind = MEASURE_FINAL; /* which takes no series: any time will do */
+    derived good = scene_of(CLOCK "scene s { step 1 [ms]; until 1 [s] }\n");
+    measured_point p = measure(&w, good.image, NULL);
+    TEST_ASSERT_TRUE(p.good && fabs(p.value[0] - 1.0) < 1e-12);
+    drop(&p);
+    w.from_s = 1.0; /* the last step's end is one sample */
+    list.kind = MEASURE_MAX;
+    p = measure(&w, good.image, NULL);
+    TEST_ASSERT_TRUE(p.good && fabs(p.value[0] - 1.0) < 1e-12);
+    drop(&p);
+    derived_free(&good);
+    list.kind = MEASURE_PERIOD;
+    w.from_s = 0.0;
+    expect_failed(CLOCK "scene s { step 1 [ms]; until 100000 [s] }\n", &w,
+                  "period() takes at most 1e+08 samples: a later --from or a larger step", "");
+    /* 1/x of x = 1 - t, whose step to 0 is the last that is good: an output that is none at the end */
+    list = (measured){MEASURE_FINAL, "1/x", {FROM_OUTPUT, 0}};
+    expect_failed("mechanism m\nstate x\nequation x' = -1 [1/s]\noutput y = log(x)\n"
+                  "scene s { start x = 0.4995; step 1 [ms]; until 1 [s] }\n",
+                  &w, "what the measure '1/x' takes is not a finite number throughout", "");
+    /* each is finite, their sum is not */
+    list = (measured){MEASURE_MEAN, "large", {FROM_OUTPUT, 0}};
+    expect_failed("mechanism m\nstate x\nequation x' = 0*x/(1 [s])\noutput y = 1e308*(1 + x)\n"
+                  "scene s { step 1 [ms]; until 0.1 [s] }\n",
+                  &w, "the measure 'large' is not a finite number: what it takes is too large", "");
+}
+
+/* x' = x^2 from 1/t1 on is 1/(t1 - t): gone in the step in which t1 lies, or in the one behind it. And a root that is none
+ * from t1 on, which is told at its place. */
+static void test_diverged(void) {
+    const measured list = {MEASURE_FINAL, "x", {FROM_REAL, 0}};
+    for (int c = 0; c < 6; c++) {
+        char text[400];
+        const measuring w = {
+            .kind = c % 2 == 0 ? &engine_float : &engine_double, .list = &list, .count = 1};
+        const double t1_s = 0.2505 + 0.1 * (double)dice_one_of(&die, 5);
+        snprintf(text, sizeof text,
+                 "mechanism m\nstate x\nequation x' = 1 [1/s]*x^2\n"
+                 "scene s { start x = %.17g; step 1 [ms]; until 1 [s] }\n",
+                 1.0 / t1_s);
+        derived s = scene_of(text);
+        measured_point p = measure(&w, s.image, NULL);
+        double when_s = 0.0;
+        TEST_ASSERT_FALSE(p.good);
+        (void)said_number(said_exactly(p.reason, "diverged in the step after t = "), &when_s);
+        TEST_ASSERT_TRUE_MESSAGE(when_s >= t1_s - 0.002 && when_s < t1_s + 0.006, p.reason);
+        TEST_ASSERT_EQUAL_STRING("", p.errors);
+        drop(&p);
+        derived_free(&s);
+        snprintf(
+            text, sizeof text,
+            "mechanism m\nstate x\nequation x' = -1 [1/s] + 0 [1/s]*x\nstate y\n"
+            "equation y' = sqrt(x)/(1 [s])\nscene s { start x = %.17g; step 1 [ms]; until 1 [s] }\n",
+            t1_s);
+        s = scene_of(text);
+        p = measure(&w, s.image, NULL);
+        TEST_ASSERT_TRUE(!p.good && p.reason[0] == '\0');
+        const char *at = strstr(p.errors, "in the step after t = ");
+        TEST_ASSERT_NOT_NULL_MESSAGE(at, p.errors);
+        (void)said_number(at + strlen("in the step after t = "), &when_s);
+        TEST_ASSERT_TRUE_MESSAGE(fabs(when_s - (t1_s - 0.0005)) < 1.1e-3, p.errors);
+        TEST_ASSERT_NOT_NULL_MESSAGE(strstr(p.errors, ":5:15: error: "), p.errors);
+        drop(&p);
+        derived_free(&s);
+    }
+}
+
+/* An energy that is none, while the motion goes on: told at its place, with its time. */
+static void test_energies(void) {
+    const measured list = {MEASURE_FINAL, "x", {FROM_REAL, 0}};
+    for (int c = 0; c < 2; c++) {
+        const measuring w = {
+            .kind = c == 0 ? &engine_float : &engine_double, .list = &list, .count = 1};
+        expect_failed(
+            "mechanism m\ncoordinate x [m]\nT = 1 [kg]*x'^2/2\nV = 0.001 [J]*log(x/(1 [m]))\n"
+            "scene s { start x = 0, x' = 1 [m/s]; step 1 [ms]; until 0.1 [s] }\n",
+            &w, "", "at t = 0 s");
+    }
+}
+
+static void test_contacts(void) {
+    derived s = scene_of("mechanism m\ncoordinate x [m]\nT = 1 [kg]*x'^2/2\nV = 9.81 [N]*x\n"
+                         "stop x >= 0 [m] restitution 0.5\n"
+                         "scene s { start x = 1 [m]; step 1 [ms]; until 2 [s] }\n");
+    const measured list[] = {{MEASURE_MIN, "x", {FROM_REAL, 0}},
+                             {MEASURE_MAX, "x'", {FROM_REAL, 1}}};
+    const measuring w = {.kind = &engine_double, .list = list, .count = 2};
+    measured_point p = measure(&w, s.image, NULL);
+    TEST_ASSERT_TRUE_MESSAGE(p.good, p.reason);
+    TEST_ASSERT_TRUE(fabs(p.value[0]) < 1e-6);
+    TEST_ASSERT_TRUE(fabs(p.value[1] - 0.5 * sqrt(2.0 * 9.81)) <
+                     0.011); /* within a step of the bounce */
+    void *run = w.kind->start(s.image);
+    uint64_t overruns = 7;
+    for (uint64_t i = 0; i < s.image->steps; i++) {
+        (void)w.kind->step(run);
+    }
+    (void)w.kind->events(run, &overruns);
+    TEST_ASSERT_EQUAL_UINT64(overruns, p.notes.overruns);
+    w.kind->stop(run);
+    drop(&p);
+    derived_free(&s);
+}
+
+void suite_stepping(void) {
+    die = dice_of("stepping", 51);
+    RUN_TEST(test_samples);
+    RUN_TEST(test_period);
+    RUN_TEST(test_given_up);
+    RUN_TEST(test_failed);
+    RUN_TEST(test_diverged);
+    RUN_TEST(test_energies);
+    RUN_TEST(test_contacts);
+}
