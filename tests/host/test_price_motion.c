@@ -275,7 +275,46 @@ static void test_deviations_are_the_largest_of_all_records(void) {
     derived_free(&of);
 }
 
+/* With contacts steps differ: told is the one that took most evaluations. */
+static void test_the_step_with_most_evaluations_is_told(void) {
+    derived of = derived_scene("mechanism m\ncoordinate x [m]\nT = 1 [kg]*x'^2/2\n"
+                               "V = 1 [kg]*9.81 [m/s^2]*x\nstop x >= 0 [m] restitution 0.5\n"
+                               "scene s { start x = 1 [m]; step 10 [ms]; until 1 [s] }\n",
+                               "s");
+    derived_expect(&of, "a ball");
+    const reference_wish w = {
+        .image = of.image, .spacing = {1, 20}, .records = 18, .operations = 1e7};
+    reference *r = reference_new(&w);
+    TEST_ASSERT_EQUAL_INT(REFERENCE_FINE_STEPS, r->kind);
+    TEST_ASSERT_EQUAL_INT(18, r->records);
+    void *run = engine_double.start(of.image);
+    double most = 0.0;
+    uint64_t before = 0;
+    uint64_t declared;
+    for (int i = 0; i < 18 * 5; i++) {
+        TEST_ASSERT_EQUAL_INT(WH_OK, engine_double.step(run));
+        const uint64_t now = engine_double.evaluations(run, &declared);
+        most = fmax(most, (double)(now - before));
+        before = now;
+    }
+    engine_double.stop(run);
+    const deviation d = deviation_measure(r, of.image, &engine_double, (deviation_pace){5, 1},
+                                          (deviation_of_what){-1, 1.0}, NULL);
+    TEST_ASSERT_TRUE(d.usable && d.evaluations_most == most && most > 4.0);
+    /* reading a record evaluates the accelerations once more, and is counted with the steps */
+    const double evaluations = d.operations / of.image->list[IMAGE_STEP]->count;
+    TEST_ASSERT_TRUE(evaluations >= (double)before && evaluations <= (double)before + 2 * 19);
+    TEST_ASSERT_TRUE(fabs(d.evaluations - evaluations / 0.9) < 1e-6);
+    /* as far as it may be off, and no further */
+    const deviation same = deviation_measure(r, of.image, &engine_double, (deviation_pace){5, 1},
+                                             (deviation_of_what){-1, d.error}, NULL);
+    TEST_ASSERT_TRUE(same.usable && same.error == d.error);
+    reference_free(r);
+    derived_free(&of);
+}
+
 void suite_price_motion(void) {
+    RUN_TEST(test_the_step_with_most_evaluations_is_told);
     RUN_TEST(test_decays_end_where_they_should);
     RUN_TEST(test_a_step_is_of_twice_its_columns_order);
     RUN_TEST(test_poles_and_limits_end_it);
