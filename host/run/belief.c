@@ -48,7 +48,7 @@ belief belief_of(books *b, const engine_kind *kind, const void *run) {
     made.saturated = kind->saturated != NULL && kind->saturated(run) > 0;
     made.slow = slow_count(kind, b->image, run) > 0;
     made.left_J = made.energy.left;
-    made.largest_J = larger(made.energy.largest, b->kinetic_J[1] - b->kinetic_J[0]);
+    made.largest_J = larger(made.energy.largest, b->moving_J[1] - b->moving_J[0]);
     made.largest_J = larger(made.largest_J, b->stored_J[1] - b->stored_J[0]);
     made.largest_J = larger(made.largest_J, books_swing_J(b));
     double computing_J;

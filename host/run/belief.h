@@ -11,6 +11,9 @@
  *   - for each coordinate, half the root mean square of its momentum times the swing of its rate: the energy that
  *     its changes of speed passed on, where kinetic energy only moves from one coordinate to another.
  *
+ * Of a kinetic energy that has terms linear in the rates, as of a magnetic field, neither these count nor the momentum that
+ * they make: both depend on where the origin is.
+ *
  * All of them are changes: neither a constant in V nor a heavy clock that turns evenly counts. They are means over
  * time where they are no sums, so that the moment at which a singular position is passed does not set the measure.
  * What rounding explains (below) is no fault of the step: an entry counts as at least 1/BELIEF_LIMIT times that.

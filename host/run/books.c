@@ -14,7 +14,7 @@ books *books_open(const image *im) {
     }
     const int results = im->list[IMAGE_BOOKS]->results;
     books *b = room(1, sizeof *b);
-    const size_t count = 2 * (size_t)results + 4 * (size_t)im->count + (size_t)im->inputs;
+    const size_t count = 2 * (size_t)results + 5 * (size_t)im->count + (size_t)im->inputs;
     double *numbers = room((int64_t)count, sizeof *numbers);
     b->image = im;
     b->evaluator = evaluator_new(im->list[IMAGE_BOOKS]);
@@ -24,7 +24,8 @@ books *books_open(const image *im) {
     b->drift = b->momentum + im->count;
     b->momentum_now = b->drift + im->count;
     b->momentum_2 = b->momentum_now + im->count;
-    b->input = b->momentum_2 + im->count;
+    b->lean = b->momentum_2 + im->count;
+    b->input = b->lean + im->count;
     b->rate = room(im->count, sizeof *b->rate);
     image_inputs(im, b->input);
     b->step_s = im->step_s;
@@ -227,6 +228,66 @@ static void add_work(books *b, const double power_W[2]) {
     }
 }
 
+/* --- what is linear in the rates -----------------------------------------------------------------*/
+
+/* At this place with every rate reversed: the momenta into lean[], which has those of the rates as they are; the kinetic
+ * energy is returned. */
+static double reverse(books *b, const double *angle_rad, const double *from) {
+    const image *im = b->image;
+    double real[2 * IMAGE_COMPONENTS_MAX];
+    for (int i = 0; i < im->reals; i++) {
+        real[i] = im->real[i].primes == 1 ? -from[i] : from[i];
+    }
+    evaluate_now(b, angle_rad, real, b->time_s);
+    for (int i = 0; i < im->count; i++) {
+        b->lean[i] = 0.5 * (b->lean[i] + b->value[im->count + BOOK_MOMENTA + i]);
+    }
+    return b->value[im->count + BOOK_KINETIC];
+}
+
+static void take_momenta(books *b) {
+    memcpy(b->lean, b->value + b->image->count + BOOK_MOMENTA,
+           (size_t)b->image->count * sizeof *b->lean);
+}
+
+/* Asked beside the start, at places and rates that nothing singles out. A coordinate that comes from its momentum has no rate to
+ * reverse. */
+static bool find_leans(books *b) {
+    const image *im = b->image;
+    double angle_rad[IMAGE_COMPONENTS_MAX];
+    double real[2 * IMAGE_COMPONENTS_MAX];
+    bool found = false;
+    for (int k = 1; k <= 3 && im->recovered == 0; k++) {
+        for (int i = 0; i < im->angles; i++) {
+            angle_rad[i] = b->angle_rad[i] + 0.37 * k * (i + 1);
+        }
+        for (int i = 0; i < im->reals; i++) {
+            real[i] = b->real[i] + (0.61 * k * (i + 1)) * (1.0 + fabs(b->real[i]));
+        }
+        evaluate_now(b, angle_rad, real, b->time_s);
+        take_momenta(b);
+        double most = 0.0;
+        for (int i = 0; i < im->count; i++) {
+            most = number_most(most, fabs(b->lean[i]));
+        }
+        (void)reverse(b, angle_rad, real);
+        for (int i = 0; i < im->count; i++) {
+            found = found || (isfinite(most) && fabs(b->lean[i]) > 1e-9 * most);
+        }
+    }
+    return found;
+}
+
+/* The kinetic energy that the rates have, whatever of it is linear in them; the momenta that they do not have into lean[]. */
+static double moving_J(books *b) {
+    evaluate_now(b, b->angle_rad, b->real, b->time_s);
+    const double kinetic_J = b->value[b->image->count + BOOK_KINETIC];
+    take_momenta(b);
+    return 0.5 * (kinetic_J + reverse(b, b->angle_rad, b->real));
+}
+
+/* --- all of a step ---------------------------------------------------------------------------------*/
+
 void books_enter(books *b, const engine_kind *kind, const void *run) {
     const image *im = b->image;
     kind->state(run, b->angle_rad, b->real);
@@ -234,14 +295,21 @@ void books_enter(books *b, const engine_kind *kind, const void *run) {
         evaluator_wrap(b->evaluator);
     }
     b->time_s = (double)kind->steps(run) * b->step_s;
+    if (b->entries == 0) {
+        b->leans = find_leans(b);
+        memset(b->lean, 0, (size_t)im->count * sizeof *b->lean);
+    }
+    b->moving_J[1] = b->leans ? moving_J(b) : 0.0;
     evaluate_now(b, b->angle_rad, b->real, b->time_s);
     const double *entry = b->value + im->count;
+    b->moving_J[1] = b->leans ? b->moving_J[1] : entry[BOOK_KINETIC];
     const double power_W[2] = {entry[BOOK_INPUT_POWER], entry[BOOK_LOSS_POWER]};
     b->kinetic_J[1] = entry[BOOK_KINETIC];
     b->stored_J[1] = entry[BOOK_STORED];
     b->energy_J[1] = energy_of(im, b->value);
     if (b->entries == 0) {
         b->kinetic_J[0] = b->kinetic_J[1];
+        b->moving_J[0] = b->moving_J[1];
         b->stored_J[0] = b->stored_J[1];
         b->energy_J[0] = b->energy_J[1];
         for (int k = 0; k < 2; k++) {
@@ -253,7 +321,7 @@ void books_enter(books *b, const engine_kind *kind, const void *run) {
     } else {
         add_work(b, power_W);
     }
-    spread_enter(&b->kinetic, b->kinetic_J[1], b->entries);
+    spread_enter(&b->kinetic, b->moving_J[1], b->entries);
     spread_enter(&b->stored, b->stored_J[1], b->entries);
     b->size_J = number_most(b->size_J, fabs(b->kinetic_J[1]) + fabs(b->stored_J[1]));
     double all = b->energy_J[1] + power_W[0] + power_W[1];
@@ -265,7 +333,8 @@ void books_enter(books *b, const engine_kind *kind, const void *run) {
     for (int i = 0; i < im->count; i++) {
         b->rate[i].pushed = b->rate[i].pushed || b->value[i] != 0.0;
         all += entry[BOOK_MOMENTA + i];
-        b->momentum_2[i] += entry[BOOK_MOMENTA + i] * entry[BOOK_MOMENTA + i];
+        const double own = entry[BOOK_MOMENTA + i] - b->lean[i];
+        b->momentum_2[i] += own * own;
         b->momentum_now[i] = entry[BOOK_MOMENTA + i];
         b->drift[i] = number_most(b->drift[i], fabs(entry[BOOK_MOMENTA + i] - b->momentum[i]));
     }

@@ -31,6 +31,7 @@ typedef struct books {
     double angle_rad[IMAGE_COMPONENTS_MAX];
     double real[2 * IMAGE_COMPONENTS_MAX];
     double kinetic_J[2]; /* start, now */
+    double moving_J[2];  /* the same without what is odd in the rates */
     double stored_J[2];
     double energy_J[2];   /* what balances: kinetic + stored, or the energy integral */
     double input_J;       /* work of the inputs so far */
@@ -39,9 +40,12 @@ typedef struct books {
     spread kinetic;       /* over the steps */
     spread stored;
     spread *rate;       /* [count] */
-    double *momentum_2; /* [count] sum of squares */
-    double *off;        /* how far off each of value[] may be, in units of rounding */
-    double size_J;      /* largest |T| + |V| */
+    double *momentum_2; /* [count] sum of squares, without what is even in the rates: */
+    double *lean;       /* [count] that, and */
+    bool
+        leans; /* whether there is any: a magnetic field's, say, which depends on where the origin is */
+    double *off;   /* how far off each of value[] may be, in units of rounding */
+    double size_J; /* largest |T| + |V| */
     double
         rounding_J; /* what rounding a step once changes the energy by, at most of those looked at */
     double
