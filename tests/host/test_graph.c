@@ -152,7 +152,7 @@ static void test_one_node(void) {
         whole[i] = graph_whole(g, i - 1000);
         TEST_ASSERT_EQUAL_INT(i, whole[i]);
         TEST_ASSERT_TRUE(g->node[i].number.low == i - 1000.0 && g->room >= g->count &&
-                         g->slots > g->count);
+                         g->slots > g->count && (g->slots & (g->slots - 1)) == 0);
     }
     for (int i = 0; i < 2000; i++) {
         TEST_ASSERT_EQUAL_INT(whole[i], graph_whole(g, i - 1000));
@@ -166,6 +166,7 @@ static void test_one_node(void) {
     TEST_ASSERT_FALSE(graph_is_one(g, wide));
     TEST_ASSERT_EQUAL_INT(graph_whole(g, 0), graph_number(g, enclosure_of(-0.0)));
     graph_free(g);
+    graph_free(NULL);
 }
 
 /* What is true of all values is simplified, and only that. */

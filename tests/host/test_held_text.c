@@ -107,7 +107,11 @@ static const char *said_state(const char *at, int i, const char *name) {
     const char *shown = strcmp(unit->shown, "1") == 0 ? "" : unit->shown;
     at = said_exactly(at, "  ");
     at = said_exactly(at, name);
+    for (size_t wide = strlen(name); wide < 16; wide++) { /* a column of names */
+        at = said_exactly(at, " ");
+    }
     at = said_exactly(at, " ");
+    TEST_ASSERT_TRUE(*at != ' ');
     if (!s->begun) {
         at = said_words(at, "never ");
     } else if (s->verdict == HELD_TO_THE_END) {

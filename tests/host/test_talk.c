@@ -247,6 +247,26 @@ static void test_interrupted(void) {
     }
 }
 
+/* No line, but a program: one that there is not, and one that ends without a word. */
+static void test_programs(void) {
+    static const char *const programs[] = {"/nowhere/at all", "/bin/true"};
+    static const char *const words[] = {
+        "/nowhere/at all: error: ", "/bin/true: error: it ended without a hello\nhint: is it made"};
+    for (int i = 0; i < 2; i++) {
+        static talk t;
+        talk_wish =
+            (lockstep_wish){.guest = {.image = programs[i], .board = "", .patience_s = 20.0}};
+        talk_report = (lockstep_report){.end = LOCKSTEP_DONE};
+        errors_catch();
+        const bool good = talk_start(&t, &talk_wish, &talk_report, NULL);
+        talk_end(&t);
+        const char *told = errors_caught();
+        TEST_ASSERT_FALSE(good);
+        TEST_ASSERT_NOT_NULL_MESSAGE(strstr(told, words[i]), told);
+        TEST_ASSERT_EQUAL_INT(LOCKSTEP_BAD, talk_report.end);
+    }
+}
+
 /* A line has nobody who resets: said, and nothing is sent. */
 static void test_no_reset(void) {
     static talk t;
@@ -309,6 +329,7 @@ void suite_talk(void) {
     RUN_TEST(test_wrong_words);
     RUN_TEST(test_hellos);
     RUN_TEST(test_interrupted);
+    RUN_TEST(test_programs);
     RUN_TEST(test_no_reset);
     RUN_TEST(test_same_hello);
 }

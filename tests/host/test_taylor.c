@@ -209,6 +209,21 @@ static void test_closed_forms(void) {
     graph_free(c.graph);
 }
 
+/* What is no number is told, also where nothing is made of it. */
+static void test_no_number(void) {
+    closed c = {.graph = graph_new()};
+    (void)graph_variable(c.graph, 0);
+    close_with(&c, graph_whole(c.graph, 1));
+    taylor *t = taylor_new(&c.of, 2, -1);
+    const enclosure good = enclosure_of(3.0);
+    const enclosure bad = enclosure_of((double)NAN);
+    TEST_ASSERT_TRUE(taylor_find(t, &good));
+    TEST_ASSERT_FALSE(taylor_find(t, &bad));
+    taylor_free(t);
+    taylor_free(NULL);
+    graph_free(c.graph);
+}
+
 /* What it costs grows with the square of the order, and with the slopes: products of a node, counted as they are written. */
 static void test_products(void) {
     closed c = {.graph = graph_new()};
@@ -235,5 +250,6 @@ void suite_taylor(void) {
     RUN_TEST(test_at_a_point);
     RUN_TEST(test_in_a_box);
     RUN_TEST(test_closed_forms);
+    RUN_TEST(test_no_number);
     RUN_TEST(test_products);
 }

@@ -131,6 +131,7 @@ static void test_new(void) {
             zonotope_free(z);
         }
     }
+    zonotope_free(NULL);
 }
 
 /* Nothing that any of the maps makes of it is lost, however often it is reduced; without a reduction next to nothing is
