@@ -281,8 +281,6 @@ static cost_counts count(const image *im, const cost_board *board, cost_number n
     }
     const bool is_avr = board->cycles == COST_SIMULATED;
     add_step(im, given, &c);
-    if (c.soft) {
-    }
     const bool unrolls_less = im->settings.compensated || c.step.operations >= LONG_LEAST;
     c.looped = is_avr && (unrolls_less || im->ledger.kept || im->contacts > 0);
     c.tabled = is_avr && unrolls_less && c.stages > 2;

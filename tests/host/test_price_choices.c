@@ -255,11 +255,20 @@ static void test_little_effort_leaves_settings(void) {
         int reasons = 0;
         for (int i = 0; i < CHOICE_REASONS; i++) {
             reasons += c.reason[i].settings;
+            for (int k = 0; k < i && c.reason[i].why != NULL && c.reason[k].why != NULL; k++) {
+                TEST_ASSERT_TRUE(strcmp(c.reason[k].why, c.reason[i].why) != 0);
+            }
         }
         TEST_ASSERT_EQUAL_INT(c.unpriced, reasons);
         before = left;
     }
     TEST_ASSERT_EQUAL_INT(0, before);
+    /* what keeps the flash by no step needs no effort to be refused */
+    const choice_wish tiny = {
+        .error = 1e-4, .rate_Hz = rate_Hz, .periods = 1, .operations = 1.0, .flash_bytes = 1.0};
+    const choice c = choice_make(&p.trial, &tiny);
+    TEST_ASSERT_TRUE(c.refused > 0 && c.tried == c.refused && !c.found);
+    TEST_ASSERT_EQUAL_INT(c.settings, c.unpriced + c.tried + c.left[CHOICE_LEFT_WHOLE]);
     priced_close(&p);
 }
 

@@ -32,10 +32,11 @@ static void draw_fit(dice *d, cost_fit *fit, double feature[COST_FEATURES]) {
     for (int c = 0; c < COST_CLASSES; c++) {
         fit->bound[c] = dice_between(d, 1.1, 4.0);
     }
+    const bool wide = dice_one_of(d, 2) == 1; /* parts that no feature is beyond */
     for (int f = 0; f < COST_FEATURES; f++) {
         const bool there = dice_one_of(d, 4) == 0;
         fit->figure[f] = there ? dice_between(d, 0.1, 20.0) : 0.0;
-        fit->part[f] = dice_between(d, 0.0, 0.2);
+        fit->part[f] = wide ? 1.0 : dice_between(d, 0.0, 0.2);
         feature[f] = dice_one_of(d, 3) == 0 ? 1 + dice_one_of(d, 9) : 0.0;
     }
     static const cost_feature classes[] = {COST_F_BOOKS, COST_F_CODE_CALLS, COST_F_MATRIX,
@@ -478,7 +479,30 @@ static void test_prices_in_fixed_point_are_those_sums(void) {
     }
 }
 
+/* A row of fifteen columns, cut at the commas outside quotes; no fewer and no more of them. */
+static void test_measured_rows_have_fifteen_columns(void) {
+    const cost_board *board = cost_board_named("mps2-an386");
+    for (int columns = 12; columns <= 18; columns++) {
+        char row[400] = "commit,gcc 12,\"-O2, -g, \",mps2-an386,s,float,rk4";
+        for (int i = 7; i < columns; i++) {
+            size_t to = strlen(row);
+            snprintf(row + to, sizeof row - to, i == 11 ? ",estimated" : ",%d", 100 + i);
+        }
+        strcat(row, columns % 2 ? "\n" : "");
+        cost c = {.why = "before"};
+        const bool is = cost_measured(row, board, &c);
+        TEST_ASSERT_EQUAL_INT_MESSAGE(columns == 15, is, row);
+        TEST_ASSERT_EQUAL_INT(is, c.predictable);
+        TEST_ASSERT_EQUAL_STRING(is ? "" : "before", c.why);
+        TEST_ASSERT_TRUE(c.instructions.value == (is ? 107.0 : 0.0));
+        TEST_ASSERT_TRUE(c.cycles_worst.most == (is ? 110.0 : 0.0));
+        TEST_ASSERT_TRUE(c.flash_bytes.value == (is ? 112.0 : 0.0));
+        TEST_ASSERT_TRUE(c.stack_bytes.least == (is ? 114.0 : 0.0));
+    }
+}
+
 void suite_price_rows(void) {
+    RUN_TEST(test_measured_rows_have_fifteen_columns);
     RUN_TEST(test_drawn_sums_and_their_bounds);
     RUN_TEST(test_figures_are_made_of_figures);
     RUN_TEST(test_boards_are_found_by_their_names);
