@@ -43,7 +43,7 @@ static void write_mechanism(char *text, int which) {
             "mechanism m\ncoordinate a [rad]\ncoordinate x [m]\ninput M = %.6f [N*m]\n"
             "T = %.6f [kg*m^2]*(1.5 + cos(2*a + 0.3))*a'^2/2 + 1 [kg]*x'^2/2\n"
             "V = %.6f [J]*sin(3*a) + 9 [N/m]*x^2/2\nF = 0.4 [N*m*s]*a'^2/2\nQ(a) = M\n"
-            "Q(x) = -0.5 [N]*sign(x - 0.02 [m])\noutput o = x*sin(a)\noutput p = M\n"
+            "Q(x) = -0.5 [N]*sign(x - 0.02 [m])\noutput o = x*sin(a)\noutput p = M\noutput r = x' \n"
             "scene s { range M = -1 .. 1 [N*m], a' = -6 .. 6 [rad/s]; start a' = %.6f [rad/s], x = 0.2 [m]; %s",
             some(0.1, 0.4), some(0.3, 0.6), some(0.1, 0.5), some(-3, 3), rest);
         break;
@@ -180,6 +180,7 @@ static void test_outputs_and_inputs(void) {
         const double wanted[KINDS] = {is[0] - 2.0 * is[1], is[1] * sin(is[0]), is[0] - is[1],
                                       is[1] * is[2], is[0] + is[1]};
         TEST_ASSERT_TRUE_MESSAGE(fabs(output[0] - wanted[which]) < 1e-13, text);
+        TEST_ASSERT_TRUE(which != 1 || output[2] == is[3]); /* a, x, a', x' */
         const interval range = p->range[im->reals];
         const double unit = ldexp(1.0, -p->format[im->reals].bits);
         for (int k = 0; k < 20; k++) {

@@ -190,8 +190,10 @@ static void send_run(void) {
         t.time_us += (int64_t)lost * c->period_ticks;
         t.counts.lost_samples += lost;
     }
+    const int64_t most_us =
+        c->period_ticks * 9 / 20; /* less than half of one: which it is can be told */
     const int64_t jitter_us =
-        (int64_t)dice_one_of(&die, c->period_ticks / 4) * (t.run_came ? 1 : 0);
+        t.run_came ? (int64_t)dice_one_of(&die, 2U * (unsigned)most_us) - most_us : 0;
     const int64_t begin_us = t.time_us + jitter_us;
     for (int i = 0; i < c->onces; i++) {
         once[i] = put_field(&c->once[i], payload + at, once_words[i]);
@@ -401,6 +403,7 @@ static double dumped(const char *name, int64_t time_us) {
 
 static void expect_waves(void) {
     static const char *const slots[] = {"slot1", "slot2"};
+    TEST_ASSERT_TRUE(dumped(slots[0], 0) == 0.0 && dumped(slots[1], 0) == 0.0);
     for (int i = 0; i < t.pulses; i++) {
         const char *slot = slots[t.pulse_of[i]];
         TEST_ASSERT_TRUE(dumped(slot, t.pulse_us[i]) == 1.0 &&

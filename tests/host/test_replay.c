@@ -138,9 +138,24 @@ static void test_not_replayed(void) {
     }
 }
 
+/* A tape on which the firmware was reset: over a line nobody can. */
+static void test_reset_on_tape(void) {
+    uint8_t payload[WH_RESET_BYTES];
+    const wh_reset reset = {.cause = WH_RESET_WATCHDOG};
+    talk_draw();
+    talk_tape_all(2);
+    talk_put_hello(&talk_on_tape, &talk_drawn.hello);
+    talk_put(&talk_on_tape, WH_FRAME_RESET, 0, talk_drawn.ticks[1], payload,
+             wh_reset_put(&reset, payload, sizeof payload));
+    talk_say_all(2);
+    const char *told = replay(LOCKSTEP_FAILED, 2, true);
+    TEST_ASSERT_NOT_NULL_MESSAGE(strstr(told, "nothing that resets it"), told);
+}
+
 void suite_replay(void) {
     talk_die(dice_of("replay", 50));
     RUN_TEST(test_replayed);
     RUN_TEST(test_other_orders);
     RUN_TEST(test_not_replayed);
+    RUN_TEST(test_reset_on_tape);
 }

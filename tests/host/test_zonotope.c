@@ -207,6 +207,7 @@ static void test_longest_are_kept(void) {
         const enclosure zero[SIZE] = {{0.0, 0.0}};
         enclosure map[SIZE * SIZE] = {{0.0, 0.0}};
         double sum[MOST] = {0.0};
+        z->drift[0] = 1.0;
         z->count = z->most;
         for (int k = 0; k < z->count; k++) {
             sum[k] = 0.0;
@@ -221,6 +222,7 @@ static void test_longest_are_kept(void) {
         }
         const exact_set before = copy_of(z);
         zonotope_map(z, map, zero);
+        TEST_ASSERT_TRUE(fabs(z->drift[0] - 2.0) < 1e-12);
         bool found[MOST] = {false};
         for (int k = 0; k < MOST / 2; k++) {
             double now = 0.0;
@@ -351,6 +353,7 @@ static void test_frame(void) {
             z->generator[i] = 1.0;
             z->generator[n + i] = -2.0;
             z->generator[2 * n + i] = 0.0;
+            z->generator[3 * n + i] = i == 0 ? 100.0 : 0.0; /* behind the last: none */
         }
         expect_frame(z);
         zonotope_free(z);
