@@ -87,6 +87,8 @@ static void expect_unheard(lockstep_end end, const char *why, bool closed) {
     const char *told = errors_caught();
     TEST_ASSERT_EQUAL_INT(end, talk_report.end);
     TEST_ASSERT_NOT_NULL_MESSAGE(strstr(told, why), told);
+    const char *error = strstr(told, "error: ");
+    TEST_ASSERT_TRUE_MESSAGE(error == NULL || strstr(error + 1, "error: ") == NULL, "told once");
     TEST_ASSERT_EQUAL_UINT64(1, talk_report.exchanges);
     talk_close_line(&heard);
 }
