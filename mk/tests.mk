@@ -116,10 +116,12 @@ CLI_LONG := $(foreach t,emitted_c price embed_names flags,tests/cli/$(t).sh)
 run_cli = $(foreach t,$(1),"$(t)" "sh $(t)")
 # What `make test` leaves to gate-long, so that it stays below five minutes: what compares digits of what other tests run,
 # too, or takes long. Of the scripts in CLI_FEW it takes few cases.
-CLI_GATED := $(foreach t,carriage embed_names faults figures flags map measure pil price prove settings_bits,tests/cli/$(t).sh)
+CLI_GATED := $(foreach t,carriage embed_names faults figures flags map measure pil price printed_zeros prove settings_bits trust,\
+    tests/cli/$(t).sh)
 CLI_FEW := $(foreach t,emitted_c fixed,tests/cli/$(t).sh)
-HOST_GATED := belief busy choice contact_bound contact_centres contact_holds contact_together exact_books fixed_ranges force_free \
-    hard_cases hybrids map methods prove_drawn rounding tape_gauge trajectory trust_scenes turned_errors warnings
+HOST_GATED := belief busy choice contact_bound contact_centres contact_holds contact_rest contact_start contact_together exact_books \
+    fixed_ranges force_free hard_cases hybrids lockin_truth map methods prove_drawn rounding tables tape_gauge trajectory trust \
+    trust_scenes turned_errors warnings
 RUN_HOST = $(call run_host,$(B)/tests/quick_suites.list)
 run_few = $(foreach t,$(1),"$(t)$(comma) few cases" "WHIRL_FEW=1 sh $(t)")
 RUN_LONG = $(call run_few,$(CLI_FEW))
