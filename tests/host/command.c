@@ -81,6 +81,17 @@ double said_step_s(const char *word) {
                                                : 1.0);
 }
 
+double said_named_step_s(const char *text) {
+    char word[40];
+    const char *at = strstr(text, "--step ");
+    if (at == NULL) {
+        return 0.0;
+    }
+    at += strlen("--step ");
+    snprintf(word, sizeof word, "%.*s", (int)strcspn(at, " ;,\n"), at);
+    return said_step_s(word);
+}
+
 static int kept_stderr = -1;
 static FILE *caught;
 

@@ -17,6 +17,8 @@ void command_say(int (*command)(int count, char **words), const char *const *wor
 
 /* A step as a warning writes it, "200us": s. */
 double said_step_s(const char *word);
+/* That of the first `--step` which a text names; 0 without one. */
+double said_named_step_s(const char *text);
 
 /* Text read bit by bit; each fails the test where it does not go on so, and returns what is behind it. Blanks may stand in
  * front. Words as they are; a number; what there is up to the next blank, in word[size]. */

@@ -6,6 +6,11 @@
 
 #include "unity.h"
 
+const char *const priced_ball[1] = {
+    "mechanism m\ncoordinate x [m]\nT = 1 [kg]*x'^2/2\nV = 1 [kg]*9.81 [m/s^2]*x\n"
+    "stop x >= 0 [m] restitution 0.5\n"
+    "scene s { start x = 1 [m]; step 1 [ms]; until 1 [s] }\n"};
+
 static image *make(void *context, int point, const setting *s, const char *step,
                    const char *until) {
     priced *p = context;

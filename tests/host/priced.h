@@ -23,6 +23,9 @@ typedef struct priced {
     trials trial;
 } priced;
 
+/* A text with a contact: a ball that bounces. */
+extern const char *const priced_ball[1];
+
 /* Scenes `s` of so many texts. */
 void priced_open(priced *p, const char *const *texts, int points);
 /* Trials of these, with their references: what trial_begin() says. */

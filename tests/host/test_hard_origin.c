@@ -37,17 +37,6 @@ static void run_with(const char *target, const char *set, bool is_float, const c
 /* Words a warning or a refusal has; or none. */
 static bool tells(const said *what) { return what->status != 0 || what->err[0] != '\0'; }
 
-/* The step that a hint names, s; 0 without one. */
-static double step_named(const char *text) {
-    const char *at = strstr(text, "--step ");
-    if (at == NULL) {
-        return 0.0;
-    }
-    char *unit;
-    const double number = strtod(at + 7, &unit);
-    return number * (unit[0] == 'm' ? 1e-3 : unit[0] == 'u' ? 1e-6 : unit[0] == 'n' ? 1e-9 : 1.0);
-}
-
 /* --- r -> 0 ---------------------------------------------------------------------------------------------------- */
 
 /* A straight flight past the origin at a distance: how far off it ends, m. */
@@ -92,7 +81,7 @@ static void test_past_the_origin_of_polar_coordinates(void) {
         if (off_m > 0.02) {
             off_course++;
             TEST_ASSERT_TRUE_MESSAGE(tells(&what) && strstr(what.err, "singular") != NULL, about);
-            const double step_s = step_named(what.err);
+            const double step_s = said_named_step_s(what.err);
             if (step_s > 0.0 && step_s < 1e-3) { /* what it says would do, done */
                 const bool compensated = strstr(what.err, "--compensated") != NULL;
                 const double now_m = passage_off_m(d_m, step_s, kind, compensated);
@@ -149,7 +138,7 @@ static void test_past_the_origin_by_crude_methods(void) {
         while (strncmp(hint, "hint: ", 6) != 0) {
             hint--;
         }
-        const double step_s = step_named(hint);
+        const double step_s = said_named_step_s(hint);
         const wh_method method = method_named(hint, own);
         /* at 1 m/s the turn takes d/u: a hundredth of that and less is more than it needs */
         TEST_ASSERT_TRUE_MESSAGE(step_s >= d_m / 200.0 && step_s < 1e-3, about);
@@ -270,7 +259,7 @@ static void test_past_the_origin_of_spherical_coordinates(void) {
         if (off_m > 0.02) {
             off_course++;
             TEST_ASSERT_TRUE_MESSAGE(tells(&what) && strstr(what.err, "singular") != NULL, about);
-            const double step_s = step_named(what.err);
+            const double step_s = said_named_step_s(what.err);
             if (step_s > 0.0 && step_s < 1e-3) {
                 const bool compensated = strstr(what.err, "--compensated") != NULL;
                 const double now_m = flight_off_m(&f, step_s, kind, compensated);

@@ -89,16 +89,20 @@ static const char *read_table(const char *at, const char *title, int first, int 
     return at;
 }
 
+static const char *said_step(const char *at) {
+    double step_s;
+    at = said_number(at, &step_s);
+    TEST_ASSERT_TRUE(fabs(step_s - drawn.im.step_s) < 1e-8 * step_s);
+    return at;
+}
+
 static void test_tables(void) {
     for (unsigned c = 0; c < dice_cases(usual_or(100, 40)); c++) {
         drawn_image_draw(&drawn, &die, c % 2 == 0 ? MATRIX_EXACT : MATRIX_RK4);
         const int states = drawn.im.matrix.states;
         const int inputs = drawn.im.inputs;
         char *text = written(matrix_text);
-        double step_s;
-        const char *at = said_exactly(text, "\na step of ");
-        at = said_number(at, &step_s);
-        TEST_ASSERT_TRUE(fabs(step_s - drawn.im.step_s) < 1e-8 * step_s);
+        const char *at = said_step(said_exactly(text, "\na step of "));
         at = said_exactly(at, " s as one matrix: ");
         at = said_motion(at);
         at = said_exactly(at, "\n\n  x+ = Phi x");
@@ -141,10 +145,7 @@ static void test_latex(void) {
         const int states = drawn.im.matrix.states;
         const int inputs = drawn.im.inputs;
         char *text = written(matrix_latex);
-        double step_s;
-        const char *at = said_exactly(text, "\n% a step of ");
-        at = said_number(at, &step_s);
-        TEST_ASSERT_TRUE(fabs(step_s - drawn.im.step_s) < 1e-8 * step_s);
+        const char *at = said_step(said_exactly(text, "\n% a step of "));
         at = said_exactly(at, " s: ");
         at = said_motion(at);
         at = said_exactly(at, "; x = ");

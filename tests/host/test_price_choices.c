@@ -383,12 +383,8 @@ static void test_tables_have_all_steps_that_help(void) {
 
 /* What has contacts has no price: its rows are by the evaluations of their runs. */
 static void test_tables_without_a_price_are_by_evaluations(void) {
-    static const char *const ball[] = {
-        "mechanism m\ncoordinate x [m]\nT = 1 [kg]*x'^2/2\nV = 1 [kg]*9.81 [m/s^2]*x\n"
-        "stop x >= 0 [m] restitution 0.5\n"
-        "scene s { start x = 1 [m]; step 1 [ms]; until 1 [s] }\n"};
     priced p;
-    priced_open(&p, ball, 1);
+    priced_open(&p, priced_ball, 1);
     p.takes = is_tried;
     TEST_ASSERT_TRUE(priced_begin(&p, "mps2-an386", (whole_ratio){1, 20}, RECORDS, NULL));
     const table_wish w = {.operations = 1e5};

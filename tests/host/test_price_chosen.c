@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "caught.h"
 #include "command.h"
 #include "host/base/room.h"
 #include "host/price/choice_text.h"
@@ -57,18 +58,6 @@ static choice_row drawn_row(dice *d, cost_basis cycles) {
     r.load = dice_between(d, 0.01, 0.5);
     r.load_most = r.load * 1.5;
     return r;
-}
-
-/* Room for a text that is printed; to be freed. */
-typedef struct caught {
-    char *text;
-    size_t length;
-    FILE *to;
-} caught;
-
-static FILE *catch_text(caught *c) {
-    c->to = room_text(&c->text, &c->length);
-    return c->to;
 }
 
 static const char *behind(const char *text, const char *what) {

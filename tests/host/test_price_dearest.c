@@ -192,12 +192,8 @@ static void test_matrices_are_priced_by_a_step_that_they_take(void) {
 
 /* What has contacts is priced by a step without an event where that is what is asked for. */
 static void test_contacts_are_left_out_where_that_is_asked(void) {
-    static const char *const ball[] = {
-        "mechanism m\ncoordinate x [m]\nT = 1 [kg]*x'^2/2\nV = 1 [kg]*9.81 [m/s^2]*x\n"
-        "stop x >= 0 [m] restitution 0.5\n"
-        "scene s { start x = 1 [m]; step 1 [ms]; until 1 [s] }\n"};
     priced p;
-    priced_open(&p, ball, 1);
+    priced_open(&p, priced_ball, 1);
     TEST_ASSERT_TRUE(priced_begin(&p, "mps2-an386", spacing, 10, NULL));
     const setting rk4 = priced_setting(WH_RK4, &engine_float);
     image *im = priced_image(&p, 0, &rk4, "0.0004");

@@ -50,6 +50,17 @@ static void expect_figure(const cost_figure *want, const cost_figure *have, cons
     TEST_ASSERT_TRUE_MESSAGE(near(want->bound, have->bound), what);
 }
 
+static void expect_cost(const cost *want, const cost *have, const char *what) {
+    TEST_ASSERT_TRUE(have->predictable);
+    expect_figure(&want->instructions, &have->instructions, what);
+    expect_figure(&want->instructions_worst, &have->instructions_worst, what);
+    expect_figure(&want->cycles, &have->cycles, what);
+    expect_figure(&want->cycles_worst, &have->cycles_worst, what);
+    expect_figure(&want->flash_bytes, &have->flash_bytes, what);
+    expect_figure(&want->ram_bytes, &have->ram_bytes, what);
+    expect_figure(&want->stack_bytes, &have->stack_bytes, what);
+}
+
 static cost_figure longest_of(cost_figure f, double spread) {
     f.value *= spread;
     f.most *= spread;
@@ -144,14 +155,14 @@ static int check_price(const image *im, const cost_board *b, cost_number number)
         flash = ram = stack = (cost_figure){0};
         TEST_ASSERT_NOT_NULL(strstr(c.why, "with contacts must be measured"));
     }
-    TEST_ASSERT_TRUE(c.predictable);
-    expect_figure(&steps, &c.instructions, b->name);
-    expect_figure(&worst, &c.instructions_worst, b->name);
-    expect_figure(&cycles, &c.cycles, b->name);
-    expect_figure(&cycles_worst, &c.cycles_worst, b->name);
-    expect_figure(&flash, &c.flash_bytes, b->name);
-    expect_figure(&ram, &c.ram_bytes, b->name);
-    expect_figure(&stack, &c.stack_bytes, b->name);
+    const cost want = {.instructions = steps,
+                       .instructions_worst = worst,
+                       .cycles = cycles,
+                       .cycles_worst = cycles_worst,
+                       .flash_bytes = flash,
+                       .ram_bytes = ram,
+                       .stack_bytes = stack};
+    expect_cost(&want, &c, b->name);
     return c.instructions.basis == COST_PREDICTED;
 }
 
@@ -226,14 +237,14 @@ static void check_fixed(const image *im, const cost_board *b) {
         fixed_by_hand(&row->fit[COST_OF_RAM], COST_OF_RAM, feature, COST_MEASURED);
     const cost_figure stack =
         fixed_by_hand(&row->fit[COST_OF_STACK], COST_OF_STACK, feature, COST_MEASURED);
-    TEST_ASSERT_TRUE(c.predictable);
-    expect_figure(&steps, &c.instructions, b->name);
-    expect_figure(&worst, &c.instructions_worst, b->name);
-    expect_figure(&cycles, &c.cycles, b->name);
-    expect_figure(&cycles_worst, &c.cycles_worst, b->name);
-    expect_figure(&flash, &c.flash_bytes, b->name);
-    expect_figure(&ram, &c.ram_bytes, b->name);
-    expect_figure(&stack, &c.stack_bytes, b->name);
+    const cost want = {.instructions = steps,
+                       .instructions_worst = worst,
+                       .cycles = cycles,
+                       .cycles_worst = cycles_worst,
+                       .flash_bytes = flash,
+                       .ram_bytes = ram,
+                       .stack_bytes = stack};
+    expect_cost(&want, &c, b->name);
 }
 
 /* Shifts as they are taken: to the right, to the left, and their bits beyond whole bytes. */

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "caught.h"
 #include "command.h"
 #include "host/base/room.h"
 #include "host/fixed/engine_fixed.h"
@@ -68,18 +69,6 @@ static void test_figures_say_how_they_are_known(void) {
     char words[FIGURE_WORDS];
     TEST_ASSERT_EQUAL_STRING("predicted, fitted to measured figures, within a factor of 2",
                              figure_words(&edge, words));
-}
-
-/* A stream's text; to be freed. */
-typedef struct caught {
-    char *text;
-    size_t length;
-    FILE *to;
-} caught;
-
-static FILE *catch_text(caught *c) {
-    c->to = room_text(&c->text, &c->length);
-    return c->to;
 }
 
 static void test_legends_have_a_line_for_each_basis_that_is_there(void) {

@@ -140,17 +140,6 @@ static void test_limits_of_what_turns(void) {
     TEST_ASSERT_TRUE(none > 0 && none < cases);
 }
 
-/* The step that a hint names, s; 0 without one. */
-static double step_named(const char *text) {
-    const char *at = strstr(text, "--step ");
-    if (at == NULL) {
-        return 0.0;
-    }
-    char *unit;
-    const double number = strtod(at + 7, &unit);
-    return number * (unit[0] == 'm' ? 1e-3 : unit[0] == 'u' ? 1e-6 : unit[0] == 'n' ? 1e-9 : 1.0);
-}
-
 static void run_by(const turning *t, wh_method method, double step_s, said *what) {
     char target[80];
     char step[40];
@@ -185,7 +174,7 @@ static void test_what_is_told_of_circles(void) {
         const bool more = strtod(number + strlen("believed: "), NULL) > 0.0;
         TEST_ASSERT_NOT_NULL_MESSAGE(strstr(what.err, more ? " adds " : " takes "), about);
         *(more ? &adds : &takes) += 1;
-        const double step_s = step_named(what.err);
+        const double step_s = said_named_step_s(what.err);
         if (step_s > 0.0 && strstr(what.err, "--method") == NULL) {
             run_by(&t, method, step_s, &what);
             TEST_ASSERT_EQUAL_STRING_MESSAGE("", what.err, about);

@@ -1,0 +1,19 @@
+/* caught.h: what is printed to a stream, as a text. */
+#ifndef TESTS_HOST_CAUGHT_H
+#define TESTS_HOST_CAUGHT_H
+
+#include "host/base/room.h"
+
+/* `text`, to be freed, is whole behind room_text_end(to). */
+typedef struct caught {
+    char *text;
+    size_t length;
+    FILE *to;
+} caught;
+
+static inline FILE *catch_text(caught *c) {
+    c->to = room_text(&c->text, &c->length);
+    return c->to;
+}
+
+#endif
