@@ -323,19 +323,19 @@ static bool has_tape(const monitor *m) {
     return true;
 }
 
-/* Of a line that was to be recorded: has anybody been there who could send it? */
+/* False, and told: a line was to be recorded, and nobody has been there who could send it. */
 static bool has_source(const monitor *m) {
-    bool wanted = m->live && (!m->met || m->dialogue.rate_refused);
-    bool any = false;
+    bool records = false;
     for (int i = 0; i < OUTPUTS; i++) {
-        any = any || (i != RAW && m->o->output[i] != NULL);
+        records = records || (i != RAW && m->o->output[i] != NULL);
     }
-    wanted = wanted && any && m->recording.counts.samples == 0;
-    if (wanted) {
-        fprintf(stderr, "whirl monitor: error: nothing was recorded: %s%s\n", m->o->port,
-                m->met ? " sends no samples at this --rate" : " has not answered");
+    const bool silent = m->live && (!m->met || m->dialogue.rate_refused);
+    if (!records || !silent || m->recording.counts.samples > 0) {
+        return true;
     }
-    return !wanted;
+    fprintf(stderr, "whirl monitor: error: nothing was recorded: %s%s\n", m->o->port,
+            m->met ? " sends no samples at this --rate" : " has not answered");
+    return false;
 }
 
 static int run(monitor *m) {

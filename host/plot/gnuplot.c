@@ -119,12 +119,12 @@ bool gnuplot_open(gnuplot *g, const char *file, int height) {
     return true;
 }
 
-/* gnuplot does not see that a disk is full, and says that all is well: has the file the end of such a picture? What is no
- * file, such as a pipe, cannot be asked. */
+/* gnuplot does not see that a disk is full, and says that all is well: has the file the end of such a picture? What keeps
+ * nothing, such as a pipe, cannot be asked. */
 static bool is_whole(const char *file) {
     char last[17] = {0};
     struct stat about;
-    if (stat(file, &about) != 0 || S_ISFIFO(about.st_mode)) {
+    if (stat(file, &about) == 0 && !S_ISREG(about.st_mode)) {
         return true;
     }
     FILE *picture = fopen(file, "rb");

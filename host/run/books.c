@@ -230,24 +230,23 @@ static void add_work(books *b, const double power_W[2]) {
 
 /* --- what is linear in the rates -----------------------------------------------------------------*/
 
-/* At this place with every rate reversed: the momenta into lean[], which has those of the rates as they are; the kinetic
- * energy is returned. */
-static double reverse(books *b, const double *angle_rad, const double *from) {
+/* The kinetic energy at this place with every rate reversed; its momenta into lean[]. */
+static double reversed_J(books *b, const double *angle_rad, const double *from) {
     const image *im = b->image;
     double real[2 * IMAGE_COMPONENTS_MAX];
     for (int i = 0; i < im->reals; i++) {
         real[i] = im->real[i].primes == 1 ? -from[i] : from[i];
     }
     evaluate_now(b, angle_rad, real, b->time_s);
-    for (int i = 0; i < im->count; i++) {
-        b->lean[i] = 0.5 * (b->lean[i] + b->value[im->count + BOOK_MOMENTA + i]);
-    }
+    memcpy(b->lean, b->value + im->count + BOOK_MOMENTA, (size_t)im->count * sizeof *b->lean);
     return b->value[im->count + BOOK_KINETIC];
 }
 
-static void take_momenta(books *b) {
-    memcpy(b->lean, b->value + b->image->count + BOOK_MOMENTA,
-           (size_t)b->image->count * sizeof *b->lean);
+/* Of these momenta and of those of the rates as they are, just evaluated: what the two share. */
+static void take_lean(books *b) {
+    for (int i = 0; i < b->image->count; i++) {
+        b->lean[i] = 0.5 * (b->lean[i] + b->value[b->image->count + BOOK_MOMENTA + i]);
+    }
 }
 
 /* Asked beside the start, at places and rates that nothing singles out. A coordinate that comes from its momentum has no rate to
@@ -264,26 +263,18 @@ static bool find_leans(books *b) {
         for (int i = 0; i < im->reals; i++) {
             real[i] = b->real[i] + (0.61 * k * (i + 1)) * (1.0 + fabs(b->real[i]));
         }
+        (void)reversed_J(b, angle_rad, real);
         evaluate_now(b, angle_rad, real, b->time_s);
-        take_momenta(b);
+        take_lean(b);
         double most = 0.0;
         for (int i = 0; i < im->count; i++) {
-            most = number_most(most, fabs(b->lean[i]));
+            most = number_most(most, fabs(b->value[im->count + BOOK_MOMENTA + i]));
         }
-        (void)reverse(b, angle_rad, real);
         for (int i = 0; i < im->count; i++) {
             found = found || (isfinite(most) && fabs(b->lean[i]) > 1e-9 * most);
         }
     }
     return found;
-}
-
-/* The kinetic energy that the rates have, whatever of it is linear in them; the momenta that they do not have into lean[]. */
-static double moving_J(books *b) {
-    evaluate_now(b, b->angle_rad, b->real, b->time_s);
-    const double kinetic_J = b->value[b->image->count + BOOK_KINETIC];
-    take_momenta(b);
-    return 0.5 * (kinetic_J + reverse(b, b->angle_rad, b->real));
 }
 
 /* --- all of a step ---------------------------------------------------------------------------------*/
@@ -299,10 +290,14 @@ void books_enter(books *b, const engine_kind *kind, const void *run) {
         b->leans = find_leans(b);
         memset(b->lean, 0, (size_t)im->count * sizeof *b->lean);
     }
-    b->moving_J[1] = b->leans ? moving_J(b) : 0.0;
+    const double back_J = b->leans ? reversed_J(b, b->angle_rad, b->real) : 0.0;
     evaluate_now(b, b->angle_rad, b->real, b->time_s);
     const double *entry = b->value + im->count;
-    b->moving_J[1] = b->leans ? b->moving_J[1] : entry[BOOK_KINETIC];
+    b->moving_J[1] = entry[BOOK_KINETIC];
+    if (b->leans) {
+        b->moving_J[1] = 0.5 * (b->moving_J[1] + back_J);
+        take_lean(b);
+    }
     const double power_W[2] = {entry[BOOK_INPUT_POWER], entry[BOOK_LOSS_POWER]};
     b->kinetic_J[1] = entry[BOOK_KINETIC];
     b->stored_J[1] = entry[BOOK_STORED];
