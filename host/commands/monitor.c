@@ -214,7 +214,7 @@ static void listen(monitor *m) {
             port_close(&m->line);
             m->open = false;
             if (!was_line) {
-                return; /* a file's end */
+                return; /* a file's end, or all that could be read */
             }
             fprintf(stderr, "whirl monitor: %s is gone; waiting for it\n", m->o->port);
             continue;
@@ -338,6 +338,15 @@ static bool has_source(const monitor *m) {
     return false;
 }
 
+/* False, and told: a file that had more. */
+static bool was_read(const monitor *m) {
+    if (m->live || m->line.failed == 0) {
+        return true;
+    }
+    fprintf(stderr, "%s: error: cannot be read on: %s\n", m->o->port, strerror(m->line.failed));
+    return false;
+}
+
 static int run(monitor *m) {
     if (!open_line(m)) {
         port_say_unopened(m->o->port, "build/rig.tty is that of make rig");
@@ -358,7 +367,7 @@ static int run(monitor *m) {
         (void)port_write(&m->line, "tel off\n", 8);
         hear_tape_out(m);
     }
-    bool good = has_source(m);
+    bool good = has_source(m) && was_read(m);
     port_close(&m->line);
     good = good && (m->o->output[PLOT] == NULL ||
                     recording_plot(&m->recording, &m->schema, m->o->output[PLOT]));

@@ -108,7 +108,11 @@ int port_read(port *p, uint8_t *bytes, size_t room, int wait_ms, bool *typed) {
     if (count > 0) {
         return (int)count;
     }
-    return count < 0 && (errno == EAGAIN || errno == EINTR) ? 0 : -1;
+    if (count < 0 && (errno == EAGAIN || errno == EINTR)) {
+        return 0;
+    }
+    p->failed = count < 0 ? errno : 0;
+    return -1;
 }
 
 bool port_write(port *p, const char *bytes, size_t count) {

@@ -9,6 +9,7 @@
 
 typedef struct port {
     int file;
+    int failed; /* errno of the read that could not go on, or 0 */
     bool
         is_line; /* there is somebody at the other end: a terminal; else a file or a pipe, which ends */
     struct termios before;
@@ -31,7 +32,8 @@ void port_say_unopened(const char *name, const char *hint);
 void port_close(port *p);
 
 /* What has come, `room` at most, after waiting for wait_ms at most for it, or for a line on standard input where
- * `typed` is not NULL: *typed. Returns how many bytes, 0 for none yet, -1 when the other end is gone or the file ends. */
+ * `typed` is not NULL: *typed. Returns how many bytes, 0 for none yet, -1 when the other end is gone, the file ends or
+ * could not be read (failed). */
 int port_read(port *p, uint8_t *bytes, size_t room, int wait_ms, bool *typed);
 
 /* All of them; false when it is gone, or takes nothing for a second. */

@@ -254,7 +254,7 @@ static void take_lean(books *b) {
 static bool find_leans(books *b) {
     const image *im = b->image;
     double angle_rad[IMAGE_COMPONENTS_MAX];
-    double real[2 * IMAGE_COMPONENTS_MAX];
+    double real[2 * IMAGE_COMPONENTS_MAX] = {0};
     bool found = false;
     for (int k = 1; k <= 3 && im->recovered == 0; k++) {
         for (int i = 0; i < im->angles; i++) {

@@ -10,7 +10,7 @@
 #include "host/base/statement.h"
 
 static const char hint_domain[] =
-    "a root or logarithm of what is below zero, or a division by zero: keep the motion, or the "
+    "a root or logarithm of what is below zero, a division by zero, or a number beyond all: keep the motion, or the "
     "expression, away from it";
 
 /* The state somewhere on its way, and what the blame list is there. */

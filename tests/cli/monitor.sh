@@ -122,6 +122,11 @@ refused 'would be written over' "$scratch/raw" --raw "$scratch/raw"
 refused "takes a file's name" "$scratch/raw" --vcd -
 refused '--for takes a number from' "$scratch/raw" --for 0
 refused 'one line at a time' "$scratch/raw" "$scratch/csv"
+if [ -r /proc/self/mem ]; then # whose first byte nobody can read
+    "$whirl" monitor /proc/self/mem --csv "$scratch/x" >/dev/null 2>"$scratch/err" </dev/null
+    [ $? -eq 1 ] && grep -q '^/proc/self/mem: error: cannot be read on: ' "$scratch/err"
+    verdict $? "a file that cannot be read to its end" "$scratch/err"
+fi
 
 # The line goes away, and comes back; then what is typed goes to the rig.
 RIG_TTY=$scratch/rig.tty RIG_SETTINGS=$scratch/settings
