@@ -134,34 +134,27 @@ static int check_price(const image *im, const cost_board *b, cost_number number)
     cost_counts counts = cost_counts_of(im, b, number);
     counts.smooth = 1.0;
     cost_features(&counts, feature);
-    cost_figure steps = by_hand(&row->fit[COST_OF_INSTRUCTIONS], feature, COST_MEASURED);
-    cost_figure worst = longest_of(steps, row->spread);
-    cost_figure cycles = b->cycles == COST_RANGE
-                             ? range_of(b, steps)
-                             : by_hand(&row->fit[COST_OF_CYCLES], feature, b->cycles);
-    cost_figure cycles_worst =
-        b->cycles == COST_RANGE ? range_of(b, worst) : longest_of(cycles, row->spread_cycles);
-    cost_figure flash = by_hand(&row->fit[COST_OF_FLASH], feature, COST_MEASURED);
-    cost_figure ram = by_hand(&row->fit[COST_OF_RAM], feature, COST_MEASURED);
-    cost_figure stack = by_hand(&row->fit[COST_OF_STACK], feature, COST_MEASURED);
+    cost want = {.predictable = true};
+    want.instructions = by_hand(&row->fit[COST_OF_INSTRUCTIONS], feature, COST_MEASURED);
+    want.instructions_worst = longest_of(want.instructions, row->spread);
+    want.cycles = b->cycles == COST_RANGE ? range_of(b, want.instructions)
+                                          : by_hand(&row->fit[COST_OF_CYCLES], feature, b->cycles);
+    want.cycles_worst = b->cycles == COST_RANGE ? range_of(b, want.instructions_worst)
+                                                : longest_of(want.cycles, row->spread_cycles);
+    want.flash_bytes = by_hand(&row->fit[COST_OF_FLASH], feature, COST_MEASURED);
+    want.ram_bytes = by_hand(&row->fit[COST_OF_RAM], feature, COST_MEASURED);
+    want.stack_bytes = by_hand(&row->fit[COST_OF_STACK], feature, COST_MEASURED);
     if (contacts) {
-        const double smooth = steps.value;
+        const double smooth = want.instructions.value;
         counts.smooth = smooth;
         cost_features(&counts, feature);
-        steps = by_hand(&row->fit[COST_OF_CONTACT_MEAN], feature, COST_MEASURED);
-        worst = by_hand(&row->fit[COST_OF_CONTACT_WORST], feature, COST_MEASURED);
-        cycles_worst = events_of(cycles, worst, smooth);
-        cycles = events_of(cycles, steps, smooth);
-        flash = ram = stack = (cost_figure){0};
+        want.instructions = by_hand(&row->fit[COST_OF_CONTACT_MEAN], feature, COST_MEASURED);
+        want.instructions_worst = by_hand(&row->fit[COST_OF_CONTACT_WORST], feature, COST_MEASURED);
+        want.cycles_worst = events_of(want.cycles, want.instructions_worst, smooth);
+        want.cycles = events_of(want.cycles, want.instructions, smooth);
+        want.flash_bytes = want.ram_bytes = want.stack_bytes = (cost_figure){0};
         TEST_ASSERT_NOT_NULL(strstr(c.why, "with contacts must be measured"));
     }
-    const cost want = {.instructions = steps,
-                       .instructions_worst = worst,
-                       .cycles = cycles,
-                       .cycles_worst = cycles_worst,
-                       .flash_bytes = flash,
-                       .ram_bytes = ram,
-                       .stack_bytes = stack};
     expect_cost(&want, &c, b->name);
     return c.instructions.basis == COST_PREDICTED;
 }
@@ -222,28 +215,21 @@ static void check_fixed(const image *im, const cost_board *b) {
     }
     double feature[COST_FIXED_FEATURES];
     cost_fixed_features(im, feature);
-    const cost_figure steps = fixed_by_hand(&row->fit[COST_OF_INSTRUCTIONS], COST_OF_INSTRUCTIONS,
-                                            feature, COST_MEASURED);
-    const cost_figure worst = longest_of(steps, row->spread);
+    cost want = {.predictable = true};
+    want.instructions = fixed_by_hand(&row->fit[COST_OF_INSTRUCTIONS], COST_OF_INSTRUCTIONS,
+                                      feature, COST_MEASURED);
+    want.instructions_worst = longest_of(want.instructions, row->spread);
     const bool range = b->cycles == COST_RANGE;
-    const cost_figure cycles =
-        range ? range_of(b, steps)
+    want.cycles =
+        range ? range_of(b, want.instructions)
               : fixed_by_hand(&row->fit[COST_OF_CYCLES], COST_OF_CYCLES, feature, b->cycles);
-    const cost_figure cycles_worst =
-        range ? range_of(b, worst) : longest_of(cycles, row->spread_cycles);
-    const cost_figure flash =
+    want.cycles_worst =
+        range ? range_of(b, want.instructions_worst) : longest_of(want.cycles, row->spread_cycles);
+    want.flash_bytes =
         fixed_by_hand(&row->fit[COST_OF_FLASH], COST_OF_FLASH, feature, COST_MEASURED);
-    const cost_figure ram =
-        fixed_by_hand(&row->fit[COST_OF_RAM], COST_OF_RAM, feature, COST_MEASURED);
-    const cost_figure stack =
+    want.ram_bytes = fixed_by_hand(&row->fit[COST_OF_RAM], COST_OF_RAM, feature, COST_MEASURED);
+    want.stack_bytes =
         fixed_by_hand(&row->fit[COST_OF_STACK], COST_OF_STACK, feature, COST_MEASURED);
-    const cost want = {.instructions = steps,
-                       .instructions_worst = worst,
-                       .cycles = cycles,
-                       .cycles_worst = cycles_worst,
-                       .flash_bytes = flash,
-                       .ram_bytes = ram,
-                       .stack_bytes = stack};
     expect_cost(&want, &c, b->name);
 }
 
