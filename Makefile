@@ -141,7 +141,7 @@ mutants: ## small changes of the code, and whether the tests notice: MUTANTS, SE
 	@MAKE="$(MAKE)" sh mk/mutants/mutants.sh
 
 .PHONY: properties
-properties: ## random linkages and hybrids against their energies in numbers: PROPERTIES of each, SEED (1,000: ten minutes)
+properties: ## random linkages and hybrids against their energies in numbers: PROPERTIES of each, SEED (10,000: two hours on two cores)
 	@UNITY="$(UNITY)" CC="$(CC)" mk/setup/deps.sh host tests
 	@UNITY="$(UNITY)" mk/setup/unity.sh build/unity
 	@$(MAKE) properties-now

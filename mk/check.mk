@@ -39,11 +39,11 @@ GCC_BUILD = $(MAKE) B=$(GCC_FOLDER) CC=gcc $(STRICT)
 CLANG_BUILD = $(MAKE) B=$(CLANG_FOLDER) CC=clang $(STRICT)
 
 gate-gcc: $(GEN)/.stamp
-	@$(GCC_BUILD) -k objects board-objects
+	+@$(GCC_BUILD) -k objects board-objects
 	+@$(foreach b,$(filter-out $(BOARD),$(BOARDS)),$(GCC_BUILD) -k BOARD=$(b) board-own-objects &&) true
 
 gate-clang: $(GEN)/.stamp
-	@$(CLANG_BUILD) -k objects
+	+@$(CLANG_BUILD) -k objects
 
 # --- layout and lint ------------------------------------------------------------------------------
 gate-format:
@@ -263,9 +263,9 @@ $(B)/scenes_short: boards/programs/scenes.c $(call objects,float,boards/host/boa
 
 # Those of the warnings' gates have their objects from there.
 hash-gcc-O2:
-	@$(GCC_BUILD) $(GCC_FOLDER)/scenes
+	+@$(GCC_BUILD) $(GCC_FOLDER)/scenes
 hash-clang-O2:
-	@$(CLANG_BUILD) $(CLANG_FOLDER)/scenes
+	+@$(CLANG_BUILD) $(CLANG_FOLDER)/scenes
 $(addprefix hash-,$(filter-out gcc-O2 clang-O2,$(HASH_BUILDS))): hash-%:
 	@$(MAKE) B=build/hash/$* CC=$(firstword $(subst -, ,$*)) OPT=-$(lastword $(subst -, ,$*)) \
 	    build/hash/$*/scenes

@@ -170,13 +170,17 @@ test-boards-now: $(GEN)/.stamp
 	@TEST_BEGINS=1 TEST_SECONDS=7200 sh tests/run.sh build/tests/log_boards $(foreach b,$(BOARDS_SUITES),$(call run_board,$(b)))
 
 # Generated mechanisms against references of another kind; the seed is printed, and a new one taken unless it is given.
-PROPERTIES ?= 1000
+# What the suites print of their figures stays in build/tests/log_properties, and is shown at the end.
+PROPERTIES ?= 10000
+PROPERTY_SUITES := hybrids hard_scales linkages
 .PHONY: properties-now
 properties-now: $(GEN)/.stamp
 	@$(MAKE) build/tests/host
-	@for suite in linkages hard_scales hybrids; do \
-	    WHIRL_CASES=$(PROPERTIES) WHIRL_SEED=$(if $(filter file,$(origin SEED)),$$(date +%s),$(SEED)) build/tests/host $$suite || exit 1; \
-	done
+	@export WHIRL_CASES=$(PROPERTIES) WHIRL_SEED=$(if $(filter file,$(origin SEED)),$$(date +%s),$(SEED)); \
+	echo "PROPERTIES=$$WHIRL_CASES SEED=$$WHIRL_SEED"; status=0; \
+	TEST_BEGINS=1 TEST_SECONDS=86400 sh tests/run.sh build/tests/log_properties \
+	    $(foreach s,$(PROPERTY_SUITES),"random $(s)" "build/tests/host $(s)") || status=1; \
+	grep -h '^  ' build/tests/log_properties/*.log; exit $$status
 
 # The flag matrix: other people's flags give the interpreter's bits or are refused.
 .PHONY: flags-now
@@ -254,5 +258,5 @@ kept-now: $(KEPT_INPUTS)
 FUZZ_BUILD = $(MAKE) B=build/fuzz CC=clang OPT=-O1 EXTRA="-fsanitize=fuzzer-no-link,$(SANITIZE) -fno-sanitize-recover=all"
 fuzz-programs: $(FUZZERS)
 fuzz-now:
-	@$(FUZZ_BUILD) fuzz-programs
+	+@$(FUZZ_BUILD) fuzz-programs
 	@sh tests/fuzz.sh $(FUZZ_SECONDS) $(FUZZERS)
