@@ -161,6 +161,7 @@ static int check_price(const image *im, const cost_board *b, cost_number number)
 
 static void test_prices_are_those_sums(void) {
     int known = 0;
+    int refused = 0;
     for (int n = 0; n < SCENES; n++) {
         derived d = derived_scene(scenes[n], "s");
         derived_expect(&d, scenes[n]);
@@ -171,6 +172,12 @@ static void test_prices_are_those_sums(void) {
                 if (start_has_method(d.image, (wh_method)m, unsaid)) {
                     known += check_price(d.image, &cost_boards[b], COST_FLOAT);
                     known += check_price(d.image, &cost_boards[b], COST_DOUBLE);
+                } else { /* whatever is asked of it */
+                    const cost c = cost_of(d.image, &cost_boards[b], (cost_number)(m % 2));
+                    TEST_ASSERT_EQUAL_STRING("the scene does not take this method", c.why);
+                    TEST_ASSERT_FALSE(c.predictable);
+                    TEST_ASSERT_EQUAL_INT(COST_NOT_KNOWN, c.instructions.basis);
+                    refused++;
                 }
             }
         }
@@ -180,7 +187,7 @@ static void test_prices_are_those_sums(void) {
         derived_free(&d);
     }
     printf("  %d prices\n", known);
-    TEST_ASSERT_TRUE(known > 200);
+    TEST_ASSERT_TRUE(known > 200 && refused > 20);
 }
 
 /* --- fixed point -----------------------------------------------------------------------------------------*/
