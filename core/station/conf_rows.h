@@ -37,7 +37,8 @@
       "force as a part of that on a fixed mount; carriage: 1/(1 + ratio)") \
     X(sensor1, 8, WH_CONF_REAL, "deg", -30.0, 30.0, measure.rotor.mark_rad[0], DEG, \
       "where it stands, from the loading-train axis") \
-    X(sensor2, 9, WH_CONF_REAL, "deg", 60.0, 120.0, measure.rotor.mark_rad[1], DEG, "likewise") \
+    X(sensor2, 9, WH_CONF_REAL, "deg", 60.0, 120.0, measure.rotor.mark_rad[1], DEG, \
+      "where it stands, from the loading-train axis") \
     X(slot_lead, 10, WH_CONF_REAL, "deg", 0.0, 20.0, swing.lead_rad, DEG, \
       "pulses come so far before a sensor") \
     X(cell_scale, 11, WH_CONF_REAL, "mN", 1e-4, 1000.0, measure.cell.newton_per_count, MILLI, \

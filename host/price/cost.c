@@ -7,6 +7,7 @@
 
 #include "cost_row.h"
 #include "host/image/core_rows.h"
+#include "host/run/start.h"
 
 #include "cost_rows.h"
 
@@ -96,6 +97,14 @@ static void price_contacts(const cost_row *row, double *feature, cost *c) {
     }
 }
 
+/* Such an image may be had, but nothing runs it. */
+static bool takes_method(const image *im) {
+    diags *unsaid = diags_new();
+    const bool takes = start_has_method(im, im->settings.method, unsaid);
+    diags_free(unsaid);
+    return takes;
+}
+
 static double state_bytes(const image *im, cost_number number) {
     const double real = number == COST_DOUBLE ? 8.0 : 4.0;
     return 8.0 * im->angles + real * core_memory_reals(im);
@@ -104,6 +113,9 @@ static double state_bytes(const image *im, cost_number number) {
 cost cost_of(const image *im, const cost_board *board, cost_number number) {
     if (number == COST_FIXED) {
         return (cost){.why = "steps in fixed point have prices of their own: cost_fixed_of()"};
+    }
+    if (!takes_method(im)) {
+        return (cost){.why = "the scene does not take this method"};
     }
     const cost_row *row = row_of(board, number);
     cost c = {.why = ""};

@@ -139,15 +139,16 @@ static void count_staged(const cost_reads *r, cost_counts *c) {
     }
 }
 
+/* Of turn angles: counted by themselves. What is in radians is none. */
+static bool is_pair(const op *o) { return o->code == OP_PHASE && o->b < 0; }
+
 /* Does operation i take rates, or call what a compiler does not look into? Told in takes[], of the earlier ones. */
 static bool takes_more_than_places(const tape *t, int i, const bool *takes) {
     const op *o = &t->ops[i];
     int operand[2];
-    bool does =
-        o->code == OP_RATE || o->code == OP_CALL || o->code == OP_POW ||
-        (o->code == OP_PHASE && o->b < 0); /* pairs of turn angles are counted by themselves */
+    bool does = o->code == OP_RATE || o->code == OP_CALL || o->code == OP_POW || is_pair(o);
     for (int k = tape_operands(o, operand); k > 0; k--) {
-        does = does || (takes[operand[k - 1]] && t->ops[operand[k - 1]].code != OP_PHASE);
+        does = does || (takes[operand[k - 1]] && !is_pair(&t->ops[operand[k - 1]]));
     }
     return does;
 }
@@ -169,7 +170,7 @@ static void add_step(const image *im, const operands *given, cost_counts *c) {
         if (given->of != NULL) {
             cost_list_add_operands(&t->ops[i], &given->of[i], to);
         }
-        if (given->of != NULL && t->ops[i].code == OP_PHASE && t->ops[i].b < 0) {
+        if (given->of != NULL && is_pair(&t->ops[i])) {
             cost_list_add_pair(t, &t->ops[i], given, &c->step);
         }
         add_reads(t, &t->ops[i], &reads);

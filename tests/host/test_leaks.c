@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "blocks.h"
 #include "derived.h"
 #include "host/emit/description.h"
 #include "host/emit/emit.h"
@@ -13,59 +14,16 @@
 
 #include "unity.h"
 
-/* Blocks in use, counted where glibc lets a program stand in front of its allocator. */
-static long blocks;
-
-#if defined(__has_feature)
-#define SANITIZED __has_feature(address_sanitizer)
-#elif defined(__SANITIZE_ADDRESS__)
-#define SANITIZED 1
-#else
-#define SANITIZED 0
-#endif
-
-#if defined(__GLIBC__) && !SANITIZED
-/* NOLINTBEGIN(bugprone-reserved-identifier,cert-dcl37-c,cert-dcl51-cpp,readability-inconsistent-declaration-parameter-name) */
-void *__libc_malloc(size_t size);
-void *__libc_calloc(size_t count, size_t size);
-void *__libc_realloc(void *block, size_t size);
-void __libc_free(void *block);
-
-void *malloc(size_t size) {
-    void *block = __libc_malloc(size);
-    blocks += block != NULL;
-    return block;
-}
-
-void *calloc(size_t count, size_t size) {
-    void *block = __libc_calloc(count, size);
-    blocks += block != NULL;
-    return block;
-}
-
-void *realloc(void *block, size_t size) {
-    void *moved = __libc_realloc(block, size);
-    blocks += block == NULL && moved != NULL;
-    return moved;
-}
-
-void free(void *block) {
-    blocks -= block != NULL;
-    __libc_free(block);
-}
-/* NOLINTEND(bugprone-reserved-identifier,cert-dcl37-c,cert-dcl51-cpp,readability-inconsistent-declaration-parameter-name) */
-#endif
-
 void suite_leaks(void);
 
 /* The first may leave what a library keeps for the next. */
 enum { ROUNDS = 2 };
 
 static int check_scene(const scene *s) {
-    const long before = blocks;
+    const long before = blocks_in_use();
     derived d = derived_builtin(s->name);
     derived_free(&d);
-    TEST_ASSERT_TRUE_MESSAGE(blocks == before, s->name);
+    TEST_ASSERT_TRUE_MESSAGE(blocks_in_use() == before, s->name);
     return 1;
 }
 
@@ -167,10 +125,10 @@ static void test_other_settings_give_everything_back(void) {
     for (size_t i = 0; i < sizeof scenes / sizeof scenes[0]; i++) {
         long before = 0;
         for (int round = 0; round < ROUNDS; round++) {
-            before = blocks;
+            before = blocks_in_use();
             made += make_all_ways(scenes[i]);
         }
-        TEST_ASSERT_TRUE_MESSAGE(blocks == before, scenes[i]);
+        TEST_ASSERT_TRUE_MESSAGE(blocks_in_use() == before, scenes[i]);
     }
     TEST_ASSERT_GREATER_THAN_INT(24, made);
 }
@@ -192,7 +150,7 @@ static void test_what_is_refused_gives_everything_back(void) {
     for (size_t i = 0; i < sizeof refused / sizeof refused[0]; i++) {
         long before = 0;
         for (int round = 0; round < ROUNDS; round++) {
-            before = blocks;
+            before = blocks_in_use();
             diags *all = diags_new();
             whirl_model *m = model_parse("t.whirl", refused[i], strlen(refused[i]), all);
             TEST_ASSERT_NOT_NULL_MESSAGE(m, refused[i]);
@@ -208,7 +166,7 @@ static void test_what_is_refused_gives_everything_back(void) {
             model_free(m);
             diags_free(all);
         }
-        TEST_ASSERT_TRUE_MESSAGE(blocks == before, refused[i]);
+        TEST_ASSERT_TRUE_MESSAGE(blocks_in_use() == before, refused[i]);
     }
 }
 

@@ -9,6 +9,7 @@
 #include "compiled_flights.h"
 #include "core/method.h"
 #include "derived.h"
+#include "drawn_list.h"
 #include "host/price/cost_list.h"
 #include "host/price/step_work.h"
 #include "unity.h"
@@ -17,68 +18,7 @@ void suite_price_lists(void);
 
 /* --- drawn lists -----------------------------------------------------------------------------------------*/
 
-enum { OPS_MOST = 60, ANGLES = 3, DRAWN_TABLES = 4 };
-
-typedef struct drawn_list {
-    op ops[OPS_MOST];
-    int turns[OPS_MOST][ANGLES];
-    int result[3];
-    bool odd[DRAWN_TABLES];
-    tape list;
-} drawn_list;
-
-static void draw_op(dice *d, drawn_list *l, int i) {
-    op *o = &l->ops[i];
-    *o = (op){.code = i < 3 ? OP_CONSTANT : (op_code)dice_one_of(d, OPS), .a = -1, .b = -1};
-    switch (op_rows[o->code].kind) {
-    case OP_IS_CONSTANT: o->value = 1.0 + dice_one_of(d, 4); break;
-    case OP_IS_LEAF: o->a = (int)dice_one_of(d, 3); break;
-    case OP_IS_PHASE:
-    case OP_IS_CELL:
-        o->value = o->code == OP_PHASE ? dice_one_of(d, 2) : 0.0;
-        o->b =
-            o->code == OP_PHASE && dice_one_of(d, 3) == 0 ? (int)dice_one_of(d, (unsigned)i) : -1;
-        for (int k = 0; k < ANGLES; k++) {
-            l->turns[i][k] = (int)dice_one_of(d, 4) - 1;
-        }
-        o->turns = dice_one_of(d, 4) > 0 ? l->turns[i] : NULL;
-        break;
-    case OP_IS_LOOKUP:
-    case OP_IS_WAVE:
-    case OP_IS_UNARY: o->a = (int)dice_one_of(d, (unsigned)i); break;
-    case OP_IS_BINARY:
-        o->a = (int)dice_one_of(d, (unsigned)i);
-        o->b = (int)dice_one_of(d, (unsigned)i);
-        break;
-    case OP_IS_CALL:
-        o->a = (int)dice_one_of(d, (unsigned)i);
-        o->function = (function_id)dice_one_of(d, FUNCTIONS);
-        break;
-    }
-    if (op_rows[o->code].kind == OP_IS_LOOKUP) {
-        o->value = 2.0 * dice_one_of(d, DRAWN_TABLES);
-    }
-}
-
-static void draw_list(dice *d, drawn_list *l) {
-    *l = (drawn_list){.list = {.count = 0}};
-    l->list = (tape){.ops = l->ops,
-                     .count = 4 + (int)dice_one_of(d, OPS_MOST - 4),
-                     .angles = ANGLES,
-                     .result = l->result,
-                     .results = 3};
-    l->list.tables = (tape_tables){
-        .count = DRAWN_TABLES, .terms = 2, .folds = dice_one_of(d, 2) == 1, .odd = l->odd};
-    for (int k = 0; k < DRAWN_TABLES; k++) {
-        l->odd[k] = dice_one_of(d, 2) == 1;
-    }
-    for (int i = 0; i < l->list.count; i++) {
-        draw_op(d, l, i);
-    }
-    for (int k = 0; k < 3; k++) {
-        l->result[k] = l->list.count - 1 - k;
-    }
-}
+enum { ANGLES = DRAWN_LIST_ANGLES, OPS_MOST = 60 };
 
 /* Angles beyond the first, an offset, and multiples of any other number than one. */
 static int terms_of(const op *o) {
@@ -95,7 +35,7 @@ static void test_all_operations_are_counted_once(void) {
     dice d = dice_of("price_lists", 61);
     for (unsigned n = 0; n < dice_cases(few_or_all(300, 10000)); n++) {
         drawn_list l;
-        draw_list(&d, &l);
+        drawn_list_draw(&d, OPS_MOST, &l);
         int of[OPS] = {0};
         int calls[FUNCTIONS] = {0};
         int pairs = 0;
@@ -149,7 +89,7 @@ static void test_what_operations_are_given_is_added_up(void) {
     dice d = dice_of("price_lists given", 62);
     for (unsigned n = 0; n < dice_cases(few_or_all(300, 10000)); n++) {
         drawn_list l;
-        draw_list(&d, &l);
+        drawn_list_draw(&d, OPS_MOST, &l);
         cost_list c = {.sums = 0};
         operands given = {.is_float = true};
         double products = 0.0;
@@ -229,8 +169,8 @@ static void test_what_the_step_has_is_not_counted_again(void) {
     for (unsigned n = 0; n < dice_cases(few_or_all(300, 10000)); n++) {
         int same[OPS_MOST];
         const bool turned = dice_one_of(&d, 2) == 1;
-        draw_list(&d, &step);
-        draw_list(&d, &books);
+        drawn_list_draw(&d, OPS_MOST, &step);
+        drawn_list_draw(&d, OPS_MOST, &books);
         /* they begin alike, but for some */
         for (int i = 0; i < books.list.count && i < step.list.count; i++) {
             if (dice_one_of(&d, 10) > 0) {

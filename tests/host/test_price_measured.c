@@ -1,90 +1,20 @@
-/* test_price_measured.c: prices that are counted (host/price/measured.h, table_counted.h), in a made-up source tree whose
- * make and measure_one.sh are scripts that keep what they are told, and say what they are given. */
-#define _POSIX_C_SOURCE 200809L
+/* test_price_measured.c: prices that are counted (host/price/measured.h, table_counted.h), in a made-up source tree
+ * (made_up_tree.h). */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include "command.h"
 #include "host/base/room.h"
 #include "host/fixed/engine_fixed.h"
 #include "host/price/table_counted.h"
+#include "made_up_tree.h"
 #include "priced.h"
 #include "unity.h"
 
 void suite_price_measured(void);
-
-/* --- the tree --------------------------------------------------------------------------------------------*/
-
-static char root[] = "build/tests/tree-XXXXXX";
-static char before[4096]; /* the working directory */
-static char *path_before;
-
-static void keep(const char *file, const char *text) {
-    FILE *to = fopen(file, "w");
-    TEST_ASSERT_NOT_NULL_MESSAGE(to, file);
-    fputs(text, to);
-    TEST_ASSERT_EQUAL_INT(0, fclose(to));
-}
-
-/* What is in a file of the tree, which is then gone; static. */
-static const char *taken(const char *file) {
-    static char text[8192];
-    FILE *from = fopen(file, "r");
-    text[0] = '\0';
-    if (from != NULL) {
-        text[fread(text, 1, sizeof text - 1, from)] = '\0';
-        fclose(from);
-        unlink(file);
-    }
-    return text;
-}
-
-static void enter_tree(void) {
-    snprintf(root, sizeof root, "build/tests/tree-XXXXXX");
-    TEST_ASSERT_NOT_NULL(getcwd(before, sizeof before));
-    TEST_ASSERT_NOT_NULL_MESSAGE(mkdtemp(root), "run from the project's root");
-    TEST_ASSERT_EQUAL_INT(0, chdir(root));
-    TEST_ASSERT_TRUE(mkdir("mk", 0700) == 0 && mkdir("mk/price", 0700) == 0);
-    keep("mk/price/measure_one.sh",
-         "echo \"$@\" >>asked\necho said >&2\n"
-         "case \"$*\" in\n*place=1*) cat row1 ;;\n*place=2*) cat row2 ;;\n"
-         "*) cat row0 ;;\nesac\n"
-         "read status <status\nexit $status\n");
-    keep("make", "#!/bin/sh\necho \"$@\" >>made\ncat says\nread status <status\nexit $status\n");
-    TEST_ASSERT_EQUAL_INT(0, chmod("make", 0700));
-    const char *path = getenv("PATH");
-    char *longer = room_words("%s/%s:%s", before, root, path);
-    path_before = room_words("%s", path);
-    setenv("PATH", longer, 1);
-    free(longer);
-    keep("status", "0\n");
-    keep("says", "");
-}
-
-static void leave_tree(void) {
-    static const char *const files[] = {"mk/price/measure_one.sh",
-                                        "make",
-                                        "status",
-                                        "says",
-                                        "row0",
-                                        "row1",
-                                        "row2",
-                                        "asked",
-                                        "made"};
-    for (size_t i = 0; i < sizeof files / sizeof files[0]; i++) {
-        unlink(files[i]);
-    }
-    rmdir("mk/price");
-    rmdir("mk");
-    setenv("PATH", path_before, 1);
-    free(path_before);
-    TEST_ASSERT_EQUAL_INT(0, chdir(before));
-    TEST_ASSERT_EQUAL_INT(0, rmdir(root));
-}
 
 /* --- can it be counted? ----------------------------------------------------------------------------------*/
 
@@ -104,27 +34,27 @@ static void test_what_is_missing_is_told(void) {
          "make BOARD=mps2-an386 price-ready-board fails"},
         {"'unfinished\n", "1\n", "make BOARD=mps2-an386 price-ready-board fails"},
         {"", "127\n", "'make' is missing"}};
-    enter_tree();
+    tree_enter();
     char text[MEASURED_TEXT];
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
-        keep("says", rows[i].says);
-        keep("status", rows[i].status);
+        tree_keep("says", rows[i].says);
+        tree_keep("status", rows[i].status);
         const char *answer = measured_missing(cost_board_named("mps2-an386"), text);
         TEST_ASSERT_TRUE((answer == NULL) == (rows[i].answer == NULL));
         if (answer != NULL) {
             TEST_ASSERT_EQUAL_STRING(rows[i].answer, answer);
         }
-        TEST_ASSERT_EQUAL_STRING("-s BOARD=mps2-an386 price-ready-board\n", taken("made"));
+        TEST_ASSERT_EQUAL_STRING("-s BOARD=mps2-an386 price-ready-board\n", tree_taken("made"));
     }
-    keep("status", "3\n");
+    tree_keep("status", "3\n");
     TEST_ASSERT_EQUAL_STRING("make price-ready-host fails",
                              measured_missing(cost_board_named("host"), text));
-    TEST_ASSERT_EQUAL_STRING("-s price-ready-host\n", taken("made"));
-    keep("status", "0\n");
+    TEST_ASSERT_EQUAL_STRING("-s price-ready-host\n", tree_taken("made"));
+    tree_keep("status", "0\n");
     unlink("mk/price/measure_one.sh");
     TEST_ASSERT_NOT_NULL(strstr(measured_missing(cost_board_named("host"), text), "not the root"));
-    TEST_ASSERT_EQUAL_STRING("", taken("made"));
-    leave_tree();
+    TEST_ASSERT_EQUAL_STRING("", tree_taken("made"));
+    tree_leave();
 }
 
 static void test_which_numbers_are_counted_where(void) {
@@ -173,7 +103,7 @@ static void test_steps_are_counted_and_kept(void) {
     priced p;
     priced_open(&p, springs, 2);
     TEST_ASSERT_TRUE(priced_begin(&p, "mps2-an386", spacing, 20, NULL));
-    enter_tree();
+    tree_enter();
     measured_prices m = {.words = &words};
     const cost predicted = {
         .predictable = true, .why = "", .state_bytes = {COST_EXACT, COST_EXACT, 44, 44, 44, 1}};
@@ -192,8 +122,8 @@ static void test_steps_are_counted_and_kept(void) {
                  "a line before\nabc,gcc,\"-a, -b\",mps2-an386,s,float,rk4,%.0f,%.0f,%.1f,%.0f,"
                  "estimated,%.0f,%.0f,%.0f\r\n",
                  v[0], v[1], v[2] + 0.5, v[3], v[4], v[5], v[6]);
-        keep(n == 1 ? "row0" : "row1", row);
-        keep(n == 1 ? "row1" : "row0", "nothing\n");
+        tree_keep(n == 1 ? "row0" : "row1", row);
+        tree_keep(n == 1 ? "row1" : "row0", "nothing\n");
         TEST_ASSERT_FALSE(measured_has(&m, s, pace));
         TEST_ASSERT_EQUAL_INT(MEASURED_COUNTED,
                               measured_count(&m, &p.trial, s, pace, n == 1 ? 0 : 1, &predicted));
@@ -203,7 +133,7 @@ static void test_steps_are_counted_and_kept(void) {
             "mps2-an386 double a.whirl:s --set m=3 --set place=0 --method heun --step 0.01\n",
             ("mps2-an386 fixed a.whirl:s --set m=3 --set place=1 --method rk4 --step 0.005 "
              "--until 0.4\n")};
-        TEST_ASSERT_EQUAL_STRING(asked[n], taken("asked"));
+        TEST_ASSERT_EQUAL_STRING(asked[n], tree_taken("asked"));
         cost c = {.why = "?"};
         measured_tell(&m, s, pace, &c);
         expect_known(v[0], COST_MEASURED, &c.instructions);
@@ -241,8 +171,8 @@ static void test_steps_are_counted_and_kept(void) {
     for (int i = 0; i < 4; i++) {
         const int count = m.count;
         other.image.method = (wh_method)i;
-        keep("status", rows[i].status);
-        keep("row0", rows[i].row);
+        tree_keep("status", rows[i].status);
+        tree_keep("row0", rows[i].row);
         TEST_ASSERT_EQUAL_INT(rows[i].end, measured_count(&m, &p.trial, &other,
                                                           (deviation_pace){1, 1}, 0, &predicted));
         TEST_ASSERT_EQUAL_INT(count + (i > 0 ? 1 : 0), m.count);
@@ -254,7 +184,7 @@ static void test_steps_are_counted_and_kept(void) {
             TEST_ASSERT_EQUAL_STRING("it cannot be built, linked or run there", c.why);
         }
     }
-    leave_tree();
+    tree_leave();
     measured_free(&m);
     priced_close(&p);
 }
@@ -267,7 +197,7 @@ static void write_run(const char *file, const char *board, const double v[COLUMN
     char row[400];
     snprintf(row, sizeof row, "%s,%s,%.0f,%.2f,%.0f,%.0f,%.2f,%.0f,%.0f,%s,%.0f,%.0f,%.0f\n", board,
              "float", v[2], v[3], v[4], v[5], v[6], v[7], v[8], "estimated", v[10], v[11], v[12]);
-    keep(file, row);
+    tree_keep(file, row);
 }
 
 static void expect_most(double each_least, double each_most, double most, cost_basis basis,
@@ -290,7 +220,7 @@ static void test_whole_runs_are_the_most_of_all_places(void) {
         TEST_ASSERT_TRUE(priced_begin(&p, boards[n], spacing, 10, NULL));
         const cost_board *b = p.wish.board;
         const bool range = b->cycles == COST_RANGE;
-        enter_tree();
+        tree_enter();
         measured_prices m = {.words = &words, .by_run = true};
         const setting rk4 = priced_setting(WH_RK4, &engine_float);
         const cost predicted = {.why = "not this"};
@@ -327,7 +257,7 @@ static void test_whole_runs_are_the_most_of_all_places(void) {
             TEST_ASSERT_TRUE(run.instructions_bound == (unbounded < 0 ? most[5] : 0.0));
             TEST_ASSERT_TRUE(run.cycles_bound == (unbounded < 0 ? most[8] : 0.0));
             TEST_ASSERT_FALSE(measured_has(&m, &rk4, (deviation_pace){pace.steps + 1, 1}));
-            const char *asked = taken("asked");
+            const char *asked = tree_taken("asked");
             TEST_ASSERT_EQUAL_STRING_LEN("--whole-run ", asked, 12);
             TEST_ASSERT_NOT_NULL(strstr(asked, " --until 0.2\n--whole-run "));
             TEST_ASSERT_NOT_NULL(strstr(asked, "place=0"));
@@ -340,7 +270,7 @@ static void test_whole_runs_are_the_most_of_all_places(void) {
         for (int i = 0; i < 3; i++) {
             char *row = room_words(bad[i], boards[n]);
             const deviation_pace pace = {(uint64_t)i + 20, 1};
-            keep("row2", row);
+            tree_keep("row2", row);
             TEST_ASSERT_EQUAL_INT(MEASURED_REFUSED,
                                   measured_count(&m, &p.trial, &rk4, pace, 1, &predicted));
             cost c = {.why = "?"};
@@ -349,7 +279,7 @@ static void test_whole_runs_are_the_most_of_all_places(void) {
             TEST_ASSERT_TRUE(measured_run_of(&m, &rk4, pace).steps == 0.0);
             free(row);
         }
-        leave_tree();
+        tree_leave();
         measured_free(&m);
         priced_close(&p);
     }
@@ -369,12 +299,12 @@ static void test_the_front_is_counted_until_all_of_it_is(void) {
     priced_open(&p, springs, 1);
     TEST_ASSERT_TRUE(priced_begin(&p, "mps2-an386", spacing, 20, NULL));
     for (int refused = 0; refused < 2; refused++) {
-        enter_tree();
-        keep("mk/price/measure_one.sh",
-             refused ? "case \"$*\" in *euler*) exit 1 ;; esac\nsed \"s/N/900/g\" row0\n"
-                     : "case \"$*\" in *euler*) n=950 ;; *heun*) n=90 ;; *) n=500 ;; esac\n"
-                       "sed \"s/N/$n/g\" row0\n");
-        keep("row0", "a,g,\"f\",mps2-an386,s,float,rk4,N,N,N,N,estimated,N,N,N\n");
+        tree_enter();
+        tree_keep("mk/price/measure_one.sh",
+                  refused ? "case \"$*\" in *euler*) exit 1 ;; esac\nsed \"s/N/900/g\" row0\n"
+                          : "case \"$*\" in *euler*) n=950 ;; *heun*) n=90 ;; *) n=500 ;; esac\n"
+                            "sed \"s/N/$n/g\" row0\n");
+        tree_keep("row0", "a,g,\"f\",mps2-an386,s,float,rk4,N,N,N,N,estimated,N,N,N\n");
         static const wh_method methods[] = {WH_EULER, WH_HEUN, WH_RK4, WH_RK38};
         table_row row[5];
         for (int i = 0; i < 5; i++) {
@@ -417,12 +347,12 @@ static void test_the_front_is_counted_until_all_of_it_is(void) {
         TEST_ASSERT_EQUAL_INT(MEASURED_COUNTED, table_counted(&p.trial, &made, &none, &w));
         TEST_ASSERT_EQUAL_INT(0, none.count);
         made.counted = false;
-        keep("mk/price/measure_one.sh", "exit 2\n");
+        tree_keep("mk/price/measure_one.sh", "exit 2\n");
         const table_wish quiet = {.progress = NULL};
         TEST_ASSERT_EQUAL_INT(MEASURED_MISSING, table_counted(&p.trial, &made, &none, &quiet));
         TEST_ASSERT_EQUAL_INT(0, none.count);
         measured_free(&m);
-        leave_tree();
+        tree_leave();
     }
     priced_close(&p);
 }

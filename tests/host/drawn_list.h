@@ -1,0 +1,21 @@
+/* drawn_list.h: a list of operations of all kinds, drawn: for what counts them. Nothing runs it. */
+#ifndef TESTS_HOST_DRAWN_LIST_H
+#define TESTS_HOST_DRAWN_LIST_H
+
+#include "command.h"
+#include "host/image/tape.h"
+
+enum { DRAWN_LIST_MOST = 200, DRAWN_LIST_ANGLES = 3, DRAWN_LIST_TABLES = 4 };
+
+typedef struct drawn_list {
+    op ops[DRAWN_LIST_MOST];
+    int turns[DRAWN_LIST_MOST][DRAWN_LIST_ANGLES];
+    int result[3];
+    bool odd[DRAWN_LIST_TABLES];
+    tape list; /* of the above */
+} drawn_list;
+
+/* Of 4 to less than `most` operations. */
+void drawn_list_draw(dice *d, int most, drawn_list *l);
+
+#endif
