@@ -29,12 +29,12 @@ static const char *const models[] = {
     "thomson_plane_conserved",
     "epicyclic_conserved",
     "spherical_flight",
-    "mechanism m\ncoordinate a [deg]\ncoordinate x [mm]\ninput u = 2 [N]\n"
-    "output tip [cm] = x + 30 [mm]*sin(a)\noutput turn [deg/s] = a'\noutput push [N] = u\n"
-    "T = 1 [kg]*x'^2/2 + 0.01 [kg*m^2]*a'^2/2\nV = 9 [N/m]*x^2/2 - 1 [J]*cos(a)\nQ(x) = u\n"
-    "scene s { start a = 20 [deg], x = 5 [mm]; step 1 [ms]; until 1 [s] }\n",
-    "mechanism m\nstate y\nstate z\nequation 1 [s^2]*y'' + y*z = 1\nequation 1 [s]*z' + z = y\n"
-    "output sum = y + z\nscene s { start y = 2; step 1 [ms]; until 1 [s] }\n"};
+    ("mechanism m\ncoordinate a [deg]\ncoordinate x [mm]\ninput u = 2 [N]\n"
+     "output tip [cm] = x + 30 [mm]*sin(a)\noutput turn [deg/s] = a'\noutput push [N] = u\n"
+     "T = 1 [kg]*x'^2/2 + 0.01 [kg*m^2]*a'^2/2\nV = 9 [N/m]*x^2/2 - 1 [J]*cos(a)\nQ(x) = u\n"
+     "scene s { start a = 20 [deg], x = 5 [mm]; step 1 [ms]; until 1 [s] }\n"),
+    ("mechanism m\nstate y\nstate z\nequation 1 [s^2]*y'' + y*z = 1\nequation 1 [s]*z' + z = y\n"
+     "output sum = y + z\nscene s { start y = 2; step 1 [ms]; until 1 [s] }\n")};
 enum { MODELS = sizeof models / sizeof models[0] };
 
 static derived model_of(int n) {
