@@ -210,22 +210,28 @@ static bool moves(const reference *r) {
     return false;
 }
 
+/* Where nothing is known of any column, nothing ends the trust either: records say nothing then. */
+static bool knows(const reference *r) {
+    for (int k = 1; k < r->columns; k++) {
+        if (r->column[k].counts) {
+            return true;
+        }
+    }
+    return false;
+}
+
 reference *reference_new(const reference_wish *w) {
     reference *r = w->image->contacts > 0 ? by_fine_steps(w) : by_extrapolation(w);
     if (!r->stopped && r->broken) {
         reference *other = by_fine_steps(w); /* kinks and jumps are passed by steps */
-        if (other->records > r->records) {
+        if (knows(other) && (other->records > r->records || !knows(r))) {
             reference *swap = r;
             r = other;
             other = swap;
         }
         reference_free(other);
     }
-    bool known = false;
-    for (int k = 1; k < r->columns; k++) {
-        known = known || r->column[k].counts;
-    }
-    if (r->records < 1 || !known) {
+    if (r->records < 1 || !knows(r)) {
         r->kind = REFERENCE_NONE;
         if (r->why == NULL) {
             r->why =

@@ -93,7 +93,7 @@ static void test_a_rotor_that_cannot_follow_is_not_too_fast(void) {
 
 static void test_one_that_spin_up_took_too_far_is_not_either(void) {
     uint64_t seed = 12;
-    for (unsigned trial = 0; trial < 40U; trial++) {
+    for (unsigned trial = 0; trial < draw_cases(40); trial++) {
         draw_rotor(&seed);
         kind.friction_Nm = WH_R(0.0);
         const wh_real target_radps = draw_broken(&seed, 170, 190) * EVEN_RPM;

@@ -115,7 +115,7 @@ static void test_drawn_rotors_are_followed(void) {
     unsigned fine = 0;
     uint32_t lies = 0;
     uint32_t valid = 0;
-    const unsigned draws = 40;
+    const unsigned draws = draw_cases(40);
     for (unsigned i = 0; i < draws; i++) {
         fed_rotor_standard(&fed, seed);
         rotor_kind *kind = &fed.kind;

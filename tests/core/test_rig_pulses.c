@@ -276,7 +276,7 @@ static void test_a_pulse_too_many_on_the_ramp(void) { check_places(WH_PHASE_RAMP
 /* Two that are none, each between two true ones, with so many true ones between them: each is found. */
 static void test_two_pulses_too_many(void) {
     seed = 7;
-    for (unsigned i = 0; i < 240U; i++) {
+    for (unsigned i = 0; i < draw_cases(240); i++) {
         make_train(speeds_rpm[draw_one_of(&seed, SPEEDS)]);
         give_train(0);
         const unsigned first = DISTURBED + draw_one_of(&seed, 2);

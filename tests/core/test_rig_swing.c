@@ -145,8 +145,9 @@ static void test_rough_pulses_have_wide_intervals(void) {
     const wh_rig_config config = standard();
     unsigned covered = 0;
     unsigned told = 0;
+    const unsigned runs = draw_cases(60);
     seed = 21;
-    for (unsigned i = 0; i < 60U; i++) {
+    for (unsigned i = 0; i < runs; i++) {
         drawn rotor = draw_rotor(WH_R(0.02), WH_R(0.06));
         rotor.kind.jitter_s = WH_R(2e-3);
         const wh_swung swung = swing_out(&config, &rotor, true);
@@ -155,7 +156,7 @@ static void test_rough_pulses_have_wide_intervals(void) {
         told += tells ? 1U : 0U;
         covered += tells && WH_ABS(off) <= swung.half_rad[0] ? 1U : 0U;
     }
-    TEST_ASSERT_TRUE(told >= 20U && covered * 100U >= told * 90U);
+    TEST_ASSERT_TRUE(told * 3U >= runs && covered * 100U >= told * 90U);
 }
 
 /* A pass does not begin with a swing that comes near the top, where times tell all of the amplitude and a guess of them nothing,

@@ -376,6 +376,13 @@ static void test_tables_have_all_steps_that_help(void) {
     for (int i = 1; i < made->count; i++) {
         TEST_ASSERT_TRUE(made->row[i - 1].price.value <= made->row[i].price.value);
     }
+    /* numbered as they were tried */
+    bool numbered[SETTINGS * TABLE_LADDER] = {false};
+    for (int i = 0; i < made->count; i++) {
+        const int order = made->row[i].order;
+        TEST_ASSERT_TRUE(order >= 0 && order < made->count && !numbered[order]);
+        numbered[order] = true;
+    }
     table_free(made);
     table_free(NULL);
     priced_close(&p);
@@ -406,7 +413,44 @@ static void test_tables_without_a_price_are_by_evaluations(void) {
     priced_close(&p);
 }
 
+static bool is_fixed_and_fine(const setting *s, double step_s) {
+    return setting_is_fixed(s) && (step_s == 0.0 || step_s < 0.004);
+}
+
+/* In fixed point a step may be too long: each of these is one of those that were too coarse, and no more is tried of it. */
+static void test_steps_too_long_for_fixed_point_are_left_out(void) {
+    static const char *const texts[] = {
+        "mechanism m\ncoordinate x [m]\nT = 1 [kg]*x'^2/2\nV = 40 [N/m]*x^2/2\n"
+        "scene s { start x = 1 [m]; step 1 [ms]; until 1 [s]\n"
+        "range x = -2 .. 2 [m], x' = -20 .. 20 [m/s] }\n"};
+    priced p;
+    priced_open(&p, texts, 1);
+    TEST_ASSERT_TRUE(priced_begin(&p, "mps2-an385", (whole_ratio){1, 20}, RECORDS, NULL));
+    p.takes = is_fixed_and_fine;
+    const table_wish w = {.operations = 1e8};
+    table *made = table_new(&p.trial, &w);
+    int refused = 0;
+    int coarsest = 1000;
+    for (int rung = 0; rung < TABLE_LADDER; rung++) {
+        const deviation_pace pace = table_ladder(rung);
+        const double step_s = ratio_times(1, trial_step(&p.trial, pace));
+        refused += pace.records <= RECORDS && step_s >= 0.004;
+        coarsest = step_s < 0.004 && rung < coarsest ? rung : coarsest;
+    }
+    TEST_ASSERT_TRUE(refused > 3 && made->count > 1);
+    TEST_ASSERT_EQUAL_INT(refused, made->coarse);
+    double step_s = 0.0;
+    for (int i = 0; i < made->count; i++) {
+        TEST_ASSERT_TRUE(setting_is_fixed(&made->row[i].setting));
+        step_s = fmax(step_s, ratio_times(1, trial_step(&p.trial, made->row[i].pace)));
+    }
+    TEST_ASSERT_TRUE(step_s == ratio_times(1, trial_step(&p.trial, table_ladder(coarsest))));
+    table_free(made);
+    priced_close(&p);
+}
+
 void suite_price_choices(void) {
+    RUN_TEST(test_steps_too_long_for_fixed_point_are_left_out);
     RUN_TEST(test_drawn_requests_are_answered_as_by_trying_all);
     RUN_TEST(test_substeps_rise_as_they_are_told);
     RUN_TEST(test_little_effort_leaves_settings);

@@ -175,7 +175,7 @@ static void test_drawn_choices_are_as_if_all_were_counted(void) {
             const choice want = choice_make(&p.trial, &other);
             told t = {.times = 0};
             measured_prices m = {.words = &words};
-            measured_end end = MEASURED_REFUSED;
+            measured_end end = MEASURED_MISSING;
             w.counting = count_told;
             w.context = &t;
             tree_enter();
@@ -239,7 +239,7 @@ static void test_counting_ends_where_it_is_of_no_use(void) {
         w.context = &t;
         p.trial.wish.stop = &t.stop;
         measured_prices m = {.words = &words};
-        measured_end end = MEASURED_REFUSED;
+        measured_end end = MEASURED_MISSING;
         tree_enter();
         write_script(&a);
         if (stop_at == 0) {
@@ -248,7 +248,7 @@ static void test_counting_ends_where_it_is_of_no_use(void) {
         (void)choice_counted(&p.trial, &w, &m, &end);
         const char *asked = tree_taken("asked");
         if (stop_at == 0) {
-            TEST_ASSERT_EQUAL_INT(MEASURED_MISSING, end);
+            TEST_ASSERT_EQUAL_INT(MEASURED_MISSING, end); /* by the first that was asked */
             TEST_ASSERT_EQUAL_STRING("again\n", asked);
             TEST_ASSERT_EQUAL_INT(0, m.count);
         } else {
@@ -272,7 +272,7 @@ static void test_runs_are_counted_and_teach(void) {
     TEST_ASSERT_TRUE(priced_begin(&p, "mps2-an386", (whole_ratio){1, 20}, RECORDS, NULL));
     choice_wish w = {.error = 1e-2, .rate_Hz = rate_Hz, .periods = 1, .operations = 1e9};
     measured_prices m = {.words = &words};
-    measured_end end = MEASURED_REFUSED;
+    measured_end end = MEASURED_MISSING;
     tree_enter();
     tree_keep("mk/price/measure_one.sh",
               "echo \"$@\" >>asked\ncase \"$*\" in *float*) n=7000 ;; *) n=90000 ;; esac\n"

@@ -138,6 +138,65 @@ static void test_what_stands_in_for_what_nobody_predicts(void) {
     TEST_ASSERT_TRUE(stood_in > 0);
 }
 
+/* Where a board has no figures of what a scene does, by whatever method: half of what another board of its kind takes, and no
+ * bytes. */
+static void test_other_boards_stand_in(void) {
+    static const char *const calls[] = {"tanh(y)",      "asin(y/9)", "acos(y/9)",
+                                        "log(2 + y^2)", "sinh(y)",   "atan2(y, 2)"};
+    static const wh_method methods[] = {WH_RK4, WH_HEUN, WH_RK38};
+    int stood_in = 0;
+    for (size_t n = 0; n < sizeof calls / sizeof calls[0]; n++) {
+        char text[300];
+        snprintf(text, sizeof text,
+                 "mechanism m\nstate y\nequation y' + 1 [1/s]*y*%s = 1 [1/s]\n"
+                 "scene s { start y = 1; step 1 [ms]; until 1 [s] }\n",
+                 calls[n]);
+        const char *texts[] = {text};
+        for (int i = 0; i < cost_board_count * 3; i++) {
+            priced q;
+            priced_open(&q, texts, 1);
+            TEST_ASSERT_TRUE(priced_begin(&q, cost_boards[i / 3].name, spacing, RECORDS, NULL));
+            const deviation_pace pace = {2, 1};
+            const cost_board *b = q.wish.board;
+            const setting s = priced_setting(methods[i % 3], &engine_float);
+            const setting rk4 = priced_setting(WH_RK4, &engine_float);
+            bool own;
+            const cost plain = trial_cost(&q.trial, &s, pace, &own);
+            const cost classic = trial_cost(&q.trial, &rk4, pace, &own);
+            q.trial.wish.board = cost_board_named(b->fpu ? "mps2-an386" : "mps2-an385");
+            const cost other = trial_cost(&q.trial, &s, pace, &own);
+            q.trial.wish.board = b;
+            if (plain.instructions_worst.basis == COST_NOT_KNOWN &&
+                classic.instructions_worst.basis == COST_NOT_KNOWN &&
+                other.instructions_worst.basis != COST_NOT_KNOWN) {
+                measured_prices m = {.count = 0};
+                const choice_wish w = {.counted = &m};
+                const cost c = choice_price(&q.trial, &w, &s, pace, false, &own);
+                const bool range = b->cycles == COST_RANGE;
+                const double each = range ? b->cycles_most : 1.0;
+                const double mean = 0.5 * other.instructions.value;
+                const double worst = 0.5 * other.instructions_worst.value;
+                TEST_ASSERT_TRUE(own && q.trial.wish.board == b);
+                TEST_ASSERT_TRUE(near(c.instructions.value, mean));
+                TEST_ASSERT_TRUE(near(c.instructions.most, mean));
+                TEST_ASSERT_TRUE(near(c.instructions_worst.most, worst));
+                TEST_ASSERT_TRUE(near(c.cycles.value, each * mean));
+                TEST_ASSERT_TRUE(near(c.cycles.most, each * mean));
+                TEST_ASSERT_TRUE(near(c.cycles_worst.value, each * worst));
+                TEST_ASSERT_TRUE(near(c.cycles_worst.most, each * worst));
+                TEST_ASSERT_EQUAL_INT(COST_NOT_KNOWN, c.flash_bytes.basis);
+                TEST_ASSERT_TRUE(c.ram_bytes.most == 0.0 && c.stack_bytes.most == 0.0);
+                TEST_ASSERT_TRUE(c.state_bytes.value == plain.state_bytes.value);
+                stood_in++;
+            }
+            priced_close(&q);
+        }
+    }
+    printf("  %d boards stood in\n",
+           stood_in); /* of AVR: the others were fitted to the same scenes */
+    TEST_ASSERT_TRUE(stood_in > 3);
+}
+
 /* A run's mean by all its evaluations, its longest step by the one that took most, and by what the last run taught. */
 static void test_runs_are_expected_by_their_evaluations(void) {
     dice d = dice_of("price_expected runs", 101);
@@ -180,6 +239,12 @@ static void test_runs_are_expected_by_their_evaluations(void) {
         const double steps = 0.5 / each_s;
         step.instructions.value = 1e9 / steps * (n % 2 ? 0.999 : 1.001);
         TEST_ASSERT_EQUAL_INT(n % 2 == 0, choice_run_is_long(&p.trial, pace, &step));
+        /* a billion is not too many */
+        const deviation_pace coarsest = {1, 1};
+        step.instructions.value = 1e9 / RECORDS;
+        TEST_ASSERT_FALSE(choice_run_is_long(&p.trial, coarsest, &step));
+        step.instructions.value += 1.0;
+        TEST_ASSERT_TRUE(choice_run_is_long(&p.trial, coarsest, &step));
         /* what was counted is that */
         counted[7] = counted_price(&s, pace, 55.0);
         m.count = 8;
@@ -207,5 +272,6 @@ static void test_runs_are_expected_by_their_evaluations(void) {
 void suite_price_expected(void) {
     RUN_TEST(test_what_is_expected_of_a_step);
     RUN_TEST(test_what_stands_in_for_what_nobody_predicts);
+    RUN_TEST(test_other_boards_stand_in);
     RUN_TEST(test_runs_are_expected_by_their_evaluations);
 }

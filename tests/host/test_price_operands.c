@@ -4,6 +4,7 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "blocks.h"
 #include "command.h"
@@ -149,7 +150,7 @@ static const char *const forms[] = {
     "V = 3 [J]*cos(a) + 1 [N/m]*max(x - %.4f [m], 0 [m])^2 + 2 [N/m]*(x - 0.3 [m])^2\nQ(y) = u\n"
     "F = 0.7 [N*s/m]*(x' - y')^2/2\n"
     "scene s { start a = %.3f [rad], x' = 1 [m/s]; step 1 [ms]; until 1 [s] }\n",
-    "mechanism m\nstate y\nstate z\nstate w\n"
+    "mechanism m\nstate w\nstate y\nstate z\n"
     "equation y' + %.3f [1/s]*max(z - %.4f, 0) = 0 [1/s]\nequation z' = 1 [1/s]\n"
     "equation w' - 3 [1/s]*w*y + 2 [1/s]*z*w - %.3f [1/s]*w = 0 [1/s]\n"
     "scene s { start y = 0.5; step 1 [ms]; until 1 [s] }\n",
@@ -213,6 +214,27 @@ static void test_rest_and_motion_have_closed_forms(void) {
     derived_free(&d);
 }
 
+/* As many angles as there may be, all at rest at zero: so of each of them. */
+static void test_all_components_are_looked_at(void) {
+    char text[8000] = "mechanism m\n";
+    for (int i = 0; i < MOST; i++) {
+        snprintf(text + strlen(text), sizeof text - strlen(text), "coordinate a%d [rad]\n", i);
+    }
+    strcat(text, "T = 1 [kg*m^2]*(0 [1/s^2]");
+    for (int i = 0; i < MOST; i++) {
+        snprintf(text + strlen(text), sizeof text - strlen(text), " + a%d'^2", i);
+    }
+    strcat(text, ")/2\nscene s { step 1 [ms]; until 1 [s] }\n");
+    derived d;
+    operands o = of_text(text, &d);
+    for (int i = 0; i < MOST; i++) {
+        TEST_ASSERT_TRUE(o.rate[i] == 1.0 && is_near(o.accel[i], 1.0) && is_near(o.still[i], 1.0));
+        TEST_ASSERT_TRUE(is_near(o.at_zero[i], 1.0) && is_near(o.real[i], 1.0));
+    }
+    operands_free(&o);
+    derived_free(&d);
+}
+
 /* With contacts nothing is looked at; and behind a pole nothing more: of the looks before it all are full parts. */
 static void test_what_is_not_known_is_not_zero(void) {
     derived d = derived_scene(priced_ball[0], "s");
@@ -259,6 +281,7 @@ static void test_all_is_given_back(void) {
 void suite_price_operands(void) {
     RUN_TEST(test_what_is_seen_is_what_is_there);
     RUN_TEST(test_rest_and_motion_have_closed_forms);
+    RUN_TEST(test_all_components_are_looked_at);
     RUN_TEST(test_what_is_not_known_is_not_zero);
     RUN_TEST(test_all_is_given_back);
 }
