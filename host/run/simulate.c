@@ -7,6 +7,7 @@
 #include <string.h>
 #include <time.h>
 
+#include "digits.h"
 #include "envelope.h"
 #include "faint.h"
 #include "host/base/room.h"
@@ -272,6 +273,11 @@ static void say_against(const simulation *sim, bool fails) {
     if (sim->settings->kind == &engine_float) {
         const narrow lost = narrow_of(w);
         narrow_say(stderr, sim->image, &lost);
+    }
+    if (sim->verdict->against == 0) {
+        const digits few = digits_of(sim->image, sim->settings->kind, w, &sim->verdict->balance,
+                                     sim->settings->stop);
+        digits_say(stderr, sim->image, sim->settings->kind, &few);
     }
 }
 
