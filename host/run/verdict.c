@@ -37,14 +37,15 @@ void verdict_enter(verdict *v, const void *run) {
 
 void verdict_end(verdict *v, const void *run, bool failed, const volatile sig_atomic_t *stop) {
     watch_end(v->watch, failed);
+    v->about.cures.stop = stop;
     v->balance = belief_of(v->books, v->kind, run);
     if (failed) {
         return;
     }
     v->retrial = retrial_of(v->busy, v->kind, v->balance.known ? v->balance.largest_J : 0.0, stop);
-    v->against = (advice_lost(&v->about) ? VERDICT_BIT(VERDICT_ENERGY) : 0U) |
-                 (advice_singular(&v->about) ? VERDICT_BIT(VERDICT_SINGULAR) : 0U) |
-                 (advice_swing(&v->about) ? VERDICT_BIT(VERDICT_SWING) : 0U) |
+    v->against = (judged_lost(&v->about.judged) ? VERDICT_BIT(VERDICT_ENERGY) : 0U) |
+                 (judged_singular(&v->about.judged) ? VERDICT_BIT(VERDICT_SINGULAR) : 0U) |
+                 (judged_swing(&v->about.judged) ? VERDICT_BIT(VERDICT_SWING) : 0U) |
                  (v->retrial.told ? VERDICT_BIT(VERDICT_CONTACTS) : 0U);
 }
 

@@ -1,0 +1,32 @@
+/* cure.h: what a warning is to name as a cure, done: the run again with it, watched and judged as the run was. Linear theory
+ * proposes, and of a run that was ruined it knows little: where it went is not where the motion goes. */
+#ifndef RUN_CURE_H
+#define RUN_CURE_H
+
+#include <signal.h>
+
+#include "engine.h"
+
+typedef struct cure_wish {
+    wh_method method;
+    double step_s; /* the run's own, or another */
+    bool compensated;
+} cure_wish;
+
+typedef enum cure_outcome {
+    CURE_DOES,     /* nothing is to be said of the run with it */
+    CURE_DOES_NOT, /* it is to be warned of, too, or fails */
+    CURE_NOT_TRIED, /* it would take too long, or was stopped; or the number has a plan for its one step */
+} cure_outcome;
+
+/* What one run's cures have taken so far. */
+typedef struct cures {
+    const image *image;
+    const engine_kind *kind;
+    const volatile sig_atomic_t *stop; /* ends a trial; may be NULL */
+    double spent;                      /* operations */
+} cures;
+
+cure_outcome cure_try(cures *c, const cure_wish *what);
+
+#endif

@@ -1,0 +1,46 @@
+/* judged.h: what of a run is to be warned of, yes or no; the words and what would do are advice.h's.
+ *
+ * Everything is made of what was watched (watch.h) and of the balance (belief.h); eigenvalues are looked for only where
+ * there is something to say, and of systems without energies, whose swings have no other witness. */
+#ifndef RUN_JUDGED_H
+#define RUN_JUDGED_H
+
+#include "belief.h"
+#include "linearised.h"
+
+/* More than this part of the largest entry is missing on the way, and not only at the end. */
+#define JUDGED_ON_THE_WAY 3e-3
+/* Off by more than this in a few steps is not resolved (watch.h says of what). */
+#define JUDGED_NOT_RESOLVED 3e-3
+/* Of a system's swing: what of it is lost. */
+#define JUDGED_SWING_LOST 0.01
+
+typedef struct judged {
+    const image *image;
+    const engine_kind *kind;
+    const watch *watch;
+    const belief *balance;
+    linearised *motions; /* NULL until they are asked for */
+    bool swing_known;    /* it has been asked whether */
+    bool swing;
+    double swing_off; /* of a swing that varies along its way: swing_off(); else 0 */
+} judged;
+
+judged judged_of(const image *im, const engine_kind *kind, const watch *w, const belief *balance);
+void judged_end(judged *j);
+
+/* The method that steps it, the matrix of Runge-Kutta's included. */
+wh_method judged_method(const image *im);
+/* The motions of the run, looked for once. */
+linearised *judged_motions(judged *j);
+
+/* Is the energy's balance to be warned of? As belief_lost() has it, but for what the books' own rule has made of powers
+ * that change within a step; and where it was lost on the way and came back. */
+bool judged_lost(const judged *j);
+/* What is missing of the largest entry, at the end or on the way. */
+double judged_missing(const judged *j);
+/* Is there a singular position that the step does not resolve? A swing that a system given by its equations loses? */
+bool judged_singular(const judged *j);
+bool judged_swing(judged *j);
+
+#endif

@@ -1,0 +1,173 @@
+/* remedy.c: see remedy.h. */
+#include "remedy.h"
+
+#include <stdio.h>
+
+#include "host/number/functions.h"
+#include "step_text.h"
+
+/* What a cure leaves over, of the largest entry: well below what is warned of. */
+#define CURED 3e-5
+/* Where the motion as it should have been is not known, so much less. */
+#define SATURATED_LEAVES 0.1
+/* So many times as many steps are no advice: by theory, and where they were tried. */
+#define STEPS_MORE 200.0
+#define STEPS_MORE_TRIED 20000.0
+/* So many times as many in float are to be compensated. */
+#define FLOAT_MORE 10.0
+
+/* A proposal and what became of it. */
+typedef struct remedy {
+    cure_wish what;
+    cure_outcome outcome;
+} remedy;
+
+static const remedy none = {.outcome = CURE_DOES_NOT};
+
+static bool is_crude(wh_method method) {
+    return wh_methods[method].order < wh_methods[WH_METHOD_DEFAULT].order;
+}
+
+/* So many small steps round a float's sums away, unless they are compensated. */
+static cure_wish compensated_if_fine(const judged *j, cure_wish what) {
+    const bool rounds = j->kind == &engine_float && what.step_s * FLOAT_MORE <= j->watch->step_s;
+    what.compensated = what.compensated || rounds;
+    return what;
+}
+
+/* From this one on down; where trying ends, the next one untried, unless it is too fine to be believed so. */
+static remedy finer_until_it_does(const judged *j, cures *c, cure_wish first, bool compensates) {
+    remedy r = {.what = first};
+    while (r.what.step_s * STEPS_MORE_TRIED > j->watch->step_s) {
+        r.what = compensates ? compensated_if_fine(j, r.what) : r.what;
+        r.outcome = cure_try(c, &r.what);
+        if (r.outcome == CURE_DOES) {
+            return r;
+        }
+        if (r.outcome == CURE_NOT_TRIED) {
+            return r.what.step_s * STEPS_MORE > j->watch->step_s ? r : none;
+        }
+        r.what.step_s = linearised_nice_s(0.7 * r.what.step_s);
+    }
+    return none;
+}
+
+static cure_wish own_cure(const judged *j, wh_method method, double step_s) {
+    return (cure_wish){
+        .method = method, .step_s = step_s, .compensated = j->image->settings.compensated};
+}
+
+/* The cheapest other method of a higher order that takes this system and leaves little at the same step, but for those
+ * in `without`; -1: none. */
+static int method_by_theory(judged *j, double allowed, unsigned without) {
+    const linearised *l = judged_motions(j);
+    const wh_method own = judged_method(j->image);
+    int found = -1;
+    for (int m = 0; m < WH_METHODS; m++) {
+        const wh_method_row *row = &wh_methods[m];
+        if (row->order <= wh_methods[own].order || row->takes == WH_NO_RATES ||
+            (without & (1U << m)) != 0 || !wh_method_takes((wh_method)m, l->form) ||
+            (found >= 0 && row->stages >= wh_methods[found].stages)) {
+            continue;
+        }
+        if (linearised_off(l, (wh_method)m, l->step_s) <= allowed) {
+            found = m;
+        }
+    }
+    return found;
+}
+
+static remedy by_method(judged *j, cures *c, double allowed) {
+    unsigned failed = 0;
+    for (int m; (m = method_by_theory(j, allowed, failed)) >= 0; failed |= 1U << m) {
+        remedy r = {.what = own_cure(j, (wh_method)m, j->image->step_s)};
+        r.outcome = cure_try(c, &r.what);
+        if (r.outcome != CURE_DOES_NOT) {
+            return r;
+        }
+    }
+    return none;
+}
+
+/* Of this method. Where the theory has no step, and trying it is all that is left, from half of the run's on. */
+static remedy by_step(judged *j, cures *c, wh_method method, double most_s, double allowed) {
+    const double step_s = linearised_step_s(judged_motions(j), method, most_s, allowed);
+    if (step_s > 0.0) {
+        return finer_until_it_does(j, c, own_cure(j, method, step_s), false);
+    }
+    const cure_wish half = own_cure(j, method, linearised_nice_s(0.5 * j->watch->step_s));
+    const remedy r = is_crude(method) ? none : finer_until_it_does(j, c, half, false);
+    return r.outcome == CURE_DOES ? r : none;
+}
+
+static bool is_some(const remedy *r) { return r->outcome != CURE_DOES_NOT; }
+
+static const char *would_do(const remedy *r) {
+    return r->outcome == CURE_DOES ? "would do" : "should do (not tried: that takes long)";
+}
+
+bool remedy_text(judged *j, cures *c, double most_s, bool saturated, char text[REMEDY_TEXT]) {
+    const double allowed = saturated ? SATURATED_LEAVES * CURED : CURED;
+    const wh_method own = judged_method(j->image);
+    const remedy method = by_method(j, c, allowed);
+    const remedy step = by_step(j, c, own, most_s, allowed);
+    const bool usual = is_crude(own) && !is_some(&method) && !is_some(&step);
+    char word[STEP_WORD];
+    text[0] = '\0';
+    if (is_some(&step)) {
+        const int length = snprintf(text, REMEDY_TEXT, "--step %s %s",
+                                    step_text(step.what.step_s, word), would_do(&step));
+        if (is_some(&method)) {
+            snprintf(text + length, (size_t)(REMEDY_TEXT - length), ", or --method %s%s",
+                     wh_methods[method.what.method].word,
+                     method.outcome == CURE_DOES ? "" : " (not tried)");
+        }
+    } else if (is_some(&method)) {
+        snprintf(text, REMEDY_TEXT, "--method %s %s", wh_methods[method.what.method].word,
+                 would_do(&method));
+    } else if (usual) {
+        const remedy r = by_step(j, c, WH_METHOD_DEFAULT, 0.5 * j->watch->step_s, allowed);
+        if (is_some(&r)) {
+            snprintf(text, REMEDY_TEXT, "--method %s --step %s %s",
+                     wh_methods[WH_METHOD_DEFAULT].word, step_text(r.what.step_s, word),
+                     would_do(&r));
+        }
+    }
+    return text[0] != '\0';
+}
+
+double remedy_step_by_order_s(const judged *j, double ratio) {
+    const double order = wh_methods[judged_method(j->image)].order;
+    return j->watch->step_s *
+           number_power(CURED / number_most(number_least(ratio, 1.0), CURED), 1.0 / order);
+}
+
+/* --- of a close look ---------------------------------------------------------------------------------------*/
+
+/* A step of this method that resolves what a look found some of Runge-Kutta 4 to resolve. */
+static double step_by_look_s(const judged *j, const watch_look *l) {
+    const double order = wh_methods[judged_method(j->image)].order;
+    const double parts = j->watch->step_s / l->fine_step_s;
+    return j->watch->step_s / number_power(parts, order < 4.0 ? 4.0 / order : 1.0);
+}
+
+/* A crude method that would take too many steps has none, but the one that resolved it has. */
+cure_outcome remedy_of_look(const judged *j, cures *c, const watch_look *look,
+                            char text[REMEDY_TEXT]) {
+    const wh_method own = judged_method(j->image);
+    const double own_s = linearised_nice_s(step_by_look_s(j, look));
+    const bool other = is_crude(own) && !(own_s * STEPS_MORE > j->watch->step_s);
+    cure_wish what = own_cure(j, other ? WH_METHOD_DEFAULT : own,
+                              other ? linearised_nice_s(look->fine_step_s) : own_s);
+    what = compensated_if_fine(j, what);
+    remedy r = finer_until_it_does(j, c, what, true);
+    if (!is_some(&r)) {
+        r.what = what;
+    }
+    char step[STEP_WORD];
+    snprintf(text, REMEDY_TEXT, "%s%s%s--step %s%s", other ? "--method " : "",
+             other ? wh_methods[WH_METHOD_DEFAULT].word : "", other ? " " : "",
+             step_text(r.what.step_s, step),
+             r.what.compensated && !j->image->settings.compensated ? " --compensated" : "");
+    return r.outcome;
+}
