@@ -122,7 +122,7 @@ static bool parse_body(parser *in) {
     }
 }
 
-static bool read_scene(parser *in, const pending_scene *pending, draft *into) {
+static void read_scene(parser *in, const pending_scene *pending, draft *into) {
     in->lexer = pending->from;
     in->token = pending->next;
     in->draft = into;
@@ -132,7 +132,8 @@ static bool read_scene(parser *in, const pending_scene *pending, draft *into) {
     in->all_effects = true;
     into->made->at = pending->at;
     if (in->token.kind != TOKEN_NAME || in->token.primes > 0) {
-        return parser_fail(in, word_row(WORD_SCENE)->form, "a scene needs a name");
+        parser_fail(in, word_row(WORD_SCENE)->form, "a scene needs a name");
+        return;
     }
     into->made->at = in->token.at;
     into->made->name = parser_copy_text(in, &in->token);
@@ -149,7 +150,7 @@ static bool read_scene(parser *in, const pending_scene *pending, draft *into) {
         parser_next(in);
     }
     if (!parser_expect_sign(in, '{', "after the scene's name")) {
-        return false;
+        return;
     }
     if (pending->inside != NULL) {
         choose_mechanism(in, into, pending->inside);
@@ -167,12 +168,10 @@ static bool read_scene(parser *in, const pending_scene *pending, draft *into) {
     }
     into->made->with = into->with;
     into->made->conserve = into->conserve;
-    return good;
 }
 
-bool read_noted_scene(parser *in, const pending_scene *pending) {
+void read_noted_scene(parser *in, const pending_scene *pending) {
     draft into = {.made = arena_alloc(in->arena, sizeof *into.made)};
-    const bool good = read_scene(in, pending, &into);
+    read_scene(in, pending, &into);
     in->draft = NULL;
-    return good;
 }

@@ -23,6 +23,6 @@ void contact_on_system(parser *in, const contact_statement *each);
 /* The whole text, but for its scenes: these are noted, since effects may follow that they name. */
 void read_file(parser *in);                                      /* statements.c */
 void finish_mechanism(parser *in, builder *made);                /* finish.c */
-bool read_noted_scene(parser *in, const pending_scene *pending); /* scene_block.c */
+void read_noted_scene(parser *in, const pending_scene *pending); /* scene_block.c */
 
 #endif

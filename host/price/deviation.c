@@ -26,14 +26,21 @@ static bool enter(const reference *r, const records *now, int record, deviation_
     return d->error <= what.give_up;
 }
 
-/* One step; *most: evaluations of the one that took most, where that is not the same for all. */
-static bool take_step(const engine_kind *kind, void *run, const image *im, double *most) {
+/* Evaluations so far; of a scene with contacts reading a record is one, too, which is none of a step's. */
+typedef struct counted {
+    double in_steps;
+    double most; /* in one of these */
+} counted;
+
+/* One step. They differ where there are contacts; a step as one matrix evaluates one list. */
+static bool take_step(const engine_kind *kind, void *run, const image *im, counted *c) {
     uint64_t declared;
-    const bool differ = im->contacts > 0;
-    const uint64_t before = differ ? kind->evaluations(run, &declared) : 0;
+    const bool matrix = im->list[IMAGE_MATRIX] != NULL;
+    const uint64_t before = kind->evaluations(run, &declared);
     const bool good = kind->step(run) == WH_OK;
-    const double taken = differ ? (double)(kind->evaluations(run, &declared) - before) : 1.0;
-    *most = taken > *most ? taken : *most;
+    const double taken = matrix ? 1.0 : (double)(kind->evaluations(run, &declared) - before);
+    c->in_steps += taken;
+    c->most = taken > c->most ? taken : c->most;
     return good;
 }
 
@@ -41,6 +48,7 @@ deviation deviation_measure(const reference *r, const image *im, const engine_ki
                             deviation_pace pace, deviation_of_what what,
                             const volatile sig_atomic_t *stop) {
     deviation d = {.column = what.column};
+    counted c = {0.0, 0.0};
     records *now = records_open(NULL, im, kind);
     void *run = kind->start(im);
     records_read(now, run, 0.0);
@@ -48,7 +56,7 @@ deviation deviation_measure(const reference *r, const image *im, const engine_ki
     const int each = (int)pace.records;
     for (int i = each; i <= r->records && good && (stop == NULL || !*stop); i += each) {
         for (uint64_t k = 0; k < pace.steps && good; k++) {
-            good = take_step(kind, run, im, &d.evaluations_most);
+            good = take_step(kind, run, im, &c);
         }
         if (good) {
             records_read(now, run, 0.0);
@@ -61,10 +69,10 @@ deviation deviation_measure(const reference *r, const image *im, const engine_ki
     d.operations =
         (double)evaluations * (double)im->list[matrix ? IMAGE_MATRIX : IMAGE_STEP]->count;
     const double time_s = ratio_times(kind->steps(run), im->step);
-    d.evaluations = time_s > 0.0 ? (double)evaluations / time_s : 0.0;
-    if (im->contacts == 0) {
-        d.evaluations_most = matrix ? 1.0 : (double)wh_methods[im->settings.method].stages;
-    }
+    d.evaluations = time_s > 0.0 ? c.in_steps / time_s : 0.0;
+    d.evaluations_most = im->contacts > 0 ? c.most
+                         : matrix         ? 1.0
+                                          : (double)wh_methods[im->settings.method].stages;
     d.usable = good && (kind->saturated == NULL || kind->saturated(run) == 0);
     kind->stop(run);
     records_close(now);

@@ -210,10 +210,8 @@ static void end_passages(twins *t, double time_s) {
 static bool has_overrun(const pair *p) {
     uint64_t ours = 0;
     uint64_t finers = 0;
-    if (p->wish->image->contacts > 0) {
-        p->wish->kind->events(p->to->run, &ours);
-        engine_double.events(p->finer, &finers);
-    }
+    p->wish->kind->events(p->to->run, &ours);
+    engine_double.events(p->finer, &finers);
     return ours > 0 || finers > 0;
 }
 

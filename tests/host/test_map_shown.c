@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "derived.h"
 #include "host/map/map_text.h"
 #include "shown_map.h"
 
@@ -172,4 +173,61 @@ static void test_maps_say_what_they_hold(void) {
     }
 }
 
-void suite_map_shown(void) { RUN_TEST(test_maps_say_what_they_hold); }
+/* --- while it is made --------------------------------------------------------------------------------------*/
+
+static struct {
+    double last;
+    unsigned within; /* pairs */
+    double points;
+} heard;
+
+static void hear(double runs, void *told) {
+    TEST_ASSERT_TRUE(told == &heard);
+    TEST_ASSERT_TRUE(runs >= heard.last && runs <= heard.points);
+    heard.within += runs > floor(runs) ? 1U : 0U;
+    heard.last = runs;
+}
+
+/* How many runs are done, with what is done of the one under way: never less than before, and all of them at the end. */
+static void test_progress_goes_on(void) {
+    static const char *const text =
+        "mechanism m\ncoordinate x [m]\nparameter k = 1 [N/m]\nT = 1 [kg]*x'^2/2\nV = k*x^2/2\n"
+        "scene s {\n start x = 1 [m]\n step 1 [ms]\n until 20 [s]\n}\n";
+    static const char *const over[][2] = {{"step=1..2[ms]:2", "k=1..2[N/m]:3"},
+                                          {"k=1..2[N/m]:3", "step=1..4[ms]:4"}};
+    for (unsigned i = 0; i < 2U; i++) {
+        derived d = derived_scene(text, "s");
+        derived_expect(&d, text);
+        diags *errors = diags_new();
+        grid axes = {.count = 0};
+        const overrides changes = {.balance = true};
+        const mechanism *of = d.model->mechanisms[0];
+        for (int k = 0; k < 2; k++) {
+            TEST_ASSERT_TRUE(grid_add(&axes, of, over[i][k], errors));
+        }
+        heard.last = 0.0;
+        heard.within = 0;
+        heard.points = (double)axes.points;
+        const map_wish wish = {.grid = &axes,
+                               .mechanism = of,
+                               .scene = d.model->scenes[0],
+                               .changes = &changes,
+                               .kind = &engine_double,
+                               .settings = {.method = WH_RK4},
+                               .tolerance = 1e-3,
+                               .progress = hear,
+                               .told = &heard};
+        stability_map made = map_make(&wish);
+        TEST_ASSERT_EQUAL_DOUBLE(heard.points, heard.last);
+        TEST_ASSERT_TRUE(heard.within >= axes.points);
+        map_free(&made);
+        grid_free(&axes);
+        diags_free(errors);
+        derived_free(&d);
+    }
+}
+
+void suite_map_shown(void) {
+    RUN_TEST(test_maps_say_what_they_hold);
+    RUN_TEST(test_progress_goes_on);
+}

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "core/ledger_step.h"
+#include "host/run/methods.h"
 
 #include "unity.h"
 
@@ -243,10 +244,46 @@ static void test_documented_stability_is_the_measured_one(void) {
     free(page);
 }
 
+/* How often a word stands in a sentence. */
+static unsigned times_in(const char *text, const char *word) {
+    const char *const signs = " ,;()";
+    unsigned times = 0;
+    for (const char *at = text + strspn(text, signs); *at != '\0';) {
+        const size_t length = strcspn(at, signs);
+        times += length == strlen(word) && strncmp(at, word, length) == 0 ? 1U : 0U;
+        at += length;
+        at += strspn(at, signs);
+    }
+    return times;
+}
+
+/* Each method once, the one that is meant without a word first; and those of a form. Whatever the text held before. */
+static void test_sentences_have_each_method_once(void) {
+    char text[METHODS_TEXT_SIZE];
+    char first[80];
+    memset(text, 'x', sizeof text);
+    TEST_ASSERT_TRUE(methods_in_help(text) == text);
+    snprintf(first, sizeof first, "%s (default), ", wh_methods[WH_METHOD_DEFAULT].word);
+    TEST_ASSERT_EQUAL_INT_MESSAGE(0, strncmp(text, first, strlen(first)), text);
+    for (int m = 0; m < WH_METHODS; m++) {
+        TEST_ASSERT_EQUAL_UINT_MESSAGE(1, times_in(text, wh_methods[m].word), text);
+    }
+    for (int form = WH_SECOND_ORDER; form <= WH_FIRST_ORDER; form++) {
+        memset(text, 'x', sizeof text);
+        TEST_ASSERT_TRUE(methods_of_form((wh_form)form, text) == text);
+        for (int m = 0; m < WH_METHODS; m++) {
+            const bool named =
+                wh_method_takes((wh_method)m, (wh_form)form) && wh_methods[m].takes != WH_NO_RATES;
+            TEST_ASSERT_EQUAL_UINT_MESSAGE(named, times_in(text, wh_methods[m].word), text);
+        }
+    }
+}
+
 void suite_method_rows(void) {
     RUN_TEST(test_rows_are_explicit);
     RUN_TEST(test_runge_kutta_methods_have_the_positions_of_their_rates);
     RUN_TEST(test_the_books_weigh_each_stage_as_the_rates_do);
     RUN_TEST(test_words_are_apart_and_fit_command_lines);
     RUN_TEST(test_documented_stability_is_the_measured_one);
+    RUN_TEST(test_sentences_have_each_method_once);
 }

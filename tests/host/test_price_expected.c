@@ -126,6 +126,12 @@ static void test_what_stands_in_for_what_nobody_predicts(void) {
             const double times = q.wish.board->fpu ? 4.0 : 1.3;
             TEST_ASSERT_TRUE(near(c.instructions.value, times * f.instructions.value));
             TEST_ASSERT_TRUE(near(c.instructions_worst.most, times * f.instructions_worst.value));
+            TEST_ASSERT_TRUE(near(c.instructions.least, times * f.instructions.least));
+            TEST_ASSERT_TRUE(near(c.cycles.value, times * f.cycles.value));
+            TEST_ASSERT_TRUE(near(c.cycles.least, times * f.cycles.least));
+            TEST_ASSERT_TRUE(near(c.cycles_worst.value, times * f.cycles_worst.value));
+            TEST_ASSERT_TRUE(near(c.flash_bytes.value, 0.8 * f.flash_bytes.value));
+            TEST_ASSERT_TRUE(near(c.stack_bytes.least, 0.8 * f.stack_bytes.least));
             TEST_ASSERT_TRUE(near(c.flash_bytes.most, 0.8 * f.flash_bytes.least));
             TEST_ASSERT_TRUE(near(c.ram_bytes.most, 0.8 * f.ram_bytes.least));
             TEST_ASSERT_TRUE(near(c.stack_bytes.most, 0.8 * f.stack_bytes.least));

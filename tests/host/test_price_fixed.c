@@ -359,7 +359,9 @@ static fixed_operand draw_operand(dice *d, const drawn_fixed *f, int below) {
 
 static void draw_fixed_op(dice *d, drawn_fixed *f, int i, bool waves) {
     fixed_op *o = &f->op[i];
-    o->code = i == 0 ? FIXED_CONSTANT : (fixed_code)dice_one_of(d, FIXED_MOST + 1);
+    o->code = i > 0                    ? (fixed_code)dice_one_of(d, FIXED_MOST + 1)
+              : dice_one_of(d, 2) == 1 ? FIXED_CONSTANT
+                                       : FIXED_INPUT;
     if (o->code == FIXED_PHASE && !waves) {
         o->code = FIXED_SUM;
     }

@@ -36,6 +36,8 @@ static const char *const models[] = {
     ("mechanism m\nstate y\nstate z\nequation 1 [s^2]*y'' + y*z = 1\nequation 1 [s]*z' + z = y\n"
      "output sum = y + z\nscene s { start y = 2; step 1 [ms]; until 1 [s] }\n")};
 enum { MODELS = sizeof models / sizeof models[0] };
+/* Numbers behind a row, which nobody writes. */
+enum { BEHIND = 4000 };
 
 static derived model_of(int n) {
     derived d = strncmp(models[n], "mechanism", 9) == 0 ? derived_scene(models[n], "s")
@@ -53,7 +55,7 @@ static void test_rows_are_the_records_of_a_run(void) {
         records *r = records_open(NULL, im, &engine_double);
         const long before = blocks_in_use();
         long_rows *rows = long_rows_new(r);
-        long double *row = malloc((size_t)(r->columns + 1) * sizeof *row);
+        long double *row = malloc((size_t)(r->columns + BEHIND) * sizeof *row);
         void *run = engine_double.start(im);
         for (int step = 0; step < 40; step++) {
             double angle[COMPONENTS];
@@ -65,11 +67,14 @@ static void test_rows_are_the_records_of_a_run(void) {
                 state[i] = (long double)(i < im->angles ? angle[i] : real[i - im->angles]);
             }
             records_read(r, run, time_s);
-            for (int i = 0; i <= r->columns; i++) {
+            for (int i = 0; i < r->columns + BEHIND; i++) {
                 row[i] = 77.0L;
             }
             long_rows_read(rows, state, (long double)time_s, row);
-            TEST_ASSERT_TRUE(row[r->columns] == 77.0L && row[0] == (long double)time_s);
+            TEST_ASSERT_TRUE(row[0] == (long double)time_s);
+            for (int i = 0; i < BEHIND; i++) {
+                TEST_ASSERT_TRUE(row[r->columns + i] == 77.0L);
+            }
             for (int i = 1; i < r->columns; i++) {
                 TEST_ASSERT_TRUE_MESSAGE(
                     fabs((double)row[i] - r->row[i]) <= 1e-11 * (1.0 + fabs(r->row[i])), models[n]);
@@ -234,6 +239,32 @@ static void test_references_are_of_the_kind_that_can_be_trusted(void) {
     reference_free(NULL);
 }
 
+/* Where rounding might make anything of a slope, as of a root at zero, errors are still parts of the values. */
+static void test_a_root_at_zero_does_not_hide_errors(void) {
+    dice d = dice_of("price_states", 451);
+    for (int n = 0; n < 6; n++) {
+        char text[400];
+        const double rate = dice_between(&d, 60.0, 300.0);
+        snprintf(text, sizeof text,
+                 "mechanism m\nstate y\nstate p\nstate q\nstate r\n"
+                 "equation y' + %.17g [1/s]*y = 1 [1/s]*sqrt(p*q - r)\nequation p' = 0 [1/s]\n"
+                 "equation q' = 0 [1/s]\nequation r' = 0 [1/s]\n"
+                 "scene s { start y = 1, p = 0.5, q = 0.5, r = 0.25; step 1 [ms]; until 1 [s] }\n",
+                 rate);
+        derived of = derived_scene(text, "s");
+        derived_expect(&of, text);
+        reference *r = reference_to(of.image, 4, 1e8, NULL);
+        TEST_ASSERT_EQUAL_INT(REFERENCE_EXTRAPOLATED, r->kind);
+        TEST_ASSERT_EQUAL_INT(4, r->records);
+        for (int i = 0; i <= 4; i++) {
+            const long double y = expl(-(long double)rate * (long double)i / 20.0L);
+            TEST_ASSERT_TRUE(fabsl(r->row[i * r->columns + 1] - y) < 1e-15L);
+        }
+        reference_free(r);
+        derived_free(&of);
+    }
+}
+
 /* What is stopped is of no use. */
 static void test_references_are_stopped(void) {
     for (int n = 0; n < 2; n++) {
@@ -255,5 +286,6 @@ void suite_price_states(void) {
     RUN_TEST(test_fine_steps_keep_what_is_rounded_off);
     RUN_TEST(test_fine_steps_end_with_the_motion);
     RUN_TEST(test_references_are_of_the_kind_that_can_be_trusted);
+    RUN_TEST(test_a_root_at_zero_does_not_hide_errors);
     RUN_TEST(test_references_are_stopped);
 }

@@ -191,7 +191,41 @@ static void test_runs_that_fail(void) {
     }
 }
 
+/* What both runs take, told beforehand, is what they are then counted to have taken, but for their first step and the
+ * looks at the state. */
+static void test_what_they_take(void) {
+    dice d = dice_of("twins", 34);
+    for (unsigned i = 0; i < 2U * WH_METHODS; i++) {
+        char text[TEXT];
+        motion m;
+        const wh_method method = (wh_method)(i / 2U);
+        const uint64_t steps = 200U + dice_one_of(&d, 800);
+        write_spring(text, "m", 1.0, dice_between(&d, 1.0, 10.0), 1e-3, 1e-3 * (double)steps);
+        motion_open_text(
+            &m, text,
+            (stepping){.kind = i % 2U == 0 ? &engine_double : &engine_float, .method = method});
+        const double told = twins_operations(m.image, m.image);
+        const int own = wh_methods[method].order >= 4 ? (int)method : (int)WH_METHOD_DEFAULT;
+        const int methods[] = {(int)method, own, own}; /* the finer one takes two */
+        double counted = 0.0;
+        for (int k = 0; k < 3; k++) {
+            motion run;
+            uint64_t most;
+            motion_open_text(&run, text,
+                             (stepping){.kind = &engine_double, .method = (wh_method)methods[k]});
+            motion_step(&run, steps);
+            counted +=
+                (double)run.kind->evaluations(run.run, &most) * run.image->list[IMAGE_STEP]->count;
+            motion_close(&run);
+        }
+        TEST_ASSERT_TRUE(told >= 0.99 * counted && told <= 1.6 * counted);
+        TEST_ASSERT_TRUE(told <= 1.02 * counted || wh_methods[method].stages < 4);
+        motion_close(&m);
+    }
+}
+
 void suite_twins(void) {
+    RUN_TEST(test_what_they_take);
     RUN_TEST(test_the_finer_run);
     RUN_TEST(test_plain_settings);
     RUN_TEST(test_what_is_told);

@@ -1,0 +1,173 @@
+/* test_retried.c: which step a run with too many events would have needed (host/run/retrial.h), of runs that are made up:
+ * they overrun, and are off, down to a known step. Every part of a step that is tried is found where it is the coarsest
+ * that will do, and no more is spent on looking than it may be. */
+#include <math.h>
+#include <stdlib.h>
+
+#include "command.h"
+#include "derived.h"
+#include "host/base/room.h"
+#include "host/run/retrial.h"
+#include "unity.h"
+
+void suite_retried(void);
+
+enum { STEPS = 64, FINEST = 1000 };
+#define STEP_S 1e-2
+
+static const char *const ball =
+    "mechanism m\ncoordinate x [m]\nT = 1 [kg]*x'^2/2\nstop x >= -9 [m] restitution 0.5\n"
+    "scene s {\n  start x = 1 [m]\n  step 10 [ms]\n  until 0.64 [s]\n}\n";
+
+/* What all made-up runs have in common. */
+static struct {
+    uint64_t needs; /* parts of the step; in coarser ones each step overruns, */
+    double off;     /* and x is off by this at the end */
+    uint64_t evaluations_a_step;
+    uint64_t spent; /* evaluations, by all runs that there were */
+    uint64_t runs;
+} world;
+
+typedef struct made_up {
+    uint64_t parts;
+    uint64_t steps;
+} made_up;
+
+static void *start(const image *im) {
+    made_up *m = room(1, sizeof *m);
+    m->parts = (uint64_t)llround(STEP_S / im->step_s);
+    world.runs++;
+    return m;
+}
+
+static void stop(void *run) { free(run); }
+
+static wh_status step(void *run) {
+    ((made_up *)run)->steps++;
+    world.spent += world.evaluations_a_step;
+    return WH_OK;
+}
+
+static void state(const void *run, double *angle_rad, double *real) {
+    const made_up *m = run;
+    const double part = (double)m->steps / (double)(STEPS * m->parts);
+    (void)angle_rad;
+    real[0] = part + (m->parts < world.needs ? world.off * part * part : 0.0);
+    real[1] = 1.0;
+}
+
+static uint64_t steps(const void *run) { return ((const made_up *)run)->steps; }
+
+static uint64_t events(const void *run, uint64_t *overruns) {
+    const made_up *m = run;
+    *overruns = m->parts < world.needs ? m->steps : 0;
+    return *overruns;
+}
+
+static int happened(const void *run, engine_event *list) {
+    (void)run;
+    (void)list;
+    return 0;
+}
+
+static uint64_t evaluations(const void *run, uint64_t *most) {
+    *most = world.evaluations_a_step;
+    return ((const made_up *)run)->steps * world.evaluations_a_step;
+}
+
+static const engine_kind kind = {.name = "made up",
+                                 .start = start,
+                                 .stop = stop,
+                                 .step = step,
+                                 .state = state,
+                                 .steps = steps,
+                                 .events = events,
+                                 .happened = happened,
+                                 .evaluations = evaluations};
+
+/* The run itself, and what would have done. */
+static retrial tried(const image *im) {
+    busy *b = busy_open(im, 1);
+    void *run = start(im);
+    busy_enter(b, &kind, run, 0.0);
+    for (int i = 0; i < STEPS; i++) {
+        step(run);
+        busy_enter(b, &kind, run, 0.0);
+    }
+    stop(run);
+    world.spent = 0;
+    world.runs = 0;
+    const retrial made = retrial_of(b, &kind, 0.0, NULL);
+    busy_close(b);
+    return made;
+}
+
+/* 2, 5, 10, 20, 50, ...: the least of them that is no less; 0 beyond the finest. */
+static uint64_t part_for(uint64_t needs) {
+    static const uint64_t leading[] = {1, 2, 5};
+    for (uint64_t ten = 1; ten <= FINEST; ten *= 10) {
+        for (int i = 0; i < 3; i++) {
+            const uint64_t part = leading[i] * ten;
+            if (part > 1 && part <= FINEST && part >= needs) {
+                return part;
+            }
+        }
+    }
+    return 0;
+}
+
+static void test_the_coarsest_that_will_do_is_found(void) {
+    derived d = derived_scene(ball, "s");
+    dice draws = dice_of("retried", 26);
+    derived_expect(&d, ball);
+    for (int i = 0; i < 60; i++) {
+        const double drawn = exp(dice_between(&draws, log(2.0), log(1.3 * FINEST)));
+        world.needs = i < 9 ? part_for((uint64_t)exp(0.75 * i) + 2) : (uint64_t)drawn;
+        world.needs += i % 3 == 2 ? 1 : 0; /* and the one that is just too coarse */
+        world.off = dice_between(&draws, 0.05, 0.5);
+        world.evaluations_a_step = 1;
+        const uint64_t wanted = part_for(world.needs);
+        const retrial found = tried(d.image);
+        TEST_ASSERT_TRUE(found.told);
+        TEST_ASSERT_EQUAL_UINT64(wanted, found.parts);
+        TEST_ASSERT_TRUE(found.known == (wanted > 0));
+        TEST_ASSERT_TRUE(found.agreed == (wanted > 0 && wanted < FINEST));
+        TEST_ASSERT_EQUAL_UINT64(wanted > 0 && wanted < FINEST ? part_for(wanted + 1) : FINEST,
+                                 found.finest);
+        TEST_ASSERT_TRUE(!found.known || fabs(found.off - world.off) < 0.02 * world.off + 1e-9);
+    }
+    derived_free(&d);
+}
+
+/* 1e8 operations at most, and what an evaluation is beside its own forty more; what would be dearer is not begun. */
+static void test_no_more_is_spent_than_may_be(void) {
+    derived d = derived_scene(ball, "s");
+    dice draws = dice_of("retried", 27);
+    derived_expect(&d, ball);
+    const double each = d.image->list[IMAGE_STEP]->count + 40.0;
+    unsigned cut = 0;
+    for (int i = 0; i < 30; i++) {
+        world.needs = FINEST + 1;
+        world.off = 0.1;
+        world.evaluations_a_step =
+            (uint64_t)(1e8 / each / STEPS * exp(dice_between(&draws, log(1e-5), log(1.0))));
+        double whole = 0.0; /* all of them */
+        for (uint64_t part = 2; part > 0; part = part_for(part + 1)) {
+            whole += (double)(STEPS * part * world.evaluations_a_step) * each;
+        }
+        const retrial found = tried(d.image);
+        const double stride = 256.0 * (double)world.evaluations_a_step * each;
+        TEST_ASSERT_TRUE((double)world.spent * each <= 1e8 + stride);
+        TEST_ASSERT_TRUE(whole > 0.9e8 || found.finest == FINEST);
+        TEST_ASSERT_TRUE(whole < 1e8 || found.finest < FINEST);
+        TEST_ASSERT_TRUE(found.told && !found.known && found.parts == 0);
+        cut += found.finest < FINEST ? 1U : 0U;
+    }
+    TEST_ASSERT_TRUE(cut > 5 && cut < 25);
+    derived_free(&d);
+}
+
+void suite_retried(void) {
+    RUN_TEST(test_the_coarsest_that_will_do_is_found);
+    RUN_TEST(test_no_more_is_spent_than_may_be);
+}
