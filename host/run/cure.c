@@ -1,6 +1,7 @@
 /* cure.c: see cure.h. */
 #include "cure.h"
 
+#include "digits.h"
 #include "host/number/functions.h"
 #include "judged.h"
 
@@ -41,15 +42,19 @@ static double operations_a_step(const image *im) {
 }
 
 /* The run just done was looked at: is there nothing to say? */
-static bool is_silent(const image *im, const engine_kind *kind, watch *w, books *b,
-                      const void *run) {
+static cure_outcome outcome_of(const image *im, const engine_kind *kind, watch *w, books *b,
+                               const void *run, const volatile sig_atomic_t *stop) {
     const belief balance = belief_of(b, kind, run);
     judged j = judged_of(im, kind, w, &balance);
     const bool by_rule = w->balanced && w->doubts > 0;
     const bool silent = !judged_lost(&j) && !judged_singular(&j) && !judged_swing(&j) &&
                         (by_rule || !balance.known || judged_missing(&j) <= LEAVES);
     judged_end(&j);
-    return silent;
+    if (!silent) {
+        return CURE_DOES_NOT;
+    }
+    const digits few = digits_of(im, kind, w, &balance, stop);
+    return few.energy || few.component >= 0 ? CURE_ROUNDS : CURE_DOES;
 }
 
 cure_outcome cure_try(cures *c, const cure_wish *what) {
@@ -61,27 +66,29 @@ cure_outcome cure_try(cures *c, const cure_wish *what) {
     if (!(c->spent + each * (double)again.steps <= OPERATIONS_MOST)) {
         return CURE_NOT_TRIED;
     }
-    void *run = c->kind->start(&again);
+    const engine_kind *kind = what->in_double ? &engine_double : c->kind;
+    void *run = kind->start(&again);
     books *b = books_open(&again);
-    watch *w = watch_open(&again, c->kind);
+    watch *w = watch_open(&again, kind);
     bool good = true;
     bool stopped = false;
     uint64_t step = 0;
     for (; step <= again.steps && good && !stopped; step++) {
-        good = step == 0 || c->kind->step(run) == WH_OK;
+        good = step == 0 || kind->step(run) == WH_OK;
         if (good && b != NULL) {
-            books_enter(b, c->kind, run);
+            books_enter(b, kind, run);
         }
         if (good) {
-            watch_enter(w, c->kind, b, run);
+            watch_enter(w, kind, b, run);
         }
         stopped = (step & 255U) == 0 && c->stop != NULL && *c->stop;
     }
     c->spent += each * (double)step;
     watch_end(w, !good);
-    good = good && !stopped && is_silent(&again, c->kind, w, b, run);
+    const cure_outcome outcome =
+        good && !stopped ? outcome_of(&again, kind, w, b, run, c->stop) : CURE_DOES_NOT;
     watch_close(w);
     books_close(b);
-    c->kind->stop(run);
-    return stopped ? CURE_NOT_TRIED : good ? CURE_DOES : CURE_DOES_NOT;
+    kind->stop(run);
+    return stopped ? CURE_NOT_TRIED : outcome;
 }

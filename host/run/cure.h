@@ -11,11 +11,13 @@ typedef struct cure_wish {
     wh_method method;
     double step_s; /* the run's own, or another */
     bool compensated;
+    bool in_double; /* whatever the run's number */
 } cure_wish;
 
 typedef enum cure_outcome {
     CURE_DOES,     /* nothing is to be said of the run with it */
     CURE_DOES_NOT, /* it is to be warned of, too, or fails */
+    CURE_ROUNDS,   /* nothing but that the number has too few digits (digits.h) */
     CURE_NOT_TRIED, /* it would take too long, or was stopped; or the number has a plan for its one step */
 } cure_outcome;
 

@@ -35,12 +35,29 @@ static cure_wish compensated_if_fine(const judged *j, cure_wish what) {
     return what;
 }
 
+/* Where nothing but a float's digits is in its way, in double. */
+static cure_outcome try_either(const judged *j, cures *c, cure_wish *what) {
+    cure_outcome outcome = cure_try(c, what);
+    if (outcome == CURE_ROUNDS && j->kind == &engine_float) {
+        cure_wish more = *what;
+        more.in_double = true;
+        more.compensated = j->image->settings.compensated;
+        outcome = cure_try(c, &more);
+        *what = outcome == CURE_DOES ? more : *what;
+    }
+    return outcome == CURE_ROUNDS ? CURE_DOES_NOT : outcome;
+}
+
+static const char *number_text(const remedy *r) {
+    return r->what.in_double ? " --number double" : "";
+}
+
 /* From this one on down; where trying ends, the next one untried, unless it is too fine to be believed so. */
 static remedy finer_until_it_does(const judged *j, cures *c, cure_wish first, bool compensates) {
     remedy r = {.what = first};
     while (r.what.step_s * STEPS_MORE_TRIED > j->watch->step_s) {
         r.what = compensates ? compensated_if_fine(j, r.what) : r.what;
-        r.outcome = cure_try(c, &r.what);
+        r.outcome = try_either(j, c, &r.what);
         if (r.outcome == CURE_DOES) {
             return r;
         }
@@ -81,7 +98,7 @@ static remedy by_method(judged *j, cures *c, double allowed) {
     unsigned failed = 0;
     for (int m; (m = method_by_theory(j, allowed, failed)) >= 0; failed |= 1U << m) {
         remedy r = {.what = own_cure(j, (wh_method)m, j->image->step_s)};
-        r.outcome = cure_try(c, &r.what);
+        r.outcome = try_either(j, c, &r.what);
         if (r.outcome != CURE_DOES_NOT) {
             return r;
         }
@@ -115,22 +132,23 @@ bool remedy_text(judged *j, cures *c, double most_s, bool saturated, char text[R
     char word[STEP_WORD];
     text[0] = '\0';
     if (is_some(&step)) {
-        const int length = snprintf(text, REMEDY_TEXT, "--step %s %s",
-                                    step_text(step.what.step_s, word), would_do(&step));
+        const int length =
+            snprintf(text, REMEDY_TEXT, "--step %s%s %s", step_text(step.what.step_s, word),
+                     number_text(&step), would_do(&step));
         if (is_some(&method)) {
-            snprintf(text + length, (size_t)(REMEDY_TEXT - length), ", or --method %s%s",
-                     wh_methods[method.what.method].word,
+            snprintf(text + length, (size_t)(REMEDY_TEXT - length), ", or --method %s%s%s",
+                     wh_methods[method.what.method].word, number_text(&method),
                      method.outcome == CURE_DOES ? "" : " (not tried)");
         }
     } else if (is_some(&method)) {
-        snprintf(text, REMEDY_TEXT, "--method %s %s", wh_methods[method.what.method].word,
-                 would_do(&method));
+        snprintf(text, REMEDY_TEXT, "--method %s%s %s", wh_methods[method.what.method].word,
+                 number_text(&method), would_do(&method));
     } else if (usual) {
         const remedy r = by_step(j, c, WH_METHOD_DEFAULT, 0.5 * j->watch->step_s, allowed);
         if (is_some(&r)) {
-            snprintf(text, REMEDY_TEXT, "--method %s --step %s %s",
+            snprintf(text, REMEDY_TEXT, "--method %s --step %s%s %s",
                      wh_methods[WH_METHOD_DEFAULT].word, step_text(r.what.step_s, word),
-                     would_do(&r));
+                     number_text(&r), would_do(&r));
         }
     }
     return text[0] != '\0';
@@ -165,9 +183,10 @@ cure_outcome remedy_of_look(const judged *j, cures *c, const watch_look *look,
         r.what = what;
     }
     char step[STEP_WORD];
-    snprintf(text, REMEDY_TEXT, "%s%s%s--step %s%s", other ? "--method " : "",
+    snprintf(text, REMEDY_TEXT, "%s%s%s--step %s%s%s", other ? "--method " : "",
              other ? wh_methods[WH_METHOD_DEFAULT].word : "", other ? " " : "",
              step_text(r.what.step_s, step),
-             r.what.compensated && !j->image->settings.compensated ? " --compensated" : "");
+             r.what.compensated && !j->image->settings.compensated ? " --compensated" : "",
+             number_text(&r));
     return r.outcome;
 }

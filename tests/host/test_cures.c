@@ -1,7 +1,8 @@
 /* test_cures.c: what is named as a cure was tried. Motions that no straight line knows much of (a charge by another, a
- * chemical bond, springs that harden, a double pendulum), in steps so coarse that the run is ruined, by all methods: linear
- * theory sees another motion there than the one that was meant. Every cure that a warning or a failure names is done: then
- * nothing is said, and the energy, by formulas of this file, is there. What was not tried is named as such. */
+ * chemical bond, springs that harden, a double pendulum, a spring that a heavy clock shakes), in steps so coarse that
+ * the run is ruined, by all methods: linear theory sees another motion there than the one that was meant. Every cure
+ * that a warning or a failure names is done: then nothing is said, and the energy, by formulas of this file, is there.
+ * What was not tried is named as such. */
 #include "command.h"
 
 #include <math.h>
@@ -22,7 +23,7 @@ enum { TEXT = 900, WORD = 40, CURES = 4 };
 /* Of the energy's range: off by more, a cure is none. */
 #define CURED 5e-3
 
-typedef enum ruined_kind { ORBIT, BOND, HARDENING, DOUBLE_PENDULUM, KINDS } ruined_kind;
+typedef enum ruined_kind { ORBIT, BOND, HARDENING, DOUBLE_PENDULUM, CLOCKED, KINDS } ruined_kind;
 
 typedef struct ruined {
     ruined_kind kind;
@@ -39,6 +40,7 @@ typedef struct named {
     char step[WORD];
     char method[WORD];
     bool compensated;
+    bool in_double;
     bool tried;
 } named;
 
@@ -48,11 +50,12 @@ static const char *const bodies[KINDS] = {
     "T = M*(x'^2 + y'^2)/2\nV = E*(x^2/2 + a*x^4 + b*(x - y)^4)\n",
     ("T = M*((1 + a)*x'^2/2 + a*b^2*y'^2/2 + a*b*cos(x - y)*x'*y')\n"
      "V = -10*E*((1 + a)*cos(x) + a*b*cos(y))\n"),
+    "T = M*(x'^2 + 1e8*y'^2)/2\nV = a*E*(x - 0.3*sin(b*y))^2\n",
 };
 
 static const char *const starts[KINDS] = {
     "x = 1, y' = 0.9 [1/s]", "x = 1.2, y = 0.5, y' = 0.5 [1/s]", "x = 1, y = -0.3, y' = 1 [1/s]",
-    "x = 1.7, y = 0.4, y' = 1 [1/s]"};
+    "x = 1.7, y = 0.4, y' = 1 [1/s]", "x = 1, y' = 1 [1/s]"};
 
 static double energy_J(const ruined *r, double x, double y, double vx, double vy) {
     const double a = r->a;
@@ -65,6 +68,7 @@ static double energy_J(const ruined *r, double x, double y, double vx, double vy
     case DOUBLE_PENDULUM:
         return (1.0 + a) * vx * vx / 2.0 + a * b * b * vy * vy / 2.0 +
                a * b * cos(x - y) * vx * vy - 10.0 * ((1.0 + a) * cos(x) + a * b * cos(y));
+    case CLOCKED: return (vx * vx + 1e8 * vy * vy) / 2.0 + a * pow(x - 0.3 * sin(b * y), 2.0);
     case KINDS: break;
     }
     return 0.0;
@@ -77,6 +81,7 @@ static double moved_J(const ruined *r) {
     case BOND: return 0.2;
     case HARDENING: return 0.5 + r->a + r->b;
     case DOUBLE_PENDULUM: return 10.0 * (1.0 + r->a);
+    case CLOCKED: return 4.0 * r->a; /* a float may leave a hundredth of the largest entry */
     case KINDS: break;
     }
     return 1.0;
@@ -116,6 +121,7 @@ static void read_options(char *piece, bool tried, named *to) {
     read_word(piece, "--step", to->step);
     read_word(piece, "--method", to->method);
     to->compensated = strstr(piece, "--compensated") != NULL;
+    to->in_double = strstr(piece, "--number double") != NULL;
     to->tried = tried;
 }
 
@@ -156,6 +162,9 @@ static void run(const ruined *r, const named *with, said *what) {
         model_keep(r->text), "--quiet",  "--number",
         r->number,           "--method", other ? with->method : wh_methods[r->method].word};
     int count = 6;
+    if (with != NULL && with->in_double) {
+        words[3] = "double";
+    }
     if (with != NULL && with->step[0] != '\0') {
         words[count++] = "--step";
         words[count++] = with->step;
@@ -174,11 +183,12 @@ static double missing(const ruined *r, const named *with) {
     }
     const double step_s = with->step[0] != '\0' ? said_step_s(with->step) : r->step_s;
     motion at;
-    motion_open_text(&at, r->text,
-                     (stepping){.kind = r->number[0] == 'f' ? &engine_float : &engine_double,
-                                .method = method,
-                                .compensated = with->compensated,
-                                .step_s = step_s});
+    motion_open_text(
+        &at, r->text,
+        (stepping){.kind = r->number[0] == 'f' && !with->in_double ? &engine_float : &engine_double,
+                   .method = method,
+                   .compensated = with->compensated,
+                   .step_s = step_s});
     double energy[2];
     bool went = true;
     for (int k = 0; k < 2; k++) {
@@ -195,7 +205,7 @@ static double missing(const ruined *r, const named *with) {
 
 static void test_cures_were_tried(void) {
     dice d = dice_of("cures", 3120);
-    const unsigned cases = dice_cases(few_or_all(usual_or(24, 12), 400));
+    const unsigned cases = dice_cases(few_or_all(usual_or(25, 15), 400));
     unsigned told = 0;
     unsigned done = 0;
     unsigned untried = 0;
