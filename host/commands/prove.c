@@ -265,15 +265,11 @@ static int prove_loaded(const prove_options *o, const loaded *made, const mechan
         start_is_possible(im, o->common.number, errors)) {
         m = exact_motion_make(made->instance, errors);
     }
-    int code = EXIT_BAD_INPUT;
-    if (m != NULL) {
-        double *within = room(m->states, sizeof *within);
-        const bool good = read_within(o, of, m, within, errors);
-        diags_flush(errors, stderr);
-        code = good ? answer(o, im, m, within) : EXIT_BAD_INPUT;
-        free(within);
-    }
+    double *within = room(m != NULL ? m->states : 0, sizeof *within);
+    const bool good = m != NULL && read_within(o, of, m, within, errors);
     diags_flush(errors, stderr);
+    const int code = good ? answer(o, im, m, within) : EXIT_BAD_INPUT;
+    free(within);
     exact_motion_free(m);
     return code;
 }

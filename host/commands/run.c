@@ -209,10 +209,10 @@ static int run_image(run_options *o, const source_model *from, const image *im, 
     o->settings.stop = &interrupted;
     o->settings.progress = shows_progress(&o->settings);
     trusting trust = trusting_look(im, plain, &o->settings);
-    unsigned against;
+    bool against;
     const simulation_result result = simulate(im, &o->settings, &against);
     if (result == SIMULATION_DONE) {
-        trusting_say(&trust, &o->settings, against != 0);
+        trusting_say(&trust, &o->settings, against);
     }
     trusting_end(&trust);
     switch (result) {

@@ -53,7 +53,9 @@ belief belief_of(books *b, const engine_kind *kind, const void *run) {
     made.largest_J = larger(made.largest_J, books_swing_J(b));
     double computing_J;
     const double step_J = books_rounding_J(b, kind, run, &computing_J);
-    made.rounding_J = ROUNDINGS * number_root((double)b->entries) * step_J + 2.0 * computing_J;
+    made.entry_J = made.largest_J;
+    made.computing_J = 2.0 * computing_J;
+    made.rounding_J = ROUNDINGS * number_root((double)b->entries) * step_J + made.computing_J;
     if (made.left_J != 0.0) { /* else there is nothing to explain */
         made.rounding_J += books_lost_J(b);
     }

@@ -43,14 +43,16 @@ typedef struct belief {
     double contacts_J;
     double left_J;    /* left over, signed: energy.left */
     double largest_J; /* the largest entry, or what rounding makes of it */
+    double entry_J;   /* the largest entry as it is */
     bool rounded;     /* it is rounding that sets it */
     double
         rounding_J; /* what rounding explains of it: of a step, by the root of the steps, and of the energy itself */
-    double ratio;   /* |left| / largest, >= 0; infinite with something left over of nothing */
-    bool saturated; /* values were held at an end of their range */
-    bool slow;      /* rounding took a share of what steps were to add (slow.h) */
-    bool exact;     /* the steps are exact (--matrix exact) */
-    double jump_s;  /* where the balance was lost at one go; below 0: nowhere */
+    double computing_J; /* of that, what the energy's own computation may leave */
+    double ratio;       /* |left| / largest, >= 0; infinite with something left over of nothing */
+    bool saturated;     /* values were held at an end of their range */
+    bool slow;          /* rounding took a share of what steps were to add (slow.h) */
+    bool exact;         /* the steps are exact (--matrix exact) */
+    double jump_s;      /* where the balance was lost at one go; below 0: nowhere */
 } belief;
 
 belief belief_of(books *b, const engine_kind *kind, const void *run);

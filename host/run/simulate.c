@@ -7,6 +7,7 @@
 #include <string.h>
 #include <time.h>
 
+#include "digits.h"
 #include "envelope.h"
 #include "faint.h"
 #include "host/base/room.h"
@@ -37,6 +38,7 @@ typedef struct simulation {
     bool write_failed;
     diags *undefined; /* what was not a finite number beside the motion */
     bool energies_told;
+    bool few_digits;      /* it was warned of */
     int output;           /* the first output that was not a finite number, or -1, */
     double output_s;      /* when, */
     uint64_t output_rows; /* in how many of the records and points */
@@ -265,13 +267,19 @@ static void say_saturated(const simulation *sim) {
 }
 
 /* What is not to be believed, why, and what would do. */
-static void say_against(const simulation *sim, bool fails) {
+static void say_against(simulation *sim, bool fails) {
     const watch *w = sim->verdict->watch;
     verdict_say(stderr, sim->verdict, fails);
     faint_say(stderr, sim->image, sim->settings->kind, w);
     if (sim->settings->kind == &engine_float) {
         const narrow lost = narrow_of(w);
         narrow_say(stderr, sim->image, &lost);
+    }
+    if (sim->verdict->against == 0) {
+        const digits few = digits_of(sim->image, sim->settings->kind, w, &sim->verdict->balance,
+                                     sim->settings->stop);
+        digits_say(stderr, sim->image, sim->settings->kind, &few);
+        sim->few_digits = few.energy || few.component >= 0;
     }
 }
 
@@ -323,8 +331,8 @@ static bool draw(const simulation *sim) {
     return drawn;
 }
 
-simulation_result simulate(const image *im, const simulation_settings *s, unsigned *against) {
-    *against = 0;
+simulation_result simulate(const image *im, const simulation_settings *s, bool *against) {
+    *against = false;
     simulation sim = {.image = im, .settings = s, .output = -1};
     sim.steps = im->steps;
     sim.records = records_open(NULL, im, s->kind);
@@ -341,7 +349,7 @@ simulation_result simulate(const image *im, const simulation_settings *s, unsign
         const wh_status status = loop(&sim, &interrupted);
         verdict_end(sim.verdict, sim.run, status != WH_OK, s->stop);
         result = judge(&sim, status, interrupted);
-        *against = sim.verdict->against;
+        *against = sim.verdict->against != 0 || sim.few_digits;
         const bool csv_written = flush_records(s->csv, sim.csv);
         const bool columns_written = flush_records(s->columns, sim.columns);
         traces_close(sim.traces);

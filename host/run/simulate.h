@@ -29,7 +29,7 @@ typedef enum simulation_result {
     SIMULATION_BAD_FILE     /* a file could not be written, or gnuplot failed; said */
 } simulation_result;
 
-/* *against: what is to be said against a run that is done (verdict.h), as bits. */
-simulation_result simulate(const image *im, const simulation_settings *s, unsigned *against);
+/* *against: something is to be said against a run that is done (verdict.h, digits.h). */
+simulation_result simulate(const image *im, const simulation_settings *s, bool *against);
 
 #endif

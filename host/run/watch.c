@@ -39,12 +39,17 @@ watch *watch_open(const image *im, const engine_kind *kind) {
     w->smooth = im->contacts == 0;
     w->stride = 1;
     w->record = room(WATCH_RECORDS * n, sizeof *w->record);
-    w->low = room((10 + WATCH_WINDOW) * n, sizeof *w->low);
+    w->low = room((15 + WATCH_WINDOW) * n, sizeof *w->low);
     w->high = w->low + n;
     w->slope = w->high + n;
     w->scratch = w->slope + 2 * n;
     w->range = w->scratch + 3 * n; /* and behind it the furthest of those alike */
-    w->past = w->range + 2 * n;
+    w->asked = w->range + 2 * n;
+    w->asked_low = w->asked + n;
+    w->asked_high = w->asked_low + n;
+    w->strayed = w->asked_high + n;
+    w->start = w->strayed + n;
+    w->past = w->start + n;
     w->alike = room(n, sizeof *w->alike);
     for (int i = 0; i < n; i++) {
         while (!is_alike(im, i, w->alike[i])) {
@@ -206,6 +211,21 @@ static void find_ranges(watch *w) {
     }
 }
 
+/* Where the slopes lead to, and how far the run is from there: a sum that rounding stops does not follow its slopes. */
+static void follow_slopes(watch *w, const double *x) {
+    const int n = w->field->n;
+    if (w->steps == 0) {
+        memcpy(w->start, x, (size_t)n * sizeof *x);
+        return;
+    }
+    for (int i = 0; i < n; i++) {
+        w->asked[i] += 0.5 * w->step_s * (w->slope[i] + w->slope[n + i]);
+        w->asked_low[i] = number_least(w->asked_low[i], w->asked[i]);
+        w->asked_high[i] = number_most(w->asked_high[i], w->asked[i]);
+        w->strayed[i] = number_most(w->strayed[i], fabs(w->asked[i] - (x[i] - w->start[i])));
+    }
+}
+
 void watch_enter(watch *w, const engine_kind *kind, const books *b, const void *run) {
     w->steps = kind->steps(run);
     double *x = watch_past(w, w->steps);
@@ -220,6 +240,7 @@ void watch_enter(watch *w, const engine_kind *kind, const books *b, const void *
         return;
     }
     read_slopes(w, b, x);
+    follow_slopes(w, x);
     if (w->balanced) {
         balance(w, b);
     }

@@ -46,8 +46,15 @@ typedef struct watch {
         *past; /* [(WATCH_WINDOW + 1) * n], a ring: the state of step k at k % (WATCH_WINDOW + 1) */
     double *slope;   /* [2 * n] now, before */
     double *scratch; /* [3 * n] */
-    double *mass;    /* [rows * rows] */
-    double *most;    /* [rows] largest diagonal entries seen */
+    /* what the slopes make of each component, trapezoids summed: now, its least and its most, and the most that the run was
+     * elsewhere */
+    double *asked; /* [n] */
+    double *asked_low;
+    double *asked_high;
+    double *strayed;
+    double *start; /* [n] */
+    double *mass;  /* [rows * rows] */
+    double *most;  /* [rows] largest diagonal entries seen */
     /* looks */
     double metric; /* the largest that was looked at */
     uint64_t next; /* not before this step, unless it is larger */
