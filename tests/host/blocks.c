@@ -16,6 +16,8 @@ long blocks_in_use(void) { return blocks; }
 #endif
 
 #if defined(__GLIBC__) && !SANITIZED
+bool blocks_are_counted(void) { return true; }
+
 /* NOLINTBEGIN(bugprone-reserved-identifier,cert-dcl37-c,cert-dcl51-cpp,readability-inconsistent-declaration-parameter-name) */
 void *__libc_malloc(size_t size);
 void *__libc_calloc(size_t count, size_t size);
@@ -45,4 +47,6 @@ void free(void *block) {
     __libc_free(block);
 }
 /* NOLINTEND(bugprone-reserved-identifier,cert-dcl37-c,cert-dcl51-cpp,readability-inconsistent-declaration-parameter-name) */
+#else
+bool blocks_are_counted(void) { return false; }
 #endif

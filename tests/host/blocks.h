@@ -2,7 +2,10 @@
 #ifndef TESTS_HOST_BLOCKS_H
 #define TESTS_HOST_BLOCKS_H
 
+#include <stdbool.h>
+
 /* Always 0 where the C library does not tell: the sanitizers do there. */
 long blocks_in_use(void);
+bool blocks_are_counted(void);
 
 #endif
