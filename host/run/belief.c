@@ -54,6 +54,7 @@ belief belief_of(books *b, const engine_kind *kind, const void *run) {
     double computing_J;
     const double step_J = books_rounding_J(b, kind, run, &computing_J);
     made.entry_J = made.largest_J;
+    made.size_J = b->size_J;
     made.computing_J = 2.0 * computing_J;
     made.rounding_J = ROUNDINGS * number_root((double)b->entries) * step_J + made.computing_J;
     if (made.left_J != 0.0) { /* else there is nothing to explain */

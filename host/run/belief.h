@@ -44,6 +44,7 @@ typedef struct belief {
     double left_J;    /* left over, signed: energy.left */
     double largest_J; /* the largest entry, or what rounding makes of it */
     double entry_J;   /* the largest entry as it is */
+    double size_J;    /* largest |T| + |V| */
     bool rounded;     /* it is rounding that sets it */
     double
         rounding_J; /* what rounding explains of it: of a step, by the root of the steps, and of the energy itself */

@@ -15,7 +15,7 @@
 /* Of what the slopes asked for, a motion that more digits have, too; and of all that the run did: less is rounding's own. */
 #define ASKED_KEPT 0.1
 #define RANGE_KEPT 1e-3
-/* What hardly varies, of the size that it has: of a rate; and a motion that is none. */
+/* What hardly varies, of the size that it has: of a rate; and a motion, or what energy goes to and fro, that is none. */
 #define RATE_LEAST 1e-3
 #define MOTION_LEAST 1e-7
 /* Last places that a sum may be off anyway. */
@@ -112,6 +112,7 @@ static double strayed(const image *im, const engine_kind *kind, const watch *w, 
 
 static bool loses(const engine_kind *kind, const belief *b, double told) {
     return kind == &engine_float && b->known && !b->slow && fabs(b->left_J) > told * b->entry_J &&
+           b->entry_J > MOTION_LEAST * b->size_J &&
            fabs(b->left_J) > COMPUTING_MORE * b->computing_J;
 }
 
