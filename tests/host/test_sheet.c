@@ -131,6 +131,7 @@ static void expect_refused(const char *text, size_t length, const char *beside, 
              "%s: error: %s\nhint: another --csv keeps it; --fresh overwrites it\n", path, why);
     const char *told = errors_caught();
     TEST_ASSERT_EQUAL_STRING_LEN(wanted, told, strlen(wanted));
+    TEST_ASSERT_NULL_MESSAGE(strstr(told + strlen(wanted), "error:"), told); /* once */
     TEST_ASSERT_EQUAL_INT(EXIT_BAD_INPUT, code);
     TEST_ASSERT_NULL(sh.out);
     TEST_ASSERT_TRUE(sheet_close(&sh));
@@ -276,9 +277,15 @@ static void test_settings_of_others(void) {
     draw_sheet();
     expect_refused(d.whole, strlen(d.whole), NULL,
                    "it is no sweep's: there is no FILE.sweep beside it");
-    d.settings.header = "m,r,X,Z\r\n";
-    const char other[] = "m,r,X,Y\r\n";
-    expect_refused(other, strlen(other), fingerprint, "its header is another sweep's");
+    for (unsigned c = 0; c < 6U; c++) { /* alone, with its own rows, with other rows */
+        draw_sheet();
+        d.settings.header = "m,r,X,Z\r\n";
+        char other[sizeof d.whole + 40] = "m,r,X,Y\r\n";
+        const size_t rows = d.end[d.settings.rows] - d.end[0];
+        memcpy(other + strlen(other), d.whole + d.end[0], c % 3U == 1U ? rows : 0);
+        strcat(other, c % 3U == 2U ? "9,9,9,9,9\r\n" : "");
+        expect_refused(other, strlen(other), fingerprint, "its header is another sweep's");
+    }
     close_folder();
 }
 
