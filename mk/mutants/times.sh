@@ -97,7 +97,7 @@ fi
 
 # What is one suite's or script's alone is not in the sum of the others.
 common=$(sum_of Makefile $(find core hal boards host tests -type f ! -path 'tests/*/test_*' ! -path 'tests/cli/*.sh' | sort))
-pages=$(sum_of $(find docs -type f ! -name testing.md | sort))
+pages=$(sum_of $(find docs -type f ! -name testing.md ! -name mutants.md | sort))
 export common pages JOBS
 rm -f .failed
 {

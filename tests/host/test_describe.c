@@ -9,20 +9,25 @@
 
 #include "derived.h"
 #include "host/emit/description.h"
+#include "host/emit/emit.h"
 #include "json_check.h"
 #include "unity.h"
 
 void suite_describe(void);
 
-static char *described(const image *im) {
+static unsigned tables_seen;
+
+static char *text_of(void (*write)(FILE *out, const image *im, const char *file), const image *im) {
     char *text = NULL;
     size_t size = 0;
     FILE *out = open_memstream(&text, &size);
     TEST_ASSERT_NOT_NULL(out);
-    describe_json(out, im, "x.whirl");
+    write(out, im, "x.whirl");
     fclose(out);
     return text;
 }
+
+static char *described(const image *im) { return text_of(describe_json, im); }
 
 static void expect_value(const char *text, const char *path, const char *wanted) {
     char value[100];
@@ -112,13 +117,8 @@ static void expect_quantities(const char *text, const char *kind, const image_qu
 
 /* What an image has stands in it, each on its own row. */
 static void check_text(const image *im) {
-    char *text = NULL;
-    size_t size = 0;
+    char *text = text_of(describe_text, im);
     char row[600];
-    FILE *out = open_memstream(&text, &size);
-    TEST_ASSERT_NOT_NULL(out);
-    describe_text(out, im, "x.whirl");
-    fclose(out);
     for (int i = 0; i < im->angles + im->reals; i++) {
         const component c = image_component(im, i);
         const image_unknown *u = &im->unknown[c.unknown];
@@ -148,6 +148,57 @@ static void check_text(const image *im) {
     free(text);
 }
 
+/* Generated C says at its head what its arrays hold. */
+static void check_names_in_c(const image *im) {
+    char *text = text_of(emit_c, im);
+    for (int i = 0; i < im->angles + im->reals; i++) {
+        const component c = image_component(im, i);
+        char primes[20] = "";
+        char row[200];
+        memset(primes, '\'', (size_t)c.primes);
+        snprintf(row, sizeof row, "* %s[%d] %s%s", i < im->angles ? "angle" : "real",
+                 i < im->angles ? i : i - im->angles, im->unknown[c.unknown].name, primes);
+        expect_row(text, row);
+    }
+    for (int i = 0; i < im->inputs; i++) {
+        char row[200];
+        snprintf(row, sizeof row, "* input[%d] %s", i, im->input[i].name);
+        expect_row(text, row);
+    }
+    for (int i = 0; i < im->own_outputs; i++) {
+        char row[200];
+        snprintf(row, sizeof row, "* output[%d] %s", i, im->output[i].name);
+        expect_row(text, row);
+    }
+    free(text);
+}
+
+/* Tables of what one angle's functions are, each with its size and how far off it may be. */
+static void check_tables(const derived *d) {
+    for (int form = TABLES_LINEAR; form <= TABLES_CUBIC; form++) {
+        const image_settings settings = {
+            .tables = (image_tables)form, .cells = 64, .method = WH_RK4};
+        diags *errors = diags_new();
+        image *im =
+            image_make(d->equations, d->instance->conserve, &settings, IMAGE_TO_WRITE, errors);
+        diags_free(errors);
+        if (im == NULL) {
+            continue; /* there is nothing to look up */
+        }
+        const tape_tables *t = &im->list[IMAGE_STEP]->tables;
+        char *text = text_of(describe_text, im);
+        for (int k = 0; k < t->count; k++) {
+            char row[200];
+            snprintf(row, sizeof row, "%d up to %.4g in size, off by %.2g at most", k, t->size[k],
+                     t->off[k]);
+            expect_row(text, row);
+            tables_seen++;
+        }
+        free(text);
+        image_free(im);
+    }
+}
+
 /* --- every scene ------------------------------------------------------------------------------------------ */
 
 static int check_scene(const scene *s) {
@@ -175,13 +226,17 @@ static int check_scene(const scene *s) {
     expect_number(text, "lists/step/operations", tape_operations(im->list[IMAGE_STEP]));
     check_state(text, im);
     check_text(im);
+    check_names_in_c(im);
+    check_tables(&d);
     free(text);
     derived_free(&d);
     return 1;
 }
 
 static void test_every_scene_is_described(void) {
+    tables_seen = 0;
     TEST_ASSERT_TRUE(each_builtin_scene(check_scene) > 60);
+    TEST_ASSERT_TRUE(tables_seen > 20);
 }
 
 /* Declared ranges in SI, whatever unit and order they were declared in; of all others null. */

@@ -144,6 +144,41 @@ static void test_what_stands_in_for_what_nobody_predicts(void) {
     TEST_ASSERT_TRUE(stood_in > 0);
 }
 
+/* Where a board has none of a method, the classic one's, by how many stages each has. */
+static void test_the_classic_method_stands_in(void) {
+    static const char *const swings[] = {
+        "mechanism m\ncoordinate a [rad]\nT = 1 [kg*m^2]*a'^2/2\nV = -8 [J]*cos(a)\n"
+        "scene s { start a = 1 [rad]; step 1 [ms]; until 1 [s] }\n"};
+    int stood_in = 0;
+    for (int i = 0; i < cost_board_count * WH_METHODS; i++) {
+        priced q;
+        priced_open(&q, swings, 1);
+        TEST_ASSERT_TRUE(
+            priced_begin(&q, cost_boards[i / WH_METHODS].name, spacing, RECORDS, NULL));
+        const deviation_pace pace = {2, 1};
+        const wh_method method = (wh_method)(i % WH_METHODS);
+        const setting s = priced_setting(method, &engine_float);
+        const setting rk4 = priced_setting(WH_RK4, &engine_float);
+        measured_prices m = {.count = 0};
+        const choice_wish w = {.counted = &m};
+        bool own;
+        const cost classic = trial_cost(&q.trial, &rk4, pace, &own);
+        const cost plain = trial_cost(&q.trial, &s, pace, &own);
+        const cost c = choice_price(&q.trial, &w, &s, pace, false, &own);
+        if (own && plain.instructions_worst.basis == COST_NOT_KNOWN &&
+            classic.instructions_worst.basis != COST_NOT_KNOWN) {
+            const double times = wh_methods[method].stages / 4.0;
+            TEST_ASSERT_TRUE(near(c.instructions.value, times * classic.instructions.value));
+            TEST_ASSERT_TRUE(near(c.cycles.least, times * classic.cycles.least));
+            TEST_ASSERT_TRUE(near(c.flash_bytes.value, 0.8 * classic.flash_bytes.value));
+            stood_in++;
+        }
+        priced_close(&q);
+    }
+    printf("  rk4 stood in %d times\n", stood_in);
+    TEST_ASSERT_TRUE(stood_in > 0);
+}
+
 /* Where a board has no figures of what a scene does, by whatever method: half of what another board of its kind takes, and no
  * bytes. */
 static void test_other_boards_stand_in(void) {
@@ -278,6 +313,7 @@ static void test_runs_are_expected_by_their_evaluations(void) {
 void suite_price_expected(void) {
     RUN_TEST(test_what_is_expected_of_a_step);
     RUN_TEST(test_what_stands_in_for_what_nobody_predicts);
+    RUN_TEST(test_the_classic_method_stands_in);
     RUN_TEST(test_other_boards_stand_in);
     RUN_TEST(test_runs_are_expected_by_their_evaluations);
 }
