@@ -69,6 +69,27 @@ static void check_state(const char *text, const image *im) {
     }
 }
 
+/* Whose momentum an account of the books is, in which unit; and which row goes into which. */
+static void check_accounts(const char *text, const image *im) {
+    char path[60];
+    TEST_ASSERT_EQUAL_INT(im->ledger.accounts, json_length(text, "ledger/accounts"));
+    for (int i = 0; i < im->ledger.accounts; i++) {
+        const image_unknown *u = i > 0 ? &im->unknown[im->ledger.unknown[i]] : NULL;
+        snprintf(path, sizeof path, "ledger/accounts/%d/index", i);
+        expect_number(text, path, i);
+        snprintf(path, sizeof path, "ledger/accounts/%d/of", i);
+        expect_value(text, path, i > 0 ? u->name : "energy");
+        snprintf(path, sizeof path, "ledger/accounts/%d/si", i);
+        expect_value(text, path, i > 0 ? u->momentum_si : "J");
+    }
+    for (int i = 0; i < im->ledger.smooth; i++) {
+        snprintf(path, sizeof path, "ledger/rows/%d/account", i);
+        expect_number(text, path, im->ledger.entry[i].account);
+        snprintf(path, sizeof path, "ledger/rows/%d/kind", i);
+        expect_value(text, path, describe_ledger_kind(im->ledger.entry[i].kind));
+    }
+}
+
 /* --- the text for readers ------------------------------------------------------------------------------------ */
 
 /* The words of a line that begins with these, blanks apart from each other as they like: " real [0] X [m] 0 carriage". */
@@ -374,6 +395,7 @@ static void test_every_field_is_documented(void) {
         TEST_ASSERT_NOT_NULL(kept);
         char *json = described(kept);
         check_keys(json, page);
+        check_accounts(json, kept);
         free(json);
         image_free(kept);
         diags_free(errors);

@@ -259,6 +259,20 @@ static bool slow_work(void *context, uint64_t point, FILE *row, FILE *reason) {
     return point % 10 != 3;
 }
 
+/* One of forty takes so long that the others do all that may be done before it is delivered. */
+static bool held_up_work(void *context, uint64_t point, FILE *row, FILE *reason) {
+    const struct timespec nap = {0, 30000000L};
+    if (point % 40 == 7) {
+        nanosleep(&nap, NULL);
+    }
+    (void)context;
+    for (uint64_t i = 0; i < (point % 50 == 0 ? 20000U : 1U); i++) {
+        fprintf(row, "%10llu", (unsigned long long)point);
+    }
+    (void)reason;
+    return true;
+}
+
 static bool note(void *context, uint64_t point, bool good, const char *row, const char *reason) {
     log_of_rows *log = context;
     char wanted[40];
@@ -304,6 +318,14 @@ static void test_rows_come_in_order_from_any_number_of_workers(void) {
     }
 }
 
+static void test_rows_wait_for_the_one_before_them(void) {
+    for (int workers = 2; workers <= 5; workers++) {
+        log_of_rows log;
+        TEST_ASSERT_EQUAL_INT(JOBS_DONE, (int)run_rows(&log, END + 1, workers, held_up_work));
+        TEST_ASSERT_TRUE(log.in_order && log.as_worked && log.next == END && log.failed == 0);
+    }
+}
+
 static void test_refused_rows_end_it(void) {
     log_of_rows log;
     TEST_ASSERT_EQUAL_INT(JOBS_REFUSED, (int)run_rows(&log, ENOUGH, 3, slow_work));
@@ -334,6 +356,7 @@ void suite_sweep(void) {
     RUN_TEST(test_measures_are_read);
     RUN_TEST(test_default_measures_are_the_columns_of_run);
     RUN_TEST(test_rows_come_in_order_from_any_number_of_workers);
+    RUN_TEST(test_rows_wait_for_the_one_before_them);
     RUN_TEST(test_refused_rows_end_it);
     RUN_TEST(test_a_lost_worker_is_noticed);
 }
