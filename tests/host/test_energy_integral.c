@@ -7,9 +7,12 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
+#include "host/base/room.h"
 #include "host/derive/ledger_lists.h"
 #include "host/run/books.h"
+#include "host/run/books_text.h"
 
 #include "unity.h"
 
@@ -355,6 +358,28 @@ static int check_plain(const scene *s) {
     return 1;
 }
 
+/* What is booked is told beside both energies where it is not their sum, and there alone. */
+static void expect_told(const image *im) {
+    char *text;
+    size_t length;
+    void *run = engine_double.start(im);
+    books *b = books_open(im);
+    for (int step = 0; step < 3; step++) {
+        books_enter(b, &engine_double, run);
+        TEST_ASSERT_EQUAL_INT(WH_OK, (int)engine_double.step(run));
+    }
+    const belief balance = belief_of(b, &engine_double, run);
+    FILE *out = room_text(&text, &length);
+    books_print(out, b, &balance);
+    room_text_end(out);
+    TEST_ASSERT_NOT_NULL_MESSAGE(strstr(text, "  kinetic "), text);
+    TEST_ASSERT_NOT_NULL_MESSAGE(strstr(text, "  stored "), text);
+    TEST_ASSERT_TRUE_MESSAGE((strstr(text, "  booked: h = ") != NULL) == im->has_integral, text);
+    free(text);
+    books_close(b);
+    engine_double.stop(run);
+}
+
 /* T + V is booked where it is the integral: in every built-in scene. */
 static void test_where_the_integral_is_the_energy(void) {
     static const struct {
@@ -377,6 +402,7 @@ static void test_where_the_integral_is_the_energy(void) {
         image *p = image_of(all[i].text, &d);
         TEST_ASSERT_NOT_NULL_MESSAGE(p, all[i].text);
         TEST_ASSERT_TRUE_MESSAGE(p->has_integral == all[i].integral, all[i].text);
+        expect_told(p);
         image_free(p);
         derived_free(&d);
     }
