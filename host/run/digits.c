@@ -81,7 +81,7 @@ static double furthest(const watch *w, int i) {
 /* The distance of numbers of this kind at that size. */
 static double place_at(const engine_kind *kind, double size) {
     int exponent;
-    (void)frexp(size, &exponent);
+    (void)number_split(size, &exponent);
     return size > 0.0 ? number_scaled(1.0, exponent - (kind == &engine_float ? 24 : 53)) : 0.0;
 }
 
