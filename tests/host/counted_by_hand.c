@@ -61,9 +61,22 @@ static bool is_placed(const tape *t, int i) {
     X(products) \
     X(quotients) \
     X(roots) \
-    X(sizes) X(signs) X(choices) X(leaves) X(constants) X(results) X(pairs) X(terms) X(radians) \
-        X(powers) X(cells) X(lines) X(cubics) X(mirrored) X(carried) X(operations) X(zero_sums) \
-            X(zero_products) X(opposed) X(bits) X(still_pairs) X(zero_pairs)
+    X(sizes) \
+    X(signs) \
+    X(choices) \
+    X(leaves) \
+    X(constants) \
+    X(results) \
+    X(pairs) \
+    X(terms) \
+    X(radians) \
+    X(powers) \
+    X(cells) \
+    X(lines) \
+    X(cubics) \
+    X(mirrored) \
+    X(carried) \
+    X(operations) X(zero_sums) X(zero_products) X(opposed) X(bits) X(still_pairs) X(zero_pairs)
 
 void expect_list_counts(const cost_list *want, const cost_list *have, const char *what) {
 #define LIST_SAME(field) \
