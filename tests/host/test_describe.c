@@ -11,6 +11,7 @@
 #include "host/emit/description.h"
 #include "host/emit/emit.h"
 #include "json_check.h"
+#include "motion.h"
 #include "unity.h"
 
 void suite_describe(void);
@@ -294,7 +295,66 @@ static void test_ranges_are_described(void) {
         }
     }
     free(json);
+    char *told = text_of(describe_text, d.image);
+    const char *heading = strstr(told, "ranges, SI");
+    TEST_ASSERT_NOT_NULL_MESSAGE(heading, told);
+    TEST_ASSERT_NULL_MESSAGE(strstr(heading + 1, "ranges, SI"), told);
+    expect_row(told, "pull -2000 .. 4000");
+    expect_row(told, "x -1.5 .. 3");
+    expect_row(told, "a' 1 .. 2");
+    free(told);
     derived_free(&d);
+}
+
+static double number_at(const char *json, const char *list, int row, int column) {
+    char path[60];
+    char value[100];
+    snprintf(path, sizeof path, column < 0 ? "%s/%d" : "%s/%d/%d", list, row, column);
+    TEST_ASSERT_NOT_NULL_MESSAGE(json_value(json, path, value), path);
+    return strtod(value, NULL);
+}
+
+/* A step as a matrix: what it makes of the start is where a step of the method gets to. */
+static void test_a_matrix_is_described(void) {
+    static const char text[] =
+        "mechanism m\ncoordinate x [m]\ncoordinate y [m]\nparameter k = 7 [N/m]\n"
+        "input push = 3 [N]\ninput pull = -2 [N]\nT = 2 [kg]*x'^2/2 + 3 [kg]*y'^2/2\n"
+        "V = k*(x - y)^2/2 + k*x^2 + 5 [N]*y\nF = 0.4 [kg/s]*(x'^2 + x'*y')/2\n"
+        "Q(x) = push\nQ(y) = pull\n"
+        "scene s {\nstart x = 0.3 [m], y = -0.2 [m], x' = 1 [m/s], y' = 2 [m/s]\nstep 20 [ms]\n"
+        "until 1 [s]\n}\n";
+    motion with;
+    motion m;
+    double x[2][8];
+    motion_open_text(&with, text,
+                     (stepping){.kind = &engine_double, .method = WH_RK4, .matrix = MATRIX_RK4});
+    motion_open_text(&m, text, IN_DOUBLE);
+    char *json = described(with.image);
+    expect_valid(json, text);
+    expect_value(json, "matrix", "rk4");
+    const int states = m.image->reals;
+    TEST_ASSERT_EQUAL_INT(4, states);
+    TEST_ASSERT_EQUAL_INT(states, json_length(json, "phi"));
+    TEST_ASSERT_EQUAL_INT(states, json_length(json, "gamma"));
+    TEST_ASSERT_EQUAL_INT(states, json_length(json, "g"));
+    m.kind->state(m.run, NULL, x[0]);
+    TEST_ASSERT_EQUAL_INT(WH_OK, motion_step(&m, 1));
+    m.kind->state(m.run, NULL, x[1]);
+    for (int i = 0; i < states; i++) {
+        TEST_ASSERT_EQUAL_INT(states, json_length(json, i == 0 ? "phi/0" : "phi/3"));
+        TEST_ASSERT_EQUAL_INT(2, json_length(json, i == 0 ? "gamma/0" : "gamma/3"));
+        double sum = number_at(json, "g", i, -1);
+        for (int k = 0; k < states; k++) {
+            sum += number_at(json, "phi", i, k) * x[0][k];
+        }
+        for (int k = 0; k < 2; k++) {
+            sum += number_at(json, "gamma", i, k) * m.image->input[k].value;
+        }
+        TEST_ASSERT_DOUBLE_WITHIN(1e-13, x[1][i], sum);
+    }
+    free(json);
+    motion_close(&m);
+    motion_close(&with);
 }
 
 /* Quotes and backslashes cannot stand in a description of the language; everything else can, malformed bytes too. */
@@ -394,6 +454,7 @@ static void test_every_field_is_documented(void) {
             image_make(d.equations, d.instance->conserve, &plainly, IMAGE_TO_WRITE, errors);
         TEST_ASSERT_NOT_NULL(kept);
         char *json = described(kept);
+        expect_valid(json, scenes[i]);
         check_keys(json, page);
         check_accounts(json, kept);
         free(json);
@@ -409,5 +470,6 @@ void suite_describe(void) {
     RUN_TEST(test_the_checker_is_strict);
     RUN_TEST(test_every_scene_is_described);
     RUN_TEST(test_ranges_are_described);
+    RUN_TEST(test_a_matrix_is_described);
     RUN_TEST(test_any_text_is_described);
 }
