@@ -54,6 +54,18 @@ done
 cat "$scratch"/shard[123].csv >"$scratch/shards.csv"
 check "shards in order are the whole file" cmp "$scratch/many1.csv" "$scratch/shards.csv"
 
+# A shard's file has the rows of its shard: the next of the sweep is none of them, and nothing of it is lost.
+lines=0
+for k in 1 2 3; do
+    lines=$((lines + $(wc -l <"$scratch/shard$k.csv"))) # the first has the header
+    { sed -n "$((lines + 1))p" "$scratch/many1.csv" && tail -n 1 "$scratch/many1.csv"; } | head -n 1 >>"$scratch/shard$k.csv"
+    cp "$scratch/shard$k.csv" "$scratch/more"
+    many --shard $k/3 --csv "$scratch/shard$k.csv" >/dev/null 2>"$scratch/err"
+    [ $? -eq 2 ] && grep -q "its row 33[0-9][0-9] is not this sweep's" "$scratch/err" &&
+        cmp -s "$scratch/more" "$scratch/shard$k.csv"
+    verdict $? "a row more in the file of shard $k is refused" "$scratch/err"
+done
+
 # A point is the run that `whirl run` makes of it.
 "$whirl" run carriage_free --until 0.5s --set ratio=0.25 --csv - --quiet | tail -n 1 |
     cut -d, -f2-5 >"$scratch/run"

@@ -1,6 +1,7 @@
 /* test_energy_integral.c: the energy book where T + V is not what balances: mechanisms whose T is not a
  * quadratic form of the rates, whose V has rates, or whose energies name an input that is changed. The
  * energy integral of each is written down by hand (Goldstein, Classical Mechanics, section 2.7). */
+#include "command.h"
 #include "derived.h"
 #include "motion.h"
 
@@ -348,6 +349,44 @@ static void test_springs_whose_rates_are_changed(void) {
     motion_close(&m);
 }
 
+/* Both energies at the start and now, of oscillators whose state says them. */
+static void test_both_energies_at_both_ends(void) {
+    dice d = dice_of("energy_integral", 41);
+    for (int i = 0; i < 20; i++) {
+        const double k = dice_between(&d, 1.0, 20.0);
+        const double mass[2] = {dice_between(&d, 0.5, 3.0), dice_between(&d, 0.5, 3.0)};
+        char text[600];
+        motion m;
+        snprintf(
+            text, sizeof text,
+            "mechanism two\ncoordinate x [m]\ncoordinate y [m]\nparameter k = %.17g [N/m]\n"
+            "T = %.17g [kg]*x'^2/2 + %.17g [kg]*y'^2/2\nV = k*(x - y)^2/2 + k*x^2\n"
+            "scene s { start x = %.17g [m], x' = %.17g [m/s], y' = %.17g [m/s]\nuntil 1 [s] }\n",
+            k, mass[0], mass[1], dice_between(&d, -1.0, 1.0), dice_between(&d, -3.0, 3.0),
+            dice_between(&d, -3.0, 3.0));
+        motion_open_text(&m, text, booked);
+        books *b = books_open(m.image);
+        double kinetic_J[2];
+        double stored_J[2];
+        for (int end = 0; end < 2; end++) {
+            const double x = motion_value(&m, "x");
+            const double y = motion_value(&m, "y");
+            books_enter(b, m.kind, m.run);
+            kinetic_J[end] = (mass[0] * square(motion_value(&m, "x'")) +
+                              mass[1] * square(motion_value(&m, "y'"))) /
+                             2.0;
+            stored_J[end] = k * square(x - y) / 2.0 + k * square(x);
+            TEST_ASSERT_EQUAL_INT(WH_OK, motion_step(&m, end == 0 ? 300 : 1));
+        }
+        for (int end = 0; end < 2; end++) {
+            TEST_ASSERT_DOUBLE_WITHIN(1e-12, kinetic_J[end], b->kinetic_J[end]);
+            TEST_ASSERT_DOUBLE_WITHIN(1e-12, stored_J[end], b->stored_J[end]);
+        }
+        books_close(b);
+        motion_close(&m);
+    }
+}
+
 /* --- which is booked ------------------------------------------------------------------------------- */
 
 static int check_plain(const scene *s) {
@@ -420,5 +459,6 @@ void suite_energy_integral(void) {
     RUN_TEST(test_impacts_of_fast_bodies_are_refused);
     RUN_TEST(test_a_hoop_whose_rate_is_changed);
     RUN_TEST(test_springs_whose_rates_are_changed);
+    RUN_TEST(test_both_energies_at_both_ends);
     RUN_TEST(test_where_the_integral_is_the_energy);
 }

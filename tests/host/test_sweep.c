@@ -8,6 +8,7 @@
 #include <string.h>
 #include <time.h>
 
+#include "command.h"
 #include "host/sweep/grid.h"
 #include "host/sweep/jobs.h"
 #include "host/sweep/measures.h"
@@ -30,13 +31,13 @@ static const char sample[] = "mechanism swing\n"
                              "parameter k = 1 [1/s]\n"
                              "equation x' + k*x = 0\n";
 
-static diags *said;
+static diags *heard;
 static whirl_model *parsed;
 static grid points;
 
 static void open_sample(void) {
-    said = diags_new();
-    parsed = model_parse("x.whirl", sample, strlen(sample), said);
+    heard = diags_new();
+    parsed = model_parse("x.whirl", sample, strlen(sample), heard);
     TEST_ASSERT_NOT_NULL(parsed);
     points = (grid){0};
 }
@@ -44,10 +45,10 @@ static void open_sample(void) {
 static void close_sample(void) {
     grid_free(&points);
     model_free(parsed);
-    diags_free(said);
+    diags_free(heard);
 }
 
-static bool over(const char *text) { return grid_add(&points, parsed->mechanisms[0], text, said); }
+static bool over(const char *text) { return grid_add(&points, parsed->mechanisms[0], text, heard); }
 
 /* --- grids -------------------------------------------------------------------------------------*/
 
@@ -65,6 +66,28 @@ static void test_last_axis_runs_fastest(void) {
     TEST_ASSERT_TRUE(grid_varies_parameters(&points));
     TEST_ASSERT_EQUAL_STRING("start(theta')", points.axes[1].column);
     close_sample();
+}
+
+/* 1e12 points are enough, and 1e12 are taken; what is too much is not added. */
+static void test_grids_have_an_end(void) {
+    static const char *const axes[][3] = {{"m=1..2:1000000", "r=1..2:1000000", "M=1..2:2"},
+                                          {"m=1..2:1000000000", "r=1..2:1000", "M=1..2:1000"},
+                                          {"m=1..2:3", "r=1..2:333333333", "M=1..2:1001"}};
+    for (size_t i = 0; i < sizeof axes / sizeof axes[0]; i++) {
+        open_sample();
+        TEST_ASSERT_TRUE_MESSAGE(over(axes[i][0]), axes[i][0]);
+        TEST_ASSERT_TRUE_MESSAGE(over(axes[i][1]), axes[i][1]);
+        const uint64_t before = points.points;
+        TEST_ASSERT_TRUE(before <= GRID_POINTS_MAX && before > GRID_POINTS_MAX / 1001);
+        errors_catch();
+        const bool taken = over(axes[i][2]);
+        const char *told = errors_caught();
+        TEST_ASSERT_FALSE_MESSAGE(taken, axes[i][2]);
+        TEST_ASSERT_NOT_NULL_MESSAGE(strstr(told, ": more than 1e+12 points\n"), told);
+        TEST_ASSERT_EQUAL_UINT64(before, points.points);
+        TEST_ASSERT_EQUAL_INT(2, points.count);
+        close_sample();
+    }
 }
 
 static void test_units_and_exact_ends(void) {
@@ -206,9 +229,10 @@ static void test_measures_are_read(void) {
                  {"", 0, -1}};
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         open_sample();
-        measures *m = measures_new(parsed->mechanisms[cases[i].mechanism], &cases[i].text, 1, said);
+        measures *m =
+            measures_new(parsed->mechanisms[cases[i].mechanism], &cases[i].text, 1, heard);
         TEST_ASSERT_TRUE_MESSAGE((m != NULL) == (cases[i].kind >= 0), cases[i].text);
-        TEST_ASSERT_TRUE_MESSAGE((m == NULL) == (diags_count(said) > 0), cases[i].text);
+        TEST_ASSERT_TRUE_MESSAGE((m == NULL) == (diags_count(heard) > 0), cases[i].text);
         if (m != NULL) {
             TEST_ASSERT_EQUAL_INT_MESSAGE(cases[i].kind, (int)m->list[0].kind, cases[i].text);
             TEST_ASSERT_EQUAL_INT(1, m->mechanism.output_count);
@@ -221,7 +245,7 @@ static void test_measures_are_read(void) {
 static void test_default_measures_are_the_columns_of_run(void) {
     static const char *const wanted[] = {"theta", "der(theta)", "height"};
     open_sample();
-    measures *m = measures_new(parsed->mechanisms[0], NULL, 0, said);
+    measures *m = measures_new(parsed->mechanisms[0], NULL, 0, heard);
     TEST_ASSERT_NOT_NULL(m);
     TEST_ASSERT_EQUAL_INT(3, m->count);
     for (int i = 0; i < 3; i++) {
@@ -347,6 +371,7 @@ static void test_a_lost_worker_is_noticed(void) {
 
 void suite_sweep(void) {
     RUN_TEST(test_last_axis_runs_fastest);
+    RUN_TEST(test_grids_have_an_end);
     RUN_TEST(test_units_and_exact_ends);
     RUN_TEST(test_shards_tile_the_grid);
     RUN_TEST(test_numbers_come_back);
