@@ -229,3 +229,4 @@ check "an input out of range fails, though points share a program" status 1 \
     "$whirl" sweep "$scratch/inputs.whirl:ball_bounces" --until 0.1s --over 'e=0..2:3' --measure z
 check "an input out of range: why" grep -q 'point 3 (e=2): a restitution is from 0 to 1, and this is 2' "$scratch/said"
 
+exit $failed
