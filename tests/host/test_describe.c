@@ -170,9 +170,26 @@ static void check_text(const image *im) {
     free(text);
 }
 
+/* A scene names what the file defines, and whatever the file defines of these. */
+static void check_what_c_defines(const char *text) {
+    static const char *const defined[][2] = {
+        {".ahead = ahead,", " ahead(const wh_scene *"},
+        {".observe = observe,", " observe(const wh_scene *"},
+        {".start_angle = start_angle,", " start_angle["},
+        {".start_real = start_real,", " start_real["},
+        {".start_input = start_input,", " start_input["},
+        {".advance = advance,", " advance(const wh_scene *"},
+    };
+    for (size_t i = 0; i < sizeof defined / sizeof defined[0]; i++) {
+        TEST_ASSERT_EQUAL_MESSAGE(strstr(text, defined[i][1]) != NULL,
+                                  strstr(text, defined[i][0]) != NULL, defined[i][0]);
+    }
+}
+
 /* Generated C says at its head what its arrays hold. */
 static void check_names_in_c(const image *im) {
     char *text = text_of(emit_c, im);
+    check_what_c_defines(text);
     for (int i = 0; i < im->angles + im->reals; i++) {
         const component c = image_component(im, i);
         char primes[20] = "";
