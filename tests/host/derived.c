@@ -242,3 +242,14 @@ double derived_rest(const derived *d, state_values *s, const double *accel, int 
     }
     return rest;
 }
+
+char *derived_written(void (*write)(FILE *out, const image *im, const char *file),
+                      const image *im) {
+    char *text = NULL;
+    size_t size = 0;
+    FILE *out = open_memstream(&text, &size);
+    TEST_ASSERT_NOT_NULL(out);
+    write(out, im, "x.whirl");
+    fclose(out);
+    return text;
+}

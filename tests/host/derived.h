@@ -61,6 +61,9 @@ void derived_run(const tape *t, const derived *d, const state_values *s, double 
 void derived_run_known(const tape *t, const derived *d, const state_values *s, double *result,
                        double *off);
 
+/* What one of host/emit's writers makes of an image of x.whirl; to be freed. */
+char *derived_written(void (*write)(FILE *out, const image *im, const char *file), const image *im);
+
 /* The Octave form, with its contacts in words, as `whirl derive` writes it. */
 void derived_octave(FILE *out, const derived *d, const char *file);
 
