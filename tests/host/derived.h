@@ -25,6 +25,8 @@ extern const image_settings plainly;
 derived derived_text(const char *text);
 /* A scene of a text. */
 derived derived_scene(const char *text, const char *name);
+/* A text whose scene `s` declares ranges: pull -2 to 4 kN, x -1.5 to 3 m, a' 1 to 2 rad/s. */
+extern const char derived_ranged[];
 /* A built-in mechanism or scene. */
 derived derived_builtin(const char *name);
 /* Calls `check` for every built-in scene; the sum of what it returns. */

@@ -72,3 +72,37 @@ setting priced_setting(wh_method method, const engine_kind *number) {
     s.image.method = method;
     return s;
 }
+
+const char *const priced_spring[1] = {
+    "mechanism m\ncoordinate x [m]\nT = 1 [kg]*x'^2/2\nV = 40 [N/m]*x^2/2 + 9 [N/m^3]*x^4/4\n"
+    "scene s { start x = 1 [m]; step 1 [ms]; until 1 [s] }\n"};
+
+const char *const priced_scenes[PRICED_SCENES] = {
+    "mechanism m\ncoordinate x [m]\nT = 1 [kg]*x'^2/2\nV = 9 [N/m]*x^2/2\n"
+    "scene s { start x = 1 [m]; step 1 [ms]; until 1 [s]\n"
+    "range x = -2 .. 2 [m], x' = -9 .. 9 [m/s] }\n",
+    "mechanism m\ncoordinate a [rad]\ncoordinate x [m]\ninput u = 1 [N]\n"
+    "T = 2 [kg]*x'^2/2 + 1 [kg]*((x' + 1 [m]*a'*cos(a))^2 + (1 [m]*a'*sin(a))^2)/2\n"
+    "V = -8 [J]*cos(a) + 3 [N/m]*x^2/2\nQ(x) = u\n"
+    "scene s { start a = 1 [rad]; step 1 [ms]; until 1 [s]\n"
+    "range x = -2 .. 2 [m], x' = -9 .. 9 [m/s], a' = -20 .. 20 [rad/s], u = -2 .. 2 [N] }\n",
+    "mechanism m\nstate y\nequation y' + 4 [1/s]*y + 1 [1/s]*y^3 = 1 [1/s]\n"
+    "scene s { start y = 3; step 1 [ms]; until 1 [s]\nrange y = -4 .. 4 }\n"};
+
+setting priced_tried(int i) {
+    static const wh_method methods[] = {WH_HEUN, WH_RK4, WH_RK38};
+    return priced_setting(methods[i % 3], i < 3 ? &engine_float : &engine_double);
+}
+
+bool priced_is_tried(const setting *s, double step_s) {
+    (void)step_s;
+    for (int i = 0; i < PRICED_TRIED; i++) {
+        const setting t = priced_tried(i);
+        if (t.image.method == s->image.method && t.number == s->number && !s->image.compensated &&
+            s->image.angles == ANGLES_TURNED && s->image.matrix == MATRIX_NONE &&
+            s->image.tables == TABLES_NONE) {
+            return true;
+        }
+    }
+    return false;
+}

@@ -23,8 +23,12 @@ typedef struct priced {
     trials trial;
 } priced;
 
-/* A text with a contact: a ball that bounces. */
+/* Texts: a ball that bounces; a spring that hardens. */
 extern const char *const priced_ball[1];
+extern const char *const priced_spring[1];
+/* And with ranges, for fixed point: of second order, with a turn angle and an input, of first order. */
+enum { PRICED_SCENES = 3 };
+extern const char *const priced_scenes[PRICED_SCENES];
 
 /* Scenes `s` of so many texts. */
 void priced_open(priced *p, const char *const *texts, int points);
@@ -36,5 +40,9 @@ image *priced_image(priced *p, int point, const setting *s, const char *step);
 
 /* A plain setting. */
 setting priced_setting(wh_method method, const engine_kind *number);
+/* A few of them, by number: three methods in float, then in double; and whether a setting is one of these, for `takes`. */
+enum { PRICED_TRIED = 6 };
+setting priced_tried(int i);
+bool priced_is_tried(const setting *s, double step_s);
 
 #endif

@@ -115,15 +115,10 @@ static void test_every_scene_is_described(void) {
 
 /* Declared ranges in SI, whatever unit and order they were declared in; of all others null. */
 static void test_ranges_are_described(void) {
-    static const char text[] =
-        "mechanism m\ncoordinate a [rad]\ncoordinate x [m]\nparameter p = 3 [m]\n"
-        "input push = 1 [N]\ninput pull = 1 [N]\n"
-        "T = 1 [kg*m^2]*a'^2/2 + 2 [kg]*x'^2/2\nQ(x) = push - pull\n"
-        "scene s { range pull = -2 .. 4 [kN], x = -p/2 .. p, a' = 1 .. 2 [rad/s]; until 1 [s] }\n";
-    derived d = derived_scene(text, "s");
-    derived_expect(&d, text);
+    derived d = derived_scene(derived_ranged, "s");
+    derived_expect(&d, derived_ranged);
     char *json = described(d.image);
-    expect_valid(json, text);
+    expect_valid(json, derived_ranged);
     for (int i = 0; i < d.image->reals + d.image->inputs; i++) {
         static const struct {
             const char *name;

@@ -13,33 +13,12 @@
 
 void suite_price_choices(void);
 
-static const char *const spring[] = {
-    "mechanism m\ncoordinate x [m]\nT = 1 [kg]*x'^2/2\nV = 40 [N/m]*x^2/2 + 9 [N/m^3]*x^4/4\n"
-    "scene s { start x = 1 [m]; step 1 [ms]; until 1 [s] }\n"};
-enum { RECORDS = 10, SETTINGS = 6 };
-static const wh_method methods[] = {WH_HEUN, WH_RK4, WH_RK38};
+enum { RECORDS = 10, SETTINGS = PRICED_TRIED };
 static const double rate_Hz = 20.0;
 
-static setting tried(int i) {
-    return priced_setting(methods[i % 3], i < 3 ? &engine_float : &engine_double);
-}
-
-static bool is_tried(const setting *s, double step_s) {
-    (void)step_s;
-    for (int i = 0; i < SETTINGS; i++) {
-        const setting t = tried(i);
-        if (t.image.method == s->image.method && t.number == s->number && !s->image.compensated &&
-            s->image.angles == ANGLES_TURNED && s->image.matrix == MATRIX_NONE &&
-            s->image.tables == TABLES_NONE) {
-            return true;
-        }
-    }
-    return false;
-}
-
 static void begin(priced *p, const char *board) {
-    priced_open(p, spring, 1);
-    p->takes = is_tried;
+    priced_open(p, priced_spring, 1);
+    p->takes = priced_is_tried;
     TEST_ASSERT_TRUE(priced_begin(p, board, (whole_ratio){1, 20}, RECORDS, NULL));
     TEST_ASSERT_TRUE(p->trial.reliable);
 }
@@ -64,7 +43,7 @@ typedef struct errors {
 } errors;
 
 static kept_row kept_of(priced *p, errors *known, int i, const choice_wish *w) {
-    const setting s = tried(i);
+    const setting s = priced_tried(i);
     kept_row k = {.weaker = (double)INFINITY};
     for (int e = 0; e < SUBSTEPS && k.substeps == 0; e++) {
         const deviation_pace pace = {choice_substeps(e), 1};
@@ -104,7 +83,7 @@ static kept_row kept_of(priced *p, errors *known, int i, const choice_wish *w) {
 static bool near(double a, double b) { return fabs(a - b) <= 1e-9 * fabs(b); }
 
 static void expect_row(const choice_row *row, const kept_row *k, int i) {
-    const setting s = tried(i);
+    const setting s = priced_tried(i);
     TEST_ASSERT_TRUE(row->setting.image.method == s.image.method &&
                      row->setting.number == s.number);
     TEST_ASSERT_EQUAL_UINT64(k->substeps, row->substeps);
@@ -330,7 +309,7 @@ static void test_tables_have_all_steps_that_help(void) {
     int coarse = 0;
     int known_settings = 0;
     for (int i = 0; i < SETTINGS; i++) {
-        const setting s = tried(i);
+        const setting s = priced_tried(i);
         int stalled = 0;
         double before = (double)INFINITY;
         for (int rung = 0; rung < TABLE_LADDER && stalled < 2; rung++) {
@@ -393,7 +372,7 @@ static void test_tables_have_all_steps_that_help(void) {
 static void test_tables_without_a_price_are_by_evaluations(void) {
     priced p;
     priced_open(&p, priced_ball, 1);
-    p.takes = is_tried;
+    p.takes = priced_is_tried;
     TEST_ASSERT_TRUE(priced_begin(&p, "mps2-an386", (whole_ratio){1, 20}, RECORDS, NULL));
     const table_wish w = {.operations = 1e5};
     table *made = table_new(&p.trial, &w);

@@ -14,30 +14,9 @@
 
 void suite_price_counted(void);
 
-static const char *const spring[] = {
-    "mechanism m\ncoordinate x [m]\nT = 1 [kg]*x'^2/2\nV = 40 [N/m]*x^2/2 + 9 [N/m^3]*x^4/4\n"
-    "scene s { start x = 1 [m]; step 1 [ms]; until 1 [s] }\n"};
-enum { RECORDS = 10, SETTINGS = 6 };
-static const wh_method methods[] = {WH_HEUN, WH_RK4, WH_RK38};
+enum { RECORDS = 10, SETTINGS = PRICED_TRIED };
 static const double rate_Hz = 20.0;
 static const table_words words = {"a.whirl:s", "", false};
-
-static setting tried(int i) {
-    return priced_setting(methods[i % 3], i < 3 ? &engine_float : &engine_double);
-}
-
-static bool is_tried(const setting *s, double step_s) {
-    (void)step_s;
-    for (int i = 0; i < SETTINGS; i++) {
-        const setting t = tried(i);
-        if (t.image.method == s->image.method && t.number == s->number && !s->image.compensated &&
-            s->image.angles == ANGLES_TURNED && s->image.matrix == MATRIX_NONE &&
-            s->image.tables == TABLES_NONE) {
-            return true;
-        }
-    }
-    return false;
-}
 
 /* --- what is counted -------------------------------------------------------------------------------------*/
 
@@ -51,7 +30,7 @@ static void draw_answers(dice *d, priced *p, answers *a) {
     for (int i = 0; i < SETTINGS; i++) {
         measured_prices none = {.words = &words};
         const choice_wish w = {.counted = &none};
-        const setting s = tried(i);
+        const setting s = priced_tried(i);
         bool own;
         const cost c = choice_price(&p->trial, &w, &s, (deviation_pace){1, 1}, false, &own);
         double v[7];
@@ -74,7 +53,7 @@ static void draw_answers(dice *d, priced *p, answers *a) {
 static void write_script(const answers *a) {
     char text[4000] = "echo \"$@\" >>asked\ncase \"$*\" in\n";
     for (int i = 0; i < SETTINGS; i++) {
-        const setting s = tried(i);
+        const setting s = priced_tried(i);
         char options[SETTING_TEXT];
         size_t used = strlen(text);
         snprintf(text + used, sizeof text - used, "*\" %s a.whirl:s%s \"*) ", s.number->name,
@@ -91,7 +70,7 @@ static void write_script(const answers *a) {
 static measured_prices all_counted(const priced *p, const answers *a,
                                    measured_price price[SETTINGS]) {
     for (int i = 0; i < SETTINGS; i++) {
-        const setting s = tried(i);
+        const setting s = priced_tried(i);
         price[i] = (measured_price){.pace = {1, 1}};
         setting_options(&s, true, price[i].options);
         price[i].cost.why = "it cannot be built, linked or run there";
@@ -191,8 +170,8 @@ static void expect_reasons(priced *p, const choice_wish *of, const measured_pric
 }
 
 static void begin(priced *p, const char *board) {
-    priced_open(p, spring, 1);
-    p->takes = is_tried;
+    priced_open(p, priced_spring, 1);
+    p->takes = priced_is_tried;
     TEST_ASSERT_TRUE(priced_begin(p, board, (whole_ratio){1, 20}, RECORDS, NULL));
     TEST_ASSERT_TRUE(p->trial.reliable);
 }
@@ -314,7 +293,7 @@ static void test_counting_ends_where_it_is_of_no_use(void) {
 static void test_runs_are_counted_and_teach(void) {
     priced p;
     priced_open(&p, priced_ball, 1);
-    p.takes = is_tried;
+    p.takes = priced_is_tried;
     TEST_ASSERT_TRUE(priced_begin(&p, "mps2-an386", (whole_ratio){1, 20}, RECORDS, NULL));
     choice_wish w = {.error = 1e-2, .rate_Hz = rate_Hz, .periods = 1, .operations = 1e9};
     measured_prices m = {.words = &words};

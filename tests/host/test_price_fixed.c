@@ -12,6 +12,7 @@
 #include "figures_by_hand.h"
 #include "host/fixed/fixed_plan.h"
 #include "host/price/cost_fixed.h"
+#include "priced.h"
 #include "unity.h"
 
 #include "host/price/cost_fixed_rows.h"
@@ -298,32 +299,18 @@ static bool check_fixed(const image *im, const cost_board *b) {
 
 /* --- scenes --------------------------------------------------------------------------------------------*/
 
-static const char *const scenes[] = {
-    "mechanism m\ncoordinate x [m]\nT = 1 [kg]*x'^2/2\nV = 9 [N/m]*x^2/2\n"
-    "scene s { start x = 1 [m]; step 1 [ms]; until 1 [s]\n"
-    "range x = -2 .. 2 [m], x' = -9 .. 9 [m/s] }\n",
-    "mechanism m\ncoordinate a [rad]\ncoordinate x [m]\ninput u = 1 [N]\n"
-    "T = 2 [kg]*x'^2/2 + 1 [kg]*((x' + 1 [m]*a'*cos(a))^2 + (1 [m]*a'*sin(a))^2)/2\n"
-    "V = -8 [J]*cos(a) + 3 [N/m]*x^2/2\nQ(x) = u\n"
-    "scene s { start a = 1 [rad]; step 1 [ms]; until 1 [s]\n"
-    "range x = -2 .. 2 [m], x' = -9 .. 9 [m/s], a' = -20 .. 20 [rad/s], u = -2 .. 2 [N] }\n",
-    "mechanism m\nstate y\n"
-    "equation y' + 4 [1/s]*y + 1 [1/s]*y^3 = 1 [1/s]\n"
-    "scene s { start y = 3; step 1 [ms]; until 1 [s]\nrange y = -4 .. 4 }\n"};
-enum { SCENES = sizeof scenes / sizeof scenes[0] };
-
 static void test_prices_in_fixed_point_are_those_sums(void) {
-    for (int n = 0; n < SCENES; n++) {
-        derived d = derived_scene(scenes[n], "s");
-        derived_expect(&d, scenes[n]);
+    for (int n = 0; n < PRICED_SCENES; n++) {
+        derived d = derived_scene(priced_scenes[n], "s");
+        derived_expect(&d, priced_scenes[n]);
         const cost none = cost_fixed_of(d.image, &cost_boards[0]);
         TEST_ASSERT_TRUE(!none.predictable && none.why[0] != '\0');
         TEST_ASSERT_EQUAL_INT(COST_NOT_KNOWN, none.state_bytes.basis);
         diags *errors = diags_new();
         fixed_plan *plan = fixed_plan_make(d.image, errors);
-        TEST_ASSERT_NOT_NULL_MESSAGE(plan, scenes[n]);
+        TEST_ASSERT_NOT_NULL_MESSAGE(plan, priced_scenes[n]);
         d.image->fixed = plan;
-        expect_features(d.image, scenes[n]);
+        expect_features(d.image, priced_scenes[n]);
         for (int b = 0; b < cost_board_count; b++) {
             (void)check_fixed(d.image, &cost_boards[b]);
         }

@@ -12,6 +12,7 @@
 #include "host/price/cost.h"
 #include "host/price/cost_row.h"
 #include "host/run/start.h"
+#include "priced.h"
 #include "unity.h"
 
 #include "host/price/cost_rows.h"
@@ -60,16 +61,6 @@ static cost_figure events_of(cost_figure cycles, cost_figure step, double smooth
 }
 
 static const char *const scenes[] = {
-    "mechanism m\ncoordinate x [m]\nT = 1 [kg]*x'^2/2\nV = 9 [N/m]*x^2/2\n"
-    "scene s { start x = 1 [m]; step 1 [ms]; until 1 [s]\n"
-    "range x = -2 .. 2 [m], x' = -9 .. 9 [m/s] }\n",
-    "mechanism m\ncoordinate a [rad]\ncoordinate x [m]\ninput u = 1 [N]\n"
-    "T = 2 [kg]*x'^2/2 + 1 [kg]*((x' + 1 [m]*a'*cos(a))^2 + (1 [m]*a'*sin(a))^2)/2\n"
-    "V = -8 [J]*cos(a) + 3 [N/m]*x^2/2\nQ(x) = u\n"
-    "scene s { start a = 1 [rad]; step 1 [ms]; until 1 [s]\n"
-    "range x = -2 .. 2 [m], x' = -9 .. 9 [m/s], a' = -20 .. 20 [rad/s], u = -2 .. 2 [N] }\n",
-    "mechanism m\nstate y\nequation y' + 4 [1/s]*y + 1 [1/s]*y^3 = 1 [1/s]\n"
-    "scene s { start y = 3; step 1 [ms]; until 1 [s]\nrange y = -4 .. 4 }\n",
     /* more of some functions than any that was measured has */
     "mechanism m\nstate y\nstate z\n"
     "equation y' + 4 [1/s]*exp(-y)*atan(y + 2*z)*exp(-2*z)*atan(y - z)*exp(y*z) = 1 [1/s]\n"
@@ -80,7 +71,10 @@ static const char *const scenes[] = {
     "mechanism m\ncoordinate x [m]\nT = 1 [kg]*x'^2/2\nV = 1 [kg]*9.81 [m/s^2]*x\n"
     "stop x >= 0 [m] restitution 0.5\n"
     "scene s { start x = 1 [m]; step 1 [ms]; until 1 [s] }\n"};
-enum { SCENES = sizeof scenes / sizeof scenes[0] };
+enum { SCENES = PRICED_SCENES + sizeof scenes / sizeof scenes[0] };
+static const char *scene_text(int n) {
+    return n < PRICED_SCENES ? priced_scenes[n] : scenes[n - PRICED_SCENES];
+}
 
 static const cost_row *row_named(const char *board, cost_number number) {
     const cost_row *found = NULL;
@@ -147,8 +141,8 @@ static void test_prices_are_those_sums(void) {
     int known = 0;
     int refused = 0;
     for (int n = 0; n < SCENES; n++) {
-        derived d = derived_scene(scenes[n], "s");
-        derived_expect(&d, scenes[n]);
+        derived d = derived_scene(scene_text(n), "s");
+        derived_expect(&d, scene_text(n));
         diags *unsaid = diags_new();
         for (int b = 0; b < cost_board_count; b++) {
             for (int m = 0; m < WH_METHODS; m++) {

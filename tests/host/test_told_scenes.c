@@ -176,13 +176,8 @@ static void test_every_scene_is_told(void) {
 
 /* Declared ranges in SI, under one heading. */
 static void test_ranges_are_told(void) {
-    static const char text[] =
-        "mechanism m\ncoordinate a [rad]\ncoordinate x [m]\nparameter p = 3 [m]\n"
-        "input push = 1 [N]\ninput pull = 1 [N]\n"
-        "T = 1 [kg*m^2]*a'^2/2 + 2 [kg]*x'^2/2\nQ(x) = push - pull\n"
-        "scene s { range pull = -2 .. 4 [kN], x = -p/2 .. p, a' = 1 .. 2 [rad/s]; until 1 [s] }\n";
-    derived d = derived_scene(text, "s");
-    derived_expect(&d, text);
+    derived d = derived_scene(derived_ranged, "s");
+    derived_expect(&d, derived_ranged);
     char *told = derived_written(describe_text, d.image);
     const char *heading = strstr(told, "ranges, SI");
     TEST_ASSERT_NOT_NULL_MESSAGE(heading, told);
