@@ -1,16 +1,13 @@
 /* cure.c: see cure.h. */
 #include "cure.h"
 
+#include "again.h"
 #include "digits.h"
 #include "host/number/functions.h"
 #include "judged.h"
 
-/* What may be spent on all cures of a run, and what an evaluation is beside its operations. */
+/* What may be spent on all cures of a run. */
 #define OPERATIONS_MOST 5e8
-#define OPERATIONS_BESIDE 40.0
-/* Books, and what looks for events evaluates, in a step's evaluations. */
-#define WATCHED_AS 2.0
-#define EVENTS_AS 8.0
 /* A cure leaves no more of the largest entry over: some way off what is warned of. */
 #define LEAVES 3e-4
 
@@ -32,63 +29,37 @@ static bool image_with(const image *im, const cure_wish *what, image *made) {
     return true;
 }
 
-static double operations_a_step(const image *im) {
-    const double evaluation = im->list[IMAGE_STEP]->count + OPERATIONS_BESIDE;
-    const tape *kept = im->list[IMAGE_BOOKS];
-    const double watched = kept != NULL ? kept->count + OPERATIONS_BESIDE : evaluation;
-    const double stages =
-        wh_methods[im->settings.method].stages + (im->contacts > 0 ? EVENTS_AS : 0.0);
-    return stages * evaluation + WATCHED_AS * watched;
-}
-
 /* The run just done was looked at: is there nothing to say? */
-static cure_outcome outcome_of(const image *im, const engine_kind *kind, watch *w, books *b,
-                               const void *run, const volatile sig_atomic_t *stop) {
-    const belief balance = belief_of(b, kind, run);
-    judged j = judged_of(im, kind, w, &balance);
+static cure_outcome outcome_of(const again *a, const volatile sig_atomic_t *stop) {
+    const watch *w = a->watch;
+    judged j = judged_of(&a->image, a->kind, w, &a->balance);
     const bool by_rule = w->balanced && w->doubts > 0;
     const bool silent = !judged_lost(&j) && !judged_singular(&j) && !judged_swing(&j) &&
-                        (by_rule || !balance.known || judged_missing(&j) <= LEAVES);
+                        (by_rule || !a->balance.known || judged_missing(&j) <= LEAVES);
     judged_end(&j);
     if (!silent) {
         return CURE_DOES_NOT;
     }
-    const digits few = digits_of(im, kind, w, &balance, stop);
+    const digits few = digits_of(&a->image, a->kind, w, &a->balance, stop);
     return few.energy || few.component >= 0 ? CURE_ROUNDS : CURE_DOES;
 }
 
 cure_outcome cure_try(cures *c, const cure_wish *what) {
-    image again;
-    if (c->image->fixed != NULL || !image_with(c->image, what, &again)) {
+    image with;
+    if (c->image->fixed != NULL || !image_with(c->image, what, &with)) {
         return CURE_NOT_TRIED;
     }
-    const double each = operations_a_step(&again);
-    if (!(c->spent + each * (double)again.steps <= OPERATIONS_MOST)) {
+    const double each = again_operations_a_step(&with);
+    if (!(c->spent + each * (double)with.steps <= OPERATIONS_MOST)) {
         return CURE_NOT_TRIED;
     }
-    const engine_kind *kind = what->in_double ? &engine_double : c->kind;
-    void *run = kind->start(&again);
-    books *b = books_open(&again);
-    watch *w = watch_open(&again, kind);
-    bool good = true;
-    bool stopped = false;
-    uint64_t step = 0;
-    for (; step <= again.steps && good && !stopped; step++) {
-        good = step == 0 || kind->step(run) == WH_OK;
-        if (good && b != NULL) {
-            books_enter(b, kind, run);
-        }
-        if (good) {
-            watch_enter(w, kind, b, run);
-        }
-        stopped = (step & 255U) == 0 && c->stop != NULL && *c->stop;
-    }
-    c->spent += each * (double)step;
-    watch_end(w, !good);
-    const cure_outcome outcome =
-        good && !stopped ? outcome_of(&again, kind, w, b, run, c->stop) : CURE_DOES_NOT;
-    watch_close(w);
-    books_close(b);
-    kind->stop(run);
-    return stopped ? CURE_NOT_TRIED : outcome;
+    again a;
+    again_run(&a, &with, what->in_double ? &engine_double : c->kind, c->stop);
+    c->spent += each * (double)a.steps;
+    watch_end(a.watch, !a.done && !a.stopped);
+    const cure_outcome outcome = a.stopped ? CURE_NOT_TRIED
+                                 : a.done  ? outcome_of(&a, c->stop)
+                                           : CURE_DOES_NOT;
+    again_forget(&a);
+    return outcome;
 }

@@ -3,6 +3,7 @@
 
 #include <math.h>
 
+#include "again.h"
 #include "host/number/functions.h"
 
 /* Off by this part of a range is told; of the energy, of its largest entry. */
@@ -22,55 +23,8 @@
 #define PLACES_LEAST 4.0
 /* What computing an energy may be off, in so many of its bounds. */
 #define COMPUTING_MORE 4.0
-/* What may be spent, and what an evaluation is beside its operations. */
+/* What may be spent on a run again. */
 #define OPERATIONS_MOST 1e8
-#define OPERATIONS_BESIDE 40.0
-
-/* --- the run again -----------------------------------------------------------------------------------------*/
-
-typedef struct again {
-    image image;
-    const engine_kind *kind;
-    void *run;
-    books *books;
-    watch *watch;
-    belief balance;
-    bool done;
-} again;
-
-static double operations(const image *im) {
-    const tape *kept = im->list[IMAGE_BOOKS];
-    const double evaluation = im->list[IMAGE_STEP]->count + OPERATIONS_BESIDE;
-    const double watched = kept != NULL ? kept->count + OPERATIONS_BESIDE : evaluation;
-    return (double)im->steps *
-           (wh_methods[im->settings.method].stages * evaluation + 2.0 * watched);
-}
-
-static void run_again(again *a, const image *im, const engine_kind *kind,
-                      const volatile sig_atomic_t *stop) {
-    *a = (again){.image = *im, .kind = kind};
-    a->image.settings.compensated = true;
-    a->run = kind->start(&a->image);
-    a->books = books_open(&a->image);
-    a->watch = watch_open(&a->image, kind);
-    a->done = true;
-    for (uint64_t step = 0; step <= im->steps && a->done; step++) {
-        a->done = (step == 0 || kind->step(a->run) == WH_OK) && (stop == NULL || !*stop);
-        if (a->done && a->books != NULL) {
-            books_enter(a->books, kind, a->run);
-        }
-        if (a->done) {
-            watch_enter(a->watch, kind, a->books, a->run);
-        }
-    }
-    a->balance = belief_of(a->books, kind, a->run);
-}
-
-static void forget(again *a) {
-    watch_close(a->watch);
-    books_close(a->books);
-    a->kind->stop(a->run);
-}
 
 /* --- what is suspected ---------------------------------------------------------------------------------------*/
 
@@ -191,22 +145,24 @@ digits digits_of(const image *im, const engine_kind *kind, const watch *w, const
     const bool is_float = kind == &engine_float;
     if (!w->smooth || w->steps < im->steps || (!is_float && kind != &engine_double) ||
         (!is_float && im->settings.compensated) || !is_suspect(im, kind, w, b) ||
-        !(operations(im) <= OPERATIONS_MOST)) {
+        !((double)im->steps * again_operations_a_step(im) <= OPERATIONS_MOST)) {
         return d;
     }
+    image summed = *im;
+    summed.settings.compensated = true;
     again more;
-    run_again(&more, im, &engine_double, stop);
+    again_run(&more, &summed, &engine_double, stop);
     if (more.done) {
         d = judge_all(im, kind, w, b, &more, PART_TOLD);
         d.compensated = !is_float && d.component >= 0;
     }
     if (is_float && !im->settings.compensated && (d.energy || d.component >= 0)) {
         again same;
-        run_again(&same, im, kind, stop);
+        again_run(&same, &summed, kind, stop);
         d.compensated = goes_along(&same, &more);
-        forget(&same);
+        again_forget(&same);
     }
-    forget(&more);
+    again_forget(&more);
     return d;
 }
 

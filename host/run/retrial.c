@@ -3,6 +3,7 @@
 
 #include <math.h>
 
+#include "again.h"
 #include "host/number/functions.h"
 
 /* Parts of a step that are tried, one after the other. */
@@ -10,9 +11,8 @@ static const uint64_t parts_tried[] = {2, 5, 10, 20, 50, 100, 200, 500, 1000};
 
 enum { TRIALS = (int)(sizeof parts_tried / sizeof parts_tried[0]) };
 
-/* What may be spent on them, and what an evaluation is beside its operations. */
+/* What may be spent on them. */
 #define OPERATIONS_MOST 1e8
-#define OPERATIONS_BESIDE 40.0
 /* Where no finer run tells: overruns that took no more of the largest entry than this, and were no more of the steps, are
  * the last bounces before a rest. */
 #define TAKEN_LITTLE 1e-3
@@ -43,8 +43,7 @@ static whole_ratio part_of(whole_ratio step, uint64_t parts) {
 
 static double operations(const trials *t, const void *run, const image *im) {
     uint64_t most;
-    return (double)t->kind->evaluations(run, &most) *
-           (im->list[IMAGE_STEP]->count + OPERATIONS_BESIDE);
+    return (double)t->kind->evaluations(run, &most) * (im->list[IMAGE_STEP]->count + AGAIN_BESIDE);
 }
 
 static bool is_stopped(const trials *t) { return t->stop != NULL && *t->stop; }
@@ -83,7 +82,7 @@ static bool is_dear(const trials *t) {
     const double grows =
         t->count == 0 ? 1.0 : (double)parts_tried[t->count] / (double)parts_tried[t->count - 1];
     const busy *b = t->of;
-    const double least = 5.0 * (b->image->list[IMAGE_STEP]->count + OPERATIONS_BESIDE) *
+    const double least = 5.0 * (b->image->list[IMAGE_STEP]->count + AGAIN_BESIDE) *
                          (double)b->steps * (double)parts_tried[0];
     return t->spent + (t->count == 0 ? least : grows * t->last) > OPERATIONS_MOST;
 }

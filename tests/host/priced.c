@@ -78,16 +78,16 @@ const char *const priced_spring[1] = {
     "scene s { start x = 1 [m]; step 1 [ms]; until 1 [s] }\n"};
 
 const char *const priced_scenes[PRICED_SCENES] = {
-    "mechanism m\ncoordinate x [m]\nT = 1 [kg]*x'^2/2\nV = 9 [N/m]*x^2/2\n"
-    "scene s { start x = 1 [m]; step 1 [ms]; until 1 [s]\n"
-    "range x = -2 .. 2 [m], x' = -9 .. 9 [m/s] }\n",
-    "mechanism m\ncoordinate a [rad]\ncoordinate x [m]\ninput u = 1 [N]\n"
-    "T = 2 [kg]*x'^2/2 + 1 [kg]*((x' + 1 [m]*a'*cos(a))^2 + (1 [m]*a'*sin(a))^2)/2\n"
-    "V = -8 [J]*cos(a) + 3 [N/m]*x^2/2\nQ(x) = u\n"
-    "scene s { start a = 1 [rad]; step 1 [ms]; until 1 [s]\n"
-    "range x = -2 .. 2 [m], x' = -9 .. 9 [m/s], a' = -20 .. 20 [rad/s], u = -2 .. 2 [N] }\n",
-    "mechanism m\nstate y\nequation y' + 4 [1/s]*y + 1 [1/s]*y^3 = 1 [1/s]\n"
-    "scene s { start y = 3; step 1 [ms]; until 1 [s]\nrange y = -4 .. 4 }\n"};
+    ("mechanism m\ncoordinate x [m]\nT = 1 [kg]*x'^2/2\nV = 9 [N/m]*x^2/2\n"
+     "scene s { start x = 1 [m]; step 1 [ms]; until 1 [s]\n"
+     "range x = -2 .. 2 [m], x' = -9 .. 9 [m/s] }\n"),
+    ("mechanism m\ncoordinate a [rad]\ncoordinate x [m]\ninput u = 1 [N]\n"
+     "T = 2 [kg]*x'^2/2 + 1 [kg]*((x' + 1 [m]*a'*cos(a))^2 + (1 [m]*a'*sin(a))^2)/2\n"
+     "V = -8 [J]*cos(a) + 3 [N/m]*x^2/2\nQ(x) = u\n"
+     "scene s { start a = 1 [rad]; step 1 [ms]; until 1 [s]\n"
+     "range x = -2 .. 2 [m], x' = -9 .. 9 [m/s], a' = -20 .. 20 [rad/s], u = -2 .. 2 [N] }\n"),
+    ("mechanism m\nstate y\nequation y' + 4 [1/s]*y + 1 [1/s]*y^3 = 1 [1/s]\n"
+     "scene s { start y = 3; step 1 [ms]; until 1 [s]\nrange y = -4 .. 4 }\n")};
 
 setting priced_tried(int i) {
     static const wh_method methods[] = {WH_HEUN, WH_RK4, WH_RK38};
