@@ -90,6 +90,23 @@ static void test_grids_have_an_end(void) {
     }
 }
 
+/* No axis has more than twelve digits of points. */
+static void test_counts_have_an_end(void) {
+    static const char *const counts[] = {"0",  "1000000000000", "99999999999999999999",
+                                         "-3", "1e3",           ""};
+    for (size_t i = 0; i < sizeof counts / sizeof counts[0]; i++) {
+        char text[60];
+        snprintf(text, sizeof text, "m=1..2:%s", counts[i]);
+        open_sample();
+        errors_catch();
+        const bool taken = over(text);
+        const char *told = errors_caught();
+        TEST_ASSERT_FALSE_MESSAGE(taken, text);
+        TEST_ASSERT_NOT_NULL_MESSAGE(strstr(told, "a whole number from 1 to 999999999999,"), told);
+        close_sample();
+    }
+}
+
 static void test_units_and_exact_ends(void) {
     static const struct {
         const char *text;
@@ -372,6 +389,7 @@ static void test_a_lost_worker_is_noticed(void) {
 void suite_sweep(void) {
     RUN_TEST(test_last_axis_runs_fastest);
     RUN_TEST(test_grids_have_an_end);
+    RUN_TEST(test_counts_have_an_end);
     RUN_TEST(test_units_and_exact_ends);
     RUN_TEST(test_shards_tile_the_grid);
     RUN_TEST(test_numbers_come_back);
