@@ -108,7 +108,8 @@ ASAN_BUILD = $(MAKE) MAIN="CC='$(CC)' OPT='$(OPT)' EXTRA='$(EXTRA)'" B=build/asa
 
 # Scripts that run no instrumented program, or have it do what other scripts or a suite have it do, too.
 CLI_NOT_ASAN := $(foreach t,boards enclosures flags fresh headers help map no_libm runners setup structure,tests/cli/$(t).sh)
-# And what is left to `make sanitizers-all`: scripts and suites that derive and step as others do, to compare digits.
+# And what is left to `make sanitizers-all`: scripts and suites that derive and step as others do, to compare digits,
+# or whose many runs each try their cures.
 CLI_LESS_ASAN := $(foreach t,asked_first carriage effects_cost_nothing embed_names emitted_c figures measure price \
     price_predicts recorded_bits settings_bits swing,\
     tests/cli/$(t).sh)
