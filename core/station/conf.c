@@ -162,9 +162,13 @@ static void renew(const wh_conf *conf) {
 
 /* --- what may be set ----------------------------------------------------------------------------------- */
 
+/* As memory and tapes have it. */
+static wh_real as_kept(wh_real value) { return (wh_real)(float)value; }
+
 static bool in_range(wh_conf_id id, wh_real value) {
     const wh_conf_row *row = ROW(id);
-    return value >= row->least && value <= row->most &&
+    const wh_real kept = as_kept(value);
+    return kept >= as_kept(row->least) && kept <= as_kept(row->most) &&
            ((wh_conf_kind)row->kind == WH_CONF_REAL || same(value, (wh_real)(int32_t)value));
 }
 
@@ -182,7 +186,7 @@ static bool is_absent(wh_conf_id id, wh_real value) {
 }
 
 wh_conf_status wh_conf_set(wh_conf *conf, wh_conf_id id, wh_real value) {
-    const wh_real kept = (wh_real)(float)value; /* as memory has it */
+    const wh_real kept = as_kept(value);
     if (!in_range(id, value)) {
         return WH_CONF_RANGE;
     }

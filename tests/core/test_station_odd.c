@@ -1,0 +1,305 @@
+/* test_station_odd.c: the station where things are not as they should be: a full queue, a trip, keys that have no room, a
+ * board whose cell is turned round, a memory that cannot be read again, arithmetic that is wrong. */
+#include <string.h>
+
+#include "core/arithmetic.h"
+#include "core/station/answer.h"
+#include "draw.h"
+#include "tel_bench.h"
+#include "unity.h"
+
+void suite_station_odd(void);
+
+static char heard[WH_STATION_OUT_BYTES + 1U];
+
+/* All that wants out. */
+static const char *hear(void) {
+    const unsigned count = wh_station_peek(&bench.station, heard, sizeof heard - 1U);
+    wh_station_drop(&bench.station, count);
+    heard[count] = '\0';
+    return heard;
+}
+
+static void check_begins(const char *with, const char *text) {
+    TEST_ASSERT_EQUAL_STRING_LEN(with, text, strlen(with));
+}
+
+/* --- orders ---------------------------------------------------------------------------------------------- */
+
+/* Others post orders, too: one that finds no room is refused by its number, and the next is taken. */
+static void test_a_full_queue(void) {
+    for (unsigned posted = 0; posted <= WH_RIG_ORDERS_MOST; posted++) {
+        tel_begin();
+        for (unsigned i = 0; i < posted; i++) {
+            TEST_ASSERT_TRUE(wh_rig_post(&bench.even.rig, WH_EVENT_STOP, WH_R(0.0)));
+        }
+        tel_type("arm");
+        wh_station_step(&bench.station, &bench.even.rig);
+        const bool full = posted == WH_RIG_ORDERS_MOST;
+        check_begins(full ? "ERR 16 too many orders at once" : "", hear());
+        TEST_ASSERT_EQUAL_INT(!full, bench.station.waits);
+        even_step(&bench.even);
+        TEST_ASSERT_EQUAL_INT(full ? WH_LIFE_IDLE : WH_LIFE_ARMED, bench.even.rig.state);
+        wh_station_step(&bench.station, &bench.even.rig);
+        tel_type("arm");
+        wh_station_step(&bench.station, &bench.even.rig);
+        even_step(&bench.even);
+        TEST_ASSERT_EQUAL_INT(WH_LIFE_ARMED, bench.even.rig.state);
+    }
+}
+
+/* A host that is lost while there is no room: the rig hears of it in the first step that has some, and once. */
+static void test_lost_while_the_queue_is_full(void) {
+    for (unsigned full_steps = 0; full_steps < 6U; full_steps++) {
+        tel_begin();
+        bench.station.host_steps = 3;
+        unsigned told = 0;
+        unsigned first = 0;
+        for (unsigned step = 1; step < 20U; step++) {
+            bench.even.rig.orders = step < 4U + full_steps ? WH_RIG_ORDERS_MOST : 0U;
+            wh_station_step(&bench.station, &bench.even.rig);
+            if (bench.even.rig.orders == 1U) {
+                told++;
+                first = first == 0 ? step : first;
+                TEST_ASSERT_EQUAL_INT(WH_EVENT_HOST_LOST, bench.even.rig.order[0].event);
+            }
+        }
+        TEST_ASSERT_EQUAL_UINT(1, told);
+        TEST_ASSERT_EQUAL_UINT(1, bench.station.host_losses);
+        TEST_ASSERT_EQUAL_UINT(4U + full_steps, first);
+        wh_station_take(&bench.station, "x", 0); /* nothing is heard */
+        TEST_ASSERT_TRUE(bench.station.silent_steps > 0);
+        wh_station_take(&bench.station, "x", 1);
+        TEST_ASSERT_TRUE(bench.station.silent_steps == 0);
+    }
+}
+
+/* Where it talks, a trip is told with its cause; and `fault` has nothing of another trip's record. */
+static void test_trips_are_told(void) {
+#define NAME(name, number, words) name,
+    static const wh_trip trips[] = {WH_TRIP_ROWS(NAME)};
+#undef NAME
+    for (unsigned i = 1; i < sizeof trips / sizeof trips[0]; i++) {
+        const wh_trip trip = trips[i];
+        tel_begin();
+        tel_type("talk on");
+        wh_station_step(&bench.station, &bench.even.rig);
+        (void)hear();
+        bench.even.rig.guard.trip = trip;
+        bench.even.rig.state = WH_LIFE_TRIPPED;
+        bench.even.rig.record.trip = WH_TRIP_NONE;
+        wh_station_step(&bench.station, &bench.even.rig);
+        char wanted[120] = "# tripped: ";
+        wh_text text;
+        wh_text_start(&text, wanted + 11, sizeof wanted - 11U);
+        wh_text_add_words(&text, wh_trip_text(trip));
+        wh_text_add(&text, "\r\n");
+        TEST_ASSERT_EQUAL_STRING(wanted, hear());
+        for (unsigned known = 0; known < 2U; known++) {
+            bench.even.rig.record.trip = known == 1U ? trip : WH_TRIP_NONE;
+            tel_type("fault");
+            wh_station_step(&bench.station, &bench.even.rig);
+            TEST_ASSERT_NOT_NULL(strstr(hear(), "OK trip="));
+            TEST_ASSERT_EQUAL_INT(known == 1U, strstr(heard, " supply_V=") != NULL);
+        }
+    }
+}
+
+/* Keys that change nothing are not echoed: what does not fit any more, or a rub-out of nothing. */
+static void test_echo(void) {
+    tel_begin();
+    tel_type("talk on");
+    wh_station_step(&bench.station, &bench.even.rig);
+    (void)hear();
+    unsigned long told = 0;
+    for (unsigned i = 0; i < 3U * WH_LINE_MOST; i++) {
+        wh_station_take(&bench.station, "a", 1);
+        wh_station_step(&bench.station, &bench.even.rig);
+        told += strlen(hear());
+    }
+    TEST_ASSERT_EQUAL_UINT(WH_LINE_MOST, told);
+    wh_station_take(&bench.station, "\n", 1);
+    wh_station_step(&bench.station, &bench.even.rig);
+    TEST_ASSERT_NOT_NULL(strstr(hear(), "ERR 101 "));
+    wh_station_take(&bench.station, "\b", 1);
+    wh_station_step(&bench.station, &bench.even.rig);
+    TEST_ASSERT_EQUAL_STRING("", hear());
+}
+
+/* --- what there is ------------------------------------------------------------------------------------------- */
+
+static wh_probed spoilt;
+
+static void compute_otherwise(wh_real *result) {
+    wh_arithmetic(result);
+    if (spoilt < WH_PROBED_COUNT) {
+        result[spoilt] += WH_R(1.0);
+    }
+}
+
+/* Arithmetic is the observer's scene's; one that has none, or no scene, is not bad for it. */
+static void test_arithmetic_is_tested(void) {
+    wh_scene scene = {.name = "none"};
+    for (unsigned i = 0; i <= WH_PROBED_COUNT + 2U; i++) {
+        tel_begin();
+        even_step(&bench.even);
+        bench.even.config.observer.scene = i == 0 ? NULL : &scene;
+        scene.arithmetic = i <= 1U ? NULL : compute_otherwise;
+        spoilt = (wh_probed)(i >= 2U ? i - 2U : 0U);
+        const bool good = i < 2U || spoilt == WH_PROBED_COUNT;
+        bench.seen = (wh_seen){.inputs = bench.even.inputs}; /* no sample: nothing to say of it */
+        wh_station_see(&bench.station, &bench.even.config, &bench.even.rig, &bench.seen);
+        tel_type("selftest");
+        wh_station_step(&bench.station, &bench.even.rig);
+        check_begins(good ? "OK selftest=good arithmetic=good " : "OK selftest=bad arithmetic=bad ",
+                     hear());
+        TEST_ASSERT_NOT_NULL(strstr(heard, " cell=good "));
+    }
+}
+
+/* --- settings ------------------------------------------------------------------------------------------------- */
+
+static void own_turned(wh_rig_config *config) {
+    *config = even_config();
+    config->measure.cell.newton_per_count = -config->measure.cell.newton_per_count;
+}
+
+/* Of a board whose cell is mounted the other way: that is its standard, and its scale has no sign. */
+static void test_a_cell_turned_round(void) {
+    static wh_conf conf;
+    wh_rig_config config;
+    wh_conf_start(&conf, own_turned, NULL, &config);
+    TEST_ASSERT_TRUE(conf.standard[WH_CONF_cell_reversed] == WH_R(1.0));
+    TEST_ASSERT_TRUE(conf.standard[WH_CONF_cell_scale] > WH_R(0.0));
+    TEST_ASSERT_TRUE(config.measure.cell.newton_per_count < WH_R(0.0));
+    TEST_ASSERT_TRUE(wh_conf_type(&conf, WH_CONF_cell_scale, "20") == WH_CONF_DONE);
+    TEST_ASSERT_FLOAT_WITHIN(1e-7f, -0.02f, (float)config.measure.cell.newton_per_count);
+    TEST_ASSERT_TRUE(wh_conf_type(&conf, WH_CONF_cell_reversed, "off") == WH_CONF_DONE);
+    TEST_ASSERT_FLOAT_WITHIN(1e-7f, 0.02f, (float)config.measure.cell.newton_per_count);
+    TEST_ASSERT_TRUE(wh_conf_type(&conf, WH_CONF_cell_reversed, "") == WH_CONF_VALUE);
+}
+
+#if WH_STATION_TAPE
+static void own(wh_rig_config *config) { *config = even_config(); }
+
+/* What a tape says of the settings makes the same configuration elsewhere. */
+static void test_settings_of_a_tape(void) {
+    static wh_conf conf;
+    static wh_conf other;
+    bench.seed = 63;
+    unsigned told = 0;
+    for (unsigned round = 0; round < 100U; round++) {
+        wh_rig_config config;
+        wh_rig_config there;
+        uint8_t payload[WH_STORE_PAYLOAD_MOST];
+        wh_bytes bytes = {.to = payload, .room = sizeof payload};
+        wh_conf_start(&conf, own, NULL, &config);
+        wh_conf_start(&other, own, NULL, &there);
+        for (unsigned k = draw_one_of(&bench.seed, 8); k > 0; k--) {
+            const wh_conf_id id = (wh_conf_id)draw_one_of(&bench.seed, WH_CONF_COUNT);
+            wh_conf_row room;
+            const wh_conf_row *row = wh_conf_row_of(id, &room);
+            (void)wh_conf_set(&conf, id, draw_one_in(&bench.seed, 2) ? row->least : row->most);
+        }
+        for (unsigned id = 0; id < WH_CONF_COUNT; id++) {
+            float value;
+            const unsigned number = wh_conf_is_set(&conf, (wh_conf_id)id, &value);
+            if (number > 0) {
+                wh_bytes_put(&bytes, number, 1);
+                wh_bytes_put_float(&bytes, value);
+                told++;
+            }
+        }
+        wh_conf_take(&other, payload, bytes.at);
+        TEST_ASSERT_TRUE(memcmp(&config, &there, sizeof config) == 0);
+    }
+    TEST_ASSERT_TRUE(told > 100U);
+}
+#endif
+
+static uint8_t slot_bytes[WH_STORE_SLOTS][WH_STORE_SLOT_BYTES];
+static unsigned reads_left;
+
+static bool erase_slot(unsigned slot) {
+    memset(slot_bytes[slot], 0xFF, WH_STORE_SLOT_BYTES);
+    return true;
+}
+static bool write_slot(unsigned slot, unsigned at, const uint8_t *bytes, unsigned count) {
+    memcpy(slot_bytes[slot] + at, bytes, count);
+    return true;
+}
+static bool read_slot(unsigned slot, unsigned at, uint8_t *bytes, unsigned count) {
+    if (reads_left == 0) {
+        return false;
+    }
+    reads_left--;
+    memcpy(bytes, slot_bytes[slot] + at, count);
+    return true;
+}
+
+/* What cannot be read again was not saved, whenever reading begins to fail; nothing else is said. */
+static void test_a_memory_that_is_not_read(void) {
+    static const wh_store_memory memory = {erase_slot, write_slot, read_slot};
+    static wh_conf conf;
+    wh_rig_config config;
+    unsigned failed = 0;
+    wh_conf_status status = WH_CONF_FAILED;
+    for (unsigned reads = 0; reads < 100U && status != WH_CONF_DONE; reads++) {
+        memset(slot_bytes, 0xFF, sizeof slot_bytes);
+        reads_left = UINT16_MAX;
+        wh_conf_start(&conf, own_turned, &memory, &config);
+        TEST_ASSERT_TRUE(wh_conf_save(&conf) == WH_CONF_DONE);
+        reads_left = reads;
+        status = wh_conf_save(&conf);
+        failed += status == WH_CONF_FAILED ? 1U : 0U;
+        TEST_ASSERT_TRUE(status == WH_CONF_FAILED || conf.sequence == 2U);
+        reads_left = 0;
+        wh_conf_start(&conf, own_turned, &memory, &config);
+        TEST_ASSERT_TRUE(conf.sequence == 0U);
+        for (unsigned id = 0; id < WH_CONF_COUNT; id++) {
+            TEST_ASSERT_TRUE(conf.value[id] == conf.standard[id]);
+        }
+    }
+    TEST_ASSERT_TRUE(status == WH_CONF_DONE && failed > 3U);
+}
+
+/* --- numbers in answers ---------------------------------------------------------------------------------------- */
+
+/* Whole numbers as they are, without a point; where there is no room, no more than there is, and said. */
+static void test_exact_numbers(void) {
+    bench.seed = 64;
+    for (unsigned i = 0; i < 2000U; i++) {
+        const uint32_t whole = (uint32_t)draw_bits(&bench.seed) >> draw_one_of(&bench.seed, 32) &
+                               UINT32_C(0xFFFFFF00); /* a float has it */
+        char bytes[40];
+        char wanted[40];
+        wh_text text;
+        wh_text_start(&text, wanted, sizeof wanted);
+        wh_text_add(&text, " n=");
+        wh_text_add_unsigned(&text, whole);
+        const unsigned length = text.length;
+        const unsigned size = 1U + draw_one_of(&bench.seed, sizeof bytes);
+        wh_text_start(&text, bytes, size);
+        wh_answer_exact(&text, "n", (wh_real)whole);
+        if (size > length + 10U) {
+            TEST_ASSERT_EQUAL_STRING(wanted, bytes);
+            TEST_ASSERT_FALSE(text.truncated);
+        }
+        TEST_ASSERT_TRUE(text.truncated || strcmp(wanted, bytes) == 0);
+        TEST_ASSERT_TRUE(text.length < size && bytes[text.length] == '\0');
+    }
+}
+
+void suite_station_odd(void) {
+    RUN_TEST(test_a_full_queue);
+    RUN_TEST(test_lost_while_the_queue_is_full);
+    RUN_TEST(test_trips_are_told);
+    RUN_TEST(test_echo);
+    RUN_TEST(test_arithmetic_is_tested);
+    RUN_TEST(test_a_cell_turned_round);
+#if WH_STATION_TAPE
+    RUN_TEST(test_settings_of_a_tape);
+#endif
+    RUN_TEST(test_a_memory_that_is_not_read);
+    RUN_TEST(test_exact_numbers);
+}

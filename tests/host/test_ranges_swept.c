@@ -1,0 +1,450 @@
+/* test_ranges_swept.c: what a sweep varies (host/sweep/grid.h, changes.h), drawn: its values are those of a line or of a
+ * geometric series, in the order in which a counter counts; what a point is told of them; each mistake is told in the words
+ * of whose option it is and leaves the grid as it was; and everything is given back. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "blocks.h"
+#include "command.h"
+#include "host/lang/model.h"
+#include "host/sweep/changes.h"
+#include "unity.h"
+
+void suite_ranges_swept(void);
+
+static const char sample[] =
+    "mechanism swing\ncoordinate theta [rad]\ncoordinate z [m]\nparameter m = 2 [kg]\n"
+    "parameter mm = 3 [kg]\nparameter r = 0.3 [m]\nparameter q = 5 [mm]\ninput M = 2 [N*m]\n"
+    "T = m*r^2*theta'^2/2 + mm*z'^2/2\nQ(theta) = M\n"
+    "effect tug \"pulled\" { parameter pull = 3 [N]; Q(z) += pull }\nscene s { until 1 [s] }\n"
+    "mechanism decay\nstate x [m]\nparameter k = 1 [1/s]\nequation x' + k*x = 0\n";
+
+static dice die;
+static diags *heard;
+static whirl_model *parsed;
+static grid g;
+
+static void open_sample(void) {
+    heard = diags_new();
+    parsed = model_parse("x.whirl", sample, strlen(sample), heard);
+    TEST_ASSERT_NOT_NULL(parsed);
+    g = (grid){0};
+}
+
+static void close_sample(void) {
+    grid_free(&g);
+    model_free(parsed);
+    diags_free(heard);
+}
+
+static const char *one_of(const char *const *words, unsigned count) {
+    return words[dice_one_of(&die, count)];
+}
+
+static const char *blank(void) {
+    static const char *const blanks[] = {"", "", " ", "\t", "  "};
+    return one_of(blanks, 5);
+}
+
+/* --- values --------------------------------------------------------------------------------------------------*/
+
+enum { AXES_MOST = 4, NAMES = 9 };
+
+static const struct {
+    const char *name;
+    const char *column;
+    int primes;
+    bool is_parameter;
+} names[NAMES] = {{"m", "m", 0, true},
+                  {"r", "r", 0, true},
+                  {"q", "q", 0, true},
+                  {"M", "M", 0, false},
+                  {"theta", "start(theta)", 0, false},
+                  {"theta'", "start(theta')", 1, false},
+                  {"z", "start(z)", 0, false},
+                  {"z'", "start(z')", 1, false},
+                  {"step", "step", 0, false}};
+
+typedef struct drawn_axis {
+    int name;
+    double from;
+    double to;
+    unsigned count;
+    bool is_log;
+} drawn_axis;
+
+/* Its text is added to the grid. Numbers of 17 digits: none is lost. */
+static void add_axis(drawn_axis *a) {
+    char text[200];
+    const double sign = names[a->name].column[1] == 't' ? 1.0 : dice_one_of(&die, 2) - 0.5;
+    a->is_log = dice_one_of(&die, 2) == 0;
+    a->count = 1 + dice_one_of(&die, 6);
+    a->from = (sign < 0.0 ? -1.0 : 1.0) * exp(dice_between(&die, -8.0, 8.0));
+    a->to = a->count == 1 ? a->from
+            : a->is_log   ? a->from * exp(dice_between(&die, -9.0, 9.0))
+            : sign == 1.0 ? a->from * exp(dice_between(&die, -9.0, 9.0))
+                          : dice_between(&die, -900.0, 900.0);
+    snprintf(text, sizeof text, "%s%s%s=%s%.17g%s..%s%.17g%s%s:%s%u%s%s", blank(),
+             names[a->name].name, blank(), blank(), a->from, blank(), blank(), a->to,
+             strcmp(names[a->name].name, "q") == 0 ? " [m]" : "", blank(), blank(), a->count,
+             a->is_log ? ",log" : "", blank());
+    TEST_ASSERT_TRUE_MESSAGE(grid_add(&g, parsed->mechanisms[0], text, heard), text);
+}
+
+static long double wanted_value(const drawn_axis *a, uint64_t i) {
+    const long double part = a->count == 1 ? 0.0L : (long double)i / (long double)(a->count - 1);
+    return a->is_log ? (long double)a->from * powl((long double)a->to / (long double)a->from, part)
+                     : (long double)a->from + ((long double)a->to - (long double)a->from) * part;
+}
+
+static int draw_grid(drawn_axis *axes) {
+    const int count = 1 + (int)dice_one_of(&die, AXES_MOST);
+    bool used[NAMES] = {false};
+    for (int i = 0; i < count; i++) {
+        do {
+            axes[i].name = (int)dice_one_of(&die, NAMES);
+        } while (used[axes[i].name]);
+        used[axes[i].name] = true;
+        add_axis(&axes[i]);
+    }
+    return count;
+}
+
+static void expect_point(const drawn_axis *axes, int count, uint64_t point, const double *value) {
+    uint64_t rest = point;
+    for (int i = count - 1; i >= 0; i--) {
+        const uint64_t at = rest % axes[i].count;
+        const double wanted = (double)wanted_value(&axes[i], at);
+        const double size = fmax(fabs(axes[i].from), fabs(axes[i].to));
+        rest /= axes[i].count;
+        TEST_ASSERT_TRUE(fabs(value[i] - wanted) <= 1e-14 * (axes[i].is_log ? fabs(wanted) : size));
+        TEST_ASSERT_TRUE(at > 0 || value[i] == axes[i].from);
+        TEST_ASSERT_TRUE(at + 1 < axes[i].count || value[i] == axes[i].to);
+    }
+    TEST_ASSERT_EQUAL_UINT64(0, rest);
+}
+
+/* What a point's run is told: each number to the bit, and all else as the command line has it. */
+static void expect_changes(const drawn_axis *axes, int count, uint64_t point, const double *value) {
+    static const char *const sets[] = {"mm=7"};
+    static const char *const old[] = {"M=8", "M=9"};
+    const overrides base = {.sets = sets,
+                            .set_count = 1,
+                            .values = old,
+                            .value_count = 2,
+                            .step = dice_one_of(&die, 2) == 0 ? "1ms" : NULL,
+                            .until = "3"};
+    overrides made = changes_at(&g, &base, point);
+    int told = 0;
+    const char *step = base.step;
+    for (int i = 0; i < count; i++) {
+        const char *name = names[axes[i].name].name;
+        if (strcmp(name, "step") == 0) {
+            step = NULL;
+            TEST_ASSERT_TRUE(made.step != NULL && strtod(made.step, NULL) == value[i]);
+            continue;
+        }
+        TEST_ASSERT_TRUE(told < made.value_count);
+        const char *text = made.values[told++];
+        const size_t length = strlen(name);
+        TEST_ASSERT_EQUAL_STRING_LEN(name, text, length);
+        TEST_ASSERT_TRUE(text[length] == '=' && strtod(text + length + 1, NULL) == value[i]);
+    }
+    TEST_ASSERT_EQUAL_INT(told, made.value_count);
+    TEST_ASSERT_TRUE(step == NULL || made.step == step);
+    TEST_ASSERT_TRUE(made.sets == sets && made.set_count == 1 && made.until == base.until);
+    changes_forget(&base, &made);
+}
+
+static void test_values(void) {
+    for (unsigned c = 0; c < dice_cases(usual_or(300, 60)); c++) {
+        drawn_axis axes[AXES_MOST];
+        open_sample();
+        const int count = draw_grid(axes);
+        uint64_t points = 1;
+        bool varies = false;
+        TEST_ASSERT_EQUAL_INT(count, g.count);
+        for (int i = 0; i < count; i++) {
+            points *= axes[i].count;
+            varies = varies || names[axes[i].name].is_parameter;
+            TEST_ASSERT_EQUAL_STRING(names[axes[i].name].name, g.axes[i].name);
+            TEST_ASSERT_EQUAL_STRING(names[axes[i].name].column, g.axes[i].column);
+            TEST_ASSERT_EQUAL_INT(names[axes[i].name].primes, g.axes[i].primes);
+            TEST_ASSERT_EQUAL(axes[i].is_log, g.axes[i].is_log);
+        }
+        TEST_ASSERT_EQUAL_UINT64(points, g.points);
+        TEST_ASSERT_EQUAL(varies, grid_varies_parameters(&g));
+        for (int k = 0; k < 6; k++) {
+            double value[AXES_MOST];
+            const uint64_t point = k == 0 ? points - 1 : dice_one_of(&die, (unsigned)points);
+            grid_values(&g, point, value);
+            expect_point(axes, count, point, value);
+            expect_changes(axes, count, point, value);
+        }
+        close_sample();
+    }
+}
+
+/* A state's start has a column as a coordinate's has. */
+static void test_states(void) {
+    open_sample();
+    TEST_ASSERT_TRUE(grid_add(&g, parsed->mechanisms[1], "x=1..3:3", heard));
+    TEST_ASSERT_TRUE(grid_add(&g, parsed->mechanisms[1], "k=1..3:3", heard));
+    TEST_ASSERT_EQUAL_STRING("start(x)", g.axes[0].column);
+    TEST_ASSERT_EQUAL_STRING("k", g.axes[1].column);
+    close_sample();
+}
+
+/* Shards of grids of any size: as exact fractions of their points, without a gap. */
+static void test_shards(void) {
+    for (unsigned c = 0; c < dice_cases(200); c++) {
+        grid any = {.points = (uint64_t)exp(dice_between(&die, 0.0, log(1e12)))};
+        const uint64_t n = 1 + (uint64_t)exp(dice_between(&die, 0.0, log(999999.0)));
+        const uint64_t k = 1 + (uint64_t)(dice_between(&die, 0.0, (double)n) * 0.999999);
+        uint64_t first[2];
+        uint64_t end[2];
+        grid_shard(&any, k, n, &first[0], &end[0]);
+        TEST_ASSERT_TRUE(end[0] * n <= any.points * k && (end[0] + 1) * n > any.points * k);
+        TEST_ASSERT_TRUE(k > 1 || first[0] == 0);
+        TEST_ASSERT_TRUE(k < n || end[0] == any.points);
+        if (k > 1) {
+            grid_shard(&any, k - 1, n, &first[1], &end[1]);
+            TEST_ASSERT_EQUAL_UINT64(end[1], first[0]);
+        }
+    }
+}
+
+/* --- mistakes --------------------------------------------------------------------------------------------------*/
+
+static const char no_range[] = " is not NAME=FROM..TO:COUNT\n";
+static const char three_dots[] = " has three dots in a row\n";
+static const char count_wrong[] =
+    ": the COUNT behind the last ':' must be a whole number from 1 to 999999999999, ',log' may follow\n";
+static const char single[] = ": a single point needs FROM = TO\n";
+static const char no_log[] = ": a logarithmic range takes two ends above zero, or two below\n";
+static const char no_numbers[] = ": FROM and TO must be numbers\n";
+static const char not_finite[] = ": FROM and TO must be finite numbers\n";
+static const char one_unit[] = ": one end has a unit and the other has not\n";
+static const char no_step[] = ": step must be above zero\n";
+static const char twice[] = ": it is swept already\n";
+
+/* '_' stands for blanks, drawn anew each time. */
+static const struct {
+    const char *text;
+    const char *problem;
+} wrong[] = {{"m_1_.._2_:_3", no_range},
+             {"m_=_1_.._2", no_range},
+             {"m_=_1_._2_:_3", no_range},
+             {"m_=_1_:_2_.._3", no_range},
+             {"m_.._1_=_2_:_3", no_range},
+             {"", no_range},
+             {"m_=_1_..._2_:_3", three_dots},
+             {"m_=_1_.._2_:_0", count_wrong},
+             {"m_=_1_.._2_:_3e1", count_wrong},
+             {"m_=_1_.._2_:_3,lin", count_wrong},
+             {"m_=_1_.._2_:_3 ,log", count_wrong},
+             {"m_=_1_.._2_:_,log", count_wrong},
+             {"m_=_1_.._2_:_1234567890123", count_wrong},
+             {"m_=_1_.._2_:_1", single},
+             {"r_=_1_.._2_[mm]_:_1", single},
+             {"m_=_0_.._2_:_3,log", no_log},
+             {"m_=_2_.._0_:_3,log", no_log},
+             {"m_=_-1_.._2_:_3,log", no_log},
+             {"m_=_r*1[kg/m]_.._2_:_3", no_numbers},
+             {"m_=_1_.._mm_:_3", no_numbers},
+             {"M_=_-1e308_.._1e308_:_3", not_finite},
+             {"M_=_1e200*1e200_.._1_:_3", not_finite},
+             {"M_=_1_.._1e200*1e200_:_3", not_finite},
+             {"r_=_1 [mm]_.._2_:_3", one_unit},
+             {"r_=_2*3_.._7 [mm]_:_3", one_unit},
+             {"step_=_0_.._1 ms_:_3", no_step},
+             {"step_=_1_.._0_:_3", no_step},
+             {"step_=_-1_.._1 [ms]_:_3", no_step},
+             {"theta'_=_1_.._2_:_3", twice},
+             {"m_=_1_.._2_:_3", NULL},
+             {"theta_=_1_.._2_:_3", NULL},
+             {"m_=_-1_.._-2_:_3,log", NULL},
+             {"m_=_2_.._2_:_1", NULL},
+             {"r_=_0_.._2*1[mm]_:_3", NULL},
+             {"r_=_2 [mm]_.._0_:_3", NULL},
+             {"step_=_1_.._2 [ms]_:_3", NULL}};
+
+static void with_blanks(const char *from, char *text) {
+    for (; *from != '\0'; from++) {
+        const char *put = *from == '_' ? blank() : (const char[]){*from, '\0'};
+        strcpy(text, put);
+        text += strlen(put);
+    }
+    *text = '\0';
+}
+
+static void test_mistakes(void) {
+    static const char *const commands[] = {NULL, "map", "price"};
+    static const char *const options[] = {NULL, "--vary", "--at"};
+    for (unsigned c = 0; c < usual_or(6, 2) * (sizeof wrong / sizeof wrong[0]); c++) {
+        const size_t which = c % (sizeof wrong / sizeof wrong[0]);
+        char text[200];
+        char wanted[600] = "";
+        open_sample();
+        TEST_ASSERT_TRUE(grid_add(&g, parsed->mechanisms[0], "theta'=1..2:5", heard));
+        g.command = one_of(commands, 3);
+        g.option = one_of(options, 3);
+        with_blanks(wrong[which].text, text);
+        if (wrong[which].problem != NULL) {
+            const char *option = g.option != NULL ? g.option : "--over";
+            const bool hint =
+                wrong[which].problem == no_range || wrong[which].problem == three_dots;
+            const int length = snprintf(wanted, sizeof wanted, "whirl %s: error: %s \"%s\"%s",
+                                        g.command != NULL ? g.command : "sweep", option, text,
+                                        wrong[which].problem);
+            snprintf(wanted + length, sizeof wanted - (size_t)length,
+                     hint
+                         ? "hint: such as %s \"r=10..60 [mm]:11\", or ...:11,log for a logarithmic "
+                           "range\n"
+                         : "",
+                     option);
+        }
+        errors_catch();
+        const bool taken = grid_add(&g, parsed->mechanisms[0], text, heard);
+        const char *told = errors_caught();
+        TEST_ASSERT_EQUAL_STRING(wanted, told);
+        TEST_ASSERT_EQUAL_MESSAGE(wrong[which].problem == NULL, taken, text);
+        TEST_ASSERT_EQUAL_INT(taken ? 2 : 1, g.count);
+        TEST_ASSERT_EQUAL_UINT64(5 * (taken ? g.axes[1].count : 1), g.points);
+        close_sample();
+    }
+}
+
+/* Of what is declared in another unit a bare number is told to be SI, once; of no other. */
+static void test_bare_numbers(void) {
+    static const struct {
+        const char *text;
+        const char *typed; /* NULL: nothing is told */
+    } bare[] = {{"q=1..2:3", "q=2"},     {" q = 1 .. 2.5 :3", "q=2.5"},
+                {"q=1..2 [mm]:3", NULL}, {"q=1..2 [m]:3", NULL},
+                {"q=0..0:1", NULL},      {"r=1..2:3", NULL},
+                {"theta=1..2:3", NULL},  {"step=1..2:3", NULL},
+                {"q=1..2:x", NULL}};
+    for (size_t i = 0; i < sizeof bare / sizeof bare[0]; i++) {
+        char wanted[200] = "";
+        open_sample();
+        if (bare[i].typed != NULL) {
+            snprintf(wanted, sizeof wanted,
+                     "note: %s has no unit and counts as m: 'q' is declared in [mm]\n"
+                     "hint: write the unit behind the number: [mm] or [m]\n",
+                     bare[i].typed);
+        }
+        errors_catch();
+        const bool taken = grid_add(&g, parsed->mechanisms[0], bare[i].text, heard);
+        const char *told = errors_caught();
+        TEST_ASSERT_EQUAL_MESSAGE(strchr(bare[i].text, 'x') == NULL, taken, bare[i].text);
+        if (taken) {
+            TEST_ASSERT_EQUAL_STRING(wanted, told);
+        } else {
+            TEST_ASSERT_NULL(strstr(told, "note:"));
+        }
+        close_sample();
+    }
+}
+
+/* --- beside what is given otherwise -----------------------------------------------------------------------------*/
+
+/* What is swept cannot be set as well: its name itself, blanks or none, and no other that begins alike. */
+static void test_given_twice(void) {
+    static const char *const swept[] = {"m=1..2:2", "mm=1..2:2", "theta=1..2:2", "theta'=1..2:2",
+                                        "step=1..2:2"};
+    static const char *const named[] = {"m", "mm", "theta", "theta'", "step"};
+    for (unsigned c = 0; c < 200U; c++) {
+        char set[3][40];
+        const char *sets[3];
+        const char *starts[3];
+        char wanted[200] = "";
+        overrides base = {.sets = sets, .starts = starts};
+        const unsigned which = dice_one_of(&die, 5);
+        const char *option = NULL;
+        open_sample();
+        TEST_ASSERT_TRUE(grid_add(&g, parsed->mechanisms[0], "z=1..2:2", heard));
+        TEST_ASSERT_TRUE(grid_add(&g, parsed->mechanisms[0], swept[which], heard));
+        g.command = c % 3U == 0 ? "map" : NULL;
+        for (unsigned i = 0; i < 3U; i++) {
+            const unsigned given = dice_one_of(&die, 4);
+            snprintf(set[i], sizeof set[i], "%s%s%s=%s1", blank(), named[given], blank(), blank());
+            if (given < 2) {
+                sets[base.set_count++] = set[i];
+            } else {
+                starts[base.start_count++] = set[i];
+            }
+            option = given != which ? option : given < 2 ? "--set" : "--start";
+        }
+        base.step = c % 2U == 0 ? "1ms" : NULL;
+        option = which == 4 && base.step != NULL ? "--step" : option;
+        if (option != NULL) {
+            snprintf(
+                wanted, sizeof wanted,
+                "whirl %s: error: '%s' is swept by --over and given by %s\nhint: leave out one "
+                "of them\n",
+                g.command != NULL ? g.command : "sweep", named[which], option);
+        }
+        errors_catch();
+        const bool apart = changes_are_apart(&g, &base);
+        TEST_ASSERT_EQUAL_STRING(wanted, errors_caught());
+        TEST_ASSERT_EQUAL(option == NULL, apart);
+        close_sample();
+    }
+}
+
+static void test_effects_that_take_no_part(void) {
+    for (unsigned c = 0; c < 8U; c++) {
+        static const char *const with[] = {"tug"};
+        const overrides changes = {.with = with, .with_count = c % 2U == 0 ? 1 : 0};
+        char wanted[200] = "";
+        open_sample();
+        const mechanism *of = parsed->mechanisms[0];
+        TEST_ASSERT_TRUE(grid_add(&g, of, "m=1..2:2", heard));
+        TEST_ASSERT_TRUE(grid_add(&g, of, "step=1..2:2", heard));
+        TEST_ASSERT_TRUE(c % 4U > 1 || grid_add(&g, of, "pull=1..2:2", heard));
+        g.command = c > 3U ? "map" : NULL;
+        instance *inst = instance_make(of, NULL, &changes, heard);
+        const bool lacks = c % 4U == 1;
+        if (lacks) {
+            snprintf(
+                wanted, sizeof wanted,
+                "whirl %s: error: 'pull' belongs to the effect 'tug', which takes no part here\n"
+                "hint: add --with tug\n",
+                c > 3U ? "map" : "sweep");
+        }
+        TEST_ASSERT_NOT_NULL(inst);
+        errors_catch();
+        const bool taken = changes_take_part(&g, inst);
+        TEST_ASSERT_EQUAL_STRING(wanted, errors_caught());
+        TEST_ASSERT_EQUAL(!lacks, taken);
+        instance_free(inst);
+        close_sample();
+    }
+}
+
+/* --- given back -------------------------------------------------------------------------------------------------*/
+
+static void test_given_back(void) {
+    static void (*const rounds[])(void) = {test_values,      test_states,
+                                           test_mistakes,    test_bare_numbers,
+                                           test_given_twice, test_effects_that_take_no_part};
+    for (size_t i = 0; i < sizeof rounds / sizeof rounds[0]; i++) {
+        const long before = blocks_in_use();
+        rounds[i]();
+        TEST_ASSERT_TRUE(blocks_in_use() == before);
+    }
+}
+
+void suite_ranges_swept(void) {
+    die = dice_of("ranges_swept", 61);
+    RUN_TEST(test_values);
+    RUN_TEST(test_states);
+    RUN_TEST(test_shards);
+    RUN_TEST(test_mistakes);
+    RUN_TEST(test_bare_numbers);
+    RUN_TEST(test_given_twice);
+    RUN_TEST(test_effects_that_take_no_part);
+    RUN_TEST(test_given_back);
+}

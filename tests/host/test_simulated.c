@@ -1,0 +1,338 @@
+/* test_simulated.c: one run from start to end (host/run/simulate.h), in this process: its rows, of scenes in which each is
+ * known in closed form; what is said of a run that is interrupted, diverges, has an output that ends, or is not believed; files
+ * that cannot be written; and all is given back. */
+#define _POSIX_C_SOURCE 200809L
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "blocks.h"
+#include "command.h"
+#include "derived.h"
+#include "host/run/simulate.h"
+#include "unity.h"
+
+void suite_simulated(void);
+
+enum { TEXT = 200000 };
+
+static dice die;
+static char folder[60];
+static long before; /* blocks in use when a test began */
+
+static const char *path_of(const char *name) {
+    static char path[3][100];
+    static int next;
+    next = (next + 1) % 3;
+    snprintf(path[next], sizeof path[next], "%s/%s", folder, name);
+    return path[next];
+}
+
+static void begin(void) {
+    before = blocks_in_use();
+    snprintf(folder, sizeof folder, "/tmp/whirl-simulated-XXXXXX");
+    TEST_ASSERT_NOT_NULL(mkdtemp(folder));
+}
+
+/* What was taken is given back, and nothing else was left in the folder. */
+static void end(void) {
+    static const char *const names[] = {"r.csv", "r.txt", "r.vcd", "r.svg"};
+    for (int i = 0; i < 4; i++) {
+        (void)remove(path_of(names[i]));
+    }
+    TEST_ASSERT_EQUAL_INT(0, rmdir(folder));
+    TEST_ASSERT_TRUE(blocks_in_use() == before);
+}
+
+static derived scene_of(const char *text) {
+    derived d = derived_scene(text, "s");
+    derived_expect(&d, text);
+    return d;
+}
+
+/* What it said; static. */
+static const char *simulated(const image *im, const simulation_settings *s,
+                             simulation_result wanted) {
+    bool against = false;
+    errors_catch();
+    const simulation_result result = simulate(im, s, &against);
+    const char *told = errors_caught();
+    TEST_ASSERT_EQUAL_INT_MESSAGE(wanted, result, told);
+    TEST_ASSERT_TRUE(against == (strstr(told, "warning") != NULL) || s->strict > 0.0);
+    return told;
+}
+
+static const char *read_file(const char *path) {
+    static char text[TEXT];
+    FILE *in = fopen(path, "rb");
+    TEST_ASSERT_NOT_NULL_MESSAGE(in, path);
+    const size_t length = fread(text, 1, sizeof text - 1, in);
+    text[length] = '\0';
+    fclose(in);
+    return text;
+}
+
+static int lines_in(const char *text) {
+    int lines = 0;
+    for (; *text != '\0'; text++) {
+        lines += *text == '\n' ? 1 : 0;
+    }
+    return lines;
+}
+
+/* --- rows ------------------------------------------------------------------------------------------------------*/
+
+static const char steady[] =
+    "mechanism m\ncoordinate x [mm]\ncoordinate a [deg]\nT = 1 [kg]*x'^2/2 + 1 [kg*m^2]*a'^2/2\n"
+    "output twice [m] = 2*x\noutput far [km] = 1000*x\n"
+    "scene s { start x = %.9f [m], x' = %.9f [m/s], a' = %.9f [rad/s]; step 1 [ms]; until 1 [s] }\n";
+
+/* Of what moves evenly each number of each row is known. Read as the two forms separate them. */
+static void expect_rows(const char *text, const char *header, const char *between, const char *end,
+                        const double *start, uint64_t every, uint64_t steps) {
+    const char *at = said_exactly(text, header);
+    for (uint64_t step = 0; step <= steps; step += every) {
+        const double t = 1e-3 * (double)step;
+        const double x = start[0] + start[1] * t;
+        const double deg = 57.29577951308232;
+        const double wanted[] = {t,     1e3 * x, deg * start[2] * t, 1e3 * start[1], deg * start[2],
+                                 2 * x, x};
+        for (int i = 0; i < 7; i++) {
+            double number = 0.0;
+            at = said_number(i > 0 ? said_exactly(at, between) : at, &number);
+            TEST_ASSERT_TRUE(fabs(number - wanted[i]) <= 3e-7 * (1.0 + fabs(wanted[i])));
+        }
+        at = said_exactly(at, end);
+    }
+    TEST_ASSERT_EQUAL_STRING("", at);
+}
+
+static void test_rows(void) {
+    begin();
+    for (unsigned c = 0; c < dice_cases(usual_or(12, 6)); c++) {
+        char text[500];
+        const double start[] = {dice_between(&die, -1.0, 1.0), dice_between(&die, -1.0, 1.0),
+                                dice_between(&die, -9.0, 9.0)};
+        snprintf(text, sizeof text, steady, start[0], start[1], start[2]);
+        derived d = scene_of(text);
+        const uint64_t every = 1 + dice_one_of(&die, c % 4U == 0 ? 1 : 300);
+        const simulation_settings s = {.kind = &engine_double,
+                                       .every = every,
+                                       .csv = c % 3U != 0 ? path_of("r.csv") : NULL,
+                                       .columns = c % 3U != 1 ? path_of("r.txt") : NULL,
+                                       .quiet = true};
+        TEST_ASSERT_EQUAL_STRING("", simulated(d.image, &s, SIMULATION_DONE));
+        if (s.csv != NULL) {
+            expect_rows(read_file(path_of("r.csv")),
+                        "time,x [mm],a [deg],der(x) [mm/s],der(a) [deg/s],twice,far [km]\r\n", ",",
+                        "\r\n", start, every, 1000);
+        }
+        if (s.columns != NULL) {
+            expect_rows(read_file(path_of("r.txt")),
+                        "% time x[mm] a[deg] der(x)[mm/s] der(a)[deg/s] twice far[km]\n", " ", "\n",
+                        start, every, 1000);
+        }
+        derived_free(&d);
+    }
+    end();
+}
+
+/* --- interrupted -------------------------------------------------------------------------------------------------*/
+
+static volatile sig_atomic_t stop_now = 1;
+
+/* It is asked each 256 steps: the rows are those until then. */
+static void test_interrupted(void) {
+    char text[500];
+    begin();
+    snprintf(text, sizeof text, steady, 0.1, 0.2, 0.3);
+    derived d = scene_of(text);
+    for (unsigned c = 0; c < 6U; c++) {
+        const uint64_t every = 1 + dice_one_of(&die, 100);
+        const simulation_settings s = {.kind = c < 3U ? &engine_double : &engine_float,
+                                       .every = every,
+                                       .csv = c % 3U == 1 ? path_of("r.csv") : NULL,
+                                       .columns = c % 3U == 2 ? path_of("r.txt") : NULL,
+                                       .quiet = true,
+                                       .stop = &stop_now};
+        const char *told = simulated(d.image, &s, SIMULATION_INTERRUPTED);
+        TEST_ASSERT_EQUAL_STRING(
+            c % 3U == 0
+                ? "whirl run: interrupted at t = 0.256 s of 1 s\n"
+                : "whirl run: interrupted at t = 0.256 s of 1 s; the records so far are kept\n",
+            told);
+        if (c % 3U > 0) {
+            const char *rows = read_file(path_of(c % 3U == 1 ? "r.csv" : "r.txt"));
+            TEST_ASSERT_EQUAL_INT(2 + (int)(256 / every), lines_in(rows));
+        }
+    }
+    d.image->steps = 255; /* done before anybody asks */
+    const simulation_settings s = {
+        .kind = &engine_double, .every = 1, .quiet = true, .stop = &stop_now};
+    TEST_ASSERT_EQUAL_STRING("", simulated(d.image, &s, SIMULATION_DONE));
+    derived_free(&d);
+    end();
+}
+
+/* --- what is no number -------------------------------------------------------------------------------------------*/
+
+/* sqrt(c - x) of x = t is none from the first step behind c on: in how many records that is, and when first; without records it
+ * is looked at in the end. */
+static void test_outputs_that_end(void) {
+    begin();
+    for (unsigned c = 0; c < dice_cases(usual_or(20, 8)); c++) {
+        char text[500];
+        char wanted[400];
+        char more[60] = "";
+        const unsigned ends = dice_one_of(&die, c % 4U == 0 ? 1200 : 1000); /* in ms, and a half */
+        const bool second = dice_one_of(&die, 2) == 0;
+        const bool recorded = c % 3U > 0;
+        const uint64_t every = 1 + dice_one_of(&die, c % 2U == 0 ? 1 : 200);
+        snprintf(
+            text, sizeof text,
+            "mechanism m\ncoordinate x [m]\nT = 1 [kg]*x'^2/2\n%soutput y = sqrt(%.4f - x/(1 [m]))\n"
+            "output z = 2\nscene s { start x' = 1 [m/s]; step 1 [ms]; until 1 [s] }\n",
+            second ? "output w = 1\n" : "", 1e-3 * (ends + 0.5));
+        derived d = scene_of(text);
+        const simulation_settings s = {.kind = &engine_double,
+                                       .every = every,
+                                       .csv = recorded ? path_of("r.csv") : NULL,
+                                       .quiet = true};
+        uint64_t first = 0;
+        unsigned count = 0;
+        for (uint64_t step = 0; step <= 1000; step += every) {
+            if (recorded && step > ends) {
+                first = count == 0 ? step : first;
+                count++;
+            }
+        }
+        if (count == 0 && ends < 1000) { /* the end itself */
+            first = 1000;
+            count = 1;
+        }
+        if (count > 1) {
+            snprintf(more, sizeof more, " (and in %u more records)", count - 1);
+        }
+        snprintf(
+            wanted, sizeof wanted,
+            "x.whirl:%d:8: error: at t = %.9g s%s the output 'y' is not a finite number: output y = "
+            "sqrt(%.4f - x/(1 [m]))\n",
+            second ? 5 : 4, 1e-3 * (double)first, more, 1e-3 * (ends + 0.5));
+        const char *told = simulated(d.image, &s, count > 0 ? SIMULATION_FAILED : SIMULATION_DONE);
+        if (count > 0) {
+            const char *colon = strchr(wanted, ':');
+            TEST_ASSERT_NOT_NULL_MESSAGE(strstr(told, colon), told);
+            TEST_ASSERT_NOT_NULL(strstr(told, "hint: give it a value wherever the run goes\n"));
+        } else {
+            TEST_ASSERT_EQUAL_STRING("", told);
+        }
+        derived_free(&d);
+    }
+    end();
+}
+
+/* x' = x^n passes all bounds at a known time: it is said of the unknown that it is, with its primes; the records end there. */
+static void test_diverged(void) {
+    begin();
+    for (unsigned c = 0; c < dice_cases(usual_or(4, 2)); c++) {
+        char text[500];
+        char words[60];
+        const double t1_s = dice_between(&die, 0.2, 0.7);
+        const bool rate = c % 2U == 1;
+        /* x'' = 2 x x' is the slope of x' = x^2, and grows first in its rate */
+        snprintf(
+            text, sizeof text,
+            rate
+                ? "mechanism m\nstate u\nequation u' = 1 [1/s]*0\nstate x\nequation x'' = 2 "
+                  "[1/s]*x*x'\nscene s { start x = %.9f, x' = %.9f [1/s]; step 1 [ms]; until 1 [s] }\n"
+                : "mechanism m\nstate u\nequation u' = 1 [1/s]*0\nstate x\nequation x' = 1 "
+                  "[1/s]*x^2\nscene s { start x = %.9f; step 1 [ms]; until 1 [s] }\n",
+            1.0 / t1_s, 1.0 / (t1_s * t1_s));
+        derived d = scene_of(text);
+        const simulation_settings s = {.kind = c % 3U == 0 ? &engine_float : &engine_double,
+                                       .every = 1,
+                                       .csv = path_of("r.csv"),
+                                       .quiet = true};
+        const char *told = simulated(d.image, &s, SIMULATION_FAILED);
+        double when_s = 0.0;
+        const char *at = said_number(
+            said_exactly(told, "whirl run: error: the run diverged in the step after t = "),
+            &when_s);
+        TEST_ASSERT_TRUE_MESSAGE(when_s >= t1_s - 0.003 && when_s < t1_s + 0.01, told);
+        snprintf(words, sizeof words, " s: x%s left all bounds\nhint: a smaller --step may carry",
+                 rate && strstr(told, "x' left") != NULL ? "'" : "");
+        (void)said_exactly(at, words);
+        const char *rows = read_file(path_of("r.csv"));
+        TEST_ASSERT_EQUAL_INT(2 + (int)lround(1e3 * when_s), lines_in(rows));
+        derived_free(&d);
+    }
+    end();
+}
+
+/* A spring by Runge-Kutta 4 with h w = 0.8 loses about 0.4 % of its energy a step. */
+static void test_strict(void) {
+    begin();
+    derived d = scene_of("mechanism m\ncoordinate x [m]\nT = 1 [kg]*x'^2/2\nV = 1 [N/m]*x^2/2\n"
+                         "scene s { start x = 1 [m]; step 800 [ms]; until 32 [s] }\n");
+    const double kept = pow(1.0 - pow(0.8, 6) / 72.0 + pow(0.8, 8) / 576.0, 40.0);
+    for (int c = 0; c < 3; c++) {
+        const simulation_settings s = {.kind = &engine_double,
+                                       .every = 1,
+                                       .quiet = true,
+                                       .strict = c == 0   ? 0.0
+                                                 : c == 1 ? 1.3 * (1.0 - kept)
+                                                          : 0.7 * (1.0 - kept)};
+        const char *told = simulated(d.image, &s, c == 2 ? SIMULATION_FAILED : SIMULATION_DONE);
+        TEST_ASSERT_NOT_NULL_MESSAGE(strstr(told, c == 2 ? "error" : "warning"), told);
+    }
+    derived_free(&d);
+    end();
+}
+
+/* --- files -------------------------------------------------------------------------------------------------------*/
+
+static void test_files_that_cannot_be_written(void) {
+    begin();
+    char text[500];
+    snprintf(text, sizeof text, steady, 0.1, 0.2, 0.3);
+    derived d = scene_of(text);
+    static const char *const bad[] = {"/nowhere/at all/r.svg", "/dev/full", "/nowhere/at all/r"};
+    for (int where = 0; where < 4; where++) {
+        for (int which = 0; which < 3; which++) {
+            simulation_settings s = {.kind = &engine_double, .every = 1, .quiet = true};
+            const char **const places[] = {&s.csv, &s.columns, &s.vcd, &s.plot};
+            *places[where] = bad[which];
+            if (where == 3 && which == 1) {
+                continue;
+            }
+            const char *told = simulated(d.image, &s, SIMULATION_BAD_FILE);
+            TEST_ASSERT_NOT_NULL_MESSAGE(strstr(told, bad[which]), told);
+            if (where == 3 && which == 2) {
+                TEST_ASSERT_EQUAL_STRING("whirl run: error: --plot draws .svg and .png files, not "
+                                         "'/nowhere/at all/r'\n",
+                                         told);
+            }
+        }
+    }
+    d.image->step = (whole_ratio){1, 9000000000000000}; /* s */
+    const simulation_settings s = {
+        .kind = &engine_double, .every = 1, .quiet = true, .vcd = "/dev/null"};
+    TEST_ASSERT_EQUAL_STRING(
+        "whirl run: error: --vcd counts times in femtoseconds at the finest, up to 2^52 of a "
+        "unit: these records lie closer\nhint: a larger --every; --csv has no such limit\n",
+        simulated(d.image, &s, SIMULATION_BAD_FILE));
+    derived_free(&d);
+    end();
+}
+
+void suite_simulated(void) {
+    die = dice_of("simulated", 65);
+    RUN_TEST(test_rows);
+    RUN_TEST(test_interrupted);
+    RUN_TEST(test_outputs_that_end);
+    RUN_TEST(test_diverged);
+    RUN_TEST(test_strict);
+    RUN_TEST(test_files_that_cannot_be_written);
+}

@@ -1,0 +1,393 @@
+/* test_traces.c: what a run leaves for waveform viewers (host/run/traces.h): its unit of time, to whole numbers that the test
+ * counts; the names and words of its head, of drawn scenes; and moments of contacts that are known in closed form, to a unit. */
+#define _POSIX_C_SOURCE 200809L
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "blocks.h"
+#include "command.h"
+#include "derived.h"
+#include "host/base/room.h"
+#include "host/run/simulate.h"
+#include "host/run/traces.h"
+#include "unity.h"
+
+void suite_traces(void);
+
+enum { POWERS = 16, NAME = 60, VALUE = 40, CHANGES = 4000, SIGNALS = 60 };
+
+static dice die;
+
+/* --- the unit of time ------------------------------------------------------------------------------------------*/
+
+/* The coarsest power of ten of which every spacing is whole, and with contacts a step at least a thousand; else the finest
+ * that keeps the end below 2^52 and records apart. -1: none does. */
+static int wanted_power(uint64_t over, uint64_t under, uint64_t every, double until_s,
+                        bool contacts) {
+    int whole = -1;
+    int apart = -1;
+    long double units_per_s = 1.0L;
+    for (int k = 0; k < POWERS; k++) {
+        if ((long double)until_s * units_per_s >= 0x1p52L) {
+            break;
+        }
+        /* over * every * 10^k is a multiple of `under`: a factor of ten at a time, so that nothing runs over */
+        uint64_t rest = (over % under) * (every % under) % under;
+        for (int i = 0; i < k; i++) {
+            rest = rest * 10 % under;
+        }
+        const long double step = (long double)over * units_per_s; /* times `under` */
+        if (rest == 0) {
+            if (!contacts || step >= 1000.0L * (long double)under) {
+                return k;
+            }
+            whole = k;
+        }
+        apart = step * (long double)every >= (long double)under ? k : apart;
+        units_per_s *= 10.0L;
+    }
+    return whole >= 0 ? whole : apart;
+}
+
+static void test_units(void) {
+    static const uint64_t unders[] = {
+        1, 2, 3, 4, 5, 7, 8, 10, 20, 100, 1000, 3000, 44100, 100000, 1000000, 12500000, 100000000};
+    unsigned found[POWERS + 1] = {0};
+    for (unsigned c = 0; c < 5000U; c++) {
+        const uint64_t under = unders[dice_one_of(&die, sizeof unders / sizeof unders[0])];
+        const uint64_t over = 1 + dice_one_of(&die, c % 2U == 0 ? 3 : 1000);
+        const uint64_t every = 1 + dice_one_of(&die, c % 3U == 0 ? 1 : 60);
+        const bool contacts = dice_one_of(&die, 2) == 0;
+        const image im = {.step = {over, under},
+                          .contacts = contacts ? 1 : 0,
+                          .until_s = exp(dice_between(&die, -7.0, 43.0))};
+        int power = -2;
+        uint64_t a = over;
+        uint64_t b = under;
+        while (b != 0) { /* ratios are in lowest terms */
+            const uint64_t rest = a % b;
+            a = b;
+            b = rest;
+        }
+        image lowest = im;
+        lowest.step = (whole_ratio){over / a, under / a};
+        const bool is = traces_power(&lowest, every, &power);
+        const int wanted = wanted_power(over / a, under / a, every, im.until_s, contacts);
+        TEST_ASSERT_EQUAL_INT(wanted, power);
+        TEST_ASSERT_EQUAL(wanted >= 0, is);
+        found[wanted + 1]++;
+    }
+    for (int k = 0; k < POWERS - 4; k++) {
+        TEST_ASSERT_TRUE(found[k] > 0);
+    }
+}
+
+/* The end itself, at 2^52 units: none is left. */
+static void test_ends(void) {
+    for (int k = 0; k < POWERS; k++) {
+        double per_s = 1.0;
+        for (int i = 0; i < k; i++) {
+            per_s *= 10.0;
+        }
+        image im = {.step = {1, 3}, .until_s = 0x1p52 / per_s * (k > 0 ? 1.0 + 0x1p-50 : 1.0)};
+        int power = -2;
+        TEST_ASSERT_EQUAL(k > 1, traces_power(&im, 1, &power));
+        TEST_ASSERT_EQUAL_INT(k > 1 ? k - 1 : -1, power);
+        im.until_s = 0x1.ffp51 / per_s;
+        TEST_ASSERT_EQUAL(k > 0, traces_power(&im, 1, &power));
+        TEST_ASSERT_EQUAL_INT(k > 0 ? k : -1, power);
+    }
+}
+
+/* --- a dump, read back -----------------------------------------------------------------------------------------*/
+
+typedef struct told_change {
+    int64_t time;
+    int signal;
+    double value;
+} told_change;
+
+static struct {
+    char *head;
+    char name[SIGNALS][NAME];
+    int signals;
+    told_change change[CHANGES];
+    int changes;
+    int64_t end;
+} dump;
+
+/* Marks are one character: there are not so many signals. */
+static void read_dump(const char *path) {
+    char line[400];
+    char mark[SIGNALS] = {0};
+    size_t length = 0;
+    FILE *in = fopen(path, "rb");
+    TEST_ASSERT_NOT_NULL(in);
+    dump.signals = 0;
+    dump.changes = 0;
+    dump.end = -1;
+    FILE *head = room_text(&dump.head, &length);
+    while (fgets(line, sizeof line, in) != NULL && strstr(line, "$enddefinitions") == NULL) {
+        fputs(line, head);
+        if (strncmp(line, "$var ", 5) == 0) {
+            char kind[20];
+            char width[20];
+            char code[20];
+            TEST_ASSERT_TRUE(dump.signals < SIGNALS);
+            const char *at = said_word(said_word(line + 5, kind, sizeof kind), width, sizeof width);
+            at = said_word(said_word(at, code, sizeof code), dump.name[dump.signals], NAME);
+            TEST_ASSERT_EQUAL_STRING(" $end\n", at);
+            TEST_ASSERT_EQUAL_size_t(1, strlen(code));
+            mark[dump.signals++] = code[0];
+        }
+    }
+    room_text_end(head);
+    while (fgets(line, sizeof line, in) != NULL) {
+        if (line[0] == '#') {
+            dump.end = strtoll(line + 1, NULL, 10);
+            continue;
+        }
+        const char *code = line + strlen(line) - 2;
+        TEST_ASSERT_TRUE(dump.changes < CHANGES);
+        told_change *c = &dump.change[dump.changes++];
+        c->time = dump.end;
+        c->value = strtod(line[0] == 'r' ? line + 1 : (const char[]){line[0], '\0'}, NULL);
+        for (c->signal = 0; c->signal < dump.signals && mark[c->signal] != *code; c->signal++) {
+        }
+        TEST_ASSERT_TRUE(c->signal < dump.signals);
+    }
+    fclose(in);
+}
+
+static int signal_named(const char *name) {
+    for (int i = 0; i < dump.signals; i++) {
+        if (strcmp(dump.name[i], name) == 0) {
+            return i;
+        }
+    }
+    TEST_FAIL_MESSAGE(name);
+    return -1;
+}
+
+/* Its changes from the first on are at these times, to a unit, with these values. */
+static void expect_changes(const char *name, const double *time_s, const double *value, int count,
+                           double units_per_s) {
+    const int signal = signal_named(name);
+    int at = 0;
+    for (int i = 0; i < dump.changes; i++) {
+        if (dump.change[i].signal == signal) {
+            TEST_ASSERT_TRUE_MESSAGE(at < count, name);
+            TEST_ASSERT_TRUE_MESSAGE(
+                fabs((double)dump.change[i].time - time_s[at] * units_per_s) <= 1.0, name);
+            TEST_ASSERT_TRUE_MESSAGE(dump.change[i].value == value[at], name);
+            at++;
+        }
+    }
+    TEST_ASSERT_EQUAL_INT_MESSAGE(count, at, name);
+}
+
+static const char *in_head(const char *words) {
+    const char *at = strstr(dump.head, words);
+    TEST_ASSERT_NOT_NULL_MESSAGE(at, words);
+    TEST_ASSERT_NULL_MESSAGE(strstr(at + 1, words), words);
+    return at;
+}
+
+/* --- a body that falls, one that slides, one that passes, one that is held -----------------------------------------*/
+
+static void run_to(const char *path, const image *im, const engine_kind *kind, uint64_t every) {
+    const simulation_settings s = {.kind = kind, .every = every, .vcd = path, .quiet = true};
+    bool against;
+    errors_catch();
+    const simulation_result result = simulate(im, &s, &against);
+    const char *told = errors_caught();
+    TEST_ASSERT_EQUAL_INT_MESSAGE(SIMULATION_DONE, result, told);
+}
+
+typedef struct bodies {
+    double height_m;
+    double restitution;
+    double slides_mps;
+    double normal_N;
+    double passes_mps;
+    double holds_m;
+    double crosses_m;
+    double turns_radps;
+    unsigned step_ms;
+    uint64_t every;
+    bool titled;
+    bool inputs;
+} bodies;
+
+static bodies draw_bodies(unsigned c) {
+    const bodies b = {.height_m = dice_between(&die, 0.5, 0.7),
+                      .restitution = dice_between(&die, 0.5, 0.9),
+                      .slides_mps = dice_between(&die, 0.3, 0.5),
+                      .normal_N = dice_between(&die, 1.5, 3.0),
+                      .passes_mps = dice_between(&die, 1.0, 2.0),
+                      .holds_m = dice_between(&die, 0.1, 0.4),
+                      .crosses_m = dice_between(&die, 0.5, 0.9),
+                      .turns_radps = dice_between(&die, 2.0, 9.0),
+                      .step_ms = 1 + dice_one_of(&die, 10),
+                      .every = 1 + dice_one_of(&die, 30),
+                      .titled = c % 2U == 0,
+                      .inputs = c % 3U != 0};
+    return b;
+}
+
+static derived scene_of_bodies(const bodies *b) {
+    char text[1500];
+    snprintf(text, sizeof text,
+             "mechanism m\ncoordinate x [m] \"falls\"\ncoordinate y [mm] \"slides\"\n"
+             "coordinate z [m]\ncoordinate w [rad] \"is held\"\n%s"
+             "T = 1 [kg]*(x'^2 + y'^2 + z'^2)/2 + 1 [kg*m^2]*w'^2/2\nV = 10 [N]*x\n"
+             "output twice [m] = 2*z \"of z\"\noutput turns [deg] = w\n"
+             "stop z <= 90 [m] restitution 0.5\nstop x >= 0 [m] restitution %.9f\n"
+             "friction y static 0.5 kinetic 0.5 normal %.9f [N]\n"
+             "hold w while z < %.9f [m]\n"
+             "when z crosses %.9f [m] rising { set w' = %.9f [rad/s] }\n"
+             "scene s%s { start x = %.9f [m], y' = %.9f [m/s], z' = %.9f [m/s]\n"
+             "step %u [ms]; until 0.9 [s] }\n",
+             b->inputs ? "input u = 3 [kN] \"pulls\"\ninput v = 2\n" : "", b->restitution,
+             b->normal_N, b->holds_m, b->crosses_m, b->turns_radps, b->titled ? " \"a title\"" : "",
+             b->height_m, b->slides_mps, b->passes_mps, b->step_ms);
+    derived d = derived_scene(text, "s");
+    derived_expect(&d, text);
+    return d;
+}
+
+static void expect_head(const bodies *b) {
+    char stop[100];
+    snprintf(stop, sizeof stop,
+             " stop2_rests $end\n$comment stop x >= 0 [m] restitution %.9f $end\n", b->restitution);
+    static const char *const words[] = {" x $end\n$comment x [m]: falls $end\n",
+                                        " y_mm $end\n$comment y [mm]: slides $end\n",
+                                        " z $end\n$comment z [m] $end\n",
+                                        " w $end\n$comment w [rad]: is held $end\n",
+                                        " \\der(x) $end\n$comment der(x) [m/s] $end\n",
+                                        " \\der(y)_mm/s $end\n$comment der(y) [mm/s] $end\n",
+                                        " twice $end\n$comment twice [m]: of z $end\n",
+                                        " turns_deg $end\n$comment turns [deg] $end\n",
+                                        " stop1_rests $end\n$comment stop z <= 90 [m]",
+                                        " hold1_holds $end\n$comment hold w while z < ",
+                                        " friction1_sticks $end\n$comment friction y static 0.5",
+                                        " when1_above $end\n$comment when z crosses "};
+    for (size_t i = 0; i < sizeof words / sizeof words[0]; i++) {
+        in_head(words[i]);
+    }
+    in_head(stop);
+    in_head(b->titled ? "$comment s: a title, recorded by whirl run $end\n"
+                      : "$comment s, recorded by whirl run $end\n");
+    const char *contacts = in_head("$scope module contacts $end\n");
+    TEST_ASSERT_TRUE(in_head(" turns_deg $end") < contacts);
+    TEST_ASSERT_TRUE(contacts < in_head(" stop1_rests $end"));
+    if (b->inputs) {
+        const char *inputs = in_head("$scope module inputs $end\n");
+        TEST_ASSERT_TRUE(inputs < in_head(" u_kN $end\n$comment u [kN]: pulls $end\n"));
+        TEST_ASSERT_TRUE(inputs < contacts);
+        in_head(" v $end\n$comment v [1] $end\n");
+    } else {
+        TEST_ASSERT_NULL(strstr(dump.head, "module inputs"));
+    }
+    /* 4 coordinates and rates, 2 outputs, 5 contacts, 2 stops that are hit, a crossing; inputs */
+    TEST_ASSERT_EQUAL_INT(8 + 2 + 5 + 3 + (b->inputs ? 2 : 0), dump.signals);
+}
+
+/* Each record's value, as it is then: of what moves evenly. */
+static void expect_records(const bodies *b, double units_per_s) {
+    const int z = signal_named("z");
+    const double spacing_s = 1e-3 * b->step_ms * (double)b->every;
+    int rows = 0;
+    for (int i = 0; i < dump.changes; i++) {
+        const told_change *c = &dump.change[i];
+        const double time_s = (double)c->time / units_per_s;
+        if (c->signal == z) {
+            TEST_ASSERT_TRUE(fabs(time_s - spacing_s * rows) < 1e-9);
+            TEST_ASSERT_TRUE(fabs(c->value - b->passes_mps * time_s) < 1e-5);
+            rows++;
+        }
+    }
+    TEST_ASSERT_EQUAL_INT(1 + (int)(0.9 / spacing_s + 1e-9), rows);
+}
+
+static void test_moments(void) {
+    const long before = blocks_in_use();
+    for (unsigned c = 0; c < dice_cases(usual_or(12, 8)); c++) {
+        bodies b = draw_bodies(c);
+        while (900 % b.step_ms != 0) {
+            b.step_ms--;
+        }
+        derived d = scene_of_bodies(&b);
+        const engine_kind *kind = c % 4U < 3U ? &engine_double : &engine_float;
+        int power = -1;
+        TEST_ASSERT_TRUE(traces_power(d.image, b.every, &power));
+        char unit[60];
+        const double units_per_s = pow(10.0, power);
+        snprintf(unit, sizeof unit, "$timescale %d%s $end\n",
+                 power % 3 == 0   ? 1
+                 : power % 3 == 2 ? 10
+                                  : 100,
+                 (const char *const[]){"s", "ms", "us", "ns"}[(power + 2) / 3]);
+        char path[] = "/tmp/whirl-traces-XXXXXX";
+        const int file = mkstemp(path);
+        TEST_ASSERT_TRUE(file >= 0);
+        close(file);
+        run_to(path, d.image, kind, b.every);
+        read_dump(path);
+        (void)remove(path);
+        in_head(unit);
+        expect_head(&b);
+        expect_records(&b, units_per_s);
+
+        double hits_s[40];
+        double ones[40];
+        int hits = 0;
+        double next_s = sqrt(2.0 * b.height_m / 10.0);
+        double speed_mps = 10.0 * next_s;
+        for (; next_s < 0.9; hits++) {
+            hits_s[hits] = next_s;
+            ones[hits] = 1.0;
+            speed_mps *= b.restitution;
+            next_s += 2.0 * speed_mps / 10.0;
+            TEST_ASSERT_TRUE(hits < 39);
+        }
+        const double rests_s =
+            sqrt(2.0 * b.height_m / 10.0) * (1.0 + 2.0 * b.restitution / (1.0 - b.restitution));
+        const double sticks_s[] = {0.0, b.slides_mps / (0.5 * b.normal_N)};
+        const double holds_s[] = {0.0, b.holds_m / b.passes_mps};
+        const double above_s[] = {0.0, b.crosses_m / b.passes_mps};
+        static const double rises[] = {0.0, 1.0};
+        static const double falls[] = {1.0, 0.0};
+        const double off = kind == &engine_float ? 3e-6 : 0.0; /* s: of x, summed up in float */
+        if (off == 0.0 && rests_s > 0.95 && fabs(next_s - 0.9) > 1e-3 &&
+            (hits == 0 || fabs(hits_s[hits - 1] - 0.9) > 1e-3)) {
+            expect_changes("stop2_hit", hits_s, ones, hits, units_per_s);
+        }
+        if (off == 0.0) {
+            expect_changes("friction1_sticks", sticks_s, rises, 2, units_per_s);
+            expect_changes("hold1_holds", holds_s, falls, 2, units_per_s);
+            expect_changes("when1_above", above_s, rises, 2, units_per_s);
+            expect_changes("when1_crossed", &above_s[1], &rises[1], 1, units_per_s);
+        }
+        expect_changes("stop1_rests", sticks_s, rises, 1, units_per_s);
+        if (b.inputs) {
+            static const double at_start = 0.0;
+            expect_changes("u_kN", &at_start, (const double[]){3.0}, 1, units_per_s);
+            expect_changes("v", &at_start, (const double[]){2.0}, 1, units_per_s);
+        }
+        TEST_ASSERT_TRUE(fabs((double)dump.end - 0.9 * units_per_s) <= 1.0);
+        free(dump.head);
+        derived_free(&d);
+    }
+    TEST_ASSERT_TRUE(blocks_in_use() == before); /* all is given back */
+}
+
+void suite_traces(void) {
+    die = dice_of("traces", 64);
+    RUN_TEST(test_units);
+    RUN_TEST(test_ends);
+    RUN_TEST(test_moments);
+}
