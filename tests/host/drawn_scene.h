@@ -1,0 +1,69 @@
+/* drawn_scene.h: an image with all that is written of one, drawn: names, units, starts, contacts, books, tables and lists of
+ * operations. For what writes and describes images; nothing steps it, and its numbers mean nothing. */
+#ifndef TESTS_HOST_DRAWN_SCENE_H
+#define TESTS_HOST_DRAWN_SCENE_H
+
+#include "command.h"
+#include "host/image/image.h"
+
+enum {
+    SCENE_UNKNOWNS = 4,
+    SCENE_STATES = 12,
+    SCENE_FEW = 3, /* inputs, outputs, parameters, effects, tables */
+    SCENE_CONTACTS = 5,
+    SCENE_SETS = 4,
+    SCENE_ROWS = 6, /* of the books, what goes on while nothing happens */
+    SCENE_OPS = 260,
+    SCENE_RESULTS = 64,
+    SCENE_TERMS = 4,
+    SCENE_BITS = 5,
+    SCENE_LINES = 9
+};
+
+typedef struct scene_list {
+    op ops[SCENE_OPS];
+    int turns[SCENE_OPS][SCENE_UNKNOWNS];
+    double parts[SCENE_OPS][SCENE_UNKNOWNS];
+    int result[SCENE_RESULTS];
+    tape list;
+} scene_list;
+
+typedef struct drawn_scene {
+    image im;
+    image_effect effect[SCENE_FEW];
+    image_unknown unknown[SCENE_UNKNOWNS];
+    image_unit unit[SCENE_UNKNOWNS][4];
+    component angle[SCENE_UNKNOWNS];
+    component real[SCENE_STATES];
+    int place[SCENE_UNKNOWNS];
+    int from_momentum[SCENE_UNKNOWNS];
+    image_quantity input[SCENE_FEW];
+    image_quantity output[SCENE_FEW];
+    image_quantity parameter[SCENE_FEW];
+    double start_rad[SCENE_UNKNOWNS];
+    int64_t start_turns[SCENE_UNKNOWNS];
+    double start_real[SCENE_STATES];
+    image_range range[SCENE_STATES + SCENE_FEW];
+    image_contact contact[SCENE_CONTACTS];
+    int target[SCENE_SETS];
+    image_entry entry[SCENE_ROWS];
+    int account_of[1 + SCENE_UNKNOWNS];
+    int booked[SCENE_FEW];
+    double entries[SCENE_STATES * (SCENE_STATES + SCENE_FEW + 1)]; /* of a matrix */
+    double number[SCENE_FEW * SCENE_TERMS << SCENE_BITS];
+    double size[SCENE_FEW];
+    double off[SCENE_FEW];
+    bool odd[SCENE_FEW];
+    scene_list list[IMAGE_ROLES];
+} drawn_scene;
+
+/* Each of the kinds of scenes comes about: of first and of second order, with contacts, with books, of tables, as a matrix. */
+void drawn_scene_draw(drawn_scene *d, dice *die);
+
+/* The statements of the file that its places lie in: line `line`, from 1 on, without indentation and comment. */
+const char *drawn_scene_statement(int line);
+
+/* "theta''" of a component, in text[40]. */
+const char *drawn_scene_name(const drawn_scene *d, component c, char *text);
+
+#endif
