@@ -319,7 +319,26 @@ static void test_json_has_every_field(void) {
     }
 }
 
+/* JSON has no word for these. */
+static void test_what_is_no_number_is_null(void) {
+    static const double none[] = {(double)NAN, (double)INFINITY, -(double)INFINITY};
+    for (int i = 0; i < 3; i++) {
+        char why[100];
+        do {
+            drawn_scene_draw(&drawn, &die);
+        } while (drawn.im.parameters == 0);
+        drawn.parameter[0].value = none[i];
+        drawn.im.until_s = none[i];
+        json = derived_written(describe_json, &drawn.im);
+        TEST_ASSERT_TRUE_MESSAGE(json_is_valid(json, why), why);
+        expect_text("parameters/0/value", "null");
+        expect_text("until_s", "null");
+        free(json);
+    }
+}
+
 void suite_described_drawn(void) {
     die = dice_of("described_drawn", 4140);
     RUN_TEST(test_json_has_every_field);
+    RUN_TEST(test_what_is_no_number_is_null);
 }
