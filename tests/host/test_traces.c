@@ -297,7 +297,7 @@ static void expect_head(const bodies *b) {
 }
 
 /* Each record's value, as it is then: of what moves evenly. */
-static void expect_records(const bodies *b, double units_per_s) {
+static void expect_records(const bodies *b, double units_per_s, double off_m) {
     const int z = signal_named("z");
     const double spacing_s = 1e-3 * b->step_ms * (double)b->every;
     int rows = 0;
@@ -306,7 +306,7 @@ static void expect_records(const bodies *b, double units_per_s) {
         const double time_s = (double)c->time / units_per_s;
         if (c->signal == z) {
             TEST_ASSERT_TRUE(fabs(time_s - spacing_s * rows) < 1e-9);
-            TEST_ASSERT_TRUE(fabs(c->value - b->passes_mps * time_s) < 1e-5);
+            TEST_ASSERT_TRUE(fabs(c->value - b->passes_mps * time_s) < off_m);
             rows++;
         }
     }
@@ -340,7 +340,8 @@ static void test_moments(void) {
         (void)remove(path);
         in_head(unit);
         expect_head(&b);
-        expect_records(&b, units_per_s);
+        /* summed up in float: a rounding a step */
+        expect_records(&b, units_per_s, kind == &engine_float ? 900 * 0x1p-23 : 1e-9);
 
         double hits_s[40];
         double ones[40];
