@@ -1,11 +1,12 @@
 #!/bin/sh
 # faults.sh: `whirl pil --fault` and the campaign of faults: every kind is taken, what is none is refused with a hint, a
 # small campaign is the same on one process and on two, finds nothing wrong, and a run of it can be repeated by its command.
-# WHIRL_FULL: a larger one, and one in the emulator.
+# WHIRL_FULL: a larger one, and one in the emulator. WHIRL_FEW (sanitizers): a smaller one.
 . "$(dirname "$0")/../checks.sh"
 
 build=$(dirname "$whirl")
 runs=45
+[ -z "${WHIRL_FEW:-}" ] || runs=12
 [ -z "${WHIRL_FULL:-}" ] || runs=120
 rig="docs/plants/rig.whirl --step 200us --firmware $build/pil_rig"
 
@@ -83,6 +84,7 @@ verdict $? "and one that was pressed before it armed is not forgotten" "$scratch
 # --- stopped, and reset ---------------------------------------------------------------------------------------------------
 # Of each class some, at drawn instants: off at once, idle or tripped as before, and nothing starts by itself.
 few=8
+[ -z "${WHIRL_FEW:-}" ] || few=2
 [ -z "${WHIRL_FULL:-}" ] || few=30
 for only in stop reset reset-tripped hang-resets; do
     timeout 300 "$build/tools/faults" --firmware "$build/pil_rig" --only $only --runs $few --seed 9 >"$scratch/halts" 2>"$scratch/err" &&
@@ -101,8 +103,10 @@ if [ -n "${WHIRL_FULL:-}" ]; then
     cmp -s "$scratch/campaign.1" "$scratch/campaign.2"
     verdict $? "the same on one process as on two"
 fi
-[ "$(grep -c '^| none |' "$scratch/campaign.2")" -eq 2 ]
-verdict $? "healthy runs are among them" "$scratch/campaign.2"
+if [ -z "${WHIRL_FEW:-}" ]; then
+    [ "$(grep -c '^| none |' "$scratch/campaign.2")" -eq 2 ]
+    verdict $? "healthy runs are among them" "$scratch/campaign.2"
+fi
 m4=build/mps2-an386/pil_rig.elf
 if [ -n "${WHIRL_FULL:-}" ] && command -v qemu-system-arm >/dev/null 2>&1 && [ -f "$m4" ]; then
     timeout 300 "$faults" --firmware "$m4" --runs 60 --seed 7 >"$scratch/campaign" 2>"$scratch/err"

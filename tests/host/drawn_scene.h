@@ -57,6 +57,19 @@ typedef struct drawn_scene {
     scene_list list[IMAGE_ROLES];
 } drawn_scene;
 
+/* What operations a list may have. */
+enum {
+    TAKES_RATES = 1,   /* those of every list of second order */
+    TAKES_RECORDS = 2, /* angles themselves, turns included */
+    TAKES_STATE = 4,   /* time and noise */
+    TAKES_ACCEL = 8,
+    TAKES_TABLES = 16,
+    TAKES_SUMS = 32 /* and nothing but these, of states and inputs */
+};
+
+/* Of `results`, and so long that it is once in a while just as long as lists are that are written in another way. */
+void drawn_scene_list(drawn_scene *d, dice *die, image_role role, int results, unsigned takes);
+
 /* Each of the kinds of scenes comes about: of first and of second order, with contacts, with books, of tables, as a matrix. */
 void drawn_scene_draw(drawn_scene *d, dice *die);
 
@@ -65,5 +78,16 @@ const char *drawn_scene_statement(int line);
 
 /* "theta''" of a component, in text[40]. */
 const char *drawn_scene_name(const drawn_scene *d, component c, char *text);
+
+/* Words of lists, by role. */
+extern const char *const drawn_scene_roles[IMAGE_ROLES];
+
+/* Numbers in the memory of its state beside angles: what moves, is carried, given, held and booked. */
+int drawn_scene_numbers(const image *im);
+/* Bytes of that memory without contacts, where a number has so many and an angle eight. */
+size_t drawn_scene_bytes(const image *im, size_t number);
+/* The most that a step evaluates: accelerations or slopes, and contacts' signals. */
+int drawn_scene_evaluations(const image *im);
+int drawn_scene_signals(const image *im);
 
 #endif

@@ -266,6 +266,9 @@ static void check_linkage(const image *im) {
         expect_linkage("contact_signals", "static inline", im->list[IMAGE_SIGNALS]);
         expect_linkage("contact_forces", "static inline", im->list[IMAGE_FORCES]);
     }
+    if (im->set_count > 0) {
+        expect_linkage("contact_sets", "static inline", im->list[IMAGE_SETS]);
+    }
     if (im->ledger.kept && !im->ledger.turned) {
         expect_linkage("ledger_powers", "static inline", im->list[IMAGE_POWERS]);
     }
