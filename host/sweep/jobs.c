@@ -134,6 +134,11 @@ static bool start(pool *p) {
     while (p->started < p->jobs->workers && start_worker(p, tickets[0])) {
     }
     close(tickets[0]);
+    if (p->started == 0) {
+        const int why = errno;
+        close(p->tickets);
+        errno = why;
+    }
     return p->started > 0;
 }
 

@@ -87,7 +87,7 @@ static int lines_in(const char *text) {
 static const char steady[] =
     "mechanism m\ncoordinate x [mm]\ncoordinate a [deg]\nT = 1 [kg]*x'^2/2 + 1 [kg*m^2]*a'^2/2\n"
     "output twice [m] = 2*x\noutput far [km] = 1000*x\n"
-    "scene s { start x = %.9f [m], x' = %.9f [m/s], a' = %.9f [rad/s]; step 1 [ms]; until 1 [s] }\n";
+    "scene s { start x = %.17g [m], x' = %.17g [m/s], a' = %.17g [rad/s]; step 1 [ms]; until 1 [s] }\n";
 
 /* Of what moves evenly each number of each row is known. Read as the two forms separate them. */
 static void expect_rows(const char *text, const char *header, const char *between, const char *end,

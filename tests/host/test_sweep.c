@@ -1,4 +1,4 @@
-/* test_sweep.c: the parts of `whirl sweep`: grids, measures, workers. Files and whole sweeps are
+/* test_sweep.c: the parts of `whirl sweep`: grids, measures. Workers are test_jobs.c's; files and whole sweeps are
  * tested by tests/cli/sweep.sh. */
 #define _POSIX_C_SOURCE 200809L
 
@@ -6,11 +6,9 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 #include "command.h"
 #include "host/sweep/grid.h"
-#include "host/sweep/jobs.h"
 #include "host/sweep/measures.h"
 #include "unity.h"
 
@@ -259,6 +257,37 @@ static void test_measures_are_read(void) {
     }
 }
 
+/* A measure inside of another expression is told where it stands, and nowhere else; names that only begin so are names. */
+static void test_measures_inside_are_told(void) {
+    static const char *const words[] = {"amplitude", "mean", "period"};
+    static const char *const before[] = {"2*", "theta + ", "1/(3*", "sin(2) - ", "theta*mean_2 + "};
+    for (unsigned c = 0; c < 15U; c++) {
+        char text[100];
+        char wanted[200];
+        const char *word = words[c % 3U];
+        char *told = NULL;
+        size_t length = 0;
+        snprintf(text, sizeof text, "%s%s%s(theta)%s", before[c / 3U], word, c % 2U == 0 ? "" : " ",
+                 c / 3U == 2 ? ")" : "");
+        const char *const list[] = {text};
+        open_sample();
+        TEST_ASSERT_NULL(measures_new(parsed->mechanisms[0], list, 1, heard));
+        FILE *out = open_memstream(&told, &length);
+        TEST_ASSERT_NOT_NULL(out);
+        diags_flush(heard, out);
+        fclose(out);
+        snprintf(wanted, sizeof wanted,
+                 "<measure>:1:%d: error: %s() must stand around the whole measure\n",
+                 (int)strlen(before[c / 3U]) + 1, word);
+        TEST_ASSERT_EQUAL_STRING_LEN(wanted, told, strlen(wanted));
+        TEST_ASSERT_NULL_MESSAGE(strstr(told + strlen(wanted), "error:"), told);
+        TEST_ASSERT_NOT_NULL(
+            strstr(told, "hint: take it as it is, and reckon with the column afterwards\n"));
+        free(told);
+        close_sample();
+    }
+}
+
 static void test_default_measures_are_the_columns_of_run(void) {
     static const char *const wanted[] = {"theta", "der(theta)", "height"};
     open_sample();
@@ -273,119 +302,6 @@ static void test_default_measures_are_the_columns_of_run(void) {
     close_sample();
 }
 
-/* --- workers -----------------------------------------------------------------------------------*/
-
-enum { FIRST = 5, END = 205, ENOUGH = 40 };
-
-typedef struct log_of_rows {
-    uint64_t next;
-    bool in_order;
-    bool as_worked;
-    uint64_t failed;
-    uint64_t limit; /* refuse the row behind */
-} log_of_rows;
-
-/* Point p sleeps the longer the lower p % 8 is, so that they end out of order; its row has up to
- * 200 kB, more than a pipe holds. */
-static bool slow_work(void *context, uint64_t point, FILE *row, FILE *reason) {
-    (void)context;
-    const struct timespec nap = {0, (long)(7 - point % 8) * 300000};
-    nanosleep(&nap, NULL);
-    for (uint64_t i = 0; i < (point % 50 == 0 ? 20000U : 1U); i++) {
-        fprintf(row, "%10llu", (unsigned long long)point);
-    }
-    if (point % 10 == 3) {
-        fprintf(reason, "bad %llu", (unsigned long long)point);
-    }
-    return point % 10 != 3;
-}
-
-/* One of forty takes so long that the others do all that may be done before it is delivered. */
-static bool held_up_work(void *context, uint64_t point, FILE *row, FILE *reason) {
-    const struct timespec nap = {0, 30000000L};
-    if (point % 40 == 7) {
-        nanosleep(&nap, NULL);
-    }
-    (void)context;
-    for (uint64_t i = 0; i < (point % 50 == 0 ? 20000U : 1U); i++) {
-        fprintf(row, "%10llu", (unsigned long long)point);
-    }
-    (void)reason;
-    return true;
-}
-
-static bool note(void *context, uint64_t point, bool good, const char *row, const char *reason) {
-    log_of_rows *log = context;
-    char wanted[40];
-    snprintf(wanted, sizeof wanted, "%10llu", (unsigned long long)point);
-    log->in_order = log->in_order && point == log->next;
-    log->as_worked = log->as_worked && strncmp(row, wanted, 10) == 0 &&
-                     strlen(row) == (point % 50 == 0 ? 200000U : 10U);
-    snprintf(wanted, sizeof wanted, "bad %llu", (unsigned long long)point);
-    log->as_worked = log->as_worked && strcmp(reason, good ? "" : wanted) == 0;
-    log->failed += good ? 0 : 1;
-    log->next++;
-    return log->next < log->limit;
-}
-
-static bool go_on(void *context, uint64_t next) {
-    const log_of_rows *log = context;
-    return next == log->next;
-}
-
-/* The result of the rows from FIRST to END; the log begins empty and refuses all after `limit`. */
-static jobs_result run_rows(log_of_rows *log, uint64_t limit, int workers,
-                            bool (*work)(void *, uint64_t, FILE *, FILE *)) {
-    *log = (log_of_rows){.next = FIRST, .in_order = true, .as_worked = true, .limit = limit};
-    const jobs plan = {.workers = workers,
-                       .first = FIRST,
-                       .end = END,
-                       .context = log,
-                       .work = work,
-                       .deliver = note,
-                       .pause = go_on};
-    return jobs_run(&plan);
-}
-
-static void test_rows_come_in_order_from_any_number_of_workers(void) {
-    static const int workers[] = {1, 2, 3, 16};
-    for (size_t i = 0; i < sizeof workers / sizeof workers[0]; i++) {
-        log_of_rows log;
-        TEST_ASSERT_EQUAL_INT(JOBS_DONE, (int)run_rows(&log, END + 1, workers[i], slow_work));
-        TEST_ASSERT_TRUE(log.in_order);
-        TEST_ASSERT_TRUE(log.as_worked);
-        TEST_ASSERT_TRUE(log.next == END);
-        TEST_ASSERT_TRUE(log.failed == (END - FIRST) / 10);
-    }
-}
-
-static void test_rows_wait_for_the_one_before_them(void) {
-    for (int workers = 2; workers <= 5; workers++) {
-        log_of_rows log;
-        TEST_ASSERT_EQUAL_INT(JOBS_DONE, (int)run_rows(&log, END + 1, workers, held_up_work));
-        TEST_ASSERT_TRUE(log.in_order && log.as_worked && log.next == END && log.failed == 0);
-    }
-}
-
-static void test_refused_rows_end_it(void) {
-    log_of_rows log;
-    TEST_ASSERT_EQUAL_INT(JOBS_REFUSED, (int)run_rows(&log, ENOUGH, 3, slow_work));
-    TEST_ASSERT_TRUE(log.next == ENOUGH);
-}
-
-static bool die_at_20(void *context, uint64_t point, FILE *row, FILE *reason) {
-    if (point == 20) {
-        raise(SIGKILL);
-    }
-    return slow_work(context, point, row, reason);
-}
-
-static void test_a_lost_worker_is_noticed(void) {
-    log_of_rows log;
-    TEST_ASSERT_EQUAL_INT(JOBS_WORKER_LOST, (int)run_rows(&log, END + 1, 2, die_at_20));
-    TEST_ASSERT_TRUE(log.in_order && log.next <= 20);
-}
-
 void suite_sweep(void) {
     RUN_TEST(test_last_axis_runs_fastest);
     RUN_TEST(test_grids_have_an_end);
@@ -397,9 +313,6 @@ void suite_sweep(void) {
     RUN_TEST(test_series_without_a_value);
     RUN_TEST(test_mean_is_over_time);
     RUN_TEST(test_measures_are_read);
+    RUN_TEST(test_measures_inside_are_told);
     RUN_TEST(test_default_measures_are_the_columns_of_run);
-    RUN_TEST(test_rows_come_in_order_from_any_number_of_workers);
-    RUN_TEST(test_rows_wait_for_the_one_before_them);
-    RUN_TEST(test_refused_rows_end_it);
-    RUN_TEST(test_a_lost_worker_is_noticed);
 }

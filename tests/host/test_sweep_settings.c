@@ -63,7 +63,8 @@ static void test_headers(void) {
 static const char settings_text[] =
     "mechanism m\ncoordinate x [m]\ncoordinate a [rad]\nparameter m = 2 [kg]\ninput u = 3 [N]\n"
     "T = m*x'^2/2 + 1 [kg*m^2]*a'^2/2\nQ(x) = u\neffect drag \"d\" { parameter b = 4 [N*s/m]; "
-    "F += b*x'^2/2 }\nscene s { step 1 [ms]; until 3 [s] }\n";
+    "F += b*x'^2/2 }\n"
+    "effect tug { F += 1 [N*s/m]*x'^2 }\nscene s { step 1 [ms]; until 3 [s] }\n";
 
 /* Every setting that decides the rows stands there as it is, to the last digit. */
 static void test_settings(void) {
@@ -117,6 +118,7 @@ static void test_settings(void) {
         fprintf(out, "step: %.17g s\nuntil: %.17g s\nmeasured from: %.17g s\n", base->step_s,
                 base->until_s, m.sweep.from_s);
         fprintf(out, "effect drag: %s\n", base->with[0] ? "with" : "without");
+        fprintf(out, "effect tug: without\n");
         fprintf(out, "set m: %.17g\nset b: 4\nset u: %.17g\n", base->parameter[0], base->input[0]);
         fprintf(out, "start x (0 primes): %.17g\nstart x (1 primes): 0\n", base->start[0][0]);
         fprintf(out, "start a (0 primes): 0\nstart a (1 primes): %.17g\n", base->start[1][1]);

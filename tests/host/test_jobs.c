@@ -1,0 +1,191 @@
+/* test_jobs.c: the workers of a sweep (host/sweep/jobs.h): rows in order from any number of them, whichever ends first; one that is
+ * lost, rows that are refused, and few files that may be open. */
+#define _POSIX_C_SOURCE 200809L
+
+#include <stdlib.h>
+#include <string.h>
+#include <sys/resource.h>
+#include <time.h>
+#include <unistd.h>
+
+#include "blocks.h"
+#include "command.h"
+#include "host/sweep/jobs.h"
+#include "unity.h"
+
+void suite_jobs(void);
+
+enum { FIRST = 5, END = 205, ENOUGH = 40 };
+
+typedef struct log_of_rows {
+    uint64_t next;
+    bool in_order;
+    bool as_worked;
+    uint64_t failed;
+    uint64_t limit; /* refuse the row behind */
+} log_of_rows;
+
+/* Point p sleeps the longer the lower p % 8 is, so that they end out of order; its row has up to
+ * 200 kB, more than a pipe holds. */
+static bool slow_work(void *context, uint64_t point, FILE *row, FILE *reason) {
+    (void)context;
+    const struct timespec nap = {0, (long)(7 - point % 8) * 300000};
+    nanosleep(&nap, NULL);
+    for (uint64_t i = 0; i < (point % 50 == 0 ? 20000U : 1U); i++) {
+        fprintf(row, "%10llu", (unsigned long long)point);
+    }
+    if (point % 10 == 3) {
+        fprintf(reason, "bad %llu", (unsigned long long)point);
+    }
+    return point % 10 != 3;
+}
+
+/* One of forty takes so long that the others do all that may be done before it is delivered. */
+static bool held_up_work(void *context, uint64_t point, FILE *row, FILE *reason) {
+    const struct timespec nap = {0, 30000000L};
+    if (point % 40 == 7) {
+        nanosleep(&nap, NULL);
+    }
+    (void)context;
+    for (uint64_t i = 0; i < (point % 50 == 0 ? 20000U : 1U); i++) {
+        fprintf(row, "%10llu", (unsigned long long)point);
+    }
+    (void)reason;
+    return true;
+}
+
+static bool note(void *context, uint64_t point, bool good, const char *row, const char *reason) {
+    log_of_rows *log = context;
+    char wanted[40];
+    snprintf(wanted, sizeof wanted, "%10llu", (unsigned long long)point);
+    log->in_order = log->in_order && point == log->next;
+    log->as_worked = log->as_worked && strncmp(row, wanted, 10) == 0 &&
+                     strlen(row) == (point % 50 == 0 ? 200000U : 10U);
+    snprintf(wanted, sizeof wanted, "bad %llu", (unsigned long long)point);
+    log->as_worked = log->as_worked && strcmp(reason, good ? "" : wanted) == 0;
+    log->failed += good ? 0 : 1;
+    log->next++;
+    return log->next < log->limit;
+}
+
+static bool go_on(void *context, uint64_t next) {
+    const log_of_rows *log = context;
+    return next == log->next;
+}
+
+/* The result of the rows from FIRST to END; the log begins empty and refuses all after `limit`. */
+static jobs_result run_rows(log_of_rows *log, uint64_t limit, int workers,
+                            bool (*work)(void *, uint64_t, FILE *, FILE *)) {
+    *log = (log_of_rows){.next = FIRST, .in_order = true, .as_worked = true, .limit = limit};
+    const jobs plan = {.workers = workers,
+                       .first = FIRST,
+                       .end = END,
+                       .context = log,
+                       .work = work,
+                       .deliver = note,
+                       .pause = go_on};
+    return jobs_run(&plan);
+}
+
+static void test_rows_come_in_order_from_any_number_of_workers(void) {
+    static const int workers[] = {1, 2, 3, 16};
+    for (size_t i = 0; i < sizeof workers / sizeof workers[0]; i++) {
+        log_of_rows log;
+        TEST_ASSERT_EQUAL_INT(JOBS_DONE, (int)run_rows(&log, END + 1, workers[i], slow_work));
+        TEST_ASSERT_TRUE(log.in_order);
+        TEST_ASSERT_TRUE(log.as_worked);
+        TEST_ASSERT_TRUE(log.next == END);
+        TEST_ASSERT_TRUE(log.failed == (END - FIRST) / 10);
+    }
+}
+
+static void test_rows_wait_for_the_one_before_them(void) {
+    for (int workers = 2; workers <= 5; workers++) {
+        log_of_rows log;
+        TEST_ASSERT_EQUAL_INT(JOBS_DONE, (int)run_rows(&log, END + 1, workers, held_up_work));
+        TEST_ASSERT_TRUE(log.in_order && log.as_worked && log.next == END && log.failed == 0);
+    }
+}
+
+static void test_refused_rows_end_it(void) {
+    log_of_rows log;
+    TEST_ASSERT_EQUAL_INT(JOBS_REFUSED, (int)run_rows(&log, ENOUGH, 3, slow_work));
+    TEST_ASSERT_TRUE(log.next == ENOUGH);
+}
+
+static bool die_at_20(void *context, uint64_t point, FILE *row, FILE *reason) {
+    if (point == 20) {
+        raise(SIGKILL);
+    }
+    return slow_work(context, point, row, reason);
+}
+
+static void test_a_lost_worker_is_noticed(void) {
+    log_of_rows log;
+    TEST_ASSERT_EQUAL_INT(JOBS_WORKER_LOST, (int)run_rows(&log, END + 1, 2, die_at_20));
+    TEST_ASSERT_TRUE(log.in_order && log.next <= 20);
+}
+
+static int open_files(void) {
+    int count = 0;
+    for (int i = 0; i < 200; i++) {
+        const int copy = dup(i);
+        count += copy >= 0 ? 1 : 0;
+        if (copy >= 0) {
+            close(copy);
+        }
+    }
+    return count;
+}
+
+static bool quick_work(void *context, uint64_t point, FILE *row, FILE *reason) {
+    (void)context;
+    for (uint64_t i = 0; i < (point % 50 == 0 ? 20000U : 1U); i++) {
+        fprintf(row, "%10llu", (unsigned long long)point);
+    }
+    if (point % 10 == 3) {
+        fprintf(reason, "bad %llu", (unsigned long long)point);
+    }
+    return point % 10 != 3;
+}
+
+/* However few files may be open: as many workers as there is room for do it all, or none can, which is said. No file and no
+ * block is left over. */
+static void test_few_files(void) {
+    struct rlimit usual;
+    int done = 0;
+    const int before = open_files();
+    const long blocks = blocks_in_use();
+    TEST_ASSERT_EQUAL_INT(0, getrlimit(RLIMIT_NOFILE, &usual));
+    for (int more = 0; more < 14; more++) {
+        log_of_rows log;
+        struct rlimit few = usual;
+        errors_catch();
+        few.rlim_cur = (rlim_t)(open_files() + more);
+        TEST_ASSERT_EQUAL_INT(0, setrlimit(RLIMIT_NOFILE, &few));
+        const jobs_result result = run_rows(&log, END + 1, 5, quick_work);
+        TEST_ASSERT_EQUAL_INT(0, setrlimit(RLIMIT_NOFILE, &usual));
+        const char *told = errors_caught();
+        if (result == JOBS_DONE) {
+            TEST_ASSERT_EQUAL_STRING("", told);
+            TEST_ASSERT_TRUE(log.in_order && log.as_worked && log.next == END);
+            done++;
+        } else {
+            TEST_ASSERT_EQUAL_INT(JOBS_WORKER_LOST, (int)result);
+            TEST_ASSERT_EQUAL_STRING(
+                "whirl sweep: error: no worker could be started: Too many open files\n", told);
+            TEST_ASSERT_TRUE(more < 4 && log.next == FIRST);
+        }
+        TEST_ASSERT_EQUAL_INT(before, open_files());
+    }
+    TEST_ASSERT_TRUE(done >= 10 && done < 14);
+    TEST_ASSERT_TRUE(blocks_in_use() == blocks);
+}
+
+void suite_jobs(void) {
+    RUN_TEST(test_rows_come_in_order_from_any_number_of_workers);
+    RUN_TEST(test_rows_wait_for_the_one_before_them);
+    RUN_TEST(test_refused_rows_end_it);
+    RUN_TEST(test_a_lost_worker_is_noticed);
+    RUN_TEST(test_few_files);
+}
