@@ -135,7 +135,10 @@ static int enter(tape *t, op o) {
 }
 
 int tape_find_binary(const tape *t, op_code code, int a, int b) {
-    const bool swapped = (code == OP_ADD || code == OP_MUL) && a > b;
+    /* a product's constant stands first, whatever its number */
+    const bool fixed_a = code == OP_MUL && t->ops[a].code == OP_CONSTANT;
+    const bool fixed_b = code == OP_MUL && t->ops[b].code == OP_CONSTANT;
+    const bool swapped = fixed_a != fixed_b ? fixed_b : (code == OP_ADD || code == OP_MUL) && a > b;
     const op o = {
         .code = code, .function = FUNCTION_NONE, .a = swapped ? b : a, .b = swapped ? a : b};
     size_t at = (size_t)(tape_op_hash(t, &o) % (uint64_t)t->index_size);

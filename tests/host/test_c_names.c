@@ -132,6 +132,84 @@ static void names_to_come_are_refused(void) {
     }
 }
 
+/* All of <stdint.h> and <inttypes.h> by their parts; and what lacks one of these, or has one too many, is free. */
+static void names_of_integers_are_refused(void) {
+    static const char *const kinds[] = {"", "_least", "_fast"};
+    static const char *const kinds_of_macros[] = {"", "_LEAST", "_FAST"};
+    static const char *const of_formats[] = {"", "LEAST", "FAST"};
+    static const char *const tails[] = {"MAX", "MIN", "C", "WIDTH"};
+    char name[40];
+    for (int bits = 8; bits <= 64; bits *= 2) {
+        for (int kind = 0; kind < 3; kind++) {
+            for (int is_signed = 0; is_signed < 2; is_signed++) {
+                snprintf(name, sizeof name, "%sint%s%d_t", is_signed ? "" : "u", kinds[kind], bits);
+                TEST_ASSERT_FALSE_MESSAGE(emit_c_name_is_free(name), name);
+                name[strlen(name) - 2] = '\0';
+                TEST_ASSERT_TRUE_MESSAGE(emit_c_name_is_free(name), name);
+                for (int tail = 0; tail < 4; tail++) {
+                    snprintf(name, sizeof name, "x%sINT%s%d_%s", is_signed ? "" : "U",
+                             kinds_of_macros[kind], bits, tails[tail]);
+                    TEST_ASSERT_FALSE_MESSAGE(emit_c_name_is_free(name + 1), name);
+                    TEST_ASSERT_TRUE_MESSAGE(emit_c_name_is_free(name), name);
+                    name[strlen(name) - strlen(tails[tail])] = '\0';
+                    TEST_ASSERT_TRUE_MESSAGE(emit_c_name_is_free(name + 1), name);
+                }
+            }
+            for (const char *letter = "bBdiouxX"; *letter != '\0'; letter++) {
+                for (int scans = 0; scans < 2; scans++) {
+                    snprintf(name, sizeof name, "%s%c%s%d", scans ? "SCN" : "PRI", *letter,
+                             of_formats[kind], bits);
+                    TEST_ASSERT_FALSE_MESSAGE(emit_c_name_is_free(name), name);
+                    name[4] = '\0';
+                    TEST_ASSERT_TRUE_MESSAGE(emit_c_name_is_free(name), name);
+                    name[3] = '\0';
+                    TEST_ASSERT_TRUE_MESSAGE(emit_c_name_is_free(name), name);
+                    snprintf(name, sizeof name, "%s%c8", scans ? "SCN" : "PRI", *letter + 2);
+                    TEST_ASSERT_EQUAL_MESSAGE(strchr("bBdiouxX", *letter + 2) == NULL,
+                                              emit_c_name_is_free(name), name);
+                }
+            }
+        }
+    }
+    static const char *const refused_too[] = {"PRIdMAX", "SCNuPTR", "INTMAX_MAX", "UINTPTR_WIDTH"};
+    static const char *const free_too[] = {
+        "int_t",   "uint_t",        "interval_t", "int_fast_t", "PRIdx",   "PRIx_1", "SCNdA",
+        "x_8_MAX", "int_faster8_t", "u8_t",       "U8_C",       "PRINTER", "SCNE"};
+    for (size_t i = 0; i < sizeof refused_too / sizeof refused_too[0]; i++) {
+        TEST_ASSERT_FALSE_MESSAGE(emit_c_name_is_free(refused_too[i]), refused_too[i]);
+    }
+    for (size_t i = 0; i < sizeof free_too / sizeof free_too[0]; i++) {
+        TEST_ASSERT_TRUE_MESSAGE(emit_c_name_is_free(free_too[i]), free_too[i]);
+    }
+}
+
+/* A function for another type ends with that type's letters, and with nothing behind them but a few that may be _r. */
+static void variants_of_functions_are_refused(void) {
+    static const char *const of[] = {"sin", "lgamma", "exp10", "nextafter", "fmaximum_mag_num"};
+    static const char *const types[] = {"",     "f",    "l",     "f16",  "f32", "f64", "f128",
+                                        "f32x", "f64x", "f128x", "bf16", "d32", "d64", "d128"};
+    static const char *const others[] = {"g", "f8", "ff", "l_", "d", "f32y", "_x"};
+    char name[60];
+    for (size_t i = 0; i < sizeof of / sizeof of[0]; i++) {
+        for (size_t k = 0; k < sizeof types / sizeof types[0]; k++) {
+            snprintf(name, sizeof name, "%s%s", of[i], types[k]);
+            TEST_ASSERT_FALSE_MESSAGE(emit_c_name_is_free(name), name);
+            snprintf(name, sizeof name, "%s%s_r", of[i], types[k]);
+            TEST_ASSERT_FALSE_MESSAGE(emit_c_name_is_free(name), name);
+            snprintf(name, sizeof name, "a%s%s", of[i], types[k]);
+            TEST_ASSERT_EQUAL_MESSAGE(i > 0, emit_c_name_is_free(name), name); /* but for asin */
+        }
+        for (size_t k = 0; k < sizeof others / sizeof others[0]; k++) {
+            snprintf(name, sizeof name, "%s%s", of[i], others[k]);
+            TEST_ASSERT_TRUE_MESSAGE(emit_c_name_is_free(name), name);
+        }
+    }
+    for (size_t k = 1; k < sizeof types / sizeof types[0]; k++) { /* of nothing */
+        TEST_ASSERT_TRUE_MESSAGE(emit_c_name_is_free(types[k]), types[k]);
+    }
+    TEST_ASSERT_TRUE(emit_c_name_is_free("r"));
+}
+
 static void words_of_octave_are_refused(void) {
     static const char *const names[] = {
         "end", "endfunction", "function", "i",     "j",   "e",         "Inf",   "NaN",
@@ -146,5 +224,7 @@ void suite_c_names(void) {
     RUN_TEST(compilers_have_nothing_to_say_of_what_is_free);
     RUN_TEST(ordinary_names_are_free);
     RUN_TEST(names_to_come_are_refused);
+    RUN_TEST(names_of_integers_are_refused);
+    RUN_TEST(variants_of_functions_are_refused);
     RUN_TEST(words_of_octave_are_refused);
 }
