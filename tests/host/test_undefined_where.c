@@ -41,7 +41,7 @@ static derived scene_of(const char *text) {
 
 /* Around what is no number: '@' stands for it. Each is none where that is none, and so is none of its own. */
 static const char *const around[] = {
-    "-(@)",  "2*(@)",  "(@)*x/u",    "1 + (@)",         "(@) - 3",  "(@)/2",       "1/(@ + 1)",
+    "-(@)",  "2*(@)",  "(@)*x/u",    "1 + (@)",         "(@) - 3",  "(@)/2",       "1/((@)^2 + 1)",
     "(@)^2", "abs(@)", "cos(@ - 1)", "max(1, 2 - (@))", "e0 + (@)", "min(@, 0.5)", "3 - x/u - (@)"};
 static const char *const parts[] = {"log(x/u)", "sqrt(x/u)", "sqrt(9 + log(x/u))", "(x/u)^0.5"};
 /* Of a power, it stands where its sign does. */
