@@ -1,0 +1,219 @@
+/* test_undefined_where.c: which expression is no number, and where it is looked for (host/run/undefined.h): the innermost part of
+ * drawn formulas, by its column; the places on a step's way at which is looked; and the angle whose sine is not known. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "blocks.h"
+#include "command.h"
+#include "derived.h"
+#include "host/base/room.h"
+#include "host/run/undefined.h"
+#include "unity.h"
+
+void suite_undefined_where(void);
+
+enum { FORMULA = 600 };
+
+static dice die;
+
+/* What is said of it, "" for nothing; to be freed. */
+static char *told_of(const undefined_at *at, bool (*ask)(const undefined_at *, diags *)) {
+    char *told = NULL;
+    size_t length = 0;
+    diags *errors = diags_new();
+    FILE *out = room_text(&told, &length);
+    const bool found = ask(at, errors);
+    diags_flush(errors, out);
+    room_text_end(out);
+    TEST_ASSERT_EQUAL(found, told[0] != '\0');
+    diags_free(errors);
+    return told;
+}
+
+static derived scene_of(const char *text) {
+    derived d = derived_scene(text, "s");
+    derived_expect(&d, text);
+    return d;
+}
+
+/* --- the innermost part --------------------------------------------------------------------------------------*/
+
+/* Around what is no number: '@' stands for it. Each is none where that is none, and so is none of its own. */
+static const char *const around[] = {
+    "-(@)",  "2*(@)",  "(@)*x/u",    "1 + (@)",         "(@) - 3",  "(@)/2",       "1/((@)^2 + 1)",
+    "(@)^2", "abs(@)", "cos(@ - 1)", "max(1, 2 - (@))", "e0 + (@)", "min(@, 0.5)", "3 - x/u - (@)"};
+static const char *const parts[] = {"log(x/u)", "sqrt(x/u)", "sqrt(9 + log(x/u))", "(x/u)^0.5"};
+/* Of a power, it stands where its sign does. */
+static const int inside[] = {0, 0, 9, 5};
+
+static void put_around(char *formula, int *column, const char *wrapper) {
+    char made[FORMULA];
+    const char *at = strchr(wrapper, '@');
+    TEST_ASSERT_TRUE(strlen(formula) + strlen(wrapper) < FORMULA);
+    snprintf(made, sizeof made, "%.*s%s%s", (int)(at - wrapper), wrapper, formula, at + 1);
+    *column += (int)(at - wrapper);
+    memcpy(formula, made, sizeof made);
+}
+
+static void test_the_innermost_part_is_named(void) {
+    const long before = blocks_in_use();
+    for (unsigned c = 0; c < dice_cases(usual_or(80, 20)); c++) {
+        char formula[FORMULA];
+        char text[FORMULA + 300];
+        char wanted[FORMULA + 200];
+        const unsigned part = dice_one_of(&die, sizeof parts / sizeof parts[0]);
+        int column = inside[part];
+        snprintf(formula, sizeof formula, "%s", parts[part]);
+        for (unsigned k = dice_one_of(&die, 6); k > 0; k--) {
+            put_around(formula, &column,
+                       around[dice_one_of(&die, sizeof around / sizeof around[0])]);
+        }
+        put_around(formula, &column, "V = 1 [J]*(@)");
+        snprintf(text, sizeof text,
+                 "mechanism m\ncoordinate x [m]\nparameter u = 1 [m]\nlet e0 = 2 + x/u\n"
+                 "T = 1 [kg]*x'^2/2\n%s\nscene s { start x = 1 [m]; step 1 [ms]; until 1 [s] }\n",
+                 formula);
+        derived d = scene_of(text);
+        const double real[] = {-dice_between(&die, 2.0, 4.0), dice_between(&die, -1.0, 1.0)};
+        const undefined_at at = {
+            .image = d.image, .real = real, .angle_rad = real, .when = "now and then"};
+        char *told = told_of(&at, undefined_term);
+        snprintf(wanted, sizeof wanted,
+                 "x.whirl:6:%d: error: now and then the stored energy is not a finite number: %s\n",
+                 column + 1, formula);
+        TEST_ASSERT_EQUAL_STRING_LEN(strchr(wanted, ':'), strchr(told, ':'),
+                                     strlen(strchr(wanted, ':')));
+        TEST_ASSERT_NOT_NULL(strstr(told, "hint: a root or logarithm of what is below zero, a "
+                                          "division by zero, or a number beyond all"));
+        free(told);
+        const double good[] = {1.1, 0.0};
+        undefined_at elsewhere = at;
+        elsewhere.real = good;
+        told = told_of(&elsewhere, undefined_term);
+        TEST_ASSERT_EQUAL_STRING("", told);
+        free(told);
+        derived_free(&d);
+    }
+    TEST_ASSERT_TRUE(blocks_in_use() == before);
+}
+
+/* --- on the way ------------------------------------------------------------------------------------------------*/
+
+/* A term that is none in a window of the way: it is found where one of the places lies in that, as far as is to be looked. */
+static void test_the_places_on_the_way(void) {
+    static const double shares[] = {0.0, 0.25, 0.5, 0.75, 1.0, 1.01, 1.5, 2.0};
+    for (unsigned c = 0; c < dice_cases(usual_or(150, 40)); c++) {
+        char text[700];
+        const bool right_at = c % 2U == 0;
+        const double share = shares[c / 2U % 8U];
+        const double from = right_at ? share - 0.004 : dice_between(&die, -0.2, 2.2);
+        const double to = from + (right_at ? 0.008 : dice_between(&die, 0.001, 0.3));
+        const double v = dice_between(&die, 0.5, 2.0);
+        const double x = dice_between(&die, -1.0, 1.0);
+        snprintf(text, sizeof text,
+                 "mechanism m\ncoordinate x [m]\nT = 1 [kg]*x'^2/2\n"
+                 "V = 1 [J]*sqrt((x/1 [m] - %.17g)*(x/1 [m] - %.17g))\n"
+                 "scene s { start x' = 1 [m/s]; step 0.1 [s]; until 1 [s] }\n",
+                 x + 0.1 * v * from, x + 0.1 * v * to);
+        derived d = scene_of(text);
+        const double real[] = {x, v};
+        for (int ahead = 0; ahead <= 4; ahead++) {
+            const undefined_at at = {.image = d.image,
+                                     .real = real,
+                                     .angle_rad = real,
+                                     .ahead_steps = 0.25 * ahead,
+                                     .when = "when"};
+            bool wanted = false;
+            for (int i = 0; i < 8; i++) {
+                wanted = wanted || (shares[i] > from && shares[i] < to &&
+                                    (i == 0 || shares[i] <= 0.5 * ahead));
+            }
+            char *told = told_of(&at, undefined_term);
+            TEST_ASSERT_EQUAL_MESSAGE(wanted, told[0] != '\0', text);
+            free(told);
+        }
+        derived_free(&d);
+    }
+}
+
+/* --- angles ----------------------------------------------------------------------------------------------------*/
+
+/* a, b and c turn: sines are taken of a and of b - 2 c; d is an angle that swings, e none. */
+static const char angles[] =
+    "mechanism m\ncoordinate a [rad]\ncoordinate b [rad]\ncoordinate c [rad]\ncoordinate d [rad]\n"
+    "coordinate e [m]\nT = 1 [kg*m^2]*(a'^2 + b'^2 + c'^2 + d'^2)/2 + 1 [kg]*e'^2/2\n"
+    "V = 1 [J]*cos(a) + 1 [J]*sin(b - 2*c) + 1 [J]*d^2 + 1 [N/m]*e^2\n"
+    "scene s { start a = 1; step 1 [ms]; until 1 [s] }\n";
+
+/* About the limit, a millionth of it below and above. */
+static double drawn_angle(double limit) {
+    static const double shares[] = {0.0, 0.5, 1.0 - 2e-6, 1.0 - 0.5e-6, 1.0, 1.0 + 0.5e-6, 1.7};
+    const double sign = dice_one_of(&die, 2) == 0 ? 1.0 : -1.0;
+    return sign * limit * shares[dice_one_of(&die, sizeof shares / sizeof shares[0])];
+}
+
+static void test_the_angle_that_is_too_far(void) {
+    derived d = scene_of(angles);
+    const image *im = d.image;
+    int named[6] = {0};
+    TEST_ASSERT_TRUE(im->angles == 3);
+    for (unsigned c = 0; c < dice_cases(usual_or(800, 200)); c++) {
+        const bool turns = c % 2U == 0;
+        const double limit = turns ? 1e9 : 5e8;
+        double value[5];
+        double angle_rad[3];
+        double real[8];
+        for (int i = 0; i < 5; i++) {
+            value[i] = dice_one_of(&die, 3) == 0 ? drawn_angle(limit) : dice_between(&die, -9, 9);
+        }
+        for (int i = 0; i < im->angles + im->reals; i++) {
+            const component at = image_component(im, i);
+            double *to = i < im->angles ? &angle_rad[i] : &real[i - im->angles];
+            *to = at.primes == 0 ? value[at.unknown] : drawn_angle(2e9); /* rates may be any */
+        }
+        const double phase = fmax(fabs(value[0]), fabs(value[1] - 2.0 * value[2]));
+        int worst = -1;
+        for (int i = 0; i < 4; i++) {
+            const bool counts = i < 3 ? !turns && phase >= limit * (1.0 - 1e-6)
+                                      : fabs(value[i]) >= limit * (1.0 - 1e-6);
+            if (counts && fabs(value[i]) > (worst < 0 ? 0.0 : fabs(value[worst]))) {
+                worst = i;
+            }
+        }
+        const undefined_at at = {.image = im,
+                                 .angle_rad = angle_rad,
+                                 .real = real,
+                                 .turns = turns,
+                                 .when = "at t = 3 s"};
+        char wanted[400] = "";
+        if (worst >= 0) {
+            snprintf(wanted, sizeof wanted,
+                     ":%d:12: error: at t = 3 s the angle '%c' is at %.9g rad: sine and cosine are "
+                     "known up to %g rad only\n",
+                     worst + 2, 'a' + worst, fabs(value[worst]), limit);
+        }
+        char *told = told_of(&at, undefined_angle);
+        TEST_ASSERT_EQUAL(worst >= 0, told[0] != '\0');
+        if (worst >= 0) {
+            TEST_ASSERT_EQUAL_STRING_LEN(wanted, strchr(told, ':'), strlen(wanted));
+            TEST_ASSERT_EQUAL(!turns, strstr(told, "or --number float, whose angles count turns as "
+                                                   "integers\n") != NULL);
+            TEST_ASSERT_NOT_NULL(strstr(told, "hint: start it within a turn: whole turns change "
+                                              "nothing in a sine"));
+        }
+        named[worst + 1]++;
+        free(told);
+    }
+    for (int i = 0; i < 5; i++) {
+        TEST_ASSERT_TRUE(named[i] > 0);
+    }
+    derived_free(&d);
+}
+
+void suite_undefined_where(void) {
+    die = dice_of("undefined_where", 69);
+    RUN_TEST(test_the_innermost_part_is_named);
+    RUN_TEST(test_the_places_on_the_way);
+    RUN_TEST(test_the_angle_that_is_too_far);
+}
