@@ -4,6 +4,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "blocks.h"
 #include "command.h"
 #include "evaluated.h"
 #include "host/image/tape_gauge.h"
@@ -302,6 +303,7 @@ static tape *some_list(void) {
 /* Multiplied by one it is the same list, and by what it may be multiplied by, or by anything, the same results: what does not
  * fit is made up for. */
 static void test_multiplied_lists_compute_the_same(void) {
+    const long blocks = blocks_in_use();
     for (unsigned c = 0; c < dice_cases(few_or_all(usual_or(60, 20), 400)); c++) {
         tape *t = some_list();
         double *times = calloc(3 * (size_t)t->count + 1, sizeof *times);
@@ -323,8 +325,10 @@ static void test_multiplied_lists_compute_the_same(void) {
         expect_free(t, &f, false);
         tape_freedoms_free(&f);
         free(times);
+        TEST_ASSERT_FALSE(tape_bias(t, t) < 0.0); /* or no number, where there is no telling */
         tape_free(t);
     }
+    TEST_ASSERT_TRUE(blocks_in_use() == blocks);
 }
 
 void suite_tape_freed(void) {
