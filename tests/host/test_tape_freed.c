@@ -118,6 +118,25 @@ static void test_errors_go_through_operations(void) {
     }
 }
 
+/* A sine of radians is off by what its slope makes of them. */
+static void test_errors_go_through_phases(void) {
+    for (int tries = 0; tries < 40; tries++) {
+        const double offset = dice_between(&die, 0.1, 1.4);
+        const double rad = decimal() / 10.0;
+        const double off = (double)(float)rad - rad;
+        const double angle = offset + rad;
+        const bool is_sine = tries % 2 == 0;
+        const double value = is_sine ? sin(angle) : cos(angle);
+        const double slope = is_sine ? cos(angle) : -sin(angle);
+        tape *t = tape_new(0, 1);
+        const int phase = tape_phase(t, NULL, offset, tape_constant(t, rad));
+        t->result[0] = tape_unary(t, is_sine ? OP_SIN : OP_COS, phase);
+        const double wanted = fabs(slope * off / value);
+        TEST_ASSERT_DOUBLE_WITHIN(1e-3 * wanted + 1e-13, wanted, tape_bias(t, t));
+        tape_free(t);
+    }
+}
+
 /* --- lists whose freedoms are known ------------------------------------------------------------------------------ */
 
 /* A sum of products with constants: it can be multiplied for nothing. `which` tells its leaves from those of others. */
@@ -335,6 +354,7 @@ void suite_tape_freed(void) {
     die = dice_of("tape_freed", 4190);
     RUN_TEST(test_a_constants_error_is_the_results);
     RUN_TEST(test_errors_go_through_operations);
+    RUN_TEST(test_errors_go_through_phases);
     RUN_TEST(test_a_quotient_has_one_freedom);
     RUN_TEST(test_few_raw_values_are_multiplied);
     RUN_TEST(test_multiplied_lists_compute_the_same);
