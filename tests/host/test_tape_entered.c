@@ -6,68 +6,19 @@
 #include <string.h>
 
 #include "command.h"
+#include "evaluated.h"
 #include "host/image/tape.h"
 #include "unity.h"
 
 void suite_tape_entered(void);
 
-enum { ANGLES = 2, LEAVES = 3, POOL = 400, ENTERED = 330, OPS_MOST = 2000 };
+enum { ANGLES = 2, LEAVES = 3, POOL = 400, ENTERED = 330 };
 
 static dice die;
 static tape *list;
 static int pool[POOL];
 static double meant[POOL];
 static int pooled;
-
-/* --- another evaluation -------------------------------------------------------------------------------------- */
-
-static double leaf_value(op_code code, int which) { return 0.6 + 0.3 * which + 0.11 * (int)code; }
-
-static double operation_value(const op *o, const double *v) {
-    const double a = op_rows[o->code].values > 0 ? v[o->a] : 0.0;
-    const double b = o->b >= 0 ? v[o->b] : 0.0;
-    double phase = o->value + b;
-    if (o->code == OP_PHASE) {
-        for (int k = 0; k < ANGLES; k++) {
-            phase += (o->turns != NULL ? o->turns[k] : 0) * leaf_value(OP_PHASE, k);
-            phase += (o->parts != NULL ? o->parts[k] : 0.0) * leaf_value(OP_PHASE, k);
-        }
-        return phase;
-    }
-    const op_kind kind = op_rows[o->code].kind;
-    if (kind == OP_IS_CONSTANT) {
-        return o->value;
-    }
-    if (kind == OP_IS_LEAF) {
-        return o->code == OP_NOISE ? o->value / 9.0 : leaf_value(o->code, o->a);
-    }
-    return o->code == OP_SIN    ? sin(a)
-           : o->code == OP_COS  ? cos(a)
-           : o->code == OP_ADD  ? a + b
-           : o->code == OP_SUB  ? a - b
-           : o->code == OP_MUL  ? a * b
-           : o->code == OP_DIV  ? a / b
-           : o->code == OP_NEG  ? -a
-           : o->code == OP_SQRT ? sqrt(a)
-           : o->code == OP_ABS  ? fabs(a)
-           : o->code == OP_SIGN ? (double)((a > 0.0) - (a < 0.0))
-           : o->code == OP_MIN  ? fmin(a, b)
-           : o->code == OP_MAX  ? fmax(a, b)
-           : o->code == OP_POW  ? pow(a, b)
-           : o->code == OP_CALL ? number_call(o->function, a, b)
-                                : (double)NAN;
-}
-
-static void evaluate(const tape *t, double *v) {
-    TEST_ASSERT_TRUE(t->count < OPS_MOST);
-    for (int i = 0; i < t->count; i++) {
-        int operand[2];
-        for (int k = tape_operands(&t->ops[i], operand); k > 0; k--) {
-            TEST_ASSERT_TRUE(operand[k - 1] >= 0 && operand[k - 1] < i);
-        }
-        v[i] = operation_value(&t->ops[i], v);
-    }
-}
 
 static void expect_near(double wanted, double got) {
     TEST_ASSERT_DOUBLE_WITHIN(1e-8 * (1e-3 + fabs(wanted)), wanted, got);
@@ -89,7 +40,7 @@ static int entered_leaf(double *value) {
         return tape_noise(list, (uint32_t)which);
     }
     const op_code code = codes[dice_one_of(&die, 6)];
-    *value = leaf_value(code, which);
+    *value = evaluated_leaf(code, which);
     return tape_leaf(list, code, which);
 }
 
@@ -101,7 +52,7 @@ static int entered_wave(int radians, double value, double *wave) {
         multiple[k] = dice_one_of(&die, 3) == 0   ? 0.0
                       : dice_one_of(&die, 2) == 0 ? dice_between(&die, -2.0, 2.0)
                                                   : (double)dice_one_of(&die, 5) - 2.0;
-        phase += multiple[k] * leaf_value(OP_PHASE, k);
+        phase += multiple[k] * evaluated_leaf(OP_PHASE, k);
     }
     phase += radians >= 0 ? value : 0.0;
     const int entered = tape_phase(list, multiple, offset, radians);
@@ -266,10 +217,10 @@ static void expect_found(void) {
 }
 
 static void test_entered_operations_come_to_what_was_asked(void) {
-    static double v[OPS_MOST];
+    static double v[EVALUATED_MOST];
     for (unsigned c = 0; c < dice_cases(few_or_all(usual_or(30, 8), 200)); c++) {
         enter_some();
-        evaluate(list, v);
+        evaluated(list, v);
         for (int i = 0; i < pooled; i++) {
             expect_near(meant[i], v[pool[i]]);
         }
@@ -319,9 +270,9 @@ static bool is_reciprocal(int i) {
 }
 
 static void test_what_no_result_needs_is_dropped(void) {
-    static double v[OPS_MOST];
+    static double v[EVALUATED_MOST];
     for (unsigned c = 0; c < dice_cases(few_or_all(usual_or(40, 10), 200)); c++) {
-        bool needed[OPS_MOST] = {false};
+        bool needed[EVALUATED_MOST] = {false};
         double wanted[4];
         enter_some();
         for (int i = 0; i < list->results; i++) {
@@ -330,7 +281,7 @@ static void test_what_no_result_needs_is_dropped(void) {
             wanted[i] = meant[p];
         }
         tape_prune(list);
-        evaluate(list, v);
+        evaluated(list, v);
         for (int i = 0; i < list->results; i++) {
             TEST_ASSERT_TRUE(list->result[i] >= 0 && list->result[i] < list->count);
             expect_near(wanted[i], v[list->result[i]]);
@@ -358,7 +309,7 @@ static int count_of(op_code code) {
 
 /* By squares: as many products as the exponent has binary digits, and ones among them, less two. */
 static void test_powers_take_few_products(void) {
-    static double v[OPS_MOST];
+    static double v[EVALUATED_MOST];
     for (int half = 1; half <= 160; half++) {
         for (int sign = 0; sign < 2; sign++) {
             const double e = half / 2.0;
@@ -372,7 +323,7 @@ static void test_powers_take_few_products(void) {
             list = tape_new(0, 1);
             const int x = tape_leaf(list, OP_LINEAR, 1);
             const int at = tape_power(list, x, sign == 0 ? e : -e);
-            evaluate(list, v);
+            evaluated(list, v);
             expect_near(pow(v[x], sign == 0 ? e : -e), v[at]);
             const bool plain = by_root || by_products;
             TEST_ASSERT_EQUAL_INT(plain ? products + (by_root && whole > 0) : 0, count_of(OP_MUL));

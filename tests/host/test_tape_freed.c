@@ -1,0 +1,337 @@
+/* test_tape_freed.c: the parts of what tape_gauge() does (host/image/tape_gauge.h), each by itself: what rounded constants make of
+ * results, to a closed form; lists whose freedoms are known by how they were built; and lists multiplied by whatever a freedom
+ * allows, which compute the same. */
+#include <math.h>
+#include <stdlib.h>
+
+#include "command.h"
+#include "evaluated.h"
+#include "host/image/tape_gauge.h"
+#include "unity.h"
+
+void suite_tape_freed(void);
+
+static dice die;
+
+/* A number of few digits, which float does not hold: from 0.1 to 10. */
+static double decimal(void) { return (double)(1 + dice_one_of(&die, 9990)) / 999.7; }
+
+/* --- what rounding makes of results --------------------------------------------------------------------------- */
+
+enum { RESULTS_MOST = 5, READ = 1, UNREAD_SHARE = 64 };
+
+/* Results are constants times leaves, so that each is as much off as its constant, whatever the state. What the list does
+ * not read again counts a 64th. */
+static void test_a_constants_error_is_the_results(void) {
+    for (unsigned c = 0; c < dice_cases(200); c++) {
+        const int angles = (int)dice_one_of(&die, 3);
+        const int results = 1 + (int)dice_one_of(&die, RESULTS_MOST);
+        tape *t = tape_new(angles, results);
+        double squares = 0.0;
+        double entries = 0.0;
+        bool read[RESULTS_MOST] = {false};
+        double off[RESULTS_MOST];
+        for (int i = 0; i < results; i++) {
+            const double number = decimal();
+            const int k = (int)dice_one_of(&die, RESULTS_MOST + 1);
+            const double one[2] = {k == 0 ? 1.0 : 0.0, k == 0 ? 0.0 : 1.0};
+            int leaf = -1;
+            int reads = -1;
+            switch (dice_one_of(&die, angles == 2 ? 4 : 3)) {
+            case 0: /* a rate of a result counts as reading it */
+                leaf = tape_leaf(t, OP_RATE, k);
+                reads = k;
+                break;
+            case 1:
+                leaf = tape_leaf(t, OP_LINEAR, k);
+                reads = angles + k;
+                break;
+            case 2: leaf = tape_leaf(t, OP_INPUT, k); break;
+            default:
+                leaf = tape_unary(t, OP_COS, tape_phase(t, one, 0.25, -1));
+                reads = k == 0 ? 0 : 1;
+                break;
+            }
+            t->result[i] = tape_mul(t, tape_constant(t, number), leaf);
+            off[i] = fabs((double)(float)number / number - 1.0);
+            if (reads >= 0 && reads < results) {
+                read[reads] = true;
+            }
+        }
+        const bool *is_read = read;
+        for (int i = 0; i < results; i++) {
+            /* of three sizes of rates: at rest, a rate is nothing that could be off */
+            const op *o = &t->ops[t->result[i]];
+            const bool of_rate =
+                o->code == OP_RATE || (o->code == OP_MUL && t->ops[o->b].code == OP_RATE);
+            const double weight = is_read[i] ? 1.0 : 1.0 / UNREAD_SHARE;
+            squares += (of_rate ? 2.0 : 3.0) * (weight * off[i]) * (weight * off[i]);
+            entries += (of_rate ? 2.0 : 3.0) * weight * weight;
+        }
+        const double wanted = sqrt(squares / entries);
+        TEST_ASSERT_DOUBLE_WITHIN(1e-6 * wanted + 1e-13, wanted, tape_bias(t, t));
+        tape_free(t);
+    }
+}
+
+/* Every operation, at a place where its value is one and the constant beside it is off: as much is the result. */
+static int made_of(tape *t, int x, unsigned what) {
+    const int two = tape_constant(t, 2.0);
+    switch (what) {
+    case 0: return tape_unary(t, OP_ABS, x);
+    case 1: return tape_unary(t, OP_SQRT, tape_mul(t, x, x));
+    case 2: return tape_sub(t, tape_mul(t, tape_constant(t, 3.0), x), tape_mul(t, two, x));
+    case 3: return tape_div(t, tape_mul(t, x, x), x);
+    case 4: return tape_call(t, FN_MIN, x, tape_mul(t, two, x));
+    case 5: return tape_call(t, FN_MAX, x, tape_mul(t, tape_constant(t, 0.5), x));
+    case 6: return tape_call(t, FN_LOG, tape_call(t, FN_EXP, x, -1), -1);
+    case 7: return tape_mul(t, x, tape_unary(t, OP_SIGN, x));
+    case 8: return tape_unary(t, OP_NEG, tape_unary(t, OP_NEG, x));
+    case 9:
+        return tape_add(t, tape_mul(t, tape_constant(t, 0.25), x),
+                        tape_mul(t, tape_constant(t, 0.75), x));
+    case 10: return tape_call(t, FN_ATAN, tape_call(t, FN_TAN, x, -1), -1);
+    default: return tape_pow(t, tape_pow(t, x, tape_constant(t, 0.3)), tape_constant(t, 1.0 / 0.3));
+    }
+}
+
+static void test_errors_go_through_operations(void) {
+    for (unsigned what = 0; what < 11; what++) {
+        for (int tries = 0; tries < 10; tries++) {
+            const double number =
+                decimal() / 10.0; /* times an input, from 1 to 3: no more than 3 */
+            const double off = fabs((double)(float)number / number - 1.0);
+            tape *t = tape_new(0, 1);
+            const int x = tape_mul(t, tape_constant(t, number), tape_leaf(t, OP_INPUT, tries));
+            t->result[0] = made_of(t, what == 10 ? tape_mul(t, tape_constant(t, 0.5), x) : x, what);
+            const double bias = tape_bias(t, t);
+            /* three and two times the number, each off by its half unit, stand for once it */
+            TEST_ASSERT_TRUE(bias <= 5.0 * 0x1p-24 && bias >= 0.0);
+            if (what != 2 && what != 9 && what != 4 && what != 5) {
+                const double wanted =
+                    what == 10 ? fabs((double)(float)(0.5 * number) / (0.5 * number) - 1.0) : off;
+                TEST_ASSERT_DOUBLE_WITHIN(1e-4 * wanted + 1e-13, wanted, bias);
+            }
+            tape_free(t);
+        }
+    }
+}
+
+/* --- lists whose freedoms are known ------------------------------------------------------------------------------ */
+
+/* A sum of products with constants: it can be multiplied for nothing. `which` tells its leaves from those of others. */
+static int free_sum(tape *t, int which) {
+    const int x = tape_leaf(t, OP_LINEAR, which);
+    const int y = tape_leaf(t, OP_RATE, which);
+    const int z = tape_mul(t, tape_constant(t, decimal()), tape_mul(t, x, y));
+    const int w = tape_mul(t, tape_constant(t, decimal()), tape_mul(t, y, y));
+    return tape_add(t, z, w);
+}
+
+/* That, and so many leaves as they are: multiplying it multiplies them. */
+static int raw_sum(tape *t, int which, int raws) {
+    int sum = free_sum(t, which);
+    for (int k = 0; k < raws; k++) {
+        sum = tape_add(t, sum, tape_leaf(t, OP_INPUT, 10 * which + k));
+    }
+    return sum;
+}
+
+static bool multiplies_raw(const tape_freedoms *f, int k) {
+    bool any = false;
+    for (int i = f->length / 3; i < f->length; i++) {
+        any = any || f->exponent[k * f->length + i] != 0.0;
+    }
+    return any;
+}
+
+/* Results of list `made` are those of `t`. */
+static void expect_same_results(const tape *t, const tape *made) {
+    static double v[EVALUATED_MOST];
+    double wanted[8];
+    TEST_ASSERT_EQUAL_INT(t->results, made->results);
+    evaluated(t, v);
+    for (int i = 0; i < t->results; i++) {
+        wanted[i] = v[t->result[i]];
+    }
+    evaluated(made, v);
+    for (int i = 0; i < t->results; i++) {
+        TEST_ASSERT_DOUBLE_WITHIN(1e-11 * (1.0 + fabs(wanted[i])), wanted[i], v[made->result[i]]);
+    }
+}
+
+/* Every freedom, by any number: the same results; and without raw values no operation more, `if_alone`: where no product with
+ * a constant is taken twice, in two ways. */
+static void expect_free(const tape *t, const tape_freedoms *f, bool if_alone) {
+    double *times = calloc((size_t)f->length, sizeof *times);
+    TEST_ASSERT_NOT_NULL(times);
+    for (int k = 0; k < f->count; k++) {
+        const double *exponent = f->exponent + k * f->length;
+        const double x = dice_between(&die, 0.3, 3.0);
+        double least = (double)INFINITY;
+        for (int i = 0; i < f->length; i++) {
+            times[i] = pow(x, exponent[i]);
+            least = exponent[i] != 0.0 ? fmin(least, fabs(exponent[i])) : least;
+        }
+        TEST_ASSERT_DOUBLE_WITHIN(1e-12, 1.0, least); /* they begin with one */
+        tape *made = tape_multiplied(t, times);
+        expect_same_results(t, made);
+        if (if_alone && !multiplies_raw(f, k)) {
+            TEST_ASSERT_TRUE(tape_operations(made) <= tape_operations(t));
+        }
+        tape_free(made);
+    }
+    free(times);
+}
+
+static int without_raw(const tape_freedoms *f) {
+    int count = 0;
+    for (int k = 0; k < f->count; k++) {
+        count += !multiplies_raw(f, k);
+    }
+    return count;
+}
+
+/* Numerators and denominators of sums that are free: each quotient has one freedom, and a root one that is half as much. */
+static void test_a_quotient_has_one_freedom(void) {
+    for (unsigned c = 0; c < dice_cases(60); c++) {
+        const int quotients = 1 + (int)dice_one_of(&die, 4);
+        tape *t = tape_new(0, quotients);
+        int above[4];
+        int below[4];
+        double power[4];
+        for (int k = 0; k < quotients; k++) {
+            const bool by_root = dice_one_of(&die, 3) == 0;
+            above[k] = free_sum(t, 3 * k);
+            below[k] = free_sum(t, 3 * k + 1);
+            power[k] = by_root ? 0.5 : 1.0;
+            t->result[k] =
+                tape_div(t, above[k], by_root ? tape_unary(t, OP_SQRT, below[k]) : below[k]);
+        }
+        tape_freedoms f = tape_freedoms_of(t);
+        TEST_ASSERT_EQUAL_INT(3 * t->count, f.length);
+        TEST_ASSERT_EQUAL_INT(quotients, without_raw(&f));
+        for (int k = 0; k < quotients; k++) {
+            bool found = false;
+            for (int i = 0; i < f.count; i++) {
+                const double *e = f.exponent + i * f.length;
+                found = found || e[above[k]] != 0.0;
+                TEST_ASSERT_DOUBLE_WITHIN(1e-9, e[above[k]], power[k] * e[below[k]]);
+            }
+            TEST_ASSERT_TRUE(found);
+        }
+        expect_free(t, &f, true);
+        tape_freedoms_free(&f);
+        tape_free(t);
+    }
+}
+
+/* With leaves in the sums, the freedom multiplies them: for one or two of these it is there, for three it is not. */
+static void test_few_raw_values_are_multiplied(void) {
+    for (int raws = 0; raws <= 3; raws++) {
+        for (int in_denominator = 0; in_denominator < 2; in_denominator++) {
+            tape *t = tape_new(0, 1);
+            const int one = raw_sum(t, 0, raws);
+            const int other = free_sum(t, 1);
+            t->result[0] = in_denominator ? tape_div(t, other, one) : tape_div(t, one, other);
+            tape_freedoms f = tape_freedoms_of(t);
+            bool whole = false;
+            for (int k = 0; k < f.count; k++) {
+                const double *e = f.exponent + k * f.length;
+                TEST_ASSERT_DOUBLE_WITHIN(1e-9, e[one], e[other]);
+                whole = whole || e[one] != 0.0;
+            }
+            TEST_ASSERT_EQUAL(raws < 3, whole);
+            TEST_ASSERT_EQUAL_INT(raws == 0, without_raw(&f));
+            expect_free(t, &f, true);
+            tape_freedoms_free(&f);
+            tape_free(t);
+        }
+    }
+}
+
+/* --- any list ------------------------------------------------------------------------------------------------------ */
+
+static int some_operation(tape *t, int a, int b) {
+    const double two[2] = {1.0, -0.5};
+    switch (dice_one_of(&die, 15)) {
+    case 0: return tape_sub(t, a, b);
+    case 1:
+        return tape_div(t, a, tape_add(t, tape_unary(t, OP_ABS, b), tape_constant(t, decimal())));
+    case 2: return tape_unary(t, OP_SQRT, tape_unary(t, OP_ABS, a));
+    case 3: return tape_unary(t, OP_SIN, tape_phase(t, two, 0.5, a));
+    case 4: return tape_unary(t, OP_COS, tape_phase(t, two, 0.0, -1));
+    case 5: return tape_call(t, FN_MIN, a, b);
+    case 6: return tape_call(t, FN_MAX, a, b);
+    case 7: return tape_unary(t, OP_SIGN, a);
+    case 8: return tape_call(t, FN_ATAN2, a, b);
+    case 9: return tape_pow(t, tape_unary(t, OP_ABS, a), tape_constant(t, 0.3));
+    case 10: return tape_unary(t, OP_NEG, a);
+    case 11: return tape_mul(t, tape_constant(t, decimal()), a);
+    case 12: return tape_mul(t, a, b);
+    case 13: return tape_leaf(t, dice_one_of(&die, 2) == 0 ? OP_ACCEL : OP_TIME, 0);
+    default: return tape_add(t, a, b);
+    }
+}
+
+static tape *some_list(void) {
+    static double v[EVALUATED_MOST];
+    int value[60];
+    int count = 4;
+    tape *t = tape_new(2, 1 + (int)dice_one_of(&die, 3));
+    for (int k = 0; k < 4; k++) {
+        value[k] = k == 3 ? tape_noise(t, 5) : tape_leaf(t, k == 0 ? OP_RATE : OP_INPUT, k);
+    }
+    const int wanted = 6 + (int)dice_one_of(&die, 20);
+    while (count < wanted) {
+        const int made = some_operation(t, value[dice_one_of(&die, (unsigned)count)],
+                                        value[dice_one_of(&die, (unsigned)count)]);
+        evaluated(t, v);
+        if (isfinite(v[made]) && fabs(v[made]) < 1e3 && fabs(v[made]) > 1e-3) {
+            value[count++] = made;
+        }
+    }
+    for (int i = 0; i < t->results; i++) {
+        t->result[i] = value[count - 1 - (int)dice_one_of(&die, 3)];
+    }
+    tape_prune(t);
+    tape_order(t);
+    return t;
+}
+
+/* Multiplied by one it is the same list, and by what it may be multiplied by, or by anything, the same results: what does not
+ * fit is made up for. */
+static void test_multiplied_lists_compute_the_same(void) {
+    for (unsigned c = 0; c < dice_cases(few_or_all(usual_or(60, 20), 400)); c++) {
+        tape *t = some_list();
+        double *times = calloc(3 * (size_t)t->count + 1, sizeof *times);
+        TEST_ASSERT_NOT_NULL(times);
+        for (int i = 0; i < 3 * t->count; i++) {
+            times[i] = 1.0;
+        }
+        tape *same = tape_multiplied(t, times);
+        expect_same_results(t, same);
+        TEST_ASSERT_TRUE(tape_operations(same) <= tape_operations(t));
+        tape_free(same);
+        for (int i = 0; i < 3 * t->count; i++) {
+            times[i] = exp2((double)dice_one_of(&die, 3) - 1.0);
+        }
+        tape *other = tape_multiplied(t, times);
+        expect_same_results(t, other);
+        tape_free(other);
+        tape_freedoms f = tape_freedoms_of(t);
+        expect_free(t, &f, false);
+        tape_freedoms_free(&f);
+        free(times);
+        tape_free(t);
+    }
+}
+
+void suite_tape_freed(void) {
+    die = dice_of("tape_freed", 4190);
+    RUN_TEST(test_a_constants_error_is_the_results);
+    RUN_TEST(test_errors_go_through_operations);
+    RUN_TEST(test_a_quotient_has_one_freedom);
+    RUN_TEST(test_few_raw_values_are_multiplied);
+    RUN_TEST(test_multiplied_lists_compute_the_same);
+}

@@ -1,0 +1,329 @@
+/* test_tape_used.c: what is told of finished lists and of images (host/image/tape_use.c, tape_sums.c, image.c): to counts, to
+ * ways from operations to results and to comparisons of the tests' own, on lists that are drawn. */
+#include <math.h>
+#include <string.h>
+
+#include "drawn_scene.h"
+#include "evaluated.h"
+#include "unity.h"
+
+void suite_tape_used(void);
+
+static dice die;
+static drawn_scene drawn;
+
+/* --- counts ------------------------------------------------------------------------------------------------- */
+
+static tape_cost counted(const tape *t) {
+    tape_cost c = {0};
+    for (int i = 0; i < t->count; i++) {
+        const op_code code = t->ops[i].code;
+        c.arithmetic += code == OP_ADD || code == OP_SUB || code == OP_MUL || code == OP_NEG ||
+                        code == OP_ABS || code == OP_SIGN || code == OP_MIN || code == OP_MAX;
+        c.arithmetic += code == OP_LINE ? 2 : code == OP_CUBIC ? 6 : 0; /* a + y b, and so on */
+        c.look_ups += code == OP_LINE || code == OP_CUBIC;
+        c.divisions += code == OP_DIV;
+        c.roots += code == OP_SQRT;
+        c.waves += code == OP_PHASE;
+        c.calls += code == OP_CALL || code == OP_POW;
+    }
+    return c;
+}
+
+static bool is_operation(op_code code) {
+    return code >= OP_SIN &&
+           code != OP_CELL; /* in the order of the rows: behind leaves and phases */
+}
+
+static void check_counts(const tape *t) {
+    const tape_cost wanted = counted(t);
+    const tape_cost got = tape_count(t);
+    int operations = 0;
+    int waves = 0;
+    bool reads = false;
+    bool takes = true;
+    TEST_ASSERT_EQUAL_MEMORY(&wanted, &got, sizeof got);
+    for (int i = 0; i < t->count; i++) {
+        const op *o = &t->ops[i];
+        operations += is_operation(o->code);
+        waves += o->code == OP_PHASE && o->turns != NULL;
+        reads = reads || o->code == OP_RADIANS || o->parts != NULL;
+        takes =
+            takes && (o->code != OP_PHASE || (o->parts == NULL && (o->turns == NULL || o->b < 0)));
+    }
+    TEST_ASSERT_EQUAL_INT(operations, tape_operations(t));
+    TEST_ASSERT_EQUAL_INT(waves, tape_waves(t));
+    TEST_ASSERT_EQUAL(reads, tape_reads_turns(t));
+    TEST_ASSERT_EQUAL(takes, tape_takes_waves(t));
+    TEST_ASSERT_EQUAL_INT(got.arithmetic + 14 * got.divisions + 14 * got.roots + 36 * got.waves +
+                              100 * got.calls,
+                          tape_weight(t));
+}
+
+/* Each list of scenes that are drawn. */
+static void each_list(unsigned cases, void (*check)(scene_list *l)) {
+    for (unsigned c = 0; c < dice_cases(cases); c++) {
+        drawn_scene_draw(&drawn, &die);
+        for (int role = 0; role < IMAGE_ROLES; role++) {
+            if (drawn.im.list[role] != NULL) {
+                check(&drawn.list[role]);
+            }
+        }
+    }
+}
+
+static void check_list_counts(scene_list *l) { check_counts(&l->list); }
+static void test_operations_are_counted(void) { each_list(200, check_list_counts); }
+
+/* --- numbers that are none, or none of float ------------------------------------------------------------------- */
+
+/* Does the way from operation i to a result lead through operation `by`? */
+static bool leads_from(const tape *t, int i, int by) {
+    int operand[2];
+    bool leads = i == by;
+    for (int k = tape_operands(&t->ops[i], operand); k > 0 && !leads; k--) {
+        leads = leads_from(t, operand[k - 1], by);
+    }
+    return leads;
+}
+
+static void check_finite(scene_list *l) {
+    tape *t = &l->list;
+    if (t->count > 40) {
+        return; /* ways are many */
+    }
+    TEST_ASSERT_EQUAL_INT(-1, tape_not_finite(t));
+    const int by = (int)dice_one_of(&die, (unsigned)t->count);
+    op *o = &l->ops[by];
+    const double none = dice_one_of(&die, 2) == 0 ? (double)INFINITY : (double)NAN;
+    const int part = t->angles > 0 ? (int)dice_one_of(&die, (unsigned)t->angles) : 0;
+    const bool in_parts = o->parts != NULL && dice_one_of(&die, 2) == 0;
+    double *number = in_parts ? &l->parts[by][part] : &o->value;
+    const double kept = *number;
+    *number = none;
+    int wanted = -1;
+    for (int i = t->results - 1; i >= 0; i--) {
+        wanted = leads_from(t, t->result[i], by) ? i : wanted;
+    }
+    TEST_ASSERT_EQUAL_INT(wanted, tape_not_finite(t));
+    *number = kept;
+}
+
+static void test_what_is_no_number_is_found_in_results(void) { each_list(200, check_finite); }
+
+static const double fits[] = {0.0, -0.0, 0x1p-126, -0x1p-126, 1.0, 0x1.fffffep127, -3e38};
+static const double fits_not[] = {0x1.fffffep-127,   -1e-40,           0x1.ffffffp127, 1e39,
+                                  -(double)INFINITY, (double)INFINITY, 5e-324};
+
+static void check_fit(scene_list *l) {
+    tape *t = &l->list;
+    double wanted = 0.0;
+    for (int i = t->count - 1; i >= 0; i--) {
+        const bool fitting = dice_one_of(&die, 4) > 0;
+        if (l->ops[i].code == OP_CONSTANT) {
+            l->ops[i].value = fitting ? fits[dice_one_of(&die, 7)] : fits_not[dice_one_of(&die, 7)];
+            wanted = fitting ? wanted : l->ops[i].value;
+        }
+    }
+    TEST_ASSERT_TRUE(tape_out_of_float(t) == wanted);
+}
+
+static void test_what_float_has_no_room_for(void) {
+    for (int i = 0; i < 7; i++) {
+        TEST_ASSERT_TRUE(fits_float(fits[i]));
+        TEST_ASSERT_FALSE(fits_float(fits_not[i]));
+    }
+    TEST_ASSERT_FALSE(fits_float((double)NAN));
+    each_list(100, check_fit);
+}
+
+/* Lists of what moves a scene, and its inputs; not those that are only told of. */
+static void test_images_know_what_float_has_no_room_for(void) {
+    for (unsigned c = 0; c < dice_cases(300); c++) {
+        drawn_scene_draw(&drawn, &die);
+        image *im = &drawn.im;
+        TEST_ASSERT_TRUE(image_out_of_float(im) == 0.0);
+        const image_role role = (image_role)dice_one_of(&die, IMAGE_ROLES);
+        const bool matrix = im->settings.matrix != MATRIX_NONE;
+        const bool moves = role == (matrix ? IMAGE_MATRIX : IMAGE_STEP) || role == IMAGE_SIGNALS ||
+                           role == IMAGE_FORCES || role == IMAGE_SETS;
+        if (im->list[role] != NULL) { /* each begins with a constant */
+            drawn.list[role].ops[0].value = 1e-50;
+            TEST_ASSERT_TRUE(image_out_of_float(im) == (moves ? 1e-50 : 0.0));
+            drawn.list[role].ops[0].value = 1.0;
+        }
+        if (im->inputs > 0) {
+            drawn.input[dice_one_of(&die, (unsigned)im->inputs)].value = -1e40;
+            TEST_ASSERT_TRUE(image_out_of_float(im) == -1e40);
+        }
+    }
+}
+
+/* --- images ------------------------------------------------------------------------------------------------------ */
+
+static void test_images_are_read(void) {
+    for (unsigned c = 0; c < dice_cases(100); c++) {
+        drawn_scene_draw(&drawn, &die);
+        const image *im = &drawn.im;
+        double input[SCENE_FEW + 1] = {7.0, 7.0, 7.0, 7.0};
+        bool calls = false;
+        for (int unknown = 0; unknown < im->count; unknown++) {
+            for (int primes = 0; primes < 4; primes++) {
+                int wanted = -1;
+                for (int i = 0; i < im->angles + im->reals; i++) {
+                    const component of = i < im->angles ? im->angle[i] : im->real[i - im->angles];
+                    wanted = of.unknown == unknown && of.primes == primes ? i : wanted;
+                }
+                TEST_ASSERT_EQUAL_INT(wanted, image_find_component(im, unknown, primes));
+            }
+        }
+        image_inputs(im, input);
+        for (int i = 0; i <= SCENE_FEW; i++) {
+            TEST_ASSERT_TRUE(input[i] == (i < im->inputs ? im->input[i].value : 7.0));
+        }
+        for (int role = 0; role < IMAGE_ROLES; role++) {
+            calls = calls || (im->list[role] != NULL && counted(im->list[role]).calls > 0);
+        }
+        TEST_ASSERT_EQUAL(calls, image_calls(im));
+        for (int i = 0; i < im->inputs; i++) { /* 5 mm is 0.005 m */
+            const image_unit *u = &im->input[i].unit;
+            const double si = im->input[i].value;
+            TEST_ASSERT_EQUAL(strcmp(u->shown, u->si) == 0, image_shows_si(u));
+            TEST_ASSERT_DOUBLE_WITHIN(1e-12 * fabs(si), si,
+                                      image_shown(u, si) * u->scale / u->divisor);
+        }
+    }
+    /* what stays on this machine, the books, calls for nothing */
+    tape *books = tape_new(0, 1);
+    books->result[0] = tape_call(books, FN_EXP, tape_leaf(books, OP_LINEAR, 0), -1);
+    image im = {.list = {[IMAGE_BOOKS] = books}};
+    TEST_ASSERT_FALSE(image_calls(&im));
+    im.list[IMAGE_LEVELS] = books;
+    TEST_ASSERT_TRUE(image_calls(&im));
+    tape_free(books);
+}
+
+/* --- hashes ------------------------------------------------------------------------------------------------------- */
+
+static uint64_t hash_changed(const tape *t, double *number) {
+    const double kept = *number;
+    *number = kept + 1.0;
+    const uint64_t hash = tape_hash(t);
+    *number = kept;
+    return hash;
+}
+
+/* Another number, factor, operand or result is another list. */
+static void check_hash(scene_list *l) {
+    tape *t = &l->list;
+    const uint64_t hash = tape_hash(t);
+    const int i = (int)dice_one_of(&die, (unsigned)t->count);
+    op *o = &l->ops[i];
+    TEST_ASSERT_TRUE(hash != hash_changed(t, &o->value));
+    for (int k = 0; k < t->angles; k++) {
+        if (o->parts != NULL) {
+            TEST_ASSERT_TRUE(hash != hash_changed(t, &l->parts[i][k]));
+        }
+        if (o->turns != NULL) {
+            l->turns[i][k]++;
+            TEST_ASSERT_TRUE(hash != tape_hash(t));
+            l->turns[i][k]--;
+        }
+    }
+    int *const whole[] = {&o->a, &o->b, t->results > 0 ? &l->result[t->results - 1] : &o->a};
+    for (int k = 0; k < 3; k++) {
+        ++*whole[k];
+        TEST_ASSERT_TRUE(hash != tape_hash(t));
+        --*whole[k];
+    }
+    const int numbers = t->tables.count * t->tables.terms << t->tables.bits;
+    if (t->tables.count > 0) {
+        TEST_ASSERT_TRUE(hash !=
+                         hash_changed(t, &t->tables.number[dice_one_of(&die, (unsigned)numbers)]));
+        TEST_ASSERT_TRUE(hash != hash_changed(t, &t->tables.number[numbers - 1]));
+    }
+    TEST_ASSERT_TRUE(hash == tape_hash(t));
+}
+
+static void test_a_hash_is_of_everything(void) { each_list(60, check_hash); }
+
+/* --- sums that share ---------------------------------------------------------------------------------------------- */
+
+enum { PAIRS_MOST = 6, WAYS = 8 };
+
+/* Of two leaves, a sum and one that has a part twice; whether it is made of the other, for a product less. */
+static bool enter_pair(tape *t, int k, unsigned way) {
+    const int a = tape_leaf(t, OP_LINEAR, 2 * k);
+    const int b = tape_leaf(t, OP_RATE, 2 * k + 1);
+    const int other = tape_leaf(t, OP_INPUT, k);
+    const bool late = dice_one_of(&die, 2) == 0;
+    const int times = tape_mul(t, tape_constant(t, way == 6 ? 3.0 : 2.0), b);
+    int whole = -1;
+    if (late) { /* the half is entered behind it */
+        whole = way == 1   ? tape_sub(t, a, times)
+                : way == 2 ? tape_sub(t, times, a)
+                           : tape_add(t, times, a);
+    }
+    const int half = way == 1   ? tape_sub(t, a, b)
+                     : way == 2 ? tape_sub(t, b, a)
+                     : way == 4 ? tape_add(t, a, other)
+                     : way == 5 ? tape_sub(t, a, b)
+                                : tape_add(t, a, b);
+    if (!late) {
+        whole = way == 1   ? tape_sub(t, a, times)
+                : way == 2 ? tape_sub(t, times, a)
+                           : tape_add(t, times, a);
+    }
+    t->result[3 * k] = half;
+    t->result[3 * k + 1] = whole;
+    t->result[3 * k + 2] = way == 3 ? times : other; /* 3: the double is wanted itself */
+    return way < 3 || way == 7;
+}
+
+static int products(const tape *t) {
+    int count = 0;
+    for (int i = 0; i < t->count; i++) {
+        count += t->ops[i].code == OP_MUL;
+    }
+    return count;
+}
+
+static void test_sums_share_their_halves(void) {
+    static double before[EVALUATED_MOST];
+    static double after[EVALUATED_MOST];
+    for (unsigned c = 0; c < dice_cases(300); c++) {
+        const int pairs = 1 + (int)dice_one_of(&die, PAIRS_MOST);
+        tape *t = tape_new(0, 3 * pairs);
+        double wanted[3 * PAIRS_MOST];
+        int shared = 0;
+        for (int k = 0; k < pairs; k++) {
+            shared += enter_pair(t, k, dice_one_of(&die, WAYS));
+        }
+        tape_prune(t);
+        evaluated(t, before);
+        for (int i = 0; i < t->results; i++) {
+            wanted[i] = before[t->result[i]];
+        }
+        const int had = products(t);
+        const int operations = tape_operations(t);
+        tape_share_sums(t);
+        evaluated(t, after);
+        TEST_ASSERT_EQUAL_INT(had - shared, products(t));
+        TEST_ASSERT_EQUAL_INT(operations - shared, tape_operations(t));
+        for (int i = 0; i < t->results; i++) {
+            TEST_ASSERT_DOUBLE_WITHIN(1e-14, wanted[i], after[t->result[i]]);
+        }
+        tape_free(t);
+    }
+}
+
+void suite_tape_used(void) {
+    die = dice_of("tape_used", 4180);
+    RUN_TEST(test_operations_are_counted);
+    RUN_TEST(test_what_is_no_number_is_found_in_results);
+    RUN_TEST(test_what_float_has_no_room_for);
+    RUN_TEST(test_images_know_what_float_has_no_room_for);
+    RUN_TEST(test_images_are_read);
+    RUN_TEST(test_a_hash_is_of_everything);
+    RUN_TEST(test_sums_share_their_halves);
+}
