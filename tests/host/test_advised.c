@@ -225,7 +225,7 @@ static void test_ripples(void) {
 /* --- what is more than a method carries ---------------------------------------------------------------------------------*/
 
 static void test_diverged(void) {
-    for (unsigned c = 0; c < dice_cases(usual_or(6, 3)); c++) {
+    for (unsigned c = 0; c < dice_cases(usual_or(4, 2)); c++) {
         char text[300];
         double limit = 0.0;
         const bool swings = c % 2U == 0;
@@ -265,7 +265,7 @@ static void test_diverged(void) {
 
 /* A free body passes the pole of polar coordinates at a distance: phi's inertia falls with the square of it. */
 static void test_passes_a_pole(void) {
-    for (unsigned c = 0; c < dice_cases(usual_or(6, 3)); c++) {
+    for (unsigned c = 0; c < dice_cases(usual_or(4, 2)); c++) {
         char text[500];
         double figure[4] = {0.0};
         said what;

@@ -1,5 +1,5 @@
-/* test_small_told.c: the figures of what is told of numbers that are small: an angle whose steps are a few of its units (host/run/slow.h),
- * and a size that is a few of the least numbers there are (faint.h). Both are counted in these units. */
+/* test_small_told.c: the figures of what is told of numbers that are small: an angle whose steps are a few of its units
+ * (host/run/slow.h), a size of a few of the least numbers (faint.h), a product below the normal ones (narrow.h). */
 #include <math.h>
 #include <stdbool.h>
 #include <stdio.h>
@@ -100,8 +100,43 @@ static void test_faint_sizes(void) {
     model_drop();
 }
 
+/* A product of two inputs that float cuts: what a least normal number is rounded by is told, of it. */
+static void test_small_products(void) {
+    for (unsigned n = 0; n < dice_cases(usual_or(8, 4)); n++) {
+        char text[400];
+        double figure[2] = {0.0};
+        said what;
+        const double part = exp(dice_between(&die, log(1.3e-3), log(3.0)));
+        const double product = 0x1p-24 * 0x1p-126 / part;
+        const double p = exp(dice_between(&die, log(1e-22), log(1e-19)));
+        const bool told = n % 4U < 3;
+        snprintf(text, sizeof text,
+                 "mechanism m\nstate x [m]\ninput p = %.17g [m/s]\ninput q = %.17g\n"
+                 "input c = 1e%d\nequation x' = p*q*c\n"
+                 "scene s { step 10 [ms]; until 1 [s] }\n",
+                 p, told ? product / p : 1e-15, told ? 38 : 30);
+        const char *words[] = {model_keep(text), "--quiet", "--number", "float", NULL};
+        command_say(command_run, words, &what);
+        const char *at = strstr(what.err, "whirl run: warning: float has no room for what '");
+        TEST_ASSERT_EQUAL_MESSAGE(told, at != NULL, what.err);
+        if (!told) {
+            continue;
+        }
+        at = said_exactly(at + strlen("whirl run: warning: float has no room for what '"),
+                          "x' is made of: products below 1.2e-38 are cut or lost, up to ");
+        at = said_number(said_exactly(said_number(at, &figure[0]), " % of its slope about t = "),
+                         &figure[1]);
+        (void)said_exactly(at, " s\nhint: --number double; float holds sizes from 1.2e-38 to "
+                               "3.4e+38 in SI units\n");
+        expect_figure(100.0 * fmin(part, 1.0), figure[0], what.err);
+        TEST_ASSERT_TRUE(figure[1] >= 0.0 && figure[1] <= 1.0);
+    }
+    model_drop();
+}
+
 void suite_small_told(void) {
     die = dice_of("small_told", 71);
     RUN_TEST(test_slow_angles);
     RUN_TEST(test_faint_sizes);
+    RUN_TEST(test_small_products);
 }
