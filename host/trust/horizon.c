@@ -9,18 +9,29 @@
 
 /* What the bound of rounding leaves out: roundings of a step's own sums, the library's functions. */
 #define ROUNDING_ROOM 8.0
-/* What hardly varies is measured by this part of its size: of a rate that stays at 34.56 rad/s within 0.007 float keeps no
- * thousandth. */
+/* A rate that hardly varies is measured by this part of its size: of one that stays at 34.56 rad/s within 0.007 float keeps
+ * no thousandth. */
 #define LEAST_RANGE 1e-3
+
+/* What has a rate of its own has its origin anywhere: how far from it that moves says nothing of how much. */
+static bool is_place(const twins *t, int k) {
+    const record_column *c = &t->shape->column[k];
+    return image_find_component(&t->finer, c->unknown, c->primes + 1) >= 0;
+}
+
+static double measured_by(const twins *t, int k) {
+    const twins_column *c = &t->column[k];
+    const double least = LEAST_RANGE * number_most(fabs(c->low), fabs(c->high));
+    return number_most(c->high - c->low, is_place(t, k) ? 0.0 : least);
+}
 
 static horizon_column judge(const twins *t, int k, double tolerance) {
     const twins_column *c = &t->column[k];
     const double range = c->high - c->low;
-    const double least = LEAST_RANGE * number_most(fabs(c->low), fabs(c->high));
-    const double level = tolerance * number_most(range, least) / t->left_out;
-    horizon_column made = {.range = number_most(range, least),
-                           .off = c->off.most * t->left_out,
-                           .until_s = passages_until_s(&c->off, level)};
+    const double by = measured_by(t, k);
+    const double level = tolerance * by / t->left_out;
+    horizon_column made = {
+        .range = by, .off = c->off.most * t->left_out, .until_s = passages_until_s(&c->off, level)};
     if (!isfinite(made.until_s)) {
         made.verdict = range > 0.0 || made.off > 0.0 ? HORIZON_TO_THE_END : HORIZON_STILL;
         made.until_s = t->end_s;

@@ -17,8 +17,8 @@ typedef enum horizon_verdict {
 
 typedef struct horizon_column {
     horizon_verdict verdict;
-    double
-        range; /* in the column's unit: the most less the least value, but a thousandth of its size at the least */
+    /* In the column's unit: the most less the least value; of a rate, or what has none, a thousandth of its size at the least. */
+    double range;
     double
         off; /* the most that the two differ by, in the same; what the finer one is itself off added */
     double

@@ -254,6 +254,16 @@ static double end_of(const said *what) {
     return end;
 }
 
+/* `whirl trust` alone calls nothing right to the end that is off by more than a thousandth of the way, however far that is. */
+static void ask_trust(const char *text, bool is_float, double off) {
+    said what;
+    const char *words[] = {model_keep(text), "--number", is_float ? "float" : "double", NULL};
+    command_say(command_trust, words, &what);
+    TEST_ASSERT_EQUAL_INT_MESSAGE(0, what.status, text);
+    const bool trusted = strstr(what.out, "trusted to the end") != NULL;
+    TEST_ASSERT_TRUE_MESSAGE(trusted ? off < 1.5e-3 : off > 5e-4, what.out);
+}
+
 /* A cart that rolls, far away: where its steps are less than half a place of its number it stands, and its energy is that of
  * a cart that rolls. */
 static void test_carts_that_stand(void) {
@@ -285,6 +295,7 @@ static void test_carts_that_stand(void) {
         run_with(text, is_float, NULL, every, &what);
         const double start_m = is_float ? (double)(float)far_m : far_m;
         const double off = fabs(end_of(&what) - start_m - way_m) / way_m;
+        ask_trust(text, is_float, off);
         if (off > 0.02) {
             told++;
             TEST_ASSERT_TRUE_MESSAGE(is_of_digits(&what), text);

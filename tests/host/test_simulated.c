@@ -168,6 +168,15 @@ static void test_interrupted(void) {
             TEST_ASSERT_EQUAL_INT(2 + (int)(256 / every), lines_in(rows));
         }
     }
+    /* of what was not run to its end, no digits are judged */
+    derived far =
+        scene_of("mechanism m\ncoordinate x [m]\nT = 1 [kg]*x'^2/2\nscene s { start x = 1e6 "
+                 "[m], x' = 1 [m/s]; step 1 [ms]; until 1 [s] }\n");
+    const simulation_settings float_settings = {
+        .kind = &engine_float, .every = 1, .quiet = true, .stop = &stop_now};
+    TEST_ASSERT_EQUAL_STRING("whirl run: interrupted at t = 0.256 s of 1 s\n",
+                             simulated(far.image, &float_settings, SIMULATION_INTERRUPTED));
+    derived_free(&far);
     d.image->steps = 255; /* done before anybody asks */
     const simulation_settings s = {
         .kind = &engine_double, .every = 1, .quiet = true, .stop = &stop_now};

@@ -1,170 +1,18 @@
 /* test_watched.c: the books beside a run and what it is watched by (host/run/books.h, watch.h), of runs that are made up: any
- * sequence of states, no motion. Each number that is kept is what formulas of this file make of all the states at once: energies,
- * work by Simpson's rule, momenta, spreads by two passes, ranges, records, and what the slopes lead to. */
+ * sequence of states, no motion. Each number that is kept is what formulas make of all the states at once: energies, work by
+ * Simpson's rule, momenta, spreads by two passes, ranges, records, and what the slopes lead to. */
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "blocks.h"
-#include "command.h"
-#include "derived.h"
-#include "host/base/room.h"
 #include "host/run/belief.h"
 #include "host/run/watch.h"
+#include "made_run.h"
 #include "unity.h"
 
 void suite_watched(void);
 
-enum { STEPS_MOST = 70, X = 0, Y = 1, VX = 2, VY = 3, N = 4 };
-
 static dice die;
-
-/* Two bodies on springs, coupled by their inertia too, one pushed and one damped, and perhaps in a magnetic field. */
-static struct {
-    double mx, my, coupled; /* kg */
-    double k, h;            /* N/m */
-    double damping;
-    double push;
-    double magnetic; /* kg/s */
-    double step_s;
-    double state[STEPS_MOST + 1][N]; /* as this file counts them */
-    uint64_t at;
-} world;
-
-static void draw_world(bool powers, bool magnetic) {
-    world.mx = dice_between(&die, 1.0, 3.0);
-    world.my = dice_between(&die, 1.0, 3.0);
-    world.coupled = dice_between(&die, -0.6, 0.6);
-    world.k = dice_between(&die, 0.5, 4.0);
-    world.h = dice_between(&die, 0.5, 4.0);
-    world.damping = powers ? dice_between(&die, 0.2, 1.0) : 0.0;
-    world.push = powers ? dice_between(&die, 1.0, 3.0) : 0.0;
-    world.magnetic = magnetic ? dice_between(&die, 0.5, 1.5) : 0.0;
-    world.step_s = dice_between(&die, 0.01, 0.1);
-}
-
-static derived derive_world(void) {
-    char text[900];
-    char field_text[120] = "";
-    if (world.magnetic > 0.0) {
-        snprintf(field_text, sizeof field_text, " + %.17g [kg/s]*(x*y' - y*x')", world.magnetic);
-    }
-    char powers[120] = "";
-    if (world.damping > 0.0) {
-        snprintf(powers, sizeof powers, "F = %.17g [N*s/m]*x'^2/2\nQ(y) = u\n", world.damping);
-    }
-    snprintf(text, sizeof text,
-             "mechanism m\ncoordinate x [m]\ncoordinate y [mm]\ninput u = %.17g [N]\n"
-             "T = %.17g [kg]*x'^2/2 + %.17g [kg]*y'^2/2 + %.17g [kg]*x'*y'%s\n"
-             "V = %.17g [N/m]*x^2/2 + %.17g [N/m]*(x - y)^2/2\n%s"
-             "scene s { step %.17g [s]; until 9 [s] }\n",
-             world.push, world.mx, world.my, world.coupled, field_text, world.k, world.h, powers,
-             world.step_s);
-    derived d = derived_scene(text, "s");
-    derived_expect(&d, text);
-    return d;
-}
-
-/* Places and rates that walk about. */
-static void draw_states(uint64_t steps) {
-    for (uint64_t k = 0; k <= steps; k++) {
-        for (int i = 0; i < N; i++) {
-            const double before = k == 0 ? dice_between(&die, -2.0, 2.0) : world.state[k - 1][i];
-            world.state[k][i] = before + dice_between(&die, -1.0, 1.0);
-        }
-    }
-}
-
-/* --- formulas -------------------------------------------------------------------------------------------------*/
-
-static double kinetic_of(const double *s) {
-    return world.mx * s[VX] * s[VX] / 2.0 + world.my * s[VY] * s[VY] / 2.0 +
-           world.coupled * s[VX] * s[VY];
-}
-
-static double odd_of(const double *s) { return world.magnetic * (s[X] * s[VY] - s[Y] * s[VX]); }
-
-static double stored_of(const double *s) {
-    return world.k * s[X] * s[X] / 2.0 + world.h * (s[X] - s[Y]) * (s[X] - s[Y]) / 2.0;
-}
-
-static double energy_of(const double *s) { return kinetic_of(s) + stored_of(s); }
-
-/* Input, loss. */
-static double power_of(const double *s, int which) {
-    return which == 0 ? world.push * s[VY] : world.damping * s[VX] * s[VX];
-}
-
-static double momentum_of(const double *s, int i, bool whole) {
-    const double magnetic = whole ? world.magnetic : 0.0;
-    return i == 0 ? world.mx * s[VX] + world.coupled * s[VY] - magnetic * s[Y]
-                  : world.my * s[VY] + world.coupled * s[VX] + magnetic * s[X];
-}
-
-static void slope_of(const double *s, double *slope) {
-    const double fx = -world.k * s[X] - world.h * (s[X] - s[Y]) - world.damping * s[VX] +
-                      2.0 * world.magnetic * s[VY];
-    const double fy = world.h * (s[X] - s[Y]) + world.push - 2.0 * world.magnetic * s[VX];
-    const double det = world.mx * world.my - world.coupled * world.coupled;
-    slope[X] = s[VX];
-    slope[Y] = s[VY];
-    slope[VX] = (world.my * fx - world.coupled * fy) / det;
-    slope[VY] = (world.mx * fy - world.coupled * fx) / det;
-}
-
-/* Runge-Kutta 4, `parts` of a step. */
-static void go(double *s, int parts) {
-    const double h = world.step_s / parts;
-    for (int part = 0; part < parts; part++) {
-        static const double ahead[] = {0.0, 0.5, 0.5, 1.0};
-        static const double weight[] = {1.0, 2.0, 2.0, 1.0};
-        double slope[N] = {0};
-        double sum[N] = {0};
-        for (int stage = 0; stage < 4; stage++) {
-            double there[N];
-            for (int i = 0; i < N; i++) {
-                there[i] = s[i] + h * ahead[stage] * slope[i];
-            }
-            slope_of(there, slope);
-            for (int i = 0; i < N; i++) {
-                sum[i] += weight[stage] * slope[i];
-            }
-        }
-        for (int i = 0; i < N; i++) {
-            s[i] += h / 6.0 * sum[i];
-        }
-    }
-}
-
-/* --- the run that is made up ------------------------------------------------------------------------------------*/
-
-static const image *made_for;
-
-/* Where the image keeps what this file counts so. */
-static int place_of(int i) {
-    for (int k = 0; k < N; k++) {
-        const component c = image_component(made_for, k);
-        if (c.unknown + 2 * c.primes == i) {
-            return k;
-        }
-    }
-    return -1;
-}
-
-static void state(const void *run, double *angle_rad, double *real) {
-    (void)run;
-    (void)angle_rad;
-    for (int i = 0; i < N; i++) {
-        real[place_of(i)] = world.state[world.at][i];
-    }
-}
-
-static uint64_t steps(const void *run) {
-    (void)run;
-    return world.at;
-}
-
-static const engine_kind kind = {.name = "made up", .state = state, .steps = steps};
 
 static void expect_near(double wanted, double is, double size, const char *what) {
     TEST_ASSERT_TRUE_MESSAGE(fabs(wanted - is) <= 1e-11 * (fabs(wanted) + size), what);
@@ -175,10 +23,10 @@ static double swing_of(double (*of)(const double *), uint64_t count) {
     double mean = 0.0;
     double squares = 0.0;
     for (uint64_t k = 0; k < count; k++) {
-        mean += of(world.state[k]) / (double)count;
+        mean += of(made_run.state[k]) / (double)count;
     }
     for (uint64_t k = 0; k < count; k++) {
-        squares += (of(world.state[k]) - mean) * (of(world.state[k]) - mean);
+        squares += (of(made_run.state[k]) - mean) * (of(made_run.state[k]) - mean);
     }
     return sqrt(8.0 * squares / (double)count);
 }
@@ -192,20 +40,22 @@ static double larger(double a, double b) { return a > b ? a : b; }
 static double work_to(uint64_t end, int which) {
     double sum = 0.0;
     for (uint64_t k = 0; k + 2 <= end; k += 2) {
-        sum += world.step_s / 3.0 *
-               (power_of(world.state[k], which) + 4.0 * power_of(world.state[k + 1], which) +
-                power_of(world.state[k + 2], which));
+        sum += made_run.step_s / 3.0 *
+               (made_run_power(made_run.state[k], which) +
+                4.0 * made_run_power(made_run.state[k + 1], which) +
+                made_run_power(made_run.state[k + 2], which));
     }
     if (end % 2 == 1) {
-        sum += world.step_s / 2.0 *
-               (power_of(world.state[end - 1], which) + power_of(world.state[end], which));
+        sum += made_run.step_s / 2.0 *
+               (made_run_power(made_run.state[end - 1], which) +
+                made_run_power(made_run.state[end], which));
     }
     return sum;
 }
 
 static double left_at(uint64_t end) {
-    return energy_of(world.state[end]) - energy_of(world.state[0]) - work_to(end, 0) +
-           work_to(end, 1);
+    return made_run_energy(made_run.state[end]) - made_run_energy(made_run.state[0]) -
+           work_to(end, 0) + work_to(end, 1);
 }
 
 /* Simpson's rule less the trapezoids'; where that is more than a tenth of it, by how much the powers change. */
@@ -213,12 +63,12 @@ static double rule_off_to(uint64_t end) {
     double sum = 0.0;
     for (uint64_t k = 0; k + 2 <= end; k += 2) {
         for (int which = 0; which < 2; which++) {
-            const double a = power_of(world.state[k], which);
-            const double b = power_of(world.state[k + 1], which);
-            const double c = power_of(world.state[k + 2], which);
-            const double trapezoids = world.step_s * (a + 2.0 * b + c) / 2.0;
-            const double simpson = world.step_s * (a + 4.0 * b + c) / 3.0;
-            const double change = world.step_s * (fabs(b - a) + fabs(c - b)) / 2.0;
+            const double a = made_run_power(made_run.state[k], which);
+            const double b = made_run_power(made_run.state[k + 1], which);
+            const double c = made_run_power(made_run.state[k + 2], which);
+            const double trapezoids = made_run.step_s * (a + 2.0 * b + c) / 2.0;
+            const double simpson = made_run.step_s * (a + 4.0 * b + c) / 3.0;
+            const double change = made_run.step_s * (fabs(b - a) + fabs(c - b)) / 2.0;
             const double off = fabs(simpson - trapezoids);
             sum += off > 0.1 * change ? change : off;
         }
@@ -227,42 +77,43 @@ static double rule_off_to(uint64_t end) {
 }
 
 static void expect_books(const books *b) {
-    const uint64_t end = world.at;
-    const double *now = world.state[end];
-    const double *first = world.state[0];
+    const uint64_t end = made_run.at;
+    const double *now = made_run.state[end];
+    const double *first = made_run.state[0];
     double size = 0.0;
     for (uint64_t k = 0; k <= end; k++) {
-        const double *s = world.state[k];
-        size = larger(size, fabs(kinetic_of(s) + odd_of(s)) + stored_of(s));
+        const double *s = made_run.state[k];
+        size = larger(size, fabs(made_run_kinetic(s) + made_run_odd(s)) + made_run_stored(s));
     }
     TEST_ASSERT_EQUAL_UINT64(end + 1, b->entries);
-    expect_near((double)end * world.step_s, b->time_s, 0.0, "time");
-    expect_near(kinetic_of(first) + odd_of(first), b->kinetic_J[0], size, "kinetic, start");
-    expect_near(kinetic_of(now) + odd_of(now), b->kinetic_J[1], size, "kinetic, now");
-    expect_near(kinetic_of(first), b->moving_J[0], size, "moving, start");
-    expect_near(kinetic_of(now), b->moving_J[1], size, "moving, now");
-    expect_near(stored_of(first), b->stored_J[0], size, "stored, start");
-    expect_near(stored_of(now), b->stored_J[1], size, "stored, now");
-    expect_near(energy_of(first), b->energy_J[0], size, "energy, start");
-    expect_near(energy_of(now), b->energy_J[1], size, "energy, now");
+    expect_near((double)end * made_run.step_s, b->time_s, 0.0, "time");
+    expect_near(made_run_kinetic(first) + made_run_odd(first), b->kinetic_J[0], size,
+                "kinetic, start");
+    expect_near(made_run_kinetic(now) + made_run_odd(now), b->kinetic_J[1], size, "kinetic, now");
+    expect_near(made_run_kinetic(first), b->moving_J[0], size, "moving, start");
+    expect_near(made_run_kinetic(now), b->moving_J[1], size, "moving, now");
+    expect_near(made_run_stored(first), b->stored_J[0], size, "stored, start");
+    expect_near(made_run_stored(now), b->stored_J[1], size, "stored, now");
+    expect_near(made_run_energy(first), b->energy_J[0], size, "energy, start");
+    expect_near(made_run_energy(now), b->energy_J[1], size, "energy, now");
     expect_near(work_to(end, 0), b->input_J, size, "input");
     expect_near(work_to(end, 1), b->loss_J, size, "loss");
     expect_near(size, b->size_J, 0.0, "size");
     expect_near(rule_off_to(end), b->rule_J, 0.0, "rule");
-    TEST_ASSERT_EQUAL(world.magnetic > 0.0, b->leans);
+    TEST_ASSERT_EQUAL(made_run.magnetic > 0.0, b->leans);
 
-    double most = larger(swing_of(kinetic_of, end + 1), swing_of(stored_of, end + 1));
+    double most = larger(swing_of(made_run_kinetic, end + 1), swing_of(made_run_stored, end + 1));
     for (int i = 0; i < 2; i++) {
         double drift = 0.0;
         double squares = 0.0;
         for (uint64_t k = 0; k <= end; k++) {
-            const double own = momentum_of(world.state[k], i, false);
-            drift = larger(
-                drift, fabs(momentum_of(world.state[k], i, true) - momentum_of(first, i, true)));
+            const double own = made_run_momentum(made_run.state[k], i, false);
+            drift = larger(drift, fabs(made_run_momentum(made_run.state[k], i, true) -
+                                       made_run_momentum(first, i, true)));
             squares += own * own;
         }
-        expect_near(momentum_of(first, i, true), b->momentum[i], 1.0, "momentum, start");
-        expect_near(momentum_of(now, i, true), b->momentum_now[i], 1.0, "momentum, now");
+        expect_near(made_run_momentum(first, i, true), b->momentum[i], 1.0, "momentum, start");
+        expect_near(made_run_momentum(now, i, true), b->momentum_now[i], 1.0, "momentum, now");
         expect_near(drift, b->drift[i], 1.0, "drift");
         expect_near(squares, b->momentum_2[i], 1.0, "squares of momenta");
         TEST_ASSERT_TRUE(b->rate[i].pushed);
@@ -280,7 +131,7 @@ static void expect_books(const books *b) {
         const double change = left_at(k) - left_at(k - 2);
         if (fabs(change) > fabs(jump)) {
             jump = change;
-            jump_s = (double)k * world.step_s;
+            jump_s = (double)k * made_run.step_s;
         }
     }
     expect_near(jump, b->jump_J, size, "jump");
@@ -296,15 +147,15 @@ static void expect_ranges(const watch *w) {
     double furthest[2] = {0}; /* places, rates */
     for (int round = 0; round < 2; round++) {
         for (int i = 0; i < N; i++) {
-            double low = world.state[0][i];
+            double low = made_run.state[0][i];
             double high = low;
-            for (uint64_t k = 1; k <= world.at; k++) {
-                low = world.state[k][i] < low ? world.state[k][i] : low;
-                high = larger(high, world.state[k][i]);
+            for (uint64_t k = 1; k <= made_run.at; k++) {
+                low = made_run.state[k][i] < low ? made_run.state[k][i] : low;
+                high = larger(high, made_run.state[k][i]);
             }
             furthest[i / 2] = larger(furthest[i / 2], high - low);
             if (round == 1) {
-                const int at = place_of(i);
+                const int at = made_run_place(i);
                 TEST_ASSERT_TRUE(w->low[at] == low && w->high[at] == high);
                 TEST_ASSERT_TRUE(w->range[at] == larger(high - low, 1e-3 * furthest[i / 2]));
             }
@@ -315,15 +166,16 @@ static void expect_ranges(const watch *w) {
 /* Evenly over the run so far, as many as there is room for when every other one goes where there is none. */
 static void expect_records(const watch *w) {
     uint64_t stride = 1;
-    while (world.at / stride >= WATCH_RECORDS) {
+    while (made_run.at / stride >= WATCH_RECORDS) {
         stride *= 2;
     }
-    TEST_ASSERT_EQUAL_INT(1 + (int)(world.at / stride), w->records);
+    TEST_ASSERT_EQUAL_INT(1 + (int)(made_run.at / stride), w->records);
     for (int k = 0; k < w->records; k++) {
         const uint64_t step = stride * (uint64_t)k;
-        expect_near((double)step * world.step_s, w->record_s[k], 0.0, "a record's time");
+        expect_near((double)step * made_run.step_s, w->record_s[k], 0.0, "a record's time");
         for (int i = 0; i < N; i++) {
-            TEST_ASSERT_TRUE(w->record[(ptrdiff_t)k * N + place_of(i)] == world.state[step][i]);
+            TEST_ASSERT_TRUE(w->record[(ptrdiff_t)k * N + made_run_place(i)] ==
+                             made_run.state[step][i]);
         }
     }
 }
@@ -334,22 +186,22 @@ static void expect_slopes_followed(const watch *w) {
         double low = 0.0;
         double high = 0.0;
         double strayed = 0.0;
-        for (uint64_t k = 1; k <= world.at; k++) {
+        for (uint64_t k = 1; k <= made_run.at; k++) {
             double before[N];
             double now[N];
-            slope_of(world.state[k - 1], before);
-            slope_of(world.state[k], now);
-            asked += world.step_s * (before[i] + now[i]) / 2.0;
+            made_run_slope(made_run.state[k - 1], before);
+            made_run_slope(made_run.state[k], now);
+            asked += made_run.step_s * (before[i] + now[i]) / 2.0;
             low = asked < low ? asked : low;
             high = larger(high, asked);
-            strayed = larger(strayed, fabs(asked - (world.state[k][i] - world.state[0][i])));
+            strayed = larger(strayed, fabs(asked - (made_run.state[k][i] - made_run.state[0][i])));
         }
-        const int at = place_of(i);
+        const int at = made_run_place(i);
         expect_near(asked, w->asked[at], 10.0, "asked");
         expect_near(low, w->asked_low[at], 10.0, "asked, least");
         expect_near(high, w->asked_high[at], 10.0, "asked, most");
         expect_near(strayed, w->strayed[at], 10.0, "strayed");
-        TEST_ASSERT_TRUE(w->start[at] == world.state[0][i]);
+        TEST_ASSERT_TRUE(w->start[at] == made_run.state[0][i]);
     }
 }
 
@@ -360,26 +212,26 @@ static void expect_lost(const watch *w) {
     double most = 0.0;
     double size = 0.0;
     uint64_t doubts = 0;
-    for (uint64_t k = 0; k <= world.at; k++) {
-        const double *s = world.state[k];
-        size = larger(size, fabs(kinetic_of(s) + odd_of(s)) + stored_of(s));
+    for (uint64_t k = 0; k <= made_run.at; k++) {
+        const double *s = made_run.state[k];
+        size = larger(size, fabs(made_run_kinetic(s) + made_run_odd(s)) + made_run_stored(s));
         if (k == 0 || k % 2 == 1) {
             continue;
         }
         double power[3];
         for (int i = 0; i < 3; i++) {
-            const double *at = world.state[k - 2 + (uint64_t)i];
-            power[i] = power_of(at, 0) - power_of(at, 1);
+            const double *at = made_run.state[k - 2 + (uint64_t)i];
+            power[i] = made_run_power(at, 0) - made_run_power(at, 1);
         }
-        const double third = world.step_s / 3.0;
+        const double third = made_run.step_s / 3.0;
         const double doubt = fabs(third * (power[0] - 2.0 * power[1] + power[2]));
         const double sizes = third * (fabs(power[0]) + 4.0 * fabs(power[1]) + fabs(power[2]));
         if (doubt > 0.01 * sizes && doubt > 1e-7 * size) {
             for (uint64_t i = k - 2; i < k; i++) {
                 double there[N];
-                memcpy(there, world.state[i], sizeof there);
-                go(there, 6);
-                lost += energy_of(world.state[i + 1]) - energy_of(there);
+                memcpy(there, made_run.state[i], sizeof there);
+                made_run_go(there, 6);
+                lost += made_run_energy(made_run.state[i + 1]) - made_run_energy(there);
                 if (i == k - 2) {
                     most = larger(most, fabs(lost));
                 }
@@ -399,18 +251,18 @@ static void expect_lost(const watch *w) {
 static void test_made_up_runs(void) {
     const long before = blocks_in_use();
     for (unsigned c = 0; c < dice_cases(usual_or(60, 12)); c++) {
-        draw_world(c % 3U > 0, c % 4U == 3);
+        made_run_draw(&die, c % 3U > 0, c % 4U == 3);
         const uint64_t end = c % 5U == 0 ? c % 7U : dice_one_of(&die, STEPS_MOST + 1U);
-        draw_states(end);
-        derived d = derive_world();
-        made_for = d.image;
-        TEST_ASSERT_TRUE(made_for->angles == 0 && made_for->reals == N);
-        books *b = books_open(made_for);
-        watch *w = watch_open(made_for, &kind);
-        for (world.at = 0; world.at <= end; world.at++) {
-            books_enter(b, &kind, NULL);
-            watch_enter(w, &kind, b, NULL);
-            if (world.at == end || dice_one_of(&die, 10) == 0) {
+        made_run_states(&die, end);
+        derived d = made_run_derive();
+        made_run.image = d.image;
+        TEST_ASSERT_TRUE(made_run.image->angles == 0 && made_run.image->reals == N);
+        books *b = books_open(made_run.image);
+        watch *w = watch_open(made_run.image, &made_run_kind);
+        for (made_run.at = 0; made_run.at <= end; made_run.at++) {
+            books_enter(b, &made_run_kind, NULL);
+            watch_enter(w, &made_run_kind, b, NULL);
+            if (made_run.at == end || dice_one_of(&die, 10) == 0) {
                 expect_books(b);
                 expect_ranges(w);
                 expect_records(w);
@@ -428,19 +280,19 @@ static void test_made_up_runs(void) {
 /* From the first entry on that is no number the books are none. */
 static void test_no_number(void) {
     for (unsigned c = 0; c < dice_cases(usual_or(40, 10)); c++) {
-        draw_world(c % 2U == 0, c % 3U == 0);
+        made_run_draw(&die, c % 2U == 0, c % 3U == 0);
         const uint64_t end = 4 + dice_one_of(&die, 20);
         const uint64_t wrong = dice_one_of(&die, (unsigned)end + 1U);
-        draw_states(end);
-        world.state[wrong][c % N] = c % 5U == 0 ? (double)INFINITY : (double)NAN;
-        derived d = derive_world();
-        made_for = d.image;
-        books *b = books_open(made_for);
-        for (world.at = 0; world.at <= end; world.at++) {
-            books_enter(b, &kind, NULL);
-            TEST_ASSERT_EQUAL(world.at >= wrong, b->undefined);
+        made_run_states(&die, end);
+        made_run.state[wrong][c % N] = c % 5U == 0 ? (double)INFINITY : (double)NAN;
+        derived d = made_run_derive();
+        made_run.image = d.image;
+        books *b = books_open(made_run.image);
+        for (made_run.at = 0; made_run.at <= end; made_run.at++) {
+            books_enter(b, &made_run_kind, NULL);
+            TEST_ASSERT_EQUAL(made_run.at >= wrong, b->undefined);
         }
-        expect_near((double)wrong * world.step_s, b->undefined_s, 0.0, "undefined");
+        expect_near((double)wrong * made_run.step_s, b->undefined_s, 0.0, "undefined");
         books_close(b);
         derived_free(&d);
     }
@@ -452,33 +304,33 @@ static void test_no_number(void) {
  * rounding makes of a step, which is less where steps are short. */
 static void test_rounding(void) {
     for (unsigned c = 0; c < dice_cases(usual_or(40, 10)); c++) {
-        draw_world(c % 2U == 0, false);
-        world.step_s = 1e-9;
+        made_run_draw(&die, c % 2U == 0, false);
+        made_run.step_s = 1e-9;
         const uint64_t end = dice_one_of(&die, 30);
-        draw_states(end);
-        derived d = derive_world();
-        made_for = d.image;
-        books *b = books_open(made_for);
+        made_run_states(&die, end);
+        derived d = made_run_derive();
+        made_run.image = d.image;
+        books *b = books_open(made_run.image);
         double most = 0.0;
         double size = 0.0;
         double computing = 0.0;
-        for (world.at = 0; world.at <= end; world.at++) {
-            const double *s = world.state[world.at];
-            const bool looked = world.at == 0 || world.at == 1 || world.at == 4 || world.at == 16 ||
-                                world.at == end;
-            const double slope[N] = {world.k * s[X] + world.h * (s[X] - s[Y]),
-                                     -world.h * (s[X] - s[Y]), momentum_of(s, 0, false),
-                                     momentum_of(s, 1, false)};
+        for (made_run.at = 0; made_run.at <= end; made_run.at++) {
+            const double *s = made_run.state[made_run.at];
+            const bool looked = made_run.at == 0 || made_run.at == 1 || made_run.at == 4 ||
+                                made_run.at == 16 || made_run.at == end;
+            const double slope[N] = {made_run.k * s[X] + made_run.h * (s[X] - s[Y]),
+                                     -made_run.h * (s[X] - s[Y]), made_run_momentum(s, 0, false),
+                                     made_run_momentum(s, 1, false)};
             double sum = 0.0;
             for (int i = 0; i < N; i++) {
                 sum += fabs(slope[i] * s[i]) * 0x1p-53;
             }
             most = looked ? larger(most, sum) : most;
-            size = larger(size, energy_of(s));
-            books_enter(b, &kind, NULL);
+            size = larger(size, made_run_energy(s));
+            books_enter(b, &made_run_kind, NULL);
         }
-        world.at = end;
-        const double found = books_rounding_J(b, &kind, NULL, &computing);
+        made_run.at = end;
+        const double found = books_rounding_J(b, &made_run_kind, NULL, &computing);
         TEST_ASSERT_TRUE(fabs(found - 0x1p-52 * size - most) <= 2e-5 * most);
         /* a handful of operations, of terms no larger than a few energies */
         TEST_ASSERT_TRUE(computing > 0x1p-54 * size && computing < 60.0 * 0x1p-53 * size);

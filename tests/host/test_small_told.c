@@ -1,0 +1,142 @@
+/* test_small_told.c: the figures of what is told of numbers that are small: an angle whose steps are a few of its units
+ * (host/run/slow.h), a size of a few of the least numbers (faint.h), a product below the normal ones (narrow.h). */
+#include <math.h>
+#include <stdbool.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "command.h"
+#include "host/commands/commands.h"
+#include "unity.h"
+
+void suite_small_told(void);
+
+static dice die;
+
+static void expect_figure(double wanted, double is, const char *text) {
+    TEST_ASSERT_TRUE_MESSAGE(fabs(is - wanted) <= 0.06 * wanted, text);
+}
+
+/* An angle goes by whole parts of 2^32 a turn: each step by the nearest number of them. */
+static void test_slow_angles(void) {
+    for (unsigned n = 0; n < dice_cases(usual_or(16, 6)); n++) {
+        char text[400];
+        double figure[3] = {0.0};
+        said what;
+        const double unit_rad = 2.0 * 3.14159265358979323846 / 4294967296.0;
+        const double part = (double)(n % 4U) + dice_between(&die, n % 4U == 0 ? 0.15 : -0.45, 0.45);
+        const double step_s = dice_between(&die, 0.001, 0.1);
+        const unsigned steps = 200 + dice_one_of(&die, 300);
+        const double off_rad = fabs(nearbyint(part) - part) * unit_rad * steps;
+        const double span_rad = part * unit_rad * steps;
+        snprintf(
+            text, sizeof text,
+            "mechanism m\ncoordinate x [m]\ncoordinate a [rad]\n"
+            "T = 1 [kg]*x'^2/2 + 1 [kg*m^2]*a'^2/2\n"
+            "scene s { start a' = %.17g [rad/s], x' = 1 [m/s]; step %.17g [s]; until %.17g [s] }\n",
+            part * unit_rad / step_s, step_s, step_s * steps);
+        for (int compensated = 0; compensated < 2; compensated++) {
+            const char *words[] = {model_keep(text),
+                                   "--quiet",
+                                   "--number",
+                                   "float",
+                                   compensated > 0 ? "--compensated" : NULL,
+                                   NULL};
+            command_say(command_run, words, &what);
+            TEST_ASSERT_EQUAL_INT_MESSAGE(0, what.status, what.err);
+            if (off_rad < 1.02e-3 * span_rad || off_rad < 3.1e-9 || compensated > 0) {
+                continue;
+            }
+            const char *at = said_exactly(
+                what.err, "whirl run: note: 'a' turns so slowly that rounding its steps to 1.5e-9 "
+                          "rad, as float does, put it off by up to ");
+            at = said_exactly(said_number(at, &figure[0]), " rad, ");
+            at = said_exactly(said_number(at, &figure[1]), " % of the ");
+            at = said_exactly(said_number(at, &figure[2]),
+                              " rad that it should cover\nhint: --compensated carries what is "
+                              "rounded; a larger --step rounds less\n");
+            TEST_ASSERT_EQUAL_STRING("", at);
+            expect_figure(off_rad, figure[0], what.err);
+            expect_figure(100.0 * off_rad / span_rad, figure[1], what.err);
+            expect_figure(span_rad, figure[2], what.err);
+        }
+        TEST_ASSERT_EQUAL_STRING("", what.err);
+    }
+    model_drop();
+}
+
+/* What stands a few hundred of the least numbers from zero: their roundings' root is told, of that. */
+static void test_faint_sizes(void) {
+    for (unsigned n = 0; n < dice_cases(usual_or(16, 6)); n++) {
+        char text[400];
+        double figure[2] = {0.0};
+        said what;
+        const bool is_float = n % 2U == 0;
+        const double unit = is_float ? 0x1p-149 : 0x1p-1074;
+        const double units = 30.0 + dice_one_of(&die, 900);
+        const unsigned steps = 100 + dice_one_of(&die, 900);
+        const double part = 0.5 / units * sqrt((double)steps);
+        snprintf(
+            text, sizeof text,
+            "mechanism m\nstate y [m]\nequation y' = 1 [m/s]\nstate x\nequation x' = 0 [1/s]*x\n"
+            "scene s { start x = %.17g; step 1 [ms]; until %.17g [s] }\n",
+            unit * units, 1e-3 * steps);
+        const char *words[] = {model_keep(text), "--quiet", "--number",
+                               is_float ? "float" : "double", NULL};
+        command_say(command_run, words, &what);
+        TEST_ASSERT_EQUAL_INT_MESSAGE(0, what.status, what.err);
+        const char *at = strstr(what.err, "whirl run: warning: 'x' is so small that ");
+        TEST_ASSERT_NOT_NULL_MESSAGE(at, what.err);
+        at = said_exactly(at + strlen("whirl run: warning: 'x' is so small that "),
+                          is_float ? "float" : "double");
+        at = said_exactly(at, " has no digits for it: steps round to ");
+        at = said_exactly(said_number(at, &figure[0]), ", up to ");
+        at = said_exactly(said_number(at, &figure[1]),
+                          " % of its size over the run\nhint: smaller units make larger numbers");
+        (void)said_exactly(at, is_float ? "; or --number double\n" : "\n");
+        expect_figure(unit, figure[0], what.err);
+        expect_figure(100.0 * fmin(part, 1.0), figure[1], what.err);
+    }
+    model_drop();
+}
+
+/* A product of two inputs that float cuts: what a least normal number is rounded by is told, of it. */
+static void test_small_products(void) {
+    for (unsigned n = 0; n < dice_cases(usual_or(8, 4)); n++) {
+        char text[400];
+        double figure[2] = {0.0};
+        said what;
+        const double part = exp(dice_between(&die, log(1.3e-3), log(3.0)));
+        const double product = 0x1p-24 * 0x1p-126 / part;
+        const double p = exp(dice_between(&die, log(1e-22), log(1e-19)));
+        const bool told = n % 4U < 3;
+        snprintf(text, sizeof text,
+                 "mechanism m\nstate x [m]\ninput p = %.17g [m/s]\ninput q = %.17g\n"
+                 "input c = 1e%d\nequation x' = p*q*c\n"
+                 "scene s { step 10 [ms]; until 1 [s] }\n",
+                 p, told ? product / p : 1e-15, told ? 38 : 30);
+        const char *words[] = {model_keep(text), "--quiet", "--number", "float", NULL};
+        command_say(command_run, words, &what);
+        const char *at = strstr(what.err, "whirl run: warning: float has no room for what '");
+        TEST_ASSERT_EQUAL_MESSAGE(told, at != NULL, what.err);
+        if (!told) {
+            continue;
+        }
+        at = said_exactly(at + strlen("whirl run: warning: float has no room for what '"),
+                          "x' is made of: products below 1.2e-38 are cut or lost, up to ");
+        at = said_number(said_exactly(said_number(at, &figure[0]), " % of its slope about t = "),
+                         &figure[1]);
+        (void)said_exactly(at, " s\nhint: --number double; float holds sizes from 1.2e-38 to "
+                               "3.4e+38 in SI units\n");
+        expect_figure(100.0 * fmin(part, 1.0), figure[0], what.err);
+        TEST_ASSERT_TRUE(figure[1] >= 0.0 && figure[1] <= 1.0);
+    }
+    model_drop();
+}
+
+void suite_small_told(void) {
+    die = dice_of("small_told", 71);
+    RUN_TEST(test_slow_angles);
+    RUN_TEST(test_faint_sizes);
+    RUN_TEST(test_small_products);
+}
