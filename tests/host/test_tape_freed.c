@@ -4,6 +4,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "blocks.h"
 #include "command.h"
 #include "evaluated.h"
 #include "host/image/tape_gauge.h"
@@ -114,6 +115,25 @@ static void test_errors_go_through_operations(void) {
             }
             tape_free(t);
         }
+    }
+}
+
+/* A sine of radians is off by what its slope makes of them. */
+static void test_errors_go_through_phases(void) {
+    for (int tries = 0; tries < 40; tries++) {
+        const double offset = dice_between(&die, 0.1, 1.4);
+        const double rad = decimal() / 10.0;
+        const double off = (double)(float)rad - rad;
+        const double angle = offset + rad;
+        const bool is_sine = tries % 2 == 0;
+        const double value = is_sine ? sin(angle) : cos(angle);
+        const double slope = is_sine ? cos(angle) : -sin(angle);
+        tape *t = tape_new(0, 1);
+        const int phase = tape_phase(t, NULL, offset, tape_constant(t, rad));
+        t->result[0] = tape_unary(t, is_sine ? OP_SIN : OP_COS, phase);
+        const double wanted = fabs(slope * off / value);
+        TEST_ASSERT_DOUBLE_WITHIN(1e-3 * wanted + 1e-13, wanted, tape_bias(t, t));
+        tape_free(t);
     }
 }
 
@@ -302,6 +322,7 @@ static tape *some_list(void) {
 /* Multiplied by one it is the same list, and by what it may be multiplied by, or by anything, the same results: what does not
  * fit is made up for. */
 static void test_multiplied_lists_compute_the_same(void) {
+    const long blocks = blocks_in_use();
     for (unsigned c = 0; c < dice_cases(few_or_all(usual_or(60, 20), 400)); c++) {
         tape *t = some_list();
         double *times = calloc(3 * (size_t)t->count + 1, sizeof *times);
@@ -323,14 +344,17 @@ static void test_multiplied_lists_compute_the_same(void) {
         expect_free(t, &f, false);
         tape_freedoms_free(&f);
         free(times);
+        TEST_ASSERT_FALSE(tape_bias(t, t) < 0.0); /* or no number, where there is no telling */
         tape_free(t);
     }
+    TEST_ASSERT_TRUE(blocks_in_use() == blocks);
 }
 
 void suite_tape_freed(void) {
     die = dice_of("tape_freed", 4190);
     RUN_TEST(test_a_constants_error_is_the_results);
     RUN_TEST(test_errors_go_through_operations);
+    RUN_TEST(test_errors_go_through_phases);
     RUN_TEST(test_a_quotient_has_one_freedom);
     RUN_TEST(test_few_raw_values_are_multiplied);
     RUN_TEST(test_multiplied_lists_compute_the_same);

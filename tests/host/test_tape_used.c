@@ -3,8 +3,10 @@
 #include <math.h>
 #include <string.h>
 
+#include "blocks.h"
 #include "drawn_scene.h"
 #include "evaluated.h"
+#include "host/base/arena.h"
 #include "unity.h"
 
 void suite_tape_used(void);
@@ -317,6 +319,65 @@ static void test_sums_share_their_halves(void) {
     }
 }
 
+/* Where nothing can be shared the list stays as it is, with what no result needs. */
+static void test_other_lists_are_left_alone(void) {
+    for (unsigned way = 3; way < 7; way++) {
+        tape *t = tape_new(0, 3);
+        tape_leaf(t, OP_TIME, 0);
+        TEST_ASSERT_FALSE(enter_pair(t, 0, way));
+        const int count = t->count;
+        const uint64_t hash = tape_hash(t);
+        tape_share_sums(t);
+        TEST_ASSERT_EQUAL_INT(count, t->count);
+        TEST_ASSERT_TRUE(hash == tape_hash(t));
+        tape_free(t);
+    }
+}
+
+/* All that a list, and what was done with it, has taken is given back with it. */
+static void test_lists_are_given_back(void) {
+    const long blocks = blocks_in_use();
+    for (int size = 1; size < 600; size *= 2) {
+        tape *t = tape_new(2, 3);
+        const double multiple[] = {0.5, 2.0};
+        const int turns[] = {1, -2};
+        int sum = tape_unary(t, OP_SIN, tape_phase(t, multiple, 0.1, -1));
+        tape_tables_new(t, 2, 3, 2);
+        sum = tape_add(t, sum, tape_look_up(t, tape_cell(t, turns), 1));
+        for (int i = 0; i < size; i++) {
+            sum = tape_add(t, tape_mul(t, sum, sum), tape_leaf(t, OP_LINEAR, i));
+        }
+        for (int i = 0; i < 3; i++) {
+            t->result[i] = sum - i;
+        }
+        enter_pair(t, 0, 0);
+        tape_share_sums(t);
+        tape_order(t);
+        TEST_ASSERT_TRUE(tape_carried(t) >= 0 && tape_not_finite(t) < 0);
+        tape_free(t);
+    }
+    tape_free(NULL);
+    TEST_ASSERT_TRUE(blocks_in_use() == blocks);
+}
+
+/* An image takes its lists and its memory along, and none of those that it has of another one. */
+static void test_images_are_given_back(void) {
+    const long blocks = blocks_in_use();
+    image_free(NULL);
+    struct arena *one = arena_new();
+    image *first = arena_alloc(one, sizeof *first);
+    *first = (image){.memory = one, .list = {[IMAGE_STEP] = tape_new(0, 1)}};
+    struct arena *other = arena_new();
+    image *again = arena_alloc(other, sizeof *again);
+    *again =
+        (image){.memory = other,
+                .base = first,
+                .list = {[IMAGE_STEP] = first->list[IMAGE_STEP], [IMAGE_BOOKS] = tape_new(0, 1)}};
+    image_free(again);
+    image_free(first);
+    TEST_ASSERT_TRUE(blocks_in_use() == blocks);
+}
+
 void suite_tape_used(void) {
     die = dice_of("tape_used", 4180);
     RUN_TEST(test_operations_are_counted);
@@ -326,4 +387,7 @@ void suite_tape_used(void) {
     RUN_TEST(test_images_are_read);
     RUN_TEST(test_a_hash_is_of_everything);
     RUN_TEST(test_sums_share_their_halves);
+    RUN_TEST(test_other_lists_are_left_alone);
+    RUN_TEST(test_lists_are_given_back);
+    RUN_TEST(test_images_are_given_back);
 }
