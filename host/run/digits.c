@@ -23,6 +23,10 @@
 #define PLACES_LEAST 4.0
 /* What computing an energy may be off, in so many of its bounds. */
 #define COMPUTING_MORE 4.0
+/* So many times further away than it moves, a place has rates whose terms are larger by as much or its square: its steps may
+ * be what its slopes ask for, and these are wrong. */
+#define FAR_FLOAT 30.0
+#define FAR_DOUBLE 1e5
 /* What may be spent on a run again. */
 #define OPERATIONS_MOST 1e8
 
@@ -70,8 +74,23 @@ static bool loses(const engine_kind *kind, const belief *b, double told) {
            fabs(b->left_J) > COMPUTING_MORE * b->computing_J;
 }
 
+static bool is_far(const image *im, const engine_kind *kind, const watch *w, int i) {
+    const component c = image_component(im, i);
+    const double times = kind == &engine_float ? FAR_FLOAT : FAR_DOUBLE;
+    return i >= im->angles && image_find_component(im, c.unknown, c.primes + 1) >= 0 &&
+           furthest(w, i) > times * (w->high[i] - w->low[i]);
+}
+
+bool digits_far(const image *im, const engine_kind *kind, const watch *w) {
+    bool found = false;
+    for (int i = 0; i < w->field->n; i++) {
+        found = found || is_far(im, kind, w, i);
+    }
+    return found;
+}
+
 static bool is_suspect(const image *im, const engine_kind *kind, const watch *w, const belief *b) {
-    bool found = loses(kind, b, PART_TOLD);
+    bool found = loses(kind, b, PART_TOLD) || digits_far(im, kind, w);
     for (int i = 0; i < w->field->n; i++) {
         const double range = w->high[i] - w->low[i];
         found = found || strayed(im, kind, w, i) > PART_TOLD * measure(w, i, asked_range(w, i)) ||
@@ -82,7 +101,17 @@ static bool is_suspect(const image *im, const engine_kind *kind, const watch *w,
 
 /* --- what the other run bears out ----------------------------------------------------------------------------*/
 
-/* Trapezoids leave the same in both. */
+/* At the records. */
+static double apart(const watch *w, const watch *other, int i) {
+    const int n = w->field->n;
+    double most = 0.0;
+    for (int k = 0; k < w->records && w->records == other->records; k++) {
+        most = number_most(most, fabs(w->record[k * n + i] - other->record[k * n + i]));
+    }
+    return most;
+}
+
+/* Trapezoids leave the same in both. What strays is off by what the records are apart, too, wherever it is. */
 static void judge_component(const image *im, const engine_kind *kind, const watch *w,
                             const watch *other, int i, double told, digits *d) {
     const double range = other->high[i] - other->low[i];
@@ -92,7 +121,10 @@ static void judge_component(const image *im, const engine_kind *kind, const watc
     const bool by_sums = far <= (double)im->steps * last_place;
     const double stray =
         range >= ASKED_KEPT * asked_range(w, i) && (by_sums || kind == &engine_float) ? far : 0.0;
-    const double off = number_most(stray, start_off(im, kind, i));
+    const double step_off = number_most(stray, start_off(im, kind, i));
+    const double off = digits_far(im, kind, w) || step_off > told * by
+                           ? number_most(step_off, apart(w, other, i))
+                           : step_off;
     const bool moves = range > RANGE_KEPT * (w->high[i] - w->low[i]) &&
                        (range > MOTION_LEAST * furthest(other, i) || kind == &engine_double);
     if (moves && off > told * by && (d->component < 0 || off / by > d->off / d->range)) {
@@ -100,6 +132,7 @@ static void judge_component(const image *im, const engine_kind *kind, const watc
         d->off = off;
         d->range = by;
         d->place = last_place;
+        d->by_sums = step_off > told * by;
     }
 }
 
@@ -139,6 +172,16 @@ static bool goes_along(const again *a, const again *better) {
     return along;
 }
 
+/* The run as it would be so. */
+static bool does(const image *im, const engine_kind *kind, const again *better,
+                 const volatile sig_atomic_t *stop) {
+    again a;
+    again_run(&a, im, kind, stop);
+    const bool along = goes_along(&a, better);
+    again_forget(&a);
+    return along;
+}
+
 digits digits_of(const image *im, const engine_kind *kind, const watch *w, const belief *b,
                  const volatile sig_atomic_t *stop) {
     digits d = {.component = -1};
@@ -154,13 +197,11 @@ digits digits_of(const image *im, const engine_kind *kind, const watch *w, const
     again_run(&more, &summed, &engine_double, stop);
     if (more.done) {
         d = judge_all(im, kind, w, b, &more, PART_TOLD);
-        d.compensated = !is_float && d.component >= 0;
+        d.compensated = !is_float && d.component >= 0 && d.by_sums;
     }
-    if (is_float && !im->settings.compensated && (d.energy || d.component >= 0)) {
-        again same;
-        again_run(&same, &summed, kind, stop);
-        d.compensated = goes_along(&same, &more);
-        again_forget(&same);
+    if (is_float && (d.energy || d.component >= 0)) {
+        d.compensated = !im->settings.compensated && does(&summed, kind, &more, stop);
+        d.in_double = does(im, &engine_double, &more, stop);
     }
     again_forget(&more);
     return d;
@@ -171,7 +212,7 @@ static void say_component(FILE *out, const image *im, const char *kind, const di
     const component c = image_component(im, d->component);
     const image_unknown *u = &im->unknown[c.unknown];
     const image_unit *unit = &u->unit[c.primes];
-    const bool by_slope = c.primes > 0 && d->off > d->place * (double)im->steps;
+    const bool by_slope = d->off > d->place * (double)im->steps;
     char rounds[80];
     snprintf(rounds, sizeof rounds, "to %.2g %.40s where it is", image_shown(unit, d->place),
              unit->shown);
@@ -184,7 +225,6 @@ static void say_component(FILE *out, const image *im, const char *kind, const di
 }
 
 void digits_say(FILE *out, const image *im, const engine_kind *kind, const digits *d) {
-    const bool is_float = kind == &engine_float;
     if (d->component >= 0) {
         say_component(out, im, kind->name, d);
     } else if (d->energy) {
@@ -196,9 +236,14 @@ void digits_say(FILE *out, const image *im, const engine_kind *kind, const digit
     } else {
         return;
     }
-    fprintf(out, "hint: %s%s would do%s\n", d->compensated ? "--compensated" : "",
-            is_float ? (d->compensated ? " or --number double" : "--number double") : "",
-            d->component >= 0
-                ? "; coordinates whose origin is near to where they move need fewer digits"
-                : "");
+    const char *const names[2] = {d->compensated ? "--compensated" : "",
+                                  d->in_double ? "--number double" : ""};
+    const bool both = d->compensated && d->in_double;
+    const bool any = d->compensated || d->in_double;
+    const char *where =
+        d->component >= 0 ? "coordinates whose origin is near to where they move need fewer digits"
+                          : "no number that there is has enough at this step";
+    fprintf(out, "hint: %s%s%s%s%s%s\n", names[0], both ? " or " : "", names[1],
+            any ? " would do" : "", any && d->component >= 0 ? "; " : "",
+            any && d->component < 0 ? "" : where);
 }

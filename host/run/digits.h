@@ -17,12 +17,17 @@ typedef struct digits {
     bool energy;   /* and of the energy so much is missing, which more digits keep: */
     double left_J;
     double part;      /* of its largest entry */
-    bool compensated; /* compensated sums would do: that was tried */
+    bool by_sums;     /* its steps were not what its slopes asked for; else its slopes are off */
+    bool compensated; /* compensated sums would do, */
+    bool in_double;   /* or a float's run in double: these were tried */
 } digits;
 
+/* Does some coordinate move so far from its origin that its slopes may have too few digits? */
+bool digits_far(const image *im, const engine_kind *kind, const watch *w);
+
 /* Of a run to its end, of which nothing else is said. Where it did not follow its slopes, was not started where it was told
- * to, or left something of its energy over that only rounding explains, it is run again in double with compensated sums, and
- * told where that has what is missing. A motion of less than 1e-7 of where it takes place is none, nor is energy that goes to
+ * to, took place far from the origin, or left something of its energy over that only rounding explains, it is run again in
+ * double with compensated sums, and told where that has what is missing or goes elsewhere. A motion of less than 1e-7 of where it takes place is none, nor is energy that goes to
  * and fro beside ten million times as much. `stop` may be NULL. */
 digits digits_of(const image *im, const engine_kind *kind, const watch *w, const belief *b,
                  const volatile sig_atomic_t *stop);

@@ -10,36 +10,44 @@
 /* What the bound of rounding leaves out: roundings of a step's own sums, the library's functions. */
 #define ROUNDING_ROOM 8.0
 /* A rate that hardly varies is measured by this part of its size: of one that stays at 34.56 rad/s within 0.007 float keeps
- * no thousandth. */
+ * no thousandth. A place is not, for its origin may be anywhere. */
 #define LEAST_RANGE 1e-3
+/* A place that stays where it is but for rounding moves by less than this part of its distance from the origin, or of one
+ * metre or radian; or by less than that part of what others of its unit move. */
+#define STAYS 1e-9
+#define BESIDE_OTHERS 1e-3
+/* The bound of rounding is some twenty times what rounding does. Where it does so much in the finer run, that shares it. */
+#define BOUND_OVER 20.0
 
-/* What has a rate of its own has its origin anywhere: how far from it that moves says nothing of how much. */
-static bool is_place(const twins *t, int k) {
-    const record_column *c = &t->shape->column[k];
-    return image_find_component(&t->finer, c->unknown, c->primes + 1) >= 0;
-}
+static double size_of(const twins_column *c) { return number_most(fabs(c->low), fabs(c->high)); }
 
-static double measured_by(const twins *t, int k) {
-    const twins_column *c = &t->column[k];
-    const double least = LEAST_RANGE * number_most(fabs(c->low), fabs(c->high));
-    return number_most(c->high - c->low, is_place(t, k) ? 0.0 : least);
+static bool stays(const twins *t, int k) {
+    const twins_column *c = &t->column[t->column[k].place];
+    const double range = c->high - c->low;
+    return range <= STAYS * number_most(size_of(c), c->one) || range <= BESIDE_OTHERS * c->alike;
 }
 
 static horizon_column judge(const twins *t, int k, double tolerance) {
     const twins_column *c = &t->column[k];
     const double range = c->high - c->low;
-    const double by = measured_by(t, k);
+    const double by = number_most(range, c->has_rate ? 0.0 : LEAST_RANGE * size_of(c));
     const double level = tolerance * by / t->left_out;
-    horizon_column made = {
-        .range = by, .off = c->off.most * t->left_out, .until_s = passages_until_s(&c->off, level)};
-    if (!isfinite(made.until_s)) {
-        made.verdict = range > 0.0 || made.off > 0.0 ? HORIZON_TO_THE_END : HORIZON_STILL;
-        made.until_s = t->end_s;
-    } else if (range <= ROUNDING_ROOM * c->rounding && isfinite(made.off)) {
+    horizon_column made = {.range = by,
+                           .off = c->off.most * t->left_out,
+                           .rounding = c->rounding,
+                           .until_s = passages_until_s(&c->off, level)};
+    const bool passed = isfinite(made.until_s);
+    if (passed && range <= ROUNDING_ROOM * c->rounding && isfinite(made.off) && stays(t, k)) {
         made.verdict = HORIZON_ROUNDING;
         made.until_s = t->end_s;
-    } else {
+    } else if (passed) {
         made.verdict = HORIZON_UNTIL;
+    } else if (c->rounding > BOUND_OVER * tolerance * by && !stays(t, k)) {
+        made.verdict = HORIZON_NOT_TOLD;
+        made.until_s = 0.0;
+    } else {
+        made.verdict = range > 0.0 || made.off > 0.0 ? HORIZON_TO_THE_END : HORIZON_STILL;
+        made.until_s = t->end_s;
     }
     return made;
 }
@@ -53,7 +61,7 @@ horizon horizon_of(const twins *t, double tolerance) {
                  .until_s = t->end_s};
     for (int k = 1; k < t->columns; k++) {
         h.column[k] = judge(t, k, tolerance);
-        if (h.column[k].verdict == HORIZON_UNTIL) {
+        if (h.column[k].verdict == HORIZON_UNTIL || h.column[k].verdict == HORIZON_NOT_TOLD) {
             h.to_the_end = false;
             if (h.first < 0 || h.column[k].until_s < h.until_s) {
                 h.first = k;

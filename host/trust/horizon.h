@@ -13,12 +13,14 @@ typedef enum horizon_verdict {
     HORIZON_UNTIL,    /* until_s */
     HORIZON_STILL,    /* it does not move: right to the end */
     HORIZON_ROUNDING, /* what moves of it is rounding alone: as good as still */
+    HORIZON_NOT_TOLD, /* both runs have too few digits for it: that they agree says nothing */
 } horizon_verdict;
 
 typedef struct horizon_column {
     horizon_verdict verdict;
     /* In the column's unit: the most less the least value; of a rate, or what has none, a thousandth of its size at the least. */
     double range;
+    double rounding; /* what rounding may move of it in the finer run, at most */
     double
         off; /* the most that the two differ by, in the same; what the finer one is itself off added */
     double

@@ -43,6 +43,12 @@ static void print_column(FILE *out, const horizon *h, int k) {
                 h->tolerance, h->tolerance * c->range, unit);
         break;
     case HORIZON_STILL: fputs("to the end      it does not move\n", out); break;
+    case HORIZON_NOT_TOLD:
+        fprintf(
+            out,
+            "not to be told  rounding may move it by %.2e of its range, %.4g %s, in double, too\n",
+            c->rounding / c->range, c->range, unit);
+        break;
     case HORIZON_ROUNDING:
         fprintf(out, "to the end      rounding alone moves it, by %.2e %s\n",
                 c->off > c->range ? c->off : c->range, unit);
@@ -97,8 +103,13 @@ static void print_verdict(FILE *out, const horizon *h) {
                 t->end_s);
         return;
     }
-    fprintf(out, "trusted until t = %.9g s of %.9g s: %s is off first\n", h->until_s, t->end_s,
-            name_of(h, h->first, name));
+    if (h->column[h->first].verdict == HORIZON_NOT_TOLD) {
+        fprintf(out, "not to be told: double has too few digits for %s, where it is\n",
+                name_of(h, h->first, name));
+    } else {
+        fprintf(out, "trusted until t = %.9g s of %.9g s: %s is off first\n", h->until_s, t->end_s,
+                name_of(h, h->first, name));
+    }
     if (t->finer_failed_s >= 0.0) {
         fprintf(out, "with half the step it leaves all bounds behind t = %.9g s\n",
                 t->finer_failed_s);
@@ -135,6 +146,12 @@ void horizon_print_line(FILE *out, const horizon *h, bool doubted) {
     } else if (h->to_the_end) {
         fprintf(out, "trusted            to the end: every coordinate to %.3g of its range\n",
                 h->tolerance);
+    } else if (h->column[h->first].verdict == HORIZON_NOT_TOLD) {
+        fprintf(out,
+                "trusted            not to be told: double has too few digits for %s where it is; "
+                "rounding may move it by %.2g of its range\n",
+                name_of(h, h->first, name),
+                h->column[h->first].rounding / h->column[h->first].range);
     } else {
         fprintf(
             out,
@@ -148,7 +165,8 @@ bool horizon_write(FILE *out, const horizon *h) {
     static const char *const verdicts[] = {[HORIZON_TO_THE_END] = "end",
                                            [HORIZON_UNTIL] = "until",
                                            [HORIZON_STILL] = "still",
-                                           [HORIZON_ROUNDING] = "rounding"};
+                                           [HORIZON_ROUNDING] = "rounding",
+                                           [HORIZON_NOT_TOLD] = "untold"};
     char name[NAME_SIZE];
     fputs("column,unit,verdict,until,range,off\r\n", out);
     for (int k = 1; k < h->of->columns; k++) {

@@ -145,6 +145,26 @@ static void take_rounding(twins *t, const rounded *r) {
     }
 }
 
+static double range_of(const twins_column *c) { return c->high - c->low; }
+
+static void take_places(twins *t) {
+    for (int k = 1; k < t->columns; k++) {
+        const record_column *c = &t->shape->column[k];
+        twins_column *to = &t->column[k];
+        to->place = k;
+        to->one = image_shown(c->unit, 1.0);
+        for (int i = 1; i < t->columns; i++) {
+            const record_column *other = &t->shape->column[i];
+            to->has_rate =
+                to->has_rate || (other->unknown == c->unknown && other->primes == c->primes + 1);
+            to->place = other->unknown == c->unknown && other->primes == 0 ? i : to->place;
+            if (other->primes == 0 && strcmp(other->unit->shown, c->unit->shown) == 0) {
+                to->alike = number_most(to->alike, range_of(&t->column[i]));
+            }
+        }
+    }
+}
+
 /* --- side by side ------------------------------------------------------------------------------------*/
 
 typedef struct pair {
@@ -272,6 +292,7 @@ twins *twins_run(const twins_wish *w) {
               .stride = 1U + (w->image->steps - (w->image->steps > 0)) / TWINS_LOOKS};
     run_both(&p);
     take_rounding(t, &p.rounded);
+    take_places(t);
     rounded_close(&p.rounded);
     records_close(p.finers);
     engine_double.stop(p.finer);

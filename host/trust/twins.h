@@ -32,6 +32,10 @@ typedef struct twins_column {
     double high;
     double rounding; /* what may move of it by rounding alone, in the finer run */
     double last;     /* difference at the last look */
+    bool has_rate;   /* in the state: its origin may be anywhere */
+    int place;       /* the column that it is a rate of; itself where it is none */
+    double one;      /* of SI's unit, in the column's */
+    double alike;    /* the largest range of what is no rate and has its unit */
     passages off;
 } twins_column;
 

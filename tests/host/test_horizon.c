@@ -73,7 +73,9 @@ static void test_levels_and_when_they_were_passed(void) {
 enum { COLUMNS = 6, LOOKS = 40 };
 
 typedef struct drawn_column {
-    double low, high, rounding;
+    double low, high, rounding, one, alike;
+    bool has_rate;
+    int place;
     double time_s[LOOKS];
     double off[LOOKS];
     int looks;
@@ -85,6 +87,15 @@ static drawn_column draw_column(dice *d) {
     const bool moves = dice_one_of(d, 3) > 0;
     c.high = c.low + (moves ? pow(10.0, dice_between(d, -7.0, 2.0)) : 0.0);
     c.rounding = dice_one_of(d, 2) == 0 ? 0.0 : pow(10.0, dice_between(d, -9.0, -2.0));
+    if (dice_one_of(d, 4) == 0) { /* about zero */
+        c.high = -c.low;
+    }
+    c.low = fmin(c.low, c.high);
+    c.high = fmax(c.low, c.high);
+    c.has_rate = dice_one_of(d, 2) == 0;
+    c.alike =
+        (c.high - c.low) * (dice_one_of(d, 2) == 0 ? 1.0 : pow(10.0, dice_between(d, 0.0, 5.0)));
+    c.one = pow(10.0, dice_between(d, -3.0, 9.0));
     c.looks = dice_one_of(d, 4) == 0 ? 0 : (int)dice_one_of(d, LOOKS);
     double off = pow(10.0, dice_between(d, -9.0, -3.0));
     for (int i = 0; i < c.looks; i++) {
@@ -95,33 +106,60 @@ static drawn_column draw_column(dice *d) {
     return c;
 }
 
-/* As horizon.h has it. */
-static horizon_column judged(const drawn_column *c, double tolerance, double left_out,
-                             double end_s) {
+static double most_off(const drawn_column *c, double left_out) {
+    double most = 0.0;
+    for (int i = 0; i < c->looks; i++) {
+        most = fmax(most, c->off[i] * left_out);
+    }
+    return most;
+}
+
+/* Stays where it is, as horizon.c's head has it. */
+static bool keeps_its_place(const drawn_column *c) {
     const double moved = c->high - c->low;
     const double size = fmax(fabs(c->low), fabs(c->high));
-    horizon_column made = {.range = fmax(moved, size / 1000.0), .until_s = (double)INFINITY};
+    return 1e9 * moved <= fmax(size, c->one) || 1e3 * moved <= c->alike;
+}
+
+/* As horizon.h has it. */
+static horizon_column judged(const drawn_column *all, int k, double tolerance, double left_out,
+                             double end_s) {
+    const drawn_column *c = &all[k];
+    const double moved = c->high - c->low;
+    const double size = fmax(fabs(c->low), fabs(c->high));
+    const bool keeps = keeps_its_place(&all[c->place]);
+    horizon_column made = {.range = c->has_rate ? moved : fmax(moved, size / 1000.0),
+                           .off = most_off(c, left_out),
+                           .until_s = (double)INFINITY};
     for (int i = c->looks - 1; i >= 0; i--) {
-        made.off = fmax(made.off, c->off[i] * left_out);
         if (c->off[i] * left_out > tolerance * made.range) {
             made.until_s = c->time_s[i];
         }
     }
     if (isinf(made.until_s)) {
-        made.verdict = moved == 0.0 && made.off == 0.0 ? HORIZON_STILL : HORIZON_TO_THE_END;
-    } else if (moved <= 8.0 * c->rounding && isfinite(made.off)) {
+        const bool still = moved == 0.0 && made.off == 0.0;
+        made.verdict = !keeps && c->rounding > 20.0 * tolerance * made.range ? HORIZON_NOT_TOLD
+                       : still                                               ? HORIZON_STILL
+                                                                             : HORIZON_TO_THE_END;
+    } else if (moved <= 8.0 * c->rounding && isfinite(made.off) && keeps) {
         made.verdict = HORIZON_ROUNDING;
     } else {
         made.verdict = HORIZON_UNTIL;
     }
-    made.until_s = made.verdict == HORIZON_UNTIL ? made.until_s : end_s;
+    made.until_s = made.verdict == HORIZON_UNTIL      ? made.until_s
+                   : made.verdict == HORIZON_NOT_TOLD ? 0.0
+                                                      : end_s;
     return made;
+}
+
+static bool ends_it(const horizon_column *c) {
+    return c->verdict == HORIZON_UNTIL || c->verdict == HORIZON_NOT_TOLD;
 }
 
 static void test_verdicts_on_drawn_columns(void) {
     dice d = dice_of("horizon verdicts", 2313);
-    unsigned seen[4] = {0};
-    for (unsigned n = 0; n < 400; n++) {
+    unsigned seen[5] = {0};
+    for (unsigned n = 0; n < 800; n++) {
         drawn_column drawn[COLUMNS];
         twins_column column[COLUMNS] = {{0}};
         const double tolerance = pow(10.0, dice_between(&d, -5.0, -1.0));
@@ -134,6 +172,11 @@ static void test_verdicts_on_drawn_columns(void) {
             column[k].low = drawn[k].low;
             column[k].high = drawn[k].high;
             column[k].rounding = drawn[k].rounding;
+            column[k].has_rate = drawn[k].has_rate;
+            column[k].one = drawn[k].one;
+            column[k].alike = drawn[k].alike;
+            drawn[k].place = drawn[k].has_rate ? k : 1 + (int)dice_one_of(&d, (unsigned)k);
+            column[k].place = drawn[k].place;
             for (int i = 0; i < drawn[k].looks; i++) {
                 passages_enter(&column[k].off, drawn[k].time_s[i], drawn[k].off[i]);
             }
@@ -142,27 +185,27 @@ static void test_verdicts_on_drawn_columns(void) {
         double until_s = t.end_s;
         bool to_the_end = true;
         for (int k = 1; k < COLUMNS; k++) {
-            const horizon_column wanted = judged(&drawn[k], tolerance, t.left_out, t.end_s);
+            const horizon_column wanted = judged(drawn, k, tolerance, t.left_out, t.end_s);
             TEST_ASSERT_EQUAL_INT(wanted.verdict, h.column[k].verdict);
             TEST_ASSERT_EQUAL_DOUBLE(wanted.range, h.column[k].range);
             TEST_ASSERT_EQUAL_DOUBLE(wanted.off, h.column[k].off);
             TEST_ASSERT_EQUAL_DOUBLE(wanted.until_s, h.column[k].until_s);
             until_s = fmin(until_s, wanted.until_s);
-            to_the_end = to_the_end && wanted.verdict != HORIZON_UNTIL;
+            to_the_end = to_the_end && !ends_it(&wanted);
             seen[wanted.verdict]++;
         }
         TEST_ASSERT_EQUAL_DOUBLE(until_s, h.until_s);
         TEST_ASSERT_EQUAL_INT(to_the_end, h.to_the_end);
         TEST_ASSERT_TRUE(to_the_end ? h.first == -1 : h.column[h.first].until_s == until_s);
         for (int k = 1; !to_the_end && k < h.first; k++) { /* of several the first */
-            TEST_ASSERT_TRUE(h.column[k].verdict != HORIZON_UNTIL || h.column[k].until_s > until_s);
+            TEST_ASSERT_TRUE(!ends_it(&h.column[k]) || h.column[k].until_s > until_s);
         }
         horizon_free(&h);
         for (int k = 1; k < COLUMNS; k++) {
             passages_free(&column[k].off);
         }
     }
-    for (int i = 0; i < 4; i++) {
+    for (int i = 0; i < 5; i++) {
         TEST_ASSERT_TRUE(seen[i] > 40);
     }
 }
