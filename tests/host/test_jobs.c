@@ -73,6 +73,18 @@ static bool go_on(void *context, uint64_t next) {
     return next == log->next;
 }
 
+static int open_files(void) {
+    int count = 0;
+    for (int i = 0; i < 200; i++) {
+        const int copy = dup(i);
+        count += copy >= 0 ? 1 : 0;
+        if (copy >= 0) {
+            close(copy);
+        }
+    }
+    return count;
+}
+
 /* The result of the rows from FIRST to END; the log begins empty and refuses all after `limit`. */
 static jobs_result run_rows(log_of_rows *log, uint64_t limit, int workers,
                             bool (*work)(void *, uint64_t, FILE *, FILE *)) {
@@ -84,7 +96,12 @@ static jobs_result run_rows(log_of_rows *log, uint64_t limit, int workers,
                        .work = work,
                        .deliver = note,
                        .pause = go_on};
-    return jobs_run(&plan);
+    const int before = open_files();
+    const long blocks = blocks_in_use();
+    const jobs_result result = jobs_run(&plan);
+    TEST_ASSERT_EQUAL_INT(before, open_files()); /* nothing is left open, and all is given back */
+    TEST_ASSERT_TRUE(blocks_in_use() == blocks);
+    return result;
 }
 
 static void test_rows_come_in_order_from_any_number_of_workers(void) {
@@ -124,18 +141,6 @@ static void test_a_lost_worker_is_noticed(void) {
     log_of_rows log;
     TEST_ASSERT_EQUAL_INT(JOBS_WORKER_LOST, (int)run_rows(&log, END + 1, 2, die_at_20));
     TEST_ASSERT_TRUE(log.in_order && log.next <= 20);
-}
-
-static int open_files(void) {
-    int count = 0;
-    for (int i = 0; i < 200; i++) {
-        const int copy = dup(i);
-        count += copy >= 0 ? 1 : 0;
-        if (copy >= 0) {
-            close(copy);
-        }
-    }
-    return count;
 }
 
 static bool quick_work(void *context, uint64_t point, FILE *row, FILE *reason) {
