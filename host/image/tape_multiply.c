@@ -66,26 +66,30 @@ static double times_of(const multiplied *m, int i, int which) {
                                                : m->times[operand];
 }
 
-/* A product or quotient of what is multiplied already, and what is left to multiply by. */
+/* A product or quotient of what is multiplied already, and what is left to multiply by. One call after the other, in the same
+ * order everywhere. */
 static int make_product(const multiplied *m, int i) {
     const op *o = &m->from->ops[i];
     const double a = times_of(m, i, 0);
     const double b = times_of(m, i, 1);
     const double wanted = m->times[i];
     if (o->code == OP_DIV && m->from->ops[o->a].code == OP_CONSTANT) {
-        return tape_div(m->to, taken(m, o->a, wanted * b), taken(m, o->b, b));
+        const int below = taken(m, o->b, b);
+        return tape_div(m->to, taken(m, o->a, wanted * b), below);
     }
     const int x = taken(m, o->a, a);
     const int y = taken(m, o->b, b);
-    return o->code == OP_DIV
-               ? tape_mul(m->to, constant(m->to, wanted * b / a), tape_div(m->to, x, y))
-               : tape_mul(m->to, constant(m->to, wanted / (a * b)), tape_mul(m->to, x, y));
+    const bool divides = o->code == OP_DIV;
+    const int made = divides ? tape_div(m->to, x, y) : tape_mul(m->to, x, y);
+    return tape_mul(m->to, constant(m->to, divides ? wanted * b / a : wanted / (a * b)), made);
 }
 
+/* Of two operands the second is entered first, by whatever compiler: arguments of one call have no order. */
 static int make(const multiplied *m, int i) {
     const op *o = &m->from->ops[i];
     const double times = m->times[i];
     double number;
+    int second;
     switch (o->code) {
     case OP_CONSTANT: return -1; /* made where it is taken */
     case OP_LINEAR:
@@ -98,8 +102,12 @@ static int make(const multiplied *m, int i) {
     case OP_PHASE: return make_phase(m, o);
     case OP_SIN:
     case OP_COS: return tape_unary(m->to, o->code, m->made[o->a]);
-    case OP_ADD: return tape_add(m->to, taken(m, o->a, times), taken(m, o->b, times));
-    case OP_SUB: return tape_sub(m->to, taken(m, o->a, times), taken(m, o->b, times));
+    case OP_ADD:
+        second = taken(m, o->b, times);
+        return tape_add(m->to, taken(m, o->a, times), second);
+    case OP_SUB:
+        second = taken(m, o->b, times);
+        return tape_sub(m->to, taken(m, o->a, times), second);
     case OP_MUL:
         return tape_is_constant(m->from, o->a, &number) ? -1 /* likewise */ : make_product(m, i);
     case OP_DIV: return make_product(m, i);
@@ -109,12 +117,12 @@ static int make(const multiplied *m, int i) {
     case OP_SIGN: return tape_unary(m->to, o->code, taken(m, o->a, times_of(m, i, 0)));
     case OP_MIN:
     case OP_MAX:
-        return tape_call(m->to, o->code == OP_MIN ? FN_MIN : FN_MAX, taken(m, o->a, times),
-                         taken(m, o->b, times));
+        second = taken(m, o->b, times);
+        return tape_call(m->to, o->code == OP_MIN ? FN_MIN : FN_MAX, taken(m, o->a, times), second);
     case OP_CALL:
-        return tape_call(m->to, o->function, taken(m, o->a, 1.0),
-                         o->b >= 0 ? taken(m, o->b, 1.0) : -1);
-    case OP_POW: return tape_pow(m->to, taken(m, o->a, 1.0), taken(m, o->b, 1.0));
+        second = o->b >= 0 ? taken(m, o->b, 1.0) : -1;
+        return tape_call(m->to, o->function, taken(m, o->a, 1.0), second);
+    case OP_POW: second = taken(m, o->b, 1.0); return tape_pow(m->to, taken(m, o->a, 1.0), second);
     case OP_CELL:
     case OP_LINE:
     case OP_CUBIC: break; /* a list with tables keeps its constants */
