@@ -103,10 +103,18 @@ static bool start_worker(pool *p, int tickets) {
         return false;
     }
     fflush(NULL); /* or the child would have a copy of what is buffered */
+    /* what comes before the child has its own handlers waits until it has */
+    sigset_t both;
+    sigset_t usual;
+    sigemptyset(&both);
+    sigaddset(&both, SIGINT);
+    sigaddset(&both, SIGTERM);
+    sigprocmask(SIG_BLOCK, &both, &usual);
     const pid_t pid = fork();
     if (pid == 0) {
         signal(SIGINT, SIG_IGN); /* the parent says when to end */
         signal(SIGTERM, SIG_DFL);
+        sigprocmask(SIG_SETMASK, &usual, NULL);
         close(p->tickets);
         close(results[0]);
         for (int i = 0; i < p->started; i++) {
@@ -115,6 +123,7 @@ static bool start_worker(pool *p, int tickets) {
         work(p->jobs, tickets, results[1]);
         _exit(0);
     }
+    sigprocmask(SIG_SETMASK, &usual, NULL);
     close(results[1]);
     if (pid < 0) {
         close(results[0]);

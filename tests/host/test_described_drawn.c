@@ -319,6 +319,40 @@ static void test_json_has_every_field(void) {
     }
 }
 
+/* Characters stay as they are; quotes, what steers, and bytes that are none of UTF-8 become what stands for them. */
+static void test_any_text_is_told(void) {
+    static const char *const pieces[][2] = {{"a", "a"},
+                                            {" ~", " ~"},
+                                            {"\xc3\xa9", "\xc3\xa9"},
+                                            {"\xe2\x82\xac", "\xe2\x82\xac"},
+                                            {"\"", "\\\""},
+                                            {"\\", "\\\\"},
+                                            {"\x01", "\\u0001"},
+                                            {"\x1f", "\\u001f"},
+                                            {"\x7f", "\\u007f"},
+                                            {"\t", "\\u0009"},
+                                            {"\xff", "\\ufffd"},
+                                            {"\xc3 ", "\\ufffd "},
+                                            {"\x80", "\\ufffd"},
+                                            {"\xe2\x82 ", "\\ufffd\\ufffd "}};
+    for (unsigned c = 0; c < 100; c++) {
+        char text[80] = "";
+        char wanted[120] = "";
+        char value[200];
+        for (unsigned n = dice_one_of(&die, 9); n > 0; n--) {
+            const unsigned which = dice_one_of(&die, sizeof pieces / sizeof pieces[0]);
+            strcat(text, pieces[which][0]);
+            strcat(wanted, pieces[which][1]);
+        }
+        drawn_scene_draw(&drawn, &die);
+        drawn.im.title = text;
+        json = derived_written(describe_json, &drawn.im);
+        TEST_ASSERT_NOT_NULL(json_value(json, "title", value));
+        TEST_ASSERT_EQUAL_STRING(wanted, value);
+        free(json);
+    }
+}
+
 /* JSON has no word for these. */
 static void test_what_is_no_number_is_null(void) {
     static const double none[] = {(double)NAN, (double)INFINITY, -(double)INFINITY};
@@ -340,5 +374,6 @@ static void test_what_is_no_number_is_null(void) {
 void suite_described_drawn(void) {
     die = dice_of("described_drawn", 4140);
     RUN_TEST(test_json_has_every_field);
+    RUN_TEST(test_any_text_is_told);
     RUN_TEST(test_what_is_no_number_is_null);
 }

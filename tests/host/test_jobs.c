@@ -2,6 +2,7 @@
  * lost, rows that are refused, and few files that may be open. */
 #define _POSIX_C_SOURCE 200809L
 
+#include <signal.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/resource.h>
@@ -187,10 +188,52 @@ static void test_few_files(void) {
     TEST_ASSERT_TRUE(blocks_in_use() == blocks);
 }
 
+static volatile sig_atomic_t caught;
+
+static void catch (int signal) { caught = signal; }
+
+/* Ctrl-C goes to all of a terminal's processes: the parent says when the others end. */
+static bool interrupted_work(void *context, uint64_t point, FILE *row, FILE *reason) {
+    raise(SIGINT);
+    return quick_work(context, point, row, reason);
+}
+
+static void test_interrupts_are_the_parent_s(void) {
+    log_of_rows log;
+    void (*const before)(int) = signal(SIGINT, SIG_DFL);
+    TEST_ASSERT_EQUAL_INT(JOBS_DONE, (int)run_rows(&log, END + 1, 3, interrupted_work));
+    signal(SIGINT, before);
+    TEST_ASSERT_TRUE(log.in_order && log.as_worked && log.next == END);
+}
+
+static bool endless_work(void *context, uint64_t point, FILE *row, FILE *reason) {
+    const struct timespec nap = {0, 20000000L};
+    for (int i = 0; i < 250 && point != FIRST; i++) { /* 5 s */
+        nanosleep(&nap, NULL);
+    }
+    return quick_work(context, point, row, reason);
+}
+
+/* Whatever the parent does with that signal, workers that are told to end do, in the midst of their work. */
+static void test_workers_end_when_they_are_told(void) {
+    log_of_rows log;
+    struct timespec begin;
+    struct timespec end;
+    void (*const before)(int) = signal(SIGTERM, catch);
+    clock_gettime(CLOCK_MONOTONIC, &begin);
+    TEST_ASSERT_EQUAL_INT(JOBS_REFUSED, (int)run_rows(&log, FIRST + 1, 3, endless_work));
+    clock_gettime(CLOCK_MONOTONIC, &end);
+    signal(SIGTERM, before);
+    TEST_ASSERT_EQUAL_INT(0, caught);
+    TEST_ASSERT_TRUE(log.next == FIRST + 1 && end.tv_sec - begin.tv_sec < 4);
+}
+
 void suite_jobs(void) {
     RUN_TEST(test_rows_come_in_order_from_any_number_of_workers);
     RUN_TEST(test_rows_wait_for_the_one_before_them);
     RUN_TEST(test_refused_rows_end_it);
     RUN_TEST(test_a_lost_worker_is_noticed);
     RUN_TEST(test_few_files);
+    RUN_TEST(test_interrupts_are_the_parent_s);
+    RUN_TEST(test_workers_end_when_they_are_told);
 }

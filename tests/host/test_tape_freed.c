@@ -350,6 +350,46 @@ static void test_multiplied_lists_compute_the_same(void) {
     TEST_ASSERT_TRUE(blocks_in_use() == blocks);
 }
 
+/* Where the product with this constant stands. */
+static int place_of(const tape *t, double constant) {
+    int place = -1;
+    double number;
+    for (int i = 0; i < t->count; i++) {
+        const bool is = t->ops[i].code == OP_MUL && tape_is_constant(t, t->ops[i].a, &number);
+        place = is && number == constant ? i : place;
+    }
+    return place;
+}
+
+/* Products that operands are made of stand in one order, that of the second first: whatever order a compiler has for the
+ * arguments of a call, a scene's code and its hash are the same. */
+static void test_operands_are_entered_in_one_order(void) {
+    for (int what = 0; what < 6; what++) {
+        tape *t = tape_new(0, 1);
+        const int x = tape_leaf(t, OP_INPUT, 0);
+        const int y = tape_leaf(t, OP_INPUT, 1);
+        const int a = tape_mul(t, tape_constant(t, 0.375), tape_mul(t, x, x));
+        const int b = tape_mul(t, tape_constant(t, 0.75), tape_mul(t, y, y));
+        t->result[0] = what == 0   ? tape_add(t, a, b)
+                       : what == 1 ? tape_sub(t, a, b)
+                       : what == 2 ? tape_call(t, FN_MIN, a, b)
+                       : what == 3 ? tape_call(t, FN_MAX, a, b)
+                       : what == 4 ? tape_call(t, FN_ATAN2, a, b)
+                                   : tape_pow(t, a, b);
+        tape_prune(t);
+        double times[3 * 20];
+        TEST_ASSERT_TRUE(t->count <= 20);
+        for (int i = 0; i < 3 * t->count; i++) {
+            times[i] = 1.0;
+        }
+        tape *made = tape_multiplied(t, times);
+        TEST_ASSERT_TRUE(place_of(made, 0.75) >= 0);
+        TEST_ASSERT_TRUE(place_of(made, 0.75) < place_of(made, 0.375));
+        tape_free(made);
+        tape_free(t);
+    }
+}
+
 void suite_tape_freed(void) {
     die = dice_of("tape_freed", 4190);
     RUN_TEST(test_a_constants_error_is_the_results);
@@ -358,4 +398,5 @@ void suite_tape_freed(void) {
     RUN_TEST(test_a_quotient_has_one_freedom);
     RUN_TEST(test_few_raw_values_are_multiplied);
     RUN_TEST(test_multiplied_lists_compute_the_same);
+    RUN_TEST(test_operands_are_entered_in_one_order);
 }

@@ -104,8 +104,12 @@ static void test_constants_vanish(void) {
         const int x = tape_leaf(t, OP_LINEAR, 0);
         const int y = tape_leaf(t, OP_RATE, 1);
         const int times_x = tape_mul(t, tape_constant(t, unit), tape_mul(t, x, x));
-        const int times_y = tape_mul(t, tape_constant(t, 3.0 * unit), tape_mul(t, y, y));
-        const int third = tape_mul(t, tape_constant(t, unit), tape_mul(t, x, y));
+        const double a =
+            61.0 +
+            2.0 * dice_one_of(&die, 29); /* no float of 24 bits keeps these ratios by chance */
+        const double b = 151.0 + 2.0 * dice_one_of(&die, 29);
+        const int times_y = tape_mul(t, tape_constant(t, a * unit), tape_mul(t, y, y));
+        const int third = tape_mul(t, tape_constant(t, b * unit), tape_mul(t, x, y));
         t->result[0] = tape_div(t, tape_add(t, times_x, times_y), tape_add(t, third, times_x));
         tape_prune(t);
         const int operations = tape_operations(t);

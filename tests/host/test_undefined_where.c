@@ -137,6 +137,39 @@ static void test_the_places_on_the_way(void) {
     }
 }
 
+/* Inputs have their values, rates and places theirs. */
+static void test_what_it_is_made_of(void) {
+    for (unsigned c = 0; c < dice_cases(usual_or(40, 10)); c++) {
+        char text[500];
+        double w[3];
+        for (int i = 0; i < 3; i++) {
+            w[i] = i == 0 ? dice_between(&die, -1.0, 0.5) : dice_between(&die, 0.5, 1.4);
+        }
+        snprintf(
+            text, sizeof text,
+            "mechanism m\ncoordinate x [m]\ncoordinate y [m]\ninput v = %.17g\ninput w = %.17g\n"
+            "T = 1 [kg]*(x'^2 + y'^2)/2\n"
+            "Q(y) = 1 [N]*sqrt(9 + x/(1 [m]) + %.17g*y'/(1 [m/s]) + 4*v - 3*w)\n"
+            "scene s { step 1 [ms]; until 1 [s] }\n",
+            w[0], w[1], w[2]);
+        derived d = scene_of(text);
+        double real[4];
+        double sum = 9.0 + 4.0 * w[0] - 3.0 * w[1];
+        for (int i = 0; i < 4; i++) {
+            const component at = image_component(d.image, i);
+            real[i] = dice_between(&die, -5.0, 5.0);
+            sum += at.unknown == 0 && at.primes == 0   ? real[i]
+                   : at.unknown == 1 && at.primes == 1 ? w[2] * real[i]
+                                                       : 0.0;
+        }
+        const undefined_at at = {.image = d.image, .real = real, .angle_rad = real, .when = "when"};
+        char *told = told_of(&at, undefined_term);
+        TEST_ASSERT_EQUAL_MESSAGE(sum < 0.0, told[0] != '\0', text);
+        free(told);
+        derived_free(&d);
+    }
+}
+
 /* --- angles ----------------------------------------------------------------------------------------------------*/
 
 /* a, b and c turn: sines are taken of a and of b - 2 c; d is an angle that swings, e none. */
@@ -215,5 +248,6 @@ void suite_undefined_where(void) {
     die = dice_of("undefined_where", 69);
     RUN_TEST(test_the_innermost_part_is_named);
     RUN_TEST(test_the_places_on_the_way);
+    RUN_TEST(test_what_it_is_made_of);
     RUN_TEST(test_the_angle_that_is_too_far);
 }
