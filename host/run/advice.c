@@ -216,6 +216,10 @@ void advice_say_diverged(FILE *out, advice *a) {
     if (j->image->settings.matrix == MATRIX_EXACT || j->watch->records == 0 || judged_singular(j)) {
         return;
     }
+    if (remedy_is_double(j, &a->cures)) {
+        fputs("hint: float has too few digits for it: --number double would do\n", out);
+        return;
+    }
     linearised *l = judged_motions(j);
     const linear_motion *found = NULL;
     l->span_s = j->image->until_s;

@@ -41,7 +41,7 @@ static cure_outcome outcome_of(const again *a, const volatile sig_atomic_t *stop
         return CURE_DOES_NOT;
     }
     const digits few = digits_of(&a->image, a->kind, w, &a->balance, stop);
-    return few.energy || few.component >= 0 ? CURE_ROUNDS : CURE_DOES;
+    return few.energy || few.component >= 0 || few.not_known ? CURE_ROUNDS : CURE_DOES;
 }
 
 cure_outcome cure_try(cures *c, const cure_wish *what) {

@@ -17,7 +17,7 @@ typedef struct cure_wish {
 typedef enum cure_outcome {
     CURE_DOES,     /* nothing is to be said of the run with it */
     CURE_DOES_NOT, /* it is to be warned of, too, or fails */
-    CURE_ROUNDS,   /* nothing but that the number has too few digits (digits.h) */
+    CURE_ROUNDS,   /* nothing but that the number has too few digits, or may have (digits.h) */
     CURE_NOT_TRIED, /* it would take too long, or was stopped; or the number has a plan for its one step */
 } cure_outcome;
 

@@ -16,9 +16,10 @@
 /* Of what the slopes asked for, a motion that more digits have, too; and of all that the run did: less is rounding's own. */
 #define ASKED_KEPT 0.1
 #define RANGE_KEPT 1e-3
-/* What hardly varies, of the size that it has: of a rate; and a motion, or what energy goes to and fro, that is none. */
+/* What hardly varies, of the size that it has: of a rate; a motion that is none; and what energy goes to and fro that is. */
 #define RATE_LEAST 1e-3
-#define MOTION_LEAST 1e-7
+#define MOTION_LEAST 3e-7
+#define SWING_LEAST 1e-7
 /* Last places that a sum may be off anyway. */
 #define PLACES_LEAST 4.0
 /* What computing an energy may be off, in so many of its bounds. */
@@ -70,7 +71,7 @@ static double strayed(const image *im, const engine_kind *kind, const watch *w, 
 
 static bool loses(const engine_kind *kind, const belief *b, double told) {
     return kind == &engine_float && b->known && !b->slow && fabs(b->left_J) > told * b->entry_J &&
-           b->entry_J > MOTION_LEAST * b->size_J &&
+           b->entry_J > SWING_LEAST * b->size_J &&
            fabs(b->left_J) > COMPUTING_MORE * b->computing_J;
 }
 
@@ -101,6 +102,14 @@ static bool is_suspect(const image *im, const engine_kind *kind, const watch *w,
 
 /* --- what the other run bears out ----------------------------------------------------------------------------*/
 
+/* It, and what it is a rate of. */
+static bool is_motion(const image *im, const watch *w, int i) {
+    const component c = image_component(im, i);
+    const int home = image_find_component(im, c.unknown, 0);
+    return w->high[i] - w->low[i] > MOTION_LEAST * furthest(w, i) &&
+           w->high[home] - w->low[home] > MOTION_LEAST * furthest(w, home);
+}
+
 /* At the records. */
 static double apart(const watch *w, const watch *other, int i) {
     const int n = w->field->n;
@@ -122,11 +131,10 @@ static void judge_component(const image *im, const engine_kind *kind, const watc
     const double stray =
         range >= ASKED_KEPT * asked_range(w, i) && (by_sums || kind == &engine_float) ? far : 0.0;
     const double step_off = number_most(stray, start_off(im, kind, i));
-    const double off = digits_far(im, kind, w) || step_off > told * by
-                           ? number_most(step_off, apart(w, other, i))
-                           : step_off;
+    const bool asks = told >= PART_TOLD && (digits_far(im, kind, w) || step_off > told * by);
+    const double off = asks ? number_most(step_off, apart(w, other, i)) : step_off;
     const bool moves = range > RANGE_KEPT * (w->high[i] - w->low[i]) &&
-                       (range > MOTION_LEAST * furthest(other, i) || kind == &engine_double);
+                       (is_motion(im, other, i) || kind == &engine_double);
     if (moves && off > told * by && (d->component < 0 || off / by > d->off / d->range)) {
         d->component = i;
         d->off = off;
@@ -187,8 +195,11 @@ digits digits_of(const image *im, const engine_kind *kind, const watch *w, const
     digits d = {.component = -1};
     const bool is_float = kind == &engine_float;
     if (!w->smooth || w->steps < im->steps || (!is_float && kind != &engine_double) ||
-        (!is_float && im->settings.compensated) || !is_suspect(im, kind, w, b) ||
-        !((double)im->steps * again_operations_a_step(im) <= OPERATIONS_MOST)) {
+        (!is_float && im->settings.compensated) || !is_suspect(im, kind, w, b)) {
+        return d;
+    }
+    if (!((double)im->steps * again_operations_a_step(im) <= OPERATIONS_MOST)) {
+        d.not_known = true;
         return d;
     }
     image summed = *im;

@@ -154,6 +154,12 @@ bool remedy_text(judged *j, cures *c, double most_s, bool saturated, char text[R
     return text[0] != '\0';
 }
 
+bool remedy_is_double(const judged *j, cures *c) {
+    cure_wish what = own_cure(j, judged_method(j->image), j->image->step_s);
+    what.in_double = true;
+    return j->kind == &engine_float && cure_try(c, &what) == CURE_DOES;
+}
+
 double remedy_step_by_order_s(const judged *j, double ratio) {
     const double order = wh_methods[judged_method(j->image)].order;
     return j->watch->step_s *

@@ -18,6 +18,9 @@ bool remedy_text(judged *j, cures *c, double most_s, bool saturated, char text[R
 cure_outcome remedy_of_look(const judged *j, cures *c, const watch_look *look,
                             char text[REMEDY_TEXT]);
 
+/* A float's run, with nothing changed but the number: is double enough? */
+bool remedy_is_double(const judged *j, cures *c);
+
 /* The step at which the rest is as small as the method's order makes it from `ratio`. */
 double remedy_step_by_order_s(const judged *j, double ratio);
 
