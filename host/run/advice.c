@@ -19,6 +19,9 @@
  * leave so much less. */
 #define SATURATED 0.3
 
+/* A method that carries no more of a direction than this carries nothing there. */
+#define LIMIT_NONE 0.05
+
 enum { CARRIED_TEXT = 240, DONE_TEXT = 80 };
 
 advice advice_of(const image *im, const engine_kind *kind, const watch *w, const belief *balance) {
@@ -51,21 +54,25 @@ static const char *carried_text(const judged *j, const linear_motion *m, char te
     return text;
 }
 
-/* What the method makes of it in a run. */
-static const char *done_text(const linearised *l, const linear_motion *m, char text[DONE_TEXT]) {
-    const double twice = (1.0 + m->off) * (1.0 + m->off) - 1.0;
+/* What the method makes of it in a run: of its energy, or of the amplitude of what has none. */
+static const char *done_text(const judged *j, const linearised *l, const linear_motion *m,
+                             char text[DONE_TEXT]) {
+    const bool energy = j->image->has_energies;
+    const char *what = energy ? "energy" : "amplitude";
+    const double grown = 1.0 + m->off;
+    const double added = energy ? grown * grown - 1.0 : m->off;
     if (m->ripple > 0.0) {
-        snprintf(text, DONE_TEXT, "lets its energy go %.3g %% up and down",
-                 100.0 * number_least(m->ripple, 1.0));
+        snprintf(text, DONE_TEXT, "lets its %s go %.3g %% up and down", what,
+                 100.0 * number_least(energy ? m->ripple : 0.5 * m->ripple, 1.0));
     } else if (limits_growth(l->method, l->form, linearised_as(m), l->step_s) <=
                limits_exact(m->value, l->step_s)) {
         const double left = 1.0 - number_least(m->off, 1.0);
-        snprintf(text, DONE_TEXT, "takes %.3g %% of its energy over the run",
-                 100.0 * (1.0 - left * left));
-    } else if (twice < 1.0) {
-        snprintf(text, DONE_TEXT, "adds %.3g %% to its energy over the run", 100.0 * twice);
+        snprintf(text, DONE_TEXT, "takes %.3g %% of its %s over the run",
+                 100.0 * (1.0 - (energy ? left * left : left)), what);
+    } else if (added < 1.0) {
+        snprintf(text, DONE_TEXT, "adds %.3g %% to its %s over the run", 100.0 * added, what);
     } else {
-        snprintf(text, DONE_TEXT, "adds %.3g times its energy over the run", twice);
+        snprintf(text, DONE_TEXT, "adds %.3g times its %s over the run", added, what);
     }
     return text;
 }
@@ -118,7 +125,7 @@ static char *cure_of(advice *a) {
         char done[DONE_TEXT];
         return room_words("the step is too coarse for %s; %s %s; %s",
                           carried_text(j, l->worst, carried), title_of(j->image),
-                          done_text(l, l->worst, done), cure);
+                          done_text(j, l, l->worst, done), cure);
     }
     return room_words("the step is too coarse for this motion; %s", cure);
 }
@@ -129,8 +136,13 @@ char *advice_cure(advice *a) {
     if (a->judged.image->settings.tables == TABLES_NONE) {
         return cure;
     }
-    char *all = room_words("the tables may be too coarse: more --cells, or no --tables, tell%s%s",
-                           cure != NULL ? "; if it is not they, " : "", cure != NULL ? cure : "");
+    char cells[40] = "more --cells";
+    if (a->judged.image->settings.cells > 0) {
+        snprintf(cells, sizeof cells, "--cells %d", 2 * a->judged.image->settings.cells);
+    }
+    char *all =
+        room_words("the tables may be too coarse (not tried): %s, or no --tables, would tell%s%s",
+                   cells, cure != NULL ? "; if it is not they, " : "", cure != NULL ? cure : "");
     free(cure);
     return all;
 }
@@ -195,7 +207,7 @@ static void say_swing(FILE *out, advice *a) {
     if (j->swing_off > 0.0) {
         snprintf(done, sizeof done, "puts it up to %.2g %% of its range off", 100.0 * j->swing_off);
     } else {
-        done_text(l, l->worst, done);
+        done_text(j, l, l->worst, done);
     }
     fprintf(out, "whirl run: warning: the step is too coarse for %s; %s %s\n",
             carried_text(j, l->worst, carried), title_of(j->image), done);
@@ -246,7 +258,11 @@ void advice_say_diverged(FILE *out, advice *a) {
         l->motions = kept;
         const bool told = remedy_text(j, &a->cures, l->step_s, true, cure);
         carried_text(j, found, carried);
-        if (limit < l->step_s * complex_size(found->value)) {
+        if (limit < LIMIT_NONE) {
+            fprintf(out,
+                    "hint: %s: %s lets such a motion grow at any step, less at a finer one%s%s\n",
+                    carried, title_of(j->image), told ? "; " : "", cure);
+        } else if (limit < l->step_s * complex_size(found->value)) {
             fprintf(out, "hint: %s is more than %s carries (%.3g in this direction)%s%s\n", carried,
                     title_of(j->image), limit, told ? "; " : "", cure);
         } else {

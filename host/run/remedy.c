@@ -13,6 +13,8 @@
 /* So many times as many steps are no advice: by theory, and where they were tried. */
 #define STEPS_MORE 200.0
 #define STEPS_MORE_TRIED 20000.0
+/* So many times as many as another method's stages come to are named behind that method. */
+#define STEPS_DEAR 5.0
 /* So many times as many in float are to be compensated. */
 #define FLOAT_MORE 10.0
 
@@ -123,6 +125,13 @@ static const char *would_do(const remedy *r) {
     return r->outcome == CURE_DOES ? "would do" : "should do (not tried: that takes long)";
 }
 
+/* By evaluations: a method with more stages against more steps, of which some are to be had for the name's sake. */
+static bool is_cheaper(const judged *j, const remedy *method, const remedy *step) {
+    const double more_stages = (double)wh_methods[method->what.method].stages /
+                               (double)wh_methods[judged_method(j->image)].stages;
+    return STEPS_DEAR * more_stages * step->what.step_s < j->watch->step_s;
+}
+
 bool remedy_text(judged *j, cures *c, double most_s, bool saturated, char text[REMEDY_TEXT]) {
     const double allowed = saturated ? SATURATED_LEAVES * CURED : CURED;
     const wh_method own = judged_method(j->image);
@@ -131,7 +140,14 @@ bool remedy_text(judged *j, cures *c, double most_s, bool saturated, char text[R
     const bool usual = is_crude(own) && !is_some(&method) && !is_some(&step);
     char word[STEP_WORD];
     text[0] = '\0';
-    if (is_some(&step)) {
+    const bool both = is_some(&step) && is_some(&method);
+    if (both && method.outcome == CURE_DOES && is_cheaper(j, &method, &step)) {
+        const int length = snprintf(text, REMEDY_TEXT, "--method %s%s would do, or --step %s%s",
+                                    wh_methods[method.what.method].word, number_text(&method),
+                                    step_text(step.what.step_s, word), number_text(&step));
+        snprintf(text + length, (size_t)(REMEDY_TEXT - length), "%s",
+                 step.outcome == CURE_DOES ? "" : " (not tried)");
+    } else if (is_some(&step)) {
         const int length =
             snprintf(text, REMEDY_TEXT, "--step %s%s %s", step_text(step.what.step_s, word),
                      number_text(&step), would_do(&step));

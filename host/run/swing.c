@@ -14,13 +14,18 @@ static bool is_swing(const linear_motion *m) {
     return fabs(m->value.im) > 0.1 * complex_size(m->value);
 }
 
+/* A decay is one with a growth that the same component has elsewhere. */
+static bool is_alike(const linear_motion *m, const linear_motion *other) {
+    const complex_number apart = {other->value.re - m->value.re, other->value.im - m->value.im};
+    return is_swing(m) ? is_swing(other) && complex_size(apart) < ALIKE * complex_size(m->value)
+                       : !is_swing(other) && other->unknown[0] == m->unknown[0];
+}
+
 bool swing_varies(const linearised *l, const linear_motion *m) {
     bool found = false;
-    for (int i = 0; i < l->motions && is_swing(m); i++) {
+    for (int i = 0; i < l->motions; i++) {
         const linear_motion *other = &l->motion[i];
-        const complex_number apart = {other->value.re - m->value.re, other->value.im - m->value.im};
-        found = found || (is_swing(other) && other->value.re * l->span_s > 1.0 &&
-                          complex_size(apart) < ALIKE * complex_size(m->value));
+        found = found || (is_alike(m, other) && other->value.re * l->span_s > 1.0);
     }
     return found;
 }

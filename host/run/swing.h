@@ -1,10 +1,10 @@
-/* swing.h: a system's swing that is not linear: what linearising says of it at one place need not hold of the whole. */
+/* swing.h: a system's swing or decay that is not linear: what linearising says of it at one place need not hold of the whole. */
 #ifndef RUN_SWING_H
 #define RUN_SWING_H
 
 #include "linearised.h"
 
-/* Does a swing like this one, elsewhere on the run's way, grow by itself? Then what the method adds there it takes
+/* Does a swing or decay like this one, elsewhere on the run's way, grow by itself? Then what the method adds there it takes
  * somewhere else, and most of it may cancel. */
 bool swing_varies(const linearised *l, const linear_motion *m);
 

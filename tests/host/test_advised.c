@@ -74,17 +74,13 @@ static const char *read_decay(const char *at, double tau_s, double step_s, const
     return at;
 }
 
-/* "takes 6 % of its energy over the run", of what is multiplied by `times` in all. */
-static const char *read_share(const char *at, double times, const char *text) {
+/* "takes 6 % of its energy over the run", of `what` is multiplied by `times` in all. */
+static const char *read_share(const char *at, const char *what, double times, const char *text) {
     double figure = 0.0;
     at = said_number(said_exactly(at, times < 1.0 ? "takes " : "adds "), &figure);
-    if (times < 2.0) {
-        at = said_exactly(at, times < 1.0 ? " % of its energy over the run"
-                                          : " % to its energy over the run");
-        figure /= 100.0;
-    } else {
-        at = said_exactly(at, " times its energy over the run");
-    }
+    at = said_exactly(at, times >= 2.0 ? " times its " : times < 1.0 ? " % of its " : " % to its ");
+    at = said_exactly(said_exactly(at, what), " over the run");
+    figure /= times < 2.0 ? 100.0 : 1.0;
     TEST_ASSERT_TRUE_MESSAGE(fabs(figure - fabs(times - 1.0)) <= 0.02 * fabs(times - 1.0) + 1e-3,
                              text);
     return at;
@@ -158,7 +154,7 @@ static void test_swings_of_systems(void) {
         at = read_about(at, r.steps * r.step_s, err);
         at = said_exactly(read_swing(at, r.rate, r.step_s, err), "; ");
         at = said_exactly(said_exactly(at, methods[r.method].title), " ");
-        at = read_share(at, energy_times(&r), err);
+        at = read_share(at, "amplitude", sqrt(energy_times(&r)), err);
         at = said_exactly(at, "\nhint: ");
         read_cure(at, r.rate, r.steps * r.step_s, methods[r.method].order, err);
         TEST_ASSERT_EQUAL_INT(0, r.what.status);
@@ -192,7 +188,7 @@ static void test_swings_of_mechanisms(void) {
         at = read_about(at, r.steps * r.step_s, err);
         at = said_exactly(read_swing(at, r.rate, r.step_s, err), "; ");
         at = said_exactly(said_exactly(at, methods[r.method].title), " ");
-        at = said_exactly(read_share(at, times, err), "; ");
+        at = said_exactly(read_share(at, "energy", times, err), "; ");
         read_cure(at, r.rate, r.steps * r.step_s, methods[r.method].order, err);
     }
     model_drop();
