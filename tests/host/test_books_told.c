@@ -1,0 +1,194 @@
+/* test_books_told.c: what `whirl run` says of a run's books at its end, of drawn mechanisms whose coordinates are free, pushed,
+ * sprung or damped, each by itself: which momenta are conserved and what they are, and with the ledger what changed each, all
+ * by closed form. */
+#include <math.h>
+#include <stdbool.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "command.h"
+#include "host/commands/commands.h"
+#include "unity.h"
+
+void suite_books_told(void);
+
+enum { COORDINATES_MOST = 4 };
+
+typedef enum held_by { FREE, PUSHED, SPRUNG, DAMPED, KINDS } held_by;
+
+typedef struct own_body {
+    held_by by;
+    double mass_kg;
+    double law; /* N, N/m or N s/m */
+    double x_m;
+    double speed_mps;
+} own_body;
+
+typedef struct own_bodies {
+    own_body body[COORDINATES_MOST];
+    unsigned count;
+    double until_s;
+} own_bodies;
+
+static own_bodies drawn(dice *d) {
+    own_bodies m = {.count = 1U + dice_one_of(d, COORDINATES_MOST),
+                    .until_s = 0.001 * (100 + (int)dice_one_of(d, 900))};
+    for (unsigned i = 0; i < m.count; i++) {
+        m.body[i] = (own_body){.by = (held_by)dice_one_of(d, KINDS),
+                               .mass_kg = dice_between(d, 0.5, 5.0),
+                               .law = dice_between(d, 0.5, 5.0),
+                               .x_m = dice_between(d, -1.0, 1.0),
+                               .speed_mps = dice_between(d, -3.0, 3.0)};
+    }
+    return m;
+}
+
+/* The last first, so that their order is nobody's alphabet. */
+static char name_of(unsigned i) { return (char)('z' - (int)i); }
+
+/* "V = 2 [N/m]*z^2/2 + 3 [N/m]*y^2/2": all that are held by this, begun by `begins`; nothing for none. */
+static void sum_of(const own_bodies *m, held_by by, const char *begins, const char *unit,
+                   const char *square, char text[400]) {
+    int at = 0;
+    text[0] = '\0';
+    for (unsigned i = 0; i < m->count; i++) {
+        const own_body *b = &m->body[i];
+        if (b->by == by || by == KINDS) {
+            at += snprintf(text + at, (size_t)(400 - at), "%s%.17g %s*%c%s/2",
+                           at == 0 ? begins : " + ", by == KINDS ? b->mass_kg : b->law, unit,
+                           name_of(i), square);
+        }
+    }
+}
+
+static void mechanism(const own_bodies *m, char text[2500]) {
+    char sums[3][400];
+    sum_of(m, KINDS, "T = ", "[kg]", "'^2", sums[0]);
+    sum_of(m, SPRUNG, "V = ", "[N/m]", "^2", sums[1]);
+    sum_of(m, DAMPED, "F = ", "[N*s/m]", "'^2", sums[2]);
+    int at = snprintf(text, 2500, "mechanism own\n");
+    for (unsigned i = 0; i < m->count; i++) {
+        at += snprintf(text + at, (size_t)(2500 - at), "coordinate %c [m]\n", name_of(i));
+    }
+    at += snprintf(text + at, (size_t)(2500 - at), "%s\n%s\n%s\n", sums[0], sums[1], sums[2]);
+    for (unsigned i = 0; i < m->count; i++) {
+        if (m->body[i].by == PUSHED) {
+            at += snprintf(text + at, (size_t)(2500 - at), "Q(%c) = %.17g [N]\n", name_of(i),
+                           m->body[i].law);
+        }
+    }
+    at += snprintf(text + at, (size_t)(2500 - at), "scene s { start ");
+    for (unsigned i = 0; i < m->count; i++) {
+        at += snprintf(text + at, (size_t)(2500 - at), "%s%c = %.17g [m], %c' = %.17g [m/s]",
+                       i > 0 ? ", " : "", name_of(i), m->body[i].x_m, name_of(i),
+                       m->body[i].speed_mps);
+    }
+    (void)snprintf(text + at, (size_t)(2500 - at), "; step 1 [ms]; until %.3f [s] }\n", m->until_s);
+}
+
+/* m x' at the end, less that at the start. */
+static double change_Ns(const own_body *b, double time_s) {
+    const double w = sqrt(b->law / b->mass_kg);
+    double end_mps = b->speed_mps;
+    switch (b->by) {
+    case PUSHED: end_mps += b->law / b->mass_kg * time_s; break;
+    case SPRUNG: end_mps = b->speed_mps * cos(w * time_s) - b->x_m * w * sin(w * time_s); break;
+    case DAMPED: end_mps *= exp(-b->law / b->mass_kg * time_s); break;
+    case FREE:
+    case KINDS: break;
+    }
+    return b->mass_kg * (end_mps - b->speed_mps);
+}
+
+static void run(const char *text, const char *more, said *what) {
+    const char *words[] = {model_keep(text), more, "ledger", NULL};
+    words[2] = more != NULL ? words[2] : NULL;
+    command_say(command_run, words, what);
+    TEST_ASSERT_EQUAL_INT_MESSAGE(0, what->status, what->err);
+}
+
+static void expect_number(const char *text, double wanted, const char *at) {
+    double is = 0.0;
+    (void)said_number(text, &is);
+    TEST_ASSERT_TRUE_MESSAGE(fabs(is - wanted) <= 1e-8 * (1.0 + fabs(wanted)), at);
+}
+
+static void test_conserved_momenta(void) {
+    dice d = dice_of("books told", 4121);
+    unsigned none = 0;
+    for (unsigned k = 0; k < dice_cases(60); k++) {
+        const own_bodies m = drawn(&d);
+        char text[2500];
+        said what;
+        mechanism(&m, text);
+        run(text, NULL, &what);
+        const char *head = strstr(what.out, "conserved momentum [SI]\n");
+        unsigned free_ones = 0;
+        for (unsigned i = 0; i < m.count; i++) {
+            char row[40];
+            snprintf(row, sizeof row, "\n  of %c  ", name_of(i));
+            const char *at = strstr(what.out, row);
+            TEST_ASSERT_EQUAL_INT_MESSAGE(m.body[i].by == FREE, at != NULL, what.out);
+            if (at != NULL) {
+                TEST_ASSERT_TRUE_MESSAGE(head != NULL && at > head, what.out);
+                at += strlen(row);
+                expect_number(at + strspn(at, " "), m.body[i].mass_kg * m.body[i].speed_mps, at);
+                free_ones++;
+            }
+        }
+        none += free_ones == 0 ? 1U : 0U;
+        TEST_ASSERT_EQUAL_INT_MESSAGE(free_ones > 0, head != NULL, what.out);
+        TEST_ASSERT_EQUAL_INT_MESSAGE(
+            free_ones == 0,
+            strstr(what.out, "\nno momentum is conserved: every coordinate feels a force\n") !=
+                NULL,
+            what.out);
+        TEST_ASSERT_NOT_NULL_MESSAGE(strstr(what.out, "energy book [J]\n"), what.out);
+    }
+    model_drop();
+    TEST_ASSERT_TRUE(none > 3U);
+}
+
+/* Of each coordinate: what gave to it, what changed, and the mean force. */
+static void test_ledgers(void) {
+    static const char *const givers[KINDS] = {[FREE] = NULL,
+                                              [PUSHED] = "\n  Q(",
+                                              [SPRUNG] = "\n  of the energies: dL/d",
+                                              [DAMPED] = "\n  F = "};
+    dice d = dice_of("ledgers told", 4122);
+    for (unsigned k = 0; k < dice_cases(60); k++) {
+        const own_bodies m = drawn(&d);
+        char text[2500];
+        said what;
+        mechanism(&m, text);
+        run(text, "--with", &what);
+        TEST_ASSERT_NULL_MESSAGE(strstr(what.out, "conserved"), what.out);
+        TEST_ASSERT_NOT_NULL_MESSAGE(strstr(what.out, "energy book [J]\n"), what.out);
+        for (unsigned i = 0; i < m.count; i++) {
+            char head[60];
+            snprintf(head, sizeof head, "\nmomentum book of %c [kg*m/s]\n", name_of(i));
+            const char *book = strstr(what.out, head);
+            TEST_ASSERT_NOT_NULL_MESSAGE(book, what.out);
+            const char *change = strstr(book + 1, "\n  change ");
+            const char *force = strstr(book + 1, "\n  mean force along ");
+            TEST_ASSERT_TRUE_MESSAGE(change != NULL && force != NULL && change < force, book);
+            const double wanted = change_Ns(&m.body[i], m.until_s);
+            const char *number = change + strlen("\n  change ");
+            expect_number(number + strspn(number, " +"), wanted, book);
+            force += strlen("\n  mean force along ");
+            TEST_ASSERT_EQUAL_CHAR(name_of(i), force[0]);
+            expect_number(force + 3, wanted / m.until_s, book);
+            for (int by = PUSHED; by < KINDS; by++) {
+                const char *giver = strstr(book + 1, givers[by]);
+                const bool told = giver != NULL && giver < change;
+                TEST_ASSERT_EQUAL_INT_MESSAGE((int)m.body[i].by == by, told, book);
+            }
+        }
+    }
+    model_drop();
+}
+
+void suite_books_told(void) {
+    RUN_TEST(test_conserved_momenta);
+    RUN_TEST(test_ledgers);
+}
