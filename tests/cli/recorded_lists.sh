@@ -1,8 +1,9 @@
 #!/bin/sh
-# recorded_lists.sh: the operation lists of every scene, and of generated mechanisms, are those on record in
-# tests/reference/lists.txt: how many operations there are (the price) and a sum over their text (the bits). Whoever
-# means to change them writes the record anew, with `WHIRL=build/whirl sh tests/cli/recorded_lists.sh --write`, and
-# says in CHANGELOG.md what moved and why; tests against references and closed forms say whether it is right.
+# recorded_lists.sh: the operation lists of every scene, without and with compensated sums, and of generated mechanisms, are
+# those on record in tests/reference/lists.txt: how many operations there are (the price) and a sum over their text (the
+# bits); and so are the models' hashes. Whoever means to change them writes the record anew, with `WHIRL=build/whirl sh
+# tests/cli/recorded_lists.sh --write`, and says in CHANGELOG.md what moved and why; tests against references and closed forms
+# say whether it is right.
 . "$(dirname "$0")/../checks.sh"
 
 here=$(dirname "$0")
@@ -31,6 +32,8 @@ good=0
 for name in $("$whirl" list | tr -d '\r' | awk '$1 == "scene" { print $2 }'); do
     "$whirl" derive "$name" --as c --compensated >"$scratch/made.c" 2>>"$scratch/out" || good=1
     line "${name}_compensated" "$scratch/made.c"
+    "$whirl" describe "$name" --json >"$scratch/made.json" 2>>"$scratch/out" || good=1
+    echo "$name $(tr -d '\r' <"$scratch/made.json" | sed -n 's/^ *"hash": "\(0x[0-9a-f]*\)".*/\1/p')" # by which programs know the model
 done >>"$scratch/now"
 verdict $good "every scene is derived with compensated sums"
 
