@@ -357,10 +357,36 @@ static void test_what_turns_a_phase(void) {
     }
 }
 
+/* A function of a constant is one: nothing is left to evaluate. */
+static void test_functions_of_constants(void) {
+    die = dice_of("functions of constants", 4133);
+    list = tape_new(ANGLES, 1);
+    for (int i = 0; i < 200; i++) {
+        const double x = dice_between(&die, 0.0, 6.0) * (i % 2 == 0 ? 1.0 : -1.0);
+        const struct {
+            op_code code;
+            double value;
+        } rows[] = {{OP_SIN, sin(x)},
+                    {OP_COS, cos(x)},
+                    {OP_SQRT, sqrt(fabs(x))},
+                    {OP_ABS, fabs(x)},
+                    {OP_SIGN, x > 0.0 ? 1.0 : -1.0}};
+        for (unsigned k = 0; k < sizeof rows / sizeof rows[0]; k++) {
+            const double from = rows[k].code == OP_SQRT ? fabs(x) : x;
+            double is = 0.0;
+            const int made = tape_unary(list, rows[k].code, tape_constant(list, from));
+            TEST_ASSERT_TRUE(tape_is_constant(list, made, &is));
+            TEST_ASSERT_DOUBLE_WITHIN(1e-15, rows[k].value, is);
+        }
+    }
+    tape_free(list);
+}
+
 void suite_tape_entered(void) {
     die = dice_of("tape_entered", 4170);
     RUN_TEST(test_entered_operations_come_to_what_was_asked);
     RUN_TEST(test_what_no_result_needs_is_dropped);
     RUN_TEST(test_powers_take_few_products);
     RUN_TEST(test_what_turns_a_phase);
+    RUN_TEST(test_functions_of_constants);
 }
