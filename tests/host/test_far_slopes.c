@@ -114,11 +114,13 @@ static double off_by(const motion_rows *m, const motion_rows *reference) {
 }
 
 static slope_case draw(dice *d, unsigned i, bool is_float) {
+    const double tens = !is_float    ? dice_between(d, 5.0, 7.5)
+                        : i % 2 == 0 ? dice_between(d, 0.0, 6.0)
+                                     : dice_between(d, 2.0, 4.5); /* from where it matters on */
     slope_case c = {.kind = (slope_kind)(i % KINDS),
                     .length_m = pow(10.0, dice_between(d, -3.0, 2.0)),
                     .energy_J = pow(10.0, dice_between(d, -2.0, 2.0)),
-                    .far =
-                        pow(10.0, is_float ? dice_between(d, 0.0, 6.0) : dice_between(d, 5.0, 7.5)),
+                    .far = pow(10.0, tens),
                     .steps = RECORDS * (10 + (int)dice_one_of(d, 40))};
     c.step_s = dice_between(d, 0.004, 0.015) * c.length_m / sqrt(c.energy_J);
     return c;
@@ -140,7 +142,7 @@ static void take_cure(const slope_case *c, const char *text, const said *warned,
 
 static void hold(bool is_float) {
     dice d = dice_of(is_float ? "far slopes in float" : "far slopes in double", 4111);
-    const unsigned cases = dice_cases(few_or_all(60, 600));
+    const unsigned cases = dice_cases(few_or_all(100, 600));
     unsigned told = 0;
     unsigned ruined = 0;
     unsigned fine = 0;
@@ -177,7 +179,7 @@ static void hold(bool is_float) {
     model_drop();
     printf("  %s: of %u far runs %u more than 3 %% off, %u right, %u warned of\n",
            is_float ? "float" : "double", cases, ruined, fine, told);
-    TEST_ASSERT_TRUE(ruined > cases / 10 && fine > cases / 5);
+    TEST_ASSERT_TRUE(ruined > cases / 20 && fine > cases / 5);
 }
 
 static void test_in_float(void) { hold(true); }
