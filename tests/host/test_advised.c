@@ -219,6 +219,36 @@ static void test_ripples(void) {
     model_drop();
 }
 
+/* Where a method of a higher order leaves next to nothing at the same step, it is named, first where it costs less, and does. */
+static void test_better_methods(void) {
+    for (unsigned c = 0; c < dice_cases(usual_or(4, 2)); c++) {
+        char text[300];
+        char word[40];
+        said better;
+        const double z = dice_between(&die, 0.05, 0.09);
+        coarse_run r = {.rate = exp(dice_between(&die, -1.0, 2.0)), .method = 1};
+        /* the energy grows by z^4/4 a step; Runge-Kutta 4 takes z^6/72 */
+        r.steps = (unsigned)(dice_between(&die, 0.02, 0.06) * 4.0 / pow(z, 4.0));
+        r.step_s = z / r.rate;
+        snprintf(text, sizeof text,
+                 "mechanism m\ncoordinate x [m]\nT = 1 [kg]*x'^2/2\nV = %.12f [N/m]*x^2/2\n"
+                 "scene s { start x = 1 [m]; step %.9f [s]; until %.9f [s] }\n",
+                 r.rate * r.rate, r.step_s, r.steps * r.step_s);
+        const char *words[] = {model_keep(text), "--quiet", "--method", "heun", NULL};
+        command_say(command_run, words, &r.what);
+        const char *method = strstr(r.what.err, "--method ");
+        TEST_ASSERT_NOT_NULL_MESSAGE(method, r.what.err);
+        (void)said_word(method + strlen("--method "), word, sizeof word);
+        const char *again[] = {words[0], "--quiet", "--method", word, NULL};
+        command_say(command_run, again, &better);
+        TEST_ASSERT_EQUAL_STRING_MESSAGE("", better.err, word);
+        const char *step = strstr(r.what.err, "--step ");
+        const double times = step != NULL ? r.step_s / said_named_step_s(step) : 0.0;
+        TEST_ASSERT_TRUE_MESSAGE(step == NULL || times < 40.0 || method < step, r.what.err);
+    }
+    model_drop();
+}
+
 /* --- what is more than a method carries ---------------------------------------------------------------------------------*/
 
 static void test_diverged(void) {
@@ -340,6 +370,7 @@ void suite_advised(void) {
     RUN_TEST(test_swings_of_systems);
     RUN_TEST(test_swings_of_mechanisms);
     RUN_TEST(test_ripples);
+    RUN_TEST(test_better_methods);
     RUN_TEST(test_diverged);
     RUN_TEST(test_passes_a_pole);
 }

@@ -40,6 +40,7 @@ static outcome run_of(derived *d, const char *text) {
     end.told = slow_count(&engine_fixed, d->image, run);
     end.held = engine_fixed.saturated(run) > 0;
     end.belief = belief_of(b, &engine_fixed, run);
+    TEST_ASSERT_EQUAL_INT(end.held, end.belief.saturated);
     engine_fixed.state(run, end.angle, end.real);
     books_close(b);
     engine_fixed.stop(run);
