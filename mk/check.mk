@@ -81,7 +81,7 @@ gate-long: $(GEN)/.stamp
 	+@$(call build_board_tests,$(BOARDS_TEST))
 	@WHIRL=build/whirl TEST_SECONDS=900 sh tests/run.sh build/check/log_long \
 	    $(call run_cli,$(filter tests/cli/emitted_c.sh,$(CLI_FEW))) \
-	    $(call gated,1,$(wordlist 1,9,$(HOST_GATED))) $(call gated,2,$(wordlist 10,99,$(HOST_GATED))) \
+	    $(call gated,1,$(wordlist 1,14,$(HOST_GATED))) $(call gated,2,$(wordlist 15,99,$(HOST_GATED))) \
 	    $(call run_cli,$(filter-out tests/cli/emitted_c.sh,$(CLI_FEW)) $(CLI_GATED))
 
 # --- all cases of what `make test` takes fewer of -----------------------------------------------------------

@@ -119,9 +119,9 @@ run_cli = $(foreach t,$(1),"$(t)" "sh $(t)")
 CLI_GATED := $(foreach t,carriage embed_names faults figures flags map measure pil price printed_zeros prove settings_bits trust,\
     tests/cli/$(t).sh)
 CLI_FEW := $(foreach t,emitted_c fixed,tests/cli/$(t).sh)
-HOST_GATED := belief busy choice contact_bound contact_centres contact_holds contact_rest contact_start contact_together exact_books \
-    fixed_ranges force_free hard_cases hybrids lockin_truth map methods prove_drawn rounding tables tape_gauge trajectory trust \
-    trust_scenes turned_errors warnings
+HOST_GATED := asked_first belief busy choice contact_bound contact_centres contact_holds contact_load contact_rest contact_start \
+    contact_together exact_books figures_thomson fixed_ranges force_free hard_cases hard_edges hybrids ledger_scenes lockin_truth map \
+    methods printed_runs prove_drawn reference rounding tables tape_gauge trajectory trust trust_scenes turned_errors warnings
 RUN_HOST = $(call run_host,$(B)/tests/quick_suites.list)
 run_few = $(foreach t,$(1),"$(t)$(comma) few cases" "WHIRL_FEW=1 sh $(t)")
 RUN_LONG = $(call run_few,$(CLI_FEW))
