@@ -298,12 +298,12 @@ static void test_mistakes(void) {
             const int length = snprintf(wanted, sizeof wanted, "whirl %s: error: %s \"%s\"%s",
                                         g.command != NULL ? g.command : "sweep", option, text,
                                         wrong[which].problem);
-            snprintf(wanted + length, sizeof wanted - (size_t)length,
-                     hint
-                         ? "hint: such as %s \"r=10..60 [mm]:11\", or ...:11,log for a logarithmic "
-                           "range\n"
-                         : "",
-                     option);
+            if (hint) {
+                snprintf(wanted + length, sizeof wanted - (size_t)length,
+                         "hint: such as %s \"r=10..60 [mm]:11\", or ...:11,log for a logarithmic "
+                         "range\n",
+                         option);
+            }
         }
         errors_catch();
         const bool taken = grid_add(&g, parsed->mechanisms[0], text, heard);
