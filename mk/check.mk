@@ -111,7 +111,7 @@ CLI_NOT_ASAN := $(foreach t,boards enclosures flags fresh headers help map no_li
 # And what is left to `make sanitizers-all`: scripts and suites that derive and step as others do, to compare digits,
 # or whose many runs each try their cures.
 CLI_LESS_ASAN := $(foreach t,asked_first carriage effects_cost_nothing embed_names emitted_c figures measure price \
-    price_predicts recorded_bits settings_bits swing,\
+    price_predicts recorded_bits recorded_lists settings_bits swing,\
     tests/cli/$(t).sh)
 HOST_LESS_ASAN := asked_first belief choice contact_bound contact_holds contact_load contact_rest contact_squeezed contact_start \
     contact_together exact_books far_origin figures_thomson force_free hybrids ledger_scenes map methods prove_drawn reference rounding tape_gauge trajectory trust_scenes turned turned_errors \
