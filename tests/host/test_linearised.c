@@ -9,11 +9,10 @@
 #include "command.h"
 #include "derived.h"
 #include "host/run/linearised.h"
+#include "made_run.h"
 #include "unity.h"
 
 void suite_linearised(void);
-
-enum { STEPS_MOST = 40, N = 4, X = 0, Y = 1, VX = 2, VY = 3 };
 
 static dice die;
 
@@ -23,35 +22,7 @@ static struct {
     double b[2];
     double h;
     double step_s;
-    double state[STEPS_MOST + 1][N];
-    uint64_t at;
-    const image *image;
 } world;
-
-static int place_of(int i) {
-    for (int k = 0; k < N; k++) {
-        const component c = image_component(world.image, k);
-        if (c.unknown + 2 * c.primes == i) {
-            return k;
-        }
-    }
-    return -1;
-}
-
-static void state(const void *run, double *angle_rad, double *real) {
-    (void)run;
-    (void)angle_rad;
-    for (int i = 0; i < N; i++) {
-        real[place_of(i)] = world.state[world.at][i];
-    }
-}
-
-static uint64_t steps(const void *run) {
-    (void)run;
-    return world.at;
-}
-
-static const engine_kind kind = {.name = "made up", .state = state, .steps = steps};
 
 static derived draw_world(bool coupled) {
     char text[700];
@@ -69,18 +40,18 @@ static derived draw_world(bool coupled) {
              world.k[0], world.k[1], world.h, world.b[0], world.b[1], world.step_s);
     derived d = derived_scene(text, "s");
     derived_expect(&d, text);
-    world.image = d.image;
+    made_run.image = d.image;
     return d;
 }
 
 static watch *watch_states(uint64_t end) {
-    watch *w = watch_open(world.image, &kind);
+    watch *w = watch_open(made_run.image, &made_run_kind);
     w->balanced = false; /* without books */
-    for (world.at = 0; world.at <= end; world.at++) {
+    for (made_run.at = 0; made_run.at <= end; made_run.at++) {
         for (int i = 0; i < N; i++) {
-            world.state[world.at][i] = dice_between(&die, -2.0, 2.0);
+            made_run.state[made_run.at][i] = dice_between(&die, -2.0, 2.0);
         }
-        watch_enter(w, &kind, NULL, NULL);
+        watch_enter(w, &made_run_kind, NULL, NULL);
     }
     return w;
 }
@@ -116,12 +87,12 @@ static double share_of(const watch *w, int record, int mode) {
     for (int i = 0; i < 2; i++) {
         double sum = 0.0;
         for (int k = 0; k < w->records; k++) {
-            const double v = w->record[k * N + place_of(VX + i)];
+            const double v = w->record[k * N + made_run_place(VX + i)];
             sum += 2.0 * v * v / w->records;
         }
         double s[N];
         for (int c = 0; c < N; c++) {
-            s[c] = w->record[record * N + place_of(c)];
+            s[c] = w->record[record * N + made_run_place(c)];
         }
         const bool takes_part = world.h > 0.0 || i == mode;
         const double part =
@@ -237,7 +208,7 @@ static void test_motions(void) {
     for (unsigned c = 0; c < dice_cases(usual_or(60, 15)); c++) {
         const bool coupled = c % 3U == 0;
         derived d = draw_world(coupled);
-        watch *w = watch_states(3 + dice_one_of(&die, STEPS_MOST - 3));
+        watch *w = watch_states(3 + dice_one_of(&die, 37));
         const wh_method method = methods[dice_one_of(&die, coupled ? 3 : 2)];
         linearised *l = linearised_of(w, method);
         int seen[WATCH_RECORDS][2] = {{0}};
