@@ -86,7 +86,6 @@ static int entered_operation(int a, double x, int b, double y, double *value) {
     case 10: *value = sqrt(x); return tape_unary(list, OP_SQRT, a);
     case 11: *value = pow(x, e); return tape_power(list, a, e);
     case 12: *value = pow(x, y); return tape_pow(list, a, b);
-    default: break;
     }
     const function_id f = (function_id)dice_one_of(&die, FUNCTIONS);
     *value = number_call(f, x, y);
