@@ -114,8 +114,8 @@ CLI_LESS_ASAN := $(foreach t,asked_first carriage effects_cost_nothing embed_nam
     price_predicts recorded_bits recorded_lists settings_bits swing,\
     tests/cli/$(t).sh)
 HOST_LESS_ASAN := asked_first belief choice contact_bound contact_holds contact_load contact_rest contact_squeezed contact_start \
-    contact_together exact_books far_origin figures_thomson force_free hybrids ledger_scenes map methods prove_drawn reference rounding tape_gauge trajectory trust_scenes turned turned_errors \
-    warnings
+    contact_together exact_books far_origin figures_thomson force_free hybrids ledger_scenes map methods prove_drawn \
+    reference rounding tape_gauge trajectory trust_scenes turned turned_errors warnings
 ASAN_LIST = $(B)/tests/asan_suites.list
 asan_cli = $(call run_cli,$(filter-out $(CLI_NOT_ASAN) $(CLI_LESS_ASAN),$(1)))
 # What scripts make themselves belongs to the main configuration, and must have its settings, not ours: with ours it would

@@ -136,13 +136,14 @@ char *advice_cure(advice *a) {
     if (a->judged.image->settings.tables == TABLES_NONE) {
         return cure;
     }
-    char cells[40] = "more --cells";
-    if (a->judged.image->settings.cells > 0) {
-        snprintf(cells, sizeof cells, "--cells %d", 2 * a->judged.image->settings.cells);
+    const int own = a->judged.image->settings.cells;
+    char cells[40] = "more --cells, or ";
+    if (own > 0) {
+        snprintf(cells, sizeof cells, "--cells %d, or ", 2 * own);
     }
-    char *all =
-        room_words("the tables may be too coarse (not tried): %s, or no --tables, would tell%s%s",
-                   cells, cure != NULL ? "; if it is not they, " : "", cure != NULL ? cure : "");
+    char *all = room_words("the tables may be too coarse (not tried): %sno --tables would tell%s%s",
+                           2 * own > IMAGE_CELLS_MOST ? "" : cells,
+                           cure != NULL ? "; if it is not they, " : "", cure != NULL ? cure : "");
     free(cure);
     return all;
 }

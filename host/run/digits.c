@@ -181,8 +181,8 @@ static bool goes_along(const again *a, const again *better) {
 }
 
 /* The run as it would be so. */
-static bool does(const image *im, const engine_kind *kind, const again *better,
-                 const volatile sig_atomic_t *stop) {
+static bool would_do(const image *im, const engine_kind *kind, const again *better,
+                     const volatile sig_atomic_t *stop) {
     again a;
     again_run(&a, im, kind, stop);
     const bool along = goes_along(&a, better);
@@ -211,8 +211,8 @@ digits digits_of(const image *im, const engine_kind *kind, const watch *w, const
         d.compensated = !is_float && d.component >= 0 && d.by_sums;
     }
     if (is_float && (d.energy || d.component >= 0)) {
-        d.compensated = !im->settings.compensated && does(&summed, kind, &more, stop);
-        d.in_double = does(im, &engine_double, &more, stop);
+        d.compensated = !im->settings.compensated && would_do(&summed, kind, &more, stop);
+        d.in_double = would_do(im, &engine_double, &more, stop);
     }
     again_forget(&more);
     return d;
@@ -247,14 +247,13 @@ void digits_say(FILE *out, const image *im, const engine_kind *kind, const digit
     } else {
         return;
     }
-    const char *const names[2] = {d->compensated ? "--compensated" : "",
-                                  d->in_double ? "--number double" : ""};
-    const bool both = d->compensated && d->in_double;
-    const bool any = d->compensated || d->in_double;
-    const char *where =
-        d->component >= 0 ? "coordinates whose origin is near to where they move need fewer digits"
-                          : "no number that there is has enough at this step";
-    fprintf(out, "hint: %s%s%s%s%s%s\n", names[0], both ? " or " : "", names[1],
-            any ? " would do" : "", any && d->component >= 0 ? "; " : "",
-            any && d->component < 0 ? "" : where);
+    const char *would = d->compensated ? (d->in_double ? "--compensated or --number double would do"
+                                                       : "--compensated would do")
+                        : d->in_double ? "--number double would do"
+                        : d->energy    ? "--number double --compensated would do"
+                                       : "";
+    fprintf(out, "hint: %s%s%s\n", would, would[0] != '\0' && d->component >= 0 ? "; " : "",
+            d->component >= 0
+                ? "coordinates whose origin is near to where they move need fewer digits"
+                : "");
 }

@@ -28,8 +28,8 @@ bool digits_far(const image *im, const engine_kind *kind, const watch *w);
 
 /* Of a run to its end, of which nothing else is said. Where it did not follow its slopes, was not started where it was told
  * to, took place far from the origin, or left something of its energy over that only rounding explains, it is run again in
- * double with compensated sums, and told where that has what is missing or goes elsewhere. A motion of less than 3e-7 of where it takes place is none, nor is energy that goes to
- * and fro beside ten million times as much. `stop` may be NULL. */
+ * double with compensated sums, and told where that has what is missing or goes elsewhere. A motion of less than 3e-7 of where
+ * it takes place is none, nor is energy that goes to and fro beside ten million times as much. `stop` may be NULL. */
 digits digits_of(const image *im, const engine_kind *kind, const watch *w, const belief *b,
                  const volatile sig_atomic_t *stop);
 void digits_say(FILE *out, const image *im, const engine_kind *kind, const digits *d);

@@ -47,7 +47,7 @@ static void test_tables_are_named_and_more_cells_cure(void) {
         }
         told++;
         char twice[60];
-        snprintf(twice, sizeof twice, "--cells %d, or no --tables, would tell", 2 * cells);
+        snprintf(twice, sizeof twice, "--cells %d, or no --tables would tell", 2 * cells);
         TEST_ASSERT_TRUE_MESSAGE(strstr(what.err, twice) != NULL, what.err);
         run(text, form, cells, "0.1ms", &what);
         TEST_ASSERT_TRUE_MESSAGE(strstr(what.err, twice) != NULL, text);
