@@ -195,20 +195,27 @@ static void test_swings_of_mechanisms(void) {
     model_drop();
 }
 
+/* 1 kg on a spring, by a method's name; its file. */
+static const char *run_spring(coarse_run *r, const char *method) {
+    char text[300];
+    snprintf(text, sizeof text,
+             "mechanism m\ncoordinate x [m]\nT = 1 [kg]*x'^2/2\nV = %.12f [N/m]*x^2/2\n"
+             "scene s { start x = 1 [m]; step %.9f [s]; until %.9f [s] }\n",
+             r->rate * r->rate, r->step_s, r->steps * r->step_s);
+    const char *file = model_keep(text);
+    const char *words[] = {file, "--quiet", "--method", method, NULL};
+    command_say(command_run, words, &r->what);
+    return file;
+}
+
 /* Leapfrog keeps v^2/(1 - q) + w^2 x^2 with q = (h w/2)^2: its energy goes from 1 to 1 - q of its largest. */
 static void test_ripples(void) {
     for (unsigned c = 0; c < dice_cases(usual_or(4, 2)); c++) {
-        char text[300];
         double figure = 0.0;
         coarse_run r = {.rate = exp(dice_between(&die, -1.0, 2.0)), .steps = 150};
         const double z = dice_between(&die, 0.6, 1.2);
         r.step_s = z / r.rate;
-        snprintf(text, sizeof text,
-                 "mechanism m\ncoordinate x [m]\nT = 1 [kg]*x'^2/2\nV = %.12f [N/m]*x^2/2\n"
-                 "scene s { start x = 1 [m]; step %.9f [s]; until %.9f [s] }\n",
-                 r.rate * r.rate, r.step_s, r.steps * r.step_s);
-        const char *words[] = {model_keep(text), "--quiet", "--method", "leapfrog", NULL};
-        command_say(command_run, words, &r.what);
+        (void)run_spring(&r, "leapfrog");
         const char *at = strstr(r.what.err, "leapfrog lets its energy go ");
         TEST_ASSERT_NOT_NULL_MESSAGE(at, r.what.err);
         at = said_number(at + strlen("leapfrog lets its energy go "), &figure);
@@ -222,7 +229,6 @@ static void test_ripples(void) {
 /* Where a method of a higher order leaves next to nothing at the same step, it is named, first where it costs less, and does. */
 static void test_better_methods(void) {
     for (unsigned c = 0; c < dice_cases(usual_or(4, 2)); c++) {
-        char text[300];
         char word[40];
         said better;
         const double z = dice_between(&die, 0.05, 0.09);
@@ -230,16 +236,11 @@ static void test_better_methods(void) {
         /* the energy grows by z^4/4 a step; Runge-Kutta 4 takes z^6/72 */
         r.steps = (unsigned)(dice_between(&die, 0.02, 0.06) * 4.0 / pow(z, 4.0));
         r.step_s = z / r.rate;
-        snprintf(text, sizeof text,
-                 "mechanism m\ncoordinate x [m]\nT = 1 [kg]*x'^2/2\nV = %.12f [N/m]*x^2/2\n"
-                 "scene s { start x = 1 [m]; step %.9f [s]; until %.9f [s] }\n",
-                 r.rate * r.rate, r.step_s, r.steps * r.step_s);
-        const char *words[] = {model_keep(text), "--quiet", "--method", "heun", NULL};
-        command_say(command_run, words, &r.what);
+        const char *file = run_spring(&r, "heun");
         const char *method = strstr(r.what.err, "--method ");
         TEST_ASSERT_NOT_NULL_MESSAGE(method, r.what.err);
         (void)said_word(method + strlen("--method "), word, sizeof word);
-        const char *again[] = {words[0], "--quiet", "--method", word, NULL};
+        const char *again[] = {file, "--quiet", "--method", word, NULL};
         command_say(command_run, again, &better);
         TEST_ASSERT_EQUAL_STRING_MESSAGE("", better.err, word);
         const char *step = strstr(r.what.err, "--step ");

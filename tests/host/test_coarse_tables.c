@@ -6,6 +6,7 @@
 
 #include "command.h"
 #include "host/commands/commands.h"
+#include "host/image/image.h"
 #include "unity.h"
 
 void suite_coarse_tables(void);
@@ -51,6 +52,10 @@ static void test_tables_are_named_and_more_cells_cure(void) {
         TEST_ASSERT_TRUE_MESSAGE(strstr(what.err, twice) != NULL, what.err);
         run(text, form, cells, "0.1ms", &what);
         TEST_ASSERT_TRUE_MESSAGE(strstr(what.err, twice) != NULL, text);
+        run(text, form, IMAGE_CELLS_MOST, "30ms",
+            &what); /* it is not they, and no more there are */
+        TEST_ASSERT_TRUE_MESSAGE(strstr(what.err, "(not tried): no --tables would tell") != NULL,
+                                 what.err);
         run(text, form, cells * 128, "1ms", &what);
         TEST_ASSERT_EQUAL_STRING_MESSAGE("", what.err, text);
     }
