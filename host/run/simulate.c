@@ -7,6 +7,7 @@
 #include <string.h>
 #include <time.h>
 
+#include "core/refuse.h"
 #include "digits.h"
 #include "envelope.h"
 #include "faint.h"
@@ -223,6 +224,14 @@ static wh_status loop(simulation *sim, bool *interrupted) {
     return status;
 }
 
+static bool starts_beyond(const image *im) {
+    bool found = false;
+    for (int i = 0; i < im->reals; i++) {
+        found = found || !(fabs(im->start_real[i]) < (double)WH_ABSURD);
+    }
+    return found;
+}
+
 static void say_failure(const simulation *sim, wh_status status) {
     const image *im = sim->image;
     const engine_kind *kind = sim->settings->kind;
@@ -241,8 +250,15 @@ static void say_failure(const simulation *sim, wh_status status) {
     for (int k = 0; k < c.primes; k++) {
         fputc('\'', stderr);
     }
-    fprintf(stderr, " left all bounds\nhint: a smaller --step may carry it further; if it fails at "
-                    "the same time, look for a singular position there\n");
+    fputs(" left all bounds\n", stderr);
+    if (kind->steps(sim->run) == 0 && starts_beyond(im)) {
+        fprintf(
+            stderr,
+            "hint: it starts beyond them: numbers of a run stay below %g in SI's units; take an "
+            "origin, or units, nearer to it\n",
+            (double)WH_ABSURD);
+        return;
+    }
     advice_say_diverged(stderr, &sim->verdict->about);
 }
 

@@ -4,6 +4,10 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
+
+#include "command.h"
+#include "host/commands/commands.h"
 
 #include "unity.h"
 
@@ -131,9 +135,39 @@ static void test_an_angle_that_turns_too_fast_for_the_step(void) {
     }
 }
 
+/* What starts beyond all bounds is told so, and no smaller step or other number is named for it. */
+static void test_starts_beyond_all_bounds(void) {
+    static const char *const units[] = {"m", "mm", "km"};
+    static const double si[] = {1.0, 1e-3, 1e3};
+    dice d = dice_of("starts beyond", 4141);
+    for (unsigned i = 0; i < 40; i++) {
+        const unsigned unit = dice_one_of(&d, 3);
+        const bool rate = i % 2 == 0;
+        const bool beyond = i % 4 < 2;
+        const double size = pow(10.0, beyond ? dice_between(&d, 15.1, 30.0) : 3.0) / si[unit];
+        char text[300];
+        said what;
+        snprintf(text, sizeof text,
+                 "mechanism far\ncoordinate x [%s]\nT = 1 [kg]*x'^2/2\n"
+                 "scene s { start x%s = %.17g [%s%s]; step 1 [ms]; until 1 [s] }\n",
+                 units[unit], rate ? "'" : "", i % 3 == 0 ? -size : size, units[unit],
+                 rate ? "/s" : "");
+        const char *words[] = {model_keep(text), "--quiet", "--number",
+                               dice_one_of(&d, 2) == 0 ? "float" : "double", NULL};
+        command_say(command_run, words, &what);
+        TEST_ASSERT_EQUAL_INT_MESSAGE(beyond ? 1 : 0, what.status, text);
+        TEST_ASSERT_EQUAL_INT_MESSAGE(beyond, strstr(what.err, "it starts beyond them") != NULL,
+                                      what.err);
+        TEST_ASSERT_TRUE_MESSAGE(
+            strstr(what.err, "would do") == NULL && strstr(what.err, "--step") == NULL, what.err);
+    }
+    model_drop();
+}
+
 void suite_divergence(void) {
     RUN_TEST(test_motion_that_ends_in_infinity);
     RUN_TEST(test_every_method_stops);
     RUN_TEST(test_an_input_that_is_no_number);
     RUN_TEST(test_an_angle_that_turns_too_fast_for_the_step);
+    RUN_TEST(test_starts_beyond_all_bounds);
 }
