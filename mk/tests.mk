@@ -121,7 +121,7 @@ CLI_GATED := $(foreach t,angle_parts carriage embed_headers embed_names faults f
     tests/cli/$(t).sh)
 CLI_FEW := $(foreach t,emitted_c fixed,tests/cli/$(t).sh)
 HOST_GATED := asked_first belief busy choice contact_bound contact_centres contact_holds contact_load contact_rest contact_start \
-    contact_together exact_books figures_thomson fixed_ranges force_free hard_cases hard_edges hybrids ledger_scenes lockin_truth map \
+    contact_together exact_books far_slopes figures_thomson fixed_ranges force_free hard_cases hard_edges hybrids ledger_scenes lockin_truth map \
     methods printed_runs prove_drawn reference rounding tables tape_gauge trajectory trust trust_scenes turned_errors warnings
 RUN_HOST = $(call run_host,$(B)/tests/quick_suites.list)
 run_few = $(foreach t,$(1),"$(t)$(comma) few cases" "WHIRL_FEW=1 sh $(t)")

@@ -225,12 +225,17 @@ void advice_say(FILE *out, advice *a) {
 /* Records are in the order of time: the first such motion is from before everything grew. */
 void advice_say_diverged(FILE *out, advice *a) {
     judged *j = &a->judged;
-    say_singular(out, a);
-    if (j->image->settings.matrix == MATRIX_EXACT || j->watch->records == 0 || judged_singular(j)) {
+    const bool is_asked =
+        j->image->settings.matrix != MATRIX_EXACT && j->watch->records > 0 && !judged_singular(j);
+    if (is_asked && remedy_is_double(j, &a->cures)) {
+        fputs("hint: float has too few digits for it: --number double would do\n", out);
         return;
     }
-    if (remedy_is_double(j, &a->cures)) {
-        fputs("hint: float has too few digits for it: --number double would do\n", out);
+    fputs("hint: a smaller --step may carry it further; if it fails at the same time, look for a "
+          "singular position there\n",
+          out);
+    say_singular(out, a);
+    if (!is_asked) {
         return;
     }
     linearised *l = judged_motions(j);

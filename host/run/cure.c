@@ -40,6 +40,9 @@ static cure_outcome outcome_of(const again *a, const volatile sig_atomic_t *stop
     if (!silent) {
         return CURE_DOES_NOT;
     }
+    if (digits_none(&a->image, a->kind, w)) {
+        return CURE_ROUNDS;
+    }
     const digits few = digits_of(&a->image, a->kind, w, &a->balance, stop);
     return few.energy || few.component >= 0 || few.not_known ? CURE_ROUNDS : CURE_DOES;
 }

@@ -28,6 +28,9 @@
  * be what its slopes ask for, and these are wrong. */
 #define FAR_FLOAT 30.0
 #define FAR_DOUBLE 1e5
+/* So far away squares have no digits left in double either; and what moves by so little of its distance stands still. */
+#define NONE_DOUBLE 1e7
+#define STILL_DOUBLE 1e12
 /* What may be spent on a run again. */
 #define OPERATIONS_MOST 1e8
 
@@ -86,6 +89,15 @@ bool digits_far(const image *im, const engine_kind *kind, const watch *w) {
     bool found = false;
     for (int i = 0; i < w->field->n; i++) {
         found = found || is_far(im, kind, w, i);
+    }
+    return found;
+}
+
+bool digits_none(const image *im, const engine_kind *kind, const watch *w) {
+    bool found = false;
+    for (int i = 0; i < w->field->n && kind == &engine_double; i++) {
+        const double times = furthest(w, i) / (w->high[i] - w->low[i]);
+        found = found || (is_far(im, kind, w, i) && times > NONE_DOUBLE && times < STILL_DOUBLE);
     }
     return found;
 }

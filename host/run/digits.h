@@ -26,6 +26,9 @@ typedef struct digits {
 /* Does some coordinate move so far from its origin that its slopes may have too few digits? */
 bool digits_far(const image *im, const engine_kind *kind, const watch *w);
 
+/* So far that another run in double, which has as few, does not tell. */
+bool digits_none(const image *im, const engine_kind *kind, const watch *w);
+
 /* Of a run to its end, of which nothing else is said. Where it did not follow its slopes, was not started where it was told
  * to, took place far from the origin, or left something of its energy over that only rounding explains, it is run again in
  * double with compensated sums, and told where that has what is missing or goes elsewhere. A motion of less than 3e-7 of where

@@ -79,7 +79,9 @@ typedef struct rounded {
     double *input;
     double *result;
     double *off;
-    double *most; /* [results] */
+    double *most;   /* [results]: of the looks at which there is a bound, */
+    uint64_t *lost; /* [results]: and at so many there was none, */
+    uint64_t looks; /* of all */
 } rounded;
 
 static rounded rounded_open(const image *im) {
@@ -89,7 +91,9 @@ static rounded rounded_open(const image *im) {
                  room(im->inputs, sizeof(double)),
                  room(list->results, sizeof(double)),
                  room(list->results, sizeof(double)),
-                 room(list->results, sizeof(double))};
+                 room(list->results, sizeof(double)),
+                 room(list->results, sizeof(uint64_t)),
+                 0};
     image_inputs(im, r.input);
     return r;
 }
@@ -104,7 +108,9 @@ static void rounded_look(rounded *r, const void *run) {
     evaluator_rounding(r->evaluator, angle_rad, 0.0, r->off);
     for (int i = 0; i < im->list[IMAGE_STEP]->results; i++) {
         r->most[i] = isfinite(r->off[i]) ? number_most(r->most[i], r->off[i]) : r->most[i];
+        r->lost[i] += isfinite(r->off[i]) ? 0U : 1U;
     }
+    r->looks++;
 }
 
 static void rounded_close(rounded *r) {
@@ -113,6 +119,7 @@ static void rounded_close(rounded *r) {
     free(r->result);
     free(r->off);
     free(r->most);
+    free(r->lost);
 }
 
 /* The result of the list that is this derivative, or -1. */
@@ -138,7 +145,8 @@ static void take_rounding(twins *t, const rounded *r) {
         }
         const int result = result_of(r->image, c->unknown, c->primes + 1);
         if (result >= 0) {
-            slope += unit * r->most[result];
+            /* a place without a bound is a pole, or a root of next to nothing; most places are none */
+            slope += 2U * r->lost[result] > r->looks ? (double)INFINITY : unit * r->most[result];
         }
         const double size = number_most(fabs(to->low), fabs(to->high));
         to->rounding = image_shown(c->unit, slope * t->end_s) + unit * size;

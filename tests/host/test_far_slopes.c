@@ -24,6 +24,9 @@ typedef struct slope_case {
     int steps;
 } slope_case;
 
+/* Lengths: beyond, two double runs may stand still alike. */
+#define TOLD_MOST 4e7
+
 enum { RECORDS = 40, COLUMNS = 5 };
 
 typedef struct motion_rows {
@@ -113,41 +116,57 @@ static double off_by(const motion_rows *m, const motion_rows *reference) {
     return worst;
 }
 
-static slope_case draw(dice *d, unsigned i, bool is_float) {
-    const double tens = !is_float    ? dice_between(d, 5.0, 7.5)
-                        : i % 2 == 0 ? dice_between(d, 0.0, 6.0)
-                                     : dice_between(d, 2.0, 4.5); /* from where it matters on */
+static double draw_tens(dice *d, unsigned i, bool is_float) {
+    return is_float ? (i % 2 == 0 ? dice_between(d, 0.0, 6.0) : dice_between(d, 2.0, 4.5))
+                    : (i % 2 == 0 ? dice_between(d, 5.0, 7.5) : dice_between(d, 7.0, 8.3));
+}
+
+static slope_case draw(dice *d, unsigned i, double tens) { /* from where it matters on */
     slope_case c = {.kind = (slope_kind)(i % KINDS),
                     .length_m = pow(10.0, dice_between(d, -3.0, 2.0)),
                     .energy_J = pow(10.0, dice_between(d, -2.0, 2.0)),
                     .far = pow(10.0, tens),
-                    .steps = RECORDS * (10 + (int)dice_one_of(d, 40))};
-    c.step_s = dice_between(d, 0.004, 0.015) * c.length_m / sqrt(c.energy_J);
+                    .steps = RECORDS * 2 * (5 + (int)dice_one_of(d, 20))};
+    /* 1, 2 or 5, of which records an even number apart are whole numbers of any smaller such step, too */
+    static const double digits[] = {1.0, 2.0, 5.0};
+    const double most_s = 0.015 * c.length_m / sqrt(c.energy_J);
+    const double decade_s = pow(10.0, floor(log10(most_s)));
+    int k = 2;
+    while (k > 0 && digits[k] * decade_s > most_s) {
+        k--;
+    }
+    c.step_s = digits[k] * decade_s;
     return c;
 }
 
-/* What a hint says would do, done: "--step 1ms --number double" may be in it. */
-static void take_cure(const slope_case *c, const char *text, const said *warned,
+/* What a hint says would do, done: "--step 1ms --number double", either alone, or a method. Where nothing is then warned of and
+ * the line says that all of it is right, it is. */
+static void take_cure(const slope_case *c, const char *text, const char *number, const said *warned,
                       const motion_rows *reference, double far_m) {
-    if (strstr(warned->err, "--number double would do") == NULL &&
-        strstr(warned->err, "--number double; ") == NULL) {
+    const char *hint = strstr(warned->err, "would do");
+    if (hint == NULL) {
         return;
     }
+    const bool in_double = strstr(warned->err, "--number double would do") != NULL;
+    const double step_s = said_named_step_s(warned->err);
+    char step[60] = "--quiet";
+    if (step_s > 0.0) {
+        snprintf(step, sizeof step, "--step=%.17g", step_s);
+    }
     said what;
-    run_with(c, text, "double", NULL, &what);
-    TEST_ASSERT_EQUAL_INT_MESSAGE(0, what.status, text);
+    run_with(c, text, in_double ? "double" : number, step, &what);
     const motion_rows m = rows_of(c, what.out, far_m);
-    TEST_ASSERT_TRUE_MESSAGE(off_by(&m, reference) < 0.02, text);
+    TEST_ASSERT_TRUE_MESSAGE(off_by(&m, reference) < 0.05, warned->err);
 }
 
 static void hold(bool is_float) {
     dice d = dice_of(is_float ? "far slopes in float" : "far slopes in double", 4111);
-    const unsigned cases = dice_cases(few_or_all(100, 600));
+    const unsigned cases = dice_cases(few_or_all(usual_or(100, 20), 600));
     unsigned told = 0;
     unsigned ruined = 0;
     unsigned fine = 0;
     for (unsigned i = 0; i < cases; i++) {
-        const slope_case c = draw(&d, i, is_float);
+        const slope_case c = draw(&d, i, draw_tens(&d, i, is_float));
         const double far_m = c.far * c.length_m;
         char near_text[900];
         char text[900];
@@ -166,15 +185,19 @@ static void hold(bool is_float) {
         const bool warns = strstr(what.err, "whirl run: ") != NULL;
         if (off > 0.03) {
             ruined++;
-            TEST_ASSERT_TRUE_MESSAGE(is_float ? warns : !to_the_end, text);
+            TEST_ASSERT_TRUE_MESSAGE(is_float ? warns : !to_the_end || c.far > TOLD_MOST, text);
+            /* what fails where nothing fails near the origin */
+            TEST_ASSERT_TRUE_MESSAGE(what.status == 0 || !is_float ||
+                                         strstr(what.err, "--number double would do") != NULL,
+                                     what.err);
         }
-        TEST_ASSERT_FALSE_MESSAGE(to_the_end && off > 5e-3, text);
+        TEST_ASSERT_FALSE_MESSAGE(to_the_end && off > 5e-3 && c.far < TOLD_MOST, text);
         if (off < (is_float ? 3e-3 : 5e-4)) { /* the double run beside it has as few digits */
             fine++;
             TEST_ASSERT_FALSE_MESSAGE(warns, what.err);
         }
         told += warns ? 1U : 0U;
-        take_cure(&c, text, &what, &reference, far_m);
+        take_cure(&c, text, is_float ? "float" : "double", &what, &reference, far_m);
     }
     model_drop();
     printf("  %s: of %u far runs %u more than 3 %% off, %u right, %u warned of\n",
