@@ -15,7 +15,11 @@ void statement_text(place at, char *text, size_t size) {
         start--;
     }
     size_t end = start;
-    while (end < from->length && strchr("\n#}", from->text[end]) == NULL) {
+    int open = 0; /* braces of its own */
+    while (end < from->length && strchr("\n#", from->text[end]) == NULL &&
+           (from->text[end] != '}' || open > 0)) {
+        open += from->text[end] == '{' ? 1 : 0;
+        open -= from->text[end] == '}' ? 1 : 0;
         end++;
     }
     while (start < end && (from->text[start] == ' ' || from->text[start] == '\t')) {

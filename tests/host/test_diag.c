@@ -127,6 +127,21 @@ static void test_statements(void) {
     }
 }
 
+/* Up to what closes what it stands in, not what it opens itself; without a comment. */
+static void test_statements_in_braces(void) {
+    static const char *const own[] = {"a = 1", "when x { set y }", "when x { a { b } }", "e {}"};
+    static const char *const begin[] = {"", "scene s { ", "\n  ", "effect e {"};
+    static const char *const end[] = {"", " }", " } }\n", "\n}", " # {", "}"};
+    for (size_t k = 0; k < 4 * 4 * 6; k++) {
+        char text[80];
+        char shown[60];
+        snprintf(text, sizeof text, "%s%s%s", begin[k / 4 % 4], own[k % 4], end[k / 16]);
+        const source from = {"file", text, strlen(text)};
+        statement_text((place){&from, 1, 1, strlen(begin[k / 4 % 4])}, shown, sizeof shown);
+        TEST_ASSERT_EQUAL_STRING(own[k % 4], shown);
+    }
+}
+
 /* The first and the last character of each length, whole at the very end of a text, and cut off by each number of bytes. */
 static void test_characters(void) {
     static const char *const characters[] = {"a",
@@ -150,5 +165,6 @@ static void test_characters(void) {
 void suite_diag(void) {
     RUN_TEST(test_order);
     RUN_TEST(test_statements);
+    RUN_TEST(test_statements_in_braces);
     RUN_TEST(test_characters);
 }
