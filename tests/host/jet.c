@@ -19,14 +19,18 @@ jet jet_variable(int which, long double value) {
     return made;
 }
 
-jet jet_sum(jet a, jet b) {
-    a.value += b.value;
+void jet_add(jet *sum, long double factor, const jet *a) {
+    sum->value += factor * a->value;
     for (int i = 0; i < variables; i++) {
-        a.slope[i] += b.slope[i];
+        sum->slope[i] += factor * a->slope[i];
     }
     for (int k = 0; k < variables * (variables + 1) / 2; k++) {
-        a.curve[k] += b.curve[k];
+        sum->curve[k] += factor * a->curve[k];
     }
+}
+
+jet jet_sum(jet a, jet b) {
+    jet_add(&a, 1.0L, &b);
     return a;
 }
 

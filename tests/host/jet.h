@@ -21,6 +21,8 @@ jet jet_number(long double value);
 /* A variable, at a value. */
 jet jet_variable(int which, long double value);
 jet jet_sum(jet a, jet b);
+/* sum += factor a. */
+void jet_add(jet *sum, long double factor, const jet *a);
 jet jet_times(long double factor, jet a);
 jet jet_product(jet a, jet b);
 jet jet_square(jet a);

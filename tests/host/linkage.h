@@ -84,13 +84,15 @@ typedef struct linkage_numbers {
 void linkage_evaluate(const linkage *of, const long double *q, const long double *rate,
                       linkage_numbers *at);
 
-/* Solve M x = y. */
-void linkage_solve(const linkage *of, const linkage_numbers *at, const long double *y,
-                   long double *x);
+/* Solve M x = y. Returns the least share of a diagonal entry of M that elimination leaves of it: a digit of the solution
+ * is lost for each tenth. */
+long double linkage_solve(const linkage *of, const linkage_numbers *at, const long double *y,
+                          long double *x);
 
 /* Values, then rates. */
 typedef struct linkage_motion {
     long double state[2 * LINKAGE_BODIES];
+    long double least; /* what linkage_solve returned, the least on the way */
 } linkage_motion;
 /* The state after so many steps from the start: Runge-Kutta 4 in long double. */
 void linkage_integrate(const linkage *of, double step_s, int steps, linkage_motion *end);

@@ -16,41 +16,49 @@ typedef struct moving {
     jet x, y, u, v;
 } moving;
 
-/* A body: where it begins, the sine and cosine of its direction, how fast it turns. */
+/* A body: where it begins, its direction, how fast it turns, and the point one metre along it, as seen from its
+ * beginning. */
 typedef struct placed {
     moving origin;
     jet direction;
     jet turning;
+    moving metre;
 } placed;
 
-/* The point `out` further along a direction. */
-static moving further(moving from, jet direction, jet turning, jet out, jet out_rate) {
-    const jet c = jet_cosine(direction);
-    const jet s = jet_sine(direction);
-    const jet across = jet_product(out, turning);
-    from.x = jet_sum(from.x, jet_product(out, c));
-    from.y = jet_sum(from.y, jet_product(out, s));
-    from.u = jet_sum(from.u, jet_product(out_rate, c));
-    from.u = jet_sum(from.u, jet_times(-1.0L, jet_product(across, s)));
-    from.v = jet_sum(from.v, jet_product(out_rate, s));
-    from.v = jet_sum(from.v, jet_product(across, c));
-    return from;
+static moving along(const placed *b, double out_m) {
+    const long double out = (long double)out_m;
+    moving end = b->origin;
+    jet_add(&end.x, out, &b->metre.x);
+    jet_add(&end.y, out, &b->metre.y);
+    jet_add(&end.u, out, &b->metre.u);
+    jet_add(&end.v, out, &b->metre.v);
+    return end;
 }
 
-static moving along(const placed *b, double out_m) {
-    return further(b->origin, b->direction, b->turning, jet_number((long double)out_m),
-                   jet_number(0.0L));
+/* `q` further along its direction, and further by `rate` each second. */
+static void slide(moving *point, const moving *metre, jet q, jet rate) {
+    point->x = jet_sum(point->x, jet_product(q, metre->x));
+    point->y = jet_sum(point->y, jet_product(q, metre->y));
+    point->u = jet_sum(point->u, jet_product(rate, metre->x));
+    point->u = jet_sum(point->u, jet_product(q, metre->u));
+    point->v = jet_sum(point->v, jet_product(rate, metre->y));
+    point->v = jet_sum(point->v, jet_product(q, metre->v));
 }
 
 static placed place_body(const linkage_body *b, const placed *parent, jet q, jet rate) {
-    placed made = {.origin = along(parent, b->at_m)};
+    placed made = {.origin = along(parent, b->at_m), .turning = parent->turning};
     if (b->slides) {
         made.direction = jet_sum(parent->direction, jet_number((long double)b->rail_rad));
-        made.turning = parent->turning;
-        made.origin = further(made.origin, made.direction, made.turning, q, rate);
     } else {
         made.direction = b->relative ? jet_sum(parent->direction, q) : q;
         made.turning = b->relative ? jet_sum(parent->turning, rate) : rate;
+    }
+    made.metre.x = jet_cosine(made.direction);
+    made.metre.y = jet_sine(made.direction);
+    made.metre.u = jet_times(-1.0L, jet_product(made.turning, made.metre.y));
+    made.metre.v = jet_product(made.turning, made.metre.x);
+    if (b->slides) {
+        slide(&made.origin, &made.metre, q, rate);
     }
     return made;
 }
@@ -61,9 +69,7 @@ typedef struct sums {
     jet dissipation;
 } sums;
 
-static void into(jet *sum, long double factor, jet a) {
-    *sum = jet_sum(*sum, jet_times(factor, a));
-}
+static void into(jet *sum, long double factor, jet a) { jet_add(sum, factor, &a); }
 
 static jet squares(jet a, jet b) { return jet_sum(jet_square(a), jet_square(b)); }
 
@@ -94,15 +100,17 @@ static void add_spring(const linkage *of, const linkage_spring *spring, const pl
     into(&s->lagrangian, -(long double)spring->stiffness_Npm / 2.0L, energy);
 }
 
-void linkage_solve(const linkage *of, const linkage_numbers *at, const long double *y,
-                   long double *x) {
+long double linkage_solve(const linkage *of, const linkage_numbers *at, const long double *y,
+                          long double *x) {
     const int n = of->bodies;
+    long double least = 1.0L;
     long double a[LINKAGE_BODIES][LINKAGE_BODIES + 1];
     for (int i = 0; i < n; i++) {
         memcpy(a[i], at->mass[i], sizeof at->mass[i]);
         a[i][n] = y[i];
     }
     for (int c = 0; c < n; c++) { /* positive definite: no pivot is looked for */
+        least = fminl(least, a[c][c] / at->mass[c][c]);
         for (int i = 0; i < n; i++) {
             const long double share = i == c ? 0.0L : a[i][c] / a[c][c];
             for (int j = c; j <= n && i != c; j++) {
@@ -113,6 +121,7 @@ void linkage_solve(const linkage *of, const linkage_numbers *at, const long doub
     for (int i = 0; i < n; i++) {
         x[i] = a[i][n] / a[i][i];
     }
+    return least;
 }
 
 void linkage_evaluate(const linkage *of, const long double *q, const long double *rate,
@@ -120,7 +129,7 @@ void linkage_evaluate(const linkage *of, const long double *q, const long double
     const int n = of->bodies;
     placed at[LINKAGE_BODIES];
     jet_variables(2 * n);
-    const placed ground = {.origin = {.x = jet_number(0.0L)}};
+    const placed ground = {.metre = {.x = jet_number(1.0L)}};
     sums s = {.lagrangian = jet_number(0.0L), .dissipation = jet_number(0.0L)};
     for (int k = 0; k < n; k++) {
         const linkage_body *b = &of->body[k];
@@ -154,18 +163,18 @@ void linkage_evaluate(const linkage *of, const long double *q, const long double
 
 enum { STATE = 2 * LINKAGE_BODIES };
 
-static void slopes(const linkage *of, const long double *state, long double *slope) {
+static long double slopes(const linkage *of, const long double *state, long double *slope) {
     linkage_numbers at;
     linkage_evaluate(of, state, state + LINKAGE_BODIES, &at);
-    linkage_solve(of, &at, at.force, slope + LINKAGE_BODIES);
     memcpy(slope, state + LINKAGE_BODIES, LINKAGE_BODIES * sizeof *slope);
+    return linkage_solve(of, &at, at.force, slope + LINKAGE_BODIES);
 }
 
 void linkage_integrate(const linkage *of, double step_s, int steps, linkage_motion *end) {
     static const long double node[4] = {0.0L, 0.5L, 0.5L, 1.0L};
     static const long double weight[4] = {1.0L / 6.0L, 1.0L / 3.0L, 1.0L / 3.0L, 1.0L / 6.0L};
     const long double h = (long double)step_s;
-    *end = (linkage_motion){{0.0L}};
+    *end = (linkage_motion){.least = 1.0L};
     for (int k = 0; k < of->bodies; k++) {
         end->state[k] = (long double)of->start[k];
         end->state[LINKAGE_BODIES + k] = (long double)of->start_rate[k];
@@ -178,7 +187,7 @@ void linkage_integrate(const linkage *of, double step_s, int steps, linkage_moti
             for (int i = 0; i < STATE; i++) {
                 at[i] = end->state[i] + node[stage] * h * slope[i];
             }
-            slopes(of, at, slope);
+            next.least = fminl(next.least, slopes(of, at, slope));
             for (int i = 0; i < STATE; i++) {
                 next.state[i] += weight[stage] * h * slope[i];
             }
