@@ -394,7 +394,7 @@ static void expect_said(const busy *b, const retrial *r) {
 static void test_what_is_said(void) {
     static const uint64_t parts[] = {0, 0, 0, 2, 5, 20, 50};
     unsigned said_of[2] = {0};
-    for (unsigned c = 0; c < dice_cases(usual_or(150, 40)); c++) {
+    for (unsigned c = 0; c < dice_cases(usual_or(80, 40)); c++) {
         const int steps = 20 + (int)dice_one_of(&die, STEPS_MOST - 20);
         derived d = scene_of(steps);
         story *s = drawn_story(steps, 1);

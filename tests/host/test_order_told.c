@@ -63,12 +63,12 @@ static const told_scene scenes[] = {
             "equation r' = -@0.5 [1/s]*r + @9 [1/s]*q\n"
             "equation s' = @0.1 [1/s]*r\n",
      .scene = "start p = @3, r = @1, s = @7; step 0.08 [s]; until 8 [s]"},
-    {.told = "these coordinates are singular: the inertia of 'phi'",
+    {.told = "largest, nearest at r = 0.9",
      .coordinates = {"coordinate r [m]\n", "coordinate b [m]\n", "coordinate phi [rad]\n",
                      "coordinate psi [rad]\n"},
-     .law = "T = 1 [kg]*(r'^2 + r^2*phi'^2)/2 + 2 [kg]*b'^2/2 + @5 [kg*m^2]*psi'^2/2\n"
+     .law = "T = 1 [kg]*(r'^2 + (1 [m] - r)^2*phi'^2)/2 + 2 [kg]*b'^2/2 + @5 [kg*m^2]*psi'^2/2\n"
             "V = @3 [N/m]*b^2/2\n",
-     .scene = "start r = 1 [m], r' = -@1 [m/s], phi' = @0.018 [rad/s], b = @0.3 [m], psi' = @0.6 "
+     .scene = "start r = 0 [m], r' = @1 [m/s], phi' = @0.018 [rad/s], b = @0.3 [m], psi' = @0.6 "
               "[rad/s]; step 0.02 [s]; until 2 [s]"},
     {.told = "float has too few digits for 'c",
      .coordinates = THREE,
