@@ -154,6 +154,7 @@ static void as_compensated(char *text, const char *step) {
     static const char in_double[] = " --number double";
     const char *compensated = strstr(step, " --compensated");
     compensated = compensated != NULL ? compensated : "";
+    TEST_ASSERT_NOT_NULL(text);
     char *at = strstr(text, in_double);
     if (at != NULL) {
         memmove(at + strlen(compensated), at + strlen(in_double),

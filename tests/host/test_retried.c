@@ -5,6 +5,7 @@
 #include <stdlib.h>
 
 #include "command.h"
+#include "core/contact.h"
 #include "derived.h"
 #include "host/base/room.h"
 #include "host/run/retrial.h"
@@ -21,8 +22,10 @@ static const char *const ball =
 
 /* What all made-up runs have in common. */
 static struct {
-    uint64_t needs; /* parts of the step; in coarser ones each step overruns, */
-    double off;     /* and x is off by this at the end */
+    uint64_t needs;    /* parts of the step; in coarser ones each step overruns, */
+    double off;        /* and x is off by this at the end */
+    uint64_t chatters; /* in coarser parts the stop takes hold and lets go in each step */
+    bool agree;        /* those that are fine enough; else each ends elsewhere */
     uint64_t evaluations_a_step;
     uint64_t spent; /* evaluations, by all runs that there were */
     uint64_t runs;
@@ -52,7 +55,9 @@ static void state(const void *run, double *angle_rad, double *real) {
     const made_up *m = run;
     const double part = (double)m->steps / (double)(STEPS * m->parts);
     (void)angle_rad;
-    real[0] = part + (m->parts < world.needs ? world.off * part * part : 0.0);
+    const double off = world.agree ? (m->parts < world.needs ? world.off : 0.0)
+                                   : world.off * sqrt((double)m->parts);
+    real[0] = part + off * part * part;
     real[1] = 1.0;
 }
 
@@ -65,9 +70,9 @@ static uint64_t events(const void *run, uint64_t *overruns) {
 }
 
 static int happened(const void *run, engine_event *list) {
-    (void)run;
-    (void)list;
-    return 0;
+    const made_up *m = run;
+    list[0] = (engine_event){.contact = 0, .mode = m->steps % 2 == 0 ? WH_FREE : WH_ACTIVE};
+    return m->parts < world.chatters ? 1 : 0;
 }
 
 static uint64_t evaluations(const void *run, uint64_t *most) {
@@ -118,6 +123,7 @@ static uint64_t part_for(uint64_t needs) {
 
 static void test_the_coarsest_that_will_do_is_found(void) {
     derived d = derived_scene(ball, "s");
+    world.agree = true;
     dice draws = dice_of("retried", 26);
     derived_expect(&d, ball);
     for (int i = 0; i < 60; i++) {
@@ -144,6 +150,7 @@ static void test_no_more_is_spent_than_may_be(void) {
     derived d = derived_scene(ball, "s");
     dice draws = dice_of("retried", 27);
     derived_expect(&d, ball);
+    world.agree = true;
     const double each = d.image->list[IMAGE_STEP]->count + 40.0;
     unsigned cut = 0;
     for (int i = 0; i < 30; i++) {
@@ -167,7 +174,37 @@ static void test_no_more_is_spent_than_may_be(void) {
     derived_free(&d);
 }
 
+/* Where finer runs never agree, the coarsest is named that neither overruns nor chatters, as one of which no more is known. Where
+ * the first that is tried is where the run is, there is nothing to tell. */
+static void test_the_coarsest_that_is_calm_is_named(void) {
+    derived d = derived_scene(ball, "s");
+    dice draws = dice_of("retried", 28);
+    derived_expect(&d, ball);
+    world.evaluations_a_step = 1;
+    for (int i = 0; i < 60; i++) {
+        world.agree = i % 4 == 3;
+        world.needs = i % 3 == 0 ? 1 : (uint64_t)exp(dice_between(&draws, 0.0, log(700.0)));
+        world.chatters = 2U + (uint64_t)exp(dice_between(&draws, 0.0, log(1.3 * FINEST)));
+        world.off = world.agree ? 0.0 : dice_between(&draws, 0.02, 0.1);
+        const uint64_t least = world.needs > world.chatters ? world.needs : world.chatters;
+        const retrial found = tried(d.image);
+        if (world.agree) {
+            TEST_ASSERT_TRUE(found.known && !found.told && found.off < 1e-9);
+            TEST_ASSERT_EQUAL_UINT64(world.needs <= 1 ? 2 : part_for(part_for(world.needs) + 1),
+                                     found.finest);
+            continue;
+        }
+        TEST_ASSERT_TRUE(found.told && found.known && !found.agreed);
+        TEST_ASSERT_EQUAL_UINT64(FINEST, found.finest);
+        TEST_ASSERT_EQUAL_UINT64(part_for(least), found.parts);
+    }
+    world.chatters = 0;
+    world.agree = true;
+    derived_free(&d);
+}
+
 void suite_retried(void) {
     RUN_TEST(test_the_coarsest_that_will_do_is_found);
     RUN_TEST(test_no_more_is_spent_than_may_be);
+    RUN_TEST(test_the_coarsest_that_is_calm_is_named);
 }
