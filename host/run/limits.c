@@ -3,6 +3,7 @@
 #include "limits.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "core/method.h"
 #include "host/number/functions.h"
@@ -180,8 +181,7 @@ static double growth_of_turning(wh_method method, limits_motion z) {
         }
         const int own = alike(x, y[0]) >= alike(x, y[1]) ? 0 : 1;
         growth = complex_size(mu[own]);
-        x[0] = y[own][0];
-        x[1] = y[own][1];
+        memcpy(x, y[own], sizeof x);
     }
     return growth;
 }

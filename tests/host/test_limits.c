@@ -140,6 +140,53 @@ static void test_what_a_step_takes(void) {
     }
 }
 
+/* 1 + z + z^2/2 + ..., so far. */
+static complex_number taylor(complex_number z, int order) {
+    complex_number sum = {1.0, 0.0};
+    for (int k = order; k > 0; k--) { /* Horner's */
+        const complex_number part = {z.re / k, z.im / k};
+        sum = complex_plus_times((complex_number){1.0, 0.0}, part, sum);
+    }
+    return sum;
+}
+
+/* q'' = (l + m) q' - l m q has the motions l and m: of what Runge-Kutta's own polynomial makes of each, that of the one that is
+ * asked for; and what is lost of it over a time. */
+static void test_motions_that_turn(void) {
+    static const struct {
+        wh_method method;
+        int order;
+    } by[] = {{WH_RK4, 4}, {WH_RK38, 4}, {WH_HEUN, 2}, {WH_EULER, 1}};
+    uint64_t seed = 77;
+    for (int c = 0; c < 400; c++) {
+        const complex_number l = {random_between(&seed, -0.5, 0.1),
+                                  random_between(&seed, 0.3, 2.0)};
+        const complex_number m = {random_between(&seed, -0.5, 0.1),
+                                  random_between(&seed, -2.0, l.im - 0.2)};
+        const limits_motion asked = {l, {l.re + m.re, l.im + m.im}};
+        const double h = random_between(&seed, 0.01, 0.6);
+        const double span = h * random_between(&seed, 1.0, 30.0);
+        const complex_number wanted = taylor((complex_number){h * l.re, h * l.im}, by[c % 4].order);
+        const double size = sqrt(wanted.re * wanted.re + wanted.im * wanted.im);
+        const double exact = exp(l.re * h);
+        const double growth = limits_growth(by[c % 4].method, WH_SECOND_ORDER, asked, h);
+        TEST_ASSERT_DOUBLE_WITHIN(1e-9, size, growth);
+        TEST_ASSERT_DOUBLE_WITHIN(1e-9, size,
+                                  limits_growth(by[c % 4].method, WH_FIRST_ORDER, asked, h));
+        double off = 0.0;
+        if (size > 1.0 && size > exact) {
+            off = pow(size / fmax(exact, 1.0), span / h) - 1.0;
+        } else if (exact >= 1.0) {
+            off = fmax(1.0 - pow(size / exact, span / h), 0.0);
+        } else { /* where that is most, on the way down */
+            const double lasts = fmax(fmin(span / h, -1.0 / (l.re * h)), 1.0);
+            off = fmin(1.0, lasts * pow(exact, lasts - 1.0) * fabs(size - exact));
+        }
+        TEST_ASSERT_DOUBLE_WITHIN(1e-6 * off + 1e-7, off,
+                                  limits_off(by[c % 4].method, WH_SECOND_ORDER, asked, h, span));
+    }
+}
+
 /* --- eigenvalues -------------------------------------------------------------------------------------------------*/
 
 enum { LARGEST = 40 };
@@ -270,6 +317,7 @@ void suite_limits(void) {
     RUN_TEST(test_measured_limits_are_those_of_the_rows);
     RUN_TEST(test_known_limits);
     RUN_TEST(test_what_a_step_takes);
+    RUN_TEST(test_motions_that_turn);
     RUN_TEST(test_eigenvalues_are_the_known_ones);
     RUN_TEST(test_parts_are_the_whole);
     RUN_TEST(test_matrices_without_an_answer);

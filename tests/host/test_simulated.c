@@ -6,6 +6,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 #include <unistd.h>
 
 #include "blocks.h"
@@ -139,6 +140,60 @@ static void test_rows(void) {
     end();
 }
 
+/* --- how long it takes --------------------------------------------------------------------------------------------*/
+
+static double now_s(void) {
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+#define DAWDLES_S 1e-4
+static double dawdled_s; /* the longest step */
+
+static wh_status dawdle(void *run) {
+    const double begin_s = now_s();
+    const wh_status status = engine_double.step(run);
+    while (now_s() < begin_s + DAWDLES_S) {
+    }
+    dawdled_s = fmax(dawdled_s, now_s() - begin_s);
+    return status;
+}
+
+/* Steps that take a tenth of a millisecond at least: on the average of those that are timed no less, and not longer than the
+ * longest took. The summary goes where no records go. */
+static void test_time_per_step(void) {
+    static const unsigned counts[] = {1, 2, 63, 64, 65, 129, 200};
+    begin();
+    for (int c = 0; c < 7; c++) {
+        char text[500];
+        double time_ns = 0.0;
+        snprintf(text, sizeof text,
+                 "mechanism m\ncoordinate x [m]\nT = 1 [kg]*x'^2/2\n"
+                 "scene s { start x' = 1 [m/s]; step 1 [ms]; until %u [ms] }\n",
+                 counts[c]);
+        derived d = scene_of(text);
+        engine_kind slow = engine_double;
+        slow.step = dawdle;
+        dawdled_s = 0.0;
+        const simulation_settings s = {.kind = &slow, .every = 1, .csv = "-"};
+        fflush(stdout);
+        const int kept = dup(1);
+        TEST_ASSERT_TRUE(freopen("/dev/null", "w", stdout) != NULL);
+        const char *told = simulated(d.image, &s, SIMULATION_DONE);
+        fflush(stdout);
+        (void)dup2(kept, 1);
+        close(kept);
+        const char *at = strstr(told, "\ntime per step ");
+        TEST_ASSERT_NOT_NULL_MESSAGE(at, told);
+        (void)said_number(at + strlen("\ntime per step "), &time_ns);
+        TEST_ASSERT_TRUE_MESSAGE(time_ns >= 0.99e9 * DAWDLES_S, told);
+        TEST_ASSERT_TRUE_MESSAGE(time_ns <= 1e9 * dawdled_s + 1e8, told);
+        derived_free(&d);
+    }
+    end();
+}
+
 /* --- interrupted -------------------------------------------------------------------------------------------------*/
 
 static volatile sig_atomic_t stop_now = 1;
@@ -181,6 +236,40 @@ static void test_interrupted(void) {
     const simulation_settings s = {
         .kind = &engine_double, .every = 1, .quiet = true, .stop = &stop_now};
     TEST_ASSERT_EQUAL_STRING("", simulated(d.image, &s, SIMULATION_DONE));
+    derived_free(&d);
+    end();
+}
+
+/* --- held at an end of a range -----------------------------------------------------------------------------------*/
+
+static uint64_t held;
+static uint64_t held_values(const void *run) {
+    (void)run;
+    return held;
+}
+
+static void test_held_values(void) {
+    char text[500];
+    begin();
+    snprintf(text, sizeof text, steady, 0.1, 0.2, 0.3);
+    derived d = scene_of(text);
+    engine_kind ranged = engine_double;
+    ranged.saturated = held_values;
+    for (held = 0; held < 4; held++) {
+        const simulation_settings s = {.kind = &ranged, .every = 1, .quiet = true};
+        bool against = true;
+        char wanted[200] = "";
+        if (held > 0) {
+            snprintf(wanted, sizeof wanted,
+                     "whirl run: warning: %u value%s saturated: held at an end of the range\n"
+                     "hint: widen it: range NAME = A .. B\n",
+                     (unsigned)held, held > 1 ? "s" : "");
+        }
+        errors_catch();
+        TEST_ASSERT_EQUAL_INT(SIMULATION_DONE, simulate(d.image, &s, &against));
+        TEST_ASSERT_EQUAL_STRING(wanted, errors_caught());
+        TEST_ASSERT_FALSE(against);
+    }
     derived_free(&d);
     end();
 }
@@ -339,7 +428,9 @@ static void test_files_that_cannot_be_written(void) {
 void suite_simulated(void) {
     die = dice_of("simulated", 65);
     RUN_TEST(test_rows);
+    RUN_TEST(test_time_per_step);
     RUN_TEST(test_interrupted);
+    RUN_TEST(test_held_values);
     RUN_TEST(test_outputs_that_end);
     RUN_TEST(test_diverged);
     RUN_TEST(test_strict);
