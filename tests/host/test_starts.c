@@ -140,7 +140,86 @@ static void test_kicks_know_no_rates(void) {
     }
 }
 
+/* Angles whose sines are asked for, any of which starts further than float counts its turns: each is told, where it is declared or
+ * started, and no other. */
+static void test_angles_that_start_too_far(void) {
+    dice d = dice_of("starts", 2317);
+    for (unsigned n = few_or_all(60, 600); n > 0; n--) {
+        char text[TEXT] = "mechanism m\n";
+        char kinetic[300] = "";
+        char stored[300] = "";
+        char starts[300] = "";
+        double far_rad[MOST] = {0.0};
+        const int count = 1 + (int)dice_one_of(&d, MOST);
+        unsigned wanted = 0;
+        for (int i = 0; i < count; i++) {
+            const char *between = i > 0 ? " + " : "";
+            far_rad[i] = dice_one_of(&d, 3) == 0 ? dice_between(&d, 6.29e9, 9e12) : 0.0;
+            wanted += far_rad[i] > 0.0;
+            snprintf(text + strlen(text), sizeof text - strlen(text), "coordinate q%d [rad]\n", i);
+            snprintf(kinetic + strlen(kinetic), sizeof kinetic - strlen(kinetic), "%sq%d'^2",
+                     between, i);
+            snprintf(stored + strlen(stored), sizeof stored - strlen(stored), "%scos(q%d)", between,
+                     i);
+            snprintf(starts + strlen(starts), sizeof starts - strlen(starts),
+                     "%s q%d = %.17g [rad]", i > 0 ? "," : "", i,
+                     far_rad[i] > 0.0 ? far_rad[i] : dice_between(&d, -9.0, 9.0));
+        }
+        snprintf(text + strlen(text), sizeof text - strlen(text),
+                 "T = 1 [kg*m^2]*(%s)/2\nV = 1 [J]*(%s)\n"
+                 "scene s { start%s; step 1 [ms]; until 1 [s] }\n",
+                 kinetic, stored, starts);
+        derived made = derived_scene(text, "s");
+        derived_expect(&made, text);
+        TEST_ASSERT_EQUAL_INT(count, made.image->angles);
+        diags *errors = diags_new();
+        TEST_ASSERT_TRUE(start_is_possible(made.image, &engine_double, errors));
+        TEST_ASSERT_EQUAL_INT_MESSAGE(wanted == 0,
+                                      start_is_possible(made.image, &engine_float, errors), text);
+        const char *told = told_of(errors);
+        TEST_ASSERT_EQUAL_UINT_MESSAGE(wanted, times(told, "error: "), told);
+        for (int i = 0; i < count; i++) {
+            char what[120];
+            snprintf(what, sizeof what, "error: 'q%d' starts at %.9g rad: float counts turns up to",
+                     i, far_rad[i]);
+            TEST_ASSERT_EQUAL_INT_MESSAGE(far_rad[i] > 0.0, strstr(told, what) != NULL, told);
+        }
+        diags_free(errors);
+        derived_free(&made);
+    }
+}
+
+/* Of coordinates that are integrated from their momenta the first is told. */
+static void test_momenta_are_no_kicks(void) {
+    for (int first = 0; first < 3; first++) {
+        char text[TEXT];
+        char what[120];
+        snprintf(
+            text, sizeof text,
+            "mechanism m\ncoordinate q0 [m]\ncoordinate q1 [m]\ncoordinate q2 [m]\n"
+            "coordinate x [m]\nT = 1 [kg]*(q0'^2 + q1'^2 + q2'^2 + x'^2)/2\nV = 3 [N/m]*x^2\nQ(x) = 1 [N]*sin((q0 + q1 + q2)/(1 [m]))\n"
+            "scene s { conserve %sq2; step 1 [ms]; until 1 [s] }\n",
+            first == 0   ? "q0, q1, "
+            : first == 1 ? "q1, "
+                         : "");
+        derived made = derived_scene(text, "s");
+        derived_expect(&made, text);
+        diags *errors = diags_new();
+        TEST_ASSERT_FALSE(start_has_method(made.image, WH_LEAPFROG, errors));
+        const char *told = told_of(errors);
+        snprintf(
+            what, sizeof what,
+            "%s is not defined here: 'q%d', which is conserved, is integrated from its momentum",
+            wh_methods[WH_LEAPFROG].title, first);
+        TEST_ASSERT_NOT_NULL_MESSAGE(strstr(told, what), told);
+        diags_free(errors);
+        derived_free(&made);
+    }
+}
+
 void suite_starts(void) {
     RUN_TEST(test_stops_that_are_passed);
     RUN_TEST(test_kicks_know_no_rates);
+    RUN_TEST(test_angles_that_start_too_far);
+    RUN_TEST(test_momenta_are_no_kicks);
 }
