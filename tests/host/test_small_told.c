@@ -3,10 +3,15 @@
 #include <math.h>
 #include <stdbool.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "command.h"
+#include "derived.h"
 #include "host/commands/commands.h"
+#include "host/run/faint.h"
+#include "host/run/narrow.h"
+#include "host/run/watch.h"
 #include "unity.h"
 
 void suite_small_told(void);
@@ -134,9 +139,158 @@ static void test_small_products(void) {
     model_drop();
 }
 
+/* --- of records that are made up ----------------------------------------------------------------------------------------*/
+
+enum { RECORDS = 7, ANGLES = 1, PLACES = 2, UNKNOWNS_OF = ANGLES + PLACES, ALL = 2 * UNKNOWNS_OF };
+
+static const char *const three =
+    "mechanism m\ncoordinate x [m]\ncoordinate a [rad]\ncoordinate y [m]\n"
+    "input p = %.17g [N*s/m]\ninput q = %.17g\ninput c = 1e35\n"
+    "T = 1 [kg]*(x'^2 + y'^2)/2 + 1 [kg*m^2]*a'^2/2\n"
+    "Q(x) = p*q*c*x'*cos(a)\nQ(y) = p*q*c*y'*x/(1 [m]) + q^3*c*y*1 [N/m]\n"
+    "Q(a) = p*q*a'*x'*c*y*1 [s]\n"
+    "scene s { start a = 1 [rad], y = 1 [m], x' = 1 [m/s]; step 10 [ms]; until 1 [s] }\n";
+
+/* The largest part that is lost of any slope's largest, whose it is and when: of those that move what is theirs. */
+static narrow worst_of(const image *im, const watch *w, double state[RECORDS][ALL]) {
+    const tape *t = im->list[IMAGE_STEP];
+    double most[UNKNOWNS_OF] = {0.0};
+    double lost[RECORDS][UNKNOWNS_OF];
+    double input[3];
+    narrow worst = {.component = -1};
+    evaluator *e = evaluator_new(t);
+    evaluator_wrap(e);
+    image_inputs(im, input);
+    TEST_ASSERT_EQUAL_INT(UNKNOWNS_OF, t->results);
+    for (int k = 0; k < RECORDS; k++) {
+        double value[UNKNOWNS_OF];
+        double off[2][UNKNOWNS_OF];
+        const double *places = state[k] + ANGLES;
+        evaluator_run(e, w->record_s[k], state[k], places, places + PLACES, input, value);
+        evaluator_rounding(e, state[k], 0.0, off[0]);
+        evaluator_rounding(e, state[k], 0x1p-126, off[1]);
+        for (int i = 0; i < UNKNOWNS_OF; i++) {
+            most[i] = fmax(most[i], fabs(value[i]));
+            lost[k][i] = 0x1p-24 * (off[1][i] - off[0][i]);
+        }
+    }
+    evaluator_free(e);
+    for (int k = 0; k < RECORDS; k++) {
+        for (int i = 0; i < UNKNOWNS_OF; i++) {
+            const int rate = UNKNOWNS_OF + i;
+            const double until_s = (double)w->steps * w->step_s;
+            const double size = fmax(fmax(fabs(w->low[i]), fabs(w->high[i])), w->range[i]);
+            const bool moves = w->range[rate] > 0.0 ? most[i] * until_s > 1e-3 * w->range[rate]
+                                                    : most[i] * until_s * until_s > 1e-3 * size;
+            if (moves && most[i] > 0.0 && lost[k][i] / most[i] > worst.part) {
+                worst = (narrow){lost[k][i] / most[i], rate, w->record_s[k]};
+            }
+        }
+    }
+    return worst;
+}
+
+static void test_small_products_of_records(void) {
+    unsigned told[UNKNOWNS_OF + 1] = {0};
+    for (unsigned n = 0; n < dice_cases(usual_or(60, 20)); n++) {
+        char text[800];
+        double state[RECORDS][ALL];
+        const double p = exp(dice_between(&die, log(1e-22), log(1e-19)));
+        snprintf(text, sizeof text, three, p, 0x1p-150 * exp(dice_between(&die, 0.0, 5.0)) / p);
+        derived d = derived_scene(text, "s");
+        derived_expect(&d, text);
+        const image *im = d.image;
+        TEST_ASSERT_EQUAL_INT(ANGLES, im->angles);
+        watch *w = watch_open(im, &engine_float);
+        w->records = RECORDS;
+        w->steps = 1U + dice_one_of(&die, 100);
+        for (int k = 0; k < RECORDS; k++) {
+            w->record_s[k] = 0.1 * k;
+            for (int i = 0; i < ALL; i++) {
+                state[k][i] = exp(dice_between(&die, -3.0, 3.0)) * (n % 2U == 0 ? 1.0 : -1.0);
+                w->record[k * ALL + i] = state[k][i];
+            }
+        }
+        for (int i = 0; i < ALL; i++) {
+            const double size = exp(dice_between(&die, -30.0, 3.0));
+            w->range[i] = dice_one_of(&die, 2) == 0 ? 0.0 : size;
+            w->low[i] = -size * dice_between(&die, 0.0, 1.0);
+            w->high[i] = size * dice_between(&die, 0.0, 1.0);
+        }
+        const narrow wanted = worst_of(im, w, state);
+        const narrow found = narrow_of(w);
+        TEST_ASSERT_EQUAL_INT(wanted.component, found.component);
+        TEST_ASSERT_TRUE(fabs(wanted.part - found.part) <= 1e-12 * wanted.part);
+        TEST_ASSERT_TRUE(wanted.time_s == found.time_s);
+        told[wanted.component < 0 ? UNKNOWNS_OF : wanted.component - UNKNOWNS_OF]++;
+        watch_close(w);
+        derived_free(&d);
+    }
+    for (int i = 0; i <= UNKNOWNS_OF; i++) {
+        TEST_ASSERT_TRUE(told[i] > 0);
+    }
+}
+
+/* Of sizes that are made up: the one of which the steps' roundings are most is told, where that is more than a thousandth; what
+ * started at something and is nothing has lost all of it. Angles are told elsewhere. */
+static void test_faint_sizes_of_components(void) {
+    static const char *const names[ALL] = {"a", "x", "y", "a'", "x'", "y'"};
+    char text[800];
+    snprintf(text, sizeof text, three, 1.0, 1.0);
+    derived d = derived_scene(text, "s");
+    derived_expect(&d, text);
+    for (unsigned n = 0; n < dice_cases(usual_or(100, 40)); n++) {
+        const engine_kind *kind = n % 3U == 0 ? &engine_double : &engine_float;
+        const double unit = kind == &engine_double ? 0x1p-1074 : 0x1p-149;
+        watch *w = watch_open(d.image, kind);
+        w->steps = n % 10U == 9 ? 0 : 1U + dice_one_of(&die, 4000);
+        double most = 1e-3;
+        int worst = -1;
+        for (int i = 0; i < ALL; i++) {
+            double size[3] = {0.0};
+            for (int k = 0; k < 3 && dice_one_of(&die, 8) > 0; k++) {
+                size[k] = unit * floor(exp(dice_between(&die, 4.0, 16.0)));
+            }
+            w->low[i] = -size[0];
+            w->high[i] = size[1];
+            w->range[i] = size[2];
+            const double furthest = fmax(fmax(size[0], size[1]), size[2]);
+            const bool gone = i >= ANGLES && d.image->start_real[i - ANGLES] != 0.0;
+            const double part = furthest > 0.0 ? 0.5 * sqrt((double)w->steps) / (furthest / unit)
+                                               : (gone ? 1.0 : 0.0);
+            if (i >= ANGLES && part > most) {
+                most = part;
+                worst = i;
+            }
+        }
+        char wanted[500] = "";
+        char *is = NULL;
+        size_t length = 0;
+        if (worst >= 0 && w->steps > 0) {
+            const bool is_float = kind == &engine_float;
+            snprintf(
+                wanted, sizeof wanted,
+                "whirl run: warning: '%s' is so small that %s has no digits for it: steps round "
+                "to %.2g, up to %.2g %% of its size over the run\nhint: smaller units make "
+                "larger numbers%s\n",
+                names[worst], kind->name, unit, 100.0 * fmin(most, 1.0),
+                is_float ? "; or --number double" : "");
+        }
+        FILE *out = open_memstream(&is, &length);
+        faint_say(out, d.image, kind, w);
+        fclose(out);
+        TEST_ASSERT_EQUAL_STRING(wanted, is);
+        free(is);
+        watch_close(w);
+    }
+    derived_free(&d);
+}
+
 void suite_small_told(void) {
     die = dice_of("small_told", 71);
     RUN_TEST(test_slow_angles);
     RUN_TEST(test_faint_sizes);
     RUN_TEST(test_small_products);
+    RUN_TEST(test_small_products_of_records);
+    RUN_TEST(test_faint_sizes_of_components);
 }
