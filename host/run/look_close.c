@@ -25,8 +25,7 @@ static bool is_rate(const watch *w, int i) {
 /* Of the size of a rate: what changes it by. */
 static void rate_sizes(const watch *w, double *size) {
     for (int i = 0; i < w->field->n; i++) {
-        size[i] =
-            number_most(w->high[i] - w->low[i], number_most(fabs(w->low[i]), fabs(w->high[i])));
+        size[i] = fabs(w->low[i]) + fabs(w->high[i]);
     }
 }
 
