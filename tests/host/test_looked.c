@@ -108,7 +108,119 @@ static void test_close_looks(void) {
     }
 }
 
+/* --- past a pole ------------------------------------------------------------------------------------------------------*/
+
+static int component_named(const image *im, const char *name, int primes) {
+    for (int i = 0; i < im->angles + im->reals; i++) {
+        const component c = image_component(im, i);
+        if (c.primes == primes && strcmp(im->unknown[c.unknown].name, name) == 0) {
+            return i;
+        }
+    }
+    TEST_FAIL_MESSAGE(name);
+    return -1;
+}
+
+/* A body on a straight line: where it is and how fast, at the begin of the look. */
+typedef struct line {
+    double x_m, y_m, vx_mps, vy_mps;
+} line;
+
+static double radius_m(const line *l, double t) {
+    const double x = l->x_m + l->vx_mps * t;
+    const double y = l->y_m + l->vy_mps * t;
+    return sqrt(x * x + y * y);
+}
+
+/* Free bodies in polar coordinates whose radius is `turned`: r or 3 m - r. The inertia of phi is r^2, and its least is found at
+ * one of 512 places of the way, as a part of the most that it has been, at records and before on the way. */
+static void expect_pole(const watch *w, const line *l, bool turned) {
+    const image *im = w->field->image;
+    const watch_look *found = &w->singular;
+    const int r = component_named(im, "r", 0);
+    const double span_s = found->end_s - found->begin_s;
+    double most_2 = 0.0;
+    double least = 1.0;
+    double when_s = 0.0;
+    double least_m = 0.0;
+    for (int k = 0; k < w->records; k++) {
+        const double kept = w->record[k * w->field->n + r];
+        const double own = turned ? 3.0 - kept : kept;
+        most_2 = larger(most_2, own * own);
+    }
+    for (int k = 0; k <= 512; k++) {
+        const double own = radius_m(l, span_s * k / 512.0);
+        most_2 = larger(most_2, own * own);
+        if (own * own / most_2 < least) {
+            least = own * own / most_2;
+            least_m = own;
+            when_s = found->begin_s + span_s * k / 512.0;
+        }
+    }
+    TEST_ASSERT_TRUE(found->done && found->resolved && !found->failed);
+    TEST_ASSERT_TRUE(fabs(found->inertia - least) <= 1e-4 * least);
+    TEST_ASSERT_TRUE(fabs(found->singular_s - when_s) <= 1.01 * span_s / 512.0);
+    TEST_ASSERT_EQUAL_INT(component_named(im, "phi", 1), found->singular);
+    TEST_ASSERT_EQUAL_INT(r, found->near);
+    TEST_ASSERT_TRUE(fabs((turned ? 3.0 - found->near_at : found->near_at) - least_m) <=
+                     1e-4 * least_m);
+}
+
+static void test_poles(void) {
+    static const char *const declared[] = {
+        "coordinate b [m]\ncoordinate r [m]\ncoordinate phi [rad]\ncoordinate c [m]\n",
+        "coordinate phi [rad]\ncoordinate c [m]\ncoordinate r [m]\ncoordinate b [m]\n",
+        "coordinate r [m]\ncoordinate phi [rad]\ncoordinate b [m]\ncoordinate c [m]\n"};
+    for (unsigned c = 0; c < dice_cases(usual_or(12, 6)); c++) {
+        char text[900];
+        const bool turned = c % 2U == 1;
+        const double passes_m = dice_between(&die, 0.01, 0.03);
+        const double step_s = passes_m * dice_between(&die, 0.7, 1.4);
+        const double begin_m = 14.3 * step_s; /* 1 m/s */
+        snprintf(
+            text, sizeof text,
+            "mechanism m\n%sT = 1 [kg]*(r'^2 + %s^2*phi'^2)/2 + 2 [kg]*b'^2/2 + 3 [kg]*c'^2/2\n"
+            "V = 5 [N/m]*b^2/2\n"
+            "scene s { start r = %.17g [m], r' = %s1 [m/s], phi' = %.17g [rad/s], b = 0.4 [m], c' "
+            "= 2 [m/s]; step %.17g [s]; until %.17g [s] }\n",
+            declared[c % 3U], turned ? "(3 [m] - r)" : "r", turned ? 3.0 - begin_m : begin_m,
+            turned ? "" : "-", passes_m / (begin_m * begin_m), step_s, 18.0 * step_s);
+        derived d = derived_scene(text, "s");
+        derived_expect(&d, text);
+        const image *im = d.image;
+        const int angle = component_named(im, "phi", 0);
+        const int r = component_named(im, "r", 0);
+        const int turns = component_named(im, "phi", 1);
+        const int goes = component_named(im, "r", 1);
+        void *run = engine_double.start(im);
+        watch *w = watch_open(im, &engine_double);
+        w->balanced = false;
+        watch_enter(w, &engine_double, NULL, run);
+        for (int k = 0; k < 18; k++) {
+            TEST_ASSERT_EQUAL_INT(WH_OK, engine_double.step(run));
+            watch_enter(w, &engine_double, NULL, run);
+        }
+        w->worst = (watch_look){.done = false};
+        w->singular = (watch_look){.done = false};
+        memset(w->most, 0, (size_t)w->field->rows * sizeof *w->most);
+        look_close(w, 0);
+        const double *x = watch_past(w, 10);
+        const double at_m = turned ? 3.0 - x[r] : x[r];
+        const double out_mps = turned ? -x[goes] : x[goes];
+        const line l = {.x_m = at_m * cos(x[angle]),
+                        .y_m = at_m * sin(x[angle]),
+                        .vx_mps = out_mps * cos(x[angle]) - at_m * x[turns] * sin(x[angle]),
+                        .vy_mps = out_mps * sin(x[angle]) + at_m * x[turns] * cos(x[angle])};
+        TEST_ASSERT_TRUE(fabs(w->singular.begin_s - 10.0 * step_s) < 1e-12);
+        expect_pole(w, &l, turned);
+        watch_close(w);
+        engine_double.stop(run);
+        derived_free(&d);
+    }
+}
+
 void suite_looked(void) {
     die = dice_of("looked", 72);
     RUN_TEST(test_close_looks);
+    RUN_TEST(test_poles);
 }
