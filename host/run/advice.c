@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "host/base/room.h"
+#include "host/base/statement.h"
 #include "host/number/functions.h"
 #include "remedy.h"
 #include "step_text.h"
@@ -196,6 +197,32 @@ static void say_singular(FILE *out, advice *a) {
     }
 }
 
+static void say_jumped(FILE *out, advice *a) {
+    const judged *j = &a->judged;
+    double begin_s;
+    char statement[STATEMENT_SIZE];
+    char finer[REMEDY_TEXT];
+    if (!jumped_some(j->watch->jumped)) {
+        return;
+    }
+    const blame_question *q = jumped_over(j->watch->jumped, &begin_s);
+    statement_text(q->where, statement, sizeof statement);
+    fprintf(out,
+            "whirl run: warning: the step after t = %.6g s jumped over a place where %s grows "
+            "without bound: %s\n",
+            begin_s, q->what, statement);
+    const cure_outcome outcome = remedy_finer(j, &a->cures, finer);
+    fprintf(out,
+            outcome == CURE_DOES ? "hint: no motion gets through there; %s stays on its side, and "
+                                   "would do\n"
+            : outcome == CURE_NOT_TRIED
+                ? "hint: no motion gets through there; %s may stay on its side (not tried: that "
+                  "takes long)\n"
+                : "hint: no motion gets through there, and what the run says behind it is none; "
+                  "finer steps fail, too\n",
+            finer);
+}
+
 static void say_swing(FILE *out, advice *a) {
     judged *j = &a->judged;
     char carried[CARRIED_TEXT];
@@ -218,6 +245,7 @@ static void say_swing(FILE *out, advice *a) {
 }
 
 void advice_say(FILE *out, advice *a) {
+    say_jumped(out, a);
     say_singular(out, a);
     say_swing(out, a);
 }

@@ -28,6 +28,7 @@ void again_run(again *a, const image *im, const engine_kind *kind,
         }
         if (good) {
             watch_enter(a->watch, kind, a->books, a->run);
+            good = !jumped_some(a->watch->jumped);
         }
         a->stopped = stop != NULL && *stop;
     }

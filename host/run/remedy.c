@@ -176,6 +176,17 @@ bool remedy_is_double(const judged *j, cures *c) {
     return j->kind == &engine_float && cure_try(c, &what) == CURE_DOES;
 }
 
+cure_outcome remedy_finer(const judged *j, cures *c, char text[REMEDY_TEXT]) {
+    const cure_wish half =
+        own_cure(j, judged_method(j->image), linearised_nice_s(0.5 * j->watch->step_s));
+    const remedy r = finer_until_it_does(j, c, half, true);
+    char step[STEP_WORD];
+    snprintf(text, REMEDY_TEXT, "--step %s%s%s", step_text(r.what.step_s, step),
+             r.what.compensated && !j->image->settings.compensated ? " --compensated" : "",
+             number_text(&r));
+    return r.outcome;
+}
+
 double remedy_step_by_order_s(const judged *j, double ratio) {
     const double order = wh_methods[judged_method(j->image)].order;
     return j->watch->step_s *

@@ -18,6 +18,9 @@ bool remedy_text(judged *j, cures *c, double most_s, bool saturated, char text[R
 cure_outcome remedy_of_look(const judged *j, cures *c, const watch_look *look,
                             char text[REMEDY_TEXT]);
 
+/* The options alone of a step below the run's, and whether the run is right with it. */
+cure_outcome remedy_finer(const judged *j, cures *c, char text[REMEDY_TEXT]);
+
 /* A float's run, with nothing changed but the number: is double enough? */
 bool remedy_is_double(const judged *j, cures *c);
 

@@ -3,8 +3,8 @@
 
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
+#include "blamed.h"
 #include "core/contact.h"
 #include "host/base/room.h"
 #include "host/base/statement.h"
@@ -13,19 +13,10 @@ static const char hint_domain[] =
     "a root or logarithm of what is below zero, a division by zero, or a number beyond all: keep the motion, or the "
     "expression, away from it";
 
-/* The state somewhere on its way, and what the blame list is there. */
-typedef struct view {
-    const undefined_at *at;
-    double **state; /* [unknowns][order + 1] value, rate, ... */
-    double *input;  /* [inputs] */
-    double *value;  /* [blame.nodes] */
-} view;
-
 /* --- values ------------------------------------------------------------------------------------*/
 
 /* The unknowns at the last good state, and their highest derivatives there. */
-static void look_here(view *v) {
-    const undefined_at *at = v->at;
+static void look_here(blamed *v, const undefined_at *at) {
     const image *im = at->image;
     double *result = room(im->list[IMAGE_BOOKS]->results, sizeof *result);
     evaluator *ev = evaluator_new(im->list[IMAGE_BOOKS]);
@@ -39,70 +30,31 @@ static void look_here(view *v) {
         }
         v->state[i][u->order] = isfinite(result[i]) ? result[i] : 0.0;
     }
-    for (int i = 0; i < im->angles; i++) {
-        v->state[im->angle[i].unknown][0] = at->angle_rad[i];
-    }
-    for (int i = 0; i < im->reals; i++) {
-        v->state[im->real[i].unknown][im->real[i].primes] = at->real[i];
-    }
+    blamed_place(v, at->angle_rad, at->real);
     free(result);
 }
 
-static double node_value(const view *v, const blame_node *n) {
-    const double *value = v->value;
-    switch (n->code) {
-    case BLAME_NUMBER: return n->number;
-    case BLAME_STATE: return n->b <= v->at->image->unknown[n->a].order ? v->state[n->a][n->b] : 0.0;
-    case BLAME_INPUT: return v->input[n->a];
-    case BLAME_SAME: return value[n->a];
-    case BLAME_ADD: return value[n->a] + value[n->b];
-    case BLAME_SUB: return value[n->a] - value[n->b];
-    case BLAME_MUL: return value[n->a] * value[n->b];
-    case BLAME_DIV: return value[n->a] / value[n->b];
-    case BLAME_POW: return number_power(value[n->a], value[n->b]);
-    case BLAME_NEG: return -value[n->a];
-    case BLAME_CALL: return number_call(n->function, value[n->a], n->b < 0 ? 0.0 : value[n->b]);
-    }
-    return (double)NAN;
-}
-
 /* The state moved on by `ahead_s`. */
-static view look(const undefined_at *at, double ahead_s) {
+static blamed look(const undefined_at *at, double ahead_s) {
     const image *im = at->image;
-    view v = {.at = at,
-              .state = room(im->count, sizeof *v.state),
-              .input = room(im->inputs, sizeof *v.input),
-              .value = room(im->blame.nodes, sizeof *v.value)};
-    image_inputs(im, v.input);
-    for (int i = 0; i < im->count; i++) {
-        v.state[i] = room(im->unknown[i].order + 1, sizeof **v.state);
-    }
-    look_here(&v);
+    blamed v = blamed_open(im);
+    look_here(&v, at);
     for (int i = 0; i < im->count; i++) {
         for (int k = 0; k < im->unknown[i].order; k++) {
             v.state[i][k] += ahead_s * v.state[i][k + 1];
         }
     }
     for (int i = 0; i < im->blame.nodes; i++) {
-        v.value[i] = node_value(&v, &im->blame.node[i]);
+        v.value[i] = blamed_node(&v, &im->blame.node[i]);
     }
     return v;
-}
-
-static void look_away(view *v) {
-    for (int i = 0; i < v->at->image->count; i++) {
-        free(v->state[i]);
-    }
-    free(v->state);
-    free(v->input);
-    free(v->value);
 }
 
 /* --- questions ---------------------------------------------------------------------------------*/
 
 /* The innermost part that is not finite though its operands are; -1 when the whole is finite. */
-static int innermost(const view *v, int node) {
-    const blame_node *n = &v->at->image->blame.node[node];
+static int innermost(const blamed *v, int node) {
+    const blame_node *n = &v->image->blame.node[node];
     int part = -1;
     if (isfinite(v->value[node])) {
         return -1;
@@ -137,14 +89,14 @@ static void report(const undefined_at *at, place where, place part, const char *
 }
 
 /* The first question whose answer is no finite number is reported. */
-static bool find(const view *v, int first, int count, diags *errors) {
-    const image_blame *b = &v->at->image->blame;
+static bool find(const blamed *v, const undefined_at *at, int first, int count, diags *errors) {
+    const image_blame *b = &v->image->blame;
     for (int i = first; i < first + count; i++) {
         const blame_question *q = &b->question[i];
         if (!isfinite(v->value[q->node])) {
             const place none = {.source = NULL};
             const place part = q->derived ? none : b->node[innermost(v, q->node)].at;
-            report(v->at, q->where, part, q->what, errors);
+            report(at, q->where, part, q->what, errors);
             return true;
         }
     }
@@ -157,9 +109,9 @@ static bool look_ahead(const undefined_at *at, int first, int count, diags *erro
     bool found = false;
     for (size_t i = 0; i < sizeof shares / sizeof shares[0] && !found; i++) {
         if (shares[i] == 0.0 || shares[i] <= 2.0 * at->ahead_steps) {
-            view v = look(at, shares[i] * at->image->step_s);
-            found = find(&v, first, count, errors);
-            look_away(&v);
+            blamed v = look(at, shares[i] * at->image->step_s);
+            found = find(&v, at, first, count, errors);
+            blamed_close(&v);
         }
     }
     return found;

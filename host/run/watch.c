@@ -61,12 +61,14 @@ watch *watch_open(const image *im, const engine_kind *kind) {
     w->worst.inertia = 1.0;
     w->singular.inertia = 1.0;
     w->balanced = im->has_energies && w->smooth;
+    w->jumped = jumped_open(im);
     return w;
 }
 
 void watch_close(watch *w) {
     if (w != NULL) {
         field_close(w->field);
+        jumped_close(w->jumped);
         free(w->record);
         free(w->low);
         free(w->alike);
@@ -236,6 +238,7 @@ void watch_enter(watch *w, const engine_kind *kind, const books *b, const void *
     }
     enter_record(w, x);
     find_ranges(w);
+    jumped_enter(w->jumped, kind, run);
     if (!w->smooth) {
         return;
     }

@@ -4,6 +4,7 @@
 
 #include "books.h"
 #include "field.h"
+#include "jumped.h"
 
 enum { WATCH_RECORDS = 16, WATCH_WINDOW = 8 };
 
@@ -69,7 +70,8 @@ typedef struct watch {
     double lost_J;   /* what the method took or gave so far */
     double most_J;   /* its largest size */
     uint64_t doubts;
-    bool balanced; /* false: not known */
+    bool balanced;  /* false: not known */
+    jumped *jumped; /* NULL: over nothing */
 } watch;
 
 /* Of a step that is kept: the last WATCH_WINDOW + 1. */

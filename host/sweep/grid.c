@@ -247,8 +247,15 @@ static double axis_value(const axis *a, uint64_t i) {
         return a->to;
     }
     const double last = (double)(a->count - 1);
+    const double ratio = a->to / a->from;
+    const bool wide = !isfinite(ratio) || ratio == 0.0; /* beyond the numbers, unlike its ends */
+    if (a->is_log && wide) {
+        const double size = number_power(fabs(a->from), (last - (double)i) / last) *
+                            number_power(fabs(a->to), (double)i / last);
+        return a->from < 0.0 ? -size : size;
+    }
     if (a->is_log) {
-        return a->from * number_power(a->to / a->from, (double)i / last);
+        return a->from * number_power(ratio, (double)i / last);
     }
     return a->from + (a->to - a->from) * (double)i / last;
 }

@@ -150,6 +150,7 @@ static void say_against(const sitting *s) {
                            "largest entry",
         [VERDICT_SINGULAR] = "passed where their coordinates are singular, in steps that do not "
                              "resolve it",
+        [VERDICT_JUMPED] = "jumped over a place where an expression grows without bound",
         [VERDICT_SWING] = "have a motion that the method takes or feeds",
         [VERDICT_CONTACTS] = "end elsewhere than in finer steps, as their contacts are too busy "
                              "for the step"};

@@ -120,6 +120,12 @@ static void print_verdict(FILE *out, const horizon *h) {
                 "only a smaller --step tells\n",
                 t->overrun_s);
     }
+    if (t->jumped_s >= 0.0) {
+        fprintf(out,
+                "behind t = %.9g s a step jumped over a place where an expression grows without "
+                "bound: no motion gets through there\n",
+                t->jumped_s);
+    }
     print_invariants(out, h);
 }
 

@@ -181,6 +181,8 @@ typedef struct pair {
     records *ours;
     records *finers;
     void *finer;
+    jumped *our_jumps;
+    jumped *finer_jumps;
     rounded rounded;
     uint64_t stride; /* steps between looks */
     double look_s;   /* the last look, */
@@ -221,6 +223,9 @@ static bool step_finer(pair *p) {
     wh_status status = WH_OK;
     for (uint64_t i = 0; i < p->to->each && status == WH_OK; i++) {
         status = engine_double.step(p->finer);
+        if (status == WH_OK) {
+            jumped_enter(p->finer_jumps, &engine_double, p->finer);
+        }
     }
     return status == WH_OK;
 }
@@ -247,6 +252,8 @@ static void run_both(pair *p) {
     twins *t = p->to;
     const image *im = p->wish->image;
     uint64_t step = 0;
+    jumped_enter(p->our_jumps, p->wish->kind, t->run);
+    jumped_enter(p->finer_jumps, &engine_double, p->finer);
     look(p, 0.0);
     while (step < im->steps && !t->stopped) {
         t->status = p->wish->kind->step(t->run);
@@ -259,6 +266,11 @@ static void run_both(pair *p) {
         }
         if (t->overrun_s < 0.0 && has_overrun(p)) {
             t->overrun_s = ratio_times(step, im->step);
+            end_passages(t, p->look_s);
+        }
+        jumped_enter(p->our_jumps, p->wish->kind, t->run);
+        if (t->jumped_s < 0.0 && (jumped_some(p->our_jumps) || jumped_some(p->finer_jumps))) {
+            t->jumped_s = ratio_times(step, im->step);
             end_passages(t, p->look_s);
         }
         step++;
@@ -286,6 +298,7 @@ twins *twins_run(const twins_wish *w) {
     t->column = room(t->columns, sizeof *t->column);
     t->finer_failed_s = -1.0;
     t->overrun_s = -1.0;
+    t->jumped_s = -1.0;
     t->run = w->kind->start(w->image);
     t->books = w->books ? books_open(w->image) : NULL;
     if (t->books != NULL) {
@@ -296,12 +309,16 @@ twins *twins_run(const twins_wish *w) {
               .ours = t->shape,
               .finers = records_open(NULL, &t->finer, &engine_double),
               .finer = engine_double.start(&t->finer),
+              .our_jumps = jumped_open(w->image),
+              .finer_jumps = jumped_open(&t->finer),
               .rounded = rounded_open(&t->finer),
               .stride = 1U + (w->image->steps - (w->image->steps > 0)) / TWINS_LOOKS};
     run_both(&p);
     take_rounding(t, &p.rounded);
     take_places(t);
     rounded_close(&p.rounded);
+    jumped_close(p.our_jumps);
+    jumped_close(p.finer_jumps);
     records_close(p.finers);
     engine_double.stop(p.finer);
     return t;

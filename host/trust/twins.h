@@ -10,6 +10,7 @@
 #include <signal.h>
 
 #include "host/run/belief.h"
+#include "host/run/jumped.h"
 #include "host/run/records.h"
 #include "passage.h"
 
@@ -53,6 +54,8 @@ typedef struct twins {
     double finer_failed_s; /* the other left all bounds behind this time; below 0: it did not */
     double
         overrun_s; /* behind this time one of them had more events in a step than it takes; below 0: neither */
+    double
+        jumped_s; /* in a step behind this time one of them jumped over a pole (host/run/jumped.h); below 0: neither */
     bool stopped;
     books *books; /* NULL: none */
 } twins;

@@ -323,9 +323,7 @@ static bool event(runner *r, long double least_flight_s) {
 
 /* --- the whole ----------------------------------------------------------------------------------------------- */
 
-#define STEP_S (1.0L / 4096.0L)
-
-hybrid_motion hybrid_move(const hybrid *h, double until_s, double least_flight_s) {
+hybrid_motion hybrid_move(const hybrid *h, double step_s, double until_s, double least_flight_s) {
     enum { HALVINGS = 62, EVENTS_MOST = 100 };
     hybrid_motion end = {.impacts = 0};
     runner r = {.h = h, .motion = &end};
@@ -337,7 +335,7 @@ hybrid_motion hybrid_move(const hybrid *h, double until_s, double least_flight_s
     }
     end.aside = !event(&r, (long double)least_flight_s);
     while (time < (long double)until_s && !end.aside) {
-        long double step = fminl(STEP_S, (long double)until_s - time);
+        long double step = fminl((long double)step_s, (long double)until_s - time);
         long double to[STATE];
         step_of(&r, step, to);
         const bool happens = ended(&r, to);

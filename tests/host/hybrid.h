@@ -43,7 +43,10 @@ typedef struct hybrid_motion {
     bool
         aside; /* a row of impacts on one stop that comes to an end (Zeno), or modes that no case fits */
 } hybrid_motion;
-/* Its motion until `until_s`. A bounce whose flight is shorter than `least_flight_s` ends it, as aside. */
-hybrid_motion hybrid_move(const hybrid *h, double until_s, double least_flight_s);
+/* A step that most of them take. */
+#define HYBRID_STEP_S (1.0 / 4096.0)
+
+/* Its motion until `until_s`, in such steps. A bounce whose flight is shorter than `least_flight_s` ends it, as aside. */
+hybrid_motion hybrid_move(const hybrid *h, double step_s, double until_s, double least_flight_s);
 
 #endif

@@ -352,7 +352,7 @@ static void test_hybrids_in_coarse_steps(void) {
         bool is_busy;
         const double step_s = i % 2 == 0 ? 25e-3 : 5e-3;
         const hybrid h = hybrid_draw(&seed);
-        const hybrid_motion wanted = hybrid_move(&h, 0.5, 1e-5);
+        const hybrid_motion wanted = hybrid_move(&h, HYBRID_STEP_S, 0.5, 1e-5);
         if (wanted.aside || h.contacts == 0) {
             continue;
         }

@@ -1,0 +1,22 @@
+/* blamed.h: the expressions of a file (image_blame in host/image/image.h) at one state, node by node. */
+#ifndef RUN_BLAMED_H
+#define RUN_BLAMED_H
+
+#include "engine.h"
+
+typedef struct blamed {
+    const image *image;
+    double **state; /* [unknowns][order + 1] value, rate, ... */
+    double *input;  /* [inputs] as they start */
+    double *value;  /* [blame.nodes] */
+} blamed;
+
+blamed blamed_open(const image *im);
+void blamed_close(blamed *b);
+
+/* The components of a state, as engine_kind.state() gives them; what is none of them stays. */
+void blamed_place(blamed *b, const double *angle_rad, const double *real);
+/* The value of a node whose operands have theirs. */
+double blamed_node(const blamed *b, const blame_node *n);
+
+#endif

@@ -1,0 +1,221 @@
+/* test_jumped.c: steps that jump over a pole (host/run/jumped.h): of drawn equations and forces whose divisor the motion comes near
+ * to and never reaches, told where the run got through and not where it stayed on its side; of places that only look like
+ * poles, not told. What a run did is read from its last state alone. */
+#include <math.h>
+#include <stdbool.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "command.h"
+#include "host/commands/commands.h"
+#include "unity.h"
+
+void suite_jumped(void);
+
+static dice die;
+
+enum { TEXT = 1500 };
+
+static said what;
+
+/* `whirl run` in that number, with another step or its own (NULL). */
+static void run(const char *text, const char *number, const char *step) {
+    const char *const words[] = {
+        model_keep(text), "--number", number, step != NULL ? "--step" : NULL, step, NULL};
+    command_say(command_run, words, &what);
+    model_drop();
+}
+
+static bool is_told(void) { return strstr(what.err, "jumped over a place where") != NULL; }
+
+/* The last value of a component, as the summary has it. */
+static double last_of(const char *name) {
+    char wanted[40];
+    snprintf(wanted, sizeof wanted, "\n  %s ", name);
+    const char *at = strstr(what.out, wanted);
+    TEST_ASSERT_NOT_NULL_MESSAGE(at, what.err);
+    return strtod(at + strlen(wanted), NULL);
+}
+
+/* --- poles ---------------------------------------------------------------------------------------------*/
+
+/* What is used up at a rate that falls only where it has nearly gone: s' = -v s/(k + s), in words of several kinds, which
+ * never falls below zero. Its pole is at -k; an even one has no change of the quotient's sign. */
+static const char *const knees[] = {
+    "let d = k + s\nequation s' = -rate*v*s/d\n",
+    "equation s' = -rate*v*s*(k + s)^(-1)\n",
+    "equation s' = -rate*(v*k + v*s - v*k)/(2*k + 2*s)*2\n",
+    "equation s' = -rate*v*s*sign(k + s)/(sqrt(abs(k + s))*sqrt(abs(k + s)))\n",
+    "equation s' = -rate*v*s/(k/(k/(s + k)))\n",
+    "equation s' = -rate*v*s^2/(k + s)^2\n",
+    "equation s' = -rate*v*s/(k + s)/(1 + 0.001*cos(s))\n",
+};
+enum { KNEES = sizeof knees / sizeof knees[0] };
+
+static void knee_text(char text[TEXT], unsigned which, double v, double k, double s,
+                      double step_s) {
+    const double until_s = step_s * floor(1.5 * s / v / step_s);
+    snprintf(text, TEXT,
+             "mechanism knee \"used up\"\nstate s\nparameter v = %.17g\nparameter k = %.17g\n"
+             "parameter rate = 1 [1/s]\n%sscene a {\nstart s = %.17g\nstep %.17g [s]\n"
+             "until %.17g [s]\n}\n",
+             v, k, knees[which], s, step_s, until_s);
+}
+
+static void test_knees(void) {
+    unsigned told = 0;
+    unsigned kept = 0;
+    unsigned cured = 0;
+    const unsigned cases = dice_cases(usual_or(42, 2 * KNEES));
+    for (unsigned c = 0; c < cases; c++) {
+        char text[TEXT];
+        const double v = exp(dice_between(&die, -1.0, 1.0));
+        const double s = v * dice_between(&die, 3.0, 8.0);
+        const double step_s = ldexp(1.0, -5 - (int)dice_one_of(&die, 4));
+        const double k = v * step_s * exp(dice_between(&die, -6.0, 2.0));
+        knee_text(text, c % KNEES, v, k, s, step_s);
+        const char *number = c % 3 == 0 ? "float" : "double";
+        run(text, number, NULL);
+        if (what.status != 0) { /* it left all bounds on the way, and says so */
+            TEST_ASSERT_EQUAL_INT(1, what.status);
+            continue;
+        }
+        const double end = last_of("s");
+        const bool through = end < -k;
+        TEST_ASSERT_EQUAL_INT_MESSAGE(through, is_told(), text);
+        told += through ? 1U : 0U;
+        kept += through ? 0U : 1U;
+        if (!through) {
+            continue;
+        }
+        TEST_ASSERT_NULL_MESSAGE(strstr(what.out, "to the end"), text);
+        TEST_ASSERT_NOT_NULL(strstr(what.err, "the equation grows without bound: equation s'"));
+        const char *cure = strstr(what.err, "hint: no motion gets through there; --step ");
+        if (cure != NULL && strstr(cure, "would do") != NULL) {
+            char step[40];
+            said_word(cure + strlen("hint: no motion gets through there; --step "), step,
+                      sizeof step);
+            run(text, number, step);
+            TEST_ASSERT_EQUAL_STRING_MESSAGE("", what.err, text);
+            TEST_ASSERT_TRUE(last_of("s") > -1e-9 * s);
+            cured++;
+        }
+    }
+    printf("  %u jumped, %u of them with a step that would do; %u stayed on their side\n", told,
+           cured, kept);
+    TEST_ASSERT_TRUE(6U * told > cases && 6U * kept > cases && 2U * cured > told);
+}
+
+/* A brake whose force vanishes with the rate: its energies balance wherever it goes. */
+static void test_forces(void) {
+    static const char *const forces[] = {"-B*x'/(v0 + x')", "-B*x'*(v0 + x')^(-1)",
+                                         "-B*(1 - v0/(v0 + x'))"};
+    unsigned told = 0;
+    unsigned kept = 0;
+    const unsigned cases = dice_cases(usual_or(24, 9));
+    for (unsigned c = 0; c < cases; c++) {
+        char text[TEXT];
+        const double force = dice_between(&die, 0.5, 2.0);
+        const double step_s = ldexp(1.0, -6 - (int)dice_one_of(&die, 2));
+        const double v0 = force * step_s * exp(dice_between(&die, -5.0, 2.0));
+        const double v = force * dice_between(&die, 3.0, 6.0);
+        snprintf(text, sizeof text,
+                 "mechanism brake \"a brake\"\ncoordinate x [m]\nparameter v0 = %.17g [m/s]\n"
+                 "parameter B = %.17g [N]\nT = 1 [kg]*x'^2/2\nQ(x) = %s\nscene a {\n"
+                 "start x' = %.17g [m/s]\nstep %.17g [s]\nuntil 8 [s]\n}\n",
+                 v0, force, forces[c % 3], v, step_s);
+        run(text, "double", NULL);
+        TEST_ASSERT_EQUAL_INT_MESSAGE(0, what.status, what.err);
+        const bool through = last_of("x'") < -v0;
+        TEST_ASSERT_EQUAL_INT_MESSAGE(through, is_told(), text);
+        TEST_ASSERT_TRUE(!through ||
+                         strstr(what.err, "the force grows without bound: Q(x)") != NULL);
+        told += through ? 1U : 0U;
+        kept += through ? 0U : 1U;
+    }
+    printf("  %u forces jumped, %u stayed on their side\n", told, kept);
+    TEST_ASSERT_TRUE(told > 2 && kept > 2);
+}
+
+/* An angle that turns past where a cosine, or a tangent, is divided by, with a step that is never near: w is what it has
+ * to turn with. */
+static void test_angles(void) {
+    static const char *const poles[] = {"1/cos(th - %.17g [rad])", "tan(th - %.17g [rad])",
+                                        "1/(2*sin(th/2 - %.17g [rad])*cos(th/2 - %.17g [rad]))"};
+    for (unsigned c = 0; c < dice_cases(usual_or(12, 6)); c++) {
+        char force[200];
+        char text[TEXT];
+        const double at = dice_between(&die, -3.0, 3.0);
+        snprintf(force, sizeof force, poles[c % 3], at, at);
+        snprintf(text, sizeof text,
+                 "mechanism arm \"an arm\"\ncoordinate th [rad]\nT = 1 [kg*m^2]*th'^2/2\n"
+                 "Q(th) = 1e-6 [N*m]*%s\nscene a {\nstart th' = %.17g [rad/s]\nstep 10 [ms]\n"
+                 "until 1 [s]\n}\n",
+                 force, dice_one_of(&die, 2) == 0 ? 7.3 : -7.3);
+        run(text, c % 2 == 0 ? "float" : "double", NULL);
+        TEST_ASSERT_EQUAL_INT_MESSAGE(0, what.status, what.err);
+        TEST_ASSERT_TRUE_MESSAGE(is_told(), text);
+    }
+}
+
+/* --- no poles ------------------------------------------------------------------------------------------*/
+
+/* Passed by s' = v, at s = a: of each there is a limit, or what may be integrated. */
+static const char *const harmless[] = {
+    "sin(s - a)/(s - a)",
+    "(s^2 - a^2)/(s - a)",
+    "(s - a)^2/(s - a)",
+    "(1 - cos(s - a))/(s - a)^2",
+    "tan(s - a + 1.5707963267948966)*cos(s - a + 1.5707963267948966)",
+    "1/sqrt(abs(s - a))",
+    "(s - a)/abs(s - a)",
+    "(s - a)*cos(s)/(s - a)",
+    "1/(1 + (s - a)^2)",
+    "log(abs(s - a))",
+    "1/max(s - a, 1e-3)",
+};
+enum { HARMLESS = sizeof harmless / sizeof harmless[0] };
+
+static void test_what_has_limits(void) {
+    for (unsigned c = 0; c < dice_cases(usual_or(3 * HARMLESS, HARMLESS)); c++) {
+        char text[TEXT];
+        snprintf(text, sizeof text,
+                 "mechanism passes \"passes\"\nstate s\nstate y\nparameter a = %.17g\n"
+                 "parameter rate = 1 [1/s]\nequation s' = %.17g*rate\n"
+                 "equation y' = rate*(%s)\nscene a {\nstart s = %.17g\nstep 10 [ms]\n"
+                 "until 3 [s]\n}\n",
+                 dice_between(&die, -0.9, 0.9) + 1e-3, dice_between(&die, 0.8, 1.2),
+                 harmless[c % HARMLESS], dice_between(&die, -1.1, -1.0));
+        run(text, "double", NULL);
+        TEST_ASSERT_EQUAL_INT_MESSAGE(0, what.status, what.err);
+        TEST_ASSERT_FALSE_MESSAGE(is_told(), text);
+    }
+}
+
+/* An impact turns a rate past where it is divided by, without having been there. */
+static void test_impacts(void) {
+    for (unsigned c = 0; c < dice_cases(usual_or(8, 4)); c++) {
+        char text[TEXT];
+        const double v0 = dice_between(&die, 0.01, 0.3);
+        const double v = dice_between(&die, 1.0, 2.0);
+        snprintf(text, sizeof text,
+                 "mechanism ball \"a ball\"\ncoordinate x [m]\nparameter v0 = %.17g [m/s]\n"
+                 "T = 1 [kg]*x'^2/2\nQ(x) = 1e-3 [N]*v0/(x' %c v0)\nstop x >= 0 [m] restitution 1\n"
+                 "stop x <= 1 [m] restitution 1\nscene a {\nstart x = 0.5 [m], x' = %.17g [m/s]\n"
+                 "step 2 [ms]\nuntil 2 [s]\n}\n",
+                 v0, c % 2 == 0 ? '+' : '-', v);
+        run(text, "double", NULL);
+        TEST_ASSERT_EQUAL_INT_MESSAGE(0, what.status, what.err);
+        TEST_ASSERT_FALSE_MESSAGE(is_told(), text);
+    }
+}
+
+void suite_jumped(void) {
+    die = dice_of("jumped", 51);
+    RUN_TEST(test_knees);
+    RUN_TEST(test_forces);
+    RUN_TEST(test_angles);
+    RUN_TEST(test_what_has_limits);
+    RUN_TEST(test_impacts);
+}
