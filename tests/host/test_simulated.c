@@ -384,6 +384,7 @@ static void test_strict(void) {
                                                           : 0.7 * (1.0 - kept)};
         const char *told = simulated(d.image, &s, c == 2 ? SIMULATION_FAILED : SIMULATION_DONE);
         TEST_ASSERT_NOT_NULL_MESSAGE(strstr(told, c == 2 ? "error" : "warning"), told);
+        TEST_ASSERT_NOT_NULL_MESSAGE(strstr(told, " J of its energy is left over, "), told);
     }
     derived_free(&d);
     end();
