@@ -287,6 +287,11 @@ static void test_poles(void) {
                         .vy_mps = out_mps * sin(x[angle]) + at_m * x[turns] * cos(x[angle])};
         TEST_ASSERT_TRUE(fabs(w->singular.begin_s - 10.0 * step_s) < 1e-12);
         expect_pole(w, &l, turned);
+        /* what is less does not take its place */
+        w->singular.off += 2.0;
+        const double kept = w->singular.off;
+        look_close(w, 0);
+        TEST_ASSERT_TRUE(w->singular.off == kept);
         watch_close(w);
         engine_double.stop(run);
         derived_free(&d);
