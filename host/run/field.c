@@ -50,10 +50,10 @@ void field_close(field *f) {
     }
 }
 
-void field_slope(field *f, double time_s, const double *x, double *slope) {
+void field_slope(field *f, const double *x, double *slope) {
     const image *im = f->image;
     const double *real = x + im->angles;
-    evaluator_run(f->evaluator, time_s, x, real, real + (im->coordinates - im->angles), f->input,
+    evaluator_run(f->evaluator, 0.0, x, real, real + (im->coordinates - im->angles), f->input,
                   f->value);
     for (int i = 0; i < f->n; i++) {
         slope[i] = f->next[i] >= 0 ? x[f->next[i]] : f->value[-1 - f->next[i]];
@@ -67,7 +67,7 @@ double field_energy_J(const field *f) {
                             : entry[BOOK_KINETIC] + entry[BOOK_STORED];
 }
 
-bool field_jacobian(field *f, double time_s, const double *x, const double *size, double *matrix) {
+bool field_jacobian(field *f, const double *x, const double *size, double *matrix) {
     const int n = f->n;
     bool finite = true;
     double *at = room(3 * (int64_t)n, sizeof *at);
@@ -77,10 +77,10 @@ bool field_jacobian(field *f, double time_s, const double *x, const double *size
     for (int k = 0; k < n; k++) {
         const double change = CHANGE * number_most(fabs(size[k]), CHANGE);
         at[k] = x[k] + change;
-        field_slope(f, time_s, at, up);
+        field_slope(f, at, up);
         const double high = at[k];
         at[k] = x[k] - change;
-        field_slope(f, time_s, at, down);
+        field_slope(f, at, down);
         const double across = high - at[k]; /* as rounded */
         at[k] = x[k];
         for (int i = 0; i < n; i++) {
@@ -93,17 +93,17 @@ bool field_jacobian(field *f, double time_s, const double *x, const double *size
 }
 
 /* The momenta are linear in the rates, or nearly so. */
-void field_mass(field *f, double time_s, const double *x, const double *size, double *matrix) {
+void field_mass(field *f, const double *x, const double *size, double *matrix) {
     const image *im = f->image;
     double *at = room(2 * (int64_t)f->n, sizeof *at);
     memcpy(at, x, (size_t)f->n * sizeof *at);
-    field_slope(f, time_s, at, at + f->n);
+    field_slope(f, at, at + f->n);
     memcpy(f->base, f->value + im->count + BOOK_MOMENTA, (size_t)im->count * sizeof *f->base);
     for (int k = 0; k < f->rows; k++) {
         const int c = f->rate[k];
         const double change = size[c] > 0.0 ? size[c] : 1.0;
         at[c] = x[c] + change;
-        field_slope(f, time_s, at, at + f->n);
+        field_slope(f, at, at + f->n);
         at[c] = x[c];
         for (int i = 0; i < f->rows; i++) {
             const int unknown = image_component(im, f->rate[i]).unknown;
@@ -114,19 +114,18 @@ void field_mass(field *f, double time_s, const double *x, const double *size, do
     free(at);
 }
 
-void field_go(field *f, double time_s, double span_s, int parts, double *x) {
+void field_go(field *f, double span_s, int parts, double *x) {
     const int n = f->n;
     double *at = f->stage;
     double *k[4] = {at + n, at + 2 * n, at + 3 * n, at + 4 * n};
     const double h = span_s / parts;
     static const double reach[4] = {0.0, 0.5, 0.5, 1.0};
     for (int step = 0; step < parts; step++) {
-        const double begin_s = time_s + h * step;
         for (int s = 0; s < 4; s++) {
             for (int i = 0; i < n; i++) {
                 at[i] = s == 0 ? x[i] : x[i] + reach[s] * h * k[s - 1][i];
             }
-            field_slope(f, begin_s + reach[s] * h, at, k[s]);
+            field_slope(f, at, k[s]);
         }
         for (int i = 0; i < n; i++) {
             x[i] += h / 6.0 * (k[0][i] + 2.0 * (k[1][i] + k[2][i]) + k[3][i]);

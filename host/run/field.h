@@ -2,7 +2,8 @@
  * and the way from one state on. Of what goes on between contacts: their forces are not in it.
  *
  * A state is x[n]: angles first, then reals, as engine_kind.state() gives them. Inputs keep the values that they start
- * with, as in the books. */
+ * with, as in the books. No slope and no energy knows the time: what follows from it, a place that conserve recovers, none of
+ * them may name (host/derive/conserve.c). */
 #ifndef RUN_FIELD_H
 #define RUN_FIELD_H
 
@@ -25,15 +26,15 @@ field *field_open(const image *im, const engine_kind *kind);
 void field_close(field *f);
 
 /* slope[n] at the state x[n]. */
-void field_slope(field *f, double time_s, const double *x, double *slope);
+void field_slope(field *f, const double *x, double *slope);
 /* What the books balance, at the state whose slope was asked for last. J. */
 double field_energy_J(const field *f);
 /* matrix[n * n], row by row: how the slope changes with the state; `size[n]` is the size of a component where it
  * counts. False where it has no value. */
-bool field_jacobian(field *f, double time_s, const double *x, const double *size, double *matrix);
+bool field_jacobian(field *f, const double *x, const double *size, double *matrix);
 /* matrix[rows * rows]; `size` as above. The scene must have energies. */
-void field_mass(field *f, double time_s, const double *x, const double *size, double *matrix);
+void field_mass(field *f, const double *x, const double *size, double *matrix);
 /* Carry x[n] on by `span_s` in `parts` equal steps of Runge-Kutta 4. */
-void field_go(field *f, double time_s, double span_s, int parts, double *x);
+void field_go(field *f, double span_s, int parts, double *x);
 
 #endif

@@ -23,7 +23,7 @@ static void slope_sizes(const watch *w, double *size) {
     field *f = w->field;
     double *slope = room(f->n, sizeof *slope);
     for (int k = 0; k < w->records; k++) {
-        field_slope(f, w->record_s[k], w->record + k * (ptrdiff_t)f->n, slope);
+        field_slope(f, w->record + k * (ptrdiff_t)f->n, slope);
         for (int i = 0; i < f->n; i++) {
             size[i] += isfinite(slope[i]) ? 2.0 * slope[i] * slope[i] / w->records : 0.0;
         }
@@ -134,9 +134,8 @@ static void add_record(const watch *w, int record, const double *size, linearise
     for (int i = 0; i < n; i++) {
         range[i] = number_most(w->high[i] - w->low[i], 1e-3 * fabs(x[i]));
     }
-    if (field_jacobian(f, w->record_s[record], x, range, matrix) &&
-        modes_values(n, matrix, value)) {
-        field_slope(f, w->record_s[record], x, slope);
+    if (field_jacobian(f, x, range, matrix) && modes_values(n, matrix, value)) {
+        field_slope(f, x, slope);
         for (int i = 0; i < n; i++) {
             off[i] = off_of(l, l->method, limits_plain(value[i]), l->step_s);
         }

@@ -30,12 +30,12 @@ static void rate_sizes(const watch *w, double *size) {
 }
 
 /* The least pivot of the mass matrix at x, of what its diagonal has been at most, and whose it is. */
-static double least_pivot(watch *w, double time_s, const double *x, int *row) {
+static double least_pivot(watch *w, const double *x, int *row) {
     const int rows = w->field->rows;
     double least = 1.0;
     double *size = w->scratch + 2 * (ptrdiff_t)w->field->n;
     rate_sizes(w, size);
-    field_mass(w->field, time_s, x, size, w->mass);
+    field_mass(w->field, x, size, w->mass);
     for (int i = 0; i < rows; i++) {
         w->most[i] = number_most(w->most[i], w->mass[i * rows + i]);
     }
@@ -57,7 +57,7 @@ static double least_pivot(watch *w, double time_s, const double *x, int *row) {
 }
 
 /* Which position makes the diagonal entry of this row change most, by how far it moves a second. */
-static int position_near(watch *w, double time_s, const double *x, int row) {
+static int position_near(watch *w, const double *x, int row) {
     const int n = w->field->n;
     const int rows = w->field->rows;
     double *at = room(2 * (int64_t)n, sizeof *at);
@@ -66,12 +66,12 @@ static int position_near(watch *w, double time_s, const double *x, int row) {
     int found = -1;
     memcpy(at, x, (size_t)n * sizeof *at);
     rate_sizes(w, size);
-    field_mass(w->field, time_s, at, size, w->mass);
+    field_mass(w->field, at, size, w->mass);
     const double here = w->mass[row * rows + row];
     for (int i = 0; i < n; i++) {
         if (!is_rate(w, i)) {
             at[i] = x[i] + 1e-3 * number_least(w->high[i] - w->low[i], 1.0);
-            field_mass(w->field, time_s, at, size, w->mass);
+            field_mass(w->field, at, size, w->mass);
             const double change = fabs(w->mass[row * rows + row] - here);
             at[i] = x[i];
             if (change > most) {
@@ -93,11 +93,11 @@ static void watch_inertia(watch *w, const double *begin, watch_look *made) {
     const int parts = 1 + (int)(h / made->fine_step_s);
     int row = -1;
     for (int k = 0; k < w->records; k++) { /* what it is elsewhere */
-        least_pivot(w, w->record_s[k], w->record + k * (ptrdiff_t)w->field->n, &row);
+        least_pivot(w, w->record + k * (ptrdiff_t)w->field->n, &row);
     }
     memcpy(x, begin, (size_t)w->field->n * sizeof *x);
     for (int k = 0; k <= places; k++) {
-        const double inertia = least_pivot(w, made->begin_s + h * k, x, &row);
+        const double inertia = least_pivot(w, x, &row);
         if (inertia < made->inertia) {
             made->inertia = inertia;
             made->singular = w->field->rate[row];
@@ -105,17 +105,17 @@ static void watch_inertia(watch *w, const double *begin, watch_look *made) {
             made->near = row;
             memcpy(least, x, (size_t)w->field->n * sizeof *x);
         }
-        field_go(w->field, made->begin_s + h * k, h, parts, x);
+        field_go(w->field, h, parts, x);
     }
     if (made->inertia < 1.0) {
-        made->near = position_near(w, made->singular_s, least, made->near);
+        made->near = position_near(w, least, made->near);
         made->near_at = made->near >= 0 ? least[made->near] : 0.0;
     }
     free(x);
 }
 
 /* How far apart two ends of a way are; *whose: which component's; -1: the rates'. */
-static double apart(watch *w, double time_s, const double *run, const double *truth, int *whose) {
+static double apart(watch *w, const double *run, const double *truth, int *whose) {
     const int n = w->field->n;
     const int rows = w->field->rows;
     double most = 0.0;
@@ -140,7 +140,7 @@ static double apart(watch *w, double time_s, const double *run, const double *tr
     if (rows > 0) {
         double *size = w->scratch + 2 * (ptrdiff_t)n;
         rate_sizes(w, size);
-        field_mass(w->field, time_s, truth, size, w->mass);
+        field_mass(w->field, truth, size, w->mass);
     }
     for (int i = 0; i < rows; i++) {
         for (int j = 0; j < rows; j++) {
@@ -182,18 +182,18 @@ void look_close(watch *w, int ahead) {
     int parts = PARTS_FIRST;
     int ignored;
     memcpy(coarse, watch_past(w, begin), bytes);
-    field_go(w->field, made.begin_s, span_s, steps * parts, coarse);
+    field_go(w->field, span_s, steps * parts, coarse);
     const int most = parts_most(w, steps);
     for (; parts < most; parts *= 4) {
         memcpy(fine, watch_past(w, begin), bytes);
-        field_go(w->field, made.begin_s, span_s, 4 * steps * parts, fine);
-        made.resolved = apart(w, made.end_s, coarse, fine, &ignored) < AGREED;
+        field_go(w->field, span_s, 4 * steps * parts, fine);
+        made.resolved = apart(w, coarse, fine, &ignored) < AGREED;
         if (made.resolved) {
             break;
         }
         memcpy(coarse, fine, bytes);
     }
-    made.off = ahead > 0 ? 1.0 : apart(w, made.end_s, watch_past(w, end), fine, &made.component);
+    made.off = ahead > 0 ? 1.0 : apart(w, watch_past(w, end), fine, &made.component);
     made.failed = ahead > 0;
     made.fine_step_s = w->step_s / parts;
     if (w->field->rows > 0 && made.off > 10.0 * AGREED) {

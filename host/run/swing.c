@@ -36,10 +36,9 @@ double swing_off(const watch *w) {
     double off = 0.0;
     memcpy(x, w->record, (size_t)n * sizeof *x);
     for (int k = 1; k < w->records; k++) {
-        const double from_s = w->record_s[k - 1];
-        const double span_s = w->record_s[k] - from_s;
+        const double span_s = w->record_s[k] - w->record_s[k - 1];
         const double *record = w->record + k * (ptrdiff_t)n;
-        field_go(w->field, from_s, span_s, 2 * (int)(span_s / w->step_s + 0.5), x);
+        field_go(w->field, span_s, 2 * (int)(span_s / w->step_s + 0.5), x);
         for (int i = 0; i < n; i++) {
             const double range = w->high[i] - w->low[i];
             const double apart = fabs(x[i] - record[i]);

@@ -146,8 +146,8 @@ static void lose(watch *w, double lost_J) {
 static void lose_on_the_way(watch *w, uint64_t begin, double energy_J) {
     double *x = w->scratch;
     memcpy(x, watch_past(w, begin), (size_t)w->field->n * sizeof *x);
-    field_go(w->field, watch_time_s(w, begin), w->step_s, DOUBT_PARTS, x);
-    field_slope(w->field, watch_time_s(w, begin + 1), x, w->scratch + w->field->n);
+    field_go(w->field, w->step_s, DOUBT_PARTS, x);
+    field_slope(w->field, x, w->scratch + w->field->n);
     lose(w, energy_J - field_energy_J(w->field));
 }
 
@@ -189,7 +189,7 @@ static void read_slopes(watch *w, const books *b, const double *x) {
     const int n = w->field->n;
     memcpy(w->slope + n, w->slope, (size_t)n * sizeof *w->slope);
     if (b == NULL) {
-        field_slope(w->field, watch_time_s(w, w->steps), x, w->slope);
+        field_slope(w->field, x, w->slope);
         return;
     }
     for (int i = 0; i < n; i++) {

@@ -258,9 +258,13 @@ static void test_what_is_too_small(void) {
             }
         }
         double computing_J;
-        (void)books_rounding_J(b, kind, run, &computing_J);
+        const double step_J = books_rounding_J(b, kind, run, &computing_J);
         wanted_J *= kind == &engine_float ? end + 1 : 0;
         expect_near(wanted_J, books_lost_J(b), "lost");
+        const belief made = belief_of(b, kind, run);
+        expect_near(32.0 * sqrt(end + 1.0) * step_J + 2.0 * computing_J +
+                        (made.left_J != 0.0 ? wanted_J : 0.0),
+                    made.rounding_J, "rounding, with what is lost");
         books_close(b);
         kind->stop(run);
         derived_free(&d);

@@ -4,10 +4,13 @@
 #include <math.h>
 #include <stdbool.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "command.h"
+#include "derived.h"
 #include "host/commands/commands.h"
+#include "host/run/books_text.h"
 #include "unity.h"
 
 void suite_books_told(void);
@@ -61,7 +64,7 @@ static void sum_of(const own_bodies *m, held_by by, const char *begins, const ch
     }
 }
 
-static void mechanism(const own_bodies *m, char text[2500]) {
+static void mechanism_text(const own_bodies *m, char text[2500]) {
     char sums[3][400];
     sum_of(m, KINDS, "T = ", "[kg]", "'^2", sums[0]);
     sum_of(m, SPRUNG, "V = ", "[N/m]", "^2", sums[1]);
@@ -120,7 +123,7 @@ static void test_conserved_momenta(void) {
         const own_bodies m = drawn(&d);
         char text[2500];
         said what;
-        mechanism(&m, text);
+        mechanism_text(&m, text);
         run(text, NULL, &what);
         const char *head = strstr(what.out, "conserved momentum [SI]\n");
         unsigned free_ones = 0;
@@ -160,7 +163,7 @@ static void test_ledgers(void) {
         const own_bodies m = drawn(&d);
         char text[2500];
         said what;
-        mechanism(&m, text);
+        mechanism_text(&m, text);
         run(text, "--with", &what);
         TEST_ASSERT_NULL_MESSAGE(strstr(what.out, "conserved"), what.out);
         TEST_ASSERT_NOT_NULL_MESSAGE(strstr(what.out, "energy book [J]\n"), what.out);
@@ -188,7 +191,96 @@ static void test_ledgers(void) {
     model_drop();
 }
 
+/* --- of books that are made up ----------------------------------------------------------------------------------------*/
+
+/* Every line, whatever is known of it. */
+static void test_every_line(void) {
+    static const char *const texts[] = {
+        "mechanism m\ncoordinate x [m]\ncoordinate y [m]\nT = 1 [kg]*(x'^2 + y'^2)/2\n"
+        "scene s { step 1 [ms]; until 1 [s] }\n",
+        "mechanism m\ncoordinate x [m]\ncoordinate y [m]\nT = 1 [kg]*(x'^2 + y'^2)/2\n"
+        "stop x >= -1 [m] restitution 0.5\nscene s { step 1 [ms]; until 1 [s] }\n"};
+    dice d = dice_of("books_told", 98);
+    for (unsigned c = 0; c < dice_cases(usual_or(60, 24)); c++) {
+        derived made = derived_scene(texts[c % 2U], "s");
+        derived_expect(&made, texts[c % 2U]);
+        image *im = made.image;
+        char wanted[2000];
+        char *is = NULL;
+        size_t size = 0;
+        books *b = books_open(im);
+        const bool integral = dice_one_of(&d, 2) == 0;
+        const bool known = dice_one_of(&d, 3) > 0;
+        im->has_integral = integral;
+        for (int k = 0; k < 2; k++) {
+            b->kinetic_J[k] = dice_between(&d, 0.0, 9.0);
+            b->stored_J[k] = dice_between(&d, -9.0, 9.0);
+            b->energy_J[k] = dice_between(&d, -9.0, 9.0);
+            b->momentum[k] = dice_between(&d, -9.0, 9.0);
+            b->drift[k] = dice_between(&d, 0.0, 1e-3);
+            im->unknown[k].conserved = dice_one_of(&d, 2) == 0;
+        }
+        b->input_J = dice_between(&d, -9.0, 9.0);
+        b->loss_J = dice_between(&d, 0.0, 9.0);
+        if (dice_one_of(&d, 3) == 0) {
+            b->energy_J[1] = (double)NAN;
+        }
+        const belief balance = {.known = known,
+                                .inputs_J = dice_between(&d, -9.0, 9.0),
+                                .losses_J = dice_between(&d, -9.0, 0.0),
+                                .contacts_J = dice_between(&d, -9.0, 0.0),
+                                .left_J = dice_between(&d, -9.0, 9.0)};
+        int at = snprintf(
+            wanted, sizeof wanted, "energy book [J]\n  %-44s %.9g -> %.9g\n  %-44s %.9g -> %.9g\n",
+            "kinetic", b->kinetic_J[0], b->kinetic_J[1], "stored", b->stored_J[0], b->stored_J[1]);
+#define ADD(...) at += snprintf(wanted + at, sizeof wanted - (size_t)at, __VA_ARGS__)
+        if (integral) {
+            ADD("  %-44s %.9g -> %.9g\n", "booked: h = sum q' dL/dq' - L, not T + V",
+                b->energy_J[0], b->energy_J[1]);
+        }
+        const char *contacts = "impacts, friction, holds and settings";
+        const double change_J = b->energy_J[1] - b->energy_J[0];
+        if (known) {
+            ADD("  %-44s %+.9g\n", "work of inputs", balance.inputs_J);
+            ADD("  %-44s %+.9g\n", "losses", balance.losses_J);
+            if (im->contacts > 0) {
+                ADD("  %-44s %+.9g%s\n", contacts, balance.contacts_J,
+                    " (--with ledger says which)");
+            }
+            ADD("  %-44s %+.9g%s\n", "change", change_J, "");
+            ADD("  %-44s %+.2e (numerical)\n", "left over", balance.left_J);
+        } else if (isnan(change_J)) {
+            ADD("  no balance: the energies are not finite numbers\n");
+        } else {
+            ADD("  %-44s %+.9g\n", "work of inputs", b->input_J);
+            ADD("  %-44s %+.9g\n", "losses", -b->loss_J);
+            ADD("  %-44s %+.9g%s\n", contacts, change_J - b->input_J + b->loss_J,
+                ", numerical errors with it: how much they are is not known here");
+        }
+        if (im->unknown[0].conserved || im->unknown[1].conserved) {
+            ADD("conserved momentum [SI]\n");
+            for (int k = 0; k < 2; k++) {
+                if (im->unknown[k].conserved) {
+                    ADD("  of %-13s %.9g, drift at most %.2e (numerical)\n", k == 0 ? "x" : "y",
+                        b->momentum[k], b->drift[k]);
+                }
+            }
+        } else {
+            ADD("no momentum is conserved: every coordinate feels a force\n");
+        }
+#undef ADD
+        FILE *out = open_memstream(&is, &size);
+        books_print(out, b, &balance);
+        fclose(out);
+        TEST_ASSERT_EQUAL_STRING(wanted, is);
+        free(is);
+        books_close(b);
+        derived_free(&made);
+    }
+}
+
 void suite_books_told(void) {
     RUN_TEST(test_conserved_momenta);
     RUN_TEST(test_ledgers);
+    RUN_TEST(test_every_line);
 }

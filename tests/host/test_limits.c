@@ -187,6 +187,57 @@ static void test_motions_that_turn(void) {
     }
 }
 
+/* Of leapfrog, of what is not damped by a tenth; of the first order none. */
+static void test_ripples_of_what_decays(void) {
+    uint64_t seed = 79;
+    for (int c = 0; c < 200; c++) {
+        const double w = random_between(&seed, 0.2, 4.0);
+        const double damping = random_between(&seed, -0.2, 0.2);
+        const limits_motion m = limits_plain((complex_number){damping * w, w});
+        const double h = random_between(&seed, 0.05, 0.3);
+        const double part = w * w * (1.0 + damping * damping) * h * h / 4.0;
+        const double wanted = fabs(damping) > 0.1 ? 0.0 : part / (2.0 - part);
+        TEST_ASSERT_DOUBLE_WITHIN(1e-9, wanted, limits_ripple(WH_LEAPFROG, WH_SECOND_ORDER, m, h));
+        TEST_ASSERT_TRUE(limits_ripple(WH_LEAPFROG, WH_FIRST_ORDER, m, h) == 0.0);
+    }
+}
+
+/* Up to there nothing grows, and just behind it does: of what turns by a millionth, else by more than rounding. What grows from
+ * the slowest on has no such step. */
+static void test_intervals_end_where_it_grows(void) {
+    uint64_t seed = 78;
+    unsigned none = 0;
+    unsigned some = 0;
+    for (int c = 0; c < 240; c++) {
+        const wh_method method = (wh_method)(c % WH_METHODS);
+        const bool turning = c / WH_METHODS % 2 == 0;
+        const double w = random_between(&seed, 0.3, 3.0);
+        const double damping = c % 3 == 0 ? 0.0 : -w * random_between(&seed, 0.0, 0.5);
+        const complex_number value = {damping, w};
+        const complex_number rates = {2.0 * damping, random_between(&seed, 0.2, 2.0) * w};
+        const limits_motion m = turning ? (limits_motion){value, rates} : limits_plain(value);
+        const double size = sqrt(value.re * value.re + value.im * value.im);
+        const bool by_turning = turning && wh_methods[method].takes != WH_NO_RATES;
+        const double most = 1.0 + (turning ? 1e-6 : 1e-13);
+        if (turning && !by_turning) {
+            continue;
+        }
+        const double limit = limits_interval(method, WH_SECOND_ORDER, m);
+        if (limit > 0.0) {
+            TEST_ASSERT_TRUE(limits_growth(method, WH_SECOND_ORDER, m, 0.99 * limit / size) <=
+                             most);
+            TEST_ASSERT_TRUE(limit >= 7.99 || limits_growth(method, WH_SECOND_ORDER, m,
+                                                            1.001 * limit / size) > most);
+            some++;
+        } else {
+            TEST_ASSERT_TRUE(
+                limits_growth(method, WH_SECOND_ORDER, m, (turning ? 0.101 : 0.01) / size) > most);
+            none++;
+        }
+    }
+    TEST_ASSERT_TRUE(some > 50 && none > 10);
+}
+
 /* --- eigenvalues -------------------------------------------------------------------------------------------------*/
 
 enum { LARGEST = 40 };
@@ -318,6 +369,8 @@ void suite_limits(void) {
     RUN_TEST(test_known_limits);
     RUN_TEST(test_what_a_step_takes);
     RUN_TEST(test_motions_that_turn);
+    RUN_TEST(test_ripples_of_what_decays);
+    RUN_TEST(test_intervals_end_where_it_grows);
     RUN_TEST(test_eigenvalues_are_the_known_ones);
     RUN_TEST(test_parts_are_the_whole);
     RUN_TEST(test_matrices_without_an_answer);

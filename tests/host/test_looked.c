@@ -108,6 +108,80 @@ static void test_close_looks(void) {
     }
 }
 
+/* --- when to look ---------------------------------------------------------------------------------------------------*/
+
+static double range_until(int i, uint64_t end) {
+    double low = made_run.state[0][i];
+    double high = low;
+    for (uint64_t k = 1; k <= end; k++) {
+        low = fmin(low, made_run.state[k][i]);
+        high = fmax(high, made_run.state[k][i]);
+    }
+    return high - low;
+}
+
+/* By which part of its range the accelerations change a rate in the last step more or less than those before it say. */
+static double change_at(uint64_t k) {
+    double most = 0.0;
+    double before[N];
+    double now[N];
+    made_run_slope(made_run.state[k - 1], before);
+    made_run_slope(made_run.state[k], now);
+    for (int i = VX; i <= VY; i++) {
+        const double other = range_until(i == VX ? VY : VX, k);
+        const double range = fmax(range_until(i, k), 1e-3 * other);
+        most = fmax(most, fabs(now[i] - before[i]) * made_run.step_s / range);
+    }
+    return most;
+}
+
+/* From the third step on: half a window behind a change of a fiftieth that is larger by a third than any that was looked at, or when
+ * two thirds as many steps and a window have gone by since; and in the end what is still due, or has failed. */
+static void test_when_it_looks(void) {
+    for (unsigned c = 0; c < dice_cases(usual_or(16, 6)); c++) {
+        const uint64_t end = 3 + dice_one_of(&die, 66);
+        uint64_t looks = 0;
+        uint64_t due = 0;
+        uint64_t next = 0;
+        double largest = 0.0;
+        made_run_draw(&die, false, false);
+        made_run.step_s *= 0.1;
+        made_run_states(&die, end);
+        for (uint64_t k = 1; k <= end; k++) { /* steps of all sizes */
+            const double part = exp(dice_between(&die, -6.0, 0.0));
+            for (int i = 0; i < N; i++) {
+                const double moved = part * dice_between(&die, -1.0, 1.0);
+                made_run.state[k][i] = made_run.state[k - 1][i] + moved;
+            }
+        }
+        derived d = made_run_derive();
+        made_run.image = d.image;
+        watch *w = watch_open(made_run.image, &made_run_kind);
+        w->balanced = false;
+        for (made_run.at = 0; made_run.at <= end; made_run.at++) {
+            const uint64_t k = made_run.at;
+            const double change = k > 2 ? change_at(k) : 0.0;
+            watch_enter(w, &made_run_kind, NULL, NULL);
+            if (change > 0.02 && (change > 1.3 * largest || k >= next)) {
+                largest = fmax(largest, change);
+                next = k + 8 + 2 * k / 3;
+                due = k + 4;
+            }
+            if (due > 0 && k >= due) {
+                looks++;
+                due = 0;
+            }
+            TEST_ASSERT_EQUAL_UINT64(looks, w->looked);
+        }
+        made_run.at = end;
+        const bool failed = c % 3U == 0;
+        watch_end(w, failed);
+        TEST_ASSERT_EQUAL_UINT64(looks + (failed || due > 0 ? 1U : 0U), w->looked);
+        watch_close(w);
+        derived_free(&d);
+    }
+}
+
 /* --- past a pole ------------------------------------------------------------------------------------------------------*/
 
 static int component_named(const image *im, const char *name, int primes) {
@@ -213,6 +287,11 @@ static void test_poles(void) {
                         .vy_mps = out_mps * sin(x[angle]) + at_m * x[turns] * cos(x[angle])};
         TEST_ASSERT_TRUE(fabs(w->singular.begin_s - 10.0 * step_s) < 1e-12);
         expect_pole(w, &l, turned);
+        /* what is less does not take its place */
+        w->singular.off += 2.0;
+        const double kept = w->singular.off;
+        look_close(w, 0);
+        TEST_ASSERT_TRUE(w->singular.off == kept);
         watch_close(w);
         engine_double.stop(run);
         derived_free(&d);
@@ -222,5 +301,6 @@ static void test_poles(void) {
 void suite_looked(void) {
     die = dice_of("looked", 72);
     RUN_TEST(test_close_looks);
+    RUN_TEST(test_when_it_looks);
     RUN_TEST(test_poles);
 }

@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "host/run/remedy.h"
 #include "springs_told.h"
 #include "unity.h"
 
@@ -216,9 +217,55 @@ static void test_steps_by_order(void) {
     }
 }
 
+/* --- finer than was proposed ------------------------------------------------------------------------------------------------*/
+
+/* Runs that end early in steps longer than that. */
+static double needs_s;
+static double taken_s;
+
+static void *start_picky(const image *im) {
+    taken_s = im->step_s;
+    return engine_double.start(im);
+}
+
+static wh_status step_picky(void *run) {
+    return taken_s > needs_s * (1.0 + 1e-9) ? WH_E_DIVERGED : engine_double.step(run);
+}
+
+/* The next step of 1, 2 and 5 with which it does, in float with compensated sums from a tenth on. */
+static void test_finer_until_it_does(void) {
+    engine_kind picky = engine_double;
+    picky.start = start_picky;
+    picky.step = step_picky;
+    for (unsigned c = 0; c < dice_cases(usual_or(24, 8)); c++) {
+        const double step_s = 0.001 * (double)(1U + dice_one_of(&die, 40));
+        const bool is_float = c % 2U == 0;
+        springs s = springs_of(is_float ? &engine_float : &engine_double, WH_RK4, step_s, 20, 1e-3);
+        char text[REMEDY_TEXT];
+        char word[40];
+        char wanted[100];
+        watch_look l = drawn_look(s.d.image, step_s);
+        l.fine_step_s = 0.25 * step_s;
+        double named_s = springs_nice_s(l.fine_step_s, word);
+        needs_s = named_s * exp(dice_between(&die, -5.0, 0.0));
+        while (named_s > needs_s * (1.0 + 1e-9)) {
+            named_s = springs_nice_s(0.7 * named_s, word);
+        }
+        s.v->about.cures.kind = &picky;
+        const cure_outcome outcome =
+            remedy_of_look(&s.v->about.judged, &s.v->about.cures, &l, text);
+        TEST_ASSERT_EQUAL_INT(CURE_DOES, outcome);
+        snprintf(wanted, sizeof wanted, "--step %s%s", word,
+                 is_float && 10.0 * named_s <= step_s ? " --compensated" : "");
+        TEST_ASSERT_EQUAL_STRING(wanted, text);
+        springs_end(&s);
+    }
+}
+
 void suite_proposed(void) {
     die = dice_of("proposed", 94);
     RUN_TEST(test_singular_places);
     RUN_TEST(test_what_happens_at_one_go);
     RUN_TEST(test_steps_by_order);
+    RUN_TEST(test_finer_until_it_does);
 }

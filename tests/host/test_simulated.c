@@ -140,6 +140,58 @@ static void test_rows(void) {
     end();
 }
 
+/* Free bodies of which some are integrated and some follow from their momenta: all are where they should be, each in its unit. */
+static void test_rows_of_what_follows_from_its_momentum(void) {
+    static const double of_si[] = {1e3, 1.0, 1e2};
+    begin();
+    for (unsigned set = 1; set < 8; set++) {
+        char text[600];
+        char conserve[40] = "";
+        double start[3];
+        double speed[3];
+        double number = 0.0;
+        for (int i = 0; i < 3; i++) {
+            start[i] = dice_between(&die, -1.0, 1.0);
+            speed[i] = dice_between(&die, -1.0, 1.0);
+            if ((set >> i & 1U) != 0) {
+                snprintf(conserve + strlen(conserve), sizeof conserve - strlen(conserve), "%sq%d",
+                         conserve[0] != '\0' ? ", " : "conserve ", i);
+            }
+        }
+        snprintf(
+            text, sizeof text,
+            "mechanism m\ncoordinate q0 [mm]\ncoordinate q1 [m]\ncoordinate x [m]\n"
+            "coordinate q2 [cm]\nT = 1 [kg]*(q0'^2 + 2*q1'^2 + 3*q2'^2 + x'^2)/2\n"
+            "V = 1 [N/m]*x^2/2\nscene s { %s; start q0 = %.17g [m], q0' = %.17g [m/s], q1 = "
+            "%.17g [m], q1' = %.17g [m/s], q2 = %.17g [m], q2' = %.17g [m/s], x = 1 [m]; step 1 "
+            "[ms]; until 1 [s] }\n",
+            conserve, start[0], speed[0], start[1], speed[1], start[2], speed[2]);
+        derived d = scene_of(text);
+        const simulation_settings s = {
+            .kind = &engine_double, .every = 1000, .csv = path_of("r.csv"), .quiet = true};
+        TEST_ASSERT_EQUAL_STRING("", simulated(d.image, &s, SIMULATION_DONE));
+        const char *at = said_exactly(
+            read_file(path_of("r.csv")),
+            "time,q0 [mm],q1,x,q2 [cm],der(q0) [mm/s],der(q1),der(x),der(q2) [cm/s]\r\n");
+        for (int row = 0; row < 2; row++) {
+            at = said_number(at, &number);
+            TEST_ASSERT_TRUE(number == row);
+            for (int column = 0; column < 8; column++) {
+                const bool rate = column >= 4;
+                const int i = column % 4 == 3 ? 2 : column % 4; /* x is the third */
+                const double wanted = rate ? speed[i] : start[i] + speed[i] * row;
+                at = said_number(said_exactly(at, ","), &number);
+                if (column % 4 != 2) {
+                    TEST_ASSERT_TRUE_MESSAGE(fabs(number - of_si[i] * wanted) < 1e-9, text);
+                }
+            }
+            at = said_exactly(at, "\r\n");
+        }
+        derived_free(&d);
+    }
+    end();
+}
+
 /* --- how long it takes --------------------------------------------------------------------------------------------*/
 
 static double now_s(void) {
@@ -384,6 +436,7 @@ static void test_strict(void) {
                                                           : 0.7 * (1.0 - kept)};
         const char *told = simulated(d.image, &s, c == 2 ? SIMULATION_FAILED : SIMULATION_DONE);
         TEST_ASSERT_NOT_NULL_MESSAGE(strstr(told, c == 2 ? "error" : "warning"), told);
+        TEST_ASSERT_NOT_NULL_MESSAGE(strstr(told, " J of its energy is left over, "), told);
     }
     derived_free(&d);
     end();
@@ -428,6 +481,7 @@ static void test_files_that_cannot_be_written(void) {
 void suite_simulated(void) {
     die = dice_of("simulated", 65);
     RUN_TEST(test_rows);
+    RUN_TEST(test_rows_of_what_follows_from_its_momentum);
     RUN_TEST(test_time_per_step);
     RUN_TEST(test_interrupted);
     RUN_TEST(test_held_values);

@@ -170,6 +170,55 @@ static void test_what_it_is_made_of(void) {
     }
 }
 
+/* Angles that turn have theirs, and go on by their rates: a, b and x, of which any may be declared first. */
+static void test_angles_that_it_is_made_of(void) {
+    static const char *const orders[] = {
+        "coordinate a [rad]\ncoordinate b [rad]\ncoordinate x [m]\n",
+        "coordinate x [m]\ncoordinate b [rad]\ncoordinate a [rad]\n",
+        "coordinate b [rad]\ncoordinate x [m]\ncoordinate a [rad]\n"};
+    for (unsigned c = 0; c < dice_cases(usual_or(40, 12)); c++) {
+        char text[500];
+        const double level = dice_between(&die, -2.0, 2.0);
+        snprintf(text, sizeof text,
+                 "mechanism m\n%sT = 1 [kg]*x'^2/2 + 1 [kg*m^2]*(a'^2 + b'^2)/2\n"
+                 "Q(x) = 1 [N]*sqrt(%.17g + sin(a) + 2*cos(b) + x/(3 [m]))\n"
+                 "scene s { step 0.5 [s]; until 1 [s] }\n",
+                 orders[c % 3U], level);
+        derived d = scene_of(text);
+        const image *im = d.image;
+        TEST_ASSERT_EQUAL_INT(2, im->angles);
+        double angle_rad[2];
+        double real[4];
+        double of[3][2]; /* of a, b and x: place and rate */
+        for (int i = 0; i < 6; i++) {
+            const component at = image_component(im, i);
+            const char name = im->unknown[at.unknown].name[0];
+            const double value = dice_between(&die, -3.0, 3.0);
+            *(i < 2 ? &angle_rad[i] : &real[i - 2]) = value;
+            of[name == 'x' ? 2 : name - 'a'][at.primes] = value;
+        }
+        bool none = false;
+        const double ahead =
+            c % 2U == 0 ? 0.0 : 0.25; /* steps, of 0.5 s; and looked at twice as far */
+        const double shares[] = {0.0, 0.25, 0.5};
+        for (int i = 0; i < 3 && shares[i] <= 2.0 * ahead; i++) {
+            const double t = 0.5 * shares[i];
+            const double sum = level + sin(of[0][0] + t * of[0][1]) +
+                               2.0 * cos(of[1][0] + t * of[1][1]) + (of[2][0] + t * of[2][1]) / 3.0;
+            none = none || sum < 0.0;
+        }
+        const undefined_at at = {.image = im,
+                                 .real = real,
+                                 .angle_rad = angle_rad,
+                                 .ahead_steps = ahead,
+                                 .when = "when"};
+        char *told = told_of(&at, undefined_term);
+        TEST_ASSERT_EQUAL_MESSAGE(none, told[0] != '\0', text);
+        free(told);
+        derived_free(&d);
+    }
+}
+
 /* --- angles ----------------------------------------------------------------------------------------------------*/
 
 /* a, b and c turn: sines are taken of a and of b - 2 c; d is an angle that swings, e none. */
@@ -249,5 +298,6 @@ void suite_undefined_where(void) {
     RUN_TEST(test_the_innermost_part_is_named);
     RUN_TEST(test_the_places_on_the_way);
     RUN_TEST(test_what_it_is_made_of);
+    RUN_TEST(test_angles_that_it_is_made_of);
     RUN_TEST(test_the_angle_that_is_too_far);
 }
