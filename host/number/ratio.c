@@ -108,6 +108,7 @@ whole_ratio ratio_of(double value) {
     if (!(value > 0.0)) {
         return (whole_ratio){0, 1};
     }
+    value = number_least(number_most(value, RATIO_LEAST), RATIO_MOST);
     whole_ratio plain;
     uint64_t said;
     const whole_ratio fraction = simplest(value);

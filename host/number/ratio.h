@@ -19,7 +19,7 @@ typedef struct whole_ratio {
 /* What `value` was before units and doubles rounded it: the decimal of fewest digits (at most 15), or the
  * simplest fraction, whichever says less, within 2^-51 of it, relatively. 0.0011000000000000001 is 11/10000, and
  * 1/44100 is what it looks like. A decimal with more than 60 bits over or under the bar (9.99999999999999e-7) becomes
- * the simplest fraction, too. `value` is 0, or from RATIO_LEAST to RATIO_MOST. */
+ * the simplest fraction, too. 0 of what is not above zero; else what lies beyond RATIO_LEAST or RATIO_MOST is as they are. */
 whole_ratio ratio_of(double value);
 
 /* The nearest whole number to whole / part, the lower one of two that are as near; false when that is

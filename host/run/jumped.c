@@ -11,7 +11,7 @@
 
 /* The way is halved so often, and by so many more at a time, in which a pole grows 2^HALVINGS, within a factor of two: by
  * more than GROWS; one over a root grows by less. */
-enum { HALVINGS_FIRST = 8, HALVINGS = 6 };
+enum { HALVINGS_FIRST = 4, HALVINGS = 6 };
 #define GROWS 16.0
 /* Not where what moves differs by less than this part of itself: there nothing but rounding grows. */
 #define RESOLVED 1e-10
@@ -264,14 +264,16 @@ static void sizes_at(jumped *j, const bracket *b, double *size) {
     }
 }
 
-/* The first expression with a pole where this node changes its sign; -1: none. */
+/* The first expression with a pole where this node changes its sign; -1: none. What grows twice, one time after the other:
+ * once may be a zero that was beside it. */
 static int pole_at(jumped *j, int w) {
     const int terms = j->at.image->blame.terms;
     const int node = j->watched[w];
     const bool rising = j->before[w] < 0.0;
     const double way = relative_way(j, node);
-    double *size = room(2 * terms, sizeof *size);
-    double *nearer = size + terms;
+    double *size = room(terms, sizeof *size);
+    double *nearer = room(terms, sizeof *nearer);
+    bool *grew = room(terms, sizeof *grew);
     bracket b = {0.0, 1.0};
     int found = -1;
     halve(j, node, rising, HALVINGS_FIRST, &b);
@@ -280,11 +282,15 @@ static int pole_at(jumped *j, int w) {
         halve(j, node, rising, HALVINGS, &b);
         sizes_at(j, &b, nearer);
         for (int i = 0; i < terms && found < 0; i++) {
-            found = size[i] > 0.0 && nearer[i] > GROWS * size[i] ? i : -1;
+            const bool grows = size[i] > 0.0 && nearer[i] > GROWS * size[i];
+            found = grows && grew[i] ? i : -1;
+            grew[i] = grows;
         }
         memcpy(size, nearer, (size_t)terms * sizeof *size);
     }
     free(size);
+    free(nearer);
+    free(grew);
     return found;
 }
 

@@ -19,12 +19,33 @@ enum { TEXT = 1500 };
 
 static said what;
 
-/* `whirl run` in that number, with another step or its own (NULL). */
-static void run(const char *text, const char *number, const char *step) {
-    const char *const words[] = {
-        model_keep(text), "--number", number, step != NULL ? "--step" : NULL, step, NULL};
+enum { WORDS = 6 };
+
+/* `whirl run` in that number, with more options. */
+static void run(const char *text, const char *number, char *const more[static WORDS]) {
+    const char *words[4 + WORDS] = {model_keep(text), "--number", number};
+    memcpy(words + 3, more, WORDS * sizeof *more);
     command_say(command_run, words, &what);
     model_drop();
+}
+
+static char *no_more[WORDS];
+
+/* The options that a warning names and has tried; false: none. */
+static bool named(char text[static SAID_SIZE], char *words[static WORDS]) {
+    static const char before[] = "no motion gets through there; ";
+    char *at = strstr(what.err, before);
+    char *end = at != NULL ? strstr(at, " stays on its side, and would do") : NULL;
+    if (end == NULL) {
+        return false;
+    }
+    *end = '\0';
+    strcpy(text, at + strlen(before));
+    char *next = text;
+    for (int i = 0; i < WORDS; i++) {
+        words[i] = strtok_r(next, " ", &next);
+    }
+    return true;
 }
 
 static bool is_told(void) { return strstr(what.err, "jumped over a place where") != NULL; }
@@ -76,7 +97,7 @@ static void test_knees(void) {
         const double k = v * step_s * exp(dice_between(&die, -6.0, 2.0));
         knee_text(text, c % KNEES, v, k, s, step_s);
         const char *number = c % 3 == 0 ? "float" : "double";
-        run(text, number, NULL);
+        run(text, number, no_more);
         if (what.status != 0) { /* it left all bounds on the way, and says so */
             TEST_ASSERT_EQUAL_INT(1, what.status);
             continue;
@@ -91,12 +112,10 @@ static void test_knees(void) {
         }
         TEST_ASSERT_NULL_MESSAGE(strstr(what.out, "to the end"), text);
         TEST_ASSERT_NOT_NULL(strstr(what.err, "the equation grows without bound: equation s'"));
-        const char *cure = strstr(what.err, "hint: no motion gets through there; --step ");
-        if (cure != NULL && strstr(cure, "would do") != NULL) {
-            char step[40];
-            said_word(cure + strlen("hint: no motion gets through there; --step "), step,
-                      sizeof step);
-            run(text, number, step);
+        char cure[SAID_SIZE];
+        char *words[WORDS];
+        if (named(cure, words)) {
+            run(text, number, words);
             TEST_ASSERT_EQUAL_STRING_MESSAGE("", what.err, text);
             TEST_ASSERT_TRUE(last_of("s") > -1e-9 * s);
             cured++;
@@ -125,12 +144,12 @@ static void test_forces(void) {
                  "parameter B = %.17g [N]\nT = 1 [kg]*x'^2/2\nQ(x) = %s\nscene a {\n"
                  "start x' = %.17g [m/s]\nstep %.17g [s]\nuntil 8 [s]\n}\n",
                  v0, force, forces[c % 3], v, step_s);
-        run(text, "double", NULL);
+        run(text, "double", no_more);
         TEST_ASSERT_EQUAL_INT_MESSAGE(0, what.status, what.err);
         const bool through = last_of("x'") < -v0;
         TEST_ASSERT_EQUAL_INT_MESSAGE(through, is_told(), text);
-        TEST_ASSERT_TRUE(!through ||
-                         strstr(what.err, "the force grows without bound: Q(x)") != NULL);
+        TEST_ASSERT_TRUE_MESSAGE(
+            !through || strstr(what.err, "the force grows without bound: Q(x)") != NULL, what.err);
         told += through ? 1U : 0U;
         kept += through ? 0U : 1U;
     }
@@ -153,7 +172,7 @@ static void test_angles(void) {
                  "Q(th) = 1e-6 [N*m]*%s\nscene a {\nstart th' = %.17g [rad/s]\nstep 10 [ms]\n"
                  "until 1 [s]\n}\n",
                  force, dice_one_of(&die, 2) == 0 ? 7.3 : -7.3);
-        run(text, c % 2 == 0 ? "float" : "double", NULL);
+        run(text, c % 2 == 0 ? "float" : "double", no_more);
         TEST_ASSERT_EQUAL_INT_MESSAGE(0, what.status, what.err);
         TEST_ASSERT_TRUE_MESSAGE(is_told(), text);
     }
@@ -187,7 +206,7 @@ static void test_what_has_limits(void) {
                  "until 3 [s]\n}\n",
                  dice_between(&die, -0.9, 0.9) + 1e-3, dice_between(&die, 0.8, 1.2),
                  harmless[c % HARMLESS], dice_between(&die, -1.1, -1.0));
-        run(text, "double", NULL);
+        run(text, "double", no_more);
         TEST_ASSERT_EQUAL_INT_MESSAGE(0, what.status, what.err);
         TEST_ASSERT_FALSE_MESSAGE(is_told(), text);
     }
@@ -205,7 +224,7 @@ static void test_impacts(void) {
                  "stop x <= 1 [m] restitution 1\nscene a {\nstart x = 0.5 [m], x' = %.17g [m/s]\n"
                  "step 2 [ms]\nuntil 2 [s]\n}\n",
                  v0, c % 2 == 0 ? '+' : '-', v);
-        run(text, "double", NULL);
+        run(text, "double", no_more);
         TEST_ASSERT_EQUAL_INT_MESSAGE(0, what.status, what.err);
         TEST_ASSERT_FALSE_MESSAGE(is_told(), text);
     }

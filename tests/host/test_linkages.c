@@ -267,12 +267,19 @@ static void test_the_energy_is_accounted_for(void) {
     double worst = 0.0;
     unsigned fell = 0;
     unsigned known = 0;
+    unsigned fast = 0;
     for (unsigned k = 0; k < cases(); k++) {
         const linkage of = drawn_linkage(&d, k);
         double turnover;
         const double coarse = left_over(&of, 2e-3, &turnover);
         const double fine = left_over(&of, 5e-4, &turnover);
-        expect(fine < 1e-7 * turnover, "left over at 0.5 ms, J", fine, text_of(&of, as_usual));
+        if (!(fine <
+              1e-7 * turnover)) { /* a motion too fast for the step: the method's own error */
+            const double finer = left_over(&of, 1.25e-4, &turnover);
+            expect(finer < 1e-7 * turnover && finer < fine / 64.0, "left over at 0.125 ms, J",
+                   finer, text_of(&of, as_usual));
+            fast++;
+        }
         worst = fmax(worst, fine / turnover);
         if (coarse > 1e-9 * turnover) { /* above rounding: it falls with the step */
             known++;
@@ -282,7 +289,7 @@ static void test_the_energy_is_accounted_for(void) {
     printf("  left over at most %.1e of what went through; of %u above rounding %u fell by 64 and "
            "more with a quarter of the step\n",
            worst, known, fell);
-    TEST_ASSERT_TRUE(fell * 10 >= known * 9);
+    TEST_ASSERT_TRUE(fell * 10 >= known * 9 && fast * 300 <= cases());
 }
 
 void suite_linkages(void) {

@@ -31,13 +31,16 @@ static void test_decimals_and_fractions_are_themselves(void) {
     TEST_ASSERT_TRUE(ratio_of(0.0).numerator == 0 && ratio_of((double)NAN).numerator == 0);
 }
 
-/* Any double is within 2^-51 of what it is taken for. */
+/* Any double is within 2^-51 of what it is taken for, and what is beyond the ends of their range, of the nearer end. */
 static void test_nothing_is_far_off(void) {
     dice d = dice_of("ratio", 72);
     for (unsigned k = 0; k < 4000U; k++) {
-        const double value = ldexp(dice_between(&d, 1.0, 2.0), (int)dice_one_of(&d, 60) - 40);
-        const whole_ratio r = ratio_of(value);
-        TEST_ASSERT_TRUE(r.denominator > 0);
+        const int power =
+            k % 2U == 0 ? (int)dice_one_of(&d, 130) - 65 : (int)dice_one_of(&d, 2096) - 1073;
+        const double drawn = ldexp(dice_between(&d, 1.0, 2.0), power);
+        const double value = fmin(fmax(drawn, RATIO_LEAST), RATIO_MOST);
+        const whole_ratio r = ratio_of(drawn);
+        TEST_ASSERT_TRUE(r.denominator > 0 && r.denominator >> 60 == 0 && r.numerator >> 60 == 0);
         const long double is = (long double)r.numerator / (long double)r.denominator;
         TEST_ASSERT_TRUE(fabsl(is - (long double)value) <= 0x1p-51L * (long double)value);
         const uint64_t count = 1U + dice_one_of(&d, 1U << 30);
