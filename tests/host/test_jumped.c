@@ -24,7 +24,9 @@ enum { WORDS = 6 };
 /* `whirl run` in that number, with more options. */
 static void run(const char *text, const char *number, char *const more[static WORDS]) {
     const char *words[4 + WORDS] = {model_keep(text), "--number", number};
-    memcpy(words + 3, more, WORDS * sizeof *more);
+    for (int i = 0; i < WORDS; i++) {
+        words[3 + i] = more[i];
+    }
     command_say(command_run, words, &what);
     model_drop();
 }

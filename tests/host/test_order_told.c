@@ -216,7 +216,8 @@ static int compare(const void *a, const void *b) {
 /* Its lines in the alphabet's order, but for those that are another each time. */
 static unsigned lines_of(char *text, const char *line[LINES_MOST]) {
     unsigned count = 0;
-    for (char *at = strtok(text, "\n"); at != NULL; at = strtok(NULL, "\n")) {
+    char *rest = NULL;
+    for (char *at = strtok_r(text, "\n", &rest); at != NULL; at = strtok_r(NULL, "\n", &rest)) {
         if (strncmp(at, "state hash", 10) != 0 && strncmp(at, "time per step", 13) != 0 &&
             strncmp(at, "trusted", 7) != 0) {
             TEST_ASSERT_TRUE(count < LINES_MOST);
