@@ -259,7 +259,7 @@ static unequal of_unequal(const engine_kind *kind, double decades, double last) 
 
 static void test_masses_of_very_different_size(void) {
     const unequal in_double = of_unequal(&engine_double, 3.0, DBL_EPSILON);
-    const unequal in_float = of_unequal(&engine_float, 1.5, FLT_EPSILON);
+    const unequal in_float = of_unequal(&engine_float, 1.5, (double)FLT_EPSILON);
     TEST_ASSERT_EQUAL_UINT(0, in_double.beyond);
     TEST_ASSERT_EQUAL_UINT(0, in_float.beyond);
     TEST_ASSERT_TRUE(in_double.plain > 0 && in_float.plain > 0);
