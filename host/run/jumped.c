@@ -26,18 +26,23 @@ enum {
     NEEDED = 16U,
 };
 
+/* What changes its sign at a pole. */
+typedef struct divisor {
+    int node;
+    double before; /* the step, */
+    double now;    /* and behind it */
+} divisor;
+
 struct jumped {
     blamed at;
     int components;
     unsigned char *is; /* [nodes] */
     int *order;        /* [ordered] nodes that are needed for those watched, operands first */
     int ordered;
-    int *watched; /* [watches] nodes */
-    int watches;
-    double *before; /* [watches] values before the step, */
-    double *now;    /* and behind it */
-    double *from;   /* [components] angles, then reals: the state before the step, */
-    double *to;     /* and behind it */
+    divisor *divisor; /* [divisors] */
+    int divisors;
+    double *from; /* [components] angles, then reals: the state before the step, */
+    double *to;   /* and behind it */
     uint64_t events;
     uint64_t steps;
     int found; /* a question, or -1 */
@@ -133,7 +138,7 @@ static void find_order(jumped *j) {
         const bool watched =
             (j->is[i] & (DIVIDES | OF_A_TAN)) != 0 && (j->is[i] & (MOVES | HIDDEN)) == MOVES;
         if (watched) {
-            j->watched[j->watches++] = i;
+            j->divisor[j->divisors++].node = i;
         }
         if (watched || (j->is[i] & NEEDED) != 0) {
             int of[2];
@@ -157,20 +162,18 @@ jumped *jumped_open(const image *im) {
     j->at = blamed_open(im);
     j->components = im->angles + im->reals;
     j->is = room(nodes, sizeof *j->is);
-    j->order = room(2 * nodes, sizeof *j->order);
-    j->watched = j->order + nodes;
+    j->order = room(nodes, sizeof *j->order);
+    j->divisor = room(nodes, sizeof *j->divisor);
     j->found = -1;
     find_what_moves(j);
     find_factors(j);
     find_order(j);
-    if (j->watches == 0) {
+    if (j->divisors == 0) {
         jumped_close(j);
         return NULL;
     }
-    j->before = room(2 * (j->watches + j->components), sizeof *j->before);
-    j->now = j->before + j->watches;
-    j->from = j->now + j->watches;
-    j->to = j->from + j->components;
+    j->from = room(j->components, sizeof *j->from);
+    j->to = room(j->components, sizeof *j->to);
     return j;
 }
 
@@ -179,15 +182,16 @@ void jumped_close(jumped *j) {
         blamed_close(&j->at);
         free(j->is);
         free(j->order);
-        free(j->before);
+        free(j->divisor);
+        free(j->from);
+        free(j->to);
         free(j);
     }
 }
 
 /* --- is there a pole on the way? ---------------------------------------------------------------------*/
 
-/* What changes its sign at the pole. */
-static double watched_value(const jumped *j, int node) {
+static double divisor_value(const jumped *j, int node) {
     const double value = j->at.value[node];
     return (j->is[node] & OF_A_TAN) != 0 ? number_cosine(value) : value;
 }
@@ -243,7 +247,7 @@ static void halve(jumped *j, int node, bool rising, int times, bracket *b) {
     for (int i = 0; i < times; i++) {
         const double middle = 0.5 * (b->low + b->high);
         go_to(j, middle);
-        if ((watched_value(j, node) < 0.0) == rising) {
+        if ((divisor_value(j, node) < 0.0) == rising) {
             b->low = middle;
         } else {
             b->high = middle;
@@ -266,20 +270,19 @@ static void sizes_at(jumped *j, const bracket *b, double *size) {
 
 /* The first expression with a pole where this node changes its sign; -1: none. What grows twice, one time after the other:
  * once may be a zero that was beside it. */
-static int pole_at(jumped *j, int w) {
+static int pole_at(jumped *j, const divisor *d) {
     const int terms = j->at.image->blame.terms;
-    const int node = j->watched[w];
-    const bool rising = j->before[w] < 0.0;
-    const double way = relative_way(j, node);
+    const bool rising = d->before < 0.0;
+    const double way = relative_way(j, d->node);
     double *size = room(terms, sizeof *size);
     double *nearer = room(terms, sizeof *nearer);
     bool *grew = room(terms, sizeof *grew);
     bracket b = {0.0, 1.0};
     int found = -1;
-    halve(j, node, rising, HALVINGS_FIRST, &b);
+    halve(j, d->node, rising, HALVINGS_FIRST, &b);
     sizes_at(j, &b, size);
     while (found < 0 && way * (b.high - b.low) > RESOLVED) {
-        halve(j, node, rising, HALVINGS, &b);
+        halve(j, d->node, rising, HALVINGS, &b);
         sizes_at(j, &b, nearer);
         for (int i = 0; i < terms && found < 0; i++) {
             const bool grows = size[i] > 0.0 && nearer[i] > GROWS * size[i];
@@ -304,8 +307,8 @@ static bool had_events(jumped *j, const engine_kind *kind, const void *run) {
     return some;
 }
 
-static bool changes_sign(double before, double now) {
-    return (before < 0.0 && now > 0.0) || (before > 0.0 && now < 0.0);
+static bool changes_sign(const divisor *d) {
+    return (d->before < 0.0 && d->now > 0.0) || (d->before > 0.0 && d->now < 0.0);
 }
 
 void jumped_enter(jumped *j, const engine_kind *kind, const void *run) {
@@ -321,13 +324,14 @@ void jumped_enter(jumped *j, const engine_kind *kind, const void *run) {
     for (int i = 0; i < j->ordered; i++) {
         j->at.value[j->order[i]] = blamed_node(&j->at, &im->blame.node[j->order[i]]);
     }
-    memcpy(j->before, j->now, (size_t)j->watches * sizeof *j->now);
-    for (int w = 0; w < j->watches; w++) {
-        j->now[w] = watched_value(j, j->watched[w]);
+    for (int i = 0; i < j->divisors; i++) {
+        divisor *d = &j->divisor[i];
+        d->before = d->now;
+        d->now = divisor_value(j, d->node);
     }
-    for (int w = 0; w < j->watches && looks && j->found < 0; w++) {
-        if (changes_sign(j->before[w], j->now[w])) {
-            j->found = pole_at(j, w);
+    for (int i = 0; i < j->divisors && looks && j->found < 0; i++) {
+        if (changes_sign(&j->divisor[i])) {
+            j->found = pole_at(j, &j->divisor[i]);
             j->found_s = ratio_times(steps - 1, im->step);
         }
     }

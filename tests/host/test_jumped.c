@@ -7,8 +7,11 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "blocks.h"
 #include "command.h"
 #include "host/commands/commands.h"
+#include "host/run/jumped.h"
+#include "motion.h"
 #include "unity.h"
 
 void suite_jumped(void);
@@ -134,6 +137,39 @@ static void test_knees(void) {
     TEST_ASSERT_TRUE(6U * told > cases && 6U * kept > cases && 2U * cured > told);
 }
 
+/* Beside a run of the test's own: when the step began, which of the expressions, and all memory given back. */
+static void test_when(void) {
+    for (unsigned c = 0; c < dice_cases(few_or_all(2 * KNEES, 8 * KNEES)); c++) {
+        char text[TEXT];
+        const double v = dice_between(&die, 0.5, 2.0);
+        const double step_s = ldexp(1.0, -5 - (int)dice_one_of(&die, 3));
+        const double k = v * step_s * width(c / KNEES);
+        double behind_s = -1.0;
+        double begin_s = -1.0;
+        motion m;
+        knee_text(text, c % KNEES, v, k, v * dice_between(&die, 1.0, 3.0), step_s);
+        motion_open_text(&m, text, (stepping){.kind = &engine_double, .method = WH_RK4});
+        const long before = blocks_in_use();
+        jumped *j = jumped_open(m.image);
+        TEST_ASSERT_NOT_NULL(j);
+        for (uint64_t step = 0; step <= m.image->steps && behind_s < 0.0; step++) {
+            TEST_ASSERT_FALSE(jumped_some(j));
+            TEST_ASSERT_EQUAL_INT(WH_OK, step == 0 ? WH_OK : motion_step(&m, 1));
+            jumped_enter(j, m.kind, m.run);
+            behind_s = motion_value(&m, "s") < -k ? (double)step * step_s : -1.0;
+        }
+        TEST_ASSERT_EQUAL_INT_MESSAGE(behind_s >= 0.0, jumped_some(j), text);
+        if (behind_s >= 0.0) {
+            const blame_question *q = jumped_over(j, &begin_s);
+            TEST_ASSERT_EQUAL_STRING("the equation", q->what);
+            TEST_ASSERT_TRUE(fabs(begin_s + step_s - behind_s) < 1e-9);
+        }
+        jumped_close(j);
+        TEST_ASSERT_EQUAL_INT(before, blocks_in_use());
+        motion_close(&m);
+    }
+}
+
 /* A brake whose force vanishes with the rate: its energies balance wherever it goes. */
 static void test_forces(void) {
     static const char *const forces[] = {"-B*x'/(v0 + x')", "-B*x'*(v0 + x')^(-1)",
@@ -241,6 +277,7 @@ static void test_impacts(void) {
 void suite_jumped(void) {
     die = dice_of("jumped", 51);
     RUN_TEST(test_knees);
+    RUN_TEST(test_when);
     RUN_TEST(test_forces);
     RUN_TEST(test_angles);
     RUN_TEST(test_what_has_limits);
