@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "host/run/remedy.h"
+#include "host/run/step_text.h"
 #include "springs_told.h"
 #include "unity.h"
 
@@ -189,9 +190,29 @@ static void test_methods_and_steps(void) {
     TEST_ASSERT_TRUE(named[0] + named[1] + named[2] > 0 && named[3] > 0);
 }
 
+/* Steps as they are named: read back to 14 digits, in the largest unit that they are not below; of less than a nanosecond,
+ * in nanoseconds. */
+static void test_steps_are_read_back(void) {
+    static const char *const unit[] = {"s", "ms", "us", "ns"};
+    for (unsigned c = 0; c < dice_cases(400); c++) {
+        char text[STEP_WORD];
+        char *end;
+        const int wanted = (int)(c % 4U);
+        const double size = pow(10.0, -3.0 * wanted);
+        const double most = wanted == 0 ? 1e6 : 998.0;
+        const double least = wanted == 3 ? 1e-9 : 1.0;
+        const double number = least * pow(most / least, dice_between(&die, 0.0, 1.0));
+        TEST_ASSERT_EQUAL_PTR(text, step_text(number * size, text));
+        const double back = strtod(text, &end);
+        TEST_ASSERT_EQUAL_STRING(unit[wanted], end);
+        TEST_ASSERT_TRUE(fabs(back / number - 1.0) <= 2e-14);
+    }
+}
+
 void suite_remedied(void) {
     die = dice_of("remedied", 96);
     RUN_TEST(test_failed_runs);
     RUN_TEST(test_a_part_of_what_is_missing);
     RUN_TEST(test_methods_and_steps);
+    RUN_TEST(test_steps_are_read_back);
 }
