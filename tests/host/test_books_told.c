@@ -279,8 +279,41 @@ static void test_every_line(void) {
     }
 }
 
+/* Drawn stops, some of which the ball never comes to: these have no line, in no book. */
+static void test_contacts_that_gave_nothing(void) {
+    dice die = dice_of("books_told", 93);
+    enum { STOPS = 4 };
+    for (unsigned c = 0; c < dice_cases(4); c++) {
+        char text[1200];
+        char at[STOPS][40];
+        bool reached[STOPS];
+        said what;
+        int length = snprintf(text, sizeof text,
+                              "mechanism ball \"a ball\"\ncoordinate x [m]\nT = 1 [kg]*x'^2/2\n"
+                              "V = 9.81 [N]*x\n");
+        for (int i = 0; i < STOPS; i++) { /* from 1 m on it falls, and hits the highest alone */
+            reached[i] = i == (int)(c % STOPS);
+            const double below =
+                reached[i] ? dice_between(&die, 0.0, 0.5) : dice_between(&die, 2.0, 9.0);
+            snprintf(at[i], sizeof at[i], "stop x >= %.9g [m]", -below);
+            length += snprintf(text + length, sizeof text - (size_t)length, "%s restitution 0.5\n",
+                               at[i]);
+        }
+        snprintf(text + length, sizeof text - (size_t)length,
+                 "scene a {\nwith ledger\nstart x = 1 [m]\nstep 1 [ms]\nuntil 1 [s]\n}\n");
+        const char *const words[] = {model_keep(text), NULL};
+        command_say(command_run, words, &what);
+        model_drop();
+        TEST_ASSERT_EQUAL_INT_MESSAGE(0, what.status, what.err);
+        for (int i = 0; i < STOPS; i++) {
+            TEST_ASSERT_EQUAL_INT_MESSAGE(reached[i], strstr(what.out, at[i]) != NULL, what.out);
+        }
+    }
+}
+
 void suite_books_told(void) {
     RUN_TEST(test_conserved_momenta);
     RUN_TEST(test_ledgers);
     RUN_TEST(test_every_line);
+    RUN_TEST(test_contacts_that_gave_nothing);
 }
