@@ -41,7 +41,7 @@ double blamed_node(const blamed *b, const blame_node *n) {
     const double *value = b->value;
     switch (n->code) {
     case BLAME_NUMBER: return n->number;
-    case BLAME_STATE: return b->state[n->a][n->b];
+    case BLAME_STATE: return n->b <= b->image->unknown[n->a].order ? b->state[n->a][n->b] : 0.0;
     case BLAME_INPUT: return b->input[n->a];
     case BLAME_SAME: return value[n->a];
     case BLAME_ADD: return value[n->a] + value[n->b];
