@@ -29,6 +29,7 @@ enum {
 /* What changes its sign at a pole. */
 typedef struct divisor {
     int node;
+    bool of_a_tan; /* its cosine does */
     double before; /* the step, */
     double now;    /* and behind it */
 } divisor;
@@ -135,10 +136,13 @@ static void find_factors(jumped *j) {
 static void find_order(jumped *j) {
     const image_blame *b = &j->at.image->blame;
     for (int i = b->nodes - 1; i >= 0; i--) {
-        const bool watched =
-            (j->is[i] & (DIVIDES | OF_A_TAN)) != 0 && (j->is[i] & (MOVES | HIDDEN)) == MOVES;
-        if (watched) {
-            j->divisor[j->divisors++].node = i;
+        const unsigned as = (j->is[i] & (MOVES | HIDDEN)) == MOVES ? j->is[i] : 0U;
+        const bool watched = (as & (DIVIDES | OF_A_TAN)) != 0;
+        if ((as & DIVIDES) != 0) {
+            j->divisor[j->divisors++] = (divisor){.node = i};
+        }
+        if ((as & OF_A_TAN) != 0) {
+            j->divisor[j->divisors++] = (divisor){.node = i, .of_a_tan = true};
         }
         if (watched || (j->is[i] & NEEDED) != 0) {
             int of[2];
@@ -163,7 +167,7 @@ jumped *jumped_open(const image *im) {
     j->components = im->angles + im->reals;
     j->is = room(nodes, sizeof *j->is);
     j->order = room(nodes, sizeof *j->order);
-    j->divisor = room(nodes, sizeof *j->divisor);
+    j->divisor = room(2 * nodes, sizeof *j->divisor);
     j->found = -1;
     find_what_moves(j);
     find_factors(j);
@@ -191,9 +195,15 @@ void jumped_close(jumped *j) {
 
 /* --- is there a pole on the way? ---------------------------------------------------------------------*/
 
-static double divisor_value(const jumped *j, int node) {
-    const double value = j->at.value[node];
-    return (j->is[node] & OF_A_TAN) != 0 ? number_cosine(value) : value;
+static double divisor_value(const jumped *j, const divisor *d) {
+    const double value = j->at.value[d->node];
+    return d->of_a_tan ? number_cosine(value) : value;
+}
+
+/* How far this component goes in the step: turn angles are given within a turn. */
+static double way_of(const jumped *j, int i) {
+    const double way = j->to[i] - j->from[i];
+    return i < j->at.image->angles ? number_centred(way, 6.283185307179586) : way;
 }
 
 /* Every expression, so far on the way. */
@@ -201,11 +211,7 @@ static void go_to(jumped *j, double share) {
     const image *im = j->at.image;
     double state[3 * IMAGE_COMPONENTS_MAX];
     for (int i = 0; i < j->components; i++) {
-        double way = j->to[i] - j->from[i];
-        if (i < im->angles) { /* turn angles are given within a turn */
-            way = number_centred(way, 6.283185307179586);
-        }
-        state[i] = j->from[i] + share * way;
+        state[i] = j->from[i] + share * way_of(j, i);
     }
     blamed_place(&j->at, state, state + im->angles);
     for (int i = 0; i < im->blame.nodes; i++) {
@@ -231,7 +237,7 @@ static double relative_way(const jumped *j, int node) {
         if (of[i] && n->code == BLAME_STATE) {
             const int c = image_find_component(im, n->a, n->b);
             const double size = number_most(fabs(j->from[c]), fabs(j->to[c]));
-            most = size > 0.0 ? number_most(most, fabs(j->to[c] - j->from[c]) / size) : most;
+            most = size > 0.0 ? number_most(most, fabs(way_of(j, c)) / size) : most;
         }
     }
     free(of);
@@ -243,11 +249,12 @@ typedef struct bracket {
     double high;
 } bracket;
 
-static void halve(jumped *j, int node, bool rising, int times, bracket *b) {
+static void halve(jumped *j, const divisor *d, int times, bracket *b) {
+    const bool rising = d->before < 0.0;
     for (int i = 0; i < times; i++) {
         const double middle = 0.5 * (b->low + b->high);
         go_to(j, middle);
-        if ((divisor_value(j, node) < 0.0) == rising) {
+        if ((divisor_value(j, d) < 0.0) == rising) {
             b->low = middle;
         } else {
             b->high = middle;
@@ -272,17 +279,16 @@ static void sizes_at(jumped *j, const bracket *b, double *size) {
  * once may be a zero that was beside it. */
 static int pole_at(jumped *j, const divisor *d) {
     const int terms = j->at.image->blame.terms;
-    const bool rising = d->before < 0.0;
     const double way = relative_way(j, d->node);
     double *size = room(terms, sizeof *size);
     double *nearer = room(terms, sizeof *nearer);
     bool *grew = room(terms, sizeof *grew);
     bracket b = {0.0, 1.0};
     int found = -1;
-    halve(j, d->node, rising, HALVINGS_FIRST, &b);
+    halve(j, d, HALVINGS_FIRST, &b);
     sizes_at(j, &b, size);
     while (found < 0 && way * (b.high - b.low) > RESOLVED) {
-        halve(j, d->node, rising, HALVINGS, &b);
+        halve(j, d, HALVINGS, &b);
         sizes_at(j, &b, nearer);
         for (int i = 0; i < terms && found < 0; i++) {
             const bool grows = size[i] > 0.0 && nearer[i] > GROWS * size[i];
@@ -327,7 +333,7 @@ void jumped_enter(jumped *j, const engine_kind *kind, const void *run) {
     for (int i = 0; i < j->divisors; i++) {
         divisor *d = &j->divisor[i];
         d->before = d->now;
-        d->now = divisor_value(j, d->node);
+        d->now = divisor_value(j, d);
     }
     for (int i = 0; i < j->divisors && looks && j->found < 0; i++) {
         if (changes_sign(&j->divisor[i])) {

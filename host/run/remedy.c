@@ -119,6 +119,14 @@ static remedy by_step(judged *j, cures *c, wh_method method, double most_s, doub
     return r.outcome == CURE_DOES ? r : none;
 }
 
+/* "--step 50us --compensated" */
+static void options_text(const judged *j, const remedy *r, char *text, size_t size) {
+    char step[STEP_WORD];
+    snprintf(text, size, "--step %s%s%s", step_text(r->what.step_s, step),
+             r->what.compensated && !j->image->settings.compensated ? " --compensated" : "",
+             number_text(r));
+}
+
 static bool is_some(const remedy *r) { return r->outcome != CURE_DOES_NOT; }
 
 static const char *would_do(const remedy *r) {
@@ -180,10 +188,7 @@ cure_outcome remedy_finer(const judged *j, cures *c, char text[REMEDY_TEXT]) {
     const cure_wish half =
         own_cure(j, judged_method(j->image), linearised_nice_s(0.5 * j->watch->step_s));
     const remedy r = finer_until_it_does(j, c, half, true);
-    char step[STEP_WORD];
-    snprintf(text, REMEDY_TEXT, "--step %s%s%s", step_text(r.what.step_s, step),
-             r.what.compensated && !j->image->settings.compensated ? " --compensated" : "",
-             number_text(&r));
+    options_text(j, &r, text, REMEDY_TEXT);
     return r.outcome;
 }
 
@@ -215,11 +220,8 @@ cure_outcome remedy_of_look(const judged *j, cures *c, const watch_look *look,
     if (!is_some(&r)) {
         r.what = what;
     }
-    char step[STEP_WORD];
-    snprintf(text, REMEDY_TEXT, "%s%s%s--step %s%s%s", other ? "--method " : "",
-             other ? wh_methods[WH_METHOD_DEFAULT].word : "", other ? " " : "",
-             step_text(r.what.step_s, step),
-             r.what.compensated && !j->image->settings.compensated ? " --compensated" : "",
-             number_text(&r));
+    const int length =
+        other ? snprintf(text, REMEDY_TEXT, "--method %s ", wh_methods[WH_METHOD_DEFAULT].word) : 0;
+    options_text(j, &r, text + length, (size_t)(REMEDY_TEXT - length));
     return r.outcome;
 }

@@ -239,6 +239,16 @@ void grid_free(grid *g) {
     *g = (grid){0};
 }
 
+/* So far on the way between the logarithms; their ends' ratio may be no number though they are. */
+static double log_value(const axis *a, double share) {
+    const double ratio = a->to / a->from;
+    if (isfinite(ratio) && ratio != 0.0) {
+        return a->from * number_power(ratio, share);
+    }
+    const double size = number_power(fabs(a->from), 1.0 - share) * number_power(fabs(a->to), share);
+    return a->from < 0.0 ? -size : size;
+}
+
 static double axis_value(const axis *a, uint64_t i) {
     if (i == 0) {
         return a->from;
@@ -247,17 +257,8 @@ static double axis_value(const axis *a, uint64_t i) {
         return a->to;
     }
     const double last = (double)(a->count - 1);
-    const double ratio = a->to / a->from;
-    const bool wide = !isfinite(ratio) || ratio == 0.0; /* beyond the numbers, unlike its ends */
-    if (a->is_log && wide) {
-        const double size = number_power(fabs(a->from), (last - (double)i) / last) *
-                            number_power(fabs(a->to), (double)i / last);
-        return a->from < 0.0 ? -size : size;
-    }
-    if (a->is_log) {
-        return a->from * number_power(ratio, (double)i / last);
-    }
-    return a->from + (a->to - a->from) * (double)i / last;
+    return a->is_log ? log_value(a, (double)i / last)
+                     : a->from + (a->to - a->from) * (double)i / last;
 }
 
 void grid_values(const grid *g, uint64_t point, double *value) {

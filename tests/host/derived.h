@@ -38,6 +38,10 @@ void derived_free(derived *d);
 /* Fails the test, with the errors, when it could not be derived. */
 void derived_expect(const derived *d, const char *what);
 
+/* The component of the image's state which is this derivative of the unknown of that name; fails the test where there is
+ * none. */
+int derived_component(const image *im, const char *name, int primes);
+
 /* What a state_values has room for: coordinates, and derivatives of each, the value included. */
 enum { UNKNOWNS = 16, ORDERS_MAX = 6 };
 

@@ -153,18 +153,6 @@ static const char *const free_bodies =
     "T = 1 [kg]*x'^2/2 + 1 [kg]*y'^2/2 + 1 [kg*m^2]*q'^2/2\n"
     "scene s { step 0.01 [s]; until 0.2 [s] }\n";
 
-/* A component of that name and so many primes. */
-static int component_named(const image *im, const char *name, int primes) {
-    for (int i = 0; i < im->angles + im->reals; i++) {
-        const component c = image_component(im, i);
-        if (c.primes == primes && strcmp(im->unknown[c.unknown].name, name) == 0) {
-            return i;
-        }
-    }
-    TEST_FAIL_MESSAGE(name);
-    return -1;
-}
-
 static void test_too_few_digits(void) {
     static const struct {
         const char *name;
@@ -179,9 +167,10 @@ static void test_too_few_digits(void) {
         const unsigned k = dice_one_of(&die, 3);
         const unsigned primes = dice_one_of(&die, 2);
         const double last_place = exp(dice_between(&die, -9.0, -2.0));
-        const digits d = {.component = dice_one_of(&die, 4) > 0
-                                           ? component_named(made.image, told[k].name, (int)primes)
-                                           : -1,
+        const digits d = {.component =
+                              dice_one_of(&die, 4) > 0
+                                  ? derived_component(made.image, told[k].name, (int)primes)
+                                  : -1,
                           .place = last_place,
                           .off = last_place * 20.0 * exp(dice_between(&die, -2.0, 2.0)),
                           .range = dice_between(&die, 0.1, 9.0),

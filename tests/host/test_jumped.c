@@ -205,12 +205,13 @@ static void test_forces(void) {
  * to turn with. */
 static void test_angles(void) {
     static const char *const poles[] = {"1/cos(th - %.17g [rad])", "tan(th - %.17g [rad])",
+                                        "1/tan(th - %.17g [rad])",
                                         "1/(2*sin(th/2 - %.17g [rad])*cos(th/2 - %.17g [rad]))"};
-    for (unsigned c = 0; c < dice_cases(few_or_all(1, 12)); c++) {
+    for (unsigned c = 0; c < dice_cases(few_or_all(4, 16)); c++) {
         char force[200];
         char text[TEXT];
         const double at = dice_between(&die, -3.0, 3.0);
-        snprintf(force, sizeof force, poles[c % 3], at, at);
+        snprintf(force, sizeof force, poles[c % 4], at, at);
         snprintf(text, sizeof text,
                  "mechanism arm \"an arm\"\ncoordinate th [rad]\nT = 1 [kg*m^2]*th'^2/2\n"
                  "Q(th) = 1e-6 [N*m]*%s\nscene a {\nstart th' = %.17g [rad/s]\nstep 10 [ms]\n"

@@ -184,17 +184,6 @@ static void test_when_it_looks(void) {
 
 /* --- past a pole ------------------------------------------------------------------------------------------------------*/
 
-static int component_named(const image *im, const char *name, int primes) {
-    for (int i = 0; i < im->angles + im->reals; i++) {
-        const component c = image_component(im, i);
-        if (c.primes == primes && strcmp(im->unknown[c.unknown].name, name) == 0) {
-            return i;
-        }
-    }
-    TEST_FAIL_MESSAGE(name);
-    return -1;
-}
-
 /* A body on a straight line: where it is and how fast, at the begin of the look. */
 typedef struct line {
     double x_m, y_m, vx_mps, vy_mps;
@@ -211,7 +200,7 @@ static double radius_m(const line *l, double t) {
 static void expect_pole(const watch *w, const line *l, bool turned) {
     const image *im = w->field->image;
     const watch_look *found = &w->singular;
-    const int r = component_named(im, "r", 0);
+    const int r = derived_component(im, "r", 0);
     const double span_s = found->end_s - found->begin_s;
     double most_2 = 0.0;
     double least = 1.0;
@@ -234,7 +223,7 @@ static void expect_pole(const watch *w, const line *l, bool turned) {
     TEST_ASSERT_TRUE(found->done && found->resolved && !found->failed);
     TEST_ASSERT_TRUE(fabs(found->inertia - least) <= 1e-4 * least);
     TEST_ASSERT_TRUE(fabs(found->singular_s - when_s) <= 1.01 * span_s / 512.0);
-    TEST_ASSERT_EQUAL_INT(component_named(im, "phi", 1), found->singular);
+    TEST_ASSERT_EQUAL_INT(derived_component(im, "phi", 1), found->singular);
     TEST_ASSERT_EQUAL_INT(r, found->near);
     TEST_ASSERT_TRUE(fabs((turned ? 3.0 - found->near_at : found->near_at) - least_m) <=
                      1e-4 * least_m);
@@ -262,10 +251,10 @@ static void test_poles(void) {
         derived d = derived_scene(text, "s");
         derived_expect(&d, text);
         const image *im = d.image;
-        const int angle = component_named(im, "phi", 0);
-        const int r = component_named(im, "r", 0);
-        const int turns = component_named(im, "phi", 1);
-        const int goes = component_named(im, "r", 1);
+        const int angle = derived_component(im, "phi", 0);
+        const int r = derived_component(im, "r", 0);
+        const int turns = derived_component(im, "phi", 1);
+        const int goes = derived_component(im, "r", 1);
         void *run = engine_double.start(im);
         watch *w = watch_open(im, &engine_double);
         w->balanced = false;

@@ -19,30 +19,18 @@ enum { TEXT = 1500 };
 
 static bool maybe(void) { return dice_one_of(&die, 2) == 0; }
 
-/* A component of that name and so many primes. */
-static int component_named(const image *im, const char *name, int primes) {
-    for (int i = 0; i < im->angles + im->reals; i++) {
-        const component c = image_component(im, i);
-        if (c.primes == primes && strcmp(im->unknown[c.unknown].name, name) == 0) {
-            return i;
-        }
-    }
-    TEST_FAIL_MESSAGE(name);
-    return -1;
-}
-
 /* --- a singular place, and what happens at one go -----------------------------------------------------------------------*/
 
 static watch_look drawn_look(const image *im, double step_s) {
     return (watch_look){.done = true,
                         .off = dice_between(&die, 0.004, 0.9),
-                        .component = component_named(im, maybe() ? "x" : "q", 0),
+                        .component = derived_component(im, maybe() ? "x" : "q", 0),
                         .resolved = dice_one_of(&die, 3) > 0,
                         .fine_step_s = step_s / (double)(4U << (2U * dice_one_of(&die, 3))),
                         .inertia = dice_between(&die, 1e-4, 0.1),
-                        .singular = component_named(im, maybe() ? "x" : "y", 1),
+                        .singular = derived_component(im, maybe() ? "x" : "y", 1),
                         .singular_s = dice_between(&die, 0.0, 3.0),
-                        .near = maybe() ? component_named(im, maybe() ? "x" : "y", 0) : -1,
+                        .near = maybe() ? derived_component(im, maybe() ? "x" : "y", 0) : -1,
                         .near_at = dice_between(&die, -2.0, 2.0)};
 }
 
@@ -88,7 +76,7 @@ static void test_singular_places(void) {
         char off[200];
         char *is = NULL;
         size_t size = 0;
-        const bool near_x = l.near == component_named(im, "x", 0);
+        const bool near_x = l.near == derived_component(im, "x", 0);
         engine_kind failing;
         const trial t = springs_trial(&die, &s, &failing);
         step_words(&s, l.fine_step_s, step);
@@ -98,7 +86,7 @@ static void test_singular_places(void) {
         }
         snprintf(off, sizeof off, "; the steps there put '%s' %.2g%s off",
                  im->unknown[image_component(im, l.component).unknown].name, l.off,
-                 l.component == component_named(im, "q", 0) ? " rad" : " of its range");
+                 l.component == derived_component(im, "q", 0) ? " rad" : " of its range");
         if (c % 7U == 3) {
             s.v->watch->singular.component = -1;
             snprintf(off, sizeof off, "; the steps there put the rates %.2g %% off", 100.0 * l.off);
@@ -109,7 +97,7 @@ static void test_singular_places(void) {
             "%s: about t = %.6g s these coordinates are singular: the inertia of '%s' falls to %.2g of "
             "its largest%s%s\n",
             failed ? "hint" : "whirl run: warning", l.singular_s,
-            l.singular == component_named(im, "x", 1) ? "x" : "y", l.inertia, near,
+            l.singular == derived_component(im, "x", 1) ? "x" : "y", l.inertia, near,
             failed ? "" : off);
         if (l.resolved) {
             snprintf(
