@@ -170,6 +170,23 @@ static void test_when(void) {
     }
 }
 
+/* Bends so narrow that half the step jumps over them as well, and the two runs may agree: behind that no run is trusted. */
+static void test_trust(void) {
+    for (unsigned c = 0; c < dice_cases(few_or_all(2 * KNEES, 8 * KNEES)); c++) {
+        char text[TEXT];
+        const double v = dice_between(&die, 0.5, 2.0);
+        const double step_s = ldexp(1.0, -5 - (int)dice_one_of(&die, 3));
+        const double k = v * step_s * exp(dice_between(&die, -12.0, -8.0));
+        knee_text(text, c % KNEES, v, k, v * dice_between(&die, 1.0, 3.0), step_s);
+        const char *const words[] = {model_keep(text), NULL};
+        command_say(command_trust, words, &what);
+        model_drop();
+        TEST_ASSERT_EQUAL_INT_MESSAGE(0, what.status, what.err);
+        TEST_ASSERT_NULL_MESSAGE(strstr(what.out, "trusted to the end"), text);
+        TEST_ASSERT_NOT_NULL_MESSAGE(strstr(what.out, "a step jumped over a place where"), text);
+    }
+}
+
 /* A brake whose force vanishes with the rate: its energies balance wherever it goes. */
 static void test_forces(void) {
     static const char *const forces[] = {"-B*x'/(v0 + x')", "-B*x'*(v0 + x')^(-1)",
@@ -279,6 +296,7 @@ void suite_jumped(void) {
     die = dice_of("jumped", 51);
     RUN_TEST(test_knees);
     RUN_TEST(test_when);
+    RUN_TEST(test_trust);
     RUN_TEST(test_forces);
     RUN_TEST(test_angles);
     RUN_TEST(test_what_has_limits);
