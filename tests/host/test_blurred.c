@@ -258,6 +258,32 @@ static void test_what_is_off_is_told(void) {
     TEST_ASSERT_TRUE(cases < 40 || (refused > 0 && warned > 0 && quiet > 0));
 }
 
+/* The two runs that `whirl trust` holds side by side agree in any case. */
+static void test_no_trust_in_what_both_have_wrong(void) {
+    dice d = dice_of("blurred", 13);
+    for (int k = 0; k < 12; k++) {
+        char text[2000];
+        said what;
+        const bool is_lost = k % 2 == 0;
+        const double ratio =
+            pow(10.0, is_lost ? dice_between(&d, 12.3, 12.6) : dice_between(&d, 2.0, 9.0));
+        const double light_kg = pow(10.0, dice_between(&d, -6.0, 2.0));
+        const line l = {.bodies = 2,
+                        .mass_kg = {light_kg, light_kg * ratio},
+                        .spring_Npm = {0.0, light_kg * dice_between(&d, 25.0, 200.0)},
+                        .start_m = {0.0, dice_between(&d, 0.05, 0.1)},
+                        .order = {0, 1}};
+        line_text(&l, text, sizeof text);
+        const char *const words[] = {model_keep(text), NULL};
+        command_say(command_trust, words, &what);
+        model_drop();
+        TEST_ASSERT_EQUAL_INT_MESSAGE(0, what.status, what.err);
+        TEST_ASSERT_TRUE_MESSAGE((strstr(what.out, "trusted to the end") == NULL) == is_lost,
+                                 what.out);
+        TEST_ASSERT_TRUE_MESSAGE((strstr(what.out, "not to be told") != NULL) == is_lost, what.out);
+    }
+}
+
 /* Two equations that differ by a share of one of their terms. */
 static void test_equations_that_say_nearly_the_same(void) {
     dice d = dice_of("blurred", 12);
@@ -283,5 +309,6 @@ static void test_equations_that_say_nearly_the_same(void) {
 
 void suite_blurred(void) {
     RUN_TEST(test_what_is_off_is_told);
+    RUN_TEST(test_no_trust_in_what_both_have_wrong);
     RUN_TEST(test_equations_that_say_nearly_the_same);
 }
