@@ -87,11 +87,13 @@ static bool grows(const double *value, int values) {
 /* Does value i change its sign again and again from `from` off the place to `most`? Then it is what rounding left. */
 static bool is_rounding(const looker *l, int i, double place, double from, double most) {
     double before = 0.0;
+    double off = from;
     int turns = 0;
-    for (double off = from; fabs(off) <= most; off *= 2.0) {
+    while (fabs(off) <= most) {
         l->way->at(l->way->of, place + off, l->then, l->value);
         turns += before * l->value[i] < 0.0 || l->value[i] == 0.0;
         before = l->value[i];
+        off *= 2.0;
     }
     return turns >= TURNS_MOST;
 }
