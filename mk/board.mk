@@ -113,28 +113,6 @@ $(STATION): $(call objects,$(FLASHED),boards/programs/station.c) $(or $(FLASHED_
     $(call libraries,$(FLASHED),station rig whirl $(if $(BOARD_FLASHED),,virtual scenes))
 	$(link_board)
 
-# Tests of what is flashed, in the emulator (tests/boards/f405.sh): the same code but for sensors that it does not have.
-ifneq ($(filter boards/stm32f4/%,$(BOARD_FLASHED)),)
-without_sensors = $(filter-out %/cell.o %/slots.o %/stop.o,$(FLASHED_OBJECTS))
-$(ELF)/bench_plant.elf: BOARD_LDLIBS += -Wl,--wrap=hal_motor_set_voltage -Wl,--wrap=hal_motor_off
-$(ELF)/bench_plant.elf: $(call objects,$(BOARD),boards/programs/station.c tests/boards/f405_plant.c \
-    $(GEN)/rig_observed.c $(GEN)/rig_fixed.c) $(without_sensors) $(call libraries,$(BOARD),station rig virtual whirl)
-	$(link_board)
-$(ELF)/bench_slots.elf: $(call objects,$(BOARD),tests/boards/f405_slots.c boards/stm32f4/slots_exti.c) \
-    $(filter-out %/slots.o,$(FLASHED_OBJECTS)) $(call libraries,$(BOARD),whirl)
-	$(link_board)
-FLASHED_TESTS := $(ELF)/bench_plant.elf $(ELF)/bench_slots.elf
-endif
-build/tools/f405: $(call objects,host,$(addprefix tests/tools/,board_tests.c f405.c f405_seen.c f405_states.c emulated.c))
-	$(link)
-
-# The rig's firmware on an AVR, with the rig round its pins (tests/boards/atmega.sh).
-build/tools/atmega: $(call objects,host,$(addprefix tests/tools/,atmega.c board_tests.c atmega_slots.c atmega_states.c mega.c)) \
-    $(call objects,float,$(GEN)/rig_fixed.c) $(call libraries,float,virtual whirl)
-	$(say) LINK $@
-	@mkdir -p $(@D)
-	$(Q)$(CC) $(NATIVE) $(LINK_EXTRA) -o $@ $(filter %.o,$^) $(GROUP) $(filter %.a,$^) $(GROUP_END) -lsimavr -lelf -lm
-
 # Firmware whose plant is at the other end of a line (`whirl pil`), of families that have one: BOARD_LINK.
 define pil_program
 $(B)/$(1): $(call objects,float,$(2) boards/host/board.c boards/host/link.c) $(call libraries,float,$(3))
@@ -225,6 +203,10 @@ on_board = $(MAKE) -s BOARD=$(1) $(2)
 .PHONY: emulate-command
 emulate-command: # of an image named IMAGE
 	@echo '$(call emulate,IMAGE)'
+
+# What a family has beside its boards, whichever BOARD is asked for: rules for its tools and tests' programs; its gate, named in
+# FAMILY_GATES.
+include $(wildcard boards/*/family.mk)
 
 -include $(wildcard $(foreach b,$(sort $(BOARD) $(FLASHED)),$(patsubst %.c,$(B)/$(b)/%.d,$(UNITY_DIR)/unity.c $(PORTABLE_C) $(BOARD_C) $(TEST_C) $(SCENE_C) $(B)/tests/core_suites.c)))
 

@@ -1,7 +1,7 @@
 # check.mk: the quality gates of `make check`. Each is a target of its own, gate-NAME; tests/gates.sh
 # runs them, keeps what they say in build/check/NAME.log and prints a line for each.
 
-GATES := house gcc clang format cppcheck tidy long sanitizers memcheck bad-input fuzz firmware flashed size boards libm avr cycles hashes
+GATES := house gcc clang format cppcheck tidy long sanitizers memcheck bad-input fuzz firmware flashed size boards libm $(FAMILY_GATES) cycles hashes
 GATES += hosts
 LINT_FLAGS := -std=c11 $(WARN) -I. $(UNITY_FLAGS) -D_POSIX_C_SOURCE=200809L
 
@@ -107,7 +107,7 @@ ASAN_BUILD = $(MAKE) MAIN="CC='$(CC)' OPT='$(OPT)' EXTRA='$(EXTRA)'" B=build/asa
     EXTRA="-fsanitize=$(SANITIZE) -fno-sanitize-recover=all"
 
 # Scripts that run no instrumented program, or have it do what other scripts or a suite have it do, too.
-CLI_NOT_ASAN := $(foreach t,boards enclosures flags fresh headers help map no_libm runners setup structure,tests/cli/$(t).sh)
+CLI_NOT_ASAN := $(foreach t,boards enclosures families flags fresh headers help map no_libm runners setup structure,tests/cli/$(t).sh)
 # And what is left to `make sanitizers-all`: scripts and suites that derive and step as others do, to compare digits,
 # or whose many runs each try their cures.
 CLI_LESS_ASAN := $(foreach t,asked_first carriage effects_cost_nothing embed_names emitted_c figures measure price \
@@ -190,16 +190,6 @@ gate-libm:
 	@$(MAKE) B=build/libm/clang CC=clang OPT=-O0 build/libm/clang/whirl
 	@sh tests/no_libm.sh build/libm/gcc/whirl build/libm/clang/whirl
 
-# --- AVR: the table in flash, and equal bits, in every dialect; from C++, too ------------------------
-gate-avr: build/whirl $(GEN)/.stamp
-	@$(call need,avr-gcc)
-	@$(call need,simavr)
-	@sh tests/embed/avr.sh build/whirl build/check/avr
-	@$(MAKE) BOARD=atmega328p build/avr_run
-	@sh tests/boards/avr_cycles.sh build/avr_run build/check/avr_cycles
-	+@$(call on_board,atmega2560,BOARD_EXTRA=-Werror build/atmega2560/station.elf build/tools/atmega)
-	@sh tests/boards/atmega.sh 330 4 3
-
 # --- boards that `make test` does not take: the suites, and what guards the stack --------------------------
 BOARDS_CHECKED = $(filter-out $(BOARDS_TEST) $(boards_without_suites),$(BOARDS))
 gate-boards: $(GEN)/.stamp
@@ -233,7 +223,7 @@ hashes-now gate-hashes: $(GEN)/.stamp
 	@$(MAKE) hashes-matrix
 	@$(MAKE) hashes-hard
 	@$(MAKE) hashes-settings SETTINGS=some
-# HASH_BOARDS="mps2-an386 atmega328p": on these.
+# HASH_BOARDS="mps2-an386 rv32imac": on these.
 HASH_BOARDS ?= $(BOARDS)
 hashes-matrix: $(GEN)/.stamp ## the same bits on every board of linear scenes, a step as one matrix (minutes)
 	@$(MAKE) build/scenes_matrix

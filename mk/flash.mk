@@ -15,7 +15,7 @@ DFU_COMMAND = dfu-util -d 0483:df11 -a 0 -s 0x0800C000 -D $(ELF)/flash_code.bin 
     dfu-util -d 0483:df11 -a 0 -s 0x08000000:leave -D $(ELF)/flash_vectors.bin
 DEBUG_COMMAND = gdb-multiarch $(FLASH_IMAGE) -ex 'target extended-remote | $(OPENOCD_FOR) -c "gdb_port pipe; log_output $(ELF)/openocd.log"'
 
-flash_asks = $(if $(filter boards/atmega/%,$(BOARD_FLASHED)),$(error docs/boards.md says how $(BOARD) is flashed: make does that for an STM32F405 only))$(if $(BOARD_FLASHED),,$(error $(BOARD) has no hardware that is flashed: BOARD= one of $(boards_flashed)))$(if $(filter $(1),$(PROBE)),,$(error PROBE is '$(PROBE)': one of $(1)))$(if $(filter $(PROGRAMS),$(PROGRAM)),,$(error PROGRAM is '$(PROGRAM)': one of $(PROGRAMS)))
+flash_asks = $(if $(BOARD_FLASHED),$(if $(BOARD_FLASHED_BY),$(error $(BOARD) is flashed by $(BOARD_FLASHED_BY): docs/boards.md says how)),$(error $(BOARD) has no hardware that is flashed: BOARD= one of $(boards_flashed)))$(if $(filter $(1),$(PROBE)),,$(error PROBE is '$(PROBE)': one of $(1)))$(if $(filter $(PROGRAMS),$(PROGRAM)),,$(error PROGRAM is '$(PROGRAM)': one of $(PROGRAMS)))
 
 ##@ Boards
 .PHONY: flash debug flash-now debug-now

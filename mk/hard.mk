@@ -41,7 +41,7 @@ $(hard_elf): $(SINGLE)/hard_%.elf: $(B)/$(BOARD)/$(HARD_IN)/%.o boards/programs/
 	$(Q)$(call single_link,boards/programs/scenes.c $(@:.elf=.c),-I$(HARD_IN) -include $(HARD_IN)/$*.h \
 	    -DWH_SCENE_WORDS=$*_MEMORY_WORDS) 2>$(@:.elf=.log) || \
 	    { grep -qE 'region|overflowed' $(@:.elf=.log) || { cat $(@:.elf=.log) >&2; exit 1; }; : >$@; }
-hard-images: $(hard_elf) $(AVR_RUN)
+hard-images: $(hard_elf) $(BOARD_RUN_BY)
 # Exit status 123: its stack had too little room.
 print-hard-hashes:
 	@for name in $(hard_names); do elf=$(SINGLE)/hard_$$name.elf; status=0; \

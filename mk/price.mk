@@ -118,7 +118,7 @@ $(ELF)/priced/bench_%.elf: $(B)/$(BOARD)/$(GEN)/%.o $(BOARD_OBJECTS) $(call libr
 	    $(BOARD_LDFLAGS) -o $@ boards/programs/bench.c $(@:.elf=.c) $(filter %.o,$^) $(filter %.a,$^) $(BOARD_LDLIBS)
 
 .PHONY: bench-board bench-boards-now cycles-agree
-bench-board: $(PRICED_IMAGES) $(if $(filter single,$(BOARD_IMAGES)),$(AVR_RUN),$(PLUGIN))
+bench-board: $(PRICED_IMAGES) $(or $(BOARD_RUN_BY),$(PLUGIN))
 	@mkdir -p $(FIGURES)
 	@BOARD=$(BOARD) CC=$(BOARD_CC) NM=$(BOARD_NM) SIZE=$(BOARD_SIZE) FLAGS="$(call TOLD,$(BOARD_CFLAGS))" \
 	    TIMING=$(BOARD_TIMING) EMULATE="$(call emulate,IMAGE)" \
@@ -203,7 +203,7 @@ LIB_DOUBLE_BOARD := $(B)/double_$(BOARD)/libwhirl.a
 price-ready-board: build/whirl
 	@$(if $(filter single,$(BOARD_IMAGES)),true,$(call need,$(BOARD_EMULATOR)))
 	@$(MAKE) $(BOARD_OBJECTS) $(call libraries,$(BOARD),whirl) $(if $(filter double,$(NUMBERS)),$(LIB_DOUBLE_BOARD)) \
-	    $(if $(filter single,$(BOARD_IMAGES)),$(AVR_RUN),$(PLUGIN))
+	    $(or $(BOARD_RUN_BY),$(PLUGIN))
 price-ready-host: build/whirl
 	@$(call need,valgrind)
 	@$(MAKE) $(LIB_FLOAT) $(B)/float/boards/host/board.o
@@ -294,7 +294,7 @@ TABLE_BOARDS := mps2-an386 mps2-an385 mps2-an385-m0 atmega328p
 .PHONY: bench-tables-board bench-tables-now
 bench-tables-board: $(GEN)/.stamp
 	@$(MAKE) $(BOARD_OBJECTS) $(call libraries,$(BOARD),whirl) \
-	    $(if $(filter single,$(BOARD_IMAGES)),$(AVR_RUN),$(PLUGIN))
+	    $(or $(BOARD_RUN_BY),$(PLUGIN))
 	@OUT=build/turn_tables/$(BOARD) $(TO_PRICE) TIMING=$(BOARD_TIMING) EMULATE="$(call emulate,IMAGE)" \
 	    SMALL=$(if $(filter single,$(BOARD_IMAGES)),1 PLUGIN=,0) mk/price/turn_tables.sh
 
@@ -315,7 +315,7 @@ FIXED_SCENES ?=
 .PHONY: price-fixed price-fixed-board
 price-fixed-board: build/whirl
 	@$(MAKE) $(BOARD_OBJECTS) $(call libraries,$(BOARD),whirl) $(LIB_FLOAT) $(B)/float/boards/host/board.o \
-	    $(if $(filter single,$(BOARD_IMAGES)),$(AVR_RUN),$(PLUGIN))
+	    $(or $(BOARD_RUN_BY),$(PLUGIN))
 	@$(TO_PRICE) TIMING=$(BOARD_TIMING) HOST_LIB=$(LIB_FLOAT) HOST_BOARD=$(B)/float/boards/host/board.o \
 	    $(if $(FIXED_SCENES),SCENES="$(FIXED_SCENES)") $(if $(filter single,$(BOARD_IMAGES)),PLUGIN=) mk/price/fixed.sh
 price-fixed: build/whirl ## Instructions of a step in fixed point, on boards without an FPU (FIXED_BOARDS, FIXED_SCENES)

@@ -81,7 +81,7 @@ $(BITS)/%.elf: $(B)/$(BOARD)/$(SETTINGS_IN)/%.o $(BOARD_OBJECTS) $(call librarie
 	$(Q)$(call single_link,$(if $(filter %_fixed,$*),$(settings_main_fixed),$(settings_main_float)) $(@:.elf=.c),\
 	    -I$(SETTINGS_IN) -include $(SETTINGS_IN)/$*.h -DWH_SCENE_WORDS=$*_MEMORY_WORDS) 2>$(@:.elf=.log) || \
 	    { grep -qE 'region|overflowed' $(@:.elf=.log) || { cat $(@:.elf=.log) >&2; exit 1; }; : >$@; }
-settings-images: $(call settings_elf,float) $(call settings_elf,fixed) $(AVR_RUN)
+settings-images: $(call settings_elf,float) $(call settings_elf,fixed) $(BOARD_RUN_BY)
 # Exit status 123: its stack had too little room.
 print-settings:
 	@printf '%s\n' $(call settings_elf,$(KIND)) | xargs -r -P $(JOBS) -n 1 sh -c 'name=$$(basename $$1 .elf); \

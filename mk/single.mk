@@ -3,14 +3,6 @@
 # What does not fit is in boards/<board>/too_large.txt, a line "suite NAME" or "scene NAME" each. `make too-large` makes
 # that list; `make hashes-all` and `make test-boards` find when it is not true any more.
 
-# AVR programs run on simavr, which counts cycles.
-AVR_RUN := build/avr_run
-$(AVR_RUN): mk/count/avr_run.c
-	@$(call need,$(CC))
-	@mkdir -p $(@D)
-	$(say) LINK $@
-	$(Q)$(CC) -std=c11 $(WARN) -O2 -o $@ $< -lsimavr -lelf
-
 SINGLE := $(ELF)/single
 TOO_LARGE := boards/$(BOARD)/too_large.txt
 SCENE_NAMES = $(filter-out scenes,$(notdir $(SCENE_C:.c=)))
@@ -60,21 +52,21 @@ SINGLE_SUITES = $(patsubst %,$(SINGLE)/suite_%.elf,$(filter-out $(LARGE_SUITES),
 
 .PHONY: board-images board-tests run-suites print-hashes print-matrix-hashes bench-matrix too-large-now
 IMAGES = $(SINGLE_SCENES)
-board-images: $(SINGLE_SCENES) $(AVR_RUN)
-board-tests: $(SINGLE_SUITES) $(AVR_RUN)
+board-images: $(SINGLE_SCENES) $(BOARD_RUN_BY)
+board-tests: $(SINGLE_SUITES) $(BOARD_RUN_BY)
 run-suites: # each says how many tests failed
 	@status=0; for elf in $(SINGLE_SUITES); do echo "$$elf:"; $(call emulate,$$elf) || status=1; done; exit $$status
 # A line for each scene, with the hash of its last state, or "without NAME".
 print-hashes:
 	@for elf in $(SINGLE_SCENES); do $(call emulate,$$elf) || exit 1; done
 	@for scene in $(LARGE_SCENES); do echo "without $$scene"; done
-bench-matrix: $(MATRIX:%=$(SINGLE)/bench_matrix_%.elf) $(AVR_RUN) # a step of linear scenes as one matrix, on BOARD
+bench-matrix: $(MATRIX:%=$(SINGLE)/bench_matrix_%.elf) $(BOARD_RUN_BY) # a step of linear scenes as one matrix, on BOARD
 	@BOARD=$(BOARD) CC=$(BOARD_CC) EMULATE="$(call emulate,IMAGE)" mk/count/single_rows.sh $(filter %.elf,$^)
-print-matrix-hashes: $(MATRIX:%=$(SINGLE)/matrix_%.elf) $(AVR_RUN)
+print-matrix-hashes: $(MATRIX:%=$(SINGLE)/matrix_%.elf) $(BOARD_RUN_BY)
 	@for scene in $(MATRIX); do $(call emulate,$(SINGLE)/matrix_$$scene.elf) || exit 1; done
 
 # What does not link, and what has too little room for its stack when it runs (exit status 123).
-too-large-now: $(AVR_RUN)
+too-large-now: $(BOARD_RUN_BY)
 	@mkdir -p $(SINGLE); : >$(TOO_LARGE)
 	@for image in $(SUITE_NAMES:%=suite_%) $(SCENE_NAMES:%=scene_%); do \
 	    if $(MAKE) -s $(SINGLE)/$$image.elf >$(SINGLE)/$$image.log 2>&1; then \

@@ -18,7 +18,7 @@ rule() {
 files() { find "$@" -type f \( -name '*.c' -o -name '*.h' \) 2>/dev/null | sort; }
 core=$(files core)
 hal=$(files hal)
-target=$(files boards | grep -v '^boards/host/')
+target=$(files boards | grep -v -e '^boards/host/' -e '^boards/[a-z0-9-]*/run/')
 program=$(files host)
 all=$(files core hal boards host mk tests)
 

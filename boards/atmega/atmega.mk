@@ -11,6 +11,7 @@ BOARD_FLASHED_FLAGS := -DWH_WORDS_FROM=0x2200 -DWH_STATION_TELEMETRY=0 -DWH_STAT
                   -DRIG_SAMPLES_MOST=1U -DRIG_SAMPLES_WITH_PULSE=0U \
                   -DWH_STATION_IN_BYTES=128U -DWH_STATION_OUT_BYTES=512U -DWH_ROOT_BY_BITS=1 -fno-tree-switch-conversion
 BOARD_TIDY     += $(filter -D%,$(BOARD_FLASHED_FLAGS))
+BOARD_FLASHED_BY := avrdude
 BOARD_MOST     := FLASH_MOST=262144 MEMORY_TOP=0x802200
-BOARD_SIZE_BY  := mk/size/code.sh
+BOARD_SIZE_BY  := boards/avr/size.sh
 BOARD_FLASHED_LDFLAGS := $(BOARD_CPU) -Wl,--gc-sections -Wl,--fatal-warnings -Tboards/atmega/atmega2560.ld

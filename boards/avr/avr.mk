@@ -8,7 +8,7 @@
 #   BOARD_STACK    bytes that the stack must have
 $(call board_needs,BOARD_MCU BOARD_FLASH BOARD_RAM BOARD_STACK BOARD_SECONDS,: it stands before the include of boards/avr/avr.mk)
 BOARD_IMAGES   := single
-BOARD_DEPS     := quality
+BOARD_DEPS     := avr
 BOARD_CROSS    := avr-
 BOARD_CC       := $(BOARD_CROSS)gcc
 BOARD_NM       := $(BOARD_CROSS)nm
@@ -28,4 +28,5 @@ BOARD_LDLIBS   :=
 BOARD_TIDY     := --target=avr $(BOARD_CPU) -ffreestanding -DF_CPU=16000000UL -isystem /usr/lib/avr/include -Iboards/$(BOARD)
 BOARD_SOURCES  := boards/avr/startup.c boards/avr/board.c boards/avr/clock.c boards/avr/stack.c boards/shared/wait.c
 BOARD_EMULATOR := build/avr_run
+BOARD_RUN_BY   := $(BOARD_EMULATOR)
 BOARD_EMULATE   = timeout $(BOARD_SECONDS) $(BOARD_EMULATOR) mcu=$(BOARD_MCU) hz=16000000 $(1) </dev/null

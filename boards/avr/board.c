@@ -50,7 +50,7 @@ unsigned hal_console_offer(const char *bytes, unsigned count) {
 bool board_converse(void) { return true; }
 
 /* The code stands in the first general purpose register when the processor falls asleep with its interrupts off:
- * mk/count/avr_run.c reads it there. On silicon that is all that happens. */
+ * boards/avr/run/avr_run.c reads it there. On silicon that is all that happens. */
 _Noreturn void board_exit(int code) {
     GPIOR0 = (uint8_t)code;
     cli();

@@ -11,7 +11,7 @@
 #
 # This sets
 #
-#   BOARD_DEPS     the group of mk/setup/deps.sh that installs its tools
+#   BOARD_DEPS     the folder of boards/ whose packages.sh names its tools
 #   BOARD_CC       compiler; BOARD_NM, BOARD_SIZE, BOARD_OBJCOPY, BOARD_OBJDUMP its tools
 #   BOARD_CFLAGS   everything for compiling (BOARD_CPU included), warnings excepted
 #   BOARD_LDFLAGS  everything for linking, before the objects
@@ -20,14 +20,16 @@
 #   BOARD_LINK     its hal/link.h, of programs whose plant is elsewhere (may be missing)
 #   BOARD_TIDY     what clang-tidy takes these sources for
 #   BOARD_EMULATOR the emulator's command
+#   BOARD_RUN_BY   what the emulator's command is built from sources here as (may be missing: it is installed)
 #   BOARD_EMULATE  $(call BOARD_EMULATE,program.elf) runs it for BOARD_SECONDS at most; console on stdout,
 #                  exit status the program's; more emulator options may be appended
 #   BOARD_SERIAL   $(call BOARD_SERIAL,program.elf) runs it until it is ended, its console a pseudo-terminal that the
 #                  emulator names (may be missing)
 #
-# Another family asks for what it takes and sets the same variables. No rules here: paths are from the repository's root.
+# Another family asks for what it takes and sets the same variables. No rules here: paths are from the repository's root. What
+# does not depend on BOARD, as rules for its tools, its tests' programs and its gate, is in its family.mk.
 $(call board_needs,BOARD_MACHINE BOARD_CPU BOARD_SECONDS,: it stands before the include of boards/cortexm/cortexm.mk)
-BOARD_DEPS     := firmware
+BOARD_DEPS     := cortexm
 BOARD_CROSS    := arm-none-eabi-
 BOARD_CC       := $(BOARD_CROSS)gcc
 BOARD_NM       := $(BOARD_CROSS)nm

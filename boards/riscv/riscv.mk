@@ -1,7 +1,7 @@
 # riscv.mk: what the boards of this family share; boards/cortexm/cortexm.mk says what the variables are. The C library is
 # picolibc, of which only the test image takes something. Debian's compiler is named after 64 bits and does 32 as well.
 $(call board_needs,BOARD_MACHINE BOARD_CPU BOARD_SECONDS,: it stands before the include of boards/riscv/riscv.mk)
-BOARD_DEPS     := boards
+BOARD_DEPS     := riscv
 BOARD_CROSS    := riscv64-unknown-elf-
 BOARD_CC       := $(BOARD_CROSS)gcc
 BOARD_NM       := $(BOARD_CROSS)nm

@@ -23,9 +23,11 @@ typedef struct unknown {
 typedef struct equations {
     algebra *algebra;
     const instance *instance;
-    int count;              /* unknowns, and equations */
-    unknown *unknowns;      /* [count] */
-    const poly **mass;      /* [count * count] row by row */
+    int count;         /* unknowns, and equations */
+    unknown *unknowns; /* [count] */
+    const poly **mass; /* [count * count] row by row */
+    double
+        mass_blur; /* by such a part rounding of mass[] puts accelerations off, at the best of the states tried */
     const poly **velocity;  /* [count] centrifugal and Coriolis terms; zero for a system */
     const poly **potential; /* [count] dV/dq; for a system all else, moved to the left */
     const poly **applied;   /* [count] Q - dF/dq'; zero for a system */

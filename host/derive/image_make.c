@@ -308,6 +308,7 @@ image *image_make(const equations *e, const bool *conserve, const image_settings
     im->outputs = p->outputs;
     im->own_outputs = e->instance->mechanism->output_count;
     im->has_energies = e->kinetic != NULL;
+    im->mass_blur = e->mass_blur;
     name_it(&d, e->instance);
     time_it(im, e->instance);
     copy_unknowns(&d, e);

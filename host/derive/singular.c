@@ -7,6 +7,7 @@
 #include <stdlib.h>
 
 #include "host/base/room.h"
+#include "host/number/functions.h"
 #include "rank.h"
 
 #define TRIES 24
@@ -15,6 +16,8 @@
 #define TRY_START TRIES
 /* Rounding of an entry, as part of the sizes of its terms. */
 #define ENTRY_ROUNDING 4e-16
+/* Nobody asks for a state at which more is left of it. */
+#define MASS_BLUR_FINE 1e-10
 
 enum { HINT_SIZE = 320 };
 
@@ -192,8 +195,21 @@ static bool energies_finite(const equations *e, generic_state *state) {
 /* What the best of the states tried allows. */
 typedef enum verdict { NOWHERE_FINITE, SINGULAR, NOT_POSITIVE, SOLVABLE } verdict;
 
-/* At one try; m is of room_for(n). */
-static verdict verdict_at(const equations *e, int try, double *m) {
+/* Of a matrix that rank_of() has found to be regular: how little is left of it, and by how much that is off. */
+static double blur_of(const double *m, const double *error, int n) {
+    double least = (double)INFINITY;
+    double most = 0.0;
+    for (int i = 0; i < n; i++) {
+        least = number_least(least, fabs(m[i * n + i]));
+    }
+    for (int i = 0; i < n * n; i++) {
+        most = number_most(most, error[i]);
+    }
+    return most / least;
+}
+
+/* At one try, and of one that is solvable *blur; m is of room_for(n). */
+static verdict verdict_at(const equations *e, int try, double *m, double *blur) {
     const int n = e->count;
     generic_state state = {e->instance, (uint64_t)try};
     double *error = m + n * n;
@@ -212,17 +228,21 @@ static verdict verdict_at(const equations *e, int try, double *m) {
     if (rank_of(m, error, n, !is_system) < n) {
         return SINGULAR;
     }
+    *blur = blur_of(m, error, n);
     /* The elimination of a mechanism relies on it; a system's equations are in any order and sign. */
     return is_system || rank_is_positive(kept, n) ? SOLVABLE : NOT_POSITIVE;
 }
 
-bool equations_check_solvable(const equations *e, diags *errors) {
+bool equations_check_solvable(equations *e, diags *errors) {
     const int n = e->count;
     double *m = room_for(n);
     verdict best = NOWHERE_FINITE;
-    for (int try = 0; try <= TRY_START && best != SOLVABLE; try++) {
-        const verdict found = verdict_at(e, try, m);
+    e->mass_blur = (double)INFINITY;
+    for (int try = 0; try <= TRY_START && e->mass_blur > MASS_BLUR_FINE; try++) {
+        double blur = (double)INFINITY;
+        const verdict found = verdict_at(e, try, m, &blur);
         best = found > best ? found : best;
+        e->mass_blur = found == SOLVABLE ? number_least(e->mass_blur, blur) : e->mass_blur;
     }
     free(m);
     const mechanism *of = e->instance->mechanism;

@@ -8,7 +8,7 @@
  * names the cause, when it is singular at all of them, has no finite value at any or, that of a
  * mechanism given by energies, is positive definite at none (a negative mass). A matrix that is
  * singular only here and there (a pole of spherical coordinates) passes: such states are found while
- * running. */
-bool equations_check_solvable(const equations *e, diags *errors);
+ * running. e->mass_blur is set. */
+bool equations_check_solvable(equations *e, diags *errors);
 
 #endif

@@ -286,6 +286,7 @@ typedef struct image {
     int outputs;            /* those, then value and rate of each recovered coordinate */
     int recovered;          /* coordinates that follow from their momentum */
     int parameters;         /* the mechanism's own and those of the effects called for */
+    double mass_blur;       /* by such a part rounding of the mass matrix puts accelerations off */
     image_unknown *unknown; /* [count] */
     component *angle;       /* [angles] */
     component *real;        /* [reals] */

@@ -197,6 +197,22 @@ static void say_singular(FILE *out, advice *a) {
     }
 }
 
+static void say_blurred(FILE *out, const advice *a) {
+    const image *im = a->judged.image;
+    if (!judged_blurred(&a->judged)) {
+        return;
+    }
+    fprintf(out,
+            "whirl run: warning: %s of '%s' is singular but for a last digit or two: rounding, in "
+            "double, too, may put what it gives %.2g %% off\n"
+            "hint: %s\n",
+            im->has_energies ? "the mass matrix" : "what stands with the highest derivatives",
+            im->mechanism, 100.0 * number_least(im->mass_blur, 1.0),
+            im->has_energies ? "a coordinate that is counted from a light body to a heavy one does "
+                               "that: count it from the heavy one"
+                             : "two equations say nearly the same: their difference tells more");
+}
+
 static void say_jumped(FILE *out, advice *a) {
     const judged *j = &a->judged;
     double begin_s;
@@ -245,6 +261,7 @@ static void say_swing(FILE *out, advice *a) {
 }
 
 void advice_say(FILE *out, advice *a) {
+    say_blurred(out, a);
     say_jumped(out, a);
     say_singular(out, a);
     say_swing(out, a);

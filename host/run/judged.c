@@ -31,6 +31,8 @@ linearised *judged_motions(judged *j) {
     return j->motions;
 }
 
+bool judged_blurred(const judged *j) { return j->image->mass_blur > JUDGED_BLURRED; }
+
 bool judged_singular(const judged *j) {
     return j->watch->singular.done && j->watch->singular.off >= JUDGED_NOT_RESOLVED;
 }

@@ -12,6 +12,8 @@
 #define JUDGED_ON_THE_WAY 3e-3
 /* Off by more than this in a few steps is not resolved (watch.h says of what). */
 #define JUDGED_NOT_RESOLVED 3e-3
+/* Rounding of the mass matrix makes so much of accelerations. */
+#define JUDGED_BLURRED 1e-4
 /* Of a system's swing: what of it is lost. */
 #define JUDGED_SWING_LOST 0.01
 
@@ -39,6 +41,8 @@ linearised *judged_motions(judged *j);
 bool judged_lost(const judged *j);
 /* What is missing of the largest entry, at the end or on the way. */
 double judged_missing(const judged *j);
+/* Is so little left of the mass matrix, wherever it stands, that numbers do not tell what moves? */
+bool judged_blurred(const judged *j);
 /* Is there a singular position that the step does not resolve? A swing that a system given by its equations loses? */
 bool judged_singular(const judged *j);
 bool judged_swing(judged *j);

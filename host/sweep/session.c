@@ -145,6 +145,7 @@ static void say_slow(const sitting *s) {
 /* What `whirl run` would warn of. */
 static void say_against(const sitting *s) {
     static const char *const words[VERDICT_KINDS] = {
+        [VERDICT_MASS] = "have a mass matrix that is singular but for a last digit or two",
         [VERDICT_ENERGY] = "cannot be believed: what is left over of their energy books "
                            "(" BELIEF_COLUMN "), or was missing on the way, is too much of the "
                            "largest entry",

@@ -84,6 +84,18 @@ typedef struct rounded {
     uint64_t looks; /* of all */
 } rounded;
 
+/* What double is rounded by. */
+#define UNIT 0x1p-53
+
+/* Is result i of a step's list the highest derivative of an unknown, for which equations are solved? */
+static bool is_solved_for(const image *im, int i) {
+    if (im->form == WH_SECOND_ORDER) {
+        return true;
+    }
+    const component c = image_component(im, i);
+    return c.primes + 1 == im->unknown[c.unknown].order;
+}
+
 static rounded rounded_open(const image *im) {
     const tape *list = im->list[IMAGE_STEP];
     rounded r = {im,
@@ -107,6 +119,7 @@ static void rounded_look(rounded *r, const void *run) {
     evaluator_run(r->evaluator, 0.0, angle_rad, real, real + linear, r->input, r->result);
     evaluator_rounding(r->evaluator, angle_rad, 0.0, r->off);
     for (int i = 0; i < im->list[IMAGE_STEP]->results; i++) {
+        r->off[i] += is_solved_for(im, i) ? im->mass_blur / UNIT * fabs(r->result[i]) : 0.0;
         r->most[i] = isfinite(r->off[i]) ? number_most(r->most[i], r->off[i]) : r->most[i];
         r->lost[i] += isfinite(r->off[i]) ? 0U : 1U;
     }
@@ -132,7 +145,6 @@ static int result_of(const image *im, int unknown, int primes) {
 
 /* Each derivative's rounding, the highest first, moves the next lower one for all of the time: in the columns' units. */
 static void take_rounding(twins *t, const rounded *r) {
-    const double unit = 0.5 * 0x1p-52;
     for (int k = t->columns - 1; k > 0; k--) {
         const record_column *c = &t->shape->column[k];
         twins_column *to = &t->column[k];
@@ -146,10 +158,10 @@ static void take_rounding(twins *t, const rounded *r) {
         const int result = result_of(r->image, c->unknown, c->primes + 1);
         if (result >= 0) {
             /* a place without a bound is a pole, or a root of next to nothing; most places are none */
-            slope += 2U * r->lost[result] > r->looks ? (double)INFINITY : unit * r->most[result];
+            slope += 2U * r->lost[result] > r->looks ? (double)INFINITY : UNIT * r->most[result];
         }
         const double size = number_most(fabs(to->low), fabs(to->high));
-        to->rounding = image_shown(c->unit, slope * t->end_s) + unit * size;
+        to->rounding = image_shown(c->unit, slope * t->end_s) + UNIT * size;
     }
 }
 

@@ -1,14 +1,15 @@
 #!/bin/sh
 # deps.sh GROUP...: install the Debian packages that a make target needs, and only those missing.
 #
-# Groups: host (compiler), plot, firmware (Arm compiler and emulator), boards (other processors'), tests, quality
-# (linters, sanitizers, AVR), bench; hosts (other compilers, C libraries and processors), flash (programmers and a debugger),
-# octave and peers (other solvers) only when they are named.
+# Groups: host (compiler), plot, firmware (Arm compiler and emulator), boards (those of all processors) or a folder of
+# boards/ with a packages.sh (its own), tests, quality (linters, sanitizers), bench; hosts (other compilers, C libraries and
+# processors), flash (programmers and a debugger), octave and peers (other solvers) only when they are named.
 # What is there already is recognised by its command or file, not by its package, so a compiler from elsewhere
 # counts. With nothing missing this says nothing and takes milliseconds. What will be installed is told before, with
 # what needs it and the size; where it cannot be, the line that does it (exit status 1).
 # DEPS_DRY_RUN=1 only says what is missing (exit status 1 if anything is).
 set -eu
+boards=${0%/*}/../../boards
 
 missing="" # packages to install
 told=""    # a line for each: the package, the part of Whirl that needs it, what for
@@ -38,12 +39,6 @@ have_file() {
     return 1
 }
 
-# The Arm compiler knows where its C library is, wherever it came from.
-have_arm_library() {
-    have_file /usr/lib/arm-none-eabi/lib/libc.a /usr/lib/arm-none-eabi/newlib/libc.a && return 0
-    have arm-none-eabi-gcc && [ -e "$(arm-none-eabi-gcc -print-file-name=libc.a)" ]
-}
-
 host() {
     want gcc "the C compiler" have "${CC:-gcc}"
     want binutils "ar, objdump and size" have ar
@@ -54,20 +49,21 @@ plot() {
     want gnuplot-nox "plots" have gnuplot
 }
 
-firmware() {
-    want gcc-arm-none-eabi "the compiler for the boards" have arm-none-eabi-gcc
-    want libnewlib-arm-none-eabi "its C library, for the test programs" have_arm_library
-    want qemu-system-arm "the emulated boards" have qemu-system-arm
+# What a family of boards takes is in its folder: `want` lines.
+family() {
+    # shellcheck source=/dev/null
+    . "$boards/$1/packages.sh"
 }
 
-have_picolibc() {
-    have riscv64-unknown-elf-gcc && [ -e "$(riscv64-unknown-elf-gcc -print-file-name=picolibc.specs)" ]
+firmware() {
+    family cortexm
 }
 
 boards() {
-    want gcc-riscv64-unknown-elf "the compiler for RISC-V" have riscv64-unknown-elf-gcc
-    want picolibc-riscv64-unknown-elf "its C library, for the test programs" have_picolibc
-    want qemu-system-misc "the emulated RISC-V boards" have qemu-system-riscv32
+    for packages in "$boards"/*/packages.sh; do
+        # shellcheck source=/dev/null
+        . "$packages"
+    done
 }
 
 tests() {
@@ -85,11 +81,6 @@ quality() {
     want clang-tidy "the lint gate" have clang-tidy
     want cppcheck "the second lint gate" have cppcheck
     want musl-tools "another C library" have musl-gcc
-    want gcc-avr "the AVR gate" have avr-gcc
-    want avr-libc "its C library, for the gate's own program" have_file /usr/lib/avr/include/avr/io.h
-    want simavr "the emulated AVR" have simavr
-    want libsimavr-dev "running AVR programs with their cycles counted" have_file /usr/include/simavr/sim_avr.h
-    want libelf-dev "the same" have_file /usr/include/libelf.h
 }
 
 bench() {
@@ -155,8 +146,13 @@ for group in "$@"; do
     octave) part="octave-check" ;;
     peers) part="bench-peers" ;;
     *)
-        echo "deps.sh: no such group: $group" >&2
-        exit 2
+        [ -e "$boards/$group/packages.sh" ] || {
+            echo "deps.sh: no such group: $group" >&2
+            exit 2
+        }
+        part="boards"
+        family "$group"
+        continue
         ;;
     esac
     "$group"

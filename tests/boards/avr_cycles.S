@@ -1,4 +1,4 @@
-; avr_cycles.S: what mk/count/avr_run.c counts, in intervals whose instructions and cycles the data sheet gives
+; avr_cycles.S: what boards/avr/run/avr_run.c counts, in intervals whose instructions and cycles the data sheet gives
 ; (Microchip, AVR Instruction Set Manual): avr_cycles.sh knows them.
         .global wh_count_begin, wh_count_end, main
 wh_count_begin:

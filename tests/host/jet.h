@@ -6,13 +6,11 @@
 enum { JET_VARIABLES = 8, JET_PAIRS = JET_VARIABLES * (JET_VARIABLES + 1) / 2 };
 
 typedef struct jet {
+    int variables; /* it depends on none but the first ones: what comes behind them is zero */
     long double value;
     long double slope[JET_VARIABLES];
     long double curve[JET_PAIRS]; /* by two variables, the later first: 00, 10, 11, 20, ... */
 } jet;
-
-/* How many variables there are from now on, of which derivatives are taken. */
-void jet_variables(int count);
 
 /* By the i-th and the j-th. */
 long double jet_curve(const jet *a, int i, int j);

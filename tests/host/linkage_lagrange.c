@@ -1,5 +1,5 @@
 /* linkage_lagrange.c: a linkage's accelerations from its energies in numbers: no algebra, no simplification, long double
- * (see linkage.h). With the variables q and q' and their jets,
+ * (see linkage.h). With the variables q0, q0', q1, q1', ... and their jets,
  *
  *     sum_j L_q'i_q'j q''_j = Q_i - F_q'i + L_qi - sum_j L_q'i_qj q'_j. */
 #include "linkage.h"
@@ -10,6 +10,10 @@
 #include "jet.h"
 
 _Static_assert(2 * LINKAGE_BODIES <= JET_VARIABLES, "a variable for each value and rate");
+
+/* Of a body: a body's place depends on none but those up to its own. */
+static int value_of(int body) { return 2 * body; }
+static int rate_of(int body) { return 2 * body + 1; }
 
 /* A point and its velocity. */
 typedef struct moving {
@@ -128,21 +132,20 @@ void linkage_evaluate(const linkage *of, const long double *q, const long double
                       linkage_numbers *out) {
     const int n = of->bodies;
     placed at[LINKAGE_BODIES];
-    jet_variables(2 * n);
     const placed ground = {.metre = {.x = jet_number(1.0L)}};
     sums s = {.lagrangian = jet_number(0.0L), .dissipation = jet_number(0.0L)};
     for (int k = 0; k < n; k++) {
         const linkage_body *b = &of->body[k];
-        const jet value = jet_variable(k, q[k]);
-        const jet speed = jet_variable(n + k, rate[k]);
+        const jet value = jet_variable(value_of(k), q[k]);
+        const jet speed = jet_variable(rate_of(k), rate[k]);
         at[k] = place_body(b, b->parent < 0 ? &ground : &at[b->parent], value, speed);
         add_body(of, b, &at[k], value, speed, &s);
         const moving end = along(&at[k], 2.0 * b->centre_m);
         out->end[k].y_m = end.y.value;
         out->end[k].bend_mps2 = 0.0L;
         for (int i = 0; i < n; i++) {
-            out->end[k].row[i] = end.y.slope[i];
-            out->end[k].bend_mps2 += end.v.slope[i] * rate[i];
+            out->end[k].row[i] = end.y.slope[value_of(i)];
+            out->end[k].bend_mps2 += end.v.slope[value_of(i)] * rate[i];
         }
     }
     for (int k = 0; k < of->springs; k++) {
@@ -151,10 +154,10 @@ void linkage_evaluate(const linkage *of, const long double *q, const long double
     for (int i = 0; i < n; i++) {
         const linkage_body *b = &of->body[i];
         out->force[i] = (long double)b->drive * cosl((long double)b->wave * q[i]);
-        out->force[i] += s.lagrangian.slope[i] - s.dissipation.slope[n + i];
+        out->force[i] += s.lagrangian.slope[value_of(i)] - s.dissipation.slope[rate_of(i)];
         for (int j = 0; j < n; j++) {
-            out->mass[i][j] = jet_curve(&s.lagrangian, n + i, n + j);
-            out->force[i] -= jet_curve(&s.lagrangian, n + i, j) * rate[j];
+            out->mass[i][j] = jet_curve(&s.lagrangian, rate_of(i), rate_of(j));
+            out->force[i] -= jet_curve(&s.lagrangian, rate_of(i), value_of(j)) * rate[j];
         }
     }
 }

@@ -108,55 +108,74 @@ static bool warns(const char *text) {
     return what.status == 0 && strstr(what.err, "float has no room") != NULL;
 }
 
-/* Within `most_off` of each other, or a run that was refused or warned of; how many were. */
-static unsigned refused(const engine_kind *kind, int most, double most_off) {
+/* How far units are drawn: powers of two up to `most`; what came of the runs in them. */
+typedef struct reach {
+    const int most;
+    unsigned same; /* in the same bits */
+    unsigned none; /* refused or warned of */
+    double worst;  /* of the others */
+} reach;
+
+/* A linkage in drawn units, held against what it does in its own. */
+static void held_against(const moved *plain, const linkage *of, const engine_kind *kind, units u,
+                         double most_off, reach *r) {
+    const moved scaled = run_of(of, u, kind, ANGLES_TURNED);
+    const linkage s = in_units(of, u);
+    const double off = apart(plain, &scaled);
+    const bool within = off <= most_off;
+    if (scaled.status != WH_OK || (!within && kind == &engine_float && warns(text_of(&s, u)))) {
+        r->none++;
+        return;
+    }
+    if (!within) {
+        char line[160];
+        printf("%s\n", text_of(&s, u));
+        snprintf(line, sizeof line, "masses by %g, lengths by %g, times by %g: off by %.2e", u.mass,
+                 u.length, u.time, off);
+        TEST_FAIL_MESSAGE(line);
+    }
+    r->worst = fmax(r->worst, off);
+    r->same += memcmp(plain, &scaled, sizeof scaled) == 0 ? 1U : 0U;
+}
+
+enum { REACHES = 3 };
+
+/* Each linkage in units of each reach: within `most_off` of itself, or a run that was refused or warned of. */
+static void in_all_units(const engine_kind *kind, double most_off, reach *reached) {
     dice d = dice_of("hard_scales", 16);
     uint64_t seed = d.state;
-    double worst = 0.0;
-    unsigned same = 0;
-    unsigned none = 0;
     for (unsigned k = 0; k < cases(); k++) {
         const linkage of = linkage_draw(&seed);
-        const units u = {power_of_two(&d, most), power_of_two(&d, most), power_of_two(&d, most)};
         const moved plain = run_of(&of, (units){1.0, 1.0, 1.0}, kind, ANGLES_TURNED);
-        const moved scaled = run_of(&of, u, kind, ANGLES_TURNED);
-        const double off = apart(&plain, &scaled);
         TEST_ASSERT_EQUAL_INT(WH_OK, plain.status);
-        if (scaled.status != WH_OK) {
-            none++;
-            continue;
+        for (int i = 0; i < REACHES; i++) {
+            const int most = reached[i].most;
+            const units u = {power_of_two(&d, most), power_of_two(&d, most),
+                             power_of_two(&d, most)};
+            held_against(&plain, &of, kind, u, most_off, &reached[i]);
         }
-        const linkage s = in_units(&of, u);
-        if (!(off <= most_off) && kind == &engine_float && warns(text_of(&s, u))) {
-            none++;
-            continue;
-        }
-        if (!(off <= most_off)) {
-            char line[160];
-            printf("%s\n", text_of(&s, u));
-            snprintf(line, sizeof line, "masses by %g, lengths by %g, times by %g: off by %.2e",
-                     u.mass, u.length, u.time, off);
-            TEST_FAIL_MESSAGE(line);
-        }
-        worst = fmax(worst, off);
-        same += memcmp(&plain, &scaled, sizeof plain) == 0 ? 1U : 0U;
     }
-    printf(
-        "  up to 2^%d: %u of %u in the same bits, off by at most %.1e; %u refused or warned of\n",
-        most, same, cases(), worst, none);
-    return none;
+    for (int i = 0; i < REACHES; i++) {
+        printf("  up to 2^%d: %u of %u in the same bits, off by at most %.1e; %u refused or warned "
+               "of\n",
+               reached[i].most, reached[i].same, cases(), reached[i].worst, reached[i].none);
+    }
 }
 
 static void test_units_do_not_matter_in_double(void) {
-    TEST_ASSERT_EQUAL_UINT(0, refused(&engine_double, 4, 1e-11));
-    TEST_ASSERT_EQUAL_UINT(0, refused(&engine_double, 20, 1e-11));
-    TEST_ASSERT_TRUE(refused(&engine_double, 40, 1e-11) * 4 <= cases());
+    reach reached[REACHES] = {{.most = 4}, {.most = 20}, {.most = 40}};
+    in_all_units(&engine_double, 1e-11, reached);
+    TEST_ASSERT_EQUAL_UINT(0, reached[0].none);
+    TEST_ASSERT_EQUAL_UINT(0, reached[1].none);
+    TEST_ASSERT_TRUE(reached[2].none * 4 <= cases());
 }
 
 static void test_units_do_not_matter_in_float(void) {
-    TEST_ASSERT_EQUAL_UINT(0, refused(&engine_float, 4, 1e-4));
-    TEST_ASSERT_TRUE(refused(&engine_float, 12, 1e-4) * 4 <= cases());
-    TEST_ASSERT_TRUE(refused(&engine_float, 40, 1e-4) * 4 <= cases());
+    reach reached[REACHES] = {{.most = 4}, {.most = 12}, {.most = 40}};
+    in_all_units(&engine_float, 1e-4, reached);
+    TEST_ASSERT_EQUAL_UINT(0, reached[0].none);
+    TEST_ASSERT_TRUE(reached[1].none * 4 <= cases());
+    TEST_ASSERT_TRUE(reached[2].none * 4 <= cases());
 }
 
 /* --- masses ---------------------------------------------------------------------------------------------------- */

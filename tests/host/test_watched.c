@@ -99,7 +99,7 @@ static void expect_books(const books *b) {
     expect_near(work_to(end, 0), b->input_J, size, "input");
     expect_near(work_to(end, 1), b->loss_J, size, "loss");
     expect_near(size, b->size_J, 0.0, "size");
-    expect_near(rule_off_to(end), b->rule_J, 0.0, "rule");
+    expect_near(rule_off_to(end), b->rule_J, size, "rule");
     TEST_ASSERT_EQUAL(made_run.magnetic > 0.0, b->leans);
 
     double most = larger(swing_of(made_run_kinetic, end + 1), swing_of(made_run_stored, end + 1));

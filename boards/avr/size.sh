@@ -1,15 +1,16 @@
 #!/bin/sh
-# code.sh: flash, memory and worst stack of images of an AVR, whose compiler writes no call graphs: from their code.
+# size.sh: flash, memory and worst stack of images of an AVR, whose compiler writes no call graphs: from their code.
 #
 #   BOARD=atmega2560 CC=avr-gcc FLAGS="-Os" SIZE=avr-size NM=avr-nm OBJDUMP=avr-objdump FLASH_MOST=262144 MEMORY_TOP=0x802200 \
-#   code.sh figures.csv ELF...
+#   size.sh figures.csv ELF...
 #
-# Appends rows to figures.csv and prints a table, as size.sh does. `computed` is the deepest path from the start, an interrupt on it
+# Appends rows to figures.csv and prints a table, as mk/size/size.sh does. `computed` is the deepest path from the start, an interrupt on it
 # (none interrupts another) with its return address, three bytes. Fails on recursion, on more flash than there is, and if the
 # stack's room, what variables leave below MEMORY_TOP, is too small for it.
 set -eu
 here=$(dirname "$0")
-. "$here/../count/common.sh"
+root=$here/../..
+. "$root/mk/count/common.sh"
 
 figures_into "$1"
 shift
@@ -17,7 +18,7 @@ status=0
 
 # worst_stack ROOT: answers of code_stack.awk, to $work/stack.
 worst_stack() {
-    { sed '/^#/d; s/^/pointer /' "$here/pointers.rows" && cat "$work/code"; } |
+    { sed '/^#/d; s/^/pointer /' "$root/mk/size/pointers.rows" && cat "$work/code"; } |
         awk -v root="$1" -v address=3 -f "$here/code_stack.awk" >"$work/stack" || status=1
     grep '^recursion' "$work/stack" >&2 || true
     sed -n 's/^stack //p' "$work/stack"

@@ -1,0 +1,15 @@
+# family.mk: tests of what is flashed.
+# Tests of what is flashed, in the emulator (tests/boards/f405.sh): the same code but for sensors that it does not have.
+ifneq ($(filter boards/stm32f4/%,$(BOARD_FLASHED)),)
+without_sensors = $(filter-out %/cell.o %/slots.o %/stop.o,$(FLASHED_OBJECTS))
+$(ELF)/bench_plant.elf: BOARD_LDLIBS += -Wl,--wrap=hal_motor_set_voltage -Wl,--wrap=hal_motor_off
+$(ELF)/bench_plant.elf: $(call objects,$(BOARD),boards/programs/station.c tests/boards/f405_plant.c \
+    $(GEN)/rig_observed.c $(GEN)/rig_fixed.c) $(without_sensors) $(call libraries,$(BOARD),station rig virtual whirl)
+	$(link_board)
+$(ELF)/bench_slots.elf: $(call objects,$(BOARD),tests/boards/f405_slots.c boards/stm32f4/slots_exti.c) \
+    $(filter-out %/slots.o,$(FLASHED_OBJECTS)) $(call libraries,$(BOARD),whirl)
+	$(link_board)
+FLASHED_TESTS := $(ELF)/bench_plant.elf $(ELF)/bench_slots.elf
+endif
+build/tools/f405: $(call objects,host,$(addprefix tests/tools/,board_tests.c f405.c f405_seen.c f405_states.c emulated.c))
+	$(link)
