@@ -43,12 +43,14 @@ derived made_run_derive(void) {
     return d;
 }
 
-/* Places and rates that walk about. */
+/* Places and rates that walk about; of every other run some of them by next to nothing. */
 void made_run_states(dice *d, uint64_t steps) {
+    const unsigned still = dice_one_of(d, 2) == 0 ? dice_one_of(d, 1U << N) : 0;
     for (uint64_t k = 0; k <= steps; k++) {
         for (int i = 0; i < N; i++) {
             const double before = k == 0 ? dice_between(d, -2.0, 2.0) : made_run.state[k - 1][i];
-            made_run.state[k][i] = before + dice_between(d, -1.0, 1.0);
+            made_run.state[k][i] =
+                before + (still >> i & 1U ? 1e-5 : 1.0) * dice_between(d, -1.0, 1.0);
         }
     }
 }

@@ -176,6 +176,36 @@ static void test_what_happens_at_one_go(void) {
     }
 }
 
+/* Beside it stands what tables may do, whatever the step would: twice the cells, if so many are to be had. */
+static void expect_tables(springs *s, const char *cure) {
+    image *im = s->d.image;
+    char wanted[TEXT];
+    const int cells[] = {0,
+                         8,
+                         (int)(10U + dice_one_of(&die, 400)),
+                         IMAGE_CELLS_MOST / 2,
+                         IMAGE_CELLS_MOST / 2 + 1,
+                         IMAGE_CELLS_MOST};
+    for (int i = 0; i < 6; i++) {
+        char more[60] = "more --cells, or ";
+        if (cells[i] > IMAGE_CELLS_MOST / 2) {
+            more[0] = '\0';
+        } else if (cells[i] > 0) {
+            snprintf(more, sizeof more, "--cells %d, or ", 2 * cells[i]);
+        }
+        im->settings.tables = i % 2 == 0 ? TABLES_LINEAR : TABLES_CUBIC;
+        im->settings.cells = cells[i];
+        char *told = advice_cure(&s->v->about);
+        snprintf(wanted, sizeof wanted,
+                 "the tables may be too coarse (not tried): %sno --tables would tell%s%s", more,
+                 cure != NULL ? "; if it is not they, " : "", cure != NULL ? cure : "");
+        TEST_ASSERT_EQUAL_STRING(wanted, told);
+        free(told);
+    }
+    im->settings.tables = TABLES_NONE;
+    im->settings.cells = 0;
+}
+
 /* Nothing is found but that so much is missing: the step by the order's power; where a motion explains a part that counts, that
  * motion's. */
 static void test_steps_by_order(void) {
@@ -194,12 +224,18 @@ static void test_steps_by_order(void) {
         TEST_ASSERT_NOT_NULL_MESSAGE(named, cure);
         TEST_ASSERT_EQUAL_STRING_LEN(word, named + strlen("--step "), strlen(word));
         TEST_ASSERT_NOT_NULL_MESSAGE(strstr(cure, " would do"), cure);
+        if (c < 4U) {
+            expect_tables(&s, cure);
+        }
         free(cure);
         s.v->balance.exact = c % 3U == 0;
         s.v->balance.saturated = c % 3U == 1;
         s.v->balance.slow = true;
         cure = advice_cure(&s.v->about);
         TEST_ASSERT_EQUAL(c % 3U == 2, cure != NULL);
+        if (cure == NULL && c < 4U) {
+            expect_tables(&s, NULL);
+        }
         free(cure);
         springs_end(&s);
     }

@@ -198,8 +198,10 @@ static const char *in_head(const char *words) {
 
 /* --- a body that falls, one that slides, one that passes, one that is held -----------------------------------------*/
 
-static void run_to(const char *path, const image *im, const engine_kind *kind, uint64_t every) {
-    const simulation_settings s = {.kind = kind, .every = every, .vcd = path, .quiet = true};
+static void run_to(const char *path, const char *csv, const image *im, const engine_kind *kind,
+                   uint64_t every) {
+    const simulation_settings s = {
+        .kind = kind, .every = every, .vcd = path, .csv = csv, .quiet = true};
     bool against;
     errors_catch();
     const simulation_result result = simulate(im, &s, &against);
@@ -222,19 +224,34 @@ typedef struct bodies {
     bool inputs;
 } bodies;
 
+/* Of every third, what is held goes and what crosses does in the first step; of every third it crosses in the step of the first
+ * hit, before that. */
 static bodies draw_bodies(unsigned c) {
-    const bodies b = {.height_m = dice_between(&die, 0.5, 0.7),
-                      .restitution = dice_between(&die, 0.5, 0.9),
-                      .slides_mps = dice_between(&die, 0.3, 0.5),
-                      .normal_N = dice_between(&die, 1.5, 3.0),
-                      .passes_mps = dice_between(&die, 1.0, 2.0),
-                      .holds_m = dice_between(&die, 0.1, 0.4),
-                      .crosses_m = dice_between(&die, 0.5, 0.9),
-                      .turns_radps = dice_between(&die, 2.0, 9.0),
-                      .step_ms = 1 + dice_one_of(&die, 10),
-                      .every = 1 + dice_one_of(&die, 30),
-                      .titled = c % 2U == 0,
-                      .inputs = c % 3U != 0};
+    bodies b = {.height_m = dice_between(&die, 0.5, 0.7),
+                .restitution = dice_between(&die, 0.5, 0.9),
+                .slides_mps = dice_between(&die, 0.3, 0.5),
+                .normal_N = dice_between(&die, 1.5, 3.0),
+                .passes_mps = dice_between(&die, 1.0, 2.0),
+                .holds_m = dice_between(&die, 0.1, 0.4),
+                .crosses_m = dice_between(&die, 0.5, 0.9),
+                .turns_radps = dice_between(&die, 2.0, 9.0),
+                .step_ms = 1 + dice_one_of(&die, 10),
+                .every = 1 + dice_one_of(&die, 30),
+                .titled = c % 2U == 0,
+                .inputs = c % 3U != 0};
+    if (c % 3U == 1) {
+        b.holds_m = b.passes_mps * dice_between(&die, 1e-4, 4e-4);
+        b.crosses_m = b.passes_mps * dice_between(&die, 5e-4, 9e-4);
+    }
+    while (900 % b.step_ms != 0) {
+        b.step_ms--;
+    }
+    if (c % 3U == 2) {
+        const double hit_s = sqrt(2.0 * b.height_m / 10.0);
+        const double begin_s = 1e-3 * b.step_ms * floor(1e3 * hit_s / b.step_ms);
+        b.crosses_m = b.passes_mps * (begin_s + dice_between(&die, 0.2, 0.8) * (hit_s - begin_s));
+        b.holds_m = fmin(b.holds_m, 0.5 * b.crosses_m);
+    }
     return b;
 }
 
@@ -313,13 +330,50 @@ static void expect_records(const bodies *b, double units_per_s, double off_m) {
     TEST_ASSERT_EQUAL_INT(1 + (int)(0.9 / spacing_s + 1e-9), rows);
 }
 
+/* Every column of the rows that the same run wrote, in their order: at each record what is another than before, and nothing else. */
+static void expect_columns(const char *csv, double units_per_s) {
+    enum { COLUMNS = 10 };
+    static double row[CHANGES][COLUMNS + 1];
+    char line[600];
+    int rows = 0;
+    FILE *in = fopen(csv, "rb");
+    TEST_ASSERT_TRUE(in != NULL && fgets(line, sizeof line, in) != NULL);
+    for (; fgets(line, sizeof line, in) != NULL; rows++) {
+        const char *at = line;
+        TEST_ASSERT_TRUE(rows < CHANGES);
+        for (int i = 0; i <= COLUMNS; i++) {
+            at = said_number(i > 0 ? said_exactly(at, ",") : at, &row[rows][i]);
+        }
+        TEST_ASSERT_EQUAL_STRING("\r\n", at);
+    }
+    fclose(in);
+    int next[COLUMNS] = {0};
+    for (int i = 0; i < dump.changes; i++) {
+        const told_change *c = &dump.change[i];
+        if (c->signal >= COLUMNS) {
+            continue;
+        }
+        int *k = &next[c->signal];
+        const int column = c->signal + 1;
+        while (*k > 0 && *k < rows && row[*k][column] == row[*k - 1][column]) {
+            (*k)++;
+        }
+        TEST_ASSERT_TRUE(*k < rows && c->value == row[*k][column]);
+        TEST_ASSERT_TRUE(fabs((double)c->time - row[*k][0] * units_per_s) <= 1.0);
+        (*k)++;
+    }
+    for (int i = 0; i < COLUMNS; i++) {
+        for (; next[i] > 0 && next[i] < rows; next[i]++) {
+            TEST_ASSERT_TRUE(row[next[i]][i + 1] == row[next[i] - 1][i + 1]);
+        }
+        TEST_ASSERT_EQUAL_INT(rows, next[i]);
+    }
+}
+
 static void test_moments(void) {
     const long before = blocks_in_use();
     for (unsigned c = 0; c < dice_cases(usual_or(12, 8)); c++) {
-        bodies b = draw_bodies(c);
-        while (900 % b.step_ms != 0) {
-            b.step_ms--;
-        }
+        const bodies b = draw_bodies(c);
         derived d = scene_of_bodies(&b);
         const engine_kind *kind = c % 4U < 3U ? &engine_double : &engine_float;
         int power = -1;
@@ -332,12 +386,16 @@ static void test_moments(void) {
                                   : 100,
                  (const char *const[]){"s", "ms", "us", "ns"}[(power + 2) / 3]);
         char path[] = "/tmp/whirl-traces-XXXXXX";
-        const int file = mkstemp(path);
-        TEST_ASSERT_TRUE(file >= 0);
-        close(file);
-        run_to(path, d.image, kind, b.every);
+        char csv[] = "/tmp/whirl-traces-XXXXXX";
+        const int file[] = {mkstemp(path), mkstemp(csv)};
+        TEST_ASSERT_TRUE(file[0] >= 0 && file[1] >= 0);
+        close(file[0]);
+        close(file[1]);
+        run_to(path, csv, d.image, kind, b.every);
         read_dump(path);
+        expect_columns(csv, units_per_s);
         (void)remove(path);
+        (void)remove(csv);
         in_head(unit);
         expect_head(&b);
         /* summed up in float: a rounding a step */
