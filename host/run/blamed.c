@@ -54,3 +54,26 @@ double blamed_node(const blamed *b, const blame_node *n) {
     }
     return (double)NAN;
 }
+
+int blamed_operands(const blame_node *n, int of[static 2]) {
+    switch (n->code) {
+    case BLAME_NUMBER:
+    case BLAME_STATE:
+    case BLAME_INPUT: return 0;
+    case BLAME_SAME:
+    case BLAME_NEG: of[0] = n->a; return 1;
+    case BLAME_ADD:
+    case BLAME_SUB:
+    case BLAME_MUL:
+    case BLAME_DIV:
+    case BLAME_POW:
+        of[0] = n->a;
+        of[1] = n->b;
+        return 2;
+    case BLAME_CALL:
+        of[0] = n->a;
+        of[1] = n->b;
+        return n->b < 0 ? 1 : 2;
+    }
+    return 0;
+}

@@ -18,5 +18,7 @@ void blamed_close(blamed *b);
 void blamed_place(blamed *b, const double *angle_rad, const double *real);
 /* The value of a node whose operands have theirs. */
 double blamed_node(const blamed *b, const blame_node *n);
+/* Its operands, and how many it has. */
+int blamed_operands(const blame_node *n, int of[static 2]);
 
 #endif

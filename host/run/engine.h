@@ -62,6 +62,8 @@ void evaluator_free(evaluator *ev);
 void evaluator_wrap(evaluator *ev);
 void evaluator_run(evaluator *ev, double time_s, const double *angle_rad, const double *linear,
                    const double *rate, const double *input, double *result);
+/* What this operation of the list came to in the evaluator_run() just done. */
+double evaluator_value(const evaluator *ev, int operation);
 /* How far off the results of the evaluator_run() just done, with the same angles, may be for the rounding of the list's
  * operations: error[results], in units of the numbers' rounding (rounding.h). */
 void evaluator_rounding(const evaluator *ev, const double *angle_rad, double least, double *error);

@@ -41,6 +41,10 @@ void evaluator_run(evaluator *ev, double time_s, const double *angle_rad, const 
              (leaves){NULL, phase, angle_rad, time_s, linear, rate, input, NULL}, result);
 }
 
+double evaluator_value(const evaluator *ev, int operation) {
+    return ev->registers.value[operation];
+}
+
 void evaluator_rounding(const evaluator *ev, const double *angle_rad, double least, double *error) {
     double wrapped[IMAGE_COMPONENTS_MAX];
     const registers *r = &ev->registers;

@@ -2,10 +2,9 @@
  * x' = -v0, no motion gets through, but a step that is longer than the way there never sees it; nor does one of half the
  * length, so that the two agree.
  *
- * What is divided by, or raised to less than nothing, is looked at after each step. Where its sign has changed, the way
- * between the two states is halved again and again about that place: a pole is where the expression as a whole grows as
- * one over the distance does, on both sides, or faster. What has a limit there (sin x/x, a sine times a tangent), or may
- * be integrated (one over a root), is none. Steps with events are left out: rates that an impact turns pass nothing. */
+ * What changes its sign at a pole (divisors.h) is looked at after each step. Where one has, the way between the two states
+ * is asked for a pole there (pole.h). In steps with events the divisors that depend on places alone are asked: rates that an
+ * impact turns pass nothing, nor does what a crossing sets. */
 #ifndef RUN_JUMPED_H
 #define RUN_JUMPED_H
 

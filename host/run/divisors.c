@@ -1,0 +1,268 @@
+/* divisors.c: see divisors.h. */
+#include "divisors.h"
+
+#include <stdlib.h>
+
+#include "core/contact.h"
+#include "host/base/room.h"
+#include "host/number/functions.h"
+
+/* What a node is good for. */
+enum {
+    MOVES = 1U, /* depends on the state */
+    HIDDEN =
+        2U, /* and on what is none of its components: a highest derivative, what a momentum gives */
+    DIVIDES = 4U,  /* a factor of what something is divided by */
+    OF_A_TAN = 8U, /* a tangent is taken of it */
+    NEEDED = 16U,
+    LEAPS = 32U, /* and on what an event may change at once */
+};
+
+/* Places stay where they are at an event, but for those that a crossing sets. */
+static bool leaps(const image *im, const blame_node *n) {
+    bool set = n->b > 0;
+    for (int i = 0; i < im->set_count; i++) {
+        const component c = image_component(im, im->target[i]);
+        set = set || (c.unknown == n->a && c.primes == n->b);
+    }
+    return set;
+}
+
+static unsigned moves_of(const image *im, const blame_node *n) {
+    if (n->code != BLAME_STATE) {
+        return 0;
+    }
+    const bool known = n->b < im->unknown[n->a].order && image_find_component(im, n->a, n->b) >= 0;
+    return MOVES | (known ? 0U : HIDDEN) | (leaps(im, n) ? LEAPS : 0U);
+}
+
+static void find_what_moves(divisors *d) {
+    const image *im = d->at.image;
+    for (int i = 0; i < im->blame.nodes; i++) {
+        const blame_node *n = &im->blame.node[i];
+        int of[2];
+        const int count = blamed_operands(n, of);
+        unsigned is = moves_of(im, n);
+        for (int k = 0; k < count; k++) {
+            is |= d->is[of[k]] & (MOVES | HIDDEN | LEAPS);
+        }
+        d->is[i] = (unsigned char)is;
+        d->at.value[i] = blamed_node(&d->at, n); /* of what does not move: for good */
+    }
+}
+
+static void mark(divisors *d, int node, unsigned as) { d->is[node] |= (unsigned char)as; }
+
+static bool is_size_or_root(const blame_node *n) {
+    return n->code == BLAME_CALL && (n->function == FN_ABS || n->function == FN_SQRT);
+}
+
+/* Divisors down to their factors: from the last node on, for operands stand before what is made of them. */
+static void find_factors(divisors *d) {
+    const image *im = d->at.image;
+    for (int i = im->blame.nodes - 1; i >= 0; i--) {
+        const blame_node *n = &im->blame.node[i];
+        const unsigned is = d->is[i];
+        if (n->code == BLAME_DIV) {
+            mark(d, n->b, DIVIDES);
+        } else if (n->code == BLAME_POW && (d->is[n->b] & MOVES) == 0 && d->at.value[n->b] < 0.0) {
+            mark(d, n->a, DIVIDES);
+        } else if (n->code == BLAME_CALL && n->function == FN_TAN) {
+            mark(d, n->a, OF_A_TAN);
+        }
+        if ((is & DIVIDES) == 0) {
+            continue;
+        }
+        const bool has_factors = n->code == BLAME_MUL || n->code == BLAME_DIV ||
+                                 n->code == BLAME_NEG || n->code == BLAME_SAME ||
+                                 n->code == BLAME_POW || is_size_or_root(n);
+        if (has_factors) { /* what a divisor is divided by has been marked above */
+            d->is[i] &= (unsigned char)~DIVIDES;
+            mark(d, n->a, DIVIDES);
+            if (n->code == BLAME_MUL) {
+                mark(d, n->b, DIVIDES);
+            }
+        }
+    }
+}
+
+static void find_order(divisors *d) {
+    const image_blame *b = &d->at.image->blame;
+    for (int i = b->nodes - 1; i >= 0; i--) {
+        const unsigned as = (d->is[i] & (MOVES | HIDDEN)) == MOVES ? d->is[i] : 0U;
+        const bool watched = (as & (DIVIDES | OF_A_TAN)) != 0;
+        if ((as & DIVIDES) != 0) {
+            d->divisor[d->count++] = (divisor){.node = i, .leaps = (as & LEAPS) != 0};
+        }
+        if ((as & OF_A_TAN) != 0) {
+            d->divisor[d->count++] =
+                (divisor){.node = i, .of_a_tan = true, .leaps = (as & LEAPS) != 0};
+        }
+        if (watched || (d->is[i] & NEEDED) != 0) {
+            int of[2];
+            const int count = blamed_operands(&b->node[i], of);
+            mark(d, i, NEEDED);
+            for (int k = 0; k < count; k++) {
+                mark(d, of[k], NEEDED);
+            }
+        }
+    }
+    for (int i = 0; i < b->nodes; i++) {
+        if ((d->is[i] & (NEEDED | MOVES)) == (NEEDED | MOVES)) {
+            d->order[d->ordered++] = i;
+        }
+    }
+}
+
+/* Energies, losses, forces, equations, their slopes, and what a friction presses with. */
+static void find_questions(divisors *d) {
+    const image *im = d->at.image;
+    d->asked = room(im->blame.questions, sizeof *d->asked);
+    for (int i = 0; i < im->blame.terms; i++) {
+        d->asked[d->questions++] = i;
+    }
+    for (int c = 0; c < im->contacts; c++) {
+        const image_contact *of = &im->contact[c];
+        for (int i = 0; i < of->questions && of->kind == WH_FRICTION; i++) {
+            d->asked[d->questions++] = of->first_question + i;
+        }
+    }
+}
+
+/* Of a system: does what moves stand before a highest derivative, so that the slope is divided by it? */
+static bool has_factors_that_move(const divisors *d) {
+    const image *im = d->at.image;
+    for (int i = 0; i < im->blame.nodes && !im->has_energies; i++) {
+        const blame_node *n = &im->blame.node[i];
+        const bool factor = n->code == BLAME_MUL || n->code == BLAME_DIV;
+        if (factor && (d->is[i] & HIDDEN) != 0 && (d->is[n->a] & MOVES) != 0 &&
+            (d->is[n->b] & MOVES) != 0) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* Its factors, of what is divided by in the list that solves for the slopes. */
+static void find_derived(divisors *d) {
+    const tape *t = d->at.image->list[IMAGE_BOOKS];
+    bool *divides = room(t->count, sizeof *divides);
+    for (int i = t->count - 1; i >= 0; i--) {
+        const op *o = &t->ops[i];
+        if (o->code == OP_DIV) {
+            divides[o->b] = true;
+        }
+        if (divides[i] && (o->code == OP_MUL || o->code == OP_DIV)) {
+            divides[o->a] = true;
+            divides[o->b] = true;
+        } else if (divides[i] && (o->code == OP_NEG || o->code == OP_ABS || o->code == OP_SQRT)) {
+            divides[o->a] = true;
+        } else if (divides[i] && o->code != OP_CONSTANT) {
+            d->divisor[d->count++] = (divisor){.node = i, .derived = true};
+        }
+    }
+    free(divides);
+}
+
+/* --- at a state ---------------------------------------------------------------------------------------*/
+
+divisors divisors_open(const image *im) {
+    const int nodes = im->blame.nodes;
+    divisors d = {.at = blamed_open(im),
+                  .is = room(nodes, sizeof *d.is),
+                  .order = room(nodes, sizeof *d.order),
+                  .divisor =
+                      room(2 * (int64_t)nodes + im->list[IMAGE_BOOKS]->count, sizeof *d.divisor)};
+    find_what_moves(&d);
+    find_factors(&d);
+    find_order(&d);
+    find_questions(&d);
+    if (has_factors_that_move(&d)) {
+        d.field = field_open(im, &engine_float); /* which wraps angles: of either number */
+        find_derived(&d);
+        d.slope = room(d.field->n, sizeof *d.slope);
+    }
+    return d;
+}
+
+void divisors_close(divisors *d) {
+    blamed_close(&d->at);
+    field_close(d->field);
+    free(d->is);
+    free(d->order);
+    free(d->divisor);
+    free(d->asked);
+    free(d->slope);
+}
+
+void divisors_see(divisors *d, const double *state) {
+    const image *im = d->at.image;
+    blamed_place(&d->at, state, state + im->angles);
+    for (int i = 0; i < d->ordered; i++) {
+        d->at.value[d->order[i]] = blamed_node(&d->at, &im->blame.node[d->order[i]]);
+    }
+    if (d->field != NULL) {
+        field_slope(d->field, state, d->slope);
+    }
+}
+
+void divisors_see_all(divisors *d, const double *state, double *value) {
+    const image *im = d->at.image;
+    blamed_place(&d->at, state, state + im->angles);
+    for (int i = 0; i < im->blame.nodes; i++) {
+        if ((d->is[i] & MOVES) != 0) {
+            d->at.value[i] = blamed_node(&d->at, &im->blame.node[i]);
+        }
+    }
+    for (int i = 0; i < d->questions; i++) {
+        value[i] = d->at.value[im->blame.question[d->asked[i]].node];
+    }
+    if (d->field != NULL) {
+        field_slope(d->field, state, value + d->questions);
+    }
+}
+
+int divisors_values(const divisors *d) {
+    return d->questions + (d->field != NULL ? d->field->n : 0);
+}
+
+double divisors_value(const divisors *d, const divisor *of) {
+    if (of->derived) {
+        return evaluator_value(d->field->evaluator, of->node);
+    }
+    const double value = d->at.value[of->node];
+    return of->of_a_tan ? number_cosine(value) : value;
+}
+
+/* Does this node depend on the highest derivative of that unknown? */
+static bool has_highest(const image *im, int node, int unknown) {
+    bool *of = room(node + 1, sizeof *of);
+    bool has = false;
+    of[node] = true;
+    for (int i = node; i >= 0 && !has; i--) {
+        const blame_node *n = &im->blame.node[i];
+        int operand[2];
+        const int count = of[i] ? blamed_operands(n, operand) : 0;
+        for (int k = 0; k < count; k++) {
+            of[operand[k]] = true;
+        }
+        has = of[i] && n->code == BLAME_STATE && n->a == unknown &&
+              n->b == im->unknown[unknown].order;
+    }
+    free(of);
+    return has;
+}
+
+int divisors_question(const divisors *d, int value) {
+    const image *im = d->at.image;
+    if (value < d->questions) {
+        return d->asked[value];
+    }
+    const int unknown = image_component(im, value - d->questions).unknown;
+    for (int i = 0; i < im->blame.terms; i++) {
+        if (has_highest(im, im->blame.question[i].node, unknown)) {
+            return i;
+        }
+    }
+    return 0;
+}

@@ -1,0 +1,140 @@
+/* test_pole.c: poles on a way (host/run/pole.h), of drawn products of powers whose poles are known: whole and broken
+ * exponents, zeros close beside, poles on one side only, differences of which rounding leaves no more than noise, divisors
+ * that change their sign twice. */
+#include <math.h>
+#include <stdbool.h>
+#include <stdio.h>
+
+#include "command.h"
+#include "host/number/functions.h"
+#include "host/run/pole.h"
+#include "unity.h"
+
+void suite_pole(void);
+
+static dice die;
+
+enum { SIGNS = 2, VALUES = 2 };
+
+/* value[0] is smooth, value[1] = sum of c (x - zero)^zeros / |x - place|^order, from one side alone where `side` is not 0. */
+typedef struct drawn {
+    double place;
+    double order;
+    double zero;
+    int zeros;
+    double side;
+    double beside; /* what is added */
+    int asked;     /* of the way */
+} drawn;
+
+static void at(void *of, double share, double *sign, double *value) {
+    drawn *d = of;
+    const double x = share - d->place;
+    double factor = x * d->side < 0.0 ? 0.0 : 1.0;
+    for (int i = 0; i < d->zeros; i++) {
+        factor *= share - d->zero;
+    }
+    sign[0] = 1.0 + share;
+    sign[1] = x;
+    value[0] = number_sine(3.0 * share);
+    value[1] = factor * number_power(fabs(x), -d->order) + d->beside;
+    d->asked++;
+}
+
+static int pole_of(void *of, void (*is_at)(void *of, double share, double *sign, double *value),
+                   double way) {
+    const double nearest[SIGNS] = {2e-13 / way, 2e-13 / way};
+    return pole_on(&(pole_way){of, SIGNS, VALUES, nearest, is_at});
+}
+
+static void test_powers(void) {
+    static const double orders[] = {0.0, 0.3, 0.5, 2.0 / 3.0, 0.8, 1.0, 1.5, 2.0, 3.0, 7.0};
+    enum { ORDERS = sizeof orders / sizeof orders[0] };
+    for (unsigned c = 0; c < dice_cases(600); c++) {
+        drawn d = {.place = dice_between(&die, 0.001, 0.999),
+                   .order = orders[c % ORDERS],
+                   .beside = dice_between(&die, -10.0, 10.0)};
+        const bool near = dice_one_of(&die, 2) == 0;
+        const bool upon = !near && dice_one_of(&die, 2) == 0;
+        d.zeros = (int)dice_one_of(&die, 3);
+        d.beside = near ? 0.0 : d.beside; /* beside which little is left of such a pole */
+        d.zero = upon   ? d.place
+                 : near ? d.place + exp(dice_between(&die, -18.0, -2.0))
+                        : dice_between(&die, -3.0, -1.0);
+        d.side = dice_one_of(&die, 2) == 0 ? 0.0 : dice_one_of(&die, 2) == 0 ? 1.0 : -1.0;
+        const bool has = d.order - (upon ? d.zeros : 0) >= 1.0;
+        TEST_ASSERT_EQUAL_INT(has ? 1 : -1, pole_of(&d, at, dice_between(&die, 0.1, 2.0)));
+        TEST_ASSERT_TRUE(d.asked < 2000);
+    }
+}
+
+/* --- what rounding leaves -------------------------------------------------------------------------------*/
+
+typedef struct difference {
+    int which;
+    double place;
+    double size; /* of the argument */
+} difference;
+
+enum { DIFFERENCES = 6 };
+
+static double call(function_id function, double x) { return number_call(function, x, 0.0); }
+
+/* Each has a limit. */
+static double difference_at(int which, double x) {
+    switch (which) {
+    case 0: return (call(FN_EXP, x) - 1.0 - x) / (x * x);
+    case 1: return 1.0 / (call(FN_EXP, x) - 1.0) - 1.0 / x;
+    case 2: return (number_root(1.0 + x) - 1.0 - 0.5 * x) / (x * x);
+    case 3: return (1.0 - call(FN_EXP, -x)) / x;
+    case 4: return (call(FN_LOG, 1.0 + x) - x) / (x * x);
+    default: return 1.0 / number_sine(x) - 1.0 / x;
+    }
+}
+
+static void at_difference(void *of, double share, double *sign, double *value) {
+    const difference *d = of;
+    const double x = d->size * (share - d->place);
+    sign[0] = 1.0;
+    sign[1] = x;
+    value[0] = share;
+    value[1] = difference_at(d->which, x);
+}
+
+static void test_what_rounding_leaves(void) {
+    for (unsigned c = 0; c < dice_cases(120); c++) {
+        difference d = {.which = (int)(c % DIFFERENCES),
+                        .place = dice_between(&die, 0.1, 0.9),
+                        .size = exp(dice_between(&die, -7.0, -0.1))};
+        TEST_ASSERT_EQUAL_INT(-1, pole_of(&d, at_difference, 1.0));
+    }
+}
+
+/* --- signs that change twice -----------------------------------------------------------------------------*/
+
+/* 1/(1 + k/x), with x from beyond -k to above zero: of 1 + k/x both ends have the same sign. */
+static void at_twice(void *of, double share, double *sign, double *value) {
+    const drawn *d = of;
+    const double x = share - d->place;
+    sign[0] = x;
+    sign[1] = 1.0 + d->order / x;
+    value[0] = share;
+    value[1] = 1.0 / sign[1];
+}
+
+static void test_what_changes_twice(void) {
+    for (unsigned c = 0; c < dice_cases(60); c++) {
+        drawn d = {.place = dice_between(&die, 0.3, 0.7),
+                   .order = exp(dice_between(&die, -15.0, -1.5))};
+        TEST_ASSERT_EQUAL_INT(1, pole_of(&d, at_twice, 1.0));
+        d.order = 1.0; /* behind the end */
+        TEST_ASSERT_EQUAL_INT(-1, pole_of(&d, at_twice, 1.0));
+    }
+}
+
+void suite_pole(void) {
+    die = dice_of("pole", 61);
+    RUN_TEST(test_powers);
+    RUN_TEST(test_what_rounding_leaves);
+    RUN_TEST(test_what_changes_twice);
+}
