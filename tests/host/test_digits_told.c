@@ -114,6 +114,31 @@ static void test_figures(void) {
     model_drop();
 }
 
+/* What goes less than three ten-millionths of how far away it is does not move, whatever goes beside it: it may stand still. */
+static void test_hardly_moves(void) {
+    for (unsigned n = 0; n < dice_cases(usual_or(12, 8)); n++) {
+        carried c = draw(true, 1.0);
+        said what;
+        double part = exp(dice_between(&die, log(1e-7), log(9e-7)));
+        part = fabs(part - 3e-7) < 2e-8 ? 2.5e-7 : part;
+        c.steps = 60 + dice_one_of(&die, 60);
+        c.speed_mps = copysign(part * c.start_m / (c.step_s * c.steps), c.speed_mps);
+        run(&c, NULL, &what);
+        if (part < 3e-7) {
+            TEST_ASSERT_EQUAL_STRING("", what.err);
+        } else {
+            TEST_ASSERT_NOT_NULL_MESSAGE(strstr(what.err, "float has too few digits for 'x'"),
+                                         what.err);
+            const char *off = strstr(what.err, " off, ");
+            double figure = 0.0;
+            TEST_ASSERT_NOT_NULL_MESSAGE(off, what.err);
+            (void)said_number(off + strlen(" off, "), &figure);
+            TEST_ASSERT_TRUE_MESSAGE(figure > 90.0 && figure < 110.0, what.err);
+        }
+    }
+    model_drop();
+}
+
 /* Of float, in whole places a step, from between two: it is told that it starts elsewhere, which no sums mend. */
 static void test_starts_between_places(void) {
     unsigned told = 0;
@@ -242,6 +267,7 @@ static void test_what_would_do(void) {
 void suite_digits_told(void) {
     die = dice_of("digits_told", 70);
     RUN_TEST(test_figures);
+    RUN_TEST(test_hardly_moves);
     RUN_TEST(test_starts_between_places);
     RUN_TEST(test_enough_digits);
     RUN_TEST(test_what_would_do);
