@@ -102,6 +102,7 @@ typedef struct coarse_run {
     double step_s;
     unsigned steps;
     int method;
+    bool as_matrix; /* its steps as one matrix */
     said what;
 } coarse_run;
 
@@ -110,7 +111,8 @@ static void run(coarse_run *r, const char *text, const char *starts) {
     char whole[700];
     snprintf(whole, sizeof whole, "%sscene s { start %s; step %.9f [s]; until %.9f [s] }\n", text,
              starts, r->step_s, r->step_s * r->steps);
-    const char *words[] = {model_keep(whole), "--quiet", "--method", methods[r->method].word, NULL};
+    const char *words[] = {model_keep(whole), "--quiet", r->as_matrix ? "--matrix" : "--method",
+                           methods[r->method].word, NULL};
     command_say(command_run, words, &r->what);
 }
 
@@ -168,6 +170,7 @@ static void test_swings_of_mechanisms(void) {
     for (unsigned c = 0; c < dice_cases(usual_or(6, 3)); c++) {
         char text[300];
         coarse_run r = drawn_swing(c);
+        r.as_matrix = c % 6U == 0;
         double left_J = 0.0;
         double part = 0.0;
         snprintf(text, sizeof text,

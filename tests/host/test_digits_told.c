@@ -45,7 +45,8 @@ static carried draw(bool is_float, double part) {
         c.beside_mps[i] = (dice_one_of(&die, 2) == 0 ? -1.0 : 1.0) * dice_between(&die, 0.3, 3.0);
     }
     /* a place of its own to begin with */
-    c.start_m = far_m * 1.25 + c.place_m * floor(dice_between(&die, 0.0, 1e5));
+    const double side = dice_one_of(&die, 2) == 0 ? -1.0 : 1.0;
+    c.start_m = side * (far_m * 1.25 + c.place_m * floor(dice_between(&die, 0.0, 1e5)));
     c.speed_mps = (dice_one_of(&die, 2) == 0 ? -1.0 : 1.0) * part * c.place_m / c.step_s;
     return c;
 }
