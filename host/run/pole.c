@@ -12,18 +12,20 @@
 enum { HALVINGS = 56 };
 /* So often the distance is made CLOSER times less. */
 enum { LEVELS = 5 };
-#define CLOSER 4.0
-/* Each time a pole grows 4 times, one over a root 2 times; of what grows faster, alike each time. */
-#define GROWS 3.6
+#define CLOSER 5.0
+/* Each time a pole grows 5 times, one over a root 2.2 times; of what grows faster, alike each time. No power of two: numbers
+ * with the same digits are rounded alike, and what that leaves would grow as evenly. */
+#define GROWS 4.4
 #define ALIKE 1.2
 /* What grows beyond all numbers was so large before. */
 #define BEYOND 1e60
 /* And so much farther off, where what changes its sign there is itself a difference with few digits. */
 #define FARTHER 1e3
-/* A smooth expression has few zeros on its way to a pole, rounding changes its sign every other time that the distance is
- * doubled. */
+/* A smooth expression has few zeros on its way to a pole; what rounding left has now this sign and now that, at distances
+ * that are so much farther each time. */
 enum { TURNS_MOST = 4 };
 #define NEAR 0.2
+#define FURTHER 1.4
 /* Places that are none, with more parts of the way about them. */
 enum { PARTS_MOST = 16 };
 
@@ -93,7 +95,7 @@ static bool is_rounding(const looker *l, int i, double place, double from, doubl
         l->way->at(l->way->of, place + off, l->then, l->value);
         turns += before * l->value[i] < 0.0 || l->value[i] == 0.0;
         before = l->value[i];
-        off *= 2.0;
+        off *= FURTHER;
     }
     return turns >= TURNS_MOST;
 }
@@ -101,13 +103,14 @@ static bool is_rounding(const looker *l, int i, double place, double from, doubl
 /* The first value that grows towards `place` from `from` so far away, which is on this side; -1: none. */
 static int grows_from(const looker *l, double place, double from, double most) {
     const int values = l->way->values;
-    const double farthest = from;
+    double nearest = from;
     for (int k = 0; k < LEVELS; k++) {
         l->way->at(l->way->of, place + from, l->then, l->side + (ptrdiff_t)k * values);
+        nearest = from;
         from /= CLOSER;
     }
     for (int i = 0; i < values; i++) {
-        if (grows(l->side + i, values) && !is_rounding(l, i, place, farthest, most)) {
+        if (grows(l->side + i, values) && !is_rounding(l, i, place, nearest, most)) {
             return i;
         }
     }

@@ -259,6 +259,7 @@ static const char *const harmless[] = {
     "1/max(s - a, 1e-3)",
     "abs(s - a)^(-0.8)",
     "1/tanh(s - a) - 1/(s - a)",
+    "1/tanh((s - a)/0.1) - 0.1/(s - a)",
     "1/(exp(s - a) - 1) - 1/(s - a)", /* what rounding leaves grows */
     "(exp(s - a) - 1 - (s - a))/(s - a)^2",
     "1/(s - a + 1e-9/(s - a))", /* grows, and ends growing */

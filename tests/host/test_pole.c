@@ -72,11 +72,11 @@ static void test_powers(void) {
 
 typedef struct difference {
     int which;
-    double place;
-    double size; /* of the argument */
+    double from; /* the argument, which passes zero */
+    double to;
 } difference;
 
-enum { DIFFERENCES = 6 };
+enum { DIFFERENCES = 7 };
 
 static double call(function_id function, double x) { return number_call(function, x, 0.0); }
 
@@ -88,13 +88,14 @@ static double difference_at(int which, double x) {
     case 2: return (number_root(1.0 + x) - 1.0 - 0.5 * x) / (x * x);
     case 3: return (1.0 - call(FN_EXP, -x)) / x;
     case 4: return (call(FN_LOG, 1.0 + x) - x) / (x * x);
-    default: return 1.0 / number_sine(x) - 1.0 / x;
+    case 5: return 1.0 / number_sine(x) - 1.0 / x;
+    default: return 1.0 / call(FN_TANH, x / 0.1) - 0.1 / x; /* two roundings of one number */
     }
 }
 
 static void at_difference(void *of, double share, double *sign, double *value) {
     const difference *d = of;
-    const double x = d->size * (share - d->place);
+    const double x = d->from + share * (d->to - d->from);
     sign[0] = 1.0;
     sign[1] = x;
     value[0] = share;
@@ -102,10 +103,11 @@ static void at_difference(void *of, double share, double *sign, double *value) {
 }
 
 static void test_what_rounding_leaves(void) {
-    for (unsigned c = 0; c < dice_cases(120); c++) {
+    for (unsigned c = 0; c < dice_cases(350); c++) {
+        const double size = exp(dice_between(&die, -17.0, -0.1));
         difference d = {.which = (int)(c % DIFFERENCES),
-                        .place = dice_between(&die, 0.1, 0.9),
-                        .size = exp(dice_between(&die, -7.0, -0.1))};
+                        .from = -size * dice_between(&die, 0.1, 0.9),
+                        .to = size * dice_between(&die, 0.1, 0.9)};
         TEST_ASSERT_EQUAL_INT(-1, pole_of(&d, at_difference, 1.0));
     }
 }
