@@ -301,18 +301,19 @@ static void test_impacts(void) {
 }
 
 /* Passed by a rate of its own, in steps with impacts of another body and without: the place of a pole, of a force, and of
- * what a friction presses with; and where that place is behind the end. */
+ * what a friction presses with, and of its coefficient; and where that place is behind the end. */
 static void test_places_at_events(void) {
     static const char *const laws[] = {
         "Q(x) = 1e-6 [N*m]/(x - %.17g [m])\n",
         "Q(x) = max(1e-6 [N*m]/(x - %.17g [m]), 0)\n", /* on one side only */
-        "friction x static 0.1 kinetic 0.1 normal 1e-6 [N*m]/abs(x - %.17g [m])\n"};
-    for (unsigned c = 0; c < dice_cases(few_or_all(6, 36)); c++) {
+        "friction x static 0.1 kinetic 0.1 normal 1e-6 [N*m]/abs(x - %.17g [m])\n",
+        "friction x static 0.1 kinetic 1e-6 [m]/abs(x - %.17g [m]) normal 0.1 [N]\n"};
+    for (unsigned c = 0; c < dice_cases(few_or_all(8, 48)); c++) {
         char law[150];
         char text[TEXT];
-        const bool passes = c / 3 % 2 == 0;
+        const bool passes = c / 4 % 2 == 0;
         const double at = passes ? dice_between(&die, 0.1, 0.8) : dice_between(&die, 1.2, 2.0);
-        snprintf(law, sizeof law, laws[c % 3], at);
+        snprintf(law, sizeof law, laws[c % 4], at);
         snprintf(text, sizeof text,
                  "mechanism two \"two\"\ncoordinate x [m]\ncoordinate y [m]\n"
                  "T = 1 [kg]*(x'^2 + y'^2)/2\nV = 9.81 [N]*y\n%sstop y >= 0 [m] restitution 1\n"

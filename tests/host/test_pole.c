@@ -48,7 +48,8 @@ static int pole_of(void *of, void (*is_at)(void *of, double share, double *sign,
 }
 
 static void test_powers(void) {
-    static const double orders[] = {0.0, 0.3, 0.5, 2.0 / 3.0, 0.8, 1.0, 1.5, 2.0, 3.0, 7.0};
+    static const double orders[] = {0.0, 0.3, 0.5, 2.0 / 3.0, 0.8,  1.0,
+                                    1.5, 2.0, 3.0, 7.0,       60.0, 200.0};
     enum { ORDERS = sizeof orders / sizeof orders[0] };
     for (unsigned c = 0; c < dice_cases(600); c++) {
         drawn d = {.place = dice_between(&die, 0.001, 0.999),
@@ -65,6 +66,37 @@ static void test_powers(void) {
         const bool has = d.order - (upon ? d.zeros : 0) >= 1.0;
         TEST_ASSERT_EQUAL_INT(has ? 1 : -1, pole_of(&d, at, dice_between(&die, 0.1, 2.0)));
         TEST_ASSERT_TRUE(d.asked < 2000);
+    }
+}
+
+/* --- what is no way to a pole, and a place that is known to few digits ------------------------------------*/
+
+/* Grows as a pole on the whole, but in leaps: by 28 and by 4.7 in turn, whose even share is 11. */
+static void at_leaps(void *of, double share, double *sign, double *value) {
+    const drawn *d = of;
+    const double x = share - d->place;
+    const double turn = log(fabs(x)) / log(5.0) + d->beside;
+    sign[0] = 1.0;
+    sign[1] = x;
+    value[0] = share;
+    value[1] = number_power(fabs(x), -1.5) * (fmod(floor(turn), 2.0) == 0.0 ? 1.0 : 2.4);
+}
+
+/* What changes its sign does so beside the pole. */
+static void at_shifted(void *of, double share, double *sign, double *value) {
+    const drawn *d = of;
+    at(of, share, sign, value);
+    sign[1] = share - d->zero;
+}
+
+static void test_leaps_and_few_digits(void) {
+    for (unsigned c = 0; c < dice_cases(100); c++) {
+        drawn d = {.place = dice_between(&die, 0.1, 0.9), .beside = dice_between(&die, 0.0, 1.0)};
+        TEST_ASSERT_EQUAL_INT(-1, pole_of(&d, at_leaps, 1.0));
+        d.order = dice_between(&die, 1.0, 3.0);
+        d.beside = 0.0;
+        d.zero = d.place + exp(dice_between(&die, -27.0, -25.4)) * (c % 2 == 0 ? 1.0 : -1.0);
+        TEST_ASSERT_EQUAL_INT(1, pole_of(&d, at_shifted, 1.0));
     }
 }
 
@@ -137,6 +169,7 @@ static void test_what_changes_twice(void) {
 void suite_pole(void) {
     die = dice_of("pole", 61);
     RUN_TEST(test_powers);
+    RUN_TEST(test_leaps_and_few_digits);
     RUN_TEST(test_what_rounding_leaves);
     RUN_TEST(test_what_changes_twice);
 }
