@@ -47,7 +47,9 @@ static void *start(const image *im) {
 static void stop(void *run) { free(run); }
 
 static wh_status step(void *run) {
-    ((made_up *)run)->steps++;
+    made_up *m = run;
+    TEST_ASSERT_TRUE(m->steps < STEPS * m->parts); /* to the end, and no further */
+    m->steps++;
     world.spent += world.evaluations_a_step;
     return WH_OK;
 }

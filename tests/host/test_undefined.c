@@ -263,18 +263,22 @@ static void test_energies_that_are_no_numbers(void) {
     for (unsigned i = 0; i < dice_cases(10); i++) {
         char text[400];
         said what;
-        const double h = dice_between(&d, 1e-4, 1e-2);
+        char when[60];
+        const double h = 1e-6 * floor(dice_between(&d, 1e2, 1e4));
+        const unsigned before = i % 4U; /* steps */
         const double v = dice_between(&d, 5.0, 20.0) / sqrt(h);
         snprintf(text, sizeof text,
                  "mechanism m\ncoordinate x [m]\nparameter u = 1 [m]\nT = 1 [kg]*x'^2/2\n"
                  "V = -1e-3 [J]*log(x/u)\nscene s { start x = %.9f [m], x' = -%.9f [m/s]\n"
                  "step %.9f [s]\nuntil 1 [s] }\n",
-                 0.7 * v * h, v, h);
+                 (before + 0.7) * v * h, v, h);
+        snprintf(when, sizeof when, "error: at t = %.9g s the stored energy ", (before + 1.0) * h);
         for (int quiet = 0; quiet < 2; quiet++) {
             const char *words[] = {model_keep(text), quiet != 0 ? "--quiet" : NULL, NULL};
             command_say(command_run, words, &what);
             TEST_ASSERT_EQUAL_INT_MESSAGE(1, what.status, text);
             TEST_ASSERT_NOT_NULL_MESSAGE(strstr(what.err, ":5:"), what.err);
+            TEST_ASSERT_NOT_NULL_MESSAGE(strstr(what.err, when), what.err);
             TEST_ASSERT_NOT_NULL(
                 strstr(what.err, "the stored energy is not a finite number: V = -1e-3 [J]*log"));
             TEST_ASSERT_TRUE(quiet != 0 || strstr(what.out, "no balance") != NULL);
