@@ -267,6 +267,13 @@ void advice_say(FILE *out, advice *a) {
     say_swing(out, a);
 }
 
+/* Exponents by which what grows by itself leaves all bounds, some 1e9 times what it was. */
+#define GROWN_FAR 20.0
+
+static bool grows_itself(const linear_motion *m) {
+    return m->value.re > 1e-6 * complex_size(m->value);
+}
+
 /* Records are in the order of time: the first such motion is from before everything grew. */
 void advice_say_diverged(FILE *out, advice *a) {
     judged *j = &a->judged;
@@ -285,16 +292,28 @@ void advice_say_diverged(FILE *out, advice *a) {
     }
     linearised *l = judged_motions(j);
     const linear_motion *found = NULL;
+    const linear_motion *own = NULL;
     l->span_s = j->image->until_s;
     for (int i = 0; i < l->motions && found == NULL; i++) {
         const linear_motion *m = &l->motion[i];
-        if (m->value.re <= 1e-6 * complex_size(m->value) &&
-            limits_growth(l->method, l->form, linearised_as(m), l->step_s) > 1.001) {
+        if (grows_itself(m)) {
+            own = own == NULL || m->value.re > 1.001 * own->value.re ? m : own;
+        } else if (limits_growth(l->method, l->form, linearised_as(m), l->step_s) > 1.001) {
             found = m;
         }
     }
     for (int i = 0; i < l->motions && found == NULL; i++) {
-        found = l->motion[i].off > JUDGED_SWING_LOST ? &l->motion[i] : NULL;
+        const linear_motion *m = &l->motion[i];
+        found = !grows_itself(m) && m->off > JUDGED_SWING_LOST ? m : NULL;
+    }
+    if (found == NULL && own != NULL && own->value.re * l->span_s > GROWN_FAR) {
+        char carried[CARRIED_TEXT];
+        fprintf(
+            out,
+            "hint: %s: such a motion grows by itself; where that is meant, --until ends the run "
+            "before\n",
+            carried_text(j, own, carried));
+        return;
     }
     if (found != NULL) {
         char carried[CARRIED_TEXT];
