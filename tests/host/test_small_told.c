@@ -78,7 +78,8 @@ static void test_faint_sizes(void) {
         said what;
         const bool is_float = n % 2U == 0;
         const double unit = is_float ? 0x1p-149 : 0x1p-1074;
-        const double units = 30.0 + dice_one_of(&die, 900);
+        const double units =
+            n % 4U < 2 ? 30.0 + dice_one_of(&die, 900) : 3.0 + dice_one_of(&die, 12);
         const unsigned steps = 100 + dice_one_of(&die, 900);
         const double part = 0.5 / units * sqrt((double)steps);
         snprintf(
