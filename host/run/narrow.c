@@ -101,7 +101,7 @@ void narrow_say(FILE *out, const image *im, const narrow *n) {
     const component c = image_component(im, n->component);
     fprintf(
         out,
-        "whirl run: warning: float has no room for what '%s' is made of: products below 1.2e-38 are "
+        "whirl run: warning: float has no room for what '%s' is made of: products below 1.2e-38 or beyond 3.4e+38 are "
         "cut or lost, up to %.2g %% of its slope about t = %.6g s\n"
         "hint: --number double; float holds sizes from 1.2e-38 to 3.4e+38 in SI units\n",
         im->unknown[c.unknown].name, 100.0 * number_least(n->part, 1.0), n->time_s);

@@ -12,7 +12,7 @@ typedef struct rounding_values {
     const double *phase_rad; /* [t->angles] */
     const double *angle_rad; /* [t->angles] */
     double
-        least; /* results below this size are rounded as one of it: a number's smallest normal one; 0: none are */
+        least; /* results below this size are rounded as one of it: float's smallest normal one, and beyond its largest infinite; 0: none are */
 } rounding_values;
 
 /* error[t->results], in units of the numbers' rounding (2^-53 in double, 2^-24 in float): what all roundings can

@@ -106,6 +106,31 @@ static void test_faint_sizes(void) {
     model_drop();
 }
 
+/* What is divided by a product beyond float's largest number is nothing there: all of it is told. */
+static void test_large_products(void) {
+    for (unsigned n = 0; n < dice_cases(usual_or(8, 4)); n++) {
+        char text[400];
+        said what;
+        const bool told = n % 2U == 0;
+        const double beyond = exp(dice_between(&die, log(1.1), log(1e5)));
+        const double product = 0x1.fffffep127 * (told ? beyond : 1.0 / beyond);
+        const double q = exp(dice_between(&die, log(1e15), log(1e25)));
+        snprintf(
+            text, sizeof text,
+            "mechanism m\nstate x [m]\ninput p = %.17g\ninput q = %.17g\ninput c = %.17g [m/s]\ninput r = 1\n"
+            "equation x' = c/(p*q + r)\nscene s { step 10 [ms]; until 1 [s] }\n",
+            product / q, q, exp(dice_between(&die, log(1e30), log(1e37))));
+        const char *words[] = {model_keep(text), "--quiet", "--number", "float", NULL};
+        command_say(command_run, words, &what);
+        TEST_ASSERT_EQUAL_INT_MESSAGE(0, what.status, what.err);
+        TEST_ASSERT_EQUAL_MESSAGE(
+            told, strstr(what.err, "or beyond 3.4e+38 are cut or lost, up to 1e+02 % of") != NULL,
+            what.err);
+        TEST_ASSERT_TRUE_MESSAGE(told || what.err[0] == '\0', what.err);
+    }
+    model_drop();
+}
+
 /* A product of two inputs that float cuts: what a least normal number is rounded by is told, of it. */
 static void test_small_products(void) {
     for (unsigned n = 0; n < dice_cases(usual_or(8, 4)); n++) {
@@ -128,8 +153,9 @@ static void test_small_products(void) {
         if (!told) {
             continue;
         }
-        at = said_exactly(at + strlen("whirl run: warning: float has no room for what '"),
-                          "x' is made of: products below 1.2e-38 are cut or lost, up to ");
+        at = said_exactly(
+            at + strlen("whirl run: warning: float has no room for what '"),
+            "x' is made of: products below 1.2e-38 or beyond 3.4e+38 are cut or lost, up to ");
         at = said_number(said_exactly(said_number(at, &figure[0]), " % of its slope about t = "),
                          &figure[1]);
         (void)said_exactly(at, " s\nhint: --number double; float holds sizes from 1.2e-38 to "
@@ -291,6 +317,7 @@ void suite_small_told(void) {
     die = dice_of("small_told", 71);
     RUN_TEST(test_slow_angles);
     RUN_TEST(test_faint_sizes);
+    RUN_TEST(test_large_products);
     RUN_TEST(test_small_products);
     RUN_TEST(test_small_products_of_records);
     RUN_TEST(test_faint_sizes_of_components);
