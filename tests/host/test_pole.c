@@ -102,27 +102,39 @@ static void test_leaps_and_few_digits(void) {
 
 /* --- what rounding leaves -------------------------------------------------------------------------------*/
 
+typedef enum difference_kind {
+    OF_EXP,
+    OF_QUOTIENTS,
+    OF_ROOT,
+    OF_DECAY,
+    OF_LOG,
+    OF_SINE,
+    OF_LANGEVIN,
+    DIFFERENCES
+} difference_kind;
+
 typedef struct difference {
-    int which;
+    difference_kind which;
     double from; /* the argument, which passes zero */
     double to;
 } difference;
 
-enum { DIFFERENCES = 7 };
-
 static double call(function_id function, double x) { return number_call(function, x, 0.0); }
 
 /* Each has a limit. */
-static double difference_at(int which, double x) {
+static double difference_at(difference_kind which, double x) {
     switch (which) {
-    case 0: return (call(FN_EXP, x) - 1.0 - x) / (x * x);
-    case 1: return 1.0 / (call(FN_EXP, x) - 1.0) - 1.0 / x;
-    case 2: return (number_root(1.0 + x) - 1.0 - 0.5 * x) / (x * x);
-    case 3: return (1.0 - call(FN_EXP, -x)) / x;
-    case 4: return (call(FN_LOG, 1.0 + x) - x) / (x * x);
-    case 5: return 1.0 / number_sine(x) - 1.0 / x;
-    default: return 1.0 / call(FN_TANH, x / 0.1) - 0.1 / x; /* two roundings of one number */
+    case OF_EXP: return (call(FN_EXP, x) - 1.0 - x) / (x * x);
+    case OF_QUOTIENTS: return 1.0 / (call(FN_EXP, x) - 1.0) - 1.0 / x;
+    case OF_ROOT: return (number_root(1.0 + x) - 1.0 - 0.5 * x) / (x * x);
+    case OF_DECAY: return (1.0 - call(FN_EXP, -x)) / x;
+    case OF_LOG: return (call(FN_LOG, 1.0 + x) - x) / (x * x);
+    case OF_SINE: return 1.0 / number_sine(x) - 1.0 / x;
+    case OF_LANGEVIN:
+        return 1.0 / call(FN_TANH, x / 0.1) - 0.1 / x; /* two roundings of one number */
+    case DIFFERENCES: break;
     }
+    return (double)NAN;
 }
 
 static void at_difference(void *of, double share, double *sign, double *value) {
@@ -137,7 +149,7 @@ static void at_difference(void *of, double share, double *sign, double *value) {
 static void test_what_rounding_leaves(void) {
     for (unsigned c = 0; c < dice_cases(350); c++) {
         const double size = exp(dice_between(&die, -17.0, -0.1));
-        difference d = {.which = (int)(c % DIFFERENCES),
+        difference d = {.which = (difference_kind)(c % DIFFERENCES),
                         .from = -size * dice_between(&die, 0.1, 0.9),
                         .to = size * dice_between(&die, 0.1, 0.9)};
         TEST_ASSERT_EQUAL_INT(-1, pole_of(&d, at_difference, 1.0));
