@@ -8,7 +8,11 @@
 
 /* What is beyond it is infinite in float; what is divided by that is lost, all of it, in units of float's rounding. */
 #define FLOAT_MOST 0x1.fffffep127
-#define ALL 0x1p24
+#define ALL_LOST 0x1p24
+
+static bool is_beyond(const rounding_values *at, double value) {
+    return at->least > 0.0 && fabs(value) > FLOAT_MOST;
+}
 
 /* A constant that float holds is exact in either number. */
 static double of_constant(double value) {
@@ -68,7 +72,9 @@ static double carried(const tape *t, const op *o, const rounding_values *at, con
     case OP_ADD:
     case OP_SUB: *rounds = true; return a + b;
     case OP_MUL: *rounds = true; return fabs(y) * a + fabs(x) * b;
-    case OP_DIV: *rounds = true; return isinf(b) ? fabs(v) * ALL : (a + fabs(v) * b) / fabs(y);
+    case OP_DIV:
+        *rounds = true;
+        return is_beyond(at, y) ? fabs(v) * ALL_LOST : (a + fabs(v) * b) / fabs(y);
     case OP_SQRT: *rounds = true; return a == 0.0 ? 0.0 : a / (2.0 * v);
     case OP_CALL: *rounds = true; return of_call(o->function, x, y, a, b);
     case OP_POW:
@@ -86,7 +92,7 @@ void rounding_of(const tape *t, const rounding_values *at, double *error) {
         each[i] = carried(t, &t->ops[i], at, each, at->value[i], &rounds);
         const double size = fabs(at->value[i]);
         each[i] += !rounds ? 0.0 : size < at->least ? at->least : size;
-        if (at->least > 0.0 && size > FLOAT_MOST) {
+        if (is_beyond(at, size)) {
             each[i] = (double)INFINITY;
         }
     }

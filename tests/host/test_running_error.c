@@ -261,7 +261,66 @@ static void test_nothing_is_off_by_nothing(void) {
     tape_free(t);
 }
 
+/* z/(x*y): float has no room for a product beyond its largest number, and all that it divides is lost; double has. */
+static void test_what_is_beyond_float(void) {
+    dice d = dice_of("running_error", 2316);
+    tape *t = tape_new(0, 1);
+    const int x = tape_leaf(t, OP_LINEAR, 0);
+    const int y = tape_leaf(t, OP_LINEAR, 1);
+    const int z = tape_leaf(t, OP_LINEAR, 2);
+    const int xy = tape_mul(t, x, y);
+    t->result[0] = tape_div(t, z, xy);
+    for (int k = 0; k < 100; k++) {
+        double value[8] = {0.0};
+        double error;
+        value[x] = pow(10.0, dice_between(&d, 10.0, 30.0));
+        value[y] = 3.4e38 / value[x] * exp(dice_between(&d, -20.0, 20.0));
+        value[z] = pow(10.0, dice_between(&d, -30.0, 30.0));
+        value[xy] = value[x] * value[y];
+        value[t->result[0]] = value[z] / value[xy];
+        const double v = value[t->result[0]];
+        const bool beyond = value[xy] > 3.4028235677973366e38;
+        const bool small = v < 0x1p-126;
+        rounding_of(t, &(rounding_values){value, value, value, NULL, NULL, 0.0}, &error);
+        TEST_ASSERT_DOUBLE_WITHIN(1e-9 * v, 2.0 * v, error);
+        rounding_of(t, &(rounding_values){value, value, value, NULL, NULL, 0x1p-126}, &error);
+        const double wanted = (beyond ? 0x1p24 * v : v) + (small ? 0x1p-126 : v);
+        TEST_ASSERT_DOUBLE_WITHIN(1e-9 * wanted, wanted, error);
+    }
+    tape_free(t);
+}
+
+/* What has no bound has none behind a division either: z/(y + sqrt(x + w)) where that root is of nothing. */
+static void test_no_bound_stays_none(void) {
+    dice d = dice_of("running_error", 2317);
+    tape *t = tape_new(0, 1);
+    const int x = tape_leaf(t, OP_LINEAR, 0);
+    const int w = tape_leaf(t, OP_LINEAR, 1);
+    const int y = tape_leaf(t, OP_LINEAR, 2);
+    const int z = tape_leaf(t, OP_LINEAR, 3);
+    const int twice = tape_mul(t, x, w);
+    const int root = tape_unary(t, OP_SQRT, tape_sub(t, twice, y));
+    const int divisor = tape_add(t, y, root);
+    t->result[0] = tape_div(t, z, divisor);
+    for (int k = 0; k < 50; k++) {
+        double value[16] = {0.0};
+        double error;
+        value[x] = dice_between(&d, 1.0, 2.0);
+        value[w] = dice_between(&d, 1.0, 2.0);
+        value[twice] = value[y] = value[divisor] = value[x] * value[w];
+        value[z] = dice_between(&d, 1.0, 2.0);
+        value[t->result[0]] = value[z] / value[divisor];
+        rounding_of(
+            t, &(rounding_values){value, value, value, NULL, NULL, k % 2 == 0 ? 0.0 : 0x1p-126},
+            &error);
+        TEST_ASSERT_TRUE(isinf(error));
+    }
+    tape_free(t);
+}
+
 void suite_running_error(void) {
     RUN_TEST(test_drawn_lists);
     RUN_TEST(test_nothing_is_off_by_nothing);
+    RUN_TEST(test_what_is_beyond_float);
+    RUN_TEST(test_no_bound_stays_none);
 }
