@@ -274,7 +274,26 @@ static bool grows_itself(const linear_motion *m) {
     return m->value.re > 1e-6 * complex_size(m->value);
 }
 
-/* Records are in the order of time: the first such motion is from before everything grew. */
+/* The motion that the method lets grow, or at least puts off; NULL: none. Records are in the order of time: the first such
+ * is from before everything grew. *own: what grows most by itself, or NULL. */
+static const linear_motion *motion_to_blame(const linearised *l, const linear_motion **own) {
+    const linear_motion *found = NULL;
+    *own = NULL;
+    for (int i = 0; i < l->motions && found == NULL; i++) {
+        const linear_motion *m = &l->motion[i];
+        if (grows_itself(m)) {
+            *own = *own == NULL || m->value.re > 1.001 * (*own)->value.re ? m : *own;
+        } else if (limits_growth(l->method, l->form, linearised_as(m), l->step_s) > 1.001) {
+            found = m;
+        }
+    }
+    for (int i = 0; i < l->motions && found == NULL; i++) {
+        const linear_motion *m = &l->motion[i];
+        found = !grows_itself(m) && m->off > JUDGED_SWING_LOST ? m : NULL;
+    }
+    return found;
+}
+
 void advice_say_diverged(FILE *out, advice *a) {
     judged *j = &a->judged;
     const bool is_asked =
@@ -291,21 +310,9 @@ void advice_say_diverged(FILE *out, advice *a) {
         return;
     }
     linearised *l = judged_motions(j);
-    const linear_motion *found = NULL;
-    const linear_motion *own = NULL;
+    const linear_motion *own;
     l->span_s = j->image->until_s;
-    for (int i = 0; i < l->motions && found == NULL; i++) {
-        const linear_motion *m = &l->motion[i];
-        if (grows_itself(m)) {
-            own = own == NULL || m->value.re > 1.001 * own->value.re ? m : own;
-        } else if (limits_growth(l->method, l->form, linearised_as(m), l->step_s) > 1.001) {
-            found = m;
-        }
-    }
-    for (int i = 0; i < l->motions && found == NULL; i++) {
-        const linear_motion *m = &l->motion[i];
-        found = !grows_itself(m) && m->off > JUDGED_SWING_LOST ? m : NULL;
-    }
+    const linear_motion *found = motion_to_blame(l, &own);
     if (found == NULL && own != NULL && own->value.re * l->span_s > GROWN_FAR) {
         char carried[CARRIED_TEXT];
         fprintf(

@@ -77,3 +77,16 @@ int blamed_operands(const blame_node *n, int of[static 2]) {
     }
     return 0;
 }
+
+bool *blamed_parts(const image *im, int node) {
+    bool *of = room((int64_t)node + 1, sizeof *of);
+    of[node] = true;
+    for (int i = node; i >= 0; i--) {
+        int operand[2];
+        const int count = of[i] ? blamed_operands(&im->blame.node[i], operand) : 0;
+        for (int k = 0; k < count; k++) {
+            of[operand[k]] = true;
+        }
+    }
+    return of;
+}

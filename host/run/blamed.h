@@ -20,5 +20,7 @@ void blamed_place(blamed *b, const double *angle_rad, const double *real);
 double blamed_node(const blamed *b, const blame_node *n);
 /* Its operands, and how many it has. */
 int blamed_operands(const blame_node *n, int of[static 2]);
+/* [node + 1]: the nodes that this one is made of, itself among them; the caller frees it. */
+bool *blamed_parts(const image *im, int node);
 
 #endif

@@ -236,16 +236,10 @@ double divisors_value(const divisors *d, const divisor *of) {
 
 /* Does this node depend on the highest derivative of that unknown? */
 static bool has_highest(const image *im, int node, int unknown) {
-    bool *of = room(node + 1, sizeof *of);
+    bool *of = blamed_parts(im, node);
     bool has = false;
-    of[node] = true;
-    for (int i = node; i >= 0 && !has; i--) {
+    for (int i = 0; i <= node && !has; i++) {
         const blame_node *n = &im->blame.node[i];
-        int operand[2];
-        const int count = of[i] ? blamed_operands(n, operand) : 0;
-        for (int k = 0; k < count; k++) {
-            of[operand[k]] = true;
-        }
         has = of[i] && n->code == BLAME_STATE && n->a == unknown &&
               n->b == im->unknown[unknown].order;
     }

@@ -88,15 +88,9 @@ static double relative_way(const jumped *j, const divisor *d) {
     if (d->derived) {
         return most;
     }
-    bool *of = room(d->node + 1, sizeof *of);
-    of[d->node] = true;
-    for (int i = d->node; i >= 0; i--) {
+    bool *of = blamed_parts(j->image, d->node);
+    for (int i = 0; i <= d->node; i++) {
         const blame_node *n = &j->image->blame.node[i];
-        int operand[2];
-        const int count = of[i] ? blamed_operands(n, operand) : 0;
-        for (int k = 0; k < count; k++) {
-            of[operand[k]] = true;
-        }
         if (of[i] && n->code == BLAME_STATE) {
             most =
                 number_most(most, relative_way_of(j, image_find_component(j->image, n->a, n->b)));

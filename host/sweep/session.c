@@ -160,7 +160,8 @@ static void say_against(const sitting *s) {
             fprintf(stderr, "whirl sweep: warning: %llu of %llu points %s; first: ",
                     (unsigned long long)s->against[k], (unsigned long long)s->ran, words[k]);
             name_point(s->sweep, s->against_first[k]);
-            fputs("\nhint: a smaller --step; `whirl run` of the point says more\n", stderr);
+            fprintf(stderr, "\nhint: %s`whirl run` of the point says more\n",
+                    k == VERDICT_MASS ? "no step helps: " : "a smaller --step; ");
         }
     }
 }
