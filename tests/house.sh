@@ -31,7 +31,7 @@ base: core
 number: core
 plot: base number
 lang: base number
-algebra: base lang
+algebra: base lang number
 image: base core number
 derive: algebra base core image lang number
 show: algebra base derive lang number

@@ -7,6 +7,7 @@
 
 #include "algebra.h"
 #include "host/base/room.h"
+#include "host/number/folding.h"
 
 /* A product of sums with more terms than this is kept as a product. */
 #define PRODUCT_TERMS_MAX 20000
@@ -40,10 +41,12 @@ static const poly *merge(algebra *a, const poly *left, const poly *right, double
         if (order < 0) {
             sum->terms[sum->count++] = left->terms[i++];
         } else if (order > 0) {
-            sum->terms[sum->count++] = (poly_term){right->terms[j++].coefficient * scale, r};
+            sum->terms[sum->count++] =
+                (poly_term){folding_product(right->terms[j++].coefficient, scale), r};
         } else {
             const double x = left->terms[i++].coefficient;
-            const double both = coefficient_sum(x, right->terms[j++].coefficient * scale);
+            const double both =
+                coefficient_sum(x, folding_product(right->terms[j++].coefficient, scale));
             if (both != 0.0) {
                 sum->terms[sum->count++] = (poly_term){both, l};
             }
@@ -201,7 +204,8 @@ static const poly *product_of(algebra *a, const poly *left, const poly *right) {
     for (int i = 0; i < left->count && !a->overflow; i++) {
         for (int j = 0; j < right->count && !a->overflow; j++) {
             const poly *p = mono_product(a, left->terms[i].mono, right->terms[j].mono);
-            sum_add(a, &row, p, left->terms[i].coefficient * right->terms[j].coefficient);
+            sum_add(a, &row, p,
+                    folding_product(left->terms[i].coefficient, right->terms[j].coefficient));
         }
         sum_add_row(&sum, &row);
     }

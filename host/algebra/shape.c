@@ -2,6 +2,7 @@
 #include <math.h>
 
 #include "algebra.h"
+#include "host/number/folding.h"
 #include "poly.h"
 
 /* Sums below this part of what was added are rounding errors of the decimals they came from. */
@@ -27,7 +28,8 @@ double coefficient_sum(double x, double y) {
     if (!isfinite(x + y)) { /* infinity is not small beside itself */
         return x + y;
     }
-    return fabs(x + y) <= CANCELLED * number_most(fabs(x), fabs(y)) ? 0.0 : x + y;
+    return folding_cancels(x + y, number_most(fabs(x), fabs(y)), CANCELLED) ? 0.0
+                                                                            : folding_sum(x, y);
 }
 
 bool exponent_is_whole(double x) { return x == number_floor(x) && fabs(x) < 1e6; }

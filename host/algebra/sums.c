@@ -3,6 +3,7 @@
 
 #include "algebra.h"
 #include "host/base/room.h"
+#include "host/number/folding.h"
 #include "poly.h"
 
 static void push(poly_sum *s, const mono *m, double coefficient) {
@@ -17,7 +18,7 @@ static void push(poly_sum *s, const mono *m, double coefficient) {
 void sum_add(algebra *a, poly_sum *s, const poly *p, double scale) {
     algebra_work(a, (size_t)p->count + 1);
     for (int i = 0; i < p->count && !a->overflow; i++) {
-        push(s, p->terms[i].mono, p->terms[i].coefficient * scale);
+        push(s, p->terms[i].mono, folding_product(p->terms[i].coefficient, scale));
     }
 }
 

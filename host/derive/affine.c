@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "host/base/room.h"
+#include "host/number/folding.h"
 
 /* Of a sum that cancels, this part of its summands and less is nothing, as in host/algebra: decimal parameters leave no
  * ghosts of a spring between two masses that move together. */
@@ -35,7 +36,7 @@ static bool is_constant(const twofold *c, int columns) {
 
 static twofold sum(twofold a, twofold b) {
     const twofold both = twofold_add(a, b);
-    return fabs(both.high) < GHOST * (fabs(a.high) + fabs(b.high)) ? twofold_of(0.0) : both;
+    return folding_cancels(both.high, fabs(a.high) + fabs(b.high), GHOST) ? twofold_of(0.0) : both;
 }
 
 static void add(const twofold *a, const twofold *b, double sign, int columns, twofold *to) {

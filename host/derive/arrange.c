@@ -6,6 +6,7 @@
 
 #include "hinge.h"
 #include "host/base/room.h"
+#include "host/number/folding.h"
 
 /* Symbolic elimination stops when an entry would get more terms than this. */
 #define SYMBOLIC_TERMS_MAX 60
@@ -86,9 +87,9 @@ static double choose_scales(const linear_system *s, double *scale) {
 /* c * scale, put onto a simple fraction where it comes out a rounding error beside one: 1.0000000000000002 would
  * cost a product. */
 static double scale_number(double c, double scale) {
-    const double scaled = c * scale;
+    const double scaled = folding_product(c, scale);
     const double nearest = number_floor(scaled * 48.0 + 0.5) / 48.0;
-    return nearest != 0.0 && fabs(scaled - nearest) <= 1e-15 * fabs(scaled) ? nearest : scaled;
+    return nearest != 0.0 && folding_same(scaled, nearest, 1e-15) ? nearest : scaled;
 }
 
 static const poly *scale_simply(algebra *a, const poly *p, double scale) {

@@ -10,7 +10,9 @@
 #include "host/lang/lexer.h"
 #include "host/lang/shown.h"
 #include "host/lang/words.h"
+#include "host/number/folding.h"
 #include "host/number/phase.h"
+#include "image_once.h"
 #include "image_parts.h"
 #include "matrix_make.h"
 #include "program.h"
@@ -288,7 +290,7 @@ static image *with_matrix(image_draft *d, const equations *e, image_use use, dia
     return made;
 }
 
-image *image_make(const equations *e, const bool *conserve, const image_settings *settings,
+image *image_once(const equations *e, const bool *conserve, const image_settings *settings,
                   image_use use, diags *errors) {
     image_settings done = *settings;
     program *p = program_make(e, conserve, settings->compensated, errors);
@@ -296,8 +298,10 @@ image *image_make(const equations *e, const bool *conserve, const image_settings
         program_free(p);
         return NULL;
     }
-    /* Contacts solve with the same matrix; tables are rounded once by themselves. */
-    if (done.compensated && p->contacts == NULL && done.tables == TABLES_NONE) {
+    /* Contacts solve with the same matrix; tables are rounded once by themselves. What is folded the other way is never
+     * run in float, for which this is. */
+    if (done.compensated && p->contacts == NULL && done.tables == TABLES_NONE &&
+        folding_way() == FOLDING_NEAREST) {
         tape_gauge(&p->step, tape_gauge_price(p->step));
     }
     image_draft d = image_draft_new();

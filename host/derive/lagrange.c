@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "host/base/room.h"
+#include "host/number/folding.h"
 #include "singular.h"
 
 /* --- energies ------------------------------------------------------------------------------------*/
@@ -176,6 +177,7 @@ equations *equations_derive_after(const instance *inst, equations_question *befo
                                   diags *errors) {
     const mechanism *m = inst->mechanism;
     const int n = m->coordinate_count;
+    const folding before_it = folding_begin(folding_way());
     equations *e = room(1, sizeof *e);
     e->algebra = algebra_new();
     if (before != NULL) {
@@ -213,6 +215,7 @@ equations *equations_derive_after(const instance *inst, equations_question *befo
     if (good) {
         good = equations_check_solvable(e, errors);
     }
+    e->folded = folding_end(before_it);
     if (!good) {
         equations_free(e);
         return NULL;

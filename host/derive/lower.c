@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "host/base/room.h"
+#include "host/number/folding.h"
 #include "pieces.h"
 #include "waves.h"
 
@@ -95,7 +96,7 @@ typedef struct product {
 static void product_multiply(lowering *l, product *p, int node, int exponent) {
     double value;
     if (tape_is_constant(l->tape, node, &value)) {
-        p->coefficient *= number_power(value, exponent);
+        p->coefficient = folding_product(p->coefficient, number_power(value, exponent));
         return;
     }
     for (int i = 0; i < p->count; i++) {
@@ -193,7 +194,7 @@ static int sum_flat(lowering *l, const product *products, int count) {
         const double size = fabs(products[i].coefficient);
         bool all_negative = true;
         for (int k = 0; k < count; k++) {
-            member[k] = !done[k] && fabs(fabs(products[k].coefficient) - size) <= SAME * size;
+            member[k] = !done[k] && folding_same(fabs(products[k].coefficient), size, SAME);
             done[k] = done[k] || member[k];
             all_negative = all_negative && (!member[k] || products[k].coefficient < 0.0);
         }

@@ -10,6 +10,7 @@
 #include <string.h>
 
 #include "host/base/room.h"
+#include "host/number/folding.h"
 
 /* Coefficients that differ by less than this part count as equal: they come from the same number. */
 #define SAME 1e-13
@@ -160,7 +161,7 @@ static int products_of(algebra *a, const poly *p, int base, const family *f, pie
     int count = 0;
     bool vanishes = false; /* at 0 or at pi/2 */
     for (int j = 0; j <= sum.degree; j++) {
-        if (fabs(sum.coefficient[j]) <= CANCELLED * sum.added[j]) {
+        if (folding_cancels(sum.coefficient[j], sum.added[j], CANCELLED)) {
             vanishes = vanishes || j == 0 || j == sum.degree;
             continue;
         }
@@ -210,8 +211,7 @@ static int find_squares(algebra *a, const poly *p, bool *used, piece *pieces) {
             const poly_term *flat = &p->terms[j];
             if (used[j] || flat->mono->trig != TRIG_NONE ||
                 !same_factors(flat->mono, turning->mono) ||
-                fabs(fabs(flat->coefficient) - fabs(turning->coefficient)) >
-                    SAME * fabs(flat->coefficient)) {
+                !folding_same(fabs(flat->coefficient), fabs(turning->coefficient), SAME)) {
                 continue;
             }
             const bool like = (flat->coefficient < 0.0) == (turning->coefficient < 0.0);

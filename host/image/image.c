@@ -12,6 +12,9 @@ void image_free(image *im) {
             tape_free(im->list[role]);
         }
     }
+    for (int k = 0; k < im->ways && im->base == NULL; k++) {
+        image_free(im->otherwise[k]);
+    }
     arena_free(im->memory);
 }
 

@@ -16,6 +16,9 @@
 #include "host/number/ratio.h"
 #include "tape.h"
 
+/* So many other ways of folding numbers are asked, at most. */
+enum { IMAGE_WAYS = 4 };
+
 /* Most coordinates of a mechanism, or first-order components of a system. */
 #define IMAGE_COMPONENTS_MAX 64
 
@@ -277,16 +280,20 @@ typedef struct image {
     double until_s;
 
     wh_form form;
-    int count;              /* unknowns */
-    int coordinates;        /* integrated coordinates, angles included (second order) */
-    int angles;             /* components kept as turn angles */
-    int reals;              /* components kept as reals */
-    int inputs;             /* the mechanism's own and those of the effects called for */
-    int own_outputs;        /* the mechanism's */
-    int outputs;            /* those, then value and rate of each recovered coordinate */
-    int recovered;          /* coordinates that follow from their momentum */
-    int parameters;         /* the mechanism's own and those of the effects called for */
-    double mass_blur;       /* by such a part rounding of the mass matrix puts accelerations off */
+    int count;        /* unknowns */
+    int coordinates;  /* integrated coordinates, angles included (second order) */
+    int angles;       /* components kept as turn angles */
+    int reals;        /* components kept as reals */
+    int inputs;       /* the mechanism's own and those of the effects called for */
+    int own_outputs;  /* the mechanism's */
+    int outputs;      /* those, then value and rate of each recovered coordinate */
+    int recovered;    /* coordinates that follow from their momentum */
+    int parameters;   /* the mechanism's own and those of the effects called for */
+    double mass_blur; /* by such a part rounding of the mass matrix puts accelerations off */
+    double folded;    /* such a part of a number was lost when others were added to it */
+    /* Where that is much: the same folded in other ways (host/number/folding.h), for their lists. */
+    struct image *otherwise[IMAGE_WAYS];
+    int ways;
     image_unknown *unknown; /* [count] */
     component *angle;       /* [angles] */
     component *real;        /* [reals] */

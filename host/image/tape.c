@@ -8,6 +8,7 @@
 #include "core/table.h"
 #include "host/base/arena.h"
 #include "host/base/room.h"
+#include "host/number/folding.h"
 
 tape *tape_new(int angles, int results) {
     tape *t = room(1, sizeof *t);
@@ -271,7 +272,7 @@ int tape_add(tape *t, int a, int b) {
     const bool fixed_a = tape_is_constant(t, a, &x);
     const bool fixed_b = tape_is_constant(t, b, &y);
     if (fixed_a && fixed_b) {
-        return tape_constant(t, x + y);
+        return tape_constant(t, folding_sum(x, y));
     }
     if (fixed_a && x == 0.0) {
         return b;
@@ -294,7 +295,7 @@ int tape_sub(tape *t, int a, int b) {
     const bool fixed_a = tape_is_constant(t, a, &x);
     const bool fixed_b = tape_is_constant(t, b, &y);
     if (fixed_a && fixed_b) {
-        return tape_constant(t, x - y);
+        return tape_constant(t, folding_sum(x, -y));
     }
     if (a == b) {
         return tape_constant(t, 0.0);
@@ -320,7 +321,7 @@ int tape_mul(tape *t, int a, int b) {
     const bool fixed_a = tape_is_constant(t, a, &x);
     const bool fixed_b = tape_is_constant(t, b, &y);
     if (fixed_a && fixed_b) {
-        return tape_constant(t, x * y);
+        return tape_constant(t, folding_product(x, y));
     }
     if (fixed_b) {
         return tape_mul(t, b, a);
@@ -339,7 +340,7 @@ int tape_mul(tape *t, int a, int b) {
             return tape_mul(t, tape_constant(t, -x), t->ops[b].a);
         }
         if (t->ops[b].code == OP_MUL && tape_is_constant(t, t->ops[b].a, &y)) {
-            return tape_mul(t, tape_constant(t, x * y), t->ops[b].b);
+            return tape_mul(t, tape_constant(t, folding_product(x, y)), t->ops[b].b);
         }
         return enter_op(t, OP_MUL, a, b);
     }

@@ -213,6 +213,25 @@ static void say_blurred(FILE *out, const advice *a) {
                              : "two equations say nearly the same: their difference tells more");
 }
 
+static void say_folded(FILE *out, advice *a) {
+    judged *j = &a->judged;
+    if (!judged_folded(j)) {
+        return;
+    }
+    const component c = image_component(j->image, j->folded);
+    fprintf(
+        out,
+        "whirl run: warning: constants of '%s' are sums in which a small one is lost beside a large "
+        "one: rounding them, in double, too, may put %s%.*s %.2g %% off\n"
+        "hint: %s\n",
+        j->image->mechanism, j->image->unknown[c.unknown].name, c.primes + 1, "''''''''''",
+        100.0 * number_least(j->folded_off, 1.0),
+        j->image->has_energies
+            ? "a coordinate that is counted from a light body to one that a stiff spring holds "
+              "does that: count it from that one, or from the ground"
+            : "two equations say nearly the same: their difference tells more");
+}
+
 static void say_jumped(FILE *out, advice *a) {
     const judged *j = &a->judged;
     double begin_s;
@@ -262,6 +281,7 @@ static void say_swing(FILE *out, advice *a) {
 
 void advice_say(FILE *out, advice *a) {
     say_blurred(out, a);
+    say_folded(out, a);
     say_jumped(out, a);
     say_singular(out, a);
     say_swing(out, a);

@@ -3,11 +3,18 @@
 
 #include <math.h>
 
+#include "folded.h"
 #include "host/number/functions.h"
 #include "swing.h"
 
 /* Of a system's swing: its part of what moves, of which JUDGED_SWING_LOST is lost. */
 #define SWING_SHARE 0.01
+/* Another way of folding is some four times as far off as the nearest is: two digits and more, against half of one. */
+#define WAY_OVER 0.25
+/* Of the size of what moves, or of one metre or radian, as host/trust/horizon.c has it: less is its rounding. */
+#define STAYS 1e-9
+/* Likewise, of what others of its unit move. */
+#define BESIDE_OTHERS 1e-3
 /* Of the range, where it varies. */
 #define SWING_OFF 0.01
 
@@ -32,6 +39,58 @@ linearised *judged_motions(judged *j) {
 }
 
 bool judged_blurred(const judged *j) { return j->image->mass_blur > JUDGED_BLURRED; }
+
+static double size_of(const watch *w, int c) {
+    return number_most(fabs(w->low[c]), fabs(w->high[c]));
+}
+
+/* Is a slope of component c that is so much off of any consequence over the run? What does not move but for its rounding has
+ * no range: it would have to go some way. */
+static bool moves(const judged *j, int c, double off) {
+    const watch *w = j->watch;
+    const double span_s = (double)w->steps * w->step_s;
+    const component of = image_component(j->image, c);
+    const int found = image_find_component(j->image, of.unknown, 0);
+    const int at = found >= 0 ? found : c;
+    const double gone = w->high[at] - w->low[at];
+    const double others = w->range[w->field->n + w->alike[at]];
+    if (gone < BESIDE_OTHERS * others) { /* its rounding, beside what others of its unit do */
+        return false;
+    }
+    const double size = size_of(w, at);
+    if (gone > STAYS * number_most(size, 1.0)) {
+        return off * span_s > JUDGED_FOLDED_MOVES * w->range[c];
+    }
+    const double way = at != c ? 0.5 * off * span_s * span_s : off * span_s;
+    return way > number_most(JUDGED_FOLDED_MOVES * size, STAYS);
+}
+
+static void ask_folded(judged *j) {
+    const watch *w = j->watch;
+    folded *f = folded_open(j->image, j->kind);
+    for (int k = 0; k < w->records && f != NULL; k++) {
+        folded_look(f, w->record + (ptrdiff_t)k * w->field->n);
+    }
+    for (int i = 0; f != NULL && i < f->results; i++) {
+        const int c = folded_component(j->image, i);
+        for (int k = 0; k < j->image->ways; k++) {
+            const double off = WAY_OVER * f->off[k * f->results + i];
+            if (off > j->folded_off * f->size[i] && moves(j, c, off)) {
+                j->folded_off = off / f->size[i];
+                j->folded = c;
+            }
+        }
+    }
+    folded_close(f);
+}
+
+bool judged_folded(judged *j) {
+    if (!j->folded_known) {
+        j->folded_known = true;
+        ask_folded(j);
+    }
+    return j->folded_off > JUDGED_FOLDED && !judged_blurred(j);
+}
 
 bool judged_singular(const judged *j) {
     return j->watch->singular.done && j->watch->singular.off >= JUDGED_NOT_RESOLVED;

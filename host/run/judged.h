@@ -14,6 +14,9 @@
 #define JUDGED_NOT_RESOLVED 3e-3
 /* Rounding of the mass matrix makes so much of accelerations. */
 #define JUDGED_BLURRED 1e-4
+/* The same of constants that were folded, where it moves rates by such a part of their range over the run. */
+#define JUDGED_FOLDED 1e-3
+#define JUDGED_FOLDED_MOVES 1e-3
 /* Of a system's swing: what of it is lost. */
 #define JUDGED_SWING_LOST 0.01
 
@@ -23,7 +26,11 @@ typedef struct judged {
     const watch *watch;
     const belief *balance;
     linearised *motions; /* NULL until they are asked for */
-    bool swing_known;    /* it has been asked whether */
+    bool folded_known;   /* it has been asked, */
+    double
+        folded_off; /* how far off folding puts an acceleration, of its largest; 0: nowhere that it moves much, */
+    int folded;       /* and which component's slope that is */
+    bool swing_known; /* it has been asked whether */
     bool swing;
     double swing_off; /* of a swing that varies along its way: swing_off(); else 0 */
 } judged;
@@ -43,6 +50,8 @@ bool judged_lost(const judged *j);
 double judged_missing(const judged *j);
 /* Is so little left of the mass matrix, wherever it stands, that numbers do not tell what moves? */
 bool judged_blurred(const judged *j);
+/* Have constants lost digits that the motion needs, when they were folded to double? */
+bool judged_folded(judged *j);
 /* Is there a singular position that the step does not resolve? A swing that a system given by its equations loses? */
 bool judged_singular(const judged *j);
 bool judged_swing(judged *j);

@@ -11,6 +11,7 @@
 /* What may be said against a run. */
 typedef enum verdict_kind {
     VERDICT_MASS,     /* rounding leaves little of its mass matrix */
+    VERDICT_FOLDED,   /* a constant of it was lost beside a larger one */
     VERDICT_ENERGY,   /* its energies do not balance */
     VERDICT_SINGULAR, /* it passed a singular position that its steps do not resolve */
     VERDICT_JUMPED,   /* a step jumped over a pole of an expression */

@@ -146,6 +146,7 @@ static void say_slow(const sitting *s) {
 static void say_against(const sitting *s) {
     static const char *const words[VERDICT_KINDS] = {
         [VERDICT_MASS] = "have a mass matrix that is singular but for a last digit or two",
+        [VERDICT_FOLDED] = "have constants in which a small one is lost beside a large one",
         [VERDICT_ENERGY] = "cannot be believed: what is left over of their energy books "
                            "(" BELIEF_COLUMN "), or was missing on the way, is too much of the "
                            "largest entry",
@@ -161,7 +162,8 @@ static void say_against(const sitting *s) {
                     (unsigned long long)s->against[k], (unsigned long long)s->ran, words[k]);
             name_point(s->sweep, s->against_first[k]);
             fprintf(stderr, "\nhint: %s`whirl run` of the point says more\n",
-                    k == VERDICT_MASS ? "no step helps: " : "a smaller --step; ");
+                    k == VERDICT_MASS || k == VERDICT_FOLDED ? "no step helps: "
+                                                             : "a smaller --step; ");
         }
     }
 }

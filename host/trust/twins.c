@@ -7,6 +7,7 @@
 
 #include "host/base/room.h"
 #include "host/number/functions.h"
+#include "host/run/folded.h"
 
 /* What looking for events takes of evaluations, beside a step's own. */
 #define EVALUATIONS_OF_EVENTS 8.0
@@ -39,10 +40,20 @@ bool twins_plain(const image_settings *of, image_settings *plain) {
     return plain->tables != of->tables || plain->compensated != of->compensated;
 }
 
+/* What was lost in folding, both would have lost. */
+static void fold_the_other_way(image *im) {
+    const image *other = folded_furthest(im);
+    for (int role = 0; role < IMAGE_ROLES && other != NULL; role++) {
+        const bool is_its_own = role != IMAGE_MATRIX || im->step_s == other->step_s;
+        im->list[role] = is_its_own ? other->list[role] : im->list[role];
+    }
+}
+
 static void make_finer(twins *t, const twins_wish *w) {
     const image *im = w->image;
     t->finer = *w->plain;
     t->finer.fixed = NULL;
+    fold_the_other_way(&t->finer);
     t->finer.settings.compensated = true;
     t->each = 1;
     t->left_out = 1.0;

@@ -1,0 +1,91 @@
+/* folding.c: see folding.h. */
+#include "folding.h"
+
+#include <math.h>
+#include <stdint.h>
+#include <string.h>
+
+#include "core/hash.h"
+#include "enclosure.h"
+#include "functions.h"
+#include "twofold.h"
+
+/* What double is rounded by. */
+#define UNIT 0x1p-53
+/* What decimals leave of each other: 0.1 + 0.2 - 0.3. */
+#define GHOST (4.0 * UNIT)
+
+static folding now;
+
+folding folding_begin(int way) {
+    const folding before = now;
+    now = (folding){way, 0.0};
+    return before;
+}
+
+double folding_end(folding before) {
+    const double lost = now.lost;
+    now = before;
+    return lost;
+}
+
+int folding_way(void) { return now.way; }
+
+static uint64_t digits_of(double x) {
+    uint64_t bits;
+    memcpy(&bits, &x, sizeof bits);
+    return bits & ((UINT64_C(1) << 52) - 1);
+}
+
+/* The same in all that is folded of these digits, whatever their signs and powers of two, and in whatever order. */
+static bool is_turned(double x, double y) {
+    if (now.way <= FOLDING_APART) {
+        return now.way == FOLDING_OTHER;
+    }
+    const uint64_t a = digits_of(x);
+    const uint64_t b = digits_of(y);
+    const uint64_t hash = ((a + b) * WH_HASH_PRIME ^ (a ^ b)) * WH_HASH_PRIME;
+    return (hash >> (32 + now.way - FOLDING_SOME) & 1U) != 0;
+}
+
+/* On the other side of what `exact` is, one double beyond its neighbour: several roundings may have put a number as far off
+ * as that. Itself where it is a double. */
+static double other_neighbour(twofold exact, double x, double y) {
+    if (!twofold_is_finite(exact) || exact.low == 0.0 || !is_turned(x, y)) {
+        return exact.high;
+    }
+    return exact.low > 0.0 ? enclosure_above(enclosure_above(exact.high))
+                           : enclosure_below(enclosure_below(exact.high));
+}
+
+double folding_sum(double x, double y) {
+    const double sum = x + y;
+    const double most = number_most(fabs(x), fabs(y));
+    const double least = number_least(number_least(fabs(x), fabs(y)), fabs(sum));
+    if (least > 0.0 && UNIT * most > now.lost * least) {
+        now.lost = UNIT * most / least;
+    }
+    return now.way != FOLDING_NEAREST
+               ? other_neighbour(twofold_add(twofold_of(x), twofold_of(y)), x, y)
+               : sum;
+}
+
+double folding_product(double x, double y) {
+    return now.way != FOLDING_NEAREST
+               ? other_neighbour(twofold_mul(twofold_of(x), twofold_of(y)), x, y)
+               : x * y;
+}
+
+bool folding_cancels(double left, double size, double part) {
+    if (now.way != FOLDING_NEAREST || !(fabs(left) <= part * size)) {
+        return left == 0.0;
+    }
+    if (fabs(left) > GHOST * size) {
+        now.lost = number_most(now.lost, 1.0);
+    }
+    return true;
+}
+
+bool folding_same(double x, double y, double part) {
+    return folding_cancels(x - y, number_most(fabs(x), fabs(y)), part);
+}

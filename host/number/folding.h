@@ -1,0 +1,43 @@
+/* folding.h: sums and products of constants, as derivations fold them, and how many digits they lose.
+ *
+ * k1 + k2 is one double: of the smaller addend it keeps what is above the last digit of the larger. Mostly nobody asks for
+ * more. Where equations are eliminated, or run-time sums cancel, so that k1 alone is left, everything that goes by the folded
+ * numbers has lost the same digits, and no comparison of two runs shows it. So
+ *
+ *   - it is noted what part of its smallest addend, or of what is left of it, rounding a sum may have made;
+ *   - a derivation can be made again in another *way*: sums and products that are not exact are rounded the other way, one
+ *     double beyond their other neighbour, all of them or about half, or none. What is exact stays, and nothing is put onto what is nearly the same. Where
+ *     several roundings add up, one way may come to the same numbers by chance; hence more than one (Vignes, A stochastic
+ *     arithmetic for reliable scientific computation, 1993, has his at run time).
+ *
+ * Which way, and what was lost, is kept here as the rounding mode is kept in a processor: whoever folds asks nobody. */
+#ifndef NUMBER_FOLDING_H
+#define NUMBER_FOLDING_H
+
+#include <stdbool.h>
+
+/* To nearest, as everything that runs on a board; all the other way; to nearest, but nothing put onto what is nearly
+ * the same; and then about half the other way. */
+enum { FOLDING_NEAREST, FOLDING_OTHER, FOLDING_APART, FOLDING_SOME, FOLDING_WAYS = 5 };
+
+typedef struct folding {
+    int way;
+    double
+        lost; /* since folding_begin(): the largest part of an addend, or of a sum that cancels */
+} folding;
+
+/* What held before is what folding_end() is to be given; it tells what was lost between the two. */
+folding folding_begin(int way);
+double folding_end(folding before);
+
+int folding_way(void);
+
+double folding_sum(double x, double y);
+double folding_product(double x, double y);
+/* Is `left`, which two numbers of this size leave of each other, nothing? Up to `part` of them it is: a last digit or two are
+ * of the decimals that they came from, what is more is noted. In another way nothing but zero is. */
+bool folding_cancels(double left, double size, double part);
+/* Are two numbers one, but for such a part? */
+bool folding_same(double x, double y, double part);
+
+#endif

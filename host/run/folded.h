@@ -1,0 +1,33 @@
+/* folded.h: what folding a scene's constants to double makes of its accelerations, at states of a run: the scene's own list
+ * beside those whose constants were folded in other ways (host/number/folding.h). Of most scenes there are none, and nothing
+ * is asked. */
+#ifndef RUN_FOLDED_H
+#define RUN_FOLDED_H
+
+#include "engine.h"
+
+typedef struct folded {
+    const image *image;
+    int results;
+    int looks;
+    evaluator *own;
+    evaluator *other[IMAGE_WAYS];
+    double *input;
+    double *value;  /* [results] */
+    double *beside; /* [results] */
+    double *size;   /* [results] the largest that it was, */
+    double *off;    /* [ways * results] and that another way was off it */
+} folded;
+
+/* NULL where there is one way only. */
+folded *folded_open(const image *im, const engine_kind *kind);
+void folded_close(folded *f); /* NULL is fine */
+/* x: a state as engine_kind.state() gives it, angles first. */
+void folded_look(folded *f, const double *x);
+/* The component whose slope result i is: a rate, or what a system given outright is solved for. */
+int folded_component(const image *im, int i);
+
+/* The image of the way that leads furthest from the scene's own, about where it starts; NULL where there is none. */
+const image *folded_furthest(const image *im);
+
+#endif
