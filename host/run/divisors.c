@@ -16,6 +16,7 @@ enum {
     OF_A_TAN = 8U, /* a tangent is taken of it */
     NEEDED = 16U,
     LEAPS = 32U, /* and on what an event may change at once */
+    BENDS = 64U, /* and not in a straight line */
 };
 
 /* Places stay where they are at an event, but for those that a crossing sets. */
@@ -36,6 +37,19 @@ static unsigned moves_of(const image *im, const blame_node *n) {
     return MOVES | (known ? 0U : HIDDEN) | (leaps(im, n) ? LEAPS : 0U);
 }
 
+/* Is it no sum of what moves, and no product of that with what stands still? */
+static bool bends(const divisors *d, const blame_node *n, const int *of, int count) {
+    const bool first = count > 0 && (d->is[of[0]] & MOVES) != 0;
+    const bool second = count > 1 && (d->is[of[1]] & MOVES) != 0;
+    if (n->code == BLAME_MUL) {
+        return first && second;
+    }
+    if (n->code == BLAME_DIV) {
+        return second;
+    }
+    return (n->code == BLAME_POW || n->code == BLAME_CALL) && (first || second);
+}
+
 static void find_what_moves(divisors *d) {
     const image *im = d->at.image;
     for (int i = 0; i < im->blame.nodes; i++) {
@@ -44,8 +58,9 @@ static void find_what_moves(divisors *d) {
         const int count = blamed_operands(n, of);
         unsigned is = moves_of(im, n);
         for (int k = 0; k < count; k++) {
-            is |= d->is[of[k]] & (MOVES | HIDDEN | LEAPS);
+            is |= d->is[of[k]] & (MOVES | HIDDEN | LEAPS | BENDS);
         }
+        is |= bends(d, n, of, count) ? BENDS : 0U;
         d->is[i] = (unsigned char)is;
         d->at.value[i] = blamed_node(&d->at, n); /* of what does not move: for good */
     }
@@ -92,7 +107,8 @@ static void find_order(divisors *d) {
         const unsigned as = (d->is[i] & (MOVES | HIDDEN)) == MOVES ? d->is[i] : 0U;
         const bool watched = (as & (DIVIDES | OF_A_TAN)) != 0;
         if ((as & DIVIDES) != 0) {
-            d->divisor[d->count++] = (divisor){.node = i, .leaps = (as & LEAPS) != 0};
+            d->divisor[d->count++] =
+                (divisor){.node = i, .leaps = (as & LEAPS) != 0, .bends = (as & BENDS) != 0};
         }
         if ((as & OF_A_TAN) != 0) {
             d->divisor[d->count++] =
@@ -158,7 +174,7 @@ static void find_derived(divisors *d) {
         } else if (divides[i] && (o->code == OP_NEG || o->code == OP_ABS || o->code == OP_SQRT)) {
             divides[o->a] = true;
         } else if (divides[i] && o->code != OP_CONSTANT) {
-            d->divisor[d->count++] = (divisor){.node = i, .derived = true};
+            d->divisor[d->count++] = (divisor){.node = i, .derived = true, .bends = true};
         }
     }
     free(divides);
@@ -181,6 +197,9 @@ divisors divisors_open(const image *im) {
         d.field = field_open(im, &engine_float); /* which wraps angles: of either number */
         find_derived(&d);
         d.slope = room(d.field->n, sizeof *d.slope);
+    }
+    for (int i = 0; i < d.count; i++) {
+        d.some_bend = d.some_bend || d.divisor[i].bends;
     }
     return d;
 }

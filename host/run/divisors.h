@@ -14,7 +14,9 @@ typedef struct divisor {
     bool of_a_tan; /* its cosine changes its sign */
     bool derived;
     bool leaps;    /* an event may change it at once */
+    bool bends;    /* it is no straight line over the state, and may touch zero */
     double before; /* the step, */
+    double aside;  /* hardly on its way, */
     double now;    /* and behind it */
 } divisor;
 
@@ -25,6 +27,7 @@ typedef struct divisors {
     int ordered;
     divisor *divisor; /* [count] */
     int count;
+    bool some_bend;
     int *asked; /* [questions] those that may grow, of the image's */
     int questions;
     field *field;  /* of what is derived; NULL where nothing is */

@@ -12,6 +12,8 @@
 
 /* Not where the way to a pole is less than this part of what moves: there nothing but rounding grows. */
 #define RESOLVED 2e-13
+/* Nor of what touches zero as a square does. */
+#define RESOLVED_EVEN 4.5e-7
 
 struct jumped {
     const image *image;
@@ -60,12 +62,16 @@ static double way_of(const jumped *j, int i) {
     return i < j->image->angles ? number_centred(way, 6.283185307179586) : way;
 }
 
-static void go_to(void *of, double share, double *sign, double *value) {
-    jumped *j = of;
-    double state[3 * IMAGE_COMPONENTS_MAX];
+static void state_at(const jumped *j, double share, double state[static 3 * IMAGE_COMPONENTS_MAX]) {
     for (int i = 0; i < j->components; i++) {
         state[i] = j->from[i] + share * way_of(j, i);
     }
+}
+
+static void go_to(void *of, double share, double *sign, double *value) {
+    jumped *j = of;
+    double state[3 * IMAGE_COMPONENTS_MAX];
+    state_at(j, share, state);
     divisors_see_all(&j->of, state, value);
     for (int i = 0; i < j->of.count; i++) {
         const divisor *d = &j->of.divisor[i];
@@ -102,14 +108,18 @@ static double relative_way(const jumped *j, const divisor *d) {
 
 /* The first question with a pole on the way; -1: none. */
 static int pole_between(jumped *j) {
-    double *nearest = room(j->of.count, sizeof *nearest);
+    double *nearest = room(2 * (int64_t)j->of.count, sizeof *nearest);
+    double *nearest_even = nearest + j->of.count;
     for (int i = 0; i < j->of.count; i++) {
-        nearest[i] = RESOLVED / relative_way(j, &j->of.divisor[i]);
+        const double way = relative_way(j, &j->of.divisor[i]);
+        nearest[i] = RESOLVED / way;
+        nearest_even[i] = RESOLVED_EVEN / way;
     }
     const int value = pole_on(&(pole_way){.of = j,
                                           .signs = j->of.count,
                                           .values = divisors_values(&j->of),
                                           .nearest = nearest,
+                                          .nearest_even = nearest_even,
                                           .at = go_to});
     free(nearest);
     return value >= 0 ? divisors_question(&j->of, value) : -1;
@@ -129,6 +139,28 @@ static bool changes_sign(const divisor *d) {
     return (d->before < 0.0 && d->now > 0.0) || (d->before > 0.0 && d->now < 0.0);
 }
 
+/* May one of those that are no straight lines have come to nothing, and kept its sign? */
+static bool may_touch(jumped *j) {
+    double state[3 * IMAGE_COMPONENTS_MAX];
+    if (!j->of.some_bend) {
+        return false;
+    }
+    state_at(j, POLE_ASIDE, state);
+    divisors_see(&j->of, state);
+    for (int i = 0; i < j->of.count; i++) {
+        j->of.divisor[i].aside = divisors_value(&j->of, &j->of.divisor[i]);
+    }
+    state_at(j, 1.0 - POLE_ASIDE, state);
+    divisors_see(&j->of, state);
+    bool may = false;
+    for (int i = 0; i < j->of.count && !may; i++) {
+        const divisor *d = &j->of.divisor[i];
+        const double value[4] = {d->before, d->aside, divisors_value(&j->of, d), d->now};
+        may = d->bends && counts(j, d) && pole_may_touch(value);
+    }
+    return may;
+}
+
 void jumped_enter(jumped *j, const engine_kind *kind, const void *run) {
     if (j == NULL || j->found >= 0) {
         return;
@@ -145,7 +177,7 @@ void jumped_enter(jumped *j, const engine_kind *kind, const void *run) {
         d->now = divisors_value(&j->of, d);
         changed = changed || (changes_sign(d) && counts(j, d));
     }
-    if (changed && steps > 0) {
+    if (steps > 0 && (changed || may_touch(j))) {
         j->found = pole_between(j);
         j->found_s = ratio_times(steps - 1, j->image->step);
     }

@@ -29,11 +29,12 @@ static unsigned cases_of(unsigned few, unsigned all, unsigned fewest) {
 
 enum { WORDS = 6 };
 
-/* `whirl run` in that number, with more options. */
+/* `whirl run` in that number, with more options, which may be of another number. */
 static void run(const char *text, const char *number, char *const more[static WORDS]) {
     const char *words[4 + WORDS] = {model_keep(text), "--number", number};
+    const bool another = more[0] != NULL && strcmp(more[0], "--number") == 0;
     for (int i = 0; i < WORDS; i++) {
-        words[3 + i] = more[i];
+        words[(another ? 1 : 3) + i] = more[i];
     }
     command_say(command_run, words, &what);
     model_drop();
@@ -90,7 +91,7 @@ static double width(unsigned c) {
 /* --- poles ---------------------------------------------------------------------------------------------*/
 
 /* What is used up at a rate that falls only where it has nearly gone: s' = -v s/(k + s), in words of several kinds, which
- * never falls below zero. Its pole is at -k; an even one has no change of the quotient's sign. */
+ * never falls below zero. Its pole is at -k, or behind. */
 static const char *const knees[] = {
     "let d = k + s\nequation s' = -rate*v*s/d\n",
     "equation s' = -rate*v*s*(k + s)^(-1)\n",
@@ -101,8 +102,21 @@ static const char *const knees[] = {
     "equation s' = -rate*v*s/(k + s)/(1 + 0.001*cos(s))\n",
     "equation s' = -rate*v/(1 + k/s)\n", /* which changes its sign twice */
     "equation (k + s)*s' = -rate*v*s\n", /* which divides nowhere */
+    /* even, and no power: which change no sign */
+    "equation s' = -rate*v*s^2/(s^2 + 2*k*s + k^2)\n",
+    "let c = 2*v\nequation s' = -rate*v*s^2/(2*c^2*(1 - cos((s + k)/c)))\n",
+    "state p\nequation p' = -rate*p\nequation s' = -rate*v*s^2/((k + s)^2 + p^2)\n",
+    "equation (k^2 + 2*k*s + s^2)*s' = -rate*v*s^2\n",
+    /* two, at -k and -4 k, which may lie in one step */
+    "equation s' = -rate*v*s^2/(4*k^2 + 5*k*s + s^2)\n",
 };
 enum { KNEES = sizeof knees / sizeof knees[0] };
+
+/* How far its zero is from its pole, at least: of 1 - cos(x) no digits are left below 1e-7, and a pole is followed for 1e2 times
+ * as far. */
+static double apart(unsigned which, double v, double k) {
+    return strstr(knees[which], "cos((") != NULL ? fmax(k, 1e-3 * v) : k;
+}
 
 static void knee_text(char text[TEXT], unsigned which, double v, double k, double s,
                       double step_s) {
@@ -124,7 +138,7 @@ static void test_knees(void) {
         const double v = exp(dice_between(&die, -1.0, 1.0));
         const double s = v * dice_between(&die, 3.0, 8.0);
         const double step_s = ldexp(1.0, -5 - (int)dice_one_of(&die, 4));
-        const double k = v * step_s * width(c);
+        const double k = apart(c % KNEES, v, v * step_s * width(c));
         knee_text(text, c % KNEES, v, k, s, step_s);
         const char *number = c % 3 == 0 ? "float" : "double";
         run(text, number, no_more);
@@ -162,7 +176,7 @@ static void test_when(void) {
         char text[TEXT];
         const double v = dice_between(&die, 0.5, 2.0);
         const double step_s = ldexp(1.0, -5 - (int)dice_one_of(&die, 3));
-        const double k = v * step_s * width(c / KNEES);
+        const double k = apart(c % KNEES, v, v * step_s * width(c / KNEES));
         double behind_s = -1.0;
         double begin_s = -1.0;
         motion m;
@@ -195,7 +209,7 @@ static void test_trust(void) {
         char text[TEXT];
         const double v = dice_between(&die, 0.5, 2.0);
         const double step_s = ldexp(1.0, -5 - (int)dice_one_of(&die, 3));
-        const double k = v * step_s * exp(dice_between(&die, -12.0, -8.0));
+        const double k = apart(c % KNEES, v, v * step_s * exp(dice_between(&die, -12.0, -8.0)));
         knee_text(text, c % KNEES, v, k, v * dice_between(&die, 1.0, 3.0), step_s);
         const char *const words[] = {model_keep(text), NULL};
         command_say(command_trust, words, &what);
@@ -333,6 +347,14 @@ static const char *const harmless[] = {
     "1/(exp(s - a) - 1) - 1/(s - a)", /* what rounding leaves grows */
     "(exp(s - a) - 1 - (s - a))/(s - a)^2",
     "1/(s - a + 1e-9/(s - a))", /* grows, and ends growing */
+    /* whose divisor touches zero, or nearly */
+    "(s - a)^2/(1 - cos(s - a))",
+    "sin(s - a)^2/(s^2 - 2*a*s + a^2)",
+    "1/sqrt(sqrt(s^2 - 2*a*s + a^2))",
+    "1/(1 - cos(s - a))^0.4",
+    "1/(1.0001 - cos(s - a))",
+    "1/(s^2 - 2*a*s + a^2 + 1e-7)",
+    "1/((s - a)^2 + y^2*1e-3 + 1e-6)",
 };
 enum { HARMLESS = sizeof harmless / sizeof harmless[0] };
 

@@ -24,6 +24,7 @@ typedef struct drawn {
     int zeros;
     double side;
     double beside; /* what is added */
+    bool touches;  /* what tells of the place is even, too, and not written as a square */
     int asked;     /* of the way */
 } drawn;
 
@@ -35,7 +36,7 @@ static void at(void *of, double share, double *sign, double *value) {
         factor *= share - d->zero;
     }
     sign[0] = 1.0 + share;
-    sign[1] = x;
+    sign[1] = d->touches ? 1.0 - number_cosine(x) : x;
     value[0] = number_sine(3.0 * share);
     value[1] = factor * number_power(fabs(x), -d->order) + d->beside;
     d->asked++;
@@ -44,7 +45,8 @@ static void at(void *of, double share, double *sign, double *value) {
 static int pole_of(void *of, void (*is_at)(void *of, double share, double *sign, double *value),
                    double way) {
     const double nearest[SIGNS] = {2e-13 / way, 2e-13 / way};
-    return pole_on(&(pole_way){of, SIGNS, VALUES, nearest, is_at});
+    const double nearest_even[SIGNS] = {4.5e-7 / way, 4.5e-7 / way};
+    return pole_on(&(pole_way){of, SIGNS, VALUES, nearest, nearest_even, is_at});
 }
 
 static void test_powers(void) {
@@ -66,6 +68,44 @@ static void test_powers(void) {
         const bool has = d.order - (upon ? d.zeros : 0) >= 1.0;
         TEST_ASSERT_EQUAL_INT(has ? 1 : -1, pole_of(&d, at, dice_between(&die, 0.1, 2.0)));
         TEST_ASSERT_TRUE(d.asked < 2000);
+    }
+}
+
+/* Found by what touches zero there, and as far from the way's ends as that has digits: 1 - cos(x) as a divisor, too. */
+static void test_what_touches(void) {
+    static const double orders[] = {0.0, 0.3, 0.5, 0.8, 1.0, 2.0, 3.0, 4.0};
+    enum { ORDERS = sizeof orders / sizeof orders[0] };
+    for (unsigned c = 0; c < dice_cases(600); c++) {
+        drawn d = {.place = dice_between(&die, 0.02, 0.98),
+                   .order = orders[c % ORDERS],
+                   .beside = dice_between(&die, -10.0, 10.0),
+                   .zero = dice_between(&die, -3.0, -1.0),
+                   .zeros = (int)dice_one_of(&die, 2),
+                   .touches = true};
+        const bool has = d.order >= 1.0;
+        TEST_ASSERT_EQUAL_INT(has ? 1 : -1, pole_of(&d, at, dice_between(&die, 0.5, 2.0)));
+        TEST_ASSERT_TRUE(d.asked < 2000);
+    }
+}
+
+/* Parabolas by what is left at their least, below zero, nothing, and above. */
+static void test_what_may_touch(void) {
+    for (unsigned c = 0; c < dice_cases(600); c++) {
+        const double least = dice_between(&die, 0.01, 3.0) * (c % 3 == 0 ? 1.0 : 0.0);
+        const double place = dice_between(&die, -0.5, 1.5);
+        const double size = c % 2 == 0 ? 1.0 : -dice_between(&die, 0.1, 1e6);
+        static const double share[4] = {0.0, POLE_ASIDE, 1.0 - POLE_ASIDE, 1.0};
+        double value[4];
+        for (int k = 0; k < 4; k++) {
+            value[k] = size * ((share[k] - place) * (share[k] - place) + least);
+        }
+        const bool inside = place > 0.0 && place < 1.0;
+        /* what is left of it does not tell it from one that touches, where its tangents meet below zero */
+        const bool may = inside && least - place * (1.0 - place) < 0.0;
+        if (fabs(least - place * (1.0 - place)) > 0.01 && fabs(place - 0.5) < 0.98 &&
+            fabs(fabs(place - 0.5) - 0.5) > 0.01) {
+            TEST_ASSERT_EQUAL_INT(may, pole_may_touch(value));
+        }
     }
 }
 
@@ -181,6 +221,8 @@ static void test_what_changes_twice(void) {
 void suite_pole(void) {
     die = dice_of("pole", 61);
     RUN_TEST(test_powers);
+    RUN_TEST(test_what_touches);
+    RUN_TEST(test_what_may_touch);
     RUN_TEST(test_leaps_and_few_digits);
     RUN_TEST(test_what_rounding_leaves);
     RUN_TEST(test_what_changes_twice);
