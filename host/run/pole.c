@@ -16,8 +16,6 @@ enum { LEVELS = 5, LEVELS_EVEN = 4 };
  * with the same digits are rounded alike, and what that leaves would grow as evenly. */
 #define GROWS 4.4
 #define ALIKE 1.2
-/* What touches zero falls as evenly as this; where it has few digits it does not. */
-#define ALIKE_EVEN 1.03
 /* What grows beyond all numbers was so large before. */
 #define BEYOND 1e60
 /* And so much farther off, where what changes its sign there is itself a difference with few digits. */
@@ -142,13 +140,13 @@ static part halve(const looker *l, int i, part p) {
 }
 
 /* Towards the place, the nearest last: even growth to the end? */
-static bool grows(const double *value, int values, int levels, double alike) {
+static bool grows(const double *value, int values, int levels) {
     double least = (double)INFINITY;
     double most = 0.0;
     for (int k = 1; k < levels; k++) {
         const double before = value[(k - 1) * values];
         const double by = value[k * values] / before;
-        if (isinf(value[k * values]) && fabs(before) > BEYOND && (k == 1 || isfinite(before))) {
+        if (isinf(value[k * values]) && isfinite(before) && fabs(before) > BEYOND) {
             return true;
         }
         if (!(by > GROWS)) { /* or no number */
@@ -157,7 +155,7 @@ static bool grows(const double *value, int values, int levels, double alike) {
         least = number_least(least, by);
         most = number_most(most, by);
     }
-    return most < alike * least;
+    return most < ALIKE * least;
 }
 
 /* Does value i change its sign again and again from `from` off the place to `most`? Then it is what rounding left. */
@@ -174,6 +172,18 @@ static bool is_rounding(const looker *l, int i, double place, double from, doubl
     return turns >= TURNS_MOST;
 }
 
+/* Beyond all numbers from `from` off the place on: was it as large before, to the end of the way? A difference of which rounding
+ * leaves nothing was not. */
+static bool overflows(const looker *l, int i, double place, double from) {
+    const double most = from < 0.0 ? place : 1.0 - place;
+    double off = from;
+    do {
+        off *= CLOSER;
+        l->way->at(l->way->of, place + off, l->then, l->value);
+    } while (isinf(l->value[i]) && fabs(off) * CLOSER <= most);
+    return fabs(l->value[i]) > BEYOND;
+}
+
 /* Where a value is asked for a pole. */
 typedef struct spot {
     double place;
@@ -186,25 +196,21 @@ typedef struct spot {
 /* An even pole grows so much that fewer will do. */
 static int levels_of(const spot *s) { return s->touches >= 0 ? LEVELS_EVEN : LEVELS; }
 
-/* The first value that grows towards the spot from `from` so far away, which is on this side; -1: none. Where what touches zero
- * there does not fall as evenly, it is not known well enough where it does. */
+/* The first value that grows towards the spot from `from` so far away, which is on this side; -1: none. */
 static int grows_from(const looker *l, const spot *s, double from, double most) {
     const int values = l->way->values;
     const int levels = levels_of(s);
-    double over[LEVELS] = {0.0};
-    double nearest = from;
+    double off = from;
     for (int k = 0; k < levels; k++) {
-        l->way->at(l->way->of, s->place + from, l->then, l->side + (ptrdiff_t)k * values);
-        over[k] = s->touches >= 0 ? 1.0 / fabs(l->then[s->touches]) : 0.0;
-        nearest = from;
-        from /= CLOSER;
-    }
-    if (s->touches >= 0 && !(isfinite(over[levels - 1]) && grows(over, 1, levels, ALIKE_EVEN))) {
-        return -1;
+        l->way->at(l->way->of, s->place + off, l->then, l->side + (ptrdiff_t)k * values);
+        off /= CLOSER;
     }
     for (int i = 0; i < values; i++) {
-        if (grows(l->side + i, values, levels, ALIKE) &&
-            !is_rounding(l, i, s->place, nearest, most)) {
+        const bool pole = isinf(l->side[i])
+                              ? overflows(l, i, s->place, from)
+                              : grows(l->side + i, values, levels) &&
+                                    !is_rounding(l, i, s->place, CLOSER * off, NEAR * most);
+        if (pole) {
             return i;
         }
     }
@@ -230,10 +236,10 @@ static int pole_at(const looker *l, const spot *s, part p) {
         spot at = *s;
         at.place = s->touches >= 0 ? centred(l, s, reach / CLOSER) : s->place;
         if (at.place - reach >= p.low) {
-            found = grows_from(l, &at, -reach, NEAR * (at.place - p.low));
+            found = grows_from(l, &at, -reach, at.place - p.low);
         }
         if (found < 0 && at.place + reach <= p.high) {
-            found = grows_from(l, &at, reach, NEAR * (p.high - at.place));
+            found = grows_from(l, &at, reach, p.high - at.place);
         }
         reach *= s->farther;
     }

@@ -196,6 +196,29 @@ static void test_what_rounding_leaves(void) {
     }
 }
 
+/* What touches zero at x = 0, s = a + x, with a limit or less than a pole there. */
+static void at_touched(void *of, double share, double *sign, double *value) {
+    const drawn *d = of;
+    const double s = d->place + (share - d->zero) * d->order;
+    const double x = s - d->place;
+    const double square = s * s - 2.0 * d->place * s + d->place * d->place;
+    sign[0] = 1.0 - number_cosine(x);
+    sign[1] = square;
+    value[0] = d->zeros == 0 ? x * x / sign[0] : number_power(sign[0], -0.4);
+    value[1] = d->zeros == 0 ? x * x / square : number_power(fabs(square), -0.4);
+}
+
+static void test_what_has_no_digits(void) {
+    for (unsigned c = 0; c < dice_cases(600); c++) {
+        drawn d = {.place = dice_between(&die, -1.0, 1.0),
+                   .order = exp(dice_between(&die, -5.0, 0.0)),
+                   .zero = dice_between(&die, 0.1, 0.9),
+                   .zeros = (int)(c % 2)};
+        TEST_ASSERT_EQUAL_INT(-1,
+                              pole_of(&d, at_touched, number_least(1.0, d.order / fabs(d.place))));
+    }
+}
+
 /* --- signs that change twice -----------------------------------------------------------------------------*/
 
 /* 1/(1 + k/x), with x from beyond -k to above zero: of 1 + k/x both ends have the same sign. */
@@ -225,5 +248,6 @@ void suite_pole(void) {
     RUN_TEST(test_what_may_touch);
     RUN_TEST(test_leaps_and_few_digits);
     RUN_TEST(test_what_rounding_leaves);
+    RUN_TEST(test_what_has_no_digits);
     RUN_TEST(test_what_changes_twice);
 }
