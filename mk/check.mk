@@ -23,11 +23,12 @@ PC_BOARD_C := $(PROGRAM_C) $(wildcard boards/host/*.c)
 
 .PHONY: objects test-objects board-objects board-own-objects
 TESTS_C := $(HOST_TEST_C) $(wildcard tests/tools/*.c tests/fuzz/*.c)
-test-objects: $(call objects,host,$(TESTS_C)) $(call objects,chip,$(CHIP_TEST_C))
+test-objects: $(call objects,host,$(TESTS_C)) $(call objects,chip,$(CHIP_TEST_C)) \
+    $(call objects,float,$(CORE_TEST_C)) $(call objects,double,$(CORE_TEST_C))
 objects: $(call objects,host,$(WHIRL_MAIN_C) $(WHIRL_C) $(GEN)/builtin_models.c $(HOST_TOOL_C)) \
     $(foreach b,$(CHIP_BOARDS),$(call objects,chip_$(b),$(CHIP_DRIVERS_C))) \
-    $(call objects,float,$(PORTABLE_C) $(PC_BOARD_C) $(CORE_TEST_C) $(SCENE_C)) \
-    $(call objects,double,$(CORE_C) $(RIG_C) $(STATION_C) $(CORE_TEST_C) $(SCENE_C))
+    $(call objects,float,$(PORTABLE_C) $(PC_BOARD_C) $(SCENE_C)) \
+    $(call objects,double,$(CORE_C) $(RIG_C) $(STATION_C) $(SCENE_C))
 board-objects: board-own-objects $(call objects,$(BOARD),$(PORTABLE_C) $(PROGRAM_C) $(CORE_TEST_C) $(SCENE_C))
 board-own-objects: $(call objects,$(BOARD),$(BOARD_OWN_C)) $(call objects,$(FLASHED),$(BOARD_FLASHED_C))
 
@@ -43,11 +44,13 @@ gate-gcc: $(GEN)/.stamp
 	+@$(GCC_BUILD) -k objects test-objects board-objects
 	+@$(foreach b,$(filter-out $(BOARD),$(BOARDS)),$(GCC_BUILD) -k BOARD=$(b) board-own-objects &&) true
 
-# Nothing runs the PC's tests as clang compiles them, and it warns before it optimises.
+# Nothing runs the tests as clang compiles them, and it warns before it optimises.
+syntax = printf '%s\n' $(1) | xargs -n 8 -P $(JOBS) clang $(LINT_FLAGS) $(2) -Werror -fsyntax-only
 gate-clang: $(GEN)/.stamp
 	+@$(CLANG_BUILD) -k objects
-	@printf '%s\n' $(TESTS_C) | xargs -n 8 -P $(JOBS) clang $(LINT_FLAGS) -Werror -fsyntax-only
-	@clang $(LINT_FLAGS) $(CHIP_FLAGS) -Werror -fsyntax-only $(CHIP_TEST_C)
+	@$(call syntax,$(TESTS_C) $(CORE_TEST_C))
+	@$(call syntax,$(CORE_TEST_C),-DWH_DOUBLE=1)
+	@$(call syntax,$(CHIP_TEST_C),$(CHIP_FLAGS))
 
 # --- layout and lint ------------------------------------------------------------------------------
 gate-format:
