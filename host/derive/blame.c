@@ -225,19 +225,17 @@ static void ask_value(maker *k, place where, const expr *tree, const char *what)
     }
 }
 
-/* Its slopes along the coordinates, and with `rates` along their rates. */
-static void ask_slopes(maker *k, place where, const expr *tree, const char *what, bool rates) {
+/* Its slopes along the unknowns with so many primes: 0, the coordinates; 1, their rates. */
+static void ask_slopes(maker *k, place where, const expr *tree, const char *what, int primes) {
     const equations *e = k->equations;
     const poly *value = poly_from_expr(e->algebra, tree);
     if (has_slopes(value)) {
         return;
     }
     for (int i = 0; i < e->count; i++) {
-        for (int primes = 0; primes <= (rates ? 1 : 0); primes++) {
-            const poly *slope = poly_derivative(e->algebra, value, e->unknowns[i].symbol, primes);
-            if (!poly_is_zero(slope)) {
-                ask(k, where, of_poly(k, slope), true, what);
-            }
+        const poly *slope = poly_derivative(e->algebra, value, e->unknowns[i].symbol, primes);
+        if (!poly_is_zero(slope)) {
+            ask(k, where, of_poly(k, slope), true, what);
         }
     }
 }
@@ -252,7 +250,10 @@ static void ask_term(maker *k, const term *t) {
     ask_value(k, where, t->right, part);
     if (differentiated) {
         snprintf(slope, sizeof slope, "the slope of %s", part);
-        ask_slopes(k, where, t->value, slope, true);
+        if (t->kind != TERM_F) { /* whose slopes along the coordinates act on nothing */
+            ask_slopes(k, where, t->value, slope, 0);
+        }
+        ask_slopes(k, where, t->value, slope, 1);
     }
 }
 
@@ -263,12 +264,12 @@ static void ask_contact(maker *k, const contact_statement *h, image_contact *row
     switch (h->kind) {
     case CONTACT_STOP:
         ask_value(k, where, h->value, "the gap of this stop");
-        ask_slopes(k, where, h->value, "the rate of the gap of this stop", false);
+        ask_slopes(k, where, h->value, "the rate of the gap of this stop", 0);
         break;
     case CONTACT_HOLD:
         ask_value(k, where, h->condition, "the condition of this hold");
         ask_value(k, where, h->value, "what this hold holds");
-        ask_slopes(k, where, h->value, "the rate of what this hold holds", false);
+        ask_slopes(k, where, h->value, "the rate of what this hold holds", 0);
         break;
     case CONTACT_FRICTION:
         ask_value(k, where, h->normal, "the normal force of this friction");

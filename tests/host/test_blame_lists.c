@@ -58,17 +58,18 @@ static derived with_statement(const char *statement) {
 /* T is asked by itself, and has no slopes to ask. */
 enum { OF_T = 1 };
 
+/* A loss acts by its slopes along the rates alone. */
 static void test_slopes_of_energies_and_losses(void) {
     for (size_t i = 0; i < sizeof samples / sizeof samples[0]; i++) {
         const sample *s = &samples[i];
         char text[200];
         const bool has_rates = strpbrk(s->text, "vw") != NULL;
+        const int slopes = has_rates ? s->rates : s->places;
         snprintf(text, sizeof text, has_rates ? "F = 1 [W]*(%s)" : "V = 1 [J]*(%s)", s->text);
         derived d = with_statement(text);
         const image_blame *b = &d.image->blame;
-        TEST_ASSERT_EQUAL_INT_MESSAGE(s->places + s->rates,
-                                      count_derived(d.image, 0, b->terms, text), text);
-        TEST_ASSERT_EQUAL_INT_MESSAGE(OF_T + 1 + s->places + s->rates, b->terms, text);
+        TEST_ASSERT_EQUAL_INT_MESSAGE(slopes, count_derived(d.image, 0, b->terms, text), text);
+        TEST_ASSERT_EQUAL_INT_MESSAGE(OF_T + 1 + slopes, b->terms, text);
         TEST_ASSERT_EQUAL_INT_MESSAGE(2, b->question[0].power, text);
         TEST_ASSERT_EQUAL_INT_MESSAGE(2, b->question[OF_T].power, text);
         TEST_ASSERT_EQUAL_INT_MESSAGE(b->terms, b->questions, text);

@@ -380,6 +380,29 @@ static void test_what_has_limits(void) {
     }
 }
 
+/* Losses that a body feels while another passes s = a: along the rate alone, so that one over a root, whose slope along s
+ * grows faster than a pole, slows it down and no more. */
+static void test_losses(void) {
+    static const char *const laws[] = {
+        "/sqrt(abs(s - a))", "/abs(s - a)",          "/(1 - cos(s - a))^0.25", "/(s - a)^2",
+        "/abs(s - a)^0.7",   "/(s^2 - 2*a*s + a^2)", "*sqrt(abs(s - a))",      "/(1 - cos(s - a))"};
+    enum { LAWS = sizeof laws / sizeof laws[0] };
+    for (unsigned c = 0; c < cases_of(LAWS, 6 * LAWS, LAWS); c++) {
+        char text[TEXT];
+        snprintf(text, sizeof text,
+                 "mechanism passes \"passes\"\ncoordinate s [rad]\ncoordinate w [rad]\n"
+                 "parameter a = %.17g\nparameter J = 1 [kg*m^2]\nT = 1e6*J*s'^2/2 + J*w'^2/2\n"
+                 "F = %.17g [1/s]*J*w'^2/2%s\nscene a {\n"
+                 "start s = %.17g, s' = 1 [1/s], w' = 1 [1/s]\nstep 10 [ms]\nuntil 2 [s]\n}\n",
+                 dice_between(&die, 0.2, 0.9), 1e-9 * dice_between(&die, 0.5, 1.0), laws[c % LAWS],
+                 dice_between(&die, -0.5, 0.0));
+        motion m;
+        motion_open_text(&m, text, (stepping){.kind = &engine_double, .method = WH_RK4});
+        TEST_ASSERT_EQUAL_INT_MESSAGE(c % 2 == 1, jumps(&m), text);
+        motion_close(&m);
+    }
+}
+
 /* An impact turns a rate past where it is divided by, without having been there. */
 static void test_impacts(void) {
     static const char *const laws[] = {"v0/(x' + v0)", "v0/(x' - v0)",
@@ -438,6 +461,7 @@ void suite_jumped(void) {
     RUN_TEST(test_which_equation_is_told);
     RUN_TEST(test_far_away);
     RUN_TEST(test_what_has_limits);
+    RUN_TEST(test_losses);
     RUN_TEST(test_impacts);
     RUN_TEST(test_places_at_events);
 }
