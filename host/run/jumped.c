@@ -12,8 +12,6 @@
 
 /* Not where the way to a pole is less than this part of what moves: there nothing but rounding grows. */
 #define RESOLVED 2e-13
-/* Nor of what touches zero as a square does. */
-#define RESOLVED_EVEN 4.5e-7
 
 struct jumped {
     const image *image;
@@ -108,18 +106,14 @@ static double relative_way(const jumped *j, const divisor *d) {
 
 /* The first question with a pole on the way; -1: none. */
 static int pole_between(jumped *j) {
-    double *nearest = room(2 * (int64_t)j->of.count, sizeof *nearest);
-    double *nearest_even = nearest + j->of.count;
+    double *nearest = room(j->of.count, sizeof *nearest);
     for (int i = 0; i < j->of.count; i++) {
-        const double way = relative_way(j, &j->of.divisor[i]);
-        nearest[i] = RESOLVED / way;
-        nearest_even[i] = RESOLVED_EVEN / way;
+        nearest[i] = RESOLVED / relative_way(j, &j->of.divisor[i]);
     }
     const int value = pole_on(&(pole_way){.of = j,
                                           .signs = j->of.count,
                                           .values = divisors_values(&j->of),
                                           .nearest = nearest,
-                                          .nearest_even = nearest_even,
                                           .at = go_to});
     free(nearest);
     return value >= 0 ? divisors_question(&j->of, value) : -1;

@@ -3,28 +3,16 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
+#include "growth.h"
 #include "host/base/room.h"
 #include "host/number/functions.h"
 
 /* A place is halved down to what a share of the way has digits for. */
 enum { HALVINGS = 56 };
-/* So often the distance is made CLOSER times less. */
-enum { LEVELS = 5, LEVELS_EVEN = 4 };
-#define CLOSER 5.0
-/* Each time a pole grows 5 times, one over a root 2.2 times; of what grows faster, alike each time. No power of two: numbers
- * with the same digits are rounded alike, and what that leaves would grow as evenly. */
-#define GROWS 4.4
-#define ALIKE 1.2
-/* What grows beyond all numbers was so large before. */
-#define BEYOND 1e60
-/* And so much farther off, where what changes its sign there is itself a difference with few digits. */
-#define FARTHER 1e3
-enum { TIMES_FARTHER = 2 };
-/* What touches zero has digits from somewhere on between these, by what is small there. */
-#define EVEN_FARTHER 2.5
-#define EVEN_FIRST 1e-3
-enum { EVEN_TIMES = 15 };
+/* Where rounding hides how a value goes on, it is asked from so much farther off. */
+#define FARTHER 2.5
 /* A smooth expression has few zeros on its way to a pole; what rounding left has now this sign and now that, at distances
  * that are so much farther each time. */
 enum { TURNS_MOST = 4 };
@@ -48,7 +36,8 @@ typedef struct looker {
     double *sign; /* [signs] at the begin of a part, */
     double *then; /* and at its end */
     double *value;
-    double *side;  /* [LEVELS * values] */
+    double *side;  /* [GROWTH_POINTS * values] */
+    bool *done;    /* [values] it has been seen to be no pole there */
     double *touch; /* [4 * signs] */
 } looker;
 
@@ -139,25 +128,6 @@ static part halve(const looker *l, int i, part p) {
     return p;
 }
 
-/* Towards the place, the nearest last: even growth to the end? */
-static bool grows(const double *value, int values, int levels) {
-    double least = (double)INFINITY;
-    double most = 0.0;
-    for (int k = 1; k < levels; k++) {
-        const double before = value[(k - 1) * values];
-        const double by = value[k * values] / before;
-        if (isinf(value[k * values]) && isfinite(before) && fabs(before) > BEYOND) {
-            return true;
-        }
-        if (!(by > GROWS)) { /* or no number */
-            return false;
-        }
-        least = number_least(least, by);
-        most = number_most(most, by);
-    }
-    return most < ALIKE * least;
-}
-
 /* Does value i change its sign again and again from `from` off the place to `most`? Then it is what rounding left. */
 static bool is_rounding(const looker *l, int i, double place, double from, double most) {
     double before = 0.0;
@@ -178,38 +148,68 @@ static bool overflows(const looker *l, int i, double place, double from) {
     const double most = from < 0.0 ? place : 1.0 - place;
     double off = from;
     do {
-        off *= CLOSER;
+        off *= FARTHER;
         l->way->at(l->way->of, place + off, l->then, l->value);
-    } while (isinf(l->value[i]) && fabs(off) * CLOSER <= most);
-    return fabs(l->value[i]) > BEYOND;
+    } while (isinf(l->value[i]) && fabs(off) * FARTHER <= most);
+    return fabs(l->value[i]) > GROWTH_BEYOND;
 }
 
-/* Where a value is asked for a pole. */
+/* Where values are asked for a pole. */
 typedef struct spot {
+    part in;
     double place;
-    double nearest; /* from so near on, */
-    int times;      /* and so often */
-    double farther; /* so much farther off */
-    int touches;    /* the one that has its least there; -1: one changes its sign */
+    double nearest; /* from so near on */
+    int of;         /* whose sign changes there, */
+    bool touches;   /* or only touches zero */
 } spot;
 
-/* An even pole grows so much that fewer will do. */
-static int levels_of(const spot *s) { return s->touches >= 0 ? LEVELS_EVEN : LEVELS; }
+/* Some nearest of the points, and one that is nine times as far off as the nearest. */
+enum { NEAREST = 3, NINE_TIMES = GROWTH_POINTS - 5 };
+/* Of what is left there. */
+#define LEFT 0.05
 
-/* The first value that grows towards the spot from `from` so far away, which is on this side; -1: none. */
-static int grows_from(const looker *l, const spot *s, double from, double most) {
+/* Does it stand off zero, as y^2 + x^2 does, what is left at the place beside a square being no rounding? */
+static bool stands_off(double at_place, const double *over, double far) {
+    double off[GROWTH_POINTS];
+    off[0] = far;
+    for (int k = 1; k < GROWTH_POINTS; k++) {
+        off[k] = off[k - 1] / GROWTH_CLOSER;
+    }
+    const double bend = (1.0 / over[NINE_TIMES] - at_place) / (off[NINE_TIMES] * off[NINE_TIMES]);
+    bool stands = at_place > 0.0;
+    for (int k = GROWTH_POINTS - NEAREST; k < GROWTH_POINTS; k++) {
+        const double left = 1.0 / over[k] - bend * off[k] * off[k];
+        stands = stands && fabs(left - at_place) < LEFT * at_place;
+    }
+    return stands;
+}
+
+/* Is the place one of this spot's, as far as its own values tell? over[GROWTH_POINTS]: one over their sizes. */
+static bool is_there(const spot *s, const double *over) {
+    const growth kind = growth_of(over, 1);
+    return s->touches ? kind == GROWTH_POLE : kind != GROWTH_ROUGH;
+}
+
+/* The first value with a pole at the place, seen from `far` off on this side; -1: none. */
+static int grows_from(const looker *l, const spot *s, double place, double far) {
     const int values = l->way->values;
-    const int levels = levels_of(s);
-    double off = from;
-    for (int k = 0; k < levels; k++) {
-        l->way->at(l->way->of, s->place + off, l->then, l->side + (ptrdiff_t)k * values);
-        off /= CLOSER;
+    const double extent = far < 0.0 ? place - s->in.low : s->in.high - place;
+    double over[GROWTH_POINTS];
+    double off = far;
+    for (int k = 0; k < GROWTH_POINTS; k++) {
+        l->way->at(l->way->of, place + off, l->then, l->side + (ptrdiff_t)k * values);
+        over[k] = 1.0 / fabs(l->then[s->of]);
+        off = k + 1 < GROWTH_POINTS ? off / GROWTH_CLOSER : off;
+    }
+    if (!is_there(s, over) || (s->touches && stands_off(size_at(l, s->of, place), over, far))) {
+        return -1;
     }
     for (int i = 0; i < values; i++) {
-        const bool pole = isinf(l->side[i])
-                              ? overflows(l, i, s->place, from)
-                              : grows(l->side + i, values, levels) &&
-                                    !is_rounding(l, i, s->place, CLOSER * off, NEAR * most);
+        const growth kind = l->done[i] ? GROWTH_NONE : growth_of(l->side + i, values);
+        const bool pole = isinf(l->side[i]) ? overflows(l, i, place, far)
+                                            : kind == GROWTH_POLE &&
+                                                  !is_rounding(l, i, place, off, NEAR * extent);
+        l->done[i] = kind == GROWTH_NONE;
         if (pole) {
             return i;
         }
@@ -217,33 +217,37 @@ static int grows_from(const looker *l, const spot *s, double from, double most) 
     return -1;
 }
 
-/* Where what touches zero does, by its roots at both sides of about where it is least. */
+/* So many times as far off as the nearest point the place is looked for. */
+#define ASIDE 5.0
+
+/* Where it is nothing, by its sizes on both sides of about there: (a - e)^order and (a + e)^order differ by order*e/a of them. Of
+ * what changes its sign like a line the place is known already. */
 static double centred(const looker *l, const spot *s, double aside) {
-    const double before = number_root(size_at(l, s->touches, s->place - aside));
-    const double behind = number_root(size_at(l, s->touches, s->place + aside));
-    const double shift = aside * (before - behind) / (before + behind);
-    return isfinite(shift) ? s->place + shift : s->place;
+    const double before = size_at(l, s->of, s->place - aside);
+    const double behind = size_at(l, s->of, s->place + aside);
+    const double grows = size_at(l, s->of, s->place + 2.0 * aside) / behind;
+    const double order = grows > 11.0 ? 4.0 : grows > 5.6 ? 3.0 : grows > 2.8 ? 2.0 : 1.0;
+    const double shift = aside / order * (before - behind) / (before + behind);
+    return order > 1.0 && isfinite(shift) ? s->place + shift : s->place;
 }
 
-/* The first value with a pole at the spot in part `p`. */
-static int pole_at(const looker *l, const spot *s, part p) {
+/* The first value with a pole at the spot, on one side. From the nearest on: what goes on evenly there is a pole, or none. */
+static int pole_on_side(const looker *l, const spot *s, double side) {
     int found = -1;
-    double reach = s->nearest;
-    for (int k = 1; k < levels_of(s); k++) {
-        reach *= CLOSER;
-    }
-    for (int k = 0; k < s->times && found < 0; k++) {
-        spot at = *s;
-        at.place = s->touches >= 0 ? centred(l, s, reach / CLOSER) : s->place;
-        if (at.place - reach >= p.low) {
-            found = grows_from(l, &at, -reach, at.place - p.low);
-        }
-        if (found < 0 && at.place + reach <= p.high) {
-            found = grows_from(l, &at, reach, p.high - at.place);
-        }
-        reach *= s->farther;
+    memset(l->done, 0, (size_t)l->way->values * sizeof *l->done);
+    double far = GROWTH_REACH * s->nearest;
+    while (far < 1.0 && found < 0) {
+        const double place = centred(l, s, ASIDE / GROWTH_REACH * far);
+        const bool inside = side < 0.0 ? place - far >= s->in.low : place + far <= s->in.high;
+        found = inside ? grows_from(l, s, place, side * far) : -1;
+        far *= FARTHER;
     }
     return found;
+}
+
+static int pole_at(const looker *l, const spot *s) {
+    const int found = pole_on_side(l, s, -1.0);
+    return found >= 0 ? found : pole_on_side(l, s, 1.0);
 }
 
 /* The value with a pole where one changes its sign in this part, or may touch zero: *at is what is left of that place, from
@@ -254,17 +258,13 @@ static int pole_in(const looker *l, part p, part *at) {
     int i = changes(l);
     if (i >= 0) {
         *at = halve(l, i, p);
-        return pole_at(
-            l, &(spot){0.5 * (at->low + at->high), l->way->nearest[i], TIMES_FARTHER, FARTHER, -1},
-            p);
+        return pole_at(l, &(spot){p, 0.5 * (at->low + at->high), l->way->nearest[i], i, false});
     }
     i = touches(l, p);
     if (i >= 0) {
         const double place = least_of(l, i, p);
         *at = (part){place, place};
-        return pole_at(
-            l, &(spot){place, EVEN_FIRST * l->way->nearest_even[i], EVEN_TIMES, EVEN_FARTHER, i},
-            p);
+        return pole_at(l, &(spot){p, place, l->way->nearest[i], i, true});
     }
     *at = (part){p.high, p.high};
     return -1;
@@ -293,13 +293,15 @@ int pole_on(const pole_way *w) {
                       .sign = room(w->signs, sizeof *l.sign),
                       .then = room(w->signs, sizeof *l.then),
                       .value = room(w->values, sizeof *l.value),
-                      .side = room((int64_t)LEVELS * w->values, sizeof *l.side),
+                      .side = room((int64_t)GROWTH_POINTS * w->values, sizeof *l.side),
+                      .done = room(w->values, sizeof *l.done),
                       .touch = room(4 * (int64_t)w->signs, sizeof *l.touch)};
     const int found = look(&l);
     free(l.sign);
     free(l.then);
     free(l.value);
     free(l.side);
+    free(l.done);
     free(l.touch);
     return found;
 }

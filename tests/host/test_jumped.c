@@ -107,6 +107,7 @@ static const char *const knees[] = {
     "let c = 2*v\nequation s' = -rate*v*s^2/(2*c^2*(1 - cos((s + k)/c)))\n",
     "state p\nequation p' = -rate*p\nequation s' = -rate*v*s^2/((k + s)^2 + p^2)\n",
     "equation (k^2 + 2*k*s + s^2)*s' = -rate*v*s^2\n",
+    "equation s' = -rate*v*s^3/(s^3 + 3*k*s^2 + 3*k^2*s + k^3)\n",
     /* two, at -k and -4 k, which may lie in one step */
     "equation s' = -rate*v*s^2/(4*k^2 + 5*k*s + s^2)\n",
 };
@@ -361,6 +362,11 @@ static const char *const harmless[] = {
     "1/(1.0001 - cos(s - a))",
     "1/(s^2 - 2*a*s + a^2 + 1e-7)",
     "1/((s - a)^2 + y^2*1e-3 + 1e-6)",
+    "(s - a)^3/(s^3 - 3*a*s^2 + 3*a^2*s - a^3)",
+    "(3 - 4*cos(s - a) + cos(2*(s - a)))/(1 - cos(s - a))^2",
+    "(s - a)/sqrt((s - a)^2 + 1e-12)", /* bounded, and what turns it is small */
+    "1e-6/sqrt((s - a)^2 + 1e-12)",
+    "1e-9/sqrt((s - a)^2 + 1e-18)",
 };
 enum { HARMLESS = sizeof harmless / sizeof harmless[0] };
 

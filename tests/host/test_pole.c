@@ -45,8 +45,7 @@ static void at(void *of, double share, double *sign, double *value) {
 static int pole_of(void *of, void (*is_at)(void *of, double share, double *sign, double *value),
                    double way) {
     const double nearest[SIGNS] = {2e-13 / way, 2e-13 / way};
-    const double nearest_even[SIGNS] = {4.5e-7 / way, 4.5e-7 / way};
-    return pole_on(&(pole_way){of, SIGNS, VALUES, nearest, nearest_even, is_at});
+    return pole_on(&(pole_way){of, SIGNS, VALUES, nearest, is_at});
 }
 
 static void test_powers(void) {
