@@ -231,12 +231,20 @@ static double centred(const looker *l, const spot *s, double aside) {
     return order > 1.0 && isfinite(shift) ? s->place + shift : s->place;
 }
 
+static bool all_done(const looker *l) {
+    int done = 0;
+    for (int i = 0; i < l->way->values; i++) {
+        done += l->done[i];
+    }
+    return done == l->way->values;
+}
+
 /* The first value with a pole at the spot, on one side. From the nearest on: what goes on evenly there is a pole, or none. */
 static int pole_on_side(const looker *l, const spot *s, double side) {
     int found = -1;
     memset(l->done, 0, (size_t)l->way->values * sizeof *l->done);
     double far = GROWTH_REACH * s->nearest;
-    while (far < 1.0 && found < 0) {
+    while (far < 1.0 && found < 0 && !all_done(l)) {
         const double place = centred(l, s, ASIDE / GROWTH_REACH * far);
         const bool inside = side < 0.0 ? place - far >= s->in.low : place + far <= s->in.high;
         found = inside ? grows_from(l, s, place, side * far) : -1;
