@@ -6,9 +6,9 @@
  *
  *   - it is noted what part of its smallest addend, or of what is left of it, rounding a sum may have made;
  *   - a derivation can be made again in another *way*: sums and products that are not exact are rounded the other way, one
- *     double beyond their other neighbour, all of them or about half, or none. What is exact stays, and nothing is put onto what is nearly the same. Where
- *     several roundings add up, one way may come to the same numbers by chance; hence more than one (Vignes, A stochastic
- *     arithmetic for reliable scientific computation, 1993, has his at run time).
+ *     double beyond their other neighbour, all of them or about half, or none. What is exact stays, and nothing is put onto
+ *     what is nearly the same. Where several roundings add up, one way may come to the same numbers by chance; hence more
+ *     than one (Vignes, A stochastic arithmetic for reliable scientific computation, 1993, has his at run time).
  *
  * Which way, and what was lost, is kept here as the rounding mode is kept in a processor: whoever folds asks nobody. */
 #ifndef NUMBER_FOLDING_H
