@@ -68,18 +68,6 @@ void folded_look(folded *f, const double *x) {
         const double size = fabs(f->value[i]);
         f->size[i] = isfinite(size) ? number_most(f->size[i], size) : f->size[i];
     }
-    f->looks++;
-}
-
-int folded_component(const image *im, int i) {
-    if (im->form != WH_SECOND_ORDER) {
-        return i;
-    }
-    int unknown = 0;
-    while (im->place[unknown] != i) {
-        unknown++;
-    }
-    return image_find_component(im, unknown, 1);
 }
 
 /* --- the furthest ------------------------------------------------------------------------------------*/

@@ -9,7 +9,6 @@
 typedef struct folded {
     const image *image;
     int results;
-    int looks;
     evaluator *own;
     evaluator *other[IMAGE_WAYS];
     double *input;
@@ -24,8 +23,6 @@ folded *folded_open(const image *im, const engine_kind *kind);
 void folded_close(folded *f); /* NULL is fine */
 /* x: a state as engine_kind.state() gives it, angles first. */
 void folded_look(folded *f, const double *x);
-/* The component whose slope result i is: a rate, or what a system given outright is solved for. */
-int folded_component(const image *im, int i);
 
 /* The image of the way that leads furthest from the scene's own, about where it starts; NULL where there is none. */
 const image *folded_furthest(const image *im);

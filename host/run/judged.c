@@ -72,7 +72,7 @@ static void ask_folded(judged *j) {
         folded_look(f, w->record + (ptrdiff_t)k * w->field->n);
     }
     for (int i = 0; f != NULL && i < f->results; i++) {
-        const int c = folded_component(j->image, i);
+        const int c = image_slope_component(j->image, i);
         for (int k = 0; k < j->image->ways; k++) {
             const double off = WAY_OVER * f->off[k * f->results + i];
             if (off > j->folded_off * f->size[i] && moves(j, c, off)) {

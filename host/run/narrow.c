@@ -24,11 +24,6 @@ typedef struct asked {
     double *with;    /* and by what is too small */
 } asked;
 
-/* The component whose slope is result i. */
-static int component_of(const image *im, int i) {
-    return im->form == WH_FIRST_ORDER ? i : im->coordinates + i;
-}
-
 static void ask(asked *a, double time_s, const double *x) {
     const image *im = a->image;
     const double *real = x + im->angles;
@@ -41,7 +36,7 @@ static void ask(asked *a, double time_s, const double *x) {
 /* Would a slope that large have moved it by a part that counts? What stands still has no range to tell: then what the slope
  * alone would make of its place in that time is asked. A slope of nothing but rounding moves nothing. */
 static bool moves(const asked *a, const watch *w, int i, double slope) {
-    const int c = component_of(a->image, i);
+    const int c = image_slope_component(a->image, i);
     const double time_s = watch_time_s(w, w->steps);
     if (w->range[c] > 0.0) {
         return slope * time_s > PART_TOLD * w->range[c];
@@ -54,7 +49,7 @@ static bool moves(const asked *a, const watch *w, int i, double slope) {
 /* What is lost at a record, of the largest slopes. */
 static void judge(const asked *a, const watch *w, int record, const double *most, narrow *n) {
     for (int i = 0; i < a->results; i++) {
-        const int c = component_of(a->image, i);
+        const int c = image_slope_component(a->image, i);
         const double lost = FLOAT_ROUNDING * (a->with[i] - a->without[i]);
         const double part = most[i] > 0.0 ? lost / most[i] : 0.0;
         if (isfinite(part) && part > n->part && moves(a, w, i, most[i])) {

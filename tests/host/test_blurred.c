@@ -6,6 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "by_bodies.h"
 #include "command.h"
 #include "host/commands/commands.h"
 #include "motion.h"
@@ -13,7 +14,7 @@
 
 void suite_blurred(void);
 
-enum { MOST = 3, STEPS = 2000 };
+enum { MOST = BODIES_MOST, STEPS = 2000 };
 #define STEP_S 1e-3
 
 typedef struct line {
@@ -25,7 +26,8 @@ typedef struct line {
 } line;
 
 /* The coordinates in that order, at the places x. */
-static void counted(const line *l, const long double *x, long double *q) {
+static void counted(const void *of, const long double *x, long double *q) {
+    const line *l = of;
     for (int i = 0; i < l->bodies; i++) {
         q[i] = x[l->order[i]] - (i > 0 ? x[l->order[i - 1]] : 0.0L);
     }
@@ -65,60 +67,26 @@ static void line_text(const line *l, char *text, size_t size) {
 
 /* --- the reference ---------------------------------------------------------------------------------------------- */
 
-typedef struct state {
-    long double x[MOST];
-    long double v[MOST];
-} state;
-
-static state slope_of(const line *l, const state *s) {
-    state slope = {{0.0L}, {0.0L}};
+static void accelerate(const void *of, const bodies_state *s, long double *a_mps2) {
+    const line *l = of;
     for (int b = 0; b < l->bodies; b++) {
-        const long double before = b > 0 ? s->x[b - 1] : 0.0L;
-        const long double pull = (long double)l->spring_Npm[b] * (s->x[b] - before);
-        slope.x[b] = s->v[b];
-        slope.v[b] -= pull / (long double)l->mass_kg[b];
+        const long double before = b > 0 ? s->x_m[b - 1] : 0.0L;
+        const long double pull = (long double)l->spring_Npm[b] * (s->x_m[b] - before);
+        a_mps2[b] -= pull / (long double)l->mass_kg[b];
         if (b > 0) {
-            slope.v[b - 1] += pull / (long double)l->mass_kg[b - 1];
+            a_mps2[b - 1] += pull / (long double)l->mass_kg[b - 1];
         }
     }
-    return slope;
 }
 
-static void add(state *to, long double by, const state *s) {
-    for (int b = 0; b < MOST; b++) {
-        to->x[b] += by * s->x[b];
-        to->v[b] += by * s->v[b];
-    }
-}
-
-/* Runge-Kutta 4 with the same step: the coordinates at the end, and the range of each. */
+/* With the scene's own step: the coordinates at the end, and the range of each. */
 static void run_by_bodies(const line *l, long double *end, double *range) {
-    static const long double node[4] = {0.0L, 0.5L, 0.5L, 1.0L};
-    static const long double weight[4] = {1.0L / 6.0L, 1.0L / 3.0L, 1.0L / 3.0L, 1.0L / 6.0L};
-    const long double h = (long double)STEP_S;
-    state s = {{0.0L}, {0.0L}};
-    double low[MOST] = {0.0};
-    double high[MOST] = {0.0};
-    for (int b = 0; b < l->bodies; b++) {
-        s.x[b] = (long double)l->start_m[b];
+    const by_bodies b = {l, l->bodies, STEP_S, STEPS, accelerate, counted};
+    long double start[MOST];
+    for (int i = 0; i < l->bodies; i++) {
+        start[i] = (long double)l->start_m[i];
     }
-    for (int step = 0; step <= STEPS; step++) {
-        counted(l, s.x, end);
-        for (int i = 0; i < l->bodies; i++) {
-            low[i] = step == 0 ? (double)end[i] : fmin(low[i], (double)end[i]);
-            high[i] = step == 0 ? (double)end[i] : fmax(high[i], (double)end[i]);
-            range[i] = high[i] - low[i];
-        }
-        state next = s;
-        state slope = {{0.0L}, {0.0L}};
-        for (int stage = 0; stage < 4 && step < STEPS; stage++) {
-            state at = s;
-            add(&at, node[stage] * h, &slope);
-            slope = slope_of(l, &at);
-            add(&next, weight[stage] * h, &slope);
-        }
-        s = next;
-    }
+    by_bodies_run(&b, start, end, range);
 }
 
 /* --- what is said ------------------------------------------------------------------------------------------------ */
@@ -297,8 +265,9 @@ static void test_no_trust_in_what_both_have_wrong(void) {
             TEST_ASSERT_EQUAL_INT_MESSAGE(0, what.status, what.err);
             TEST_ASSERT_TRUE_MESSAGE((strstr(what.out, "trusted to the end") == NULL) == is_lost,
                                      what.out);
-            TEST_ASSERT_TRUE_MESSAGE(
-                (strstr(what.out, "not to be told") != NULL) == is_lost || varies == 0, what.out);
+            /* what is folded is told of by another number than the run's */
+            const bool by_rounding = strstr(what.out, "not to be told") != NULL;
+            TEST_ASSERT_TRUE_MESSAGE(is_lost ? by_rounding || varies == 0 : !by_rounding, what.out);
         }
     }
 }

@@ -8,6 +8,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "by_bodies.h"
 #include "command.h"
 #include "host/commands/commands.h"
 #include "motion.h"
@@ -15,7 +16,7 @@
 
 void suite_folded(void);
 
-enum { MOST = 3, LINKS = 4, GROUND = -1 };
+enum { MOST = BODIES_MOST, LINKS = 4, GROUND = -1 };
 
 typedef struct link {
     int of;
@@ -149,63 +150,35 @@ static void held_text(const held *h, char *text, size_t size) {
 
 /* --- the reference ---------------------------------------------------------------------------------------------- */
 
-typedef struct state {
-    long double x[MOST];
-    long double v[MOST];
-} state;
-
-static state slope_of(const held *h, const state *s) {
-    state slope = {{0.0L}, {0.0L}};
+static void accelerate(const void *of, const bodies_state *s, long double *a_mps2) {
+    const held *h = of;
     for (int i = 0; i < h->links; i++) {
         const link *l = &h->link[i];
-        const long double x = s->x[l->of] - (l->to != GROUND ? s->x[l->to] : 0.0L);
-        const long double v = s->v[l->of] - (l->to != GROUND ? s->v[l->to] : 0.0L);
+        const long double x = s->x_m[l->of] - (l->to != GROUND ? s->x_m[l->to] : 0.0L);
+        const long double v = s->v_mps[l->of] - (l->to != GROUND ? s->v_mps[l->to] : 0.0L);
         const long double pull = (long double)l->spring_Npm * x + (long double)l->damper_Nspm * v;
-        slope.v[l->of] -= pull / (long double)h->mass_kg[l->of];
+        a_mps2[l->of] -= pull / (long double)h->mass_kg[l->of];
         if (l->to != GROUND) {
-            slope.v[l->to] += pull / (long double)h->mass_kg[l->to];
+            a_mps2[l->to] += pull / (long double)h->mass_kg[l->to];
         }
     }
+}
+
+static void counted(const void *of, const long double *x, long double *q) {
+    const held *h = of;
     for (int b = 0; b < h->bodies; b++) {
-        slope.x[b] = s->v[b];
-    }
-    return slope;
-}
-
-static void add(state *to, long double by, const state *s) {
-    for (int b = 0; b < MOST; b++) {
-        to->x[b] += by * s->x[b];
-        to->v[b] += by * s->v[b];
+        q[b] = x[b] - (b > 0 ? x[b - 1] : 0.0L);
     }
 }
 
-/* Runge-Kutta 4 with the same step: the coordinates at the end, and the range of each. */
+/* With the scene's own step: the coordinates at the end, and the range of each. */
 static void run_by_bodies(const held *h, long double *end, double *range) {
-    static const long double node[4] = {0.0L, 0.5L, 0.5L, 1.0L};
-    static const long double weight[4] = {1.0L / 6.0L, 1.0L / 3.0L, 1.0L / 3.0L, 1.0L / 6.0L};
-    state s = {{0.0L}, {0.0L}};
-    double low[MOST] = {0.0};
-    double high[MOST] = {0.0};
-    for (int b = 0; b < h->bodies; b++) {
-        s.x[b] = (long double)h->start[b] + (b > 0 ? s.x[b - 1] : 0.0L);
+    const by_bodies b = {h, h->bodies, h->step_s, h->steps, accelerate, counted};
+    long double start[MOST] = {0.0L};
+    for (int i = 0; i < h->bodies; i++) {
+        start[i] = (long double)h->start[i] + (i > 0 ? start[i - 1] : 0.0L);
     }
-    for (int step = 0; step <= h->steps; step++) {
-        for (int b = 0; b < h->bodies; b++) {
-            end[b] = s.x[b] - (b > 0 ? s.x[b - 1] : 0.0L);
-            low[b] = step == 0 ? (double)end[b] : fmin(low[b], (double)end[b]);
-            high[b] = step == 0 ? (double)end[b] : fmax(high[b], (double)end[b]);
-            range[b] = high[b] - low[b];
-        }
-        state next = s;
-        state slope = {{0.0L}, {0.0L}};
-        for (int stage = 0; stage < 4 && step < h->steps; stage++) {
-            state at = s;
-            add(&at, node[stage] * (long double)h->step_s, &slope);
-            slope = slope_of(h, &at);
-            add(&next, weight[stage] * (long double)h->step_s, &slope);
-        }
-        s = next;
-    }
+    by_bodies_run(&b, start, end, range);
 }
 
 /* --- what is said ------------------------------------------------------------------------------------------------ */

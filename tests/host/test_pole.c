@@ -218,6 +218,26 @@ static void test_what_has_no_digits(void) {
     }
 }
 
+/* What comes near to zero and turns: y^2 + x^2, and 1 + y^2 - cos(x), of which less is left beside its rounding. */
+static void at_standing(void *of, double share, double *sign, double *value) {
+    const drawn *d = of;
+    const double x = (share - d->place) * d->order;
+    sign[0] = d->zero * d->zero + x * x;
+    sign[1] = 1.0 + d->zero * d->zero - number_cosine(x);
+    value[0] = d->zeros == 0 ? x / number_root(sign[0]) : d->zero / number_root(sign[0]);
+    value[1] = d->zeros == 0 ? 1.0 / sign[1] : 1.0 / sign[0];
+}
+
+static void test_what_stands_off(void) {
+    for (unsigned c = 0; c < dice_cases(600); c++) {
+        drawn d = {.place = dice_between(&die, 0.1, 0.9),
+                   .order = exp(dice_between(&die, -5.0, 0.0)),
+                   .zeros = (int)(c % 2)};
+        d.zero = d.order * exp(dice_between(&die, -8.0, 0.0));
+        TEST_ASSERT_EQUAL_INT(-1, pole_of(&d, at_standing, 1.0));
+    }
+}
+
 /* --- signs that change twice -----------------------------------------------------------------------------*/
 
 /* 1/(1 + k/x), with x from beyond -k to above zero: of 1 + k/x both ends have the same sign. */
@@ -248,5 +268,6 @@ void suite_pole(void) {
     RUN_TEST(test_leaps_and_few_digits);
     RUN_TEST(test_what_rounding_leaves);
     RUN_TEST(test_what_has_no_digits);
+    RUN_TEST(test_what_stands_off);
     RUN_TEST(test_what_changes_twice);
 }
