@@ -116,8 +116,8 @@ CLI_LONG := $(foreach t,emitted_c price embed_names flags,tests/cli/$(t).sh)
 run_cli = $(foreach t,$(1),"$(t)" "sh $(t)")
 # What `make test` leaves to gate-long, so that it stays below five minutes: what compares digits of what other tests run,
 # too, or takes long. Of the scripts in CLI_FEW it takes few cases.
-CLI_GATED := $(foreach t,angle_parts carriage embed_headers embed_names faults figures flags map measure odd_values pil price \
-    price_predicts printed_zeros prove settings_bits trust,\
+CLI_GATED := $(foreach t,angle_parts carriage embed_headers embed_names faults figures flags headers map measure odd_values pil plots price \
+    price_predicts printed_zeros prove recorded_lists settings_bits structure trust,\
     tests/cli/$(t).sh)
 CLI_FEW := $(foreach t,emitted_c fixed,tests/cli/$(t).sh)
 HOST_GATED := asked_first belief busy choice contact_bound contact_centres contact_holds contact_load contact_rest contact_start \
