@@ -92,7 +92,8 @@ const poly *poly_each_number(algebra *a, const poly *p, double (*change)(double 
 static const poly *trig_of(algebra *a, trig kind, const poly *angle) {
     double value;
     if (poly_is_number(angle, &value)) {
-        return poly_number(a, kind == TRIG_SIN ? number_sine(value) : number_cosine(value));
+        const double wave = kind == TRIG_SIN ? number_sine(value) : number_cosine(value);
+        return poly_number(a, folding_of(wave, value));
     }
     double sign = 1.0;
     if (angle->terms[0].coefficient < 0.0) {

@@ -14,6 +14,7 @@
 #include "contacts.h"
 #include "forces.h"
 #include "host/algebra/poly.h"
+#include "host/number/folding.h"
 
 typedef struct unknown {
     const symbol *symbol;
@@ -28,7 +29,7 @@ typedef struct equations {
     const poly **mass; /* [count * count] row by row */
     double
         mass_blur; /* by such a part rounding of mass[] puts accelerations off, at the best of the states tried */
-    double folded; /* folding numbers of the file lost such a part (host/number/folding.h) */
+    folding_notes folding;  /* of the file's numbers */
     const poly **velocity;  /* [count] centrifugal and Coriolis terms; zero for a system */
     const poly **potential; /* [count] dV/dq; for a system all else, moved to the left */
     const poly **applied;   /* [count] Q - dF/dq'; zero for a system */

@@ -2,7 +2,6 @@
 #include "image_make.h"
 
 #include "host/number/folding.h"
-#include "host/number/functions.h"
 #include "lagrange.h"
 
 /* Where sums of constants lose more of an addend, it is asked what that does. */
@@ -32,7 +31,7 @@ static bool is_alike(const image *im, const image *other) {
 static image *make_otherwise(const image *im, const equations *e, const bool *conserve,
                              const image_settings *settings, int way) {
     diags *unsaid = diags_new();
-    const folding before = folding_begin(way);
+    const folding before = folding_begin(way, NULL);
     equations *other = equations_derive(e->instance, unsaid);
     image *made =
         other != NULL ? image_once(other, conserve, settings, IMAGE_TO_WRITE, unsaid) : NULL;
@@ -48,13 +47,12 @@ static image *make_otherwise(const image *im, const equations *e, const bool *co
 
 image *image_make(const equations *e, const bool *conserve, const image_settings *settings,
                   image_use use, diags *errors) {
-    const folding before = folding_begin(FOLDING_NEAREST);
+    const folding before = folding_begin(FOLDING_NEAREST, &e->folding);
     image *im = image_once(e, conserve, settings, use, errors);
-    const double lost = number_most(e->folded, folding_end(before));
+    const double lost = folding_end(before).lost;
     if (im == NULL) {
         return NULL;
     }
-    im->folded = lost;
     const bool asks = use == IMAGE_TO_RUN && lost > FOLDED_MUCH;
     for (int way = FOLDING_OTHER; way < FOLDING_WAYS && asks; way++) {
         image *other = make_otherwise(im, e, conserve, settings, way);

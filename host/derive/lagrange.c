@@ -6,7 +6,6 @@
 #include <string.h>
 
 #include "host/base/room.h"
-#include "host/number/folding.h"
 #include "singular.h"
 
 /* --- energies ------------------------------------------------------------------------------------*/
@@ -177,7 +176,7 @@ equations *equations_derive_after(const instance *inst, equations_question *befo
                                   diags *errors) {
     const mechanism *m = inst->mechanism;
     const int n = m->coordinate_count;
-    const folding before_it = folding_begin(folding_way());
+    const folding before_it = folding_begin(folding_way(), NULL);
     equations *e = room(1, sizeof *e);
     e->algebra = algebra_new();
     if (before != NULL) {
@@ -215,7 +214,7 @@ equations *equations_derive_after(const instance *inst, equations_question *befo
     if (good) {
         good = equations_check_solvable(e, errors);
     }
-    e->folded = folding_end(before_it);
+    e->folding = folding_end(before_it);
     if (!good) {
         equations_free(e);
         return NULL;

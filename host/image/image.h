@@ -290,8 +290,7 @@ typedef struct image {
     int recovered;    /* coordinates that follow from their momentum */
     int parameters;   /* the mechanism's own and those of the effects called for */
     double mass_blur; /* by such a part rounding of the mass matrix puts accelerations off */
-    double folded;    /* such a part of a number was lost when others were added to it */
-    /* Where that is much: the same folded in other ways (host/number/folding.h), for their lists. */
+    /* Where digits were lost in folding: the same folded in other ways (host/number/folding.h), for their lists. */
     struct image *otherwise[IMAGE_WAYS];
     int ways;
     image_unknown *unknown; /* [count] */

@@ -12,21 +12,24 @@
 
 /* What double is rounded by. */
 #define UNIT 0x1p-53
-/* What decimals leave of each other: 0.1 + 0.2 - 0.3. */
-#define GHOST (4.0 * UNIT)
+/* What a few roundings leave: 0.1 + 0.2 - 0.3. */
+#define GHOST (16.0 * UNIT)
 
 static folding now;
 
-folding folding_begin(int way) {
+folding folding_begin(int way, const folding_notes *on) {
     const folding before = now;
-    now = (folding){way, 0.0};
+    now = (folding){.way = way};
+    if (on != NULL) {
+        now.notes = *on;
+    }
     return before;
 }
 
-double folding_end(folding before) {
-    const double lost = now.lost;
+folding_notes folding_end(folding before) {
+    const folding_notes notes = now.notes;
     now = before;
-    return lost;
+    return notes;
 }
 
 int folding_way(void) { return now.way; }
@@ -58,22 +61,64 @@ static double other_neighbour(twofold exact, double x, double y) {
                            : enclosure_below(enclosure_below(exact.high));
 }
 
-double folding_sum(double x, double y) {
-    const double sum = x + y;
-    const double most = number_most(fabs(x), fabs(y));
-    const double least = number_least(number_least(fabs(x), fabs(y)), fabs(sum));
-    if (least > 0.0 && UNIT * most > now.lost * least) {
-        now.lost = UNIT * most / least;
+/* --- what is noted, of what is rounded to nearest ----------------------------------------------------*/
+
+static bool is_rest(double x) {
+    const folding_notes *n = &now.notes;
+    for (int i = 0; i < n->rests; i++) {
+        if (n->rest[i] == fabs(x)) {
+            return true;
+        }
     }
-    return now.way != FOLDING_NEAREST
-               ? other_neighbour(twofold_add(twofold_of(x), twofold_of(y)), x, y)
-               : sum;
+    return false;
+}
+
+static void note_rest(double x) {
+    folding_notes *n = &now.notes;
+    if (x != 0.0 && n->rests < FOLDING_RESTS && !is_rest(x)) {
+        n->rest[n->rests++] = fabs(x);
+    }
+}
+
+static void note_lost(double part) { now.notes.lost = number_most(now.notes.lost, part); }
+
+double folding_of(double value, double size) {
+    if (fabs(value) <= GHOST * fabs(size)) {
+        note_rest(value);
+    }
+    return value;
+}
+
+static void note_sum(double x, double y, double sum) {
+    const double most = number_most(fabs(x), fabs(y));
+    if (fabs(sum) <= GHOST * most || (is_rest(x) && is_rest(y))) {
+        note_rest(sum);
+        return;
+    }
+    const double least = number_least(number_least(fabs(x), fabs(y)), fabs(sum));
+    if (least > 0.0 && UNIT * most > now.notes.lost * least && !is_rest(x) && !is_rest(y)) {
+        note_lost(UNIT * most / least);
+    }
+}
+
+/* --- what is folded ----------------------------------------------------------------------------------*/
+
+double folding_sum(double x, double y) {
+    if (now.way != FOLDING_NEAREST) {
+        return other_neighbour(twofold_add(twofold_of(x), twofold_of(y)), x, y);
+    }
+    note_sum(x, y, x + y);
+    return x + y;
 }
 
 double folding_product(double x, double y) {
-    return now.way != FOLDING_NEAREST
-               ? other_neighbour(twofold_mul(twofold_of(x), twofold_of(y)), x, y)
-               : x * y;
+    if (now.way != FOLDING_NEAREST) {
+        return other_neighbour(twofold_mul(twofold_of(x), twofold_of(y)), x, y);
+    }
+    if (is_rest(x) || is_rest(y)) {
+        note_rest(x * y);
+    }
+    return x * y;
 }
 
 bool folding_cancels(double left, double size, double part) {
@@ -81,7 +126,7 @@ bool folding_cancels(double left, double size, double part) {
         return left == 0.0;
     }
     if (fabs(left) > GHOST * size) {
-        now.lost = number_most(now.lost, 1.0);
+        note_lost(1.0);
     }
     return true;
 }

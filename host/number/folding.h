@@ -4,7 +4,8 @@
  * more. Where equations are eliminated, or run-time sums cancel, so that k1 alone is left, everything that goes by the folded
  * numbers has lost the same digits, and no comparison of two runs shows it. So
  *
- *   - it is noted what part of its smallest addend, or of what is left of it, rounding a sum may have made;
+ *   - it is noted what part of its smallest addend, or of what is left of it, rounding a sum may have made. What is but the
+ *     rounding of other numbers, as cos(90 deg) or 0.1 + 0.2 - 0.3, loses nothing, and neither do products with it;
  *   - a derivation can be made again in another *way*: sums and products that are not exact are rounded the other way, one
  *     double beyond their other neighbour, all of them or about half, or none. What is exact stays, and nothing is put onto
  *     what is nearly the same. Where several roundings add up, one way may come to the same numbers by chance; hence more
@@ -20,20 +21,30 @@
  * the same; and then about half the other way. */
 enum { FOLDING_NEAREST, FOLDING_OTHER, FOLDING_APART, FOLDING_SOME, FOLDING_WAYS = 5 };
 
+/* What was noted. Of more numbers than there is room for, none is known to be rounding alone. */
+enum { FOLDING_RESTS = 256 };
+typedef struct folding_notes {
+    double lost;                /* the largest part of an addend, or of a sum that cancels */
+    int rests;                  /* so many numbers are but the rounding of others */
+    double rest[FOLDING_RESTS]; /* without their signs */
+} folding_notes;
+
 typedef struct folding {
     int way;
-    double
-        lost; /* since folding_begin(): the largest part of an addend, or of a sum that cancels */
+    folding_notes notes;
 } folding;
 
-/* What held before is what folding_end() is to be given; it tells what was lost between the two. */
-folding folding_begin(int way);
-double folding_end(folding before);
+/* What held before is what folding_end() is to be given; it tells what was noted between the two, and before in what is gone
+ * on with, if it is not NULL. */
+folding folding_begin(int way, const folding_notes *on);
+folding_notes folding_end(folding before);
 
 int folding_way(void);
 
 double folding_sum(double x, double y);
 double folding_product(double x, double y);
+/* The same `value`, which was computed of a number of this size: noted where it is no more than that one's rounding. */
+double folding_of(double value, double size);
 /* Is `left`, which two numbers of this size leave of each other, nothing? Up to `part` of them it is: a last digit or two are
  * of the decimals that they came from, what is more is noted. In another way nothing but zero is. */
 bool folding_cancels(double left, double size, double part);

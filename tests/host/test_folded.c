@@ -314,4 +314,57 @@ static void test_what_is_lost_is_told(void) {
     TEST_ASSERT_TRUE(10 * (told_right + ended_right) <= right);
 }
 
-void suite_folded(void) { RUN_TEST(test_what_is_lost_is_told); }
+/* --- what is no more than rounding -------------------------------------------------------------------------------- */
+
+/* In how many other ways it was folded. */
+static int ways_of(const char *text) {
+    motion m;
+    motion_open_text(&m, text, IN_DOUBLE);
+    const int ways = m.image->ways;
+    motion_close(&m);
+    return ways;
+}
+
+/* A mass on an arm from a carriage, where the arm's zero is quarter turns off, which leave their cosines' last digits, and a
+ * spring whose decimals leave theirs; `k` stands beside it. */
+static void arm_text(dice *d, double k, char *text, size_t size) {
+    static const char *const angle[] = {"90 [deg]",  "pi/2",      "180 [deg]",
+                                        "-90 [deg]", "270 [deg]", "pi"};
+    static const char *const spring[] = {"(0.1 + 0.2 - 0.3)", "(1.1 - 1 - 0.1)",
+                                         "(4.35*100 - 435)"};
+    const char *const alpha = angle[dice_one_of(d, 6)];
+    const char *const left = spring[dice_one_of(d, 3)];
+    const double m_kg = dice_between(d, 0.5, 2.0);
+    const double k_Npm = dice_between(d, 10.0, 100.0);
+    snprintf(
+        text, size,
+        "mechanism arm\ncoordinate x [m]\ncoordinate theta [rad]\nparameter m = %.17g [kg]\n"
+        "parameter r = 0.3 [m]\nparameter alpha = %s\n"
+        "T = m*x'^2/2 + m*((x' - r*theta'*sin(theta + alpha))^2 + (r*theta'*cos(theta + alpha))^2)/2\n"
+        "V = %.17g [N/m]*x^2/2 + %s*%.17g [N/m]*x^2/2 + %.17g [N/m]*x^2/2 "
+        "+ m*9.81 [m/s^2]*(0.5 [m] + r*sin(alpha)*cos(alpha))*cos(theta)\n"
+        "scene s { start x = 0.1 [m], theta = 1 [rad]\nstep 1 [ms]\nuntil 1 [s] }\n",
+        m_kg, alpha, k_Npm, left, k_Npm, k);
+}
+
+static void test_rounding_alone_is_nothing_lost(void) {
+    dice d = dice_of("folded", 2);
+    const unsigned cases = dice_cases(few_or_all(20, 200));
+    unsigned asked = 0;
+    for (unsigned k = 0; k < cases; k++) {
+        char text[2000];
+        const dice before = d;
+        arm_text(&d, 0.0, text, sizeof text);
+        asked += ways_of(text) > 0 ? 1U : 0U;
+        d = before;
+        arm_text(&d, 1e-6 * dice_between(&d, 1e-7, 1e-3), text, sizeof text);
+        TEST_ASSERT_TRUE_MESSAGE(ways_of(text) > 0, text);
+    }
+    printf("  %u arms with last digits alone: %u derived in other ways\n", cases, asked);
+    TEST_ASSERT_TRUE(20 * asked <= cases); /* where roundings add up to more */
+}
+
+void suite_folded(void) {
+    RUN_TEST(test_what_is_lost_is_told);
+    RUN_TEST(test_rounding_alone_is_nothing_lost);
+}
