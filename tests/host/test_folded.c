@@ -277,7 +277,7 @@ static held draw(dice *d, double ratio) {
 
 static void test_what_is_lost_is_told(void) {
     dice d = dice_of("folded", 1);
-    const unsigned cases = dice_cases(few_or_all(60, 600));
+    const unsigned cases = dice_cases(usual_or(few_or_all(60, 600), 6));
     unsigned off = 0;
     unsigned told = 0;
     unsigned ended = 0;
@@ -349,7 +349,7 @@ static void arm_text(dice *d, double k, char *text, size_t size) {
 
 static void test_rounding_alone_is_nothing_lost(void) {
     dice d = dice_of("folded", 2);
-    const unsigned cases = dice_cases(few_or_all(20, 200));
+    const unsigned cases = dice_cases(usual_or(few_or_all(20, 200), 4));
     unsigned asked = 0;
     for (unsigned k = 0; k < cases; k++) {
         char text[2000];

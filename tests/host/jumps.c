@@ -1,0 +1,54 @@
+/* jumps.c: see jumps.h. */
+#include "jumps.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "host/commands/commands.h"
+#include "host/run/jumped.h"
+#include "unity.h"
+
+said jumps_said;
+
+unsigned jumps_cases(unsigned few, unsigned all, unsigned fewest) {
+    return dice_cases(usual_or(few_or_all(few, all), fewest));
+}
+
+void jumps_run(const char *text, const char *number, char *const more[static JUMPS_WORDS]) {
+    const char *words[4 + JUMPS_WORDS] = {model_keep(text), "--number", number};
+    const bool another = more[0] != NULL && strcmp(more[0], "--number") == 0;
+    for (int i = 0; i < JUMPS_WORDS; i++) {
+        words[(another ? 1 : 3) + i] = more[i];
+    }
+    command_say(command_run, words, &jumps_said);
+    model_drop();
+}
+
+bool jumps_named(char text[static SAID_SIZE], char *words[static JUMPS_WORDS]) {
+    static const char before[] = "no motion gets through there; ";
+    char *at = strstr(jumps_said.err, before);
+    char *end = at != NULL ? strstr(at, " stays on its side, and would do") : NULL;
+    if (end == NULL) {
+        return false;
+    }
+    *end = '\0';
+    strcpy(text, at + strlen(before));
+    char *next = text;
+    for (int i = 0; i < JUMPS_WORDS; i++) {
+        words[i] = strtok_r(next, " ", &next);
+    }
+    return true;
+}
+
+bool jumps_told(void) { return strstr(jumps_said.err, "jumped over a place where") != NULL; }
+
+bool jumps_some(motion *m) {
+    jumped *j = jumped_open(m->image);
+    for (uint64_t step = 0; step <= m->image->steps; step++) {
+        TEST_ASSERT_EQUAL_INT(WH_OK, step == 0 ? WH_OK : motion_step(m, 1));
+        jumped_enter(j, m->kind, m->run);
+    }
+    const bool some = jumped_some(j);
+    jumped_close(j);
+    return some;
+}
