@@ -93,7 +93,7 @@ static const poly *trig_of(algebra *a, trig kind, const poly *angle) {
     double value;
     if (poly_is_number(angle, &value)) {
         const double wave = kind == TRIG_SIN ? number_sine(value) : number_cosine(value);
-        return poly_number(a, folding_of(wave, value));
+        return poly_number(a, folding_wave(wave, value));
     }
     double sign = 1.0;
     if (angle->terms[0].coefficient < 0.0) {

@@ -82,21 +82,25 @@ static void note_rest(double x) {
 
 static void note_lost(double part) { now.notes.lost = number_most(now.notes.lost, part); }
 
-double folding_of(double value, double size) {
-    if (fabs(value) <= GHOST * fabs(size)) {
-        note_rest(value);
+double folding_wave(double wave, double angle_rad) {
+    if (fabs(wave) <= GHOST * fabs(angle_rad)) {
+        note_rest(wave);
     }
-    return value;
+    return wave;
 }
 
+/* A rest that vanishes beside a number is no loss; a number that vanishes beside a rest is. */
 static void note_sum(double x, double y, double sum) {
+    const bool rest_x = is_rest(x);
+    const bool rest_y = is_rest(y);
     const double most = number_most(fabs(x), fabs(y));
-    if (fabs(sum) <= GHOST * most || (is_rest(x) && is_rest(y))) {
+    if (fabs(sum) <= GHOST * most || (rest_x && rest_y)) {
         note_rest(sum);
         return;
     }
-    const double least = number_least(number_least(fabs(x), fabs(y)), fabs(sum));
-    if (least > 0.0 && UNIT * most > now.notes.lost * least && !is_rest(x) && !is_rest(y)) {
+    const double least =
+        number_least(fabs(sum), number_least(rest_x ? most : fabs(x), rest_y ? most : fabs(y)));
+    if (least > 0.0) {
         note_lost(UNIT * most / least);
     }
 }

@@ -43,8 +43,8 @@ int folding_way(void);
 
 double folding_sum(double x, double y);
 double folding_product(double x, double y);
-/* The same `value`, which was computed of a number of this size: noted where it is no more than that one's rounding. */
-double folding_of(double value, double size);
+/* The same sine or cosine of that angle: noted where it is no more than what rounding the angle made. */
+double folding_wave(double wave, double angle_rad);
 /* Is `left`, which two numbers of this size leave of each other, nothing? Up to `part` of them it is: a last digit or two are
  * of the decimals that they came from, what is more is noted. In another way nothing but zero is. */
 bool folding_cancels(double left, double size, double part);

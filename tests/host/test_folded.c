@@ -11,6 +11,8 @@
 #include "by_bodies.h"
 #include "command.h"
 #include "host/commands/commands.h"
+#include "host/number/folding.h"
+#include "host/number/functions.h"
 #include "motion.h"
 #include "unity.h"
 
@@ -364,7 +366,26 @@ static void test_rounding_alone_is_nothing_lost(void) {
     TEST_ASSERT_TRUE(20 * asked <= cases); /* where roundings add up to more */
 }
 
+/* The other way about: numbers that vanish beside a rest are lost, and rests that vanish beside numbers are not. */
+static void test_numbers_beside_a_rest(void) {
+    dice d = dice_of("folded", 3);
+    for (unsigned k = 0; k < dice_cases(200); k++) {
+        const double angle_rad = 1.5707963267948966 * (1.0 + 2.0 * dice_one_of(&d, 5));
+        const double number = power_of_ten(&d, -3.0, 3.0);
+        const folding before = folding_begin(FOLDING_NEAREST, NULL);
+        const double rest =
+            folding_product(folding_wave(number_cosine(angle_rad), angle_rad), number);
+        (void)folding_sum(number, rest);
+        const folding_notes kept = folding_end(before);
+        const folding again = folding_begin(FOLDING_NEAREST, &kept);
+        (void)folding_sum(rest * power_of_ten(&d, -9.0, -7.0), rest);
+        const folding_notes lost = folding_end(again);
+        TEST_ASSERT_TRUE(kept.lost < 1e-9 && lost.lost > 1e-9);
+    }
+}
+
 void suite_folded(void) {
     RUN_TEST(test_what_is_lost_is_told);
     RUN_TEST(test_rounding_alone_is_nothing_lost);
+    RUN_TEST(test_numbers_beside_a_rest);
 }
