@@ -92,8 +92,7 @@ const poly *poly_each_number(algebra *a, const poly *p, double (*change)(double 
 static const poly *trig_of(algebra *a, trig kind, const poly *angle) {
     double value;
     if (poly_is_number(angle, &value)) {
-        const double wave = kind == TRIG_SIN ? number_sine(value) : number_cosine(value);
-        return poly_number(a, folding_wave(wave, value));
+        return poly_number(a, folding_call(kind == TRIG_SIN ? FN_SIN : FN_COS, value, 0.0));
     }
     double sign = 1.0;
     if (angle->terms[0].coefficient < 0.0) {
@@ -259,7 +258,8 @@ static const poly *term_pow(algebra *a, const poly_term *t, double exponent) {
         }
         const mono *powered = mono_make(a, f, count, TRIG_NONE, NULL);
         free(f);
-        return poly_mul(a, poly_of_term(a, number_power(t->coefficient, exponent), powered), extra);
+        return poly_mul(a, poly_of_term(a, folding_power(t->coefficient, exponent), powered),
+                        extra);
     }
     if (whole && exponent > 0.0 && exponent <= 16.0) {
         const poly *base = poly_of_term(a, t->coefficient, m);
@@ -275,8 +275,8 @@ static const poly *term_pow(algebra *a, const poly_term *t, double exponent) {
     }
     /* Take out the size of the number; its sign stays inside unless the exponent is whole. */
     const double sign = t->coefficient < 0.0 ? -1.0 : 1.0;
-    const double outside = whole ? number_power(t->coefficient, exponent)
-                                 : number_power(fabs(t->coefficient), exponent);
+    const double outside = whole ? folding_power(t->coefficient, exponent)
+                                 : folding_power(fabs(t->coefficient), exponent);
     const poly *inside = poly_of_term(a, whole ? 1.0 : sign, m);
     if (m->count == 1 && m->trig == TRIG_NONE && m->factors[0].exponent == 1.0 && sign > 0.0) {
         return poly_scale(a, poly_of_atom(a, m->factors[0].atom, exponent), outside);
@@ -301,7 +301,7 @@ const poly *poly_power(algebra *a, const poly *base, double exponent, double kep
         return base;
     }
     if (poly_is_number(base, &value)) {
-        return poly_number(a, number_power(value, exponent));
+        return poly_number(a, folding_power(value, exponent));
     }
     if (base->count == 1) {
         return term_pow(a, &base->terms[0], exponent);
@@ -337,7 +337,7 @@ const poly *poly_call(algebra *a, function_id function, const poly *x, const pol
     double vx;
     double vy = 0.0;
     if (poly_is_number(x, &vx) && (y == NULL || poly_is_number(y, &vy))) {
-        return poly_number(a, number_call(function, vx, vy));
+        return poly_number(a, folding_call(function, vx, vy));
     }
     /* The normal form has these three itself; all others are atoms. */
     if (function == FN_SIN) {

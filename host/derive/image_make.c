@@ -27,16 +27,18 @@ static bool is_alike(const image *im, const image *other) {
     return alike;
 }
 
-/* All of the derivation again; NULL where it comes to something else. */
+/* The numbers and all of the derivation again; NULL where it comes to something else. */
 static image *make_otherwise(const image *im, const equations *e, const bool *conserve,
                              const image_settings *settings, int way) {
     diags *unsaid = diags_new();
     const folding before = folding_begin(way, NULL);
-    equations *other = equations_derive(e->instance, unsaid);
+    instance *again = instance_again(e->instance);
+    equations *other = again != NULL ? equations_derive(again, unsaid) : NULL;
     image *made =
         other != NULL ? image_once(other, conserve, settings, IMAGE_TO_WRITE, unsaid) : NULL;
     (void)folding_end(before);
     equations_free(other);
+    instance_free(again);
     diags_free(unsaid);
     if (made != NULL && !is_alike(im, made)) {
         image_free(made);

@@ -176,7 +176,7 @@ equations *equations_derive_after(const instance *inst, equations_question *befo
                                   diags *errors) {
     const mechanism *m = inst->mechanism;
     const int n = m->coordinate_count;
-    const folding before_it = folding_begin(folding_way(), NULL);
+    const folding before_it = folding_begin(folding_way(), &inst->folding);
     equations *e = room(1, sizeof *e);
     e->algebra = algebra_new();
     if (before != NULL) {

@@ -96,7 +96,7 @@ typedef struct product {
 static void product_multiply(lowering *l, product *p, int node, int exponent) {
     double value;
     if (tape_is_constant(l->tape, node, &value)) {
-        p->coefficient = folding_product(p->coefficient, number_power(value, exponent));
+        p->coefficient = folding_product(p->coefficient, folding_power(value, exponent));
         return;
     }
     for (int i = 0; i < p->count; i++) {

@@ -57,6 +57,12 @@ void image_inputs(const image *im, double *input) {
     }
 }
 
+void image_start(const image *im, double *x) {
+    for (int i = 0; i < im->angles + im->reals; i++) {
+        x[i] = i < im->angles ? im->start_rad[i] : im->start_real[i - im->angles];
+    }
+}
+
 static bool list_calls(const tape *t) {
     for (int i = 0; t != NULL && i < t->count; i++) {
         if (op_rows[t->ops[i].code].cost == OP_COSTS_CALL) {

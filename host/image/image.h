@@ -17,7 +17,7 @@
 #include "tape.h"
 
 /* So many other ways of folding numbers are asked, at most. */
-enum { IMAGE_WAYS = 4 };
+enum { IMAGE_WAYS = 6 };
 
 /* Most coordinates of a mechanism, or first-order components of a system. */
 #define IMAGE_COMPONENTS_MAX 64
@@ -347,8 +347,9 @@ const char *image_stepper(const image *im);
 double image_shown(const image_unit *unit, double si);
 bool image_shows_si(const image_unit *unit);
 
-/* The inputs as the run starts, input[inputs]. */
+/* The inputs as the run starts, input[inputs], and its components, x[angles + reals]. */
 void image_inputs(const image *im, double *input);
+void image_start(const image *im, double *x);
 
 /* Does what runs on a board call functions of core/function.h? */
 bool image_calls(const image *im);

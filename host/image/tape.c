@@ -261,7 +261,7 @@ int tape_unary(tape *t, op_code code, int a) {
     }
     const function_id function = function_of(code);
     if (function != FUNCTION_NONE && tape_is_constant(t, a, &x)) {
-        return tape_constant(t, number_call(function, x, 0.0));
+        return tape_constant(t, folding_call(function, x, 0.0));
     }
     return enter_op(t, code, a, -1);
 }

@@ -330,9 +330,11 @@ bool instance_duration(const mechanism *of, const scene *from, const overrides *
 instance *instance_make(const mechanism *of, const scene *from, const overrides *changes,
                         diags *all) {
     const size_t before = diags_calls(all);
+    const folding before_it = folding_begin(folding_way(), NULL);
     plan what;
     instance *made = begin(of, from, changes, all, &what);
     evaluate(&what, made);
+    made->folding = folding_end(before_it);
     if (diags_calls(all) == before) {
         limits_check(made, &what.values);
     }

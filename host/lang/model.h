@@ -12,6 +12,7 @@
 
 #include "host/base/diag.h"
 #include "host/number/enclosure.h"
+#include "host/number/folding.h"
 #include "host/number/functions.h"
 #include "host/number/ratio.h"
 #include "kinds.h"
@@ -263,10 +264,11 @@ typedef struct instance {
     int *start_count;          /* [coordinate_count] entries in start[i] (2 for coordinates) */
     range_value *range;        /* [range_count] */
     int range_count;
-    double step_s;    /* default 1e-3 */
-    double until_s;   /* default 10 */
-    whole_ratio step; /* step_s, as it was written */
-    uint64_t steps;   /* to the end: until_s / step_s to the nearest, at most 2^63 */
+    double step_s;         /* default 1e-3 */
+    double until_s;        /* default 10 */
+    folding_notes folding; /* of the expressions above */
+    whole_ratio step;      /* step_s, as it was written */
+    uint64_t steps;        /* to the end: until_s / step_s to the nearest, at most 2^63 */
     struct arena *arena;
 } instance;
 
@@ -285,6 +287,9 @@ const effect *instance_lacks(const instance *instance, const symbol *what);
  * NULL. Returns NULL on error, reported to `diags`. */
 instance *instance_make(const mechanism *mechanism, const scene *scene, const overrides *changes,
                         diags *diags);
+/* The same with parameters, inputs and initial values folded in the way that folding_way() tells; all else is that
+ * of the first, which must outlive it. NULL where they are no finite numbers so. */
+instance *instance_again(const instance *first);
 void instance_free(instance *instance);
 
 /* A time of the command line that is not the run's own, such as `--from 1.5 [s]`: seconds, at

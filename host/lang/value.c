@@ -4,6 +4,7 @@
 #include <stdio.h>
 
 #include "host/base/arena.h"
+#include "host/number/folding.h"
 
 enum {
     NAME_BUFFER = 100,
@@ -83,13 +84,13 @@ double expr_value(const expr *tree, valuation *known) {
     switch (tree->op) {
     case EXPR_NUMBER: return tree->number;
     case EXPR_SYMBOL: return symbol_value(tree->symbol, tree->primes, known);
-    case EXPR_ADD: return a + b;
-    case EXPR_SUB: return a - b;
-    case EXPR_MUL: return a * b;
-    case EXPR_DIV: return a / b;
-    case EXPR_POW: return number_power(a, b);
+    case EXPR_ADD: return folding_sum(a, b);
+    case EXPR_SUB: return folding_sum(a, -b);
+    case EXPR_MUL: return folding_product(a, b);
+    case EXPR_DIV: return folding_quotient(a, b);
+    case EXPR_POW: return folding_power(a, b);
     case EXPR_NEG: return -a;
-    case EXPR_CALL: return number_call(tree->function, a, b);
+    case EXPR_CALL: return folding_call(tree->function, a, b);
     }
     return (double)NAN;
 }

@@ -15,6 +15,9 @@
 /* What a few roundings leave: 0.1 + 0.2 - 0.3. */
 #define GHOST (16.0 * UNIT)
 
+/* What is but rounding, and more than this in SI units, may be all of a spring. */
+#define REST_COUNTS 1e-12
+
 static folding now;
 
 folding folding_begin(int way, const folding_notes *on) {
@@ -40,28 +43,49 @@ static uint64_t digits_of(double x) {
     return bits & ((UINT64_C(1) << 52) - 1);
 }
 
-/* The same in all that is folded of these digits, whatever their signs and powers of two, and in whatever order. */
-static bool is_turned(double x, double y) {
+/* By how many doubles what is made of these is moved, up or down. In some ways it is the same in all that is folded of these
+ * digits, whatever their signs and powers of two, and in whatever order. */
+static int moved_by(double x, double y, bool up) {
+    static const signed char some[] = {-2, -1, 1, 2};
     if (now.way <= FOLDING_APART) {
-        return now.way == FOLDING_OTHER;
+        return now.way == FOLDING_APART ? 0 : up ? 2 : -2;
     }
     const uint64_t a = digits_of(x);
     const uint64_t b = digits_of(y);
     const uint64_t hash = ((a + b) * WH_HASH_PRIME ^ (a ^ b)) * WH_HASH_PRIME;
-    return (hash >> (32 + now.way - FOLDING_SOME) & 1U) != 0;
+    return some[hash >> (32 + 2 * (now.way - FOLDING_SOME)) & 3U];
+}
+
+static double moved(double x, int by) {
+    for (int i = 0; i < by; i++) {
+        x = enclosure_above(x);
+    }
+    for (int i = 0; i > by; i--) {
+        x = enclosure_below(x);
+    }
+    return x;
 }
 
 /* On the other side of what `exact` is, one double beyond its neighbour: several roundings may have put a number as far off
  * as that. Itself where it is a double. */
 static double other_neighbour(twofold exact, double x, double y) {
-    if (!twofold_is_finite(exact) || exact.low == 0.0 || !is_turned(x, y)) {
+    if (!twofold_is_finite(exact) || exact.low == 0.0) {
         return exact.high;
     }
-    return exact.low > 0.0 ? enclosure_above(enclosure_above(exact.high))
-                           : enclosure_below(enclosure_below(exact.high));
+    return moved(exact.high, moved_by(x, y, exact.low > 0.0));
+}
+
+static bool is_short(double x) { return (digits_of(x) & ((UINT64_C(1) << 26) - 1)) == 0; }
+
+/* The same of what is known to no more digits than it has. */
+static double other_value(double value, double x) {
+    return isfinite(value) ? moved(value, moved_by(value, x, (digits_of(value) >> 26 & 1U) != 0))
+                           : value;
 }
 
 /* --- what is noted, of what is rounded to nearest ----------------------------------------------------*/
+
+static void note_lost(double part) { now.notes.lost = number_most(now.notes.lost, part); }
 
 static bool is_rest(double x) {
     const folding_notes *n = &now.notes;
@@ -78,19 +102,16 @@ static void note_rest(double x) {
     if (x != 0.0 && n->rests < FOLDING_RESTS && !is_rest(x)) {
         n->rest[n->rests++] = fabs(x);
     }
-}
-
-static void note_lost(double part) { now.notes.lost = number_most(now.notes.lost, part); }
-
-double folding_wave(double wave, double angle_rad) {
-    if (fabs(wave) <= GHOST * fabs(angle_rad)) {
-        note_rest(wave);
+    if (fabs(x) > REST_COUNTS) {
+        note_lost(1.0);
     }
-    return wave;
 }
 
-/* A rest that vanishes beside a number is no loss; a number that vanishes beside a rest is. */
+/* A rest that vanishes beside a number is no loss; what does not, or has the number vanish, has no digit right. */
 static void note_sum(double x, double y, double sum) {
+    if (x == 0.0 || y == 0.0) {
+        return;
+    }
     const bool rest_x = is_rest(x);
     const bool rest_y = is_rest(y);
     const double most = number_most(fabs(x), fabs(y));
@@ -98,10 +119,38 @@ static void note_sum(double x, double y, double sum) {
         note_rest(sum);
         return;
     }
-    const double least =
-        number_least(fabs(sum), number_least(rest_x ? most : fabs(x), rest_y ? most : fabs(y)));
-    if (least > 0.0) {
-        note_lost(UNIT * most / least);
+    if (rest_x || rest_y) {
+        note_lost(rest_x ? fabs(x / y) : fabs(y / x));
+        return;
+    }
+    note_lost(UNIT * most / number_least(fabs(sum), number_least(fabs(x), fabs(y))));
+}
+
+/* What is divided by a rest has no digit right. */
+static void note_power(double base, double exponent, double power) {
+    if (is_rest(base)) {
+        if (exponent < 0.0) {
+            note_lost(1.0);
+        } else {
+            note_rest(power);
+        }
+    }
+}
+
+/* A function of a rest, and what it has at zero. */
+static void note_call(double value, double at_zero) {
+    if (!(fabs(value - at_zero) <= 1e-3)) {
+        note_lost(1.0);
+    } else if (at_zero == 0.0) {
+        note_rest(value);
+    }
+}
+
+/* Of x there is as much lost in a function's value as that hardly depends on it: 1e-9 rad in its cosine. But not where the
+ * slope is no more than rounding x to a quarter of a turn has made it. */
+static void note_slope(double value, double x, double slope) {
+    if (fabs(slope) > GHOST * fabs(x) || fabs(x) < 1.0) {
+        note_lost(UNIT * fabs(value) / fabs(x * slope));
     }
 }
 
@@ -123,6 +172,64 @@ double folding_product(double x, double y) {
         note_rest(x * y);
     }
     return x * y;
+}
+
+/* Moved the other way all of them would take back what the sums were moved by: (K + k)/K - 1. */
+double folding_quotient(double x, double y) {
+    if (now.way != FOLDING_NEAREST) {
+        return y != 0.0 && now.way != FOLDING_OTHER
+                   ? other_neighbour(twofold_div(twofold_of(x), twofold_of(y)), x, y)
+                   : x / y;
+    }
+    note_power(y, -1.0, 1.0 / y);
+    if (is_rest(x)) {
+        note_rest(x / y);
+    }
+    return x / y;
+}
+
+double folding_power(double base, double exponent) {
+    const double power = number_power(base, exponent);
+    if (now.way != FOLDING_NEAREST) {
+        return is_short(power) || fabs(exponent) == 1.0 ? power : other_value(power, base);
+    }
+    note_power(base, exponent, power);
+    return power;
+}
+
+/* Is that the function's value, to the last digit? Of few digits are roots of squares; and others where their rows begin. */
+static bool is_exact(function_id function, double x, double value) {
+    switch (function_takes(function)) {
+    case TAKES_SIZE:
+    case TAKES_ANY:
+    case TAKES_CHOICE: return true;
+    case TAKES_SQUARE: return is_short(value);
+    case TAKES_ANGLE:
+    case TAKES_NUMBER:
+    case TAKES_RATIO: break;
+    }
+    return is_short(value) && (x == 0.0 || fabs(x) == 1.0);
+}
+
+double folding_call(function_id function, double x, double y) {
+    const double value = number_call(function, x, y);
+    const bool turns = function_takes(function) == TAKES_ANGLE;
+    const bool rests = turns && fabs(value) <= GHOST * fabs(x);
+    const bool exact = is_exact(function, x, value);
+    if (now.way != FOLDING_NEAREST) {
+        return exact                           ? value
+               : !rests                        ? other_value(value, x)
+               : moved_by(x, value, true) != 0 ? -value
+                                               : value;
+    }
+    if (rests) {
+        note_rest(value);
+    } else if (is_rest(x)) {
+        note_call(value, number_call(function, 0.0, y));
+    } else if (!exact) {
+        note_slope(value, x, number_slope(function, 0, x, y));
+    }
+    return value;
 }
 
 bool folding_cancels(double left, double size, double part) {

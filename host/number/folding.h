@@ -5,7 +5,8 @@
  * numbers has lost the same digits, and no comparison of two runs shows it. So
  *
  *   - it is noted what part of its smallest addend, or of what is left of it, rounding a sum may have made. What is but the
- *     rounding of other numbers, as cos(90 deg) or 0.1 + 0.2 - 0.3, loses nothing, and neither do products with it;
+ *     rounding of other numbers, as cos(90 deg) or 0.1 + 0.2 - 0.3, loses nothing, and neither do products with it, unless
+ *     it is no small part of what it is added to, or divides;
  *   - a derivation can be made again in another *way*: sums and products that are not exact are rounded the other way, one
  *     double beyond their other neighbour, all of them or about half, or none. What is exact stays, and nothing is put onto
  *     what is nearly the same. Where several roundings add up, one way may come to the same numbers by chance; hence more
@@ -17,9 +18,11 @@
 
 #include <stdbool.h>
 
+#include "functions.h"
+
 /* To nearest, as everything that runs on a board; all the other way; to nearest, but nothing put onto what is nearly
- * the same; and then about half the other way. */
-enum { FOLDING_NEAREST, FOLDING_OTHER, FOLDING_APART, FOLDING_SOME, FOLDING_WAYS = 5 };
+ * the same; and then some the other way, some further, some not. */
+enum { FOLDING_NEAREST, FOLDING_OTHER, FOLDING_APART, FOLDING_SOME, FOLDING_WAYS = 7 };
 
 /* What was noted. Of more numbers than there is room for, none is known to be rounding alone. */
 enum { FOLDING_RESTS = 256 };
@@ -43,8 +46,10 @@ int folding_way(void);
 
 double folding_sum(double x, double y);
 double folding_product(double x, double y);
-/* The same sine or cosine of that angle: noted where it is no more than what rounding the angle made. */
-double folding_wave(double wave, double angle_rad);
+double folding_quotient(double x, double y);
+/* number_power() and number_call(): sines and cosines that are no more than what rounding their angle made are rests. */
+double folding_power(double base, double exponent);
+double folding_call(function_id function, double x, double y);
 /* Is `left`, which two numbers of this size leave of each other, nothing? Up to `part` of them it is: a last digit or two are
  * of the decimals that they came from, what is more is noted. In another way nothing but zero is. */
 bool folding_cancels(double left, double size, double part);

@@ -227,9 +227,24 @@ static void say_folded(FILE *out, advice *a) {
         j->image->mechanism, j->image->unknown[c.unknown].name, c.primes + 1, "''''''''''",
         100.0 * number_least(j->folded_off, 1.0),
         j->image->has_energies
-            ? "a coordinate that is counted from a light body to one that a stiff spring holds "
-              "does that: count it from that one, or from the ground"
+            ? "give the small one by itself; a coordinate that is counted from a light body to one "
+              "that a stiff spring holds needs such sums: count it from that one, or from the ground"
             : "two equations say nearly the same: their difference tells more");
+}
+
+static void say_start(FILE *out, advice *a) {
+    judged *j = &a->judged;
+    if (!judged_start(j)) {
+        return;
+    }
+    const component c = image_component(j->image, j->start);
+    fprintf(
+        out,
+        "whirl run: warning: the initial value of %s%.*s of '%s' is computed of sums in which a "
+        "small one is lost beside a large one: rounding them, in double, too, may put it %.2g %% off\n"
+        "hint: give the small one by itself\n",
+        j->image->unknown[c.unknown].name, c.primes, "''''''''''", j->image->mechanism,
+        100.0 * number_least(j->start_off, 1.0));
 }
 
 static void say_jumped(FILE *out, advice *a) {
@@ -282,6 +297,7 @@ static void say_swing(FILE *out, advice *a) {
 void advice_say(FILE *out, advice *a) {
     say_blurred(out, a);
     say_folded(out, a);
+    say_start(out, a);
     say_jumped(out, a);
     say_singular(out, a);
     say_swing(out, a);

@@ -8,6 +8,20 @@
 #include "host/base/room.h"
 #include "host/number/functions.h"
 
+static double *starts_off(const image *im) {
+    const int n = im->angles + im->reals;
+    double *off = room((1 + (int64_t)im->ways) * n, sizeof *off);
+    double *own = off + (ptrdiff_t)im->ways * n;
+    image_start(im, own);
+    for (int k = 0; k < im->ways; k++) {
+        image_start(im->otherwise[k], off + (ptrdiff_t)k * n);
+        for (int i = 0; i < n; i++) {
+            off[k * n + i] = fabs(off[k * n + i] - own[i]);
+        }
+    }
+    return off;
+}
+
 folded *folded_open(const image *im, const engine_kind *kind) {
     if (im->ways == 0) {
         return NULL;
@@ -26,12 +40,15 @@ folded *folded_open(const image *im, const engine_kind *kind) {
             evaluator_wrap(f->other[k]);
         }
     }
-    f->input = room(im->inputs, sizeof *f->input);
+    for (int k = 0; k <= im->ways; k++) {
+        f->input[k] = room(im->inputs, sizeof **f->input);
+        image_inputs(k < im->ways ? im->otherwise[k] : im, f->input[k]);
+    }
+    f->start = starts_off(im);
     f->value = room((3 + (int64_t)im->ways) * f->results, sizeof *f->value);
     f->beside = f->value + f->results;
     f->size = f->beside + f->results;
     f->off = f->size + f->results;
-    image_inputs(im, f->input);
     return f;
 }
 
@@ -41,23 +58,27 @@ void folded_close(folded *f) {
         for (int k = 0; k < f->image->ways; k++) {
             evaluator_free(f->other[k]);
         }
-        free(f->input);
+        for (int k = 0; k <= f->image->ways; k++) {
+            free(f->input[k]);
+        }
+        free(f->start);
         free(f->value);
         free(f);
     }
 }
 
-static void evaluate(const folded *f, evaluator *list, const double *x, double *value) {
+static void evaluate(const folded *f, int way, const double *x, double *value) {
     const image *im = f->image;
     const int linear = im->form == WH_SECOND_ORDER ? im->coordinates - im->angles : im->reals;
     const double *real = x + im->angles;
-    evaluator_run(list, 0.0, x, real, real + linear, f->input, value);
+    evaluator_run(way < im->ways ? f->other[way] : f->own, 0.0, x, real, real + linear,
+                  f->input[way], value);
 }
 
 void folded_look(folded *f, const double *x) {
-    evaluate(f, f->own, x, f->value);
+    evaluate(f, f->image->ways, x, f->value);
     for (int k = 0; k < f->image->ways; k++) {
-        evaluate(f, f->other[k], x, f->beside);
+        evaluate(f, k, x, f->beside);
         for (int i = 0; i < f->results; i++) {
             double *off = &f->off[k * f->results + i];
             const double now = fabs(f->beside[i] - f->value[i]);
@@ -72,16 +93,15 @@ void folded_look(folded *f, const double *x) {
 
 /* --- the furthest ------------------------------------------------------------------------------------*/
 
-/* What each way is off at all that was looked at, of what the furthest is, in each result by itself: they have no unit in
- * common. */
-static void add_shares(const folded *f, double *share) {
-    for (int i = 0; i < f->results; i++) {
+/* What each way is off, off[ways * count], of what the furthest is, each of them by itself: they have no unit in common. */
+static void add_shares(const double *off, int ways, int count, double *share) {
+    for (int i = 0; i < count; i++) {
         double most = 0.0;
-        for (int k = 0; k < f->image->ways; k++) {
-            most = number_most(most, f->off[k * f->results + i]);
+        for (int k = 0; k < ways; k++) {
+            most = number_most(most, off[k * count + i]);
         }
-        for (int k = 0; k < f->image->ways && most > 0.0; k++) {
-            share[k] += f->off[k * f->results + i] / most;
+        for (int k = 0; k < ways && most > 0.0; k++) {
+            share[k] += off[k * count + i] / most;
         }
     }
 }
@@ -95,9 +115,8 @@ const image *folded_furthest(const image *im) {
     const int n = im->angles + im->reals;
     double share[IMAGE_WAYS] = {0.0};
     double *x = room(n, sizeof *x);
-    for (int i = 0; i < n; i++) {
-        x[i] = i < im->angles ? im->start_rad[i] : im->start_real[i - im->angles];
-    }
+    image_start(im, x);
+    add_shares(f->start, im->ways, n, share);
     for (int i = -1; i < n; i++) {
         const double kept = i >= 0 ? x[i] : 0.0;
         if (i >= 0) {
@@ -105,7 +124,7 @@ const image *folded_furthest(const image *im) {
         }
         memset(f->off, 0, (size_t)im->ways * (size_t)f->results * sizeof *f->off);
         folded_look(f, x);
-        add_shares(f, share);
+        add_shares(f->off, im->ways, f->results, share);
         if (i >= 0) {
             x[i] = kept;
         }

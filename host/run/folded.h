@@ -11,11 +11,12 @@ typedef struct folded {
     int results;
     evaluator *own;
     evaluator *other[IMAGE_WAYS];
-    double *input;
-    double *value;  /* [results] */
-    double *beside; /* [results] */
-    double *size;   /* [results] the largest that it was, */
-    double *off;    /* [ways * results] and that another way was off it */
+    double *input[IMAGE_WAYS + 1]; /* each way's, then the scene's own */
+    double *value;                 /* [results] */
+    double *beside;                /* [results] */
+    double *size;                  /* [results] the largest that it was, */
+    double *off;                   /* [ways * results] and that another way was off it */
+    double *start; /* [ways * components] so far another way starts from where the scene does */
 } folded;
 
 /* NULL where there is one way only. */

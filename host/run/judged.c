@@ -65,6 +65,23 @@ static bool moves(const judged *j, int c, double off) {
     return way > number_most(JUDGED_FOLDED_MOVES * size, STAYS);
 }
 
+/* What stays where it starts is told by its size. */
+static void ask_start(judged *j, const folded *f) {
+    const watch *w = j->watch;
+    const int n = j->image->angles + j->image->reals;
+    for (int i = 0; i < j->image->ways * n; i++) {
+        const int c = i % n;
+        const double gone = w->high[c] - w->low[c];
+        const double size = size_of(w, c);
+        const double of = gone > STAYS * number_most(size, 1.0) ? gone : number_most(size, STAYS);
+        const double off = WAY_OVER * f->start[i] / of;
+        if (off > j->start_off) {
+            j->start_off = off;
+            j->start = c;
+        }
+    }
+}
+
 static void ask_folded(judged *j) {
     const watch *w = j->watch;
     folded *f = folded_open(j->image, j->kind);
@@ -81,14 +98,26 @@ static void ask_folded(judged *j) {
             }
         }
     }
+    if (f != NULL) {
+        ask_start(j, f);
+    }
     folded_close(f);
 }
 
-bool judged_folded(judged *j) {
+static void ask_once(judged *j) {
     if (!j->folded_known) {
         j->folded_known = true;
         ask_folded(j);
     }
+}
+
+bool judged_start(judged *j) {
+    ask_once(j);
+    return j->start_off > JUDGED_FOLDED;
+}
+
+bool judged_folded(judged *j) {
+    ask_once(j);
     return j->folded_off > JUDGED_FOLDED && !judged_blurred(j);
 }
 

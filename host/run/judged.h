@@ -29,7 +29,9 @@ typedef struct judged {
     bool folded_known;   /* it has been asked, */
     double
         folded_off; /* how far off folding puts an acceleration, of its largest; 0: nowhere that it moves much, */
-    int folded;       /* and which component's slope that is */
+    int folded;       /* and which component's slope that is; */
+    double start_off; /* how far off it puts where a component starts, of its range or size, */
+    int start;        /* and of which */
     bool swing_known; /* it has been asked whether */
     bool swing;
     double swing_off; /* of a swing that varies along its way: swing_off(); else 0 */
@@ -52,6 +54,8 @@ double judged_missing(const judged *j);
 bool judged_blurred(const judged *j);
 /* Have constants lost digits that the motion needs, when they were folded to double? */
 bool judged_folded(judged *j);
+/* Or an initial value its own? */
+bool judged_start(judged *j);
 /* Is there a singular position that the step does not resolve? A swing that a system given by its equations loses? */
 bool judged_singular(const judged *j);
 bool judged_swing(judged *j);

@@ -37,7 +37,8 @@ static horizon_column judge(const twins *t, int k, double tolerance) {
                            .rounding = c->rounding,
                            .until_s = passages_until_s(&c->off, level)};
     const bool passed = isfinite(made.until_s);
-    if (passed && range <= ROUNDING_ROOM * c->rounding && isfinite(made.off) && stays(t, k)) {
+    if (passed && (!t->otherwise || made.off <= ROUNDING_ROOM * c->rounding) &&
+        range <= ROUNDING_ROOM * c->rounding && isfinite(made.off) && stays(t, k)) {
         made.verdict = HORIZON_ROUNDING;
         made.until_s = t->end_s;
     } else if (passed) {

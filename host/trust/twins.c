@@ -47,6 +47,12 @@ static void fold_the_other_way(image *im) {
         const bool is_its_own = role != IMAGE_MATRIX || im->step_s == other->step_s;
         im->list[role] = is_its_own ? other->list[role] : im->list[role];
     }
+    if (other != NULL) {
+        im->start_rad = other->start_rad;
+        im->start_turns = other->start_turns;
+        im->start_real = other->start_real;
+        im->input = other->input;
+    }
 }
 
 static void make_finer(twins *t, const twins_wish *w) {
@@ -225,8 +231,9 @@ static void look(pair *p, double time_s) {
         const double value = p->finers->row[k];
         const double off = fabs(p->ours->row[k] - value);
         const double now = isfinite(off) ? off : (double)INFINITY;
-        c->low = p->looks == 0 || value < c->low ? value : c->low;
-        c->high = p->looks == 0 || value > c->high ? value : c->high;
+        const double ranged = t->otherwise ? p->ours->row[k] : value;
+        c->low = p->looks == 0 || ranged < c->low ? ranged : c->low;
+        c->high = p->looks == 0 || ranged > c->high ? ranged : c->high;
         if (events) {
             passages_enter(&c->off, p->before_s, number_least(now, c->last));
         } else {
@@ -316,6 +323,7 @@ static void run_both(pair *p) {
 twins *twins_run(const twins_wish *w) {
     twins *t = room(1, sizeof *t);
     make_finer(t, w);
+    t->otherwise = w->image->ways > 0;
     t->shape = records_open(NULL, w->image, w->kind);
     t->columns = t->shape->columns - w->image->own_outputs;
     t->column = room(t->columns, sizeof *t->column);

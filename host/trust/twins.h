@@ -45,8 +45,10 @@ typedef struct twins {
     uint64_t each; /* its steps in one of the run's */
     double
         left_out; /* of the run's error, as a part of what the two differ by: the finer one's own */
-    records *shape;        /* names and units of the columns: 0 is the time, outputs come last */
-    int columns;           /* the time and those that follow: coordinates and rates, no outputs */
+    records *shape; /* names and units of the columns: 0 is the time, outputs come last */
+    bool
+        otherwise; /* the finer one's constants are folded in another way: it knows no better, and ranges are the scene's own */
+    int columns;   /* the time and those that follow: coordinates and rates, no outputs */
     twins_column *column;  /* [columns] */
     double end_s;          /* of the run: its last step that was done */
     wh_status status;      /* the run's: its last step */

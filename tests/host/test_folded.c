@@ -373,8 +373,7 @@ static void test_numbers_beside_a_rest(void) {
         const double angle_rad = 1.5707963267948966 * (1.0 + 2.0 * dice_one_of(&d, 5));
         const double number = power_of_ten(&d, -3.0, 3.0);
         const folding before = folding_begin(FOLDING_NEAREST, NULL);
-        const double rest =
-            folding_product(folding_wave(number_cosine(angle_rad), angle_rad), number);
+        const double rest = folding_product(folding_call(FN_COS, angle_rad, 0.0), number);
         (void)folding_sum(number, rest);
         const folding_notes kept = folding_end(before);
         const folding again = folding_begin(FOLDING_NEAREST, &kept);
