@@ -147,9 +147,9 @@ static void note_call(double value, double at_zero) {
 }
 
 /* Of x there is as much lost in a function's value as that hardly depends on it: 1e-9 rad in its cosine. But not where the
- * slope is no more than rounding x to a quarter of a turn has made it. */
-static void note_slope(double value, double x, double slope) {
-    if (fabs(slope) > GHOST * fabs(x) || fabs(x) < 1.0) {
+ * slope is no more than rounding x to quarters of a turn has made it. */
+static void note_slope(double value, double x, double slope, bool turns) {
+    if (!turns || fabs(slope) > GHOST * fabs(x) || fabs(x) < 1.0) {
         note_lost(UNIT * fabs(value) / fabs(x * slope));
     }
 }
@@ -227,7 +227,7 @@ double folding_call(function_id function, double x, double y) {
     } else if (is_rest(x)) {
         note_call(value, number_call(function, 0.0, y));
     } else if (!exact) {
-        note_slope(value, x, number_slope(function, 0, x, y));
+        note_slope(value, x, number_slope(function, 0, x, y), turns);
     }
     return value;
 }

@@ -17,7 +17,7 @@ void suite_folded_numbers(void);
 typedef struct maker {
     const char *numbers; /* parameters on the way, */
     const char *soft;    /* and the spring of them */
-    enum { OF_K, OF_ANGLE, OF_EXPONENT, OF_ROOT } by;
+    enum { OF_K, OF_ANGLE, OF_EXPONENT, OF_ROOT, OF_SATURATION, OF_LIMIT } by;
 } maker;
 
 static const maker makers[] = {
@@ -32,6 +32,8 @@ static const maker makers[] = {
     {"parameter a = %.17g [rad]\nparameter c = cos(a)\n", "(K*(1 - c))", OF_ANGLE},
     {"parameter a = %.17g\nparameter e = exp(a)\n", "(K*(e - 1))", OF_EXPONENT},
     {"parameter a = %.17g\nparameter r = sqrt(1 + a)\n", "(K*(r - 1))", OF_ROOT},
+    {"parameter a = %.17g\nparameter s = tanh(a)\n", "(K*(1 - s))", OF_SATURATION},
+    {"parameter a = %.17g\n", "(K*(pi/2 - atan(a)))", OF_LIMIT},
 };
 enum { MAKERS = sizeof makers / sizeof *makers };
 
@@ -67,6 +69,12 @@ static double made_by(const maker *of, double part, long double *of_hard) {
         *of_hard = (long double)(double)a / (sqrtl(1.0L + (long double)(double)a) + 1.0L);
         return (double)a;
     }
+    case OF_SATURATION: {
+        const double a = 0.5 * log(2.0 / part);
+        *of_hard = 2.0L / (1.0L + expl(2.0L * (long double)a));
+        return a;
+    }
+    case OF_LIMIT: *of_hard = atanl(1.0L / (long double)(1.0 / part)); return 1.0 / part;
     case OF_K: break;
     }
     *of_hard = (long double)part;
