@@ -5,7 +5,6 @@
 #include <stdint.h>
 #include <string.h>
 
-#include "core/hash.h"
 #include "enclosure.h"
 #include "functions.h"
 #include "twofold.h"
@@ -43,6 +42,14 @@ static uint64_t digits_of(double x) {
     return bits & ((UINT64_C(1) << 52) - 1);
 }
 
+/* Each bit of what comes out depends on all of what goes in (Steele, Lea, Flood, Fast splittable pseudorandom number
+ * generators, 2014). */
+static uint64_t mixed(uint64_t z) {
+    z = (z ^ (z >> 30)) * UINT64_C(0xbf58476d1ce4e5b9);
+    z = (z ^ (z >> 27)) * UINT64_C(0x94d049bb133111eb);
+    return z ^ (z >> 31);
+}
+
 /* By how many doubles what is made of these is moved, up or down. In some ways it is the same in all that is folded of these
  * digits, whatever their signs and powers of two, and in whatever order. */
 static int moved_by(double x, double y, bool up) {
@@ -52,8 +59,7 @@ static int moved_by(double x, double y, bool up) {
     }
     const uint64_t a = digits_of(x);
     const uint64_t b = digits_of(y);
-    const uint64_t hash = ((a + b) * WH_HASH_PRIME ^ (a ^ b)) * WH_HASH_PRIME;
-    return some[hash >> (32 + 2 * (now.way - FOLDING_SOME)) & 3U];
+    return some[mixed(mixed(a + b) ^ (a ^ b)) >> 2 * (now.way - FOLDING_SOME) & 3U];
 }
 
 static double moved(double x, int by) {
@@ -156,6 +162,14 @@ static void note_slope(double value, double x, double slope, bool turns) {
 
 /* --- what is folded ----------------------------------------------------------------------------------*/
 
+double folding_number(double nearest, enclosure exact) {
+    const int by = now.way != FOLDING_NEAREST ? moved_by(nearest, nearest, true) : 0;
+    return by > 0 && exact.high > nearest                               ? moved(nearest, 1)
+           : by < 0 && exact.low < nearest                              ? moved(nearest, -1)
+           : by != 0 && now.way == FOLDING_OTHER && exact.low < nearest ? moved(nearest, -1)
+                                                                        : nearest;
+}
+
 double folding_sum(double x, double y) {
     if (now.way != FOLDING_NEAREST) {
         return other_neighbour(twofold_add(twofold_of(x), twofold_of(y)), x, y);
@@ -164,26 +178,28 @@ double folding_sum(double x, double y) {
     return x + y;
 }
 
+/* Moved the other way all of them, products and quotients would take back what the sums in them were moved by: (K + k)/K - 1. */
+static bool moves_products(void) { return now.way != FOLDING_NEAREST && now.way != FOLDING_OTHER; }
+
 double folding_product(double x, double y) {
-    if (now.way != FOLDING_NEAREST) {
+    if (moves_products()) {
         return other_neighbour(twofold_mul(twofold_of(x), twofold_of(y)), x, y);
     }
-    if (is_rest(x) || is_rest(y)) {
+    if (now.way == FOLDING_NEAREST && (is_rest(x) || is_rest(y))) {
         note_rest(x * y);
     }
     return x * y;
 }
 
-/* Moved the other way all of them would take back what the sums were moved by: (K + k)/K - 1. */
 double folding_quotient(double x, double y) {
-    if (now.way != FOLDING_NEAREST) {
-        return y != 0.0 && now.way != FOLDING_OTHER
-                   ? other_neighbour(twofold_div(twofold_of(x), twofold_of(y)), x, y)
-                   : x / y;
+    if (moves_products() && y != 0.0) {
+        return other_neighbour(twofold_div(twofold_of(x), twofold_of(y)), x, y);
     }
-    note_power(y, -1.0, 1.0 / y);
-    if (is_rest(x)) {
-        note_rest(x / y);
+    if (now.way == FOLDING_NEAREST) {
+        note_power(y, -1.0, 1.0 / y);
+        if (is_rest(x)) {
+            note_rest(x / y);
+        }
     }
     return x / y;
 }

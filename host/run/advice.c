@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "advice_numbers.h"
 #include "host/base/room.h"
 #include "host/base/statement.h"
 #include "host/number/functions.h"
@@ -197,56 +198,6 @@ static void say_singular(FILE *out, advice *a) {
     }
 }
 
-static void say_blurred(FILE *out, const advice *a) {
-    const image *im = a->judged.image;
-    if (!judged_blurred(&a->judged)) {
-        return;
-    }
-    fprintf(out,
-            "whirl run: warning: %s of '%s' is singular but for a last digit or two: rounding, in "
-            "double, too, may put what it gives %.2g %% off\n"
-            "hint: %s\n",
-            im->has_energies ? "the mass matrix" : "what stands with the highest derivatives",
-            im->mechanism, 100.0 * number_least(im->mass_blur, 1.0),
-            im->has_energies ? "a coordinate that is counted from a light body to a heavy one does "
-                               "that: count it from the heavy one"
-                             : "two equations say nearly the same: their difference tells more");
-}
-
-static void say_folded(FILE *out, advice *a) {
-    judged *j = &a->judged;
-    if (!judged_folded(j)) {
-        return;
-    }
-    const component c = image_component(j->image, j->folded);
-    fprintf(
-        out,
-        "whirl run: warning: constants of '%s' are sums in which a small one is lost beside a large "
-        "one: rounding them, in double, too, may put %s%.*s %.2g %% off\n"
-        "hint: %s\n",
-        j->image->mechanism, j->image->unknown[c.unknown].name, c.primes + 1, "''''''''''",
-        100.0 * number_least(j->folded_off, 1.0),
-        j->image->has_energies
-            ? "give the small one by itself; a coordinate that is counted from a light body to one "
-              "that a stiff spring holds needs such sums: count it from that one, or from the ground"
-            : "two equations say nearly the same: their difference tells more");
-}
-
-static void say_start(FILE *out, advice *a) {
-    judged *j = &a->judged;
-    if (!judged_start(j)) {
-        return;
-    }
-    const component c = image_component(j->image, j->start);
-    fprintf(
-        out,
-        "whirl run: warning: the initial value of %s%.*s of '%s' is computed of sums in which a "
-        "small one is lost beside a large one: rounding them, in double, too, may put it %.2g %% off\n"
-        "hint: give the small one by itself\n",
-        j->image->unknown[c.unknown].name, c.primes, "''''''''''", j->image->mechanism,
-        100.0 * number_least(j->start_off, 1.0));
-}
-
 static void say_jumped(FILE *out, advice *a) {
     const judged *j = &a->judged;
     double begin_s;
@@ -295,9 +246,7 @@ static void say_swing(FILE *out, advice *a) {
 }
 
 void advice_say(FILE *out, advice *a) {
-    say_blurred(out, a);
-    say_folded(out, a);
-    say_start(out, a);
+    advice_numbers_say(out, &a->judged);
     say_jumped(out, a);
     say_singular(out, a);
     say_swing(out, a);

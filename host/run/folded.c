@@ -22,73 +22,116 @@ static double *starts_off(const image *im) {
     return off;
 }
 
+static folded_list list_open(const image *im, image_role role, bool in_float) {
+    folded_list l = {.results = im->list[role] != NULL ? im->list[role]->results : 0};
+    for (int k = 0; k <= im->ways && l.results > 0; k++) {
+        const image *of = k < im->ways ? im->otherwise[k] : im;
+        l.list[k] = evaluator_new(of->list[role]);
+        if (in_float) {
+            evaluator_wrap(l.list[k]);
+        }
+    }
+    l.value = room((3 + (int64_t)im->ways) * l.results, sizeof *l.value);
+    l.beside = l.value + l.results;
+    l.size = l.beside + l.results;
+    l.off = l.size + l.results;
+    return l;
+}
+
+static void list_close(folded_list *l, int ways) {
+    for (int k = 0; k <= ways && l->results > 0; k++) {
+        evaluator_free(l->list[k]);
+    }
+    free(l->value);
+}
+
+static const image_role contact_roles[FOLDED_CONTACTS] = {IMAGE_SIGNALS, IMAGE_FORCES, IMAGE_SETS};
+
 folded *folded_open(const image *im, const engine_kind *kind) {
     if (im->ways == 0) {
         return NULL;
     }
-    const tape *list = im->list[IMAGE_STEP];
+    const bool in_float = kind == &engine_float;
     folded *f = room(1, sizeof *f);
     f->image = im;
-    f->results = list->results;
-    f->own = evaluator_new(list);
-    for (int k = 0; k < im->ways; k++) {
-        f->other[k] = evaluator_new(im->otherwise[k]->list[IMAGE_STEP]);
-    }
-    if (kind == &engine_float) {
-        evaluator_wrap(f->own);
-        for (int k = 0; k < im->ways; k++) {
-            evaluator_wrap(f->other[k]);
-        }
+    f->step = list_open(im, IMAGE_STEP, in_float);
+    for (int c = 0; c < FOLDED_CONTACTS; c++) {
+        f->contact[c] = list_open(im, contact_roles[c], in_float);
     }
     for (int k = 0; k <= im->ways; k++) {
         f->input[k] = room(im->inputs, sizeof **f->input);
         image_inputs(k < im->ways ? im->otherwise[k] : im, f->input[k]);
     }
     f->start = starts_off(im);
-    f->value = room((3 + (int64_t)im->ways) * f->results, sizeof *f->value);
-    f->beside = f->value + f->results;
-    f->size = f->beside + f->results;
-    f->off = f->size + f->results;
     return f;
 }
 
 void folded_close(folded *f) {
     if (f != NULL) {
-        evaluator_free(f->own);
-        for (int k = 0; k < f->image->ways; k++) {
-            evaluator_free(f->other[k]);
+        list_close(&f->step, f->image->ways);
+        for (int c = 0; c < FOLDED_CONTACTS; c++) {
+            list_close(&f->contact[c], f->image->ways);
         }
         for (int k = 0; k <= f->image->ways; k++) {
             free(f->input[k]);
         }
         free(f->start);
-        free(f->value);
         free(f);
     }
 }
 
-static void evaluate(const folded *f, int way, const double *x, double *value) {
+static void evaluate(const folded *f, const folded_list *l, int way, const double *x,
+                     double *value) {
     const image *im = f->image;
     const int linear = im->form == WH_SECOND_ORDER ? im->coordinates - im->angles : im->reals;
     const double *real = x + im->angles;
-    evaluator_run(way < im->ways ? f->other[way] : f->own, 0.0, x, real, real + linear,
-                  f->input[way], value);
+    evaluator_run(l->list[way], 0.0, x, real, real + linear, f->input[way], value);
 }
 
-void folded_look(folded *f, const double *x) {
-    evaluate(f, f->image->ways, x, f->value);
+static void look(const folded *f, const folded_list *l, const double *x) {
+    if (l->results == 0) {
+        return;
+    }
+    evaluate(f, l, f->image->ways, x, l->value);
     for (int k = 0; k < f->image->ways; k++) {
-        evaluate(f, k, x, f->beside);
-        for (int i = 0; i < f->results; i++) {
-            double *off = &f->off[k * f->results + i];
-            const double now = fabs(f->beside[i] - f->value[i]);
+        evaluate(f, l, k, x, l->beside);
+        for (int i = 0; i < l->results; i++) {
+            double *off = &l->off[k * l->results + i];
+            const double now = fabs(l->beside[i] - l->value[i]);
             *off = isfinite(now) ? number_most(*off, now) : *off; /* a pole: told elsewhere */
         }
     }
-    for (int i = 0; i < f->results; i++) {
-        const double size = fabs(f->value[i]);
-        f->size[i] = isfinite(size) ? number_most(f->size[i], size) : f->size[i];
+    for (int i = 0; i < l->results; i++) {
+        const double size = fabs(l->value[i]);
+        l->size[i] = isfinite(size) ? number_most(l->size[i], size) : l->size[i];
     }
+}
+
+void folded_look(folded *f, const double *x) {
+    look(f, &f->step, x);
+    for (int c = 0; c < FOLDED_CONTACTS; c++) {
+        look(f, &f->contact[c], x);
+    }
+}
+
+/* Of a list's numbers, which have no unit in common, those are left out that are next to nothing: their rounding alone. */
+#define NEXT_TO_NOTHING 1e-9
+
+double folded_contacts_off(const folded *f) {
+    double most = 0.0;
+    for (int c = 0; c < FOLDED_CONTACTS; c++) {
+        const folded_list *l = &f->contact[c];
+        double largest = 0.0;
+        for (int i = 0; i < l->results; i++) {
+            largest = number_most(largest, l->size[i]);
+        }
+        for (int i = 0; i < f->image->ways * l->results; i++) {
+            const double least = NEXT_TO_NOTHING * largest;
+            const double size = number_most(l->size[i % l->results], least);
+            most = size > 0.0 && l->off[i] > least ? number_most(most, l->off[i] / size) : most;
+        }
+    }
+    return most;
 }
 
 /* --- the furthest ------------------------------------------------------------------------------------*/
@@ -104,6 +147,10 @@ static void add_shares(const double *off, int ways, int count, double *share) {
             share[k] += off[k * count + i] / most;
         }
     }
+}
+
+static void clear(const folded_list *l, int ways) {
+    memset(l->off, 0, (size_t)ways * (size_t)l->results * sizeof *l->off);
 }
 
 /* At the start, and with each component a unit further: what stands with it shows itself where others are zero. */
@@ -122,9 +169,15 @@ const image *folded_furthest(const image *im) {
         if (i >= 0) {
             x[i] = kept + 1.0;
         }
-        memset(f->off, 0, (size_t)im->ways * (size_t)f->results * sizeof *f->off);
+        clear(&f->step, im->ways);
+        for (int c = 0; c < FOLDED_CONTACTS; c++) {
+            clear(&f->contact[c], im->ways);
+        }
         folded_look(f, x);
-        add_shares(f->off, im->ways, f->results, share);
+        add_shares(f->step.off, im->ways, f->step.results, share);
+        for (int c = 0; c < FOLDED_CONTACTS; c++) {
+            add_shares(f->contact[c].off, im->ways, f->contact[c].results, share);
+        }
         if (i >= 0) {
             x[i] = kept;
         }

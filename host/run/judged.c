@@ -88,18 +88,19 @@ static void ask_folded(judged *j) {
     for (int k = 0; k < w->records && f != NULL; k++) {
         folded_look(f, w->record + (ptrdiff_t)k * w->field->n);
     }
-    for (int i = 0; f != NULL && i < f->results; i++) {
+    for (int i = 0; f != NULL && i < f->step.results; i++) {
         const int c = image_slope_component(j->image, i);
         for (int k = 0; k < j->image->ways; k++) {
-            const double off = WAY_OVER * f->off[k * f->results + i];
-            if (off > j->folded_off * f->size[i] && moves(j, c, off)) {
-                j->folded_off = off / f->size[i];
+            const double off = WAY_OVER * f->step.off[k * f->step.results + i];
+            if (off > j->folded_off * f->step.size[i] && moves(j, c, off)) {
+                j->folded_off = off / f->step.size[i];
                 j->folded = c;
             }
         }
     }
     if (f != NULL) {
         ask_start(j, f);
+        j->contacts_off = WAY_OVER * folded_contacts_off(f);
     }
     folded_close(f);
 }
@@ -116,10 +117,17 @@ bool judged_start(judged *j) {
     return j->start_off > JUDGED_FOLDED;
 }
 
+bool judged_contacts(judged *j) {
+    ask_once(j);
+    return j->contacts_off > JUDGED_FOLDED;
+}
+
 bool judged_folded(judged *j) {
     ask_once(j);
     return j->folded_off > JUDGED_FOLDED && !judged_blurred(j);
 }
+
+bool judged_numbers(judged *j) { return judged_folded(j) || judged_start(j) || judged_contacts(j); }
 
 bool judged_singular(const judged *j) {
     return j->watch->singular.done && j->watch->singular.off >= JUDGED_NOT_RESOLVED;

@@ -29,10 +29,11 @@ typedef struct judged {
     bool folded_known;   /* it has been asked, */
     double
         folded_off; /* how far off folding puts an acceleration, of its largest; 0: nowhere that it moves much, */
-    int folded;       /* and which component's slope that is; */
-    double start_off; /* how far off it puts where a component starts, of its range or size, */
-    int start;        /* and of which */
-    bool swing_known; /* it has been asked whether */
+    int folded;          /* and which component's slope that is; */
+    double start_off;    /* how far off it puts where a component starts, of its range or size, */
+    int start;           /* and of which; */
+    double contacts_off; /* how far off it puts numbers of contacts */
+    bool swing_known;    /* it has been asked whether */
     bool swing;
     double swing_off; /* of a swing that varies along its way: swing_off(); else 0 */
 } judged;
@@ -56,6 +57,10 @@ bool judged_blurred(const judged *j);
 bool judged_folded(judged *j);
 /* Or an initial value its own? */
 bool judged_start(judged *j);
+/* Or numbers of its contacts? */
+bool judged_contacts(judged *j);
+/* Any of the three? */
+bool judged_numbers(judged *j);
 /* Is there a singular position that the step does not resolve? A swing that a system given by its equations loses? */
 bool judged_singular(const judged *j);
 bool judged_swing(judged *j);

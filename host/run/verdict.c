@@ -44,9 +44,7 @@ void verdict_end(verdict *v, const void *run, bool failed, const volatile sig_at
     }
     v->retrial = retrial_of(v->busy, v->kind, v->balance.known ? v->balance.largest_J : 0.0, stop);
     v->against = (judged_blurred(&v->about.judged) ? VERDICT_BIT(VERDICT_MASS) : 0U) |
-                 (judged_folded(&v->about.judged) || judged_start(&v->about.judged)
-                      ? VERDICT_BIT(VERDICT_FOLDED)
-                      : 0U) |
+                 (judged_numbers(&v->about.judged) ? VERDICT_BIT(VERDICT_FOLDED) : 0U) |
                  (judged_lost(&v->about.judged) ? VERDICT_BIT(VERDICT_ENERGY) : 0U) |
                  (judged_singular(&v->about.judged) ? VERDICT_BIT(VERDICT_SINGULAR) : 0U) |
                  (jumped_some(v->watch->jumped) ? VERDICT_BIT(VERDICT_JUMPED) : 0U) |
