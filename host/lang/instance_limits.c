@@ -3,6 +3,9 @@
 #include <math.h>
 #include <stdio.h>
 
+/* What decimals leave: 0.1 + 0.2 is not above 0.3, and 0.3 - 0.2 - 0.1 not below zero. */
+#define LAST_DIGITS 1e-15
+
 /* The value at the start, or NAN when it changes with the motion, or is not finite (reported). */
 static double value_at_start(const expr *tree, valuation *known, const char *what) {
     if ((tree->uses & USES_UNKNOWNS) != 0) {
@@ -15,7 +18,7 @@ static double value_at_start(const expr *tree, valuation *known, const char *wha
 
 static void check_stop(const contact_statement *stop, valuation *known) {
     const double e = value_at_start(stop->restitution, known, "the restitution");
-    if (e < 0.0 || e > 1.0) {
+    if (e < -LAST_DIGITS || e > 1.0 + LAST_DIGITS) {
         diag_error(known->diags, stop->restitution->at,
                    "0: it stays where it hits; 1: it leaves as fast as it came",
                    "a restitution is from 0 to 1, and this is %g", e);
@@ -27,11 +30,11 @@ static void check_friction(const contact_statement *friction, valuation *known) 
     const expr *slides = friction->kinetic_friction;
     const double most = value_at_start(sticks, known, "the coefficient of static friction");
     const double kinetic = value_at_start(slides, known, "the coefficient of kinetic friction");
-    if (most < 0.0 || kinetic < 0.0) {
-        diag_error(known->diags, most < 0.0 ? sticks->at : slides->at, NULL,
+    if (most < -LAST_DIGITS || kinetic < -LAST_DIGITS) {
+        diag_error(known->diags, most < -LAST_DIGITS ? sticks->at : slides->at, NULL,
                    "a coefficient of friction must not be negative, and this is %g",
-                   most < 0.0 ? most : kinetic);
-    } else if (kinetic > most) {
+                   most < -LAST_DIGITS ? most : kinetic);
+    } else if (kinetic > most * (1.0 + LAST_DIGITS) + LAST_DIGITS) {
         diag_error(known->diags, slides->at, "sliding takes no more force than breaking loose",
                    "kinetic friction %g is above static friction %g", kinetic, most);
     }

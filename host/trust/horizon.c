@@ -43,7 +43,8 @@ static horizon_column judge(const twins *t, int k, double tolerance) {
         made.until_s = t->end_s;
     } else if (passed) {
         made.verdict = HORIZON_UNTIL;
-    } else if (c->rounding > BOUND_OVER * tolerance * by && !stays(t, k)) {
+    } else if (c->rounding > BOUND_OVER * tolerance * by &&
+               (!stays(t, k) || c->rounding > number_most(size_of(c), c->one))) {
         made.verdict = HORIZON_NOT_TOLD;
         made.until_s = 0.0;
     } else {

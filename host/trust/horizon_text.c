@@ -44,10 +44,15 @@ static void print_column(FILE *out, const horizon *h, int k) {
         break;
     case HORIZON_STILL: fputs("to the end      it does not move\n", out); break;
     case HORIZON_NOT_TOLD:
-        fprintf(
-            out,
-            "not to be told  rounding may move it by %.2e of its range, %.4g %s, in double, too\n",
-            c->rounding / c->range, c->range, unit);
+        if (c->range > 0.0) {
+            fprintf(
+                out,
+                "not to be told  rounding may move it by %.2e of its range, %.4g %s, in double, "
+                "too\n",
+                c->rounding / c->range, c->range, unit);
+        } else {
+            fprintf(out, "not to be told  rounding may be why it stands still, in double, too\n");
+        }
         break;
     case HORIZON_ROUNDING:
         fprintf(out, "to the end      rounding alone moves it, by %.2e %s\n",
@@ -153,11 +158,15 @@ void horizon_print_line(FILE *out, const horizon *h, bool doubted) {
         fprintf(out, "trusted            to the end: every coordinate to %.3g of its range\n",
                 h->tolerance);
     } else if (h->column[h->first].verdict == HORIZON_NOT_TOLD) {
+        const horizon_column *c = &h->column[h->first];
         fprintf(out,
-                "trusted            not to be told: double has too few digits for %s where it is; "
-                "rounding may move it by %.2g of its range\n",
-                name_of(h, h->first, name),
-                h->column[h->first].rounding / h->column[h->first].range);
+                "trusted            not to be told: double has too few digits for %s where it is; ",
+                name_of(h, h->first, name));
+        if (c->range > 0.0) {
+            fprintf(out, "rounding may move it by %.2g of its range\n", c->rounding / c->range);
+        } else {
+            fprintf(out, "rounding may be why it stands still\n");
+        }
     } else {
         fprintf(
             out,
