@@ -5,8 +5,6 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "host/number/folding.h"
-
 /* --- derivatives ---------------------------------------------------------------------------------*/
 
 /* b^e: e b^(e-1) b' + b^e log(b) e' */
@@ -253,7 +251,7 @@ const poly *poly_from_expr(algebra *a, const expr *e) {
         return a->zero;
     }
     switch (e->op) {
-    case EXPR_NUMBER: return poly_number(a, folding_number(e->number, e->exact));
+    case EXPR_NUMBER: return poly_number(a, e->number);
     case EXPR_SYMBOL:
         if (e->symbol->kind == SYM_LET || e->symbol->kind == SYM_OUTPUT) {
             const poly *known = memo_get(&a->lets, e->symbol, NULL);
@@ -271,10 +269,7 @@ const poly *poly_from_expr(algebra *a, const expr *e) {
     case EXPR_DIV:
         return poly_mul(a, poly_from_expr(a, e->left),
                         poly_pow(a, poly_from_expr(a, e->right), -1.0));
-    case EXPR_POW: /* exponents stay as they are: their sums are compared */
-        return poly_pow_poly(a, poly_from_expr(a, e->left),
-                             e->right->op == EXPR_NUMBER ? poly_number(a, e->right->number)
-                                                         : poly_from_expr(a, e->right));
+    case EXPR_POW: return poly_pow_poly(a, poly_from_expr(a, e->left), poly_from_expr(a, e->right));
     case EXPR_CALL:
         return poly_call(a, e->function, poly_from_expr(a, e->left),
                          e->right == NULL ? NULL : poly_from_expr(a, e->right));

@@ -82,7 +82,7 @@ double expr_value(const expr *tree, valuation *known) {
     const double a = tree->left == NULL ? 0.0 : expr_value(tree->left, known);
     const double b = tree->right == NULL ? 0.0 : expr_value(tree->right, known);
     switch (tree->op) {
-    case EXPR_NUMBER: return folding_number(tree->number, tree->exact);
+    case EXPR_NUMBER: return tree->number;
     case EXPR_SYMBOL: return symbol_value(tree->symbol, tree->primes, known);
     case EXPR_ADD: return folding_sum(a, b);
     case EXPR_SUB: return folding_sum(a, -b);

@@ -162,14 +162,6 @@ static void note_slope(double value, double x, double slope, bool turns) {
 
 /* --- what is folded ----------------------------------------------------------------------------------*/
 
-double folding_number(double nearest, enclosure exact) {
-    const int by = now.way != FOLDING_NEAREST ? moved_by(nearest, nearest, true) : 0;
-    return by > 0 && exact.high > nearest                               ? moved(nearest, 1)
-           : by < 0 && exact.low < nearest                              ? moved(nearest, -1)
-           : by != 0 && now.way == FOLDING_OTHER && exact.low < nearest ? moved(nearest, -1)
-                                                                        : nearest;
-}
-
 double folding_sum(double x, double y) {
     if (now.way != FOLDING_NEAREST) {
         return other_neighbour(twofold_add(twofold_of(x), twofold_of(y)), x, y);

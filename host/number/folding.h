@@ -18,7 +18,6 @@
 
 #include <stdbool.h>
 
-#include "enclosure.h"
 #include "functions.h"
 
 /* To nearest, as everything that runs on a board; all the other way; to nearest, but nothing put onto what is nearly
@@ -45,8 +44,6 @@ folding_notes folding_end(folding before);
 
 int folding_way(void);
 
-/* What is written, and the number that a double has for it. */
-double folding_number(double nearest, enclosure exact);
 double folding_sum(double x, double y);
 double folding_product(double x, double y);
 double folding_quotient(double x, double y);

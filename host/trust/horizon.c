@@ -16,8 +16,9 @@
  * metre or radian; or by less than that part of what others of its unit move. */
 #define STAYS 1e-9
 #define BESIDE_OTHERS 1e-3
-/* The bound of rounding is some twenty times what rounding does. Where it does so much in the finer run, that shares it. */
-#define BOUND_OVER 20.0
+/* The bound of rounding is some twenty times what rounding does, eight times where it is alike at all states, as of a root of what
+ * hardly changes. Where it does so much in the finer run, that shares it. */
+#define BOUND_OVER 8.0
 
 static double size_of(const twins_column *c) { return number_most(fabs(c->low), fabs(c->high)); }
 

@@ -138,9 +138,9 @@ static horizon_column judged(const drawn_column *all, int k, double tolerance, d
     }
     if (isinf(made.until_s)) {
         const bool still = moved == 0.0 && made.off == 0.0;
-        made.verdict = !keeps && c->rounding > 20.0 * tolerance * made.range ? HORIZON_NOT_TOLD
-                       : still                                               ? HORIZON_STILL
-                                                                             : HORIZON_TO_THE_END;
+        made.verdict = !keeps && c->rounding > 8.0 * tolerance * made.range ? HORIZON_NOT_TOLD
+                       : still                                              ? HORIZON_STILL
+                                                                            : HORIZON_TO_THE_END;
     } else if (moved <= 8.0 * c->rounding && isfinite(made.off) && keeps) {
         made.verdict = HORIZON_ROUNDING;
     } else {
