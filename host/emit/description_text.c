@@ -24,8 +24,7 @@ static void put_state(FILE *out, const image *im) {
         const bool turns = i < im->angles;
         put_name(out, turns ? "angle " : "real  ", turns ? i : i - im->angles, u->name, c.primes,
                  u->unit[c.primes].si);
-        fprintf(out, " %-12.9g %s\n", turns ? im->start_rad[i] : im->start_real[i - im->angles],
-                c.primes == 0 ? u->text : "");
+        fprintf(out, " %-12.9g %s\n", image_start(im, i), c.primes == 0 ? u->text : "");
     }
 }
 

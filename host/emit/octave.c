@@ -99,8 +99,7 @@ static void write_start(FILE *out, const image *im) {
     const int components = im->angles + im->reals;
     double *start = room(components, sizeof *start);
     for (int i = 0; i < components; i++) {
-        start[y_number(im, image_component(im, i)) - 1] =
-            i < im->angles ? im->start_rad[i] : im->start_real[i - im->angles];
+        start[y_number(im, image_component(im, i)) - 1] = image_start(im, i);
     }
     for (int i = 0; i < components; i++) {
         fprintf(out, "%s%.17g", i > 0 ? "; " : "", start[i]);

@@ -57,10 +57,8 @@ void image_inputs(const image *im, double *input) {
     }
 }
 
-void image_start(const image *im, double *x) {
-    for (int i = 0; i < im->angles + im->reals; i++) {
-        x[i] = i < im->angles ? im->start_rad[i] : im->start_real[i - im->angles];
-    }
+double image_start(const image *im, int i) {
+    return i < im->angles ? im->start_rad[i] : im->start_real[i - im->angles];
 }
 
 static bool list_calls(const tape *t) {

@@ -347,9 +347,9 @@ const char *image_stepper(const image *im);
 double image_shown(const image_unit *unit, double si);
 bool image_shows_si(const image_unit *unit);
 
-/* The inputs as the run starts, input[inputs], and its components, x[angles + reals]. */
+/* The inputs as the run starts, input[inputs]; and where its component i does: angles, in radians, then reals. */
 void image_inputs(const image *im, double *input);
-void image_start(const image *im, double *x);
+double image_start(const image *im, int i);
 
 /* Does what runs on a board call functions of core/function.h? */
 bool image_calls(const image *im);

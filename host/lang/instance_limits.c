@@ -30,10 +30,11 @@ static void check_friction(const contact_statement *friction, valuation *known) 
     const expr *slides = friction->kinetic_friction;
     const double most = value_at_start(sticks, known, "the coefficient of static friction");
     const double kinetic = value_at_start(slides, known, "the coefficient of kinetic friction");
-    if (most < -LAST_DIGITS || kinetic < -LAST_DIGITS) {
-        diag_error(known->diags, most < -LAST_DIGITS ? sticks->at : slides->at, NULL,
+    const bool first = most < -LAST_DIGITS;
+    if (first || kinetic < -LAST_DIGITS) {
+        diag_error(known->diags, first ? sticks->at : slides->at, NULL,
                    "a coefficient of friction must not be negative, and this is %g",
-                   most < -LAST_DIGITS ? most : kinetic);
+                   first ? most : kinetic);
     } else if (kinetic > most * (1.0 + LAST_DIGITS) + LAST_DIGITS) {
         diag_error(known->diags, slides->at, "sliding takes no more force than breaking loose",
                    "kinetic friction %g is above static friction %g", kinetic, most);

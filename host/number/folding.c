@@ -72,8 +72,8 @@ static double moved(double x, int by) {
     return x;
 }
 
-/* On the other side of what `exact` is, one double beyond its neighbour: several roundings may have put a number as far off
- * as that. Itself where it is a double. */
+/* Moved to the other side of what is `exact`, where it goes by that: one double beyond its neighbour, for several roundings may
+ * have put a number as far off. Itself where it is a double. */
 static double other_neighbour(twofold exact, double x, double y) {
     if (!twofold_is_finite(exact) || exact.low == 0.0) {
         return exact.high;
@@ -224,11 +224,11 @@ double folding_call(function_id function, double x, double y) {
     const bool turns = function_takes(function) == TAKES_ANGLE;
     const bool rests = turns && fabs(value) <= GHOST * fabs(x);
     const bool exact = is_exact(function, x, value);
+    if (now.way == FOLDING_APART) {
+        return value;
+    }
     if (now.way != FOLDING_NEAREST) {
-        return exact                           ? value
-               : !rests                        ? other_value(value, x)
-               : moved_by(x, value, true) != 0 ? -value
-                                               : value;
+        return exact ? value : rests ? -value : other_value(value, x);
     }
     if (rests) {
         note_rest(value);

@@ -1,4 +1,4 @@
-/* folding.h: sums and products of constants, as derivations fold them, and how many digits they lose.
+/* folding.h: sums, products and functions of constants, as derivations fold them, and how many digits they lose.
  *
  * k1 + k2 is one double: of the smaller addend it keeps what is above the last digit of the larger. Mostly nobody asks for
  * more. Where equations are eliminated, or run-time sums cancel, so that k1 alone is left, everything that goes by the folded
@@ -7,9 +7,8 @@
  *   - it is noted what part of its smallest addend, or of what is left of it, rounding a sum may have made. What is but the
  *     rounding of other numbers, as cos(90 deg) or 0.1 + 0.2 - 0.3, loses nothing, and neither do products with it, unless
  *     it is no small part of what it is added to, or divides;
- *   - a derivation can be made again in another *way*: sums and products that are not exact are rounded the other way, one
- *     double beyond their other neighbour, all of them or about half, or none. What is exact stays, and nothing is put onto
- *     what is nearly the same. Where several roundings add up, one way may come to the same numbers by chance; hence more
+ *   - a derivation can be made again in another *way*: what is not exact is moved by a double or two, to the other side of
+ *     what is exact, or to either. What is exact stays, and nothing is put onto what is nearly the same. Where several roundings add up, one way may come to the same numbers by chance; hence more
  *     than one (Vignes, A stochastic arithmetic for reliable scientific computation, 1993, has his at run time).
  *
  * Which way, and what was lost, is kept here as the rounding mode is kept in a processor: whoever folds asks nobody. */
@@ -20,8 +19,8 @@
 
 #include "functions.h"
 
-/* To nearest, as everything that runs on a board; all the other way; to nearest, but nothing put onto what is nearly
- * the same; and then some the other way, some further, some not. */
+/* To nearest, as everything that runs on a board; sums and functions to the other side; to nearest, but nothing put onto what
+ * is nearly the same; and then all, products and quotients too, up or down by their digits. */
 enum { FOLDING_NEAREST, FOLDING_OTHER, FOLDING_APART, FOLDING_SOME, FOLDING_WAYS = 7 };
 
 /* What was noted. Of more numbers than there is room for, none is known to be rounding alone. */

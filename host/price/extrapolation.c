@@ -66,8 +66,7 @@ extrapolation *extrapolation_new(const image *im, extrapolation_setting how, dou
                          .most_operations = operations};
     image_inputs(im, e->input);
     for (int i = 0; i < count; i++) {
-        e->state[i] =
-            (long double)(i < im->angles ? im->start_rad[i] : im->start_real[i - im->angles]);
+        e->state[i] = (long double)image_start(im, i);
         e->largest[i] = long_size(e->state[i]);
     }
     return e;

@@ -10,13 +10,10 @@
 
 static double *starts_off(const image *im) {
     const int n = im->angles + im->reals;
-    double *off = room((1 + (int64_t)im->ways) * n, sizeof *off);
-    double *own = off + (ptrdiff_t)im->ways * n;
-    image_start(im, own);
+    double *off = room((int64_t)im->ways * n, sizeof *off);
     for (int k = 0; k < im->ways; k++) {
-        image_start(im->otherwise[k], off + (ptrdiff_t)k * n);
         for (int i = 0; i < n; i++) {
-            off[k * n + i] = fabs(off[k * n + i] - own[i]);
+            off[k * n + i] = fabs(image_start(im->otherwise[k], i) - image_start(im, i));
         }
     }
     return off;
@@ -162,7 +159,9 @@ const image *folded_furthest(const image *im) {
     const int n = im->angles + im->reals;
     double share[IMAGE_WAYS] = {0.0};
     double *x = room(n, sizeof *x);
-    image_start(im, x);
+    for (int i = 0; i < n; i++) {
+        x[i] = image_start(im, i);
+    }
     add_shares(f->start, im->ways, n, share);
     for (int i = -1; i < n; i++) {
         const double kept = i >= 0 ? x[i] : 0.0;

@@ -28,6 +28,14 @@ static bool stays(const twins *t, int k) {
     return range <= STAYS * number_most(size_of(c), c->one) || range <= BESIDE_OTHERS * c->alike;
 }
 
+/* Do both runs share what rounding does? What stays has no range to measure that by: it may stand for want of digits where
+ * rounding might move it by more than its size, or one metre or radian. */
+static bool has_few_digits(const twins *t, int k, double least) {
+    const twins_column *c = &t->column[k];
+    return c->rounding > BOUND_OVER * least &&
+           (!stays(t, k) || c->rounding > number_most(size_of(c), c->one));
+}
+
 static horizon_column judge(const twins *t, int k, double tolerance) {
     const twins_column *c = &t->column[k];
     const double range = c->high - c->low;
@@ -44,8 +52,7 @@ static horizon_column judge(const twins *t, int k, double tolerance) {
         made.until_s = t->end_s;
     } else if (passed) {
         made.verdict = HORIZON_UNTIL;
-    } else if (c->rounding > BOUND_OVER * tolerance * by &&
-               (!stays(t, k) || c->rounding > number_most(size_of(c), c->one))) {
+    } else if (has_few_digits(t, k, tolerance * by)) {
         made.verdict = HORIZON_NOT_TOLD;
         made.until_s = 0.0;
     } else {

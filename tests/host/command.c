@@ -65,6 +65,12 @@ const char *model_keep(const char *text) {
     return kept;
 }
 
+void command_say_model(int (*command)(int count, char **words), const char *text, said *what) {
+    const char *const words[] = {model_keep(text), NULL};
+    command_say(command, words, what);
+    model_drop();
+}
+
 void model_drop(void) {
     if (is_kept) {
         unlink(kept);

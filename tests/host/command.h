@@ -35,6 +35,8 @@ const char *errors_caught(void);
 /* Writes a model's text into a file of its own, whose name it returns; static. Gone with model_drop(). */
 const char *model_keep(const char *text);
 void model_drop(void);
+/* command_say() of a model's text, which is gone behind it. */
+void command_say_model(int (*command)(int count, char **words), const char *text, said *what);
 
 /* Numbers for generated cases: from `seed` on, evenly in [low, high), and a whole number in [0, count). */
 typedef struct dice {

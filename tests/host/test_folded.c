@@ -197,9 +197,7 @@ typedef struct seen {
 /* Whatever else is said: of two runs that go by the same numbers one would not know. */
 static void no_trust_in(const char *text) {
     said what;
-    const char *const words[] = {model_keep(text), NULL};
-    command_say(command_trust, words, &what);
-    model_drop();
+    command_say_model(command_trust, text, &what);
     TEST_ASSERT_EQUAL_INT_MESSAGE(0, what.status, what.err);
     TEST_ASSERT_NULL_MESSAGE(strstr(what.out, "trusted to the end"), what.out);
 }
@@ -211,9 +209,7 @@ static seen see(const held *h) {
     long double wanted[MOST];
     double range[MOST];
     held_text(h, text, sizeof text);
-    const char *const words[] = {model_keep(text), NULL};
-    command_say(command_run, words, &what);
-    model_drop();
+    command_say_model(command_run, text, &what);
     s.refused = what.status == 2 && (strstr(what.err, "singular mass matrix") != NULL ||
                                      strstr(what.err, "cannot be solved") != NULL);
     if (s.refused) {

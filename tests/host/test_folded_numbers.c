@@ -1,5 +1,6 @@
 /* test_folded_numbers.c: a soft spring that is computed, by parameters or where it stands, of numbers beside which it is small:
- * of differences, quotients, roots and functions. It holds a mass, or says where it starts or what pushes it. The reference is the
+ * of differences, quotients, roots and functions. It holds a mass, or says where it starts, what pushes it, how it rubs,
+ * or what an event sets. The reference is the
  * closed form with the spring as it was drawn. What is off is not trusted; what is right is left alone. */
 #include <math.h>
 #include <stdbool.h>
@@ -39,11 +40,11 @@ static const maker makers[] = {
 enum { MAKERS = sizeof makers / sizeof *makers };
 
 /* What it is for. */
-enum { HOLDS, STARTS, PUSHES, PLACES };
+typedef enum use { HOLDS, STARTS, PUSHES, RUBS, SETS, USES } use;
 
 typedef struct drawn {
     unsigned maker;
-    unsigned place;
+    use use;
     bool inside; /* where it stands, without parameters of its own between */
     double soft_Npm;
     double hard_Npm;
@@ -82,9 +83,67 @@ static double made_by(const maker *of, double part, long double *of_hard) {
     return part;
 }
 
+/* What it holds, pushes, rubs ... and up to the scene's step. `soft` comes to the drawn spring. */
+static void put_motion(FILE *out, const drawn *w, const char *soft) {
+    char part[200]; /* 1, where nothing is lost */
+    snprintf(part, sizeof part, "%s/(%.17g [N/m])", soft, w->soft_Npm);
+    fputs("T = m*x'^2/2\n", out);
+    switch (w->use) {
+    case HOLDS: fprintf(out, "V = %s*x^2/2\nscene s { start x = 0.1 [m]\n", soft); break;
+    case STARTS: fprintf(out, "V = k*x^2/2\nscene s { start x = %s*0.1 [m]\n", part); break;
+    case PUSHES:
+        fprintf(out, "input push = %s*0.1 [m]\nQ(x) = push\nV = k*x^2/2\nscene s {\n", soft);
+        break;
+    case RUBS:
+        fprintf(out,
+                "friction x static %s*0.5 kinetic %s*0.5 normal m*1 [m/s^2]\n"
+                "scene s { start x' = 3 [m/s]\n",
+                part, part);
+        break;
+    case SETS:
+        fprintf(out,
+                "when x crosses 1 [m] rising { set x' = %s*2 [m/s] }\n"
+                "scene s { start x' = 1 [m/s]\n",
+                part);
+        break;
+    case USES: break;
+    }
+}
+
+/* At the end. */
+static void wanted_of(const drawn *w, double *x_m, double *v_mps) {
+    const double turn = w->rate_radps * w->end_s;
+    switch (w->use) {
+    case RUBS: /* it stops after 6 s */
+        *x_m = 9.0;
+        *v_mps = 0.0;
+        break;
+    case SETS:
+        *x_m = 1.0 + 2.0 * (w->end_s - 1.0);
+        *v_mps = 2.0;
+        break;
+    case HOLDS:
+    case STARTS:
+    case PUSHES:
+        *x_m = w->use == PUSHES ? 0.1 * (1.0 - cos(turn)) : 0.1 * cos(turn);
+        *v_mps = 0.1 * w->rate_radps * sin(turn) * (w->use == PUSHES ? 1.0 : -1.0);
+        break;
+    case USES: break;
+    }
+}
+
+/* The ranges that they have. */
+static double range_m(const drawn *w) {
+    return w->use == RUBS ? 9.0 : w->use == SETS ? 2.0 * w->end_s - 1.0 : 0.2;
+}
+
+static double range_mps(const drawn *w) {
+    return w->use == RUBS ? 3.0 : w->use == SETS ? 1.0 : 0.2 * w->rate_radps;
+}
+
 static void draw(dice *d, drawn *w) {
     *w = (drawn){.maker = dice_one_of(d, MAKERS),
-                 .place = dice_one_of(d, PLACES),
+                 .use = (use)dice_one_of(d, USES),
                  .inside = dice_one_of(d, 3) == 0};
     const maker *of = &makers[w->maker];
     const double drawn_Npm = power_of_ten(d, -4.0, 2.0);
@@ -109,16 +168,7 @@ static void draw(dice *d, drawn *w) {
         fprintf(out, "parameter soft = %s\n", of->soft);
     }
     const char *soft = w->inside ? of->soft : "soft";
-    const char *spring = w->place == HOLDS ? soft : "k";
-    if (w->place == PUSHES) {
-        fprintf(out, "input push = %s*0.1 [m]\nQ(x) = push\n", soft);
-    }
-    fprintf(out, "T = m*x'^2/2\nV = %s*x^2/2\nscene s {\n", spring);
-    if (w->place == STARTS) {
-        fprintf(out, "start x = %s/(%.17g [N/m])*0.1 [m]\n", soft, w->soft_Npm);
-    } else if (w->place == HOLDS) {
-        fprintf(out, "start x = 0.1 [m]\n");
-    }
+    put_motion(out, w, soft);
     fprintf(out, "step 20 [ms]\nuntil %.17g [s] }\n", w->end_s);
     TEST_ASSERT_EQUAL_INT(0, fclose(out));
 }
@@ -131,10 +181,10 @@ static double off_of(const drawn *w) {
     const double x_m = motion_value(&m, "x");
     const double v_mps = motion_value(&m, "x'");
     motion_close(&m);
-    const double turn = w->rate_radps * w->end_s;
-    const double wanted_m = w->place == PUSHES ? 0.1 * (1.0 - cos(turn)) : 0.1 * cos(turn);
-    const double wanted_mps = 0.1 * w->rate_radps * sin(turn) * (w->place == PUSHES ? 1.0 : -1.0);
-    return fmax(fabs(x_m - wanted_m) / 0.2, fabs(v_mps - wanted_mps) / (0.2 * w->rate_radps));
+    double wanted_m;
+    double wanted_mps;
+    wanted_of(w, &wanted_m, &wanted_mps);
+    return fmax(fabs(x_m - wanted_m) / range_m(w), fabs(v_mps - wanted_mps) / range_mps(w));
 }
 
 static void test_what_numbers_lose_is_told(void) {
@@ -150,9 +200,7 @@ static void test_what_numbers_lose_is_told(void) {
         drawn w;
         said what;
         draw(&d, &w);
-        const char *const words[] = {model_keep(w.text), NULL};
-        command_say(command_run, words, &what);
-        model_drop();
+        command_say_model(command_run, w.text, &what);
         if (what.status == 2) { /* x is without a spring, or its own number divides by nothing */
             TEST_ASSERT_NOT_NULL_MESSAGE(strstr(what.err, "error: "), what.err);
             continue;
@@ -204,9 +252,7 @@ static void test_what_stands_for_want_of_digits(void) {
                  "mechanism drawn\ncoordinate x [m]\nT = 1 [kg]*x'^2/2\nQ(x) = %s\n"
                  "scene s { start x = 1 [m]\nstep 10 [ms]\nuntil 2 [s] }\n",
                  q);
-        const char *const words[] = {model_keep(text), NULL};
-        command_say(command_run, words, &what);
-        model_drop();
+        command_say_model(command_run, text, &what);
         TEST_ASSERT_EQUAL_INT_MESSAGE(0, what.status, what.err);
         motion m;
         motion_open_text(&m, text, IN_DOUBLE);
@@ -224,8 +270,19 @@ static void test_what_stands_for_want_of_digits(void) {
 
 /* --- limits that decimals miss by a last digit ---------------------------------------------------------------------- */
 
+static int status_beside(const char *contact) {
+    char text[400];
+    said what;
+    snprintf(text, sizeof text,
+             "mechanism drawn\ncoordinate x [m]\nT = 1 [kg]*x'^2/2\nV = 5 [N]*x\n%s\n"
+             "scene s { start x = 1 [m]\nstep 10 [ms]\nuntil 4 [s] }\n",
+             contact);
+    command_say_model(command_run, text, &what);
+    return what.status;
+}
+
 static void test_limits_that_decimals_miss(void) {
-    static const char *const contact[] = {
+    static const char *const met[] = {
         "friction x static 0.3 kinetic 0.1+0.2 normal 1 [N]",
         "friction x static 0.3-0.2-0.1 kinetic 0.3-0.2-0.1 normal 1 [N]",
         "friction x static 0.7 kinetic 0.1*7 normal 1 [N]",
@@ -239,18 +296,11 @@ static void test_limits_that_decimals_miss(void) {
         "stop x >= -5 [m] restitution 1.000001",
         "stop x >= -5 [m] restitution -1e-9",
     };
-    for (size_t i = 0; i < 10; i++) {
-        char text[400];
-        said what;
-        const char *of = i < 6 ? contact[i] : beyond[i - 6];
-        snprintf(text, sizeof text,
-                 "mechanism drawn\ncoordinate x [m]\nT = 1 [kg]*x'^2/2\nV = 5 [N]*x\n%s\n"
-                 "scene s { start x = 1 [m]\nstep 10 [ms]\nuntil 4 [s] }\n",
-                 of);
-        const char *const words[] = {model_keep(text), NULL};
-        command_say(command_run, words, &what);
-        model_drop();
-        TEST_ASSERT_EQUAL_INT_MESSAGE(i < 6 ? 0 : 2, what.status, text);
+    for (size_t i = 0; i < sizeof met / sizeof *met; i++) {
+        TEST_ASSERT_EQUAL_INT_MESSAGE(0, status_beside(met[i]), met[i]);
+    }
+    for (size_t i = 0; i < sizeof beyond / sizeof *beyond; i++) {
+        TEST_ASSERT_EQUAL_INT_MESSAGE(2, status_beside(beyond[i]), beyond[i]);
     }
 }
 
