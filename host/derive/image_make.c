@@ -28,11 +28,12 @@ static bool is_alike(const image *im, const image *other) {
 }
 
 /* The numbers and all of the derivation again; NULL where it comes to something else. */
-static image *make_otherwise(const image *im, const equations *e, const bool *conserve,
+static image *make_otherwise(image *im, const equations *e, const bool *conserve,
                              const image_settings *settings, int way) {
     diags *unsaid = diags_new();
     const folding before = folding_begin(way, NULL);
     instance *again = instance_again(e->instance);
+    im->unbounded = im->unbounded || again == NULL;
     equations *other = again != NULL ? equations_derive(again, unsaid) : NULL;
     image *made =
         other != NULL ? image_once(other, conserve, settings, IMAGE_TO_WRITE, unsaid) : NULL;

@@ -293,6 +293,7 @@ typedef struct image {
     /* Where digits were lost in folding: the same folded in other ways (host/number/folding.h), for their lists. */
     struct image *otherwise[IMAGE_WAYS];
     int ways;
+    bool unbounded;         /* folded so, one of the file's numbers is none */
     image_unknown *unknown; /* [count] */
     component *angle;       /* [angles] */
     component *real;        /* [reals] */

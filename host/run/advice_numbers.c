@@ -63,9 +63,21 @@ static void say_contacts(FILE *out, judged *j) {
     }
 }
 
+static void say_unbounded(FILE *out, const judged *j) {
+    if (j->image->unbounded) {
+        fprintf(
+            out,
+            "whirl run: warning: numbers of '%s' are computed of sums in which a small one is lost "
+            "beside a large one: rounding them, in double, too, may put one beyond all bounds\n"
+            "hint: give the small one by itself\n",
+            j->image->mechanism);
+    }
+}
+
 void advice_numbers_say(FILE *out, judged *j) {
     say_blurred(out, j);
     say_folded(out, j);
     say_start(out, j);
     say_contacts(out, j);
+    say_unbounded(out, j);
 }

@@ -127,7 +127,9 @@ bool judged_folded(judged *j) {
     return j->folded_off > JUDGED_FOLDED && !judged_blurred(j);
 }
 
-bool judged_numbers(judged *j) { return judged_folded(j) || judged_start(j) || judged_contacts(j); }
+bool judged_numbers(judged *j) {
+    return j->image->unbounded || judged_folded(j) || judged_start(j) || judged_contacts(j);
+}
 
 bool judged_singular(const judged *j) {
     return j->watch->singular.done && j->watch->singular.off >= JUDGED_NOT_RESOLVED;

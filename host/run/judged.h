@@ -59,7 +59,7 @@ bool judged_folded(judged *j);
 bool judged_start(judged *j);
 /* Or numbers of its contacts? */
 bool judged_contacts(judged *j);
-/* Any of the three? */
+/* Any of the three, or is one of the scene's numbers, rounded otherwise, beyond all bounds? */
 bool judged_numbers(judged *j);
 /* Is there a singular position that the step does not resolve? A swing that a system given by its equations loses? */
 bool judged_singular(const judged *j);

@@ -379,8 +379,35 @@ static void test_numbers_beside_a_rest(void) {
     }
 }
 
+/* Two stiff springs, one pulling and one pushing, that differ by 20 to 80 last digits: nothing to the nearest way of folding, as
+ * decimals leave it, but all of what moves the mass. */
+static void test_what_is_nearly_the_same(void) {
+    dice d = dice_of("folded", 4);
+    for (unsigned k = 0; k < dice_cases(usual_or(40, 10)); k++) {
+        char text[600];
+        said what;
+        const double stiff = power_of_ten(&d, 10.0, 14.0);
+        const double other = stiff * (1.0 + dice_between(&d, 2.5e-15, 9e-15));
+        const double soft = other - stiff; /* exact */
+        snprintf(text, sizeof text,
+                 "mechanism pair\ncoordinate x [m]\nparameter K = %.17g [N/m]\n"
+                 "parameter L = %.17g [N/m]\nT = %.17g [kg]*x'^2/2\nV = L*x^2/2 - K*x^2/2\n"
+                 "scene s { start x = 0.1 [m]\nstep 10 [ms]\nuntil 4 [s] }\n",
+                 stiff, other, soft);
+        command_say_model(command_run, text, &what);
+        TEST_ASSERT_EQUAL_INT_MESSAGE(0, what.status, what.err);
+        motion m;
+        motion_open_text(&m, text, IN_DOUBLE);
+        motion_to(&m, 4.0);
+        const double off = fabs(motion_value(&m, "x") - 0.1 * cos(4.0)) / 0.2;
+        motion_close(&m);
+        TEST_ASSERT_TRUE_MESSAGE(off < 1e-3 || strstr(what.out, "to the end: every") == NULL, text);
+    }
+}
+
 void suite_folded(void) {
     RUN_TEST(test_what_is_lost_is_told);
     RUN_TEST(test_rounding_alone_is_nothing_lost);
     RUN_TEST(test_numbers_beside_a_rest);
+    RUN_TEST(test_what_is_nearly_the_same);
 }

@@ -268,6 +268,26 @@ static void test_what_stands_for_want_of_digits(void) {
     TEST_ASSERT_TRUE(cases < 40 || stand > 0);
 }
 
+/* --- what leaves all bounds when it is rounded otherwise ------------------------------------------------------------- */
+
+static void test_what_leaves_all_bounds(void) {
+    dice d = dice_of("folded_numbers", 3);
+    for (unsigned k = 0; k < dice_cases(usual_or(40, 10)); k++) {
+        char text[500];
+        said what;
+        const double large = power_of_ten(&d, 18.5, 21.0);
+        snprintf(text, sizeof text,
+                 "mechanism drawn\ncoordinate x [m]\nparameter b = exp((%.17g + %.17g) - %.17g)\n"
+                 "T = 1 [kg]*x'^2/2\nV = b*1 [N/m]*x^2/2\n"
+                 "scene s { start x = 1 [m]\nstep 10 [ms]\nuntil 2 [s] }\n",
+                 large, dice_between(&d, 0.1, 2.0), large);
+        command_say_model(command_run, text, &what);
+        TEST_ASSERT_EQUAL_INT_MESSAGE(0, what.status, what.err);
+        TEST_ASSERT_NOT_NULL_MESSAGE(strstr(what.err, "in which a small one is lost"), text);
+        TEST_ASSERT_NULL_MESSAGE(strstr(what.out, "to the end: every"), text);
+    }
+}
+
 /* --- limits that decimals miss by a last digit ---------------------------------------------------------------------- */
 
 static int status_beside(const char *contact) {
@@ -307,5 +327,6 @@ static void test_limits_that_decimals_miss(void) {
 void suite_folded_numbers(void) {
     RUN_TEST(test_what_numbers_lose_is_told);
     RUN_TEST(test_what_stands_for_want_of_digits);
+    RUN_TEST(test_what_leaves_all_bounds);
     RUN_TEST(test_limits_that_decimals_miss);
 }
