@@ -170,7 +170,7 @@ root-exhaustive: $(B)/tools/root_exhaustive ## the square root in integers, over
 	$(Q)$<
 
 .PHONY: long-runs
-long-runs: $(B)/tools/long_runs ## energies and a centre of mass over LONG_STEPS steps, 10^8 when left out (a quarter of an hour)
+long-runs: $(B)/tools/long_runs ## energies and a centre of mass over LONG_STEPS steps, 10^8 when left out (an hour)
 	$(Q)$< $(or $(LONG_STEPS),1e8)
 
 .PHONY: tables-exhaustive

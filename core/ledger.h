@@ -45,6 +45,7 @@ struct wh_ledger_form {
     uint8_t coordinates;    /* integrated coordinates, of which */
     uint8_t angles;         /* are kept as turn angles */
     uint8_t inputs;
+    bool stabilized; /* each step gives back some of the drift (stabilize.h) */
 };
 
 /* Entry of contact k in the account of its energy; those of its impulses follow, by coordinate. */

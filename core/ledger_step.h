@@ -3,6 +3,7 @@
 #define WH_LEDGER_STEP_H
 
 #include "ledger.h"
+#include "stabilize.h"
 #include "step.h"
 
 /* Most entries. A generated scene defines its own. */
@@ -117,7 +118,8 @@ WH_INLINE void wh_ledger_open(const wh_ledger_form *form, wh_state *state, wh_le
     }
 }
 
-/* After a step: its entries join the totals. */
+/* After a step: its entries join the totals, and what the energy has drifted by is given back where the scene asks for
+ * that. */
 WH_INLINE void wh_ledger_commit(const wh_ledger_form *form, const wh_ledger_work *w,
                                 wh_state *state) {
     wh_real *total = state->ledger;
@@ -127,6 +129,10 @@ WH_INLINE void wh_ledger_commit(const wh_ledger_form *form, const wh_ledger_work
     }
     for (unsigned k = 0; k < form->inputs; k++) {
         wh_ledger_kept(form, state)[k] = state->input[form->input[k]];
+    }
+    if (form->stabilized) {
+        wh_real level[WH_ACCOUNTS_MAX];
+        wh_stabilize(form, state, level);
     }
 }
 

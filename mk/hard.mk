@@ -2,26 +2,27 @@
 # from zero, resonance and the passage through it, dead centres, subnormals and the rest. Few steps each, so that boards
 # which take long for a step take part.
 
-# FILE:SCENE of docs/hard; the scene's name is its name in the table.
+# FILE:SCENE of docs/hard, with options of `whirl derive` behind it as :+compensated+stabilized; the scene's name is its
+# name in the table.
 HARD := rotor:rotor_fast rotor:rotor_weighted rotor:rotor_far rotor:rotor_slow resonance:resonance_grows \
     sommerfeld:shaker_through dead_centre:crank_turns dead_centre:crank_starts polar:polar_passes disc:disc_swings \
     masses:masses_swing stiff_spring:stiff_spring_swings stiff_stop:floor_of_spring stiff_stop:floor_of_stop \
     pulsating_load:load_pulsates moving_floor:hops_end moving_floor:table_falls_away redundant:beam_lifts \
     redundant:blocks_slide cradle:cradle_swings jump:jump_inside scales:scales_least scales:scales_subnormal \
-    scales:scales_most
+    scales:scales_most long:gear_turns:+compensated+stabilized
 HARD_UNTIL := 0.8s
 HARD_IN := build/hard
-hard_names := $(foreach s,$(HARD),$(lastword $(subst :, ,$(s))))
+hard_names := $(foreach s,$(HARD),$(word 2,$(subst :, ,$(s))))
 HARD_C := $(patsubst %,$(HARD_IN)/%.c,scenes $(hard_names))
 
-# hard_scene FILE SCENE
+# hard_scene FILE SCENE OPTIONS
 define hard_scene
 $(HARD_IN)/$(2).c: docs/hard/$(1).whirl build/whirl mk/hard.mk
 	@mkdir -p $$(@D)
 	$$(say) GEN $$@
-	$$(Q)build/whirl derive $$<:$(2) --as c --until $(HARD_UNTIL) --header $$(@:.c=.h) >$$@
+	$$(Q)build/whirl derive $$<:$(2) --as c --until $(HARD_UNTIL) $(subst +, --,$(3)) --header $$(@:.c=.h) >$$@
 endef
-$(foreach s,$(HARD),$(eval $(call hard_scene,$(firstword $(subst :, ,$(s))),$(lastword $(subst :, ,$(s))))))
+$(foreach s,$(HARD),$(eval $(call hard_scene,$(firstword $(subst :, ,$(s))),$(word 2,$(subst :, ,$(s))),$(word 3,$(subst :, ,$(s))))))
 $(HARD_IN)/scenes.c: mk/count/index.sh mk/hard.mk $(hard_names:%=$(HARD_IN)/%.c)
 	@mkdir -p $(@D)
 	$(say) GEN $@

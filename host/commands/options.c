@@ -359,6 +359,7 @@ static bool take(common_option which, const char *command, const char *value, co
         to->integration.method = chosen < 0 ? WH_METHOD_DEFAULT : (wh_method)chosen;
         return chosen >= 0;
     case OPTION_COMPENSATED: to->integration.compensated = true; break;
+    case OPTION_STABILIZED: to->integration.stabilized = true; break;
     case OPTION_ANGLES:
         chosen = options_choose(command, "form of angles", value, image_angles_words,
                                 sizeof image_angles_words[0], IMAGE_ANGLES);

@@ -31,6 +31,9 @@
       "an FPU, to the bit)") \
     X(OPTION_COMPENSATED, "--compensated", "", OPTIONS_ENGINE, \
       "carry the rounding error of every sum along") \
+    X(OPTION_STABILIZED, "--stabilized", "", OPTIONS_ENGINE, \
+      "give back along the rates, a little each step, what the energy drifts by:\n" \
+      "for very long runs without contacts; keeps the books ('ledger')") \
     X(OPTION_ANGLES, "--angles", "A", OPTIONS_ENGINE, \
       "turned (default): sines are looked up once a step where the angles' rates\n" \
       "allow it; lookup: at each stage, for angles that turn far in a step") \
@@ -128,8 +131,9 @@ typedef struct change_options {
 /* Where the common options of a command go. */
 typedef struct common_options {
     change_options change;
-    image_settings integration; /* --method, --compensated, --angles, --matrix, --tables, --cells */
-    const engine_kind *number;  /* --number: what computes */
+    image_settings
+        integration; /* --method, --compensated, --stabilized, --angles, --matrix, --tables, --cells */
+    const engine_kind *number; /* --number: what computes */
 } common_options;
 
 /* As they are without any option. */

@@ -86,8 +86,9 @@ static void forget(overrides *changes) {
 
 /* Are these settings the same? By what images are made of, word by word. */
 static bool same_settings(const image_settings *a, const image_settings *b) {
-    return a->method == b->method && a->compensated == b->compensated && a->angles == b->angles &&
-           a->matrix == b->matrix && a->tables == b->tables && a->cells == b->cells;
+    return a->method == b->method && a->compensated == b->compensated &&
+           a->stabilized == b->stabilized && a->angles == b->angles && a->matrix == b->matrix &&
+           a->tables == b->tables && a->cells == b->cells;
 }
 
 /* What `make` says of a setting that scenes need not take stays unsaid. */

@@ -292,7 +292,7 @@ static image *with_matrix(image_draft *d, const equations *e, image_use use, dia
 image *image_once(const equations *e, const bool *conserve, const image_settings *settings,
                   image_use use, diags *errors) {
     image_settings done = *settings;
-    program *p = program_make(e, conserve, settings->compensated, errors);
+    program *p = program_make(e, conserve, settings, errors);
     if (p == NULL || !program_look_up(p, e, &done, errors)) {
         program_free(p);
         return NULL;

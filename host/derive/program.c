@@ -190,7 +190,33 @@ static bool steps_need_no_turns(const program *p, const equations *e, diags *err
     return true;
 }
 
-program *program_make(const equations *e, const bool *conserve, bool precise, diags *errors) {
+/* What --stabilized wants: an energy of which books are kept stage by stage, and motion without events: what is done to rates
+ * behind a step would be done behind its contacts' back. */
+static bool can_stabilize(const program *p, const equations *e, const image_settings *settings,
+                          diags *errors) {
+    static const char hint[] = "leave out --stabilized";
+    const mechanism *m = e->instance->mechanism;
+    if (m->is_system) {
+        diag_error(errors, m->at, hint,
+                   "--stabilized gives back what the energy drifts by: '%s' is given by equations "
+                   "and has none",
+                   m->name);
+    } else if (p->contacts != NULL) {
+        const contact_statement *first = p->contacts->row[0].from;
+        diag_error(errors, first->at, "leave it out, --without; or leave out --stabilized",
+                   "--stabilized: '%s' has events, and their energies are taken as they happen",
+                   m->name);
+    } else if (settings->matrix != MATRIX_NONE) {
+        diag_error(errors, m->at, "leave out --matrix, or --stabilized",
+                   "--stabilized wants the stages of a step, and a matrix has none");
+    } else {
+        return true;
+    }
+    return false;
+}
+
+program *program_make(const equations *e, const bool *conserve, const image_settings *settings,
+                      diags *errors) {
     const int n = e->count;
     const mechanism *m = e->instance->mechanism;
     program *p = room(1, sizeof *p);
@@ -207,8 +233,8 @@ program *program_make(const equations *e, const bool *conserve, bool precise, di
     const symbol **symbols = room(n, sizeof *symbols);
     p->count = n;
     p->outputs = m->output_count + 2 * p->conserved->count;
-    const linear_system s = {n,       !m->is_system, dynamics, dynamics + n * n, symbols,
-                             turning, wanted,        false,    precise};
+    const linear_system s = {n,       !m->is_system, dynamics, dynamics + n * n,     symbols,
+                             turning, wanted,        false,    settings->compensated};
     for (int i = 0; i < n * n; i++) {
         dynamics[i] = equations_fold(e, e->mass[i]);
     }
@@ -231,7 +257,8 @@ program *program_make(const equations *e, const bool *conserve, bool precise, di
         p->contacts = more > 0 ? contact_lists_make(map, &s, errors) : NULL;
         good = more == 0 || p->contacts != NULL;
         const int contacts = p->contacts != NULL ? p->contacts->count : 0;
-        p->ledger_asked = e->instance->ledger;
+        good = good && (!settings->stabilized || can_stabilize(p, e, settings, errors));
+        p->ledger_asked = e->instance->ledger || settings->stabilized;
         if (good && p->ledger_asked) {
             p->ledger = ledger_lists_make(map, p->integral, contacts, errors);
             good = p->ledger != NULL;

@@ -19,17 +19,18 @@ typedef struct program {
     tape *observe;
     contact_lists *contacts; /* NULL without any */
     ledger_lists *ledger;    /* NULL when no books are kept */
-    bool ledger_asked;       /* by `with ledger`: else they only balance the run */
+    bool ledger_asked;       /* by `with ledger`, --stabilized: else they only balance the run */
     const poly *integral; /* the energy integral where it is not T + V, else NULL: see energy.h */
     /* For the host's books: highest derivatives (by unknown), then for a mechanism T, V, input
      * power, loss power, the momenta (by unknown) and, if there is one, the integral. */
     tape *books;
 } program;
 
-/* `conserve` [count] names the coordinates to recover from their momentum, or is NULL; `precise`: see linear_system.h. NULL on error
+/* `conserve` [count] names the coordinates to recover from their momentum, or is NULL. NULL on error
  * (too many components, a momentum that is not conserved, a constant that is not finite), reported to
  * `errors`. */
-program *program_make(const equations *e, const bool *conserve, bool precise, diags *errors);
+program *program_make(const equations *e, const bool *conserve, const image_settings *settings,
+                      diags *errors);
 /* The step looks up in tables what it owes to an angle (tables.h). False where it cannot, reported with its place. */
 bool program_look_up(program *p, const equations *e, image_settings *settings, diags *errors);
 void program_free(program *p);

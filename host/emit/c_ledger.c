@@ -67,5 +67,8 @@ void c_ledger_write(FILE *out, const image *im) {
     if (form.inputs > 0) {
         fprintf(out, "    .input = ledger_inputs,\n    .inputs = %d,\n", form.inputs);
     }
+    if (form.stabilized) {
+        fputs("    .stabilized = true,\n", out);
+    }
     fputs("};\n\n", out);
 }

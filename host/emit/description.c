@@ -283,6 +283,7 @@ void describe_json(FILE *out, const image *im, const char *file) {
     json_text(&j, "method", wh_methods[im->settings.method].word);
     json_whole(&j, "stages", core_stages(im));
     json_bool(&j, "compensated", im->settings.compensated);
+    json_bool(&j, "stabilized", im->settings.stabilized);
     json_text(&j, "sines",
               im->settings.tables != TABLES_NONE
                   ? "tables"

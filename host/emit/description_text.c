@@ -125,8 +125,8 @@ void describe_text(FILE *out, const image *im, const char *file) {
         }
     }
     fprintf(out, "  %s order, %s%s, step %.9g s, %" PRIu64 " steps to t = %.9g s\n",
-            im->form == WH_SECOND_ORDER ? "second" : "first", image_stepper(im),
-            im->settings.compensated ? " compensated" : "", im->step_s, im->steps, im->until_s);
+            im->form == WH_SECOND_ORDER ? "second" : "first", image_stepper(im), image_sums(im),
+            im->step_s, im->steps, im->until_s);
     put_state(out, im);
     put_quantities(out, "inputs", "input ", im->input, im->inputs, true);
     put_quantities(out, "outputs", "output", im->output, im->own_outputs, false);

@@ -22,6 +22,9 @@ bool fixed_has_step(const image *im, diags *errors) {
         diag_error(errors, im->contact[0].at, "leave it out, --without; or choose --number float",
                    "there are no events in fixed point: '%s' has this %s", im->name,
                    im->contact[0].word);
+    } else if (s->stabilized) {
+        diag_error(errors, im->at, "leave out --stabilized, or choose --number float",
+                   "there is no --stabilized in fixed point");
     } else if (im->ledger.kept) {
         diag_error(errors, im->at, "--without ledger, or --number float",
                    "'%s' keeps a ledger, which fixed point has not", im->name);

@@ -77,7 +77,8 @@ static inline wh_ledger_form core_ledger_form(const image *im, const uint8_t *ac
                             .accounts = (uint8_t)(l->accounts + l->inputs),
                             .coordinates = (uint8_t)im->coordinates,
                             .angles = (uint8_t)im->angles,
-                            .inputs = (uint8_t)l->inputs};
+                            .inputs = (uint8_t)l->inputs,
+                            .stabilized = im->settings.stabilized};
 }
 
 /* The second argument of WH_MEMORY_BYTES(): numbers of the state, low parts of compensated sums, inputs, what is held

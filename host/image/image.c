@@ -45,6 +45,12 @@ const char *image_stepper(const image *im) {
     return wh_methods[im->settings.method].title;
 }
 
+const char *image_sums(const image *im) {
+    static const char *const words[2][2] = {{"", " stabilized"},
+                                            {" compensated", " compensated, stabilized"}};
+    return words[im->settings.compensated][im->settings.stabilized];
+}
+
 bool image_shows_si(const image_unit *unit) { return unit->scale == unit->divisor; }
 
 double image_shown(const image_unit *unit, double si) {

@@ -72,6 +72,7 @@ enum { IMAGE_CELLS_LEAST = 8, IMAGE_CELLS_MOST = 65536 };
 typedef struct image_settings {
     wh_method method;
     bool compensated;
+    bool stabilized; /* give back what the energy drifts by (core/stabilize.h): wants the books */
     image_angles angles;
     image_matrix_of matrix;
     image_tables tables;
@@ -80,7 +81,7 @@ typedef struct image_settings {
 
 /* What is integrated with unless something else is asked for. */
 #define IMAGE_SETTINGS_DEFAULT \
-    { WH_METHOD_DEFAULT, false, ANGLES_TURNED, MATRIX_NONE, TABLES_NONE, 0 }
+    { WH_METHOD_DEFAULT, false, false, ANGLES_TURNED, MATRIX_NONE, TABLES_NONE, 0 }
 
 /* --- the lists -----------------------------------------------------------------------------------*/
 
@@ -343,6 +344,8 @@ int image_slope_component(const image *im, int i);
 
 /* What steps it, in words: the method's title, or which matrix. */
 const char *image_stepper(const image *im);
+/* Behind that: " compensated", " stabilized", both, or "". */
+const char *image_sums(const image *im);
 
 /* The number that people read of an SI value, and whether that is the value itself. */
 double image_shown(const image_unit *unit, double si);

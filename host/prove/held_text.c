@@ -25,8 +25,7 @@ static void print_head(FILE *out, const held_found *h, const held_wish *w) {
     const image *im = w->image;
     fprintf(out, "%s%s%s\n", im->name, im->title[0] != '\0' ? ": " : "", im->title);
     fprintf(out, "  %s%s, %s, step %.9g s, %" PRIu64 " steps to t = %.15g s\n", image_stepper(im),
-            im->settings.compensated ? " compensated" : "", w->kind->name, im->step_s, im->steps,
-            ratio_times(im->steps, im->step));
+            image_sums(im), w->kind->name, im->step_s, im->steps, ratio_times(im->steps, im->step));
     fprintf(out,
             "  held against a tube round the exact motion: Taylor steps of order %d, %" PRIu64
             " of them to t = %.15g s\n",

@@ -53,8 +53,7 @@ void summary_print(FILE *out, const image *im, const engine_kind *kind, void *ru
         }
     }
     fprintf(out, "  %s%s, %s, step %.9g s, %" PRIu64 " steps to t = %.15g s\n", image_stepper(im),
-            im->settings.compensated ? " compensated" : "", kind->name, im->step_s, steps,
-            ratio_times(steps, im->step));
+            image_sums(im), kind->name, im->step_s, steps, ratio_times(steps, im->step));
     print_state(out, im, kind, run);
     if (kind->saturated != NULL) {
         const uint64_t held = kind->saturated(run);

@@ -43,6 +43,9 @@ char *fingerprint_make(const sweep *s, const char *model_text, const instance *b
     fprintf(out, "scene: %s\n", base->name);
     fprintf(out, "model text: 0x%016" PRIx64 "\n", hash_text(model_text));
     fprintf(out, "number: %s%s\n", s->kind->name, s->engine.compensated ? ", compensated" : "");
+    if (s->engine.stabilized) {
+        fprintf(out, "stabilized\n");
+    }
     fprintf(out, "method: %s\n", wh_methods[s->engine.method].word);
     fprintf(out, "angles: %s\n", image_angles_words[s->engine.angles]);
     if (s->engine.matrix != MATRIX_NONE) {

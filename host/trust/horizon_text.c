@@ -21,9 +21,9 @@ static void print_head(FILE *out, const horizon *h) {
     const image *finer = &h->of->finer;
     fprintf(out, "%s%s%s\n", im->name, im->title[0] != '\0' ? ": " : "", im->title);
     fprintf(out, "  %s%s, %s, step %.9g s, %" PRIu64 " steps to t = %.15g s\n", image_stepper(im),
-            im->settings.compensated ? " compensated" : "", h->of->shape->kind->name, im->step_s,
-            im->steps, ratio_times(im->steps, im->step));
-    fprintf(out, "  beside %s compensated, double, step %.9g s\n", image_stepper(finer),
+            image_sums(im), h->of->shape->kind->name, im->step_s, im->steps,
+            ratio_times(im->steps, im->step));
+    fprintf(out, "  beside %s%s, double, step %.9g s\n", image_stepper(finer), image_sums(finer),
             finer->step_s);
 }
 

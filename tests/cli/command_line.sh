@@ -364,6 +364,18 @@ if "$whirl" run "$scratch/rotor.whirl" --number float 2>&1 | grep -q "note: 'b'"
     complain "an angle that is fast is told of, too"
 fi
 
+# --- energy that is given back --------------------------------------------------------------------------
+prints '^  Runge-Kutta 4 compensated, stabilized, float, step' run docs/hard/long.whirl:gear_turns --number float --compensated --stabilized
+prints '^energy book' run docs/hard/long.whirl:pendulum_swings --stabilized
+prints '^  "stabilized": true,$' describe docs/hard/long.whirl:gear_turns --json --stabilized
+prints '^    .stabilized = true,$' derive docs/hard/long.whirl:gear_turns --as c --stabilized
+prints 'Runge-Kutta 4 stabilized, double' trust docs/hard/long.whirl:pendulum_swings --stabilized --until 2s
+says 2 "contacts.whirl:[0-9]+:[0-9]+: error: --stabilized: 'ball' has events" run ball_bounces --stabilized
+says 2 "error: --stabilized gives back .* 'lorenz' is given by equations" run "tests/mechanisms/lorenz.whirl" --stabilized
+says 2 'error: --stabilized wants the stages of a step' run two_mass_relative --stabilized --matrix exact
+says 2 'error: there is no --stabilized in fixed point' run epicyclic_conserved --stabilized --number fixed
+says 2 '^whirl price: error: ' price epicyclic_conserved --stabilized
+
 # --- plots --------------------------------------------------------------------------------------------
 if command -v gnuplot >/dev/null 2>&1; then
     for kind in svg png; do
@@ -380,7 +392,7 @@ fi
 # --- an option twice: one value would take the place of the other ---------------------------------------------------
 for command in run derive price choose sweep map; do
     "$whirl" $command --help | grep -oE '^ +--[a-z-]+( [^ ]|=)|^ *--.*as for|--[a-z]+' | grep -oE -- '--[a-z]+' | sort -u |
-        grep -vxE -- '--(set|start|with|without|over|measure|vary|help|quiet|strict|compensated|all|resume|force|dry|steps|ranges)' >"$scratch/options"
+        grep -vxE -- '--(set|start|with|without|over|measure|vary|help|quiet|strict|compensated|stabilized|all|resume|force|dry|steps|ranges)' >"$scratch/options"
     twice=0
     while read -r option; do
         "$whirl" $command epicyclic_from_rest "$option" 1 "$option=1" >"$scratch/out" 2>"$scratch/err"

@@ -77,7 +77,7 @@ sample() { # a value of that option that is not what the scene has
     --until) echo 0.2s ;;
     --method) echo heun ;;
     --number) echo float ;;
-    --compensated) ;;
+    --compensated | --stabilized) ;;
     --angles) echo lookup ;;
     --matrix) echo exact ;;
     --tables) echo linear ;;

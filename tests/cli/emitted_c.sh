@@ -30,6 +30,13 @@ done
 for scene in thomson_a epicyclic_conserved $("$whirl" list | awk '$1 == "scene" { print $2 }' | grep -E 'ball|walk|magnet|creep'); do
     add "$scene" --with ledger --until 0.3s
 done
+# what the energy drifts by is given back
+for scene in thomson_a spherical_flight docs/hard/long.whirl:gear_turns docs/hard/long.whirl:pendulum_swings; do
+    for more in "" --compensated "--angles lookup" "--method nystroem5 --compensated"; do
+        # shellcheck disable=SC2086 # of words, or of none
+        add "$scene" --stabilized --until 0.3s $more
+    done
+done
 # compositions are refused where accelerations take rates
 no_rates=$(sed -n 's/^ *X(WH_[A-Z0-9_]*, "\([a-z0-9-]*\)", .*WH_NO_RATES.*/\1/p' core/method.h)
 for method in $no_rates; do

@@ -37,13 +37,14 @@ static void start(motion *m, const scene *in, stepping how) {
                                .start_count = how.start != NULL ? 1 : 0};
     m->instance = instance_make(in->mechanism, in, &changes, m->errors);
     if (m->instance != NULL) {
-        m->instance->ledger = m->instance->ledger || how.ledger;
+        m->instance->ledger = m->instance->ledger || how.ledger || how.stabilized;
     }
     m->equations = m->instance != NULL ? equations_derive(m->instance, m->errors) : NULL;
     if (m->equations != NULL) {
         m->image = image_make(m->equations, in->conserve,
                               &(image_settings){.method = how.method,
                                                 .compensated = how.compensated,
+                                                .stabilized = how.stabilized,
                                                 .angles = how.angles,
                                                 .matrix = how.matrix},
                               IMAGE_TO_RUN, m->errors);

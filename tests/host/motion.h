@@ -27,6 +27,7 @@ typedef struct stepping {
     const char *set;   /* a parameter or an input, "M=1.5", or NULL */
     const char *start; /* a coordinate or a rate, "theta'=3", or NULL */
     bool ledger;       /* keep the books */
+    bool stabilized;   /* and give back what the energy drifts by */
     image_angles angles;
     image_matrix_of matrix;
 } stepping;

@@ -1,0 +1,114 @@
+/* test_stabilize.c: what a step gives back of the drift of its energy (core/stabilize.h), of a body of 1 kg that flies with
+ * two rates, in closed form. Drifts are made by hand: what the books say the start was. */
+#include "core/stabilize.h"
+
+#include "unity.h"
+
+void suite_stabilize(void);
+
+#define DRAWN 200U
+
+static wh_real sign_of_momenta;
+
+static void flight_levels(const void *model, const wh_angle *angle, const wh_real *linear,
+                          const wh_real *rate, const wh_real *input, wh_real *level) {
+    (void)model;
+    (void)angle;
+    (void)linear;
+    (void)input;
+    level[0] = WH_R(0.5) * (rate[0] * rate[0] + rate[1] * rate[1]);
+    level[1] = sign_of_momenta * rate[0];
+    level[2] = sign_of_momenta * rate[1];
+}
+
+static const wh_ledger_form books = {
+    .levels = flight_levels, .accounts = 3, .coordinates = 2, .stabilized = true};
+
+typedef struct flight {
+    wh_real real[4]; /* places, rates */
+    wh_real carry[4];
+    wh_real ledger[3]; /* the levels at the start */
+    wh_state state;
+} flight;
+
+/* So much has the energy drifted by. */
+static void set_out(flight *f, wh_real first, wh_real second, wh_real drift, bool compensated) {
+    *f = (flight){.real = {WH_R(1.0), WH_R(2.0), first, second}};
+    f->ledger[0] = WH_R(0.5) * (first * first + second * second) - drift;
+    f->state = (wh_state){
+        .steps = 1, .real = f->real, .carry = compensated ? f->carry : NULL, .ledger = f->ledger};
+    sign_of_momenta = WH_R(1.0);
+}
+
+static void give_back(flight *f) {
+    wh_real level[3];
+    wh_stabilize(&books, &f->state, level);
+}
+
+static bool near(wh_real is, wh_real should, wh_real part) {
+    return WH_ABS(is - should) <= part * WH_ABS(should);
+}
+
+/* From `seed` on, in [-1, 1). */
+static wh_real drawn(uint32_t *seed) {
+    *seed = *seed * 1664525U + 1013904223U;
+    return (wh_real)(int32_t)(*seed >> 8) / WH_R(8388608.0) - WH_R(1.0);
+}
+
+/* With carries the change is kept to more digits than a rate has. */
+static void test_a_part_of_the_drift_is_given_back(void) {
+    uint32_t seed = 20261128;
+    for (unsigned i = 0; i < DRAWN; i++) {
+        flight f;
+        const wh_real first = drawn(&seed) * WH_R(3.0);
+        const wh_real second = WH_R(1.5) + drawn(&seed);
+        const wh_real twice = first * first + second * second;
+        const wh_real drift = twice * drawn(&seed) * WH_R(0.0009);
+        set_out(&f, first, second, drift, true);
+        const wh_real is = WH_R(0.5) * twice - f.ledger[0]; /* as rounded */
+        const wh_real part = -is / WH_R(1024.0) / twice;
+        give_back(&f);
+        TEST_ASSERT_TRUE(near((f.real[2] - first) + f.carry[2], part * first, WH_R(1e-5)));
+        TEST_ASSERT_TRUE(near((f.real[3] - second) + f.carry[3], part * second, WH_R(1e-5)));
+        TEST_ASSERT_TRUE(f.real[0] == WH_R(1.0) && f.real[1] == WH_R(2.0));
+        TEST_ASSERT_TRUE(f.carry[0] == WH_R(0.0) && f.carry[1] == WH_R(0.0));
+    }
+}
+
+/* Rates change by 2^-20 of themselves at most, whichever way. */
+static void test_there_is_a_bound(void) {
+    for (unsigned i = 0; i < 4; i++) {
+        flight f;
+        const wh_real way = i % 2 == 0 ? WH_R(1.0) : WH_R(-1.0);
+        set_out(&f, WH_R(1.0), WH_R(-2.0), way * (i < 2 ? WH_R(3.0) : WH_R(1e9)), i == 1);
+        give_back(&f);
+        TEST_ASSERT_TRUE(f.real[2] == WH_R(1.0) - way * WH_STABILIZE_MOST);
+        TEST_ASSERT_TRUE(f.real[3] == WH_R(-2.0) + way * WH_R(2.0) * WH_STABILIZE_MOST);
+    }
+}
+
+/* Before the first step, at rest, with books that are no numbers or that say momenta go against rates: nothing is done. */
+static void test_where_nothing_is_to_be_given(void) {
+    const wh_real none = WH_R(0.0) * (WH_ABSURD * WH_ABSURD * WH_ABSURD);
+    const wh_real drift[] = {WH_R(0.1), WH_R(0.0), (none - none) / (none - none), WH_R(1e20),
+                             WH_R(-1e20)};
+    for (unsigned i = 0; i < 7; i++) {
+        flight f;
+        const wh_real rate = i == 5 ? WH_R(0.0) : WH_R(1.0);
+        set_out(&f, rate, rate, drift[i < 5 ? i : 0], false);
+        if (i == 0) {
+            f.state.steps = 0;
+        }
+        if (i == 6) {
+            sign_of_momenta = WH_R(-1.0);
+        }
+        give_back(&f);
+        TEST_ASSERT_TRUE(f.real[2] == rate && f.real[3] == rate);
+    }
+}
+
+void suite_stabilize(void) {
+    RUN_TEST(test_a_part_of_the_drift_is_given_back);
+    RUN_TEST(test_there_is_a_bound);
+    RUN_TEST(test_where_nothing_is_to_be_given);
+}

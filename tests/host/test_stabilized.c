@@ -1,0 +1,301 @@
+/* test_stabilized.c: energy that is given back (core/stabilize.h), on drawn chains of pendulums on a cart, whose energy is
+ * computed here from places and velocities; and what is left alone by it. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "command.h"
+#include "host/commands/commands.h"
+#include "motion.h"
+#include "unity.h"
+
+void suite_stabilized(void);
+
+enum { LINKS = 3, TEXT = 4096, GO = 41, WINDOW = 25 }; /* steps; goes that make some 1024 */
+#define GRAVITY 9.81
+
+/* Point masses on rods, one behind the other, from a cart on a spring. Angles are from the vertical. */
+typedef struct chain {
+    int links;
+    double cart_kg;
+    double spring_Npm;
+    double mass_kg[LINKS];
+    double length_m[LINKS];
+    double start_rad[LINKS];
+    double fastest; /* rad/s, or some way above it */
+} chain;
+
+static chain drawn_chain(dice *d) {
+    chain c = {.links = 1 + (int)dice_one_of(d, LINKS),
+               .cart_kg = dice_between(d, 0.5, 4.0),
+               .spring_Npm = dice_between(d, 1.0, 40.0)};
+    for (int i = 0; i < c.links; i++) {
+        c.mass_kg[i] = dice_between(d, 0.5, 2.0);
+        c.length_m[i] = dice_between(d, 0.3, 1.2);
+        c.start_rad[i] = dice_between(d, -1.3, 1.3);
+        c.fastest += sqrt(GRAVITY / c.length_m[i]);
+    }
+    c.fastest += sqrt(c.spring_Npm / c.cart_kg);
+    return c;
+}
+
+/* `more`: statements of the scene, and of the mechanism. */
+static void write_chain(const chain *c, const char *of_mechanism, char text[static TEXT]) {
+    int at = snprintf(text, TEXT, "mechanism chain\ncoordinate s [m]\n");
+    for (int i = 0; i < c->links; i++) {
+        at += snprintf(text + at, TEXT - (size_t)at, "coordinate q%d [rad]\n", i);
+    }
+    char vx[512] = "s'";
+    char vy[512] = "0 [m/s]";
+    char height[512] = "0 [m]";
+    char kinetic[2048];
+    char stored[1024];
+    int t = snprintf(kinetic, sizeof kinetic, "T = %.17g [kg]*s'^2/2", c->cart_kg);
+    int v = snprintf(stored, sizeof stored, "V = %.17g [N/m]*s^2/2", c->spring_Npm);
+    for (int i = 0; i < c->links; i++) {
+        char one[64];
+        snprintf(one, sizeof one, " + %.17g [m]*q%d'*cos(q%d)", c->length_m[i], i, i);
+        strcat(vx, one);
+        snprintf(one, sizeof one, " + %.17g [m]*q%d'*sin(q%d)", c->length_m[i], i, i);
+        strcat(vy, one);
+        snprintf(one, sizeof one, " - %.17g [m]*cos(q%d)", c->length_m[i], i);
+        strcat(height, one);
+        t += snprintf(kinetic + t, sizeof kinetic - (size_t)t, " + %.17g [kg]*((%s)^2 + (%s)^2)/2",
+                      c->mass_kg[i], vx, vy);
+        v += snprintf(stored + v, sizeof stored - (size_t)v, " + %.17g [N]*(%s)",
+                      c->mass_kg[i] * GRAVITY, height);
+    }
+    at += snprintf(text + at, TEXT - (size_t)at, "%s\n%s\n%sscene moves {\nstart ", kinetic, stored,
+                   of_mechanism);
+    for (int i = 0; i < c->links; i++) {
+        at += snprintf(text + at, TEXT - (size_t)at, "%sq%d = %.17g [rad]", i > 0 ? ", " : "", i,
+                       c->start_rad[i]);
+    }
+    snprintf(text + at, TEXT - (size_t)at, "\nstep 1 [ms]\nuntil 1e6 [s]\n}\n");
+}
+
+/* Kinetic and potential energy, counted from where all hangs. */
+static double energy_J(const chain *c, const motion *m) {
+    const double x = motion_value(m, "s");
+    double vx = motion_value(m, "s'");
+    double vy = 0.0;
+    double height = 0.0;
+    double sum = c->cart_kg * vx * vx / 2.0 + c->spring_Npm * x * x / 2.0;
+    for (int i = 0; i < c->links; i++) {
+        char name[8];
+        snprintf(name, sizeof name, "q%d", i);
+        const double q = motion_value(m, name);
+        snprintf(name, sizeof name, "q%d'", i);
+        const double rate = motion_value(m, name);
+        vx += c->length_m[i] * rate * cos(q);
+        vy += c->length_m[i] * rate * sin(q);
+        height += 2.0 * c->length_m[i] * sin(q / 2.0) * sin(q / 2.0);
+        sum += c->mass_kg[i] * ((vx * vx + vy * vy) / 2.0 + GRAVITY * height);
+    }
+    return sum;
+}
+
+/* The energies' largest term, of which the books have digits, in parts of the energy of a start at rest: V is counted from
+ * the cart's height, and where all hangs it is far from zero. */
+static double terms_of(const chain *c) {
+    double terms = 0.0;
+    double begin = 0.0;
+    double deep = 0.0;
+    double height = 0.0;
+    for (int i = 0; i < c->links; i++) {
+        deep += c->length_m[i];
+        height += c->length_m[i] * (1.0 - cos(c->start_rad[i]));
+        terms += c->mass_kg[i] * GRAVITY * deep;
+        begin += c->mass_kg[i] * GRAVITY * height;
+    }
+    return terms / begin;
+}
+
+typedef struct drift {
+    double first; /* largest part of the energy that was missing or too much, in the first half */
+    double second;
+    double whole;
+    double last;
+    double steepest; /* largest change within a window */
+} drift;
+
+static drift drift_of(const chain *c, stepping how, uint64_t steps) {
+    char text[TEXT];
+    motion m;
+    drift seen = {0.0, 0.0, 0.0, 0.0, 0.0};
+    double before[WINDOW] = {0.0};
+    write_chain(c, "", text);
+    motion_open_text(&m, text, how);
+    const double begin_J = energy_J(c, &m);
+    for (uint64_t k = 0; k < steps; k += GO) {
+        TEST_ASSERT_EQUAL_INT(WH_OK, motion_step(&m, GO));
+        const double off = energy_J(c, &m) / begin_J - 1.0;
+        double *half = k < steps / 2 ? &seen.first : &seen.second;
+        *half = fmax(*half, fabs(off));
+        double *kept = &before[k / GO % WINDOW];
+        seen.steepest = fmax(seen.steepest, fabs(off - *kept));
+        *kept = off;
+        seen.last = off;
+    }
+    motion_close(&m);
+    seen.whole = fmax(seen.first, seen.second);
+    return seen;
+}
+
+/* A thousandth of the drift is given back in each step: so what is missing is at most some times what goes in a thousand
+ * steps, however many there are. */
+static void test_energy_stays(void) {
+    static const struct {
+        const engine_kind *kind;
+        bool compensated;
+        double rounds; /* what the last digits leave, of the energies' terms */
+    } numbers[] = {
+        {&engine_float, true, 5e-7}, {&engine_double, true, 1e-12}, {&engine_double, false, 1e-12}};
+    dice d = dice_of("stabilized", 20261128);
+    const unsigned cases = usual_or(dice_cases(few_or_all(6, 60)), 3);
+    double most[3] = {0.0, 0.0, 0.0};
+    double without = 0.0;
+    for (unsigned i = 0; i < cases; i++) {
+        const chain c = drawn_chain(&d);
+        /* coarse enough for RK4 to lose energy */
+        const double step_s = 0.06 / c.fastest;
+        const unsigned n = i % 3;
+        const stepping plain = {.kind = numbers[n].kind,
+                                .method = WH_RK4,
+                                .compensated = numbers[n].compensated,
+                                .step_s = step_s};
+        stepping with = plain;
+        with.stabilized = true;
+        const drift lost = drift_of(&c, plain, 200000);
+        const drift kept = drift_of(&c, with, 200000);
+        const double rounds = numbers[n].rounds * (1.0 + terms_of(&c));
+        char what[256];
+        snprintf(what, sizeof what, "case %u, %s: %.2e, then %.2e; without %.2e", i,
+                 numbers[n].kind->name, kept.first, kept.second, lost.whole);
+        TEST_ASSERT_TRUE_MESSAGE(kept.whole <= 4.0 * lost.steepest + rounds, what);
+        TEST_ASSERT_TRUE_MESSAGE(kept.second <= 4.0 * kept.first + rounds, what);
+        most[n] = fmax(most[n], kept.whole);
+        without = fmax(without, fabs(lost.last));
+    }
+    printf("energies of %u chains: at most %.1e off in compensated float, %.1e and %.1e in double; "
+           "without, %.1e\n",
+           cases, most[0], most[1], most[2], without);
+    TEST_ASSERT_TRUE(without > 1e-5);
+}
+
+/* Largest distance of the coordinates at the end from those of a run in double by an eighth of the step. */
+static double way_off(const char *text, const chain *c, stepping how, double end_s) {
+    double end[2][LINKS + 1];
+    stepping fine = {.kind = &engine_double, .method = WH_NYSTROEM5, .compensated = true};
+    fine.step_s = how.step_s / 8.0;
+    for (int run = 0; run < 2; run++) {
+        motion m;
+        const stepping *by = run == 0 ? &how : &fine;
+        motion_open_text(&m, text, *by);
+        TEST_ASSERT_EQUAL_INT(WH_OK, motion_step(&m, (uint64_t)lround(end_s / by->step_s)));
+        for (int i = 0; i < c->links; i++) {
+            char name[8];
+            snprintf(name, sizeof name, "q%d", i);
+            end[run][i] = motion_value(&m, name);
+        }
+        end[run][c->links] = motion_value(&m, "s");
+        motion_close(&m);
+    }
+    double most = 0.0;
+    for (int i = 0; i <= c->links; i++) {
+        most = fmax(most, fabs(end[0][i] - end[1][i]));
+    }
+    return most;
+}
+
+/* A motion that is driven and damped, for which the energy is what the books say, goes where it goes without: about as
+ * near to the truth. */
+static void test_motion_is_left_alone(void) {
+    dice d = dice_of("stabilized motions", 20261129);
+    const unsigned cases = usual_or(dice_cases(few_or_all(16, 80)), 4);
+    double worst = 0.0;
+    for (unsigned i = 0; i < cases; i++) {
+        chain c = drawn_chain(&d);
+        char text[TEXT];
+        char more[256];
+        for (int k = 0; k < c.links; k++) { /* small swings: no chaos */
+            c.start_rad[k] *= 0.2;
+        }
+        snprintf(more, sizeof more,
+                 "input push = %.17g [N]\nQ(s) = push\nF = %.17g [N*s/m]*s'^2/2\nQ(q0) = "
+                 "%.17g [N*m]*cos(q0)\n",
+                 dice_between(&d, -2.0, 2.0), dice_between(&d, 0.0, 1.0),
+                 dice_between(&d, -0.5, 0.5));
+        write_chain(&c, more, text);
+        const bool is_float = i % 2 == 0;
+        const stepping plain = {.kind = is_float ? &engine_float : &engine_double,
+                                .method = WH_RK4,
+                                .compensated = true,
+                                .step_s = 1.0 / 1024.0};
+        stepping with = plain;
+        with.stabilized = true;
+        const double off = way_off(text, &c, plain, 8.0);
+        const double off_with = way_off(text, &c, with, 8.0);
+        const double rounds = (is_float ? 1e-6 : 1e-12) * (1.0 + terms_of(&c));
+        char what[160];
+        snprintf(what, sizeof what, "case %u: %.2e off, without %.2e", i, off_with, off);
+        TEST_ASSERT_TRUE_MESSAGE(off_with <= 4.0 * off + rounds, what);
+        worst = fmax(worst, off_with);
+    }
+    printf("%u driven motions: at most %.1e off after 8 s\n", cases, worst);
+}
+
+/* What rests goes on resting, and where no rate has energy to give none is asked. */
+static void test_rest_stays_rest(void) {
+    dice d = dice_of("stabilized rests", 20261130);
+    for (unsigned i = 0; i < 10; i++) {
+        chain c = drawn_chain(&d);
+        char text[TEXT];
+        motion m;
+        memset(c.start_rad, 0, sizeof c.start_rad);
+        write_chain(&c, "", text);
+        const stepping how = {.kind = i % 2 == 0 ? &engine_float : &engine_double,
+                              .compensated = i % 3 == 0,
+                              .method = WH_RK4,
+                              .stabilized = true};
+        motion_open_text(&m, text, how);
+        TEST_ASSERT_EQUAL_INT(WH_OK, motion_step(&m, 5000));
+        TEST_ASSERT_TRUE(motion_value(&m, "s") == 0.0 && motion_value(&m, "s'") == 0.0);
+        TEST_ASSERT_TRUE(motion_value(&m, "q0") == 0.0 && motion_value(&m, "q0'") == 0.0);
+        motion_close(&m);
+    }
+}
+
+/* A step that is too coarse is not made to look good: what loses the hundredth that is warned of in a thousand steps still
+ * does, and is warned of. */
+static void test_coarse_steps_are_told(void) {
+    dice d = dice_of("stabilized springs", 20261201);
+    for (unsigned i = 0; i < 8; i++) {
+        const double swing = dice_between(&d, 0.3, 1.5); /* h w */
+        char text[TEXT];
+        said what;
+        snprintf(text, sizeof text,
+                 "mechanism spring\ncoordinate x [m]\nT = 1 [kg]*x'^2/2\nV = %.17g [N/m]*x^2/2\n"
+                 "scene swings {\nstart x = %.17g [m]\nstep 1 [ms]\nuntil 10 [s]\n}\n",
+                 1e6 * swing * swing, dice_between(&d, 0.01, 1.0));
+        static const char *const words[2][6] = {
+            {"--stabilized", "--quiet", NULL},
+            {"--stabilized", "--quiet", "--number", "float", "--compensated", NULL}};
+        const char *all[8] = {model_keep(text)};
+        for (int k = 0; words[i % 2][k] != NULL; k++) {
+            all[k + 1] = words[i % 2][k];
+        }
+        command_say(command_run, all, &what);
+        model_drop();
+        TEST_ASSERT_EQUAL_INT_MESSAGE(0, what.status, what.err);
+        TEST_ASSERT_NOT_NULL_MESSAGE(strstr(what.err, "cannot be believed"), text);
+    }
+}
+
+void suite_stabilized(void) {
+    UnitySetTestFile(__FILE__);
+    RUN_TEST(test_energy_stays);
+    RUN_TEST(test_motion_is_left_alone);
+    RUN_TEST(test_rest_stays_rest);
+    RUN_TEST(test_coarse_steps_are_told);
+}
