@@ -32,6 +32,9 @@
 
 /* Behind a step and its entries. `level` [form->accounts] is room to work in. */
 WH_INLINE void wh_stabilize(const wh_ledger_form *form, wh_state *state, wh_real *level) {
+    if (state->steps == 0) {
+        return; /* the books begin */
+    }
     const unsigned n = form->coordinates;
     wh_real *rate = state->real + (n - form->angles);
     const wh_real drift = wh_ledger_error(form, state, 0, level);
