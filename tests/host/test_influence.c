@@ -29,7 +29,7 @@ static void refused(const char *scene_text, const char *wanted) {
     instantiate(NULL);
     equations *e = equations_derive(made, said);
     TEST_ASSERT_TRUE(e != NULL &&
-                     program_make(e, parsed->scenes[0]->conserve, false, said) == NULL);
+                     program_make(e, parsed->scenes[0]->conserve, &plainly, said) == NULL);
     equations_free(e);
     expect_said(wanted);
 }
@@ -53,7 +53,7 @@ static void test_what_acts_on_others_only_is_no_reason(void) {
     parse(CART "scene s { with own; conserve x }");
     instantiate(NULL);
     equations *e = equations_derive(made, said);
-    program *p = e == NULL ? NULL : program_make(e, parsed->scenes[0]->conserve, false, said);
+    program *p = e == NULL ? NULL : program_make(e, parsed->scenes[0]->conserve, &plainly, said);
     TEST_ASSERT_TRUE(p != NULL && p->conserved->closed);
     program_free(p);
     equations_free(e);
@@ -106,7 +106,7 @@ static void test_a_contact_that_names_it_keeps_it_in_the_state(void) {
         instantiate(NULL);
         equations *e = equations_derive(made, said);
         TEST_ASSERT_TRUE_MESSAGE(
-            e != NULL && program_make(e, parsed->scenes[0]->conserve, false, said) == NULL,
+            e != NULL && program_make(e, parsed->scenes[0]->conserve, &plainly, said) == NULL,
             contacts[i]);
         equations_free(e);
         expect_said("cannot be conserved beside stops, friction, holds or crossings");
