@@ -6,7 +6,8 @@
  * say what went into an account since the start: the work of each input, the loss of each damper
  * (negative), the impulse of each generalized force, for each contact its energy and its impulse along
  * each coordinate, and, where the energies name an input, what its changes between steps gave: -dL/dt of
- * an input that stands still within each step.
+ * an input that stands still within each step; and last, where the scene asks for that, what its steps have given back of what
+ * the energy drifted by (stabilize.h).
  *
  * The powers and forces of the smooth entries, and the contacts' forces, are integrated with the weights
  * of the method's own stages, so the books are of the method's order and a step costs one more list of
@@ -40,10 +41,11 @@ struct wh_ledger_form {
     const uint8_t *account; /* [smooth] */
     const uint8_t *input;   /* [inputs] those that the energies name; the last entries are theirs */
     uint16_t smooth;        /* entries of powers and forces */
-    uint16_t entries;       /* smooth + contacts * (1 + coordinates) + inputs, <= WH_LEDGER_MAX */
-    uint8_t accounts;       /* 1 + all coordinates + inputs: one is kept for each of those */
-    uint8_t coordinates;    /* integrated coordinates, of which */
-    uint8_t angles;         /* are kept as turn angles */
+    uint16_t
+        entries; /* smooth + contacts * (1 + coordinates) + inputs + stabilized, <= WH_LEDGER_MAX */
+    uint8_t accounts;    /* 1 + all coordinates + inputs: one is kept for each of those */
+    uint8_t coordinates; /* integrated coordinates, of which */
+    uint8_t angles;      /* are kept as turn angles */
     uint8_t inputs;
     bool stabilized; /* each step gives back some of the drift (stabilize.h) */
 };
@@ -55,7 +57,12 @@ WH_INLINE unsigned wh_ledger_of_contact(const wh_ledger_form *form, unsigned k) 
 
 /* Entry of the first of form->input, in the energy's account; the others' follow. */
 WH_INLINE unsigned wh_ledger_of_input(const wh_ledger_form *form) {
-    return (unsigned)form->entries - form->inputs;
+    return (unsigned)form->entries - form->inputs - form->stabilized;
+}
+
+/* Entry of what was given back, where form->stabilized. */
+WH_INLINE unsigned wh_ledger_of_stabilized(const wh_ledger_form *form) {
+    return form->entries - 1U;
 }
 
 WH_INLINE unsigned wh_ledger_account(const wh_ledger_form *form, unsigned entry) {

@@ -1,17 +1,20 @@
 /* stabilize.h: what the energy drifts by is given back along the rates, a little in every step, for runs so long that a
  * method's own error, or rounding's, would sum up. Part of ledger_step.h.
  *
- * The books say by how much the energy has changed more than what went in and out (ledger.h): the drift D. Rates that are
- * all made longer by a part s change the energy by s sum q_i' p_i, p_i the momenta, where the kinetic energy is a quadratic form
- * of the rates; and the directions of motion, what stands still and the ratios of momenta stay. So each step sets
+ * The books say by how much the energy has changed more than what went in and out (ledger.h), but for what was given back before: the drift D. Rates that are all made longer by a part s change the energy by s sum q_i' p_i, p_i
+ * the momenta, where the kinetic energy is a quadratic form of the rates; and the directions of motion, what stands still and
+ * the ratios of momenta stay. So each step sets
  *
  *     s = -D / (1024 sum q_i' p_i),     at most 2^-20 in size,
  *
  * which is x' = f(x) - g F(x) D(x) with F along the rates (Ascher, Chin & Reich, Stabilization of DAEs and invariant manifolds,
  * Numerische Mathematik 67, 1994). A thousandth of the drift, and not all of it, for a float's D is noise of its last digits:
  * that is averaged over a thousand steps, and the rest goes into the carries of compensated sums. The bound keeps the motion
- * where it turns back, for there no rate has any energy to give; and a step that is too long is not made to look good: what
- * loses more than some 2e-6 of the kinetic energy a step still does, and is told as ever.
+ * where it turns back, for there no rate has any energy to give.
+ *
+ * One number says nothing of where energy was lost: what a fast motion lost is given to all. So what is given back is an entry of
+ * the books, and to be looked at as the loss that it makes up for. It is for motions that nothing drives or damps: elsewhere D
+ * is also what the books' own rule errs by, of which the motion knows nothing.
  */
 #ifndef WH_STABILIZE_H
 #define WH_STABILIZE_H
@@ -36,8 +39,11 @@ WH_INLINE void wh_stabilize(const wh_ledger_form *form, wh_state *state, wh_real
         return; /* the books begin */
     }
     const unsigned n = form->coordinates;
+    const bool compensated = state->carry != NULL;
     wh_real *rate = state->real + (n - form->angles);
-    const wh_real drift = wh_ledger_error(form, state, 0, level);
+    wh_real *total = state->ledger + wh_ledger_of_stabilized(form);
+    wh_real *rest = total + form->entries;
+    const wh_real drift = wh_ledger_error(form, state, 0, level) + (*total + *rest);
     wh_real gain = WH_R(0.0); /* of energy, where the rates grow by all of themselves */
     for (unsigned i = 0; i < n; i++) {
         gain += rate[i] * level[1 + i];
@@ -46,14 +52,18 @@ WH_INLINE void wh_stabilize(const wh_ledger_form *form, wh_state *state, wh_real
         return;
     }
     const wh_real most = WH_STABILIZE_MOST * gain;
-    wh_real given = -drift * WH_STABILIZE_SHARE;
-    given = given > most ? most : given < -most ? -most : given;
-    const wh_real part = given / gain;
+    wh_real wanted = -drift * WH_STABILIZE_SHARE;
+    wanted = wanted > most ? most : wanted < -most ? -most : wanted;
+    const wh_real part = wanted / gain;
+    wh_real given = WH_R(0.0);
     for (unsigned i = 0; i < n; i++) {
-        wh_real unused;
-        wh_real *carry = state->carry != NULL ? &state->carry[n + i] : &unused;
-        rate[i] = wh_sum(rate[i], part * rate[i], state->carry != NULL, carry);
+        const wh_real before = rate[i];
+        const wh_real more = part * before;
+        wh_real unused = WH_R(0.0);
+        rate[i] = wh_sum(before, more, compensated, compensated ? &state->carry[n + i] : &unused);
+        given += level[1 + i] * (compensated ? more : rate[i] - before);
     }
+    *total = wh_sum(*total, given, true, rest);
 }
 
 #endif

@@ -33,7 +33,7 @@
       "carry the rounding error of every sum along") \
     X(OPTION_STABILIZED, "--stabilized", "", OPTIONS_ENGINE, \
       "give back along the rates, a little each step, what the energy drifts by:\n" \
-      "for very long runs without contacts; keeps the books ('ledger')") \
+      "for very long runs of what nothing drives or damps; keeps the books") \
     X(OPTION_ANGLES, "--angles", "A", OPTIONS_ENGINE, \
       "turned (default): sines are looked up once a step where the angles' rates\n" \
       "allow it; lookup: at each stage, for angles that turn far in a step") \

@@ -226,7 +226,7 @@ static void take_ledger(image_draft *d, ledger_lists *l) {
     image_ledger *made = &im->ledger;
     made->kept = true;
     made->smooth = l->smooth;
-    made->entries = l->entries;
+    made->entries = l->entries + im->settings.stabilized;
     made->accounts = l->accounts;
     made->inputs = l->inputs;
     made->turned = l->turned;

@@ -24,9 +24,21 @@ static void enter_kept(const image *im, const engine_kind *kind, const void *run
         case GIVER_INPUT: made->inputs_J += e->given; break;
         case GIVER_DAMPER: made->losses_J += e->given; break;
         case GIVER_CONTACT: made->contacts_J += e->given; break;
+        case GIVER_STEPS: break; /* none with contacts */
         }
     }
     kept_account_free(&kept);
+}
+
+/* What steps have given back is what they had lost: it is missing as if it had not been given. */
+static double given_back_J(const image *im, const engine_kind *kind, const void *run) {
+    double given_J = 0.0;
+    if (im->settings.stabilized) {
+        kept_account kept = kept_account_read(im, kind, run, 0);
+        given_J = kept.entry[kept.entries - 1].given;
+        kept_account_free(&kept);
+    }
+    return given_J;
 }
 
 /* The books beside the run see no force of a contact, and across an impact no rule of theirs holds: with contacts
@@ -41,6 +53,7 @@ belief belief_of(books *b, const engine_kind *kind, const void *run) {
         enter_kept(b->image, kind, run, &made);
     } else {
         made.energy = books_account(b);
+        made.energy.left -= given_back_J(b->image, kind, run);
         made.inputs_J = b->input_J;
         made.losses_J = -b->loss_J;
         made.jump_s = fabs(b->jump_J) > 0.5 * fabs(made.energy.left) ? b->jump_s : -1.0;

@@ -68,7 +68,9 @@ static void print_entries(FILE *out, const kept_account *kept, const char *unkno
         if (e->by == GIVER_CONTACT && e->given == 0.0) {
             continue;
         }
-        if (e->by != GIVER_ENERGIES) {
+        if (e->by == GIVER_STEPS) {
+            snprintf(text, sizeof text, "given back (--stabilized)");
+        } else if (e->by != GIVER_ENERGIES) {
             statement_text(e->at, text, sizeof text);
         } else {
             snprintf(text, sizeof text, "of the energies: dL/d%.20s", unknown);

@@ -19,6 +19,7 @@ static giver giver_of(ledger_kind kind) {
 kept_account kept_account_read(const image *im, const engine_kind *kind, const void *run,
                                int account) {
     const image_ledger *l = &im->ledger;
+    const int stabilized = im->settings.stabilized;
     double *total = room(l->entries + l->accounts, sizeof *total);
     kept_account k = {.entry = room(l->entries, sizeof *k.entry)};
     if (kind->steps(run) > 0) {
@@ -31,12 +32,15 @@ kept_account kept_account_read(const image *im, const engine_kind *kind, const v
         }
     }
     for (int i = 0; i < l->inputs && account == 0; i++) {
-        k.entry[k.entries++] =
-            (kept_entry){GIVER_INPUT, im->input[l->input[i]].at, total[l->entries - l->inputs + i]};
+        k.entry[k.entries++] = (kept_entry){GIVER_INPUT, im->input[l->input[i]].at,
+                                            total[l->entries - stabilized - l->inputs + i]};
     }
     for (int c = 0; c < im->contacts && account <= im->coordinates; c++) {
         k.entry[k.entries++] = (kept_entry){GIVER_CONTACT, im->contact[c].at,
                                             total[l->smooth + c * (1 + im->coordinates) + account]};
+    }
+    if (stabilized && account == 0) {
+        k.entry[k.entries++] = (kept_entry){.by = GIVER_STEPS, .given = total[l->entries - 1]};
     }
     k.left = total[l->entries + account];
     free(total);

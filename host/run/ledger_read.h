@@ -10,18 +10,18 @@ typedef enum giver {
     GIVER_FORCE,    /* a statement Q */
     GIVER_DAMPER,   /* a statement F */
     GIVER_CONTACT,
-    GIVER_INPUT /* changes of an input that the energies name */
+    GIVER_INPUT, /* changes of an input that the energies name */
+    GIVER_STEPS  /* what was given back of the drift (--stabilized) */
 } giver;
 
 typedef struct kept_entry {
     giver by;
-    place at;     /* the statement; none for GIVER_ENERGIES */
+    place at;     /* the statement; none for GIVER_ENERGIES and GIVER_STEPS */
     double given; /* since the start, SI */
 } kept_entry;
 
 typedef struct kept_account {
-    kept_entry
-        *entry; /* [entries] in the order of the file: statements, then inputs, then contacts */
+    kept_entry *entry; /* [entries] in the order of the file: statements, inputs, contacts, steps */
     int entries;
     double left; /* left over, as the core tells it in the run's numbers */
 } kept_account;

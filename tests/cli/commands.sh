@@ -67,6 +67,8 @@ effect wind "wind" { Q(x) += 0.2 [N] }
 scene plain_swings { with drag; start x = 1 [m], a = 1 [rad]; step 10 [ms]; until 0.1 [s] }
 END
 sed 's/ - 9 \[J\]\*cos(a)/ + 9 [J]*a^2/' "$scratch/plain.whirl" >"$scratch/linear.whirl"
+# which nothing drives or damps
+sed '/^Q(x)/d; s/with drag; //; s/until 0.1/until 20/' "$scratch/plain.whirl" >"$scratch/free.whirl"
 sample() { # a value of that option that is not what the scene has
     case $1 in
     --set) echo k=9 ;;
@@ -118,6 +120,7 @@ while read -r word value group; do
         [ -n "$2" ] || set -- "$word"
         plain=$scratch/plain.whirl:plain_swings
         [ "$word" != --matrix ] || plain=$scratch/linear.whirl:plain_swings
+        [ "$word" != --stabilized ] || plain=$scratch/free.whirl:plain_swings
         [ "$command$word" != derive--number ] || plain=$scratch/linear.whirl:plain_swings
         base=
         [ "$word" != --cells ] || base="--tables cubic" # which has them

@@ -31,7 +31,7 @@ for scene in thomson_a epicyclic_conserved $("$whirl" list | awk '$1 == "scene" 
     add "$scene" --with ledger --until 0.3s
 done
 # what the energy drifts by is given back
-for scene in thomson_a spherical_flight docs/hard/long.whirl:gear_turns docs/hard/long.whirl:pendulum_swings; do
+for scene in spherical_flight docs/hard/long.whirl:gear_turns docs/hard/long.whirl:pendulum_swings; do
     for more in "" --compensated "--angles lookup" "--method nystroem5 --compensated"; do
         # shellcheck disable=SC2086 # of words, or of none
         add "$scene" --stabilized --until 0.3s $more

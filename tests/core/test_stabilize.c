@@ -22,19 +22,19 @@ static void flight_levels(const void *model, const wh_angle *angle, const wh_rea
 }
 
 static const wh_ledger_form books = {
-    .levels = flight_levels, .accounts = 3, .coordinates = 2, .stabilized = true};
+    .levels = flight_levels, .entries = 1, .accounts = 3, .coordinates = 2, .stabilized = true};
 
 typedef struct flight {
     wh_real real[4]; /* places, rates */
     wh_real carry[4];
-    wh_real ledger[3]; /* the levels at the start */
+    wh_real ledger[5]; /* given back, its carry, the levels at the start */
     wh_state state;
 } flight;
 
 /* So much has the energy drifted by. */
 static void set_out(flight *f, wh_real first, wh_real second, wh_real drift, bool compensated) {
     *f = (flight){.real = {WH_R(1.0), WH_R(2.0), first, second}};
-    f->ledger[0] = WH_R(0.5) * (first * first + second * second) - drift;
+    f->ledger[2] = WH_R(0.5) * (first * first + second * second) - drift;
     f->state = (wh_state){
         .steps = 1, .real = f->real, .carry = compensated ? f->carry : NULL, .ledger = f->ledger};
     sign_of_momenta = WH_R(1.0);
@@ -65,13 +65,36 @@ static void test_a_part_of_the_drift_is_given_back(void) {
         const wh_real twice = first * first + second * second;
         const wh_real drift = twice * drawn(&seed) * WH_R(0.0009);
         set_out(&f, first, second, drift, true);
-        const wh_real is = WH_R(0.5) * twice - f.ledger[0]; /* as rounded */
+        const wh_real is = WH_R(0.5) * twice - f.ledger[2]; /* as rounded */
         const wh_real part = -is / WH_R(1024.0) / twice;
         give_back(&f);
         TEST_ASSERT_TRUE(near((f.real[2] - first) + f.carry[2], part * first, WH_R(1e-5)));
         TEST_ASSERT_TRUE(near((f.real[3] - second) + f.carry[3], part * second, WH_R(1e-5)));
+        TEST_ASSERT_TRUE(near(f.ledger[0], -is / WH_R(1024.0), WH_R(1e-5)));
         TEST_ASSERT_TRUE(f.real[0] == WH_R(1.0) && f.real[1] == WH_R(2.0));
         TEST_ASSERT_TRUE(f.carry[0] == WH_R(0.0) && f.carry[1] == WH_R(0.0));
+    }
+}
+
+/* What was given before makes the drift neither larger nor smaller; and of plain sums that counts which the rates took. */
+static void test_it_is_entered(void) {
+    uint32_t seed = 20261129;
+    for (unsigned i = 0; i < DRAWN; i++) {
+        flight f;
+        const wh_real first = drawn(&seed);
+        const wh_real second = WH_R(1.5) + drawn(&seed);
+        const wh_real before = drawn(&seed) * WH_R(1e-4);
+        set_out(&f, first, second, before, true);
+        f.ledger[0] = before;
+        const wh_real is = WH_R(0.5) * (first * first + second * second) - f.ledger[2];
+        give_back(&f);
+        const wh_real given = (f.ledger[0] - before) + f.ledger[1];
+        TEST_ASSERT_TRUE(WH_ABS(given + is / WH_R(1024.0)) <= WH_R(2e-7) * WH_ABS(before));
+        /* and what is given without carries is what the rates then have */
+        set_out(&f, first, second, WH_R(1e-6), false);
+        give_back(&f);
+        const wh_real took = first * (f.real[2] - first) + second * (f.real[3] - second);
+        TEST_ASSERT_TRUE(WH_ABS(f.ledger[0] - took) <= WH_R(1e-5) * WH_ABS(took));
     }
 }
 
@@ -109,6 +132,7 @@ static void test_where_nothing_is_to_be_given(void) {
 
 void suite_stabilize(void) {
     RUN_TEST(test_a_part_of_the_drift_is_given_back);
+    RUN_TEST(test_it_is_entered);
     RUN_TEST(test_there_is_a_bound);
     RUN_TEST(test_where_nothing_is_to_be_given);
 }
