@@ -10,6 +10,9 @@
  * that is also N of the same sign, as a rate that grows evenly has, for runs of a thousand steps. */
 #define ROUNDINGS 32.0
 
+/* So much more than what was lost is missing where it is not the steps that lost it. */
+#define GIVEN_WRONGLY 1.5
+
 static double larger(double a, double b) { return fabs(b) > a ? fabs(b) : a; }
 
 /* Enter what the run itself kept. */
@@ -30,15 +33,16 @@ static void enter_kept(const image *im, const engine_kind *kind, const void *run
     kept_account_free(&kept);
 }
 
-/* What steps have given back is what they had lost: it is missing as if it had not been given. */
-static double given_back_J(const image *im, const engine_kind *kind, const void *run) {
-    double given_J = 0.0;
-    if (im->settings.stabilized) {
-        kept_account kept = kept_account_read(im, kind, run, 0);
-        given_J = kept.entry[kept.entries - 1].given;
-        kept_account_free(&kept);
-    }
-    return given_J;
+/* What steps have given back is what they had lost: it is missing as if it had not been given. Unless they gave what nothing had
+ * lost, for the energy's want of digits: then it is too much. */
+static void enter_given_back(const image *im, const engine_kind *kind, const void *run,
+                             belief *made) {
+    kept_account kept = kept_account_read(im, kind, run, 0);
+    const double lost_J = made->energy.left - kept.entry[kept.entries - 1].given;
+    kept_account_free(&kept);
+    made->stabilized = true;
+    made->lost_J = fabs(lost_J);
+    made->energy.left = fabs(lost_J) >= fabs(made->energy.left) ? lost_J : made->energy.left;
 }
 
 /* The books beside the run see no force of a contact, and across an impact no rule of theirs holds: with contacts
@@ -53,7 +57,9 @@ belief belief_of(books *b, const engine_kind *kind, const void *run) {
         enter_kept(b->image, kind, run, &made);
     } else {
         made.energy = books_account(b);
-        made.energy.left -= given_back_J(b->image, kind, run);
+        if (b->image->settings.stabilized) {
+            enter_given_back(b->image, kind, run, &made);
+        }
         made.inputs_J = b->input_J;
         made.losses_J = -b->loss_J;
         made.jump_s = fabs(b->jump_J) > 0.5 * fabs(made.energy.left) ? b->jump_s : -1.0;
@@ -112,7 +118,12 @@ void belief_say(FILE *out, const char *who, const belief *b, const engine_kind *
                 "largest entry of its books\n",
                 who, b->left_J, b->ratio);
     }
-    if (cure != NULL) {
+    if (b->stabilized && number_most(fabs(b->left_J), way_J) > GIVEN_WRONGLY * b->lost_J) {
+        fputs(
+            "hint: --stabilized gave back what nothing had lost: its energies have too few digits; "
+            "leave it out\n",
+            out);
+    } else if (cure != NULL) {
         fprintf(out, "hint: %s\n", cure);
     } else if (b->exact) {
         fputs(

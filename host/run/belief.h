@@ -50,6 +50,8 @@ typedef struct belief {
         rounding_J; /* what rounding explains of it: of a step, by the root of the steps, and of the energy itself */
     double computing_J; /* of that, what the energy's own computation may leave */
     double ratio;       /* |left| / largest, >= 0; infinite with something left over of nothing */
+    bool stabilized;    /* steps gave back (--stabilized) */
+    double lost_J;      /* of these: what would be missing without that, in size */
     bool saturated;     /* values were held at an end of their range */
     bool slow;          /* rounding took a share of what steps were to add (slow.h) */
     bool exact;         /* the steps are exact (--matrix exact) */

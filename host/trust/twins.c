@@ -61,6 +61,7 @@ static void make_finer(twins *t, const twins_wish *w) {
     t->finer.fixed = NULL;
     fold_the_other_way(&t->finer);
     t->finer.settings.compensated = true;
+    t->finer.settings.stabilized = false; /* what is given to the wrong motion would be in both */
     t->each = 1;
     t->left_out = 1.0;
     if (im->settings.matrix == MATRIX_EXACT) {
