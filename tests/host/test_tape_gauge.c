@@ -64,7 +64,8 @@ static program *before_gauge(const derived *d, const char *scene_name) {
         }
     }
     diags *errors = diags_new();
-    program *p = program_make(d->equations, conserve, &(image_settings){.compensated = true}, errors);
+    program *p =
+        program_make(d->equations, conserve, &(image_settings){.compensated = true}, errors);
     diags_free(errors);
     return p;
 }
