@@ -1,8 +1,8 @@
 /* stabilize.h: what the energy drifts by is given back along the rates, a little in every step, for runs so long that a
  * method's own error, or rounding's, would sum up. Part of ledger_step.h.
  *
- * The books say by how much the energy has changed more than what went in and out (ledger.h), but for what was given back before: the drift D. Rates that are all made longer by a part s change the energy by s sum q_i' p_i, p_i
- * the momenta, where the kinetic energy is a quadratic form of the rates; and the directions of motion, what stands still and
+ * The books say by how much the energy has changed more than what went in and out (ledger.h): the drift D, in which what was
+ * given back before does not count. Rates that are all made longer by a part s change the energy by s sum q_i' p_i, p_i the momenta, where the kinetic energy is a quadratic form of the rates; and the directions of motion, what stands still and
  * the ratios of momenta stay. So each step sets
  *
  *     s = -D / (1024 sum q_i' p_i),     at most 2^-20 in size,
@@ -29,7 +29,7 @@
 #include "ledger.h"
 #include "refuse.h"
 
-/* Part of the drift that a step gives back, and the largest part of themselves that rates change by. */
+/* Part of the drift that a step gives back, 2^-10, and the largest part of themselves that rates change by, 2^-20. */
 #define WH_STABILIZE_SHARE WH_R(0.0009765625)
 #define WH_STABILIZE_MOST WH_R(9.5367431640625e-7)
 

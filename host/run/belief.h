@@ -21,7 +21,8 @@
  * energy's own computation at the start and at the end: of the terms in which it is computed, which are large where
  * a sum such as V = k (x - b)^2/2 is multiplied out and x is far from the origin.
  * With --matrix exact a step is the motion itself, however long it is, but what the books integrate between is not: by how
- * much two rules of integration differ counts as rounding does. With nothing left over, the ratio is 0. */
+ * much two rules of integration differ counts as rounding does. What --stabilized gave back counts as left over, for steps had
+ * lost it; or what it gave too much, where that is more. With nothing left over, the ratio is 0. */
 #ifndef RUN_BELIEF_H
 #define RUN_BELIEF_H
 

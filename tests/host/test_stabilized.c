@@ -258,6 +258,17 @@ static void test_rest_stays_rest(void) {
     }
 }
 
+/* `whirl run` of the text with these options, NULL behind the last. */
+static void run_with(const char *text, const char *const *options, said *what) {
+    const char *words[8] = {model_keep(text)};
+    for (int k = 0; options[k] != NULL; k++) {
+        words[k + 1] = options[k];
+    }
+    command_say(command_run, words, what);
+    model_drop();
+    TEST_ASSERT_EQUAL_INT_MESSAGE(0, what->status, what->err);
+}
+
 /* A step that is too coarse is not made to look good: what loses the hundredth that is warned of in a thousand steps still
  * does, and is warned of. */
 static void test_coarse_steps_are_told(void) {
@@ -273,13 +284,7 @@ static void test_coarse_steps_are_told(void) {
         static const char *const words[2][6] = {
             {"--stabilized", "--quiet", NULL},
             {"--stabilized", "--quiet", "--number", "float", "--compensated", NULL}};
-        const char *all[8] = {model_keep(text)};
-        for (int k = 0; words[i % 2][k] != NULL; k++) {
-            all[k + 1] = words[i % 2][k];
-        }
-        command_say(command_run, all, &what);
-        model_drop();
-        TEST_ASSERT_EQUAL_INT_MESSAGE(0, what.status, what.err);
+        run_with(text, words[i % 2], &what);
         TEST_ASSERT_NOT_NULL_MESSAGE(strstr(what.err, "cannot be believed"), text);
     }
 }
@@ -288,8 +293,9 @@ static void test_coarse_steps_are_told(void) {
  * the step: what it loses is given to both. So it is told as it is without. */
 static void test_what_others_lost_is_told(void) {
     dice d = dice_of("stabilized pairs", 20261202);
+    const unsigned cases = usual_or(16, 6);
     unsigned told = 0;
-    for (unsigned i = 0; i < usual_or(16, 6); i++) {
+    for (unsigned i = 0; i < cases; i++) {
         static const char *const words[2][3] = {{"--quiet", NULL},
                                                 {"--stabilized", "--quiet", NULL}};
         const double fast = dice_between(&d, 0.12, 0.3); /* h w */
@@ -303,34 +309,15 @@ static void test_what_others_lost_is_told(void) {
                  "step 1 [ms]\nuntil 60 [s]\n}\n",
                  1e6 * fast * fast / 2.0, sqrt(share), -sqrt(share));
         for (int way = 0; way < 2; way++) {
-            const char *all[4] = {model_keep(text)};
-            for (int k = 0; words[way][k] != NULL; k++) {
-                all[k + 1] = words[way][k];
-            }
-            command_say(command_run, all, &what[way]);
-            model_drop();
-            TEST_ASSERT_EQUAL_INT_MESSAGE(0, what[way].status, what[way].err);
+            run_with(text, words[way], &what[way]);
         }
         const bool plain = strstr(what[0].err, "cannot be believed") != NULL;
         const bool with = strstr(what[1].err, "cannot be believed") != NULL;
         TEST_ASSERT_TRUE_MESSAGE(plain == with, text);
         told += with;
     }
-    printf("%u of 16 pairs are told of, with it and without\n", told);
+    printf("%u of %u pairs are told of, with it and without\n", told, cases);
     TEST_ASSERT_TRUE(told > 0);
-}
-
-/* Does `whirl run` trust it to the end, and warn of nothing? */
-static bool is_trusted(const char *text, const char *const *words) {
-    static said what;
-    const char *all[8] = {model_keep(text)};
-    for (int k = 0; words[k] != NULL; k++) {
-        all[k + 1] = words[k];
-    }
-    command_say(command_run, all, &what);
-    model_drop();
-    TEST_ASSERT_EQUAL_INT_MESSAGE(0, what.status, what.err);
-    return strstr(what.out, "to the end") != NULL && what.err[0] == '\0';
 }
 
 /* How far `name` is at the end from where it is without, which is right there. */
@@ -354,8 +341,8 @@ static void test_what_is_made_wrong_is_not_trusted(void) {
     const unsigned cases = usual_or(few_or_all(4, 16), 2);
     unsigned wrong = 0;
     for (unsigned i = 0; i < cases; i++) {
-        static const char *const words[2][4] = {
-            {"--stabilized", NULL}, {"--stabilized", "--number", "float", "--compensated"}};
+        static const char *const words[2][5] = {
+            {"--stabilized", NULL}, {"--stabilized", "--number", "float", "--compensated", NULL}};
         const bool is_heavy = i % 2 == 1;
         const double fast = dice_between(&d, 1.0, 1.8); /* h w */
         const double step_s = 0.0125;
@@ -381,11 +368,9 @@ static void test_what_is_made_wrong_is_not_trusted(void) {
                                 .compensated = is_heavy,
                                 .step_s = step_s};
         const double off = apart(text, "x", plain, is_heavy ? 400.0 : 1500.0);
-        const char *line[5] = {words[is_heavy][0]};
-        for (int k = 1; k < 4 && is_heavy; k++) {
-            line[k] = words[1][k];
-        }
-        const bool trusted = is_trusted(text, line);
+        said what;
+        run_with(text, words[is_heavy], &what);
+        const bool trusted = strstr(what.out, "to the end") != NULL && what.err[0] == '\0';
         TEST_ASSERT_TRUE_MESSAGE(off < 0.004 || !trusted, text);
         wrong += off >= 0.004;
     }

@@ -15,6 +15,8 @@ void setUp(void) {}
 void tearDown(void) {}
 
 #define STEP_S 1e-3
+#define STABILIZED(number, by) \
+    { .kind = &(number), .method = (by), .compensated = true, .stabilized = true, .step_s = STEP_S }
 enum { DECADES = 12 };
 
 typedef struct subject {
@@ -142,24 +144,9 @@ int main(int count, char **words) {
         {"float compensated",
          {.kind = &engine_float, .method = WH_LEAPFROG, .compensated = true, .step_s = STEP_S}},
         {"double", {.kind = &engine_double, .method = WH_LEAPFROG, .step_s = STEP_S}},
-        {"float compensated, stabilized",
-         {.kind = &engine_float,
-          .method = WH_RK4,
-          .compensated = true,
-          .stabilized = true,
-          .step_s = STEP_S}},
-        {"double compensated, stabilized",
-         {.kind = &engine_double,
-          .method = WH_RK4,
-          .compensated = true,
-          .stabilized = true,
-          .step_s = STEP_S}},
-        {"double compensated, stabilized",
-         {.kind = &engine_double,
-          .method = WH_NYSTROEM5,
-          .compensated = true,
-          .stabilized = true,
-          .step_s = STEP_S}}};
+        {"float compensated, stabilized", STABILIZED(engine_float, WH_RK4)},
+        {"double compensated, stabilized", STABILIZED(engine_double, WH_RK4)},
+        {"double compensated, stabilized", STABILIZED(engine_double, WH_NYSTROEM5)}};
     if (!(wanted >= 1e5 && wanted <= 1e11)) {
         fputs("usage: long_runs [STEPS [WAY [SUBJECT]]], 1e5 to 1e11; both from 0, -1: all\n",
               stderr);
