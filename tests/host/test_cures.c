@@ -13,12 +13,13 @@
 
 #include "host/commands/commands.h"
 #include "motion.h"
+#include "named_cures.h"
 
 #include "unity.h"
 
 void suite_cures(void);
 
-enum { TEXT = 900, WORD = 40, CURES = 4 };
+enum { TEXT = 900 };
 
 /* Of the energy's range: off by more, a cure is none. */
 #define CURED 5e-3
@@ -34,15 +35,6 @@ typedef struct ruined {
     const char *number;
     char text[TEXT];
 } ruined;
-
-/* As the warnings write it. */
-typedef struct named {
-    char step[WORD];
-    char method[WORD];
-    bool compensated;
-    bool in_double;
-    bool tried;
-} named;
 
 static const char *const bodies[KINDS] = {
     "T = M*(x'^2 + y'^2)/2\nV = -E/sqrt(x^2 + y^2)\n",
@@ -108,75 +100,15 @@ static ruined drawn(dice *d, ruined_kind kind) {
     return r;
 }
 
-static void read_word(const char *from, const char *option, char word[WORD]) {
-    const char *at = strstr(from, option);
-    word[0] = '\0';
-    if (at != NULL) {
-        sscanf(at + strlen(option), " %39[a-z0-9.-]", word);
-    }
-}
-
-/* Options as they stand in one piece of a hint. */
-static void read_options(char *piece, bool tried, named *to) {
-    read_word(piece, "--step", to->step);
-    read_word(piece, "--method", to->method);
-    to->compensated = strstr(piece, "--compensated") != NULL;
-    to->in_double = strstr(piece, "--number double") != NULL;
-    to->tried = tried;
-}
-
-/* All cures that are named, list[CURES]; returns how many. */
-static int read_cures(const char *err, named *list) {
-    int count = 0;
-    char text[SAID_SIZE];
-    snprintf(text, sizeof text, "%s", err);
-    char *rest = NULL;
-    for (char *line = strtok_r(text, "\n", &rest); line != NULL;
-         line = strtok_r(NULL, "\n", &rest)) {
-        char *would = strstr(line, " would do");
-        char *should = strstr(line, " should do (not tried");
-        char *resolves = strstr(line, " resolves it;");
-        char *end = would != NULL ? would : should != NULL ? should : resolves;
-        if (strncmp(line, "hint: ", 6) != 0 || end == NULL) {
-            continue;
-        }
-        const char *other = strstr(end, ", or --method ");
-        if (other != NULL && count < CURES) {
-            read_options(strstr(end, "--method"), strstr(other, "(not tried)") == NULL,
-                         &list[count++]);
-            list[count - 1].step[0] = '\0';
-        }
-        *end = '\0';
-        char *begin = strstr(line, "--");
-        TEST_ASSERT_NOT_NULL_MESSAGE(begin, err);
-        if (count < CURES) {
-            read_options(begin, should == NULL, &list[count++]);
-        }
-    }
-    return count;
-}
-
-static void run(const ruined *r, const named *with, said *what) {
-    const bool other = with != NULL && with->method[0] != '\0';
-    const char *words[12] = {
-        model_keep(r->text), "--quiet",  "--number",
-        r->number,           "--method", other ? with->method : wh_methods[r->method].word};
-    int count = 6;
-    if (with != NULL && with->in_double) {
-        words[3] = "double";
-    }
-    if (with != NULL && with->step[0] != '\0') {
-        words[count++] = "--step";
-        words[count++] = with->step;
-    }
-    if (with != NULL && with->compensated) {
-        words[count++] = "--compensated";
-    }
+static void run(const ruined *r, const named_cure *with, said *what) {
+    static const named_cure as_it_is;
+    const char *words[12] = {model_keep(r->text), "--quiet"};
+    named_words(with != NULL ? with : &as_it_is, wh_methods[r->method].word, r->number, words, 2);
     command_say(command_run, words, what);
 }
 
 /* What of the energy is missing at the end, of what moves. */
-static double missing(const ruined *r, const named *with) {
+static double missing(const ruined *r, const named_cure *with) {
     wh_method method = r->method;
     for (int m = 0; m < WH_METHODS; m++) {
         method = strcmp(wh_methods[m].word, with->method) == 0 ? (wh_method)m : method;
@@ -213,10 +145,10 @@ static void test_cures_were_tried(void) {
     for (unsigned i = 0; i < cases; i++) {
         const ruined r = drawn(&d, (ruined_kind)(i % KINDS));
         said what;
-        named list[CURES];
+        named_cure list[NAMED_CURES];
         run(&r, NULL, &what);
         const bool is_told = what.err[0] != '\0';
-        const int count = read_cures(what.err, list);
+        const int count = named_cures(what.err, list);
         told += is_told ? 1 : 0;
         for (int k = 0; k < count; k++) {
             said again;
