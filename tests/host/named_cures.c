@@ -66,6 +66,18 @@ int named_cures(const char *err, named_cure *list) {
     return count;
 }
 
+bool named_with_step(const char *err, named_cure *cure) {
+    named_cure list[NAMED_CURES];
+    const int count = named_cures(err, list);
+    for (int k = 0; k < count; k++) {
+        if (list[k].step[0] != '\0') {
+            *cure = list[k];
+            return true;
+        }
+    }
+    return false;
+}
+
 int named_words(const named_cure *cure, const char *method, const char *number, const char **words,
                 int count) {
     words[count++] = "--number";

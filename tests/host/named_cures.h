@@ -19,6 +19,9 @@ typedef struct named_cure {
  * "A should do (not tried: ...)", "A resolves it; ..."; an A may be "A1 or A2". */
 int named_cures(const char *err, named_cure *list);
 
+/* The first of them that names a step; false without one. */
+bool named_with_step(const char *err, named_cure *cure);
+
 /* The command's words for it, behind words[count], up to a NULL; `number` where it names none. Returns how many there are then. */
 int named_words(const named_cure *cure, const char *method, const char *number, const char **words,
                 int count);

@@ -155,20 +155,6 @@ static void run(const char *file, const char *method, const char *step, bool is_
     command_say(command_run, words, what);
 }
 
-/* The word behind the last `option` in what was said, into word[]; false without one. */
-static bool option_said(const char *said_text, const char *option, char word[40]) {
-    bool found = false;
-    for (const char *next = said_text; (next = strstr(next, option)) != NULL; next++) {
-        char text[40];
-        if (sscanf(next + strlen(option), " %39[a-z0-9.-]", text) == 1 &&
-            (text[0] <= '9') == (option[2] == 's')) { /* "a smaller --step may" names none */
-            strcpy(word, text);
-            found = true;
-        }
-    }
-    return found;
-}
-
 static wh_method method_named(const char *word) {
     int m = 0;
     while (m < WH_METHODS && strcmp(wh_methods[m].word, word) != 0) {
@@ -318,23 +304,17 @@ static void test_passing_a_pole_is_told(void) {
                  what.err);
         if (off_m > 0.02) {
             off_course++;
-            char step[40];
+            named_cure is;
             TEST_ASSERT_TRUE_MESSAGE(strstr(what.err, "these coordinates are singular") != NULL,
                                      about);
             TEST_ASSERT_TRUE_MESSAGE(strstr(what.err, "the inertia of 'phi'") != NULL &&
                                          strstr(what.err, "nearest at theta = ") != NULL,
                                      about);
-            TEST_ASSERT_TRUE_MESSAGE(option_said(what.err, "--step", step), about);
-            const bool compensated = strstr(what.err, "--compensated") != NULL;
-            const double cured_m = flight_off(text, end, said_step_s(step), is_float, compensated);
-            const char *words[] = {model_keep(text),
-                                   "--quiet",
-                                   "--number",
-                                   is_float ? "float" : "double",
-                                   "--step",
-                                   step,
-                                   compensated ? "--compensated" : NULL,
-                                   NULL};
+            TEST_ASSERT_TRUE_MESSAGE(named_with_step(what.err, &is), about);
+            const double cured_m =
+                flight_off(text, end, said_step_s(is.step), is_float, is.compensated);
+            const char *words[12] = {model_keep(text), "--quiet"};
+            named_words(&is, "rk4", is_float ? "float" : "double", words, 2);
             command_say(command_run, words, &what);
             TEST_ASSERT_EQUAL_STRING_MESSAGE("", what.err, about);
             TEST_ASSERT_TRUE_MESSAGE(cured_m < 2e-3 && cured_m < 0.1 * off_m, about);
@@ -369,12 +349,12 @@ static void test_swings_of_a_system_are_told(void) {
                  w * w, hw / w, hw / w * steps);
         run(model_keep(text), "rk4", NULL, i % 2 == 0, &what);
         if (lost > 0.02) {
-            char step[40];
+            named_cure is;
             TEST_ASSERT_TRUE_MESSAGE(strstr(what.err, "the step is too coarse for") != NULL, text);
             TEST_ASSERT_TRUE_MESSAGE(strstr(what.err, "rad/s") != NULL, what.err);
-            TEST_ASSERT_TRUE_MESSAGE(option_said(what.err, "--step", step), what.err);
-            TEST_ASSERT_TRUE(pow(w * said_step_s(step), 5.0) * hw * steps / 72.0 < 1e-4);
-            run(model_keep(text), "rk4", step, i % 2 == 0, &what);
+            TEST_ASSERT_TRUE_MESSAGE(named_with_step(what.err, &is), what.err);
+            TEST_ASSERT_TRUE(pow(w * said_step_s(is.step), 5.0) * hw * steps / 72.0 < 1e-4);
+            run(model_keep(text), "rk4", is.step, i % 2 == 0, &what);
             TEST_ASSERT_EQUAL_STRING_MESSAGE("", what.err, text);
         } else if (lost < 1e-3) {
             TEST_ASSERT_EQUAL_STRING_MESSAGE("", what.err, text);
@@ -387,14 +367,14 @@ static void test_swings_of_a_system_are_told(void) {
 
 /* It rests after eight bounces of some 25000, and says so; with what it says would do it is silent. */
 static void expect_ball_between(said *what, const char **words) {
-    char step[40];
+    named_cure is;
     const char *again[8];
     TEST_ASSERT_NOT_NULL_MESSAGE(
         strstr(what->err, "1 step of 1000, the first at t = 0 s, had more"), what->err);
-    TEST_ASSERT_TRUE_MESSAGE(option_said(what->err, "--step", step), what->err);
+    TEST_ASSERT_TRUE_MESSAGE(named_with_step(what->err, &is), what->err);
     memcpy(again, words, 4 * sizeof *words);
     again[4] = "--step";
-    again[5] = step;
+    again[5] = is.step;
     again[6] = NULL;
     command_say(command_run, again, what);
 }
