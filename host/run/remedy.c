@@ -54,17 +54,20 @@ static const char *number_text(const remedy *r) {
     return r->what.in_double ? " --number double" : "";
 }
 
-/* From this one on down; where trying ends, the next one untried, unless it is too fine to be believed so. */
-static remedy finer_until_it_does(const judged *j, cures *c, cure_wish first, bool compensates) {
+/* From this one on down; where trying ends, the next one untried, unless it is too fine to be believed so. A first one that was
+ * seen to do something is believed. */
+static remedy finer_until_it_does(const judged *j, cures *c, cure_wish first, bool seen) {
     remedy r = {.what = first};
     while (r.what.step_s * STEPS_MORE_TRIED > j->watch->step_s) {
-        r.what = compensates ? compensated_if_fine(j, r.what) : r.what;
+        r.what = seen ? compensated_if_fine(j, r.what) : r.what;
         r.outcome = try_either(j, c, &r.what);
         if (r.outcome == CURE_DOES) {
             return r;
         }
         if (r.outcome == CURE_NOT_TRIED) {
-            return r.what.step_s * STEPS_MORE > j->watch->step_s ? r : none;
+            const bool believed = r.what.step_s * STEPS_MORE > j->watch->step_s ||
+                                  (seen && r.what.step_s >= first.step_s);
+            return believed ? r : none;
         }
         r.what.step_s = linearised_nice_s(0.7 * r.what.step_s);
     }

@@ -40,7 +40,8 @@ static int read_alternatives(char *piece, bool tried, named_cure *list, int coun
 }
 
 int named_cures(const char *err, named_cure *list) {
-    static const char *const says[] = {" would do", " should do", " resolves it;"};
+    static const char *const says[] = {" would do", " should do", " resolves it;",
+                                       " resolves it ("};
     int count = 0;
     char text[SAID_SIZE];
     snprintf(text, sizeof text, "%s", err);
@@ -55,7 +56,8 @@ int named_cures(const char *err, named_cure *list) {
             continue;
         }
         char *other = strstr(end, ", or --");
-        const bool tried = strncmp(end, says[1], strlen(says[1])) != 0;
+        const bool tried = strncmp(end, says[1], strlen(says[1])) != 0 &&
+                           strncmp(end, says[3], strlen(says[3])) != 0;
         *end = '\0';
         char *begin = strstr(line, "--");
         TEST_ASSERT_NOT_NULL_MESSAGE(begin, err);
