@@ -6,6 +6,7 @@
 #include "energy.h"
 #include "host/base/room.h"
 #include "noise_records.h"
+#include "stabilizing.h"
 #include "tables.h"
 
 /* --- the lists -----------------------------------------------------------------------------------*/
@@ -190,65 +191,6 @@ static bool steps_need_no_turns(const program *p, const equations *e, diags *err
     return true;
 }
 
-static const char no_stabilized[] = "leave out --stabilized";
-
-/* What --stabilized wants before there are books: an energy, and steps of stages without events: what is done to rates behind a
- * step would be done behind its contacts' back. */
-static bool can_stabilize(const program *p, const equations *e, const image_settings *settings,
-                          diags *errors) {
-    const mechanism *m = e->instance->mechanism;
-    if (m->is_system) {
-        diag_error(errors, m->at, no_stabilized,
-                   "--stabilized gives back what the energy drifts by: '%s' is given by equations "
-                   "and has none",
-                   m->name);
-    } else if (p->contacts != NULL) {
-        const contact_statement *first = p->contacts->row[0].from;
-        diag_error(errors, first->at, "leave it out, --without; or leave out --stabilized",
-                   "--stabilized: '%s' has events, and their energies are taken as they happen",
-                   m->name);
-    } else if (settings->matrix != MATRIX_NONE) {
-        diag_error(errors, m->at, "leave out --matrix, or --stabilized",
-                   "--stabilized wants the stages of a step, and a matrix has none");
-    } else if (wh_methods[settings->method].takes == WH_NO_RATES) {
-        diag_error(errors, m->at, "choose another --method, or leave out --stabilized",
-                   "--stabilized keeps books, and %s none: its kicks know no rates",
-                   wh_methods[settings->method].title);
-    } else if (p->layout.form != WH_SECOND_ORDER) {
-        diag_error(errors, m->at, "--without conserve, or leave out --stabilized",
-                   "--stabilized keeps books, which a coordinate that is integrated from its "
-                   "momentum has not");
-    } else if (p->integral != NULL) {
-        diag_error(errors, m->at, no_stabilized,
-                   "--stabilized: the kinetic energy of '%s' is no quadratic form of its rates",
-                   m->name);
-    } else {
-        return true;
-    }
-    return false;
-}
-
-/* And of the books: nothing that gives energy or takes it. */
-static bool is_conservative(const program *p, const equations *e, diags *errors) {
-    const ledger_lists *l = p->ledger;
-    for (int i = 0; i < l->smooth; i++) {
-        if (l->entry[i].account == 0) {
-            diag_error(errors, l->entry[i].term->at,
-                       "leave it out, --without; or leave out --stabilized",
-                       "--stabilized is for what nothing drives or damps: this does");
-            return false;
-        }
-    }
-    if (l->inputs > 0) {
-        diag_error(errors, e->instance->mechanism->at, no_stabilized,
-                   "--stabilized is for what nothing drives or damps: the energies of '%s' name an "
-                   "input",
-                   e->instance->mechanism->name);
-        return false;
-    }
-    return true;
-}
-
 program *program_make(const equations *e, const bool *conserve, const image_settings *settings,
                       diags *errors) {
     const int n = e->count;
@@ -291,11 +233,12 @@ program *program_make(const equations *e, const bool *conserve, const image_sett
         p->contacts = more > 0 ? contact_lists_make(map, &s, errors) : NULL;
         good = more == 0 || p->contacts != NULL;
         const int contacts = p->contacts != NULL ? p->contacts->count : 0;
-        good = good && (!settings->stabilized || can_stabilize(p, e, settings, errors));
+        good = good && (!settings->stabilized || stabilizing_possible(p, e, settings, errors));
         p->ledger_asked = e->instance->ledger || settings->stabilized;
         if (good && p->ledger_asked) {
             p->ledger = ledger_lists_make(map, p->integral, contacts, errors);
-            good = p->ledger != NULL && (!settings->stabilized || is_conservative(p, e, errors));
+            good =
+                p->ledger != NULL && (!settings->stabilized || stabilizing_conserves(p, e, errors));
         } else if (good && p->contacts != NULL && e->instance->balance) {
             diags *unsaid = diags_new();
             p->ledger = ledger_lists_make(map, p->integral, contacts, unsaid);
