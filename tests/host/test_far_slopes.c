@@ -1,6 +1,7 @@
 /* test_far_slopes.c: runs far from the origin whose slopes, not whose steps, have too few digits: roots, quotients and
  * exponentials of differences. The reference is the same mechanism at the origin, in double: nothing else is different. What is
  * off is told, what is named as a cure is none that leaves it off, and nothing is trusted to the end that is not right. */
+#include <float.h>
 #include <math.h>
 #include <stdbool.h>
 #include <stdio.h>
@@ -159,12 +160,20 @@ static void take_cure(const slope_case *c, const char *text, const char *number,
     TEST_ASSERT_TRUE_MESSAGE(off_by(&m, reference) < 0.05, warned->err);
 }
 
+/* Is nothing told but that the law's own constants, (D/l)^2 + 1, may have lost their 1? They may by that much, and need not. */
+static bool is_luck(const slope_case *c, bool is_float, const char *err) {
+    const char *warning = strstr(err, "whirl run: warning: ");
+    return !is_float && warning != NULL && strstr(warning, "constants of 'far' are sums") != NULL &&
+           strstr(warning + 1, "whirl run: ") == NULL && c->far * c->far * DBL_EPSILON > 1e-4;
+}
+
 static void hold(bool is_float) {
     dice d = dice_of(is_float ? "far slopes in float" : "far slopes in double", 4111);
     const unsigned cases = dice_cases(few_or_all(usual_or(100, 20), 600));
     unsigned told = 0;
     unsigned ruined = 0;
     unsigned fine = 0;
+    unsigned lucky = 0;
     for (unsigned i = 0; i < cases; i++) {
         const slope_case c = draw(&d, i, draw_tens(&d, i, is_float));
         const double far_m = c.far * c.length_m;
@@ -194,15 +203,16 @@ static void hold(bool is_float) {
         TEST_ASSERT_FALSE_MESSAGE(to_the_end && off > 5e-3 && c.far < TOLD_MOST, text);
         if (off < (is_float ? 3e-3 : 5e-4)) { /* the double run beside it has as few digits */
             fine++;
-            TEST_ASSERT_FALSE_MESSAGE(warns, what.err);
+            lucky += is_luck(&c, is_float, what.err) ? 1U : 0U;
+            TEST_ASSERT_TRUE_MESSAGE(!warns || is_luck(&c, is_float, what.err), what.err);
         }
         told += warns ? 1U : 0U;
         take_cure(&c, text, is_float ? "float" : "double", &what, &reference, far_m);
     }
     model_drop();
-    printf("  %s: of %u far runs %u more than 3 %% off, %u right, %u warned of\n",
-           is_float ? "float" : "double", cases, ruined, fine, told);
-    TEST_ASSERT_TRUE(ruined > cases / 20 && fine > cases / 5);
+    printf("  %s: of %u far runs %u more than 3 %% off, %u right (%u by luck), %u warned of\n",
+           is_float ? "float" : "double", cases, ruined, fine, lucky, told);
+    TEST_ASSERT_TRUE(ruined > cases / 20 && fine > cases / 5 && lucky <= fine / 10);
 }
 
 static void test_in_float(void) { hold(true); }
