@@ -43,7 +43,8 @@ struct wh_ledger_form {
     uint16_t smooth;        /* entries of powers and forces */
     uint16_t
         entries; /* smooth + contacts * (1 + coordinates) + inputs + stabilized, <= WH_LEDGER_MAX */
-    uint8_t accounts;    /* 1 + all coordinates + inputs: one is kept for each of those */
+    uint8_t
+        accounts; /* 1 + all coordinates + inputs + stabilized: a word is kept for each of those */
     uint8_t coordinates; /* integrated coordinates, of which */
     uint8_t angles;      /* are kept as turn angles */
     uint8_t inputs;
@@ -75,7 +76,13 @@ WH_INLINE unsigned wh_ledger_account(const wh_ledger_form *form, unsigned entry)
 
 /* The inputs of the last step, [inputs], behind the levels at the start. */
 WH_INLINE wh_real *wh_ledger_kept(const wh_ledger_form *form, const wh_state *state) {
-    return state->ledger + 2U * form->entries + (unsigned)form->accounts - form->inputs;
+    return state->ledger + 2U * form->entries + (unsigned)form->accounts - form->inputs -
+           form->stabilized;
+}
+
+/* The most energy so far that the rates would get if they grew by all of themselves, where form->stabilized; the last word. */
+WH_INLINE wh_real *wh_ledger_most(const wh_ledger_form *form, const wh_state *state) {
+    return state->ledger + 2U * form->entries + (unsigned)form->accounts - 1U;
 }
 
 /* Exchange input k of form->input and what was kept of it. */

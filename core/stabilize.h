@@ -2,15 +2,17 @@
  * method's own error, or rounding's, would sum up. Part of ledger_step.h.
  *
  * The books say by how much the energy has changed more than what went in and out (ledger.h): the drift D, in which what was
- * given back before does not count. Rates that are all made longer by a part s change the energy by s sum q_i' p_i, p_i the momenta, where the kinetic energy is a quadratic form of the rates; and the directions of motion, what stands still and
- * the ratios of momenta stay. So each step sets
+ * given back before does not count. Rates that are all made longer by a part s change the energy by s P, P = sum q_i' p_i with
+ * the momenta p_i, where the kinetic energy is a quadratic form of the rates; and the directions of motion, what stands still
+ * and the ratios of momenta stay. So each step sets
  *
- *     s = -D / (1024 sum q_i' p_i),     at most 2^-20 in size,
+ *     s = -D / (1024 max P),     at most 2^-20 in size,
  *
  * which is x' = f(x) - g F(x) D(x) with F along the rates (Ascher, Chin & Reich, Stabilization of DAEs and invariant manifolds,
  * Numerische Mathematik 67, 1994). A thousandth of the drift, and not all of it, for a float's D is noise of its last digits:
- * that is averaged over a thousand steps, and the rest goes into the carries of compensated sums. The bound keeps the motion
- * where it turns back, for there no rate has any energy to give.
+ * that is averaged over a thousand steps, and the rest goes into the carries of compensated sums. max P is the most that P has
+ * been, so that s is the same where a swing turns back: of the P of that moment, a small one, all would be given to what is
+ * slow and goes on.
  *
  * One number says nothing of where energy was lost: what a fast motion lost is given to all. So what is given back is an entry of
  * the books, and to be looked at as the loss that it makes up for. It is for motions that nothing drives or damps: elsewhere D
@@ -35,8 +37,10 @@
 
 /* Behind a step and its entries. `level` [form->accounts] is room to work in. */
 WH_INLINE void wh_stabilize(const wh_ledger_form *form, wh_state *state, wh_real *level) {
-    if (state->steps == 0) {
-        return; /* the books begin */
+    wh_real *most = wh_ledger_most(form, state);
+    if (state->steps == 0) { /* the books begin */
+        *most = WH_R(0.0);
+        return;
     }
     const unsigned n = form->coordinates;
     const bool compensated = state->carry != NULL;
@@ -48,13 +52,13 @@ WH_INLINE void wh_stabilize(const wh_ledger_form *form, wh_state *state, wh_real
     for (unsigned i = 0; i < n; i++) {
         gain += rate[i] * level[1 + i];
     }
+    *most = gain > *most ? gain : *most;
     if (!(gain > WH_R(0.0)) || !(WH_ABS(drift) < WH_ABSURD)) {
         return;
     }
-    const wh_real most = WH_STABILIZE_MOST * gain;
-    wh_real wanted = -drift * WH_STABILIZE_SHARE;
-    wanted = wanted > most ? most : wanted < -most ? -most : wanted;
-    const wh_real part = wanted / gain;
+    wh_real part = -drift * WH_STABILIZE_SHARE / *most;
+    part = part > WH_STABILIZE_MOST ? WH_STABILIZE_MOST
+                                    : (part < -WH_STABILIZE_MOST ? -WH_STABILIZE_MOST : part);
     wh_real given = WH_R(0.0);
     for (unsigned i = 0; i < n; i++) {
         const wh_real before = rate[i];

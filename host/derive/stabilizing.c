@@ -23,6 +23,11 @@ bool stabilizing_possible(const program *p, const equations *e, const image_sett
         diag_error(errors, m->at, "choose another --method, or leave out --stabilized",
                    "--stabilized keeps books, and %s none: its kicks know no rates",
                    wh_methods[settings->method].title);
+    } else if (settings->method == WH_SEMI_IMPLICIT_EULER) {
+        diag_error(errors, m->at, "choose another --method, or leave out --stabilized",
+                   "--stabilized gives back what the energy drifts by, and with %s it goes up and "
+                   "down about the right one instead",
+                   wh_methods[settings->method].title);
     } else if (p->layout.form != WH_SECOND_ORDER) {
         diag_error(errors, m->at, "--without conserve, or leave out --stabilized",
                    "--stabilized keeps books, which a coordinate that is integrated from its "

@@ -74,7 +74,8 @@ static inline wh_ledger_form core_ledger_form(const image *im, const uint8_t *ac
                             .input = input,
                             .smooth = (uint16_t)l->smooth,
                             .entries = (uint16_t)l->entries,
-                            .accounts = (uint8_t)(l->accounts + l->inputs),
+                            .accounts =
+                                (uint8_t)(l->accounts + l->inputs + im->settings.stabilized),
                             .coordinates = (uint8_t)im->coordinates,
                             .angles = (uint8_t)im->angles,
                             .inputs = (uint8_t)l->inputs,
@@ -86,7 +87,8 @@ static inline wh_ledger_form core_ledger_form(const image *im, const uint8_t *ac
 static inline int core_memory_reals(const image *im) {
     const image_ledger *l = &im->ledger;
     const int carried = im->settings.compensated ? im->angles + im->reals : 0;
-    const int in_books = l->kept ? 2 * l->entries + l->accounts + l->inputs : 0;
+    const int in_books =
+        l->kept ? 2 * l->entries + l->accounts + l->inputs + im->settings.stabilized : 0;
     return im->reals + carried + im->inputs + im->held + in_books;
 }
 

@@ -374,6 +374,7 @@ says 2 "contacts.whirl:[0-9]+:[0-9]+: error: --stabilized: 'ball' has events" ru
 says 2 "error: --stabilized gives back .* 'lorenz' is given by equations" run "tests/mechanisms/lorenz.whirl" --stabilized
 says 2 'thomson.whirl:[0-9]+:[0-9]+: error: --stabilized is for what nothing drives or damps: this does' run thomson_a --stabilized
 says 2 "error: --stabilized keeps books, and leapfrog none" run docs/hard/long.whirl:pendulum_swings --stabilized --method leapfrog
+says 2 "error: --stabilized gives back what the energy drifts by, and with semi-implicit Euler" run docs/hard/long.whirl:pendulum_swings --stabilized --method semi-implicit-euler
 prints '^  given back \(--stabilized\) ' run docs/hard/long.whirl:gear_turns --stabilized
 says 2 'error: --stabilized wants the stages of a step' run two_mass_relative --stabilized --matrix exact
 says 2 'error: there is no --stabilized in fixed point' run docs/hard/long.whirl:gear_turns --stabilized --number fixed

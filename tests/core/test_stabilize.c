@@ -22,12 +22,13 @@ static void flight_levels(const void *model, const wh_angle *angle, const wh_rea
 }
 
 static const wh_ledger_form books = {
-    .levels = flight_levels, .entries = 1, .accounts = 3, .coordinates = 2, .stabilized = true};
+    .levels = flight_levels, .entries = 1, .accounts = 4, .coordinates = 2, .stabilized = true};
 
 typedef struct flight {
     wh_real real[4]; /* places, rates */
     wh_real carry[4];
-    wh_real ledger[5]; /* given back, its carry, the levels at the start */
+    wh_real ledger
+        [6]; /* given back, its carry, the levels at the start, the most of the rates' energy */
     wh_state state;
 } flight;
 
@@ -98,6 +99,34 @@ static void test_it_is_entered(void) {
     }
 }
 
+/* Where a swing turns back, rates change by no larger part than where it is fastest: what is slow and goes on gets no more
+ * there. And a faster one is the new measure. */
+static void test_the_fastest_so_far_is_the_measure(void) {
+    uint32_t seed = 20261130;
+    for (unsigned i = 0; i < DRAWN; i++) {
+        flight f;
+        const wh_real fast = WH_R(2.0) + drawn(&seed);
+        const wh_real slow = WH_R(0.1) * drawn(&seed);
+        const wh_real drift = fast * fast * drawn(&seed) * WH_R(0.0005);
+        set_out(&f, fast, slow, drift, true);
+        give_back(&f);
+        const wh_real part = (f.real[3] - slow + f.carry[3]) / slow;
+        /* so much later it turns back; the books say the same */
+        const wh_real most = f.ledger[5];
+        set_out(&f, WH_R(0.001) * fast, slow, drift, true);
+        f.ledger[5] = most;
+        give_back(&f);
+        const wh_real then = (f.real[3] - slow + f.carry[3]) / slow;
+        TEST_ASSERT_TRUE(near(most, fast * fast + slow * slow, WH_R(1e-5)));
+        TEST_ASSERT_TRUE(f.ledger[5] == most);
+        TEST_ASSERT_TRUE(WH_ABS(then - part) <= WH_R(0.02) * WH_ABS(part) + WH_R(2e-9));
+        set_out(&f, WH_R(2.0) * fast, slow, drift, true);
+        f.ledger[5] = most;
+        give_back(&f);
+        TEST_ASSERT_TRUE(f.ledger[5] > WH_R(3.0) * most);
+    }
+}
+
 /* Rates change by 2^-20 of themselves at most, whichever way. */
 static void test_there_is_a_bound(void) {
     for (unsigned i = 0; i < 4; i++) {
@@ -133,6 +162,7 @@ static void test_where_nothing_is_to_be_given(void) {
 void suite_stabilize(void) {
     RUN_TEST(test_a_part_of_the_drift_is_given_back);
     RUN_TEST(test_it_is_entered);
+    RUN_TEST(test_the_fastest_so_far_is_the_measure);
     RUN_TEST(test_there_is_a_bound);
     RUN_TEST(test_where_nothing_is_to_be_given);
 }

@@ -25,7 +25,7 @@ typedef struct charge {
 static const char *const potentials[] = {"B*(x*y' - y*x')/2", "B*x*y'", "-B*y*x'"};
 enum { POTENTIALS = sizeof potentials / sizeof potentials[0] };
 
-/* What it says is left over, of the largest entry, and whether it warned. */
+/* What it says is left over, of the largest entry, and whether it warned; all of it where it leaves all bounds. */
 static double left_over(const charge *c, const char *potential, double x0, bool *warned) {
     char text[700];
     said what;
@@ -38,6 +38,10 @@ static double left_over(const charge *c, const char *potential, double x0, bool 
              300.0 * c->step_s);
     const char *words[] = {model_keep(text), "--method", c->method, NULL};
     command_say(command_run, words, &what);
+    if (what.status == 1 && strstr(what.err, "the run diverged") != NULL) {
+        *warned = true;
+        return 1.0;
+    }
     TEST_ASSERT_EQUAL_INT_MESSAGE(0, what.status, what.err);
     const char *at = strstr(what.out, "\nenergy left over ");
     TEST_ASSERT_NOT_NULL_MESSAGE(at, what.out);
