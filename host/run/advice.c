@@ -224,6 +224,28 @@ static void say_jumped(FILE *out, advice *a) {
             finer);
 }
 
+static void say_between(FILE *out, advice *a) {
+    const judged *j = &a->judged;
+    const between_found found = between_seen(j->watch->between);
+    if (found.component < 0) {
+        return;
+    }
+    const component c = image_component(j->image, found.component);
+    const watch_look fine = {.fine_step_s = found.fine_step_s};
+    char step[REMEDY_TEXT];
+    const cure_outcome outcome = remedy_of_look(j, &a->cures, &fine, step);
+    fprintf(
+        out,
+        "whirl run: warning: from t = %.6g s on more goes on between the stages of a step than "
+        "they see: in the mean, %s%.*s is %.2g %% of its largest off\n"
+        "hint: what drives it is too fast for the step, or of a period that divides it; %s %s\n",
+        found.begin_s, j->image->unknown[c.unknown].name, c.primes + 1, "''''''''''",
+        100.0 * found.off, step,
+        outcome == CURE_DOES        ? "would do"
+        : outcome == CURE_NOT_TRIED ? "should do (not tried: that takes long)"
+                                    : "sees that, but is not all that it takes");
+}
+
 static void say_swing(FILE *out, advice *a) {
     judged *j = &a->judged;
     char carried[CARRIED_TEXT];
@@ -249,6 +271,7 @@ void advice_say(FILE *out, advice *a) {
     advice_numbers_say(out, &a->judged);
     say_jumped(out, a);
     say_singular(out, a);
+    say_between(out, a);
     say_swing(out, a);
 }
 

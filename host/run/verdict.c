@@ -43,13 +43,15 @@ void verdict_end(verdict *v, const void *run, bool failed, const volatile sig_at
         return;
     }
     v->retrial = retrial_of(v->busy, v->kind, v->balance.known ? v->balance.largest_J : 0.0, stop);
-    v->against = (judged_blurred(&v->about.judged) ? VERDICT_BIT(VERDICT_MASS) : 0U) |
-                 (judged_numbers(&v->about.judged) ? VERDICT_BIT(VERDICT_FOLDED) : 0U) |
-                 (judged_lost(&v->about.judged) ? VERDICT_BIT(VERDICT_ENERGY) : 0U) |
-                 (judged_singular(&v->about.judged) ? VERDICT_BIT(VERDICT_SINGULAR) : 0U) |
-                 (jumped_some(v->watch->jumped) ? VERDICT_BIT(VERDICT_JUMPED) : 0U) |
-                 (judged_swing(&v->about.judged) ? VERDICT_BIT(VERDICT_SWING) : 0U) |
-                 (v->retrial.told ? VERDICT_BIT(VERDICT_CONTACTS) : 0U);
+    v->against =
+        (judged_blurred(&v->about.judged) ? VERDICT_BIT(VERDICT_MASS) : 0U) |
+        (judged_numbers(&v->about.judged) ? VERDICT_BIT(VERDICT_FOLDED) : 0U) |
+        (judged_lost(&v->about.judged) ? VERDICT_BIT(VERDICT_ENERGY) : 0U) |
+        (judged_singular(&v->about.judged) ? VERDICT_BIT(VERDICT_SINGULAR) : 0U) |
+        (jumped_some(v->watch->jumped) ? VERDICT_BIT(VERDICT_JUMPED) : 0U) |
+        (between_seen(v->watch->between).component >= 0 ? VERDICT_BIT(VERDICT_BETWEEN) : 0U) |
+        (judged_swing(&v->about.judged) ? VERDICT_BIT(VERDICT_SWING) : 0U) |
+        (v->retrial.told ? VERDICT_BIT(VERDICT_CONTACTS) : 0U);
 }
 
 /* What the energy's balance is to be warned of with: the contacts, where they are to blame. */

@@ -62,6 +62,7 @@ watch *watch_open(const image *im, const engine_kind *kind) {
     w->singular.inertia = 1.0;
     w->balanced = im->has_energies && w->smooth;
     w->jumped = jumped_open(im);
+    w->between = between_open(im, kind);
     return w;
 }
 
@@ -69,6 +70,7 @@ void watch_close(watch *w) {
     if (w != NULL) {
         field_close(w->field);
         jumped_close(w->jumped);
+        between_close(w->between);
         free(w->record);
         free(w->low);
         free(w->alike);
@@ -239,6 +241,7 @@ void watch_enter(watch *w, const engine_kind *kind, const books *b, const void *
     enter_record(w, x);
     find_ranges(w);
     jumped_enter(w->jumped, kind, run);
+    between_enter(w->between, kind, run);
     if (!w->smooth) {
         return;
     }

@@ -1,7 +1,7 @@
 /* watch.h: what a run that takes too coarse a step, or passes where its coordinates are singular, is known by while it goes
  * on; the judgement and the words are advice.h's.
  *
- * Four things, none of which touches the run:
+ * Five things, none of which touches the run:
  *
  *   - Records of the state, at most WATCH_RECORDS, evenly over the run so far, and the start. Where it is asked why, the
  *     motion is linearised there.
@@ -12,8 +12,9 @@
  *     powers change within a step, what two steps did to the energy is held against what the accurate way does from
  *     the same state. Summed, that is what the method took or gave, and only that.
  *   - Steps that jump over a pole of an expression (jumped.h).
+ *   - What goes on between the stages of a step (between.h).
  *
- * Scenes with contacts get records and poles alone: their forces are not in the right-hand side. */
+ * Scenes with contacts get records, poles and what is between stages alone: their forces are not in the right-hand side. */
 #ifndef RUN_WATCH_H
 #define RUN_WATCH_H
 

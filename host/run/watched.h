@@ -2,6 +2,7 @@
 #ifndef RUN_WATCHED_H
 #define RUN_WATCHED_H
 
+#include "between.h"
 #include "books.h"
 #include "field.h"
 #include "jumped.h"
@@ -72,6 +73,7 @@ typedef struct watch {
     uint64_t doubts;
     bool balanced;  /* false: not known */
     jumped *jumped; /* NULL: over nothing */
+    between *between;
 } watch;
 
 /* Of a step that is kept: the last WATCH_WINDOW + 1. */

@@ -153,6 +153,8 @@ static void say_against(const sitting *s) {
         [VERDICT_SINGULAR] = "passed where their coordinates are singular, in steps that do not "
                              "resolve it",
         [VERDICT_JUMPED] = "jumped over a place where an expression grows without bound",
+        [VERDICT_BETWEEN] =
+            "have something faster than the step, of which its stages see too little",
         [VERDICT_SWING] = "have a motion that the method takes or feeds",
         [VERDICT_CONTACTS] = "end elsewhere than in finer steps, as their contacts are too busy "
                              "for the step"};

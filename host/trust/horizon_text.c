@@ -131,6 +131,10 @@ static void print_verdict(FILE *out, const horizon *h) {
                 "bound: no motion gets through there\n",
                 t->jumped_s);
     }
+    if (t->between) {
+        fprintf(out, "more goes on between the stages of its steps than they see, so that half the "
+                     "step says nothing\n");
+    }
     print_invariants(out, h);
 }
 

@@ -213,6 +213,7 @@ typedef struct pair {
     void *finer;
     jumped *our_jumps;
     jumped *finer_jumps;
+    between *between; /* stages of ours */
     rounded rounded;
     uint64_t stride; /* steps between looks */
     double look_s;   /* the last look, */
@@ -285,6 +286,7 @@ static void run_both(pair *p) {
     uint64_t step = 0;
     jumped_enter(p->our_jumps, p->wish->kind, t->run);
     jumped_enter(p->finer_jumps, &engine_double, p->finer);
+    between_enter(p->between, p->wish->kind, t->run);
     look(p, 0.0);
     while (step < im->steps && !t->stopped) {
         t->status = p->wish->kind->step(t->run);
@@ -300,6 +302,7 @@ static void run_both(pair *p) {
             end_passages(t, p->look_s);
         }
         jumped_enter(p->our_jumps, p->wish->kind, t->run);
+        between_enter(p->between, p->wish->kind, t->run);
         if (t->jumped_s < 0.0 && (jumped_some(p->our_jumps) || jumped_some(p->finer_jumps))) {
             t->jumped_s = ratio_times(step, im->step);
             end_passages(t, p->look_s);
@@ -319,6 +322,17 @@ static void run_both(pair *p) {
         }
     }
     t->end_s = ratio_times(step, im->step);
+}
+
+/* What the stages of both may not see puts off both alike: from when on is not known. */
+static void forget_between(pair *p) {
+    twins *t = p->to;
+    t->between = between_seen(p->between).component >= 0;
+    for (int k = 1; k < t->columns && t->between; k++) {
+        passages_free(&t->column[k].off);
+        t->column[k].off = (passages){.count = 0};
+        passages_enter(&t->column[k].off, 0.0, (double)INFINITY);
+    }
 }
 
 twins *twins_run(const twins_wish *w) {
@@ -343,14 +357,17 @@ twins *twins_run(const twins_wish *w) {
               .finer = engine_double.start(&t->finer),
               .our_jumps = jumped_open(w->image),
               .finer_jumps = jumped_open(&t->finer),
+              .between = between_open(w->image, w->kind),
               .rounded = rounded_open(&t->finer),
               .stride = 1U + (w->image->steps - (w->image->steps > 0)) / TWINS_LOOKS};
     run_both(&p);
+    forget_between(&p);
     take_rounding(t, &p.rounded);
     take_places(t);
     rounded_close(&p.rounded);
     jumped_close(p.our_jumps);
     jumped_close(p.finer_jumps);
+    between_close(p.between);
     records_close(p.finers);
     engine_double.stop(p.finer);
     return t;

@@ -10,6 +10,7 @@
 #include <signal.h>
 
 #include "host/run/belief.h"
+#include "host/run/between.h"
 #include "host/run/jumped.h"
 #include "host/run/records.h"
 #include "passage.h"
@@ -58,6 +59,8 @@ typedef struct twins {
         overrun_s; /* behind this time one of them had more events in a step than it takes; below 0: neither */
     double
         jumped_s; /* in a step behind this time one of them jumped over a pole (host/run/jumped.h); below 0: neither */
+    bool
+        between; /* more goes on between the stages of its steps than they see (host/run/between.h) */
     bool stopped;
     books *books; /* NULL: none */
 } twins;

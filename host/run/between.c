@@ -1,0 +1,207 @@
+/* between.c: see between.h. */
+#include "between.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "field.h"
+#include "host/base/room.h"
+#include "host/number/functions.h"
+
+/* Steps that are asked, about; so many are to be seen, or of fewer half, but some. */
+#define PLACES 64U
+#define SEEN_ENOUGH 8U
+#define SEEN_LEAST 3U
+/* Off the straight line, of the largest slope: a swing of h w = 1 is an eighth. */
+#define BENT 0.1
+/* In the mean, of the largest slope, and of what each step is off. */
+#define TOLD 0.02
+#define ONE_WAY 0.5
+/* What a contact makes of a force is not that of its mean: so far from the line in the mean. */
+#define TOLD_BENT 0.25
+/* Parts of a step: 5, 21, 85, 341, 1365: what is a whole number of periods in two of them is so in none that is likely. */
+#define PARTS_FIRST 5
+#define PARTS_MOST 1365
+#define AGREED 0.01
+/* The golden ratio of 2^32. */
+#define GOLDEN 2654435769U
+
+struct between {
+    field *field;
+    double step_s;
+    bool proxy; /* the run's own end of a step says too little: taken again by Runge-Kutta 4 */
+    uint64_t stride;
+    uint64_t asked;
+    uint64_t seen;
+    uint64_t first; /* steps before the first that was seen */
+    int parts;      /* that the finest of them took */
+    double *from;   /* [n] before the step, */
+    double *to;     /* and behind it */
+    double *at;     /* [n] */
+    double *slope;  /* [3 * n] at both ends, and between */
+    double *sum;    /* [n] what the ends of steps were off by, */
+    double *all;    /* its sizes, */
+    double *size;   /* and the largest slope */
+};
+
+between *between_open(const image *im, const engine_kind *kind) {
+    between *b = room(1, sizeof *b);
+    b->field = field_open(im, kind);
+    b->step_s = im->step_s;
+    b->proxy = kind != &engine_double;
+    b->stride = 1U + im->steps / PLACES;
+    const int64_t n = b->field->n;
+    b->from = room(9 * n, sizeof *b->from);
+    b->to = b->from + n;
+    b->at = b->to + n;
+    b->slope = b->at + n;
+    b->sum = b->slope + 3 * n;
+    b->all = b->sum + n;
+    b->size = b->all + n;
+    return b;
+}
+
+void between_close(between *b) {
+    if (b != NULL) {
+        field_close(b->field);
+        free(b->from);
+        free(b);
+    }
+}
+
+/* Angles are given within a turn, and go less than half of one in a step. */
+static void unwrap(between *b) {
+    for (int i = 0; i < b->field->image->angles; i++) {
+        b->to[i] = b->from[i] + number_centred(b->to[i] - b->from[i], 6.283185307179586);
+    }
+}
+
+static bool is_highest(const between *b, int i) { return b->field->next[i] < 0; }
+
+/* The cubic through both ends of the step and the slopes there. */
+static void go_between(between *b, double share) {
+    const int n = b->field->n;
+    const double back = 1.0 - share;
+    for (int i = 0; i < n; i++) {
+        const double way = b->to[i] - b->from[i];
+        const double first = b->slope[i] * b->step_s - way;
+        const double last = way - b->slope[n + i] * b->step_s;
+        b->at[i] = b->from[i] + share * way + share * back * (back * first + share * last);
+    }
+}
+
+/* Is a slope there far from the line between the ends? Of what has none that counts it is not asked. */
+static bool is_bent(between *b, double share) {
+    const int n = b->field->n;
+    bool bent = false;
+    for (int i = 0; i < n; i++) {
+        const double *slope = b->slope + i;
+        const double line = slope[0] + share * (slope[n] - slope[0]);
+        for (int k = 0; k < 3; k++) {
+            b->size[i] = number_most(b->size[i], fabs(slope[k * (ptrdiff_t)n]));
+        }
+        bent =
+            bent || (is_highest(b, i) && fabs(slope[2 * (ptrdiff_t)n] - line) > BENT * b->size[i]);
+    }
+    return bent;
+}
+
+/* The step once more, in finer and finer parts, until two of them agree: b->at; false where none do. */
+static bool take_again(between *b) {
+    const int n = b->field->n;
+    double *last = room(n, sizeof *last);
+    bool agreed = false;
+    for (int parts = PARTS_FIRST; parts <= PARTS_MOST && !agreed; parts = 4 * parts + 1) {
+        memcpy(b->at, b->from, (size_t)n * sizeof *b->at);
+        field_go(b->field, b->step_s, parts, b->at);
+        agreed = parts > PARTS_FIRST;
+        for (int i = 0; i < n; i++) {
+            const double room_of = AGREED * BENT * b->step_s * b->size[i];
+            agreed = agreed && (!is_highest(b, i) || fabs(b->at[i] - last[i]) <= room_of);
+        }
+        if (agreed && parts > b->parts) {
+            b->parts = parts;
+        }
+        memcpy(last, b->at, (size_t)n * sizeof *last);
+    }
+    free(last);
+    return agreed;
+}
+
+static void note_bent(between *b, double share) {
+    const int n = b->field->n;
+    for (int i = 0; i < n; i++) {
+        const double *slope = b->slope + i;
+        const double line = slope[0] + share * (slope[n] - slope[0]);
+        const double off = b->step_s * fabs(slope[2 * (ptrdiff_t)n] - line);
+        b->sum[i] += is_highest(b, i) ? off : 0.0;
+        b->all[i] = b->sum[i];
+    }
+}
+
+static void compare(between *b, uint64_t begin, double share) {
+    const int n = b->field->n;
+    if (!take_again(b)) {
+        return;
+    }
+    b->first = b->seen == 0 ? begin : b->first;
+    b->seen++;
+    if (b->field->image->contacts > 0) {
+        note_bent(b, share);
+        return;
+    }
+    if (b->proxy) {
+        memcpy(b->to, b->from, (size_t)n * sizeof *b->to);
+        field_go(b->field, b->step_s, 1, b->to);
+    }
+    for (int i = 0; i < n; i++) {
+        const double off = b->to[i] - b->at[i];
+        if (is_highest(b, i) && isfinite(off)) {
+            b->sum[i] += off;
+            b->all[i] += fabs(off);
+        }
+    }
+}
+
+void between_enter(between *b, const engine_kind *kind, const void *run) {
+    const uint64_t steps = kind->steps(run);
+    const int angles = b->field->image->angles;
+    if (steps > 0 && steps % b->stride == 0) {
+        const double share = 0.1 + 0.8 * 0x1p-32 * (double)((uint32_t)(b->asked + 1U) * GOLDEN);
+        const int n = b->field->n;
+        kind->state(run, b->to, b->to + angles);
+        unwrap(b);
+        field_slope(b->field, b->from, b->slope);
+        field_slope(b->field, b->to, b->slope + n);
+        go_between(b, share);
+        field_slope(b->field, b->at, b->slope + 2 * (ptrdiff_t)n);
+        b->asked++;
+        if (is_bent(b, share)) {
+            compare(b, steps - 1U, share);
+        }
+    }
+    if ((steps + 1U) % b->stride == 0) {
+        kind->state(run, b->from, b->from + angles);
+    }
+}
+
+between_found between_seen(const between *b) {
+    between_found found = {.component = -1};
+    if (b->seen < SEEN_LEAST || (b->seen < SEEN_ENOUGH && 2U * b->seen < b->asked)) {
+        return found;
+    }
+    const double told = b->field->image->contacts > 0 ? TOLD_BENT : TOLD;
+    for (int i = 0; i < b->field->n && b->asked > 0; i++) {
+        const double off =
+            fabs(b->sum[i]) / ((double)b->asked * b->step_s * number_most(b->size[i], 1e-300));
+        const bool one_way = fabs(b->sum[i]) > ONE_WAY * b->all[i];
+        if (is_highest(b, i) && one_way && off > told && off > found.off) {
+            found = (between_found){.component = i,
+                                    .off = off,
+                                    .begin_s = (double)b->first * b->step_s,
+                                    .fine_step_s = b->step_s / b->parts};
+        }
+    }
+    return found;
+}

@@ -1,0 +1,174 @@
+/* test_between.c: what drives a motion between the stages of its steps. Round frequencies and round steps, so that many steps
+ * are whole numbers of periods and every stage sees the same: masses on springs, free ones and low passes, in closed form; and
+ * blocks with friction, which move in finer steps and rest in these. What is wrong is told or not trusted to the end, what is
+ * right is not told of, and what is named as a cure does. */
+#include <math.h>
+#include <stdbool.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "command.h"
+#include "host/commands/commands.h"
+#include "named_cures.h"
+
+#include "unity.h"
+
+void suite_between(void);
+
+#define TURN 6.283185307179586
+/* Of what it does in truth or in the run. */
+#define WRONG 0.05
+#define RIGHT 1e-3
+
+typedef enum driven_kind { SPRING, FREE, LOW_PASS, KINDS } driven_kind;
+
+typedef struct driven {
+    driven_kind kind;
+    double frequency_Hz;
+    double step_s;
+    double phase;
+    double rate; /* of the spring, rad/s; of the low pass, 1/s */
+    double until_s;
+    char text[700];
+} driven;
+
+static double round_of(dice *d, double low, double high) {
+    static const double digits[] = {1.0, 2.0, 2.5, 4.0, 5.0};
+    return digits[dice_one_of(d, 5)] * pow(10.0, floor(dice_between(d, low, high)));
+}
+
+static driven drawn(dice *d, driven_kind kind) {
+    driven m = {.kind = kind,
+                .frequency_Hz = round_of(d, 1.0, 4.0),
+                .step_s = round_of(d, -4.0, -1.0),
+                .phase = dice_between(d, 0.0, TURN)};
+    const double steps = 200.0 * (1 + dice_one_of(d, 5));
+    m.until_s = steps * m.step_s;
+    m.rate = dice_between(d, 1.0, 10.0) / m.until_s;
+    static const char *const bodies[KINDS] = {
+        "coordinate x [m]\ncoordinate t [s]\nT = 1 [kg]*x'^2/2 + 1e-9 [J]*t'^2/2\n"
+        "V = 1 [kg]*R^2*x^2/2\nQ(x) = 1 [N]*cos(W*t + p)\nscene s { start t' = 1\n",
+        "coordinate x [m]\ncoordinate t [s]\nT = 1 [kg]*x'^2/2 + 1e-9 [J]*t'^2/2\n"
+        "Q(x) = 1 [N]*cos(W*t + p)\nscene s { start t' = 1\n",
+        "state x [m]\nstate t [s]\nequation t' = 1\nequation x' + R*x = R*1 [m]*cos(W*t + p)\n"
+        "scene s { \n"};
+    snprintf(m.text, sizeof m.text,
+             "mechanism driven\nparameter W = 2*pi*%.17g [Hz]\nparameter p = %.17g\n"
+             "parameter R = %.17g [1/s]\n%sstep %.17g [s]\nuntil %.17g [s] }\n",
+             m.frequency_Hz, m.phase, m.rate, bodies[kind], m.step_s, m.until_s);
+    return m;
+}
+
+static double truth(const driven *m, double t) {
+    const double w = TURN * m->frequency_Hz;
+    const double c = cos(m->phase);
+    const double s = sin(m->phase);
+    const double now = w * t + m->phase;
+    if (m->kind == FREE) {
+        return (c - cos(now)) / (w * w) - s * t / w;
+    }
+    if (m->kind == SPRING) {
+        const double r = m->rate;
+        return (cos(now) - c * cos(r * t) + w / r * s * sin(r * t)) / (r * r - w * w);
+    }
+    const double r = m->rate;
+    const double all = r * r + w * w;
+    return r * (r * cos(now) + w * sin(now) - exp(-r * t) * (r * c + w * s)) / all;
+}
+
+static double range_of(const driven *m) {
+    double most = 0.0;
+    for (int k = 0; k <= 4000; k++) {
+        most = fmax(most, fabs(truth(m, m->until_s * (k + 0.37 * (k % 2)) / 4000.0)));
+    }
+    return most;
+}
+
+static void run_with(const char *text, const named_cure *cure, bool is_float, said *what) {
+    const char *words[12] = {model_keep(text)};
+    named_words(cure, "rk4", is_float ? "float" : "double", words, 1);
+    command_say(command_run, words, what);
+    model_drop();
+}
+
+/* At the end. */
+static double x_of(const said *what) {
+    const char *at = strstr(what->out, "\n  x ");
+    TEST_ASSERT_NOT_NULL_MESSAGE(at, what->err);
+    return strtod(at + 5, NULL);
+}
+
+static bool told(const said *what) { return strstr(what->err, "between the stages") != NULL; }
+
+static void test_what_is_wrong_is_told(void) {
+    static const named_cure none;
+    dice d = dice_of("between", 20261127);
+    const unsigned cases = dice_cases(few_or_all(usual_or(60, 24), 600));
+    unsigned wrong = 0;
+    unsigned by_this = 0;
+    unsigned right = 0;
+    unsigned cured = 0;
+    for (unsigned i = 0; i < cases; i++) {
+        const driven m = drawn(&d, (driven_kind)(i % KINDS));
+        const bool is_float = i % 4 == 3;
+        said what;
+        run_with(m.text, &none, is_float, &what);
+        const double is = x_of(&what);
+        const double off = fabs(is - truth(&m, m.until_s)) / fmax(range_of(&m), fabs(is));
+        const bool trusted = strstr(what.out, "to the end: every") != NULL;
+        char about[SAID_SIZE + 900];
+        snprintf(about, sizeof about, "%.3g Hz, off by %.3g:\n%s%s", m.frequency_Hz, off, m.text,
+                 what.err);
+        if (off > WRONG) {
+            named_cure list[NAMED_CURES];
+            wrong++;
+            by_this += told(&what);
+            TEST_ASSERT_TRUE_MESSAGE(what.err[0] != '\0' || !trusted, about);
+            TEST_ASSERT_FALSE_MESSAGE(trusted, about);
+            if (told(&what) && named_cures(what.err, list) > 0 && list[0].tried) {
+                said then;
+                run_with(m.text, &list[0], is_float, &then);
+                const double left = fabs(x_of(&then) - truth(&m, m.until_s)) / range_of(&m);
+                TEST_ASSERT_TRUE_MESSAGE(!told(&then) && left < WRONG, about);
+                cured++;
+            }
+        } else if (off < RIGHT) {
+            right++;
+            TEST_ASSERT_FALSE_MESSAGE(told(&what), about);
+        }
+    }
+    printf(
+        "  %u driven in round steps: %u wrong, none trusted, %u told as this, %u cured; %u right\n",
+        cases, wrong, by_this, cured, right);
+    TEST_ASSERT_TRUE(wrong > cases / 5 && by_this > wrong / 2 && right > cases / 10);
+}
+
+/* Shaken by more than its friction holds, in whole numbers of periods. */
+static void test_blocks_with_friction(void) {
+    static const named_cure none;
+    dice d = dice_of("between, friction", 20261128);
+    const unsigned cases = dice_cases(usual_or(12, 4));
+    for (unsigned i = 0; i < cases; i++) {
+        const double frequency_Hz = round_of(&d, 1.0, 3.0);
+        const unsigned periods = 1U + dice_one_of(&d, 6);
+        const bool still = i % 3 == 2; /* resolved */
+        const double step_s = (still ? 0.02 : (double)periods) / frequency_Hz;
+        char text[700];
+        said what;
+        snprintf(text, sizeof text,
+                 "mechanism block\ncoordinate x [m]\ncoordinate t [s]\n"
+                 "T = 1 [kg]*x'^2/2 + 1e-9 [J]*t'^2/2\nQ(x) = %.17g [N]*sin(2*pi*%.17g [Hz]*t)\n"
+                 "friction x static 0.5 kinetic 0.5 normal 1 [N]\nscene s { start t' = 1\n"
+                 "step %.17g [s]\nuntil %.17g [s] }\n",
+                 dice_between(&d, 1.0, 4.0), frequency_Hz, step_s, 200.0 * step_s);
+        run_with(text, &none, false, &what);
+        TEST_ASSERT_TRUE_MESSAGE(told(&what) == !still, text);
+        TEST_ASSERT_TRUE_MESSAGE(still || strstr(what.out, "to the end: every") == NULL, what.out);
+    }
+}
+
+void suite_between(void) {
+    RUN_TEST(test_what_is_wrong_is_told);
+    RUN_TEST(test_blocks_with_friction);
+}
