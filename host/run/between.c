@@ -15,14 +15,16 @@
 #define SEEN_LEAST 3U
 /* Off the straight line, of the largest slope: a swing of h w = 1 is an eighth. */
 #define BENT 0.1
-/* In the mean, of the largest slope, and of what each step is off. */
+/* In the mean, of the largest slope at ends of steps, and of what each step is off. */
 #define TOLD 0.02
 #define ONE_WAY 0.5
 /* What a contact makes of a force is not that of its mean: so far from the line in the mean. */
 #define TOLD_BENT 0.25
-/* Parts of a step: 5, 21, 85, 341, 1365: what is a whole number of periods in two of them is so in none that is likely. */
+/* Parts of a step: 5, 21, 85, 341, 1365, 5461: what is a whole number of periods in two of them is so in none that is likely. */
 #define PARTS_FIRST 5
-#define PARTS_MOST 1365
+#define PARTS_MOST 5461
+/* Of all steps that are taken again. */
+#define PARTS_IN_ALL 400000
 #define AGREED 0.01
 /* The golden ratio of 2^32. */
 #define GOLDEN 2654435769U
@@ -36,13 +38,15 @@ struct between {
     uint64_t seen;
     uint64_t first; /* steps before the first that was seen */
     int parts;      /* that the finest of them took */
+    int spent;      /* parts, so far */
     double *from;   /* [n] before the step, */
     double *to;     /* and behind it */
     double *at;     /* [n] */
     double *slope;  /* [3 * n] at both ends, and between */
     double *sum;    /* [n] what the ends of steps were off by, */
     double *all;    /* its sizes, */
-    double *size;   /* and the largest slope */
+    double *size;   /* the largest slope, */
+    double *ends;   /* and that at ends of steps alone */
 };
 
 between *between_open(const image *im, const engine_kind *kind) {
@@ -52,13 +56,14 @@ between *between_open(const image *im, const engine_kind *kind) {
     b->proxy = kind != &engine_double;
     b->stride = 1U + im->steps / PLACES;
     const int64_t n = b->field->n;
-    b->from = room(9 * n, sizeof *b->from);
+    b->from = room(10 * n, sizeof *b->from);
     b->to = b->from + n;
     b->at = b->to + n;
     b->slope = b->at + n;
     b->sum = b->slope + 3 * n;
     b->all = b->sum + n;
     b->size = b->all + n;
+    b->ends = b->size + n;
     return b;
 }
 
@@ -101,13 +106,14 @@ static bool is_bent(between *b, double share) {
         for (int k = 0; k < 3; k++) {
             b->size[i] = number_most(b->size[i], fabs(slope[k * (ptrdiff_t)n]));
         }
+        b->ends[i] = number_most(b->ends[i], number_most(fabs(slope[0]), fabs(slope[n])));
         bent =
             bent || (is_highest(b, i) && fabs(slope[2 * (ptrdiff_t)n] - line) > BENT * b->size[i]);
     }
     return bent;
 }
 
-/* The step once more, in finer and finer parts, until two of them agree: b->at; false where none do. */
+/* The step once more, in finer and finer parts, until two of them agree: b->at; false where none do, and the finest are named. */
 static bool take_again(between *b) {
     const int n = b->field->n;
     double *last = room(n, sizeof *last);
@@ -115,14 +121,13 @@ static bool take_again(between *b) {
     for (int parts = PARTS_FIRST; parts <= PARTS_MOST && !agreed; parts = 4 * parts + 1) {
         memcpy(b->at, b->from, (size_t)n * sizeof *b->at);
         field_go(b->field, b->step_s, parts, b->at);
+        b->spent += parts;
         agreed = parts > PARTS_FIRST;
         for (int i = 0; i < n; i++) {
             const double room_of = AGREED * BENT * b->step_s * b->size[i];
             agreed = agreed && (!is_highest(b, i) || fabs(b->at[i] - last[i]) <= room_of);
         }
-        if (agreed && parts > b->parts) {
-            b->parts = parts;
-        }
+        b->parts = parts > b->parts ? parts : b->parts;
         memcpy(last, b->at, (size_t)n * sizeof *last);
     }
     free(last);
@@ -142,12 +147,10 @@ static void note_bent(between *b, double share) {
 
 static void compare(between *b, uint64_t begin, double share) {
     const int n = b->field->n;
-    if (!take_again(b)) {
-        return;
-    }
+    const bool known = take_again(b);
     b->first = b->seen == 0 ? begin : b->first;
     b->seen++;
-    if (b->field->image->contacts > 0) {
+    if (!known || b->field->image->contacts > 0) {
         note_bent(b, share);
         return;
     }
@@ -167,7 +170,7 @@ static void compare(between *b, uint64_t begin, double share) {
 void between_enter(between *b, const engine_kind *kind, const void *run) {
     const uint64_t steps = kind->steps(run);
     const int angles = b->field->image->angles;
-    if (steps > 0 && steps % b->stride == 0) {
+    if (steps > 0 && steps % b->stride == 0 && b->spent < PARTS_IN_ALL) {
         const double share = 0.1 + 0.8 * 0x1p-32 * (double)((uint32_t)(b->asked + 1U) * GOLDEN);
         const int n = b->field->n;
         kind->state(run, b->to, b->to + angles);
@@ -191,12 +194,14 @@ between_found between_seen(const between *b) {
     if (b->seen < SEEN_LEAST || (b->seen < SEEN_ENOUGH && 2U * b->seen < b->asked)) {
         return found;
     }
-    const double told = b->field->image->contacts > 0 ? TOLD_BENT : TOLD;
+    const bool by_contacts = b->field->image->contacts > 0;
     for (int i = 0; i < b->field->n && b->asked > 0; i++) {
-        const double off =
-            fabs(b->sum[i]) / ((double)b->asked * b->step_s * number_most(b->size[i], 1e-300));
-        const bool one_way = fabs(b->sum[i]) > ONE_WAY * b->all[i];
-        if (is_highest(b, i) && one_way && off > told && off > found.off) {
+        const double mean = fabs(b->sum[i]) / ((double)b->asked * b->step_s);
+        const double off = b->size[i] > 0.0 ? mean / b->size[i] : 0.0;
+        const bool is_told =
+            by_contacts ? off > TOLD_BENT
+                        : mean > TOLD * b->ends[i] && fabs(b->sum[i]) > ONE_WAY * b->all[i];
+        if (is_highest(b, i) && is_told && off > found.off) {
             found = (between_found){.component = i,
                                     .off = off,
                                     .begin_s = (double)b->first * b->step_s,
