@@ -291,6 +291,7 @@ typedef struct image {
     int recovered;    /* coordinates that follow from their momentum */
     int parameters;   /* the mechanism's own and those of the effects called for */
     double mass_blur; /* by such a part rounding of the mass matrix puts accelerations off */
+    bool mass_moves;  /* it depends on where the mechanism is, or on an input */
     /* Where digits were lost in folding: the same folded in other ways (host/number/folding.h), for their lists. */
     struct image *otherwise[IMAGE_WAYS];
     int ways;

@@ -202,7 +202,7 @@ void look_close(watch *w, int ahead) {
     if (isfinite(made.off) && (!w->worst.done || made.off > w->worst.off)) {
         w->worst = made;
     }
-    if (isfinite(made.off) && made.inertia < 0.01 &&
+    if (isfinite(made.off) && w->field->image->mass_moves && made.inertia < 0.01 &&
         (!w->singular.done || made.off > w->singular.off)) {
         w->singular = made;
     }

@@ -20,7 +20,8 @@ typedef struct watch_look {
     bool failed;   /* the run could not take these steps: `off` is 1 */
     bool resolved;
     double fine_step_s; /* such steps of Runge-Kutta 4 resolve it, if any do */
-    /* Of a scene with energies, on the accurate way: the least pivot of the mass matrix, of the largest it has had */
+    /* Of a scene with energies, on the accurate way: the least pivot of the mass matrix, of the largest it has had. Singular is what
+     * falls: one that is the same everywhere does not */
     double inertia; /* 1 where it was not looked at */
     int singular;   /* component: the rate that it is of, */
     double singular_s;
