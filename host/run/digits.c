@@ -5,11 +5,14 @@
 
 #include "again.h"
 #include "host/number/functions.h"
+#include "judged.h"
 
 /* Off by this part of a range is told; of the energy, of its largest entry. */
 #define PART_TOLD 1e-2
 /* What compensated sums may leave, to be named: their lists are others than those at hand, and round a little otherwise. */
 #define PART_CURED 3e-3
+/* And more than their digits are off: else it would be told of them, too. */
+#define PART_QUIET 8e-3
 /* What more digits leave of the energy, and how much of the largest entry they have at least. */
 #define PART_KEPT 1e-3
 #define ENTRY_KEPT 0.3
@@ -173,16 +176,18 @@ static digits judge_all(const image *im, const engine_kind *kind, const watch *w
     return d;
 }
 
-/* At every record, all of it is where the better run is, and nothing would be told of it. */
+/* At every record, all of it is where the better run is, and nothing would be told of it, its energies included. */
 static bool goes_along(const again *a, const again *better) {
     const watch *w = a->watch;
     const int n = w->field->n;
-    bool along = a->done && w->records == better->watch->records;
+    judged j = judged_of(&a->image, a->kind, w, &a->balance);
+    bool along = a->done && w->records == better->watch->records && !judged_lost(&j);
     for (int i = 0; i < n; i++) {
         const double by = measure(better->watch, i, better->watch->high[i] - better->watch->low[i]);
         for (int k = 0; k < w->records && along; k++) {
-            along = fabs(w->record[k * n + i] - better->watch->record[k * n + i]) <=
-                    PART_CURED * by + place_at(a->kind, furthest(w, i));
+            along =
+                fabs(w->record[k * n + i] - better->watch->record[k * n + i]) <=
+                number_least(PART_CURED * by + place_at(a->kind, furthest(w, i)), PART_QUIET * by);
         }
     }
     if (along) {
@@ -223,6 +228,8 @@ digits digits_of(const image *im, const engine_kind *kind, const watch *w, const
         d.compensated = !is_float && d.component >= 0 && d.by_sums;
     }
     if (is_float && (d.energy || d.component >= 0)) {
+        const judged j = judged_of(&summed, &engine_double, more.watch, &more.balance);
+        d.in_both = !judged_lost(&j);
         d.compensated = !im->settings.compensated && would_do(&summed, kind, &more, stop);
         d.in_double = would_do(im, &engine_double, &more, stop);
     }
@@ -262,8 +269,8 @@ void digits_say(FILE *out, const image *im, const engine_kind *kind, const digit
     const char *would = d->compensated ? (d->in_double ? "--compensated or --number double would do"
                                                        : "--compensated would do")
                         : d->in_double ? "--number double would do"
-                        : d->energy    ? "--number double --compensated would do"
-                                       : "";
+                        : d->energy && d->in_both ? "--number double --compensated would do"
+                                                  : "";
     fprintf(out, "hint: %s%s%s\n", would, would[0] != '\0' && d->component >= 0 ? "; " : "",
             d->component >= 0
                 ? "coordinates whose origin is near to where they move need fewer digits"

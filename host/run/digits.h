@@ -20,7 +20,8 @@ typedef struct digits {
     double part;      /* of its largest entry */
     bool by_sums;     /* its steps were not what its slopes asked for; else its slopes are off */
     bool compensated; /* compensated sums would do, */
-    bool in_double;   /* or a float's run in double: these were tried */
+    bool in_double;   /* or a float's run in double, */
+    bool in_both;     /* or both together: these were tried */
 } digits;
 
 /* Does some coordinate move so far from its origin that its slopes may have too few digits? */

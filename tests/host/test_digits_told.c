@@ -96,6 +96,9 @@ static void test_figures(void) {
         at = said_exactly(said_number(at, &figure[0]), unit);
         at = said_number(said_exactly(at, " where it is, which puts it up to "), &figure[1]);
         at = said_number(said_exactly(said_exactly(at, unit), " off, "), &figure[2]);
+        if (c.is_float && part * c.steps < 70.0) { /* compensated, it is right to half a place */
+            continue;
+        }
         at = said_exactly(
             at, c.is_float ? " % of its range\nhint: --compensated or --number double would do"
                            : " % of its range\nhint: --compensated would do");

@@ -12,6 +12,7 @@
 #include <string.h>
 
 #include "host/commands/commands.h"
+#include "named_cures.h"
 
 #include "unity.h"
 
@@ -319,7 +320,59 @@ static void test_carts_that_stand(void) {
     TEST_ASSERT_TRUE(told > cases / 5 && sound > cases / 5);
 }
 
+/* Far away, and in steps too coarse for crude methods: of what is named as a cure of too few digits nothing is to be said. */
+static void test_cures_are_silent(void) {
+    static const char *const methods[] = {"euler", "heun", "semi-implicit-euler", "rk4"};
+    dice d = dice_of("far cures", 20261130);
+    const unsigned cases = dice_cases(few_or_all(usual_or(60, 20), 400));
+    unsigned told = 0;
+    unsigned cures = 0;
+    for (unsigned i = 0; i < cases; i++) {
+        char text[700];
+        said what;
+        const double far_m = pow(10.0, dice_between(&d, 2.0, 8.0));
+        const double omega_radps = pow(10.0, dice_between(&d, -1.0, 2.0));
+        const double step_s = pow(10.0, dice_between(&d, -2.5, 0.0)) / omega_radps;
+        snprintf(text, sizeof text,
+                 "mechanism far\ncoordinate x [m]\ncoordinate y [m]\nparameter k = %.9g [N/m]\n"
+                 "parameter D = %.9g [m]\nT = 1 [kg]*(x'^2 + y'^2)/2\n"
+                 "V = k*(x - D)^2/2 + k*(x - y)^2\nscene s { start x = D + %.9g [m], y = D\n"
+                 "step %.9g [s]\nuntil %.9g [s] }\n",
+                 omega_radps * omega_radps, far_m, dice_between(&d, 0.1, 1.0), step_s,
+                 step_s * (20.0 + dice_one_of(&d, 200)));
+        const char *method = methods[i % 4U];
+        static const named_cure none;
+        const char *words[14] = {model_keep(text), "--quiet"};
+        const int count = named_words(&none, method, "float", words, 2);
+        words[count] = i % 3U == 0 ? "--compensated" : NULL;
+        words[count + 1] = NULL;
+        command_say(command_run, words, &what);
+        if (strstr(what.err, "too few digits") == NULL) {
+            continue;
+        }
+        named_cure list[NAMED_CURES];
+        const int named = named_cures(what.err, list);
+        told++;
+        for (int c = 0; c < named; c++) {
+            said then;
+            const int end = named_words(&list[c], method, "float", words, 2);
+            if (i % 3U == 0 && !list[c].compensated) {
+                words[end] = "--compensated"; /* as it was */
+                words[end + 1] = NULL;
+            }
+            command_say(command_run, words, &then);
+            TEST_ASSERT_EQUAL_STRING_MESSAGE("", then.err, what.err);
+            cures++;
+        }
+    }
+    model_drop();
+    printf("  %u of %u far pairs told of too few digits; %u cures, all silent\n", told, cases,
+           cures);
+    TEST_ASSERT_TRUE(told > cases / 10 && cures > 0);
+}
+
 void suite_far_origin(void) {
+    RUN_TEST(test_cures_are_silent);
     RUN_TEST(test_carts_that_stand);
     RUN_TEST(test_fine_steps_are_silent);
     RUN_TEST(test_coarse_steps_are_told);

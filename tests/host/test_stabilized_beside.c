@@ -65,7 +65,7 @@ static void test_what_is_slow_gets_its_part(void) {
     dice d = dice_of("stabilized beside", 20261204);
     const unsigned cases = usual_or(dice_cases(few_or_all(16, 100)), 4);
     const uint64_t steps = 200000;
-    double least = INFINITY;
+    double least = (double)INFINITY;
     double most = 0.0;
     for (unsigned i = 0; i < cases; i++) {
         const beside b = drawn(&d);
