@@ -199,7 +199,9 @@ static void fine_mechanism(dice *d, fine_kind kind, char *text, size_t size) {
         snprintf(start, sizeof start, "phi' = %.9g [rad/s]",
                  sqrt(9.81 / l) * dice_between(d, 0.2, 0.8));
         break;
-    case FREE: snprintf(start, sizeof start, "x = 30 [m], x' = %.9g [m/s]", v); break;
+    case FREE: /* not so far away that float has no digits for it */
+        snprintf(start, sizeof start, "x = %.9g [m], x' = %.9g [m/s]", 5.0 * v * end, v);
+        break;
     case RESTING: break;
     case HANGING: /* where it hangs, as well as a number says it */
         snprintf(law, sizeof law, "\nV = %.9g [N/m]*x^2/2 - %.9g [N]*x\n", m * 9.81 / l, m * 9.81);
