@@ -73,8 +73,10 @@ static const char *done_text(const judged *j, const linearised *l, const linear_
                  100.0 * (1.0 - (energy ? left * left : left)), what);
     } else if (added < 1.0) {
         snprintf(text, DONE_TEXT, "adds %.3g %% to its %s over the run", 100.0 * added, what);
-    } else {
+    } else if (isfinite(added)) {
         snprintf(text, DONE_TEXT, "adds %.3g times its %s over the run", added, what);
+    } else {
+        snprintf(text, DONE_TEXT, "lets its %s grow without bound", what);
     }
     return text;
 }

@@ -18,6 +18,9 @@
 /* Of steps: from 1000 s down. */
 #define DECADES 16
 
+/* What has gone further than so many times where it is, or goes in a step, has left: its range tells nothing of here. */
+#define HERE 1e3
+
 /* Root mean squares of the slopes over the records, times the root of two: the size of a swing. */
 static void slope_sizes(const watch *w, double *size) {
     field *f = w->field;
@@ -131,11 +134,13 @@ static void add_record(const watch *w, int record, const double *size, linearise
     complex_number *part = value + n;
     complex_number *left = part + n;
     const double *x = w->record + record * (ptrdiff_t)n;
+    field_slope(f, x, slope);
     for (int i = 0; i < n; i++) {
-        range[i] = number_most(w->high[i] - w->low[i], 1e-3 * fabs(x[i]));
+        const double here = number_most(fabs(x[i]), fabs(slope[i]) * w->step_s);
+        range[i] = number_least(w->high[i] - w->low[i], HERE * here);
+        range[i] = number_most(range[i], 1e-3 * fabs(x[i]));
     }
     if (field_jacobian(f, x, range, matrix) && modes_values(n, matrix, value)) {
-        field_slope(f, x, slope);
         for (int i = 0; i < n; i++) {
             off[i] = off_of(l, l->method, limits_plain(value[i]), l->step_s);
         }
