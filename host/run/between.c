@@ -20,8 +20,6 @@
 #define ONE_WAY 0.5
 /* What a contact makes of a force is not that of its mean: so far from the line in the mean. */
 #define TOLD_BENT 0.25
-/* Slopes below this part of the largest of their unit are what rounding leaves of them. */
-#define ROUNDED 1e-6
 /* Parts of a step: 5, 21, 85, 341, 1365, 5461: what is a whole number of periods in two of them is so in none that is likely. */
 #define PARTS_FIRST 5
 #define PARTS_MOST 5461
@@ -193,20 +191,6 @@ void between_enter(between *b, const engine_kind *kind, const void *run) {
     }
 }
 
-static const char *unit_of(const between *b, int i) {
-    const component c = image_component(b->field->image, i);
-    return b->field->image->unknown[c.unknown].unit[c.primes].si;
-}
-
-static bool is_rounding(const between *b, int i) {
-    double most = 0.0;
-    for (int k = 0; k < b->field->n; k++) {
-        const bool alike = is_highest(b, k) && strcmp(unit_of(b, i), unit_of(b, k)) == 0;
-        most = alike ? number_most(most, b->size[k]) : most;
-    }
-    return b->size[i] <= ROUNDED * most;
-}
-
 between_found between_seen(const between *b) {
     between_found found = {.component = -1};
     if (b->seen < SEEN_LEAST || (b->seen < SEEN_ENOUGH && 2U * b->seen < b->asked)) {
@@ -219,7 +203,7 @@ between_found between_seen(const between *b) {
         const bool is_told =
             by_contacts ? off > TOLD_BENT
                         : mean > TOLD * b->ends[i] && fabs(b->sum[i]) > ONE_WAY * b->all[i];
-        if (is_highest(b, i) && is_told && off > found.off && !is_rounding(b, i)) {
+        if (is_highest(b, i) && is_told && off > found.off) {
             found = (between_found){.component = i,
                                     .off = off,
                                     .begin_s = (double)b->first * b->step_s,

@@ -270,7 +270,9 @@ void digits_say(FILE *out, const image *im, const engine_kind *kind, const digit
                                                        : "--compensated would do")
                         : d->in_double ? "--number double would do"
                         : d->energy && d->in_both ? "--number double --compensated would do"
-                                                  : "";
+                        : d->component < 0
+                            ? "more digits alone do not do: the step is too coarse, too"
+                            : "";
     fprintf(out, "hint: %s%s%s\n", would, would[0] != '\0' && d->component >= 0 ? "; " : "",
             d->component >= 0
                 ? "coordinates whose origin is near to where they move need fewer digits"

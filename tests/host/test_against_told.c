@@ -178,7 +178,8 @@ static void test_too_few_digits(void) {
                           .left_J = dice_between(&die, -9.0, 9.0),
                           .part = dice_between(&die, 0.01, 1.0),
                           .compensated = maybe(),
-                          .in_double = maybe()};
+                          .in_double = maybe(),
+                          .in_both = maybe()};
         const double of_si = told[k].of_si;
         char wanted[TEXT] = "";
         char where[200] = "the terms that its slope is the small sum of";
@@ -210,8 +211,10 @@ static void test_too_few_digits(void) {
             } else if (d.compensated || d.in_double) {
                 snprintf(cure, sizeof cure, "%s would do",
                          d.compensated ? "--compensated" : "--number double");
-            } else if (d.energy) {
+            } else if (d.energy && d.in_both) {
                 strcpy(cure, "--number double --compensated would do");
+            } else if (d.component < 0) {
+                strcpy(cure, "more digits alone do not do: the step is too coarse, too");
             }
             snprintf(wanted + at, sizeof wanted - (size_t)at, "hint: %s%s%s\n", cure,
                      cure[0] != '\0' && d.component >= 0 ? "; " : "",

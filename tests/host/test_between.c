@@ -126,6 +126,16 @@ static void test_what_is_wrong_is_told(void) {
             by_this += told(&what);
             TEST_ASSERT_TRUE_MESSAGE(what.err[0] != '\0' || !trusted, about);
             TEST_ASSERT_FALSE_MESSAGE(trusted, about);
+            if (told(&what)) {
+                said trust;
+                const char *words[] = {model_keep(m.text), "--number",
+                                       is_float ? "float" : "double", NULL};
+                command_say(command_trust, words, &trust);
+                TEST_ASSERT_NOT_NULL_MESSAGE(strstr(trust.out, "\ntrusted until t = 0 s of "),
+                                             about);
+                TEST_ASSERT_NOT_NULL_MESSAGE(strstr(trust.out, "\nmore goes on between the stages"),
+                                             trust.out);
+            }
             if (told(&what) && named_cures(what.err, list) > 0 && list[0].tried) {
                 said then;
                 run_with(m.text, &list[0], is_float, &then);
