@@ -104,7 +104,7 @@ static bool told(const said *what) { return strstr(what->err, "between the stage
 static void test_what_is_wrong_is_told(void) {
     static const named_cure none;
     dice d = dice_of("between", 20261127);
-    const unsigned cases = dice_cases(few_or_all(usual_or(60, 24), 600));
+    const unsigned cases = dice_cases(few_or_all(usual_or(36, 18), 600));
     unsigned wrong = 0;
     unsigned by_this = 0;
     unsigned right = 0;
@@ -162,7 +162,7 @@ static void test_what_is_wrong_is_told(void) {
 static void test_blocks_with_friction(void) {
     static const named_cure none;
     dice d = dice_of("between, friction", 20261128);
-    const unsigned cases = dice_cases(usual_or(12, 4));
+    const unsigned cases = dice_cases(usual_or(6, 3));
     for (unsigned i = 0; i < cases; i++) {
         const double frequency_Hz = round_of(&d, 1.0, 3.0);
         const unsigned periods = 1U + dice_one_of(&d, 6);

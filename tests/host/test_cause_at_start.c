@@ -16,7 +16,7 @@ void suite_cause_at_start(void);
 
 static void test_causes_of_the_first_step(void) {
     dice d = dice_of("causes at the start", 20261201);
-    const unsigned cases = dice_cases(few_or_all(usual_or(60, 20), 400));
+    const unsigned cases = dice_cases(few_or_all(usual_or(30, 15), 400));
     unsigned named = 0;
     for (unsigned i = 0; i < cases; i++) {
         const bool is_drag = i % 2 == 0;

@@ -51,7 +51,7 @@ static void write_bodies(dice *d, char *text, size_t size) {
 static void test_of_the_same_mass_everywhere(void) {
     static const char *const methods[] = {"rk4", "heun", "euler", "semi-implicit-euler", "rk38"};
     dice d = dice_of("never singular", 20261129);
-    const unsigned cases = dice_cases(few_or_all(usual_or(60, 20), 400));
+    const unsigned cases = dice_cases(few_or_all(usual_or(30, 15), 400));
     unsigned told = 0;
     for (unsigned i = 0; i < cases; i++) {
         char text[1600];
