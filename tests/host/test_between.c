@@ -158,6 +158,30 @@ static void test_what_is_wrong_is_told(void) {
     TEST_ASSERT_TRUE(wrong > cases / 5 && by_this > wrong / 2 && right > cases / 10);
 }
 
+/* `whirl sweep` counts points of which `whirl run` says so. */
+static void test_sweeps_count_it(void) {
+    dice d = dice_of("between, swept", 20261201);
+    unsigned counted = 0;
+    for (unsigned i = 0; i < 12 && counted < 3; i++) {
+        static const named_cure none;
+        const driven m = drawn(&d, (driven_kind)(i % KINDS));
+        char over[80];
+        said what;
+        run_with(m.text, &none, false, &what);
+        if (!told(&what)) {
+            continue;
+        }
+        snprintf(over, sizeof over, "R=%.17g..%.17g:2", m.rate, 1.001 * m.rate);
+        const char *words[] = {model_keep(m.text), "--over", over, NULL};
+        command_say(command_sweep, words, &what);
+        TEST_ASSERT_NOT_NULL_MESSAGE(strstr(what.err, "2 of 2 points have something faster"),
+                                     what.err);
+        counted++;
+    }
+    model_drop();
+    TEST_ASSERT_EQUAL_UINT(3, counted);
+}
+
 /* Shaken by more than its friction holds, in whole numbers of periods. */
 static void test_blocks_with_friction(void) {
     static const named_cure none;
@@ -184,5 +208,6 @@ static void test_blocks_with_friction(void) {
 
 void suite_between(void) {
     RUN_TEST(test_what_is_wrong_is_told);
+    RUN_TEST(test_sweeps_count_it);
     RUN_TEST(test_blocks_with_friction);
 }
