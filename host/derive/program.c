@@ -233,12 +233,13 @@ program *program_make(const equations *e, const bool *conserve, const image_sett
         p->contacts = more > 0 ? contact_lists_make(map, &s, errors) : NULL;
         good = more == 0 || p->contacts != NULL;
         const int contacts = p->contacts != NULL ? p->contacts->count : 0;
-        good = good && (!settings->stabilized || stabilizing_possible(p, e, settings, errors));
+        good = good && (!settings->stabilized ||
+                        stabilizing_possible(map, p->contacts, p->integral, settings, errors));
         p->ledger_asked = e->instance->ledger || settings->stabilized;
         if (good && p->ledger_asked) {
             p->ledger = ledger_lists_make(map, p->integral, contacts, errors);
-            good =
-                p->ledger != NULL && (!settings->stabilized || stabilizing_conserves(p, e, errors));
+            good = p->ledger != NULL &&
+                   (!settings->stabilized || stabilizing_conserves(p->ledger, e, errors));
         } else if (good && p->contacts != NULL && e->instance->balance) {
             diags *unsaid = diags_new();
             p->ledger = ledger_lists_make(map, p->integral, contacts, unsaid);

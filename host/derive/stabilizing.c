@@ -3,16 +3,16 @@
 
 static const char no_stabilized[] = "leave out --stabilized";
 
-bool stabilizing_possible(const program *p, const equations *e, const image_settings *settings,
-                          diags *errors) {
-    const mechanism *m = e->instance->mechanism;
+bool stabilizing_possible(const layout *map, const contact_lists *contacts, const poly *integral,
+                          const image_settings *settings, diags *errors) {
+    const mechanism *m = map->equations->instance->mechanism;
     if (m->is_system) {
         diag_error(errors, m->at, no_stabilized,
                    "--stabilized gives back what the energy drifts by: '%s' is given by equations "
                    "and has none",
                    m->name);
-    } else if (p->contacts != NULL) {
-        const contact_statement *first = p->contacts->row[0].from;
+    } else if (contacts != NULL) {
+        const contact_statement *first = contacts->row[0].from;
         diag_error(errors, first->at, "leave it out, --without; or leave out --stabilized",
                    "--stabilized: '%s' has events, and their energies are taken as they happen",
                    m->name);
@@ -28,11 +28,11 @@ bool stabilizing_possible(const program *p, const equations *e, const image_sett
                    "--stabilized gives back what the energy drifts by, and with %s it goes up and "
                    "down about the right one instead",
                    wh_methods[settings->method].title);
-    } else if (p->layout.form != WH_SECOND_ORDER) {
+    } else if (map->form != WH_SECOND_ORDER) {
         diag_error(errors, m->at, "--without conserve, or leave out --stabilized",
                    "--stabilized keeps books, which a coordinate that is integrated from its "
                    "momentum has not");
-    } else if (p->integral != NULL) {
+    } else if (integral != NULL) {
         diag_error(errors, m->at, no_stabilized,
                    "--stabilized: the kinetic energy of '%s' is no quadratic form of its rates",
                    m->name);
@@ -42,17 +42,16 @@ bool stabilizing_possible(const program *p, const equations *e, const image_sett
     return false;
 }
 
-bool stabilizing_conserves(const program *p, const equations *e, diags *errors) {
-    const ledger_lists *l = p->ledger;
-    for (int i = 0; i < l->smooth; i++) {
-        if (l->entry[i].account == 0) {
-            diag_error(errors, l->entry[i].term->at,
+bool stabilizing_conserves(const ledger_lists *books, const equations *e, diags *errors) {
+    for (int i = 0; i < books->smooth; i++) {
+        if (books->entry[i].account == 0) {
+            diag_error(errors, books->entry[i].term->at,
                        "leave it out, --without; or leave out --stabilized",
                        "--stabilized is for what nothing drives or damps: this does");
             return false;
         }
     }
-    if (l->inputs > 0) {
+    if (books->inputs > 0) {
         diag_error(errors, e->instance->mechanism->at, no_stabilized,
                    "--stabilized is for what nothing drives or damps: the energies of '%s' name an "
                    "input",

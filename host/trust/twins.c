@@ -324,17 +324,6 @@ static void run_both(pair *p) {
     t->end_s = ratio_times(step, im->step);
 }
 
-/* What the stages of both may not see puts off both alike: from when on is not known. */
-static void forget_between(pair *p) {
-    twins *t = p->to;
-    t->between = between_seen(p->between).component >= 0;
-    for (int k = 1; k < t->columns && t->between; k++) {
-        passages_free(&t->column[k].off);
-        t->column[k].off = (passages){.count = 0};
-        passages_enter(&t->column[k].off, 0.0, (double)INFINITY);
-    }
-}
-
 twins *twins_run(const twins_wish *w) {
     twins *t = room(1, sizeof *t);
     make_finer(t, w);
@@ -361,7 +350,7 @@ twins *twins_run(const twins_wish *w) {
               .rounded = rounded_open(&t->finer),
               .stride = 1U + (w->image->steps - (w->image->steps > 0)) / TWINS_LOOKS};
     run_both(&p);
-    forget_between(&p);
+    t->between = between_seen(p.between).component >= 0;
     take_rounding(t, &p.rounded);
     take_places(t);
     rounded_close(&p.rounded);
