@@ -106,7 +106,7 @@ static void question(const dialogue *d, rig *r) {
 static void converse(dialogue *talk, rig *r, dice *d) {
     hear(r, "\n");
     question(talk, r);
-    for (int turns = 0; !talk->done && turns < LINES; turns++) {
+    for (int turns = 0; !talk->done && turns < 4 * LINES; turns++) {
         if (r->begin == r->end || (!r->refuses_rate && dice_one_of(d, 6) == 0)) {
             question(talk, r);
             continue;
