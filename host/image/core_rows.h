@@ -82,14 +82,17 @@ static inline wh_ledger_form core_ledger_form(const image *im, const uint8_t *ac
                             .stabilized = im->settings.stabilized};
 }
 
+/* Of the books: entries and what they are rounded by, and a word for each of the form's accounts. */
+static inline int core_ledger_words(const image *im) {
+    const wh_ledger_form form = core_ledger_form(im, NULL, NULL);
+    return im->ledger.kept ? 2 * form.entries + form.accounts : 0;
+}
+
 /* The second argument of WH_MEMORY_BYTES(): numbers of the state, low parts of compensated sums, inputs, what is held
  * and the books. */
 static inline int core_memory_reals(const image *im) {
-    const image_ledger *l = &im->ledger;
     const int carried = im->settings.compensated ? im->angles + im->reals : 0;
-    const int in_books =
-        l->kept ? 2 * l->entries + l->accounts + l->inputs + im->settings.stabilized : 0;
-    return im->reals + carried + im->inputs + im->held + in_books;
+    return im->reals + carried + im->inputs + im->held + core_ledger_words(im);
 }
 
 #endif

@@ -187,10 +187,7 @@ static void add_step(const image *im, const operands *given, cost_counts *c) {
 }
 
 static int state_words(const image *im) {
-    const image_ledger *l = &im->ledger;
-    const int books =
-        l->kept ? 2 * l->entries + l->accounts + l->inputs + im->settings.stabilized : 0;
-    return im->angles + 2 * im->reals + im->angles + im->inputs + books;
+    return im->angles + 2 * im->reals + im->angles + im->inputs + core_ledger_words(im);
 }
 
 /* A step as one matrix: its list, and no stages. What matrices have in common with other steps is little, so their figures

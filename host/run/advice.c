@@ -238,8 +238,8 @@ static void say_between(FILE *out, advice *a) {
     const cure_outcome outcome = remedy_of_look(j, &a->cures, &fine, step);
     fprintf(
         out,
-        "whirl run: warning: from t = %.6g s on more goes on between the stages of a step than "
-        "they see: in the mean, %s%.*s is %.2g %% of its largest off\n"
+        "whirl run: warning: more goes on between the stages of a step than they see, seen first at t "
+        "= %.6g s: in the mean, %s%.*s is %.3g %% of its largest off\n"
         "hint: what drives it is too fast for the step, or of a period that divides it; %s %s\n",
         found.begin_s, j->image->unknown[c.unknown].name, c.primes + 1, "''''''''''",
         100.0 * found.off, step,

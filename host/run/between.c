@@ -37,7 +37,7 @@ struct between {
     uint64_t asked;
     uint64_t seen;
     uint64_t first; /* steps before the first that was seen */
-    int parts;      /* that the finest of them took */
+    int parts;      /* that the finest of those took */
     int spent;      /* parts, so far */
     double *from;   /* [n] before the step, */
     double *to;     /* and behind it */
@@ -96,24 +96,29 @@ static void go_between(between *b, double share) {
     }
 }
 
-/* Is a slope there far from the line between the ends? Of what has none that counts it is not asked. */
+/* How far the slope of component i is from the straight line between those at the ends. */
+static double off_line(const between *b, int i, double share) {
+    const int n = b->field->n;
+    const double line = b->slope[i] + share * (b->slope[n + i] - b->slope[i]);
+    return fabs(b->slope[2 * (ptrdiff_t)n + i] - line);
+}
+
+/* Is one of the highest slopes far from it, of the largest that it has had? */
 static bool is_bent(between *b, double share) {
     const int n = b->field->n;
     bool bent = false;
     for (int i = 0; i < n; i++) {
         const double *slope = b->slope + i;
-        const double line = slope[0] + share * (slope[n] - slope[0]);
         for (int k = 0; k < 3; k++) {
             b->size[i] = number_most(b->size[i], fabs(slope[k * (ptrdiff_t)n]));
         }
         b->ends[i] = number_most(b->ends[i], number_most(fabs(slope[0]), fabs(slope[n])));
-        bent =
-            bent || (is_highest(b, i) && fabs(slope[2 * (ptrdiff_t)n] - line) > BENT * b->size[i]);
+        bent = bent || (is_highest(b, i) && off_line(b, i, share) > BENT * b->size[i]);
     }
     return bent;
 }
 
-/* The step once more, in finer and finer parts, until two of them agree: b->at; false where none do, and the finest are named. */
+/* The step once more, in finer and finer parts, until two of them agree: b->at; false where none do. */
 static bool take_again(between *b) {
     const int n = b->field->n;
     double *last = room(n, sizeof *last);
@@ -127,7 +132,7 @@ static bool take_again(between *b) {
             const double room_of = AGREED * BENT * b->step_s * b->size[i];
             agreed = agreed && (!is_highest(b, i) || fabs(b->at[i] - last[i]) <= room_of);
         }
-        b->parts = parts > b->parts ? parts : b->parts;
+        b->parts = agreed && parts > b->parts ? parts : b->parts;
         memcpy(last, b->at, (size_t)n * sizeof *last);
     }
     free(last);
@@ -137,9 +142,7 @@ static bool take_again(between *b) {
 static void note_bent(between *b, double share) {
     const int n = b->field->n;
     for (int i = 0; i < n; i++) {
-        const double *slope = b->slope + i;
-        const double line = slope[0] + share * (slope[n] - slope[0]);
-        const double off = b->step_s * fabs(slope[2 * (ptrdiff_t)n] - line);
+        const double off = b->step_s * off_line(b, i, share);
         b->sum[i] += is_highest(b, i) ? off : 0.0;
         b->all[i] = b->sum[i];
     }
