@@ -181,7 +181,7 @@ static bool goes_along(const again *a, const again *better) {
     const watch *w = a->watch;
     const int n = w->field->n;
     judged j = judged_of(&a->image, a->kind, w, &a->balance);
-    bool along = a->done && w->records == better->watch->records && !judged_lost(&j);
+    bool along = a->done && w->records == better->watch->records && !judged_energy(&j);
     for (int i = 0; i < n; i++) {
         const double by = measure(better->watch, i, better->watch->high[i] - better->watch->low[i]);
         for (int k = 0; k < w->records && along; k++) {
@@ -228,8 +228,8 @@ digits digits_of(const image *im, const engine_kind *kind, const watch *w, const
         d.compensated = !is_float && d.component >= 0 && d.by_sums;
     }
     if (is_float && (d.energy || d.component >= 0)) {
-        const judged j = judged_of(&summed, &engine_double, more.watch, &more.balance);
-        d.in_both = !judged_lost(&j);
+        judged j = judged_of(&summed, &engine_double, more.watch, &more.balance);
+        d.in_both = !judged_energy(&j);
         d.compensated = !im->settings.compensated && would_do(&summed, kind, &more, stop);
         d.in_double = would_do(im, &engine_double, &more, stop);
     }

@@ -33,7 +33,9 @@ typedef struct judged {
     double start_off;    /* how far off it puts where a component starts, of its range or size, */
     int start;           /* and of which; */
     double contacts_off; /* how far off it puts numbers of contacts */
-    bool swing_known;    /* it has been asked whether */
+    bool energy_known;   /* it has been asked whether */
+    bool energy;
+    bool swing_known; /* likewise */
     bool swing;
     double swing_off; /* of a swing that varies along its way: swing_off(); else 0 */
 } judged;
@@ -49,6 +51,9 @@ linearised *judged_motions(judged *j);
 /* Is the energy's balance to be warned of? As belief_lost() has it, but for what the books' own rule has made of powers
  * that change within a step; and where it was lost on the way and came back. */
 bool judged_lost(const judged *j);
+/* And is the motion off, where that rule was in doubt? What steps give and take of a force that is too fast for the rule may
+ * come to more than is told of, and put the motion nowhere: then a way of half the step agrees with the run. */
+bool judged_energy(judged *j);
 /* What is missing of the largest entry, at the end or on the way. */
 double judged_missing(const judged *j);
 /* Is so little left of the mass matrix, wherever it stands, that numbers do not tell what moves? */

@@ -46,7 +46,7 @@ void verdict_end(verdict *v, const void *run, bool failed, const volatile sig_at
     v->against =
         (judged_blurred(&v->about.judged) ? VERDICT_BIT(VERDICT_MASS) : 0U) |
         (judged_numbers(&v->about.judged) ? VERDICT_BIT(VERDICT_FOLDED) : 0U) |
-        (judged_lost(&v->about.judged) ? VERDICT_BIT(VERDICT_ENERGY) : 0U) |
+        (judged_energy(&v->about.judged) ? VERDICT_BIT(VERDICT_ENERGY) : 0U) |
         (judged_singular(&v->about.judged) ? VERDICT_BIT(VERDICT_SINGULAR) : 0U) |
         (jumped_some(v->watch->jumped) ? VERDICT_BIT(VERDICT_JUMPED) : 0U) |
         (between_seen(v->watch->between).component >= 0 ? VERDICT_BIT(VERDICT_BETWEEN) : 0U) |

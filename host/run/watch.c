@@ -17,9 +17,11 @@
 #define ALIKE_SHARE 1e-3
 /* How far beyond a run that failed. */
 #define STEPS_AHEAD 2
-/* The books' rule is in doubt where its two halves differ by this part of the work, and that is this part of all. */
+/* The books' rule is in doubt where its two halves differ by this part of the work, and that is this part of all; and so many
+ * steps on: what it is off, and what a step loses, goes to and fro, and of a part of a swing alone it would add up. */
 #define DOUBT_SHARE 0.01
 #define DOUBT_LEAST 1e-7
+#define DOUBT_STEPS 64U
 #define DOUBTS_MOST 4000
 #define DOUBT_PARTS 6
 
@@ -171,9 +173,10 @@ static void balance(watch *w, const books *b) {
     const double sizes_J =
         w->step_s / 3.0 * (fabs(w->power_W[0]) + fabs(w->power_W[2]) + 4.0 * fabs(w->power_W[1]));
     const double doubt_J = fabs(w->step_s / 3.0 * (ends_W - 2.0 * w->power_W[1]));
-    const bool doubt = doubt_J > DOUBT_SHARE * sizes_J && doubt_J > DOUBT_LEAST * b->size_J &&
-                       w->doubts < DOUBTS_MOST;
-    if (doubt) {
+    if (doubt_J > DOUBT_SHARE * sizes_J && doubt_J > DOUBT_LEAST * b->size_J) {
+        w->doubted = w->steps + DOUBT_STEPS;
+    }
+    if (w->steps <= w->doubted && w->doubts < DOUBTS_MOST) {
         lose_on_the_way(w, w->steps - 2, w->middle_J);
         lose_on_the_way(w, w->steps - 1, energy_J);
         w->doubts++;

@@ -67,13 +67,14 @@ typedef struct watch {
     watch_look singular; /* of those near a singular position */
     /* balance */
     double power_W[3];
-    double energy_J; /* at the last even step, */
-    double middle_J; /* and at the one behind it */
-    double lost_J;   /* what the method took or gave so far */
-    double most_J;   /* its largest size */
-    uint64_t doubts;
-    bool balanced;  /* false: not known */
-    jumped *jumped; /* NULL: over nothing */
+    double energy_J;  /* at the last even step, */
+    double middle_J;  /* and at the one behind it */
+    double lost_J;    /* what the method took or gave so far */
+    double most_J;    /* its largest size */
+    uint64_t doubted; /* up to this step the books' rule is in doubt; 0: it never was */
+    uint64_t doubts;  /* pairs of steps for which it was */
+    bool balanced;    /* false: not known */
+    jumped *jumped;   /* NULL: over nothing */
     between *between;
 } watch;
 

@@ -16,6 +16,8 @@
  * metre or radian; or by less than that part of what others of its unit move. */
 #define STAYS 1e-9
 #define BESIDE_OTHERS 1e-3
+/* A place that starts this part of a metre or radian from its origin, and nearer, is there by rounding; beyond, by the scene. */
+#define STARTS 1e-12
 /* The bound of rounding is some twenty times what rounding does, eight times where it is alike at all states, as of a root of what
  * hardly changes. Where it does so much in the finer run, that shares it. */
 #define BOUND_OVER 8.0
@@ -28,12 +30,16 @@ static bool stays(const twins *t, int k) {
     return range <= STAYS * number_most(size_of(c), c->one) || range <= BESIDE_OTHERS * c->alike;
 }
 
+/* What its size is known to be at least: it stays where the scene puts it, and not by chance at one metre from nothing. */
+static double least_size(const twins_column *c) {
+    return fabs(c->start) > STARTS * c->one ? size_of(c) : number_most(size_of(c), c->one);
+}
+
 /* Do both runs share what rounding does? What stays has no range to measure that by: it may stand for want of digits where
- * rounding might move it by more than its size, or one metre or radian. */
+ * rounding might move it by more than its size, or one metre or radian where it starts at none. */
 static bool has_few_digits(const twins *t, int k, double least) {
     const twins_column *c = &t->column[k];
-    return c->rounding > BOUND_OVER * least &&
-           (!stays(t, k) || c->rounding > number_most(size_of(c), c->one));
+    return c->rounding > BOUND_OVER * least && (!stays(t, k) || c->rounding > least_size(c));
 }
 
 static horizon_column judge(const twins *t, int k, double tolerance) {
@@ -51,13 +57,14 @@ static horizon_column judge(const twins *t, int k, double tolerance) {
         return made;
     }
     const bool passed = isfinite(made.until_s);
-    if (passed && (!t->otherwise || made.off <= ROUNDING_ROOM * c->rounding) &&
+    const bool few = has_few_digits(t, k, tolerance * by);
+    if (passed && !(few && c->rounding > least_size(c)) && (!t->otherwise || made.off <= ROUNDING_ROOM * c->rounding) &&
         range <= ROUNDING_ROOM * c->rounding && isfinite(made.off) && stays(t, k)) {
         made.verdict = HORIZON_ROUNDING;
         made.until_s = t->end_s;
     } else if (passed) {
         made.verdict = HORIZON_UNTIL;
-    } else if (has_few_digits(t, k, tolerance * by)) {
+    } else if (few) {
         made.verdict = HORIZON_NOT_TOLD;
         made.until_s = 0.0;
     } else {

@@ -234,6 +234,7 @@ static void look(pair *p, double time_s) {
         const double off = fabs(p->ours->row[k] - value);
         const double now = isfinite(off) ? off : (double)INFINITY;
         const double ranged = t->otherwise ? p->ours->row[k] : value;
+        c->start = p->looks == 0 ? value : c->start;
         c->low = p->looks == 0 || ranged < c->low ? ranged : c->low;
         c->high = p->looks == 0 || ranged > c->high ? ranged : c->high;
         if (events) {

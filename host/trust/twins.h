@@ -30,7 +30,8 @@ typedef struct twins_wish {
 
 /* A coordinate or rate. */
 typedef struct twins_column {
-    double low; /* in the finer run, in the column's unit */
+    double start; /* in the finer run, in the column's unit, as are: */
+    double low;
     double high;
     double rounding; /* what may move of it by rounding alone, in the finer run */
     double last;     /* difference at the last look */

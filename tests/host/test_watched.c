@@ -207,13 +207,14 @@ static void expect_slopes_followed(const watch *w) {
     }
 }
 
-/* Of each pair of steps: what is left by Simpson's rule; where the powers change too much for that, what each step did beside an
- * accurate way from its begin. */
+/* Of each pair of steps: what is left by Simpson's rule; where the powers change too much for that, and 64 steps on, what each
+ * step did beside an accurate way from its begin. */
 static void expect_lost(const watch *w) {
     double lost = 0.0;
     double most = 0.0;
     double size = 0.0;
     uint64_t doubts = 0;
+    uint64_t until = 0;
     for (uint64_t k = 0; k <= made_run.at; k++) {
         const double *s = made_run.state[k];
         size = larger(size, fabs(made_run_kinetic(s) + made_run_odd(s)) + made_run_stored(s));
@@ -229,6 +230,9 @@ static void expect_lost(const watch *w) {
         const double doubt = fabs(third * (power[0] - 2.0 * power[1] + power[2]));
         const double sizes = third * (fabs(power[0]) + 4.0 * fabs(power[1]) + fabs(power[2]));
         if (doubt > 0.01 * sizes && doubt > 1e-7 * size) {
+            until = k + 64;
+        }
+        if (k <= until) {
             for (uint64_t i = k - 2; i < k; i++) {
                 double there[N];
                 memcpy(there, made_run.state[i], sizeof there);
