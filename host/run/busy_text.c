@@ -84,8 +84,18 @@ static void say_scene(FILE *out, const busy *b, const retrial *r) {
     free(name);
 }
 
-void busy_say(FILE *out, const char *who, const busy *b, const retrial *r) {
+static void say_cure(FILE *out, const busy *b, const retrial *r, const busy_cure *cure) {
     char text[STEP_WORD];
+    char own[STEP_WORD + 8];
+    snprintf(own, sizeof own, "--step %s",
+             step_text(ratio_times(1, b->image->step) / (double)r->parts, text));
+    const bool is_all = cure == NULL || cure->outcome != CURE_DOES_NOT;
+    fprintf(out, "hint: %s %s%s\n", cure != NULL && is_all ? cure->options : own,
+            is_all ? "would do" : "resolves that, but is not all that it takes",
+            r->agreed ? "" : ", as far as the steps go: still finer ones end elsewhere");
+}
+
+void busy_say(FILE *out, const char *who, const busy *b, const retrial *r, const busy_cure *cure) {
     if (!r->told) {
         return;
     }
@@ -99,9 +109,7 @@ void busy_say(FILE *out, const char *who, const busy *b, const retrial *r) {
     }
     fputc('\n', out);
     if (r->parts > 0) {
-        fprintf(out, "hint: --step %s would do%s\n",
-                step_text(ratio_times(1, b->image->step) / (double)r->parts, text),
-                r->agreed ? "" : ", as far as the steps go: still finer ones end elsewhere");
+        say_cure(out, b, r, cure);
     } else if (r->finest > 1) {
         say_scene(out, b, r);
     } else {

@@ -187,6 +187,13 @@ bool remedy_is_double(const judged *j, cures *c) {
     return j->kind == &engine_float && cure_try(c, &what) == CURE_DOES;
 }
 
+cure_outcome remedy_from(const judged *j, cures *c, double step_s, char text[REMEDY_TEXT]) {
+    const cure_wish first = own_cure(j, judged_method(j->image), step_s);
+    const remedy r = finer_until_it_does(j, c, first, false);
+    options_text(j, &r, text, REMEDY_TEXT);
+    return r.outcome;
+}
+
 cure_outcome remedy_finer(const judged *j, cures *c, char text[REMEDY_TEXT]) {
     const cure_wish half =
         own_cure(j, judged_method(j->image), linearised_nice_s(0.5 * j->watch->step_s));

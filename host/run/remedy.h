@@ -21,6 +21,9 @@ cure_outcome remedy_of_look(const judged *j, cures *c, const watch_look *look,
 /* The options alone of a step below the run's, and whether the run is right with it. */
 cure_outcome remedy_finer(const judged *j, cures *c, char text[REMEDY_TEXT]);
 
+/* Likewise, of a step that is `step_s` or below it. */
+cure_outcome remedy_from(const judged *j, cures *c, double step_s, char text[REMEDY_TEXT]);
+
 /* A float's run, with nothing changed but the number: is double enough? */
 bool remedy_is_double(const judged *j, cures *c);
 

@@ -5,6 +5,7 @@
 
 #include "busy_text.h"
 #include "host/base/room.h"
+#include "remedy.h"
 
 verdict *verdict_open(const image *im, const engine_kind *kind) {
     verdict *v = room(1, sizeof *v);
@@ -54,12 +55,26 @@ void verdict_end(verdict *v, const void *run, bool failed, const volatile sig_at
         (v->retrial.told ? VERDICT_BIT(VERDICT_CONTACTS) : 0U);
 }
 
-/* What the energy's balance is to be warned of with: the contacts, where they are to blame. */
+/* What the energy's balance is to be warned of with: the contacts, where they are to blame, or where the step that they take
+ * is asked for the energy, too. */
 static char *cure_of(verdict *v) {
     const bool contacts = (v->against & VERDICT_BIT(VERDICT_CONTACTS)) != 0;
     return contacts && v->busy->overruns > 0
                ? room_words("steps that had more events than they take do that: see there")
+           : contacts && v->retrial.parts > 0
+               ? room_words("the step is too coarse, for its contacts, too: see there")
                : advice_cure(&v->about);
+}
+
+static void say_contacts(FILE *out, const char *who, verdict *v) {
+    char options[REMEDY_TEXT];
+    busy_cure cure = {.options = options};
+    const bool is_tried = v->retrial.told && v->retrial.parts > 0;
+    if (is_tried) {
+        const double step_s = ratio_times(1, v->image->step) / (double)v->retrial.parts;
+        cure.outcome = remedy_from(&v->about.judged, &v->about.cures, step_s, options);
+    }
+    busy_say(out, who, v->busy, &v->retrial, is_tried ? &cure : NULL);
 }
 
 void verdict_say(FILE *out, verdict *v, bool fails) {
@@ -71,7 +86,7 @@ void verdict_say(FILE *out, verdict *v, bool fails) {
         free(cure);
     }
     if (v->busy != NULL) {
-        busy_say(out, warning, v->busy, &v->retrial);
+        say_contacts(out, warning, v);
     }
     advice_say(out, &v->about);
 }

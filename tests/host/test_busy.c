@@ -12,6 +12,7 @@
 #include "host/run/busy.h"
 #include "hybrid.h"
 #include "motion.h"
+#include "rattle.h"
 #include "unity.h"
 
 void suite_busy(void);
@@ -22,131 +23,6 @@ void suite_busy(void);
 #define CURED 5e-3
 /* What a bounce's moment rounds in float, of the gap: some units of the last place. */
 #define ROUNDED 1e-6
-
-typedef enum rattle_kind { BALL, HOLD, BELT, KINDS } rattle_kind;
-
-/* A mechanism with a closed form, which goes on from where it is. */
-typedef struct rattle {
-    rattle_kind kind;
-    double number
-        [6]; /* ball: gap, gravity, restitutions below and above; hold: threshold, acceleration; belt: stiffness,
-                       * speed, friction static and kinetic */
-    double step_s;
-    int steps;
-    double at_s; /* of the ball's */
-    double place_m;
-    double speed_mps;
-} rattle;
-
-static rattle drawn(dice *d, rattle_kind kind) {
-    rattle r = {.kind = kind, .step_s = pow(10.0, dice_between(d, -4.0, -2.0))};
-    double *n = r.number;
-    r.steps = 40 + (int)dice_one_of(d, 160);
-    if (kind == BALL) {
-        n[0] = pow(10.0, dice_between(d, -3.5, -1.7));
-        n[1] = dice_one_of(d, 2) == 0 ? 0.0 : 9.81;
-        n[2] = dice_one_of(d, 2) == 0 ? 1.0 : dice_between(d, 0.6, 1.0);
-        n[3] = dice_one_of(d, 2) == 0 ? 1.0 : dice_between(d, 0.6, 1.0);
-        r.place_m = n[0] * dice_between(d, 0.2, 0.8);
-        r.speed_mps = n[0] / r.step_s * pow(10.0, dice_between(d, -0.5, 2.0));
-    } else if (kind == HOLD) {
-        n[1] = dice_between(d, 1.0, 20.0);
-        n[0] = n[1] * r.step_s * pow(10.0, dice_between(d, -2.0, 1.0));
-    } else {
-        n[0] = pow(10.0, dice_between(d, -1.5, 0.3)) / r.step_s;
-        n[0] *= n[0];
-        n[2] = 0.4;
-        n[3] = dice_between(d, 0.2, 0.35);
-        n[1] = (n[2] - n[3]) * 9.81 / sqrt(n[0]) * dice_between(d, 0.5, 3.0);
-    }
-    return r;
-}
-
-static void write(const rattle *r, char text[static LINKAGE_TEXT]) {
-    const double *n = r->number;
-    char more[600];
-    if (r->kind == BALL) {
-        snprintf(more, sizeof more,
-                 "coordinate x [m]\nT = 1 [kg]*x'^2/2\nV = %.17g [N]*x\n"
-                 "stop x >= 0 [m] restitution %.17g\nstop x <= %.17g [m] restitution %.17g\n"
-                 "scene s { start x = %.17g [m], x' = %.17g [m/s]\n",
-                 n[1], n[2], n[0], n[3], r->place_m, r->speed_mps);
-    } else if (r->kind == HOLD) {
-        snprintf(more, sizeof more,
-                 "coordinate x [m]\nT = 1 [kg]*x'^2/2\nQ(x) = %.17g [N]\n"
-                 "hold x while x' > %.17g [m/s]\nscene s { start x = 0\n",
-                 n[1], n[0]);
-    } else {
-        snprintf(more, sizeof more,
-                 "coordinate b [m]\ncoordinate y [m]\nT = 1 [kg]*b'^2/2 + 1 [kg]*y'^2/2\n"
-                 "Q(y) = -%.17g [N/m]*(y + b)\n"
-                 "friction y static %.17g kinetic %.17g normal 9.81 [N]\n"
-                 "scene s { start b' = %.17g [m/s]\n",
-                 n[0], n[2], n[3], n[1]);
-    }
-    snprintf(text, LINKAGE_TEXT, "mechanism rattle\n%sstep %.17g [s]\nuntil %.17g [s] }\n", more,
-             r->step_s, r->step_s * r->steps);
-}
-
-/* --- closed forms ------------------------------------------------------------------------------------------*/
-
-/* From stop to stop along parabolas. */
-static double ball_m(rattle *r, double t) {
-    const double gap = r->number[0];
-    const double g = r->number[1];
-    for (;;) {
-        const double z = r->place_m;
-        const double v = r->speed_mps;
-        const double up = v * v - 2.0 * g * (gap - z);
-        const bool rises = v > 0.0 && up >= 0.0;
-        double next = (double)INFINITY;
-        if (rises) {
-            next = g > 0.0 ? 2.0 * (gap - z) / (v + sqrt(up)) : (gap - z) / v;
-        } else if (g > 0.0) {
-            next = (v + sqrt(v * v + 2.0 * g * z)) / g;
-        } else if (v < 0.0) {
-            next = z / -v;
-        }
-        if (r->at_s + next > t || (z == 0.0 && next < 1e-10)) {
-            const double dt = z == 0.0 && next < 1e-10 ? 0.0 : t - r->at_s;
-            return z + v * dt - g * dt * dt / 2.0;
-        }
-        r->at_s += next;
-        r->place_m = rises ? gap : 0.0;
-        r->speed_mps = -(v - g * next) * r->number[rises ? 3 : 2];
-    }
-}
-
-static double hold_m(const rattle *r, double t) {
-    const double period = r->number[0] / r->number[1];
-    const double rest = fmod(t, period);
-    return (t - rest) / period * r->number[0] * period / 2.0 + r->number[1] * rest * rest / 2.0;
-}
-
-/* On the belt. Sticks until the spring pulls with the static friction, swings about where it pulls with the kinetic one, and is caught
- * again where it goes with the belt. */
-static double belt_m(const rattle *r, double t) {
-    const double *n = r->number;
-    const double w = sqrt(n[0]);
-    const double breaks = n[2] * 9.81 / n[0];
-    const double middle = n[3] * 9.81 / n[0];
-    const double above = breaks - middle;
-    const double slip = (3.14159265358979323846 + 2.0 * atan(n[1] / (w * above))) / w;
-    if (t < breaks / n[1]) {
-        return 0.0;
-    }
-    const double cycle = slip + 2.0 * above / n[1];
-    const double in = fmod(t - breaks / n[1], cycle);
-    const double x = in < slip ? middle + above * cos(w * in) + n[1] / w * sin(w * in)
-                               : middle - above + n[1] * (in - slip);
-    return x - n[1] * t;
-}
-
-static double truth_m(rattle *r, double t) {
-    return r->kind == BALL ? ball_m(r, t) : r->kind == HOLD ? hold_m(r, t) : belt_m(r, t);
-}
-
-/* --- a run beside it ------------------------------------------------------------------------------------------*/
 
 typedef struct measured {
     bool busy;
@@ -170,7 +46,7 @@ static measured run_beside(const rattle *of, const char *text, double step_s, bo
     for (uint64_t k = 1; k <= steps; k++) {
         TEST_ASSERT_EQUAL_INT_MESSAGE(WH_OK, motion_step(&m, 1), text);
         busy_enter(b, m.kind, m.run, 0.0);
-        const double truth = truth_m(&r, (double)k * step_s);
+        const double truth = rattle_truth_m(&r, (double)k * step_s);
         const double off = fabs(motion_value(&m, r.kind == BELT ? "y" : "x") - truth);
         low = k == 1 ? truth : fmin(low, truth);
         high = k == 1 ? truth : fmax(high, truth);
@@ -225,13 +101,13 @@ static void test_busy_contacts_are_told_and_cured(void) {
     unsigned without = 0;
     double worst = 0.0;
     for (unsigned i = 0; i < cases; i++) {
-        const rattle r = drawn(&d, (rattle_kind)(i % KINDS));
+        const rattle r = rattle_drawn(&d, (rattle_kind)(i % KINDS));
         const bool is_float = dice_one_of(&d, 4) == 0;
         char text[LINKAGE_TEXT];
         char about[LINKAGE_TEXT + SAID_SIZE + 100];
         char step[40];
         said what;
-        write(&r, text);
+        rattle_write(&r, text);
         const measured seen = run_beside(&r, text, r.step_s, is_float);
         say(text, NULL, is_float, &what);
         snprintf(about, sizeof about, "%s%s, off by %.3g, %.3g at looks: %s\n%s", text,
@@ -275,7 +151,7 @@ static void test_where_no_step_helps_the_scene_is_changed(void) {
     const unsigned cases = dice_cases(few_or_all(usual_or(4, 3), 60));
     for (unsigned i = 0; i < cases; i++) {
         static const char *const words[] = {"ends its bounces", "take longer to come true again"};
-        rattle r = drawn(&d, i % 2 == 0 ? BALL : HOLD);
+        rattle r = rattle_drawn(&d, i % 2 == 0 ? BALL : HOLD);
         const double faster = pow(10.0, dice_between(&d, 5.0, 7.0));
         char text[LINKAGE_TEXT];
         said what;
@@ -287,7 +163,7 @@ static void test_where_no_step_helps_the_scene_is_changed(void) {
         } else {
             r.number[0] = r.number[1] * r.step_s / faster;
         }
-        write(&r, text);
+        rattle_write(&r, text);
         say(text, NULL, false, &what);
         TEST_ASSERT_TRUE_MESSAGE(is_told(&what), text);
         TEST_ASSERT_NOT_NULL_MESSAGE(strstr(what.err, words[r.kind]), what.err);
@@ -299,7 +175,7 @@ static void test_where_no_step_helps_the_scene_is_changed(void) {
         } else {
             r.number[0] *= 10.0 * faster;
         }
-        write(&r, text);
+        rattle_write(&r, text);
         say(text, NULL, false, &what);
         TEST_ASSERT_FALSE_MESSAGE(is_told(&what), what.err);
     }

@@ -367,7 +367,7 @@ static void expect_said(const busy *b, const retrial *r) {
     char *is = NULL;
     size_t size = 0;
     FILE *out = open_memstream(&is, &size);
-    busy_say(out, "whoever", b, r);
+    busy_say(out, "whoever", b, r, NULL);
     fclose(out);
     if (r->told) {
         int at;

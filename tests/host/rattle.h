@@ -1,0 +1,32 @@
+/* rattle.h: mechanisms whose contacts may be too busy for a step, with closed forms: a ball between two stops, a hold that ends
+ * its own condition, stick-slip. */
+#ifndef TESTS_HOST_RATTLE_H
+#define TESTS_HOST_RATTLE_H
+
+#include "command.h"
+#include "linkage.h"
+
+typedef enum rattle_kind { BALL, HOLD, BELT, KINDS } rattle_kind;
+
+/* A mechanism with a closed form, which goes on from where it is. */
+typedef struct rattle {
+    rattle_kind kind;
+    double number
+        [6]; /* ball: gap, gravity, restitutions below and above; hold: threshold, acceleration; belt: stiffness,
+                       * speed, friction static and kinetic */
+    double step_s;
+    int steps;
+    double at_s; /* of the ball's */
+    double place_m;
+    double speed_mps;
+} rattle;
+
+rattle rattle_drawn(dice *d, rattle_kind kind);
+void rattle_write(const rattle *r, char text[static LINKAGE_TEXT]);
+/* Beside it a body swings on a spring of its own, which the step may be too coarse for; with books. */
+void rattle_write_beside(const rattle *r, double swing_radps, double size_m,
+                         char text[static LINKAGE_TEXT]);
+/* Where it is at t, which is not before what was asked for last. */
+double rattle_truth_m(rattle *r, double t);
+
+#endif
