@@ -304,6 +304,17 @@ static const linear_motion *motion_to_blame(const linearised *l, const linear_mo
     return found;
 }
 
+void advice_say_undefined(FILE *out, advice *a) {
+    const judged *j = &a->judged;
+    char finer[REMEDY_TEXT];
+    if (remedy_is_double(j, &a->cures)) {
+        fputs("hint: float has too few digits for it: --number double would do\n", out);
+    } else if (j->image->settings.matrix != MATRIX_EXACT &&
+               remedy_finer(j, &a->cures, finer) == CURE_DOES) {
+        fprintf(out, "hint: steps that are too coarse may lead there: %s would do\n", finer);
+    }
+}
+
 void advice_say_diverged(FILE *out, advice *a) {
     judged *j = &a->judged;
     const bool is_asked =

@@ -23,6 +23,8 @@ char *advice_cure(advice *a);
 /* A singular position that the step does not resolve, and a swing that a system given by its equations loses, with what
  * would do. */
 void advice_say(FILE *out, advice *a);
+/* A run in which an expression has been no number: what keeps it away from there, if anything that was tried does. */
+void advice_say_undefined(FILE *out, advice *a);
 /* A run that has ended for leaving all bounds: the motion that the method does not carry, if it is one. */
 void advice_say_diverged(FILE *out, advice *a);
 

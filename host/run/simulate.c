@@ -240,6 +240,7 @@ static void say_failure(const simulation *sim, wh_status status) {
     diags_flush(errors, stderr);
     diags_free(errors);
     if (known) {
+        advice_say_undefined(stderr, &sim->verdict->about);
         return;
     }
     const int fault = kind->fault(sim->run);
@@ -317,6 +318,9 @@ static simulation_result judge(simulation *sim, wh_status status, bool interrupt
     say_saturated(sim);
     const bool undefined = diags_count(sim->undefined) > 0;
     diags_flush(sim->undefined, stderr);
+    if (status == WH_OK && undefined) {
+        advice_say_undefined(stderr, &sim->verdict->about);
+    }
     if (status != WH_OK || undefined) {
         return SIMULATION_FAILED;
     }

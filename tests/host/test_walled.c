@@ -1,0 +1,70 @@
+/* test_walled.c: a body between walls that its potential puts up, as -log(1 - (x/l)^2): its motion never leaves them, and a step
+ * that is too coarse does, to where the potential is no number. Such a run fails, names the expression, and a cure; which does. */
+#include <math.h>
+#include <stdbool.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "command.h"
+#include "host/commands/commands.h"
+#include "named_cures.h"
+#include "unity.h"
+
+void suite_walled(void);
+
+/* Of an energy E and a length l; all of them hold what has 0.9 E. */
+static const char *const potentials[] = {
+    "-E*log(1 - (x/l)^2)",
+    "E/(1 - (x/l)^2)",
+    "-E*sqrt(1 - (x/l)^2)",
+    "E*tan(x/l)^2/2",
+};
+enum { POTENTIALS = sizeof potentials / sizeof potentials[0] };
+
+static void draw(dice *d, unsigned i, char *text, size_t size) {
+    const double length_m = pow(10.0, dice_between(d, -2.0, 1.0));
+    const double energy_J = pow(10.0, dice_between(d, -2.0, 2.0));
+    const double own_s = length_m / sqrt(2.0 * energy_J);
+    const double step_s = own_s * pow(10.0, dice_between(d, -0.7, 0.6));
+    const double part = dice_between(d, 0.1, 0.9);
+    const double steps = 20.0 + dice_one_of(d, 400);
+    snprintf(text, size,
+             "mechanism walled\ncoordinate x [m]\nparameter l = %.17g [m]\n"
+             "parameter E = %.17g [J]\nT = 1 [kg]*x'^2/2\nV = %s\n"
+             "scene s { start x' = %.17g [m/s]\nstep %.17g [s]\nuntil %.17g [s] }\n",
+             length_m, energy_J, potentials[i % POTENTIALS], sqrt(2.0 * part * energy_J), step_s,
+             steps * step_s);
+}
+
+static void test_failed_runs_name_a_cure(void) {
+    dice d = dice_of("walled", 4451);
+    const unsigned cases = dice_cases(few_or_all(usual_or(120, 32), 600));
+    unsigned failed = 0;
+    unsigned cured = 0;
+    for (unsigned i = 0; i < cases; i++) {
+        char text[600];
+        said what;
+        draw(&d, i, text, sizeof text);
+        const char *words[] = {model_keep(text), "--quiet", "--number",
+                               dice_one_of(&d, 2) == 0 ? "float" : "double", NULL};
+        command_say(command_run, words, &what);
+        if (strstr(what.err, "is not a finite number") == NULL) {
+            continue;
+        }
+        failed++;
+        TEST_ASSERT_EQUAL_INT_MESSAGE(1, what.status, what.err);
+        named_cure list[NAMED_CURES];
+        TEST_ASSERT_TRUE_MESSAGE(named_cures(what.err, list) > 0 && list[0].tried, what.err);
+        const char *again[16] = {words[0], "--quiet"};
+        (void)named_words(&list[0], "rk4", words[3], again, 2);
+        command_say(command_run, again, &what);
+        TEST_ASSERT_EQUAL_STRING_MESSAGE("", what.err, text);
+        cured++;
+    }
+    model_drop();
+    printf("  %u runs between walls: %u steps led out of them, %u cures, all silent\n", cases,
+           failed, cured);
+    TEST_ASSERT_TRUE(failed > cases / 16);
+}
+
+void suite_walled(void) { RUN_TEST(test_failed_runs_name_a_cure); }
