@@ -7,9 +7,9 @@
 #include <string.h>
 #include <time.h>
 
-#include "core/refuse.h"
 #include "digits.h"
 #include "envelope.h"
+#include "failure.h"
 #include "faint.h"
 #include "host/base/room.h"
 #include "host/base/statement.h"
@@ -224,45 +224,6 @@ static wh_status loop(simulation *sim, bool *interrupted) {
     return status;
 }
 
-static bool starts_beyond(const image *im) {
-    bool found = false;
-    for (int i = 0; i < im->reals; i++) {
-        found = found || !(fabs(im->start_real[i]) < (double)WH_ABSURD);
-    }
-    return found;
-}
-
-static void say_failure(const simulation *sim, wh_status status) {
-    const image *im = sim->image;
-    const engine_kind *kind = sim->settings->kind;
-    diags *errors = diags_new();
-    const bool known = undefined_step(im, kind, sim->run, status, errors);
-    diags_flush(errors, stderr);
-    diags_free(errors);
-    if (known) {
-        advice_say_undefined(stderr, &sim->verdict->about);
-        return;
-    }
-    const int fault = kind->fault(sim->run);
-    const component c = image_component(im, fault < 0 ? 0 : fault);
-    const double time_s = ratio_times(kind->steps(sim->run), im->step);
-    fprintf(stderr, "whirl run: error: the run diverged in the step after t = %.9g s: %s", time_s,
-            im->unknown[c.unknown].name);
-    for (int k = 0; k < c.primes; k++) {
-        fputc('\'', stderr);
-    }
-    fputs(" left all bounds\n", stderr);
-    if (kind->steps(sim->run) == 0 && starts_beyond(im)) {
-        fprintf(
-            stderr,
-            "hint: it starts beyond them: numbers of a run stay below %g in SI's units; take an "
-            "origin, or units, nearer to it\n",
-            (double)WH_ABSURD);
-        return;
-    }
-    advice_say_diverged(stderr, &sim->verdict->about);
-}
-
 /* Said with --quiet, too: what was asked for is not what there is. */
 static void say_interrupted(const simulation *sim) {
     const uint64_t done = sim->settings->kind->steps(sim->run);
@@ -304,7 +265,7 @@ static void say_against(simulation *sim, bool fails) {
 static simulation_result judge(simulation *sim, wh_status status, bool interrupted) {
     const simulation_settings *s = sim->settings;
     if (status != WH_OK) { /* which says why the energies are no numbers either */
-        say_failure(sim, status);
+        failure_say(stderr, s->kind, sim->run, status, &sim->verdict->about);
         diags_free(sim->undefined);
         sim->undefined = diags_new();
     } else { /* an output is watched at the end, too, recorded or not */

@@ -1,0 +1,47 @@
+/* failure.c: see failure.h. */
+#include "failure.h"
+
+#include <math.h>
+
+#include "core/refuse.h"
+#include "host/base/diag.h"
+#include "undefined.h"
+
+static bool starts_beyond(const image *im) {
+    bool found = false;
+    for (int i = 0; i < im->reals; i++) {
+        found = found || !(fabs(im->start_real[i]) < (double)WH_ABSURD);
+    }
+    return found;
+}
+
+void failure_say(FILE *out, const engine_kind *kind, const void *run, wh_status status,
+                 advice *about) {
+    const image *im = about->judged.image;
+    diags *errors = diags_new();
+    const bool known = undefined_step(im, kind, run, status, errors);
+    diags_flush(errors, out);
+    diags_free(errors);
+    if (known) {
+        advice_say_undefined(out, about);
+        return;
+    }
+    const int fault = kind->fault(run);
+    const component c = image_component(im, fault < 0 ? 0 : fault);
+    const double time_s = ratio_times(kind->steps(run), im->step);
+    fprintf(out, "whirl run: error: the run diverged in the step after t = %.9g s: %s", time_s,
+            im->unknown[c.unknown].name);
+    for (int k = 0; k < c.primes; k++) {
+        fputc('\'', out);
+    }
+    fputs(" left all bounds\n", out);
+    if (kind->steps(run) == 0 && starts_beyond(im)) {
+        fprintf(
+            out,
+            "hint: it starts beyond them: numbers of a run stay below %g in SI's units; take an "
+            "origin, or units, nearer to it\n",
+            (double)WH_ABSURD);
+        return;
+    }
+    advice_say_diverged(out, about);
+}
