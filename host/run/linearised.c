@@ -192,7 +192,7 @@ static void choose(linearised *l) {
 linearised *linearised_of(const watch *w, wh_method method) {
     linearised *l = room(1, sizeof *l);
     *l = (linearised){.form = w->field->image->form,
-                      .span_s = (double)w->steps * w->step_s,
+                      .span_s = (double)(w->steps + (w->steps == 0)) * w->step_s,
                       .step_s = w->step_s,
                       .method = method};
     double *size = room(w->field->n, sizeof *size);

@@ -28,7 +28,7 @@ typedef struct linearised {
     const linear_motion *worst;   /* largest share * off, or NULL */
     const linear_motion *fastest; /* that takes part, or NULL */
     wh_form form;
-    double span_s;
+    double span_s; /* of the run; of one that ended in its first step, that step */
     double step_s;
     wh_method method;
 } linearised;
