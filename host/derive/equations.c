@@ -6,7 +6,7 @@
 place equations_kinetic_place(const instance *inst) {
     const mechanism *m = inst->mechanism;
     for (int i = 0; i < m->term_count; i++) {
-        if (m->terms[i].kind == TERM_T) {
+        if (m->terms[i].kind == TERM_T && instance_has_term(inst, &m->terms[i])) {
             return m->terms[i].at;
         }
     }

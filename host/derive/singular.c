@@ -233,6 +233,28 @@ static verdict verdict_at(const equations *e, int try, double *m, double *blur) 
     return is_system || rank_is_positive(kept, n) ? SOLVABLE : NOT_POSITIVE;
 }
 
+/* The part of the kinetic energy that is negative at most of the states tried; where none is, its first. */
+static place negative_place(const equations *e) {
+    const mechanism *of = e->instance->mechanism;
+    place found = equations_kinetic_place(e->instance);
+    int most = 0;
+    for (int i = 0; i < of->term_count; i++) {
+        const term *t = &of->terms[i];
+        if (t->kind != TERM_T || !instance_has_term(e->instance, t)) {
+            continue;
+        }
+        const poly *value = poly_from_expr(e->algebra, t->value);
+        int negative = 0;
+        for (int try = 0; try < TRY_START; try++) {
+            generic_state state = {e->instance, (uint64_t)try};
+            negative += poly_evaluate(value, generic_value, &state) < 0.0 ? 1 : 0;
+        }
+        found = negative > most ? t->at : found;
+        most = negative > most ? negative : most;
+    }
+    return found;
+}
+
 bool equations_check_solvable(equations *e, diags *errors) {
     const int n = e->count;
     double *m = room_for(n);
@@ -254,7 +276,7 @@ bool equations_check_solvable(equations *e, diags *errors) {
         break;
     case SINGULAR: report_singular(e, errors); break;
     case NOT_POSITIVE:
-        diag_error(errors, equations_kinetic_place(e->instance),
+        diag_error(errors, negative_place(e),
                    "a mass below zero? products of different rates alone, as x'*y'? equations "
                    "that are meant so can be given outright",
                    "the kinetic energy of '%s' is negative for some motion at every state tried",
