@@ -22,7 +22,8 @@ FNR == NR { next }
     rests[1] = $11; rests[2] = $14; sticks = $17; above = $18; crossed = $19
     if (x < low - 1e-9 || x > high + 1e-9) wrong("beyond a stop")
     if ((sticks || rests[1] || rests[2]) && v != 0) wrong("moves though it sticks or rests")
-    if (FNR > 1 && v == 0 && !(sticks || rests[1] || rests[2])) wrong("stands though nothing keeps it")
+    # what lets go just behind a row is told at its tick
+    if (FNR > 1 && v == 0 && !(sticks || rests[1] || rests[2]) && !(was_sticks || was_rests[1] || was_rests[2])) wrong("stands though nothing keeps it")
     if ((rests[1] && size(x - low) > 1e-9) || (rests[2] && size(x - high) > 1e-9)) wrong("rests off the stop")
     if (size(x - level) > 1e-9 && above != (x > level)) wrong("on the other side")
     if ($4 != crossed) wrong("crossed " crossed " times, counted " $4)
@@ -50,5 +51,5 @@ FNR > 1 {
         if (crossed > was_crossed && ($20 < was_t || $20 > t || size(was_x + was_v*($20 - was_t) - level) > off_m)) wrong("crossed before it is there")
     }
 }
-{ was_t = t; was_x = x; was_v = v; was_hit[1] = $12; was_hit[2] = $15; was_crossed = crossed; was_rests[1] = rests[1]; was_rests[2] = rests[2] }
+{ was_t = t; was_x = x; was_v = v; was_hit[1] = $12; was_hit[2] = $15; was_crossed = crossed; was_rests[1] = rests[1]; was_rests[2] = rests[2]; was_sticks = sticks }
 END { if (!bad && FNR < 2000) wrong("no rows"); if (!bad) print all + 0 " hits"; exit bad }
