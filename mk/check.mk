@@ -101,13 +101,13 @@ gate-long: $(GEN)/.stamp
 # These ask for WHIRL_FULL. `rest`: what `make test` and gate-long do whole is not done again.
 CLI_FULL = $(shell grep -l WHIRL_FULL $(CLI_TESTS))
 FULL_LIST := build/check/full.list
-full_part = "host suites$(comma) all cases$(comma) part $(1) of 3" 'build/tests/host $$(sh tests/part.sh $(FULL_LIST) $(1) 3)'
+full_part = "host suites$(comma) all cases$(comma) part $(1) of 6" 'build/tests/host $$(sh tests/part.sh $(FULL_LIST) $(1) 6)'
 .PHONY: full-now
 full-now: $(GEN)/.stamp
 	@$(MAKE) test-programs
 	@mkdir -p $(dir $(FULL_LIST)) && grep -l few_or_all tests/host/test_*.c | sed 's|.*/||' >$(FULL_LIST)
 	@WHIRL_FULL=rest WHIRL=build/whirl TEST_SECONDS=900 sh tests/run.sh build/check/log_full \
-	    $(foreach p,0 1 2,$(call full_part,$(p))) $(call run_cli,$(CLI_FULL))
+	    $(foreach p,0 1 2 3 4 5,$(call full_part,$(p))) $(call run_cli,$(CLI_FULL))
 
 # --- sanitizers -----------------------------------------------------------------------------------
 # WHIRL_FEW: a part of the cases of `make test`, of every class some, for an instrumented program takes six times as long;

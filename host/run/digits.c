@@ -155,7 +155,8 @@ static void judge_component(const image *im, const engine_kind *kind, const watc
         d->off = off;
         d->range = by;
         d->place = last_place;
-        d->by_sums = step_off > told * by;
+        /* once it is told, few places count, too */
+        d->by_sums = step_off > told * by || w->strayed[i] - other->strayed[i] > told * by;
     }
 }
 
