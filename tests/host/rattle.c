@@ -55,7 +55,7 @@ void rattle_write(const rattle *r, char text[static LINKAGE_TEXT]) {
              r->step_s, r->step_s * r->steps);
 }
 
-void rattle_write_beside(const rattle *r, double swing_radps, double size_m,
+void rattle_write_beside(const rattle *r, bool damped, double rate_radps, double size_m,
                          char text[static LINKAGE_TEXT]) {
     char own[LINKAGE_TEXT];
     rattle_write(r, own);
@@ -64,11 +64,19 @@ void rattle_write_beside(const rattle *r, double swing_radps, double size_m,
     char *start = strstr(own, "start ") + strlen("start ");
     stored[-5] = '\0';
     start[-6] = '\0';
+    char law[160];
+    char from[80];
+    if (damped) {
+        snprintf(law, sizeof law, "F = %.17g [N*s/m]*z'^2\nV = ", rate_radps);
+        snprintf(from, sizeof from, "z' = %.17g [m/s]", size_m * rate_radps);
+    } else {
+        snprintf(law, sizeof law, "V = %.17g [N/m]*z^2 + ", rate_radps * rate_radps);
+        snprintf(from, sizeof from, "z = %.17g [m]", size_m);
+    }
     snprintf(text, LINKAGE_TEXT,
-             "mechanism rattle\ncoordinate z [m]\n%.*sT = 1 [kg]*z'^2/2 + %s\n"
-             "V = %.17g [N/m]*z^2/2 + %swith ledger\nstart z = %.17g [m], %s",
-             (int)(kinetic - 4 - (own + 17)), own + 17, kinetic, swing_radps * swing_radps, stored,
-             size_m, start);
+             "mechanism rattle\ncoordinate z [m]\n%.*sT = 1 [kg]*z'^2 + %s\n%s%swith ledger\n"
+             "start %s, %s",
+             (int)(kinetic - 4 - (own + 17)), own + 17, kinetic, law, stored, from, start);
 }
 
 /* --- closed forms ------------------------------------------------------------------------------------------*/

@@ -6,6 +6,8 @@
 #include "command.h"
 #include "linkage.h"
 
+#include <stdbool.h>
+
 typedef enum rattle_kind { BALL, HOLD, BELT, KINDS } rattle_kind;
 
 /* A mechanism with a closed form, which goes on from where it is. */
@@ -23,8 +25,8 @@ typedef struct rattle {
 
 rattle rattle_drawn(dice *d, rattle_kind kind);
 void rattle_write(const rattle *r, char text[static LINKAGE_TEXT]);
-/* Beside it a body swings on a spring of its own, which the step may be too coarse for; with books. */
-void rattle_write_beside(const rattle *r, double swing_radps, double size_m,
+/* Beside it a body swings on a spring of its own, or slows down by a damper, which the step may be too coarse for; with books. */
+void rattle_write_beside(const rattle *r, bool damped, double rate_radps, double size_m,
                          char text[static LINKAGE_TEXT]);
 /* Where it is at t, which is not before what was asked for last. */
 double rattle_truth_m(rattle *r, double t);
