@@ -3,7 +3,7 @@
 
 #include <math.h>
 
-#include "again.h"
+#include "alongside.h"
 #include "folded.h"
 #include "host/number/functions.h"
 #include "swing.h"
@@ -18,10 +18,8 @@
 #define BESIDE_OTHERS 1e-3
 /* Of the range, where it varies. */
 #define SWING_OFF 0.01
-/* Of the range, at all records: a run whose balance alone is off. */
+/* Of the range, at all steps: a run whose balance alone is off. */
 #define WAY_AGREES 1e-3
-/* What may be spent on the way of half the step. */
-#define OPERATIONS_MOST 1e8
 
 judged judged_of(const image *im, const engine_kind *kind, const watch *w, const belief *balance) {
     return (judged){.image = im, .kind = kind, .watch = w, .balance = balance};
@@ -154,17 +152,11 @@ bool judged_lost(const judged *j) {
     return (belief_lost(b, BELIEF_LIMIT) && !by_the_rule) || on_the_way(j);
 }
 
-/* Does a way of half the step agree with the run? */
-static bool way_agrees(const judged *j) {
-    const watch *w = j->watch;
-    const double each = 8.0 * (j->image->list[IMAGE_STEP]->count + AGAIN_BESIDE);
-    return (double)w->steps * each <= OPERATIONS_MOST && swing_off(w) < WAY_AGREES;
-}
-
 bool judged_energy(judged *j) {
     if (!j->energy_known) {
         j->energy_known = true;
-        j->energy = judged_lost(j) && !(j->watch->doubts > 0 && way_agrees(j));
+        j->energy = judged_lost(j) && !(j->watch->doubts > 0 &&
+                                        alongside_agrees(j->image, j->kind, j->watch, WAY_AGREES));
     }
     return j->energy;
 }
