@@ -106,7 +106,7 @@ full_part = "host suites$(comma) all cases$(comma) part $(1) of 6" 'build/tests/
 full-now: $(GEN)/.stamp
 	@$(MAKE) test-programs
 	@mkdir -p $(dir $(FULL_LIST)) && grep -l few_or_all tests/host/test_*.c | sed 's|.*/||' >$(FULL_LIST)
-	@WHIRL_FULL=rest WHIRL=build/whirl TEST_SECONDS=900 sh tests/run.sh build/check/log_full \
+	@WHIRL_FULL=rest WHIRL=build/whirl TEST_SECONDS=3600 sh tests/run.sh build/check/log_full \
 	    $(foreach p,0 1 2 3 4 5,$(call full_part,$(p))) $(call run_cli,$(CLI_FULL))
 
 # --- sanitizers -----------------------------------------------------------------------------------
