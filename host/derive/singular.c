@@ -140,11 +140,47 @@ static const char *effect_with_inertia(const equations *e, const symbol *s) {
     return NULL;
 }
 
+/* At how many of the states tried this part of the kinetic energy is negative. */
+static int times_negative(const equations *e, const term *t) {
+    const poly *value = poly_from_expr(e->algebra, t->value);
+    int negative = 0;
+    for (int try = 0; try < TRY_START; try++) {
+        generic_state state = {e->instance, (uint64_t)try};
+        negative += poly_evaluate(value, generic_value, &state) < 0.0 ? 1 : 0;
+    }
+    return negative;
+}
+
+/* The part of the kinetic energy that is negative most often, and *most: how often; NULL: none ever is. */
+static const term *negative_part(const equations *e, int *most) {
+    const mechanism *of = e->instance->mechanism;
+    const term *found = NULL;
+    *most = 0;
+    for (int i = 0; i < of->term_count; i++) {
+        const term *t = &of->terms[i];
+        const bool takes_part = t->kind == TERM_T && instance_has_term(e->instance, t);
+        const int negative = takes_part ? times_negative(e, t) : 0;
+        if (negative > *most) {
+            found = t;
+            *most = negative;
+        }
+    }
+    return found;
+}
+
 static void report_singular(const equations *e, diags *errors) {
     char hint[HINT_SIZE] = "give it a mass or an inertia, or remove the coordinate";
     const int n = e->count;
     if (e->instance->mechanism->is_system) {
         report_singular_system(e, errors);
+        return;
+    }
+    int negative;
+    const term *taken = negative_part(e, &negative);
+    if (negative == TRY_START) {
+        diag_error(errors, taken->at, "take less away, or name an effect that gives more",
+                   "singular mass matrix: this takes all inertia of '%s' away for some motion",
+                   e->instance->mechanism->name);
         return;
     }
     for (int i = 0; i < n; i++) {
@@ -233,28 +269,6 @@ static verdict verdict_at(const equations *e, int try, double *m, double *blur) 
     return is_system || rank_is_positive(kept, n) ? SOLVABLE : NOT_POSITIVE;
 }
 
-/* The part of the kinetic energy that is negative at most of the states tried; where none is, its first. */
-static place negative_place(const equations *e) {
-    const mechanism *of = e->instance->mechanism;
-    place found = equations_kinetic_place(e->instance);
-    int most = 0;
-    for (int i = 0; i < of->term_count; i++) {
-        const term *t = &of->terms[i];
-        if (t->kind != TERM_T || !instance_has_term(e->instance, t)) {
-            continue;
-        }
-        const poly *value = poly_from_expr(e->algebra, t->value);
-        int negative = 0;
-        for (int try = 0; try < TRY_START; try++) {
-            generic_state state = {e->instance, (uint64_t)try};
-            negative += poly_evaluate(value, generic_value, &state) < 0.0 ? 1 : 0;
-        }
-        found = negative > most ? t->at : found;
-        most = negative > most ? negative : most;
-    }
-    return found;
-}
-
 bool equations_check_solvable(equations *e, diags *errors) {
     const int n = e->count;
     double *m = room_for(n);
@@ -268,6 +282,8 @@ bool equations_check_solvable(equations *e, diags *errors) {
     }
     free(m);
     const mechanism *of = e->instance->mechanism;
+    const term *taken;
+    int negative;
     switch (best) {
     case NOWHERE_FINITE:
         diag_error(errors, of->at,
@@ -276,7 +292,8 @@ bool equations_check_solvable(equations *e, diags *errors) {
         break;
     case SINGULAR: report_singular(e, errors); break;
     case NOT_POSITIVE:
-        diag_error(errors, negative_place(e),
+        taken = negative_part(e, &negative);
+        diag_error(errors, taken != NULL ? taken->at : equations_kinetic_place(e->instance),
                    "a mass below zero? products of different rates alone, as x'*y'? equations "
                    "that are meant so can be given outright",
                    "the kinetic energy of '%s' is negative for some motion at every state tried",

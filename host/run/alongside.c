@@ -8,9 +8,10 @@
 #include "host/base/room.h"
 #include "host/number/functions.h"
 
-/* What may be spent, and what a step takes: its own stages at most, and two of four beside it. */
+/* The way's parts of a step; what may be spent, and what a step takes: its own stages at most, and the way's. */
+#define PARTS 4
 #define OPERATIONS_MOST 1e8
-#define EVALUATIONS 16.0
+#define EVALUATIONS 24.0
 
 /* Angles may be given within a turn. */
 static double apart(const image *im, int i, double a, double b) {
@@ -29,7 +30,7 @@ bool alongside_agrees(const image *im, const engine_kind *kind, const watch *w, 
     for (uint64_t k = 0; k < w->steps && agrees; k++) {
         agrees = kind->step(run) == WH_OK;
         kind->state(run, is, is + im->angles);
-        field_go(w->field, w->step_s, 2, way);
+        field_go(w->field, w->step_s, PARTS, way);
         for (int i = 0; i < n; i++) { /* what is no number agrees with nothing */
             agrees = agrees && apart(im, i, is[i], way[i]) <= part * (w->high[i] - w->low[i]);
         }

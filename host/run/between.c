@@ -9,13 +9,15 @@
 #include "host/base/room.h"
 #include "host/number/functions.h"
 
-/* Steps that are asked, about; so many are to be seen, or of fewer half, but some. */
+/* Steps that are asked, about, so many in a row each time; so many are to be seen, or of fewer half, but some. What a row is
+ * off counts: a force whose period nearly divides the step goes round once in many steps, and none of its turns is there. */
 #define PLACES 64U
+#define ROW 2U
 #define SEEN_ENOUGH 8U
 #define SEEN_LEAST 3U
 /* Off the straight line, of the largest slope: a swing of h w = 1 is an eighth. */
 #define BENT 0.1
-/* In the mean, of the largest slope at ends of steps, and of what each step is off. */
+/* In the mean of rows, of the largest slope at ends of steps, and of what each step is off. */
 #define TOLD 0.02
 #define ONE_WAY 0.5
 /* What a contact makes of a force is not that of its mean: so far from the line in the mean. */
@@ -43,8 +45,9 @@ struct between {
     double *to;     /* and behind it */
     double *at;     /* [n] */
     double *slope;  /* [3 * n] at both ends, and between */
-    double *sum;    /* [n] what the ends of steps were off by, */
-    double *all;    /* its sizes, */
+    double *row;    /* [n] what the ends of this row's steps were off by; */
+    double *sum;    /* of all rows so far, its sizes, */
+    double *all;    /* and those of each step, */
     double *size;   /* the largest slope, */
     double *ends;   /* and that at ends of steps alone */
 };
@@ -56,11 +59,12 @@ between *between_open(const image *im, const engine_kind *kind) {
     b->proxy = kind != &engine_double;
     b->stride = 1U + im->steps / PLACES;
     const int64_t n = b->field->n;
-    b->from = room(10 * n, sizeof *b->from);
+    b->from = room(11 * n, sizeof *b->from);
     b->to = b->from + n;
     b->at = b->to + n;
     b->slope = b->at + n;
-    b->sum = b->slope + 3 * n;
+    b->row = b->slope + 3 * n;
+    b->sum = b->row + n;
     b->all = b->sum + n;
     b->size = b->all + n;
     b->ends = b->size + n;
@@ -142,9 +146,9 @@ static bool take_again(between *b) {
 static void note_bent(between *b, double share) {
     const int n = b->field->n;
     for (int i = 0; i < n; i++) {
-        const double off = b->step_s * off_line(b, i, share);
-        b->sum[i] += is_highest(b, i) ? off : 0.0;
-        b->all[i] = b->sum[i];
+        const double off = is_highest(b, i) ? b->step_s * off_line(b, i, share) : 0.0;
+        b->row[i] += off;
+        b->all[i] += off;
     }
 }
 
@@ -166,16 +170,32 @@ static void compare(between *b, uint64_t begin, double share) {
     for (int i = 0; i < n; i++) {
         const double off = b->to[i] - b->at[i];
         if (is_highest(b, i) && isfinite(off)) {
-            b->sum[i] += off;
+            b->row[i] += off;
             b->all[i] += fabs(off);
         }
     }
 }
 
+static void end_row(between *b) {
+    for (int i = 0; i < b->field->n; i++) {
+        b->sum[i] += fabs(b->row[i]);
+        b->row[i] = 0.0;
+    }
+}
+
+/* Is this step one of a row? The last of one? */
+static bool is_asked(const between *b, uint64_t step) {
+    return step > 0 && (step - 1U) % (b->stride * ROW) < ROW;
+}
+
+static bool ends_row(const between *b, uint64_t step) {
+    return (step - 1U) % (b->stride * ROW) == ROW - 1U;
+}
+
 void between_enter(between *b, const engine_kind *kind, const void *run) {
     const uint64_t steps = kind->steps(run);
     const int angles = b->field->image->angles;
-    if (steps > 0 && steps % b->stride == 0 && b->spent < PARTS_IN_ALL) {
+    if (is_asked(b, steps) && b->spent < PARTS_IN_ALL) {
         const double share = 0.1 + 0.8 * 0x1p-32 * (double)((uint32_t)(b->asked + 1U) * GOLDEN);
         const int n = b->field->n;
         kind->state(run, b->to, b->to + angles);
@@ -188,8 +208,11 @@ void between_enter(between *b, const engine_kind *kind, const void *run) {
         if (is_bent(b, share)) {
             compare(b, steps - 1U, share);
         }
+        if (ends_row(b, steps)) {
+            end_row(b);
+        }
     }
-    if ((steps + 1U) % b->stride == 0) {
+    if (is_asked(b, steps + 1U)) {
         kind->state(run, b->from, b->from + angles);
     }
 }
@@ -201,11 +224,11 @@ between_found between_seen(const between *b) {
     }
     const bool by_contacts = b->field->image->contacts > 0;
     for (int i = 0; i < b->field->n && b->asked > 0; i++) {
-        const double mean = fabs(b->sum[i]) / ((double)b->asked * b->step_s);
+        const double sum = b->sum[i] + fabs(b->row[i]);
+        const double mean = sum / ((double)b->asked * b->step_s);
         const double off = b->size[i] > 0.0 ? mean / b->size[i] : 0.0;
         const bool is_told =
-            by_contacts ? off > TOLD_BENT
-                        : mean > TOLD * b->ends[i] && fabs(b->sum[i]) > ONE_WAY * b->all[i];
+            by_contacts ? off > TOLD_BENT : mean > TOLD * b->ends[i] && sum > ONE_WAY * b->all[i];
         if (is_highest(b, i) && is_told && off > found.off) {
             found = (between_found){.component = i,
                                     .off = off,

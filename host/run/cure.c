@@ -34,7 +34,8 @@ static cure_outcome outcome_of(const again *a, const volatile sig_atomic_t *stop
     const watch *w = a->watch;
     judged j = judged_of(&a->image, a->kind, w, &a->balance);
     const bool by_rule = w->balanced && w->doubts > 0;
-    const bool silent = !judged_energy(&j) && !judged_singular(&j) && !judged_swing(&j) &&
+    const bool known = a->books == NULL || !a->books->undefined;
+    const bool silent = known && !judged_energy(&j) && !judged_singular(&j) && !judged_swing(&j) &&
                         between_seen(w->between).component < 0 &&
                         (by_rule || !a->balance.known || judged_missing(&j) <= LEAVES);
     judged_end(&j);

@@ -152,10 +152,15 @@ bool judged_lost(const judged *j) {
     return (belief_lost(b, BELIEF_LIMIT) && !by_the_rule) || on_the_way(j);
 }
 
+/* The books' rule needs pairs of steps: what is left of an odd number is a trapezoid. */
+static bool rule_in_doubt(const watch *w) {
+    return w->doubts > 0 || (w->smooth && w->steps % 2U == 1U);
+}
+
 bool judged_energy(judged *j) {
     if (!j->energy_known) {
         j->energy_known = true;
-        j->energy = judged_lost(j) && !(j->watch->doubts > 0 &&
+        j->energy = judged_lost(j) && !(rule_in_doubt(j->watch) &&
                                         alongside_agrees(j->image, j->kind, j->watch, WAY_AGREES));
     }
     return j->energy;

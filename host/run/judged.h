@@ -52,7 +52,7 @@ linearised *judged_motions(judged *j);
  * that change within a step; and where it was lost on the way and came back. */
 bool judged_lost(const judged *j);
 /* And is the motion off, where that rule was in doubt? What steps give and take of a force that is too fast for the rule may
- * come to more than is told of, and put the motion nowhere: then a way of half the step agrees with the run. */
+ * come to more than is told of, and put the motion nowhere: then a way of a quarter of the step agrees with the run. */
 bool judged_energy(judged *j);
 /* What is missing of the largest entry, at the end or on the way. */
 double judged_missing(const judged *j);

@@ -222,10 +222,10 @@ typedef struct pair {
 } pair;
 
 /* Where there are contacts, what differs at one look alone does not count: one of the two has had an event already that
- * the other has within the step. */
+ * the other has within the step. Of a run of one step it is all there is. */
 static void look(pair *p, double time_s) {
     twins *t = p->to;
-    const bool events = p->wish->image->contacts > 0;
+    const bool events = p->wish->image->contacts > 0 && p->wish->image->steps > 1U;
     records_read(p->ours, t->run, time_s);
     records_read(p->finers, p->finer, time_s);
     for (int k = 1; k < t->columns; k++) {
