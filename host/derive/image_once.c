@@ -41,6 +41,26 @@ static void time_it(image *im, const instance *inst) {
     im->until_s = inst->until_s;
 }
 
+/* Is it a product of numbers as they are written? Else, where it is next to nothing, it may be what sums round. */
+static bool is_written(const instance *inst, const expr *e) {
+    switch (e->op) {
+    case EXPR_NUMBER: return true;
+    case EXPR_SYMBOL:
+        return e->symbol->kind == SYM_LET ? is_written(inst, e->symbol->value)
+               : e->symbol->kind == SYM_PARAMETER
+                   ? is_written(inst, inst->parameter_given[e->symbol->index])
+                   : false;
+    case EXPR_NEG: return is_written(inst, e->left);
+    case EXPR_MUL:
+    case EXPR_DIV:
+    case EXPR_POW: return is_written(inst, e->left) && is_written(inst, e->right);
+    case EXPR_ADD:
+    case EXPR_SUB:
+    case EXPR_CALL: return false;
+    }
+    return false;
+}
+
 /* Where unknown i starts. */
 static void start_unknown(image_draft *d, const instance *inst, int i) {
     image_unknown *u = &d->made->unknown[i];
@@ -51,6 +71,7 @@ static void start_unknown(image_draft *d, const instance *inst, int i) {
         u->start[k] = inst->start[i][k];
         u->start_at[k] = image_place(d, inst->start_at[i][k]);
     }
+    u->start_written = inst->start_given[i][0] != NULL && is_written(inst, inst->start_given[i][0]);
 }
 
 /* The starts of the components and the inputs, once those of the unknowns and the components are known. */

@@ -143,6 +143,8 @@ typedef struct image_unknown {
     int starts;              /* order, or 2 when that is more */
     double *start;           /* [starts] value, rate, ... */
     place *start_at;         /* [starts] where it was given; no source where it was not */
+    bool
+        start_written; /* its value is a product of numbers as they are written: no sum's rounding */
 } image_unknown;
 
 /* Which unknown, and which of its derivatives, a component of the state is. */

@@ -15,11 +15,13 @@
 #define ROW 2U
 #define SEEN_ENOUGH 8U
 #define SEEN_LEAST 3U
-/* Off the straight line, of the largest slope: a swing of h w = 1 is an eighth. */
-#define BENT 0.1
-/* In the mean of rows, of the largest slope at ends of steps, and of what each step is off. */
+/* Off the straight line, of the largest slope so far: a swing of h w = 1 is an eighth, of h w = 0.4 this. */
+#define BENT 0.02
+/* In the mean of rows, of the largest slope at ends of steps so far, and of what each step is off. So far: a swing that is not
+ * there, and is met in its time, grows beyond what has made it. Of slopes that are nothing at ends of steps all is off. */
 #define TOLD 0.02
 #define ONE_WAY 0.5
+#define ALL_OFF 100.0
 /* What a contact makes of a force is not that of its mean: so far from the line in the mean. */
 #define TOLD_BENT 0.25
 /* Parts of a step: 5, 21, 85, 341, 1365, 5461: what is a whole number of periods in two of them is so in none that is likely. */
@@ -27,7 +29,7 @@
 #define PARTS_MOST 5461
 /* Of all steps that are taken again. */
 #define PARTS_IN_ALL 400000
-#define AGREED 0.01
+#define AGREED 1e-3
 /* The golden ratio of 2^32. */
 #define GOLDEN 2654435769U
 
@@ -47,7 +49,8 @@ struct between {
     double *slope;  /* [3 * n] at both ends, and between */
     double *row;    /* [n] what the ends of this row's steps were off by; */
     double *sum;    /* of all rows so far, its sizes, */
-    double *all;    /* and those of each step, */
+    double *all;    /* those of each step, */
+    double *part;   /* and those of rows in parts of the largest slopes at ends of steps; */
     double *size;   /* the largest slope, */
     double *ends;   /* and that at ends of steps alone */
 };
@@ -59,14 +62,15 @@ between *between_open(const image *im, const engine_kind *kind) {
     b->proxy = kind != &engine_double;
     b->stride = 1U + im->steps / PLACES;
     const int64_t n = b->field->n;
-    b->from = room(11 * n, sizeof *b->from);
+    b->from = room(12 * n, sizeof *b->from);
     b->to = b->from + n;
     b->at = b->to + n;
     b->slope = b->at + n;
     b->row = b->slope + 3 * n;
     b->sum = b->row + n;
     b->all = b->sum + n;
-    b->size = b->all + n;
+    b->part = b->all + n;
+    b->size = b->part + n;
     b->ends = b->size + n;
     return b;
 }
@@ -133,7 +137,7 @@ static bool take_again(between *b) {
         b->spent += parts;
         agreed = parts > PARTS_FIRST;
         for (int i = 0; i < n; i++) {
-            const double room_of = AGREED * BENT * b->step_s * b->size[i];
+            const double room_of = AGREED * b->step_s * b->size[i];
             agreed = agreed && (!is_highest(b, i) || fabs(b->at[i] - last[i]) <= room_of);
         }
         b->parts = agreed && parts > b->parts ? parts : b->parts;
@@ -176,9 +180,16 @@ static void compare(between *b, uint64_t begin, double share) {
     }
 }
 
+/* What this row is off, in parts of the largest slope at ends of steps so far. */
+static double part_of(const between *b, int i) {
+    const double off = fabs(b->row[i]) / b->step_s;
+    return off < ALL_OFF * b->ends[i] ? off / b->ends[i] : off > 0.0 ? ALL_OFF : 0.0;
+}
+
 static void end_row(between *b) {
     for (int i = 0; i < b->field->n; i++) {
         b->sum[i] += fabs(b->row[i]);
+        b->part[i] += part_of(b, i);
         b->row[i] = 0.0;
     }
 }
@@ -224,11 +235,13 @@ between_found between_seen(const between *b) {
     }
     const bool by_contacts = b->field->image->contacts > 0;
     for (int i = 0; i < b->field->n && b->asked > 0; i++) {
-        const double sum = b->sum[i] + fabs(b->row[i]);
+        const double sum = b->sum[i] + fabs(b->row[i]); /* a row that has not ended, too */
+        const double part = b->part[i] + part_of(b, i);
         const double mean = sum / ((double)b->asked * b->step_s);
         const double off = b->size[i] > 0.0 ? mean / b->size[i] : 0.0;
-        const bool is_told =
-            by_contacts ? off > TOLD_BENT : mean > TOLD * b->ends[i] && sum > ONE_WAY * b->all[i];
+        const bool is_told = by_contacts
+                                 ? off > TOLD_BENT
+                                 : part > TOLD * (double)b->asked && sum > ONE_WAY * b->all[i];
         if (is_highest(b, i) && is_told && off > found.off) {
             found = (between_found){.component = i,
                                     .off = off,

@@ -16,7 +16,7 @@
  * metre or radian; or by less than that part of what others of its unit move. */
 #define STAYS 1e-9
 #define BESIDE_OTHERS 1e-3
-/* A place that starts this part of a metre or radian from its origin, and nearer, is there by rounding; beyond, by the scene. */
+/* A place whose start is computed by sums and is this part of a metre or radian, or less, is there by rounding; else by the scene. */
 #define STARTS 1e-12
 /* The bound of rounding is some twenty times what rounding does, eight times where it is alike at all states, as of a root of what
  * hardly changes. Where it does so much in the finer run, that shares it. */
@@ -32,7 +32,8 @@ static bool stays(const twins *t, int k) {
 
 /* What its size is known to be at least: it stays where the scene puts it, and not by chance at one metre from nothing. */
 static double least_size(const twins_column *c) {
-    return fabs(c->start) > STARTS * c->one ? size_of(c) : number_most(size_of(c), c->one);
+    const double least = c->written ? 0.0 : STARTS * c->one;
+    return fabs(c->start) > least ? size_of(c) : number_most(size_of(c), c->one);
 }
 
 /* Do both runs share what rounding does? What stays has no range to measure that by: it may stand for want of digits where

@@ -191,6 +191,7 @@ static void take_places(twins *t) {
         twins_column *to = &t->column[k];
         to->place = k;
         to->one = image_shown(c->unit, 1.0);
+        to->written = t->finer.unknown[c->unknown].start_written;
         for (int i = 1; i < t->columns; i++) {
             const record_column *other = &t->shape->column[i];
             to->has_rate =

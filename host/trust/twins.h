@@ -36,6 +36,7 @@ typedef struct twins_column {
     double rounding; /* what may move of it by rounding alone, in the finer run */
     double last;     /* difference at the last look */
     bool has_rate;   /* in the state: its origin may be anywhere */
+    bool written;    /* it starts where the scene has written, and not where sums have rounded */
     int place;       /* the column that it is a rate of; itself where it is none */
     double one;      /* of SI's unit, in the column's */
     double alike;    /* the largest range of what is no rate and has its unit */

@@ -5,6 +5,7 @@
 #include <math.h>
 #include <stdbool.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "command.h"
@@ -37,7 +38,7 @@ typedef struct tiny_case {
 static tiny_case draw(dice *d, unsigned i) {
     tiny_case c = {.law = laws[i % LAWS]};
     const double part = pow(10.0, dice_between(d, -17.5, -7.0)); /* of the length */
-    c.start_m = pow(10.0, dice_between(d, -11.8, -7.5)) * (dice_one_of(d, 2) == 0 ? 1.0 : -1.0);
+    c.start_m = pow(10.0, dice_between(d, -15.5, -7.5)) * (dice_one_of(d, 2) == 0 ? 1.0 : -1.0);
     c.length_m = fabs(c.start_m) / part;
     c.swing_radps = pow(10.0, dice_between(d, 0.0, 2.0));
     c.damping = dice_one_of(d, 2) == 0 ? 0.0 : dice_between(d, 0.001, 0.05);
@@ -66,11 +67,10 @@ static double off_by(const tiny_case *c, const char *csv) {
     double most = 0.0;
     for (const char *line = strchr(csv, '\n'); line != NULL && line[1] != '\0';
          line = strchr(line + 1, '\n')) {
-        double time_s;
-        double y_m;
-        if (sscanf(line, "%lf,%lf", &time_s, &y_m) == 2) {
-            most = fmax(most, fabs(y_m - closed_form(c, time_s)) / fabs(c->start_m));
-        }
+        char *end;
+        const double time_s = strtod(line + 1, &end);
+        const double y_m = strtod(end + 1, NULL);
+        most = fmax(most, fabs(y_m - closed_form(c, time_s)) / fabs(c->start_m));
     }
     return most;
 }
