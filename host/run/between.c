@@ -36,7 +36,8 @@
 struct between {
     field *field;
     double step_s;
-    bool proxy; /* the run's own end of a step says too little: taken again by Runge-Kutta 4 */
+    bool
+        proxy; /* the run's own end of a step says too little, or is off by its method: taken again by Runge-Kutta 4 */
     uint64_t stride;
     uint64_t asked;
     uint64_t seen;
@@ -59,7 +60,8 @@ between *between_open(const image *im, const engine_kind *kind) {
     between *b = room(1, sizeof *b);
     b->field = field_open(im, kind);
     b->step_s = im->step_s;
-    b->proxy = kind != &engine_double;
+    b->proxy = kind != &engine_double ||
+               wh_methods[im->settings.method].order < wh_methods[WH_METHOD_DEFAULT].order;
     b->stride = 1U + im->steps / PLACES;
     const int64_t n = b->field->n;
     b->from = room(12 * n, sizeof *b->from);
