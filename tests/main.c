@@ -27,7 +27,9 @@ static void run_suite(const struct suite *each) {
     suite_name = each->name;
     tests_before = (unsigned)Unity.NumberOfTests;
     UnitySetTestFile(each->file);
-    each->run();
+    if (TEST_PROTECT()) { /* what fails before its first test ends it, and would else go back to the one before */
+        each->run();
+    }
     UnitySetTestFile(__FILE__);
     RUN_TEST(test_suite_ran_a_test);
 }
