@@ -17,6 +17,8 @@
 #define SEEN_LEAST 3U
 /* Off the straight line, of the largest slope so far: a swing of h w = 1 is an eighth, of h w = 0.4 this. */
 #define BENT 0.02
+/* Three slopes are off by rounding at most. */
+#define ROUNDED 3.0
 /* In the mean of rows, of the largest slope at ends of steps so far, and of what each step is off. So far: a swing that is not
  * there, and is met in its time, grows beyond what has made it. Of slopes that are nothing at ends of steps all is off. */
 #define TOLD 0.02
@@ -113,18 +115,22 @@ static double off_line(const between *b, int i, double share) {
     return fabs(b->slope[2 * (ptrdiff_t)n + i] - line);
 }
 
-/* Is one of the highest slopes far from it, of the largest that it has had? */
+/* Is one of the highest slopes far from it, of the largest that it has had, and further than rounding puts it? */
 static bool is_bent(between *b, double share) {
     const int n = b->field->n;
     bool bent = false;
+    double *rounds = room(n, sizeof *rounds);
+    field_rounding(b->field, b->at, rounds);
     for (int i = 0; i < n; i++) {
         const double *slope = b->slope + i;
         for (int k = 0; k < 3; k++) {
             b->size[i] = number_most(b->size[i], fabs(slope[k * (ptrdiff_t)n]));
         }
         b->ends[i] = number_most(b->ends[i], number_most(fabs(slope[0]), fabs(slope[n])));
-        bent = bent || (is_highest(b, i) && off_line(b, i, share) > BENT * b->size[i]);
+        const double least = number_most(BENT * b->size[i], ROUNDED * rounds[i]);
+        bent = bent || (is_highest(b, i) && off_line(b, i, share) > least);
     }
+    free(rounds);
     return bent;
 }
 

@@ -60,6 +60,17 @@ void field_slope(field *f, const double *x, double *slope) {
     }
 }
 
+void field_rounding(field *f, const double *x, double *off) {
+    const image *im = f->image;
+    double *error = room(im->list[IMAGE_BOOKS]->results, sizeof *error);
+    evaluator_rounding(f->evaluator, x, 0.0, error);
+    for (int i = 0; i < f->n; i++) {
+        const int at = -1 - f->next[i];
+        off[i] = f->next[i] >= 0 ? 0.0 : 0x1p-53 * error[at] + im->mass_blur * fabs(f->value[at]);
+    }
+    free(error);
+}
+
 double field_energy_J(const field *f) {
     const image *im = f->image;
     const double *entry = f->value + im->count;

@@ -27,6 +27,9 @@ void field_close(field *f);
 
 /* slope[n] at the state x[n]. */
 void field_slope(field *f, const double *x, double *slope);
+/* Of the state x[n] whose slope was asked for last: how far off rounding in double may put each highest one, at most; off[n], of the
+ * others 0. */
+void field_rounding(field *f, const double *x, double *off);
 /* What the books balance, at the state whose slope was asked for last. J. */
 double field_energy_J(const field *f);
 /* matrix[n * n], row by row: how the slope changes with the state; `size[n]` is the size of a component where it
