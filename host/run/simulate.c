@@ -279,7 +279,9 @@ static simulation_result judge(simulation *sim, wh_status status, bool interrupt
     say_saturated(sim);
     const bool undefined = diags_count(sim->undefined) > 0;
     diags_flush(sim->undefined, stderr);
-    if (status == WH_OK && undefined) {
+    const books *b = sim->verdict->books;
+    if (status == WH_OK && b != NULL && b->undefined &&
+        sim->output < 0) { /* of outputs a cure knows nothing */
         advice_say_undefined(stderr, &sim->verdict->about);
     }
     if (status != WH_OK || undefined) {

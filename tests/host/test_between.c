@@ -155,7 +155,7 @@ static void test_what_is_wrong_is_told(void) {
     printf(
         "  %u driven in round steps: %u wrong, none trusted, %u told as this, %u cured; %u right\n",
         cases, wrong, by_this, cured, right);
-    TEST_ASSERT_TRUE(wrong > cases / 5 && by_this > wrong / 2 && right > cases / 10);
+    TEST_ASSERT_TRUE(wrong > cases / 5 && 2 * by_this >= wrong && right > cases / 10);
 }
 
 /* `whirl sweep` counts points of which `whirl run` says so. */
