@@ -26,6 +26,8 @@
 #define ALL_OFF 100.0
 /* What a contact makes of a force is not that of its mean: so far from the line in the mean. */
 #define TOLD_BENT 0.25
+/* By so much of the largest slope no contact has turned a step. */
+#define UNTOUCHED 0.1
 /* Parts of a step: 5, 21, 85, 341, 1365, 5461: what is a whole number of periods in two of them is so in none that is likely. */
 #define PARTS_FIRST 5
 #define PARTS_MOST 5461
@@ -53,7 +55,8 @@ struct between {
     double *row;    /* [n] what the ends of this row's steps were off by; */
     double *sum;    /* of all rows so far, its sizes, */
     double *all;    /* those of each step, */
-    double *part;   /* and those of rows in parts of the largest slopes at ends of steps; */
+    double *bent;   /* where there are contacts, how far slopes were off their lines, */
+    double *part;   /* and what rows are off in parts of the largest slopes at ends of steps; */
     double *size;   /* the largest slope, */
     double *ends;   /* and that at ends of steps alone */
 };
@@ -66,14 +69,15 @@ between *between_open(const image *im, const engine_kind *kind) {
                wh_methods[im->settings.method].order < wh_methods[WH_METHOD_DEFAULT].order;
     b->stride = 1U + im->steps / PLACES;
     const int64_t n = b->field->n;
-    b->from = room(12 * n, sizeof *b->from);
+    b->from = room(13 * n, sizeof *b->from);
     b->to = b->from + n;
     b->at = b->to + n;
     b->slope = b->at + n;
     b->row = b->slope + 3 * n;
     b->sum = b->row + n;
     b->all = b->sum + n;
-    b->part = b->all + n;
+    b->bent = b->all + n;
+    b->part = b->bent + n;
     b->size = b->part + n;
     b->ends = b->size + n;
     return b;
@@ -156,12 +160,19 @@ static bool take_again(between *b) {
 }
 
 static void note_bent(between *b, double share) {
-    const int n = b->field->n;
-    for (int i = 0; i < n; i++) {
-        const double off = is_highest(b, i) ? b->step_s * off_line(b, i, share) : 0.0;
-        b->row[i] += off;
-        b->all[i] += off;
+    for (int i = 0; i < b->field->n; i++) {
+        b->bent[i] += is_highest(b, i) ? off_line(b, i, share) : 0.0;
     }
+}
+
+/* Did contacts leave this step alone? Then it ends where Runge-Kutta's has, for what is of interest here. */
+static bool is_free(const between *b, const double *run) {
+    bool free_of_them = true;
+    for (int i = 0; i < b->field->n; i++) {
+        const double room_of = UNTOUCHED * b->step_s * b->size[i];
+        free_of_them = free_of_them && (!is_highest(b, i) || fabs(run[i] - b->to[i]) <= room_of);
+    }
+    return free_of_them;
 }
 
 static void compare(between *b, uint64_t begin, double share) {
@@ -173,11 +184,17 @@ static void compare(between *b, uint64_t begin, double share) {
     b->seen++;
     if (b->field->image->contacts > 0) {
         note_bent(b, share);
-        return;
     }
-    if (b->proxy) {
+    if (b->proxy || b->field->image->contacts > 0) {
+        double *run = room(n, sizeof *run);
+        memcpy(run, b->to, (size_t)n * sizeof *run);
         memcpy(b->to, b->from, (size_t)n * sizeof *b->to);
         field_go(b->field, b->step_s, 1, b->to);
+        const bool counts = b->field->image->contacts == 0 || is_free(b, run);
+        free(run);
+        if (!counts) {
+            return;
+        }
     }
     for (int i = 0; i < n; i++) {
         const double off = b->to[i] - b->at[i];
@@ -241,15 +258,14 @@ between_found between_seen(const between *b) {
     if (b->seen < SEEN_LEAST || (b->seen < SEEN_ENOUGH && 2U * b->seen < b->asked)) {
         return found;
     }
-    const bool by_contacts = b->field->image->contacts > 0;
     for (int i = 0; i < b->field->n && b->asked > 0; i++) {
         const double sum = b->sum[i] + fabs(b->row[i]); /* a row that has not ended, too */
         const double part = b->part[i] + part_of(b, i);
         const double mean = sum / ((double)b->asked * b->step_s);
-        const double off = b->size[i] > 0.0 ? mean / b->size[i] : 0.0;
-        const bool is_told = by_contacts
-                                 ? off > TOLD_BENT
-                                 : part > TOLD * (double)b->asked && sum > ONE_WAY * b->all[i];
+        const double bent = b->bent[i] / (double)b->asked;
+        const double off = b->size[i] > 0.0 ? number_most(mean, bent) / b->size[i] : 0.0;
+        const bool is_told = bent > TOLD_BENT * b->size[i] ||
+                             (part > TOLD * (double)b->asked && sum > ONE_WAY * b->all[i]);
         if (is_highest(b, i) && is_told && off > found.off) {
             found = (between_found){.component = i,
                                     .off = off,

@@ -6,8 +6,8 @@
  * straight line between those at its ends, the step is taken again in parts so fine that it is known, and in numbers that no
  * common period divides: by how much the rates of the run then are off in the mean of these rows is what its steps never saw. What goes up
  * and down from step to step says nothing, and what a method is off by neither: that is less than was seen. Forces of
- * contacts are not in it; where there are some, the slopes' distance from the line counts itself: what a friction makes of a
- * force is not what it makes of its mean. Nothing of it touches the run. */
+ * contacts are not in it; where there are some, only steps that they leave alone count so, and the slopes' distance from the line
+ * counts itself: what a friction makes of a force is not what it makes of its mean. Nothing of it touches the run. */
 #ifndef RUN_BETWEEN_H
 #define RUN_BETWEEN_H
 
