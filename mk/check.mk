@@ -128,8 +128,8 @@ CLI_NOT_ASAN := $(foreach t,boards enclosures families flags fresh headers help 
 CLI_LESS_ASAN := $(foreach t,asked_first carriage commands effects_cost_nothing embed_headers embed_names embed_sketch emitted_c faults figures \
     fixed float_range measure pil price price_pages price_predicts printed_zeros recorded_bits recorded_lists settings_bits swing,\
     tests/cli/$(t).sh)
-HOST_LESS_ASAN := asked_first belief books_told busy choice coarse_tables contact_bound contact_centres contact_holds contact_load contact_rest \
-    contact_squeezed contact_start contact_together convergence cost energy_kept exact_books far_origin far_slopes figures_thomson fixed_ranges \
+HOST_LESS_ASAN := asked_first belief between books_told busy choice coarse_tables contact_bound contact_centres contact_holds contact_load contact_rest \
+    contact_squeezed contact_start contact_together convergence cost energy_kept exact_books far_origin far_slopes figures_thomson fixed_ranges forced_swing \
     force_free hard_edges hard_origin hinged hybrids latex_runs ledger_scenes linkages map mass_scales matrix_runs methods printed_runs prove_drawn \
     reference rounding slow_angles stabilized stabilized_beside tables tape_gauge trajectory trust trust_drawn trust_scenes turned turned_errors warnings
 ASAN_LIST = $(B)/tests/asan_suites.list
