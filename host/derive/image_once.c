@@ -41,19 +41,25 @@ static void time_it(image *im, const instance *inst) {
     im->until_s = inst->until_s;
 }
 
+/* Parts of a start that are looked at: of p*p, where p is q*q and so on, there are as many as two to the depth. */
+enum { MOST_PARTS = 1000 };
+
 /* Is it a product of numbers as they are written? Else, where it is next to nothing, it may be what sums round. */
-static bool is_written(const instance *inst, const expr *e) {
+static bool is_written(const instance *inst, const expr *e, int *parts) {
+    if (++*parts > MOST_PARTS) {
+        return false;
+    }
     switch (e->op) {
     case EXPR_NUMBER: return true;
     case EXPR_SYMBOL:
-        return e->symbol->kind == SYM_LET ? is_written(inst, e->symbol->value)
+        return e->symbol->kind == SYM_LET ? is_written(inst, e->symbol->value, parts)
                : e->symbol->kind == SYM_PARAMETER
-                   ? is_written(inst, inst->parameter_given[e->symbol->index])
+                   ? is_written(inst, inst->parameter_given[e->symbol->index], parts)
                    : false;
-    case EXPR_NEG: return is_written(inst, e->left);
+    case EXPR_NEG: return is_written(inst, e->left, parts);
     case EXPR_MUL:
     case EXPR_DIV:
-    case EXPR_POW: return is_written(inst, e->left) && is_written(inst, e->right);
+    case EXPR_POW: return is_written(inst, e->left, parts) && is_written(inst, e->right, parts);
     case EXPR_ADD:
     case EXPR_SUB:
     case EXPR_CALL: return false;
@@ -71,7 +77,9 @@ static void start_unknown(image_draft *d, const instance *inst, int i) {
         u->start[k] = inst->start[i][k];
         u->start_at[k] = image_place(d, inst->start_at[i][k]);
     }
-    u->start_written = inst->start_given[i][0] != NULL && is_written(inst, inst->start_given[i][0]);
+    int parts = 0;
+    u->start_written =
+        inst->start_given[i][0] != NULL && is_written(inst, inst->start_given[i][0], &parts);
 }
 
 /* The starts of the components and the inputs, once those of the unknowns and the components are known. */

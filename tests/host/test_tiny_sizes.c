@@ -111,7 +111,34 @@ static void hold(const char *number) {
 static void test_in_float(void) { hold("float"); }
 static void test_in_double(void) { hold("double"); }
 
+/* A start is looked at: is it written as it is? Of parts of parts there are as many as two to the depth, drawn 40 to 90 deep;
+ * whoever went through them all would not come back. */
+static void test_starts_of_parts_of_parts(void) {
+    static const char *const ways[] = {"%s%u = p%u*p%u\n", "%s%u = p%u/p%u\n",
+                                       "%s%u = -p%u*p%u^2\n", "%s%u = p%u^2/-p%u\n"};
+    dice d = dice_of("parts of parts", 9907);
+    const unsigned cases = dice_cases(usual_or(40, 8));
+    for (unsigned i = 0; i < cases; i++) {
+        char text[4000];
+        const char *kind = i % 2 == 0 ? "parameter p" : "let p";
+        const unsigned depth = 40 + dice_one_of(&d, 50);
+        int at = snprintf(text, sizeof text, "mechanism m\ncoordinate x [m]\n%s0 = 1\n", kind);
+        for (unsigned k = 1; k < depth; k++) {
+            const char *way = ways[dice_one_of(&d, sizeof ways / sizeof ways[0])];
+            at += snprintf(text + at, sizeof text - (size_t)at, way, kind, k, k - 1, k - 1);
+        }
+        snprintf(text + at, sizeof text - (size_t)at,
+                 "T = 1 [kg]*x'^2/2\nV = 1 [N/m]*x^2/2\n"
+                 "scene s { start x = 1e-9 [m]*p%u\nstep 10 [ms]\nuntil 1 [s] }\n",
+                 depth - 1);
+        said what;
+        command_say_model(command_run, text, &what);
+        TEST_ASSERT_EQUAL_INT_MESSAGE(0, what.status, what.err);
+    }
+}
+
 void suite_tiny_sizes(void) {
+    RUN_TEST(test_starts_of_parts_of_parts);
     RUN_TEST(test_in_float);
     RUN_TEST(test_in_double);
 }
