@@ -103,7 +103,7 @@ check: ## the quality gates: warnings, layout, lint, sanitizers, firmware rules,
 	@$(MAKE) $(PARALLEL) check-now
 
 .PHONY: full
-full: ## all cases of what `make test` and `make check` take fewer of; ends with "N passed, N failed" (a quarter of an hour)
+full: ## all cases of what `make test` and `make check` take fewer of; ends with "N passed, N failed" (most of an hour)
 	@UNITY="$(UNITY)" CC="$(CC)" mk/setup/deps.sh
 	@UNITY="$(UNITY)" mk/setup/unity.sh build/unity
 	@$(MAKE) $(PARALLEL) full-now

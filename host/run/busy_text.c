@@ -89,9 +89,14 @@ static void say_cure(FILE *out, const busy *b, const retrial *r, const busy_cure
     char own[STEP_WORD + 8];
     snprintf(own, sizeof own, "--step %s",
              step_text(ratio_times(1, b->image->step) / (double)r->parts, text));
-    const bool is_all = cure == NULL || cure->outcome != CURE_DOES_NOT;
-    fprintf(out, "hint: %s %s%s\n", cure != NULL && is_all ? cure->options : own,
-            is_all ? "would do" : "resolves that, but is not all that it takes",
+    static const char *const does[] = {
+        [CURE_DOES] = "would do",
+        [CURE_DOES_NOT] = "resolves that, but is not all that it takes",
+        [CURE_ROUNDS] = "resolves that, but is not all that it takes",
+        [CURE_NOT_TRIED] = "resolves that; whether that is all was not tried: it takes long"};
+    const cure_outcome outcome = cure == NULL ? CURE_DOES : cure->outcome;
+    fprintf(out, "hint: %s %s%s\n", cure != NULL && outcome == CURE_DOES ? cure->options : own,
+            does[outcome],
             r->agreed ? "" : ", as far as the steps go: still finer ones end elsewhere");
 }
 

@@ -30,33 +30,21 @@ bool swing_varies(const linearised *l, const linear_motion *m) {
     return found;
 }
 
-/* Carry x[n] on from one time to another, and by how much the run is off it there; a component's range is the measure. */
-static double way_off(const watch *w, double *x, double from_s, double to_s, const double *run) {
-    const double span_s = to_s - from_s;
-    double off = 0.0;
-    field_go(w->field, span_s, 2 * (int)(span_s / w->step_s + 0.5), x);
-    for (int i = 0; i < w->field->n; i++) {
-        const double range = w->high[i] - w->low[i];
-        const double apart = fabs(x[i] - run[i]);
-        off = range > 0.0 && !(apart <= off * range) ? apart / range : off;
-    }
-    return off;
-}
-
 double swing_off(const watch *w) {
     const int n = w->field->n;
-    const int last = w->records - 1;
     double *x = room(n, sizeof *x);
     double off = 0.0;
     memcpy(x, w->record, (size_t)n * sizeof *x);
-    for (int k = 1; k <= last; k++) {
-        const double *run = w->record + k * (ptrdiff_t)n;
-        const double there = way_off(w, x, w->record_s[k - 1], w->record_s[k], run);
-        off = there <= off ? off : there;
+    for (int k = 1; k < w->records; k++) {
+        const double span_s = w->record_s[k] - w->record_s[k - 1];
+        const double *record = w->record + k * (ptrdiff_t)n;
+        field_go(w->field, span_s, 2 * (int)(span_s / w->step_s + 0.5), x);
+        for (int i = 0; i < n; i++) {
+            const double range = w->high[i] - w->low[i];
+            const double apart = fabs(x[i] - record[i]);
+            off = range > 0.0 && !(apart <= off * range) ? apart / range : off;
+        }
     }
-    const double there =
-        way_off(w, x, w->record_s[last], watch_time_s(w, w->steps), watch_past(w, w->steps));
     free(x);
-    off = there <= off ? off : there;
     return isnan(off) ? (double)INFINITY : off;
 }

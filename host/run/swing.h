@@ -8,8 +8,8 @@
  * somewhere else, and most of it may cancel. */
 bool swing_varies(const linearised *l, const linear_motion *m);
 
-/* By how much of a component's range, at most, the run is off, at its records and where it ends, the way of Runge-Kutta 4, in
- * double, by half of the run's step, from the same start. Of a scene without contacts. */
+/* By how much of a component's range, at most, the run's records are off the way of Runge-Kutta 4, in double, by half of
+ * the run's step, from the same start. Of a scene without contacts. */
 double swing_off(const watch *w);
 
 #endif

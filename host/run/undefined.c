@@ -34,6 +34,39 @@ static void look_here(blamed *v, const undefined_at *at) {
     free(result);
 }
 
+static bool is_sine(const blame_node *n) {
+    return n->code == BLAME_CALL && (n->function == FN_SIN || n->function == FN_COS);
+}
+
+static double sine_limit_rad(const undefined_at *at) {
+    return at->turns ? ANGLE_SINE_MOST_FLOAT_RAD : ANGLE_SINE_MOST_RAD;
+}
+
+/* Is node i a sine that no run knows (core/sine.h)? In float those of turn angles are known everywhere. */
+static bool sine_beyond(const blamed *v, int i, const undefined_at *at, const bool *turning) {
+    const blame_node *n = &v->image->blame.node[i];
+    const double angle_rad = is_sine(n) ? v->value[n->a] : 0.0;
+    const bool beyond = fabs(angle_rad) >= sine_limit_rad(at) && isfinite(angle_rad);
+    return beyond && !(at->turns && turning[n->a]);
+}
+
+/* [blame.nodes]: those with an angle in them that is kept as turns; the caller frees it. */
+static bool *nodes_that_turn(const image *im) {
+    bool *turning = room(im->blame.nodes, sizeof *turning);
+    for (int i = 0; i < im->blame.nodes; i++) {
+        const blame_node *n = &im->blame.node[i];
+        int operand[2];
+        const int count = blamed_operands(n, operand);
+        for (int k = 0; k < count; k++) {
+            turning[i] = turning[i] || turning[operand[k]];
+        }
+        for (int k = 0; k < im->angles && n->code == BLAME_STATE; k++) {
+            turning[i] = turning[i] || (im->angle[k].unknown == n->a && n->b == 0);
+        }
+    }
+    return turning;
+}
+
 /* The state moved on by `ahead_s`. */
 static blamed look(const undefined_at *at, double ahead_s) {
     const image *im = at->image;
@@ -44,9 +77,12 @@ static blamed look(const undefined_at *at, double ahead_s) {
             v.state[i][k] += ahead_s * v.state[i][k + 1];
         }
     }
+    bool *turning = nodes_that_turn(im);
     for (int i = 0; i < im->blame.nodes; i++) {
-        v.value[i] = blamed_node(&v, &im->blame.node[i]);
+        const bool unknown = sine_beyond(&v, i, at, turning);
+        v.value[i] = unknown ? (double)NAN : blamed_node(&v, &im->blame.node[i]);
     }
+    free(turning);
     return v;
 }
 
@@ -80,12 +116,25 @@ static int innermost(const blamed *v, int node) {
 
 /* Reports `what` at `part`, where that stands in the line of the statement at `where`. */
 static void report(const undefined_at *at, place where, place part, const char *what,
-                   diags *errors) {
+                   const char *hint, diags *errors) {
     char text[STATEMENT_SIZE];
     const bool same = part.source != NULL && part.source == where.source && part.line == where.line;
     statement_text(where, text, sizeof text);
-    diag_error(errors, same ? part : where, hint_domain, "%s %s is not a finite number: %s",
-               at->when, what, text);
+    diag_error(errors, same ? part : where, hint, "%s %s is not a finite number: %s", at->when,
+               what, text);
+}
+
+/* Why node i, the innermost, is none. */
+static const char *hint_of(const blamed *v, int i, const undefined_at *at) {
+    static char hint[200];
+    const blame_node *n = &v->image->blame.node[i];
+    const bool sine = is_sine(n) && isfinite(v->value[n->a]);
+    snprintf(
+        hint, sizeof hint,
+        "it is %s() of %.6g rad, and sine and cosine are known up to %g rad only: keep what it is taken of "
+        "smaller",
+        function_name(n->function), sine ? v->value[n->a] : 0.0, sine_limit_rad(at));
+    return sine ? hint : hint_domain;
 }
 
 /* The first question whose answer is no finite number is reported. */
@@ -95,8 +144,9 @@ static bool find(const blamed *v, const undefined_at *at, int first, int count, 
         const blame_question *q = &b->question[i];
         if (!isfinite(v->value[q->node])) {
             const place none = {.source = NULL};
-            const place part = q->derived ? none : b->node[innermost(v, q->node)].at;
-            report(at, q->where, part, q->what, errors);
+            const int inner = innermost(v, q->node);
+            const place part = q->derived ? none : b->node[inner].at;
+            report(at, q->where, part, q->what, hint_of(v, inner, at), errors);
             return true;
         }
     }
@@ -130,7 +180,7 @@ void undefined_contact(const undefined_at *at, int k, diags *errors) {
     const image_contact *c = &at->image->contact[k];
     if (!look_ahead(at, c->first_question, c->questions, errors) &&
         !look_ahead(at, c->first_late, c->late, errors)) {
-        report(at, c->at, (place){.source = NULL}, c->undefined, errors);
+        report(at, c->at, (place){.source = NULL}, c->undefined, hint_domain, errors);
     }
 }
 
@@ -152,7 +202,7 @@ static double largest_phase(const tape *t, const double *angle_rad) {
 
 bool undefined_angle(const undefined_at *at, diags *errors) {
     const image *im = at->image;
-    const double limit = at->turns ? ANGLE_SINE_MOST_FLOAT_RAD : ANGLE_SINE_MOST_RAD;
+    const double limit = sine_limit_rad(at);
     const bool phase =
         !at->turns && largest_phase(im->list[IMAGE_BOOKS], at->angle_rad) >= limit * (1.0 - 1e-6);
     const image_unknown *worst = NULL;

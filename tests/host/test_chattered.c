@@ -335,7 +335,15 @@ static int said_many(char *text, const busy *b) {
                     b->overruns > 1 ? "them" : "it");
 }
 
-static void said_cure(char *text, const busy *b, const retrial *r) {
+/* What was tried beside it names steps of its own where they do all, and nothing where that is not known. */
+static const char other_step[] = "--step 7us --number double";
+static const char *const all_of_it[] = {
+    [CURE_DOES] = "would do",
+    [CURE_DOES_NOT] = "resolves that, but is not all that it takes",
+    [CURE_ROUNDS] = "resolves that, but is not all that it takes",
+    [CURE_NOT_TRIED] = "resolves that; whether that is all was not tried: it takes long"};
+
+static void said_cure(char *text, const busy *b, const retrial *r, const busy_cure *tried) {
     static const char *const ends[CONTACTS] = {
         "restitution 0 of '%s' ends its bounces",
         "let the condition of '%s' take longer to come true again once it has held",
@@ -343,10 +351,13 @@ static void said_cure(char *text, const busy *b, const retrial *r) {
         "let '%s' set what takes longer to cross again", "restitution 0 of '%s' ends its bounces"};
     if (r->parts > 0) { /* 20 ms in so many parts: whole microseconds */
         const int us = 20000 / (int)r->parts;
-        if (us < 1000) {
-            snprintf(text, 500, "hint: --step %dus would do", us);
+        const char *does = all_of_it[tried == NULL ? CURE_DOES : tried->outcome];
+        if (tried != NULL && tried->outcome == CURE_DOES) {
+            snprintf(text, 500, "hint: %s would do", other_step);
+        } else if (us < 1000) {
+            snprintf(text, 500, "hint: --step %dus %s", us, does);
         } else {
-            snprintf(text, 500, "hint: --step %gms would do", us / 1000.0);
+            snprintf(text, 500, "hint: --step %gms %s", us / 1000.0, does);
         }
         strcat(text, r->agreed ? "" : ", as far as the steps go: still finer ones end elsewhere");
     } else if (r->finest > 1) {
@@ -361,13 +372,13 @@ static void said_cure(char *text, const busy *b, const retrial *r) {
     }
 }
 
-static void expect_said(const busy *b, const retrial *r) {
+static void expect_said(const busy *b, const retrial *r, const busy_cure *tried) {
     char wanted[1500] = "";
     char cure[500];
     char *is = NULL;
     size_t size = 0;
     FILE *out = open_memstream(&is, &size);
-    busy_say(out, "whoever", b, r, NULL);
+    busy_say(out, "whoever", b, r, tried);
     fclose(out);
     if (r->told) {
         int at;
@@ -384,7 +395,7 @@ static void expect_said(const busy *b, const retrial *r) {
             at += snprintf(wanted + at, sizeof wanted - (size_t)at,
                            "; finer steps end elsewhere, by %.2g of a coordinate's range", r->off);
         }
-        said_cure(cure, b, r);
+        said_cure(cure, b, r, tried);
         snprintf(wanted + at, sizeof wanted - (size_t)at, "\n%s\n", cure);
     }
     TEST_ASSERT_EQUAL_STRING(wanted, is);
@@ -410,7 +421,9 @@ static void test_what_is_said(void) {
                                .parts = parts[dice_one_of(&die, 7)],
                                .finest = dice_one_of(&die, 4) == 0 ? 1U : 100U,
                                .agreed = dice_one_of(&die, 2) == 0};
-            expect_said(b, &r);
+            const unsigned outcome = dice_one_of(&die, CURE_NOT_TRIED + 2);
+            const busy_cure tried = {other_step, (cure_outcome)(outcome % (CURE_NOT_TRIED + 1))};
+            expect_said(b, &r, outcome > CURE_NOT_TRIED ? NULL : &tried);
             said_of[b->overruns > 0 ? 1 : 0]++;
         }
         busy_close(b);

@@ -293,6 +293,60 @@ static void test_the_angle_that_is_too_far(void) {
     derived_free(&d);
 }
 
+/* A sine somewhere in a formula, of what is about its limit; in float not where whole turns are none. */
+static void test_the_sine_that_is_too_far(void) {
+    unsigned told_of_sines = 0;
+    for (unsigned c = 0; c < dice_cases(usual_or(400, 100)); c++) {
+        char formula[FORMULA];
+        char text[FORMULA + 300];
+        int column = 0;
+        const bool turns = c % 2U == 0;
+        const bool of_angle = c % 4U > 1U;
+        const double limit = turns ? 1e9 : 5e8;
+        const double off = dice_between(&die, 1e-5, 0.5) * (dice_one_of(&die, 2) == 0 ? 1.0 : -1.0);
+        const double size = (1.0 + off) * limit;
+        const double factor = of_angle ? 3.0 : size / dice_between(&die, 1.0, 3.0);
+        snprintf(formula, sizeof formula, "%s(%.17g*%s)", dice_one_of(&die, 2) == 0 ? "sin" : "cos",
+                 factor, of_angle ? "a" : "x/u");
+        for (unsigned k = dice_one_of(&die, 4); k > 0; k--) {
+            put_around(formula, &column,
+                       around[dice_one_of(&die, sizeof around / sizeof around[0])]);
+        }
+        put_around(formula, &column, "Q(x) = 1 [N]*(@)");
+        snprintf(
+            text, sizeof text,
+            "mechanism m\ncoordinate a [rad]\ncoordinate x [m]\nparameter u = 1 [m]\nlet e0 = 2 + x/u\n"
+            "T = 1 [kg]*x'^2/2 + 1 [kg*m^2]*a'^2/2\nV = 1 [J]*cos(a)\n%s\n"
+            "scene s { start x = 1 [m]; step 1 [ms]; until 1 [s] }\n",
+            formula);
+        derived d = scene_of(text);
+        TEST_ASSERT_EQUAL_INT(1, d.image->angles);
+        const double angle_rad = of_angle ? size / factor : 0.3;
+        const double real[] = {of_angle ? 0.7 : size / factor, 0.0, 0.0};
+        const undefined_at at = {.image = d.image,
+                                 .real = real,
+                                 .angle_rad = &angle_rad,
+                                 .turns = turns,
+                                 .when = "then"};
+        char *told = told_of(&at, undefined_term);
+        const bool wanted = off > 0.0 && !(turns && of_angle);
+        TEST_ASSERT_EQUAL_MESSAGE(wanted, told[0] != '\0', text);
+        if (wanted) {
+            char where[40];
+            char hint[100];
+            snprintf(where, sizeof where, ":8:%d: error: then the force", column + 1);
+            snprintf(hint, sizeof hint,
+                     "() of %.6g rad, and sine and cosine are known up to %g rad", size, limit);
+            TEST_ASSERT_NOT_NULL_MESSAGE(strstr(told, where), told);
+            TEST_ASSERT_NOT_NULL_MESSAGE(strstr(told, hint), told);
+            told_of_sines++;
+        }
+        free(told);
+        derived_free(&d);
+    }
+    TEST_ASSERT_TRUE(told_of_sines > 10);
+}
+
 void suite_undefined_where(void) {
     die = dice_of("undefined_where", 69);
     RUN_TEST(test_the_innermost_part_is_named);
@@ -300,4 +354,5 @@ void suite_undefined_where(void) {
     RUN_TEST(test_what_it_is_made_of);
     RUN_TEST(test_angles_that_it_is_made_of);
     RUN_TEST(test_the_angle_that_is_too_far);
+    RUN_TEST(test_the_sine_that_is_too_far);
 }
