@@ -23,7 +23,10 @@ void failure_say(FILE *out, const engine_kind *kind, const void *run, wh_status 
     diags_flush(errors, out);
     diags_free(errors);
     if (known) {
-        advice_say_undefined(out, about);
+        /* Where a linkage lies flat, a step that misses the place knows no more of how it goes on. */
+        if (status != WH_E_SINGULAR) {
+            advice_say_undefined(out, about);
+        }
         return;
     }
     const int fault = kind->fault(run);

@@ -67,4 +67,36 @@ static void test_failed_runs_name_a_cure(void) {
     TEST_ASSERT_TRUE(failed > cases / 16);
 }
 
-void suite_walled(void) { RUN_TEST(test_failed_runs_name_a_cure); }
+/* A slider's crank and rod of one length: where they lie flat the run ends, and no step that passes the place is a cure. */
+static void test_flat_linkages_name_no_step(void) {
+    dice d = dice_of("flat linkages", 4463);
+    const unsigned cases = dice_cases(usual_or(24, 8));
+    for (unsigned i = 0; i < cases; i++) {
+        char text[900];
+        said what;
+        const double side_m = pow(10.0, dice_between(&d, -2.0, 0.5));
+        const double at_rad = dice_between(&d, 0.2, 1.2);
+        const double rate_radps = dice_between(&d, 0.5, 8.0);
+        snprintf(
+            text, sizeof text,
+            "mechanism crank\ncoordinate a [rad]\ncoordinate b [rad]\ncoordinate s [m]\n"
+            "parameter r = %.17g [m]\nparameter turn = %.17g\nparameter w = %.17g [rad/s]\n"
+            "T = 1 [kg]*r^2*a'^2/2 + 0.1 [kg]*r^2*b'^2/2 + 1 [kg]*s'^2/2\n"
+            "hold r*cos(a) + r*cos(b) - s while a > -1e3\nhold r*sin(a) + r*sin(b) while a > -1e3\n"
+            "scene g { start a = turn; start a' = w; start b = -turn; start b' = -w\n"
+            "start s = 2*r*cos(turn); start s' = -2*r*w*sin(turn); step %.17g [s]; until 9 [s] }\n",
+            side_m, at_rad, rate_radps, dice_between(&d, 0.001, 0.1) / rate_radps);
+        const char *words[] = {model_keep(text), "--quiet", "--number",
+                               dice_one_of(&d, 2) == 0 ? "float" : "double", NULL};
+        command_say(command_run, words, &what);
+        TEST_ASSERT_EQUAL_INT_MESSAGE(1, what.status, text);
+        TEST_ASSERT_NOT_NULL_MESSAGE(strstr(what.err, "more than one way to go on"), what.err);
+        TEST_ASSERT_NULL_MESSAGE(strstr(what.err, "--step"), what.err);
+    }
+    model_drop();
+}
+
+void suite_walled(void) {
+    RUN_TEST(test_failed_runs_name_a_cure);
+    RUN_TEST(test_flat_linkages_name_no_step);
+}
