@@ -88,7 +88,7 @@ gate-cppcheck:
 	    $(filter %.c,$(C_FILES))
 
 # --- what `make test` leaves out, to be quick ---------------------------------------------------------------
-gated = "host suites that make test leaves out$(comma) part $(1) of 2" 'build/tests/host $(2)'
+gated = "host suites that make test leaves out$(comma) part $(1) of 2" 'sh tests/each.sh build/tests/host $(2)'
 gate-long: $(GEN)/.stamp
 	@$(MAKE) test-programs
 	+@$(call build_board_tests,$(BOARDS_TEST))
@@ -101,7 +101,7 @@ gate-long: $(GEN)/.stamp
 # These ask for WHIRL_FULL. `rest`: what `make test` and gate-long do whole is not done again.
 CLI_FULL = $(shell grep -l WHIRL_FULL $(CLI_TESTS))
 FULL_LIST := build/check/full.list
-full_part = "host suites$(comma) all cases$(comma) part $(1) of 6" 'build/tests/host $$(sh tests/part.sh $(FULL_LIST) $(1) 6)'
+full_part = "host suites$(comma) all cases$(comma) part $(1) of 6" 'sh tests/each.sh build/tests/host $$(sh tests/part.sh $(FULL_LIST) $(1) 6)'
 .PHONY: full-now
 full-now: $(GEN)/.stamp
 	@$(MAKE) test-programs

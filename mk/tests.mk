@@ -111,7 +111,7 @@ RUN_CHIP = $(foreach b,$(CHIP_BOARDS),"drivers of the STM32F405 on a played chip
     "$(B)/tests/chip_$(b) $(if $(filter netduinoplus2,$(b)),,chip_clock chip_slots chip_cell)")
 RUN_CORE = "portable suites, double" $(B)/tests/core_double "portable suites, float" $(B)/tests/core_float
 # The host suites in four parts, so that all processors have work to the end; what takes longest goes first.
-part = "host suites$(comma) part $(1) of 4" '$(B)/tests/host $$(sh tests/part.sh $(2) $(1) 4)'
+part = "host suites$(comma) part $(1) of 4" 'sh tests/each.sh $(B)/tests/host $$(sh tests/part.sh $(2) $(1) 4)'
 run_host = $(foreach p,0 1 2 3,$(call part,$(p),$(1)))
 CLI_LONG := $(foreach t,emitted_c price embed_names flags,tests/cli/$(t).sh)
 run_cli = $(foreach t,$(1),"$(t)" "sh $(t)")

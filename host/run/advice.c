@@ -309,7 +309,7 @@ void advice_say_undefined(FILE *out, advice *a) {
     char finer[REMEDY_TEXT];
     if (remedy_is_double(j, &a->cures)) {
         fputs("hint: float has too few digits for it: --number double would do\n", out);
-    } else if (j->image->settings.matrix != MATRIX_EXACT &&
+    } else if (j->image->settings.matrix != MATRIX_EXACT && remedy_goes_through(j, &a->cures) &&
                remedy_finer(j, &a->cures, finer) == CURE_DOES) {
         fprintf(out, "hint: steps that are too coarse may lead there: %s would do\n", finer);
     }

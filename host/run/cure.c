@@ -1,6 +1,8 @@
 /* cure.c: see cure.h. */
 #include "cure.h"
 
+#include <math.h>
+
 #include "again.h"
 #include "digits.h"
 #include "host/number/functions.h"
@@ -49,18 +51,27 @@ static cure_outcome outcome_of(const again *a, const volatile sig_atomic_t *stop
     return few.energy || few.component >= 0 || few.not_known ? CURE_ROUNDS : CURE_DOES;
 }
 
+/* Also makes the image; of what can not be tried infinity. */
+static double share_of(const cures *c, const cure_wish *what, image *with) {
+    const bool can = c->image->fixed == NULL && image_with(c->image, what, with);
+    return can ? again_operations_a_step(with) * (double)with->steps / OPERATIONS_MOST
+               : (double)INFINITY;
+}
+
+double cure_share(const cures *c, const cure_wish *what) {
+    image with;
+    return share_of(c, what, &with);
+}
+
 cure_outcome cure_try(cures *c, const cure_wish *what) {
     image with;
-    if (c->image->fixed != NULL || !image_with(c->image, what, &with)) {
-        return CURE_NOT_TRIED;
-    }
-    const double each = again_operations_a_step(&with);
-    if (!(c->spent + each * (double)with.steps <= OPERATIONS_MOST)) {
+    if (!(c->spent + share_of(c, what, &with) <= 1.0)) {
         return CURE_NOT_TRIED;
     }
     again a;
     again_run(&a, &with, what->in_double ? &engine_double : c->kind, c->stop);
-    c->spent += each * (double)a.steps;
+    c->spent += again_operations_a_step(&with) * (double)a.steps / OPERATIONS_MOST;
+    c->ended = a.done;
     watch_end(a.watch, !a.done && !a.stopped);
     const cure_outcome outcome = a.stopped ? CURE_NOT_TRIED
                                  : a.done  ? outcome_of(&a, c->stop)

@@ -26,8 +26,12 @@ typedef struct cures {
     const image *image;
     const engine_kind *kind;
     const volatile sig_atomic_t *stop; /* ends a trial; may be NULL */
-    double spent;                      /* operations */
+    double spent;                      /* of what they may take, 1 */
+    bool ended;                        /* the last one that was tried went through to its end */
 } cures;
+
+/* Operations that it takes, of all that a run's cures may; above 1, or where no whole number of steps counts it, it is not tried. */
+double cure_share(const cures *c, const cure_wish *what);
 
 cure_outcome cure_try(cures *c, const cure_wish *what);
 

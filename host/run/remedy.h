@@ -24,6 +24,9 @@ cure_outcome remedy_finer(const judged *j, cures *c, char text[REMEDY_TEXT]);
 /* Likewise, of a step that is `step_s` or below it. */
 cure_outcome remedy_from(const judged *j, cures *c, double step_s, char text[REMEDY_TEXT]);
 
+/* Of a run that failed: does it go through with a step that is much finer, as fine as costs little? True where that is not known. */
+bool remedy_goes_through(const judged *j, cures *c);
+
 /* A float's run, with nothing changed but the number: is double enough? */
 bool remedy_is_double(const judged *j, cures *c);
 

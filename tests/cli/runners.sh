@@ -1,6 +1,6 @@
 #!/bin/sh
-# runners.sh: what runs the tests and compares the bits says what happened: tests/run.sh, tests/hashes.sh and tests/part.sh
-# end in the right line with the right exit status, whatever their programs do.
+# runners.sh: what runs the tests and compares the bits says what happened: tests/run.sh, tests/each.sh, tests/hashes.sh and
+# tests/part.sh end in the right line with the right exit status, whatever their programs do.
 . "$(dirname "$0")/../checks.sh"
 
 # expect WHAT STATUS LINE COMMAND...: the exit status, and the last line that is printed
@@ -30,6 +30,25 @@ expect "skipped ones are neither" 0 "2 passed, 0 failed" $run one "echo '3 Tests
 TEST_BEGINS=1 $run one "echo ok - a" >"$scratch/said"
 grep -q '^  RUN   one$' "$scratch/said" && grep -Eq '^  PASS  one .* [0-9]+ s +[0-9]+ s of processor$' "$scratch/said"
 verdict $? "one that begins, and the seconds that it took" "$scratch/said"
+
+# --- each.sh -----------------------------------------------------------------------------------------------
+cat >"$scratch/suites" <<'END'
+#!/bin/sh
+[ $# -eq 1 ] || exit 9
+case $1 in
+fails) echo "2 Tests 1 Failures 0 Ignored"; exit 1 ;;
+crashes) kill -9 $$ ;;
+*) echo "3 Tests 0 Failures 0 Ignored" ;;
+esac
+END
+chmod +x "$scratch/suites"
+each="sh tests/each.sh $scratch/suites"
+expect "suites by themselves" 0 "6 passed, 0 failed" $run one "$each good better"
+expect "others go on behind one that fails" 1 "7 passed, 1 failed" $run one "$each good fails better"
+expect "and behind one that crashes" 1 "6 passed, 1 failed" $run one "$each crashes good better"
+grep -q 'not ok - crashes: its program ended with status 137' "$scratch/said"
+verdict $? "which is named" "$scratch/said"
+expect "no suite" 1 "0 passed, 1 failed" $run one "$each"
 
 # --- hashes.sh ---------------------------------------------------------------------------------------------
 hashes="sh tests/hashes.sh $scratch/hashes"
