@@ -125,19 +125,19 @@ enum {
 /* Most evaluations of the accelerations in one step, each with at most one of `forces`: in each of WH_EVENTS_MAX
  * rounds a try to the step's end and one to the event (`stages` each), at the end of both up to three looks that put
  * back what slipped, one more at the step's end, the search with one more at its begin (where no force matters, those
- * at both ends and none on the way), two looks at an impact and one at a capture, two after assignments, and one more
+ * at both ends and none on the way), two looks at an impact and one at a capture, three after assignments, and one more
  * than there are contacts that may give way; then the last try, three looks at what passed, what settles the modes
  * behind it, and what finds or follows them when the step begins. */
 #define WH_CONTACT_EVALUATIONS(stages, stops, forced) \
-    (WH_EVENTS_MAX * (2 * (stages) + WH_PROBES + 11 + WH_CONTACT_LOOKS(stops, forced)) + \
+    (WH_EVENTS_MAX * (2 * (stages) + WH_PROBES + 12 + WH_CONTACT_LOOKS(stops, forced)) + \
      (stages) + 10 + 2 * WH_CONTACT_LOOKS(stops, forced))
 #define WH_CONTACT_LOOKS(stops, forced) (2 * ((stops) > 0) + ((forced) > (stops)) + (forced))
 
 /* Most evaluations of `signals` in one step: one with each of those above but the stages' and the search's two
- * ends, a second one where a step's end is compared with its begin and where a hold captures, and two when a
- * crossing is taken. */
+ * ends, a second one where a step's end is compared with its begin and where a hold captures, two when a
+ * crossing is taken, and two where such go then. */
 #define WH_CONTACT_SIGNALS(forced, crossings) \
-    (WH_EVENTS_MAX * (WH_PROBES + 12 + 3 * (forced) + 2 * (crossings)) + 11 + 6 * (forced))
+    (WH_EVENTS_MAX * (WH_PROBES + 15 + 3 * (forced) + 2 * (crossings)) + 11 + 6 * (forced))
 
 /* A scene's contacts, constant. The functions are lists of operations like the accelerations. */
 typedef struct wh_contact_system {

@@ -138,7 +138,7 @@ static inline void wh_contact_margins(const wh_contact_system *of, wh_contact_wo
             break;
         case WH_WHEN: /* only in its direction */
             if (mode != 0 && of->contact[k].direction != mode) {
-                margin = mode > 0 ? signal : -signal;
+                margin = (mode > 0 ? signal : -signal) + w->slack[k];
             }
             all += signal;
             break;

@@ -90,7 +90,7 @@ static inline unsigned wh_contact_lost(const wh_contact_system *of, wh_contact_w
     wh_contact_rows after;
     wh_contact_point_of(of, from, &at);
     wh_contact_rows_of(of, w, &at, input, &before);
-    wh_contact_point_ahead(of, from, span, &at);
+    wh_contact_point_ahead(of, from, span, NULL, &at);
     wh_contact_rows_of(of, w, &at, input, &after);
     const unsigned ahead = wh_contact_fallen(of, &before, &after);
     if (ahead < of->contacts || to == NULL) {

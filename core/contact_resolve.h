@@ -73,6 +73,39 @@ static inline void wh_contact_assign(const wh_contact_system *of, wh_contact_wor
         sides |= after[2 * l] != before[2 * l] ? 1U << l : 0U;
     }
     wh_contact_set_sides(of, w, sides, after);
+    w->stands &= ~sides;
+    w->stands |= (sides >> k & 1U) == 0 || after[2 * k] == WH_R(0.0) ? 1U << k : 0U;
+}
+
+/* Crossings in work->stands are past zero by what the location left: where that is not the side that their values now go to,
+ * they have turned back, and going back over zero is no other crossing. By first order, in which a fall that follows does
+ * not count; by second where that leaves a value where it is. */
+WH_APART void wh_contact_turn_back(const wh_contact_system *of, wh_contact_work *w, wh_real h,
+                                   const wh_real *input, wh_contact_state *s) {
+    wh_contact_point at;
+    wh_real accel[WH_COORDS];
+    wh_real now[2 * WH_CONTACTS_MAX];
+    wh_real ahead[2 * WH_CONTACTS_MAX];
+    const wh_real span = h * WH_R(0.125);
+    wh_contact_look(of, w, s, input, accel, now);
+    for (unsigned order = 1; order <= 2; order++) {
+        wh_contact_point_ahead(of, s, span, order == 2 ? accel : NULL, &at);
+        for (unsigned i = 0; i < of->coordinates; i++) {
+            at.rate[i] += span * accel[i];
+        }
+        wh_contact_signals(of, at.phase, at.linear, at.rate, input, ahead);
+        for (unsigned k = of->forced; k < of->contacts; k++) {
+            const wh_real gain = ahead[2 * k] - now[2 * k];
+            if ((w->stands >> k & 1U) != 0 && WH_ABS(gain) > WH_R(0.0)) {
+                w->stands &= ~(1U << k);
+                if (gain > WH_R(0.0) ? w->mode[k] < 0 : w->mode[k] > 0) {
+                    w->mode[k] = (int8_t)-w->mode[k];
+                    w->slack[k] = WH_R(2.0) * WH_ABS(now[2 * k]);
+                }
+            }
+        }
+    }
+    w->stands = 0;
 }
 
 /* After a crossing's assignments changed the gaps, conditions or rates of the contacts in work->moved: a

@@ -14,13 +14,17 @@ WH_INLINE void wh_contact_modes(const wh_contact_system *of, const wh_state *sta
 }
 
 /* Crossings that went against their direction, or left the value they started at, are on the other
- * side without an event. */
+ * side without an event. One that turns back and is not yet there is on none until the next step's end. */
 WH_INLINE void wh_contact_pass(const wh_contact_system *of, const wh_margins *m,
                                wh_contact_work *w) {
     unsigned passed = 0;
     WH_UNROLL
     for (unsigned k = of->forced; k < of->contacts; k++) {
-        passed |= m->value[k] >= WH_R(0.0) ? 1U << k : 0U;
+        const wh_real value = m->signal[2 * k];
+        const bool late =
+            w->slack[k] > WH_R(0.0) && (w->mode[k] > 0 ? value < WH_R(0.0) : value > WH_R(0.0));
+        passed |= m->value[k] >= WH_R(0.0) && !late ? 1U << k : 0U;
+        w->mode[k] = m->value[k] >= WH_R(0.0) && late ? (int8_t)0 : w->mode[k];
     }
     wh_contact_set_sides(of, w, passed, m->signal);
 }
@@ -31,7 +35,7 @@ WH_INLINE void wh_contact_work_begin(const wh_contact_system *of, const wh_state
     wh_contact_modes(of, state, w);
     WH_UNROLL
     for (unsigned k = 0; k < WH_CONTACTS_MAX; k++) {
-        if (k < of->forced && wh_contact_of(of, k, WH_FRICTION)) {
+        if (k < of->forced ? wh_contact_of(of, k, WH_FRICTION) : k < of->contacts) {
             w->slack[k] = WH_R(0.0);
         }
     }
@@ -58,6 +62,7 @@ WH_INLINE void wh_contact_work_open(const wh_contact_system *of, wh_contact_work
     if (of->contacts > of->forced) { /* only crossings assign */
         w->moved = 0;
         w->mover = 0;
+        w->stands = 0;
     }
     w->fault = -1;
 }
@@ -161,7 +166,7 @@ WH_APART void wh_contact_blame(const wh_contact_system *of, wh_contact_work *w, 
                                const wh_real *input, wh_contact_state *from) {
     wh_contact_point at;
     for (unsigned part = 0; part <= 2; part++) {
-        wh_contact_point_ahead(of, from, WH_R(0.5) * (wh_real)part * h, &at);
+        wh_contact_point_ahead(of, from, WH_R(0.5) * (wh_real)part * h, NULL, &at);
         of->forces(of->model, at.phase, at.linear, at.rate, input, w->law);
         wh_contact_expect_laws(of, w);
     }
@@ -197,6 +202,9 @@ WH_INLINE void wh_contact_happen(const wh_contact_system *of, wh_contact_work *w
     wh_real impulse[WH_CONTACTS_MAX];
     const unsigned events = wh_contact_resolve(of, w, m, input, now, impulse);
     wh_contact_note(of, w, events, at_s, impulse, log);
+    if (of->contacts > of->forced && w->stands != 0) {
+        wh_contact_turn_back(of, w, m->h, input, now);
+    }
 }
 
 /* The modes that a run begins with. What is hit there, with what was settled before, is noted as of the first step.

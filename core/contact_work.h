@@ -34,14 +34,17 @@ typedef struct wh_contact_work {
     unsigned
         turned; /* frictions whose rate has just come to zero, as bits: whether they stick is open */
     wh_real slack
-        [WH_CONTACTS_MAX]; /* of those that slide on: what the location left of the rate, rad/s or m/s */
+        [WH_CONTACTS_MAX]; /* frictions that slide on: what the location left of the rate, rad/s or m/s;
+                                     * crossings whose values turn back: how far past zero that is none */
     wh_real came[WH_COORDS];       /* rates when the present moment began */
     wh_real held[WH_CONTACTS_MAX]; /* what holds keep, by place: see wh_contact */
     unsigned moved; /* contacts whose signals a crossing's assignments changed, as bits */
     unsigned mover; /* that crossing */
-    bool capped;    /* a load was shared as far as the pivoting's cap lets it */
-    int fault;      /* component that was assigned what it cannot hold, or -1 */
-    int undefined;  /* contact with an expression that was no finite number, or -1 */
+    unsigned
+        stands;    /* crossings just taken whose values are still on zero, or next to it, as bits */
+    bool capped;   /* a load was shared as far as the pivoting's cap lets it */
+    int fault;     /* component that was assigned what it cannot hold, or -1 */
+    int undefined; /* contact with an expression that was no finite number, or -1 */
 #if WH_LEDGER
     wh_ledger_work *books; /* or NULL */
     wh_real level[WH_ACCOUNTS_MAX];
@@ -119,13 +122,17 @@ WH_INLINE void wh_contact_point_of(const wh_contact_system *of, wh_contact_state
 
 /* Where the rates at `s` alone lead in a time. */
 static inline void wh_contact_point_ahead(const wh_contact_system *of, wh_contact_state *s,
-                                          wh_real span, wh_contact_point *at) {
+                                          wh_real span, const wh_real *accel,
+                                          wh_contact_point *at) {
     wh_contact_point_of(of, s, at);
-    for (unsigned i = 0; i < of->angles; i++) {
-        (void)wh_phase_move(at->phase[i], span * at->rate[i] * WH_PHASE_PER_RAD, &at->phase[i]);
-    }
-    for (unsigned i = of->angles; i < of->coordinates; i++) {
-        at->linear[i - of->angles] += span * at->rate[i];
+    for (unsigned i = 0; i < of->coordinates; i++) {
+        const wh_real gain = accel != NULL ? WH_R(0.5) * span * accel[i] : WH_R(0.0);
+        const wh_real way = span * (at->rate[i] + gain);
+        if (i < of->angles) {
+            (void)wh_phase_move(at->phase[i], way * WH_PHASE_PER_RAD, &at->phase[i]);
+        } else {
+            at->linear[i - of->angles] += way;
+        }
     }
 }
 

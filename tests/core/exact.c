@@ -190,6 +190,8 @@ static void assign(exact *e, unsigned k, double *impulse) {
     const int side = exact_sign(e, exact_gap(e, k));
     if (hand_now.places && side != 0) { /* a rate does not move it */
         e->mode[k] = side;
+    } else {
+        e->stands |= 1U << k;
     }
     for (unsigned l = 0; l < exact_forced(); l++) {
         const bool same = exact_sign(e, exact_gap(e, l) - exact_gap(&was, l)) == 0 &&
@@ -209,6 +211,16 @@ static void assign(exact *e, unsigned k, double *impulse) {
     if (kept != 0) {
         exact_give(e, strike(e, kept, 0, zero, impulse), WH_FREE);
     }
+}
+
+/* What stands on its crossing is on the side to which it goes. */
+static void leave(exact *e) {
+    for (unsigned k = exact_forced(); k < hand_now.system.contacts; k++) {
+        const int side = exact_in(e->stands, k) ? exact_sign(e, exact_along(k, e->v)) : e->mode[k];
+        e->vague = e->vague || (side == 0 && e->mode[k] != 0);
+        e->mode[k] = side != 0 ? side : e->mode[k];
+    }
+    e->stands = 0;
 }
 
 /* --- moments ------------------------------------------------------------------------------------------------ */
@@ -412,6 +424,7 @@ void exact_step(exact *e) {
             }
             events = happen(e, events, impulse);
             note(e, events, at_s, impulse);
+            leave(e);
             e->vague = e->vague || ++rounds >= WH_EVENTS_MAX - 1;
         }
     }

@@ -25,9 +25,10 @@ typedef struct exact {
     double pushed;                 /* the input */
     wh_event log[EXACT_LOG];       /* of the last step */
     unsigned logged;
-    unsigned next; /* stops that are hit in the next round, as bits */
-    bool vague;    /* something hung on less than rounding: what follows is no reference */
-    bool shared;   /* contacts repeated each other: what each gave is not unique */
+    unsigned next;   /* stops that are hit in the next round, as bits */
+    unsigned stands; /* crossings just taken that are where they cross, as bits */
+    bool vague;      /* something hung on less than rounding: what follows is no reference */
+    bool shared;     /* contacts repeated each other: what each gave is not unique */
 } exact;
 
 /* hand_now's start, and a step of 1 ms. */

@@ -135,7 +135,7 @@ static void test_rates_lead_ahead(void) {
             wh_contact_move(of, i, span * wh_contact_rates(of, &s)[i], &there);
         }
         wh_contact_point_of(of, &there, &right);
-        wh_contact_point_ahead(of, &s, span, &at);
+        wh_contact_point_ahead(of, &s, span, NULL, &at);
         for (unsigned i = 0; i < of->coordinates; i++) {
             const unsigned angles = of->angles;
             TEST_ASSERT_TRUE(at.rate[i] == wh_contact_rates(of, &s)[i]);

@@ -74,7 +74,9 @@ static wh_real margin_of(const wh_contact_work *w, unsigned k) {
         }
         return (wh_real)w->mode[k] * at + w->slack[k];
     case WH_WHEN:
-        return w->mode[k] == 0 || w->mode[k] == c->direction ? WH_R(1.0) : (wh_real)w->mode[k] * at;
+        return w->mode[k] == 0 || w->mode[k] == c->direction
+                   ? WH_R(1.0)
+                   : (wh_real)w->mode[k] * at + w->slack[k];
     case WH_CONTACT_KIND_COUNT: break;
     }
     return BENCH_SENTINEL;

@@ -1,8 +1,10 @@
 /* test_crossings.c: several crossings, each with assignments of its own: each does its own ones, and in its own time. */
 #include <math.h>
+#include <stdbool.h>
 #include <stdio.h>
 #include <string.h>
 
+#include "command.h"
 #include "derived.h"
 #include "motion.h"
 
@@ -61,4 +63,130 @@ static void test_each_crossing_sets_its_own(void) {
     }
 }
 
-void suite_crossings(void) { RUN_TEST(test_each_crossing_sets_its_own); }
+/* --- what turns back ---------------------------------------------------------------------------------------------*/
+
+/* A body falls to or past a level, by a pull of any sign, and crossing that sets its rate to k x' + c: mostly back, slower or
+ * faster, or on. What it turns back from it has crossed once; going back over what the location left is no other crossing.
+ * Between crossings it goes by a parabola, of which the next moment at the level is known. */
+typedef struct bounce {
+    int direction; /* of the crossing: +1 rising, -1 falling, 0 both */
+    double pull;   /* m/s^2, downwards */
+    double k;
+    double c_mps;
+    double x_m; /* above the level */
+    double v_mps;
+} bounce;
+
+enum { HITS_MOST = 12, HITS_IN_STEP = 5 };
+
+/* When it is at the level next; infinity: never. What is there leaves it first. */
+static double next_hit_s(const bounce *b) {
+    if (b->x_m == 0.0) {
+        const double back_s = b->pull == 0.0 ? -1.0 : 2.0 * b->v_mps / b->pull;
+        return back_s > 0.0 ? back_s : (double)INFINITY;
+    }
+    if (b->pull == 0.0) {
+        return b->x_m * b->v_mps < 0.0 ? -b->x_m / b->v_mps : (double)INFINITY;
+    }
+    const double root = b->v_mps * b->v_mps + 2.0 * b->pull * b->x_m;
+    if (root < 0.0) {
+        return (double)INFINITY;
+    }
+    const double first = (b->v_mps - sqrt(root)) / b->pull;
+    const double second = (b->v_mps + sqrt(root)) / b->pull;
+    const double low = fmin(first, second);
+    const double high = fmax(first, second);
+    return low > 0.0 ? low : high > 0.0 ? high : (double)INFINITY;
+}
+
+/* Its way, to `end_s`; at[] gets the moments. Their count, or -1: too many, one that hardly leaves, or one that goes through
+ * and would come back within the step, which its end does not see. */
+static int go(bounce *b, double end_s, double step_s, double *at) {
+    double time_s = 0.0;
+    int hits = 0;
+    for (;;) {
+        const double next_s = next_hit_s(b);
+        const double span_s = fmin(next_s, end_s - time_s);
+        b->x_m = next_s <= end_s - time_s
+                     ? 0.0
+                     : b->x_m + b->v_mps * span_s - 0.5 * b->pull * span_s * span_s;
+        b->v_mps -= b->pull * span_s;
+        time_s += span_s;
+        if (b->x_m != 0.0) {
+            return hits;
+        }
+        const double rest_s = (floor(time_s / step_s) + 1.0) * step_s - time_s;
+        const double beyond_m = b->v_mps * rest_s - 0.5 * b->pull * rest_s * rest_s;
+        if (beyond_m * b->v_mps < 1e-4 * fabs(b->v_mps)) {
+            return -1;
+        }
+        const bool taken = b->direction == 0 || (b->direction > 0) == (b->v_mps > 0.0);
+        if (taken) {
+            b->v_mps = b->k * b->v_mps + b->c_mps;
+            at[hits++] = time_s;
+        }
+        if (hits == HITS_MOST || fabs(b->v_mps) < 0.02) {
+            return -1;
+        }
+    }
+}
+
+static void test_what_turns_back_crosses_once(void) {
+    static const char *const words[] = {" falling", "", " rising"};
+    static const char *const values[] = {"x crosses 2 [m]", "3*x - 4 [m] crosses 2 [m]",
+                                         "x*abs(x)/(2 [m]) crosses 2 [m]"};
+    dice d = dice_of("what turns back", 5519);
+    unsigned taken = 0;
+    unsigned crowded = 0;
+    for (unsigned i = 0; i < dice_cases(usual_or(1200, 200)); i++) {
+        bounce b = {.direction = (int)dice_one_of(&d, 3) - 1,
+                    .pull = dice_one_of(&d, 4) == 0 ? 0.0 : dice_between(&d, -10.0, 10.0),
+                    .k = dice_one_of(&d, 4) == 0 ? dice_between(&d, 0.2, 1.5)
+                                                 : dice_between(&d, -1.5, -0.2),
+                    .c_mps = dice_one_of(&d, 3) == 0 ? dice_between(&d, -1.0, 1.0) : 0.0,
+                    .x_m = dice_between(&d, -1.0, 1.0) * dice_between(&d, 0.0, 1.5),
+                    .v_mps = dice_between(&d, -2.0, 2.0)};
+        const double step_s = pow(10.0, dice_between(&d, -2.5, 0.3));
+        const int steps = 2 + (int)(dice_between(&d, 1.0, 4.0) / step_s);
+        double at_s[HITS_MOST];
+        char text[900];
+        snprintf(
+            text, sizeof text,
+            "mechanism m\ncoordinate x [m]\nT = 1 [kg]*x'^2/2\nV = %.17g [N]*x\n"
+            "when %s%s { set x' = %.17g*x' + %.17g [m/s] }\n"
+            "scene s {\nstep %.17g [s]\nuntil %.17g [s]\nstart x = %.17g [m]\nstart x' = %.17g [m/s]\n}\n",
+            b.pull, values[i % 3], words[b.direction + 1], b.k, b.c_mps, step_s, step_s * steps,
+            2.0 + b.x_m, b.v_mps);
+        const int hits = go(&b, step_s * steps, step_s, at_s);
+        bool shared = false;
+        bool twice = false;
+        for (int k = 1; k < hits; k++) {
+            twice = twice || at_s[k] - at_s[k - 1] < 0.5 * step_s;
+        }
+        for (int k = HITS_IN_STEP; k < hits; k++) {
+            shared = shared || at_s[k] - at_s[k - HITS_IN_STEP] < step_s;
+        }
+        if (hits < 1 || shared) {
+            continue;
+        }
+        taken++;
+        crowded += twice ? 1U : 0U;
+        motion m;
+        motion_open_text(&m, text, i / 3 % 2 == 0 ? IN_DOUBLE : IN_FLOAT);
+        uint64_t overruns;
+        TEST_ASSERT_EQUAL_INT_MESSAGE(WH_OK, (int)motion_step(&m, (uint64_t)steps), text);
+        const double allowed = i / 3 % 2 == 0 ? 1e-8 : 2e-2 * (1.0 + fabs(b.x_m));
+        TEST_ASSERT_EQUAL_INT_MESSAGE(hits, (int)m.kind->events(m.run, &overruns), text);
+        TEST_ASSERT_DOUBLE_WITHIN_MESSAGE(allowed, 2.0 + b.x_m, motion_value(&m, "x"), text);
+        TEST_ASSERT_DOUBLE_WITHIN_MESSAGE(allowed, b.v_mps, motion_value(&m, "x'"), text);
+        motion_close(&m);
+    }
+    printf("  %u bodies that cross a level and may turn back, %u of them twice within a step\n",
+           taken, crowded);
+    TEST_ASSERT_TRUE(taken > 10 && crowded > 2);
+}
+
+void suite_crossings(void) {
+    RUN_TEST(test_each_crossing_sets_its_own);
+    RUN_TEST(test_what_turns_back_crosses_once);
+}
