@@ -30,10 +30,23 @@
 #define UNTOUCHED 0.1
 /* Parts of a step: 5, 21, 85, 341, 1365, 5461: what is a whole number of periods in two of them is so in none that is likely. */
 #define PARTS_FIRST 5
-#define PARTS_MOST 5461
+#define PARTS_MOST 5461 /* one of the row */
 /* Of all steps that are taken again. */
 #define PARTS_IN_ALL 400000
+/* Places of a step that are asked, and of one in so many rows many more: pulses are narrow. What is seen of these alone is asked
+ * for in all steps from then on, and is in no coarser parts. */
+#define ASKED_IN_STEP 12
+#define ASKED_DEEP 768
+#define DEEP_ROWS 8U
+#define PARTS_DEEP 1365
+#define PARTS_NARROW 64
+/* What goes up and down from step to step, too fast for all but so many parts, is told where it is as much as this of all that
+ * the rate does. */
+#define PARTS_FAST 85
+#define WIDE 0.25
 #define AGREED 1e-3
+/* The finest know what edges make of pulses as well as that, of what the run is off. */
+#define KNOWN 0.25
 /* The golden ratio of 2^32. */
 #define GOLDEN 2654435769U
 
@@ -48,6 +61,7 @@ struct between {
     uint64_t first; /* steps before the first that was seen */
     int parts;      /* that the finest of those took */
     int spent;      /* parts, so far */
+    bool narrow;    /* what few places show was seen */
     double *from;   /* [n] before the step, */
     double *to;     /* and behind it */
     double *at;     /* [n] */
@@ -58,7 +72,9 @@ struct between {
     double *bent;   /* where there are contacts, how far slopes were off their lines, */
     double *part;   /* and what rows are off in parts of the largest slopes at ends of steps; */
     double *size;   /* the largest slope, */
-    double *ends;   /* and that at ends of steps alone */
+    double *ends;   /* and that at ends of steps alone; */
+    double *low;    /* values between which the run has been */
+    double *high;
 };
 
 between *between_open(const image *im, const engine_kind *kind) {
@@ -69,7 +85,7 @@ between *between_open(const image *im, const engine_kind *kind) {
                wh_methods[im->settings.method].order < wh_methods[WH_METHOD_DEFAULT].order;
     b->stride = 1U + im->steps / PLACES;
     const int64_t n = b->field->n;
-    b->from = room(13 * n, sizeof *b->from);
+    b->from = room(15 * n, sizeof *b->from);
     b->to = b->from + n;
     b->at = b->to + n;
     b->slope = b->at + n;
@@ -80,6 +96,12 @@ between *between_open(const image *im, const engine_kind *kind) {
     b->part = b->bent + n;
     b->size = b->part + n;
     b->ends = b->size + n;
+    b->low = b->ends + n;
+    b->high = b->low + n;
+    for (int64_t i = 0; i < n; i++) {
+        b->low[i] = (double)INFINITY;
+        b->high[i] = -(double)INFINITY;
+    }
     return b;
 }
 
@@ -139,17 +161,18 @@ static bool is_bent(between *b, double share) {
 }
 
 /* The step once more, in finer and finer parts, until two of them agree: b->at; false where none do. */
-static bool take_again(between *b) {
+static bool take_again(between *b, int first) {
     const int n = b->field->n;
     double *last = room(n, sizeof *last);
     bool agreed = false;
-    for (int parts = PARTS_FIRST; parts <= PARTS_MOST && !agreed; parts = 4 * parts + 1) {
+    for (int parts = first; parts <= PARTS_MOST && !agreed; parts = 4 * parts + 1) {
         memcpy(b->at, b->from, (size_t)n * sizeof *b->at);
         field_go(b->field, b->step_s, parts, b->at);
         b->spent += parts;
-        agreed = parts > PARTS_FIRST;
+        agreed = parts > first;
         for (int i = 0; i < n; i++) {
-            const double room_of = AGREED * b->step_s * b->size[i];
+            const double known = parts == PARTS_MOST ? KNOWN * fabs(b->to[i] - b->at[i]) : 0.0;
+            const double room_of = number_most(AGREED * b->step_s * b->size[i], known);
             agreed = agreed && (!is_highest(b, i) || fabs(b->at[i] - last[i]) <= room_of);
         }
         b->parts = agreed && parts > b->parts ? parts : b->parts;
@@ -177,7 +200,9 @@ static bool is_free(const between *b, const double *run) {
 
 static void compare(between *b, uint64_t begin, double share) {
     const int n = b->field->n;
-    if (!take_again(b)) { /* rounding alone, or more periods than are asked for */
+    if (!take_again(
+            b, b->narrow ? PARTS_DEEP
+                         : PARTS_FIRST)) { /* rounding alone, or more periods than are asked for */
         return;
     }
     b->first = b->seen == 0 ? begin : b->first;
@@ -228,20 +253,44 @@ static bool ends_row(const between *b, uint64_t step) {
     return (step - 1U) % (b->stride * ROW) == ROW - 1U;
 }
 
+/* Places spread over the step, other ones each time; the first that is bent, or 0. */
+static double find_bent(between *b) {
+    const bool deep = b->narrow || (b->asked / ROW) % DEEP_ROWS == 0;
+    const int places = deep ? ASKED_DEEP : ASKED_IN_STEP;
+    const double first = 0x1p-32 * (double)((uint32_t)(b->asked + 1U) * GOLDEN);
+    double bent = 0.0;
+    for (int k = 0; k < places && bent == 0.0; k++) {
+        /* the few stand among the many */
+        const double share = (first + (double)k * 0.6180339887498949) -
+                             floor(first + (double)k * 0.6180339887498949);
+        go_between(b, share);
+        field_slope(b->field, b->at, b->slope + 2 * (ptrdiff_t)b->field->n);
+        bent = is_bent(b, share) ? share : 0.0;
+        b->narrow = b->narrow || (bent != 0.0 && k >= ASKED_IN_STEP);
+    }
+    return bent;
+}
+
+static void note_range(between *b) {
+    for (int i = 0; i < b->field->n; i++) {
+        b->low[i] = number_least(b->low[i], b->to[i]);
+        b->high[i] = number_most(b->high[i], b->to[i]);
+    }
+}
+
 void between_enter(between *b, const engine_kind *kind, const void *run) {
     const uint64_t steps = kind->steps(run);
     const int angles = b->field->image->angles;
     if (is_asked(b, steps) && b->spent < PARTS_IN_ALL) {
-        const double share = 0.1 + 0.8 * 0x1p-32 * (double)((uint32_t)(b->asked + 1U) * GOLDEN);
         const int n = b->field->n;
         kind->state(run, b->to, b->to + angles);
         unwrap(b);
+        note_range(b);
         field_slope(b->field, b->from, b->slope);
         field_slope(b->field, b->to, b->slope + n);
-        go_between(b, share);
-        field_slope(b->field, b->at, b->slope + 2 * (ptrdiff_t)n);
+        const double share = find_bent(b);
         b->asked++;
-        if (is_bent(b, share)) {
+        if (share != 0.0) {
             compare(b, steps - 1U, share);
         }
         if (ends_row(b, steps)) {
@@ -251,6 +300,16 @@ void between_enter(between *b, const engine_kind *kind, const void *run) {
     if (is_asked(b, steps + 1U)) {
         kind->state(run, b->from, b->from + angles);
     }
+}
+
+/* Of a step to try first: what is narrow is known much better than it need be. */
+static int least_parts(const between *b) { return b->narrow ? b->parts / PARTS_NARROW : b->parts; }
+
+/* What steps are off, whichever way, where it is as much as what the run has made of it; else 0. */
+static double wide_of(const between *b, int i) {
+    const double off = b->all[i] / (double)b->asked;
+    const bool wide = b->parts >= PARTS_FAST && off > WIDE * (b->high[i] - b->low[i]);
+    return wide ? off / b->step_s : 0.0;
 }
 
 between_found between_seen(const between *b) {
@@ -263,14 +322,17 @@ between_found between_seen(const between *b) {
         const double part = b->part[i] + part_of(b, i);
         const double mean = sum / ((double)b->asked * b->step_s);
         const double bent = b->bent[i] / (double)b->asked;
-        const double off = b->size[i] > 0.0 ? number_most(mean, bent) / b->size[i] : 0.0;
+        const double wide = wide_of(b, i);
+        const double most = number_most(number_most(mean, bent), wide);
+        const double off = b->size[i] > 0.0 ? most / b->size[i] : 0.0;
         const bool is_told = bent > TOLD_BENT * b->size[i] ||
-                             (part > TOLD * (double)b->asked && sum > ONE_WAY * b->all[i]);
+                             (part > TOLD * (double)b->asked && sum > ONE_WAY * b->all[i]) ||
+                             wide > 0.0;
         if (is_highest(b, i) && is_told && off > found.off) {
             found = (between_found){.component = i,
                                     .off = off,
                                     .begin_s = (double)b->first * b->step_s,
-                                    .fine_step_s = b->step_s / b->parts};
+                                    .fine_step_s = b->step_s / least_parts(b)};
         }
     }
     return found;
