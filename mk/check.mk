@@ -130,7 +130,7 @@ CLI_LESS_ASAN := $(foreach t,asked_first carriage commands effects_cost_nothing 
     tests/cli/$(t).sh)
 HOST_LESS_ASAN := asked_first belief between books_told busy choice coarse_tables contact_bound contact_centres contact_holds contact_load contact_rest \
     contact_squeezed contact_start contact_together convergence cost energy_kept exact_books far_origin far_slopes figures_thomson fixed_ranges forced_swing \
-    force_free hard_edges hard_origin hinged hybrids latex_runs ledger_scenes linkages map mass_scales matrix_runs methods printed_runs prove_drawn \
+    force_free hard_edges hard_origin hinged hybrids latex_runs ledger_scenes linkages map mass_scales matrix_runs methods printed_runs prove_drawn pulse_trains \
     reference rounding slow_angles stabilized stabilized_beside tables tape_gauge trajectory trust trust_drawn trust_scenes turned turned_errors warnings
 ASAN_LIST = $(B)/tests/asan_suites.list
 asan_cli = $(call run_cli,$(filter-out $(CLI_NOT_ASAN) $(CLI_LESS_ASAN),$(1)))

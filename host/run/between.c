@@ -23,6 +23,7 @@
  * there, and is met in its time, grows beyond what has made it. Of slopes that are nothing at ends of steps all is off. */
 #define TOLD 0.02
 #define ONE_WAY 0.5
+#define BY_CHANCE 7.0
 #define ALL_OFF 100.0
 /* What a contact makes of a force is not that of its mean: so far from the line in the mean. */
 #define TOLD_BENT 0.25
@@ -32,7 +33,7 @@
 #define PARTS_FIRST 5
 #define PARTS_MOST 5461 /* one of the row */
 /* Of all steps that are taken again. */
-#define PARTS_IN_ALL 400000
+#define PARTS_IN_ALL 150000
 /* Places of a step that are asked, and of one in so many rows many more: pulses are narrow. What is seen of these alone is asked
  * for in all steps from then on, and is in no coarser parts. */
 #define ASKED_IN_STEP 12
@@ -73,6 +74,8 @@ struct between {
     double *part;   /* and what rows are off in parts of the largest slopes at ends of steps; */
     double *size;   /* the largest slope, */
     double *ends;   /* and that at ends of steps alone; */
+    double *total;  /* of what rows were off, with its sign, */
+    double *square; /* and of its square; */
     double *low;    /* values between which the run has been */
     double *high;
 };
@@ -85,7 +88,7 @@ between *between_open(const image *im, const engine_kind *kind) {
                wh_methods[im->settings.method].order < wh_methods[WH_METHOD_DEFAULT].order;
     b->stride = 1U + im->steps / PLACES;
     const int64_t n = b->field->n;
-    b->from = room(15 * n, sizeof *b->from);
+    b->from = room(17 * n, sizeof *b->from);
     b->to = b->from + n;
     b->at = b->to + n;
     b->slope = b->at + n;
@@ -96,7 +99,9 @@ between *between_open(const image *im, const engine_kind *kind) {
     b->part = b->bent + n;
     b->size = b->part + n;
     b->ends = b->size + n;
-    b->low = b->ends + n;
+    b->total = b->ends + n;
+    b->square = b->total + n;
+    b->low = b->square + n;
     b->high = b->low + n;
     for (int64_t i = 0; i < n; i++) {
         b->low[i] = (double)INFINITY;
@@ -240,18 +245,25 @@ static void end_row(between *b) {
     for (int i = 0; i < b->field->n; i++) {
         b->sum[i] += fabs(b->row[i]);
         b->part[i] += part_of(b, i);
+        b->total[i] += b->row[i];
+        b->square[i] += b->row[i] * b->row[i];
         b->row[i] = 0.0;
     }
 }
 
-/* Is this step one of a row? The last of one? */
-static bool is_asked(const between *b, uint64_t step) {
-    return step > 0 && (step - 1U) % (b->stride * ROW) < ROW;
+/* Of the row in whose part of the run this step is: which one it is, ROW or more for none. Rows stand irregularly, so that no
+ * period of the motion makes all of them alike; the first one is at the begin. */
+static uint64_t place_in_row(const between *b, uint64_t step) {
+    const uint64_t part = b->stride * ROW;
+    const uint64_t row = (step - 1U) / part;
+    const uint64_t drawn = (uint32_t)(row * GOLDEN);
+    const uint64_t begin = row * part + ((drawn >> 16) * (part - ROW + 1U) >> 16);
+    return step > 0 && step - 1U >= begin ? step - 1U - begin : ROW;
 }
 
-static bool ends_row(const between *b, uint64_t step) {
-    return (step - 1U) % (b->stride * ROW) == ROW - 1U;
-}
+static bool is_asked(const between *b, uint64_t step) { return place_in_row(b, step) < ROW; }
+
+static bool ends_row(const between *b, uint64_t step) { return place_in_row(b, step) == ROW - 1U; }
 
 /* Places spread over the step, other ones each time; the first that is bent, or 0. */
 static double find_bent(between *b) {
@@ -312,6 +324,14 @@ static double wide_of(const between *b, int i) {
     return wide ? off / b->step_s : 0.0;
 }
 
+/* Do steps of a row go one way? And where few steps are seen, as those are into which an edge falls now and then, do rows? */
+static bool goes_one_way(const between *b, int i, double sum) {
+    const double total = b->total[i] + b->row[i];
+    const double square = b->square[i] + b->row[i] * b->row[i];
+    const bool by_chance = 2U * b->seen < b->asked && total * total < BY_CHANCE * square;
+    return sum > ONE_WAY * b->all[i] && !by_chance;
+}
+
 between_found between_seen(const between *b) {
     between_found found = {.component = -1};
     if (b->seen < SEEN_LEAST || (b->seen < SEEN_ENOUGH && 2U * b->seen < b->asked)) {
@@ -326,7 +346,7 @@ between_found between_seen(const between *b) {
         const double most = number_most(number_most(mean, bent), wide);
         const double off = b->size[i] > 0.0 ? most / b->size[i] : 0.0;
         const bool is_told = bent > TOLD_BENT * b->size[i] ||
-                             (part > TOLD * (double)b->asked && sum > ONE_WAY * b->all[i]) ||
+                             (part > TOLD * (double)b->asked && goes_one_way(b, i, sum)) ||
                              wide > 0.0;
         if (is_highest(b, i) && is_told && off > found.off) {
             found = (between_found){.component = i,
