@@ -16,8 +16,8 @@
 /* So many times as many as another method's stages come to are named behind that method. */
 #define STEPS_DEAR 5.0
 /* Is there any at all? So many times as many tell, a quarter of them, and so on, what is at most this share of all trials. */
-#define PARTS_TELL 1024.0
-#define PARTS_TELL_LEAST 16.0
+#define PARTS_TELL 1024
+#define PARTS_TELL_LEAST 16
 #define SHARE_TELLS 0.1
 /* So many times as many in float are to be compensated. */
 #define FLOAT_MORE 10.0
@@ -207,7 +207,7 @@ cure_outcome remedy_finer(const judged *j, cures *c, char text[REMEDY_TEXT]) {
 }
 
 bool remedy_goes_through(const judged *j, cures *c) {
-    for (double parts = PARTS_TELL; parts >= PARTS_TELL_LEAST; parts *= 0.25) {
+    for (int parts = PARTS_TELL; parts >= PARTS_TELL_LEAST; parts /= 4) {
         const double step_s = linearised_nice_s(j->watch->step_s / parts);
         const cure_wish what = compensated_if_fine(j, own_cure(j, judged_method(j->image), step_s));
         if (cure_share(c, &what) <= SHARE_TELLS) {

@@ -24,6 +24,18 @@ static whole_ratio half_of(whole_ratio step) {
     return ratio_of(0.5 * ratio_times(1, step));
 }
 
+/* Do its slopes have kinks, or edges? A step across one is off by where in the step it is, and so is a finer one: no order is left
+ * but the first. */
+static bool has_kinks(const image *im) {
+    const tape *step = im->list[IMAGE_STEP];
+    bool found = false;
+    for (int i = 0; i < step->count; i++) {
+        const op_code code = step->ops[i].code;
+        found = found || code == OP_ABS || code == OP_SIGN || code == OP_MIN || code == OP_MAX;
+    }
+    return found;
+}
+
 /* The order by which the finer run's error falls, where it shares the run's method; 0 where it does not. */
 static int shared_order(const image *im) {
     const wh_method_row *row = &wh_methods[im->settings.method];
@@ -76,7 +88,7 @@ static void make_finer(twins *t, const twins_wish *w) {
     t->finer.steps = 2U * im->steps;
     t->each = 2;
     if (order > 0) {
-        t->left_out = 1.0 / (1.0 - number_scaled(1.0, -order));
+        t->left_out = 1.0 / (1.0 - number_scaled(1.0, has_kinks(im) ? -1 : -order));
     }
 }
 
