@@ -1,7 +1,6 @@
 #!/bin/sh
-# each.sh PROGRAM SUITE...: run each suite of a test program in a process of its own. Suites start processes themselves, and what
-# others have left in memory makes that dear: more than half of the time, where the memory is guarded. And one that crashes
-# takes no others with it.
+# each.sh PROGRAM SUITE...: run each suite of a test program in a process of its own: one that crashes takes no others with it,
+# and the processes that it starts have nothing of what others left in memory, a tenth of the time where that is guarded.
 set -u
 
 program=${1:?usage: each.sh PROGRAM SUITE...}

@@ -152,6 +152,21 @@ void horizon_print(FILE *out, const horizon *h) {
     print_verdict(out, h);
 }
 
+/* Why it ends where it does. */
+static void print_reason(FILE *out, const horizon *h) {
+    const twins *t = h->of;
+    const bool cut = t->cut_s >= 0.0 && h->until_s >= t->cut_s;
+    char name[NAME_SIZE];
+    if (cut && t->overrun_s >= 0.0 && !(t->jumped_s >= 0.0 && t->jumped_s < t->overrun_s) &&
+        !(t->finer_failed_s >= 0.0 && t->finer_failed_s < t->overrun_s)) {
+        fputs("behind that a step had more events than it takes, of its own or of half its length",
+              out);
+    } else {
+        fprintf(out, "behind that %s is off by %.3g of its range", name_of(h, h->first, name),
+                h->tolerance);
+    }
+}
+
 void horizon_print_line(FILE *out, const horizon *h, bool doubted) {
     char name[NAME_SIZE];
     if (h->to_the_end && doubted) {
@@ -171,12 +186,15 @@ void horizon_print_line(FILE *out, const horizon *h, bool doubted) {
         } else {
             fprintf(out, "rounding may be why it stands still\n");
         }
+    } else if (h->of->between) {
+        fputs(
+            "trusted            not to be told: more goes on between the stages of its steps than "
+            "they see\n",
+            out);
     } else {
-        fprintf(
-            out,
-            "trusted            until t = %.6g s: behind that %s is off by %.3g of its range%s\n",
-            h->until_s, name_of(h, h->first, name), h->tolerance,
-            image_of(h)->has_energies ? "; the books above tell what still holds" : "");
+        fprintf(out, "trusted            until t = %.6g s: ", h->until_s);
+        print_reason(out, h);
+        fputs(image_of(h)->has_energies ? "; the books above tell what still holds\n" : "\n", out);
     }
 }
 

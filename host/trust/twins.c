@@ -283,6 +283,7 @@ static void end_passages(twins *t, double time_s) {
     for (int k = 1; k < t->columns; k++) {
         passages_enter(&t->column[k].off, time_s, (double)INFINITY);
     }
+    t->cut_s = t->cut_s < 0.0 ? time_s : t->cut_s;
 }
 
 /* A step with more events than it takes lets stops rest that do not: with half the step as well, so that the two agree. */
@@ -347,6 +348,7 @@ twins *twins_run(const twins_wish *w) {
     t->column = room(t->columns, sizeof *t->column);
     t->finer_failed_s = -1.0;
     t->overrun_s = -1.0;
+    t->cut_s = -1.0;
     t->jumped_s = -1.0;
     t->run = w->kind->start(w->image);
     t->books = w->books ? books_open(w->image) : NULL;
