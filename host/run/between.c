@@ -38,6 +38,8 @@
  * for in all steps from then on, and is in no coarser parts. */
 #define ASKED_IN_STEP 12
 #define ASKED_DEEP 768
+/* Of a short run fewer, so that it takes at most this part longer; what is narrow there is not seen. */
+#define ASKED_PART 0.5
 #define DEEP_ROWS 8U
 #define PARTS_DEEP 1365
 #define PARTS_NARROW 64
@@ -62,7 +64,9 @@ struct between {
     uint64_t first; /* steps before the first that was seen */
     int parts;      /* that the finest of those took */
     int spent;      /* parts, so far */
-    bool narrow;    /* what few places show was seen */
+    bool narrow;    /* what few places do not show was seen */
+    int few;        /* places of a step that are asked, */
+    int many;       /* and of one in so many rows */
     double *from;   /* [n] before the step, */
     double *to;     /* and behind it */
     double *at;     /* [n] */
@@ -87,6 +91,10 @@ between *between_open(const image *im, const engine_kind *kind) {
     b->proxy = kind != &engine_double ||
                wh_methods[im->settings.method].order < wh_methods[WH_METHOD_DEFAULT].order;
     b->stride = 1U + im->steps / PLACES;
+    const double asked =
+        ASKED_PART * wh_methods[im->settings.method].stages * (double)im->steps / PLACES;
+    b->few = (int)number_least(ASKED_IN_STEP, 1.0 + 0.5 * asked);
+    b->many = (int)number_least(ASKED_DEEP, 1.0 + 0.5 * DEEP_ROWS * asked);
     const int64_t n = b->field->n;
     b->from = room(17 * n, sizeof *b->from);
     b->to = b->from + n;
@@ -146,20 +154,32 @@ static double off_line(const between *b, int i, double share) {
     return fabs(b->slope[2 * (ptrdiff_t)n + i] - line);
 }
 
+/* Is the slope of component i so far off the line that it counts? By `rounds` it may be for rounding alone. */
+static bool is_off_line(const between *b, int i, double share, double rounds) {
+    const double least = number_most(BENT * b->size[i], ROUNDED * rounds);
+    return is_highest(b, i) && off_line(b, i, share) > least;
+}
+
 /* Is one of the highest slopes far from it, of the largest that it has had, and further than rounding puts it? */
 static bool is_bent(between *b, double share) {
     const int n = b->field->n;
     bool bent = false;
-    double *rounds = room(n, sizeof *rounds);
-    field_rounding(b->field, b->at, rounds);
     for (int i = 0; i < n; i++) {
         const double *slope = b->slope + i;
         for (int k = 0; k < 3; k++) {
             b->size[i] = number_most(b->size[i], fabs(slope[k * (ptrdiff_t)n]));
         }
         b->ends[i] = number_most(b->ends[i], number_most(fabs(slope[0]), fabs(slope[n])));
-        const double least = number_most(BENT * b->size[i], ROUNDED * rounds[i]);
-        bent = bent || (is_highest(b, i) && off_line(b, i, share) > least);
+        bent = bent || is_off_line(b, i, share, 0.0);
+    }
+    if (!bent) {
+        return false;
+    }
+    double *rounds = room(n, sizeof *rounds);
+    field_rounding(b->field, b->at, rounds);
+    bent = false;
+    for (int i = 0; i < n; i++) {
+        bent = bent || is_off_line(b, i, share, rounds[i]);
     }
     free(rounds);
     return bent;
@@ -268,7 +288,7 @@ static bool ends_row(const between *b, uint64_t step) { return place_in_row(b, s
 /* Places spread over the step, other ones each time; the first that is bent, or 0. */
 static double find_bent(between *b) {
     const bool deep = b->narrow || (b->asked / ROW) % DEEP_ROWS == 0;
-    const int places = deep ? ASKED_DEEP : ASKED_IN_STEP;
+    const int places = deep ? b->many : b->few;
     const double first = 0x1p-32 * (double)((uint32_t)(b->asked + 1U) * GOLDEN);
     double bent = 0.0;
     for (int k = 0; k < places && bent == 0.0; k++) {
@@ -278,7 +298,7 @@ static double find_bent(between *b) {
         go_between(b, share);
         field_slope(b->field, b->at, b->slope + 2 * (ptrdiff_t)b->field->n);
         bent = is_bent(b, share) ? share : 0.0;
-        b->narrow = b->narrow || (bent != 0.0 && k >= ASKED_IN_STEP);
+        b->narrow = b->narrow || (bent != 0.0 && k >= b->few);
     }
     return bent;
 }
