@@ -289,12 +289,11 @@ static bool ends_row(const between *b, uint64_t step) { return place_in_row(b, s
 static double find_bent(between *b) {
     const bool deep = b->narrow || (b->asked / ROW) % DEEP_ROWS == 0;
     const int places = deep ? b->many : b->few;
-    const double first = 0x1p-32 * (double)((uint32_t)(b->asked + 1U) * GOLDEN);
     double bent = 0.0;
     for (int k = 0; k < places && bent == 0.0; k++) {
         /* the few stand among the many */
-        const double share = (first + (double)k * 0.6180339887498949) -
-                             floor(first + (double)k * 0.6180339887498949);
+        const uint32_t drawn = (uint32_t)(b->asked + 1U + (uint64_t)k) * GOLDEN;
+        const double share = 0x1p-32 * (double)drawn;
         go_between(b, share);
         field_slope(b->field, b->at, b->slope + 2 * (ptrdiff_t)b->field->n);
         bent = is_bent(b, share) ? share : 0.0;
