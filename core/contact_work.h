@@ -33,15 +33,15 @@ typedef struct wh_contact_work {
         hit_next; /* stops that are touched and that an impact of this moment makes close, as bits */
     unsigned
         turned; /* frictions whose rate has just come to zero, as bits: whether they stick is open */
-    wh_real slack
-        [WH_CONTACTS_MAX]; /* frictions that slide on: what the location left of the rate, rad/s or m/s;
-                                     * crossings whose values turn back: how far past zero that is none */
+    /* frictions that slide on: what the location left of the rate, rad/s or m/s; crossings whose values turn back: how far
+     * beyond zero they have not crossed */
+    wh_real slack[WH_CONTACTS_MAX];
     wh_real came[WH_COORDS];       /* rates when the present moment began */
     wh_real held[WH_CONTACTS_MAX]; /* what holds keep, by place: see wh_contact */
     unsigned moved; /* contacts whose signals a crossing's assignments changed, as bits */
     unsigned mover; /* that crossing */
-    unsigned
-        stands;    /* crossings just taken whose values are still on zero, or next to it, as bits */
+    /* crossings just taken whose values are still at zero, or next to it, as bits */
+    unsigned stands;
     bool capped;   /* a load was shared as far as the pivoting's cap lets it */
     int fault;     /* component that was assigned what it cannot hold, or -1 */
     int undefined; /* contact with an expression that was no finite number, or -1 */
@@ -120,7 +120,7 @@ WH_INLINE void wh_contact_point_of(const wh_contact_system *of, wh_contact_state
     }
 }
 
-/* Where the rates at `s` alone lead in a time. */
+/* Where the rates at `s` lead in a time, and accel[coordinates], if it is not NULL; the rates are those at `s`. */
 static inline void wh_contact_point_ahead(const wh_contact_system *of, wh_contact_state *s,
                                           wh_real span, const wh_real *accel,
                                           wh_contact_point *at) {

@@ -1,13 +1,15 @@
 /* between.h: what goes on between the stages of a step. A force at 1 kHz, in steps of 4 ms, is the same at every stage, and is
  * one that stands still; in steps of half the length, too, so that two such runs agree, and the books of both.
  *
- * At a number of steps, two in a row each time, the accelerations (of a system, the highest slopes) are asked at one more
- * place, another one each time, on the way that places and rates at both ends of the step tell. Where they are far from the
- * straight line between those at its ends, the step is taken again in parts so fine that it is known, and in numbers that no
- * common period divides: by how much the rates of the run then are off in the mean of these rows is what its steps never saw. What goes up
- * and down from step to step says nothing, and what a method is off by neither: that is less than was seen. Forces of
- * contacts are not in it; where there are some, only steps that they leave alone count so, and the slopes' distance from the line
- * counts itself: what a friction makes of a force is not what it makes of its mean. Nothing of it touches the run. */
+ * At a number of steps, two in a row each time, the accelerations (of a system, the highest slopes) are asked at some more
+ * places, other ones each time, and in some of the rows at many, on the way that places and rates at both ends of the step
+ * tell. Where they are far from the straight line between those at its ends, the step is taken again in parts so fine that it
+ * is known, and in numbers that no common period divides: by how much the rates of the run then are off in the mean of these
+ * rows is what its steps never saw. What goes up and down from step to step says nothing, unless it is as much as all that
+ * the rate does; and what a method is off by neither: that is less than was seen. Where few steps are seen, as edges are that
+ * fall into one now and then, rows are to go one way, too. Forces of contacts are not in it; where there are some, only steps
+ * that they leave alone count so, and the slopes' distance from the line counts itself: what a friction makes of a force is
+ * not what it makes of its mean. Nothing of it touches the run. */
 #ifndef RUN_BETWEEN_H
 #define RUN_BETWEEN_H
 

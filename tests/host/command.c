@@ -136,6 +136,18 @@ const char *said_number(const char *text, double *number) {
     return behind;
 }
 
+const char *said_row(const char *text, int count, double *number) {
+    const char *end = strchr(text, '\n');
+    if (end == NULL || end[1] == '\0') {
+        return NULL;
+    }
+    const char *at = end + 1;
+    for (int k = 0; k < count; k++) {
+        at = said_number(k > 0 ? said_exactly(at, ",") : at, &number[k]);
+    }
+    return end + 1;
+}
+
 const char *said_word(const char *text, char *word, size_t size) {
     text += strspn(text, " ");
     const size_t length = strcspn(text, " \n");

@@ -28,6 +28,10 @@ const char *said_exactly(const char *text,
 const char *said_number(const char *text, double *number);
 const char *said_word(const char *text, char *word, size_t size);
 
+/* The first `count` numbers of the next row of a column file, behind its head or the row that the last call has returned; NULL
+ * behind the last one. */
+const char *said_row(const char *text, int count, double *number);
+
 /* From the first on what is said on standard error is kept, up to the second, which returns it: static. */
 void errors_catch(void);
 const char *errors_caught(void);

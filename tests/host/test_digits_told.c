@@ -209,12 +209,8 @@ static double off_with(const far_spring *f, const char *file, const char *number
     double off[2] = {0.0};
     unsigned rows = 0;
     command_say(command_run, words, what);
-    const char *line = strchr(what->out, '\n');
-    for (; line != NULL && line[1] != '\0'; line = strchr(line + 1, '\n'), rows++) {
-        double is[3] = {0.0};
-        const char *at = said_number(line + 1, &is[0]);
-        at = said_number(said_exactly(at, ","), &is[1]);
-        (void)said_number(said_exactly(at, ","), &is[2]);
+    double is[3];
+    for (const char *row = what->out; (row = said_row(row, 3, is)) != NULL; rows++) {
         const double w = f->w_radps;
         const double should[] = {w > 0.0 ? f->far_m + cos(w * is[0])
                                          : f->far_m + f->speed_mps * is[0],

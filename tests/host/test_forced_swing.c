@@ -4,7 +4,6 @@
 #include <math.h>
 #include <stdbool.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "command.h"
@@ -88,15 +87,8 @@ static double off_by(const forced_case *c, const char *csv) {
     double low[2] = {(double)INFINITY, (double)INFINITY};
     double high[2] = {-(double)INFINITY, -(double)INFINITY};
     double off[2] = {0.0, 0.0};
-    for (const char *line = strchr(csv, '\n'); line != NULL && line[1] != '\0';
-         line = strchr(line + 1, '\n')) {
-        double value[5];
-        const char *at = line + 1;
-        for (int i = 0; i < 5; i++) {
-            char *end;
-            value[i] = strtod(at, &end);
-            at = *end == ',' ? end + 1 : end;
-        }
+    double value[5];
+    for (const char *row = csv; (row = said_row(row, 5, value)) != NULL;) {
         double is[2];
         closed_form(c, value[0], is);
         for (int i = 0; i < 2; i++) {

@@ -4,7 +4,6 @@
 #include <math.h>
 #include <stdbool.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "command.h"
@@ -57,15 +56,12 @@ static double off_by(const short_run *r, const char *csv) {
     double off[2] = {0.0, 0.0};
     double low[2] = {r->start_m, 0.0};
     double high[2] = {r->start_m, 0.0};
-    for (const char *line = strchr(csv, '\n'); line != NULL && line[1] != '\0';
-         line = strchr(line + 1, '\n')) {
-        char *at;
-        const double phase = r->swing_radps * strtod(line + 1, &at);
+    double value[5]; /* the time, both places, both rates */
+    for (const char *row = csv; (row = said_row(row, 5, value)) != NULL;) {
+        const double phase = r->swing_radps * value[0];
         const double is[2] = {r->start_m * cos(phase), -r->start_m * r->swing_radps * sin(phase)};
         for (int i = 0; i < 2; i++) {
-            const double run = strtod(at + 1, &at);
-            (void)strtod(at + 1, &at); /* of the other */
-            off[i] = fmax(off[i], fabs(run - is[i]));
+            off[i] = fmax(off[i], fabs(value[1 + 2 * i] - is[i]));
             low[i] = fmin(low[i], is[i]);
             high[i] = fmax(high[i], is[i]);
         }

@@ -5,7 +5,6 @@
 #include <math.h>
 #include <stdbool.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "command.h"
@@ -65,12 +64,9 @@ static double closed_form(const tiny_case *c, double time_s) {
 /* The most, of the size that it starts with. */
 static double off_by(const tiny_case *c, const char *csv) {
     double most = 0.0;
-    for (const char *line = strchr(csv, '\n'); line != NULL && line[1] != '\0';
-         line = strchr(line + 1, '\n')) {
-        char *end;
-        const double time_s = strtod(line + 1, &end);
-        const double y_m = strtod(end + 1, NULL);
-        most = fmax(most, fabs(y_m - closed_form(c, time_s)) / fabs(c->start_m));
+    double value[2]; /* the time, and y */
+    for (const char *row = csv; (row = said_row(row, 2, value)) != NULL;) {
+        most = fmax(most, fabs(value[1] - closed_form(c, value[0])) / fabs(c->start_m));
     }
     return most;
 }

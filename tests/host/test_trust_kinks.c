@@ -47,18 +47,13 @@ static void go_on(two_springs *s, double span_s) {
 
 /* When x or x' of the records is first off by a thousandth of its range; infinity: never. */
 static double right_until_s(const two_springs *start, const char *csv, double *most) {
-    static double was[2][400];
-    static double is[2][400];
-    static double time_s[400];
+    enum { ROWS_MOST = 400 };
+    static double was[ROWS_MOST][3]; /* the time, x and x' */
+    static double is[2][ROWS_MOST];
     two_springs s = *start;
     int n = 0;
-    for (const char *line = strchr(csv, '\n'); line != NULL && line[1] != '\0' && n < 400;
-         line = strchr(line + 1, '\n'), n++) {
-        char *end;
-        time_s[n] = strtod(line + 1, &end);
-        was[0][n] = strtod(end + 1, &end);
-        was[1][n] = strtod(end + 1, NULL);
-        go_on(&s, n == 0 ? 0.0 : time_s[n] - time_s[n - 1]);
+    for (const char *row = csv; n < ROWS_MOST && (row = said_row(row, 3, was[n])) != NULL; n++) {
+        go_on(&s, n == 0 ? 0.0 : was[n][0] - was[n - 1][0]);
         is[0][n] = s.x_m;
         is[1][n] = s.v_mps;
     }
@@ -72,9 +67,9 @@ static double right_until_s(const two_springs *start, const char *csv, double *m
             high = fmax(high, is[c][k]);
         }
         for (int k = 0; k < n; k++) {
-            const double off = fabs(was[c][k] - is[c][k]) / (high - low);
+            const double off = fabs(was[k][1 + c] - is[c][k]) / (high - low);
             *most = fmax(*most, off);
-            first_s = off > 1e-3 ? fmin(first_s, time_s[k]) : first_s;
+            first_s = off > 1e-3 ? fmin(first_s, was[k][0]) : first_s;
         }
     }
     return first_s;
