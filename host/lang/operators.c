@@ -166,10 +166,35 @@ const expr *expr_binary(parser *in, expr_op op, place at, const expr *left, cons
     return made;
 }
 
+/* Are they written alike, but for blanks and parentheses? */
+static bool are_same(const expr *a, const expr *b) {
+    if (a == NULL || b == NULL || a->op != b->op) {
+        return a == b;
+    }
+    switch (a->op) {
+    case EXPR_NUMBER: return a->number == b->number;
+    case EXPR_SYMBOL: return a->symbol == b->symbol && a->primes == b->primes;
+    case EXPR_CALL:
+        return a->function == b->function && are_same(a->left, b->left) &&
+               are_same(a->right, b->right);
+    case EXPR_ADD:
+    case EXPR_SUB:
+    case EXPR_MUL:
+    case EXPR_DIV:
+    case EXPR_POW:
+    case EXPR_NEG: return are_same(a->left, b->left) && are_same(a->right, b->right);
+    }
+    return false;
+}
+
 const expr *expr_difference(parser *in, place at, const expr *left, const expr *right) {
     expr *made = join(in, EXPR_SUB, at, left, right);
     if (made != NULL) {
         made->dim = common_dimension(in, at, left, right, "compare", "with");
+        if (are_same(left, right)) {
+            diag_error(in->diags, at, "compare two things of which one may move past the other",
+                       "both sides are the same, so that this never changes");
+        }
     }
     return made;
 }

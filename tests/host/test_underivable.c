@@ -1,10 +1,13 @@
 /* test_underivable.c: what cannot be derived is refused with its place and in bounded time. */
+#include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
 
+#include "command.h"
 #include "derived.h"
+#include "host/commands/commands.h"
 #include "unity.h"
 
 void suite_underivable(void);
@@ -142,6 +145,49 @@ static void test_expressions_that_explode_are_refused(void) {
     }
 }
 
+/* A length in the motion, with a number in it; of drawn sums, products and functions. */
+static void length_of(dice *d, int depth, double number, char *to, size_t size) {
+    static const char *const ways[] = {"%s + gap", "-(%s)*0.5",      "max(%s, y)",
+                                       "abs(%s)",  "(%s)^2/(1 [m])", "(%s)*cos(phi)"};
+    char inner[300];
+    if (depth == 0) {
+        snprintf(to, size, "%.17g*x", number);
+        return;
+    }
+    length_of(d, depth - 1, number, inner, sizeof inner);
+    snprintf(to, size, ways[dice_one_of(d, 6)], inner);
+}
+
+static const char two[] = "mechanism m\ncoordinate x [m]\ncoordinate y [m]\ncoordinate phi [rad]\n"
+                          "parameter e = 0.5\nlet gap = x - y\n"
+                          "T = 1 [kg]*(x'^2 + y'^2)/2 + 1 [kg*m^2]*phi'^2/2\n";
+
+/* What is compared with itself never changes; with another number in it, it does. */
+static void test_nothing_is_compared_with_itself(void) {
+    static const char *const statements[] = {
+        "stop %s >= %s restitution e\n", "stop %s <= (%s) restitution e\n",
+        "hold x while %s > %s\n", "when %s crosses (%s) { set x' = -x' }\n"};
+    dice d = dice_of("compared with itself", 3301);
+    for (unsigned i = 0; i < dice_cases(usual_or(80, 20)); i++) {
+        char side[2][300];
+        char line[700];
+        char text[1500];
+        said what;
+        const bool same = dice_one_of(&d, 2) == 0;
+        const double number = dice_between(&d, 0.5, 3.0);
+        const int depth = (int)dice_one_of(&d, 5);
+        const dice begin = d;
+        length_of(&d, depth, number, side[0], sizeof side[0]);
+        d = begin;
+        length_of(&d, depth, same ? number : number * 1.25, side[1], sizeof side[1]);
+        snprintf(line, sizeof line, statements[i % 4], side[0], side[1]);
+        snprintf(text, sizeof text, "%s%s", two, line);
+        command_say_model(command_derive, text, &what);
+        TEST_ASSERT_EQUAL_INT_MESSAGE(same ? 2 : 0, what.status, text);
+        TEST_ASSERT_EQUAL_MESSAGE(same, strstr(what.err, "both sides are the same") != NULL, text);
+    }
+}
+
 void suite_underivable(void) {
     RUN_TEST(test_singular_and_other_impossible_mechanisms);
     RUN_TEST(test_kinetic_energy_must_be_positive);
@@ -149,4 +195,5 @@ void suite_underivable(void) {
     RUN_TEST(test_constants_that_are_not_finite);
     RUN_TEST(test_too_many_components);
     RUN_TEST(test_expressions_that_explode_are_refused);
+    RUN_TEST(test_nothing_is_compared_with_itself);
 }
