@@ -135,9 +135,9 @@ enum {
 
 /* Most evaluations of `signals` in one step: one with each of those above but the stages' and the search's two
  * ends, a second one where a step's end is compared with its begin and where a hold captures, two when a
- * crossing is taken, and two where such go then. */
+ * crossing is taken, and two where such go then; and one where such stand when the step begins. */
 #define WH_CONTACT_SIGNALS(forced, crossings) \
-    (WH_EVENTS_MAX * (WH_PROBES + 15 + 3 * (forced) + 2 * (crossings)) + 11 + 6 * (forced))
+    (WH_EVENTS_MAX * (WH_PROBES + 15 + 3 * (forced) + 2 * (crossings)) + 12 + 6 * (forced))
 
 /* A scene's contacts, constant. The functions are lists of operations like the accelerations. */
 typedef struct wh_contact_system {

@@ -79,7 +79,7 @@ static inline void wh_contact_assign(const wh_contact_system *of, wh_contact_wor
 
 /* Crossings in work->stands are past zero by what the location left: where that is not the side that their values now go to,
  * they have turned back, and going back over zero is no other crossing. By first order, in which a fall that follows does
- * not count; by second where that leaves a value where it is. */
+ * not count; by second where that leaves a value where it is; where that does, too, it stands there, and is on no side. */
 WH_APART void wh_contact_turn_back(const wh_contact_system *of, wh_contact_work *w, wh_real h,
                                    const wh_real *input, wh_contact_state *s) {
     wh_contact_point at;
@@ -100,9 +100,17 @@ WH_APART void wh_contact_turn_back(const wh_contact_system *of, wh_contact_work 
                 w->stands &= ~(1U << k);
                 if (gain > WH_R(0.0) ? w->mode[k] < 0 : w->mode[k] > 0) {
                     w->mode[k] = (int8_t)-w->mode[k];
-                    w->slack[k] = WH_R(2.0) * WH_ABS(now[2 * k]);
+                    w->slack[k] = WH_R(2.0) * WH_ABS(now[2 * k]) + WH_R(1e-30); /* never 0 */
+                    /* an acceleration may end at once, as friction's does where it sticks */
+                    w->due[k] = w->slack[k] + (order == 2 ? WH_ABS(gain) / 64 : WH_R(0.0));
                 }
             }
+        }
+    }
+    for (unsigned k = of->forced; k < of->contacts; k++) {
+        if ((w->stands >> k & 1U) != 0) {
+            w->mode[k] = 0;
+            w->stood[k] = now[2 * k];
         }
     }
     w->stands = 0;

@@ -36,6 +36,10 @@ typedef struct wh_contact_work {
     /* frictions that slide on: what the location left of the rate, rad/s or m/s; crossings whose values turn back: how far
      * beyond zero they have not crossed */
     wh_real slack[WH_CONTACTS_MAX];
+    wh_real due
+        [WH_CONTACTS_MAX]; /* of these crossings: how far they are to be on their way when the step ends */
+    /* crossings that are on no side: where the value of each was when the try began, or when it came to stand */
+    wh_real stood[WH_CONTACTS_MAX];
     wh_real came[WH_COORDS];       /* rates when the present moment began */
     wh_real held[WH_CONTACTS_MAX]; /* what holds keep, by place: see wh_contact */
     unsigned moved; /* contacts whose signals a crossing's assignments changed, as bits */

@@ -186,7 +186,50 @@ static void test_what_turns_back_crosses_once(void) {
     TEST_ASSERT_TRUE(taken > 10 && crowded > 1);
 }
 
+/* A body that its crossing stops, and that stands there, by itself or by friction, until another crossing moves it on or back: it
+ * has crossed once. A second level, half a metre on, is crossed where it goes on, and counts. */
+static void test_what_stands_at_its_crossing(void) {
+    dice d = dice_of("what stands", 5521);
+    for (unsigned i = 0; i < dice_cases(usual_or(300, 60)); i++) {
+        char text[900];
+        const double level_m = dice_one_of(&d, 4) == 0 ? 0.0 : dice_between(&d, -1.0, 1.0);
+        const double speed_mps = dice_between(&d, 0.8, 3.0);
+        const double away_m = dice_between(&d, 0.05, 0.35);
+        const double side = dice_one_of(&d, 2) == 0 ? 1.0 : -1.0;
+        const double then_mps = dice_between(&d, 1.5, 3.0) * (dice_one_of(&d, 2) == 0 ? 1.0 : -1.0);
+        const double moved_s = dice_between(&d, 0.5, 0.6);
+        const bool rubs = dice_one_of(&d, 2) == 0;
+        const char *direction = dice_one_of(&d, 2) == 0 ? "" : side > 0.0 ? "rising" : "falling";
+        const double step_s = 0.001 * (1.0 + dice_one_of(&d, 20));
+        const int steps = (int)(1.0 / step_s);
+        snprintf(
+            text, sizeof text,
+            "mechanism m\ncoordinate x [m]\ncoordinate y [m]\n"
+            "T = 1 [kg]*(x'^2 + y'^2)/2\n%s"
+            "when x crosses %.17g [m] %s { set x' = 0 [m/s] }\n"
+            "when y crosses 0 [m] rising { set x' = %.17g [m/s] }\n"
+            "when x crosses %.17g [m] { set x' = x' }\n"
+            "scene s {\nstep %.17g [s]\nuntil %.17g [s]\nstart x = %.17g [m], x' = %.17g [m/s]\n"
+            "start y = %.17g [m], y' = 1 [m/s]\n}\n",
+            rubs ? "friction x static 1 kinetic 1 normal 1e-5 [N]\n" : "", level_m, direction,
+            then_mps, level_m + 0.5 * side, step_s, step_s * steps, level_m - away_m * side,
+            speed_mps * side, -moved_s);
+        motion m;
+        motion_open_text(&m, text, i % 2 == 0 ? IN_DOUBLE : IN_FLOAT);
+        TEST_ASSERT_EQUAL_INT_MESSAGE(WH_OK, (int)motion_step(&m, (uint64_t)steps), text);
+        const double way_m = then_mps * (step_s * steps - moved_s);
+        TEST_ASSERT_DOUBLE_WITHIN_MESSAGE(1e-4, level_m + way_m, motion_value(&m, "x"), text);
+        TEST_ASSERT_DOUBLE_WITHIN_MESSAGE(1e-4, then_mps, motion_value(&m, "x'"), text);
+        uint64_t overruns;
+        const int on = way_m * side > 0.5;
+        TEST_ASSERT_EQUAL_INT_MESSAGE(2 + on + (rubs ? 1 : 0),
+                                      (int)m.kind->events(m.run, &overruns), text);
+        motion_close(&m);
+    }
+}
+
 void suite_crossings(void) {
+    RUN_TEST(test_what_stands_at_its_crossing);
     RUN_TEST(test_each_crossing_sets_its_own);
     RUN_TEST(test_what_turns_back_crosses_once);
 }
