@@ -13,42 +13,6 @@ WH_INLINE void wh_contact_modes(const wh_contact_system *of, const wh_state *sta
     }
 }
 
-/* Crossings that went against their direction, or left the value they started at, are on the other
- * side without an event. One that turns back and is not yet there is on none until the next step's end; one that stands
- * where it was located, until it has moved by more than it is off zero there. */
-WH_INLINE void wh_contact_pass(const wh_contact_system *of, const wh_margins *m,
-                               wh_contact_work *w) {
-    unsigned passed = 0;
-    WH_UNROLL
-    for (unsigned k = of->forced; k < of->contacts; k++) {
-        const wh_real value = m->signal[2 * k];
-        const wh_real gone = w->mode[k] > 0 ? value : -value;
-        const bool late = w->slack[k] > WH_R(0.0) && !(gone > w->due[k]);
-        const bool stands = w->mode[k] == 0 && WH_ABS(value - w->stood[k]) <= WH_ABS(w->stood[k]);
-        passed |= m->value[k] >= WH_R(0.0) && !late && !stands ? 1U << k : 0U;
-        w->mode[k] = m->value[k] >= WH_R(0.0) && late ? (int8_t)0 : w->mode[k];
-    }
-    wh_contact_set_sides(of, w, passed, m->signal);
-}
-
-/* Where the crossings are that a try from `s` begins with on no side. */
-WH_INLINE void wh_contact_stand(const wh_contact_system *of, wh_contact_work *w,
-                                const wh_real *input, wh_contact_state *s) {
-    wh_contact_point at;
-    wh_real signal[2 * WH_CONTACTS_MAX];
-    bool some = false;
-    for (unsigned k = of->forced; k < of->contacts; k++) {
-        some = some || w->mode[k] == 0;
-    }
-    if (some) {
-        wh_contact_point_of(of, s, &at);
-        wh_contact_signals(of, at.phase, at.linear, at.rate, input, signal);
-        for (unsigned k = of->forced; k < of->contacts; k++) {
-            w->stood[k] = signal[2 * k];
-        }
-    }
-}
-
 /* What a try needs of the work. */
 WH_INLINE void wh_contact_work_begin(const wh_contact_system *of, const wh_state *state,
                                      wh_contact_work *w) {

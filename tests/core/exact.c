@@ -207,6 +207,11 @@ static void assign(exact *e, unsigned k, double *impulse) {
         exact_give(e, passed, WH_ACTIVE);
         exact_put_back(e, 0, k);
         exact_give(e, passed, WH_FREE);
+        for (unsigned l = exact_forced(); l < hand_now.system.contacts; l++) {
+            const int there = exact_in(e->stands, l) ? exact_sign(e, exact_gap(e, l)) : 0;
+            e->mode[l] = there != 0 ? there : e->mode[l]; /* it was moved off its crossing */
+            e->stands &= there != 0 ? ~(1U << l) : ~0U;
+        }
     }
     if (kept != 0) {
         exact_give(e, strike(e, kept, 0, zero, impulse), WH_FREE);

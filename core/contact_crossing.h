@@ -1,0 +1,157 @@
+/* contact_crossing.h: crossings: what they assign, and on which side of its zero each is then (see contact.h).
+ *
+ * A crossing's mode is the side it is on, +1 or -1. It is located with an error, so that its value is then a little off
+ * zero: what turns back there, or stands, has crossed once, though that little is passed again. */
+#ifndef WH_CONTACT_CROSSING_H
+#define WH_CONTACT_CROSSING_H
+
+#include "contact_impact.h"
+#include "contact_locate.h"
+
+/* A crossing's assignments, all evaluated before any is made. */
+static inline void wh_contact_assign(const wh_contact_system *of, wh_contact_work *w, unsigned k,
+                                     const wh_real *input, wh_contact_state *s) {
+    wh_contact_point at;
+    wh_real before[2 * WH_CONTACTS_MAX];
+    wh_real after[2 * WH_CONTACTS_MAX];
+    wh_real value[WH_SETS_MAX];
+    const wh_contact *c = &of->contact[k];
+    bool moves = false;
+    unsigned sides = 0;
+    w->mode[k] = (int8_t)-w->mode[k];
+    if (c->sets == 0 || of->sets == NULL) {
+        return;
+    }
+    wh_contact_point_of(of, s, &at);
+    wh_contact_signals(of, at.phase, at.linear, at.rate, input, before);
+    of->sets(of->model, at.phase, at.linear, at.rate, input, value);
+    wh_books_levels(of, w, s, input, k, WH_R(-1.0));
+    for (unsigned i = c->first_set; i < (unsigned)c->first_set + c->sets; i++) {
+        const unsigned target = of->target[i];
+        if (!wh_believable(value[i], target < of->angles ? WH_R(1e9) : WH_ABSURD)) {
+            w->fault = (int)target;
+        }
+        moves = moves || target < of->coordinates;
+        if (target < of->angles) {
+            s->angle[target] = wh_angle_from_rad(value[i]);
+        } else {
+            s->real[target - of->angles] = value[i];
+        }
+        if (of->compensated) {
+            s->carry[target] = WH_R(0.0);
+        }
+    }
+    wh_books_levels(of, w, s, input, k, WH_R(1.0));
+    /* where the assignment leaves each contact, if it moved it */
+    wh_contact_point_of(of, s, &at);
+    wh_contact_signals(of, at.phase, at.linear, at.rate, input, after);
+    w->mover = k;
+    for (unsigned l = 0; l < of->forced; l++) {
+        const bool same = after[2 * l] == before[2 * l] && after[2 * l + 1] == before[2 * l + 1];
+        /* what a hold keeps from now on, too */
+        w->moved |= same && !(moves && wh_contact_slips(of, w, l)) ? 0U : 1U << l;
+    }
+    for (unsigned l = of->forced; l < of->contacts; l++) {
+        sides |= after[2 * l] != before[2 * l] ? 1U << l : 0U;
+    }
+    wh_contact_set_sides(of, w, sides, after);
+    w->stands &= ~sides;
+    w->stands |= (sides >> k & 1U) == 0 || after[2 * k] == WH_R(0.0) ? 1U << k : 0U;
+}
+
+/* Crossings in work->stands are past zero by what the location left: where that is not the side that their values now go to,
+ * they have turned back, and going back over zero is no other crossing. By first order, in which a fall that follows does
+ * not count; by second where that leaves a value where it is; where that does, too, it stands there, and is on no side. */
+WH_APART void wh_contact_turn_back(const wh_contact_system *of, wh_contact_work *w, wh_real h,
+                                   const wh_real *input, wh_contact_state *s) {
+    wh_contact_point at;
+    wh_real accel[WH_COORDS];
+    wh_real now[2 * WH_CONTACTS_MAX];
+    wh_real ahead[2 * WH_CONTACTS_MAX];
+    const wh_real span = h * WH_R(0.125);
+    wh_contact_look(of, w, s, input, accel, now);
+    for (unsigned order = 1; order <= 2; order++) {
+        wh_contact_point_ahead(of, s, span, order == 2 ? accel : NULL, &at);
+        for (unsigned i = 0; i < of->coordinates; i++) {
+            at.rate[i] += span * accel[i];
+        }
+        wh_contact_signals(of, at.phase, at.linear, at.rate, input, ahead);
+        for (unsigned k = of->forced; k < of->contacts; k++) {
+            const wh_real gain = ahead[2 * k] - now[2 * k];
+            if ((w->stands >> k & 1U) != 0 && WH_ABS(gain) > WH_R(0.0)) {
+                w->stands &= ~(1U << k);
+                if (gain > WH_R(0.0) ? w->mode[k] < 0 : w->mode[k] > 0) {
+                    w->mode[k] = (int8_t)-w->mode[k];
+                    w->slack[k] = WH_R(2.0) * WH_ABS(now[2 * k]) + WH_R(1e-30); /* never 0 */
+                    /* an acceleration may end at once, as friction's does where it sticks */
+                    w->due[k] = w->slack[k] + (order == 2 ? WH_ABS(gain) / 64 : WH_R(0.0));
+                }
+            }
+        }
+    }
+    for (unsigned k = of->forced; k < of->contacts; k++) {
+        if ((w->stands >> k & 1U) != 0) {
+            w->mode[k] = 0;
+            w->stood[k] = now[2 * k];
+        }
+    }
+    w->stands = 0;
+}
+
+/* The values of crossings, which wh_contact_carry() compares. */
+WH_INLINE void wh_contact_remember(const wh_contact_system *of, const wh_real *signal,
+                                   wh_real *before) {
+    for (unsigned k = of->forced; k < of->contacts; k++) {
+        before[2 * k] = signal[2 * k];
+    }
+}
+
+/* What a stop that is put back carries off its crossing is on that side of it, and nowhere else to go. */
+WH_INLINE void wh_contact_carry(const wh_contact_system *of, wh_contact_work *w,
+                                const wh_real *before, const wh_real *signal) {
+    unsigned sides = 0;
+    for (unsigned k = of->forced; k < of->contacts; k++) {
+        const wh_real by = WH_ABS(signal[2 * k] - before[2 * k]);
+        sides |= by > WH_ABS(before[2 * k]) ? w->stands & 1U << k : 0U;
+    }
+    wh_contact_set_sides(of, w, sides, signal);
+    w->stands &= ~sides;
+}
+
+/* Crossings that went against their direction, or left the value they started at, are on the other
+ * side without an event. One that turns back and is not yet there is on none until the next step's end; one that stands
+ * where it was located, until it has moved by more than it is off zero there. */
+WH_INLINE void wh_contact_pass(const wh_contact_system *of, const wh_margins *m,
+                               wh_contact_work *w) {
+    unsigned passed = 0;
+    WH_UNROLL
+    for (unsigned k = of->forced; k < of->contacts; k++) {
+        const wh_real value = m->signal[2 * k];
+        const wh_real gone = w->mode[k] > 0 ? value : -value;
+        const bool late = w->slack[k] > WH_R(0.0) && !(gone > w->due[k]);
+        const bool stands = w->mode[k] == 0 && WH_ABS(value - w->stood[k]) <= WH_ABS(w->stood[k]);
+        passed |= m->value[k] >= WH_R(0.0) && !late && !stands ? 1U << k : 0U;
+        w->mode[k] = m->value[k] >= WH_R(0.0) && late ? (int8_t)0 : w->mode[k];
+    }
+    wh_contact_set_sides(of, w, passed, m->signal);
+}
+
+/* Where the crossings are that a try from `s` begins with on no side. */
+WH_INLINE void wh_contact_stand(const wh_contact_system *of, wh_contact_work *w,
+                                const wh_real *input, wh_contact_state *s) {
+    wh_contact_point at;
+    wh_real signal[2 * WH_CONTACTS_MAX];
+    bool some = false;
+    for (unsigned k = of->forced; k < of->contacts; k++) {
+        some = some || w->mode[k] == 0;
+    }
+    if (some) {
+        wh_contact_point_of(of, s, &at);
+        wh_contact_signals(of, at.phase, at.linear, at.rate, input, signal);
+        for (unsigned k = of->forced; k < of->contacts; k++) {
+            w->stood[k] = signal[2 * k];
+        }
+    }
+}
+
+#endif
