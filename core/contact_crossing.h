@@ -51,12 +51,15 @@ static inline void wh_contact_assign(const wh_contact_system *of, wh_contact_wor
         /* what a hold keeps from now on, too */
         w->moved |= same && !(moves && wh_contact_slips(of, w, l)) ? 0U : 1U << l;
     }
+    unsigned onto = 0; /* crossings whose values are set onto zero */
     for (unsigned l = of->forced; l < of->contacts; l++) {
-        sides |= after[2 * l] != before[2 * l] ? 1U << l : 0U;
+        const unsigned bit = after[2 * l] != before[2 * l] ? 1U << l : 0U;
+        sides |= bit;
+        onto |= after[2 * l] == WH_R(0.0) ? bit : 0U;
     }
     wh_contact_set_sides(of, w, sides, after);
     w->stands &= ~sides;
-    w->stands |= (sides >> k & 1U) == 0 || after[2 * k] == WH_R(0.0) ? 1U << k : 0U;
+    w->stands |= onto | (w->located || after[2 * k] == WH_R(0.0) ? 1U << k & ~sides : 0U);
 }
 
 /* Crossings in work->stands are past zero by what the location left: where that is not the side that their values now go to,

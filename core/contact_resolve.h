@@ -243,8 +243,11 @@ WH_APART unsigned wh_contact_resolve(const wh_contact_system *of, wh_contact_wor
             wh_contact_assign(of, w, k, input, now);
         }
     }
-    if (of->contacts > of->forced && w->moved != 0) {
-        wh_contact_revise(of, w, input, now);
+    if (of->contacts > of->forced) {
+        w->located = w->located && hits == 0 && captures == 0 && w->moved == 0;
+        if (w->moved != 0) {
+            wh_contact_revise(of, w, input, now);
+        }
     }
     if (wh_contact_any_of(of, WH_FRICTION)) {
         wh_contact_slide(of, w, zeros, m->h, rate);

@@ -47,6 +47,7 @@ WH_INLINE void wh_contact_work_open(const wh_contact_system *of, wh_contact_work
         w->moved = 0;
         w->mover = 0;
         w->stands = 0;
+        w->located = false;
     }
     w->fault = -1;
 }
@@ -334,6 +335,7 @@ WH_APART wh_status wh_contact_eventful(const wh_contact_system *of, wh_contact_w
                 wh_contact_stabilise(of, w, span, state->input, &a->next, &a->now);
                 flat = wh_contact_accept(of, w, span, &a->next, &a->now, state->input);
                 left -= span;
+                w->located = true;
             }
         }
         if (flat < of->contacts) {

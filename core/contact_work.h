@@ -46,6 +46,8 @@ typedef struct wh_contact_work {
     unsigned mover; /* that crossing */
     /* crossings just taken whose values are still at zero, or next to it, as bits */
     unsigned stands;
+    /* time has passed since something threw values across: what is past zero now is there by what the location left */
+    bool located;
     bool capped;   /* a load was shared as far as the pivoting's cap lets it */
     int fault;     /* component that was assigned what it cannot hold, or -1 */
     int undefined; /* contact with an expression that was no finite number, or -1 */

@@ -228,7 +228,94 @@ static void test_what_stands_at_its_crossing(void) {
     }
 }
 
+/* A body that one crossing sets onto the level of another, and that goes on from there or back: only what it passed on its way
+ * has crossed, not what it was set onto, nor is it crossed when left. */
+static void test_what_is_set_onto_another(void) {
+    dice d = dice_of("set onto", 5522);
+    unsigned passed = 0;
+    for (unsigned i = 0; i < dice_cases(usual_or(300, 60)); i++) {
+        char text[900];
+        const bool turns = dice_one_of(&d, 2) == 0;
+        const double side = dice_one_of(&d, 2) == 0 ? 1.0 : -1.0;
+        const double from = dice_between(&d, -1.0, 1.0);
+        const double level = from + 0.3 * side;
+        const double far = dice_between(&d, 0.05, 0.25);
+        const double onto = level + (dice_one_of(&d, 2) == 0 ? far : -far);
+        const double speed = side * dice_between(&d, 1.0, 3.0);
+        const double then = dice_one_of(&d, 2) == 0 ? speed : -0.7 * speed;
+        const unsigned way = (unsigned)dice_one_of(&d, 3); /* either, rising, falling */
+        const int steps = 10 + (int)dice_one_of(&d, 200);
+        const double end_s = 0.3 / fabs(speed) + 0.5 * far / fabs(then); /* half of the way back */
+        const double step_s = end_s / steps;
+        const char *unit = turns ? "rad" : "m";
+        snprintf(text, sizeof text,
+                 "mechanism m\ncoordinate x [%s]\nT = 1 [%s]*x'^2/2\n%s"
+                 "when x crosses %.17g [%s] %s { set x = %.17g [%s], x' = %.17g [%s/s] }\n"
+                 "when x crosses %.17g [%s] %s { set x' = x' }\n"
+                 "scene s {\nstep %.17g [s]\nuntil %.17g [s]\nstart x = %.17g [%s], "
+                 "x' = %.17g [%s/s]\n}\n",
+                 unit, turns ? "kg*m^2" : "kg", turns ? "V = 1e-9 [J]*cos(x)\n" : "", level, unit,
+                 side > 0.0 ? "rising" : "falling", onto, unit, then, unit, onto, unit,
+                 way == 0   ? ""
+                 : way == 1 ? "rising"
+                            : "falling",
+                 step_s, step_s * steps, from, unit, speed, unit);
+        motion m;
+        motion_open_text(&m, text, i % 2 == 0 ? IN_DOUBLE : IN_FLOAT);
+        TEST_ASSERT_EQUAL_INT_MESSAGE(WH_OK, (int)motion_step(&m, (uint64_t)steps), text);
+        uint64_t overruns;
+        const bool passes = (onto - level) * side < 0.0 && (way == 0 || (way == 1) == (side > 0.0));
+        passed += passes;
+        TEST_ASSERT_EQUAL_INT_MESSAGE(1 + passes, (int)m.kind->events(m.run, &overruns), text);
+        motion_close(&m);
+    }
+    TEST_ASSERT_TRUE(passed > 5);
+}
+
+/* Each bounce without loss throws a rate across a crossing of that rate, and between bounces it falls through it: two crossings
+ * a bounce. */
+static void test_what_impacts_throw_across(void) {
+    dice d = dice_of("thrown across", 5523);
+    unsigned bounced = 0;
+    for (unsigned i = 0; i < dice_cases(usual_or(300, 60)); i++) {
+        char text[900];
+        const double height_m = dice_between(&d, 0.05, 0.5);
+        const double g_mps2 = dice_between(&d, 1.0, 10.0);
+        const double hit_mps = sqrt(2.0 * g_mps2 * height_m);
+        const double level_mps = -hit_mps * dice_between(&d, 0.1, 0.9);
+        const double step_s = 0.001 * (1.0 + dice_one_of(&d, 10));
+        const int steps = (int)(3.0 / step_s);
+        const double fall_s = hit_mps / g_mps2;
+        const double passes_s = -level_mps / g_mps2;
+        snprintf(text, sizeof text,
+                 "mechanism m\ncoordinate x [m]\nT = 1 [kg]*x'^2/2\nQ(x) = %.17g [N]\n"
+                 "stop x >= 0 [m] restitution 1\nwhen x' crosses %.17g [m/s] { set x' = x' }\n"
+                 "scene s {\nstep %.17g [s]\nuntil %.17g [s]\nstart x = %.17g [m]\n}\n",
+                 -g_mps2, level_mps, step_s, step_s * steps, height_m);
+        /* falls for fall_s, then up and down again and again */
+        const double end_s = step_s * steps;
+        const int hits = end_s < fall_s ? 0 : 1 + (int)((end_s - fall_s) / (2.0 * fall_s));
+        const double since_s = end_s - (hits == 0 ? 0.0 : fall_s + 2.0 * fall_s * (hits - 1));
+        const double due_s = hits == 0 ? passes_s : fall_s + passes_s;
+        const double next_s = hits == 0 ? fall_s : 2.0 * fall_s;
+        if (fabs(since_s - due_s) < 1e-2 || since_s < 1e-2 || next_s - since_s < 1e-2) {
+            continue; /* too near to tell, in float */
+        }
+        motion m;
+        motion_open_text(&m, text, i % 2 == 0 ? IN_DOUBLE : IN_FLOAT);
+        TEST_ASSERT_EQUAL_INT_MESSAGE(WH_OK, (int)motion_step(&m, (uint64_t)steps), text);
+        uint64_t overruns;
+        bounced += hits > 1;
+        TEST_ASSERT_EQUAL_INT_MESSAGE(3 * hits + (since_s > due_s),
+                                      (int)m.kind->events(m.run, &overruns), text);
+        motion_close(&m);
+    }
+    TEST_ASSERT_TRUE(bounced > 10);
+}
+
 void suite_crossings(void) {
+    RUN_TEST(test_what_is_set_onto_another);
+    RUN_TEST(test_what_impacts_throw_across);
     RUN_TEST(test_what_stands_at_its_crossing);
     RUN_TEST(test_each_crossing_sets_its_own);
     RUN_TEST(test_what_turns_back_crosses_once);
