@@ -74,25 +74,23 @@ $(eval $(call program,firmware,boards/programs/rig.c,whirl rig virtual scenes))
 # What runs once in a while is made small, so that what runs each step has the flash.
 $(foreach o,$(STATION_C) boards/programs/rig.c boards/programs/station.c \
     $(VIRTUAL_C) core/rig/swing_guess.c core/rig/life.c core/text.c core/frame.c core/cobs.c core/step_tape.c core/packed_words.c $(BOARD_FLASHED),$(B)/$(BOARD)/$(o:.c=.o)): \
-    FILE_FLAGS = -Os $(BOARD_SMALL)
+    FILE_FLAGS = -Os
 
 ifneq ($(BOARD_FLASHED),)
 $(B)/$(FLASHED)/boards/programs/station.o: FILE_FLAGS += -DHAL_VIRTUAL=0
 endif
-ifneq ($(findstring -DWH_WORDS_PACKED=1,$(BOARD_CFLAGS)),)
+ifneq ($(filter -DWH_WORDS_PACKED=1,$(BOARD_FLASHED_FLAGS)),)
 # What is said to people goes through mk/size/pack.awk (core/packed_words.h), 2 KB of flash less: all files that have WH_WORDS().
-PACKED := $(call objects,$(BOARD),boards/cortexm/fault_words.c core/rig/guard.c core/rig/life.c core/rig/result.c \
+PACKED := $(call objects,$(FLASHED),boards/cortexm/fault_words.c core/rig/guard.c core/rig/life.c core/rig/result.c \
     $(addprefix core/station/,conf.c errors.c station.c tel_answer.c))
-compile_packed = $(BOARD_CC) $(BOARD_CFLAGS) $(WARN) $(BOARD_EXTRA) $(FILE_FLAGS)
-$(PACKED:.o=.words): $(B)/$(BOARD)/%.words: %.c $(B)/$(BOARD)/.flags
+compile_packed = $(BOARD_CC) $(BOARD_CFLAGS) $(BOARD_FLASHED_FLAGS) $(WARN) $(BOARD_EXTRA) $(FILE_FLAGS)
+$(PACKED:.o=.words): $(B)/$(FLASHED)/%.words: %.c $(B)/$(FLASHED)/.flags
 	@mkdir -p $(@D)
 	$(Q)$(compile_packed) -MMD -MP -MT $@ -MF $(@:.words=.d) -E $< -o $@
 $(PACKED): %.o: %.words mk/size/pack.awk core/word_pairs.h
 	$(say) CC "$@ (packed)"
 	$(Q)awk -f mk/size/pack.awk core/word_pairs.h $< >$*.i
 	$(Q)$(compile_packed) -c $*.i -o $@
-# From a compiler's cache an object comes without its call graph, and mk/size/size.sh would not know what stack it takes.
-$(foreach f,boards/% core/% $(GEN)/rig_observed,$(B)/$(BOARD)/$(f).o): export CCACHE_DISABLE := 1
 endif
 
 # The rig's firmware with a console: here on a pseudo-terminal.

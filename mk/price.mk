@@ -137,7 +137,7 @@ cycles-agree: $(ELF)/bench.elf $(PLUGIN)
 	    EMULATE="$(call emulate,$(ELF)/bench.elf)" mk/count/cycles_agree.sh $(ELF)/bench.elf
 
 # Flash, memory and stack of images: by what the compiler says of calls; or by the code, where a family says so (BOARD_SIZE_BY).
-size_of = BOARD=$(BOARD) CC=$(BOARD_CC) NM=$(BOARD_NM) SIZE=$(BOARD_SIZE) OBJDUMP=$(BOARD_OBJDUMP) OBJECTS=$(ELF) $(SIZE_MOST) \
+size_of = BOARD=$(BOARD) CC=$(BOARD_CC) NM=$(BOARD_NM) SIZE=$(BOARD_SIZE) OBJDUMP=$(BOARD_OBJDUMP) OBJECTS="$(sort $(ELF) $(B)/$(FLASHED))" $(SIZE_MOST) \
     FLAGS="$(call TOLD,$(BOARD_CFLAGS))" $(or $(BOARD_SIZE_BY),mk/size/size.sh) $(FIGURES)/size.csv $(1)
 
 ifeq ($(BOARD_IMAGES),single)

@@ -4,7 +4,17 @@
 RIG_STEP_MOST ?= 1500
 # The board that was named, if any: without one, the firmware runs as a program of this machine.
 ASKED_BOARD := $(if $(filter command environment,$(firstword $(origin BOARD))),$(BOARD))
-$(eval $(call program,rig_steps,boards/programs/rig_steps.c,whirl rig virtual scenes))
+# What is flashed as a whole is counted so, but for who counts.
+RIG_STEPS_AS := $(if $(filter -flto,$(BOARD_FLASHED_FLAGS)),$(FLASHED),$(BOARD))
+$(B)/rig_steps: $(call objects,float,boards/programs/rig_steps.c boards/host/board.c) $(call libraries,float,whirl rig virtual scenes)
+	$(link)
+$(ELF)/rig_steps.elf: $(call objects,$(RIG_STEPS_AS),boards/programs/rig_steps.c $(BOARD_SOURCES)) \
+    $(call libraries,$(RIG_STEPS_AS),whirl rig virtual scenes)
+	$(link_board)
+ifneq ($(RIG_STEPS_AS),$(BOARD))
+$(B)/$(FLASHED)/boards/programs/rig_steps.o: FILE_FLAGS += -fno-lto
+$(ELF)/rig_steps.elf: BOARD_LDFLAGS := $(BOARD_FLASHED_LDFLAGS)
+endif
 
 .PHONY: rig-now rig-steps-now rig-truth-now faults-now
 rig-now: $(GEN)/.stamp

@@ -3,20 +3,22 @@
 #
 #   BOARD_FLASHED  the board's code of images that are flashed, the rig's hardware in it, in the place of BOARD_SOURCES
 #                  (may be missing: then the rig's hardware is a model's)
-#   BOARD_SMALL    flags of its files that no control step of the rig runs (mk/board.mk)
+#   BOARD_FLASHED_FLAGS  what makes it smaller: it is a build of its own (mk/board.mk)
 #   BOARD_MOST     of such an image: bytes of flash, and of memory with the worst stack. `make size` fails beyond
 BOARD_MACHINE  := netduinoplus2
 BOARD_CPU      := -mcpu=cortex-m4 -mthumb -mfpu=fpv4-sp-d16 -mfloat-abi=hard
 BOARD_MATH     := -fno-math-errno
 include boards/cortexm/cortexm.mk
 # The whole rig is to have 40 KB of flash; steps of -Os take some more instructions, of which there are enough (docs/boards.md).
-BOARD_CFLAGS   := $(subst -O2,-Os,$(BOARD_CFLAGS)) -DWH_WORDS_PACKED=1
-# And control steps are not recorded: 2 kB.
-BOARD_CFLAGS   += -DWH_STATION_TAPE=0
-# What copies code for speed, or moves it to where it needs more registers, is switched off where no control step is longer for it.
-# Without it gcc takes values for uninitialized that are not.
-BOARD_SMALL    := -fno-thread-jumps -fno-if-conversion -fno-move-loop-invariants -fno-schedule-insns2 -fno-tree-sink \
-                  -fno-tree-dominator-opts -fno-shrink-wrap -fno-ssa-phiopt -Wno-maybe-uninitialized
+# It is optimised as a whole, 1 kB, without what copies code for speed or moves it to where it needs more registers, 1.4 kB.
+# Without that gcc takes values for uninitialized that are not.
+SMALL_BY_LINK  := -Os -g -flto -ffat-lto-objects -fno-ipa-cp -fno-early-inlining -fno-reorder-blocks -fno-tree-tail-merge \
+                  -fno-thread-jumps -fno-if-conversion -fno-move-loop-invariants -fno-schedule-insns2 -fno-shrink-wrap \
+                  -fno-caller-saves -fno-tree-loop-im -fno-hoist-adjacent-loads \
+                  --param=max-jump-thread-duplication-stmts=0 --param=gcse-cost-distance-ratio=40
+# Words are packed, 2 kB, and control steps not recorded: 2 kB.
+BOARD_FLASHED_FLAGS := $(SMALL_BY_LINK) -DWH_WORDS_PACKED=1 -DWH_STATION_TAPE=0 -Wno-maybe-uninitialized
+BOARD_FLASHED_LDFLAGS := $(BOARD_LDFLAGS) $(SMALL_BY_LINK) -fstack-usage -fcallgraph-info=su
 # Semihosting would come into every image with it.
 BOARD_LINK     :=
 BOARD_COMMON   := $(filter-out boards/cortexm/cmsdk.c boards/cortexm/demo.c,$(BOARD_SOURCES)) \

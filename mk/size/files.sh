@@ -1,7 +1,30 @@
 #!/bin/sh
 # files.sh MAP: bytes of flash of each file in an image, by the linker's map, most first, and their sum. Texts are shared: they
-# count for the first file that has them, or has them as the end of a longer one.
+# count for the first file that has them, or has them as the end of a longer one. Of an image that is optimised as a whole no map
+# tells: there each function counts for the file that it stands in, whoever's code is in it, and texts and data for none. NM, SIZE.
 set -eu
+
+if grep -q '^LOAD .*ltrans\.o$' "$1"; then
+    elf=${1%.map}.elf
+    all=$("${SIZE:-arm-none-eabi-size}" -A "$elf" | awk '$1 ~ /^\.(vectors|text|data)$/ { sum += $2 } END { print sum }')
+    "${NM:-arm-none-eabi-nm}" -S -l "$elf" | tr -d '\r' | awk 'NF >= 5 && $3 ~ /[tTwW]/ && !($1 in seen) {
+            seen[$1]
+            file = $5
+            sub(/:[0-9]*$/, "", file)
+            sub(/\.[a-z]*$/, "", file)
+            n = split(file, part, "/")
+            print $2, (n > 1 ? part[n - 1] "/" : "") part[n]
+        }' | while read -r size file; do
+        echo "$((0x$size)) $file"
+    done | awk -v all="$all" '
+        { bytes[$2] += $1; sum += $1 }
+        END {
+            for (file in bytes) { print bytes[file], file }
+            print all - sum, "texts, data and what has no file"
+            print all, "all"
+        }' | sort -k 1,1nr -k 2,2 | awk '{ bytes = $1; $1 = ""; printf "%8d %s\n", bytes, $0 }'
+    exit
+fi
 
 awk '
 /^Linker script and memory map/ { on = 1 }

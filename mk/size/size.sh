@@ -8,8 +8,9 @@
 # program in place of the scene) and prints a table.
 #   flash     code, constants and initial values
 #   ram       variables, without the stack
-#   computed  worst stack from the call graph: OBJECTS holds the objects with gcc's .ci files, and
-#             the linker's map beside the image (.map for .elf) says which of them are in it
+#   computed  worst stack from the call graph: the folders OBJECTS hold the objects with gcc's .ci files, and
+#             the linker's map beside the image (.map for .elf) says which of them are in it; of an image that is optimised
+#             as a whole they are beside it
 #   handlers  the deepest interrupt handler (on_NAME), where the image has some: all have one priority
 # Fails on recursion, on a frame of unbounded size, and if the stack's room is too small for the
 # computed worst case, a handler and what the processor stacks for it and for a fault included. And where FLASH_MOST and RAM_MOST
@@ -28,7 +29,12 @@ graphs() {
     sed -n 's/^LOAD \(.*\)\.o$/\1.ci/p' "$map" >"$work/loaded"
     sed -n 's/^[^ ].*\.a(\([^()]*\)\.o)$/\/\1.ci/p; s/^[^ ].*\.a(\([^()]*\)\.o) .*/\/\1.ci/p' "$map" |
         sort -u >"$work/members"
-    find "$OBJECTS" -name '*.ci' | sort | awk -v loaded="$work/loaded" -v members="$work/members" '
+    if grep -q '^LOAD .*ltrans\.o$' "$map"; then
+        ls "$elf".ltrans*.ci
+        : >"$work/members"
+    fi
+    # shellcheck disable=SC2086 # folders
+    find $OBJECTS -name '*.ci' | sort | awk -v loaded="$work/loaded" -v members="$work/members" '
         BEGIN {
             while ((getline line <loaded) > 0) { whole[line] = 1 }
             while ((getline line <members) > 0) { member[line] = 1 }
@@ -64,7 +70,7 @@ at_most() {
 printf '%-12s %-12s %8s %8s %9s %9s %11s\n' board program flash ram "stack of" computed "fault stack"
 for elf in "$@"; do
     name=$(basename "$elf" .elf)
-    "$NM" "$elf" | awk 'NF == 3 && $2 ~ /[tTwW]/ { print $3 }' >"$work/symbols"
+    "$NM" "$elf" | awk 'NF == 3 && $2 ~ /[tTwW]/ { print $3, $1 }' >"$work/symbols"
     "$SIZE" -A "$elf" >"$work/sections"
     bytes_of() {
         awk -v want="$1" 'index(" " want " ", " " $1 " ") { sum += $2 } END { print sum + 0 }' \

@@ -1,6 +1,7 @@
 # stack.awk: the worst stack of a program by its call graph, from gcc's -fcallgraph-info=su files.
 #
-# Input: lines "symbol NAME" for what the linker kept, then the .ci files. Variable root: where to
+# Input: lines "symbol NAME ADDRESS" for what the linker kept, then the .ci files. Functions that were found to be alike stand at one
+# address, and one of them has the figure. Variable root: where to
 # begin. Prints "stack BYTES" and "path A > B > C"; "unknown NAME" for each function called on the
 # way without a figure (assembly of libgcc); "unbounded NAME" for a dynamic frame; on recursion
 # "recursion NAME" and fails.
@@ -60,7 +61,13 @@ function depth(at,    i, n, callee, deep, best) {
     return known[at]
 }
 
-$1 == "symbol" { kept[$2] = 1 }
+# Whom a call of `to` reaches.
+function reached(to,    name) {
+    name = plain(to)
+    return !(to in frame) && name in kept && kept[name] in at_address ? at_address[kept[name]] : to
+}
+
+$1 == "symbol" { kept[$2] = $3 }
 
 $1 == "pointer" {
     for (i = 3; i <= NF; i++) { leads[$2] = leads[$2] " " $i }
@@ -72,6 +79,7 @@ $1 == "node:" {
     if (match(label, /[0-9]+ bytes \([a-z,]+\)/)) {
         if (!(title in frame)) { node[++nodes] = title }
         title_of[plain(title)] = title
+        if (plain(title) in kept) { at_address[kept[plain(title)]] = title }
         frame[title] = substr(label, RSTART, RLENGTH) + 0
         if (substr(label, RSTART, RLENGTH) ~ /dynamic\)/) { dynamic[title] = 1 }
     }
@@ -98,6 +106,13 @@ END {
                 edge[led[i], ++edges[led[i]]] = to
                 called[to] = 1
             }
+        }
+    }
+    for (from in edges) {
+        for (k = 1; k <= edges[from]; k++) {
+            to = edge[from, k]
+            edge[from, k] = reached(to)
+            if (to in called) { called[edge[from, k]] = 1 }
         }
     }
     bytes = depth(root)

@@ -14,7 +14,7 @@ echo "LOAD $scratch/objects/main.o" >"$scratch/station.map"
 # image FLASH VARIABLES FRAME: an image of so many bytes, main() with such a frame.
 image() {
     printf '.vectors 100 0\n.text %d 0\n.bss %d 0\n.noinit 30 0\n.stack 5000 0\n' $(($1 - 100)) $(($2 - 30)) >"$scratch/sections"
-    printf '00001000 A board_stack_limit\n00005096 A board_stack_top\n0 T board_reset\n0 T main\n' >"$scratch/symbols"
+    printf '00001000 A board_stack_limit\n00005096 A board_stack_top\n100 T board_reset\n200 T main\n300 t same.0\n300 t same.1\n' >"$scratch/symbols"
     printf 'node: { title: "board_reset" label: "board_reset\\na.c:1\\n8 bytes (static)" }
 node: { title: "main" label: "main\\na.c:2\\n%d bytes (static)" }
 edge: { sourcename: "board_reset" targetname: "main" label: "a.c:3" }\n' "$3" >"$scratch/objects/main.ci"
@@ -42,6 +42,21 @@ while read -r flash variables frame over; do
         [ "$(wc -l <"$scratch/err")" -eq 1 ]
     verdict $? "$over bytes of memory too many are told"
 done <"$scratch/drawn"
+
+# Of an image that is optimised as a whole the graph lies beside it, whatever else has a name like its members'; of functions that
+# are alike one has the figure.
+image 9999 999 64
+printf 'node: { title: "a.o:same.0" label: "same.0\\na.c:4\\n%d bytes (static)" }
+edge: { sourcename: "main" targetname: "a.o:same.1" label: "a.c:5" }\n' 24 >>"$scratch/objects/main.ci"
+sizes 9999 $((999 + 64 + 8 + 24))
+verdict $? "what is alike has one figure"
+mv "$scratch/objects/main.ci" "$scratch/station.elf.ltrans0.ltrans.ci"
+printf 'LOAD /tmp/a.ltrans0.ltrans.o\nlib.a(main.o)\n' >"$scratch/station.map"
+echo 'node: { title: "main" label: "main\na.c:2\n4000 bytes (static)" }' >"$scratch/objects/main.ci"
+sizes 9999 $((999 + 64 + 8 + 24))
+verdict $? "an image that is optimised as a whole has its call graph beside it"
+mv "$scratch/station.elf.ltrans0.ltrans.ci" "$scratch/objects/main.ci"
+echo "LOAD $scratch/objects/main.o" >"$scratch/station.map"
 
 sed '/title: "main"/d' "$scratch/objects/main.ci" >"$scratch/less" && mv "$scratch/less" "$scratch/objects/main.ci"
 ! sizes 99999 99999 && grep -q 'no call graph of main' "$scratch/err"
