@@ -12,7 +12,7 @@ include boards/cortexm/cortexm.mk
 # The whole rig is to have 40 KB of flash; steps of -Os take some more instructions, of which there are enough (docs/boards.md).
 # It is optimised as a whole, 1 kB, without what copies code for speed or moves it to where it needs more registers, 1.4 kB.
 # Without that gcc takes values for uninitialized that are not.
-SMALL_BY_LINK  := -Os -g -flto -ffat-lto-objects -fno-ipa-cp -fno-early-inlining -fno-reorder-blocks -fno-tree-tail-merge \
+SMALL_BY_LINK  := -Os -g -flto -flto-partition=one -ffat-lto-objects -fno-ipa-cp -fno-early-inlining -fno-reorder-blocks -fno-tree-tail-merge \
                   -fno-thread-jumps -fno-if-conversion -fno-move-loop-invariants -fno-schedule-insns2 -fno-shrink-wrap \
                   -fno-caller-saves -fno-tree-loop-im -fno-hoist-adjacent-loads \
                   --param=max-jump-thread-duplication-stmts=0 --param=gcse-cost-distance-ratio=40
