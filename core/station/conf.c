@@ -278,7 +278,7 @@ static void see_several(wh_real *value) {
 
 void wh_conf_start(wh_conf *conf, void (*own)(wh_rig_config *config), const wh_store_memory *memory,
                    wh_rig_config *config) {
-    uint8_t payload[WH_STORE_PAYLOAD_MOST];
+    uint8_t kept[WH_STORE_SLOT_BYTES];
     *conf = (wh_conf){.own = own, .memory = memory, .config = config};
     own(config);
     for (unsigned id = 0; id < WH_CONF_COUNT; id++) {
@@ -289,27 +289,26 @@ void wh_conf_start(wh_conf *conf, void (*own)(wh_rig_config *config), const wh_s
         conf->standard[id] = as_kept(conf->standard[id]);
         conf->value[id] = conf->standard[id];
     }
-    const int count =
-        memory != NULL ? wh_store_load(memory, payload, sizeof payload, &conf->sequence) : -1;
-    if (count <= 0) {
-        return;
+    const int count = memory != NULL ? wh_store_load(memory, kept, &conf->sequence) : 0;
+    if (count > 0) {
+        take_all(conf, kept + WH_STORE_HEAD_BYTES, (unsigned)count);
     }
-    take_all(conf, payload, (unsigned)count);
 }
 
 wh_station_error wh_conf_save(wh_conf *conf) {
-    uint8_t payload[WH_STORE_PAYLOAD_MOST];
-    wh_bytes bytes = {.to = payload, .room = sizeof payload};
+    uint8_t kept[WH_STORE_SLOT_BYTES];
+    wh_bytes bytes = {.to = kept + WH_STORE_HEAD_BYTES, .room = WH_STORE_PAYLOAD_MOST};
     for (unsigned id = 0; id < WH_CONF_COUNT; id++) {
         if (is_set(conf, (wh_conf_id)id)) {
             wh_bytes_put(&bytes, ROW(id)->number, 1);
             wh_bytes_put_float(&bytes, (float)conf->value[id]);
         }
     }
-    if (conf->memory == NULL || !wh_store_save(conf->memory, payload, bytes.at)) {
+    const uint32_t sequence =
+        conf->memory != NULL ? wh_store_save(conf->memory, kept, bytes.at) : 0;
+    if (sequence == 0) {
         return WH_STATION_CONF_FAILED;
     }
-    return wh_store_load(conf->memory, payload, sizeof payload, &conf->sequence) < 0
-               ? WH_STATION_CONF_FAILED
-               : WH_STATION_FINE;
+    conf->sequence = sequence;
+    return WH_STATION_FINE;
 }

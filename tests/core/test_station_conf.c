@@ -253,7 +253,9 @@ static void test_what_is_stored_of_others(void) {
     own(&plain);
     for (unsigned i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         begin();
-        TEST_ASSERT_TRUE(wh_store_save(&memory, rows[i].payload, rows[i].count));
+        uint8_t record[WH_STORE_SLOT_BYTES];
+        memcpy(record + WH_STORE_HEAD_BYTES, rows[i].payload, sizeof rows[i].payload);
+        TEST_ASSERT_TRUE(wh_store_save(&memory, record, rows[i].count) != 0);
         wh_conf_start(&conf, own, &memory, &even.config);
         for (unsigned id = 0; id < WH_CONF_COUNT; id++) {
             const wh_real wanted = id == rows[i].set ? (wh_real)rows[i].to : conf.standard[id];
