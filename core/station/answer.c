@@ -3,17 +3,15 @@
 
 /* --- answers ----------------------------------------------------------------------------------------- */
 
-static void add_word(wh_text *text, const char *word) {
-    for (char next = wh_word_at(word); next >= ' ' && next != '|'; next = wh_word_at(++word)) {
-        wh_text_add_char(text, next == ' ' ? '_' : next);
-    }
-}
-
-static void add_words(wh_text *text, const char *words) {
+/* A blank as `blank`; what has no blanks may be of a list. */
+static void add_words(wh_text *text, const char *words, char blank) {
     wh_packed from;
     wh_words_begin(&from, words);
     for (char next = wh_words_read(&from); next >= ' '; next = wh_words_read(&from)) {
-        wh_text_add_char(text, next);
+        if (next == '|' && blank != ' ') {
+            break;
+        }
+        wh_text_add_char(text, next == ' ' ? blank : next);
     }
 }
 
@@ -36,8 +34,8 @@ static void add_exact(wh_text *text, wh_real number) {
 
 static void add_value(wh_text *text, char as, const wh_value *value) {
     switch (as) {
-    case 'w': add_word(text, value->word); break;
-    case 's': add_words(text, value->word); break;
+    case 'w': add_words(text, value->word, '_'); break;
+    case 's': add_words(text, value->word, ' '); break;
     case 'c': wh_text_add_unsigned(text, value->count); break;
     case 'e': add_exact(text, value->number); break;
     default: wh_text_add_fixed(text, value->number, (unsigned)(as - '0'));
@@ -60,18 +58,19 @@ void wh_answer(wh_text *text, const char *form, const wh_value *value) {
 
 unsigned wh_list_find(const char *list, const char *word) {
     const char part = wh_word_at(list);
+    wh_packed from;
+    wh_words_begin(&from, list);
     unsigned number = 0;
-    while (wh_word_at(list) == part) {
+    for (char next = wh_words_read(&from); next == part; number++) {
         const char *at = word;
-        char next = wh_word_at(++list);
         bool same = true;
-        for (; next >= ' ' && next != part; next = wh_word_at(++list)) {
+        for (next = wh_words_read(&from); next >= ' ' && next != part;
+             next = wh_words_read(&from)) {
             same = same && next == wh_word_at(at++);
         }
         if (same && wh_word_at(at) == '\0') {
             break;
         }
-        number++;
     }
     return number;
 }

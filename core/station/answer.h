@@ -18,16 +18,19 @@ typedef union wh_value {
     uint32_t count;
 } wh_value;
 
-/* Add a form, of WH_WORDS(), in which a value stands where it has an @ and a letter or digit, one after the other:
+/* All words are as WH_WORDS() has them, but for the one that is looked for. */
+
+/* Add a form in which a value stands where it has an @ and a letter or digit, one after the other:
  *
  *     @w           a word, to the end of the list's item that it is: a blank in it as _
- *     @s           words of WH_WORDS(), to the end of their line
+ *     @s           words, to the end of their line
  *     @c           a count
  *     @0 ... @9    a number, with so many decimals
  *     @e           a number to the seventh digit, as it can be typed, without zeros at the end */
 void wh_answer(wh_text *text, const char *form, const wh_value *value);
 
-/* A list begins with what parts its items, "|off|on", and ends with the string or the line. */
+/* A list begins with what parts its items, which is in no WH_WORDS(), and ends with the string or the line:
+ * "|" WH_WORDS("off") "|" WH_WORDS("on"). */
 
 /* Which of the items the word is, from 0; how many there are when it is none. */
 unsigned wh_list_find(const char *list, const char *word);

@@ -44,7 +44,7 @@ static const wh_conf_row *row_in(wh_conf_row *room, unsigned id) {
 
 const wh_conf_row *wh_conf_row_of(wh_conf_id id, wh_conf_row *room) { return ROW_IN(room, id); }
 
-#define NAME(name, ...) "|" #name
+#define NAME(name, ...) "|" WH_WORDS(#name)
 static const char *names(void) { return WH_CONF_ROWS(NAME); }
 #undef NAME
 
@@ -58,7 +58,7 @@ const char *wh_conf_words(wh_conf_id id) {
 }
 
 const char *wh_conf_unit_text(wh_conf_id id) {
-#define WORD(unit, word, number) "|" word
+#define WORD(unit, word, number) "|" WH_WORDS(word)
     return wh_list_item(WH_CONF_UNIT_ROWS(WORD), ROW(id)->unit);
 #undef WORD
 }

@@ -60,14 +60,16 @@ static void get(const wh_conf *conf, wh_conf_id id, wh_text *answer) {
                   ? WH_WORDS(" type=@s unit=@w least=@e most=@e")
                   : WH_WORDS(" type=@s"),
               value);
-    add_value(answer, "default", id, conf->standard[id]);
+    add_value(answer, WH_WORDS("default"), id, conf->standard[id]);
     wh_answer(answer, WH_WORDS(": @s"), words);
 }
 
 wh_station_error wh_conf_answer(wh_conf *conf, const wh_words *words, bool idle, wh_text *answer) {
     enum { LIST, GET, SET, SAVE, DEFAULT, NONE };
     static const uint8_t wanted[] = {[GET] = 3, [SET] = 4, [SAVE] = 2, [DEFAULT] = 2};
-    const unsigned what = wh_list_find("|list|get|set|save|default", words->word[1]);
+    const unsigned what = wh_list_find("|" WH_WORDS("list") "|" WH_WORDS("get") "|" WH_WORDS(
+                                           "set") "|" WH_WORDS("save") "|" WH_WORDS("default"),
+                                       words->word[1]);
     if (what == LIST) {
         return list(conf, words, answer);
     }

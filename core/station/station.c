@@ -144,7 +144,7 @@ static unsigned do_conf(request *r) {
     wh_station *station = r->station;
 #if WH_STATION_TAPE
     if (station->tape != NULL && wh_tape_holds(station->tape) &&
-        wh_list_find("|set|default", r->words.word[1]) < 2U) {
+        wh_list_find("|" WH_WORDS("set") "|" WH_WORDS("default"), r->words.word[1]) < 2U) {
         return WH_STATION_TAPED;
     }
 #endif
@@ -183,7 +183,7 @@ static unsigned do_host(request *r) {
 }
 
 static unsigned do_talk(request *r) {
-    const unsigned on = wh_list_find("|off|on", r->words.word[1]);
+    const unsigned on = wh_list_find("|" WH_WORDS("off") "|" WH_WORDS("on"), r->words.word[1]);
     if (on > 1U) {
         return WH_STATION_ON_OFF;
     }
@@ -197,7 +197,7 @@ static unsigned do_help(request *r);
 #define COMMAND(name, most, follows, words) COMMAND_##name,
 typedef enum command { WH_COMMAND_ROWS(COMMAND) COMMANDS } command;
 #undef COMMAND
-#define COMMAND(name, most, follows, words) " " #name
+#define COMMAND(name, most, follows, words) " " WH_WORDS(#name)
 static const char *command_names(void) { return WH_COMMAND_ROWS(COMMAND); }
 #undef COMMAND
 
@@ -225,7 +225,8 @@ static unsigned do_help(request *r) {
     wh_text *answer = &r->answer;
     const unsigned asked = wh_list_find(command_names(), r->words.word[1]);
     if (r->words.count < 2U) {
-        wh_text_add(answer, command_names());
+        const wh_value names[] = {{.word = command_names()}};
+        wh_answer(answer, WH_WORDS("@s"), names);
         return 0;
     }
     if (asked == COMMANDS) {

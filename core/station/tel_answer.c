@@ -10,8 +10,8 @@
 #define DRIVE WH_WORDS(",drive[V]:u2:0.001")
 #define SCALE_DECIMALS 12U
 
-#define LISTED(what, word) "|" word
-#define CHANNEL(channel, number, name) "," name
+#define LISTED(what, word) "|" WH_WORDS(word)
+#define CHANNEL(channel, number, name) "," WH_WORDS(name)
 #define FORMATS WH_TEL_FORMAT_ROWS(LISTED)
 #define TRIGGERS WH_CAPTURE_ROWS(LISTED)
 #define CHANNELS WH_TEL_CHANNEL_ROWS(CHANNEL)
@@ -33,7 +33,7 @@ static void add_tape(const wh_tape *tape, wh_text *answer) {
 }
 
 static wh_station_error set_tape(wh_tape *tape, const char *word, wh_text *answer) {
-    const unsigned on = wh_list_find("|off|on", word);
+    const unsigned on = wh_list_find("|" WH_WORDS("off") "|" WH_WORDS("on"), word);
     if (tape == NULL) {
         return WH_STATION_NOT_HERE;
     }
@@ -119,7 +119,7 @@ static void schema_states(wh_text *answer) {
 
 static wh_station_error schema(const wh_tel *tel, const wh_cell_config *cell, const char *name,
                                wh_text *answer) {
-    switch (wh_list_find(CHANNELS ",states", name)) {
+    switch (wh_list_find(CHANNELS "," WH_WORDS("states"), name)) {
     case WH_TEL_RUN: schema_run(tel, cell, answer); break;
     case WH_TEL_EVENT:
         wh_answer(answer,
@@ -184,7 +184,7 @@ static wh_station_error set_format(wh_tel *tel, const wh_cell_config *cell, cons
 
 /* Another trigger, or behind these `read`. */
 static wh_station_error set_ring(wh_tel *tel, const char *word, wh_text *answer) {
-    const unsigned what = wh_list_find(TRIGGERS "|read", word);
+    const unsigned what = wh_list_find(TRIGGERS "|" WH_WORDS("read"), word);
     if (what > WH_CAPTURE_TRIGGERS) {
         return WH_STATION_TEL_HOW;
     }
@@ -200,7 +200,7 @@ static wh_station_error set_ring(wh_tel *tel, const char *word, wh_text *answer)
 
 static wh_station_error without_word(wh_tel *tel, wh_tape *tape, const wh_cell_config *cell,
                                      const char *what, wh_text *answer) {
-    switch (wh_list_find("|list|off|ring", what)) {
+    switch (wh_list_find("|" WH_WORDS("list") "|" WH_WORDS("off") "|" WH_WORDS("ring"), what)) {
     case 0: list(tel, tape, cell, answer); break;
     case 1: wh_tel_rate(tel, 0);
 #if WH_STATION_TAPE
@@ -222,7 +222,9 @@ wh_station_error wh_tel_answer(wh_tel *tel, wh_tape *tape, const wh_cell_config 
     if (words->count < 3U) {
         return without_word(tel, tape, cell, what, answer);
     }
-    switch (wh_list_find("|schema|rate|fmt|ring" WH_OF_TAPES("|tape"), what)) {
+    switch (wh_list_find("|" WH_WORDS("schema") "|" WH_WORDS("rate") "|" WH_WORDS(
+                             "fmt") "|" WH_WORDS("ring") WH_OF_TAPES("|" WH_WORDS("tape")),
+                         what)) {
     case 0: return schema(tel, cell, word, answer);
     case 1: return rate(tel, cell, word, answer);
     case 2: return set_format(tel, cell, word, answer);
