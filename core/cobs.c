@@ -53,14 +53,25 @@ unsigned wh_cobs_decode(uint8_t *bytes, unsigned length) {
     return to;
 }
 
-/* Four bits at a time. */
+unsigned wh_cobs_short(uint8_t *bytes, unsigned count) {
+    unsigned zero = count + 1U; /* the next one */
+    bytes[0] = 0;
+    bytes[zero] = 0;
+    for (unsigned at = zero; at-- > 0;) {
+        if (bytes[at] == 0) {
+            bytes[at] = (uint8_t)(zero - at);
+            zero = at;
+        }
+    }
+    return count + 2U;
+}
+
+/* All eight bits at once: what leaves at the top comes back at the places of the polynomial's ones. */
 uint16_t wh_crc16(uint16_t crc, const uint8_t *bytes, unsigned count) {
-    static const uint16_t of_nibble[16] = {0x0000, 0x1021, 0x2042, 0x3063, 0x4084, 0x50A5,
-                                           0x60C6, 0x70E7, 0x8108, 0x9129, 0xA14A, 0xB16B,
-                                           0xC18C, 0xD1AD, 0xE1CE, 0xF1EF};
     for (unsigned i = 0; i < count; i++) {
-        crc = (uint16_t)(crc << 4 ^ of_nibble[(crc >> 12 ^ bytes[i] >> 4) & 15]);
-        crc = (uint16_t)(crc << 4 ^ of_nibble[(crc >> 12 ^ bytes[i]) & 15]);
+        unsigned out = (crc >> 8 ^ bytes[i]) & 0xFFU;
+        out ^= out >> 4;
+        crc = (uint16_t)((unsigned)crc << 8 ^ out << 12 ^ out << 5 ^ out);
     }
     return crc;
 }

@@ -26,6 +26,7 @@ typedef struct wh_cobs {
 #define wh_cobs_start WH_NAME(wh_cobs_start)
 #define wh_cobs_put WH_NAME(wh_cobs_put)
 #define wh_cobs_end WH_NAME(wh_cobs_end)
+#define wh_cobs_short WH_NAME(wh_cobs_short)
 #define wh_cobs_decode WH_NAME(wh_cobs_decode)
 #define wh_crc16 WH_NAME(wh_crc16)
 
@@ -34,6 +35,11 @@ void wh_cobs_put(wh_cobs *cobs, uint8_t byte);
 
 /* The zero. Returns how many bytes there are; 0 when there was no room: nothing in them is then of use. */
 unsigned wh_cobs_end(wh_cobs *cobs);
+
+/* bytes[1] to bytes[count], of which there are 253 at most, in place: with the head in front of them and the zero behind
+ * them. Returns how many there are. */
+#define WH_COBS_SHORT_MOST 253U
+unsigned wh_cobs_short(uint8_t *bytes, unsigned count);
 
 /* What was coded, without its zero; in place, as what is decoded is never longer. Returns its length; 0 when it was none. */
 unsigned wh_cobs_decode(uint8_t *bytes, unsigned length);

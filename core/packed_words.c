@@ -1,27 +1,24 @@
 /* packed_words.c: packed words to text. */
 #include "packed_words.h"
 
-#include "word_pairs.h"
-
 #define FIRST 128U /* what is above is a pair */
 
-void wh_words_unpack(wh_text *text, const char *packed) {
+char wh_words_next(wh_packed *from) {
 #define PAIR(number, left, right) {left, right},
     static const uint8_t pair[][2] = {WH_WORD_PAIR_ROWS(PAIR)};
 #undef PAIR
-    uint8_t waits[WH_WORD_PAIRS_DEEP]; /* right halves */
-    unsigned waiting = 0;
-    for (; *packed != '\0'; packed++) {
-        uint8_t byte = (uint8_t)*packed;
-        while (byte >= FIRST || waiting > 0) {
-            if (byte >= FIRST) {
-                waits[waiting++] = pair[byte - FIRST][1];
-                byte = pair[byte - FIRST][0];
-            } else {
-                wh_text_add_char(text, (char)byte);
-                byte = waits[--waiting];
-            }
-        }
-        wh_text_add_char(text, (char)byte);
+    uint8_t byte = from->waiting > 0 ? from->waits[--from->waiting] : (uint8_t)*from->at++;
+    while (byte >= FIRST) {
+        from->waits[from->waiting++] = pair[byte - FIRST][1];
+        byte = pair[byte - FIRST][0];
+    }
+    return (char)byte;
+}
+
+void wh_words_unpack(wh_text *text, const char *packed) {
+    wh_packed from;
+    wh_words_begin(&from, packed);
+    for (char next = wh_words_next(&from); next != '\0'; next = wh_words_next(&from)) {
+        wh_text_add_char(text, next);
     }
 }

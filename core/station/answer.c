@@ -1,74 +1,84 @@
 /* answer.c: how the console's answers are put together. */
 #include "answer.h"
 
-#include "core/flash.h"
-#include "core/packed_words.h"
+/* --- answers ----------------------------------------------------------------------------------------- */
 
-bool wh_answer_is(const char *word, const char *name) {
-    while (wh_word_at(word) != '\0' && wh_word_at(word) == wh_word_at(name)) {
-        word++;
-        name++;
+/* A blank as `blank`; what has no blanks may be of a list. */
+static void add_words(wh_text *text, const char *words, char blank) {
+    wh_packed from;
+    wh_words_begin(&from, words);
+    for (char next = wh_words_read(&from); next >= ' '; next = wh_words_read(&from)) {
+        if (next == '|' && blank != ' ') {
+            break;
+        }
+        wh_text_add_char(text, next == ' ' ? blank : next);
     }
-    return wh_word_at(word) == wh_word_at(name);
-}
-
-void wh_answer_refused(wh_text *text, unsigned number, const char *why) {
-    wh_text_add(text, "ERR ");
-    wh_text_add_unsigned(text, number);
-    wh_text_add_char(text, ' ');
-    wh_text_add_words(text, why);
-}
-
-void wh_answer_word(wh_text *text, const char *name, const char *word) {
-    wh_text_add_char(text, ' ');
-    wh_text_add(text, name);
-    wh_text_add_char(text, '=');
-    for (char next = wh_word_at(word); next != '\0'; next = wh_word_at(++word)) {
-        wh_text_add_char(text, next == ' ' ? '_' : next);
-    }
-}
-
-void wh_answer_number(wh_text *text, const char *name, wh_real number, unsigned decimals) {
-    wh_answer_word(text, name, "");
-    wh_text_add_fixed(text, number, decimals);
 }
 
 /* Seven digits that count: a float has no more, and nine can be typed (line.h). */
-void wh_answer_exact(wh_text *text, const char *name, wh_real number) {
+static void add_exact(wh_text *text, wh_real number) {
     unsigned decimals = 8;
-    wh_real size = WH_ABS(number);
-    while (size >= WH_R(0.1) && decimals > 0) {
-        size *= WH_R(0.1);
+    for (wh_real size = WH_ABS(number); size >= WH_R(0.1) && decimals > 0; size *= WH_R(0.1)) {
         decimals--;
     }
-    wh_answer_number(text, name, number, decimals);
-    if (decimals == 0) {
+    wh_text_add_fixed(text, number, decimals);
+    if (decimals == 0 || text->truncated) {
         return;
     }
-    unsigned length = text->length;
-    while (!text->truncated && length > 0 && text->bytes[length - 1U] == '0') {
-        length--;
+    while (text->bytes[text->length - 1U] == '0') {
+        text->length--;
     }
-    if (length > 0 && text->bytes[length - 1U] == '.') {
-        length--;
-    }
-    wh_answer_back(text, length);
+    text->length -= text->bytes[text->length - 1U] == '.' ? 1U : 0U;
+    text->bytes[text->length] = '\0';
 }
 
-void wh_answer_count(wh_text *text, const char *name, uint32_t count) {
-    wh_answer_word(text, name, "");
-    wh_text_add_unsigned(text, count);
-}
-
-void wh_answer_words(wh_text *text, const char *words) {
-    wh_text_add(text, ": ");
-    wh_text_add_words(text, words);
-}
-
-void wh_answer_back(wh_text *text, unsigned length) {
-    if (length < text->length) {
-        text->length = length;
-        text->bytes[length] = '\0';
-        text->truncated = false;
+static void add_value(wh_text *text, char as, const wh_value *value) {
+    switch (as) {
+    case 'w': add_words(text, value->word, '_'); break;
+    case 's': add_words(text, value->word, ' '); break;
+    case 'c': wh_text_add_unsigned(text, value->count); break;
+    case 'e': add_exact(text, value->number); break;
+    default: wh_text_add_fixed(text, value->number, (unsigned)(as - '0'));
     }
+}
+
+void wh_answer(wh_text *text, const char *form, const wh_value *value) {
+    wh_packed from;
+    wh_words_begin(&from, form);
+    for (char next = wh_words_read(&from); next >= ' '; next = wh_words_read(&from)) {
+        if (next == '@') {
+            add_value(text, wh_words_read(&from), value++);
+        } else {
+            wh_text_add_char(text, next);
+        }
+    }
+}
+
+/* --- lists ------------------------------------------------------------------------------------------- */
+
+unsigned wh_list_find(const char *list, const char *word) {
+    const char part = wh_word_at(list);
+    wh_packed from;
+    wh_words_begin(&from, list);
+    unsigned number = 0;
+    for (char next = wh_words_read(&from); next == part; number++) {
+        const char *at = word;
+        bool same = true;
+        for (next = wh_words_read(&from); next >= ' ' && next != part;
+             next = wh_words_read(&from)) {
+            same = same && next == wh_word_at(at++);
+        }
+        if (same && wh_word_at(at) == '\0') {
+            break;
+        }
+    }
+    return number;
+}
+
+const char *wh_list_item(const char *list, unsigned number) {
+    const char part = wh_word_at(list++);
+    while (number > 0) {
+        number -= wh_word_at(list++) == part ? 1U : 0U;
+    }
+    return list;
 }

@@ -1,41 +1,42 @@
-/* answer.h: how the console's answers are put together: "OK name=value name=value: words". */
+/* answer.h: how the console's answers are put together: "OK name=value name=value: words"; and lists of words. */
 #ifndef WH_STATION_ANSWER_H
 #define WH_STATION_ANSWER_H
 
-#include "core/text.h"
+#include "core/packed_words.h"
 
 #ifdef __cplusplus
 extern "C" {
 #endif
 
-#define wh_answer_is WH_NAME(wh_answer_is)
-#define wh_answer_refused WH_NAME(wh_answer_refused)
-#define wh_answer_word WH_NAME(wh_answer_word)
-#define wh_answer_number WH_NAME(wh_answer_number)
-#define wh_answer_exact WH_NAME(wh_answer_exact)
-#define wh_answer_count WH_NAME(wh_answer_count)
-#define wh_answer_words WH_NAME(wh_answer_words)
-#define wh_answer_back WH_NAME(wh_answer_back)
+#define wh_answer WH_NAME(wh_answer)
+#define wh_list_find WH_NAME(wh_list_find)
+#define wh_list_item WH_NAME(wh_list_item)
 
-/* Are these the same? */
-bool wh_answer_is(const char *word, const char *name);
+typedef union wh_value {
+    const char *word;
+    wh_real number;
+    uint32_t count;
+} wh_value;
 
-/* "ERR number why", as WH_WORDS() has it (core/packed_words.h). */
-void wh_answer_refused(wh_text *text, unsigned number, const char *why);
+/* All words are as WH_WORDS() has them, but for the one that is looked for. */
 
-/* " name=word", a blank in what is a word as _ */
-void wh_answer_word(wh_text *text, const char *name, const char *word);
+/* Add a form in which a value stands where it has an @ and a letter or digit, one after the other:
+ *
+ *     @w           a word, to the end of the list's item that it is: a blank in it as _
+ *     @s           words, to the end of their line
+ *     @c           a count
+ *     @0 ... @9    a number, with so many decimals
+ *     @e           a number to the seventh digit, as it can be typed, without zeros at the end */
+void wh_answer(wh_text *text, const char *form, const wh_value *value);
 
-/* " name=number", with so many decimals; or to the seventh digit, as it can be typed, without zeros at the end. */
-void wh_answer_number(wh_text *text, const char *name, wh_real number, unsigned decimals);
-void wh_answer_exact(wh_text *text, const char *name, wh_real number);
-void wh_answer_count(wh_text *text, const char *name, uint32_t count);
+/* A list begins with what parts its items, which is in no WH_WORDS(), and ends with the string or the line:
+ * "|" WH_WORDS("off") "|" WH_WORDS("on"). */
 
-/* ": words", to a person, behind all values; ditto. */
-void wh_answer_words(wh_text *text, const char *words);
+/* Which of the items the word is, from 0; how many there are when it is none. */
+unsigned wh_list_find(const char *list, const char *word);
 
-/* Take back what was added since it had this length. */
-void wh_answer_back(wh_text *text, unsigned length);
+/* This one of them, of which there are more. */
+const char *wh_list_item(const char *list, unsigned number);
 
 #ifdef __cplusplus
 }

@@ -10,13 +10,10 @@
 #include "core/root.h"
 #include "line.h"
 
-#define UNIT(name, number) UNITS_##name,
-enum { WH_CONF_UNIT_ROWS(UNIT) UNITS };
+#define UNIT(unit, word, number) WH_R(number),
+static const wh_real per_unit[] = {WH_CONF_SCALED_ROWS(UNIT)};
 #undef UNIT
-#define UNIT(name, number) WH_R(number),
-static const wh_real per_unit[UNITS] = {WH_CONF_UNIT_ROWS(UNIT)};
-#undef UNIT
-#define DEG per_unit[UNITS_DEG]
+#define DEG per_unit[WH_CONF_DEG]
 
 /* Where words stay in flash, so do these. */
 #if defined(WH_WORDS_FROM)
@@ -25,9 +22,9 @@ static const wh_real per_unit[UNITS] = {WH_CONF_UNIT_ROWS(UNIT)};
 #define ROWS_KEPT
 #endif
 
-#define ROW(name, number, kind, unit, least, most, member, units, words) \
-    {#name,  unit, WH_SAY(words), WH_R(least), WH_R(most), offsetof(wh_rig_config, member), \
-     number, kind, UNITS_##units},
+#define ROW(name, number, kind, unit, least, most, goes, member, words) \
+    {WH_R(least),    WH_R(most),    offsetof(wh_rig_config, member), number, kind, \
+     WH_CONF_##unit, WH_CONF_##goes},
 static const wh_conf_row rows[] ROWS_KEPT = {WH_CONF_ROWS(ROW)};
 #undef ROW
 
@@ -43,62 +40,69 @@ static const wh_conf_row *row_in(wh_conf_row *room, unsigned id) {
 #else
 #define ROW_IN(room, id) ((void)(room), &rows[id])
 #endif
-#define ROW(id) ROW_IN(&(wh_conf_row){.name = NULL}, id)
+#define ROW(id) ROW_IN(&(wh_conf_row){.number = 0}, id)
 
 const wh_conf_row *wh_conf_row_of(wh_conf_id id, wh_conf_row *room) { return ROW_IN(room, id); }
 
-wh_conf_id wh_conf_find(const char *name) {
-    unsigned id = 0;
-    while (id < WH_CONF_COUNT && !wh_answer_is(name, ROW(id)->name)) {
-        id++;
-    }
-    return (wh_conf_id)id;
+#define NAME(name, ...) "|" WH_WORDS(#name)
+static const char *names(void) { return WH_CONF_ROWS(NAME); }
+#undef NAME
+
+wh_conf_id wh_conf_find(const char *name) { return (wh_conf_id)wh_list_find(names(), name); }
+const char *wh_conf_name(wh_conf_id id) { return wh_list_item(names(), id); }
+
+const char *wh_conf_words(wh_conf_id id) {
+#define WORDS(name, number, kind, unit, least, most, goes, member, words) "\n" WH_SAY(words)
+    return wh_list_item(WH_CONF_ROWS(WORDS), id);
+#undef WORDS
 }
+
+const char *wh_conf_unit_text(wh_conf_id id) {
+#define WORD(unit, word, number) "|" WH_WORDS(word)
+    return wh_list_item(WH_CONF_UNIT_ROWS(WORD), ROW(id)->unit);
+#undef WORD
+}
+
+/* A list: what a choice takes, or one word. */
+static const char *choices(wh_conf_id id) {
+#define WORDS(kind, words) "\n" words
+    return wh_list_item(WH_CONF_KIND_ROWS(WORDS), ROW(id)->kind);
+#undef WORDS
+}
+
+const char *wh_conf_kind_text(wh_conf_id id) { return choices(id) + 1; }
 
 /* --- a configuration's settings ---------------------------------------------------------------------- */
 
 static bool is_on(wh_real value) { return value > WH_R(0.5); }
 
-/* The member that a row names: of the type that goes with its kind. */
-static void *member_of(wh_rig_config *c, const wh_conf_row *row) {
-    return (uint8_t *)c + row->place;
+/* So many of its unit are one of the configuration's. */
+static wh_real units(const wh_conf_row *row) {
+    return row->unit < sizeof per_unit / sizeof per_unit[0] ? per_unit[row->unit] : WH_R(1.0);
 }
 
-static wh_real value_of(wh_rig_config *c, wh_conf_id id) {
+/* The member that a row names is of the type that goes with its kind. */
+static wh_real value_of(const wh_rig_config *c, wh_conf_id id) {
     const wh_conf_row *row = ROW(id);
-    const void *member = member_of(c, row);
-    if (id == WH_CONF_cell_reversed) {
-        return *(const wh_real *)member < WH_R(0.0) ? WH_R(1.0) : WH_R(0.0);
-    }
+    const void *member = (const uint8_t *)c + row->place;
     switch ((wh_conf_kind)row->kind) {
     case WH_CONF_WHOLE: return (wh_real) * (const uint32_t *)member;
-    case WH_CONF_SWITCH: return *(const bool *)member ? WH_R(1.0) : WH_R(0.0);
+    case WH_CONF_SWITCH: return *(const uint8_t *)member != 0 ? WH_R(1.0) : WH_R(0.0);
     case WH_CONF_FEEDS: return (wh_real) * (const wh_feed_when *)member;
     case WH_CONF_REAL:
     case WH_CONF_KINDS: break;
     }
-    wh_real value = *(const wh_real *)member;
-    if (id == WH_CONF_sensor1 || id == WH_CONF_sensor2) {
-        value += c->swing.lead_rad;
-    }
-    if (id == WH_CONF_cell_scale) {
-        value = WH_ABS(value);
-    }
-    return value * per_unit[row->units];
+    return *(const wh_real *)member * units(row);
 }
 
-/* What comes of several settings is put by put_rotor(), put_sensors() and put_cell(), behind these. */
 static void put(wh_rig_config *c, wh_conf_id id, wh_real value) {
     const wh_conf_row *row = ROW(id);
-    void *member = member_of(c, row);
-    if (id == WH_CONF_cell_reversed) {
-        return;
-    }
+    void *member = (uint8_t *)c + row->place;
     switch ((wh_conf_kind)row->kind) {
     case WH_CONF_WHOLE: *(uint32_t *)member = (uint32_t)value; break;
-    case WH_CONF_SWITCH: *(bool *)member = is_on(value); break;
+    case WH_CONF_SWITCH: *(uint8_t *)member = is_on(value) ? 1U : 0U; break;
     case WH_CONF_FEEDS: *(wh_feed_when *)member = (wh_feed_when)(int)value; break;
-    case WH_CONF_REAL: *(wh_real *)member = value / per_unit[row->units]; break;
+    case WH_CONF_REAL: *(wh_real *)member = value / units(row); break;
     case WH_CONF_KINDS: break;
     }
 }
@@ -134,28 +138,27 @@ static void put_sensors(const wh_conf *conf, wh_rig_config *c) {
 }
 
 static void put_cell(const wh_conf *conf, wh_rig_config *c) {
-    const wh_real scale = conf->value[WH_CONF_cell_scale] / per_unit[UNITS_MILLI];
+    const wh_real scale = conf->value[WH_CONF_cell_scale] / per_unit[WH_CONF_MILLINEWTON];
     c->measure.cell.newton_per_count = is_on(conf->value[WH_CONF_cell_reversed]) ? -scale : scale;
 }
 
 static void renew(const wh_conf *conf) {
     wh_rig_config *c = conf->config;
+    bool goes[WH_CONF_CELL + 1U] = {false};
     conf->own(c);
     for (unsigned id = 0; id < WH_CONF_COUNT; id++) {
         if (is_set(conf, (wh_conf_id)id)) {
             put(c, (wh_conf_id)id, conf->value[id]);
+            goes[ROW(id)->goes] = true;
         }
     }
-    if (is_set(conf, WH_CONF_mass_moment) || is_set(conf, WH_CONF_gravity) ||
-        is_set(conf, WH_CONF_inertia) || is_set(conf, WH_CONF_mount_factor) ||
-        is_set(conf, WH_CONF_gravity_angle)) {
+    if (goes[WH_CONF_ROTOR]) {
         put_rotor(conf, c);
     }
-    if (is_set(conf, WH_CONF_sensor1) || is_set(conf, WH_CONF_sensor2) ||
-        is_set(conf, WH_CONF_slot_lead)) {
+    if (goes[WH_CONF_SENSORS]) {
         put_sensors(conf, c);
     }
-    if (is_set(conf, WH_CONF_cell_scale) || is_set(conf, WH_CONF_cell_reversed)) {
+    if (goes[WH_CONF_CELL]) {
         put_cell(conf, c);
     }
 }
@@ -165,11 +168,21 @@ static void renew(const wh_conf *conf) {
 /* As memory and tapes have it. */
 static wh_real as_kept(wh_real value) { return (wh_real)(float)value; }
 
-static bool in_range(wh_conf_id id, wh_real value) {
+/* What this program is built without. */
+static bool is_absent(wh_conf_id id, wh_real value) {
+    return is_on(value) &&
+           ((id == WH_CONF_feeds && !WH_RIG_FEEDS) || (id == WH_CONF_swings && !WH_RIG_SWINGS));
+}
+
+/* May this setting have this value? */
+static wh_station_error fits(wh_conf_id id, wh_real value) {
     const wh_conf_row *row = ROW(id);
     const wh_real kept = as_kept(value);
-    return kept >= as_kept(row->least) && kept <= as_kept(row->most) &&
-           ((wh_conf_kind)row->kind == WH_CONF_REAL || same(value, (wh_real)(int32_t)value));
+    if (!(kept >= as_kept(row->least)) || !(kept <= as_kept(row->most)) ||
+        ((wh_conf_kind)row->kind != WH_CONF_REAL && !same(value, (wh_real)(int32_t)value))) {
+        return WH_STATION_CONF_RANGE;
+    }
+    return is_absent(id, value) ? WH_STATION_NOT_HERE : WH_STATION_FINE;
 }
 
 static bool go_together(const wh_conf *conf) {
@@ -179,80 +192,39 @@ static bool go_together(const wh_conf *conf) {
            value[WH_CONF_supply_least] < value[WH_CONF_supply_most];
 }
 
-/* What this program is built without. */
-static bool is_absent(wh_conf_id id, wh_real value) {
-    return is_on(value) &&
-           ((id == WH_CONF_feeds && !WH_RIG_FEEDS) || (id == WH_CONF_swings && !WH_RIG_SWINGS));
-}
-
-wh_conf_status wh_conf_set(wh_conf *conf, wh_conf_id id, wh_real value) {
-    const wh_real kept = as_kept(value);
-    if (!in_range(id, value)) {
-        return WH_CONF_RANGE;
-    }
-    if (is_absent(id, value)) {
-        return WH_CONF_ABSENT;
-    }
+wh_station_error wh_conf_set(wh_conf *conf, wh_conf_id id, wh_real value) {
     const wh_real before = conf->value[id];
-    conf->value[id] = kept;
+    const wh_station_error error = fits(id, value);
+    if (error != WH_STATION_FINE) {
+        return error;
+    }
+    conf->value[id] = as_kept(value);
     if (!go_together(conf)) {
         conf->value[id] = before;
-        return WH_CONF_AGAINST;
+        return WH_STATION_CONF_AGAINST;
     }
     renew(conf);
-    return WH_CONF_DONE;
+    return WH_STATION_FINE;
 }
 
 /* --- words ------------------------------------------------------------------------------------------------ */
 
-static const char *words_of(wh_conf_id id) {
-#define WORDS(kind, word) \
-    case kind: return word;
-    switch ((wh_conf_kind)ROW(id)->kind) { WH_CONF_KIND_ROWS(WORDS) case WH_CONF_KINDS : break; }
-#undef WORDS
-    return "";
-}
-
-static bool is_choice(wh_conf_id id) {
-    const wh_conf_kind kind = (wh_conf_kind)ROW(id)->kind;
-    return kind != WH_CONF_REAL && kind != WH_CONF_WHOLE;
-}
-
-/* Behind the next '|'; NULL when there is none. */
-static const char *next_word(const char *at) {
-    while (wh_word_at(at) != '\0' && wh_word_at(at) != '|') {
-        at++;
-    }
-    return wh_word_at(at) == '|' ? at + 1 : NULL;
-}
+static bool is_choice(wh_conf_id id) { return ROW(id)->kind >= WH_CONF_SWITCH; }
 
 const char *wh_conf_text(wh_conf_id id, wh_real value) {
-    const char *at = is_choice(id) ? words_of(id) : NULL;
-    for (int32_t i = (int32_t)value; at != NULL && i > 0; i--) {
-        at = next_word(at);
-    }
-    return at;
+    return is_choice(id) ? wh_list_item(choices(id), (unsigned)value) : NULL;
 }
 
-static bool begins(const char *word, const char *with) {
-    while (*with != '\0' && *with != '|' && *with == wh_word_at(word)) {
-        with++;
-        word++;
+wh_station_error wh_conf_type(wh_conf *conf, wh_conf_id id, const char *typed) {
+    wh_real value;
+    bool known;
+    if (is_choice(id)) {
+        value = (wh_real)wh_list_find(choices(id), typed);
+        known = value <= ROW(id)->most;
+    } else {
+        known = wh_line_number(typed, &value);
     }
-    return *with == '\0' && (wh_word_at(word) == '\0' || wh_word_at(word) == '|');
-}
-
-wh_conf_status wh_conf_type(wh_conf *conf, wh_conf_id id, const char *typed) {
-    wh_real value = WH_R(0.0);
-    if (!is_choice(id)) {
-        return wh_line_number(typed, &value) ? wh_conf_set(conf, id, value) : WH_CONF_VALUE;
-    }
-    const char *word = words_of(id);
-    while (word != NULL && !begins(word, typed)) {
-        word = next_word(word);
-        value += WH_R(1.0);
-    }
-    return word != NULL && *typed != '\0' ? wh_conf_set(conf, id, value) : WH_CONF_VALUE;
+    return known ? wh_conf_set(conf, id, value) : WH_STATION_CONF_VALUE;
 }
 
 /* --- all of them ------------------------------------------------------------------------------------------- */
@@ -266,8 +238,7 @@ void wh_conf_default(wh_conf *conf) {
 
 static void take(wh_conf *conf, unsigned number, wh_real value) {
     for (unsigned id = 0; id < WH_CONF_COUNT; id++) {
-        if (ROW(id)->number == number && in_range((wh_conf_id)id, value) &&
-            !is_absent((wh_conf_id)id, value)) {
+        if (ROW(id)->number == number && fits((wh_conf_id)id, value) == WH_STATION_FINE) {
             conf->value[id] = value;
         }
     }
@@ -297,36 +268,47 @@ unsigned wh_conf_is_set(const wh_conf *conf, wh_conf_id id, float *value) {
 }
 #endif
 
+/* What the program itself has, of settings that are not as the configuration has them. */
+static void see_several(wh_real *value) {
+    value[WH_CONF_sensor1] += value[WH_CONF_slot_lead];
+    value[WH_CONF_sensor2] += value[WH_CONF_slot_lead];
+    value[WH_CONF_cell_reversed] = value[WH_CONF_cell_scale] < WH_R(0.0) ? WH_R(1.0) : WH_R(0.0);
+    value[WH_CONF_cell_scale] = WH_ABS(value[WH_CONF_cell_scale]);
+}
+
 void wh_conf_start(wh_conf *conf, void (*own)(wh_rig_config *config), const wh_store_memory *memory,
                    wh_rig_config *config) {
-    uint8_t payload[WH_STORE_PAYLOAD_MOST];
+    uint8_t kept[WH_STORE_SLOT_BYTES];
     *conf = (wh_conf){.own = own, .memory = memory, .config = config};
     own(config);
     for (unsigned id = 0; id < WH_CONF_COUNT; id++) {
-        conf->standard[id] = (wh_real)(float)value_of(config, (wh_conf_id)id);
+        conf->standard[id] = value_of(config, (wh_conf_id)id);
+    }
+    see_several(conf->standard);
+    for (unsigned id = 0; id < WH_CONF_COUNT; id++) {
+        conf->standard[id] = as_kept(conf->standard[id]);
         conf->value[id] = conf->standard[id];
     }
-    const int count =
-        memory != NULL ? wh_store_load(memory, payload, sizeof payload, &conf->sequence) : -1;
-    if (count <= 0) {
-        return;
+    const int count = memory != NULL ? wh_store_load(memory, kept, &conf->sequence) : 0;
+    if (count > 0) {
+        take_all(conf, kept + WH_STORE_HEAD_BYTES, (unsigned)count);
     }
-    take_all(conf, payload, (unsigned)count);
 }
 
-wh_conf_status wh_conf_save(wh_conf *conf) {
-    uint8_t payload[WH_STORE_PAYLOAD_MOST];
-    wh_bytes bytes = {.to = payload, .room = sizeof payload};
+wh_station_error wh_conf_save(wh_conf *conf) {
+    uint8_t kept[WH_STORE_SLOT_BYTES];
+    wh_bytes bytes = {.to = kept + WH_STORE_HEAD_BYTES, .room = WH_STORE_PAYLOAD_MOST};
     for (unsigned id = 0; id < WH_CONF_COUNT; id++) {
         if (is_set(conf, (wh_conf_id)id)) {
             wh_bytes_put(&bytes, ROW(id)->number, 1);
             wh_bytes_put_float(&bytes, (float)conf->value[id]);
         }
     }
-    if (conf->memory == NULL || !wh_store_save(conf->memory, payload, bytes.at)) {
-        return WH_CONF_FAILED;
+    const uint32_t sequence =
+        conf->memory != NULL ? wh_store_save(conf->memory, kept, bytes.at) : 0;
+    if (sequence == 0) {
+        return WH_STATION_CONF_FAILED;
     }
-    return wh_store_load(conf->memory, payload, sizeof payload, &conf->sequence) < 0
-               ? WH_CONF_FAILED
-               : WH_CONF_DONE;
+    conf->sequence = sequence;
+    return WH_STATION_FINE;
 }

@@ -8,42 +8,39 @@
 
 #include "conf_rows.h"
 #include "core/rig/rig.h"
+#include "errors.h"
 #include "store.h"
 
 #ifdef __cplusplus
 extern "C" {
 #endif
 
-#define WH_CONF_NAME(name, number, kind, unit, least, most, member, units, words) WH_CONF_##name,
+#define WH_CONF_NAME(name, ...) WH_CONF_##name,
 typedef enum wh_conf_id { WH_CONF_ROWS(WH_CONF_NAME) WH_CONF_COUNT } wh_conf_id;
+typedef enum wh_conf_unit { WH_CONF_UNIT_ROWS(WH_CONF_NAME) WH_CONF_UNITS } wh_conf_unit;
 #undef WH_CONF_NAME
 
-#define WH_CONF_NAME(kind, word) kind,
+#define WH_CONF_NAME(kind, words) kind,
 typedef enum wh_conf_kind { WH_CONF_KIND_ROWS(WH_CONF_NAME) WH_CONF_KINDS } wh_conf_kind;
 #undef WH_CONF_NAME
 
+/* With what others it makes something of the configuration. */
+typedef enum wh_conf_goes {
+    WH_CONF_ALONE,
+    WH_CONF_ROTOR,
+    WH_CONF_SENSORS,
+    WH_CONF_CELL
+} wh_conf_goes;
+
 typedef struct wh_conf_row {
-    const char *name;
-    const char *unit;
-    const char *words;
     wh_real least;
     wh_real most;
     uint16_t place; /* of the member */
     uint8_t number;
-    unsigned char kind : 4; /* a wh_conf_kind */
-    unsigned char units : 4;
+    unsigned char kind : 2; /* a wh_conf_kind */
+    unsigned char unit : 4;
+    unsigned char goes : 2;
 } wh_conf_row;
-
-/* What became of a value. */
-typedef enum wh_conf_status {
-    WH_CONF_DONE,
-    WH_CONF_NONE,    /* there is no such setting */
-    WH_CONF_VALUE,   /* no number, or no word, for it */
-    WH_CONF_RANGE,   /* outside its range */
-    WH_CONF_AGAINST, /* it goes against another setting */
-    WH_CONF_ABSENT,  /* this program has not what it would switch on */
-    WH_CONF_FAILED   /* the memory failed */
-} wh_conf_status;
 
 typedef struct wh_conf {
     void (*own)(wh_rig_config *config); /* fills in the program's own configuration */
@@ -57,6 +54,10 @@ typedef struct wh_conf {
 #define wh_conf_start WH_NAME(wh_conf_start)
 #define wh_conf_row_of WH_NAME(wh_conf_row_of)
 #define wh_conf_find WH_NAME(wh_conf_find)
+#define wh_conf_name WH_NAME(wh_conf_name)
+#define wh_conf_kind_text WH_NAME(wh_conf_kind_text)
+#define wh_conf_unit_text WH_NAME(wh_conf_unit_text)
+#define wh_conf_words WH_NAME(wh_conf_words)
 #define wh_conf_set WH_NAME(wh_conf_set)
 #define wh_conf_type WH_NAME(wh_conf_type)
 #define wh_conf_default WH_NAME(wh_conf_default)
@@ -76,16 +77,22 @@ const wh_conf_row *wh_conf_row_of(wh_conf_id id, wh_conf_row *room);
 /* WH_CONF_COUNT when there is none of this name. */
 wh_conf_id wh_conf_find(const char *name);
 
+/* Its name, and in words what it takes and its unit: items of lists (answer.h); what it is, as WH_WORDS() has it. */
+const char *wh_conf_name(wh_conf_id id);
+const char *wh_conf_kind_text(wh_conf_id id);
+const char *wh_conf_unit_text(wh_conf_id id);
+const char *wh_conf_words(wh_conf_id id);
+
 /* Set it, in its unit, a choice by its number; or what was typed for it. The configuration follows, unless it is
  * refused. While the rig is idle only. */
-wh_conf_status wh_conf_set(wh_conf *conf, wh_conf_id id, wh_real value);
-wh_conf_status wh_conf_type(wh_conf *conf, wh_conf_id id, const char *typed);
+wh_station_error wh_conf_set(wh_conf *conf, wh_conf_id id, wh_real value);
+wh_station_error wh_conf_type(wh_conf *conf, wh_conf_id id, const char *typed);
 
 /* All as if nobody had set any. What is saved stays. */
 void wh_conf_default(wh_conf *conf);
 
 /* Into memory. May take as long as the memory does (hal/settings.h). */
-wh_conf_status wh_conf_save(wh_conf *conf);
+wh_station_error wh_conf_save(wh_conf *conf);
 
 /* Its number, as it is stored, and its value, if somebody has set it; else 0. */
 unsigned wh_conf_is_set(const wh_conf *conf, wh_conf_id id, float *value);
@@ -94,7 +101,7 @@ unsigned wh_conf_is_set(const wh_conf *conf, wh_conf_id id, float *value);
  * not fit is left out, as at a start. */
 void wh_conf_take(wh_conf *conf, const uint8_t *payload, unsigned count);
 
-/* A choice's word for a value; NULL for a number. The word ends at '|' or at its end. */
+/* A choice's word for a value, of a list (answer.h); NULL for a number. */
 const char *wh_conf_text(wh_conf_id id, wh_real value);
 
 #ifdef __cplusplus

@@ -4,29 +4,26 @@
 #include <stddef.h>
 
 #include "answer.h"
-#include "core/flash.h"
 
 /* Of an answer, for what `conf list` says behind the settings. */
 #define LIST_TAIL 12U
 
-static void add_value(wh_text *answer, const char *name, wh_conf_id id, wh_real value) {
-    const char *word = wh_conf_text(id, value);
-    if (word == NULL) {
-        wh_answer_exact(answer, name, value);
-        return;
+/* " name=value", a choice's in words. */
+static void add_value(wh_text *answer, const char *name, wh_conf_id id, wh_real number) {
+    const char *choice = wh_conf_text(id, number);
+    wh_value value[] = {{.word = name}, {.number = number}};
+    if (choice != NULL) {
+        value[1].word = choice;
     }
-    wh_answer_word(answer, name, "");
-    for (char next = wh_word_at(word); next != '\0' && next != '|'; next = wh_word_at(++word)) {
-        wh_text_add_char(answer, next);
-    }
+    wh_answer(answer, choice != NULL ? WH_WORDS(" @w=@w") : WH_WORDS(" @w=@e"), value);
 }
 
 static void add_setting(wh_text *answer, const wh_conf *conf, wh_conf_id id) {
-    wh_conf_row room;
-    add_value(answer, wh_conf_row_of(id, &room)->name, id, conf->value[id]);
+    add_value(answer, wh_conf_name(id), id, conf->value[id]);
 }
 
 static wh_station_error list(const wh_conf *conf, const wh_words *words, wh_text *answer) {
+    static const wh_value settings[] = {{.count = WH_CONF_COUNT}};
     wh_real from = WH_R(0.0);
     if (words->count > 3U) {
         return WH_STATION_WORDS;
@@ -35,104 +32,71 @@ static wh_station_error list(const wh_conf *conf, const wh_words *words, wh_text
                               !(from < (wh_real)WH_CONF_COUNT))) {
         return WH_STATION_CONF_NONE;
     }
-    unsigned id = (unsigned)from;
-    wh_text_add(answer, "OK");
-    wh_answer_count(answer, "settings", WH_CONF_COUNT);
-    for (; id < WH_CONF_COUNT; id++) {
-        const unsigned before = answer->length;
+    wh_answer(answer, WH_WORDS(" settings=@c"), settings);
+    for (unsigned id = (unsigned)from; id < WH_CONF_COUNT; id++) {
+        const wh_text before = *answer;
         add_setting(answer, conf, (wh_conf_id)id);
         if (answer->truncated || answer->length + LIST_TAIL > answer->size) {
-            wh_answer_back(answer, before);
+            const wh_value next[] = {{.count = id}};
+            *answer = before;
+            wh_answer(answer, WH_WORDS(" next=@c"), next);
             break;
         }
     }
-    if (id < WH_CONF_COUNT) {
-        wh_answer_count(answer, "next", id);
-    }
     return WH_STATION_FINE;
 }
 
-static wh_station_error get(const wh_conf *conf, wh_conf_id id, wh_text *answer) {
-    static const char *const kinds[] = {
-#define WORD(kind, word) word,
-        WH_CONF_KIND_ROWS(WORD)
-#undef WORD
-    };
+static void get(const wh_conf *conf, wh_conf_id id, wh_text *answer) {
     wh_conf_row room;
     const wh_conf_row *row = wh_conf_row_of(id, &room);
-    wh_text_add(answer, "OK");
-    add_value(answer, row->name, id, conf->value[id]);
-    wh_answer_word(answer, "type", kinds[row->kind]);
-    if (wh_conf_text(id, conf->value[id]) == NULL) {
-        wh_answer_word(answer, "unit", row->unit);
-        wh_answer_exact(answer, "least", row->least);
-        wh_answer_exact(answer, "most", row->most);
-    }
-    add_value(answer, "default", id, conf->standard[id]);
-    wh_answer_words(answer, row->words);
-    return WH_STATION_FINE;
-}
-
-static wh_station_error refused(wh_conf_status status) {
-    switch (status) {
-    case WH_CONF_NONE: return WH_STATION_CONF_NONE;
-    case WH_CONF_VALUE: return WH_STATION_CONF_VALUE;
-    case WH_CONF_RANGE: return WH_STATION_CONF_RANGE;
-    case WH_CONF_AGAINST: return WH_STATION_CONF_AGAINST;
-    case WH_CONF_ABSENT: return WH_STATION_NOT_HERE;
-    case WH_CONF_FAILED: return WH_STATION_CONF_FAILED;
-    case WH_CONF_DONE: break;
-    }
-    return WH_STATION_FINE;
-}
-
-static wh_station_error set(wh_conf *conf, wh_conf_id id, const char *typed, wh_text *answer) {
-    const wh_conf_status status = wh_conf_type(conf, id, typed);
-    if (status == WH_CONF_DONE) {
-        wh_text_add(answer, "OK");
-        add_setting(answer, conf, id);
-    }
-    return refused(status);
-}
-
-static wh_station_error save(wh_conf *conf, wh_text *answer) {
-    const wh_conf_status status = wh_conf_save(conf);
-    if (status == WH_CONF_DONE) {
-        wh_text_add(answer, "OK");
-        wh_answer_count(answer, "sequence", conf->sequence);
-    }
-    return refused(status);
+    const wh_value value[] = {{.word = wh_conf_kind_text(id)},
+                              {.word = wh_conf_unit_text(id)},
+                              {.number = row->least},
+                              {.number = row->most}};
+    const wh_value words[] = {{.word = wh_conf_words(id)}};
+    add_setting(answer, conf, id);
+    wh_answer(answer,
+              wh_conf_text(id, conf->value[id]) == NULL
+                  ? WH_WORDS(" type=@s unit=@w least=@e most=@e")
+                  : WH_WORDS(" type=@s"),
+              value);
+    add_value(answer, WH_WORDS("default"), id, conf->standard[id]);
+    wh_answer(answer, WH_WORDS(": @s"), words);
 }
 
 wh_station_error wh_conf_answer(wh_conf *conf, const wh_words *words, bool idle, wh_text *answer) {
-    const char *what = words->count > 1U ? words->word[1] : "";
-    if (wh_answer_is(what, "list")) {
+    enum { LIST, GET, SET, SAVE, DEFAULT, NONE };
+    static const uint8_t wanted[] = {[GET] = 3, [SET] = 4, [SAVE] = 2, [DEFAULT] = 2};
+    const unsigned what = wh_list_find("|" WH_WORDS("list") "|" WH_WORDS("get") "|" WH_WORDS(
+                                           "set") "|" WH_WORDS("save") "|" WH_WORDS("default"),
+                                       words->word[1]);
+    if (what == LIST) {
         return list(conf, words, answer);
     }
-    const bool gets = wh_answer_is(what, "get") && words->count == 3U;
-    const bool sets = wh_answer_is(what, "set") && words->count == 4U;
-    const bool saves = wh_answer_is(what, "save") && words->count == 2U;
-    const bool clears = wh_answer_is(what, "default") && words->count == 2U;
-    if (!gets && !sets && !saves && !clears) {
+    if (what == NONE || words->count != wanted[what]) {
         return WH_STATION_CONF_HOW;
     }
-    const wh_conf_id id = gets || sets ? wh_conf_find(words->word[2]) : WH_CONF_COUNT;
-    if ((gets || sets) && id == WH_CONF_COUNT) {
+    const wh_conf_id id = wh_conf_find(words->word[2]);
+    if (what <= SET && id == WH_CONF_COUNT) {
         return WH_STATION_CONF_NONE;
     }
-    if (gets) {
-        return get(conf, id, answer);
+    if (what == GET) {
+        get(conf, id, answer);
+        return WH_STATION_FINE;
     }
     if (!idle) {
         return WH_STATION_BUSY;
     }
-    if (sets) {
-        return set(conf, id, words->word[3], answer);
+    wh_station_error error = WH_STATION_FINE;
+    if (what == SET) {
+        error = wh_conf_type(conf, id, words->word[3]);
+        add_setting(answer, conf, id);
+    } else if (what == SAVE) {
+        error = wh_conf_save(conf);
+        const wh_value sequence[] = {{.count = conf->sequence}};
+        wh_answer(answer, WH_WORDS(" sequence=@c"), sequence);
+    } else {
+        wh_conf_default(conf);
     }
-    if (saves) {
-        return save(conf, answer);
-    }
-    wh_conf_default(conf);
-    wh_text_add(answer, "OK");
-    return WH_STATION_FINE;
+    return error;
 }

@@ -1,14 +1,26 @@
 /* errors.c: why a line at the console is refused, in words. */
 #include "errors.h"
 
-#include "brief.h"
+#include "answer.h"
+#include "core/rig/life.h"
 
-const char *wh_station_error_text(wh_station_error error) {
-#define WH_STATION_CASE(name, number, words) \
-    case name: return WH_SAY(words);
-    switch (error) {
-        WH_STATION_ERROR_ROWS(WH_STATION_CASE)
-    case WH_STATION_FINE: break;
-    }
-    return WH_SAY("unknown error");
+/* The numbers are in step with the rows. */
+#define WH_STATION_ROW(name, number, words) ROW_##name,
+enum { WH_STATION_ERROR_ROWS(WH_STATION_ROW) ROWS };
+#undef WH_STATION_ROW
+#define FIRST WH_STATION_NO_COMMAND
+#define WH_STATION_ROW(name, number, words) \
+    _Static_assert((int)(name) == (int)FIRST + (int)ROW_##name, "no number is left out");
+WH_STATION_ERROR_ROWS(WH_STATION_ROW)
+#undef WH_STATION_ROW
+
+void wh_answer_refused(wh_text *answer, unsigned why) {
+#define WH_STATION_ROW(name, number, words) "\n" WH_SAY(words)
+    const wh_value value[] = {
+        {.count = why},
+        {.word = why < FIRST ? wh_refusal_text((wh_refusal)why)
+                             : wh_list_item(WH_STATION_ERROR_ROWS(WH_STATION_ROW), why - FIRST)}};
+#undef WH_STATION_ROW
+    wh_text_start(answer, answer->bytes, answer->size);
+    wh_answer(answer, WH_WORDS("ERR @c @s"), value);
 }

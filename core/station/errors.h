@@ -3,7 +3,7 @@
 #define WH_STATION_ERRORS_H
 
 #include "brief.h"
-#include "core/real.h"
+#include "core/text.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -50,10 +50,10 @@ typedef enum wh_station_error {
 } wh_station_error;
 #undef WH_STATION_NAME
 
-#define wh_station_error_text WH_NAME(wh_station_error_text)
+#define wh_answer_refused WH_NAME(wh_answer_refused)
 
-/* In words. */
-const char *wh_station_error_text(wh_station_error error);
+/* Instead of what the answer has: "ERR why words", of a wh_station_error or a wh_refusal. */
+void wh_answer_refused(wh_text *answer, unsigned why);
 
 #ifdef __cplusplus
 }

@@ -67,21 +67,20 @@ wh_line_event wh_line_take(wh_line *line, char character) {
 static bool is_blank(char character) { return character == ' ' || character == TAB; }
 
 wh_words wh_line_split(char *text) {
-    wh_words words = {.count = 0};
-    for (char *at = text; *at != '\0';) {
-        while (is_blank(*at)) {
-            *at++ = '\0';
+    static const char none[] = ""; /* in memory, as what is typed */
+    wh_words words = {.word = {none, none, none, none}};
+    bool within = false;
+    for (char *at = text; *at != '\0'; at++) {
+        const bool blank = is_blank(*at);
+        if (blank) {
+            *at = '\0';
+        } else if (!within) {
+            if (words.count < WH_LINE_WORDS) {
+                words.word[words.count] = at;
+            }
+            words.count++;
         }
-        if (*at == '\0') {
-            break;
-        }
-        if (words.count < WH_LINE_WORDS) {
-            words.word[words.count] = at;
-        }
-        words.count++;
-        while (*at != '\0' && !is_blank(*at)) {
-            at++;
-        }
+        within = !blank;
     }
     return words;
 }

@@ -29,8 +29,8 @@ typedef struct wh_line {
 } wh_line;
 
 typedef struct wh_words {
-    const char *word[WH_LINE_WORDS];
-    unsigned count; /* also of those beyond */
+    const char *word[WH_LINE_WORDS]; /* "" where there is none */
+    unsigned count;                  /* also of those beyond */
 } wh_words;
 
 #define wh_line_take WH_NAME(wh_line_take)

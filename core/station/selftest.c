@@ -9,11 +9,6 @@
 /* More of it is a load, or a cell that is not wired. */
 #define LOAD_PART WH_R(0.5)
 
-static void add_part(wh_text *answer, const char *name, bool good, bool *all) {
-    wh_answer_word(answer, name, good ? "good" : "bad");
-    *all = *all && good;
-}
-
 static bool cell_is_good(const wh_rig_config *config, const wh_rig *rig, const wh_seen *seen) {
     if (!rig->guard.load_good ||
         !wh_guard_load_comes(&config->guard, &rig->guard, seen->inputs.now_ticks)) {
@@ -23,36 +18,40 @@ static bool cell_is_good(const wh_rig_config *config, const wh_rig *rig, const w
     return seen->samples == 0 || WH_ABS((wh_real)seen->sample[seen->samples - 1U].raw) <= most;
 }
 
-static void add_swing(const wh_rig_config *config, const wh_rig *rig, wh_text *answer, bool *all) {
-    const wh_swung *swung = &rig->swing.result;
-    if (swung->why != WH_SWING_FOUND) {
-        wh_answer_word(answer, "swing", "none");
-        return;
-    }
-    const wh_real off = WH_ABS(swung->place_rad[0]);
-    add_part(answer, "swing", off <= config->swing.off_rad + swung->half_rad[0], all);
-    wh_answer_number(answer, "place_deg", swung->place_rad[0] * WH_RIG_DEG_PER_RAD, 2);
-    wh_answer_number(answer, "place_half_deg", swung->half_rad[0] * WH_RIG_DEG_PER_RAD, 2);
-}
-
 void wh_selftest_answer(const wh_rig_config *config, const wh_rig *rig, const wh_seen *seen,
                         wh_text *answer) {
-    char bytes[200];
-    wh_text parts;
-    bool all = true;
-    wh_text_start(&parts, bytes, sizeof bytes);
+    enum { ARITHMETIC, CLOCK, WATCHDOG, SUPPLY, CELL, STOP, ROTOR, SWING, PARTS };
     const wh_scene *scene = config->observer.scene;
-    add_part(&parts, "arithmetic",
-             scene == NULL || scene->arithmetic == NULL ||
-                 wh_arithmetic_wrong(scene->arithmetic) == WH_PROBED_COUNT,
-             &all);
-    add_part(&parts, "clock", !seen->inputs.clock_is_fallback, &all);
-    add_part(&parts, "watchdog", !seen->inputs.watchdog_has_cut, &all);
-    add_part(&parts, "supply", wh_guard_supply(&config->guard, seen->inputs.supply_V), &all);
-    add_part(&parts, "cell", cell_is_good(config, rig, seen), &all);
-    add_part(&parts, "stop", !seen->inputs.stop_pressed, &all);
-    add_part(&parts, "rotor", rig->guard.quiet, &all);
-    add_swing(config, rig, &parts, &all);
-    wh_text_add(answer, all ? "OK selftest=good" : "OK selftest=bad");
-    wh_text_add(answer, parts.bytes);
+    const wh_swung *swung = &rig->swing.result;
+    const bool swings = swung->why == WH_SWING_FOUND;
+    const bool good[PARTS] = {[ARITHMETIC] =
+                                  scene == NULL || scene->arithmetic == NULL ||
+                                  wh_arithmetic_wrong(scene->arithmetic) == WH_PROBED_COUNT,
+                              [CLOCK] = !seen->inputs.clock_is_fallback,
+                              [WATCHDOG] = !seen->inputs.watchdog_has_cut,
+                              [SUPPLY] = wh_guard_supply(&config->guard, seen->inputs.supply_V),
+                              [CELL] = cell_is_good(config, rig, seen),
+                              [STOP] = !seen->inputs.stop_pressed,
+                              [ROTOR] = rig->guard.quiet,
+                              [SWING] = !swings || WH_ABS(swung->place_rad[0]) <=
+                                                       config->swing.off_rad + swung->half_rad[0]};
+    wh_value value[1U + PARTS] = {{.word = "good"}}; /* the first is of all */
+    for (unsigned i = 0; i < PARTS; i++) {
+        value[1U + i].word = good[i] ? "good" : "bad";
+        if (!good[i]) {
+            value[0].word = "bad";
+        }
+    }
+    const wh_value place[] = {{.number = swung->place_rad[0] * WH_RIG_DEG_PER_RAD},
+                              {.number = swung->half_rad[0] * WH_RIG_DEG_PER_RAD}};
+    if (!swings) {
+        value[1U + SWING].word = "none";
+    }
+    wh_answer(answer,
+              WH_WORDS(" selftest=@w arithmetic=@w clock=@w watchdog=@w supply=@w cell=@w stop=@w")
+                  WH_WORDS(" rotor=@w swing=@w"),
+              value);
+    if (swings) {
+        wh_answer(answer, WH_WORDS(" place_deg=@2 place_half_deg=@2"), place);
+    }
 }

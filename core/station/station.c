@@ -17,8 +17,9 @@
 typedef struct request {
     wh_station *station;
     wh_rig *rig;
-    const wh_words *words;
-    wh_text *answer;
+    wh_words words;
+    wh_text answer; /* "OK" at first */
+    char bytes[ANSWER_BYTES];
 } request;
 
 /* --- lines out ------------------------------------------------------------------------------------ */
@@ -30,246 +31,216 @@ static void send(wh_station *station, wh_text *text) {
     }
 }
 
-static void refuse(const request *r, wh_station_error error) {
-    wh_answer_refused(r->answer, (unsigned)error, wh_station_error_text(error));
+static void begin(request *r, const char *with) {
+    wh_text_start(&r->answer, r->bytes, sizeof r->bytes);
+    wh_text_add(&r->answer, with);
+}
+
+/* `why`: 0, or a wh_refusal or wh_station_error. */
+static void send_answer(request *r, unsigned why) {
+    if (why != 0) {
+        wh_answer_refused(&r->answer, why);
+    }
+    send(r->station, &r->answer);
 }
 
 /* --- what it can be asked -------------------------------------------------------------------------- */
 
+/* Each of these returns why it is refused, or 0. */
+
 /* The answer comes when the rig has one. */
-static void order(const request *r, wh_rig_event event, wh_real value) {
+static unsigned order(request *r, wh_rig_event event, wh_real value) {
     r->station->answers = r->rig->answers;
-    if (wh_rig_post(r->rig, event, value)) {
-        r->station->waits = true;
-    } else {
-        wh_answer_refused(r->answer, WH_REFUSED_QUEUE, wh_refusal_text(WH_REFUSED_QUEUE));
+    r->station->waits = wh_rig_post(r->rig, event, value);
+    return r->station->waits ? 0 : WH_REFUSED_QUEUE;
+}
+
+static unsigned order_speed(request *r, wh_rig_event event) {
+    wh_real speed_rpm;
+    if (!wh_line_number(r->words.word[1], &speed_rpm)) {
+        return WH_STATION_NO_NUMBER;
     }
+    return order(r, event, speed_rpm * WH_RIG_RADPS_PER_RPM);
 }
 
-static void order_speed(const request *r, wh_rig_event event) {
-    wh_real speed_rpm = WH_R(0.0);
-    if (r->words->count < 2U || !wh_line_number(r->words->word[1], &speed_rpm)) {
-        refuse(r, WH_STATION_NO_NUMBER);
-        return;
-    }
-    order(r, event, speed_rpm * WH_RIG_RADPS_PER_RPM);
+static unsigned do_id(request *r) {
+    const wh_value value[] = {
+        {.word = r->station->program}, {.word = r->station->board}, {.count = DIALOGUE}};
+    wh_answer(&r->answer, WH_WORDS(" program=@w board=@w dialogue=@c"), value);
+    return 0;
 }
 
-static void do_id(const request *r) {
-    wh_text_add(r->answer, "OK");
-    wh_answer_word(r->answer, "program", r->station->program);
-    wh_answer_word(r->answer, "board", r->station->board);
-    wh_answer_count(r->answer, "dialogue", DIALOGUE);
-}
+static unsigned do_arm(request *r) { return order(r, WH_EVENT_ARM, WH_R(0.0)); }
+static unsigned do_start(request *r) { return order_speed(r, WH_EVENT_START); }
+static unsigned do_set(request *r) { return order_speed(r, WH_EVENT_SET); }
+static unsigned do_stop(request *r) { return order(r, WH_EVENT_STOP, WH_R(0.0)); }
+static unsigned do_clear(request *r) { return order(r, WH_EVENT_CLEAR, WH_R(0.0)); }
 
-static void do_arm(const request *r) { order(r, WH_EVENT_ARM, WH_R(0.0)); }
-static void do_start(const request *r) { order_speed(r, WH_EVENT_START); }
-static void do_set(const request *r) { order_speed(r, WH_EVENT_SET); }
-static void do_stop(const request *r) { order(r, WH_EVENT_STOP, WH_R(0.0)); }
-static void do_clear(const request *r) { order(r, WH_EVENT_CLEAR, WH_R(0.0)); }
-
-static void do_status(const request *r) {
+static unsigned do_status(request *r) {
     const wh_rig *rig = r->rig;
-    const bool runs = rig->run.phase != WH_PHASE_NONE;
-    wh_text_add(r->answer, "OK");
-    wh_answer_word(r->answer, "state", wh_rig_stage_text(wh_rig_stage(rig)));
-    if (rig->pulses.speed.known) {
-        wh_answer_number(r->answer, "speed_rpm", rig->pulses.speed.turn_radps * RPM_PER_RADPS, 2);
-    } else {
-        const bool rests = rig->guard.quiet && !wh_run_drives(&rig->run);
-        wh_answer_word(r->answer, "speed_rpm", rests ? "0.00" : "?");
-    }
-    wh_answer_number(r->answer, "set_rpm", runs ? rig->run.target_radps * RPM_PER_RADPS : WH_R(0.0),
-                     2);
-    wh_answer_number(r->answer, "motor_V", rig->command.volts, 2);
-    wh_answer_count(r->answer, "trip", (uint32_t)rig->guard.trip);
-    wh_answer_word(r->answer, "result",
-                   rig->has_result ? wh_quality_text(rig->result.force.quality) : "none");
-    wh_answer_count(r->answer, "lost_answers", r->station->lost_answers);
-    wh_answer_count(r->answer, "lost_bytes", r->station->lost_bytes);
-    wh_answer_count(r->answer, "host_losses", r->station->host_losses);
+    const bool known = rig->pulses.speed.known;
+    const bool rests = rig->guard.quiet && !wh_run_drives(&rig->run);
+    const wh_value state[] = {
+        {.word = wh_rig_stage_text(wh_rig_stage(rig))},
+        {.number = known ? rig->pulses.speed.turn_radps * RPM_PER_RADPS : WH_R(0.0)}};
+    const wh_value value[] = {
+        {.number =
+             rig->run.phase != WH_PHASE_NONE ? rig->run.target_radps * RPM_PER_RADPS : WH_R(0.0)},
+        {.number = rig->command.volts},
+        {.count = (uint32_t)rig->guard.trip},
+        {.word = rig->has_result ? wh_quality_text(rig->result.force.quality) : "none"},
+        {.count = r->station->lost_answers},
+        {.count = r->station->lost_bytes},
+        {.count = r->station->host_losses}};
+    wh_answer(&r->answer,
+              known || rests ? WH_WORDS(" state=@w speed_rpm=@2")
+                             : WH_WORDS(" state=@w speed_rpm=?"),
+              state);
+    wh_answer(&r->answer,
+              WH_WORDS(" set_rpm=@2 motor_V=@2 trip=@c result=@w")
+                  WH_WORDS(" lost_answers=@c lost_bytes=@c host_losses=@c"),
+              value);
+    return 0;
 }
 
-static void do_measure(const request *r) {
+static unsigned do_measure(request *r) {
     const wh_measured *force = &r->rig->result.force;
     if (!r->rig->has_result) {
-        refuse(r, WH_STATION_NO_RESULT);
-        return;
+        return WH_STATION_NO_RESULT;
     }
-    wh_text_add(r->answer, "OK");
-    wh_answer_word(r->answer, "result", wh_quality_text(force->quality));
-    wh_answer_count(r->answer, "turns", force->turns);
-    wh_answer_number(r->answer, "speed_rpm", force->speed_radps * RPM_PER_RADPS, 2);
-    wh_answer_number(r->answer, "force_N", force->amplitude_N, 3);
-    wh_answer_number(r->answer, "force_half_N", force->amplitude_half_N, 4);
-    wh_answer_number(r->answer, "phase_deg", force->phase_rad * WH_RIG_DEG_PER_RAD, 3);
-    wh_answer_number(r->answer, "phase_half_deg", force->phase_half_rad * WH_RIG_DEG_PER_RAD, 4);
-    wh_answer_number(r->answer, "expected_N", force->expected_N, 3);
-    wh_answer_words(r->answer, wh_why_text(force->why));
+    const wh_value value[] = {{.word = wh_quality_text(force->quality)},
+                              {.count = force->turns},
+                              {.number = force->speed_radps * RPM_PER_RADPS},
+                              {.number = force->amplitude_N},
+                              {.number = force->amplitude_half_N},
+                              {.number = force->phase_rad * WH_RIG_DEG_PER_RAD},
+                              {.number = force->phase_half_rad * WH_RIG_DEG_PER_RAD},
+                              {.number = force->expected_N},
+                              {.word = wh_why_text(force->why)}};
+    wh_answer(&r->answer,
+              WH_WORDS(" result=@w turns=@c speed_rpm=@2 force_N=@3 force_half_N=@4")
+                  WH_WORDS(" phase_deg=@3 phase_half_deg=@4 expected_N=@3: @s"),
+              value);
+    return 0;
 }
 
-static void do_fault(const request *r) {
+static unsigned do_fault(request *r) {
     const wh_trip_record *record = &r->rig->record;
     const wh_trip trip = r->rig->guard.trip;
-    wh_text_add(r->answer, "OK");
-    wh_answer_count(r->answer, "trip", (uint32_t)trip);
+    const wh_value value[] = {{.count = (uint32_t)trip}, {.word = wh_trip_text(trip)}};
+    const wh_value then[] = {{.word = wh_phase_text(record->phase)},
+                             {.number = record->speed_radps * RPM_PER_RADPS},
+                             {.number = record->volts},
+                             {.number = record->supply_V}};
+    wh_answer(&r->answer, WH_WORDS(" trip=@c"), &value[0]);
     if (trip != WH_TRIP_NONE && record->trip == trip) {
-        wh_answer_word(r->answer, "in", wh_phase_text(record->phase));
-        wh_answer_number(r->answer, "speed_rpm", record->speed_radps * RPM_PER_RADPS, 2);
-        wh_answer_number(r->answer, "motor_V", record->volts, 2);
-        wh_answer_number(r->answer, "supply_V", record->supply_V, 2);
+        wh_answer(&r->answer, WH_WORDS(" in=@w speed_rpm=@2 motor_V=@2 supply_V=@2"), then);
     }
-    wh_answer_words(r->answer, wh_trip_text(trip));
+    wh_answer(&r->answer, WH_WORDS(": @s"), &value[1]);
+    return 0;
 }
 
-#if WH_STATION_TAPE
-/* Does a tape hold what this would change? */
-static bool is_taped(const request *r) {
-    const wh_tape *tape = r->station->tape;
-    const char *what = r->words->count > 1U ? r->words->word[1] : "";
-    return tape != NULL && wh_tape_holds(tape) &&
-           (wh_answer_is(what, "set") || wh_answer_is(what, "default"));
-}
-#endif
-
-static void do_conf(const request *r) {
-    const bool idle = r->rig->state == WH_LIFE_IDLE;
-#if WH_STATION_TAPE
-    if (is_taped(r)) {
-        refuse(r, WH_STATION_TAPED);
-        return;
-    }
-#endif
-    const wh_station_error error = r->station->conf != NULL
-                                       ? wh_conf_answer(r->station->conf, r->words, idle, r->answer)
-                                       : WH_STATION_NOT_HERE;
-    if (error != WH_STATION_FINE) {
-        refuse(r, error);
-    }
-}
-
-static void do_tel(const request *r) {
+static unsigned do_conf(request *r) {
     wh_station *station = r->station;
-    const wh_station_error error =
-        WH_STATION_TELEMETRY && station->tel != NULL && station->config != NULL
-            ? wh_tel_answer(station->tel, station->tape, &station->config->measure.cell, r->words,
-                            r->answer)
-            : WH_STATION_NOT_HERE;
-    if (error != WH_STATION_FINE) {
-        refuse(r, error);
+#if WH_STATION_TAPE
+    if (station->tape != NULL && wh_tape_holds(station->tape) &&
+        wh_list_find("|" WH_WORDS("set") "|" WH_WORDS("default"), r->words.word[1]) < 2U) {
+        return WH_STATION_TAPED;
     }
+#endif
+    return station->conf != NULL
+               ? wh_conf_answer(station->conf, &r->words, r->rig->state == WH_LIFE_IDLE, &r->answer)
+               : WH_STATION_NOT_HERE;
 }
 
-static void do_selftest(const request *r) {
+static unsigned do_tel(request *r) {
+    wh_station *station = r->station;
+    return WH_STATION_TELEMETRY && station->tel != NULL && station->config != NULL
+               ? wh_tel_answer(station->tel, station->tape, &station->config->measure.cell,
+                               &r->words, &r->answer)
+               : WH_STATION_NOT_HERE;
+}
+
+static unsigned do_selftest(request *r) {
     if (r->station->config == NULL) {
-        refuse(r, WH_STATION_NOT_HERE);
-    } else if (r->rig->state != WH_LIFE_IDLE) {
-        refuse(r, WH_STATION_BUSY);
-    } else {
-        wh_selftest_answer(r->station->config, r->rig, &r->station->seen, r->answer);
+        return WH_STATION_NOT_HERE;
     }
+    if (r->rig->state != WH_LIFE_IDLE) {
+        return WH_STATION_BUSY;
+    }
+    wh_selftest_answer(r->station->config, r->rig, &r->station->seen, &r->answer);
+    return 0;
 }
 
-static void do_host(const request *r) {
-    wh_real limit_s = WH_R(0.0);
-    const bool said = r->words->count > 1U && wh_line_number(r->words->word[1], &limit_s);
-    if (!said || !(limit_s <= HOST_MOST_S) || (limit_s < WH_R(1.0) && limit_s != WH_R(0.0))) {
-        refuse(r, WH_STATION_SECONDS);
-        return;
+static unsigned do_host(request *r) {
+    wh_real limit_s;
+    if (!wh_line_number(r->words.word[1], &limit_s) || !(limit_s <= HOST_MOST_S) ||
+        (limit_s < WH_R(1.0) && limit_s != WH_R(0.0))) {
+        return WH_STATION_SECONDS;
     }
     r->station->host_steps = (uint32_t)(limit_s * (wh_real)r->station->steps_per_s);
-    wh_text_add(r->answer, "OK");
+    return 0;
 }
 
-static void do_talk(const request *r) {
-    const char *word = r->words->count > 1U ? r->words->word[1] : "";
-    if (!wh_answer_is(word, "on") && !wh_answer_is(word, "off")) {
-        refuse(r, WH_STATION_ON_OFF);
-        return;
+static unsigned do_talk(request *r) {
+    const unsigned on = wh_list_find("|" WH_WORDS("off") "|" WH_WORDS("on"), r->words.word[1]);
+    if (on > 1U) {
+        return WH_STATION_ON_OFF;
     }
-    r->station->talks = wh_answer_is(word, "on");
+    r->station->talks = on != 0;
     r->station->stage = wh_rig_stage(r->rig);
-    wh_text_add(r->answer, "OK");
+    return 0;
 }
 
-static void do_help(const request *r);
+static unsigned do_help(request *r);
 
-typedef struct command {
-    const char *name;
-    unsigned words_most;
-    const char *follows;
-    const char *words;
-} command;
-
-#define COMMAND(name, most, follows, words) {#name, most, WH_WORDS(follows), WH_SAY(words)},
-static const command commands[] = {WH_COMMAND_ROWS(COMMAND)};
-#undef COMMAND
 #define COMMAND(name, most, follows, words) COMMAND_##name,
-typedef enum command_id { WH_COMMAND_ROWS(COMMAND) COMMANDS } command_id;
+typedef enum command { WH_COMMAND_ROWS(COMMAND) COMMANDS } command;
 #undef COMMAND
-
-/* COMMANDS: there is none of this name. */
-static command_id command_of(const char *name) {
-    unsigned id = 0;
-    while (id < COMMANDS && !wh_answer_is(name, commands[id].name)) {
-        id++;
-    }
-    return (command_id)id;
-}
+#define COMMAND(name, most, follows, words) " " WH_WORDS(#name)
+static const char *command_names(void) { return WH_COMMAND_ROWS(COMMAND); }
+#undef COMMAND
 
 /* By cases, not by pointers: what calls through a pointer itself (settings) would look like recursion to who bounds the
  * stack. */
-static void run(const request *r, command_id id) {
+static unsigned run(request *r) {
+#define COMMAND(name, most, follows, words) 1U + (most),
+    static const uint8_t words_most[] = {WH_COMMAND_ROWS(COMMAND)};
+#undef COMMAND
+    const command asked = (command)wh_list_find(command_names(), r->words.word[0]);
+    if (asked < COMMANDS && r->words.count > words_most[asked]) {
+        return WH_STATION_WORDS;
+    }
 #define COMMAND(name, most, follows, words) \
-    case COMMAND_##name: do_##name(r); break;
-    switch (id) {
+    case COMMAND_##name: return do_##name(r);
+    switch (asked) {
         WH_COMMAND_ROWS(COMMAND)
     case COMMANDS: break;
     }
 #undef COMMAND
+    return WH_STATION_NO_COMMAND;
 }
 
-static void do_help(const request *r) {
-    if (r->words->count < 2U) {
-        wh_text_add(r->answer, "OK");
-        for (unsigned i = 0; i < COMMANDS; i++) {
-            wh_text_add_char(r->answer, ' ');
-            wh_text_add(r->answer, commands[i].name);
-        }
-        return;
+static unsigned do_help(request *r) {
+    wh_text *answer = &r->answer;
+    const unsigned asked = wh_list_find(command_names(), r->words.word[1]);
+    if (r->words.count < 2U) {
+        const wh_value names[] = {{.word = command_names()}};
+        wh_answer(answer, WH_WORDS("@s"), names);
+        return 0;
     }
-    const command_id id = command_of(r->words->word[1]);
-    if (id == COMMANDS) {
-        refuse(r, WH_STATION_NO_COMMAND);
-        return;
+    if (asked == COMMANDS) {
+        return WH_STATION_NO_COMMAND;
     }
-    const command *asked = &commands[id];
-    wh_text_add(r->answer, "OK ");
-    wh_text_add(r->answer, asked->name);
-    wh_text_add(r->answer, wh_word_at(asked->follows) != '\0' ? " " : "");
-    wh_text_add_words(r->answer, asked->follows);
-    wh_answer_words(r->answer, asked->words);
+#define COMMAND(name, most, follows, words) "\n" WH_WORDS(follows) ": " WH_SAY(words)
+    const wh_value value[] = {{.word = r->words.word[1]},
+                              {.word = wh_list_item(WH_COMMAND_ROWS(COMMAND), asked)}};
+#undef COMMAND
+    wh_answer(answer, WH_WORDS(" @w@s"), value);
+    return 0;
 }
 
 /* --- lines in ------------------------------------------------------------------------------------- */
-
-static void obey(const request *r, wh_line_event event) {
-    if (event == WH_LINE_BAD) {
-        refuse(r, WH_STATION_LINE);
-        return;
-    }
-    if (r->words->count == 0) {
-        return; /* nothing was asked */
-    }
-    const command_id asked = command_of(r->words->word[0]);
-    if (asked == COMMANDS) {
-        refuse(r, WH_STATION_NO_COMMAND);
-    } else if (r->words->count - 1U > commands[asked].words_most) {
-        refuse(r, WH_STATION_WORDS);
-    } else {
-        run(r, asked);
-    }
-}
 
 static void echo(wh_station *station, char byte, unsigned before) {
     if (byte == '\r' || byte == '\n') {
@@ -299,32 +270,14 @@ static wh_line_event next_line(wh_station *station) {
     return WH_LINE_NOTHING;
 }
 
-static void answer_order(wh_station *station, const wh_rig *rig) {
-    char bytes[ANSWER_BYTES];
-    wh_text text;
-    wh_text_start(&text, bytes, sizeof bytes);
-    if (rig->answer == WH_ALLOWED) {
-        wh_text_add(&text, "OK ");
-        wh_text_add(&text, wh_rig_event_text(rig->asked));
-    } else {
-        wh_answer_refused(&text, (unsigned)rig->answer, wh_refusal_text(rig->answer));
-    }
-    station->waits = false;
-    send(station, &text);
-}
-
-static void tell_stage(wh_station *station, const wh_rig *rig) {
-    char bytes[ANSWER_BYTES];
-    wh_text text;
-    wh_text_start(&text, bytes, sizeof bytes);
-    station->stage = wh_rig_stage(rig);
-    wh_text_add(&text, "# ");
-    wh_text_add(&text, wh_rig_stage_text(station->stage));
-    if (rig->guard.trip != WH_TRIP_NONE) {
-        wh_text_add(&text, ": ");
-        wh_text_add_words(&text, wh_trip_text(rig->guard.trip));
-    }
-    send(station, &text);
+static void tell_stage(request *r) {
+    const wh_trip trip = r->rig->guard.trip;
+    const wh_value value[] = {{.word = wh_rig_stage_text(wh_rig_stage(r->rig))},
+                              {.word = wh_trip_text(trip)}};
+    r->station->stage = wh_rig_stage(r->rig);
+    begin(r, "# ");
+    wh_answer(&r->answer, trip != WH_TRIP_NONE ? WH_WORDS("@s: @s") : WH_WORDS("@s"), value);
+    send(r->station, &r->answer);
 }
 
 /* Whether just now whoever gives the orders has been silent for too long: the rig is told, once. */
@@ -383,33 +336,43 @@ void wh_station_take(wh_station *station, const char *bytes, unsigned count) {
     }
 }
 
+static void answer_order(request *r) {
+    r->station->waits = false;
+    begin(r, "OK ");
+    wh_text_add(&r->answer, wh_rig_event_text(r->rig->asked));
+    send_answer(r, r->rig->answer);
+}
+
 void wh_station_step(wh_station *station, wh_rig *rig) {
+    request r;
+    unsigned why;
+    r.station = station;
+    r.rig = rig;
     if (station->talks && station->stage != wh_rig_stage(rig)) {
-        tell_stage(station, rig);
+        tell_stage(&r);
     }
     if (station->waits && rig->answers != station->answers) {
-        answer_order(station, rig);
+        answer_order(&r);
     }
     if (station->waits || host_is_lost(station, rig)) {
         return; /* an order's answer is the next one, as no two are in the queue */
     }
-    char bytes[ANSWER_BYTES];
-    wh_text text;
-    wh_words words = {.count = 0};
-    wh_text_start(&text, bytes, sizeof bytes);
-    const request r = {station, rig, &words, &text};
+    begin(&r, "OK");
     if (station->escaped) {
         station->escaped = false;
-        order(&r, WH_EVENT_STOP, WH_R(0.0));
+        why = order(&r, WH_EVENT_STOP, WH_R(0.0));
     } else {
         const wh_line_event event = next_line(station);
         if (event == WH_LINE_NOTHING) {
             return;
         }
-        words = wh_line_split(station->line.text);
-        obey(&r, event);
+        r.words = wh_line_split(station->line.text);
+        if (event == WH_LINE_WHOLE && r.words.count == 0) {
+            return; /* nothing was asked */
+        }
+        why = event == WH_LINE_BAD ? WH_STATION_LINE : run(&r);
     }
-    if (text.length > 0) {
-        send(station, &text);
+    if (!station->waits) {
+        send_answer(&r, why);
     }
 }

@@ -33,29 +33,29 @@ extern "C" {
 /* A literal each (core/packed_words.h). */
 #if WH_STATION_TAPE
 #define WH_TEL_FOLLOWS \
-    "list|schema CHANNEL|rate N|off|fmt FORMAT|tape on|off|ring [pulse|fault|off|read]"
+    " list|schema CHANNEL|rate N|off|fmt FORMAT|tape on|off|ring [pulse|fault|off|read]"
 #else
-#define WH_TEL_FOLLOWS "list|schema CHANNEL|rate N|off|fmt FORMAT|ring [pulse|fault|off|read]"
+#define WH_TEL_FOLLOWS " list|schema CHANNEL|rate N|off|fmt FORMAT|ring [pulse|fault|off|read]"
 #endif
 
 /* X(name, most words after it, what follows, words) */
 #define WH_COMMAND_ROWS(X) \
-    X(help, 1, "[COMMAND]", "the commands, or what one does") \
+    X(help, 1, " [COMMAND]", "the commands, or what one does") \
     X(id, 0, "", "program, board, version of this dialogue") \
     X(arm, 0, "", "allow a start, for a minute") \
-    X(start, 1, "RPM", "a test run at this set-point") \
-    X(set, 1, "RPM", "another set-point, while it runs") \
+    X(start, 1, " RPM", "a test run at this set-point") \
+    X(set, 1, " RPM", "another set-point, while it runs") \
     X(stop, 0, "", "motor off; also the Escape key, at once") \
     X(status, 0, "", "state, speeds, voltage, trip, last verdict, losses") \
     X(measure, 0, "", "the last result, its intervals, its verdict") \
     X(fault, 0, "", "the trip that is latched, and what was then") \
     X(clear, 0, "", "a trip whose cause is gone") \
-    X(conf, 3, "list [FROM]|get NAME|set NAME VALUE|save|default", \
+    X(conf, 3, " list [FROM]|get NAME|set NAME VALUE|save|default", \
       "the settings; written while the rig is idle") \
     X(tel, 2, WH_TEL_FOLLOWS, "telemetry beside this text; off at first") \
     X(selftest, 0, "", "what can be known while it rests: arithmetic, cell, supply, stop") \
-    X(host, 1, "SECONDS", "a run ends when nothing is heard for so long; 0: never") \
-    X(talk, 1, "on|off", "echo what is typed, tell of each new state")
+    X(host, 1, " SECONDS", "a run ends when nothing is heard for so long; 0: never") \
+    X(talk, 1, " on|off", "echo what is typed, tell of each new state")
 
 /* 0, as a small chip's build may say: station->tel stays NULL, and nothing of telemetry is linked. */
 #ifndef WH_STATION_TELEMETRY

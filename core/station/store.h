@@ -17,7 +17,8 @@ extern "C" {
 #endif
 
 #define WH_STORE_SLOTS 2U
-#define WH_STORE_FIXED_BYTES 12U /* of a record that are not payload */
+#define WH_STORE_HEAD_BYTES 8U   /* of a record, before the payload */
+#define WH_STORE_FIXED_BYTES 12U /* that are not payload */
 #define WH_STORE_PAYLOAD_MOST 240U
 #define WH_STORE_SLOT_BYTES (WH_STORE_FIXED_BYTES + WH_STORE_PAYLOAD_MOST)
 
@@ -31,14 +32,14 @@ typedef struct wh_store_memory {
 #define wh_store_load WH_NAME(wh_store_load)
 #define wh_store_save WH_NAME(wh_store_save)
 
-/* The newest record's payload goes to payload[room]; returns its length, -1 when there is none, or none that fits. Its
- * sequence to *sequence, or 0. */
-int wh_store_load(const wh_store_memory *memory, uint8_t *payload, unsigned room,
-                  uint32_t *sequence);
+/* Records are in bytes[WH_STORE_SLOT_BYTES], their payload from WH_STORE_HEAD_BYTES on. */
 
-/* A new record, of at most WH_STORE_PAYLOAD_MOST bytes, read back once it is written. False: it is not there, and what was
- * loaded before still is. */
-bool wh_store_save(const wh_store_memory *memory, const uint8_t *payload, unsigned count);
+/* The newest record; returns the length of its payload, -1 when there is none. Its sequence to *sequence, or 0. */
+int wh_store_load(const wh_store_memory *memory, uint8_t *bytes, uint32_t *sequence);
+
+/* A new record, with a payload of `count` bytes, at most WH_STORE_PAYLOAD_MOST; the others are put in here. It is read back
+ * once it is written. Returns its sequence; 0: it is not there, and what was loaded before still is. */
+uint32_t wh_store_save(const wh_store_memory *memory, uint8_t *bytes, unsigned count);
 
 #ifdef __cplusplus
 }

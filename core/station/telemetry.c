@@ -5,10 +5,11 @@
 #include "core/cobs.h"
 #include "core/frame.h"
 
-#define SUM_BYTES 2U
-#define LINE_BYTES_OF(count) (1U + WH_COBS_BYTES(WH_TEL_HEAD_BYTES + (count) + SUM_BYTES))
-#define LINE_BYTES LINE_BYTES_OF(WH_TEL_PAYLOAD_MOST)
+#define LINE_BYTES_OF(count) (WH_TEL_FIXED_BYTES + (count))
+#define BEFORE 2U /* of a frame on the line: a zero, and what the code puts in front */
 #define TEXT_BYTES 96U
+
+_Static_assert(WH_TEL_FIXED_BYTES + WH_TEL_PAYLOAD_MOST <= WH_COBS_SHORT_MOST, "frames are short");
 #define NONE_16 0xFFFFU
 
 /* Where it goes, and what of. */
@@ -32,11 +33,11 @@ static uint16_t in_16(wh_real number) {
     return number < WH_R(65534.0) ? (uint16_t)up : 65534U;
 }
 
-static int16_t load_of(const wh_cell_config *cell, const wh_seen_sample *sample) {
-    if (sample->status == WH_LOAD_SATURATED || sample->status == WH_LOAD_DISCONNECTED) {
+static int16_t load_of(const wh_cell_config *cell, int32_t raw, wh_load_status status) {
+    if (status == WH_LOAD_SATURATED || status == WH_LOAD_DISCONNECTED) {
         return WH_TEL_NO_LOAD;
     }
-    const int32_t value = sample->raw / (int32_t)(1U << wh_tel_shift(cell));
+    const int32_t value = raw / (int32_t)(1U << wh_tel_shift(cell));
     return (int16_t)(value > 32767 ? 32767 : value < -32767 ? -32767 : value);
 }
 
@@ -53,9 +54,18 @@ static uint16_t speed_50(const wh_rig *rig) {
 
 /* --- frames ------------------------------------------------------------------------------------------- */
 
+/* Whole, or not at all. */
+static bool put_out(const sight *s, wh_tel_channel channel, const char *bytes, unsigned count) {
+    const bool fits = wh_ring_room(s->out) >= s->kept + count && wh_ring_put(s->out, bytes, count);
+    if (!fits) {
+        s->tel->dropped[channel]++;
+    }
+    return fits;
+}
+
 static wh_bytes begin_frame(const sight *s, wh_tel_channel channel, uint32_t ticks) {
     wh_tel *tel = s->tel;
-    wh_bytes bytes = {.to = tel->bytes, .room = WH_TEL_HEAD_BYTES + WH_TEL_PAYLOAD_MOST};
+    wh_bytes bytes = {.to = tel->line + BEFORE, .room = sizeof tel->line - BEFORE};
     wh_bytes_put(&bytes, 0x80U + (uint32_t)channel, 1);
     wh_bytes_put(&bytes, tel->sequence[channel]++, 2);
     wh_bytes_put(&bytes, tel->dropped[channel], 2);
@@ -63,24 +73,11 @@ static wh_bytes begin_frame(const sight *s, wh_tel_channel channel, uint32_t tic
     return bytes;
 }
 
-/* Whole, or not at all. */
-static bool send_frame(const sight *s, wh_tel_channel channel, const wh_bytes *frame) {
-    uint8_t line[LINE_BYTES];
-    wh_cobs cobs;
-    const uint16_t sum = wh_crc16(WH_CRC16_START, frame->to, frame->at);
+static bool send_frame(const sight *s, wh_tel_channel channel, wh_bytes *frame) {
+    uint8_t *line = s->tel->line;
+    wh_bytes_put(frame, wh_crc16(WH_CRC16_START, frame->to, frame->at), 2);
     line[0] = 0;
-    wh_cobs_start(&cobs, line + 1, sizeof line - 1U);
-    for (unsigned i = 0; i < frame->at; i++) {
-        wh_cobs_put(&cobs, frame->to[i]);
-    }
-    wh_cobs_put(&cobs, (uint8_t)sum);
-    wh_cobs_put(&cobs, (uint8_t)(sum >> 8));
-    const unsigned count = 1U + wh_cobs_end(&cobs);
-    if (wh_ring_room(s->out) < s->kept + count || !wh_ring_put(s->out, (const char *)line, count)) {
-        s->tel->dropped[channel]++;
-        return false;
-    }
-    return true;
+    return put_out(s, channel, (const char *)line, 1U + wh_cobs_short(line + 1, frame->at));
 }
 
 static bool has_room(const wh_ring *out, uint32_t kept, unsigned count) {
@@ -153,31 +150,29 @@ static void send_ring(const sight *s) {
 
 /* --- lines -------------------------------------------------------------------------------------------- */
 
-/* "name:number" */
-static void add_named(wh_text *text, const char *before, const char *name, wh_real number,
-                      unsigned decimals) {
-    wh_text_add(text, before);
-    wh_text_add(text, name);
-    wh_text_add_char(text, ':');
-    wh_text_add_fixed(text, number, decimals);
-}
-
 static void send_text(const sight *s, wh_real force_N) {
-    static const char *const before[WH_TEL_FORMATS][2] = {
-        [WH_TEL_TELEPLOT] = {">", "\r\n>"}, [WH_TEL_ARDUINO] = {"", ","}};
+    const bool plots = s->tel->format == WH_TEL_TELEPLOT;
+    const char *next = plots ? "\r\n>" : ",";
+    const uint16_t speed = speed_50(s->rig);
+    const wh_value value[] = {{.number = force_N},
+                              {.number = (wh_real)speed * WH_R(0.02)},
+                              {.number = s->rig->command.volts}};
     char bytes[TEXT_BYTES];
     wh_text text;
-    const char *const *with = before[s->tel->format];
     wh_text_start(&text, bytes, sizeof bytes);
-    add_named(&text, with[0], "load_N", force_N, 3);
-    if (speed_50(s->rig) != NONE_16) {
-        add_named(&text, with[1], "speed_rpm", (wh_real)speed_50(s->rig) * WH_R(0.02), 2);
+    wh_text_add(&text, plots ? ">" : "");
+    wh_answer(&text, WH_WORDS("load_N:@3"), &value[0]);
+    if (speed != NONE_16) {
+        wh_text_add(&text, next);
+        wh_answer(&text, WH_WORDS("speed_rpm:@2"), &value[1]);
     }
-    add_named(&text, with[1], "drive_V", s->rig->command.volts, 3);
+    wh_text_add(&text, next);
+    wh_answer(&text, WH_WORDS("drive_V:@3"), &value[2]);
     wh_text_add(&text, "\r\n");
-    if (text.truncated || wh_ring_room(s->out) < s->kept + text.length ||
-        !wh_ring_put(s->out, text.bytes, text.length)) {
+    if (text.truncated) {
         s->tel->dropped[WH_TEL_RUN]++;
+    } else {
+        (void)put_out(s, WH_TEL_RUN, text.bytes, text.length);
     }
 }
 
@@ -191,9 +186,9 @@ static void take_sample(const sight *s, const wh_seen_sample *sample) {
     }
     tel->passed = 0;
     const wh_load load = wh_cell_load(cell, sample->ticks, sample->raw, sample->status);
-    const wh_seen_sample judged = {sample->ticks, sample->raw, load.status};
+    const int16_t value = load_of(cell, sample->raw, load.status);
     if (tel->format != WH_TEL_FRAMES) {
-        if (load_of(cell, &judged) != WH_TEL_NO_LOAD) {
+        if (value != WH_TEL_NO_LOAD) {
             send_text(s, load.force_N);
         }
         return;
@@ -206,7 +201,7 @@ static void take_sample(const sight *s, const wh_seen_sample *sample) {
     if (tel->samples == 0) {
         tel->first_ticks = load.ticks;
     }
-    tel->load[tel->samples++] = load_of(cell, &judged);
+    tel->load[tel->samples++] = value;
     if (tel->samples == WH_TEL_SAMPLES) {
         send_run(s);
     }
@@ -231,16 +226,16 @@ static void take_events(const sight *s) {
 
 static void capture_step(const sight *s) {
     const wh_seen *seen = s->seen;
-    const wh_cell_config *cell = &s->config->measure.cell;
+    const wh_seen_sample *last = &seen->sample[seen->samples - 1U];
     const unsigned pulse = seen->pulsed ? 1U << (seen->sensor & 1U) : 0U;
     const unsigned tripped = s->rig->guard.trip != WH_TRIP_NONE ? 8U : 0U;
-    const wh_captured step = {.ticks = (uint16_t)seen->inputs.now_ticks,
-                              .load = seen->samples > 0
-                                          ? load_of(cell, &seen->sample[seen->samples - 1U])
-                                          : (int16_t)WH_TEL_NO_LOAD,
-                              .drive_mV = drive_mV(s->rig),
-                              .flags = (uint8_t)(pulse | tripped),
-                              .stage = (uint8_t)wh_rig_stage(s->rig)};
+    const wh_captured step = {
+        .ticks = (uint16_t)seen->inputs.now_ticks,
+        .load = seen->samples > 0 ? load_of(&s->config->measure.cell, last->raw, last->status)
+                                  : (int16_t)WH_TEL_NO_LOAD,
+        .drive_mV = drive_mV(s->rig),
+        .flags = (uint8_t)(pulse | tripped),
+        .stage = (uint8_t)wh_rig_stage(s->rig)};
     wh_capture_step(&s->tel->capture, &step, seen->inputs.now_ticks);
 }
 

@@ -32,6 +32,7 @@ extern "C" {
 
 #define WH_TEL_SAMPLES 10U
 #define WH_TEL_HEAD_BYTES 9U
+#define WH_TEL_FIXED_BYTES (WH_TEL_HEAD_BYTES + 5U) /* on the line: zeros, code, sum */
 #define WH_TEL_PAYLOAD_MOST (WH_TEL_SAMPLES * WH_CAPTURE_BYTES)
 #define WH_TEL_NO_LOAD (-32768) /* there was no good sample */
 /* Text takes more room: no more samples a second. */
@@ -65,23 +66,23 @@ typedef enum wh_tel_event {
 typedef enum wh_tel_format { WH_TEL_FORMAT_ROWS(WH_TEL_NAME) WH_TEL_FORMATS } wh_tel_format;
 #undef WH_TEL_NAME
 
-/* All zeros: off. */
+/* All zeros: off. What is large comes last: what is near has shorter instructions. */
 typedef struct wh_tel {
+    bool reads; /* the ring goes out, from: */
+    uint16_t sequence[WH_TEL_CHANNELS];
+    uint16_t dropped[WH_TEL_CHANNELS]; /* of text: of WH_TEL_RUN */
+    unsigned read_at;
+    uint32_t read_ticks;
     uint32_t every; /* so many samples of the cell for one of these; 0: off */
     uint32_t passed;
     wh_tel_format format;
-    uint16_t sequence[WH_TEL_CHANNELS];
-    uint16_t dropped[WH_TEL_CHANNELS]; /* of text: of WH_TEL_RUN */
-    unsigned samples;                  /* of the frame that is under way: */
+    unsigned samples; /* of the frame that is under way: */
     uint32_t first_ticks;
     int16_t load[WH_TEL_SAMPLES];
     unsigned stage; /* as last told */
     unsigned trip;
+    uint8_t line[WH_TEL_FIXED_BYTES + WH_TEL_PAYLOAD_MOST]; /* a frame, as it goes out */
     wh_capture capture;
-    bool reads; /* the ring goes out, from: */
-    unsigned read_at;
-    uint32_t read_ticks;
-    uint8_t bytes[WH_TEL_HEAD_BYTES + WH_TEL_PAYLOAD_MOST]; /* a frame, before it is coded */
 } wh_tel;
 
 /* The cell's counts in 16 bits: shifted by so many. */

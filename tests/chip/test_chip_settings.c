@@ -101,10 +101,16 @@ static const wh_store_memory memory = {hal_settings_erase, hal_settings_write, h
 static uint8_t payload[WH_STORE_PAYLOAD_MOST];
 static unsigned payload_bytes;
 static int loaded;
-static void save(void) { good = wh_store_save(&memory, payload, payload_bytes); }
+static void save(void) {
+    uint8_t record[WH_STORE_SLOT_BYTES];
+    memcpy(record + WH_STORE_HEAD_BYTES, payload, payload_bytes);
+    good = wh_store_save(&memory, record, payload_bytes) != 0;
+}
 static void load(void) {
+    uint8_t record[WH_STORE_SLOT_BYTES];
     uint32_t sequence = 0;
-    loaded = wh_store_load(&memory, payload, sizeof payload, &sequence);
+    loaded = wh_store_load(&memory, record, &sequence);
+    memcpy(payload, record + WH_STORE_HEAD_BYTES, loaded > 0 ? (unsigned)loaded : 0U);
 }
 static void drawn_payload(void) {
     payload_bytes = 100U + (unsigned)(scattered() % (WH_STORE_PAYLOAD_MOST - 99U));

@@ -3,6 +3,7 @@
 #include <stddef.h>
 #include <string.h>
 
+#include "core/station/answer.h"
 #include "core/station/station.h"
 #include "core/text.h"
 #include "draw.h"
@@ -131,6 +132,16 @@ static wh_real draw_value(const wh_conf_row *row) {
     return is_whole(row) ? (wh_real)(int32_t)(value + WH_R(0.5)) : (wh_real)(float)value;
 }
 
+/* As it is typed. */
+static const char *name_of(wh_conf_id id) {
+    static char bytes[40];
+    const wh_value value = {.word = wh_conf_name(id)};
+    wh_text text;
+    wh_text_start(&text, bytes, sizeof bytes);
+    wh_answer(&text, "@w", &value);
+    return bytes;
+}
+
 /* --- the table ---------------------------------------------------------------------------------------- */
 
 static void test_rows(void) {
@@ -139,14 +150,15 @@ static void test_rows(void) {
         wh_conf_row room;
         const wh_conf_row *row = wh_conf_row_of((wh_conf_id)i, &room);
         TEST_ASSERT_TRUE(row->least < row->most && row->number > 0);
-        TEST_ASSERT_TRUE(strchr(row->name, ' ') == NULL && strlen(row->name) > 0);
+        const char *name = name_of((wh_conf_id)i);
+        TEST_ASSERT_TRUE(strchr(name, ' ') == NULL && strlen(name) > 0);
         TEST_ASSERT_TRUE(conf.value[i] >= row->least && conf.value[i] <= row->most);
         for (unsigned k = 0; k < i; k++) {
             wh_conf_row next;
             const wh_conf_row *other = wh_conf_row_of((wh_conf_id)k, &next);
-            TEST_ASSERT_TRUE(other->number != row->number && strcmp(other->name, row->name) != 0);
+            TEST_ASSERT_TRUE(other->number != row->number);
         }
-        TEST_ASSERT_EQUAL_UINT(i, wh_conf_find(row->name));
+        TEST_ASSERT_EQUAL_UINT(i, wh_conf_find(name)); /* the first of this name */
     }
     TEST_ASSERT_EQUAL_UINT(WH_CONF_COUNT, wh_conf_find("mass"));
     TEST_ASSERT_EQUAL_UINT(WH_CONF_COUNT, wh_conf_find(""));
@@ -167,21 +179,20 @@ static void test_values_have_their_places(void) {
             const wh_conf_id id = (wh_conf_id)draw_one_of(&seed, WH_CONF_COUNT);
             wh_conf_row place;
             const wh_real value = draw_value(wh_conf_row_of(id, &place));
-            const wh_conf_status status = wh_conf_set(&conf, id, value);
-            TEST_ASSERT_TRUE(status == WH_CONF_DONE || status == WH_CONF_AGAINST);
-            wanted[id] = status == WH_CONF_DONE ? value : wanted[id];
-            against += status == WH_CONF_AGAINST ? 1U : 0U;
+            const wh_station_error status = wh_conf_set(&conf, id, value);
+            TEST_ASSERT_TRUE(status == WH_STATION_FINE || status == WH_STATION_CONF_AGAINST);
+            wanted[id] = status == WH_STATION_FINE ? value : wanted[id];
+            against += status == WH_STATION_CONF_AGAINST ? 1U : 0U;
         }
         for (unsigned i = 0; i < WH_CONF_COUNT; i++) {
-            wh_conf_row room;
-            const wh_conf_row *row = wh_conf_row_of((wh_conf_id)i, &room);
+            const char *name = name_of((wh_conf_id)i);
             const float size = (float)WH_ABS(wanted[i]);
             TEST_ASSERT_FLOAT_WITHIN_MESSAGE(size * 1e-5f + 2e-5f, (float)wanted[i],
-                                             (float)where(&even.config, row->name), row->name);
+                                             (float)where(&even.config, name), name);
         }
         TEST_ASSERT_TRUE(even.config.observer.mark_rad[0] == even.config.measure.rotor.mark_rad[0]);
         const wh_rig_config then = even.config;
-        TEST_ASSERT_TRUE(wh_conf_save(&conf) == WH_CONF_DONE);
+        TEST_ASSERT_TRUE(wh_conf_save(&conf) == WH_STATION_FINE);
         static wh_conf again;
         wh_rig_config other;
         wh_conf_start(&again, own, &memory, &other);
@@ -200,8 +211,9 @@ static void test_what_follows(void) {
     wh_rig_config plain;
     own_standard(&plain);
     wh_conf_start(&conf, own_standard, NULL, &even.config);
-    TEST_ASSERT_TRUE(wh_conf_set(&conf, WH_CONF_mass_moment,
-                                 WH_R(2.0) * plain.measure.rotor.mass_moment_kgm) == WH_CONF_DONE);
+    TEST_ASSERT_TRUE(
+        wh_conf_set(&conf, WH_CONF_mass_moment, WH_R(2.0) * plain.measure.rotor.mass_moment_kgm) ==
+        WH_STATION_FINE);
     const float twice = 2.0f;
     TEST_ASSERT_FLOAT_WITHIN(1e-5f, twice,
                              (float)(even.config.feed.weight_Nm / plain.feed.weight_Nm));
@@ -210,13 +222,13 @@ static void test_what_follows(void) {
     TEST_ASSERT_FLOAT_WITHIN(1e-5f, 1.41421356f,
                              (float)(even.config.guard.fall_radps / plain.guard.fall_radps));
     TEST_ASSERT_TRUE(wh_conf_set(&conf, WH_CONF_inertia,
-                                 WH_R(8.0) * plain.measure.rotor.inertia_kgm2) == WH_CONF_DONE);
+                                 WH_R(8.0) * plain.measure.rotor.inertia_kgm2) == WH_STATION_FINE);
     TEST_ASSERT_FLOAT_WITHIN(1e-5f, 0.5f,
                              (float)(even.config.guard.fall_radps / plain.guard.fall_radps));
-    TEST_ASSERT_TRUE(wh_conf_set(&conf, WH_CONF_gravity, WH_R(0.0)) == WH_CONF_DONE);
+    TEST_ASSERT_TRUE(wh_conf_set(&conf, WH_CONF_gravity, WH_R(0.0)) == WH_STATION_FINE);
     TEST_ASSERT_TRUE(even.config.feed.weight_Nm < WH_R(1e-9) &&
                      even.config.guard.fall_radps < WH_R(1e-9));
-    TEST_ASSERT_TRUE(wh_conf_set(&conf, WH_CONF_mount_factor, WH_R(0.25)) == WH_CONF_DONE);
+    TEST_ASSERT_TRUE(wh_conf_set(&conf, WH_CONF_mount_factor, WH_R(0.25)) == WH_STATION_FINE);
     TEST_ASSERT_FLOAT_WITHIN(
         1e-5f, 0.5f, (float)(even.config.guard.load_still_kgm / plain.guard.load_still_kgm));
 }
@@ -241,7 +253,9 @@ static void test_what_is_stored_of_others(void) {
     own(&plain);
     for (unsigned i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         begin();
-        TEST_ASSERT_TRUE(wh_store_save(&memory, rows[i].payload, rows[i].count));
+        uint8_t record[WH_STORE_SLOT_BYTES];
+        memcpy(record + WH_STORE_HEAD_BYTES, rows[i].payload, sizeof rows[i].payload);
+        TEST_ASSERT_TRUE(wh_store_save(&memory, record, rows[i].count) != 0);
         wh_conf_start(&conf, own, &memory, &even.config);
         for (unsigned id = 0; id < WH_CONF_COUNT; id++) {
             const wh_real wanted = id == rows[i].set ? (wh_real)rows[i].to : conf.standard[id];
@@ -252,7 +266,7 @@ static void test_what_is_stored_of_others(void) {
         }
     }
     wh_conf_start(&conf, own, NULL, &even.config);
-    TEST_ASSERT_TRUE(wh_conf_save(&conf) == WH_CONF_FAILED);
+    TEST_ASSERT_TRUE(wh_conf_save(&conf) == WH_STATION_CONF_FAILED);
 }
 
 /* --- at the console ------------------------------------------------------------------------------------ */
@@ -285,7 +299,7 @@ static void test_list_has_all_and_can_be_typed(void) {
             } else {
                 TEST_ASSERT_EQUAL_UINT(told, wh_conf_find(words));
                 const wh_real before = conf.value[told];
-                TEST_ASSERT_TRUE(wh_conf_type(&conf, (wh_conf_id)told, value) == WH_CONF_DONE);
+                TEST_ASSERT_TRUE(wh_conf_type(&conf, (wh_conf_id)told, value) == WH_STATION_FINE);
                 TEST_ASSERT_FLOAT_WITHIN((float)WH_ABS(before) * 2e-6f + 1e-8f, (float)before,
                                          (float)conf.value[told]);
                 told++;

@@ -172,11 +172,11 @@ static void test_a_cell_turned_round(void) {
     TEST_ASSERT_TRUE(conf.standard[WH_CONF_cell_reversed] == WH_R(1.0));
     TEST_ASSERT_TRUE(conf.standard[WH_CONF_cell_scale] > WH_R(0.0));
     TEST_ASSERT_TRUE(config.measure.cell.newton_per_count < WH_R(0.0));
-    TEST_ASSERT_TRUE(wh_conf_type(&conf, WH_CONF_cell_scale, "20") == WH_CONF_DONE);
+    TEST_ASSERT_TRUE(wh_conf_type(&conf, WH_CONF_cell_scale, "20") == WH_STATION_FINE);
     TEST_ASSERT_FLOAT_WITHIN(1e-7f, -0.02f, (float)config.measure.cell.newton_per_count);
-    TEST_ASSERT_TRUE(wh_conf_type(&conf, WH_CONF_cell_reversed, "off") == WH_CONF_DONE);
+    TEST_ASSERT_TRUE(wh_conf_type(&conf, WH_CONF_cell_reversed, "off") == WH_STATION_FINE);
     TEST_ASSERT_FLOAT_WITHIN(1e-7f, 0.02f, (float)config.measure.cell.newton_per_count);
-    TEST_ASSERT_TRUE(wh_conf_type(&conf, WH_CONF_cell_reversed, "") == WH_CONF_VALUE);
+    TEST_ASSERT_TRUE(wh_conf_type(&conf, WH_CONF_cell_reversed, "") == WH_STATION_CONF_VALUE);
 }
 
 #if WH_STATION_TAPE
@@ -243,16 +243,16 @@ static void test_a_memory_that_is_not_read(void) {
     static wh_conf conf;
     wh_rig_config config;
     unsigned failed = 0;
-    wh_conf_status status = WH_CONF_FAILED;
-    for (unsigned reads = 0; reads < 100U && status != WH_CONF_DONE; reads++) {
+    wh_station_error status = WH_STATION_CONF_FAILED;
+    for (unsigned reads = 0; reads < 100U && status != WH_STATION_FINE; reads++) {
         memset(slot_bytes, 0xFF, sizeof slot_bytes);
         reads_left = UINT16_MAX;
         wh_conf_start(&conf, own_turned, &memory, &config);
-        TEST_ASSERT_TRUE(wh_conf_save(&conf) == WH_CONF_DONE);
+        TEST_ASSERT_TRUE(wh_conf_save(&conf) == WH_STATION_FINE);
         reads_left = reads;
         status = wh_conf_save(&conf);
-        failed += status == WH_CONF_FAILED ? 1U : 0U;
-        TEST_ASSERT_TRUE(status == WH_CONF_FAILED || conf.sequence == 2U);
+        failed += status == WH_STATION_CONF_FAILED ? 1U : 0U;
+        TEST_ASSERT_TRUE(status == WH_STATION_CONF_FAILED || conf.sequence == 2U);
         reads_left = 0;
         wh_conf_start(&conf, own_turned, &memory, &config);
         TEST_ASSERT_TRUE(conf.sequence == 0U);
@@ -260,7 +260,7 @@ static void test_a_memory_that_is_not_read(void) {
             TEST_ASSERT_TRUE(conf.value[id] == conf.standard[id]);
         }
     }
-    TEST_ASSERT_TRUE(status == WH_CONF_DONE && failed > 3U);
+    TEST_ASSERT_TRUE(status == WH_STATION_FINE && failed > 3U);
 }
 
 /* --- numbers in answers ---------------------------------------------------------------------------------------- */
@@ -277,10 +277,11 @@ static void test_exact_numbers(void) {
         wh_text_start(&text, wanted, sizeof wanted);
         wh_text_add(&text, " n=");
         wh_text_add_unsigned(&text, whole);
+        const wh_value value = {.number = (wh_real)whole};
         const unsigned length = text.length;
         const unsigned size = 1U + draw_one_of(&bench.seed, sizeof bytes);
         wh_text_start(&text, bytes, size);
-        wh_answer_exact(&text, "n", (wh_real)whole);
+        wh_answer(&text, " n=@e", &value);
         if (size > length + 10U) {
             TEST_ASSERT_EQUAL_STRING(wanted, bytes);
             TEST_ASSERT_FALSE(text.truncated);

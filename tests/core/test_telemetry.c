@@ -38,6 +38,11 @@ static void test_coding(void) {
         const unsigned length = wh_cobs_end(&cobs);
         TEST_ASSERT_TRUE(length > count && length <= WH_COBS_BYTES(count));
         TEST_ASSERT_TRUE(memchr(bench.heard.chunk, 0, length) == bench.heard.chunk + length - 1U);
+        if (count <= WH_COBS_SHORT_MOST) {
+            memcpy(back + 1, bytes, count);
+            TEST_ASSERT_EQUAL_UINT(length, wh_cobs_short(back, count));
+            TEST_ASSERT_TRUE(memcmp(back, bench.heard.chunk, length) == 0);
+        }
         bench.heard.count = length - 1U;
         TEST_ASSERT_EQUAL_UINT(count, wire_without_codes(&bench.heard, back));
         TEST_ASSERT_TRUE(memcmp(bytes, back, count) == 0);
