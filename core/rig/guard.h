@@ -59,13 +59,13 @@ typedef struct wh_guard_config {
 
 typedef struct wh_guard {
     wh_trip trip;
-    bool quiet; /* no pulse for rest_s: latched, since times wrap */
+    bool quiet;     /* no pulse for rest_s: latched, since times wrap */
+    bool load_good; /* the last load sample was ok */
     uint32_t pulses_seen;
     uint32_t pulse_ticks;     /* of the last pulse, true or not; at first, the start */
     uint32_t lost_before;     /* pulses already lost when the motor began to drive, */
     uint32_t rejected_before; /* or rejected */
     uint32_t load_ticks;      /* of the last load sample; at first, the start */
-    bool load_good;           /* it was ok */
     uint32_t load_pulses;     /* pulses taken by then */
     uint32_t still_pulses;    /* samples with a new pulse since the load last moved, */
     wh_real still_N;          /* and where to */

@@ -63,37 +63,38 @@ typedef struct wh_rig_command {
     wh_real volts; /* mean voltage, 0 to the supply; 0 unless the motor drives */
 } wh_rig_command;
 
+/* What is small comes first: of a processor's instructions the short ones reach no further. */
 typedef struct wh_rig {
     wh_life state;
-    wh_run run;
-    wh_guard guard;
-    wh_pulses pulses;
-    wh_measure measure;
-    wh_observer observer;
-    wh_feed feed;
-    wh_swing swing; /* of the last run that ended in one: swing.result */
-    bool brakes;    /* the motor, when it goes off */
+    bool brakes; /* the motor, when it goes off */
     /* the run's: the observer goes with the rotor, and once it is valid gravity is fed forward */
     bool fed;
-    wh_rig_command command; /* since the last step */
-    uint32_t observed;      /* pulses that the observer has seen */
-    uint32_t since_ticks;   /* the state began */
-    uint32_t pulses_ever;
-    uint32_t pulses_before; /* `arm` */
     /* a pulse or a mark is work enough for one step: the rest waits for the next */
     bool busy;
     uint8_t loads; /* samples since the last step: more than one leave it time for less */
     bool rested;   /* motor off, and the rotor rests, or will not: all that can be done is done */
     /* it rests: no pulses; where those cannot be believed, after all the time it may take */
     bool at_rest;
-    wh_rig_result result; /* of the last run that was through; kept until the next is */
     bool has_result;
+    wh_rig_event asked;   /* the last order that was taken, */
+    wh_refusal answer;    /* and what became of it */
+    uint32_t answers;     /* so many were */
+    uint32_t since_ticks; /* the state began */
+    uint32_t observed;    /* pulses that the observer has seen */
+    uint32_t pulses_ever;
+    uint32_t pulses_before; /* `arm` */
+    wh_feed feed;
+    wh_rig_command command; /* since the last step */
+    wh_run run;
+    wh_guard guard;
+    wh_pulses pulses;
     wh_trip_record record; /* of the trip that is latched */
-    wh_rig_order order[WH_RIG_ORDERS_MOST];
     unsigned orders;
-    wh_rig_event asked; /* the last order that was taken, */
-    wh_refusal answer;  /* and what became of it */
-    uint32_t answers;   /* so many were */
+    wh_rig_order order[WH_RIG_ORDERS_MOST];
+    wh_observer observer;
+    wh_rig_result result; /* of the last run that was through; kept until the next is */
+    wh_swing swing;       /* of the last run that ended in one: swing.result */
+    wh_measure measure;
 } wh_rig;
 
 /* The rig of eccentric.whirl. measure.cell and the sensors' angles come from the hardware: wh_rig_slots() and the
