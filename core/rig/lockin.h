@@ -93,9 +93,8 @@ typedef struct wh_lockin_node {
     wh_real part; /* of the turn's time */
     wh_real theta_rad;
     wh_real force_N;
-    wh_real rest_N; /* less what is expected */
-    wh_real cosine;
-    wh_real sine;
+    wh_real rest_N;         /* less what is expected */
+    wh_lockin_orders waves; /* what each order's coefficient is multiplied with there */
 } wh_lockin_node;
 
 /* What is large comes last: of a processor's instructions the short ones reach no further. */

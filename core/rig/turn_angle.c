@@ -3,6 +3,7 @@
 
 #include "core/root.h"
 #include "datasheet.h"
+#include "wave.h"
 
 /* Beyond this the series says nothing any more: a rotor that hardly gets over the top. */
 #define SWING_MOST WH_R(0.35)
@@ -12,12 +13,6 @@
 
 /* The first splits correct an inertia that may be far off, by Newton's method; then they are averaged. */
 #define SPLITS_TO_FIND 3U
-
-static wh_wave wave_of(wh_real rad) {
-    wh_wave wave;
-    wh_sincos(wh_phase_from_rad(rad), &wave.sine, &wave.cosine);
-    return wave;
-}
 
 /* What the swing adds to base + phi where u has these sine and cosine. */
 static wh_real added(const wh_turn_angle *angle, wh_wave u) {
@@ -54,7 +49,7 @@ static void add_carriage(const wh_rotor_config *config, wh_turn_angle *angle, wh
     const wh_real lambda = sine * (WH_R(1.0) + WH_R(0.16666667) * sine * sine);
     angle->twice_rad = WH_R(0.125) * yields / mean * cosine;
     /* u is base + phi + psi - gamma */
-    const wh_wave turned = wave_of(WH_R(2.0) * (config->gravity_rad - angle->lag_rad) + lambda);
+    const wh_wave turned = wh_wave_of(WH_R(2.0) * (config->gravity_rad - angle->lag_rad) + lambda);
     angle->second_sine -= angle->twice_rad * turned.cosine;
     angle->second_cosine -= angle->twice_rad * turned.sine;
 }
@@ -76,7 +71,7 @@ static void add_cut(const wh_rotor_config *config, wh_turn_angle *angle, wh_real
     const wh_real size = weight_Nm * second / (WH_R(2.0) * speed_radps * sum);
     const wh_real sine = config->damping_Nms / sum;
     const wh_real lambda = sine * (WH_R(1.0) + WH_R(0.16666667) * sine * sine);
-    const wh_wave turned = wave_of(lambda - WH_R(2.0) * angle->lag_rad);
+    const wh_wave turned = wh_wave_of(lambda - WH_R(2.0) * angle->lag_rad);
     angle->second_cosine += size * turned.cosine;
     angle->second_sine -= size * turned.sine;
 }
@@ -108,14 +103,14 @@ WH_INLINE void shape_begin(const wh_rotor_config *config, wh_turn_angle *angle) 
     /* base + what is added at the begin is the mark's angle, and u there is base + psi - gamma */
     const wh_real begins = config->mark_rad[0] + angle->lag_rad - config->gravity_rad;
     for (unsigned round = 0; round < 2U; round++) {
-        const wh_wave u = wave_of(angle->begin_rad);
+        const wh_wave u = wh_wave_of(angle->begin_rad);
         angle->begin_rad -= (angle->begin_rad + added(angle, u) - begins) /
                             (WH_R(1.0) + angle->swing_rad * u.cosine);
     }
 }
 
 WH_INLINE void shape_base(const wh_rotor_config *config, wh_turn_angle *angle) {
-    angle->base_rad = config->mark_rad[0] - added(angle, wave_of(angle->begin_rad));
+    angle->base_rad = config->mark_rad[0] - added(angle, wh_wave_of(angle->begin_rad));
 }
 
 void wh_turn_angle_shape(const wh_rotor_config *config, wh_turn_angle *angle, wh_real speed_radps) {
@@ -184,14 +179,14 @@ WH_INLINE wh_real split_by(const wh_rotor_config *config, wh_turn_angle *angle, 
 
 wh_real wh_turn_angle_split(const wh_rotor_config *config, wh_turn_angle *angle, wh_real split) {
     const wh_real passed = WH_RIG_TWO_PI * split;
-    return split_by(config, angle, passed, wave_of(angle->begin_rad),
-                    wave_of(angle->begin_rad + passed));
+    return split_by(config, angle, passed, wh_wave_of(angle->begin_rad),
+                    wh_wave_of(angle->begin_rad + passed));
 }
 
 #if WH_RIG_SMALL_PIECES
 void wh_turn_angle_split_waves(wh_turn_angle *angle, wh_real split) {
-    angle->split_from = wave_of(angle->begin_rad);
-    angle->split_to = wave_of(angle->begin_rad + WH_RIG_TWO_PI * split);
+    angle->split_from = wh_wave_of(angle->begin_rad);
+    angle->split_to = wh_wave_of(angle->begin_rad + WH_RIG_TWO_PI * split);
 }
 
 wh_real wh_turn_angle_split_rest(const wh_rotor_config *config, wh_turn_angle *angle,
@@ -202,5 +197,5 @@ wh_real wh_turn_angle_split_rest(const wh_rotor_config *config, wh_turn_angle *a
 
 wh_real wh_turn_angle_at(const wh_turn_angle *angle, wh_real part) {
     const wh_real passed = WH_RIG_TWO_PI * part;
-    return angle->base_rad + passed + added(angle, wave_of(angle->begin_rad + passed));
+    return angle->base_rad + passed + added(angle, wh_wave_of(angle->begin_rad + passed));
 }

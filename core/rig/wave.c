@@ -1,0 +1,8 @@
+/* wave.c: sine and cosine of an angle. */
+#include "wave.h"
+
+wh_wave wh_wave_at(wh_phase phase) {
+    wh_wave wave;
+    wh_sincos(phase, &wave.sine, &wave.cosine);
+    return wave;
+}
