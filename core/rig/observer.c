@@ -170,8 +170,8 @@ void wh_observer_mark(const wh_observer_config *config, wh_observer *observer, u
         return;
     }
     if (observer->runs) {
-        observer->innovation_rad = signed_rad(wh_phase_at(config->mark_rad[sensor]) -
-                                              wh_observer_phase(observer, ticks));
+        observer->innovation_rad =
+            signed_rad(wh_phase_at(config->mark_rad[sensor]) - wh_observer_phase(observer, ticks));
     }
     if (observer->runs && WH_ABS(observer->innovation_rad) <= config->lost_rad) {
         correct(config, observer, sensor);
