@@ -237,8 +237,7 @@ static void watch(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs 
     wh_guard_speed(&config->guard, guard, &rig->pulses, slows ? WH_TRIP_RUNS_ON : WH_TRIP_OVERSPEED,
                    drives);
     if (rig->run.phase == WH_PHASE_SPIN_UP && !rig->pulses.speed.running &&
-        wh_rig_since_s(rig->run.since_ticks, inputs->now_ticks) >
-            config->guard.slow_silence_max_s) {
+        wh_rig_is_over(rig->run.since_ticks, inputs->now_ticks, config->guard.slow_silence_max_s)) {
         wh_guard_trip(guard, WH_TRIP_STALLED); /* or is not seen: it must not get fast */
     }
     if (drives) {
@@ -311,7 +310,7 @@ static void wait_for_rest(const wh_rig_config *config, wh_rig *rig, const wh_rig
 
 static void live(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs *inputs) {
     const bool armed = rig->state == WH_LIFE_ARMED;
-    if (armed && (wh_rig_since_s(rig->since_ticks, inputs->now_ticks) > config->armed_max_s ||
+    if (armed && (wh_rig_is_over(rig->since_ticks, inputs->now_ticks, config->armed_max_s) ||
                   rig->pulses_ever - rig->pulses_before > ARMED_PULSES_MOST)) {
         finds(config, rig, inputs, WH_EVENT_EXPIRED);
     }

@@ -76,8 +76,10 @@ typedef struct wh_rig {
     /* it rests: no pulses; where those cannot be believed, after all the time it may take */
     bool at_rest;
     bool has_result;
-    wh_rig_event asked;   /* the last order that was taken, */
-    wh_refusal answer;    /* and what became of it */
+    wh_rig_event asked; /* the last order that was taken, */
+    wh_refusal answer;  /* and what became of it */
+    wh_run run;
+    wh_guard guard;
     uint32_t answers;     /* so many were */
     uint32_t since_ticks; /* the state began */
     uint32_t observed;    /* pulses that the observer has seen */
@@ -85,8 +87,6 @@ typedef struct wh_rig {
     uint32_t pulses_before; /* `arm` */
     wh_feed feed;
     wh_rig_command command; /* since the last step */
-    wh_run run;
-    wh_guard guard;
     wh_pulses pulses;
     wh_trip_record record; /* of the trip that is latched */
     unsigned orders;
