@@ -20,7 +20,7 @@ static wh_real signed_rad(wh_phase difference) {
 #endif
 }
 
-static wh_real seconds(uint32_t from_ticks, uint32_t to_ticks) {
+static WH_CALLED wh_real seconds(uint32_t from_ticks, uint32_t to_ticks) {
     return (wh_real)(int32_t)(to_ticks - from_ticks) / (wh_real)WH_RIG_TICKS_PER_S;
 }
 

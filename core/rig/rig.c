@@ -14,6 +14,17 @@ void wh_rig_slots(wh_rig_config *config, wh_real lead_rad) {
     config->observer.mark_rad[1] = config->measure.rotor.mark_rad[1];
 }
 
+WH_CALLED unsigned wh_rig_stage(const wh_rig *rig) {
+    return rig->run.phase == WH_PHASE_NONE ? (unsigned)rig->state
+                                           : WH_RIG_STAGE_OF_PHASE + (unsigned)rig->run.phase;
+}
+
+WH_CALLED const char *wh_rig_stage_text(unsigned stage) {
+    return stage < WH_RIG_STAGE_OF_PHASE
+               ? wh_life_text((wh_life)stage)
+               : wh_phase_text((wh_rig_phase)(stage - WH_RIG_STAGE_OF_PHASE));
+}
+
 static void enter(wh_rig *rig, wh_life state, uint32_t now_ticks) {
     rig->state = state;
     rig->since_ticks = now_ticks;

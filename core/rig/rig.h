@@ -108,20 +108,15 @@ extern const wh_rig_config wh_rig_standard;
 #define wh_rig_pulse WH_NAME(wh_rig_pulse)
 #define wh_rig_load WH_NAME(wh_rig_load)
 #define wh_rig_step WH_NAME(wh_rig_step)
+#define wh_rig_stage WH_NAME(wh_rig_stage)
+#define wh_rig_stage_text WH_NAME(wh_rig_stage_text)
 
 /* Where the rig is, as one number for consoles and records: of a run WH_RIG_STAGE_OF_PHASE + its phase, else the state. */
 #define WH_RIG_STAGE_OF_PHASE 8U
-WH_INLINE unsigned wh_rig_stage(const wh_rig *rig) {
-    return rig->run.phase == WH_PHASE_NONE ? (unsigned)rig->state
-                                           : WH_RIG_STAGE_OF_PHASE + (unsigned)rig->run.phase;
-}
+unsigned wh_rig_stage(const wh_rig *rig);
 
 /* It in words. */
-WH_INLINE const char *wh_rig_stage_text(unsigned stage) {
-    return stage < WH_RIG_STAGE_OF_PHASE
-               ? wh_life_text((wh_life)stage)
-               : wh_phase_text((wh_rig_phase)(stage - WH_RIG_STAGE_OF_PHASE));
-}
+const char *wh_rig_stage_text(unsigned stage);
 
 /* Sensors on the loading-train axis and a quarter turn on, whose pulses come with the arms so far short. */
 void wh_rig_slots(wh_rig_config *config, wh_real lead_rad);

@@ -14,6 +14,16 @@
 /* The first splits correct an inertia that may be far off, by Newton's method; then they are averaged. */
 #define SPLITS_TO_FIND 3U
 
+/* Within most, either way; NaN too. */
+static WH_CALLED wh_real within(wh_real value, wh_real most) {
+    return value < most ? value > -most ? value : -most : most;
+}
+
+/* The arc sine of little. */
+static WH_CALLED wh_real small_arc(wh_real sine) {
+    return sine * (WH_R(1.0) + WH_R(0.16666667) * sine * sine);
+}
+
 /* What the swing adds to base + phi where u has these sine and cosine. */
 static wh_real added(const wh_turn_angle *angle, wh_wave u) {
     return angle->swing_rad * u.sine + angle->second_sine * (WH_R(2.0) * u.sine * u.cosine) +
@@ -46,7 +56,7 @@ static void add_carriage(const wh_rotor_config *config, wh_turn_angle *angle, wh
     const wh_real tangent = config->damping_Nms / (WH_R(2.0) * mean * speed_radps);
     const wh_real cosine = WH_R(1.0) / WH_SQRT(WH_R(1.0) + tangent * tangent);
     const wh_real sine = tangent * cosine;
-    const wh_real lambda = sine * (WH_R(1.0) + WH_R(0.16666667) * sine * sine);
+    const wh_real lambda = small_arc(sine);
     angle->twice_rad = WH_R(0.125) * yields / mean * cosine;
     /* u is base + phi + psi - gamma */
     const wh_wave turned = wh_wave_of(WH_R(2.0) * (config->gravity_rad - angle->lag_rad) + lambda);
@@ -70,7 +80,7 @@ static void add_cut(const wh_rotor_config *config, wh_turn_angle *angle, wh_real
     const wh_real sum = WH_SQRT(turning * turning + config->damping_Nms * config->damping_Nms);
     const wh_real size = weight_Nm * second / (WH_R(2.0) * speed_radps * sum);
     const wh_real sine = config->damping_Nms / sum;
-    const wh_real lambda = sine * (WH_R(1.0) + WH_R(0.16666667) * sine * sine);
+    const wh_real lambda = small_arc(sine);
     const wh_wave turned = wh_wave_of(lambda - WH_R(2.0) * angle->lag_rad);
     angle->second_cosine += size * turned.cosine;
     angle->second_sine -= size * turned.sine;
@@ -82,9 +92,7 @@ WH_INLINE void shape_swing(const wh_rotor_config *config, wh_turn_angle *angle,
     const wh_real turning = angle->inertia_kgm2 * speed_radps;
     const wh_real sum = WH_SQRT(turning * turning + config->damping_Nms * config->damping_Nms);
     angle->whole_rad = weight_Nm / (speed_radps * sum);
-    const wh_real swing = angle->part * angle->whole_rad;
-    angle->swing_rad =
-        swing < SWING_MOST ? swing > -SWING_MOST ? swing : -SWING_MOST : SWING_MOST; /* NaN too */
+    angle->swing_rad = within(angle->part * angle->whole_rad, SWING_MOST);
     const wh_real sine = config->damping_Nms / sum;
     const wh_real square = sine * sine;
     /* the arc sine to 1e-4 below 0.5 */
@@ -165,14 +173,13 @@ WH_INLINE wh_real split_by(const wh_rotor_config *config, wh_turn_angle *angle, 
     const uint32_t turns_averaged =
         angle->splits > SPLITS_TO_FIND ? angle->splits - SPLITS_TO_FIND : 1U;
     if (angle->fed) {
-        const wh_real part =
-            angle->part + off / (split_per_swing * angle->whole_rad * (wh_real)turns_averaged);
-        angle->part = part < WH_R(1.0) ? part > WH_R(-1.0) ? part : WH_R(-1.0) : WH_R(1.0);
+        angle->part = within(
+            angle->part + off / (split_per_swing * angle->whole_rad * (wh_real)turns_averaged),
+            WH_R(1.0));
         return off;
     }
     /* d ln E / d ln I = -cos^2 psi; within a factor of two, whatever the mark */
-    wh_real change = -off / (split_per_swing * swing * cosine2);
-    change = change < WH_R(0.5) ? change > WH_R(-0.5) ? change : WH_R(-0.5) : WH_R(0.5);
+    const wh_real change = within(-off / (split_per_swing * swing * cosine2), WH_R(0.5));
     angle->inertia_kgm2 *= WH_R(1.0) + change / (wh_real)turns_averaged;
     return off;
 }
