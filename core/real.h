@@ -86,6 +86,13 @@ typedef float wh_real;
 #define WH_REALS_IN_REGISTERS 0
 #endif
 
+/* A function that is to stay one: a call is shorter than it is, whatever the compiler thinks. */
+#if defined(__GNUC__)
+#define WH_CALLED __attribute__((noinline))
+#else
+#define WH_CALLED
+#endif
+
 /* A function, and a way, that are hardly ever taken: for size, and out of the others' way. */
 #if defined(__GNUC__)
 #define WH_COLD __attribute__((cold))

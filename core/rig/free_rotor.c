@@ -1,7 +1,14 @@
 /* free_rotor.c: a rotor with nothing but gravity and friction to move it. */
 #include "free_rotor.h"
 
-#include "core/angle.h"
+#include "datasheet.h"
+#include "wave.h"
+
+WH_CALLED wh_real wh_free_angle(wh_real rad) {
+    const wh_real half = WH_R(0.5) * WH_RIG_TWO_PI;
+    const wh_real near = rad > half ? rad - WH_RIG_TWO_PI : rad < -half ? rad + WH_RIG_TWO_PI : rad;
+    return near >= -half && near <= half ? near : WH_R(0.0);
+}
 
 void wh_free_rotor_start(wh_free_rotor *rotor, wh_real q_rad, wh_real rate_radps) {
     *rotor = (wh_free_rotor){.q_rad = wh_free_angle(q_rad), .rate_radps = rate_radps};
@@ -17,12 +24,10 @@ static void drift(wh_free_rotor *rotor, wh_real h) {
 }
 
 static void kick(const wh_real *cause, wh_free_rotor *rotor, wh_real h) {
-    wh_real sine;
-    wh_real cosine;
-    wh_sincos(wh_phase_from_rad(rotor->q_rad), &sine, &cosine);
+    const wh_wave wave = wh_wave_of(rotor->q_rad);
     const wh_real rate = rotor->rate_radps;
     const wh_real sign = rate < WH_R(0.0) ? WH_R(-1.0) : WH_R(1.0);
-    const wh_real pulled = -cause[WH_FREE_GRAVITY] * sine;
+    const wh_real pulled = -cause[WH_FREE_GRAVITY] * wave.sine;
     const wh_real slowed = pulled - sign * cause[WH_FREE_FRICTION] - cause[WH_FREE_DRAG] * rate;
     wh_real before = h; /* it turns back */
     wh_real after = WH_R(0.0);
@@ -36,12 +41,12 @@ static void kick(const wh_real *cause, wh_free_rotor *rotor, wh_real h) {
         rotor->rate_radps = ratio * slowed * after;
     }
     const wh_real both = ratio * before + after;
-    const wh_real by_q = -both * cause[WH_FREE_GRAVITY] * cosine;
+    const wh_real by_q = -both * cause[WH_FREE_GRAVITY] * wave.cosine;
     const wh_real by_rate = ratio * (WH_R(1.0) - before * cause[WH_FREE_DRAG]);
     for (unsigned i = 0; i < WH_FREE_CAUSES; i++) {
         rotor->rate_by[i] = by_rate * rotor->rate_by[i] + by_q * rotor->q_by[i];
     }
-    rotor->rate_by[WH_FREE_GRAVITY] -= both * sine;
+    rotor->rate_by[WH_FREE_GRAVITY] -= both * wave.sine;
     rotor->rate_by[WH_FREE_FRICTION] += sign * (after - ratio * before);
     rotor->rate_by[WH_FREE_DRAG] -= ratio * before * rate;
 }

@@ -25,6 +25,7 @@ typedef struct wh_free_rotor {
 
 #define wh_free_rotor_start WH_NAME(wh_free_rotor_start)
 #define wh_free_rotor_step WH_NAME(wh_free_rotor_step)
+#define wh_free_angle WH_NAME(wh_free_angle)
 
 void wh_free_rotor_start(wh_free_rotor *rotor, wh_real q_rad, wh_real rate_radps);
 
@@ -32,13 +33,7 @@ void wh_free_rotor_start(wh_free_rotor *rotor, wh_real q_rad, wh_real rate_radps
 void wh_free_rotor_step(const wh_real *cause, wh_free_rotor *rotor, wh_real h);
 
 /* Into -pi ... pi, from less than a turn beyond; 0 for what is further, or is no number. */
-WH_INLINE wh_real wh_free_angle(wh_real rad) {
-    const wh_real turn = WH_R(6.283185307179586);
-    const wh_real near = rad > WH_R(0.5) * turn    ? rad - turn
-                         : rad < WH_R(-0.5) * turn ? rad + turn
-                                                   : rad;
-    return near >= WH_R(-0.5) * turn && near <= WH_R(0.5) * turn ? near : WH_R(0.0);
-}
+wh_real wh_free_angle(wh_real rad);
 
 #ifdef __cplusplus
 }

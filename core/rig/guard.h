@@ -59,13 +59,13 @@ typedef struct wh_guard_config {
 
 typedef struct wh_guard {
     wh_trip trip;
-    bool quiet; /* no pulse for rest_s: latched, since times wrap */
+    bool quiet;     /* no pulse for rest_s: latched, since times wrap */
+    bool load_good; /* the last load sample was ok */
     uint32_t pulses_seen;
     uint32_t pulse_ticks;     /* of the last pulse, true or not; at first, the start */
     uint32_t lost_before;     /* pulses already lost when the motor began to drive, */
     uint32_t rejected_before; /* or rejected */
     uint32_t load_ticks;      /* of the last load sample; at first, the start */
-    bool load_good;           /* it was ok */
     uint32_t load_pulses;     /* pulses taken by then */
     uint32_t still_pulses;    /* samples with a new pulse since the load last moved, */
     wh_real still_N;          /* and where to */
@@ -75,6 +75,8 @@ typedef struct wh_guard {
 #define wh_guard_allows WH_NAME(wh_guard_allows)
 #define wh_guard_bound_radps WH_NAME(wh_guard_bound_radps)
 #define wh_guard_trip WH_NAME(wh_guard_trip)
+#define wh_guard_supply WH_NAME(wh_guard_supply)
+#define wh_guard_load_comes WH_NAME(wh_guard_load_comes)
 #define wh_trip_text WH_NAME(wh_trip_text)
 
 void wh_guard_start(wh_guard *guard, uint32_t now_ticks);
@@ -147,9 +149,7 @@ WH_INLINE void wh_guard_pulses(const wh_guard_config *config, wh_guard *guard,
 }
 
 /* While the motor may drive. NaN is out of range. */
-WH_INLINE bool wh_guard_supply(const wh_guard_config *config, wh_real supply_V) {
-    return supply_V >= config->supply_min_V && supply_V <= config->supply_max_V;
-}
+bool wh_guard_supply(const wh_guard_config *config, wh_real supply_V);
 
 /* Look at a load sample, the tare in it, in every state. `turning`: the load must be changing with the rotor's turns;
  * `needed`: a bad one stops the rig. A sample that repeats the last one is none. */
@@ -177,12 +177,7 @@ WH_INLINE void wh_guard_load(const wh_guard_config *config, wh_guard *guard, con
 }
 
 /* True while load samples still come. */
-WH_INLINE bool wh_guard_load_comes(const wh_guard_config *config, const wh_guard *guard,
-                                   uint32_t now_ticks) {
-    /* signed: a stamp may be later than the step's own reading of the timer */
-    return (wh_real)(int32_t)(now_ticks - guard->load_ticks) <=
-           config->load_silence_max_s * (wh_real)WH_RIG_TICKS_PER_S;
-}
+bool wh_guard_load_comes(const wh_guard_config *config, const wh_guard *guard, uint32_t now_ticks);
 
 /* The reason in words, for consoles, as WH_WORDS() has it (core/packed_words.h). */
 const char *wh_trip_text(wh_trip reason);

@@ -1,9 +1,9 @@
 /* lockin.c: the load's once-per-turn part, turn by turn, as the samples come. */
 #include "lockin.h"
 
-#include "core/angle.h"
 #include "core/root.h"
 #include "datasheet.h"
+#include "wave.h"
 
 #define PI WH_R(3.141592653589793)
 
@@ -152,13 +152,9 @@ void wh_lockin_load(wh_lockin *lockin, const wh_load *load) {
 static void weigh_last(wh_lockin *lockin, wh_real theta_rad, wh_real part) {
     const wh_lockin_node *node = &lockin->last;
     const wh_real rest = WH_R(0.5) * (theta_rad - lockin->before_rad) * node->rest_N;
-    const wh_real cosine = node->cosine;
-    const wh_real sine = node->sine;
-    lockin->sum.at[0] += rest;
-    lockin->sum.at[1] += rest * cosine;
-    lockin->sum.at[2] += rest * sine;
-    lockin->sum.at[3] += rest * (WH_R(2.0) * cosine * cosine - WH_R(1.0));
-    lockin->sum.at[4] += rest * (WH_R(2.0) * cosine * sine);
+    for (unsigned i = 0; i < WH_LOCKIN_ORDERS; i++) {
+        lockin->sum.at[i] += rest * node->waves.at[i];
+    }
     lockin->square += rest * node->rest_N;
     lockin->mean += WH_R(0.5) * (part - lockin->before_part) * node->force_N;
 }
@@ -169,7 +165,10 @@ static void place_node(wh_lockin *lockin, uint32_t ticks, wh_real force_N, wh_lo
     node->force_N = force_N;
     node->part = (wh_real)(ticks - lockin->next.begin_ticks) * lockin->part_per_tick;
     node->theta_rad = wh_turn_angle_at(&lockin->angle, node->part);
-    wh_sincos(wh_phase_from_rad(node->theta_rad), &node->sine, &node->cosine);
+    const wh_wave wave = wh_wave_of(node->theta_rad);
+    node->waves = (wh_lockin_orders){{WH_R(1.0), wave.cosine, wave.sine,
+                                      WH_R(2.0) * wave.cosine * wave.cosine - WH_R(1.0),
+                                      WH_R(2.0) * wave.cosine * wave.sine}};
     lockin->place = place;
 }
 
@@ -177,13 +176,11 @@ static void place_node(wh_lockin *lockin, uint32_t ticks, wh_real force_N, wh_lo
 static void weigh_node(wh_lockin *lockin) {
     wh_lockin_node *node = &lockin->placed;
     const wh_lockin_place place = lockin->place;
-    const wh_real *expected = lockin->expected_N.at;
     lockin->place = WH_LOCKIN_NOWHERE;
-    const wh_real cosine = node->cosine;
-    const wh_real sine = node->sine;
-    wh_real rest_N = node->force_N - expected[0] - expected[1] * cosine - expected[2] * sine -
-                     expected[3] * (WH_R(2.0) * cosine * cosine - WH_R(1.0)) -
-                     expected[4] * (WH_R(2.0) * cosine * sine);
+    wh_real rest_N = node->force_N;
+    for (unsigned i = 0; i < WH_LOCKIN_ORDERS; i++) {
+        rest_N -= lockin->expected_N.at[i] * node->waves.at[i];
+    }
     if (lockin->expects && !(WH_ABS(rest_N) <= lockin->outlier_N)) {
         if (place == WH_LOCKIN_WITHIN) {
             lockin->next.outliers++;

@@ -60,14 +60,14 @@ typedef struct wh_lockin_turn {
     uint32_t begin_ticks; /* sensor 1's mark */
     uint32_t turn_ticks;
     wh_turn_fault fault;
+    bool split_seen; /* sensor 2's mark was there */
+    uint16_t samples;
+    uint16_t outliers;
+    uint32_t split_ticks;     /* sensor 2's mark, when seen */
     wh_lockin_orders force_N; /* at[1]: amplitude cos(phase); at[2]: -amplitude sin(phase) */
     wh_real mean_N;           /* over the time */
     wh_real residual_N;       /* what orders 0 to 2 leave, rms */
     wh_real at_mark_N[2];     /* load at each sensor's mark */
-    bool split_seen;          /* sensor 2's mark was there */
-    uint32_t split_ticks;     /* it, when seen */
-    uint16_t samples;
-    uint16_t outliers;
 } wh_lockin_turn;
 
 typedef enum wh_lockin_stage {
@@ -93,45 +93,42 @@ typedef struct wh_lockin_node {
     wh_real part; /* of the turn's time */
     wh_real theta_rad;
     wh_real force_N;
-    wh_real rest_N; /* less what is expected */
-    wh_real cosine;
-    wh_real sine;
+    wh_real rest_N;         /* less what is expected */
+    wh_lockin_orders waves; /* what each order's coefficient is multiplied with there */
 } wh_lockin_node;
 
+/* What is large comes last: of a processor's instructions the short ones reach no further. */
 typedef struct wh_lockin {
     wh_lockin_stage stage;
     uint8_t piece;
-    wh_turn_angle angle;
-    wh_lockin_turn turn; /* the last one that is done */
-
-    /* samples that wait, the oldest first; the last one taken; the newest */
-    wh_real force_N[WH_LOCKIN_SAMPLES];
-    uint32_t ticks[WH_LOCKIN_SAMPLES];
-    uint16_t first;
-    uint16_t count;
-    bool taken;
-    uint32_t taken_ticks;
-    wh_real taken_N;
-    bool any;
-    uint32_t newest_ticks;
-    wh_real newest_N;
-    uint16_t equal; /* samples running that are equal to the one before */
-    uint16_t most_equal;
-    uint32_t refused; /* samples that were not ok, or out of order */
 
     /* the turn that the rotor makes: since this mark */
     bool open;
     bool split_seen;
+    bool taken; /* there was a sample that was taken, */
+    bool any;   /* and one at all */
+    bool expects;
+    wh_lockin_place place;
     uint32_t begin_ticks;
     uint32_t begin_quarter;
     uint32_t split_ticks;
     uint32_t skipped; /* turns without both their marks */
 
+    /* samples that wait, the oldest first; the last one taken; the newest */
+    uint16_t first;
+    uint16_t count;
+    uint16_t equal; /* samples running that are equal to the one before */
+    uint16_t most_equal;
+    uint32_t taken_ticks;
+    wh_real taken_N;
+    uint32_t newest_ticks;
+    wh_real newest_N;
+    uint32_t refused; /* samples that were not ok, or out of order */
+
     /* the turn that is worked on */
     wh_lockin_turn next;
     uint16_t next_equal;
     wh_real part_per_tick;
-    bool expects;
     wh_lockin_orders expected_N;
     wh_real outlier_N;
     wh_lockin_orders sum;
@@ -140,9 +137,13 @@ typedef struct wh_lockin {
     wh_real widest;     /* part between two nodes */
     wh_real before_rad; /* of the node before the last, */
     wh_real before_part;
-    wh_lockin_node last; /* and the last one, whose weight the next decides */
-    wh_lockin_place place;
+    wh_lockin_node last;   /* and the last one, whose weight the next decides */
     wh_lockin_node placed; /* unless `place` is nowhere */
+
+    wh_lockin_turn turn; /* the last one that is done */
+    wh_turn_angle angle;
+    wh_real force_N[WH_LOCKIN_SAMPLES];
+    uint32_t ticks[WH_LOCKIN_SAMPLES];
 } wh_lockin;
 
 #define wh_lockin_start WH_NAME(wh_lockin_start)

@@ -124,7 +124,7 @@ void wh_measure_record(const wh_measure_config *config, wh_measure *measure, wh_
 
 bool wh_measure_end(wh_measure *measure, uint32_t now_ticks) {
     const bool late =
-        wh_rig_since_s(measure->begin_ticks, now_ticks) > measure->record_s + LAST_TURN_MAX_S;
+        wh_rig_is_over(measure->begin_ticks, now_ticks, measure->record_s + LAST_TURN_MAX_S);
     if (!measure->ends && (measure->lockin.stage == WH_LOCKIN_WAITS || late) && measure->due == 0 &&
         !measure->adds) {
         measure->ends = true;

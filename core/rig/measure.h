@@ -34,18 +34,18 @@ typedef struct wh_rig_result {
 } wh_rig_result;
 
 typedef struct wh_measure {
-    wh_tare tare;
-    wh_lockin lockin; /* lockin.turn: the last turn's load */
-    wh_merge merge;   /* of the record */
     bool records;
-    uint32_t begin_ticks;    /* of the record, */
-    wh_real record_s;        /* and how long it lasts */
-    uint8_t due;             /* pieces of work that the last turn has left, */
-    bool adds;               /* before them: the turn itself */
+    bool adds;               /* before `due`: the turn itself */
     bool peaks;              /* low_N and high_N are of something */
     bool ends;               /* the record's last turn is through */
+    uint8_t due;             /* pieces of work that the last turn has left */
+    uint32_t begin_ticks;    /* of the record, */
+    wh_real record_s;        /* and how long it lasts */
     uint32_t skipped_before; /* turns, when the record began */
-    wh_rig_result result;    /* grows with each turn of the record */
+    wh_tare tare;
+    wh_merge merge;       /* of the record */
+    wh_rig_result result; /* grows with each turn of the record */
+    wh_lockin lockin;     /* lockin.turn: the last turn's load */
 } wh_measure;
 
 #define wh_measure_begin WH_NAME(wh_measure_begin)

@@ -1,8 +1,8 @@
 /* observer.c: the rotor's angle and speed at any time, from a generated scene that runs beside the rig. */
 #include "observer.h"
 
-#include "core/angle.h"
 #include "datasheet.h"
+#include "wave.h"
 
 /* More than a turn without a mark: one was missed, whichever sensor's. */
 #define MISSED_RAD (WH_R(1.06) * WH_RIG_TWO_PI)
@@ -20,7 +20,7 @@ static wh_real signed_rad(wh_phase difference) {
 #endif
 }
 
-static wh_real seconds(uint32_t from_ticks, uint32_t to_ticks) {
+static WH_CALLED wh_real seconds(uint32_t from_ticks, uint32_t to_ticks) {
     return (wh_real)(int32_t)(to_ticks - from_ticks) / (wh_real)WH_RIG_TICKS_PER_S;
 }
 
@@ -112,7 +112,7 @@ void wh_observer_step(const wh_observer_config *config, wh_observer *observer, u
 
 wh_phase wh_observer_phase(const wh_observer *observer, uint32_t ticks) {
     if (observer->status != WH_OK) {
-        return wh_phase_from_rad(WH_R(0.0));
+        return wh_phase_at(WH_R(0.0));
     }
     wh_phase phase = wh_phase_of(observer->state.angle[0]);
     const wh_real way_rad = observer->state.real[0] * seconds(observer->ticks, ticks);
@@ -128,8 +128,8 @@ wh_real wh_observer_angle_rad(const wh_observer *observer, uint32_t ticks) {
 static void set_out(const wh_observer_config *config, wh_observer *observer, unsigned sensor,
                     uint32_t ticks) {
     const wh_real time_s = seconds(observer->mark_ticks, ticks);
-    wh_real turned_rad = signed_rad(wh_phase_from_rad(config->mark_rad[sensor]) -
-                                    wh_phase_from_rad(config->mark_rad[observer->mark_sensor]));
+    wh_real turned_rad = signed_rad(wh_phase_at(config->mark_rad[sensor]) -
+                                    wh_phase_at(config->mark_rad[observer->mark_sensor]));
     if (!(turned_rad > WH_R(0.0))) { /* the same sensor: a whole turn */
         turned_rad += WH_RIG_TWO_PI;
     }
@@ -170,8 +170,8 @@ void wh_observer_mark(const wh_observer_config *config, wh_observer *observer, u
         return;
     }
     if (observer->runs) {
-        observer->innovation_rad = signed_rad(wh_phase_from_rad(config->mark_rad[sensor]) -
-                                              wh_observer_phase(observer, ticks));
+        observer->innovation_rad =
+            signed_rad(wh_phase_at(config->mark_rad[sensor]) - wh_observer_phase(observer, ticks));
     }
     if (observer->runs && WH_ABS(observer->innovation_rad) <= config->lost_rad) {
         correct(config, observer, sensor);

@@ -56,7 +56,7 @@ wh_real wh_run_needs_V(const wh_run_config *config, wh_real speed_radps) {
 static bool ramp(wh_run *run, const wh_run_scene *scene) {
     const bool allowed = wh_guard_allows(scene->guarding, run->target_radps, scene->fed);
     run->drive.target_radps = allowed ? run->target_radps : scene->guarding->target_min_radps;
-    if (wh_rig_since_s(run->since_ticks, scene->now_ticks) > scene->config->ramp_max_s) {
+    if (wh_rig_is_over(run->since_ticks, scene->now_ticks, scene->config->ramp_max_s)) {
         wh_guard_trip(scene->guard, WH_TRIP_UNSETTLED); /* gravity that cannot be fed, for one */
     }
     return allowed && wh_drive_at_target(&run->drive);
@@ -98,7 +98,7 @@ static void spin_up(wh_run *run, const wh_run_scene *scene) {
         scene->guard->lost_before = speed->lost;
         scene->guard->rejected_before = scene->pulses->rejected;
         enter(run, WH_PHASE_RAMP, scene->now_ticks);
-    } else if (wh_rig_since_s(run->since_ticks, scene->now_ticks) > config->spin_up_max_s) {
+    } else if (wh_rig_is_over(run->since_ticks, scene->now_ticks, config->spin_up_max_s)) {
         wh_guard_trip(scene->guard, WH_TRIP_STALLED);
     }
 }
@@ -116,7 +116,7 @@ static void settle(wh_run *run, const wh_run_scene *scene) {
     if (!scene->busy && wh_rig_since_s(run->band_ticks, now) >= config->settle_s) {
         wh_measure_record(scene->measuring, scene->measure, run->target_radps, now);
         enter(run, WH_PHASE_RECORD, now);
-    } else if (wh_rig_since_s(run->since_ticks, now) > config->settle_max_s) {
+    } else if (wh_rig_is_over(run->since_ticks, now, config->settle_max_s)) {
         wh_guard_trip(scene->guard, WH_TRIP_UNSETTLED);
     }
 }
@@ -156,7 +156,7 @@ static void close_loop(wh_run *run, const wh_run_scene *scene) {
     const bool too_slow = run->drive.setpoint_radps - speed->turn_radps > config->record_band_radps;
     if (!too_slow || run->volts < scene->supply_V) {
         run->ample_ticks = scene->now_ticks;
-    } else if (wh_rig_since_s(run->ample_ticks, scene->now_ticks) > config->short_max_s) {
+    } else if (wh_rig_is_over(run->ample_ticks, scene->now_ticks, config->short_max_s)) {
         wh_guard_trip(scene->guard, WH_TRIP_SUPPLY);
     }
 }

@@ -1,7 +1,7 @@
 /* polar.c: amplitude and phase of what has a cosine's and a sine's part. */
 #include "polar.h"
 
-#include "core/angle.h"
+#include "wave.h"
 
 #define PI WH_R(3.141592653589793)
 
@@ -20,14 +20,12 @@ WH_INLINE void go_round(wh_real x, wh_real y, unsigned rounds, wh_real *radius,
     wh_real angle = *angle_rad;
     wh_real along = WH_R(0.0);
     for (unsigned round = 0; round < rounds; round++) {
-        wh_real sine;
-        wh_real cosine;
-        wh_sincos(wh_phase_from_rad(angle), &sine, &cosine);
-        along = x * cosine + y * sine;
+        const wh_wave u = wh_wave_of(angle);
+        along = x * u.cosine + y * u.sine;
         if (!(along > WH_R(0.0))) {
             break;
         }
-        const wh_real t = (y * cosine - x * sine) / along;
+        const wh_real t = (y * u.cosine - x * u.sine) / along;
         angle += t * (WH_R(1.0) - t * t * (WH_R(1.0) / WH_R(3.0)));
     }
     *radius = along;

@@ -7,6 +7,7 @@
 #define ALERT_PART WH_R(0.005)
 #define CLIMB_PART WH_R(0.01)
 #define BOUNCE_PART WH_R(0.02)
+#define DOUBT 2U              /* of a pulse that is none */
 #define SUDDEN WH_R(1.6)      /* times the bound */
 #define SURE_PART WH_R(0.125) /* of a turn, after which no pulse takes back the last one */
 
@@ -104,10 +105,10 @@ static void take_next(wh_pulses *pulses, const wh_pulse *pulse, const wh_speed *
     accept(pulses, pulse, after);
 }
 
-/* A pulse that is none, not a mere bounce: disturbances are rare, and where they are not it is the speed that is wrong. */
-static void doubt(wh_pulses *pulses) {
+/* A pulse that is none. Beside a mere bounce disturbances are rare, and where they are not it is the speed that is wrong. */
+static WH_CALLED void reject(wh_pulses *pulses, unsigned doubt) {
     pulses->rejected++;
-    pulses->doubt += 2U;
+    pulses->doubt += doubt;
 }
 
 /* The pulse after a suspect: with it, or without? Without, if that is likely, and more so than both together. */
@@ -118,17 +119,12 @@ static void decide(wh_pulses *pulses, const wh_pulse *pulse) {
     pulses->suspects = false;
     pulses->alert = false;
     const bool alone_likely = with(&pulses->speed, pulse, &without) && is_likely(pulses, &without);
-    if (alone_likely && pulse->sensor == suspect.sensor) {
-        doubt(pulses);
-        take_next(pulses, pulse, &without);
-        return;
-    }
     const bool both_are = with(&pulses->suspected, pulse, &both);
     /* one that is none, and a true one lost as well: less likely than that both are true, however fast */
     const bool fits = both_are && both.lost == pulses->speed.lost &&
                       (is_likely(pulses, &both) || without.lost > pulses->speed.lost);
-    if (alone_likely && !fits) {
-        doubt(pulses);
+    if (alone_likely && (pulse->sensor == suspect.sensor || !fits)) {
+        reject(pulses, DOUBT);
         take_next(pulses, pulse, &without);
         return;
     }
@@ -136,7 +132,7 @@ static void decide(wh_pulses *pulses, const wh_pulse *pulse) {
     if (both_are) {
         take_next(pulses, pulse, &both);
     } else {
-        doubt(pulses);
+        reject(pulses, DOUBT);
     }
 }
 
@@ -150,11 +146,7 @@ static bool soon_after(const wh_pulses *pulses, const wh_pulse *pulse, wh_real p
 /* A pulse that cannot follow the last one: is it that one which is none? */
 static void compare(wh_pulses *pulses, const wh_pulse *pulse, wh_real turn) {
     wh_speed instead;
-    if (soon_after(pulses, pulse, BOUNCE_PART, turn)) {
-        pulses->rejected++;
-    } else {
-        doubt(pulses);
-    }
+    reject(pulses, soon_after(pulses, pulse, BOUNCE_PART, turn) ? 0U : DOUBT);
     if (!pulses->waits || pulse->sensor != pulses->last.pulse.sensor ||
         !with(&pulses->before, pulse, &instead) || !is_likely(pulses, &instead)) {
         return;
@@ -170,7 +162,7 @@ static void compare(wh_pulses *pulses, const wh_pulse *pulse, wh_real turn) {
 void wh_pulses_take(wh_pulses *pulses, unsigned sensor, uint32_t ticks) {
     const wh_pulse pulse = {.ticks = ticks, .sensor = sensor};
     if (sensor >= WH_SPEED_SENSORS) {
-        pulses->rejected++;
+        reject(pulses, 0);
         return;
     }
     if (pulses->suspects) {

@@ -31,30 +31,30 @@ typedef struct wh_mark {
 } wh_mark;
 
 typedef struct wh_pulses {
-    wh_speed speed;      /* of the pulses that were taken */
-    wh_speed before;     /* the same without the last one */
-    wh_real bound_radps; /* a faster interval is not expected; the caller renews it. 0: no bound */
-    /* the rotor all but rests, undriven: an interval far beyond the bound is as good as two; ditto */
+    bool suspects; /* `suspect` is one */
+    bool waits;    /* the last pulse is not sure yet */
+    bool alert;    /* the last pulse came a little early: the next that does is no disturbance */
+    /* the rotor all but rests, undriven: an interval far beyond the bound is as good as two; the caller renews it */
     bool slow;
+    wh_real bound_radps;  /* a faster interval is not expected; ditto. 0: no bound */
     wh_real window;       /* so early, as a part of a turn, a pulse may come; ditto */
     wh_real climb_radps2; /* a turn's speed may rise by so much each second; ditto */
-    wh_pulse suspect;     /* when `suspects`, */
-    wh_speed suspected;   /* and the speed with it */
-    bool suspects;
-    bool waits; /* the last pulse is not sure yet: */
-    wh_mark last;
-    bool alert;    /* the last pulse came a little early: the next that does is no disturbance */
-    unsigned fast; /* intervals beyond the bound, running */
     /* by so much more than it may the turn's speed rose, else 0: */
     wh_real climb_radps;        /* with the last pulse, */
     wh_real climb_before_radps; /* and with the one before */
+    unsigned fast;              /* intervals beyond the bound, running */
     /* pulses running whose sensor was not the one before's: a rotor that swings has none */
     unsigned alternate;
     /* grows by two with each pulse whose truth was doubtful and shrinks by one with each that fits */
     unsigned doubt;
-    uint32_t rejected;             /* pulses that are none */
-    wh_mark mark[WH_PULSES_MARKS]; /* sure, not yet taken */
+    uint32_t rejected; /* pulses that are none */
+    wh_pulse suspect;
+    wh_mark last;       /* pulse */
+    wh_speed speed;     /* of the pulses that were taken */
+    wh_speed before;    /* the same without the last one */
+    wh_speed suspected; /* the same with the suspect */
     unsigned marks;
+    wh_mark mark[WH_PULSES_MARKS]; /* sure, not yet taken */
 } wh_pulses;
 
 #define wh_pulses_start WH_NAME(wh_pulses_start)

@@ -1,11 +1,11 @@
 /* result.c: turns merged to a measurement that says how wrong it may be. */
 #include "result.h"
 
-#include "core/angle.h"
 #include "core/packed_words.h"
 #include "core/root.h"
 #include "datasheet.h"
 #include "polar.h"
+#include "wave.h"
 
 #define PI WH_R(3.141592653589793)
 /* Of gravity, fed forward: then it is fed wrongly, or does not reach the arms, and what turns them is not known. */
@@ -288,15 +288,12 @@ static wh_real swing_off(const wh_rotor_config *rotor, const wh_merge *merge,
     if (!(angle->whole_rad > WH_R(0.0)) || !(measured->amplitude_N > WH_R(0.0))) {
         return WH_R(0.0);
     }
-    wh_real sine;
-    wh_real cosine;
-    wh_sincos(
-        wh_phase_from_rad(angle->lag_rad - rotor->gravity_rad + WH_R(2.0) * measured->phase_rad),
-        &sine, &cosine);
+    const wh_wave wave =
+        wh_wave_of(angle->lag_rad - rotor->gravity_rad + WH_R(2.0) * measured->phase_rad);
     const wh_real swing = WH_R(1.5) * merge->swing_rad;
     const wh_real part = (WH_R(1.0) + merge->swing_rad * swing) / measured->amplitude_N;
-    const wh_real along = part * merge->second_N[0] - swing * cosine;
-    const wh_real across = part * merge->second_N[1] + swing * sine;
+    const wh_real along = part * merge->second_N[0] - swing * wave.cosine;
+    const wh_real across = part * merge->second_N[1] + swing * wave.sine;
     return WH_R(0.5) * WH_SQRT(along * along + across * across);
 }
 

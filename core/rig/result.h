@@ -66,10 +66,20 @@ typedef struct wh_result_config {
 
 /* Turns as they come; zeros: none yet. */
 typedef struct wh_merge {
+    bool follows; /* the last turn was used: the next one's differences count */
+    bool split_follows;
     uint32_t turns;
     uint32_t left_out;
     uint32_t samples;
     uint32_t outliers;
+    uint32_t split_turns; /* of which at_mark_N[1] is the mean */
+    wh_real jitter_s2;    /* sum of squares of second differences of marks, */
+    uint32_t jitters;     /* so many */
+    uint32_t first_ticks; /* a turn's time: of the first, and of the last that was used */
+    uint32_t last_ticks;
+    uint32_t split_turn_ticks;
+    uint32_t begin_ticks;
+    uint32_t split_ticks;
     wh_real in_phase_N; /* means over the turns */
     wh_real quadrature_N;
     wh_real second_N[2];   /* of twice the angle: cosine, sine */
@@ -80,16 +90,6 @@ typedef struct wh_merge {
     wh_real swing_rad;
     wh_real turn_s;
     wh_real at_mark_N[2];
-    uint32_t split_turns; /* of which at_mark_N[1] is the mean */
-    wh_real jitter_s2;    /* sum of squares of second differences of marks, */
-    uint32_t jitters;     /* so many */
-    uint32_t first_ticks; /* a turn's time: of the first, and of the last that was used */
-    uint32_t last_ticks;
-    bool follows; /* the last turn was used: the next one's differences count */
-    bool split_follows;
-    uint32_t split_turn_ticks;
-    uint32_t begin_ticks;
-    uint32_t split_ticks;
 } wh_merge;
 
 typedef struct wh_measured {

@@ -14,6 +14,17 @@ void wh_rig_slots(wh_rig_config *config, wh_real lead_rad) {
     config->observer.mark_rad[1] = config->measure.rotor.mark_rad[1];
 }
 
+WH_CALLED unsigned wh_rig_stage(const wh_rig *rig) {
+    return rig->run.phase == WH_PHASE_NONE ? (unsigned)rig->state
+                                           : WH_RIG_STAGE_OF_PHASE + (unsigned)rig->run.phase;
+}
+
+WH_CALLED const char *wh_rig_stage_text(unsigned stage) {
+    return stage < WH_RIG_STAGE_OF_PHASE
+               ? wh_life_text((wh_life)stage)
+               : wh_phase_text((wh_rig_phase)(stage - WH_RIG_STAGE_OF_PHASE));
+}
+
 static void enter(wh_rig *rig, wh_life state, uint32_t now_ticks) {
     rig->state = state;
     rig->since_ticks = now_ticks;
@@ -237,8 +248,7 @@ static void watch(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs 
     wh_guard_speed(&config->guard, guard, &rig->pulses, slows ? WH_TRIP_RUNS_ON : WH_TRIP_OVERSPEED,
                    drives);
     if (rig->run.phase == WH_PHASE_SPIN_UP && !rig->pulses.speed.running &&
-        wh_rig_since_s(rig->run.since_ticks, inputs->now_ticks) >
-            config->guard.slow_silence_max_s) {
+        wh_rig_is_over(rig->run.since_ticks, inputs->now_ticks, config->guard.slow_silence_max_s)) {
         wh_guard_trip(guard, WH_TRIP_STALLED); /* or is not seen: it must not get fast */
     }
     if (drives) {
@@ -311,7 +321,7 @@ static void wait_for_rest(const wh_rig_config *config, wh_rig *rig, const wh_rig
 
 static void live(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs *inputs) {
     const bool armed = rig->state == WH_LIFE_ARMED;
-    if (armed && (wh_rig_since_s(rig->since_ticks, inputs->now_ticks) > config->armed_max_s ||
+    if (armed && (wh_rig_is_over(rig->since_ticks, inputs->now_ticks, config->armed_max_s) ||
                   rig->pulses_ever - rig->pulses_before > ARMED_PULSES_MOST)) {
         finds(config, rig, inputs, WH_EVENT_EXPIRED);
     }

@@ -63,37 +63,38 @@ typedef struct wh_rig_command {
     wh_real volts; /* mean voltage, 0 to the supply; 0 unless the motor drives */
 } wh_rig_command;
 
+/* What is small comes first: of a processor's instructions the short ones reach no further. */
 typedef struct wh_rig {
     wh_life state;
-    wh_run run;
-    wh_guard guard;
-    wh_pulses pulses;
-    wh_measure measure;
-    wh_observer observer;
-    wh_feed feed;
-    wh_swing swing; /* of the last run that ended in one: swing.result */
-    bool brakes;    /* the motor, when it goes off */
+    bool brakes; /* the motor, when it goes off */
     /* the run's: the observer goes with the rotor, and once it is valid gravity is fed forward */
     bool fed;
-    wh_rig_command command; /* since the last step */
-    uint32_t observed;      /* pulses that the observer has seen */
-    uint32_t since_ticks;   /* the state began */
-    uint32_t pulses_ever;
-    uint32_t pulses_before; /* `arm` */
     /* a pulse or a mark is work enough for one step: the rest waits for the next */
     bool busy;
     uint8_t loads; /* samples since the last step: more than one leave it time for less */
     bool rested;   /* motor off, and the rotor rests, or will not: all that can be done is done */
     /* it rests: no pulses; where those cannot be believed, after all the time it may take */
     bool at_rest;
-    wh_rig_result result; /* of the last run that was through; kept until the next is */
     bool has_result;
-    wh_trip_record record; /* of the trip that is latched */
-    wh_rig_order order[WH_RIG_ORDERS_MOST];
-    unsigned orders;
     wh_rig_event asked; /* the last order that was taken, */
     wh_refusal answer;  /* and what became of it */
-    uint32_t answers;   /* so many were */
+    wh_run run;
+    wh_guard guard;
+    uint32_t answers;     /* so many were */
+    uint32_t since_ticks; /* the state began */
+    uint32_t observed;    /* pulses that the observer has seen */
+    uint32_t pulses_ever;
+    uint32_t pulses_before; /* `arm` */
+    wh_feed feed;
+    wh_rig_command command; /* since the last step */
+    wh_pulses pulses;
+    wh_trip_record record; /* of the trip that is latched */
+    unsigned orders;
+    wh_rig_order order[WH_RIG_ORDERS_MOST];
+    wh_observer observer;
+    wh_rig_result result; /* of the last run that was through; kept until the next is */
+    wh_swing swing;       /* of the last run that ended in one: swing.result */
+    wh_measure measure;
 } wh_rig;
 
 /* The rig of eccentric.whirl. measure.cell and the sensors' angles come from the hardware: wh_rig_slots() and the
@@ -107,20 +108,15 @@ extern const wh_rig_config wh_rig_standard;
 #define wh_rig_pulse WH_NAME(wh_rig_pulse)
 #define wh_rig_load WH_NAME(wh_rig_load)
 #define wh_rig_step WH_NAME(wh_rig_step)
+#define wh_rig_stage WH_NAME(wh_rig_stage)
+#define wh_rig_stage_text WH_NAME(wh_rig_stage_text)
 
 /* Where the rig is, as one number for consoles and records: of a run WH_RIG_STAGE_OF_PHASE + its phase, else the state. */
 #define WH_RIG_STAGE_OF_PHASE 8U
-WH_INLINE unsigned wh_rig_stage(const wh_rig *rig) {
-    return rig->run.phase == WH_PHASE_NONE ? (unsigned)rig->state
-                                           : WH_RIG_STAGE_OF_PHASE + (unsigned)rig->run.phase;
-}
+unsigned wh_rig_stage(const wh_rig *rig);
 
 /* It in words. */
-WH_INLINE const char *wh_rig_stage_text(unsigned stage) {
-    return stage < WH_RIG_STAGE_OF_PHASE
-               ? wh_life_text((wh_life)stage)
-               : wh_phase_text((wh_rig_phase)(stage - WH_RIG_STAGE_OF_PHASE));
-}
+const char *wh_rig_stage_text(unsigned stage);
 
 /* Sensors on the loading-train axis and a quarter turn on, whose pulses come with the arms so far short. */
 void wh_rig_slots(wh_rig_config *config, wh_real lead_rad);

@@ -14,36 +14,25 @@ static wh_real radps(uint32_t quarters, uint32_t ticks) {
     return (wh_real)quarters * (WH_RIG_TWO_PI / (wh_real)QUARTERS) / seconds(ticks);
 }
 
-static void remember(wh_speed *speed, unsigned sensor, uint32_t ticks) {
-    speed->running = true;
-    speed->ticks = ticks;
-    speed->seen[sensor] = true;
-    speed->seen_ticks[sensor] = ticks;
-    speed->seen_quarter[sensor] = speed->quarter;
-    speed->taken++;
-}
-
 void wh_speed_start(wh_speed *speed, wh_real impossible_radps) {
     *speed = (wh_speed){.impossible_radps = impossible_radps};
 }
 
-bool wh_speed_pulse(wh_speed *speed, unsigned sensor, uint32_t ticks) {
-    if (sensor >= WH_SPEED_SENSORS) {
-        speed->rejected++;
-        return false;
-    }
-    if (!speed->running) {
-        speed->quarter = sensor;
-        remember(speed, sensor, ticks);
-        return true;
-    }
-    /* On to the next position of this sensor: 1 or 3 quarters, or the whole turn. */
+/* Counting of quarter turns begins afresh at this sensor. */
+static void begin(wh_speed *speed, unsigned sensor) {
+    speed->running = true;
+    speed->quarter = sensor;
+    speed->seen[0] = false;
+    speed->seen[1] = false;
+}
+
+/* To the next position of this sensor: 1 or 3 quarters, or the whole turn. False: that would be too fast. */
+static bool go_on(wh_speed *speed, unsigned sensor, uint32_t ticks) {
     const uint32_t ahead = (sensor - speed->quarter) % QUARTERS;
     const uint32_t moved = ahead == 0 ? QUARTERS : ahead;
     const uint32_t interval = ticks - speed->ticks;
     const wh_real interval_radps = interval > 0 ? radps(moved, interval) : WH_R(0.0);
     if (interval == 0 || interval_radps > speed->impossible_radps) {
-        speed->rejected++;
         return false;
     }
     /* what else it might be is a whole turn further on: four quarters late, or (order reversed) two */
@@ -54,10 +43,7 @@ bool wh_speed_pulse(wh_speed *speed, unsigned sensor, uint32_t ticks) {
         /* one gap keeps the speed; a second one running says that it was wrong */
         speed->known = speed->interval_radps > WH_R(0.0);
         speed->interval_radps = WH_R(0.0);
-        speed->seen[0] = false;
-        speed->seen[1] = false;
-        speed->quarter = sensor;
-        remember(speed, sensor, ticks);
+        begin(speed, sensor);
         return true;
     }
     if (moved == QUARTERS) {
@@ -70,6 +56,21 @@ bool wh_speed_pulse(wh_speed *speed, unsigned sensor, uint32_t ticks) {
             radps(speed->quarter - speed->seen_quarter[sensor], ticks - speed->seen_ticks[sensor]);
         speed->known = true;
     }
-    remember(speed, sensor, ticks);
+    return true;
+}
+
+bool wh_speed_pulse(wh_speed *speed, unsigned sensor, uint32_t ticks) {
+    if (sensor >= WH_SPEED_SENSORS || (speed->running && !go_on(speed, sensor, ticks))) {
+        speed->rejected++;
+        return false;
+    }
+    if (!speed->running) {
+        begin(speed, sensor);
+    }
+    speed->ticks = ticks;
+    speed->seen[sensor] = true;
+    speed->seen_ticks[sensor] = ticks;
+    speed->seen_quarter[sensor] = speed->quarter;
+    speed->taken++;
     return true;
 }

@@ -17,18 +17,18 @@ extern "C" {
 #define WH_SPEED_SENSORS 2U
 
 typedef struct wh_speed {
+    bool known;                  /* a whole turn has been measured */
+    bool running;                /* at least one pulse has been taken since the last gap */
+    bool seen[WH_SPEED_SENSORS]; /* seen_ticks and seen_quarter are valid */
     wh_real impossible_radps;    /* a pulse that would need more is rejected */
     wh_real turn_radps;          /* mean over the last whole turn; valid when known */
     wh_real interval_radps;      /* mean since the pulse before the last, 0 after a gap; ditto */
-    bool known;                  /* a whole turn has been measured */
-    bool running;                /* at least one pulse has been taken since the last gap */
     uint32_t ticks;              /* time of the last pulse taken */
     uint32_t quarter;            /* rotor's position at it, quarter turns, wrapping */
     uint32_t taken;              /* pulses taken */
     uint32_t lost;               /* pulses that must have been there */
     uint32_t restarts;           /* gaps after which `quarter` began afresh */
     uint32_t rejected;           /* pulses that cannot be */
-    bool seen[WH_SPEED_SENSORS]; /* the next two are valid */
     uint32_t seen_ticks[WH_SPEED_SENSORS];
     uint32_t seen_quarter[WH_SPEED_SENSORS];
 } wh_speed;

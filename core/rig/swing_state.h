@@ -74,30 +74,29 @@ typedef struct wh_swing {
     bool any;     /* there was a pulse, */
     bool forward; /* passed this way, */
     uint8_t sensor;
-    bool swings; /* the rotor has passed sensor 1 backwards: at kept[first], */
+    bool swings;          /* the rotor has passed sensor 1 backwards: at kept[first], */
+    wh_swing_piece piece; /* of the work, that is next */
     unsigned first;
     unsigned passed; /* and then so often, kept or not */
-    uint32_t kept_ticks[WH_SWING_PULSES];
-    uint8_t kept_sensor[WH_SWING_PULSES];
     unsigned kept;
+    unsigned start; /* guesses before this one led nowhere */
+    unsigned pass;
+    unsigned at;       /* the pulse that is next */
+    unsigned fits;     /* pulses that were taken on this pass, */
+    unsigned strays;   /* that cannot be, */
+    unsigned swung;    /* of sensor 1, */
+    unsigned sided;    /* of sensor 2: a swing seen from sensor 1 alone could be its mirror image */
+    uint32_t ticks;    /* of `way` */
+    wh_real soft_rad2; /* variance that pulses are given beside their own */
+    wh_free_rotor way; /* where the rotor is on a pass */
     uint32_t last_ticks[WH_SWING_LAST]; /* sensor 1's, the newest first */
-
     wh_real x
         [WH_NORMAL_UNKNOWNS]; /* q - place and q' at the first passage, g, f, c, the sensors' places, */
     wh_real guess[WH_NORMAL_UNKNOWNS];  /* as they were guessed, */
     wh_real within[WH_NORMAL_UNKNOWNS]; /* and how well: standard deviations */
-    wh_free_rotor way;                  /* where the rotor is on a pass, at `ticks` */
-    uint32_t ticks;
-    unsigned start; /* guesses before this one led nowhere */
-    unsigned pass;
-    unsigned at;          /* the pulse that is next */
-    wh_swing_piece piece; /* of the work, that is next */
-    wh_normal normal;     /* equations of this pass, in units of `within` */
-    wh_real soft_rad2;    /* variance that pulses are given beside their own */
-    unsigned fits;        /* pulses that were taken on this pass, */
-    unsigned strays;      /* that cannot be, */
-    unsigned swung;       /* of sensor 1, */
-    unsigned sided; /* of sensor 2: a swing seen from sensor 1 alone could be its mirror image */
+    uint32_t kept_ticks[WH_SWING_PULSES];
+    uint8_t kept_sensor[WH_SWING_PULSES];
+    wh_normal normal; /* equations of this pass, in units of `within` */
 } wh_swing;
 
 #ifdef __cplusplus

@@ -3,6 +3,7 @@
 
 #include "core/root.h"
 #include "datasheet.h"
+#include "wave.h"
 
 /* Beyond this the series says nothing any more: a rotor that hardly gets over the top. */
 #define SWING_MOST WH_R(0.35)
@@ -13,10 +14,14 @@
 /* The first splits correct an inertia that may be far off, by Newton's method; then they are averaged. */
 #define SPLITS_TO_FIND 3U
 
-static wh_wave wave_of(wh_real rad) {
-    wh_wave wave;
-    wh_sincos(wh_phase_from_rad(rad), &wave.sine, &wave.cosine);
-    return wave;
+/* Within most, either way; NaN too. */
+static WH_CALLED wh_real within(wh_real value, wh_real most) {
+    return value < most ? value > -most ? value : -most : most;
+}
+
+/* The arc sine of little. */
+static WH_CALLED wh_real small_arc(wh_real sine) {
+    return sine * (WH_R(1.0) + WH_R(0.16666667) * sine * sine);
 }
 
 /* What the swing adds to base + phi where u has these sine and cosine. */
@@ -51,10 +56,10 @@ static void add_carriage(const wh_rotor_config *config, wh_turn_angle *angle, wh
     const wh_real tangent = config->damping_Nms / (WH_R(2.0) * mean * speed_radps);
     const wh_real cosine = WH_R(1.0) / WH_SQRT(WH_R(1.0) + tangent * tangent);
     const wh_real sine = tangent * cosine;
-    const wh_real lambda = sine * (WH_R(1.0) + WH_R(0.16666667) * sine * sine);
+    const wh_real lambda = small_arc(sine);
     angle->twice_rad = WH_R(0.125) * yields / mean * cosine;
     /* u is base + phi + psi - gamma */
-    const wh_wave turned = wave_of(WH_R(2.0) * (config->gravity_rad - angle->lag_rad) + lambda);
+    const wh_wave turned = wh_wave_of(WH_R(2.0) * (config->gravity_rad - angle->lag_rad) + lambda);
     angle->second_sine -= angle->twice_rad * turned.cosine;
     angle->second_cosine -= angle->twice_rad * turned.sine;
 }
@@ -75,8 +80,8 @@ static void add_cut(const wh_rotor_config *config, wh_turn_angle *angle, wh_real
     const wh_real sum = WH_SQRT(turning * turning + config->damping_Nms * config->damping_Nms);
     const wh_real size = weight_Nm * second / (WH_R(2.0) * speed_radps * sum);
     const wh_real sine = config->damping_Nms / sum;
-    const wh_real lambda = sine * (WH_R(1.0) + WH_R(0.16666667) * sine * sine);
-    const wh_wave turned = wave_of(lambda - WH_R(2.0) * angle->lag_rad);
+    const wh_real lambda = small_arc(sine);
+    const wh_wave turned = wh_wave_of(lambda - WH_R(2.0) * angle->lag_rad);
     angle->second_cosine += size * turned.cosine;
     angle->second_sine -= size * turned.sine;
 }
@@ -87,9 +92,7 @@ WH_INLINE void shape_swing(const wh_rotor_config *config, wh_turn_angle *angle,
     const wh_real turning = angle->inertia_kgm2 * speed_radps;
     const wh_real sum = WH_SQRT(turning * turning + config->damping_Nms * config->damping_Nms);
     angle->whole_rad = weight_Nm / (speed_radps * sum);
-    const wh_real swing = angle->part * angle->whole_rad;
-    angle->swing_rad =
-        swing < SWING_MOST ? swing > -SWING_MOST ? swing : -SWING_MOST : SWING_MOST; /* NaN too */
+    angle->swing_rad = within(angle->part * angle->whole_rad, SWING_MOST);
     const wh_real sine = config->damping_Nms / sum;
     const wh_real square = sine * sine;
     /* the arc sine to 1e-4 below 0.5 */
@@ -108,14 +111,14 @@ WH_INLINE void shape_begin(const wh_rotor_config *config, wh_turn_angle *angle) 
     /* base + what is added at the begin is the mark's angle, and u there is base + psi - gamma */
     const wh_real begins = config->mark_rad[0] + angle->lag_rad - config->gravity_rad;
     for (unsigned round = 0; round < 2U; round++) {
-        const wh_wave u = wave_of(angle->begin_rad);
+        const wh_wave u = wh_wave_of(angle->begin_rad);
         angle->begin_rad -= (angle->begin_rad + added(angle, u) - begins) /
                             (WH_R(1.0) + angle->swing_rad * u.cosine);
     }
 }
 
 WH_INLINE void shape_base(const wh_rotor_config *config, wh_turn_angle *angle) {
-    angle->base_rad = config->mark_rad[0] - added(angle, wave_of(angle->begin_rad));
+    angle->base_rad = config->mark_rad[0] - added(angle, wh_wave_of(angle->begin_rad));
 }
 
 void wh_turn_angle_shape(const wh_rotor_config *config, wh_turn_angle *angle, wh_real speed_radps) {
@@ -170,28 +173,27 @@ WH_INLINE wh_real split_by(const wh_rotor_config *config, wh_turn_angle *angle, 
     const uint32_t turns_averaged =
         angle->splits > SPLITS_TO_FIND ? angle->splits - SPLITS_TO_FIND : 1U;
     if (angle->fed) {
-        const wh_real part =
-            angle->part + off / (split_per_swing * angle->whole_rad * (wh_real)turns_averaged);
-        angle->part = part < WH_R(1.0) ? part > WH_R(-1.0) ? part : WH_R(-1.0) : WH_R(1.0);
+        angle->part = within(
+            angle->part + off / (split_per_swing * angle->whole_rad * (wh_real)turns_averaged),
+            WH_R(1.0));
         return off;
     }
     /* d ln E / d ln I = -cos^2 psi; within a factor of two, whatever the mark */
-    wh_real change = -off / (split_per_swing * swing * cosine2);
-    change = change < WH_R(0.5) ? change > WH_R(-0.5) ? change : WH_R(-0.5) : WH_R(0.5);
+    const wh_real change = within(-off / (split_per_swing * swing * cosine2), WH_R(0.5));
     angle->inertia_kgm2 *= WH_R(1.0) + change / (wh_real)turns_averaged;
     return off;
 }
 
 wh_real wh_turn_angle_split(const wh_rotor_config *config, wh_turn_angle *angle, wh_real split) {
     const wh_real passed = WH_RIG_TWO_PI * split;
-    return split_by(config, angle, passed, wave_of(angle->begin_rad),
-                    wave_of(angle->begin_rad + passed));
+    return split_by(config, angle, passed, wh_wave_of(angle->begin_rad),
+                    wh_wave_of(angle->begin_rad + passed));
 }
 
 #if WH_RIG_SMALL_PIECES
 void wh_turn_angle_split_waves(wh_turn_angle *angle, wh_real split) {
-    angle->split_from = wave_of(angle->begin_rad);
-    angle->split_to = wave_of(angle->begin_rad + WH_RIG_TWO_PI * split);
+    angle->split_from = wh_wave_of(angle->begin_rad);
+    angle->split_to = wh_wave_of(angle->begin_rad + WH_RIG_TWO_PI * split);
 }
 
 wh_real wh_turn_angle_split_rest(const wh_rotor_config *config, wh_turn_angle *angle,
@@ -202,5 +204,5 @@ wh_real wh_turn_angle_split_rest(const wh_rotor_config *config, wh_turn_angle *a
 
 wh_real wh_turn_angle_at(const wh_turn_angle *angle, wh_real part) {
     const wh_real passed = WH_RIG_TWO_PI * part;
-    return angle->base_rad + passed + added(angle, wave_of(angle->begin_rad + passed));
+    return angle->base_rad + passed + added(angle, wh_wave_of(angle->begin_rad + passed));
 }
