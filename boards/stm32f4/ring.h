@@ -1,45 +1,32 @@
-/* pulse_ring.h: slot pulses on their way from the interrupt that saw them to the control loop. */
-#ifndef BOARDS_STM32F4_PULSE_RING_H
-#define BOARDS_STM32F4_PULSE_RING_H
+/* ring.h: what waits between an interrupt and the control loop, first in, first out: records of one size. One of them puts, the
+ * other takes. */
+#ifndef BOARDS_STM32F4_RING_H
+#define BOARDS_STM32F4_RING_H
 
 #include <stdbool.h>
 #include <stdint.h>
 
-#include "hal/slots.h"
+/* Records so far, wrapping; those that wait are the difference. */
+typedef struct stm32f4_ring_counts {
+    volatile uint32_t put;
+    volatile uint32_t taken;
+} stm32f4_ring_counts;
 
-/* A power of two: indices count on and wrap. */
-#define PULSES_KEPT 16U
+typedef struct stm32f4_ring {
+    stm32f4_ring_counts *counts;
+    void *records;
+    uint16_t kept; /* so many at most: a power of two */
+    uint16_t bytes;
+} stm32f4_ring;
 
-typedef struct pulse_ring {
-    volatile hal_slot_pulse pulse[PULSES_KEPT];
-    volatile uint32_t head; /* the interrupt's */
-    volatile uint32_t tail;
-    volatile uint32_t overruns;
-} pulse_ring;
-
-/* For the interrupt. False when there is no room for more, which counts as one overrun: it then looks at nothing until one is
- * taken. */
-static inline bool pulse_ring_put(pulse_ring *ring, uint32_t ticks, uint8_t sensor) {
-    if (ring->head - ring->tail < PULSES_KEPT) {
-        ring->pulse[ring->head % PULSES_KEPT].ticks = ticks;
-        ring->pulse[ring->head % PULSES_KEPT].sensor = sensor;
-        ring->head++;
-    }
-    if (ring->head - ring->tail < PULSES_KEPT) {
-        return true;
-    }
-    ring->overruns++;
-    return false;
+static inline bool stm32f4_ring_has_room(const stm32f4_ring *ring) {
+    return ring->counts->put - ring->counts->taken < ring->kept;
 }
 
-static inline bool pulse_ring_take(pulse_ring *ring, hal_slot_pulse *pulse) {
-    if (ring->tail == ring->head) {
-        return false;
-    }
-    pulse->ticks = ring->pulse[ring->tail % PULSES_KEPT].ticks;
-    pulse->sensor = ring->pulse[ring->tail % PULSES_KEPT].sensor;
-    ring->tail++;
-    return true;
-}
+/* False: there is no room. */
+bool stm32f4_ring_put(const stm32f4_ring *ring, const void *record);
+
+/* The oldest. False: there is none. */
+bool stm32f4_ring_take(const stm32f4_ring *ring, void *record);
 
 #endif
