@@ -76,9 +76,9 @@ _Noreturn void board_fault_ends(const board_fault_facts *facts);
 /* Sets the chip's clocks up, before any variable has its value: may have none of its own, and waits for nothing without a
  * bound. What came of it is then in board_clock_is, of chips that have clocks to set up: in memory that nobody fills. */
 typedef enum board_clock {
-    BOARD_CLOCK_GIVEN,    /* there is nothing to set up: an emulator */
     BOARD_CLOCK_CRYSTAL,  /* as the board has it */
     BOARD_CLOCK_FALLBACK, /* the crystal does not answer: the chip's own oscillator */
+    BOARD_CLOCK_GIVEN     /* there is nothing to set up: an emulator */
 } board_clock;
 void board_clock_start(void);
 extern board_clock board_clock_is;

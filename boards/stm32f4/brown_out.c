@@ -2,15 +2,9 @@
  * and the flash need. An option byte, which is written when it is another: once in a chip's life. */
 #include "stm32f4.h"
 
-static bool is_busy(void) { return (reg_load(FLASH_SR) & FLASH_SR_BSY) != 0; }
-
-static void wait_until_done(void) {
-    for (uint32_t i = 0; i < 100000000U && is_busy(); i++) {
-    }
-}
-
 void stm32f4_brown_out_start(void) {
-    if ((reg_load(FLASH_OPTCR) & FLASH_OPTCR_BOR_LEV) == FLASH_OPTCR_BOR_LEV_3 || is_busy()) {
+    if ((reg_load(FLASH_OPTCR) & FLASH_OPTCR_BOR_LEV) == FLASH_OPTCR_BOR_LEV_3 ||
+        !stm32f4_flash_rests()) {
         return;
     }
     reg_store(FLASH_OPTKEYR, FLASH_OPTKEY1);
@@ -18,6 +12,6 @@ void stm32f4_brown_out_start(void) {
     reg_change(FLASH_OPTCR, FLASH_OPTCR_BOR_LEV,
                FLASH_OPTCR_BOR_LEV_3); /* the others as they are */
     reg_set(FLASH_OPTCR, FLASH_OPTCR_OPTSTRT);
-    wait_until_done();
+    (void)stm32f4_flash_rests();
     reg_set(FLASH_OPTCR, FLASH_OPTCR_OPTLOCK);
 }

@@ -12,6 +12,7 @@
 #include "hal/motor.h"
 
 #include "boards/board.h"
+#include "ring.h"
 #include "stm32f4.h"
 
 #define DMA2_STREAM0_IRQ 56U
@@ -33,18 +34,26 @@ _Static_assert(PAIRS_TICKS == HAL_LOADCELL_PERIOD_TICKS, "a sample each period")
 /* The divider before the supply's input: 33 V at the reference. */
 #define SUPPLY_V_PER_COUNT (33.0f / 4095.0f)
 
-#define SAMPLES_KEPT 8U /* a power of two */
+#define SAMPLES_KEPT 8U
+
+/* The status of a mean that there is not: the converter has no such. */
+#define NO_MEAN HAL_LOAD_REPEATED
 
 /* In memory that DMA reaches: core-coupled memory is none (RM0090, 2.3.1). */
 static volatile uint16_t pair[2][PAIRS][2];
-static volatile hal_load_sample samples[SAMPLES_KEPT];
-static volatile uint32_t head; /* the interrupt's */
-static volatile uint32_t tail;
+static hal_load_sample kept_samples[SAMPLES_KEPT];
+static stm32f4_ring_counts sample_counts;
+static const stm32f4_ring samples = {&sample_counts, kept_samples, SAMPLES_KEPT,
+                                     sizeof *kept_samples};
 static volatile uint32_t supply_sum;
 
+/* The last mean, */
+static hal_load_sample last;
+static int32_t before_last; /* the counts of the one before, */
+static bool last_follows;   /* and nothing is missing between them */
+
 static void start_dma(void) {
-    reg_set(RCC_AHB1ENR, RCC_AHB1ENR_DMA2);
-    (void)reg_load(RCC_AHB1ENR);
+    stm32f4_clock_on(RCC_AHB1ENR, RCC_AHB1ENR_DMA2);
     reg_store(DMA2_S0CR, 0);
     reg_store(DMA2_LIFCR, DMA2_S0_ALL_FLAGS);
     reg_store(DMA2_S0PAR, ADC1_DR);
@@ -57,15 +66,12 @@ static void start_dma(void) {
 }
 
 /* 84 clocks of 21 MHz for the sampling and 12 for the rest: 4.6 us each; of 8 MHz, the fallback's, 12 us. */
-static void sample_for(unsigned input) {
-    const bool upper = input >= 10U;
-    const unsigned shift = 3U * (upper ? input - 10U : input);
-    reg_change(upper ? ADC1_SMPR1 : ADC1_SMPR2, 7U << shift, ADC_SMP_84 << shift);
+static inline void sample_for(unsigned input) {
+    stm32f4_field(input < 10U ? ADC1_SMPR2 : ADC1_SMPR1, 3U, input % 10U, ADC_SMP_84);
 }
 
 static void start_converter(void) {
-    reg_set(RCC_APB2ENR, RCC_APB2ENR_ADC1);
-    (void)reg_load(RCC_APB2ENR);
+    stm32f4_clock_on(RCC_APB2ENR, RCC_APB2ENR_ADC1);
     stm32f4_pin_is(BOARD_CELL_PIN, PIN_ANALOGUE, PULL_NONE, 0);
     stm32f4_pin_is(BOARD_SUPPLY_PIN, PIN_ANALOGUE, PULL_NONE, 0);
     if (stm32f4_clocks_now()->usart_Hz > 2U * ADC_HZ_MOST) {
@@ -81,8 +87,7 @@ static void start_converter(void) {
 }
 
 static void start_trigger(void) {
-    reg_set(RCC_APB1ENR, RCC_APB1ENR_TIM3);
-    (void)reg_load(RCC_APB1ENR);
+    stm32f4_clock_on(RCC_APB1ENR, RCC_APB1ENR_TIM3);
     reg_store(TIM_PSC(TIM3), 0);
     reg_store(TIM_ARR(TIM3), stm32f4_clocks_now()->timers_Hz / PAIRS_PER_S - 1U);
     reg_store(TIM_CR2(TIM3), TIM_CR2_MMS_UPDATE);
@@ -90,21 +95,12 @@ static void start_trigger(void) {
 }
 
 void stm32f4_cell_start(void) {
+    last.status = NO_MEAN;
     start_dma();
     start_converter();
     stm32f4_interrupt(DMA2_STREAM0_IRQ);
     start_trigger();
 }
-
-static hal_load_status status_of(uint32_t least, uint32_t most) {
-    return most == 0                    ? HAL_LOAD_DISCONNECTED
-           : least == 0 || most == FULL ? HAL_LOAD_SATURATED
-                                        : HAL_LOAD_OK;
-}
-
-/* The last two means, of which there are so many. */
-static hal_load_sample mean[2];
-static unsigned means;
 
 /* The means of a converter that went on all the time. */
 static bool follows(const hal_load_sample *before, const hal_load_sample *sample) {
@@ -114,39 +110,38 @@ static bool follows(const hal_load_sample *before, const hal_load_sample *sample
 }
 
 /* The mean before this one is a sample now. */
-static void hand_on(const hal_load_sample *sample) {
-    if (means > 0 && head - tail < SAMPLES_KEPT) {
-        volatile hal_load_sample *to = &samples[head % SAMPLES_KEPT];
-        const bool between = means > 1U && follows(&mean[0], &mean[1]) && follows(&mean[1], sample);
-        to->ticks = mean[1].ticks;
-        to->raw =
-            between ? hal_averaged_middle(mean[0].raw, mean[1].raw, sample->raw) : mean[1].raw;
-        to->status = mean[1].status;
-        head++;
+static void hand_on(const hal_load_sample *mean) {
+    const bool mean_follows = follows(&last, mean);
+    if (last.status != NO_MEAN) {
+        hal_load_sample sample = last;
+        if (last_follows && mean_follows) {
+            sample.raw = hal_averaged_middle(before_last, last.raw, mean->raw);
+        }
+        (void)stm32f4_ring_put(&samples, &sample);
     }
-    mean[0] = mean[1];
-    mean[1] = *sample;
-    means += means < 2U ? 1U : 0U;
+    before_last = last.raw;
+    last = *mean;
+    last_follows = mean_follows;
 }
 
 /* 64 counts of 12 bits are 18 bits: four to one of ours. */
 static void average(unsigned half, uint32_t ticks) {
     uint32_t sum = 0;
     uint32_t supply = 0;
-    uint32_t least = FULL;
-    uint32_t most = 0;
+    bool clipped = false;
     for (unsigned i = 0; i < PAIRS; i++) {
         const uint32_t count = pair[half][i][0];
         sum += count;
         supply += pair[half][i][1];
-        least = count < least ? count : least;
-        most = count > most ? count : most;
+        clipped = clipped || count - 1U >= FULL - 1U; /* at either end */
     }
     supply_sum = supply;
-    const hal_load_sample sample = {.ticks = ticks,
-                                    .raw = ((int32_t)sum - (int32_t)PAIRS * MIDDLE) / 4,
-                                    .status = (uint8_t)status_of(least, most)};
-    hand_on(&sample);
+    const hal_load_sample mean = {.ticks = ticks,
+                                  .raw = ((int32_t)sum - (int32_t)PAIRS * MIDDLE) / 4,
+                                  .status = (uint8_t)(sum == 0  ? HAL_LOAD_DISCONNECTED
+                                                      : clipped ? HAL_LOAD_SATURATED
+                                                                : HAL_LOAD_OK)};
+    hand_on(&mean);
 }
 
 /* How far DMA has come says which half is whole, and since when: an interrupt that was held up takes the newest one, with its
@@ -158,14 +153,6 @@ void on_dma2_stream0(void) {
     average(laid < PAIRS ? 1U : 0U, now - BEHIND_TICKS - laid % PAIRS * PAIRS_TICKS / PAIRS);
 }
 
-bool hal_loadcell_take(hal_load_sample *sample) {
-    if (tail == head) {
-        return false;
-    }
-    const volatile hal_load_sample *from = &samples[tail % SAMPLES_KEPT];
-    *sample = (hal_load_sample){.ticks = from->ticks, .raw = from->raw, .status = from->status};
-    tail++;
-    return true;
-}
+bool hal_loadcell_take(hal_load_sample *sample) { return stm32f4_ring_take(&samples, sample); }
 
 float hal_motor_supply_V(void) { return (float)supply_sum * (SUPPLY_V_PER_COUNT / (float)PAIRS); }

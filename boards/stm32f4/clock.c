@@ -18,7 +18,7 @@ _Static_assert(BOARD_PLL_N >= 50U && BOARD_PLL_N <= 432U && BOARD_PLL_M >= 2U &&
 #define SOON 2000U
 #define PATIENTLY 40000U
 
-static bool comes(uint32_t address, uint32_t mask, uint32_t wanted, uint32_t looks) {
+bool stm32f4_comes(uint32_t address, uint32_t mask, uint32_t wanted, uint32_t looks) {
     for (uint32_t i = 0; i < looks; i++) {
         if ((reg_load(address) & mask) == wanted) {
             return true;
@@ -27,17 +27,22 @@ static bool comes(uint32_t address, uint32_t mask, uint32_t wanted, uint32_t loo
     return false;
 }
 
-/* The chip's own oscillator, whatever a loader in ROM has left: the core runs on it. An emulator without this unit reads
+void stm32f4_clock_on(uint32_t enable, uint32_t part) {
+    reg_set(enable, part);
+    (void)reg_load(enable);
+}
+
+/* The chip's own oscillator, whatever a loader in ROM or a crystal that failed has left: the core runs on it. An emulator without this unit reads
  * zeros, which no chip does: then there is nothing to set up. */
 static bool to_own_oscillator(void) {
     reg_set(RCC_CR, RCC_CR_HSION);
-    if (!comes(RCC_CR, RCC_CR_HSIRDY, RCC_CR_HSIRDY, SOON)) {
+    if (!stm32f4_comes(RCC_CR, RCC_CR_HSIRDY, RCC_CR_HSIRDY, SOON)) {
         return false;
     }
     reg_change(RCC_CFGR, RCC_CFGR_SW, RCC_CFGR_SW_HSI);
-    (void)comes(RCC_CFGR, RCC_CFGR_SWS, RCC_CFGR_SWS_HSI, SOON);
+    (void)stm32f4_comes(RCC_CFGR, RCC_CFGR_SWS, RCC_CFGR_SWS_HSI, SOON);
     reg_clear(RCC_CR, RCC_CR_PLLON | RCC_CR_CSSON);
-    (void)comes(RCC_CR, RCC_CR_PLLRDY, 0, SOON);
+    (void)stm32f4_comes(RCC_CR, RCC_CR_PLLRDY, 0, SOON);
     reg_clear(RCC_CR, RCC_CR_HSEON);
     reg_clear(RCC_CR, RCC_CR_HSEBYP);
     reg_store(RCC_CFGR, 0);
@@ -46,10 +51,7 @@ static bool to_own_oscillator(void) {
 }
 
 static board_clock fall_back(void) {
-    reg_change(RCC_CFGR, RCC_CFGR_SW, RCC_CFGR_SW_HSI);
-    reg_clear(RCC_CR, RCC_CR_PLLON);
-    reg_clear(RCC_CR, RCC_CR_HSEON);
-    reg_store(RCC_CFGR, 0);
+    (void)to_own_oscillator();
     return BOARD_CLOCK_FALLBACK;
 }
 
@@ -61,27 +63,26 @@ static board_clock set_up(void) {
         return BOARD_CLOCK_GIVEN;
     }
     reg_set(RCC_CR, RCC_CR_HSEON);
-    if (!comes(RCC_CR, RCC_CR_HSERDY, RCC_CR_HSERDY, PATIENTLY)) {
+    if (!stm32f4_comes(RCC_CR, RCC_CR_HSERDY, RCC_CR_HSERDY, PATIENTLY)) {
         return fall_back();
     }
-    reg_set(RCC_APB1ENR, RCC_APB1ENR_PWR);
-    (void)reg_load(RCC_APB1ENR); /* two clocks until it counts (RM0090, 7.3.14) */
+    stm32f4_clock_on(RCC_APB1ENR, RCC_APB1ENR_PWR);
     reg_set(PWR_CR, PWR_CR_VOS);
     reg_store(RCC_PLLCFGR, BOARD_PLL_M | RCC_PLLCFGR_N(BOARD_PLL_N) | RCC_PLLCFGR_P_2 |
                                RCC_PLLCFGR_HSE | RCC_PLLCFGR_Q(7U));
     reg_set(RCC_CR, RCC_CR_PLLON);
-    if (!comes(RCC_CR, RCC_CR_PLLRDY, RCC_CR_PLLRDY, SOON)) {
+    if (!stm32f4_comes(RCC_CR, RCC_CR_PLLRDY, RCC_CR_PLLRDY, SOON)) {
         return fall_back();
     }
     /* five wait states at 168 MHz and 2.7 V (3.5.1), before the core is that fast; no prefetch: revision A has a defect */
     const uint32_t wait_states = 5U;
     reg_store(FLASH_ACR, FLASH_ACR_ICEN | FLASH_ACR_DCEN | wait_states);
-    if (!comes(FLASH_ACR, FLASH_ACR_LATENCY, wait_states, SOON)) {
+    if (!stm32f4_comes(FLASH_ACR, FLASH_ACR_LATENCY, wait_states, SOON)) {
         return fall_back();
     }
     reg_store(RCC_CFGR, RCC_CFGR_PPRE1_4 | RCC_CFGR_PPRE2_2);
     reg_change(RCC_CFGR, RCC_CFGR_SW, RCC_CFGR_SW_PLL);
-    if (!comes(RCC_CFGR, RCC_CFGR_SWS, RCC_CFGR_SWS_PLL, SOON)) {
+    if (!stm32f4_comes(RCC_CFGR, RCC_CFGR_SWS, RCC_CFGR_SWS_PLL, SOON)) {
         return fall_back();
     }
     /* a crystal that stops: the timer's break at once, then the NMI, which is a fault (7.2.7) */
@@ -92,26 +93,17 @@ static board_clock set_up(void) {
 void board_clock_start(void) { board_clock_is = set_up(); }
 
 const stm32f4_clocks *stm32f4_clocks_now(void) {
-    static const stm32f4_clocks crystal = {.core_Hz = PLL_OUT_Hz / 2U,
-                                           .timer1_Hz = PLL_OUT_Hz / 2U,
-                                           .timers_Hz = PLL_OUT_Hz / 4U,
-                                           .usart_Hz = PLL_OUT_Hz / 4U,
-                                           .tolerance_ppm = 100};
-    static const stm32f4_clocks fallback = {.core_Hz = 16000000U,
-                                            .timer1_Hz = 16000000U,
-                                            .timers_Hz = 16000000U,
-                                            .usart_Hz = 16000000U,
-                                            .tolerance_ppm = 10000};
-    /* QEMU's timers count nanoseconds */
-    static const stm32f4_clocks emulated = {.core_Hz = PLL_OUT_Hz / 2U,
-                                            .timer1_Hz = PLL_OUT_Hz / 2U,
-                                            .timers_Hz = 1000000000U,
-                                            .usart_Hz = PLL_OUT_Hz / 4U,
-                                            .tolerance_ppm = 0};
-    switch (board_clock_is) {
-    case BOARD_CLOCK_CRYSTAL: return &crystal;
-    case BOARD_CLOCK_FALLBACK: return &fallback;
-    case BOARD_CLOCK_GIVEN: break;
-    }
-    return &emulated;
+    static const stm32f4_clocks clocks[] = {
+        [BOARD_CLOCK_CRYSTAL] = {.timer1_Hz = PLL_OUT_Hz / 2U,
+                                 .timers_Hz = PLL_OUT_Hz / 4U,
+                                 .usart_Hz = PLL_OUT_Hz / 4U},
+        [BOARD_CLOCK_FALLBACK] = {.timer1_Hz = 16000000U,
+                                  .timers_Hz = 16000000U,
+                                  .usart_Hz = 16000000U},
+        /* QEMU's timers count nanoseconds */
+        [BOARD_CLOCK_GIVEN] = {.timer1_Hz = PLL_OUT_Hz / 2U,
+                               .timers_Hz = 1000000000U,
+                               .usart_Hz = PLL_OUT_Hz / 4U},
+    };
+    return &clocks[board_clock_is];
 }

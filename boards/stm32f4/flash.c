@@ -17,22 +17,20 @@ static uint32_t address_of(unsigned slot, unsigned at) {
     return FIRST_ADDRESS + SECTOR_BYTES * slot + at;
 }
 
-/* No erase takes two seconds, at whatever speed this loop goes round. */
-static bool rests(void) {
-    for (uint32_t i = 0; i < 100000000U; i++) {
-        if ((reg_load(FLASH_SR) & FLASH_SR_BSY) == 0) {
-            return true;
-        }
-    }
-    return false;
+/* What was begun is done, without an error. */
+static bool is_done(void) {
+    return stm32f4_flash_rests() && (reg_load(FLASH_SR) & FLASH_SR_ERRORS) == 0;
 }
 
-static bool is_done(void) { return rests() && (reg_load(FLASH_SR) & FLASH_SR_ERRORS) == 0; }
-
-static void unlock(void) {
+/* Unlocked for these bytes, if there are such, and the flash is at nothing. */
+static bool is_open(unsigned slot, unsigned at, unsigned count) {
+    if (!within(slot, at, count) || !stm32f4_flash_rests()) {
+        return false;
+    }
     reg_store(FLASH_KEYR, FLASH_KEY1);
     reg_store(FLASH_KEYR, FLASH_KEY2);
     reg_store(FLASH_SR, FLASH_SR_ERRORS); /* of before */
+    return true;
 }
 
 /* What the data cache still has of a sector that was erased is wrong (3.5.2). */
@@ -44,11 +42,10 @@ static void forget_cached(void) {
 }
 
 bool hal_settings_erase(unsigned slot) {
-    if (!within(slot, 0, 0) || !rests()) {
+    if (!is_open(slot, 0, 0)) {
         return false;
     }
     const uint32_t order = FLASH_CR_SER | FLASH_CR_SNB(FIRST_SECTOR + slot) | FLASH_CR_PSIZE_32;
-    unlock();
     reg_store(FLASH_CR, order);
     reg_store(FLASH_CR, order | FLASH_CR_STRT);
     const bool done = is_done();
@@ -59,11 +56,10 @@ bool hal_settings_erase(unsigned slot) {
 
 /* Words; the bytes behind the last stay ones. */
 bool hal_settings_write(unsigned slot, unsigned at, const uint8_t *bytes, unsigned count) {
-    if (!within(slot, at, count) || at % 4U != 0 || !rests()) {
+    if (at % 4U != 0 || !is_open(slot, at, count)) {
         return false;
     }
     bool done = true;
-    unlock();
     reg_store(FLASH_CR, FLASH_CR_PG | FLASH_CR_PSIZE_32);
     for (unsigned i = 0; i < count && done; i += 4U) {
         uint32_t word = 0;

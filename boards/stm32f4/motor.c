@@ -14,13 +14,11 @@
 #define TIM1_FUNCTION 1U
 
 static uint32_t whole; /* the compare value that is always on */
-static bool driving;
-static bool cut;
+static bool driving;   /* as far as nothing has cut it */
 
 void stm32f4_motor_start(void) {
     stm32f4_pin_is(BOARD_PIN_ENABLE, PIN_OUTPUT, PULL_NONE, 0); /* low, as a reset leaves it */
-    reg_set(RCC_APB2ENR, RCC_APB2ENR_TIM1);
-    (void)reg_load(RCC_APB2ENR);
+    stm32f4_clock_on(RCC_APB2ENR, RCC_APB2ENR_TIM1);
     reg_set(DBGMCU_APB2_FZ, DBGMCU_APB2_FZ_TIM1);
     whole = stm32f4_clocks_now()->timer1_Hz / PWM_Hz;
     stm32f4_pin_is(BOARD_PIN_BREAK, PIN_ALTERNATE, PULL_DOWN, TIM1_FUNCTION);
@@ -36,13 +34,10 @@ void stm32f4_motor_start(void) {
     reg_store(TIM_CR1(TIM1), TIM_CR1_CEN);
     stm32f4_pin_is(BOARD_PIN_PWM, PIN_ALTERNATE, PULL_DOWN, TIM1_FUNCTION);
     driving = false;
-    cut = false;
 }
 
-static bool is_cut(void) {
-    cut = cut || (driving && (reg_load(TIM_BDTR(TIM1)) & TIM_BDTR_MOE) == 0);
-    return cut;
-}
+/* It stays so: no hardware sets MOE again (AOE is 0). */
+static bool is_cut(void) { return driving && (reg_load(TIM_BDTR(TIM1)) & TIM_BDTR_MOE) == 0; }
 
 /* NaN, and no supply: 0. */
 static uint32_t compare_of(float volts) {
@@ -54,18 +49,16 @@ static uint32_t compare_of(float volts) {
 }
 
 void hal_motor_set_voltage(float volts) {
-    const uint32_t compare = compare_of(volts);
-    if (driving) {
-        if (!is_cut()) {
-            reg_store(TIM_CCR(TIM1, 1U), compare);
-        }
+    if (is_cut()) {
         return;
     }
-    reg_store(TIM_CCR(TIM1, 1U), compare);
-    reg_store(TIM_SR(TIM1), ~TIM_SR_BIF);
-    stm32f4_pin_set(BOARD_PIN_ENABLE, true);
-    reg_store(TIM_BDTR(TIM1), BOARD_MOTOR_BDTR | TIM_BDTR_MOE);
-    driving = true;
+    reg_store(TIM_CCR(TIM1, 1U), compare_of(volts));
+    if (!driving) {
+        reg_store(TIM_SR(TIM1), ~TIM_SR_BIF);
+        stm32f4_pin_set(BOARD_PIN_ENABLE, true);
+        reg_store(TIM_BDTR(TIM1), BOARD_MOTOR_BDTR | TIM_BDTR_MOE);
+        driving = true;
+    }
 }
 
 /* The output first: that store is also a fault's first (BOARD_SAFE_ROWS). */
@@ -73,7 +66,6 @@ void hal_motor_off(hal_motor_off_way way) {
     reg_store(TIM_BDTR(TIM1), BOARD_MOTOR_BDTR);
     stm32f4_pin_set(BOARD_PIN_ENABLE, way == HAL_MOTOR_BRAKE);
     driving = false;
-    cut = false;
 }
 
 unsigned hal_motor_status(void) {

@@ -7,7 +7,6 @@
 #include "stm32f4.h"
 
 static hal_reset cause;
-static bool known;
 static board_fault_record fault;
 
 /* A start sets the flag of its pin, too: the others come first. Where no flag is set, as in an emulator, memory that still
@@ -28,18 +27,16 @@ static hal_reset cause_of(uint32_t flags, bool knows_of_before, bool faulted) {
     return flags == 0 && !knows_of_before ? HAL_RESET_POWER_ON : HAL_RESET_OTHER;
 }
 
-hal_reset hal_reset_cause(void) {
+void stm32f4_reset_start(void) {
     const uint32_t all = RCC_CSR_LPWRRSTF | RCC_CSR_WWDGRSTF | RCC_CSR_IWDGRSTF | RCC_CSR_SFTRSTF |
                          RCC_CSR_PORRSTF | RCC_CSR_PINRSTF | RCC_CSR_BORRSTF;
-    if (!known) {
-        known = true;
-        const bool knows_of_before = board_kept_anything();
-        const bool faulted = board_kept_take_fault(&fault);
-        cause = cause_of(reg_load(RCC_CSR) & all, knows_of_before, faulted);
-        reg_set(RCC_CSR, RCC_CSR_RMVF);
-    }
-    return cause;
+    const bool knows_of_before = board_kept_anything();
+    const bool faulted = board_kept_take_fault(&fault);
+    cause = cause_of(reg_load(RCC_CSR) & all, knows_of_before, faulted);
+    reg_set(RCC_CSR, RCC_CSR_RMVF);
 }
+
+hal_reset hal_reset_cause(void) { return cause; }
 
 board_fault_when board_fault_told(wh_text *text) {
     board_fault_words(text, &fault.facts);

@@ -4,14 +4,12 @@
 #include "hal/slots.h"
 
 #include "boards/board.h"
-#include "pulse_ring.h"
+#include "pulses.h"
 #include "stm32f4.h"
 
 #define EXTI0_IRQ 6U
 #define EXTI1_IRQ 7U
 #define LINES 3U
-
-static pulse_ring ring;
 
 void stm32f4_slots_start(void) {
     reg_set(RCC_APB2ENR, RCC_APB2ENR_SYSCFG);
@@ -32,7 +30,7 @@ static void see(uint8_t sensor) {
         return;
     }
     reg_store(EXTI_PR, 1U << sensor);
-    if (!pulse_ring_put(&ring, ticks, sensor)) {
+    if (!keep_pulse(&(hal_slot_pulse){ticks, sensor})) {
         reg_store(EXTI_IMR, 0);
     }
 }
@@ -41,7 +39,7 @@ void on_exti0(void) { see(0); }
 void on_exti1(void) { see(1); }
 
 bool hal_slots_take(hal_slot_pulse *pulse) {
-    const bool there = pulse_ring_take(&ring, pulse);
+    const bool there = stm32f4_ring_take(&pulses, pulse);
     if (there && reg_load(EXTI_IMR) == 0) {
         reg_store(EXTI_PR, LINES);
         reg_store(EXTI_IMR, LINES);
@@ -49,4 +47,4 @@ bool hal_slots_take(hal_slot_pulse *pulse) {
     return there;
 }
 
-uint32_t hal_slots_overruns(void) { return ring.overruns; }
+uint32_t hal_slots_overruns(void) { return overruns; }

@@ -11,13 +11,17 @@
 
 /* Clocks after board_clock_start(), Hz (RM0090, 7.2, figure 21): timers of a divided bus run at twice its clock. */
 typedef struct stm32f4_clocks {
-    uint32_t core_Hz;
     uint32_t timer1_Hz; /* of TIM1, on APB2 */
     uint32_t timers_Hz; /* of TIM2 and TIM3, on APB1 */
     uint32_t usart_Hz;  /* APB2 */
-    uint32_t tolerance_ppm;
 } stm32f4_clocks;
 const stm32f4_clocks *stm32f4_clocks_now(void);
+
+/* A part's clock on, by its bit of RCC's register `enable`; it counts when this returns (RM0090, 7.3.14; ES0182, 2.1.13). */
+void stm32f4_clock_on(uint32_t enable, uint32_t part);
+
+/* Those bits of `mask` have become `wanted`, within so many looks of some ten cycles each. */
+bool stm32f4_comes(uint32_t address, uint32_t mask, uint32_t wanted, uint32_t looks);
 
 typedef enum stm32f4_pin_mode {
     PIN_INPUT,
@@ -30,9 +34,17 @@ typedef enum stm32f4_pin_pull { PULL_NONE, PULL_UP, PULL_DOWN } stm32f4_pin_pull
 
 /* Also gives its port a clock. `function`: 0 ... 15, of PIN_ALTERNATE. */
 void stm32f4_pin_is(unsigned pin, stm32f4_pin_mode mode, stm32f4_pin_pull pull, unsigned function);
-/* One store each: also from a fault's handler. */
-void stm32f4_pin_set(unsigned pin, bool high);
-bool stm32f4_pin_is_high(unsigned pin);
+/* One store: also from a fault's handler. */
+static inline void stm32f4_pin_set(unsigned pin, bool high) {
+    reg_store(GPIO_BSRR(pin / 16U), 1U << (pin % 16U + (high ? 0U : 16U)));
+}
+static inline bool stm32f4_pin_is_high(unsigned pin) {
+    return (reg_load(GPIO_IDR(pin / 16U)) >> (pin % 16U) & 1U) != 0;
+}
+
+/* From register `first` on there are fields of `bits` bits, none across two registers: the one of this number becomes `value`.
+ */
+void stm32f4_field(uint32_t first, unsigned bits, unsigned number, uint32_t value);
 
 /* Let an interrupt of the chip through. All have one priority: none interrupts another, and a fault interrupts each. */
 void stm32f4_interrupt(unsigned number);
@@ -55,8 +67,14 @@ static inline void stm32f4_go_on(uint32_t before) {
 #endif
 }
 
+/* The flash interface is at nothing. No erase takes two seconds, at whatever speed this loop goes round. */
+static inline bool stm32f4_flash_rests(void) {
+    return stm32f4_comes(FLASH_SR, FLASH_SR_BSY, 0, 100000000U);
+}
+
 /* Parts of the rig's hardware, each started by hal_clock_start() (rig_clock.c). */
 void stm32f4_motor_start(void);
+void stm32f4_reset_start(void);
 void stm32f4_slots_start(void);
 void stm32f4_cell_start(void);
 void stm32f4_brown_out_start(void);

@@ -22,7 +22,7 @@ BOARD_FLASHED_LDFLAGS := $(BOARD_LDFLAGS) $(SMALL_BY_LINK) -fstack-usage -fcallg
 # Semihosting would come into every image with it.
 BOARD_LINK     :=
 BOARD_COMMON   := $(filter-out boards/cortexm/cmsdk.c boards/cortexm/demo.c,$(BOARD_SOURCES)) \
-                  $(addprefix boards/stm32f4/,clock.c pins.c time_base.c usart.c)
+                  $(addprefix boards/stm32f4/,clock.c pins.c ring.c time_base.c usart.c)
 BOARD_SOURCES  := $(BOARD_COMMON) boards/cortexm/demo.c
 BOARD_FLASHED  := $(BOARD_COMMON) boards/cortexm/flashed.c boards/cortexm/kept.c \
                   $(addprefix boards/shared/,remembered.c reset_words.c rig_time.c) \

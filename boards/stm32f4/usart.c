@@ -5,6 +5,7 @@
  * where no interrupt comes of an empty transmitter (QEMU 7.2). */
 #include "boards/board.h"
 
+#include "ring.h"
 #include "stm32f4.h"
 
 #define BAUD 115200U
@@ -16,17 +17,16 @@
 #define IN_BYTES 128U
 #define OUT_BYTES 128U
 
-static volatile char in[IN_BYTES];
-static volatile uint32_t in_head; /* the interrupt's */
-static volatile uint32_t in_tail;
-static volatile char out[OUT_BYTES];
-static volatile uint32_t out_head;
-static volatile uint32_t out_tail; /* the interrupt's, and of who holds it off */
-static volatile bool lost;
+static char in_bytes[IN_BYTES];
+static stm32f4_ring_counts in_counts;
+static const stm32f4_ring in = {&in_counts, in_bytes, IN_BYTES, 1};
+static char out_bytes[OUT_BYTES];
+static stm32f4_ring_counts out_counts; /* taken: the interrupt's, and of who holds it off */
+static const stm32f4_ring out = {&out_counts, out_bytes, OUT_BYTES, 1};
+static bool lost; /* the interrupt's */
 
 void uart_start(void) {
-    reg_set(RCC_APB2ENR, RCC_APB2ENR_USART6);
-    (void)reg_load(RCC_APB2ENR);
+    stm32f4_clock_on(RCC_APB2ENR, RCC_APB2ENR_USART6);
     stm32f4_pin_is(BOARD_PIN_TX, PIN_ALTERNATE, PULL_NONE, USART6_FUNCTION);
     stm32f4_pin_is(BOARD_PIN_RX, PIN_ALTERNATE, PULL_UP, USART6_FUNCTION);
     reg_store(USART_BRR, (stm32f4_clocks_now()->usart_Hz + BAUD / 2U) / BAUD);
@@ -34,21 +34,16 @@ void uart_start(void) {
     stm32f4_interrupt(USART6_IRQ);
 }
 
-/* What waits, as long as the transmitter takes it. */
-static void feed(void) {
-    while (out_tail != out_head && (reg_load(USART_SR) & USART_SR_TXE) != 0) {
-        reg_store(USART_DR, (uint8_t)out[out_tail % OUT_BYTES]);
-        out_tail++;
+/* What waits, as long as the transmitter takes it. True: there is more. */
+static bool feed(void) {
+    uint8_t byte;
+    while ((reg_load(USART_SR) & USART_SR_TXE) != 0) {
+        if (!stm32f4_ring_take(&out, &byte)) {
+            return false;
+        }
+        reg_store(USART_DR, byte);
     }
-}
-
-static void keep(char byte) {
-    if (in_head - in_tail < IN_BYTES) {
-        in[in_head % IN_BYTES] = byte;
-        in_head++;
-    } else {
-        lost = true;
-    }
+    return out_counts.put != out_counts.taken;
 }
 
 /* Reading the status, then the data, clears what both say (30.6.1). Bytes that were overrun, which came behind this one, leave
@@ -61,42 +56,39 @@ static void fetch(void) {
         }
         const char byte = (char)(reg_load(USART_DR) & 0xFFU);
         if (lost) {
-            lost = false;
-            keep('\0');
+            lost = !stm32f4_ring_put(&in, "");
         }
-        if ((status & USART_SR_RXNE) != 0) {
-            keep(byte);
+        if ((status & USART_SR_RXNE) != 0 && !stm32f4_ring_put(&in, &byte)) {
+            lost = true;
         }
-        lost = lost || (status & USART_SR_ORE) != 0;
+        if ((status & USART_SR_ORE) != 0) {
+            lost = true;
+        }
     }
 }
 
 void on_usart6(void) {
     fetch();
-    feed();
-    if (out_tail == out_head) {
+    if (!feed()) {
         reg_clear(USART_CR1, USART_CR1_TXEIE);
     }
 }
 
 unsigned hal_console_read(char *bytes, unsigned room) {
     unsigned count = 0;
-    while (count < room && in_tail != in_head) {
-        bytes[count++] = in[in_tail % IN_BYTES];
-        in_tail++;
+    while (count < room && stm32f4_ring_take(&in, &bytes[count])) {
+        count++;
     }
     return count;
 }
 
 unsigned hal_console_offer(const char *bytes, unsigned count) {
     unsigned taken = 0;
-    while (taken < count && out_head - out_tail < OUT_BYTES) {
-        out[out_head % OUT_BYTES] = bytes[taken++];
-        out_head++;
+    while (taken < count && stm32f4_ring_put(&out, &bytes[taken])) {
+        taken++;
     }
     const uint32_t before = stm32f4_hold();
-    feed();
-    if (out_tail != out_head) {
+    if (feed()) {
         reg_set(USART_CR1, USART_CR1_TXEIE);
     }
     stm32f4_go_on(before);
@@ -105,8 +97,7 @@ unsigned hal_console_offer(const char *bytes, unsigned count) {
 
 /* Ready within a byte's time, 87 us: one that never gets ready is no reason to hang. */
 static void send(char byte) {
-    for (uint32_t i = 0; i < 100000U && (reg_load(USART_SR) & USART_SR_TXE) == 0; i++) {
-    }
+    (void)stm32f4_comes(USART_SR, USART_SR_TXE, USART_SR_TXE, 100000U);
     reg_store(USART_DR, (uint8_t)byte);
 }
 
@@ -115,11 +106,15 @@ void uart_write(const char *bytes, unsigned count) {
         uart_start();
     }
     const uint32_t before = stm32f4_hold();
-    for (; out_tail != out_head; out_tail++) { /* what was offered before comes before */
-        send(out[out_tail % OUT_BYTES]);
-    }
-    for (unsigned i = 0; i < count; i++) {
-        send(bytes[i]);
+    for (;;) {
+        char byte;
+        if (!stm32f4_ring_take(&out, &byte)) { /* what was offered before comes before */
+            if (count-- == 0) {
+                break;
+            }
+            byte = *bytes++;
+        }
+        send(byte);
     }
     stm32f4_go_on(before);
 }

@@ -33,8 +33,7 @@ void hal_watchdog_start(uint32_t timeout_ticks) {
     reg_store(IWDG_PR, divider);
     reg_store(IWDG_RLR, counts < LONGEST ? counts : LONGEST);
     /* both values take five of its clocks, 300 us at most, to get there (21.4.4) */
-    for (uint32_t i = 0; i < 100000U && reg_load(IWDG_SR) != 0; i++) {
-    }
+    (void)stm32f4_comes(IWDG_SR, UINT32_MAX, 0, 100000U);
     reg_store(IWDG_KR, IWDG_KR_RELOAD);
 }
 
