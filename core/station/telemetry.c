@@ -35,6 +35,14 @@ static uint16_t in_16(wh_real number) {
     return number < WH_R(65534.0) ? (uint16_t)up : 65534U;
 }
 
+unsigned wh_tel_shift(const wh_cell_config *cell) {
+    unsigned shift = 0;
+    while (cell->raw_max >> shift > 32767) {
+        shift++;
+    }
+    return shift;
+}
+
 static int16_t load_of(const wh_cell_config *cell, int32_t raw, wh_load_status status) {
     if (status == WH_LOAD_SATURATED || status == WH_LOAD_DISCONNECTED) {
         return WH_TEL_NO_LOAD;
@@ -131,22 +139,20 @@ static void send_event(sight *s, wh_tel_event what, unsigned value, uint32_t tic
 static void send_ring(sight *s) {
     wh_tel *tel = s->tel;
     const wh_capture *capture = &tel->capture;
+    const wh_captured *step = wh_capture_at(capture, tel->read_at);
     if (!has_room(s->out, s->kept, WH_TEL_PAYLOAD_MOST)) {
         return;
     }
+    tel->read_ticks += (uint16_t)(step->ticks - tel->read_ticks);
     begin_frame(s, WH_TEL_RING, tel->read_ticks);
     for (unsigned i = 0; i < WH_TEL_SAMPLES && tel->read_at < capture->count; i++) {
-        const wh_captured *step = wh_capture_at(capture, tel->read_at);
+        step = wh_capture_at(capture, tel->read_at++);
+        tel->read_ticks += (uint16_t)(step->ticks - tel->read_ticks);
         add(s, step->ticks, 2);
         add(s, (uint16_t)step->load, 2);
         add(s, step->drive_mV, 2);
         add(s, step->flags, 1);
         add(s, step->stage, 1);
-        tel->read_at++;
-        if (tel->read_at < capture->count) {
-            tel->read_ticks +=
-                (uint16_t)(wh_capture_at(capture, tel->read_at)->ticks - step->ticks);
-        }
     }
     (void)send_frame(s, WH_TEL_RING);
     tel->reads = tel->read_at < capture->count;
@@ -229,16 +235,18 @@ static void take_events(sight *s) {
 
 static void capture_step(sight *s) {
     const wh_seen *seen = s->seen;
-    const wh_seen_sample *last = &seen->sample[seen->samples - 1U];
+    int16_t load = WH_TEL_NO_LOAD;
+    if (seen->samples > 0) {
+        const wh_seen_sample *last = &seen->sample[seen->samples - 1U];
+        load = load_of(&s->config->measure.cell, last->raw, last->status);
+    }
     const unsigned pulse = seen->pulsed ? 1U << (seen->sensor & 1U) : 0U;
     const unsigned tripped = s->rig->guard.trip != WH_TRIP_NONE ? 8U : 0U;
-    const wh_captured step = {
-        .ticks = (uint16_t)seen->inputs.now_ticks,
-        .load = seen->samples > 0 ? load_of(&s->config->measure.cell, last->raw, last->status)
-                                  : (int16_t)WH_TEL_NO_LOAD,
-        .drive_mV = drive_mV(s->rig),
-        .flags = (uint8_t)(pulse | tripped),
-        .stage = (uint8_t)s->stage};
+    const wh_captured step = {.ticks = (uint16_t)seen->inputs.now_ticks,
+                              .load = load,
+                              .drive_mV = drive_mV(s->rig),
+                              .flags = (uint8_t)(pulse | tripped),
+                              .stage = (uint8_t)s->stage};
     wh_capture_step(&s->tel->capture, &step, seen->inputs.now_ticks);
 }
 
