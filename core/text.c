@@ -1,14 +1,16 @@
 /* text.c: numbers as text, exactly and without the C library. */
 #include "text.h"
 
+#include <stddef.h>
+
 #include "flash.h"
 
-/* Sixteen bits a limb, low limb first: quotient and remainder by ten then need no more than a
- * 32-bit division, which every machine has or gets cheaply. */
-#define WHOLE_LIMBS 8U     /* 2^128: above every float */
-#define FRACTION_LIMBS 10U /* 2^-160: below every float's last bit (2^-149) */
-#define LIMBS (FRACTION_LIMBS + WHOLE_LIMBS)
-#define WHOLE_DIGITS 39U /* of 2^128 */
+/* A number is bytes, low byte first, with the point between two of them: sums, products and quotients by ten then need no more
+ * than 16 bits, which every machine has or gets cheaply. */
+#define FRACTION_BYTES 20U /* 2^-160: below every float's last bit (2^-149) */
+#define WHOLE_BYTES 16U    /* 2^128: above every float */
+#define BYTES (FRACTION_BYTES + WHOLE_BYTES + 8U) /* times 10^18 */
+#define DIGITS (39U + WH_TEXT_DECIMALS_MAX)       /* of 2^128, and decimals */
 
 void wh_text_start(wh_text *text, char *bytes, unsigned size) {
     text->bytes = bytes;
@@ -33,68 +35,52 @@ void wh_text_add(wh_text *text, const char *string) {
     }
 }
 
-static bool all_zero(const uint16_t *limb, unsigned limbs) {
-    uint16_t any = 0;
-    for (unsigned i = 0; i < limbs; i++) {
-        any |= limb[i];
-    }
-    return any == 0;
-}
-
-/* limb[] / 10 in place; returns the remainder. */
-static unsigned divide_by_ten(uint16_t *limb, unsigned limbs) {
-    uint32_t rest = 0;
-    if (limbs ==
-        1U) { /* as most numbers are at last; a processor of 8 bits divides 16 in a third of the time */
-        const uint16_t value = limb[0];
-        limb[0] = (uint16_t)(value / 10U);
-        return value % 10U;
-    }
-    for (unsigned i = limbs; i-- > 0;) {
-        const uint32_t value = (rest << 16) | limb[i];
-        limb[i] = (uint16_t)(value / 10U);
+/* byte[count] / 10 in place; returns the remainder. */
+static unsigned divide_by_ten(uint8_t *byte, unsigned count) {
+    unsigned rest = 0;
+    while (count-- > 0) {
+        const unsigned value = rest << 8 | byte[count];
+        byte[count] = (uint8_t)(value / 10U);
         rest = value % 10U;
     }
-    return (unsigned)rest;
+    return rest;
 }
 
-/* limb[] * 10 in place; returns what overflows at the top, 0 to 9. */
-static unsigned multiply_by_ten(uint16_t *limb, unsigned limbs) {
-    uint32_t carry = 0;
-    for (unsigned i = 0; i < limbs; i++) {
-        const uint32_t value = limb[i] * UINT32_C(10) + carry;
-        limb[i] = (uint16_t)value;
-        carry = value >> 16;
-    }
-    return (unsigned)carry;
-}
-
-/* Digits of limb[] into digit[WHOLE_DIGITS], lowest first, destroying limb[]; at least one. */
-static unsigned digits_of(uint16_t *limb, unsigned limbs, uint8_t *digit) {
-    unsigned count = 0;
-    do {
-        while (limbs > 1U && limb[limbs - 1U] == 0) {
-            limbs--;
+/* The whole number byte[count] over 10^decimals, destroying it. */
+static void add_digits(wh_text *text, uint8_t *byte, unsigned count, unsigned decimals,
+                       bool negative) {
+    char digit[DIGITS]; /* lowest first */
+    unsigned digits = 0;
+    bool any = false;
+    for (;;) {
+        while (count > 0 && byte[count - 1U] == 0) {
+            count--;
         }
-        digit[count++] = (uint8_t)divide_by_ten(limb, limbs);
-    } while (limbs > 1U || limb[0] != 0);
-    return count;
-}
-
-static void add_digits(wh_text *text, const uint8_t *digit, unsigned count) {
-    while (count > 0) {
-        wh_text_add_char(text, (char)('0' + digit[--count]));
+        if (count == 0 && digits > decimals) {
+            break;
+        }
+        const unsigned next = divide_by_ten(byte, count);
+        digit[digits++] = (char)('0' + next);
+        any = any || next > 0;
+    }
+    if (negative && any) {
+        wh_text_add_char(text, '-');
+    }
+    while (digits-- > 0) {
+        wh_text_add_char(text, digit[digits]);
+        if (digits == decimals && digits > 0) {
+            wh_text_add_char(text, '.');
+        }
     }
 }
 
 void wh_text_add_unsigned(wh_text *text, uint64_t value) {
-    uint16_t limb[4];
-    uint8_t digit[WHOLE_DIGITS] = {0};
-    for (unsigned i = 0; i < 4; i++) {
-        limb[i] = (uint16_t)value;
-        value >>= 16;
+    uint8_t byte[sizeof value];
+    for (unsigned i = 0; i < sizeof value; i++) {
+        byte[i] = (uint8_t)value;
+        value >>= 8;
     }
-    add_digits(text, digit, digits_of(limb, 4, digit));
+    add_digits(text, byte, sizeof byte, 0, false);
 }
 
 void wh_text_add_signed(wh_text *text, int64_t value) {
@@ -148,92 +134,62 @@ static parts parts_of(wh_real value) {
     return result;
 }
 
-/* Digits after the point into digit[0..decimals), lowest first, destroying fraction[]. Returns
- * whether the magnitude must be rounded up; `odd_whole` settles a tie when decimals is 0. */
-static bool fraction_digits(uint16_t *fraction, unsigned decimals, bool odd_whole, uint8_t *digit) {
-    bool odd = odd_whole;
-    unsigned zeros = 0; /* at the low end they stay */
-    for (unsigned i = decimals; i-- > 0;) {
-        while (zeros < FRACTION_LIMBS && fraction[zeros] == 0) {
-            zeros++;
-        }
-        digit[i] = (uint8_t)multiply_by_ten(fraction + zeros, FRACTION_LIMBS - zeros);
-        odd = (digit[i] & 1U) != 0;
+/* byte[BYTES] * 10 in place. */
+static void multiply_by_ten(uint8_t *byte) {
+    unsigned carry = 0;
+    for (unsigned i = 0; i < BYTES; i++) {
+        carry += byte[i] * 10U;
+        byte[i] = (uint8_t)carry;
+        carry >>= 8;
     }
-    const uint16_t top = fraction[FRACTION_LIMBS - 1U];
-    if (top != 0x8000U) {
-        return top > 0x8000U;
-    }
-    return odd || !all_zero(fraction, FRACTION_LIMBS - 1U);
 }
 
-#if WH_DOUBLE
-typedef uint64_t mantissa_bits;
-#else
-typedef uint32_t mantissa_bits;
-#endif
+/* To the next whole number, of two as near to the even one: half is added, and something less than half where it is even. */
+static void round_to_whole(uint8_t *byte) {
+    unsigned carry = byte[FRACTION_BYTES] & 1U;
+    for (unsigned i = 0; i < BYTES; i++) {
+        carry += byte[i] + (i < FRACTION_BYTES - 1U ? 0xFFU : i < FRACTION_BYTES ? 0x7FU : 0U);
+        byte[i] = (uint8_t)carry;
+        carry >>= 8;
+    }
+}
 
-/* The mantissa's bits into one long fixed-point number, zero so far: fraction limbs, then whole limbs. False: it is longer.
+/* The mantissa's bits into byte[BYTES], all zeros so far. False: it is longer than WHOLE_BYTES have room for, as doubles may be.
  * Bits below 2^-160 belong to doubles below 2^-107: far from any tie at 18 decimals. */
-static bool lay(const parts *number, uint16_t *limb) {
-    int place = number->exponent + 16 * (int)FRACTION_LIMBS;
-    for (mantissa_bits bits = (mantissa_bits)number->mantissa; bits != 0; bits >>= 1, place++) {
-        if ((bits & 1U) == 0 || place < 0) {
-            continue;
-        }
-        if (place >= 16 * (int)LIMBS) {
+static bool lay(const parts *number, uint8_t *byte) {
+    const int place = number->exponent + 8 * (int)FRACTION_BYTES;
+    const int odd = place & 7;
+    int at = (place - odd) / 8;
+    for (real_bits bits = number->mantissa << odd; bits != 0; bits >>= 8, at++) {
+        if (WH_DOUBLE && at >= (int)(FRACTION_BYTES + WHOLE_BYTES)) {
             return false;
         }
-        limb[place / 16] = (uint16_t)(limb[place / 16] | (1U << (place % 16)));
+        if (!WH_DOUBLE || at >= 0) {
+            byte[at] = (uint8_t)bits;
+        }
     }
     return true;
 }
 
 void wh_text_add_fixed(wh_text *text, wh_real value, unsigned decimals) {
     const parts number = parts_of(value);
-    if (number.special && number.mantissa != 0) {
-        wh_text_add(text, "nan");
-        return;
-    }
+    uint8_t byte[BYTES] = {0};
+    const char *words = NULL;
     if (number.special) {
-        wh_text_add(text, number.negative ? "-inf" : "inf");
+        words = number.mantissa != 0 ? "nan" : number.negative ? "-inf" : "inf";
+    } else if (!lay(&number, byte)) {
+        words = number.negative ? "-huge" : "huge";
+    }
+    if (words != NULL) {
+        wh_text_add(text, words);
         return;
     }
     if (decimals > WH_TEXT_DECIMALS_MAX) {
         decimals = WH_TEXT_DECIMALS_MAX;
     }
-
-    uint16_t limb[LIMBS] = {0};
-    if (!lay(&number, limb)) {
-        wh_text_add(text, number.negative ? "-huge" : "huge");
-        return;
+    for (unsigned i = 0; i < decimals; i++) {
+        multiply_by_ten(byte);
     }
-
-    uint8_t digit[WH_TEXT_DECIMALS_MAX + WHOLE_DIGITS] = {0};
-    uint16_t *whole = limb + FRACTION_LIMBS;
-    const bool up = fraction_digits(limb, decimals, (whole[0] & 1U) != 0, digit);
-    unsigned count = decimals + digits_of(whole, WHOLE_LIMBS, digit + decimals);
-    if (up) {
-        unsigned i = 0;
-        while (i < count && digit[i] == 9) {
-            digit[i++] = 0;
-        }
-        if (i == count) {
-            digit[count++] = 1; /* 99.9 became 100.0: the digits had room, 2^128 begins with a 3 */
-        } else {
-            digit[i]++;
-        }
-    }
-    unsigned zeros = 0;
-    while (zeros < count && digit[zeros] == 0) {
-        zeros++;
-    }
-    if (number.negative && zeros < count) {
-        wh_text_add_char(text, '-');
-    }
-    add_digits(text, digit + decimals, count - decimals);
-    if (decimals > 0) {
-        wh_text_add_char(text, '.');
-        add_digits(text, digit, decimals);
-    }
+    round_to_whole(byte);
+    add_digits(text, byte + FRACTION_BYTES, BYTES - FRACTION_BYTES, decimals, number.negative);
 }

@@ -47,12 +47,12 @@ static void tell_reset(void) {
     char words[200];
     if (hal_reset_cause() != HAL_RESET_POWER_ON) {
         const unsigned count = hal_reset_words(words, sizeof words);
-        put("\r\n# reset: "); /* whatever line was under way has ended */
+        put("\r\n" WH_WORDS("# reset: ")); /* whatever line was under way has ended */
         hal_console_write(words, count);
         put("\r\n");
     }
     if (hal_clock_source_now() == HAL_CLOCK_FALLBACK) {
-        put("# the crystal does not answer: no run until it does\r\n");
+        put(WH_WORDS("# the crystal does not answer: no run until it does") "\r\n");
     }
 }
 
@@ -82,7 +82,7 @@ int main(void) {
     }
     const char *why = why_not_started();
     if (why != NULL) {
-        put("NOT STARTED: ");
+        put(WH_WORDS("NOT STARTED: "));
         put(why);
         put("\r\n");
         board_exit(2);

@@ -1,6 +1,8 @@
 /* answer.c: how the console's answers are put together. */
 #include "answer.h"
 
+#include <stddef.h>
+
 /* --- answers ----------------------------------------------------------------------------------------- */
 
 /* A blank as `blank`; what has no blanks may be of a list. */
@@ -62,13 +64,12 @@ unsigned wh_list_find(const char *list, const char *word) {
     wh_words_begin(&from, list);
     unsigned number = 0;
     for (char next = wh_words_read(&from); next == part; number++) {
-        const char *at = word;
-        bool same = true;
+        const char *at = word; /* as far as it is the same; or NULL */
         for (next = wh_words_read(&from); next >= ' ' && next != part;
              next = wh_words_read(&from)) {
-            same = same && next == wh_word_at(at++);
+            at = at != NULL && wh_word_at(at) == next ? at + 1 : NULL;
         }
-        if (same && wh_word_at(at) == '\0') {
+        if (at != NULL && wh_word_at(at) == '\0') {
             break;
         }
     }

@@ -109,10 +109,8 @@ static void put(wh_rig_config *c, wh_conf_id id, wh_real value) {
 
 /* --- into the rig's configuration --------------------------------------------------------------------- */
 
-static bool same(wh_real one, wh_real other) { return one >= other && one <= other; }
-
 static bool is_set(const wh_conf *conf, wh_conf_id id) {
-    return !same(conf->value[id], conf->standard[id]);
+    return conf->value[id] != conf->standard[id];
 }
 
 /* What gravity and the masses' force do elsewhere, in proportion: docs/rig.md has the reasons. */
@@ -179,7 +177,7 @@ static wh_station_error fits(wh_conf_id id, wh_real value) {
     const wh_conf_row *row = ROW(id);
     const wh_real kept = as_kept(value);
     if (!(kept >= as_kept(row->least)) || !(kept <= as_kept(row->most)) ||
-        ((wh_conf_kind)row->kind != WH_CONF_REAL && !same(value, (wh_real)(int32_t)value))) {
+        ((wh_conf_kind)row->kind != WH_CONF_REAL && value != (wh_real)(int32_t)value)) {
         return WH_STATION_CONF_RANGE;
     }
     return is_absent(id, value) ? WH_STATION_NOT_HERE : WH_STATION_FINE;

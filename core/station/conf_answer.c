@@ -28,12 +28,15 @@ static wh_station_error list(const wh_conf *conf, const wh_words *words, wh_text
     if (words->count > 3U) {
         return WH_STATION_WORDS;
     }
-    if (words->count > 2U && (!wh_line_number(words->word[2], &from) || !(from >= WH_R(0.0)) ||
-                              !(from < (wh_real)WH_CONF_COUNT))) {
+    if (words->count > 2U && !wh_line_number(words->word[2], &from)) {
+        return WH_STATION_CONF_NONE;
+    }
+    uint32_t id = (uint32_t)(int32_t)from; /* which has nine digits at most */
+    if (id >= WH_CONF_COUNT) {
         return WH_STATION_CONF_NONE;
     }
     wh_answer(answer, WH_WORDS(" settings=@c"), settings);
-    for (unsigned id = (unsigned)from; id < WH_CONF_COUNT; id++) {
+    for (; id < WH_CONF_COUNT; id++) {
         const wh_text before = *answer;
         add_setting(answer, conf, (wh_conf_id)id);
         if (answer->truncated || answer->length + LIST_TAIL > answer->size) {

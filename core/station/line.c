@@ -66,23 +66,25 @@ wh_line_event wh_line_take(wh_line *line, char character) {
 
 static bool is_blank(char character) { return character == ' ' || character == TAB; }
 
-wh_words wh_line_split(char *text) {
+void wh_line_split(wh_words *words, char *text) {
     static const char none[] = ""; /* in memory, as what is typed */
-    wh_words words = {.word = {none, none, none, none}};
     bool within = false;
-    for (char *at = text; *at != '\0'; at++) {
-        const bool blank = is_blank(*at);
+    for (unsigned i = 0; i < WH_LINE_WORDS; i++) {
+        words->word[i] = none;
+    }
+    words->count = 0;
+    for (; *text != '\0'; text++) {
+        const bool blank = is_blank(*text);
         if (blank) {
-            *at = '\0';
+            *text = '\0';
         } else if (!within) {
-            if (words.count < WH_LINE_WORDS) {
-                words.word[words.count] = at;
+            if (words->count < WH_LINE_WORDS) {
+                words->word[words->count] = text;
             }
-            words.count++;
+            words->count++;
         }
         within = !blank;
     }
-    return words;
 }
 
 bool wh_line_number(const char *word, wh_real *number) {

@@ -20,12 +20,12 @@ typedef enum wh_line_event {
 
 /* All zeros: nothing typed. */
 typedef struct wh_line {
-    char text[WH_LINE_MOST + 1U];
-    unsigned length;
     bool ended;    /* the next byte begins anew */
     bool returned; /* after a carriage return, whose line feed is no line */
     bool bad;
     uint8_t key; /* within what a key beyond the letters sends, which begins with Escape */
+    unsigned length;
+    char text[WH_LINE_MOST + 1U];
 } wh_line;
 
 typedef struct wh_words {
@@ -41,7 +41,7 @@ typedef struct wh_words {
 wh_line_event wh_line_take(wh_line *line, char byte);
 
 /* Words are parted by blanks and tabulators. Writes ends of words into the text. */
-wh_words wh_line_split(char *text);
+void wh_line_split(wh_words *words, char *text);
 
 /* "330", "-3.5", ".5": a sign, digits, a point, digits; nine of them at most. False when it is anything else. */
 bool wh_line_number(const char *word, wh_real *number);

@@ -21,32 +21,16 @@ static inline uint32_t wh_ring_room(const wh_ring *ring) {
     return ring->size - wh_ring_waiting(ring);
 }
 
+#define wh_ring_put WH_NAME(wh_ring_put)
+#define wh_ring_peek WH_NAME(wh_ring_peek)
+#define wh_ring_drop WH_NAME(wh_ring_drop)
+
 /* All of them, or none: what is half a line helps nobody. */
-static inline bool wh_ring_put(wh_ring *ring, const char *bytes, uint32_t count) {
-    if (count > wh_ring_room(ring)) {
-        return false;
-    }
-    for (uint32_t i = 0; i < count; i++) {
-        ring->bytes[(ring->put + i) & (ring->size - 1U)] = wh_word_at(&bytes[i]);
-    }
-    ring->put += count;
-    return true;
-}
+bool wh_ring_put(wh_ring *ring, const char *bytes, uint32_t count);
 
 /* The oldest, `room` at most; returns how many. They stay until wh_ring_drop(). */
-static inline uint32_t wh_ring_peek(const wh_ring *ring, char *bytes, uint32_t room) {
-    const uint32_t waiting = wh_ring_waiting(ring);
-    const uint32_t count = waiting < room ? waiting : room;
-    for (uint32_t i = 0; i < count; i++) {
-        bytes[i] = ring->bytes[(ring->taken + i) & (ring->size - 1U)];
-    }
-    return count;
-}
-
-static inline void wh_ring_drop(wh_ring *ring, uint32_t count) {
-    const uint32_t waiting = wh_ring_waiting(ring);
-    ring->taken += count < waiting ? count : waiting;
-}
+uint32_t wh_ring_peek(const wh_ring *ring, char *bytes, uint32_t room);
+void wh_ring_drop(wh_ring *ring, uint32_t count);
 
 #ifdef __cplusplus
 }

@@ -35,7 +35,8 @@ void wh_selftest_answer(const wh_rig_config *config, const wh_rig *rig, const wh
                               [ROTOR] = rig->guard.quiet,
                               [SWING] = !swings || WH_ABS(swung->place_rad[0]) <=
                                                        config->swing.off_rad + swung->half_rad[0]};
-    wh_value value[1U + PARTS] = {{.word = "good"}}; /* the first is of all */
+    wh_value value[1U + PARTS]; /* the first is of all */
+    value[0].word = "good";
     for (unsigned i = 0; i < PARTS; i++) {
         value[1U + i].word = good[i] ? "good" : "bad";
         if (!good[i]) {

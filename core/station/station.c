@@ -17,6 +17,7 @@
 typedef struct request {
     wh_station *station;
     wh_rig *rig;
+    unsigned stage; /* where that is */
     wh_words words;
     wh_text answer; /* "OK" at first */
     char bytes[ANSWER_BYTES];
@@ -24,16 +25,15 @@ typedef struct request {
 
 /* --- lines out ------------------------------------------------------------------------------------ */
 
-static void send(wh_station *station, wh_text *text) {
+/* What the answer has goes out, and it is empty again. */
+static void send(request *r) {
+    wh_text *text = &r->answer;
     wh_text_add(text, "\r\n");
-    if (text->truncated || !wh_ring_put(&station->out, text->bytes, text->length)) {
-        station->lost_answers++;
+    if (text->truncated || !wh_ring_put(&r->station->out, text->bytes, text->length)) {
+        r->station->lost_answers++;
     }
-}
-
-static void begin(request *r, const char *with) {
-    wh_text_start(&r->answer, r->bytes, sizeof r->bytes);
-    wh_text_add(&r->answer, with);
+    text->length = 0;
+    text->truncated = false;
 }
 
 /* `why`: 0, or a wh_refusal or wh_station_error. */
@@ -41,7 +41,7 @@ static void send_answer(request *r, unsigned why) {
     if (why != 0) {
         wh_answer_refused(&r->answer, why);
     }
-    send(r->station, &r->answer);
+    send(r);
 }
 
 /* --- what it can be asked -------------------------------------------------------------------------- */
@@ -81,7 +81,7 @@ static unsigned do_status(request *r) {
     const bool known = rig->pulses.speed.known;
     const bool rests = rig->guard.quiet && !wh_run_drives(&rig->run);
     const wh_value state[] = {
-        {.word = wh_rig_stage_text(wh_rig_stage(rig))},
+        {.word = wh_rig_stage_text(r->stage)},
         {.number = known ? rig->pulses.speed.turn_radps * RPM_PER_RADPS : WH_R(0.0)}};
     const wh_value value[] = {
         {.number =
@@ -168,7 +168,7 @@ static unsigned do_selftest(request *r) {
     if (r->rig->state != WH_LIFE_IDLE) {
         return WH_STATION_BUSY;
     }
-    wh_selftest_answer(r->station->config, r->rig, &r->station->seen, &r->answer);
+    wh_selftest_answer(r->station->config, r->rig, r->station->seen, &r->answer);
     return 0;
 }
 
@@ -188,7 +188,7 @@ static unsigned do_talk(request *r) {
         return WH_STATION_ON_OFF;
     }
     r->station->talks = on != 0;
-    r->station->stage = wh_rig_stage(r->rig);
+    r->station->stage = r->stage;
     return 0;
 }
 
@@ -242,28 +242,23 @@ static unsigned do_help(request *r) {
 
 /* --- lines in ------------------------------------------------------------------------------------- */
 
-static void echo(wh_station *station, char byte, unsigned before) {
-    if (byte == '\r' || byte == '\n') {
-        (void)wh_ring_put(&station->out, "\r\n", 2);
-    } else if (station->line.length < before) {
-        (void)wh_ring_put(&station->out, "\b \b", 3);
-    } else if (station->line.length > before) {
-        (void)wh_ring_put(&station->out, &byte, 1);
-    }
-}
+static unsigned typed(const wh_line *line) { return line->ended ? 0 : line->length; }
 
 /* The next line of what came, as far as it has come. */
 static wh_line_event next_line(wh_station *station) {
     char byte;
     while (wh_ring_peek(&station->in, &byte, 1) == 1U) {
         wh_ring_drop(&station->in, 1);
-        const unsigned before = station->line.ended ? 0 : station->line.length;
-        const bool pair = station->line.returned && byte == '\n';
+        const unsigned before = typed(&station->line);
         const wh_line_event event = wh_line_take(&station->line, byte);
-        if (station->talks && !pair) {
-            echo(station, byte, before);
+        const bool ends = event == WH_LINE_WHOLE || event == WH_LINE_BAD;
+        const unsigned now = typed(&station->line);
+        if (station->talks && (ends || now != before)) {
+            const char *back = ends ? "\r\n" : "\b \b";
+            const char *echo = ends || now < before ? back : &byte;
+            (void)wh_ring_put(&station->out, echo, ends ? 2U : now < before ? 3U : 1U);
         }
-        if (event == WH_LINE_WHOLE || event == WH_LINE_BAD) {
+        if (ends) {
             return event;
         }
     }
@@ -272,29 +267,23 @@ static wh_line_event next_line(wh_station *station) {
 
 static void tell_stage(request *r) {
     const wh_trip trip = r->rig->guard.trip;
-    const wh_value value[] = {{.word = wh_rig_stage_text(wh_rig_stage(r->rig))},
-                              {.word = wh_trip_text(trip)}};
-    r->station->stage = wh_rig_stage(r->rig);
-    begin(r, "# ");
-    wh_answer(&r->answer, trip != WH_TRIP_NONE ? WH_WORDS("@s: @s") : WH_WORDS("@s"), value);
-    send(r->station, &r->answer);
+    const wh_value value[] = {{.word = wh_rig_stage_text(r->stage)}, {.word = wh_trip_text(trip)}};
+    r->station->stage = r->stage;
+    wh_answer(&r->answer, trip != WH_TRIP_NONE ? WH_WORDS("# @s: @s") : WH_WORDS("# @s"), value);
+    send(r);
 }
 
 /* Whether just now whoever gives the orders has been silent for too long: the rig is told, once. */
 static bool host_is_lost(wh_station *station, wh_rig *rig) {
-    if (station->host_steps == 0 || station->silent_steps > station->host_steps) {
+    if (station->host_steps == 0 || station->silent_steps > station->host_steps ||
+        (station->silent_steps == station->host_steps &&
+         !wh_rig_post(rig, WH_EVENT_HOST_LOST, WH_R(0.0)))) { /* no room: in the next step */
         return false;
     }
     station->silent_steps++;
-    if (station->silent_steps <= station->host_steps) {
-        return false;
-    }
-    if (!wh_rig_post(rig, WH_EVENT_HOST_LOST, WH_R(0.0))) {
-        station->silent_steps--; /* no room: in the next step */
-        return false;
-    }
-    station->host_losses++;
-    return true;
+    const bool lost = station->silent_steps > station->host_steps;
+    station->host_losses += lost ? 1U : 0U;
+    return lost;
 }
 
 void wh_station_start(wh_station *station, const char *program, const char *board,
@@ -306,7 +295,7 @@ void wh_station_start(wh_station *station, const char *program, const char *boar
 
 void wh_station_see(wh_station *station, const wh_rig_config *config, const wh_rig *rig,
                     const wh_seen *seen) {
-    station->seen = *seen;
+    station->seen = seen;
     station->config = config;
     if (WH_STATION_TELEMETRY && station->tel != NULL) {
         wh_tel_step(station->tel, config, rig, seen, &station->out, WH_STATION_KEPT_BYTES);
@@ -337,9 +326,9 @@ void wh_station_take(wh_station *station, const char *bytes, unsigned count) {
 }
 
 static void answer_order(request *r) {
+    const wh_value value[] = {{.word = wh_rig_event_text(r->rig->asked)}};
     r->station->waits = false;
-    begin(r, "OK ");
-    wh_text_add(&r->answer, wh_rig_event_text(r->rig->asked));
+    wh_answer(&r->answer, WH_WORDS("OK @s"), value);
     send_answer(r, r->rig->answer);
 }
 
@@ -348,7 +337,9 @@ void wh_station_step(wh_station *station, wh_rig *rig) {
     unsigned why;
     r.station = station;
     r.rig = rig;
-    if (station->talks && station->stage != wh_rig_stage(rig)) {
+    r.stage = wh_rig_stage(rig);
+    wh_text_start(&r.answer, r.bytes, sizeof r.bytes);
+    if (station->talks && station->stage != r.stage) {
         tell_stage(&r);
     }
     if (station->waits && rig->answers != station->answers) {
@@ -357,7 +348,7 @@ void wh_station_step(wh_station *station, wh_rig *rig) {
     if (station->waits || host_is_lost(station, rig)) {
         return; /* an order's answer is the next one, as no two are in the queue */
     }
-    begin(&r, "OK");
+    wh_text_add(&r.answer, "OK");
     if (station->escaped) {
         station->escaped = false;
         why = order(&r, WH_EVENT_STOP, WH_R(0.0));
@@ -366,7 +357,7 @@ void wh_station_step(wh_station *station, wh_rig *rig) {
         if (event == WH_LINE_NOTHING) {
             return;
         }
-        r.words = wh_line_split(station->line.text);
+        wh_line_split(&r.words, station->line.text);
         if (event == WH_LINE_WHOLE && r.words.count == 0) {
             return; /* nothing was asked */
         }

@@ -71,30 +71,30 @@ extern "C" {
 #endif
 #define WH_STATION_KEPT_BYTES (WH_STATION_OUT_BYTES / 2U)
 
-/* It must not be moved once it is started. */
+/* It must not be moved once it is started. What is large comes last: what is near has shorter instructions. */
 typedef struct wh_station {
+    bool talks;
+    bool escaped;        /* stop, before anything else */
+    bool spoils;         /* bytes were lost, and so is the line to its end */
+    bool waits;          /* for what becomes of an order */
+    uint32_t answers;    /* rig->answers when it was given */
     const char *program; /* the caller's, */
     const char *board;
     wh_conf *conf;               /* NULL: there are no settings */
     wh_tel *tel;                 /* NULL: there is no telemetry */
     wh_tape *tape;               /* NULL: and no tape (tape_out.h) */
     const wh_rig_config *config; /* in the last step, */
-    wh_seen seen;                /* and what that saw */
+    const wh_seen *seen;         /* and what that saw */
+    uint32_t steps_per_s;        /* of wh_station_step(): the caller's, too */
+    unsigned stage;              /* as last told */
+    uint32_t lost_bytes;         /* that came while there was no room, */
+    uint32_t lost_answers;       /* and answers that had none */
+    uint32_t host_steps;         /* so many without a byte, and the host is lost; 0: never */
+    uint32_t silent_steps;
+    uint32_t host_losses;
     wh_ring in;
     wh_ring out;
     wh_line line;
-    uint32_t steps_per_s; /* of wh_station_step(): the caller's, too */
-    bool talks;
-    bool escaped;          /* stop, before anything else */
-    bool spoils;           /* bytes were lost, and so is the line to its end */
-    bool waits;            /* for what becomes of an order */
-    uint32_t answers;      /* rig->answers when it was given */
-    unsigned stage;        /* as last told */
-    uint32_t lost_bytes;   /* that came while there was no room, */
-    uint32_t lost_answers; /* and answers that had none */
-    uint32_t host_steps;   /* so many without a byte, and the host is lost; 0: never */
-    uint32_t silent_steps;
-    uint32_t host_losses;
     char in_bytes[WH_STATION_IN_BYTES];
     char out_bytes[WH_STATION_OUT_BYTES];
 } wh_station;
@@ -112,7 +112,7 @@ void wh_station_start(wh_station *station, const char *program, const char *boar
 /* Bytes that came. Looks for Escape at once. */
 void wh_station_take(wh_station *station, const char *bytes, unsigned count);
 
-/* What the last control step saw. What telemetry has to say of it takes none of the console's room. */
+/* What the last control step saw, which stays as it is until the next. What telemetry has to say of it takes none of the console's room. */
 void wh_station_see(wh_station *station, const wh_rig_config *config, const wh_rig *rig,
                     const wh_seen *seen);
 

@@ -123,7 +123,7 @@ static bool settings_are_out(wh_station *station, uint32_t now_ticks) {
 
 static void begin(wh_station *station, wh_rig *rig) {
     wh_tape *tape = station->tape;
-    const uint32_t now_ticks = station->seen.inputs.now_ticks;
+    const uint32_t now_ticks = station->seen->inputs.now_ticks;
     if (rig->state != WH_LIFE_IDLE || station->waits || !has_room(station, WH_TEL_PAYLOAD_MOST) ||
         !settings_are_out(station, now_ticks)) {
         return;
@@ -146,12 +146,12 @@ void wh_tape_see(wh_station *station, wh_rig *rig) {
     switch (tape->state) {
     case WH_TAPE_WAITS: begin(station, rig); break;
     case WH_TAPE_RUNS:
-        see_step(tape, rig, &station->seen, &step);
+        see_step(tape, rig, station->seen, &step);
         if (!add_step(station, &step)) {
             ends(tape, WH_TAPED_LOST);
         }
         break;
-    case WH_TAPE_ENDS: tell_end(station, station->seen.inputs.now_ticks); break;
+    case WH_TAPE_ENDS: tell_end(station, station->seen->inputs.now_ticks); break;
     case WH_TAPE_NONE:
     case WH_TAPE_STATES: break;
     }

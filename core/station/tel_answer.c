@@ -153,11 +153,12 @@ static wh_station_error rate(wh_tel *tel, const wh_cell_config *cell, const char
                              wh_text *answer) {
     wh_real wanted;
     const uint32_t most = cell_per_s(cell);
-    if (!wh_line_number(word, &wanted) || !(wanted >= WH_R(1.0)) || !(wanted <= (wh_real)most)) {
+    if (!wh_line_number(word, &wanted)) {
         return WH_STATION_TEL_RATE;
     }
-    const uint32_t per_s = (uint32_t)wanted;
-    if ((wh_real)per_s < wanted || most % per_s != 0 || is_too_fast(tel->format, per_s)) {
+    const uint32_t per_s = (uint32_t)(int32_t)wanted; /* which has nine digits at most */
+    if ((wh_real)(int32_t)wanted != wanted || per_s == 0 || per_s > most || most % per_s != 0 ||
+        is_too_fast(tel->format, per_s)) {
         return WH_STATION_TEL_RATE;
     }
     wh_tel_rate(tel, most / per_s);

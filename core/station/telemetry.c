@@ -20,6 +20,8 @@ typedef struct sight {
     const wh_seen *seen;
     wh_ring *out;
     uint32_t kept;
+    unsigned stage;
+    wh_bytes frame; /* that is being put together */
 } sight;
 
 /* --- numbers ------------------------------------------------------------------------------------------ */
@@ -31,6 +33,14 @@ static uint16_t in_16(wh_real number) {
     }
     const wh_real up = number + WH_R(0.5);
     return number < WH_R(65534.0) ? (uint16_t)up : 65534U;
+}
+
+unsigned wh_tel_shift(const wh_cell_config *cell) {
+    unsigned shift = 0;
+    while (cell->raw_max >> shift > 32767) {
+        shift++;
+    }
+    return shift;
 }
 
 static int16_t load_of(const wh_cell_config *cell, int32_t raw, wh_load_status status) {
@@ -63,19 +73,21 @@ static bool put_out(const sight *s, wh_tel_channel channel, const char *bytes, u
     return fits;
 }
 
-static wh_bytes begin_frame(const sight *s, wh_tel_channel channel, uint32_t ticks) {
+static void add(sight *s, uint32_t number, unsigned size) { wh_bytes_put(&s->frame, number, size); }
+
+static void begin_frame(sight *s, wh_tel_channel channel, uint32_t ticks) {
     wh_tel *tel = s->tel;
-    wh_bytes bytes = {.to = tel->line + BEFORE, .room = sizeof tel->line - BEFORE};
-    wh_bytes_put(&bytes, 0x80U + (uint32_t)channel, 1);
-    wh_bytes_put(&bytes, tel->sequence[channel]++, 2);
-    wh_bytes_put(&bytes, tel->dropped[channel], 2);
-    wh_bytes_put(&bytes, ticks, 4);
-    return bytes;
+    s->frame = (wh_bytes){.to = tel->line + BEFORE, .room = sizeof tel->line - BEFORE};
+    add(s, 0x80U + (uint32_t)channel, 1);
+    add(s, tel->sequence[channel]++, 2);
+    add(s, tel->dropped[channel], 2);
+    add(s, ticks, 4);
 }
 
-static bool send_frame(const sight *s, wh_tel_channel channel, wh_bytes *frame) {
+static bool send_frame(sight *s, wh_tel_channel channel) {
+    const wh_bytes *frame = &s->frame;
     uint8_t *line = s->tel->line;
-    wh_bytes_put(frame, wh_crc16(WH_CRC16_START, frame->to, frame->at), 2);
+    add(s, wh_crc16(WH_CRC16_START, frame->to, frame->at), 2);
     line[0] = 0;
     return put_out(s, channel, (const char *)line, 1U + wh_cobs_short(line + 1, frame->at));
 }
@@ -91,66 +103,64 @@ bool wh_tel_has_room(const wh_ring *out, uint32_t kept, unsigned count) {
 
 bool wh_tel_send(wh_tel *tel, wh_tel_channel channel, uint32_t ticks, const uint8_t *payload,
                  unsigned count, wh_ring *out, uint32_t kept) {
-    const sight s = {.tel = tel, .out = out, .kept = kept};
-    wh_bytes bytes = begin_frame(&s, channel, ticks);
+    sight s = {.tel = tel, .out = out, .kept = kept};
+    begin_frame(&s, channel, ticks);
     for (unsigned i = 0; i < count; i++) {
-        wh_bytes_put(&bytes, payload[i], 1);
+        add(&s, payload[i], 1);
     }
-    return send_frame(&s, channel, &bytes);
+    return send_frame(&s, channel);
 }
 #endif
 
-static void send_run(const sight *s) {
+static void send_run(sight *s) {
     wh_tel *tel = s->tel;
     if (tel->samples == 0) {
         return;
     }
-    wh_bytes bytes = begin_frame(s, WH_TEL_RUN, tel->first_ticks);
-    wh_bytes_put(&bytes, speed_50(s->rig), 2);
-    wh_bytes_put(&bytes, drive_mV(s->rig), 2);
-    wh_bytes_put(&bytes, wh_rig_stage(s->rig), 1);
+    begin_frame(s, WH_TEL_RUN, tel->first_ticks);
+    add(s, speed_50(s->rig), 2);
+    add(s, drive_mV(s->rig), 2);
+    add(s, s->stage, 1);
     for (unsigned i = 0; i < tel->samples; i++) {
-        wh_bytes_put(&bytes, (uint16_t)tel->load[i], 2);
+        add(s, (uint16_t)tel->load[i], 2);
     }
-    (void)send_frame(s, WH_TEL_RUN, &bytes);
+    (void)send_frame(s, WH_TEL_RUN);
     tel->samples = 0;
 }
 
-static void send_event(const sight *s, wh_tel_event what, unsigned value, uint32_t ticks) {
-    wh_bytes bytes = begin_frame(s, WH_TEL_EVENT, ticks);
-    wh_bytes_put(&bytes, (uint32_t)what, 1);
-    wh_bytes_put(&bytes, value, 1);
-    (void)send_frame(s, WH_TEL_EVENT, &bytes);
+static void send_event(sight *s, wh_tel_event what, unsigned value, uint32_t ticks) {
+    begin_frame(s, WH_TEL_EVENT, ticks);
+    add(s, (uint32_t)what, 1);
+    add(s, value, 1);
+    (void)send_frame(s, WH_TEL_EVENT);
 }
 
 /* Of the ring none is dropped: it waits for room. */
-static void send_ring(const sight *s) {
+static void send_ring(sight *s) {
     wh_tel *tel = s->tel;
     const wh_capture *capture = &tel->capture;
+    const wh_captured *step = wh_capture_at(capture, tel->read_at);
     if (!has_room(s->out, s->kept, WH_TEL_PAYLOAD_MOST)) {
         return;
     }
-    wh_bytes bytes = begin_frame(s, WH_TEL_RING, tel->read_ticks);
+    tel->read_ticks += (uint16_t)(step->ticks - tel->read_ticks);
+    begin_frame(s, WH_TEL_RING, tel->read_ticks);
     for (unsigned i = 0; i < WH_TEL_SAMPLES && tel->read_at < capture->count; i++) {
-        const wh_captured *step = wh_capture_at(capture, tel->read_at);
-        wh_bytes_put(&bytes, step->ticks, 2);
-        wh_bytes_put(&bytes, (uint16_t)step->load, 2);
-        wh_bytes_put(&bytes, step->drive_mV, 2);
-        wh_bytes_put(&bytes, step->flags, 1);
-        wh_bytes_put(&bytes, step->stage, 1);
-        tel->read_at++;
-        if (tel->read_at < capture->count) {
-            tel->read_ticks +=
-                (uint16_t)(wh_capture_at(capture, tel->read_at)->ticks - step->ticks);
-        }
+        step = wh_capture_at(capture, tel->read_at++);
+        tel->read_ticks += (uint16_t)(step->ticks - tel->read_ticks);
+        add(s, step->ticks, 2);
+        add(s, (uint16_t)step->load, 2);
+        add(s, step->drive_mV, 2);
+        add(s, step->flags, 1);
+        add(s, step->stage, 1);
     }
-    (void)send_frame(s, WH_TEL_RING, &bytes);
+    (void)send_frame(s, WH_TEL_RING);
     tel->reads = tel->read_at < capture->count;
 }
 
 /* --- lines -------------------------------------------------------------------------------------------- */
 
-static void send_text(const sight *s, wh_real force_N) {
+static void send_text(sight *s, wh_real force_N) {
     const bool plots = s->tel->format == WH_TEL_TELEPLOT;
     const char *next = plots ? "\r\n>" : ",";
     const uint16_t speed = speed_50(s->rig);
@@ -178,7 +188,7 @@ static void send_text(const sight *s, wh_real force_N) {
 
 /* --- a control step ------------------------------------------------------------------------------------- */
 
-static void take_sample(const sight *s, const wh_seen_sample *sample) {
+static void take_sample(sight *s, const wh_seen_sample *sample) {
     wh_tel *tel = s->tel;
     const wh_cell_config *cell = &s->config->measure.cell;
     if (sample->status == WH_LOAD_REPEATED || ++tel->passed < tel->every) {
@@ -207,35 +217,36 @@ static void take_sample(const sight *s, const wh_seen_sample *sample) {
     }
 }
 
-static void take_events(const sight *s) {
+static void take_events(sight *s) {
     wh_tel *tel = s->tel;
     const wh_seen *seen = s->seen;
-    const unsigned stage = wh_rig_stage(s->rig);
     const unsigned trip = (unsigned)s->rig->guard.trip;
     if (seen->pulsed) {
         send_event(s, WH_TEL_PULSE, seen->sensor, seen->pulse_ticks);
     }
-    if (stage != tel->stage) {
-        tel->stage = stage;
-        send_event(s, WH_TEL_STATE, stage, seen->inputs.now_ticks);
+    if (s->stage != tel->stage) {
+        tel->stage = s->stage;
+        send_event(s, WH_TEL_STATE, s->stage, seen->inputs.now_ticks);
     } else if (trip != tel->trip) {
         tel->trip = trip;
         send_event(s, WH_TEL_TRIP, trip, seen->inputs.now_ticks);
     }
 }
 
-static void capture_step(const sight *s) {
+static void capture_step(sight *s) {
     const wh_seen *seen = s->seen;
-    const wh_seen_sample *last = &seen->sample[seen->samples - 1U];
+    int16_t load = WH_TEL_NO_LOAD;
+    if (seen->samples > 0) {
+        const wh_seen_sample *last = &seen->sample[seen->samples - 1U];
+        load = load_of(&s->config->measure.cell, last->raw, last->status);
+    }
     const unsigned pulse = seen->pulsed ? 1U << (seen->sensor & 1U) : 0U;
     const unsigned tripped = s->rig->guard.trip != WH_TRIP_NONE ? 8U : 0U;
-    const wh_captured step = {
-        .ticks = (uint16_t)seen->inputs.now_ticks,
-        .load = seen->samples > 0 ? load_of(&s->config->measure.cell, last->raw, last->status)
-                                  : (int16_t)WH_TEL_NO_LOAD,
-        .drive_mV = drive_mV(s->rig),
-        .flags = (uint8_t)(pulse | tripped),
-        .stage = (uint8_t)wh_rig_stage(s->rig)};
+    const wh_captured step = {.ticks = (uint16_t)seen->inputs.now_ticks,
+                              .load = load,
+                              .drive_mV = drive_mV(s->rig),
+                              .flags = (uint8_t)(pulse | tripped),
+                              .stage = (uint8_t)s->stage};
     wh_capture_step(&s->tel->capture, &step, seen->inputs.now_ticks);
 }
 
@@ -259,7 +270,13 @@ bool wh_tel_read(wh_tel *tel) {
 
 void wh_tel_step(wh_tel *tel, const wh_rig_config *config, const wh_rig *rig, const wh_seen *seen,
                  wh_ring *out, uint32_t kept) {
-    const sight s = {tel, config, rig, seen, out, kept};
+    sight s = {.tel = tel,
+               .config = config,
+               .rig = rig,
+               .seen = seen,
+               .out = out,
+               .kept = kept,
+               .stage = wh_rig_stage(rig)};
     if (tel->capture.trigger != WH_CAPTURE_OFF && !tel->capture.full) {
         capture_step(&s);
     }

@@ -85,20 +85,15 @@ typedef struct wh_tel {
     wh_capture capture;
 } wh_tel;
 
-/* The cell's counts in 16 bits: shifted by so many. */
-WH_INLINE unsigned wh_tel_shift(const wh_cell_config *cell) {
-    unsigned shift = 0;
-    while (cell->raw_max >> shift > 32767) {
-        shift++;
-    }
-    return shift;
-}
-
+#define wh_tel_shift WH_NAME(wh_tel_shift)
 #define wh_tel_rate WH_NAME(wh_tel_rate)
 #define wh_tel_read WH_NAME(wh_tel_read)
 #define wh_tel_step WH_NAME(wh_tel_step)
 #define wh_tel_has_room WH_NAME(wh_tel_has_room)
 #define wh_tel_send WH_NAME(wh_tel_send)
+
+/* The cell's counts in 16 bits: shifted by so many. */
+unsigned wh_tel_shift(const wh_cell_config *cell);
 
 /* From now on each so many-th of the cell's samples; 0: off. */
 void wh_tel_rate(wh_tel *tel, uint32_t every);

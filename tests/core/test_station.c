@@ -73,7 +73,8 @@ static void test_help_knows_every_command(void) {
     TEST_ASSERT_EQUAL_STRING(
         "OK help id arm start set stop status measure fault clear conf tel selftest host talk",
         list);
-    wh_words words = wh_line_split(list + 3);
+    wh_words words;
+    wh_line_split(&words, list + 3);
     for (unsigned i = 0; i < WH_LINE_WORDS; i++) {
         char line[40] = "help ";
         strcat(line, words.word[i]);

@@ -99,14 +99,17 @@ static void test_any_bytes(void) {
 
 static void test_words(void) {
     char text[] = "  conf \t set  speed 330 now ";
-    const wh_words words = wh_line_split(text);
+    wh_words words;
+    wh_line_split(&words, text);
     TEST_ASSERT_EQUAL_UINT(5, words.count);
     TEST_ASSERT_EQUAL_STRING("conf", words.word[0]);
     TEST_ASSERT_EQUAL_STRING("set", words.word[1]);
     TEST_ASSERT_EQUAL_STRING("speed", words.word[2]);
     TEST_ASSERT_EQUAL_STRING("330", words.word[3]);
     char none[] = " \t ";
-    TEST_ASSERT_EQUAL_UINT(0, wh_line_split(none).count);
+    wh_line_split(&words, none);
+    TEST_ASSERT_EQUAL_UINT(0, words.count);
+    TEST_ASSERT_EQUAL_STRING("", words.word[0]);
 }
 
 /* A whole number and a part, written as text: their sum. */

@@ -204,7 +204,7 @@ static void test_the_tapes_pins(void) {
         bench.seen.inputs.stop_pressed = (pins & 1U) != 0;
         bench.seen.inputs.clock_is_fallback = (pins & 2U) != 0;
         bench.seen.inputs.watchdog_has_cut = (pins & 4U) != 0;
-        bench.station.seen = bench.seen;
+        bench.station.seen = &bench.seen;
         wh_taped_before before = tape.before;
         const unsigned from = tape.count;
         wh_tape_see(&bench.station, &bench.even.rig);
