@@ -86,8 +86,8 @@ static bool advance(wh_swing *swing) {
 /* --- passes -------------------------------------------------------------------------------------------- */
 
 /* The angle from the bottom at which a sensor sees the slot's leading edge, so far behind that on the way forwards. */
-static WH_CALLED wh_real stands(const wh_rotor_config *rotor, const wh_swing *swing, unsigned sensor,
-                      wh_real lead) {
+static WH_CALLED wh_real stands(const wh_rotor_config *rotor, const wh_swing *swing,
+                                unsigned sensor, wh_real lead) {
     return rotor->mark_rad[sensor] + lead - rotor->gravity_rad + swing->x[WH_SWING_PLACE + sensor];
 }
 
@@ -244,7 +244,8 @@ static void go_on(const wh_swing_config *config, const wh_rotor_config *rotor, w
 
 #define STEPS 3U /* of the equation */
 
-static WH_CALLED void work(const wh_swing_config *config, const wh_rotor_config *rotor, wh_swing *swing) {
+static WH_CALLED void work(const wh_swing_config *config, const wh_rotor_config *rotor,
+                           wh_swing *swing) {
     switch (swing->piece) {
     case WH_SWING_GOES:
         if (!advance(swing)) {
