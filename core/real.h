@@ -86,7 +86,7 @@ typedef float wh_real;
 #define WH_REALS_IN_REGISTERS 0
 #endif
 
-/* A function that is to stay one: a call is shorter than it is, whatever the compiler thinks. */
+/* A function that is to stay one: inside another it would take more flash, whatever the compiler thinks. */
 #if defined(__GNUC__)
 #define WH_CALLED __attribute__((noinline))
 #else

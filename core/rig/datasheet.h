@@ -11,12 +11,16 @@
 #define WH_RIG_TICKS_PER_S 1000000U
 
 #define wh_rig_since_s WH_NAME(wh_rig_since_s)
+#define wh_rig_way_s WH_NAME(wh_rig_way_s)
 #define wh_rig_is_over WH_NAME(wh_rig_is_over)
 
 /* From one to a later one, s; less than 71.6 minutes. */
 wh_real wh_rig_since_s(uint32_t then_ticks, uint32_t now_ticks);
 
-/* That is more than most_s. */
+/* The same, and below 0 from one to an earlier one; less than 35.8 minutes. */
+wh_real wh_rig_way_s(uint32_t from_ticks, uint32_t to_ticks);
+
+/* From one to a later one it is more than most_s. */
 bool wh_rig_is_over(uint32_t then_ticks, uint32_t now_ticks, wh_real most_s);
 
 #define WH_RIG_TWO_PI WH_R(6.283185307179586)

@@ -32,7 +32,7 @@ static void keep(wh_swing *swing, unsigned sensor, uint32_t ticks) {
     }
 }
 
-void wh_swing_pulse(wh_swing *swing, unsigned sensor, uint32_t ticks) {
+WH_CALLED void wh_swing_pulse(wh_swing *swing, unsigned sensor, uint32_t ticks) {
     if (swing->result.why != WH_SWING_SWINGS || sensor >= WH_SWING_SENSORS) {
         return;
     }
@@ -85,12 +85,17 @@ static bool advance(wh_swing *swing) {
 
 /* --- passes -------------------------------------------------------------------------------------------- */
 
+/* The angle from the bottom at which a sensor sees the slot's leading edge, so far behind that on the way forwards. */
+static WH_CALLED wh_real stands(const wh_rotor_config *rotor, const wh_swing *swing,
+                                unsigned sensor, wh_real lead) {
+    return rotor->mark_rad[sensor] + lead - rotor->gravity_rad + swing->x[WH_SWING_PLACE + sensor];
+}
+
 /* Back to the first passage of the bottom, from which it goes on to later pulses, or to earlier ones. */
 static void set_out(const wh_swing_config *config, const wh_rotor_config *rotor, wh_swing *swing) {
-    const wh_real leads = rotor->mark_rad[0] + WH_R(2.0) * config->lead_rad;
     swing->ticks = swing->kept_ticks[swing->first];
     wh_free_rotor_start(
-        &swing->way, leads - rotor->gravity_rad + swing->x[WH_SWING_PLACE] + swing->x[WH_SWING_Q],
+        &swing->way, stands(rotor, swing, 0, WH_R(2.0) * config->lead_rad) + swing->x[WH_SWING_Q],
         swing->x[WH_SWING_RATE]);
 }
 
@@ -107,8 +112,8 @@ static void begin_pass(const wh_swing_config *config, const wh_rotor_config *rot
                                                    : WH_R(0.0);
     swing->fits = 0;
     swing->strays = 0;
-    swing->swung = 0;
-    swing->sided = 0;
+    swing->fits_of[0] = 0;
+    swing->fits_of[1] = 0;
     swing->piece = WH_SWING_GOES;
     swing->at = swing->first + 1U;
     set_out(config, rotor, swing);
@@ -145,9 +150,7 @@ static bool take(const wh_swing_config *config, const wh_rotor_config *rotor, wh
     const wh_free_rotor *way = &swing->way;
     const unsigned sensor = swing->kept_sensor[swing->at];
     const wh_real lead = way->rate_radps > WH_R(0.0) ? WH_R(0.0) : WH_R(2.0) * config->lead_rad;
-    const wh_real stands =
-        rotor->mark_rad[sensor] + lead - rotor->gravity_rad + swing->x[WH_SWING_PLACE + sensor];
-    const wh_real off = wh_free_angle(stands - way->q_rad);
+    const wh_real off = wh_free_angle(stands(rotor, swing, sensor, lead) - way->q_rad);
     if (!(WH_ABS(off) < FAR_RAD)) {
         if (swing->at < swing->first) { /* did it get over the top? */
             return false;
@@ -166,8 +169,7 @@ static bool take(const wh_swing_config *config, const wh_rotor_config *rotor, wh
     by[WH_SWING_PLACE + sensor] -= swing->within[WH_SWING_PLACE + sensor];
     wh_normal_add(&swing->normal, by, off, weight);
     swing->fits++;
-    swing->swung += sensor == 0 ? 1U : 0U;
-    swing->sided += sensor == 0 ? 0U : 1U;
+    swing->fits_of[sensor]++;
     return !(swing->at > swing->first && sensor == 0 && is_slow(swing));
 }
 
@@ -185,12 +187,12 @@ static void conclude(const wh_swing_config *config, wh_swing *swing) {
         result->place_rad[i] = swing->x[WH_SWING_PLACE + i];
         result->half_rad[i] = WH_SQRT(wider * one * one + square_of(config->floor_rad));
     }
-    result->swings = swing->swung;
+    result->swings = swing->fits_of[0];
     if (swing->strays * 4U > swing->fits) {
         result->why = WH_SWING_MISFIT;
     } else if (result->swings < config->swings_least) {
         result->why = WH_SWING_FEW;
-    } else if (swing->sided == 0) {
+    } else if (swing->fits_of[1] == 0) {
         result->why = WH_SWING_SIDES;
     } else {
         result->why =
@@ -212,10 +214,9 @@ static wh_swing_piece move(wh_swing *swing) {
     for (unsigned i = 0; i < WH_NORMAL_UNKNOWNS; i++) {
         swing->x[i] += part * swing->within[i] * y[i];
     }
-    swing->x[WH_SWING_FRICTION] =
-        swing->x[WH_SWING_FRICTION] > WH_R(0.0) ? swing->x[WH_SWING_FRICTION] : WH_R(0.0);
-    swing->x[WH_SWING_DRAG] =
-        swing->x[WH_SWING_DRAG] > WH_R(0.0) ? swing->x[WH_SWING_DRAG] : WH_R(0.0);
+    for (unsigned i = WH_SWING_FRICTION; i <= WH_SWING_DRAG; i++) {
+        swing->x[i] = swing->x[i] > WH_R(0.0) ? swing->x[i] : WH_R(0.0);
+    }
     swing->pass++;
     const bool fits =
         swing->strays * 4U <= swing->fits && swing->normal.misfit < FOREIGN * (wh_real)swing->fits;
@@ -230,9 +231,9 @@ static wh_swing_piece move(wh_swing *swing) {
 /* At a pulse: on to the next, or back to the first passage and on to the ones before it. */
 static void go_on(const wh_swing_config *config, const wh_rotor_config *rotor, wh_swing *swing) {
     const bool later = swing->at > swing->first;
-    const bool any = later ? swing->at + 1U < swing->kept : swing->at > 0;
-    if (take(config, rotor, swing) && any) {
-        swing->at = later ? swing->at + 1U : swing->at - 1U;
+    const unsigned next = later ? swing->at + 1U : swing->at - 1U; /* before the first: too large */
+    if (take(config, rotor, swing) && next < swing->kept) {
+        swing->at = next;
     } else if (later && swing->first > 0) {
         swing->at = swing->first - 1U;
         set_out(config, rotor, swing);
@@ -243,7 +244,8 @@ static void go_on(const wh_swing_config *config, const wh_rotor_config *rotor, w
 
 #define STEPS 3U /* of the equation */
 
-static void work(const wh_swing_config *config, const wh_rotor_config *rotor, wh_swing *swing) {
+static WH_CALLED void work(const wh_swing_config *config, const wh_rotor_config *rotor,
+                           wh_swing *swing) {
     switch (swing->piece) {
     case WH_SWING_GOES:
         if (!advance(swing)) {

@@ -111,10 +111,11 @@ static void drop_stale(wh_lockin *lockin, uint32_t begin_ticks) {
 }
 
 static void count_equal(wh_lockin *lockin, wh_real force_N) {
-    const bool same = !(force_N < lockin->newest_N) && !(force_N > lockin->newest_N);
-    lockin->equal = (uint16_t)(same && lockin->equal < FROZEN_SAMPLES ? lockin->equal + 1U
-                               : same                                 ? FROZEN_SAMPLES
-                                                                      : 0U);
+    if (force_N < lockin->newest_N || force_N > lockin->newest_N) {
+        lockin->equal = 0;
+    } else if (lockin->equal < FROZEN_SAMPLES) {
+        lockin->equal++;
+    }
     if (lockin->equal > lockin->most_equal) {
         lockin->most_equal = lockin->equal;
     }
@@ -332,7 +333,6 @@ static void begin_turn(wh_lockin *lockin) {
     lockin->sum = (wh_lockin_orders){{WH_R(0.0)}};
     lockin->square = lockin->mean = lockin->widest = WH_R(0.0);
     lockin->place = WH_LOCKIN_NOWHERE;
-    lockin->stage = WH_LOCKIN_BEGINS;
 }
 
 /* --- pieces ------------------------------------------------------------------------------------- */
@@ -399,39 +399,33 @@ static bool end(const wh_cell_config *cell, wh_lockin *lockin) {
 
 bool wh_lockin_work(const wh_rotor_config *rotor, const wh_cell_config *cell, wh_lockin *lockin,
                     unsigned halves) {
-    switch (lockin->stage) {
+    bool done = false;
+    const wh_lockin_stage stage = lockin->stage;
+    switch (stage) {
     case WH_LOCKIN_WAITS:
         if (lockin->open) {
             drop_stale(lockin, lockin->begin_ticks);
         }
         break;
     case WH_LOCKIN_SHAPES:
-        if (shape(rotor, lockin)) {
-            lockin->stage = WH_LOCKIN_CORRECTS;
-        }
-        break;
-    case WH_LOCKIN_CORRECTS:
-        if (correct(rotor, lockin)) {
-            lockin->stage = WH_LOCKIN_RESHAPES;
-        }
-        break;
     case WH_LOCKIN_RESHAPES:
-        if (shape(rotor, lockin)) {
+        done = shape(rotor, lockin);
+        if (done && stage == WH_LOCKIN_RESHAPES) {
             begin_turn(lockin);
         }
         break;
+    case WH_LOCKIN_CORRECTS: done = correct(rotor, lockin); break;
     case WH_LOCKIN_BEGINS:
-    case WH_LOCKIN_SUMS:
-        if (take_samples(lockin, halves)) {
-            lockin->stage = WH_LOCKIN_ENDS;
-        }
-        break;
+    case WH_LOCKIN_SUMS: done = take_samples(lockin, halves); break;
     case WH_LOCKIN_ENDS:
-        if (!end(cell, lockin)) {
-            break;
+        done = end(cell, lockin);
+        if (done) {
+            lockin->stage = WH_LOCKIN_WAITS;
         }
-        lockin->stage = WH_LOCKIN_WAITS;
-        return true;
+        return done;
+    }
+    if (done) { /* with one stage; its next follows it */
+        lockin->stage = (wh_lockin_stage)(lockin->stage + 1);
     }
     return false;
 }

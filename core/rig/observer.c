@@ -20,10 +20,6 @@ static wh_real signed_rad(wh_phase difference) {
 #endif
 }
 
-static WH_CALLED wh_real seconds(uint32_t from_ticks, uint32_t to_ticks) {
-    return (wh_real)(int32_t)(to_ticks - from_ticks) / (wh_real)WH_RIG_TICKS_PER_S;
-}
-
 static wh_real clamp(wh_real value, wh_real most) {
     return value < -most ? -most : value > most ? most : value;
 }
@@ -115,7 +111,7 @@ wh_phase wh_observer_phase(const wh_observer *observer, uint32_t ticks) {
         return wh_phase_at(WH_R(0.0));
     }
     wh_phase phase = wh_phase_of(observer->state.angle[0]);
-    const wh_real way_rad = observer->state.real[0] * seconds(observer->ticks, ticks);
+    const wh_real way_rad = observer->state.real[0] * wh_rig_way_s(observer->ticks, ticks);
     (void)wh_phase_move(phase, way_rad * WH_PHASE_PER_RAD, &phase);
     return phase;
 }
@@ -127,7 +123,7 @@ wh_real wh_observer_angle_rad(const wh_observer *observer, uint32_t ticks) {
 /* Set out from this mark, at the mean speed since the one before. */
 static void set_out(const wh_observer_config *config, wh_observer *observer, unsigned sensor,
                     uint32_t ticks) {
-    const wh_real time_s = seconds(observer->mark_ticks, ticks);
+    const wh_real time_s = wh_rig_way_s(observer->mark_ticks, ticks);
     wh_real turned_rad = signed_rad(wh_phase_at(config->mark_rad[sensor]) -
                                     wh_phase_at(config->mark_rad[observer->mark_sensor]));
     if (!(turned_rad > WH_R(0.0))) { /* the same sensor: a whole turn */
@@ -139,8 +135,8 @@ static void set_out(const wh_observer_config *config, wh_observer *observer, uns
     observer->runs = time_s > WH_R(0.0) && speed_radps > config->slowest_radps &&
                      speed_radps < config->fastest_radps;
     if (observer->runs) {
-        observer->state.angle[0] = wh_angle_from_rad(config->mark_rad[sensor] +
-                                                     speed_radps * seconds(ticks, observer->ticks));
+        observer->state.angle[0] = wh_angle_from_rad(
+            config->mark_rad[sensor] + speed_radps * wh_rig_way_s(ticks, observer->ticks));
         observer->state.real[0] = speed_radps;
     }
 }
@@ -181,5 +177,6 @@ void wh_observer_mark(const wh_observer_config *config, wh_observer *observer, u
     observer->marked = true;
     observer->mark_ticks = ticks;
     observer->mark_sensor = sensor;
-    observer->since_mark_rad = wh_observer_speed_radps(observer) * seconds(ticks, observer->ticks);
+    observer->since_mark_rad =
+        wh_observer_speed_radps(observer) * wh_rig_way_s(ticks, observer->ticks);
 }

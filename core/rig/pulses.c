@@ -17,7 +17,7 @@ void wh_pulses_start(wh_pulses *pulses, wh_real impossible_radps) {
     pulses->before = pulses->speed;
 }
 
-static wh_real turn_ticks(const wh_speed *speed) {
+static WH_CALLED wh_real turn_ticks(const wh_speed *speed) {
     return WH_RIG_TWO_PI / speed->turn_radps * (wh_real)WH_RIG_TICKS_PER_S;
 }
 
@@ -62,7 +62,7 @@ static bool is_fast(const wh_pulses *pulses, const wh_speed *speed) {
     return pulses->bound_radps > WH_R(0.0) && speed->interval_radps > pulses->bound_radps;
 }
 
-static bool is_sudden(const wh_pulses *pulses, const wh_speed *speed) {
+static WH_CALLED bool is_sudden(const wh_pulses *pulses, const wh_speed *speed) {
     return pulses->slow && speed->interval_radps > SUDDEN * pulses->bound_radps;
 }
 
@@ -137,7 +137,8 @@ static void decide(wh_pulses *pulses, const wh_pulse *pulse) {
 }
 
 /* The sensor of the last pulse again, within that part of a turn of so many ticks. */
-static bool soon_after(const wh_pulses *pulses, const wh_pulse *pulse, wh_real part, wh_real turn) {
+static WH_CALLED bool soon_after(const wh_pulses *pulses, const wh_pulse *pulse, wh_real part,
+                                 wh_real turn) {
     const wh_pulse *last = &pulses->last.pulse;
     return pulses->waits && pulses->speed.known && pulse->sensor == last->sensor &&
            (wh_real)(pulse->ticks - last->ticks) < part * turn;
@@ -190,5 +191,7 @@ void wh_pulses_take(wh_pulses *pulses, unsigned sensor, uint32_t ticks) {
     pulses->doubt -= pulses->doubt > 0 ? 1U : 0U;
     take_next(pulses, &pulse, &after);
     /* a rotor that was to slow down and did not comes early, too */
-    pulses->alert = pulses->alert || pulses->climb_radps > CLIMB_PART * after.turn_radps;
+    if (pulses->climb_radps > CLIMB_PART * after.turn_radps) {
+        pulses->alert = true;
+    }
 }

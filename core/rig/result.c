@@ -30,9 +30,8 @@ wh_real wh_student(uint32_t freedom) {
 
 /* --- turns -------------------------------------------------------------------------------------- */
 
-static void add_jitter(wh_merge *merge, uint32_t before_ticks, uint32_t now_ticks) {
-    const wh_real off_s =
-        (wh_real)(int32_t)(now_ticks - before_ticks) / (wh_real)WH_RIG_TICKS_PER_S;
+static WH_CALLED void add_jitter(wh_merge *merge, uint32_t before_ticks, uint32_t now_ticks) {
+    const wh_real off_s = wh_rig_way_s(before_ticks, now_ticks);
     merge->jitter_s2 += off_s * off_s;
     merge->jitters++;
 }
@@ -58,6 +57,11 @@ static void add_marks(wh_merge *merge, const wh_lockin_turn *turn) {
     merge->follows = true;
 }
 
+/* A mean goes on by a value, of which it is this part. */
+static WH_CALLED void go_on(wh_real *mean, wh_real value, wh_real part) {
+    *mean += part * (value - *mean);
+}
+
 void wh_merge_add(const wh_result_config *config, const wh_rotor_config *rotor, wh_merge *merge,
                   const wh_lockin_turn *turn, const wh_turn_angle *angle) {
     merge->outliers += turn->outliers;
@@ -78,8 +82,8 @@ void wh_merge_add(const wh_result_config *config, const wh_rotor_config *rotor, 
     const wh_real quadrature = turn->force_N.at[2] - merge->quadrature_N;
     merge->in_phase_N += part * in_phase;
     merge->quadrature_N += part * quadrature;
-    merge->second_N[0] += part * (turn->force_N.at[3] - merge->second_N[0]);
-    merge->second_N[1] += part * (turn->force_N.at[4] - merge->second_N[1]);
+    go_on(&merge->second_N[0], turn->force_N.at[3], part);
+    go_on(&merge->second_N[1], turn->force_N.at[4], part);
     merge->scatter_N2[0] += in_phase * (turn->force_N.at[1] - merge->in_phase_N);
     merge->scatter_N2[1] += in_phase * (turn->force_N.at[2] - merge->quadrature_N);
     merge->scatter_N2[2] += quadrature * (turn->force_N.at[2] - merge->quadrature_N);
@@ -92,12 +96,12 @@ void wh_merge_add(const wh_result_config *config, const wh_rotor_config *rotor, 
     const wh_real expected = config->mount_factor * rotor->mass_moment_kgm *
                              square_of(WH_RIG_TWO_PI / turn_s) *
                              (WH_R(1.0) + WH_R(1.5) * (swing2 + twice2));
-    merge->mean_N += part * (turn->mean_N - merge->mean_N);
-    merge->residual_N2 += part * (square_of(turn->residual_N) - merge->residual_N2);
-    merge->expected_N += part * (expected - merge->expected_N);
-    merge->swing_rad += part * (angle->swing_rad - merge->swing_rad);
-    merge->turn_s += part * (turn_s - merge->turn_s);
-    merge->at_mark_N[0] += part * (turn->at_mark_N[0] - merge->at_mark_N[0]);
+    go_on(&merge->mean_N, turn->mean_N, part);
+    go_on(&merge->residual_N2, square_of(turn->residual_N), part);
+    go_on(&merge->expected_N, expected, part);
+    go_on(&merge->swing_rad, angle->swing_rad, part);
+    go_on(&merge->turn_s, turn_s, part);
+    go_on(&merge->at_mark_N[0], turn->at_mark_N[0], part);
     if (turn->split_seen) {
         merge->split_turns++;
         merge->at_mark_N[1] +=

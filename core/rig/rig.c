@@ -102,9 +102,12 @@ static void trip(wh_rig *rig, const wh_rig_inputs *inputs) {
 }
 
 /* Is gravity fed forward to a run at this speed? */
-static bool feeds(const wh_rig_config *config, wh_real target_radps) {
-    return config->feeds == WH_FEED_ALWAYS ||
-           (config->feeds == WH_FEED_SLOW && target_radps < config->guard.target_min_radps);
+static WH_CALLED void choose_feed(const wh_rig_config *config, wh_rig *rig, wh_real target_radps) {
+    rig->fed = config->feeds == WH_FEED_ALWAYS ||
+               (config->feeds == WH_FEED_SLOW && target_radps < config->guard.target_min_radps);
+    if (!rig->fed) {
+        wh_lockin_feed(&rig->measure.lockin, false, WH_R(0.0));
+    }
 }
 
 static void begin_run(const wh_rig_config *config, wh_rig *rig, wh_real target_radps,
@@ -114,7 +117,7 @@ static void begin_run(const wh_rig_config *config, wh_rig *rig, wh_real target_r
     wh_observer_forget(&rig->observer);
     rig->observed = 0;
     rig->brakes = config->stop_brakes && !config->swings;
-    rig->fed = feeds(config, target_radps);
+    choose_feed(config, rig, target_radps);
     rig->guard.lost_before = 0;
     rig->guard.rejected_before = 0;
     wh_run_start(&rig->run, target_radps, now_ticks);
@@ -138,10 +141,7 @@ static void follow(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs
     case WH_EVENT_START: begin_run(config, rig, order->value, now); break;
     case WH_EVENT_SET:
         wh_run_set(&rig->run, order->value, now);
-        rig->fed = feeds(config, order->value);
-        if (!rig->fed) {
-            wh_lockin_feed(&rig->measure.lockin, false, WH_R(0.0));
-        }
+        choose_feed(config, rig, order->value);
         break;
     case WH_EVENT_STOP:
     case WH_EVENT_HOST_LOST:
@@ -256,10 +256,13 @@ static void watch(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs 
                         inputs->now_ticks);
     }
     const bool needed = rig->state == WH_LIFE_ARMED || rig->state == WH_LIFE_RUNNING || drives;
-    if (needed && !wh_guard_supply(&config->guard, inputs->supply_V)) {
+    if (!needed) {
+        return;
+    }
+    if (!wh_guard_supply(&config->guard, inputs->supply_V)) {
         wh_guard_trip(guard, WH_TRIP_SUPPLY);
     }
-    if (needed && !wh_guard_load_comes(&config->guard, guard, inputs->now_ticks)) {
+    if (!wh_guard_load_comes(&config->guard, guard, inputs->now_ticks)) {
         wh_guard_trip(guard, WH_TRIP_LOAD_CELL);
     }
 }
@@ -307,8 +310,12 @@ static void wait_for_rest(const wh_rig_config *config, wh_rig *rig, const wh_rig
     const bool blind = rig->guard.trip == WH_TRIP_PULSES || rig->guard.trip == WH_TRIP_STALLED;
     const bool silent = rig->guard.quiet && passed_s >= config->guard.rest_s;
     if (tripped) {
-        rig->at_rest = rig->at_rest || (silent && (!blind || passed_s > config->rest_max_s));
-        rig->rested = rig->rested || rig->at_rest || late;
+        if (silent && (!blind || passed_s > config->rest_max_s)) {
+            rig->at_rest = true;
+        }
+        if (rig->at_rest || late) {
+            rig->rested = true;
+        }
     } else if (silent) {
         finds(config, rig, inputs, WH_EVENT_RESTED);
     } else if (late) {
@@ -413,7 +420,9 @@ wh_rig_command wh_rig_step(const wh_rig_config *config, wh_rig *rig, const wh_ri
     const wh_rig_phase phase = rig->run.phase;
     follow_trip(config, rig, inputs);
     live(config, rig, inputs);
-    rig->busy = rig->busy || rig->run.phase != phase;
+    if (rig->run.phase != phase) {
+        rig->busy = true;
+    }
     measure(config, rig, inputs->now_ticks);
     follow_trip(config, rig, inputs);
     if (WH_RIG_SWINGS && !wh_run_drives(&rig->run)) {

@@ -81,14 +81,14 @@ typedef struct wh_swing {
     unsigned kept;
     unsigned start; /* guesses before this one led nowhere */
     unsigned pass;
-    unsigned at;       /* the pulse that is next */
-    unsigned fits;     /* pulses that were taken on this pass, */
-    unsigned strays;   /* that cannot be, */
-    unsigned swung;    /* of sensor 1, */
-    unsigned sided;    /* of sensor 2: a swing seen from sensor 1 alone could be its mirror image */
-    uint32_t ticks;    /* of `way` */
-    wh_real soft_rad2; /* variance that pulses are given beside their own */
-    wh_free_rotor way; /* where the rotor is on a pass */
+    unsigned at;     /* the pulse that is next */
+    unsigned fits;   /* pulses that were taken on this pass, */
+    unsigned strays; /* that cannot be, */
+    /* and that were of each sensor: a swing seen from sensor 1 alone could be its mirror image */
+    unsigned fits_of[WH_SWING_SENSORS];
+    uint32_t ticks;                     /* of `way` */
+    wh_real soft_rad2;                  /* variance that pulses are given beside their own */
+    wh_free_rotor way;                  /* where the rotor is on a pass */
     uint32_t last_ticks[WH_SWING_LAST]; /* sensor 1's, the newest first */
     wh_real x
         [WH_NORMAL_UNKNOWNS]; /* q - place and q' at the first passage, g, f, c, the sensors' places, */

@@ -339,21 +339,21 @@ static void test_verdict_of_a_swing(void) {
                         zero); /* nothing measured: every deviation is what was guessed */
         swing.fits = 8U + draw_one_of(&seed, 20);
         swing.strays = draw_one_of(&seed, 2) * (swing.fits / 4U + draw_one_of(&seed, 2));
-        swing.sided = draw_one_of(&seed, 3);
-        swing.swung = config.swings_least - 1U + draw_one_of(&seed, 3);
+        swing.fits_of[1] = draw_one_of(&seed, 3);
+        swing.fits_of[0] = config.swings_least - 1U + draw_one_of(&seed, 3);
         const bool wide = draw_one_in(&seed, 2);
         swing.within[WH_SWING_PLACE] = config.wide_rad * (wide ? WH_R(0.52) : WH_R(0.4));
         swing.within[WH_SWING_PLACE + 1] = config.wide_rad;
         swing.x[WH_SWING_PLACE] = draw_broken(&seed, -1, 1);
         swing.x[WH_SWING_PLACE + 1] = draw_broken(&seed, -1, 1);
         wh_swing_step(&config, rotor, &swing, false, true);
-        const wh_swing_why wanted = swing.strays * 4U > swing.fits      ? WH_SWING_MISFIT
-                                    : swing.swung < config.swings_least ? WH_SWING_FEW
-                                    : swing.sided == 0                  ? WH_SWING_SIDES
-                                    : wide                              ? WH_SWING_WIDE
-                                                                        : WH_SWING_FOUND;
+        const wh_swing_why wanted = swing.strays * 4U > swing.fits           ? WH_SWING_MISFIT
+                                    : swing.fits_of[0] < config.swings_least ? WH_SWING_FEW
+                                    : swing.fits_of[1] == 0                  ? WH_SWING_SIDES
+                                    : wide                                   ? WH_SWING_WIDE
+                                                                             : WH_SWING_FOUND;
         TEST_ASSERT_TRUE(swing.result.why == wanted);
-        TEST_ASSERT_EQUAL_UINT(swing.swung, swing.result.swings);
+        TEST_ASSERT_EQUAL_UINT(swing.fits_of[0], swing.result.swings);
         for (unsigned k = 0; k < WH_SWING_SENSORS;
              k++) { /* without misfit, the normal distribution's */
             const wh_real deviation = WH_R(1.96) * swing.within[WH_SWING_PLACE + k];
