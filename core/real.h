@@ -86,11 +86,17 @@ typedef float wh_real;
 #define WH_REALS_IN_REGISTERS 0
 #endif
 
-/* A function that is to stay one: inside another it would take more flash, whatever the compiler thinks. */
-#if defined(__GNUC__)
+/* Where flash is smaller than time is short (-DWH_SMALL=1), a function that is to stay one: inside another it would take more,
+ * whatever the compiler thinks. WH_SHARED: one in a header, inline elsewhere. */
+#ifndef WH_SMALL
+#define WH_SMALL 0
+#endif
+#if WH_SMALL && defined(__GNUC__)
 #define WH_CALLED __attribute__((noinline))
+#define WH_SHARED static __attribute__((noinline, unused))
 #else
 #define WH_CALLED
+#define WH_SHARED WH_INLINE
 #endif
 
 /* A function, and a way, that are hardly ever taken: for size, and out of the others' way. */

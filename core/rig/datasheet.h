@@ -10,18 +10,20 @@
 /* Time stamps of the rig are counts of a 1 MHz timer, 32 bits, wrapping. */
 #define WH_RIG_TICKS_PER_S 1000000U
 
-#define wh_rig_since_s WH_NAME(wh_rig_since_s)
-#define wh_rig_way_s WH_NAME(wh_rig_way_s)
-#define wh_rig_is_over WH_NAME(wh_rig_is_over)
-
 /* From one to a later one, s; less than 71.6 minutes. */
-wh_real wh_rig_since_s(uint32_t then_ticks, uint32_t now_ticks);
+WH_SHARED wh_real wh_rig_since_s(uint32_t then_ticks, uint32_t now_ticks) {
+    return (wh_real)(now_ticks - then_ticks) / (wh_real)WH_RIG_TICKS_PER_S;
+}
 
 /* The same, and below 0 from one to an earlier one; less than 35.8 minutes. */
-wh_real wh_rig_way_s(uint32_t from_ticks, uint32_t to_ticks);
+WH_SHARED wh_real wh_rig_way_s(uint32_t from_ticks, uint32_t to_ticks) {
+    return (wh_real)(int32_t)(to_ticks - from_ticks) / (wh_real)WH_RIG_TICKS_PER_S;
+}
 
 /* From one to a later one it is more than most_s. */
-bool wh_rig_is_over(uint32_t then_ticks, uint32_t now_ticks, wh_real most_s);
+WH_SHARED bool wh_rig_is_over(uint32_t then_ticks, uint32_t now_ticks, wh_real most_s) {
+    return wh_rig_since_s(then_ticks, now_ticks) > most_s;
+}
 
 #define WH_RIG_TWO_PI WH_R(6.283185307179586)
 #define WH_RIG_RADPS_PER_RPM WH_R(0.10471975511965977)

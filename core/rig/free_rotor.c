@@ -1,14 +1,7 @@
 /* free_rotor.c: a rotor with nothing but gravity and friction to move it. */
 #include "free_rotor.h"
 
-#include "datasheet.h"
 #include "wave.h"
-
-WH_CALLED wh_real wh_free_angle(wh_real rad) {
-    const wh_real half = WH_R(0.5) * WH_RIG_TWO_PI;
-    const wh_real near = rad > half ? rad - WH_RIG_TWO_PI : rad < -half ? rad + WH_RIG_TWO_PI : rad;
-    return near >= -half && near <= half ? near : WH_R(0.0);
-}
 
 void wh_free_rotor_start(wh_free_rotor *rotor, wh_real q_rad, wh_real rate_radps) {
     *rotor = (wh_free_rotor){.q_rad = wh_free_angle(q_rad), .rate_radps = rate_radps};

@@ -8,6 +8,7 @@
 #define WH_RIG_FREE_ROTOR_H
 
 #include "core/real.h"
+#include "datasheet.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -25,7 +26,6 @@ typedef struct wh_free_rotor {
 
 #define wh_free_rotor_start WH_NAME(wh_free_rotor_start)
 #define wh_free_rotor_step WH_NAME(wh_free_rotor_step)
-#define wh_free_angle WH_NAME(wh_free_angle)
 
 void wh_free_rotor_start(wh_free_rotor *rotor, wh_real q_rad, wh_real rate_radps);
 
@@ -33,7 +33,11 @@ void wh_free_rotor_start(wh_free_rotor *rotor, wh_real q_rad, wh_real rate_radps
 void wh_free_rotor_step(const wh_real *cause, wh_free_rotor *rotor, wh_real h);
 
 /* Into -pi ... pi, from less than a turn beyond; 0 for what is further, or is no number. */
-wh_real wh_free_angle(wh_real rad);
+WH_SHARED wh_real wh_free_angle(wh_real rad) {
+    const wh_real half = WH_R(0.5) * WH_RIG_TWO_PI;
+    const wh_real near = rad > half ? rad - WH_RIG_TWO_PI : rad < -half ? rad + WH_RIG_TWO_PI : rad;
+    return near >= -half && near <= half ? near : WH_R(0.0);
+}
 
 #ifdef __cplusplus
 }

@@ -3,7 +3,6 @@
 
 #include "core/packed_words.h"
 #include "core/root.h"
-#include "datasheet.h"
 
 void wh_guard_start(wh_guard *guard, uint32_t now_ticks) {
     *guard = (wh_guard){.trip = WH_TRIP_NONE, .load_ticks = now_ticks, .pulse_ticks = now_ticks};
@@ -26,17 +25,6 @@ WH_CALLED void wh_guard_trip(wh_guard *guard, wh_trip reason) {
     if (guard->trip == WH_TRIP_NONE) {
         guard->trip = reason;
     }
-}
-
-WH_CALLED bool wh_guard_supply(const wh_guard_config *config, wh_real supply_V) {
-    return supply_V >= config->supply_min_V && supply_V <= config->supply_max_V;
-}
-
-WH_CALLED bool wh_guard_load_comes(const wh_guard_config *config, const wh_guard *guard,
-                                   uint32_t now_ticks) {
-    /* signed: a stamp may be later than the step's own reading of the timer */
-    return (wh_real)(int32_t)(now_ticks - guard->load_ticks) <=
-           config->load_silence_max_s * (wh_real)WH_RIG_TICKS_PER_S;
 }
 
 #define CASE(name, number, words) \

@@ -75,8 +75,6 @@ typedef struct wh_guard {
 #define wh_guard_allows WH_NAME(wh_guard_allows)
 #define wh_guard_bound_radps WH_NAME(wh_guard_bound_radps)
 #define wh_guard_trip WH_NAME(wh_guard_trip)
-#define wh_guard_supply WH_NAME(wh_guard_supply)
-#define wh_guard_load_comes WH_NAME(wh_guard_load_comes)
 #define wh_trip_text WH_NAME(wh_trip_text)
 
 void wh_guard_start(wh_guard *guard, uint32_t now_ticks);
@@ -149,7 +147,9 @@ WH_INLINE void wh_guard_pulses(const wh_guard_config *config, wh_guard *guard,
 }
 
 /* While the motor may drive. NaN is out of range. */
-bool wh_guard_supply(const wh_guard_config *config, wh_real supply_V);
+WH_SHARED bool wh_guard_supply(const wh_guard_config *config, wh_real supply_V) {
+    return supply_V >= config->supply_min_V && supply_V <= config->supply_max_V;
+}
 
 /* Look at a load sample, the tare in it, in every state. `turning`: the load must be changing with the rotor's turns;
  * `needed`: a bad one stops the rig. A sample that repeats the last one is none. */
@@ -177,7 +177,12 @@ WH_INLINE void wh_guard_load(const wh_guard_config *config, wh_guard *guard, con
 }
 
 /* True while load samples still come. */
-bool wh_guard_load_comes(const wh_guard_config *config, const wh_guard *guard, uint32_t now_ticks);
+WH_SHARED bool wh_guard_load_comes(const wh_guard_config *config, const wh_guard *guard,
+                                   uint32_t now_ticks) {
+    /* signed: a stamp may be later than the step's own reading of the timer */
+    return (wh_real)(int32_t)(now_ticks - guard->load_ticks) <=
+           config->load_silence_max_s * (wh_real)WH_RIG_TICKS_PER_S;
+}
 
 /* The reason in words, for consoles, as WH_WORDS() has it (core/packed_words.h). */
 const char *wh_trip_text(wh_trip reason);
