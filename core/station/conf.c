@@ -140,9 +140,20 @@ static void put_cell(const wh_conf *conf, wh_rig_config *c) {
     c->measure.cell.newton_per_count = is_on(conf->value[WH_CONF_cell_reversed]) ? -scale : scale;
 }
 
-static void renew(const wh_conf *conf) {
+static bool go_together(const wh_conf *conf) {
+    const wh_real *value = conf->value;
+    return value[WH_CONF_speed_least] < value[WH_CONF_speed_most] &&
+           value[WH_CONF_speed_most] < value[WH_CONF_speed_limit] &&
+           value[WH_CONF_supply_least] < value[WH_CONF_supply_most];
+}
+
+/* False: they do not go together, and nothing has happened. */
+static bool renew(const wh_conf *conf) {
     wh_rig_config *c = conf->config;
     bool goes[WH_CONF_CELL + 1U] = {false};
+    if (!go_together(conf)) {
+        return false;
+    }
     conf->own(c);
     for (unsigned id = 0; id < WH_CONF_COUNT; id++) {
         if (is_set(conf, (wh_conf_id)id)) {
@@ -159,6 +170,7 @@ static void renew(const wh_conf *conf) {
     if (goes[WH_CONF_CELL]) {
         put_cell(conf, c);
     }
+    return true;
 }
 
 /* --- what may be set ----------------------------------------------------------------------------------- */
@@ -183,13 +195,6 @@ static wh_station_error fits(wh_conf_id id, wh_real value) {
     return is_absent(id, value) ? WH_STATION_NOT_HERE : WH_STATION_FINE;
 }
 
-static bool go_together(const wh_conf *conf) {
-    const wh_real *value = conf->value;
-    return value[WH_CONF_speed_least] < value[WH_CONF_speed_most] &&
-           value[WH_CONF_speed_most] < value[WH_CONF_speed_limit] &&
-           value[WH_CONF_supply_least] < value[WH_CONF_supply_most];
-}
-
 wh_station_error wh_conf_set(wh_conf *conf, wh_conf_id id, wh_real value) {
     const wh_real before = conf->value[id];
     const wh_station_error error = fits(id, value);
@@ -197,11 +202,10 @@ wh_station_error wh_conf_set(wh_conf *conf, wh_conf_id id, wh_real value) {
         return error;
     }
     conf->value[id] = as_kept(value);
-    if (!go_together(conf)) {
+    if (!renew(conf)) {
         conf->value[id] = before;
         return WH_STATION_CONF_AGAINST;
     }
-    renew(conf);
     return WH_STATION_FINE;
 }
 
@@ -231,7 +235,7 @@ void wh_conf_default(wh_conf *conf) {
     for (unsigned id = 0; id < WH_CONF_COUNT; id++) {
         conf->value[id] = conf->standard[id];
     }
-    renew(conf);
+    (void)renew(conf);
 }
 
 static void take(wh_conf *conf, unsigned number, wh_real value) {
@@ -248,9 +252,7 @@ static void take_all(wh_conf *conf, const uint8_t *payload, unsigned count) {
         const unsigned number = (unsigned)wh_bytes_get(&bytes, 1);
         take(conf, number, (wh_real)wh_bytes_get_float(&bytes));
     }
-    if (go_together(conf)) {
-        renew(conf);
-    } else {
+    if (!renew(conf)) {
         wh_conf_default(conf);
     }
 }
@@ -285,8 +287,8 @@ void wh_conf_start(wh_conf *conf, void (*own)(wh_rig_config *config), const wh_s
     see_several(conf->standard);
     for (unsigned id = 0; id < WH_CONF_COUNT; id++) {
         conf->standard[id] = as_kept(conf->standard[id]);
-        conf->value[id] = conf->standard[id];
     }
+    wh_conf_default(conf);
     const int count = memory != NULL ? wh_store_load(memory, kept, &conf->sequence) : 0;
     if (count > 0) {
         take_all(conf, kept + WH_STORE_HEAD_BYTES, (unsigned)count);

@@ -259,7 +259,7 @@ void wh_tel_rate(wh_tel *tel, uint32_t every) {
 }
 
 bool wh_tel_read(wh_tel *tel) {
-    if (!tel->capture.full) {
+    if (tel->capture.state != WH_CAPTURE_FULL) {
         return false;
     }
     tel->reads = true;
@@ -277,7 +277,7 @@ void wh_tel_step(wh_tel *tel, const wh_rig_config *config, const wh_rig *rig, co
                .out = out,
                .kept = kept,
                .stage = wh_rig_stage(rig)};
-    if (tel->capture.trigger != WH_CAPTURE_OFF && !tel->capture.full) {
+    if (wh_capture_runs(&tel->capture)) {
         capture_step(&s);
     }
     if (tel->every > 0) {
