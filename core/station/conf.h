@@ -43,9 +43,8 @@ typedef struct wh_conf_row {
 } wh_conf_row;
 
 typedef struct wh_conf {
-    void (*own)(
-        wh_rig_config
-            *config); /* fills in the program's own configuration, whose settings go together */
+    /* Fills in the program's own configuration, whose settings go together. */
+    void (*own)(wh_rig_config *config);
     const wh_store_memory *memory; /* NULL: nothing is kept */
     wh_rig_config *config;         /* the rig's: renewed with each change */
     wh_real value[WH_CONF_COUNT];

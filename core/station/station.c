@@ -88,7 +88,7 @@ static unsigned do_status(request *r) {
              rig->run.phase != WH_PHASE_NONE ? rig->run.target_radps * RPM_PER_RADPS : WH_R(0.0)},
         {.number = rig->command.volts},
         {.count = (uint32_t)rig->guard.trip},
-        {.word = rig->has_result ? wh_quality_text(rig->result.force.quality) : "none"},
+        {.word = rig->has_result ? wh_quality_text(rig->result.force.quality) : WH_WORDS("none")},
         {.count = r->station->lost_answers},
         {.count = r->station->lost_bytes},
         {.count = r->station->host_losses}};
