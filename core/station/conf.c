@@ -52,9 +52,10 @@ wh_conf_id wh_conf_find(const char *name) { return (wh_conf_id)wh_list_find(name
 const char *wh_conf_name(wh_conf_id id) { return wh_list_item(names(), id); }
 
 const char *wh_conf_words(wh_conf_id id) {
-#define WORDS(name, number, kind, unit, least, most, goes, member, words) "\n" WH_SAY(words)
-    return wh_list_item(WH_CONF_ROWS(WORDS), id);
+#define WORDS(name, number, kind, unit, least, most, goes, member, words) WH_SAY(words) "\0"
+    static const char words[] WH_WORD_LIST = WH_CONF_ROWS(WORDS);
 #undef WORDS
+    return wh_words_item(words, id);
 }
 
 const char *wh_conf_unit_text(wh_conf_id id) {
@@ -65,9 +66,10 @@ const char *wh_conf_unit_text(wh_conf_id id) {
 
 /* A list: what a choice takes, or one word. */
 static const char *choices(wh_conf_id id) {
-#define WORDS(kind, words) "\n" words
-    return wh_list_item(WH_CONF_KIND_ROWS(WORDS), ROW(id)->kind);
+#define WORDS(kind, words) words "\0"
+    static const char words[] WH_WORD_LIST = WH_CONF_KIND_ROWS(WORDS);
 #undef WORDS
+    return wh_words_item(words, ROW(id)->kind);
 }
 
 const char *wh_conf_kind_text(wh_conf_id id) { return choices(id) + 1; }
