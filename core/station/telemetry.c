@@ -77,7 +77,9 @@ static void add(sight *s, uint32_t number, unsigned size) { wh_bytes_put(&s->fra
 
 static void begin_frame(sight *s, wh_tel_channel channel, uint32_t ticks) {
     wh_tel *tel = s->tel;
-    s->frame = (wh_bytes){.to = tel->line + BEFORE, .room = sizeof tel->line - BEFORE};
+    s->frame.to = tel->line + BEFORE;
+    s->frame.room = sizeof tel->line - BEFORE;
+    s->frame.at = 0;
     add(s, 0x80U + (uint32_t)channel, 1);
     add(s, tel->sequence[channel]++, 2);
     add(s, tel->dropped[channel], 2);
