@@ -83,13 +83,13 @@ static wh_real units(const wh_conf_row *row) {
     return row->unit < sizeof per_unit / sizeof per_unit[0] ? per_unit[row->unit] : WH_R(1.0);
 }
 
-/* The member that a row names is of the type that goes with its kind. */
+/* The member that a row names is of the type that goes with its kind; all but real ones are whole numbers. */
 static wh_real value_of(const wh_rig_config *c, wh_conf_id id) {
     const wh_conf_row *row = ROW(id);
     const void *member = (const uint8_t *)c + row->place;
     switch ((wh_conf_kind)row->kind) {
     case WH_CONF_WHOLE: return (wh_real) * (const uint32_t *)member;
-    case WH_CONF_SWITCH: return *(const uint8_t *)member != 0 ? WH_R(1.0) : WH_R(0.0);
+    case WH_CONF_SWITCH: return (wh_real) * (const uint8_t *)member;
     case WH_CONF_FEEDS: return (wh_real) * (const wh_feed_when *)member;
     case WH_CONF_REAL:
     case WH_CONF_KINDS: break;
@@ -102,8 +102,8 @@ static void put(wh_rig_config *c, wh_conf_id id, wh_real value) {
     void *member = (uint8_t *)c + row->place;
     switch ((wh_conf_kind)row->kind) {
     case WH_CONF_WHOLE: *(uint32_t *)member = (uint32_t)value; break;
-    case WH_CONF_SWITCH: *(uint8_t *)member = is_on(value) ? 1U : 0U; break;
-    case WH_CONF_FEEDS: *(wh_feed_when *)member = (wh_feed_when)(int)value; break;
+    case WH_CONF_SWITCH: *(uint8_t *)member = (uint8_t)(uint32_t)value; break;
+    case WH_CONF_FEEDS: *(wh_feed_when *)member = (wh_feed_when)(uint32_t)value; break;
     case WH_CONF_REAL: *(wh_real *)member = value / units(row); break;
     case WH_CONF_KINDS: break;
     }
