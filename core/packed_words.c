@@ -15,6 +15,16 @@ char wh_words_next(wh_packed *from) {
     return (char)byte;
 }
 
+const char *wh_words_item(const char *list, unsigned number) {
+    const char *item = list;
+    for (; number > 0 && wh_word_at(list) != '\0'; number--) {
+        item = list;
+        while (wh_word_at(list++) != '\0') {
+        }
+    }
+    return wh_word_at(list) != '\0' ? list : item;
+}
+
 void wh_words_unpack(wh_text *text, const char *packed) {
     wh_packed from;
     wh_words_begin(&from, packed);

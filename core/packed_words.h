@@ -22,6 +22,7 @@ extern "C" {
 
 #define wh_words_next WH_NAME(wh_words_next)
 #define wh_words_unpack WH_NAME(wh_words_unpack)
+#define wh_words_item WH_NAME(wh_words_item)
 
 /* Packed words that are read. */
 typedef struct wh_packed {
@@ -37,6 +38,16 @@ WH_INLINE void wh_words_begin(wh_packed *from, const char *packed) {
 
 /* The next character; beyond the end nothing may be read. */
 char wh_words_next(wh_packed *from);
+
+/* Where a list of words is kept: with them. */
+#if defined(WH_WORDS_FROM)
+#define WH_WORD_LIST __attribute__((__section__(".rodata.str.lists")))
+#else
+#define WH_WORD_LIST
+#endif
+
+/* An item of static const char list[] WH_WORD_LIST = WH_WORDS("one") "\0" WH_WORDS("two") "\0"; beyond them all, the last. */
+const char *wh_words_item(const char *list, unsigned number);
 
 /* Add what is packed. */
 void wh_words_unpack(wh_text *text, const char *packed);

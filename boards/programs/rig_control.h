@@ -6,6 +6,7 @@
 #include <stddef.h>
 
 #include "core/arithmetic.h"
+#include "core/packed_words.h"
 #include "core/rig/rig.h"
 #include "core/scene.h"
 #include "core/station/seen.h"
@@ -54,15 +55,7 @@ _Static_assert(RIG_SAMPLES_MOST <= WH_SEEN_SAMPLES, "all are seen");
 /* Static, not on the stack: it holds the samples of a turn. */
 static wh_rig rig;
 static trip_memory memory;
-static wh_seen seen; /* in the last control step */
-
-static wh_rig_inputs inputs_now(void) {
-    return (wh_rig_inputs){.now_ticks = hal_clock_ticks(),
-                           .supply_V = hal_motor_supply_V(),
-                           .stop_pressed = hal_stop_pressed(),
-                           .clock_is_fallback = hal_clock_source_now() == HAL_CLOCK_FALLBACK,
-                           .watchdog_has_cut = hal_watchdog_has_cut()};
-}
+static wh_seen seen; /* in this control step, or the last */
 
 static void obey(const wh_rig_command *command) {
     switch (command->way) {
@@ -72,51 +65,48 @@ static void obey(const wh_rig_command *command) {
     }
 }
 
-static wh_rig_command step(const wh_rig_config *config, const hal_slot_pulse *pulse,
-                           const hal_load_sample *sample, unsigned samples) {
-    const wh_rig_inputs inputs = inputs_now();
-    seen.inputs = inputs;
-#if HAL_FRAMES
-    hal_frames_step_begins();
-#endif
-    if (pulse != NULL) {
-        wh_rig_pulse(config, &rig, pulse->sensor, pulse->ticks);
+/* What has come since, as far as a step takes it: it goes to `seen`. */
+static void look(void) {
+    hal_slot_pulse pulse;
+    hal_load_sample sample;
+    /* one a step: a storm must not hold it up, and stamps do not age; where a sample had to wait for one, that is first */
+    const bool owed = RIG_SAMPLES_WITH_PULSE == 0U && seen.pulsed;
+    seen.pulsed = !owed && hal_slots_take(&pulse);
+    if (seen.pulsed) {
+        seen.sensor = pulse.sensor;
+        seen.pulse_ticks = pulse.ticks;
     }
-    for (unsigned i = 0; i < samples; i++) {
-        wh_rig_load(config, &rig, sample[i].ticks, sample[i].raw, (wh_load_status)sample[i].status);
+    seen.samples = 0;
+    while (seen.samples < (seen.pulsed ? RIG_SAMPLES_WITH_PULSE : RIG_SAMPLES_MOST) &&
+           hal_loadcell_take(&sample)) {
+        seen.sample[seen.samples] =
+            (wh_seen_sample){sample.ticks, sample.raw, (wh_load_status)sample.status};
+        seen.samples += sample.status != HAL_LOAD_REPEATED ? 1U : 0U;
     }
-    const wh_rig_command command = wh_rig_step(config, &rig, &inputs);
-#if HAL_FRAMES
-    hal_frames_step_ends();
-#endif
-    return command;
-}
-
-static void see(const hal_slot_pulse *pulse, const hal_load_sample *sample, unsigned samples) {
-    seen.pulsed = pulse != NULL;
-    seen.sensor = pulse != NULL ? pulse->sensor : 0;
-    seen.pulse_ticks = pulse != NULL ? pulse->ticks : 0;
-    seen.samples = samples;
-    for (unsigned i = 0; i < samples; i++) {
-        seen.sample[i] =
-            (wh_seen_sample){sample[i].ticks, sample[i].raw, (wh_load_status)sample[i].status};
-    }
+    seen.inputs.now_ticks = hal_clock_ticks();
+    seen.inputs.supply_V = hal_motor_supply_V();
+    seen.inputs.stop_pressed = hal_stop_pressed();
+    seen.inputs.clock_is_fallback = hal_clock_source_now() == HAL_CLOCK_FALLBACK;
+    seen.inputs.watchdog_has_cut = hal_watchdog_has_cut();
 }
 
 static void control(const wh_rig_config *config) {
-    hal_slot_pulse pulse;
-    hal_load_sample sample[RIG_SAMPLES_MOST];
-    unsigned samples = 0;
-    /* one a step: a storm must not hold it up, and stamps do not age; where a sample had to wait for one, that is first */
-    const bool owed = RIG_SAMPLES_WITH_PULSE == 0U && seen.pulsed;
-    const bool pulsed = !owed && hal_slots_take(&pulse);
-    while (samples < (pulsed ? RIG_SAMPLES_WITH_PULSE : RIG_SAMPLES_MOST) &&
-           hal_loadcell_take(&sample[samples])) {
-        samples += sample[samples].status != HAL_LOAD_REPEATED ? 1U : 0U;
+    look();
+#if HAL_FRAMES
+    hal_frames_step_begins();
+#endif
+    if (seen.pulsed) {
+        wh_rig_pulse(config, &rig, seen.sensor, seen.pulse_ticks);
     }
-    const wh_rig_command command = step(config, pulsed ? &pulse : NULL, sample, samples);
+    for (unsigned i = 0; i < seen.samples; i++) {
+        const wh_seen_sample *sample = &seen.sample[i];
+        wh_rig_load(config, &rig, sample->ticks, sample->raw, sample->status);
+    }
+    const wh_rig_command command = wh_rig_step(config, &rig, &seen.inputs);
+#if HAL_FRAMES
+    hal_frames_step_ends();
+#endif
     obey(&command);
-    see(pulsed ? &pulse : NULL, sample, samples);
     trip_memory_keep(&memory, &rig);
     hal_reset_mark(wh_rig_stage(&rig));
     hal_watchdog_kick(); /* tripped too: a watchdog that resets would start all over */
@@ -129,18 +119,19 @@ static const char *why_no_hardware(void) {
         return wh_status_text(status);
     }
 #endif
-    return "the hardware does not answer";
+    return WH_WORDS("the hardware does not answer");
 }
 
 /* Start the hardware, and look whether the arithmetic is that of the tests: by the model's file, which has the flags of all of
- * the image. Why not, the motor off; or NULL. */
+ * the image. Why not, as WH_WORDS() has it, the motor off; or NULL. */
 static const char *why_not_started(void) {
     if (hal_clock_start() != HAL_STARTED) {
         return why_no_hardware();
     }
     if (wh_arithmetic_wrong(OWN_ARITHMETIC) != WH_PROBED_COUNT) {
         hal_motor_off(HAL_MOTOR_COAST);
-        return "compiled or set up for other arithmetic than IEEE 754"; /* without all other texts of a wh_status */
+        /* without all other texts of a wh_status */
+        return WH_WORDS("compiled or set up for other arithmetic than IEEE 754");
     }
     return NULL;
 }

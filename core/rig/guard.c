@@ -27,10 +27,11 @@ WH_CALLED void wh_guard_trip(wh_guard *guard, wh_trip reason) {
     }
 }
 
-#define CASE(name, number, words) \
-    case name: return WH_WORDS(words);
+#define ONE(name, number, words) +1
+#define ITEM(name, number, words) WH_WORDS(words) "\0"
+_Static_assert(0 WH_TRIP_ROWS(ONE) == (int)WH_TRIP_SUPPLY, "1 is the only number that is not used");
 
 const char *wh_trip_text(wh_trip reason) {
-    switch (reason) { WH_TRIP_ROWS(CASE) }
-    return WH_WORDS("unknown reason");
+    static const char words[] WH_WORD_LIST = WH_TRIP_ROWS(ITEM) WH_WORDS("unknown reason") "\0";
+    return wh_words_item(words, reason != WH_TRIP_NONE ? (unsigned)reason - 1U : 0U);
 }

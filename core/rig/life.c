@@ -32,32 +32,23 @@ wh_life_rule wh_life_rule_of(wh_life state, wh_rig_event event) {
     return rules[event][state];
 }
 
-/* The words of a row, without or with a number. */
-/* clang-format off */
-#define CASE(name, words) case name: return words;
-#define NUMBERED_CASE(name, number, words) case name: return WH_WORDS(words);
-/* clang-format on */
+#define ONE(name, number, words) +1
+#define ITEM(name, words) WH_WORDS(words) "\0"
+#define NUMBERED_ITEM(name, number, words) WH_WORDS(words) "\0"
+_Static_assert(0 WH_REFUSAL_ROWS(ONE) == (int)WH_REFUSALS, "all numbers are used");
 
 const char *wh_life_text(wh_life state) {
-    switch (state) {
-        WH_LIFE_ROWS(CASE)
-    case WH_LIVES: break;
-    }
-    return "unknown state";
+    static const char words[] WH_WORD_LIST = WH_LIFE_ROWS(ITEM) WH_WORDS("unknown state") "\0";
+    return wh_words_item(words, state);
 }
 
 const char *wh_rig_event_text(wh_rig_event event) {
-    switch (event) {
-        WH_EVENT_ROWS(CASE)
-    case WH_EVENTS: break;
-    }
-    return "unknown event";
+    static const char words[] WH_WORD_LIST = WH_EVENT_ROWS(ITEM) WH_WORDS("unknown event") "\0";
+    return wh_words_item(words, event);
 }
 
 const char *wh_refusal_text(wh_refusal refusal) {
-    switch (refusal) {
-        WH_REFUSAL_ROWS(NUMBERED_CASE)
-    case WH_REFUSALS: break;
-    }
-    return WH_WORDS("unknown refusal");
+    static const char words[] WH_WORD_LIST =
+        WH_REFUSAL_ROWS(NUMBERED_ITEM) WH_WORDS("unknown refusal") "\0";
+    return wh_words_item(words, refusal);
 }

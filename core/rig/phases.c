@@ -1,6 +1,7 @@
 /* phases.c: a test run of the eccentric-mass rig, phase by phase. */
 #include "phases.h"
 
+#include "core/packed_words.h"
 #include "datasheet.h"
 
 static void enter(wh_run *run, wh_rig_phase phase, uint32_t now_ticks) {
@@ -187,13 +188,9 @@ bool wh_run_step(wh_run *run, const wh_run_scene *scene) {
     return false;
 }
 
-#define CASE(name, words) \
-    case name: return words;
+#define ITEM(name, words) WH_WORDS(words) "\0"
 
 const char *wh_phase_text(wh_rig_phase phase) {
-    switch (phase) {
-        WH_PHASE_ROWS(CASE)
-    case WH_PHASES: break;
-    }
-    return "unknown phase";
+    static const char words[] WH_WORD_LIST = WH_PHASE_ROWS(ITEM) WH_WORDS("unknown phase") "\0";
+    return wh_words_item(words, phase);
 }

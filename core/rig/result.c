@@ -369,21 +369,16 @@ void wh_merge_judge(const wh_result_config *config, const wh_rotor_config *rotor
     measured->quality = (wh_quality)qualities[measured->why];
 }
 
+#define ITEM(words) WH_WORDS(words) "\0"
+#define WHY_ITEM(name, quality, words) ITEM(words)
+
 const char *wh_why_text(wh_why why) {
-#define WH_WHY_CASE(name, quality, words) \
-    case name: return WH_WORDS(words);
-    switch (why) {
-        WH_WHY_ROWS(WH_WHY_CASE)
-    case WH_WHYS: break;
-    }
-    return WH_WORDS("unknown reason");
+    static const char words[] WH_WORD_LIST = WH_WHY_ROWS(WHY_ITEM) ITEM("unknown reason");
+    return wh_words_item(words, why);
 }
 
 const char *wh_quality_text(wh_quality quality) {
-    switch (quality) {
-    case WH_GOOD: return "good";
-    case WH_DOUBTFUL: return "doubtful";
-    case WH_REFUSED: return "refused";
-    }
-    return "unknown quality";
+    static const char words[] WH_WORD_LIST =
+        ITEM("good") ITEM("doubtful") ITEM("refused") ITEM("unknown quality");
+    return wh_words_item(words, quality);
 }

@@ -9,7 +9,7 @@
 static void add_words(wh_text *text, const char *words, char blank) {
     wh_packed from;
     wh_words_begin(&from, words);
-    for (char next = wh_words_read(&from); next >= ' '; next = wh_words_read(&from)) {
+    for (char next = wh_words_read(&from); next != '\0'; next = wh_words_read(&from)) {
         if (next == '|' && blank != ' ') {
             break;
         }
@@ -38,6 +38,7 @@ static void add_value(wh_text *text, char as, const wh_value *value) {
     switch (as) {
     case 'w': add_words(text, value->word, '_'); break;
     case 's': add_words(text, value->word, ' '); break;
+    case 'g': wh_text_add(text, value->count != 0 ? "good" : "bad"); break;
     case 'c': wh_text_add_unsigned(text, value->count); break;
     case 'e': add_exact(text, value->number); break;
     default: wh_text_add_fixed(text, value->number, (unsigned)(as - '0'));
@@ -47,7 +48,7 @@ static void add_value(wh_text *text, char as, const wh_value *value) {
 void wh_answer(wh_text *text, const char *form, const wh_value *value) {
     wh_packed from;
     wh_words_begin(&from, form);
-    for (char next = wh_words_read(&from); next >= ' '; next = wh_words_read(&from)) {
+    for (char next = wh_words_read(&from); next != '\0'; next = wh_words_read(&from)) {
         if (next == '@') {
             add_value(text, wh_words_read(&from), value++);
         } else {
@@ -65,7 +66,7 @@ unsigned wh_list_find(const char *list, const char *word) {
     unsigned number = 0;
     for (char next = wh_words_read(&from); next == part; number++) {
         const char *at = word; /* as far as it is the same; or NULL */
-        for (next = wh_words_read(&from); next >= ' ' && next != part;
+        for (next = wh_words_read(&from); next != '\0' && next != part;
              next = wh_words_read(&from)) {
             at = at != NULL && wh_word_at(at) == next ? at + 1 : NULL;
         }

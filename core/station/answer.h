@@ -23,13 +23,14 @@ typedef union wh_value {
 /* Add a form in which a value stands where it has an @ and a letter or digit, one after the other:
  *
  *     @w           a word, to the end of the list's item that it is: a blank in it as _
- *     @s           words, to the end of their line
+ *     @s           words
  *     @c           a count
+ *     @g           good or bad: a count of 1 or 0
  *     @0 ... @9    a number, with so many decimals
  *     @e           a number to the seventh digit, as it can be typed, without zeros at the end */
 void wh_answer(wh_text *text, const char *form, const wh_value *value);
 
-/* A list begins with what parts its items, which is in no WH_WORDS(), and ends with the string or the line:
+/* A list begins with what parts its items, which is in no WH_WORDS():
  * "|" WH_WORDS("off") "|" WH_WORDS("on"). */
 
 /* Which of the items the word is, from 0; how many there are when it is none. */

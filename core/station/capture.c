@@ -8,8 +8,7 @@
 
 void wh_capture_start(wh_capture *capture, wh_capture_trigger trigger) {
     capture->trigger = trigger;
-    capture->full = false;
-    capture->triggered = false;
+    capture->state = trigger == WH_CAPTURE_OFF ? WH_CAPTURE_NONE : WH_CAPTURE_WAITS;
     capture->left = HALF;
     capture->count = 0;
     capture->next = 0;
@@ -26,9 +25,6 @@ static bool triggers(const wh_capture *capture, uint8_t flags) {
 }
 
 void wh_capture_step(wh_capture *capture, const wh_captured *step, uint32_t now_ticks) {
-    if (capture->trigger == WH_CAPTURE_OFF || capture->full) {
-        return;
-    }
     wh_captured *to = &capture->step[capture->next];
     if (capture->count == 0) {
         capture->first_ticks = now_ticks;
@@ -37,14 +33,15 @@ void wh_capture_step(wh_capture *capture, const wh_captured *step, uint32_t now_
         capture->first_ticks += (uint16_t)(second - to->ticks);
     }
     *to = *step;
-    if (!capture->triggered && triggers(capture, step->flags)) {
-        capture->triggered = true;
+    if (capture->state == WH_CAPTURE_WAITS && triggers(capture, step->flags)) {
+        capture->state = WH_CAPTURE_TRIGGERED;
         to->flags |= TRIGGERED;
     }
     capture->next = (capture->next + 1U) % WH_CAPTURE_STEPS;
     capture->count += capture->count < WH_CAPTURE_STEPS ? 1U : 0U;
-    capture->left -= capture->triggered ? 1U : 0U;
-    capture->full = capture->left == 0;
+    if (capture->state == WH_CAPTURE_TRIGGERED && --capture->left == 0) {
+        capture->state = WH_CAPTURE_FULL;
+    }
 }
 
 const wh_captured *wh_capture_at(const wh_capture *capture, unsigned i) {

@@ -31,11 +31,23 @@ typedef struct wh_captured {
     uint8_t stage;
 } wh_captured;
 
+/* How far it is: X(state, word) */
+#define WH_CAPTURE_STATE_ROWS(X) \
+    X(WH_CAPTURE_NONE, "off") \
+    X(WH_CAPTURE_WAITS, "waiting") \
+    X(WH_CAPTURE_TRIGGERED, "triggered") \
+    X(WH_CAPTURE_FULL, "full")
+
+#define WH_CAPTURE_NAME(state, word) state,
+typedef enum wh_capture_state {
+    WH_CAPTURE_STATE_ROWS(WH_CAPTURE_NAME) WH_CAPTURE_STATES
+} wh_capture_state;
+#undef WH_CAPTURE_NAME
+
 /* All zeros: off. */
 typedef struct wh_capture {
     wh_capture_trigger trigger;
-    bool full;
-    bool triggered;
+    wh_capture_state state;
     unsigned left;        /* steps to come behind the trigger */
     unsigned count;       /* steps that are kept, */
     unsigned next;        /* and where the next goes */
@@ -50,7 +62,12 @@ typedef struct wh_capture {
 /* Anew, for this trigger. It counts once half of the ring is filled; what comes before is no trigger. */
 void wh_capture_start(wh_capture *capture, wh_capture_trigger trigger);
 
-/* A control step, less than 65 ms behind the one before; its flags without 4. `now_ticks`: the whole of them. */
+/* Does it take steps? */
+WH_INLINE bool wh_capture_runs(const wh_capture *capture) {
+    return capture->state == WH_CAPTURE_WAITS || capture->state == WH_CAPTURE_TRIGGERED;
+}
+
+/* While it does: a control step, less than 65 ms behind the one before; its flags without 4. `now_ticks`: the whole of them. */
 void wh_capture_step(wh_capture *capture, const wh_captured *step, uint32_t now_ticks);
 
 /* Step i of those that are kept, the oldest first. */

@@ -52,9 +52,10 @@ wh_conf_id wh_conf_find(const char *name) { return (wh_conf_id)wh_list_find(name
 const char *wh_conf_name(wh_conf_id id) { return wh_list_item(names(), id); }
 
 const char *wh_conf_words(wh_conf_id id) {
-#define WORDS(name, number, kind, unit, least, most, goes, member, words) "\n" WH_SAY(words)
-    return wh_list_item(WH_CONF_ROWS(WORDS), id);
+#define WORDS(name, number, kind, unit, least, most, goes, member, words) WH_SAY(words) "\0"
+    static const char words[] WH_WORD_LIST = WH_CONF_ROWS(WORDS);
 #undef WORDS
+    return wh_words_item(words, id);
 }
 
 const char *wh_conf_unit_text(wh_conf_id id) {
@@ -65,9 +66,10 @@ const char *wh_conf_unit_text(wh_conf_id id) {
 
 /* A list: what a choice takes, or one word. */
 static const char *choices(wh_conf_id id) {
-#define WORDS(kind, words) "\n" words
-    return wh_list_item(WH_CONF_KIND_ROWS(WORDS), ROW(id)->kind);
+#define WORDS(kind, words) words "\0"
+    static const char words[] WH_WORD_LIST = WH_CONF_KIND_ROWS(WORDS);
 #undef WORDS
+    return wh_words_item(words, ROW(id)->kind);
 }
 
 const char *wh_conf_kind_text(wh_conf_id id) { return choices(id) + 1; }
@@ -81,13 +83,13 @@ static wh_real units(const wh_conf_row *row) {
     return row->unit < sizeof per_unit / sizeof per_unit[0] ? per_unit[row->unit] : WH_R(1.0);
 }
 
-/* The member that a row names is of the type that goes with its kind. */
+/* The member that a row names is of the type that goes with its kind; all but real ones are whole numbers. */
 static wh_real value_of(const wh_rig_config *c, wh_conf_id id) {
     const wh_conf_row *row = ROW(id);
     const void *member = (const uint8_t *)c + row->place;
     switch ((wh_conf_kind)row->kind) {
     case WH_CONF_WHOLE: return (wh_real) * (const uint32_t *)member;
-    case WH_CONF_SWITCH: return *(const uint8_t *)member != 0 ? WH_R(1.0) : WH_R(0.0);
+    case WH_CONF_SWITCH: return (wh_real) * (const uint8_t *)member;
     case WH_CONF_FEEDS: return (wh_real) * (const wh_feed_when *)member;
     case WH_CONF_REAL:
     case WH_CONF_KINDS: break;
@@ -100,8 +102,8 @@ static void put(wh_rig_config *c, wh_conf_id id, wh_real value) {
     void *member = (uint8_t *)c + row->place;
     switch ((wh_conf_kind)row->kind) {
     case WH_CONF_WHOLE: *(uint32_t *)member = (uint32_t)value; break;
-    case WH_CONF_SWITCH: *(uint8_t *)member = is_on(value) ? 1U : 0U; break;
-    case WH_CONF_FEEDS: *(wh_feed_when *)member = (wh_feed_when)(int)value; break;
+    case WH_CONF_SWITCH: *(uint8_t *)member = (uint8_t)(uint32_t)value; break;
+    case WH_CONF_FEEDS: *(wh_feed_when *)member = (wh_feed_when)(uint32_t)value; break;
     case WH_CONF_REAL: *(wh_real *)member = value / units(row); break;
     case WH_CONF_KINDS: break;
     }
@@ -140,9 +142,20 @@ static void put_cell(const wh_conf *conf, wh_rig_config *c) {
     c->measure.cell.newton_per_count = is_on(conf->value[WH_CONF_cell_reversed]) ? -scale : scale;
 }
 
-static void renew(const wh_conf *conf) {
+static bool go_together(const wh_conf *conf) {
+    const wh_real *value = conf->value;
+    return value[WH_CONF_speed_least] < value[WH_CONF_speed_most] &&
+           value[WH_CONF_speed_most] < value[WH_CONF_speed_limit] &&
+           value[WH_CONF_supply_least] < value[WH_CONF_supply_most];
+}
+
+/* False: they do not go together, and nothing has happened. */
+static bool renew(const wh_conf *conf) {
     wh_rig_config *c = conf->config;
     bool goes[WH_CONF_CELL + 1U] = {false};
+    if (!go_together(conf)) {
+        return false;
+    }
     conf->own(c);
     for (unsigned id = 0; id < WH_CONF_COUNT; id++) {
         if (is_set(conf, (wh_conf_id)id)) {
@@ -159,6 +172,7 @@ static void renew(const wh_conf *conf) {
     if (goes[WH_CONF_CELL]) {
         put_cell(conf, c);
     }
+    return true;
 }
 
 /* --- what may be set ----------------------------------------------------------------------------------- */
@@ -183,13 +197,6 @@ static wh_station_error fits(wh_conf_id id, wh_real value) {
     return is_absent(id, value) ? WH_STATION_NOT_HERE : WH_STATION_FINE;
 }
 
-static bool go_together(const wh_conf *conf) {
-    const wh_real *value = conf->value;
-    return value[WH_CONF_speed_least] < value[WH_CONF_speed_most] &&
-           value[WH_CONF_speed_most] < value[WH_CONF_speed_limit] &&
-           value[WH_CONF_supply_least] < value[WH_CONF_supply_most];
-}
-
 wh_station_error wh_conf_set(wh_conf *conf, wh_conf_id id, wh_real value) {
     const wh_real before = conf->value[id];
     const wh_station_error error = fits(id, value);
@@ -197,11 +204,10 @@ wh_station_error wh_conf_set(wh_conf *conf, wh_conf_id id, wh_real value) {
         return error;
     }
     conf->value[id] = as_kept(value);
-    if (!go_together(conf)) {
+    if (!renew(conf)) {
         conf->value[id] = before;
         return WH_STATION_CONF_AGAINST;
     }
-    renew(conf);
     return WH_STATION_FINE;
 }
 
@@ -231,7 +237,7 @@ void wh_conf_default(wh_conf *conf) {
     for (unsigned id = 0; id < WH_CONF_COUNT; id++) {
         conf->value[id] = conf->standard[id];
     }
-    renew(conf);
+    (void)renew(conf);
 }
 
 static void take(wh_conf *conf, unsigned number, wh_real value) {
@@ -248,9 +254,7 @@ static void take_all(wh_conf *conf, const uint8_t *payload, unsigned count) {
         const unsigned number = (unsigned)wh_bytes_get(&bytes, 1);
         take(conf, number, (wh_real)wh_bytes_get_float(&bytes));
     }
-    if (go_together(conf)) {
-        renew(conf);
-    } else {
+    if (!renew(conf)) {
         wh_conf_default(conf);
     }
 }
@@ -285,8 +289,8 @@ void wh_conf_start(wh_conf *conf, void (*own)(wh_rig_config *config), const wh_s
     see_several(conf->standard);
     for (unsigned id = 0; id < WH_CONF_COUNT; id++) {
         conf->standard[id] = as_kept(conf->standard[id]);
-        conf->value[id] = conf->standard[id];
     }
+    wh_conf_default(conf);
     const int count = memory != NULL ? wh_store_load(memory, kept, &conf->sequence) : 0;
     if (count > 0) {
         take_all(conf, kept + WH_STORE_HEAD_BYTES, (unsigned)count);

@@ -43,9 +43,10 @@ typedef struct wh_conf_row {
 } wh_conf_row;
 
 typedef struct wh_conf {
-    void (*own)(wh_rig_config *config); /* fills in the program's own configuration */
-    const wh_store_memory *memory;      /* NULL: nothing is kept */
-    wh_rig_config *config;              /* the rig's: renewed with each change */
+    /* Fills in the program's own configuration, whose settings go together. */
+    void (*own)(wh_rig_config *config);
+    const wh_store_memory *memory; /* NULL: nothing is kept */
+    wh_rig_config *config;         /* the rig's: renewed with each change */
     wh_real value[WH_CONF_COUNT];
     wh_real standard[WH_CONF_COUNT]; /* where nobody has set it */
     uint32_t sequence;               /* of what was loaded or saved last; 0: nothing was */

@@ -37,11 +37,12 @@ static wh_station_error list(const wh_conf *conf, const wh_words *words, wh_text
     }
     wh_answer(answer, WH_WORDS(" settings=@c"), settings);
     for (; id < WH_CONF_COUNT; id++) {
-        const wh_text before = *answer;
+        const unsigned before = answer->length;
         add_setting(answer, conf, (wh_conf_id)id);
         if (answer->truncated || answer->length + LIST_TAIL > answer->size) {
             const wh_value next[] = {{.count = id}};
-            *answer = before;
+            answer->length = before;
+            answer->truncated = false;
             wh_answer(answer, WH_WORDS(" next=@c"), next);
             break;
         }

@@ -9,15 +9,6 @@
 extern "C" {
 #endif
 
-/* A literal each (core/packed_words.h). */
-#if WH_STATION_TAPE
-#define WH_TEL_HOW_WORDS \
-    "list, schema CHANNEL, rate N, off, fmt FORMAT, tape on|off or ring [pulse|fault|off|read] is wanted"
-#else
-#define WH_TEL_HOW_WORDS \
-    "list, schema CHANNEL, rate N, off, fmt FORMAT or ring [pulse|fault|off|read] is wanted"
-#endif
-
 /* Why a line is refused, beside the rig's own refusals (wh_refusal, 1 ... 99): X(name, number, words). Numbers stay. */
 #define WH_STATION_ERROR_ROWS(X) \
     X(WH_STATION_NO_COMMAND, 100, "no such command; help lists them") \
@@ -28,14 +19,14 @@ extern "C" {
     X(WH_STATION_ON_OFF, 105, "on or off is wanted") \
     X(WH_STATION_SECONDS, 106, "0 or a number of seconds from 1 to 3600 is wanted") \
     X(WH_STATION_BUSY, 107, "only while the rig is idle") \
-    X(WH_STATION_CONF_HOW, 108, "list, get NAME, set NAME VALUE, save or default is wanted") \
+    X(WH_STATION_CONF_HOW, 108, "no such words; help conf has them") \
     X(WH_STATION_CONF_NONE, 109, "no such setting; conf list has them") \
     X(WH_STATION_CONF_VALUE, 110, "no value for this setting; conf get tells its type") \
     X(WH_STATION_CONF_RANGE, 111, "outside its range; conf get tells it") \
     X(WH_STATION_CONF_AGAINST, 112, "it goes against another setting: least, most and limit") \
     X(WH_STATION_CONF_FAILED, 113, "the memory for settings failed; what was saved before stays") \
     X(WH_STATION_NOT_HERE, 114, "this program has none") \
-    X(WH_STATION_TEL_HOW, 115, WH_TEL_HOW_WORDS) \
+    X(WH_STATION_TEL_HOW, 115, "no such words; help tel has them") \
     X(WH_STATION_TEL_RATE, 116, \
       "samples a second that part the cell's rate are wanted; with text 100 at most") \
     X(WH_STATION_TEL_CHANNEL, 117, "no such channel; tel list has them") \

@@ -91,21 +91,20 @@ bool wh_line_number(const char *word, wh_real *number) {
     const bool negative = word[0] == '-';
     const char *at = word + (negative || word[0] == '+' ? 1 : 0);
     uint32_t digits = 0;
+    uint32_t scale = 0; /* 0 until the point */
     unsigned count = 0;
-    wh_real scale = WH_R(1.0);
-    bool point = false;
     for (; *at != '\0'; at++) {
-        if (*at == '.' && !point) {
-            point = true;
+        if (*at == '.' && scale == 0) {
+            scale = 1;
             continue;
         }
         if (*at < '0' || *at > '9' || ++count > 9U) {
             return false;
         }
         digits = 10U * digits + (uint32_t)(*at - '0');
-        scale *= point ? WH_R(10.0) : WH_R(1.0);
+        scale *= 10U;
     }
-    const wh_real value = (wh_real)digits / scale;
+    const wh_real value = (wh_real)digits / (wh_real)(scale > 0 ? scale : 1U);
     *number = negative ? -value : value;
     return count > 0;
 }

@@ -8,6 +8,7 @@
 
 /* More of it is a load, or a cell that is not wired. */
 #define LOAD_PART WH_R(0.5)
+#define PARTS 8U
 
 static bool cell_is_good(const wh_rig_config *config, const wh_rig *rig, const wh_seen *seen) {
     if (!rig->guard.load_good ||
@@ -20,39 +21,32 @@ static bool cell_is_good(const wh_rig_config *config, const wh_rig *rig, const w
 
 void wh_selftest_answer(const wh_rig_config *config, const wh_rig *rig, const wh_seen *seen,
                         wh_text *answer) {
-    enum { ARITHMETIC, CLOCK, WATCHDOG, SUPPLY, CELL, STOP, ROTOR, SWING, PARTS };
     const wh_scene *scene = config->observer.scene;
     const wh_swung *swung = &rig->swing.result;
+    const bool arithmetic = scene == NULL || scene->arithmetic == NULL ||
+                            wh_arithmetic_wrong(scene->arithmetic) == WH_PROBED_COUNT;
+    const wh_real off = WH_ABS(swung->place_rad[0]);
     const bool swings = swung->why == WH_SWING_FOUND;
-    const bool good[PARTS] = {[ARITHMETIC] =
-                                  scene == NULL || scene->arithmetic == NULL ||
-                                  wh_arithmetic_wrong(scene->arithmetic) == WH_PROBED_COUNT,
-                              [CLOCK] = !seen->inputs.clock_is_fallback,
-                              [WATCHDOG] = !seen->inputs.watchdog_has_cut,
-                              [SUPPLY] = wh_guard_supply(&config->guard, seen->inputs.supply_V),
-                              [CELL] = cell_is_good(config, rig, seen),
-                              [STOP] = !seen->inputs.stop_pressed,
-                              [ROTOR] = rig->guard.quiet,
-                              [SWING] = !swings || WH_ABS(swung->place_rad[0]) <=
-                                                       config->swing.off_rad + swung->half_rad[0]};
-    wh_value value[1U + PARTS]; /* the first is of all */
-    value[0].word = "good";
-    for (unsigned i = 0; i < PARTS; i++) {
-        value[1U + i].word = good[i] ? "good" : "bad";
-        if (!good[i]) {
-            value[0].word = "bad";
-        }
-    }
-    const wh_value place[] = {{.number = swung->place_rad[0] * WH_RIG_DEG_PER_RAD},
-                              {.number = swung->half_rad[0] * WH_RIG_DEG_PER_RAD}};
-    if (!swings) {
-        value[1U + SWING].word = "none";
+    wh_value value[] = {{.count = 1U}, /* all of these: */
+                        {.count = arithmetic},
+                        {.count = !seen->inputs.clock_is_fallback},
+                        {.count = !seen->inputs.watchdog_has_cut},
+                        {.count = wh_guard_supply(&config->guard, seen->inputs.supply_V)},
+                        {.count = cell_is_good(config, rig, seen)},
+                        {.count = !seen->inputs.stop_pressed},
+                        {.count = rig->guard.quiet},
+                        {.count = !swings || off <= config->swing.off_rad + swung->half_rad[0]},
+                        {.number = swung->place_rad[0] * WH_RIG_DEG_PER_RAD},
+                        {.number = swung->half_rad[0] * WH_RIG_DEG_PER_RAD}};
+    for (unsigned i = 1; i <= PARTS; i++) {
+        value[0].count &= value[i].count;
     }
     wh_answer(answer,
-              WH_WORDS(" selftest=@w arithmetic=@w clock=@w watchdog=@w supply=@w cell=@w stop=@w")
-                  WH_WORDS(" rotor=@w swing=@w"),
+              WH_WORDS(" selftest=@g arithmetic=@g clock=@g watchdog=@g supply=@g cell=@g stop=@g")
+                  WH_WORDS(" rotor=@g"),
               value);
-    if (swings) {
-        wh_answer(answer, WH_WORDS(" place_deg=@2 place_half_deg=@2"), place);
-    }
+    wh_answer(answer,
+              swings ? WH_WORDS(" swing=@g place_deg=@2 place_half_deg=@2")
+                     : WH_WORDS(" swing=none"),
+              &value[PARTS]);
 }

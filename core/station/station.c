@@ -88,7 +88,7 @@ static unsigned do_status(request *r) {
              rig->run.phase != WH_PHASE_NONE ? rig->run.target_radps * RPM_PER_RADPS : WH_R(0.0)},
         {.number = rig->command.volts},
         {.count = (uint32_t)rig->guard.trip},
-        {.word = rig->has_result ? wh_quality_text(rig->result.force.quality) : "none"},
+        {.word = rig->has_result ? wh_quality_text(rig->result.force.quality) : WH_WORDS("none")},
         {.count = r->station->lost_answers},
         {.count = r->station->lost_bytes},
         {.count = r->station->host_losses}};
@@ -232,10 +232,10 @@ static unsigned do_help(request *r) {
     if (asked == COMMANDS) {
         return WH_STATION_NO_COMMAND;
     }
-#define COMMAND(name, most, follows, words) "\n" WH_WORDS(follows) ": " WH_SAY(words)
-    const wh_value value[] = {{.word = r->words.word[1]},
-                              {.word = wh_list_item(WH_COMMAND_ROWS(COMMAND), asked)}};
+#define COMMAND(name, most, follows, words) WH_WORDS(follows) ": " WH_SAY(words) "\0"
+    static const char words[] WH_WORD_LIST = WH_COMMAND_ROWS(COMMAND);
 #undef COMMAND
+    const wh_value value[] = {{.word = r->words.word[1]}, {.word = wh_words_item(words, asked)}};
     wh_answer(answer, WH_WORDS(" @w@s"), value);
     return 0;
 }

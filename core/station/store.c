@@ -7,76 +7,80 @@
 #define HEAD_BYTES WH_STORE_HEAD_BYTES
 #define WITH_ITS_CRC 0x2144DF1CU /* the CRC-32 of whatever ends in its own */
 
-/* What a slot holds. */
-typedef struct record {
-    uint32_t sequence; /* 0: no good one */
-    unsigned length;   /* with head and CRC */
-} record;
+/* Numbers of four bytes. */
+static uint32_t get(const uint8_t *bytes) {
+    return bytes[0] | (uint32_t)bytes[1] << 8 | (uint32_t)bytes[2] << 16 | (uint32_t)bytes[3] << 24;
+}
 
-static const record none;
+static void put(uint8_t *bytes, uint32_t number) {
+    bytes[0] = (uint8_t)number;
+    bytes[1] = (uint8_t)(number >> 8);
+    bytes[2] = (uint8_t)(number >> 16);
+    bytes[3] = (uint8_t)(number >> 24);
+}
 
-/* Piece by piece, as there is no room for another one. */
-static record read_slot(const wh_store_memory *memory, unsigned slot) {
+/* The sequence of a slot's record, 0 when there is no good one; how long that is, with head and CRC. Piece by piece, as there is
+ * no room for another one. */
+static uint32_t read_slot(const wh_store_memory *memory, unsigned slot, unsigned *length) {
     uint8_t bytes[HEAD_BYTES];
-    record found = {.length = HEAD_BYTES};
+    uint32_t sequence = 0;
     uint32_t crc = 0;
-    for (unsigned at = 0; at < found.length; at += HEAD_BYTES) {
-        const unsigned rest = found.length - at;
+    *length = HEAD_BYTES;
+    for (unsigned at = 0; at < *length; at += HEAD_BYTES) {
+        const unsigned rest = *length - at;
         const unsigned part = rest < HEAD_BYTES ? rest : HEAD_BYTES;
         if (!memory->read(slot, at, bytes, part)) {
-            return none;
+            return 0;
         }
         crc = wh_frame_crc(crc, bytes, part);
         if (at == 0) {
-            wh_bytes head = {.from = bytes, .room = HEAD_BYTES};
-            const uint32_t format = wh_bytes_get(&head, 2);
-            found.length = WH_STORE_FIXED_BYTES + (unsigned)wh_bytes_get(&head, 2);
-            found.sequence = wh_bytes_get(&head, 4);
-            if (format != FORMAT || found.length > WH_STORE_SLOT_BYTES) {
-                return none;
+            const uint32_t head = get(bytes);
+            *length = WH_STORE_FIXED_BYTES + (unsigned)(head >> 16);
+            sequence = get(bytes + 4);
+            if ((head & 0xFFFFU) != FORMAT || *length > WH_STORE_SLOT_BYTES) {
+                return 0;
             }
         }
     }
-    return crc == WITH_ITS_CRC ? found : none;
+    return crc == WITH_ITS_CRC ? sequence : 0;
 }
 
 /* The slot of the newest record; 1 when there is none. */
-static unsigned newest(const wh_store_memory *memory, record *found) {
-    const record first = read_slot(memory, 0);
-    *found = read_slot(memory, 1);
-    if (first.sequence != 0 &&
-        (found->sequence == 0 || (int32_t)(found->sequence - first.sequence) <= 0)) {
-        *found = first;
+static unsigned newest(const wh_store_memory *memory, uint32_t *sequence, unsigned *length) {
+    unsigned first_length;
+    const uint32_t first = read_slot(memory, 0, &first_length);
+    *sequence = read_slot(memory, 1, length);
+    if (first != 0 && (*sequence == 0 || (int32_t)(*sequence - first) <= 0)) {
+        *sequence = first;
+        *length = first_length;
         return 0;
     }
     return 1;
 }
 
 int wh_store_load(const wh_store_memory *memory, uint8_t *bytes, uint32_t *sequence) {
-    record found;
-    const unsigned slot = newest(memory, &found);
-    *sequence = found.sequence;
-    return found.sequence != 0 && memory->read(slot, 0, bytes, found.length)
-               ? (int)(found.length - WH_STORE_FIXED_BYTES)
+    unsigned length;
+    const unsigned slot = newest(memory, sequence, &length);
+    return *sequence != 0 && memory->read(slot, 0, bytes, length)
+               ? (int)(length - WH_STORE_FIXED_BYTES)
                : -1;
 }
 
 uint32_t wh_store_save(const wh_store_memory *memory, uint8_t *bytes, unsigned count) {
-    record before;
+    const unsigned length = WH_STORE_FIXED_BYTES + count;
+    uint32_t sequence;
+    unsigned before;
+    unsigned after;
     if (count > WH_STORE_PAYLOAD_MOST) {
         return 0;
     }
-    const unsigned slot = 1U - newest(memory, &before);
-    const uint32_t sequence = before.sequence != UINT32_MAX ? before.sequence + 1U : 1U;
-    wh_bytes made = {.to = bytes, .room = WH_STORE_SLOT_BYTES};
-    wh_bytes_put(&made, FORMAT, 2);
-    wh_bytes_put(&made, count, 2);
-    wh_bytes_put(&made, sequence, 4);
-    made.at += count;
-    wh_bytes_put(&made, wh_frame_crc(0, bytes, made.at), 4);
-    if (!memory->erase(slot) || !memory->write(slot, 0, bytes, made.at)) {
-        return 0;
-    }
-    const record after = read_slot(memory, slot);
-    return after.sequence == sequence && after.length == made.at ? sequence : 0;
+    const unsigned slot = 1U - newest(memory, &sequence, &before);
+    sequence += sequence != UINT32_MAX ? 1U : 2U; /* none is 0 */
+    put(bytes, FORMAT | (uint32_t)count << 16);
+    put(bytes + 4, sequence);
+    put(bytes + HEAD_BYTES + count, wh_frame_crc(0, bytes, HEAD_BYTES + count));
+    return memory->erase(slot) && memory->write(slot, 0, bytes, length) &&
+                   read_slot(memory, slot, &after) == sequence && after == length
+               ? sequence
+               : 0;
 }

@@ -14,6 +14,7 @@
 #define CHANNEL(channel, number, name) "," WH_WORDS(name)
 #define FORMATS WH_TEL_FORMAT_ROWS(LISTED)
 #define TRIGGERS WH_CAPTURE_ROWS(LISTED)
+#define STATES WH_CAPTURE_STATE_ROWS(LISTED)
 #define CHANNELS WH_TEL_CHANNEL_ROWS(CHANNEL)
 
 static uint32_t cell_per_s(const wh_cell_config *cell) {
@@ -70,10 +71,7 @@ static void list(const wh_tel *tel, const wh_tape *tape, const wh_cell_config *c
 static void ring_told(const wh_tel *tel, wh_text *answer) {
     const wh_capture *capture = &tel->capture;
     const wh_value value[] = {{.word = wh_list_item(TRIGGERS, capture->trigger)},
-                              {.word = capture->trigger == WH_CAPTURE_OFF ? "off"
-                                       : capture->full                    ? "full"
-                                       : capture->triggered               ? "triggered"
-                                                                          : "waiting"},
+                              {.word = wh_list_item(STATES, capture->state)},
                               {.count = capture->count},
                               {.count = (capture->count + WH_TEL_SAMPLES - 1U) / WH_TEL_SAMPLES}};
     wh_answer(answer, WH_WORDS(" trigger=@w ring=@w steps=@c frames=@c"), value);

@@ -77,7 +77,9 @@ static void add(sight *s, uint32_t number, unsigned size) { wh_bytes_put(&s->fra
 
 static void begin_frame(sight *s, wh_tel_channel channel, uint32_t ticks) {
     wh_tel *tel = s->tel;
-    s->frame = (wh_bytes){.to = tel->line + BEFORE, .room = sizeof tel->line - BEFORE};
+    s->frame.to = tel->line + BEFORE;
+    s->frame.room = sizeof tel->line - BEFORE;
+    s->frame.at = 0;
     add(s, 0x80U + (uint32_t)channel, 1);
     add(s, tel->sequence[channel]++, 2);
     add(s, tel->dropped[channel], 2);
@@ -259,7 +261,7 @@ void wh_tel_rate(wh_tel *tel, uint32_t every) {
 }
 
 bool wh_tel_read(wh_tel *tel) {
-    if (!tel->capture.full) {
+    if (tel->capture.state != WH_CAPTURE_FULL) {
         return false;
     }
     tel->reads = true;
@@ -277,7 +279,7 @@ void wh_tel_step(wh_tel *tel, const wh_rig_config *config, const wh_rig *rig, co
                .out = out,
                .kept = kept,
                .stage = wh_rig_stage(rig)};
-    if (tel->capture.trigger != WH_CAPTURE_OFF && !tel->capture.full) {
+    if (wh_capture_runs(&tel->capture)) {
         capture_step(&s);
     }
     if (tel->every > 0) {

@@ -88,13 +88,13 @@ static void test_the_ring_has_what_was(void) {
         tel_period(true, FREE);
         const unsigned wait = draw_one_of(&bench.seed, 900);
         unsigned at = 0;
-        for (; at < 4000U && !bench.tel.capture.full; at++) {
+        for (; at < 4000U && bench.tel.capture.state != WH_CAPTURE_FULL; at++) {
             if (at == wait && !by_pulse) {
                 wh_guard_trip(&bench.even.rig.guard, WH_TRIP_PULSES);
             }
             note_period(at, FREE);
         }
-        TEST_ASSERT_TRUE(bench.tel.capture.full);
+        TEST_ASSERT_TRUE(bench.tel.capture.state == WH_CAPTURE_FULL);
         TEST_ASSERT_TRUE(by_pulse || bench.tel.capture.count == (wait < 96U ? wait + 96U : 192U));
         check_read(at, by_pulse);
         check_read(at, by_pulse); /* it stays */
