@@ -177,14 +177,7 @@ static wh_refusal happens(const wh_rig_config *config, wh_rig *rig, const wh_rig
     if (rule.refusal != WH_ALLOWED) {
         return rule.refusal;
     }
-    const wh_order_sight sight = {.guarding = &config->guard,
-                                  .running = &config->run,
-                                  .guard = &rig->guard,
-                                  .inputs = inputs,
-                                  .at_rest = rig->at_rest,
-                                  .can_feed = config->feeds != WH_FEED_NEVER &&
-                                              rig->observer.status == WH_OK};
-    const wh_refusal refusal = wh_order_refused(&sight, order);
+    const wh_refusal refusal = wh_order_refused(config, rig, inputs, order);
     if (refusal == WH_ALLOWED && (order->event != WH_EVENT_HOST_LOST || config->host_loss_stops)) {
         follow(config, rig, inputs, order, rule.next);
     }
