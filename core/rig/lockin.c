@@ -302,7 +302,7 @@ static void end_sums(wh_lockin *lockin) {
     lockin->square = square;
 }
 
-static void end_turn(const wh_cell_config *cell, wh_lockin *lockin) {
+static WH_CALLED void end_turn(const wh_cell_config *cell, wh_lockin *lockin) {
     wh_lockin_turn *turn = &lockin->next;
     const wh_real square = lockin->square;
     const wh_real samples = (wh_real)turn->samples;
@@ -398,8 +398,8 @@ static bool end(const wh_cell_config *cell, wh_lockin *lockin) {
     return true;
 }
 
-bool wh_lockin_work(const wh_rotor_config *rotor, const wh_cell_config *cell, wh_lockin *lockin,
-                    unsigned halves) {
+WH_CALLED bool wh_lockin_work(const wh_rotor_config *rotor, const wh_cell_config *cell,
+                              wh_lockin *lockin, unsigned halves) {
     bool done = false;
     const wh_lockin_stage stage = lockin->stage;
     switch (stage) {

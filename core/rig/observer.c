@@ -160,8 +160,8 @@ static void correct(const wh_observer_config *config, wh_observer *observer, uns
     observer->valid = observer->good_marks >= config->trusted_marks;
 }
 
-void wh_observer_mark(const wh_observer_config *config, wh_observer *observer, unsigned sensor,
-                      uint32_t ticks) {
+WH_CALLED void wh_observer_mark(const wh_observer_config *config, wh_observer *observer,
+                                unsigned sensor, uint32_t ticks) {
     if (observer->status != WH_OK || sensor >= WH_OBSERVER_SENSORS) {
         return;
     }

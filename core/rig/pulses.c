@@ -17,6 +17,10 @@ void wh_pulses_start(wh_pulses *pulses, wh_real impossible_radps) {
     wh_speed_start(&pulses->before, impossible_radps);
 }
 
+void wh_pulses_forget(wh_pulses *pulses) {
+    wh_pulses_start(pulses, pulses->speed.impossible_radps);
+}
+
 static WH_CALLED wh_real turn_ticks(const wh_speed *speed) {
     return WH_RIG_TWO_PI / speed->turn_radps * (wh_real)WH_RIG_TICKS_PER_S;
 }
