@@ -13,8 +13,10 @@ void wh_drive_start(wh_drive *drive, wh_real speed_radps, wh_real volts) {
 
 wh_real wh_drive_step(const wh_drive_config *config, wh_drive *drive, wh_real speed_radps,
                       wh_real most_V, wh_real step_s) {
-    const bool gently = drive->setpoint_radps < config->gentle_radps;
-    const wh_real most = config->ramp_radps2 * (gently ? WH_R(0.25) : WH_R(1.0)) * step_s;
+    wh_real most = config->ramp_radps2 * step_s;
+    if (drive->setpoint_radps < config->gentle_radps) {
+        most *= WH_R(0.25);
+    }
     const wh_real way = drive->target_radps - drive->setpoint_radps;
     /* the last stretch lands on the target exactly: at_target() compares for equality */
     if (WH_ABS(way) <= most) {
@@ -28,12 +30,13 @@ wh_real wh_drive_step(const wh_drive_config *config, wh_drive *drive, wh_real sp
     const wh_real volts = clamp(wanted, WH_R(0.0), most_V);
     const bool pushes_further =
         wanted > volts ? error > WH_R(0.0) : wanted < volts && error < WH_R(0.0);
-    const wh_real change = pushes_further ? WH_R(0.0) : config->integral_V_per_rad * error * step_s;
-    drive->integral_V = clamp(drive->integral_V + change, WH_R(0.0), most_V);
+    const wh_real before = drive->integral_V;
+    const wh_real after =
+        pushes_further ? before : before + config->integral_V_per_rad * error * step_s;
+    drive->integral_V = clamp(after, WH_R(0.0), most_V);
     return volts;
 }
 
 bool wh_drive_at_target(const wh_drive *drive) {
-    const wh_real way = drive->target_radps - drive->setpoint_radps;
-    return !(way < WH_R(0.0)) && !(way > WH_R(0.0));
+    return !(WH_ABS(drive->target_radps - drive->setpoint_radps) > WH_R(0.0));
 }

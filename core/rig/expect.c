@@ -31,8 +31,8 @@ void wh_expect_pulses(const wh_guard_config *guard, const wh_run_config *running
 
 /* With the motor off nothing makes the rotor faster again than it was between its last two pulses, but gravity. A sensor
  * that fires again is one in whose slot it swings, or has missed a pulse: what was known of its speed is nothing now. */
-void wh_expect_slower(wh_run *run, wh_pulses *pulses, wh_real impossible_radps, bool brakes,
-                      unsigned sensor, uint32_t ticks) {
+void wh_expect_slower(wh_run *run, wh_pulses *pulses, bool brakes, unsigned sensor,
+                      uint32_t ticks) {
     static const wh_real moved_rad[] = {WH_R(0.75) * WH_RIG_TWO_PI, WH_R(0.25) * WH_RIG_TWO_PI};
     if (!pulses->speed.running || sensor >= WH_SPEED_SENSORS) {
         return;
@@ -46,7 +46,7 @@ void wh_expect_slower(wh_run *run, wh_pulses *pulses, wh_real impossible_radps, 
         run->off_radps = moved / passed_s;
     }
     if (again) {
-        wh_pulses_start(pulses, impossible_radps);
+        wh_pulses_forget(pulses);
     }
     /* where it brakes: one that swings freely passes the sensors to and fro, and no interval is a speed */
     pulses->slow = run->phase == WH_PHASE_OFF && brakes && run->off_radps < SLOW_RADPS;

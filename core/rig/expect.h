@@ -19,8 +19,7 @@ void wh_expect_pulses(const wh_guard_config *guard, const wh_run_config *running
 /* Before that, with the motor off: nothing makes the rotor faster again than it was between its last two pulses, but
  * gravity. A sensor that fires again is one in whose slot it swings, or has missed a pulse: what was known of its speed is
  * nothing now. `brakes`: a rotor that all but rests stays so. */
-void wh_expect_slower(wh_run *run, wh_pulses *pulses, wh_real impossible_radps, bool brakes,
-                      unsigned sensor, uint32_t ticks);
+void wh_expect_slower(wh_run *run, wh_pulses *pulses, bool brakes, unsigned sensor, uint32_t ticks);
 
 #ifdef __cplusplus
 }

@@ -43,7 +43,7 @@ void wh_lockin_forget(const wh_rotor_config *rotor, wh_lockin *lockin) {
 
 /* --- marks -------------------------------------------------------------------------------------- */
 
-static void close_turn(wh_lockin *lockin, uint32_t ticks) {
+static WH_CALLED void close_turn(wh_lockin *lockin, uint32_t ticks) {
     if (lockin->stage != WH_LOCKIN_WAITS) { /* a cell that fell silent in the middle of a turn */
         lockin->skipped++;
         return;
@@ -121,7 +121,7 @@ static void count_equal(wh_lockin *lockin, wh_real force_N) {
     }
 }
 
-void wh_lockin_load(wh_lockin *lockin, const wh_load *load) {
+WH_CALLED void wh_lockin_load(wh_lockin *lockin, const wh_load *load) {
     if (load->status != WH_LOAD_OK ||
         (lockin->any && (int32_t)(load->ticks - lockin->newest_ticks) <= 0)) {
         lockin->refused++;
@@ -219,7 +219,7 @@ static wh_real load_between(const wh_lockin *lockin, uint32_t ticks) {
 }
 
 /* The next node of the turn, if its sample is there. */
-static void place_next(wh_lockin *lockin) {
+static WH_CALLED void place_next(wh_lockin *lockin) {
     wh_lockin_turn *turn = &lockin->next;
     const uint32_t end_ticks = turn->begin_ticks + turn->turn_ticks;
     const uint32_t ticks = lockin->ticks[lockin->first];
@@ -302,7 +302,7 @@ static void end_sums(wh_lockin *lockin) {
     lockin->square = square;
 }
 
-static void end_turn(const wh_cell_config *cell, wh_lockin *lockin) {
+static WH_CALLED void end_turn(const wh_cell_config *cell, wh_lockin *lockin) {
     wh_lockin_turn *turn = &lockin->next;
     const wh_real square = lockin->square;
     const wh_real samples = (wh_real)turn->samples;
@@ -314,13 +314,14 @@ static void end_turn(const wh_cell_config *cell, wh_lockin *lockin) {
     const bool whole = turn->fault <= WH_TURN_FIRST;
     /* a gap says nothing against what was expected, unless outliers made it: what is far from it turn after turn is
      * what must be expected */
-    lockin->expects =
-        whole || (lockin->expects && turn->fault == WH_TURN_GAP && turn->outliers == 0);
     if (whole) {
+        lockin->expects = true;
         lockin->expected_N = turn->force_N;
         lockin->outlier_N =
             OUTLIER_DEVIATIONS * turn->residual_N +
             OUTLIER_PART * (WH_ABS(turn->force_N.at[1]) + WH_ABS(turn->force_N.at[2]));
+    } else if (turn->fault != WH_TURN_GAP || turn->outliers > 0) {
+        lockin->expects = false;
     }
     lockin->turn = *turn;
 }
@@ -397,8 +398,8 @@ static bool end(const wh_cell_config *cell, wh_lockin *lockin) {
     return true;
 }
 
-bool wh_lockin_work(const wh_rotor_config *rotor, const wh_cell_config *cell, wh_lockin *lockin,
-                    unsigned halves) {
+WH_CALLED bool wh_lockin_work(const wh_rotor_config *rotor, const wh_cell_config *cell,
+                              wh_lockin *lockin, unsigned halves) {
     bool done = false;
     const wh_lockin_stage stage = lockin->stage;
     switch (stage) {

@@ -27,12 +27,16 @@ bool wh_measure_lasts(const wh_measure *measure, uint32_t ticks) {
 
 static void see_peaks(wh_measure *measure, wh_real force_N) {
     wh_rig_result *result = &measure->result;
-    result->low_N = measure->peaks && result->low_N < force_N ? result->low_N : force_N;
-    result->high_N = measure->peaks && result->high_N > force_N ? result->high_N : force_N;
+    if (!measure->peaks || !(result->low_N < force_N)) {
+        result->low_N = force_N;
+    }
+    if (!measure->peaks || !(result->high_N > force_N)) {
+        result->high_N = force_N;
+    }
     measure->peaks = true;
 }
 
-void wh_measure_load(wh_measure *measure, const wh_load *load, bool at_rest) {
+WH_CALLED void wh_measure_load(wh_measure *measure, const wh_load *load, bool at_rest) {
     if (!at_rest) {
         wh_lockin_load(&measure->lockin, load);
     }
@@ -49,7 +53,7 @@ void wh_measure_load(wh_measure *measure, const wh_load *load, bool at_rest) {
 /* Pieces in which turns are merged to a result: the last is its verdict. */
 #define MERGE_PIECES (WH_RIG_SMALL_PIECES ? WH_MERGE_MEAN_PIECES + 1U : 2U)
 
-static void merge_piece(const wh_measure_config *config, wh_measure *measure) {
+static WH_CALLED void merge_piece(const wh_measure_config *config, wh_measure *measure) {
     wh_measured *force = &measure->result.force;
     const wh_turn_angle *angle = &measure->lockin.angle;
     const bool begins = measure->due == MERGE_PIECES;
@@ -70,7 +74,7 @@ static void merge_piece(const wh_measure_config *config, wh_measure *measure) {
     measure->due--;
 }
 
-static void add_turn(const wh_measure_config *config, wh_measure *measure) {
+static WH_CALLED void add_turn(const wh_measure_config *config, wh_measure *measure) {
     wh_merge_add(&config->result, &config->rotor, &measure->merge, &measure->lockin.turn,
                  &measure->lockin.angle);
     measure->adds = false;

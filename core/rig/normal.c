@@ -42,14 +42,19 @@ void wh_normal_factor(wh_normal *normal) {
     }
 }
 
-void wh_normal_solve(wh_normal *normal) {
-    wh_real *y = normal->right;
-    for (unsigned i = 0; i < N; i++) {
-        for (unsigned k = 0; k < i; k++) {
+/* y becomes L^-1 y; before `from` it is zero. */
+static WH_CALLED void forward(const wh_normal *normal, wh_real y[N], unsigned from) {
+    for (unsigned i = from; i < N; i++) {
+        for (unsigned k = from; k < i; k++) {
             y[i] -= normal->matrix[i][k] * y[k];
         }
         y[i] /= normal->matrix[i][i];
     }
+}
+
+void wh_normal_solve(wh_normal *normal) {
+    wh_real *y = normal->right;
+    forward(normal, y, 0);
     for (unsigned i = N; i-- > 0;) {
         for (unsigned k = i + 1U; k < N; k++) {
             y[i] -= normal->matrix[k][i] * y[k];
@@ -63,11 +68,8 @@ wh_real wh_normal_deviation(const wh_normal *normal, unsigned which) {
     wh_real y[N] = {WH_R(0.0)};
     wh_real sum = WH_R(0.0);
     y[which] = WH_R(1.0);
+    forward(normal, y, which);
     for (unsigned i = which; i < N; i++) {
-        for (unsigned k = which; k < i; k++) {
-            y[i] -= normal->matrix[i][k] * y[k];
-        }
-        y[i] /= normal->matrix[i][i];
         sum += y[i] * y[i];
     }
     return WH_SQRT(sum);

@@ -24,8 +24,8 @@ static wh_real clamp(wh_real value, wh_real most) {
     return value < -most ? -most : value > most ? most : value;
 }
 
-wh_status wh_observer_start(const wh_observer_config *config, wh_observer *observer,
-                            uint32_t now_ticks) {
+WH_CALLED wh_status wh_observer_start(const wh_observer_config *config, wh_observer *observer,
+                                      uint32_t now_ticks) {
     const wh_scene *scene = config->scene;
     *observer = (wh_observer){.status = WH_E_ARGUMENT, .ticks = now_ticks};
     if (scene == NULL || scene->form != WH_SECOND_ORDER || scene->angles != 1 ||
@@ -45,7 +45,7 @@ wh_status wh_observer_start(const wh_observer_config *config, wh_observer *obser
     return observer->status;
 }
 
-void wh_observer_forget(wh_observer *observer) {
+WH_CALLED void wh_observer_forget(wh_observer *observer) {
     observer->valid = false;
     observer->runs = false;
     observer->marked = false;
@@ -160,8 +160,8 @@ static void correct(const wh_observer_config *config, wh_observer *observer, uns
     observer->valid = observer->good_marks >= config->trusted_marks;
 }
 
-void wh_observer_mark(const wh_observer_config *config, wh_observer *observer, unsigned sensor,
-                      uint32_t ticks) {
+WH_CALLED void wh_observer_mark(const wh_observer_config *config, wh_observer *observer,
+                                unsigned sensor, uint32_t ticks) {
     if (observer->status != WH_OK || sensor >= WH_OBSERVER_SENSORS) {
         return;
     }

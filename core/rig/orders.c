@@ -1,8 +1,14 @@
-/* orders.c: what an order asks for, beside the state that life.c has. */
-#include "orders.h"
+/* orders.c: what an order asks for, beside the state that life.c has: a supply, a rig at rest, a cause that is gone. */
+#include "rig.h"
 
-static wh_refusal may_arm(const wh_order_sight *sight) {
-    const wh_rig_inputs *inputs = sight->inputs;
+static WH_CALLED bool cell_is_good(const wh_rig_config *config, const wh_rig *rig,
+                                   const wh_rig_inputs *inputs) {
+    return rig->guard.load_good &&
+           wh_guard_load_comes(&config->guard, &rig->guard, inputs->now_ticks);
+}
+
+static wh_refusal may_arm(const wh_rig_config *config, const wh_rig *rig,
+                          const wh_rig_inputs *inputs) {
     if (inputs->stop_pressed) {
         return WH_REFUSED_STOP_INPUT;
     }
@@ -12,40 +18,38 @@ static wh_refusal may_arm(const wh_order_sight *sight) {
     if (inputs->clock_is_fallback) {
         return WH_REFUSED_CLOCK;
     }
-    if (!wh_guard_supply(sight->guarding, inputs->supply_V)) {
+    if (!wh_guard_supply(&config->guard, inputs->supply_V)) {
         return WH_REFUSED_SUPPLY;
     }
-    if (!sight->guard->load_good ||
-        !wh_guard_load_comes(sight->guarding, sight->guard, inputs->now_ticks)) {
+    if (!cell_is_good(config, rig, inputs)) {
         return WH_REFUSED_LOAD_CELL;
     }
-    return sight->guard->quiet ? WH_ALLOWED : WH_REFUSED_TURNING;
+    return rig->guard.quiet ? WH_ALLOWED : WH_REFUSED_TURNING;
 }
 
-static wh_refusal may_turn(const wh_order_sight *sight, wh_real target_radps) {
-    if (!wh_guard_allows(sight->guarding, target_radps, sight->can_feed)) {
+static wh_refusal may_turn(const wh_rig_config *config, const wh_rig *rig,
+                           const wh_rig_inputs *inputs, wh_real target_radps) {
+    /* slower set-points can be held where gravity's torque can be fed forward */
+    const bool can_feed = config->feeds != WH_FEED_NEVER && rig->observer.status == WH_OK;
+    if (!wh_guard_allows(&config->guard, target_radps, can_feed)) {
         return WH_REFUSED_TARGET;
     }
-    return wh_run_needs_V(sight->running, target_radps) <= sight->inputs->supply_V
-               ? WH_ALLOWED
-               : WH_REFUSED_VOLTAGE;
+    return wh_run_needs_V(&config->run, target_radps) <= inputs->supply_V ? WH_ALLOWED
+                                                                          : WH_REFUSED_VOLTAGE;
 }
 
 /* Rest, and the cause gone. Without pulses that can be believed rest is a matter of time. */
-static wh_refusal may_clear(const wh_order_sight *sight) {
-    const wh_rig_inputs *inputs = sight->inputs;
-    if (!sight->at_rest || !sight->guard->quiet) {
+static wh_refusal may_clear(const wh_rig_config *config, const wh_rig *rig,
+                            const wh_rig_inputs *inputs) {
+    if (!rig->at_rest || !rig->guard.quiet) {
         return WH_REFUSED_TURNING;
     }
-    switch (sight->guard->trip) {
+    switch (rig->guard.trip) {
     case WH_TRIP_WATCHDOG: return inputs->watchdog_has_cut ? WH_REFUSED_WATCHDOG : WH_ALLOWED;
     case WH_TRIP_SUPPLY:
-        return wh_guard_supply(sight->guarding, inputs->supply_V) ? WH_ALLOWED : WH_REFUSED_SUPPLY;
+        return wh_guard_supply(&config->guard, inputs->supply_V) ? WH_ALLOWED : WH_REFUSED_SUPPLY;
     case WH_TRIP_LOAD_CELL:
-        return sight->guard->load_good &&
-                       wh_guard_load_comes(sight->guarding, sight->guard, inputs->now_ticks)
-                   ? WH_ALLOWED
-                   : WH_REFUSED_LOAD_CELL;
+        return cell_is_good(config, rig, inputs) ? WH_ALLOWED : WH_REFUSED_LOAD_CELL;
     case WH_TRIP_NONE:
     case WH_TRIP_OVERSPEED:
     case WH_TRIP_PULSES:
@@ -58,13 +62,15 @@ static wh_refusal may_clear(const wh_order_sight *sight) {
     return WH_ALLOWED;
 }
 
-wh_refusal wh_order_refused(const wh_order_sight *sight, const wh_rig_order *order) {
+wh_refusal wh_order_refused(const wh_rig_config *config, const wh_rig *rig,
+                            const wh_rig_inputs *inputs, const wh_rig_order *order) {
     switch (order->event) {
-    case WH_EVENT_ARM: return may_arm(sight);
+    case WH_EVENT_ARM: return may_arm(config, rig, inputs);
     case WH_EVENT_START:
-        return sight->inputs->stop_pressed ? WH_REFUSED_STOP_INPUT : may_turn(sight, order->value);
-    case WH_EVENT_SET: return may_turn(sight, order->value);
-    case WH_EVENT_CLEAR: return may_clear(sight);
+        return inputs->stop_pressed ? WH_REFUSED_STOP_INPUT
+                                    : may_turn(config, rig, inputs, order->value);
+    case WH_EVENT_SET: return may_turn(config, rig, inputs, order->value);
+    case WH_EVENT_CLEAR: return may_clear(config, rig, inputs);
     case WH_EVENT_STOP:
     case WH_EVENT_HOST_LOST:
     case WH_EVENT_DONE:

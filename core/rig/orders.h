@@ -1,4 +1,4 @@
-/* orders.h: what an order asks for, beside the state that life.h has: a supply, a rig at rest, a cause that is gone. */
+/* orders.h: orders, and what a control step sees beside them, pulses and samples. */
 #ifndef WH_RIG_ORDERS_H
 #define WH_RIG_ORDERS_H
 
@@ -22,21 +22,6 @@ typedef struct wh_rig_order {
     wh_rig_event event;
     wh_real value;
 } wh_rig_order;
-
-/* What an order is looked at with. */
-typedef struct wh_order_sight {
-    const wh_guard_config *guarding;
-    const wh_run_config *running;
-    const wh_guard *guard;
-    const wh_rig_inputs *inputs;
-    bool at_rest;  /* the rotor, behind a trip */
-    bool can_feed; /* gravity's torque forward: slower set-points can be held */
-} wh_order_sight;
-
-#define wh_order_refused WH_NAME(wh_order_refused)
-
-/* What is against an order that the state allows; WH_ALLOWED: nothing. */
-wh_refusal wh_order_refused(const wh_order_sight *sight, const wh_rig_order *order);
 
 #ifdef __cplusplus
 }

@@ -71,7 +71,6 @@ typedef struct wh_run_scene {
     wh_guard *guard;
     wh_pulses *pulses;
     wh_measure *measure;
-    wh_real impossible_radps; /* see wh_speed_start() */
     wh_real supply_V;
     bool fed;  /* gravity is fed forward: slower set-points can be held */
     bool busy; /* a pulse came in this step: a record begins and ends in the next */

@@ -14,7 +14,11 @@
 void wh_pulses_start(wh_pulses *pulses, wh_real impossible_radps) {
     *pulses = (wh_pulses){.window = WH_R(1.0)};
     wh_speed_start(&pulses->speed, impossible_radps);
-    pulses->before = pulses->speed;
+    wh_speed_start(&pulses->before, impossible_radps);
+}
+
+void wh_pulses_forget(wh_pulses *pulses) {
+    wh_pulses_start(pulses, pulses->speed.impossible_radps);
 }
 
 static WH_CALLED wh_real turn_ticks(const wh_speed *speed) {

@@ -58,11 +58,15 @@ typedef struct wh_pulses {
 } wh_pulses;
 
 #define wh_pulses_start WH_NAME(wh_pulses_start)
+#define wh_pulses_forget WH_NAME(wh_pulses_forget)
 #define wh_pulses_take WH_NAME(wh_pulses_take)
 #define wh_pulses_sure WH_NAME(wh_pulses_sure)
 
-/* Forget everything. impossible_radps as for wh_speed_start(). */
+/* Begin: nothing is known. impossible_radps as for wh_speed_start(). */
 void wh_pulses_start(wh_pulses *pulses, wh_real impossible_radps);
+
+/* Begin anew. */
+void wh_pulses_forget(wh_pulses *pulses);
 
 /* A pulse of sensor 0 or 1 captured at `ticks`, in order of time. */
 void wh_pulses_take(wh_pulses *pulses, unsigned sensor, uint32_t ticks);

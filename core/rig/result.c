@@ -30,7 +30,7 @@ wh_real wh_student(uint32_t freedom) {
 
 /* --- turns -------------------------------------------------------------------------------------- */
 
-static WH_CALLED void add_jitter(wh_merge *merge, uint32_t before_ticks, uint32_t now_ticks) {
+static void add_jitter(wh_merge *merge, uint32_t before_ticks, uint32_t now_ticks) {
     const wh_real off_s = wh_rig_way_s(before_ticks, now_ticks);
     merge->jitter_s2 += off_s * off_s;
     merge->jitters++;

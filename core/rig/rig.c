@@ -64,8 +64,7 @@ void wh_rig_pulse(const wh_rig_config *config, wh_rig *rig, unsigned sensor, uin
     rig->pulses_ever++;
     rig->busy = true;
     if (!wh_run_drives(&rig->run)) {
-        wh_expect_slower(&rig->run, &rig->pulses, config->impossible_radps, rig->brakes, sensor,
-                         ticks);
+        wh_expect_slower(&rig->run, &rig->pulses, rig->brakes, sensor, ticks);
     }
     wh_expect_pulses(&config->guard, &config->run, &rig->run, &rig->pulses, ticks);
     if (rig->run.phase == WH_PHASE_TARE && sensor < WH_SPEED_SENSORS) {
@@ -177,14 +176,7 @@ static wh_refusal happens(const wh_rig_config *config, wh_rig *rig, const wh_rig
     if (rule.refusal != WH_ALLOWED) {
         return rule.refusal;
     }
-    const wh_order_sight sight = {.guarding = &config->guard,
-                                  .running = &config->run,
-                                  .guard = &rig->guard,
-                                  .inputs = inputs,
-                                  .at_rest = rig->at_rest,
-                                  .can_feed = config->feeds != WH_FEED_NEVER &&
-                                              rig->observer.status == WH_OK};
-    const wh_refusal refusal = wh_order_refused(&sight, order);
+    const wh_refusal refusal = wh_order_refused(config, rig, inputs, order);
     if (refusal == WH_ALLOWED && (order->event != WH_EVENT_HOST_LOST || config->host_loss_stops)) {
         follow(config, rig, inputs, order, rule.next);
     }
@@ -229,7 +221,7 @@ static void rest(const wh_rig_config *config, wh_rig *rig, uint32_t now_ticks) {
     if (rig->guard.quiet) {
         rig->run.off_radps = WH_R(0.0);
         if (rig->pulses.speed.running) { /* times of old pulses wrap */
-            wh_pulses_start(&rig->pulses, config->impossible_radps);
+            wh_pulses_forget(&rig->pulses);
         }
     }
 }
@@ -341,7 +333,6 @@ static void live(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs *
                                 .guard = &rig->guard,
                                 .pulses = &rig->pulses,
                                 .measure = &rig->measure,
-                                .impossible_radps = config->impossible_radps,
                                 .supply_V = inputs->supply_V,
                                 .fed = rig->feed.part >= WH_R(1.0),
                                 .busy = rig->busy,

@@ -108,6 +108,7 @@ extern const wh_rig_config wh_rig_standard;
 #define wh_rig_pulse WH_NAME(wh_rig_pulse)
 #define wh_rig_load WH_NAME(wh_rig_load)
 #define wh_rig_step WH_NAME(wh_rig_step)
+#define wh_order_refused WH_NAME(wh_order_refused)
 #define wh_rig_stage WH_NAME(wh_rig_stage)
 #define wh_rig_stage_text WH_NAME(wh_rig_stage_text)
 
@@ -134,6 +135,10 @@ void wh_rig_pulse(const wh_rig_config *config, wh_rig *rig, unsigned sensor, uin
 /* A load sample as the hardware has it: counts, stamped `ticks`, and what it says of it. */
 void wh_rig_load(const wh_rig_config *config, wh_rig *rig, uint32_t ticks, int32_t raw,
                  wh_load_status status);
+
+/* What is against an order that the state allows; WH_ALLOWED: nothing. Part of wh_rig_step(). */
+wh_refusal wh_order_refused(const wh_rig_config *config, const wh_rig *rig,
+                            const wh_rig_inputs *inputs, const wh_rig_order *order);
 
 /* One control step. */
 wh_rig_command wh_rig_step(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs *inputs);

@@ -41,7 +41,7 @@ static wh_real guess_root(const wh_swing *swing) {
 }
 
 /* The next pulse of sensor 1, or none: swing->kept. */
-static unsigned next_of(const wh_swing *swing, unsigned at) {
+static WH_CALLED unsigned next_of(const wh_swing *swing, unsigned at) {
     unsigned next = at + 1U;
     while (next < swing->kept && swing->kept_sensor[next] != 0) {
         next++;

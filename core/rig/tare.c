@@ -15,7 +15,7 @@ void wh_tare_add(wh_tare *tare, wh_real force_N) {
     tare->square_N2 += off * (force_N - tare->mean_N);
 }
 
-wh_real wh_tare_error_N(const wh_tare *tare) {
+WH_CALLED wh_real wh_tare_error_N(const wh_tare *tare) {
     if (tare->count < 2U) {
         return WH_R(0.0);
     }

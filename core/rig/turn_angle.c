@@ -20,7 +20,7 @@ static WH_CALLED wh_real within(wh_real value, wh_real most) {
 }
 
 /* The arc sine of little. */
-static WH_CALLED wh_real small_arc(wh_real sine) {
+static wh_real small_arc(wh_real sine) {
     return sine * (WH_R(1.0) + WH_R(0.16666667) * sine * sine);
 }
 
