@@ -20,6 +20,7 @@ typedef struct sight {
     const wh_seen *seen;
     wh_ring *out;
     unsigned stage;
+    uint16_t speed; /* in 1/50 rpm */
     wh_bytes frame; /* that is being put together */
 } sight;
 
@@ -118,7 +119,7 @@ static void send_run(sight *s) {
         return;
     }
     begin_frame(s, WH_TEL_RUN, tel->first_ticks);
-    add(s, speed_50(s->rig), 2);
+    add(s, s->speed, 2);
     add(s, drive_mV(s->rig), 2);
     add(s, s->stage, 1);
     for (unsigned i = 0; i < tel->samples; i++) {
@@ -163,16 +164,15 @@ static void send_ring(sight *s) {
 static void send_text(sight *s, wh_real force_N) {
     const bool plots = s->tel->format == WH_TEL_TELEPLOT;
     const char *next = plots ? "\r\n>" : ",";
-    const uint16_t speed = speed_50(s->rig);
     const wh_value value[] = {{.number = force_N},
-                              {.number = (wh_real)speed * WH_R(0.02)},
+                              {.number = (wh_real)s->speed * WH_R(0.02)},
                               {.number = s->rig->command.volts}};
     char bytes[TEXT_BYTES];
     wh_text text;
     wh_text_start(&text, bytes, sizeof bytes);
     wh_text_add(&text, plots ? ">" : "");
     wh_answer(&text, WH_WORDS("load_N:@3"), &value[0]);
-    if (speed != NONE_16) {
+    if (s->speed != NONE_16) {
         wh_text_add(&text, next);
         wh_answer(&text, WH_WORDS("speed_rpm:@2"), &value[1]);
     }
@@ -275,7 +275,8 @@ void wh_tel_step(wh_tel *tel, const wh_rig_config *config, const wh_rig *rig, co
                .rig = rig,
                .seen = seen,
                .out = out,
-               .stage = wh_rig_stage(rig)};
+               .stage = wh_rig_stage(rig),
+               .speed = speed_50(rig)};
     if (wh_capture_runs(&tel->capture)) {
         capture_step(&s);
     }
