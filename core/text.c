@@ -1,8 +1,6 @@
 /* text.c: numbers as text, exactly and without the C library. */
 #include "text.h"
 
-#include <stddef.h>
-
 #include "flash.h"
 
 /* A number is bytes, low byte first, with the point between two of them: sums, products and quotients by ten then need no more
@@ -174,14 +172,12 @@ static bool lay(const parts *number, uint8_t *byte) {
 void wh_text_add_fixed(wh_text *text, wh_real value, unsigned decimals) {
     const parts number = parts_of(value);
     uint8_t byte[BYTES] = {0};
-    const char *words = NULL;
     if (number.special) {
-        words = number.mantissa != 0 ? "nan" : number.negative ? "-inf" : "inf";
-    } else if (!lay(&number, byte)) {
-        words = number.negative ? "-huge" : "huge";
+        wh_text_add(text, number.mantissa != 0 ? "nan" : number.negative ? "-inf" : "inf");
+        return;
     }
-    if (words != NULL) {
-        wh_text_add(text, words);
+    if (!lay(&number, byte)) {
+        wh_text_add(text, number.negative ? "-huge" : "huge");
         return;
     }
     if (decimals > WH_TEXT_DECIMALS_MAX) {

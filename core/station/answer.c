@@ -20,7 +20,9 @@ static void add_words(wh_text *text, const char *words, char blank) {
 /* Seven digits that count: a float has no more, and nine can be typed (line.h). */
 static void add_exact(wh_text *text, wh_real number) {
     unsigned decimals = 8;
-    for (wh_real size = WH_ABS(number); size >= WH_R(0.1) && decimals > 0; size *= WH_R(0.1)) {
+    wh_real size = WH_ABS(number);
+    while (size >= WH_R(0.1) && decimals > 0) {
+        size *= WH_R(0.1);
         decimals--;
     }
     wh_text_add_fixed(text, number, decimals);

@@ -298,7 +298,7 @@ void wh_station_see(wh_station *station, const wh_rig_config *config, const wh_r
     station->seen = seen;
     station->config = config;
     if (WH_STATION_TELEMETRY && station->tel != NULL) {
-        wh_tel_step(station->tel, config, rig, seen, &station->out, WH_STATION_KEPT_BYTES);
+        wh_tel_step(station->tel, config, rig, seen, &station->out);
     }
 }
 

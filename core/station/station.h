@@ -69,7 +69,6 @@ extern "C" {
 #ifndef WH_STATION_OUT_BYTES
 #define WH_STATION_OUT_BYTES 1024U
 #endif
-#define WH_STATION_KEPT_BYTES (WH_STATION_OUT_BYTES / 2U)
 
 /* It must not be moved once it is started. What is large comes last: what is near has shorter instructions. */
 typedef struct wh_station {

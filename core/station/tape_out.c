@@ -47,12 +47,11 @@ static void see_step(const wh_tape *tape, const wh_rig *rig, const wh_seen *seen
 }
 
 static bool send(wh_station *station, uint32_t ticks, const uint8_t *payload, unsigned count) {
-    return wh_tel_send(station->tel, WH_TEL_TAPE, ticks, payload, count, &station->out,
-                       WH_STATION_KEPT_BYTES);
+    return wh_tel_send(station->tel, WH_TEL_TAPE, ticks, payload, count, &station->out);
 }
 
 static bool has_room(const wh_station *station, unsigned count) {
-    return wh_tel_has_room(&station->out, WH_STATION_KEPT_BYTES, count);
+    return wh_tel_has_room(&station->out, count);
 }
 
 /* What waits. */

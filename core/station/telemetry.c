@@ -19,8 +19,8 @@ typedef struct sight {
     const wh_rig *rig;
     const wh_seen *seen;
     wh_ring *out;
-    uint32_t kept;
     unsigned stage;
+    uint16_t speed; /* in 1/50 rpm */
     wh_bytes frame; /* that is being put together */
 } sight;
 
@@ -64,13 +64,18 @@ static uint16_t speed_50(const wh_rig *rig) {
 
 /* --- frames ------------------------------------------------------------------------------------------- */
 
+/* Half of what can wait is the console's own. */
+static bool fits(const wh_ring *out, unsigned count) {
+    return wh_ring_room(out) >= out->size / 2U + count;
+}
+
 /* Whole, or not at all. */
 static bool put_out(const sight *s, wh_tel_channel channel, const char *bytes, unsigned count) {
-    const bool fits = wh_ring_room(s->out) >= s->kept + count && wh_ring_put(s->out, bytes, count);
-    if (!fits) {
-        s->tel->dropped[channel]++;
+    if (fits(s->out, count) && wh_ring_put(s->out, bytes, count)) {
+        return true;
     }
-    return fits;
+    s->tel->dropped[channel]++;
+    return false;
 }
 
 static void add(sight *s, uint32_t number, unsigned size) { wh_bytes_put(&s->frame, number, size); }
@@ -94,18 +99,12 @@ static bool send_frame(sight *s, wh_tel_channel channel) {
     return put_out(s, channel, (const char *)line, 1U + wh_cobs_short(line + 1, frame->at));
 }
 
-static bool has_room(const wh_ring *out, uint32_t kept, unsigned count) {
-    return wh_ring_room(out) >= kept + LINE_BYTES_OF(count);
-}
-
 #if WH_STATION_TAPE
-bool wh_tel_has_room(const wh_ring *out, uint32_t kept, unsigned count) {
-    return has_room(out, kept, count);
-}
+bool wh_tel_has_room(const wh_ring *out, unsigned count) { return fits(out, LINE_BYTES_OF(count)); }
 
 bool wh_tel_send(wh_tel *tel, wh_tel_channel channel, uint32_t ticks, const uint8_t *payload,
-                 unsigned count, wh_ring *out, uint32_t kept) {
-    sight s = {.tel = tel, .out = out, .kept = kept};
+                 unsigned count, wh_ring *out) {
+    sight s = {.tel = tel, .out = out};
     begin_frame(&s, channel, ticks);
     for (unsigned i = 0; i < count; i++) {
         add(&s, payload[i], 1);
@@ -120,7 +119,7 @@ static void send_run(sight *s) {
         return;
     }
     begin_frame(s, WH_TEL_RUN, tel->first_ticks);
-    add(s, speed_50(s->rig), 2);
+    add(s, s->speed, 2);
     add(s, drive_mV(s->rig), 2);
     add(s, s->stage, 1);
     for (unsigned i = 0; i < tel->samples; i++) {
@@ -142,7 +141,7 @@ static void send_ring(sight *s) {
     wh_tel *tel = s->tel;
     const wh_capture *capture = &tel->capture;
     const wh_captured *step = wh_capture_at(capture, tel->read_at);
-    if (!has_room(s->out, s->kept, WH_TEL_PAYLOAD_MOST)) {
+    if (!fits(s->out, LINE_BYTES_OF(WH_TEL_PAYLOAD_MOST))) {
         return;
     }
     tel->read_ticks += (uint16_t)(step->ticks - tel->read_ticks);
@@ -165,16 +164,15 @@ static void send_ring(sight *s) {
 static void send_text(sight *s, wh_real force_N) {
     const bool plots = s->tel->format == WH_TEL_TELEPLOT;
     const char *next = plots ? "\r\n>" : ",";
-    const uint16_t speed = speed_50(s->rig);
     const wh_value value[] = {{.number = force_N},
-                              {.number = (wh_real)speed * WH_R(0.02)},
+                              {.number = (wh_real)s->speed * WH_R(0.02)},
                               {.number = s->rig->command.volts}};
     char bytes[TEXT_BYTES];
     wh_text text;
     wh_text_start(&text, bytes, sizeof bytes);
     wh_text_add(&text, plots ? ">" : "");
     wh_answer(&text, WH_WORDS("load_N:@3"), &value[0]);
-    if (speed != NONE_16) {
+    if (s->speed != NONE_16) {
         wh_text_add(&text, next);
         wh_answer(&text, WH_WORDS("speed_rpm:@2"), &value[1]);
     }
@@ -271,14 +269,14 @@ bool wh_tel_read(wh_tel *tel) {
 }
 
 void wh_tel_step(wh_tel *tel, const wh_rig_config *config, const wh_rig *rig, const wh_seen *seen,
-                 wh_ring *out, uint32_t kept) {
+                 wh_ring *out) {
     sight s = {.tel = tel,
                .config = config,
                .rig = rig,
                .seen = seen,
                .out = out,
-               .kept = kept,
-               .stage = wh_rig_stage(rig)};
+               .stage = wh_rig_stage(rig),
+               .speed = speed_50(rig)};
     if (wh_capture_runs(&tel->capture)) {
         capture_step(&s);
     }

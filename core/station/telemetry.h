@@ -102,15 +102,15 @@ void wh_tel_rate(wh_tel *tel, uint32_t every);
 bool wh_tel_read(wh_tel *tel);
 
 /* After each control step: at most its pulse's and two samples' work, or a frame's of the ring. What wants out goes into
- * `out`, of which `kept` bytes are not its own. */
+ * `out`, of which half are not its own. */
 void wh_tel_step(wh_tel *tel, const wh_rig_config *config, const wh_rig *rig, const wh_seen *seen,
-                 wh_ring *out, uint32_t kept);
+                 wh_ring *out);
 
 /* A frame, of WH_TEL_PAYLOAD_MOST bytes at most: whole, or not at all, which is counted: false. There is room for one of so
  * many bytes. */
-bool wh_tel_has_room(const wh_ring *out, uint32_t kept, unsigned count);
+bool wh_tel_has_room(const wh_ring *out, unsigned count);
 bool wh_tel_send(wh_tel *tel, wh_tel_channel channel, uint32_t ticks, const uint8_t *payload,
-                 unsigned count, wh_ring *out, uint32_t kept);
+                 unsigned count, wh_ring *out);
 
 #ifdef __cplusplus
 }
