@@ -1,9 +1,18 @@
 /* packed_words.c: packed words to text. */
 #include "packed_words.h"
 
+#include "flash.h"
 #include "word_pairs.h"
 
 #define FIRST 128U /* what is above is a pair */
+
+const char *wh_words_nth(const char *words, unsigned number) {
+    for (; number > 0; number--) {
+        while (wh_word_at(words++) != '\0') {
+        }
+    }
+    return words;
+}
 
 void wh_words_unpack(wh_text *text, const char *packed) {
 #define PAIR(number, left, right) {left, right},

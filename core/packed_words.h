@@ -19,9 +19,13 @@ extern "C" {
 #endif
 
 #define wh_words_unpack WH_NAME(wh_words_unpack)
+#define wh_words_nth WH_NAME(wh_words_nth)
 
 /* Add what is packed. */
 void wh_words_unpack(wh_text *text, const char *packed);
+
+/* Of words that stand behind each other, a zero between them, those of this number. */
+const char *wh_words_nth(const char *words, unsigned number);
 
 /* Add what stood in WH_WORDS(). */
 #if WH_WORDS_PACKED

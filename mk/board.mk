@@ -78,10 +78,12 @@ $(foreach o,$(STATION_C) boards/programs/rig.c boards/programs/station.c \
 
 ifneq ($(BOARD_FLASHED),)
 $(B)/$(FLASHED)/boards/programs/station.o: FILE_FLAGS += -DHAL_VIRTUAL=0
+# What starts by itself: a linker that optimises all might move of main() what needs variables, or the FPU, to where neither is.
+$(B)/$(FLASHED)/boards/cortexm/startup.o: FILE_FLAGS += -fno-lto
 endif
 ifneq ($(filter -DWH_WORDS_PACKED=1,$(BOARD_FLASHED_FLAGS)),)
 # What is said to people goes through mk/size/pack.awk (core/packed_words.h), 2 KB of flash less: all files that have WH_WORDS().
-PACKED := $(call objects,$(FLASHED),boards/cortexm/fault_words.c core/rig/guard.c core/rig/life.c core/rig/result.c \
+PACKED := $(call objects,$(FLASHED),boards/cortexm/fault_words.c boards/programs/station.c boards/shared/reset_words.c core/rig/guard.c core/rig/life.c core/rig/result.c \
     $(addprefix core/station/,conf.c errors.c station.c tel_answer.c))
 compile_packed = $(BOARD_CC) $(BOARD_CFLAGS) $(BOARD_FLASHED_FLAGS) $(WARN) $(BOARD_EXTRA) $(FILE_FLAGS)
 $(PACKED:.o=.words): $(B)/$(FLASHED)/%.words: %.c $(B)/$(FLASHED)/.flags

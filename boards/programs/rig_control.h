@@ -6,6 +6,7 @@
 #include <stddef.h>
 
 #include "core/arithmetic.h"
+#include "core/packed_words.h"
 #include "core/rig/rig.h"
 #include "core/scene.h"
 #include "core/station/seen.h"
@@ -72,51 +73,49 @@ static void obey(const wh_rig_command *command) {
     }
 }
 
-static wh_rig_command step(const wh_rig_config *config, const hal_slot_pulse *pulse,
-                           const hal_load_sample *sample, unsigned samples) {
-    const wh_rig_inputs inputs = inputs_now();
-    seen.inputs = inputs;
+/* What came since the last step. */
+static void see(void) {
+    hal_slot_pulse pulse = {0};
+    hal_load_sample sample;
+    /* one a step: a storm must not hold it up, and stamps do not age; where a sample had to wait for one, that is first */
+    const bool owed = RIG_SAMPLES_WITH_PULSE == 0U && seen.pulsed;
+    seen.pulsed = !owed && hal_slots_take(&pulse);
+    seen.sensor = pulse.sensor;
+    seen.pulse_ticks = pulse.ticks;
+    seen.samples = 0;
+    while (seen.samples < (seen.pulsed ? RIG_SAMPLES_WITH_PULSE : RIG_SAMPLES_MOST) &&
+           hal_loadcell_take(&sample)) {
+        if (sample.status != HAL_LOAD_REPEATED) {
+            seen.sample[seen.samples++] =
+                (wh_seen_sample){sample.ticks, sample.raw, (wh_load_status)sample.status};
+        }
+    }
+    seen.inputs = inputs_now();
+}
+
+static wh_rig_command step(const wh_rig_config *config) {
 #if HAL_FRAMES
     hal_frames_step_begins();
 #endif
-    if (pulse != NULL) {
-        wh_rig_pulse(config, &rig, pulse->sensor, pulse->ticks);
+    if (seen.pulsed) {
+        wh_rig_pulse(config, &rig, seen.sensor, seen.pulse_ticks);
     }
-    for (unsigned i = 0; i < samples; i++) {
-        wh_rig_load(config, &rig, sample[i].ticks, sample[i].raw, (wh_load_status)sample[i].status);
+    for (unsigned i = 0; i < seen.samples; i++) {
+        const wh_seen_sample *sample = &seen.sample[i];
+        wh_rig_load(config, &rig, sample->ticks, sample->raw, sample->status);
     }
-    const wh_rig_command command = wh_rig_step(config, &rig, &inputs);
+    const wh_rig_command command = wh_rig_step(config, &rig, &seen.inputs);
 #if HAL_FRAMES
     hal_frames_step_ends();
 #endif
     return command;
 }
 
-static void see(const hal_slot_pulse *pulse, const hal_load_sample *sample, unsigned samples) {
-    seen.pulsed = pulse != NULL;
-    seen.sensor = pulse != NULL ? pulse->sensor : 0;
-    seen.pulse_ticks = pulse != NULL ? pulse->ticks : 0;
-    seen.samples = samples;
-    for (unsigned i = 0; i < samples; i++) {
-        seen.sample[i] =
-            (wh_seen_sample){sample[i].ticks, sample[i].raw, (wh_load_status)sample[i].status};
-    }
-}
-
-static void control(const wh_rig_config *config) {
-    hal_slot_pulse pulse;
-    hal_load_sample sample[RIG_SAMPLES_MOST];
-    unsigned samples = 0;
-    /* one a step: a storm must not hold it up, and stamps do not age; where a sample had to wait for one, that is first */
-    const bool owed = RIG_SAMPLES_WITH_PULSE == 0U && seen.pulsed;
-    const bool pulsed = !owed && hal_slots_take(&pulse);
-    while (samples < (pulsed ? RIG_SAMPLES_WITH_PULSE : RIG_SAMPLES_MOST) &&
-           hal_loadcell_take(&sample[samples])) {
-        samples += sample[samples].status != HAL_LOAD_REPEATED ? 1U : 0U;
-    }
-    const wh_rig_command command = step(config, pulsed ? &pulse : NULL, sample, samples);
+/* By itself: what it has on the stack is gone when the console has its own there. */
+__attribute__((noinline)) static void control(const wh_rig_config *config) {
+    see();
+    const wh_rig_command command = step(config);
     obey(&command);
-    see(pulsed ? &pulse : NULL, sample, samples);
     trip_memory_keep(&memory, &rig);
     hal_reset_mark(wh_rig_stage(&rig));
     hal_watchdog_kick(); /* tripped too: a watchdog that resets would start all over */
@@ -129,18 +128,19 @@ static const char *why_no_hardware(void) {
         return wh_status_text(status);
     }
 #endif
-    return "the hardware does not answer";
+    return WH_WORDS("the hardware does not answer");
 }
 
 /* Start the hardware, and look whether the arithmetic is that of the tests: by the model's file, which has the flags of all of
- * the image. Why not, the motor off; or NULL. */
+ * the image. Why not, the motor off; or NULL. Words (WH_WORDS()). */
 static const char *why_not_started(void) {
     if (hal_clock_start() != HAL_STARTED) {
         return why_no_hardware();
     }
     if (wh_arithmetic_wrong(OWN_ARITHMETIC) != WH_PROBED_COUNT) {
         hal_motor_off(HAL_MOTOR_COAST);
-        return "compiled or set up for other arithmetic than IEEE 754"; /* without all other texts of a wh_status */
+        return WH_WORDS(
+            "compiled or set up for other arithmetic than IEEE 754"); /* without all other texts of a wh_status */
     }
     return NULL;
 }
