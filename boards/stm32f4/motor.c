@@ -18,7 +18,7 @@ static bool driving;   /* as far as nothing has cut it */
 
 void stm32f4_motor_start(void) {
     stm32f4_pin_is(BOARD_PIN_ENABLE, PIN_OUTPUT, PULL_NONE, 0); /* low, as a reset leaves it */
-    stm32f4_clock_on(RCC_APB2ENR, RCC_APB2ENR_TIM1);
+    stm32f4_clock_on(RCC_PART(RCC_APB2ENR, RCC_APB2ENR_TIM1));
     reg_set(DBGMCU_APB2_FZ, DBGMCU_APB2_FZ_TIM1);
     whole = stm32f4_clocks_now()->timer1_Hz / PWM_Hz;
     stm32f4_pin_is(BOARD_PIN_BREAK, PIN_ALTERNATE, PULL_DOWN, TIM1_FUNCTION);

@@ -9,7 +9,7 @@ void stm32f4_field(uint32_t first, unsigned bits, unsigned number, uint32_t valu
 void stm32f4_pin_is(unsigned pin, stm32f4_pin_mode mode, stm32f4_pin_pull pull, unsigned function) {
     const unsigned port = pin / 16U;
     const unsigned number = pin % 16U;
-    stm32f4_clock_on(RCC_AHB1ENR, 1U << port);
+    stm32f4_clock_on(port);
     stm32f4_field(GPIO_AFR(port, 0U), 4U, number, function);
     stm32f4_field(GPIO_PUPDR(port), 2U, number, pull);
     stm32f4_field(GPIO_MODER(port), 2U, number, mode);

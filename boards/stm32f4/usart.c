@@ -26,7 +26,7 @@ static const stm32f4_ring out = {&out_counts, out_bytes, OUT_BYTES, 1};
 static bool lost; /* the interrupt's */
 
 void uart_start(void) {
-    stm32f4_clock_on(RCC_APB2ENR, RCC_APB2ENR_USART6);
+    stm32f4_clock_on(RCC_PART(RCC_APB2ENR, RCC_APB2ENR_USART6));
     stm32f4_pin_is(BOARD_PIN_TX, PIN_ALTERNATE, PULL_NONE, USART6_FUNCTION);
     stm32f4_pin_is(BOARD_PIN_RX, PIN_ALTERNATE, PULL_UP, USART6_FUNCTION);
     reg_store(USART_BRR, (stm32f4_clocks_now()->usart_Hz + BAUD / 2U) / BAUD);
