@@ -72,8 +72,8 @@ static inline void sample_for(unsigned input) {
 
 static void start_converter(void) {
     stm32f4_clock_on(RCC_PART(RCC_APB2ENR, RCC_APB2ENR_ADC1));
-    stm32f4_pin_is(BOARD_CELL_PIN, PIN_ANALOGUE, PULL_NONE, 0);
-    stm32f4_pin_is(BOARD_SUPPLY_PIN, PIN_ANALOGUE, PULL_NONE, 0);
+    stm32f4_pin_is(BOARD_CELL_PIN, PIN_ANALOGUE);
+    stm32f4_pin_is(BOARD_SUPPLY_PIN, PIN_ANALOGUE);
     if (stm32f4_clocks_now()->usart_Hz > 2U * ADC_HZ_MOST) {
         reg_store(ADC_CCR, ADC_CCR_ADCPRE_4); /* it is half of APB2 without */
     }

@@ -16,7 +16,7 @@ static uint32_t all(void) { return TIM_SR_CCIF(channels[0]) | TIM_SR_CCIF(channe
 
 void stm32f4_slots_start(void) {
     for (unsigned i = 0; i < 2; i++) {
-        stm32f4_pin_is(pins[i], PIN_ALTERNATE, PULL_DOWN, TIM2_FUNCTION);
+        stm32f4_pin_is(pins[i], PIN_ALTERNATE(TIM2_FUNCTION) | PULL_DOWN);
         stm32f4_field(TIM_CCMR(TIM2, (channels[i] - 1U) / 2U), 8U, (channels[i] - 1U) % 2U,
                       TIM_CCMR_CAPTURE | TIM_CCMR_FILTER_SLOWEST);
         reg_set(TIM_CCER(TIM2), TIM_CCER_CCE(channels[i])); /* rising edges */

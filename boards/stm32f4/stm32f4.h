@@ -26,17 +26,16 @@ void stm32f4_clock_on(unsigned part);
 /* Those bits of `mask` have become `wanted`, within so many looks of some ten cycles each. */
 bool stm32f4_comes(uint32_t address, uint32_t mask, uint32_t wanted, uint32_t looks);
 
-typedef enum stm32f4_pin_mode {
-    PIN_INPUT,
-    PIN_OUTPUT,
-    PIN_ALTERNATE,
-    PIN_ANALOGUE
-} stm32f4_pin_mode;
+/* What a pin is, and what pulls it. */
+#define PIN_INPUT 0U
+#define PIN_OUTPUT 1U
+#define PIN_ALTERNATE(function) (2U | (function) << 4) /* 0 ... 15 */
+#define PIN_ANALOGUE 3U
+#define PULL_UP (1U << 2)
+#define PULL_DOWN (2U << 2)
 
-typedef enum stm32f4_pin_pull { PULL_NONE, PULL_UP, PULL_DOWN } stm32f4_pin_pull;
-
-/* Also gives its port a clock. `function`: 0 ... 15, of PIN_ALTERNATE. */
-void stm32f4_pin_is(unsigned pin, stm32f4_pin_mode mode, stm32f4_pin_pull pull, unsigned function);
+/* Also gives its port a clock. */
+void stm32f4_pin_is(unsigned pin, unsigned what);
 /* One store: also from a fault's handler. */
 WH_INLINE void stm32f4_pin_set(unsigned pin, bool high) {
     reg_store(GPIO_BSRR(pin / 16U), 1U << (pin % 16U + (high ? 0U : 16U)));
