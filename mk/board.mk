@@ -82,7 +82,7 @@ endif
 ifneq ($(filter -DWH_WORDS_PACKED=1,$(BOARD_FLASHED_FLAGS)),)
 # What is said to people goes through mk/size/pack.awk (core/packed_words.h), 2 KB of flash less: all files that have WH_WORDS().
 PACKED := $(call objects,$(FLASHED),boards/cortexm/fault_words.c boards/programs/rig.c boards/programs/station.c \
-    $(addprefix core/rig/,guard.c life.c phases.c result.c) \
+    boards/shared/reset_words.c $(addprefix core/rig/,guard.c life.c phases.c result.c) \
     $(addprefix core/station/,conf.c conf_answer.c errors.c selftest.c station.c tel_answer.c telemetry.c))
 compile_packed = $(BOARD_CC) $(BOARD_CFLAGS) $(BOARD_FLASHED_FLAGS) $(WARN) $(BOARD_EXTRA) $(FILE_FLAGS)
 $(PACKED:.o=.words): $(B)/$(FLASHED)/%.words: %.c $(B)/$(FLASHED)/.flags

@@ -15,6 +15,13 @@ static uint32_t crc_of_fault(void) {
 
 static bool fault_holds(void) { return fault.crc == crc_of_fault(); }
 
+/* All that stands there counts from here on. */
+static void seal(void) {
+    board_kept_settle();
+    fault.crc = crc_of_fault();
+    board_kept_settle();
+}
+
 void board_kept_fault(const board_fault_facts *facts, uint32_t ticks) {
     const uint32_t before = fault_holds() ? fault.faults : 0U;
     fault.crc = ~fault.crc;
@@ -23,9 +30,7 @@ void board_kept_fault(const board_fault_facts *facts, uint32_t ticks) {
     fault.ticks = ticks;
     fault.state = board_kept_state();
     fault.faults = before + 1U;
-    board_kept_settle();
-    fault.crc = crc_of_fault();
-    board_kept_settle();
+    seal();
 }
 
 /* Written only where there is something to forget: a reset finds it whole at nearly any instant. */
@@ -35,12 +40,12 @@ bool board_kept_take_fault(board_fault_record *record) {
     if (there) {
         *record = fault;
     }
+    if (!held) {
+        fault.faults = 0; /* else the count goes on */
+    }
     if (there || !held) {
         fault.facts.exception = 0;
-        fault.faults = held ? fault.faults : 0U; /* the count goes on */
-        board_kept_settle();
-        fault.crc = crc_of_fault();
-        board_kept_settle();
+        seal();
     }
     return there;
 }

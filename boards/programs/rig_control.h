@@ -90,7 +90,8 @@ static void look(void) {
     seen.inputs.watchdog_has_cut = hal_watchdog_has_cut();
 }
 
-static void control(const wh_rig_config *config) {
+/* By itself: what it has on the stack is gone when the console has its own there. */
+WH_CALLED static void control(const wh_rig_config *config) {
     look();
 #if HAL_FRAMES
     hal_frames_step_begins();

@@ -17,33 +17,34 @@ typedef uint32_t __attribute__((may_alias)) word;
 
 static int word_aligned(const void *pointer) { return ((uintptr_t)pointer & 3U) == 0; }
 
-void *memcpy(void *restrict to, const void *restrict from, size_t bytes) {
+/* Front to back: what is moved towards the front may overlap. */
+static void *copy(void *to, const void *from, size_t bytes) {
     unsigned char *out = to;
     const unsigned char *in = from;
+    size_t i = 0;
     if (word_aligned(out) && word_aligned(in)) {
-        for (; bytes >= 4; bytes -= 4) {
-            *(word *)(void *)out = *(const word *)(const void *)in;
-            out += 4;
-            in += 4;
+        for (; i < (bytes & ~(size_t)3U); i += 4U) {
+            *(word *)(void *)(out + i) = *(const word *)(const void *)(in + i);
         }
     }
-    while (bytes-- > 0) {
-        *out++ = *in++;
+    for (; i < bytes; i++) {
+        out[i] = in[i];
     }
     return to;
+}
+
+void *memcpy(void *restrict to, const void *restrict from, size_t bytes) {
+    return copy(to, from, bytes);
 }
 
 void *memmove(void *to, const void *from, size_t bytes) {
     unsigned char *out = to;
     const unsigned char *in = from;
     if ((uintptr_t)out <= (uintptr_t)in) {
-        for (size_t i = 0; i < bytes; i++) {
-            out[i] = in[i];
-        }
-    } else {
-        while (bytes-- > 0) {
-            out[bytes] = in[bytes];
-        }
+        return copy(to, from, bytes);
+    }
+    while (bytes-- > 0) {
+        out[bytes] = in[bytes];
     }
     return to;
 }
@@ -51,15 +52,15 @@ void *memmove(void *to, const void *from, size_t bytes) {
 void *memset(void *to, int value, size_t bytes) {
     unsigned char *out = to;
     const unsigned char byte = (unsigned char)value;
+    size_t i = 0;
     if (word_aligned(out)) {
         const uint32_t four = byte * UINT32_C(0x01010101);
-        for (; bytes >= 4; bytes -= 4) {
-            *(word *)(void *)out = four;
-            out += 4;
+        for (; i < (bytes & ~(size_t)3U); i += 4U) {
+            *(word *)(void *)(out + i) = four;
         }
     }
-    while (bytes-- > 0) {
-        *out++ = byte;
+    for (; i < bytes; i++) {
+        out[i] = byte;
     }
     return to;
 }

@@ -32,12 +32,14 @@ static bool holds(const remembered *slot) {
 
 /* Of two that hold the newer; NULL: neither does. */
 static const remembered *newest(void) {
-    const bool first = holds(&slots[0]);
-    const bool second = holds(&slots[1]);
-    if (first && second) {
-        return (int8_t)(uint8_t)(slots[1].sequence - slots[0].sequence) > 0 ? &slots[1] : &slots[0];
+    const remembered *found = NULL;
+    for (const remembered *slot = slots; slot < slots + 2; slot++) {
+        if (holds(slot) &&
+            (found == NULL || (int8_t)(uint8_t)(slot->sequence - found->sequence) > 0)) {
+            found = slot;
+        }
     }
-    return first ? &slots[0] : second ? &slots[1] : NULL;
+    return found;
 }
 
 void hal_remember(const void *bytes, unsigned count) {

@@ -53,7 +53,7 @@ static int32_t before_last; /* the counts of the one before, */
 static bool last_follows;   /* and nothing is missing between them */
 
 static void start_dma(void) {
-    stm32f4_clock_on(RCC_AHB1ENR, RCC_AHB1ENR_DMA2);
+    stm32f4_clock_on(RCC_PART(RCC_AHB1ENR, RCC_AHB1ENR_DMA2));
     reg_store(DMA2_S0CR, 0);
     reg_store(DMA2_LIFCR, DMA2_S0_ALL_FLAGS);
     reg_store(DMA2_S0PAR, ADC1_DR);
@@ -71,9 +71,9 @@ static inline void sample_for(unsigned input) {
 }
 
 static void start_converter(void) {
-    stm32f4_clock_on(RCC_APB2ENR, RCC_APB2ENR_ADC1);
-    stm32f4_pin_is(BOARD_CELL_PIN, PIN_ANALOGUE, PULL_NONE, 0);
-    stm32f4_pin_is(BOARD_SUPPLY_PIN, PIN_ANALOGUE, PULL_NONE, 0);
+    stm32f4_clock_on(RCC_PART(RCC_APB2ENR, RCC_APB2ENR_ADC1));
+    stm32f4_pin_is(BOARD_CELL_PIN, PIN_ANALOGUE);
+    stm32f4_pin_is(BOARD_SUPPLY_PIN, PIN_ANALOGUE);
     if (stm32f4_clocks_now()->usart_Hz > 2U * ADC_HZ_MOST) {
         reg_store(ADC_CCR, ADC_CCR_ADCPRE_4); /* it is half of APB2 without */
     }
@@ -87,7 +87,7 @@ static void start_converter(void) {
 }
 
 static void start_trigger(void) {
-    stm32f4_clock_on(RCC_APB1ENR, RCC_APB1ENR_TIM3);
+    stm32f4_clock_on(RCC_PART(RCC_APB1ENR, RCC_APB1ENR_TIM3));
     reg_store(TIM_PSC(TIM3), 0);
     reg_store(TIM_ARR(TIM3), stm32f4_clocks_now()->timers_Hz / PAIRS_PER_S - 1U);
     reg_store(TIM_CR2(TIM3), TIM_CR2_MMS_UPDATE);

@@ -27,8 +27,9 @@ bool stm32f4_comes(uint32_t address, uint32_t mask, uint32_t wanted, uint32_t lo
     return false;
 }
 
-void stm32f4_clock_on(uint32_t enable, uint32_t part) {
-    reg_set(enable, part);
+void stm32f4_clock_on(unsigned part) {
+    const uint32_t enable = RCC_AHB1ENR + part / 32U * 4U;
+    reg_set(enable, 1U << part % 32U);
     (void)reg_load(enable);
 }
 
@@ -66,7 +67,7 @@ static board_clock set_up(void) {
     if (!stm32f4_comes(RCC_CR, RCC_CR_HSERDY, RCC_CR_HSERDY, PATIENTLY)) {
         return fall_back();
     }
-    stm32f4_clock_on(RCC_APB1ENR, RCC_APB1ENR_PWR);
+    stm32f4_clock_on(RCC_PART(RCC_APB1ENR, RCC_APB1ENR_PWR));
     reg_set(PWR_CR, PWR_CR_VOS);
     reg_store(RCC_PLLCFGR, BOARD_PLL_M | RCC_PLLCFGR_N(BOARD_PLL_N) | RCC_PLLCFGR_P_2 |
                                RCC_PLLCFGR_HSE | RCC_PLLCFGR_Q(7U));

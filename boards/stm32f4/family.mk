@@ -1,10 +1,12 @@
 # family.mk: tests of what is flashed.
 # Tests of what is flashed, in the emulator (tests/boards/f405.sh): the same code but for sensors that it does not have.
 ifneq ($(filter boards/stm32f4/%,$(BOARD_FLASHED)),)
-# What the compiler itself calls is there before all is optimised as a whole. From a compiler's cache it would come without its
-# call graph, and mk/size/size.sh would not know what stack it takes.
-$(B)/$(FLASHED)/boards/shared/mem.o: FILE_FLAGS += -fno-lto
-$(B)/$(FLASHED)/boards/shared/mem.o: export CCACHE_DISABLE := 1
+# Not part of what is optimised as a whole: what the compiler itself calls; and the start, into which main() might move, with what
+# needs variables, or the FPU, before there are any. From a compiler's cache they would come without their call graphs, and
+# mk/size/size.sh would not know what stack they take.
+apart := $(addprefix $(B)/$(FLASHED)/boards/,shared/mem.o cortexm/startup.o)
+$(apart): FILE_FLAGS += -fno-lto
+$(apart): export CCACHE_DISABLE := 1
 
 without_sensors = $(filter-out %/cell.o %/slots.o %/stop.o,$(FLASHED_OBJECTS))
 $(ELF)/bench_plant.elf: BOARD_LDLIBS += -Wl,--wrap=hal_motor_set_voltage -Wl,--wrap=hal_motor_off

@@ -62,10 +62,8 @@ bool hal_settings_write(unsigned slot, unsigned at, const uint8_t *bytes, unsign
     bool done = true;
     reg_store(FLASH_CR, FLASH_CR_PG | FLASH_CR_PSIZE_32);
     for (unsigned i = 0; i < count && done; i += 4U) {
-        uint32_t word = 0;
-        for (unsigned k = 0; k < 4U; k++) {
-            word |= (uint32_t)(i + k < count ? bytes[i + k] : 0xFFU) << (8U * k);
-        }
+        uint32_t word = UINT32_MAX;
+        __builtin_memcpy(&word, bytes + i, count - i < 4U ? count - i : 4U);
         reg_store(address_of(slot, at + i), word);
         done = is_done();
     }

@@ -17,11 +17,11 @@ static uint32_t whole; /* the compare value that is always on */
 static bool driving;   /* as far as nothing has cut it */
 
 void stm32f4_motor_start(void) {
-    stm32f4_pin_is(BOARD_PIN_ENABLE, PIN_OUTPUT, PULL_NONE, 0); /* low, as a reset leaves it */
-    stm32f4_clock_on(RCC_APB2ENR, RCC_APB2ENR_TIM1);
+    stm32f4_pin_is(BOARD_PIN_ENABLE, PIN_OUTPUT); /* low, as a reset leaves it */
+    stm32f4_clock_on(RCC_PART(RCC_APB2ENR, RCC_APB2ENR_TIM1));
     reg_set(DBGMCU_APB2_FZ, DBGMCU_APB2_FZ_TIM1);
     whole = stm32f4_clocks_now()->timer1_Hz / PWM_Hz;
-    stm32f4_pin_is(BOARD_PIN_BREAK, PIN_ALTERNATE, PULL_DOWN, TIM1_FUNCTION);
+    stm32f4_pin_is(BOARD_PIN_BREAK, PIN_ALTERNATE(TIM1_FUNCTION) | PULL_DOWN);
     reg_store(TIM_CR1(TIM1), 0);
     reg_store(TIM_CR2(TIM1), 0); /* idle level OIS1N: low */
     reg_store(TIM_PSC(TIM1), 0);
@@ -32,7 +32,7 @@ void stm32f4_motor_start(void) {
     reg_store(TIM_EGR(TIM1), TIM_EGR_UG);
     reg_store(TIM_BDTR(TIM1), BOARD_MOTOR_BDTR);
     reg_store(TIM_CR1(TIM1), TIM_CR1_CEN);
-    stm32f4_pin_is(BOARD_PIN_PWM, PIN_ALTERNATE, PULL_DOWN, TIM1_FUNCTION);
+    stm32f4_pin_is(BOARD_PIN_PWM, PIN_ALTERNATE(TIM1_FUNCTION) | PULL_DOWN);
     driving = false;
 }
 

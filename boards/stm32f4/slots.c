@@ -8,21 +8,21 @@
 #define TIM2_IRQ 28U
 #define TIM2_FUNCTION 1U
 
-static const unsigned pins[2] = {BOARD_SLOT_PINS};
-static const unsigned channels[2] = {BOARD_SLOT_CHANNELS};
-static uint32_t all; /* both channels' interrupts */
+static const uint8_t pins[2] = {BOARD_SLOT_PINS};
+static const uint8_t channels[2] = {BOARD_SLOT_CHANNELS};
+
+/* Both channels' interrupts. */
+static uint32_t all(void) { return TIM_SR_CCIF(channels[0]) | TIM_SR_CCIF(channels[1]); }
 
 void stm32f4_slots_start(void) {
-    all = 0;
     for (unsigned i = 0; i < 2; i++) {
-        stm32f4_pin_is(pins[i], PIN_ALTERNATE, PULL_DOWN, TIM2_FUNCTION);
+        stm32f4_pin_is(pins[i], PIN_ALTERNATE(TIM2_FUNCTION) | PULL_DOWN);
         stm32f4_field(TIM_CCMR(TIM2, (channels[i] - 1U) / 2U), 8U, (channels[i] - 1U) % 2U,
                       TIM_CCMR_CAPTURE | TIM_CCMR_FILTER_SLOWEST);
         reg_set(TIM_CCER(TIM2), TIM_CCER_CCE(channels[i])); /* rising edges */
-        all |= TIM_SR_CCIF(channels[i]);
     }
     reg_store(TIM_SR(TIM2), 0);
-    reg_store(TIM_DIER(TIM2), all);
+    reg_store(TIM_DIER(TIM2), all());
     stm32f4_interrupt(TIM2_IRQ);
 }
 
@@ -58,7 +58,7 @@ bool hal_slots_take(hal_slot_pulse *pulse) {
             (void)reg_load(TIM_CCR(TIM2, channels[i]));
         }
         reg_store(TIM_SR(TIM2), 0);
-        reg_store(TIM_DIER(TIM2), all);
+        reg_store(TIM_DIER(TIM2), all());
     }
     return there;
 }

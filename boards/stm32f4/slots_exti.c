@@ -13,8 +13,8 @@
 
 void stm32f4_slots_start(void) {
     reg_set(RCC_APB2ENR, RCC_APB2ENR_SYSCFG);
-    stm32f4_pin_is(PIN('A', 0), PIN_INPUT, PULL_DOWN, 0);
-    stm32f4_pin_is(PIN('A', 1), PIN_INPUT, PULL_DOWN, 0);
+    stm32f4_pin_is(PIN('A', 0), PIN_INPUT | PULL_DOWN);
+    stm32f4_pin_is(PIN('A', 1), PIN_INPUT | PULL_DOWN);
     reg_change(SYSCFG_EXTICR(0), 0xFFU, 0); /* port A */
     reg_set(EXTI_RTSR, LINES);
     reg_store(EXTI_PR, LINES);

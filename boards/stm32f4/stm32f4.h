@@ -17,25 +17,27 @@ typedef struct stm32f4_clocks {
 } stm32f4_clocks;
 const stm32f4_clocks *stm32f4_clocks_now(void);
 
-/* A part's clock on, by its bit of RCC's register `enable`; it counts when this returns (RM0090, 7.3.14; ES0182, 2.1.13). */
-void stm32f4_clock_on(uint32_t enable, uint32_t part);
+/* A part, by the bit of the register that gives it a clock; ports are the first of them. */
+#define RCC_PART(enable, bit) (((enable)-RCC_AHB1ENR) * 8U + (unsigned)__builtin_ctz(bit))
+
+/* Its clock on; it counts when this returns (RM0090, 7.3.14; ES0182, 2.1.13). */
+void stm32f4_clock_on(unsigned part);
 
 /* Those bits of `mask` have become `wanted`, within so many looks of some ten cycles each. */
 bool stm32f4_comes(uint32_t address, uint32_t mask, uint32_t wanted, uint32_t looks);
 
-typedef enum stm32f4_pin_mode {
-    PIN_INPUT,
-    PIN_OUTPUT,
-    PIN_ALTERNATE,
-    PIN_ANALOGUE
-} stm32f4_pin_mode;
+/* What a pin is, and what pulls it. */
+#define PIN_INPUT 0U
+#define PIN_OUTPUT 1U
+#define PIN_ALTERNATE(function) (2U | (function) << 4) /* 0 ... 15 */
+#define PIN_ANALOGUE 3U
+#define PULL_UP (1U << 2)
+#define PULL_DOWN (2U << 2)
 
-typedef enum stm32f4_pin_pull { PULL_NONE, PULL_UP, PULL_DOWN } stm32f4_pin_pull;
-
-/* Also gives its port a clock. `function`: 0 ... 15, of PIN_ALTERNATE. */
-void stm32f4_pin_is(unsigned pin, stm32f4_pin_mode mode, stm32f4_pin_pull pull, unsigned function);
+/* Also gives its port a clock. */
+void stm32f4_pin_is(unsigned pin, unsigned what);
 /* One store: also from a fault's handler. */
-static inline void stm32f4_pin_set(unsigned pin, bool high) {
+WH_INLINE void stm32f4_pin_set(unsigned pin, bool high) {
     reg_store(GPIO_BSRR(pin / 16U), 1U << (pin % 16U + (high ? 0U : 16U)));
 }
 static inline bool stm32f4_pin_is_high(unsigned pin) {

@@ -26,9 +26,9 @@ static const stm32f4_ring out = {&out_counts, out_bytes, OUT_BYTES, 1};
 static bool lost; /* the interrupt's */
 
 void uart_start(void) {
-    stm32f4_clock_on(RCC_APB2ENR, RCC_APB2ENR_USART6);
-    stm32f4_pin_is(BOARD_PIN_TX, PIN_ALTERNATE, PULL_NONE, USART6_FUNCTION);
-    stm32f4_pin_is(BOARD_PIN_RX, PIN_ALTERNATE, PULL_UP, USART6_FUNCTION);
+    stm32f4_clock_on(RCC_PART(RCC_APB2ENR, RCC_APB2ENR_USART6));
+    stm32f4_pin_is(BOARD_PIN_TX, PIN_ALTERNATE(USART6_FUNCTION));
+    stm32f4_pin_is(BOARD_PIN_RX, PIN_ALTERNATE(USART6_FUNCTION) | PULL_UP);
     reg_store(USART_BRR, (stm32f4_clocks_now()->usart_Hz + BAUD / 2U) / BAUD);
     reg_store(USART_CR1, USART_CR1_UE | USART_CR1_TE | USART_CR1_RE | USART_CR1_RXNEIE);
     stm32f4_interrupt(USART6_IRQ);

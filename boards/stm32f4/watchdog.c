@@ -20,18 +20,18 @@ static uint32_t clocks_in(uint32_t ticks) {
 
 /* May be called again, with another time: also in the last moment of the one before. */
 void hal_watchdog_start(uint32_t timeout_ticks) {
-    const uint32_t clocks = clocks_in(timeout_ticks);
+    uint32_t counts = clocks_in(timeout_ticks) / 4U;
     uint32_t divider = 0;
-    while (divider + 1U < DIVIDERS && clocks >> (2U + divider) >= LONGEST) {
+    while (divider + 1U < DIVIDERS && counts >= LONGEST) {
         divider++;
+        counts /= 2U;
     }
-    const uint32_t counts = (clocks >> (2U + divider)) + 1U;
     reg_set(DBGMCU_APB1_FZ, DBGMCU_APB1_FZ_IWDG);
     reg_store(IWDG_KR, IWDG_KR_START); /* and with it its oscillator */
     reg_store(IWDG_KR, IWDG_KR_RELOAD);
     reg_store(IWDG_KR, IWDG_KR_UNLOCK);
     reg_store(IWDG_PR, divider);
-    reg_store(IWDG_RLR, counts < LONGEST ? counts : LONGEST);
+    reg_store(IWDG_RLR, counts < LONGEST ? counts + 1U : LONGEST);
     /* both values take five of its clocks, 300 us at most, to get there (21.4.4) */
     (void)stm32f4_comes(IWDG_SR, UINT32_MAX, 0, 100000U);
     reg_store(IWDG_KR, IWDG_KR_RELOAD);
