@@ -17,34 +17,33 @@ typedef uint32_t __attribute__((may_alias)) word;
 
 static int word_aligned(const void *pointer) { return ((uintptr_t)pointer & 3U) == 0; }
 
-/* Front to back: what is moved towards the front may overlap. */
-static void *copy(void *to, const void *from, size_t bytes) {
+void *memcpy(void *restrict to, const void *restrict from, size_t bytes) {
     unsigned char *out = to;
     const unsigned char *in = from;
-    size_t i = 0;
     if (word_aligned(out) && word_aligned(in)) {
-        for (; i < (bytes & ~(size_t)3U); i += 4U) {
-            *(word *)(void *)(out + i) = *(const word *)(const void *)(in + i);
+        for (; bytes >= 4; bytes -= 4) {
+            *(word *)(void *)out = *(const word *)(const void *)in;
+            out += 4;
+            in += 4;
         }
     }
-    for (; i < bytes; i++) {
-        out[i] = in[i];
+    while (bytes-- > 0) {
+        *out++ = *in++;
     }
     return to;
-}
-
-void *memcpy(void *restrict to, const void *restrict from, size_t bytes) {
-    return copy(to, from, bytes);
 }
 
 void *memmove(void *to, const void *from, size_t bytes) {
     unsigned char *out = to;
     const unsigned char *in = from;
     if ((uintptr_t)out <= (uintptr_t)in) {
-        return copy(to, from, bytes);
-    }
-    while (bytes-- > 0) {
-        out[bytes] = in[bytes];
+        for (size_t i = 0; i < bytes; i++) {
+            out[i] = in[i];
+        }
+    } else {
+        while (bytes-- > 0) {
+            out[bytes] = in[bytes];
+        }
     }
     return to;
 }
@@ -52,15 +51,15 @@ void *memmove(void *to, const void *from, size_t bytes) {
 void *memset(void *to, int value, size_t bytes) {
     unsigned char *out = to;
     const unsigned char byte = (unsigned char)value;
-    size_t i = 0;
     if (word_aligned(out)) {
         const uint32_t four = byte * UINT32_C(0x01010101);
-        for (; i < (bytes & ~(size_t)3U); i += 4U) {
-            *(word *)(void *)(out + i) = four;
+        for (; bytes >= 4; bytes -= 4) {
+            *(word *)(void *)out = four;
+            out += 4;
         }
     }
-    for (; i < bytes; i++) {
-        out[i] = byte;
+    while (bytes-- > 0) {
+        *out++ = byte;
     }
     return to;
 }

@@ -1,7 +1,7 @@
 /* drive.c: speed drive: a ramp for the set-point and a PI controller with anti-windup. */
 #include "drive.h"
 
-static WH_CALLED wh_real clamp(wh_real value, wh_real low, wh_real high) {
+static wh_real clamp(wh_real value, wh_real low, wh_real high) {
     return value < low ? low : value > high ? high : value;
 }
 

@@ -147,7 +147,7 @@ WH_INLINE void wh_guard_pulses(const wh_guard_config *config, wh_guard *guard,
 }
 
 /* While the motor may drive. NaN is out of range. */
-WH_SHARED bool wh_guard_supply(const wh_guard_config *config, wh_real supply_V) {
+WH_INLINE bool wh_guard_supply(const wh_guard_config *config, wh_real supply_V) {
     return supply_V >= config->supply_min_V && supply_V <= config->supply_max_V;
 }
 

@@ -121,7 +121,7 @@ static void count_equal(wh_lockin *lockin, wh_real force_N) {
     }
 }
 
-WH_CALLED void wh_lockin_load(wh_lockin *lockin, const wh_load *load) {
+void wh_lockin_load(wh_lockin *lockin, const wh_load *load) {
     if (load->status != WH_LOAD_OK ||
         (lockin->any && (int32_t)(load->ticks - lockin->newest_ticks) <= 0)) {
         lockin->refused++;
@@ -219,7 +219,7 @@ static wh_real load_between(const wh_lockin *lockin, uint32_t ticks) {
 }
 
 /* The next node of the turn, if its sample is there. */
-static WH_CALLED void place_next(wh_lockin *lockin) {
+static void place_next(wh_lockin *lockin) {
     wh_lockin_turn *turn = &lockin->next;
     const uint32_t end_ticks = turn->begin_ticks + turn->turn_ticks;
     const uint32_t ticks = lockin->ticks[lockin->first];

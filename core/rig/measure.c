@@ -36,7 +36,7 @@ static void see_peaks(wh_measure *measure, wh_real force_N) {
     measure->peaks = true;
 }
 
-WH_CALLED void wh_measure_load(wh_measure *measure, const wh_load *load, bool at_rest) {
+void wh_measure_load(wh_measure *measure, const wh_load *load, bool at_rest) {
     if (!at_rest) {
         wh_lockin_load(&measure->lockin, load);
     }

@@ -15,7 +15,7 @@
 #define SPLITS_TO_FIND 3U
 
 /* Within most, either way; NaN too. */
-static WH_CALLED wh_real within(wh_real value, wh_real most) {
+static wh_real within(wh_real value, wh_real most) {
     return value < most ? value > -most ? value : -most : most;
 }
 
