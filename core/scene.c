@@ -113,14 +113,6 @@ static bool is_possible(const wh_scene *scene, const wh_state *state, const void
            wh_method_takes(scene->method, scene->form) && is_aligned(memory);
 }
 
-/* Numbers as they begin; without a start 0: carried, held and booked is nothing yet. Returns where the next are. */
-static wh_real *begun(wh_real *numbers, const wh_real *start, size_t count) {
-    for (; count > 0; count--) {
-        *numbers++ = start != NULL ? *start++ : WH_R(0.0);
-    }
-    return numbers;
-}
-
 wh_status wh_scene_start(const wh_scene *scene, wh_state *state, void *memory, size_t bytes) {
     if (!is_possible(scene, state, memory)) {
         return WH_E_ARGUMENT;
@@ -134,21 +126,31 @@ wh_status wh_scene_start(const wh_scene *scene, wh_state *state, void *memory, s
         state->fault = (int)wrong;
         return WH_E_ARITHMETIC;
     }
+    wh_real *reals;
     state->angle = memory;
+    reals = (wh_real *)(void *)(state->angle + scene->angles);
+    state->real = reals;
+    reals += scene->reals;
+    state->carry = scene->compensated ? reals : NULL;
+    reals += carries(scene);
+    state->input = reals;
+    reals += scene->inputs;
+    state->held = reals;
+    reals += scene->held;
+    state->ledger = scene->ledger != NULL ? reals : NULL;
+
+    for (size_t i = 0; i < numbers; i++) { /* carried, held and booked: nothing yet */
+        state->real[i] = WH_R(0.0);
+    }
     for (unsigned i = 0; i < scene->angles; i++) {
         state->angle[i] = scene->start_angle[i];
     }
-    wh_real *next = (wh_real *)(void *)(state->angle + scene->angles);
-    state->real = next;
-    next = begun(next, scene->start_real, scene->reals);
-    state->carry = scene->compensated ? next : NULL;
-    next = begun(next, NULL, carries(scene));
-    state->input = next;
-    next = begun(next, scene->start_input, scene->inputs);
-    state->held = next;
-    next = begun(next, NULL, scene->held);
-    state->ledger = scene->ledger != NULL ? next : NULL;
-    (void)begun(next, NULL, ledgers(scene));
+    for (unsigned i = 0; i < scene->reals; i++) {
+        state->real[i] = scene->start_real[i];
+    }
+    for (unsigned i = 0; i < scene->inputs; i++) {
+        state->input[i] = scene->start_input[i];
+    }
     state->contacts = NULL;
     if (scene->contacts > 0) {
         const size_t at = (WH_NUMBER_BYTES(scene->angles, numbers) + 7U) / 8U * 8U;

@@ -26,11 +26,8 @@
     "core/step.h is C only, as generated .c files are: C++ includes core/scene.h and generated headers"
 #endif
 
-/* Before what is asked of a compiler for steps: what judges the flags is then the core's own, and a linker that sees both has
- * it once. */
-#include "arithmetic.h"
-
 #include "ahead.h"
+#include "arithmetic.h"
 #include "root.h"
 #include "step_end.h"
 

@@ -3,36 +3,20 @@
 
 #include "core/packed_words.h"
 
-#define NUMBER(number, words) number,
-#define WORDS(number, words) WH_WORDS(words) "\0"
-
-/* Of rows of words, each by a bit: those of the first whose bit is among `bits`; what stands behind all rows, if none is. */
-static const char *first_of(uint32_t bits, const uint8_t *bit, unsigned rows, const char *words) {
-    unsigned i = 0;
-    while (i < rows && (bits >> bit[i] & 1U) == 0) {
-        i++;
-    }
-    return wh_words_item(words, i);
-}
-
-#define INTERRUPT 16U /* the first that is the chip's */
-#define EXCEPTION_ROWS(X) \
-    X(2, "NMI") \
-    X(3, "HardFault") \
-    X(4, "MemManage") \
-    X(5, "BusFault") \
-    X(6, "UsageFault") \
-    X(11, "SVCall") \
-    X(12, "DebugMonitor") \
-    X(14, "PendSV") \
-    X(15, "SysTick") \
-    X(INTERRUPT, "unexpected interrupt")
-
 static const char *name_of(uint32_t exception) {
-    static const uint8_t numbers[] = {EXCEPTION_ROWS(NUMBER)};
-    static const char names[] = EXCEPTION_ROWS(WORDS) WH_WORDS("reserved exception");
-    return first_of(1U << (exception < INTERRUPT ? exception : INTERRUPT), numbers, sizeof numbers,
-                    names);
+    switch (exception) {
+    case 2: return WH_WORDS("NMI");
+    case 3: return WH_WORDS("HardFault");
+    case 4: return WH_WORDS("MemManage");
+    case 5: return WH_WORDS("BusFault");
+    case 6: return WH_WORDS("UsageFault");
+    case 11: return WH_WORDS("SVCall");
+    case 12: return WH_WORDS("DebugMonitor");
+    case 14: return WH_WORDS("PendSV");
+    case 15: return WH_WORDS("SysTick");
+    default:
+        return exception < 16 ? WH_WORDS("reserved exception") : WH_WORDS("unexpected interrupt");
+    }
 }
 
 static void add_register(wh_text *text, const char *name, uint32_t value) {
@@ -43,26 +27,32 @@ static void add_register(wh_text *text, const char *name, uint32_t value) {
 
 #if __ARM_ARCH >= 7
 /* The causes that come up in practice (Armv7-M Architecture Reference Manual, B3.2.15). */
-#define CAUSE_ROWS(X) \
-    X(0, "instruction fetch denied") \
-    X(1, "data access denied") \
-    X(4, "stack unusable") \
-    X(8, "instruction fetch failed") \
-    X(9, "bus error") \
-    X(10, "imprecise bus error") \
-    X(12, "stack unusable") \
-    X(16, "undefined instruction") \
-    X(17, "jump to a non-Thumb address") \
-    X(18, "bad exception return") \
-    X(19, "no FPU or FPU switched off") \
-    X(20, "stack limit passed") \
-    X(24, "unaligned access") \
-    X(25, "division by zero")
-
 static const char *cause_of(uint32_t cfsr) {
-    static const uint8_t bits[] = {CAUSE_ROWS(NUMBER)};
-    static const char causes[] = CAUSE_ROWS(WORDS) WH_WORDS("no cause given");
-    return first_of(cfsr, bits, sizeof bits, causes);
+    static const struct {
+        uint32_t bit;
+        const char *text;
+    } causes[] = {
+        {1U << 0, WH_WORDS("instruction fetch denied")},
+        {1U << 1, WH_WORDS("data access denied")},
+        {1U << 4, WH_WORDS("stack unusable")},
+        {1U << 8, WH_WORDS("instruction fetch failed")},
+        {1U << 9, WH_WORDS("bus error")},
+        {1U << 10, WH_WORDS("imprecise bus error")},
+        {1U << 12, WH_WORDS("stack unusable")},
+        {1U << 16, WH_WORDS("undefined instruction")},
+        {1U << 17, WH_WORDS("jump to a non-Thumb address")},
+        {1U << 18, WH_WORDS("bad exception return")},
+        {1U << 19, WH_WORDS("no FPU or FPU switched off")},
+        {1U << 20, WH_WORDS("stack limit passed")},
+        {1U << 24, WH_WORDS("unaligned access")},
+        {1U << 25, WH_WORDS("division by zero")},
+    };
+    for (unsigned i = 0; i < sizeof causes / sizeof causes[0]; i++) {
+        if ((cfsr & causes[i].bit) != 0) {
+            return causes[i].text;
+        }
+    }
+    return WH_WORDS("no cause given");
 }
 
 static void add_status(wh_text *text, const board_fault_facts *facts) {
@@ -85,9 +75,9 @@ static void add_status(wh_text *text, const board_fault_facts *facts) {
 void board_fault_words(wh_text *text, const board_fault_facts *facts) {
     wh_text_add_char(text, ' ');
     wh_text_add_words(text, name_of(facts->exception));
-    if (facts->exception >= INTERRUPT) {
+    if (facts->exception >= 16) {
         wh_text_add_char(text, ' ');
-        wh_text_add_unsigned(text, facts->exception - INTERRUPT);
+        wh_text_add_unsigned(text, facts->exception - 16U);
     }
     if (facts->stack != BOARD_STACK_GOOD) {
         wh_text_add_words(text, facts->stack == BOARD_STACK_OVERFLOW

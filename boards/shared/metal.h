@@ -23,13 +23,6 @@ static inline uint32_t board_words(const uint32_t *low, const uint32_t *high) {
     return (uint32_t)(((uintptr_t)high - (uintptr_t)low) / sizeof *low);
 }
 
-/* Those words become `value`. */
-static inline void board_fill(volatile uint32_t *low, const uint32_t *high, uint32_t value) {
-    for (; (uintptr_t)low < (uintptr_t)high; low++) {
-        *low = value;
-    }
-}
-
 /* Initial values from flash to the variables that have some, zero to the others: before any C that has variables. */
 static inline void board_fill_memory(void) {
     extern uint32_t board_data_load[];
@@ -42,7 +35,11 @@ static inline void board_fill_memory(void) {
     for (uint32_t i = 0; i < data_words; i++) {
         data[i] = board_data_load[i];
     }
-    board_fill(board_bss_start, board_bss_end, 0);
+    volatile uint32_t *bss = board_bss_start;
+    const uint32_t bss_words = board_words(board_bss_start, board_bss_end);
+    for (uint32_t i = 0; i < bss_words; i++) {
+        bss[i] = 0;
+    }
 }
 
 #endif

@@ -15,7 +15,13 @@ static const uint32_t *stack_pointer(void) {
     return now;
 }
 
-void board_stack_paint(void) { board_fill(board_stack_limit, stack_pointer(), PAINT); }
+void board_stack_paint(void) {
+    volatile uint32_t *stack = board_stack_limit;
+    const uint32_t unused = board_words(board_stack_limit, stack_pointer());
+    for (uint32_t i = 0; i < unused; i++) {
+        stack[i] = PAINT;
+    }
+}
 
 unsigned board_stack_used_bytes(void) {
     const volatile uint32_t *stack = board_stack_limit;

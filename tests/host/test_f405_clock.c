@@ -8,7 +8,7 @@
 void suite_f405_clock(void);
 
 /* boards/cortexm/cortexm.h, which a board's data comes with. */
-enum { GIVEN, CRYSTAL, FALLBACK };
+enum { CRYSTAL, FALLBACK, GIVEN };
 void board_clock_start(void);
 extern unsigned board_clock_is;
 
