@@ -33,8 +33,8 @@ void stm32f4_clock_on(unsigned part) {
     (void)reg_load(enable);
 }
 
-/* The chip's own oscillator, whatever a loader in ROM or a crystal that failed has left: the core runs on it. An emulator without this unit reads
- * zeros, which no chip does: then there is nothing to set up. */
+/* The chip's own oscillator, whatever a loader in ROM or a crystal that failed has left: the core runs on it. An emulator without
+ * this unit reads zeros, which no chip does: then there is nothing to set up. */
 static bool to_own_oscillator(void) {
     reg_set(RCC_CR, RCC_CR_HSION);
     if (!stm32f4_comes(RCC_CR, RCC_CR_HSIRDY, RCC_CR_HSIRDY, SOON)) {
