@@ -69,10 +69,8 @@ bool wh_frame_take(wh_frame_reader *reader, uint8_t byte, wh_frame *frame);
 /* Bytes that are written, or read, one number after the other. Beyond the end nothing is written, zeros are read, and
  * `over` is set. */
 typedef struct wh_bytes {
-    union {
-        uint8_t *to;         /* written */
-        const uint8_t *from; /* read */
-    };
+    uint8_t *to;         /* written */
+    const uint8_t *from; /* read */
     unsigned room;
     unsigned at;
     bool over;
