@@ -37,13 +37,16 @@ static void add_exact(wh_text *text, wh_real number) {
 }
 
 static void add_value(wh_text *text, char as, const wh_value *value) {
+    if (as <= '9') {
+        wh_text_add_fixed(text, value->number, (unsigned)(as - '0'));
+        return;
+    }
     switch (as) {
     case 'w': add_words(text, value->word, '_'); break;
     case 's': add_words(text, value->word, ' '); break;
     case 'g': wh_text_add(text, value->count != 0 ? "good" : "bad"); break;
     case 'c': wh_text_add_unsigned(text, value->count); break;
     case 'e': add_exact(text, value->number); break;
-    default: wh_text_add_fixed(text, value->number, (unsigned)(as - '0'));
     }
 }
 

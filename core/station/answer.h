@@ -33,6 +33,8 @@ void wh_answer(wh_text *text, const char *form, const wh_value *value);
 /* A list begins with what parts its items, which is in no WH_WORDS():
  * "|" WH_WORDS("off") "|" WH_WORDS("on"). */
 
+#define WH_LIST_OFF_ON "|" WH_WORDS("off") "|" WH_WORDS("on")
+
 /* Which of the items the word is, from 0; how many there are when it is none. */
 unsigned wh_list_find(const char *list, const char *word);
 

@@ -68,12 +68,18 @@ static void get(const wh_conf *conf, wh_conf_id id, wh_text *answer) {
     wh_answer(answer, WH_WORDS(": @s"), words);
 }
 
+/* X(what, word): what may stand behind `conf`. */
+#define ASKED_ROWS(X) \
+    X(LIST, "list") X(GET, "get") X(SET, "set") X(SAVE, "save") X(DEFAULT, "default")
+#define COUNTED(what, word) what,
+enum { ASKED_ROWS(COUNTED) NONE };
+#undef COUNTED
+
 wh_station_error wh_conf_answer(wh_conf *conf, const wh_words *words, bool idle, wh_text *answer) {
-    enum { LIST, GET, SET, SAVE, DEFAULT, NONE };
     static const uint8_t wanted[] = {[GET] = 3, [SET] = 4, [SAVE] = 2, [DEFAULT] = 2};
-    const unsigned what = wh_list_find("|" WH_WORDS("list") "|" WH_WORDS("get") "|" WH_WORDS(
-                                           "set") "|" WH_WORDS("save") "|" WH_WORDS("default"),
-                                       words->word[1]);
+#define LISTED(what, word) "|" WH_WORDS(word)
+    const unsigned what = wh_list_find(ASKED_ROWS(LISTED), words->word[1]);
+#undef LISTED
     if (what == LIST) {
         return list(conf, words, answer);
     }

@@ -183,7 +183,7 @@ static unsigned do_host(request *r) {
 }
 
 static unsigned do_talk(request *r) {
-    const unsigned on = wh_list_find("|" WH_WORDS("off") "|" WH_WORDS("on"), r->words.word[1]);
+    const unsigned on = wh_list_find(WH_LIST_OFF_ON, r->words.word[1]);
     if (on > 1U) {
         return WH_STATION_ON_OFF;
     }

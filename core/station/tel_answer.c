@@ -34,7 +34,7 @@ static void add_tape(const wh_tape *tape, wh_text *answer) {
 }
 
 static wh_station_error set_tape(wh_tape *tape, const char *word, wh_text *answer) {
-    const unsigned on = wh_list_find("|" WH_WORDS("off") "|" WH_WORDS("on"), word);
+    const unsigned on = wh_list_find(WH_LIST_OFF_ON, word);
     if (tape == NULL) {
         return WH_STATION_NOT_HERE;
     }
@@ -117,7 +117,11 @@ static void schema_states(wh_text *answer) {
 
 static wh_station_error schema(const wh_tel *tel, const wh_cell_config *cell, const char *name,
                                wh_text *answer) {
-    switch (wh_list_find(CHANNELS "," WH_WORDS("states"), name)) {
+    const unsigned number = wh_list_find(CHANNELS "," WH_WORDS("states"), name);
+    if (number > WH_TEL_CHANNELS) {
+        return WH_STATION_TEL_CHANNEL;
+    }
+    switch ((wh_tel_channel)number) {
     case WH_TEL_RUN: schema_run(tel, cell, answer); break;
     case WH_TEL_EVENT:
         wh_answer(answer,
@@ -135,7 +139,6 @@ static wh_station_error schema(const wh_tel *tel, const wh_cell_config *cell, co
         break;
 #endif
     case WH_TEL_CHANNELS: schema_states(answer); break;
-    default: return WH_STATION_TEL_CHANNEL;
     }
     return WH_STATION_FINE;
 }
@@ -197,19 +200,30 @@ static wh_station_error set_ring(wh_tel *tel, const char *word, wh_text *answer)
     return WH_STATION_FINE;
 }
 
+/* X(what, word): asked with no word behind it, and with one. */
+#define ALONE_ROWS(X) X(ALONE_LIST, "list") X(ALONE_OFF, "off") X(ALONE_RING, "ring")
+#define WITH_ROWS(X) \
+    X(WITH_SCHEMA, "schema") \
+    X(WITH_RATE, "rate") \
+    X(WITH_FORMAT, "fmt") X(WITH_RING, "ring") WH_OF_TAPES(X(WITH_TAPE, "tape"))
+#define COUNTED(what, word) what,
+typedef enum alone { ALONE_ROWS(COUNTED) ALONE_NONE } alone;
+typedef enum with { WITH_ROWS(COUNTED) WITH_NONE } with;
+#undef COUNTED
+
 static wh_station_error without_word(wh_tel *tel, wh_tape *tape, const wh_cell_config *cell,
                                      const char *what, wh_text *answer) {
-    switch (wh_list_find("|" WH_WORDS("list") "|" WH_WORDS("off") "|" WH_WORDS("ring"), what)) {
-    case 0: list(tel, tape, cell, answer); break;
-    case 1: wh_tel_rate(tel, 0);
+    switch ((alone)wh_list_find(ALONE_ROWS(LISTED), what)) {
+    case ALONE_LIST: list(tel, tape, cell, answer); break;
+    case ALONE_OFF: wh_tel_rate(tel, 0);
 #if WH_STATION_TAPE
         if (tape != NULL) {
             wh_tape_off(tape);
         }
 #endif
         break;
-    case 2: ring_told(tel, answer); break;
-    default: return WH_STATION_TEL_HOW;
+    case ALONE_RING: ring_told(tel, answer); break;
+    case ALONE_NONE: return WH_STATION_TEL_HOW;
     }
     return WH_STATION_FINE;
 }
@@ -221,16 +235,15 @@ wh_station_error wh_tel_answer(wh_tel *tel, wh_tape *tape, const wh_cell_config 
     if (words->count < 3U) {
         return without_word(tel, tape, cell, what, answer);
     }
-    switch (wh_list_find("|" WH_WORDS("schema") "|" WH_WORDS("rate") "|" WH_WORDS(
-                             "fmt") "|" WH_WORDS("ring") WH_OF_TAPES("|" WH_WORDS("tape")),
-                         what)) {
-    case 0: return schema(tel, cell, word, answer);
-    case 1: return rate(tel, cell, word, answer);
-    case 2: return set_format(tel, cell, word, answer);
-    case 3: return set_ring(tel, word, answer);
+    switch ((with)wh_list_find(WITH_ROWS(LISTED), what)) {
+    case WITH_SCHEMA: return schema(tel, cell, word, answer);
+    case WITH_RATE: return rate(tel, cell, word, answer);
+    case WITH_FORMAT: return set_format(tel, cell, word, answer);
+    case WITH_RING: return set_ring(tel, word, answer);
 #if WH_STATION_TAPE
-    case 4: return set_tape(tape, word, answer);
+    case WITH_TAPE: return set_tape(tape, word, answer);
 #endif
-    default: return WH_STATION_TEL_HOW;
+    case WITH_NONE: break;
     }
+    return WH_STATION_TEL_HOW;
 }

@@ -98,7 +98,7 @@ for elf in "$@"; do
     row "ram bytes (without stack)" "$ram"
     row "stack bytes (computed)" "$computed"
     handlers=0
-    for handler in $("$NM" "$elf" | awk '$2 == "T" && $3 ~ /^on_/ { print $3 }'); do
+    for handler in $("$NM" "$elf" | awk '$2 ~ /[tT]/ && $3 ~ /^on_/ { print $3 }'); do
         deep=$(worst_stack "$handler")
         [ "$deep" -le "$handlers" ] || handlers=$deep
     done

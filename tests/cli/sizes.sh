@@ -58,6 +58,17 @@ verdict $? "an image that is optimised as a whole has its call graph beside it"
 mv "$scratch/station.elf.ltrans0.ltrans.ci" "$scratch/objects/main.ci"
 echo "LOAD $scratch/objects/main.o" >"$scratch/station.map"
 
+# An interrupt's handler, which nobody calls, counts beside main(), with what the processor stacks for it and for a fault: a name of
+# the whole image, or, where that is optimised as a whole, of one file.
+for kind in T t; do
+    image 9999 999 64
+    echo "400 $kind on_tick" >>"$scratch/symbols"
+    echo 'node: { title: "on_tick" label: "on_tick\\na.c:6\\n40 bytes (static)" }' >>"$scratch/objects/main.ci"
+    sizes 9999 $((999 + 64 + 8 + 40 + 2 * 112)) && ! sizes 9999 $((999 + 64 + 8 + 40 + 2 * 112 - 1))
+    verdict $? "a handler counts ($kind)"
+done
+
+image 9999 999 64
 sed '/title: "main"/d' "$scratch/objects/main.ci" >"$scratch/less" && mv "$scratch/less" "$scratch/objects/main.ci"
 ! sizes 99999 99999 && grep -q 'no call graph of main' "$scratch/err"
 verdict $? "an image without main()'s call graph is refused"
