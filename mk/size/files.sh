@@ -4,6 +4,10 @@
 # tells: there each function counts for the file that it stands in, whoever's code is in it, and texts and data for none. NM, SIZE.
 set -eu
 
+if ! [ -r "$1" ]; then
+    echo "files.sh: $1: no such map; what the linker made has it beside it" >&2
+    exit 2
+fi
 if grep -q '^LOAD .*ltrans\.o$' "$1"; then
     elf=${1%.map}.elf
     all=$("${SIZE:-arm-none-eabi-size}" -A "$elf" | awk '$1 ~ /^\.(vectors|text|data)$/ { sum += $2 } END { print sum }')
