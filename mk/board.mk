@@ -92,6 +92,8 @@ $(PACKED): %.o: %.words mk/size/pack.awk core/word_pairs.h
 	$(say) CC "$@ (packed)"
 	$(Q)awk -f mk/size/pack.awk core/word_pairs.h $< >$*.i
 	$(Q)$(compile_packed) -c $*.i -o $@
+# From a compiler's cache an object comes without its call graph, and mk/size/size.sh would not know what stack it takes.
+$(foreach f,boards/% core/% $(GEN)/rig_observed,$(B)/$(BOARD)/$(f).o): export CCACHE_DISABLE := 1
 endif
 
 # The rig's firmware with a console: here on a pseudo-terminal.

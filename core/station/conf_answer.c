@@ -31,10 +31,10 @@ static wh_station_error list(const wh_conf *conf, const wh_words *words, wh_text
     if (words->count > 2U && !wh_line_number(words->word[2], &from)) {
         return WH_STATION_CONF_NONE;
     }
-    uint32_t id = (uint32_t)(int32_t)from; /* which has nine digits at most */
-    if (id >= WH_CONF_COUNT) {
+    if (!(from >= WH_R(0.0)) || from >= (wh_real)WH_CONF_COUNT) {
         return WH_STATION_CONF_NONE;
     }
+    uint32_t id = (uint32_t)from;
     wh_answer(answer, WH_WORDS(" settings=@c"), settings);
     for (; id < WH_CONF_COUNT; id++) {
         const unsigned before = answer->length;

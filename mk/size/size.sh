@@ -83,7 +83,7 @@ for elf in "$@"; do
         END { print top - low }')
     graphs >"$work/graphs"
     if ! [ -s "$work/graphs" ]; then
-        echo "size.sh: no call graphs of $elf in $OBJECTS" >&2
+        echo "size.sh: no call graphs of $elf in $OBJECTS; from a compiler's cache objects come without: CCACHE_DISABLE=1, and anew" >&2
         exit 1
     fi
     computed=$(worst_stack board_reset)

@@ -316,6 +316,27 @@ static void test_list_has_all_and_can_be_typed(void) {
     TEST_ASSERT_EQUAL_UINT(WH_CONF_COUNT, told);
 }
 
+/* A list begins at 0 or behind it, and before its end: at any number that can be typed. */
+static void test_where_a_list_begins(void) {
+    begin();
+    uint64_t seed = 2811;
+    unsigned below = 0;
+    for (unsigned i = 0; i < draw_cases(2000); i++) {
+        char line[60];
+        wh_text text;
+        const bool negative = draw_one_in(&seed, 3);
+        const unsigned whole = draw_one_in(&seed, 2) ? 0U : draw_one_of(&seed, 60);
+        const unsigned part = draw_one_of(&seed, 10000);
+        wh_text_start(&text, line, sizeof line);
+        wh_text_add(&text, negative ? "conf list -" : "conf list ");
+        wh_text_add_fixed(&text, (wh_real)whole + (wh_real)part / 10000, 4);
+        const bool is = whole < WH_CONF_COUNT && !(negative && whole + part > 0);
+        below += negative && whole == 0 && part > 0;
+        check_begins(is ? "OK settings=36 " : "ERR 109 ", ask(line));
+    }
+    TEST_ASSERT_TRUE(below > draw_cases(2000) / 12U);
+}
+
 static void test_refusals(void) {
     static const struct {
         const char *line;
@@ -393,6 +414,7 @@ void suite_station_conf(void) {
     RUN_TEST(test_what_follows);
     RUN_TEST(test_what_is_stored_of_others);
     RUN_TEST(test_list_has_all_and_can_be_typed);
+    RUN_TEST(test_where_a_list_begins);
     RUN_TEST(test_refusals);
     RUN_TEST(test_a_run_with_settings);
 }
