@@ -319,7 +319,6 @@ static void test_list_has_all_and_can_be_typed(void) {
 /* A list begins at 0 or behind it, and before its end: at any number that can be typed. */
 static void test_where_a_list_begins(void) {
     begin();
-    uint64_t seed = 2811;
     unsigned below = 0;
     for (unsigned i = 0; i < draw_cases(2000); i++) {
         char line[60];
