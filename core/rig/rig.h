@@ -14,7 +14,7 @@
 
 #include "feed.h"
 #include "free_swing.h"
-#include "orders.h"
+#include "inputs.h"
 #include "phases.h"
 #include "record.h"
 

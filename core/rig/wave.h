@@ -9,9 +9,9 @@ extern "C" {
 #endif
 
 WH_SHARED wh_wave wh_wave_at(wh_phase phase) {
-    wh_wave wave;
-    wh_sincos(phase, &wave.sine, &wave.cosine);
-    return wave;
+    wh_wave both;
+    wh_sincos(phase, &both.sine, &both.cosine);
+    return both;
 }
 
 /* The phase of radians: as wh_phase_from_rad() has it, in whose place a call stands where flash is short. */

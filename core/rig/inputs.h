@@ -1,6 +1,6 @@
-/* orders.h: orders, and what a control step sees beside them, pulses and samples. */
-#ifndef WH_RIG_ORDERS_H
-#define WH_RIG_ORDERS_H
+/* inputs.h: what a control step sees beside pulses and samples, orders among it. */
+#ifndef WH_RIG_INPUTS_H
+#define WH_RIG_INPUTS_H
 
 #include "life.h"
 #include "phases.h"
