@@ -13,8 +13,8 @@
 #define PARTS 64U  /* of a step are carried on */
 _Static_assert(WHOLE *PARTS == ATMEGA_WHOLE, "all of the supply");
 
-static bool driving;
-static uint16_t carried; /* parts of a step that are owed */
+static volatile bool driving; /* also an interrupt may switch it off */
+static uint16_t carried;      /* parts of a step that are owed */
 
 /* Off from the first store on; the pins' level behind the timer is low. */
 void atmega_motor_start(void) {
@@ -37,6 +37,19 @@ static uint16_t parts_of(float volts) {
     return !(parts > 0.0f) ? 0U : parts >= (float)ATMEGA_WHOLE ? WHOLE * PARTS : (uint16_t)parts;
 }
 
+unsigned hal_motor_start(void) {
+    const unsigned status = hal_motor_status();
+    if (!driving && (status & HAL_MOTOR_FAULT) == 0) {
+        driving = true;
+        carried = 0;
+        OCR1A = 0;
+        PORTB |= _BV(ATMEGA_ENABLE_BIT);
+        TCCR1A = _BV(COM1A1) | _BV(WGM11);
+    }
+    return status;
+}
+
+/* While the pin is not the timer's the value counts for nothing, and a start begins at 0. */
 void hal_motor_set_voltage(float volts) {
     const uint16_t parts = parts_of(volts);
     const uint16_t owed = parts + carried;
@@ -44,12 +57,6 @@ void hal_motor_set_voltage(float volts) {
     carried = owed % PARTS;
     steps = steps < WHOLE ? steps : WHOLE;
     OCR1A = steps;
-    if (!driving) {
-        driving = true;
-        carried = 0;
-        PORTB |= _BV(ATMEGA_ENABLE_BIT);
-        TCCR1A = _BV(COM1A1) | _BV(WGM11);
-    }
 }
 
 /* The enable first, by one instruction: it is also a fault's first (fault.c). */

@@ -16,6 +16,7 @@
 #include "hal/slots.h"
 #include "hal/stop.h"
 #include "hal/watchdog.h"
+#include "obey.h"
 #include "rig_own.h"
 #include "trip_memory.h"
 
@@ -56,14 +57,7 @@ _Static_assert(RIG_SAMPLES_MOST <= WH_SEEN_SAMPLES, "all are seen");
 static wh_rig rig;
 static trip_memory memory;
 static wh_seen seen; /* in this control step, or the last */
-
-static void obey(const wh_rig_command *command) {
-    switch (command->way) {
-    case WH_MOTOR_DRIVES: hal_motor_set_voltage(command->volts); break;
-    case WH_MOTOR_BRAKES: hal_motor_off(HAL_MOTOR_BRAKE); break;
-    case WH_MOTOR_COASTS: hal_motor_off(HAL_MOTOR_COAST); break;
-    }
-}
+static bool drives;  /* obey.h */
 
 /* What has come since, as far as a step takes it: it goes to `seen`. */
 static void look(void) {
@@ -107,7 +101,7 @@ WH_CALLED static void control(const wh_rig_config *config) {
 #if HAL_FRAMES
     hal_frames_step_ends();
 #endif
-    obey(&command);
+    obey(&command, &drives);
     trip_memory_keep(&memory, &rig);
     hal_reset_mark(wh_rig_stage(&rig));
     hal_watchdog_kick(); /* tripped too: a watchdog that resets would start all over */

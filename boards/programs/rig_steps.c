@@ -7,6 +7,7 @@
 #include <stddef.h>
 
 #include "boards/programs/counted.h"
+#include "boards/programs/obey.h"
 #include "core/rig/datasheet.h"
 #include "core/rig/rig.h"
 #include "hal/virtual/virtual_rig.h"
@@ -55,6 +56,8 @@ static int32_t noise_of(float counts) {
     return (int32_t)(counts * ((float)(int32_t)seed / 2147483648.0f));
 }
 
+static bool drives; /* obey.h */
+
 static void control(const trial *tried) {
     hal_slot_pulse pulses[8];
     hal_load_sample samples[8];
@@ -80,11 +83,7 @@ static void control(const trial *tried) {
     const wh_rig_command command = wh_rig_step(&config, &rig, &inputs);
     wh_count_end();
     intervals++;
-    if (command.way == WH_MOTOR_DRIVES) {
-        hal_motor_set_voltage(command.volts);
-    } else {
-        hal_motor_off(command.way == WH_MOTOR_BRAKES ? HAL_MOTOR_BRAKE : HAL_MOTOR_COAST);
-    }
+    obey(&command, &drives);
 }
 
 static bool run(const trial *tried) {

@@ -9,7 +9,7 @@ $(apart): FILE_FLAGS += -fno-lto
 $(apart): export CCACHE_DISABLE := 1
 
 without_sensors = $(filter-out %/cell.o %/slots.o %/stop.o,$(FLASHED_OBJECTS))
-$(ELF)/bench_plant.elf: BOARD_LDLIBS += -Wl,--wrap=hal_motor_set_voltage -Wl,--wrap=hal_motor_off
+$(ELF)/bench_plant.elf: BOARD_LDLIBS += -Wl,--wrap=hal_motor_start -Wl,--wrap=hal_motor_set_voltage -Wl,--wrap=hal_motor_off
 $(ELF)/bench_plant.elf: $(call objects,$(FLASHED),boards/programs/station.c tests/boards/f405_plant.c \
     $(GEN)/rig_observed.c $(GEN)/rig_fixed.c) $(without_sensors) $(call libraries,$(FLASHED),station rig virtual whirl)
 	$(link_board)

@@ -14,7 +14,8 @@
 #define TIM1_FUNCTION 1U
 
 static uint32_t whole; /* the compare value that is always on */
-static bool driving;   /* as far as nothing has cut it */
+static volatile bool
+    driving; /* as far as nothing has cut it; also an interrupt may switch it off */
 
 void stm32f4_motor_start(void) {
     stm32f4_pin_is(BOARD_PIN_ENABLE, PIN_OUTPUT); /* low, as a reset leaves it */
@@ -48,18 +49,20 @@ static uint32_t compare_of(float volts) {
     return volts >= supply_V ? whole : (uint32_t)(volts / supply_V * (float)whole);
 }
 
-void hal_motor_set_voltage(float volts) {
-    if (is_cut()) {
-        return;
-    }
-    reg_store(TIM_CCR(TIM1, 1U), compare_of(volts));
-    if (!driving) {
+unsigned hal_motor_start(void) {
+    const unsigned status = hal_motor_status();
+    if (!driving && (status & HAL_MOTOR_FAULT) == 0) {
+        reg_store(TIM_CCR(TIM1, 1U), 0);
         reg_store(TIM_SR(TIM1), ~TIM_SR_BIF);
         stm32f4_pin_set(BOARD_PIN_ENABLE, true);
         reg_store(TIM_BDTR(TIM1), BOARD_MOTOR_BDTR | TIM_BDTR_MOE);
         driving = true;
     }
+    return status;
 }
+
+/* Where MOE is off the value counts for nothing, and a start begins at 0. */
+void hal_motor_set_voltage(float volts) { reg_store(TIM_CCR(TIM1, 1U), compare_of(volts)); }
 
 /* The output first: that store is also a fault's first (BOARD_SAFE_ROWS). */
 void hal_motor_off(hal_motor_off_way way) {

@@ -190,17 +190,30 @@ static void drive(float duty) {
     hal_turns_set(&plant, ENABLE, 1.0f);
 }
 
+static bool motor_started;
+
+unsigned hal_motor_status(void) { return hal_turns_is_cut(&plant) ? HAL_MOTOR_CUT : 0U; }
+
+unsigned hal_motor_start(void) {
+    if (!motor_started && !hal_turns_is_cut(&plant)) {
+        motor_started = true;
+        drive(0.0f);
+    }
+    return hal_motor_status();
+}
+
 /* Without a supply nothing drives, and nothing is divided by. */
 void hal_motor_set_voltage(float volts) {
-    drive(supply_V > SUPPLY_V_PER_COUNT ? volts / supply_V : 0.0f);
+    if (motor_started) {
+        drive(supply_V > SUPPLY_V_PER_COUNT ? volts / supply_V : 0.0f);
+    }
 }
 
 void hal_motor_off(hal_motor_off_way way) {
+    motor_started = false;
     hal_turns_set(&plant, DUTY, 0.0f);
     hal_turns_set(&plant, ENABLE, way == HAL_MOTOR_BRAKE ? 1.0f : 0.0f);
 }
-
-unsigned hal_motor_status(void) { return hal_turns_is_cut(&plant) ? HAL_MOTOR_CUT : 0U; }
 
 float hal_motor_supply_V(void) { return supply_V; }
 

@@ -16,7 +16,10 @@ static hal_virtual_rig board_rig;
 
 hal_virtual_rig *hal_virtual_rig_instance(void) { return &board_rig; }
 
+static bool motor_started;
+
 hal_start hal_clock_start(void) {
+    motor_started = false;
     const bool again = board_rig.in_reset;
     board_rig.in_reset = false;
     const bool starts =
@@ -44,11 +47,26 @@ uint32_t hal_clock_late_ticks(void) {
     return most;
 }
 
-void hal_motor_set_voltage(float volts) { hal_virtual_rig_set_voltage(&board_rig, volts); }
-
-void hal_motor_off(hal_motor_off_way way) { hal_virtual_rig_motor_off(&board_rig, way); }
-
 unsigned hal_motor_status(void) { return board_rig.cut ? HAL_MOTOR_CUT : 0U; }
+
+unsigned hal_motor_start(void) {
+    if (!motor_started && !board_rig.cut) {
+        motor_started = true;
+        hal_virtual_rig_drive(&board_rig, 0.0f);
+    }
+    return hal_motor_status();
+}
+
+void hal_motor_set_voltage(float volts) {
+    if (motor_started) {
+        hal_virtual_rig_drive(&board_rig, volts);
+    }
+}
+
+void hal_motor_off(hal_motor_off_way way) {
+    motor_started = false;
+    hal_virtual_rig_motor_off(&board_rig, way);
+}
 
 float hal_motor_supply_V(void) { return board_rig.supply_V; }
 

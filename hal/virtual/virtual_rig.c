@@ -191,7 +191,7 @@ void hal_virtual_rig_advance(hal_virtual_rig *rig, uint32_t ticks) {
     }
 }
 
-void hal_virtual_rig_set_voltage(hal_virtual_rig *rig, float volts) {
+void hal_virtual_rig_drive(hal_virtual_rig *rig, float volts) {
     rig->volts = volts > 0.0f ? volts : 0.0f;
     rig->enabled = true;
 }

@@ -84,8 +84,9 @@ void hal_virtual_rig_advance(hal_virtual_rig *rig, uint32_t ticks);
  * are lost, and the timer begins anew; the rotor turns on. hal_clock_start() then starts no other rig. */
 void hal_virtual_rig_reset(hal_virtual_rig *rig, hal_reset cause);
 
-/* As hal_motor_set_voltage(), hal_motor_off(), hal_slots_take(), hal_loadcell_take() on this rig. */
-void hal_virtual_rig_set_voltage(hal_virtual_rig *rig, float volts);
+/* What reaches the drive stage: a voltage, the enable on; or off. As hal_motor_off(), hal_slots_take(), hal_loadcell_take()
+ * on this rig. */
+void hal_virtual_rig_drive(hal_virtual_rig *rig, float volts);
 void hal_virtual_rig_motor_off(hal_virtual_rig *rig, hal_motor_off_way way);
 bool hal_virtual_rig_take_pulse(hal_virtual_rig *rig, hal_slot_pulse *pulse);
 bool hal_virtual_rig_take_sample(hal_virtual_rig *rig, hal_load_sample *sample);

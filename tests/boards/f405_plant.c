@@ -26,8 +26,10 @@ static uint32_t ahead_ticks; /* the plant's time is ahead of the board's */
 
 void stm32f4_cell_start(void);
 void stm32f4_slots_start(void);
+unsigned hear_start(void) __asm__("__wrap_hal_motor_start");
 void hear_voltage(float volts) __asm__("__wrap_hal_motor_set_voltage");
 void hear_off(hal_motor_off_way way) __asm__("__wrap_hal_motor_off");
+unsigned tell_start(void) __asm__("__real_hal_motor_start");
 void tell_voltage(float volts) __asm__("__real_hal_motor_set_voltage");
 void tell_off(hal_motor_off_way way) __asm__("__real_hal_motor_off");
 
@@ -52,13 +54,24 @@ void stm32f4_cell_start(void) {
 
 void stm32f4_slots_start(void) {}
 
+static bool started; /* as far as the plant has heard */
+
+unsigned hear_start(void) {
+    const unsigned wrong = tell_start();
+    started = started || wrong == 0;
+    return wrong;
+}
+
 void hear_voltage(float volts) {
-    hal_virtual_rig_set_voltage(&plant, volts);
     tell_voltage(volts);
+    if (started) {
+        hal_virtual_rig_drive(&plant, volts);
+    }
 }
 
 void hear_off(hal_motor_off_way way) {
     tell_off(way);
+    started = false;
     hal_virtual_rig_motor_off(&plant, way);
 }
 

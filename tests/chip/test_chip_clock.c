@@ -166,7 +166,10 @@ static void test_waits(void) {
     TEST_ASSERT_EQUAL_STRING("none", chip_violation());
 }
 
-static void drive(void) { hal_motor_set_voltage(6.0F); }
+static void drive(void) {
+    (void)hal_motor_start();
+    hal_motor_set_voltage(6.0F);
+}
 
 /* A crystal that stops while the motor turns: hardware has the output low before the NMI. */
 static void test_crystal_dies(void) {

@@ -16,7 +16,11 @@ static hal_motor_off_way way;
 static unsigned status;
 static float supply_V;
 static bool pressed;
-static void set(void) { hal_motor_set_voltage(volts); }
+static void set(void) {
+    (void)hal_motor_start();
+    hal_motor_set_voltage(volts);
+}
+static void set_alone(void) { hal_motor_set_voltage(volts); }
 static void off(void) { hal_motor_off(way); }
 static void look(void) {
     status = hal_motor_status();
@@ -218,7 +222,7 @@ static void test_break(void) {
     }
 }
 
-/* Ordered while it is pressed: it does not come by itself when it is let go. */
+/* Ordered while it is pressed: it does not come by itself when it is let go, but by another start. */
 static void test_ordered_while_pressed(void) {
     chip_on(7);
     chip_pass_us(10000);
@@ -226,13 +230,63 @@ static void test_ordered_while_pressed(void) {
     set_to(6.0F);
     is_low_for(PERIOD_UNITS);
     run(look);
-    TEST_ASSERT_TRUE((status & HAL_MOTOR_FAULT) != 0);
+    TEST_ASSERT_EQUAL(HAL_MOTOR_FAULT, status);
+    TEST_ASSERT_FALSE(enabled());
     chip_pin_drive('A', 6, CHIP_HIGH);
     is_low_for(PERIOD_UNITS);
-    set_to(6.0F);
+    run(set_alone);
     is_low_for(PERIOD_UNITS);
     run(look);
-    TEST_ASSERT_EQUAL(HAL_MOTOR_CUT, status);
+    TEST_ASSERT_EQUAL(0, status);
+    set_to(supply_V);
+    TEST_ASSERT_EQUAL(TICKS, high_ticks());
+}
+
+/* A voltage drives nothing that is not started: before the first start, and after each off. */
+static void test_voltage_alone(void) {
+    scattered_state = chip_seed(12);
+    chip_on(12);
+    chip_pass_us(10000);
+    for (unsigned i = 0; i < 40; i++) {
+        volts = (float)(scattered() % 13U);
+        run(set_alone);
+        is_low_for(PERIOD_UNITS);
+        run(look);
+        TEST_ASSERT_EQUAL(0, status);
+        set_to(1.0F + (float)(scattered() % 12U));
+        TEST_ASSERT_TRUE(high_ticks() > 0);
+        way = (scattered() & 1U) != 0 ? HAL_MOTOR_COAST : HAL_MOTOR_BRAKE;
+        run(off);
+    }
+}
+
+/* Off by an interrupt, after any store of a control step that sets a voltage: it stays off, whatever voltages follow. */
+static unsigned stores_left;
+static void off_behind(void) {
+    if (stores_left > 0 && --stores_left == 0) {
+        hal_motor_off(way);
+    }
+}
+static void test_off_from_an_interrupt(void) {
+    scattered_state = chip_seed(13);
+    chip_on(13);
+    chip_pass_us(10000);
+    for (unsigned i = 0; i < 60; i++) {
+        set_to(1.0F + (float)(scattered() % 12U));
+        chip_pass(scattered() % PERIOD_UNITS);
+        way = (scattered() & 1U) != 0 ? HAL_MOTOR_COAST : HAL_MOTOR_BRAKE;
+        volts = 1.0F + (float)(scattered() % 12U);
+        stores_left = 1;
+        chip_stored = off_behind;
+        run(set_alone);
+        chip_stored = NULL;
+        TEST_ASSERT_EQUAL(0, stores_left);
+        for (unsigned again = 0; again < 3; again++) {
+            is_low_for(PERIOD_UNITS);
+            TEST_ASSERT_EQUAL(way == HAL_MOTOR_BRAKE, enabled());
+            run(set_alone);
+        }
+    }
 }
 
 static void test_no_supply(void) {
@@ -284,6 +338,8 @@ void suite_chip_motor(void) {
     RUN_TEST(test_fault_from_anywhere);
     RUN_TEST(test_break);
     RUN_TEST(test_ordered_while_pressed);
+    RUN_TEST(test_voltage_alone);
+    RUN_TEST(test_off_from_an_interrupt);
     RUN_TEST(test_no_supply);
     RUN_TEST(test_debugger);
     RUN_TEST(test_reset_at_any_instant);

@@ -12,7 +12,10 @@ void suite_chip_watchdog(void);
 static uint32_t timeout;
 static void start(void) { hal_watchdog_start(timeout); }
 static void kick(void) { hal_watchdog_kick(); }
-static void drive(void) { hal_motor_set_voltage(6.0F); }
+static void drive(void) {
+    (void)hal_motor_start();
+    hal_motor_set_voltage(6.0F);
+}
 static void run(void (*what)(void)) {
     TEST_ASSERT_EQUAL_MESSAGE(CHIP_RETURNED, chip_try(what), "it bites meanwhile");
     TEST_ASSERT_EQUAL_STRING("none", chip_violation());

@@ -35,11 +35,7 @@ void plant_control(on_plant *on) {
                                   .stop_pressed = hal_stop_pressed(),
                                   .watchdog_has_cut = hal_watchdog_has_cut()};
     on->command = wh_rig_step(&on->config, &on->rig, &inputs);
-    if (on->command.way == WH_MOTOR_DRIVES) {
-        hal_motor_set_voltage(on->command.volts);
-    } else {
-        hal_motor_off(on->command.way == WH_MOTOR_BRAKES ? HAL_MOTOR_BRAKE : HAL_MOTOR_COAST);
-    }
+    obey(&on->command, &on->drives);
     trip_memory_keep(&on->memory, &on->rig);
     hal_watchdog_kick(); /* tripped too */
     const float speed = hal_virtual_rig_speed_radps(hal_virtual_rig_instance());
@@ -54,6 +50,7 @@ wh_refusal plant_order(on_plant *on, wh_rig_event event, float value) {
 
 static void begin_control(on_plant *on) {
     TEST_ASSERT_TRUE(hal_clock_start() == HAL_STARTED);
+    on->drives = false;
     trip_memory_start(&on->memory, &on->config, &on->rig, hal_clock_ticks());
     hal_watchdog_start(10U * CONTROL_TICKS);
 }

@@ -7,6 +7,7 @@
 
 #if !WH_DOUBLE
 
+#include "boards/programs/obey.h"
 #include "boards/programs/trip_memory.h"
 #include "hal/clock.h"
 #include "hal/loadcell.h"
@@ -23,6 +24,7 @@ typedef struct on_plant {
     wh_rig rig;
     wh_rig_config config;
     wh_rig_command command;
+    bool drives; /* obey.h */
     trip_memory memory;
     float fastest_radps; /* of the rotor itself, not as measured */
     float noise_N;       /* standard deviation of what is added to each sample */

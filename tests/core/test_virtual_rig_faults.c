@@ -111,6 +111,28 @@ static void test_runaway_is_caught(void) {
 }
 
 /* A controller that falls silent: within 10 control steps the motor is cut, and stays cut. */
+/* Off by an interrupt, in each phase that drives: no command of the run drives again, and it ends for a reason. */
+static void test_off_from_an_interrupt_stays(void) {
+    static const wh_rig_phase phases[] = {WH_PHASE_SPIN_UP, WH_PHASE_RAMP, WH_PHASE_SETTLE,
+                                          WH_PHASE_RECORD, WH_PHASE_RAMP_DOWN};
+    for (unsigned i = 0; i < sizeof phases / sizeof *phases; i++) {
+        plant_begin(&on, 330.0f);
+        plant_go_on_until(&on, phases[i]);
+        for (unsigned k = 0; k < 100; k++) {
+            plant_control(&on);
+        }
+        TEST_ASSERT_TRUE(on.command.way == WH_MOTOR_DRIVES && hal_virtual_rig_instance()->enabled);
+        hal_motor_off(HAL_MOTOR_COAST);
+        for (plant_control(&on); on.command.way == WH_MOTOR_DRIVES; plant_control(&on)) {
+            TEST_ASSERT_FALSE(hal_virtual_rig_instance()->enabled);
+        }
+        plant_go_on_to_the_end(&on);
+        TEST_ASSERT_TRUE(i + 1U == sizeof phases / sizeof *phases ||
+                         on.rig.guard.trip != WH_TRIP_NONE);
+        plant_check_stopped(&on);
+    }
+}
+
 static void test_watchdog_cuts_the_motor(void) {
     plant_begin(&on, 330.0f);
     plant_go_on_until(&on, WH_PHASE_RECORD);
@@ -121,6 +143,7 @@ static void test_watchdog_cuts_the_motor(void) {
     hal_clock_wait_until(silent + 11U * CONTROL_TICKS);
     TEST_ASSERT_TRUE(hal_watchdog_has_cut());
     hal_watchdog_kick();
+    TEST_ASSERT_EQUAL(HAL_MOTOR_CUT, hal_motor_start());
     hal_motor_set_voltage(HAL_VIRTUAL_RATED_V);
     hal_clock_wait_until(silent + 45000U * CONTROL_TICKS);
     TEST_ASSERT_FLOAT_WITHIN(0.1f, 0.0f, hal_virtual_rig_speed_radps(hal_virtual_rig_instance()));
@@ -155,6 +178,7 @@ void suite_virtual_rig_faults(void) {
     RUN_TEST(test_voltage_is_held_while_a_pulse_is_overdue);
     RUN_TEST(test_stuck_load_cell_stops_the_rig);
     RUN_TEST(test_runaway_is_caught);
+    RUN_TEST(test_off_from_an_interrupt_stays);
     RUN_TEST(test_watchdog_cuts_the_motor);
     RUN_TEST(test_too_slow_and_too_fast_targets_are_refused);
 #endif

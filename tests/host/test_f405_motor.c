@@ -108,26 +108,33 @@ static void test_starts_off(void) {
     TEST_ASSERT_DOUBLE_WITHIN(1.0, 20e3, frequency);
 }
 
-/* Orders and breaks at random: the output is what was ordered last, or low, and after a break low until off was ordered. */
+/* Orders and breaks at random: the output is what was ordered last of a motor that is started, else low, and after a break low
+ * until off was ordered. */
 static void test_orders_and_breaks(void) {
     scattered_state = 7;
     start();
     bool driving = false;
     bool cut = false;
-    for (unsigned i = 0; i < 5000; i++) {
+    for (unsigned i = 0; i < 20000; i++) {
         const unsigned what = (unsigned)(scattered() >> 61);
         const unsigned before = fake.stores = 0;
         double wanted = -1.0;
-        if (what < 4) {
+        if (what < 2) {
+            const unsigned says = hal_motor_start();
+            TEST_ASSERT_EQUAL((pressed ? HAL_MOTOR_FAULT : 0) |
+                                  (driving && cut ? HAL_MOTOR_CUT : 0) |
+                                  (supply_V > 0.0f ? 0 : HAL_MOTOR_NO_SUPPLY),
+                              says);
+            wanted = driving ? output() : 0.0;
+            driving = driving || !pressed;
+        } else if (what < 4) {
             const double part = uniform() * 1.4 - 0.2;
             const float volts = what == 3 && part < 0.0 ? NAN : (float)(part * 24.0);
             supply_V = part > 1.1 ? 0.0f : 24.0f;
-            cut = (driving && cut) || pressed;
             hal_motor_set_voltage(volts);
-            driving = true;
-            wanted = cut || !(volts > 0.0f) || !(supply_V > 0.0f) ? 0.0
-                     : volts / supply_V > 1.0f                    ? 1.0
-                                                                  : (double)(volts / supply_V);
+            wanted = !driving || cut || !(volts > 0.0f) || !(supply_V > 0.0f) ? 0.0
+                     : volts / supply_V > 1.0f                                ? 1.0
+                                               : (double)(volts / supply_V);
         } else if (what < 6) {
             const hal_motor_off_way way = what == 4 ? HAL_MOTOR_COAST : HAL_MOTOR_BRAKE;
             hal_motor_off(way);

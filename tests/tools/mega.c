@@ -117,7 +117,7 @@ static void advance_plant(void) {
     const mega_motor motor = mega_motor_now();
     plant.supply_V = mega_supply_V;
     if (motor.enabled) {
-        hal_virtual_rig_set_voltage(&plant, motor.duty * mega_supply_V);
+        hal_virtual_rig_drive(&plant, motor.duty * mega_supply_V);
     } else {
         hal_virtual_rig_motor_off(&plant, HAL_MOTOR_COAST);
     }

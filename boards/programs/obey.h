@@ -1,0 +1,25 @@
+/* obey.h: what the rig's controller commands goes to the motor. A part of a program, or of a test in its place. */
+#ifndef PROGRAMS_OBEY_H
+#define PROGRAMS_OBEY_H
+
+#include <stdbool.h>
+
+#include "core/rig/rig.h"
+#include "hal/motor.h"
+
+/* *drives: so was the command before; false at first. The motor is started where a command to drive begins, and not again: what
+ * an interrupt has switched off, or stop has kept from starting, does not come by itself before the rig was off, too. */
+static inline void obey(const wh_rig_command *command, bool *drives) {
+    if (command->way != WH_MOTOR_DRIVES) {
+        hal_motor_off(command->way == WH_MOTOR_BRAKES ? HAL_MOTOR_BRAKE : HAL_MOTOR_COAST);
+        *drives = false;
+        return;
+    }
+    if (!*drives) {
+        *drives = true;
+        (void)hal_motor_start(); /* why not is among the inputs of the next step */
+    }
+    hal_motor_set_voltage(command->volts);
+}
+
+#endif
