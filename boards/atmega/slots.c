@@ -1,26 +1,30 @@
 /* slots.c: the slot sensors on the input captures of timers 4 and 5, which take the time of an edge by themselves (DS 17.6),
- * after four samples alike of their noise canceller, 0.25 us. The interrupt only carries the stamps away.
+ * after four samples alike of their noise canceller, 0.25 us: rising and falling ones in turn. The interrupt only carries the
+ * stamps away.
  *
  * The chip does not tell that a capture was overwritten before it was read: edges of one sensor within an interrupt's latency
- * are one, the later. Overruns count what found no room. */
+ * are one, the later. Where a pulse has ended by then, its end is not told. Overruns count what found no room, and beginnings
+ * that came too soon behind an end. */
 #include "hal/slots.h"
 
 #include "atmega.h"
 
-#define PULSES_KEPT 8U /* a power of two */
+#define EDGES_KEPT 16U /* a power of two */
 
-typedef struct kept_pulse {
+typedef struct kept_edge {
     atmega_instant at;
-    uint8_t sensor;
-} kept_pulse;
+    uint8_t of; /* the sensor, and from bit 1 on a hal_slot_end */
+} kept_edge;
 
-static volatile kept_pulse kept[PULSES_KEPT];
+static volatile kept_edge kept[EDGES_KEPT];
 static volatile uint8_t head; /* the interrupts' */
 static volatile uint8_t tail;
 static volatile uint32_t overruns;
 static volatile bool stopped;
 
 static void listen(void) {
+    TCCR4B |= _BV(ICES4);
+    TCCR5B |= _BV(ICES5);
     TIFR4 = _BV(ICF4); /* what a storm has left may be of any age: forgotten */
     TIFR5 = _BV(ICF5);
     TIMSK4 |= _BV(ICIE4);
@@ -38,62 +42,69 @@ void atmega_slots_start(void) {
 }
 
 /* Full: no more interrupts until one is taken. */
-static void keep(uint8_t sensor, uint16_t count) {
-    if ((uint8_t)(head - tail) == PULSES_KEPT) {
+static void keep(uint8_t of, uint16_t count) {
+    if ((uint8_t)(head - tail) == EDGES_KEPT) {
         overruns++;
         stopped = true;
         TIMSK4 &= (uint8_t)~_BV(ICIE4);
         TIMSK5 &= (uint8_t)~_BV(ICIE5);
         return;
     }
-    volatile kept_pulse *to = &kept[head % PULSES_KEPT];
+    volatile kept_edge *to = &kept[head % EDGES_KEPT];
     const atmega_instant at = atmega_instant_of(count);
     to->at.count = at.count;
     to->at.wraps = at.wraps;
-    to->sensor = sensor;
+    to->of = of;
     head++;
 }
+
+/* Which edge a sensor's timer has captured, the sensor's bits of kept_edge. From now on it waits for the other one; turning to it
+ * may set the flag (DS 17.6.3). Where the other one has been already it would wait for ever: back again. */
+static inline uint8_t turn(uint8_t sensor, volatile uint8_t *control, volatile uint8_t *flags) {
+    const bool rose = (*control & _BV(ICES4)) != 0;
+    *control ^= _BV(ICES4);
+    *flags = _BV(ICF4);
+    const bool high = (PINL & _BV(sensor)) != 0;
+    if (high != rose && (*flags & _BV(ICF4)) == 0) {
+        *control ^= _BV(ICES4);
+        *flags = _BV(ICF4);
+        overruns += rose ? 0U : 1U;
+    }
+    return (uint8_t)(sensor | (rose ? HAL_SLOT_LEADING : HAL_SLOT_TRAILING) << 1);
+}
+_Static_assert(ICES4 == ICES5 && ICF4 == ICF5 && PL0 == 0 && PL1 == 1, "one turn() for both");
 
 /* Of two that came in one go the earlier first. */
 static void fetch(bool first, bool second) {
     const uint16_t first_count = ICR4;
     const uint16_t second_count = ICR5;
+    const uint8_t first_of = first ? turn(0, &TCCR4B, &TIFR4) : 0U;
+    const uint8_t second_of = second ? turn(1, &TCCR5B, &TIFR5) : 0U;
     const bool turned = first && second && (int16_t)(second_count - first_count) < 0;
     if (turned) {
-        keep(1, second_count);
+        keep(second_of, second_count);
     }
     if (first) {
-        keep(0, first_count);
+        keep(first_of, first_count);
     }
     if (second && !turned) {
-        keep(1, second_count);
+        keep(second_of, second_count);
     }
 }
 
-ISR(TIMER4_CAPT_vect) {
-    const bool other = (TIFR5 & _BV(ICF5)) != 0;
-    if (other) {
-        TIFR5 = _BV(ICF5);
-    }
-    fetch(true, other);
-}
+ISR(TIMER4_CAPT_vect) { fetch(true, (TIFR5 & _BV(ICF5)) != 0); }
 
-ISR(TIMER5_CAPT_vect) {
-    const bool other = (TIFR4 & _BV(ICF4)) != 0;
-    if (other) {
-        TIFR4 = _BV(ICF4);
-    }
-    fetch(other, true);
-}
+ISR(TIMER5_CAPT_vect) { fetch((TIFR4 & _BV(ICF4)) != 0, true); }
 
-bool hal_slots_take(hal_slot_pulse *pulse) {
+bool hal_slots_take(hal_slot_edge *edge) {
     if (head == tail) {
         return false;
     }
-    const volatile kept_pulse *from = &kept[tail % PULSES_KEPT];
+    const volatile kept_edge *from = &kept[tail % EDGES_KEPT];
     const atmega_instant at = {from->at.count, from->at.wraps};
-    pulse->ticks = atmega_ticks_of(at);
-    pulse->sensor = from->sensor;
+    edge->ticks = atmega_ticks_of(at);
+    edge->sensor = from->of & 1U;
+    edge->end = from->of >> 1;
     const uint8_t before = atmega_hold();
     tail++;
     if (stopped) {

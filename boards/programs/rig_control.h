@@ -61,14 +61,23 @@ static bool drives;  /* obey.h */
 
 /* What has come since, as far as a step takes it: it goes to `seen`. */
 static void look(void) {
-    hal_slot_pulse pulse;
+    hal_slot_edge edge;
     hal_load_sample sample;
-    /* one a step: a storm must not hold it up, and stamps do not age; where a sample had to wait for one, that is first */
+    /* one a step, and the end of one before it: a storm must not hold it up, and stamps do not age; where a sample had to wait
+     * for one, that is first */
     const bool owed = RIG_SAMPLES_WITH_PULSE == 0U && seen.pulsed;
-    seen.pulsed = !owed && hal_slots_take(&pulse);
-    if (seen.pulsed) {
-        seen.sensor = pulse.sensor;
-        seen.pulse_ticks = pulse.ticks;
+    seen.pulsed = false;
+    seen.ended = false;
+    for (unsigned i = 0; i < 2U && !owed && !seen.pulsed && hal_slots_take(&edge); i++) {
+        if (edge.end == HAL_SLOT_LEADING) {
+            seen.pulsed = true;
+            seen.sensor = edge.sensor;
+            seen.pulse_ticks = edge.ticks;
+        } else {
+            seen.ended = true;
+            seen.ended_sensor = edge.sensor;
+            seen.end_ticks = edge.ticks;
+        }
     }
     seen.samples = 0;
     while (seen.samples < (seen.pulsed ? RIG_SAMPLES_WITH_PULSE : RIG_SAMPLES_MOST) &&

@@ -59,22 +59,22 @@ static int32_t noise_of(float counts) {
 static bool drives; /* obey.h */
 
 static void control(const trial *tried) {
-    hal_slot_pulse pulses[8];
+    hal_slot_edge pulse;
     hal_load_sample samples[8];
-    unsigned pulse_count = 0;
+    bool pulsed = false;
     unsigned sample_count = 0;
     hal_clock_wait_until(hal_clock_ticks() + CONTROL_TICKS);
     hal_watchdog_kick();
-    if (hal_slots_take(&pulses[0])) { /* as rig.c does */
-        pulse_count = 1;
+    while (!pulsed && hal_slots_take(&pulse)) { /* one a step, as rig_control.h does */
+        pulsed = pulse.end == HAL_SLOT_LEADING;
     }
     while (sample_count < 8U && hal_loadcell_take(&samples[sample_count])) {
         samples[sample_count++].raw += noise_of(tried->noise);
     }
     const wh_rig_inputs inputs = {.now_ticks = hal_clock_ticks(), .supply_V = hal_motor_supply_V()};
     wh_count_begin();
-    for (unsigned i = 0; i < pulse_count; i++) {
-        wh_rig_pulse(&config, &rig, pulses[i].sensor, pulses[i].ticks);
+    if (pulsed) {
+        wh_rig_pulse(&config, &rig, pulse.sensor, pulse.ticks);
     }
     for (unsigned i = 0; i < sample_count; i++) {
         wh_rig_load(&config, &rig, samples[i].ticks, samples[i].raw,

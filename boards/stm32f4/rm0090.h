@@ -156,10 +156,12 @@
 #define TIM_CCMR(timer, half) ((timer) + 0x18U + 4U * (half)) /* channels 1 and 2; 3 and 4 */
 #define TIM_CCMR_OC1M_PWM_1 (6U << 4)
 #define TIM_CCMR_CAPTURE 1U                /* of its own input, */
+#define TIM_CCMR_CAPTURE_OTHER 2U          /* of the other's of the pair, behind that one's filter */
 #define TIM_CCMR_FILTER_SLOWEST (15U << 4) /* 8 samples, each 32nd: an edge holds so long */
 #define TIM_CCER(timer) ((timer) + 0x20U)
 #define TIM_CCER_CC1NE (1U << 2)
 #define TIM_CCER_CCE(channel) (1U << (4U * ((channel)-1U)))
+#define TIM_CCER_CCP(channel) (2U << (4U * ((channel)-1U))) /* falling edges */
 #define TIM_CNT(timer) ((timer) + 0x24U)
 #define TIM_PSC(timer) ((timer) + 0x28U)
 #define TIM_ARR(timer) ((timer) + 0x2CU)

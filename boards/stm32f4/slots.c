@@ -1,5 +1,7 @@
-/* slots.c: the slot sensors on two channels of timer 2, which takes the time of an edge by itself (RM0090, 18.3.5), after a
- * filter of 12 us. The interrupt only carries the stamps away. */
+/* slots.c: the slot sensors on two inputs of timer 2, which takes the time of an edge by itself (RM0090, 18.3.5), after a
+ * filter of 12 us. Channels 1 and 2, 3 and 4 are pairs, of which each has both inputs (18.3.6): the input's own channel takes
+ * rising edges, the other the falling ones, so that a pulse's end never takes the place of its beginning. The interrupt only
+ * carries the stamps away. */
 #include "hal/slots.h"
 
 #include "pulses.h"
@@ -8,42 +10,63 @@
 #define TIM2_IRQ 28U
 #define TIM2_FUNCTION 1U
 
-static const uint8_t pins[2] = {BOARD_SLOT_PINS};
-static const uint8_t channels[2] = {BOARD_SLOT_CHANNELS};
+/* All four channels. */
+#define ALL (TIM_SR_CCIF(1U) | TIM_SR_CCIF(2U) | TIM_SR_CCIF(3U) | TIM_SR_CCIF(4U))
+#define OVERRUNS (ALL << 8)
 
-/* Both channels' interrupts. */
-static uint32_t all(void) { return TIM_SR_CCIF(channels[0]) | TIM_SR_CCIF(channels[1]); }
+static const uint8_t pins[2] = {BOARD_SLOT_PINS};
+static const uint8_t inputs[2] = {BOARD_SLOT_CHANNELS};
+
+#define OTHER_PAIRS(one, two) (((one)-1U) / 2U != ((two)-1U) / 2U)
+#define IN_OTHER_PAIRS(...) OTHER_PAIRS(__VA_ARGS__)
+_Static_assert(IN_OTHER_PAIRS(BOARD_SLOT_CHANNELS), "each sensor takes a pair of channels");
+
+/* Of a sensor the channel that takes this end of its pulses. */
+static unsigned channel_of(unsigned sensor, hal_slot_end end) {
+    return ((inputs[sensor] - 1U) ^ (unsigned)end) + 1U;
+}
+
+static void capture(unsigned channel, uint32_t mode, uint32_t edge) {
+    stm32f4_field(TIM_CCMR(TIM2, (channel - 1U) / 2U), 8U, (channel - 1U) % 2U, mode);
+    reg_set(TIM_CCER(TIM2), TIM_CCER_CCE(channel) | edge);
+}
 
 void stm32f4_slots_start(void) {
-    for (unsigned i = 0; i < 2; i++) {
-        stm32f4_pin_is(pins[i], PIN_ALTERNATE(TIM2_FUNCTION) | PULL_DOWN);
-        stm32f4_field(TIM_CCMR(TIM2, (channels[i] - 1U) / 2U), 8U, (channels[i] - 1U) % 2U,
-                      TIM_CCMR_CAPTURE | TIM_CCMR_FILTER_SLOWEST);
-        reg_set(TIM_CCER(TIM2), TIM_CCER_CCE(channels[i])); /* rising edges */
+    for (unsigned sensor = 0; sensor < 2; sensor++) {
+        const unsigned falling = channel_of(sensor, HAL_SLOT_TRAILING);
+        stm32f4_pin_is(pins[sensor], PIN_ALTERNATE(TIM2_FUNCTION) | PULL_DOWN);
+        capture(inputs[sensor], TIM_CCMR_CAPTURE | TIM_CCMR_FILTER_SLOWEST, 0);
+        capture(falling, TIM_CCMR_CAPTURE_OTHER, TIM_CCER_CCP(falling));
     }
     reg_store(TIM_SR(TIM2), 0);
-    reg_store(TIM_DIER(TIM2), all());
+    reg_store(TIM_DIER(TIM2), ALL);
     stm32f4_interrupt(TIM2_IRQ);
 }
 
-/* Of two that came in one go the earlier first. Reading a capture clears its flag; that one was overrun says its other. */
+/* Of those that came in one go the earlier first. Reading a capture clears its flag; that one was overrun says its other. */
 void on_tim2(void) {
     const uint32_t status = reg_load(TIM_SR(TIM2));
-    hal_slot_pulse seen[2];
+    hal_slot_edge seen[4];
     unsigned count = 0;
-    for (uint8_t i = 0; i < 2; i++) {
-        if ((status & TIM_SR_CCIF(channels[i])) != 0) {
-            seen[count++] = (hal_slot_pulse){reg_load(TIM_CCR(TIM2, channels[i])), i};
-        }
-        if ((status & TIM_SR_CCOF(channels[i])) != 0) {
-            reg_store(TIM_SR(TIM2), ~TIM_SR_CCOF(channels[i]));
-            overruns++;
+    for (uint8_t i = 0; i < 4; i++) {
+        const unsigned channel = channel_of(i / 2U, (hal_slot_end)(i % 2U));
+        if ((status & TIM_SR_CCIF(channel)) != 0) {
+            const hal_slot_edge one = {reg_load(TIM_CCR(TIM2, channel)), i / 2U, i % 2U};
+            unsigned at = count++;
+            for (; at > 0 && (int32_t)(one.ticks - seen[at - 1U].ticks) < 0; at--) {
+                seen[at] = seen[at - 1U];
+            }
+            seen[at] = one;
         }
     }
-    const unsigned first = count == 2U && (int32_t)(seen[1].ticks - seen[0].ticks) < 0 ? 1U : 0U;
+    const uint32_t overrun = status & OVERRUNS;
+    if (overrun != 0) {
+        reg_store(TIM_SR(TIM2), ~overrun);
+        overruns++;
+    }
     bool room = true;
     for (unsigned n = 0; n < count; n++) {
-        room = keep_pulse(&seen[n ^ first]);
+        room = keep_edge(&seen[n]);
     }
     if (!room) {
         reg_store(TIM_DIER(TIM2), 0);
@@ -51,14 +74,14 @@ void on_tim2(void) {
 }
 
 /* Once one is taken there is room again. What a storm left in the captures meanwhile may be of any age: forgotten. */
-bool hal_slots_take(hal_slot_pulse *pulse) {
-    const bool there = stm32f4_ring_take(&pulses, pulse);
+bool hal_slots_take(hal_slot_edge *edge) {
+    const bool there = stm32f4_ring_take(&edges, edge);
     if (there && reg_load(TIM_DIER(TIM2)) == 0) {
-        for (unsigned i = 0; i < 2; i++) {
-            (void)reg_load(TIM_CCR(TIM2, channels[i]));
+        for (unsigned channel = 1; channel <= 4; channel++) {
+            (void)reg_load(TIM_CCR(TIM2, channel));
         }
         reg_store(TIM_SR(TIM2), 0);
-        reg_store(TIM_DIER(TIM2), all());
+        reg_store(TIM_DIER(TIM2), ALL);
     }
     return there;
 }

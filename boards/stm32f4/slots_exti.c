@@ -30,7 +30,7 @@ static void see(uint8_t sensor) {
         return;
     }
     reg_store(EXTI_PR, 1U << sensor);
-    if (!keep_pulse(&(hal_slot_pulse){ticks, sensor})) {
+    if (!keep_edge(&(hal_slot_edge){ticks, sensor, HAL_SLOT_LEADING})) {
         reg_store(EXTI_IMR, 0);
     }
 }
@@ -38,8 +38,8 @@ static void see(uint8_t sensor) {
 void on_exti0(void) { see(0); }
 void on_exti1(void) { see(1); }
 
-bool hal_slots_take(hal_slot_pulse *pulse) {
-    const bool there = stm32f4_ring_take(&pulses, pulse);
+bool hal_slots_take(hal_slot_edge *edge) {
+    const bool there = stm32f4_ring_take(&edges, edge);
     if (there && reg_load(EXTI_IMR) == 0) {
         reg_store(EXTI_PR, LINES);
         reg_store(EXTI_IMR, LINES);

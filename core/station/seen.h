@@ -21,6 +21,9 @@ typedef struct wh_seen {
     bool pulsed; /* the next two are of this step */
     unsigned sensor;
     uint32_t pulse_ticks;
+    bool ended; /* so has a pulse's end: */
+    unsigned ended_sensor;
+    uint32_t end_ticks;
     unsigned samples; /* so many of: */
     wh_seen_sample sample[WH_SEEN_SAMPLES];
 } wh_seen;

@@ -221,6 +221,9 @@ static void take_events(sight *s) {
     wh_tel *tel = s->tel;
     const wh_seen *seen = s->seen;
     const unsigned trip = (unsigned)s->rig->guard.trip;
+    if (seen->ended) {
+        send_event(s, WH_TEL_END, seen->ended_sensor, seen->end_ticks);
+    }
     if (seen->pulsed) {
         send_event(s, WH_TEL_PULSE, seen->sensor, seen->pulse_ticks);
     }

@@ -244,12 +244,12 @@ bool hal_frames_dials_heard(void) {
     return true;
 }
 
-bool hal_slots_take(hal_slot_pulse *pulse) {
-    wh_edge edge;
-    if (!hal_turns_take_edge(&plant, &edge)) {
+bool hal_slots_take(hal_slot_edge *edge) {
+    wh_edge played;
+    if (!hal_turns_take_edge(&plant, &played)) {
         return false;
     }
-    *pulse = (hal_slot_pulse){.ticks = edge.ticks, .sensor = edge.channel};
+    *edge = (hal_slot_edge){.ticks = played.ticks, .sensor = played.channel};
     return true;
 }
 

@@ -18,8 +18,13 @@ hal_virtual_rig *hal_virtual_rig_instance(void) { return &board_rig; }
 
 static bool motor_started;
 
+/* The pulse whose leading edge was taken last; pulses are further apart than they are long. */
+static bool is_high;
+static hal_slot_edge pulse;
+
 hal_start hal_clock_start(void) {
     motor_started = false;
+    is_high = false;
     const bool again = board_rig.in_reset;
     board_rig.in_reset = false;
     const bool starts =
@@ -70,7 +75,18 @@ void hal_motor_off(hal_motor_off_way way) {
 
 float hal_motor_supply_V(void) { return board_rig.supply_V; }
 
-bool hal_slots_take(hal_slot_pulse *pulse) { return hal_virtual_rig_take_pulse(&board_rig, pulse); }
+bool hal_slots_take(hal_slot_edge *edge) {
+    if (!is_high) {
+        is_high = hal_virtual_rig_take_pulse(&board_rig, &pulse);
+        *edge = pulse;
+        return is_high;
+    }
+    edge->ticks = pulse.ticks + HAL_VIRTUAL_PULSE_TICKS;
+    edge->sensor = pulse.sensor;
+    edge->end = HAL_SLOT_TRAILING;
+    is_high = (int32_t)(board_rig.ticks - edge->ticks) < 0;
+    return !is_high;
+}
 
 uint32_t hal_slots_overruns(void) { return board_rig.overruns; }
 

@@ -94,7 +94,7 @@ static void add_pulse(hal_virtual_rig *rig, unsigned sensor, uint32_t ticks) {
         return;
     }
     if (rig->pulses < HAL_VIRTUAL_PULSES) {
-        rig->pulse[rig->pulses++] = (hal_slot_pulse){.ticks = ticks, .sensor = (uint8_t)sensor};
+        rig->pulse[rig->pulses++] = (hal_slot_edge){.ticks = ticks, .sensor = (uint8_t)sensor};
     } else {
         rig->overruns++;
     }
@@ -201,11 +201,11 @@ void hal_virtual_rig_motor_off(hal_virtual_rig *rig, hal_motor_off_way way) {
     rig->enabled = way == HAL_MOTOR_BRAKE;
 }
 
-bool hal_virtual_rig_take_pulse(hal_virtual_rig *rig, hal_slot_pulse *pulse) {
+bool hal_virtual_rig_take_pulse(hal_virtual_rig *rig, hal_slot_edge *leading) {
     if (rig->pulses == 0) {
         return false;
     }
-    *pulse = rig->pulse[0];
+    *leading = rig->pulse[0];
     rig->pulses--;
     for (unsigned i = 0; i < rig->pulses; i++) {
         rig->pulse[i] = rig->pulse[i + 1U];

@@ -25,6 +25,7 @@ extern "C" {
 
 #define HAL_VIRTUAL_PULSES 16U
 #define HAL_VIRTUAL_SAMPLES 8U
+#define HAL_VIRTUAL_PULSE_TICKS 100U /* the monostable's */
 
 /* Supply at which the model's duty of 1 is full duty, and the speed, rad/s, that the motor has then without load:
  * where back-EMF equals the voltage. tests/core/test_virtual_rig.c compares it with the model. */
@@ -56,7 +57,7 @@ typedef struct hal_virtual_rig {
     float supply_V;        /* HAL_VIRTUAL_RATED_V at the start; may be set at any time */
     uint32_t sample_ticks; /* the next load sample is due */
     int32_t last_raw;
-    hal_slot_pulse pulse[HAL_VIRTUAL_PULSES];
+    hal_slot_edge pulse[HAL_VIRTUAL_PULSES];
     unsigned pulses;
     uint32_t overruns; /* pulses that found no room */
     hal_load_sample sample[HAL_VIRTUAL_SAMPLES];
@@ -85,10 +86,10 @@ void hal_virtual_rig_advance(hal_virtual_rig *rig, uint32_t ticks);
 void hal_virtual_rig_reset(hal_virtual_rig *rig, hal_reset cause);
 
 /* What reaches the drive stage: a voltage, the enable on; or off. As hal_motor_off(), hal_slots_take(), hal_loadcell_take()
- * on this rig. */
+ * on this rig; of slots the leading edges alone. */
 void hal_virtual_rig_drive(hal_virtual_rig *rig, float volts);
 void hal_virtual_rig_motor_off(hal_virtual_rig *rig, hal_motor_off_way way);
-bool hal_virtual_rig_take_pulse(hal_virtual_rig *rig, hal_slot_pulse *pulse);
+bool hal_virtual_rig_take_pulse(hal_virtual_rig *rig, hal_slot_edge *leading);
 bool hal_virtual_rig_take_sample(hal_virtual_rig *rig, hal_load_sample *sample);
 
 /* Arms' angle (phase within the turn, 2^32 a turn) and speed, for tests: the truth behind the

@@ -12,13 +12,13 @@
 #define TICKS_PER_S 1e6
 /* Events come a control step or two behind what they tell of. */
 #define SETTLED_US 50000
-/* How long a pulse is shown. */
+/* How long a pulse is shown whose end nobody tells. */
 #define PULSE_US 100
 #define ROWS_MOST 100000
 /* More of a channel's frames cannot be missing: then the rig began anew. */
 #define GAP_MOST 0x8000U
 
-enum { EVENT_PULSE, EVENT_STATE, EVENT_TRIP };
+enum { EVENT_PULSE, EVENT_STATE, EVENT_TRIP, EVENT_END };
 
 void recording_begin(recording *r, FILE *csv, FILE *waves, FILE *ring, bool plots) {
     *r = (recording){.csv = csv, .waves = waves, .ring = ring, .plots = plots, .every = 1};
@@ -210,7 +210,12 @@ static void take_event(recording *r, const schema_channel *run, const wire_frame
     }
     if (pulses) {
         vcd_change(r->vcd, r->pulse[value], time_us, 1.0);
-        vcd_change(r->vcd, r->pulse[value], time_us + PULSE_US, 0.0);
+        if (!r->ends) {
+            vcd_change(r->vcd, r->pulse[value], time_us + PULSE_US, 0.0);
+        }
+    } else if (frame->payload[0] == EVENT_END && value < 2U) {
+        r->ends = true;
+        vcd_change(r->vcd, r->pulse[value], time_us, 0.0);
     } else if (frame->payload[0] == EVENT_TRIP) {
         vcd_change(r->vcd, r->trip, time_us, value);
     }

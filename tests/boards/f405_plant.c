@@ -75,7 +75,7 @@ void hear_off(hal_motor_off_way way) {
     hal_virtual_rig_motor_off(&plant, way);
 }
 
-bool hal_slots_take(hal_slot_pulse *pulse) {
+bool hal_slots_take(hal_slot_edge *pulse) {
     go_on();
     const bool there = hal_virtual_rig_take_pulse(&plant, pulse);
     pulse->ticks -= there ? ahead_ticks : 0U;

@@ -26,7 +26,7 @@ int main(void) {
     }
     uint32_t due = hal_clock_ticks();
     for (uint32_t periods = 0;; periods++) {
-        hal_slot_pulse pulse;
+        hal_slot_edge pulse;
         char asked;
         due += PERIOD_TICKS;
         hal_clock_wait_until(due);

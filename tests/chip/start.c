@@ -43,7 +43,7 @@ void drivers_as_flashed(void) {
 /* What docs/boards.md's table has; the inputs of ADC1 by DS8626, table 9. */
 const chip_wiring *chip_wires(void) {
     static const chip_wiring boards[] = {
-        {"netduinoplus2", 25000000U, {'A', 'A'}, {0, 1}, 10, 11},
+        {"netduinoplus2", 25000000U, {'A', 'A'}, {0, 2}, 10, 11},
         {"stm32-h405", 8000000U, {'A', 'A'}, {1, 2}, 10, 11},
         {"feather-f405", 12000000U, {'A', 'B'}, {5, 11}, 14, 15},
     };

@@ -1,4 +1,4 @@
-/* test_chip_slots.c: pulses of the slot sensors on a chip played from the manual: each once, with the time of its edge, in order. */
+/* test_chip_slots.c: pulses of the slot sensors on a chip played from the manual: each edge once, with its time, in order. */
 #include "unity.h"
 
 #include "hal/slots.h"
@@ -12,9 +12,10 @@ static struct {
     uint64_t units;
     uint32_t ticks; /* of the timer, when it was */
     uint8_t sensor;
+    uint8_t end;
 } made[ROOM];
 static unsigned made_count;
-static hal_slot_pulse got[ROOM];
+static hal_slot_edge got[ROOM];
 static unsigned got_count;
 static uint32_t overruns;
 static unsigned most;
@@ -39,15 +40,27 @@ static void begin(uint64_t seed) {
     got_count = 0;
 }
 
-/* A pulse to come: high for so long. The timer's reading then follows from now, a tick being a microsecond. */
-static void pulse_at(uint64_t units, uint8_t sensor, uint64_t high_us) {
+/* An edge to come. The timer's reading then follows from now, a tick being a microsecond. */
+static void edge_at(uint64_t units, unsigned sensor, hal_slot_end end) {
     made[made_count].units = units;
-    made[made_count].sensor = sensor;
+    made[made_count].sensor = (uint8_t)sensor;
+    made[made_count].end = (uint8_t)end;
     made[made_count].ticks =
         chip_tim2_count() + (uint32_t)((units - chip_now()) / CHIP_UNITS_PER_US);
     made_count++;
-    chip_slot_is_at(units, sensor, CHIP_HIGH);
-    chip_slot_is_at(units + high_us * CHIP_UNITS_PER_US, sensor, CHIP_LOW);
+    chip_slot_is_at(units, sensor, end == HAL_SLOT_LEADING ? CHIP_HIGH : CHIP_LOW);
+}
+/* One now. */
+static void edge_now(unsigned sensor, hal_slot_end end) {
+    made[made_count].sensor = (uint8_t)sensor;
+    made[made_count].end = (uint8_t)end;
+    made[made_count++].ticks = chip_tim2_count();
+    chip_slot_is(sensor, end == HAL_SLOT_LEADING ? CHIP_HIGH : CHIP_LOW);
+}
+/* A pulse to come: high for so long. */
+static void pulse_at(uint64_t units, unsigned sensor, uint64_t high_us) {
+    edge_at(units, sensor, HAL_SLOT_LEADING);
+    edge_at(units + high_us * CHIP_UNITS_PER_US, sensor, HAL_SLOT_TRAILING);
 }
 
 /* What the filter takes, 10.7 to 12.2 us (18.4.7: eight samples of 84 MHz by 4 and by 32), and two roundings to ticks. */
@@ -58,6 +71,7 @@ static void all_are_there(void) {
     TEST_ASSERT_EQUAL(made_count, got_count);
     for (unsigned i = 0; i < made_count; i++) {
         TEST_ASSERT_EQUAL(made[i].sensor, got[i].sensor);
+        TEST_ASSERT_EQUAL(made[i].end, got[i].end);
         TEST_ASSERT_TRUE_MESSAGE(got[i].ticks - made[i].ticks - LATE_LEAST <=
                                      LATE_MOST - LATE_LEAST,
                                  "a stamp is not its edge's");
@@ -70,7 +84,7 @@ static void turn(unsigned pulses, uint32_t from_ticks) {
     for (unsigned i = 0; i < pulses; i++) {
         const uint64_t gap_us = (i % 5U == 0 ? 20000U : 300U) + scattered() % 3000U;
         pulse_at(chip_now() + gap_us * CHIP_UNITS_PER_US + scattered() % CHIP_UNITS_PER_US,
-                 (uint8_t)(scattered() % 2U), 50U + scattered() % 150U);
+                 (unsigned)(scattered() % 2U), 50U + scattered() % 150U);
         for (uint64_t passed = 0; passed <= gap_us + 250U; passed += 1000U) {
             chip_pass_us(1000U);
             run_take(ROOM);
@@ -96,7 +110,7 @@ static void test_over_the_wrap(void) {
     }
 }
 
-/* Both sensors at once, or nearly: in order of time, though one interrupt may have both; over the wrap, too. */
+/* Both sensors at once, or nearly: in order of time, though one interrupt may have all; over the wrap, too. */
 static void test_together(void) {
     begin(11);
     for (unsigned i = 0; i < 200; i++) {
@@ -104,22 +118,18 @@ static void test_together(void) {
             chip_tim2_count_is(UINT32_MAX - (uint32_t)(scattered() % 1020U));
         }
         const uint64_t at = chip_now() + CHIP_UNITS_PER_US * (1000U + scattered() % 10U);
-        const uint8_t first = (uint8_t)(scattered() % 2U);
+        const unsigned first = (unsigned)(scattered() % 2U);
         const uint64_t apart_us =
             4U + scattered() % 8U; /* two samples of the filter at least: other ticks */
         made_count = got_count = 0;
-        pulse_at(at, first, 100);
-        made[1] = made[0];
-        made[1].sensor = (uint8_t)(1U - first);
-        made_count = 1;
-        /* edges are kept in order of time: the second's rise comes before the first's fall */
+        edge_at(at, first, HAL_SLOT_LEADING);
         chip_pass(at - chip_now());
         chip_pass(apart_us * CHIP_UNITS_PER_US);
-        chip_slot_is(1U - first, CHIP_HIGH);
-        made[1].ticks = chip_tim2_count();
-        made_count = 2;
-        chip_pass_us(300);
-        chip_slot_is(1U - first, CHIP_LOW);
+        edge_now(1U - first, HAL_SLOT_LEADING);
+        chip_pass_us(20U + scattered() % 300U);
+        edge_now(first, HAL_SLOT_TRAILING);
+        chip_pass(apart_us * CHIP_UNITS_PER_US);
+        edge_now(1U - first, HAL_SLOT_TRAILING);
         chip_pass_us(300);
         run_take(ROOM);
         all_are_there();
@@ -142,7 +152,15 @@ static void test_spikes(void) {
     TEST_ASSERT_EQUAL(0, overruns);
 }
 
-/* A level that is high when the timer starts is no pulse; its fall is none. */
+static unsigned leading(void) {
+    unsigned count = 0;
+    for (unsigned i = 0; i < got_count; i++) {
+        count += got[i].end == HAL_SLOT_LEADING ? 1U : 0U;
+    }
+    return count;
+}
+
+/* A level that is high when the timer starts is no pulse; its fall is none, but the end of one. */
 static void test_high_at_the_start(void) {
     hal_start how = HAL_START_NO_TIMER;
     chip_wired(13);
@@ -153,12 +171,14 @@ static void test_high_at_the_start(void) {
     got_count = 0;
     chip_pass_us(1000);
     run_take(ROOM);
-    const unsigned at_start = got_count;
+    const unsigned at_start = leading();
+    TEST_ASSERT_EQUAL(at_start, got_count);
     chip_slot_is(0, CHIP_LOW);
     chip_slot_is(1, CHIP_LOW);
     chip_pass_us(1000);
     run_take(ROOM);
-    TEST_ASSERT_EQUAL_MESSAGE(at_start, got_count, "a fall was taken for a pulse");
+    TEST_ASSERT_EQUAL_MESSAGE(at_start, leading(), "a fall was taken for a pulse");
+    TEST_ASSERT_EQUAL(at_start + 2U, got_count);
     /* The input reads low before its pin is given to it, so that one rise each may be seen, and no more. */
     TEST_ASSERT_TRUE(at_start <= 2U);
 }
@@ -171,13 +191,14 @@ static void test_full(void) {
         const uint32_t before = overruns;
         for (unsigned i = 0; i < 40; i++) {
             const uint64_t at = chip_now() + (100U + scattered() % 400U) * CHIP_UNITS_PER_US;
-            pulse_at(at, (uint8_t)(scattered() % 2U), 40);
+            pulse_at(at, (unsigned)(scattered() % 2U), 40);
             chip_pass(at + 60U * CHIP_UNITS_PER_US - chip_now());
         }
         run_take(ROOM);
-        TEST_ASSERT_TRUE_MESSAGE(got_count >= 8U, "at least eight are kept");
-        for (unsigned i = 0; i < 8; i++) {
+        TEST_ASSERT_TRUE_MESSAGE(got_count >= 16U, "at least eight are kept");
+        for (unsigned i = 0; i < 16; i++) {
             TEST_ASSERT_EQUAL(made[i].sensor, got[i].sensor);
+            TEST_ASSERT_EQUAL(made[i].end, got[i].end);
             TEST_ASSERT_TRUE(got[i].ticks - made[i].ticks - LATE_LEAST <= LATE_MOST - LATE_LEAST);
         }
         TEST_ASSERT_TRUE_MESSAGE(overruns - before >= 1U, "nobody was told that some are lost");
@@ -192,7 +213,7 @@ static void test_full(void) {
     }
 }
 
-/* The core stands while edges come, one of each sensor: their time was taken all the same, and they come in order. */
+/* The core stands while edges come, a pulse of each sensor: their time was taken all the same, and they come in order. */
 static void test_core_that_stood(void) {
     begin(19);
     for (unsigned i = 0; i < 100; i++) {
@@ -205,11 +226,9 @@ static void test_core_that_stood(void) {
         chip_halt(true);
         for (unsigned n = 0; n < 2; n++) {
             chip_pass_us(120U + scattered() % 1200U);
-            made[made_count].sensor = (uint8_t)(first ^ n);
-            made[made_count].ticks = chip_tim2_count();
-            chip_slot_is(made[made_count++].sensor, CHIP_HIGH);
+            edge_now(first ^ n, HAL_SLOT_LEADING);
             chip_pass_us(50);
-            chip_slot_is(first ^ n, CHIP_LOW);
+            edge_now(first ^ n, HAL_SLOT_TRAILING);
         }
         chip_pass_us(scattered() % 2000U);
         chip_halt(false);
@@ -220,7 +239,7 @@ static void test_core_that_stood(void) {
     TEST_ASSERT_EQUAL(0, overruns);
 }
 
-/* An edge over one that was not read yet: one of them is lost, and that is told. */
+/* A pulse over one that was not read yet: one of them is lost, and that is told; the other is whole. */
 static void test_overrun(void) {
     begin(20);
     for (unsigned i = 0; i < 40; i++) {
@@ -228,15 +247,16 @@ static void test_overrun(void) {
         made_count = got_count = 0;
         chip_halt(true);
         for (unsigned n = 0; n < 2; n++) {
-            chip_slot_is(i % 2U, CHIP_HIGH);
+            made_count = 0;
+            edge_now(i % 2U, HAL_SLOT_LEADING);
             chip_pass_us(50U + scattered() % 200U);
-            chip_slot_is(i % 2U, CHIP_LOW);
+            edge_now(i % 2U, HAL_SLOT_TRAILING);
             chip_pass_us(50U + scattered() % 200U);
         }
         chip_halt(false);
         chip_pass_us(10);
         run_take(ROOM);
-        TEST_ASSERT_EQUAL(1, got_count);
+        all_are_there();
         TEST_ASSERT_EQUAL(before + 1U, overruns);
     }
 }

@@ -96,13 +96,14 @@ static uint32_t mode_of(timer *t, unsigned i) {
     return *reg(t, i < 2 ? CCMR1 : CCMR2) >> (8U * (i % 2U)) & 0xFFU;
 }
 
-/* A capture (18.3.5): into CCRx, its flag, and the one for a capture that the flag before it was still up for. */
-static void capture(timer *t, unsigned i) {
+/* A capture (18.3.5) of channel i, of its own input or the other's of its pair (CCxS 1 or 2): into CCRx, its flag, and the one for
+ * a capture that the flag before it was still up for. The filter is the input's, the edge the channel's (figures of 18.3.4). */
+static void capture(timer *t, unsigned input, unsigned i) {
     const uint32_t cc = *reg(t, CCER) >> (4U * i) & 0xFU;
     const uint32_t mode = mode_of(t, i);
-    const bool rising = t->input[i].filtered;
+    const bool rising = t->input[input].filtered;
     const bool wanted = (cc & 0xAU) == 0xAU || ((cc & 2U) != 0) != rising;
-    if ((cc & 1U) == 0 || (mode & 3U) != 1 || !wanted) {
+    if ((cc & 1U) == 0 || (mode & 3U) != (i == input ? 1U : 2U) || !wanted) {
         return;
     }
     if ((mode & 0xCU) != 0) {
@@ -152,7 +153,8 @@ static void happens_to(timer *t) {
         if (t->input[i].accepted_at <= now_units()) {
             t->input[i].accepted_at = CHIP_NEVER;
             t->input[i].filtered = t->input[i].level;
-            capture(t, i);
+            capture(t, i, i);
+            capture(t, i, i ^ 1U);
         }
     }
     if (overflow_at(t) <= now_units()) {

@@ -19,9 +19,11 @@ static float normal(void) {
 
 void plant_control(on_plant *on) {
     hal_clock_wait_until(hal_clock_ticks() + CONTROL_TICKS);
-    hal_slot_pulse pulse;
+    hal_slot_edge pulse;
     while (hal_slots_take(&pulse)) {
-        wh_rig_pulse(&on->config, &on->rig, pulse.sensor, pulse.ticks);
+        if (pulse.end == HAL_SLOT_LEADING) {
+            wh_rig_pulse(&on->config, &on->rig, pulse.sensor, pulse.ticks);
+        }
     }
     hal_load_sample sample;
     while (hal_loadcell_take(&sample)) {

@@ -97,11 +97,21 @@ static void test_pulses_stand_at_their_angles(void) {
     TEST_ASSERT_TRUE(on.rig.run.phase == WH_PHASE_RECORD);
     hal_virtual_rig *plant = hal_virtual_rig_instance();
     unsigned pulses = 0;
+    hal_slot_edge last = {.end = HAL_SLOT_TRAILING};
     for (unsigned i = 0; i < 2000U; i++) {
         hal_clock_wait_until(hal_clock_ticks() + 1000U);
         hal_watchdog_kick();
-        hal_slot_pulse pulse;
+        hal_slot_edge pulse;
         while (hal_slots_take(&pulse)) {
+            if (pulse.end == HAL_SLOT_TRAILING) {
+                TEST_ASSERT_TRUE(pulses == 0 || last.end == HAL_SLOT_LEADING);
+                TEST_ASSERT_TRUE(pulses == 0 ||
+                                 (pulse.sensor == last.sensor && pulse.ticks - last.ticks == 100U));
+                last = pulse;
+                continue;
+            }
+            TEST_ASSERT_EQUAL(HAL_SLOT_TRAILING, last.end);
+            last = pulse;
             const float since_s = (float)(hal_clock_ticks() - pulse.ticks) * 1e-6f;
             const float speed = hal_virtual_rig_speed_radps(plant);
             const float turned = speed * since_s * WH_PHASE_PER_RAD;

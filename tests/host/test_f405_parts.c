@@ -149,10 +149,10 @@ static void test_settings_are_kept(void) {
                       hal_settings_write(0, 256, bytes, 4));
 }
 
-/* --- captures: timer 2, channels 1 and 2 ------------------------------------------------------------ */
+/* --- captures: timer 2, both pairs of channels ------------------------------------------------------------ */
 
 static uint32_t capture_load(uint32_t address) {
-    for (unsigned channel = 1; channel <= 2; channel++) {
+    for (unsigned channel = 1; channel <= 4; channel++) {
         if (address == TIM_CCR(TIM2, channel)) {
             fake_put(TIM_SR(TIM2), fake_get(TIM_SR(TIM2)) & ~TIM_SR_CCIF(channel));
         }
@@ -164,11 +164,16 @@ static void capture_store(uint32_t address, uint32_t value) {
     fake_put(address, address == TIM_SR(TIM2) ? fake_get(address) & value : value);
 }
 
-static void edge(unsigned channel, uint32_t ticks) {
+static const uint8_t inputs[2] = {1, 3}; /* of the Netduino Plus 2 */
+
+/* CCxS (18.4.7): 1 of its own input, 2 of the other's of its pair; CCxP: falling. */
+static void edge(unsigned sensor, hal_slot_end end, uint32_t ticks) {
+    const unsigned channel = ((inputs[sensor] - 1U) ^ end) + 1U;
     const uint32_t status = fake_get(TIM_SR(TIM2));
-    const bool on = (fake_get(TIM_CCER(TIM2)) & TIM_CCER_CCE(channel)) != 0;
-    TEST_ASSERT_TRUE_MESSAGE(on && (fake_get(TIM_CCMR(TIM2, 0)) >> 8U * (channel - 1U) & 3U) == 1U,
-                             "captures its own input");
+    const uint32_t on = fake_get(TIM_CCER(TIM2)) >> 4U * (channel - 1U) & 0xFU;
+    const uint32_t of = fake_get(TIM_CCMR(TIM2, (channel - 1U) / 2U)) >> 8U * ((channel - 1U) % 2U);
+    TEST_ASSERT_EQUAL_MESSAGE(end == HAL_SLOT_LEADING ? 1U : 3U, on, "the edge");
+    TEST_ASSERT_EQUAL_MESSAGE(end == HAL_SLOT_LEADING ? 1U : 2U, of & 3U, "the input");
     fake_put(TIM_SR(TIM2), status | TIM_SR_CCIF(channel) |
                                ((status & TIM_SR_CCIF(channel)) != 0 ? TIM_SR_CCOF(channel) : 0U));
     fake_put(TIM_CCR(TIM2, channel), ticks);
@@ -180,58 +185,64 @@ static void interrupt(void) {
     }
 }
 
-/* Edges at random, sometimes two before the interrupt comes: each once, in order of time, wraps included. */
+/* Edges at random, up to four before the interrupt comes: each once, in order of time, wraps included. */
 static void test_captures_in_order(void) {
-    hal_slot_pulse pulse;
+    hal_slot_edge got;
     uint32_t ticks = 0xFFF00000U;
     scattered_state = 17;
     fake_start(capture_load, capture_store);
     stm32f4_slots_start();
     const uint32_t overruns = hal_slots_overruns();
     for (unsigned i = 0; i < 20000; i++) {
-        const unsigned first = below(2);
-        const uint32_t at[2] = {ticks + 1U + below(3000), ticks + 3001U + below(9)};
-        const bool both = below(4) == 0;
-        ticks = at[1];
-        edge(first + 1U, at[0]);
-        if (both) {
-            edge(2U - first, at[1]);
+        unsigned left = 0xFU; /* of the two sensors' two ends each */
+        hal_slot_edge made[4];
+        const unsigned count = 1U + below(4);
+        for (unsigned k = 0; k < count; k++) {
+            unsigned one = below(4);
+            while ((left >> one & 1U) == 0) {
+                one = (one + 1U) % 4U;
+            }
+            left &= ~(1U << one);
+            ticks += 1U + below(k == 0 ? 3000 : 9);
+            made[k] = (hal_slot_edge){ticks, (uint8_t)(one / 2U), (uint8_t)(one % 2U)};
+            edge(made[k].sensor, (hal_slot_end)made[k].end, ticks);
         }
         interrupt();
-        for (unsigned k = 0; k < (both ? 2U : 1U); k++) {
-            TEST_ASSERT_TRUE(hal_slots_take(&pulse));
-            TEST_ASSERT_TRUE(pulse.ticks == at[k] && pulse.sensor == (k == 0 ? first : 1U - first));
+        for (unsigned k = 0; k < count; k++) {
+            TEST_ASSERT_TRUE(hal_slots_take(&got));
+            TEST_ASSERT_TRUE(got.ticks == made[k].ticks && got.sensor == made[k].sensor &&
+                             got.end == made[k].end);
         }
-        TEST_ASSERT_FALSE(hal_slots_take(&pulse));
+        TEST_ASSERT_FALSE(hal_slots_take(&got));
     }
     TEST_ASSERT_EQUAL_UINT32(overruns, hal_slots_overruns());
-    edge(1, ++ticks); /* one before the one ahead of it was read */
-    edge(1, ++ticks);
+    edge(0, HAL_SLOT_LEADING, ++ticks); /* one before the one ahead of it was read */
+    edge(0, HAL_SLOT_LEADING, ++ticks);
     interrupt();
-    TEST_ASSERT_TRUE(hal_slots_take(&pulse) && pulse.ticks == ticks && !hal_slots_take(&pulse));
+    TEST_ASSERT_TRUE(hal_slots_take(&got) && got.ticks == ticks && !hal_slots_take(&got));
     TEST_ASSERT_EQUAL_UINT32(overruns + 1U, hal_slots_overruns());
 }
 
 /* A storm takes no more interrupts than there is room, the oldest are kept, and afterwards it goes on. */
 static void test_storm_ends_by_itself(void) {
-    hal_slot_pulse pulse;
+    hal_slot_edge pulse;
     uint32_t ticks = 5;
     fake_start(capture_load, capture_store);
     stm32f4_slots_start();
     const uint32_t overruns = hal_slots_overruns();
     unsigned interrupts = 0;
     for (unsigned i = 0; i < 5000; i++) {
-        edge(1, ticks + i);
+        edge(0, (hal_slot_end)(i % 2U), ticks + i);
         interrupts += (fake_get(TIM_SR(TIM2)) & fake_get(TIM_DIER(TIM2))) != 0 ? 1U : 0U;
         interrupt();
     }
-    TEST_ASSERT_TRUE(interrupts >= 8U && interrupts <= 16U);
+    TEST_ASSERT_TRUE(interrupts >= 16U && interrupts <= 20U);
     TEST_ASSERT_TRUE(hal_slots_overruns() > overruns);
     for (unsigned i = 0; i < interrupts; i++) {
         TEST_ASSERT_TRUE(hal_slots_take(&pulse) && pulse.ticks == ticks + i);
     }
     TEST_ASSERT_FALSE(hal_slots_take(&pulse));
-    edge(2, 99999);
+    edge(1, HAL_SLOT_LEADING, 99999);
     interrupt();
     TEST_ASSERT_TRUE(hal_slots_take(&pulse) && pulse.ticks == 99999 && pulse.sensor == 1);
 }

@@ -46,8 +46,9 @@ static elf_firmware_t firmware;
 static hal_virtual_rig plant;
 static uint64_t plant_cycle; /* that its state stands at */
 static float force_N[2];     /* of its last step, at both ends */
-static hal_slot_pulse edges[HAL_VIRTUAL_PULSES];
+static hal_slot_edge edges[HAL_VIRTUAL_PULSES];
 static unsigned edge_count;
+static uint64_t high_until[2]; /* a sensor's pulse; 0: it is low */
 static char heard[65536];
 static unsigned heard_bytes;
 static char said[4096];
@@ -131,10 +132,8 @@ static void advance_plant(void) {
     }
 }
 
-void mega_edge(unsigned sensor) {
-    avr_irq_t *pin = avr_io_getirq(avr, AVR_IOCTL_IOPORT_GETIRQ('L'), (int)sensor);
-    avr_raise_irq(pin, 1);
-    avr_raise_irq(pin, 0);
+void mega_level(unsigned sensor, bool high) {
+    avr_raise_irq(avr_io_getirq(avr, AVR_IOCTL_IOPORT_GETIRQ('L'), (int)sensor), high ? 1 : 0);
 }
 
 /* Of a time in the last step. */
@@ -148,7 +147,9 @@ static void give_edges(void) {
         edge_count--;
         memmove(edges, edges + 1, edge_count * sizeof edges[0]);
         if (!mega_no_pulses) {
-            mega_edge(sensor);
+            mega_level(sensor, true);
+            high_until[sensor] =
+                avr->cycle + (uint64_t)HAL_VIRTUAL_PULSE_TICKS * MEGA_CYCLES_PER_US;
         }
     }
 }
@@ -260,6 +261,12 @@ bool mega_step(void) {
     }
     if (edge_count > 0) {
         give_edges();
+    }
+    for (unsigned i = 0; i < 2; i++) {
+        if (high_until[i] != 0 && high_until[i] <= avr->cycle) {
+            high_until[i] = 0;
+            mega_level(i, false);
+        }
     }
     if (avr->pc == 0) {
         forget_times(); /* a reset, or what looks like one */

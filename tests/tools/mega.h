@@ -63,9 +63,9 @@ extern float mega_supply_V;
 extern bool mega_stop;
 extern float mega_noise_mV; /* of the load cell's amplifier, evenly, either way */
 
-/* The plant gives no more slot pulses: edges are whoever asks for them. */
+/* The plant gives no more slot pulses: levels at the capture pins are whoever sets them. */
 extern bool mega_no_pulses;
-void mega_edge(unsigned sensor);
+void mega_level(unsigned sensor, bool high);
 
 /* A byte of the EEPROM is about to be written: its address, before it changes. NULL: nobody is told. */
 extern void (*mega_on_eeprom)(unsigned address);
