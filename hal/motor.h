@@ -37,7 +37,7 @@ void hal_motor_off(hal_motor_off_way way);
 /* These bits together; 0: nothing is wrong, or nobody looks. */
 unsigned hal_motor_status(void);
 
-/* The supply, V, as last measured: at least once a control step. */
+/* The supply, V, as last measured: 10 ms ago at most. */
 float hal_motor_supply_V(void);
 
 #ifdef __cplusplus

@@ -5,8 +5,8 @@
  * comes out 0.06 % too small. One count of the converter is 0.434 N; the mean of sixteen has 0.03 N where the force moves by
  * some counts meanwhile, and less than half a count where it does not: 0.22 N.
  *
- * The amplifier puts no force at half of the reference, the chip's own supply. At either end it is saturated; a whole sample
- * at the lower end is a broken wire, which is pulled down there. */
+ * The amplifier puts no force at half of the reference, the chip's own supply. Near either end it is saturated; a whole sample
+ * near the lower one is a broken wire, which is pulled down there, but for what leaks into the pin. */
 #include "hal/loadcell.h"
 #include "hal/motor.h"
 
@@ -32,6 +32,8 @@ _Static_assert(F_CPU / 32U == 1000000U / TIMER_COUNT_TICKS, "the prescaler's 32n
 
 #define FULL 1023U
 #define MIDDLE 512U
+#define RAIL (FULL / 64U)       /* no amplifier is linear nearer to an end: 73 mV */
+#define OPEN_BELOW (FULL / 16U) /* 0.3 V */
 #define REFERENCE _BV(REFS0)
 #define CONVERTER (_BV(ADEN) | _BV(ADPS2) | _BV(ADPS1) | _BV(ADPS0)) /* a 128th: 125 kHz */
 
@@ -74,9 +76,9 @@ void atmega_cell_start(void) {
 }
 
 static uint8_t status_now(void) {
-    return (uint8_t)(sum == 0    ? HAL_LOAD_DISCONNECTED
-                     : saturated ? HAL_LOAD_SATURATED
-                                 : HAL_LOAD_OK);
+    return (uint8_t)(sum < CELL_TICKS * OPEN_BELOW ? HAL_LOAD_DISCONNECTED
+                     : saturated                   ? HAL_LOAD_SATURATED
+                                                   : HAL_LOAD_OK);
 }
 
 /* A sample is whole: by an interrupt of its own, so that those of ticks have less to save. The tick was a little before now: by what
@@ -110,7 +112,7 @@ ISR(TIMER2_COMPA_vect) {
     ADCSRA = CONVERTER | _BV(ADSC);
     if (next != 0 && next <= CELL_TICKS) {
         sum += count;
-        if (count == 0 || count == FULL) {
+        if (count < RAIL || count > FULL - RAIL) {
             saturated = true;
         }
         if (next == CELL_TICKS) {

@@ -5,7 +5,7 @@
 #include "atmega.h"
 
 #define FIRST \
-    256U /* a supply that fails may spoil the byte that the address register shows: 0 after a reset */
+    256U /* a supply that fails may spoil the byte that the address register shows: 0 whenever nothing is under way */
 #define SLOTS 2U
 #define ERASED 0xFFU
 #define ERASE _BV(EEPM0)
@@ -33,7 +33,9 @@ static bool rests(void) {
 static uint8_t load(uint16_t address) {
     EEAR = address;
     EECR |= _BV(EERE);
-    return EEDR;
+    const uint8_t byte = EEDR;
+    EEAR = 0;
+    return byte;
 }
 
 /* The second store within four clocks of the first. False: the byte is not what it should be. */

@@ -5,8 +5,8 @@
 #include "atmega.h"
 #include "boards/avr/stack.h"
 
-#define SHORTEST_TICKS 13900U /* 2048 clocks, 16 ms, less 13 % */
-#define LONGEST 9U            /* times two so often: 8 s */
+#define SHORTEST_TICKS UINT32_C(13900) /* 2048 clocks, 16 ms, less 13 % */
+#define LONGEST 9U                     /* times two so often: 8 s */
 
 /* May be called again, with another time. */
 void hal_watchdog_start(uint32_t timeout_ticks) {

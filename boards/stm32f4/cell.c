@@ -2,11 +2,11 @@
  *
  * Timer 3 starts 32,000 conversions of the pair a second; DMA lays them down, and interrupts when half of its memory is
  * full: 64 pairs, 2 ms. A sample is their mean, stamped with the middle of them, so that it has no delay left, and comes
- * when the next is there, by which what a mean takes from a crest is made up for. One count of the converter is 109 mN; the mean of 64 has 1.7 mN, if there is
- * noise of half a count, and is handed on in steps of 6.8 mN.
+ * when the next is there, by which what a mean takes from a crest is made up for. One count of the converter is 109 mN; the
+ * mean of 64 has 1.7 mN, if there is noise of half a count, and is handed on in steps of 6.8 mN.
  *
- * The amplifier puts no force at half of the reference. At either end it is saturated; a whole sample at the lower end is a
- * broken wire, which is pulled down there. */
+ * The amplifier puts no force at half of the reference. Near either end it is saturated; a whole sample near the lower one is a
+ * broken wire, which is pulled down there, but for what leaks into the pin and the other input has left in the converter. */
 #include "hal/averaged.h"
 #include "hal/loadcell.h"
 #include "hal/motor.h"
@@ -30,6 +30,8 @@ _Static_assert(PAIRS_TICKS == HAL_LOADCELL_PERIOD_TICKS, "a sample each period")
 
 #define FULL 4095U
 #define MIDDLE 2048
+#define RAIL (FULL / 64U)       /* no amplifier is linear nearer to an end: 52 mV */
+#define OPEN_BELOW (FULL / 16U) /* 0.2 V */
 
 /* The divider before the supply's input: 33 V at the reference. */
 #define SUPPLY_V_PER_COUNT (33.0f / 4095.0f)
@@ -133,14 +135,15 @@ static void average(unsigned half, uint32_t ticks) {
         const uint32_t count = pair[half][i][0];
         sum += count;
         supply += pair[half][i][1];
-        clipped = clipped || count - 1U >= FULL - 1U; /* at either end */
+        clipped = clipped || count - RAIL > FULL - 2U * RAIL; /* at either end */
     }
     supply_sum = supply;
     const hal_load_sample mean = {.ticks = ticks,
                                   .raw = ((int32_t)sum - (int32_t)PAIRS * MIDDLE) / 4,
-                                  .status = (uint8_t)(sum == 0  ? HAL_LOAD_DISCONNECTED
-                                                      : clipped ? HAL_LOAD_SATURATED
-                                                                : HAL_LOAD_OK)};
+                                  .status =
+                                      (uint8_t)(sum < PAIRS * OPEN_BELOW ? HAL_LOAD_DISCONNECTED
+                                                : clipped                ? HAL_LOAD_SATURATED
+                                                                         : HAL_LOAD_OK)};
     hand_on(&mean);
 }
 

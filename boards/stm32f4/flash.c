@@ -2,6 +2,7 @@
  * (stm32f405.ld). An erase takes 0.25 to 0.5 s, and the core waits for its next instruction as long. */
 #include "hal/settings.h"
 
+#include "boards/shared/remembered.h"
 #include "stm32f4.h"
 
 #define FIRST_SECTOR 1U
@@ -65,6 +66,7 @@ bool hal_settings_write(unsigned slot, unsigned at, const uint8_t *bytes, unsign
         uint32_t word = UINT32_MAX;
         __builtin_memcpy(&word, bytes + i, count - i < 4U ? count - i : 4U);
         reg_store(address_of(slot, at + i), word);
+        board_kept_settle(); /* before its status is asked for */
         done = is_done();
     }
     reg_store(FLASH_CR, FLASH_CR_LOCK);

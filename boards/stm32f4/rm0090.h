@@ -184,6 +184,8 @@
 
 /* Serial interface 6, 30.6. */
 #define USART_SR 0x40011400U
+#define USART_SR_FE (1U << 1)
+#define USART_SR_NF (1U << 2)
 #define USART_SR_ORE (1U << 3)
 #define USART_SR_RXNE (1U << 5)
 #define USART_SR_TXE (1U << 7)

@@ -54,7 +54,10 @@ static void fetch(void) {
         if ((status & (USART_SR_RXNE | USART_SR_ORE)) == 0) {
             return;
         }
-        const char byte = (char)(reg_load(USART_DR) & 0xFFU);
+        char byte = (char)(reg_load(USART_DR) & 0xFFU);
+        if ((status & (USART_SR_FE | USART_SR_NF)) != 0) {
+            byte = 0; /* what came was another one: wrong speed, a plug, noise */
+        }
         if (lost) {
             lost = !stm32f4_ring_put(&in, "");
         }

@@ -22,6 +22,6 @@ esac
 $atmega slots $image 100 "$seed" || failed=1
 $atmega storm $image 5000 "$seed" || failed=1
 $atmega faults $image "${2:-12}" "$seed" || failed=1
-$atmega resets $image "${3:-12}" "$seed" || failed=1
+$atmega resets $image "${3:-24}" "$seed" || failed=1
 $atmega settings $image || failed=1
 exit $failed

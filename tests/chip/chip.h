@@ -109,6 +109,8 @@ void chip_adc_overruns(void);
 
 /* Serial line of USART6: bytes that come (at their stop bit's end), those that went out with the time of their end. */
 void chip_serial_comes(uint64_t when, uint8_t byte);
+/* With these flags of SR: 2 a framing error, 4 noise. */
+void chip_serial_comes_as(uint64_t when, uint8_t byte, uint8_t flags);
 unsigned chip_serial_sent(void);
 uint8_t chip_serial_byte(unsigned at);
 uint64_t chip_serial_byte_units(void); /* at the rate that is set */

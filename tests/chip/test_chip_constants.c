@@ -198,6 +198,8 @@ static const struct {
     ROW(IWDG_RLR, APB1 + 0x3008U),
     ROW(IWDG_SR, APB1 + 0x300CU),
     ROW(USART_SR, APB2 + 0x1400U),
+    ROW(USART_SR_FE, 0x2U),
+    ROW(USART_SR_NF, 0x4U),
     ROW(USART_SR_ORE, 0x8U),
     ROW(USART_SR_RXNE, 0x20U),
     ROW(USART_SR_TXE, 0x80U),

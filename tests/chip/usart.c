@@ -17,6 +17,7 @@ enum { SR = 0x00, DR = 0x04, BRR = 0x08, CR1 = 0x0C, CR2 = 0x10, CR3 = 0x14, GTP
 static struct {
     uint64_t when;
     uint8_t byte;
+    uint8_t flags; /* of SR: it is one that never was sent */
 } coming[COMING];
 static unsigned coming_from, coming_to;
 static uint8_t sent[SENT];
@@ -36,8 +37,10 @@ bool serial_pin_in(void);
 uint64_t chip_serial_byte_units(void) {
     return u.brr == 0 || apb2_Hz() == 0 ? 0 : 10U * u.brr * units_of(apb2_Hz());
 }
-void chip_serial_comes(uint64_t when, uint8_t byte) {
+void chip_serial_comes(uint64_t when, uint8_t byte) { chip_serial_comes_as(when, byte, 0); }
+void chip_serial_comes_as(uint64_t when, uint8_t byte, uint8_t flags) {
     coming[coming_to % COMING].when = when;
+    coming[coming_to % COMING].flags = flags;
     coming[coming_to++ % COMING].byte = byte;
     if (coming_to - coming_from > COMING) {
         forbidden("more bytes to come than there is room for");
@@ -74,13 +77,14 @@ static void usart_happens(void) {
             u.sr |= TC;
         }
     } else {
+        const uint8_t flags = coming[coming_from % COMING].flags;
         const uint8_t byte = coming[coming_from++ % COMING].byte;
         if ((u.cr1 & (UE | RE)) == (UE | RE) && serial_pin_in()) {
             if ((u.sr & RXNE) != 0) {
                 u.sr |= ORE; /* DR keeps the one before; this one is lost */
             } else {
-                u.received = byte;
-                u.sr |= RXNE;
+                u.received = byte; /* also one that is invalid (30.3.3) */
+                u.sr |= RXNE | flags;
             }
         }
     }

@@ -6,6 +6,7 @@
 #include <simavr/avr_ioport.h>
 #include <simavr/avr_timer.h>
 #include <simavr/avr_uart.h>
+#include <simavr/avr_watchdog.h>
 #include <simavr/sim_avr.h>
 #include <simavr/sim_elf.h>
 
@@ -22,6 +23,7 @@ enum {
     REG_EEAR = 0x41,
     REG_MCUSR = 0x54,
     REG_SPL = 0x5D,
+    REG_WDTCSR = 0x60,
     REG_TCCR1A = 0x80,
     REG_ICR1 = 0x86,
     REG_OCR1A = 0x88,
@@ -30,7 +32,14 @@ enum {
 #define PWM 0x20U
 #define COM1A1 0x80U
 #define SET_EEPE 0x9AF9U /* sbi EECR, EEPE */
+#define WDR 0x95A8U
+#define WDE 0x08U
+#define WDRF 8U /* of MCUSR */
 #define EEMPE 0x04U
+#define EEPE 0x02U
+#define EEPM 0x30U                  /* 0: erase and write in one go */
+#define EEPROM_CYCLES (18U * 1600U) /* 1.8 ms; 3.4 in one go (DS table 8-1) */
+#define EEPROM_BOTH_CYCLES (34U * 1600U)
 #define STOP_PIN 4U
 #define BYTE_CYCLES (MEGA_HZ / 11520U)
 #define MEMORY_BASE 0x800000U
@@ -56,6 +65,10 @@ static unsigned said_bytes;
 static uint64_t said_cycle; /* the next byte may go */
 static uint8_t eeprom[MEGA_EEPROM_BYTES];
 static bool eeprom_known;
+static uint64_t eeprom_until; /* it writes; 0: it rests */
+static uint8_t watchdog_seen; /* its settings, and when it was heard */
+static uint64_t watchdog_heard;
+static uint64_t watchdog_kept; /* simavr's, from biting */
 static mega_times times;
 
 static _Noreturn void fail(const char *what) {
@@ -239,20 +252,57 @@ static void say_byte(void) {
     }
 }
 
-/* simavr writes a byte at once: what is about to be executed tells. */
-static void see_eeprom(void) {
-    const uint16_t word = (uint16_t)(avr->flash[avr->pc] | avr->flash[avr->pc + 1U] << 8);
-    if (word == SET_EEPE && (avr->data[REG_EECR] & EEMPE) != 0) {
-        mega_on_eeprom(word_at(REG_EEAR));
+static uint16_t next_word(void) {
+    return (uint16_t)(avr->flash[avr->pc] | avr->flash[avr->pc + 1U] << 8);
+}
+
+/* Whether a byte of the EEPROM is about to be written. */
+static bool writes_eeprom(void) {
+    return next_word() == SET_EEPE && (avr->data[REG_EECR] & EEMPE) != 0;
+}
+
+/* simavr writes a byte at once. On the chip it takes its time, and EEPE says so. */
+static void keep_eeprom_busy(bool writes) {
+    if (writes) {
+        const bool both = (avr->data[REG_EECR] & EEPM) == 0;
+        eeprom_until = avr->cycle + (both ? EEPROM_BOTH_CYCLES : EEPROM_CYCLES);
+    }
+    if (eeprom_until > avr->cycle) {
+        avr->data[REG_EECR] |= EEPE;
+    } else if (eeprom_until != 0) {
+        eeprom_until = 0;
+        avr->data[REG_EECR] &= (uint8_t)~EEPE;
+    }
+}
+
+/* The watchdog (DS 12.4): 2048 << WDP clocks of 128 kHz behind the last `wdr`. Another time counts at once; simavr's own goes on
+ * with the old one, so that it is kept from biting. */
+static void see_watchdog(bool hears) {
+    const uint8_t settings = avr->data[REG_WDTCSR];
+    if (hears || settings != watchdog_seen || avr->pc == 0) {
+        watchdog_seen = settings;
+        watchdog_heard = avr->cycle;
+    }
+    if (avr->cycle - watchdog_kept > MEGA_HZ / 1000U) {
+        watchdog_kept = avr->cycle;
+        avr_ioctl(avr, AVR_IOCTL_WATCHDOG_RESET, NULL);
+    }
+    const unsigned twice = (settings & 7U) | (settings >> 2 & 8U);
+    if ((settings & WDE) != 0 && avr->cycle - watchdog_heard > (uint64_t)2048U * 125U << twice) {
+        mega_reset(WDRF);
     }
 }
 
 bool mega_step(void) {
     const uint64_t before = avr->cycle;
-    if (mega_on_eeprom != NULL) {
-        see_eeprom();
+    const bool hears = next_word() == WDR;
+    const bool writes = writes_eeprom();
+    if (writes && mega_on_eeprom != NULL) {
+        mega_on_eeprom(word_at(REG_EEAR));
     }
     const int state = avr_run(avr);
+    keep_eeprom_busy(writes);
+    see_watchdog(hears);
     if (avr->cycle < before) { /* a reset begins the count anew */
         fail("the cycles' count went back");
     }
@@ -269,6 +319,7 @@ bool mega_step(void) {
         }
     }
     if (avr->pc == 0) {
+        eeprom_until = 0;
         forget_times(); /* a reset, or what looks like one */
     }
     see_times();
@@ -338,7 +389,9 @@ void mega_start(const char *image) {
     plant_cycle = 0;
     force_N[0] = force_N[1] = cell_N();
     edge_count = heard_bytes = said_bytes = 0;
-    said_cycle = 0;
+    said_cycle = eeprom_until = high_until[0] = high_until[1] = 0;
+    watchdog_seen = 0;
+    watchdog_heard = watchdog_kept = 0;
     memset(&times, 0, sizeof times);
     memset(&seen, 0, sizeof seen);
     seen.wait = mega_symbol("hal_clock_wait_until");
@@ -349,6 +402,7 @@ void mega_start(const char *image) {
 void mega_reset(uint8_t flag) {
     avr_reset(avr);
     avr->data[REG_MCUSR] = flag;
+    eeprom_until = 0;
     heard_bytes = said_bytes = 0;
     forget_times();
     set_stop();
