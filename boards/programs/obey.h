@@ -1,4 +1,5 @@
-/* obey.h: what the rig's controller commands goes to the motor. A part of a program, or of a test in its place. */
+/* obey.h: what the rig's controller commands goes to the motor, and whether that was stopped. A part of a program, or of a test
+ * in its place. */
 #ifndef PROGRAMS_OBEY_H
 #define PROGRAMS_OBEY_H
 
@@ -6,6 +7,12 @@
 
 #include "core/rig/rig.h"
 #include "hal/motor.h"
+#include "hal/stop.h"
+
+/* Stop is pressed; or it was, for less than a control step, and has cut the drive by itself. */
+static inline bool stop_was_pressed(bool watchdog_has_cut) {
+    return hal_stop_pressed() || (!watchdog_has_cut && (hal_motor_status() & HAL_MOTOR_CUT) != 0);
+}
 
 /* *drives: so was the command before; false at first. The motor is started where a command to drive begins, and not again: what
  * an interrupt has switched off, or stop has kept from starting, does not come by itself before the rig was off, too. */

@@ -90,9 +90,7 @@ static void look(void) {
     seen.inputs.supply_V = hal_motor_supply_V();
     seen.inputs.clock_is_fallback = hal_clock_source_now() == HAL_CLOCK_FALLBACK;
     seen.inputs.watchdog_has_cut = hal_watchdog_has_cut();
-    /* also where it was shorter than a step, and has cut the drive by itself */
-    const bool was_cut = (hal_motor_status() & HAL_MOTOR_CUT) != 0;
-    seen.inputs.stop_pressed = hal_stop_pressed() || (was_cut && !seen.inputs.watchdog_has_cut);
+    seen.inputs.stop_pressed = stop_was_pressed(seen.inputs.watchdog_has_cut);
 }
 
 /* By itself: what it has on the stack is gone when the console has its own there. */

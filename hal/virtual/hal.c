@@ -52,10 +52,12 @@ uint32_t hal_clock_late_ticks(void) {
     return most;
 }
 
-unsigned hal_motor_status(void) { return board_rig.cut ? HAL_MOTOR_CUT : 0U; }
+unsigned hal_motor_status(void) {
+    return board_rig.cut || board_rig.stop_cuts ? HAL_MOTOR_CUT : 0U;
+}
 
 unsigned hal_motor_start(void) {
-    if (!motor_started && !board_rig.cut) {
+    if (!motor_started && hal_motor_status() == 0) {
         motor_started = true;
         hal_virtual_rig_drive(&board_rig, 0.0f);
     }

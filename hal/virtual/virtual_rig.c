@@ -36,6 +36,7 @@ void hal_virtual_rig_reset(hal_virtual_rig *rig, hal_reset cause) {
     rig->in_reset = true;
     rig->watched = false;
     rig->cut = false;
+    rig->stop_cuts = false;
     rig->pulses = 0;
     rig->samples = 0;
     start_timer(rig);
@@ -151,7 +152,7 @@ static void read_load_cell(hal_virtual_rig *rig) {
  * shows its back-EMF. */
 static float duty_of(const hal_virtual_rig *rig) {
     const float back_emf = hal_virtual_rig_speed_radps(rig) * (1.0f / HAL_VIRTUAL_NO_LOAD_RADPS);
-    if (!rig->enabled || rig->cut) {
+    if (!rig->enabled || rig->cut || rig->stop_cuts) {
         return back_emf;
     }
     const float volts =
@@ -199,6 +200,7 @@ void hal_virtual_rig_drive(hal_virtual_rig *rig, float volts) {
 void hal_virtual_rig_motor_off(hal_virtual_rig *rig, hal_motor_off_way way) {
     rig->volts = 0.0f;
     rig->enabled = way == HAL_MOTOR_BRAKE;
+    rig->stop_cuts = false;
 }
 
 bool hal_virtual_rig_take_pulse(hal_virtual_rig *rig, hal_slot_edge *leading) {

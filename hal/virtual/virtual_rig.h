@@ -66,6 +66,8 @@ typedef struct hal_virtual_rig {
     bool cut;     /* it has cut the motor */
     uint32_t watchdog_ticks;
     uint32_t kicked_ticks;
+    bool
+        stop_cuts; /* stop was pressed for a moment, and has cut the drive by itself: until it is off. May be set at any time */
     bool stop_pressed; /* by whoever stands there: may be set at any time */
     hal_reset cause;   /* why the processor started, */
     bool in_reset;     /* or starts: what it controls turns on meanwhile */

@@ -133,6 +133,23 @@ static void test_off_from_an_interrupt_stays(void) {
     }
 }
 
+/* Stop, for less than a control step, in each phase that drives: the drive has cut itself, and the run ends as by stop. */
+static void test_a_short_stop_is_seen(void) {
+    static const wh_rig_phase phases[] = {WH_PHASE_SPIN_UP, WH_PHASE_RAMP, WH_PHASE_SETTLE,
+                                          WH_PHASE_RECORD, WH_PHASE_RAMP_DOWN};
+    for (unsigned i = 0; i < sizeof phases / sizeof *phases; i++) {
+        plant_begin(&on, 330.0f);
+        plant_go_on_until(&on, phases[i]);
+        hal_virtual_rig_instance()->stop_cuts = true;
+        plant_control(&on);
+        TEST_ASSERT_TRUE(on.command.way != WH_MOTOR_DRIVES);
+        plant_go_on_to_the_end(&on);
+        TEST_ASSERT_TRUE(on.rig.guard.trip == WH_TRIP_NONE);
+        TEST_ASSERT_TRUE(on.rig.state == WH_LIFE_IDLE);
+        plant_check_stopped(&on);
+    }
+}
+
 static void test_watchdog_cuts_the_motor(void) {
     plant_begin(&on, 330.0f);
     plant_go_on_until(&on, WH_PHASE_RECORD);
@@ -179,6 +196,7 @@ void suite_virtual_rig_faults(void) {
     RUN_TEST(test_stuck_load_cell_stops_the_rig);
     RUN_TEST(test_runaway_is_caught);
     RUN_TEST(test_off_from_an_interrupt_stays);
+    RUN_TEST(test_a_short_stop_is_seen);
     RUN_TEST(test_watchdog_cuts_the_motor);
     RUN_TEST(test_too_slow_and_too_fast_targets_are_refused);
 #endif
