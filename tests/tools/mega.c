@@ -1,12 +1,12 @@
 /* mega.c: an ATmega2560 in simavr, with the rig round its pins. */
 #include "mega.h"
+#include "mega_parts.h"
 
 #include <simavr/avr_adc.h>
 #include <simavr/avr_eeprom.h>
 #include <simavr/avr_ioport.h>
 #include <simavr/avr_timer.h>
 #include <simavr/avr_uart.h>
-#include <simavr/avr_watchdog.h>
 #include <simavr/sim_avr.h>
 #include <simavr/sim_elf.h>
 
@@ -19,11 +19,8 @@
 enum {
     REG_DDRB = 0x24,
     REG_PORTB = 0x25,
-    REG_EECR = 0x3F,
-    REG_EEAR = 0x41,
     REG_MCUSR = 0x54,
     REG_SPL = 0x5D,
-    REG_WDTCSR = 0x60,
     REG_TCCR1A = 0x80,
     REG_ICR1 = 0x86,
     REG_OCR1A = 0x88,
@@ -31,15 +28,7 @@ enum {
 #define ENABLE 0x40U
 #define PWM 0x20U
 #define COM1A1 0x80U
-#define SET_EEPE 0x9AF9U /* sbi EECR, EEPE */
-#define WDR 0x95A8U
-#define WDE 0x08U
 #define WDRF 8U /* of MCUSR */
-#define EEMPE 0x04U
-#define EEPE 0x02U
-#define EEPM 0x30U                  /* 0: erase and write in one go */
-#define EEPROM_CYCLES (18U * 1600U) /* 1.8 ms; 3.4 in one go (DS table 8-1) */
-#define EEPROM_BOTH_CYCLES (34U * 1600U)
 #define STOP_PIN 4U
 #define BYTE_CYCLES (MEGA_HZ / 11520U)
 #define MEMORY_BASE 0x800000U
@@ -65,10 +54,6 @@ static unsigned said_bytes;
 static uint64_t said_cycle; /* the next byte may go */
 static uint8_t eeprom[MEGA_EEPROM_BYTES];
 static bool eeprom_known;
-static uint64_t eeprom_until; /* it writes; 0: it rests */
-static uint8_t watchdog_seen; /* its settings, and when it was heard */
-static uint64_t watchdog_heard;
-static uint64_t watchdog_kept; /* simavr's, from biting */
 static mega_times times;
 
 static _Noreturn void fail(const char *what) {
@@ -252,57 +237,16 @@ static void say_byte(void) {
     }
 }
 
-static uint16_t next_word(void) {
-    return (uint16_t)(avr->flash[avr->pc] | avr->flash[avr->pc + 1U] << 8);
-}
-
-/* Whether a byte of the EEPROM is about to be written. */
-static bool writes_eeprom(void) {
-    return next_word() == SET_EEPE && (avr->data[REG_EECR] & EEMPE) != 0;
-}
-
-/* simavr writes a byte at once. On the chip it takes its time, and EEPE says so. */
-static void keep_eeprom_busy(bool writes) {
-    if (writes) {
-        const bool both = (avr->data[REG_EECR] & EEPM) == 0;
-        eeprom_until = avr->cycle + (both ? EEPROM_BOTH_CYCLES : EEPROM_CYCLES);
-    }
-    if (eeprom_until > avr->cycle) {
-        avr->data[REG_EECR] |= EEPE;
-    } else if (eeprom_until != 0) {
-        eeprom_until = 0;
-        avr->data[REG_EECR] &= (uint8_t)~EEPE;
-    }
-}
-
-/* The watchdog (DS 12.4): 2048 << WDP clocks of 128 kHz behind the last `wdr`. Another time counts at once; simavr's own goes on
- * with the old one, so that it is kept from biting. */
-static void see_watchdog(bool hears) {
-    const uint8_t settings = avr->data[REG_WDTCSR];
-    if (hears || settings != watchdog_seen || avr->pc == 0) {
-        watchdog_seen = settings;
-        watchdog_heard = avr->cycle;
-    }
-    if (avr->cycle - watchdog_kept > MEGA_HZ / 1000U) {
-        watchdog_kept = avr->cycle;
-        avr_ioctl(avr, AVR_IOCTL_WATCHDOG_RESET, NULL);
-    }
-    const unsigned twice = (settings & 7U) | (settings >> 2 & 8U);
-    if ((settings & WDE) != 0 && avr->cycle - watchdog_heard > (uint64_t)2048U * 125U << twice) {
-        mega_reset(WDRF);
-    }
-}
-
 bool mega_step(void) {
     const uint64_t before = avr->cycle;
-    const bool hears = next_word() == WDR;
-    const bool writes = writes_eeprom();
-    if (writes && mega_on_eeprom != NULL) {
-        mega_on_eeprom(word_at(REG_EEAR));
+    const mega_next next = mega_parts_next(avr);
+    if (next.writes && mega_on_eeprom != NULL) {
+        mega_on_eeprom(next.address);
     }
     const int state = avr_run(avr);
-    keep_eeprom_busy(writes);
-    see_watchdog(hears);
+    if (mega_parts_bite(avr, &next)) {
+        mega_reset(WDRF);
+    }
     if (avr->cycle < before) { /* a reset begins the count anew */
         fail("the cycles' count went back");
     }
@@ -319,7 +263,7 @@ bool mega_step(void) {
         }
     }
     if (avr->pc == 0) {
-        eeprom_until = 0;
+        mega_parts_start();
         forget_times(); /* a reset, or what looks like one */
     }
     see_times();
@@ -389,9 +333,8 @@ void mega_start(const char *image) {
     plant_cycle = 0;
     force_N[0] = force_N[1] = cell_N();
     edge_count = heard_bytes = said_bytes = 0;
-    said_cycle = eeprom_until = high_until[0] = high_until[1] = 0;
-    watchdog_seen = 0;
-    watchdog_heard = watchdog_kept = 0;
+    said_cycle = high_until[0] = high_until[1] = 0;
+    mega_parts_start();
     memset(&times, 0, sizeof times);
     memset(&seen, 0, sizeof seen);
     seen.wait = mega_symbol("hal_clock_wait_until");
@@ -402,7 +345,7 @@ void mega_start(const char *image) {
 void mega_reset(uint8_t flag) {
     avr_reset(avr);
     avr->data[REG_MCUSR] = flag;
-    eeprom_until = 0;
+    mega_parts_start();
     heard_bytes = said_bytes = 0;
     forget_times();
     set_stop();
