@@ -25,7 +25,7 @@ extern "C" {
 
 #define HAL_VIRTUAL_PULSES 16U
 #define HAL_VIRTUAL_SAMPLES 8U
-#define HAL_VIRTUAL_PULSE_TICKS 100U /* the monostable's */
+#define HAL_VIRTUAL_PULSE_TICKS 150U /* the monostable's */
 
 /* Supply at which the model's duty of 1 is full duty, and the speed, rad/s, that the motor has then without load:
  * where back-EMF equals the voltage. tests/core/test_virtual_rig.c compares it with the model. */

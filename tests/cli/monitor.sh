@@ -54,6 +54,16 @@ for baud in $whole; do
     verdict $? "$baud baud: every order's answer has come through" "$scratch/text"
 done
 
+# Pulses are as long as the rig's monostable has them, from the first end on that is told (150 us; 100 are drawn before).
+awk '/^\$var wire 1 . slot/ { slot[$4] = 1 }
+     /^#/ { now = substr($0, 2) }
+     /^[01]./ && (substr($0, 2) in slot) {
+         id = substr($0, 2)
+         if ($0 ~ /^1/) { rose[id] = now } else if (id in rose) { n++; long += now - rose[id] == 150; delete rose[id] }
+     }
+     END { print n " pulses, " long " of 150 us"; exit !(n > 50 && long >= n - 1) }' "$scratch/vcd" >"$scratch/err"
+verdict $? "a wave's pulses are as long as they were ($(cat "$scratch/err"))" "$scratch/err"
+
 # What was recorded: by the tests' decoder, by itself once more from what --raw has kept.
 "$tools/tel_check" "$scratch/raw" --csv 0.00678744752 2>/dev/null >"$scratch/wanted"
 tr -d '\r' <"$scratch/csv" | sed 1d | awk -F, '{ printf "%s,%.6g\n", $1, $2 }' |

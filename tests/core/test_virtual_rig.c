@@ -106,7 +106,8 @@ static void test_pulses_stand_at_their_angles(void) {
             if (pulse.end == HAL_SLOT_TRAILING) {
                 TEST_ASSERT_TRUE(pulses == 0 || last.end == HAL_SLOT_LEADING);
                 TEST_ASSERT_TRUE(pulses == 0 ||
-                                 (pulse.sensor == last.sensor && pulse.ticks - last.ticks == 100U));
+                                 (pulse.sensor == last.sensor &&
+                                  pulse.ticks - last.ticks == HAL_VIRTUAL_PULSE_TICKS));
                 last = pulse;
                 continue;
             }
