@@ -175,7 +175,7 @@ static void test_ends(void) {
                 {1.65, 1.65, HAL_LOAD_OK}};
     for (unsigned i = 0; i < 60; i++) {
         const unsigned row = i % (sizeof rows / sizeof *rows);
-        const double part = i < 8 ? i / 4U : (double)(scattered() % 10001U) / 10000.0;
+        const double part = i < 4 ? 0.0 : i < 8 ? 1.0 : (double)(scattered() % 10001U) / 10000.0;
         level_V = rows[row].least_V + part * (rows[row].most_V - rows[row].least_V);
         chip_pass_us(10000); /* those of before, and those that have both */
         run_take();
