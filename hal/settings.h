@@ -5,7 +5,6 @@
 #ifndef HAL_SETTINGS_H
 #define HAL_SETTINGS_H
 
-#include <stdbool.h>
 #include <stdint.h>
 
 #ifdef __cplusplus
@@ -18,16 +17,23 @@ extern "C" {
 /* The longest that one call may take, capture timer (clock.h). */
 #define HAL_SETTINGS_TICKS 1000000U
 
-/* slot 0 or 1; at + count <= HAL_SETTINGS_BYTES. False: the memory says that it failed. A supply that fails in one of these
- * leaves anything in this slot, and nothing else in the other. */
+typedef enum hal_settings_result {
+    HAL_SETTINGS_DONE,
+    HAL_SETTINGS_OUTSIDE, /* there is no such slot, or it has no such bytes: nothing was begun */
+    HAL_SETTINGS_BUSY,    /* the memory does not come to rest: nothing was begun */
+    HAL_SETTINGS_FAILED   /* the memory says so: protected, worn out, not there */
+} hal_settings_result;
+
+/* slot 0 or 1; at + count <= HAL_SETTINGS_BYTES. A supply that fails in one of these leaves anything in this slot, and nothing
+ * else in the other. */
 
 /* All bytes of the slot are 0xFF. */
-bool hal_settings_erase(unsigned slot);
+hal_settings_result hal_settings_erase(unsigned slot);
 
 /* Of a slot that was erased, front to back; `at` is a multiple of 4, `count` may be any. */
-bool hal_settings_write(unsigned slot, unsigned at, const uint8_t *bytes, unsigned count);
+hal_settings_result hal_settings_write(unsigned slot, unsigned at, const uint8_t *bytes, unsigned count);
 
-bool hal_settings_read(unsigned slot, unsigned at, uint8_t *bytes, unsigned count);
+hal_settings_result hal_settings_read(unsigned slot, unsigned at, uint8_t *bytes, unsigned count);
 
 #ifdef __cplusplus
 }

@@ -30,6 +30,12 @@ static bool rests(void) {
     return false;
 }
 
+static hal_settings_result may(unsigned slot, unsigned at, unsigned count) {
+    return !within(slot, at, count) ? HAL_SETTINGS_OUTSIDE
+           : rests()                ? HAL_SETTINGS_DONE
+                                    : HAL_SETTINGS_BUSY;
+}
+
 static uint8_t load(uint16_t address) {
     EEAR = address;
     EECR |= _BV(EERE);
@@ -53,36 +59,31 @@ static bool program(uint16_t address, uint8_t mode, uint8_t byte) {
     return rests() && load(address) == byte;
 }
 
-bool hal_settings_erase(unsigned slot) {
-    if (!within(slot, 0, 0) || !rests()) {
-        return false;
-    }
-    bool done = true;
+hal_settings_result hal_settings_erase(unsigned slot) {
+    const hal_settings_result can = may(slot, 0, 0);
+    bool done = can == HAL_SETTINGS_DONE;
     for (unsigned at = 0; at < HAL_SETTINGS_BYTES && done; at++) {
         const uint16_t address = address_of(slot, at);
         done = load(address) == ERASED || program(address, ERASE, ERASED);
     }
-    return done;
+    return done || can != HAL_SETTINGS_DONE ? can : HAL_SETTINGS_FAILED;
 }
 
-bool hal_settings_write(unsigned slot, unsigned at, const uint8_t *bytes, unsigned count) {
-    if (!within(slot, at, count) || at % 4U != 0 || !rests()) {
-        return false;
-    }
-    bool done = true;
+hal_settings_result hal_settings_write(unsigned slot, unsigned at, const uint8_t *bytes,
+                                       unsigned count) {
+    const hal_settings_result can = at % 4U == 0 ? may(slot, at, count) : HAL_SETTINGS_OUTSIDE;
+    bool done = can == HAL_SETTINGS_DONE;
     for (unsigned i = 0; i < count && done; i++) {
         const uint16_t address = address_of(slot, at + i);
         done = load(address) == bytes[i] || program(address, WRITE, bytes[i]);
     }
-    return done;
+    return done || can != HAL_SETTINGS_DONE ? can : HAL_SETTINGS_FAILED;
 }
 
-bool hal_settings_read(unsigned slot, unsigned at, uint8_t *bytes, unsigned count) {
-    if (!within(slot, at, count) || !rests()) {
-        return false;
-    }
-    for (unsigned i = 0; i < count; i++) {
+hal_settings_result hal_settings_read(unsigned slot, unsigned at, uint8_t *bytes, unsigned count) {
+    const hal_settings_result can = may(slot, at, count);
+    for (unsigned i = 0; i < count && can == HAL_SETTINGS_DONE; i++) {
         bytes[i] = load(address_of(slot, at + i));
     }
-    return true;
+    return can;
 }

@@ -6,6 +6,7 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -25,7 +26,10 @@ static off_t place_of(unsigned slot, unsigned at) {
     return (off_t)(slot * HAL_SETTINGS_BYTES + at);
 }
 
-static bool put(unsigned slot, unsigned at, const uint8_t *bytes, unsigned count) {
+static hal_settings_result put(unsigned slot, unsigned at, const uint8_t *bytes, unsigned count) {
+    if (!within(slot, at, count)) {
+        return HAL_SETTINGS_OUTSIDE;
+    }
     const int file = open(name_of_file(), O_RDWR | O_CREAT, 0666);
     unsigned done = 0;
     while (file >= 0 && done < count) {
@@ -36,29 +40,31 @@ static bool put(unsigned slot, unsigned at, const uint8_t *bytes, unsigned count
         done += more > 0 ? (unsigned)more : 0U;
     }
     const bool kept = file >= 0 && fsync(file) == 0;
-    return file >= 0 && close(file) == 0 && kept && done == count;
+    return file >= 0 && close(file) == 0 && kept && done == count ? HAL_SETTINGS_DONE
+                                                                  : HAL_SETTINGS_FAILED;
 }
 
-bool hal_settings_erase(unsigned slot) {
+hal_settings_result hal_settings_erase(unsigned slot) {
     uint8_t blank[HAL_SETTINGS_BYTES];
     memset(blank, 0xFF, sizeof blank);
-    return slot < SLOTS && put(slot, 0, blank, sizeof blank);
+    return put(slot, 0, blank, sizeof blank);
 }
 
-bool hal_settings_write(unsigned slot, unsigned at, const uint8_t *bytes, unsigned count) {
-    return within(slot, at, count) && put(slot, at, bytes, count);
+hal_settings_result hal_settings_write(unsigned slot, unsigned at, const uint8_t *bytes,
+                                       unsigned count) {
+    return put(slot, at, bytes, count);
 }
 
 /* A file that is not there, or ends before, has been erased. */
-bool hal_settings_read(unsigned slot, unsigned at, uint8_t *bytes, unsigned count) {
+hal_settings_result hal_settings_read(unsigned slot, unsigned at, uint8_t *bytes, unsigned count) {
     if (!within(slot, at, count)) {
-        return false;
+        return HAL_SETTINGS_OUTSIDE;
     }
     memset(bytes, 0xFF, count);
     const int file = open(name_of_file(), O_RDONLY);
     if (file < 0) {
-        return errno == ENOENT;
+        return errno == ENOENT ? HAL_SETTINGS_DONE : HAL_SETTINGS_FAILED;
     }
     const ssize_t had = pread(file, bytes, count, place_of(slot, at));
-    return close(file) == 0 && had >= 0;
+    return close(file) == 0 && had >= 0 ? HAL_SETTINGS_DONE : HAL_SETTINGS_FAILED;
 }

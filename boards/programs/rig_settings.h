@@ -11,18 +11,21 @@ _Static_assert(WH_STORE_SLOT_BYTES <= HAL_SETTINGS_BYTES, "a slot holds a record
 /* While a slot is erased, or written byte by byte, nobody kicks. */
 static bool erase_patiently(unsigned slot) {
     hal_watchdog_start(2U * HAL_SETTINGS_TICKS);
-    const bool erased = hal_settings_erase(slot);
+    const hal_settings_result erased = hal_settings_erase(slot);
     hal_watchdog_start(WATCHDOG_TICKS);
-    return erased;
+    return erased == HAL_SETTINGS_DONE;
 }
 static bool write_patiently(unsigned slot, unsigned at, const uint8_t *bytes, unsigned count) {
     hal_watchdog_start(2U * HAL_SETTINGS_TICKS);
-    const bool written = hal_settings_write(slot, at, bytes, count);
+    const hal_settings_result written = hal_settings_write(slot, at, bytes, count);
     hal_watchdog_start(WATCHDOG_TICKS);
-    return written;
+    return written == HAL_SETTINGS_DONE;
+}
+static bool read_settings(unsigned slot, unsigned at, uint8_t *bytes, unsigned count) {
+    return hal_settings_read(slot, at, bytes, count) == HAL_SETTINGS_DONE;
 }
 
 static const wh_store_memory settings_memory = {
-    .erase = erase_patiently, .write = write_patiently, .read = hal_settings_read};
+    .erase = erase_patiently, .write = write_patiently, .read = read_settings};
 
 #endif

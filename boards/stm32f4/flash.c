@@ -9,6 +9,7 @@
 #define SECTOR_BYTES 0x4000U
 #define FIRST_ADDRESS 0x08004000U
 #define SLOTS 2U
+#define NO_COUNT (HAL_SETTINGS_BYTES + 1U) /* that no slot has */
 
 static bool within(unsigned slot, unsigned at, unsigned count) {
     return slot < SLOTS && at <= HAL_SETTINGS_BYTES && count <= HAL_SETTINGS_BYTES - at;
@@ -18,20 +19,25 @@ static uint32_t address_of(unsigned slot, unsigned at) {
     return FIRST_ADDRESS + SECTOR_BYTES * slot + at;
 }
 
-/* What was begun is done, without an error. */
-static bool is_done(void) {
-    return stm32f4_flash_rests() && (reg_load(FLASH_SR) & FLASH_SR_ERRORS) == 0;
+/* How what was begun ends. */
+static hal_settings_result ended(void) {
+    return stm32f4_flash_rests() && (reg_load(FLASH_SR) & FLASH_SR_ERRORS) == 0
+               ? HAL_SETTINGS_DONE
+               : HAL_SETTINGS_FAILED;
 }
 
 /* Unlocked for these bytes, if there are such, and the flash is at nothing. */
-static bool is_open(unsigned slot, unsigned at, unsigned count) {
-    if (!within(slot, at, count) || !stm32f4_flash_rests()) {
-        return false;
+static hal_settings_result opened(unsigned slot, unsigned at, unsigned count) {
+    if (!within(slot, at, count)) {
+        return HAL_SETTINGS_OUTSIDE;
+    }
+    if (!stm32f4_flash_rests()) {
+        return HAL_SETTINGS_BUSY;
     }
     reg_store(FLASH_KEYR, FLASH_KEY1);
     reg_store(FLASH_KEYR, FLASH_KEY2);
     reg_store(FLASH_SR, FLASH_SR_ERRORS); /* of before */
-    return true;
+    return HAL_SETTINGS_DONE;
 }
 
 /* What the data cache still has of a sector that was erased is wrong (3.5.2). */
@@ -42,44 +48,46 @@ static void forget_cached(void) {
     reg_set(FLASH_ACR, FLASH_ACR_DCEN);
 }
 
-bool hal_settings_erase(unsigned slot) {
-    if (!is_open(slot, 0, 0)) {
-        return false;
+hal_settings_result hal_settings_erase(unsigned slot) {
+    hal_settings_result result = opened(slot, 0, 0);
+    if (result != HAL_SETTINGS_DONE) {
+        return result;
     }
     const uint32_t order = FLASH_CR_SER | FLASH_CR_SNB(FIRST_SECTOR + slot) | FLASH_CR_PSIZE_32;
     reg_store(FLASH_CR, order);
     reg_store(FLASH_CR, order | FLASH_CR_STRT);
-    const bool done = is_done();
+    result = ended();
     reg_store(FLASH_CR, FLASH_CR_LOCK);
     forget_cached();
-    return done;
+    return result;
 }
 
 /* Words; the bytes behind the last stay ones. */
-bool hal_settings_write(unsigned slot, unsigned at, const uint8_t *bytes, unsigned count) {
-    if (at % 4U != 0 || !is_open(slot, at, count)) {
-        return false;
+hal_settings_result hal_settings_write(unsigned slot, unsigned at, const uint8_t *bytes,
+                                       unsigned count) {
+    hal_settings_result result = opened(slot, at, at % 4U == 0 ? count : NO_COUNT);
+    if (result != HAL_SETTINGS_DONE) {
+        return result;
     }
-    bool done = true;
     reg_store(FLASH_CR, FLASH_CR_PG | FLASH_CR_PSIZE_32);
-    for (unsigned i = 0; i < count && done; i += 4U) {
+    for (unsigned i = 0; i < count && result == HAL_SETTINGS_DONE; i += 4U) {
         uint32_t word = UINT32_MAX;
         __builtin_memcpy(&word, bytes + i, count - i < 4U ? count - i : 4U);
         reg_store(address_of(slot, at + i), word);
         board_kept_settle(); /* before its status is asked for */
-        done = is_done();
+        result = ended();
     }
     reg_store(FLASH_CR, FLASH_CR_LOCK);
-    return done;
+    return result;
 }
 
-bool hal_settings_read(unsigned slot, unsigned at, uint8_t *bytes, unsigned count) {
+hal_settings_result hal_settings_read(unsigned slot, unsigned at, uint8_t *bytes, unsigned count) {
     if (!within(slot, at, count)) {
-        return false;
+        return HAL_SETTINGS_OUTSIDE;
     }
     for (unsigned i = 0; i < count; i++) {
         const uint32_t address = address_of(slot, at + i);
         bytes[i] = (uint8_t)(reg_load(address & ~3U) >> (8U * (address & 3U)));
     }
-    return true;
+    return HAL_SETTINGS_DONE;
 }

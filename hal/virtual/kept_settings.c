@@ -1,4 +1,6 @@
 /* kept_settings.c: hal/settings.h in plain memory: of a rig that is played, gone with it. */
+#include <stdbool.h>
+
 #include "core/real.h"
 #include "hal/settings.h"
 
@@ -12,31 +14,32 @@ static bool within(unsigned slot, unsigned at, unsigned count) {
     return slot < SLOTS && at <= HAL_SETTINGS_BYTES && count <= HAL_SETTINGS_BYTES - at;
 }
 
-bool hal_settings_erase(unsigned slot) {
+hal_settings_result hal_settings_erase(unsigned slot) {
     for (unsigned i = 0; slot < SLOTS && i < HAL_SETTINGS_BYTES; i++) {
         kept[slot][i] = 0xFF;
     }
-    return slot < SLOTS;
+    return slot < SLOTS ? HAL_SETTINGS_DONE : HAL_SETTINGS_OUTSIDE;
 }
 
-bool hal_settings_write(unsigned slot, unsigned at, const uint8_t *bytes, unsigned count) {
+hal_settings_result hal_settings_write(unsigned slot, unsigned at, const uint8_t *bytes,
+                                       unsigned count) {
     if (!within(slot, at, count)) {
-        return false;
+        return HAL_SETTINGS_OUTSIDE;
     }
     for (unsigned i = 0; i < count; i++) {
         kept[slot][at + i] = bytes[i];
     }
-    return true;
+    return HAL_SETTINGS_DONE;
 }
 
-bool hal_settings_read(unsigned slot, unsigned at, uint8_t *bytes, unsigned count) {
+hal_settings_result hal_settings_read(unsigned slot, unsigned at, uint8_t *bytes, unsigned count) {
     if (!within(slot, at, count)) {
-        return false;
+        return HAL_SETTINGS_OUTSIDE;
     }
     for (unsigned i = 0; i < count; i++) {
         bytes[i] = kept[slot][at + i];
     }
-    return true;
+    return HAL_SETTINGS_DONE;
 }
 
 #endif

@@ -126,27 +126,37 @@ static void test_settings_are_kept(void) {
         const unsigned at = 4U * below(WORDS);
         const unsigned count = below(HAL_SETTINGS_BYTES - at + 1U);
         fails = false;
-        TEST_ASSERT_TRUE(hal_settings_erase(slot));
+        TEST_ASSERT_EQUAL(HAL_SETTINGS_DONE, hal_settings_erase(slot));
         memset(kept[slot], 0xFF, sizeof kept[0]);
         for (unsigned k = 0; k < count; k++) {
             bytes[k] = kept[slot][at + k] = (uint8_t)scattered();
         }
-        TEST_ASSERT_TRUE(hal_settings_write(slot, at, bytes, count));
+        TEST_ASSERT_EQUAL(HAL_SETTINGS_DONE, hal_settings_write(slot, at, bytes, count));
         for (unsigned s = 0; s < 2; s++) {
             const unsigned from = below(HAL_SETTINGS_BYTES);
-            TEST_ASSERT_TRUE(hal_settings_read(s, from, bytes, HAL_SETTINGS_BYTES - from));
+            TEST_ASSERT_EQUAL(HAL_SETTINGS_DONE,
+                              hal_settings_read(s, from, bytes, HAL_SETTINGS_BYTES - from));
             TEST_ASSERT_EQUAL_INT(0, memcmp(bytes, kept[s] + from, HAL_SETTINGS_BYTES - from));
         }
         TEST_ASSERT_EQUAL_UINT_MESSAGE(0, keys, "locked again");
     }
     fails = true;
-    TEST_ASSERT_FALSE(hal_settings_erase(0));
-    TEST_ASSERT_FALSE(hal_settings_write(1, 0, bytes, 8));
+    TEST_ASSERT_EQUAL(HAL_SETTINGS_FAILED, hal_settings_erase(0));
+    TEST_ASSERT_EQUAL(HAL_SETTINGS_FAILED, hal_settings_write(1, 0, bytes, 8));
     fails = false;
-    TEST_ASSERT_TRUE_MESSAGE(hal_settings_erase(0), "an old error is none of this");
-    TEST_ASSERT_FALSE(hal_settings_erase(2) || hal_settings_write(0, 2, bytes, 4) ||
-                      hal_settings_write(0, 252, bytes, 8) || hal_settings_read(2, 0, bytes, 1) ||
-                      hal_settings_write(0, 256, bytes, 4));
+    TEST_ASSERT_EQUAL_MESSAGE(HAL_SETTINGS_DONE, hal_settings_erase(0),
+                              "an old error is none of this");
+    const hal_settings_result outside[] = {
+        hal_settings_erase(2), hal_settings_write(0, 2, bytes, 4),
+        hal_settings_write(0, 252, bytes, 8), hal_settings_read(2, 0, bytes, 1),
+        hal_settings_write(0, 256, bytes, 4)};
+    for (unsigned i = 0; i < sizeof outside / sizeof *outside; i++) {
+        TEST_ASSERT_EQUAL(HAL_SETTINGS_OUTSIDE, outside[i]);
+    }
+    busy = UINT32_MAX; /* it does not come to rest */
+    TEST_ASSERT_EQUAL(HAL_SETTINGS_BUSY, hal_settings_erase(0));
+    TEST_ASSERT_EQUAL(HAL_SETTINGS_BUSY, hal_settings_write(0, 0, bytes, 4));
+    busy = 0;
 }
 
 /* --- captures: timer 2, both pairs of channels ------------------------------------------------------------ */
