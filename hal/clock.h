@@ -2,7 +2,9 @@
  *
  * Every time stamp of the rig (slot pulses, load samples, control steps) is a count of this one
  * timer: 32 bits, wrapping every 71.6 minutes. Differences of two stamps less than half of that
- * apart are right whether or not the timer wrapped in between. */
+ * apart are right whether or not the timer wrapped in between.
+ *
+ * hal_clock_ticks() may be called from anywhere, the others not from an interrupt or a fault's handler. */
 #ifndef HAL_CLOCK_H
 #define HAL_CLOCK_H
 

@@ -41,7 +41,7 @@ typedef struct hal_load_sample {
 } hal_load_sample;
 
 /* Take the oldest sample not yet taken. Returns false when there is none. At least 4 samples are
- * kept between calls; when more came, the newest are lost. */
+ * kept between calls; when more came, the newest are lost. Not from an interrupt: there is one who takes. */
 bool hal_loadcell_take(hal_load_sample *sample);
 
 #ifdef __cplusplus

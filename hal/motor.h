@@ -34,7 +34,7 @@ void hal_motor_set_voltage(float volts);
  * before hal_clock_start(). */
 void hal_motor_off(hal_motor_off_way way);
 
-/* These bits together; 0: nothing is wrong, or nobody looks. */
+/* These bits together; 0: nothing is wrong, or nobody looks. Not from an interrupt, nor the supply. */
 unsigned hal_motor_status(void);
 
 /* The supply, V, as last measured: 10 ms ago at most. */

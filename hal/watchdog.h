@@ -1,4 +1,5 @@
-/* watchdog.h: cuts the motor when the controller falls silent. */
+/* watchdog.h: cuts the motor when the controller falls silent. Nothing of it is for interrupts: a controller that hangs must not be
+ * kept alive by one. */
 #ifndef HAL_WATCHDOG_H
 #define HAL_WATCHDOG_H
 
