@@ -31,7 +31,8 @@ typedef enum hal_settings_result {
 hal_settings_result hal_settings_erase(unsigned slot);
 
 /* Of a slot that was erased, front to back; `at` is a multiple of 4, `count` may be any. */
-hal_settings_result hal_settings_write(unsigned slot, unsigned at, const uint8_t *bytes, unsigned count);
+hal_settings_result hal_settings_write(unsigned slot, unsigned at, const uint8_t *bytes,
+                                       unsigned count);
 
 hal_settings_result hal_settings_read(unsigned slot, unsigned at, uint8_t *bytes, unsigned count);
 

@@ -1,7 +1,7 @@
 /* stop.h: the stop input: a button, or a chain of contacts, that whoever stands at the rig opens.
  *
- * Both may be called from anywhere. It is the controller that switches the motor off, in the control step that sees it; a circuit that cuts the drive
- * without the processor is none of this. */
+ * Both may be called from anywhere. It is the controller that switches the motor off, in the control step that sees it; a
+ * circuit that cuts the drive without the processor is none of this. */
 #ifndef HAL_STOP_H
 #define HAL_STOP_H
 
