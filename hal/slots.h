@@ -27,9 +27,9 @@ typedef struct hal_slot_edge {
 } hal_slot_edge;
 
 /* Take the oldest edge not yet taken, in order of time. Returns false when there is none. At least 16, of 8 pulses, are kept
- * between calls; when more came, the newest are lost. Not from an interrupt: there is one who takes. A trailing edge is lost
- * before a leading one is, and has none before it where a pulse began unseen; a board whose pulses are played, or that cannot
- * tell edges apart, has leading ones alone. */
+ * between calls; when more came, the newest are lost. Not from an interrupt: there is one who takes. Where edges
+ * were lost, a pulse began unseen or was over at once, one of its two is missing; a board whose pulses are played, or that
+ * cannot tell edges apart, has leading ones alone. */
 bool hal_slots_take(hal_slot_edge *edge);
 
 /* So often since the start edges were lost, or may have been: one came before the one ahead of it was read, or the room was
