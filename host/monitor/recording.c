@@ -46,6 +46,7 @@ void recording_anew(recording *r) {
     r->timed = false; /* the next ticks are this time's */
     memset(r->channel, 0, sizeof r->channel);
     r->expects = false;
+    r->ends = false; /* it may be another program's */
 }
 
 void recording_asked(recording *r) { r->expects = false; }

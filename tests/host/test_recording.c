@@ -43,6 +43,9 @@ typedef struct told {
     int pulses;
     int64_t pulse_us[PULSES_MOST];
     unsigned pulse_of[PULSES_MOST];
+    int pulse_long[PULSES_MOST]; /* us */
+    bool tells_ends;             /* of pulses; 100 us until one has come */
+    bool has_ended;
     int64_t free_from_us[2]; /* the last pulse is over */
     int64_t trip_us;
     unsigned trip;
@@ -91,7 +94,7 @@ static void head_of(FILE *to, const schema_channel *c, int from) {
 }
 
 static void begin(bool files, bool plots) {
-    t = (told){.ticks_of_0 = drawn_32()};
+    t = (told){.ticks_of_0 = drawn_32(), .tells_ends = dice_one_of(&die, 2) == 0};
     t.s.channel[RECORDING_RUN] =
         drawn_channel(1 + (int)dice_one_of(&die, 4), (int)dice_one_of(&die, 4),
                       1000U + 1000U * dice_one_of(&die, 5));
@@ -260,15 +263,18 @@ static void send_ring(void) {
 }
 
 static void send_event(void) {
-    uint8_t payload[2] = {(uint8_t)dice_one_of(&die, 4), (uint8_t)dice_one_of(&die, 4)};
+    uint8_t payload[2] = {(uint8_t)dice_one_of(&die, 5), (uint8_t)dice_one_of(&die, 4)};
     const int64_t time_us = about_now_us();
+    int high_us = 0;
     if (payload[0] == 0 && payload[1] < 2) {
         const unsigned sensor = payload[1];
         if (time_us < t.free_from_us[sensor] || t.pulses == PULSES_MOST) {
             return; /* one at a time */
         }
-        t.free_from_us[sensor] = time_us + 101;
+        high_us = t.tells_ends ? 1 + (int)dice_one_of(&die, 2000) : 0;
+        t.free_from_us[sensor] = time_us + (high_us > 100 ? high_us : 100) + 1;
         t.pulse_us[t.pulses] = time_us;
+        t.pulse_long[t.pulses] = t.has_ended || (high_us > 0 && high_us < 100) ? high_us : 100;
         t.pulse_of[t.pulses++] = sensor;
         t.counts.pulses++;
     } else if (payload[0] == 2) {
@@ -277,9 +283,17 @@ static void send_event(void) {
         }
         t.trip_us = time_us;
         t.trip = payload[1];
+    } else if (payload[0] == 3 && payload[1] < 2) {
+        return; /* behind its beginning */
     }
     lose(RECORDING_EVENT);
     send(RECORDING_EVENT, time_us, payload, 2);
+    if (high_us > 0) {
+        payload[0] = 3;
+        lose(RECORDING_EVENT);
+        send(RECORDING_EVENT, time_us + high_us, payload, 2);
+        t.has_ended = true;
+    }
 }
 
 /* What no schema tells of, and what is not as its schema says. */
@@ -324,6 +338,8 @@ static void begin_anew(void) {
     const bool is_told = dice_one_of(&die, 2) == 0;
     const uint16_t before = t.next[RECORDING_RUN];
     t.ticks_of_0 = drawn_32();
+    t.tells_ends = dice_one_of(&die, 2) == 0;
+    t.has_ended = false;
     memset(t.any, 0, sizeof t.any);
     for (int i = 0; i < SCHEMA_CHANNELS; i++) {
         t.next[i] = (uint16_t)drawn_32();
@@ -407,8 +423,8 @@ static void expect_waves(void) {
     for (int i = 0; i < t.pulses; i++) {
         const char *slot = slots[t.pulse_of[i]];
         TEST_ASSERT_TRUE(dumped(slot, t.pulse_us[i]) == 1.0 &&
-                         dumped(slot, t.pulse_us[i] + 99) == 1.0);
-        TEST_ASSERT_TRUE(dumped(slot, t.pulse_us[i] + 100) == 0.0);
+                         dumped(slot, t.pulse_us[i] + t.pulse_long[i] - 1) == 1.0);
+        TEST_ASSERT_TRUE(dumped(slot, t.pulse_us[i] + t.pulse_long[i]) == 0.0);
         TEST_ASSERT_TRUE(t.pulse_us[i] == 0 || dumped(slot, t.pulse_us[i] - 1) == 0.0);
     }
     if (t.trip_us > 0) {
