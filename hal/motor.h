@@ -16,13 +16,13 @@ typedef enum hal_motor_off_way {
 /* What the drive stage says, bits: */
 enum {
     HAL_MOTOR_CUT =
-        1, /* it was cut beside the software, by stop or by its own fault: off until the next hal_motor_off() */
+        1, /* it was cut, or kept from starting, beside the software, by stop or by its own fault: off until the next hal_motor_off() */
     HAL_MOTOR_FAULT = 2, /* stop is pressed, or the drive stage has a fault: it cannot be driven */
     HAL_MOTOR_NO_SUPPLY = 4 /* none is measured: it is not driven */
 };
 
-/* The enable on, at 0 V: from now on it can be driven. Returns hal_motor_status(): 0, or why it cannot; then it is off
- * as before, but where only the supply is missing. Of one that is started already nothing changes. Not from an interrupt. */
+/* The enable on, at 0 V: from now on it can be driven. Returns hal_motor_status(): 0, or why it cannot; then it is off,
+ * but where only the supply is missing. Of one that is started already nothing changes. Not from an interrupt. */
 unsigned hal_motor_start(void);
 
 /* Drive the motor with a mean voltage of 0 to hal_motor_supply_V(). What lies outside is clamped, NaN to 0. In effect from

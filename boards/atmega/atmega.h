@@ -111,6 +111,9 @@ void atmega_keep_fault(atmega_fault_kind kind, uint32_t at, uint32_t ticks);
 /* What there is of the start before, once; false: none. */
 bool atmega_take_fault(atmega_fault_record *record);
 
+/* The power came: nothing of this is known any more, nor of what was remembered. */
+void atmega_forget(void);
+
 /* MCUSR as the processor started (DS 12.5.1); 0: there was no reset. */
 uint8_t atmega_reset_flags(void);
 

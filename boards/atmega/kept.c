@@ -15,6 +15,12 @@ static uint16_t sum_of_fault(void) {
 
 static bool fault_holds(void) { return fault.sum == sum_of_fault(); }
 
+static void seal(void) {
+    board_kept_settle();
+    fault.sum = sum_of_fault();
+    board_kept_settle();
+}
+
 void atmega_keep_fault(atmega_fault_kind kind, uint32_t at, uint32_t ticks) {
     const uint16_t before = fault_holds() ? fault.faults : 0U;
     fault.sum = (uint16_t)~fault.sum;
@@ -24,9 +30,14 @@ void atmega_keep_fault(atmega_fault_kind kind, uint32_t at, uint32_t ticks) {
     fault.ticks = ticks;
     fault.state = board_kept_state();
     fault.faults = (uint16_t)(before + 1U);
-    board_kept_settle();
-    fault.sum = sum_of_fault();
-    board_kept_settle();
+    seal();
+}
+
+void atmega_forget(void) {
+    fault.faults = 0;
+    fault.kind = ATMEGA_FAULT_NONE;
+    seal();
+    board_forget();
 }
 
 bool atmega_take_fault(atmega_fault_record *record) {
@@ -34,9 +45,7 @@ bool atmega_take_fault(atmega_fault_record *record) {
     if (there) {
         *record = fault;
         fault.kind = ATMEGA_FAULT_NONE; /* the count goes on */
-        board_kept_settle();
-        fault.sum = sum_of_fault();
-        board_kept_settle();
+        seal();
     }
     return there;
 }

@@ -39,13 +39,14 @@ static uint16_t parts_of(float volts) {
 
 unsigned hal_motor_start(void) {
     const unsigned status = hal_motor_status();
+    const uint8_t before = atmega_hold(); /* an off that comes now comes behind it */
     if (!driving && (status & HAL_MOTOR_FAULT) == 0) {
         driving = true;
         carried = 0;
-        OCR1A = 0;
         PORTB |= _BV(ATMEGA_ENABLE_BIT);
         TCCR1A = _BV(COM1A1) | _BV(WGM11);
     }
+    atmega_go_on(before);
     return status;
 }
 
@@ -65,6 +66,7 @@ void hal_motor_off(hal_motor_off_way way) {
         PORTB &= (uint8_t)~_BV(ATMEGA_ENABLE_BIT);
     }
     TCCR1A = _BV(WGM11); /* off the pin, which is low */
+    OCR1A = 0;           /* it counts from the next period on: so does a start's 0 */
     if (way == HAL_MOTOR_BRAKE) {
         PORTB |= _BV(ATMEGA_ENABLE_BIT);
     }

@@ -33,6 +33,9 @@ hal_reset hal_reset_cause(void) {
         }
         const bool faulted = atmega_take_fault(&fault);
         cause = cause_of(flags, faulted);
+        if (cause == HAL_RESET_POWER_ON) {
+            atmega_forget(); /* memory outlives a short time without power */
+        }
     }
     return cause;
 }

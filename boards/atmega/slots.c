@@ -58,17 +58,27 @@ static void keep(uint8_t of, uint16_t count) {
     head++;
 }
 
-/* Which edge a sensor's timer has captured, the sensor's bits of kept_edge. From now on it waits for the other one; turning to it
- * may set the flag (DS 17.6.3). Where the other one has been already it would wait for ever: back again. */
-static inline uint8_t turn(uint8_t sensor, volatile uint8_t *control, volatile uint8_t *flags) {
-    const bool rose = (*control & _BV(ICES4)) != 0;
+/* Whether the edge that a sensor's timer waits for has been already, unseen. */
+static inline bool waits_in_vain(uint8_t sensor, const volatile uint8_t *control,
+                                 const volatile uint8_t *flags) {
+    const bool high = (PINL & _BV(sensor)) != 0;
+    return high == ((*control & _BV(ICES4)) != 0) && (*flags & _BV(ICF4)) == 0;
+}
+
+/* From now on it waits for the other edge; turning to it may set the flag (DS 17.6.3). */
+static inline void wait_for_other(volatile uint8_t *control, volatile uint8_t *flags) {
     *control ^= _BV(ICES4);
     *flags = _BV(ICF4);
-    const bool high = (PINL & _BV(sensor)) != 0;
-    if (high != rose && (*flags & _BV(ICF4)) == 0) {
-        *control ^= _BV(ICES4);
-        *flags = _BV(ICF4);
-        overruns += rose ? 0U : 1U;
+}
+
+/* Which edge a sensor's timer has captured, the sensor's bits of kept_edge. Then the other one is waited for; where that has been
+ * already, this one again. A burst may go on meanwhile: what it leaves is looked at with each edge that is taken. */
+static inline uint8_t turn(uint8_t sensor, volatile uint8_t *control, volatile uint8_t *flags) {
+    const bool rose = (*control & _BV(ICES4)) != 0;
+    wait_for_other(control, flags);
+    for (uint8_t looks = 0; looks < 3U && waits_in_vain(sensor, control, flags); looks++) {
+        overruns += (*control & _BV(ICES4)) != 0 ? 1U : 0U; /* a beginning is lost */
+        wait_for_other(control, flags);
     }
     return (uint8_t)(sensor | (rose ? HAL_SLOT_LEADING : HAL_SLOT_TRAILING) << 1);
 }
@@ -96,8 +106,24 @@ ISR(TIMER4_CAPT_vect) { fetch(true, (TIFR5 & _BV(ICF5)) != 0); }
 
 ISR(TIMER5_CAPT_vect) { fetch((TIFR4 & _BV(ICF4)) != 0, true); }
 
+/* A low pin's next edge is a rise, whatever a burst has left. */
+static void go_on_waiting(void) {
+    if ((TCCR4B & TCCR5B & _BV(ICES4)) != 0) {
+        return;
+    }
+    const uint8_t before = atmega_hold();
+    if ((TCCR4B & _BV(ICES4)) == 0 && waits_in_vain(0, &TCCR4B, &TIFR4)) {
+        wait_for_other(&TCCR4B, &TIFR4);
+    }
+    if ((TCCR5B & _BV(ICES5)) == 0 && waits_in_vain(1, &TCCR5B, &TIFR5)) {
+        wait_for_other(&TCCR5B, &TIFR5);
+    }
+    atmega_go_on(before);
+}
+
 bool hal_slots_take(hal_slot_edge *edge) {
     if (head == tail) {
+        go_on_waiting();
         return false;
     }
     const volatile kept_edge *from = &kept[tail % EDGES_KEPT];

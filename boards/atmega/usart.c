@@ -45,7 +45,7 @@ ISR(USART0_RX_vect) {
         lost = false;
         keep('\0');
     }
-    keep((status & _BV(FE0)) != 0 ? '\0' : byte);
+    keep((status & _BV(FE0)) != 0 && byte != HAL_CONSOLE_STOP ? '\0' : byte);
 }
 
 ISR(USART0_UDRE_vect) {

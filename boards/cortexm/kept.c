@@ -50,4 +50,11 @@ bool board_kept_take_fault(board_fault_record *record) {
     return there;
 }
 
+void board_kept_forget(void) {
+    fault.faults = 0;
+    fault.facts.exception = 0;
+    seal();
+    board_forget();
+}
+
 bool board_kept_anything(void) { return fault_holds() || board_remembers(); }

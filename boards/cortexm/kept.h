@@ -22,6 +22,9 @@ void board_kept_fault(const board_fault_facts *facts, uint32_t ticks);
 /* What there is of the start before: once, when the program starts. The record is then no longer new. False: none. */
 bool board_kept_take_fault(board_fault_record *record);
 
+/* The power came: nothing of this, nor of boards/shared/remembered.c, is known any more. */
+void board_kept_forget(void);
+
 /* Anything at all of before: no power-on. */
 bool board_kept_anything(void);
 

@@ -1,8 +1,8 @@
 /* remembered.c: what the program remembers over a reset (hal/reset.h), in memory that nobody clears: twice, of which the older is
  * written.
  *
- * Memory holds what chance gave it when the power comes, or, after a short time without, what was there: neither counts. What
- * counts has the CRC-32 of its bytes behind it: of chance one in
+ * Memory holds what chance gave it when the power comes, or, after a short time without, what was there: whoever finds that the
+ * power came lets it be forgotten. What counts has the CRC-32 of its bytes behind it: of chance one in
  * 4e9 has. A reset in the middle of writing spoils one of the two, and the other has what was before. */
 #include "remembered.h"
 
@@ -61,12 +61,19 @@ void hal_remember(const void *bytes, unsigned count) {
 
 unsigned hal_recall(void *bytes) {
     uint8_t *to = bytes;
-    const remembered *last = hal_reset_cause() != HAL_RESET_POWER_ON ? newest() : NULL;
+    const remembered *last = newest();
     const unsigned count = last != NULL ? (unsigned)last->count : 0U;
     for (unsigned i = 0; i < count; i++) {
         to[i] = last->bytes[i];
     }
     return count;
+}
+
+void board_forget(void) {
+    for (remembered *slot = slots; slot < slots + 2; slot++) {
+        slot->crc = ~crc_of(slot);
+    }
+    board_kept_settle();
 }
 
 bool board_remembers(void) { return newest() != NULL; }

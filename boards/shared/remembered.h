@@ -23,6 +23,9 @@ static inline void board_kept_settle(void) {
 /* hal_recall() would have something. */
 bool board_remembers(void);
 
+/* The power came: hal_recall() has nothing, until the next hal_remember(). */
+void board_forget(void);
+
 /* hal_reset_mark()'s last. */
 uint32_t board_kept_state(void);
 

@@ -50,15 +50,17 @@ static uint32_t compare_of(float volts) {
 }
 
 unsigned hal_motor_start(void) {
-    const unsigned status = hal_motor_status();
-    if (!driving && (status & HAL_MOTOR_FAULT) == 0) {
+    const uint32_t before = stm32f4_hold(); /* an off that comes now comes behind it */
+    if (!driving) {
+        driving = true; /* where stop keeps MOE from being set it is cut */
         reg_store(TIM_CCR(TIM1, 1U), 0);
-        reg_store(TIM_SR(TIM1), ~TIM_SR_BIF);
-        stm32f4_pin_set(BOARD_PIN_ENABLE, true);
-        reg_store(TIM_BDTR(TIM1), BOARD_MOTOR_BDTR | TIM_BDTR_MOE);
-        driving = true;
+        if (!hal_stop_pressed() && (reg_load(TIM_SR(TIM1)) & TIM_SR_BIF) == 0) {
+            stm32f4_pin_set(BOARD_PIN_ENABLE, true);
+            reg_store(TIM_BDTR(TIM1), BOARD_MOTOR_BDTR | TIM_BDTR_MOE);
+        }
     }
-    return status;
+    stm32f4_go_on(before);
+    return hal_motor_status();
 }
 
 /* Where MOE is off the value counts for nothing, and a start begins at 0. */
@@ -68,6 +70,8 @@ void hal_motor_set_voltage(float volts) { reg_store(TIM_CCR(TIM1, 1U), compare_o
 void hal_motor_off(hal_motor_off_way way) {
     reg_store(TIM_BDTR(TIM1), BOARD_MOTOR_BDTR);
     stm32f4_pin_set(BOARD_PIN_ENABLE, way == HAL_MOTOR_BRAKE);
+    reg_store(TIM_SR(TIM1),
+              ~TIM_SR_BIF); /* from now on a stop keeps it from starting, however short */
     driving = false;
 }
 

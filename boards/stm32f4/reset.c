@@ -33,6 +33,9 @@ void stm32f4_reset_start(void) {
     const bool knows_of_before = board_kept_anything();
     const bool faulted = board_kept_take_fault(&fault);
     cause = cause_of(reg_load(RCC_CSR) & all, knows_of_before, faulted);
+    if (cause == HAL_RESET_POWER_ON) {
+        board_kept_forget(); /* memory outlives a short time without power */
+    }
     reg_set(RCC_CSR, RCC_CSR_RMVF);
 }
 

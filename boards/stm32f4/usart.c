@@ -55,7 +55,7 @@ static void fetch(void) {
             return;
         }
         char byte = (char)(reg_load(USART_DR) & 0xFFU);
-        if ((status & (USART_SR_FE | USART_SR_NF)) != 0) {
+        if ((status & (USART_SR_FE | USART_SR_NF)) != 0 && byte != HAL_CONSOLE_STOP) {
             byte = 0; /* what came was another one: wrong speed, a plug, noise */
         }
         if (lost) {

@@ -60,7 +60,7 @@ typedef struct wh_guard_config {
 typedef struct wh_guard {
     wh_trip trip;
     bool quiet;     /* no pulse for rest_s: latched, since times wrap */
-    bool load_good; /* the last load sample was ok */
+    bool load_good; /* the last load sample was ok, and is not old: latched, since times wrap */
     uint32_t pulses_seen;
     uint32_t pulse_ticks;     /* of the last pulse, true or not; at first, the start */
     uint32_t lost_before;     /* pulses already lost when the motor began to drive, */

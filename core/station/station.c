@@ -319,8 +319,8 @@ static void take_byte(wh_station *station, char byte) {
 }
 
 void wh_station_take(wh_station *station, const char *bytes, unsigned count) {
-    station->silent_steps = count > 0 ? 0 : station->silent_steps;
     for (unsigned i = 0; i < count; i++) {
+        station->silent_steps = bytes[i] != 0 ? 0 : station->silent_steps; /* a zero is noise */
         take_byte(station, bytes[i]);
     }
 }

@@ -5,6 +5,7 @@
 #include "core/cobs.h"
 #include "core/frame.h"
 
+#define RUN_BYTES (5U + 2U * WH_TEL_SAMPLES)
 #define LINE_BYTES_OF(count) (WH_TEL_FIXED_BYTES + (count))
 #define BEFORE 2U /* of a frame on the line: a zero, and what the code puts in front */
 #define TEXT_BYTES 96U
@@ -22,6 +23,7 @@ typedef struct sight {
     unsigned stage;
     uint16_t speed; /* in 1/50 rpm */
     wh_bytes frame; /* that is being put together */
+    unsigned spare; /* room that is to be left for others */
 } sight;
 
 /* --- numbers ------------------------------------------------------------------------------------------ */
@@ -71,7 +73,7 @@ static bool fits(const wh_ring *out, unsigned count) {
 
 /* Whole, or not at all. */
 static bool put_out(const sight *s, wh_tel_channel channel, const char *bytes, unsigned count) {
-    if (fits(s->out, count) && wh_ring_put(s->out, bytes, count)) {
+    if (fits(s->out, count + s->spare) && wh_ring_put(s->out, bytes, count)) {
         return true;
     }
     s->tel->dropped[channel]++;
@@ -221,8 +223,10 @@ static void take_events(sight *s) {
     wh_tel *tel = s->tel;
     const wh_seen *seen = s->seen;
     const unsigned trip = (unsigned)s->rig->guard.trip;
-    if (seen->ended) {
+    if (seen->ended) { /* the first to be left out where a storm fills the line */
+        s->spare = LINE_BYTES_OF(RUN_BYTES);
         send_event(s, WH_TEL_END, seen->ended_sensor, seen->end_ticks);
+        s->spare = 0;
     }
     if (seen->pulsed) {
         send_event(s, WH_TEL_PULSE, seen->sensor, seen->pulse_ticks);

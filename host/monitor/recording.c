@@ -46,7 +46,7 @@ void recording_anew(recording *r) {
     r->timed = false; /* the next ticks are this time's */
     memset(r->channel, 0, sizeof r->channel);
     r->expects = false;
-    r->ends = false; /* it may be another program's */
+    r->ends = r->high[0] = r->high[1] = false; /* it may be another program's */
 }
 
 void recording_asked(recording *r) { r->expects = false; }
@@ -210,12 +210,17 @@ static void take_event(recording *r, const schema_channel *run, const wire_frame
         return;
     }
     if (pulses) {
+        if (r->high[value]) { /* its end was lost on the way */
+            vcd_change(r->vcd, r->pulse[value], time_us - 1, 0.0);
+        }
+        r->high[value] = r->ends;
         vcd_change(r->vcd, r->pulse[value], time_us, 1.0);
         if (!r->ends) {
             vcd_change(r->vcd, r->pulse[value], time_us + PULSE_US, 0.0);
         }
     } else if (frame->payload[0] == EVENT_END && value < 2U) {
         r->ends = true;
+        r->high[value] = false;
         vcd_change(r->vcd, r->pulse[value], time_us, 0.0);
     } else if (frame->payload[0] == EVENT_TRIP) {
         vcd_change(r->vcd, r->trip, time_us, value);

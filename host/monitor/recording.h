@@ -44,7 +44,8 @@ typedef struct recording {
     int64_t expected_us;
     int signal[2 * SCHEMA_FIELDS]; /* of the run's fields; then */
     int pulse[2];
-    bool ends; /* of pulses are told */
+    bool ends;    /* of pulses are told, */
+    bool high[2]; /* and one is still to come */
     int trip;
     double *row; /* what is plotted: rows of `columns`, thinned out where they are too many */
     int64_t rows;

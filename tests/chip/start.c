@@ -78,6 +78,7 @@ static double chip_volts(unsigned input, double s) {
 static bool anything_kept;
 void chip_memory_keeps(bool anything) { anything_kept = anything; }
 bool board_kept_anything(void) { return anything_kept; }
+void board_kept_forget(void) { anything_kept = false; }
 bool board_kept_take_fault(board_fault_record *record) {
     (void)record;
     return false;

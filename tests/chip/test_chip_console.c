@@ -108,7 +108,7 @@ static void test_out_is_full(void) {
 }
 
 /* What comes, however it is spaced: in order, none lost while it is read each control step; in the place of what the hardware says
- * is invalid (a framing error, noise) a zero. */
+ * is invalid (a framing error, noise) a zero, but for Escape. */
 static void test_in(void) {
     static uint8_t mine[4096];
     scattered_state = chip_seed(5);
@@ -119,11 +119,11 @@ static void test_in(void) {
     const uint64_t byte_units = chip_serial_byte_units();
     for (unsigned i = 0; i < 3000; i++) {
         at += byte_units + (scattered() % 4U == 0 ? scattered() % (5U * byte_units) : 0);
-        mine[made] = (uint8_t)(1U + scattered() % 255U);
+        mine[made] = scattered() % 8U == 0 ? 0x1B : (uint8_t)(1U + scattered() % 255U);
         const uint8_t invalid =
             scattered() % 50U == 0 ? (uint8_t)(2U + 2U * (scattered() % 3U)) : 0;
         chip_serial_comes_as(at, mine[made], invalid);
-        mine[made] = invalid != 0 ? 0 : mine[made];
+        mine[made] = invalid != 0 && mine[made] != 0x1B ? 0 : mine[made];
         made++;
     }
     while (chip_now() < at + CHIP_UNITS_PER_S / 100U) {

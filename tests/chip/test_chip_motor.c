@@ -222,7 +222,7 @@ static void test_break(void) {
     }
 }
 
-/* Ordered while it is pressed: it does not come by itself when it is let go, but by another start. */
+/* Ordered while it is pressed: it does not come by itself when it is let go, but by another start, behind an off. */
 static void test_ordered_while_pressed(void) {
     chip_on(7);
     chip_pass_us(10000);
@@ -230,16 +230,42 @@ static void test_ordered_while_pressed(void) {
     set_to(6.0F);
     is_low_for(PERIOD_UNITS);
     run(look);
-    TEST_ASSERT_EQUAL(HAL_MOTOR_FAULT, status);
+    TEST_ASSERT_EQUAL(HAL_MOTOR_CUT | HAL_MOTOR_FAULT, status);
     TEST_ASSERT_FALSE(enabled());
     chip_pin_drive('A', 6, CHIP_HIGH);
     is_low_for(PERIOD_UNITS);
-    run(set_alone);
+    set_to(6.0F);
     is_low_for(PERIOD_UNITS);
     run(look);
-    TEST_ASSERT_EQUAL(0, status);
+    TEST_ASSERT_EQUAL(HAL_MOTOR_CUT, status);
+    way = HAL_MOTOR_COAST;
+    run(off);
     set_to(supply_V);
     TEST_ASSERT_EQUAL(TICKS, high_ticks());
+}
+
+/* Pressed for less than a step since the last off, which comes each step while nothing drives: a start is none. */
+static void test_pressed_before_a_start(void) {
+    scattered_state = chip_seed(14);
+    chip_on(14);
+    chip_pass_us(10000);
+    run(look);
+    for (unsigned i = 0; i < 40; i++) {
+        const bool presses = i % 2U == 0;
+        way = HAL_MOTOR_COAST;
+        run(off);
+        chip_pass(scattered() % CHIP_UNITS_PER_US);
+        if (presses) {
+            chip_pin_drive('A', 6, CHIP_LOW);
+            chip_pass(scattered() % (1000U * CHIP_UNITS_PER_US) + CHIP_UNITS_PER_US);
+            chip_pin_drive('A', 6, CHIP_HIGH);
+            chip_pass(scattered() % CHIP_UNITS_PER_US);
+        }
+        set_to(supply_V);
+        run(look);
+        TEST_ASSERT_EQUAL(presses ? HAL_MOTOR_CUT : 0, status);
+        TEST_ASSERT_EQUAL(presses ? 0 : TICKS, high_ticks());
+    }
 }
 
 /* A voltage drives nothing that is not started: before the first start, and after each off. */
@@ -338,6 +364,7 @@ void suite_chip_motor(void) {
     RUN_TEST(test_fault_from_anywhere);
     RUN_TEST(test_break);
     RUN_TEST(test_ordered_while_pressed);
+    RUN_TEST(test_pressed_before_a_start);
     RUN_TEST(test_voltage_alone);
     RUN_TEST(test_off_from_an_interrupt);
     RUN_TEST(test_no_supply);

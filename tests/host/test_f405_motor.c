@@ -115,18 +115,19 @@ static void test_orders_and_breaks(void) {
     start();
     bool driving = false;
     bool cut = false;
+    bool seen = false; /* it was pressed since the last off */
     for (unsigned i = 0; i < 20000; i++) {
         const unsigned what = (unsigned)(scattered() >> 61);
         const unsigned before = fake.stores = 0;
         double wanted = -1.0;
         if (what < 2) {
             const unsigned says = hal_motor_start();
-            TEST_ASSERT_EQUAL((pressed ? HAL_MOTOR_FAULT : 0) |
-                                  (driving && cut ? HAL_MOTOR_CUT : 0) |
+            cut = cut || (!driving && seen);
+            wanted = driving ? output() : 0.0;
+            driving = true;
+            TEST_ASSERT_EQUAL((pressed ? HAL_MOTOR_FAULT : 0) | (cut ? HAL_MOTOR_CUT : 0) |
                                   (supply_V > 0.0f ? 0 : HAL_MOTOR_NO_SUPPLY),
                               says);
-            wanted = driving ? output() : 0.0;
-            driving = driving || !pressed;
         } else if (what < 4) {
             const double part = uniform() * 1.4 - 0.2;
             const float volts = what == 3 && part < 0.0 ? NAN : (float)(part * 24.0);
@@ -143,16 +144,18 @@ static void test_orders_and_breaks(void) {
                                      "the output is the first to be off");
             driving = false;
             cut = false;
+            seen = pressed;
             wanted = 0.0;
             TEST_ASSERT_TRUE(enabled() == (way == HAL_MOTOR_BRAKE));
         } else {
             pressed = !pressed && what == 6;
             see_break();
+            seen = seen || pressed;
             cut = cut || (driving && pressed);
             wanted = cut || !driving ? 0.0 : output();
         }
         TEST_ASSERT_DOUBLE_WITHIN(1.0 / 8400.0, wanted, output());
-        TEST_ASSERT_TRUE(!driving || enabled());
+        TEST_ASSERT_TRUE(!driving || cut || enabled());
         TEST_ASSERT_TRUE(((hal_motor_status() & HAL_MOTOR_CUT) != 0) == (driving && cut));
         TEST_ASSERT_TRUE(((hal_motor_status() & HAL_MOTOR_FAULT) != 0) == pressed);
     }
