@@ -126,8 +126,12 @@ bool all_resets(unsigned times) {
             mega_step();
         }
         mega_reset(rows[row].flag);
-        if (mega_motor_now().enabled ||
-            !begins_anew(rows[row].cause, tripped && rows[row].flag != POWER_ON)) {
+        const bool stays = tripped && rows[row].flag != POWER_ON;
+        if (mega_motor_now().enabled || !begins_anew(rows[row].cause, stays)) {
+            return false;
+        }
+        mega_reset(EXTERNAL); /* what was forgotten does not come back */
+        if (!begins_anew("# reset: other", stays)) {
             return false;
         }
     }
