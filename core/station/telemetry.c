@@ -6,6 +6,7 @@
 #include "core/frame.h"
 
 #define RUN_BYTES (5U + 2U * WH_TEL_SAMPLES)
+#define EVENT_BYTES 2U
 #define LINE_BYTES_OF(count) (WH_TEL_FIXED_BYTES + (count))
 #define BEFORE 2U /* of a frame on the line: a zero, and what the code puts in front */
 #define TEXT_BYTES 96U
@@ -224,7 +225,8 @@ static void take_events(sight *s) {
     const wh_seen *seen = s->seen;
     const unsigned trip = (unsigned)s->rig->guard.trip;
     if (seen->ended) { /* the first to be left out where a storm fills the line */
-        s->spare = LINE_BYTES_OF(RUN_BYTES);
+        s->spare = LINE_BYTES_OF(RUN_BYTES) +
+                   2U * LINE_BYTES_OF(EVENT_BYTES); /* of what comes in this step */
         send_event(s, WH_TEL_END, seen->ended_sensor, seen->end_ticks);
         s->spare = 0;
     }

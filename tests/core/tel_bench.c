@@ -40,6 +40,9 @@ static void find_sample(uint32_t ticks, int32_t value) {
     bench.samples.taken++;
 }
 
+/* Ends of pulses are in one row with their beginnings; their value is the sensor and */
+#define OF_AN_END 2
+
 static void find_pulse(uint32_t ticks, int32_t sensor) {
     while (bench.pulses.taken < bench.pulses.put &&
            bench.pulses.ticks[bench.pulses.taken % TRUTHS] != ticks) {
@@ -74,8 +77,9 @@ void tel_hear_frame(const wire_frame *frame) {
         bench.got.loads += count;
     } else if (frame->channel == WH_TEL_EVENT) {
         TEST_ASSERT_EQUAL_UINT(2, frame->count);
-        if (frame->payload[0] == WH_TEL_PULSE) {
-            find_pulse(frame->ticks, frame->payload[1]);
+        if (frame->payload[0] == WH_TEL_PULSE || frame->payload[0] == WH_TEL_END) {
+            find_pulse(frame->ticks,
+                       frame->payload[1] + (frame->payload[0] == WH_TEL_END ? OF_AN_END : 0));
         }
     }
 }
@@ -124,6 +128,12 @@ static void draw_sample(bool evenly) {
     bench.samples.put++;
 }
 
+static void put_pulse(uint32_t ticks, int32_t value) {
+    bench.pulses.ticks[bench.pulses.put % TRUTHS] = ticks;
+    bench.pulses.value[bench.pulses.put % TRUTHS] = value;
+    bench.pulses.put += bench.tel.every > 0 && bench.tel.format == WH_TEL_FRAMES ? 1U : 0U;
+}
+
 void tel_draw_seen(bool evenly) {
     bench.seen = (wh_seen){.inputs = bench.even.inputs};
     bench.cell_ticks += EVEN_STEP_TICKS;
@@ -134,13 +144,17 @@ void tel_draw_seen(bool evenly) {
         bench.cell_ticks += draw_one_in(&bench.seed, 2) ? EVEN_STEP_TICKS : 777U;
         draw_sample(evenly);
     }
+    bench.seen.ended = draw_one_in(&bench.seed, 45);
+    if (bench.seen.ended) {
+        bench.seen.ended_sensor = draw_one_of(&bench.seed, 2);
+        bench.seen.end_ticks = bench.even.inputs.now_ticks - 1999U - draw_one_of(&bench.seed, 1999);
+        put_pulse(bench.seen.end_ticks, OF_AN_END + (int32_t)bench.seen.ended_sensor);
+    }
     bench.seen.pulsed = draw_one_in(&bench.seed, 45);
     if (bench.seen.pulsed) {
         bench.seen.sensor = draw_one_of(&bench.seed, 2);
         bench.seen.pulse_ticks = bench.even.inputs.now_ticks - draw_one_of(&bench.seed, 1999);
-        bench.pulses.ticks[bench.pulses.put % TRUTHS] = bench.seen.pulse_ticks;
-        bench.pulses.value[bench.pulses.put % TRUTHS] = (int32_t)bench.seen.sensor;
-        bench.pulses.put += bench.tel.every > 0 && bench.tel.format == WH_TEL_FRAMES ? 1U : 0U;
+        put_pulse(bench.seen.pulse_ticks, (int32_t)bench.seen.sensor);
     }
 }
 

@@ -162,6 +162,11 @@ static void test_what_arm_asks_for(void) {
     even.fails = (even_failure){.in = WH_PHASE_NONE, .lose_samples = EVEN_ALWAYS};
     even_steps(&even, 11);
     check_refused(arm(), WH_REFUSED_LOAD_CELL, WH_LIFE_IDLE);
+    for (unsigned minute = 0; minute < 160U;
+         minute++) { /* silent for more than two wraps of the clock */
+        even.inputs.now_ticks += 60U * WH_RIG_TICKS_PER_S;
+        check_refused(arm(), WH_REFUSED_LOAD_CELL, WH_LIFE_IDLE);
+    }
     for (wh_load_status status = WH_LOAD_SATURATED; status <= WH_LOAD_DISCONNECTED; status++) {
         even = stood;
         even.fails = (even_failure){.in = WH_PHASE_NONE, .status = status};

@@ -63,6 +63,9 @@ static void test_a_host_that_is_gone(void) {
         type("\n");
         uint32_t silent = 0;
         while (even.rig.state == WH_LIFE_RUNNING) {
+            if (draw_one_in(&seed, 20)) {
+                wh_station_take(&station, "", 1); /* noise: a byte that came broken */
+            }
             period();
             silent++;
             TEST_ASSERT_TRUE(silent < 60U * STEPS_PER_S);
@@ -78,6 +81,9 @@ static void test_a_host_that_is_gone(void) {
         TEST_ASSERT_TRUE(stopped || even_is_done(&even));
         ends += stopped ? 1U : 0U;
         TEST_ASSERT_EQUAL_UINT32(limit_s > 0 ? 1 : 0, station.host_losses);
+        type("\n"); /* behind the noise */
+        period();
+        wh_station_drop(&station, WH_STATION_OUT_BYTES);
         obey("arm"); /* and is heard again */
     }
     TEST_ASSERT_TRUE(ends >= 10U);

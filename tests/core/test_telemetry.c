@@ -141,6 +141,24 @@ static void test_losses_are_counted(void) {
     }
 }
 
+/* A pulse and an end in each step, more than a line of 115,200 baud takes: ends give way, loads do not. */
+static void test_ends_give_way(void) {
+    bench.seed = 47;
+    tel_begin();
+    bench.got.blind = true;
+    tel_turn_on("tel rate 500");
+    for (unsigned i = 0; i < 5000U; i++) {
+        even_step(&bench.even);
+        tel_draw_seen(true);
+        bench.seen.pulsed = bench.seen.ended = true;
+        wh_station_see(&bench.station, &bench.even.config, &bench.even.rig, &bench.seen);
+        wh_station_step(&bench.station, &bench.even.rig);
+        tel_hear(23);
+    }
+    TEST_ASSERT_EQUAL_UINT(0, bench.tel.dropped[WH_TEL_RUN]);
+    TEST_ASSERT_TRUE(bench.tel.dropped[WH_TEL_EVENT] > 1000U);
+}
+
 /* Bytes that the line breaks, loses or invents: each frame is as it was sent or is missed, and text is whole again behind
  * the next zero. */
 static void test_a_bad_line(void) {
@@ -262,6 +280,7 @@ void suite_telemetry(void) {
     RUN_TEST(test_off_at_first_and_after);
     RUN_TEST(test_all_that_was_seen);
     RUN_TEST(test_losses_are_counted);
+    RUN_TEST(test_ends_give_way);
     RUN_TEST(test_a_bad_line);
     RUN_TEST(test_control_is_undisturbed);
     RUN_TEST(test_states_are_told);
