@@ -248,16 +248,14 @@ static void watch(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs 
                         inputs->now_ticks);
     }
     const bool needed = rig->state == WH_LIFE_ARMED || rig->state == WH_LIFE_RUNNING || drives;
-    const bool comes = wh_guard_load_comes(&config->guard, guard, inputs->now_ticks);
-    guard->load_good = guard->load_good && comes; /* until one comes: stamps wrap */
-    if (!needed) {
-        return;
-    }
-    if (!wh_guard_supply(&config->guard, inputs->supply_V)) {
+    if (needed && !wh_guard_supply(&config->guard, inputs->supply_V)) {
         wh_guard_trip(guard, WH_TRIP_SUPPLY);
     }
-    if (!comes) {
-        wh_guard_trip(guard, WH_TRIP_LOAD_CELL);
+    if (!wh_guard_load_comes(&config->guard, guard, inputs->now_ticks)) {
+        guard->load_good = false; /* until one comes: stamps wrap */
+        if (needed) {
+            wh_guard_trip(guard, WH_TRIP_LOAD_CELL);
+        }
     }
 }
 
