@@ -247,7 +247,9 @@ static void capture_step(sight *s) {
     int16_t load = WH_TEL_NO_LOAD;
     if (seen->samples > 0) {
         const wh_seen_sample *last = &seen->sample[seen->samples - 1U];
-        load = load_of(&s->config->measure.cell, last->raw, last->status);
+        const wh_cell_config *cell = &s->config->measure.cell;
+        load = load_of(cell, last->raw,
+                       wh_cell_load(cell, last->ticks, last->raw, last->status).status);
     }
     const unsigned pulse = seen->pulsed ? 1U << (seen->sensor & 1U) : 0U;
     const unsigned tripped = s->rig->guard.trip != WH_TRIP_NONE ? 8U : 0U;
