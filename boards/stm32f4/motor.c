@@ -70,8 +70,10 @@ void hal_motor_set_voltage(float volts) { reg_store(TIM_CCR(TIM1, 1U), compare_o
 void hal_motor_off(hal_motor_off_way way) {
     reg_store(TIM_BDTR(TIM1), BOARD_MOTOR_BDTR);
     stm32f4_pin_set(BOARD_PIN_ENABLE, way == HAL_MOTOR_BRAKE);
-    reg_store(TIM_SR(TIM1),
-              ~TIM_SR_BIF); /* from now on a stop keeps it from starting, however short */
+    if ((reg_load(TIM_SR(TIM1)) & TIM_SR_BIF) !=
+        0) { /* from now on a stop keeps it from starting */
+        reg_store(TIM_SR(TIM1), ~TIM_SR_BIF);
+    }
     driving = false;
 }
 
