@@ -66,12 +66,12 @@ unsigned hal_motor_start(void) {
 /* Where MOE is off the value counts for nothing, and a start begins at 0. */
 void hal_motor_set_voltage(float volts) { reg_store(TIM_CCR(TIM1, 1U), compare_of(volts)); }
 
-/* The output first: that store is also a fault's first (BOARD_SAFE_ROWS). */
+/* The output first: that store is also a fault's first (BOARD_SAFE_ROWS). From now on a stop, however short, keeps it from
+ * starting. */
 void hal_motor_off(hal_motor_off_way way) {
     reg_store(TIM_BDTR(TIM1), BOARD_MOTOR_BDTR);
     stm32f4_pin_set(BOARD_PIN_ENABLE, way == HAL_MOTOR_BRAKE);
-    if ((reg_load(TIM_SR(TIM1)) & TIM_SR_BIF) !=
-        0) { /* from now on a stop keeps it from starting */
+    if ((reg_load(TIM_SR(TIM1)) & TIM_SR_BIF) != 0) {
         reg_store(TIM_SR(TIM1), ~TIM_SR_BIF);
     }
     driving = false;
