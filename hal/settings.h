@@ -19,9 +19,9 @@ extern "C" {
 
 typedef enum hal_settings_result {
     HAL_SETTINGS_DONE,
-    HAL_SETTINGS_OUTSIDE, /* there is no such slot, or it has no such bytes: nothing was begun */
-    HAL_SETTINGS_BUSY,    /* the memory does not come to rest: nothing was begun */
-    HAL_SETTINGS_FAILED   /* the memory says so: protected, worn out, not there */
+    HAL_SETTINGS_OUTSIDE, /* there is no such slot, or it has no such bytes, or none begins there: nothing was begun */
+    HAL_SETTINGS_BUSY,  /* the memory does not come to rest: nothing was begun */
+    HAL_SETTINGS_FAILED /* the memory says so: protected, worn out, not there */
 } hal_settings_result;
 
 /* slot 0 or 1; at + count <= HAL_SETTINGS_BYTES. A supply that fails in one of these leaves anything in this slot, and nothing

@@ -43,6 +43,7 @@ unsigned hal_motor_start(void) {
     if (!driving && (status & HAL_MOTOR_FAULT) == 0) {
         driving = true;
         carried = 0;
+        OCR1A = 0; /* again: an off may have come in the middle of a voltage */
         PORTB |= _BV(ATMEGA_ENABLE_BIT);
         TCCR1A = _BV(COM1A1) | _BV(WGM11);
     }
@@ -50,8 +51,10 @@ unsigned hal_motor_start(void) {
     return status;
 }
 
-/* While the pin is not the timer's the value counts for nothing, and a start begins at 0. */
 void hal_motor_set_voltage(float volts) {
+    if (!driving) {
+        return; /* a start begins at 0 */
+    }
     const uint16_t parts = parts_of(volts);
     const uint16_t owed = parts + carried;
     uint16_t steps = owed / PARTS;

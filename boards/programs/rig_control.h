@@ -75,7 +75,7 @@ static void look(void) {
             seen.pulse_ticks = edge.ticks;
         } else {
             seen.ended = true;
-            seen.ended_sensor = edge.sensor;
+            seen.end_sensor = edge.sensor;
             seen.end_ticks = edge.ticks;
         }
     }

@@ -9,7 +9,6 @@
 #define SECTOR_BYTES 0x4000U
 #define FIRST_ADDRESS 0x08004000U
 #define SLOTS 2U
-#define NO_COUNT (HAL_SETTINGS_BYTES + 1U) /* that no slot has */
 
 static bool within(unsigned slot, unsigned at, unsigned count) {
     return slot < SLOTS && at <= HAL_SETTINGS_BYTES && count <= HAL_SETTINGS_BYTES - at;
@@ -65,7 +64,7 @@ hal_settings_result hal_settings_erase(unsigned slot) {
 /* Words; the bytes behind the last stay ones. */
 hal_settings_result hal_settings_write(unsigned slot, unsigned at, const uint8_t *bytes,
                                        unsigned count) {
-    hal_settings_result result = opened(slot, at, at % 4U == 0 ? count : NO_COUNT);
+    hal_settings_result result = at % 4U == 0 ? opened(slot, at, count) : HAL_SETTINGS_OUTSIDE;
     if (result != HAL_SETTINGS_DONE) {
         return result;
     }

@@ -22,7 +22,7 @@ typedef struct wh_seen {
     unsigned sensor;
     uint32_t pulse_ticks;
     bool ended; /* so has a pulse's end: */
-    unsigned ended_sensor;
+    unsigned end_sensor;
     uint32_t end_ticks;
     unsigned samples; /* so many of: */
     wh_seen_sample sample[WH_SEEN_SAMPLES];

@@ -227,7 +227,7 @@ static void take_events(sight *s) {
     if (seen->ended) { /* the first to be left out where a storm fills the line */
         s->spare = LINE_BYTES_OF(RUN_BYTES) +
                    2U * LINE_BYTES_OF(EVENT_BYTES); /* of what comes in this step */
-        send_event(s, WH_TEL_END, seen->ended_sensor, seen->end_ticks);
+        send_event(s, WH_TEL_END, seen->end_sensor, seen->end_ticks);
         s->spare = 0;
     }
     if (seen->pulsed) {

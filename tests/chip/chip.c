@@ -309,6 +309,8 @@ uint32_t reg_hold(void) {
     return before;
 }
 
+bool chip_is_masked(void) { return chip.masked; }
+
 void reg_go_on(uint32_t before) {
     chip.masked = (before & 1U) != 0;
     chip.quiet_until = 0;

@@ -67,6 +67,8 @@ void chip_power_stays(void);
 unsigned chip_stores(void);
 /* Told behind each store; NULL: nobody. */
 extern void (*chip_stored)(void);
+/* The program holds interrupts off. */
+bool chip_is_masked(void);
 
 /* Time. */
 uint64_t chip_now(void);

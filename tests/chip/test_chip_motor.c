@@ -22,6 +22,8 @@ static void set(void) {
 }
 static void set_alone(void) { hal_motor_set_voltage(volts); }
 static void off(void) { hal_motor_off(way); }
+static void start(void) { status = hal_motor_start(); }
+static void draw_way(void) { way = (scattered() & 1U) != 0 ? HAL_MOTOR_COAST : HAL_MOTOR_BRAKE; }
 static void look(void) {
     status = hal_motor_status();
     supply_V = hal_motor_supply_V();
@@ -145,11 +147,11 @@ static void test_off_at_once(void) {
     for (unsigned i = 0; i < 60; i++) {
         set_to((float)(scattered() % 13U));
         if (i % 4 == 3) {
-            way = (scattered() & 1U) != 0 ? HAL_MOTOR_COAST : HAL_MOTOR_BRAKE;
+            draw_way();
             run(off); /* it is off already */
         }
         chip_pass(scattered() % (3U * PERIOD_UNITS));
-        way = (scattered() & 1U) != 0 ? HAL_MOTOR_COAST : HAL_MOTOR_BRAKE;
+        draw_way();
         stores = 0;
         chip_stored = first_store;
         run(off);
@@ -281,17 +283,15 @@ static void test_voltage_alone(void) {
         TEST_ASSERT_EQUAL(0, status);
         set_to(1.0F + (float)(scattered() % 12U));
         TEST_ASSERT_TRUE(high_ticks() > 0);
-        way = (scattered() & 1U) != 0 ? HAL_MOTOR_COAST : HAL_MOTOR_BRAKE;
+        draw_way();
         run(off);
     }
 }
 
-/* Off by an interrupt, after any store of a control step that sets a voltage: it stays off, whatever voltages follow. */
-static unsigned stores_left;
+/* Off by an interrupt, behind the store by which a voltage is set: it stays off, whatever voltages follow. */
 static void off_behind(void) {
-    if (stores_left > 0 && --stores_left == 0) {
-        hal_motor_off(way);
-    }
+    chip_stored = NULL;
+    hal_motor_off(way);
 }
 static void test_off_from_an_interrupt(void) {
     scattered_state = chip_seed(13);
@@ -300,18 +300,31 @@ static void test_off_from_an_interrupt(void) {
     for (unsigned i = 0; i < 60; i++) {
         set_to(1.0F + (float)(scattered() % 12U));
         chip_pass(scattered() % PERIOD_UNITS);
-        way = (scattered() & 1U) != 0 ? HAL_MOTOR_COAST : HAL_MOTOR_BRAKE;
+        draw_way();
         volts = 1.0F + (float)(scattered() % 12U);
-        stores_left = 1;
         chip_stored = off_behind;
         run(set_alone);
-        chip_stored = NULL;
-        TEST_ASSERT_EQUAL(0, stores_left);
+        TEST_ASSERT_NULL(chip_stored);
         for (unsigned again = 0; again < 3; again++) {
             is_low_for(PERIOD_UNITS);
             TEST_ASSERT_EQUAL(way == HAL_MOTOR_BRAKE, enabled());
             run(set_alone);
         }
+    }
+}
+
+/* A start is whole: an interrupt that switches off comes before its first store, or behind its last. */
+static void is_held(void) { TEST_ASSERT_TRUE_MESSAGE(chip_is_masked(), "an off may come between"); }
+static void test_start_is_whole(void) {
+    chip_on(15);
+    chip_pass_us(10000);
+    for (unsigned i = 0; i < 10; i++) {
+        chip_stored = is_held;
+        run(start);
+        chip_stored = NULL;
+        TEST_ASSERT_FALSE(chip_is_masked());
+        TEST_ASSERT_EQUAL(0, status);
+        run(off);
     }
 }
 
@@ -367,6 +380,7 @@ void suite_chip_motor(void) {
     RUN_TEST(test_pressed_before_a_start);
     RUN_TEST(test_voltage_alone);
     RUN_TEST(test_off_from_an_interrupt);
+    RUN_TEST(test_start_is_whole);
     RUN_TEST(test_no_supply);
     RUN_TEST(test_debugger);
     RUN_TEST(test_reset_at_any_instant);

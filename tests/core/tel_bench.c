@@ -112,6 +112,9 @@ static void draw_sample(bool evenly) {
     const unsigned shift = wh_tel_shift(cell);
     sample->ticks = bench.cell_ticks;
     sample->raw = (int32_t)draw_whole(&bench.seed, (int)-cell->raw_max, (int)cell->raw_max);
+    if (draw_one_in(&bench.seed, 40)) { /* full scale, which is none, though nobody says so */
+        sample->raw = draw_one_in(&bench.seed, 2) ? cell->raw_max : -cell->raw_max;
+    }
     sample->status = WH_LOAD_OK;
     if (!evenly && draw_one_in(&bench.seed, 30)) {
         sample->status = (wh_load_status)draw_one_of(&bench.seed, WH_LOAD_STATUSES);
@@ -146,9 +149,9 @@ void tel_draw_seen(bool evenly) {
     }
     bench.seen.ended = draw_one_in(&bench.seed, 45);
     if (bench.seen.ended) {
-        bench.seen.ended_sensor = draw_one_of(&bench.seed, 2);
+        bench.seen.end_sensor = draw_one_of(&bench.seed, 2);
         bench.seen.end_ticks = bench.even.inputs.now_ticks - 1999U - draw_one_of(&bench.seed, 1999);
-        put_pulse(bench.seen.end_ticks, OF_AN_END + (int32_t)bench.seen.ended_sensor);
+        put_pulse(bench.seen.end_ticks, OF_AN_END + (int32_t)bench.seen.end_sensor);
     }
     bench.seen.pulsed = draw_one_in(&bench.seed, 45);
     if (bench.seen.pulsed) {
@@ -158,12 +161,16 @@ void tel_draw_seen(bool evenly) {
     }
 }
 
+void tel_step(void) {
+    wh_station_see(&bench.station, &bench.even.config, &bench.even.rig, &bench.seen);
+    wh_station_step(&bench.station, &bench.even.rig);
+}
+
 /* One control period of the firmware; the line takes so many bytes of it. */
 void tel_period(bool evenly, unsigned bytes) {
     even_step(&bench.even);
     tel_draw_seen(evenly);
-    wh_station_see(&bench.station, &bench.even.config, &bench.even.rig, &bench.seen);
-    wh_station_step(&bench.station, &bench.even.rig);
+    tel_step();
     tel_hear(bytes);
 }
 

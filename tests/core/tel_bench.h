@@ -61,6 +61,9 @@ void tel_hear_frame(const wire_frame *frame);
 /* What this step sees: a sample a step, evenly; or now and then two, none, one that is late or none at all. And pulses. */
 void tel_draw_seen(bool evenly);
 
+/* The station with what this step has seen. */
+void tel_step(void);
+
 /* One control period of the firmware, of which the line takes so many bytes. */
 void tel_period(bool evenly, unsigned bytes);
 

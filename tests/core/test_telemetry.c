@@ -151,8 +151,7 @@ static void test_ends_give_way(void) {
         even_step(&bench.even);
         tel_draw_seen(true);
         bench.seen.pulsed = bench.seen.ended = true;
-        wh_station_see(&bench.station, &bench.even.config, &bench.even.rig, &bench.seen);
-        wh_station_step(&bench.station, &bench.even.rig);
+        tel_step();
         tel_hear(23);
     }
     TEST_ASSERT_EQUAL_UINT(0, bench.tel.dropped[WH_TEL_RUN]);
@@ -170,8 +169,7 @@ static void test_a_bad_line(void) {
         char bytes[WH_STATION_OUT_BYTES];
         even_step(&bench.even);
         tel_draw_seen(true);
-        wh_station_see(&bench.station, &bench.even.config, &bench.even.rig, &bench.seen);
-        wh_station_step(&bench.station, &bench.even.rig);
+        tel_step();
         const unsigned count = wh_station_peek(&bench.station, bytes, sizeof bytes);
         wh_station_drop(&bench.station, count);
         for (unsigned k = 0; k < count; k++) {
@@ -241,8 +239,7 @@ static void test_states_are_told(void) {
         const unsigned before = wh_rig_stage(&bench.even.rig);
         even_step(&bench.even);
         tel_draw_seen(true);
-        wh_station_see(&bench.station, &bench.even.config, &bench.even.rig, &bench.seen);
-        wh_station_step(&bench.station, &bench.even.rig);
+        tel_step();
         const unsigned count = wh_station_peek(&bench.station, bytes, sizeof bytes);
         wh_station_drop(&bench.station, count);
         bool changed = false;
