@@ -126,7 +126,7 @@ static wh_station_error schema(const wh_tel *tel, const wh_cell_config *cell, co
     case WH_TEL_EVENT:
         wh_answer(answer,
                   WH_WORDS(" channel=1 name=event period_ticks=0 once=what:u1:1,value:u1:1 each=")
-                      WH_WORDS(": what 0 pulse of sensor, 1 state, 2 trip, 3 its end"),
+                      WH_WORDS(": what 0 pulse of sensor, 1 state, 2 trip, 3 end of pulse"),
                   NULL);
         break;
     case WH_TEL_RING: schema_ring(cell, answer); break;
