@@ -16,18 +16,30 @@ _Static_assert(WHOLE *PARTS == ATMEGA_WHOLE, "all of the supply");
 static volatile bool driving; /* also an interrupt may switch it off */
 static uint16_t carried;      /* parts of a step that are owed */
 
+/* Timer 1 with OC1A low, duty 0 and disconnected from its pin. OC1A keeps its level from the last disconnection, and only a strobe
+ * in normal mode sets it (DS 17.7.1, 17.8). The pin is an input until then. Normal mode also takes OCR1A at once. ICR1
+ * follows the mode: it can be written only where it is the TOP (DS 17.6). */
+static void set_up_timer(void) {
+    DDRB &= (uint8_t)~_BV(ATMEGA_PWM_BIT);
+    TCCR1B = 0;
+    TCCR1A = _BV(COM1A1);
+    TCCR1C = _BV(FOC1A);
+    OCR1A = 0;
+    TCCR1A = _BV(WGM11);
+    TCCR1B = _BV(WGM13);
+    ICR1 = WHOLE;
+    TCCR1B = _BV(WGM13) | _BV(CS10);
+    DDRB |= _BV(ATMEGA_PWM_BIT);
+}
+
 /* Off from the first store on; the pins' level behind the timer is low. */
 void atmega_motor_start(void) {
     PORTB &= (uint8_t)~_BV(ATMEGA_ENABLE_BIT);
     PORTB &= (uint8_t)~_BV(ATMEGA_PWM_BIT);
-    TCCR1A = 0;
     DDRB |= _BV(ATMEGA_ENABLE_BIT);
-    DDRB |= _BV(ATMEGA_PWM_BIT);
+    set_up_timer();
     DDRB &= (uint8_t)~_BV(ATMEGA_STOP_BIT);
     PORTB |= _BV(ATMEGA_STOP_BIT); /* pulled up: a broken wire is pressed (stop.c) */
-    ICR1 = WHOLE;
-    OCR1A = 0;
-    TCCR1B = _BV(WGM13) | _BV(CS10);
     driving = false;
 }
 
@@ -43,7 +55,7 @@ unsigned hal_motor_start(void) {
     if (!driving && (status & HAL_MOTOR_FAULT) == 0) {
         driving = true;
         carried = 0;
-        OCR1A = 0; /* again: an off may have come in the middle of a voltage */
+        set_up_timer(); /* again: an off may have come in the middle of a voltage */
         PORTB |= _BV(ATMEGA_ENABLE_BIT);
         TCCR1A = _BV(COM1A1) | _BV(WGM11);
     }

@@ -18,7 +18,7 @@ static volatile bool
     driving; /* as far as nothing has cut it; also an interrupt may switch it off */
 
 void stm32f4_motor_start(void) {
-    stm32f4_pin_is(BOARD_PIN_ENABLE, PIN_OUTPUT); /* low, as a reset leaves it */
+    stm32f4_pin_is(BOARD_PIN_ENABLE, PIN_OUTPUT); /* low */
     stm32f4_clock_on(RCC_PART(RCC_APB2ENR, RCC_APB2ENR_TIM1));
     reg_set(DBGMCU_APB2_FZ, DBGMCU_APB2_FZ_TIM1);
     whole = stm32f4_clocks_now()->timer1_Hz / PWM_Hz;

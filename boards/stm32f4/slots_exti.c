@@ -12,7 +12,7 @@
 #define LINES 3U
 
 void stm32f4_slots_start(void) {
-    reg_set(RCC_APB2ENR, RCC_APB2ENR_SYSCFG);
+    stm32f4_clock_on(RCC_PART(RCC_APB2ENR, RCC_APB2ENR_SYSCFG));
     stm32f4_pin_is(PIN('A', 0), PIN_INPUT | PULL_DOWN);
     stm32f4_pin_is(PIN('A', 1), PIN_INPUT | PULL_DOWN);
     reg_change(SYSCFG_EXTICR(0), 0xFFU, 0); /* port A */

@@ -10,6 +10,7 @@ atmega=build/tools/atmega
 seed=${4:-1}
 failed=0
 $atmega boot $image || failed=1
+$atmega orders $image 200 "$seed" || failed=1
 case ${1:-330} in
 more)
     for rpm in 170 230 330 360; do

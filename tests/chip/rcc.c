@@ -19,6 +19,7 @@ enum {
 #define HSIRDY BIT(1)
 #define HSEON BIT(16)
 #define HSERDY BIT(17)
+#define HSEBYP BIT(18)
 #define CSSON BIT(19)
 #define PLLON BIT(24)
 #define PLLRDY BIT(25)
@@ -30,7 +31,8 @@ enum {
 static struct {
     uint32_t r[REGISTERS];
     uint64_t hsi_at, hse_at, pll_at,
-        lsi_at; /* when each gets ready; CHIP_NEVER: not, or is already */
+        lsi_at;           /* when each gets ready; CHIP_NEVER: not, or is already */
+    uint64_t hse_gone_at; /* HSERDY falls six of its cycles behind HSEON (7.3.1) */
     bool crystal_runs, lsi_forced, vos_1;
     uint32_t core, hclk;
     uint32_t
@@ -157,8 +159,8 @@ static void pll_is_allowed(void) {
 
 static void control(uint32_t value) {
     const uint32_t before = *reg(CR);
-    uint32_t after = (before & ~(uint32_t)(HSION | 0xF8U | HSEON | BIT(18) | CSSON | PLLON)) |
-                     (value & (HSION | 0xF8U | HSEON | BIT(18) | CSSON | PLLON));
+    uint32_t after = (before & ~(uint32_t)(HSION | 0xF8U | HSEON | HSEBYP | CSSON | PLLON)) |
+                     (value & (HSION | 0xF8U | HSEON | HSEBYP | CSSON | PLLON));
     if ((before & HSEON) != 0 && (after & HSEON) == 0 && uses(1)) {
         forbidden("HSE off while it is used");
         after |= HSEON;
@@ -192,10 +194,16 @@ static void control(uint32_t value) {
         *reg(CR) &= ~HSIRDY;
         rcc.hsi_at = CHIP_NEVER;
     }
+    if ((on & HSEON) != 0 && rcc.hse_gone_at != CHIP_NEVER) {
+        forbidden("HSE on again before it is off");
+    }
+    if (((on | off) & HSEBYP) != 0 && ((after & HSEON) != 0 || rcc.hse_gone_at != CHIP_NEVER)) {
+        forbidden("HSEBYP while HSE is on");
+    }
     if ((off & HSEON) != 0) {
-        *reg(CR) &= ~HSERDY;
         rcc.hse_at = CHIP_NEVER;
-        rcc.crystal_runs = false;
+        rcc.hse_gone_at =
+            rcc.crystal_runs ? now_units() + 6U * units_of(world.crystal_Hz) : CHIP_NEVER;
     }
     if ((off & PLLON) != 0) {
         *reg(CR) &= ~PLLRDY;
@@ -251,7 +259,7 @@ static void rcc_reset(chip_cause cause) {
                                      [CHIP_BY_SOFTWARE] = BIT(28) | BIT(26)};
     const uint32_t before = cause == CHIP_BY_POWER ? 0 : *reg(CSR) & 0xFF000000U;
     memset(&rcc, 0, sizeof rcc);
-    rcc.hsi_at = rcc.hse_at = rcc.pll_at = rcc.lsi_at = CHIP_NEVER;
+    rcc.hsi_at = rcc.hse_at = rcc.pll_at = rcc.lsi_at = rcc.hse_gone_at = CHIP_NEVER;
     *reg(CR) = 0x8083U;
     *reg(PLLCFGR) = 0x24003010U;
     *reg(AHB1ENR) = 0x00100000U;
@@ -262,12 +270,18 @@ static void rcc_reset(chip_cause cause) {
 
 static uint64_t soonest(uint64_t a, uint64_t b) { return a < b ? a : b; }
 static uint64_t rcc_next(void) {
-    return soonest(soonest(rcc.hsi_at, rcc.hse_at), soonest(rcc.pll_at, rcc.lsi_at));
+    return soonest(soonest(soonest(rcc.hsi_at, rcc.hse_at), soonest(rcc.pll_at, rcc.lsi_at)),
+                   rcc.hse_gone_at);
 }
 static void rcc_happens(void) {
     if (rcc.hsi_at <= now_units()) {
         rcc.hsi_at = CHIP_NEVER;
         *reg(CR) |= HSIRDY;
+    }
+    if (rcc.hse_gone_at <= now_units()) {
+        rcc.hse_gone_at = CHIP_NEVER;
+        rcc.crystal_runs = false;
+        *reg(CR) &= ~HSERDY;
     }
     if (rcc.hse_at <= now_units()) {
         rcc.hse_at = CHIP_NEVER;

@@ -91,13 +91,15 @@ static void test_crystals_that_are_late(void) {
     TEST_ASSERT_EQUAL(15, taken);
 }
 
-/* A loader in ROM that left the core on its own loop, with its crystal, buses and wait states. */
+/* A loader in ROM that left the core on its own loop, with its crystal, buses and wait states; a core of any speed. */
 #define RCC_AT(offset) (0x40023800U + (offset))
 static void wait_for(uint32_t offset, uint32_t bit) {
     while ((reg_load(RCC_AT(offset)) & bit) == 0) {
     }
 }
+static bool bypassed; /* its oscillator's amplifier */
 static void loader(void) {
+    reg_store(RCC_AT(0x00U), reg_load(RCC_AT(0x00U)) | (bypassed ? 0x40000U : 0U));
     reg_store(RCC_AT(0x00U), reg_load(RCC_AT(0x00U)) | 0x10000U);
     wait_for(0x00U, 0x20000U);
     reg_store(RCC_AT(0x04U), 16U | 240U << 6 | 1U << 16 | 5U << 24); /* 60 MHz of HSI */
@@ -111,8 +113,11 @@ static void loader(void) {
     (void)reg_load(RCC_AT(0x30U));
 }
 static void test_behind_a_loader(void) {
-    for (unsigned i = 0; i < 5; i++) {
+    scattered_state = chip_seed(8);
+    for (unsigned i = 0; i < 14; i++) {
         chip_wired(30 + i);
+        world.access_cycles = 2U + (unsigned)(scattered() % 7U);
+        bypassed = (scattered() & 1U) != 0;
         chip_reset(CHIP_BY_POWER);
         TEST_ASSERT_EQUAL(CHIP_RETURNED, chip_try(loader));
         TEST_ASSERT_EQUAL(60000000, chip_clocks_now().core_Hz);

@@ -1,6 +1,6 @@
 /* atmega.c: the rig's firmware on an ATmega2560 in simavr, cycle by cycle, with the rig round its pins (mega.h).
  *
- *     atmega boot|run|busy|slots|storm|faults|resets|settings IMAGE [TIMES [SEED]]
+ *     atmega boot|orders|run|busy|slots|storm|faults|resets|settings IMAGE [TIMES [SEED]]
  *
  * Prints "ok - ..." or "not ok - ..." lines, and figures behind #; exit status 1 if one is not. */
 #include <math.h>
@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "tests/tools/atmega.h"
+#include "tests/tools/mega_parts.h"
 
 #define PERIOD_CYCLES (MEGA_HZ / 500U)
 #define STEP_MOST (PERIOD_CYCLES * 85U / 100U)
@@ -114,9 +115,93 @@ static bool measures(unsigned rpm, bool busy) {
 static bool is_given(unsigned rpm) { return measures(rpm, false); }
 static bool is_busy(unsigned rpm) { return measures(rpm, true); }
 
+/* --- the order of what is stored ---------------------------------------------------------------- */
+
+#define SCRATCH 0x3E000U /* flash that no image has */
+
+/* LDI r16, byte; STS address, r16 */
+static uint32_t put_store(uint32_t at, unsigned address, unsigned byte) {
+    (void)mega_set_flash(at, (uint16_t)(0xE000U | (byte << 4 & 0xF00U) | (byte & 0xFU)));
+    (void)mega_set_flash(at + 2U, 0x9300U);
+    (void)mega_set_flash(at + 4U, (uint16_t)address);
+    return at + 6U;
+}
+
+/* The set-up of a timer in a drawn order, modes drawn: ICRn takes a value where its mode has it as TOP, by the list of the data
+ * sheet (DS 17.9, table 17-2). */
+static bool takes_top(unsigned base) {
+    static const bool is_top[16] = {[8] = true, [10] = true, [12] = true, [14] = true};
+    uint8_t control[2] = {0, 0};
+    unsigned wanted = 0;
+    uint32_t at = SCRATCH;
+    mega_start(image);
+    for (unsigned stores = 2U + below(8); stores > 0; stores--) {
+        const unsigned which = below(3);
+        if (which < 2) {
+            const unsigned bits = below(4);
+            control[which] = (uint8_t)(which == 0 ? bits : bits << 3 | below(2));
+            at = put_store(at, base + which, control[which]);
+        } else {
+            const unsigned top = 1U + below(65535);
+            at = put_store(at, base + 7U, top >> 8);
+            at = put_store(at, base + 6U, top & 0xFFU);
+            wanted = is_top[(control[0] & 3U) | (control[1] >> 1 & 0xCU)] ? top : wanted;
+        }
+    }
+    (void)mega_set_flash(at, 0x9508U); /* RET */
+    mega_call(SCRATCH, (const uint8_t[4]){0, 0, 0, 0});
+    const uint8_t *data = mega_data() + base;
+    const unsigned top = data[6] | (unsigned)data[7] << 8;
+    return top == wanted || no("ICR of the timer at 0x%X is %u, not %u", base, top, wanted);
+}
+
+static void call_with(const char *name, const void *argument, size_t bytes) {
+    uint8_t arguments[4] = {0, 0, 0, 0};
+    memcpy(arguments + 4 - (bytes == 4 ? 4 : 2), argument, bytes);
+    mega_call(mega_symbol(name), arguments);
+}
+
+/* Off and on again at any instant of the PWM's period, from any voltage and by either way: the timer has the duty that was asked
+ * for, and the pin is never high behind a start (mega_parts.c looks at it). */
+static bool starts_low(unsigned times) {
+    const uint32_t wait = mega_symbol("hal_clock_wait_until");
+    for (unsigned i = 0; i < times; i++) {
+        const float volts = (float)below(24001) / 1000.0f;
+        const uint8_t way = (uint8_t)below(2);
+        while (mega_pc() != wait) {
+            mega_step();
+        }
+        call_with("hal_motor_start", "", 0);
+        call_with("hal_motor_set_voltage", &volts, sizeof volts);
+        const mega_motor motor = mega_motor_now();
+        if (!motor.enabled || fabsf(motor.duty * 24.0f - volts) > 0.15f) {
+            return no("%.3f V give a duty of %.4f", (double)volts, (double)motor.duty);
+        }
+        for (unsigned steps = below(500); steps > 0; steps--) {
+            mega_step();
+        }
+        call_with("hal_motor_off", &way, sizeof way);
+        mega_step();
+    }
+    return true;
+}
+
+static bool keeps_order(unsigned times) {
+    for (unsigned i = 0; i < times; i++) {
+        if (!takes_top(mega_timer_base[i % MEGA_TIMERS])) {
+            return false;
+        }
+    }
+    mega_start(image);
+    mega_run(100);
+    return starts_low(times);
+}
+
 int main(int count, char **words) {
     static const board_test tests[] = {
         {"boot", boots, 1, "boots, converses, and refuses by name what it is built without"},
+        {"orders", keeps_order, 200,
+         "ICRn is written in modes that have it as TOP alone; a start gives the duty, and no pulse"},
         {"run", is_given, 330,
          "a run gives the force; no control step takes more than 85 % of its period"},
         {"busy", is_busy, 330, "the same while it is asked for its state all the time"},

@@ -247,6 +247,9 @@ bool mega_step(void) {
     if (mega_parts_bite(avr, &next)) {
         mega_reset(WDRF);
     }
+    if (mega_parts_wrong() != NULL) {
+        fail(mega_parts_wrong());
+    }
     if (avr->cycle < before) { /* a reset begins the count anew */
         fail("the cycles' count went back");
     }
@@ -428,6 +431,26 @@ void mega_push_pc(void) {
     avr->data[sp - 2U] = (uint8_t)(words >> 16);
     avr->data[REG_SPL] = (uint8_t)(sp - 3U);
     avr->data[REG_SPL + 1U] = (uint8_t)((sp - 3U) >> 8);
+}
+
+void mega_call(uint32_t at, const uint8_t arguments[4]) {
+    uint8_t registers[32];
+    uint8_t flags[sizeof avr->sreg];
+    const uint32_t back = avr->pc;
+    const uint16_t sp = mega_sp();
+    const uint64_t end = avr->cycle + MEGA_HZ;
+    memcpy(registers, avr->data, sizeof registers);
+    memcpy(flags, avr->sreg, sizeof flags);
+    memcpy(avr->data + 22, arguments, 4);
+    mega_push_pc();
+    avr->pc = at;
+    while (avr->pc != back || mega_sp() != sp) {
+        if (!mega_step() || avr->cycle > end) {
+            fail("what was called does not return");
+        }
+    }
+    memcpy(avr->data, registers, sizeof registers);
+    memcpy(avr->sreg, flags, sizeof flags);
 }
 
 uint16_t mega_set_flash(uint32_t at, uint16_t word) {

@@ -52,6 +52,9 @@ void mega_set_pc(uint32_t at);
 void mega_push_pc(void);
 uint16_t mega_sp(void);
 
+/* Calls code of the chip, the arguments in r22 to r25, and goes on behind as if it had not been. */
+void mega_call(uint32_t at, const uint8_t arguments[4]);
+
 /* Flash as it is executed, two bytes; returns what was there. */
 uint16_t mega_set_flash(uint32_t at, uint16_t word);
 

@@ -8,7 +8,11 @@
 
 #include "mega.h"
 
-enum { REG_TIFR4 = 0x39, REG_EECR = 0x3F, REG_EEAR = 0x41, REG_WDTCSR = 0x60 };
+enum { REG_DDRB = 0x24, REG_TIFR4 = 0x39, REG_EECR = 0x3F, REG_EEAR = 0x41, REG_WDTCSR = 0x60 };
+enum { TCCRA, TCCRB, TCCRC, ICR = 6, OCRA = 8 }; /* from mega_timer_base on */
+#define COMA1 0x80U
+#define FOCA 0x80U
+#define OC1A_PIN 0x20U
 #define TOV 0x01U
 #define SET_EEPE 0x9AF9U /* sbi EECR, EEPE */
 #define EEPE 0x02U
@@ -25,11 +29,71 @@ static struct {
     uint64_t heard; /* the watchdog, */
     uint64_t kept;  /* and simavr's own, from biting */
     uint8_t settings;
+    bool oc1a; /* the level of OC1A while it is disconnected */
+    const char *wrong;
 } parts;
+
+const uint16_t mega_timer_base[MEGA_TIMERS] = {0x80, 0x90, 0xA0, 0x120};
 
 void mega_parts_start(void) {
     parts.until = 0;
     parts.settings = 0;
+    parts.oc1a = false;
+    parts.wrong = NULL;
+}
+
+const char *mega_parts_wrong(void) { return parts.wrong; }
+
+static uint16_t pair_at(const avr_t *avr, unsigned address) {
+    return (uint16_t)(avr->data[address] | avr->data[address + 1U] << 8);
+}
+
+/* WGMn3:0 */
+static unsigned mode_of(const avr_t *avr, unsigned base) {
+    return (avr->data[base + TCCRA] & 3U) | (avr->data[base + TCCRB] >> 1 & 0xCU);
+}
+
+/* DS 17.9, table 17-2: ICRn is the TOP, and the CPU can write it (DS 17.6), in modes 8, 10, 12 and 14. */
+static void look_at_timers(const avr_t *avr, mega_next *next) {
+    for (unsigned i = 0; i < MEGA_TIMERS; i++) {
+        next->captured[i] = pair_at(avr, mega_timer_base[i] + ICR);
+        next->writable[i] = (mode_of(avr, mega_timer_base[i]) & 9U) == 8U;
+    }
+    next->timed = (avr->data[mega_timer_base[0] + TCCRA] & COMA1) != 0 &&
+                  (avr->data[REG_DDRB] & OC1A_PIN) != 0;
+}
+
+/* Captures come between instructions: a change by one is the CPU's. */
+static void keep_captured(avr_t *avr, const mega_next *before) {
+    for (unsigned i = 0; i < MEGA_TIMERS; i++) {
+        if (!before->writable[i]) {
+            avr->data[mega_timer_base[i] + ICR] = (uint8_t)before->captured[i];
+            avr->data[mega_timer_base[i] + ICR + 1U] = (uint8_t)(before->captured[i] >> 8);
+        }
+    }
+}
+
+/* OC1A keeps its level when it is disconnected, also over a change of mode (DS 17.8), and shows it when it is connected again. The
+ * strobe FOC1A sets it, in modes without PWM alone. */
+static void keep_output(avr_t *avr, const mega_next *before) {
+    const unsigned base = mega_timer_base[0];
+    const unsigned mode = mode_of(avr, base);
+    mega_next now;
+    look_at_timers(avr, &now);
+    if (before->timed && !now.timed) {
+        const unsigned top = before->captured[0];
+        const unsigned part = top > 0 ? (unsigned)(avr->cycle % (2U * top)) : 0U;
+        parts.oc1a = (part < top ? part : 2U * top - part) < pair_at(avr, base + OCRA);
+    }
+    if ((avr->data[base + TCCRC] & FOCA) != 0) {
+        avr->data[base + TCCRC] = 0;
+        if (mode == 0 || mode == 4 || mode == 12) {
+            parts.oc1a = (avr->data[base + TCCRA] & 0xC0U) == 0xC0U;
+        }
+    }
+    if (!before->timed && now.timed && parts.oc1a) {
+        parts.wrong = "OC1A is connected to its pin while it is high";
+    }
 }
 
 /* Of timers 4 and 5 whose overflow waits, but for one that `out TIFR4, Rr` or `out TIFR5, Rr` is to clear. */
@@ -60,10 +124,12 @@ static void keep_overflows(avr_t *avr, uint8_t overflows) {
 
 mega_next mega_parts_next(const avr_t *avr) {
     const unsigned word = avr->flash[avr->pc] | (unsigned)avr->flash[avr->pc + 1U] << 8;
-    return (mega_next){.hears = word == WDR,
-                       .writes = word == SET_EEPE && (avr->data[REG_EECR] & EEMPE) != 0,
-                       .overflows = overflows_now(avr, word),
-                       .address = avr->data[REG_EEAR] | (unsigned)avr->data[REG_EEAR + 1] << 8};
+    mega_next next = {.hears = word == WDR,
+                      .writes = word == SET_EEPE && (avr->data[REG_EECR] & EEMPE) != 0,
+                      .overflows = overflows_now(avr, word),
+                      .address = pair_at(avr, REG_EEAR)};
+    look_at_timers(avr, &next);
+    return next;
 }
 
 /* simavr writes a byte at once. On the chip it takes its time, and EEPE says so. */
@@ -82,6 +148,8 @@ static void keep_eeprom_busy(avr_t *avr, bool writes) {
 
 /* Behind the last `wdr` or change of its settings; simavr's own goes on with the time that it had before a change. */
 bool mega_parts_bite(avr_t *avr, const mega_next *done) {
+    keep_captured(avr, done);
+    keep_output(avr, done);
     keep_eeprom_busy(avr, done->writes);
     keep_overflows(avr, done->overflows);
     const uint8_t settings = avr->data[REG_WDTCSR];
