@@ -4,6 +4,8 @@
 #ifndef HAL_MOTOR_H
 #define HAL_MOTOR_H
 
+#include <stdint.h>
+
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -37,8 +39,19 @@ void hal_motor_off(hal_motor_off_way way);
 /* These bits together; 0: nothing is wrong, or nobody looks. Not from an interrupt, nor the supply. */
 unsigned hal_motor_status(void);
 
-/* The supply, V, as last measured: 10 ms ago at most. */
+/* The supply, V, as last measured: 10 ms ago at most; HAL_MOTOR_SUPPLY_BEYOND at the end of its converter, where nothing tells how
+ * high it is. That is above every limit, whatever the settings. */
+#define HAL_MOTOR_SUPPLY_BEYOND __builtin_inff()
 float hal_motor_supply_V(void);
+
+/* A higher supply trips: what the setting supply_most is by default. The rig's own limit is 37.2 V (core/rig/standard.c); a board
+ * whose measurement ends too soon has a lower one. */
+#define HAL_MOTOR_SUPPLY_MOST_mV UINT32_C(37200)
+float hal_motor_supply_most_V(void);
+
+/* True if a measurement that ends at end_mV shows this limit, with a margin of 2 %: ten times the errors of the converters here (5
+ * counts of 12 bits, 2 of 10). Each board asserts it. */
+#define HAL_MOTOR_SUPPLY_IS_SEEN(most_mV, end_mV) ((end_mV) >= (most_mV) + (most_mV) / 50U)
 
 #ifdef __cplusplus
 }

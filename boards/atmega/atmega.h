@@ -21,6 +21,8 @@
 #define ATMEGA_STOP_BIT PB4
 #define ATMEGA_CELL_INPUT 0U
 #define ATMEGA_SUPPLY_INPUT 1U
+/* The divider before the supply's input: 50 V at the reference. */
+#define ATMEGA_SUPPLY_FULL_mV UINT32_C(50000)
 
 /* Interrupts off, from here to atmega_go_on(): what was is handed back. */
 static inline uint8_t atmega_hold(void) {

@@ -37,8 +37,14 @@ _Static_assert(F_CPU / 32U == 1000000U / TIMER_COUNT_TICKS, "the prescaler's 32n
 #define REFERENCE _BV(REFS0)
 #define CONVERTER (_BV(ADEN) | _BV(ADPS2) | _BV(ADPS1) | _BV(ADPS0)) /* a 128th: 125 kHz */
 
-/* The divider before the supply's input: 50 V at the reference. Measured with each sample of the cell, not each control step. */
-#define SUPPLY_V_PER_COUNT (50.0f / 1024.0f)
+/* Measured with each sample of the cell, not each control step. A sum with a conversion above its end has this bit. */
+#define SUPPLY_END (FULL - RAIL)
+#define SUPPLY_BEYOND 0x8000U
+#define SUPPLY_V_PER_COUNT ((float)ATMEGA_SUPPLY_FULL_mV / 1000.0f / 1024.0f)
+_Static_assert(HAL_MOTOR_SUPPLY_IS_SEEN(HAL_MOTOR_SUPPLY_MOST_mV,
+                                        ATMEGA_SUPPLY_FULL_mV *SUPPLY_END / 1024U),
+               "the measurement ends too near to its limit");
+_Static_assert(SUPPLY_TICKS *FULL < SUPPLY_BEYOND, "the sum leaves the bit alone");
 
 #define SAMPLES_KEPT 4U /* a power of two */
 
@@ -121,6 +127,9 @@ ISR(TIMER2_COMPA_vect) {
         }
     } else if (next == 0 || next > ALL_TICKS - SUPPLY_TICKS) {
         supply += count;
+        if (count > SUPPLY_END) {
+            supply |= SUPPLY_BEYOND;
+        }
         if (next == 0) {
             supply_sum = supply;
             supply = 0;
@@ -132,7 +141,9 @@ static void renew_supply(void) {
     const uint8_t before = atmega_hold();
     const uint16_t counts = supply_sum;
     atmega_go_on(before);
-    supply_V = (float)counts * (SUPPLY_V_PER_COUNT / (float)SUPPLY_TICKS);
+    supply_V = (counts & SUPPLY_BEYOND) != 0
+                   ? HAL_MOTOR_SUPPLY_BEYOND
+                   : (float)counts * (SUPPLY_V_PER_COUNT / (float)SUPPLY_TICKS);
     parts_per_V = counts > 0 ? (float)ATMEGA_WHOLE / supply_V : 0.0f;
 }
 
@@ -152,5 +163,7 @@ bool hal_loadcell_take(hal_load_sample *sample) {
 }
 
 float hal_motor_supply_V(void) { return supply_V; }
+
+float hal_motor_supply_most_V(void) { return (float)HAL_MOTOR_SUPPLY_MOST_mV / 1000.0f; }
 
 float atmega_parts_per_V(void) { return parts_per_V; }

@@ -243,6 +243,20 @@ static void refuse(const char *why) {
     board_exit(2);
 }
 
+static void put_supply(float supply_V) {
+    char bytes[40];
+    if (supply_V >= HAL_MOTOR_SUPPLY_BEYOND) {
+        put(": it is above the end of its measurement");
+        return;
+    }
+    wh_text text;
+    wh_text_start(&text, bytes, sizeof bytes);
+    wh_text_add(&text, ": supply ");
+    wh_text_add_fixed(&text, supply_V, 2);
+    wh_text_add(&text, " V");
+    hal_console_write(text.bytes, text.length);
+}
+
 /* Why there is no result, or no more than one. */
 static void put_end(operator_step ended) {
     if (hal_reset_cause() != HAL_RESET_POWER_ON) {
@@ -265,6 +279,11 @@ static void put_end(operator_step ended) {
     }
     if (end != NULL) {
         put(end);
+        if (rig.state == WH_LIFE_TRIPPED && rig.guard.trip == WH_TRIP_SUPPLY) {
+            put_supply(rig.record.supply_V);
+        } else if (rig.answer == WH_REFUSED_SUPPLY) {
+            put_supply(seen.inputs.supply_V);
+        }
         put("; the motor is off\n");
     }
 }

@@ -7,6 +7,7 @@
 #include "core/rig/rig.h"
 #include "core/scene.h"
 #include "hal/loadcell.h"
+#include "hal/motor.h"
 #include "hal/slots.h"
 
 /* The model that goes with the rotor: rig_fixed of core/models/eccentric.whirl, in control steps (mk/whirl.mk). */
@@ -25,6 +26,7 @@ static void own_configuration(wh_rig_config *config) {
     config->measure.cell = (wh_cell_config){.newton_per_count = HAL_LOADCELL_N_PER_COUNT,
                                             .period_ticks = HAL_LOADCELL_PERIOD_TICKS,
                                             .raw_max = HAL_LOADCELL_RAW_MAX};
+    config->guard.supply_max_V = hal_motor_supply_most_V();
     wh_rig_slots(config, HAL_SLOT_LEAD_DEG / WH_RIG_DEG_PER_RAD);
 #if WH_RIG_FEEDS
     config->observer.scene = &rig_observed;

@@ -33,8 +33,12 @@ _Static_assert(PAIRS_TICKS == HAL_LOADCELL_PERIOD_TICKS, "a sample each period")
 #define RAIL (FULL / 64U)       /* no amplifier is linear nearer to an end: 52 mV */
 #define OPEN_BELOW (FULL / 16U) /* 0.2 V */
 
-/* The divider before the supply's input: 33 V at the reference. */
-#define SUPPLY_V_PER_COUNT (33.0f / 4095.0f)
+/* A mean with a conversion above this is none of the supply's. */
+#define SUPPLY_END (FULL - RAIL)
+#define SUPPLY_V_PER_COUNT ((float)BOARD_SUPPLY_FULL_mV / 1000.0f / (float)FULL)
+_Static_assert(HAL_MOTOR_SUPPLY_IS_SEEN(BOARD_SUPPLY_MOST_mV,
+                                        BOARD_SUPPLY_FULL_mV *SUPPLY_END / FULL),
+               "the board's measurement ends too near to its limit");
 
 #define SAMPLES_KEPT 8U
 
@@ -47,7 +51,7 @@ static hal_load_sample kept_samples[SAMPLES_KEPT];
 static stm32f4_ring_counts sample_counts;
 static const stm32f4_ring samples = {&sample_counts, kept_samples, SAMPLES_KEPT,
                                      sizeof *kept_samples};
-static volatile uint32_t supply_sum;
+static volatile uint32_t supply_sum; /* UINT32_MAX: beyond its end */
 
 /* The last mean, */
 static hal_load_sample last;
@@ -131,13 +135,15 @@ static void average(unsigned half, uint32_t ticks) {
     uint32_t sum = 0;
     uint32_t supply = 0;
     bool clipped = false;
+    bool beyond = false;
     for (unsigned i = 0; i < PAIRS; i++) {
         const uint32_t count = pair[half][i][0];
         sum += count;
         supply += pair[half][i][1];
+        beyond = beyond || pair[half][i][1] > SUPPLY_END;
         clipped = clipped || count - RAIL > FULL - 2U * RAIL; /* at either end */
     }
-    supply_sum = supply;
+    supply_sum = beyond ? UINT32_MAX : supply;
     const hal_load_sample mean = {.ticks = ticks,
                                   .raw = ((int32_t)sum - (int32_t)PAIRS * MIDDLE) / 4,
                                   .status =
@@ -158,4 +164,10 @@ void on_dma2_stream0(void) {
 
 bool hal_loadcell_take(hal_load_sample *sample) { return stm32f4_ring_take(&samples, sample); }
 
-float hal_motor_supply_V(void) { return (float)supply_sum * (SUPPLY_V_PER_COUNT / (float)PAIRS); }
+float hal_motor_supply_V(void) {
+    const uint32_t sum = supply_sum;
+    return sum == UINT32_MAX ? HAL_MOTOR_SUPPLY_BEYOND
+                             : (float)sum * (SUPPLY_V_PER_COUNT / (float)PAIRS);
+}
+
+float hal_motor_supply_most_V(void) { return (float)BOARD_SUPPLY_MOST_mV / 1000.0f; }

@@ -20,6 +20,10 @@
 /* How TIM1's outputs are held (motor.c); without MOE they are at their idle level, low. */
 #define BOARD_MOTOR_BDTR (TIM_BDTR_LOCK_2 | TIM_BDTR_OSSI | TIM_BDTR_OSSR | TIM_BDTR_BKE)
 
+/* The divider before the supply's input: 33 V at the converter's end. A supply of 30 V is the highest that is meant. */
+#define BOARD_SUPPLY_FULL_mV 33000U
+#define BOARD_SUPPLY_MOST_mV 31500U
+
 /* A fault's first stores (boards/cortexm/fault.c): TIM1's outputs to their idle level, then the enable low. */
 #define BOARD_SAFE_ROWS(X) \
     X(TIM_BDTR(TIM1), BOARD_MOTOR_BDTR) \

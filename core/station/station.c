@@ -41,6 +41,10 @@ static void send_answer(request *r, unsigned why) {
     if (why != 0) {
         wh_answer_refused(&r->answer, why);
     }
+    if (why == WH_REFUSED_SUPPLY && r->station->seen != NULL) {
+        const wh_value value[] = {{.number = r->station->seen->inputs.supply_V}};
+        wh_answer(&r->answer, WH_WORDS(": supply_V=@2"), value);
+    }
     send(r);
 }
 

@@ -20,7 +20,11 @@
 
 #define RAD_PER_DEG 0.0174532925f
 /* The supply's converter: 12 bits of 60 V. */
-#define SUPPLY_V_PER_COUNT (60.0f / 4096.0f)
+#define SUPPLY_FULL_mV 60000U
+#define SUPPLY_COUNTS 4096
+#define SUPPLY_V_PER_COUNT ((float)SUPPLY_FULL_mV / 1000.0f / (float)SUPPLY_COUNTS)
+_Static_assert(HAL_MOTOR_SUPPLY_IS_SEEN(HAL_MOTOR_SUPPLY_MOST_mV, SUPPLY_FULL_mV),
+               "the measurement ends too near to its limit");
 #define SUPPLY_RATED_V 24.0f /* until it is measured */
 
 #define WRAP_AFTER_S 5U /* as hal/virtual has it: every run crosses the timer's wrap */
@@ -55,7 +59,7 @@ static const wh_signal signals[] = {
      .name = "supply",
      .unit = "V",
      .low = 0.0f,
-     .high = 4095.0f * SUPPLY_V_PER_COUNT,
+     .high = (float)(SUPPLY_COUNTS - 1) * SUPPLY_V_PER_COUNT,
      .per_count = SUPPLY_V_PER_COUNT,
      .period_ticks = HAL_LOADCELL_PERIOD_TICKS},
     {.kind = WH_SIGNAL_SAMPLE, /* a pin: 0 or 1 */
@@ -131,7 +135,8 @@ static void see_levels(void) {
     for (unsigned i = plant.sample; i < plant.readings.samples; i++) {
         const wh_sample *sample = &plant.readings.sample[i];
         if (sample->channel == SUPPLY) {
-            supply_V = (float)sample->raw * SUPPLY_V_PER_COUNT;
+            supply_V = sample->raw < SUPPLY_COUNTS - 1 ? (float)sample->raw * SUPPLY_V_PER_COUNT
+                                                       : HAL_MOTOR_SUPPLY_BEYOND;
         } else if (sample->channel == STOP) {
             see_stop(sample);
         } else if (sample->channel >= DIALS) {
@@ -216,6 +221,8 @@ void hal_motor_off(hal_motor_off_way way) {
 }
 
 float hal_motor_supply_V(void) { return supply_V; }
+
+float hal_motor_supply_most_V(void) { return (float)HAL_MOTOR_SUPPLY_MOST_mV / 1000.0f; }
 
 void hal_frames_note(unsigned channel, float value) { hal_turns_note(&plant, channel, value); }
 

@@ -77,6 +77,8 @@ void hal_motor_off(hal_motor_off_way way) {
 
 float hal_motor_supply_V(void) { return board_rig.supply_V; }
 
+float hal_motor_supply_most_V(void) { return (float)HAL_MOTOR_SUPPLY_MOST_mV / 1000.0f; }
+
 bool hal_slots_take(hal_slot_edge *edge) {
     if (!is_high) {
         is_high = hal_virtual_rig_take_pulse(&board_rig, &pulse);

@@ -24,5 +24,6 @@ $atmega slots $image 100 "$seed" || failed=1
 $atmega storm $image 5000 "$seed" || failed=1
 $atmega faults $image "${2:-12}" "$seed" || failed=1
 $atmega resets $image "${3:-24}" "$seed" || failed=1
+$atmega supply $image 8 "$seed" || failed=1
 $atmega settings $image || failed=1
 exit $failed

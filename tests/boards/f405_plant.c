@@ -91,5 +91,6 @@ bool hal_loadcell_take(hal_load_sample *sample) {
 }
 
 float hal_motor_supply_V(void) { return HAL_VIRTUAL_RATED_V; }
+float hal_motor_supply_most_V(void) { return (float)BOARD_SUPPLY_MOST_mV / 1000.0f; }
 
 bool hal_stop_pressed(void) { return bench_stop != 0; }

@@ -4,6 +4,7 @@
 
 #include "unity.h"
 
+#include "core/rig/guard.h"
 #include "hal/loadcell.h"
 #include "hal/motor.h"
 #include "hal/settings.h"
@@ -329,6 +330,28 @@ static void test_supply(void) {
     }
 }
 
+/* Any supply up to 60 V, over a divider of resistors of 1 % (1.8 % of its part): the guard takes what is meant, 12 to 30 V, and
+ * nothing above 31.5 V and that error, by its own limit and by any that is set. */
+static void test_supplies(void) {
+    wh_guard_config guard = {.supply_min_V = 10.8F, .supply_max_V = hal_motor_supply_most_V()};
+    begin(121);
+    for (unsigned i = 0; i < 200; i++) {
+        const double divider = 1.0 + 0.018 * ((double)(scattered() % 2001U) / 1000.0 - 1.0);
+        const double supply_V = (double)(scattered() % 60001U) / 1000.0;
+        chip_supply_V = supply_V * divider;
+        chip_pass_us(6000);
+        TEST_ASSERT_EQUAL(CHIP_RETURNED, chip_try(read_supply));
+        if (supply_V > 31.5 * 1.02) {
+            TEST_ASSERT_FALSE(wh_guard_supply(&guard, supply));
+        } else if (supply_V >= 12.0 && supply_V <= 30.0) {
+            TEST_ASSERT_TRUE(wh_guard_supply(&guard, supply));
+        }
+        const wh_guard_config set = {.supply_min_V = 1.0F,
+                                     .supply_max_V = 31.5F + (float)(scattered() % 28501U) / 1e3F};
+        TEST_ASSERT_TRUE(chip_supply_V < 32.9 || !wh_guard_supply(&set, supply));
+    }
+}
+
 void suite_chip_cell(void) {
     RUN_TEST(test_sines);
     RUN_TEST(test_parabolas);
@@ -339,4 +362,5 @@ void suite_chip_cell(void) {
     RUN_TEST(test_overrun);
     RUN_TEST(test_fallback);
     RUN_TEST(test_supply);
+    RUN_TEST(test_supplies);
 }

@@ -107,6 +107,35 @@ static void test_stop_of_a_tripped_rig(void) {
     TEST_ASSERT_TRUE(on.rig.guard.trip == WH_TRIP_SUPPLY);
 }
 
+/* --- the supply ------------------------------------------------------------------------------------------ */
+
+/* Beyond its range, or none: `arm` is refused, and what is armed or runs trips in the next step, with the reading in its record. */
+static void test_supplies_out_of_range(void) {
+    seed = 24;
+    for (unsigned place = 0; place < PLACES; place++) {
+        stand_at(place);
+        for (unsigned i = 0; i < 6; i++) {
+            const unsigned kind = draw_one_of(&seed, 6);
+            const float part = (float)draw_one_of(&seed, 1000) / 1000.0f;
+            const float supply_V = kind == 0   ? HAL_MOTOR_SUPPLY_BEYOND
+                                   : kind == 1 ? __builtin_nanf("")
+                                   : kind == 2 ? 10.79f * part
+                                               : 37.21f + 30.0f * part;
+            stand_again();
+            const bool drives = on.rig.state == WH_LIFE_ARMED || on.command.way == WH_MOTOR_DRIVES;
+            hal_virtual_rig_instance()->supply_V = supply_V;
+            if (on.rig.state == WH_LIFE_IDLE) {
+                TEST_ASSERT_TRUE(plant_order(&on, WH_EVENT_ARM, 0.0f) == WH_REFUSED_SUPPLY);
+            }
+            plant_control(&on);
+            TEST_ASSERT_TRUE(!drives || on.rig.guard.trip == WH_TRIP_SUPPLY);
+            TEST_ASSERT_TRUE(!drives || __builtin_memcmp(&on.rig.record.supply_V, &supply_V,
+                                                         sizeof supply_V) == 0);
+            check_stays_off(40, drives ? WH_LIFE_TRIPPED : on.rig.state);
+        }
+    }
+}
+
 /* --- resets ------------------------------------------------------------------------------------------ */
 
 typedef enum breakage { NOTHING, BLIND, DEAF, WEAK, SILENT, BREAKAGES } breakage;
@@ -258,6 +287,7 @@ void suite_virtual_rig_halts(void) {
 #if !WH_DOUBLE
     RUN_TEST(test_stop_in_every_state);
     RUN_TEST(test_stop_of_a_tripped_rig);
+    RUN_TEST(test_supplies_out_of_range);
     RUN_TEST(test_resets_in_every_state);
     RUN_TEST(test_what_is_cleared_is_forgotten);
     RUN_TEST(test_a_lost_host_in_every_phase);

@@ -1,6 +1,6 @@
 /* atmega.c: the rig's firmware on an ATmega2560 in simavr, cycle by cycle, with the rig round its pins (mega.h).
  *
- *     atmega boot|orders|run|busy|slots|storm|faults|resets|settings IMAGE [TIMES [SEED]]
+ *     atmega boot|orders|run|busy|slots|storm|faults|resets|supply|settings IMAGE [TIMES [SEED]]
  *
  * Prints "ok - ..." or "not ok - ..." lines, and figures behind #; exit status 1 if one is not. */
 #include <math.h>
@@ -211,6 +211,8 @@ int main(int count, char **words) {
          "a fault in whatever state: off first, then the record, reset, report; a trip stays"},
         {"resets", all_resets, 20,
          "a reset at any instant: not driven, idle or tripped as before, its cause told"},
+        {"supply", sees_supply, 8,
+         "an over-voltage, whatever is set: arm is refused, a run trips at once"},
         {"settings", keeps_settings, 1, "settings torn at any byte are the old or the new"},
     };
     board_test asked;

@@ -17,6 +17,9 @@ bool all_faults(unsigned times);
 bool all_resets(unsigned times);
 bool keeps_settings(unsigned times);
 
+/* Over-voltages, so many. */
+bool sees_supply(unsigned times);
+
 /* atmega_slots.c: edges, so many. */
 bool sees_edges(unsigned times);
 bool survives_storm(unsigned times);
