@@ -2,8 +2,11 @@
  * 94), the enable on a pin, and the break input, which takes both stop and the drive stage's fault.
  *
  * The break (active low, pulled down: a broken wire is pressed) clears MOE with no software in the way, so does a crystal
- * that stops, and so does a debugger that halts the core; then the output is at its idle level, low. It cannot be set again
- * while the break is there. A core that locks up does not clear it on this chip: that is left to the watchdog. */
+ * that stops; then the output is at its idle level, low. It cannot be set again while the break is there. A core that locks up does
+ * not clear it on this chip: that is left to the watchdog.
+ *
+ * A debugger that halts the core stops TIM1's counter (DBG_TIM1_STOP). Other families' manuals say that the outputs are then
+ * disabled; for the F4 this is unproven, and an output could stay high. So the watchdog runs on, and resets the chip. */
 #include "hal/motor.h"
 
 #include "hal/stop.h"
@@ -21,6 +24,7 @@ void stm32f4_motor_start(void) {
     stm32f4_pin_is(BOARD_PIN_ENABLE, PIN_OUTPUT); /* low */
     stm32f4_clock_on(RCC_PART(RCC_APB2ENR, RCC_APB2ENR_TIM1));
     reg_set(DBGMCU_APB2_FZ, DBGMCU_APB2_FZ_TIM1);
+    reg_clear(DBGMCU_APB1_FZ, DBGMCU_APB1_FZ_IWDG); /* a debugger's, which outlives a reset */
     whole = stm32f4_clocks_now()->timer1_Hz / PWM_Hz;
     stm32f4_pin_is(BOARD_PIN_BREAK, PIN_ALTERNATE(TIM1_FUNCTION) | PULL_DOWN);
     reg_store(TIM_CR1(TIM1), 0);

@@ -1,6 +1,5 @@
 /* watchdog.c: the independent watchdog (RM0090, 21), which resets the chip; in a reset the drive is off. Its oscillator has 17
- * to 47 kHz: it never bites before the time, and within 2.8 times of it. It stands still while a debugger halts the core,
- * which switches the motor off by itself. */
+ * to 47 kHz: it never bites before the time, and within 2.8 times of it. It runs on while a debugger halts the core (motor.c). */
 #include "hal/watchdog.h"
 
 #include "hal/clock.h"
@@ -26,7 +25,6 @@ void hal_watchdog_start(uint32_t timeout_ticks) {
         divider++;
         counts /= 2U;
     }
-    reg_set(DBGMCU_APB1_FZ, DBGMCU_APB1_FZ_IWDG);
     reg_store(IWDG_KR, IWDG_KR_START); /* and with it its oscillator */
     reg_store(IWDG_KR, IWDG_KR_RELOAD);
     reg_store(IWDG_KR, IWDG_KR_UNLOCK);

@@ -46,8 +46,9 @@ static const command_usage usage = {
         "  --firmware IMAGE     the program: build/BOARD/pil_rig.elf, build/pil_rig, or your own\n"
         "  --port PORT          it is at the other end of a serial line: /dev/ttyUSB0, /dev/pts/3\n"
         "  --baud N             of that line (default: 115200)\n"
-        "  --board B            which machine QEMU is: mps2-an386 (Cortex-M4F; when left out), mps2-an385\n"
-        "                       (M3), mps2-an500 (M7), mps2-an505 (M33)\n"
+        "  --board B            the emulated board: mps2-an386 (Cortex-M4F; when left out), mps2-an385\n"
+        "                       (M3), mps2-an500 (M7), mps2-an505 (M33), or a folder of boards/ whose\n"
+        "                       board.mk has a BOARD_MACHINE of qemu-system-arm\n"
         "  --tape FILE          keep all that goes over the line\n"
         "  --replay TAPE        no scene: what TAPE has is said to the firmware, whose answers must be\n"
         "                       those of the tape, to the bit\n"
@@ -83,6 +84,7 @@ typedef struct pil_options {
     const char *firmware;
     const char *port; /* a serial line to it */
     const char *board;
+    char machine[GUEST_MACHINE_BYTES]; /* of its folder; "": it has none */
     const char *tape;
     const char *replay;
     const char *read; /* a tape that is shown */
@@ -221,12 +223,14 @@ static bool go_together(const pil_options *o) {
     return true;
 }
 
+/* The boards here are known away from their sources, too. */
 static bool is_known_board(pil_options *o) {
     static const struct {
         const char *word;
     } boards[] = {{"mps2-an386"}, {"mps2-an385"}, {"mps2-an500"}, {"mps2-an505"}};
-    return o->board == NULL || options_choose("pil", "board", o->board, boards, sizeof boards[0],
-                                              (int)(sizeof boards / sizeof boards[0])) >= 0;
+    return o->board == NULL || guest_machine_of(o->board, o->machine) ||
+           options_choose("pil", "board", o->board, boards, sizeof boards[0],
+                          (int)(sizeof boards / sizeof boards[0])) >= 0;
 }
 
 static bool read_options(int count, char **words, pil_options *o) {
@@ -283,7 +287,9 @@ static bool read_places(const char *text, plant_wish *to) {
 
 static lockstep_wish wish_of(const pil_options *o) {
     return (lockstep_wish){.guest = {.image = o->firmware,
-                                     .board = o->board != NULL ? o->board : "mps2-an386",
+                                     .board = o->machine[0] != '\0' ? o->machine
+                                              : o->board != NULL    ? o->board
+                                                                    : "mps2-an386",
                                      .patience_s = o->patience_s,
                                      .stop = &interrupted},
                            .plant = {.seed = (uint32_t)o->seed},

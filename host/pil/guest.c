@@ -59,6 +59,20 @@ static bool look_at_image(const char *name, bool *arm) {
     return true;
 }
 
+bool guest_machine_of(const char *board, char machine[GUEST_MACHINE_BYTES]) {
+    char line[200];
+    snprintf(line, sizeof line, "boards/%.100s/board.mk", board);
+    FILE *file = fopen(line, "r");
+    machine[0] = '\0';
+    while (file != NULL && fgets(line, sizeof line, file) != NULL) {
+        (void)sscanf(line, "BOARD_MACHINE := %63s", machine);
+    }
+    if (file != NULL) {
+        fclose(file);
+    }
+    return machine[0] != '\0';
+}
+
 /* --- start ------------------------------------------------------------------------------------------------*/
 
 /* Whatever numbers the pipes have: first out of the way, then to their places. The rest closes by itself. */

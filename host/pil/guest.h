@@ -51,6 +51,10 @@ typedef enum guest_heard {
     GUEST_STOPPED /* somebody interrupts us */
 } guest_heard;
 
+/* The machine that BOARD_MACHINE names in boards/NAME/board.mk, below the working directory. False: there is none. */
+#define GUEST_MACHINE_BYTES 64
+bool guest_machine_of(const char *board, char machine[GUEST_MACHINE_BYTES]);
+
 /* False, reported, when the image cannot be run. In any case guest_end() follows. */
 bool guest_start(guest *g, const guest_wish *wish);
 

@@ -410,6 +410,7 @@ void chip_new(uint64_t seed) {
                          .crystal_units = 2000U * CHIP_UNITS_PER_US,
                          .pll = true,
                          .watchdog_Hz = 32000,
+                         .halt_disables = true,
                          .volts = NULL,
                          .vdda_V = 3.3,
                          .access_cycles = 8};

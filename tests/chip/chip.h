@@ -39,6 +39,7 @@ typedef struct chip_world {
     uint64_t crystal_units;                    /* that it takes to start */
     bool pll;                                  /* locks */
     uint64_t watchdog_Hz;                      /* LSI: 17 to 47 kHz */
+    bool halt_disables; /* a timer's outputs, where its counter stops with a halt: unproven on this chip */
     double (*volts)(unsigned input, double s); /* at an ADC1 input, at a time; NULL: 0 */
     double vdda_V;
     unsigned

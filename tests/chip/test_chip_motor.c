@@ -6,6 +6,7 @@
 #include "boards/stm32f4/stm32f4.h"
 #include "hal/motor.h"
 #include "hal/stop.h"
+#include "hal/watchdog.h"
 #include "tests/chip/start.h"
 #include "tests/scattered.h"
 
@@ -351,18 +352,34 @@ static void test_no_supply(void) {
     TEST_ASSERT_EQUAL(0, high_ticks());
 }
 
-/* A debugger that holds the core, anywhere: off; and on again as it was when it lets go. */
+/* A debugger that halts the core, anywhere: off, at once where a halt disables the outputs, and by the watchdog's reset where it does
+ * not. What a debugger left before the start changes nothing. */
+static void freeze_watchdog(void) { reg_store(DBGMCU_APB1_FZ, DBGMCU_APB1_FZ_IWDG); }
+static void watch(void) { hal_watchdog_start(20000); }
 static void test_debugger(void) {
     scattered_state = chip_seed(9);
-    chip_on(9);
-    chip_pass_us(10000);
     for (unsigned i = 0; i < 20; i++) {
+        hal_start how = HAL_START_NO_TIMER;
+        chip_on(scattered());
+        world.halt_disables = i % 2U == 0;
+        world.watchdog_Hz = 17000U + scattered() % 30001U;
+        run(freeze_watchdog);
+        chip_reset(CHIP_BY_SOFTWARE);
+        TEST_ASSERT_EQUAL(CHIP_RETURNED, chip_start(&how));
+        chip_pass_us(10000);
+        run(watch);
         set_to(6.0F);
         chip_pass(scattered() % (3U * PERIOD_UNITS));
+        const unsigned resets = chip_resets();
         chip_halt(true);
-        is_low_for(3U * PERIOD_UNITS);
+        if (world.halt_disables) {
+            is_low_for(3U * PERIOD_UNITS);
+        }
+        chip_pass_us(57000);
+        TEST_ASSERT_TRUE_MESSAGE(chip_resets() > resets, "the watchdog stands still");
+        is_low_for(PERIOD_UNITS);
+        TEST_ASSERT_FALSE(enabled());
         chip_halt(false);
-        chip_pass(PERIOD_UNITS);
     }
 }
 

@@ -135,7 +135,7 @@ chip_level tim1_ch1n(void) {
     const uint32_t ccer = *reg(CCER);
     const uint32_t bdtr = *reg(BDTR);
     const bool inverted = (ccer & CC1NP) != 0;
-    const bool main_on = (bdtr & MOE) != 0 && !debug_stops(0x0C, 0);
+    const bool main_on = (bdtr & MOE) != 0 && !(world.halt_disables && debug_stops(0x0C, 0));
     if (main_on) {
         if ((ccer & CC1NE) != 0) {
             const bool active = (ccer & CC1E) != 0 ? !reference() : reference();

@@ -96,6 +96,15 @@ if [ -n "$boards" ]; then
     verdict $? "what is slower overruns, with as many instructions" "$scratch/out.1.5"
 fi
 
+# --- a board of one's own -----------------------------------------------------------------------------------------------
+if [ -n "$boards" ]; then
+    mkdir -p "$scratch/boards/bench" && echo 'BOARD_MACHINE  := mps2-an386' >"$scratch/boards/bench/board.mk"
+    here=$PWD
+    (cd "$scratch" && timeout 60 "$(cd "$here" && realpath "$whirl")" pil "$here/$rig" --until 20ms --board bench \
+        --firmware "$here/$m4") >"$scratch/out" 2>"$scratch/err"
+    verdict $? "--board takes a folder of boards/ by its BOARD_MACHINE"
+fi
+
 # --- the page's bytes ---------------------------------------------------------------------------------------------------
 # page_bytes NAME...: those of these frames in docs/pil.md, as octal escapes of printf
 page_bytes() {

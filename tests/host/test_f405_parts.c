@@ -41,7 +41,7 @@ static void test_bites_in_time(void) {
                                      ticks * 1e-6,
                                  "no later than that");
         TEST_ASSERT_EQUAL_HEX32_MESSAGE(IWDG_KR_RELOAD, fake_get(IWDG_KR), "begins with the whole");
-        TEST_ASSERT_TRUE((fake_get(DBGMCU_APB1_FZ) & DBGMCU_APB1_FZ_IWDG) != 0);
+        TEST_ASSERT_EQUAL_UINT32(0, fake_get(DBGMCU_APB1_FZ) & DBGMCU_APB1_FZ_IWDG);
     }
 }
 
