@@ -5,6 +5,7 @@
  * From outside, by these names: */
 #include <stdint.h>
 
+#include "board_data.h"
 #include "boards/board.h"
 #include "hal/loadcell.h"
 #include "hal/motor.h"
