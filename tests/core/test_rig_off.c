@@ -1,0 +1,294 @@
+/* test_rig_off.c: the motor is off: rotors that run out, swing, or are driven all the same, on drawn benches: supply, inertia,
+ * friction, stages stuck at a share of the supply, dead sensors, every off state. */
+#include "core/angle.h"
+#include "core/rig/datasheet.h"
+#include "core/rig/rig.h"
+#include "draw.h"
+#include "rotor.h"
+
+#include "unity.h"
+
+void suite_rig_off(void);
+
+#define RPM WH_RIG_RADPS_PER_RPM
+#define STEP_TICKS UINT32_C(2000)
+#define STEPS_PER_S 500U
+#define COUNTS_PER_N WH_R(100.0)
+
+typedef struct bench {
+    wh_rig rig;
+    wh_rig_config config;
+    wh_rig_inputs inputs;
+    wh_rig_command command;
+    rotor_kind kind;
+    rotor_kind open; /* the same with the motor's leads open */
+    rotor_state rotor;
+    bool stuck; /* the stage ignores its voltage, */
+    bool deaf;  /* and its enable */
+    wh_real share;
+    unsigned dead; /* sensor; 2: neither */
+    /* The rotor's whole turns as they are, while the motor must not drive: */
+    unsigned step;
+    unsigned begun;  /* step; of the turn under way */
+    unsigned turns;  /* since the motor went off, */
+    unsigned powered; /* and since the enable last changed */
+    wh_real before_s; /* of the last two */
+    wh_real last_s;
+    unsigned rises;
+    wh_real first_s;      /* the turn before they rose */
+    unsigned undriven_at; /* step in which turns with the enable on first showed a drive; 0: none did */
+    unsigned faster_at;   /* step in which three turns with the enable off did */
+} bench;
+
+static bench b;
+static uint64_t seed;
+
+static wh_real between(wh_real least, wh_real most) {
+    return least + (most - least) * (wh_real)draw_one_of(&seed, 10001) / WH_R(10000.0);
+}
+
+/* 1 to 12, as evenly in its logarithm as three draws make it. */
+static wh_real drawn_inertia(void) {
+    static const wh_real parts[] = {WH_R(0.5), WH_R(0.7), WH_R(1.0), WH_R(1.4), WH_R(2.0),
+                                    WH_R(2.8), WH_R(4.0), WH_R(6.0)};
+    const unsigned part = draw_one_of(&seed, 7);
+    return between(parts[part], parts[part + 1U]);
+}
+
+static bool may_drive(void) {
+    return wh_run_drives(&b.rig.run) && b.rig.guard.trip == WH_TRIP_NONE;
+}
+
+/* Whole turns at the bottom, forwards. */
+static void see_turn(wh_real from_rad) {
+    const bool around = from_rad > WH_R(0.75) * WH_RIG_TWO_PI &&
+                        b.rotor.angle_rad < WH_R(0.25) * WH_RIG_TWO_PI;
+    if (may_drive() || b.rotor.speed_radps < WH_R(0.0)) {
+        b.turns = 0;
+        b.powered = 0;
+        b.rises = 0;
+        return;
+    }
+    if (!around) {
+        return;
+    }
+    const wh_real turn_s = (wh_real)(b.step - b.begun) / (wh_real)STEPS_PER_S;
+    b.before_s = b.last_s;
+    b.last_s = turn_s;
+    b.begun = b.step;
+    b.turns++;
+    b.powered++;
+    const bool faster = b.turns > 2U && turn_s < b.before_s;
+    b.first_s = faster ? b.first_s : turn_s;
+    b.rises = faster ? b.rises + 1U : 0U;
+    if (b.powered > 2U && b.undriven_at == 0 && !(turn_s > b.before_s)) {
+        b.undriven_at = b.step;
+    }
+    const wh_real seen_rpm = b.dead == 2U ? WH_R(61.0) : WH_R(225.0);
+    if (b.rises >= (b.dead == 2U ? 2U : 3U) && b.faster_at == 0 &&
+        b.first_s > WH_R(1.05) * turn_s && WH_R(60.0) / b.before_s > seen_rpm) {
+        b.faster_at = b.step;
+    }
+}
+
+static void step_on(void) {
+    const bool enabled = b.command.way != WH_MOTOR_COASTS || (b.stuck && b.deaf);
+    const wh_real volts = b.stuck ? b.share * b.inputs.supply_V
+                          : b.command.way == WH_MOTOR_DRIVES ? b.command.volts
+                                                             : WH_R(0.0);
+    const wh_real from_rad = b.rotor.angle_rad;
+    rotor_turn(enabled ? &b.kind : &b.open, &b.rotor, volts / WH_RIG_RATED_V, STEP_TICKS);
+    b.inputs.now_ticks = b.rotor.ticks;
+    for (unsigned i = 0; i < b.rotor.marks; i++) {
+        if (b.rotor.mark_sensor[i] != b.dead) {
+            wh_rig_pulse(&b.config, &b.rig, b.rotor.mark_sensor[i], b.rotor.mark_ticks[i]);
+        }
+    }
+    wh_real sine;
+    wh_real cosine;
+    wh_sincos(wh_phase_from_rad(b.rotor.angle_rad), &sine, &cosine);
+    const wh_real load_N =
+        WH_RIG_MASS_MOMENT_KGM * b.rotor.speed_radps * b.rotor.speed_radps * cosine;
+    wh_rig_load(&b.config, &b.rig, b.rotor.ticks, (int32_t)(load_N * COUNTS_PER_N), WH_LOAD_OK);
+    const wh_motor_way before = b.command.way;
+    b.command = wh_rig_step(&b.config, &b.rig, &b.inputs);
+    b.step++;
+    if (b.command.way == WH_MOTOR_COASTS || b.command.way != before) {
+        b.powered = 0;
+    }
+    see_turn(from_rad);
+}
+
+static void steps_on(unsigned steps) {
+    for (unsigned i = 0; i < steps; i++) {
+        step_on();
+    }
+}
+
+/* At rest, idle: any rotor, any supply that is allowed. */
+static void draw_bench(void) {
+    b = (bench){.config = wh_rig_standard, .kind = rotor_nominal(), .dead = 2U};
+    b.config.measure.cell = (wh_cell_config){.newton_per_count = WH_R(1.0) / COUNTS_PER_N,
+                                             .period_ticks = STEP_TICKS,
+                                             .raw_max = INT32_C(32767)};
+    wh_rig_slots(&b.config, WH_R(1.0) / WH_RIG_DEG_PER_RAD);
+    b.config.stop_brakes = draw_one_in(&seed, 2);
+    b.kind.inertia_kgm2 *= drawn_inertia();
+    b.kind.friction_Nm = between(WH_R(0.004), WH_R(0.06));
+    b.kind.slot_rad = WH_R(2.0) / WH_RIG_DEG_PER_RAD;
+    b.kind.jitter_s = WH_R(100e-6);
+    b.open = b.kind;
+    b.open.stall_Nm = WH_R(0.0);
+    b.rotor = (rotor_state){.ticks = UINT32_MAX - 5000000U, .seed = draw_bits(&seed)};
+    b.inputs = (wh_rig_inputs){.now_ticks = b.rotor.ticks, .supply_V = between(12, 36)};
+    wh_rig_start(&b.config, &b.rig, b.rotor.ticks, NULL);
+}
+
+static void order(wh_rig_event event, wh_real value) {
+    TEST_ASSERT_TRUE(wh_rig_post(&b.rig, event, value));
+    step_on();
+    TEST_ASSERT_TRUE(b.rig.answer == WH_ALLOWED);
+}
+
+typedef enum place { IDLE, ARMED, TARE, STOPPED, COMMANDED, TRIPPED, RESET, PLACES } place;
+
+/* On the way to a set-point, for a drawn time. */
+static void drive(void) {
+    const wh_real most_rpm = (b.inputs.supply_V - WH_R(1.0)) / WH_RIG_RATED_V * WH_R(600.0);
+    order(WH_EVENT_START, between(170, most_rpm < WH_R(360.0) ? most_rpm : WH_R(360.0)) * RPM);
+    while (!may_drive() && b.rig.guard.trip == WH_TRIP_NONE) {
+        step_on();
+    }
+    steps_on(draw_one_of(&seed, 9U * STEPS_PER_S));
+}
+
+/* To where the motor is off, or goes off in the next step. */
+static void go_to(place where) {
+    steps_on(STEPS_PER_S * 8U / 5U);
+    if (where == IDLE) {
+        return;
+    }
+    order(WH_EVENT_ARM, WH_R(0.0));
+    if (where == TARE) {
+        order(WH_EVENT_START, WH_R(200.0) * RPM);
+        steps_on(draw_one_of(&seed, 200));
+    } else if (where >= STOPPED) {
+        drive();
+        switch (where) {
+        case STOPPED: b.inputs.stop_pressed = true; break;
+        case COMMANDED: (void)wh_rig_post(&b.rig, WH_EVENT_STOP, WH_R(0.0)); break;
+        case TRIPPED: b.inputs.watchdog_has_cut = true; break;
+        case RESET: wh_rig_start(&b.config, &b.rig, b.rotor.ticks, NULL); break;
+        case IDLE:
+        case ARMED:
+        case TARE:
+        case PLACES: break;
+        }
+        step_on();
+    }
+}
+
+/* --- nothing is lost -------------------------------------------------------------------------------------------------- */
+
+#ifndef OFF_HEALTHY
+#define OFF_HEALTHY 60U
+#endif
+#ifndef OFF_STUCK
+#define OFF_STUCK 240U
+#endif
+
+/* Healthy rotors run out, braked and coasting, over the last turn's top and in swings about where they hang: no trip. */
+static void test_healthy_rotors_run_out(void) {
+    unsigned brakes = 0;
+    unsigned swings = 0;
+    seed = 31;
+    for (unsigned i = 0; i < draw_cases(OFF_HEALTHY); i++) {
+        draw_bench();
+        go_to(draw_one_in(&seed, 3) ? STOPPED : COMMANDED);
+        TEST_ASSERT_TRUE(b.rig.guard.trip == WH_TRIP_NONE);
+        TEST_ASSERT_TRUE(!b.inputs.stop_pressed || b.command.way == WH_MOTOR_COASTS);
+        bool back = false;
+        for (unsigned k = 0; k < 130U * STEPS_PER_S && b.rig.state != WH_LIFE_IDLE; k++) {
+            brakes += b.command.way == WH_MOTOR_BRAKES;
+            b.inputs.stop_pressed = b.inputs.stop_pressed && k < 100U;
+            step_on();
+            back = back || b.rotor.speed_radps < WH_R(-1.0);
+            TEST_ASSERT_TRUE(b.rig.guard.trip == WH_TRIP_NONE);
+        }
+        TEST_ASSERT_TRUE(b.rig.state == WH_LIFE_IDLE);
+        swings += back;
+    }
+    TEST_ASSERT_TRUE(brakes > 0 && 2U * swings > draw_cases(OFF_HEALTHY));
+}
+
+/* A hand may turn the rotor, slower than 60 rpm, in jerks, and swing it. */
+static void test_a_hand_may_turn_the_rotor(void) {
+    seed = 32;
+    for (unsigned i = 0; i < draw_cases(40U); i++) {
+        draw_bench();
+        go_to(draw_one_in(&seed, 2) ? IDLE : ARMED);
+        for (unsigned k = 0; k < 10U; k++) {
+            const wh_real rpm = between(10, 58);
+            b.kind.weight_Nm = WH_R(0.0); /* the hand holds it */
+            b.kind.stall_Nm = WH_R(50.0);
+            b.stuck = b.deaf = true;
+            b.share = rpm / WH_R(600.0) * WH_RIG_RATED_V / b.inputs.supply_V;
+            steps_on(draw_one_of(&seed, 3U * STEPS_PER_S));
+            b.stuck = false;
+            steps_on(draw_one_of(&seed, 2U * STEPS_PER_S)); /* and lets go */
+        }
+        TEST_ASSERT_TRUE(b.rig.guard.trip == WH_TRIP_NONE);
+    }
+}
+
+/* --- driven all the same ---------------------------------------------------------------------------------------------- */
+
+/* Any stuck stage, from any off state: with the enable on it is off within a second of the first turn that is not slower, and
+ * that trips; with it off, three turns, each faster than the last, trip. */
+static void test_a_stage_that_drives_is_found(void) {
+    unsigned shown[PLACES] = {0};
+    unsigned on_shown[3] = {0};
+    unsigned off_shown[3] = {0};
+    seed = 33;
+    for (unsigned i = 0; i < draw_cases(OFF_STUCK); i++) {
+        draw_bench();
+        const place where = (place)draw_one_of(&seed, PLACES);
+        go_to(where);
+        if (where != TRIPPED && b.rig.guard.trip != WH_TRIP_NONE) {
+            continue; /* no bench for this set-point */
+        }
+        steps_on(draw_one_in(&seed, 2) ? 0U : draw_one_of(&seed, STEPS_PER_S));
+        b.dead = draw_one_of(&seed, 3);
+        b.share = between(WH_R(0.2), WH_R(1.0));
+        b.deaf = draw_one_in(&seed, 2);
+        b.stuck = true;
+        for (unsigned k = 0; k < 20U * STEPS_PER_S; k++) {
+            step_on();
+            if (may_drive()) {
+                break; /* the tare is over */
+            }
+            const unsigned late_s = 1U;
+            TEST_ASSERT_TRUE(b.undriven_at == 0 || b.command.way == WH_MOTOR_COASTS ||
+                             b.step < b.undriven_at + late_s * STEPS_PER_S);
+            TEST_ASSERT_TRUE(b.faster_at == 0 || b.rig.guard.trip != WH_TRIP_NONE ||
+                             b.step < b.faster_at + late_s * STEPS_PER_S);
+        }
+        on_shown[b.dead] += b.undriven_at != 0;
+        off_shown[b.dead] += b.faster_at != 0;
+        shown[where] += b.undriven_at != 0 || b.faster_at != 0;
+        TEST_ASSERT_TRUE(b.undriven_at == 0 || b.rig.guard.trip != WH_TRIP_NONE);
+        TEST_ASSERT_TRUE(b.command.way == WH_MOTOR_COASTS || may_drive());
+    }
+    for (unsigned i = 0; i < PLACES && DRAW_PART == 1; i++) {
+        TEST_ASSERT_TRUE(shown[i] > 0 || i == TARE);
+    }
+    for (unsigned i = 0; i < 3U && DRAW_PART == 1; i++) {
+        TEST_ASSERT_TRUE(on_shown[i] > 0 && off_shown[i] > 0);
+    }
+}
+
+void suite_rig_off(void) {
+    RUN_TEST(test_healthy_rotors_run_out);
+    RUN_TEST(test_a_hand_may_turn_the_rotor);
+    RUN_TEST(test_a_stage_that_drives_is_found);
+}
