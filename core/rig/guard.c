@@ -27,9 +27,111 @@ WH_CALLED void wh_guard_trip(wh_guard *guard, wh_trip reason) {
     }
 }
 
+void wh_guard_drives(wh_guard *guard) { guard->off = (wh_off){.released = false}; }
+
+/* Closer pulses of one sensor than at 1,000 rpm are no turns: 36 V make 900 rpm at most. */
+#define BOUNCE_TICKS 60000U
+#define LIGHTER WH_R(1.5) /* falls faster than the configured rotor, with half its inertia */
+#define LONGER WH_R(1.1)  /* two intervals than the shortest since the brake was released */
+#define FASTER WH_R(1.01) /* all turns that get faster together */
+#define ALTERNATE_PAIR 4U /* so many pulses alternate over two turns of a sensor, */
+#define ALTERNATE_RISE 6U /* and over three */
+#define ALONE_PAIR 2U     /* likewise of one that fires alone */
+#define ALONE_RISE 3U
+#define ALONE_SURE 6U /* more than a shiver about the hanging place */
+
+static uint8_t one_more(uint8_t count) { return count < ALONE_SURE ? count + 1U : count; }
+
+static WH_CALLED wh_real radps_of(uint32_t turn_ticks) {
+    return WH_RIG_TWO_PI * (wh_real)WH_RIG_TICKS_PER_S / (wh_real)turn_ticks;
+}
+
+/* A turn that is not slower than the last one by what braking takes. */
+static void release(wh_off *off, unsigned sensor, bool turns) {
+    off->released = true;
+    off->doubted = turns || off->alternate >= ALTERNATE_PAIR || off->alone >= ALONE_PAIR;
+    off->of[sensor].least_ticks = 0;
+}
+
+static bool gets_longer(wh_off *off, struct wh_off_turns *of, uint32_t two_ticks) {
+    if (!off->doubted || (off->alternate < ALTERNATE_PAIR && off->alone < ALONE_PAIR)) {
+        return false;
+    }
+    if (of->least_ticks == 0 || two_ticks < of->least_ticks) {
+        of->least_ticks = two_ticks;
+    }
+    return (wh_real)two_ticks > LONGER * (wh_real)of->least_ticks;
+}
+
+/* What a turn says beside the one before, both without a pulse too many. */
+static void see_turn(const wh_guard_config *config, wh_guard *guard, bool brakes, unsigned sensor,
+                     uint32_t before_ticks) {
+    wh_off *off = &guard->off;
+    struct wh_off_turns *of = &off->of[sensor];
+    const wh_real now = radps_of(of->turn_ticks);
+    const wh_real before = radps_of(before_ticks);
+    const wh_real swing = LIGHTER * config->fall_radps;
+    const bool alone = off->alone >= ALONE_PAIR && now > swing && before > swing;
+    if (of->turn_ticks < before_ticks) {
+        of->first_ticks = of->faster == 0 ? before_ticks : of->first_ticks;
+        of->faster = one_more(of->faster);
+    } else {
+        of->faster = 0;
+    }
+    if (brakes && !off->released) {
+        if (!(now <= before - config->braked_radps)) {
+            const bool turns = alone || (sensor != 0 && off->alternate >= ALTERNATE_PAIR);
+            release(off, sensor, turns);
+            if (turns) {
+                wh_guard_trip(guard, WH_TRIP_UNBRAKED);
+            }
+        }
+    } else if (gets_longer(off, of, of->turn_ticks + before_ticks)) {
+        wh_guard_trip(guard, WH_TRIP_UNBRAKED);
+    }
+    if (of->faster >= 2U && now > config->hand_radps &&
+        (wh_real)of->first_ticks > FASTER * (wh_real)of->turn_ticks &&
+        (off->alternate >= ALTERNATE_RISE || (alone && off->alone >= ALONE_RISE))) {
+        wh_guard_trip(guard, WH_TRIP_RUNS_ON);
+    }
+    if (off->alone >= ALONE_SURE && now > config->limit_radps && before > config->limit_radps) {
+        wh_guard_trip(guard, WH_TRIP_OVERSPEED);
+    }
+}
+
+WH_CALLED void wh_guard_off_pulse(const wh_guard_config *config, wh_guard *guard, bool brakes,
+                                  unsigned sensor, uint32_t ticks) {
+    wh_off *off = &guard->off;
+    if (guard->quiet) { /* times of old pulses wrap */
+        *off = (wh_off){.released = off->released};
+    }
+    if (sensor >= WH_SPEED_SENSORS) {
+        return;
+    }
+    struct wh_off_turns *of = &off->of[sensor];
+    const uint32_t turn_ticks = ticks - of->ticks;
+    if (of->seen && turn_ticks < BOUNCE_TICKS) {
+        return;
+    }
+    const bool again = off->sensor == sensor + 1U;
+    off->alternate = off->sensor == 0 || again ? 0U : one_more(off->alternate);
+    off->alone = again ? one_more(off->alone) : 0U;
+    off->sensor = (uint8_t)(sensor + 1U);
+    of->ticks = ticks;
+    if (of->seen) {
+        const uint32_t before_ticks = of->turn_ticks;
+        of->turn_ticks = turn_ticks;
+        if (before_ticks > 0) {
+            see_turn(config, guard, brakes, sensor, before_ticks);
+        }
+    }
+    of->seen = true;
+}
+
 #define ONE(name, number, words) +1
 #define ITEM(name, number, words) WH_WORDS(words) "\0"
-_Static_assert(0 WH_TRIP_ROWS(ONE) == (int)WH_TRIP_SUPPLY, "1 is the only number that is not used");
+_Static_assert(0 WH_TRIP_ROWS(ONE) == (int)WH_TRIP_UNBRAKED,
+               "1 is the only number that is not used");
 
 const char *wh_trip_text(wh_trip reason) {
     static const char words[] WH_WORD_LIST = WH_TRIP_ROWS(ITEM) WH_WORDS("unknown reason") "\0";

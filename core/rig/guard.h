@@ -22,8 +22,11 @@ extern "C" {
     X(WH_TRIP_MOVING, 7, "the rig was not at rest for the tare") \
     X(WH_TRIP_UNSETTLED, 8, "the speed does not settle or stay") \
     X(WH_TRIP_RECORD, 9, "the record lacks load samples or counted turns") \
-    X(WH_TRIP_RUNS_ON, 10, "the rotor does not come to rest, or is driven with the motor off") \
-    X(WH_TRIP_SUPPLY, 11, "the motor's supply is out of its range, or too low for the speed")
+    X(WH_TRIP_RUNS_ON, 10, \
+      "the rotor runs on or speeds up with the motor off: the stage ignores its enable, or somebody turns the rotor") \
+    X(WH_TRIP_SUPPLY, 11, "the motor's supply is out of its range, or too low for the speed") \
+    X(WH_TRIP_UNBRAKED, 12, \
+      "the rotor does not slow down while the motor brakes: the stage ignores its voltage, or cannot brake")
 
 #define WH_TRIP_NAME(name, number, words) name = (number),
 typedef enum wh_trip { WH_TRIP_ROWS(WH_TRIP_NAME) } wh_trip;
@@ -55,7 +58,41 @@ typedef struct wh_guard_config {
     wh_real supply_min_V;
     wh_real supply_max_V;
     wh_real rest_s; /* so long without a pulse: at rest */
+    /* a turn of a rotor that brakes is slower than the last one by this at least, */
+    wh_real braked_radps;
+    wh_real hand_radps; /* and a hand turns it no faster than this */
 } wh_guard_config;
+
+/* The motor is off, or brakes: what the pulses say, whatever was commanded. A turn is the time between two pulses of one
+ * sensor. Over a turn gravity cancels, so that
+ *
+ *  - a rotor that brakes loses 2 pi c/I of its mean speed in a turn, c the damping of the torque line, I at most six times
+ *    the configured inertia. Where a turn loses less than half of that, the enable goes off until the next run (`released`);
+ *  - with the enable off nothing but friction acts, and turns only get slower.
+ *
+ * A rotor that swings about its hanging place fires a sensor twice in each swing, and the times between these pulses get
+ * shorter as the swing gets smaller: they are no turns. Pulses show turns
+ *
+ *  - while both sensors fire in turn. A swing that turns back between both edges of sensor 2's slot does so, too, but once:
+ *    sensor 1, sensor 2, sensor 1 again on the way back. So the same of sensor 2 is a turn, of sensor 1 only when it repeats;
+ *  - where one sensor fires alone (the other is dead) faster than any swing: two intervals of a swing last a period, which is
+ *    at least 2 pi sqrt(I/S g), so they do not both look faster than 2 sqrt(S g/I). A rotor of half the inertia is allowed for;
+ *  - after `released`, where two intervals running get longer: those of a swing do not. */
+typedef struct wh_off {
+    bool released;
+    bool doubted;      /* by two turns that were no pulses too many */
+    uint8_t sensor;    /* of the last pulse, from 1; 0: there was none */
+    uint8_t alternate; /* pulses running whose sensor was not the one before's, */
+    uint8_t alone;     /* or was */
+    struct wh_off_turns {
+        uint32_t ticks;       /* of the last pulse, */
+        uint32_t turn_ticks;  /* since the one before; 0: there was none */
+        uint32_t first_ticks; /* of the turn before they got faster */
+        uint32_t least_ticks; /* of two running, since released; 0: there was none */
+        uint8_t faster;       /* turns running that were faster than the last */
+        bool seen;
+    } of[WH_SPEED_SENSORS];
+} wh_off;
 
 typedef struct wh_guard {
     wh_trip trip;
@@ -69,12 +106,15 @@ typedef struct wh_guard {
     uint32_t load_pulses;     /* pulses taken by then */
     uint32_t still_pulses;    /* samples with a new pulse since the load last moved, */
     wh_real still_N;          /* and where to */
+    wh_off off;
 } wh_guard;
 
 #define wh_guard_start WH_NAME(wh_guard_start)
 #define wh_guard_allows WH_NAME(wh_guard_allows)
 #define wh_guard_bound_radps WH_NAME(wh_guard_bound_radps)
 #define wh_guard_trip WH_NAME(wh_guard_trip)
+#define wh_guard_drives WH_NAME(wh_guard_drives)
+#define wh_guard_off_pulse WH_NAME(wh_guard_off_pulse)
 #define wh_trip_text WH_NAME(wh_trip_text)
 
 void wh_guard_start(wh_guard *guard, uint32_t now_ticks);
@@ -98,6 +138,13 @@ WH_INLINE wh_real wh_guard_climb_radps2(const wh_guard_config *config, wh_real b
 
 /* Stop for this reason, unless there is one already. */
 void wh_guard_trip(wh_guard *guard, wh_trip reason);
+
+/* The motor begins to drive: pulses that came before say nothing of what comes after. */
+void wh_guard_drives(wh_guard *guard);
+
+/* A pulse of sensor 0 or 1 while the motor is off; `brakes`: the enable is on. Trips, or releases the brake. */
+void wh_guard_off_pulse(const wh_guard_config *config, wh_guard *guard, bool brakes,
+                        unsigned sensor, uint32_t ticks);
 
 /* Each step, in every state, with the number of pulses that ever came: does the rotor rest? */
 WH_INLINE void wh_guard_quiet(const wh_guard_config *config, wh_guard *guard, uint32_t pulses_ever,

@@ -80,6 +80,7 @@ static void tare(wh_run *run, const wh_run_scene *scene) {
     run->volts = scene->config->spin_up_V;
     /* what was seen so far is that shiver, and it grows old */
     wh_pulses_forget(scene->pulses);
+    wh_guard_drives(scene->guard);
     wh_lockin_gap(&scene->measure->lockin);
     enter(run, WH_PHASE_SPIN_UP, scene->now_ticks);
 }

@@ -60,11 +60,17 @@ bool wh_rig_post(wh_rig *rig, wh_rig_event event, wh_real value) {
     return true;
 }
 
+/* The enable is on, at 0 V: until the pulses show a rotor that does not slow down, or the stop input is pressed. */
+static bool brakes(const wh_rig *rig) {
+    return rig->brakes && rig->run.phase == WH_PHASE_OFF && !rig->guard.off.released;
+}
+
 void wh_rig_pulse(const wh_rig_config *config, wh_rig *rig, unsigned sensor, uint32_t ticks) {
     rig->pulses_ever++;
     rig->busy = true;
     if (!wh_run_drives(&rig->run)) {
-        wh_expect_slower(&rig->run, &rig->pulses, rig->brakes, sensor, ticks);
+        wh_guard_off_pulse(&config->guard, &rig->guard, brakes(rig), sensor, ticks);
+        wh_expect_slower(&rig->run, &rig->pulses, brakes(rig), sensor, ticks);
     }
     wh_expect_pulses(&config->guard, &config->run, &rig->run, &rig->pulses, ticks);
     if (rig->run.phase == WH_PHASE_TARE && sensor < WH_SPEED_SENSORS) {
@@ -237,7 +243,10 @@ static void watch(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs 
     }
     /* with the motor off nothing speeds up a rotor whose speed was known */
     const bool slows = !drives && rig->run.off_radps < config->guard.limit_radps;
-    wh_guard_speed(&config->guard, guard, &rig->pulses, slows ? WH_TRIP_RUNS_ON : WH_TRIP_OVERSPEED,
+    wh_guard_speed(&config->guard, guard, &rig->pulses,
+                   !slows        ? WH_TRIP_OVERSPEED
+                   : brakes(rig) ? WH_TRIP_UNBRAKED
+                                 : WH_TRIP_RUNS_ON,
                    drives);
     if (rig->run.phase == WH_PHASE_SPIN_UP && !rig->pulses.speed.running &&
         wh_rig_is_over(rig->run.since_ticks, inputs->now_ticks, config->guard.slow_silence_max_s)) {
@@ -375,7 +384,7 @@ static void measure(const wh_rig_config *config, wh_rig *rig, uint32_t now_ticks
 
 /* Motor off: it swings out after a run, or has, and what that tells is worked on. */
 static void swing(const wh_rig_config *config, wh_rig *rig) {
-    const bool swings = rig->run.phase == WH_PHASE_OFF && !rig->brakes;
+    const bool swings = config->swings && rig->run.phase == WH_PHASE_OFF && !rig->brakes;
     wh_swing_step(&config->swing, &config->measure.rotor, &rig->swing, swings,
                   rig->state == WH_LIFE_IDLE);
     wh_swing_doubt(&config->swing, &rig->swing, &rig->result.force);
@@ -388,8 +397,7 @@ static wh_rig_command command_of(const wh_rig_config *config, wh_rig *rig,
         const wh_real most = volts < inputs->supply_V ? volts : inputs->supply_V;
         return (wh_rig_command){WH_MOTOR_DRIVES, most > WH_R(0.0) ? most : WH_R(0.0)};
     }
-    const bool brakes = rig->brakes && rig->run.phase == WH_PHASE_OFF;
-    return (wh_rig_command){brakes ? WH_MOTOR_BRAKES : WH_MOTOR_COASTS, WH_R(0.0)};
+    return (wh_rig_command){brakes(rig) ? WH_MOTOR_BRAKES : WH_MOTOR_COASTS, WH_R(0.0)};
 }
 
 /* What has tripped is not done any more in this step. */
@@ -406,6 +414,7 @@ wh_rig_command wh_rig_step(const wh_rig_config *config, wh_rig *rig, const wh_ri
     watch(config, rig, inputs);
     if (inputs->stop_pressed) {
         finds(config, rig, inputs, WH_EVENT_STOP);
+        rig->guard.off.released = true; /* that takes the enable in any case */
     }
     take_orders(config, rig, inputs);
     const wh_rig_phase phase = rig->run.phase;

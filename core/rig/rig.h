@@ -49,9 +49,9 @@ typedef struct wh_rig_config {
     wh_real armed_max_s;
     wh_real tripped_max_s; /* after a trip nothing more can be done than to wait so long */
     wh_real rest_max_s;    /* with the motor off, to come to rest */
-    /* motor off brakes (a run's end, `stop`), else it coasts; a trip coasts always */
+    /* the motor brakes at a run's end and after `stop`, else it coasts, as it does after a trip and the stop input */
     bool stop_brakes;
-    /* a run that comes to its end coasts all the same, and where its sensors stand is found; `stop` does not */
+    /* a run that comes to its end coasts in any case, and its swing tells where the sensors stand; `stop` may brake */
     bool swings;
     bool host_loss_stops; /* a run ends when who gives orders is gone, else it goes on */
 } wh_rig_config;

@@ -50,7 +50,11 @@ const wh_rig_config wh_rig_standard = {
               .stuck_pulses = 3, /* a whole turn from the first to the last */
               .supply_min_V = WH_R(0.45) * WH_RIG_RATED_V,
               .supply_max_V = WH_R(1.55) * WH_RIG_RATED_V,
-              .rest_s = WH_R(1.5)},
+              .rest_s = WH_R(1.5),
+              /* half of 2 pi c/I, of six times the inertia */
+              .braked_radps =
+                  WH_RIG_TWO_PI * WH_RIG_DAMPING_NMS / (WH_R(12.0) * WH_RIG_INERTIA_KGM2),
+              .hand_radps = RPM(60.0)},
     .measure = {.rotor = {.mass_moment_kgm = WH_RIG_MASS_MOMENT_KGM,
                           .gravity_mps2 = WH_RIG_GRAVITY_MPS2,
                           .damping_Nms = WH_RIG_DAMPING_NMS,
@@ -84,6 +88,5 @@ const wh_rig_config wh_rig_standard = {
     .armed_max_s = WH_R(60.0),
     .rest_max_s = WH_R(120.0),
     .tripped_max_s = WH_R(20.0),
-    .stop_brakes = true,
     .host_loss_stops = true,
 };

@@ -96,7 +96,7 @@
     X(rest_time, 31, WH_CONF_REAL, SECOND, 5.0, 600.0, ALONE, rest_max_s, \
       "in which the rotor comes to rest") \
     X(stop_brakes, 32, WH_CONF_SWITCH, ONE, 0.0, 1.0, ALONE, stop_brakes, \
-      "the motor, when it goes off; else it coasts") \
+      "the motor, at a run's end and after stop; else it coasts") \
     X(swings, 33, WH_CONF_SWITCH, ONE, 0.0, 1.0, ALONE, swings, \
       "a run ends in a free swing, which tells where the sensors stand") \
     X(host_loss_stops, 34, WH_CONF_SWITCH, ONE, 0.0, 1.0, ALONE, host_loss_stops, \

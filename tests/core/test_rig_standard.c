@@ -52,7 +52,7 @@ static void test_the_run(void) {
         {"and tripped, s", wh_rig_standard.tripped_max_s, 20},
         {"impossible beyond, rpm", RPM(wh_rig_standard.impossible_radps), 800}};
     CHECK(settings);
-    TEST_ASSERT_TRUE(wh_rig_standard.stop_brakes && wh_rig_standard.host_loss_stops);
+    TEST_ASSERT_TRUE(!wh_rig_standard.stop_brakes && wh_rig_standard.host_loss_stops);
     TEST_ASSERT_TRUE(wh_rig_standard.feeds == WH_FEED_SLOW);
 }
 

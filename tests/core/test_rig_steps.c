@@ -109,7 +109,7 @@ static void test_every_state_and_reason_has_words_of_its_own(void) {
     check_words(phase_text, (int)WH_PHASES);
     check_words(event_text, (int)WH_EVENTS);
     check_words(refusal_text, (int)WH_REFUSALS);
-    check_words(trip_text, (int)WH_TRIP_SUPPLY);
+    check_words(trip_text, (int)WH_TRIP_UNBRAKED);
 }
 
 /* --- how long each phase lasts ------------------------------------------------------------------------- */

@@ -261,6 +261,7 @@ static even_rig even;
 static void test_a_run_that_ends_in_a_swing_coasts(void) {
     for (unsigned swings = 0; swings < 2U; swings++) {
         even_arm(&even);
+        even.config.stop_brakes = true;
         even.config.swings = swings != 0;
         TEST_ASSERT_TRUE(even_order(&even, WH_EVENT_START, WH_RIG_NOMINAL_RPM * EVEN_RPM) ==
                          WH_ALLOWED);
