@@ -133,6 +133,7 @@ static bool take_dials(wh_rig_config *config) {
         config->feeds = WH_FEED_ALWAYS;
         config->feed.weight_Nm *= fed;
     }
+    config->stop_brakes = hal_frames_dial(HAL_DIAL_BRAKES) > 0.5f;
     return true;
 }
 #endif

@@ -23,10 +23,10 @@ extern "C" {
     X(WH_TRIP_UNSETTLED, 8, "the speed does not settle or stay") \
     X(WH_TRIP_RECORD, 9, "the record lacks load samples or counted turns") \
     X(WH_TRIP_RUNS_ON, 10, \
-      "the rotor runs on or speeds up with the motor off: the stage ignores its enable, or somebody turns the rotor") \
+      "the rotor turns with the motor off: the stage ignores its enable, or somebody turns the rotor") \
     X(WH_TRIP_SUPPLY, 11, "the motor's supply is out of its range, or too low for the speed") \
     X(WH_TRIP_UNBRAKED, 12, \
-      "the rotor does not slow down while the motor brakes: the stage ignores its voltage, or cannot brake")
+      "the rotor does not slow as the motor brakes: the stage ignores its voltage, or cannot brake")
 
 #define WH_TRIP_NAME(name, number, words) name = (number),
 typedef enum wh_trip { WH_TRIP_ROWS(WH_TRIP_NAME) } wh_trip;

@@ -49,10 +49,11 @@ void hal_frames_end(int status);
 #define HAL_DIAL_NOTE_ROWS(X) X(HAL_NOTE_DISPLACEMENT, "displacement", "m")
 
 /* Those of the rig on its bench: set-point; gravity's torque that is fed forward in every run, as a part of what it should be,
- * 0: all of it, where the set-point asks for it. */
+ * 0: all of it, where the set-point asks for it; 1: the motor brakes at a run's end and after stop. */
 #define HAL_BENCH_DIAL_ROWS(X) \
     X(HAL_DIAL_TARGET, "dial_speed", "rad/s", 64.0f) \
-    X(HAL_DIAL_FEED, "dial_feed", "1", 4.0f)
+    X(HAL_DIAL_FEED, "dial_feed", "1", 4.0f) \
+    X(HAL_DIAL_BRAKES, "dial_brakes", "1", 4.0f)
 
 #define ROW(name, word, unit, largest) name,
 enum { HAL_DIAL_ROWS(ROW) HAL_DIALS };

@@ -65,9 +65,9 @@ typedef enum fault_place {
     X(FAULT_CELL_OFFSET, "cell-offset", FAULT_INPUT, 10, -1e6, 1e6, "N", "a jump of its zero") \
     X(FAULT_SUPPLY, "supply", FAULT_INPUT, 0.5, 0, 10, "", "times the supply's voltage") \
     X(FAULT_FREEWHEEL, "freewheel", FAULT_INPUT, 0, 0, 0, "", "the drive stage cannot brake") \
-    X(FAULT_RUNAWAY, "runaway", FAULT_INPUT, 0, 0, 0, "", \
-      "the drive stage ignores the duty, full supply; it obeys its enable") \
-    X(FAULT_STUCK, "stuck", FAULT_INPUT, 0, 0, 0, "", "it ignores its enable, too") \
+    X(FAULT_RUNAWAY, "runaway", FAULT_INPUT, 1, 0.01, 1, "", \
+      "the drive stage ignores the duty, at this share of the supply; it obeys its enable") \
+    X(FAULT_STUCK, "stuck", FAULT_INPUT, 1, 0.01, 1, "", "it ignores its enable, too") \
     X(FAULT_MOTOR, "motor", FAULT_INPUT, 0.5, 0, 10, "", "times the motor's torque") \
     X(FAULT_FRICTION, "friction", FAULT_INPUT, 0.2, 0, 1e3, "N*m", "of the arms' bearings") \
     X(FAULT_JAM, "jam", FAULT_INPUT, 20, 0, 1e3, "N*m", "so much friction holds the arms") \

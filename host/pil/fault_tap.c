@@ -9,21 +9,20 @@ static const struct {
     fault_kind kind;
     const char *input;
     bool times;   /* its value is multiplied; else it takes the size, */
-    double value; /* or this, where there is no size */
+    double value; /* or this, if not 0 */
 } inputs[] = {
     {FAULT_CELL_TURNED, "cell_gain", false, -1.0},
     {FAULT_CELL_GAIN, "cell_gain", true, 0.0},
     {FAULT_CELL_OFFSET, "cell_offset", false, 0.0},
     {FAULT_SUPPLY, "volts", true, 0.0},
     {FAULT_FREEWHEEL, "freewheel", false, 1.0},
-    {FAULT_RUNAWAY, "runaway", false, 1.0},
-    {FAULT_STUCK, "runaway", false, 1.0},
+    {FAULT_RUNAWAY, "runaway", false, 0.0},
+    {FAULT_STUCK, "runaway", false, 0.0},
     {FAULT_STUCK, "enable_stuck", false, 1.0},
     {FAULT_MOTOR, "stall", true, 0.0},
     {FAULT_FRICTION, "bearing_friction", false, 0.0},
     {FAULT_JAM, "bearing_friction", false, 0.0},
     {FAULT_COUPLING, "k", true, 0.0},
-    {FAULT_STOP, "stop_pressed", false, 1.0},
     {FAULT_STOP, "stop_pressed", false, 1.0},
 };
 enum { INPUTS = sizeof inputs / sizeof inputs[0] };
@@ -89,14 +88,13 @@ static bool has_channel(const fault_case *f, const plant *p) {
 
 static void set_inputs(const fault_plan *plan, const fault_case *f, bool broken) {
     const image *im = plan->plant->image;
-    const fault_row *row = &fault_rows[f->kind];
     for (int i = 0; i < INPUTS; i++) {
         if (inputs[i].kind != f->kind) {
             continue;
         }
         const int at = input_of(im, inputs[i].input);
         const double healthy = im->input[at].value;
-        const double size = row->least < row->most ? f->size : inputs[i].value;
+        const double size = inputs[i].value != 0.0 ? inputs[i].value : f->size;
         const double wrong = inputs[i].times ? healthy * size : size;
         engine_double.set_input(plan->plant->run, at, broken ? wrong : healthy);
     }

@@ -89,7 +89,7 @@ static void test_trips_are_told(void) {
         bench.even.rig.state = WH_LIFE_TRIPPED;
         bench.even.rig.record.trip = WH_TRIP_NONE;
         wh_station_step(&bench.station, &bench.even.rig);
-        char wanted[160] = "# tripped: ";
+        char wanted[120] = "# tripped: ";
         wh_text text;
         wh_text_start(&text, wanted + 11, sizeof wanted - 11U);
         wh_text_add_words(&text, wh_trip_text(trip));

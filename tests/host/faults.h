@@ -26,6 +26,7 @@ unsigned rig_stages(rig_stage *stage);
 int rig_stage_of(const float *note); /* -1: none of them */
 bool rig_is_tripped(const float *note);
 bool rig_is_idle(const float *note);
+bool rig_may_drive(const float *note);
 const char *rig_tripped_when(void); /* NOTE=VALUE */
 const char *rig_trip_word(int trip);
 /* The shaft's limit. */
@@ -70,6 +71,7 @@ typedef struct campaign_case {
     bool drives;      /* the plant itself drives beyond what the controller asks for */
     bool calibration; /* only calibration can tell: a result that is off by it is no lie */
     bool runs_away;   /* the drive ignores the voltage */
+    bool blind;       /* a sensor is dead */
     bool delays;      /* the controller, or what it says: its watchdog may cut */
     char words[400];  /* of --fault: the fault, and the noise that every run has */
 } campaign_case;
@@ -105,7 +107,10 @@ typedef struct verdict {
     bool happened;
     outcome outcome;
     int trip;
-    bool runs_on;    /* ended with the motor commanded on, and too fast */
+    bool runs_on;  /* ended with the enable on where the motor must not drive, or too fast */
+    bool stays_on; /* so it was for a second, and turns that do not get slower showed a drive */
+    bool
+        untold; /* three turns, each faster than the last, with the motor off, and no trip in a second */
     bool overspeed;  /* caused by the controller */
     bool cut;        /* by the watchdog, though nothing was late or lost on its way */
     double turn_rpm; /* the fastest turn, */
@@ -166,8 +171,16 @@ typedef struct judge {
     double force_N;
     double begun_s;
     bool whole; /* it began at a turn's begin, */
+    bool off;   /* and the motor must not drive since, */
     true_turn sum;
     double last_s;
+    /* Of whole turns while the motor must not drive: */
+    double rpm;         /* the last */
+    unsigned on_turns;  /* since the enable is on all the time */
+    unsigned rises;     /* turns running that were faster, */
+    double rises_rpm;   /* than this, at first */
+    double on_shown_s;  /* there is a drive, with the enable on, */
+    double off_shown_s; /* or off; -1: no turn has shown it */
     true_turn turn[JUDGE_TURNS];
     unsigned turns;
     float told[HAL_NOTES];

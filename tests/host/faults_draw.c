@@ -29,8 +29,9 @@ enum {
     AFTER_TRIP = 32, /* something else trips the rig first */
     STARVED = 64,    /* the watchdog resets, and does not cut */
     DELAYS = 128,    /* so that the watchdog may cut */
-    FED = 256,   /* gravity is fed forward in every run: of firmware with dials, from the start */
-    TURNED = 512 /* with the wrong sign */
+    FED = 256,    /* gravity is fed forward in every run: of firmware with dials, from the start */
+    TURNED = 512, /* with the wrong sign */
+    SHARE = 1024  /* of the supply; half of them with stop pressed, and with a sensor that dies */
 };
 
 static const struct {
@@ -71,6 +72,8 @@ static const struct {
     {FAULT_FREEWHEEL, NO_SIZE, 0, 0, NO_CHANNEL, 0},
     {FAULT_RUNAWAY, NO_SIZE, 0, 0, NO_CHANNEL, DRIVES | RUNS_AWAY},
     {FAULT_STUCK, NO_SIZE, 0, 0, NO_CHANNEL, DRIVES | RUNS_AWAY},
+    {FAULT_RUNAWAY, EVEN, 0.2, 1, NO_CHANNEL, DRIVES | SHARE},
+    {FAULT_STUCK, EVEN, 0.2, 1, NO_CHANNEL, DRIVES | SHARE},
     {FAULT_MOTOR, EVEN, 0.2, 1.2, NO_CHANNEL, 0},
     {FAULT_FRICTION, EVEN, 0, 0.2, NO_CHANNEL, 0},
     {FAULT_JAM, LOG, 0.5, 20, NO_CHANNEL, 0},
@@ -97,8 +100,8 @@ enum { ROWS = sizeof rows / sizeof rows[0], TWO_FAULTS = ROWS };
 /* A row that may break beside another one: while the rig runs, and not what is judged by when it begins. */
 static bool may_be_second(unsigned row) {
     const fault_kind kind = rows[row].kind;
-    return (rows[row].is & (RUNS_AWAY | COUNTED_ONLY | HEALTHY | AFTER_TRIP | STARVED | FED)) ==
-               0 &&
+    return (rows[row].is &
+            (RUNS_AWAY | COUNTED_ONLY | HEALTHY | AFTER_TRIP | STARVED | FED | SHARE)) == 0 &&
            kind != FAULT_STOP && kind != FAULT_RESET && fault_rows[kind].place != FAULT_PARAMETER;
 }
 
@@ -107,6 +110,9 @@ static bool may_be_second(unsigned row) {
 #define NOMINAL_PART 0.25 /* of the runs, at the rig's nominal speed; */
 #define SLOW_PART 0.25    /* and as many slower than it goes without gravity fed forward */
 #define FED_PART 0.2      /* of the others it is fed all the same */
+#define BRAKES_PART 0.3   /* of all: the motor brakes */
+#define SUPPLY_LEAST 0.5  /* of 24 V, which is allowed */
+#define SUPPLY_MOST 1.5
 #define SLOWEST_RPM 100.0
 #define SLOW_RPM 170.0
 #define FASTEST_RPM 360.0
@@ -130,10 +136,12 @@ const char *campaign_row_word(unsigned row) {
                : rows[row].channel == FEED_CHANNEL ? "feed-part"
                                                    : "edge-place-fed";
     }
-    return (rows[row].is & HEALTHY) != 0         ? "none"
-           : (rows[row].is & AFTER_TRIP) != 0    ? "reset-tripped"
-           : (rows[row].is & STARVED) != 0       ? "hang-resets"
-           : rows[row].channel == SUPPLY_CHANNEL ? "supply-reads"
+    return (rows[row].is & HEALTHY) != 0                                    ? "none"
+           : (rows[row].is & AFTER_TRIP) != 0                               ? "reset-tripped"
+           : (rows[row].is & STARVED) != 0                                  ? "hang-resets"
+           : rows[row].kind == FAULT_RUNAWAY && (rows[row].is & SHARE) != 0 ? "runaway-share"
+           : rows[row].kind == FAULT_STUCK && (rows[row].is & SHARE) != 0   ? "stuck-share"
+           : rows[row].channel == SUPPLY_CHANNEL                            ? "supply-reads"
                                                  : fault_rows[rows[row].kind].word;
 }
 
@@ -216,7 +224,7 @@ bool campaign_is_alone(const campaign_case *one) { return one->row != TWO_FAULTS
 
 bool campaign_has_dials(const campaign *c) { return strstr(c->firmware, "pil_dialled") != NULL; }
 
-/* The operator's dials are the fourth and fifth sample. */
+/* The operator's dials are the fourth to the sixth sample. */
 static void put_dials(text *t, drawing *d, campaign_case *one, bool fed) {
     const double which = draw(d);
     one->target_rpm = which < NOMINAL_PART ? rig_nominal_rpm()
@@ -227,6 +235,28 @@ static void put_dials(text *t, drawing *d, campaign_case *one, bool fed) {
     if (draw(d) < FED_PART || fed) {
         put(t, ",%s:5=1", fault_rows[FAULT_READS].word);
     }
+    if (draw(d) < BRAKES_PART) {
+        put(t, ",%s:6=1", fault_rows[FAULT_READS].word);
+    }
+}
+
+/* A stuck stage, at any supply, perhaps as stop is pressed, perhaps as a sensor dies. */
+static void put_share(text *t, drawing *d, unsigned row, const rig_stage *stage,
+                      campaign_case *one) {
+    const double after_s = draw(d) * stage->span_s;
+    const double supply = SUPPLY_LEAST + draw(d) * (SUPPLY_MOST - SUPPLY_LEAST);
+    const unsigned dead = draw_of(d, 4);
+    put(t, ",%s=%.4g", fault_rows[FAULT_SUPPLY].word, supply);
+    if (draw(d) < 0.5) {
+        put(t, ",%s@%s~%.6g", fault_rows[FAULT_STOP].word, stage->when, after_s);
+    }
+    one->blind = dead > 1;
+    if (one->blind) {
+        put(t, ",%s:%u@%s~%.6g", fault_rows[FAULT_EDGE_DEAD].word, dead - 1U, stage->when, after_s);
+    }
+    put(t, ",%s=%.4g@%s~%.6g", fault_rows[rows[row].kind].word, draw_size(d, row), stage->when,
+        after_s);
+    one->drives = true;
 }
 
 static void put_fault(text *t, drawing *d, unsigned row, const rig_stage *stage,
@@ -318,6 +348,10 @@ void campaign_draw(campaign_case *one, const campaign *c, unsigned i) {
     one->breaks = true;
     one->from_start = (is & FED) != 0;
     one->runs_away = (is & RUNS_AWAY) != 0;
+    if ((is & SHARE) != 0) {
+        put_share(&t, &d, row, &stage[one->stage], one);
+        return;
+    }
     put_second(&t, &d, c, row, &stage[one->stage], one);
     if ((is & AFTER_TRIP) != 0) {
         put(&t, ",%s", trips[draw_of(&d, sizeof trips / sizeof trips[0])]);

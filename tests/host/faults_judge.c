@@ -12,6 +12,10 @@
 #define HALT_S 2e-3  /* a control period: so long the motor may still be driven */
 #define WATCH_S 1e-3 /* from one watch() to the next */
 #define WATCHED_S 12.0
+#define SHOWN_S \
+    1.0 /* so long after turns have shown a drive the enable may be on, or no trip be told */
+#define HAND_RPM 61.0             /* a hand turns it no faster */
+#define RISE 1.05                 /* of three turns together */
 #define SHIFTS 3                  /* turns by which its turns may be earlier than the last ones */
 enum { GOOD, DOUBTFUL, REFUSED }; /* wh_quality */
 
@@ -74,8 +78,27 @@ static void add_up(judge *j, double from, double force_from, double to, double f
     j->sum.sine_N += half * (force_from * sin(from) + force_to * sin(to));
 }
 
+/* A whole turn while the motor must not drive: does it show a drive? */
+static void see_undriven(judge *j, double at_s, double rpm) {
+    const bool faster = rpm > j->rpm;
+    j->on_turns++;
+    if (j->on_turns > 1 && faster && j->on_shown_s < 0.0) {
+        j->on_shown_s = at_s;
+    }
+    j->rises = faster ? j->rises + 1U : 0U;
+    j->rises_rpm = j->rises == 1U ? j->rpm : j->rises_rpm;
+    if (j->rises > 2U && j->rpm > HAND_RPM && rpm > RISE * j->rises_rpm && j->off_shown_s < 0.0) {
+        j->off_shown_s = at_s;
+    }
+    j->rpm = rpm;
+}
+
 static void end_turn(judge *j, double at_s) {
     verdict *v = &j->verdict;
+    if (j->whole && j->off) {
+        see_undriven(j, at_s, TURN_RAD / (at_s - j->begun_s) * RPM_PER_RADPS);
+    }
+    j->off = !rig_may_drive(j->told);
     if (j->whole) {
         true_turn *t = &j->turn[j->turns++ % JUDGE_TURNS];
         *t = (true_turn){j->sum.cosine_N * 2.0 / TURN_RAD, j->sum.sine_N * 2.0 / TURN_RAD};
@@ -119,6 +142,30 @@ static void watch_halt(judge *j, double time_s, const plant *p) {
     }
 }
 
+/* The motor must not drive: is the enable on, though turns show a drive; or is there no trip? */
+static void watch_off(judge *j, double time_s, const plant *p) {
+    const bool on = p->in_effect[j->at_enable] > 0.0;
+    if (rig_may_drive(j->told)) {
+        j->off = false;
+        j->rpm = (double)INFINITY;
+        j->on_shown_s = -1.0;
+        j->off_shown_s = -1.0;
+    }
+    if (!j->off || !on) {
+        j->on_turns = 0;
+        j->on_shown_s = -1.0;
+    }
+    if (!j->off || rig_is_tripped(j->told)) {
+        j->rises = 0;
+        j->off_shown_s = -1.0;
+    }
+    j->verdict.stays_on =
+        j->verdict.stays_on || (j->on_shown_s >= 0.0 && time_s > j->on_shown_s + SHOWN_S);
+    j->verdict.untold =
+        j->verdict.untold || (campaign_is_alone(j->of) && !j->of->blind && j->off_shown_s >= 0.0 &&
+                              time_s > j->off_shown_s + SHOWN_S);
+}
+
 static void watch(void *of, double time_s, const plant *p) {
     judge *j = of;
     double output[64];
@@ -146,6 +193,7 @@ static void watch(void *of, double time_s, const plant *p) {
     j->theta = theta;
     j->force_N = force;
     j->last_s = time_s;
+    watch_off(j, time_s, p);
 }
 
 /* By how much a result is off beside its interval and 1 %, as a share: the least over the turns that may be meant. */
@@ -287,6 +335,9 @@ tap judge_tap(judge *j, const campaign_case *of, const fault_plan *plan, double 
         .until_s = until_s,
         .off_since_s = -1.0,
         .ignored_s = -1.0,
+        .rpm = (double)INFINITY,
+        .on_shown_s = -1.0,
+        .off_shown_s = -1.0,
         .verdict = {.row = of->row, .target_rpm = of->target_rpm, .stage = -1, .off_s = -1.0}};
     return (tap){.name = "judge", .of = j, .start = start, .orders = hear, .watch = watch};
 }
@@ -308,7 +359,8 @@ void judge_end(judge *j, const lockstep_report *report) {
     } else {
         v->outcome = OUTCOME_NONE;
     }
-    v->runs_on = j->driven && j->speed_rpm > rig_limit_rpm();
+    v->runs_on =
+        (j->enabled && !rig_may_drive(j->told)) || (j->driven && j->speed_rpm > rig_limit_rpm());
     v->overspeed = !j->of->drives && v->turn_rpm > rig_limit_rpm();
     v->cut = report->cut && !j->of->delays;
 }

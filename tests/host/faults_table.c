@@ -14,6 +14,8 @@ enum { WORST = 10, LONGEST = 20, TRIPS = 32 };
 static bool is_lie(const verdict *v) { return v->lie > 0.0; }
 static bool is_hang(const verdict *v) { return v->outcome == OUTCOME_HANG; }
 static bool runs_on(const verdict *v) { return v->runs_on; }
+static bool stays_on(const verdict *v) { return v->stays_on; }
+static bool is_untold(const verdict *v) { return v->untold; }
 static bool is_overspeed(const verdict *v) { return v->overspeed; }
 static bool is_cut(const verdict *v) { return v->cut; }
 static bool is_not_caught(const verdict *v) {
@@ -27,7 +29,7 @@ static bool forgets(const verdict *v) { return v->forgets; }
 
 static bool is_violation(const verdict *v) {
     return is_lie(v) || is_hang(v) || runs_on(v) || is_overspeed(v) || is_not_caught(v) ||
-           is_cut(v) || is_not_halted(v) || forgets(v);
+           is_cut(v) || is_not_halted(v) || forgets(v) || stays_on(v) || is_untold(v);
 }
 
 void campaign_print_command(FILE *out, const campaign *c, unsigned i) {
@@ -320,7 +322,11 @@ int campaign_print(FILE *out, const campaign *c, const verdict *all, unsigned co
     print_halts(out, all, count);
     print_steps(out, c, all, count);
     print_worst(out, c, all, count, "Does not end, or is silent", is_hang, by_speed);
-    print_worst(out, c, all, count, "Ends with the motor on, and too fast", runs_on, by_speed);
+    print_worst(out, c, all, count, "Ends with the motor on", runs_on, by_speed);
+    print_worst(out, c, all, count, "Has the enable on, though turns show a drive", stays_on,
+                by_speed);
+    print_worst(out, c, all, count, "Is driven with the motor off, and does not trip", is_untold,
+                by_speed);
     print_worst(out, c, all, count, "Called good, and is not", is_lie, by_lie);
     print_worst(out, c, all, count, "Too fast, and the controller's doing", is_overspeed, by_speed);
     print_worst(out, c, all, count, "Cut by the watchdog, and nothing was late", is_cut, by_speed);
@@ -333,7 +339,8 @@ int campaign_print(FILE *out, const campaign *c, const verdict *all, unsigned co
         count_of(all, count, -1, is_not_halted) == 0 && count_of(all, count, -1, forgets) == 0 &&
         count_of(all, count, -1, is_hang) == 0 && count_of(all, count, -1, runs_on) == 0 &&
         count_of(all, count, -1, is_lie) == 0 && count_of(all, count, -1, is_not_caught) == 0 &&
-        count_of(all, count, -1, is_cut) == 0 &&
+        count_of(all, count, -1, is_cut) == 0 && count_of(all, count, -1, stays_on) == 0 &&
+        count_of(all, count, -1, is_untold) == 0 &&
         count_of(all, count, -1, is_overspeed) <= OVERSPEED_SHARE * count;
     fprintf(out, "\n%u runs, seed %u, %s: %s\n", count, c->seed, c->firmware,
             good ? "nothing is wrong" : "there are violations");

@@ -44,6 +44,11 @@ bool rig_is_tripped(const float *note) { return (int)note[HAL_NOTE_STATE] == (in
 
 bool rig_is_idle(const float *note) { return (int)note[HAL_NOTE_STATE] == (int)WH_LIFE_IDLE; }
 
+bool rig_may_drive(const float *note) {
+    const unsigned stage = (unsigned)note[HAL_NOTE_STATE];
+    return stage >= PHASE(WH_PHASE_SPIN_UP) && stage <= PHASE(WH_PHASE_RAMP_DOWN);
+}
+
 const char *rig_tripped_when(void) {
     static char when[32];
     snprintf(when, sizeof when, "state=%d", (int)WH_LIFE_TRIPPED);
