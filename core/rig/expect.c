@@ -10,13 +10,14 @@
 #define SLOW_RADPS WH_R(16.0)  /* a pulse or two of a rotor that brakes are slower */
 
 void wh_expect_pulses(const wh_guard_config *guard, const wh_run_config *running, wh_run *run,
-                      wh_pulses *pulses, uint32_t ticks) {
+                      wh_pulses *pulses, bool open, uint32_t ticks) {
     const wh_rig_phase phase = run->phase;
     const wh_speed *speed = &pulses->speed;
     const wh_led led = wh_run_led(running, run, ticks);
     const bool from_rest = phase == WH_PHASE_SPIN_UP && !speed->known;
     const wh_real part = from_rest && speed->taken < 2U ? FIRST_PART : WH_R(1.0);
-    pulses->bound_radps = wh_guard_bound_radps(guard, part * led.base_radps, !from_rest);
+    const wh_real falls = from_rest ? WH_R(0.0) : open ? WH_GUARD_LIGHTER : WH_R(1.0);
+    pulses->bound_radps = wh_guard_bound_radps(guard, part * led.base_radps, falls);
     pulses->climb_radps2 = led.jumps
                                ? guard->climb_start_radps2
                                : wh_guard_climb_radps2(guard, led.lead_radps - speed->turn_radps,
@@ -37,8 +38,9 @@ void wh_expect_slower(wh_run *run, wh_pulses *pulses, bool brakes, unsigned sens
     if (!pulses->speed.running || sensor >= WH_SPEED_SENSORS) {
         return;
     }
-    const bool again = sensor == pulses->last.pulse.sensor && !pulses->suspects;
-    const wh_real moved = again ? WH_RIG_TWO_PI : moved_rad[sensor];
+    const bool same = sensor == pulses->last.pulse.sensor; /* with a suspect between them, too */
+    const bool again = same && !pulses->suspects;
+    const wh_real moved = same ? WH_RIG_TWO_PI : moved_rad[sensor];
     const wh_real passed_s = wh_rig_since_s(pulses->speed.ticks, ticks);
     /* over which it was not driven: before that it may have gathered speed */
     const bool coasted = (int32_t)(pulses->speed.ticks - run->since_ticks) >= 0;

@@ -13,9 +13,9 @@ WH_CALLED bool wh_guard_allows(const wh_guard_config *config, wh_real target_rad
            target_radps <= config->target_max_radps;
 }
 
-wh_real wh_guard_bound_radps(const wh_guard_config *config, wh_real base_radps, bool falls) {
+wh_real wh_guard_bound_radps(const wh_guard_config *config, wh_real base_radps, wh_real falls) {
     const wh_real led = base_radps * (WH_R(1.0) + config->over);
-    const wh_real fall = falls ? config->fall_radps : WH_R(0.0);
+    const wh_real fall = falls * config->fall_radps;
     const wh_real bound = WH_SQRT(led * led + fall * fall);
     const wh_real most = config->limit_radps * (WH_R(1.0) + config->ripple);
     return bound < most ? bound : most; /* NaN too */
@@ -31,36 +31,20 @@ void wh_guard_drives(wh_guard *guard) { guard->off = (wh_off){.released = false}
 
 /* Closer pulses of one sensor than at 1,000 rpm are no turns: 36 V make 900 rpm at most. */
 #define BOUNCE_TICKS 60000U
-#define LIGHTER WH_R(1.5) /* falls faster than the configured rotor, with half its inertia */
-#define LONGER WH_R(1.1)  /* two intervals than the shortest since the brake was released */
+#define LONGER \
+    WH_R(1.02) /* a turn that coasts than the last: so are two of a swing at most, the last ones */
 #define FASTER WH_R(1.01) /* all turns that get faster together */
 #define ALTERNATE_PAIR 4U /* so many pulses alternate over two turns of a sensor, */
 #define ALTERNATE_RISE 6U /* and over three */
 #define ALONE_PAIR 2U     /* likewise of one that fires alone */
 #define ALONE_RISE 3U
+#define ALONE_COASTS 4U
 #define ALONE_SURE 6U /* more than a shiver about the hanging place */
 
 static uint8_t one_more(uint8_t count) { return count < ALONE_SURE ? count + 1U : count; }
 
 static WH_CALLED wh_real radps_of(uint32_t turn_ticks) {
     return WH_RIG_TWO_PI * (wh_real)WH_RIG_TICKS_PER_S / (wh_real)turn_ticks;
-}
-
-/* A turn that is not slower than the last one by what braking takes. */
-static void release(wh_off *off, unsigned sensor, bool turns) {
-    off->released = true;
-    off->doubted = turns || off->alternate >= ALTERNATE_PAIR || off->alone >= ALONE_PAIR;
-    off->of[sensor].least_ticks = 0;
-}
-
-static bool gets_longer(wh_off *off, struct wh_off_turns *of, uint32_t two_ticks) {
-    if (!off->doubted || (off->alternate < ALTERNATE_PAIR && off->alone < ALONE_PAIR)) {
-        return false;
-    }
-    if (of->least_ticks == 0 || two_ticks < of->least_ticks) {
-        of->least_ticks = two_ticks;
-    }
-    return (wh_real)two_ticks > LONGER * (wh_real)of->least_ticks;
 }
 
 /* What a turn says beside the one before, both without a pulse too many. */
@@ -70,7 +54,7 @@ static void see_turn(const wh_guard_config *config, wh_guard *guard, bool brakes
     struct wh_off_turns *of = &off->of[sensor];
     const wh_real now = radps_of(of->turn_ticks);
     const wh_real before = radps_of(before_ticks);
-    const wh_real swing = LIGHTER * config->fall_radps;
+    const wh_real swing = WH_GUARD_LIGHTER * config->fall_radps;
     const bool alone = off->alone >= ALONE_PAIR && now > swing && before > swing;
     if (of->turn_ticks < before_ticks) {
         of->first_ticks = of->faster == 0 ? before_ticks : of->first_ticks;
@@ -78,15 +62,16 @@ static void see_turn(const wh_guard_config *config, wh_guard *guard, bool brakes
     } else {
         of->faster = 0;
     }
-    if (brakes && !off->released) {
-        if (!(now <= before - config->braked_radps)) {
-            const bool turns = alone || (sensor != 0 && off->alternate >= ALTERNATE_PAIR);
-            release(off, sensor, turns);
-            if (turns) {
-                wh_guard_trip(guard, WH_TRIP_UNBRAKED);
-            }
+    of->longer =
+        (wh_real)of->turn_ticks > LONGER * (wh_real)before_ticks ? one_more(of->longer) : 0;
+    if (brakes && !off->released && !(now <= before - config->braked_radps)) {
+        off->released = true;
+        off->doubted = off->alone >= ALONE_PAIR;
+        if (alone || (sensor != 0 && off->alternate >= ALTERNATE_PAIR)) {
+            wh_guard_trip(guard, WH_TRIP_UNBRAKED);
         }
-    } else if (gets_longer(off, of, of->turn_ticks + before_ticks)) {
+    }
+    if (off->doubted && off->alone >= ALONE_COASTS && of->longer >= 3U) {
         wh_guard_trip(guard, WH_TRIP_UNBRAKED);
     }
     if (of->faster >= 2U && now > config->hand_radps &&

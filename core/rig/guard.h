@@ -77,10 +77,11 @@ typedef struct wh_guard_config {
  *    sensor 1, sensor 2, sensor 1 again on the way back. So the same of sensor 2 is a turn, of sensor 1 only when it repeats;
  *  - where one sensor fires alone (the other is dead) faster than any swing: two intervals of a swing last a period, which is
  *    at least 2 pi sqrt(I/S g), so they do not both look faster than 2 sqrt(S g/I). A rotor of half the inertia is allowed for;
- *  - after `released`, where two intervals running get longer: those of a swing do not. */
+ *  - after `released`, where such a sensor's intervals get longer three times running by 2 % at least. Of a swing that
+ *    friction ends the last two do. */
 typedef struct wh_off {
     bool released;
-    bool doubted;      /* by two turns that were no pulses too many */
+    bool doubted;      /* by pulses of one sensor alone */
     uint8_t sensor;    /* of the last pulse, from 1; 0: there was none */
     uint8_t alternate; /* pulses running whose sensor was not the one before's, */
     uint8_t alone;     /* or was */
@@ -88,8 +89,8 @@ typedef struct wh_off {
         uint32_t ticks;       /* of the last pulse, */
         uint32_t turn_ticks;  /* since the one before; 0: there was none */
         uint32_t first_ticks; /* of the turn before they got faster */
-        uint32_t least_ticks; /* of two running, since released; 0: there was none */
-        uint8_t faster;       /* turns running that were faster than the last */
+        uint8_t faster;       /* turns running that were faster than the last, */
+        uint8_t longer;       /* or clearly slower */
         bool seen;
     } of[WH_SPEED_SENSORS];
 } wh_off;
@@ -122,9 +123,11 @@ void wh_guard_start(wh_guard *guard, uint32_t now_ticks);
 /* True for set-points that the loop can hold, with gravity `fed` forward or not, and the shaft carries; false for NaN. */
 bool wh_guard_allows(const wh_guard_config *config, wh_real target_radps, bool fed);
 
-/* The fastest interval between two pulses of a rotor that is led to no more than base_radps: faster by `over`, and, if it
- * `falls`, by what falling from the top makes of it. From rest at the bottom gravity adds nothing. */
-wh_real wh_guard_bound_radps(const wh_guard_config *config, wh_real base_radps, bool falls);
+/* The fastest interval between two pulses of a rotor that is led to no more than base_radps: faster by `over`, and by `falls`
+ * times what falling from the top makes of it. From rest at the bottom gravity adds nothing. */
+#define WH_GUARD_LIGHTER \
+    WH_R(1.5) /* so falls a rotor of half the configured inertia, with some margin */
+wh_real wh_guard_bound_radps(const wh_guard_config *config, wh_real base_radps, wh_real falls);
 
 /* How fast may a turn's speed rise that is so far behind where it is led? Where it is ahead it slows. */
 WH_INLINE wh_real wh_guard_climb_radps2(const wh_guard_config *config, wh_real behind_radps,

@@ -68,11 +68,12 @@ static bool brakes(const wh_rig *rig) {
 void wh_rig_pulse(const wh_rig_config *config, wh_rig *rig, unsigned sensor, uint32_t ticks) {
     rig->pulses_ever++;
     rig->busy = true;
+    const bool open = !wh_run_drives(&rig->run) && !brakes(rig);
     if (!wh_run_drives(&rig->run)) {
-        wh_guard_off_pulse(&config->guard, &rig->guard, brakes(rig), sensor, ticks);
-        wh_expect_slower(&rig->run, &rig->pulses, brakes(rig), sensor, ticks);
+        wh_guard_off_pulse(&config->guard, &rig->guard, !open, sensor, ticks);
+        wh_expect_slower(&rig->run, &rig->pulses, !open, sensor, ticks);
     }
-    wh_expect_pulses(&config->guard, &config->run, &rig->run, &rig->pulses, ticks);
+    wh_expect_pulses(&config->guard, &config->run, &rig->run, &rig->pulses, open, ticks);
     if (rig->run.phase == WH_PHASE_TARE && sensor < WH_SPEED_SENSORS) {
         rig->run.tare_pulses[sensor]++;
     }
