@@ -67,7 +67,8 @@ static void see_turn(const wh_guard_config *config, wh_guard *guard, bool brakes
     if (brakes && !off->released && !(now <= before - config->braked_radps)) {
         off->released = true;
         off->doubted = off->alone >= ALONE_PAIR;
-        if (alone || (sensor != 0 && off->alternate >= ALTERNATE_PAIR)) {
+        off->asks = off->alternate >= ALTERNATE_PAIR;
+        if (alone || (off->asks && sensor != 0)) {
             wh_guard_trip(guard, WH_TRIP_UNBRAKED);
         }
     }
@@ -102,6 +103,10 @@ WH_CALLED void wh_guard_off_pulse(const wh_guard_config *config, wh_guard *guard
     off->alternate = off->sensor == 0 || again ? 0U : one_more(off->alternate);
     off->alone = again ? one_more(off->alone) : 0U;
     off->sensor = (uint8_t)(sensor + 1U);
+    if (off->asks && !again) {
+        wh_guard_trip(guard, WH_TRIP_UNBRAKED);
+    }
+    off->asks = false;
     of->ticks = ticks;
     if (of->seen) {
         const uint32_t before_ticks = of->turn_ticks;

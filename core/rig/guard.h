@@ -74,14 +74,15 @@ typedef struct wh_guard_config {
  * shorter as the swing gets smaller: they are no turns. Pulses show turns
  *
  *  - while both sensors fire in turn. A swing that turns back between both edges of sensor 2's slot does so, too, but once:
- *    sensor 1, sensor 2, sensor 1 again on the way back. So the same of sensor 2 is a turn, of sensor 1 only when it repeats;
+ *    sensor 1, sensor 2, sensor 1 again on the way back. So the same of sensor 2 is a turn, of sensor 1 when sensor 2 is next;
  *  - where one sensor fires alone (the other is dead) faster than any swing: two intervals of a swing last a period, which is
  *    at least 2 pi sqrt(I/S g), so they do not both look faster than 2 sqrt(S g/I). A rotor of half the inertia is allowed for;
  *  - after `released`, where such a sensor's intervals get longer three times running by 2 % at least. Of a swing that
  *    friction ends the last two do. */
 typedef struct wh_off {
     bool released;
-    bool doubted;      /* by pulses of one sensor alone */
+    bool doubted;      /* by pulses of one sensor alone, */
+    bool asks;         /* or of both in turn: the next pulse says whether it swings */
     uint8_t sensor;    /* of the last pulse, from 1; 0: there was none */
     uint8_t alternate; /* pulses running whose sensor was not the one before's, */
     uint8_t alone;     /* or was */

@@ -152,11 +152,13 @@ static void read_load_cell(hal_virtual_rig *rig) {
  * shows its back-EMF. */
 static float duty_of(const hal_virtual_rig *rig) {
     const float back_emf = hal_virtual_rig_speed_radps(rig) * (1.0f / HAL_VIRTUAL_NO_LOAD_RADPS);
-    if (!rig->enabled || rig->cut || rig->stop_cuts) {
+    const bool stuck = rig->faults.stuck > 0.0f;
+    if (!(rig->enabled || (stuck && rig->faults.deaf)) || rig->cut || rig->stop_cuts) {
         return back_emf;
     }
-    const float volts =
-        rig->faults.runaway_motor || rig->volts > rig->supply_V ? rig->supply_V : rig->volts;
+    const float volts = stuck                        ? rig->faults.stuck * rig->supply_V
+                        : rig->volts > rig->supply_V ? rig->supply_V
+                                                     : rig->volts;
     const float duty = volts * (1.0f / HAL_VIRTUAL_RATED_V);
     return rig->faults.freewheels && duty < back_emf ? back_emf : duty;
 }

@@ -41,8 +41,10 @@ typedef struct hal_virtual_faults {
     bool dead_sensor[2];     /* gives no pulse */
     unsigned lose_samples;   /* so many of the next load samples are swallowed */
     bool stuck_load_cell;    /* repeats its last count */
-    bool runaway_motor; /* full supply, whatever the voltage; enable and watchdog still cut it */
-    bool freewheels;    /* the drive stage cannot brake: it only pushes */
+    float
+        stuck; /* the drive stage gives this share of the supply, whatever the voltage; 0: it obeys */
+    bool deaf;       /* and whatever the enable; the watchdog still cuts it */
+    bool freewheels; /* the drive stage cannot brake: it only pushes */
 } hal_virtual_faults;
 
 typedef struct hal_virtual_rig {

@@ -32,7 +32,8 @@ refused() {
 }
 refused "did you mean 'supply'" --fault suply=2
 refused 'a number from 0 to 10' --fault supply=11
-refused 'it has no size' --fault jam,runaway=1
+refused 'it has no size' --fault jam,freewheel=1
+refused 'a number from 0.01 to 1' --fault stuck=1.2
 refused 'no such time' --fault jam@noon
 refused 'no such duration' --fault jam@1+long
 refused "tells no 'mood'" --fault jam@mood=3
@@ -81,13 +82,32 @@ run stop@0.5s+10ms
 grep -aq '^STOPPED: ' "$scratch/run" && ! grep -aq armed "$scratch/run"
 verdict $? "and one that was pressed before it armed is not forgotten" "$scratch/run"
 
+# --- driven though it is off ------------------------------------------------------------------------------------------
+# off TRIPS WORD...: at 60 s the motor is off, and the trip is one of these
+off() {
+    trips=$1
+    shift
+    timeout 200 "$whirl" pil docs/plants/rig.whirl --step 200us --firmware "$build/pil_dialled" --until 60s --tape "$scratch/tape" \
+        "$@" >"$scratch/run" 2>"$scratch/err"
+    "$whirl" pil --read "$scratch/tape" | awk -F, '$5 == "enable" { on = $6 } END { exit !(on == 0) }' &&
+        case " $trips " in *" $(told trip "$scratch/run") "*) true ;; *) false ;; esac
+    verdict $? "off, and tripped by $trips: $*" "$scratch/run"
+}
+off 12 --set brakes=1 --set speed=250rpm --fault supply=0.5,runaway@state=14
+off '10 12' --set brakes=1 --fault stop@9s,stuck=0.4@9s
+off '10 12' --fault stop@9s,stuck@9s,edge-dead:1@9s
+# a stage that obeys its enable drives nothing: it is off, and that is all
+off 0 --set speed=250rpm --fault supply=0.5,runaway@state=14
+off 0 --fault stop@9s,runaway=0.4@9s
+off 0 --fault stop@2.1s,runaway@2.1s,edge-dead:1
+
 # --- stopped, and reset ---------------------------------------------------------------------------------------------------
 # Of each class some, at drawn instants: off at once, idle or tripped as before, and nothing starts by itself.
 few=8
 [ -z "${WHIRL_FEW:-}" ] || few=2
 [ -z "${WHIRL_FULL:-}" ] || few=30
-for only in stop reset reset-tripped hang-resets; do
-    timeout 300 "$build/tools/faults" --firmware "$build/pil_rig" --only $only --runs $few --seed 9 >"$scratch/halts" 2>"$scratch/err" &&
+for only in stop reset reset-tripped hang-resets runaway-share stuck-share; do
+    timeout 300 "$build/tools/faults" --firmware "$build/pil_dialled" --only $only --runs $few --seed 9 >"$scratch/halts" 2>"$scratch/err" &&
         grep -q "^| $only | $few |" "$scratch/halts"
     verdict $? "$few runs of $only" "$scratch/halts"
 done

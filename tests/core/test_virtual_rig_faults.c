@@ -97,7 +97,7 @@ static void test_runaway_is_caught(void) {
             plant_control(&on);
         }
         on.fastest_radps = 0.0f;
-        hal_virtual_rig_instance()->faults.runaway_motor = true;
+        hal_virtual_rig_instance()->faults.stuck = 1.0f;
         plant_go_on_to_the_end(&on);
         if (!recording) { /* a record does not wait for over-speed */
             TEST_ASSERT_TRUE(on.rig.guard.trip == WH_TRIP_OVERSPEED);

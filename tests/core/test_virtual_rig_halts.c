@@ -93,6 +93,30 @@ static void test_stop_in_every_state(void) {
     }
 }
 
+/* A stage that is stuck at a share of the supply, in each state in which the motor must not drive: the enable is off within
+ * a second and a half, and the trip has a name where the rotor turns. */
+static void test_a_stuck_stage_in_every_off_state(void) {
+    seed = 25;
+    for (unsigned i = 0; i < draw_cases(24); i++) {
+        hal_virtual_rig *rig = hal_virtual_rig_instance();
+        const bool brakes = i % 3U == 0;
+        stand_at(brakes ? AT_PHASES + 2U : i % 2U == 0 ? AT_IDLE : AT_ARMED);
+        on.config.stop_brakes = true;
+        rig->supply_V = draw_whole(&seed, 18, 36);
+        rig->faults.stuck = draw_whole(&seed, 60, 100) / 100.0f;
+        rig->faults.deaf = !brakes;
+        if (brakes) {
+            TEST_ASSERT_TRUE(plant_order(&on, WH_EVENT_STOP, 0.0f) == WH_ALLOWED);
+            TEST_ASSERT_TRUE(rig->enabled);
+        }
+        for (unsigned k = 0; k < 750U; k++) {
+            plant_control(&on);
+        }
+        TEST_ASSERT_FALSE(rig->enabled);
+        TEST_ASSERT_TRUE(on.rig.guard.trip == (brakes ? WH_TRIP_UNBRAKED : WH_TRIP_RUNS_ON));
+    }
+}
+
 /* A trip stays one. */
 static void test_stop_of_a_tripped_rig(void) {
     stand_at(AT_PHASES + 3);
@@ -286,6 +310,7 @@ void suite_virtual_rig_halts(void) {
     RUN_TEST(test_a_record_is_latched_from_its_bytes);
 #if !WH_DOUBLE
     RUN_TEST(test_stop_in_every_state);
+    RUN_TEST(test_a_stuck_stage_in_every_off_state);
     RUN_TEST(test_stop_of_a_tripped_rig);
     RUN_TEST(test_supplies_out_of_range);
     RUN_TEST(test_resets_in_every_state);

@@ -21,6 +21,7 @@ static const char *const text =
     "coordinate theta [rad]\ninput duty = 0\ninput enable = 0\n"
     "input runaway = 0\ninput enable_stuck = 0\ninput stop_pressed = 0\n"
     "T = 1 [kg*m^2]*theta'^2/2\nV = -%g [J]*cos(theta)\n"
+    "Q(theta) = 8 [N*m]*enable_stuck\n"
     "output pin_force [N] = 42 [N]*cos(theta + 0.3) + 7 [N]*cos(2*theta) + 3 [N]\n"
     "scene s { start theta' = %g [rpm]; step 200 [us]; until 10 [s] }\n";
 
@@ -74,6 +75,7 @@ static const made_up honest = {.rpm = 330.0,
                                .phase_half_rad = 1e-4,
                                .turns = 10,
                                .fault = "runaway@9",
+                               .state = 13, /* the record */
                                .off_s = 2.9,
                                .cause = 2,
                                .end = LOCKSTEP_DONE};
@@ -245,6 +247,28 @@ static void test_runaways(void) {
     TEST_ASSERT_FALSE(v.lasting || v.happened);
 }
 
+/* The motor must not drive, and turns show that something does: off, and tripped, within a second. */
+static void test_off_is_off(void) {
+    static const int states[] = {0, 1, 4, 9, 15}; /* idle, armed, tripped, tare, coast */
+    made_up m = honest;
+    m.off_s = 99.0;
+    TEST_ASSERT_FALSE(judged(&m).stays_on || judged(&m).runs_on);
+    for (int i = 0; i < 5; i++) {
+        m = honest;
+        m.state = states[i];
+        m.swing_J = 0.0;
+        m.fault = "stuck@0.5"; /* from then on it gets faster */
+        m.off_s = 99.0;
+        verdict v = judged(&m);
+        TEST_ASSERT_TRUE(v.stays_on && v.runs_on && v.untold == (states[i] != 4));
+        m.off_s = 1.2; /* the second turn is over after 0.86 s */
+        v = judged(&m);
+        TEST_ASSERT_TRUE(!v.stays_on && !v.runs_on && v.untold == (states[i] != 4));
+        m.fault = "stuck@2.9";
+        TEST_ASSERT_FALSE(judged(&m).untold);
+    }
+}
+
 /* Pressed at 1 s: off by the next orders, and for good. */
 static void test_stops(void) {
     made_up m = honest;
@@ -335,6 +359,7 @@ void suite_faults(void) {
     RUN_TEST(test_no_lies);
     RUN_TEST(test_speeds);
     RUN_TEST(test_runaways);
+    RUN_TEST(test_off_is_off);
     RUN_TEST(test_stops);
     RUN_TEST(test_resets);
     RUN_TEST(test_cuts);

@@ -118,7 +118,7 @@ static void disturb(void) {
         faults->dead_sensor[draw_one_of(&seed, 2)] = true;
     }
     if (happens(30000)) {
-        faults->runaway_motor = !faults->runaway_motor;
+        faults->stuck = 1.0f - faults->stuck;
     }
     plant->stop_pressed = plant->stop_pressed ? !happens(300) : happens(15000);
 }
