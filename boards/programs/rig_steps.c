@@ -95,6 +95,7 @@ static bool run(const trial *tried) {
     config.observer.scene = &rig_observed;
     config.feeds = tried->fed ? WH_FEED_ALWAYS : wh_rig_standard.feeds;
     config.swings = tried->swings;
+    config.stop_brakes = true; /* the others end soon */
     if (hal_clock_start() != HAL_STARTED) {
         return false;
     }

@@ -94,7 +94,8 @@ off() {
     verdict $? "off, and tripped by $trips: $*" "$scratch/run"
 }
 off 12 --set brakes=1 --set speed=250rpm --fault supply=0.5,runaway@state=14
-off '10 12' --set brakes=1 --fault stop@9s,stuck=0.4@9s
+off '2 10' --fault stop@9s,stuck=0.9@9s
+off '10 12' --set brakes=1 --fault stuck=0.4@state=15
 off '10 12' --fault stop@9s,stuck@9s,edge-dead:1@9s
 # a stage that obeys its enable drives nothing: it is off, and that is all
 off 0 --set speed=250rpm --fault supply=0.5,runaway@state=14
