@@ -35,7 +35,6 @@ typedef struct simulation {
     traces *traces; /* NULL without --vcd */
     envelope *plot; /* NULL without --plot */
     uint64_t steps; /* wanted */
-    double wall_s;  /* spent stepping */
     bool write_failed;
     diags *undefined; /* what was not a finite number beside the motion */
     bool energies_told;
@@ -197,11 +196,7 @@ static wh_status loop(simulation *sim, bool *interrupted) {
     uint64_t step = 0;
     enter(sim, 0);
     while (step < sim->steps && !sim->write_failed) {
-        const double before_s = (step & 63U) == 0 ? now_s() : 0.0;
         status = s->kind->step(sim->run);
-        if ((step & 63U) == 0) {
-            sim->wall_s += now_s() - before_s;
-        }
         if (status != WH_OK) {
             break;
         }
@@ -345,12 +340,9 @@ simulation_result simulate(const image *im, const simulation_settings *s, bool *
         }
         slow_say(stderr, im, s->kind, sim.run);
         if (!s->quiet) {
-            const uint64_t done = s->kind->steps(sim.run);
-            const uint64_t samples = (done + 63) / 64;
-            const double sampled = (double)samples;
             const bool taken = sim.csv == stdout || sim.columns == stdout || sim.vcd == stdout;
             summary_print(taken ? stderr : stdout, im, s->kind, sim.run, sim.verdict->books,
-                          &sim.verdict->balance, sampled > 0.0 ? 1e9 * sim.wall_s / sampled : 0.0);
+                          &sim.verdict->balance);
         }
         if (s->plot != NULL && result != SIMULATION_BAD_FILE && !draw(&sim)) {
             result = SIMULATION_BAD_FILE;

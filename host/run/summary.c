@@ -44,7 +44,7 @@ static void print_events(FILE *out, const image *im, const engine_kind *kind, co
 }
 
 void summary_print(FILE *out, const image *im, const engine_kind *kind, void *run, const books *b,
-                   const belief *balance, double step_ns) {
+                   const belief *balance) {
     const uint64_t steps = kind->steps(run);
     fprintf(out, "%s%s%s\n", im->name, im->title[0] != '\0' ? ": " : "", im->title);
     for (int i = 0; i < im->effects; i++) {
@@ -69,5 +69,4 @@ void summary_print(FILE *out, const image *im, const engine_kind *kind, void *ru
     }
     belief_print(out, balance);
     fprintf(out, "state hash         0x%016" PRIx64 "\n", kind->hash(run));
-    fprintf(out, "time per step      %.0f ns (interpreted, this machine)\n", step_ns);
 }

@@ -8,8 +8,8 @@
 #include "books.h"
 #include "engine.h"
 
-/* `books` may be NULL; `balance` is theirs. `step_ns` is the wall time of a step (sampled). */
+/* `books` may be NULL; `balance` is theirs. The same run has the same summary: nothing in it is timed. */
 void summary_print(FILE *out, const image *im, const engine_kind *kind, void *run, const books *b,
-                   const belief *balance, double step_ns);
+                   const belief *balance);
 
 #endif

@@ -43,17 +43,15 @@ done 2>/dev/null # what the kernel cannot even load, it ends
 short() {
     what=$1
     shift
-    "$whirl" "$@" >"$scratch/out" 2>/dev/null </dev/null
+    "$whirl" "$@" >"$scratch/whole" 2>/dev/null </dev/null
     status=$?
-    grep -v '^time per step' "$scratch/out" >"$scratch/whole"
     beyond=16
     told=0
     bad=0
     while :; do
         (ulimit -v $((least + beyond)) && exec "$whirl" "$@") >"$scratch/out" 2>"$scratch/err" </dev/null
         now=$?
-        grep -v '^time per step' "$scratch/out" >"$scratch/part"
-        if [ "$now" -eq "$status" ] && cmp -s "$scratch/whole" "$scratch/part"; then
+        if [ "$now" -eq "$status" ] && cmp -s "$scratch/whole" "$scratch/out"; then
             break
         elif [ "$now" -eq 1 ] && tail -n 1 "$scratch/err" | grep -q '^whirl: out of memory$'; then
             told=$((told + 1))

@@ -45,7 +45,7 @@ static void write_run(FILE *out, const image *im, const engine_kind *kind) {
             }
         }
         const belief balance = belief_of(b, kind, run);
-        summary_print(out, im, kind, run, b, &balance, 0.0);
+        summary_print(out, im, kind, run, b, &balance);
         if (b != NULL && im->ledger.kept) {
             books_print_kept(out, im, kind, run, b);
         }

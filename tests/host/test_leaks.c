@@ -76,7 +76,7 @@ static void run_watched(const image *im, const image *plain) {
         FILE *out = tmpfile();
         TEST_ASSERT_NOT_NULL(out);
         verdict_say(out, v, true);
-        summary_print(out, im, kinds[k], run, v->books, &v->balance, 1.0);
+        summary_print(out, im, kinds[k], run, v->books, &v->balance);
         fclose(out);
         verdict_close(v);
         kinds[k]->stop(run);
