@@ -60,6 +60,16 @@ static void write_shown(const show *s, const char *kind, const symbol *what) {
     free(unit_name);
 }
 
+/* A parameter or an input with its value, in the unit that the file writes. */
+static void write_value(const show *s, const char *kind, const symbol *what, double si_value) {
+    const unit_scale unit = shown_unit(what, 0);
+    char *unit_name = shown_unit_name(what, 0);
+    fprintf(s->out, "  %-10s %-10s = %.10g [%s]%s%s\n", kind, what->name,
+            number_shown(si_value / unit.scale * unit.divisor), unit_name,
+            what->text[0] != '\0' ? "  " : "", what->text);
+    free(unit_name);
+}
+
 static void write_names(const show *s, const equations *e) {
     const mechanism *m = e->instance->mechanism;
     fprintf(s->out, "%s %s%s%s\n\n", m->is_system ? "system" : "mechanism", m->name,
@@ -70,16 +80,13 @@ static void write_names(const show *s, const equations *e) {
     for (int i = 0; i < m->parameter_count; i++) {
         const symbol *p = m->parameters[i];
         if (p->effect < 0 || e->instance->with[p->effect]) {
-            fprintf(s->out, "  parameter  %-10s = %.10g (SI)%s%s\n", p->name,
-                    number_shown(e->instance->parameter[i]), p->text[0] != '\0' ? "  " : "",
-                    p->text);
+            write_value(s, "parameter", p, e->instance->parameter[i]);
         }
     }
     for (int i = 0; i < m->input_count; i++) {
         const symbol *u = m->inputs[i];
         if (u->effect < 0 || e->instance->with[u->effect]) {
-            fprintf(s->out, "  input      %-10s = %.10g (SI)%s%s\n", u->name,
-                    number_shown(e->instance->input[i]), u->text[0] != '\0' ? "  " : "", u->text);
+            write_value(s, "input", u, e->instance->input[i]);
         }
     }
     for (int i = 0; i < m->effect_count; i++) {
