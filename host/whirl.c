@@ -21,6 +21,8 @@ typedef struct command {
 
 static const command commands[] = {
     {"list", command_list, "", "the built-in mechanisms and scenes"},
+    {"new", command_new, "NAME", "a commented file to start from: NAME.whirl"},
+    {"check", command_check, "FILE ...", "errors of a file, without running anything"},
     {"derive", command_derive, "FILE [--as FORM]", "equations of motion, or the scene as code"},
     {"describe", command_describe, "SCENE|FILE[:SCENE]",
      "what a scene holds: names, units, sizes; --json for programs"},
@@ -63,41 +65,63 @@ static void print_usage(FILE *out) {
     }
     fputs("\n"
           "For FILE[:SCENE] the built-in MECHANISM[:SCENE] can stand everywhere.\n"
-          "`whirl COMMAND --help` says more; --version prints the version.\n",
+          "`whirl help COMMAND` says more; `whirl version` prints the version.\n",
           out);
     exit_describe(out, why);
 }
 
-/* The command, on the words behind it; what it says may still be in a buffer. */
-static int answer(int count, char **words) {
-    if (count < 2) {
-        print_usage(stderr);
-        return EXIT_BAD_INPUT;
-    }
-    if (strcmp(words[1], "--help") == 0 || strcmp(words[1], "-h") == 0 ||
-        strcmp(words[1], "help") == 0) {
-        print_usage(stdout);
-        return EXIT_DONE;
-    }
-    if (strcmp(words[1], "--version") == 0) {
-        puts("whirl " VERSION);
-        return EXIT_DONE;
-    }
-    nearest search = nearest_start(words[1], strlen(words[1]));
+static const command *command_named(const char *name) {
     for (int i = 0; i < COMMANDS; i++) {
-        if (strcmp(words[1], commands[i].name) == 0) {
-            return commands[i].run(count - 2, words + 2);
+        if (strcmp(name, commands[i].name) == 0) {
+            return &commands[i];
         }
+    }
+    return NULL;
+}
+
+static int say_unknown(const char *name) {
+    nearest search = nearest_start(name, strlen(name));
+    for (int i = 0; i < COMMANDS; i++) {
         if (commands[i].text != NULL) {
             nearest_offer(&search, commands[i].name);
         }
     }
-    fprintf(stderr, "whirl: error: unknown command '%s'\n", words[1]);
+    fprintf(stderr, "whirl: error: unknown command '%s'\n", name);
     if (search.best != NULL) {
         fprintf(stderr, "hint: did you mean '%s'?\n", search.best);
+    } else {
+        fputs("hint: `whirl help` lists the commands\n", stderr);
     }
-    print_usage(stderr);
     return EXIT_BAD_INPUT;
+}
+
+static bool is_one_of(const char *word, const char *a, const char *b, const char *c) {
+    return strcmp(word, a) == 0 || strcmp(word, b) == 0 || (c != NULL && strcmp(word, c) == 0);
+}
+
+/* Runs the command that words[1] names. Its output may still be in a buffer. */
+static int answer(int count, char **words) {
+    static char help_word[] = "--help";
+    char *help[] = {help_word, NULL};
+    if (count < 2) {
+        print_usage(stderr);
+        return EXIT_BAD_INPUT;
+    }
+    const bool asks_for_help = is_one_of(words[1], "--help", "-h", "help");
+    if (asks_for_help && count == 2) {
+        print_usage(stdout);
+        return EXIT_DONE;
+    }
+    if (is_one_of(words[1], "--version", "version", NULL)) {
+        puts("whirl " VERSION);
+        return EXIT_DONE;
+    }
+    const char *name = words[asks_for_help ? 2 : 1];
+    const command *named = command_named(name);
+    if (named == NULL) {
+        return say_unknown(name);
+    }
+    return asks_for_help ? named->run(1, help) : named->run(count - 2, words + 2);
 }
 
 /* Whatever was said must have arrived: an answer that is cut off is none. An error may be of a part that was written

@@ -4,6 +4,8 @@
 #define COMMANDS_COMMANDS_H
 
 int command_list(int count, char **words);
+int command_new(int count, char **words);
+int command_check(int count, char **words);
 int command_derive(int count, char **words);
 int command_describe(int count, char **words);
 int command_accel(int count, char **words);

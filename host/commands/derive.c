@@ -303,24 +303,17 @@ typedef struct derive_options {
 
 /* The scene's name in generated code: as a name in a .whirl file. */
 static bool take_name(change_options *options, const char *name) {
-    static const char letters[] = "_ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789";
-    const size_t length = strlen(name);
-    if (length == 0 || length > NAME_LENGTH_MAX || strspn(name, letters) != length ||
-        (name[0] >= '0' && name[0] <= '9')) {
-        fprintf(stderr,
-                "whirl derive: error: --name '%.70s' is no name\n"
-                "hint: letters, digits and _, no digit first, at most %d of them\n",
-                name, NAME_LENGTH_MAX);
-        return false;
-    }
     options->name = name;
-    return true;
+    return options_is_name("derive", name, NAME_LENGTH_MAX);
 }
 
 static bool take_one(int count, char **words, int *at, void *options, bool *bad) {
     derive_options *o = options;
     const char *value = options_value(count, words, at, "--as", bad);
     if (value != NULL) {
+        if (options_same("matlab", value)) { /* runs the same function file */
+            value = "octave";
+        }
         const int chosen = options_choose("derive", "form", value, forms, sizeof forms[0], FORMS);
         *bad = chosen < 0;
         o->as = chosen < 0 ? o->as : &forms[chosen];

@@ -1,6 +1,7 @@
 /* options.c: reading the words of a command line. */
 #include "options.h"
 
+#include <ctype.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -266,12 +267,20 @@ void options_forget(common_options *options) {
     free(c->without);
 }
 
+bool options_same(const char *a, const char *b) {
+    while (*a != '\0' && tolower((unsigned char)*a) == tolower((unsigned char)*b)) {
+        a++;
+        b++;
+    }
+    return *a == '\0' && *b == '\0';
+}
+
 int options_choose(const char *command, const char *what, const char *value, const void *rows,
                    size_t size, int count) {
     const char *row = rows;
     for (int i = 0; i < count; i++) {
         const char *const *word = (const void *)(row + (size_t)i * size);
-        if (strcmp(value, *word) == 0) {
+        if (options_same(value, *word)) {
             return i;
         }
     }
@@ -282,6 +291,20 @@ int options_choose(const char *command, const char *what, const char *value, con
     }
     fputc('\n', stderr);
     return -1;
+}
+
+bool options_is_name(const char *command, const char *name, int most) {
+    static const char letters[] = "_ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789";
+    const size_t length = strlen(name);
+    const bool good = length > 0 && length <= (size_t)most && strspn(name, letters) == length &&
+                      !(name[0] >= '0' && name[0] <= '9');
+    if (!good) {
+        fprintf(stderr,
+                "whirl %s: error: '%.70s' is no name\n"
+                "hint: letters, digits and _, no digit first, at most %d of them\n",
+                command, name, most);
+    }
+    return good;
 }
 
 bool options_number(const char *command, const char *option, const char *text, double least,

@@ -145,9 +145,15 @@ void options_forget(common_options *options);
 bool options_take(const char *command, unsigned groups, int count, char **words, int *at,
                   common_options *to, bool *bad);
 
+/* A name as in a .whirl file, of at most `most` letters? Else that is reported, with a hint. */
+bool options_is_name(const char *command, const char *name, int most);
+
 overrides options_overrides(const change_options *changes);
 
-/* Which of rows[count], `size` bytes each with its word at the beginning, has the word `value`; -1 when none has:
+/* Are they the same word, in upper or lower case? */
+bool options_same(const char *a, const char *b);
+
+/* Which of rows[count], `size` bytes each with its word at the beginning, has the word `value`, in any case; -1 when none has:
  * that is reported, with the words. */
 int options_choose(const char *command, const char *what, const char *value, const void *rows,
                    size_t size, int count);

@@ -46,7 +46,45 @@ prints '^usage: whirl COMMAND' --help
 prints '^usage: whirl COMMAND' -h
 prints '^whirl [0-9]+\.[0-9]+\.[0-9]+$' --version
 prints '^usage: whirl run' run thomson_a --bogus --help
+prints '^whirl [0-9]+\.[0-9]+\.[0-9]+$' version
+prints '^usage: whirl COMMAND' help
 prints '^scene +thomson_a ' list
+says 2 "unknown command 'frobnicate'" help frobnicate
+says 2 "did you mean 'price'" help prise
+! "$whirl" rnu 2>&1 | grep -q '^usage'
+verdict $? "a mistyped command is answered by its hint, not by the whole list"
+
+# --- new and check --------------------------------------------------------------------------------------
+# A file that `new` writes has no errors, whatever its name; and what stands there stays.
+program=$(cd "$(dirname "$whirl")" && pwd)/$(basename "$whirl")
+for name in swing A _ x9 "$(printf '%057d' 0 | tr 0 n)"; do
+    (cd "$scratch" && "$program" new "$name") >"$scratch/out" 2>"$scratch/err" && [ ! -s "$scratch/err" ] &&
+        "$whirl" check "$scratch/$name.whirl" 2>"$scratch/err" | grep -q 'no errors; mechanisms: 1, scenes: 1$' &&
+        "$whirl" run "$scratch/$name.whirl" --until 10ms --quiet 2>>"$scratch/err" && [ ! -s "$scratch/err" ]
+    verdict $? "whirl new $name, checked and run"
+done
+cp "$scratch/swing.whirl" "$scratch/before"
+(cd "$scratch" && "$program" new swing) >"$scratch/out" 2>"$scratch/err"
+[ $? -eq 2 ] && grep -q '^hint: whirl new swing_2$' "$scratch/err" && cmp -s "$scratch/before" "$scratch/swing.whirl"
+verdict $? "whirl new leaves a file that exists as it is"
+for name in 1x 'a b' ä a/b a.b '' "$(printf '%058d' 0 | tr 0 n)"; do
+    says 2 'is no name' new "$name"
+done
+says 2 '^usage: whirl new' new
+says 2 '^usage: whirl check' check
+says 2 'cannot be read' check "$scratch/nothing.whirl"
+# every broken file of tests/bad is refused by its place; good ones beside it are still checked
+for file in tests/bad/*.whirl; do
+    "$whirl" check "$file" "$scratch/swing.whirl" >"$scratch/out" 2>"$scratch/err" </dev/null
+    [ $? -eq 2 ] && grep -q "^$file:[0-9]*:[0-9]*: error: " "$scratch/err" && grep -q 'swing.whirl: no errors' "$scratch/out" ||
+        echo "$file"
+done >"$scratch/accepted"
+[ ! -s "$scratch/accepted" ]
+verdict $? "whirl check refuses what tests/bad has, by line and column" "$scratch/accepted"
+for form in OCTAVE Matlab matlab; do
+    "$whirl" derive epicyclic --as octave >"$scratch/octave" && "$whirl" derive epicyclic --as $form | cmp -s - "$scratch/octave"
+    verdict $? "--as $form is --as octave"
+done
 says 2 '^usage: whirl COMMAND'
 says 2 "did you mean 'derive'" deriv epicyclic
 says 2 "unknown command 'frobnicate'" frobnicate
