@@ -88,6 +88,19 @@ pil: ## processor in the loop: the rig's firmware on BOARD against a plant of it
 .PHONY: whirl
 whirl: $(B)/whirl ## the command line program, build/whirl
 
+# The program, and the core that the C it writes is compiled with: -I $(PREFIX)/share/whirl.
+PREFIX ?= /usr/local
+INSTALLED = $(DESTDIR)$(PREFIX)
+.PHONY: install uninstall
+install: $(B)/whirl ## the program and the core's sources into PREFIX (/usr/local), below DESTDIR
+	$(Q)mkdir -p "$(INSTALLED)/bin" "$(INSTALLED)/share/whirl/core"
+	$(Q)install -m 755 $(B)/whirl "$(INSTALLED)/bin/whirl"
+	$(Q)install -m 644 core/*.c core/*.h "$(INSTALLED)/share/whirl/core"
+	$(Q)install -m 644 LICENSE README.md "$(INSTALLED)/share/whirl"
+uninstall: ## remove what `make install` put there
+	$(Q)rm -f "$(INSTALLED)/bin/whirl"
+	$(Q)rm -rf "$(INSTALLED)/share/whirl"
+
 ##@ Tests and quality
 
 .PHONY: test

@@ -11,7 +11,14 @@ for scene in epicyclic_from_rest thomson_a; do
     "$whirl" derive $scene --as c --header "$scratch/$scene.h" >"$scratch/$scene.c" 2>"$scratch/err"
     verdict $? "$scene is derived"
 done
-sources="core/scene.c core/angle.c core/text.c $scratch/epicyclic_from_rest.c $scratch/thomson_a.c"
+# Nothing but what `make install` puts there is compiled with the sketch.
+env -u MAKEFLAGS -u MAKEOVERRIDES make -s install DESTDIR="$scratch/tree" PREFIX=/usr >"$scratch/err" 2>&1
+verdict $? "make install DESTDIR= PREFIX="
+installed=$scratch/tree/usr
+"$installed/bin/whirl" derive thomson_a --as c 2>"$scratch/err" | cmp -s - "$scratch/thomson_a.c"
+verdict $? "the installed program derives the same C"
+core_in=$installed/share/whirl
+sources="$core_in/core/scene.c $core_in/core/angle.c $core_in/core/text.c $scratch/epicyclic_from_rest.c $scratch/thomson_a.c"
 
 # build CC CXX FLAGS...: the C as gnu11, the sketch as gnu++11; objects in $scratch.
 build() {
@@ -20,10 +27,10 @@ build() {
     shift 2
     : >"$scratch/err"
     for file in $sources; do
-        $cc -std=gnu11 "$@" -Wall -Wextra -Werror -I. -c "$file" -o "$scratch/$(basename "$file" .c).o" 2>>"$scratch/err" ||
+        $cc -std=gnu11 "$@" -Wall -Wextra -Werror -I"$core_in" -c "$file" -o "$scratch/$(basename "$file" .c).o" 2>>"$scratch/err" ||
             return 1
     done
-    $cxx -std=gnu++11 -fno-exceptions -fno-rtti "$@" -Wall -Wextra -Wconversion -Wshadow -pedantic -Werror -I. -Itests/embed \
+    $cxx -std=gnu++11 -fno-exceptions -fno-rtti "$@" -Wall -Wextra -Wconversion -Wshadow -pedantic -Werror -I"$core_in" -Itests/embed \
         -I"$scratch" -c "$scratch/sketch.cpp" -o "$scratch/sketch.o" 2>>"$scratch/err"
 }
 
@@ -60,4 +67,8 @@ done
     build avr-gcc avr-g++ -Os -mmcu=atmega2560
     verdict $? "avr-g++ compiles it for an ATmega2560"
 }
+
+env -u MAKEFLAGS -u MAKEOVERRIDES make -s uninstall DESTDIR="$scratch/tree" PREFIX=/usr >"$scratch/err" 2>&1 &&
+    find "$scratch/tree" -type f >"$scratch/left" && [ ! -s "$scratch/left" ]
+verdict $? "make uninstall leaves no file" "$scratch/left"
 exit $failed
