@@ -2,7 +2,7 @@
 # price_pages.sh: the blocks, charts and rows that `make price` writes: blocks are what the generator makes of the committed
 # rows, rows agree with themselves, some of them are run and counted again, and what is wrong is seen.
 . "$(dirname "$0")/../checks.sh"
-pages="README.md docs/price.md docs/fronts.md"
+pages="docs/price.md docs/fronts.md"
 mkdir -p "$scratch/docs"
 
 # --- blocks ----------------------------------------------------------------------------------------------------------
@@ -121,7 +121,7 @@ AWK
 done
 if command -v gnuplot >/dev/null; then
     sh mk/curves/chart.sh "$scratch/fronts.svg" docs/figures/price.csv epicyclic_from_rest fronts mps2-an386 mps2-an385-m0 atmega328p \
-        2>"$scratch/err" && [ "$(grep -c 'id="gnuplot_plot_' "$scratch/fronts.svg")" -eq 3 ] && grep -q 'price_fronts.svg' README.md
+        2>"$scratch/err" && [ "$(grep -c 'id="gnuplot_plot_' "$scratch/fronts.svg")" -eq 3 ] && grep -q 'price_fronts.svg' docs/price.md
     verdict $? "the chart of fronts is drawn, three boards"
 fi
 
