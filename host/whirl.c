@@ -26,6 +26,7 @@ static const command commands[] = {
     {"derive", command_derive, "FILE [--as FORM]", "equations of motion, or the scene as code"},
     {"describe", command_describe, "SCENE|FILE[:SCENE]",
      "what a scene holds: names, units, sizes; --json for programs"},
+    {"examine", command_examine, "FILE [options]", "symmetries, momenta, and the forces on them"},
     {"accel", command_accel, "FILE NAME=VALUE ...", "accelerations at one state"},
 #ifndef WHIRL_NO_SYSTEM /* no processes and no signals */
     {"run", command_run, "SCENE|FILE[:SCENE] ...", "simulate"},

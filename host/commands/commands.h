@@ -8,6 +8,7 @@ int command_new(int count, char **words);
 int command_check(int count, char **words);
 int command_derive(int count, char **words);
 int command_describe(int count, char **words);
+int command_examine(int count, char **words);
 int command_accel(int count, char **words);
 int command_run(int count, char **words);
 int command_sweep(int count, char **words);

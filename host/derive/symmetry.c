@@ -1,0 +1,364 @@
+/* symmetry.c: see symmetry.h. */
+#include "symmetry.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "host/base/room.h"
+#include "host/number/functions.h"
+#include "null_space.h"
+
+/* Singular values below such a part of the largest are zero: of coefficients, and of values at drawn states. What is hidden
+ * in an energy may be a millionth of it. */
+#define ZERO_OF_TERMS 1e-12
+#define ZERO_OF_VALUES 1e-11
+/* Draws of one state: a function may have no value at some. */
+#define DRAWS 50
+
+/* --- the change of an energy ----------------------------------------------------------------------*/
+
+/* Columns: A row by row, then b. */
+static int columns_of(const equations *e) { return e->count * (e->count + 1); }
+
+/* The change of an energy by column k alone. */
+static const poly *change_by(const equations *e, const poly *energy, int k) {
+    algebra *a = e->algebra;
+    const int n = e->count;
+    const symbol *moved = e->unknowns[k < n * n ? k / n : k - n * n].symbol;
+    const poly *by_place = poly_derivative(a, energy, moved, 0);
+    if (k >= n * n) {
+        return by_place;
+    }
+    const symbol *with = e->unknowns[k % n].symbol;
+    return poly_add(a, poly_mul(a, by_place, poly_symbol(a, with, 0)),
+                    poly_mul(a, poly_derivative(a, energy, moved, 1), poly_symbol(a, with, 1)));
+}
+
+/* The angle without its number, which goes to *number. */
+static const poly *angle_without_number(algebra *a, const poly *angle, double *number) {
+    *number = 0.0;
+    for (int i = 0; i < angle->count; i++) {
+        if (angle->terms[i].mono->count == 0 && angle->terms[i].mono->trig == TRIG_NONE) {
+            *number = angle->terms[i].coefficient;
+        }
+    }
+    return *number != 0.0 ? poly_sub(a, angle, poly_number(a, *number)) : angle;
+}
+
+/* sin(theta + 0.5) and sin(theta) are not independent: sines and cosines of sums with a number are written as sums. */
+static const poly *without_phases(algebra *a, const poly *p) {
+    const poly *sum = poly_number(a, 0.0);
+    for (int i = 0; i < p->count; i++) {
+        const mono *m = p->terms[i].mono;
+        double number = 0.0;
+        const poly *angle =
+            m->trig != TRIG_NONE ? angle_without_number(a, m->angle, &number) : NULL;
+        if (number == 0.0) {
+            sum = poly_add(a, sum, poly_of_term(a, p->terms[i].coefficient, m));
+            continue;
+        }
+        const bool is_sine = m->trig == TRIG_SIN;
+        const poly *same = is_sine ? poly_sin(a, angle) : poly_cos(a, angle);
+        const poly *other = is_sine ? poly_cos(a, angle) : poly_sin(a, angle);
+        const double part = is_sine ? number_sine(number) : -number_sine(number);
+        const poly *product =
+            poly_add(a, poly_scale(a, same, number_cosine(number)), poly_scale(a, other, part));
+        product = poly_scale(a, product, p->terms[i].coefficient);
+        for (int k = 0; k < m->count; k++) {
+            product =
+                poly_mul(a, product, poly_of_atom(a, m->factors[k].atom, m->factors[k].exponent));
+        }
+        sum = poly_add(a, sum, product);
+    }
+    return sum;
+}
+
+/* The power of a generalized force, or the rate of a gap, by column k alone. */
+static const poly *power_by(const equations *e, const poly *const *row, int k) {
+    const int n = e->count;
+    const poly *on = equations_fold(e, row[k < n * n ? k / n : k - n * n]);
+    return k < n * n
+               ? poly_mul(e->algebra, on, poly_symbol(e->algebra, e->unknowns[k % n].symbol, 0))
+               : on;
+}
+
+typedef struct entry {
+    const mono *mono;
+    int column;
+    double coefficient;
+} entry;
+
+static int by_mono(const void *left, const void *right) {
+    const entry *x = left;
+    const entry *y = right;
+    return x->mono->id != y->mono->id ? (x->mono->id < y->mono->id ? -1 : 1)
+                                      : x->column - y->column;
+}
+
+/* A crossing sets this coordinate or its rate: only what leaves it where it is has a momentum that stays. */
+static void take_fixed(const equations *e, conditions *s, const symbol *set) {
+    const int n = e->count;
+    double *row = room(s->columns, sizeof *row);
+    for (int k = 0; k < s->columns; k++) {
+        if (e->unknowns[k < n * n ? k / n : k - n * n].symbol == set) {
+            for (int j = 0; j < s->columns; j++) {
+                row[j] = j == k ? 1.0 : 0.0;
+            }
+            conditions_take(s, row);
+        }
+    }
+    free(row);
+}
+
+/* Each term of the normal form is a row: its coefficients, by column. */
+static void take_terms(conditions *s, const poly *const *change) {
+    int64_t count = 0;
+    for (int k = 0; k < s->columns; k++) {
+        count += change[k]->count;
+    }
+    entry *all = room(count, sizeof *all);
+    double *row = room(s->columns, sizeof *row);
+    int64_t filled = 0;
+    for (int k = 0; k < s->columns; k++) {
+        for (int i = 0; i < change[k]->count; i++) {
+            all[filled++] = (entry){change[k]->terms[i].mono, k, change[k]->terms[i].coefficient};
+        }
+    }
+    qsort(all, (size_t)count, sizeof *all, by_mono);
+    for (int64_t i = 0; i < count;) {
+        const mono *of = all[i].mono;
+        for (int k = 0; k < s->columns; k++) {
+            row[k] = 0.0;
+        }
+        for (; i < count && all[i].mono == of; i++) {
+            row[all[i].column] = all[i].coefficient;
+        }
+        conditions_take(s, row);
+    }
+    free(row);
+    free(all);
+}
+
+/* What changes a momentum beside the energies: the sum of all forces, and each contact. */
+static void take_forces(const equations *e, conditions *s, const poly **change) {
+    const contact_laws *laws = e->contacts;
+    for (int c = -1; c < (laws != NULL ? laws->count : 0); c++) {
+        const poly *const *row = c < 0 ? e->applied : laws->law[c].row;
+        for (int k = 0; k < s->columns && row != NULL; k++) {
+            change[k] = without_phases(e->algebra, poly_expanded(e->algebra, power_by(e, row, k)));
+        }
+        if (row != NULL) {
+            take_terms(s, change);
+        }
+        for (int i = 0; row == NULL && i < laws->law[c].from->set_count; i++) {
+            take_fixed(e, s, laws->law[c].from->sets[i].symbol);
+        }
+    }
+}
+
+/* --- the check by values ---------------------------------------------------------------------------*/
+
+/* A number for every symbol of a state, the same each time it is asked. */
+static double drawn_value(void *context, const symbol *s, int primes) {
+    const uint64_t *seed = context;
+    uint64_t x = *seed * UINT64_C(0x9e3779b97f4a7c15) +
+                 (uint64_t)(s->index + 1000 * (int)s->kind) * 8191U + (uint64_t)primes * 131071U;
+    x = (x ^ (x >> 31)) * UINT64_C(0xbf58476d1ce4e5b9);
+    x = (x ^ (x >> 29)) * UINT64_C(0x94d049bb133111eb);
+    return 0.1 + 1.7 * (double)(x >> 11) * 0x1p-53 - (*seed % 2 == 0 ? 0.0 : 1.0);
+}
+
+/* How many motions leave an energy as it is, by its changes' values at drawn states; -1 without a value. */
+static int count_by_values(const equations *e, const poly *const *change) {
+    const int columns = columns_of(e);
+    conditions of_values = conditions_none(columns);
+    double *row = room(columns, sizeof *row);
+    double *basis = room((int64_t)columns * columns, sizeof *basis);
+    uint64_t seed = 1;
+    bool good = true;
+    for (int i = 0; i < 2 * columns && good; i++) {
+        good = false;
+        for (int draw = 0; draw < DRAWS && !good; draw++, seed++) {
+            good = true;
+            for (int k = 0; k < columns && good; k++) {
+                row[k] = poly_evaluate(change[k], drawn_value, &seed);
+                good = isfinite(row[k]);
+            }
+        }
+        if (good) {
+            conditions_take(&of_values, row);
+        }
+    }
+    const int count = good ? null_space(&of_values, ZERO_OF_VALUES, basis) : -1;
+    free(basis);
+    free(row);
+    free(of_values.r);
+    return count;
+}
+
+/* --- symmetries -------------------------------------------------------------------------------------*/
+
+const poly *symmetry_along(const equations *e, const symmetry *s, const poly *const *row) {
+    const poly *sum = poly_number(e->algebra, 0.0);
+    for (int i = 0; i < e->count; i++) {
+        sum = poly_add(e->algebra, sum, poly_mul(e->algebra, row[i], s->shift[i]));
+    }
+    return poly_expanded(e->algebra, sum);
+}
+
+static symmetry symmetry_of(const equations *e, const double *by) {
+    algebra *a = e->algebra;
+    const int n = e->count;
+    symmetry s = {.shift = room(n, sizeof(const poly *)), .stored = poly_number(a, 0.0)};
+    for (int i = 0; i < n; i++) {
+        s.shift[i] = poly_number(a, by[n * n + i]);
+        for (int j = 0; j < n; j++) {
+            s.shift[i] =
+                poly_add(a, s.shift[i],
+                         poly_scale(a, poly_symbol(a, e->unknowns[j].symbol, 0), by[i * n + j]));
+        }
+    }
+    s.momentum = symmetry_along(e, &s, e->momentum);
+    for (int k = 0; k < n * (n + 1); k++) {
+        if (fabs(by[k]) > 0.0) {
+            s.stored = poly_add(a, s.stored, poly_scale(a, change_by(e, e->stored, k), by[k]));
+        }
+    }
+    s.stored = poly_expanded(a, s.stored);
+    return s;
+}
+
+/* What of v is left beside known[count], orthonormal rows; true, and added to them, when it is more than rounding. */
+static bool is_new(const double *v, double *known, int *count, int columns) {
+    double *mine = &known[*count * columns];
+    const double length = vector_length(v, columns);
+    if (*count == columns) {
+        return false;
+    }
+    for (int k = 0; k < columns; k++) {
+        mine[k] = v[k] / length;
+    }
+    for (int twice = 0; twice < 2; twice++) {
+        for (int i = 0; i < *count; i++) {
+            double part = 0.0;
+            for (int k = 0; k < columns; k++) {
+                part += mine[k] * known[i * columns + k];
+            }
+            for (int k = 0; k < columns; k++) {
+                mine[k] -= part * known[i * columns + k];
+            }
+        }
+    }
+    const double left = vector_length(mine, columns);
+    for (int k = 0; k < columns && left > NULL_SPACE_ROUNDING; k++) {
+        mine[k] /= left;
+    }
+    *count += left > NULL_SPACE_ROUNDING ? 1 : 0;
+    return left > NULL_SPACE_ROUNDING;
+}
+
+typedef struct finding {
+    const equations *equations;
+    symmetries *found;
+    double *known; /* [columns * columns] orthonormal rows: what was found */
+    int count;     /* of them */
+    double *basis; /* [columns * columns] scratch */
+} finding;
+
+/* Those that meet all conditions and were not found before; returns how many meet them. */
+static int find_more(finding *f, const conditions *c, bool of_both, bool conserved) {
+    const int count = null_space(c, ZERO_OF_TERMS, f->basis);
+    null_space_tidy(f->basis, count, c->columns);
+    for (int i = 0; i < count; i++) {
+        const double *v = &f->basis[i * c->columns];
+        if (!is_new(v, f->known, &f->count, c->columns)) {
+            continue;
+        }
+        symmetry made = symmetry_of(f->equations, v);
+        made.conserved = conserved;
+        if (of_both) {
+            made.stored = poly_number(f->equations->algebra, 0.0);
+        }
+        if (poly_is_zero(made.momentum)) { /* a coordinate without kinetic energy */
+            free(made.shift);
+        } else {
+            f->found->each[f->found->count++] = made;
+        }
+    }
+    return count;
+}
+
+/* Leaves shifts alone: every entry of A is to be zero. */
+static void take_no_turning(conditions *s, int n) {
+    double *row = room(s->columns, sizeof *row);
+    for (int k = 0; k < n * n; k++) {
+        for (int j = 0; j < s->columns; j++) {
+            row[j] = j == k ? 1.0 : 0.0;
+        }
+        conditions_take(s, row);
+    }
+    free(row);
+}
+
+static bool is_flat(const equations *e) {
+    double number;
+    bool flat = true;
+    for (int i = 0; i < e->count * e->count; i++) {
+        flat = flat && poly_is_number(equations_fold(e, e->mass[i]), &number);
+    }
+    return flat;
+}
+
+symmetries *symmetries_find(const equations *e) {
+    algebra *a = e->algebra;
+    const int columns = columns_of(e);
+    const int64_t square = (int64_t)columns * columns;
+    const poly **change = room(columns, sizeof *change);
+    const poly *const energy[] = {equations_fold(e, e->kinetic), equations_fold(e, e->stored)};
+    conditions of[] = {conditions_none(columns), conditions_none(columns)}; /* T, V */
+    conditions of_forces = conditions_none(columns);
+    symmetries *found = room(1, sizeof *found);
+    *found = (symmetries){
+        .each = room(columns, sizeof *found->each), .complete = true, .flat = is_flat(e)};
+    finding f = {e, found, room(square, sizeof(double)), 0, room(square, sizeof(double))};
+    for (int which = 0; which < 2 && !algebra_overflow(a); which++) {
+        for (int k = 0; k < columns; k++) {
+            change[k] = without_phases(a, poly_expanded(a, change_by(e, energy[which], k)));
+        }
+        take_terms(&of[which], change);
+        found->complete =
+            found->complete && !algebra_overflow(a) &&
+            count_by_values(e, change) == null_space(&of[which], ZERO_OF_TERMS, f.basis);
+    }
+    take_forces(e, &of_forces, change);
+    conditions_add(&of[1], &of[0]);
+    conditions_add(&of_forces, &of[1]);
+    (void)find_more(&f, &of_forces, true, true);
+    (void)find_more(&f, &of[1], true, false);
+    const int of_kinetic = null_space(&of[0], ZERO_OF_TERMS, f.basis);
+    take_no_turning(&of[0], e->count);
+    (void)find_more(&f, &of[0], false, false);
+    found->broken = of_kinetic - f.count;
+    free(f.basis);
+    free(f.known);
+    free(of_forces.r);
+    free(of[1].r);
+    free(of[0].r);
+    free(change);
+    if (algebra_overflow(a)) {
+        symmetries_free(found);
+        return NULL;
+    }
+    return found;
+}
+
+void symmetries_free(symmetries *s) {
+    if (s == NULL) {
+        return;
+    }
+    for (int i = 0; i < s->count; i++) {
+        free(s->each[i].shift);
+    }
+    free(s->each);
+    free(s);
+}

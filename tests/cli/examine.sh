@@ -1,0 +1,67 @@
+#!/bin/sh
+# examine.sh: `whirl examine` of every built-in mechanism, and of devices with a hidden outside force. Drawn mechanisms are
+# compared with a reference in tests/host/test_symmetry.c.
+. "$(dirname "$0")/../checks.sh"
+
+says() { # says WHAT PATTERN WORD...: a line of the answer matches
+    what=$1
+    pattern=$2
+    shift 2
+    "$whirl" examine "$@" >"$scratch/out" 2>"$scratch/err" && grep -q -- "$pattern" "$scratch/out"
+    verdict $? "$what" "$scratch/out"
+}
+
+# Conserved momenta of each: what the books of a run find conserved too, for every coordinate of its own.
+"$whirl" list | awk '$1 == "mechanism" { print $2 }' | while read -r name; do
+    "$whirl" examine "$name" >"$scratch/out" 2>"$scratch/err"
+    case $? in
+    0) echo "$name $(sed -n 's/^directions.*conserved momenta: //p' "$scratch/out")" ;;
+    *) grep -q 'is given by equations' "$scratch/err" && echo "$name equations" ;;
+    esac
+done >"$scratch/all"
+cat >"$scratch/wanted" <<'END'
+epicyclic 1
+thomson 1
+thomson_plane 2
+laskowitz 2
+laskowitz_shifting 3
+spherical_particle 1
+cartesian_particle 3
+halvorson 1
+eccentric 1
+eccentric_fixed 0
+eccentric_ratio equations
+END
+grep -vxFf "$scratch/all" "$scratch/wanted" >"$scratch/err"
+[ ! -s "$scratch/err" ] && [ "$(wc -l <"$scratch/all")" -eq "$("$whirl" list | grep -c '^mechanism')" ]
+verdict $? "conserved momenta of the built-in mechanisms" "$scratch/all"
+
+says "the rail's momentum of the gear" "^   dP1/dt = 0: conserved$" epicyclic
+says "what is not affine is not decided" "^not decided: a direction or rotation that is not affine" spherical_particle
+says "a stop is an outside force" "the stop, line [0-9]* (effect left_stop)" carriage_stop
+says "LaTeX" '^  P_{1} &= 2 \\, m' epicyclic --as latex
+
+# A device whose centre of mass moves has a force somewhere: each is named with its line.
+for hidden in 'V += 1e-6 [N/m]*X^2/2' 'F += 1e-6 [N*s/m]*(X'"'"' + 0.01 [m]*theta'"'"')^2/2' 'Q(X) += 1e-6 [N]' 'stop X <= 9 [m] restitution 1' \
+    'friction X static 0.2 kinetic 0.1 normal 3 [N]' "when X crosses 8 [m] rising { set X' = -X' }"; do
+    where=mechanism
+    case $hidden in when*) where=scene ;; esac
+    { echo 'mechanism device "a hidden force"'
+        echo 'coordinate X [m]'
+        echo 'coordinate theta [rad]'
+        echo "T = 3 [kg]*X'^2/2 + 0.2 [kg*m]*X'*theta'*cos(theta) + 0.1 [kg*m^2]*theta'^2/2"
+        [ $where = scene ] || echo "effect hidden \"hidden\" { $hidden }"
+        [ $where = scene ] && echo "scene go { $hidden; step 1 [ms]; until 1 [s] }" || echo 'scene go { step 1 [ms]; until 1 [s] }'
+    } >"$scratch/device.whirl"
+    if [ $where = mechanism ]; then
+        says "without: $hidden" 'conserved momenta: 1' "$scratch/device.whirl"
+        says "$hidden is found" 'conserved momenta: 0' "$scratch/device.whirl" --with hidden
+        says "and named" "line 5 (effect hidden)\|potential energy V" "$scratch/device.whirl" --with hidden
+    else
+        says "$hidden is found" 'conserved momenta: 0' "$scratch/device.whirl"
+    fi
+done
+"$whirl" examine eccentric_ratio >"$scratch/out" 2>"$scratch/err"
+[ $? -eq 2 ] && grep -q '^hint: write T and V$' "$scratch/err"
+verdict $? "a system of equations is refused with a hint"
+exit $failed
