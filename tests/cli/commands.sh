@@ -93,6 +93,7 @@ ends() { # COMMAND [OPTION...]: all that it comes to
     case $command in
     derive) "$whirl" derive "$plain" --as c "$@" ;;
     describe) "$whirl" describe "$plain" --json "$@" ;;
+    examine) "$whirl" examine "$plain" "$@" ;;
     run) "$whirl" run "$plain" --csv - --quiet "$@" ;;
     sweep) "$whirl" sweep "$plain" --over x=1..1.5:2 --quiet "$@" ;;
     map) "$whirl" map "$plain" --over x=1..1.5:2 --over a=1..1.2:2 --csv - --quiet "$@" ;;
@@ -113,6 +114,8 @@ while read -r word value group; do
     while read -r command; do
         "$whirl" "$command" --help | grep -q -- " $word\( \|$\)" || continue
         case $command$word in
+        examine--start | examine--until) continue ;; # formulas hold at every state and time
+        examine--set) set -- --set k=0 ;;            # a spring that is none
         sweep--start | map--start) set -- --start "x'=1" ;; # x is swept
         derive--number) set -- --number fixed ;; # of float and double the code is one
         *) set -- "$word" "$(sample "$word")" ;;
