@@ -22,7 +22,7 @@ TARGET_C := $(filter-out boards/programs/% boards/host/%,$(BOARD_C))
 PC_BOARD_C := $(PROGRAM_C) $(wildcard boards/host/*.c)
 
 .PHONY: objects test-objects board-objects board-own-objects
-TESTS_C := $(HOST_TEST_C) $(wildcard tests/tools/*.c tests/fuzz/*.c)
+TESTS_C := $(HOST_TEST_C) $(wildcard tests/tools/*.c tests/outside/*.c tests/fuzz/*.c)
 test-objects: $(call objects,host,$(TESTS_C)) $(call objects,chip,$(CHIP_TEST_C)) \
     $(call objects,float,$(CORE_TEST_C)) $(call objects,double,$(CORE_TEST_C))
 objects: $(call objects,host,$(WHIRL_MAIN_C) $(WHIRL_C) $(GEN)/builtin_models.c $(HOST_TOOL_C)) \

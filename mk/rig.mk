@@ -47,6 +47,11 @@ faults-now: $(GEN)/.stamp
 	@build/tools/faults --firmware $(if $(ASKED_BOARD),$(ELF)/pil_dialled.elf --board $(BOARD),$(B)/pil_dialled) \
 	    --runs $(RUNS) --seed $(SEED) >$(FAULTS_OUT); code=$$?; cat $(FAULTS_OUT); exit $$code
 
+# The same firmware against a bench that is written from docs/pil.md alone.
+.PHONY: rig-bench
+rig-bench: $(B)/tools/rig_bench $(B)/pil_dialled $(B)/pil_swing ## the rig's firmware against a bench written from docs/pil.md alone: SEED (ten minutes)
+	@code=0; for campaign in bench healthy stuck runouts; do build/tools/rig_bench $$campaign --seed $(SEED) || code=1; done; exit $$code
+
 # Telemetry over a line of 115,200, 57,600 and 9,600 baud, in simulated time: every sample is there, or is counted as lost.
 TEL_SECONDS ?= 3600
 .PHONY: tel-hour

@@ -1,0 +1,35 @@
+/* Frames of docs/pil.md ("Bytes on the line") and the firmware as a child process at their end. */
+#ifndef TESTS_OUTSIDE_BENCH_LINE_H
+#define TESTS_OUTSIDE_BENCH_LINE_H
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <sys/types.h>
+
+enum { HELLO = 1, ORDERS = 2, READINGS = 3, REMEMBER = 5 }; /* kinds of frames */
+enum { HEADER = 8 }; /* bytes: version, kind, sequence, ticks */
+
+typedef struct {
+    uint8_t byte[2048];
+    size_t n, at; /* at: the reader's place */
+} message;
+
+typedef struct {
+    pid_t child;
+    FILE *to, *from;
+} line;
+
+_Noreturn void disagree(const char *format, ...); /* end with status 2: page and firmware */
+
+void put(message *m, uint32_t value, int bytes);
+uint32_t get(message *m, int bytes);
+double get_float(message *m);
+const char *get_string(message *m);
+
+void line_start(line *l, const char *firmware);
+void line_say(const line *l, message *m);  /* adds the CRC */
+bool line_hear(const line *l, message *m); /* behind its version; false: end of file */
+int line_end(const line *l);               /* the firmware's exit status, -1 after a signal */
+
+#endif

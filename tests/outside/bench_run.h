@@ -1,0 +1,20 @@
+/* A run of the firmware against a plant, and the rules that it must keep. */
+#ifndef TESTS_OUTSIDE_BENCH_RUN_H
+#define TESTS_OUTSIDE_BENCH_RUN_H
+#include "tests/outside/bench_plant.h"
+
+/* The floats of the rig's orders: two outputs, nine notes. */
+enum { DUTY, ENABLE, STATE, TRIP, QUALITY, AMPLITUDE, AMPLITUDE_HALF, PHASE, PHASE_HALF, MEASURED };
+enum { FLOATS = 11 };
+
+typedef struct {
+    int index, kind, second, status, state, state_before, trip, quality, turns, trip_state;
+    bool wrong, on, shown, tripped, ended;      /* shown: a stage that drives, by a turn */
+    double note[FLOATS], amplitude, phase, rpm; /* of the result; the plant's */
+    double energy_off, seconds, on_s, peak_high, peak_low, fastest;
+    char why[160];
+} outcome;
+
+void run(const char *firmware, bench *b, outcome *o, bool verbose);
+
+#endif
