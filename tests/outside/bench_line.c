@@ -4,6 +4,7 @@
 #include <signal.h>
 #include <stdarg.h>
 #include <stdlib.h>
+#include <string.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -47,11 +48,10 @@ uint32_t get(message *m, int bytes) {
 }
 
 double get_float(message *m) {
-    const union {
-        uint32_t bits;
-        float value;
-    } u = {get(m, 4)};
-    return (double)u.value;
+    const uint32_t bits = get(m, 4);
+    float value;
+    memcpy(&value, &bits, sizeof value);
+    return (double)value;
 }
 
 const char *get_string(message *m) {
