@@ -108,7 +108,7 @@ static void test_sines(void) {
         begin(i + 1U);
         turns_Hz = i % 2U == 0 ? 3.0 + (double)(scattered() % 1000U) / 250.0
                                : 25.0 + (double)(scattered() % 1000U) / 66.0;
-        swing_V = 0.7 + (double)(scattered() % 800U) / 1000.0;
+        swing_V = 0.7 + (double)(scattered() % 690U) / 1000.0; /* with the offset not below 0.2 V */
         phase = (double)(scattered() % 6283U) / 1000.0;
         offset_V = 0.1 * ((double)(scattered() % 1000U) / 1000.0 - 0.5);
         collect(220);

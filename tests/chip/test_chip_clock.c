@@ -116,7 +116,7 @@ static void test_behind_a_loader(void) {
     scattered_state = chip_seed(8);
     for (unsigned i = 0; i < 14; i++) {
         chip_wired(30 + i);
-        world.access_cycles = 2U + (unsigned)(scattered() % 7U);
+        world.access_cycles = 3U + (unsigned)(scattered() % 6U);
         bypassed = (scattered() & 1U) != 0;
         chip_reset(CHIP_BY_POWER);
         TEST_ASSERT_EQUAL(CHIP_RETURNED, chip_try(loader));
