@@ -54,6 +54,7 @@ include mk/coverage.mk
 include mk/settings.mk
 include mk/hard.mk
 include mk/rig.mk
+include mk/firstlight.mk
 include mk/flash.mk
 
 ##@ Start here

@@ -49,6 +49,10 @@ bool board_converse(void);
 bool board_cycles_start(void);
 uint32_t board_cycles(void);
 
+/* What the chip says it is: on the STM32F405 device and revision (DBGMCU_IDCODE), on other Cortex-M the core's CPUID. 0: it
+ * says nothing. */
+uint32_t board_chip(void);
+
 /* Worst use of the stack. board_stack_paint() marks the part not in use at the moment (the startup
  * code has done it once); board_stack_used_bytes() is the deepest mark overwritten since, counted
  * from the top of the stack; board_stack_size_bytes() is what there is. Both are 0 on the PC, where

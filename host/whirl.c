@@ -8,9 +8,8 @@
 #include "commands/commands.h"
 #include "commands/load.h"
 #include "core/arithmetic.h"
+#include "core/version.h"
 #include "host/base/nearest.h"
-
-#define VERSION "0.1.0"
 
 typedef struct command {
     const char *name;
@@ -39,6 +38,7 @@ static const command commands[] = {
     {"map", command_map, "SCENE|FILE[:SCENE] ...", "which pairs of two values a run survives"},
     {"pil", command_pil, "SCENE --firmware IMAGE", "firmware in an emulator against a scene"},
     {"monitor", command_monitor, "PORT", "a rig's console, its telemetry recorded"},
+    {"firstlight", command_firstlight, "FILE|PORT", "a board's first record, compared"},
     {"emit-settings", command_emit_settings, NULL, NULL},
 #endif
     {"emit-scenes", command_emit_scenes, NULL, NULL},
@@ -114,7 +114,7 @@ static int answer(int count, char **words) {
         return EXIT_DONE;
     }
     if (is_one_of(words[1], "--version", "version", NULL)) {
-        puts("whirl " VERSION);
+        puts("whirl " WH_VERSION);
         return EXIT_DONE;
     }
     const char *name = words[asks_for_help ? 2 : 1];

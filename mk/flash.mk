@@ -1,9 +1,10 @@
 # flash.mk: what is flashed onto a board of its own, and a debugger on it. Both print the command that does it.
 PROBE ?= stlink
 PROBES := stlink cmsis-dap dfu
-# The rig with its console; or its control software with the plant at the other end of that line (`whirl pil --port`).
+# The rig with its console; its control software with the plant at the other end of that line (`whirl pil --port`); first light
+# (firstlight.mk).
 PROGRAM ?= station
-PROGRAMS := station pil_line
+PROGRAMS := station pil_line firstlight
 FLASH_IMAGE := $(ELF)/$(PROGRAM).elf
 
 # Sectors that the image has are erased and written, no others: settings stay.

@@ -96,7 +96,7 @@ WHIRL_MAIN_C := $(wildcard host/*.c)
 WHIRL_C := $(wildcard host/*/*.c)
 ifeq ($(SYSTEM),none)
 WHIRL_C := $(filter-out $(addprefix host/commands/,run.c sweep.c price.c choose.c emit_settings.c pricing.c pricing_open.c \
-    pricing_scene.c trust.c trusting.c map.c pil.c monitor.c prove.c interrupts.c) host/map/% host/monitor/% host/pil/% host/sweep/% \
+    pricing_scene.c trust.c trusting.c map.c pil.c monitor.c firstlight.c light_expect.c light_page.c prove.c interrupts.c) host/map/% host/monitor/% host/pil/% host/sweep/% \
     host/plot/% host/price/% host/trust/% host/prove/%,$(WHIRL_C))
 endif
 TEST_C := $(wildcard tests/*.c tests/*/*.c)

@@ -1,6 +1,6 @@
 # single.mk: boards with too little memory for whole images: one image a suite and one a scene.
 #
-# What does not fit is in boards/<board>/too_large.txt, a line "suite NAME" or "scene NAME" each. `make too-large` makes
+# What does not fit is in boards/<board>/too_large.txt, a line "suite NAME", "scene NAME" or "program NAME" each. `make too-large` makes
 # that list; `make hashes-all` and `make test-boards` find when it is not true any more.
 
 SINGLE := $(ELF)/single
@@ -74,4 +74,6 @@ too-large-now: $(BOARD_RUN_BY)
 	        [ $$status -eq 123 ] || continue; \
 	    elif ! grep -qE 'region|overflowed|is too large' $(SINGLE)/$$image.log; then cat $(SINGLE)/$$image.log; exit 1; fi; \
 	    echo $$image | sed 's/_/ /' >>$(TOO_LARGE); done
+	@$(MAKE) -s $(LIGHT) >$(SINGLE)/firstlight.log 2>&1 || { grep -qE 'region|overflowed' $(SINGLE)/firstlight.log && \
+	    echo "program firstlight" >>$(TOO_LARGE); }
 	@cat $(TOO_LARGE)

@@ -28,3 +28,4 @@ _Noreturn void board_exit(int code) {
 
 bool board_cycles_start(void) { return false; }
 uint32_t board_cycles(void) { return 0; }
+uint32_t board_chip(void) { return 0; }

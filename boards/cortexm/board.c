@@ -15,6 +15,12 @@ void hal_console_write(const char *bytes, unsigned count) { uart_write(bytes, co
 
 bool board_converse(void) { return true; }
 
+/* Device and revision, where the chip has a register of its own for it; else the core's CPUID. */
+#ifndef BOARD_CHIP_ID
+#define BOARD_CHIP_ID 0xE000ED00U
+#endif
+uint32_t board_chip(void) { return reg_load(BOARD_CHIP_ID); }
+
 #if __ARM_ARCH >= 7
 
 /* Data watchpoint and trace (Armv7-M Architecture Reference Manual, C1.8). Some Cortex-M7 lock it. */
@@ -22,20 +28,24 @@ bool board_converse(void) { return true; }
 #define DEMCR_TRCENA (1U << 24)
 #define DWT_CTRL 0xE0001000U
 #define DWT_CTRL_CYCCNTENA 1U
+#define DWT_CTRL_NOCYCCNT (1U << 25)
 #define DWT_CYCCNT 0xE0001004U
 #define DWT_LAR 0xE0001FB0U
 #define DWT_LAR_KEY 0xC5ACCE55U
 
 bool board_cycles_start(void) {
-    REGISTER(DEMCR) |= DEMCR_TRCENA;
-    REGISTER(DWT_LAR) = DWT_LAR_KEY;
-    REGISTER(DWT_CTRL) |= DWT_CTRL_CYCCNTENA;
+    reg_store(DEMCR, reg_load(DEMCR) | DEMCR_TRCENA);
+    reg_store(DWT_LAR, DWT_LAR_KEY);
+    if ((reg_load(DWT_CTRL) & DWT_CTRL_NOCYCCNT) != 0) {
+        return false;
+    }
+    reg_store(DWT_CYCCNT, 0);
+    reg_store(DWT_CTRL, reg_load(DWT_CTRL) | DWT_CTRL_CYCCNTENA);
     const uint32_t before = board_cycles();
-    __asm__ volatile("nop\n\tnop\n\tnop\n\tnop" ::: "memory");
     return board_cycles() != before;
 }
 
-uint32_t board_cycles(void) { return REGISTER(DWT_CYCCNT); }
+uint32_t board_cycles(void) { return reg_load(DWT_CYCCNT); }
 
 #else
 

@@ -55,3 +55,5 @@ unsigned board_stack_size_bytes(void) { return 0; }
 
 bool board_cycles_start(void) { return false; }
 uint32_t board_cycles(void) { return 0; }
+
+uint32_t board_chip(void) { return 0; }

@@ -15,6 +15,7 @@
  * Interval 0 is around nothing. On a board an interval holds the call too (loading the arguments
  * and the branch); callgrind counts the called function alone. */
 #include "boards/programs/counted.h"
+#include "boards/programs/step_cycles.h"
 #include "core/function.h"
 #include "core/scene.h"
 
@@ -153,25 +154,16 @@ static void count_functions(void) {
     }
 }
 
-/* Cycles of each of some steps, as the processor counts them, in order of size. */
 static void time_scene(const wh_scene *scene, wh_state *state) {
-    static uint32_t sorted[COUNTED_STEPS];
-    uint32_t before = board_cycles();
-    const uint32_t nothing = board_cycles() - before;
+    static step_cycles cycles;
+    step_cycles_start(&cycles);
     for (unsigned i = 0; i < COUNTED_STEPS; i++) {
-        before = board_cycles();
-        (void)wh_scene_step(scene, state);
-        const uint32_t taken = board_cycles() - before - nothing;
-        unsigned place = i;
-        for (; place > 0 && sorted[place - 1U] > taken; place--) {
-            sorted[place] = sorted[place - 1U];
-        }
-        sorted[place] = taken;
+        (void)step_counted(&cycles, scene, state, true);
     }
     line_begin("silicon", scene->name);
-    line_number(sorted[0]);
-    line_number(sorted[(COUNTED_STEPS - 1U) / 2U]);
-    line_number(sorted[COUNTED_STEPS - 1U]);
+    line_number(cycles.least);
+    line_number(step_cycles_median(&cycles));
+    line_number(cycles.most);
     line_end();
 }
 #endif

@@ -9,6 +9,11 @@
 #include "hal/motor.h"
 #include "hal/stop.h"
 
+/* 0: a program that never drives; nothing here calls hal_motor_start(). */
+#ifndef RIG_DRIVES
+#define RIG_DRIVES 1
+#endif
+
 /* Stop is pressed; or it was, for less than a control step, and has cut the drive by itself. */
 static inline bool stop_was_pressed(bool watchdog_has_cut) {
     return hal_stop_pressed() || (!watchdog_has_cut && (hal_motor_status() & HAL_MOTOR_CUT) != 0);
@@ -22,11 +27,15 @@ static inline void obey(const wh_rig_command *command, bool *drives) {
         *drives = false;
         return;
     }
+#if RIG_DRIVES
     if (!*drives) {
         *drives = true;
         (void)hal_motor_start(); /* why not is among the inputs of the next step */
     }
     hal_motor_set_voltage(command->volts);
+#else
+    hal_motor_off(HAL_MOTOR_COAST);
+#endif
 }
 
 #endif

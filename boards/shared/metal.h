@@ -7,6 +7,18 @@
 /* A 32-bit register by its address. */
 #define REGISTER(address) (*(volatile uint32_t *)(uintptr_t)(address))
 
+/* Access to one; on the PC tests take it over and see every access in its order (tests/host/fake_registers.h, tests/chip). */
+#ifndef BOARD_REGISTERS_FAKED
+#define BOARD_REGISTERS_FAKED 0
+#endif
+#if BOARD_REGISTERS_FAKED
+uint32_t reg_load(uint32_t address);
+void reg_store(uint32_t address, uint32_t value);
+#else
+static inline uint32_t reg_load(uint32_t address) { return REGISTER(address); }
+static inline void reg_store(uint32_t address, uint32_t value) { REGISTER(address) = value; }
+#endif
+
 extern uint32_t board_stack_guard[]; /* BOARD_STRIP_BYTES below the stack, nobody's */
 extern uint32_t board_stack_limit[]; /* lowest word of the stack */
 extern uint32_t board_stack_top[];   /* one past its highest word */

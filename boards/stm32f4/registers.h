@@ -1,25 +1,15 @@
-/* registers.h: access to the chip's registers, by address. On the PC tests take it over and see every access in its order
- * (tests/host/fake_registers.h). */
+/* registers.h: access to the chip's registers beyond boards/shared/metal.h. */
 #ifndef BOARDS_STM32F4_REGISTERS_H
 #define BOARDS_STM32F4_REGISTERS_H
 
-#include <stdint.h>
-
-#ifndef BOARD_REGISTERS_FAKED
-#define BOARD_REGISTERS_FAKED 0
-#endif
+#include "boards/shared/metal.h"
 
 #if BOARD_REGISTERS_FAKED
-uint32_t reg_load(uint32_t address);
-void reg_store(uint32_t address, uint32_t value);
 uint32_t reg_address(volatile void *memory);
 /* Interrupts off, and as they were (stm32f4.h). */
 uint32_t reg_hold(void);
 void reg_go_on(uint32_t before);
 #else
-#include "boards/shared/metal.h"
-static inline uint32_t reg_load(uint32_t address) { return REGISTER(address); }
-static inline void reg_store(uint32_t address, uint32_t value) { REGISTER(address) = value; }
 /* Memory as DMA is told of it. */
 static inline uint32_t reg_address(volatile void *memory) { return (uint32_t)(uintptr_t)memory; }
 #endif

@@ -19,6 +19,7 @@ int command_prove(int count, char **words);
 int command_map(int count, char **words);
 int command_pil(int count, char **words);
 int command_monitor(int count, char **words);
+int command_firstlight(int count, char **words);
 int command_emit_scenes(int count, char **words);
 int command_emit_settings(int count, char **words);
 int command_hashes(int count, char **words);

@@ -99,7 +99,7 @@ static bool are_apart(const monitor_options *o) {
 static bool are_possible(const monitor_options *o) {
     if (!port_has_speed(o->baud)) {
         fputs("whirl monitor: error: --baud: no such speed\n"
-              "hint: 9600, 19200, 38400, 57600, 115200 or 230400\n",
+              "hint: " PORT_SPEEDS "\n",
               stderr);
         return false;
     }

@@ -15,6 +15,7 @@ typedef struct port {
     struct termios before;
 } port;
 
+#define PORT_SPEEDS "9600, 19200, 38400, 57600, 115200 or 230400"
 /* True for a speed that there is a name of. */
 bool port_has_speed(double baud);
 

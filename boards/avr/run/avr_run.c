@@ -234,6 +234,7 @@ static void run_counting(avr_t *avr, const settings *all, const elf_firmware_t *
 int main(int argc, char **argv) {
     const settings all = read_arguments(argc, argv);
     avr_global_logger_set(on_log);
+    (void)setvbuf(stdout, NULL, _IOLBF, BUFSIZ); /* of a program that does not end, too */
     elf_firmware_t firmware;
     avr_t *avr = load(&all, &firmware);
     avr->run_cycle_limit = 1; /* one instruction a call */

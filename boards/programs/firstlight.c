@@ -1,0 +1,353 @@
+/* firstlight.c: first light of a board: five scenes to their end, then two seconds of the rig's control loop at rest and the
+ * console's self-test, and one record of it all on the console (core/firstlight.h, docs/firstlight.md).
+ *
+ * The motor is never enabled: the image has no call of hal_motor_start(), which boards/check_image.sh checks. On hardware of
+ * its own it prints the record again for each line that is typed; in an emulator it ends. */
+#include "core/firstlight.h"
+
+#include "boards/board.h"
+#include "boards/programs/step_cycles.h"
+#include "core/frame.h"
+#include "core/text.h"
+#include "core/version.h"
+
+/* The board has the rig's hardware; else those fields are `none`. */
+#ifndef LIGHT_HARDWARE
+#define LIGHT_HARDWARE 0
+#endif
+#if LIGHT_HARDWARE
+#define HAL_VIRTUAL 0
+#define RIG_DRIVES 0
+#include "core/station/selftest.h"
+#include "rig_control.h"
+#endif
+
+#include "build/gen/driven_hinge_from_rest.h"
+#include "build/gen/epicyclic_from_rest.h"
+#include "build/gen/rig_fixed.h"
+#include "build/gen/shuttle_buffers.h"
+#include "build/gen/thomson_a_conserved.h"
+
+#define ADDRESS_OF(scene) &(scene),
+static const wh_scene *const scenes[] = {WH_LIGHT_SCENES(ADDRESS_OF)};
+#define SCENES (sizeof scenes / sizeof scenes[0])
+_Static_assert(SCENES == 5U, "five scenes");
+
+/* One after the other. */
+#define MEMORY_OF(scene) uint64_t scene[scene##_MEMORY_WORDS];
+static union { WH_LIGHT_SCENES(MEMORY_OF) } scene_memory;
+
+/* Of a scene's run. */
+typedef struct run {
+    uint64_t hash;
+    uint64_t steps;
+    wh_status status;
+    uint32_t least, median, most; /* cycles */
+} run;
+static run runs[SCENES];
+static bool counts_cycles;
+
+static void run_scene(const wh_scene *scene, run *to) {
+    static step_cycles cycles;
+    const uint64_t every = scene->steps / STEP_CYCLES_KEPT + 1U;
+    wh_state state;
+    to->status = wh_scene_start(scene, &state, &scene_memory, sizeof scene_memory);
+    step_cycles_start(&cycles);
+    while (to->status == WH_OK && state.steps < scene->steps) {
+        to->status = step_counted(&cycles, scene, &state, state.steps % every == 0);
+    }
+    to->steps = state.steps;
+    to->hash = wh_scene_hash(scene, &state);
+    to->least = cycles.least;
+    to->median = step_cycles_median(&cycles);
+    to->most = cycles.most;
+}
+
+/* --- the record ------------------------------------------------------------------------------------------------- */
+
+static char line_bytes[200];
+static wh_text line;
+static uint32_t crc;
+
+static void line_begin(const char *name) {
+    wh_text_start(&line, line_bytes, sizeof line_bytes);
+    wh_text_add(&line, name);
+}
+static void line_word(const char *word) {
+    wh_text_add_char(&line, ' ');
+    wh_text_add(&line, word);
+}
+static void line_number(int64_t number) {
+    wh_text_add_char(&line, ' ');
+    wh_text_add_signed(&line, number);
+}
+static void line_hex(uint64_t number, unsigned digits) {
+    line_word("0x");
+    wh_text_add_hex(&line, number, digits);
+}
+/* To the CRC a line ends with a line feed, to a terminal with a carriage return before it. */
+static void line_end(void) {
+    wh_text_add_char(&line, '\n');
+    crc = wh_frame_crc(crc, (const uint8_t *)line.bytes, line.length);
+#if LIGHT_HARDWARE
+    line.bytes[line.length - 1U] = '\r';
+    wh_text_add_char(&line, '\n');
+#endif
+    hal_console_write(line.bytes, line.length);
+}
+static void say(const char *name, const char *value) {
+    line_begin(name);
+    line_word(value);
+    line_end();
+}
+/* A field of a scene. */
+static void line_of(const char *kind, const wh_scene *scene) {
+    line_begin(kind);
+    wh_text_add(&line, scene->name);
+}
+
+static void say_scene(const wh_scene *scene, const run *of) {
+    line_of("model.", scene);
+    line_hex(scene->model_hash, 16);
+    line_end();
+    line_of("hash.", scene);
+    line_hex(of->hash, 16);
+    line_number((int64_t)of->steps);
+    line_word("steps,");
+    line_word(wh_status_text(of->status));
+    line_end();
+    line_of("cycles.", scene);
+    if (counts_cycles && of->steps > 0) {
+        line_number(of->least);
+        line_number(of->median);
+        line_number(of->most);
+    } else {
+        line_word(WH_LIGHT_NONE);
+    }
+    line_end();
+}
+
+static void say_head(void) {
+    say("board", board_name);
+    line_begin("chip");
+    if (board_chip() != 0) {
+        line_hex(board_chip(), 8);
+    } else {
+        line_word(WH_LIGHT_NONE);
+    }
+    line_end();
+    say("version", WH_VERSION);
+    say("compiler", __VERSION__);
+}
+
+static void say_stack(void) {
+    line_begin("stack");
+    if (board_stack_size_bytes() > 0) {
+        line_number(board_stack_used_bytes());
+        line_word("of");
+        line_number(board_stack_size_bytes());
+        line_word("bytes");
+    } else {
+        line_word(WH_LIGHT_NONE);
+    }
+    line_end();
+}
+
+/* --- the rig at rest ---------------------------------------------------------------------------------------------- */
+
+#if LIGHT_HARDWARE
+#define PERIODS 1000U /* two seconds: the rotor is known to rest after 1.5 */
+
+/* Least and most of some values. */
+typedef struct range {
+    int32_t least;
+    int32_t most;
+} range;
+#define RANGE_EMPTY ((range){INT32_MAX, INT32_MIN})
+static void range_take(range *r, int32_t value) {
+    r->least = value < r->least ? value : r->least;
+    r->most = value > r->most ? value : r->most;
+}
+
+static struct {
+    const char *why_not; /* the rig's hardware was not started; NULL: it was */
+    range period_ticks;
+    range period_cycles;
+    unsigned samples;
+    unsigned bad_samples;
+    range load;
+    int64_t load_sum;
+    unsigned edges[2];
+} rest;
+static wh_rig_config config;
+
+static void look_at_inputs(void) {
+    for (unsigned i = 0; i < seen.samples; i++) {
+        range_take(&rest.load, seen.sample[i].raw);
+        rest.load_sum += seen.sample[i].raw;
+        rest.samples++;
+        rest.bad_samples += seen.sample[i].status != WH_LOAD_OK ? 1U : 0U;
+    }
+    rest.edges[seen.sensor & 1U] += seen.pulsed ? 1U : 0U;
+    rest.edges[seen.end_sensor & 1U] += seen.ended ? 1U : 0U;
+}
+
+static void watch_rest(void) {
+    rest.period_ticks = rest.period_cycles = rest.load = RANGE_EMPTY;
+    rest.why_not = why_not_started();
+    if (rest.why_not != NULL) {
+        return;
+    }
+    own_configuration(&config);
+    uint32_t due = hal_clock_ticks();
+    uint32_t ticks = due;
+    uint32_t cycles = board_cycles();
+    wh_rig_start(&config, &rig, due, NULL);
+    for (unsigned i = 0; i <= PERIODS; i++) {
+        due += CONTROL_TICKS;
+        hal_clock_wait_until(due);
+        const uint32_t now_ticks = hal_clock_ticks();
+        const uint32_t now_cycles = board_cycles();
+        if (i > 0) {
+            range_take(&rest.period_ticks, (int32_t)(now_ticks - ticks));
+            range_take(&rest.period_cycles, (int32_t)(now_cycles - cycles));
+        }
+        ticks = now_ticks;
+        cycles = now_cycles;
+        control(&config);
+        look_at_inputs();
+    }
+}
+
+static void say_range(const char *name, bool known, const range *r) {
+    line_begin(name);
+    if (known) {
+        line_number(r->least);
+        line_number(r->most);
+    } else {
+        line_word(WH_LIGHT_NONE);
+    }
+    line_end();
+}
+
+static void say_clock(void) {
+    static const char *const word[] = {[HAL_CLOCK_CRYSTAL] = "crystal",
+                                       [HAL_CLOCK_FALLBACK] = "fallback",
+                                       [HAL_CLOCK_PLAYED] = WH_LIGHT_NONE};
+    say("clock", word[hal_clock_source_now()]);
+}
+
+static void say_load(void) {
+    line_begin("load");
+    if (rest.samples > 0) {
+        line_number(rest.load.least);
+        line_number(rest.load_sum / (int64_t)rest.samples);
+        line_number(rest.load.most);
+        line_word("counts,");
+        line_number(rest.samples);
+        line_word("samples,");
+        line_number(rest.bad_samples);
+        line_word("bad");
+    } else {
+        line_word(WH_LIGHT_NONE);
+    }
+    line_end();
+    line_begin("supply");
+    if (rest.samples > 0) { /* the same converter */
+        wh_text_add_char(&line, ' ');
+        wh_text_add_fixed(&line, seen.inputs.supply_V, 2);
+        line_word("V");
+    } else {
+        line_word(WH_LIGHT_NONE);
+    }
+    line_end();
+}
+
+static void say_rest(void) {
+    const bool started = rest.why_not == NULL;
+    const bool keeps_time = started && hal_clock_source_now() != HAL_CLOCK_PLAYED;
+    char answer[200];
+    wh_text text;
+    wh_text_start(&text, answer, sizeof answer);
+    say_clock();
+    say_range("period_us", keeps_time, &rest.period_ticks);
+    say_range("period_cycles", keeps_time && counts_cycles, &rest.period_cycles);
+    say_load();
+    say("stop", !hal_stop_heard() ? WH_LIGHT_NONE : hal_stop_pressed() ? "pressed" : "released");
+    line_begin("slots");
+    line_number(rest.edges[0]);
+    line_number(rest.edges[1]);
+    line_word("edges,");
+    line_number(hal_slots_overruns());
+    line_word("lost");
+    line_end();
+    if (started) {
+        wh_selftest_answer(&config, &rig, &seen, &text);
+        say("selftest", answer + sizeof " selftest=" - 1U);
+    } else {
+        line_begin("selftest");
+        line_word("bad:");
+        line_word(rest.why_not);
+        line_end();
+    }
+}
+
+/* Of what waits; noise on an open line seldom is one. */
+static bool line_end_typed(void) {
+    char typed[16];
+    bool ended = false;
+    for (unsigned count = 1; count > 0;) {
+        count = hal_console_read(typed, sizeof typed);
+        for (unsigned i = 0; i < count; i++) {
+            ended = ended || typed[i] == '\r' || typed[i] == '\n';
+        }
+    }
+    return ended;
+}
+#else
+static void say_rest(void) {
+    static const char *const names[] = {"clock",  "period_us", "period_cycles", "load",
+                                        "supply", "stop",      "slots",         "selftest"};
+    for (unsigned i = 0; i < sizeof names / sizeof names[0]; i++) {
+        say(names[i], WH_LIGHT_NONE);
+    }
+}
+#endif
+
+static void say_record(void) {
+    line_begin("");
+    line_end(); /* and noise before it */
+    crc = 0;
+    line_begin(WH_LIGHT_BEGIN);
+    line_end();
+    say_head();
+    for (unsigned i = 0; i < SCENES; i++) {
+        say_scene(scenes[i], &runs[i]);
+    }
+    say_stack();
+    say_rest();
+    line_begin(WH_LIGHT_END);
+    wh_text_add_hex(&line, crc, 8);
+    line_end();
+}
+
+int main(void) {
+    board_start();
+    counts_cycles = board_cycles_start();
+    for (unsigned i = 0; i < SCENES; i++) {
+        run_scene(scenes[i], &runs[i]);
+    }
+#if LIGHT_HARDWARE
+    watch_rest();
+    for (;;) {
+        say_record();
+        while (line_end_typed()) { /* while it was printed */
+        }
+        while (!line_end_typed()) {
+        }
+    }
+#else
+    say_record();
+    board_exit(0);
+#endif
+}

@@ -1,0 +1,51 @@
+/* step_cycles.h: cycles of a scene's steps, as the processor counts them (board.h): least, median and most. */
+#ifndef PROGRAMS_STEP_CYCLES_H
+#define PROGRAMS_STEP_CYCLES_H
+
+#include "boards/board.h"
+#include "core/scene.h"
+
+/* The median is that of so many steps at most. An AVR counts no cycles. */
+#ifdef __AVR__
+#define STEP_CYCLES_KEPT 1U
+#else
+#define STEP_CYCLES_KEPT 255U
+#endif
+
+typedef struct step_cycles {
+    uint32_t nothing; /* that an empty measurement takes */
+    uint32_t least;
+    uint32_t most;
+    unsigned kept;
+    uint32_t sorted[STEP_CYCLES_KEPT];
+} step_cycles;
+
+static inline void step_cycles_start(step_cycles *c) {
+    const uint32_t before = board_cycles();
+    *c = (step_cycles){.nothing = board_cycles() - before, .least = UINT32_MAX};
+}
+
+/* One step. `keep`: it counts for the median, too. */
+static inline wh_status step_counted(step_cycles *c, const wh_scene *scene, wh_state *state,
+                                     bool keep) {
+    const uint32_t before = board_cycles();
+    const wh_status status = wh_scene_step(scene, state);
+    const uint32_t taken = board_cycles() - before - c->nothing;
+    c->least = taken < c->least ? taken : c->least;
+    c->most = taken > c->most ? taken : c->most;
+    if (keep && c->kept < STEP_CYCLES_KEPT) {
+        unsigned place = c->kept++;
+        for (; place > 0 && c->sorted[place - 1U] > taken; place--) {
+            c->sorted[place] = c->sorted[place - 1U];
+        }
+        c->sorted[place] = taken;
+    }
+    return status;
+}
+
+/* Of at least one step. */
+static inline uint32_t step_cycles_median(const step_cycles *c) {
+    return c->sorted[(c->kept - 1U) / 2U];
+}
+
+#endif
