@@ -43,6 +43,7 @@ include mk/rules.mk
 include mk/whirl.mk
 include mk/tests.mk
 include mk/board.mk
+include mk/firstlight.mk
 include mk/price.mk
 include mk/curves.mk
 include mk/peers.mk
@@ -54,7 +55,6 @@ include mk/coverage.mk
 include mk/settings.mk
 include mk/hard.mk
 include mk/rig.mk
-include mk/firstlight.mk
 include mk/flash.mk
 
 ##@ Start here

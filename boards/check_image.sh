@@ -4,10 +4,12 @@
 # NM names the nm to use; it defaults to arm-none-eabi-nm.
 # FLASHED lists those of them that are flashed, for a board of its own: these must hold no breakpoint, which without a debugger is
 # a fault, and no way out of main(). OBJDUMP shows their code.
+# UNDRIVEN lists those that must not be able to enable the motor: nothing of them calls what does.
 set -u
 NM=${NM:-arm-none-eabi-nm}
 OBJDUMP=${OBJDUMP:-arm-none-eabi-objdump}
 FLASHED=${FLASHED:-}
+UNDRIVEN=${UNDRIVEN:-}
 
 if [ $# -eq 0 ]; then
     echo "usage: $0 ELF..." >&2
@@ -37,7 +39,9 @@ for elf in "$@"; do
     if ! symbols=$("$NM" "$elf"); then
         exit 2
     fi
-    printf '%s\n' "$symbols" | awk -v elf="$elf" '
+    undriven=0
+    case " $UNDRIVEN " in *" $elf "*) undriven=1 ;; esac
+    printf '%s\n' "$symbols" | awk -v elf="$elf" -v undriven=$undriven '
         # Symbol names are the last field; undefined ones have no address before their letter.
         function found(kind) {
             printf "%s: %s: %s%s\n", elf, kind, name, undefined ? " (undefined)" : ""
@@ -50,6 +54,9 @@ for elf in "$@"; do
             bare = name
             sub(/^_+(ieee754_|kernel_|math_)?/, "", bare)
             sub(/_r$/, "", bare)
+            if (undriven && name ~ /^hal_motor_(start|set_voltage)$/) {
+                found("it can drive the motor")
+            }
             if (bare ~ /^(m|c|re|mem|posix_mem)?al(loc|ign)$|^(free|cfree|sbrk|brk)$/) {
                 found("heap")
             } else if (bare ~ /^(sin|cos|sincos|tan|asin|acos|atan|atan2|sinh|cosh|tanh|sqrt|cbrt|hypot|exp|exp2|expm1|log|log2|log10|log1p|pow|fmod|floor|ceil|round|lround|rint|trunc|fabs|ldexp|frexp|remainder|rem_pio2)[fl]?$/) {

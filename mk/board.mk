@@ -179,10 +179,10 @@ $(ELF)/watchdog.elf: $(call objects,$(BOARD),tests/boards/watchdog.c $(BOARD_WAT
 
 .PHONY: board-images board-tests run-suites print-hashes print-matrix-hashes bench-matrix
 board-images: $(IMAGES)
-board-tests: $(ELF)/tests.elf $(GUARDS) $(WATCHDOG) $(PIL_IMAGES) $(STATION)
-run-suites: # the portable suites, what guards the stack, and the watchdog
+board-tests: $(ELF)/tests.elf $(GUARDS) $(WATCHDOG) $(PIL_IMAGES) $(STATION) $(ELF)/firstlight.elf
+run-suites: # the portable suites, what guards the stack, the watchdog, and first light
 	@status=0; $(call emulate,$(ELF)/tests.elf) || status=1; sh tests/boards/guard.sh $(BOARD) || status=1; \
-	    sh tests/boards/watchdog.sh $(BOARD) || status=1; exit $$status
+	    sh tests/boards/watchdog.sh $(BOARD) || status=1; sh tests/boards/firstlight.sh $(BOARD) || status=1; exit $$status
 print-hashes: # a line for each scene, with the hash of its last state
 	@$(call need,$(BOARD_EMULATOR))
 	@$(call emulate,$(ELF)/scenes.elf)

@@ -180,8 +180,9 @@ gate-fuzz:
 .PHONY: image-rules
 gate-firmware:
 	@for board in $(BOARDS); do $(MAKE) B=build BOARD=$$board image-rules || exit 1; done
-image-rules: board-images $(PIL_IMAGES)
-	@NM=$(BOARD_NM) OBJDUMP=$(BOARD_OBJDUMP) FLASHED="$(FLASHED_IMAGES)" sh boards/check_image.sh $(IMAGES) $(PIL_IMAGES)
+image-rules: board-images $(PIL_IMAGES) $(LIGHT_IMAGE)
+	@NM=$(BOARD_NM) OBJDUMP=$(BOARD_OBJDUMP) FLASHED="$(FLASHED_IMAGES) $(if $(BOARD_FLASHED),$(LIGHT))" UNDRIVEN="$(LIGHT)" \
+	    sh boards/check_image.sh $(IMAGES) $(PIL_IMAGES) $(LIGHT_IMAGE)
 
 # Boards with hardware of their own: what is flashed onto each, held to these rules, compiled and linted; its bytes and stack;
 # and one of them in the emulator, few cases.
@@ -189,6 +190,7 @@ gate-flashed: $(GEN)/.stamp
 	+@$(foreach b,$(boards_flashed),$(call on_board,$(b),BOARD_EXTRA=-Werror flashed-rules tidy-board) &&) true
 	+@$(call on_board,netduinoplus2,BOARD_EXTRA=-Werror flashed-tests)
 	@sh tests/boards/f405.sh 6 12
+	+@for board in $(filter-out $(BOARDS_SINGLE),$(boards_flashed)); do sh tests/boards/firstlight.sh $$board || exit 1; done
 	+@$(MAKE) -s small-now
 
 # The core, the controller and the console as what is flashed has them where flash is short, on this machine.
@@ -198,11 +200,12 @@ small-now: $(GEN)/.stamp
 	@build/small/tests/core_float >build/small/suites.log || { grep FAIL build/small/suites.log >&2; exit 1; }
 	@grep Failures build/small/suites.log
 .PHONY: flashed-rules flashed-tests
-flashed-rules: board-own-objects $(STATION)
-	@NM=$(BOARD_NM) OBJDUMP=$(BOARD_OBJDUMP) FLASHED="$(STATION)" sh boards/check_image.sh $(STATION)
+flashed-rules: board-own-objects $(STATION) $(LIGHT_IMAGE)
+	@NM=$(BOARD_NM) OBJDUMP=$(BOARD_OBJDUMP) FLASHED="$(STATION) $(LIGHT_IMAGE)" UNDRIVEN="$(LIGHT)" \
+	    sh boards/check_image.sh $(STATION) $(LIGHT_IMAGE)
 	@mkdir -p $(FIGURES)
 	@$(call size_of,$(STATION))
-flashed-tests: $(FLASHED_TESTS) $(STATION) build/tools/f405
+flashed-tests: $(FLASHED_TESTS) $(STATION) $(LIGHT) build/tools/f405
 
 gate-size:
 	@for board in $(BOARDS); do $(MAKE) BOARD=$$board size-now || exit 1; done

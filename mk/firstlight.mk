@@ -13,13 +13,14 @@ $(B)/firstlight: $(call objects,float,$(LIGHT_C) boards/host/board.c) $(call lib
 $(LIGHT): $(call objects,$(LIGHT_AS),$(LIGHT_C) $(LIGHT_BOARD)) $(call libraries,$(LIGHT_AS),station rig whirl)
 	$(link_board)
 ifneq ($(BOARD_FLASHED),)
-$(B)/$(LIGHT_AS)/boards/programs/firstlight.o: FILE_FLAGS = -DLIGHT_HARDWARE=1
+$(B)/$(LIGHT_AS)/boards/programs/firstlight.o: private FILE_FLAGS = -DLIGHT_HARDWARE=1
 endif
 ifneq ($(LIGHT_AS),$(BOARD))
 $(LIGHT): BOARD_LDFLAGS := $(BOARD_FLASHED_LDFLAGS)
 endif
 
 LIGHT_FITS := $(if $(shell grep -sxh 'program firstlight' $(TOO_LARGE) /dev/null),,yes)
+LIGHT_IMAGE := $(if $(LIGHT_FITS),$(LIGHT))
 LIGHT_RECORD := $(ELF)/firstlight.txt
 # An emulator of a board with hardware has no converter and no stop line: the scenes' hashes are what it can show.
 LIGHT_CHECK = build/whirl firstlight $(LIGHT_RECORD) --board $(BOARD)

@@ -80,23 +80,28 @@ $(eval $(call build,chip,$(CC),$(FLAGS_host) $(CHIP_FLAGS)))
 $(B)/chip/tests/%.o $(B)/chip/$(B)/tests/%.o: FILE_FLAGS = $(UNITY_FLAGS) $(LESS_O2)
 CHIP_TEST_PARTS := $(CHIP_TEST_C) $(B)/tests/chip_suites.c $(UNITY_DIR)/unity.c
 $(call objects,chip,$(CHIP_TEST_PARTS)): | $(UNITY_DIR)/unity.c
+# First light's image is run there as a whole (firstlight.mk).
+CHIP_LIGHT_C := boards/programs/firstlight.c
+$(foreach b,$(CHIP_BOARDS),$(B)/chip_$(b)/$(CHIP_LIGHT_C:.c=.o)): private FILE_FLAGS = -Dmain=firstlight_main -DLIGHT_HARDWARE=1
+$(foreach b,$(CHIP_BOARDS),$(B)/chip_$(b)/$(CHIP_LIGHT_C:.c=.o)): | $(GEN)/.stamp
 $(B)/tests/chip_suites.c: $(CHIP_TEST_C)
 
 # chip_board BOARD: the suites with the drivers of one board.
 define chip_board
 $(eval $(call build,chip_$(1),$(CC),$(FLAGS_host) -DBOARD_REGISTERS_FAKED=1 -Iboards/$(1)))
-$(B)/chip_$(1)/drivers.o: $(call objects,chip_$(1),$(CHIP_DRIVERS_C))
+$(B)/chip_$(1)/drivers.o: $(call objects,chip_$(1),$(CHIP_DRIVERS_C) $(CHIP_LIGHT_C))
 	$$(say) LINK $$@
 	$$(Q)ld -r -o $$@ $$^
 	$$(Q)objcopy --set-section-flags .bss=alloc,load,contents,data --rename-section .bss=drivers_bss \
 	    --rename-section .data=drivers_data $$@
 
-$(B)/tests/chip_$(1): $(call objects,chip,$(CHIP_TEST_PARTS)) $(B)/chip_$(1)/drivers.o $(call libraries,float,station whirl)
+$(B)/tests/chip_$(1): $(call objects,chip,$(CHIP_TEST_PARTS) host/monitor/light.c) $(B)/chip_$(1)/drivers.o \
+    $(call libraries,float,scenes station rig whirl)
 	$$(link)
 endef
 $(foreach b,$(CHIP_BOARDS),$(eval $(call chip_board,$(b))))
 -include $(wildcard $(patsubst %.c,$(B)/chip/%.d,$(CHIP_TEST_PARTS)) \
-    $(foreach b,$(CHIP_BOARDS),$(patsubst %.c,$(B)/chip_$(b)/%.d,$(CHIP_DRIVERS_C))))
+    $(foreach b,$(CHIP_BOARDS),$(patsubst %.c,$(B)/chip_$(b)/%.d,$(CHIP_DRIVERS_C) $(CHIP_LIGHT_C))))
 
 TEST_PROGRAMS := $(CHIP_BOARDS:%=$(B)/tests/chip_%) $(B)/tests/core_double $(B)/tests/core_float $(B)/tests/host $(B)/tools/mechanisms $(B)/tools/linkages $(B)/tools/price_fit $(B)/tools/price_fit_fixed \
     $(B)/pil_rig $(B)/pil_swing $(B)/pil_dialled $(B)/pil_carriage $(B)/pil_cart $(B)/pil_taped $(B)/pil_line $(B)/tools/faults $(B)/station $(B)/tools/sim_station $(B)/tools/tel_check
@@ -108,7 +113,7 @@ test-programs: $(TEST_PROGRAMS) $(B)/tests/quick_suites.list
 # tests/run.sh takes pairs: what it is, and the command.
 # What no board has of its own is run once.
 RUN_CHIP = $(foreach b,$(CHIP_BOARDS),"drivers of the STM32F405 on a played chip$(comma) $(b)" \
-    "$(B)/tests/chip_$(b) $(if $(filter netduinoplus2,$(b)),,chip_clock chip_slots chip_cell)")
+    "$(B)/tests/chip_$(b) $(if $(filter netduinoplus2,$(b)),,chip_clock chip_slots chip_cell chip_firstlight)")
 RUN_CORE = "portable suites, double" $(B)/tests/core_double "portable suites, float" $(B)/tests/core_float
 # The host suites in four parts, so that all processors have work to the end; what takes longest goes first.
 part = "host suites$(comma) part $(1) of 4" 'sh tests/each.sh $(B)/tests/host $$(sh tests/part.sh $(2) $(1) 4)'

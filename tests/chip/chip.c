@@ -14,10 +14,10 @@
 chip_world world;
 void (*chip_stored)(void);
 
-static const part *const parts[] = {&rcc_part,  &pwr_part,  &flash_part, &flash_memory_part,
-                                    &gpio_part, &tim1_part, &tim2_part,  &tim3_part,
-                                    &adc_part,  &dma_part,  &usart_part, &iwdg_part,
-                                    &nvic_part, &scb_part,  &dbgmcu_part};
+static const part *const parts[] = {
+    &rcc_part,  &pwr_part,  &flash_part,  &flash_memory_part, &gpio_part,      &tim1_part,
+    &tim2_part, &tim3_part, &adc_part,    &dma_part,          &usart_part,     &iwdg_part,
+    &nvic_part, &scb_part,  &dbgmcu_part, &dwt_part,          &core_debug_part};
 #define PARTS (sizeof parts / sizeof *parts)
 
 #define INTERRUPTS 82U /* RM0090, table 62 */
@@ -393,6 +393,73 @@ const part nvic_part = {.name = "NVIC",
                         .reset = nvic_reset};
 const part scb_part = {
     .name = "SCB", .base = AT_SCB, .bytes = 0x90, .load = scb_load, .store = scb_store};
+
+/* --- DEMCR, DWT's cycle counter (Armv7-M Architecture Reference Manual, C1.6.5, C1.8) -------------------- */
+#define DEMCR 0x0CU
+#define DWT_CTRL 0x00U
+#define DWT_CYCCNT 0x04U
+#define DWT_LAR 0xFB0U /* there is no lock in a Cortex-M4 */
+static struct {
+    uint32_t demcr, ctrl, count; /* the count at: */
+    uint64_t since;
+} trace;
+
+static uint32_t core_debug_load(uint32_t offset) { return offset == DEMCR ? trace.demcr : 0; }
+static void core_debug_store(uint32_t offset, uint32_t value) {
+    if (offset == DEMCR) {
+        trace.demcr = value;
+    } else {
+        forbidden("store of the core's debug registers + 0x%02x", offset);
+    }
+}
+static uint32_t cycles_now(void) {
+    const bool counts = (trace.ctrl & BIT(0)) != 0 && world.counter == CHIP_COUNTS;
+    return trace.count + (counts ? (uint32_t)((chip.now - trace.since) / units_of(core_Hz())) : 0);
+}
+static bool is_traced(void) {
+    if ((trace.demcr & BIT(24)) == 0) {
+        forbidden("DWT without TRCENA");
+    }
+    return (trace.demcr & BIT(24)) != 0;
+}
+static uint32_t dwt_load(uint32_t offset) {
+    if (!is_traced()) {
+        return 0;
+    }
+    return offset == DWT_CTRL
+               ? 0x40000000U | (world.counter == CHIP_NO_COUNTER ? BIT(25) : 0) | trace.ctrl
+           : offset == DWT_CYCCNT ? cycles_now()
+                                  : 0;
+}
+static void dwt_store(uint32_t offset, uint32_t value) {
+    if (!is_traced() || offset == DWT_LAR) {
+        return;
+    }
+    const uint32_t count = offset == DWT_CYCCNT ? value : cycles_now();
+    if (offset == DWT_CTRL) {
+        trace.ctrl = value & BIT(0);
+    } else if (offset != DWT_CYCCNT) {
+        forbidden("store of DWT + 0x%03x", offset);
+    }
+    trace.count = count;
+    trace.since = chip.now;
+}
+static void trace_reset(chip_cause cause) {
+    if (cause == CHIP_BY_POWER) {
+        memset(&trace, 0, sizeof trace);
+    }
+}
+const part core_debug_part = {.name = "core debug",
+                              .base = AT_CORE_DEBUG,
+                              .bytes = 0x10,
+                              .load = core_debug_load,
+                              .store = core_debug_store};
+const part dwt_part = {.name = "DWT",
+                       .base = AT_DWT,
+                       .bytes = 0x1000,
+                       .load = dwt_load,
+                       .store = dwt_store,
+                       .reset = trace_reset};
 
 unsigned chip_resets(void) { return chip.resets; }
 

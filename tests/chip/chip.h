@@ -32,6 +32,13 @@ typedef enum chip_end {
     CHIP_HANGS      /* more time than chip_may_take() */
 } chip_end;
 
+/* The core's cycle counter. */
+typedef enum chip_counter {
+    CHIP_COUNTS,
+    CHIP_NO_COUNTER,   /* DWT_CTRL.NOCYCCNT */
+    CHIP_COUNTER_STILL /* as emulators have it */
+} chip_counter;
+
 /* What the world around the chip is. Anything may be changed at any time but by chip_crystal_stops(). */
 typedef struct chip_world {
     uint32_t crystal_Hz;
@@ -42,6 +49,7 @@ typedef struct chip_world {
     bool halt_disables; /* a timer's outputs, where its counter stops with a halt: unproven on this chip */
     double (*volts)(unsigned input, double s); /* at an ADC1 input, at a time; NULL: 0 */
     double vdda_V;
+    chip_counter counter;
     unsigned
         access_cycles; /* of the core, that each access to a register takes, with what is computed around it */
 } chip_world;

@@ -24,6 +24,8 @@
 #define AT_DBGMCU 0xE0042000U
 #define AT_NVIC 0xE000E100U
 #define AT_SCB 0xE000ED00U
+#define AT_DWT 0xE0001000U
+#define AT_CORE_DEBUG 0xE000EDF0U
 
 /* Bit n; a field's value. */
 #define BIT(n) (UINT32_C(1) << (n))
@@ -47,7 +49,7 @@ typedef struct part {
 
 extern const part rcc_part, pwr_part, flash_part, flash_memory_part, gpio_part, tim1_part,
     tim2_part, tim3_part, adc_part, dma_part, usart_part, iwdg_part, nvic_part, scb_part,
-    dbgmcu_part;
+    dbgmcu_part, dwt_part, core_debug_part;
 
 /* chip.c */
 __attribute__((format(printf, 1, 2))) void forbidden(const char *words, ...);

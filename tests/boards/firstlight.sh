@@ -1,0 +1,52 @@
+#!/bin/sh
+# firstlight.sh BOARD: the record of first light that BOARD's image prints in the emulator: whole, with the interpreter's hashes; the
+# fields that the emulator cannot give are `none`, and named; nothing else differs than a rig that is not there. And the rule
+# that the image cannot enable the motor. Prints "ok - ..." and "not ok - ..." lines.
+set -u
+
+board=$1
+whirl=${WHIRL:-build/whirl}
+said=$(mktemp)
+trap 'rm -f "$said"' EXIT
+failed=0
+verdict() {
+    if [ "$1" -eq 0 ]; then echo "ok - $board, $2"; else
+        echo "not ok - $board, $2"
+        sed 's/^/    /' "$said"
+        failed=1
+    fi
+}
+
+MAKEFLAGS="" make -s BOARD="$board" firstlight-record >"$said" 2>&1
+verdict $? "first light: a record"
+cycles=$(sed -n 's/^    X(\([a-z_]*\)).*/cycles.\1,/p' core/firstlight.h | tr '\n' ' ')
+none="none: ${cycles}clock, period_us, period_cycles, load, supply"
+case $board in
+mps2-* | rv32*)
+    wanted=0
+    none="$none, stop, slots, selftest"
+    differs=-
+    ;;
+*) # with the rig's hardware, of which the emulator has no converter, no crystal and no stop line
+    wanted=1
+    none="none: chip, ${cycles}clock, period_us, period_cycles, load, supply"
+    differs="stop, selftest"
+    ;;
+esac
+case $board in rv32*) none="none: chip, ${none#none: }" ;; esac
+"$whirl" firstlight "build/$board/firstlight.txt" --board "$board" >"$said" 2>&1
+[ $? -eq $wanted ] && grep -qx 'hashes: 5 of 5 equal' "$said"
+verdict $? "first light: all hashes are the interpreter's"
+grep -qx "$none" "$said" && grep -qx "differs: $differs" "$said" && grep -q '^row: none, ' "$said"
+verdict $? "first light: what the emulator cannot give is named"
+"$whirl" firstlight "build/$board/firstlight.txt" --emulated "build/$board/firstlight.txt" >"$said" 2>&1
+[ $? -eq $wanted ] && grep -q '^stack  *- ' "$said" && grep -q "^compiler  *equal" "$said"
+verdict $? "first light: beside the emulator's record"
+# an image that can is found out
+elf=build/$board/firmware.elf
+if [ "$board" = mps2-an386 ] && [ -e "$elf" ]; then
+    UNDRIVEN=$elf sh boards/check_image.sh "$elf" >"$said" 2>&1
+    [ $? -ne 0 ] && grep -q ': it can drive the motor: hal_motor_start' "$said"
+    verdict $? "an image that can drive the motor is refused where it must not"
+fi
+exit $failed
