@@ -21,7 +21,7 @@ bool board_converse(void) { return true; }
 #endif
 uint32_t board_chip(void) { return reg_load(BOARD_CHIP_ID); }
 
-#if __ARM_ARCH >= 7
+#if __ARM_ARCH >= 7 || BOARD_REGISTERS_FAKED
 
 /* Data watchpoint and trace (Armv7-M Architecture Reference Manual, C1.8). Some Cortex-M7 lock it. */
 #define DEMCR 0xE000EDFCU

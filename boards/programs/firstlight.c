@@ -178,6 +178,7 @@ static struct {
     range load;
     int64_t load_sum;
     unsigned edges[2];
+    bool stop_heard;
 } rest;
 static wh_rig_config config;
 
@@ -217,6 +218,7 @@ static void watch_rest(void) {
         control(&config);
         look_at_inputs();
     }
+    rest.stop_heard = hal_stop_heard();
 }
 
 static void say_range(const char *name, bool known, const range *r) {
@@ -273,7 +275,9 @@ static void say_rest(void) {
     say_range("period_us", keeps_time, &rest.period_ticks);
     say_range("period_cycles", keeps_time && counts_cycles, &rest.period_cycles);
     say_load();
-    say("stop", !hal_stop_heard() ? WH_LIGHT_NONE : hal_stop_pressed() ? "pressed" : "released");
+    say("stop", !rest.stop_heard           ? WH_LIGHT_NONE
+                : seen.inputs.stop_pressed ? "pressed"
+                                           : "released");
     line_begin("slots");
     line_number(rest.edges[0]);
     line_number(rest.edges[1]);
@@ -341,10 +345,10 @@ int main(void) {
     watch_rest();
     for (;;) {
         say_record();
-        while (line_end_typed()) { /* while it was printed */
-        }
-        while (!line_end_typed()) {
-        }
+        (void)line_end_typed(); /* while it was printed */
+        do {
+            hal_clock_wait_until(hal_clock_ticks() + CONTROL_TICKS);
+        } while (!line_end_typed());
     }
 #else
     say_record();

@@ -17,7 +17,9 @@ verdict() {
     fi
 }
 
-MAKEFLAGS="" make -s BOARD="$board" firstlight-record >"$said" 2>&1
+emulate=$(MAKEFLAGS="" make -s BOARD="$board" emulate-command) || exit 1
+elf=build/$board/firstlight.elf
+sh mk/demo/firstlight.sh "build/$board/firstlight.txt" "$(echo "$emulate" | sed "s:IMAGE:$elf:")" >"$said" 2>&1
 verdict $? "first light: a record"
 cycles=$(sed -n 's/^    X(\([a-z_]*\)).*/cycles.\1,/p' core/firstlight.h | tr '\n' ' ')
 none="none: ${cycles}clock, period_us, period_cycles, load, supply"
@@ -42,6 +44,20 @@ verdict $? "first light: what the emulator cannot give is named"
 "$whirl" firstlight "build/$board/firstlight.txt" --emulated "build/$board/firstlight.txt" >"$said" 2>&1
 [ $? -eq $wanted ] && grep -q '^stack  *- ' "$said" && grep -q "^compiler  *equal" "$said"
 verdict $? "first light: beside the emulator's record"
+# the same over a line: Enter brings the record
+if [ "$board" = netduinoplus2 ]; then
+    null="-serial null"
+    # shellcheck disable=SC2086 # words
+    qemu-system-arm -M netduinoplus2 -display none -monitor none $null $null $null $null $null -serial pty \
+        -kernel "$elf" >"$said" 2>&1 &
+    emulator=$!
+    until grep -q /dev/pts "$said" || ! kill -0 $emulator; do sleep 0.1; done
+    "$whirl" firstlight "$(sed -n 's|.* \(/dev/pts/[0-9]*\) .*|\1|p' "$said")" --wait 100 --keep "$said.kept" >"$said" 2>&1
+    [ $? -eq 1 ] && grep -qx 'hashes: 5 of 5 equal' "$said" && "$whirl" firstlight "$said.kept" | cmp -s - "$said"
+    verdict $? "first light over a serial line"
+    kill $emulator
+    rm -f "$said.kept"
+fi
 # an image that can is found out
 elf=build/$board/firmware.elf
 if [ "$board" = mps2-an386 ] && [ -e "$elf" ]; then
