@@ -4,7 +4,7 @@
 # A board with hardware of its own has the rig's; compiled as its other programs are, so that cycles are those of `make bench`.
 LIGHT := $(ELF)/firstlight.elf
 LIGHT_AS := $(if $(filter -flto,$(BOARD_FLASHED_FLAGS)),$(BOARD),$(FLASHED))
-LIGHT_SCENES := $(patsubst %,$(GEN)/%.c,$(shell sed -n 's/^    X(\([a-z_]*\)).*/\1/p' core/firstlight.h))
+LIGHT_SCENES := $(patsubst %,$(GEN)/%.c,$(shell sed -n 's/^    X(\([a-z_]*\)).*/\1/p' core/light_fields.h))
 LIGHT_C := boards/programs/firstlight.c $(LIGHT_SCENES)
 LIGHT_BOARD := $(if $(BOARD_FLASHED),$(BOARD_FLASHED) $(GEN)/rig_observed.c,$(BOARD_SOURCES))
 $(foreach b,float $(LIGHT_AS),$(B)/$(b)/boards/programs/firstlight.o): | $(GEN)/.stamp

@@ -1,9 +1,9 @@
 /* firstlight.c: first light of a board: five scenes to their end, then two seconds of the rig's control loop at rest and the
- * console's self-test, and one record of it all on the console (core/firstlight.h, docs/firstlight.md).
+ * console's self-test, and one record of it all on the console (core/light_fields.h, docs/firstlight.md).
  *
  * The motor is never enabled: the image has no call of hal_motor_start(), which boards/check_image.sh checks. On hardware of
  * its own it prints the record again for each line that is typed; in an emulator it ends. */
-#include "core/firstlight.h"
+#include "core/light_fields.h"
 
 #include "boards/board.h"
 #include "boards/programs/step_cycles.h"

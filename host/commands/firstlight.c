@@ -49,7 +49,7 @@ static const command_usage firstlight_usage = {
     .why = {[EXIT_ROW_OF(EXIT_DONE)] = "no field differs",
             [EXIT_ROW_OF(EXIT_RUN_FAILED)] =
                 "a field differs, no record came, or the row could not be written",
-            [EXIT_ROW_OF(EXIT_BAD_INPUT)] = "a record that is cut, garbled or not there, too",
+            [EXIT_ROW_OF(EXIT_BAD_INPUT)] = "no whole record, too",
             [EXIT_ROW_OF(EXIT_INTERRUPTED)] = ""}};
 
 static bool take_one(int count, char **words, int *at, void *options, bool *bad) {
@@ -188,10 +188,9 @@ static void show(const light *l, const light_expected *e, const light_verdict *f
     }
 }
 
-/* An emulator counts no cycles, and has no crystal. */
+/* An emulator counts no cycles. */
 static bool is_emulated(const light *l) {
-    return light_is_none(l->value[light_field("period_cycles", "")]) &&
-           strcmp(l->value[light_field("clock", "")], "crystal") != 0;
+    return light_is_none(l->value[light_field("period_cycles", "")]);
 }
 
 static bool keep(const char *name, const light *l) {
@@ -230,7 +229,7 @@ static int compare(const firstlight_options *o) {
     list_of(found, LIGHT_DIFFERS, names, sizeof names);
     printf("differs: %s\n", names[0] != '\0' ? names : "-");
     if (o->page == NULL && is_emulated(&l)) {
-        puts("row: none, the record is an emulator's; --page FILE appends one all the same");
+        puts("row: none, for an emulator counts no cycles either; --page FILE appends one");
     } else {
         char *row = light_row(&l, equal, names);
         code = light_append(o->page != NULL ? o->page : LIGHT_PAGE, row, l.crc);

@@ -5,7 +5,6 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "core/version.h"
 #include "host/run/engine.h"
 #include "load.h"
 

@@ -1,4 +1,4 @@
-/* light.h: the record of a board's first light (core/firstlight.h), as it came over a line or stands in a terminal's log. */
+/* light.h: the record of a board's first light (core/light_fields.h), as it came over a line or stands in a terminal's log. */
 #ifndef MONITOR_LIGHT_H
 #define MONITOR_LIGHT_H
 
@@ -6,7 +6,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "core/firstlight.h"
+#include "core/light_fields.h"
+#include "core/version.h"
 
 #define LIGHT_ONE(scene) +1
 enum { LIGHT_SCENES = 0 WH_LIGHT_SCENES(LIGHT_ONE), LIGHT_FIELDS = 13 + 3 * LIGHT_SCENES };

@@ -21,7 +21,7 @@ emulate=$(MAKEFLAGS="" make -s BOARD="$board" emulate-command) || exit 1
 elf=build/$board/firstlight.elf
 sh mk/demo/firstlight.sh "build/$board/firstlight.txt" "$(echo "$emulate" | sed "s:IMAGE:$elf:")" >"$said" 2>&1
 verdict $? "first light: a record"
-cycles=$(sed -n 's/^    X(\([a-z_]*\)).*/cycles.\1,/p' core/firstlight.h | tr '\n' ' ')
+cycles=$(sed -n 's/^    X(\([a-z_]*\)).*/cycles.\1,/p' core/light_fields.h | tr '\n' ' ')
 none="none: ${cycles}clock, period_us, period_cycles, load, supply"
 case $board in
 mps2-* | rv32*)

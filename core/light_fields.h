@@ -1,4 +1,4 @@
-/* firstlight.h: the record of a board's first light, lines of text that an image prints (boards/programs/firstlight.c) and
+/* light_fields.h: the record of a board's first light, lines of text that an image prints (boards/programs/firstlight.c) and
  * `whirl firstlight` reads:
  *
  *     firstlight record 1
@@ -6,8 +6,8 @@
  *     end 0x01234567      CRC-32 (frame.h) of all lines before, each with a line feed and no carriage return
  *
  * A field that a board or emulator cannot give has the value `none`. */
-#ifndef WH_FIRSTLIGHT_H
-#define WH_FIRSTLIGHT_H
+#ifndef WH_LIGHT_FIELDS_H
+#define WH_LIGHT_FIELDS_H
 
 #define WH_LIGHT_BEGIN "firstlight record 1"
 #define WH_LIGHT_END "end 0x"
