@@ -246,7 +246,8 @@ compare_matrix_hashes = sh tests/hashes.sh build/hash/matrix "the interpreter" "
 .PHONY: hashes-matrix hashes-now hashes-all-now gate-hashes $(addprefix hash-,$(HASH_BUILDS))
 hashes-now gate-hashes: $(GEN)/.stamp
 	+@$(call build_hashes,$(BOARDS))
-	@$(call compare_hashes,$(BOARDS))
+	@$(MAKE) hash-host-wasm
+	@$(call compare_hashes,$(BOARDS)) $(call hash_hosts,wasm)
 	@$(MAKE) hashes-matrix
 	@$(MAKE) hashes-hard
 	@$(MAKE) hashes-settings SETTINGS=some
@@ -271,7 +272,7 @@ hashes-all-now: $(GEN)/.stamp
 	+@$(call build_hashes,$(BOARDS_ALL))
 	@$(MAKE) build/scenes_short $(addprefix hash-host-,$(HASH_HOSTS))
 	@HASH_SECONDS=7200 $(call compare_hashes,$(BOARDS_WHOLE)) \
-	    $(foreach h,$(HASH_HOSTS),"$(h)" "$(host_run_$(h)) build/hosts/$(h)/scenes") \
+	    $(call hash_hosts,$(HASH_HOSTS)) \
 	    -- "The first $(SINGLE_STEPS) steps:" "this machine" build/scenes_short \
 	    $(foreach b,$(BOARDS_SINGLE),"$(b)" "$(call on_board,$(b),print-hashes)")
 	@$(MAKE) hashes-hard HARD_BOARDS="$(BOARDS_ALL)" HARD_HOSTS="$(HASH_HOSTS)" HARD_BUILDS="$(HASH_BUILDS)"
@@ -281,6 +282,7 @@ $(B)/scenes_short: boards/programs/scenes.c $(call objects,float,boards/host/boa
 	$(Q)$(CC) $(FLAGS_float) -DSCENE_STEPS_MOST=$(SINGLE_STEPS)U -o $@ $(filter %.c %.o,$^) $(filter %.a,$^)
 
 # Those of the warnings' gates have their objects from there.
+hash_hosts = $(foreach h,$(1),"$(h)" "$(host_run_$(h)) build/hosts/$(h)/scenes")
 hash-gcc-O2:
 	+@$(GCC_BUILD) $(GCC_FOLDER)/scenes
 hash-clang-O2:

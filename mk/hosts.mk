@@ -6,8 +6,8 @@ MECHANISMS ?= 500
 SEED ?= 1
 
 HOSTS := gcc clang gcc-O0 musl m32 aarch64 armhf wasm
-# In CI: two builds that other gates have made, and one that differs most of what is quick to build.
-HOSTS_CI := gcc-O2 clang-O2 musl
+# In CI: two builds that other gates have made, another C library, and another kind of machine.
+HOSTS_CI := gcc-O2 clang-O2 musl wasm
 MULTIARCH = $(shell gcc -print-multiarch)
 
 # For each: the compiler, settings of its build, what runs it, and its words in the table.
@@ -38,7 +38,8 @@ host_folder_clang-O2 = $(CLANG_FOLDER)
 
 host_run_aarch64 = qemu-aarch64
 host_run_armhf   = qemu-arm
-host_run_wasm    = node --no-warnings tests/hosts/wasi.mjs
+# Node's fast calls into WASI use freed memory after the program's memory has grown (github.com/nodejs/node, issue 53087).
+host_run_wasm    = node --no-warnings --no-turbo-fast-api-calls tests/hosts/wasi.mjs
 
 host_is_gcc     = gcc -O1, x86-64
 host_is_clang   = clang -O1, x86-64

@@ -95,9 +95,9 @@ HOST_TOOL_C := $(wildcard mk/*/*.c boards/*/run/*.c)
 WHIRL_MAIN_C := $(wildcard host/*.c)
 WHIRL_C := $(wildcard host/*/*.c)
 ifeq ($(SYSTEM),none)
-WHIRL_C := $(filter-out $(addprefix host/commands/,run.c sweep.c price.c choose.c emit_settings.c pricing.c pricing_open.c \
-    pricing_scene.c trust.c trusting.c map.c pil.c monitor.c firstlight.c light_expect.c light_page.c prove.c interrupts.c) host/map/% host/monitor/% host/pil/% host/sweep/% \
-    host/plot/% host/price/% host/trust/% host/prove/%,$(WHIRL_C))
+# The commands that need neither processes nor signals nor a serial line, and the folders that do.
+WHIRL_C := $(filter-out host/commands/% $(addprefix host/,map/% monitor/% pil/% plot/% price/% prove/% sweep/% trust/%),$(WHIRL_C)) \
+    $(addprefix host/commands/,accel.c check.c derive.c describe.c examine.c files.c find.c list.c load.c new.c options.c scenes.c target.c)
 endif
 TEST_C := $(wildcard tests/*.c tests/*/*.c)
 C_FILES := $(sort $(PORTABLE_C) $(BOARD_C) $(HOST_TOOL_C) $(WHIRL_MAIN_C) $(WHIRL_C) $(TEST_C) \

@@ -81,6 +81,17 @@ quality() {
     want clang-tidy "the lint gate" have clang-tidy
     want cppcheck "the second lint gate" have cppcheck
     want musl-tools "another C library" have musl-gcc
+    wasm
+}
+
+# Building for WebAssembly and running it.
+wasm() {
+    want wasi-libc "the C library of WebAssembly" have_file /usr/lib/wasm32-wasi/libc.a
+    want libclang-rt-dev-wasm32 "clang's support code for WebAssembly" \
+        have_file /usr/lib/llvm-*/lib/clang/*/lib/wasi/libclang_rt.builtins-wasm32.a
+    want llvm "its archiver" have llvm-ar
+    want lld "the linker for WebAssembly" have wasm-ld
+    want nodejs "running WebAssembly" have node
 }
 
 bench() {
@@ -102,12 +113,6 @@ hosts() {
     want gcc-arm-linux-gnueabihf "the compiler for armhf" have arm-linux-gnueabihf-gcc
     want libc6-dev-armhf-cross "its C library" have_file /usr/arm-linux-gnueabihf/lib/libc.a
     want qemu-user "running programs for these" have qemu-aarch64
-    want wasi-libc "the C library of WebAssembly" have_file /usr/lib/wasm32-wasi/libc.a
-    want libclang-rt-dev-wasm32 "clang's support code for WebAssembly" \
-        have_file /usr/lib/llvm-*/lib/clang/*/lib/wasi/libclang_rt.builtins-wasm32.a
-    want llvm "its archiver" have llvm-ar
-    want lld "the linker for WebAssembly" have wasm-ld
-    want nodejs "running WebAssembly" have node
 }
 
 flash() {
