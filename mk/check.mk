@@ -2,7 +2,7 @@
 # runs them, keeps what they say in build/check/NAME.log and prints a line for each.
 
 GATES := house gcc clang format cppcheck tidy long sanitizers memcheck bad-input fuzz firmware flashed size boards libm $(FAMILY_GATES) cycles hashes
-GATES += hosts
+GATES += hosts docs
 LINT_FLAGS := -std=c11 $(WARN) -I. $(UNITY_FLAGS) -D_POSIX_C_SOURCE=200809L
 
 .PHONY: check-now
@@ -228,6 +228,28 @@ gate-cycles: $(GEN)/.stamp
 	+@$(foreach b,$(filter $(patsubst boards/%/board.mk,%,$(shell grep -l '^BOARD_TIMING' boards/*/board.mk)),$(BOARDS)),\
 	    $(call on_board,$(b),cycles-agree) &&) true
 
+# --- what the pages print -----------------------------------------------------------------------------
+# README's commands take only what `make run` builds; other pages take more.
+DOC_PAGES ?= README.md $(sort $(wildcard docs/*.md))
+docs-programs: $(GEN)/.stamp
+	+@$(MAKE) whirl $(B)/firmware
+	+@$(call on_board,mps2-an386,pil-images board-images)
+	+@$(call on_board,mps2-an385,pil-images)
+	+@$(call on_board,netduinoplus2,board-images)
+
+.PHONY: docs-programs docs-all docs-renew
+gate-docs: docs-programs
+	@for f in $$(sed -n '/^```sh [rs]/,/^```$$/p' README.md | grep -o 'build/[a-z0-9_/.-]*' | sort -u); do \
+	    case " build/whirl $(RUN_IMAGES) " in *" $$f "*) ;; *) \
+	        echo "error: README.md: make run does not build $$f"; exit 1 ;; esac; done
+	@sh tests/docs.sh check $(DOC_PAGES)
+
+docs-all: docs-programs ## the commands of all pages, also the slow ones, print what stands below them (a quarter of an hour)
+	@sh tests/docs.sh slow $(DOC_PAGES)
+
+docs-renew: docs-programs ## all pages with what their commands print now: DOC_PAGES=docs/pil.md
+	@sh tests/docs.sh renew $(DOC_PAGES)
+
 # --- one arithmetic everywhere ----------------------------------------------------------------------
 HASH_BUILDS := gcc-O0 gcc-O2 gcc-O3 clang-O0 clang-O2 clang-O3
 # The scenes' last states, on the boards $(1): build their images, then run them beside the interpreter and this
@@ -260,6 +282,7 @@ hashes-matrix: $(GEN)/.stamp ## the same bits on every board of linear scenes, a
 # Processors that are no boards of ours but must have the same bits: builds of this machine's program for them
 # (mk/hosts.mk), run by qemu-user and by node.
 HASH_HOSTS := aarch64 wasm
+hash_hosts = $(foreach h,$(1),"$(h)" "$(host_run_$(h)) build/hosts/$(h)/scenes")
 .PHONY: $(addprefix hash-host-,$(HASH_HOSTS))
 $(addprefix hash-host-,$(HASH_HOSTS)): hash-host-%:
 	@$(call need,$(host_cc_$*))
@@ -282,7 +305,6 @@ $(B)/scenes_short: boards/programs/scenes.c $(call objects,float,boards/host/boa
 	$(Q)$(CC) $(FLAGS_float) -DSCENE_STEPS_MOST=$(SINGLE_STEPS)U -o $@ $(filter %.c %.o,$^) $(filter %.a,$^)
 
 # Those of the warnings' gates have their objects from there.
-hash_hosts = $(foreach h,$(1),"$(h)" "$(host_run_$(h)) build/hosts/$(h)/scenes")
 hash-gcc-O2:
 	+@$(GCC_BUILD) $(GCC_FOLDER)/scenes
 hash-clang-O2:

@@ -79,7 +79,7 @@ worst-now: $(GEN)/.stamp
 	@echo "Two times $(WORST_STEPS) random steps of each scene:"
 	@BOARD=$(BOARD) CC=$(BOARD_CC) NM=$(BOARD_NM) OBJCOPY=$(BOARD_OBJCOPY) \
 	    FLAGS="$(call TOLD,$(BOARD_CFLAGS))" PLUGIN=$(PLUGIN) \
-	    EMULATE="$(subst timeout $(BOARD_SECONDS),timeout 3600,$(call emulate,$(ELF)/worst.elf))" \
+	    EMULATE="$(subst limit.sh $(BOARD_SECONDS),limit.sh 3600,$(call emulate,$(ELF)/worst.elf))" \
 	    mk/count/worst.sh $(ELF)/worst.elf $(FIGURES)/worst.csv $(WORST_STEPS)
 
 bench-now: $(GEN)/.stamp

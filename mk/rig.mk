@@ -31,7 +31,7 @@ endif
 rig-steps-now: $(GEN)/.stamp
 	@$(MAKE) $(ELF)/rig_steps.elf $(PLUGIN)
 	@BOARD=$(BOARD) CC=$(BOARD_CC) NM=$(BOARD_NM) PLUGIN=$(PLUGIN) TIMING=$(BOARD_TIMING) \
-	    EMULATE="$(subst timeout $(BOARD_SECONDS),timeout 900,$(call emulate,$(ELF)/rig_steps.elf))" \
+	    EMULATE="$(subst limit.sh $(BOARD_SECONDS),limit.sh 900,$(call emulate,$(ELF)/rig_steps.elf))" \
 	    mk/count/rig_steps.sh $(ELF)/rig_steps.elf $(RIG_STEP_MOST)
 
 # The measurement against the truth, and its intervals against 1,000 noisy runs of each kind.

@@ -82,8 +82,10 @@ $(foreach b,host float double $(BOARD),$(patsubst %,$(B)/$(b)/%.o,boards/program
     | $(GEN)/.stamp
 
 # --- make run -----------------------------------------------------------------------------------
+# The third is for the commands of README.md.
+RUN_IMAGES := $(addprefix $(ELF)/,scenes.elf firmware.elf pil_rig.elf)
 .PHONY: run-now
 run-now: $(GEN)/.stamp
-	@$(MAKE) $(ELF)/scenes.elf $(ELF)/firmware.elf
+	@$(MAKE) $(RUN_IMAGES)
 	@sh mk/demo/run.sh build/whirl $(ELF)/scenes.elf $(ELF)/firmware.elf \
 	    '$(call BOARD_EMULATE,IMAGE)'

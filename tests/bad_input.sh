@@ -19,7 +19,7 @@ for file in tests/bad/*; do
     */effect_mass_*) command=run ;;
     *) command=derive ;;
     esac
-    timeout --kill-after=5 20 "$whirl" "$command" "$file" >"$out" 2>&1 </dev/null
+    sh tests/limit.sh 20 "$whirl" "$command" "$file" >"$out" 2>&1 </dev/null
     status=$?
     if [ "$status" -ne 2 ] || ! grep -q 'error:' "$out"; then
         echo "FAIL $file: exit status $status, wanted 2 and a message; it said:"

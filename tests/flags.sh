@@ -127,7 +127,7 @@ can_fuse=$(grep -c -m 1 -w fma /proc/cpuinfo 2>/dev/null)
 # The emulator's programs end, and speak to nobody else; what is for images that are flashed has no place in them, nor has a line.
 demo_sources=$(ls boards/cortexm/*.c boards/shared/*.c | grep -vE '/(flashed|kept|link|link_console|cmsdk_watchdog|remembered|reset_words|rig_time)\.c$')
 board=boards/mps2-an386
-emulate="timeout 60 qemu-system-arm -M mps2-an386 -nographic -semihosting-config enable=on,target=native -kernel"
+emulate="sh tests/limit.sh 60 qemu-system-arm -M mps2-an386 -nographic -semihosting-config enable=on,target=native -kernel"
 board_flags="-mcpu=cortex-m4 -mthumb -mfpu=fpv4-sp-d16 -mfloat-abi=hard -ffreestanding -I$board"
 
 compile() { # compile COMPILER REAL FLAGS...: $scratch/program, with what was said in $scratch/said
@@ -160,7 +160,7 @@ run() { # run COMPILER: its lines, without what only some consoles add
     if [ "$1" = arm-none-eabi-gcc ]; then
         $emulate "$scratch/program" </dev/null 2>/dev/null
     else
-        timeout 60 "$scratch/program" </dev/null 2>/dev/null
+        sh tests/limit.sh 60 "$scratch/program" </dev/null 2>/dev/null
     fi | tr -d '\r' | grep '^scene ' | sed 's/ steps [0-9]*//; s/ ok$//'
 }
 

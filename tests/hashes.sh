@@ -4,7 +4,8 @@
 #
 # Each command prints a line "scene NAME steps N hash 0x..." for each scene. The first is what the
 # others are held against; behind a "--" and a title others begin, with a first of their own. Fails when a line is
-# missing or another. A command that cannot run a scene says so in a line "without NAME". HASH_SECONDS limits each.
+# missing or another. A command that cannot run a scene says so in a line "without NAME". HASH_SECONDS limits the
+# processor time of each (limit.sh).
 # Every command's name is printed when it begins; the last line is "N runs of the scenes: the same bits in all", or how
 # many are not so, and the exit status 0 or 1.
 set -u
@@ -34,7 +35,7 @@ while [ $# -ge 2 ]; do
     start=$(date +%s)
     printf '  %-18s ' "$name"
     file=$logs/$(echo "$name" | tr ' ' '_').txt
-    timeout --kill-after=5 "$HASH_SECONDS" sh -c "$command" </dev/null >"$file.raw" 2>"$file.err"
+    sh tests/limit.sh "$HASH_SECONDS" sh -c "$command" </dev/null >"$file.raw" 2>"$file.err"
     status=$?
     tr -d '\r' <"$file.raw" | grep '^scene ' | sort >"$file"
     [ -n "$first" ] || { first=$file && firsts="$firsts $file"; }
@@ -42,8 +43,10 @@ while [ $# -ge 2 ]; do
     grep -vF -f "$file.without" "$first" >"$file.wanted"
     large=$(wc -l <"$file.without")
     count=$(wc -l <"$file")
-    if [ "$status" -eq 124 ] || [ "$status" -eq 137 ]; then
-        verdict="FAILED: not done within $HASH_SECONDS s"
+    if [ "$status" -eq 152 ]; then
+        verdict="FAILED: more than $HASH_SECONDS s of processor"
+    elif [ "$status" -eq 124 ] || [ "$status" -eq 137 ]; then
+        verdict="FAILED: did not end"
     elif [ "$status" -ne 0 ]; then
         verdict="FAILED: exit status $status: $(head -n 1 "$file.err")"
     elif [ "$count" -eq 0 ]; then

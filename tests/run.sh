@@ -4,8 +4,8 @@
 # A program speaks Unity ("3 Tests 0 Failures 0 Ignored") or, as a script, prints "ok - what" and
 # "not ok - what" lines. One that crashes, hangs, fails without saying what, or runs no test counts
 # as a failure. The last line is "N passed, N failed"; the exit status is 0 if none failed.
-# TEST_SECONDS limits each program; TEST_JOBS run at the same time, as many as there are processors
-# unless told. Each is reported when it ends, with the seconds that passed and those that processors worked for it,
+# TEST_SECONDS limits the processor time of each process (limit.sh); TEST_JOBS run at the same time, as many as there are
+# processors unless told. Each is reported when it ends, with the seconds that passed and those that processors worked for it,
 # which other work on the machine lengthens less; with TEST_BEGINS=1 each is also named when it begins.
 set -u
 
@@ -35,7 +35,7 @@ run_one() {
     limit=${TEST_SECONDS:-300}
     start=$(date +%s)
     [ -z "${TEST_BEGINS:-}" ] || printf '  RUN   %s\n' "$what"
-    timeout --kill-after=5 "$limit" sh "$logs/$1.command" </dev/null >"$log.raw" 2>&1
+    sh tests/limit.sh "$limit" sh "$logs/$1.command" </dev/null >"$log.raw" 2>&1
     status=$?
     # What it and its children took: the second line of `times`, "0m3.21s 0m0.45s".
     times >"$log.times"
@@ -50,8 +50,10 @@ $(awk '/^[0-9]+ Tests [0-9]+ Failures [0-9]+ Ignored/ { tests += $1; bad += $3; 
        END { print tests - bad - skip, bad + 0, skip + 0 }' "$log")
 END
     why=""
-    if [ "$status" -eq 124 ] || [ "$status" -eq 137 ]; then
-        why="did not end within $limit s"
+    if [ "$status" -eq 152 ]; then
+        why="used more than $limit s of processor"
+    elif [ "$status" -eq 124 ] || [ "$status" -eq 137 ]; then
+        why="did not end"
     elif [ "$status" -ne 0 ] && [ "$failed" -eq 0 ]; then
         why="exit status $status, though no test failed"
     elif [ "$status" -eq 0 ] && [ "$failed" -ne 0 ]; then

@@ -29,4 +29,4 @@ BOARD_TIDY     := --target=avr $(BOARD_CPU) -ffreestanding -DF_CPU=16000000UL -i
 BOARD_SOURCES  := boards/avr/startup.c boards/avr/board.c boards/avr/clock.c boards/avr/stack.c boards/shared/wait.c
 BOARD_EMULATOR := build/avr_run
 BOARD_RUN_BY   := $(BOARD_EMULATOR)
-BOARD_EMULATE   = timeout $(BOARD_SECONDS) $(BOARD_EMULATOR) mcu=$(BOARD_MCU) hz=16000000 $(1) </dev/null
+BOARD_EMULATE   = sh tests/limit.sh $(BOARD_SECONDS) $(BOARD_EMULATOR) mcu=$(BOARD_MCU) hz=16000000 $(1) </dev/null

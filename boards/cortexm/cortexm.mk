@@ -3,7 +3,7 @@
 #   BOARD_MACHINE  its name in QEMU
 #   BOARD_CPU      the flags that name the processor
 #   BOARD_MATH     further flags
-#   BOARD_SECONDS  how long a program may run
+#   BOARD_SECONDS  processor seconds that the emulator may take for a program
 #   BOARD_TIMING   the core whose cycles mk/count/thumb_cycles.h estimates, if any
 #   BOARD_WATCHDOG its hal/watchdog.h, of hardware that a program may take (tests/boards/watchdog.c); may be missing
 #   BOARD_SUITES   `none`: the portable suites are too large for it; may be missing
@@ -21,7 +21,7 @@
 #   BOARD_TIDY     what clang-tidy takes these sources for
 #   BOARD_EMULATOR the emulator's command
 #   BOARD_RUN_BY   what the emulator's command is built from sources here as (may be missing: it is installed)
-#   BOARD_EMULATE  $(call BOARD_EMULATE,program.elf) runs it for BOARD_SECONDS at most; console on stdout,
+#   BOARD_EMULATE  $(call BOARD_EMULATE,program.elf) runs it within BOARD_SECONDS; console on stdout,
 #                  exit status the program's; more emulator options may be appended
 #   BOARD_SERIAL   $(call BOARD_SERIAL,program.elf) runs it until it is ended, its console a pseudo-terminal that the
 #                  emulator names (may be missing)
@@ -48,7 +48,7 @@ BOARD_SOURCES  := boards/cortexm/startup.c boards/cortexm/guard.c boards/cortexm
                   boards/shared/wait.c
 BOARD_LINK     := boards/cortexm/link.c
 BOARD_EMULATOR := qemu-system-arm
-BOARD_EMULATE   = timeout $(BOARD_SECONDS) $(BOARD_EMULATOR) -M $(BOARD_MACHINE) -nographic \
+BOARD_EMULATE   = sh tests/limit.sh $(BOARD_SECONDS) $(BOARD_EMULATOR) -M $(BOARD_MACHINE) -nographic \
                   -semihosting-config enable=on,target=native -kernel $(1) </dev/null
 BOARD_SERIAL    = $(BOARD_EMULATOR) -M $(BOARD_MACHINE) -display none -monitor none -serial pty \
                   -semihosting-config enable=on,target=native -kernel $(1)

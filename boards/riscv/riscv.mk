@@ -18,5 +18,5 @@ BOARD_TIDY     := --target=riscv32-unknown-elf $(filter -march=% -mabi=%,$(BOARD
 BOARD_SOURCES  := boards/riscv/startup.c boards/riscv/guard.c boards/riscv/board.c boards/riscv/fault.c \
                   boards/shared/convert.c boards/shared/mem.c boards/shared/stack.c boards/shared/wait.c
 BOARD_EMULATOR := qemu-system-riscv32
-BOARD_EMULATE   = timeout $(BOARD_SECONDS) $(BOARD_EMULATOR) -M $(BOARD_MACHINE) -nographic -bios none \
+BOARD_EMULATE   = sh tests/limit.sh $(BOARD_SECONDS) $(BOARD_EMULATOR) -M $(BOARD_MACHINE) -nographic -bios none \
                   -kernel $(1) </dev/null

@@ -33,6 +33,6 @@ BOARD_MOST     := FLASH_MOST=40960 RAM_MOST=12288
 BOARD_SUITES   := none
 # Its console is serial interface 6, the emulator's sixth.
 BOARD_SERIALS   = -display none -monitor none -serial null -serial null -serial null -serial null -serial null -serial
-BOARD_EMULATE   = timeout $(BOARD_SECONDS) $(BOARD_EMULATOR) -M $(BOARD_MACHINE) $(BOARD_SERIALS) stdio \
+BOARD_EMULATE   = sh tests/limit.sh $(BOARD_SECONDS) $(BOARD_EMULATOR) -M $(BOARD_MACHINE) $(BOARD_SERIALS) stdio \
                   -semihosting-config enable=on,target=native -kernel $(1) </dev/null
 BOARD_SERIAL    = $(BOARD_EMULATOR) -M $(BOARD_MACHINE) $(BOARD_SERIALS) pty -kernel $(1)

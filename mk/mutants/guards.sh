@@ -41,11 +41,11 @@ while IFS='@' read -r name file change suites; do
         verdict="does not compile: $(grep -m 1 error "$top/build.log")"
     else
         for suite in $suites; do
-            (cd "$top/tree" && timeout 300 "$PROGRAM" "$suite") >"$top/$suite.log" 2>&1 ||
+            (cd "$top/tree" && sh tests/limit.sh 300 "$PROGRAM" "$suite") >"$top/$suite.log" 2>&1 ||
                 held="$held, $suite ($(grep -o '[a-z_0-9]*:FAIL' "$top/$suite.log" | sed 's/:FAIL//' | head -n 1))"
         done
         if [ -z "$held" ] && [ -n "$LAST" ]; then
-            (cd "$top/tree" && timeout 300 sh -c "$LAST") >"$top/last.log" 2>&1 || held=", the last resort"
+            (cd "$top/tree" && sh tests/limit.sh 300 sh -c "$LAST") >"$top/last.log" 2>&1 || held=", the last resort"
         fi
         [ -z "$held" ] || verdict="held by ${held#, }"
     fi

@@ -71,7 +71,7 @@ link() {
 }
 
 # emulated ELF: its emulator, for longer than a usual program has
-emulated() { echo "$EMULATE" | sed "s|@|$1|; s|^timeout [0-9]*|timeout 120|"; }
+emulated() { echo "$EMULATE" | sed "s|@|$1|; s|limit.sh [0-9]*|limit.sh 120|"; }
 
 compile "$gen.c" "$mine/plain.o"
 # shellcheck disable=SC2086

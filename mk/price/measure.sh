@@ -111,7 +111,7 @@ worst() {
     # shellcheck disable=SC2086
     $BOARD_CC $BOARD_LDFLAGS -o "$elf" "$mine/worst_.o" "$mine/scenes_.o" $objects $BOARD_OBJECTS "$lib" "$LIB_BOARD" \
         $BOARD_LDLIBS
-    EMULATE=$(echo "$emulate" | sed "s|@|$elf|; s|^timeout [0-9]*|timeout 1800|")
+    EMULATE=$(echo "$emulate" | sed "s|@|$elf|; s|limit.sh [0-9]*|limit.sh 1800|")
     (count ",every=$WORST") 2>"$work/said" || { grep -q '^interval' "$work/counts" 2>/dev/null || cat "$work/said" >&2; }
     awk '{ sub(/\r$/, "") }
         $1 == "interval" { counted[$2] = $3 }

@@ -9,7 +9,7 @@ bad=0
 while read -r mcu call; do
     avr-gcc -mmcu="$mcu" -o "$folder/cycles.elf" tests/boards/avr_cycles.S || exit 1
     status=0
-    timeout 60 "$run" mcu="$mcu" hz=16000000 counts="$folder/counts" "$folder/cycles.elf" || status=$?
+    sh tests/limit.sh 60 "$run" mcu="$mcu" hz=16000000 counts="$folder/counts" "$folder/cycles.elf" || status=$?
     said=$(tr '\n' ' ' <"$folder/counts")
     wanted="interval 0 1 cycles 0 $call interval 1 2003 cycles 1 $((4001 + call)) interval 2 7 cycles 2 $((12 + call)) intervals 3 "
     if [ "$status" -eq 7 ] && [ "$said" = "$wanted" ]; then

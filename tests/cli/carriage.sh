@@ -12,7 +12,7 @@ drawn=${BENCHES:-6}
 close_to() { awk -v a="$1" -v b="$2" -v most="$3" 'BEGIN { d = a - b; exit !(a != "" && d <= most && d >= -most) }'; }
 
 # --- the plant: the mechanism of core/models, and what its centre of mass asks for ---------------------------------------
-end_of() { timeout 60 "$whirl" run "$@" --start "theta'=30" --step 200us --until 3s </dev/null | awk '$1 == "theta" || $1 == "X" { print $1, $2 }'; }
+end_of() { sh tests/limit.sh 60 "$whirl" run "$@" --start "theta'=30" --step 200us --until 3s </dev/null | awk '$1 == "theta" || $1 == "X" { print $1, $2 }'; }
 end_of $plant --set enable=1 --set duty=0.573 --set bearing_friction=0 >"$scratch/plant"
 end_of carriage_free --set duty=0.573 --set J_drive=5e-4 --set ratio=1/3 >"$scratch/model"
 awk 'NR == FNR { value[$1] = $2; next } { n++; d = $2 - value[$1]; if (d > 1e-9 || d < -1e-9) bad++ } END { exit !(n == 2 && !bad) }' \
@@ -22,7 +22,7 @@ verdict $? "$plant moves as carriage_free with the same drive" "$scratch/plant"
 # --- measuring -----------------------------------------------------------------------------------------------------------
 # measure OPTION...: "force half displacement quality turns rpm expected%", of the result that the firmware tells
 measure() {
-    timeout 60 "$whirl" pil $plant --firmware "$build/pil_carriage" "$@" </dev/null >"$scratch/said" 2>"$scratch/err"
+    sh tests/limit.sh 60 "$whirl" pil $plant --firmware "$build/pil_carriage" "$@" </dev/null >"$scratch/said" 2>"$scratch/err"
     awk '$1 == "speed" && !n++ { speed = $2 }
         /^it tells/ { for (i = 1; i < NF; i++) { sub(/,$/, "", $(i + 1)); told[$i] = $(i + 1) } }
         END { print told["amplitude"] + 0, told["amplitude_half"] + 0, told["displacement"] + 0, told["quality"] + 0, told["turns"] + 0, speed + 0 }' \
@@ -105,7 +105,7 @@ told 2 --set 'told_radius=4 [in]'
 told 1 --set cell_gain=1.1
 told 2 --set cell_gain=-1
 for option in 'speed=100 [rpm]' 'speed=400 [rpm]' 'speed=0' 'speed=-330 [rpm]'; do
-    timeout 60 "$whirl" pil $plant --firmware "$build/pil_carriage" --set "$option" </dev/null >"$scratch/said" 2>"$scratch/err"
+    sh tests/limit.sh 60 "$whirl" pil $plant --firmware "$build/pil_carriage" --set "$option" </dev/null >"$scratch/said" 2>"$scratch/err"
     [ $? -eq 1 ] && grep -q '^REFUSED: the set-point' "$scratch/said"
     verdict $? "a dial at $option is refused" "$scratch/said"
 done
@@ -140,7 +140,7 @@ verdict $? "$drawn drawn benches: what is good is right ($(tail -n 1 "$scratch/e
 # --- the same on an emulated board -------------------------------------------------------------------------------------------
 if command -v qemu-system-arm >/dev/null 2>&1 && [ -f $m4 ]; then
     for image in "$build/pil_carriage" $m4; do
-        timeout 120 "$whirl" pil $plant --firmware "$image" --cycles 0 </dev/null 2>"$scratch/err" | grep -a '^command stream\|^plant'
+        sh tests/limit.sh 120 "$whirl" pil $plant --firmware "$image" --cycles 0 </dev/null 2>"$scratch/err" | grep -a '^command stream\|^plant'
     done >"$scratch/streams"
     [ "$(wc -l <"$scratch/streams")" -eq 6 ] && [ "$(grep -v '^plant  ' "$scratch/streams" | sort -u | wc -l)" -eq 2 ]
     verdict $? "a Cortex-M4F gives the same orders, and the same motion" "$scratch/streams"

@@ -15,7 +15,7 @@ says() {
     status=$1
     pattern=$2
     shift 2
-    timeout 60 "$whirl" "$@" >"$scratch/out" 2>"$scratch/err" </dev/null
+    sh tests/limit.sh 60 "$whirl" "$@" >"$scratch/out" 2>"$scratch/err" </dev/null
     got=$?
     if [ "$got" -ne "$status" ]; then
         complain "whirl $*: exit status $got, not $status"
@@ -32,7 +32,7 @@ says() {
 prints() {
     pattern=$1
     shift
-    timeout 60 "$whirl" "$@" >"$scratch/out" 2>"$scratch/err" </dev/null
+    sh tests/limit.sh 60 "$whirl" "$@" >"$scratch/out" 2>"$scratch/err" </dev/null
     got=$?
     if [ "$got" -ne 0 ] || [ -s "$scratch/err" ] || ! grep -Eq -- "$pattern" "$scratch/out"; then
         complain "whirl $*: exit status $got, or does not print: $pattern"

@@ -15,7 +15,7 @@ rig="docs/plants/rig.whirl --step 200us --firmware $build/pil_rig"
 verdict $? "whirl pil --faults lists the kinds"
 awk '{ print $1 }' "$scratch/kinds" | while read -r kind; do
     # shellcheck disable=SC2086 # words
-    timeout 20 "$whirl" pil $rig --until 30ms --fault "$kind" >"$scratch/out" 2>"$scratch/err" || echo "$kind"
+    sh tests/limit.sh 20 "$whirl" pil $rig --until 30ms --fault "$kind" >"$scratch/out" 2>"$scratch/err" || echo "$kind"
     # shellcheck disable=SC2016
     grep -q "^| .*\`$kind\`" docs/pil.md || echo "docs/pil.md: $kind"
 done >"$scratch/bad"
@@ -26,7 +26,7 @@ refused() {
     pattern=$1
     shift
     # shellcheck disable=SC2086
-    timeout 20 "$whirl" pil $rig "$@" >"$scratch/out" 2>"$scratch/err"
+    sh tests/limit.sh 20 "$whirl" pil $rig "$@" >"$scratch/out" 2>"$scratch/err"
     [ $? -eq 2 ] && grep -q -- "$pattern" "$scratch/err"
     verdict $? "whirl pil $*: $pattern"
 }
@@ -38,10 +38,10 @@ refused 'no such time' --fault jam@noon
 refused 'no such duration' --fault jam@1+long
 refused "tells no 'mood'" --fault jam@mood=3
 refused 'has 2 such channels' --fault edge-dead:3
-timeout 20 "$whirl" pil docs/plants/cart.whirl --firmware "$build/pil_cart" --fault runaway >"$scratch/out" 2>"$scratch/err"
+sh tests/limit.sh 20 "$whirl" pil docs/plants/cart.whirl --firmware "$build/pil_cart" --fault runaway >"$scratch/out" 2>"$scratch/err"
 [ $? -eq 2 ] && grep -q "has no input 'runaway'" "$scratch/err"
 verdict $? "a scene without such an input is told"
-timeout 20 "$whirl" pil --replay "$scratch/none" --firmware "$build/pil_rig" --fault jam >"$scratch/out" 2>"$scratch/err"
+sh tests/limit.sh 20 "$whirl" pil --replay "$scratch/none" --firmware "$build/pil_rig" --fault jam >"$scratch/out" 2>"$scratch/err"
 [ $? -eq 2 ] && grep -q 'takes no --fault' "$scratch/err"
 verdict $? "a tape takes no faults"
 
@@ -51,7 +51,7 @@ told() { sed -n "s/^it tells .*$1 \([-0-9.e]*\).*/\1/p" "$2"; }
 # run FAULTS: the rig with them
 run() {
     # shellcheck disable=SC2086
-    timeout 60 "$whirl" pil $rig --fault "$1" >"$scratch/run" 2>"$scratch/err"
+    sh tests/limit.sh 60 "$whirl" pil $rig --fault "$1" >"$scratch/run" 2>"$scratch/err"
 }
 run cell-noise=0.07
 verdict $? "with noise alone the rig's run is done" "$scratch/run"
@@ -108,7 +108,7 @@ few=8
 [ -z "${WHIRL_FEW:-}" ] || few=2
 [ -z "${WHIRL_FULL:-}" ] || few=30
 for only in stop reset reset-tripped hang-resets runaway-share stuck-share; do
-    timeout 300 "$build/tools/faults" --firmware "$build/pil_dialled" --only $only --runs $few --seed 9 >"$scratch/halts" 2>"$scratch/err" &&
+    sh tests/limit.sh 300 "$build/tools/faults" --firmware "$build/pil_dialled" --only $only --runs $few --seed 9 >"$scratch/halts" 2>"$scratch/err" &&
         grep -q "^| $only | $few |" "$scratch/halts"
     verdict $? "$few runs of $only" "$scratch/halts"
 done
@@ -116,7 +116,7 @@ done
 # --- the campaign -----------------------------------------------------------------------------------------------------
 faults=$build/tools/faults
 for jobs in 2 1; do
-    timeout 300 "$faults" --firmware "$build/pil_rig" --runs $runs --seed 7 --jobs $jobs >"$scratch/campaign.$jobs" 2>"$scratch/err"
+    sh tests/limit.sh 300 "$faults" --firmware "$build/pil_rig" --runs $runs --seed 7 --jobs $jobs >"$scratch/campaign.$jobs" 2>"$scratch/err"
     verdict $? "$runs runs on $jobs processes find nothing wrong" "$scratch/campaign.$jobs"
     [ -n "${WHIRL_FULL:-}" ] || break
 done
@@ -130,18 +130,18 @@ if [ -z "${WHIRL_FEW:-}" ]; then
 fi
 m4=build/mps2-an386/pil_rig.elf
 if [ -n "${WHIRL_FULL:-}" ] && command -v qemu-system-arm >/dev/null 2>&1 && [ -f "$m4" ]; then
-    timeout 300 "$faults" --firmware "$m4" --runs 60 --seed 7 >"$scratch/campaign" 2>"$scratch/err"
+    sh tests/limit.sh 300 "$faults" --firmware "$m4" --runs 60 --seed 7 >"$scratch/campaign" 2>"$scratch/err"
     verdict $? "nor in the emulator" "$scratch/campaign"
 fi
 for words in '' '--firmware' "--firmware $build/pil_rig --runs x" "--firmware $build/pil_rig --only nothing" '--what 3'; do
     # shellcheck disable=SC2086
-    timeout 20 "$faults" $words >"$scratch/out" 2>"$scratch/err"
+    sh tests/limit.sh 20 "$faults" $words >"$scratch/out" 2>"$scratch/err"
     [ $? -eq 2 ] && grep -q '^usage' "$scratch/err"
     verdict $? "faults $words: refused"
 done
 # interrupted, it tells of what was done; on a machine that is busy nothing may be, yet
 for pause in 2 10 30; do
-    timeout 60 "$faults" --firmware "$build/pil_rig" --runs 100000 >"$scratch/out" 2>"$scratch/err" &
+    sh tests/limit.sh 60 "$faults" --firmware "$build/pil_rig" --runs 100000 >"$scratch/out" 2>"$scratch/err" &
     wrapper=$!
     sleep $pause
     kill -INT $wrapper

@@ -10,11 +10,7 @@ stop() {
     shift 2
     "$whirl" "$@" >"$scratch/out" 2>"$scratch/err" &
     process=$!
-    tries=0
-    while [ "$(wc -c 2>/dev/null <"$grows" || echo 0)" -lt 20000 ] && [ $tries -lt 1000 ]; do
-        sleep 0.01
-        tries=$((tries + 1))
-    done
+    await has_bytes 20000 "$grows"
     kill "-$signal" $process
     wait $process
     code=$?
@@ -70,7 +66,7 @@ verdict $? "run, columns: the state of a run that ends there"
 # without records there are none to keep
 "$whirl" run epicyclic_from_rest --until 1000000s --with ledger >"$scratch/out" 2>"$scratch/err" &
 process=$!
-sleep 0.3
+await has_worked 20 $process
 kill -INT $process
 wait $process
 [ $? -eq 130 ] && grep -Eq '^whirl run: interrupted at t = [0-9.]+ s of 1000000 s$' "$scratch/err"
@@ -88,7 +84,7 @@ scene long { start x = 0.1 [m]; until 1000000 [s]; step 1 [ms] }
 END
 "$whirl" run "$scratch/long.whirl" --number fixed >"$scratch/out" 2>"$scratch/err" &
 process=$!
-sleep 0.3
+await has_worked 20 $process
 kill -INT $process
 wait $process
 [ $? -eq 130 ] && grep -q '^whirl run: interrupted before the run in fixed point began' "$scratch/err" && [ ! -s "$scratch/out" ]
@@ -125,7 +121,7 @@ done
 for signal in INT TERM; do
     "$whirl" map epicyclic_from_rest --over m=1..3:1000 --over step=1..10[ms]:10 --effort 1000 --csv "$scratch/m.csv" >"$scratch/out" 2>"$scratch/err" &
     process=$!
-    sleep 2
+    await has_worked 150 $process
     kill -$signal $process
     wait $process
     code=$?
@@ -145,7 +141,7 @@ for kind in file trusted; do # `trusted` is a pipe
     [ $kind = file ] || cat "$scratch/trusted" >"$scratch/read" &
     "$whirl" trust epicyclic_from_rest --until 3000s --step 1ms --effort 1000 --csv "$scratch/$kind" >"$scratch/out" 2>"$scratch/err" &
     process=$!
-    sleep 1
+    await has_worked 50 $process
     kill -INT $process
     wait $process
     code=$?

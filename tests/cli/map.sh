@@ -8,7 +8,7 @@ refused() {
     status=$1
     pattern=$2
     shift 2
-    timeout 60 "$whirl" map "$@" >"$scratch/out" 2>"$scratch/err"
+    sh tests/limit.sh 60 "$whirl" map "$@" >"$scratch/out" 2>"$scratch/err"
     [ $? -eq "$status" ] && grep -q -- "$pattern" "$scratch/err" && [ ! -s "$scratch/out" ]
     verdict $? "whirl map $*: status $status, $pattern"
 }
@@ -127,7 +127,7 @@ mkdir "$scratch/bin"
 for tool in sh env timeout; do ln -s "$(command -v $tool)" "$scratch/bin/$tool"; done
 program=$(realpath "$whirl")
 # shellcheck disable=SC2086
-PATH=$scratch/bin timeout 60 "$program" map $spring $slow --plot "$scratch/map.svg" >"$scratch/out" 2>"$scratch/err"
+PATH=$scratch/bin sh tests/limit.sh 60 "$program" map $spring $slow --plot "$scratch/map.svg" >"$scratch/out" 2>"$scratch/err"
 [ $? -eq 2 ] && grep -q 'plots need gnuplot' "$scratch/err" && [ ! -s "$scratch/out" ]
 verdict $? "no gnuplot: told before the work"
 
@@ -143,7 +143,6 @@ fi
 
 # --- what docs/stability.md shows ------------------------------------------------------------------------------------------------
 awk '/^## Stability maps/ { on = 1 } /^## Long runs/ { on = 0 } on' docs/stability.md >"$scratch/section"
-shown_calls docs/stability.md map 1
 # its pictures are those of the commands: drawn anew, they are the same, where gnuplot is
 mkdir "$scratch/docs"
 cp docs/stability.md "$scratch/docs"

@@ -14,7 +14,7 @@ record() {
     rm -f "$scratch/tty"
     SIM_LINK=$scratch/tty SIM_SECONDS=$seconds SIM_BAUD=$1 "$tools/sim_station" 2>"$scratch/plant" </dev/null &
     rig=$!
-    until [ -e "$scratch/tty" ]; do sleep 0.02; done
+    await test -e "$scratch/tty"
     "$whirl" monitor "$scratch/tty" --csv "$scratch/csv" --vcd "$scratch/vcd" --raw "$scratch/raw" \
         >"$scratch/text" 2>"$scratch/said" </dev/null &
     running=$!
@@ -144,15 +144,11 @@ export RIG_TTY RIG_SETTINGS
 station() {
     build/station >/dev/null 2>&1 </dev/null &
     rig=$!
-    until [ -e "$RIG_TTY" ]; do sleep 0.02; done
+    await test -e "$RIG_TTY"
 }
 # until TEXT FILE
 until_said() {
-    for _ in 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17 18 19 20 21 22 23 24 25 26 27 28 29 30; do
-        grep -q "$1" "$2" 2>/dev/null && return 0
-        sleep 0.1
-    done
-    return 1
+    await grep -qs "$1" "$2"
 }
 rm -f "$scratch/raw" "$scratch/csv"
 station

@@ -25,7 +25,7 @@ while read -r command any words; do
             *"$option "*) [ "$option" = --over ] || continue ;;
             esac
             # shellcheck disable=SC2086 # words
-            timeout 60 "$whirl" "$command" $words "$option" "$value" >"$scratch/out" 2>"$scratch/err" </dev/null
+            sh tests/limit.sh 60 "$whirl" "$command" $words "$option" "$value" >"$scratch/out" 2>"$scratch/err" </dev/null
             status=$?
             [ $status -eq 2 ] && grep -q 'error: ' "$scratch/err" && [ ! -s "$scratch/out" ] ||
                 { echo "$option '$value': status $status" && cat "$scratch/err"; } >>"$scratch/passed"
@@ -51,7 +51,7 @@ END
 while read -r command option words; do
     for file in /dev/null/x "$scratch" ''; do
         # shellcheck disable=SC2086
-        timeout 60 "$whirl" "$command" $words --until 50ms "$option" "$file" >"$scratch/out" 2>"$scratch/err" </dev/null
+        sh tests/limit.sh 60 "$whirl" "$command" $words --until 50ms "$option" "$file" >"$scratch/out" 2>"$scratch/err" </dev/null
         status=$?
         [ $status -ge 1 ] && [ $status -le 2 ] && [ ! -s "$scratch/out" ] &&
             grep -qE "^('*|$file): error: cannot be written: |error: --plot draws|error: --header takes" "$scratch/err"
@@ -59,13 +59,13 @@ while read -r command option words; do
     done
     [ -c /dev/full ] && [ "$option" != --plot ] || continue
     # shellcheck disable=SC2086
-    timeout 60 "$whirl" "$command" $words --until 50ms "$option" /dev/full >"$scratch/out" 2>"$scratch/err" </dev/null
+    sh tests/limit.sh 60 "$whirl" "$command" $words --until 50ms "$option" /dev/full >"$scratch/out" 2>"$scratch/err" </dev/null
     status=$?
     [ $status -ge 1 ] && [ $status -le 2 ] && grep -q '^/dev/full: error: cannot be written: ' "$scratch/err"
     verdict $? "whirl $command $option /dev/full: status $status"
     [ "$option" = --csv ] || [ "$option" = --columns ] || continue
     # shellcheck disable=SC2086 # enough rows that a part is written before the end
-    timeout 60 "$whirl" "$command" $words --until 50ms "$option" - >/dev/full 2>"$scratch/err" </dev/null
+    sh tests/limit.sh 60 "$whirl" "$command" $words --until 50ms "$option" - >/dev/full 2>"$scratch/err" </dev/null
     status=$?
     [ $status -eq 1 ] && grep -q '^whirl: error: standard output cannot be written' "$scratch/err" &&
         ! grep -q '^-: ' "$scratch/err"

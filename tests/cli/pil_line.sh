@@ -9,13 +9,7 @@ plant=docs/plants/rig.whirl
 board=
 trap 'kill -9 $board 2>/dev/null; rm -rf "$scratch"' EXIT
 
-wait_for_tty() {
-    i=0
-    while [ ! -e "$scratch/tty" ] && [ $i -lt 100 ]; do
-        sleep 0.05
-        i=$((i + 1))
-    done
-}
+wait_for_tty() { await test -e "$scratch/tty"; }
 # plug: a board is there, waiting: $scratch/tty
 plug() {
     rm -f "$scratch/tty"
@@ -30,14 +24,14 @@ unplug() {
 }
 # run WORD...: over the line
 run() {
-    timeout 120 "$whirl" pil "$plant" --port "$scratch/tty" --step 200us "$@" >"$scratch/out" 2>"$scratch/err"
+    sh tests/limit.sh 120 "$whirl" pil "$plant" --port "$scratch/tty" --step 200us "$@" >"$scratch/out" 2>"$scratch/err"
 }
 stream() { sed -n 's/^command stream  *//p' "$1"; }
 
 # --- runs ---------------------------------------------------------------------------------------------------------------
 for case in '--set speed=330rpm' '--set speed=120rpm --jitter 20us --seed 5' '--set speed=250rpm --fault edge-dead:2@9s'; do
     # shellcheck disable=SC2086 # words
-    timeout 120 "$whirl" pil "$plant" --firmware "$build/pil_dialled" --step 200us --cycles 0 $case >"$scratch/pipes" 2>/dev/null
+    sh tests/limit.sh 120 "$whirl" pil "$plant" --firmware "$build/pil_dialled" --step 200us --cycles 0 $case >"$scratch/pipes" 2>/dev/null
     wanted=$?
     plug
     # shellcheck disable=SC2086
@@ -54,7 +48,7 @@ done
 [ "$(stream "$scratch/out" | cut -d, -f1)" = "$(stream "$scratch/pipes")" ]
 verdict $? "its tape is one of any firmware's" "$scratch/out"
 plug
-timeout 120 "$whirl" pil --replay "$scratch/tape" --port "$scratch/tty" >"$scratch/out" 2>"$scratch/err"
+sh tests/limit.sh 120 "$whirl" pil --replay "$scratch/tape" --port "$scratch/tty" >"$scratch/out" 2>"$scratch/err"
 [ $? -le 1 ] && grep -q 'as on the tape' "$scratch/out"
 verdict $? "a tape is replayed over the line" "$scratch/err"
 unplug
@@ -64,7 +58,7 @@ refused() { # refused STATUS WORDS WORD...: with that status and an error that h
     status=$1
     words=$2
     shift 2
-    timeout 60 "$whirl" pil "$@" >"$scratch/out" 2>"$scratch/err"
+    sh tests/limit.sh 60 "$whirl" pil "$@" >"$scratch/out" 2>"$scratch/err"
     [ $? -eq "$status" ] && grep -q "$words" "$scratch/err"
     verdict $? "$words" "$scratch/err"
 }
@@ -90,7 +84,7 @@ board=$!
 wait_for_tty
 while printf 'id\r'; do sleep 0.02; done >"$scratch/tty" 2>/dev/null &
 asks=$!
-timeout 10 "$whirl" pil "$plant" --port "$scratch/tty" --patience 0.6 >"$scratch/out" 2>"$scratch/err"
+sh tests/limit.sh 10 "$whirl" pil "$plant" --port "$scratch/tty" --patience 0.6 >"$scratch/out" 2>"$scratch/err"
 [ $? -eq 2 ] && grep -q 'no hello has come' "$scratch/err"
 verdict $? "who babbles is as good as silent" "$scratch/err"
 kill -9 $asks 2>/dev/null
@@ -115,12 +109,8 @@ if command -v qemu-system-arm >/dev/null 2>&1 && [ -e "$image" ]; then
     qemu-system-arm -M mps2-an386 -display none -monitor none -serial pty -icount shift=6,align=off,sleep=off \
         -semihosting-config enable=on,target=native -kernel "$image" >"$scratch/qemu" 2>&1 &
     board=$!
-    i=0
-    while ! grep -qs /dev/pts "$scratch/qemu" && [ $i -lt 100 ]; do
-        sleep 0.05
-        i=$((i + 1))
-    done
-    timeout 120 "$whirl" pil "$plant" --port "$(grep -o '/dev/pts/[0-9]*' "$scratch/qemu")" --step 200us --until 0.3s \
+    await grep -qs /dev/pts "$scratch/qemu"
+    sh tests/limit.sh 120 "$whirl" pil "$plant" --port "$(grep -o '/dev/pts/[0-9]*' "$scratch/qemu")" --step 200us --until 0.3s \
         --set speed=330rpm --patience 60 --tape "$scratch/tape" >"$scratch/out" 2>"$scratch/err"
     [ $? -eq 0 ] && grep -q 'on board mps2-an386' "$scratch/out"
     verdict $? "firmware on an emulated board's UART" "$scratch/err"

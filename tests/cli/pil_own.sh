@@ -35,7 +35,7 @@ verdict $? "there is a compiler"
 run() {
     program=$1
     shift
-    timeout 60 "$whirl" pil "$scratch/table.whirl" --firmware "$program" "$@" >"$scratch/out" 2>"$scratch/err"
+    sh tests/limit.sh 60 "$whirl" pil "$scratch/table.whirl" --firmware "$program" "$@" >"$scratch/out" 2>"$scratch/err"
 }
 # the page's own runs, in its order
 grep '^build/whirl pil' "$scratch/commands" | sed 's/^build.whirl pil table.whirl --firmware build.pil_table//' >"$scratch/runs"

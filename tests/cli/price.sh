@@ -277,7 +277,7 @@ asked() { # EXIT-STATUS TEXT WORD...: choose ends so, in time, says TEXT, and no
     wanted=$1
     text=$2
     shift 2
-    timeout 120 "$whirl" choose --predict "$@" --effort 0.005 --quiet >"$scratch/out" 2>"$scratch/err" </dev/null
+    sh tests/limit.sh 120 "$whirl" choose --predict "$@" --effort 0.005 --quiet >"$scratch/out" 2>"$scratch/err" </dev/null
     [ $? -eq "$wanted" ] && cat "$scratch/out" "$scratch/err" | grep -q -e "$text" &&
         ! grep -qiE '[^a-z](nan|inf)[^a-z]' "$scratch/out"
     verdict $? "choose $*: exit status $wanted, $text" "$scratch/out"
@@ -421,7 +421,7 @@ refused 'not one period' choose "$s" --error 1e-3 --rate 0.1Hz
 for signal in INT TERM; do
     "$whirl" price thomson_b_conserved --effort 50 --csv "$scratch/i.csv" >"$scratch/out" 2>"$scratch/err" &
     process=$!
-    sleep 1
+    await has_worked 50 $process
     kill -$signal $process
     wait $process
     [ $? -eq 130 ] && grep -q '^whirl price: interrupted' "$scratch/err" && [ ! -e "$scratch/i.csv" ]

@@ -88,11 +88,7 @@ fi
 # --- interrupted --------------------------------------------------------------------------------------------
 "$whirl" run thomson_b --until 1e6s --csv "$scratch/i.csv" >"$scratch/out" 2>"$scratch/err" &
 pid=$!
-tries=0
-while [ ! -s "$scratch/i.csv" ] && [ $tries -lt 200 ]; do
-    sleep 0.05
-    tries=$((tries + 1))
-done
+await test -s "$scratch/i.csv"
 kill -INT $pid
 wait $pid
 [ $? -eq 130 ] && grep -q '^state hash ' "$scratch/out"

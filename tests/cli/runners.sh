@@ -25,7 +25,15 @@ expect "an exit status, and no failure" 1 "1 passed, 1 failed" $run one "echo ok
 expect "a crash" 1 "1 passed, 1 failed" $run one "echo ok - a; kill -9 \$\$"
 expect "no test" 1 "0 passed, 1 failed" $run one true
 expect "nothing to run" 1 "0 passed, 1 failed" $run
-expect "one that hangs" 1 "1 passed, 1 failed" env TEST_SECONDS=1 $run one "echo ok - a; sleep 9"
+expect "one that is blocked" 1 "1 passed, 1 failed" env LIMIT_WALL=1 $run one "echo ok - a; sleep 9"
+grep -q 'did not end; its last lines' "$scratch/said"
+verdict $? "which is told" "$scratch/said"
+endless="while :; do :; done"
+expect "one that does not end" 1 "1 passed, 1 failed" env TEST_SECONDS=1 $run one "echo ok - a; $endless"
+grep -q 'used more than 1 s of processor' "$scratch/said"
+verdict $? "which is told" "$scratch/said"
+expect "a process of one that does not end" 1 "1 passed, 1 failed" env TEST_SECONDS=1 $run one "echo ok - a; sh -c '$endless'"
+expect "one that waits longer than it may work" 0 "1 passed, 0 failed" env TEST_SECONDS=1 $run one "sleep 2; echo ok - a"
 expect "skipped ones are neither" 0 "2 passed, 0 failed" $run one "echo '3 Tests 0 Failures 1 Ignored'"
 TEST_BEGINS=1 $run one "echo ok - a" >"$scratch/said"
 grep -q '^  RUN   one$' "$scratch/said" && grep -Eq '^  PASS  one .* [0-9]+ s +[0-9]+ s of processor$' "$scratch/said"
@@ -63,7 +71,10 @@ expect "a scene that has no room" 0 "2 runs of the scenes: the same bits in all"
     $hashes x "$two" y "echo scene a hash 1; echo without b"
 expect "no scene" 1 "1 of 2 runs of the scenes differ or failed" $hashes x "$two" y true
 expect "a program that fails behind its lines" 1 "1 of 2 runs of the scenes differ or failed" $hashes x "$two" y "$two; exit 2"
-expect "one that hangs" 1 "1 of 2 runs of the scenes differ or failed" env HASH_SECONDS=1 $hashes x "$two" y "$two; sleep 9"
+expect "one that is blocked" 1 "1 of 2 runs of the scenes differ or failed" env LIMIT_WALL=1 $hashes x "$two" y "$two; sleep 9"
+expect "one that does not end" 1 "1 of 2 runs of the scenes differ or failed" env HASH_SECONDS=1 $hashes x "$two" y "$two; $endless"
+expect "one that waits longer than it may work" 0 "2 runs of the scenes: the same bits in all" \
+    env HASH_SECONDS=1 $hashes x "$two" y "sleep 2; $two"
 expect "the first of all fails" 1 "1 of 1 runs of the scenes differ or failed" $hashes x "exit 1"
 expect "nothing is compared" 1 "$none" $hashes
 expect "others, with a first of their own" 0 "4 runs of the scenes: the same bits in all" \

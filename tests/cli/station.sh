@@ -13,10 +13,7 @@ trap 'kill $running 2>/dev/null; rm -rf "$scratch"' EXIT
 begin() {
     "$station" >"$scratch/said" 2>"$scratch/err" </dev/null &
     running=$!
-    for _ in 1 2 3 4 5 6 7 8 9 10; do
-        [ -e "$RIG_TTY" ] && break
-        sleep 0.1
-    done
+    await test -e "$RIG_TTY"
     exec 3<>"$RIG_TTY"
 }
 # ask LINE: its answer goes to $answer
@@ -39,9 +36,9 @@ says() {
     echo "$1: $answer" >"$scratch/heard"
     verdict $status "$3" "$scratch/heard"
 }
-# soon BEGIN: status says it within ten seconds
+# soon BEGIN: status says it, within ten minutes
 soon() {
-    for _ in 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17 18 19 20; do
+    for _ in $(seq 1200); do
         ask status
         case $answer in "$1"*) return 0 ;; esac
         sleep 0.5
@@ -105,10 +102,7 @@ exec 3>&-
 first=$running
 RIG_SETTINGS=$scratch/others "$station" >"$scratch/said" 2>"$scratch/err" </dev/null &
 running=$!
-for _ in 1 2 3 4 5 6 7 8 9 10; do
-    grep -q 'console is' "$scratch/said" && break
-    sleep 0.1
-done
+await grep -q 'console is' "$scratch/said"
 kill "$first" && wait "$first" 2>/dev/null
 grep -q "was another terminal's" "$scratch/err" && [ -e "$RIG_TTY" ]
 verdict $? "a second rig says whose link it takes, and keeps it when the first one ends" "$scratch/err"
@@ -129,10 +123,8 @@ if [ -f $image ] && command -v qemu-system-arm >/dev/null; then
     qemu-system-arm -M mps2-an386 -display none -monitor none -serial pty -kernel $image \
         -semihosting-config enable=on,target=native >"$scratch/emulator" 2>&1 </dev/null &
     running=$!
-    for _ in 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17 18 19 20; do
-        terminal=$(grep -o '/dev/[^ ]*' "$scratch/emulator") && break
-        sleep 0.1
-    done
+    await grep -q '/dev/' "$scratch/emulator"
+    terminal=$(grep -o '/dev/[^ ]*' "$scratch/emulator")
     stty -F "$terminal" raw -echo
     exec 3<>"$terminal"
     converse mps2-an386

@@ -19,7 +19,7 @@ record() {
     rm -f "$scratch/tty"
     SIM_LINK=$scratch/tty SIM_SECONDS=$2 SIM_BAUD=$3 SIM_SEED=$4 "$tools/sim_station" 2>"$scratch/plant" </dev/null &
     rig=$!
-    until [ -e "$scratch/tty" ]; do sleep 0.02; done
+    await test -e "$scratch/tty"
     "$whirl" monitor "$scratch/tty" --tape "$scratch/$1.tape" --raw "$scratch/$1.raw" --csv "$scratch/$1.csv" \
         >"$scratch/text" 2>"$scratch/$1.said" </dev/null &
     running=$!
@@ -34,7 +34,7 @@ record() {
 steps() { sed -n 's/^whirl monitor: tape: \([0-9]*\) control steps.*/\1/p' "$scratch/$1.said"; }
 # replays NAME [IMAGE]: the whole of it is answered as on the tape; with the begin it is an exchange more
 replays() {
-    timeout 60 "$whirl" pil --replay "$scratch/$1.tape" --firmware "${2:-$build/pil_taped}" >"$scratch/out" 2>"$scratch/err" &&
+    sh tests/limit.sh 60 "$whirl" pil --replay "$scratch/$1.tape" --firmware "${2:-$build/pil_taped}" >"$scratch/out" 2>"$scratch/err" &&
         grep -q '^command stream .*, as on the tape$' "$scratch/out" &&
         [ "$(sed -n 's/^exchanges  *\([0-9]*\) .*/\1/p' "$scratch/out")" -eq $(($(steps "$1") + 1)) ]
 }
@@ -73,7 +73,7 @@ awk -F, -v counts="$scratch/counts" '
 verdict $? "its samples are those of the CSV" "$scratch/counts"
 "$whirl" monitor "$scratch/run.raw" --tape "$scratch/again.tape" --quiet >/dev/null 2>"$scratch/err" && cmp "$scratch/run.tape" "$scratch/again.tape"
 verdict $? "from what --raw has kept comes the same tape"
-timeout 60 "$whirl" pil --replay "$scratch/run.tape" --firmware "$build/pil_rig" >/dev/null 2>"$scratch/err"
+sh tests/limit.sh 60 "$whirl" pil --replay "$scratch/run.tape" --firmware "$build/pil_rig" >/dev/null 2>"$scratch/err"
 [ $? -eq 2 ] && grep -q "is of 'rig_taped'" "$scratch/err"
 verdict $? "another firmware does not take it"
 

@@ -125,7 +125,8 @@ verdict $? "a run that diverges leaves its records"
 rm -f "$scratch/v.csv" "$scratch/v.vcd"
 "$whirl" run thomson_b --until 1e6s --csv "$scratch/v.csv" --vcd "$scratch/v.vcd" >"$scratch/out" 2>"$scratch/err" &
 pid=$!
-until [ -s "$scratch/v.vcd" ] && [ -s "$scratch/v.csv" ]; do sleep 0.02; done
+await test -s "$scratch/v.vcd"
+await test -s "$scratch/v.csv"
 kill -INT $pid
 wait $pid
 [ $? -eq 130 ] && grep -q 'the records so far are kept$' "$scratch/err" && awk -f "$reader" "$scratch/v.vcd" "$scratch/v.csv" >/dev/null 2>"$scratch/err"

@@ -70,7 +70,7 @@ while read -r scene until options; do
         0000*) ;;
         *) wrong "$what: the sine's table is at $at, not in flash" ;;
         esac
-        timeout 60 simavr -m atmega2560 -f 16000000 "$folder/image.elf" 2>&1 | tr -dc '0-9a-f.\n' |
+        sh tests/limit.sh 60 simavr -m atmega2560 -f 16000000 "$folder/image.elf" 2>&1 | tr -dc '0-9a-f.\n' |
             grep -Eo '[0-9a-f]{16}\.' | tr -d '.' >"$folder/said"
         if [ "$(tr '\n' ' ' <"$folder/said")" = "$run $sines " ]; then
             compared=$((compared + 1))

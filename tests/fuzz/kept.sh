@@ -8,7 +8,7 @@ for program in "$@"; do
     name=$(basename "$program" .kept)
     said=$program.said
     [ -x "$program" ] || { echo "kept.sh: error: there is no program $program" >&2 && exit 2; }
-    timeout --kill-after=5 600 "$program" tests/fuzz/kept/"$name"/* >/dev/null 2>"$said"
+    sh tests/limit.sh 600 "$program" tests/fuzz/kept/"$name"/* >/dev/null 2>"$said"
     status=$?
     tr '\r' '\n' <"$said" >"$said.lines"
     if [ $status -eq 0 ]; then

@@ -10,9 +10,9 @@ rm -rf "$folder"
 mkdir -p "$folder/scenes" "$folder/mechanisms"
 start=$(date +%s)
 {
-    timeout 1800 "$@" emit-scenes "$folder/scenes" || echo "exit status $?: emit-scenes of the built-in scenes"
-    timeout 1800 "$@" emit-scenes "$folder/mechanisms" "$mechanisms" || echo "exit status $?: emit-scenes $mechanisms"
-    timeout 1800 "$@" hashes >"$folder/hashes.txt" || echo "exit status $?: hashes"
+    sh tests/limit.sh 1800 "$@" emit-scenes "$folder/scenes" || echo "exit status $?: emit-scenes of the built-in scenes"
+    sh tests/limit.sh 1800 "$@" emit-scenes "$folder/mechanisms" "$mechanisms" || echo "exit status $?: emit-scenes $mechanisms"
+    sh tests/limit.sh 1800 "$@" hashes >"$folder/hashes.txt" || echo "exit status $?: hashes"
     cat "$folder"/mechanisms/*.hash | grep '^scene ' >>"$folder/hashes.txt"
 } >"$folder/log.txt" 2>&1
 echo "$(($(date +%s) - start))" >"$folder/seconds"

@@ -40,7 +40,8 @@ void emulated_end(emulated *e);
 /* To the console. */
 void emulated_say(emulated *e, const char *words);
 
-/* The console's next line without its end, or false after so many milliseconds. */
+/* The console's next line without its end. False after so many milliseconds of the emulator's processor time, or twenty times as
+ * many of the clock. */
 bool emulated_hear(emulated *e, char *line, unsigned room, unsigned ms);
 
 /* Let so many milliseconds pass, and take what comes. */

@@ -128,7 +128,7 @@ bool marked(uint32_t value, uint64_t *number) {
 }
 
 bool starts_after(uint64_t number) {
-    for (unsigned i = 0; i < 200; i++) {
+    for (unsigned i = 0; i < LOG_BEHIND_MS / 50U; i++) {
         for (uint64_t n = number; n < board.stores; n++) {
             if (is(seen_at(n), "timer[1]", 0) && seen_at(n)->value == 1) {
                 return true;

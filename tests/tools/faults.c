@@ -18,7 +18,7 @@
 #include "tests/host/faults.h"
 
 #define UNTIL_S 60.0
-#define PATIENCE_S 20.0
+#define PATIENCE_S 600.0
 #define JITTER_S 60e-6
 #define INSTRUCTION_S (1.5 / 16e6) /* as whirl pil has it */
 enum { PLANTS_MAX = 16, JOBS_MAX = 64 };

@@ -29,7 +29,7 @@
 #include "hal/virtual/virtual_rig.h"
 #include "tests/core/draw.h"
 
-enum { BITS = 10, FIFO = 16, PATIENCE_MS = 20000, ASKING_US = 1000000 };
+enum { BITS = 10, FIFO = 16, PATIENCE_MS = 600000, ASKING_US = 1000000 };
 
 const char *const board_name = "sim";
 const uint32_t board_ticks_per_s = 1000000U;
