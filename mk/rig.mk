@@ -37,7 +37,7 @@ rig-steps-now: $(GEN)/.stamp
 # The measurement against the truth, and its intervals against 1,000 noisy runs of each kind.
 rig-truth-now: $(GEN)/.stamp
 	@$(MAKE) build/tests/host
-	@WHIRL_FULL=1 build/tests/host lockin_truth slope_truth
+	@WHIRL_FULL=1 build/tests/host lockin_truth slope_truth repeats_truth
 
 # Faults in the plant and the links of the rig's firmware: of this machine; with BOARD= given, in its emulator.
 RUNS ?= $(if $(ASKED_BOARD),2000,20000)

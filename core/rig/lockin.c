@@ -157,6 +157,7 @@ static void weigh_last(wh_lockin *lockin, wh_real theta_rad, wh_real part) {
         lockin->sum.at[i] += rest * node->waves.at[i];
     }
     lockin->square += rest * node->rest_N;
+    wh_repeats_add(&lockin->repeats, node->theta_rad, rest);
     lockin->mean += WH_R(0.5) * (part - lockin->before_part) * node->force_N;
 }
 
@@ -203,6 +204,8 @@ static void weigh_node(wh_lockin *lockin) {
     }
     if (place == WH_LOCKIN_WITHIN) {
         lockin->next.samples++;
+        const wh_real change_N = rest_N - lockin->last.rest_N;
+        lockin->repeats.changes_N2 += change_N * change_N;
     }
     lockin->last = *node;
 }
@@ -332,6 +335,7 @@ static void begin_turn(wh_lockin *lockin) {
     }
     lockin->part_per_tick = WH_R(1.0) / (wh_real)lockin->next.turn_ticks;
     lockin->sum = (wh_lockin_orders){{WH_R(0.0)}};
+    lockin->repeats = (wh_repeats){.samples = 0};
     lockin->square = lockin->mean = lockin->widest = WH_R(0.0);
     lockin->place = WH_LOCKIN_NOWHERE;
 }

@@ -23,6 +23,7 @@
 #define WH_RIG_LOCKIN_H
 
 #include "cell.h"
+#include "repeats.h"
 #include "turn_angle.h"
 
 #ifdef __cplusplus
@@ -139,6 +140,7 @@ typedef struct wh_lockin {
     wh_real before_part;
     wh_lockin_node last;   /* and the last one, whose weight the next decides */
     wh_lockin_node placed; /* unless `place` is nowhere */
+    wh_repeats repeats;    /* valid until the next turn's sums begin */
 
     wh_lockin_turn turn; /* the last one that is done */
     wh_turn_angle angle;

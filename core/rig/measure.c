@@ -53,7 +53,26 @@ void wh_measure_load(wh_measure *measure, const wh_load *load, bool at_rest) {
 /* Pieces in which turns are merged to a result: the last is its verdict. */
 #define MERGE_PIECES (WH_RIG_SMALL_PIECES ? WH_MERGE_MEAN_PIECES + 1U : 2U)
 
+/* Before them, of a turn: what repeats is merged; at the record's end: a harmonic of it each. */
+#define TURN_PIECES (MERGE_PIECES + 1U)
+#define END_PIECES (MERGE_PIECES + WH_REPEATS_LAST - WH_REPEATS_FIRST + 1U)
+
+static void repeats_piece(wh_measure *measure) {
+    wh_merge *merge = &measure->merge;
+    const unsigned piece = measure->due - MERGE_PIECES;
+    if (measure->ends) {
+        wh_merge_harmonic(merge, WH_REPEATS_FIRST - 1U + piece);
+    } else if (measure->lockin.turn.fault == WH_TURN_OK) {
+        wh_repeats_merge(&merge->repeats, &measure->lockin.repeats, measure->lockin.turn.samples);
+    }
+    measure->due--;
+}
+
 static WH_CALLED void merge_piece(const wh_measure_config *config, wh_measure *measure) {
+    if (measure->due > MERGE_PIECES) {
+        repeats_piece(measure);
+        return;
+    }
     wh_measured *force = &measure->result.force;
     const wh_turn_angle *angle = &measure->lockin.angle;
     const bool begins = measure->due == MERGE_PIECES;
@@ -78,7 +97,7 @@ static WH_CALLED void add_turn(const wh_measure_config *config, wh_measure *meas
     wh_merge_add(&config->result, &config->rotor, &measure->merge, &measure->lockin.turn,
                  &measure->lockin.angle);
     measure->adds = false;
-    measure->due = (uint8_t)MERGE_PIECES;
+    measure->due = (uint8_t)TURN_PIECES;
 }
 
 void wh_measure_work(const wh_measure_config *config, wh_measure *measure, unsigned halves) {
@@ -132,7 +151,7 @@ bool wh_measure_end(wh_measure *measure, uint32_t now_ticks) {
     if (!measure->ends && (measure->lockin.stage == WH_LOCKIN_WAITS || late) && measure->due == 0 &&
         !measure->adds) {
         measure->ends = true;
-        measure->due = (uint8_t)MERGE_PIECES;
+        measure->due = (uint8_t)END_PIECES;
     }
     if (!measure->ends || measure->due > 0) {
         return false;

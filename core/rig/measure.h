@@ -38,7 +38,7 @@ typedef struct wh_measure {
     bool adds;               /* before `due`: the turn itself */
     bool peaks;              /* low_N and high_N are of something */
     bool ends;               /* the record's last turn is through */
-    uint8_t due;             /* pieces of work that the last turn has left */
+    uint8_t due;             /* pieces of work that the last turn, or the record's end, has left */
     uint32_t begin_ticks;    /* of the record, */
     wh_real record_s;        /* and how long it lasts */
     uint32_t skipped_before; /* turns, when the record began */

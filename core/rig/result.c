@@ -15,7 +15,25 @@
  * 1/sqrt(2) of it an error of the phase. */
 #define SWING_OFF_RAD WH_R(0.01)
 
+/* Noise alone exceeds these multiples of its variance in one of 1,000 results: the sum of squares of the eight coefficients of
+ * four harmonics, and of the two of the third (chi-squared). A bend or a torque twice a turn is all in the third. */
+#define REPEATS_NOISE WH_R(26.1)
+#define THIRD_NOISE WH_R(13.8)
+
+/* Of the force, what a healthy rig repeats each turn in harmonics 3 to 6 (tests/host/test_repeats_truth.c): by damping, as
+ * tan(psi) E^2, and by a swing that is another, as E times the arrow; by a motor that cannot brake enough; by a carriage's
+ * wave; and the cell's own bend. */
+#define REPEATS_LAG WH_R(0.4)
+#define REPEATS_ARROW WH_R(1.6)
+#define REPEATS_CUT WH_R(0.29)
+#define REPEATS_TWICE WH_R(5.0)
+#define REPEATS_CELL WH_R(1e-4)
+
 static wh_real square_of(wh_real x) { return x * x; }
+
+static wh_real floor_or(wh_real entered, wh_real uncalibrated) {
+    return entered > WH_R(0.0) ? entered : uncalibrated;
+}
 
 wh_real wh_student(uint32_t freedom) {
     static const wh_real first[] = {WH_R(0.0),   WH_R(12.706), WH_R(4.303), WH_R(3.182),
@@ -109,6 +127,14 @@ void wh_merge_add(const wh_result_config *config, const wh_rotor_config *rotor, 
     }
 }
 
+void wh_merge_harmonic(wh_merge *merge, unsigned harmonic) {
+    if (merge->turns > 0) {
+        const wh_real power_N2 = wh_repeats_power_N2(&merge->repeats, merge->turns, harmonic);
+        merge->repeats_N2 += power_N2;
+        merge->third_N2 += harmonic == 3U ? power_N2 : WH_R(0.0);
+    }
+}
+
 /* --- their mean --------------------------------------------------------------------------------- */
 
 /* Square of the phase's half-width from the marks, beside what the turns' scatter shows of them. */
@@ -144,6 +170,9 @@ WH_INLINE void begin_mean(const wh_merge *merge, const wh_turn_angle *angle, wh_
     measured->at_mark_N[0] = merge->at_mark_N[0] - tare_N;
     measured->at_mark_N[1] = merge->split_turns > 0 ? merge->at_mark_N[1] - tare_N : WH_R(0.0);
     measured->residual_N = WH_SQRT(merge->residual_N2);
+    const wh_real third_N2 = REPEATS_NOISE / THIRD_NOISE * merge->third_N2;
+    measured->repeats_N =
+        WH_SQRT(third_N2 > merge->repeats_N2 ? third_N2 : merge->repeats_N2);
     if (angle->fed && angle->whole_rad > WH_R(0.0)) {
         measured->left_part = WH_ABS(merge->swing_rad) / angle->whole_rad;
     }
@@ -204,7 +233,8 @@ WH_INLINE void amplitude_half(const wh_result_config *config, const wh_rotor_con
                               const wh_merge *merge, const wh_turn_angle *angle, wh_real size2,
                               const parts_off *by, wh_measured *measured) {
     const wh_real amplitude2 =
-        square_of(config->amplitude_floor) + square_of(WH_R(1.5) * merge->swing_rad * by->lag) +
+        square_of(floor_or(config->amplitude_floor, WH_UNCALIBRATED_PART)) +
+        square_of(WH_R(1.5) * merge->swing_rad * by->lag) +
         square_of(by->third) + square_of(WH_R(3.0) * by->quadrature * by->quadrature) +
         square_of(WH_R(0.01) * by->cut) +
         square_of(WH_R(0.5) * angle->twice_rad * rotor->yields_tolerance);
@@ -220,7 +250,8 @@ WH_INLINE void phase_half(const wh_result_config *config, const wh_merge *merge,
     measured->phase_half_rad = WH_SQRT(
         measured->phase_half_rad / size2 + t2 * marks_rad2(merge, angle, measured->jitter_s) +
         square_of(by->lag) + square_of(by->third) + square_of(turned) +
-        square_of(WH_R(0.1) * by->cut) + square_of(drift) + square_of(config->phase_floor_rad));
+        square_of(WH_R(0.1) * by->cut) + square_of(drift) +
+        square_of(floor_or(config->phase_floor_rad, WH_UNCALIBRATED_RAD)));
 }
 
 #if WH_RIG_SMALL_PIECES
@@ -301,6 +332,18 @@ static wh_real swing_off(const wh_rotor_config *rotor, const wh_merge *merge,
     return WH_R(0.5) * WH_SQRT(along * along + across * across);
 }
 
+static wh_real repeats_limit_N(const wh_merge *merge, const wh_turn_angle *angle,
+                               const wh_measured *measured) {
+    const wh_real swing = WH_ABS(merge->swing_rad);
+    const wh_real part = REPEATS_LAG * angle->lag_rad * swing * swing +
+                         REPEATS_ARROW * swing * measured->swing_off_rad +
+                         REPEATS_CUT * angle->cut + REPEATS_TWICE * angle->twice_rad + REPEATS_CELL;
+    const wh_real samples = (wh_real)(merge->repeats.samples > 0 ? merge->repeats.samples : 1U);
+    /* a coefficient over N samples of variance s^2 has 2 s^2/N, and s^2 is half the mean squared difference */
+    const wh_real noise_N2 = merge->repeats.changes_N2 / (samples * samples);
+    return WH_SQRT(REPEATS_NOISE * noise_N2 + square_of(part * measured->expected_N));
+}
+
 static wh_why reason(const wh_result_config *config, const wh_rotor_config *rotor,
                      const wh_merge *merge, const wh_measured *measured) {
     const wh_real expected = measured->expected_N;
@@ -354,8 +397,15 @@ static wh_why reason(const wh_result_config *config, const wh_rotor_config *roto
     if (half > WH_R(0.05) * measured->amplitude_N) {
         return WH_WHY_WIDE;
     }
-    if (measured->swing_off_rad > measured->phase_half_rad + SWING_OFF_RAD) {
+    /* the calibration is not in question here */
+    const wh_real floor_rad = floor_or(config->phase_floor_rad, WH_UNCALIBRATED_RAD);
+    const wh_real seen_rad2 = square_of(measured->phase_half_rad) - square_of(floor_rad);
+    const wh_real seen_rad = seen_rad2 > WH_R(0.0) ? WH_SQRT(seen_rad2) : WH_R(0.0);
+    if (measured->swing_off_rad > seen_rad + SWING_OFF_RAD) {
         return WH_WHY_SWING;
+    }
+    if (measured->repeats_N > measured->repeats_limit_N) {
+        return WH_WHY_REPEATS;
     }
     return WH_WHY_NONE;
 }
@@ -365,6 +415,7 @@ void wh_merge_judge(const wh_result_config *config, const wh_rotor_config *rotor
 #define WH_WHY_QUALITY(name, its_quality, words) (uint8_t)(its_quality),
     static const uint8_t qualities[] = {WH_WHY_ROWS(WH_WHY_QUALITY)};
     measured->swing_off_rad = swing_off(rotor, merge, angle, measured);
+    measured->repeats_limit_N = repeats_limit_N(merge, angle, measured);
     measured->why = reason(config, rotor, merge, measured);
     measured->quality = (wh_quality)qualities[measured->why];
 }

@@ -11,7 +11,7 @@
  *                 tolerance; and where the motor cannot brake as much as that asks for, what it leaves; on a carriage
  *                 (amplitude), if what gives way were off by its tolerance
  *     drift       (phase) the reference runs at a constant mean speed within a turn
- *     floors      calibration: as configured
+ *     floors      calibration: as configured; 0.5 % and 0.5 degrees until it is
  *
  * A result is good; or doubtful or refused, and then there is a reason. */
 #ifndef WH_RIG_RESULT_H
@@ -45,7 +45,9 @@ typedef enum wh_quality { WH_GOOD, WH_DOUBTFUL, WH_REFUSED } wh_quality;
     X(WH_WHY_FED, WH_DOUBTFUL, "gravity is fed forward, and a seventh of it or more is left") \
     X(WH_WHY_MEAN, WH_DOUBTFUL, "the mean force is not zero: the tare has moved") \
     X(WH_WHY_WIDE, WH_DOUBTFUL, "the interval is wider than a twentieth of the force") \
-    X(WH_WHY_SWING, WH_DOUBTFUL, "the load shows another speed within the turn than the rotor's")
+    X(WH_WHY_SWING, WH_DOUBTFUL, "the load shows another speed within the turn than the rotor's") \
+    X(WH_WHY_REPEATS, WH_DOUBTFUL, \
+      "the residual repeats each turn: the cell clips, plays or bends, or a torque acts twice a turn")
 
 #define WH_WHY_NAME(name, quality, words) name,
 typedef enum wh_why { WH_WHY_ROWS(WH_WHY_NAME) WH_WHYS } wh_why;
@@ -54,7 +56,7 @@ typedef enum wh_why { WH_WHY_ROWS(WH_WHY_NAME) WH_WHYS } wh_why;
 typedef struct wh_result_config {
     wh_real mount_factor; /* force as a part of that on a fixed mount: 1; carriage: 1/(1 + ratio) */
     wh_real amplitude_floor; /* calibration, 95 %: as a part of the force, */
-    wh_real phase_floor_rad; /* of the sensors' places and the delays */
+    wh_real phase_floor_rad; /* of the sensors' places and the delays; 0: uncalibrated */
     wh_real amplitude_off; /* so far from what is expected, as a part of it, a force is doubtful, */
     wh_real amplitude_wrong; /* or refused */
     wh_real phase_off_rad;   /* likewise its phase */
@@ -80,6 +82,9 @@ typedef struct wh_merge {
     uint32_t split_turn_ticks;
     uint32_t begin_ticks;
     uint32_t split_ticks;
+    wh_real repeats_N2; /* squared amplitudes of the harmonics that were evaluated, summed; */
+    wh_real third_N2;   /* of the third */
+    wh_repeats repeats;
     wh_real in_phase_N; /* means over the turns */
     wh_real quadrature_N;
     wh_real second_N[2];   /* of twice the angle: cosine, sine */
@@ -106,6 +111,8 @@ typedef struct wh_measured {
     wh_real phase_half_rad;
     wh_real expected_N; /* amplitude: what masses, speed and mount let expect */
     wh_real residual_N; /* rms of what orders 0 to 2 leave */
+    wh_real repeats_N; /* of it, harmonics 3 to 6 that repeat each turn: root of the sum of squares, or the third's */
+    wh_real repeats_limit_N; /* noise and a healthy rig make no more */
     wh_real jitter_s;   /* of the marks, standard deviation */
     wh_real inertia_kgm2;
     wh_real
@@ -114,7 +121,17 @@ typedef struct wh_measured {
     wh_real at_mark_N[2]; /* the tare taken off */
 } wh_measured;
 
+/* Half-widths for 95 % until a calibration is entered: of a load cell and sensors as they are bought and mounted. */
+#define WH_UNCALIBRATED_PART WH_R(0.005)
+#define WH_UNCALIBRATED_RAD (WH_R(0.5) / WH_RIG_DEG_PER_RAD)
+
+/* A floor was entered for both amplitude and phase. */
+WH_INLINE bool wh_result_is_calibrated(const wh_result_config *config) {
+    return config->amplitude_floor > WH_R(0.0) && config->phase_floor_rad > WH_R(0.0);
+}
+
 #define wh_merge_add WH_NAME(wh_merge_add)
+#define wh_merge_harmonic WH_NAME(wh_merge_harmonic)
 #define wh_merge_mean WH_NAME(wh_merge_mean)
 #define wh_merge_mean_piece WH_NAME(wh_merge_mean_piece)
 #define wh_merge_judge WH_NAME(wh_merge_judge)
@@ -125,6 +142,9 @@ typedef struct wh_measured {
 /* Take a turn; `angle` as it was found with. A turn that does not count breaks the row. */
 void wh_merge_add(const wh_result_config *config, const wh_rotor_config *rotor, wh_merge *merge,
                   const wh_lockin_turn *turn, const wh_turn_angle *angle);
+
+/* Evaluate a harmonic of what repeats, once each, WH_REPEATS_FIRST to WH_REPEATS_LAST: after the last turn. */
+void wh_merge_harmonic(wh_merge *merge, unsigned harmonic);
 
 /* Means and half-widths; the half-widths are 0 with less than two turns. `tare_N` is taken off. */
 void wh_merge_mean(const wh_result_config *config, const wh_rotor_config *rotor,

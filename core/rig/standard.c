@@ -63,8 +63,8 @@ const wh_rig_config wh_rig_standard = {
                           .inertia_kgm2 = WH_RIG_INERTIA_KGM2},
                 .tare = {.samples = 250, .still_N = WH_R(0.05), .most_N = WH_R(0.25)},
                 .result = {.mount_factor = WH_R(1.0),
-                           .amplitude_floor = WH_R(1e-4),
-                           .phase_floor_rad = WH_R(0.01) / WH_RIG_DEG_PER_RAD,
+                           .amplitude_floor = WH_R(0.0), /* uncalibrated */
+                           .phase_floor_rad = WH_R(0.0),
                            .amplitude_off = WH_R(0.05),
                            .amplitude_wrong = WH_R(0.25),
                            .phase_off_rad = WH_R(5.0) / WH_RIG_DEG_PER_RAD,

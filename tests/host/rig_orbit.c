@@ -27,7 +27,8 @@ const rig_plant rig_plant_nominal = {
 static double acceleration(const rig_plant *p, double drive_Nm, double theta, double w) {
     const double given_Nm = fmax(0.0, drive_Nm + p->fed_Nm * sin(theta - p->fed_late_rad));
     return (given_Nm - (p->line_Nms + p->drag_Nms) * w -
-            p->mass_moment_kgm * p->gravity_mps2 * sin(theta)) /
+            p->mass_moment_kgm * p->gravity_mps2 * sin(theta) +
+            p->twice_Nm * cos(2.0 * theta + p->twice_rad)) /
            p->inertia_kgm2;
 }
 
@@ -155,6 +156,8 @@ static double normal(void) { return sqrt(-2.0 * log(uniform())) * cos(2.0 * PI *
 
 void rig_measure_config(wh_result_config *result, wh_rotor_config *rotor, wh_cell_config *cell) {
     *result = wh_rig_standard.measure.result;
+    result->amplitude_floor = WH_R(1e-4);
+    result->phase_floor_rad = (wh_real)(0.01 * PI / 180.0);
     *rotor = wh_rig_standard.measure.rotor;
     rotor->mark_rad[0] = (wh_real)(-(double)HAL_SLOT_LEAD_DEG * PI / 180.0);
     rotor->mark_rad[1] = (wh_real)((90.0 - (double)HAL_SLOT_LEAD_DEG) * PI / 180.0);
@@ -168,6 +171,27 @@ static double force_at(const rig_orbit *orbit, double t_s) {
     const double whole = floor(at);
     const unsigned k = (unsigned)fmod(whole, ORBIT_NODES);
     return orbit->force_N[k] + (at - whole) * (orbit->force_N[k + 1U] - orbit->force_N[k]);
+}
+
+/* As a cell with a limit, a bend or play shows it. */
+static double shown_at(const rig_orbit *orbit, const rig_noise *noise, double t_s,
+                       double *follows_N) {
+    double least_N = 0.0;
+    double most_N = 0.0;
+    for (unsigned k = 0; k < ORBIT_NODES; k += 8U) {
+        least_N = fmin(least_N, orbit->force_N[k]);
+        most_N = fmax(most_N, orbit->force_N[k]);
+    }
+    const double peak_N = fmax(most_N, -least_N);
+    double force_N = force_at(orbit, t_s);
+    if (noise->clips > 0.0) {
+        force_N = fmin(force_N, noise->clips * most_N);
+    } else if (noise->clips < 0.0) {
+        force_N = fmax(force_N, -noise->clips * least_N);
+    }
+    force_N *= 1.0 - noise->bend * (force_N / peak_N) * (force_N / peak_N);
+    *follows_N = fmin(fmax(*follows_N, force_N - noise->play_N), force_N + noise->play_N);
+    return (1.0 + noise->gain_off) * *follows_N;
 }
 
 /* The mean of a coarse converter's counts around that time, as the cell's. */
@@ -205,6 +229,7 @@ void rig_measure(const rig_orbit *orbit, const rig_noise *noise, const wh_rotor_
     double due_s = first_mark_s + noise->jitter_s * normal();
     unsigned done = 0;
     double shown_N = orbit->tare_N;
+    double follows_N = 0.0;
     int32_t mean[3] = {0};
     for (uint32_t i = 1; merge.turns + merge.left_out < turns && done < before + turns; i++) {
         const double now_s = i * 0.002;
@@ -219,9 +244,9 @@ void rig_measure(const rig_orbit *orbit, const rig_noise *noise, const wh_rotor_
         }
         const double t_s = now_s - first_mark_s + (1.0 + noise->turned_by) * orbit->turn_s;
         const double on_top_N =
-            orbit->tare_N + noise->cell_N * normal() + noise->hum_N * sin(2.0 * PI * 60.0 * now_s);
+            orbit->tare_N + noise->cell_N * normal() + noise->hum_N * sin(2.0 * PI * (noise->hum_Hz > 0.0 ? noise->hum_Hz : 60.0) * now_s);
         double force_N =
-            on_top_N + (noise->mute ? 0.0 : (1.0 + noise->gain_off) * force_at(orbit, t_s));
+            on_top_N + (noise->mute ? 0.0 : shown_at(orbit, noise, t_s, &follows_N));
         if (noise->spikes > 0.0 && uniform() < noise->spikes) {
             force_N += noise->spike_N;
         }
@@ -242,7 +267,13 @@ void rig_measure(const rig_orbit *orbit, const rig_noise *noise, const wh_rotor_
         wh_lockin_load(&lockin, &load);
         if (wh_lockin_work(rotor, &cell, &lockin, WH_LOCKIN_HALVES_AT_ONCE) && ++done > before) {
             wh_merge_add(&judged, rotor, &merge, &lockin.turn, &lockin.angle);
+            if (lockin.turn.fault == WH_TURN_OK) {
+                wh_repeats_merge(&merge.repeats, &lockin.repeats, lockin.turn.samples);
+            }
         }
+    }
+    for (unsigned k = WH_REPEATS_FIRST; k <= WH_REPEATS_LAST; k++) {
+        wh_merge_harmonic(&merge, k);
     }
     wh_merge_mean(&judged, rotor, &merge, &lockin.angle, (wh_real)orbit->tare_N, measured);
     wh_merge_judge(&judged, rotor, &merge, &lockin.angle, measured);

@@ -18,6 +18,8 @@ typedef struct rig_plant {
     double tare_N;
     double fed_Nm;       /* gravity's torque as the motor is given it; 0: it is not, */
     double fed_late_rad; /* at an angle that is so much behind; no voltage is below 0 */
+    double twice_Nm;     /* a torque twice a turn: twice_Nm cos(2 theta + twice_rad) */
+    double twice_rad;
 } rig_plant;
 
 extern const rig_plant rig_plant_nominal;
@@ -54,7 +56,11 @@ typedef struct rig_noise {
     double conversion_counts;
     /* faults of the cell, all 0 for none */
     double gain_off;  /* it shows so much more, as a part */
-    double hum_N;     /* amplitude of what a mains of 60 Hz adds */
+    double hum_N;     /* amplitude of what the mains adds, */
+    double hum_Hz;    /* 0: of 60 Hz */
+    double clips;     /* the force is limited at this part of its own peak, above or (negative) below; 0: it is not */
+    double play_N;    /* the reading follows the force when that has moved by so much to either side */
+    double bend;      /* it shows F (1 - bend (F/peak)^2) */
     double frozen_s;  /* it stands still for so long in the middle of the turns that are kept */
     double spikes;    /* this part of the samples */
     double spike_N;   /* is off by so much */
@@ -62,7 +68,7 @@ typedef struct rig_noise {
     double turned_by; /* part of a turn by which both sensors stand wrong */
 } rig_noise;
 
-/* The configurations that the firmware uses. */
+/* The configurations that the firmware uses, with a calibration of 0.01 % and 0.01 degrees. */
 void rig_measure_config(wh_result_config *result, wh_rotor_config *rotor, wh_cell_config *cell);
 
 /* Measure over `turns` turns, after `before` turns of which nothing is kept. What noise there is is drawn

@@ -1,0 +1,166 @@
+/* test_repeats_truth.c: errors that repeat each turn: a cell that clips, plays or bends, a torque twice a turn; and healthy
+ * benches beside them. The rotor is integrated finely in double (rig_orbit.c). Level, side, speed, noise and seed are drawn.
+ * WHIRL_FULL=1 (`make rig-truth`) draws more, and prints the tallies. */
+#include <math.h>
+#include <stdio.h>
+
+#include "command.h"
+#include "rig_orbit.h"
+#include "tests/scattered.h"
+#include "unity.h"
+
+void suite_repeats_truth(void);
+
+#define PI 3.14159265358979323846
+#define LEAD_RAD (PI / 180.0)
+#define BEFORE 20U
+
+static wh_rotor_config rotor;
+static rig_orbit orbit;
+static rig_plant plant;
+static rig_noise noise;
+static double rpm;
+
+static double drawn(double least, double most) {
+    return least + (most - least) * ((double)(scattered() >> 11) * 0x1p-53);
+}
+
+/* A bench with its noise, and the whole turns of its record. */
+static void draw_bench(bool fed) {
+    plant = rig_plant_nominal;
+    plant.inertia_kgm2 *= drawn(0.75, 1.45);
+    rpm = fed ? drawn(130.0, 170.0) : drawn(170.0, 360.0);
+    if (fed) {
+        plant.fed_Nm = plant.mass_moment_kgm * plant.gravity_mps2;
+        plant.fed_late_rad = drawn(-0.02, 0.02);
+    }
+    noise = (rig_noise){.cell_N = drawn(0.07, 0.3),
+                        .jitter_s = drawn(0.0, 1e-4),
+                        .hum_N = drawn(0.0, 0.3),
+                        .hum_Hz = drawn(0.0, 1.0) < 0.5 ? 50.0 : 60.0};
+}
+
+static void measure(const rig_noise *with, wh_measured *measured) {
+    const double record_s = fmax(2.0, 7.5 * orbit.turn_s);
+    rig_measure(&orbit, with, &rotor, BEFORE, (unsigned)(record_s / orbit.turn_s - 0.5),
+                scattered() >> 16, measured);
+}
+
+/* --- errors ------------------------------------------------------------------------------------------ */
+
+typedef enum error { CLIPS, PLAYS, BENDS, TWICE, ERRORS } error;
+static const char *const error_names[ERRORS] = {"clips", "plays", "bends", "torque twice a turn"};
+
+static void draw_error(error kind) {
+    const double side = drawn(0.0, 1.0) < 0.5 ? -1.0 : 1.0;
+    switch (kind) {
+    case CLIPS: noise.clips = side * drawn(0.9, 0.995); break;
+    case PLAYS: noise.play_N = 0.5 * drawn(0.5, 2.0); break;
+    case BENDS: noise.bend = side * drawn(0.015, 0.03); break;
+    case TWICE:
+        plant.twice_Nm = drawn(0.03, 0.3);
+        plant.twice_rad = drawn(0.0, 2.0 * PI);
+        break;
+    case ERRORS: break;
+    }
+}
+
+typedef struct tally {
+    unsigned off;  /* by more than an uncalibrated bench's interval and 1 % */
+    unsigned lies; /* of them, called good */
+    unsigned seen; /* with next to no noise the error is above 1.5 times the limit with it */
+    unsigned missed;
+} tally;
+
+/* Against the orbit's truth; a torque turns the rotor itself, so that the truth has it. */
+static void judge(const wh_measured *measured, tally *found) {
+    const double amplitude_N = fabs((double)measured->amplitude_N - orbit.amplitude_N);
+    const double phase_rad = fabs((double)measured->phase_rad - orbit.phase_rad);
+    const bool good = measured->quality == WH_GOOD;
+    const double half_N = hypot((double)measured->amplitude_half_N,
+                                (double)WH_UNCALIBRATED_PART * orbit.amplitude_N);
+    const double half_rad = hypot((double)measured->phase_half_rad, (double)WH_UNCALIBRATED_RAD);
+    if (amplitude_N > half_N + 0.01 * orbit.amplitude_N || phase_rad > half_rad + 0.01) {
+        found->off++;
+        found->lies += good ? 1U : 0U;
+    }
+    const rig_noise silent = { /* but for some: the turns of a cell that stands still do not count */
+        .cell_N = 0.01, .clips = noise.clips, .play_N = noise.play_N, .bend = noise.bend};
+    wh_measured clear;
+    measure(&silent, &clear);
+    if ((double)clear.repeats_N > 1.5 * (double)measured->repeats_limit_N) {
+        found->seen++;
+        found->missed += good ? 1U : 0U;
+    }
+}
+
+static void check_error(error kind, uint64_t seed, unsigned runs, unsigned least_off,
+                        unsigned least_seen) {
+    tally found = {0};
+    scattered_state = seed;
+    for (unsigned run = 0; run < runs; run++) {
+        wh_measured measured;
+        draw_bench(run % 5U == 4U);
+        draw_error(kind);
+        rig_orbit_find(&plant, rpm, LEAD_RAD, &orbit);
+        measure(&noise, &measured);
+        judge(&measured, &found);
+    }
+    if (runs > 100U) {
+        printf("%s: of %u off %u, called good %u; seen %u, called good %u\n", error_names[kind],
+               runs, found.off, found.lies, found.seen, found.missed);
+    }
+    TEST_ASSERT_EQUAL_UINT(0, found.lies);
+    TEST_ASSERT_EQUAL_UINT(0, found.missed);
+    TEST_ASSERT_TRUE(found.off * 100U >= least_off * runs && found.seen * 100U >= least_seen * runs);
+}
+
+static void test_a_clipped_cell_is_not_good(void) {
+    check_error(CLIPS, UINT64_C(0x5eed0a31), few_or_all(60, 1000), 5, 40);
+}
+
+static void test_play_is_not_good(void) {
+    check_error(PLAYS, UINT64_C(0x5eed0a32), few_or_all(60, 1000), 40, 60);
+}
+
+static void test_a_bent_gain_is_not_good(void) {
+    check_error(BENDS, UINT64_C(0x5eed0a33), few_or_all(60, 1000), 5, 40);
+}
+
+static void test_a_torque_twice_a_turn_is_not_good(void) {
+    check_error(TWICE, UINT64_C(0x5eed0a34), few_or_all(60, 1000), 2, 80);
+}
+
+/* --- healthy benches --------------------------------------------------------------------------------- */
+
+/* Noise and hum to 0.3 N, jitter to 100 us, inertia, any set-point: at most one in a hundred is doubtful. */
+static void test_healthy_benches_are_good(void) {
+    const unsigned runs = few_or_all(400, 2000);
+    unsigned doubtful = 0;
+    scattered_state = UINT64_C(0x5eed0a35);
+    for (unsigned run = 0; run < runs; run++) {
+        wh_measured measured;
+        draw_bench(run % 5U == 4U);
+        if (run % 10U == 9U) {
+            rpm = drawn(100.0, 130.0); /* the motor cannot brake enough */
+        }
+        rig_orbit_find(&plant, rpm, LEAD_RAD, &orbit);
+        measure(&noise, &measured);
+        doubtful += measured.quality != WH_GOOD ? 1U : 0U;
+    }
+    if (runs > 400U) {
+        printf("healthy: of %u doubtful %u\n", runs, doubtful);
+    }
+    TEST_ASSERT_TRUE(doubtful * 100U <= runs);
+}
+
+void suite_repeats_truth(void) {
+    wh_result_config unused;
+    wh_cell_config unused_cell;
+    rig_measure_config(&unused, &rotor, &unused_cell);
+    RUN_TEST(test_a_clipped_cell_is_not_good);
+    RUN_TEST(test_play_is_not_good);
+    RUN_TEST(test_a_bent_gain_is_not_good);
+    RUN_TEST(test_a_torque_twice_a_turn_is_not_good);
+    RUN_TEST(test_healthy_benches_are_good);
+}
