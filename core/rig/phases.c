@@ -105,14 +105,31 @@ static void spin_up(wh_run *run, const wh_run_scene *scene) {
     }
 }
 
-static wh_real off_target(const wh_run *run, const wh_run_scene *scene) {
-    return WH_ABS(scene->pulses->speed.turn_radps - run->target_radps);
+static void see_turn(wh_run *run, const wh_speed *speed) {
+    if (speed->taken == run->turns_taken) {
+        return;
+    }
+    run->turns_taken = speed->taken;
+    run->turn_radps[run->turns % WH_RUN_TURNS] = speed->turn_radps;
+    run->turns++;
+    wh_real sum = WH_R(0.0);
+    for (unsigned i = 0; i < WH_RUN_TURNS; i++) {
+        sum += run->turn_radps[i];
+    }
+    run->mean_radps = sum / (wh_real)WH_RUN_TURNS;
+}
+
+/* The mean is known, and further from the target than this. */
+static bool is_off(wh_run *run, const wh_run_scene *scene, wh_real band_radps) {
+    see_turn(run, &scene->pulses->speed);
+    return run->turns >= WH_RUN_TURNS &&
+           !(WH_ABS(run->mean_radps - run->target_radps) <= band_radps);
 }
 
 static void settle(wh_run *run, const wh_run_scene *scene) {
     const wh_run_config *config = scene->config;
     const uint32_t now = scene->now_ticks;
-    if (off_target(run, scene) > config->settle_band_radps) {
+    if (is_off(run, scene, config->settle_band_radps) || run->turns < WH_RUN_TURNS) {
         run->band_ticks = now;
     }
     if (!scene->busy && wh_rig_since_s(run->band_ticks, now) >= config->settle_s) {
@@ -124,7 +141,7 @@ static void settle(wh_run *run, const wh_run_scene *scene) {
 }
 
 static bool record(wh_run *run, const wh_run_scene *scene) {
-    if (off_target(run, scene) > scene->config->record_band_radps) {
+    if (is_off(run, scene, scene->config->record_band_radps)) {
         wh_guard_trip(scene->guard, WH_TRIP_UNSETTLED);
         return false;
     }
@@ -172,6 +189,7 @@ bool wh_run_step(wh_run *run, const wh_run_scene *scene) {
     case WH_PHASE_SPIN_UP: spin_up(run, scene); break;
     case WH_PHASE_RAMP:
         if (ramp(run, scene)) {
+            run->turns = 0;
             enter(run, WH_PHASE_SETTLE, scene->now_ticks);
         }
         break;

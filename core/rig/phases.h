@@ -39,13 +39,18 @@ typedef struct wh_run_config {
     wh_real take_over_radps; /* from this speed on the loop is closed */
     wh_real spin_up_max_s;
     wh_real ramp_max_s;
-    wh_real settle_band_radps;
+    wh_real settle_band_radps; /* of the mean of WH_RUN_TURNS turns */
     wh_real settle_s;          /* so long within the band */
     wh_real settle_max_s;      /* to get there */
     wh_real short_max_s;       /* so long may the supply be too little for the set-point */
     wh_real record_band_radps; /* meanwhile */
     wh_real slow_radps; /* ramp down to here (or stay, when slower already), then motor off */
 } wh_run_config;
+
+/* Speeds that are judged by their mean: turns that overlap by half, two and a half in all. Marks with a jitter of s put the
+ * mean off by s/2 of a turn's time: 120 us at 330 rpm by 0.11 rpm, where single turns scatter by 0.31. A speed that drifts or
+ * hunts in more than a second moves the mean as well. */
+#define WH_RUN_TURNS 4U
 
 typedef struct wh_run {
     wh_rig_phase phase;
@@ -60,6 +65,10 @@ typedef struct wh_run {
      * set-point falls whose drive stage does not brake */
     wh_real left_radps;
     uint32_t tare_pulses[WH_SPEED_SENSORS];
+    uint32_t turns;                  /* seen while it settles and records, */
+    uint32_t turns_taken;            /* the last one with this pulse; */
+    wh_real turn_radps[WH_RUN_TURNS]; /* the last of them, */
+    wh_real mean_radps;              /* and their mean */
     wh_drive drive;
 } wh_run;
 

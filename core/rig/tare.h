@@ -1,8 +1,10 @@
 /* tare.h: the load cell's reading at rest, from noisy samples, and whether the rig was at rest.
  *
- * Noise is no motion: from one sample to the next it changes as much as over the whole time. What moves
- * slowly does not: the mean square of successive differences is then far below twice the variance (von
- * Neumann, Annals of Mathematical Statistics 12 (1941) 367). */
+ * Motion is slow: a drift, a rotor that swings (1 to 3 Hz), a frame (up to some 10 Hz). Hum is not, and its mean vanishes.
+ * So not the samples are judged but means of 40 with triangular weights, one every 20 samples. Samples of 2 ms give 80 ms:
+ * hum of 45 to 65 Hz is left with 1.6 % of its amplitude at most, 50 Hz with nothing, and 5 Hz with 87 %. White noise of
+ * variance s^2 leaves s^2/30, and s^2 is half the mean square of successive differences (von Neumann, Annals of Mathematical
+ * Statistics 12 (1941) 367). The means may vary by four times that: eleven of them do so in less than one of 10,000 tares. */
 #ifndef WH_RIG_TARE_H
 #define WH_RIG_TARE_H
 
@@ -13,10 +15,12 @@ extern "C" {
 #endif
 
 typedef struct wh_tare_config {
-    uint32_t samples; /* at least 2 */
+    uint32_t samples; /* at least 4 WH_TARE_BLOCK, for three means */
     wh_real still_N;  /* slow motion with a standard deviation of this is none */
     wh_real most_N;   /* largest standard error of the mean */
 } wh_tare_config;
+
+#define WH_TARE_BLOCK 20U /* samples */
 
 typedef struct wh_tare {
     uint32_t count;
@@ -24,6 +28,12 @@ typedef struct wh_tare {
     wh_real square_N2;  /* sum of squared deviations from the mean */
     wh_real changes_N2; /* sum of squared differences of successive samples */
     wh_real last_N;
+    wh_real rises_N; /* this block's sum with weights that rise, and that fall; the block's before, rising */
+    wh_real falls_N;
+    wh_real before_N;
+    uint32_t means; /* triangular, */
+    wh_real slow_N; /* their mean, and sum of squared deviations */
+    wh_real slow_N2;
 } wh_tare;
 
 #define wh_tare_add WH_NAME(wh_tare_add)
@@ -36,7 +46,7 @@ void wh_tare_add(wh_tare *tare, wh_real force_N);
 /* Standard error of the mean; 0 with less than two samples. */
 wh_real wh_tare_error_N(const wh_tare *tare);
 
-/* True when what was seen is noise about one force, and little enough of it. */
+/* True when the samples are noise and hum about one force, and little enough of it. */
 bool wh_tare_is_still(const wh_tare_config *config, const wh_tare *tare);
 
 #ifdef __cplusplus

@@ -1,6 +1,8 @@
 /* even_rig.c: the rig's controller on a made-up rotor that turns evenly. */
 #include "even_rig.h"
 
+#include "draw.h"
+
 #include <stddef.h>
 
 #include "core/angle.h"
@@ -12,6 +14,8 @@ wh_rig_config even_config(void) {
     config.measure.cell = (wh_cell_config){.newton_per_count = WH_R(1.0) / EVEN_COUNTS_PER_N,
                                            .period_ticks = EVEN_STEP_TICKS,
                                            .raw_max = INT32_C(32767)};
+    config.measure.result.amplitude_floor = WH_R(1e-4); /* calibrated */
+    config.measure.result.phase_floor_rad = WH_R(0.01) / WH_RIG_DEG_PER_RAD;
     config.measure.rotor.gravity_mps2 = WH_R(0.0); /* the made-up rotor turns evenly */
     wh_rig_slots(&config, WH_R(0.0));
     return config;
@@ -42,8 +46,18 @@ static uint32_t ticks_of_turn(wh_real speed_radps) {
 static void lead(even_rig *even) {
     const wh_run *run = &even->rig.run;
     const wh_real open_rpm = even->hand_rpm > WH_R(0.0) ? even->hand_rpm : EVEN_BEGIN_RPM;
+    wh_real off_rpm = WH_R(0.0);
+    if (run->phase == WH_PHASE_SETTLE || run->phase == WH_PHASE_RECORD) {
+        const wh_real passed_s = (wh_real)(even->from_ticks - even->settle_ticks) / WH_R(1e6);
+        wh_wave hunts;
+        wh_sincos(wh_phase_from_rad(WH_RIG_TWO_PI * even->fails.hunts_Hz * passed_s), &hunts.sine,
+                  &hunts.cosine);
+        off_rpm =
+            even->fails.hunts_rpm * hunts.sine + even->fails.drifts_rpm_s * (passed_s - WH_R(2.0));
+    }
     even->turn_ticks =
-        ticks_of_turn(wh_run_is_closed(run) ? run->drive.setpoint_radps : open_rpm * EVEN_RPM);
+        ticks_of_turn((wh_run_is_closed(run) ? run->drive.setpoint_radps : open_rpm * EVEN_RPM) +
+                      off_rpm * EVEN_RPM);
 }
 
 static void begin_turning(even_rig *even, uint32_t from_ticks) {
@@ -65,7 +79,7 @@ static void give_pulses(even_rig *even) {
     while (even->turns) {
         const unsigned due = even->due_sensor;
         const uint32_t turned = due == 2U ? even->turn_ticks : due * (even->turn_ticks / 4U);
-        const uint32_t ticks = even->from_ticks + turned;
+        const uint32_t ticks = even->from_ticks + turned + (due == 2U ? 0U : even->late_ticks);
         if ((int32_t)(even->inputs.now_ticks - ticks) < 0) {
             break;
         }
@@ -76,6 +90,8 @@ static void give_pulses(even_rig *even) {
             continue;
         }
         even->due_sensor++;
+        even->late_ticks =
+            (uint32_t)draw_whole(&even->seed, 0, (int)even->fails.jitter_ticks); /* the next one */
         if (even->failing && even->fails.lose[due] > 0) {
             even->fails.lose[due]--;
             continue;
@@ -125,6 +141,9 @@ void even_step(even_rig *even) {
     if (phase != even->phase) {
         even->phase = phase;
         even->phase_ticks = even->inputs.now_ticks;
+        if (phase == WH_PHASE_SETTLE) {
+            even->settle_ticks = even->inputs.now_ticks;
+        }
         if (phase == WH_PHASE_SPIN_UP) {
             begin_turning(even, even->inputs.now_ticks + 100000U);
         }

@@ -31,6 +31,12 @@ typedef struct even_failure {
     int creeps;                  /* so many counts a second more */
     wh_load_status status;       /* of all samples */
     bool adds[WH_SPEED_SENSORS]; /* one pulse that is none */
+    /* the whole time: marks come late by up to so many ticks, evenly drawn; the speed hunts by so much, so often a second, and
+     * drifts */
+    uint32_t jitter_ticks;
+    wh_real hunts_rpm;
+    wh_real hunts_Hz;
+    wh_real drifts_rpm_s;
 } even_failure;
 
 typedef struct even_rig {
@@ -46,7 +52,10 @@ typedef struct even_rig {
     wh_real hand_rpm; /* not 0: somebody turns it, whatever the motor does */
     uint32_t turn_ticks;
     uint32_t from_ticks; /* the rotor's angle is 0, and a turn begins */
-    unsigned due_sensor; /* the next pulse */
+    unsigned due_sensor; /* the next pulse, */
+    uint32_t late_ticks; /* so late */
+    uint32_t settle_ticks; /* it began to settle */
+    uint64_t seed;
 } even_rig;
 
 /* The rig's configuration for a rotor that turns evenly. */

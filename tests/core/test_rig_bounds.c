@@ -160,8 +160,11 @@ static void test_limits_of_the_tare_are_allowed(void) {
         const uint32_t spare = UINT32_C(1) << (1U + draw_one_of(&seed, 7)); /* divides exactly */
         const wh_real noise_N2 = draw_one_in(&seed, 3) ? WH_R(0.0) : draw_whole(&seed, 1, 64);
         const wh_real still_N = draw_whole(&seed, 0, 8);
-        const wh_real most_N2 = WH_R(2.0) * noise_N2 + still_N * still_N;
-        wh_tare tare = {.count = spare + 1U, .changes_N2 = WH_R(2.0) * noise_N2 * (wh_real)spare};
+        const wh_real most_N2 = noise_N2 + still_N * still_N;
+        wh_tare tare = {.count = spare + 1U,
+                        .means = 3U,
+                        .changes_N2 = WH_R(15.0) * noise_N2 * (wh_real)spare,
+                        .slow_N2 = WH_R(2.0) * most_N2};
         wh_tare_config config = {.samples = 250, .still_N = still_N, .most_N = WH_R(1e9)};
         tare.square_N2 = most_N2 * (wh_real)spare;
         TEST_ASSERT_TRUE(wh_tare_is_still(&config, &tare));
@@ -170,7 +173,7 @@ static void test_limits_of_the_tare_are_allowed(void) {
         config.most_N *= WH_R(1.0) - WH_R(0x1p-20);
         TEST_ASSERT_TRUE(wh_tare_is_still(&config, &tare) == !(most_N2 > WH_R(0.0)));
         config.most_N = WH_R(1e9);
-        tare.square_N2 = tare.square_N2 * (WH_R(1.0) + WH_R(0x1p-20)) + WH_R(0x1p-40);
+        tare.slow_N2 = tare.slow_N2 * (WH_R(1.0) + WH_R(0x1p-20)) + WH_R(0x1p-40);
         TEST_ASSERT_FALSE(wh_tare_is_still(&config, &tare));
     }
 }

@@ -3,6 +3,7 @@
 #include "core/rig/datasheet.h"
 #include "core/rig/polar.h"
 #include "core/rig/rig.h"
+#include "core/root.h"
 
 #include "tests/scattered.h"
 #include "unity.h"
@@ -16,6 +17,7 @@ static wh_merge merge;
 static wh_turn_angle angle;
 static wh_measured measured;
 static wh_rotor_config rotor;
+static wh_result_config bench; /* with a calibration */
 
 /* Evenly distributed about 0, of standard deviation 1. */
 static wh_real scatter(void) {
@@ -55,13 +57,16 @@ static wh_lockin_turn turn_of(wh_real in_phase, wh_real quadrature, unsigned num
 
 static void begin(void) {
     merge = (wh_merge){.turns = 0};
+    bench = wh_rig_standard.measure.result;
+    bench.amplitude_floor = WH_R(1e-4);
+    bench.phase_floor_rad = WH_R(0.01) * DEG;
     rotor = wh_rig_standard.measure.rotor;
     wh_turn_angle_start(&rotor, &angle);
     wh_turn_angle_shape(&rotor, &angle, WH_R(330.0) * WH_RIG_RADPS_PER_RPM);
 }
 
 static void add(const wh_lockin_turn *turn) {
-    wh_merge_add(&wh_rig_standard.measure.result, &rotor, &merge, turn, &angle);
+    wh_merge_add(&bench, &rotor, &merge, turn, &angle);
 }
 
 static void conclude(const wh_result_config *config) {
@@ -105,8 +110,8 @@ static void test_the_interval_is_students(void) {
             sums[0] += x[i];
             sums[1] += y[i];
         }
-        wh_result_config config = wh_rig_standard.measure.result;
-        config.amplitude_floor = config.phase_floor_rad = WH_R(0.0);
+        wh_result_config config = bench;
+        config.amplitude_floor = config.phase_floor_rad = WH_R(1e-9);
         rotor.damping_tolerance = WH_R(0.0);
         merge.swing_rad = WH_R(0.0);
         conclude(&config);
@@ -142,7 +147,7 @@ static void test_the_interval_is_students(void) {
     }
 }
 
-/* Floors alone: each as it is said. And without scatter no interval is nothing. */
+/* Floors alone: each as it is said. Until both are entered they are 0.5 % and 0.5 degrees. */
 static void test_floors_are_kept(void) {
     begin();
     for (unsigned i = 0; i < 10; i++) {
@@ -151,9 +156,18 @@ static void test_floors_are_kept(void) {
     }
     rotor.damping_tolerance = WH_R(0.0);
     merge.swing_rad = WH_R(0.0);
-    conclude(&wh_rig_standard.measure.result);
+    conclude(&bench);
     TEST_ASSERT_FLOAT_WITHIN(1e-5f, 0.0042f, (float)measured.amplitude_half_N);
     TEST_ASSERT_FLOAT_WITHIN(1e-4f, 0.01f, (float)(measured.phase_half_rad / DEG));
+    TEST_ASSERT_TRUE(wh_result_is_calibrated(&bench));
+    bench.amplitude_floor = WH_R(0.0);
+    TEST_ASSERT_FALSE(wh_result_is_calibrated(&bench));
+    conclude(&bench);
+    TEST_ASSERT_FLOAT_WITHIN(1e-4f, 0.21f, (float)measured.amplitude_half_N);
+    TEST_ASSERT_FLOAT_WITHIN(1e-4f, 0.01f, (float)(measured.phase_half_rad / DEG));
+    conclude(&wh_rig_standard.measure.result);
+    TEST_ASSERT_FALSE(wh_result_is_calibrated(&wh_rig_standard.measure.result));
+    TEST_ASSERT_FLOAT_WITHIN(1e-3f, 0.5f, (float)(measured.phase_half_rad / DEG));
 }
 
 /* Marks that come early and late: their standard deviation is found from the second differences, of both sensors, and
@@ -175,7 +189,7 @@ static void test_jitter_is_found(void) {
         add(&turn);
         late_us = next_us;
     }
-    conclude(&wh_rig_standard.measure.result);
+    conclude(&bench);
     TEST_ASSERT_EQUAL_UINT32(399, measured.turns);
     TEST_ASSERT_EQUAL_UINT32(1, measured.left_out);
     /* 399 turns in two rows: 397 differences of the one sensor, 395 of the other's marks */
@@ -198,7 +212,7 @@ static wh_why why_of(wh_real in_phase, wh_real quadrature, wh_lockin_turn like, 
         turn.force_N.at[1] += i % 2U == 0 ? like.force_N.at[1] : -like.force_N.at[1];
         add(&turn);
     }
-    conclude(&wh_rig_standard.measure.result);
+    conclude(&bench);
     return measured.why;
 }
 
@@ -253,7 +267,7 @@ static void test_every_reason_has_its_case(void) {
         static const wh_real times[] = {WH_R(1.45), WH_R(0.7), WH_R(1.55), WH_R(0.6)};
         TEST_ASSERT_TRUE(why_of(full_N, WH_R(0.0), plain, 10, 0) == WH_WHY_NONE);
         angle.inertia_kgm2 = rotor.inertia_kgm2 * times[i];
-        conclude(&wh_rig_standard.measure.result);
+        conclude(&bench);
         TEST_ASSERT_TRUE(measured.why == (i < 2U ? WH_WHY_NONE : WH_WHY_ROTOR));
     }
     for (int side = -1; side <= 1;
@@ -266,7 +280,7 @@ static void test_every_reason_has_its_case(void) {
             merge.swing_rad *= left;
             merge.second_N[0] *= left;
             merge.second_N[1] *= left;
-            conclude(&wh_rig_standard.measure.result);
+            conclude(&bench);
             TEST_ASSERT_TRUE(measured.why == (i == 0 ? WH_WHY_NONE : WH_WHY_FED));
             angle.fed = false;
         }
@@ -277,7 +291,9 @@ static void test_every_reason_has_its_case(void) {
         TEST_ASSERT_TRUE(why_of(full_N, WH_R(0.0), plain, 10, 0) == WH_WHY_NONE);
         TEST_ASSERT_FLOAT_WITHIN(1e-5f, 0.0f, (float)measured.swing_off_rad);
         const wh_real off_rad =
-            (i < 4U ? WH_R(0.98) : WH_R(1.02)) * (WH_R(0.01) + measured.phase_half_rad);
+            (i < 4U ? WH_R(0.98) : WH_R(1.02)) *
+            (WH_R(0.01) + WH_SQRT(measured.phase_half_rad * measured.phase_half_rad -
+                                  bench.phase_floor_rad * bench.phase_floor_rad));
         wh_real sine;
         wh_real cosine;
         wh_sincos(wh_phase_from_rad(WH_RIG_TWO_PI * turns[i % 4U]), &sine, &cosine);
@@ -285,10 +301,22 @@ static void test_every_reason_has_its_case(void) {
                                (WH_R(1.0) + WH_R(1.5) * merge.swing_rad * merge.swing_rad);
         merge.second_N[0] += more_N * cosine;
         merge.second_N[1] += more_N * sine;
-        conclude(&wh_rig_standard.measure.result);
+        conclude(&bench);
         TEST_ASSERT_FLOAT_WITHIN(1e-5f, (float)off_rad, (float)measured.swing_off_rad);
         TEST_ASSERT_TRUE(measured.why == (i < 4U ? WH_WHY_NONE : WH_WHY_SWING));
         TEST_ASSERT_TRUE(measured.quality == (i < 4U ? WH_GOOD : WH_DOUBTFUL));
+    }
+    for (unsigned i = 0; i < 2U; i++) { /* what repeats, and what noise of so many samples lets expect */
+        TEST_ASSERT_TRUE(why_of(full_N, WH_R(0.0), plain, 10, 0) == WH_WHY_NONE);
+        merge.repeats.samples = 910;
+        merge.repeats.changes_N2 = WH_R(2.0) * WH_R(910.0); /* of a newton */
+        conclude(&bench);
+        merge.repeats_N2 = (i == 0 ? WH_R(0.98) : WH_R(1.02)) * measured.repeats_limit_N *
+                           measured.repeats_limit_N;
+        conclude(&bench);
+        TEST_ASSERT_FLOAT_WITHIN(0.01f, 0.239f, (float)measured.repeats_limit_N);
+        TEST_ASSERT_TRUE(measured.why == (i == 0 ? WH_WHY_NONE : WH_WHY_REPEATS));
+        merge.repeats_N2 = WH_R(0.0);
     }
     /* what is not a number is refused */
     const wh_real nan = (wh_real)__builtin_nanf("");
@@ -309,7 +337,7 @@ static void test_what_is_left_of_gravity(void) {
             add(&turn);
         }
         merge.swing_rad = WH_R(-0.125) * angle.whole_rad;
-        conclude(&wh_rig_standard.measure.result);
+        conclude(&bench);
         TEST_ASSERT_FLOAT_WITHIN(1e-6f, i == 0 ? 0.125f : 0.0f, (float)measured.left_part);
     }
 }
@@ -324,7 +352,7 @@ static void test_without_scatter_or_load_there_is_no_interval(void) {
                     turn_of(loads == 1U ? WH_R(42.0) : WH_R(0.0), WH_R(0.0), i);
                 add(&turn);
             }
-            conclude(&wh_rig_standard.measure.result);
+            conclude(&bench);
             const bool tells = turns >= 2U && loads == 1U;
             TEST_ASSERT_TRUE((measured.amplitude_half_N > WH_R(0.0)) == tells);
             TEST_ASSERT_TRUE((measured.phase_half_rad > WH_R(0.0)) == tells);
@@ -337,7 +365,7 @@ static void test_without_scatter_or_load_there_is_no_interval(void) {
 /* A carriage of three times the masses' weight takes a quarter of the force away. */
 static void test_the_mount_decides_what_is_expected(void) {
     begin();
-    wh_result_config config = wh_rig_standard.measure.result;
+    wh_result_config config = bench;
     config.mount_factor = WH_R(0.75);
     for (unsigned i = 0; i < 10; i++) {
         const wh_lockin_turn turn = turn_of(WH_R(0.75) * WH_R(42.146), WH_R(0.0), i);
@@ -378,49 +406,75 @@ static void test_every_reason_has_words_of_its_own(void) {
 
 /* --- the tare --------------------------------------------------------------------------------------- */
 
-/* Noise of any size that leaves the mean known is no motion; a hundred draws of each. */
-static void test_noise_is_no_motion(void) {
+/* A tare of 250 samples: white noise, the mains' hum, and what moves. */
+static wh_tare tare_of(wh_real noise_N, wh_real hum_N, wh_real hum_Hz, wh_real swing_N,
+                       wh_real swing_Hz, wh_real drift_N) {
+    wh_tare tare = {.count = 0};
+    const wh_real begins[] = {scatter(), scatter()}; /* rad */
+    for (unsigned i = 0; i < 250; i++) {
+        const wh_real part = (wh_real)i / WH_R(250.0);
+        wh_real hum;
+        wh_real swing;
+        wh_real unused;
+        const wh_real turn = WH_R(0.5) * WH_RIG_TWO_PI * part; /* of 1 Hz */
+        wh_sincos(wh_phase_from_rad(hum_Hz * turn + begins[0]), &hum, &unused);
+        wh_sincos(wh_phase_from_rad(swing_Hz * turn + begins[1]), &swing, &unused);
+        wh_tare_add(&tare, WH_R(56.0) + noise_N * scatter() + hum_N * hum + swing_N * swing +
+                               drift_N * part);
+    }
+    return tare;
+}
+
+static wh_real between(wh_real least, wh_real most) {
+    return least + (most - least) * (WH_R(0.5) + scatter() / WH_R(3.4641016));
+}
+
+/* Noise and hum of any size that leaves the mean known are no motion: up to 3 N and 5 N, 45 to 65 Hz. */
+static void test_noise_and_hum_are_no_motion(void) {
     static const wh_real noise_N[] = {WH_R(0.0), WH_R(0.007), WH_R(0.07), WH_R(1.0), WH_R(3.0)};
     scattered_state = UINT64_C(0x5eed0033);
-    for (unsigned k = 0; k < 500; k++) {
-        const wh_real size = noise_N[k % 5U];
-        wh_tare tare = {.count = 0};
-        for (unsigned i = 0; i < 250; i++) {
-            wh_tare_add(&tare, WH_R(56.0) + size * scatter());
-        }
+    for (unsigned k = 0; k < 2000; k++) {
+        const wh_real size = k < 1000U ? noise_N[k % 5U] : between(WH_R(0.007), WH_R(0.3));
+        const wh_real hum_N = k < 1000U ? WH_R(0.0) : between(WH_R(0.0), WH_R(5.0));
+        const wh_tare tare =
+            tare_of(size, hum_N, between(WH_R(45.0), WH_R(65.0)), WH_R(0.0), WH_R(1.0), WH_R(0.0));
         TEST_ASSERT_TRUE(wh_tare_is_still(&wh_rig_standard.measure.tare, &tare));
-        const wh_real error = size / WH_R(15.811); /* the root of 250 */
+        const wh_real error = WH_SQRT(size * size + WH_R(0.5) * hum_N * hum_N) / WH_R(15.811);
         TEST_ASSERT_FLOAT_WITHIN(0.15f * (float)error + 1e-5f, (float)error,
                                  (float)wh_tare_error_N(&tare));
         TEST_ASSERT_FLOAT_WITHIN(5.0f * (float)error + 1e-4f, 56.0f, (float)tare.mean_N);
     }
 }
 
-/* Drifts and swings of a newton are motion, below noise of a third of it too; more noise than leaves the mean known to
- * 0.25 N is too much; and of no samples or one nothing is known. */
-static void test_motion_is_seen_through_noise(void) {
+/* A drift of 0.4 N or a swing of 0.3 N, of a rotor (1 Hz and more) or a frame (to 8 Hz), is motion, whatever hum; noise hides
+ * twice of it. */
+static void test_motion_is_seen_through_noise_and_hum(void) {
     scattered_state = UINT64_C(0x5eed0034);
-    for (unsigned k = 0; k < 200; k++) {
-        wh_tare tare = {.count = 0};
-        for (unsigned i = 0; i < 250; i++) {
-            const wh_real part = (wh_real)i / WH_R(250.0);
-            const wh_real moved = k % 2U == 0        ? WH_R(2.0) * part
-                                  : part < WH_R(0.5) ? WH_R(1.0)
-                                                     : WH_R(-1.0);
-            wh_tare_add(&tare, WH_R(56.0) + moved + WH_R(0.33) * scatter());
-        }
+    for (unsigned k = 0; k < 2000; k++) {
+        const wh_real side = k % 4U < 2U ? WH_R(1.0) : WH_R(-1.0);
+        const bool drifts = k % 2U == 0;
+        const wh_real noise_N = between(WH_R(0.007), WH_R(0.3));
+        const wh_real more_N = WH_R(2.0) * noise_N + between(WH_R(0.0), WH_R(2.0));
+        const wh_tare tare = tare_of(
+            noise_N, between(WH_R(0.0), WH_R(0.3)), between(WH_R(45.0), WH_R(65.0)),
+            drifts ? WH_R(0.0) : WH_R(0.3) + more_N, between(WH_R(1.2), WH_R(8.0)),
+            drifts ? side * (WH_R(0.4) + more_N) : WH_R(0.0));
         TEST_ASSERT_FALSE(wh_tare_is_still(&wh_rig_standard.measure.tare, &tare));
     }
+}
+
+/* More noise than leaves the mean known to 0.25 N is too much; and of no samples or few nothing is known. */
+static void test_a_tare_that_is_not_known(void) {
+    scattered_state = UINT64_C(0x5eed0036);
     wh_tare tare = {.count = 0};
-    for (unsigned i = 0; i < 250; i++) {
-        wh_tare_add(&tare, WH_R(8.0) * scatter());
+    for (unsigned i = 0; i < 4U * WH_TARE_BLOCK; i++) {
+        TEST_ASSERT_FALSE(wh_tare_is_still(&wh_rig_standard.measure.tare, &tare));
+        wh_tare_add(&tare, WH_R(1.0));
+        TEST_ASSERT_FLOAT_WITHIN(0.0f, 0.0f, (float)wh_tare_error_N(&tare));
     }
+    TEST_ASSERT_TRUE(wh_tare_is_still(&wh_rig_standard.measure.tare, &tare));
+    tare = tare_of(WH_R(8.0), WH_R(0.0), WH_R(50.0), WH_R(0.0), WH_R(1.0), WH_R(0.0));
     TEST_ASSERT_FALSE(wh_tare_is_still(&wh_rig_standard.measure.tare, &tare));
-    tare = (wh_tare){.count = 0};
-    TEST_ASSERT_FALSE(wh_tare_is_still(&wh_rig_standard.measure.tare, &tare));
-    wh_tare_add(&tare, WH_R(1.0));
-    TEST_ASSERT_FALSE(wh_tare_is_still(&wh_rig_standard.measure.tare, &tare));
-    TEST_ASSERT_FLOAT_WITHIN(0.0f, 0.0f, (float)wh_tare_error_N(&tare));
 }
 
 void suite_rig_result(void) {
@@ -433,6 +487,7 @@ void suite_rig_result(void) {
     RUN_TEST(test_without_scatter_or_load_there_is_no_interval);
     RUN_TEST(test_the_mount_decides_what_is_expected);
     RUN_TEST(test_every_reason_has_words_of_its_own);
-    RUN_TEST(test_noise_is_no_motion);
-    RUN_TEST(test_motion_is_seen_through_noise);
+    RUN_TEST(test_noise_and_hum_are_no_motion);
+    RUN_TEST(test_motion_is_seen_through_noise_and_hum);
+    RUN_TEST(test_a_tare_that_is_not_known);
 }

@@ -1,4 +1,5 @@
 /* test_rig_run.c: the rig's whole run on a made-up rotor that turns evenly, and what may spoil it. */
+#include "draw.h"
 #include "even_rig.h"
 
 #include "unity.h"
@@ -127,6 +128,61 @@ static void test_a_jammed_rotor_trips_for_its_pulses(void) {
         run(WH_R(330.0), (even_failure){.in = in, .after_ticks = 200000U, .jams = true});
         check_trip(WH_TRIP_PULSES);
     }
+}
+
+/* --- the speed ----------------------------------------------------------------------------------- */
+
+static uint64_t seed;
+
+static wh_real between(wh_real least, wh_real most) {
+    return least + (most - least) * draw_whole(&seed, 0, 65535) / WH_R(65535.0);
+}
+
+/* Jitter of up to 150 us (standard deviation; drawn evenly) is no motion: the run settles, records, and its intervals hold;
+ * that of the phase holds the middle of the delay, too. */
+static void test_jitter_settles(void) {
+    seed = 61;
+    for (unsigned i = 0; i < 60U; i++) {
+        /* the made-up load is that of 330 rpm */
+        const wh_real target_rpm =
+            i % 2U == 0 ? between(WH_R(324.0), WH_R(336.0)) : between(WH_R(170.0), WH_R(360.0));
+        const wh_real jitter_s = i < 10U ? WH_R(120e-6) : between(WH_R(0.0), WH_R(150e-6));
+        const uint32_t width = (uint32_t)(jitter_s * WH_R(3.4641e6));
+        even_begin(&even, i < 10U ? WH_R(330.0) : target_rpm,
+                   &(even_failure){.in = EVEN_NEVER, .jitter_ticks = width});
+        even.seed = 1000U + i;
+        even_go_on_until(&even, EVEN_NEVER);
+        check_trip(WH_TRIP_NONE);
+        TEST_ASSERT_TRUE(even_is_done(&even));
+        const wh_measured *result = &even.rig.result.force;
+        TEST_ASSERT_TRUE(result->quality == WH_GOOD || (i >= 10U && i % 2U != 0));
+        const wh_real late_rad =
+            WH_R(0.5) * (wh_real)width / (wh_real)WH_RIG_TICKS_PER_S * result->speed_radps;
+        TEST_ASSERT_TRUE(WH_ABS(result->phase_rad - late_rad) <= WH_R(2.0) * result->phase_half_rad);
+        TEST_ASSERT_TRUE(WH_ABS(result->amplitude_N - EVEN_LOAD_N) <=
+                         WH_R(2.0) * result->amplitude_half_N + WH_R(0.02));
+    }
+}
+
+/* A speed that hunts by 1 rpm or more in 2 to 8 s, or drifts by 0.6 rpm/s or more, does not settle, whatever jitter. */
+static void test_a_speed_that_hunts_or_drifts_does_not_settle(void) {
+    unsigned unsettled = 0;
+    seed = 62;
+    for (unsigned i = 0; i < 40U; i++) {
+        even_failure failing = {.in = EVEN_NEVER, .jitter_ticks = (uint32_t)between(0, 400)};
+        if (i % 2U == 0) {
+            failing.hunts_rpm = between(WH_R(1.0), WH_R(4.0));
+            failing.hunts_Hz = between(WH_R(0.125), WH_R(0.5));
+        } else {
+            failing.drifts_rpm_s = (i % 4U == 1U ? WH_R(1.0) : WH_R(-1.0)) * between(WH_R(0.6), WH_R(2.0));
+        }
+        even_begin(&even, between(WH_R(200.0), WH_R(320.0)), &failing);
+        even.seed = 2000U + i;
+        even_go_on_until(&even, EVEN_NEVER);
+        TEST_ASSERT_TRUE(even.rig.guard.trip != WH_TRIP_NONE && !even.rig.has_result);
+        unsettled += even.rig.guard.trip == WH_TRIP_UNSETTLED ? 1U : 0U;
+    }
+    TEST_ASSERT_TRUE(unsettled >= 20U); /* of the others the drive's voltage ran to its end */
 }
 
 /* --- load cell ---------------------------------------------------------------------------------- */
@@ -309,5 +365,7 @@ void suite_rig_run(void) {
     RUN_TEST(test_a_refused_target_never_moves_the_motor);
     RUN_TEST(test_a_rotor_that_does_not_start_trips);
     RUN_TEST(test_a_moving_rig_gets_no_tare);
+    RUN_TEST(test_jitter_settles);
+    RUN_TEST(test_a_speed_that_hunts_or_drifts_does_not_settle);
     RUN_TEST(test_what_cannot_be_is_not_called_good);
 }

@@ -146,7 +146,10 @@ static wh_real force_at(wh_real part) {
 }
 
 static void measure(const plant *p) {
-    const wh_result_config *config = &wh_rig_standard.measure.result;
+    wh_result_config calibrated = wh_rig_standard.measure.result;
+    calibrated.amplitude_floor = WH_R(1e-4);
+    calibrated.phase_floor_rad = WH_R(0.01) * DEG;
+    const wh_result_config *config = &calibrated;
     const wh_cell_config cell = {
         .newton_per_count = WH_R(0.01), .period_ticks = PERIOD_TICKS, .raw_max = INT32_C(32767)};
     const uint32_t turn_ticks = (uint32_t)(turn_s * (wh_real)WH_RIG_TICKS_PER_S);
