@@ -287,6 +287,9 @@ static void put_end(operator_step ended) {
         }
         put("; the motor is off\n");
     }
+    if (rig.guard.trip == WH_TRIP_UNSETTLED) {
+        put_turns(&rig.run);
+    }
 }
 
 int main(void) {

@@ -64,6 +64,24 @@ static inline void put_verdict(const wh_measured *force) {
     put(": ");
     put(wh_why_text(force->why));
     put("\n");
+    if (!force->calibrated) {
+        put("  uncalibrated: 0.5 % and 0.5 deg are assumed (amplitude_floor, phase_floor)\n");
+    }
+}
+
+/* Of a speed that did not settle or stay. */
+static inline void put_turns(const wh_run *run) {
+    if (run->turns < WH_RUN_TURNS) {
+        return;
+    }
+    float least = run->turn_radps[0];
+    float most = least;
+    for (unsigned i = 1; i < WH_RUN_TURNS; i++) {
+        least = run->turn_radps[i] < least ? run->turn_radps[i] : least;
+        most = run->turn_radps[i] > most ? run->turn_radps[i] : most;
+    }
+    put_value("the last four turns' mean", run->mean_radps * RPM_PER_RADPS, 2, "rpm");
+    put_value("  between the slowest and fastest", (most - least) * RPM_PER_RADPS, 2, "rpm");
 }
 
 /* What a run has measured, beside the formula at a nominal speed. */
@@ -74,13 +92,16 @@ static inline void put_result(const wh_rig_config *config, const wh_rig_result *
     put("Measured, over the whole turns of a record at 500 samples/s\n");
     put_value("turns", (float)force->turns, 0, "");
     put_value("speed", force->speed_radps * RPM_PER_RADPS, 2, "rpm");
+    put_value("  turns scatter by", force->scatter_radps * RPM_PER_RADPS, 3, "rpm");
     put_force("force, once per turn", force->amplitude_N);
     put_interval("  known to within", force->amplitude_half_N, 3, "N");
     put_value("its phase to the masses", force->phase_rad * WH_RIG_DEG_PER_RAD, 2, "deg");
     put_interval("  known to within", force->phase_half_rad * WH_RIG_DEG_PER_RAD, 3, "deg");
     put_verdict(force);
     put_force("expected of masses and speed", force->expected_N);
-    put_value("rest of the load, rms", force->residual_N, 3, "N");
+    put_value("residual of the load, rms", force->residual_N, 3, "N");
+    put_value("  repeats each turn", force->repeats_N, 3, "N");
+    put_value("  noise lets expect, at most", force->repeats_limit_N, 3, "N");
     put_value("samples left out", (float)force->outliers, 0, "");
     put_value("turns left out", (float)force->left_out, 0, "");
     put_force("mean force", force->mean_N);

@@ -51,7 +51,7 @@ void wh_measure_load(wh_measure *measure, const wh_load *load, bool at_rest) {
 }
 
 /* Pieces in which turns are merged to a result: the last is its verdict. */
-#define MERGE_PIECES (WH_RIG_SMALL_PIECES ? WH_MERGE_MEAN_PIECES + 1U : 2U)
+#define MERGE_PIECES (WH_RIG_SMALL_PIECES ? WH_MERGE_MEAN_PIECES + 2U : 3U)
 
 /* Before them, of a turn: what repeats is merged; at the record's end: a harmonic of it each. */
 #define TURN_PIECES (MERGE_PIECES + 1U)
@@ -78,6 +78,8 @@ static WH_CALLED void merge_piece(const wh_measure_config *config, wh_measure *m
     const bool begins = measure->due == MERGE_PIECES;
     if (measure->due == 1U) {
         wh_merge_judge(&config->result, &config->rotor, &measure->merge, angle, force);
+    } else if (measure->due == 2U) {
+        wh_merge_compare(&config->rotor, &measure->merge, angle, force);
     } else {
 #if WH_RIG_SMALL_PIECES
         wh_merge_mean_piece(&config->result, &config->rotor, &measure->merge, angle,

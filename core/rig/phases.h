@@ -65,10 +65,10 @@ typedef struct wh_run {
      * set-point falls whose drive stage does not brake */
     wh_real left_radps;
     uint32_t tare_pulses[WH_SPEED_SENSORS];
-    uint32_t turns;                  /* seen while it settles and records, */
-    uint32_t turns_taken;            /* the last one with this pulse; */
+    uint32_t turns;                   /* seen while it settles and records, */
+    uint32_t turns_taken;             /* the last one with this pulse; */
     wh_real turn_radps[WH_RUN_TURNS]; /* the last of them, */
-    wh_real mean_radps;              /* and their mean */
+    wh_real mean_radps;               /* and their mean */
     wh_drive drive;
 } wh_run;
 

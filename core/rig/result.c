@@ -118,7 +118,9 @@ void wh_merge_add(const wh_result_config *config, const wh_rotor_config *rotor, 
     go_on(&merge->residual_N2, square_of(turn->residual_N), part);
     go_on(&merge->expected_N, expected, part);
     go_on(&merge->swing_rad, angle->swing_rad, part);
-    go_on(&merge->turn_s, turn_s, part);
+    const wh_real late_s = turn_s - merge->turn_s;
+    merge->turn_s += part * late_s;
+    merge->turn_s2 += late_s * (turn_s - merge->turn_s);
     go_on(&merge->at_mark_N[0], turn->at_mark_N[0], part);
     if (turn->split_seen) {
         merge->split_turns++;
@@ -170,9 +172,6 @@ WH_INLINE void begin_mean(const wh_merge *merge, const wh_turn_angle *angle, wh_
     measured->at_mark_N[0] = merge->at_mark_N[0] - tare_N;
     measured->at_mark_N[1] = merge->split_turns > 0 ? merge->at_mark_N[1] - tare_N : WH_R(0.0);
     measured->residual_N = WH_SQRT(merge->residual_N2);
-    const wh_real third_N2 = REPEATS_NOISE / THIRD_NOISE * merge->third_N2;
-    measured->repeats_N =
-        WH_SQRT(third_N2 > merge->repeats_N2 ? third_N2 : merge->repeats_N2);
     if (angle->fed && angle->whole_rad > WH_R(0.0)) {
         measured->left_part = WH_ABS(merge->swing_rad) / angle->whole_rad;
     }
@@ -234,9 +233,8 @@ WH_INLINE void amplitude_half(const wh_result_config *config, const wh_rotor_con
                               const parts_off *by, wh_measured *measured) {
     const wh_real amplitude2 =
         square_of(floor_or(config->amplitude_floor, WH_UNCALIBRATED_PART)) +
-        square_of(WH_R(1.5) * merge->swing_rad * by->lag) +
-        square_of(by->third) + square_of(WH_R(3.0) * by->quadrature * by->quadrature) +
-        square_of(WH_R(0.01) * by->cut) +
+        square_of(WH_R(1.5) * merge->swing_rad * by->lag) + square_of(by->third) +
+        square_of(WH_R(3.0) * by->quadrature * by->quadrature) + square_of(WH_R(0.01) * by->cut) +
         square_of(WH_R(0.5) * angle->twice_rad * rotor->yields_tolerance);
     measured->amplitude_half_N = WH_SQRT(measured->amplitude_half_N + amplitude2 * size2);
 }
@@ -344,14 +342,27 @@ static wh_real repeats_limit_N(const wh_merge *merge, const wh_turn_angle *angle
     return WH_SQRT(REPEATS_NOISE * noise_N2 + square_of(part * measured->expected_N));
 }
 
+/* Where the motor cannot brake enough the residual tells nothing of the cell: force and phase must then be as expected within
+ * their intervals and so much. */
+#define CUT_OFF WH_R(0.01)
+
+static wh_real no_more(wh_real value, wh_real most) { return value < most ? value : most; }
+
 static wh_why reason(const wh_result_config *config, const wh_rotor_config *rotor,
-                     const wh_merge *merge, const wh_measured *measured) {
+                     const wh_merge *merge, const wh_turn_angle *angle,
+                     const wh_measured *measured) {
     const wh_real expected = measured->expected_N;
     const wh_real off = WH_ABS(measured->amplitude_N - expected);
     const wh_real half = measured->amplitude_half_N;
     const wh_real phase = WH_ABS(measured->phase_rad);
     const wh_real inertia = measured->inertia_kgm2 / rotor->inertia_kgm2;
     const wh_real heavier = inertia < WH_R(1.0) ? WH_R(1.0) / inertia : inertia;
+    wh_real off_most = config->amplitude_off * expected;
+    wh_real phase_most = config->phase_off_rad;
+    if (angle->cut > WH_R(0.0)) {
+        off_most = no_more(half + CUT_OFF * expected, off_most);
+        phase_most = no_more(measured->phase_half_rad + CUT_OFF, phase_most);
+    }
     if (measured->turns < 3U) {
         return WH_WHY_FEW_TURNS;
     }
@@ -369,10 +380,10 @@ static wh_why reason(const wh_result_config *config, const wh_rotor_config *roto
         !(measured->phase_half_rad <= WH_R(0.25))) {
         return WH_WHY_UNSURE;
     }
-    if (off > config->amplitude_off * expected) {
+    if (off > off_most) {
         return WH_WHY_AMPLITUDE_OFF;
     }
-    if (phase > config->phase_off_rad) {
+    if (phase > phase_most) {
         return WH_WHY_PHASE_OFF;
     }
     if (measured->left_out * 3U > measured->turns) {
@@ -410,13 +421,24 @@ static wh_why reason(const wh_result_config *config, const wh_rotor_config *roto
     return WH_WHY_NONE;
 }
 
+void wh_merge_compare(const wh_rotor_config *rotor, const wh_merge *merge,
+                      const wh_turn_angle *angle, wh_measured *measured) {
+    const wh_real third_N2 = REPEATS_NOISE / THIRD_NOISE * merge->third_N2;
+    if (merge->turns > 1U) {
+        measured->scatter_radps = measured->speed_radps / merge->turn_s *
+                                  WH_SQRT(merge->turn_s2 / (wh_real)(merge->turns - 1U));
+    }
+    measured->swing_off_rad = swing_off(rotor, merge, angle, measured);
+    measured->repeats_N = WH_SQRT(third_N2 > merge->repeats_N2 ? third_N2 : merge->repeats_N2);
+    measured->repeats_limit_N = repeats_limit_N(merge, angle, measured);
+}
+
 void wh_merge_judge(const wh_result_config *config, const wh_rotor_config *rotor,
                     const wh_merge *merge, const wh_turn_angle *angle, wh_measured *measured) {
 #define WH_WHY_QUALITY(name, its_quality, words) (uint8_t)(its_quality),
     static const uint8_t qualities[] = {WH_WHY_ROWS(WH_WHY_QUALITY)};
-    measured->swing_off_rad = swing_off(rotor, merge, angle, measured);
-    measured->repeats_limit_N = repeats_limit_N(merge, angle, measured);
-    measured->why = reason(config, rotor, merge, measured);
+    measured->calibrated = wh_result_is_calibrated(config);
+    measured->why = reason(config, rotor, merge, angle, measured);
     measured->quality = (wh_quality)qualities[measured->why];
 }
 

@@ -47,7 +47,7 @@ typedef enum wh_quality { WH_GOOD, WH_DOUBTFUL, WH_REFUSED } wh_quality;
     X(WH_WHY_WIDE, WH_DOUBTFUL, "the interval is wider than a twentieth of the force") \
     X(WH_WHY_SWING, WH_DOUBTFUL, "the load shows another speed within the turn than the rotor's") \
     X(WH_WHY_REPEATS, WH_DOUBTFUL, \
-      "the residual repeats each turn: the cell clips, plays or bends, or a torque acts twice a turn")
+      "the residual repeats each turn: clipping, play, a bent gain, or a torque twice a turn")
 
 #define WH_WHY_NAME(name, quality, words) name,
 typedef enum wh_why { WH_WHY_ROWS(WH_WHY_NAME) WH_WHYS } wh_why;
@@ -94,26 +94,30 @@ typedef struct wh_merge {
     wh_real expected_N;
     wh_real swing_rad;
     wh_real turn_s;
+    wh_real turn_s2; /* sum of squares about it */
     wh_real at_mark_N[2];
 } wh_merge;
 
 typedef struct wh_measured {
     wh_quality quality;
     wh_why why;
+    bool calibrated; /* both floors were entered */
     uint32_t turns;
     uint32_t left_out;
     uint32_t outliers;
     wh_real speed_radps;
-    wh_real mean_N; /* over time, the tare taken off */
+    wh_real scatter_radps; /* of the turns' speeds, standard deviation */
+    wh_real mean_N;        /* over time, the tare taken off */
     wh_real amplitude_N;
     wh_real amplitude_half_N; /* half-width of the interval, 95 % */
     wh_real phase_rad;        /* -pi ... pi */
     wh_real phase_half_rad;
     wh_real expected_N; /* amplitude: what masses, speed and mount let expect */
     wh_real residual_N; /* rms of what orders 0 to 2 leave */
-    wh_real repeats_N; /* of it, harmonics 3 to 6 that repeat each turn: root of the sum of squares, or the third's */
+    wh_real
+        repeats_N; /* of it, harmonics 3 to 6 that repeat each turn: root of the sum of squares, or the third's */
     wh_real repeats_limit_N; /* noise and a healthy rig make no more */
-    wh_real jitter_s;   /* of the marks, standard deviation */
+    wh_real jitter_s;        /* of the marks, standard deviation */
     wh_real inertia_kgm2;
     wh_real
         swing_off_rad; /* by how much the load says that the speed's swing is another, as an arrow */
@@ -134,6 +138,7 @@ WH_INLINE bool wh_result_is_calibrated(const wh_result_config *config) {
 #define wh_merge_harmonic WH_NAME(wh_merge_harmonic)
 #define wh_merge_mean WH_NAME(wh_merge_mean)
 #define wh_merge_mean_piece WH_NAME(wh_merge_mean_piece)
+#define wh_merge_compare WH_NAME(wh_merge_compare)
 #define wh_merge_judge WH_NAME(wh_merge_judge)
 #define wh_student WH_NAME(wh_student)
 #define wh_why_text WH_NAME(wh_why_text)
@@ -159,7 +164,11 @@ void wh_merge_mean_piece(const wh_result_config *config, const wh_rotor_config *
                          wh_measured *measured, unsigned piece);
 #endif
 
-/* Quality and reason of what wh_merge_mean() has found. */
+/* What the load says of the speed's swing, what repeats, and the turns' scatter: after wh_merge_mean(). */
+void wh_merge_compare(const wh_rotor_config *rotor, const wh_merge *merge,
+                      const wh_turn_angle *angle, wh_measured *measured);
+
+/* Quality and reason, after both. */
 void wh_merge_judge(const wh_result_config *config, const wh_rotor_config *rotor,
                     const wh_merge *merge, const wh_turn_angle *angle, wh_measured *measured);
 

@@ -28,7 +28,8 @@ typedef struct wh_tare {
     wh_real square_N2;  /* sum of squared deviations from the mean */
     wh_real changes_N2; /* sum of squared differences of successive samples */
     wh_real last_N;
-    wh_real rises_N; /* this block's sum with weights that rise, and that fall; the block's before, rising */
+    wh_real
+        rises_N; /* this block's sum with weights that rise, and that fall; the block's before, rising */
     wh_real falls_N;
     wh_real before_N;
     uint32_t means; /* triangular, */

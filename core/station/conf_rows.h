@@ -62,15 +62,15 @@
     X(cell_delay, 14, WH_CONF_WHOLE, MICROSECOND, 0.0, 100000.0, ALONE, measure.cell.delay_ticks, \
       "of filter and converter") \
     X(amplitude_floor, 15, WH_CONF_REAL, ONE, 0.0, 0.5, ALONE, measure.result.amplitude_floor, \
-      "calibration of the force, 95 %, as a part of it") \
+      "calibration of the force, 95 %, as a part of it; 0: uncalibrated, 0.005") \
     X(phase_floor, 16, WH_CONF_REAL, DEG, 0.0, 45.0, ALONE, measure.result.phase_floor_rad, \
-      "calibration of the phase, 95 %") \
+      "calibration of the phase, 95 %; 0: uncalibrated, 0.5") \
     X(record_time, 17, WH_CONF_REAL, SECOND, 0.2, 20.0, ALONE, measure.record_s, \
       "of whole turns that are measured, at least") \
     X(record_turns, 18, WH_CONF_REAL, ONE, 3.0, 100.0, ALONE, measure.record_turns, \
       "in the time of so many, at least") \
     X(settle_time, 19, WH_CONF_REAL, SECOND, 0.1, 30.0, ALONE, run.settle_s, \
-      "within the band before the record") \
+      "with the mean of four turns within the band, before the record") \
     X(settle_band, 20, WH_CONF_REAL, RPM, 0.05, 20.0, ALONE, run.settle_band_radps, \
       "of speed, either way") \
     X(ramp, 21, WH_CONF_REAL, RPM_S, 5.0, 200.0, ALONE, run.drive.ramp_radps2, \

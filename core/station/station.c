@@ -112,18 +112,21 @@ static unsigned do_measure(request *r) {
     if (!r->rig->has_result) {
         return WH_STATION_NO_RESULT;
     }
-    const wh_value value[] = {{.word = wh_quality_text(force->quality)},
-                              {.count = force->turns},
-                              {.number = force->speed_radps * RPM_PER_RADPS},
-                              {.number = force->amplitude_N},
-                              {.number = force->amplitude_half_N},
-                              {.number = force->phase_rad * WH_RIG_DEG_PER_RAD},
-                              {.number = force->phase_half_rad * WH_RIG_DEG_PER_RAD},
-                              {.number = force->expected_N},
-                              {.word = wh_why_text(force->why)}};
+    const wh_value value[] = {
+        {.word = wh_quality_text(force->quality)},
+        {.count = force->turns},
+        {.number = force->speed_radps * RPM_PER_RADPS},
+        {.number = force->scatter_radps * RPM_PER_RADPS},
+        {.number = force->amplitude_N},
+        {.number = force->amplitude_half_N},
+        {.number = force->phase_rad * WH_RIG_DEG_PER_RAD},
+        {.number = force->phase_half_rad * WH_RIG_DEG_PER_RAD},
+        {.number = force->expected_N},
+        {.word = force->calibrated ? WH_WORDS("entered") : WH_WORDS("uncalibrated")},
+        {.word = wh_why_text(force->why)}};
     wh_answer(&r->answer,
-              WH_WORDS(" result=@w turns=@c speed_rpm=@2 force_N=@3 force_half_N=@4")
-                  WH_WORDS(" phase_deg=@3 phase_half_deg=@4 expected_N=@3: @s"),
+              WH_WORDS(" result=@w turns=@c speed_rpm=@2 scatter_rpm=@3 force_N=@3 force_half_N=@4")
+                  WH_WORDS(" phase_deg=@3 phase_half_deg=@4 expected_N=@3 calibration=@w: @s"),
               value);
     return 0;
 }

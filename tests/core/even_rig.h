@@ -51,9 +51,9 @@ typedef struct even_rig {
     bool turns;
     wh_real hand_rpm; /* not 0: somebody turns it, whatever the motor does */
     uint32_t turn_ticks;
-    uint32_t from_ticks; /* the rotor's angle is 0, and a turn begins */
-    unsigned due_sensor; /* the next pulse, */
-    uint32_t late_ticks; /* so late */
+    uint32_t from_ticks;   /* the rotor's angle is 0, and a turn begins */
+    unsigned due_sensor;   /* the next pulse, */
+    uint32_t late_ticks;   /* so late */
     uint32_t settle_ticks; /* it began to settle */
     uint64_t seed;
 } even_rig;

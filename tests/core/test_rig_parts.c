@@ -319,6 +319,7 @@ static void test_limits_of_a_verdict_are_allowed(void) {
         rows[12].measured.turns = 3U - beyond;
         rows[13].measured.phase_rad = WH_R(-0.5) * WH_R(3.141592653589793) * by;
         for (unsigned i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+            wh_merge_compare(&rotor, &merge, &level, &rows[i].measured);
             wh_merge_judge(&config, &rotor, &merge, &level, &rows[i].measured);
             TEST_ASSERT_TRUE((rows[i].measured.why == rows[i].why) == (beyond > 0));
         }

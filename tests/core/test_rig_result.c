@@ -65,12 +65,11 @@ static void begin(void) {
     wh_turn_angle_shape(&rotor, &angle, WH_R(330.0) * WH_RIG_RADPS_PER_RPM);
 }
 
-static void add(const wh_lockin_turn *turn) {
-    wh_merge_add(&bench, &rotor, &merge, turn, &angle);
-}
+static void add(const wh_lockin_turn *turn) { wh_merge_add(&bench, &rotor, &merge, turn, &angle); }
 
 static void conclude(const wh_result_config *config) {
     wh_merge_mean(config, &rotor, &merge, &angle, WH_R(56.0), &measured);
+    wh_merge_compare(&rotor, &merge, &angle, &measured);
     wh_merge_judge(config, &rotor, &merge, &angle, &measured);
 }
 
@@ -306,7 +305,8 @@ static void test_every_reason_has_its_case(void) {
         TEST_ASSERT_TRUE(measured.why == (i < 4U ? WH_WHY_NONE : WH_WHY_SWING));
         TEST_ASSERT_TRUE(measured.quality == (i < 4U ? WH_GOOD : WH_DOUBTFUL));
     }
-    for (unsigned i = 0; i < 2U; i++) { /* what repeats, and what noise of so many samples lets expect */
+    for (unsigned i = 0; i < 2U;
+         i++) { /* what repeats, and what noise of so many samples lets expect */
         TEST_ASSERT_TRUE(why_of(full_N, WH_R(0.0), plain, 10, 0) == WH_WHY_NONE);
         merge.repeats.samples = 910;
         merge.repeats.changes_N2 = WH_R(2.0) * WH_R(910.0); /* of a newton */
@@ -455,10 +455,10 @@ static void test_motion_is_seen_through_noise_and_hum(void) {
         const bool drifts = k % 2U == 0;
         const wh_real noise_N = between(WH_R(0.007), WH_R(0.3));
         const wh_real more_N = WH_R(2.0) * noise_N + between(WH_R(0.0), WH_R(2.0));
-        const wh_tare tare = tare_of(
-            noise_N, between(WH_R(0.0), WH_R(0.3)), between(WH_R(45.0), WH_R(65.0)),
-            drifts ? WH_R(0.0) : WH_R(0.3) + more_N, between(WH_R(1.2), WH_R(8.0)),
-            drifts ? side * (WH_R(0.4) + more_N) : WH_R(0.0));
+        const wh_tare tare =
+            tare_of(noise_N, between(WH_R(0.0), WH_R(0.3)), between(WH_R(45.0), WH_R(65.0)),
+                    drifts ? WH_R(0.0) : WH_R(0.3) + more_N, between(WH_R(1.2), WH_R(8.0)),
+                    drifts ? side * (WH_R(0.4) + more_N) : WH_R(0.0));
         TEST_ASSERT_FALSE(wh_tare_is_still(&wh_rig_standard.measure.tare, &tare));
     }
 }

@@ -158,7 +158,8 @@ static void test_jitter_settles(void) {
         TEST_ASSERT_TRUE(result->quality == WH_GOOD || (i >= 10U && i % 2U != 0));
         const wh_real late_rad =
             WH_R(0.5) * (wh_real)width / (wh_real)WH_RIG_TICKS_PER_S * result->speed_radps;
-        TEST_ASSERT_TRUE(WH_ABS(result->phase_rad - late_rad) <= WH_R(2.0) * result->phase_half_rad);
+        TEST_ASSERT_TRUE(WH_ABS(result->phase_rad - late_rad) <=
+                         WH_R(2.0) * result->phase_half_rad);
         TEST_ASSERT_TRUE(WH_ABS(result->amplitude_N - EVEN_LOAD_N) <=
                          WH_R(2.0) * result->amplitude_half_N + WH_R(0.02));
     }
@@ -174,7 +175,8 @@ static void test_a_speed_that_hunts_or_drifts_does_not_settle(void) {
             failing.hunts_rpm = between(WH_R(1.0), WH_R(4.0));
             failing.hunts_Hz = between(WH_R(0.125), WH_R(0.5));
         } else {
-            failing.drifts_rpm_s = (i % 4U == 1U ? WH_R(1.0) : WH_R(-1.0)) * between(WH_R(0.6), WH_R(2.0));
+            failing.drifts_rpm_s =
+                (i % 4U == 1U ? WH_R(1.0) : WH_R(-1.0)) * between(WH_R(0.6), WH_R(2.0));
         }
         even_begin(&even, between(WH_R(200.0), WH_R(320.0)), &failing);
         even.seed = 2000U + i;

@@ -178,6 +178,7 @@ static void measure(const plant *p) {
         TEST_ASSERT_TRUE(now < 60U * turn_ticks);
     }
     wh_merge_mean(config, &rotor, &merge, &lockin.angle, WH_R(56.0), &measured);
+    wh_merge_compare(&rotor, &merge, &lockin.angle, &measured);
     wh_merge_judge(config, &rotor, &merge, &lockin.angle, &measured);
     TEST_ASSERT_EQUAL_UINT32(TURNS, measured.turns);
 }

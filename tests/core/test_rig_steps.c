@@ -122,7 +122,8 @@ static void test_the_tare_takes_its_samples(void) {
     begin();
     TEST_ASSERT_EQUAL_UINT(250, stay(WH_R(0.0), 1000)); /* half a second */
     TEST_ASSERT_TRUE(rig.run.phase == WH_PHASE_SPIN_UP);
-    TEST_ASSERT_FLOAT_WITHIN(1e-5f, 2.25f, (float)rig.measure.tare.mean_N); /* of 0 and 450 counts */
+    TEST_ASSERT_FLOAT_WITHIN(1e-5f, 2.25f,
+                             (float)rig.measure.tare.mean_N); /* of 0 and 450 counts */
     TEST_ASSERT_FLOAT_WITHIN(1e-6f, 9.6f, (float)command.volts);
     TEST_ASSERT_FALSE(rig.pulses.speed.running); /* what was seen before is forgotten */
     begin();                                     /* samples that are none do not count */
@@ -359,12 +360,12 @@ static void test_what_a_record_comes_to(void) {
 /* Without a turn there is no result. */
 static void test_a_record_without_turns_trips(void) {
     stand_in(WH_PHASE_RECORD);
-    TEST_ASSERT_EQUAL_UINT(1007, stay(WH_R(330.0), 5000));
+    TEST_ASSERT_EQUAL_UINT(1008, stay(WH_R(330.0), 5000));
     TEST_ASSERT_TRUE(rig.guard.trip == WH_TRIP_RECORD);
     stand_in(WH_PHASE_RECORD); /* a lock-in that waits for samples which never come */
     rig.measure.lockin.stage = WH_LOCKIN_SUMS;
     rig.measure.lockin.next.begin_ticks = inputs.now_ticks + 100000000U;
-    TEST_ASSERT_EQUAL_UINT(1257, stay(WH_R(330.0), 5000));
+    TEST_ASSERT_EQUAL_UINT(1258, stay(WH_R(330.0), 5000));
     TEST_ASSERT_TRUE(rig.guard.trip == WH_TRIP_RECORD);
 }
 

@@ -244,9 +244,9 @@ void rig_measure(const rig_orbit *orbit, const rig_noise *noise, const wh_rotor_
         }
         const double t_s = now_s - first_mark_s + (1.0 + noise->turned_by) * orbit->turn_s;
         const double on_top_N =
-            orbit->tare_N + noise->cell_N * normal() + noise->hum_N * sin(2.0 * PI * (noise->hum_Hz > 0.0 ? noise->hum_Hz : 60.0) * now_s);
-        double force_N =
-            on_top_N + (noise->mute ? 0.0 : shown_at(orbit, noise, t_s, &follows_N));
+            orbit->tare_N + noise->cell_N * normal() +
+            noise->hum_N * sin(2.0 * PI * (noise->hum_Hz > 0.0 ? noise->hum_Hz : 60.0) * now_s);
+        double force_N = on_top_N + (noise->mute ? 0.0 : shown_at(orbit, noise, t_s, &follows_N));
         if (noise->spikes > 0.0 && uniform() < noise->spikes) {
             force_N += noise->spike_N;
         }
@@ -276,5 +276,6 @@ void rig_measure(const rig_orbit *orbit, const rig_noise *noise, const wh_rotor_
         wh_merge_harmonic(&merge, k);
     }
     wh_merge_mean(&judged, rotor, &merge, &lockin.angle, (wh_real)orbit->tare_N, measured);
+    wh_merge_compare(rotor, &merge, &lockin.angle, measured);
     wh_merge_judge(&judged, rotor, &merge, &lockin.angle, measured);
 }

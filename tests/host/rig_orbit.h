@@ -55,12 +55,13 @@ typedef struct rig_noise {
     double conversion_N;
     double conversion_counts;
     /* faults of the cell, all 0 for none */
-    double gain_off;  /* it shows so much more, as a part */
-    double hum_N;     /* amplitude of what the mains adds, */
-    double hum_Hz;    /* 0: of 60 Hz */
-    double clips;     /* the force is limited at this part of its own peak, above or (negative) below; 0: it is not */
-    double play_N;    /* the reading follows the force when that has moved by so much to either side */
-    double bend;      /* it shows F (1 - bend (F/peak)^2) */
+    double gain_off; /* it shows so much more, as a part */
+    double hum_N;    /* amplitude of what the mains adds, */
+    double hum_Hz;   /* 0: of 60 Hz */
+    double
+        clips; /* the force is limited at this part of its own peak, above or (negative) below; 0: it is not */
+    double play_N; /* the reading follows the force when that has moved by so much to either side */
+    double bend;   /* it shows F (1 - bend (F/peak)^2) */
     double frozen_s;  /* it stands still for so long in the middle of the turns that are kept */
     double spikes;    /* this part of the samples */
     double spike_N;   /* is off by so much */

@@ -29,7 +29,7 @@ static double drawn(double least, double most) {
 static void draw_bench(bool fed) {
     plant = rig_plant_nominal;
     plant.inertia_kgm2 *= drawn(0.75, 1.45);
-    rpm = fed ? drawn(130.0, 170.0) : drawn(170.0, 360.0);
+    rpm = fed ? drawn(100.0, 170.0) : drawn(170.0, 360.0);
     if (fed) {
         plant.fed_Nm = plant.mass_moment_kgm * plant.gravity_mps2;
         plant.fed_late_rad = drawn(-0.02, 0.02);
@@ -77,15 +77,18 @@ static void judge(const wh_measured *measured, tally *found) {
     const double amplitude_N = fabs((double)measured->amplitude_N - orbit.amplitude_N);
     const double phase_rad = fabs((double)measured->phase_rad - orbit.phase_rad);
     const bool good = measured->quality == WH_GOOD;
-    const double half_N = hypot((double)measured->amplitude_half_N,
-                                (double)WH_UNCALIBRATED_PART * orbit.amplitude_N);
+    const double half_N =
+        hypot((double)measured->amplitude_half_N, (double)WH_UNCALIBRATED_PART * orbit.amplitude_N);
     const double half_rad = hypot((double)measured->phase_half_rad, (double)WH_UNCALIBRATED_RAD);
     if (amplitude_N > half_N + 0.01 * orbit.amplitude_N || phase_rad > half_rad + 0.01) {
         found->off++;
         found->lies += good ? 1U : 0U;
     }
-    const rig_noise silent = { /* but for some: the turns of a cell that stands still do not count */
-        .cell_N = 0.01, .clips = noise.clips, .play_N = noise.play_N, .bend = noise.bend};
+    const rig_noise silent = {/* but for some: the turns of a cell that stands still do not count */
+                              .cell_N = 0.01,
+                              .clips = noise.clips,
+                              .play_N = noise.play_N,
+                              .bend = noise.bend};
     wh_measured clear;
     measure(&silent, &clear);
     if ((double)clear.repeats_N > 1.5 * (double)measured->repeats_limit_N) {
@@ -112,7 +115,8 @@ static void check_error(error kind, uint64_t seed, unsigned runs, unsigned least
     }
     TEST_ASSERT_EQUAL_UINT(0, found.lies);
     TEST_ASSERT_EQUAL_UINT(0, found.missed);
-    TEST_ASSERT_TRUE(found.off * 100U >= least_off * runs && found.seen * 100U >= least_seen * runs);
+    TEST_ASSERT_TRUE(found.off * 100U >= least_off * runs &&
+                     found.seen * 100U >= least_seen * runs);
 }
 
 static void test_a_clipped_cell_is_not_good(void) {
@@ -141,9 +145,6 @@ static void test_healthy_benches_are_good(void) {
     for (unsigned run = 0; run < runs; run++) {
         wh_measured measured;
         draw_bench(run % 5U == 4U);
-        if (run % 10U == 9U) {
-            rpm = drawn(100.0, 130.0); /* the motor cannot brake enough */
-        }
         rig_orbit_find(&plant, rpm, LEAD_RAD, &orbit);
         measure(&noise, &measured);
         doubtful += measured.quality != WH_GOOD ? 1U : 0U;
