@@ -140,8 +140,13 @@ static void settle(wh_run *run, const wh_run_scene *scene) {
     }
 }
 
+/* Single turns scatter more than their mean: this is a drive that runs away, or a jam. */
+#define TURN_BANDS WH_R(3.0)
+
 static bool record(wh_run *run, const wh_run_scene *scene) {
-    if (is_off(run, scene, scene->config->record_band_radps)) {
+    const wh_real band = scene->config->record_band_radps;
+    const wh_real turn_off = WH_ABS(scene->pulses->speed.turn_radps - run->target_radps);
+    if (is_off(run, scene, band) || turn_off > TURN_BANDS * band) {
         wh_guard_trip(scene->guard, WH_TRIP_UNSETTLED);
         return false;
     }

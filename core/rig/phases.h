@@ -43,7 +43,7 @@ typedef struct wh_run_config {
     wh_real settle_s;          /* so long within the band */
     wh_real settle_max_s;      /* to get there */
     wh_real short_max_s;       /* so long may the supply be too little for the set-point */
-    wh_real record_band_radps; /* meanwhile */
+    wh_real record_band_radps; /* meanwhile, of the mean; of a single turn three times that */
     wh_real slow_radps; /* ramp down to here (or stay, when slower already), then motor off */
 } wh_run_config;
 

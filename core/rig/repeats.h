@@ -18,8 +18,7 @@
 extern "C" {
 #endif
 
-/* Two neighbouring sums share a sample (linear weights), so hum that is locked to the turn aliases from harmonic 26 on,
- * with 5 % of its amplitude. */
+/* Hum that is locked to the turn aliases from harmonic 26 on (115 rpm, 50 Hz), with a fifth of its amplitude. */
 #define WH_REPEATS_BINS 32U
 
 /* The harmonics. The swing of the speed judges the second (result.h). */
@@ -42,10 +41,7 @@ WH_INLINE void wh_repeats_add(wh_repeats *repeats, wh_real theta_rad, wh_real re
     if (!(WH_ABS(place) < WH_R(3.0) * bins)) {
         return; /* not a number, for one */
     }
-    const int32_t bin = (int32_t)place;
-    const wh_real shared = residual_Nrad * (place - (wh_real)bin);
-    repeats->bin_N[(uint32_t)bin % WH_REPEATS_BINS] += residual_Nrad - shared;
-    repeats->bin_N[((uint32_t)bin + 1U) % WH_REPEATS_BINS] += shared;
+    repeats->bin_N[(uint32_t)(int32_t)place % WH_REPEATS_BINS] += residual_Nrad;
 }
 
 /* Add a turn of so many samples. */

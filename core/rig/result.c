@@ -29,6 +29,9 @@
 #define REPEATS_TWICE WH_R(5.0)
 #define REPEATS_CELL WH_R(1e-4)
 
+/* What marks that jitter by an angle leave of the force in a turn, as a part of that angle. */
+#define REPEATS_JITTER WH_R(0.15)
+
 static wh_real square_of(wh_real x) { return x * x; }
 
 static wh_real floor_or(wh_real entered, wh_real uncalibrated) {
@@ -339,7 +342,10 @@ static wh_real repeats_limit_N(const wh_merge *merge, const wh_turn_angle *angle
     const wh_real samples = (wh_real)(merge->repeats.samples > 0 ? merge->repeats.samples : 1U);
     /* a coefficient over N samples of variance s^2 has 2 s^2/N, and s^2 is half the mean squared difference */
     const wh_real noise_N2 = merge->repeats.changes_N2 / (samples * samples);
-    return WH_SQRT(REPEATS_NOISE * noise_N2 + square_of(part * measured->expected_N));
+    const wh_real turns = (wh_real)(merge->turns > 0 ? merge->turns : 1U);
+    const wh_real jitter = REPEATS_JITTER * measured->jitter_s * measured->speed_radps;
+    return WH_SQRT(REPEATS_NOISE * noise_N2 +
+                   square_of(measured->expected_N) * (square_of(part) + square_of(jitter) / turns));
 }
 
 /* Where the motor cannot brake enough the residual tells nothing of the cell: force and phase must then be as expected within

@@ -56,7 +56,7 @@ static void draw_error(error kind) {
     switch (kind) {
     case CLIPS: noise.clips = side * drawn(0.9, 0.995); break;
     case PLAYS: noise.play_N = 0.5 * drawn(0.5, 2.0); break;
-    case BENDS: noise.bend = side * drawn(0.015, 0.03); break;
+    case BENDS: noise.bend = side * drawn(0.015, 0.025); break;
     case TWICE:
         plant.twice_Nm = drawn(0.03, 0.3);
         plant.twice_rad = drawn(0.0, 2.0 * PI);
