@@ -51,7 +51,7 @@ void wh_measure_load(wh_measure *measure, const wh_load *load, bool at_rest) {
 }
 
 /* Pieces in which turns are merged to a result: the last is its verdict. */
-#define MERGE_PIECES (WH_RIG_SMALL_PIECES ? WH_MERGE_MEAN_PIECES + 2U : 3U)
+#define MERGE_PIECES (WH_MERGE_MEAN_PIECES + 2U)
 
 /* Before them, of a turn: what repeats is merged; at the record's end: a harmonic of it each. */
 #define TURN_PIECES (MERGE_PIECES + 1U)
@@ -81,13 +81,8 @@ static WH_CALLED void merge_piece(const wh_measure_config *config, wh_measure *m
     } else if (measure->due == 2U) {
         wh_merge_compare(&config->rotor, &measure->merge, angle, force);
     } else {
-#if WH_RIG_SMALL_PIECES
         wh_merge_mean_piece(&config->result, &config->rotor, &measure->merge, angle,
                             measure->tare.mean_N, force, MERGE_PIECES - measure->due);
-#else
-        wh_merge_mean(&config->result, &config->rotor, &measure->merge, angle, measure->tare.mean_N,
-                      force);
-#endif
         if (begins) {
             force->left_out += measure->lockin.skipped - measure->skipped_before;
         }

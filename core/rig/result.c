@@ -291,26 +291,39 @@ void wh_merge_mean_piece(const wh_result_config *config, const wh_rotor_config *
         phase_half(config, merge, angle, size2, t2_of(merge), &by, measured);
     }
 }
+#else
+void wh_merge_mean_piece(const wh_result_config *config, const wh_rotor_config *rotor,
+                         const wh_merge *merge, const wh_turn_angle *angle, wh_real tare_N,
+                         wh_measured *measured, unsigned piece) {
+    if (piece == 0) {
+        begin_mean(merge, angle, tare_N, measured);
+    }
+    const wh_real size2 = size2_of(merge);
+    if (piece == 0 && merge->turns > 0) {
+        wh_polar(merge->in_phase_N, -merge->quadrature_N, &measured->amplitude_N,
+                 &measured->phase_rad);
+        jitter_of_marks(merge, measured);
+    }
+    if (!has_halves(merge, size2)) {
+        return;
+    }
+    const wh_real t2 = t2_of(merge);
+    if (piece == 0) {
+        scatter_of_mean(merge, size2, t2, measured);
+        return;
+    }
+    const parts_off by = off_of(rotor, merge, angle);
+    amplitude_half(config, rotor, merge, angle, size2, &by, measured);
+    phase_half(config, merge, angle, size2, t2, &by, measured);
+}
 #endif
 
 void wh_merge_mean(const wh_result_config *config, const wh_rotor_config *rotor,
                    const wh_merge *merge, const wh_turn_angle *angle, wh_real tare_N,
                    wh_measured *measured) {
-    begin_mean(merge, angle, tare_N, measured);
-    if (merge->turns == 0) {
-        return;
+    for (unsigned piece = 0; piece < WH_MERGE_MEAN_PIECES; piece++) {
+        wh_merge_mean_piece(config, rotor, merge, angle, tare_N, measured, piece);
     }
-    wh_polar(merge->in_phase_N, -merge->quadrature_N, &measured->amplitude_N, &measured->phase_rad);
-    jitter_of_marks(merge, measured);
-    const wh_real size2 = size2_of(merge);
-    if (!has_halves(merge, size2)) {
-        return;
-    }
-    const wh_real t2 = t2_of(merge);
-    scatter_of_mean(merge, size2, t2, measured);
-    const parts_off by = off_of(rotor, merge, angle);
-    amplitude_half(config, rotor, merge, angle, size2, &by, measured);
-    phase_half(config, merge, angle, size2, t2, &by, measured);
 }
 
 /* --- verdict ------------------------------------------------------------------------------------ */

@@ -156,13 +156,11 @@ void wh_merge_mean(const wh_result_config *config, const wh_rotor_config *rotor,
                    const wh_merge *merge, const wh_turn_angle *angle, wh_real tare_N,
                    wh_measured *measured);
 
-#define WH_MERGE_MEAN_PIECES 6U
-#if WH_RIG_SMALL_PIECES
+#define WH_MERGE_MEAN_PIECES (WH_RIG_SMALL_PIECES ? 6U : 2U)
 /* The same in pieces, each once, in their order: 0 ... WH_MERGE_MEAN_PIECES - 1. Until the last *measured is under way. */
 void wh_merge_mean_piece(const wh_result_config *config, const wh_rotor_config *rotor,
                          const wh_merge *merge, const wh_turn_angle *angle, wh_real tare_N,
                          wh_measured *measured, unsigned piece);
-#endif
 
 /* What the load says of the speed's swing, what repeats, and the turns' scatter: after wh_merge_mean(). */
 void wh_merge_compare(const wh_rotor_config *rotor, const wh_merge *merge,

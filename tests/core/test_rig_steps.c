@@ -364,12 +364,12 @@ static void test_what_a_record_comes_to(void) {
 /* Without a turn there is no result. */
 static void test_a_record_without_turns_trips(void) {
     stand_in(WH_PHASE_RECORD);
-    TEST_ASSERT_EQUAL_UINT(1008, stay(WH_R(330.0), 5000));
+    TEST_ASSERT_EQUAL_UINT(1009, stay(WH_R(330.0), 5000));
     TEST_ASSERT_TRUE(rig.guard.trip == WH_TRIP_RECORD);
     stand_in(WH_PHASE_RECORD); /* a lock-in that waits for samples which never come */
     rig.measure.lockin.stage = WH_LOCKIN_SUMS;
     rig.measure.lockin.next.begin_ticks = inputs.now_ticks + 100000000U;
-    TEST_ASSERT_EQUAL_UINT(1258, stay(WH_R(330.0), 5000));
+    TEST_ASSERT_EQUAL_UINT(1259, stay(WH_R(330.0), 5000));
     TEST_ASSERT_TRUE(rig.guard.trip == WH_TRIP_RECORD);
 }
 
