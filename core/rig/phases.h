@@ -43,11 +43,11 @@ typedef struct wh_run_config {
     wh_real settle_s;          /* so long within the band */
     wh_real settle_max_s;      /* to get there */
     wh_real short_max_s;       /* so long may the supply be too little for the set-point */
-    wh_real record_band_radps; /* meanwhile, of the mean; of a single turn three times that */
+    wh_real record_band_radps; /* of each turn, meanwhile */
     wh_real slow_radps; /* ramp down to here (or stay, when slower already), then motor off */
 } wh_run_config;
 
-/* Speeds that are judged by their mean: turns that overlap by half, two and a half in all. Marks with a jitter of s put the
+/* While it settles the speed is judged by its mean: turns that overlap by half, two and a half in all. Marks with a jitter of s put the
  * mean off by s/2 of a turn's time: 120 us at 330 rpm by 0.11 rpm, where single turns scatter by 0.31. A speed that drifts or
  * hunts in more than a second moves the mean as well. */
 #define WH_RUN_TURNS 4U

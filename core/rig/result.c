@@ -15,10 +15,10 @@
  * 1/sqrt(2) of it an error of the phase. */
 #define SWING_OFF_RAD WH_R(0.01)
 
-/* Noise alone exceeds these multiples of its variance in one of 1,000 results: the sum of squares of the eight coefficients of
+/* Noise alone exceeds these multiples of its variance in one of 100,000 results: the sum of squares of the eight coefficients of
  * four harmonics, and of the two of the third (chi-squared). A bend or a torque twice a turn is all in the third. */
-#define REPEATS_NOISE WH_R(26.1)
-#define THIRD_NOISE WH_R(13.8)
+#define REPEATS_NOISE WH_R(37.3)
+#define THIRD_NOISE WH_R(23.0)
 
 /* Of the force, what a healthy rig repeats each turn in harmonics 3 to 6 (tests/host/test_repeats_truth.c): by damping, as
  * tan(psi) E^2, and by a swing that is another, as E times the arrow; by a motor that cannot brake enough; by a carriage's

@@ -314,7 +314,7 @@ static void test_every_reason_has_its_case(void) {
         merge.repeats_N2 = (i == 0 ? WH_R(0.98) : WH_R(1.02)) * measured.repeats_limit_N *
                            measured.repeats_limit_N;
         conclude(&bench);
-        TEST_ASSERT_FLOAT_WITHIN(0.01f, 0.239f, (float)measured.repeats_limit_N);
+        TEST_ASSERT_FLOAT_WITHIN(0.01f, 0.286f, (float)measured.repeats_limit_N);
         TEST_ASSERT_TRUE(measured.why == (i == 0 ? WH_WHY_NONE : WH_WHY_REPEATS));
         merge.repeats_N2 = WH_R(0.0);
     }
