@@ -18,6 +18,14 @@ extern "C" {
  * broken. It is not debounced: the first contact counts. */
 bool hal_stop_pressed(void);
 
+/* Whose the pressed line is. A drive stage's fault may share it with the stop contacts: then nobody can tell. */
+typedef enum hal_stop_source {
+    HAL_STOP_EITHER,
+    HAL_STOP_INPUT, /* the stop contacts: the drive stage has no line, or one of its own that is quiet */
+    HAL_STOP_DRIVE  /* the drive stage's fault, by a line of its own */
+} hal_stop_source;
+hal_stop_source hal_stop_source_now(void);
+
 /* False before it was looked at for the first time, and where its line is broken: then pressed says nothing of a button. */
 bool hal_stop_heard(void);
 

@@ -19,6 +19,16 @@ static inline bool stop_was_pressed(bool watchdog_has_cut) {
     return hal_stop_pressed() || (!watchdog_has_cut && (hal_motor_status() & HAL_MOTOR_CUT) != 0);
 }
 
+_Static_assert((int)HAL_STOP_EITHER == (int)WH_STOP_BY_EITHER &&
+                   (int)HAL_STOP_INPUT == (int)WH_STOP_BY_INPUT &&
+                   (int)HAL_STOP_DRIVE == (int)WH_STOP_BY_DRIVE,
+               "one list of who asks for stop");
+
+/* Whose it was, when stop_was_pressed(): of a short one that is over only the cut is left. */
+static inline wh_stop_by stop_was_by(void) {
+    return hal_stop_pressed() ? (wh_stop_by)hal_stop_source_now() : WH_STOP_BY_EITHER;
+}
+
 /* *drives: so was the command before; false at first. The motor is started where a command to drive begins, and not again: what
  * an interrupt has switched off, or stop has kept from starting, does not come by itself before the rig was off, too. */
 static inline void obey(const wh_rig_command *command, bool *drives) {

@@ -76,7 +76,7 @@ static void put_state(uint32_t started_ticks) {
     wh_text_add_fixed(&text, (float)(hal_clock_ticks() - started_ticks) / (float)HAL_TICKS_PER_S,
                       3);
     wh_text_add(&text, " s  ");
-    wh_text_add_words(&text, wh_rig_stage_text(wh_rig_stage(&rig)));
+    wh_text_add_words(&text, wh_rig_stage_text(wh_rig_shown_stage(&rig)));
     if (wh_run_is_closed(&rig.run)) {
         wh_text_add(&text, ", ");
         wh_text_add_fixed(&text, rig.pulses.speed.turn_radps * RPM_PER_RADPS, 1);
@@ -211,7 +211,7 @@ static operator_step run(const wh_rig_config *config) {
     operator_step operator_at =
         hal_reset_cause() == HAL_RESET_POWER_ON ? WAITS_FOR_REST : WAS_RESET;
     trip_memory_start(&memory, config, &rig, started);
-    unsigned shown = wh_rig_stage(&rig);
+    unsigned shown = wh_rig_shown_stage(&rig);
     put_state(started);
     tell();
     hal_watchdog_start(WATCHDOG_TICKS);
@@ -225,8 +225,8 @@ static operator_step run(const wh_rig_config *config) {
                              : 0.0f;
 #endif
         tell();
-        if (wh_rig_stage(&rig) != shown) {
-            shown = wh_rig_stage(&rig);
+        if (wh_rig_shown_stage(&rig) != shown) {
+            shown = wh_rig_shown_stage(&rig);
             put_state(started);
         }
     } while (!operate(&operator_at, hal_clock_ticks() - started));

@@ -91,6 +91,7 @@ static void look(void) {
     seen.inputs.clock_is_fallback = hal_clock_source_now() == HAL_CLOCK_FALLBACK;
     seen.inputs.watchdog_has_cut = hal_watchdog_has_cut();
     seen.inputs.stop_pressed = stop_was_pressed(seen.inputs.watchdog_has_cut);
+    seen.inputs.stop_by = stop_was_by();
 }
 
 /* By itself: what it has on the stack is gone when the console has its own there. */

@@ -27,7 +27,7 @@ BOARD_SOURCES  := $(BOARD_COMMON) boards/cortexm/demo.c
 BOARD_FLASHED  := $(BOARD_COMMON) boards/cortexm/flashed.c boards/cortexm/kept.c \
                   $(addprefix boards/shared/,remembered.c reset_words.c rig_time.c) \
                   $(addprefix boards/stm32f4/,brown_out.c cell.c flash.c motor.c reset.c rig_clock.c slots.c stop.c watchdog.c)
-BOARD_MOST     := FLASH_MOST=40960 RAM_MOST=12288
+BOARD_MOST     := FLASH_MOST=65536 RAM_MOST=16384
 # The portable suites are larger than its memory: they run on mps2-an386, which has the same processor, and drivers are tested by
 # themselves (tests/chip, gate-flashed).
 BOARD_SUITES   := none

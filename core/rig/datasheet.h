@@ -78,7 +78,11 @@ WH_SHARED bool wh_rig_is_over(uint32_t then_ticks, uint32_t now_ticks, wh_real m
 /* With gravity's torque fed forward to the motor. */
 #define WH_RIG_TARGET_MIN_FED_RPM WH_R(100.0)
 
-/* The motor's speed without load is 600 rpm; pulses that would need more than this are no pulses. */
-#define WH_RIG_IMPOSSIBLE_RPM WH_R(800.0)
+/* The motor's supply may be so much of the rated voltage. */
+#define WH_RIG_SUPPLY_LEAST WH_R(0.45)
+#define WH_RIG_SUPPLY_MOST WH_R(1.55)
+
+/* The speed without load at the highest supply. A pulse that needs a higher speed is rejected. */
+#define WH_RIG_IMPOSSIBLE_RADPS (WH_RIG_SUPPLY_MOST * WH_RIG_NO_LOAD_RADPS)
 
 #endif

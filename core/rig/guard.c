@@ -118,12 +118,19 @@ WH_CALLED void wh_guard_off_pulse(const wh_guard_config *config, wh_guard *guard
     of->seen = true;
 }
 
-#define ONE(name, number, words) +1
+#define NUMBER(name, number, words) number,
 #define ITEM(name, number, words) WH_WORDS(words) "\0"
-_Static_assert(0 WH_TRIP_ROWS(ONE) == (int)WH_TRIP_UNBRAKED,
-               "1 is the only number that is not used");
+#define FITS(name, number, words) \
+    _Static_assert((number) <= 255 && sizeof(words) <= 96U, \
+                   "a byte in records, a line of a report");
+WH_TRIP_ROWS(FITS)
 
 const char *wh_trip_text(wh_trip reason) {
     static const char words[] WH_WORD_LIST = WH_TRIP_ROWS(ITEM) WH_WORDS("unknown reason") "\0";
-    return wh_words_item(words, reason != WH_TRIP_NONE ? (unsigned)reason - 1U : 0U);
+    static const uint8_t numbers[] = {WH_TRIP_ROWS(NUMBER)};
+    unsigned row = 0;
+    while (row < sizeof numbers && numbers[row] != (unsigned)reason) {
+        row++;
+    }
+    return wh_words_item(words, row);
 }

@@ -11,7 +11,7 @@ extern "C" {
 #endif
 
 /* Reasons to stop: X(name, number, words). Numbers are for consoles and records, and stay; 1 was a refused set-point, which
- * is a refusal now (life.h). */
+ * is a refusal now (life.h). The words fit a line of the report: 95 characters. */
 #define WH_TRIP_ROWS(X) \
     X(WH_TRIP_NONE, 0, "no fault") \
     X(WH_TRIP_OVERSPEED, 2, "over-speed") \
@@ -26,7 +26,11 @@ extern "C" {
       "the rotor turns with the motor off: the stage ignores its enable, or somebody turns the rotor") \
     X(WH_TRIP_SUPPLY, 11, "the motor's supply is out of its range, or too low for the speed") \
     X(WH_TRIP_UNBRAKED, 12, \
-      "the rotor does not slow as the motor brakes: the stage ignores its voltage, or cannot brake")
+      "the rotor does not slow as the motor brakes: the stage ignores its voltage, or cannot brake") \
+    X(WH_TRIP_FASTER, 14, \
+      "faster than the motor's settings: check no_load_speed, rated_voltage, the supply's divider") \
+    X(WH_TRIP_ORDER, 15, \
+      "slot pulses in the wrong order: the motor runs backwards, or the sensors are swapped")
 
 #define WH_TRIP_NAME(name, number, words) name = (number),
 typedef enum wh_trip { WH_TRIP_ROWS(WH_TRIP_NAME) } wh_trip;

@@ -9,11 +9,15 @@
 extern "C" {
 #endif
 
+/* Who asks for stop: the drive stage's fault may share the stop input's line. */
+typedef enum wh_stop_by { WH_STOP_BY_EITHER, WH_STOP_BY_INPUT, WH_STOP_BY_DRIVE } wh_stop_by;
+
 /* What a control step sees beside pulses, samples and orders. */
 typedef struct wh_rig_inputs {
     uint32_t now_ticks;
     wh_real supply_V;
     bool stop_pressed;
+    wh_stop_by stop_by;     /* when it is */
     bool clock_is_fallback; /* too inexact for a speed */
     bool watchdog_has_cut;
 } wh_rig_inputs;

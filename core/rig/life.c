@@ -52,3 +52,8 @@ const char *wh_refusal_text(wh_refusal refusal) {
         WH_REFUSAL_ROWS(NUMBERED_ITEM) WH_WORDS("unknown refusal") "\0";
     return wh_words_item(words, refusal);
 }
+
+const char *wh_rig_end_text(wh_rig_end end) {
+    static const char words[] WH_WORD_LIST = WH_END_ROWS(ITEM) WH_WORDS("unknown end") "\0";
+    return wh_words_item(words, end);
+}

@@ -57,10 +57,22 @@ extern "C" {
     X(WH_REFUSED_QUEUE, 16, "too many orders at once") \
     X(WH_REFUSED_EVENT, 17, "there is no such order")
 
+/* How the last run ended, until the next start: X(name, words). */
+#define WH_END_ROWS(X) \
+    X(WH_END_NONE, "none") /* no run since the reset, or it goes on */ \
+    X(WH_END_DONE, "done") /* the record is measured */ \
+    X(WH_END_STOP_INPUT, "stop input") \
+    X(WH_END_DRIVE_FAULT, "drive fault") \
+    X(WH_END_STOP_OR_FAULT, "stop input or drive fault") /* they share a line */ \
+    X(WH_END_STOP, "stop command") \
+    X(WH_END_HOST_LOST, "host lost") \
+    X(WH_END_TRIP, "trip")
+
 #define WH_LIFE_NAME(name, words) name,
 #define WH_REFUSAL_NAME(name, number, words) name = (number),
 typedef enum wh_life { WH_LIFE_ROWS(WH_LIFE_NAME) WH_LIVES } wh_life;
 typedef enum wh_rig_event { WH_EVENT_ROWS(WH_LIFE_NAME) WH_EVENTS } wh_rig_event;
+typedef enum wh_rig_end { WH_END_ROWS(WH_LIFE_NAME) WH_ENDS } wh_rig_end;
 typedef enum wh_refusal { WH_REFUSAL_ROWS(WH_REFUSAL_NAME) WH_REFUSALS } wh_refusal;
 #undef WH_LIFE_NAME
 #undef WH_REFUSAL_NAME
@@ -75,6 +87,7 @@ typedef struct wh_life_rule {
 #define wh_life_text WH_NAME(wh_life_text)
 #define wh_rig_event_text WH_NAME(wh_rig_event_text)
 #define wh_refusal_text WH_NAME(wh_refusal_text)
+#define wh_rig_end_text WH_NAME(wh_rig_end_text)
 
 /* From the table. An event or state that there is not is refused. */
 wh_life_rule wh_life_rule_of(wh_life state, wh_rig_event event);
@@ -83,6 +96,7 @@ wh_life_rule wh_life_rule_of(wh_life state, wh_rig_event event);
 const char *wh_life_text(wh_life state);
 const char *wh_rig_event_text(wh_rig_event event);
 const char *wh_refusal_text(wh_refusal refusal);
+const char *wh_rig_end_text(wh_rig_end end);
 
 #ifdef __cplusplus
 }

@@ -83,7 +83,8 @@ void wh_observer_step(const wh_observer_config *config, wh_observer *observer, u
         const wh_real coasting = wh_observer_coasting(config, observer);
         voltage = drive < coasting ? coasting : drive;
     }
-    state->input[0] = voltage + observer->torque_Nm / config->stall_Nm;
+    state->input[0] = config->per_drive * voltage + config->per_radps * state->real[0] +
+                      observer->torque_Nm / config->stall_Nm;
     const uint32_t due = late_ticks / observer->step_ticks;
     const uint32_t steps = due < WH_OBSERVER_STEPS_AT_ONCE ? due : WH_OBSERVER_STEPS_AT_ONCE;
     const uint32_t way_ticks = steps * observer->step_ticks;

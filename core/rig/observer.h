@@ -25,8 +25,12 @@ extern "C" {
 typedef struct wh_observer_config {
     const wh_scene
         *scene;       /* one angle, its rate, one input: the motor's voltage over the rated one */
-    wh_real stall_Nm; /* motor torque at standstill and input 1, > 0 */
-    wh_real no_load_radps; /* speed at which input 1 gives no torque, > 0 */
+    wh_real stall_Nm; /* the scene's motor torque at standstill and input 1, > 0 */
+    /* the motor's speed without load at the rated voltage, > 0 */
+    wh_real no_load_radps;
+    /* the scene's input that gives this motor's torque: per_drive * drive + per_radps * speed */
+    wh_real per_drive;
+    wh_real per_radps;
     /* the motor's stage: less than the motor's own voltage makes no torque, not a braking one */
     bool freewheels;
     wh_real mark_rad[WH_OBSERVER_SENSORS]; /* angle of the arms at a pulse of each sensor */
@@ -69,12 +73,11 @@ typedef struct wh_observer {
 #define WH_OBSERVER_STANDARD \
     { \
         .stall_Nm = WH_RIG_STALL_NM, .no_load_radps = WH_RIG_NO_LOAD_RADPS, \
-        .angle_gain = {WH_R(1.2), WH_R(0.6)}, .speed_gain = {WH_R(0.65), WH_R(1.3)}, \
-        .torque_gain_kgm2 = {WH_R(0.009), WH_R(0.002)}, .torque_most_Nm = WH_R(0.5), \
-        .trusted_rad = WH_R(0.3), .trusted_marks = 3, .lost_rad = WH_R(2.0), \
-        .slowest_radps = WH_R(40.0) * WH_RIG_RADPS_PER_RPM, \
-        .fastest_radps = WH_RIG_IMPOSSIBLE_RPM * WH_RIG_RADPS_PER_RPM, \
-        .silence_ticks = 3U * (WH_RIG_TICKS_PER_S / 2U), \
+        .per_drive = WH_R(1.0), .angle_gain = {WH_R(1.2), WH_R(0.6)}, \
+        .speed_gain = {WH_R(0.65), WH_R(1.3)}, .torque_gain_kgm2 = {WH_R(0.009), WH_R(0.002)}, \
+        .torque_most_Nm = WH_R(0.5), .trusted_rad = WH_R(0.3), .trusted_marks = 3, \
+        .lost_rad = WH_R(2.0), .slowest_radps = WH_R(40.0) * WH_RIG_RADPS_PER_RPM, \
+        .fastest_radps = WH_RIG_IMPOSSIBLE_RADPS, .silence_ticks = 3U * (WH_RIG_TICKS_PER_S / 2U), \
     }
 #define wh_observer_standard WH_NAME(wh_observer_standard)
 extern const wh_observer_config wh_observer_standard;

@@ -58,6 +58,8 @@ static wh_refusal may_clear(const wh_rig_config *config, const wh_rig *rig,
     case WH_TRIP_UNSETTLED:
     case WH_TRIP_RECORD:
     case WH_TRIP_RUNS_ON:
+    case WH_TRIP_FASTER:
+    case WH_TRIP_ORDER:
     case WH_TRIP_UNBRAKED: break;
     }
     return WH_ALLOWED;

@@ -29,8 +29,6 @@ void wh_run_off(wh_run *run, wh_real speed_radps, uint32_t now_ticks) {
     enter(run, WH_PHASE_OFF, now_ticks);
 }
 
-/* The rotor that is taken over gets faster for so long: */
-#define START_S WH_R(1.5)
 #define JUMP_S WH_R(0.5) /* by steps, as its first turn's speed is old, for so long */
 
 wh_led wh_run_led(const wh_run_config *config, const wh_run *run, uint32_t ticks) {
@@ -42,7 +40,7 @@ wh_led wh_run_led(const wh_run_config *config, const wh_run *run, uint32_t ticks
     const wh_real setpoint = run->drive.setpoint_radps;
     const bool opens = run->phase == WH_PHASE_SPIN_UP;
     const wh_real closed_s = wh_rig_since_s(run->closed_ticks, ticks);
-    const bool starts = opens || (led > setpoint && closed_s < START_S);
+    const bool starts = opens || (led > setpoint && closed_s < WH_RUN_START_S);
     const wh_real lead = starts ? led : setpoint;
     return (wh_led){.lead_radps = lead,
                     .base_radps = lead > run->left_radps ? lead : run->left_radps,
@@ -209,6 +207,7 @@ bool wh_run_step(wh_run *run, const wh_run_scene *scene) {
 #define ITEM(name, words) WH_WORDS(words) "\0"
 
 const char *wh_phase_text(wh_rig_phase phase) {
-    static const char words[] WH_WORD_LIST = WH_PHASE_ROWS(ITEM) WH_WORDS("unknown phase") "\0";
+    static const char words[] WH_WORD_LIST =
+        WH_PHASE_ROWS(ITEM) WH_WORDS("brake") "\0" WH_WORDS("unknown phase") "\0";
     return wh_words_item(words, phase);
 }

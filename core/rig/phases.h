@@ -115,6 +115,9 @@ WH_INLINE bool wh_run_is_closed(const wh_run *run) {
     return run->phase >= WH_PHASE_RAMP && run->phase <= WH_PHASE_RAMP_DOWN;
 }
 
+/* The rotor that is taken over gets faster for so long. */
+#define WH_RUN_START_S WH_R(1.5)
+
 /* Where the rotor is led at a pulse's time, for the guard. */
 typedef struct wh_led {
     wh_real lead_radps; /* to here, */
@@ -126,7 +129,8 @@ wh_led wh_run_led(const wh_run_config *config, const wh_run *run, uint32_t ticks
 /* The voltage that a steady speed takes. */
 wh_real wh_run_needs_V(const wh_run_config *config, wh_real speed_radps);
 
-/* The phase in words, for consoles, as WH_WORDS() has them (core/packed_words.h). */
+/* The phase in words, for consoles, as WH_WORDS() has them (core/packed_words.h). WH_PHASES is a motor that brakes when it is
+ * off (wh_rig_shown_stage()). */
 const char *wh_phase_text(wh_rig_phase phase);
 
 #ifdef __cplusplus

@@ -14,17 +14,6 @@ void wh_rig_slots(wh_rig_config *config, wh_real lead_rad) {
     config->observer.mark_rad[1] = config->measure.rotor.mark_rad[1];
 }
 
-WH_CALLED unsigned wh_rig_stage(const wh_rig *rig) {
-    return rig->run.phase == WH_PHASE_NONE ? (unsigned)rig->state
-                                           : WH_RIG_STAGE_OF_PHASE + (unsigned)rig->run.phase;
-}
-
-WH_CALLED const char *wh_rig_stage_text(unsigned stage) {
-    return stage < WH_RIG_STAGE_OF_PHASE
-               ? wh_life_text((wh_life)stage)
-               : wh_phase_text((wh_rig_phase)(stage - WH_RIG_STAGE_OF_PHASE));
-}
-
 static void enter(wh_rig *rig, wh_life state, uint32_t now_ticks) {
     rig->state = state;
     rig->since_ticks = now_ticks;
@@ -74,8 +63,12 @@ void wh_rig_pulse(const wh_rig_config *config, wh_rig *rig, unsigned sensor, uin
         wh_expect_slower(&rig->run, &rig->pulses, !open, sensor, ticks);
     }
     wh_expect_pulses(&config->guard, &config->run, &rig->run, &rig->pulses, open, ticks);
-    if (rig->run.phase == WH_PHASE_TARE && sensor < WH_SPEED_SENSORS) {
-        rig->run.tare_pulses[sensor]++;
+    if (sensor < WH_SPEED_SENSORS) {
+        rig->heard_ticks[sensor][1] = rig->heard_ticks[sensor][0];
+        rig->heard_ticks[sensor][0] = ticks;
+        if (rig->run.phase == WH_PHASE_TARE) {
+            rig->run.tare_pulses[sensor]++;
+        }
     }
     wh_pulses_take(&rig->pulses, sensor, ticks);
     if (WH_RIG_SWINGS && !wh_run_drives(&rig->run)) {
@@ -126,6 +119,9 @@ static void begin_run(const wh_rig_config *config, wh_rig *rig, wh_real target_r
     choose_feed(config, rig, target_radps);
     rig->guard.lost_before = 0;
     rig->guard.rejected_before = 0;
+    rig->has_result = false;
+    rig->ended = WH_END_NONE;
+    rig->runs++;
     wh_run_start(&rig->run, target_radps, now_ticks);
 }
 
@@ -136,6 +132,21 @@ static wh_real fastest_radps(const wh_rig_config *config, const wh_rig *rig, uin
                                   ? wh_run_led(&config->run, &rig->run, now_ticks).base_radps
                                   : WH_R(0.0);
     return led_radps > turn_radps ? led_radps : turn_radps;
+}
+
+static wh_rig_end stopped_by(const wh_rig_inputs *inputs, wh_rig_event event) {
+    if (event == WH_EVENT_HOST_LOST) {
+        return WH_END_HOST_LOST;
+    }
+    if (!inputs->stop_pressed) {
+        return WH_END_STOP;
+    }
+    switch (inputs->stop_by) {
+    case WH_STOP_BY_INPUT: return WH_END_STOP_INPUT;
+    case WH_STOP_BY_DRIVE: return WH_END_DRIVE_FAULT;
+    case WH_STOP_BY_EITHER: break;
+    }
+    return WH_END_STOP_OR_FAULT;
 }
 
 /* The state is left for `next`, or is begun anew. */
@@ -151,12 +162,18 @@ static void follow(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs
         break;
     case WH_EVENT_STOP:
     case WH_EVENT_HOST_LOST:
-        rig->brakes = config->stop_brakes;
+        /* a stop never puts the enable on */
+        rig->brakes = config->stop_brakes && (wh_run_drives(&rig->run) || brakes(rig));
         if (moves && rig->run.phase != WH_PHASE_OFF) {
+            rig->ended = stopped_by(inputs, order->event);
             wh_run_off(&rig->run, fastest_radps(config, rig, now), now);
         }
         break;
     case WH_EVENT_TRIP:
+        rig->guard.trip = wh_rig_cause(config, rig, now);
+        if (moves && rig->run.phase != WH_PHASE_OFF) {
+            rig->ended = WH_END_TRIP;
+        }
         trip(rig, inputs);
         wh_run_off(&rig->run, rig->pulses.speed.turn_radps, now);
         rig->run.phase = WH_PHASE_NONE;
@@ -168,7 +185,7 @@ static void follow(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs
         rig->record = (wh_trip_record){.trip = WH_TRIP_NONE}; /* a reset finds none */
         break;
     case WH_EVENT_ARM: rig->pulses_before = rig->pulses_ever; break;
-    case WH_EVENT_DONE:
+    case WH_EVENT_DONE: rig->ended = WH_END_DONE; break;
     case WH_EVENTS: break;
     }
     if (next != rig->state) {
@@ -309,7 +326,8 @@ static void wait_for_rest(const wh_rig_config *config, wh_rig *rig, const wh_rig
     const wh_real passed_s =
         wh_rig_since_s(tripped ? rig->since_ticks : rig->run.since_ticks, inputs->now_ticks);
     const bool late = passed_s > (tripped ? config->tripped_max_s : config->rest_max_s);
-    const bool blind = rig->guard.trip == WH_TRIP_PULSES || rig->guard.trip == WH_TRIP_STALLED;
+    const bool blind = rig->guard.trip == WH_TRIP_PULSES || rig->guard.trip == WH_TRIP_STALLED ||
+                       rig->guard.trip == WH_TRIP_ORDER;
     const bool silent = rig->guard.quiet && passed_s >= config->guard.rest_s;
     if (tripped) {
         if (silent && (!blind || passed_s > config->rest_max_s)) {
@@ -350,6 +368,9 @@ static void live(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs *
     if (wh_run_step(&rig->run, &scene)) {
         rig->result = rig->measure.result;
         rig->has_result = true;
+        rig->settings = config->settings;
+        rig->result_s = 0;
+        rig->result_ticks = inputs->now_ticks;
         finds(config, rig, inputs, WH_EVENT_DONE);
     }
 }
@@ -381,6 +402,14 @@ static void measure(const wh_rig_config *config, wh_rig *rig, uint32_t now_ticks
     }
     rig->busy = false;
     rig->loads = 0;
+}
+
+/* Before the timer wraps. */
+static void age(wh_rig *rig, uint32_t now_ticks) {
+    if (now_ticks - rig->result_ticks >= WH_RIG_TICKS_PER_S) {
+        rig->result_ticks += WH_RIG_TICKS_PER_S;
+        rig->result_s++;
+    }
 }
 
 /* Motor off: it swings out after a run, or has, and what that tells is worked on. */
@@ -426,8 +455,11 @@ wh_rig_command wh_rig_step(const wh_rig_config *config, wh_rig *rig, const wh_ri
     }
     measure(config, rig, inputs->now_ticks);
     follow_trip(config, rig, inputs);
-    if (WH_RIG_SWINGS && !wh_run_drives(&rig->run)) {
-        swing(config, rig);
+    if (!wh_run_drives(&rig->run)) {
+        age(rig, inputs->now_ticks);
+        if (WH_RIG_SWINGS) {
+            swing(config, rig);
+        }
     }
     rig->command = command_of(config, rig, inputs);
     return rig->command;

@@ -54,6 +54,8 @@ typedef struct wh_rig_config {
     /* a run that comes to its end coasts in any case, and its swing tells where the sensors stand; `stop` may brake */
     bool swings;
     bool host_loss_stops; /* a run ends when who gives orders is gone, else it goes on */
+    uint32_t host_max_s;  /* gone: nothing heard for so long; 0: never (the console's) */
+    uint32_t settings;    /* hash of the settings that it has (core/station/conf.h); 0: none */
 } wh_rig_config;
 
 typedef enum wh_motor_way { WH_MOTOR_COASTS, WH_MOTOR_BRAKES, WH_MOTOR_DRIVES } wh_motor_way;
@@ -75,7 +77,8 @@ typedef struct wh_rig {
     bool rested;   /* motor off, and the rotor rests, or will not: all that can be done is done */
     /* it rests: no pulses; where those cannot be believed, after all the time it may take */
     bool at_rest;
-    bool has_result;
+    bool has_result; /* of run number `runs`: from `start` to the end of its record there is none */
+    wh_rig_end ended;   /* the run */
     wh_rig_event asked; /* the last order that was taken, */
     wh_refusal answer;  /* and what became of it */
     wh_run run;
@@ -85,6 +88,12 @@ typedef struct wh_rig {
     uint32_t observed;    /* pulses that the observer has seen */
     uint32_t pulses_ever;
     uint32_t pulses_before; /* `arm` */
+    uint32_t runs;          /* starts since the reset */
+    uint32_t settings;      /* config->settings of the result, */
+    uint32_t result_s;      /* whole seconds since it was through, up to */
+    uint32_t result_ticks;  /* this time */
+    /* of each sensor the last pulse and the one before, whatever became of them */
+    uint32_t heard_ticks[WH_SPEED_SENSORS][2];
     wh_feed feed;
     wh_rig_command command; /* since the last step */
     wh_pulses pulses;
@@ -92,7 +101,7 @@ typedef struct wh_rig {
     unsigned orders;
     wh_rig_order order[WH_RIG_ORDERS_MOST];
     wh_observer observer;
-    wh_rig_result result; /* of the last run that was through; kept until the next is */
+    wh_rig_result result; /* when has_result; kept until the next start */
     wh_swing swing;       /* of the last run that ended in one: swing.result */
     wh_measure measure;
 } wh_rig;
@@ -102,6 +111,9 @@ typedef struct wh_rig {
 #define wh_rig_standard WH_NAME(wh_rig_standard)
 extern const wh_rig_config wh_rig_standard;
 
+#define wh_rig_motor_of WH_NAME(wh_rig_motor_of)
+#define wh_rig_use_motor WH_NAME(wh_rig_use_motor)
+#define wh_rig_bound_pulses WH_NAME(wh_rig_bound_pulses)
 #define wh_rig_slots WH_NAME(wh_rig_slots)
 #define wh_rig_start WH_NAME(wh_rig_start)
 #define wh_rig_post WH_NAME(wh_rig_post)
@@ -111,16 +123,52 @@ extern const wh_rig_config wh_rig_standard;
 #define wh_order_refused WH_NAME(wh_order_refused)
 #define wh_rig_stage WH_NAME(wh_rig_stage)
 #define wh_rig_stage_text WH_NAME(wh_rig_stage_text)
+#define wh_rig_shown_stage WH_NAME(wh_rig_shown_stage)
+#define wh_rig_result_age_s WH_NAME(wh_rig_result_age_s)
+#define wh_rig_speed WH_NAME(wh_rig_speed)
+#define wh_rig_cause WH_NAME(wh_rig_cause)
 
 /* Where the rig is, as one number for consoles and records: of a run WH_RIG_STAGE_OF_PHASE + its phase, else the state. */
 #define WH_RIG_STAGE_OF_PHASE 8U
 unsigned wh_rig_stage(const wh_rig *rig);
 
-/* It in words. */
+/* The same for consoles and telemetry, where a motor that brakes has a number of its own. */
+#define WH_RIG_STAGE_BRAKES (WH_RIG_STAGE_OF_PHASE + (unsigned)WH_PHASES)
+#define WH_RIG_STAGES (WH_RIG_STAGE_BRAKES + 1U)
+unsigned wh_rig_shown_stage(const wh_rig *rig);
+
+/* Either in words. */
 const char *wh_rig_stage_text(unsigned stage);
+
+/* The mean speed of the last whole turn, or 0 at rest. False: it is not known, as before the first turn, or of a rotor that
+ * swings: its pulses do not alternate. */
+bool wh_rig_speed(const wh_rig *rig, uint32_t now_ticks, wh_real *speed_radps);
+
+/* Seconds since the result was through. */
+uint32_t wh_rig_result_age_s(const wh_rig *rig, uint32_t now_ticks);
+
+/* Of the guard's trip, in the step that trips: the same, or its likely cause. Part of wh_rig_step(). */
+wh_trip wh_rig_cause(const wh_rig_config *config, const wh_rig *rig, uint32_t now_ticks);
 
 /* Sensors on the loading-train axis and a quarter turn on, whose pulses come with the arms so far short. */
 void wh_rig_slots(wh_rig_config *config, wh_real lead_rad);
+
+/* A brushed motor's torque line: each > 0. */
+typedef struct wh_rig_motor {
+    wh_real stall_Nm;      /* torque at standstill and the rated voltage */
+    wh_real no_load_radps; /* speed without load at the rated voltage */
+    wh_real rated_V;
+} wh_rig_motor;
+
+/* The motor that the configuration is for. */
+void wh_rig_motor_of(const wh_rig_config *config, wh_rig_motor *motor);
+
+/* Scale everything that depends on the motor from the configuration's motor to this one: gains, spin-up, supply, bounds of
+ * the guard, damping, feed-forward. The observer's scene must have the configuration's motor: call it once. */
+void wh_rig_use_motor(wh_rig_config *config, const wh_rig_motor *motor);
+
+/* No pulse comes faster than at the speed without load at the highest supply: again after another guard.supply_max_V. */
+void wh_rig_bound_pulses(wh_rig_config *config);
 
 /* Idle, motor off, whatever the rotor does; or tripped, if `before` (may be NULL) is the record of a trip. */
 void wh_rig_start(const wh_rig_config *config, wh_rig *rig, uint32_t now_ticks,

@@ -48,8 +48,8 @@ const wh_rig_config wh_rig_standard = {
               /* a tenth of what the masses' force moves it by */
               .load_still_kgm = WH_R(0.1) * WH_RIG_MASS_MOMENT_KGM,
               .stuck_pulses = 3, /* a whole turn from the first to the last */
-              .supply_min_V = WH_R(0.45) * WH_RIG_RATED_V,
-              .supply_max_V = WH_R(1.55) * WH_RIG_RATED_V,
+              .supply_min_V = WH_RIG_SUPPLY_LEAST * WH_RIG_RATED_V,
+              .supply_max_V = WH_RIG_SUPPLY_MOST * WH_RIG_RATED_V,
               .rest_s = WH_R(1.5),
               /* half of 2 pi c/I, of six times the inertia */
               .braked_radps =
@@ -84,9 +84,72 @@ const wh_rig_config wh_rig_standard = {
               .wide_rad = WH_R(0.25) / WH_RIG_DEG_PER_RAD,
               .off_rad = WH_R(0.3) / WH_RIG_DEG_PER_RAD,
               .swings_least = 5},
-    .impossible_radps = WH_RIG_IMPOSSIBLE_RPM * WH_RIG_RADPS_PER_RPM,
+    .impossible_radps = WH_RIG_IMPOSSIBLE_RADPS,
     .armed_max_s = WH_R(60.0),
     .rest_max_s = WH_R(120.0),
     .tripped_max_s = WH_R(20.0),
     .host_loss_stops = true,
 };
+
+/* Voltage at which the motor gives this torque at this speed. */
+static wh_real volts_for(const wh_rig_motor *motor, wh_real torque_Nm, wh_real speed_radps) {
+    return motor->rated_V * (torque_Nm / motor->stall_Nm + speed_radps / motor->no_load_radps);
+}
+
+static wh_real torque_at(const wh_rig_motor *motor, wh_real volts, wh_real speed_radps) {
+    return motor->stall_Nm * (volts / motor->rated_V - speed_radps / motor->no_load_radps);
+}
+
+void wh_rig_motor_of(const wh_rig_config *config, wh_rig_motor *motor) {
+    *motor = (wh_rig_motor){.stall_Nm = config->feed.stall_Nm,
+                            .no_load_radps = config->run.no_load_radps,
+                            .rated_V = config->run.rated_V};
+}
+
+void wh_rig_bound_pulses(wh_rig_config *config) {
+    const wh_run_config *run = &config->run;
+    config->impossible_radps = run->no_load_radps * config->guard.supply_max_V / run->rated_V;
+    config->observer.fastest_radps = config->impossible_radps;
+}
+
+void wh_rig_use_motor(wh_rig_config *config, const wh_rig_motor *motor) {
+    wh_run_config *run = &config->run;
+    wh_rotor_config *rotor = &config->measure.rotor;
+    wh_observer_config *observer = &config->observer;
+    wh_rig_motor before;
+    wh_rig_motor_of(config, &before);
+    const wh_real volts = motor->rated_V / before.rated_V;
+    const wh_real per_torque = volts * before.stall_Nm / motor->stall_Nm;
+    const wh_real damping_Nms = rotor->damping_Nms + motor->stall_Nm / motor->no_load_radps -
+                                before.stall_Nm / before.no_load_radps;
+    /* the loop's crossover stays, and its zero cancels this rotor's lag */
+    run->drive.proportional_V_per_radps *= per_torque;
+    run->drive.integral_V_per_rad *= per_torque * damping_Nms / rotor->damping_Nms;
+    run->drag_V *= per_torque;
+    /* from standstill to where the loop is closed the torque is nowhere more than it was */
+    const wh_real over = run->take_over_radps;
+    const wh_real at_rest =
+        volts_for(motor, torque_at(&before, run->spin_up_V, WH_R(0.0)), WH_R(0.0));
+    const wh_real at_over = volts_for(motor, torque_at(&before, run->spin_up_V, over), over);
+    run->spin_up_V = at_rest < at_over ? at_rest : at_over;
+    run->spin_up_V_per_s *= volts;
+    config->guard.supply_min_V *= volts;
+    config->guard.supply_max_V *= volts;
+    config->guard.braked_radps *= damping_Nms / rotor->damping_Nms;
+    rotor->damping_Nms = damping_Nms;
+    observer->per_drive = motor->stall_Nm / observer->stall_Nm;
+    observer->per_radps =
+        WH_R(1.0) / observer->no_load_radps - observer->per_drive / motor->no_load_radps;
+    observer->no_load_radps = motor->no_load_radps;
+    /* the stage gives no negative voltage: what is fed is cut off at the speed where the motor's own voltage is less */
+    config->feed.most *= before.stall_Nm / motor->stall_Nm;
+    const wh_real slowest = config->guard.target_min_fed_radps * before.stall_Nm / motor->stall_Nm *
+                            motor->no_load_radps / before.no_load_radps;
+    if (slowest > config->guard.target_min_fed_radps) {
+        config->guard.target_min_fed_radps = slowest;
+    }
+    config->feed.stall_Nm = motor->stall_Nm;
+    run->no_load_radps = motor->no_load_radps;
+    run->rated_V = motor->rated_V;
+    wh_rig_bound_pulses(config);
+}

@@ -28,6 +28,9 @@ static const wh_real per_unit[] = {WH_CONF_SCALED_ROWS(UNIT)};
 static const wh_conf_row rows[] ROWS_KEPT = {WH_CONF_ROWS(ROW)};
 #undef ROW
 
+/* Of the motor's line, that the damping is at least: who has measured it may be off by some. */
+#define LINE_PART WH_R(0.9)
+
 #define ENTRY_BYTES 5U /* a setting's number, and its value */
 _Static_assert(WH_CONF_COUNT *ENTRY_BYTES <= WH_STORE_PAYLOAD_MOST, "all settings fit into a slot");
 
@@ -109,6 +112,28 @@ static void put(wh_rig_config *c, wh_conf_id id, wh_real value) {
     }
 }
 
+/* --- its range ---------------------------------------------------------------------------------------- */
+
+/* As memory and tapes have it. */
+static wh_real as_kept(wh_real value) { return (wh_real)(float)value; }
+
+/* What this program is built without. */
+static bool is_absent(wh_conf_id id, wh_real value) {
+    return is_on(value) &&
+           ((id == WH_CONF_feeds && !WH_RIG_FEEDS) || (id == WH_CONF_swings && !WH_RIG_SWINGS));
+}
+
+/* May this setting have this value? */
+static wh_station_error fits(wh_conf_id id, wh_real value) {
+    const wh_conf_row *row = ROW(id);
+    const wh_real kept = as_kept(value);
+    if (!(kept >= as_kept(row->least)) || !(kept <= as_kept(row->most)) ||
+        ((wh_conf_kind)row->kind != WH_CONF_REAL && value != (wh_real)(int32_t)value)) {
+        return WH_STATION_CONF_RANGE;
+    }
+    return is_absent(id, value) ? WH_STATION_NOT_HERE : WH_STATION_FINE;
+}
+
 /* --- into the rig's configuration --------------------------------------------------------------------- */
 
 static bool is_set(const wh_conf *conf, wh_conf_id id) {
@@ -142,21 +167,94 @@ static void put_cell(const wh_conf *conf, wh_rig_config *c) {
     c->measure.cell.newton_per_count = is_on(conf->value[WH_CONF_cell_reversed]) ? -scale : scale;
 }
 
+/* --- the motor ------------------------------------------------------------------------------------------- */
+
+static bool has_motor(const wh_conf *conf) {
+    return is_set(conf, WH_CONF_no_load_speed) || is_set(conf, WH_CONF_rated_voltage) ||
+           is_set(conf, WH_CONF_stall_torque);
+}
+
+/* The defaults of these follow from the motor. */
+static const uint8_t of_motor[] = {WH_CONF_damping, WH_CONF_gain,         WH_CONF_gain_integral,
+                                   WH_CONF_spin_up, WH_CONF_supply_least, WH_CONF_supply_most};
+
+/* The program's own configuration, with this motor. */
+static void begin_with_motor(wh_conf *conf) {
+    wh_rig_config *c = conf->config;
+    conf->own(c);
+    if (has_motor(conf)) {
+        wh_rig_motor motor;
+        wh_rig_motor_of(c, &motor);
+        if (is_set(conf, WH_CONF_no_load_speed)) {
+            motor.no_load_radps = conf->value[WH_CONF_no_load_speed] / per_unit[WH_CONF_RPM];
+        }
+        if (is_set(conf, WH_CONF_rated_voltage)) {
+            motor.rated_V = conf->value[WH_CONF_rated_voltage];
+        }
+        if (is_set(conf, WH_CONF_stall_torque)) {
+            motor.stall_Nm = conf->value[WH_CONF_stall_torque];
+        }
+        wh_rig_use_motor(c, &motor);
+    }
+    for (unsigned i = 0; i < sizeof of_motor; i++) {
+        const wh_conf_id id = (wh_conf_id)of_motor[i];
+        const wh_real standard = as_kept(value_of(c, id));
+        if (!is_set(conf, id)) {
+            conf->value[id] = standard;
+        }
+        conf->standard[id] = standard;
+    }
+}
+
+/* It lifts the arms, brings the rotor up to the largest set-point at its rated voltage, and is slowed down by no less than its own
+ * line. */
+static bool motor_goes(const wh_conf *conf) {
+    const wh_real *value = conf->value;
+    const wh_rig_config *c = conf->config;
+    const wh_real line_Nms = c->feed.stall_Nm / c->run.no_load_radps;
+    for (unsigned i = 0; i < sizeof of_motor; i++) {
+        if (fits((wh_conf_id)of_motor[i], value[of_motor[i]]) != WH_STATION_FINE) {
+            return false;
+        }
+    }
+    return c->feed.stall_Nm > value[WH_CONF_mass_moment] * value[WH_CONF_gravity] &&
+           wh_run_needs_V(&c->run, value[WH_CONF_speed_most] / per_unit[WH_CONF_RPM]) <=
+               c->run.rated_V &&
+           value[WH_CONF_spin_up] <= c->run.rated_V &&
+           value[WH_CONF_supply_least] < c->run.rated_V &&
+           value[WH_CONF_supply_most] > c->run.rated_V &&
+           value[WH_CONF_damping] >= LINE_PART * line_Nms;
+}
+
+/* A different set of settings has a different one. */
+static uint32_t hash(const wh_conf *conf) {
+    uint32_t crc = 0;
+    for (unsigned id = 0; id < WH_CONF_COUNT; id++) {
+        uint8_t bytes[ENTRY_BYTES];
+        wh_bytes entry = {.to = bytes, .room = sizeof bytes};
+        wh_bytes_put(&entry, ROW(id)->number, 1);
+        wh_bytes_put_float(&entry, (float)conf->value[id]);
+        crc = wh_frame_crc(crc, bytes, sizeof bytes);
+    }
+    return crc;
+}
+
 static bool go_together(const wh_conf *conf) {
     const wh_real *value = conf->value;
-    return value[WH_CONF_speed_least] < value[WH_CONF_speed_most] &&
+    return (!has_motor(conf) || motor_goes(conf)) &&
+           value[WH_CONF_speed_least] < value[WH_CONF_speed_most] &&
            value[WH_CONF_speed_most] < value[WH_CONF_speed_limit] &&
            value[WH_CONF_supply_least] < value[WH_CONF_supply_most];
 }
 
-/* False: they do not go together, and nothing has happened. */
-static bool renew(const wh_conf *conf) {
+/* False: they do not go together. Then settings that do are to be put back, and this called again. */
+static bool renew(wh_conf *conf) {
     wh_rig_config *c = conf->config;
     bool goes[WH_CONF_CELL + 1U] = {false};
+    begin_with_motor(conf);
     if (!go_together(conf)) {
         return false;
     }
-    conf->own(c);
     for (unsigned id = 0; id < WH_CONF_COUNT; id++) {
         if (is_set(conf, (wh_conf_id)id)) {
             put(c, (wh_conf_id)id, conf->value[id]);
@@ -172,30 +270,14 @@ static bool renew(const wh_conf *conf) {
     if (goes[WH_CONF_CELL]) {
         put_cell(conf, c);
     }
+    if (is_set(conf, WH_CONF_supply_most)) {
+        wh_rig_bound_pulses(c);
+    }
+    c->settings = hash(conf);
     return true;
 }
 
 /* --- what may be set ----------------------------------------------------------------------------------- */
-
-/* As memory and tapes have it. */
-static wh_real as_kept(wh_real value) { return (wh_real)(float)value; }
-
-/* What this program is built without. */
-static bool is_absent(wh_conf_id id, wh_real value) {
-    return is_on(value) &&
-           ((id == WH_CONF_feeds && !WH_RIG_FEEDS) || (id == WH_CONF_swings && !WH_RIG_SWINGS));
-}
-
-/* May this setting have this value? */
-static wh_station_error fits(wh_conf_id id, wh_real value) {
-    const wh_conf_row *row = ROW(id);
-    const wh_real kept = as_kept(value);
-    if (!(kept >= as_kept(row->least)) || !(kept <= as_kept(row->most)) ||
-        ((wh_conf_kind)row->kind != WH_CONF_REAL && value != (wh_real)(int32_t)value)) {
-        return WH_STATION_CONF_RANGE;
-    }
-    return is_absent(id, value) ? WH_STATION_NOT_HERE : WH_STATION_FINE;
-}
 
 wh_station_error wh_conf_set(wh_conf *conf, wh_conf_id id, wh_real value) {
     const wh_real before = conf->value[id];
@@ -206,6 +288,7 @@ wh_station_error wh_conf_set(wh_conf *conf, wh_conf_id id, wh_real value) {
     conf->value[id] = as_kept(value);
     if (!renew(conf)) {
         conf->value[id] = before;
+        (void)renew(conf);
         return WH_STATION_CONF_AGAINST;
     }
     return WH_STATION_FINE;

@@ -30,6 +30,7 @@
     X(KGM, "kgm", 1.0) \
     X(KGM2, "kgm2", 1.0) \
     X(NMS, "Nms", 1.0) \
+    X(NM, "Nm", 1.0) \
     X(MPS2, "mps2", 1.0)
 
 #define WH_CONF_ROWS(X) \
@@ -103,6 +104,13 @@
       "a run, when the host is lost") \
     X(feeds, 35, WH_CONF_FEEDS, ONE, 0.0, 2.0, ALONE, feeds, "gravity's torque to the motor") \
     X(yields, 36, WH_CONF_REAL, KGM2, 0.0, 10.0, ALONE, measure.rotor.yields_kgm2, \
-      "by which a mount that gives way lets the inertia vary; with gravity 0")
+      "by which a mount that gives way lets the inertia vary; with gravity 0") \
+    X(no_load_speed, 45, WH_CONF_REAL, RPM, 200.0, 2000.0, ALONE, run.no_load_radps, \
+      "the motor's, without load at the rated voltage") \
+    X(rated_voltage, 46, WH_CONF_REAL, VOLT, 3.0, 60.0, ALONE, run.rated_V, "the motor's") \
+    X(stall_torque, 47, WH_CONF_REAL, NM, 0.05, 50.0, ALONE, feed.stall_Nm, \
+      "the motor's, at standstill and the rated voltage") \
+    X(host, 48, WH_CONF_WHOLE, SECOND, 0.0, 3600.0, ALONE, host_max_s, \
+      "it is lost when nothing is heard for so long; 0: never")
 
 #endif

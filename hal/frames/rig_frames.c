@@ -293,6 +293,8 @@ bool hal_watchdog_has_cut(void) { return hal_turns_is_cut(&plant); }
 
 bool hal_stop_pressed(void) { return stop_pressed || !stop_heard; }
 
+hal_stop_source hal_stop_source_now(void) { return HAL_STOP_INPUT; }
+
 bool hal_stop_heard(void) { return stop_heard; }
 
 _Static_assert(sizeof plant.reset.remembered >= HAL_REMEMBER_BYTES, "the line takes them");

@@ -110,6 +110,8 @@ bool hal_watchdog_has_cut(void) { return board_rig.cut; }
 
 bool hal_stop_pressed(void) { return board_rig.stop_pressed; }
 
+hal_stop_source hal_stop_source_now(void) { return HAL_STOP_INPUT; }
+
 bool hal_stop_heard(void) { return true; }
 
 hal_reset hal_reset_cause(void) { return board_rig.cause; }

@@ -39,7 +39,7 @@ wh_status fed_rotor_start(fed_rotor *fed, wh_real speed_rpm) {
     fed->rotor.speed_radps = speed;
     fed->rotor.angle_rad = WH_R(3.0);
     fed->voltage = voltage_of(&fed->kind, speed);
-    wh_speed_start(&fed->speed, WH_RIG_IMPOSSIBLE_RPM * RPM);
+    wh_speed_start(&fed->speed, WH_RIG_IMPOSSIBLE_RADPS);
     wh_drive_start(&fed->drive, speed, WH_RIG_RATED_V * fed->voltage);
     fed_rotor_count(fed);
     return wh_observer_start(&fed->observing, &fed->observer, fed->rotor.ticks);

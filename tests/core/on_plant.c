@@ -35,6 +35,7 @@ void plant_control(on_plant *on) {
     const wh_rig_inputs inputs = {.now_ticks = hal_clock_ticks(),
                                   .supply_V = hal_motor_supply_V(),
                                   .stop_pressed = stop_was_pressed(hal_watchdog_has_cut()),
+                                  .stop_by = stop_was_by(),
                                   .watchdog_has_cut = hal_watchdog_has_cut()};
     on->command = wh_rig_step(&on->config, &on->rig, &inputs);
     obey(&on->command, &on->drives);

@@ -44,6 +44,10 @@ static wh_real acceleration(const rotor_kind *kind, wh_real drive, wh_real angle
     return torque / kind->inertia_kgm2;
 }
 
+wh_real rotor_acceleration_radps2(const rotor_kind *kind, const rotor_state *rotor, wh_real drive) {
+    return acceleration(kind, drive, rotor->angle_rad, rotor->speed_radps);
+}
+
 /* Which sensor was passed between two angles less than half a turn apart? */
 static void watch(const rotor_kind *kind, rotor_state *rotor, wh_real from_rad, wh_real way_rad) {
     for (unsigned sensor = 0; sensor < 2; sensor++) {

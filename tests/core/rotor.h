@@ -40,6 +40,9 @@ rotor_kind rotor_nominal(void);
 /* Go on for so many ticks, a multiple of 500, with the voltage `drive`, a fraction of the rated one. */
 void rotor_turn(const rotor_kind *kind, rotor_state *rotor, wh_real drive, uint32_t ticks);
 
+/* Its acceleration now, at this voltage. */
+wh_real rotor_acceleration_radps2(const rotor_kind *kind, const rotor_state *rotor, wh_real drive);
+
 /* angle_rad less `than_rad`, -pi ... pi. */
 wh_real rotor_ahead_rad(const rotor_state *rotor, wh_real than_rad);
 

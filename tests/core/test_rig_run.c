@@ -107,7 +107,7 @@ static void test_sensors_in_the_wrong_order_trip(void) {
     static const wh_real targets_rpm[] = {WH_R(170.0), WH_R(240.0), WH_R(330.0)};
     for (unsigned i = 0; i < 3; i++) {
         run(targets_rpm[i], (even_failure){.in = EVEN_NEVER, .swapped = true});
-        check_trip(WH_TRIP_PULSES);
+        check_trip(WH_TRIP_ORDER);
     }
 }
 

@@ -50,7 +50,7 @@ static void test_the_run(void) {
         {"armed at most, s", wh_rig_standard.armed_max_s, 60},
         {"to rest at most, s", wh_rig_standard.rest_max_s, 120},
         {"and tripped, s", wh_rig_standard.tripped_max_s, 20},
-        {"impossible beyond, rpm", RPM(wh_rig_standard.impossible_radps), 800}};
+        {"impossible beyond, rpm", RPM(wh_rig_standard.impossible_radps), 930}};
     CHECK(settings);
     TEST_ASSERT_TRUE(!wh_rig_standard.stop_brakes && wh_rig_standard.host_loss_stops);
     TEST_ASSERT_TRUE(wh_rig_standard.feeds == WH_FEED_SLOW);
@@ -134,7 +134,7 @@ static void test_observer_and_feed(void) {
         {"trusted after marks", COUNT(observer->trusted_marks), 3},
         {"lost beyond, rad", observer->lost_rad, 2},
         {"slowest, rpm", RPM(observer->slowest_radps), 40},
-        {"fastest, rpm", RPM(observer->fastest_radps), 800},
+        {"fastest, rpm", RPM(observer->fastest_radps), 930},
         {"silence, us", COUNT(observer->silence_ticks), 1500000},
         {"lead of what is fed, us", COUNT(feed->lead_ticks), 3000},
         {"fading in, s", feed->fade_s, 0.5},
