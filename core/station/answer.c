@@ -46,6 +46,7 @@ static void add_value(wh_text *text, char as, const wh_value *value) {
     case 's': add_words(text, value->word, ' '); break;
     case 'g': wh_text_add(text, value->count != 0 ? "good" : "bad"); break;
     case 'c': wh_text_add_unsigned(text, value->count); break;
+    case 'x': wh_text_add_hex(text, value->count, 8); break;
     case 'e': add_exact(text, value->number); break;
     }
 }

@@ -25,6 +25,7 @@ typedef union wh_value {
  *     @w           a word, to the end of the list's item that it is: a blank in it as _
  *     @s           words
  *     @c           a count
+ *     @x           the same in eight hexadecimal digits
  *     @g           good or bad: a count of 1 or 0
  *     @0 ... @9    a number, with so many decimals
  *     @e           a number to the seventh digit, as it can be typed, without zeros at the end */

@@ -15,7 +15,7 @@ extern "C" {
     X(WH_STATION_LINE, 101, "the line is too long, or has what is no character") \
     X(WH_STATION_WORDS, 102, "too many words") \
     X(WH_STATION_NO_NUMBER, 103, "a number is wanted, such as 330 or 330.5") \
-    X(WH_STATION_NO_RESULT, 104, "no run has given a result yet") \
+    X(WH_STATION_NO_RESULT, 104, "the last run has given no result") \
     X(WH_STATION_ON_OFF, 105, "on or off is wanted") \
     X(WH_STATION_SECONDS, 106, "0 or a number of seconds from 1 to 3600 is wanted") \
     X(WH_STATION_BUSY, 107, "only while the rig is idle") \
@@ -23,7 +23,7 @@ extern "C" {
     X(WH_STATION_CONF_NONE, 109, "no such setting; conf list has them") \
     X(WH_STATION_CONF_VALUE, 110, "no value for this setting; conf get tells its type") \
     X(WH_STATION_CONF_RANGE, 111, "outside its range; conf get tells it") \
-    X(WH_STATION_CONF_AGAINST, 112, "it goes against another setting: least, most and limit") \
+    X(WH_STATION_CONF_AGAINST, 112, "it goes against another setting: least, most and limit, or the motor") \
     X(WH_STATION_CONF_FAILED, 113, "the memory for settings failed; what was saved before stays") \
     X(WH_STATION_NOT_HERE, 114, "this program has none") \
     X(WH_STATION_TEL_HOW, 115, "no such words; help tel has them") \

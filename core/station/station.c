@@ -8,7 +8,7 @@
 #include "tel_answer.h"
 
 #define RPM_PER_RADPS (WH_R(1.0) / WH_RIG_RADPS_PER_RPM)
-#define ANSWER_BYTES 240U
+#define ANSWER_BYTES 300U
 #define ESCAPE_KEY '\x1b'
 #define HOST_MOST_S WH_R(3600.0)
 #define DIALOGUE 1U /* a program at the other end asks `id` for it */
@@ -80,30 +80,62 @@ static unsigned do_set(request *r) { return order_speed(r, WH_EVENT_SET); }
 static unsigned do_stop(request *r) { return order(r, WH_EVENT_STOP, WH_R(0.0)); }
 static unsigned do_clear(request *r) { return order(r, WH_EVENT_CLEAR, WH_R(0.0)); }
 
+/* Without wh_station_see() there is no clock, and an age is that of the last step with the motor off. */
+static uint32_t now_ticks(const request *r) {
+    return r->station->seen != NULL ? r->station->seen->inputs.now_ticks : r->rig->result_ticks;
+}
+
+/* Measured with other settings than the present ones. */
+static bool is_outdated(const request *r) {
+    return r->station->conf != NULL && r->rig->settings != r->station->conf->config->settings;
+}
+
+/* The verdict stands for the settings that it was measured with. */
+static const char *verdict(const request *r) {
+    return !r->rig->has_result ? WH_WORDS("none")
+           : is_outdated(r)    ? WH_WORDS("outdated")
+                               : wh_quality_text(r->rig->result.force.quality);
+}
+
+static void add_result_of(request *r) {
+    const wh_value of[] = {{.count = wh_rig_result_age_s(r->rig, now_ticks(r))},
+                           {.count = r->rig->settings}};
+    wh_answer(&r->answer, WH_WORDS(" age_s=@c settings=@x"), of);
+}
+
 static unsigned do_status(request *r) {
     const wh_rig *rig = r->rig;
-    const bool known = rig->pulses.speed.known;
-    const bool rests = rig->guard.quiet && !wh_run_drives(&rig->run);
-    const wh_value state[] = {
-        {.word = wh_rig_stage_text(r->stage)},
-        {.number = known ? rig->pulses.speed.turn_radps * RPM_PER_RADPS : WH_R(0.0)}};
-    const wh_value value[] = {
-        {.number =
-             rig->run.phase != WH_PHASE_NONE ? rig->run.target_radps * RPM_PER_RADPS : WH_R(0.0)},
-        {.number = rig->command.volts},
-        {.count = (uint32_t)rig->guard.trip},
-        {.word = rig->has_result ? wh_quality_text(rig->result.force.quality) : WH_WORDS("none")},
-        {.count = r->station->lost_answers},
-        {.count = r->station->lost_bytes},
-        {.count = r->station->host_losses}};
+    wh_real speed_radps;
+    const bool known = wh_rig_speed(rig, now_ticks(r), &speed_radps);
+    const wh_value state[] = {{.word = wh_rig_stage_text(r->stage)},
+                              {.number = speed_radps * RPM_PER_RADPS}};
+    const wh_value value[] = {{.number = rig->run.phase != WH_PHASE_NONE
+                                             ? rig->run.target_radps * RPM_PER_RADPS
+                                             : WH_R(0.0)},
+                              {.number = rig->command.volts},
+                              {.count = (uint32_t)rig->guard.trip},
+                              {.word = verdict(r)},
+                              {.count = r->station->lost_answers},
+                              {.count = r->station->lost_bytes},
+                              {.count = r->station->host_losses},
+                              {.count = rig->runs},
+                              {.word = wh_rig_end_text(rig->ended)}};
     wh_answer(&r->answer,
-              known || rests ? WH_WORDS(" state=@w speed_rpm=@2")
-                             : WH_WORDS(" state=@w speed_rpm=?"),
+              known ? WH_WORDS(" state=@w speed_rpm=@2") : WH_WORDS(" state=@w speed_rpm=-"),
               state);
     wh_answer(&r->answer,
               WH_WORDS(" set_rpm=@2 motor_V=@2 trip=@c result=@w")
-                  WH_WORDS(" lost_answers=@c lost_bytes=@c host_losses=@c"),
+                  WH_WORDS(" lost_answers=@c lost_bytes=@c host_losses=@c run=@c ended=@w"),
               value);
+    if (rig->has_result) {
+        add_result_of(r);
+    }
+    if (!known) {
+        wh_answer(&r->answer,
+                  wh_run_drives(&rig->run) ? WH_SAY(": no whole turn yet")
+                                           : WH_SAY(": no whole turns, and not at rest yet"),
+                  NULL);
+    }
     return 0;
 }
 
@@ -113,7 +145,7 @@ static unsigned do_measure(request *r) {
         return WH_STATION_NO_RESULT;
     }
     const wh_value value[] = {
-        {.word = wh_quality_text(force->quality)},
+        {.word = verdict(r)},
         {.count = force->turns},
         {.number = force->speed_radps * RPM_PER_RADPS},
         {.number = force->scatter_radps * RPM_PER_RADPS},
@@ -123,11 +155,19 @@ static unsigned do_measure(request *r) {
         {.number = force->phase_half_rad * WH_RIG_DEG_PER_RAD},
         {.number = force->expected_N},
         {.word = force->calibrated ? WH_WORDS("entered") : WH_WORDS("uncalibrated")},
-        {.word = wh_why_text(force->why)}};
+        {.count = r->rig->runs}};
+    const wh_value words[] = {{.word = wh_quality_text(force->quality)},
+                              {.word = wh_why_text(force->why)}};
     wh_answer(&r->answer,
               WH_WORDS(" result=@w turns=@c speed_rpm=@2 scatter_rpm=@3 force_N=@3 force_half_N=@4")
-                  WH_WORDS(" phase_deg=@3 phase_half_deg=@4 expected_N=@3 calibration=@w: @s"),
+                  WH_WORDS(" phase_deg=@3 phase_half_deg=@4 expected_N=@3 calibration=@w run=@c"),
               value);
+    add_result_of(r);
+    if (is_outdated(r)) {
+        wh_answer(&r->answer, WH_WORDS(": @s with other settings: @s"), words);
+    } else {
+        wh_answer(&r->answer, WH_WORDS(": @s"), &words[1]);
+    }
     return 0;
 }
 
@@ -135,6 +175,7 @@ static unsigned do_fault(request *r) {
     const wh_trip_record *record = &r->rig->record;
     const wh_trip trip = r->rig->guard.trip;
     const wh_value value[] = {{.count = (uint32_t)trip}, {.word = wh_trip_text(trip)}};
+    const wh_value ended[] = {{.word = wh_rig_end_text(r->rig->ended)}};
     const wh_value then[] = {{.word = wh_phase_text(record->phase)},
                              {.number = record->speed_radps * RPM_PER_RADPS},
                              {.number = record->volts},
@@ -143,6 +184,7 @@ static unsigned do_fault(request *r) {
     if (trip != WH_TRIP_NONE && record->trip == trip) {
         wh_answer(&r->answer, WH_WORDS(" in=@w speed_rpm=@2 motor_V=@2 supply_V=@2"), then);
     }
+    wh_answer(&r->answer, WH_WORDS(" ended=@w"), ended);
     wh_answer(&r->answer, WH_WORDS(": @s"), &value[1]);
     return 0;
 }
@@ -186,6 +228,7 @@ static unsigned do_host(request *r) {
         return WH_STATION_SECONDS;
     }
     r->station->host_steps = (uint32_t)(limit_s * (wh_real)r->station->steps_per_s);
+    r->station->host_told = true;
     return 0;
 }
 
@@ -282,13 +325,17 @@ static void tell_stage(request *r) {
 
 /* Whether just now whoever gives the orders has been silent for too long: the rig is told, once. */
 static bool host_is_lost(wh_station *station, wh_rig *rig) {
-    if (station->host_steps == 0 || station->silent_steps > station->host_steps ||
-        (station->silent_steps == station->host_steps &&
+    const uint32_t host_steps = station->host_told ? station->host_steps
+                                : station->config != NULL
+                                    ? station->config->host_max_s * station->steps_per_s
+                                    : 0;
+    if (host_steps == 0 || station->silent_steps > host_steps ||
+        (station->silent_steps == host_steps &&
          !wh_rig_post(rig, WH_EVENT_HOST_LOST, WH_R(0.0)))) { /* no room: in the next step */
         return false;
     }
     station->silent_steps++;
-    const bool lost = station->silent_steps > station->host_steps;
+    const bool lost = station->silent_steps > host_steps;
     station->host_losses += lost ? 1U : 0U;
     return lost;
 }
@@ -344,7 +391,7 @@ void wh_station_step(wh_station *station, wh_rig *rig) {
     unsigned why;
     r.station = station;
     r.rig = rig;
-    r.stage = wh_rig_stage(rig);
+    r.stage = wh_rig_shown_stage(rig);
     wh_text_start(&r.answer, r.bytes, sizeof r.bytes);
     if (station->talks && station->stage != r.stage) {
         tell_stage(&r);

@@ -46,15 +46,16 @@ extern "C" {
     X(start, 1, " RPM", "a test run at this set-point") \
     X(set, 1, " RPM", "another set-point, while it runs") \
     X(stop, 0, "", "motor off; also the Escape key, at once") \
-    X(status, 0, "", "state, speeds, voltage, trip, last verdict, losses") \
-    X(measure, 0, "", "the last result, its intervals, its verdict") \
-    X(fault, 0, "", "the trip that is latched, and what was then") \
+    X(status, 0, "", "state, speeds, voltage, trip, verdict, losses, run and its end") \
+    X(measure, 0, "", "the last run's result, its intervals, its verdict") \
+    X(fault, 0, "", "the trip that is latched, what was then, how the last run ended") \
     X(clear, 0, "", "a trip whose cause is gone") \
     X(conf, 3, " list [FROM]|get NAME|set NAME VALUE|save|default", \
       "the settings; written while the rig is idle") \
     X(tel, 2, WH_TEL_FOLLOWS, "telemetry beside this text; off at first") \
     X(selftest, 0, "", "what can be known while it rests: arithmetic, cell, supply, stop") \
-    X(host, 1, " SECONDS", "a run ends when nothing is heard for so long; 0: never") \
+    X(host, 1, " SECONDS", \
+      "the setting host, until a reset: a run ends when nothing is heard for so long") \
     X(talk, 1, " on|off", "echo what is typed, tell of each new state")
 
 /* 0, as a small chip's build may say: station->tel stays NULL, and nothing of telemetry is linked. */
@@ -88,6 +89,7 @@ typedef struct wh_station {
     unsigned stage;              /* as last told */
     uint32_t lost_bytes;         /* that came while there was no room, */
     uint32_t lost_answers;       /* and answers that had none */
+    bool host_told;              /* by the command `host`: that counts, and not the setting */
     uint32_t host_steps;         /* so many without a byte, and the host is lost; 0: never */
     uint32_t silent_steps;
     uint32_t host_losses;

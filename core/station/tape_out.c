@@ -127,7 +127,9 @@ static void begin(wh_station *station, wh_rig *rig) {
         !settings_are_out(station, now_ticks)) {
         return;
     }
+    const uint32_t runs = rig->runs;
     wh_rig_start(station->config, rig, now_ticks, NULL);
+    rig->runs = runs; /* no two of a session have one number */
     tape->before = (wh_taped_before){.ticks = now_ticks, .answer = answer_of(rig)};
     wh_bytes bytes = {.to = tape->bytes, .room = sizeof tape->bytes};
     wh_bytes_put(&bytes, WH_TAPED_BEGIN, 1);

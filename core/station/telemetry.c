@@ -57,12 +57,11 @@ static int16_t load_of(const wh_cell_config *cell, int32_t raw, wh_load_status s
 static uint16_t drive_mV(const wh_rig *rig) { return in_16(rig->command.volts * WH_R(1000.0)); }
 
 /* In 1/50 rpm. */
-static uint16_t speed_50(const wh_rig *rig) {
-    const wh_speed *speed = &rig->pulses.speed;
-    if (!speed->known) {
-        return rig->guard.quiet ? 0 : NONE_16;
-    }
-    return in_16(speed->turn_radps * (WH_R(50.0) / WH_RIG_RADPS_PER_RPM));
+static uint16_t speed_50(const wh_rig *rig, uint32_t now_ticks) {
+    wh_real speed_radps;
+    return wh_rig_speed(rig, now_ticks, &speed_radps)
+               ? in_16(speed_radps * (WH_R(50.0) / WH_RIG_RADPS_PER_RPM))
+               : NONE_16;
 }
 
 /* --- frames ------------------------------------------------------------------------------------------- */
@@ -286,8 +285,8 @@ void wh_tel_step(wh_tel *tel, const wh_rig_config *config, const wh_rig *rig, co
                .rig = rig,
                .seen = seen,
                .out = out,
-               .stage = wh_rig_stage(rig),
-               .speed = speed_50(rig)};
+               .stage = wh_rig_shown_stage(rig),
+               .speed = speed_50(rig, seen->inputs.now_ticks)};
     if (wh_capture_runs(&tel->capture)) {
         capture_step(&s);
     }

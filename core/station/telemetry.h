@@ -52,7 +52,7 @@ typedef enum wh_tel_channel { WH_TEL_CHANNEL_ROWS(WH_TEL_NAME) WH_TEL_CHANNELS }
 /* What an event is of. */
 typedef enum wh_tel_event {
     WH_TEL_PULSE, /* value: the sensor, 0 or 1 */
-    WH_TEL_STATE, /* wh_rig_stage() */
+    WH_TEL_STATE, /* wh_rig_shown_stage() */
     WH_TEL_TRIP,  /* a wh_trip */
     WH_TEL_END    /* of a pulse, as WH_TEL_PULSE has its beginning */
 } wh_tel_event;

@@ -16,7 +16,15 @@
 #include "interrupts.h"
 #include "monitor_options.h"
 
-enum { WAIT_MS = 100, AGAIN_MS = 300, ANSWER_MS = 1500, KEPT_MS = 1000, BYTES = 4096, TYPED = 256 };
+enum {
+    WAIT_MS = 100,
+    AGAIN_MS = 300,
+    ALIVE_MS = 300,
+    ANSWER_MS = 1500,
+    KEPT_MS = 1000,
+    BYTES = 4096,
+    TYPED = 256
+};
 
 typedef struct monitor {
     const monitor_options *o;
@@ -29,14 +37,16 @@ typedef struct monitor {
     FILE *file[OUTPUTS];
     FILE *shown; /* what the rig says */
     bool open;
-    bool typing; /* standard input has not ended */
-    bool live;   /* a line, no file that has kept one */
-    bool met;    /* the rig has answered, once at least */
-    bool begun;  /* and has sent what was left of a time before */
-    int unheard; /* questions since the line was opened that nobody has answered */
+    bool typing;     /* standard input has not ended */
+    bool half_typed; /* what came of it has no end of line yet */
+    bool live;       /* a line, no file that has kept one */
+    bool met;        /* the rig has answered, once at least */
+    bool begun;      /* and has sent what was left of a time before */
+    int unheard;     /* questions since the line was opened that nobody has answered */
     int64_t asked_ms;
-    int64_t kept_ms; /* when all records were in their files */
-    uint64_t times;  /* that the line was opened */
+    int64_t kept_ms;  /* when all records were in their files */
+    int64_t alive_ms; /* when the rig heard of this program for the last time */
+    uint64_t times;   /* that the line was opened */
 } monitor;
 
 /* --- the line ------------------------------------------------------------------------------------------------- */
@@ -137,7 +147,9 @@ static void take_text(monitor *m, const char *line) {
         }
         return;
     }
-    show(m, line);
+    if (line[0] != '\0') { /* what is left of stay_alive() when the rig echoes */
+        show(m, line);
+    }
 }
 
 static void take_frame(monitor *m) {
@@ -167,6 +179,7 @@ static void take_typed(monitor *m) {
     char line[TYPED];
     const ssize_t count = read(STDIN_FILENO, line, sizeof line);
     m->typing = count > 0 || (count < 0 && (errno == EAGAIN || errno == EINTR));
+    m->half_typed = count > 0 && line[count - 1] != '\n';
     if (count > 0) {
         (void)port_write(&m->line, line, (size_t)count);
     }
@@ -192,6 +205,16 @@ static void keep_records(monitor *m) {
         if (m->file[i] != NULL) {
             (void)fflush(m->file[i]); /* ferror() is asked for */
         }
+    }
+}
+
+/* The rig ends a run when it hears nothing for as long as its setting `host` says. An empty line asks for nothing, and does
+ * not cut one in two that is being typed. */
+static void stay_alive(monitor *m) {
+    const int64_t now = now_ms();
+    if (m->line.is_line && m->met && !m->half_typed && now - m->alive_ms >= ALIVE_MS) {
+        m->alive_ms = now;
+        (void)port_write(&m->line, "\n", 1);
     }
 }
 
@@ -226,6 +249,7 @@ static void listen(monitor *m) {
         if (m->line.is_line && !m->dialogue.done && now_ms() - m->asked_ms > ANSWER_MS) {
             ask_again(m);
         }
+        stay_alive(m);
         keep_records(m);
     }
 }

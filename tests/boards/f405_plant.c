@@ -95,3 +95,4 @@ float hal_motor_supply_V(void) { return HAL_VIRTUAL_RATED_V; }
 float hal_motor_supply_most_V(void) { return (float)BOARD_SUPPLY_MOST_mV / 1000.0f; }
 
 bool hal_stop_pressed(void) { return bench_stop != 0; }
+hal_stop_source hal_stop_source_now(void) { return HAL_STOP_EITHER; }

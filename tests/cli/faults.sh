@@ -73,10 +73,10 @@ run watchdog-resets,hang=100ms@5s
     grep -aq '^RESET by the watchdog: nothing moves by itself' "$scratch/run" && [ "$(told reset "$scratch/run")" -eq 1 ]
 verdict $? "or is reset by it, and then leaves the rig alone" "$scratch/run"
 run stop@5s+10ms
-grep -aq '^STOPPED: ' "$scratch/run" && grep -aq '^5.002 s  coast' "$scratch/run" && ! grep -aq '^Measured' "$scratch/run"
+grep -aq '^STOPPED: ' "$scratch/run" && grep -aq '^5.002 s  \(coast\|brake\)' "$scratch/run" && ! grep -aq '^Measured' "$scratch/run"
 verdict $? "stop is heard in the next control step" "$scratch/run"
 run cell-open:3@5s+10ms
-grep -aq '^STOPPED: ' "$scratch/run" && grep -aq '^5.00[024] s  coast' "$scratch/run"
+grep -aq '^STOPPED: ' "$scratch/run" && grep -aq '^5.00[024] s  \(coast\|brake\)' "$scratch/run"
 verdict $? "a stop line that is broken counts as pressed" "$scratch/run"
 run stop@0.5s+10ms
 grep -aq '^STOPPED: ' "$scratch/run" && ! grep -aq armed "$scratch/run"

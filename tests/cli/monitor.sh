@@ -204,4 +204,28 @@ verdict $? "nothing is taken for lost that another rig would have sent, or that 
 tr -d '\r' <"$scratch/csv" | awk -F, 'NR > 1 { if ($1 <= last && NR > 2) bad = 1; last = $1 } END { exit bad || NR < 100 }'
 verdict $? "and time goes on in the records" "$scratch/csv"
 kill $rig && wait $rig 2>/dev/null
+
+# Nobody types for three times as long as `host` allows: the run goes on while it is recorded, and ends when the recorder hangs.
+station
+"$whirl" monitor "$RIG_TTY" --csv "$scratch/csv" --quiet >"$scratch/text" 2>"$scratch/said" <"$scratch/keys" &
+running=$!
+exec 4>"$scratch/keys"
+until_said '^[0-9]' "$scratch/csv"
+sleep 1.6 # it rests
+printf 'host 1\nconf get host\narm\nstart 330\n' >&4
+sleep 3
+echo status >&4
+until_said '^OK state=.* host_losses=0 run=1 ended=none' "$scratch/text"
+verdict $? "a run that is recorded does not lose its host" "$scratch/text"
+kill -STOP $running
+sleep 1.6
+kill -CONT $running
+echo status >&4
+until_said '^OK state=.* host_losses=1 run=1 ended=host_lost' "$scratch/text"
+verdict $? "and does when the recorder hangs" "$scratch/text"
+kill -INT $running
+wait $running 2>/dev/null
+running=
+exec 4>&-
+kill $rig && wait $rig 2>/dev/null
 exit $failed

@@ -66,7 +66,7 @@ converse() {
     verdict $? "$1: Escape stops" "$scratch/heard"
     says 'talk on' 'OK' "$1: it will talk"
     ask fault
-    [ "$answer" = fault ] && hear && [ "$answer" = 'OK trip=0: no fault' ]
+    [ "$answer" = fault ] && hear && [ "$answer" = 'OK trip=0 ended=stop_command: no fault' ]
     verdict $? "$1: what is typed is seen, and answered" "$scratch/heard"
 }
 

@@ -130,7 +130,7 @@ static void test_refusals_have_their_numbers(void) {
                 {"set 300.5", "OK set"},
                 {"set 9", "ERR 14 "},
                 {"clear", "ERR 6 "},
-                {"fault", "OK trip=0: no fault"}};
+                {"fault", "OK trip=0 ended=none: no fault"}};
     begin();
     for (unsigned i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         check_begins(rows[i].answer, ask(rows[i].line));
@@ -147,7 +147,7 @@ static void test_a_whole_run(void) {
     check_begins("OK", ask("start 330"));
     check_begins("OK state=tare ", ask("status"));
     even_go_on_until(&even, WH_PHASE_SPIN_UP);
-    check_begins("OK state=spin_up speed_rpm=? set_rpm=330.00 ", ask("status"));
+    check_begins("OK state=spin_up speed_rpm=- set_rpm=330.00 ", ask("status"));
     even_go_on_until(&even, WH_PHASE_RECORD);
     check_begins("OK state=record speed_rpm=330.0", ask("status"));
     even_go_on_until(&even, WH_PHASE_RAMP_DOWN);
@@ -169,13 +169,13 @@ static void test_a_trip_is_told_and_cleared(void) {
     even_step(&even);
     even.inputs.supply_V = WH_RIG_RATED_V;
     check_begins("OK trip=11 in=record speed_rpm=330.0", ask("fault"));
-    TEST_ASSERT_NOT_NULL(strstr(heard, " supply_V=40.00: the motor's supply is out of its range"));
+    TEST_ASSERT_NOT_NULL(strstr(heard, " supply_V=40.00 ended=trip: the motor's supply is out of its range"));
     check_begins("OK state=tripped ", ask("status"));
     check_begins("ERR 5 ", ask("arm"));
     check_begins("ERR 11 ", ask("clear"));
     even_go_on_until(&even, EVEN_NEVER);
     check_begins("OK clear", ask("clear"));
-    check_begins("OK trip=0: no fault", ask("fault"));
+    check_begins("OK trip=0 ended=trip: no fault", ask("fault"));
 }
 
 /* --- who reads, who types -------------------------------------------------------------------------- */
@@ -199,7 +199,7 @@ static void test_escape_stops_at_once(void) {
         period();
         hear();
         TEST_ASSERT_NOT_NULL(strstr(heard, "OK stop\r\n"));
-        check_begins("OK state=coast", ask("status"));
+        check_begins("OK state=brake", ask("status"));
     }
 }
 

@@ -13,6 +13,7 @@ void suite_station_host(void);
 
 static even_rig even;
 static wh_station station;
+static wh_seen seen;
 static uint64_t seed;
 
 static void type(const char *line) { wh_station_take(&station, line, (unsigned)strlen(line)); }
@@ -20,6 +21,8 @@ static void type(const char *line) { wh_station_take(&station, line, (unsigned)s
 /* One control period of the firmware. */
 static void period(void) {
     even_step(&even);
+    seen.inputs = even.inputs;
+    wh_station_see(&station, &even.config, &even.rig, &seen);
     wh_station_step(&station, &even.rig);
 }
 
@@ -49,7 +52,11 @@ static void test_a_host_that_is_gone(void) {
         even_rest(&even);
         wh_station_start(&station, "rig", "here", STEPS_PER_S);
         even.config.host_loss_stops = i % 3U == 0;
-        obey(line);
+        if (i / 3U % 2U == 0) {
+            obey(line);
+        } else { /* or by its setting */
+            even.config.host_max_s = limit_s;
+        }
         obey("arm");
         obey("start 330");
         even_go_on_until(&even, (wh_rig_phase)(WH_PHASE_TARE + draw_one_of(&seed, 5)));

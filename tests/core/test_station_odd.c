@@ -52,6 +52,7 @@ static void test_a_full_queue(void) {
 static void test_lost_while_the_queue_is_full(void) {
     for (unsigned full_steps = 0; full_steps < 6U; full_steps++) {
         tel_begin();
+        bench.station.host_told = true;
         bench.station.host_steps = 3;
         unsigned told = 0;
         unsigned first = 0;

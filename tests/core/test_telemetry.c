@@ -133,8 +133,8 @@ static void test_losses_are_counted(void) {
         TEST_ASSERT_TRUE((baud[k] <= 19200U) == (bench.got.dropped > 0));
         TEST_ASSERT_EQUAL_UINT(0, bench.station.lost_answers);
         unsigned told = 0;
-        for (const char *at = strstr(bench.heard.text, "OK trip=0: no fault\r\n"); at != NULL;
-             at = strstr(at + 1, "OK trip=0: no fault\r\n")) {
+        for (const char *at = strstr(bench.heard.text, "OK trip=0 ended=none: no fault\r\n"); at != NULL;
+             at = strstr(at + 1, "OK trip=0 ended=none: no fault\r\n")) {
             told++;
         }
         TEST_ASSERT_EQUAL_UINT(asked, told);
@@ -236,7 +236,7 @@ static void test_states_are_told(void) {
     unsigned fast = 0;
     for (unsigned i = 0; i < 60000U && !(told > 3U && even_is_over(&bench.even)); i++) {
         char bytes[WH_STATION_OUT_BYTES];
-        const unsigned before = wh_rig_stage(&bench.even.rig);
+        const unsigned before = wh_rig_shown_stage(&bench.even.rig);
         even_step(&bench.even);
         tel_draw_seen(true);
         tel_step();
@@ -252,7 +252,7 @@ static void test_states_are_told(void) {
                 changed = true;
                 told++;
                 stage = frame.payload[1];
-                TEST_ASSERT_EQUAL_UINT(wh_rig_stage(&bench.even.rig), stage);
+                TEST_ASSERT_EQUAL_UINT(wh_rig_shown_stage(&bench.even.rig), stage);
                 TEST_ASSERT_EQUAL_UINT32(bench.even.inputs.now_ticks, frame.ticks);
             }
             if (frame.channel == WH_TEL_RUN && bench.even.rig.run.phase == WH_PHASE_RECORD) {
@@ -266,7 +266,7 @@ static void test_states_are_told(void) {
                 fast++;
             }
         }
-        TEST_ASSERT_TRUE(changed || i < 3U || wh_rig_stage(&bench.even.rig) == before);
+        TEST_ASSERT_TRUE(changed || i < 3U || wh_rig_shown_stage(&bench.even.rig) == before);
     }
     TEST_ASSERT_TRUE(told >= 8U && fast > 80U);
 }

@@ -171,7 +171,7 @@ static void test_answers_and_refusals(void) {
         {"tel schema ring", "OK channel=2 name=ring period_ticks=0 once= each=ticks:u2:1,load"},
         {"tel schema states",
          "OK 0=idle 1=armed 2=running 3=stopping 4=tripped 9=tare 10=spin_up 11=ramp "
-         "12=settle 13=record 14=ramp_down 15=coast\r\n"},
+         "12=settle 13=record 14=ramp_down 15=coast 16=brake\r\n"},
         {"tel fmt arduino", "OK fmt=arduino\r\n"},
         {"tel rate 500", "ERR 116 "},
         {"tel rate 1", "OK rate=1 period_ticks=1000000\r\n"},

@@ -37,9 +37,9 @@ static bool converses(unsigned times) {
     } said[] = {{"id", "OK program="},
                 {"host 0", "OK"},
                 /* to the end: what is flashed has its words packed */
-                {"fault", "OK trip=0: no fault"},
+                {"fault", "OK trip=0 ended=none: no fault"},
                 {"clear", "ERR 6 there is no trip to clear"},
-                {"measure", "ERR 104 no run has given a result yet"},
+                {"measure", "ERR 104 the last run has given no result"},
                 {"set 20", "ERR 7 the rig is not running"},
                 {"nonsense", "ERR 100 no such command; help lists them"},
                 {"start much", "ERR 103 a number is wanted, such as 330 or 330.5"},

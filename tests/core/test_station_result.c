@@ -1,0 +1,273 @@
+/* test_station_result.c: whose a result is, and how a run ended: drawn sequences of orders, settings, trips, stops and a host
+ * that goes away, in which each answer of the console belongs to the last start. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/station/station.h"
+#include "draw.h"
+#include "even_rig.h"
+#include "unity.h"
+
+void suite_station_result(void);
+
+#define STEPS_PER_S (WH_RIG_TICKS_PER_S / EVEN_STEP_TICKS)
+#define FOREVER 60000U /* steps */
+
+static even_rig even;
+static wh_station station;
+static wh_conf conf;
+static wh_seen seen;
+static uint64_t seed;
+static char heard[WH_STATION_OUT_BYTES + 1U];
+
+/* What must be told. */
+static unsigned runs;
+static const char *ended;
+static bool has_result;
+static uint32_t result_steps; /* since it was through */
+static wh_real measured_with[WH_CONF_COUNT];
+
+static void own(wh_rig_config *config) { *config = even_config(); }
+
+static bool is_active(void) {
+    return even.rig.run.phase >= WH_PHASE_TARE && even.rig.run.phase <= WH_PHASE_RAMP_DOWN;
+}
+
+static void period(void) {
+    const wh_rig_phase before = even.rig.run.phase;
+    const bool was_active = is_active();
+    even_step(&even);
+    result_steps++;
+    if (before == WH_PHASE_RECORD && even.rig.run.phase == WH_PHASE_RAMP_DOWN) {
+        has_result = true;
+        result_steps = 0;
+        ended = "done";
+        memcpy(measured_with, conf.value, sizeof measured_with);
+    } else if (was_active && even.rig.state == WH_LIFE_TRIPPED) {
+        ended = "trip";
+    }
+    seen.inputs = even.inputs;
+    wh_station_see(&station, &even.config, &even.rig, &seen);
+    wh_station_step(&station, &even.rig);
+}
+
+static void periods(unsigned count) {
+    while (count-- > 0) {
+        period();
+    }
+}
+
+static const char *ask(const char *line) {
+    wh_station_take(&station, line, (unsigned)strlen(line));
+    wh_station_take(&station, "\n", 1);
+    periods(3);
+    const unsigned count = wh_station_peek(&station, heard, sizeof heard - 1U);
+    wh_station_drop(&station, count);
+    heard[count] = '\0';
+    TEST_ASSERT_TRUE(count >= 4U && strchr(heard, '\n') == heard + count - 1U);
+    TEST_ASSERT_EQUAL_UINT32(0, station.lost_answers);
+    return heard;
+}
+
+static bool is_ok(const char *line) { return strncmp(ask(line), "OK", 2) == 0; }
+
+/* " name=", then this word. */
+static void check_told(const char *name, const char *word) {
+    const char *at = strstr(heard, name);
+    TEST_ASSERT_NOT_NULL_MESSAGE(at, name);
+    at += strlen(name);
+    TEST_ASSERT_EQUAL_STRING_LEN_MESSAGE(word, at, strlen(word), name);
+    TEST_ASSERT_TRUE(strchr(" :\r", at[strlen(word)]) != NULL);
+}
+
+static const char *decimal(unsigned number) {
+    static char bytes[12];
+    wh_text text;
+    wh_text_start(&text, bytes, sizeof bytes);
+    wh_text_add_unsigned(&text, number);
+    return bytes;
+}
+
+static void check_answers(void) {
+    static const char *const words[] = {
+        [WH_GOOD] = "good", [WH_DOUBTFUL] = "doubtful", [WH_REFUSED] = "refused"};
+    const bool is_same = memcmp(measured_with, conf.value, sizeof measured_with) == 0;
+    const char *verdict = !has_result ? "none"
+                          : is_same   ? words[even.rig.result.force.quality]
+                                      : "outdated";
+    ask("status");
+    check_told(" run=", decimal(runs));
+    check_told(" ended=", ended);
+    check_told(" result=", verdict);
+    const bool brakes = even.command.way == WH_MOTOR_BRAKES;
+    TEST_ASSERT_TRUE((strstr(heard, "state=brake ") != NULL) == brakes);
+    ask("fault");
+    check_told(" ended=", ended);
+    ask("measure");
+    if (!has_result) {
+        TEST_ASSERT_EQUAL_STRING_LEN("ERR 104 ", heard, 8);
+        return;
+    }
+    check_told(" result=", verdict);
+    check_told(" run=", decimal(runs));
+    TEST_ASSERT_TRUE((strstr(heard, "with other settings") == NULL) == is_same);
+    const unsigned age_s = result_steps / STEPS_PER_S;
+    const char *at = strstr(heard, " age_s=");
+    TEST_ASSERT_NOT_NULL(at);
+    const unsigned told_s = (unsigned)atoi(at + 7);
+    TEST_ASSERT_TRUE(told_s <= age_s + 1U && told_s + 1U >= age_s);
+}
+
+static void start(void) {
+    static const char *const targets[] = {"start 330", "start 250", "start 200"};
+    (void)ask("arm");
+    if (is_ok(targets[draw_one_of(&seed, 3)])) {
+        runs++;
+        ended = "none";
+        has_result = false;
+    }
+}
+
+static void stop_by_input(void) {
+    static const char *const words[] = {"stop_input_or_drive_fault", "stop_input", "drive_fault"};
+    const unsigned by = draw_one_of(&seed, 3);
+    ended = is_active() ? words[by] : ended;
+    even.inputs.stop_pressed = true;
+    even.inputs.stop_by = (wh_stop_by)by;
+    period();
+    even.inputs.stop_pressed = false;
+}
+
+static void set_something(void) {
+    static const char *const lines[] = {"conf set mass_moment 0.04",
+                                        "conf set mass_moment 0.05",
+                                        "conf set settle_time 2",
+                                        "conf set stop_brakes off",
+                                        "conf set no_load_speed 700",
+                                        "conf default",
+                                        "conf set host 2"};
+    (void)ask(lines[draw_one_of(&seed, sizeof lines / sizeof lines[0])]);
+}
+
+static void lose_host(void) {
+    if (!is_ok("host 1")) {
+        return;
+    }
+    for (unsigned i = 0; i < STEPS_PER_S + 2U; i++) {
+        const bool active = is_active();
+        const uint32_t losses = station.host_losses;
+        period();
+        if (station.host_losses != losses && active) {
+            period();
+            ended = even.rig.state == WH_LIFE_TRIPPED ? ended : "host_lost";
+        }
+    }
+    TEST_ASSERT_TRUE(is_ok("host 0"));
+}
+
+static void do_something(void) {
+    switch (draw_one_of(&seed, 12)) {
+    case 0:
+    case 1:
+    case 2: start(); break;
+    case 3: {
+        const bool active = is_active();
+        TEST_ASSERT_TRUE(is_ok("stop"));
+        ended = active ? "stop_command" : ended;
+        break;
+    }
+    case 4: stop_by_input(); break;
+    case 5: set_something(); break;
+    case 6: lose_host(); break;
+    case 7: /* a trip, or a refusal */
+        even.inputs.supply_V = WH_R(0.0);
+        period();
+        even.inputs.supply_V = WH_RIG_RATED_V;
+        break;
+    case 8: (void)ask("clear"); break;
+    case 9: periods(draw_one_of(&seed, 3U * STEPS_PER_S)); break;
+    default:
+        for (unsigned i = 0; i < FOREVER && !even_is_over(&even); i++) {
+            period();
+        }
+        periods(draw_one_of(&seed, 2U * STEPS_PER_S));
+        break;
+    }
+}
+
+static void begin(void) {
+    even_start(&even);
+    wh_station_start(&station, "rig", "here", STEPS_PER_S);
+    wh_conf_start(&conf, own, NULL, &even.config);
+    station.conf = &conf;
+    runs = 0;
+    ended = "none";
+    has_result = false;
+    even_rest(&even);
+}
+
+static void test_answers_belong_to_the_last_start(void) {
+    unsigned results = 0;
+    unsigned outdated = 0;
+    seed = 71;
+    for (unsigned round = 0; round < draw_cases(12); round++) {
+        begin();
+        for (unsigned i = 0; i < 40U; i++) {
+            do_something();
+            check_answers();
+            results += has_result ? 1U : 0U;
+            outdated += strstr(heard, "result=outdated") != NULL ? 1U : 0U;
+        }
+        TEST_ASSERT_TRUE(runs > 0);
+    }
+    TEST_ASSERT_TRUE(results >= draw_cases(40) && outdated >= draw_cases(8));
+}
+
+/* Each setting counts, and the hash is the values' alone: what is set back has the one before. */
+static void test_any_other_setting_has_another_hash(void) {
+    seed = 72;
+    begin();
+    const uint32_t plain = even.config.settings;
+    for (unsigned id = 0; id < WH_CONF_COUNT; id++) {
+        wh_conf_row room;
+        const wh_conf_row *row = wh_conf_row_of((wh_conf_id)id, &room);
+        const wh_real before = conf.value[id];
+        const bool is_least = before < row->least + (row->most - row->least) / 2;
+        const wh_real other = (wh_conf_kind)row->kind == WH_CONF_REAL
+                                  ? before * WH_R(1.01) + WH_R(1e-3)
+                              : is_least ? before + 1
+                                         : before - 1;
+        if (wh_conf_set(&conf, (wh_conf_id)id, other) == WH_STATION_FINE) {
+            TEST_ASSERT_TRUE(even.config.settings != plain);
+            TEST_ASSERT_TRUE(wh_conf_set(&conf, (wh_conf_id)id, before) == WH_STATION_FINE);
+        } else {
+            TEST_ASSERT_TRUE(id == WH_CONF_mount_factor || id == WH_CONF_speed_limit ||
+                             id == WH_CONF_amplitude_floor);
+        }
+        TEST_ASSERT_TRUE(even.config.settings == plain);
+    }
+}
+
+/* Hours later: a capture timer that wraps does not make a result young again. */
+static void test_an_age_beyond_the_timer(void) {
+    begin();
+    start();
+    for (unsigned i = 0; i < FOREVER && !has_result; i++) {
+        period();
+    }
+    const uint32_t before_s = wh_rig_result_age_s(&even.rig, even.inputs.now_ticks);
+    for (unsigned hour = 0; hour < 3U; hour++) {
+        for (unsigned i = 0; i < 3600U; i++) { /* a step a second */
+            even.inputs.now_ticks += WH_RIG_TICKS_PER_S - EVEN_STEP_TICKS;
+            even_step(&even);
+        }
+    }
+    const uint32_t age_s = wh_rig_result_age_s(&even.rig, even.inputs.now_ticks);
+    TEST_ASSERT_TRUE(age_s - before_s >= 3U * 3600U - 1U && age_s - before_s <= 3U * 3600U + 1U);
+}
+
+void suite_station_result(void) {
+    RUN_TEST(test_answers_belong_to_the_last_start);
+    RUN_TEST(test_any_other_setting_has_another_hash);
+    RUN_TEST(test_an_age_beyond_the_timer);
+}
