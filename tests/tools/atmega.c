@@ -70,9 +70,10 @@ static double number_of(const char *name) {
     return at == NULL ? -1.0 : strtod(at + strlen(name), NULL);
 }
 
-/* Until the run is through, asking for nothing, or for the state all the time. */
+/* Until the run is through, asking for nothing, or for the state all the time. The rotor has no dry friction, and coasts for a
+ * minute. */
 static bool goes_on(bool busy) {
-    const uint64_t end = mega_cycle() + 60ULL * MEGA_HZ;
+    const uint64_t end = mega_cycle() + 150ULL * MEGA_HZ;
     while (mega_cycle() < end) {
         if (!mega_run(busy ? 1 : 500) || !asks("status", "OK state=")) {
             return false;
