@@ -121,8 +121,11 @@ static void settle(wh_run *run, const wh_run_scene *scene) {
     const wh_run_config *config = scene->config;
     const uint32_t now = scene->now_ticks;
     see_turn(run, &scene->pulses->speed);
-    const wh_real off = WH_ABS(run->mean_radps - run->target_radps);
-    if (run->turns < WH_RUN_TURNS || !(off <= config->settle_band_radps)) {
+    /* a turn of a steady speed, or the mean of turns that jitter */
+    const wh_real turn_off = WH_ABS(scene->pulses->speed.turn_radps - run->target_radps);
+    const wh_real mean_off = WH_ABS(run->mean_radps - run->target_radps);
+    if (turn_off > config->settle_band_radps &&
+        (run->turns < WH_RUN_TURNS || mean_off > config->settle_band_radps)) {
         run->band_ticks = now;
     }
     if (!scene->busy && wh_rig_since_s(run->band_ticks, now) >= config->settle_s) {

@@ -39,7 +39,7 @@ typedef struct wh_run_config {
     wh_real take_over_radps; /* from this speed on the loop is closed */
     wh_real spin_up_max_s;
     wh_real ramp_max_s;
-    wh_real settle_band_radps; /* of the mean of WH_RUN_TURNS turns */
+    wh_real settle_band_radps; /* of a turn, or of the mean of WH_RUN_TURNS */
     wh_real settle_s;          /* so long within the band */
     wh_real settle_max_s;      /* to get there */
     wh_real short_max_s;       /* so long may the supply be too little for the set-point */
