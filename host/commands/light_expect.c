@@ -3,6 +3,7 @@
 
 #include <inttypes.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "host/run/engine.h"
@@ -85,11 +86,12 @@ light_verdict light_judge(int field, const char *value, const char *wanted) {
         return LIGHT_TOLD; /* interrupts of silicon take stack, too */
     }
     if (strcmp(name, "period_us") == 0) {
-        int least = 0;
-        int most = 0;
-        char more;
-        const bool two = sscanf(value, "%d %d%c", &least, &most, &more) == 2;
-        return two && least >= PERIOD_LEAST_US && most <= PERIOD_MOST_US && least <= most
+        char *end = NULL;
+        const long least = strtol(value, &end, 10);
+        const bool two = *end == ' ';
+        const long most = two ? strtol(end + 1, &end, 10) : 0;
+        return two && *end == '\0' && least >= PERIOD_LEAST_US && most <= PERIOD_MOST_US &&
+                       least <= most
                    ? LIGHT_EQUAL
                    : LIGHT_DIFFERS;
     }

@@ -3,6 +3,7 @@
  * nor PWM is high at any instant. */
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "unity.h"
@@ -61,6 +62,17 @@ static const char *value(const char *name) {
     return "";
 }
 
+/* The whole numbers that a field begins with. */
+static void numbers(const char *name, int count, int *const *number) {
+    const char *at = value(name);
+    for (int i = 0; i < count; i++) {
+        char *end = NULL;
+        *number[i] = (int)strtol(at, &end, 10);
+        TEST_ASSERT_TRUE_MESSAGE(end != at, name);
+        at = end;
+    }
+}
+
 static double cell_V;
 static double level_of_cell(double s) { return cell_V + 0.002 * sin(s * 3000.0); }
 
@@ -104,28 +116,27 @@ static void test_drawn_worlds(void) {
         int least = 0;
         int mean = 0;
         int most = 0;
-        double volts = 0.0;
         TEST_ASSERT_EQUAL_STRING(board_name, value("board"));
         TEST_ASSERT_EQUAL_STRING("0x10076413", value("chip"));
         TEST_ASSERT_EQUAL_STRING(crystal ? "crystal" : "fallback", value("clock"));
         TEST_ASSERT_EQUAL_STRING(pressed ? "pressed" : "released", value("stop"));
         (void)snprintf(words, sizeof words, "%u %u edges, 0 lost", 2U * pulses[0], 2U * pulses[1]);
         TEST_ASSERT_EQUAL_STRING(words, value("slots"));
-        TEST_ASSERT_EQUAL(2, sscanf(value("period_us"), "%d %d", &least, &most));
+        numbers("period_us", 2, (int *const[]){&least, &most});
         TEST_ASSERT_TRUE(least >= 1900 && least <= 2000 && most >= 2000 && most <= 2100);
         const bool counts = world.counter == CHIP_COUNTS;
         TEST_ASSERT_EQUAL(!counts, light_is_none(value("cycles.rig_fixed")));
         TEST_ASSERT_EQUAL(!counts, light_is_none(value("period_cycles")));
         if (counts) {
             const double cycles = (double)chip_clocks_now().core_Hz * 0.002;
-            TEST_ASSERT_EQUAL(2, sscanf(value("period_cycles"), "%d %d", &least, &most));
+            numbers("period_cycles", 2, (int *const[]){&least, &most});
             TEST_ASSERT_TRUE(least >= 0.95 * cycles && least <= cycles * 1.001);
             TEST_ASSERT_TRUE(most <= 1.05 * cycles && most >= cycles * 0.999);
         }
-        TEST_ASSERT_EQUAL(3, sscanf(value("load"), "%d %d %d", &least, &mean, &most));
+        numbers("load", 3, (int *const[]){&least, &mean, &most});
         TEST_ASSERT_INT_WITHIN(100, (int)((cell_V - 1.65) / 1.65 * HAL_LOADCELL_RAW_MAX), mean);
         TEST_ASSERT_TRUE(least <= mean && mean <= most && most - least < 200);
-        TEST_ASSERT_EQUAL(1, sscanf(value("supply"), "%lf V", &volts));
+        const double volts = strtod(value("supply"), NULL);
         TEST_ASSERT_DOUBLE_WITHIN(0.02 * chip_supply_V + 0.02, chip_supply_V, volts);
         TEST_ASSERT_NOT_NULL(strstr(value("selftest"), crystal ? "clock=good" : "clock=bad"));
         TEST_ASSERT_NOT_NULL(strstr(value("selftest"), pressed ? "stop=bad" : "stop=good"));

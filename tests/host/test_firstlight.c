@@ -330,7 +330,7 @@ static void test_command(void) {
     TEST_ASSERT_NOT_NULL(strstr(what.err, "error: the record is cut"));
     TEST_ASSERT_NOT_NULL(strstr(what.err, "\nhint: "));
     TEST_ASSERT_EQUAL_STRING(page_head, got(files[1]));
-    remove(files[1]);
+    (void)remove(files[1]);
     model_drop();
 }
 
