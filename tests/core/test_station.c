@@ -199,7 +199,7 @@ static void test_escape_stops_at_once(void) {
         period();
         hear();
         TEST_ASSERT_NOT_NULL(strstr(heard, "OK stop\r\n"));
-        check_begins("OK state=brake", ask("status"));
+        check_begins("OK state=coast", ask("status"));
     }
 }
 

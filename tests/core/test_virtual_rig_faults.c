@@ -100,7 +100,7 @@ static void test_runaway_is_caught(void) {
         hal_virtual_rig_instance()->faults.stuck = 1.0f;
         plant_go_on_to_the_end(&on);
         if (!recording) { /* a record does not wait for over-speed */
-            TEST_ASSERT_TRUE(on.rig.guard.trip == WH_TRIP_OVERSPEED);
+            TEST_ASSERT_EQUAL_INT(WH_TRIP_OVERSPEED, on.rig.guard.trip);
             TEST_ASSERT_TRUE(on.fastest_radps > 400.0f * RPM);
         }
         TEST_ASSERT_TRUE(on.rig.guard.trip != WH_TRIP_NONE);
