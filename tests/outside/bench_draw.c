@@ -138,6 +138,7 @@ void draw_bench(bench *b, int kind, dice *d) {
     b->supply = chance(d, 0.6) ? 24.0 : uniform(d, 14, 36);
     b->rpm = fmin(b->rpm, most_rpm(b->supply));
     b->fed = chance(d, 0.1);
+    b->brakes = chance(d, 0.3);
     b->drag = uniform(d, 0.7, 1.5);
     b->dry = chance(d, 0.5) ? 0.0 : uniform(d, 0, 0.02);
     b->pickup_phase = uniform(d, 0, TURN);
@@ -160,6 +161,7 @@ void draw_run_out(bench *b, dice *d) {
     b->rpm = fmin(b->rpm, most_rpm(b->supply));
     b->drag = uniform(d, 0.7, 1.5);
     b->dry = uniform(d, 0.005, 0.03);
+    b->brakes = chance(d, 0.5);
     const double way = uniform(d, 0, 1);
     if (way < 0.3 && b->supply > 17) {
         draw_fault(b, b->kind = KIND_SWING, d);

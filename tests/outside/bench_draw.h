@@ -15,7 +15,7 @@
 /* Numbers of a bench. Errors and faults are 0 in a healthy one. */
 #define NUMBERS(X) \
     X(rpm) \
-    X(fed) \
+    X(fed) X(brakes) \
     X(supply) X(supply_off) X(supply_gain) X(supply_sat) X(swings) X(inertia) X(drag) X(dry) \
         X(weak) X(torque_2) X(phase_2) X(freewheels) X(coasts) X(share) X(ignores_enable) \
             X(place_1) X(place_2) X(jitter) X(dead) X(doubled) X(double_s) X(resonance) X(damping) \

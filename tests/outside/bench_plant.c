@@ -181,6 +181,7 @@ double plant_sample(plant *p, int channel, bool recording) {
     case 1: return b->supply_sat > 0 ? fmin(b->supply_sat, volts) : volts;
     case 2: return p->pressed;
     case 3: return b->rpm * RPM;
-    default: return b->fed;
+    case 4: return b->fed;
+    default: return b->brakes;
     }
 }

@@ -6,7 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { MOST_SAMPLES = 24, MOST_EDGES = 16, SAMPLES = 5 };
+enum { MOST_SAMPLES = 24, MOST_EDGES = 16, SAMPLES = 6 };
 
 /* The signals of the rig, as the page's table has them, dials last: kind, name and period in ms. */
 static const struct {
@@ -18,7 +18,8 @@ static const struct {
             {1, "stop_input", 2}, {3, "state", 0},        {3, "trip", 0},
             {3, "quality", 0},    {3, "amplitude", 0},    {3, "amplitude_half", 0},
             {3, "phase", 0},      {3, "phase_half", 0},   {3, "turns", 0},
-            {3, "reset", 0},      {1, "dial_speed", 100}, {1, "dial_feed", 100}};
+            {3, "reset", 0},      {1, "dial_speed", 100}, {1, "dial_feed", 100},
+            {1, "dial_brakes", 100}};
 enum { SIGNALS = sizeof page / sizeof page[0] };
 
 typedef struct {
