@@ -83,7 +83,7 @@ $(foreach b,host float double $(BOARD),$(patsubst %,$(B)/$(b)/%.o,boards/program
 
 # --- make run -----------------------------------------------------------------------------------
 # The third is for the commands of README.md.
-RUN_IMAGES := $(addprefix $(ELF)/,scenes.elf firmware.elf pil_rig.elf)
+RUN_IMAGES = $(addprefix $(ELF)/,scenes.elf firmware.elf pil_rig.elf)
 .PHONY: run-now
 run-now: $(GEN)/.stamp
 	@$(MAKE) $(RUN_IMAGES)
