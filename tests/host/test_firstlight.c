@@ -168,6 +168,7 @@ static void test_sealed_nonsense(void) {
 }
 
 static void test_any_bytes(void) {
+    static const char begin_line[] = WH_LIGHT_BEGIN "\n";
     static char bytes[1024];
     for (unsigned i = 0; i < dice_cases(3000); i++) {
         size_t count = 0;
