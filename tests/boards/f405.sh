@@ -11,7 +11,6 @@ failed=0
 for test in boot console time; do
     $f405 $test $images/station.elf || failed=1
 done
-$f405 firstlight $images/firstlight.elf || failed=1
 for test in slots storm; do
     $f405 $test $images/bench_slots.elf || failed=1
 done

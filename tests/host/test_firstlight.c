@@ -174,8 +174,7 @@ static void test_any_bytes(void) {
         size_t count = 0;
         for (unsigned pieces = dice_one_of(&drawn, 12); pieces > 0; pieces--) {
             static const char *const piece[] = {
-                WH_LIGHT_BEGIN, WH_LIGHT_BEGIN "\n", "\r",       "\n",
-                "end 0x",       "end 0x00000000\n",  "board x\n"};
+                WH_LIGHT_BEGIN, begin_line, "\r", "\n", "end 0x", "end 0x00000000\n", "board x\n"};
             const unsigned which = dice_one_of(&drawn, 9);
             if (which < 7) {
                 memcpy(bytes + count, piece[which], strlen(piece[which]));
