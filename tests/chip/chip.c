@@ -24,7 +24,6 @@ static const part *const parts[] = {
 #define NMI 1000U
 /* A handler that runs so often without the program's going on never ends. */
 #define HANDLED_MOST 20000U
-
 static struct {
     uint64_t now;
     uint64_t random;
