@@ -362,8 +362,9 @@ static wh_real repeats_limit_N(const wh_merge *merge, const wh_turn_angle *angle
 }
 
 /* Where the motor cannot brake enough the residual tells nothing of the cell: force and phase must then be as expected within
- * their intervals and so much. */
-#define CUT_OFF WH_R(0.01)
+ * their intervals and so much. What is expected may be 0.5 % from the truth itself. */
+#define CUT_OFF WH_R(0.005)
+#define CUT_TURNED_RAD WH_R(0.01)
 
 static wh_real no_more(wh_real value, wh_real most) { return value < most ? value : most; }
 
@@ -380,7 +381,7 @@ static wh_why reason(const wh_result_config *config, const wh_rotor_config *roto
     wh_real phase_most = config->phase_off_rad;
     if (angle->cut > WH_R(0.0)) {
         off_most = no_more(half + CUT_OFF * expected, off_most);
-        phase_most = no_more(measured->phase_half_rad + CUT_OFF, phase_most);
+        phase_most = no_more(measured->phase_half_rad + CUT_TURNED_RAD, phase_most);
     }
     if (measured->turns < 3U) {
         return WH_WHY_FEW_TURNS;

@@ -161,12 +161,13 @@ void draw_run_out(bench *b, dice *d) {
     b->rpm = fmin(b->rpm, most_rpm(b->supply));
     b->drag = uniform(d, 0.7, 1.5);
     b->dry = uniform(d, 0.005, 0.03);
-    b->brakes = chance(d, 0.5);
     const double way = uniform(d, 0, 1);
     if (way < 0.3 && b->supply > 17) {
         draw_fault(b, b->kind = KIND_SWING, d);
     } else if (way < 0.6 && b->rpm > 170) {
-        b->coasts = 1;
+        b->coasts = 1; /* a stage that is open at duty 0 */
+    } else {
+        b->brakes = chance(d, 0.7);
     }
     if (chance(d, 0.7)) {
         b->stop = chance(d, 0.5) ? (event){BY_TIME, uniform(d, 1, 17), NEVER} : drawn_event(d);

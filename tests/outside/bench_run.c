@@ -82,7 +82,8 @@ static void blame(outcome *o, bool *rule, const char *format, ...) {
 
 /* Compare a good result with the force's Fourier coefficient over as many turns, the last ones or
  * up to two earlier. A result is right, too, if it has just those errors that no run can tell
- * (docs/rig.md): a gain off by less than 5 %, a sensor 1 by less than 5 degrees, a load train. */
+ * (docs/rig.md): a gain off by less than 5 %, a sensor 1 by less than 5 degrees, a load train, a
+ * pick-up once a turn. */
 static void judge_result(const plant *p, outcome *o) {
     double least = NEVER;
     for (int known = 0; known < 2; known++) {
@@ -94,6 +95,10 @@ static void judge_result(const plant *p, outcome *o) {
                 sum.cosine[0] += p->past[i % KEPT].cosine[known] / o->turns;
                 sum.sine[0] += p->past[i % KEPT].sine[known] / o->turns;
                 sum.seconds += p->past[i % KEPT].seconds / o->turns;
+            }
+            if (known == 1) {
+                sum.cosine[0] += p->b->pickup * cos(p->b->pickup_phase);
+                sum.sine[0] -= p->b->pickup * sin(p->b->pickup_phase);
             }
             const double amplitude = gain * hypot(sum.cosine[0], sum.sine[0]);
             const double phase = atan2(-sum.sine[0], sum.cosine[0]) + place;
