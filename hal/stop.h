@@ -22,7 +22,7 @@ bool hal_stop_pressed(void);
 typedef enum hal_stop_source {
     HAL_STOP_EITHER,
     HAL_STOP_INPUT, /* the stop contacts: the drive stage has no line, or one of its own that is quiet */
-    HAL_STOP_DRIVE  /* the drive stage's fault, by a line of its own */
+    HAL_STOP_DRIVE /* the drive stage's fault, by a line of its own */
 } hal_stop_source;
 hal_stop_source hal_stop_source_now(void);
 

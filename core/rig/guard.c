@@ -41,7 +41,9 @@ void wh_guard_drives(wh_guard *guard) { guard->off = (wh_off){.released = false}
 #define ALONE_COASTS 4U
 #define ALONE_SURE 6U /* more than a shiver about the hanging place */
 
-static uint8_t one_more(uint8_t count) { return (uint8_t)(count < ALONE_SURE ? count + 1U : count); }
+static uint8_t one_more(uint8_t count) {
+    return (uint8_t)(count < ALONE_SURE ? count + 1U : count);
+}
 
 static WH_CALLED wh_real radps_of(uint32_t turn_ticks) {
     return WH_RIG_TWO_PI * (wh_real)WH_RIG_TICKS_PER_S / (wh_real)turn_ticks;

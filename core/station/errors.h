@@ -23,7 +23,8 @@ extern "C" {
     X(WH_STATION_CONF_NONE, 109, "no such setting; conf list has them") \
     X(WH_STATION_CONF_VALUE, 110, "no value for this setting; conf get tells its type") \
     X(WH_STATION_CONF_RANGE, 111, "outside its range; conf get tells it") \
-    X(WH_STATION_CONF_AGAINST, 112, "it goes against another setting: least, most and limit, or the motor") \
+    X(WH_STATION_CONF_AGAINST, 112, \
+      "it goes against another setting: least, most and limit, or the motor") \
     X(WH_STATION_CONF_FAILED, 113, "the memory for settings failed; what was saved before stays") \
     X(WH_STATION_NOT_HERE, 114, "this program has none") \
     X(WH_STATION_TEL_HOW, 115, "no such words; help tel has them") \

@@ -2,10 +2,6 @@
 #include "rank.h"
 
 #include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <stdio.h>
-#include <stdlib.h>
 
 #include "host/number/functions.h"
 
@@ -121,8 +117,6 @@ int rank_of(double *m, double *error, int n, bool symmetric) {
     for (int i = 0; i < n * n; i++) {
         blur = number_most(blur, (double)n * error[i]);
     }
-    if (getenv("DBG")) printf("blur %g\n", blur);
-    if (getenv("DBG")) printf("blur %g\n", blur);
     int rank = 0;
     while (rank < n && bring_pivot(m, n, rank) > blur) {
         for (int i = rank + 1; i < n; i++) {
@@ -131,10 +125,8 @@ int rank_of(double *m, double *error, int n, bool symmetric) {
                 m[i * n + j] -= part * m[rank * n + j];
             }
         }
-        if (getenv("DBG")) printf(" p %g", fabs(m[rank*n+rank]));
         rank++;
     }
-    if (getenv("DBG")) printf(" left %g\n", rank<n? bring_pivot(m,n,rank):0);
     return rank;
 }
 

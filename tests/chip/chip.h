@@ -42,11 +42,12 @@ typedef enum chip_counter {
 /* What the world around the chip is. Anything may be changed at any time but by chip_crystal_stops(). */
 typedef struct chip_world {
     uint32_t crystal_Hz;
-    bool crystal;                              /* answers */
-    uint64_t crystal_units;                    /* that it takes to start */
-    bool pll;                                  /* locks */
-    uint64_t watchdog_Hz;                      /* LSI: 17 to 47 kHz */
-    bool halt_disables; /* a timer's outputs, where its counter stops with a halt: unproven on this chip */
+    bool crystal;           /* answers */
+    uint64_t crystal_units; /* that it takes to start */
+    bool pll;               /* locks */
+    uint64_t watchdog_Hz;   /* LSI: 17 to 47 kHz */
+    bool
+        halt_disables; /* a timer's outputs, where its counter stops with a halt: unproven on this chip */
     double (*volts)(unsigned input, double s); /* at an ADC1 input, at a time; NULL: 0 */
     double vdda_V;
     chip_counter counter;

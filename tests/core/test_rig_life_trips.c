@@ -204,9 +204,9 @@ static void test_stop_is_at_once(void) {
                                  even.rig.run.phase == WH_PHASE_OFF);
                 /* a stop never puts the enable on */
                 const bool enabled = phase != WH_PHASE_TARE && phase != WH_PHASE_OFF;
-                TEST_ASSERT_TRUE(even.command.way ==
-                                 (brakes == 1 && enabled && way != STOP_INPUT ? WH_MOTOR_BRAKES
-                                                                              : WH_MOTOR_COASTS));
+                TEST_ASSERT_TRUE(even.command.way == (brakes == 1 && enabled && way != STOP_INPUT
+                                                          ? WH_MOTOR_BRAKES
+                                                          : WH_MOTOR_COASTS));
                 TEST_ASSERT_TRUE(even_order(&even, WH_EVENT_START, WH_R(330.0) * EVEN_RPM) ==
                                  WH_REFUSED_STOPPING);
                 unsigned steps = 0;

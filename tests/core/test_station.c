@@ -169,7 +169,8 @@ static void test_a_trip_is_told_and_cleared(void) {
     even_step(&even);
     even.inputs.supply_V = WH_RIG_RATED_V;
     check_begins("OK trip=11 in=record speed_rpm=330.0", ask("fault"));
-    TEST_ASSERT_NOT_NULL(strstr(heard, " supply_V=40.00 ended=trip: the motor's supply is out of its range"));
+    TEST_ASSERT_NOT_NULL(
+        strstr(heard, " supply_V=40.00 ended=trip: the motor's supply is out of its range"));
     check_begins("OK state=tripped ", ask("status"));
     check_begins("ERR 5 ", ask("arm"));
     check_begins("ERR 11 ", ask("clear"));

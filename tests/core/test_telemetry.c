@@ -133,8 +133,8 @@ static void test_losses_are_counted(void) {
         TEST_ASSERT_TRUE((baud[k] <= 19200U) == (bench.got.dropped > 0));
         TEST_ASSERT_EQUAL_UINT(0, bench.station.lost_answers);
         unsigned told = 0;
-        for (const char *at = strstr(bench.heard.text, "OK trip=0 ended=none: no fault\r\n"); at != NULL;
-             at = strstr(at + 1, "OK trip=0 ended=none: no fault\r\n")) {
+        for (const char *at = strstr(bench.heard.text, "OK trip=0 ended=none: no fault\r\n");
+             at != NULL; at = strstr(at + 1, "OK trip=0 ended=none: no fault\r\n")) {
             told++;
         }
         TEST_ASSERT_EQUAL_UINT(asked, told);

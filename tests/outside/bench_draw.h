@@ -15,9 +15,9 @@
 /* Numbers of a bench. Errors and faults are 0 in a healthy one. */
 #define NUMBERS(X) \
     X(rpm) \
-    X(fed) X(brakes) \
-    X(supply) X(supply_off) X(supply_gain) X(supply_sat) X(swings) X(inertia) X(drag) X(dry) \
-        X(weak) X(torque_2) X(phase_2) X(freewheels) X(coasts) X(share) X(ignores_enable) \
+    X(fed) \
+    X(brakes) X(supply) X(supply_off) X(supply_gain) X(supply_sat) X(swings) X(inertia) X(drag) \
+        X(dry) X(weak) X(torque_2) X(phase_2) X(freewheels) X(coasts) X(share) X(ignores_enable) \
             X(place_1) X(place_2) X(jitter) X(dead) X(doubled) X(double_s) X(resonance) X(damping) \
                 X(play) X(cubic) X(gain) X(drift) X(pickup) X(pickup_phase) X(noise) X(hum) \
                     X(hum_hz) X(hum_phase) X(clip_above) X(clip_below) X(adc) X(quantized)

@@ -13,13 +13,12 @@ static const struct {
     int kind;
     const char *name;
     uint32_t ms;
-} page[] = {{0, "duty", 0},       {0, "enable", 0},       {2, "theta", 0},
-            {2, "theta", 0},      {1, "cell_force", 2},   {1, "supply", 2},
-            {1, "stop_input", 2}, {3, "state", 0},        {3, "trip", 0},
-            {3, "quality", 0},    {3, "amplitude", 0},    {3, "amplitude_half", 0},
-            {3, "phase", 0},      {3, "phase_half", 0},   {3, "turns", 0},
-            {3, "reset", 0},      {1, "dial_speed", 100}, {1, "dial_feed", 100},
-            {1, "dial_brakes", 100}};
+} page[] = {
+    {0, "duty", 0},         {0, "enable", 0},      {2, "theta", 0},        {2, "theta", 0},
+    {1, "cell_force", 2},   {1, "supply", 2},      {1, "stop_input", 2},   {3, "state", 0},
+    {3, "trip", 0},         {3, "quality", 0},     {3, "amplitude", 0},    {3, "amplitude_half", 0},
+    {3, "phase", 0},        {3, "phase_half", 0},  {3, "turns", 0},        {3, "reset", 0},
+    {1, "dial_speed", 100}, {1, "dial_feed", 100}, {1, "dial_brakes", 100}};
 enum { SIGNALS = sizeof page / sizeof page[0] };
 
 typedef struct {
