@@ -33,8 +33,8 @@ static const command_usage firstlight_usage = {
     .head =
         "usage: whirl firstlight FILE|PORT [options]\n"
         "\n"
-        "Reads the record that the image firstlight prints, from a file or a serial line, compares each field\n"
-        "with the interpreter's runs of the same scenes, and appends a row to the table of " LIGHT_PAGE
+        "Reads the record that the image firstlight prints, from a file or a serial line. Compares each\n"
+        "field with the interpreter's runs of the same scenes, and appends a row to the table of\n" LIGHT_PAGE
         ".\n"
         "A field that the board or emulator cannot give is `none`, and is named.\n"
         "\n",
@@ -42,7 +42,7 @@ static const command_usage firstlight_usage = {
         "  --board B         the record is to be of this board\n"
         "  --emulated FILE   the emulator's record of the same image: board, compiler and stack beside it\n"
         "  --page FILE       the page that gets the row (default: " LIGHT_PAGE
-        ", of silicon's records alone)\n"
+        ", of silicon alone)\n"
         "  --keep FILE       the record, as it was read\n"
         "  --wait S          so many seconds for a record on a line (default: 60)\n"
         "  --baud B          the line's speed (default: 115200)\n",
