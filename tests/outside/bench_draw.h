@@ -11,7 +11,7 @@
 #define DEG (PI / 180.0)
 #define NEVER 1e9
 
-/* clang-format off: rows */
+/* clang-format off */
 /* Numbers of a bench. Errors and faults are 0 in a healthy one. */
 #define NUMBERS(X) \
     X(rpm) \
