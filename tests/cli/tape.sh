@@ -43,9 +43,9 @@ rows() { "$whirl" pil --read "$scratch/$1.tape" | tr -d '\r'; }
 stream() { sed -n 's/^command stream  *\([^,]*\).*/\1/p' "$scratch/out"; }
 
 # --- a whole run -----------------------------------------------------------------------------------------------------
-record run 46 115200 0
+record run 80 115200 0
 verdict $? "a run is recorded" "$scratch/run.said"
-grep -q 'tape: [0-9]* control steps, 4[45]\.[0-9]* s; no more of it was heard$' "$scratch/run.said" && grep -q 'lost: 0 frames' "$scratch/run.said"
+grep -q 'tape: [0-9]* control steps, [78][09]\.[0-9]* s; no more of it was heard$' "$scratch/run.said" && grep -q 'lost: 0 frames' "$scratch/run.said"
 verdict $? "from its begin on, without a loss" "$scratch/run.said"
 rows run | awk -F, '$5 == "state" { printf "%s ", $6 }' >"$scratch/states"
 [ "$(cat "$scratch/states")" = "0 1 9 10 11 12 13 14 15 0 " ]

@@ -51,9 +51,8 @@ static uint64_t minute;
 static const struct {
     double at_s; /* of each minute */
     const char *line;
-} orders[] = {{0.5, ""},           {2.5, "conf set stop_brakes on\n"},
-              {3.0, "arm\n"},      {3.5, "start 330\n"},
-              {20.0, "set 250\n"}, {50.0, "stop\n"}};
+} orders[] = {
+    {0.5, ""}, {3.0, "arm\n"}, {3.5, "start 330\n"}, {20.0, "set 250\n"}, {50.0, "stop\n"}};
 enum { ORDERS = sizeof orders / sizeof orders[0] };
 
 static double setting(const char *name, double usual) {
