@@ -31,7 +31,9 @@ static wh_refusal may_turn(const wh_rig_config *config, const wh_rig *rig,
                            const wh_rig_inputs *inputs, wh_real target_radps) {
     /* slower set-points can be held where gravity's torque can be fed forward */
     const bool can_feed = config->feeds != WH_FEED_NEVER && rig->observer.status == WH_OK;
-    if (!wh_guard_allows(&config->guard, target_radps, can_feed)) {
+    const bool feeds = can_feed && (config->feeds == WH_FEED_ALWAYS ||
+                                    target_radps < config->guard.target_min_radps);
+    if (!wh_guard_allows(&config->guard, target_radps, feeds)) {
         return WH_REFUSED_TARGET;
     }
     return wh_run_needs_V(&config->run, target_radps) <= inputs->supply_V ? WH_ALLOWED

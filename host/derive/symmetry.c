@@ -139,19 +139,26 @@ static void take_terms(conditions *s, const poly *const *change) {
     free(all);
 }
 
+/* The power of a generalized force, or the rate of a gap, is to vanish. */
+static void take_row(const equations *e, conditions *s, const poly *const *row,
+                     const poly **change) {
+    for (int k = 0; k < s->columns; k++) {
+        change[k] = without_phases(e->algebra, poly_expanded(e->algebra, power_by(e, row, k)));
+    }
+    take_terms(s, change);
+}
+
 /* What changes a momentum beside the energies: the sum of all forces, and each contact. */
 static void take_forces(const equations *e, conditions *s, const poly **change) {
     const contact_laws *laws = e->contacts;
-    for (int c = -1; c < (laws != NULL ? laws->count : 0); c++) {
-        const poly *const *row = c < 0 ? e->applied : laws->law[c].row;
-        for (int k = 0; k < s->columns && row != NULL; k++) {
-            change[k] = without_phases(e->algebra, poly_expanded(e->algebra, power_by(e, row, k)));
+    take_row(e, s, e->applied, change);
+    for (int c = 0; laws != NULL && c < laws->count; c++) {
+        const contact_law *law = &laws->law[c];
+        if (law->row != NULL) {
+            take_row(e, s, law->row, change);
         }
-        if (row != NULL) {
-            take_terms(s, change);
-        }
-        for (int i = 0; row == NULL && i < laws->law[c].from->set_count; i++) {
-            take_fixed(e, s, laws->law[c].from->sets[i].symbol);
+        for (int i = 0; law->row == NULL && i < law->from->set_count; i++) {
+            take_fixed(e, s, law->from->sets[i].symbol);
         }
     }
 }

@@ -114,7 +114,7 @@ static void check_answers(void) {
     const unsigned age_s = result_steps / STEPS_PER_S;
     const char *at = strstr(heard, " age_s=");
     TEST_ASSERT_NOT_NULL(at);
-    const unsigned told_s = (unsigned)atoi(at + 7);
+    const unsigned told_s = (unsigned)strtoul(at + 7, NULL, 10);
     TEST_ASSERT_TRUE(told_s <= age_s + 1U && told_s + 1U >= age_s);
 }
 

@@ -229,7 +229,8 @@ static void test_particles(void) {
         p.at = (int)(random_bits(&seed) % (unsigned)p.bodies);
         p.strength = pow(10.0, random_between(&seed, -6.0, 0.0));
         /* nothing, one thing, or a few */
-        p.with = c % 3U == 0 ? 0U : (unsigned)(random_bits(&seed) & random_bits(&seed)) & ALL;
+        const uint64_t half = random_bits(&seed);
+        p.with = c % 3U == 0 ? 0U : (unsigned)(half & random_bits(&seed)) & ALL;
         p.with = c % 3U == 1 ? 1U << (random_bits(&seed) % 9U) : p.with;
         for (int i = 0; i < BODIES; i++) {
             p.mass[i] = random_between(&seed, 0.2, 4.0);
