@@ -169,12 +169,14 @@ WH_INLINE void wh_guard_quiet(const wh_guard_config *config, wh_guard *guard, ui
 
 /* Each step, in every state: over-speed, of a turn, of two pulse intervals running beyond the bound, or of a turn that two
  * marks running find faster than whatever leads it could make it. `reason` is what that means: WH_TRIP_OVERSPEED, or
- * WH_TRIP_RUNS_ON with the motor off. Where it is not `driven`, a sensor that fires again and again is one in whose slot the
- * rotor swings: only pulses that alternate are turns. */
+ * WH_TRIP_RUNS_ON with the motor off. Then a sensor that fires again and again is one in whose slot the rotor swings, and only
+ * pulses that alternate are turns: at least `alternate` of them running, 0 while the motor drives. */
+#define WH_GUARD_BRAKES 1U /* the enable is on: no time is lost */
+#define WH_GUARD_COASTS 6U /* it is off: the turns that one invented pulse falsifies are over */
 WH_INLINE void wh_guard_speed(const wh_guard_config *config, wh_guard *guard,
-                              const wh_pulses *pulses, wh_trip reason, bool driven) {
+                              const wh_pulses *pulses, wh_trip reason, unsigned alternate) {
     const wh_speed *speed = &pulses->speed;
-    if (!driven && pulses->alternate == 0) {
+    if (pulses->alternate < alternate) {
         return;
     }
     /* one early pulse may be a disturbance, two are a speed */

@@ -265,7 +265,9 @@ static void watch(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs 
                    !slows        ? WH_TRIP_OVERSPEED
                    : brakes(rig) ? WH_TRIP_UNBRAKED
                                  : WH_TRIP_RUNS_ON,
-                   drives);
+                   drives        ? 0U
+                   : brakes(rig) ? WH_GUARD_BRAKES
+                                 : WH_GUARD_COASTS);
     if (rig->run.phase == WH_PHASE_SPIN_UP && !rig->pulses.speed.running &&
         wh_rig_is_over(rig->run.since_ticks, inputs->now_ticks, config->guard.slow_silence_max_s)) {
         wh_guard_trip(guard, WH_TRIP_STALLED); /* or is not seen: it must not get fast */

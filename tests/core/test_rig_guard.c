@@ -51,8 +51,8 @@ static wh_trip trip_at(wh_real turn_rpm, unsigned fast) {
     pulses.speed.known = true;
     pulses.speed.turn_radps = turn_rpm * RPM;
     pulses.fast = fast;
-    wh_guard_speed(&wh_rig_standard.guard, &guard, &pulses, WH_TRIP_RUNS_ON, true);
-    wh_guard_speed(&wh_rig_standard.guard, &guard, &pulses, WH_TRIP_OVERSPEED, true);
+    wh_guard_speed(&wh_rig_standard.guard, &guard, &pulses, WH_TRIP_RUNS_ON, 0);
+    wh_guard_speed(&wh_rig_standard.guard, &guard, &pulses, WH_TRIP_OVERSPEED, 0);
     return guard.trip;
 }
 
@@ -73,7 +73,7 @@ static void test_over_speed_trips_when_it_is_sure(void) {
         const bool waits = i / 2U % 2U == 1U;
         const bool too_fast = i / 4U % 2U == 1U;
         const bool driven = i / 8U % 2U == 1U;
-        const unsigned alternate = i / 16U % 2U;
+        const unsigned alternate = i / 16U % 2U == 1U ? WH_GUARD_COASTS : WH_GUARD_COASTS - 1U;
         const unsigned fast = i / 32U;
         const wh_pulses pulses = {
             .speed = {.known = known,
@@ -82,8 +82,8 @@ static void test_over_speed_trips_when_it_is_sure(void) {
             .fast = fast,
             .alternate = alternate};
         wh_guard guard = {.trip = WH_TRIP_NONE};
-        wh_guard_speed(config, &guard, &pulses, WH_TRIP_OVERSPEED, driven);
-        const bool turns = driven || alternate > 0;
+        wh_guard_speed(config, &guard, &pulses, WH_TRIP_OVERSPEED, driven ? 0 : WH_GUARD_COASTS);
+        const bool turns = driven || alternate >= WH_GUARD_COASTS;
         const bool sure = known && too_fast && (!waits || fast > 0);
         TEST_ASSERT_EQUAL_INT(turns && (sure || fast > 1U) ? WH_TRIP_OVERSPEED : WH_TRIP_NONE,
                               guard.trip);
@@ -105,13 +105,13 @@ static void test_what_climbs_and_is_fast_trips(void) {
             pulses.speed.turn_radps = turn;
             pulses.climb_radps = WH_R(2.2) * config->climb * turn * WH_R(0.1) * (wh_real)part;
             pulses.climb_before_radps = WH_R(2.2) * config->climb * turn - pulses.climb_radps;
-            wh_guard_speed(config, &guard, &pulses, WH_TRIP_OVERSPEED, true);
+            wh_guard_speed(config, &guard, &pulses, WH_TRIP_OVERSPEED, 0);
             const bool both = part > 0 && part < 10U;
             TEST_ASSERT_TRUE((guard.trip == WH_TRIP_OVERSPEED) == (both && fast > 0));
             guard.trip = WH_TRIP_NONE;
             pulses.climb_radps *= WH_R(0.4);
             pulses.climb_before_radps *= WH_R(0.4);
-            wh_guard_speed(config, &guard, &pulses, WH_TRIP_OVERSPEED, true);
+            wh_guard_speed(config, &guard, &pulses, WH_TRIP_OVERSPEED, 0);
             TEST_ASSERT_TRUE(guard.trip == WH_TRIP_NONE);
         }
     }

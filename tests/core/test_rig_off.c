@@ -221,6 +221,32 @@ static void test_healthy_rotors_run_out(void) {
     TEST_ASSERT_TRUE(!OFF_ALL || (brakes > 0 && 2U * swings > draw_cases(OFF_BENCHES / 3U)));
 }
 
+/* One pulse of nothing, of either sensor, while a rotor coasts: no trip, but of some that are about to turn back at the top. */
+static void test_one_invented_pulse_is_no_drive(void) {
+    unsigned benches = 0;
+    unsigned trips = 0;
+    seed = 34;
+    for (unsigned i = 0; i < draw_cases(OFF_BENCHES / 3U); i++) {
+        draw_bench();
+        b.config.stop_brakes = false;
+        go_to(COMMANDED);
+        if (b.rig.guard.trip != WH_TRIP_NONE) {
+            continue; /* no bench for this set-point */
+        }
+        steps_on(draw_one_of(&seed, 2U * STEPS_PER_S));
+        wh_rig_pulse(&b.config, &b.rig, draw_one_of(&seed, 2),
+                     b.rotor.ticks - draw_one_of(&seed, STEP_TICKS));
+        for (unsigned k = 0; k < 130U * STEPS_PER_S && b.rig.guard.trip == WH_TRIP_NONE &&
+                             b.rig.state != WH_LIFE_IDLE;
+             k++) {
+            step_on();
+        }
+        benches++;
+        trips += b.rig.guard.trip != WH_TRIP_NONE;
+    }
+    TEST_ASSERT_TRUE(!OFF_ALL || 30U * trips < benches);
+}
+
 /* A hand may turn the rotor, slower than 60 rpm, in jerks, and swing it. */
 static void test_a_hand_may_turn_the_rotor(void) {
     seed = 32;
@@ -300,6 +326,7 @@ static void test_a_stage_that_drives_is_found(void) {
 
 void suite_rig_off(void) {
     RUN_TEST(test_healthy_rotors_run_out);
+    RUN_TEST(test_one_invented_pulse_is_no_drive);
     RUN_TEST(test_a_hand_may_turn_the_rotor);
     RUN_TEST(test_a_stage_that_drives_is_found);
 }

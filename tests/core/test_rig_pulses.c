@@ -164,7 +164,7 @@ static outcome play(uint32_t early) {
             TEST_ASSERT_TRUE((int32_t)(now - mark.pulse.ticks) > 0); /* the next may take it back */
             out.marks++;
         }
-        wh_guard_speed(&config.guard, &rig.guard, &rig.pulses, WH_TRIP_OVERSPEED, true);
+        wh_guard_speed(&config.guard, &rig.guard, &rig.pulses, WH_TRIP_OVERSPEED, 0);
         wh_guard_pulses(&config.guard, &rig.guard, &rig.pulses, WH_R(2.0), now);
         if (out.marks >= SETTLED) {
             const wh_real off_rpm = WH_ABS(rig.pulses.speed.turn_radps - mean_radps) / RPM;
@@ -375,7 +375,7 @@ static void test_a_storm_stops_the_rig(void) {
             for (unsigned k = 0; k < 200U && rig.guard.trip == WH_TRIP_NONE; k++) {
                 now += (uint32_t)(draw_bits(&seed) % (turn / 20U));
                 wh_rig_pulse(&config, &rig, draw_one_of(&seed, 2), now);
-                wh_guard_speed(&config.guard, &rig.guard, &rig.pulses, WH_TRIP_OVERSPEED, true);
+                wh_guard_speed(&config.guard, &rig.guard, &rig.pulses, WH_TRIP_OVERSPEED, 0);
                 wh_guard_pulses(&config.guard, &rig.guard, &rig.pulses, WH_R(2.0), now);
             }
             TEST_ASSERT_TRUE(rig.guard.trip == WH_TRIP_PULSES ||

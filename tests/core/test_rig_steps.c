@@ -34,7 +34,7 @@ static void stand_in(wh_rig_phase phase) {
     rig.run.phase = phase;
     rig.pulses.speed.known = true;
     rig.pulses.speed.running = true;
-    rig.pulses.alternate = 2; /* it turns round */
+    rig.pulses.alternate = WH_GUARD_COASTS; /* it turns round */
     rig.pulses.speed.turn_radps = WH_R(330.0) * RPM;
     rig.run.drive.setpoint_radps = rig.run.drive.target_radps = rig.run.target_radps;
     rig.run.off_radps = WH_R(330.0) * RPM;
