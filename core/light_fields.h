@@ -9,6 +9,8 @@
 #ifndef WH_LIGHT_FIELDS_H
 #define WH_LIGHT_FIELDS_H
 
+#include "version.h" /* the value of `version` */
+
 #define WH_LIGHT_BEGIN "firstlight record 1"
 #define WH_LIGHT_END "end 0x"
 #define WH_LIGHT_NONE "none"

@@ -4,4 +4,6 @@
 
 #define WH_VERSION "0.1.0"
 
+enum { WH_VERSION_MAJOR = 0, WH_VERSION_MINOR = 1, WH_VERSION_PATCH = 0 };
+
 #endif

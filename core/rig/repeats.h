@@ -37,11 +37,11 @@ typedef struct wh_repeats {
 /* The residual at an angle of one turn or so, times the angle for which it stands. */
 WH_INLINE void wh_repeats_add(wh_repeats *repeats, wh_real theta_rad, wh_real residual_Nrad) {
     const wh_real bins = (wh_real)WH_REPEATS_BINS;
-    const wh_real place = theta_rad * (bins / WH_RIG_TWO_PI) + bins;
-    if (!(WH_ABS(place) < WH_R(3.0) * bins)) {
+    const wh_real bin = theta_rad * (bins / WH_RIG_TWO_PI) + bins;
+    if (!(WH_ABS(bin) < WH_R(3.0) * bins)) {
         return; /* not a number, for one */
     }
-    repeats->bin_N[(uint32_t)(int32_t)place % WH_REPEATS_BINS] += residual_Nrad;
+    repeats->bin_N[(uint32_t)(int32_t)bin % WH_REPEATS_BINS] += residual_Nrad;
 }
 
 /* Add a turn of so many samples. */

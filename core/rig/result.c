@@ -26,7 +26,7 @@
 #define REPEATS_LAG WH_R(0.4)
 #define REPEATS_ARROW WH_R(1.6)
 #define REPEATS_CUT WH_R(0.29)
-#define REPEATS_TWICE WH_R(5.0)
+#define REPEATS_TWICE WH_R(6.0)
 #define REPEATS_CELL WH_R(1e-4)
 
 /* What marks that jitter by an angle leave of the force in a turn, as a part of that angle. */
