@@ -61,11 +61,16 @@ bool wh_rig_speed(const wh_rig *rig, uint32_t now_ticks, wh_real *speed_radps) {
 /* --- the likely cause of a trip ------------------------------------------------------------------- */
 
 /* The direction: forwards the way from sensor 1 to sensor 2 is a quarter turn, and backwards three. It must take longer than
- * both ways back, since a rotor that starts changes its speed. */
-static bool order_is_wrong(const wh_rig *rig, uint32_t now_ticks) {
+ * both ways back, since a rotor that starts changes its speed. Pulses that come faster than any rotor turns tell of none. */
+static bool order_is_wrong(const wh_rig_config *config, const wh_rig *rig, uint32_t now_ticks) {
     uint32_t way[3];
     unsigned last;
     if (!last_ways(rig, now_ticks, way, &last)) {
+        return false;
+    }
+    const wh_real least_ticks =
+        WH_RIG_TWO_PI * (wh_real)WH_RIG_TICKS_PER_S / config->impossible_radps;
+    if ((wh_real)(way[0] + way[1]) < least_ticks || (wh_real)(way[1] + way[2]) < least_ticks) {
         return false;
     }
     return last == 1U ? way[0] > way[1] && way[2] > way[1] : way[1] > way[0] && way[1] > way[2];
@@ -87,7 +92,7 @@ wh_trip wh_rig_cause(const wh_rig_config *config, const wh_rig *rig, uint32_t no
     if (!of_pulses || !wh_run_drives(&rig->run)) {
         return trip;
     }
-    if (order_is_wrong(rig, now_ticks)) {
+    if (order_is_wrong(config, rig, now_ticks)) {
         return WH_TRIP_ORDER;
     }
     return trip == WH_TRIP_OVERSPEED && starts(rig, now_ticks) &&
