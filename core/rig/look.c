@@ -60,17 +60,18 @@ bool wh_rig_speed(const wh_rig *rig, uint32_t now_ticks, wh_real *speed_radps) {
 
 /* --- the likely cause of a trip ------------------------------------------------------------------- */
 
+/* A whole turn at 3,200 rpm: the fastest motor of the settings (2,000 rpm) at the highest supply turns slower. */
+#define STORM_TICKS 18750U
+
 /* The direction: forwards the way from sensor 1 to sensor 2 is a quarter turn, and backwards three. It must take longer than
  * both ways back, since a rotor that starts changes its speed. Pulses that come faster than any rotor turns tell of none. */
-static bool order_is_wrong(const wh_rig_config *config, const wh_rig *rig, uint32_t now_ticks) {
+static bool order_is_wrong(const wh_rig *rig, uint32_t now_ticks) {
     uint32_t way[3];
     unsigned last;
     if (!last_ways(rig, now_ticks, way, &last)) {
         return false;
     }
-    const wh_real least_ticks =
-        WH_RIG_TWO_PI * (wh_real)WH_RIG_TICKS_PER_S / config->impossible_radps;
-    if ((wh_real)(way[0] + way[1]) < least_ticks || (wh_real)(way[1] + way[2]) < least_ticks) {
+    if (way[0] + way[1] < STORM_TICKS || way[1] + way[2] < STORM_TICKS) {
         return false;
     }
     return last == 1U ? way[0] > way[1] && way[2] > way[1] : way[1] > way[0] && way[1] > way[2];
@@ -92,7 +93,7 @@ wh_trip wh_rig_cause(const wh_rig_config *config, const wh_rig *rig, uint32_t no
     if (!of_pulses || !wh_run_drives(&rig->run)) {
         return trip;
     }
-    if (order_is_wrong(config, rig, now_ticks)) {
+    if (order_is_wrong(rig, now_ticks)) {
         return WH_TRIP_ORDER;
     }
     return trip == WH_TRIP_OVERSPEED && starts(rig, now_ticks) &&
