@@ -50,6 +50,8 @@ void wh_expect_slower(wh_run *run, wh_pulses *pulses, bool brakes, unsigned sens
     if (again) {
         wh_pulses_forget(pulses);
     }
-    /* where it brakes: one that swings freely passes the sensors to and fro, and no interval is a speed */
-    pulses->slow = run->phase == WH_PHASE_OFF && brakes && run->off_radps < SLOW_RADPS;
+    /* While it brakes only: one that swings freely passes the sensors to and fro, and no interval is a speed. And at sensor 1
+     * only: from there back to sensor 0 a rotor that failed at the top falls a quarter turn, which reads as three forward. */
+    pulses->slow =
+        run->phase == WH_PHASE_OFF && brakes && sensor == 1U && run->off_radps < SLOW_RADPS;
 }

@@ -136,10 +136,6 @@ static wh_station_error fits(wh_conf_id id, wh_real value) {
 
 /* --- into the rig's configuration --------------------------------------------------------------------- */
 
-static bool is_set(const wh_conf *conf, wh_conf_id id) {
-    return conf->value[id] != conf->standard[id];
-}
-
 /* What gravity and the masses' force do elsewhere, in proportion: docs/rig.md has the reasons. */
 static void put_rotor(const wh_conf *conf, wh_rig_config *c) {
     const wh_real moment = conf->value[WH_CONF_mass_moment];
@@ -151,6 +147,7 @@ static void put_rotor(const wh_conf *conf, wh_rig_config *c) {
     c->guard.load_still_kgm *=
         moments * conf->value[WH_CONF_mount_factor] / conf->standard[WH_CONF_mount_factor];
     c->guard.fall_radps *= WH_SQRT(weights / inertias);
+    c->guard.braked_radps /= inertias;
 }
 
 static void put_sensors(const wh_conf *conf, wh_rig_config *c) {
@@ -170,8 +167,8 @@ static void put_cell(const wh_conf *conf, wh_rig_config *c) {
 /* --- the motor ------------------------------------------------------------------------------------------- */
 
 static bool has_motor(const wh_conf *conf) {
-    return is_set(conf, WH_CONF_no_load_speed) || is_set(conf, WH_CONF_rated_voltage) ||
-           is_set(conf, WH_CONF_stall_torque);
+    return conf->given[WH_CONF_no_load_speed] || conf->given[WH_CONF_rated_voltage] ||
+           conf->given[WH_CONF_stall_torque];
 }
 
 /* The defaults of these follow from the motor. */
@@ -185,13 +182,13 @@ static void begin_with_motor(wh_conf *conf) {
     if (has_motor(conf)) {
         wh_rig_motor motor;
         wh_rig_motor_of(c, &motor);
-        if (is_set(conf, WH_CONF_no_load_speed)) {
+        if (conf->given[WH_CONF_no_load_speed]) {
             motor.no_load_radps = conf->value[WH_CONF_no_load_speed] / per_unit[WH_CONF_RPM];
         }
-        if (is_set(conf, WH_CONF_rated_voltage)) {
+        if (conf->given[WH_CONF_rated_voltage]) {
             motor.rated_V = conf->value[WH_CONF_rated_voltage];
         }
-        if (is_set(conf, WH_CONF_stall_torque)) {
+        if (conf->given[WH_CONF_stall_torque]) {
             motor.stall_Nm = conf->value[WH_CONF_stall_torque];
         }
         wh_rig_use_motor(c, &motor);
@@ -199,7 +196,7 @@ static void begin_with_motor(wh_conf *conf) {
     for (unsigned i = 0; i < sizeof of_motor; i++) {
         const wh_conf_id id = (wh_conf_id)of_motor[i];
         const wh_real standard = as_kept(value_of(c, id));
-        if (!is_set(conf, id)) {
+        if (!conf->given[id]) {
             conf->value[id] = standard;
         }
         conf->standard[id] = standard;
@@ -241,8 +238,7 @@ static uint32_t hash(const wh_conf *conf) {
 
 static bool go_together(const wh_conf *conf) {
     const wh_real *value = conf->value;
-    return (!has_motor(conf) || motor_goes(conf)) &&
-           value[WH_CONF_speed_least] < value[WH_CONF_speed_most] &&
+    return motor_goes(conf) && value[WH_CONF_speed_least] < value[WH_CONF_speed_most] &&
            value[WH_CONF_speed_most] < value[WH_CONF_speed_limit] &&
            value[WH_CONF_supply_least] < value[WH_CONF_supply_most];
 }
@@ -256,7 +252,7 @@ static bool renew(wh_conf *conf) {
         return false;
     }
     for (unsigned id = 0; id < WH_CONF_COUNT; id++) {
-        if (is_set(conf, (wh_conf_id)id)) {
+        if (conf->given[id]) {
             put(c, (wh_conf_id)id, conf->value[id]);
             goes[ROW(id)->goes] = true;
         }
@@ -270,7 +266,8 @@ static bool renew(wh_conf *conf) {
     if (goes[WH_CONF_CELL]) {
         put_cell(conf, c);
     }
-    if (is_set(conf, WH_CONF_supply_most)) {
+    c->guard.braked_radps *= conf->value[WH_CONF_damping] / conf->standard[WH_CONF_damping];
+    if (conf->given[WH_CONF_supply_most]) {
         wh_rig_bound_pulses(c);
     }
     c->settings = hash(conf);
@@ -281,13 +278,16 @@ static bool renew(wh_conf *conf) {
 
 wh_station_error wh_conf_set(wh_conf *conf, wh_conf_id id, wh_real value) {
     const wh_real before = conf->value[id];
+    const bool was_given = conf->given[id];
     const wh_station_error error = fits(id, value);
     if (error != WH_STATION_FINE) {
         return error;
     }
     conf->value[id] = as_kept(value);
+    conf->given[id] = true;
     if (!renew(conf)) {
         conf->value[id] = before;
+        conf->given[id] = was_given;
         (void)renew(conf);
         return WH_STATION_CONF_AGAINST;
     }
@@ -319,6 +319,7 @@ wh_station_error wh_conf_type(wh_conf *conf, wh_conf_id id, const char *typed) {
 void wh_conf_default(wh_conf *conf) {
     for (unsigned id = 0; id < WH_CONF_COUNT; id++) {
         conf->value[id] = conf->standard[id];
+        conf->given[id] = false;
     }
     (void)renew(conf);
 }
@@ -327,6 +328,7 @@ static void take(wh_conf *conf, unsigned number, wh_real value) {
     for (unsigned id = 0; id < WH_CONF_COUNT; id++) {
         if (ROW(id)->number == number && fits((wh_conf_id)id, value) == WH_STATION_FINE) {
             conf->value[id] = value;
+            conf->given[id] = true;
         }
     }
 }
@@ -349,7 +351,7 @@ void wh_conf_take(wh_conf *conf, const uint8_t *payload, unsigned count) {
 
 unsigned wh_conf_is_set(const wh_conf *conf, wh_conf_id id, float *value) {
     *value = (float)conf->value[id];
-    return is_set(conf, id) ? rows[id].number : 0U;
+    return conf->given[id] ? rows[id].number : 0U;
 }
 #endif
 
@@ -384,7 +386,7 @@ wh_station_error wh_conf_save(wh_conf *conf) {
     uint8_t kept[WH_STORE_SLOT_BYTES];
     wh_bytes bytes = {.to = kept + WH_STORE_HEAD_BYTES, .room = WH_STORE_PAYLOAD_MOST};
     for (unsigned id = 0; id < WH_CONF_COUNT; id++) {
-        if (is_set(conf, (wh_conf_id)id)) {
+        if (conf->given[id]) {
             wh_bytes_put(&bytes, ROW(id)->number, 1);
             wh_bytes_put_float(&bytes, (float)conf->value[id]);
         }

@@ -48,7 +48,8 @@ typedef struct wh_conf {
     const wh_store_memory *memory; /* NULL: nothing is kept */
     wh_rig_config *config;         /* the rig's: renewed with each change */
     wh_real value[WH_CONF_COUNT];
-    wh_real standard[WH_CONF_COUNT]; /* where nobody has set it */
+    wh_real standard[WH_CONF_COUNT]; /* of a setting that was not given */
+    bool given[WH_CONF_COUNT];       /* set by somebody, even to its default */
     uint32_t sequence;               /* of what was loaded or saved last; 0: nothing was */
 } wh_conf;
 

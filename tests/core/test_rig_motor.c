@@ -238,7 +238,11 @@ static void test_settings_that_cannot_go_together(void) {
     unsigned against = 0;
     for (unsigned i = 0; i < 300U; i++) {
         draw_motor();
-        enter(&motor);
+        if (draw_one_in(&seed, 3)) { /* the default motor */
+            wh_conf_start(&conf, own, NULL, &config);
+        } else {
+            enter(&motor);
+        }
         const wh_conf before = conf;
         const wh_rig_config then = config;
         static const wh_conf_id ids[] = {
@@ -270,10 +274,55 @@ static void test_settings_that_cannot_go_together(void) {
     TEST_ASSERT_TRUE(against >= 40U);
 }
 
+/* The order in which settings are given does not matter, and one that is given its default keeps it. */
+static void test_any_order_of_settings(void) {
+    enum { GIVEN = 8 };
+    static const wh_conf_id ids[GIVEN] = {
+        WH_CONF_no_load_speed, WH_CONF_rated_voltage, WH_CONF_stall_torque, WH_CONF_damping,
+        WH_CONF_gain,          WH_CONF_spin_up,       WH_CONF_supply_most,  WH_CONF_inertia};
+    seed = 66;
+    unsigned compared = 0;
+    const unsigned cases = draw_cases(200);
+    for (unsigned i = 0; i < cases; i++) {
+        wh_real values[GIVEN];
+        wh_rig_config first;
+        bool fine = true;
+        draw_motor();
+        wh_conf_start(&conf, own, NULL, &config);
+        for (unsigned k = 0; k < GIVEN; k++) {
+            const wh_real other =
+                draw_one_in(&seed, 3) ? WH_R(1.0) : between(WH_R(0.95), WH_R(1.3));
+            values[k] = conf.standard[ids[k]] * other;
+        }
+        for (unsigned round = 0; round < 2U; round++) {
+            const unsigned stride =
+                2U * draw_one_of(&seed, GIVEN / 2) + 1U; /* any order that is odd */
+            const unsigned from = draw_one_of(&seed, GIVEN);
+            wh_conf_start(&conf, own, NULL, &config);
+            for (unsigned k = 0; k < GIVEN; k++) {
+                const unsigned at = (from + k * stride) % GIVEN;
+                fine = wh_conf_set(&conf, ids[at], values[at]) == WH_STATION_FINE && fine;
+            }
+            if (round == 0) {
+                first = config;
+            }
+        }
+        for (unsigned k = 0; k < GIVEN && fine; k++) {
+            TEST_ASSERT_TRUE(conf.value[ids[k]] == (wh_real)(float)values[k]);
+        }
+        if (fine) {
+            compared++;
+            TEST_ASSERT_TRUE(memcmp(&first, &config, sizeof config) == 0);
+        }
+    }
+    TEST_ASSERT_TRUE(compared >= cases / 4U);
+}
+
 void suite_rig_motor(void) {
     RUN_TEST(test_any_motor_with_its_settings);
     RUN_TEST(test_wrong_settings_are_named);
     RUN_TEST(test_a_wrong_order_is_named);
     RUN_TEST(test_the_speed_of_a_rotor_that_coasts);
     RUN_TEST(test_settings_that_cannot_go_together);
+    RUN_TEST(test_any_order_of_settings);
 }
