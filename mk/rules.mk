@@ -11,7 +11,8 @@ Q :=
 say = @:
 else
 Q := @
-say = @printf '  %-5s %s\n'
+# On a terminal one line that each file writes over; in a log the programs alone.
+say = @said() { if [ -t 1 ]; then printf '\033[K  %-5s %s\r' "$$@"; elif [ "$$1" = LINK ]; then printf '  %-5s %s\n' "$$@"; fi; }; said
 endif
 
 comma := ,

@@ -141,6 +141,7 @@ build_board_tests = $(foreach b,$(1),$(call on_board,$(b),board-tests) &&) true
 test-now: $(GEN)/.stamp
 	@$(MAKE) test-programs
 	+@$(call build_board_tests,$(BOARDS_TEST))
+	@[ ! -t 1 ] || printf "\033[K"
 	@WHIRL=build/whirl sh tests/run.sh build/tests/log $(RUN_LONG) $(RUN_HOST) $(RUN_BOARD) $(RUN_CLI) $(RUN_CHIP) $(RUN_CORE)
 
 ##@ Tests and quality

@@ -87,5 +87,6 @@ RUN_IMAGES = $(addprefix $(ELF)/,scenes.elf firmware.elf pil_rig.elf)
 .PHONY: run-now
 run-now: $(GEN)/.stamp
 	@$(MAKE) $(RUN_IMAGES)
+	@[ ! -t 1 ] || printf "\033[K"
 	@sh mk/demo/run.sh build/whirl $(ELF)/scenes.elf $(ELF)/firmware.elf \
 	    '$(call BOARD_EMULATE,IMAGE)'
