@@ -18,7 +18,7 @@ DFU_COMMAND = dfu-util -d 0483:df11 -a 0 -s 0x0800C000 -D $(ELF)/flash_code.bin 
 DEBUG_COMMAND = gdb-multiarch $(FLASH_IMAGE) -ex 'target extended-remote | $(OPENOCD_FOR) -c "gdb_port pipe; log_output $(ELF)/openocd.log"' \
     -ex 'monitor mmw 0xE0042008 0 0x1000'
 
-flash_asks = $(if $(BOARD_FLASHED),$(if $(BOARD_FLASHED_BY),$(error $(BOARD) is flashed by $(BOARD_FLASHED_BY): docs/boards.md says how)),$(error $(BOARD) cannot be flashed. Boards that can: $(boards_flashed) (make flash BOARD=$(firstword $(boards_flashed))). "A new board" in docs/boards.md adds one))$(if $(filter $(1),$(PROBE)),,$(error PROBE is '$(PROBE)': one of $(1)))$(if $(filter $(PROGRAMS),$(PROGRAM)),,$(error PROGRAM is '$(PROGRAM)': one of $(PROGRAMS)))
+flash_asks = $(if $(BOARD_FLASHED),$(if $(BOARD_FLASHED_BY),$(error $(BOARD) is flashed by $(BOARD_FLASHED_BY): docs/boards.md says how)),$(error $(BOARD) cannot be flashed. Boards that can: $(boards_flashed) (make flash BOARD=$(lastword $(boards_flashed))). "A new board" in docs/boards.md adds one))$(if $(filter $(1),$(PROBE)),,$(error PROBE is '$(PROBE)': one of $(1)))$(if $(filter $(PROGRAMS),$(PROGRAM)),,$(error PROGRAM is '$(PROGRAM)': one of $(PROGRAMS)))
 
 ##@ Boards
 .PHONY: flash debug flash-now debug-now
