@@ -130,7 +130,7 @@ hashes: ## the same bits from every compiler, optimisation level, board and the 
 .PHONY: hashes-all
 hashes-all: ## the same bits on every board there is, on AArch64 and in WebAssembly (half an hour)
 	@CC="$(CC)" mk/setup/deps.sh host firmware boards quality hosts
-	@$(MAKE) hashes-all-now
+	@$(MAKE) HASH_BUILDS="$(HASH_BUILDS_ALL)" hashes-all-now
 
 .PHONY: test-boards
 test-boards: ## the portable suites, the stack's guard and the firmware rules on every board (half an hour)

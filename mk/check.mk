@@ -1,8 +1,9 @@
 # check.mk: the quality gates of `make check`. Each is a target of its own, gate-NAME; tests/gates.sh
 # runs them, keeps what they say in build/check/NAME.log and prints a line for each.
 
-GATES := house gcc clang format cppcheck tidy long sanitizers memcheck bad-input fuzz firmware flashed size boards libm $(FAMILY_GATES) cycles hashes
-GATES += hosts docs
+# Those joined by a plus run at the same time.
+GATES := house gcc clang format cppcheck tidy long sanitizers memcheck bad-input fuzz firmware size boards$(FAMILY_GATES:%=+%)
+GATES += libm cycles hashes+flashed hosts docs
 LINT_FLAGS := -std=c11 $(WARN) -I. $(UNITY_FLAGS) -D_POSIX_C_SOURCE=200809L
 
 .PHONY: check-now
@@ -11,7 +12,7 @@ check-now: $(GEN)/.stamp
 
 ##@ Tests and quality
 ## gate-NAME: one quality gate alone; `make check` names them
-.PHONY: $(addprefix gate-,$(GATES))
+.PHONY: $(addprefix gate-,$(subst +, ,$(GATES)))
 
 gate-house:
 	@sh tests/house.sh
@@ -89,25 +90,26 @@ gate-cppcheck:
 
 # --- what `make test` leaves out, to be quick ---------------------------------------------------------------
 gated = "host suites that make test leaves out$(comma) part $(1) of 2" 'sh tests/each.sh build/tests/host $(2)'
+LONG_SUITES := $(filter-out $(HOST_FULL),$(HOST_GATED))
 gate-long: $(GEN)/.stamp
 	@$(MAKE) test-programs
 	+@$(call build_board_tests,$(BOARDS_TEST))
 	@WHIRL=build/whirl TEST_SECONDS=900 sh tests/run.sh build/check/log_long \
-	    $(call run_cli,$(filter tests/cli/emitted_c.sh,$(CLI_FEW))) \
-	    $(call gated,1,$(wordlist 1,14,$(HOST_GATED))) $(call gated,2,$(wordlist 15,99,$(HOST_GATED))) \
-	    $(call run_cli,$(filter-out tests/cli/emitted_c.sh,$(CLI_FEW)) $(CLI_GATED))
+	    $(call gated,1,$(wordlist 1,12,$(LONG_SUITES))) $(call gated,2,$(wordlist 13,99,$(LONG_SUITES))) \
+	    $(call run_cli,$(CLI_FEW) $(filter-out $(CLI_FULL),$(CLI_GATED)))
 
 # --- all cases of what `make test` takes fewer of -----------------------------------------------------------
-# These ask for WHIRL_FULL. `rest`: what `make test` and gate-long do whole is not done again.
-CLI_FULL = $(shell grep -l WHIRL_FULL $(CLI_TESTS))
+# Those that ask for WHIRL_FULL, `rest`: what `make test` and gate-long do whole is not done again; and those that they leave out.
+CLI_ASKS = $(shell grep -l WHIRL_FULL $(CLI_TESTS))
 FULL_LIST := build/check/full.list
 full_part = "host suites$(comma) all cases$(comma) part $(1) of 6" 'sh tests/each.sh build/tests/host $$(sh tests/part.sh $(FULL_LIST) $(1) 6)'
 .PHONY: full-now
 full-now: $(GEN)/.stamp
 	@$(MAKE) test-programs
-	@mkdir -p $(dir $(FULL_LIST)) && grep -l few_or_all tests/host/test_*.c | sed 's|.*/||' >$(FULL_LIST)
+	@mkdir -p $(dir $(FULL_LIST)) && { grep -l few_or_all tests/host/test_*.c | sed 's|.*/||'; printf 'test_%s.c\n' $(HOST_FULL); } | sort -u >$(FULL_LIST)
 	@WHIRL_FULL=rest WHIRL=build/whirl TEST_SECONDS=3600 sh tests/run.sh build/check/log_full \
-	    $(foreach p,0 1 2 3 4 5,$(call full_part,$(p))) $(call run_cli,$(CLI_FULL))
+	    $(foreach p,0 1 2 3 4 5,$(call full_part,$(p))) $(call run_cli,$(filter-out $(CLI_FULL),$(CLI_ASKS))) \
+	    $(foreach t,$(CLI_FULL),"$(t)" "WHIRL_FULL=1 sh $(t)")
 
 # --- sanitizers -----------------------------------------------------------------------------------
 # WHIRL_FEW: a part of the cases of `make test`, of every class some, for an instrumented program takes six times as long;
@@ -128,29 +130,32 @@ CLI_NOT_ASAN := $(foreach t,boards docs enclosures families flags fresh headers 
 CLI_LESS_ASAN := $(foreach t,asked_first carriage commands effects_cost_nothing embed_headers embed_names embed_sketch emitted_c faults figures \
     fixed float_range measure pil price price_pages price_predicts printed_zeros recorded_bits recorded_lists settings_bits swing,\
     tests/cli/$(t).sh)
-HOST_LESS_ASAN := asked_first belief between books_told busy choice coarse_tables contact_bound contact_centres contact_holds contact_load contact_rest \
-    contact_squeezed contact_start contact_together convergence cost energy_kept exact_books far_origin far_slopes figures_thomson fixed_ranges forced_swing \
-    force_free hard_edges hard_origin hinged hybrids latex_runs ledger_scenes linkages map mass_scales matrix_runs methods printed_runs prove_drawn pulse_trains \
+HOST_LESS_ASAN := accuracy asked_first belief between books_told busy cause_at_start choice coarse_tables contact_bound contact_centres contact_curved \
+    contact_devices contact_holds contact_law contact_load contact_rest contact_squeezed contact_start contact_together convergence cost counts energy_integral energy_kept exact_books far_origin far_slopes figures_thomson fixed_ranges forced_swing \
+    force_free hard_cases hard_edges hard_origin hinged hybrids latex_runs leans ledger_scenes limits linkages lockin_truth map mass_scales matrix_runs methods printed_runs prove_drawn pulse_trains \
     reference rounding slow_angles stabilized stabilized_beside tables tape_gauge trajectory trust trust_drawn trust_scenes turned turned_errors warnings
+ASAN_REALS := float
 ASAN_LIST = $(B)/tests/asan_suites.list
 asan_cli = $(call run_cli,$(filter-out $(CLI_NOT_ASAN) $(CLI_LESS_ASAN),$(1)))
 # What scripts make themselves belongs to the main configuration, and must have its settings, not ours: with ours it would
 # be compiled anew, and once more by the next gate.
 .PHONY: asan-run
-asan-run: test-programs $(B)/whirl
+asan-run: $(filter-out $(if $(filter double,$(ASAN_REALS)),,%/core_double) %/price_fit %/price_fit_fixed,$(TEST_PROGRAMS)) $(B)/tests/quick_suites.list $(B)/whirl
 	@mkdir -p build/tests
 	@printf 'test_%s.c\n' $(HOST_LESS_ASAN) | grep -vxFf - $(B)/tests/host_suites.list >$(ASAN_LIST)
 	@env -u MAKEFLAGS -u MFLAGS -u MAKEOVERRIDES -u B -u SCENE_OPT -u MAIN $(MAIN) \
 	    ASAN_OPTIONS="malloc_context_size=5:$$ASAN_OPTIONS" WHIRL_FEW=1 WHIRL=$(B)/whirl TEST_SECONDS=900 \
 	    sh tests/run.sh $(B)/tests/log $(call asan_cli,$(CLI_LONG)) $(call run_host,$(ASAN_LIST)) \
-	    $(call asan_cli,$(filter-out $(CLI_LONG),$(CLI_TESTS))) $(RUN_CHIP) $(RUN_CORE)
+	    $(call asan_cli,$(filter-out $(CLI_LONG),$(CLI_TESTS))) $(RUN_CHIP) \
+	    $(foreach r,$(ASAN_REALS),"portable suites$(comma) $(r)" $(B)/tests/core_$(r))
 
-gate-sanitizers:
+gate-sanitizers: $(GEN)/.stamp
+	@$(MAKE) test-programs
 	+@$(ASAN_BUILD) asan-run
 
 .PHONY: sanitizers-all
 sanitizers-all: $(GEN)/.stamp ## gate-sanitizers with all suites and scripts that run an instrumented program (half an hour)
-	+@$(ASAN_BUILD) CLI_LESS_ASAN= HOST_LESS_ASAN= asan-run
+	+@$(ASAN_BUILD) CLI_LESS_ASAN= HOST_LESS_ASAN= ASAN_REALS="float double" asan-run
 
 # Values read before they are written, which the sanitizers do not see.
 MEMCHECK = valgrind -q --error-exitcode=9
@@ -251,7 +256,9 @@ docs-renew: docs-programs ## all pages with what their commands print now: DOC_P
 	@sh tests/docs.sh renew $(DOC_PAGES)
 
 # --- one arithmetic everywhere ----------------------------------------------------------------------
-HASH_BUILDS := gcc-O0 gcc-O2 gcc-O3 clang-O0 clang-O2 clang-O3
+# In the gate, and by `make hashes-all`.
+HASH_BUILDS ?= gcc-O0 gcc-O2 clang-O2 clang-O3
+HASH_BUILDS_ALL := gcc-O0 gcc-O2 gcc-O3 clang-O0 clang-O2 clang-O3
 # The scenes' last states, on the boards $(1): build their images, then run them beside the interpreter and this
 # machine's builds.
 hash_folder = $(or $(hash_folder_$(1)),build/hash/$(1))
@@ -265,7 +272,7 @@ compare_hashes = sh tests/hashes.sh build/hash "the interpreter" "build/whirl ha
 compare_matrix_hashes = sh tests/hashes.sh build/hash/matrix "the interpreter" "sh tests/matrix_hashes.sh $(MATRIX)" \
     "this machine" build/scenes_matrix $(foreach b,$(1),"$(b)" "$(call on_board,$(b),print-matrix-hashes)")
 
-.PHONY: hashes-matrix hashes-now hashes-all-now gate-hashes $(addprefix hash-,$(HASH_BUILDS))
+.PHONY: hashes-matrix hashes-now hashes-all-now gate-hashes $(addprefix hash-,$(HASH_BUILDS_ALL))
 hashes-now gate-hashes: $(GEN)/.stamp
 	+@$(call build_hashes,$(BOARDS))
 	@$(MAKE) hash-host-wasm
@@ -309,6 +316,6 @@ hash-gcc-O2:
 	+@$(GCC_BUILD) $(GCC_FOLDER)/scenes
 hash-clang-O2:
 	+@$(CLANG_BUILD) $(CLANG_FOLDER)/scenes
-$(addprefix hash-,$(filter-out gcc-O2 clang-O2,$(HASH_BUILDS))): hash-%:
+$(addprefix hash-,$(filter-out gcc-O2 clang-O2,$(HASH_BUILDS_ALL))): hash-%:
 	@$(MAKE) B=build/hash/$* CC=$(firstword $(subst -, ,$*)) OPT=-$(lastword $(subst -, ,$*)) \
 	    build/hash/$*/scenes

@@ -60,8 +60,8 @@ endif
 HARD_BUILDS ?= gcc-O0 gcc-O2 clang-O2
 HARD_HOSTS ?=
 HARD_BOARDS ?= $(BOARDS)
-.PHONY: hashes-hard $(addprefix hard-build-,$(HASH_BUILDS)) $(addprefix hard-host-,$(HASH_HOSTS))
-$(addprefix hard-build-,$(HASH_BUILDS)): hard-build-%:
+.PHONY: hashes-hard $(addprefix hard-build-,$(HASH_BUILDS_ALL)) $(addprefix hard-host-,$(HASH_HOSTS))
+$(addprefix hard-build-,$(HASH_BUILDS_ALL)): hard-build-%:
 	@$(MAKE) B=build/hash/$* CC=$(firstword $(subst -, ,$*)) OPT=-$(lastword $(subst -, ,$*)) build/hash/$*/scenes_hard
 $(addprefix hard-host-,$(HASH_HOSTS)): hard-host-%:
 	@$(call need,$(host_cc_$*))
