@@ -33,6 +33,8 @@ static const command commands[] = {
     {"price", command_price, "SCENE|FILE[:SCENE] ...", "error against price, for all settings"},
     {"choose", command_choose, "SCENE|FILE[:SCENE] ...",
      "the cheapest setting that keeps an error on a board"},
+    {"effects", command_effects, "SCENE|FILE[:SCENE] ...",
+     "what each effect moves and costs, and which are needed"},
     {"trust", command_trust, "SCENE|FILE[:SCENE] ...", "until when a run can be trusted"},
     {"prove", command_prove, "SCENE|FILE[:SCENE] ...", "until when it is proved to be the motion"},
     {"map", command_map, "SCENE|FILE[:SCENE] ...", "which pairs of two values a run survives"},

@@ -143,8 +143,10 @@ static bool read_limits(const choose_options *o, const pricing *p, choice_wish *
     w->clock_Hz = p->board->clock_Hz;
     w->flash_bytes = (double)p->board->flash_bytes;
     w->ram_bytes = (double)p->board->ram_bytes;
-    return (o->rate == NULL || pricing_quantity(p, "--rate", o->rate, rate, &w->rate_Hz)) &&
-           (o->clock == NULL || pricing_quantity(p, "--clock", o->clock, rate, &w->clock_Hz)) &&
+    return (o->rate == NULL ||
+            pricing_quantity("choose", p->of, "--rate", o->rate, rate, &w->rate_Hz)) &&
+           (o->clock == NULL ||
+            pricing_quantity("choose", p->of, "--clock", o->clock, rate, &w->clock_Hz)) &&
            (o->flash == NULL || read_bytes("--flash", o->flash, &w->flash_bytes)) &&
            (o->ram == NULL || read_bytes("--ram", o->ram, &w->ram_bytes));
 }

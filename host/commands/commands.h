@@ -14,6 +14,7 @@ int command_run(int count, char **words);
 int command_sweep(int count, char **words);
 int command_price(int count, char **words);
 int command_choose(int count, char **words);
+int command_effects(int count, char **words);
 int command_trust(int count, char **words);
 int command_prove(int count, char **words);
 int command_map(int count, char **words);

@@ -80,8 +80,8 @@ void pricing_close(pricing *p);
 /* That --measure cannot be had, and why. */
 void pricing_says_missing(const pricing *p, const char *why);
 /* A quantity of the command line in SI: false, told. `wanted` by exponents of metre, kilogram, second. */
-bool pricing_quantity(const pricing *p, const char *what, const char *text, dimension wanted,
-                      double *value);
+bool pricing_quantity(const char *command, const mechanism *of, const char *what, const char *text,
+                      dimension wanted, double *value);
 /* Computes the references at records of this spacing up to the horizon: an exit code. */
 int pricing_begin(pricing *p, whole_ratio spacing, const volatile sig_atomic_t *stop);
 /* A spacing of about so many to two and a half times so many records, 1, 2 or 5 times a power of ten. */

@@ -12,19 +12,19 @@
 #include "host/run/start.h"
 #include "pricing.h"
 
-bool pricing_quantity(const pricing *p, const char *what, const char *text, dimension wanted,
-                      double *value) {
+bool pricing_quantity(const char *command, const mechanism *of, const char *what, const char *text,
+                      dimension wanted, double *value) {
     struct arena *arena = arena_new();
     diags *errors = diags_new();
-    const expr *made = override_quantity(p->of, what, text, wanted, arena, errors);
+    const expr *made = override_quantity(of, what, text, wanted, arena, errors);
     const bool number = made != NULL && (made->uses & ~(unsigned)USES_UNIT) == 0;
     *value = number ? expr_value(made, NULL) : 0.0;
     diags_flush(errors, stderr);
     diags_free(errors);
     arena_free(arena);
     if (made != NULL && !(number && isfinite(*value) && *value > 0.0)) {
-        fprintf(stderr, "whirl %s: error: %s takes a number above zero, not %s\n",
-                p->options->command, what, text);
+        fprintf(stderr, "whirl %s: error: %s takes a number above zero, not %s\n", command, what,
+                text);
         return false;
     }
     return made != NULL;
@@ -47,7 +47,8 @@ static bool read_error(pricing *p) {
         wanted.unknown = true;
     }
     p->asks_error = text != NULL;
-    return text == NULL || pricing_quantity(p, "--error", text, wanted, &p->error_si);
+    return text == NULL ||
+           pricing_quantity(p->options->command, p->of, "--error", text, wanted, &p->error_si);
 }
 
 static bool read_effort(pricing *p) {
@@ -138,30 +139,6 @@ static bool read_times(pricing *p) {
     return good;
 }
 
-/* The options of the scene, as they are typed again. */
-static char *words_of(const overrides *c) {
-    char *text;
-    size_t length;
-    const struct {
-        const char *option;
-        const char *const *list;
-        int count;
-    } parts[] = {{"--set", c->sets, c->set_count},
-                 {"--start", c->starts, c->start_count},
-                 {"--with", c->with, c->with_count},
-                 {"--without", c->without, c->without_count}};
-    FILE *out = room_text(&text, &length);
-    for (size_t i = 0; i < sizeof parts / sizeof parts[0]; i++) {
-        for (int k = 0; k < parts[i].count; k++) {
-            char *word = pricing_quoted(parts[i].list[k]);
-            fprintf(out, " %s %s", parts[i].option, word);
-            free(word);
-        }
-    }
-    room_text_end(out);
-    return text;
-}
-
 int pricing_open(pricing *p, const pricing_options *o) {
     *p = (pricing){.options = o};
     int code = source_open(&p->from, o->target);
@@ -172,7 +149,9 @@ int pricing_open(pricing *p, const pricing_options *o) {
         return code;
     }
     p->changes = options_overrides(&o->common.change);
-    p->words = words_of(&p->changes);
+    overrides asked = p->changes;
+    asked.until = NULL; /* the lines that name settings have an end of their own */
+    p->words = pricing_words(&asked);
     p->target = pricing_quoted(o->target);
     if (!find_board(p) || !read_effort(p) || !read_error(p) || !read_ranges(p)) {
         return EXIT_BAD_INPUT;

@@ -30,6 +30,28 @@ char *pricing_quoted(const char *word) {
     return text;
 }
 
+char *pricing_words(const overrides *c) {
+    char *text;
+    size_t length;
+    const struct {
+        const char *option;
+        const char *const *list;
+        int count;
+    } parts[] = {{"--set", c->sets, c->set_count},      {"--start", c->starts, c->start_count},
+                 {"--with", c->with, c->with_count},    {"--without", c->without, c->without_count},
+                 {"--step", &c->step, c->step != NULL}, {"--until", &c->until, c->until != NULL}};
+    FILE *out = room_text(&text, &length);
+    for (size_t i = 0; i < sizeof parts / sizeof parts[0]; i++) {
+        for (int k = 0; k < parts[i].count; k++) {
+            char *word = pricing_quoted(parts[i].list[k]);
+            fprintf(out, " %s %s", parts[i].option, word);
+            free(word);
+        }
+    }
+    room_text_end(out);
+    return text;
+}
+
 static bool is_start(const axis *a) {
     return a->symbol->kind == SYM_COORDINATE || a->symbol->kind == SYM_STATE;
 }

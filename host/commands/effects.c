@@ -1,0 +1,315 @@
+/* effects.c: `whirl effects`: how far each effect of a scene moves it, its price, and the smallest set that is needed. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "commands.h"
+#include "host/base/nearest.h"
+#include "host/base/room.h"
+#include "host/lang/override.h"
+#include "host/number/zero.h"
+#include "host/price/subsets.h"
+#include "pricing.h"
+
+/* The error without --error, as a part of each coordinate's range. */
+#define ERROR_PART 1e-3
+
+static const command_usage usage = {
+    .head =
+        "usage: whirl effects SCENE|MECHANISM[:SCENE]|FILE[:SCENE] [options]\n"
+        "\n"
+        "How far each effect of a scene moves each coordinate, the effect's price on a board, and\n"
+        "whether an error allows to leave it out. Then the smallest set of effects that keeps the\n"
+        "error, and its command line. Motions are compared at every step, in double. Prices are the\n"
+        "predictions of `whirl price`, in float. An effect that did not act is not judged.\n"
+        "What is run is named as for `whirl run`.\n"
+        "\n",
+    .groups = OPTIONS_CHANGE | OPTIONS_STEP,
+    .tail =
+        "  --error X=1mm,...    allowed errors of coordinates, rates or outputs: others are free. A bare\n"
+        "                       number is SI (default: 0.1 % of each coordinate's range)\n"
+        "  --board B            whose price: a board of docs/boards.md, or host (default: mps2-an386,\n"
+        "                       a Cortex-M4F)\n",
+    .why = {[EXIT_ROW_OF(EXIT_DONE)] = "",
+            [EXIT_ROW_OF(EXIT_RUN_FAILED)] = "with all its effects the run diverged",
+            [EXIT_ROW_OF(EXIT_BAD_INPUT)] = "such as a scene without effects"}};
+
+typedef struct effects_options {
+    common_options common;
+    const char *target;
+    const char *error;
+    const char *board;
+} effects_options;
+
+static bool take_one(int count, char **words, int *at, void *options, bool *bad) {
+    effects_options *o = options;
+    const char *value = options_value(count, words, at, "--error", bad);
+    if (value != NULL) {
+        o->error = value;
+    } else if (!*bad && (value = options_value(count, words, at, "--board", bad)) != NULL) {
+        o->board = value;
+    }
+    return value != NULL;
+}
+
+/* --- the error -------------------------------------------------------------------------------------*/
+
+static const char primes[] = "''''''''''";
+
+static bool is_coordinate(const record_column *c) { return c->unknown >= 0 && c->primes == 0; }
+
+/* The column called `name`; 0, told, when there is none. */
+static int column_of(const subsets *s, const char *name) {
+    nearest search = nearest_start(name, strlen(name));
+    for (int i = 1; i < s->columns->columns; i++) {
+        const record_column *c = &s->columns->column[i];
+        const size_t length = strlen(c->name);
+        if (strncmp(name, c->name, length) == 0 &&
+            strspn(name + length, "'") == (size_t)c->primes &&
+            name[length + (size_t)c->primes] == '\0') {
+            return i;
+        }
+        nearest_offer(&search, c->name);
+    }
+    fprintf(stderr,
+            "whirl effects: error: --error: '%s' is no coordinate, rate or output of '%s'\n"
+            "hint: --error %s=...\n",
+            name, s->of->name, search.best != NULL ? search.best : s->columns->column[1].name);
+    return 0;
+}
+
+/* "X=1mm" */
+static bool read_limit(subsets *s, const char *text) {
+    const size_t length = strcspn(text, "=");
+    char *name = room_copy(text, length);
+    dimension wanted = dim_none();
+    double si = 0.0;
+    const int column = column_of(s, name);
+    bool good = column > 0;
+    if (good && text[length] == '\0') {
+        fprintf(stderr, "whirl effects: error: --error %s has no value\nhint: --error %s=1e-3\n",
+                text, text);
+        good = false;
+    }
+    good = good && override_dimension(s->of, name, &wanted) &&
+           pricing_quantity("effects", s->of, "--error", text + length + 1, wanted, &si);
+    if (good) {
+        s->limit[column] = image_shown(s->columns->column[column].unit, si);
+    }
+    free(name);
+    return good;
+}
+
+static bool read_error(subsets *s, const char *error) {
+    char *copy = room_words("%s", error == NULL ? "" : error);
+    bool good = true;
+    for (int i = 1; i < s->columns->columns; i++) {
+        s->limit[i] = (double)INFINITY;
+    }
+    for (char *at = copy, *end; error != NULL && good && at != NULL; at = end) {
+        end = strchr(at, ',');
+        if (end != NULL) {
+            *end++ = '\0';
+        }
+        good = read_limit(s, at);
+    }
+    free(copy);
+    return good;
+}
+
+/* --- words -------------------------------------------------------------------------------------------*/
+
+/* Of all that has a limit, and of each coordinate if `all`. */
+static void print_values(const subsets *s, const char *head, const double *value, bool all) {
+    const char *between = head;
+    for (int i = 1; i < s->columns->columns; i++) {
+        const record_column *c = &s->columns->column[i];
+        if (isfinite(s->limit[i]) || (all && is_coordinate(c))) {
+            const bool has_unit = strcmp(c->unit->shown, "1") != 0;
+            printf("%s%s%.*s %.4g%s%s", between, c->name, c->primes, primes, value[i],
+                   has_unit ? " " : "", has_unit ? c->unit->shown : "");
+            between = ", ";
+        }
+    }
+    putchar('\n');
+}
+
+/* A price; of the full scene's contacts and of `contacts` more only the longest step is known. */
+static void print_price(const subsets *s, const char *head, const double *figure, int contacts) {
+    const char *const words[SUBSET_FIGURES] = {
+        [SUBSET_STEP] = s->board->cycles == COST_RANGE ? "instructions a step" : "cycles a step",
+        [SUBSET_WORST] = "evaluations in the longest step",
+        [SUBSET_FLASH] = "bytes of flash",
+        [SUBSET_RAM] = "bytes of RAM"};
+    const char *between = head;
+    for (int i = 0; i < SUBSET_FIGURES; i++) {
+        if (i == SUBSET_WORST && s->list[0]->contacts == 0) {
+            continue;
+        }
+        if (isnan(figure[i]) || (i != SUBSET_WORST && contacts > 0)) {
+            printf("%s- %s", between, words[i]);
+        } else {
+            printf("%s%.0f %s", between, number_shown(figure[i]), words[i]);
+        }
+        between = ", ";
+    }
+    putchar('\n');
+}
+
+/* The effects of these bits. */
+static void print_names(const subsets *s, const char *head, uint64_t bits, const char *between) {
+    for (int k = 0; k < s->effects; k++) {
+        if ((bits >> (unsigned)k & 1U) != 0) {
+            printf("%s%s", head, s->of->effects[s->effect[k]].name);
+            head = between;
+        }
+    }
+}
+
+static void print_effect(const subsets *s, int k) {
+    const subset *all = s->list[0];
+    const subset *without = s->list[k + 1];
+    double figure[SUBSET_FIGURES];
+    for (int i = 0; i < SUBSET_FIGURES; i++) {
+        figure[i] = all->figure[i] - without->figure[i];
+    }
+    printf("\n%s: %s\n", s->of->effects[s->effect[k]].name,
+           !s->acted[k]                ? "not tested by this run: it never acted"
+           : without->failed != NULL   ? without->failed
+           : subsets_keeps(s, without) ? "may be left out"
+                                       : "needed");
+    print_values(s, "  moves  ", without->moved, true);
+    print_price(s, "  costs  ", figure, all->contacts - without->contacts);
+}
+
+/* --set of an effect that is left out: `run` refuses it. */
+static bool is_for_left_out(const subsets *s, uint64_t out, const char *set) {
+    struct arena *memory = arena_new();
+    diags *unsaid = diags_new();
+    assignment change;
+    bool is = false;
+    if (override_parse(s->of, OVERRIDE_SET, set, memory, unsaid, &change)) {
+        for (int k = 0; k < s->effects; k++) {
+            is = is || (change.symbol->effect == s->effect[k] && (out >> (unsigned)k & 1U) != 0);
+        }
+    }
+    diags_free(unsaid);
+    arena_free(memory);
+    return is;
+}
+
+static void print_run(const effects_options *o, const subsets *s, uint64_t out) {
+    overrides given = *s->changes;
+    const char **sets = room(given.set_count, sizeof *sets);
+    given.sets = sets;
+    given.set_count = 0;
+    for (int i = 0; i < s->changes->set_count; i++) {
+        if (!is_for_left_out(s, out, s->changes->sets[i])) {
+            sets[given.set_count++] = s->changes->sets[i];
+        }
+    }
+    char *words = pricing_words(&given);
+    char *target = pricing_quoted(o->target);
+    printf("  whirl run %s%s", target, words);
+    print_names(s, " --without ", out, ",");
+    putchar('\n');
+    free(target);
+    free(words);
+    free(sets);
+}
+
+static void print_smallest(const effects_options *o, subsets *s) {
+    bool greedy;
+    const subset *best = subsets_smallest(s, &greedy);
+    const uint64_t every = ~(uint64_t)0;
+    uint64_t untested = 0;
+    printf("\nsmallest set that keeps the error%s: ",
+           greedy ? ", as far as leaving out one more at a time finds it" : "");
+    print_names(s, "", every ^ best->out, ", ");
+    for (int k = 0; k < s->effects; k++) {
+        untested |= s->acted[k] ? 0 : (uint64_t)1 << (unsigned)k;
+    }
+    print_names(s, "\n  kept untested  ", untested, ", ");
+    puts(best->out == every >> (unsigned)(64 - s->effects) ? "no effect" : "");
+    print_values(s, "  moves  ", best->moved, true);
+    print_price(s, "  costs  ", best->figure, best->contacts);
+    if (best->out != 0) {
+        print_price(s, "  all    ", s->list[0]->figure, s->list[0]->contacts);
+    }
+    print_run(o, s, best->out);
+}
+
+static void print_answer(const effects_options *o, subsets *s) {
+    const image *im = s->image;
+    printf("%s: %s\n%llu steps to t = %.9g s, %s, double\n", im->name, im->title,
+           (unsigned long long)im->steps, ratio_times(im->steps, im->step), image_stepper(im));
+    print_values(s, o->error != NULL ? "error  " : "error  0.1 % of the range: ", s->limit, false);
+    printf("price  %s (%s), float, predicted\n", s->board->name, s->board->core);
+    for (int k = 0; k < s->effects; k++) {
+        print_effect(s, k);
+    }
+    print_smallest(o, s);
+}
+
+/* --- the command -------------------------------------------------------------------------------------*/
+
+static int effects_of(const effects_options *o, subsets *s, diags *errors) {
+    const int board = options_choose("effects", "board", o->board, cost_boards,
+                                     sizeof cost_boards[0], cost_board_count);
+    if (board < 0) {
+        return EXIT_BAD_INPUT;
+    }
+    s->board = &cost_boards[board];
+    if (!subsets_open(s, errors)) {
+        return EXIT_BAD_INPUT;
+    }
+    if (s->effects == 0) {
+        fprintf(stderr, "whirl effects: error: no effect takes part in '%s'\nhint: %s%s\n",
+                s->image->name, s->of->effect_count > 0 ? "--with all, or --with " : "",
+                s->of->effect_count > 0 ? s->of->effects[0].name
+                                        : "docs/effects.md tells how to write one");
+        return EXIT_BAD_INPUT;
+    }
+    if (!read_error(s, o->error)) {
+        return EXIT_BAD_INPUT;
+    }
+    if (!subsets_run(s, errors)) {
+        return EXIT_RUN_FAILED;
+    }
+    for (int i = 1; i < s->columns->columns && o->error == NULL; i++) {
+        if (is_coordinate(&s->columns->column[i])) {
+            s->limit[i] = ERROR_PART * s->range[i];
+        }
+    }
+    print_answer(o, s);
+    return EXIT_DONE;
+}
+
+int command_effects(int count, char **words) {
+    static const char *const own[] = {"--error", "--board", NULL};
+    effects_options o = {.common = options_defaults(), .board = "mps2-an386"};
+    const target_reader reader = {
+        .command = "effects", .groups = usage.groups, .own = own, .take = take_one};
+    source_model from = {0};
+    subsets s = {0};
+    int code = EXIT_BAD_INPUT;
+    if (options_help(count, words, &usage)) {
+        return EXIT_DONE;
+    }
+    if (target_read(&reader, count, words, &o.common, &o, &o.target) &&
+        target_is_there(o.target, &usage)) {
+        const overrides changes = options_overrides(&o.common.change);
+        s.changes = &changes;
+        code = source_open(&from, o.target);
+        code = code == EXIT_DONE ? source_pick(&from, true, &s.of, &s.in) : code;
+        if (code == EXIT_DONE) {
+            code = effects_of(&o, &s, from.errors);
+            diags_flush(from.errors, stderr);
+        }
+        subsets_close(&s);
+        source_close(&from);
+    }
+    options_forget(&o.common);
+    return code;
+}

@@ -1,0 +1,327 @@
+/* subsets.c: see subsets.h. */
+#include "subsets.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "host/base/room.h"
+#include "host/derive/image_make.h"
+#include "host/derive/lagrange.h"
+#include "host/image/core_rows.h"
+#include "host/run/start.h"
+#include "host/run/undefined.h"
+
+static const image_settings settings = IMAGE_SETTINGS_DEFAULT;
+static const engine_kind *const engine = &engine_double;
+
+static uint64_t bit(int k) { return (uint64_t)1 << (unsigned)k; }
+
+/* --- images ----------------------------------------------------------------------------------------*/
+
+/* The instance keeps the parameters of the effects that are left out, so `set` and --set stay valid. */
+static image *image_without(const subsets *s, uint64_t out, diags *errors) {
+    instance *inst = instance_make(s->of, s->in, s->changes, errors);
+    for (int k = 0; inst != NULL && k < s->effects; k++) {
+        inst->with[s->effect[k]] = (out & bit(k)) == 0;
+    }
+    equations *e = inst == NULL ? NULL : equations_derive(inst, errors);
+    image *im = e == NULL ? NULL : image_make(e, inst->conserve, &settings, IMAGE_TO_RUN, errors);
+    equations_free(e);
+    instance_free(inst);
+    const bool starts = im != NULL && start_is_possible(im, engine, errors);
+    if (!starts) {
+        image_free(im);
+    }
+    return starts ? im : NULL;
+}
+
+static bool list_effects(subsets *s, diags *errors) {
+    instance *inst = instance_make(s->of, s->in, s->changes, errors);
+    for (int i = 0; inst != NULL && i < s->of->effect_count; i++) {
+        if (inst->with[i] && s->effects == SUBSETS_EFFECTS_MAX) {
+            diag_error(errors, s->of->effects[i].at, "leave some out, --without",
+                       "more than %d effects take part", SUBSETS_EFFECTS_MAX);
+            break;
+        }
+        if (inst->with[i]) {
+            s->effect[s->effects++] = i;
+        }
+    }
+    instance_free(inst);
+    return diags_count(errors) == 0;
+}
+
+static double value_of(const cost_figure *f) {
+    return f->basis == COST_NOT_KNOWN ? (double)NAN : f->value;
+}
+
+static void take_price(const subsets *s, const image *im, subset *to) {
+    image smooth = *im;
+    smooth.contacts = 0;
+    const cost c = cost_of(&smooth, s->board, COST_FLOAT);
+    to->contacts = im->contacts;
+    to->figure[SUBSET_STEP] =
+        value_of(s->board->cycles == COST_RANGE ? &c.instructions : &c.cycles);
+    to->figure[SUBSET_WORST] = core_evaluations(im);
+    to->figure[SUBSET_FLASH] = value_of(&c.flash_bytes);
+    to->figure[SUBSET_RAM] = value_of(&c.ram_bytes);
+}
+
+static subset *add(subsets *s, uint64_t out) {
+    subset *made = room(1, sizeof *made);
+    *made = (subset){.out = out, .same = true, .moved = room(s->columns->columns, sizeof(double))};
+    s->list = room_more(s->list, s->count + 1, sizeof(subset *));
+    s->list[s->count++] = made;
+    return made;
+}
+
+bool subsets_open(subsets *s, diags *errors) {
+    s->image = list_effects(s, errors) ? image_without(s, 0, errors) : NULL;
+    if (s->image == NULL) {
+        return false;
+    }
+    s->columns = records_open(NULL, s->image, engine);
+    s->range = room(s->columns->columns, sizeof *s->range);
+    s->limit = room(s->columns->columns, sizeof *s->limit);
+    take_price(s, s->image, add(s, 0));
+    return true;
+}
+
+void subsets_close(subsets *s) {
+    for (int i = 0; i < s->count; i++) {
+        free(s->list[i]->moved);
+        free(s->list[i]);
+    }
+    free(s->list);
+    free(s->range);
+    free(s->limit);
+    records_close(s->columns);
+    image_free(s->image);
+}
+
+/* --- runs side by side -------------------------------------------------------------------------------*/
+
+typedef struct lane {
+    subset *subset;
+    image *image;
+    records *records;
+    void *run; /* NULL: it has failed */
+} lane;
+
+static void lane_fail(lane *l, const char *why, int columns) {
+    l->subset->failed = why;
+    l->subset->same = false;
+    for (int i = 0; i < columns; i++) {
+        l->subset->moved[i] = (double)INFINITY;
+    }
+    if (l->run != NULL) {
+        engine->stop(l->run);
+        l->run = NULL;
+    }
+}
+
+static lane lane_open(const subsets *s, subset *of) {
+    diags *unsaid = diags_new();
+    lane l = {.subset = of, .image = image_without(s, of->out, unsaid)};
+    if (l.image != NULL) {
+        l.records = records_open(NULL, l.image, engine);
+        l.run = engine->start(l.image);
+        take_price(s, l.image, of);
+    } else {
+        lane_fail(&l, "needed: no run can start without it", s->columns->columns);
+    }
+    diags_free(unsaid);
+    return l;
+}
+
+static void lane_close(lane *l) {
+    if (l->run != NULL) {
+        engine->stop(l->run);
+    }
+    records_close(l->records);
+    image_free(l->image);
+}
+
+/* The largest difference of each column. A number beside NAN differs without a bound. */
+static void lane_compare(lane *l, const records *full) {
+    records_read(l->records, l->run, full->row[0]);
+    for (int i = 1; i < full->columns; i++) {
+        const double a = full->row[i];
+        const double b = l->records->row[i];
+        const bool same = a == b || (isnan(a) && isnan(b));
+        const double off = same ? 0.0 : fabs(a - b);
+        l->subset->same = l->subset->same && same;
+        if (!(off <= l->subset->moved[i])) {
+            l->subset->moved[i] = isnan(off) ? (double)INFINITY : off;
+        }
+    }
+}
+
+/* Contacts of the full run that act. Statements are told apart by their places. */
+static void contact_acts(const subsets *s, int contact, bool *acts) {
+    for (int i = 0; i < s->of->contact_count; i++) {
+        const contact_statement *c = &s->of->contacts[i];
+        if (c->effect >= 0 && c->at.offset == s->image->contact[contact].at.offset) {
+            acts[c->effect] = true;
+        }
+    }
+}
+
+/* Friction always acts; a stop or hold while it is closed; each of them when it has an event. */
+static void note_contacts(const subsets *s, void *run, bool *acts) {
+    engine_event event[WH_EVENT_LOG];
+    int mode[WH_CONTACTS_LIMIT];
+    for (int i = s->image->contacts > 0 ? engine->happened(run, event) : 0; i > 0; i--) {
+        contact_acts(s, event[i - 1].contact, acts);
+    }
+    if (s->image->contacts > 0) {
+        engine->modes(run, mode);
+    }
+    for (int i = 0; i < s->image->contacts; i++) {
+        const int kind = s->image->contact[i].kind;
+        if (kind == WH_FRICTION || (kind != WH_WHEN && mode[i] == WH_ACTIVE)) {
+            contact_acts(s, i, acts);
+        }
+    }
+}
+
+static void note_range(subsets *s, double *least, double *most, bool first) {
+    for (int i = 1; i < s->columns->columns; i++) {
+        const double value = s->columns->row[i];
+        least[i] = first || value < least[i] ? value : least[i];
+        most[i] = first || value > most[i] ? value : most[i];
+        s->range[i] = most[i] - least[i];
+    }
+}
+
+/* The full run, and beside it those from list[first] on. acts[of->effect_count]: contacts that acted. */
+static bool run_from(subsets *s, int first, bool *acts, diags *errors) {
+    const int count = s->count - first;
+    const int columns = s->columns->columns;
+    lane *lanes = room(count, sizeof *lanes);
+    double *ends = room(2 * columns, sizeof *ends);
+    void *run = engine->start(s->image);
+    wh_status status = WH_OK;
+    for (int i = 0; i < count; i++) {
+        lanes[i] = lane_open(s, s->list[first + i]);
+    }
+    for (uint64_t step = 0; status == WH_OK; step++) {
+        const double time_s = ratio_times(step, s->image->step);
+        records_read(s->columns, run, time_s);
+        note_range(s, ends, ends + columns, step == 0);
+        note_contacts(s, run, acts);
+        for (int i = 0; i < count; i++) {
+            if (lanes[i].run != NULL) {
+                lane_compare(&lanes[i], s->columns);
+            }
+        }
+        if (step == s->image->steps) {
+            break;
+        }
+        status = engine->step(run);
+        if (status != WH_OK && !undefined_step(s->image, engine, run, status, errors)) {
+            diag_error(errors, s->image->at, "a smaller --step, or an earlier --until",
+                       "with all effects the run diverges in the step after t = %.9g s", time_s);
+        }
+        for (int i = 0; i < count; i++) {
+            if (lanes[i].run != NULL && engine->step(lanes[i].run) != WH_OK) {
+                lane_fail(&lanes[i], "needed: the run diverges without it", columns);
+            }
+        }
+    }
+    engine->stop(run);
+    for (int i = 0; i < count; i++) {
+        lane_close(&lanes[i]);
+    }
+    free(ends);
+    free(lanes);
+    return status == WH_OK;
+}
+
+bool subsets_run(subsets *s, diags *errors) {
+    bool *acts = room(s->of->effect_count, sizeof *acts);
+    for (int k = 0; k < s->effects; k++) {
+        add(s, bit(k));
+    }
+    for (int i = 0; i < s->of->term_count + s->of->noise_count; i++) {
+        const int of = i < s->of->term_count ? s->of->terms[i].effect
+                                             : s->of->noises[i - s->of->term_count].effect;
+        if (of >= 0) {
+            acts[of] = true;
+        }
+    }
+    const bool good = run_from(s, 1, acts, errors);
+    for (int k = 0; k < s->effects; k++) {
+        s->acted[k] = acts[s->effect[k]] && !s->list[k + 1]->same;
+    }
+    free(acts);
+    return good;
+}
+
+/* --- the smallest set ----------------------------------------------------------------------------------*/
+
+bool subsets_keeps(const subsets *s, const subset *of) {
+    bool keeps = of->failed == NULL;
+    for (int i = 1; i < s->columns->columns; i++) {
+        keeps = keeps && of->moved[i] <= s->limit[i];
+    }
+    return keeps;
+}
+
+static int effects_of(uint64_t mask) {
+    int count = 0;
+    for (; mask != 0; mask &= mask - 1) {
+        count++;
+    }
+    return count;
+}
+
+/* Fewer effects, then a shorter longest step, then a shorter step. */
+static bool is_better(const subset *a, const subset *b) {
+    const int fewer = effects_of(a->out) - effects_of(b->out);
+    const double longer = a->figure[SUBSET_WORST] - b->figure[SUBSET_WORST];
+    return fewer != 0    ? fewer > 0
+           : longer != 0 ? longer < 0
+                         : a->figure[SUBSET_STEP] < b->figure[SUBSET_STEP];
+}
+
+/* Effects that did not act stay: without them the run differs by round-off alone. */
+static const subset *best_of(const subsets *s, uint64_t acting) {
+    const subset *best = s->list[0];
+    for (int i = 1; i < s->count; i++) {
+        const bool may = (s->list[i]->out & ~acting) == 0 && subsets_keeps(s, s->list[i]);
+        best = may && is_better(s->list[i], best) ? s->list[i] : best;
+    }
+    return best;
+}
+
+const subset *subsets_smallest(subsets *s, bool *greedy) {
+    bool *unused = room(s->of->effect_count, sizeof *unused);
+    diags *unsaid = diags_new();
+    uint64_t acting = 0;
+    for (int k = 0; k < s->effects; k++) {
+        acting |= s->acted[k] ? bit(k) : 0;
+    }
+    *greedy = effects_of(acting) > SUBSETS_ALL_MOST;
+    const subset *best = best_of(s, acting);
+    for (bool more = best->out != 0 || !*greedy; more;) {
+        const int first = s->count;
+        for (uint64_t out = acting; out != 0 && !*greedy; out = (out - 1) & acting) {
+            if (effects_of(out) > 1) {
+                add(s, out);
+            }
+        }
+        for (int k = 0; k < s->effects && *greedy; k++) {
+            if ((acting & bit(k) & ~best->out) != 0) {
+                add(s, best->out | bit(k));
+            }
+        }
+        run_from(s, first, unused, unsaid);
+        const subset *before = best;
+        best = best_of(s, acting);
+        more = *greedy && best != before;
+    }
+    diags_free(unsaid);
+    free(unused);
+    return best;
+}
