@@ -8,6 +8,7 @@
 #include "host/derive/image_make.h"
 #include "host/derive/lagrange.h"
 #include "host/image/core_rows.h"
+#include "host/run/field.h"
 #include "host/run/start.h"
 #include "host/run/undefined.h"
 
@@ -105,6 +106,7 @@ typedef struct lane {
     subset *subset;
     image *image;
     records *records;
+    field *field;
     void *run; /* NULL: it has failed */
 } lane;
 
@@ -125,6 +127,7 @@ static lane lane_open(const subsets *s, subset *of) {
     lane l = {.subset = of, .image = image_without(s, of->out, unsaid)};
     if (l.image != NULL) {
         l.records = records_open(NULL, l.image, engine);
+        l.field = field_open(l.image, engine);
         l.run = engine->start(l.image);
         take_price(s, l.image, of);
     } else {
@@ -139,6 +142,7 @@ static void lane_close(lane *l) {
         engine->stop(l->run);
     }
     records_close(l->records);
+    field_close(l->field);
     image_free(l->image);
 }
 
@@ -157,31 +161,58 @@ static void lane_compare(lane *l, const records *full) {
     }
 }
 
-/* Contacts of the full run that act. Statements are told apart by their places. */
-static void contact_acts(const subsets *s, int contact, bool *acts) {
+/* Does leaving out terms change a slope of the full run, at its state, by more than round-off? */
+static bool terms_act(const subsets *s, field *full, field *less, void *run) {
+    double x[3 * IMAGE_COMPONENTS_MAX];
+    double slope[2][3 * IMAGE_COMPONENTS_MAX];
+    double off[2][3 * IMAGE_COMPONENTS_MAX];
+    bool act = full->n != less->n;
+    engine->state(run, x, x + s->image->angles);
+    field_slope(full, x, slope[0]);
+    field_slope(less, x, slope[1]);
+    field_rounding(full, x, off[0]);
+    field_rounding(less, x, off[1]);
+    for (int i = 0; i < full->n && !act; i++) {
+        act = fabs(slope[0][i] - slope[1][i]) > off[0][i] + off[1][i];
+    }
+    return act;
+}
+
+/* Statements are told apart by their places. */
+static void contact_acts(subsets *s, int contact) {
     for (int i = 0; i < s->of->contact_count; i++) {
         const contact_statement *c = &s->of->contacts[i];
-        if (c->effect >= 0 && c->at.offset == s->image->contact[contact].at.offset) {
-            acts[c->effect] = true;
+        for (int k = 0; c->at.offset == s->image->contact[contact].at.offset && k < s->effects;
+             k++) {
+            s->acted[k] = s->acted[k] || c->effect == s->effect[k];
         }
     }
 }
 
 /* Friction always acts; a stop or hold while it is closed; each of them when it has an event. */
-static void note_contacts(const subsets *s, void *run, bool *acts) {
+static void contacts_act(subsets *s, void *run) {
     engine_event event[WH_EVENT_LOG];
     int mode[WH_CONTACTS_LIMIT];
-    for (int i = s->image->contacts > 0 ? engine->happened(run, event) : 0; i > 0; i--) {
-        contact_acts(s, event[i - 1].contact, acts);
+    for (int i = engine->happened(run, event); i > 0; i--) {
+        contact_acts(s, event[i - 1].contact);
     }
-    if (s->image->contacts > 0) {
-        engine->modes(run, mode);
-    }
+    engine->modes(run, mode);
     for (int i = 0; i < s->image->contacts; i++) {
         const int kind = s->image->contact[i].kind;
         if (kind == WH_FRICTION || (kind != WH_WHEN && mode[i] == WH_ACTIVE)) {
-            contact_acts(s, i, acts);
+            contact_acts(s, i);
         }
+    }
+}
+
+/* What acts at this step of the full run; lane k is without effect k. */
+static void note_acting(subsets *s, field *full, const lane *lanes, void *run) {
+    if (s->image->contacts > 0) {
+        contacts_act(s, run);
+    }
+    for (int k = 0; k < s->effects; k++) {
+        s->acted[k] =
+            s->acted[k] || lanes[k].run == NULL || terms_act(s, full, lanes[k].field, run);
     }
 }
 
@@ -194,12 +225,13 @@ static void note_range(subsets *s, double *least, double *most, bool first) {
     }
 }
 
-/* The full run, and beside it those from list[first] on. acts[of->effect_count]: contacts that acted. */
-static bool run_from(subsets *s, int first, bool *acts, diags *errors) {
+/* The full run, and beside it those from list[first] on. */
+static bool run_from(subsets *s, int first, diags *errors) {
     const int count = s->count - first;
     const int columns = s->columns->columns;
     lane *lanes = room(count, sizeof *lanes);
-    double *ends = room(2 * columns, sizeof *ends);
+    double *ends = room(2 * (int64_t)columns, sizeof *ends);
+    field *full = field_open(s->image, engine);
     void *run = engine->start(s->image);
     wh_status status = WH_OK;
     for (int i = 0; i < count; i++) {
@@ -209,7 +241,9 @@ static bool run_from(subsets *s, int first, bool *acts, diags *errors) {
         const double time_s = ratio_times(step, s->image->step);
         records_read(s->columns, run, time_s);
         note_range(s, ends, ends + columns, step == 0);
-        note_contacts(s, run, acts);
+        if (first == 1) {
+            note_acting(s, full, lanes, run);
+        }
         for (int i = 0; i < count; i++) {
             if (lanes[i].run != NULL) {
                 lane_compare(&lanes[i], s->columns);
@@ -230,6 +264,7 @@ static bool run_from(subsets *s, int first, bool *acts, diags *errors) {
         }
     }
     engine->stop(run);
+    field_close(full);
     for (int i = 0; i < count; i++) {
         lane_close(&lanes[i]);
     }
@@ -239,22 +274,16 @@ static bool run_from(subsets *s, int first, bool *acts, diags *errors) {
 }
 
 bool subsets_run(subsets *s, diags *errors) {
-    bool *acts = room(s->of->effect_count, sizeof *acts);
     for (int k = 0; k < s->effects; k++) {
+        for (int i = 0; i < s->of->noise_count; i++) {
+            s->acted[k] = s->acted[k] || s->of->noises[i].effect == s->effect[k];
+        }
         add(s, bit(k));
     }
-    for (int i = 0; i < s->of->term_count + s->of->noise_count; i++) {
-        const int of = i < s->of->term_count ? s->of->terms[i].effect
-                                             : s->of->noises[i - s->of->term_count].effect;
-        if (of >= 0) {
-            acts[of] = true;
-        }
-    }
-    const bool good = run_from(s, 1, acts, errors);
+    const bool good = run_from(s, 1, errors);
     for (int k = 0; k < s->effects; k++) {
-        s->acted[k] = acts[s->effect[k]] && !s->list[k + 1]->same;
+        s->acted[k] = s->acted[k] && !s->list[k + 1]->same;
     }
-    free(acts);
     return good;
 }
 
@@ -296,7 +325,6 @@ static const subset *best_of(const subsets *s, uint64_t acting) {
 }
 
 const subset *subsets_smallest(subsets *s, bool *greedy) {
-    bool *unused = room(s->of->effect_count, sizeof *unused);
     diags *unsaid = diags_new();
     uint64_t acting = 0;
     for (int k = 0; k < s->effects; k++) {
@@ -316,12 +344,11 @@ const subset *subsets_smallest(subsets *s, bool *greedy) {
                 add(s, best->out | bit(k));
             }
         }
-        run_from(s, first, unused, unsaid);
+        run_from(s, first, unsaid);
         const subset *before = best;
         best = best_of(s, acting);
         more = *greedy && best != before;
     }
     diags_free(unsaid);
-    free(unused);
     return best;
 }

@@ -1,7 +1,7 @@
 /* subsets.h: runs of a scene without some of its effects, compared with the run that has all of them.
  *
- * All runs step side by side, in double, so no motion is stored. An effect acted if leaving it out changes a bit of a
- * record. Stops, holds and crossings also need an event or a contact: an untouched stop changes round-off alone. */
+ * All runs step side by side, in double, so no motion is stored. Terms act if leaving them out changes a slope by more
+ * than round-off; stops, holds and crossings if they have an event or are closed. */
 #ifndef PRICE_SUBSETS_H
 #define PRICE_SUBSETS_H
 
