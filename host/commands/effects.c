@@ -8,12 +8,14 @@
 #include "host/base/nearest.h"
 #include "host/base/room.h"
 #include "host/lang/override.h"
+#include "host/number/functions.h"
 #include "host/number/zero.h"
 #include "host/price/subsets.h"
 #include "pricing.h"
 
-/* The error without --error, as a part of each coordinate's range. */
+/* The error without --error: a part of each coordinate's range, and what round-off moves at rest, in SI. */
 #define ERROR_PART 1e-3
+#define ERROR_LEAST 1e-12
 
 static const command_usage usage = {
     .head =
@@ -278,8 +280,9 @@ static int effects_of(const effects_options *o, subsets *s, diags *errors) {
         return EXIT_RUN_FAILED;
     }
     for (int i = 1; i < s->columns->columns && o->error == NULL; i++) {
-        if (is_coordinate(&s->columns->column[i])) {
-            s->limit[i] = ERROR_PART * s->range[i];
+        const record_column *c = &s->columns->column[i];
+        if (is_coordinate(c)) {
+            s->limit[i] = number_most(ERROR_PART * s->range[i], image_shown(c->unit, ERROR_LEAST));
         }
     }
     print_answer(o, s);

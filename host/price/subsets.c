@@ -36,22 +36,6 @@ static image *image_without(const subsets *s, uint64_t out, diags *errors) {
     return starts ? im : NULL;
 }
 
-static bool list_effects(subsets *s, diags *errors) {
-    instance *inst = instance_make(s->of, s->in, s->changes, errors);
-    for (int i = 0; inst != NULL && i < s->of->effect_count; i++) {
-        if (inst->with[i] && s->effects == SUBSETS_EFFECTS_MAX) {
-            diag_error(errors, s->of->effects[i].at, "leave some out, --without",
-                       "more than %d effects take part", SUBSETS_EFFECTS_MAX);
-            break;
-        }
-        if (inst->with[i]) {
-            s->effect[s->effects++] = i;
-        }
-    }
-    instance_free(inst);
-    return diags_count(errors) == 0;
-}
-
 static double value_of(const cost_figure *f) {
     return f->basis == COST_NOT_KNOWN ? (double)NAN : f->value;
 }
@@ -77,14 +61,24 @@ static subset *add(subsets *s, uint64_t out) {
 }
 
 bool subsets_open(subsets *s, diags *errors) {
-    s->image = list_effects(s, errors) ? image_without(s, 0, errors) : NULL;
+    s->image = image_without(s, 0, errors);
+    for (int i = 0; s->image != NULL && i < s->image->effects; i++) {
+        if (s->image->effect[i].with && s->effects == SUBSETS_EFFECTS_MAX) {
+            diag_error(errors, s->of->effects[i].at, "leave some out, --without",
+                       "more than %d effects take part", SUBSETS_EFFECTS_MAX);
+            return false;
+        }
+        if (s->image->effect[i].with) {
+            s->effect[s->effects++] = i;
+        }
+    }
     if (s->image == NULL) {
         return false;
     }
     s->columns = records_open(NULL, s->image, engine);
     s->range = room(s->columns->columns, sizeof *s->range);
     s->limit = room(s->columns->columns, sizeof *s->limit);
-    take_price(s, s->image, add(s, 0));
+    add(s, 0);
     return true;
 }
 
@@ -102,25 +96,14 @@ void subsets_close(subsets *s) {
 
 /* --- runs side by side -------------------------------------------------------------------------------*/
 
+/* The first is the full run. */
 typedef struct lane {
     subset *subset;
     image *image;
     records *records;
     field *field;
-    void *run; /* NULL: it has failed */
+    void *run; /* NULL: there is none any more */
 } lane;
-
-static void lane_fail(lane *l, const char *why, int columns) {
-    l->subset->failed = why;
-    l->subset->same = false;
-    for (int i = 0; i < columns; i++) {
-        l->subset->moved[i] = (double)INFINITY;
-    }
-    if (l->run != NULL) {
-        engine->stop(l->run);
-        l->run = NULL;
-    }
-}
 
 static lane lane_open(const subsets *s, subset *of) {
     diags *unsaid = diags_new();
@@ -130,14 +113,17 @@ static lane lane_open(const subsets *s, subset *of) {
         l.field = field_open(l.image, engine);
         l.run = engine->start(l.image);
         take_price(s, l.image, of);
-    } else {
-        lane_fail(&l, "needed: no run can start without it", s->columns->columns);
     }
+    of->failed = l.image == NULL ? "needed: no run can start without it" : NULL;
     diags_free(unsaid);
     return l;
 }
 
-static void lane_close(lane *l) {
+static void lane_close(lane *l, int columns) {
+    for (int i = 0; l->subset->failed != NULL && i < columns; i++) {
+        l->subset->moved[i] = (double)INFINITY;
+        l->subset->same = false;
+    }
     if (l->run != NULL) {
         engine->stop(l->run);
     }
@@ -147,8 +133,8 @@ static void lane_close(lane *l) {
 }
 
 /* The largest difference of each column. A number beside NAN differs without a bound. */
-static void lane_compare(lane *l, const records *full) {
-    records_read(l->records, l->run, full->row[0]);
+static void lane_compare(lane *l, const records *full, double time_s) {
+    records_read(l->records, l->run, time_s);
     for (int i = 1; i < full->columns; i++) {
         const double a = full->row[i];
         const double b = l->records->row[i];
@@ -162,12 +148,13 @@ static void lane_compare(lane *l, const records *full) {
 }
 
 /* Does leaving out terms change a slope of the full run, at its state, by more than round-off? */
-static bool terms_act(const subsets *s, field *full, field *less, void *run) {
+static bool terms_act(const lane *all, field *less) {
+    field *full = all->field;
     double x[3 * IMAGE_COMPONENTS_MAX];
     double slope[2][3 * IMAGE_COMPONENTS_MAX];
     double off[2][3 * IMAGE_COMPONENTS_MAX];
     bool act = full->n != less->n;
-    engine->state(run, x, x + s->image->angles);
+    engine->state(all->run, x, x + all->image->angles);
     field_slope(full, x, slope[0]);
     field_slope(less, x, slope[1]);
     field_rounding(full, x, off[0]);
@@ -205,68 +192,71 @@ static void contacts_act(subsets *s, void *run) {
     }
 }
 
-/* What acts at this step of the full run; lane k is without effect k. */
-static void note_acting(subsets *s, field *full, const lane *lanes, void *run) {
+/* What acts at this step of the full run: lane k + 1 is without effect k. */
+static void note_acting(subsets *s, const lane *lanes) {
     if (s->image->contacts > 0) {
-        contacts_act(s, run);
+        contacts_act(s, lanes[0].run);
     }
     for (int k = 0; k < s->effects; k++) {
-        s->acted[k] =
-            s->acted[k] || lanes[k].run == NULL || terms_act(s, full, lanes[k].field, run);
+        const lane *less = &lanes[k + 1];
+        s->acted[k] = s->acted[k] || less->run == NULL || terms_act(&lanes[0], less->field);
     }
 }
 
-static void note_range(subsets *s, double *least, double *most, bool first) {
+static void note_range(subsets *s, const double *row, double *least, double *most, bool first) {
     for (int i = 1; i < s->columns->columns; i++) {
-        const double value = s->columns->row[i];
-        least[i] = first || value < least[i] ? value : least[i];
-        most[i] = first || value > most[i] ? value : most[i];
+        least[i] = first || row[i] < least[i] ? row[i] : least[i];
+        most[i] = first || row[i] > most[i] ? row[i] : most[i];
         s->range[i] = most[i] - least[i];
     }
 }
 
+/* Lanes that fail have no run any more. */
+static wh_status step_lanes(lane *lanes, int count) {
+    const wh_status status = engine->step(lanes[0].run);
+    for (int i = 1; i < count; i++) {
+        if (lanes[i].run != NULL && engine->step(lanes[i].run) != WH_OK) {
+            lanes[i].subset->failed = "needed: the run diverges without it";
+            engine->stop(lanes[i].run);
+            lanes[i].run = NULL;
+        }
+    }
+    return status;
+}
+
 /* The full run, and beside it those from list[first] on. */
 static bool run_from(subsets *s, int first, diags *errors) {
-    const int count = s->count - first;
+    const int count = 1 + s->count - first;
     const int columns = s->columns->columns;
     lane *lanes = room(count, sizeof *lanes);
     double *ends = room(2 * (int64_t)columns, sizeof *ends);
-    field *full = field_open(s->image, engine);
-    void *run = engine->start(s->image);
     wh_status status = WH_OK;
     for (int i = 0; i < count; i++) {
-        lanes[i] = lane_open(s, s->list[first + i]);
+        lanes[i] = lane_open(s, s->list[i == 0 ? 0 : first + i - 1]);
     }
+    const records *full = lanes[0].records;
     for (uint64_t step = 0; status == WH_OK; step++) {
         const double time_s = ratio_times(step, s->image->step);
-        records_read(s->columns, run, time_s);
-        note_range(s, ends, ends + columns, step == 0);
-        if (first == 1) {
-            note_acting(s, full, lanes, run);
-        }
         for (int i = 0; i < count; i++) {
             if (lanes[i].run != NULL) {
-                lane_compare(&lanes[i], s->columns);
+                lane_compare(&lanes[i], full, time_s);
             }
+        }
+        note_range(s, full->row, ends, ends + columns, step == 0);
+        if (first == 1) {
+            note_acting(s, lanes);
         }
         if (step == s->image->steps) {
             break;
         }
-        status = engine->step(run);
-        if (status != WH_OK && !undefined_step(s->image, engine, run, status, errors)) {
+        status = step_lanes(lanes, count);
+        if (status != WH_OK && !undefined_step(s->image, engine, lanes[0].run, status, errors)) {
             diag_error(errors, s->image->at, "a smaller --step, or an earlier --until",
                        "with all effects the run diverges in the step after t = %.9g s", time_s);
         }
-        for (int i = 0; i < count; i++) {
-            if (lanes[i].run != NULL && engine->step(lanes[i].run) != WH_OK) {
-                lane_fail(&lanes[i], "needed: the run diverges without it", columns);
-            }
-        }
     }
-    engine->stop(run);
-    field_close(full);
     for (int i = 0; i < count; i++) {
-        lane_close(&lanes[i]);
+        lane_close(&lanes[i], columns);
     }
     free(ends);
     free(lanes);
