@@ -120,43 +120,98 @@ static bool read_error(subsets *s, const char *error) {
     return good;
 }
 
-/* --- words -------------------------------------------------------------------------------------------*/
+/* --- the table ---------------------------------------------------------------------------------------*/
 
-/* Of all that has a limit, and of each coordinate if `all`. */
-static void print_values(const subsets *s, const char *head, const double *value, bool all) {
-    const char *between = head;
-    for (int i = 1; i < s->columns->columns; i++) {
-        const record_column *c = &s->columns->column[i];
-        if (isfinite(s->limit[i]) || (all && is_coordinate(c))) {
-            const bool has_unit = strcmp(c->unit->shown, "1") != 0;
-            printf("%s%s%.*s %.4g%s%s", between, c->name, c->primes, primes, value[i],
-                   has_unit ? " " : "", has_unit ? c->unit->shown : "");
-            between = ", ";
-        }
-    }
-    putchar('\n');
+typedef struct table_cells {
+    char **cell; /* [count] row by row */
+    int count;
+    int columns;
+} table_cells;
+
+static void put(table_cells *t, char *text) {
+    t->cell = room_more(t->cell, t->count + 1, sizeof *t->cell);
+    t->cell[t->count++] = text;
 }
 
-/* A price; of the full scene's contacts and of `contacts` more only the longest step is known. */
-static void print_price(const subsets *s, const char *head, const double *figure, int contacts) {
+/* Coordinates, and all that has a limit. */
+static bool is_shown(const subsets *s, int column) {
+    return is_coordinate(&s->columns->column[column]) || isfinite(s->limit[column]);
+}
+
+static void put_head(table_cells *t, const subsets *s) {
     const char *const words[SUBSET_FIGURES] = {
-        [SUBSET_STEP] = s->board->cycles == COST_RANGE ? "instructions a step" : "cycles a step",
-        [SUBSET_WORST] = "evaluations in the longest step",
-        [SUBSET_FLASH] = "bytes of flash",
-        [SUBSET_RAM] = "bytes of RAM"};
-    const char *between = head;
-    for (int i = 0; i < SUBSET_FIGURES; i++) {
-        if (i == SUBSET_WORST && s->list[0]->contacts == 0) {
-            continue;
+        [SUBSET_STEP] = s->board->cycles == COST_RANGE ? "instructions" : "cycles",
+        [SUBSET_WORST] = "evaluations",
+        [SUBSET_FLASH] = "flash [B]",
+        [SUBSET_RAM] = "RAM [B]"};
+    put(t, room_words("effect"));
+    for (int i = 1; i < s->columns->columns; i++) {
+        const record_column *c = &s->columns->column[i];
+        const char *unit = strcmp(c->unit->shown, "1") == 0 ? "" : c->unit->shown;
+        if (is_shown(s, i)) {
+            put(t, room_words(*unit == '\0' ? "%s%.*s%s" : "%s%.*s [%s]", c->name, c->primes,
+                              primes, unit));
         }
-        if (isnan(figure[i]) || (i != SUBSET_WORST && contacts > 0)) {
-            printf("%s- %s", between, words[i]);
-        } else {
-            printf("%s%.0f %s", between, number_shown(figure[i]), words[i]);
-        }
-        between = ", ";
     }
-    putchar('\n');
+    for (int i = 0; i < SUBSET_FIGURES; i++) {
+        put(t, room_words("%s", words[i]));
+    }
+    put(t, room_words("verdict"));
+    t->columns = t->count;
+}
+
+/* With `contacts` only the longest step is known. `figure` NULL: no price. */
+static void put_row(table_cells *t, const subsets *s, const char *name, const double *moved,
+                    const double *figure, int contacts, const char *verdict) {
+    put(t, room_words("%s", name));
+    for (int i = 1; i < s->columns->columns; i++) {
+        if (is_shown(s, i)) {
+            put(t, isfinite(moved[i]) ? room_words("%.4g", moved[i]) : room_words("-"));
+        }
+    }
+    for (int i = 0; i < SUBSET_FIGURES; i++) {
+        const bool known =
+            figure != NULL && !isnan(figure[i]) && (i == SUBSET_WORST || contacts == 0);
+        put(t, known ? room_words("%.0f", number_shown(figure[i])) : room_words("-"));
+    }
+    put(t, room_words("%s", verdict));
+}
+
+static void put_effect(table_cells *t, const subsets *s, int k) {
+    const subset *all = s->list[0];
+    const subset *without = s->list[k + 1];
+    double figure[SUBSET_FIGURES];
+    for (int i = 0; i < SUBSET_FIGURES; i++) {
+        figure[i] = all->figure[i] - without->figure[i];
+    }
+    put_row(t, s, s->of->effects[s->effect[k]].name, without->moved, figure,
+            all->contacts - without->contacts,
+            !s->acted[k]                ? "not tested by this run: it never acted"
+            : without->failed != NULL   ? without->failed
+            : subsets_keeps(s, without) ? "may be left out"
+                                        : "needed");
+}
+
+/* The first column and the verdicts to the left, numbers to the right. */
+static void print_table(table_cells *t) {
+    int *width = room(t->columns, sizeof *width);
+    for (int i = 0; i < t->count; i++) {
+        const int length = (int)strlen(t->cell[i]);
+        width[i % t->columns] = length > width[i % t->columns] ? length : width[i % t->columns];
+    }
+    for (int i = 0; i < t->count; i++) {
+        const int column = i % t->columns;
+        if (column == 0) {
+            printf("%-*s", width[0], t->cell[i]);
+        } else if (column + 1 < t->columns) {
+            printf("  %*s", width[column], t->cell[i]);
+        } else {
+            printf("%s%s\n", t->cell[i][0] == '\0' ? "" : "  ", t->cell[i]);
+        }
+        free(t->cell[i]);
+    }
+    free(t->cell);
+    free(width);
 }
 
 /* The effects of these bits. */
@@ -167,22 +222,6 @@ static void print_names(const subsets *s, const char *head, uint64_t bits, const
             head = between;
         }
     }
-}
-
-static void print_effect(const subsets *s, int k) {
-    const subset *all = s->list[0];
-    const subset *without = s->list[k + 1];
-    double figure[SUBSET_FIGURES];
-    for (int i = 0; i < SUBSET_FIGURES; i++) {
-        figure[i] = all->figure[i] - without->figure[i];
-    }
-    printf("\n%s: %s\n", s->of->effects[s->effect[k]].name,
-           !s->acted[k]                ? "not tested by this run: it never acted"
-           : without->failed != NULL   ? without->failed
-           : subsets_keeps(s, without) ? "may be left out"
-                                       : "needed");
-    print_values(s, "  moves  ", without->moved, true);
-    print_price(s, "  costs  ", figure, all->contacts - without->contacts);
 }
 
 /* --set of an effect that is left out: `run` refuses it. */
@@ -221,37 +260,32 @@ static void print_run(const effects_options *o, const subsets *s, uint64_t out) 
     free(sets);
 }
 
-static void print_smallest(const effects_options *o, subsets *s) {
-    bool greedy;
-    const subset *best = subsets_smallest(s, &greedy);
-    const uint64_t every = ~(uint64_t)0;
-    uint64_t untested = 0;
-    printf("\nsmallest set that keeps the error%s: ",
-           greedy ? ", as far as leaving out one more at a time finds it" : "");
-    print_names(s, "", every ^ best->out, ", ");
-    for (int k = 0; k < s->effects; k++) {
-        untested |= s->acted[k] ? 0 : (uint64_t)1 << (unsigned)k;
-    }
-    print_names(s, "\n  kept untested  ", untested, ", ");
-    puts(best->out == every >> (unsigned)(64 - s->effects) ? "no effect" : "");
-    print_values(s, "  moves  ", best->moved, true);
-    print_price(s, "  costs  ", best->figure, best->contacts);
-    if (best->out != 0) {
-        print_price(s, "  all    ", s->list[0]->figure, s->list[0]->contacts);
-    }
-    print_run(o, s, best->out);
-}
-
 static void print_answer(const effects_options *o, subsets *s) {
     const image *im = s->image;
-    printf("%s: %s\n%llu steps to t = %.9g s, %s, double\n", im->name, im->title,
-           (unsigned long long)im->steps, ratio_times(im->steps, im->step), image_stepper(im));
-    print_values(s, o->error != NULL ? "error  " : "error  0.1 % of the range: ", s->limit, false);
-    printf("price  %s (%s), float, predicted\n", s->board->name, s->board->core);
+    const subset *all = s->list[0];
+    const uint64_t every = ~(uint64_t)0 >> (unsigned)(SUBSETS_EFFECTS_MAX - s->effects);
+    table_cells t = {.count = 0};
+    uint64_t untested = 0;
+    bool greedy;
+    const subset *best = subsets_smallest(s, &greedy);
+    printf("%s%s%s\n%llu steps to t = %.9g s, %s, double; price on %s (%s), float, predicted\n\n",
+           im->name, im->title[0] != '\0' ? ": " : "", im->title, (unsigned long long)im->steps,
+           ratio_times(im->steps, im->step), image_stepper(im), s->board->name, s->board->core);
+    put_head(&t, s);
     for (int k = 0; k < s->effects; k++) {
-        print_effect(s, k);
+        put_effect(&t, s, k);
+        untested |= s->acted[k] ? 0 : (uint64_t)1 << (unsigned)k;
     }
-    print_smallest(o, s);
+    put_row(&t, s, "allowed", s->limit, NULL, 0, o->error != NULL ? "" : "0.1 % of the range");
+    put_row(&t, s, "all", all->moved, all->figure, all->contacts, "");
+    put_row(&t, s, "smallest set", best->moved, best->figure, best->contacts, "");
+    print_table(&t);
+    printf("\nsmallest set that keeps the error%s: ",
+           greedy ? ", found by leaving out one more effect at a time" : "");
+    print_names(s, "", every & ~best->out, ", ");
+    print_names(s, "\nnot tested, so kept: ", untested, ", ");
+    puts(best->out == every ? "no effect" : "");
+    print_run(o, s, best->out);
 }
 
 /* --- the command -------------------------------------------------------------------------------------*/
@@ -271,6 +305,11 @@ static int effects_of(const effects_options *o, subsets *s, diags *errors) {
                 s->image->name, s->of->effect_count > 0 ? "--with all, or --with " : "",
                 s->of->effect_count > 0 ? s->of->effects[0].name
                                         : "docs/effects.md tells how to write one");
+        return EXIT_BAD_INPUT;
+    }
+    if (s->image->steps == 0) {
+        fputs("whirl effects: error: a run of no steps compares nothing\nhint: --until 1s\n",
+              stderr);
         return EXIT_BAD_INPUT;
     }
     if (!read_error(s, o->error)) {

@@ -55,6 +55,9 @@ static void take_price(const subsets *s, const image *im, subset *to) {
 static subset *add(subsets *s, uint64_t out) {
     subset *made = room(1, sizeof *made);
     *made = (subset){.out = out, .same = true, .moved = room(s->columns->columns, sizeof(double))};
+    for (int i = 0; i < SUBSET_FIGURES; i++) {
+        made->figure[i] = (double)NAN;
+    }
     s->list = room_more(s->list, s->count + 1, sizeof(subset *));
     s->list[s->count++] = made;
     return made;

@@ -10,7 +10,7 @@
 #include "host/run/records.h"
 
 /* Most effects of a scene, and most that act for which all subsets are run. */
-enum { SUBSETS_EFFECTS_MAX = 60, SUBSETS_ALL_MOST = 6 };
+enum { SUBSETS_EFFECTS_MAX = 64, SUBSETS_ALL_MOST = 6 };
 
 /* Figures of a price, in float; NAN: not known. Of contacts the declared worst step alone is known. */
 enum { SUBSET_STEP, SUBSET_WORST, SUBSET_FLASH, SUBSET_RAM, SUBSET_FIGURES };

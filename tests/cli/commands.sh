@@ -97,6 +97,7 @@ ends() { # COMMAND [OPTION...]: all that it comes to
     run) "$whirl" run "$plain" --csv - --quiet "$@" ;;
     sweep) "$whirl" sweep "$plain" --over x=1..1.5:2 --quiet "$@" ;;
     map) "$whirl" map "$plain" --over x=1..1.5:2 --over a=1..1.2:2 --csv - --quiet "$@" ;;
+    effects) "$whirl" effects "$plain" "$@" ;;
     trust) "$whirl" trust "$plain" --csv - --quiet "$@" ;;
     pil) # the cart's firmware; the hash of the motion that it meets
         case " $* " in *' --until '*) ;; *) set -- --until 0.1s "$@" ;; esac
