@@ -136,8 +136,8 @@ static void lane_close(lane *l, int columns) {
 }
 
 /* The largest difference of each column. A number beside NAN differs without a bound. */
-static void lane_compare(lane *l, const records *full, double time_s) {
-    records_read(l->records, l->run, time_s);
+static void lane_compare(lane *l, const records *full) {
+    records_read(l->records, l->run, full->row[0]);
     for (int i = 1; i < full->columns; i++) {
         const double a = full->row[i];
         const double b = l->records->row[i];
@@ -206,7 +206,8 @@ static void note_acting(subsets *s, const lane *lanes) {
     }
 }
 
-static void note_range(subsets *s, const double *row, double *least, double *most, bool first) {
+static void note_range(subsets *s, double *least, double *most, bool first) {
+    const double *row = s->columns->row;
     for (int i = 1; i < s->columns->columns; i++) {
         least[i] = first || row[i] < least[i] ? row[i] : least[i];
         most[i] = first || row[i] > most[i] ? row[i] : most[i];
@@ -237,15 +238,15 @@ static bool run_from(subsets *s, int first, diags *errors) {
     for (int i = 0; i < count; i++) {
         lanes[i] = lane_open(s, s->list[i == 0 ? 0 : first + i - 1]);
     }
-    const records *full = lanes[0].records;
     for (uint64_t step = 0; status == WH_OK; step++) {
         const double time_s = ratio_times(step, s->image->step);
-        for (int i = 0; i < count; i++) {
+        records_read(s->columns, lanes[0].run, time_s);
+        for (int i = 1; i < count; i++) {
             if (lanes[i].run != NULL) {
-                lane_compare(&lanes[i], full, time_s);
+                lane_compare(&lanes[i], s->columns);
             }
         }
-        note_range(s, full->row, ends, ends + columns, step == 0);
+        note_range(s, ends, ends + columns, step == 0);
         if (first == 1) {
             note_acting(s, lanes);
         }

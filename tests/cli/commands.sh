@@ -118,6 +118,7 @@ while read -r word value group; do
         examine--start | examine--until) continue ;; # formulas hold at every state and time
         examine--set) set -- --set k=0 ;;            # a spring that is none
         sweep--start | map--start) set -- --start "x'=1" ;; # x is swept
+        effects--without) set -- --without drag --with wind ;; # without any effect there is nothing to answer
         derive--number) set -- --number fixed ;; # of float and double the code is one
         *) set -- "$word" "$(sample "$word")" ;;
         esac

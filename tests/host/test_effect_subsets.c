@@ -1,8 +1,8 @@
 /* test_effect_subsets.c: `whirl effects` against brute force: two carts with up to four drawn effects. All subsets are
  * integrated here, from the numbers that are written into the scene, by RK4 with bisected events: no code is shared. */
-#include <float.h>
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "command.h"
@@ -189,21 +189,20 @@ static void brute(const carts *c, unsigned out, double moved[2], bool *acted) {
 /* --- drawn cases -----------------------------------------------------------------------------------------*/
 
 /* A number that three digits write. */
-static double drawn(dice *d, double low, double high) {
+static double drawn(dice *d, double low, double high, bool is_log) {
+    const double value = dice_between(d, low, high);
     char text[32];
-    double value;
-    snprintf(text, sizeof text, "%.3g", dice_between(d, low, high));
-    TEST_ASSERT_EQUAL_INT(1, sscanf(text, "%lf", &value));
-    return value;
+    snprintf(text, sizeof text, "%.3g", is_log ? pow(10.0, value) : value);
+    return strtod(text, NULL);
 }
 
 static carts draw(dice *d, int effects) {
     carts c = {.effects = effects};
     for (int i = 0; i < 2; i++) {
-        c.m[i] = drawn(d, 0.5, 3.0);
-        c.k[i] = drawn(d, 1.0, 20.0);
-        c.start[2 * i] = drawn(d, -0.3, 0.3);
-        c.start[2 * i + 1] = drawn(d, 1.0, 4.0);
+        c.m[i] = drawn(d, 0.5, 3.0, false);
+        c.k[i] = drawn(d, 1.0, 20.0, false);
+        c.start[2 * i] = drawn(d, -0.3, 0.3, false);
+        c.start[2 * i + 1] = drawn(d, 1.0, 4.0, false);
     }
     for (int i = 0; i < effects; i++) {
         bool again = true;
@@ -215,9 +214,7 @@ static carts draw(dice *d, int effects) {
             }
         }
         const double *log = bounds[c.kind[i]];
-        char text[32];
-        snprintf(text, sizeof text, "%.3g", pow(10.0, dice_between(d, log[0], log[1])));
-        TEST_ASSERT_EQUAL_INT(1, sscanf(text, "%lf", &c.p[c.kind[i]]));
+        c.p[c.kind[i]] = drawn(d, log[0], log[1], true);
     }
     return c;
 }
@@ -370,7 +367,7 @@ static void test_against_brute_force(void) {
         "  %d scenes, %d sets: movements within %.1e of the range; %d with contacts, %d with an effect that "
         "never acts, %d that leave one out\n",
         f.scenes, f.sets, f.off, f.events, f.untested, f.left_out);
-    TEST_ASSERT_TRUE(f.events > 0 && f.untested > 0 && f.left_out > 0);
+    TEST_ASSERT_TRUE(cases < CASES_FEW || (f.events > 0 && f.untested > 0 && f.left_out > 0));
 }
 
 /* Seven that act: one more is left out at a time, until no other may be. */
@@ -383,18 +380,18 @@ static void test_greedy(void) {
         double moved[2];
         for (c.effects = 0; c.effects <= HARD; c.effects++) {
             c.kind[c.effects] = c.effects;
-            c.p[c.effects] = drawn(&d, 1e-4, 0.01);
+            c.p[c.effects] = drawn(&d, 1e-4, 0.01, false);
         }
         c.kind[c.effects] = NOISE;
         c.p[c.kind[c.effects++]] = 1e-3;
         c.kind[c.effects] = FRICTION;
-        c.p[c.kind[c.effects++]] = drawn(&d, 1e-4, 0.01);
+        c.p[c.kind[c.effects++]] = drawn(&d, 1e-4, 0.01, false);
         subsets s = opened(&c, &none);
         for (int k = 1; k < s.columns->columns; k++) {
             s.limit[k] = (double)INFINITY;
         }
-        s.limit[1] = drawn(&d, 0.2, 2.0);
-        s.limit[2] = drawn(&d, 0.2e-3, 2e-3);
+        s.limit[1] = drawn(&d, 0.2, 2.0, false);
+        s.limit[2] = drawn(&d, 0.2e-3, 2e-3, false);
         bool greedy;
         const subset *best = subsets_smallest(&s, &greedy);
         TEST_ASSERT_TRUE(greedy);
