@@ -150,20 +150,29 @@ static void lane_compare(lane *l, const records *full) {
     }
 }
 
-/* Does leaving out terms change a slope of the full run, at its state, by more than round-off? */
+/* Does leaving out terms change a slope of the full run, at its state, by more than round-off? The two may keep their
+ * components in another order. */
 static bool terms_act(const lane *all, field *less) {
+    enum { MOST = 3 * IMAGE_COMPONENTS_MAX };
     field *full = all->field;
-    double x[3 * IMAGE_COMPONENTS_MAX];
-    double slope[2][3 * IMAGE_COMPONENTS_MAX];
-    double off[2][3 * IMAGE_COMPONENTS_MAX];
+    double x[2][MOST];
+    double slope[2][MOST];
+    double off[2][MOST];
+    int at[MOST] = {0};
     bool act = full->n != less->n;
-    engine->state(all->run, x, x + all->image->angles);
-    field_slope(full, x, slope[0]);
-    field_slope(less, x, slope[1]);
-    field_rounding(full, x, off[0]);
-    field_rounding(less, x, off[1]);
-    for (int i = 0; i < full->n && !act; i++) {
-        act = fabs(slope[0][i] - slope[1][i]) > off[0][i] + off[1][i];
+    engine->state(all->run, x[0], x[0] + all->image->angles);
+    for (int i = 0; i < less->n; i++) {
+        const component c = image_component(less->image, i);
+        at[i] = image_find_component(full->image, c.unknown, c.primes);
+        act = act || at[i] < 0;
+        x[1][i] = act ? 0.0 : x[0][at[i]];
+    }
+    field_slope(full, x[0], slope[0]);
+    field_slope(less, x[1], slope[1]);
+    field_rounding(full, x[0], off[0]);
+    field_rounding(less, x[1], off[1]);
+    for (int i = 0; i < less->n && !act; i++) {
+        act = fabs(slope[0][at[i]] - slope[1][i]) > off[0][at[i]] + off[1][i];
     }
     return act;
 }
@@ -238,7 +247,7 @@ static bool run_from(subsets *s, int first, diags *errors) {
     for (int i = 0; i < count; i++) {
         lanes[i] = lane_open(s, s->list[i == 0 ? 0 : first + i - 1]);
     }
-    for (uint64_t step = 0; status == WH_OK; step++) {
+    for (uint64_t step = 0; lanes[0].run != NULL && status == WH_OK; step++) {
         const double time_s = ratio_times(step, s->image->step);
         records_read(s->columns, lanes[0].run, time_s);
         for (int i = 1; i < count; i++) {

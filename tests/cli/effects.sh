@@ -7,19 +7,21 @@ cat >"$scratch/cart.whirl" <<'END_OF_FILE'
 mechanism cart "Cart on a spring"
 coordinate x [mm]
 coordinate a [deg]
-T = 2 [kg]*x'^2/2 + 0.1 [kg*m^2]*a'^2/2
+coordinate b [rad]
+T = 2 [kg]*x'^2/2 + 0.1 [kg*m^2]*a'^2/2 + 1 [kg*m^2]*b'^2/2
 V = 8 [N/m]*x^2/2 + 9 [J]*(1 - cos(a))
 output speed [m/s] = x'
 effect drag "on the rail" {
-  parameter b = 1e-3 [N*s/m]
-  F += b*x'^2/2
+  parameter c = 1e-3 [N*s/m]
+  F += c*x'^2/2
 }
 effect pull { Q(x) += 0.5 [N] }
 effect buffer { stop x >= -9 [m] restitution 0.5 }
 effect far_spring { V += 5 [N/m]*max(x - 7 [m], 0)^2/2 }
+effect weight { V += 3 [J]*(1 - cos(b)) }
 effect lift { when x crosses -8 [m] falling { set x' = 0 [m/s] } }
 scene swings {
-  with drag, pull, buffer, far_spring, lift
+  with drag, pull, buffer, far_spring, weight, lift
   start x = 1 [m], a = 60 [deg]
   step 2 [ms]
   until 3 [s]
@@ -54,15 +56,15 @@ cells() {
 
 # --- verdicts, units, and the line that runs ------------------------------------------------------------------------
 check "a file of one's own" ask "$cart" --error "x=5mm,a'=1deg/s,speed=1"
-says '^effect  *x \[mm\]  *a \[deg\]  *a. \[deg/s\]  *speed \[m/s\]  *cycles  *evaluations  *flash \[B\]  *RAM \[B\]  *verdict$'
-says '^allowed  *5  *-  *1  *1  *-  *-  *-  *-$'
-cells drag '# # # # # # # # may be left out'
-cells pull '# # # # # # # # needed'
-for effect in buffer far_spring lift; do
+says '^effect  *x \[mm\]  *a \[deg\]  *b \[rad\]  *a. \[deg/s\]  *speed \[m/s\]  *cycles  *evaluations  *flash \[B\]  *RAM \[B\]  *verdict$'
+says '^allowed  *5  *-  *-  *1  *1  *-  *-  *-  *-$'
+cells drag '# # # # # # # # # may be left out'
+cells pull '# # # # # # # # # needed'
+for effect in buffer far_spring weight lift; do
     says "^$effect .* not tested by this run: it never acted$"
 done
-says '^smallest set that keeps the error: pull, buffer, far_spring, lift$'
-says '^not tested, so kept: buffer, far_spring, lift$'
+says '^smallest set that keeps the error: pull, buffer, far_spring, weight, lift$'
+says '^not tested, so kept: buffer, far_spring, weight, lift$'
 run=$(sed -n 's/^  whirl run/run/p' "$scratch/out")
 # what the two runs differ by, of all rows, against what the answer says
 eval "\"\$whirl\" $run --csv \"\$scratch/less.csv\" --quiet" && "$whirl" run "$cart" --csv "$scratch/all.csv" --quiet
@@ -72,14 +74,14 @@ paste -d, "$scratch/all.csv" "$scratch/less.csv" | awk -F, -v told="$(row drag)"
 verdict $? "$run moves x by what the answer says: $(cat "$scratch/err") mm"
 
 check "without --error" ask "$cart"
-says '^allowed  *[0-9.]+  *0\.12  *-  *-  *-  *-  0\.1 % of the range$'
+says '^allowed  *[0-9.]+  *0\.12  *1e-12  *-  *-  *-  *-  0\.1 % of the range$'
 ask "$cart" --error x=5mm && cp "$scratch/out" "$scratch/mm" && ask "$cart" --error x=0.005 && cmp -s "$scratch/mm" "$scratch/out"
 verdict $? "a bare error is SI"
-ask "$cart" --error x=5mm --set b=2e-3 --until 1.5s --start "a=30 [deg]"
-says '^smallest set .*: pull, buffer, far_spring, lift$'
+ask "$cart" --error x=5mm --set c=2e-3 --until 1.5s --start "a=30 [deg]"
+says '^smallest set .*: pull, buffer, far_spring, weight, lift$'
 says '^  whirl run .*cart.whirl:swings --start "a=30 \[deg\]" --until 1.5s --without drag$'
-ask "$cart" --error x=5mm --set b=20
-says '^  whirl run .*cart.whirl:swings --set b=20$'
+ask "$cart" --error x=5mm --set c=20
+says '^  whirl run .*cart.whirl:swings --set c=20$'
 ask "$scratch/cart.whirl:bare" --with drag,pull --error x=1mm
 says '^  whirl run .*cart.whirl:bare --with drag --with pull --without drag$'
 
@@ -87,10 +89,10 @@ says '^  whirl run .*cart.whirl:bare --with drag --with pull --without drag$'
 check "a board that counts no cycles" ask "$scratch/cart.whirl:bare" --with drag --board mps2-an505
 says 'price on mps2-an505 \(Cortex-M33\), float, predicted$'
 says '^effect .* instructions  *evaluations '
-cells drag '# # # # # # may be left out'
+cells drag '# # # # # # # may be left out'
 ask "$cart"
-cells buffer '# # - # - - not tested by this run: it never acted'
-cells drag '# # # # # # may be left out'
+cells buffer '# # # - # - - not tested by this run: it never acted'
+cells drag '# # # # # # # may be left out'
 
 # --- what cannot run without an effect --------------------------------------------------------------------------------------
 cat >"$scratch/odd.whirl" <<'END_OF_FILE'
