@@ -122,96 +122,60 @@ static bool read_error(subsets *s, const char *error) {
 
 /* --- the table ---------------------------------------------------------------------------------------*/
 
-typedef struct table_cells {
-    char **cell; /* [count] row by row */
-    int count;
-    int columns;
-} table_cells;
-
-static void put(table_cells *t, char *text) {
-    t->cell = room_more(t->cell, t->count + 1, sizeof *t->cell);
-    t->cell[t->count++] = text;
+static void print_cell(const char *head, bool is_head, const char *format, double number) {
+    enum { LEAST = 9 };
+    const int length = (int)strlen(head);
+    char *text = is_head            ? room_words("%s", head)
+                 : isfinite(number) ? room_words(format, number_shown(number))
+                                    : room_words("-");
+    printf("  %*s", length > LEAST ? length : LEAST, text);
+    free(text);
 }
 
-/* Coordinates, and all that has a limit. */
-static bool is_shown(const subsets *s, int column) {
-    return is_coordinate(&s->columns->column[column]) || isfinite(s->limit[column]);
-}
-
-static void put_head(table_cells *t, const subsets *s) {
+/* A row; the headings if `moved` is NULL. Of contacts only the longest step has a price. */
+static void print_row(const subsets *s, const char *name, const double *moved, const double *figure,
+                      int contacts, const char *verdict) {
     const char *const words[SUBSET_FIGURES] = {
         [SUBSET_STEP] = s->board->cycles == COST_RANGE ? "instructions" : "cycles",
         [SUBSET_WORST] = "evaluations",
         [SUBSET_FLASH] = "flash [B]",
         [SUBSET_RAM] = "RAM [B]"};
-    put(t, room_words("effect"));
+    int width = (int)strlen("smallest set");
+    for (int k = 0; k < s->effects; k++) {
+        const int length = (int)strlen(s->of->effects[s->effect[k]].name);
+        width = length > width ? length : width;
+    }
+    printf("%-*s", width, name);
     for (int i = 1; i < s->columns->columns; i++) {
         const record_column *c = &s->columns->column[i];
-        const char *unit = strcmp(c->unit->shown, "1") == 0 ? "" : c->unit->shown;
-        if (is_shown(s, i)) {
-            put(t, room_words(*unit == '\0' ? "%s%.*s%s" : "%s%.*s [%s]", c->name, c->primes,
-                              primes, unit));
+        if (is_coordinate(c) || isfinite(s->limit[i])) {
+            const bool bare = strcmp(c->unit->shown, "1") == 0;
+            char *head = room_words("%s%.*s%s%s%s", c->name, c->primes, primes, bare ? "" : " [",
+                                    bare ? "" : c->unit->shown, bare ? "" : "]");
+            print_cell(head, moved == NULL, "%.4g", moved == NULL ? 0.0 : moved[i]);
+            free(head);
         }
     }
     for (int i = 0; i < SUBSET_FIGURES; i++) {
-        put(t, room_words("%s", words[i]));
+        const bool known = figure != NULL && (i == SUBSET_WORST || contacts == 0);
+        print_cell(words[i], moved == NULL, "%.0f", known ? figure[i] : (double)NAN);
     }
-    put(t, room_words("verdict"));
-    t->columns = t->count;
+    printf("%s%s\n", verdict[0] == '\0' ? "" : "  ", verdict);
 }
 
-/* With `contacts` only the longest step is known. `figure` NULL: no price. */
-static void put_row(table_cells *t, const subsets *s, const char *name, const double *moved,
-                    const double *figure, int contacts, const char *verdict) {
-    put(t, room_words("%s", name));
-    for (int i = 1; i < s->columns->columns; i++) {
-        if (is_shown(s, i)) {
-            put(t, isfinite(moved[i]) ? room_words("%.4g", moved[i]) : room_words("-"));
-        }
-    }
-    for (int i = 0; i < SUBSET_FIGURES; i++) {
-        const bool known =
-            figure != NULL && !isnan(figure[i]) && (i == SUBSET_WORST || contacts == 0);
-        put(t, known ? room_words("%.0f", number_shown(figure[i])) : room_words("-"));
-    }
-    put(t, room_words("%s", verdict));
-}
-
-static void put_effect(table_cells *t, const subsets *s, int k) {
+static void print_effect(const subsets *s, int k) {
     const subset *all = s->list[0];
     const subset *without = s->list[k + 1];
     double figure[SUBSET_FIGURES];
     for (int i = 0; i < SUBSET_FIGURES; i++) {
         figure[i] = all->figure[i] - without->figure[i];
     }
-    put_row(t, s, s->of->effects[s->effect[k]].name, without->moved, figure,
-            all->contacts - without->contacts,
-            !s->acted[k]                ? "not tested by this run: it never acted"
-            : without->failed != NULL   ? without->failed
-            : subsets_keeps(s, without) ? "may be left out"
-                                        : "needed");
-}
-
-/* The first column and the verdicts to the left, numbers to the right. */
-static void print_table(table_cells *t) {
-    int *width = room(t->columns, sizeof *width);
-    for (int i = 0; i < t->count; i++) {
-        const int length = (int)strlen(t->cell[i]);
-        width[i % t->columns] = length > width[i % t->columns] ? length : width[i % t->columns];
-    }
-    for (int i = 0; i < t->count; i++) {
-        const int column = i % t->columns;
-        if (column == 0) {
-            printf("%-*s", width[0], t->cell[i]);
-        } else if (column + 1 < t->columns) {
-            printf("  %*s", width[column], t->cell[i]);
-        } else {
-            printf("%s%s\n", t->cell[i][0] == '\0' ? "" : "  ", t->cell[i]);
-        }
-        free(t->cell[i]);
-    }
-    free(t->cell);
-    free(width);
+    print_row(s, s->of->effects[s->effect[k]].name, without->moved, figure,
+              all->contacts - without->contacts,
+              !s->acted[k]                ? "not tested by this run: it never acted"
+              : without->failed != NULL   ? without->failed
+              : subsets_keeps(s, without) ? "may be left out"
+                                          : "needed");
 }
 
 /* The effects of these bits. */
@@ -264,22 +228,20 @@ static void print_answer(const effects_options *o, subsets *s) {
     const image *im = s->image;
     const subset *all = s->list[0];
     const uint64_t every = ~(uint64_t)0 >> (unsigned)(SUBSETS_EFFECTS_MAX - s->effects);
-    table_cells t = {.count = 0};
     uint64_t untested = 0;
     bool greedy;
     const subset *best = subsets_smallest(s, &greedy);
     printf("%s%s%s\n%llu steps to t = %.9g s, %s, double; price on %s (%s), float, predicted\n\n",
            im->name, im->title[0] != '\0' ? ": " : "", im->title, (unsigned long long)im->steps,
            ratio_times(im->steps, im->step), image_stepper(im), s->board->name, s->board->core);
-    put_head(&t, s);
+    print_row(s, "effect", NULL, NULL, 0, "verdict");
     for (int k = 0; k < s->effects; k++) {
-        put_effect(&t, s, k);
+        print_effect(s, k);
         untested |= s->acted[k] ? 0 : (uint64_t)1 << (unsigned)k;
     }
-    put_row(&t, s, "allowed", s->limit, NULL, 0, o->error != NULL ? "" : "0.1 % of the range");
-    put_row(&t, s, "all", all->moved, all->figure, all->contacts, "");
-    put_row(&t, s, "smallest set", best->moved, best->figure, best->contacts, "");
-    print_table(&t);
+    print_row(s, "allowed", s->limit, NULL, 0, o->error != NULL ? "" : "0.1 % of the range");
+    print_row(s, "all", all->moved, all->figure, all->contacts, "");
+    print_row(s, "smallest set", best->moved, best->figure, best->contacts, "");
     printf("\nsmallest set that keeps the error%s: ",
            greedy ? ", found by leaving out one more effect at a time" : "");
     print_names(s, "", every & ~best->out, ", ");
