@@ -94,6 +94,11 @@ static bool read_limit(subsets *s, const char *text) {
                 text, text);
         good = false;
     }
+    if (good && isfinite(s->limit[column])) {
+        fprintf(stderr, "whirl effects: error: --error: '%s' is given twice\nhint: leave one out\n",
+                name);
+        good = false;
+    }
     good = good && override_dimension(s->of, name, &wanted) &&
            pricing_quantity("effects", s->of, "--error", text + length + 1, wanted, &si);
     if (good) {

@@ -224,20 +224,21 @@ static void note_range(subsets *s, double *least, double *most, bool first) {
     }
 }
 
-/* Lanes that fail have no run any more. */
-static wh_status step_lanes(lane *lanes, int count) {
-    const wh_status status = engine->step(lanes[0].run);
-    for (int i = 1; i < count; i++) {
-        if (lanes[i].run != NULL && engine->step(lanes[i].run) != WH_OK) {
-            lanes[i].subset->failed = "needed: the run diverges without it";
-            engine->stop(lanes[i].run);
-            lanes[i].run = NULL;
-        }
+bool subsets_keeps(const subsets *s, const subset *of) {
+    bool keeps = of->failed == NULL;
+    for (int i = 1; i < s->columns->columns; i++) {
+        keeps = keeps && of->moved[i] <= s->limit[i];
     }
-    return status;
+    return keeps;
 }
 
-/* The full run, and beside it those from list[first] on. */
+static void lane_stop(lane *l, const char *why) {
+    l->subset->failed = why;
+    engine->stop(l->run);
+    l->run = NULL;
+}
+
+/* The full run, and beside it those from list[first] on; behind those without one effect, while they keep the limits. */
 static bool run_from(subsets *s, int first, diags *errors) {
     const int count = 1 + s->count - first;
     const int columns = s->columns->columns;
@@ -254,6 +255,9 @@ static bool run_from(subsets *s, int first, diags *errors) {
             if (lanes[i].run != NULL) {
                 lane_compare(&lanes[i], s->columns);
             }
+            if (lanes[i].run != NULL && first > 1 && !subsets_keeps(s, lanes[i].subset)) {
+                lane_stop(&lanes[i], "it breaks the error");
+            }
         }
         note_range(s, ends, ends + columns, step == 0);
         if (first == 1) {
@@ -262,7 +266,12 @@ static bool run_from(subsets *s, int first, diags *errors) {
         if (step == s->image->steps) {
             break;
         }
-        status = step_lanes(lanes, count);
+        for (int i = 1; i < count; i++) {
+            if (lanes[i].run != NULL && engine->step(lanes[i].run) != WH_OK) {
+                lane_stop(&lanes[i], "needed: the run diverges without it");
+            }
+        }
+        status = engine->step(lanes[0].run);
         if (status != WH_OK && !undefined_step(s->image, engine, lanes[0].run, status, errors)) {
             diag_error(errors, s->image->at, "a smaller --step, or an earlier --until",
                        "with all effects the run diverges in the step after t = %.9g s", time_s);
@@ -291,14 +300,6 @@ bool subsets_run(subsets *s, diags *errors) {
 }
 
 /* --- the smallest set ----------------------------------------------------------------------------------*/
-
-bool subsets_keeps(const subsets *s, const subset *of) {
-    bool keeps = of->failed == NULL;
-    for (int i = 1; i < s->columns->columns; i++) {
-        keeps = keeps && of->moved[i] <= s->limit[i];
-    }
-    return keeps;
-}
 
 static int effects_of(uint64_t mask) {
     int count = 0;

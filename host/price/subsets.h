@@ -18,8 +18,9 @@ enum { SUBSET_STEP, SUBSET_WORST, SUBSET_FLASH, SUBSET_RAM, SUBSET_FIGURES };
 /* The scene without the effects of the bits in `out`. */
 typedef struct subset {
     uint64_t out;
-    const char *failed; /* why there is no run to the end; NULL: there is one */
-    bool same;          /* its records are those of the full run, to the bit */
+    const char
+        *failed; /* why there is no run to the end, or it stopped there; NULL: there is one */
+    bool same;   /* its records are those of the full run, to the bit */
     int contacts;
     double *moved; /* [columns] largest difference over the run, in the column's unit */
     double figure[SUBSET_FIGURES]; /* cycles of a step without events (or instructions), the most

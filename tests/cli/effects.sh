@@ -121,6 +121,7 @@ refused "'X' is no coordinate, rate or output of 'cart'" '^hint: --error x=' "$c
 refused "'sped' is no coordinate" '^hint: --error speed=' "$cart" --error sped=1
 refused "'x''' is no coordinate" '^hint: --error' "$cart" --error "x''=1"
 refused '--error x has no value' '^hint: --error x=' "$cart" --error x
+refused "'x' is given twice" '^hint: leave one out' "$cart" --error x=1mm,x=2mm
 refused 'this is mass' '1kg' "$cart" --error x=1kg
 refused 'unit' '^hint: ' "$cart" --error x=1mmm
 refused 'a number above zero, not -1mm' '' "$cart" --error x=-1mm
