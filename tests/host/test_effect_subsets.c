@@ -200,9 +200,10 @@ static carts draw(dice *d, int effects) {
     carts c = {.effects = effects};
     for (int i = 0; i < 2; i++) {
         c.m[i] = drawn(d, 0.5, 3.0, false);
-        c.k[i] = drawn(d, 1.0, 20.0, false);
+        c.k[i] = drawn(d, -1.0, 1.3, true);
         c.start[2 * i] = drawn(d, -0.3, 0.3, false);
-        c.start[2 * i + 1] = drawn(d, 1.0, 4.0, false);
+        c.start[2 * i + 1] =
+            drawn(d, 1.0, 4.0, false) * (i == 1 && dice_one_of(d, 2) == 0 ? -1.0 : 1.0);
     }
     for (int i = 0; i < effects; i++) {
         bool again = true;
@@ -241,10 +242,12 @@ static void write_scene(const carts *c, char *text, size_t size) {
              c->start[X], c->start[VX], c->start[Y], c->start[VY], STEP_S, STEP_S * STEPS);
 }
 
-/* A limit between two of the movements, in a gap that no rounding bridges. */
+/* A limit just above one of the movements, in a gap that no rounding bridges. */
 static double limit_between(dice *d, const double (*moved)[2], int count, int which) {
     for (int tries = 0; tries < 200; tries++) {
-        const double limit = pow(10.0, dice_between(d, -7.0, 1.0));
+        const double near = moved[dice_one_of(d, (unsigned)count)][which];
+        const double limit =
+            near > 1e-7 ? near * dice_between(d, 1.02, 1.5) : pow(10.0, dice_between(d, -7.0, 1.0));
         bool clear = true;
         for (int i = 0; i < count; i++) {
             clear = clear && (moved[i][which] < 0.99 * limit || moved[i][which] > 1.01 * limit);
@@ -257,7 +260,7 @@ static double limit_between(dice *d, const double (*moved)[2], int count, int wh
 }
 
 typedef struct figures {
-    int scenes, sets, events, untested, left_out;
+    int scenes, sets, events, untested, left_out, ties;
     double off; /* largest difference of a movement, as a part of the range */
 } figures;
 
@@ -294,7 +297,40 @@ static bool keeps(const subsets *s, const double moved[2]) {
     return moved[0] * 1000.0 <= s->limit[1] && moved[1] <= s->limit[2];
 }
 
-static void check_smallest(subsets *s, const double (*moved)[2], unsigned acting, unsigned count) {
+/* How many sets of the fewest effects keep the limits. */
+static int ties(const subsets *s, const double (*moved)[2], unsigned acting, unsigned count) {
+    int most = 0;
+    int found = 0;
+    for (unsigned out = 0; out < count; out++) {
+        if ((out & ~acting) == 0 && keeps(s, moved[out])) {
+            found = ones(out) > most ? 1 : found + (ones(out) == most);
+            most = ones(out) > most ? ones(out) : most;
+        }
+    }
+    return found;
+}
+
+/* In every other case those of many draws for which most sets are equally small: then the price decides. */
+static void draw_limits(dice *d, subsets *s, const double (*moved)[2], unsigned acting,
+                        unsigned count) {
+    double best[2] = {0.0, 0.0};
+    int most = -1;
+    for (int tries = dice_one_of(d, 2) == 0 ? 1 : 40; tries > 0; tries--) {
+        s->limit[1] = 1000.0 * limit_between(d, moved, (int)count, 0);
+        s->limit[2] = limit_between(d, moved, (int)count, 1);
+        const int found = ties(s, moved, acting, count);
+        if (found > most) {
+            most = found;
+            best[0] = s->limit[1];
+            best[1] = s->limit[2];
+        }
+    }
+    s->limit[1] = best[0];
+    s->limit[2] = best[1];
+}
+
+static const subset *check_smallest(subsets *s, const double (*moved)[2], unsigned acting,
+                                    unsigned count) {
     bool greedy;
     const subset *best = subsets_smallest(s, &greedy);
     TEST_ASSERT_FALSE(greedy);
@@ -312,6 +348,7 @@ static void check_smallest(subsets *s, const double (*moved)[2], unsigned acting
             }
         }
     }
+    return best;
 }
 
 static void check_case(dice *d, figures *f) {
@@ -333,14 +370,12 @@ static void check_case(dice *d, figures *f) {
     for (int i = 1; i < s.columns->columns; i++) {
         s.limit[i] = (double)INFINITY;
     }
-    s.limit[1] = 1000.0 * limit_between(d, moved, (int)count, 0);
-    s.limit[2] = limit_between(d, moved, (int)count, 1);
+    draw_limits(d, &s, moved, acting, count);
+    f->ties += ties(&s, moved, acting, count) > 1;
     for (int k = 0; k < c.effects; k++) {
         TEST_ASSERT_EQUAL(keeps(&s, moved[1U << (unsigned)k]), subsets_keeps(&s, s.list[k + 1]));
     }
-    check_smallest(&s, moved, acting, count);
-    bool greedy;
-    f->left_out += subsets_smallest(&s, &greedy)->out != 0;
+    f->left_out += check_smallest(&s, moved, acting, count)->out != 0;
     for (int i = 0; i < s.count; i++) {
         const subset *each = s.list[i];
         if (each->failed != NULL) {
@@ -369,9 +404,10 @@ static void test_against_brute_force(void) {
     }
     printf(
         "  %d scenes, %d sets: movements within %.1e of the range; %d with contacts, %d with an effect that "
-        "never acts, %d that leave one out\n",
-        f.scenes, f.sets, f.off, f.events, f.untested, f.left_out);
-    TEST_ASSERT_TRUE(cases < CASES_FEW || (f.events > 0 && f.untested > 0 && f.left_out > 0));
+        "never acts, %d that leave one out, %d with several smallest sets\n",
+        f.scenes, f.sets, f.off, f.events, f.untested, f.left_out, f.ties);
+    TEST_ASSERT_TRUE(cases < CASES_FEW ||
+                     (f.events > 0 && f.untested > 0 && f.left_out > 0 && f.ties > 0));
 }
 
 /* Seven that act: one more is left out at a time, until no other may be. */
