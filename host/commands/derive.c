@@ -32,6 +32,16 @@ static void latex(const loaded *made, const char *file) {
     }
 }
 
+static void steps(const loaded *made, const char *file) {
+    (void)file;
+    show_steps(stdout, made->equations, SHOW_TEXT);
+}
+
+static void latex_steps(const loaded *made, const char *file) {
+    (void)file;
+    show_steps(stdout, made->equations, SHOW_LATEX);
+}
+
 static void octave(const loaded *made, const char *file) {
     if (made->image->settings.matrix != MATRIX_NONE) {
         matrix_octave(stdout, made->image, file);
@@ -59,7 +69,9 @@ typedef struct form_row {
     const char *word;
     void (*print)(const loaded *made, const char *file);
     bool shows; /* equations, of each mechanism of a file one after another; else it is code */
-    bool runs;  /* steps the scene: momenta, method and number matter */
+    void (*print_steps)(const loaded *made,
+                        const char *file); /* how the equations come about (--steps) */
+    bool runs;                             /* steps the scene: momenta, method and number matter */
     /* Code that holds the scene's name (--name): what else has that name there, or NULL. */
     const char *(*name_taken_by)(const char *name, bool with_header);
     /* Code that has a header (--header). */
@@ -73,9 +85,14 @@ typedef struct form_row {
 static const form_row forms[] = {
     {.word = "text",
      .print = text,
+     .print_steps = steps,
      .shows = true,
      .text = "one equation a coordinate, as in a textbook, and the first-order form (default)"},
-    {.word = "latex", .print = latex, .shows = true, .text = "the same for a paper (with amsmath)"},
+    {.word = "latex",
+     .print = latex,
+     .print_steps = latex_steps,
+     .shows = true,
+     .text = "the same for a paper (with amsmath)"},
     {.word = "octave",
      .print = octave,
      .name_taken_by = taken_in_octave,
@@ -93,6 +110,7 @@ enum { FORMS = sizeof forms / sizeof forms[0], FORMS_TEXT_SIZE = 16 + 16 * FORMS
 static bool has_a_name(const form_row *form) { return form->name_taken_by != NULL; }
 static bool has_a_header(const form_row *form) { return form->print_header != NULL; }
 static bool has_steps(const form_row *form) { return form->runs; }
+static bool has_derivation(const form_row *form) { return form->shows; }
 
 /* "--as octave or c": those of which that is true. Returns `said`. */
 static const char *forms_with(bool (*is_true)(const form_row *form), char said[FORMS_TEXT_SIZE]) {
@@ -139,6 +157,10 @@ static void print_usage(FILE *out) {
         fprintf(out, "  --as %-8s%s\n", forms[i].word, forms[i].text);
     }
     print_option(
+        out, "--steps", has_derivation,
+        "the derivation: the Lagrangian, and of each coordinate dL/dq', its time derivative, "
+        "dL/dq, dF/dq' and Q");
+    print_option(
         out, "--header FILE", has_a_header,
         "its header, for C and C++: names of components, inputs and outputs, their units, the "
         "memory that it takes");
@@ -163,8 +185,9 @@ static bool goes_with(const char *option, const char *value, bool (*of)(const fo
         first++;
     }
     if (!of(as)) {
-        fprintf(stderr, "whirl derive: error: %s goes with %s\nhint: --as %s %s %s\n", option,
-                forms_with(of, said), forms[first].word, option, value);
+        fprintf(stderr, "whirl derive: error: %s goes with %s\nhint: --as %s %s%s%s\n", option,
+                forms_with(of, said), forms[first].word, option, value[0] != '\0' ? " " : "",
+                value);
     }
     return of(as);
 }
@@ -250,7 +273,7 @@ static bool has_c_form(const image *im, source_model *from) {
 
 static int derive_one(source_model *from, const mechanism *of, const scene *in,
                       const overrides *changes, const form_row *as, const common_options *options,
-                      const char *header) {
+                      bool with_steps, const char *header) {
     const image_settings *settings = &options->integration;
     image_settings taken = *settings;
     if (!as->runs) { /* equations and other programs' code know no tables */
@@ -269,6 +292,11 @@ static int derive_one(source_model *from, const mechanism *of, const scene *in,
     }
     bool good = true;
     fixed_plan *plan = NULL;
+    if (code == EXIT_DONE && with_steps && of->is_system) {
+        fprintf(stderr, "%s: error: %s is given by equations: --steps derives them from energies\n",
+                from->file, of->name);
+        code = EXIT_BAD_INPUT;
+    }
     if (code == EXIT_DONE) {
         plan = plan_of(made.image, from, options->number, &good);
     }
@@ -286,7 +314,7 @@ static int derive_one(source_model *from, const mechanism *of, const scene *in,
             if (as->runs) {
                 say_float_range(made.image);
             }
-            as->print(&made, from->file);
+            (with_steps ? as->print_steps : as->print)(&made, from->file);
         }
     }
     fixed_plan_free(plan);
@@ -299,6 +327,7 @@ typedef struct derive_options {
     const char *target;
     const char *header;
     const form_row *as;
+    bool steps;
 } derive_options;
 
 /* The scene's name in generated code: as a name in a .whirl file. */
@@ -321,12 +350,15 @@ static bool take_one(int count, char **words, int *at, void *options, bool *bad)
         o->header = value;
     } else if (!*bad && (value = options_value(count, words, at, "--name", bad)) != NULL) {
         *bad = !take_name(&o->common.change, value);
+    } else if (!*bad && strcmp(words[*at], "--steps") == 0) {
+        o->steps = true;
+        value = words[(*at)++];
     }
     return value != NULL;
 }
 
 static bool read_options(int count, char **words, derive_options *o) {
-    static const char *const own[] = {"--as", "--header", "--name", NULL};
+    static const char *const own[] = {"--as", "--header", "--name", "--steps", NULL};
     const target_reader reader = {.command = "derive",
                                   .groups = options_of_derive.groups,
                                   .own = own,
@@ -334,6 +366,7 @@ static bool read_options(int count, char **words, derive_options *o) {
                                   .derives = true};
     if (!target_read(&reader, count, words, &o->common, o, &o->target) ||
         (o->header != NULL && !goes_with("--header", "FILE", has_a_header, o->as)) ||
+        (o->steps && !goes_with("--steps", "", has_derivation, o->as)) ||
         (o->common.change.name != NULL && !goes_with("--name", "NAME", has_a_name, o->as))) {
         return false;
     }
@@ -359,7 +392,7 @@ static int derive_opened(source_model *from, const derive_options *o) {
         for (int i = 0; i < from->model->mechanism_count && code == EXIT_DONE; i++) {
             fputs(i > 0 ? "\n" : "", stdout);
             code = derive_one(from, from->model->mechanisms[i], NULL, &changes, o->as, &o->common,
-                              NULL);
+                              o->steps, NULL);
         }
         return code;
     }
@@ -368,8 +401,9 @@ static int derive_opened(source_model *from, const derive_options *o) {
     if (code == EXIT_DONE && o->header != NULL && !header_is_apart(from, o->header)) {
         code = EXIT_BAD_INPUT;
     }
-    return code == EXIT_DONE ? derive_one(from, of, in, &changes, o->as, &o->common, o->header)
-                             : code;
+    return code == EXIT_DONE
+               ? derive_one(from, of, in, &changes, o->as, &o->common, o->steps, o->header)
+               : code;
 }
 
 int command_derive(int count, char **words) {

@@ -52,6 +52,13 @@ static void write_left_side(const show *s, const equations *e, int i) {
     }
 }
 
+void show_equation(const show *s, const equations *e, int i) {
+    fputs("  ", s->out);
+    write_left_side(s, e, i);
+    fputs(s->style == SHOW_LATEX ? " &= " : " = ", s->out);
+    show_poly(s, e->applied[i]);
+}
+
 /* What the records of a run show, and its unit there. */
 static void write_shown(const show *s, const char *kind, const symbol *what) {
     char *unit_name = shown_unit_name(what, 0);
@@ -293,14 +300,10 @@ void show_text(FILE *out, const equations *e) {
     fprintf(out, system ? "\nequations\n\n"
                         : "\nequations of motion, d/dt(dL/dq') - dL/dq = -dF/dq' + Q\n\n");
     for (int i = 0; i < e->count; i++) {
-        if (system) {
-            fprintf(out, "  ");
-        } else {
-            fprintf(out, "  %s:  ", e->unknowns[i].symbol->name);
+        if (!system) {
+            fprintf(out, "  %s:", e->unknowns[i].symbol->name);
         }
-        write_left_side(&s, e, i);
-        fputs(" = ", out);
-        show_poly(&s, e->applied[i]);
+        show_equation(&s, e, i);
         fputc('\n', out);
     }
     if (e->contacts != NULL) {
@@ -318,10 +321,7 @@ void show_latex(FILE *out, const equations *e) {
     show_events(out, e, "% ", "the motion between events; inside a step:");
     fprintf(out, "\\begin{align}\n");
     for (int i = 0; i < e->count; i++) {
-        fputs("  ", out);
-        write_left_side(&s, e, i);
-        fputs(" &= ", out);
-        show_poly(&s, e->applied[i]);
+        show_equation(&s, e, i);
         fputs(i + 1 < e->count ? " \\\\\n" : "\n", out);
     }
     fprintf(out, "\\end{align}\n");

@@ -6,10 +6,18 @@
 #include <stdio.h>
 
 #include "host/derive/equations.h"
+#include "show.h"
 
 /* The equations of motion, one a coordinate, terms collected by second derivative and factored; then
  * the first-order form. */
 void show_text(FILE *out, const equations *e);
 void show_latex(FILE *out, const equations *e);
+
+/* One equation of motion: "LEFT = RIGHT", in LaTeX "LEFT &= RIGHT". */
+void show_equation(const show *s, const equations *e, int i);
+
+/* How they come about: the Lagrangian; then of each coordinate its momentum, the momentum's rate, the slopes of L and F, Q, and
+ * the equation. Not of a system, which has no energies. */
+void show_steps(FILE *out, const equations *e, show_style style);
 
 #endif

@@ -29,12 +29,13 @@ ask() { "$whirl" derive "$it" --as "$@" >"$scratch/out" 2>"$scratch/err"; }
 those_with() { sed -n "s/.*$1 --as \([a-z0-9, ]*\).*/\1/p" "$2" | sed 's/ only$//; s/ or / /; s/,//g'; }
 named=$(those_with '--name NAME, with' "$scratch/help")
 headed=$(those_with '--header FILE, with' "$scratch/help")
+derived=$(those_with '--steps, with' "$scratch/help")
 stepped=$(those_with 'The method matters to' "$scratch/help")
 is_one_of() { case " $2 " in *" $1 "*) return 0 ;; esac; return 1; }
 
-# only_with OPTION VALUE FORM FORMS: accepted if that form is one of them, else refused, naming them
+# only_with OPTION VALUE FORM FORMS (a switch has no value): accepted if that form is one of them, else refused, naming them
 only_with() {
-    ask "$3" "$1" "$2"
+    ask "$3" "$1" ${2:+"$2"}
     status=$?
     if is_one_of "$3" "$4"; then
         [ $status -eq 0 ]
@@ -42,7 +43,7 @@ only_with() {
         [ $status -eq 2 ] && [ ! -s "$scratch/out" ] && [ "$(those_with "error: $1 goes with" "$scratch/err")" = "$4" ]
     fi
     verdict $? "--as $3 with $1, which is for: $4"
-    sed -n "/^### .whirl derive/,/^### /p" docs/language.md | grep -F -- "| \`$1 " >"$scratch/told"
+    sed -n "/^### .whirl derive/,/^### /p" docs/language.md | grep -F -- "| \`$1" >"$scratch/told"
     ! is_one_of "$3" "$4" || grep -q "\`\(--as \)*$3\`" "$scratch/told"
     verdict $? "docs/language.md tells of it" "$scratch/told"
 }
@@ -55,6 +56,7 @@ while read -r form; do
     # whatever steps nothing for a stop says at least that there is one
     grep -qi 'stop\|restitution\|contact' "$scratch/out"
     verdict $? "--as $form: the stop is told of"
+    only_with --steps '' "$form" "$derived"
     only_with --name other "$form" "$named"
     if is_one_of "$form" "$named"; then
         grep -qw other "$scratch/out" && ! grep -q 'it_bounces' "$scratch/out"
@@ -75,4 +77,7 @@ while read -r form; do
     [ $changes -eq $should ]
     verdict $? "--as $form: the method matters as help says"
 done <"$scratch/forms"
+"$whirl" derive tests/mechanisms/lorenz.whirl --steps >"$scratch/out" 2>"$scratch/err"
+[ $? -eq 2 ] && grep -q 'lorenz is given by equations' "$scratch/err" && [ ! -s "$scratch/out" ]
+verdict $? "a system has no steps" "$scratch/err"
 exit $failed

@@ -47,6 +47,7 @@ char *printed(const derived *d, language as) {
     TEST_ASSERT_NOT_NULL(out);
     switch (as) {
     case TEXT: show_text(out, d->equations); break;
+    case STEPS: show_steps(out, d->equations, SHOW_TEXT); break;
     case LATEX: show_latex(out, d->equations); break;
     case OCTAVE: derived_octave(out, d, "x.whirl"); break;
     }

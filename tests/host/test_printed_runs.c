@@ -152,6 +152,92 @@ static void check_matrix(comparison *c, const char *text) {
     }
 }
 
+/* --- the derivation, step by step -------------------------------------------------------------------*/
+
+/* The formula behind these words, which begin a line; 0 where there is no such line before `until`. */
+static double step_value(comparison *c, const char *from, const char *until, const char *words) {
+    const char *at = strstr(from, words);
+    const char *end;
+    return at == NULL || at > until ? 0.0 : value_of(c, at + strlen(words), &end);
+}
+
+/* How a printed formula changes with a direction of the state: by differences of fourth order. False where two widths do not
+ * agree: something is singular near by. */
+typedef void moved_state(comparison *c, int i, double by);
+static bool slope_of(comparison *c, const char *from, const char *words, moved_state *move, int i,
+                     double *slope) {
+    static const double at[] = {-2.0, -1.0, 1.0, 2.0};
+    static const double weight[] = {1.0 / 12.0, -2.0 / 3.0, 2.0 / 3.0, -1.0 / 12.0};
+    const state_values here = c->s;
+    double by_width[2] = {0.0, 0.0};
+    double size = 1.0;
+    for (int k = 0; k < 8; k++) {
+        const double width = k < 4 ? 1e-3 : 5e-4;
+        move(c, i, at[k % 4] * width);
+        const double value = step_value(c, from, from + strlen(from), words);
+        by_width[k / 4] += weight[k % 4] * value / width;
+        size = fmax(size, fabs(value));
+        c->s = here;
+    }
+    *slope = by_width[1];
+    return fabs(by_width[0] - by_width[1]) <= 1e-8 * (size + fabs(*slope));
+}
+
+static void move_value(comparison *c, int i, double by) { c->s.value[i][0] += by; }
+static void move_rate(comparison *c, int i, double by) { c->s.value[i][1] += by; }
+static void move_on(comparison *c, int i, double by) { /* along the motion, for so long */
+    (void)i;
+    for (int j = 0; j < c->of->equations->count; j++) {
+        c->s.value[j][0] += by * (c->s.value[j][1] + by * c->s.value[j][2] / 2.0);
+        c->s.value[j][1] += by * c->s.value[j][2];
+    }
+}
+
+/* Slopes of the printed L are the printed momentum and dL/dq, the momentum's along the motion is its printed rate, and with the
+ * printed dF/dq' and Q they are the equation, whose left less right side is zero. Returns how many were compared. */
+static int check_steps(comparison *c, const char *text) {
+    const equations *e = c->of->equations;
+    int checked = 0;
+    for (int i = 0; i < e->count; i++) {
+        const char *q = e->unknowns[i].symbol->name;
+        char words[6][300];
+        snprintf(words[0], sizeof words[0], "\n%s\n", q);
+        const char *from = strstr(text, words[0]);
+        TEST_ASSERT_NOT_NULL_MESSAGE(from, c->name);
+        from += 1;
+        const char *until = strstr(from, "\n\n");
+        until = until == NULL ? from + strlen(from) : until;
+        static const char *const forms[] = {"\n  dL/d%s' = ", "\n  d/dt(dL/d%s') = ",
+                                            "\n  dL/d%s = ", "\n  dF/d%s' = ", "\n  Q(%s) = "};
+        double printed_value[5];
+        for (int k = 0; k < 5; k++) {
+            const char *parts = strstr(forms[k], "%s");
+            snprintf(words[k], sizeof words[k], "%.*s%s%s", (int)(parts - forms[k]), forms[k], q,
+                     parts + 2);
+            printed_value[k] = step_value(c, from, until, words[k]);
+        }
+        const double size = size_of(c, i) + fabs(printed_value[2]) + fabs(printed_value[1]);
+        expect_zero(c, printed_value[1] - printed_value[2] + printed_value[3] - printed_value[4],
+                    size, "the steps' sum");
+        const struct {
+            const char *of;
+            moved_state *move;
+            double should;
+        } slopes[] = {{"\n  L = T - V = ", move_rate, printed_value[0]},
+                      {"\n  L = T - V = ", move_value, printed_value[2]},
+                      {words[0], move_on, printed_value[1]}};
+        for (int k = 0; k < 3; k++) {
+            double slope;
+            if (slope_of(c, k < 2 ? text : from, slopes[k].of, slopes[k].move, i, &slope)) {
+                expect_zero(c, slope - slopes[k].should,
+                            30.0 * (1.0 + size + fabs(slopes[k].should)), slopes[k].of);
+                checked++;
+            }
+        }
+    }
+    return checked;
+}
+
 /* The lists' highest derivatives become the state's. False when one is no number there. */
 static bool accelerate(comparison *c, const image *im) {
     double result[RESULTS_MAX];
@@ -168,6 +254,8 @@ static bool accelerate(comparison *c, const image *im) {
     return finite;
 }
 
+static int stepped; /* slopes that were compared with differences */
+
 /* Returns how many formulas were compared. */
 static int compare_all(const char *name, derived *d) {
     const equations *e = d->equations;
@@ -183,6 +271,7 @@ static int compare_all(const char *name, derived *d) {
     image *im = image_make(e, NULL, &plainly, IMAGE_TO_WRITE, errors);
     TEST_ASSERT_NOT_NULL_MESSAGE(im, name);
     char *text = printed(d, TEXT);
+    char *steps = d->instance->mechanism->is_system ? NULL : printed(d, STEPS);
     comparison c = {.name = name, .of = d};
     uint64_t seed = SEED;
     for (int k = 0; k < STATES; k++) {
@@ -191,9 +280,11 @@ static int compare_all(const char *name, derived *d) {
             const char *behind = check_equations(&c, text);
             check_closed_forms(&c, behind);
             check_matrix(&c, behind);
+            stepped += steps != NULL ? check_steps(&c, steps) : 0;
         }
     }
     free(text);
+    free(steps);
     image_free(im);
     diags_free(errors);
     return c.compared;
@@ -208,7 +299,9 @@ static int compare_scene(const scene *s) {
 }
 
 static void test_scenes_run_as_printed(void) {
+    stepped = 0;
     TEST_ASSERT_TRUE(each_builtin_scene(compare_scene) > 60);
+    TEST_ASSERT_TRUE(stepped > 1000);
 }
 
 static int files;
@@ -225,6 +318,7 @@ static void test_generated_mechanisms_run_as_printed(void) {
     const int wanted = more != NULL ? (int)strtol(more, NULL, 10) : 60;
     int compared = 0;
     int formulas = 0;
+    stepped = 0;
     for (int i = 0; i < wanted; i++) {
         char text[MECHANISM_SIZE];
         mechanism_write((unsigned)i, (uint64_t)(SEED + i), text);
@@ -237,6 +331,7 @@ static void test_generated_mechanisms_run_as_printed(void) {
     printf("  seed %d on: %d formulas of %d of %d mechanisms compared\n", SEED, formulas, compared,
            wanted);
     TEST_ASSERT_TRUE(10 * compared >= 7 * wanted);
+    TEST_ASSERT_TRUE(stepped > 5 * wanted);
 }
 
 void suite_printed_runs(void) {
