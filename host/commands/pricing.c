@@ -22,7 +22,7 @@ enum { TEXT_COLUMN = 23 };
 pricing_options pricing_defaults(const char *command, int word_count) {
     return (pricing_options){.command = command,
                              .common = options_defaults(),
-                             .value = {[PRICING_BOARD] = "mps2-an386"},
+                             .value = {[PRICING_BOARD] = COST_BOARD_DEFAULT},
                              .vary = room(word_count, sizeof(const char *))};
 }
 

@@ -149,7 +149,7 @@ static const image *base_of(pricing_scene *p, int point, const image_settings *s
     forget_diags(p, errors);
     if (made != NULL || setting_may_be_refused(settings)) {
         p->made = room_more(p->made, p->made_count + 1, sizeof *p->made);
-        p->made[p->made_count++] = (pricing_made){point, *settings, made};
+        p->made[p->made_count++] = (pricing_made){point, *settings, made, false};
     }
     return made;
 }
@@ -188,12 +188,19 @@ pricing_scene *pricing_scene_new(const mechanism *of, const scene *in, const ove
     return p;
 }
 
+void pricing_scene_lend(pricing_scene *p, const image_settings *settings, const image *lent) {
+    if (lent != NULL) {
+        p->made = room_more(p->made, p->made_count + 1, sizeof *p->made);
+        p->made[p->made_count++] = (pricing_made){0, *settings, (image *)(uintptr_t)lent, true};
+    }
+}
+
 void pricing_scene_free(pricing_scene *p) {
     if (p == NULL) {
         return;
     }
     for (int i = 0; i < p->made_count; i++) {
-        image_free(p->made[i].image);
+        image_free(p->made[i].lent ? NULL : p->made[i].image);
     }
     for (int i = 0; i < p->source.points; i++) {
         equations_free(p->equations[i]);

@@ -11,6 +11,7 @@ typedef struct pricing_made {
     int point;
     image_settings settings;
     image *image; /* NULL: the scene does not take them */
+    bool lent;
 } pricing_made;
 
 typedef struct pricing_scene {
@@ -32,6 +33,8 @@ enum { PRICING_PLACES_MAX = 64, PRICING_PLACES = 3 };
 
 pricing_scene *pricing_scene_new(const mechanism *of, const scene *in, const overrides *changes,
                                  const grid *g, diags *errors);
+/* An image that was made with these settings, and is not the scene's to free. NULL is fine. */
+void pricing_scene_lend(pricing_scene *p, const image_settings *settings, const image *lent);
 void pricing_scene_free(pricing_scene *p); /* NULL is fine */
 
 /* A word of a command line as a shell takes it: in quotes where it must be. To be freed. */

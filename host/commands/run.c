@@ -15,6 +15,7 @@
 #include "host/run/start.h"
 #include "interrupts.h"
 #include "load.h"
+#include "rating.h"
 #include "target.h"
 #include "trusting.h"
 
@@ -34,9 +35,15 @@ static const command_usage usage = {
         "  --vcd FILE           the same for waveform viewers, and what contacts do; - as for --csv\n"
         "  --every 2ms          spacing of the records, a whole number of steps (default: every step)\n"
         "  --plot FILE.svg|.png coordinates and outputs over time, drawn by gnuplot\n"
+        "  --error X=0.1mm      take the largest step that keeps the error of one coordinate, rate or output\n"
+        "  --board B            whose cost the rows at the end show: a board of docs/boards.md, or host\n"
+        "                       (default: mps2-an386, a Cortex-M4F)\n"
         "  --strict[=LIMIT]     fail when more than LIMIT (1e-3) of the largest entry of the energy books\n"
         "                       is left over; without it such a run is only warned of\n"
         "  --quiet              no summary, no progress\n"
+        "\n"
+        "The summary ends with the error and the cost on a board at twice the step, the step and half of\n"
+        "it, in float unless --number says another (docs/price.md), as far as they take a second.\n"
         "\n"
         "Standard error warns of energy that the step takes or gives, of motions that are too fast for\n"
         "it, and of singular coordinates that it passed, with a step or a method that would do\n"
@@ -56,6 +63,10 @@ typedef struct run_options {
     common_options common;
     const char *target;
     const char *every;
+    const char *error;
+    const char *board_word;
+    const cost_board *board;
+    const engine_kind *number; /* of the command line; NULL: none was given */
     simulation_settings settings;
 } run_options;
 
@@ -108,6 +119,10 @@ static bool take_one(int count, char **words, int *at, void *options, bool *bad)
         o->every = value;
     } else if (!*bad && (value = options_value(count, words, at, "--plot", bad)) != NULL) {
         o->settings.plot = value;
+    } else if (!*bad && (value = options_value(count, words, at, "--error", bad)) != NULL) {
+        o->error = value;
+    } else if (!*bad && (value = options_value(count, words, at, "--board", bad)) != NULL) {
+        o->board_word = value;
     } else if (!*bad && take_flag(words, at, "--quiet")) {
         o->settings.quiet = true;
         return true;
@@ -135,15 +150,26 @@ static bool files_are_apart(const simulation_settings *s) {
     return true;
 }
 
+static bool find_board(run_options *o) {
+    const char *word = o->board_word != NULL ? o->board_word : COST_BOARD_DEFAULT;
+    const int chosen =
+        options_choose("run", "board", word, cost_boards, sizeof cost_boards[0], cost_board_count);
+    o->board = chosen < 0 ? NULL : &cost_boards[chosen];
+    return chosen >= 0;
+}
+
 static bool read_options(int count, char **words, run_options *o) {
-    static const char *const own[] = {"--csv",  "--columns", "--vcd",   "--every",
-                                      "--plot", "--strict",  "--quiet", NULL};
+    static const char *const own[] = {"--csv",   "--columns", "--vcd",    "--every", "--plot",
+                                      "--error", "--board",   "--strict", "--quiet", NULL};
     const target_reader reader = {
         .command = "run", .groups = usage.groups, .own = own, .take = take_one};
+    o->common.number = NULL;
     if (!target_read(&reader, count, words, &o->common, o, &o->target) ||
-        !target_is_there(o->target, &usage)) {
+        !target_is_there(o->target, &usage) || !find_board(o)) {
         return false;
     }
+    o->number = o->common.number;
+    o->common.number = o->number != NULL ? o->number : &engine_double;
     o->settings.kind = o->common.number;
     return files_are_apart(&o->settings);
 }
@@ -196,7 +222,7 @@ static bool shows_progress(const simulation_settings *s) {
 }
 
 static int run_image(run_options *o, const source_model *from, const image *im, const image *plain,
-                     double every_s) {
+                     double every_s, rating_wish *rated) {
     if (!count_every(o, every_s, im, &o->settings.every)) {
         return EXIT_BAD_INPUT;
     }
@@ -213,6 +239,11 @@ static int run_image(run_options *o, const source_model *from, const image *im, 
     const simulation_result result = simulate(im, &o->settings, &against);
     if (result == SIMULATION_DONE) {
         trusting_say(&trust, &o->settings, against);
+        if (!o->settings.quiet) {
+            rated->image = im;
+            rated->plain = plain;
+            rating_say(simulation_summary(&o->settings), rated, &trust, against);
+        }
     }
     trusting_end(&trust);
     switch (result) {
@@ -243,6 +274,18 @@ static int plan_of(image *im, const source_model *from, const simulation_setting
     return *plan != NULL ? EXIT_DONE : interrupted ? EXIT_INTERRUPTED : EXIT_BAD_INPUT;
 }
 
+/* The model; with --error also the step, *step to be freed. */
+static int open_source(run_options *o, source_model *from, char **step) {
+    if (o->error == NULL) {
+        return source_open(from, o->target);
+    }
+    interrupts_catch();
+    FILE *out = o->settings.quiet ? NULL : simulation_summary(&o->settings);
+    const int code = rating_choose(out, &o->common, o->target, o->error, &interrupted, from, step);
+    o->common.change.step = *step;
+    return code;
+}
+
 int command_run(int count, char **words) {
     run_options o = {.common = options_defaults()};
     if (options_help(count, words, &usage)) {
@@ -252,10 +295,11 @@ int command_run(int count, char **words) {
         options_forget(&o.common);
         return EXIT_BAD_INPUT;
     }
-    source_model from;
+    source_model from = {0};
     const mechanism *of;
     const scene *in;
-    int code = source_open(&from, o.target);
+    char *step = NULL;
+    int code = open_source(&o, &from, &step);
     if (code == EXIT_DONE) {
         code = source_pick(&from, true, &of, &in);
     }
@@ -273,7 +317,9 @@ int command_run(int count, char **words) {
                                 .conserve = true};
         code = load(&made, &from, of, in, &changes, &wish);
         image *plain = trusting_plain(&made);
-        source_forget(&from);
+        if (o.settings.quiet) {
+            source_forget(&from);
+        }
         if (code == EXIT_DONE && !o.settings.quiet) {
             say_hints(&made);
         }
@@ -285,13 +331,24 @@ int command_run(int count, char **words) {
             code = plan_of(made.image, &from, &o.settings, &plan);
         }
         if (code == EXIT_DONE) {
-            code = run_image(&o, &from, made.image, plain, every_s);
+            rating_wish rated = {.target = o.target,
+                                 .board = o.board,
+                                 .board_word = o.board_word,
+                                 .number = o.number,
+                                 .settings = &o.common.integration,
+                                 .changes = &changes,
+                                 .of = of,
+                                 .in = in,
+                                 .errors = from.errors,
+                                 .stop = &interrupted};
+            code = run_image(&o, &from, made.image, plain, every_s, &rated);
         }
         fixed_plan_free(plan);
         image_free(plain);
         unload(&made);
     }
     source_close(&from);
+    free(step);
     options_forget(&o.common);
     return code;
 }

@@ -1,8 +1,6 @@
 /* trusting.c: see trusting.h. */
 #include "trusting.h"
 
-#include <string.h>
-
 #include "host/number/functions.h"
 #include "host/trust/horizon_text.h"
 
@@ -24,8 +22,6 @@ image *trusting_plain(const loaded *made) {
     return without;
 }
 
-static bool is_stdout(const char *file) { return file != NULL && strcmp(file, "-") == 0; }
-
 trusting trusting_look(const image *im, const image *plain, simulation_settings *s) {
     trusting t = {0};
     const image *without = plain != NULL ? plain : im;
@@ -44,7 +40,7 @@ trusting trusting_look(const image *im, const image *plain, simulation_settings 
 }
 
 void trusting_say(const trusting *t, const simulation_settings *s, bool doubted) {
-    FILE *out = is_stdout(s->csv) || is_stdout(s->columns) || is_stdout(s->vcd) ? stderr : stdout;
+    FILE *out = simulation_summary(s);
     if (s->quiet) {
         return;
     }
@@ -54,6 +50,17 @@ void trusting_say(const trusting *t, const simulation_settings *s, bool doubted)
     } else if (t->twins != NULL && t->twins->status == WH_OK && !t->twins->stopped) {
         horizon_print_line(out, &t->horizon, doubted);
     }
+}
+
+double trusting_until_s(const trusting *t, bool doubted) {
+    const horizon *h = &t->horizon;
+    if (t->twins == NULL || t->twins->status != WH_OK || t->twins->stopped ||
+        (h->to_the_end && doubted)) {
+        return -1.0;
+    }
+    const bool told =
+        h->to_the_end || (h->column[h->first].verdict != HORIZON_NOT_TOLD && !t->twins->between);
+    return told ? h->until_s : -1.0;
 }
 
 void trusting_end(trusting *t) {

@@ -26,6 +26,8 @@ typedef struct trusting {
 trusting trusting_look(const image *im, const image *plain, simulation_settings *s);
 /* The line below the summary. `doubted`: the run has been warned of, and that both agree is no reason to trust it. */
 void trusting_say(const trusting *t, const simulation_settings *s, bool doubted);
+/* The time until which a run is trusted, s. Below 0: it is not told. */
+double trusting_until_s(const trusting *t, bool doubted);
 void trusting_end(trusting *t);
 
 #endif

@@ -40,6 +40,7 @@ typedef struct cost_board {
     long ram_bytes;   /* likewise */
 } cost_board;
 
+#define COST_BOARD_DEFAULT "mps2-an386"
 /* All of them, in an order to show them in. */
 extern const cost_board cost_boards[];
 extern const int cost_board_count;

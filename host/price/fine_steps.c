@@ -13,6 +13,9 @@
 
 uint64_t fine_steps_of(const reference_wish *w) {
     const image *im = w->image;
+    if (w->by.steps > 0) {
+        return w->by.steps;
+    }
     const double spacing_s = ratio_times(1, w->spacing);
     const double each =
         (im->contacts > 0 ? EVALUATIONS_CONTACTS : EVALUATIONS) * im->list[IMAGE_STEP]->count;
@@ -26,6 +29,10 @@ int fine_steps_run(const reference_wish *w, const records *shape, uint64_t steps
     image copy = *w->image;
     copy.settings = (image_settings)IMAGE_SETTINGS_DEFAULT;
     copy.settings.compensated = true;
+    copy.list[IMAGE_MATRIX] = NULL;
+    if (w->by.steps > 0) {
+        copy.settings.method = w->by.method;
+    }
     copy.step = (whole_ratio){w->spacing.numerator, w->spacing.denominator * steps};
     copy.step_s = ratio_times(1, copy.step);
     copy.steps = steps * (uint64_t)w->records;

@@ -5,7 +5,7 @@
 
 #include "reference_wish.h"
 
-/* The steps of a record's spacing that are fine enough for the scene and within the operations, for the finer of
+/* The steps of a record's spacing: the wished ones; else those that are fine enough for the scene and within the operations, for the finer of
  * the two computations; even. */
 uint64_t fine_steps_of(const reference_wish *w);
 /* Fills row[(wanted + 1)][columns] by so many steps a record; returns the records behind the start. */

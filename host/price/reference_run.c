@@ -178,8 +178,12 @@ static reference *by_fine_steps(const reference_wish *w) {
     other.records = fine_steps_run(w, r->shape, steps / 2U, other.row);
     const int reached = r->records < other.records ? r->records : other.records;
     r->kind = REFERENCE_FINE_STEPS;
-    r->limit = LIMIT_FINE_STEPS;
+    r->limit = w->by.steps > 0 ? w->by.limit : LIMIT_FINE_STEPS;
     judge(r, &other);
+    for (int k = 1; k < r->columns && w->by.steps > 0;
+         k++) { /* the finer one's own, by its order */
+        r->column[k].off /= (long double)number_scaled(1.0, w->by.order) - 1.0L;
+    }
     free(other.row);
     r->how =
         room_words("rk4 in double with compensated sums by steps of %.6g s; held against twice "
@@ -221,8 +225,9 @@ static bool knows(const reference *r) {
 }
 
 reference *reference_new(const reference_wish *w) {
-    reference *r = w->image->contacts > 0 ? by_fine_steps(w) : by_extrapolation(w);
-    if (!r->stopped && r->broken) {
+    const bool steps = w->image->contacts > 0 || w->by.steps > 0;
+    reference *r = steps ? by_fine_steps(w) : by_extrapolation(w);
+    if (!r->stopped && r->broken) {          /* of extrapolations alone */
         reference *other = by_fine_steps(w); /* kinks and jumps are passed by steps */
         if (knows(other) && (other->records > r->records || !knows(r))) {
             reference *swap = r;

@@ -62,9 +62,9 @@ static void print_row(FILE *out, const trials *t, const table_row *row) {
             trial_time(trial_step(t, row->pace), step));
 }
 
-static const char *const heads[] = {[PRICE_CYCLES] = "cycles/s",
-                                    [PRICE_INSTRUCTIONS] = "instr./s",
-                                    [PRICE_EVALUATIONS] = "eval./s"};
+const char *const table_heads[] = {[PRICE_CYCLES] = "cycles/s",
+                                   [PRICE_INSTRUCTIONS] = "instr./s",
+                                   [PRICE_EVALUATIONS] = "eval./s"};
 
 static void print_rows(FILE *out, const trials *t, const table *made, const table_words *words) {
     char heading[40] = "error";
@@ -72,7 +72,7 @@ static void print_rows(FILE *out, const trials *t, const table *made, const tabl
         snprintf(heading, sizeof heading, "error, %s", trial_unit(t));
     }
     fprintf(out, "\n  %9s  %10s  %8s  %7s  %7s  %6s   settings\n", heading,
-            heads[made->row[0].price.unit], "flash, B", "RAM, B", "stack, B", "state");
+            table_heads[made->row[0].price.unit], "flash, B", "RAM, B", "stack, B", "state");
     for (int i = 0; i < made->count; i++) {
         if (words->all || made->row[i].on_front) {
             print_row(out, t, &made->row[i]);

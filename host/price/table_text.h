@@ -11,6 +11,9 @@ typedef struct table_words {
     bool all;            /* every row, not the front alone */
 } table_words;
 
+/* "cycles/s", ...: heads of a column of prices, by table_unit. */
+extern const char *const table_heads[];
+
 void table_print(FILE *out, const trials *t, const table *made, const table_words *words);
 /* False when writing failed. */
 bool table_csv(FILE *out, const trials *t, const table *made, const table_words *words);

@@ -81,7 +81,7 @@ static void say_no_column(const trials *t) {
     const records *shape = t->reference[0]->shape;
     const char *of = t->wish.of;
     nearest search = nearest_start(of, strlen(of));
-    fprintf(stderr, "whirl: error: --of %s is no output, coordinate or rate of '%s'\n", of,
+    fprintf(stderr, "whirl: error: %s is no output, coordinate or rate of '%s'\n", of,
             shape->image->name);
     char *names = room(shape->columns, TRIAL_NAME);
     for (int k = 1; k < shape->columns; k++) {
@@ -108,7 +108,7 @@ static bool find_column(trials *t) {
     }
     if (noisy) {
         fprintf(stderr,
-                "whirl: error: --of %s: it has noise of its own, which is no error of a step\n"
+                "whirl: error: %s has noise of its own, which is no error of a step\n"
                 "hint: take what it is made of, or --without the effect that adds the noise\n",
                 t->wish.of);
         return false;
@@ -141,7 +141,8 @@ static void cut(trials *t) {
 
 bool trial_begin(trials *t, const trial_wish *w) {
     const int points = w->source->points;
-    const setting plain = {IMAGE_SETTINGS_DEFAULT, &engine_double};
+    const image_settings standard = IMAGE_SETTINGS_DEFAULT;
+    const setting plain = {w->plain != NULL ? *w->plain : standard, &engine_double};
     *t = (trials){.wish = *w,
                   .image = room(points, sizeof(image *)),
                   .reference = room(points, sizeof(reference *)),
@@ -155,6 +156,7 @@ bool trial_begin(trials *t, const trial_wish *w) {
                                      .spacing = w->spacing,
                                      .records = w->records,
                                      .operations = REFERENCE_OPERATIONS / points,
+                                     .by = w->by,
                                      .stop = w->stop};
         t->reference[p] = reference_new(&wish);
         t->stopped = t->stopped || t->reference[p]->stopped;

@@ -20,9 +20,11 @@ typedef struct trial_source {
 typedef struct trial_wish {
     const trial_source *source;
     const cost_board *board;
-    const char *of;      /* an output, coordinate or rate; NULL: the worst component */
-    whole_ratio spacing; /* of the records, s */
-    int records;         /* behind the start */
+    const char *of;              /* an output, coordinate or rate; NULL: the worst component */
+    whole_ratio spacing;         /* of the records, s */
+    int records;                 /* behind the start */
+    reference_steps by;          /* what the references are computed by */
+    const image_settings *plain; /* of their images; NULL: the default ones */
     const volatile sig_atomic_t *stop;
 } trial_wish;
 

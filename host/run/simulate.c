@@ -309,6 +309,15 @@ static bool draw(const simulation *sim) {
     return drawn;
 }
 
+FILE *simulation_summary(const simulation_settings *s) {
+    const char *const files[] = {s->csv, s->columns, s->vcd};
+    FILE *out = stdout;
+    for (int i = 0; i < 3; i++) {
+        out = files[i] != NULL && strcmp(files[i], "-") == 0 ? stderr : out;
+    }
+    return out;
+}
+
 simulation_result simulate(const image *im, const simulation_settings *s, bool *against) {
     *against = false;
     simulation sim = {.image = im, .settings = s, .output = -1};
@@ -340,8 +349,7 @@ simulation_result simulate(const image *im, const simulation_settings *s, bool *
         }
         slow_say(stderr, im, s->kind, sim.run);
         if (!s->quiet) {
-            const bool taken = sim.csv == stdout || sim.columns == stdout || sim.vcd == stdout;
-            summary_print(taken ? stderr : stdout, im, s->kind, sim.run, sim.verdict->books,
+            summary_print(simulation_summary(s), im, s->kind, sim.run, sim.verdict->books,
                           &sim.verdict->balance);
         }
         if (s->plot != NULL && result != SIMULATION_BAD_FILE && !draw(&sim)) {

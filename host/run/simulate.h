@@ -3,6 +3,7 @@
 #define RUN_SIMULATE_H
 
 #include <signal.h>
+#include <stdio.h>
 
 #include "engine.h"
 
@@ -28,6 +29,9 @@ typedef enum simulation_result {
     SIMULATION_INTERRUPTED, /* by *stop */
     SIMULATION_BAD_FILE     /* a file could not be written, or gnuplot failed; said */
 } simulation_result;
+
+/* Standard output, or standard error where records go to standard output. */
+FILE *simulation_summary(const simulation_settings *s);
 
 /* *against: something is to be said against a run that is done (verdict.h, digits.h). */
 simulation_result simulate(const image *im, const simulation_settings *s, bool *against);

@@ -44,6 +44,12 @@ static int shared_order(const image *im) {
                : 0;
 }
 
+wh_method twins_method(const image *im) {
+    return shared_order(im) > 0 ? im->settings.method : WH_METHOD_DEFAULT;
+}
+
+int twins_order(const image *im) { return has_kinks(im) ? 1 : wh_methods[twins_method(im)].order; }
+
 bool twins_plain(const image_settings *of, image_settings *plain) {
     *plain = *of;
     plain->tables = TABLES_NONE;
@@ -79,16 +85,15 @@ static void make_finer(twins *t, const twins_wish *w) {
     if (im->settings.matrix == MATRIX_EXACT) {
         return;
     }
-    const int order = shared_order(im);
-    t->finer.settings.method = order > 0 ? im->settings.method : WH_METHOD_DEFAULT;
+    t->finer.settings.method = twins_method(im);
     t->finer.settings.matrix = MATRIX_NONE;
     t->finer.list[IMAGE_MATRIX] = NULL;
     t->finer.step = half_of(im->step);
     t->finer.step_s = ratio_times(1, t->finer.step);
     t->finer.steps = 2U * im->steps;
     t->each = 2;
-    if (order > 0) {
-        t->left_out = 1.0 / (1.0 - number_scaled(1.0, has_kinks(im) ? -1 : -order));
+    if (shared_order(im) > 0) {
+        t->left_out = 1.0 / (1.0 - number_scaled(1.0, -twins_order(im)));
     }
 }
 

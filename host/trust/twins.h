@@ -73,6 +73,10 @@ typedef struct twins {
  * is written for compensated sums. False: it does. */
 bool twins_plain(const image_settings *of, image_settings *plain);
 
+/* The method of the finer run, and the order by which its error falls as the step gets shorter. */
+wh_method twins_method(const image *im);
+int twins_order(const image *im);
+
 /* The two, from the start to the end of the run, or to where one of them fails. The images must outlive them. */
 twins *twins_run(const twins_wish *w);
 void twins_free(twins *t); /* NULL is fine */

@@ -194,7 +194,7 @@ static void test_what_is_no_component_is_told(void) {
     said what;
     command_say(begin_of, (const char *const[]){"twise", NULL}, &what);
     TEST_ASSERT_EQUAL_INT(3, what.status);
-    TEST_ASSERT_EQUAL_STRING("whirl: error: --of twise is no output, coordinate or rate of 's'\n"
+    TEST_ASSERT_EQUAL_STRING("whirl: error: twise is no output, coordinate or rate of 's'\n"
                              "hint: did you mean 'twice'?\n",
                              what.err);
     command_say(begin_of, (const char *const[]){"x''", NULL}, &what);

@@ -1,0 +1,216 @@
+/* rating.c: see rating.h. */
+#include "rating.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "host/base/room.h"
+#include "host/fixed/engine_fixed.h"
+#include "host/number/functions.h"
+#include "host/price/choice.h"
+#include "host/price/three_rows.h"
+#include "host/run/start.h"
+#include "pricing.h"
+
+/* --- the rows --------------------------------------------------------------------------------------*/
+
+/* What the board's programs compute in, unless the command line says it. */
+static const engine_kind *number_of(const rating_wish *w) {
+    const bool pc = strcmp(w->board->name, "host") == 0;
+    return w->number != NULL ? w->number : pc ? &engine_double : &engine_float;
+}
+
+static void say_none(FILE *out, const rating_wish *w, const char *why, bool priced) {
+    fprintf(out, "accuracy and cost  not shown: %s", why);
+    if (priced) {
+        char *target = pricing_quoted(w->target);
+        overrides asked = *w->changes;
+        asked.step = NULL; /* it tries several */
+        char *changes = pricing_words(&asked);
+        fprintf(out, "; they are shown by: whirl price %s%s%s%s", target, changes,
+                w->board_word != NULL ? " --board " : "",
+                w->board_word != NULL ? w->board_word : "");
+        free(target);
+        free(changes);
+    }
+    fputc('\n', out);
+}
+
+/* Why no rows can be made of a scene, whatever its run came to; NULL: they can. */
+static const char *refused(const rating_wish *w, bool *priced) {
+    diags *unsaid = diags_new();
+    const bool held = number_of(w) == &engine_double || start_angles_are_held(w->image, unsaid);
+    diags_free(unsaid);
+    *priced = w->image->contacts > 0;
+    return w->image->contacts > 0    ? "events make the cost of a step depend on the motion"
+           : w->settings->stabilized ? "the cost of --stabilized is not known"
+           : !held                   ? "a start angle has more turns than float counts"
+                                     : NULL;
+}
+
+static void say_rows(FILE *out, const rating_wish *w, double until_s) {
+    const grid none = {0};
+    pricing_scene *p = pricing_scene_new(w->of, w->in, w->changes, &none, w->errors);
+    image_settings plain;
+    twins_plain(w->settings, &plain);
+    pricing_scene_lend(p, w->settings, w->image);
+    pricing_scene_lend(p, &plain, w->plain);
+    three_rows_wish wish = {.source = &p->source,
+                            .board = w->board,
+                            .setting = {*w->settings, number_of(w)},
+                            .plain = plain,
+                            .method = twins_method(w->image),
+                            .order = twins_order(w->image),
+                            .limit = HORIZON_TOLERANCE,
+                            .step = w->image->step,
+                            .stop = w->stop};
+    const double steps = number_floor(until_s / w->image->step_s * (1.0 + 1e-12));
+    wish.steps = (uint64_t)number_least(steps, (double)w->image->steps);
+    if (wish.steps < 2) {
+        say_none(out, w, "the run is trusted for less than two steps", true);
+    } else if (three_rows_operations(&wish, w->image) > TRUSTING_OPERATIONS_1S) {
+        say_none(out, w, "they take more than a second", true);
+    } else {
+        three_rows rows;
+        three_rows_make(&rows, &wish);
+        if (rows.trial.stopped) {
+            say_none(out, w, "interrupted", true);
+        } else if (!rows.trial.reliable) {
+            say_none(out, w, "there is no reference to compare with", true);
+        } else {
+            three_rows_print(out, &rows);
+        }
+        three_rows_end(&rows);
+    }
+    pricing_scene_free(p);
+}
+
+void rating_say(FILE *out, const rating_wish *w, const trusting *trust, bool doubted) {
+    bool priced;
+    const char *why = refused(w, &priced);
+    const double until_s = trusting_until_s(trust, doubted);
+    if (w->image->steps == 0) {
+        return;
+    }
+    if (why != NULL) {
+        say_none(out, w, why, priced);
+    } else if (trust->dear) {
+        say_none(out, w, "they take more than a second", true);
+    } else if (until_s < 0.0) {
+        say_none(out, w, "no time is known until which the run is trusted", true);
+    } else {
+        say_rows(out, w, until_s);
+    }
+}
+
+/* --- the step of --error -----------------------------------------------------------------------------*/
+
+/* Records to the horizon: so many to two and a half times as many. */
+#define RECORDS 1000.0
+/* Operations that one step's trial may evaluate: some seconds. */
+#define OPERATIONS (8.0 * TRUSTING_OPERATIONS_1S)
+/* The longest step that is tried is so many records' spacings. */
+enum { SPACINGS_MOST = 50 };
+
+/* Paces from long steps to short ones: whole spacings, then whole parts of one. False behind the last. */
+static bool pace_at(int i, deviation_pace *pace) {
+    static const uint64_t spacings[] = {
+        SPACINGS_MOST, 40, 30, 25, 20, 16, 12, 10, 8, 6, 5, 4, 3, 2};
+    const int whole = sizeof spacings / sizeof spacings[0];
+    *pace = i < whole ? (deviation_pace){1, spacings[i]}
+                      : (deviation_pace){choice_substeps(i - whole), 1};
+    return i - whole < CHOICE_SUBSTEPS;
+}
+
+/* The first pace that keeps the error; *longest: none was tried before it. False, told: there is none. */
+static bool find_pace(pricing *p, const setting *s, deviation_pace *pace, trial_result *r,
+                      bool *longest) {
+    trials *t = &p->trial;
+    double least = -1.0;
+    *longest = true;
+    for (int i = 0; pace_at(i, pace) && !t->stopped; i++) {
+        if (pace->records > (uint64_t)t->records) {
+            continue;
+        }
+        if (trial_operations(t, s, *pace) > OPERATIONS) {
+            break;
+        }
+        *r = trial_run(t, s, *pace);
+        if (r->ran && r->usable && r->error <= t->tolerated) {
+            return true;
+        }
+        *longest = false;
+        least = r->ran && r->usable && (least < 0.0 || r->error < least) ? r->error : least;
+    }
+    if (t->stopped) {
+        fputs("whirl run: interrupted\n", stderr);
+    } else if (least >= 0.0) {
+        fprintf(stderr,
+                "whirl run: error: no step keeps the error: the smallest found is %.2e %s\n"
+                "hint: a method of higher order, or --number double with --compensated\n",
+                least, trial_unit(t));
+    } else {
+        fputs("whirl run: error: no step keeps the error: every one that was tried failed\n",
+              stderr);
+    }
+    return false;
+}
+
+static int choose(FILE *out, pricing *p, const setting *s, const volatile sig_atomic_t *stop,
+                  char **step) {
+    char text[TRIAL_TIME];
+    int code = pricing_begin(p, pricing_spacing(p->until_s, RECORDS), stop);
+    if (code != EXIT_DONE) {
+        return code;
+    }
+    trials *t = &p->trial;
+    if (!t->reliable && !t->stopped) {
+        fprintf(stderr, "whirl run: error: --error: there is no reference to compare with: %s\n",
+                t->reference[t->worst]->why);
+        return EXIT_RUN_FAILED;
+    }
+    t->tolerated = p->error_si / trial_error_si(t, 1.0);
+    deviation_pace pace;
+    trial_result r;
+    bool longest;
+    if (!find_pace(p, s, &pace, &r, &longest)) {
+        return t->stopped ? EXIT_INTERRUPTED : EXIT_RUN_FAILED;
+    }
+    *step = room_words("%s", trial_time(trial_step(t, pace), text));
+    if (out != NULL) {
+        fprintf(out, "chosen step        %s s: error of %s at most %.2e %s until t = %.6g s%s\n\n",
+                *step, p->options->value[PRICING_OF], r.error, trial_unit(t), trial_horizon_s(t),
+                longest ? "; longer ones are not tried" : "");
+    }
+    return EXIT_DONE;
+}
+
+int rating_choose(FILE *out, const common_options *common, const char *target, const char *error,
+                  const volatile sig_atomic_t *stop, source_model *from, char **step) {
+    const char *equals = strchr(error, '=');
+    if (equals == NULL || equals == error || equals[1] == '\0' || common->change.step != NULL) {
+        fputs(equals != NULL && common->change.step != NULL
+                  ? "whirl run: error: --error chooses the step, and --step sets it\n"
+                    "hint: leave one of them out\n"
+                  : "whirl run: error: --error takes a coordinate and the error that is allowed\n"
+                    "hint: such as --error x=0.1mm\n",
+              stderr);
+        return EXIT_BAD_INPUT;
+    }
+    char *of = room_copy(error, (size_t)(equals - error));
+    pricing_options o = pricing_defaults("run", 1);
+    pricing p;
+    o.target = target;
+    o.common.change = common->change;
+    o.value[PRICING_OF] = of;
+    o.value[PRICING_ERROR] = equals + 1;
+    const setting s = {common->integration, common->number};
+    int code = pricing_open(&p, &o);
+    code = code == EXIT_DONE ? choose(out, &p, &s, stop, step) : code;
+    *from = p.from;
+    p.from = (source_model){0};
+    pricing_close(&p);
+    free(o.vary);
+    free(of);
+    return code;
+}

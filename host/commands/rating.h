@@ -1,0 +1,34 @@
+/* rating.h: the rows of accuracy and cost that end a run (host/price/three_rows.h), and the step that `--error`
+ * chooses. */
+#ifndef COMMANDS_RATING_H
+#define COMMANDS_RATING_H
+
+#include "host/price/cost_board.h"
+#include "options.h"
+#include "pricing_scene.h"
+#include "trusting.h"
+
+typedef struct rating_wish {
+    const char *target;
+    const cost_board *board;
+    const char *board_word;    /* NULL: the default board */
+    const engine_kind *number; /* of the command line; NULL: the board's */
+    const image_settings *settings;
+    const overrides *changes;
+    const mechanism *of;
+    const scene *in;
+    diags *errors;
+    const image *image; /* the run's */
+    const image *plain; /* trusting_plain() */
+    const volatile sig_atomic_t *stop;
+} rating_wish;
+
+/* The rows, or a line that says why there are none. */
+void rating_say(FILE *out, const rating_wish *w, const trusting *trust, bool doubted);
+
+/* The largest step of a run that keeps `--error X=0.1mm`: *step, to be freed, and a line on `out` if that is not
+ * NULL. Opens the target, as source_open() does. Returns an exit code. */
+int rating_choose(FILE *out, const common_options *common, const char *target, const char *error,
+                  const volatile sig_atomic_t *stop, source_model *from, char **step);
+
+#endif
