@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "commands.h"
+#include "hard_rows.h"
 #include "host/lang/builtin.h"
 #include "host/lang/units.h"
 #include "load.h"
@@ -12,6 +13,7 @@ static const command_usage usage = {
     .head =
         "usage: whirl list [FILE ...] [--as text|table]\n"
         "       whirl list --units\n"
+        "       whirl list --hard\n"
         "\n"
         "The mechanisms and scenes of FILEs, or the built-in ones:\n"
         "  --as text    a line each: kind, name, title (default)\n"
@@ -20,7 +22,9 @@ static const command_usage usage = {
         "               What it holds is terms, contacts, noise and conserve; lines are those of its\n"
         "               block, of a mechanism the one of its name.\n"
         "  --units      every unit that a file may write, what it is in SI and how much of it; a line each,\n"
-        "               fields between tabs\n",
+        "               fields between tabs\n"
+        "  --hard       the hard cases of docs/hard_cases.md: where the theory ends, and whether Whirl is\n"
+        "               right there; 'told' is a warning, 'refused' an error\n",
     .tail = ""};
 
 enum { OUTSIDE = -1 }; /* of every effect */
@@ -248,11 +252,24 @@ static int list_units(void) {
     return EXIT_DONE;
 }
 
+/* The table that docs/hard_cases.md begins with. */
+static int list_hard(void) {
+#define HARD_WORDS(name, in, limit, verdict) {name, limit, verdict, in},
+    static const char *const rows[][4] = {{"case", "limit of the theory", "verdict", "scenes"},
+                                          HARD_ROWS(HARD_WORDS)};
+#undef HARD_WORDS
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        printf("%-38s  %-54s  %-43s  %s\n", rows[i][0], rows[i][1], rows[i][2], rows[i][3]);
+    }
+    return EXIT_DONE;
+}
+
 int command_list(int count, char **words) {
     const form *as = &forms[0];
     int files = 0; /* words[0..files-1] */
     bool bad = false;
     bool units = false;
+    bool hard = false;
     if (options_help(count, words, &usage)) {
         return EXIT_DONE;
     }
@@ -264,19 +281,23 @@ int command_list(int count, char **words) {
         } else if (!bad && strcmp(words[at], "--units") == 0) {
             units = true;
             at++;
+        } else if (!bad && strcmp(words[at], "--hard") == 0) {
+            hard = true;
+            at++;
         } else if (!bad && words[at][0] == '-' && words[at][1] != '\0') {
-            options_unknown("list", words[at], 0, (const char *const[]){"--as", "--units", NULL});
+            options_unknown("list", words[at], 0,
+                            (const char *const[]){"--as", "--units", "--hard", NULL});
             bad = true;
         } else if (!bad) {
             words[files++] = words[at++];
         }
     }
-    if (!bad && units && count > 1) {
-        fputs("whirl list: error: --units goes alone\n", stderr);
+    if (!bad && (units || hard) && count > 1) {
+        fprintf(stderr, "whirl list: error: %s goes alone\n", units ? "--units" : "--hard");
         bad = true;
     }
-    if (!bad && units) {
-        return list_units();
+    if (!bad && (units || hard)) {
+        return units ? list_units() : list_hard();
     }
     int code = bad ? EXIT_BAD_INPUT : files == 0 ? list_builtin(as) : EXIT_DONE;
     for (int i = 0; i < files && !bad; i++) {

@@ -12,8 +12,6 @@
 #include "interrupts.h"
 #include "pricing.h"
 
-/* Records to the horizon: so many to two and a half times as many. */
-#define RECORDS 1000.0
 /* Operations that all trials may evaluate: some twenty to forty seconds of one processor. */
 #define OPERATIONS 1e10
 
@@ -194,7 +192,7 @@ static int price_scene(const price_options *o, pricing *p) {
     if (progress) {
         fputs("\rthe reference   ", stderr);
     }
-    int code = pricing_begin(p, pricing_spacing(p->until_s, RECORDS), &interrupted);
+    int code = pricing_begin(p, pricing_spacing(p->until_s, PRICING_RECORDS), &interrupted);
     table *made = NULL;
     if (code == EXIT_DONE && p->trial.reliable && !p->trial.stopped) {
         const table_wish wish = {p->effort * OPERATIONS, progress ? show_progress : NULL, NULL};

@@ -48,9 +48,13 @@ static const char *refused(const rating_wish *w, bool *priced) {
                                      : NULL;
 }
 
+/* Operations that the rows may evaluate: a second, with the angles that are turned beside them. */
+#define ROWS_OPERATIONS 1e8
+
 static void say_rows(FILE *out, const rating_wish *w, double until_s) {
     const grid none = {0};
     pricing_scene *p = pricing_scene_new(w->of, w->in, w->changes, &none, w->errors);
+    const double end_s = ratio_times(w->image->steps, w->image->step);
     image_settings plain;
     twins_plain(w->settings, &plain);
     pricing_scene_lend(p, w->settings, w->image);
@@ -63,12 +67,13 @@ static void say_rows(FILE *out, const rating_wish *w, double until_s) {
                             .order = twins_order(w->image),
                             .limit = HORIZON_TOLERANCE,
                             .step = w->image->step,
+                            .priced_step = pricing_spacing(end_s, PRICING_RECORDS),
                             .stop = w->stop};
     const double steps = number_floor(until_s / w->image->step_s * (1.0 + 1e-12));
     wish.steps = (uint64_t)number_least(steps, (double)w->image->steps);
     if (wish.steps < 2) {
         say_none(out, w, "the run is trusted for less than two steps", true);
-    } else if (three_rows_operations(&wish, w->image) > TRUSTING_OPERATIONS_1S) {
+    } else if (three_rows_operations(&wish, w->image) > ROWS_OPERATIONS) {
         say_none(out, w, "they take more than a second", true);
     } else {
         three_rows rows;
@@ -105,10 +110,6 @@ void rating_say(FILE *out, const rating_wish *w, const trusting *trust, bool dou
 
 /* --- the step of --error -----------------------------------------------------------------------------*/
 
-/* Records to the horizon: so many to two and a half times as many. */
-#define RECORDS 1000.0
-/* Operations that one step's trial may evaluate: some seconds. */
-#define OPERATIONS (8.0 * TRUSTING_OPERATIONS_1S)
 /* The longest step that is tried is so many records' spacings. */
 enum { SPACINGS_MOST = 50 };
 
@@ -127,12 +128,14 @@ static bool find_pace(pricing *p, const setting *s, deviation_pace *pace, trial_
                       bool *longest) {
     trials *t = &p->trial;
     double least = -1.0;
+    bool ends_early = false; /* shorter ones take more than a second each */
     *longest = true;
     for (int i = 0; pace_at(i, pace) && !t->stopped; i++) {
         if (pace->records > (uint64_t)t->records) {
             continue;
         }
-        if (trial_operations(t, s, *pace) > OPERATIONS) {
+        if (trial_operations(t, s, *pace) > TRUSTING_OPERATIONS_1S) {
+            ends_early = true;
             break;
         }
         *r = trial_run(t, s, *pace);
@@ -144,22 +147,24 @@ static bool find_pace(pricing *p, const setting *s, deviation_pace *pace, trial_
     }
     if (t->stopped) {
         fputs("whirl run: interrupted\n", stderr);
-    } else if (least >= 0.0) {
-        fprintf(stderr,
-                "whirl run: error: no step keeps the error: the smallest found is %.2e %s\n"
-                "hint: a method of higher order, or --number double with --compensated\n",
-                least, trial_unit(t));
-    } else {
-        fputs("whirl run: error: no step keeps the error: every one that was tried failed\n",
-              stderr);
+        return false;
     }
+    char smallest[60] = "all failed";
+    if (least >= 0.0) {
+        snprintf(smallest, sizeof smallest, "the smallest is %.2e %s", least, trial_unit(t));
+    }
+    fprintf(stderr,
+            "whirl run: error: no step that was tried keeps the error: %s%s\n"
+            "hint: a --method of higher order%s; `whirl choose` tries every setting\n",
+            smallest, ends_early ? "; shorter steps take more than a second each" : "",
+            s->number == &engine_float ? ", or --number double" : "");
     return false;
 }
 
 static int choose(FILE *out, pricing *p, const setting *s, const volatile sig_atomic_t *stop,
                   char **step) {
     char text[TRIAL_TIME];
-    int code = pricing_begin(p, pricing_spacing(p->until_s, RECORDS), stop);
+    int code = pricing_begin(p, pricing_spacing(p->until_s, PRICING_RECORDS), stop);
     if (code != EXIT_DONE) {
         return code;
     }

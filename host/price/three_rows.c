@@ -29,6 +29,7 @@ void three_rows_make(three_rows *t, const three_rows_wish *w) {
         .records = (int)(pairs / many),
         .by = {.steps = 8 * many, .method = w->method, .order = w->order, .limit = w->limit},
         .plain = &w->plain,
+        .priced_step = w->priced_step,
         .stop = w->stop};
     t->trial.reliable = trial_begin(&t->trial, &wish) && t->trial.reliable;
     for (int i = 0; i < THREE_ROWS && t->trial.reliable && !t->trial.stopped; i++) {

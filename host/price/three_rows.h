@@ -12,13 +12,14 @@ enum { THREE_ROWS = 3 };
 typedef struct three_rows_wish {
     const trial_source *source; /* of one point */
     const cost_board *board;
-    setting setting;      /* the run's, in the board's number */
-    image_settings plain; /* of the reference's image */
-    wh_method method;     /* the reference's, */
-    int order;            /* and the order by which its error falls */
-    double limit;         /* as of reference_steps */
-    whole_ratio step;     /* the run's, s */
-    uint64_t steps;       /* of it, which are looked at */
+    setting setting;         /* the run's, in the board's number */
+    image_settings plain;    /* of the reference's image */
+    wh_method method;        /* the reference's, */
+    int order;               /* and the order by which its error falls */
+    double limit;            /* as of reference_steps */
+    whole_ratio step;        /* the run's, s */
+    whole_ratio priced_step; /* as of trial_wish */
+    uint64_t steps;          /* of it, which are looked at */
     const volatile sig_atomic_t *stop;
 } three_rows_wish;
 

@@ -300,11 +300,20 @@ static cost price_of(const trials *t, const setting *s, const image *im) {
                                : cost_of(&priced, t->wish.board, number);
 }
 
+static image *priced_image(trials *t, int point, const setting *s, deviation_pace pace) {
+    char step[TRIAL_TIME];
+    const trial_wish *w = &t->wish;
+    return w->priced_step.numerator == 0 || setting_price_varies(s)
+               ? image_of(t, point, s, pace)
+               : w->source->make(w->source->context, point, s, trial_time(w->priced_step, step),
+                                 NULL);
+}
+
 cost trial_cost(trials *t, const setting *s, deviation_pace pace, bool *own) {
     cost dearest = {0};
     *own = true;
     for (int p = 0; p < t->wish.source->points; p++) {
-        image *im = image_of(t, p, s, pace);
+        image *im = priced_image(t, p, s, pace);
         if (im == NULL && setting_price_varies(s) &&
             !setting_is_fixed(s)) { /* a step that long has no matrix: its own may */
             im = t->wish.source->make(t->wish.source->context, p, s, NULL, NULL);

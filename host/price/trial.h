@@ -25,6 +25,8 @@ typedef struct trial_wish {
     int records;                 /* behind the start */
     reference_steps by;          /* what the references are computed by */
     const image_settings *plain; /* of their images; NULL: the default ones */
+    whole_ratio
+        priced_step; /* whose cost stands for all steps, where it may; 0: each has its own */
     const volatile sig_atomic_t *stop;
 } trial_wish;
 

@@ -172,4 +172,37 @@ says 'is no name' derive thomson_a --as c --name "$(printf '%064d' 0 | tr 0 a)"
 says 'there twice' derive thomson_a --as c --name a --name b
 says "'int' is a word of C" derive thomson_a --as c --name int
 says 'error: --name goes with --as octave or c' derive thomson_a --name other
+
+# --- hard cases: sections and scenes of the page, and each scene keeps the verdict ---------------------------
+"$whirl" list --hard >"$scratch/hard" 2>"$scratch/err"
+sed 1d "$scratch/hard" | awk -F '   *' '{ print $1 >"'"$scratch"'/cases"; n = split($4, scene, " ")
+    for (i = 1; i <= n; i++) { print scene[i] "\t" $3 } }' >"$scratch/scenes"
+awk '/^## / { section = substr($0, 4) } /^\*\*Hard\.\*\*/ { print section }' docs/hard_cases.md |
+    diff "$scratch/cases" - >"$scratch/diff" 2>&1
+verdict $? "--hard: a row for each section of a hard case, in the page's order" "$scratch/diff"
+{ grep -v '^thomson_a' "$scratch/scenes" | cut -f1; } | sort >"$scratch/named"
+for file in docs/hard/*.whirl; do basename "$file" .whirl; done | sort | diff "$scratch/named" - >"$scratch/diff" 2>&1
+verdict $? "--hard: every file of docs/hard in one row" "$scratch/diff"
+tab=$(printf '\t')
+while IFS="$tab" read -r name promised; do
+    told=0
+    file=docs/hard/$name.whirl
+    [ -f "$file" ] || file=$name
+    for each in $([ -f "$file" ] && "$whirl" list "$file" | awk '$1 == "scene" { print $2 }' || echo .); do
+        scene=$file:$each
+        [ -f "$file" ] || scene=$name
+        # shellcheck disable=SC2046 # words
+        "$whirl" run "$scene" $([ "$scene" = "$file:$each" ] || echo --step 1ms --number float) >"$scratch/out" 2>"$scratch/err"
+        status=$?
+        if [ $status -ne 0 ]; then is=refused
+        elif grep -q '^whirl run: warning: ' "$scratch/err" || { [ "$scene" = thomson_a ] && grep -q '^trusted  *until t = ' "$scratch/out"; }; then is=told
+        else is=right; fi
+        [ $is != told ] || told=1
+        case "$is of $promised" in *"of "*$is* | "right of told"*) true ;; *) false ;; esac
+        verdict $? "--hard: $scene is $is, of: $promised"
+    done
+    case "$promised" in told*) [ $told -eq 1 ]; verdict $? "--hard: $name is told in one of its scenes" ;; esac
+done <"$scratch/scenes"
+says 'error: --hard goes alone' list --hard thomson_a
+says 'error: --units goes alone' list --units --hard
 exit $failed

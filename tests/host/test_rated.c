@@ -1,0 +1,441 @@
+/* test_rated.c: the rows of accuracy and cost that end a run, and the step that `--error` chooses, on drawn scenes
+ * against motions that the test knows itself (rated.h). */
+#include <float.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "derived.h"
+#include "host/commands/commands.h"
+#include "host/price/cost.h"
+#include "host/run/methods.h"
+#include "rated.h"
+#include "unity.h"
+
+void suite_rated(void);
+
+enum { ROWS = 3, WORDS = 20 };
+#define RECORDS_FILE "build/tests/rated.columns"
+
+typedef struct told_row {
+    double step_s;
+    char error[24];
+    double cycles, flash, ram, stack;
+} told_row;
+
+typedef struct told {
+    double until_s;
+    told_row row[ROWS];
+} told;
+
+/* --- a run and what it says ------------------------------------------------------------------------*/
+
+/* The run of the scene with these words behind it. */
+static void run(const rated *r, const char *const *more, said *what) {
+    const char *words[WORDS] = {"",        model_keep(r->text), "--method",
+                                r->method, "--number",          r->number};
+    int count = 6;
+    words[count] = "--compensated";
+    count += r->compensated ? 1 : 0;
+    for (; *more != NULL; more++) {
+        words[count++] = *more;
+    }
+    words[count] = NULL;
+    command_say(command_run, words + 1, what);
+    model_drop();
+}
+
+static bool read_rows(const char *text, const char *number, told *t) {
+    char head[80];
+    snprintf(head, sizeof head,
+             "accuracy and cost  in %s on mps2-an386 (Cortex-M4F), until t =", number);
+    const char *at = strstr(text, head);
+    if (at == NULL) {
+        return false;
+    }
+    at = said_number(at + strlen(head), &t->until_s);
+    at = strchr(at, '\n') + 1;
+    for (int i = 0; i < ROWS; i++) {
+        told_row *row = &t->row[i];
+        at = said_number(strchr(at, '\n') + 1, &row->step_s);
+        at += strspn(at, " ");
+        const size_t length = strncmp(at, "above 1", 7) == 0 ? 7 : strcspn(at, " ");
+        snprintf(row->error, sizeof row->error, "%.*s", (int)length, at);
+        at = said_number(at + length, &row->cycles);
+        at = said_number(at, &row->flash);
+        at = said_number(at, &row->ram);
+        at = said_number(at, &row->stack);
+    }
+    return true;
+}
+
+/* The largest deviation of a run from the motion, of one state or (-1) of the worst as a part of its largest value. */
+static double error_of(const rated *r, double step_s, double spacing_s, int records,
+                       const long double *row, int state) {
+    char step[40];
+    char every[40];
+    char until[40];
+    said what;
+    snprintf(step, sizeof step, "%.9g", step_s);
+    snprintf(every, sizeof every, "%.9g", spacing_s);
+    snprintf(until, sizeof until, "%.9g", records * spacing_s);
+    run(r,
+        (const char *const[]){"--step", step, "--every", every, "--until", until, "--quiet",
+                              "--columns", RECORDS_FILE, NULL},
+        &what);
+    FILE *in = fopen(RECORDS_FILE, "rb");
+    TEST_ASSERT_NOT_NULL(in);
+    double off[RATED_STATES] = {0};
+    double largest[RATED_STATES] = {0};
+    double time_s;
+    bool whole = what.status == 0 && fscanf(in, "%*[^\n]") == 0;
+    for (int k = 0; k <= records && whole; k++) {
+        whole = fscanf(in, "%lf", &time_s) == 1;
+        for (int i = 0; i < r->states && whole; i++) {
+            const long double now = row[(size_t)k * (size_t)r->states + (size_t)i];
+            double x;
+            whole = fscanf(in, "%lf", &x) == 1;
+            off[i] = fmax(off[i], (double)fabsl(x - now));
+            largest[i] = fmax(largest[i], (double)fabsl(now));
+        }
+    }
+    fclose(in);
+    double worst = whole ? 0.0 : (double)INFINITY; /* it diverged */
+    for (int i = 0; i < r->states; i++) {
+        const double unit = state >= 0 ? 1.0 : largest[i];
+        if (unit > 0.0 && (state < 0 || state == i)) {
+            worst = fmax(worst, off[i] / unit);
+        }
+    }
+    return worst;
+}
+
+/* --- rows --------------------------------------------------------------------------------------------*/
+
+/* The time of the line `trusted`; the end; below 0 where it is not told. */
+static double trusted_s(const char *text, const rated *r) {
+    double until_s = -1.0;
+    const char *at = strstr(text, "\ntrusted            ");
+    TEST_ASSERT_NOT_NULL(at);
+    if (strstr(at, "to the end:") != NULL) {
+        return r->until_s;
+    }
+    const char *until = strstr(at, "until t = ");
+    if (until != NULL && until < strchr(at + 1, '\n')) {
+        said_number(until + strlen("until t = "), &until_s);
+    }
+    return until_s;
+}
+
+/* The same prediction as of an image that the test makes itself. */
+static void check_cost(const rated *r, const told *t) {
+    static char text[RATED_TEXT + 40];
+    double each_s =
+        1e-6; /* the step of `whirl price`: 1, 2 or 5 times a power of ten, for 1000 of them at least */
+    for (int i = 0; each_s * (i % 3 == 1 ? 2.5 : 2.0) <= r->until_s / 1000.0 * (1.0 + 1e-9); i++) {
+        each_s *= i % 3 == 1 ? 2.5 : 2.0;
+    }
+    const int front = (int)(strstr(r->text, "step ") - r->text);
+    snprintf(text, sizeof text, "%.*sstep %.9g [s]; until %.9g [s] }\n", front, r->text, each_s,
+             r->until_s);
+    derived d = derived_scene(text, "s");
+    derived_expect(&d, r->text);
+    image_settings settings = IMAGE_SETTINGS_DEFAULT;
+    diags *errors = diags_new();
+    for (int m = 0; m < WH_METHODS; m++) {
+        settings.method =
+            strcmp(wh_methods[m].word, r->method) == 0 ? (wh_method)m : settings.method;
+    }
+    settings.compensated = r->compensated;
+    image *im = image_make(d.equations, NULL, &settings, IMAGE_TO_RUN, errors);
+    const cost c = cost_of(im, cost_board_named("mps2-an386"),
+                           strcmp(r->number, "float") == 0 ? COST_FLOAT : COST_DOUBLE);
+    for (int i = 0; i < ROWS; i++) {
+        char cycles[24];
+        const told_row *row = &t->row[i];
+        snprintf(cycles, sizeof cycles, "%.3g", c.cycles.value / row->step_s);
+        TEST_ASSERT_EQUAL_DOUBLE(strtod(cycles, NULL), row->cycles);
+        TEST_ASSERT_EQUAL_DOUBLE(nearbyint(c.flash_bytes.value), row->flash);
+        TEST_ASSERT_EQUAL_DOUBLE(nearbyint(c.ram_bytes.value), row->ram);
+        TEST_ASSERT_EQUAL_DOUBLE(nearbyint(c.stack_bytes.value), row->stack);
+    }
+    image_free(im);
+    diags_free(errors);
+    derived_free(&d);
+}
+
+typedef struct measure {
+    unsigned compared;    /* rows whose error both know */
+    unsigned at_rounding; /* rows in double whose error is rounding */
+    unsigned unsaid;      /* scenes without rows */
+    double worst_double, worst_float;
+} measure;
+
+static void compare(const rated *r, const told_row *row, double error, int steps, measure *m) {
+    const bool in_float = strcmp(r->number, "float") == 0;
+    char about[RATED_TEXT + 200];
+    snprintf(about, sizeof about, "%s%s %s%s, step %g: told %s, it is %g", r->text, r->method,
+             r->number, r->compensated ? " compensated" : "", row->step_s, row->error, error);
+    if (strcmp(row->error, "above 1") == 0) {
+        TEST_ASSERT_TRUE_MESSAGE(error > 0.8, about);
+        return;
+    }
+    if (!in_float && error < 10.0 * DBL_EPSILON * steps) {
+        m->at_rounding++;
+        return;
+    }
+    TEST_ASSERT_TRUE_MESSAGE(row->error[0] != '<', about);
+    const double ratio = strtod(row->error, NULL) / error;
+    const double off = fmax(ratio, 1.0 / ratio);
+    TEST_ASSERT_TRUE_MESSAGE(off <= (in_float ? 1.5 : 1.2), about);
+    double *worst = in_float ? &m->worst_float : &m->worst_double;
+    *worst = fmax(*worst, off);
+    m->compared++;
+}
+
+static void check_rows(const rated *r, measure *m) {
+    static said what;
+    told t;
+    run(r, (const char *const[]){NULL}, &what);
+    TEST_ASSERT_EQUAL_INT_MESSAGE(0, what.status, what.err);
+    const double until_s = trusted_s(what.out, r);
+    if (!read_rows(what.out, r->number, &t)) {
+        TEST_ASSERT_NOT_NULL_MESSAGE(strstr(what.out, "\naccuracy and cost  not shown: "),
+                                     what.out);
+        TEST_ASSERT_TRUE_MESSAGE(until_s < 4.0 * r->step_s, what.out);
+        m->unsaid++;
+        return;
+    }
+    const double spacing_s = 2.0 * r->step_s;
+    const double rounded = 1e-5 * r->until_s; /* of the printed times */
+    TEST_ASSERT_TRUE_MESSAGE(
+        t.until_s <= until_s + rounded && t.until_s > until_s - spacing_s - rounded, what.out);
+    const int records = (int)nearbyint(t.until_s / spacing_s);
+    long double *row = rated_motion(r, spacing_s, records);
+    for (int i = 0; i < ROWS; i++) {
+        const double step_s = ldexp(spacing_s, -i);
+        TEST_ASSERT_DOUBLE_WITHIN(1e-5 * step_s, step_s, t.row[i].step_s);
+        compare(r, &t.row[i], error_of(r, step_s, spacing_s, records, row, -1), records << i, m);
+    }
+    free(row);
+    check_cost(r, &t);
+}
+
+static void test_rows_are_right(void) {
+    dice d = dice_of("rated", 45);
+    const unsigned cases = dice_cases(few_or_all(6, 100));
+    measure m = {.worst_double = 1.0, .worst_float = 1.0};
+    for (unsigned i = 0; i < cases; i++) {
+        rated r;
+        rated_draw(&d, &r);
+        check_rows(&r, &m);
+    }
+    printf("  %u scenes: %u rows compared, at most a factor %.3f off in double and %.3f in float; "
+           "%u rows of rounding, %u scenes without rows\n",
+           cases, m.compared, m.worst_double, m.worst_float, m.at_rounding, m.unsaid);
+    TEST_ASSERT_TRUE(m.compared > cases && m.unsaid * 5 <= cases);
+}
+
+/* --- beside `whirl price` ------------------------------------------------------------------------------*/
+
+/* One field of a CSV line without quotes. */
+static const char *field(const char *line, int at, char text[80]) {
+    for (; at > 0 && line != NULL; at--) {
+        line = strchr(line, ',');
+        line = line != NULL ? line + 1 : NULL;
+    }
+    snprintf(text, 80, "%.*s", line != NULL ? (int)strcspn(line, ",\r\n") : 0, line);
+    return text;
+}
+
+enum {
+    COLUMN_ERROR = 1,
+    COLUMN_PRICE = 6,
+    COLUMN_STEP = 12,
+    COLUMN_METHOD = 13,
+    COLUMN_NUMBER = 14,
+    COLUMN_ANGLES = 15,
+    COLUMN_MATRIX = 16,
+    COLUMN_TABLES = 17,
+    COLUMN_FLASH = 18
+};
+
+/* A row of price with the same setting and step says the same error and cost. */
+static unsigned check_price(const rated *r, const told *t, FILE *in) {
+    static char line[2000];
+    char text[80];
+    char number[40];
+    unsigned found = 0;
+    snprintf(number, sizeof number, "%s%s", r->number, r->compensated ? " compensated" : "");
+    while (fgets(line, sizeof line, in) != NULL) {
+        const bool same = strcmp(field(line, COLUMN_METHOD, text), r->method) == 0 &&
+                          strcmp(field(line, COLUMN_NUMBER, text), number) == 0 &&
+                          strcmp(field(line, COLUMN_ANGLES, text), "turned") == 0 &&
+                          strcmp(field(line, COLUMN_MATRIX, text), "none") == 0 &&
+                          strcmp(field(line, COLUMN_TABLES, text), "none") == 0;
+        for (int i = 0; i < ROWS && same; i++) {
+            const told_row *row = &t->row[i];
+            if (fabs(strtod(field(line, COLUMN_STEP, text), NULL) - row->step_s) >
+                1e-6 * row->step_s) {
+                continue;
+            }
+            found++;
+            const double price = strtod(field(line, COLUMN_PRICE, text), NULL);
+            TEST_ASSERT_DOUBLE_WITHIN(0.005001 * price, price, row->cycles); /* of three digits */
+            TEST_ASSERT_EQUAL_DOUBLE(nearbyint(strtod(field(line, COLUMN_FLASH, text), NULL)),
+                                     row->flash);
+            const double error = strtod(field(line, COLUMN_ERROR, text), NULL);
+            const double ratio = strtod(row->error, NULL) / error;
+            const double most = strcmp(r->number, "float") == 0 ? 1.5 : 1.2;
+            const bool rounding = error < 1e-11;
+            TEST_ASSERT_TRUE_MESSAGE(rounding || (ratio < most && ratio > 1.0 / most), line);
+        }
+    }
+    return found;
+}
+
+static void test_rows_are_those_of_price(void) {
+    static const char prices[] = "build/tests/rated.csv";
+    static said what;
+    dice d = dice_of("rated beside price", 46);
+    const unsigned cases = dice_cases(10);
+    unsigned found = 0;
+    for (unsigned i = 0; i < cases; i++) {
+        rated r;
+        told t;
+        char until[40];
+        do {
+            rated_draw(&d, &r);
+            run(&r, (const char *const[]){NULL}, &what);
+        } while (!read_rows(what.out, r.number, &t));
+        snprintf(until, sizeof until, "%.9g", t.until_s);
+        const char *const words[] = {model_keep(r.text), "--horizon", until,  "--effort", "1e-3",
+                                     "--quiet",          "--csv",     prices, NULL};
+        command_say(command_price, words, &what);
+        model_drop();
+        TEST_ASSERT_EQUAL_INT_MESSAGE(0, what.status, what.err);
+        FILE *in = fopen(prices, "rb");
+        TEST_ASSERT_NOT_NULL(in);
+        found += check_price(&r, &t, in);
+        fclose(in);
+        remove(prices);
+    }
+    printf("  %u scenes: %u rows are also in the table of price\n", cases, found);
+    TEST_ASSERT_TRUE(found >= cases);
+}
+
+/* --- the step of --error --------------------------------------------------------------------------------*/
+
+/* Of the first coordinate, at the end of every step. */
+static double coordinate_error(const rated *r, double step_s, double until_s) {
+    const int records = (int)(until_s / step_s * (1.0 + 1e-9));
+    rated of = *r;
+    of.step_s = step_s;
+    long double *row = rated_motion(&of, step_s, records);
+    const double error = error_of(&of, step_s, step_s, records, row, 0);
+    free(row);
+    return error;
+}
+
+/* The chosen step keeps the error, and twice the step does not, or the run says that longer ones are not tried. */
+static bool check_chosen(dice *d, const rated *r) {
+    static const char *const names[] = {"q0", "x", "a", "r"};
+    static said what;
+    char error[60];
+    int n = 0;
+    while (n < 3 && strstr(r->text, (const char *const[]){"coordinate q0", "coordinate x",
+                                                          "coordinate a"}[n]) == NULL) {
+        n++;
+    }
+    const double allowed = pow(10.0, dice_between(d, -6.0, -2.0));
+    snprintf(error, sizeof error, "%s=%.6g%s", names[n], allowed * 1e3, n == 2 ? "e-3" : "mm");
+    run(r, (const char *const[]){"--error", error, NULL}, &what);
+    if (what.status != 0) {
+        TEST_ASSERT_EQUAL_INT_MESSAGE(1, what.status, what.err);
+        TEST_ASSERT_NOT_NULL_MESSAGE(strstr(what.err, "no step that was tried keeps the error"),
+                                     what.err);
+        return false;
+    }
+    double step_s;
+    double until_s;
+    said_number(what.out + strlen("chosen step"), &step_s);
+    said_number(strstr(what.out, "until t = ") + strlen("until t = "), &until_s);
+    char about[RATED_TEXT + 300];
+    snprintf(about, sizeof about, "%s%s %s, %s: %.100s", r->text, r->method, r->number, error,
+             what.out);
+    TEST_ASSERT_TRUE_MESSAGE(coordinate_error(r, step_s, until_s) <= 1.05 * allowed, about);
+    if (strstr(what.out, "longer ones are not tried") == NULL) {
+        TEST_ASSERT_TRUE_MESSAGE(coordinate_error(r, 2.0 * step_s, until_s) > 0.95 * allowed,
+                                 about);
+    }
+    return true;
+}
+
+static void test_error_chooses_the_largest_step(void) {
+    dice d = dice_of("rated --error", 47);
+    const unsigned cases = dice_cases(few_or_all(4, 60));
+    unsigned chosen = 0;
+    for (unsigned i = 0; i < cases; i++) {
+        rated r;
+        rated_draw(&d, &r);
+        chosen += check_chosen(&d, &r) ? 1 : 0;
+    }
+    printf("  %u scenes: a step chosen in %u\n", cases, chosen);
+    TEST_ASSERT_TRUE(chosen * 2 > cases);
+}
+
+/* --- scenes without rows, and what is refused -----------------------------------------------------------*/
+
+static void says(int status, const char *text, const char *const *words) {
+    static said what;
+    command_say(command_run, words, &what);
+    TEST_ASSERT_EQUAL_INT_MESSAGE(status, what.status, what.err);
+    TEST_ASSERT_NOT_NULL_MESSAGE(strstr(status == 0 ? what.out : what.err, text), what.out);
+}
+
+static void test_a_run_without_rows_says_why(void) {
+#define RUN(...) ((const char *const[]){__VA_ARGS__, NULL})
+    says(0,
+         "not shown: events make the cost of a step depend on the motion; they are shown by: "
+         "whirl price ball_bounces --set e=0.5 --until 1s --board rv32imac\n",
+         RUN("ball_bounces", "--set", "e=0.5", "--until", "1s", "--board", "rv32imac"));
+    says(0, "not shown: they take more than a second; they are shown by: whirl price thomson_a\n",
+         RUN("thomson_a", "--step", "50us"));
+    says(0, "not shown: the cost of --stabilized is not known\n",
+         RUN("docs/hard/long.whirl:pendulum_swings", "--until", "1s", "--stabilized"));
+    says(0, "less than two steps", RUN("thomson_a", "--step", "1s", "--until", "1s"));
+    says(2, "error: --error chooses the step, and --step sets it",
+         RUN("thomson_a", "--error", "X=1mm", "--step", "1ms"));
+    says(2, "hint: such as --error x=0.1mm", RUN("thomson_a", "--error", "1mm"));
+    says(2, "Y is no output, coordinate or rate", RUN("thomson_a", "--error", "Y=1mm"));
+    says(2, "length", RUN("thomson_a", "--error", "X=1s"));
+    says(2, "there is no board 'nix'", RUN("thomson_a", "--board", "nix"));
+#undef RUN
+}
+
+static void test_the_same_run_says_the_same(void) {
+    static said first;
+    static said second;
+    static said quiet;
+    const char *const words[] = {"epicyclic_from_rest", "--until", "1s", NULL};
+    command_say(command_run, words, &first);
+    command_say(command_run, words, &second);
+    command_say(command_run,
+                (const char *const[]){"epicyclic_from_rest", "--until", "1s", "--quiet", NULL},
+                &quiet);
+    TEST_ASSERT_NOT_NULL(strstr(first.out, "\naccuracy and cost  in float"));
+    TEST_ASSERT_EQUAL_STRING(first.out, second.out);
+    TEST_ASSERT_EQUAL_STRING("", quiet.out);
+}
+
+void suite_rated(void) {
+    RUN_TEST(test_rows_are_right);
+    if (few_or_all(0, 1) > 0) { /* tables take seconds each */
+        RUN_TEST(test_rows_are_those_of_price);
+    }
+    RUN_TEST(test_error_chooses_the_largest_step);
+    RUN_TEST(test_a_run_without_rows_says_why);
+    RUN_TEST(test_the_same_run_says_the_same);
+    remove(RECORDS_FILE);
+}
