@@ -7,7 +7,6 @@
 #include "host/base/room.h"
 #include "host/fixed/engine_fixed.h"
 #include "host/number/functions.h"
-#include "host/price/choice.h"
 #include "host/price/three_rows.h"
 #include "host/run/start.h"
 #include "pricing.h"
@@ -110,27 +109,31 @@ void rating_say(FILE *out, const rating_wish *w, const trusting *trust, bool dou
 
 /* --- the step of --error -----------------------------------------------------------------------------*/
 
-/* The longest step that is tried is so many records' spacings. */
-enum { SPACINGS_MOST = 50 };
+/* Steps as parts and multiples of a record's spacing, all of them decimals; a decade has five. */
+enum { PACES = 32, PACES_LONG = 10 };
 
-/* Paces from long steps to short ones: whole spacings, then whole parts of one. False behind the last. */
-static bool pace_at(int i, deviation_pace *pace) {
-    static const uint64_t spacings[] = {
-        SPACINGS_MOST, 40, 30, 25, 20, 16, 12, 10, 8, 6, 5, 4, 3, 2};
-    const int whole = sizeof spacings / sizeof spacings[0];
-    *pace = i < whole ? (deviation_pace){1, spacings[i]}
-                      : (deviation_pace){choice_substeps(i - whole), 1};
-    return i - whole < CHOICE_SUBSTEPS;
+/* Pace `i`, from long steps to short ones. */
+static deviation_pace pace_at(int i) {
+    static const uint64_t spacings[PACES_LONG] = {50, 40, 25, 20, 16, 10, 8, 5, 4, 2};
+    static const uint64_t parts[] = {1, 2, 4, 5, 8};
+    if (i < PACES_LONG) {
+        return (deviation_pace){1, spacings[i]};
+    }
+    uint64_t steps = parts[(i - PACES_LONG) % 5];
+    for (int k = (i - PACES_LONG) / 5; k > 0; k--) {
+        steps *= 10;
+    }
+    return (deviation_pace){steps, 1};
 }
 
 /* The first pace that keeps the error; *longest: none was tried before it. False, told: there is none. */
-static bool find_pace(pricing *p, const setting *s, deviation_pace *pace, trial_result *r,
+static bool find_pace(trials *t, const setting *s, deviation_pace *pace, trial_result *r,
                       bool *longest) {
-    trials *t = &p->trial;
     double least = -1.0;
     bool ends_early = false; /* shorter ones take more than a second each */
     *longest = true;
-    for (int i = 0; pace_at(i, pace) && !t->stopped; i++) {
+    for (int i = 0; i < PACES && !t->stopped; i++) {
+        *pace = pace_at(i);
         if (pace->records > (uint64_t)t->records) {
             continue;
         }
@@ -178,7 +181,7 @@ static int choose(FILE *out, pricing *p, const setting *s, const volatile sig_at
     deviation_pace pace;
     trial_result r;
     bool longest;
-    if (!find_pace(p, s, &pace, &r, &longest)) {
+    if (!find_pace(t, s, &pace, &r, &longest)) {
         return t->stopped ? EXIT_INTERRUPTED : EXIT_RUN_FAILED;
     }
     *step = room_words("%s", trial_time(trial_step(t, pace), text));

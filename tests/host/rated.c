@@ -167,9 +167,10 @@ long double *rated_motion(const rated *r, double spacing_s, int records) {
     TEST_ASSERT_NOT_NULL(row);
     const int each = (int)number_ceiling(spacing_s / finer_s(r->step_s) - 1e-9);
     linear spaced = r->linear;
-    /* as a fraction, not as the double next to it */
-    spaced.h = (quad)number_nearest(spacing_s * 1e6) / 1000000;
-    const long double h = (long double)number_nearest(spacing_s * 1e6) / 1e6L / each;
+    char text[40]; /* the decimal, not the double next to it */
+    snprintf(text, sizeof text, "%.9g", spacing_s);
+    spaced.h = strtold(text, NULL);
+    const long double h = strtold(text, NULL) / each;
     if (r->slope == NULL) {
         linear_step(&spaced, 0, step);
     }
