@@ -199,13 +199,13 @@ static void test_what_is_no_component_is_told(void) {
                              what.err);
     command_say(begin_of, (const char *const[]){"x''", NULL}, &what);
     TEST_ASSERT_EQUAL_INT(3, what.status);
-    TEST_ASSERT_NOT_NULL(strstr(what.err, "--of x'' is no output"));
+    TEST_ASSERT_NOT_NULL(strstr(what.err, "error: x'' is no output"));
     command_say(begin_of, (const char *const[]){"zzzzzzzzzz", NULL}, &what);
     TEST_ASSERT_EQUAL_INT(3, what.status);
     TEST_ASSERT_NULL(strstr(what.err, "hint"));
     command_say(begin_of, (const char *const[]){"heard", NULL}, &what);
     TEST_ASSERT_EQUAL_INT(3, what.status);
-    TEST_ASSERT_NOT_NULL(strstr(what.err, "--of heard: it has noise of its own"));
+    TEST_ASSERT_NOT_NULL(strstr(what.err, "error: heard has noise of its own"));
     command_say(begin_of, (const char *const[]){"a'", NULL}, &what);
     TEST_ASSERT_EQUAL_INT(0, what.status);
     TEST_ASSERT_EQUAL_STRING("", what.err);
