@@ -280,6 +280,11 @@ figures: ## the dissertation's figures and the findings' plots, in build/figures
 	@CC="$(CC)" mk/setup/deps.sh host plot
 	@$(MAKE) figures-now
 
+.PHONY: conclusions
+conclusions: ## the dissertation's claims beside Whirl's numbers, with a verdict each (a minute)
+	@CC="$(CC)" mk/setup/deps.sh host
+	@$(MAKE) conclusions-now
+
 .PHONY: octave-check
 octave-check: ## the generated Octave files under ode45, against whirl run (installs Octave, large)
 	@CC="$(CC)" mk/setup/deps.sh host octave

@@ -124,7 +124,7 @@ ASAN_BUILD = $(MAKE) MAIN="CC='$(CC)' OPT='$(OPT)' EXTRA='$(EXTRA)'" B=build/asa
     EXTRA="-fsanitize=$(SANITIZE) -fno-sanitize-recover=all"
 
 # Scripts that run no instrumented program, or have it do what other scripts or a suite have it do, too.
-CLI_NOT_ASAN := $(foreach t,boards docs enclosures families flags fresh headers help map no_libm runners setup structure,tests/cli/$(t).sh)
+CLI_NOT_ASAN := $(foreach t,boards conclusions docs enclosures families flags fresh headers help map no_libm runners setup structure,tests/cli/$(t).sh)
 # And what is left to `make sanitizers-all`: scripts and suites that derive and step as others do, to compare digits,
 # or whose many runs each try their cures.
 CLI_LESS_ASAN := $(foreach t,asked_first carriage commands effects_cost_nothing embed_headers embed_names embed_sketch emitted_c faults figures \
@@ -248,6 +248,7 @@ gate-docs: docs-programs
 	    case " build/whirl $(RUN_IMAGES) " in *" $$f "*) ;; *) \
 	        echo "error: README.md: make run does not build $$f"; exit 1 ;; esac; done
 	@sh tests/docs.sh check $(DOC_PAGES)
+	@sh mk/conclusions/table.sh check docs/conclusions.md
 
 docs-all: docs-programs ## the commands of all pages, also the slow ones, print what stands below them (a quarter of an hour)
 	@sh tests/docs.sh slow $(DOC_PAGES)

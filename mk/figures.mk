@@ -1,4 +1,4 @@
-# figures.mk: the dissertation's figures and findings, and the generated Octave files under Octave.
+# figures.mk: the dissertation's figures, findings and claims, and the generated Octave files under Octave.
 
 FIGS := $(sort $(wildcard mk/figures/fig*.fig))
 FINDINGS := $(sort $(wildcard mk/figures/finding_*.fig))
@@ -17,6 +17,12 @@ figures-docs: figures ## the same, copied into docs/
 	@cp $(patsubst mk/figures/%.fig,$(FIGURES)/%.svg,$(FIGS) $(FINDINGS)) docs/figures/
 	@cp $(FIGURES)/figures.md docs/figures.md
 	@echo "Copied to docs/figures.md and docs/figures/"
+
+.PHONY: conclusions-now conclusions-renew
+conclusions-now: build/whirl build/firmware
+	@sh mk/conclusions/table.sh print
+conclusions-renew: build/whirl build/firmware ## the same, written into docs/conclusions.md
+	@sh mk/conclusions/table.sh renew docs/conclusions.md
 
 octave-check-now: build/whirl
 	@sh mk/octave/check.sh build/whirl build/octave

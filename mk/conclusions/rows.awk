@@ -1,0 +1,64 @@
+# rows.awk: splits claims.rows, whose format stands at its head, into files below `into`:
+#   N.command        a command; a command of several rows comes once
+#   N.take           a row's awk program, the functions and rules below first
+#   list             a line a row: its number, and the names of what its commands say
+#   rows             a line a row, fields between tabs: section, claim, theirs, within, digits, verdict, note, commands
+BEGIN {
+    known = " section claim theirs within digits run take verdict note "
+    prelude = \
+        "function abs(x) { return x < 0 ? -x : x }\n" \
+        "function most(x, y) { return x > y ? x : y }\n" \
+        "# how far the final states of the first two runs are apart, of each number\n" \
+        "function apart(    k, worst) {\n" \
+        "    for (k in names) if ((1, k) in v && (2, k) in v)\n" \
+        "        worst = most(worst, abs(v[1, k] - v[2, k]) / most(1e-300, most(abs(v[1, k]), abs(v[2, k]))))\n" \
+        "    return worst\n" \
+        "}\n" \
+        "FNR == 1 { run++; rows = 0 }\n" \
+        "/^  [A-Za-z]/ { v[run, $2] = $3; names[$2] } # a run's summary\n" \
+        "/^  (param|input|angle|real) / { p[$4] = $6 } # of `whirl describe`, in SI\n" \
+        "/drift at most/ { d = $0; sub(/.*drift at most /, \"\", d); drift = most(drift, d + 0) }\n" \
+        "/^[-0-9.e+]+,/ { rows++; n = split($0, part, \",\"); for (i = 1; i <= n; i++) cell[run, rows, i] = part[i] }\n"
+}
+function fail(why) { print "error: " FILENAME ":" NR ": " why > "/dev/stderr"; bad = 1; exit 1 }
+function finish(    program, i, one) {
+    if (!("section" in f)) return
+    if (!("claim" in f) || !("theirs" in f)) fail("a row needs section, claim and theirs")
+    if (("verdict" in f) == ("take" in f)) fail("a row needs either take, or a verdict that no number decides")
+    if ("verdict" in f && f["verdict"] != "opinion" && f["verdict"] != "not yet") fail("a verdict is computed, or opinion, or not yet")
+    if ("take" in f && !("run" in f)) fail("take without run")
+    row++
+    names = ""
+    count = split(f["run"], one, "\n")
+    for (i = 1; i <= count; i++) {
+        if (!(one[i] in number)) {
+            number[one[i]] = ++commands
+            file = into sprintf("%04d.command", commands)
+            print one[i] > file
+            close(file)
+        }
+        names = names " " sprintf("%04d.command.said", number[one[i]])
+    }
+    if ("take" in f) {
+        print prelude f["take"] > (into row ".take")
+        close(into row ".take")
+    } else names = ""
+    print row names > (into "list")
+    gsub(/\n/, "`<br>`", f["run"])
+    printf "%s\t%s\t%s\t%s\t%s\t%s\t%s\t%s\n", f["section"], f["claim"], f["theirs"], f["within"], f["digits"], f["verdict"], f["note"],
+        f["run"] > (into "rows")
+    split("", f)
+}
+/^#/ { next }
+NF == 0 { finish(); next }
+{
+    key = $1
+    text = $0
+    sub(/^[a-z]+ +/, "", text)
+    if (index(known, " " key " ") == 0) fail("no such field: " key)
+    if (!(key in f)) f[key] = text
+    else if (key == "claim" || key == "note") f[key] = f[key] " " text
+    else if (key == "run" || key == "take") f[key] = f[key] "\n" text
+    else fail(key " twice")
+}
+END { if (!bad) finish() }
