@@ -219,27 +219,27 @@ bench: ## instructions a step, counted, on this machine and on the emulated boar
 	@$(MAKE) bench-now
 
 .PHONY: bench-boards
-bench-boards: ## a step of five scenes on every board: instructions, cycles, bytes; into docs/price.md (minutes)
+bench-boards: ## a step of five scenes on every board: instructions, cycles, bytes; into docs/dev/price.md (minutes)
 	@CC="$(CC)" mk/setup/deps.sh host firmware boards quality
 	@$(MAKE) bench-boards-now
 
 .PHONY: bench-tables
-bench-tables: ## a step that looks up in tables, beside those that compute, on four boards; into docs/price.md (minutes)
+bench-tables: ## a step that looks up in tables, beside those that compute, on four boards; into docs/dev/price.md (minutes)
 	@CC="$(CC)" mk/setup/deps.sh host firmware boards quality
 	@$(MAKE) bench-tables-now
 
 .PHONY: bench-peers
-bench-peers: ## the same steps and derivations by other libraries, as ratios; into docs/price.md (installs them, large)
+bench-peers: ## the same steps and derivations by other libraries, as ratios; into docs/dev/price.md (installs them, large)
 	@CC="$(CC)" mk/setup/deps.sh host tests bench peers
 	@$(MAKE) bench-peers-now
 
 .PHONY: bench-links
-bench-links: ## pendulums of 1 to 12 links: deriving, operations, a step, bytes; into docs/price.md
+bench-links: ## pendulums of 1 to 12 links: deriving, operations, a step, bytes; into docs/dev/price.md
 	@CC="$(CC)" mk/setup/deps.sh host firmware bench
 	@$(MAKE) bench-links-now
 
 .PHONY: bench-precision
-bench-precision: ## work against precision of every method, by counted instructions; into docs/numerics.md
+bench-precision: ## work against precision of every method, by counted instructions; into docs/dev/numerics.md
 	@CC="$(CC)" mk/setup/deps.sh host firmware bench
 	@$(MAKE) bench-precision-now
 

@@ -1,6 +1,6 @@
 /* method.h: the integration methods, a row each. All that is known of a method stands in its row: whatever steps,
  * keeps books, counts evaluations, reads command lines, prints or tests methods reads it here. Adding a method
- * is adding a row (and its line in docs/numerics.md, which a test holds to these).
+ * is adding a row (and its line in docs/dev/numerics.md, which a test holds to these).
  */
 #ifndef WH_METHOD_H
 #define WH_METHOD_H

@@ -12,7 +12,7 @@
  * The usual alternative, polynomials for an eighth of a turn, was built and measured in both
  * numbers: it saves the table (640 bytes of flash in float) and is worse in everything else. The
  * sign and the swap cost instructions, and its last steps round numbers near one.
- * docs/numerics.md has the figures.
+ * docs/dev/numerics.md has the figures.
  */
 #ifndef WH_SINE_H
 #define WH_SINE_H
@@ -27,7 +27,7 @@ extern "C" {
 /* Sine and cosine of a phase together; a caller that drops one pays for one. At most 1 in size,
  * and exact at quarter turns. Float: the worst error over all 2^32 phases is 6.3e-8 (`make
  * sine-exhaustive` measures it). Double: 1.4e-16 for |phase| <= 5e8 rad; beyond it, or of NaN, both
- * are NaN. docs/numerics.md says how and what it costs. */
+ * are NaN. docs/dev/numerics.md says how and what it costs. */
 WH_INLINE void wh_sincos(wh_phase phase, wh_real *sine, wh_real *cosine);
 
 /* The same in two parts each, whose sums those are: what is added to them before the parts are is not rounded twice. */

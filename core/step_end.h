@@ -189,7 +189,7 @@ WH_INLINE wh_real wh_sum_product(wh_real value, wh_span by, wh_real factor, wh_r
  * stand short of where they should by a part e of their way, which changes the rates as if h/2 e times the forces' change
  * were missing, and the energy in every step by as much, always the same way: 5e-13 of a pendulum's in a millisecond.
  * Where the positions lack the part e of h^2/2 times the accelerations, too, both together are the derivative of what
- * stays small, and the energy stays, where the mass matrix is constant; where it is not, most of it (docs/numerics.md). A
+ * stays small, and the energy stays, where the mass matrix is constant; where it is not, most of it (docs/dev/numerics.md). A
  * row of one stage where the step begins has none that stands elsewhere. */
 WH_INLINE wh_real wh_square_short(const wh_tableau *by, wh_span h, wh_span part) {
     const wh_real stages = wh_all_begin(by) ? WH_R(0.0) : h.rest_s / by->parts;

@@ -235,7 +235,7 @@ gate-cycles: $(GEN)/.stamp
 
 # --- what the pages print -----------------------------------------------------------------------------
 # README's commands take only what `make run` builds; other pages take more.
-DOC_PAGES ?= README.md $(sort $(wildcard docs/*.md docs/howto/*.md))
+DOC_PAGES ?= README.md $(sort $(wildcard docs/*.md docs/*/*.md))
 docs-programs: $(GEN)/.stamp
 	+@$(MAKE) whirl $(B)/firmware
 	+@$(call on_board,mps2-an386,pil-images board-images)

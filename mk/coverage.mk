@@ -1,4 +1,4 @@
-# coverage.mk: which lines and branches of the core the portable suites reach. docs/testing.md says what counts.
+# coverage.mk: which lines and branches of the core the portable suites reach. docs/dev/testing.md says what counts.
 #
 # Counted are the core's own files and the tests that include its headers: compiled without optimisation, no function
 # inlined (the attribute is taken away: else each copy would have conditions of its own), those that nobody calls kept, so

@@ -1,4 +1,4 @@
-# curves.mk: what accuracy costs (`make price`): docs/price.md, docs/fronts.md, their charts.
+# curves.mk: what accuracy costs (`make price`): docs/price.md, docs/dev/fronts.md, their charts.
 
 CURVES := build/curves
 # Every setting, on every board. SCENE+4s: of that motion the first 4 s, in which it has not yet carried errors far.
@@ -11,7 +11,7 @@ CURVE_COUNTED := mps2-an386 mps2-an385-m0
 CURVE_FIRST := epicyclic_from_rest fronts $(CURVE_COUNTED) atmega328p
 # All other scenes: these methods in each number, on a Cortex-M4F.
 CURVE_METHODS := heun rk4
-CURVE_PAGES := docs/price.md docs/fronts.md
+CURVE_PAGES := docs/price.md docs/dev/fronts.md
 # How long `whirl price` tries, of the scenes above and of all others; fronts are counted down to this error.
 CURVE_EFFORT ?= 1
 CURVE_EFFORT_OTHERS ?= 0.1
@@ -43,7 +43,7 @@ price-drawn-now: build/whirl
 	    cp $(FIGURES)/$$svg docs/figures/; done
 
 ##@ Price
-price-pages: ## the tables of docs/price.md and docs/fronts.md, anew from docs/figures/price.csv
+price-pages: ## the tables of docs/price.md and docs/dev/fronts.md, anew from docs/figures/price.csv
 	@$(call need,gnuplot)
 	@mk/curves/pages.sh docs/figures $(CURVE_PAGES)
 	@mk/curves/chart.sh $(FIGURES)/price_fronts.svg docs/figures/price.csv $(CURVE_FIRST)

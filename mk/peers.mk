@@ -48,5 +48,5 @@ bench-peers-now: build/whirl $(GEN)/.stamp
 	@$(MAKE) $(PEER_PROGRAMS)
 	@PEERS="$(PEERS)" SYSTEMS="$(PEER_SYSTEMS)" SCENES="$(foreach s,$(PEER_SYSTEMS),$(PEER_SCENE_$(s)))" \
 	    mk/peers/race.sh build/whirl $(B)/peers build/peers.md
-	@mk/price/into_page.sh build/peers.md docs/price.md peers
+	@mk/price/into_page.sh build/peers.md docs/dev/price.md peers
 	@cat build/peers.md

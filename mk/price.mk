@@ -128,7 +128,7 @@ bench-board: $(PRICED_IMAGES) $(or $(BOARD_RUN_BY),$(PLUGIN))
 bench-boards-now: $(GEN)/.stamp
 	+@for board in $(BOARDS_PRICED); do $(MAKE) BOARD=$$board bench-board || exit 1; done
 	@awk -F, -f mk/count/boards_table.awk $(FIGURES)/boards.csv >build/boards.md
-	@mk/price/into_page.sh build/boards.md docs/price.md boards
+	@mk/price/into_page.sh build/boards.md docs/dev/price.md boards
 	@cat build/boards.md
 
 # The estimate once more, from the disassembly.
@@ -179,15 +179,15 @@ price-effects-now: $(GEN)/.stamp
 	@mk/price/into_page.sh build/price/tables.md docs/effects.md
 	@cat build/price/tables.md
 
-# How derivation and step grow with the number of links: the table of docs/price.md.
+# How derivation and step grow with the number of links: the table of docs/dev/price.md.
 .PHONY: bench-links-now
 bench-links-now: $(GEN)/.stamp
 	@$(MAKE) $(BOARD_OBJECTS) $(call libraries,$(BOARD),whirl) $(PLUGIN)
 	@OUT=build/links $(TO_PRICE) mk/price/links.sh
-	@mk/price/into_page.sh build/links/links.md docs/price.md links
+	@mk/price/into_page.sh build/links/links.md docs/dev/price.md links
 	@cat build/links/links.md
 
-# --- prices of any scene: cases are counted, figures are fitted to them (docs/price.md) ---------------------------------
+# --- prices of any scene: cases are counted, figures are fitted to them (docs/dev/price.md) ---------------------------------
 PRICE_OUT ?= build/cost
 PRICE_CASES ?= $(PRICE_OUT)/cases
 PRICE_CSV ?= $(PRICE_OUT)/rows.csv
@@ -245,14 +245,14 @@ price-rows-now: build/whirl build/tools/mechanisms
 	@wc -l <$(PRICE_CSV)
 
 ##@ Price
-price-fit: build/tools/price_fit ## fit the figures that prices are predicted by to the counted rows; host/price/cost_rows.h, docs/price.md
+price-fit: build/tools/price_fit ## fit the figures that prices are predicted by to the counted rows; host/price/cost_rows.h, docs/dev/price.md
 	@build/tools/price_fit $(PRICE_CSV) >$(PRICE_OUT)/cost_rows.h 2>$(PRICE_OUT)/residuals
 	@grep '^|' $(PRICE_OUT)/residuals | grep -vE 'contacts|(cycles|flash|RAM|stack), ' >$(PRICE_OUT)/residuals.md
 	@cp $(PRICE_OUT)/cost_rows.h host/price/cost_rows.h
-	@mk/price/into_page.sh $(PRICE_OUT)/residuals.md docs/price.md cost
+	@mk/price/into_page.sh $(PRICE_OUT)/residuals.md docs/dev/price.md cost
 	@{ echo "| board | number | fitted | tested | within 10 % | median | nine of ten | largest |"; \
 	    echo "|---|---|---|---|---|---|---|---|"; sed -n 's/^@//p' $(PRICE_OUT)/residuals; } >$(PRICE_OUT)/tested.md
-	@mk/price/into_page.sh $(PRICE_OUT)/tested.md docs/price.md cost-tested
+	@mk/price/into_page.sh $(PRICE_OUT)/tested.md docs/dev/price.md cost-tested
 	@cat $(PRICE_OUT)/tested.md
 	@cat $(PRICE_OUT)/residuals.md
 
@@ -266,11 +266,11 @@ price-rows-fixed-now: build/whirl
 	    $(MAKE) BOARD=$$board NUMBERS=fixed PRICE_OUT=$(FIXED_OUT) price-measure-board || true; done
 	@wc -l <$(FIXED_OUT)/rows.csv
 
-price-fit-fixed: build/tools/price_fit_fixed ## the same of fixed point, from build/cost_fixed/rows.csv; host/price/cost_fixed_rows.h, docs/price.md
+price-fit-fixed: build/tools/price_fit_fixed ## the same of fixed point, from build/cost_fixed/rows.csv; host/price/cost_fixed_rows.h, docs/dev/price.md
 	@build/tools/price_fit_fixed $(FIXED_OUT)/rows.csv >$(FIXED_OUT)/cost_fixed_rows.h 2>$(FIXED_OUT)/residuals
 	@grep '^|' $(FIXED_OUT)/residuals >$(FIXED_OUT)/residuals.md
 	@cp $(FIXED_OUT)/cost_fixed_rows.h host/price/cost_fixed_rows.h
-	@mk/price/into_page.sh $(FIXED_OUT)/residuals.md docs/price.md cost-fixed
+	@mk/price/into_page.sh $(FIXED_OUT)/residuals.md docs/dev/price.md cost-fixed
 	@cat $(FIXED_OUT)/residuals.md
 
 # Scenes of another seed, which nothing was fitted to or judged by: PRICE_SEED, PRICE_CHECKED boards.
@@ -283,13 +283,13 @@ price-check: build/whirl build/tools/price_fit build/tools/mechanisms ## predict
 	    $(MAKE) BOARD=$$board PRICE_OUT=build/cost_check price-measure-board || true; done
 	@build/tools/price_fit --check build/cost_check/rows.csv
 
-# Requests drawn from a seed, and whether what `whirl choose` answers is so (docs/price.md).
+# Requests drawn from a seed, and whether what `whirl choose` answers is so (docs/dev/price.md).
 CHOOSE_SEED ?= 1
 .PHONY: choose-check
 choose-check: build/whirl ## thirty drawn requests: what whirl choose answers is run, built, counted, or proved to be nothing (a quarter of an hour; CHOOSE_SEED=n)
 	@sh mk/price/choose_check.sh $(CHOOSE_SEED)
 
-# What tables of an angle's functions cost and save: the table of docs/price.md.
+# What tables of an angle's functions cost and save: the table of docs/dev/price.md.
 TABLE_BOARDS := mps2-an386 mps2-an385 mps2-an385-m0 atmega328p
 .PHONY: bench-tables-board bench-tables-now
 bench-tables-board: $(GEN)/.stamp
@@ -305,8 +305,8 @@ bench-tables-now: $(GEN)/.stamp build/whirl
 	@awk -f mk/price/turn_errors.awk build/turn_tables/errors >build/turn_tables/errors.md
 	@awk -f mk/price/turn_tables.awk build/turn_tables/errors $(TABLE_BOARDS:%=build/turn_tables/%/rows) \
 	    >build/turn_tables/price.md
-	@mk/price/into_page.sh build/turn_tables/errors.md docs/numerics.md turn-tables
-	@mk/price/into_page.sh build/turn_tables/price.md docs/price.md turn-tables
+	@mk/price/into_page.sh build/turn_tables/errors.md docs/dev/numerics.md turn-tables
+	@mk/price/into_page.sh build/turn_tables/price.md docs/dev/price.md turn-tables
 	@cat build/turn_tables/errors.md build/turn_tables/price.md
 
 # Steps in fixed point, on boards without an FPU.
@@ -321,7 +321,7 @@ price-fixed-board: build/whirl
 price-fixed: build/whirl ## Instructions of a step in fixed point, on boards without an FPU (FIXED_BOARDS, FIXED_SCENES)
 	+@for board in $(FIXED_BOARDS); do $(MAKE) BOARD=$$board price-fixed-board || exit 1; done
 
-# Work against precision of every method: the tables of docs/numerics.md. `@jumping`: inputs jump every 2 ms.
+# Work against precision of every method: the tables of docs/dev/numerics.md. `@jumping`: inputs jump every 2 ms.
 PRECISION_SCENES ?= epicyclic_conserved thomson_a_conserved rig_fixed two_mass_relative spherical_flight \
     mk/price/separable.whirl:twins_swing build/precision_links.whirl:swing_4 \
     epicyclic_conserved@jumping thomson_a_conserved@jumping rig_fixed@jumping
@@ -333,5 +333,5 @@ bench-precision-now: $(GEN)/.stamp
 	@OUT=build/precision PRECISION=$(B)/tools/precision HOST_CC="$(CC)" HOST_CFLAGS="-std=c11 $(OPT) -ffp-contract=off -fno-math-errno" \
 	    BENCH_HOST="$(call objects,double,boards/host/board.c) $(call libraries,double,whirl)" \
 	    $(TO_PRICE) mk/price/precision.sh $(PRECISION_SCENES)
-	@mk/price/into_page.sh build/precision/precision.md docs/numerics.md precision
+	@mk/price/into_page.sh build/precision/precision.md docs/dev/numerics.md precision
 	@cat build/precision/precision.md

@@ -47,9 +47,9 @@ faults-now: $(GEN)/.stamp
 	@build/tools/faults --firmware $(if $(ASKED_BOARD),$(ELF)/pil_dialled.elf --board $(BOARD),$(B)/pil_dialled) \
 	    --runs $(RUNS) --seed $(SEED) >$(FAULTS_OUT); code=$$?; cat $(FAULTS_OUT); exit $$code
 
-# The same firmware against a bench that is written from docs/pil.md alone.
+# The same firmware against a bench that is written from docs/dev/pil.md alone.
 .PHONY: rig-bench
-rig-bench: $(B)/tools/rig_bench $(B)/pil_dialled $(B)/pil_swing ## the rig's firmware against a bench written from docs/pil.md alone: SEED (ten minutes)
+rig-bench: $(B)/tools/rig_bench $(B)/pil_dialled $(B)/pil_swing ## the rig's firmware against a bench written from docs/dev/pil.md alone: SEED (ten minutes)
 	@code=0; for campaign in bench healthy stuck runouts; do build/tools/rig_bench $$campaign --seed $(SEED) || code=1; done; exit $$code
 
 # Telemetry over a line of 115,200, 57,600 and 9,600 baud, in simulated time: every sample is there, or is counted as lost.
@@ -64,13 +64,13 @@ tel-hour: $(B)/whirl $(B)/station $(B)/tools/sim_station $(B)/tools/tel_check ##
 rig-worst: $(PLUGIN) ## the longest control steps of the last make faults BOARD=..., counted by the emulator (a minute)
 	@NM=$(BOARD_NM) PLUGIN=$(PLUGIN) mk/count/rig_worst.sh build/whirl $(ELF)/pil_dialled.elf build/faults_$(BOARD).md
 
-# What the last campaign on this machine found, between the marks of docs/rig.md.
+# What the last campaign on this machine found, between the marks of docs/dev/rig.md.
 .PHONY: faults-page
-faults-page: ## docs/rig.md shows what the last make faults found
+faults-page: ## docs/dev/rig.md shows what the last make faults found
 	@[ -s build/faults.md ] || { echo "faults-page: no build/faults.md: make faults first" >&2; exit 1; }
 	@awk '/<!-- faults: end -->/ { held = 0 } !held { print } \
 	    /<!-- faults: begin -->/ { held = 1; print ""; while ((getline line <"build/faults.md") > 0) print line; print "" }' \
-	    docs/rig.md >build/rig_page.md && cp build/rig_page.md docs/rig.md
+	    docs/dev/rig.md >build/rig_page.md && cp build/rig_page.md docs/dev/rig.md
 
 # The suites that ask the rig's controller, in a program of their own: what a change of the controller takes to be asked.
 RIG_SUITES := $(patsubst tests/core/test_%.c,%,$(sort $(wildcard $(addprefix tests/core/test_,rig*.c virtual_rig*.c lockin*.c station*.c))))

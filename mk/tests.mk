@@ -241,7 +241,7 @@ $(B)/tools/linkages: $(call objects,host,tests/tools/linkages.c tests/host/linka
 $(B)/tools/faults: $(call objects,host,tests/tools/faults.c $(wildcard tests/host/faults_*.c)) $(LIB_HOST) $(call libraries,float,rig whirl) $(LIB_DOUBLE)
 	$(link)
 
-# The rig's firmware against a bench that is written from docs/pil.md and links nothing of the project.
+# The rig's firmware against a bench that is written from docs/dev/pil.md and links nothing of the project.
 $(B)/tools/rig_bench: $(call objects,host,$(wildcard tests/outside/*.c))
 	$(link)
 

@@ -125,7 +125,7 @@ done)
 [ -z "$hits" ] || { echo "error: a row of mk/mutants that finds nothing:" && echo "$hits" && bad=1; }
 # Prose has lines of at most 100 characters; tables, code and what follows a bracket without a blank cannot be cut.
 # Bytes that continue a character of UTF-8 are not counted.
-for page in README.md CONTRIBUTING.md CHANGELOG.md $(ls docs/*.md | grep -v figures.md); do 
+for page in README.md CONTRIBUTING.md CHANGELOG.md $(ls docs/*.md docs/dev/*.md | grep -v figures.md); do 
     LC_ALL=C sed 's/[\x80-\xbf]//g' "$page" | awk -v page="$page" '
         /^ *```/ { code = !code }
         !code && !/^\|/ && !/^    / && !/^`/ && length > 100 && /[^ ] [^ ]/ {

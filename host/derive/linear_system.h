@@ -16,7 +16,7 @@ typedef struct linear_system {
      * solve with the same matrix: their steps keep their bits. */
     bool sparing;
     /* Roundings count more than operations: no hinge is eliminated (hinge.h), whose list rounds two to five times as
-     * much as what it replaces (docs/numerics.md). */
+     * much as what it replaces (docs/dev/numerics.md). */
     bool precise;
 } linear_system;
 

@@ -93,7 +93,8 @@ static void print_run(FILE *out, const choice_row *row) {
     fprintf(out, "  of          %.0f counted steps: every one to the horizon, events included\n",
             row->run.steps);
     if (declared_of(row) > 0.0) {
-        fprintf(out, "  declared    %.0f %s are the most that a step can take: docs/events.md\n",
+        fprintf(out,
+                "  declared    %.0f %s are the most that a step can take: docs/dev/events.md\n",
                 declared_of(row), is_counted(&row->cost) ? "cycles" : "instructions");
     } else {
         fputs("  declared    not known: nobody counts stretches of a step on this board\n", out);

@@ -15,7 +15,7 @@ typedef enum measured_end {
 typedef struct measured_run {
     double steps; /* counted, of all places; 0: these were no whole runs */
     double
-        instructions_bound; /* the most that a step is declared to take (docs/events.md); 0: not known */
+        instructions_bound; /* the most that a step is declared to take (docs/dev/events.md); 0: not known */
     double cycles_bound; /* the same; 0: not known, or nobody counts cycles there */
 } measured_run;
 

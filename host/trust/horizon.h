@@ -1,6 +1,6 @@
 /* horizon.h: until when a run is right to a tolerance, coordinate by coordinate, as far as a run with half its step tells
  * (twins.h): until the first time at which the two differ by more than the tolerance times the range that the coordinate
- * has in the whole of the finer run. What this is worth is measured in docs/stability.md. */
+ * has in the whole of the finer run. What this is worth is measured in docs/dev/stability.md. */
 #ifndef TRUST_HORIZON_H
 #define TRUST_HORIZON_H
 

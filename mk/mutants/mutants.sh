@@ -41,7 +41,7 @@ export JOBS LONGEST PATIENCE SLACK REACH ALWAYS NEVER STAGES CORE LAST LAST_BUIL
 # Times are kept, so that nothing is compiled that is up to date. The first copy is never changed; the
 # others, one a job, are put back from it after each change.
 sum_of() { cat "$@" | cksum | tr -d ' '; }
-sum_of_all() { find "$@" -type f ! -path docs/testing.md ! -path docs/mutants.md | sort | xargs cat | cksum | tr -d ' '; }
+sum_of_all() { find "$@" -type f ! -path docs/dev/testing.md ! -path docs/dev/mutants.md | sort | xargs cat | cksum | tr -d ' '; }
 sum=$(sum_of_all Makefile core hal boards host tests docs)
 made() { # made TREE COMMAND...: run there, quietly
     tree=$1

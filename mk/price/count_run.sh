@@ -12,7 +12,7 @@
 #   board,number,steps,instructions,instructions_most,instructions_bound,cycles,cycles_most,cycles_bound,cycles_obtained,
 #   flash_bytes,ram_bytes,stack_bytes
 #
-# Mean and most are of all steps from the start to --until. The bound is that of docs/events.md: the longest stretch to a
+# Mean and most are of all steps from the start to --until. The bound is that of docs/dev/events.md: the longest stretch to a
 # step's first evaluation, after one of the accelerations and after one of the signals, times how many of each a step is
 # declared to make. Stretches are those of WORST random steps; they are marked in a build of their own, which tells nothing
 # else. There is no bound where the emulator takes no marks (AVR). Bytes are as in measure.sh.

@@ -5,9 +5,9 @@
 
 count=0
 
-for document in README.md docs/*.md; do
+for document in README.md docs/*.md docs/dev/*.md; do
     [ -f "$document" ] || continue
-    awk -v stem="$scratch/$(basename "$document" .md)" '
+    awk -v stem="$scratch/$(echo "$document" | tr / _)" '
         /^```whirl/ { file = stem "-" NR ".whirl"; next }
         /^```/ { file = "" }
         file != "" { print > file }' "$document"

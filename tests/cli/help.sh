@@ -16,13 +16,13 @@ verdict $? "every target that make knows is listed"
 grep -v NAME "$scratch/listed" | comm -23 - "$scratch/known" >"$scratch/err" && [ ! -s "$scratch/err" ]
 verdict $? "every target that is listed is known"
 
-cat README.md CONTRIBUTING.md docs/*.md Makefile mk/*.mk tests/*.sh tests/*/*.sh mk/*/*.sh core/*.h boards/*/*.[ch] |
+cat README.md CONTRIBUTING.md docs/*.md docs/dev/*.md Makefile mk/*.mk tests/*.sh tests/*/*.sh mk/*/*.sh core/*.h boards/*/*.[ch] |
     grep -oE '(`|^    |^)make [a-z][a-z0-9-]*($|[ `])' | sed 's/.*make //; s/[ `]$//' | sort -u >"$scratch/told"
 sed 's/^gate-.*/gate-NAME/' "$scratch/told" | sort -u | comm -23 - "$scratch/listed" >"$scratch/err" && [ ! -s "$scratch/err" ] &&
     [ "$(wc -l <"$scratch/told")" -ge 15 ]
 verdict $? "every target that the docs tell of is listed"
 # and every file that they name is there; suites, too
-for page in README.md CONTRIBUTING.md docs/*.md; do
+for page in README.md CONTRIBUTING.md docs/*.md docs/dev/*.md; do
     grep -oE '`(sh )?(core|host|hal|boards|mk|tests|docs)/[A-Za-z0-9_./*-]+' "$page" | sed 's/^`\(sh \)\{0,1\}//' | grep -v NAME |
         sort -u | while read -r path; do
         # shellcheck disable=SC2086 # a pattern

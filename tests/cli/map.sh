@@ -142,7 +142,7 @@ if command -v script >/dev/null 2>&1; then
 fi
 
 # --- what docs/stability.md shows ------------------------------------------------------------------------------------------------
-awk '/^## Stability maps/ { on = 1 } /^## Long runs/ { on = 0 } on' docs/stability.md >"$scratch/section"
+awk '/^## Stability maps/ { on = 1 } /^## Where the measurements/ { on = 0 } on' docs/stability.md >"$scratch/section"
 # its pictures are those of the commands: drawn anew, they are the same, where gnuplot is
 mkdir "$scratch/docs"
 cp docs/stability.md "$scratch/docs"

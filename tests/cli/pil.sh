@@ -106,14 +106,14 @@ if [ -n "$boards" ]; then
 fi
 
 # --- the page's bytes ---------------------------------------------------------------------------------------------------
-# page_bytes NAME...: those of these frames in docs/pil.md, as octal escapes of printf
+# page_bytes NAME...: those of these frames in docs/dev/pil.md, as octal escapes of printf
 page_bytes() {
     for frame in "$@"; do
         awk -v name="$frame" '/^```/ { on = $0 == "```bytes"; next }
             on { here = /^[a-z]/ ? $1 == name : here
                 for (i = /^[a-z]/ ? 2 : 1; here && i <= NF; i++) {
                     printf "\\%03o", 16 * (index("0123456789abcdef", substr($i, 1, 1)) - 1) + index("0123456789abcdef", substr($i, 2)) - 1
-                } }' docs/pil.md
+                } }' docs/dev/pil.md
     done
 }
 # shellcheck disable=SC2059 # they are escapes
@@ -121,10 +121,10 @@ put_bytes() { printf "$(page_bytes "$@")"; }
 timeout 60 "$whirl" pil $rig --firmware "$build/pil_dialled" --until 10ms --tape "$scratch/first.tape" >"$scratch/out" 2>"$scratch/err"
 put_bytes hello read_0 orders_0 read_1 orders_1 >"$scratch/page"
 [ "$(wc -c <"$scratch/page")" -gt 700 ] && head -c "$(wc -c <"$scratch/page")" "$scratch/first.tape" | cmp - "$scratch/page"
-verdict $? "docs/pil.md: the first frames of a run, byte by byte"
+verdict $? "docs/dev/pil.md: the first frames of a run, byte by byte"
 put_bytes hello read_0 orders_0 edge remember drive hello reset restarted >"$scratch/page.tape"
 timeout 60 "$whirl" pil --read "$scratch/page.tape" >"$scratch/rows" 2>"$scratch/err"
-awk '/^```/ { on = 0 } on; /^`whirl pil --read` prints of a tape with these/ { getline; getline; on = 1 }' docs/pil.md >"$scratch/wanted"
+awk '/^```/ { on = 0 } on; /^`whirl pil --read` prints of a tape with these/ { getline; getline; on = 1 }' docs/dev/pil.md >"$scratch/wanted"
 tail -n +13 "$scratch/rows" | diff "$scratch/wanted" - >"$scratch/diff"
 verdict $? "and those of the other kinds say what stands there" "$scratch/diff"
 

@@ -2,7 +2,7 @@
 # price_pages.sh: the blocks, charts and rows that `make price` writes: blocks are what the generator makes of the committed
 # rows, rows agree with themselves, some of them are run and counted again, and what is wrong is seen.
 . "$(dirname "$0")/../checks.sh"
-pages="docs/price.md docs/fronts.md"
+pages="docs/price.md docs/dev/fronts.md"
 mkdir -p "$scratch/docs"
 
 # --- blocks ----------------------------------------------------------------------------------------------------------

@@ -1,7 +1,7 @@
 #!/bin/sh
 # structure.sh: who includes whom in core, hal and host, and who calls whom in the program, as its objects say. All
 # arrows go one way: between folders, between headers, and between files (a header with the .c of its name), but for the
-# recursions within a folder that docs/DESIGN.md names.
+# recursions within a folder that docs/dev/DESIGN.md names.
 . "$(dirname "$0")/../checks.sh"
 
 # circles.awk: of the arrows on standard input, "FROM TO" a line, those that lie on a circle, as "A B C: ..." lines.
@@ -116,8 +116,8 @@ awk '{ split($1, a, "/"); split($2, b, "/") } a[1] == b[1]' "$scratch/arrows" |
 diff "$scratch/named" "$scratch/found" >"$scratch/err" 2>&1
 verdict $? "$(cut -d' ' -f1 "$scratch/symbols" | sort -u | wc -l) files: those that need each other are the recursions that have a name"
 for file in lower waves show_term; do
-    grep -q "$file\.c" docs/DESIGN.md || echo "docs/DESIGN.md does not name $file.c" >>"$scratch/unnamed"
+    grep -q "$file\.c" docs/dev/DESIGN.md || echo "docs/dev/DESIGN.md does not name $file.c" >>"$scratch/unnamed"
 done
 [ ! -s "$scratch/unnamed" ]
-verdict $? "docs/DESIGN.md names them" "$scratch/unnamed"
+verdict $? "docs/dev/DESIGN.md names them" "$scratch/unnamed"
 exit $failed

@@ -166,7 +166,7 @@ mkdir "$scratch/board" "$scratch/board/build"
 ln -s "$PWD/core" "$scratch/board/core"
 ln -s "$(realpath "$whirl")" "$scratch/board/build/whirl"
 awk -v into="$scratch/board" '
-    /^## Warnings$/ { exit }
+    /^## Stability limits$/ { exit }
     /^```c$/ { file = into "/main.c"; next }
     /^```sh/ { file = into "/commands"; next }
     /^```/ { file = ""; next }

@@ -1,5 +1,5 @@
 /* exact.h: what a mechanism by hand (hand.h) does, worked out another way. Its loads are constant, so between events it
- * moves on parabolas, whose roots are closed forms; at an event the laws of docs/events.md are solved by trying all of
+ * moves on parabolas, whose roots are closed forms; at an event the laws of docs/dev/events.md are solved by trying all of
  * their cases. In double, without probes, pivots or pins. */
 #ifndef TESTS_EXACT_H
 #define TESTS_EXACT_H

@@ -257,7 +257,7 @@ static void test_made_up_outputs(void) {
 }
 
 /* One sine or cosine of one multiple of one angle, up to ten thousand turns from zero: in float as good as
- * any sine (6.3e-8; docs/numerics.md), with a phase unit (1.5e-9 rad) for the multiple. */
+ * any sine (6.3e-8; docs/dev/numerics.md), with a phase unit (1.5e-9 rad) for the multiple. */
 static void test_float_sines_of_parts(void) {
     uint64_t seed = first_seed;
     double worst = 0.0;

@@ -154,7 +154,7 @@ static moved integrated(const linkage *of, double step_s, int steps) {
 }
 
 /* Where sines are looked up at each stage a run is the method's, to rounding; where they are turned it is within a
- * hundredth of what that method errs by itself (docs/numerics.md). */
+ * hundredth of what that method errs by itself (docs/dev/numerics.md). */
 static void test_motions_are_those_of_the_energies(void) {
     dice d = dice_of("linkages", 14);
     double worst = 0.0;

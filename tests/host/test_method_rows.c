@@ -1,4 +1,4 @@
-/* test_method_rows.c: the rows of core/method.h are what they say: explicit, told apart by their words; docs/numerics.md has a
+/* test_method_rows.c: the rows of core/method.h are what they say: explicit, told apart by their words; docs/dev/numerics.md has a
  * line for each, with its measured stability, which is that of the weights. (Orders: test_method_order.c.) */
 #include <math.h>
 #include <stdio.h>
@@ -215,7 +215,7 @@ static double interval(double (*growth)(wh_method method, double h), wh_method m
 }
 
 static void test_documented_stability_is_the_measured_one(void) {
-    FILE *in = fopen("docs/numerics.md", "r");
+    FILE *in = fopen("docs/dev/numerics.md", "r");
     TEST_ASSERT_NOT_NULL(in);
     char *page = calloc(1, 1 << 20);
     TEST_ASSERT_NOT_NULL(page);

@@ -2,7 +2,7 @@
  * carriages and springs, turning arms, planetary gears with a disc on a hinge; with masses, lengths, springs and starts
  * drawn anew, each in an arithmetic and by a method of its own. `make trust-check` takes thirty and prints them.
  *
- * What a board could do instead, twins in its own arithmetic, is measured on the same mechanisms (docs/stability.md). */
+ * What a board could do instead, twins in its own arithmetic, is measured on the same mechanisms (docs/dev/stability.md). */
 #include "horizons.h"
 
 #include <math.h>

@@ -1,4 +1,4 @@
-/* test_turned_errors.c: what turning sines on does to the errors of the built-in scenes: a table for docs/numerics.md,
+/* test_turned_errors.c: what turning sines on does to the errors of the built-in scenes: a table for docs/dev/numerics.md,
  * beside looking them up at each stage.
  *
  * The distance of the whole state, rates included, SI units, from runs with a sixteenth of the step that look up. In

@@ -1,5 +1,5 @@
 /* wave_exprs.c: see wave_exprs.h. The bounds follow from what is documented: the sine's worst error, the
- * phase unit, one rounding for each operation; docs/numerics.md. */
+ * phase unit, one rounding for each operation; docs/dev/numerics.md. */
 #include "wave_exprs.h"
 
 #include <float.h>

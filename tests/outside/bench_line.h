@@ -1,4 +1,4 @@
-/* Frames of docs/pil.md ("Bytes on the line") and the firmware as a child process at their end. */
+/* Frames of docs/dev/pil.md ("Bytes on the line") and the firmware as a child process at their end. */
 #ifndef TESTS_OUTSIDE_BENCH_LINE_H
 #define TESTS_OUTSIDE_BENCH_LINE_H
 #include <stdbool.h>

@@ -1,4 +1,4 @@
-/* Bench for the rig's firmware, written from docs/pil.md ("Bytes on the line") and docs/rig.md alone.
+/* Bench for the rig's firmware, written from docs/dev/pil.md ("Bytes on the line") and docs/rig.md alone.
  * It links libc and libm and nothing of the project: frames, plant, sensors and judge are its own.
  * It starts the firmware as a child process, takes turns with it, breaks the plant or its sensors,
  * and judges each run from the plant. Exit status: 0 no rule is broken, 1 a rule is broken, 2 the
