@@ -116,7 +116,7 @@ END { print n }
 AWK
     )
     rings=$(grep -o "<use xlink:href='#gpPt5' [^>]*color='rgb(  0,   0,   0)'" "$svg" | wc -l)
-    grep -q "${svg#docs/}" docs/price.md && [ "$rings" -eq $((rows + 2)) ] # and one in each panel's key
+    cat $pages | grep -q "${svg#docs/}" && [ "$rings" -eq $((rows + 2)) ] # and one in each panel's key
     verdict $? "$svg: $rings rings, $rows counted rows and two in the keys" "$svg"
 done
 if command -v gnuplot >/dev/null; then
