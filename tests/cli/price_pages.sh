@@ -3,7 +3,7 @@
 # rows, rows agree with themselves, some of them are run and counted again, and what is wrong is seen.
 . "$(dirname "$0")/../checks.sh"
 pages="docs/price.md docs/dev/fronts.md"
-mkdir -p "$scratch/docs"
+mkdir -p "$scratch/docs/dev"
 
 # --- blocks ----------------------------------------------------------------------------------------------------------
 blocks=0
