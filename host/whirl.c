@@ -29,6 +29,7 @@ static const command commands[] = {
     {"accel", command_accel, "FILE NAME=VALUE ...", "accelerations at one state"},
 #ifndef WHIRL_NO_SYSTEM /* no processes and no signals */
     {"run", command_run, "SCENE|FILE[:SCENE] ...", "simulate"},
+    {"plot", command_plot, "FILE.csv|SCENE ... --out FILE", "curves of recorded or new runs"},
     {"sweep", command_sweep, "SCENE|FILE[:SCENE] ...", "simulate over ranges of parameters"},
     {"price", command_price, "SCENE|FILE[:SCENE] ...", "error against price, for all settings"},
     {"choose", command_choose, "SCENE|FILE[:SCENE] ...",

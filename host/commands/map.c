@@ -110,8 +110,7 @@ static bool is_whole(const map_options *o) {
                 o->over_count == 0 ? "there is none" : "there is one");
         return false;
     }
-    if (o->plot != NULL && !gnuplot_can_draw(o->plot)) {
-        fprintf(stderr, "whirl map: error: --plot draws .svg and .png files, not '%s'\n", o->plot);
+    if (o->plot != NULL && !gnuplot_can_draw_for("map", "--plot", o->plot)) {
         return false;
     }
     if (o->csv != NULL && o->plot != NULL && files_same(o->csv, o->plot)) {
@@ -227,7 +226,7 @@ static int map_loaded(const map_options *o, const map_wish *plan, const image *b
     wish.told = (void *)(uintptr_t)plan->grid;
     wish.progress = !o->quiet && isatty(STDERR_FILENO) ? show_progress : NULL;
     wish.stop = &interrupted;
-    char *words = room_words("%s: %s%s, %s, tolerance %g", o->target, image_stepper(base),
+    char *words = room_words("%s: %s%s, %s, tolerance %g", base->name, image_stepper(base),
                              image_sums(base), wish.kind->name, o->tolerance);
     interrupts_catch();
     stability_map m = map_make(&wish);

@@ -7,7 +7,6 @@
 #include "files.h"
 #include "host/monitor/port.h"
 #include "host/plot/gnuplot.h"
-#include "host/plot/plot.h"
 #include "target.h"
 
 const command_usage monitor_usage = {
@@ -103,8 +102,7 @@ static bool are_possible(const monitor_options *o) {
               stderr);
         return false;
     }
-    if (o->output[PLOT] != NULL && !plot_can_draw(o->output[PLOT])) {
-        fputs("whirl monitor: error: --plot takes a name that ends in .svg or .png\n", stderr);
+    if (o->output[PLOT] != NULL && !gnuplot_can_draw_for("monitor", "--plot", o->output[PLOT])) {
         return false;
     }
     return are_apart(o) && (o->output[PLOT] == NULL || gnuplot_is_there());

@@ -7,7 +7,7 @@
 #include "commands.h"
 #include "files.h"
 #include "host/base/unwritten.h"
-#include "host/plot/plot.h"
+#include "host/plot/gnuplot.h"
 #include "host/price/table_counted.h"
 #include "interrupts.h"
 #include "pricing.h"
@@ -85,9 +85,7 @@ static bool take_own(int count, char **words, int *at, price_options *o, bool *b
 }
 
 static bool files_fit(const price_options *o) {
-    if (o->plot != NULL && !plot_can_draw(o->plot)) {
-        fprintf(stderr, "whirl price: error: --plot draws .svg and .png files, not '%s'\n",
-                o->plot);
+    if (o->plot != NULL && !gnuplot_can_draw_for("price", "--plot", o->plot)) {
         return false;
     }
     if (o->csv != NULL && o->plot != NULL && files_same(o->csv, o->plot)) {

@@ -7,6 +7,7 @@
 
 #include "commands.h"
 #include "files.h"
+#include "host/base/room.h"
 #include "host/fixed/engine_fixed.h"
 #include "host/fixed/fixed_plan.h"
 #include "host/number/decimal.h"
@@ -16,6 +17,7 @@
 #include "interrupts.h"
 #include "load.h"
 #include "rating.h"
+#include "run.h"
 #include "target.h"
 #include "trusting.h"
 
@@ -30,11 +32,12 @@ static const command_usage usage = {
     .groups = OPTIONS_CHANGE | OPTIONS_STEP | OPTIONS_ENGINE | OPTIONS_NUMBER,
     .described = true,
     .tail =
-        "  --csv FILE           records; - is standard output (the summary then goes to standard error)\n"
+        "  --csv FILE           records, and FILE.toml, which says of what run they are; - is standard\n"
+        "                       output (the summary then goes to standard error)\n"
         "  --columns FILE       the same between spaces, for Octave's load; - as for --csv\n"
         "  --vcd FILE           the same for waveform viewers, and what contacts do; - as for --csv\n"
         "  --every 2ms          spacing of the records, a whole number of steps (default: every step)\n"
-        "  --plot FILE.svg|.png coordinates and outputs over time, drawn by gnuplot\n"
+        "  --plot FILE          a picture, .svg, .pdf or .png, drawn by gnuplot (docs/plot.md); of it:\n" RUN_CHOICE_HELP
         "  --error X=0.1mm      take the largest step that keeps the error of one coordinate, rate or output\n"
         "  --board B            whose cost the rows at the end show: a board of docs/boards.md, or host\n"
         "                       (default: mps2-an386, a Cortex-M4F)\n"
@@ -106,6 +109,9 @@ static bool take_strict(char **words, int *at, double *limit, bool *bad) {
 static bool take_one(int count, char **words, int *at, void *options, bool *bad) {
     run_options *o = options;
     const char *value = NULL;
+    if (run_take_choice("run", count, words, at, &o->settings.choice, bad) || *bad) {
+        return true;
+    }
     if (take_strict(words, at, &o->settings.strict, bad)) {
         return true;
     }
@@ -126,6 +132,29 @@ static bool take_one(int count, char **words, int *at, void *options, bool *bad)
     } else if (!*bad && take_flag(words, at, "--quiet")) {
         o->settings.quiet = true;
         return true;
+    }
+    return value != NULL;
+}
+
+bool run_take_choice(const char *command, int count, char **words, int *at, plot_choice *to,
+                     bool *bad) {
+    const struct {
+        const char *option;
+        const char **place;
+    } own[] = {{"--y", &to->y}, {"--x", &to->x}, {"--title", &to->title}};
+    const char *value = NULL;
+    for (size_t i = 0; i < sizeof own / sizeof own[0] && !*bad && value == NULL; i++) {
+        value = options_value(count, words, at, own[i].option, bad);
+        *own[i].place = value != NULL ? value : *own[i].place;
+    }
+    if (value == NULL && !*bad &&
+        (value = options_value(count, words, at, "--panel", bad)) != NULL) {
+        *bad = to->panels == PLOT_PANELS;
+        if (*bad) {
+            fprintf(stderr, "whirl %s: error: at most %d --panel\n", command, PLOT_PANELS);
+        } else {
+            to->panel[to->panels++] = value;
+        }
     }
     return value != NULL;
 }
@@ -159,8 +188,9 @@ static bool find_board(run_options *o) {
 }
 
 static bool read_options(int count, char **words, run_options *o) {
-    static const char *const own[] = {"--csv",   "--columns", "--vcd",    "--every", "--plot",
-                                      "--error", "--board",   "--strict", "--quiet", NULL};
+    static const char *const own[] = {"--csv",   "--columns",      "--vcd",   "--every",
+                                      "--plot",  "--error",        "--board", "--strict",
+                                      "--quiet", RUN_CHOICE_WORDS, NULL};
     const target_reader reader = {
         .command = "run", .groups = usage.groups, .own = own, .take = take_one};
     o->common.number = NULL;
@@ -171,11 +201,20 @@ static bool read_options(int count, char **words, run_options *o) {
     o->number = o->common.number;
     o->common.number = o->number != NULL ? o->number : &engine_double;
     o->settings.kind = o->common.number;
+    if (o->settings.plot == NULL && o->settings.taken == NULL &&
+        memcmp(&o->settings.choice, &(plot_choice){0}, sizeof(plot_choice)) != 0) {
+        fputs("whirl run: error: --y, --x, --panel and --title choose what --plot draws\n"
+              "hint: --plot picture.svg\n",
+              stderr);
+        return false;
+    }
     return files_are_apart(&o->settings);
 }
 
 static bool model_would_be_lost(const source_model *from, const simulation_settings *s) {
     return source_would_be_lost(from, "--csv", s->csv, "") ||
+           (s->csv != NULL && strcmp(s->csv, "-") != 0 &&
+            source_would_be_lost(from, "--csv", s->csv, ".toml")) ||
            source_would_be_lost(from, "--columns", s->columns, "") ||
            source_would_be_lost(from, "--vcd", s->vcd, "") ||
            source_would_be_lost(from, "--plot", s->plot, "");
@@ -286,62 +325,76 @@ static int open_source(run_options *o, source_model *from, char **step) {
     return code;
 }
 
-int command_run(int count, char **words) {
-    run_options o = {.common = options_defaults()};
-    if (options_help(count, words, &usage)) {
-        return EXIT_DONE;
+/* What was asked for of the scene, in words; free it. */
+static char *changes_of(const change_options *c) {
+    const struct {
+        const char *word;
+        const char **list;
+        int count;
+    } all[] = {{"", c->sets, c->set_count},
+               {"", c->starts, c->start_count},
+               {"with ", c->with, c->with_count},
+               {"without ", c->without, c->without_count}};
+    char *made = room_words("%s", "");
+    for (size_t i = 0; i < sizeof all / sizeof all[0]; i++) {
+        for (int k = 0; k < all[i].count; k++) {
+            char *longer = room_words("%s%s%s%s", made, made[0] != '\0' ? ", " : "", all[i].word,
+                                      all[i].list[k]);
+            free(made);
+            made = longer;
+        }
     }
-    if (!read_options(count, words, &o)) {
-        options_forget(&o.common);
-        return EXIT_BAD_INPUT;
-    }
+    return made;
+}
+
+static int run_target(run_options *o) {
     source_model from = {0};
     const mechanism *of;
     const scene *in;
     char *step = NULL;
-    int code = open_source(&o, &from, &step);
+    int code = open_source(o, &from, &step);
     if (code == EXIT_DONE) {
         code = source_pick(&from, true, &of, &in);
     }
-    if (code == EXIT_DONE && model_would_be_lost(&from, &o.settings)) {
+    if (code == EXIT_DONE && model_would_be_lost(&from, &o->settings)) {
         code = EXIT_BAD_INPUT;
     }
     if (code == EXIT_DONE) {
         loaded made;
-        overrides changes = options_overrides(&o.common.change);
+        overrides changes = options_overrides(&o->common.change);
         changes.balance = true;
-        const double every_s = read_every_s(&o, of);
-        const load_wish wish = {.settings = o.common.integration,
+        const double every_s = read_every_s(o, of);
+        const load_wish wish = {.settings = o->common.integration,
                                 .use = IMAGE_TO_RUN,
-                                .keep = trusting_keep(&o.common.integration),
+                                .keep = trusting_keep(&o->common.integration),
                                 .conserve = true};
         code = load(&made, &from, of, in, &changes, &wish);
         image *plain = trusting_plain(&made);
-        if (o.settings.quiet) {
+        if (o->settings.quiet) {
             source_forget(&from);
         }
-        if (code == EXIT_DONE && !o.settings.quiet) {
+        if (code == EXIT_DONE && !o->settings.quiet) {
             say_hints(&made);
         }
-        if (code == EXIT_DONE && o.settings.kind == &engine_float) {
+        if (code == EXIT_DONE && o->settings.kind == &engine_float) {
             say_float_range(made.image);
         }
         fixed_plan *plan = NULL;
-        if (code == EXIT_DONE && o.settings.kind == &engine_fixed) {
-            code = plan_of(made.image, &from, &o.settings, &plan);
+        if (code == EXIT_DONE && o->settings.kind == &engine_fixed) {
+            code = plan_of(made.image, &from, &o->settings, &plan);
         }
         if (code == EXIT_DONE) {
-            rating_wish rated = {.target = o.target,
-                                 .board = o.board,
-                                 .board_word = o.board_word,
-                                 .number = o.number,
-                                 .settings = &o.common.integration,
+            rating_wish rated = {.target = o->target,
+                                 .board = o->board,
+                                 .board_word = o->board_word,
+                                 .number = o->number,
+                                 .settings = &o->common.integration,
                                  .changes = &changes,
                                  .of = of,
                                  .in = in,
                                  .errors = from.errors,
                                  .stop = &interrupted};
-            code = run_image(&o, &from, made.image, plain, every_s, &rated);
+            code = run_image(o, &from, made.image, plain, every_s, &rated);
         }
         fixed_plan_free(plan);
         image_free(plain);
@@ -349,6 +402,31 @@ int command_run(int count, char **words) {
     }
     source_close(&from);
     free(step);
-    options_forget(&o.common);
     return code;
+}
+
+static int run_words(int count, char **words, run_options *o) {
+    int code = EXIT_BAD_INPUT;
+    if (read_options(count, words, o)) {
+        char *changes = changes_of(&o->common.change);
+        o->settings.changes = changes;
+        code = run_target(o);
+        free(changes);
+    }
+    options_forget(&o->common);
+    return code;
+}
+
+int run_to_take(int count, char **words, const plot_choice *choice, plot_run *taken) {
+    run_options o = {.common = options_defaults()};
+    *taken = (plot_run){0};
+    o.settings.taken = taken;
+    o.settings.choice = *choice;
+    o.settings.quiet = true;
+    return run_words(count, words, &o);
+}
+
+int command_run(int count, char **words) {
+    run_options o = {.common = options_defaults()};
+    return options_help(count, words, &usage) ? EXIT_DONE : run_words(count, words, &o);
 }

@@ -27,7 +27,7 @@ trusting trusting_look(const image *im, const image *plain, simulation_settings 
     const image *without = plain != NULL ? plain : im;
     s->trusted_s = 0.0;
     t.dear = twins_operations(im, without) > TRUSTING_OPERATIONS_1S;
-    if ((s->quiet && s->plot == NULL) || im->steps == 0 || t.dear) {
+    if ((s->quiet && s->plot == NULL && s->taken == NULL) || im->steps == 0 || t.dear) {
         return t;
     }
     const twins_wish wish = {.image = im, .kind = s->kind, .plain = without, .stop = s->stop};

@@ -2,17 +2,28 @@
 #include "map_plot.h"
 
 #include <math.h>
+#include <stdlib.h>
 
+#include "host/base/room.h"
+#include "host/lang/units.h"
 #include "host/number/functions.h"
 #include "host/plot/gnuplot.h"
+#include "host/plot/palette.h"
 
-enum { HEIGHT = 560 };
+enum { HEIGHT = 620 };
 
-/* From good to bad; whoever sees no colours tells them apart by lightness. NULL: left white. */
-static const char *const colours[MAP_VERDICTS] = {[MAP_KEEPS] = "#d0e6f0",
-                                                  [MAP_OFF] = "#8fbf7f",
-                                                  [MAP_LOSES] = "#e08b3c",
-                                                  [MAP_DIVERGES] = "#8e1420"};
+/* Of the axis's values, which are SI. */
+static void unit_of(const axis *a, char unit[DIM_TEXT_SIZE]) {
+    dimension dim = a->symbol != NULL ? a->symbol->dim : dim_of(0, 0, 1, 0, 0);
+    for (int k = 0; a->symbol != NULL && k < a->primes; k++) {
+        (void)dim_divide(dim, dim_of(0, 0, 1, 0, 0), &dim);
+    }
+    if (a->symbol != NULL && a->symbol->is_angle && a->primes < 2) {
+        snprintf(unit, DIM_TEXT_SIZE, "%s", a->primes == 0 ? "rad" : "rad/s");
+    } else {
+        dim_unit(dim, unit, DIM_TEXT_SIZE);
+    }
+}
 
 /* A gnuplot axis is logarithmic where its values are above zero: those below are drawn evenly. */
 static bool is_log(const axis *a) { return a->is_log && a->from > 0.0; }
@@ -29,12 +40,14 @@ static double edge(const axis *a, double value, bool up) {
     return up ? value + 0.5 * width / cells : value - 0.5 * width / cells;
 }
 
-static void set_axis(FILE *to, const axis *a, char letter, const char *unit) {
+static void set_axis(FILE *to, const axis *a, char letter) {
+    char unit[DIM_TEXT_SIZE];
+    unit_of(a, unit);
     const double least = number_least(a->from, a->to);
     const double most = number_most(a->from, a->to);
     fprintf(to, "set %clabel ", letter);
     gnuplot_quote(to, a->column);
-    fprintf(to, ".'%s' noenhanced\n", unit);
+    fprintf(to, ".' [%s]' noenhanced\n", unit);
     if (is_log(a)) {
         fprintf(to, "set logscale %c\n", letter);
     }
@@ -87,21 +100,22 @@ static uint64_t write_limits(FILE *to, const stability_map *m) {
 }
 
 static bool is_drawn(const stability_map *m, int verdict) {
-    return colours[verdict] != NULL && map_count(m, (map_verdict)verdict) > 0;
+    return verdict < PALETTE_AREAS && map_count(m, (map_verdict)verdict) > 0;
 }
 
-bool map_plot(const char *file, const stability_map *m, const char *words) {
+static bool draw(const char *file, const stability_map *m, const char *words, const char *text) {
     gnuplot g;
-    if (!gnuplot_open(&g, file, HEIGHT)) {
+    if (!gnuplot_open(&g, file, HEIGHT, words, text)) {
         return false;
     }
     fputs("set title ", g.to);
     gnuplot_quote(g.to, words);
     fputs(" noenhanced\n", g.to);
-    set_axis(g.to, &m->grid->axes[m->along], 'x', m->has_limit ? " [s]" : "");
-    set_axis(g.to, &m->grid->axes[1 - m->along], 'y', "");
-    fputs("set key outside right top samplen 2\nset tics out\nset style fill solid noborder\n",
-          g.to);
+    set_axis(g.to, &m->grid->axes[m->along], 'x');
+    set_axis(g.to, &m->grid->axes[1 - m->along], 'y');
+    fputs(
+        "set key below left Left reverse maxcols 1 samplen 2\nset tics out\nset style fill solid noborder\n",
+        g.to);
     for (int i = 0; i < MAP_VERDICTS; i++) {
         if (is_drawn(m, i)) {
             write_cells(g.to, m, (map_verdict)i);
@@ -111,8 +125,9 @@ bool map_plot(const char *file, const stability_map *m, const char *words) {
     const char *comma = "plot ";
     for (int i = 0; i < MAP_VERDICTS; i++) {
         if (is_drawn(m, i)) {
-            fprintf(g.to, "%s$%s with boxxyerror lc rgb '%s' title '%s'", comma,
-                    map_verdicts[i].word, colours[i], map_verdicts[i].word);
+            fprintf(g.to, "%s$%s with boxxyerror lc rgb '%s' title '%s: %s'", comma,
+                    map_verdicts[i].word, palette_area(i), map_verdicts[i].word,
+                    map_verdicts[i].words);
             comma = ", ";
         }
     }
@@ -123,4 +138,25 @@ bool map_plot(const char *file, const stability_map *m, const char *words) {
     }
     fputc('\n', g.to);
     return gnuplot_close(&g);
+}
+
+/* For readers who do not see the picture; free it. */
+static char *alternative_text(const stability_map *m) {
+    char *text = room_words("A map of %s and %s.", m->grid->axes[m->along].column,
+                            m->grid->axes[1 - m->along].column);
+    for (int i = 0; i < PALETTE_AREAS; i++) {
+        char *longer =
+            room_words("%s %llu %s: %s.", text, (unsigned long long)map_count(m, (map_verdict)i),
+                       map_verdicts[i].word, map_verdicts[i].words);
+        free(text);
+        text = longer;
+    }
+    return text;
+}
+
+bool map_plot(const char *file, const stability_map *m, const char *words) {
+    char *text = alternative_text(m);
+    const bool drawn = draw(file, m, words, text);
+    free(text);
+    return drawn;
 }

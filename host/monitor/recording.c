@@ -282,25 +282,32 @@ void recording_frame(recording *r, const schema *s, const wire_frame *frame) {
 
 bool recording_plot(const recording *r, const schema *s, const char *file) {
     const schema_channel *c = &s->channel[RECORDING_RUN];
-    curve curves[2 * SCHEMA_FIELDS];
+    plot_column column[2 * SCHEMA_FIELDS + 1] = {{"time", "s", ""}};
     char names[2 * SCHEMA_FIELDS][SCHEMA_NAME];
-    int count_of = 0;
+    bool any = false;
     for (int i = 0; i + 1 < r->columns; i++) {
         const schema_field *field = i < c->eaches ? &c->each[i] : &c->once[i - c->eaches];
         snprintf(names[i], sizeof names[i], "%s", field->name);
         char *unit = strchr(names[i], '[');
-        if (unit == NULL) {
-            continue; /* a state is no curve */
+        column[i + 1] = (plot_column){"der()", NULL, ""}; /* a state is no curve */
+        if (unit != NULL) {
+            unit[-1] = '\0';
+            unit[strlen(unit) - 1U] = '\0';
+            column[i + 1] = (plot_column){names[i], unit + 1, ""};
+            any = true;
         }
-        unit[-1] = '\0';
-        unit[strlen(unit) - 1U] = '\0';
-        curves[count_of++] = (curve){.name = names[i], .unit = unit + 1, .column = i + 1};
     }
-    if (r->rows == 0 || count_of == 0) {
+    if (r->rows == 0 || !any) {
         fputs("whirl monitor: error: nothing to plot: no samples came\n", stderr);
         return false;
     }
-    return plot_draw(file, "rig", curves, count_of, r->row, (int)r->rows, r->columns, 0.0);
+    const plot_run run = {.title = "Samples of the rig",
+                          .label = "rig",
+                          .column = column,
+                          .columns = r->columns,
+                          .data = r->row,
+                          .rows = (int)r->rows};
+    return plot_draw("monitor", file, &(plot_choice){0}, &run, 1);
 }
 
 void recording_end(recording *r) {

@@ -8,13 +8,27 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "palette.h"
+
 static const char *ending_of(const char *file) {
     const char *dot = strrchr(file, '.');
     return dot == NULL ? "" : dot + 1;
 }
 
 bool gnuplot_can_draw(const char *file) {
-    return strcmp(ending_of(file), "svg") == 0 || strcmp(ending_of(file), "png") == 0;
+    const char *ending = ending_of(file);
+    return strcmp(ending, "svg") == 0 || strcmp(ending, "png") == 0 || strcmp(ending, "pdf") == 0;
+}
+
+bool gnuplot_can_draw_for(const char *command, const char *option, const char *file) {
+    const bool can = gnuplot_can_draw(file);
+    if (!can) {
+        fprintf(stderr,
+                "whirl %s: error: %s draws .svg, .pdf and .png files, not '%s'\n"
+                "hint: %s picture.svg\n",
+                command, option, file, option);
+    }
+    return can;
 }
 
 /* A character, text[at], between gnuplot's double quotes. Letters and the bytes of UTF-8 stand for themselves, all
@@ -60,7 +74,7 @@ static void put_back(int before, int stream) {
 }
 
 /* gnuplot, which draws to its standard output, the picture: the file's name, which could begin with a | or ~,
- * never reaches it. What it says is kept in `said`: it is shown only when it fails. */
+ * never reaches it. Its messages are kept in `said` and shown only when it fails. */
 static FILE *start_gnuplot(FILE *picture, FILE *said) {
     fflush(stdout);
     fflush(stderr);
@@ -88,39 +102,110 @@ bool gnuplot_is_there(void) {
     return there;
 }
 
-bool gnuplot_open(gnuplot *g, const char *file, int height) {
+/* The one look of all pictures. */
+static void set_look(gnuplot *g, int height) {
+    const char *ending = ending_of(g->file);
+    if (strcmp(ending, "svg") == 0) {
+        fprintf(g->to, "set terminal svg size 900,%d dynamic font 'sans-serif,14' background rgb ",
+                height);
+    } else if (strcmp(ending, "pdf") == 0) {
+        fprintf(g->to, "set terminal pdfcairo size 9in,%.2fin font 'Sans,12' background rgb ",
+                (double)height / 100.0);
+    } else {
+        fprintf(g->to, "set terminal pngcairo size 900,%d font 'Sans,11' background rgb ", height);
+    }
+    fputs("'" PALETTE_WHITE "'\n"
+          "set encoding utf8\n"
+          "set border lw 1 lc rgb '" PALETTE_FRAME "'\n"
+          "set grid lt 1 lw 0.7 lc rgb '" PALETTE_GRID "'\n"
+          "set tics nomirror textcolor rgb 'black'\n",
+          g->to);
+}
+
+/* The end of a picture that was not begun. */
+static bool give_up(gnuplot *g) {
+    FILE *const files[] = {g->picture, g->drawn, g->said};
+    for (size_t i = 0; i < sizeof files / sizeof files[0]; i++) {
+        if (files[i] != NULL) {
+            fclose(files[i]);
+        }
+    }
+    return false;
+}
+
+bool gnuplot_open(gnuplot *g, const char *file, int height, const char *title, const char *text) {
     if (!gnuplot_is_there()) {
         return false;
     }
-    FILE *picture = fopen(file, "wb");
-    if (picture == NULL) {
+    *g = (gnuplot){.file = file, .title = title, .text = text, .picture = fopen(file, "wb")};
+    if (g->picture == NULL) {
         fprintf(stderr, "%s: error: cannot be written: %s\n", file, strerror(errno));
         return false;
     }
-    g->file = file;
+    g->drawn = tmpfile();
+    g->said = tmpfile();
+    if (g->drawn == NULL || g->said == NULL) {
+        perror("whirl: error: a temporary file");
+        return give_up(g);
+    }
     g->before = signal(SIGPIPE, SIG_IGN);
-    g->said = tmpfile(); /* without one, gnuplot says it itself */
-    g->to = start_gnuplot(picture, g->said);
-    fclose(picture);
+    g->to = start_gnuplot(g->drawn, g->said);
     if (g->to == NULL) {
         perror("whirl: error: gnuplot");
-        if (g->said != NULL) {
-            fclose(g->said);
-        }
         signal(SIGPIPE, g->before);
-        return false;
+        return give_up(g);
     }
-    fprintf(g->to,
-            strcmp(ending_of(file), "svg") == 0
-                ? "set terminal svg size 900,%d dynamic background rgb 'white'\n"
-                : "set terminal pngcairo size 900,%d\n",
-            height);
-    fputs("set encoding utf8\n", g->to);
+    set_look(g, height);
     return true;
 }
 
-/* gnuplot does not see that a disk is full, and says that all is well: has the file the end of such a picture? What keeps
- * nothing, such as a pipe, cannot be asked. */
+/* XML's text: a control character is a blank. */
+static void put_xml(FILE *to, const char *text) {
+    for (const char *at = text; *at != '\0'; at++) {
+        const unsigned char code = (unsigned char)*at;
+        switch (*at) {
+        case '&': fputs("&amp;", to); break;
+        case '<': fputs("&lt;", to); break;
+        case '>': fputs("&gt;", to); break;
+        default: fputc(code < 0x20 || code == 0x7f ? ' ' : code, to); break;
+        }
+    }
+}
+
+/* Text and frames of an SVG follow the reader's page. gnuplot writes colours in exactly these words. */
+static const char dark[] =
+    "<style>@media (prefers-color-scheme:dark){#gnuplot_canvas>rect{fill:" PALETTE_DARK "}"
+    "text{fill:#e6edf3}[color=\"black\"]{color:#e6edf3}"
+    "[stroke='rgb(216, 216, 216)'],[stroke=\"rgb(216, 216, 216)\"]{stroke:#30363d}"
+    "[fill='rgb(228, 228, 228)'],[fill = 'rgb(228, 228, 228)']{fill:#262c36}}</style>\n";
+
+/* gnuplot's picture; an SVG with a title and alternative text in place of the words that gnuplot has for them. */
+static void copy_picture(const gnuplot *g) {
+    char line[4096];
+    size_t length;
+    rewind(g->drawn);
+    bool head = strcmp(ending_of(g->file), "svg") == 0;
+    while (head && fgets(line, sizeof line, g->drawn) != NULL) {
+        if (strncmp(line, "<title>", 7) == 0) {
+            fputs("<title>", g->picture);
+            put_xml(g->picture, g->title);
+            fputs("</title>\n", g->picture);
+        } else if (strncmp(line, "<desc>", 6) == 0) {
+            fputs("<desc>", g->picture);
+            put_xml(g->picture, g->text);
+            fputs("</desc>\n", g->picture);
+            fputs(dark, g->picture);
+            head = false;
+        } else {
+            fputs(strncmp(line, "<svg", 4) == 0 ? "<svg role=\"img\"\n" : line, g->picture);
+        }
+    }
+    while ((length = fread(line, 1, sizeof line, g->drawn)) > 0) {
+        fwrite(line, 1, length, g->picture);
+    }
+}
+
+/* gnuplot does not notice a full disk. So look for the end that such a picture has. A pipe cannot be asked. */
 static bool is_whole(const char *file) {
     char last[17] = {0};
     struct stat about;
@@ -133,7 +218,10 @@ static bool is_whole(const char *file) {
     if (picture != NULL) {
         fclose(picture);
     }
-    const char *end = strcmp(ending_of(file), "svg") == 0 ? "</svg>" : "IEND";
+    const char *ending = ending_of(file);
+    const char *end = strcmp(ending, "svg") == 0   ? "</svg>"
+                      : strcmp(ending, "pdf") == 0 ? "%%EOF"
+                                                   : "IEND";
     for (size_t i = 0; there && i + strlen(end) <= 16; i++) {
         if (memcmp(last + i, end, strlen(end)) == 0) {
             return true;
@@ -146,17 +234,16 @@ bool gnuplot_close(gnuplot *g) {
     const bool written = ferror(g->to) == 0;
     const int code = pclose(g->to);
     signal(SIGPIPE, g->before);
-    const bool whole = is_whole(g->file);
+    copy_picture(g);
+    const bool copied = fclose(g->picture) == 0;
+    const bool whole = copied && is_whole(g->file);
     const bool drawn = written && code == 0 && whole;
-    if (g->said != NULL) {
-        if (!drawn) {
-            show_said(g->said);
-        }
-        fclose(g->said);
-    }
     if (!drawn) {
+        show_said(g->said);
         fprintf(stderr, "whirl: error: gnuplot could not draw %s\n%s", g->file,
                 code == 0 && !whole ? "hint: is the disk full?\n" : "");
     }
+    fclose(g->drawn);
+    fclose(g->said);
     return drawn;
 }

@@ -3,19 +3,29 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "gnuplot.h"
+#include "host/base/room.h"
 #include "host/number/functions.h"
+#include "palette.h"
+#include "panels.h"
 
-/* A unit in gnuplot's enhanced text: what follows a ^ is raised, "m^(1/2)" whole and without its
- * parentheses. Its other marks are escaped. */
-static void write_unit(FILE *to, const char *unit) {
-    fputc('"', to);
-    for (const char *at = unit; *at != '\0'; at++) {
-        if (*at != '^') {
-            fputs(strchr("_{}@&~\\", *at) != NULL ? "\\134" : "", to);
-            gnuplot_character(to, unit, (size_t)(at - unit));
+/* Left of all panels, in characters: y tics as wide as -2.5x10^-300 and the axis's label, so that their x axes stand
+ * below each other. */
+#define LEFT_MARGIN 15
+#define RIGHT_MARGIN 4
+#define AXIS_MOST 26
+#define TEXT_MOST 60
+
+/* A part of gnuplot's enhanced text. Its marks are escaped; with `raised`, the exponent after ^ is raised,
+ * "m^(1/2)" whole and without its parentheses. */
+static void write_part(FILE *to, const char *text, bool raised) {
+    for (const char *at = text; *at != '\0'; at++) {
+        if (*at != '^' || !raised) {
+            fputs(strchr("_{}@&~^\\", *at) != NULL ? "\\134" : "", to);
+            gnuplot_character(to, text, (size_t)(at - text));
             continue;
         }
         const bool open = at[1] == '(';
@@ -24,36 +34,18 @@ static void write_unit(FILE *to, const char *unit) {
         fprintf(to, "^{%.*s}", (int)length, from);
         at = from + length - (open && from[length] == ')' ? 0 : 1);
     }
-    fputc('"', to);
 }
 
-static bool same_panel(const curve *x, const curve *y) { return strcmp(x->unit, y->unit) == 0; }
-
-static int count_panels(const curve *curves, int count) {
-    int panels = 0;
-    for (int i = 0; i < count; i++) {
-        bool first = true;
-        for (int k = 0; k < i; k++) {
-            first = first && !same_panel(&curves[k], &curves[i]);
-        }
-        panels += first;
+/* Quantity and unit. */
+static void write_axis(FILE *to, const char *axis, const char *name, const char *unit) {
+    fprintf(to, "set %slabel \"", axis);
+    write_part(to, name, false);
+    if (unit != NULL) {
+        fputs(name[0] != '\0' ? " [" : "[", to);
+        write_part(to, unit, true);
+        fputc(']', to);
     }
-    return panels;
-}
-
-/* Characters: y tics as wide as -2.5x10^-300 and the axis's label stand left of all panels, the longest
- * name and its line right of them, so that their time axes stand below each other. */
-#define LEFT_MARGIN 15
-#define KEY_LINE 9
-#define NAME_MOST 40
-
-static int right_margin(const curve *curves, int count) {
-    size_t longest = 0;
-    for (int i = 0; i < count; i++) {
-        const size_t length = strlen(curves[i].name);
-        longest = length > longest ? length : longest;
-    }
-    return (int)(longest < NAME_MOST ? longest : NAME_MOST) + KEY_LINE;
+    fputs("\"\n", to);
 }
 
 /* A part of its size below which a curve counts as flat: the tics could not tell it. */
@@ -74,92 +66,256 @@ static void write_range(FILE *to, const char *axis, double least, double most) {
     fprintf(to, "set %srange [%.17g:%.17g]\n", axis, least - room, most + room);
 }
 
-typedef struct plot_table {
-    const double *data;
-    int rows;
-    int columns;
-} plot_table;
-
-/* Least and most of the finite values of one panel's curves; least above most where there are none. */
-static void range_of(const plot_table *t, const curve *curves, int count, const curve *panel,
-                     double *least, double *most) {
-    *least = (double)INFINITY;
-    *most = -(double)INFINITY;
-    for (int k = 0; k < count; k++) {
-        for (int r = 0; r < t->rows && same_panel(&curves[k], panel); r++) {
-            const double value = t->data[(size_t)r * (size_t)t->columns + (size_t)curves[k].column];
-            *least = isfinite(value) ? number_least(*least, value) : *least;
-            *most = isfinite(value) ? number_most(*most, value) : *most;
-        }
-    }
-}
-
-static void write_panels(FILE *to, const plot_table *t, const curve *curves, int count) {
-    const curve time = {"", "", 0};
+typedef struct extent {
     double least;
     double most;
-    range_of(t, &time, 1, &time, &least, &most);
-    write_range(to, "x", least, most);
-    for (int i = 0; i < count; i++) {
-        bool first = true;
-        for (int k = 0; k < i; k++) {
-            first = first && !same_panel(&curves[k], &curves[i]);
+} extent;
+
+/* Of the finite values of a run's column; least above most where there are none. */
+static extent joined(extent e, const plot_run *run, int column) {
+    for (int r = 0; r < run->rows && column >= 0; r++) {
+        const double value = run->data[(size_t)r * (size_t)run->columns + (size_t)column];
+        e.least = isfinite(value) ? number_least(e.least, value) : e.least;
+        e.most = isfinite(value) ? number_most(e.most, value) : e.most;
+    }
+    return e;
+}
+
+static const extent nothing = {(double)INFINITY, -(double)INFINITY};
+
+static extent quantity_extent(const panels *p, const plot_run *runs, const int *column) {
+    extent e = nothing;
+    for (int k = 0; k < p->runs; k++) {
+        e = joined(e, &runs[k], column[k]);
+    }
+    return e;
+}
+
+static int quantities_in(const panels *p, int panel) {
+    int count = 0;
+    for (int i = 0; i < p->quantities; i++) {
+        count += p->quantity[i].panel == panel ? 1 : 0;
+    }
+    return count;
+}
+
+/* The names of a panel's quantities, or of all (-1), between commas; free it. Too long for an axis: how many. */
+static char *names_of(const panels *p, int panel, size_t most) {
+    char *names = room_words("%s", "");
+    int count = 0;
+    for (int i = 0; i < p->quantities; i++) {
+        if (panel < 0 || p->quantity[i].panel == panel) {
+            char *longer =
+                room_words("%s%s%s", names, count++ > 0 ? ", " : "", p->quantity[i].name);
+            free(names);
+            names = longer;
         }
-        if (!first) {
-            continue;
-        }
-        range_of(t, curves, count, &curves[i], &least, &most);
-        write_range(to, "y", least, most);
-        fputs("set ylabel ", to);
-        write_unit(to, curves[i].unit);
-        fputs("\nplot ", to);
-        for (int k = i; k < count; k++) {
-            if (same_panel(&curves[k], &curves[i])) {
-                fprintf(to, "%s$data using 1:%d with %s title ", k > i ? ", " : "",
-                        curves[k].column + 1, t->rows == 1 ? "points pt 7 ps 0.6" : "lines lw 1.5");
-                gnuplot_quote(to, curves[k].name);
-            }
-        }
-        fputs("\n", to);
+    }
+    if (strlen(names) > most && count > 1) {
+        free(names);
+        names = room_words("%d quantities", count);
+    }
+    return names;
+}
+
+/* The quantity, with one run what it is, if there is room for that; with several, the run. */
+static void write_legend(FILE *to, const panels *p, const panels_quantity *q, int k,
+                         const plot_run *run) {
+    const char *text = run->column[q->column[k]].text;
+    const int together = quantities_in(p, q->panel);
+    char *words = p->runs == 1 && together <= 2 && text[0] != '\0' && strlen(text) <= TEXT_MOST
+                      ? room_words("%s: %s", q->name, text)
+                  : p->runs == 1  ? room_words("%s", q->name)
+                  : together == 1 ? room_words("%s", p->label[k])
+                                  : room_words("%s, %s", q->name, p->label[k]);
+    gnuplot_quote(to, words);
+    free(words);
+}
+
+/* One run: a colour for each quantity of the panel. Several: a colour for each run, a dash for each quantity. */
+static void write_style(FILE *to, const panels *p, int of_panel, int k, bool points) {
+    const int line = p->runs == 1 ? of_panel : k;
+    const int dash = p->runs == 1 ? palette_dash(line) : 1 + of_panel % 5;
+    if (points) {
+        fprintf(to, "points pt %d ps 0.6 lc rgb '%s'", palette_point(line), palette_line(line));
+    } else {
+        fprintf(to, "lines lw 1.8 dt %d lc rgb '%s'", dash, palette_line(line));
     }
 }
 
-bool plot_can_draw(const char *file) { return gnuplot_can_draw(file); }
+static double first_trusted_s(const plot_run *runs, int count) {
+    double least = 0.0;
+    for (int k = 0; k < count; k++) {
+        const double own = runs[k].trusted_s;
+        least = own > 0.0 && !(least > 0.0 && least < own) ? own : least;
+    }
+    return least;
+}
 
-/* Behind the curves of every panel, to the end of its axis. */
-static void write_shade(FILE *to, double trusted_s) {
+/* Entries of the first panel's legend that are no curves. */
+static void write_signs(FILE *to, const plot_run *runs, int count) {
+    const double trusted_s = first_trusted_s(runs, count);
+    int marks = 0;
+    for (int k = 0; k < count; k++) {
+        marks += runs[k].marks;
+    }
+    if (trusted_s > 0.0) {
+        fprintf(to,
+                ", keyentry with boxes fillstyle solid noborder lc rgb '" PALETTE_SHADE
+                "' title 'after %.6g s no single value is to be trusted, energy and momenta are'",
+                trusted_s);
+    }
+    if (marks > 0) {
+        fputs(", keyentry with points pt 2 ps 0.7 lc rgb '" PALETTE_FRAME "' title 'event'", to);
+    }
+}
+
+static void write_panel(FILE *to, const panels *p, const plot_run *runs, int panel, bool time) {
+    extent e = nothing;
+    int drawn = 0;
+    int of_panel = 0;
+    for (int i = 0; i < p->quantities; i++) {
+        if (p->quantity[i].panel == panel) {
+            const extent own = quantity_extent(p, runs, p->quantity[i].column);
+            e = (extent){number_least(e.least, own.least), number_most(e.most, own.most)};
+        }
+    }
+    write_range(to, "y", e.least, e.most);
+    char *names = names_of(p, panel, AXIS_MOST);
+    write_axis(to, "y", names, p->unit[panel]);
+    free(names);
+    for (int i = 0; i < p->quantities; i++) {
+        const panels_quantity *q = &p->quantity[i];
+        for (int k = 0; k < p->runs && q->panel == panel; k++) {
+            if (q->column[k] >= 0 && p->x[k] >= 0) {
+                fprintf(to, "%s$data%d using %d:%d with ", drawn++ > 0 ? ", " : "plot ", k,
+                        p->x[k] + 1, q->column[k] + 1);
+                write_style(to, p, of_panel, k, runs[k].rows == 1);
+                fputs(" title ", to);
+                write_legend(to, p, q, k, &runs[k]);
+            }
+        }
+        of_panel += q->panel == panel ? 1 : 0;
+    }
+    if (drawn == 0) {
+        fputs("plot NaN notitle", to);
+    }
+    if (time && panel == 0) {
+        write_signs(to, runs, p->runs);
+    }
+    fputc('\n', to);
+}
+
+/* After the least trusted run's end in every panel, and a cross at the foot of each for an event. */
+static void write_times(FILE *to, const plot_run *runs, int count) {
+    const double trusted_s = first_trusted_s(runs, count);
     if (trusted_s > 0.0) {
         fprintf(to,
                 "set object 1 rectangle from first %.17g, graph 0 to graph 1, graph 1 behind "
-                "fillcolor rgb '#e4e4e4' fillstyle solid noborder\n"
-                "set xlabel 'time [s]; shaded, behind %.6g s: no single value is to be trusted, "
-                "energy and momenta are'\n",
-                trusted_s, trusted_s);
+                "fillcolor rgb '" PALETTE_SHADE "' fillstyle solid noborder\n",
+                trusted_s);
+    }
+    for (int k = 0; k < count; k++) {
+        for (int i = 0; i < runs[k].marks; i++) {
+            fprintf(to,
+                    "set label at first %.17g, graph 0.03 '' point pt 2 ps 0.7 lc rgb '%s' front\n",
+                    runs[k].mark_s[i], count > 1 ? palette_line(k) : PALETTE_FRAME);
+        }
     }
 }
 
-bool plot_draw(const char *file, const char *title, const curve *curves, int count,
-               const double *data, int rows, int columns, double trusted_s) {
-    const int panels = count_panels(curves, count);
-    gnuplot g;
-    if (!gnuplot_open(&g, file, 120 + 260 * panels)) {
-        return false;
-    }
-    FILE *to = g.to;
-    fputs("$data << EOD\n", to);
-    for (int r = 0; r < rows; r++) {
-        for (int c = 0; c < columns; c++) {
-            fprintf(to, "%.17g ", data[(size_t)r * (size_t)columns + (size_t)c]);
+static void write_data(FILE *to, const plot_run *run, int number) {
+    fprintf(to, "$data%d << EOD\n", number);
+    for (int r = 0; r < run->rows; r++) {
+        for (int c = 0; c < run->columns; c++) {
+            fprintf(to, "%.17g ", run->data[(size_t)r * (size_t)run->columns + (size_t)c]);
         }
         fputc('\n', to);
     }
-    fprintf(to, "EOD\nset multiplot layout %d,1 title ", panels);
-    gnuplot_quote(to, title);
-    fputs(" noenhanced\nset grid\nset key outside right top noenhanced\nset xlabel 'time [s]'\n",
-          to);
-    fprintf(to, "set lmargin %d\nset rmargin %d\n", LEFT_MARGIN, right_margin(curves, count));
-    write_shade(to, trusted_s);
-    write_panels(to, &(plot_table){data, rows, columns}, curves, count);
-    fputs("unset multiplot\n", to);
-    return gnuplot_close(&g);
+    fputs("EOD\n", to);
+}
+
+/* Of the picture: what was asked for, the one run's, or its axes in words. Free it. */
+static char *title_of(const panels *p, const plot_choice *choice, const plot_run *runs) {
+    bool alike = true;
+    for (int k = 1; k < p->runs; k++) {
+        alike = alike && strcmp(runs[k].title, runs[0].title) == 0;
+    }
+    if (choice->title != NULL || alike) {
+        return room_words("%s", choice->title != NULL ? choice->title : runs[0].title);
+    }
+    char *names = names_of(p, -1, TEXT_MOST);
+    char *title = room_words("%s over %s, %d runs", names, p->x_name, p->runs);
+    free(names);
+    return title;
+}
+
+/* For readers who do not see the picture; free it. */
+static char *alternative_text(const panels *p, const plot_run *runs) {
+    char *text = room_words("Curves over %s.", p->x_name);
+    for (int i = 0; i < p->quantities; i++) {
+        const panels_quantity *q = &p->quantity[i];
+        const char *unit = p->unit[q->panel];
+        for (int k = 0; k < p->runs; k++) {
+            const extent e = joined(nothing, &runs[k], q->column[k]);
+            if (!(e.least <= e.most)) {
+                continue;
+            }
+            char *longer =
+                room_words("%s %s%s%s lies between %.4g and %.4g%s%s.", text, q->name,
+                           p->runs > 1 ? " of " : "", p->runs > 1 ? p->label[k] : "", e.least,
+                           e.most, unit != NULL ? " " : "", unit != NULL ? unit : "");
+            free(text);
+            text = longer;
+        }
+    }
+    return text;
+}
+
+static bool draw_panels(const panels *p, const char *file, const plot_choice *choice,
+                        const plot_run *runs) {
+    const bool time = !plot_is_path(choice) && strcmp(runs[0].column[0].name, "time") == 0;
+    char *title = title_of(p, choice, runs);
+    char *text = alternative_text(p, runs);
+    gnuplot g;
+    bool drawn = gnuplot_open(&g, file, 120 + 260 * p->count, title, text);
+    if (drawn) {
+        for (int k = 0; k < p->runs; k++) {
+            write_data(g.to, &runs[k], k);
+        }
+        fprintf(g.to, "set multiplot layout %d,1 title ", p->count);
+        gnuplot_quote(g.to, title);
+        fprintf(g.to,
+                ".\"\\n\" noenhanced\nset key above left Left reverse noenhanced samplen 2\n"
+                "set lmargin %d\nset rmargin %d\n",
+                LEFT_MARGIN, RIGHT_MARGIN);
+        const extent x = quantity_extent(p, runs, p->x);
+        write_range(g.to, "x", x.least, x.most);
+        if (time) {
+            write_times(g.to, runs, p->runs);
+        }
+        for (int i = 0; i < p->count; i++) {
+            write_axis(g.to, "x", i == p->count - 1 ? p->x_name : "",
+                       i == p->count - 1 ? p->x_unit : NULL);
+            write_panel(g.to, p, runs, i, time);
+        }
+        fputs("unset multiplot\n", g.to);
+        drawn = gnuplot_close(&g);
+    }
+    free(title);
+    free(text);
+    return drawn;
+}
+
+bool plot_draw(const char *command, const char *file, const plot_choice *choice,
+               const plot_run *runs, int count) {
+    panels p;
+    bool drawn = panels_make(&p, command, choice, runs, count);
+    if (drawn && p.count == 0) {
+        fprintf(stderr, "whirl %s: error: there is no quantity to draw\n", command);
+        drawn = false;
+    }
+    drawn = drawn && draw_panels(&p, file, choice, runs);
+    panels_free(&p);
+    return drawn;
 }

@@ -17,15 +17,17 @@ typedef struct extent {
 
 struct envelope {
     int columns;
+    bool samples;    /* of each bucket its first row */
     uint64_t size;   /* steps a bucket */
     uint64_t filled; /* steps in the last bucket */
     unsigned count;  /* buckets, the last one included */
     extent *extents; /* [ENVELOPE_ROOM * columns], bucket by bucket */
 };
 
-envelope *envelope_new(int columns) {
+envelope *envelope_new(int columns, bool samples) {
     envelope *v = room(1, sizeof *v);
     v->columns = columns;
+    v->samples = samples;
     v->size = 1;
     v->extents = room((int64_t)ENVELOPE_ROOM * columns, sizeof *v->extents);
     return v;
@@ -63,7 +65,8 @@ static extent *bucket(const envelope *v, unsigned number) {
 static void merge_pairs(envelope *v) {
     for (unsigned k = 0; k < ENVELOPE_ROOM / 2; k++) {
         for (int i = 0; i < v->columns; i++) {
-            bucket(v, k)[i] = joined(bucket(v, 2 * k)[i], bucket(v, 2 * k + 1)[i]);
+            const extent first = bucket(v, 2 * k)[i];
+            bucket(v, k)[i] = v->samples ? first : joined(first, bucket(v, 2 * k + 1)[i]);
         }
     }
     v->count = ENVELOPE_ROOM / 2;
@@ -83,13 +86,13 @@ void envelope_enter(envelope *v, const double *row) {
     extent *last = bucket(v, v->count - 1);
     for (int i = 0; i < v->columns; i++) {
         const extent one = {row[i], row[i], false};
-        last[i] = fresh ? one : joined(last[i], one);
+        last[i] = fresh ? one : v->samples ? last[i] : joined(last[i], one);
     }
     v->filled++;
 }
 
 double *envelope_rows(const envelope *v, int *rows) {
-    const unsigned each = v->size == 1 ? 1 : 2;
+    const unsigned each = v->size == 1 || v->samples ? 1 : 2;
     double *made = room((int64_t)each * v->count * v->columns, sizeof *made);
     double *to = made;
     for (unsigned k = 0; k < v->count; k++) {

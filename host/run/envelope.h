@@ -8,6 +8,7 @@
 #ifndef RUN_ENVELOPE_H
 #define RUN_ENVELOPE_H
 
+#include <stdbool.h>
 #include <stdint.h>
 
 /* Buckets at most. */
@@ -15,8 +16,9 @@
 
 typedef struct envelope envelope;
 
-/* Of rows with so many columns (> 0). */
-envelope *envelope_new(int columns);
+/* Of rows with so many columns (> 0). `samples`: the first row of each bucket in place of extremes, whose columns belong
+ * together: for a path of one column over another. */
+envelope *envelope_new(int columns, bool samples);
 void envelope_free(envelope *v); /* NULL is allowed */
 
 /* Enter the row[columns] of the next step. Values that are no finite numbers are kept while a bucket is one

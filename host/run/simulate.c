@@ -5,8 +5,11 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <time.h>
 
+#include "about.h"
+#include "core/contact.h"
 #include "digits.h"
 #include "envelope.h"
 #include "failure.h"
@@ -14,7 +17,7 @@
 #include "host/base/room.h"
 #include "host/base/statement.h"
 #include "host/base/unwritten.h"
-#include "host/plot/plot.h"
+#include "host/plot/gnuplot.h"
 #include "narrow.h"
 #include "records.h"
 #include "slow.h"
@@ -22,6 +25,9 @@
 #include "traces.h"
 #include "undefined.h"
 #include "verdict.h"
+
+/* Events that a picture marks at most. */
+#define MARKS 400.0
 
 typedef struct simulation {
     const image *image;
@@ -32,9 +38,10 @@ typedef struct simulation {
     FILE *csv;
     FILE *columns;
     FILE *vcd;
-    traces *traces; /* NULL without --vcd */
-    envelope *plot; /* NULL without --plot */
-    uint64_t steps; /* wanted */
+    traces *traces;  /* NULL without --vcd */
+    envelope *plot;  /* NULL without a picture */
+    plot_run course; /* names and marks of a picture, and of the file about the CSV file */
+    uint64_t steps;  /* wanted */
     bool write_failed;
     diags *undefined; /* what was not a finite number beside the motion */
     bool energies_told;
@@ -78,8 +85,8 @@ static void close_records(FILE *file) {
 
 static bool open_files(simulation *sim) {
     const simulation_settings *s = sim->settings;
-    if (s->plot != NULL && !plot_can_draw(s->plot)) {
-        fprintf(stderr, "whirl run: error: --plot draws .svg and .png files, not '%s'\n", s->plot);
+    if (s->plot != NULL && (!gnuplot_can_draw_for("run", "--plot", s->plot) ||
+                            !plot_fits("run", &s->choice, &sim->course, 1))) {
         return false;
     }
     int power;
@@ -101,7 +108,9 @@ static bool open_files(simulation *sim) {
             return false;
         }
         fclose(try);
-        sim->plot = envelope_new(sim->records->columns);
+    }
+    if (s->plot != NULL || s->taken != NULL) {
+        sim->plot = envelope_new(sim->records->columns, plot_is_path(&s->choice));
     }
     return true;
 }
@@ -165,6 +174,23 @@ static bool has_records(const simulation *sim) {
     return sim->csv != NULL || sim->columns != NULL || sim->vcd != NULL;
 }
 
+/* An event of the step that was done, unless the last one is as near that no picture shows both. Lifting off a stop is
+ * none. */
+static void mark_events(simulation *sim, uint64_t step) {
+    engine_event list[WH_EVENT_LOG];
+    plot_run *to = &sim->course;
+    const image *im = sim->image;
+    const int count = im->contacts > 0 ? sim->settings->kind->happened(sim->run, list) : 0;
+    for (int i = 0; i < count; i++) {
+        const double at_s = ratio_times(step - 1, im->step) + list[i].at_s;
+        const bool counts = im->contact[list[i].contact].kind != WH_STOP || list[i].strikes;
+        if (counts && (to->marks == 0 || at_s - to->mark_s[to->marks - 1] > im->until_s / MARKS)) {
+            to->mark_s = room_more(to->mark_s, to->marks + 1, sizeof *to->mark_s);
+            to->mark_s[to->marks++] = at_s;
+        }
+    }
+}
+
 /* Enter the present state wherever it belongs. */
 static void enter(simulation *sim, uint64_t step) {
     const bool record = has_records(sim) && step % sim->settings->every == 0;
@@ -173,6 +199,9 @@ static void enter(simulation *sim, uint64_t step) {
     }
     verdict_enter(sim->verdict, sim->run);
     tell_energies(sim);
+    if (step > 0 && (sim->csv != NULL || sim->plot != NULL)) {
+        mark_events(sim, step);
+    }
     if (!record && sim->plot == NULL) {
         return;
     }
@@ -287,26 +316,64 @@ static simulation_result judge(simulation *sim, wh_status status, bool interrupt
     return interrupted ? SIMULATION_INTERRUPTED : fails ? SIMULATION_FAILED : SIMULATION_DONE;
 }
 
-static bool draw(const simulation *sim) {
+/* The quantities' names, as in the records. */
+static void name_course(simulation *sim) {
     const image *im = sim->image;
     const records *r = sim->records;
-    curve *curves = room(r->columns, sizeof *curves);
-    int count = 0;
-    for (int i = 1; i < r->columns; i++) { /* coordinates and outputs: no rates */
+    const char *words = im->title[0] != '\0' ? im->title : im->name;
+    const char *changes = sim->settings->changes;
+    char *title = room_words("%s%s%s", im->name, words != im->name ? ": " : "",
+                             words != im->name ? words : "");
+    char *label = room_words("%s%s%s", words, changes[0] != '\0' ? ", " : "", changes);
+    plot_run_open(&sim->course, title, label, r->columns);
+    plot_run_name(&sim->course, 0, "time", "s", "");
+    for (int i = 1; i < r->columns; i++) {
         const record_column *c = &r->column[i];
-        if (c->primes == 0) {
-            curves[count++] = (curve){c->name, c->unit->shown, i};
-        }
+        char *name = records_name(c);
+        plot_run_name(&sim->course, i, name, c->unit->shown,
+                      c->primes > 0     ? ""
+                      : c->unknown >= 0 ? im->unknown[c->unknown].text
+                                        : im->output[i - (r->columns - im->own_outputs)].text);
+        free(name);
     }
-    char *full = room_words("%s%s%s", im->name, im->title[0] != '\0' ? ": " : "", im->title);
-    int rows;
-    double *data = envelope_rows(sim->plot, &rows);
-    const bool drawn = plot_draw(sim->settings->plot, full, curves, count, data, rows,
-                                 sim->records->columns, sim->settings->trusted_s);
-    free(data);
-    free(full);
-    free(curves);
-    return drawn;
+    free(title);
+    free(label);
+}
+
+/* Beside a CSV file of its own name: what it was run from. */
+static bool write_about(const simulation *sim) {
+    char *facts = about_facts(sim->image, sim->settings->kind, sim->run);
+    char *tables = about_tables(sim->image);
+    const bool written = plot_run_about(sim->settings->csv, &sim->course, facts, tables);
+    if (!written) {
+        char *name = room_words("%s.toml", sim->settings->csv);
+        unwritten_say(name);
+        free(name);
+    }
+    free(facts);
+    free(tables);
+    return written;
+}
+
+/* The picture, or what it is made of for the caller. */
+static bool finish_course(simulation *sim) {
+    struct stat about;
+    bool good = true;
+    sim->course.trusted_s = sim->settings->trusted_s;
+    if (sim->csv != NULL && sim->csv != stdout && fstat(fileno(sim->csv), &about) == 0 &&
+        S_ISREG(about.st_mode)) {
+        good = write_about(sim);
+    }
+    if (sim->plot != NULL) {
+        sim->course.data = envelope_rows(sim->plot, &sim->course.rows);
+    }
+    if (good && sim->settings->taken != NULL) {
+        *sim->settings->taken = sim->course;
+        sim->course = (plot_run){0};
+    } else if (good && sim->settings->plot != NULL) {
+        good = plot_draw("run", sim->settings->plot, &sim->settings->choice, &sim->course, 1);
+    }
+    return good;
 }
 
 FILE *simulation_summary(const simulation_settings *s) {
@@ -323,6 +390,7 @@ simulation_result simulate(const image *im, const simulation_settings *s, bool *
     simulation sim = {.image = im, .settings = s, .output = -1};
     sim.steps = im->steps;
     sim.records = records_open(NULL, im, s->kind);
+    name_course(&sim);
     simulation_result result = SIMULATION_BAD_FILE;
     if (open_files(&sim)) {
         bool interrupted = false;
@@ -352,7 +420,7 @@ simulation_result simulate(const image *im, const simulation_settings *s, bool *
             summary_print(simulation_summary(s), im, s->kind, sim.run, sim.verdict->books,
                           &sim.verdict->balance);
         }
-        if (s->plot != NULL && result != SIMULATION_BAD_FILE && !draw(&sim)) {
+        if (result != SIMULATION_BAD_FILE && !finish_course(&sim)) {
             result = SIMULATION_BAD_FILE;
         }
         s->kind->stop(sim.run);
@@ -364,5 +432,6 @@ simulation_result simulate(const image *im, const simulation_settings *s, bool *
     verdict_close(sim.verdict);
     records_close(sim.records);
     envelope_free(sim.plot);
+    plot_run_close(&sim.course);
     return result;
 }

@@ -6,6 +6,7 @@
 #include <stdio.h>
 
 #include "engine.h"
+#include "host/plot/plot.h"
 
 typedef struct simulation_settings {
     const engine_kind *kind;
@@ -13,7 +14,10 @@ typedef struct simulation_settings {
     const char *csv;     /* file, "-" for standard output, or NULL */
     const char *columns; /* file of plain columns, "-" for standard output, or NULL */
     const char *vcd;     /* file of a value change dump, "-" for standard output, or NULL */
-    const char *plot;    /* .svg or .png, or NULL */
+    const char *plot;    /* a picture (host/plot/gnuplot.h), or NULL */
+    plot_choice choice;  /* of what it shows */
+    plot_run *taken;     /* takes what a picture is made of in place of a picture; or NULL */
+    const char *changes; /* of the scene, in words, or "" */
     bool quiet;
     double
         strict; /* a run that is out of balance by more (belief.h) has failed; 0: it is only told */

@@ -1,0 +1,150 @@
+/* plot.c: `whirl plot`: curves of runs, recorded or new, over each other. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "commands.h"
+#include "files.h"
+#include "host/base/room.h"
+#include "host/plot/gnuplot.h"
+#include "run.h"
+#include "target.h"
+
+enum { RUNS_MOST = 64 };
+
+static const command_usage usage = {
+    .head =
+        "usage: whirl plot FILE.csv|SCENE|FILE[:SCENE] ... --out FILE.svg|.pdf|.png [options]\n"
+        "\n"
+        "Curves of one run or of several over each other. A FILE.csv is of `whirl run --csv` or\n"
+        "`whirl sweep --csv`, or any with a line of names. Scenes are run; they take the options of\n"
+        "`whirl run` that change a scene or how it is integrated.\n"
+        "\n"
+        "  whirl plot light.csv heavy.csv --y \"X', theta\" --out both.svg\n"
+        "\n"
+        "  --out FILE           the picture, drawn by gnuplot: .svg, .pdf or .png\n" RUN_CHOICE_HELP
+        "  --legend NAMES       of the runs, between commas, in place of their titles\n"
+        "\n"
+        "Crosses at the foot of a panel mark events. The shade begins where single values cannot be\n"
+        "trusted any more (docs/plot.md).\n",
+    .tail = "",
+    .why = {[EXIT_ROW_OF(EXIT_DONE)] = "",
+            [EXIT_ROW_OF(EXIT_RUN_FAILED)] = "a run failed",
+            [EXIT_ROW_OF(EXIT_BAD_INPUT)] = "",
+            [EXIT_ROW_OF(EXIT_INTERRUPTED)] = ""}};
+
+enum { SCENE_GROUPS = OPTIONS_CHANGE | OPTIONS_STEP | OPTIONS_ENGINE | OPTIONS_NUMBER };
+
+typedef struct plot_options {
+    common_options common; /* looked at by the run */
+    plot_choice choice;
+    const char *out;
+    char **target; /* [targets] */
+    int targets;
+    char **passed; /* [1 + passed_count] to each scene, which is passed[0] */
+    int passed_count;
+} plot_options;
+
+static bool is_csv(const char *name) {
+    const size_t length = strlen(name);
+    return length > 4 && options_same(name + length - 4, ".csv");
+}
+
+static void take_one(int count, char **words, int *at, plot_options *o, bool *bad) {
+    static const char *const own[] = {RUN_CHOICE_WORDS, "--legend", "--out", NULL};
+    const int from = *at;
+    const char *value = NULL;
+    if (run_take_choice("plot", count, words, at, &o->choice, bad) || *bad) {
+        return;
+    }
+    if ((value = options_value(count, words, at, "--out", bad)) != NULL) {
+        o->out = value;
+    } else if (!*bad && (value = options_value(count, words, at, "--legend", bad)) != NULL) {
+        o->choice.legend = value;
+    } else if (!*bad && options_take("plot", SCENE_GROUPS, count, words, at, &o->common, bad)) {
+        for (int i = from; i < *at; i++) {
+            o->passed[1 + o->passed_count++] = words[i];
+        }
+    } else if (!*bad && words[*at][0] == '-') {
+        options_unknown("plot", words[*at], SCENE_GROUPS, own);
+        *bad = true;
+    } else if (!*bad) {
+        o->target[o->targets++] = words[(*at)++];
+    }
+}
+
+/* Nothing is missing, and nothing contradicts. */
+static bool is_whole(const plot_options *o) {
+    bool scenes = false;
+    for (int i = 0; i < o->targets; i++) {
+        scenes = scenes || !is_csv(o->target[i]);
+    }
+    if (o->out == NULL) {
+        fputs("whirl plot: error: no file for the picture\nhint: --out picture.svg\n", stderr);
+        return false;
+    }
+    if (o->passed_count > 0 && !scenes) {
+        fprintf(stderr,
+                "whirl plot: error: %s changes a scene, and only files are named\n"
+                "hint: whirl plot SCENE %s ... runs it\n",
+                o->passed[1], o->passed[1]);
+        return false;
+    }
+    if (o->targets > RUNS_MOST) {
+        fprintf(stderr, "whirl plot: error: %d runs, at most %d\n", o->targets, RUNS_MOST);
+        return false;
+    }
+    for (int i = 0; i < o->targets; i++) {
+        if (files_same(o->target[i], o->out)) {
+            fprintf(stderr, "whirl plot: error: --out would write over %s\n", o->out);
+            return false;
+        }
+    }
+    return gnuplot_can_draw_for("plot", "--out", o->out) && gnuplot_is_there();
+}
+
+static int draw_all(plot_options *o) {
+    plot_run *runs = room(o->targets, sizeof *runs);
+    int code = EXIT_DONE;
+    int count = 0;
+    while (count < o->targets && code == EXIT_DONE) {
+        o->passed[0] = o->target[count];
+        plot_run *to = &runs[count++];
+        if (!is_csv(o->passed[0])) {
+            code = run_to_take(1 + o->passed_count, o->passed, &o->choice, to);
+        } else if (!plot_run_read("plot", o->passed[0], to)) {
+            code = EXIT_BAD_INPUT;
+        }
+    }
+    if (code == EXIT_DONE && !plot_draw("plot", o->out, &o->choice, runs, count)) {
+        code = EXIT_BAD_INPUT;
+    }
+    for (int i = 0; i < count; i++) {
+        plot_run_close(&runs[i]);
+    }
+    free(runs);
+    return code;
+}
+
+int command_plot(int count, char **words) {
+    if (options_help(count, words, &usage)) {
+        return EXIT_DONE;
+    }
+    plot_options o = {.common = options_defaults(),
+                      .target = room(count, sizeof *o.target),
+                      .passed = room(count + 1, sizeof *o.passed)};
+    bool bad = false;
+    for (int at = 0; at < count && !bad;) {
+        take_one(count, words, &at, &o, &bad);
+    }
+    int code = EXIT_BAD_INPUT;
+    if (!bad && o.targets == 0) {
+        options_usage(stderr, &usage);
+    } else if (!bad && is_whole(&o)) {
+        code = draw_all(&o);
+    }
+    options_forget(&o.common);
+    free(o.target);
+    free(o.passed);
+    return code;
+}

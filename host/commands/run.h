@@ -1,0 +1,24 @@
+/* run.h: what `whirl run` and `whirl plot` share. */
+#ifndef COMMANDS_RUN_H
+#define COMMANDS_RUN_H
+
+#include "host/plot/plot.h"
+
+/* The options of a picture's choice, for help texts. */
+#define RUN_CHOICE_HELP \
+    "  --y NAMES            quantities between commas, a panel for each unit: --y \"X', theta\"\n" \
+    "                       (default: coordinates and outputs)\n" \
+    "  --panel NAMES        quantities that share a panel (repeatable)\n" \
+    "  --x NAME             over this quantity in place of the time\n" \
+    "  --title TEXT         above the picture\n"
+#define RUN_CHOICE_WORDS "--y", "--panel", "--x", "--title"
+
+/* If words[*at] is one of these, takes it and steps *at past it. What is wrong is reported and sets *bad. */
+bool run_take_choice(const char *command, int count, char **words, int *at, plot_choice *to,
+                     bool *bad);
+
+/* As command_run() with these words and --quiet; what a picture is made of goes to *taken, thinned out for this
+ * choice, in place of a picture. plot_run_close() in any case. */
+int run_to_take(int count, char **words, const plot_choice *choice, plot_run *taken);
+
+#endif
