@@ -30,6 +30,7 @@ static const command commands[] = {
 #ifndef WHIRL_NO_SYSTEM /* no processes and no signals */
     {"run", command_run, "SCENE|FILE[:SCENE] ...", "simulate"},
     {"plot", command_plot, "FILE.csv|SCENE ... --out FILE", "curves of recorded or new runs"},
+    {"figure", command_figure, "NUMBER", "a figure of the dissertation, as it is or varied"},
     {"sweep", command_sweep, "SCENE|FILE[:SCENE] ...", "simulate over ranges of parameters"},
     {"price", command_price, "SCENE|FILE[:SCENE] ...", "error against price, for all settings"},
     {"choose", command_choose, "SCENE|FILE[:SCENE] ...",

@@ -50,11 +50,12 @@ $(B)/whirl: $(call objects,host,$(WHIRL_MAIN_C)) $(LIB_HOST) $(LIB_FLOAT) $(LIB_
 
 # --- built-in models ----------------------------------------------------------------------------
 # Follows the list of models too: a model taken away must leave the program.
-$(eval $(call listed,$(GEN)/models.list,$(MODELS)))
+$(eval $(call listed,$(GEN)/models.list,$(MODELS) $(sort $(wildcard mk/figures/*.fig))))
 
-$(GEN)/builtin_models.c: mk/setup/embed_models.sh $(GEN)/models.list $(MODELS)
+FIGURE_TEXTS := $(sort $(wildcard mk/figures/*.fig))
+$(GEN)/builtin_models.c: mk/setup/embed_models.sh $(GEN)/models.list $(MODELS) $(FIGURE_TEXTS)
 	$(say) GEN $@
-	$(Q)sh $< $(MODELS) >$@
+	$(Q)sh $< $(MODELS) -- $(FIGURE_TEXTS) >$@
 
 # --- generated scenes ---------------------------------------------------------------------------
 # build/gen/scenes.c, scenes.h and one C file a built-in scene. Only the main configuration makes

@@ -12,6 +12,7 @@ int command_examine(int count, char **words);
 int command_accel(int count, char **words);
 int command_run(int count, char **words);
 int command_plot(int count, char **words);
+int command_figure(int count, char **words);
 int command_sweep(int count, char **words);
 int command_price(int count, char **words);
 int command_choose(int count, char **words);

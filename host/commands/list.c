@@ -12,8 +12,7 @@
 static const command_usage usage = {
     .head =
         "usage: whirl list [FILE ...] [--as text|table]\n"
-        "       whirl list --units\n"
-        "       whirl list --hard\n"
+        "       whirl list --units|--hard|--figures\n"
         "\n"
         "The mechanisms and scenes of FILEs, or the built-in ones:\n"
         "  --as text    a line each: kind, name, title (default)\n"
@@ -24,7 +23,8 @@ static const command_usage usage = {
         "  --units      every unit that a file may write, what it is in SI and how much of it; a line each,\n"
         "               fields between tabs\n"
         "  --hard       the hard cases of docs/hard_cases.md: where the theory ends, and whether Whirl is\n"
-        "               right there; 'told' is a warning, 'refused' an error\n",
+        "               right there; 'told' is a warning, 'refused' an error\n"
+        "  --figures    what `whirl figure` draws: name and title\n",
     .tail = ""};
 
 enum { OUTSIDE = -1 }; /* of every effect */
@@ -264,12 +264,23 @@ static int list_hard(void) {
     return EXIT_DONE;
 }
 
+/* A line each, of what stands in its description behind "title ". */
+static int list_figures(void) {
+    for (size_t i = 0; i < builtin_figure_count; i++) {
+        const char *file = strrchr(builtin_figures[i].file, '/') + 1;
+        const char *name = file + (strncmp(file, "fig", 3) == 0 ? 3 : 0);
+        const char *title = strstr(builtin_figures[i].text, "title ");
+        printf("%-16.*s %.*s\n", (int)strcspn(name, "."), name,
+               title != NULL ? (int)strcspn(title + 6, "\n") : 0, title != NULL ? title + 6 : "");
+    }
+    return EXIT_DONE;
+}
+
 int command_list(int count, char **words) {
     const form *as = &forms[0];
     int files = 0; /* words[0..files-1] */
     bool bad = false;
-    bool units = false;
-    bool hard = false;
+    int (*other)(void) = NULL; /* --units, --hard or --figures */
     if (options_help(count, words, &usage)) {
         return EXIT_DONE;
     }
@@ -279,25 +290,28 @@ int command_list(int count, char **words) {
             as = form_of(value);
             bad = as == NULL;
         } else if (!bad && strcmp(words[at], "--units") == 0) {
-            units = true;
+            other = list_units;
+            at++;
+        } else if (!bad && strcmp(words[at], "--figures") == 0) {
+            other = list_figures;
             at++;
         } else if (!bad && strcmp(words[at], "--hard") == 0) {
-            hard = true;
+            other = list_hard;
             at++;
         } else if (!bad && words[at][0] == '-' && words[at][1] != '\0') {
             options_unknown("list", words[at], 0,
-                            (const char *const[]){"--as", "--units", "--hard", NULL});
+                            (const char *const[]){"--as", "--units", "--hard", "--figures", NULL});
             bad = true;
         } else if (!bad) {
             words[files++] = words[at++];
         }
     }
-    if (!bad && (units || hard) && count > 1) {
-        fprintf(stderr, "whirl list: error: %s goes alone\n", units ? "--units" : "--hard");
+    if (!bad && other != NULL && count > 1) {
+        fputs("whirl list: error: --units, --hard and --figures go alone\n", stderr);
         bad = true;
     }
-    if (!bad && (units || hard)) {
-        return units ? list_units() : list_hard();
+    if (!bad && other != NULL) {
+        return other();
     }
     int code = bad ? EXIT_BAD_INPUT : files == 0 ? list_builtin(as) : EXIT_DONE;
     for (int i = 0; i < files && !bad; i++) {

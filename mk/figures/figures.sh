@@ -1,7 +1,6 @@
 #!/bin/sh
 # figures.sh WHIRL OUT FIGURE.fig...: draw each figure as OUT/FIGURE.svg and OUT/FIGURE.png, from runs
-# of the program WHIRL. gnuplot draws; OUT/data keeps the numbers, OUT/FIGURE.gp the drawing's script,
-# so that any figure can be drawn again by hand.
+# of the program WHIRL. `whirl figure` draws (host/plot/figure.c); OUT/data keeps the numbers.
 #
 # A .fig file describes one figure, a statement a line, # begins a comment:
 #
@@ -25,8 +24,9 @@ whirl=${1:?usage: figures.sh WHIRL OUT FIGURE.fig...}
 out=${2:?usage: figures.sh WHIRL OUT FIGURE.fig...}
 shift 2
 here=$(dirname "$0")
+figures=$*
 mkdir -p "$out/data"
-trap 'rm -f "$out"/data/*.files "$out"/data/*.records' EXIT
+trap 'rm -f "$out"/data/*.records' EXIT
 
 # record FIGURE KIND NAME WORDS...: make OUT/data/….csv unless another figure has, and print its path.
 # Files are named after the command, so that figures share their runs.
@@ -45,38 +45,26 @@ record() {
             sh "$here/$script" "$whirl" "$@" >"$file.raw"
             ;;
         esac || {
-            rm -f "$file.raw" "$file.raw.sweep"
+            rm -f "$file.raw" "$file.raw.sweep" "$file.raw.toml"
             echo "figures.sh: cannot $kind $*" >&2
             return 1
         }
         tr -d '\r' <"$file.raw" >"$file"
-        rm -f "$file.raw" "$file.raw.sweep"
+        rm -f "$file.raw" "$file.raw.sweep" "$file.raw.toml"
     fi
     printf '%s\n' "$file"
 }
 
-for fig in "$@"; do
+for fig in $figures; do
     name=$(basename "$fig" .fig)
-    files=$out/data/$name.files # NAME FILE, a line each
-    : >"$files"
     grep -E '^(run|sweep|table) ' "$fig" >"$out/data/$name.records" || true
+    set --
     while read -r kind label words; do
-        eval "set -- $words" # the words may be quoted
-        file=$(record "$fig" "$kind" "$label" "$@")
-        printf '%s %s\n' "$label" "$file" >>"$files"
+        file=$(eval "record \"$fig\" $kind $label $words") # the words may be quoted
+        set -- "$@" --data "$label=$file"
     done <"$out/data/$name.records"
-    awk -v files="$files" -f "$here/figure.awk" "$fig" >"$out/$name.gp"
-    height=$(awk '$1 == "panel" { n++ } END { print n == 1 ? 480 : 90 + 270 * n }' "$fig")
     for kind in svg png; do
-        case $kind in
-        svg) terminal="svg size 900,$height dynamic font 'sans-serif,15' background rgb 'white'" ;;
-        png) terminal="pngcairo size 900,$height font 'Sans,12' background rgb 'white'" ;;
-        esac
-        LC_ALL=C.UTF-8 gnuplot -e "set terminal $terminal noenhanced; set output '$out/$name.$kind'" \
-            "$out/$name.gp" || {
-            echo "figures.sh: gnuplot cannot draw $out/$name.gp" >&2
-            exit 1
-        }
+        "$whirl" figure "$fig" "$@" --out "$out/$name.$kind"
     done
     echo "  $name"
 done

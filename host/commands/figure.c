@@ -1,0 +1,263 @@
+/* figure.c: `whirl figure`: a figure of the dissertation, as it is or varied. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "commands.h"
+#include "files.h"
+#include "host/base/room.h"
+#include "host/lang/builtin.h"
+#include "host/plot/figure.h"
+#include "host/plot/gnuplot.h"
+#include "load.h"
+#include "options.h"
+
+enum { DATA_MOST = 16, WORDS_MOST = 64 };
+
+static const command_usage usage = {
+    .head =
+        "usage: whirl figure NUMBER|FINDING|FILE.fig [options]\n"
+        "\n"
+        "Draws a figure of the dissertation (`whirl list --figures`). Its runs take the options of\n"
+        "`whirl run` that change a scene or how it is integrated.\n"
+        "\n"
+        "  whirl figure 51 --set M=-1\n"
+        "\n"
+        "  --out FILE           the picture: .svg, .pdf or .png (default: figNUMBER.svg)\n"
+        "  --data NAME=FILE     the records called NAME, which then need no run (repeatable)\n",
+    .tail = "",
+    .why = {[EXIT_ROW_OF(EXIT_DONE)] = "",
+            [EXIT_ROW_OF(EXIT_RUN_FAILED)] = "a run failed",
+            [EXIT_ROW_OF(EXIT_BAD_INPUT)] = "",
+            [EXIT_ROW_OF(EXIT_INTERRUPTED)] = ""}};
+
+enum { SCENE_GROUPS = OPTIONS_CHANGE | OPTIONS_STEP | OPTIONS_ENGINE | OPTIONS_NUMBER };
+
+typedef struct figure_options {
+    common_options common; /* looked at by the runs */
+    const char *name;
+    const char *out;
+    const char *given[DATA_MOST]; /* NAME=FILE */
+    int given_count;
+    char *passed[WORDS_MOST]; /* to every run */
+    int passed_count;
+} figure_options;
+
+static bool take_one(int count, char **words, int *at, figure_options *o) {
+    static const char *const own[] = {"--out", "--data", NULL};
+    bool bad = false;
+    const int from = *at;
+    const char *value = options_value(count, words, at, "--out", &bad);
+    if (value != NULL) {
+        o->out = value;
+    } else if (!bad && (value = options_value(count, words, at, "--data", &bad)) != NULL) {
+        bad = o->given_count == DATA_MOST || strchr(value, '=') == NULL;
+        if (bad) {
+            fprintf(stderr, "whirl figure: error: --data NAME=FILE, at most %d\n", DATA_MOST);
+        } else {
+            o->given[o->given_count++] = value;
+        }
+    } else if (!bad && options_take("figure", SCENE_GROUPS, count, words, at, &o->common, &bad)) {
+        for (int i = from; i < *at && o->passed_count < WORDS_MOST; i++) {
+            o->passed[o->passed_count++] = words[i];
+        }
+    } else if (!bad && words[*at][0] == '-') {
+        options_unknown("figure", words[*at], SCENE_GROUPS, own);
+        bad = true;
+    } else if (!bad && o->name != NULL) {
+        fprintf(stderr, "whirl figure: error: one figure at a time, not also '%.60s'\n",
+                words[*at]);
+        bad = true;
+    } else if (!bad) {
+        o->name = words[(*at)++];
+    }
+    return !bad;
+}
+
+/* --- its records ----------------------------------------------------------------------------------------- */
+
+/* Words as a shell has them, of a description that comes with the program; in place. */
+static int words_of(char *line, char **word) {
+    int count = 0;
+    char *to = line;
+    for (char *at = line; *at != '\0' && count < WORDS_MOST;) {
+        word[count++] = to;
+        for (char quote = '\0'; *at != '\0' && (quote != '\0' || *at != ' '); at++) {
+            if (*at == quote || (quote == '\0' && (*at == '\'' || *at == '"'))) {
+                quote = quote == '\0' ? *at : '\0';
+            } else {
+                *to++ = *at;
+            }
+        }
+        at += strspn(at, " ");
+        *to++ = '\0';
+    }
+    return count;
+}
+
+static const char *given_for(const figure_options *o, const char *name) {
+    const size_t length = strlen(name);
+    for (int i = 0; i < o->given_count; i++) {
+        if (strncmp(o->given[i], name, length) == 0 && o->given[i][length] == '=') {
+            return o->given[i] + length + 1;
+        }
+    }
+    return NULL;
+}
+
+/* `kind NAME WORDS`, run into a file of its own, which is gone then. */
+static int make_data(const figure_options *o, const char *kind, char **word, int count,
+                     char **csv) {
+    char folder[] = "/tmp/whirl-figure-XXXXXX";
+    static char quiet[] = "--quiet";
+    static char csv_word[] = "--csv";
+    if (kind[0] == 't') {
+        fprintf(stderr,
+                "whirl figure: error: the program alone cannot make %s: %s needs the rig's bench\n"
+                "hint: make figures\n",
+                word[0], word[1]);
+        return EXIT_BAD_INPUT;
+    }
+    if (mkdtemp(folder) == NULL) {
+        perror("whirl figure: error: a temporary folder");
+        return EXIT_RUN_FAILED;
+    }
+    char *file = room_words("%s/records.csv", folder);
+    char *all[2 * WORDS_MOST + 3];
+    int n = 0;
+    for (int i = 1; i < count; i++) {
+        all[n++] = word[i];
+    }
+    for (int i = 0; i < o->passed_count; i++) {
+        all[n++] = o->passed[i];
+    }
+    all[n++] = csv_word;
+    all[n++] = file;
+    if (kind[0] == 'r') {
+        all[n++] = quiet;
+    }
+    const int code = kind[0] == 'r' ? command_run(n, all) : command_sweep(n, all);
+    size_t length;
+    *csv = code == EXIT_DONE ? read_all(file, &length) : NULL;
+    static const char *const ends[] = {"", ".toml", ".sweep"};
+    for (size_t i = 0; i < sizeof ends / sizeof ends[0]; i++) {
+        char *left = room_words("%s%s", file, ends[i]);
+        (void)unlink(left);
+        free(left);
+    }
+    (void)rmdir(folder);
+    free(file);
+    return code == EXIT_DONE && *csv == NULL ? EXIT_RUN_FAILED : code;
+}
+
+static int take_data(const figure_options *o, const char *text, figure_data *data, int *count) {
+    static const char *const kinds[] = {"run", "sweep", "table"};
+    int code = EXIT_DONE;
+    for (size_t k = 0; k < sizeof kinds / sizeof kinds[0]; k++) {
+        const char *at = text;
+        for (char *line;
+             code == EXIT_DONE && *count < DATA_MOST && (line = figure_line(&at, kinds[k])) != NULL;
+             free(line)) {
+            char *word[WORDS_MOST];
+            const int words = words_of(line, word);
+            figure_data *d = &data[(*count)++];
+            d->name = room_words("%s", word[0]);
+            const char *given = given_for(o, d->name);
+            size_t length;
+            if (given != NULL) {
+                d->csv = read_all(given, &length);
+                code = d->csv != NULL ? EXIT_DONE : EXIT_BAD_INPUT;
+            } else {
+                code = make_data(o, kinds[k], word, words, &d->csv);
+            }
+        }
+    }
+    return code;
+}
+
+/* --- the figure ---------------------------------------------------------------------------------------------- */
+
+/* "51", "fig51" or "finding_spin" of mk/figures. */
+static const struct builtin_model *figure_named(const char *name) {
+    for (size_t i = 0; i < builtin_figure_count; i++) {
+        char *one = room_words("/fig%s.fig", name);
+        char *other = room_words("/%s.fig", name);
+        const bool is = strstr(builtin_figures[i].file, one) != NULL ||
+                        strstr(builtin_figures[i].file, other) != NULL;
+        free(one);
+        free(other);
+        if (is) {
+            return &builtin_figures[i];
+        }
+    }
+    return NULL;
+}
+
+static int draw(const figure_options *o, const char *where, const char *text) {
+    figure_data data[DATA_MOST] = {{0}};
+    int count = 0;
+    char *out = o->out != NULL                  ? room_words("%s", o->out)
+                : strncmp(o->name, "f", 1) == 0 ? room_words("%s.svg", o->name)
+                                                : room_words("fig%s.svg", o->name);
+    int code =
+        gnuplot_can_draw_for("figure", "--out", out) && files_can_write(out) && gnuplot_is_there()
+            ? take_data(o, text, data, &count)
+            : EXIT_BAD_INPUT;
+    if (code == EXIT_DONE && !figure_draw(out, where, text, data, count)) {
+        code = EXIT_BAD_INPUT;
+    }
+    if (code == EXIT_DONE && o->out == NULL) {
+        puts(out);
+    }
+    for (int i = 0; i < count; i++) {
+        free(data[i].name);
+        free(data[i].csv);
+    }
+    free(out);
+    return code;
+}
+
+static int draw_named(const figure_options *o) {
+    const size_t length = strlen(o->name);
+    if (length > 4 && strcmp(o->name + length - 4, ".fig") == 0) {
+        size_t size;
+        char *text = read_all(o->name, &size);
+        const int code = text == NULL     ? EXIT_BAD_INPUT
+                         : o->out == NULL ? EXIT_BAD_INPUT
+                                          : draw(o, o->name, text);
+        if (text != NULL && o->out == NULL) {
+            fputs("whirl figure: error: no file for the picture\nhint: --out figure.svg\n", stderr);
+        }
+        free(text);
+        return code;
+    }
+    const struct builtin_model *figure = figure_named(o->name);
+    if (figure == NULL) {
+        fprintf(stderr,
+                "whirl figure: error: no figure is called '%.60s'\n"
+                "hint: `whirl list --figures` lists them\n",
+                o->name);
+        return EXIT_BAD_INPUT;
+    }
+    return draw(o, figure->file, figure->text);
+}
+
+int command_figure(int count, char **words) {
+    if (options_help(count, words, &usage)) {
+        return EXIT_DONE;
+    }
+    figure_options o = {.common = options_defaults()};
+    bool good = true;
+    for (int at = 0; at < count && good;) {
+        good = take_one(count, words, &at, &o);
+    }
+    int code = EXIT_BAD_INPUT;
+    if (good && o.name == NULL) {
+        options_usage(stderr, &usage);
+    } else if (good) {
+        code = draw_named(&o);
+    }
+    options_forget(&o.common);
+    return code;
+}
