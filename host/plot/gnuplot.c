@@ -197,7 +197,8 @@ static void copy_picture(const gnuplot *g) {
             fputs(dark, g->picture);
             head = false;
         } else {
-            fputs(strncmp(line, "<svg", 4) == 0 ? "<svg role=\"img\"\n" : line, g->picture);
+            const bool begins = strncmp(line, "<svg", 4) == 0;
+            fprintf(g->picture, "%s%s", begins ? "<svg role=\"img\"" : "", line + (begins ? 4 : 0));
         }
     }
     while ((length = fread(line, 1, sizeof line, g->drawn)) > 0) {

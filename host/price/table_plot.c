@@ -120,7 +120,7 @@ static void put_front(picture *p, const table *made) {
         char name[NAME_SIZE];
         scatter_series like = {0};
         name_of(&made->row[i], &like, name);
-        if (made->row[i].on_front) {
+        if (made->row[i].on_front && made->row[i].setting.image.tables == TABLES_NONE) {
             (void)series_named(p, name, &like);
         }
     }

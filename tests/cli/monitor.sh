@@ -126,7 +126,7 @@ refused 'cannot be opened' "$scratch/none"
 refused 'cannot be opened: Is a directory' "$scratch"
 refused '--rate takes a whole number' "$scratch/raw" --rate 2.5
 refused 'no such speed' "$scratch/raw" --baud 7
-refused 'ends in .svg or .png' "$scratch/raw" --plot a.txt
+refused 'draws .svg, .pdf and .png files' "$scratch/raw" --plot a.txt
 refused 'cannot share a file' "$scratch/raw" --csv "$scratch/x" --vcd "$scratch/x"
 refused 'would be written over' "$scratch/raw" --raw "$scratch/raw"
 refused "takes a file's name" "$scratch/raw" --vcd -

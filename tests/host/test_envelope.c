@@ -35,7 +35,7 @@ static double *signal_of(dice *d, unsigned steps) {
 }
 
 static envelope *entered(const double *data, unsigned steps) {
-    envelope *v = envelope_new(COLUMNS);
+    envelope *v = envelope_new(COLUMNS, false);
     for (unsigned k = 0; k < steps; k++) {
         envelope_enter(v, data + (size_t)k * COLUMNS);
     }
@@ -128,7 +128,7 @@ static void test_at_every_moment_all_is_there(void) {
     dice d = dice_of("broken off", 5103);
     const unsigned steps = 5 * ENVELOPE_ROOM;
     double *data = signal_of(&d, steps);
-    envelope *v = envelope_new(COLUMNS);
+    envelope *v = envelope_new(COLUMNS, false);
     for (unsigned k = 0; k < steps; k++) {
         envelope_enter(v, data + (size_t)k * COLUMNS);
         if (k % 97 == 0) {

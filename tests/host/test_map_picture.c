@@ -123,7 +123,9 @@ static void expect_axis(const char *told, const axis *a, const double *v, char l
     snprintf(what, sizeof what, "set logscale %c\n", letter);
     TEST_ASSERT_EQUAL_INT(a->is_log && a->from > 0.0, strstr(told, what) != NULL);
     snprintf(what, sizeof what, "set %clabel \"%s\".'%s' noenhanced\n", letter, a->column,
-             a->symbol == NULL ? " [s]" : "");
+             a->symbol == NULL       ? " [s]"
+             : a->symbol->index == 0 ? " [N/m]"
+                                     : " [kg]");
     TEST_ASSERT_NOT_NULL_MESSAGE(strstr(told, what), what);
 }
 
@@ -146,12 +148,15 @@ static void expect_picture(const shown_map *s) {
     expect_axis(told, &s->axes[1 - s->map.along], s->value[1], 'y', heights);
     bool any = false;
     for (int verdict = 0; verdict < MAP_VERDICTS; verdict++) {
-        char block[40];
+        char block[60];
         snprintf(block, sizeof block, "$%s << EOD\n", map_verdicts[verdict].word);
         const char *at = strstr(told, block);
         const bool drawn = verdict <= MAP_DIVERGES && map_count(&s->map, (map_verdict)verdict) > 0;
         TEST_ASSERT_EQUAL_INT(drawn, at != NULL);
         snprintf(block, sizeof block, "$%s with boxxyerror", map_verdicts[verdict].word);
+        expect_plot_line(told, drawn, block);
+        snprintf(block, sizeof block, "'%s: %.20s", map_verdicts[verdict].word,
+                 map_verdicts[verdict].words);
         expect_plot_line(told, drawn, block);
         if (at != NULL) {
             expect_boxes(s, (map_verdict)verdict, strchr(at, '\n') + 1);

@@ -61,6 +61,27 @@ static const char *const pieces[] = {"`touch build/tests/made`",
                                      "0",
                                      "12"};
 
+/* A run of these curves: a time column, then one for each, names first. */
+static plot_run run_of(const char *title, const char *const names[], const char *const units[],
+                       int curves, const double *data, int rows) {
+    plot_run run;
+    plot_run_open(&run, title, "label", curves + 1);
+    plot_run_name(&run, 0, "time", "s", "");
+    for (int k = 0; k < curves; k++) {
+        plot_run_name(&run, k + 1, names[k], units[k], "");
+    }
+    const size_t size = sizeof(double) * (size_t)rows * (size_t)(curves + 1);
+    run.data = malloc(size);
+    TEST_ASSERT_NOT_NULL(run.data);
+    memcpy(run.data, data, size);
+    run.rows = rows;
+    return run;
+}
+
+static bool draw(const char *file, const plot_run *run) {
+    return plot_draw("run", file, &(plot_choice){0}, run, 1);
+}
+
 static void mix(dice *d, char *text, size_t size) {
     text[0] = '\0';
     strcat(text, "a");
@@ -87,12 +108,16 @@ static void escaped(const char *text, char *to) {
     *to = '\0';
 }
 
-/* The picture without its tags and without what parts "]]>". */
+/* The picture, after its alternative text, without its tags and without what parts "]]>". */
 static char *shown(void) {
     FILE *in = fopen(PICTURE, "rb");
     TEST_ASSERT_NOT_NULL(in);
     char *text = calloc(1, 1 << 18);
     TEST_ASSERT_NOT_NULL(text);
+    char head[4096] = "";
+    while (strncmp(head, "<desc>", 6) != 0) {
+        TEST_ASSERT_NOT_NULL(fgets(head, sizeof head, in));
+    }
     bool tag = false;
     int brackets = 0; /* of them side by side: "]]>" is no XML */
     size_t length = 0;
@@ -136,8 +161,10 @@ static void test_texts_are_no_commands(void) {
             mix(&d, name[k], sizeof name[k]);
             mix(&d, unit[k], sizeof unit[k]);
         }
-        const curve curves[] = {{name[0], unit[0], 1}, {name[1], unit[1], 2}};
-        TEST_ASSERT_TRUE(plot_draw(PICTURE, title, curves, 2, data, 2, 3, 0.0));
+        plot_run run = run_of(title, (const char *const[]){name[0], name[1]},
+                              (const char *const[]){unit[0], unit[1]}, 2, data, 2);
+        TEST_ASSERT_TRUE(draw(PICTURE, &run));
+        plot_run_close(&run);
         TEST_ASSERT_TRUE_MESSAGE(access(MADE, F_OK) != 0, title);
         char *text = shown();
         find(text, title);
@@ -159,12 +186,15 @@ static void test_no_picture(void) {
     const scatter_series series[] = {
         {.name = "light", .x = data, .y = data, .count = 4},
         {.name = "heavy", .x = data, .y = data, .count = 4, .heavy = true}};
-    const curve curves[] = {{"name", "m", 1}};
+    plot_run run =
+        run_of("title", (const char *const[]){"name"}, (const char *const[]){"m"}, 1, data, 2);
     for (int count = 1; count <= 2; count++) {
-        TEST_ASSERT_TRUE(scatter_draw(PICTURE, "title", "x", "y", series, count));
-        TEST_ASSERT_FALSE(scatter_draw("/dev/null/x.svg", "title", "x", "y", series, count));
+        TEST_ASSERT_TRUE(scatter_draw(PICTURE, "title", "x", "y", series, count, "more"));
+        TEST_ASSERT_FALSE(
+            scatter_draw("/dev/null/x.svg", "title", "x", "y", series, count, "more"));
     }
-    TEST_ASSERT_FALSE(plot_draw("/dev/null/x.svg", "title", curves, 1, data, 2, 2, 0.0));
+    TEST_ASSERT_FALSE(draw("/dev/null/x.svg", &run));
+    plot_run_close(&run);
     unlink(PICTURE);
 }
 
@@ -180,7 +210,7 @@ static void test_a_panel_a_unit(void) {
     }
     dice d = dice_of("panels", 5202);
     for (unsigned round = 0; round < 8U; round++) {
-        curve curves[CURVES];
+        const char *of[CURVES];
         unsigned written[UNITS] = {0};
         for (int r = 0; r < 3 * (CURVES + 1); r++) {
             data[r] = dice_between(&d, -5.0, 5.0);
@@ -190,10 +220,12 @@ static void test_a_panel_a_unit(void) {
         }
         for (int k = 0; k < CURVES; k++) {
             const unsigned unit = dice_one_of(&d, UNITS);
-            curves[k] = (curve){names[k], units[unit], k + 1};
+            of[k] = units[unit];
             written[unit] = 1;
         }
-        TEST_ASSERT_TRUE(plot_draw(PICTURE, "title", curves, CURVES, data, 3, CURVES + 1, 0.0));
+        plot_run run = run_of("title", names, of, CURVES, data, 3);
+        TEST_ASSERT_TRUE(draw(PICTURE, &run));
+        plot_run_close(&run);
         char *text = shown();
         for (int u = 0; u < UNITS; u++) {
             unsigned found = 0;

@@ -56,6 +56,13 @@ static void draw_table(dice *d, table *made) {
     table_sort(made);
 }
 
+static void words_of(const setting *s, char name[96]) {
+    const bool matrix = s->image.matrix != MATRIX_NONE;
+    snprintf(name, 96, "%s%s, %s", matrix ? "matrix " : "",
+             matrix ? image_matrix_words[s->image.matrix] : wh_methods[s->image.method].word,
+             setting_word(s, AXIS_NUMBER));
+}
+
 /* Of which line of the picture a row is; "" of none. */
 static void name_of(const table *made, int which, char name[96]) {
     const setting *s = &made->row[which].setting;
@@ -75,10 +82,7 @@ static void name_of(const table *made, int which, char name[96]) {
             return; /* a cheaper one of the same */
         }
     }
-    const bool matrix = s->image.matrix != MATRIX_NONE;
-    snprintf(name, 96, "%s%s, %s", matrix ? "matrix " : "",
-             matrix ? image_matrix_words[s->image.matrix] : wh_methods[s->image.method].word,
-             setting_word(s, AXIS_NUMBER));
+    words_of(s, name);
 }
 
 static const char *expect_point(const char *at, const table_row *r) {
@@ -92,20 +96,64 @@ static const char *expect_point(const char *at, const table_row *r) {
     return at + 1;
 }
 
-static void expect_picture(const table *made) {
-    char names[ROWS + 1][96] = {"front"};
-    int lines = 1;
+/* The front, then the settings on it, then all others, as the rows come; how many. */
+static int names_of(const table *made, char names[2 * ROWS + 1][96]) {
+    int lines = 0;
+    snprintf(names[lines], 96, "front: the least error for its price");
     for (int i = 0; i < made->count; i++) {
-        char name[96];
-        name_of(made, i, name);
-        int k = 0;
-        while (k < lines && strcmp(names[k], name) != 0) {
-            k++;
-        }
-        if (name[0] != '\0' && k == lines) {
-            snprintf(names[lines++], 96, "%s", name);
+        lines = made->row[i].on_front ? 1 : lines;
+    }
+    for (int round = 0; round < 2; round++) {
+        for (int i = 0; i < made->count; i++) {
+            char name[96] = "";
+            int k = 0;
+            if (round > 0) {
+                name_of(made, i, name);
+            } else if (made->row[i].on_front && made->row[i].setting.image.tables == TABLES_NONE) {
+                words_of(&made->row[i].setting, name);
+            }
+            while (k < lines && strcmp(names[k], name) != 0) {
+                k++;
+            }
+            if (name[0] != '\0' && k == lines) {
+                snprintf(names[lines++], 96, "%s", name);
+            }
         }
     }
+    return lines;
+}
+
+/* Where a setting is named beside the front, it is that of a row on it. */
+static void expect_labels(const table *made) {
+    unsigned labels = 0;
+    for (const char *at = drawn; (at = strstr(at, "set label \"")) != NULL; labels++) {
+        bool there = false;
+        at += strlen("set label \"");
+        for (int i = 0; i < made->count; i++) {
+            char name[96];
+            words_of(&made->row[i].setting, name);
+            there = there || (made->row[i].on_front && strncmp(at, name, strlen(name)) == 0 &&
+                              at[strlen(name)] == '"');
+        }
+        TEST_ASSERT_TRUE(there);
+    }
+    unsigned points = 0;
+    for (int i = 0; i < made->count; i++) {
+        const table_row *r = &made->row[i];
+        points += r->on_front && r->result.error > 0.0 && r->price.value > 0.0 ? 1 : 0;
+    }
+    TEST_ASSERT_TRUE(labels <= points && (labels > 0) == (points > 0));
+}
+
+static void expect_picture(const table *made) {
+    enum { LINES_MOST = 8 };
+    static char names[2 * ROWS + 1][96];
+    const int all = names_of(made, names);
+    const int lines = all < LINES_MOST ? all : LINES_MOST;
+    char more[40];
+    snprintf(more, sizeof more, "\"and %d more: --csv\"", all - lines);
+    TEST_ASSERT_EQUAL_INT(all > lines, strstr(drawn, more) != NULL);
+    expect_labels(made);
     const char *at = strstr(drawn, "$data0");
     TEST_ASSERT_NOT_NULL(at);
     for (int k = 0; k < lines; k++) {
