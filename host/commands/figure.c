@@ -22,7 +22,7 @@ static const command_usage usage = {
         "Draws a figure of the dissertation (`whirl list --figures`). Its runs take the options of\n"
         "`whirl run` that change a scene or how it is integrated.\n"
         "\n"
-        "  whirl figure 51 --set M=-1\n"
+        "  whirl figure 51 --set=M=-1\n"
         "\n"
         "  --out FILE           the picture: .svg, .pdf or .png (default: figNUMBER.svg)\n"
         "  --data NAME=FILE     the records called NAME, which then need no run (repeatable)\n",

@@ -3,12 +3,14 @@
 #   awk -F, -v scene=SCENE -v boards="BOARD..." -f words.awk -f chart.awk ROWS.csv    a panel for each board
 #   awk -F, -v scene=SCENE -v fronts="BOARD..." -f words.awk -f chart.awk PRICE.csv   one panel: the boards' fronts alone
 #
-# A panel shows each method, a shape, in each number, a colour, by steps from coarse to fine, in the cheapest form of what
+# A panel shows each method, a colour and a shape (host/plot/palette.h), in each number, a dash, by steps from coarse to
+# fine, in the cheapest form of what
 # else can be set; and the front. ROWS.csv is of curves.sh, PRICE.csv of published.awk.
 
 BEGIN {
-    # Okabe and Ito's colours, apart for the colour-blind as well
-    split("#0072B2 #009E73 #D55E00 #CC79A7 #E69F00 #56B4E9", colour, " ")
+    colour_count = split(colours, colour, " ")
+    shape_count = split(shapes, point, " ")
+    for (known = split(methods, known_method, " "); known > 0; known--) { place[known_method[known]] = known }
     panels = split(boards != "" ? boards : fronts, board, " ")
 }
 
@@ -34,8 +36,8 @@ fronts != "" || field("front") == 1 {
 
 fronts == "" && y <= 1 && y >= 1e-10 {
     series = field("method") SUBSEP field("number")
-    if (!(field("method") in shape)) { method[++methods] = field("method"); shape[field("method")] = methods }
-    if (!(field("number") in hue)) { number[++numbers] = field("number"); hue[field("number")] = numbers }
+    if (!(field("method") in seen)) { seen[field("method")] = method[++drawn_methods] = field("method") }
+    if (!(field("number") in seen)) { seen[field("number")] = number[++numbers] = field("number") }
     # rows come by rising price
     if (!((b, series, field("step_s")) in drawn)) {
         drawn[b, series, field("step_s")] = 1
@@ -66,21 +68,25 @@ function titled(scene) {
     return index(scene, "+") ? substr(scene, 1, index(scene, "+") - 1) ", to " until_s " s" : scene
 }
 
+# Colour and shape of a method (host/plot/palette.h).
+function look(name) {
+    return "pt " point[(place[name] - 1) % shape_count + 1] " lc rgb '" colour[(place[name] - 1) % colour_count + 1] "'"
+}
+
 function panel(b,    i, k, n, plot) {
     data("front", front[b])
-    plot = "$front using 1:2 with lines lw 6 lc rgb '#d0d0d0' title 'front'"
+    plot = "$front using 1:2 with lines lw 4 lc rgb '#767676' title 'front: the least error for its price'"
     for (i = 1; i <= numbers; i++) {
-        for (k = 1; k <= methods; k++) {
+        for (k = 1; k <= drawn_methods; k++) {
             if ((b, method[k], number[i]) in points) {
                 data("d" (++n), points[b, method[k], number[i]])
-                plot = plot ", \\\n     $d" n " using 1:2 with linespoints lw 0.8 ps 0.6 pt " (k + (k > 5)) " lc rgb '" colour[i] \
-                    "' notitle"
+                plot = plot ", \\\n     $d" n " using 1:2 with linespoints lw 0.8 ps 0.6 dt " i " " look(method[k]) " notitle"
             }
         }
-        plot = plot ", \\\n     keyentry with lines lw 3 lc rgb '" colour[i] "' title " quoted(number[i])
+        plot = plot ", \\\n     keyentry with lines lw 2 dt " i " lc rgb '#767676' title " quoted(number[i])
     }
-    for (k = 1; k <= methods; k++) {
-        plot = plot ", \\\n     keyentry with points pt " (k + (k > 5)) " ps 0.8 lc rgb '#222222' title " quoted(method[k])
+    for (k = 1; k <= drawn_methods; k++) {
+        plot = plot ", \\\n     keyentry with points ps 0.8 " look(method[k]) " title " quoted(method[k])
     }
     plot = plot ", \\\n     $front using 1:2 with points pt 6 ps 1.3 lw 1.5 lc rgb '#000000' title " \
         quoted("on the front, " ends[b])
@@ -104,9 +110,9 @@ END {
         if (front[board[i]] == "") { wrong("no front of " scene " on " board[i]) }
     }
     print "set encoding utf8"
-    print "set border lw 1 lc rgb '#444444'"
-    print "set grid lt 1 lw 0.7 lc rgb '#e2e2e2'"
-    print "set tics nomirror textcolor rgb '#222222'"
+    print "set border lw 1 lc rgb '#767676'"
+    print "set grid lt 1 lw 0.7 lc rgb '#d8d8d8'"
+    print "set tics nomirror textcolor rgb 'black'"
     print "set lmargin 12"
     if (fronts != "") {
         print "set key inside bottom left Left reverse samplen 2 font ',12' noenhanced"

@@ -7,6 +7,10 @@ shift 4
 height=460
 [ "$kind" = fronts ] || height=$((60 + 400 * $#))
 mkdir -p "$(dirname "$svg")"
-awk -F, -v scene="$scene" -v "$kind=$*" -f "$here/words.awk" -f "$here/chart.awk" "$rows" >"${svg%.svg}.gp"
+# The palette of all pictures: a colour and a shape for each method, in the order of core/method.h.
+colours=$(sed -n '/PALETTE_LINE_ROWS/,/^$/s/.*X("\(#[0-9a-f]*\)").*/\1/p' host/plot/palette.h)
+shapes=$(sed -n 's/.*int points\[\] = {\(.*\)};/\1/p' host/plot/palette.h | tr -d ,)
+methods=$(sed -n 's/.*X(WH_[A-Z0-9_]*, "\([a-z0-9-]*\)".*/\1/p' core/method.h)
+awk -F, -v colours="$(echo $colours)" -v shapes="$shapes" -v methods="$(echo $methods)" -v scene="$scene" -v "$kind=$*" -f "$here/words.awk" -f "$here/chart.awk" "$rows" >"${svg%.svg}.gp"
 LC_ALL=C.UTF-8 gnuplot -e "set terminal svg size 900,$height dynamic font 'sans-serif,14' background rgb 'white'; set output '$svg'" \
     "${svg%.svg}.gp"

@@ -203,6 +203,6 @@ while IFS="$tab" read -r name promised; do
     done
     case "$promised" in told*) [ $told -eq 1 ]; verdict $? "--hard: $name is told in one of its scenes" ;; esac
 done <"$scratch/scenes"
-says 'error: --hard goes alone' list --hard thomson_a
-says 'error: --units goes alone' list --units --hard
+says 'error: --hard and --figures go alone' list --hard thomson_a
+says 'error: --units, --hard and --figures go alone' list --units --hard
 exit $failed

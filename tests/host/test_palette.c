@@ -4,11 +4,11 @@
 #include "host/plot/palette.h"
 
 #include <math.h>
+#include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "command.h"
 #include "unity.h"
 
 void suite_palette(void);
