@@ -8,7 +8,7 @@
 #include "files.h"
 #include "host/base/room.h"
 #include "host/lang/builtin.h"
-#include "host/plot/figure.h"
+#include "host/plot/figure_draw.h"
 #include "host/plot/gnuplot.h"
 #include "load.h"
 #include "options.h"

@@ -1,8 +1,25 @@
-/* panels.h: a choice of quantities (plot.h), resolved to panels and curves. */
+/* panels.h: a choice of quantities, resolved to panels and curves. */
 #ifndef PLOT_PANELS_H
 #define PLOT_PANELS_H
 
-#include "plot.h"
+#include "plot_run.h"
+
+enum { PLOT_PANELS = 16 };
+
+/* What is drawn. All zero: every coordinate and output, without rates, a panel for each unit. */
+typedef struct plot_choice {
+    const char *x;                  /* a quantity; NULL: column 0 */
+    const char *y;                  /* quantities between commas, a panel for each unit; or NULL */
+    const char *panel[PLOT_PANELS]; /* quantities that share a panel */
+    int panels;
+    const char *legend; /* labels of the runs, between commas; or NULL */
+    const char *title;
+} plot_choice;
+
+/* Is there a quantity for each name, and one unit in each panel? Needs columns, no data. False is reported. */
+bool plot_fits(const char *command, const plot_choice *choice, const plot_run *runs, int count);
+/* True when x is another quantity than column 0. */
+bool plot_is_path(const plot_choice *choice);
 
 enum { PANELS_MOST = 64, PANELS_QUANTITIES = 256 };
 

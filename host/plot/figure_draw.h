@@ -1,6 +1,6 @@
-/* figure.h: a figure's description as a picture. mk/figures/figures.sh tells the form of a .fig text. */
-#ifndef PLOT_FIGURE_H
-#define PLOT_FIGURE_H
+/* figure_draw.h: a figure's description as a picture. mk/figures/figures.sh tells the form of a .fig text. */
+#ifndef PLOT_FIGURE_DRAW_H
+#define PLOT_FIGURE_DRAW_H
 
 #include <stdbool.h>
 

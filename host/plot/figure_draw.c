@@ -1,5 +1,5 @@
-/* figure.c: see figure.h. */
-#include "figure.h"
+/* figure_draw.c: see figure_draw.h. */
+#include "figure_draw.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,4 +1,4 @@
-/* plot.c: `whirl plot`: curves of runs, recorded or new, over each other. */
+/* plotting.c: `whirl plot`: curves of runs, recorded or new, over each other. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
