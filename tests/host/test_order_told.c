@@ -218,6 +218,9 @@ static unsigned lines_of(char *text, const char *line[LINES_MOST]) {
     unsigned count = 0;
     char *rest = NULL;
     for (char *at = strtok_r(text, "\n", &rest); at != NULL; at = strtok_r(NULL, "\n", &rest)) {
+        if (strncmp(at, "accuracy and cost", 17) == 0) {
+            break; /* rows of float's rounding, or the file's name */
+        }
         if (strncmp(at, "state hash", 10) != 0 && strncmp(at, "trusted", 7) != 0) {
             TEST_ASSERT_TRUE(count < LINES_MOST);
             line[count++] = at;
