@@ -204,6 +204,6 @@ while IFS="$tab" read -r name promised; do
     done
     case "$promised" in told*) [ $told -eq 1 ]; verdict $? "--hard: $name is told in one of its scenes" ;; esac
 done <"$scratch/scenes"
-says 'error: --hard and --figures go alone' list --hard thomson_a
+says 'error: --units, --hard and --figures go alone' list --hard thomson_a
 says 'error: --units, --hard and --figures go alone' list --units --hard
 exit $failed
