@@ -159,7 +159,7 @@ static int take_data(const figure_options *o, const char *text, figure_data *dat
         for (char *line;
              code == EXIT_DONE && *count < DATA_MOST && (line = figure_line(&at, kinds[k])) != NULL;
              free(line)) {
-            char *word[WORDS_MOST];
+            char *word[WORDS_MOST] = {NULL};
             const int words = words_of(line, word);
             figure_data *d = &data[(*count)++];
             d->name = room_words("%s", word[0]);

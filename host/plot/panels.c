@@ -11,13 +11,15 @@
 /* der(der(x)) as x''. Free it. */
 static char *shown_name(const char *name) {
     size_t length = strlen(name);
-    char primes[16] = "";
-    while (strncmp(name, "der(", 4) == 0 && name[length - 1] == ')' && strlen(primes) < 15) {
+    static const char primes[] = "'''''''''''''''";
+    int order = 0;
+    while (strncmp(name, "der(", 4) == 0 && name[length - 1] == ')' &&
+           order < (int)sizeof primes - 1) {
         name += 4;
         length -= 5;
-        strcat(primes, "'");
+        order++;
     }
-    return room_words("%.*s%s", (int)length, name, primes);
+    return room_words("%.*s%.*s", (int)length, name, order, primes);
 }
 
 static int column_named(const plot_run *run, const char *name) {

@@ -321,7 +321,7 @@ static void name_course(simulation *sim) {
     const image *im = sim->image;
     const records *r = sim->records;
     const char *words = im->title[0] != '\0' ? im->title : im->name;
-    const char *changes = sim->settings->changes;
+    const char *changes = sim->settings->changes != NULL ? sim->settings->changes : "";
     char *title = room_words("%s%s%s", im->name, words != im->name ? ": " : "",
                              words != im->name ? words : "");
     char *label = room_words("%s%s%s", words, changes[0] != '\0' ? ", " : "", changes);
