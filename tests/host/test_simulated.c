@@ -38,8 +38,8 @@ static void begin(void) {
 
 /* What was taken is given back, and nothing else was left in the folder. */
 static void end(void) {
-    static const char *const names[] = {"r.csv", "r.txt", "r.vcd", "r.svg"};
-    for (int i = 0; i < 4; i++) {
+    static const char *const names[] = {"r.csv", "r.csv.toml", "r.txt", "r.vcd", "r.svg"};
+    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
         (void)remove(path_of(names[i]));
     }
     TEST_ASSERT_EQUAL_INT(0, rmdir(folder));
@@ -438,9 +438,11 @@ static void test_files_that_cannot_be_written(void) {
             const char *told = simulated(d.image, &s, SIMULATION_BAD_FILE);
             TEST_ASSERT_NOT_NULL_MESSAGE(strstr(told, bad[which]), told);
             if (where == 3 && which == 2) {
-                TEST_ASSERT_EQUAL_STRING("whirl run: error: --plot draws .svg and .png files, not "
-                                         "'/nowhere/at all/r'\n",
-                                         told);
+                TEST_ASSERT_EQUAL_STRING(
+                    "whirl run: error: --plot draws .svg, .pdf and .png files, "
+                    "not '/nowhere/at all/r'\n"
+                    "hint: --plot picture.svg\n",
+                    told);
             }
         }
     }
