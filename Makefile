@@ -244,7 +244,7 @@ bench-precision: ## work against precision of every method, by counted instructi
 	@$(MAKE) bench-precision-now
 
 .PHONY: price-effects
-price-effects: ## what each effect costs: instructions, bytes, error; into docs/effects.md (minutes)
+price-effects: ## what each effect costs: instructions, bytes, error; into docs/dev/effects.md (minutes)
 	@CC="$(CC)" mk/setup/deps.sh host firmware bench
 	@$(MAKE) price-effects-now
 

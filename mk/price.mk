@@ -171,12 +171,12 @@ TO_PRICE = WHIRL=build/whirl BOARD=$(BOARD) BOARD_CC=$(BOARD_CC) BOARD_NM=$(BOAR
     BOARD_LDLIBS="$(BOARD_LDLIBS)" BOARD_OBJECTS="$(BOARD_OBJECTS)" LIB_BOARD=$(call libraries,$(BOARD),whirl) \
     PLUGIN=$(PLUGIN) FLAGS="$(call TOLD,$(BOARD_CFLAGS))" EMULATE="$(call emulate,@)"
 
-# What each effect costs: build/price/effects.csv, and the tables of docs/effects.md.
+# What each effect costs: build/price/effects.csv, and the tables of docs/dev/effects.md.
 .PHONY: price-effects-now
 price-effects-now: $(GEN)/.stamp
 	@$(MAKE) $(BOARD_OBJECTS) $(call libraries,$(BOARD),whirl) $(PLUGIN)
 	@OUT=build/price $(TO_PRICE) mk/price/price.sh $(MODELS)
-	@mk/price/into_page.sh build/price/tables.md docs/effects.md
+	@mk/price/into_page.sh build/price/tables.md docs/dev/effects.md
 	@cat build/price/tables.md
 
 # How derivation and step grow with the number of links: the table of docs/dev/price.md.
