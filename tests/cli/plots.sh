@@ -93,11 +93,13 @@ while [ $number -lt "${PLOT_CASES:-24}" ]; do
 done
 
 # --- all of a run is in its picture -------------------------------------------------------------------
-# Every stretch of swings that are too many to be told apart reaches the top and the bottom of its frame. Marks are drawn about 0, beside them.
+# Every stretch of swings that are too many to be told apart reaches the top and the bottom of its frame.
+# The curve is the longest path of the picture.
 printf 'mechanism swings\ncoordinate x [m]\nT = 1 [kg]*x'"'"'^2/2\nV = 39.4784176 [N/m]*x^2/2\nscene s { start x = 1 [m]\nstep 10 [ms]\nuntil 4000 [s] }\n' >"$scratch/swings.whirl"
 "$whirl" run "$scratch/swings.whirl" --quiet --plot "$scratch/swings.svg"
-tr ' ' '\n' <"$scratch/swings.svg" | sed -n 's/^L*\([0-9.][0-9.]*\),\([0-9.][0-9.]*\)$/\1 \2/p' |
-    awk '$2 > 5 { y[++n] = $2; if (n == 1 || $2 < low) low = $2; if ($2 > high) high = $2 }
+tr '\n' ' ' <"$scratch/swings.svg" | sed 's/<path/\n<path/g' | awk 'length > longest { longest = length; path = $0 } END { print path }' |
+    tr ' ' '\n' | sed -n 's/^L*\([0-9.][0-9.]*\),\([0-9.][0-9.]*\)$/\1 \2/p' |
+    awk '{ y[++n] = $2; if (n == 1 || $2 < low) low = $2; if ($2 > high) high = $2 }
         END {
             for (i = 1; i <= n; i++) { if (y[i] < low + 15) top++; if (y[i] > high - 15) bottom++ }
             print n, top, bottom; exit !(high - low > 150 && top >= 2000 && bottom >= 2000 && n - top - bottom < 200)
