@@ -97,7 +97,7 @@ done
 # The curve is the longest path of the picture, behind its sample in the legend.
 printf 'mechanism swings\ncoordinate x [m]\nT = 1 [kg]*x'"'"'^2/2\nV = 39.4784176 [N/m]*x^2/2\nscene s { start x = 1 [m]\nstep 10 [ms]\nuntil 4000 [s] }\n' >"$scratch/swings.whirl"
 "$whirl" run "$scratch/swings.whirl" --quiet --plot "$scratch/swings.svg"
-tr '\n' ' ' <"$scratch/swings.svg" | sed 's/<path/\n<path/g' | awk 'length > longest { longest = length; path = $0 } END { sub(/.*M/, "L", path); print path }' |
+tr "\n'" ' \n' <"$scratch/swings.svg" | awk 'length > longest { longest = length; path = $0 } END { sub(/.*M/, "L", path); print path }' |
     tr ' ' '\n' | sed -n 's/^L*\([0-9.][0-9.]*\),\([0-9.][0-9.]*\)$/\1 \2/p' |
     awk '{ y[++n] = $2; if (n == 1 || $2 < low) low = $2; if ($2 > high) high = $2 }
         END {
