@@ -113,8 +113,9 @@ static bool is_option(const char *word, const char *name) {
 
 /* The only ones of which there may be several. */
 static bool may_be_repeated(const char *name) {
-    static const char *const all[] = {"--set",     "--start", "--with",   "--without", "--over", "--panel", "--data",
-                                      "--measure", "--vary",  "--within", "--fault"};
+    static const char *const all[] = {"--set",  "--start",  "--with", "--without",
+                                      "--over", "--panel",  "--data", "--measure",
+                                      "--vary", "--within", "--fault"};
     for (size_t i = 0; i < sizeof all / sizeof all[0]; i++) {
         if (strcmp(name, all[i]) == 0) {
             return true;
