@@ -128,7 +128,7 @@ CLI_NOT_ASAN := $(foreach t,boards conclusions docs enclosures families flags fr
 # And what is left to `make sanitizers-all`: scripts and suites that derive and step as others do, to compare digits,
 # or whose many runs each try their cures.
 CLI_LESS_ASAN := $(foreach t,asked_first carriage commands effects_cost_nothing embed_headers embed_names embed_sketch emitted_c faults figures \
-    fixed float_range measure pil price price_pages price_predicts printed_zeros recorded_bits recorded_lists settings_bits swing,\
+    fixed float_range full_output measure pil price price_pages price_predicts printed_zeros recorded_bits recorded_lists settings_bits suites swing trust,\
     tests/cli/$(t).sh)
 HOST_LESS_ASAN := accuracy asked_first belief between books_told busy cause_at_start choice coarse_tables contact_bound contact_centres contact_curved \
     contact_devices contact_holds contact_law contact_load contact_rest contact_squeezed contact_start contact_together convergence cost counts energy_integral energy_kept exact_books far_origin far_slopes figures_thomson fixed_ranges forced_swing \
