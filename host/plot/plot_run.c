@@ -86,8 +86,8 @@ bool plot_run_about(const char *csv, const plot_run *run, const char *facts, con
     char *title = plot_run_quoted(run->title);
     char *label = plot_run_quoted(run->label);
     FILE *to = fopen(file, "wb");
-    bool good = to != NULL;
-    if (good) {
+    bool good = false;
+    if (to != NULL) {
         fprintf(to, "%stitle = %s\nlabel = %s\n", facts, title, label);
         if (run->trusted_s > 0.0) {
             fprintf(to, "trusted_s = %.17g\n", run->trusted_s);

@@ -24,7 +24,9 @@ static double of(dice *d, double low, double high) {
 
 static void spring_slope(const double *p, const long double *x, long double *slope) {
     slope[0] = x[1];
-    slope[1] = -(p[1] * x[0] + p[2] * x[0] * x[0] * x[0] + p[3] * x[1]) / p[0];
+    const long double m = (long double)p[0], k = (long double)p[1];
+    const long double hard = (long double)p[2], damping = (long double)p[3];
+    slope[1] = -(k * x[0] + hard * x[0] * x[0] * x[0] + damping * x[1]) / m;
 }
 
 static void draw_spring(dice *d, rated *r) {
@@ -42,7 +44,8 @@ static void draw_spring(dice *d, rated *r) {
 
 /* Two masses on strings of lengths l and k, angles from straight down. */
 static void pendulum_slope(const double *n, const long double *x, long double *slope) {
-    const long double p = n[0], q = n[1], l = n[2], k = n[3];
+    const long double p = (long double)n[0], q = (long double)n[1];
+    const long double l = (long double)n[2], k = (long double)n[3];
     const long double c = q * l * k * cosl(x[0] - x[1]);
     const long double s = q * l * k * sinl(x[0] - x[1]);
     const long double aa = (p + q) * l * l;
@@ -78,7 +81,7 @@ static void draw_pendulum(dice *d, rated *r) {
 static void orbit_slope(const double *n, const long double *x, long double *slope) {
     slope[0] = x[2];
     slope[1] = x[3];
-    slope[2] = x[0] * x[3] * x[3] - n[1] / (n[0] * x[0] * x[0]);
+    slope[2] = x[0] * x[3] * x[3] - (long double)n[1] / ((long double)n[0] * x[0] * x[0]);
     slope[3] = -2.0L * x[2] * x[3] / x[0];
 }
 
@@ -152,7 +155,7 @@ static void move_linear(const linear *of_it, quad step[LINEAR_STATES][LINEAR_COL
     const double input[LINEAR_INPUTS] = {0.5, 0.5};
     quad now[LINEAR_STATES];
     for (int i = 0; i < of_it->states; i++) {
-        now[i] = x[i];
+        now[i] = (quad)x[i];
     }
     linear_move(of_it, step, input, now);
     for (int i = 0; i < of_it->states; i++) {
@@ -169,13 +172,13 @@ long double *rated_motion(const rated *r, double spacing_s, int records) {
     linear spaced = r->linear;
     char text[40]; /* the decimal, not the double next to it */
     snprintf(text, sizeof text, "%.9g", spacing_s);
-    spaced.h = strtold(text, NULL);
+    spaced.h = (quad)strtold(text, NULL);
     const long double h = strtold(text, NULL) / each;
     if (r->slope == NULL) {
         linear_step(&spaced, 0, step);
     }
     for (size_t i = 0; i < states; i++) {
-        row[i] = r->start[i];
+        row[i] = (long double)r->start[i];
     }
     for (int k = 0; k < records; k++) {
         long double *next = row + (size_t)(k + 1) * states;

@@ -5,8 +5,13 @@
 #include <string.h>
 
 static const symbol swept[2] = {
-    {.kind = SYM_PARAMETER, .name = "k", .text = "", .unit = "", .dim = {{0, 12, -24}}},
-    {.kind = SYM_PARAMETER, .name = "m", .text = "", .unit = "", .index = 1, .dim = {{0, 12}}}};
+    {.kind = SYM_PARAMETER, .name = "k", .text = "", .unit = "", .dim.twelfths = {0, 12, -24}},
+    {.kind = SYM_PARAMETER,
+     .name = "m",
+     .text = "",
+     .unit = "",
+     .index = 1,
+     .dim.twelfths = {0, 12}}};
 
 /* A range whose ends have the same sign where it is logarithmic; the step's is above zero. */
 static axis drawn_axis(dice *d, const symbol *of, char *name) {

@@ -99,7 +99,7 @@ static double error_of(const rated *r, double step_s, double spacing_s, int reco
             const double x = strtod(at, &end);
             whole = end != at;
             at = end;
-            off[i] = fmax(off[i], (double)fabsl(x - now));
+            off[i] = fmax(off[i], (double)fabsl((long double)x - now));
             largest[i] = fmax(largest[i], (double)fabsl(now));
         }
     }
