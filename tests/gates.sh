@@ -35,8 +35,8 @@ report() {
         printf '  FAIL  %-12s %s   make gate-%s; %s\n' "$1" "$took" "$1" "$log"
         # What counts comes first in a compiler's log and last in a script's; warnings alone fail no gate but those where
         # they are errors.
-        { grep -E -A 2 '(error[: ]|ERROR|FAIL|^not ok|differs)' "$log" || tail -n 8 "$log"; } |
-            head -n 16 | cut -c 1-160 | sed 's/^/        /'
+        { grep -E -A 6 '(error[: ]|ERROR|FAIL|^not ok|differs)' "$log" || tail -n 8 "$log"; } |
+            head -n 24 | cut -c 1-160 | sed 's/^/        /'
     fi
 }
 

@@ -45,6 +45,7 @@ typedef struct campaign {
     const char *only; /* rows whose word is this; or NULL */
     const char *also; /* faults that every run has; or NULL */
     unsigned runs;
+    unsigned first; /* the first run's number */
     uint32_t seed;
     int jobs;
 } campaign;

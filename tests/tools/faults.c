@@ -2,7 +2,7 @@
  * from the plant, and prints a matrix.
  *
  *     build/tools/faults --firmware IMAGE [--board B] [--runs N] [--seed S] [--jobs J] [--step 200us] [--only KIND]
- *         [--also FAULTS]
+ *         [--first N] [--also FAULTS]
  *
  * Run i with a seed is the same whatever the other runs are, on however many processes. Exit status 0: nothing is wrong;
  * 1: there are violations; 2: bad input; 130: interrupted, what was done is told. */
@@ -118,7 +118,7 @@ static void catch_interrupts(void) {
 static int work(const campaign *c, plants *from, int job, int onto) {
     for (unsigned i = (unsigned)job; i < c->runs && !interrupted; i += (unsigned)c->jobs) {
         verdict v;
-        if (!run_one(c, from, i, &v)) {
+        if (!run_one(c, from, c->first + i, &v)) {
             return interrupted ? 0 : 2;
         }
         if (write(onto, &v, sizeof v) != (ssize_t)sizeof v) {
@@ -143,9 +143,10 @@ static void collect(const campaign *c, const pid_t *worker, int from, verdict *a
     verdict v;
     for (;;) {
         const ssize_t got = read(from, &v, sizeof v);
-        if (got == (ssize_t)sizeof v && v.run < c->runs) {
-            all[v.run] = v;
-            all[v.run].time_s = v.time_s > 0.0 ? v.time_s : 1e-9; /* it was done */
+        if (got == (ssize_t)sizeof v && v.run - c->first < c->runs) {
+            verdict *of = &all[v.run - c->first];
+            *of = v;
+            of->time_s = v.time_s > 0.0 ? v.time_s : 1e-9; /* it was done */
             count++;
         } else if (got >= 0 || !interrupted) {
             break;
@@ -220,6 +221,8 @@ static bool read_words(int count, char **words, campaign *c) {
             c->also = value;
         } else if (strcmp(option, "--runs") == 0 && is && number > 0 && number <= 10000000) {
             c->runs = (unsigned)number;
+        } else if (strcmp(option, "--first") == 0 && is && number <= 10000000) {
+            c->first = (unsigned)number; /* goes on where a campaign was broken off */
         } else if (strcmp(option, "--seed") == 0 && is && number <= UINT32_MAX) {
             c->seed = (uint32_t)number;
         } else if (strcmp(option, "--jobs") == 0 && is && number > 0 && number <= JOBS_MAX) {
@@ -248,9 +251,10 @@ int main(int count, char **words) {
                   .seed = 1,
                   .jobs = 2};
     if (!read_words(count, words, &c) || !has_row(&c)) {
-        fprintf(stderr,
-                "usage: faults --firmware IMAGE [--board B] [--runs N] [--seed S] [--jobs J] "
-                "[--step 200us] [--only KIND] [--also FAULTS]\n");
+        fprintf(
+            stderr,
+            "usage: faults --firmware IMAGE [--board B] [--runs N] [--first N] [--seed S] [--jobs J] "
+            "[--step 200us] [--only KIND] [--also FAULTS]\n");
         return 2;
     }
     plants from = {.step = c.step};
