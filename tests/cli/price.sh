@@ -392,7 +392,7 @@ for command in price choose; do
     refused 'unknown option' $command "$s" $e --step 1ms
     refused 'cannot be' $command "$scratch/none.whirl" $e
 done
-refused '.svg and .png' price "$s" --plot "$scratch/p.gif"
+refused '.svg, .pdf and .png' price "$s" --plot "$scratch/p.gif"
 # What cannot be written is told before anything is run, and what is there stays when nothing comes of it.
 refused 'cannot be written' price "$s" --plot "$scratch/none/p.svg"
 refused 'cannot be written' price "$s" --csv "$scratch/none/p.csv"
