@@ -231,8 +231,8 @@ static operator_step run(const wh_rig_config *config) {
         }
     } while (!operate(&operator_at, hal_clock_ticks() - started));
     hal_motor_off(HAL_MOTOR_COAST);
-    hal_clock_wait_until(due +
-                         CONTROL_TICKS); /* until it is: the motor may be at the end of a line */
+    /* until it is: the motor may be at the end of a line. A late controller has passed `due` long ago. */
+    hal_clock_wait_until(hal_clock_ticks() + CONTROL_TICKS);
     return operator_at;
 }
 

@@ -57,6 +57,7 @@ static bool brakes(const wh_rig *rig) {
 void wh_rig_pulse(const wh_rig_config *config, wh_rig *rig, unsigned sensor, uint32_t ticks) {
     rig->pulses_ever++;
     rig->busy = true;
+    rig->decides = rig->decides || rig->pulses.suspects;
     const bool open = !wh_run_drives(&rig->run) && !brakes(rig);
     if (!wh_run_drives(&rig->run)) {
         wh_guard_off_pulse(&config->guard, &rig->guard, !open, sensor, ticks);
@@ -290,7 +291,15 @@ static void watch(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs 
 
 /* --- where the rotor is --------------------------------------------------------------------------- */
 
+/* The pulse after a suspect takes as long as two: the observer makes up for such a step in the next one. */
+static bool postpones(const wh_rig *rig, uint32_t now_ticks) {
+    return rig->decides && now_ticks - rig->observer.ticks < 2U * rig->observer.step_ticks;
+}
+
 static void observe(const wh_rig_config *config, wh_rig *rig, uint32_t now_ticks) {
+    if (postpones(rig, now_ticks)) {
+        return;
+    }
     const uint32_t before_ticks = rig->observer.ticks;
     wh_observer_step(&config->observer, &rig->observer, now_ticks,
                      rig->command.volts / config->run.rated_V);
@@ -403,6 +412,7 @@ static void measure(const wh_rig_config *config, wh_rig *rig, uint32_t now_ticks
         wh_measure_work(&config->measure, &rig->measure, halves(rig));
     }
     rig->busy = false;
+    rig->decides = false;
     rig->loads = 0;
 }
 

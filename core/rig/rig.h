@@ -73,6 +73,7 @@ typedef struct wh_rig {
     bool fed;
     /* a pulse or a mark is work enough for one step: the rest waits for the next */
     bool busy;
+    bool decides;  /* a pulse of this step came after a suspect */
     uint8_t loads; /* samples since the last step: more than one leave it time for less */
     bool rested;   /* motor off, and the rotor rests, or will not: all that can be done is done */
     /* it rests: no pulses; where those cannot be believed, after all the time it may take */
