@@ -45,6 +45,9 @@ static float displacement_m; /* of the carriage, by what was measured */
 #define RIG_SWINGS 0
 #endif
 
+/* So often the motor is told that it is off before the program ends. */
+#define LAST_ORDERS 10U
+
 /* The rotor must rest before `arm`: one that turned on before the reset gets so long. */
 #define PATIENCE_TICKS (120U * HAL_TICKS_PER_S)
 
@@ -230,9 +233,11 @@ static operator_step run(const wh_rig_config *config) {
             put_state(started);
         }
     } while (!operate(&operator_at, hal_clock_ticks() - started));
-    hal_motor_off(HAL_MOTOR_COAST);
-    /* until it is: the motor may be at the end of a line. A late controller has passed `due` long ago. */
-    hal_clock_wait_until(hal_clock_ticks() + CONTROL_TICKS);
+    /* The motor may be at the end of a line that loses orders. A late controller has passed `due` long ago. */
+    for (unsigned i = 0; i < LAST_ORDERS; i++) {
+        hal_motor_off(HAL_MOTOR_COAST);
+        hal_clock_wait_until(hal_clock_ticks() + CONTROL_TICKS);
+    }
     return operator_at;
 }
 

@@ -81,15 +81,16 @@ verdict $? "a stop line that is broken counts as pressed" "$scratch/run"
 run stop@0.5s+10ms
 grep -aq '^STOPPED: ' "$scratch/run" && ! grep -aq armed "$scratch/run"
 verdict $? "and one that was pressed before it armed is not forgotten" "$scratch/run"
-# A controller that is late in each step while the rotor brakes: its last word is the enable, off.
-awk -v seed="$(date +%j)" 'BEGIN { srand(seed); for (i = 0; i < 3; i++) { printf "%.5f %.2f\n", 0.0021 + 0.004 * rand(), 20 + 12 * rand() } }' |
-    while read -r late speed; do
+# A controller that is late in each step while the rotor brakes, or whose orders get lost: its last word is the enable, off.
+awk -v seed="$(date +%j)" 'BEGIN { srand(seed); for (i = 0; i < 4; i++) { printf "%s=%.5f %.2f\n", i % 2 ? "orders-lost" : "late",
+        i % 2 ? 0.3 * rand() : 0.0021 + 0.004 * rand(), 20 + 12 * rand() } }' |
+    while read -r fault speed; do
         "$whirl" pil docs/plants/rig.whirl --step 200us --firmware "$build/pil_dialled" --tape "$scratch/late" \
-            --fault "cell-noise=0.07,reads:4=$speed,reads:6=1,late=$late@state=14" </dev/null >"$scratch/run" 2>&1
-        "$whirl" pil --read "$scratch/late" | awk -F, '$5 == "enable" { on = $6 } END { exit on != 0 }' || echo "late by $late s at $speed rad/s"
+            --fault "cell-noise=0.07,reads:4=$speed,reads:6=1,$fault@state=14" </dev/null >"$scratch/run" 2>&1
+        "$whirl" pil --read "$scratch/late" | awk -F, '$5 == "enable" { on = $6 } END { exit on != 0 }' || echo "$fault at $speed rad/s"
     done >"$scratch/bad"
 [ ! -s "$scratch/bad" ]
-verdict $? "a controller that is late while it brakes ends with the enable off" "$scratch/bad"
+verdict $? "a controller that is late or not heard while it brakes ends with the enable off" "$scratch/bad"
 
 # --- driven though it is off ------------------------------------------------------------------------------------------
 # off TRIPS WORD...: at 60 s the motor is off, and the trip is one of these
