@@ -396,9 +396,9 @@ static void test_moments(void) {
         expect_columns(csv, units_per_s);
         (void)remove(path);
         (void)remove(csv);
-        char said[sizeof csv + 5];
-        snprintf(said, sizeof said, "%s.toml", csv);
-        (void)remove(said);
+        char side[sizeof csv + 5];
+        snprintf(side, sizeof side, "%s.toml", csv);
+        (void)remove(side);
         in_head(unit);
         expect_head(&b);
         /* summed up in float: a rounding a step */
