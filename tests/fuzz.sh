@@ -14,8 +14,8 @@ for fuzzer in "$@"; do
     case $fuzzer in
     *fuzz_lang.fuzzer | *fuzz_derive.fuzzer) cp core/models/*.whirl tests/bad/* "$corpus/" ;;
     esac
-    kept=tests/fuzz/kept/$(basename "$fuzzer" .fuzzer)
-    [ ! -d "$kept" ] || cp "$kept"/* "$corpus/"
+    kept=tests/fuzz/kept/$(basename "$fuzzer" .fuzzer).tar.gz
+    [ ! -f "$kept" ] || tar -xzf "$kept" --strip-components=1 -C "$corpus"
     log=${fuzzer%.fuzzer}.log
     words=tests/fuzz/$(basename "$fuzzer" .fuzzer).dict
     if [ -f "$words" ]; then words=-dict=$words; else words=; fi
