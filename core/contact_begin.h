@@ -6,10 +6,10 @@
 
 /* Of the contacts at the start of a run, as bits, nothing being hit or captured yet: stops that are touched, as near as
  * their gaps are known, and holds whose conditions are true, if at rest (`still`); those that are not are `moving`.
- * work->law must belong to the state. */
+ * Stops in `pushed`, as bits, are touched by construction. work->law must belong to the state. */
 static inline void wh_contact_first_touch(const wh_contact_system *of, const wh_contact_work *w,
-                                          const wh_real *signal, wh_contact_state *s,
-                                          unsigned *still, unsigned *moving) {
+                                          unsigned pushed, const wh_real *signal,
+                                          wh_contact_state *s, unsigned *still, unsigned *moving) {
     const wh_real *rate = wh_contact_rates(of, s);
     *still = 0;
     *moving = 0;
@@ -19,15 +19,18 @@ static inline void wh_contact_first_touch(const wh_contact_system *of, const wh_
         const wh_real speed = wh_jacobian_times(of, w, k, rate);
         const wh_real none = WH_CONTACT_ROUNDING * wh_contact_terms(of, w, k, rate);
         const bool rests = !wh_contact_pinned(of, k) ? WH_ABS(speed) <= none : speed == WH_R(0.0);
-        const bool touched = stop && value <= WH_CONTACT_TIE * wh_contact_extent(of, w, k, s);
-        const bool closes = stop && value <= WH_R(0.0) && signal[2 * k + 1] <= WH_R(0.0);
+        const bool on = (pushed >> k & 1U) != 0;
+        const bool touched =
+            stop && (on || value <= WH_CONTACT_TIE * wh_contact_extent(of, w, k, s));
+        const bool closes = stop && (on || value <= WH_R(0.0)) && signal[2 * k + 1] <= WH_R(0.0);
         const bool holds = wh_contact_of(of, k, WH_HOLD) && value > WH_R(0.0);
         *still |= (touched || holds) && rests ? 1U << k : 0U;
         *moving |= (closes || holds) && !rests ? 1U << k : 0U;
     }
 }
 
-/* Modes at the start of a run: what is at rest stays so if the forces keep it there, as if it had been before; then
+/* Modes at the start of a run and after a correction (wh_scene_set_real()). What stands beyond a stop is put back onto it.
+ * What is at rest stays so if the forces keep it there, as if it had been before; then
  * what closes is hit, and what a hold's condition says is captured: *hit, as bits, with impulse[forced]. Returns how many
  * of the step's moments with events that took beyond the one that every start has. */
 static inline unsigned wh_contact_begin(const wh_contact_system *of, wh_contact_work *w, wh_real h,
@@ -35,6 +38,8 @@ static inline unsigned wh_contact_begin(const wh_contact_system *of, wh_contact_
                                         wh_real *impulse) {
     wh_real accel[WH_COORDS];
     wh_real signal[2 * WH_CONTACTS_MAX];
+    unsigned rounds = 0;
+    unsigned pushed = 0;
     wh_contact_place spot = WH_CONTACT_HERE;
     wh_contact_moment m = {0, 0, h, false};
     unsigned still;
@@ -51,12 +56,18 @@ static inline unsigned wh_contact_begin(const wh_contact_system *of, wh_contact_
     for (unsigned k = 0; k < of->contacts; k++) {
         wh_contact_expect(w, k, signal[2 * k] + signal[2 * k + 1]);
     }
-    wh_contact_first_touch(of, w, signal, s, &still, &moving);
+    for (unsigned k = 0; k < of->forced && rounds == 0; k++) {
+        if (wh_contact_of(of, k, WH_STOP) && wh_contact_far(of, w, k, signal, s)) {
+            (void)wh_contact_push_out(of, w, true, input, s, signal, &pushed);
+            rounds = 1;
+        }
+    }
+    wh_contact_first_touch(of, w, pushed, signal, s, &still, &moving);
     wh_contact_set_sides(of, w, ~0U, signal);
     if (still == 0) {
         m.events = moving;
         *hit = wh_contact_resolve(of, w, &m, input, s, impulse);
-        return 0;
+        return rounds;
     }
     m.events = still & wh_contact_which(of, w, WH_HOLD, false);
     wh_contact_set_modes(of, w, still & ~m.events, WH_ACTIVE);
@@ -70,11 +81,11 @@ static inline unsigned wh_contact_begin(const wh_contact_system *of, wh_contact_
         (void)wh_contact_project_places(of, w, &spot, signal, input, s);
     }
     if (moving == 0) {
-        return 0;
+        return rounds;
     }
     m.events = moving;
     *hit = wh_contact_resolve(of, w, &m, input, s, impulse);
-    return 1;
+    return rounds + 1;
 }
 
 #endif

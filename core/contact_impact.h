@@ -254,17 +254,15 @@ static inline unsigned wh_contact_hit(const wh_contact_system *of, wh_contact_wo
     return hits;
 }
 
-/* What a step with too many events has let pass: where free stops are beyond their places, bodies are moved so that none
- * is, the least that does it in the metric of the masses, and what is touched then gives nothing back. Both are the
- * problem of one impact: stops push and do not pull. */
-static inline void wh_contact_squeeze(const wh_contact_system *of, wh_contact_work *w,
-                                      const wh_real *input, wh_contact_state *s) {
+/* Where free stops are passed, by more than rounding if `coarse`, bodies are moved so that none is, the least that does it in
+ * the metric of the masses. Stops push and do not pull, as in an impact. Returns the stops that were passed and those that
+ * pushed, as bits. signal[] and work->law then belong to the state. */
+static inline unsigned wh_contact_push_out(const wh_contact_system *of, wh_contact_work *w,
+                                           bool coarse, const wh_real *input, wh_contact_state *s,
+                                           wh_real *signal, unsigned *pushed) {
     wh_real accel[WH_COORDS];
-    wh_real signal[2 * WH_CONTACTS_MAX];
-    wh_real zero[WH_CONTACTS_MAX] = {WH_R(0.0)};
-    wh_real impulse[WH_CONTACTS_MAX] = {WH_R(0.0)};
-    unsigned touched = 0;
-    unsigned pushed = 0;
+    unsigned passed = 0;
+    *pushed = 0;
     for (unsigned pass = 0; pass < WH_SQUEEZE_LOOKS; pass++) {
         uint8_t member[WH_CONTACTS_MAX] = {0};
         wh_real wanted[WH_CONTACTS_MAX] = {WH_R(0.0)};
@@ -279,9 +277,10 @@ static inline void wh_contact_squeeze(const wh_contact_system *of, wh_contact_wo
             if (!stop && !(wh_contact_of(of, k, WH_HOLD) && w->mode[k] == WH_ACTIVE)) {
                 continue;
             }
-            if (stop && w->mode[k] == WH_FREE && signal[2 * k] < WH_R(0.0)) {
+            if (stop && w->mode[k] == WH_FREE &&
+                (coarse ? wh_contact_far(of, w, k, signal, s) : signal[2 * k] < WH_R(0.0))) {
                 mover = mover == WH_CONTACTS_MAX ? k : mover;
-                touched |= 1U << k;
+                passed |= 1U << k;
             }
             wanted[count] = stop ? -signal[2 * k] : WH_R(0.0);
             member[count++] = (uint8_t)k;
@@ -292,7 +291,7 @@ static inline void wh_contact_squeeze(const wh_contact_system *of, wh_contact_wo
         (void)wh_contact_lcp(of, w, member, count, wanted, false, lambda, left);
         for (unsigned i = 0; i < count; i++) {
             const bool pushes = wh_contact_of(of, member[i], WH_STOP) && lambda[i] > WH_R(0.0);
-            pushed |= pushes ? 1U << member[i] : 0U;
+            *pushed |= pushes ? 1U << member[i] : 0U;
             wh_contact_apply(of, w, member[i], lambda[i], way);
         }
         wh_books_look(of, w, s, input);
@@ -301,7 +300,18 @@ static inline void wh_contact_squeeze(const wh_contact_system *of, wh_contact_wo
         }
         wh_books_moved(of, w, s, input, mover);
     }
-    touched |= pushed;
+    return passed | *pushed;
+}
+
+/* What a step with too many events has let pass: bodies are moved off free stops that are passed, and what is touched then
+ * gives nothing back. */
+static inline void wh_contact_squeeze(const wh_contact_system *of, wh_contact_work *w,
+                                      const wh_real *input, wh_contact_state *s) {
+    wh_real signal[2 * WH_CONTACTS_MAX];
+    wh_real zero[WH_CONTACTS_MAX] = {WH_R(0.0)};
+    wh_real impulse[WH_CONTACTS_MAX] = {WH_R(0.0)};
+    unsigned pushed;
+    const unsigned touched = wh_contact_push_out(of, w, false, input, s, signal, &pushed);
     if (touched != 0) {
         unsigned open = 0; /* what is moved off its stop rests there no longer, and is not hit */
         for (unsigned k = 0; k < of->forced; k++) {

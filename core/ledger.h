@@ -44,7 +44,8 @@ struct wh_ledger_form {
     uint16_t
         entries; /* smooth + contacts * (1 + coordinates) + inputs + stabilized, <= WH_LEDGER_MAX */
     uint8_t
-        accounts; /* 1 + all coordinates + inputs + stabilized: a word is kept for each of those */
+        accounts; /* words that are kept: two levels for each account (the energy's, and a momentum for each
+                       * of all coordinates), the inputs' and one if stabilized */
     uint8_t coordinates; /* integrated coordinates, of which */
     uint8_t angles;      /* are kept as turn angles */
     uint8_t inputs;
@@ -74,7 +75,18 @@ WH_INLINE unsigned wh_ledger_account(const wh_ledger_form *form, unsigned entry)
                                 : (entry - form->smooth) % (1U + form->coordinates);
 }
 
-/* The inputs of the last step, [inputs], behind the levels at the start. */
+/* Accounts with a level: the energy, and a momentum for each of all coordinates. */
+WH_INLINE unsigned wh_ledger_level_count(const wh_ledger_form *form) {
+    return ((unsigned)form->accounts - form->inputs - form->stabilized) / 2U;
+}
+
+/* What corrections changed each account by (wh_scene_set_real() and its like), behind the levels at the start. Those
+ * levels have moved by as much, so the entries still add up to the change from there. */
+WH_INLINE wh_real *wh_ledger_corrected(const wh_ledger_form *form, const wh_state *state) {
+    return state->ledger + 2U * form->entries + wh_ledger_level_count(form);
+}
+
+/* The inputs of the last step, [inputs], behind those. */
 WH_INLINE wh_real *wh_ledger_kept(const wh_ledger_form *form, const wh_state *state) {
     return state->ledger + 2U * form->entries + (unsigned)form->accounts - form->inputs -
            form->stabilized;

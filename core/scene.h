@@ -103,6 +103,9 @@ struct wh_scene {
 #define wh_scene_start WH_NAME(wh_scene_start)
 #define wh_scene_step WH_NAME(wh_scene_step)
 #define wh_scene_steps WH_NAME(wh_scene_steps)
+#define wh_scene_set_real WH_NAME(wh_scene_set_real)
+#define wh_scene_set_angle WH_NAME(wh_scene_set_angle)
+#define wh_scene_move_angle WH_NAME(wh_scene_move_angle)
 #define wh_scene_time WH_NAME(wh_scene_time)
 #define wh_scene_time_s WH_NAME(wh_scene_time_s)
 #define wh_scene_hash WH_NAME(wh_scene_hash)
@@ -110,20 +113,33 @@ struct wh_scene {
 #define wh_status_text WH_NAME(wh_status_text)
 
 /* Put `state` at the scene's start. `memory`, of `bytes` bytes and aligned as a uint64_t in a struct is, must
- * outlive the run. Returns WH_OK; or, with state and memory untouched, WH_E_MEMORY when it is too little or NULL, and
- * WH_E_ARGUMENT when it is not aligned, when scene or state is NULL, and for a scene that no generator writes: a
+ * outlive the run. Returns WH_OK; or, with memory untouched and the state not started, WH_E_MEMORY when it is too little or
+ * NULL, and WH_E_ARGUMENT when it is not aligned, when scene or state is NULL, and for a scene that no generator writes: a
  * method that its form does not have, too many contacts; or WH_E_ARITHMETIC where compiler flags or the machine's
  * modes make other bits than those of every other machine: state->fault then says how. */
 wh_status wh_scene_start(const wh_scene *scene, wh_state *state, void *memory, size_t bytes);
 
 /* Do one step. Returns WH_OK; or WH_E_DIVERGED or WH_E_UNDEFINED, with the last good state kept and
- * state->fault set (a further call fails the same way, it does not go on from garbage). */
+ * state->fault set (a further call fails the same way, it does not go on from garbage); or WH_E_ARGUMENT for a state that was
+ * not started: all zero, as static memory is, or left so by a start that was refused. */
 wh_status wh_scene_step(const wh_scene *scene, wh_state *state);
 
 /* Do so many steps, or none, for simulating ahead. The bits are those of as many calls of wh_scene_step(); it takes fewer
  * instructions where the scene's file is compiled with -DWH_AHEAD=1, for as much flash again. Returns as wh_scene_step();
  * state->steps tells how many were done. */
 wh_status wh_scene_steps(const wh_scene *scene, wh_state *state, uint32_t steps);
+
+/* Correct the state from a measurement, between two steps; SI units. `real` and `angle` are the generated header's
+ * indices: SCENE_REAL_x, SCENE_RATE_x and SCENE_ANGLE_theta. The next step then goes on as a run does that starts from the
+ * corrected state: it puts what stands beyond a stop back onto it, finds every contact's mode again, and lets each hold
+ * keep the value that it finds. What was rounded off the component is forgotten. With a ledger, the change of each account
+ * is kept apart (wh_ledger_corrected()). An angle keeps its turns. wh_scene_move_angle() adds to it, and so keeps all its
+ * digits after many turns. Returns WH_OK; or, with the state as it was, WH_E_ARGUMENT for an index that the scene does not
+ * have, a value that is no finite number or beyond all bounds, and a state that was not started. */
+wh_status wh_scene_set_real(const wh_scene *scene, wh_state *state, unsigned real, wh_real value);
+wh_status wh_scene_set_angle(const wh_scene *scene, wh_state *state, unsigned angle, wh_real rad);
+wh_status wh_scene_move_angle(const wh_scene *scene, wh_state *state, unsigned angle,
+                              wh_real by_rad);
 
 /* Time of the state: state->steps * scene->step, exact but for one rounding of the fraction to the nearest
  * real. Good for all times below 2^64 s: float holds a microsecond of a run of years. Where the scene does

@@ -57,9 +57,10 @@ typedef struct wh_state {
     wh_real *carry;  /* [scene->angles + scene->reals] low parts when compensated, else NULL */
     wh_real *input;  /* [scene->inputs] SI units; the caller may change them between steps */
     wh_contacts *contacts; /* NULL without contacts */
-    wh_real *held;   /* [scene->held] what holds keep: curved ones what it is, straight ones by how
+    wh_real *held; /* [scene->held] what holds keep: curved ones what it is, straight ones by how
                       * much it has slipped; SI units */
-    wh_real *ledger; /* the books' totals, their carries, the levels at the start; or NULL */
+    wh_real *
+        ledger; /* the books' totals, their carries, the levels at the start, the corrections; or NULL */
     /* after WH_E_DIVERGED: the component at fault, angles first, then reals; after WH_E_UNDEFINED or
      * WH_E_SINGULAR: the contact, in the order of contact.h; after WH_E_ARITHMETIC: what is wrong, a
      * wh_probed (arithmetic.h) */

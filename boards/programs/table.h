@@ -11,7 +11,7 @@
 #ifndef WH_SCENE_WORDS
 #define WH_SCENE_WORDS \
     (WH_STATE_WORDS(16, 48, 16) + WH_CONTACT_WORDS(16) + WH_HELD_WORDS(16) + \
-     WH_LEDGER_WORDS(128, 17))
+     WH_LEDGER_WORDS(128, 34))
 #endif
 
 /* The most that one step evaluates: the accelerations, and the contacts' signals. */

@@ -75,7 +75,7 @@ static inline wh_ledger_form core_ledger_form(const image *im, const uint8_t *ac
                             .smooth = (uint16_t)l->smooth,
                             .entries = (uint16_t)l->entries,
                             .accounts =
-                                (uint8_t)(l->accounts + l->inputs + im->settings.stabilized),
+                                (uint8_t)(2 * l->accounts + l->inputs + im->settings.stabilized),
                             .coordinates = (uint8_t)im->coordinates,
                             .angles = (uint8_t)im->angles,
                             .inputs = (uint8_t)l->inputs,

@@ -1,6 +1,6 @@
 #!/bin/sh
-# doc_examples.sh: every ```whirl block of the documents is a complete file that derives; the C program of
-# docs/language.md builds without a warning. (gate-docs runs the commands of all pages.)
+# doc_examples.sh: every ```whirl block of the documents is a complete file that derives; the C programs of
+# pages end by themselves, whatever flags they are built with. (gate-docs runs the commands of all pages.)
 . "$(dirname "$0")/../checks.sh"
 
 count=0
@@ -21,17 +21,46 @@ for example in "$scratch"/*.whirl; do
     verdict $? "$name"
 done
 
-# --- the program built by hand: main.c and the pendulum (gate-docs runs it)
-mkdir "$scratch/hand"
-ln -s "$PWD/core" "$scratch/hand/core"
-awk -v into="$scratch/hand" '
-    /^```[a-z]+ [a-z.]+$/ && $2 ~ /[.]/ { file = into "/" $2; next }
-    /^```/ { file = "" }
-    file != "" { print > file }' docs/language.md
-"$whirl" derive "$scratch/hand/pendulum.whirl:pendulum_swing" --as c --header "$scratch/hand/swing.h" >"$scratch/hand/swing.c" 2>"$scratch/err"
-verdict $? "docs/language.md: the pendulum as C"
+# --- the programs of pages: what stands in blocks with a file name, and the commands that derive and compile it. They end by
+# themselves, with status 0 or 1, also where the start is refused: here an object file that makes the processor flush small
+# numbers, as linking with -ffast-math does. WHIRL_FULL: twelve sets of flags. (gate-docs runs them as they are.)
+mkdir "$scratch/bin"
+real=$(command -v gcc)
+cat >"$scratch/bin/cc" <<END
+#!/bin/sh
+exec $real "\$@" \$SET
+END
+chmod +x "$scratch/bin/cc"
+flushing=$(gcc -print-file-name=crtfastmath.o)
+[ "$flushing" != crtfastmath.o ] || flushing=-O1 # no such file for this processor
+echo "$flushing" >"$scratch/sets"
+[ -z "${WHIRL_FULL:-}" ] || printf '%s\n' -O0 -O3 -Os "-std=gnu11 -Og" -DWH_DOUBLE=1 -ffast-math -Ofast -funsafe-math-optimizations \
+    -ffinite-math-only -mfpmath=387 -fsingle-precision-constant >>"$scratch/sets"
+for page in docs/language.md docs/tutorial.md docs/howto/firmware.md docs/howto/observer.md; do
+    into=$scratch/$(echo "$page" | tr / _)
+    mkdir -p "$into/build"
+    ln -s "$PWD/core" "$into/core"
+    case $whirl in /*) ln -s "$whirl" "$into/build/whirl" ;; *) ln -s "$PWD/$whirl" "$into/build/whirl" ;; esac
+    awk -v into="$into/" '
+        /^```(c|whirl) [a-z]+[.][a-z]+$/ { file = into $2; next }
+        /^```/ { file = "" }
+        file != "" { print > file; next }
+        sub(/^[$] /, "") && /^(build\/whirl (new|derive .*--header) |cc |[.]\/[a-z]+$)/ { print > (into "commands") }' "$page"
+    while read -r SET; do
+        export SET
+        ended=0
+        while read -r command; do
+            (cd "$into" && PATH=$scratch/bin:$PATH sh -c "$command" </dev/null) >"$scratch/out" 2>"$scratch/err"
+            status=$?
+            [ $status -le 1 ] || ended=$status
+        done <"$into/commands"
+        [ "$ended" -eq 0 ] && [ -s "$into/commands" ]
+        verdict $? "$page: its program ends by itself, built with $SET (status $ended)"
+    done <"$scratch/sets"
+done
+
 for flag in -DWH_DOUBLE=0 -DWH_DOUBLE=1; do
-    (cd "$scratch/hand" && cc -std=c11 -O1 -Wall -Wextra -Wconversion -Wshadow -Werror -ffp-contract=off $flag -I. \
+    (cd "$scratch/docs_language.md" && cc -std=c11 -O1 -Wall -Wextra -Wconversion -Wshadow -Werror -ffp-contract=off $flag -I. \
         -o strict main.c swing.c core/scene.c core/angle.c && ./strict) >/dev/null 2>"$scratch/err"
     verdict $? "docs/language.md: without a warning, $flag"
 done

@@ -335,7 +335,7 @@ program_of() { # FILE: of the scenes whose numbers it holds
     sed 's/.*/    {&, \&scene_&},/' "$1"
     cat <<'END'
 };
-static uint64_t memory[WH_STATE_WORDS(64, 128, 64) + WH_CONTACT_WORDS(16) + WH_LEDGER_WORDS(2048, 65)];
+static uint64_t memory[WH_STATE_WORDS(64, 128, 64) + WH_CONTACT_WORDS(16) + WH_LEDGER_WORDS(2048, 195)];
 int main(void) {
     for (unsigned i = 0; i < sizeof all / sizeof all[0]; i++) {
         wh_state state;

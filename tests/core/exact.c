@@ -133,10 +133,9 @@ static unsigned hit(exact *e, unsigned found, double *impulse) {
     return hits;
 }
 
-void exact_squeeze(exact *e) {
-    const double zero[HAND_CONTACTS] = {0.0};
+/* Moves what is beyond free stops back, the least that does it. Returns those stops, and those that push, as bits. */
+static unsigned push_out(exact *e) {
     const double before = exact_stored(e);
-    double impulse[HAND_CONTACTS] = {0.0};
     double way[2] = {0.0, 0.0};
     double lambda[HAND_CONTACTS];
     const unsigned stops = exact_those(e, WH_STOP, WH_FREE) | exact_those(e, WH_STOP, WH_ACTIVE);
@@ -153,7 +152,7 @@ void exact_squeeze(exact *e) {
         }
     }
     if (touched == 0) {
-        return;
+        return 0;
     }
     (void)exact_solve(e, &p, way, lambda);
     for (unsigned i = 0; i < hand_now.n; i++) {
@@ -163,9 +162,20 @@ void exact_squeeze(exact *e) {
         touched |= exact_in(stops, k) && exact_sign(e, lambda[k]) > 0 ? 1U << k : 0U;
     }
     e->energy[first] += exact_stored(e) - before;
+    return touched;
+}
+
+void exact_squeeze(exact *e) {
+    const double zero[HAND_CONTACTS] = {0.0};
+    double impulse[HAND_CONTACTS] = {0.0};
+    const unsigned touched = push_out(e);
     unsigned open = 0;
+    if (touched == 0) {
+        return;
+    }
     for (unsigned k = 0; k < exact_forced(); k++) {
-        open |= exact_in(stops, k) && exact_sign(e, exact_gap(e, k)) > 0 ? 1U << k : 0U;
+        const bool stop = exact_is(k, WH_STOP);
+        open |= stop && exact_sign(e, exact_gap(e, k)) > 0 ? 1U << k : 0U;
     }
     exact_give(e, open, WH_FREE);
     exact_give(e, strike(e, touched & ~open, 0, zero, impulse), WH_FREE);
@@ -294,6 +304,7 @@ void exact_start(exact *e) {
         e->x[i] = (double)hand_now.start[i];
         e->v[i] = (double)hand_now.start[hand_now.n + i];
     }
+    (void)push_out(e);
     for (unsigned k = 0; k < hand_now.system.contacts; k++) {
         const int speed = exact_sign(e, exact_along(k, e->v));
         const bool on =

@@ -155,7 +155,7 @@ hand hand_now;
 static const uint8_t accounts[3] = {0, 1, 2};
 wh_ledger_form hand_books;
 static uint64_t memory[WH_STATE_WORDS(0, 8, 1) + WH_CONTACT_WORDS(3) + WH_HELD_WORDS(1) +
-                       WH_LEDGER_WORDS(16, 3)];
+                       WH_LEDGER_WORDS(16, 6)];
 wh_state hand_state;
 wh_real hand_pushed;
 
@@ -217,7 +217,7 @@ void hand_start(bool with_books) {
         .account = accounts,
         .smooth = (uint16_t)(1 + hand_now.n),
         .entries = (uint16_t)(1 + hand_now.n + hand_now.system.contacts * (1 + hand_now.n)),
-        .accounts = (uint8_t)(1 + hand_now.n),
+        .accounts = (uint8_t)(2 * (1 + hand_now.n)),
         .coordinates = (uint8_t)hand_now.n};
     hand_now.system.ledger = with_books ? &hand_books : NULL;
     hand_now.scene = (wh_scene){.name = "hand",

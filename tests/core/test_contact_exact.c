@@ -1,6 +1,8 @@
 /* test_contact_exact.c: random mechanisms of one or two coordinates with up to three contacts under constant loads, held
  * step by step against what exact.h works out: state, modes, events with their times and impulses, and what each contact
  * gave. Where a decision hangs on less than rounding a run is left; most are not. */
+#include <string.h>
+
 #include "draw.h"
 #include "exact.h"
 
@@ -207,7 +209,148 @@ static void test_what_is_pressed_hard(void) { run(14, 2, false, 128); }
 static void test_what_nothing_presses(void) { run(15, 2, false, 0); }
 static void test_crossings_beside_what_touches(void) { run(16, 1, true, 1); }
 
+/* --- corrections ---------------------------------------------------------------------------------------------- */
+
+enum { CORRECTED = __STDC_HOSTED__ ? 500 : 25, AFTER = 40 };
+
+/* What a run has come to. */
+typedef struct reached {
+    wh_real real[4];
+    wh_real held;
+    int8_t mode[HAND_CONTACTS];
+    uint64_t events;
+} reached;
+
+static reached reached_now(void) {
+    const unsigned held = hand_now.system.held;
+    reached r;
+    memset(&r, 0, sizeof r); /* padding is compared, too */
+    r.held = held > 0 ? hand_state.held[0] : WH_R(0.0);
+    r.events = hand_state.contacts->events;
+    for (unsigned i = 0; i < 2 * hand_now.n; i++) {
+        r.real[i] = hand_state.real[i];
+    }
+    for (unsigned k = 0; k < hand_now.system.contacts; k++) {
+        r.mode[k] = hand_state.contacts->mode[k];
+    }
+    return r;
+}
+
+static void levels_now(wh_real *level) {
+    hand_books.levels(hand_books.model, NULL, hand_state.real, hand_state.real + hand_now.n,
+                      hand_state.input, level);
+}
+
+/* Some of the places and rates, or all where carries tell runs apart; the books keep the change by itself. */
+static void correct(uint64_t *seed) {
+    wh_real before[3];
+    wh_real after[3];
+    wh_real level[3];
+    wh_real had[3];
+    const bool all = hand_now.system.compensated;
+    double size = 1.0; /* of what the accounts round */
+    for (unsigned a = 0; a <= hand_now.n; a++) {
+        had[a] = wh_ledger_error(&hand_books, &hand_state, a, level);
+        size += (double)WH_ABS(level[a]);
+    }
+    levels_now(before);
+    const unsigned first = draw_one_of(seed, 2 * hand_now.n);
+    for (unsigned i = 0; i < 2 * hand_now.n; i++) {
+        if (all || i == first || draw_one_in(seed, 3)) {
+            const wh_real value = draw_one_in(seed, 4) && i >= hand_now.n
+                                      ? WH_R(0.0)
+                                      : hand_state.real[i] + draw_broken(seed, -4, 4) / 16;
+            TEST_ASSERT_TRUE(wh_scene_set_real(&hand_now.scene, &hand_state, i, value) == WH_OK);
+            TEST_ASSERT_TRUE(hand_state.real[i] == value);
+        }
+    }
+    levels_now(after);
+    for (unsigned a = 0; a <= hand_now.n; a++) {
+        const wh_real booked = wh_ledger_corrected(&hand_books, &hand_state)[a];
+        const wh_real left = wh_ledger_error(&hand_books, &hand_state, a, level);
+        size += (double)WH_ABS(after[a]);
+        TEST_ASSERT_TRUE(hand_near(booked, after[a] - before[a], 1e-14 * size, 1e-6 * size));
+        TEST_ASSERT_TRUE(hand_near(left, had[a], 1e-14 * size, 1e-6 * size));
+    }
+}
+
+static wh_real gap_of(unsigned k) {
+    return hand_now.law[k].row[0] * hand_state.real[0] +
+           hand_now.law[k].row[1] * hand_state.real[hand_now.n - 1] - hand_now.law[k].offset;
+}
+
+/* Stops in a mode, and those that are passed by more than `by`. */
+static unsigned stops_that(bool rest, wh_real by) {
+    unsigned count = 0;
+    for (unsigned k = 0; k < hand_now.system.forced; k++) {
+        const bool is = rest ? hand_state.contacts->mode[k] == WH_ACTIVE : gap_of(k) < -by;
+        count += hand_now.contact[k].kind == WH_STOP && is;
+    }
+    return count;
+}
+
+/* A corrected run and one that starts where the correction leaves it: bit by bit. Nothing stays beyond a stop. */
+static void test_a_corrected_run_is_one_that_starts_there(void) {
+    uint64_t seed = 4600;
+    unsigned beyond = 0;
+    unsigned resting = 0;
+    for (unsigned i = 0; i < CORRECTED;) {
+        draw(&seed, 2, draw_one_in(&seed, 4), draw_one_in(&seed, 2) ? 128 : 1);
+        hand_start(true);
+        if (stops_that(false, WH_R(0.0)) > 0) {
+            continue; /* stops that exclude each other */
+        }
+        i++;
+        hand_steps(1 + draw_one_of(&seed, STEPS));
+        resting += stops_that(true, WH_R(0.0));
+        correct(&seed);
+        for (unsigned c = 0; c < 2 * hand_now.n; c++) {
+            hand_now.start[c] = hand_state.real[c];
+        }
+        hand_pushed = hand_state.input[0];
+        beyond += stops_that(false, WH_R(1e-3));
+        const uint64_t events = hand_state.contacts->events;
+        reached run[2];
+        for (unsigned which = 0; which < 2; which++) {
+            if (which == 1) {
+                hand_start(true);
+            }
+            hand_steps(1);
+            TEST_ASSERT_EQUAL_UINT(0, stops_that(false, WH_R(1e-4)));
+            hand_steps(AFTER);
+            run[which] = reached_now();
+        }
+        run[0].events -= events;
+        TEST_ASSERT_EQUAL_MEMORY(&run[1], &run[0], sizeof run[0]);
+    }
+    TEST_ASSERT_TRUE_MESSAGE(beyond >= CORRECTED / 10, "too few are put beyond a stop");
+    TEST_ASSERT_TRUE_MESSAGE(resting >= CORRECTED / 10, "too few rest when they are corrected");
+}
+
+/* Nothing of a refused correction stays. */
+static void test_no_number_is_no_correction(void) {
+    static const wh_real bad[] = {WH_R(1e16), WH_R(-1e16), WH_R(0.0), WH_R(0.0)};
+    volatile wh_real zero = WH_R(0.0);
+    hand_build_ball(WH_R(0.5));
+    hand_start(true);
+    hand_steps(600);
+    const reached before = reached_now();
+    for (unsigned i = 0; i < 4; i++) {
+        const wh_real value = i < 2 ? bad[i] : (i == 2 ? zero : WH_R(1.0)) / zero;
+        TEST_ASSERT_TRUE(wh_scene_set_real(&hand_now.scene, &hand_state, 0, value) ==
+                         WH_E_ARGUMENT);
+    }
+    TEST_ASSERT_TRUE(wh_scene_set_real(&hand_now.scene, &hand_state, 2, WH_R(1.0)) ==
+                     WH_E_ARGUMENT);
+    TEST_ASSERT_TRUE(wh_scene_set_angle(&hand_now.scene, &hand_state, 0, WH_R(1.0)) ==
+                     WH_E_ARGUMENT);
+    const reached after = reached_now();
+    TEST_ASSERT_EQUAL_MEMORY(&before, &after, sizeof before);
+}
+
 void suite_contact_exact(void) {
+    RUN_TEST(test_a_corrected_run_is_one_that_starts_there);
+    RUN_TEST(test_no_number_is_no_correction);
     RUN_TEST(test_what_touches_nothing_at_first);
     RUN_TEST(test_what_starts_touching);
     RUN_TEST(test_crossings_among_them);

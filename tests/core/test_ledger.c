@@ -1,5 +1,6 @@
 /* test_ledger.c: the books of energy and momentum on mechanisms with closed forms (hand.h), and of a
  * spring whose rate is changed. */
+#include "draw.h"
 #include "hand.h"
 
 #include "unity.h"
@@ -190,7 +191,7 @@ static const wh_ledger_form shaft_books = {.powers = NULL,
                                            .input = shaft_input,
                                            .smooth = 2,
                                            .entries = 4,
-                                           .accounts = 4,
+                                           .accounts = 6,
                                            .coordinates = 1,
                                            .angles = 1,
                                            .inputs = 2};
@@ -203,7 +204,7 @@ static wh_status shaft_advance(const wh_scene *scene, wh_state *state) {
 /* Entry 1 is the integral of the angle, 1/12 t^3 + r t^2/2 + th t: counted from the turns that the shaft has, not from its
  * phase. Each input is entered by itself: the first by what it does to the energy, the second by what is left. */
 static void test_books_name_angles_with_their_turns(void) {
-    static uint64_t memory[WH_STATE_WORDS(1, 1, 2) + WH_LEDGER_WORDS(4, 4)];
+    static uint64_t memory[WH_STATE_WORDS(1, 1, 2) + WH_LEDGER_WORDS(4, 6)];
     static const wh_real start_real[1] = {WH_R(3.0)};
     static const wh_real start_input[2] = {WH_R(0.0), WH_R(0.0)};
     for (unsigned which = 0; which < 3; which++) {
@@ -248,7 +249,59 @@ static void test_books_name_angles_with_their_turns(void) {
     }
 }
 
+/* An angle is set, turns included, or moved without losing digits after many turns. An input that was changed just before
+ * is booked by itself. */
+static void test_corrected_angles_are_booked(void) {
+    static uint64_t memory[WH_STATE_WORDS(1, 1, 2) + WH_LEDGER_WORDS(4, 6)];
+    static const wh_real start_real[1] = {WH_R(3.0)};
+    static const wh_real start_input[2] = {WH_R(0.25), WH_R(0.0)};
+    uint64_t seed = 46;
+    for (unsigned i = 0; i < 100; i++) {
+        const wh_angle start_angle[1] = {wh_angle_from_rad(draw_broken(&seed, -90, 90))};
+        const wh_real turns = draw_whole(&seed, 0, 1000000);
+        const wh_scene scene = {.name = "shaft",
+                                .form = WH_SECOND_ORDER,
+                                .angles = 1,
+                                .reals = 1,
+                                .inputs = 2,
+                                .compensated = true,
+                                .step_s = WH_R(0.0078125),
+                                .start_angle = start_angle,
+                                .start_real = start_real,
+                                .start_input = start_input,
+                                .ledger = &shaft_books,
+                                .advance = shaft_advance};
+        wh_state state;
+        wh_real level[2];
+        TEST_ASSERT_TRUE(wh_scene_start(&scene, &state, memory, sizeof memory) == WH_OK);
+        TEST_ASSERT_TRUE(wh_scene_steps(&scene, &state, 7) == WH_OK);
+        const wh_real was = wh_angle_to_rad(state.angle[0]);
+        const wh_real rad = draw_broken(&seed, -90, 90);
+        state.carry[0] = WH_R(0.25);
+        state.input[0] = WH_R(0.5);
+        TEST_ASSERT_TRUE(wh_scene_set_angle(&scene, &state, 0, rad) == WH_OK);
+        TEST_ASSERT_TRUE(hand_near(wh_angle_to_rad(state.angle[0]), rad, 0.0, 1e-5));
+        TEST_ASSERT_TRUE(state.carry[0] == WH_R(0.0) && state.input[0] == WH_R(0.5));
+        TEST_ASSERT_TRUE(hand_near(wh_ledger_corrected(&shaft_books, &state)[0],
+                                   WH_R(0.25) * (rad - was), 1e-12, 1e-5));
+        TEST_ASSERT_TRUE(wh_scene_step(&scene, &state) == WH_OK);
+        TEST_ASSERT_TRUE(hand_near(state.ledger[2], WH_R(0.25) * rad, 1e-12, 1e-5));
+        TEST_ASSERT_TRUE(
+            hand_near(wh_ledger_error(&shaft_books, &state, 0, level), WH_R(0.0), 1e-11, 1e-4));
+        /* many turns on, a thousandth of a radian */
+        TEST_ASSERT_TRUE(wh_scene_set_angle(&scene, &state, 0, turns) == WH_OK);
+        const wh_angle far = state.angle[0];
+        TEST_ASSERT_TRUE(wh_scene_move_angle(&scene, &state, 0, WH_R(0.001)) == WH_OK);
+        TEST_ASSERT_TRUE(hand_near((wh_real)(state.angle[0] - far),
+                                   WH_DOUBLE ? WH_R(0.001) : WH_R(683565.3), 1e-9, 1.0));
+        TEST_ASSERT_TRUE(wh_scene_move_angle(&scene, &state, 0, WH_R(1e9)) == WH_E_ARGUMENT);
+        TEST_ASSERT_TRUE(wh_scene_set_angle(&scene, &state, 1, WH_R(1.0)) == WH_E_ARGUMENT);
+        TEST_ASSERT_TRUE(wh_scene_set_real(&scene, &state, 1, WH_R(1.0)) == WH_E_ARGUMENT);
+    }
+}
+
 void suite_ledger(void) {
+    RUN_TEST(test_corrected_angles_are_booked);
     RUN_TEST(test_books_of_the_ball);
     RUN_TEST(test_books_of_the_thrown_block);
     RUN_TEST(test_books_of_impacts_and_settings);

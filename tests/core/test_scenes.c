@@ -22,7 +22,7 @@ void suite_scenes(void);
 
 /* Room for any scene of up to 16 angles, 48 reals and 16 inputs, compensated or not. */
 static uint64_t memory[WH_STATE_WORDS(16, 48, 16) + WH_CONTACT_WORDS(16) + WH_HELD_WORDS(16) +
-                       WH_LEDGER_WORDS(128, 17)];
+                       WH_LEDGER_WORDS(128, 34)];
 static wh_state state;
 static wh_real output[32];
 

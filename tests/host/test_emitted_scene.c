@@ -242,7 +242,7 @@ static void check_books(const image *im) {
     expect_field(at, "account", l->smooth > 0 ? "ledger_accounts" : "NULL");
     expect_number(at, "smooth", l->smooth);
     expect_number(at, "entries", l->entries);
-    expect_number(at, "accounts", l->accounts + l->inputs);
+    expect_number(at, "accounts", 2 * l->accounts + l->inputs);
     expect_number(at, "coordinates", im->coordinates);
     expect_number(at, "angles", im->angles);
     if (l->inputs > 0) {

@@ -1,0 +1,104 @@
+/* scene_set.c: correcting a state from a measurement: one component gets a new value, and the contacts are found again. */
+#include "ledger.h"
+#include "refuse.h"
+#include "scene.h"
+#include "unroll.h"
+
+/* The energy, and a momentum for each coordinate. */
+enum { ACCOUNTS_MAX = WH_COORDS + 1 };
+
+/* Most radians that an angle may be given: as contact_crossing.h has it. */
+#define ANGLE_MOST WH_R(1e9)
+
+static bool has_books(const wh_scene *scene, const wh_state *state) {
+    return scene->ledger != NULL && state->steps > 0; /* the first step takes its levels itself */
+}
+
+/* The accounts' levels with the inputs of the last step: the next one enters what inputs were changed by. */
+static void levels_of(const wh_scene *scene, const wh_state *state, wh_real *level) {
+    const wh_ledger_form *form = scene->ledger;
+    for (unsigned k = 0; k < form->inputs; k++) {
+        wh_ledger_exchange(form, state, k);
+    }
+    wh_ledger_levels(form, state, level);
+    for (unsigned k = 0; k < form->inputs; k++) {
+        wh_ledger_exchange(form, state, k);
+    }
+}
+
+static void book(const wh_scene *scene, const wh_state *state, const wh_real *before) {
+    const wh_ledger_form *form = scene->ledger;
+    wh_real *start = state->ledger + 2U * form->entries;
+    wh_real *corrected = wh_ledger_corrected(form, state);
+    wh_real level[ACCOUNTS_MAX];
+    levels_of(scene, state, level);
+    for (unsigned i = 0; i < wh_ledger_level_count(form); i++) {
+        const wh_real change = level[i] - before[i];
+        if (wh_believable(change, WH_ABSURD)) {
+            start[i] += change;
+            corrected[i] += change;
+        }
+    }
+}
+
+/* Component `at`, angles first, is replaced by what `angle` or `real` points to. */
+static void replace(const wh_scene *scene, wh_state *state, unsigned at, const wh_angle *angle,
+                    const wh_real *real) {
+    wh_real before[ACCOUNTS_MAX];
+    if (has_books(scene, state)) {
+        levels_of(scene, state, before);
+    }
+    if (angle != NULL) {
+        state->angle[at] = *angle;
+    } else {
+        state->real[at - scene->angles] = *real;
+    }
+    if (state->carry != NULL) {
+        state->carry[at] = WH_R(0.0);
+    }
+    for (unsigned k = 0; k < scene->held; k++) {
+        state->held[k] = WH_R(0.0);
+    }
+    for (unsigned k = 0; k < scene->contacts; k++) {
+        state->contacts->mode[k] = WH_UNSET;
+    }
+    if (has_books(scene, state)) {
+        book(scene, state, before);
+    }
+}
+
+static bool is_started(const wh_scene *scene, const wh_state *state) {
+    return scene != NULL && state != NULL && state->real != NULL;
+}
+
+wh_status wh_scene_set_real(const wh_scene *scene, wh_state *state, unsigned real, wh_real value) {
+    if (!is_started(scene, state) || real >= scene->reals || !wh_believable(value, WH_ABSURD)) {
+        return WH_E_ARGUMENT;
+    }
+    replace(scene, state, scene->angles + real, NULL, &value);
+    return WH_OK;
+}
+
+wh_status wh_scene_set_angle(const wh_scene *scene, wh_state *state, unsigned angle, wh_real rad) {
+    if (!is_started(scene, state) || angle >= scene->angles || !wh_believable(rad, ANGLE_MOST)) {
+        return WH_E_ARGUMENT;
+    }
+    const wh_angle value = wh_angle_from_rad(rad);
+    replace(scene, state, angle, &value, NULL);
+    return WH_OK;
+}
+
+wh_status wh_scene_move_angle(const wh_scene *scene, wh_state *state, unsigned angle,
+                              wh_real by_rad) {
+    if (!is_started(scene, state) || angle >= scene->angles || !wh_believable(by_rad, ANGLE_MOST)) {
+        return WH_E_ARGUMENT;
+    }
+#if WH_DOUBLE
+    const wh_angle value = state->angle[angle] + by_rad;
+#else
+    const wh_angle value =
+        (wh_angle)((uint64_t)state->angle[angle] + (uint64_t)wh_angle_from_rad(by_rad));
+#endif
+    replace(scene, state, angle, &value, NULL);
+    return WH_OK;
+}
