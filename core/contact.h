@@ -66,6 +66,9 @@
 #endif
 #define WH_PROBES_SPARE WH_R(8.0)
 
+/* Probes for a stop that a step passes through. */
+#define WH_DIP_PROBES 6U
+
 /* What a curved hold or stop has slipped in a step is put back twice where it is more than this share of the
  * way: what once leaves is of second order in it. */
 #define WH_SLIP_COARSE (WH_DOUBLE ? WH_R(1e-6) : WH_R(1e-3))

@@ -1,6 +1,6 @@
 /* test_contact_dips.c: stops into which a try dips (contact_step.h): of drawn bodies that move freely under constant loads,
  * so that both ends are known, those that end passed and on their way out are told, and of these the ones that were
- * open, or closing, at the begin were hit. */
+ * open, or closing, at the begin were hit, and that those passed between two open ends are found. */
 #include "draw.h"
 #include "hand.h"
 
@@ -40,6 +40,8 @@ static void test_what_dips_and_comes_back(void) {
     uint64_t seed = 2322;
     unsigned dips = 0;
     unsigned leaves = 0;
+    unsigned passed = 0; /* and left again within the try */
+    unsigned missed = 0; /* by so little that the tangents do not tell */
     for (unsigned round = 0; round < 3000; round++) {
         wh_real input[1] = {WH_R(0.0)};
         wh_real offset[3];
@@ -79,7 +81,8 @@ static void test_what_dips_and_comes_back(void) {
         TEST_ASSERT_TRUE(a.made && a.sound);
         unsigned leaving = 0;
         for (unsigned k = 0; k < 3; k++) {
-            leaving |= stop[k].gap[1] < WH_R(0.0) && stop[k].rate[1] > WH_R(0.0) ? 1U << k : 0U;
+            const bool near = stop[k].gap[1] < H * stop[k].rate[1];
+            leaving |= near && stop[k].rate[1] > WH_R(0.0) ? 1U << k : 0U;
         }
         TEST_ASSERT_EQUAL_UINT(leaving, a.leaving);
         const unsigned inside = w.inside;
@@ -87,15 +90,37 @@ static void test_what_dips_and_comes_back(void) {
         wh_contact_attempt_dipped(&hand_now.system, &w, input, &a);
         for (unsigned k = 0; k < 3; k++) {
             const bool open = stop[k].gap[0] > WH_R(0.0) || stop[k].rate[0] < WH_R(0.0);
-            const bool hit = open && (leaving >> k & 1U) != 0;
+            const bool closed = stop[k].gap[1] < WH_R(0.0);
+            const bool hit = open && closed && (leaving >> k & 1U) != 0;
             TEST_ASSERT_EQUAL_UINT(hit ? 0U : inside >> k & 1U, w.inside >> k & 1U);
             TEST_ASSERT_TRUE(a.margins.value[k] == (hit ? before.signal[2 * k] : before.value[k]));
             TEST_ASSERT_TRUE(!hit || a.margins.value[k] < WH_R(0.0));
             dips += hit;
-            leaves += (leaving >> k & 1U) != 0 && !hit;
+            leaves += (leaving >> k & 1U) != 0 && closed && !hit;
+        }
+        /* a parabola between two open ends: its lowest place says whether the stop is passed on the way */
+        for (unsigned k = 0; k < 3; k++) {
+            const drawn_stop *s = &stop[k];
+            const wh_real least =
+                s->gap[0] - WH_R(0.5) * H * s->rate[0] * s->rate[0] / (s->rate[1] - s->rate[0]);
+            const bool turns = s->gap[0] > WH_R(0.0) && s->gap[1] > WH_R(0.0) &&
+                               s->rate[0] < WH_R(0.0) && s->rate[1] > WH_R(0.0);
+            if (turns && WH_ABS(least) > WH_R(1e-6)) {
+                a.dips &= 1U << k;
+                const wh_real share = wh_contact_dip(&hand_now.system, &a, input);
+                const wh_real t = share * H;
+                const wh_real gap =
+                    s->gap[0] + t * s->rate[0] + WH_R(0.5) * t * share * (s->rate[1] - s->rate[0]);
+                TEST_ASSERT_TRUE(least < WH_R(0.0) ? share < WH_R(1.0) && gap < WH_R(0.0)
+                                                   : share == WH_R(1.0));
+                passed += least < WH_R(0.0);
+                missed += least > WH_R(0.0) && (a.dips >> k & 1U) != 0;
+                wh_contact_attempt_dipped(&hand_now.system, &w, input, &a);
+            }
         }
     }
     TEST_ASSERT_TRUE(dips > 60 && leaves > 60);
+    TEST_ASSERT_TRUE(passed > 60 && missed > 20);
 }
 
 void suite_contact_dips(void) { RUN_TEST(test_what_dips_and_comes_back); }
