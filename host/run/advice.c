@@ -200,12 +200,39 @@ static void say_singular(FILE *out, advice *a) {
     }
 }
 
+static void say_missed(FILE *out, advice *a, int through, double begin_s) {
+    const image *im = a->judged.image;
+    char statement[STATEMENT_SIZE];
+    char finer[REMEDY_TEXT];
+    fprintf(out, "whirl run: warning: the step after t = %.6g s passed ", begin_s);
+    if (through < im->contacts) {
+        statement_text(im->contact[through].at, statement, sizeof statement);
+        fprintf(out, "through a contact: %s\n", statement);
+    } else {
+        const component c = image_component(im, through - im->contacts);
+        fprintf(out, "over a force on %s, far larger than at both its ends\n",
+                im->unknown[c.unknown].name);
+    }
+    const cure_outcome outcome = remedy_finer(&a->judged, &a->cures, finer);
+    fprintf(out,
+            outcome == CURE_DOES        ? "hint: %s meets it\n"
+            : outcome == CURE_NOT_TRIED ? "hint: %s may meet it (not tried: that takes long)\n"
+                                        : "hint: %s does not do, either: it is thinner "
+                                          "than the way of a step\n",
+            finer);
+}
+
 static void say_jumped(FILE *out, advice *a) {
     const judged *j = &a->judged;
     double begin_s;
     char statement[STATEMENT_SIZE];
     char finer[REMEDY_TEXT];
     if (!jumped_some(j->watch->jumped)) {
+        return;
+    }
+    const int through = jumped_through(j->watch->jumped, &begin_s);
+    if (through >= 0) {
+        say_missed(out, a, through, begin_s);
         return;
     }
     const blame_question *q = jumped_over(j->watch->jumped, &begin_s);

@@ -8,6 +8,7 @@
 #include "divisors.h"
 #include "host/base/room.h"
 #include "host/number/functions.h"
+#include "missed.h"
 #include "pole.h"
 
 /* Not where the way to a pole is less than this part of what moves: there nothing but rounding grows. */
@@ -21,7 +22,9 @@ struct jumped {
     double *to;   /* and behind it */
     uint64_t events;
     bool leapt; /* in this step there were some */
-    int found;  /* a question, or -1 */
+    missed *contacts;
+    int found;   /* a question, or -1 */
+    int through; /* see missed.h; or -1 */
     double found_s;
 };
 
@@ -30,10 +33,12 @@ jumped *jumped_open(const image *im) {
     j->image = im;
     j->components = im->angles + im->reals;
     j->of = divisors_open(im);
+    j->contacts = missed_open(im);
     j->found = -1;
+    j->through = -1;
     j->from = room(j->components, sizeof *j->from);
     j->to = room(j->components, sizeof *j->to);
-    if (j->of.count == 0) {
+    if (j->of.count == 0 && j->contacts == NULL) {
         jumped_close(j);
         return NULL;
     }
@@ -42,6 +47,7 @@ jumped *jumped_open(const image *im) {
 
 void jumped_close(jumped *j) {
     if (j != NULL) {
+        missed_close(j->contacts);
         divisors_close(&j->of);
         free(j->from);
         free(j->to);
@@ -156,12 +162,14 @@ static bool may_touch(jumped *j) {
 }
 
 void jumped_enter(jumped *j, const engine_kind *kind, const void *run) {
-    if (j == NULL || j->found >= 0) {
+    if (jumped_some(j) || j == NULL) {
         return;
     }
     const uint64_t steps = kind->steps(run);
     bool changed = false;
     j->leapt = had_events(j, kind, run);
+    j->through = missed_enter(j->contacts, kind, run, j->leapt);
+    j->found_s = j->through >= 0 ? ratio_times(steps - 1, j->image->step) : 0.0;
     memcpy(j->from, j->to, (size_t)j->components * sizeof *j->to);
     kind->state(run, j->to, j->to + j->image->angles);
     divisors_see(&j->of, j->to);
@@ -171,13 +179,18 @@ void jumped_enter(jumped *j, const engine_kind *kind, const void *run) {
         d->now = divisors_value(&j->of, d);
         changed = changed || (changes_sign(d) && counts(j, d));
     }
-    if (steps > 0 && (changed || may_touch(j))) {
+    if (steps > 0 && j->through < 0 && (changed || may_touch(j))) {
         j->found = pole_between(j);
         j->found_s = ratio_times(steps - 1, j->image->step);
     }
 }
 
-bool jumped_some(const jumped *j) { return j != NULL && j->found >= 0; }
+bool jumped_some(const jumped *j) { return j != NULL && (j->found >= 0 || j->through >= 0); }
+
+int jumped_through(const jumped *j, double *begin_s) {
+    *begin_s = j != NULL ? j->found_s : 0.0;
+    return j != NULL ? j->through : -1;
+}
 
 const blame_question *jumped_over(const jumped *j, double *begin_s) {
     *begin_s = j->found_s;

@@ -1,4 +1,4 @@
-/* jumped.h: steps that jump over a pole. Where an expression of the file grows without bound, as x'/(v0 + x') does at
+/* jumped.h: steps that jump over a pole, or through something (missed.h). Where an expression of the file grows without bound, as x'/(v0 + x') does at
  * x' = -v0, no motion gets through, but a step that is longer than the way there never sees it; nor does one of half the
  * length, so that the two agree.
  *
@@ -12,13 +12,15 @@
 
 typedef struct jumped jumped;
 
-/* NULL where nothing that moves is divided by. */
+/* NULL where nothing that moves is divided by, and nothing is to be touched. */
 jumped *jumped_open(const image *im);
 void jumped_close(jumped *j); /* NULL is fine */
 /* Enter the state after each step, the start included. Nothing is looked for behind the first pole. */
 void jumped_enter(jumped *j, const engine_kind *kind, const void *run);
 /* Has the run jumped over one? */
 bool jumped_some(const jumped *j);
+/* What it passed through, as missed_enter() tells, and when that step began; -1: it was a pole. */
+int jumped_through(const jumped *j, double *begin_s);
 /* The expression whose pole it was, and when that step began. */
 const blame_question *jumped_over(const jumped *j, double *begin_s);
 

@@ -14,7 +14,7 @@ typedef enum verdict_kind {
     VERDICT_FOLDED,   /* a constant of it was lost beside a larger one */
     VERDICT_ENERGY,   /* its energies do not balance */
     VERDICT_SINGULAR, /* it passed a singular position that its steps do not resolve */
-    VERDICT_JUMPED,   /* a step jumped over a pole of an expression */
+    VERDICT_JUMPED,   /* a step jumped over a pole of an expression, or through a contact */
     VERDICT_BETWEEN,  /* what it is driven by goes on between the stages of its steps */
     VERDICT_SWING,    /* a system given by its equations lost or gained a swing */
     VERDICT_CONTACTS, /* its contacts were too busy for its steps */

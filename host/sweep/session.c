@@ -152,7 +152,8 @@ static void say_against(const sitting *s) {
                            "largest entry",
         [VERDICT_SINGULAR] = "passed where their coordinates are singular, in steps that do not "
                              "resolve it",
-        [VERDICT_JUMPED] = "jumped over a place where an expression grows without bound",
+        [VERDICT_JUMPED] =
+            "jumped over a place where an expression grows without bound, or through a contact",
         [VERDICT_BETWEEN] =
             "have something faster than the step, of which its stages see too little",
         [VERDICT_SWING] = "have a motion that the method takes or feeds",

@@ -127,8 +127,11 @@ static void print_verdict(FILE *out, const horizon *h) {
     }
     if (t->jumped_s >= 0.0) {
         fprintf(out,
-                "behind t = %.9g s a step jumped over a place where an expression grows without "
-                "bound: no motion gets through there\n",
+                t->missed
+                    ? "behind t = %.9g s a step passed through a contact or over a force: only a "
+                      "smaller --step meets it\n"
+                    : "behind t = %.9g s a step jumped over a place where an expression grows "
+                      "without bound: no motion gets through there\n",
                 t->jumped_s);
     }
     if (t->between) {
@@ -161,6 +164,10 @@ static void print_reason(FILE *out, const horizon *h) {
         !(t->finer_failed_s >= 0.0 && t->finer_failed_s < t->overrun_s)) {
         fputs("behind that a step had more events than it takes, of its own or of half its length",
               out);
+    } else if (cut && t->missed && t->jumped_s >= 0.0) {
+        fputs(
+            "behind that a step passed through a contact or over a force, of its own or of half its length",
+            out);
     } else {
         fprintf(out, "behind that %s is off by %.3g of its range", name_of(h, h->first, name),
                 h->tolerance);

@@ -324,7 +324,10 @@ static void run_both(pair *p) {
         jumped_enter(p->our_jumps, p->wish->kind, t->run);
         between_enter(p->between, p->wish->kind, t->run);
         if (t->jumped_s < 0.0 && (jumped_some(p->our_jumps) || jumped_some(p->finer_jumps))) {
+            double begin_s;
             t->jumped_s = ratio_times(step, im->step);
+            t->missed = jumped_through(p->our_jumps, &begin_s) >= 0 ||
+                        jumped_through(p->finer_jumps, &begin_s) >= 0;
             end_passages(t, p->look_s);
         }
         step++;

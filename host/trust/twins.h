@@ -61,6 +61,7 @@ typedef struct twins {
         overrun_s; /* behind this time one of them had more events in a step than it takes; below 0: neither */
     double
         jumped_s; /* in a step behind this time one of them jumped over a pole (host/run/jumped.h); below 0: neither */
+    bool missed;  /* or passed through something (host/run/missed.h) */
     double
         cut_s; /* the last look before the first of these three: nothing is known behind it; below 0: they are none */
     bool
