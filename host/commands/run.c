@@ -11,6 +11,7 @@
 #include "host/fixed/engine_fixed.h"
 #include "host/fixed/fixed_plan.h"
 #include "host/number/decimal.h"
+#include "host/run/apart.h"
 #include "host/run/belief.h"
 #include "host/run/simulate.h"
 #include "host/run/start.h"
@@ -270,6 +271,7 @@ static int run_image(run_options *o, const source_model *from, const image *im, 
         diags_flush(from->errors, stderr);
         return EXIT_BAD_INPUT;
     }
+    apart_say(stderr, "whirl run", im);
     interrupts_catch();
     o->settings.stop = &interrupted;
     o->settings.progress = shows_progress(&o->settings);

@@ -1,0 +1,283 @@
+/* apart.c: see apart.h. Places by Newton's method with the least change (of coordinates without a start of their own, if these
+ * do), rates by one such step. */
+#include "apart.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/contact.h"
+#include "engine.h"
+#include "host/base/room.h"
+#include "host/base/statement.h"
+#include "host/number/functions.h"
+
+enum { N = IMAGE_COMPONENTS_MAX, HOLDS = WH_CONTACTS_LIMIT, NEWTON_MOST = 50 };
+
+/* Off zero by more than rounding, and by less than this share of its terms: an expression that is to be zero. */
+#define OFF_LEAST 1e-6
+#define OFF_MOST 0.1
+
+typedef struct apart {
+    const image *im;
+    evaluator *forces;
+    double *input;
+    double *law; /* [forced * (WH_LAW_ROWS + 2 n)] */
+    int n;
+    int hold[HOLDS]; /* contacts that hold where the run starts */
+    int holds;
+    double place[N];
+    double rate[N];
+} apart;
+
+static const double *law_of(const apart *a, int h) {
+    return a->law + (ptrdiff_t)a->hold[h] * (WH_LAW_ROWS + 2 * a->n);
+}
+static const double *row_of(const apart *a, int h) { return law_of(a, h) + WH_LAW_ROWS; }
+
+static void look(apart *a) {
+    evaluator_run(a->forces, 0.0, a->place, a->place + a->im->angles, a->rate, a->input, a->law);
+}
+
+static double along(const apart *a, int h, const double *x) {
+    double sum = 0.0;
+    for (int i = 0; i < a->n; i++) {
+        sum += row_of(a, h)[i] * x[i];
+    }
+    return sum;
+}
+
+/* The terms of an expression, in size, and of its rate. */
+static double terms(const apart *a, int h, const double *x, bool places) {
+    double sum = 0.0;
+    for (int i = 0; i < a->n; i++) {
+        sum += fabs(row_of(a, h)[i]) * (places && i < a->im->angles ? 1.0 : fabs(x[i]));
+    }
+    return sum;
+}
+
+/* By how much a curved hold is off zero, if that can be meant to be zero; else 0. */
+static double off_zero(const apart *a, int h) {
+    const image_contact *c = &a->im->contact[a->hold[h]];
+    const double value = law_of(a, h)[WH_LAW_FIRST];
+    const double size = terms(a, h, a->place, true);
+    const bool is = c->pin < 0 && c->direction <= 0 && fabs(value) > OFF_LEAST * size &&
+                    fabs(value) < OFF_MOST * size;
+    return is ? value : 0.0;
+}
+
+/* Solve `matrix` x = b by elimination, x in b; false: it is singular. */
+static bool solve(int n, double matrix[HOLDS][HOLDS], double *b) {
+    for (int p = 0; p < n; p++) {
+        int best = p;
+        for (int r = p; r < n; r++) {
+            best = fabs(matrix[r][p]) > fabs(matrix[best][p]) ? r : best;
+        }
+        if (!(fabs(matrix[best][p]) > 1e-12)) {
+            return false;
+        }
+        for (int c = 0; c < n; c++) {
+            const double other = matrix[p][c];
+            matrix[p][c] = matrix[best][c];
+            matrix[best][c] = other;
+        }
+        const double value = b[p];
+        b[p] = b[best];
+        b[best] = value;
+        for (int r = 0; r < n; r++) {
+            const double factor = r != p ? matrix[r][p] / matrix[p][p] : 0.0;
+            for (int c = p; c < n; c++) {
+                matrix[r][c] -= factor * matrix[p][c];
+            }
+            b[r] -= factor * b[p];
+        }
+    }
+    for (int p = 0; p < n; p++) {
+        b[p] /= matrix[p][p];
+    }
+    return true;
+}
+
+/* x changes by the least that moves the expressions by `by`: of coordinates that `may`. */
+static bool move(const apart *a, const bool *may, const double *by, double *x) {
+    double matrix[HOLDS][HOLDS] = {{0.0}};
+    double b[HOLDS];
+    for (int r = 0; r < a->holds; r++) {
+        b[r] = by[r];
+        for (int c = 0; c < a->holds; c++) {
+            for (int i = 0; i < a->n; i++) {
+                matrix[r][c] += may[i] ? row_of(a, r)[i] * row_of(a, c)[i] : 0.0;
+            }
+        }
+    }
+    if (!solve(a->holds, matrix, b)) {
+        return false;
+    }
+    for (int i = 0; i < a->n; i++) {
+        for (int r = 0; r < a->holds && may[i]; r++) {
+            x[i] += row_of(a, r)[i] * b[r];
+        }
+    }
+    return true;
+}
+
+static bool fit_places(apart *a, const bool *may) {
+    double worst = 1.0;
+    double wanted[HOLDS]; /* what is off goes to zero, the others stay */
+    for (int h = 0; h < a->holds; h++) {
+        const double value = law_of(a, h)[WH_LAW_FIRST];
+        wanted[h] = off_zero(a, h) != 0.0 ? 0.0 : value;
+    }
+    for (int k = 0; k < NEWTON_MOST && worst > 1e-14; k++) {
+        double by[HOLDS];
+        worst = 0.0;
+        for (int h = 0; h < a->holds; h++) {
+            const image_contact *c = &a->im->contact[a->hold[h]];
+            const bool curved = c->pin < 0 && c->direction <= 0;
+            by[h] = curved ? wanted[h] - law_of(a, h)[WH_LAW_FIRST] : 0.0;
+            worst = number_most(worst, fabs(by[h]));
+        }
+        if (worst > 1e-14 && !move(a, may, by, a->place)) {
+            return false;
+        }
+        look(a);
+    }
+    return worst < 1e-9;
+}
+
+static bool fit_rates(apart *a, const bool *may) {
+    double by[HOLDS];
+    for (int h = 0; h < a->holds; h++) {
+        by[h] = -along(a, h, a->rate);
+    }
+    return move(a, may, by, a->rate);
+}
+
+/* Those without a start of their own first, then all. */
+static bool fit(apart *a, int primes, bool (*with)(apart *a, const bool *may)) {
+    const apart before = *a;
+    for (int all = 0; all < 2; all++) {
+        bool may[N];
+        for (int i = 0; i < a->n; i++) {
+            const image_unknown *u = &a->im->unknown[image_component(a->im, i).unknown];
+            may[i] = all == 1 || u->start_at[primes].source == NULL;
+        }
+        if (with(a, may)) {
+            return true;
+        }
+        memcpy(a->place, before.place, sizeof a->place);
+        memcpy(a->rate, before.rate, sizeof a->rate);
+        look(a);
+    }
+    return false;
+}
+
+/* The energy that stops what the holds hold: 1/2 w (J M^-1 J^T)^-1 w of its speeds w; NaN where they repeat each other. */
+static double lost_J(const apart *a) {
+    double matrix[HOLDS][HOLDS] = {{0.0}};
+    double impulse[HOLDS];
+    double sum = 0.0;
+    for (int r = 0; r < a->holds; r++) {
+        impulse[r] = along(a, r, a->rate);
+        for (int c = 0; c < a->holds; c++) {
+            matrix[r][c] = along(a, r, row_of(a, c) + a->n);
+        }
+    }
+    if (!solve(a->holds, matrix, impulse)) {
+        return (double)NAN;
+    }
+    for (int r = 0; r < a->holds; r++) {
+        sum += 0.5 * impulse[r] * along(a, r, a->rate);
+    }
+    return sum;
+}
+
+static void say_values(FILE *out, const apart *a, const double *was_place, const double *was_rate) {
+    const char *before = "hint: these fit: start ";
+    for (int i = 0; i < 2 * a->n; i++) {
+        const image_unknown *u = &a->im->unknown[image_component(a->im, i % a->n).unknown];
+        const int primes = i / a->n;
+        const double value = primes == 0 ? a->place[i] : a->rate[i - a->n];
+        const double was = primes == 0 ? was_place[i] : was_rate[i - a->n];
+        const char *si = u->unit[primes].si;
+        const bool has_unit = strcmp(si, "1") != 0;
+        if (value != was) {
+            fprintf(out, "%s%s%s = %.17g%s%s%s", before, u->name, primes == 0 ? "" : "'", value,
+                    has_unit ? " [" : "", has_unit ? si : "", has_unit ? "]" : "");
+            before = ", ";
+        }
+    }
+    fputs("\n", out);
+}
+
+static void say(FILE *out, const char *who, apart *a) {
+    char statement[STATEMENT_SIZE];
+    bool off = false;
+    bool moves = false;
+    for (int h = 0; h < a->holds; h++) {
+        const double value = off_zero(a, h);
+        const double speed = along(a, h, a->rate);
+        statement_text(a->im->contact[a->hold[h]].at, statement, sizeof statement);
+        if (value != 0.0) {
+            off = true;
+            fprintf(out,
+                    "%s: warning: what a hold holds starts %.6g (SI) off zero, and stays so: %s\n",
+                    who, value, statement);
+        }
+        if (fabs(speed) > OFF_LEAST * terms(a, h, a->rate, false)) {
+            moves = true;
+            fprintf(out, "%s: warning: what a hold holds starts at a rate of %.6g (SI): %s\n", who,
+                    speed, statement);
+        }
+    }
+    if (!off && !moves) {
+        return;
+    }
+    if (moves && isfinite(lost_J(a))) {
+        fprintf(out, "%s: warning: an impulse at t = 0 stops that, and takes %.6g J\n", who,
+                lost_J(a));
+    }
+    double was_place[N];
+    double was_rate[N];
+    memcpy(was_place, a->place, sizeof was_place);
+    memcpy(was_rate, a->rate, sizeof was_rate);
+    if ((!off || fit(a, 0, fit_places)) && fit(a, 1, fit_rates)) {
+        say_values(out, a, was_place, was_rate);
+    } else {
+        fputs("hint: no values near these fit: start the linkage elsewhere\n", out);
+    }
+}
+
+void apart_say(FILE *out, const char *who, const image *im) {
+    if (im->list[IMAGE_FORCES] == NULL || im->list[IMAGE_SIGNALS] == NULL) {
+        return;
+    }
+    apart a = {.im = im,
+               .forces = evaluator_new(im->list[IMAGE_FORCES]),
+               .input = room(im->inputs, sizeof *a.input),
+               .law =
+                   room(im->forced * (WH_LAW_ROWS + 2 * (int64_t)im->coordinates), sizeof *a.law),
+               .n = im->coordinates};
+    evaluator *signals = evaluator_new(im->list[IMAGE_SIGNALS]);
+    double *signal = room(2 * im->contacts, sizeof *signal);
+    image_inputs(im, a.input);
+    for (int i = 0; i < a.n; i++) {
+        a.place[i] = image_start(im, i);
+        a.rate[i] = image_start(im, a.n + i);
+    }
+    evaluator_run(signals, 0.0, a.place, a.place + im->angles, a.rate, a.input, signal);
+    for (int k = 0; k < im->forced; k++) {
+        if (im->contact[k].kind == WH_HOLD && signal[2 * k] > 0.0) {
+            a.hold[a.holds++] = k;
+        }
+    }
+    if (a.holds > 0) {
+        look(&a);
+        say(out, who, &a);
+    }
+    evaluator_free(signals);
+    evaluator_free(a.forces);
+    free(signal);
+    free(a.input);
+    free(a.law);
+}

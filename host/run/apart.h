@@ -1,0 +1,14 @@
+/* apart.h: holds that are true where a run starts and do not fit there: an expression that is a little off zero keeps that for
+ * ever, and one that moves is stopped by an impulse, which takes energy. Warned of with the number, and with values of start that
+ * fit. */
+#ifndef RUN_APART_H
+#define RUN_APART_H
+
+#include <stdio.h>
+
+#include "host/image/image.h"
+
+/* Nothing is said where all fit. `who`: "whirl run". */
+void apart_say(FILE *out, const char *who, const image *im);
+
+#endif

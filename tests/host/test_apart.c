@@ -1,0 +1,127 @@
+/* test_apart.c: linkages that holds close and that do not fit where they start (host/run/apart.h): of drawn four-bars, both
+ * faults are told, with the energy that vanishes, and the values that are named fit when they are pasted. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "command.h"
+#include "host/run/apart.h"
+#include "motion.h"
+#include "unity.h"
+
+void suite_apart(void);
+
+enum { TEXT = 3000 };
+
+typedef struct bars {
+    double length_m[3];
+    double inertia[3];
+    double angle_rad[3];
+    double rate[3];
+    double at_m[2];    /* of the last joint */
+    double turned_rad; /* b is off by so much */
+} bars;
+
+static bars bars_draw(dice *d, bool off) {
+    bars b = {.turned_rad = 0.0};
+    double sine;
+    do {
+        for (int i = 0; i < 3; i++) {
+            b.length_m[i] = dice_between(d, 0.1, 0.5);
+            b.inertia[i] = dice_between(d, 0.01, 0.1);
+            b.angle_rad[i] = dice_between(d, -3.0, 3.0);
+        }
+        sine = sin(b.angle_rad[1] - b.angle_rad[2]);
+    } while (fabs(sine) < 0.4);
+    b.rate[0] = dice_between(d, 2.0, 20.0);
+    for (int k = 0; k < 2; k++) {
+        for (int i = 0; i < 3; i++) {
+            const double part = k == 0 ? cos(b.angle_rad[i]) : sin(b.angle_rad[i]);
+            b.at_m[k] += (i < 2 ? 1.0 : -1.0) * b.length_m[i] * part;
+        }
+    }
+    b.turned_rad = off ? dice_between(d, 0.005, 0.03) : 0.0;
+    return b;
+}
+
+static void write(const bars *b, const char *start, char text[TEXT]) {
+    snprintf(
+        text, TEXT,
+        "mechanism bars\ncoordinate a [rad]\ncoordinate b [rad]\ncoordinate c [rad]\n"
+        "T = %.17g [kg*m^2]*a'^2/2 + %.17g [kg*m^2]*b'^2/2 + %.17g [kg*m^2]*c'^2/2\n"
+        "hold %.17g [m]*cos(a) + %.17g [m]*cos(b) - %.17g [m]*cos(c) - %.17g [m] while 1 > 0\n"
+        "hold %.17g [m]*sin(a) + %.17g [m]*sin(b) - %.17g [m]*sin(c) - %.17g [m] while 1 > 0\n"
+        "scene s {\nstart a = %.17g [rad], b = %.17g [rad], c = %.17g [rad], a' = %.17g [rad/s]\n"
+        "%sstep 1 [us]\nuntil 10 [us]\n}\n",
+        b->inertia[0], b->inertia[1], b->inertia[2], b->length_m[0], b->length_m[1], b->length_m[2],
+        b->at_m[0], b->length_m[0], b->length_m[1], b->length_m[2], b->at_m[1], b->angle_rad[0],
+        b->angle_rad[1] + b->turned_rad, b->angle_rad[2], b->rate[0], start);
+}
+
+static double kinetic_J(const bars *b, const motion *m) {
+    static const char *const names[] = {"a'", "b'", "c'"};
+    double sum = 0.0;
+    for (int i = 0; i < 3; i++) {
+        sum += 0.5 * b->inertia[i] * motion_value(m, names[i]) * motion_value(m, names[i]);
+    }
+    return sum;
+}
+
+/* What is said of the start; to be freed. */
+static char *said_of(motion *m, const char *text) {
+    char *told = NULL;
+    size_t size = 0;
+    motion_open_text(m, text, IN_DOUBLE);
+    FILE *out = open_memstream(&told, &size);
+    apart_say(out, "whirl run", m->image);
+    fclose(out);
+    return told;
+}
+
+static void test_four_bars(void) {
+    dice d = dice_of("apart", 1);
+    const unsigned cases = dice_cases(40);
+    for (unsigned k = 0; k < cases; k++) {
+        char text[TEXT];
+        motion m;
+        const bars b = bars_draw(&d, k % 2 == 0);
+        write(&b, "", text);
+        char *told = said_of(&m, text);
+        TEST_ASSERT_EQUAL_MESSAGE(k % 2 == 0, strstr(told, "off zero") != NULL, text);
+        const char *takes = strstr(told, "and takes ");
+        TEST_ASSERT_NOT_NULL_MESSAGE(takes, text);
+        const double from_J = kinetic_J(&b, &m);
+        TEST_ASSERT_EQUAL_INT(WH_OK, motion_step(&m, 1));
+        const double lost_J = from_J - kinetic_J(&b, &m);
+        const double told_J = strtod(takes + strlen("and takes "), NULL);
+        TEST_ASSERT_TRUE_MESSAGE(fabs(told_J - lost_J) <= 1e-4 * from_J, text);
+        motion_close(&m);
+        /* its values, pasted behind the scene's own */
+        char *values = strstr(told, "these fit: start ");
+        TEST_ASSERT_NOT_NULL_MESSAGE(values, text);
+        values += strlen("these fit: ");
+        char *end = strchr(values, '\n');
+        end[1] = '\0';
+        char *own = strstr(text, "start a =");
+        char *rest = strchr(own, '\n') + 1;
+        char fitting[TEXT];
+        bool has_places = strstr(values, "b = ") != NULL;
+        if (has_places) { /* all three; the crank's rate stays */
+            snprintf(fitting, sizeof fitting, "%.*s%.*s, a' = %.17g [rad/s]\n%s", (int)(own - text),
+                     text, (int)(end - values), values, b.rate[0], rest);
+        } else {
+            snprintf(fitting, sizeof fitting, "%.*s%s%s", (int)(rest - text), text, values, rest);
+        }
+        char *again = said_of(&m, fitting);
+        TEST_ASSERT_EQUAL_STRING_MESSAGE("", again, fitting);
+        const double fits_J = kinetic_J(&b, &m);
+        TEST_ASSERT_EQUAL_INT(WH_OK, motion_step(&m, 1));
+        TEST_ASSERT_TRUE_MESSAGE(fabs(fits_J - kinetic_J(&b, &m)) < 1e-4 * fits_J, fitting);
+        motion_close(&m);
+        free(again);
+        free(told);
+    }
+}
+
+void suite_apart(void) { RUN_TEST(test_four_bars); }
