@@ -15,7 +15,6 @@
 #include "host/derive/lagrange.h"
 #include "host/lang/hints.h"
 #include "host/lang/override.h"
-#include "host/lang/shown.h"
 #include "host/show/show_events.h"
 
 static char *copy_of(const char *text, size_t length) { return room_copy(text, length); }
@@ -190,20 +189,6 @@ int source_pick(source_model *s, bool prefer_scene, const mechanism **of, const 
     return EXIT_BAD_INPUT;
 }
 
-static void say_bare(const mechanism *of, override_kind kind, const char *const *texts, int count) {
-    struct arena *memory = arena_new();
-    diags *unsaid = diags_new();
-    for (int i = 0; i < count; i++) {
-        assignment change;
-        if (override_parse(of, kind, texts[i], memory, unsaid, &change) &&
-            override_is_bare(&change)) {
-            shown_note_bare(texts[i], change.symbol, change.primes);
-        }
-    }
-    diags_free(unsaid);
-    arena_free(memory);
-}
-
 /* Dry friction written by hand: a note, or NULL. */
 static char *hint_for(const instance *inst) {
     const term *friction = hint_friction(inst);
@@ -250,11 +235,6 @@ int load(loaded *made, source_model *s, const mechanism *of, const scene *in,
     if (made->equations != NULL && made->image != NULL) {
         made->hint = hint_for(made->equations->instance);
         made->contacts = contacts_of(made->equations, wish->comment);
-    }
-    if (made->image != NULL &&
-        changes != NULL) { /* accel, which prints SI, takes SI without a word */
-        say_bare(of, OVERRIDE_SET, changes->sets, changes->set_count);
-        say_bare(of, OVERRIDE_START, changes->starts, changes->start_count);
     }
     if (wish->keep < KEEP_EQUATIONS) {
         equations_free(made->equations);

@@ -53,8 +53,7 @@ typedef struct loaded {
 } loaded;
 
 /* Derive one instance to its image; errors are printed. What is not kept is freed; whoever needs the model no more
- * calls source_forget(). A note tells of bare numbers to `set` and `start` what is declared in another unit than SI;
- * `values` are SI without a word, as what `accel` prints. Returns an exit code; unload() in any case. */
+ * calls source_forget(). Returns an exit code; unload() in any case. */
 int load(loaded *made, source_model *source, const mechanism *of, const scene *in,
          const overrides *changes, const load_wish *wish);
 /* On standard error: the hint. */

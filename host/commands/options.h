@@ -14,8 +14,8 @@
  * core/method.h. */
 #define OPTION_ROWS(X) \
     X(OPTION_SET, "--set", "NAME=EXPR", OPTIONS_CHANGE, \
-      "a parameter or an input; a bare number is SI, whatever unit is declared\n" \
-      "(repeatable, each name once)") \
+      "a parameter or an input; a bare number is SI, and refused where the\n" \
+      "declared unit is not (repeatable, each name once)") \
     X(OPTION_START, "--start", "NAME=EXPR", OPTIONS_CHANGE, \
       "a coordinate or a rate: --start \"theta'=330 [rpm]\" (repeatable)") \
     X(OPTION_WITH, "--with", "E,...", OPTIONS_CHANGE, \

@@ -6,6 +6,7 @@
 
 #include "host/base/room.h"
 #include "host/derive/lagrange.h"
+#include "host/lang/shown.h"
 
 /* --- a place in words ------------------------------------------------------------------------------*/
 
@@ -68,7 +69,7 @@ static const char *name_of(void *context, int point) {
     }
     for (int i = 0; i < p->grid->count; i++) {
         const axis *a = &p->grid->axes[i];
-        char *word = room_words("%s=%s", a->name, number_shortest(value[i], number));
+        char *word = shown_assignment(a->symbol, a->primes, number_shortest(value[i], number));
         char *quoted = pricing_quoted(word);
         fprintf(out, " %s %s", is_start(a) ? "--start" : "--set", quoted);
         free(word);
@@ -91,7 +92,9 @@ static overrides changes_at(const pricing_scene *p, int point) {
         grid_values(g, (uint64_t)point, value);
     }
     for (int i = 0; i < g->count; i++) {
-        texts[i] = room_words("%s=%.17g", g->axes[i].name, value[i]);
+        char number[NUMBER_SIZE];
+        snprintf(number, sizeof number, "%.17g", value[i]);
+        texts[i] = shown_assignment(g->axes[i].symbol, g->axes[i].primes, number);
     }
     free(value);
     changes.values = texts;

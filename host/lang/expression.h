@@ -36,6 +36,9 @@ const expr *expr_call(parser *in, function_id function, place at, const expr *le
 bool expr_constant(const expr *tree, double *value);
 /* Report at `at` "RULE, but this is ..." when `value` has not the dimension `wanted`. */
 bool check_dimension(parser *in, place at, const expr *value, dimension wanted, const char *rule);
+/* Report at `at` a value without a unit, not 0, for the symbol (or its derivative) where its declared unit is not SI. The
+ * token in hand is the one behind the value. */
+bool check_unit(parser *in, place at, const expr *value, const symbol *of, int primes);
 /* "SUBJECT is mass [kg]", the rule for something that has its dimension already. */
 enum { RULE_SIZE = 300 };
 char *dimension_rule(char *buffer, const char *subject, const char *verb, dimension dim);

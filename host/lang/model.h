@@ -218,7 +218,7 @@ void model_free(whirl_model *model);
 /* --- instances: a scene, or a bare mechanism, with the command line's changes, in numbers -------- */
 
 /* Changes from the command line; every `const char *` is text as typed ("m=3 [kg]", "theta'=1.2").
- * On the command line a bare number is an SI value of whatever dimension is wanted. */
+ * On the command line a bare number is an SI value of whatever dimension is wanted, where the declared unit is SI. */
 typedef struct overrides {
     const char *const *sets;
     int set_count; /* --set: parameters and inputs */

@@ -1,7 +1,10 @@
 /* operators.c: expression nodes, with the dimension rules of each operator and function. */
 #include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
 
 #include "expression.h"
+#include "shown.h"
 #include "value.h"
 
 expr *expr_new(parser *in, expr_op op, place at) {
@@ -73,6 +76,42 @@ bool check_dimension(parser *in, place at, const expr *value, dimension wanted, 
     }
     diag_error(in->diags, at, hint[0] == '\0' ? NULL : hint, "%s, but this is %s", rule,
                dim_text(value->dim, is, sizeof is));
+    return false;
+}
+
+bool check_unit(parser *in, place at, const expr *value, const symbol *of, int primes) {
+    enum { SHOWN_MAX = 60 };
+    const unsigned known = USES_UNIT | USES_UNKNOWNS | USES_INPUT;
+    double number = 1.0;
+    if (unit_is_si(of->declared) || (value->uses & known) != 0 || value->dim.unknown ||
+        (expr_constant(value, &number) && number == 0.0)) {
+        return true;
+    }
+    const char *text = at.source->text + at.offset;
+    size_t length =
+        (in->token.kind == TOKEN_END ? at.source->length : in->token.at.offset) - at.offset;
+    for (size_t i = 1; i < length; i++) { /* of a range, this end */
+        length = text[i - 1] == '.' && text[i] == '.' ? i - 1 : length;
+    }
+    while (length > 0 && strchr(" \t\r\n", text[length - 1]) != NULL) {
+        length--;
+    }
+    const bool plain = is_bare_number(value) && text[length - 1] != ')';
+    const char *quote = in->builder == NULL ? "\"" : "";
+    char *unit = shown_unit_name(of, primes);
+    char *si = shown_si_name(of, primes);
+    char number_text[SHOWN_MAX + 8];
+    char hint[400];
+    snprintf(number_text, sizeof number_text, plain ? "%.*s" : "(%.*s)*1",
+             (int)(length > SHOWN_MAX ? SHOWN_MAX : length), text);
+    const char *primes_text = "'''''''''";
+    snprintf(hint, sizeof hint, "%s%s%.*s = %s [%s]%s, or in SI: %s%s%.*s = %s [%s]%s", quote,
+             of->name, primes, primes_text, number_text, unit, quote, quote, of->name, primes,
+             primes_text, number_text, si, quote);
+    diag_error(in->diags, at, hint, "'%s' is declared in [%s], and this value has no unit",
+               of->name, of->unit);
+    free(si);
+    free(unit);
     return false;
 }
 
@@ -220,7 +259,10 @@ const expr *expr_call(parser *in, function_id function, place at, const expr *le
     char words[40];
     snprintf(words, sizeof words, "compare in %s:", name);
     switch (function_takes(function)) {
-    case TAKES_RATIO: common_dimension(in, at, left, right, words, "and"); break;
+    case TAKES_RATIO:
+        common_dimension(in, at, left, right, words, "and");
+        made->uses |= USES_UNIT; /* radians */
+        break;
     case TAKES_CHOICE: made->dim = common_dimension(in, at, left, right, words, "and"); break;
     case TAKES_SIZE: made->dim = left->dim; break;
     case TAKES_ANY: break;
@@ -242,6 +284,9 @@ const expr *expr_call(parser *in, function_id function, place at, const expr *le
         if (!dim_is_none(left->dim)) {
             diag_error(in->diags, at, NULL, "%s takes a dimensionless value, but this is %s", name,
                        dim_text(left->dim, text, sizeof text));
+        }
+        if (function == FN_ASIN || function == FN_ACOS || function == FN_ATAN) {
+            made->uses |= USES_UNIT; /* radians */
         }
         break;
     }

@@ -149,13 +149,10 @@ bool override_parse(const mechanism *of, override_kind kind, const char *text, s
     }
     char words[80];
     token_words(&name, words, sizeof words);
+    const place at = in.token.at;
     *made = (assignment){&found->symbol, name.primes, parse_quantity(&in, wanted, words), name.at};
-    return made->value != NULL && diags_calls(all) == before;
-}
-
-bool override_is_bare(const assignment *made) {
-    return made->value->uses == 0 && dim_is_none(made->value->dim) &&
-           !unit_is_si(made->symbol->declared) && expr_value(made->value, NULL) != 0.0;
+    return made->value != NULL && diags_calls(all) == before &&
+           check_unit(&in, at, made->value, made->symbol, name.primes);
 }
 
 const expr *override_quantity(const mechanism *of, const char *what, const char *text,

@@ -8,13 +8,10 @@
 typedef enum override_kind { OVERRIDE_SET, OVERRIDE_START, OVERRIDE_EITHER } override_kind;
 
 /* "NAME=EXPR" or "NAME'=EXPR". Returns false when it was wrong (reported, in a source called
- * "<command line>"). A bare number is SI; "2 N*m" may stand without brackets. */
+ * "<command line>"). A bare number is SI, and refused where the declared unit is not; "2 N*m" may stand without
+ * brackets. */
 bool override_parse(const mechanism *of, override_kind kind, const char *text, struct arena *arena,
                     diags *diags, assignment *made);
-
-/* Does it give a number without a unit, not 0, to what was declared in a unit that is not SI? The number
- * is SI all the same. */
-bool override_is_bare(const assignment *made);
 
 /* "1ms", "1 [ms]", "0.001": seconds; NULL when it was wrong. `what` is "step" or "until". */
 const expr *override_duration(const mechanism *of, const char *what, const char *text,

@@ -186,8 +186,11 @@ static const expr *take_properties(parser *in, expr *made, const token *name) {
         made->uses = USES_UNKNOWNS;
         made->order = name->primes;
         break;
-    case SYM_PARAMETER: made->uses = USES_PARAMETER; break;
-    case SYM_INPUT: made->uses = USES_INPUT; break;
+    case SYM_PARAMETER:
+    case SYM_INPUT:
+        made->uses = found->kind == SYM_PARAMETER ? USES_PARAMETER : USES_INPUT;
+        made->uses |= found->value == NULL ? USES_UNIT : found->value->uses & USES_UNIT;
+        break;
     case SYM_LET:
     case SYM_OUTPUT:
     case SYM_RECORD:

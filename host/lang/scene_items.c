@@ -70,8 +70,8 @@ bool scene_take_symbol(parser *in, draft *into, const statement_word *word, toke
     return true;
 }
 
-/* = EXPR with the wanted dimension (not checked when the name is unknown). */
-static bool parse_assigned(parser *in, const token *name, const dimension *wanted,
+/* = EXPR of the symbol, with the wanted dimension (not checked when the name is unknown: NULL). */
+static bool parse_assigned(parser *in, const token *name, const symbol *of, dimension wanted,
                            const expr **value) {
     char words[80];
     token_words(name, words, sizeof words);
@@ -86,9 +86,10 @@ static bool parse_assigned(parser *in, const token *name, const dimension *wante
     if (*value == NULL) {
         return false;
     }
-    if (wanted != NULL) {
-        char rule[RULE_SIZE];
-        check_dimension(in, at, *value, *wanted, dimension_rule(rule, words, "is", *wanted));
+    char rule[RULE_SIZE];
+    if (of != NULL &&
+        check_dimension(in, at, *value, wanted, dimension_rule(rule, words, "is", wanted))) {
+        check_unit(in, at, *value, of, name->primes);
     }
     return true;
 }
@@ -114,7 +115,8 @@ static bool set_item(parser *in, const statement_word *word) {
         diag_error(in->diags, name.at, NULL, "'%s' was already set in line %d", found->symbol.name,
                    found->mark_at.line);
     }
-    if (!parse_assigned(in, &name, usable ? &found->symbol.dim : NULL, &value)) {
+    if (!parse_assigned(in, &name, usable ? &found->symbol : NULL,
+                        usable ? found->symbol.dim : dim_none(), &value)) {
         return false;
     }
     if (usable) {
@@ -182,7 +184,7 @@ static bool start_item(parser *in, const statement_word *word) {
         usable = dim_power(dim_of(0, 0, -1, 0, 0), name.primes, &wanted) &&
                  dim_multiply(found->symbol.dim, wanted, &wanted);
     }
-    if (!parse_assigned(in, &name, usable ? &wanted : NULL, &value)) {
+    if (!parse_assigned(in, &name, usable ? &found->symbol : NULL, wanted, &value)) {
         return false;
     }
     if (usable) {

@@ -51,13 +51,11 @@ char *shown_unit_name(const symbol *s, int primes) {
     return room_words("%s%s", s->unit, per);
 }
 
-void shown_note_bare(const char *typed, const symbol *s, int primes) {
-    char *name = shown_unit_name(s, primes);
+char *shown_assignment(const symbol *s, int primes, const char *number) {
     char *si = shown_si_name(s, primes);
-    fprintf(stderr,
-            "note: %s has no unit and counts as %s: '%s' is declared in [%s]\n"
-            "hint: write the unit behind the number: [%s] or [%s]\n",
-            typed, si, s->name, s->unit, name, si);
+    char *made = unit_is_si(s->declared)
+                     ? room_words("%s%.*s=%s", s->name, primes, "'''''''''", number)
+                     : room_words("%s%.*s=%s [%s]", s->name, primes, "'''''''''", number, si);
     free(si);
-    free(name);
+    return made;
 }

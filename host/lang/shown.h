@@ -15,9 +15,9 @@ char *shown_unit_name(const symbol *s, int primes);
 /* The name of the SI unit of the same. The caller frees it. */
 char *shown_si_name(const symbol *s, int primes);
 
-/* On standard error: a note that `typed`, such as "theta=80", is in SI although the symbol is declared in
- * another unit. For what override_is_bare(). */
-void shown_note_bare(const char *typed, const symbol *s, int primes);
+/* "theta'=3 [rad/s]" of a number in SI, as options take it: with the unit where the declared one is not SI. The caller
+ * frees it. */
+char *shown_assignment(const symbol *s, int primes, const char *number);
 
 /* The SI unit of a dimension into text[size]: "rad", "m/s", "kg*m^2/s^2", "1". Returns text. */
 const char *dimension_unit(dimension dim, bool is_angle, char *text, size_t size);

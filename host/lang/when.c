@@ -71,7 +71,9 @@ static bool parse_set(parser *in, contact_statement *made) {
         dim_multiply(set.symbol->dim, wanted, &wanted)) {
         char rule[RULE_SIZE];
         token_words(&name, words, sizeof words);
-        check_dimension(in, at, set.value, wanted, dimension_rule(rule, words, "is", wanted));
+        if (check_dimension(in, at, set.value, wanted, dimension_rule(rule, words, "is", wanted))) {
+            check_unit(in, at, set.value, set.symbol, name.primes);
+        }
     }
     if (usable) {
         assignment *longer =

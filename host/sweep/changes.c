@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "host/base/room.h"
+#include "host/lang/shown.h"
 
 overrides changes_at(const grid *g, const overrides *base, uint64_t point) {
     overrides changes = *base;
@@ -15,17 +16,15 @@ overrides changes_at(const grid *g, const overrides *base, uint64_t point) {
     changes.value_count = 0;
     for (int i = 0; i < g->count; i++) {
         const axis *a = &g->axes[i];
-        const size_t size = strlen(a->name) + NUMBER_SIZE;
-        char *text = room((int64_t)size, 1);
+        char number[NUMBER_SIZE];
+        snprintf(number, sizeof number, "%.17g", value[i]);
         if (a->symbol == NULL) {
-            snprintf(text, size, "%.17g", value[i]);
             if (changes.step != base->step) {
                 free((void *)(uintptr_t)changes.step); /* a step swept twice: the last holds */
             }
-            changes.step = text;
+            changes.step = room_words("%s", number);
         } else {
-            snprintf(text, size, "%s=%.17g", a->name, value[i]);
-            texts[changes.value_count++] = text;
+            texts[changes.value_count++] = shown_assignment(a->symbol, a->primes, number);
         }
     }
     changes.values = texts;

@@ -8,7 +8,6 @@
 
 #include "host/base/room.h"
 #include "host/lang/override.h"
-#include "host/lang/shown.h"
 #include "host/lang/value.h"
 #include "host/number/decimal.h"
 #include "host/number/zero.h"
@@ -177,14 +176,6 @@ static bool read_axis(const grid *g, const mechanism *of, const char *over, cons
     diags_flush(errors, stderr);
     const bool good =
         to != NULL && take_ends(g, over, from, to, made) && read_count(g, over, r->count, made);
-    const assignment last = {made->symbol, made->primes, to, {0}};
-    if (good && made->symbol != NULL && override_is_bare(&last)) {
-        char *name = joined(r->name, "=");
-        char *typed = joined(name, r->to);
-        shown_note_bare(typed, made->symbol, made->primes);
-        free(name);
-        free(typed);
-    }
     arena_free(arena);
     return good;
 }

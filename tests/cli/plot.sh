@@ -126,7 +126,7 @@ verdict $? "without gnuplot that is said"
 "$whirl" list --figures >"$scratch/figures"
 [ "$(wc -l <"$scratch/figures")" -eq "$(ls mk/figures/*.fig | wc -l)" ]
 verdict $? "all figures are listed" "$scratch/figures"
-"$whirl" figure 33 --out "$scratch/f.svg" --until 1s 2>"$scratch/err" && "$whirl" figure 33 --out "$scratch/g.svg" --until 1s --set m1=9 2>"$scratch/err" &&
+"$whirl" figure 33 --out "$scratch/f.svg" --until 1s 2>"$scratch/err" && "$whirl" figure 33 --out "$scratch/g.svg" --until 1s --set "m1=9 [kg]" 2>"$scratch/err" &&
     grep -qF "<title>$(sed -n 's/^33  *//p' "$scratch/figures")</title>" "$scratch/f.svg" && ! cmp -s "$scratch/f.svg" "$scratch/g.svg"
 verdict $? "a figure, and the same varied"
 exit $failed

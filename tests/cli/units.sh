@@ -182,11 +182,11 @@ verdict $? "and its summary" "$scratch/out"
     grep -q '^  output  *turned  *\[rev/min\]$' "$scratch/out" && grep -q '^  output  *plain  *\[m\]$' "$scratch/out"
 verdict $? "derive lists units as declared, without blanks" "$scratch/out"
 
-# A bare number is SI, and that is said where something else may have been meant.
-run --quiet --start theta=2 && grep -q "^note: theta=2 has no unit and counts as rad: 'theta' is declared in \[deg\]$" "$scratch/err"
-verdict $? "a bare number for an angle in degrees gets a note"
-run --quiet --set m=2 --start "z'=1" && [ "$(grep -c '^note: ' "$scratch/err")" -eq 2 ] && grep -q 'counts as m/s' "$scratch/err"
+# A number without its unit is refused where that is not SI, with a hint that can be pasted.
+run --quiet --start theta=2; [ $? -eq 2 ] && grep -q '^hint: "theta = 2 \[deg\]", or in SI: "theta = 2 \[rad\]"$' "$scratch/err"
+verdict $? "a bare number for an angle in degrees is refused"
+run --quiet --set m=2 --start "z'=1"; [ $? -eq 2 ] && [ "$(grep -c 'this value has no unit$' "$scratch/err")" -eq 2 ] && grep -q '\[m/s\]' "$scratch/err"
 verdict $? "and one for a mass in grams, and for a rate"
 run --quiet --set l=2 --set "m=2 [kg]" --start theta=2rad --start z=0 && [ ! -s "$scratch/err" ]
-verdict $? "none where SI is declared or a unit is given, and none for 0"
+verdict $? "taken where SI is declared or a unit is given, and for 0"
 exit $failed

@@ -1,5 +1,5 @@
-/* test_command_changes.c: what every command makes of its changes: a bare number for what is declared in a unit is
- * noted, a name given twice is refused, and a sweep's measure that overflows has failed. */
+/* test_command_changes.c: what every command makes of its changes: a bare number for what is declared in a unit that is
+ * not SI is refused, as a name given twice is, and a sweep's measure that overflows has failed. */
 #include "command.h"
 
 #include <stdbool.h>
@@ -16,7 +16,7 @@ static const char model[] =
     "mechanism m\ncoordinate th [deg]\ncoordinate x [mm]\nparameter b = 2 [kg]\n"
     "input M = 3 [N*m]\nT = 1 [kg*m^2]*th'^2/2 + b*x'^2/2\n"
     "V = 5 [N*m]*th^2/2 + 700 [N/m]*x^2/2\nQ(th) = M\n"
-    "scene s { start th = 0.1\nuntil 50 [ms] }\n";
+    "scene s { start th = 0.1 [rad]\nuntil 50 [ms] }\n";
 
 /* How a command is told of a change: by --set and --start, or, "accel", by the bare words. */
 typedef struct way {
@@ -48,25 +48,21 @@ static void tell(const way *w, const char *const *changes, int count, said *what
     command_say(w->command, words, what);
 }
 
-static void test_bare_numbers_are_noted_by_commands_that_show_units(void) {
+static void test_bare_numbers_are_refused_where_the_unit_is_not_SI(void) {
     static const char *const bare[] = {"th=20", "th'=-1", "x=1e-3", "x'=2"};
     static const char *const with_unit[] = {"th=20 [deg]", "th'=1 [rpm]", "x=1 mm",
                                             "th=0",        "b=3",         "M=1"};
     for (int w = 0; w < WAYS; w++) {
         said what;
         for (size_t i = 0; i < sizeof bare / sizeof bare[0]; i++) {
-            char wanted[60];
-            snprintf(wanted, sizeof wanted, "note: %s has no unit and counts as ", bare[i]);
             tell(&ways[w], &bare[i], 1, &what);
-            TEST_ASSERT_EQUAL_INT_MESSAGE(0, what.status, ways[w].name);
-            /* accel prints SI, and takes it without a word: programs read what it says */
-            TEST_ASSERT_EQUAL_INT_MESSAGE(!ways[w].bare, strstr(what.err, wanted) != NULL,
-                                          ways[w].name);
+            TEST_ASSERT_EQUAL_INT_MESSAGE(2, what.status, ways[w].name);
+            TEST_ASSERT_NOT_NULL_MESSAGE(strstr(what.err, "this value has no unit"), what.err);
         }
         for (size_t i = 0; i < sizeof with_unit / sizeof with_unit[0]; i++) {
             tell(&ways[w], &with_unit[i], 1, &what);
             TEST_ASSERT_EQUAL_INT_MESSAGE(0, what.status, ways[w].name);
-            TEST_ASSERT_NULL_MESSAGE(strstr(what.err, "note:"), ways[w].name);
+            TEST_ASSERT_NULL_MESSAGE(strstr(what.err, "error:"), what.err);
         }
     }
     model_drop();
@@ -74,6 +70,7 @@ static void test_bare_numbers_are_noted_by_commands_that_show_units(void) {
 
 static void test_a_name_given_twice_is_refused_by_every_command(void) {
     static const char *const names[] = {"th", "th'", "x", "x'", "b", "M"};
+    static const char *const units[] = {"rad", "rad/s", "m", "m/s", "kg", "N*m"};
     enum { NAMES = sizeof names / sizeof names[0] };
     dice d = dice_of("twice", 4301);
     for (int w = 0; w < WAYS; w++) {
@@ -83,14 +80,15 @@ static void test_a_name_given_twice_is_refused_by_every_command(void) {
             char wanted[80];
             said what;
             for (int k = 0; k < NAMES; k++) { /* all of them once: good */
-                snprintf(text[k], sizeof text[k], "%s=%.3f", names[k], dice_between(&d, 0.1, 1.0));
+                snprintf(text[k], sizeof text[k], "%s=%.3f %s", names[k],
+                         dice_between(&d, 0.1, 1.0), units[k]);
                 changes[k] = text[k];
             }
             tell(&ways[w], changes, NAMES, &what);
             TEST_ASSERT_EQUAL_INT_MESSAGE(0, what.status, what.err);
             const bool same = dice_one_of(&d, 2) == 0; /* also when both say the same */
-            snprintf(text[NAMES], sizeof text[NAMES], "%s = %s", names[i],
-                     same ? strchr(text[i], '=') + 1 : "7");
+            snprintf(text[NAMES], sizeof text[NAMES], "%s = %s%s", names[i],
+                     same ? strchr(text[i], '=') + 1 : "7 ", same ? "" : units[i]);
             changes[NAMES] = text[NAMES];
             tell(&ways[w], changes, NAMES + 1, &what);
             snprintf(wanted, sizeof wanted, "<command line>:1:1: error: '%s' is given twice",
@@ -148,7 +146,7 @@ static void test_measures_that_overflow_fail_their_points(void) {
 }
 
 void suite_command_changes(void) {
-    RUN_TEST(test_bare_numbers_are_noted_by_commands_that_show_units);
+    RUN_TEST(test_bare_numbers_are_refused_where_the_unit_is_not_SI);
     RUN_TEST(test_a_name_given_twice_is_refused_by_every_command);
     RUN_TEST(test_measures_that_overflow_fail_their_points);
 }

@@ -118,7 +118,7 @@ static void test_block_slips_from_the_closed_forms_amplitude_on(void) {
         motion m;
         char set[64];
         stepping how = IN_DOUBLE;
-        snprintf(set, sizeof set, "A=%.17g", 0.4 * G / (w * w) * (1.0 + 1e-4 * side));
+        snprintf(set, sizeof set, "A=%.17g m", 0.4 * G / (w * w) * (1.0 + 1e-4 * side));
         how.set = set;
         motion_open(&m, "table_sticks", how);
         motion_to(&m, 1.0);

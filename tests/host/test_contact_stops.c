@@ -168,7 +168,7 @@ static void test_ball_lifts_off_where_the_table_falls_faster(void) {
         motion m;
         char set[64];
         stepping how = IN_DOUBLE;
-        snprintf(set, sizeof set, "A=%.17g", G / (w * w) * (1.0 + 1e-4 * side));
+        snprintf(set, sizeof set, "A=%.17g m", G / (w * w) * (1.0 + 1e-4 * side));
         how.set = set;
         motion_open(&m, "hopper_rests", how);
         motion_to(&m, 1.0);

@@ -10,6 +10,7 @@
 #include <string.h>
 
 #include "host/lang/builtin.h"
+#include "host/lang/shown.h"
 #include "unity.h"
 
 void suite_effect_parts(void);
@@ -41,10 +42,11 @@ static char *said_of(const mechanism *of, const scene *in, const char *set, bool
 
 /* The effect's name in the message and, for --set, what to add. */
 static void expect_refused(const mechanism *of, const scene *in, const symbol *s, double value) {
-    char set[200];
     char wanted[200];
     const char *owner = of->effects[s->effect].name;
-    snprintf(set, sizeof set, "%s=%.17g", s->name, value);
+    char number[40];
+    snprintf(number, sizeof number, "%.17g", value);
+    char *set = shown_assignment(s, 0, number);
     for (int as_value = 0; as_value < 2; as_value++) {
         char *said = said_of(of, in, set, as_value != 0, NULL);
         snprintf(wanted, sizeof wanted, "'%s' belongs to the effect '%s'", s->name, owner);
@@ -56,6 +58,7 @@ static void expect_refused(const mechanism *of, const scene *in, const symbol *s
     char *said = said_of(of, in, set, false, owner);
     TEST_ASSERT_EQUAL_STRING("", said);
     free(said);
+    free(set);
 }
 
 /* A value that the parameter or input can have: its own. */

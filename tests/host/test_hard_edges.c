@@ -185,7 +185,7 @@ static double swing_off(double A_m, const engine_kind *kind, bool compensated) {
     char set[60];
     motion m;
     double most = 0.0;
-    snprintf(set, sizeof set, "A=%.17g", A_m);
+    snprintf(set, sizeof set, "A=%.17g m", A_m);
     motion_open_file(
         &m, HARD "scales.whirl", "", "scales_usual",
         (stepping){.kind = kind, .method = WH_RK4, .compensated = compensated, .set = set});
@@ -209,7 +209,7 @@ static void scales(bool is_float, double least, double last) {
         char set[60];
         char about[SAID_SIZE + 100];
         said what;
-        snprintf(set, sizeof set, "A=%.17g", A_m);
+        snprintf(set, sizeof set, "A=%.17g m", A_m);
         run_with(HARD "scales.whirl:scales_usual", set, is_float, "1ms", &what);
         snprintf(about, sizeof about, "amplitude %.3g m, off by %.3g: %s", A_m, off, what.err);
         if (off > 1e-3) {
@@ -234,7 +234,7 @@ static bool cubic(double A_m, const engine_kind *kind, double x[10]) {
     char set[60];
     motion m;
     bool went = true;
-    snprintf(set, sizeof set, "A=%.17g", A_m);
+    snprintf(set, sizeof set, "A=%.17g m", A_m);
     motion_open_file(&m, HARD "scales.whirl", "", "cubic_small",
                      (stepping){.kind = kind, .method = WH_RK4, .set = set});
     for (int i = 0; i < 10; i++) {
@@ -261,7 +261,7 @@ static void test_products_that_fall_below_float(void) {
         char set[60];
         char about[SAID_SIZE + 100];
         said what;
-        snprintf(set, sizeof set, "A=%.17g", A_m);
+        snprintf(set, sizeof set, "A=%.17g m", A_m);
         run_with(HARD "scales.whirl:cubic_small", set, true, "1ms", &what);
         snprintf(about, sizeof about, "%.3g m, off by %.3g: %s", A_m, off, what.err);
         if (off > 1e-2) {

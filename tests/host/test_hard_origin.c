@@ -44,7 +44,7 @@ static double passage_by(wh_method method, double d_m, double step_s, const engi
                          bool compensated) {
     char set[40];
     motion m;
-    snprintf(set, sizeof set, "d=%.17g", d_m);
+    snprintf(set, sizeof set, "d=%.17g m", d_m);
     motion_open_file(&m, HARD "polar.whirl", "", "polar_passes",
                      (stepping){.kind = kind,
                                 .method = method,
@@ -75,7 +75,7 @@ static void test_past_the_origin_of_polar_coordinates(void) {
         char set[40];
         char about[SAID_SIZE + 100];
         said what;
-        snprintf(set, sizeof set, "d=%.17g", d_m);
+        snprintf(set, sizeof set, "d=%.17g m", d_m);
         run_with(HARD "polar.whirl", set, is_float, "1ms", &what);
         snprintf(about, sizeof about, "past %.3g m, off by %.3g m: %s", d_m, off_m, what.err);
         if (off_m > 0.02) {
@@ -125,7 +125,7 @@ static void test_past_the_origin_by_crude_methods(void) {
         char set[40];
         char about[SAID_SIZE + 100];
         said what;
-        snprintf(set, sizeof set, "d=%.17g", d_m);
+        snprintf(set, sizeof set, "d=%.17g m", d_m);
         static const char target[] = HARD "polar.whirl";
         const char *words[] = {target,  "--quiet", "--method", wh_methods[own].word,
                                "--set", set,       NULL};

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "host/lang/value.h"
 #include "parsed.h"
 #include "unity.h"
 
@@ -265,7 +266,125 @@ static void test_byte_order_mark_and_line_ends(void) {
     TEST_ASSERT_EQUAL_STRING("\xc3\xa4", parsed->mechanisms[0]->title);
 }
 
+/* --- values without a unit, of what is declared in one -------------------------------------------------- */
+
+enum { IN_SCENE_PLACES = 5, PLACES = 7 };
+
+/* A mechanism with X, p and q in this unit, and a value for one of them in this place; NULL: refused, and *report says why
+ * (freed by the caller). */
+static instance *given_in(const char *unit, int at, const char *assigned, char **report) {
+    static const char *const put[IN_SCENE_PLACES] = {"start %s", "start X = 0, %s", "set %s",
+                                                     "set %s", "when X crosses 0 { set %s }"};
+    char item[400] = "";
+    char text[1200];
+    size_t size = 0;
+    drop();
+    said = diags_new();
+    if (at < IN_SCENE_PLACES) {
+        snprintf(item, sizeof item, put[at], assigned); // NOLINT
+    }
+    snprintf(text, sizeof text,
+             "mechanism m\ncoordinate X [%s]\nparameter p = 2 [%s]\ninput q = 2 [%s]\n"
+             "T = 1 [kg*m^2]*(X'/1 [%s])^2\nscene s { %s }\n",
+             unit, unit, unit, unit, item);
+    parsed = model_parse("x.whirl", text, strlen(text), said);
+    const overrides typed = {.starts = &assigned,
+                             .start_count = at == IN_SCENE_PLACES,
+                             .sets = &assigned,
+                             .set_count = at > IN_SCENE_PLACES};
+    made = parsed == NULL ? NULL
+                          : instance_make(parsed->mechanisms[0], parsed->scenes[0], &typed, said);
+    FILE *out = open_memstream(report, &size);
+    diags_flush(said, out);
+    fclose(out);
+    return made;
+}
+
+/* What it came to there, in SI. */
+static double value_in(int at) {
+    switch (at) {
+    case 0:
+    case IN_SCENE_PLACES: return made->start[0][0];
+    case 1: return made->start[0][1];
+    case 3: return made->input[0];
+    case 4: return expr_value(parsed->scenes[0]->whens[0].sets[0].value, NULL);
+    default: return made->parameter[0];
+    }
+}
+
+/* Every unit, each place where a value can be given, values written in several ways: a unit that is not SI must be
+ * written. The hint can be pasted, and then the value is in the declared unit. */
+static void test_a_value_without_its_unit_is_refused(void) {
+    static const char *const name[PLACES] = {"X", "X'", "p", "q", "X", "X", "p"};
+    static const struct {
+        const char *text;
+        double value;
+    } written[] = {{"30", 30.0},  {"-0.25", -0.25}, {"2*15", 30.0},
+                   {"3e1", 30.0}, {"(7)", 7.0},     {"0", 0.0}};
+    int refused = 0;
+    for (int u = 0; unit_name(u) != NULL; u++) {
+        const char *unit = unit_name(u);
+        unit_scale is;
+        unit_error error;
+        TEST_ASSERT_TRUE(unit_parse(unit, strlen(unit), &is, &error));
+        const double si = is.scale / is.divisor;
+        for (int k = 0; k < PLACES * (int)(sizeof written / sizeof written[0]); k++) {
+            const int at = k % PLACES;
+            const int w = k / PLACES;
+            const bool fits =
+                dim_fits(is.dim, at == 1 ? dim_of(0, 0, 1, 0, 0)
+                                         : dim_none()); /* a bare number has the dimension */
+            const bool typed = at >= IN_SCENE_PLACES;
+            char assigned[80];
+            char *report = NULL;
+            snprintf(assigned, sizeof assigned, "%s = %s", name[at], written[w].text);
+            const bool wanted = written[w].value == 0.0 || ((typed || fits) && si == 1.0);
+            const bool taken = given_in(unit, at, assigned, &report) != NULL;
+            TEST_ASSERT_EQUAL_INT_MESSAGE(wanted, taken, assigned);
+            if (!taken && (typed || fits)) {
+                char *hint = strstr(report, "hint: ");
+                TEST_ASSERT_NOT_NULL(strstr(report, "and this value has no unit"));
+                TEST_ASSERT_NOT_NULL(hint);
+                hint += 6 + (typed ? 1 : 0);
+                *strstr(hint, typed ? "\", or in SI: " : ", or in SI: ") = '\0';
+                char *again = NULL;
+                TEST_ASSERT_NOT_NULL_MESSAGE(given_in(unit, at, hint, &again), hint);
+                const double is_now = value_in(at);
+                TEST_ASSERT_TRUE_MESSAGE(
+                    fabs(is_now - written[w].value * si) <= 1e-15 * fabs(is_now), hint);
+                free(again);
+                refused++;
+            }
+            free(report);
+        }
+    }
+    TEST_ASSERT_TRUE(refused > 500);
+}
+
+/* The same through a parameter that has none, and not where radians are what a function gives. */
+static void test_units_come_through_names(void) {
+    static const char *const good[] = {"X = 2*p", "X = asin(0.5)", "X = q0*1 [deg]"};
+    for (int i = 0; i < 4; i++) {
+        char text[400];
+        snprintf(text, sizeof text,
+                 "mechanism m\ncoordinate X [deg]\nparameter p = 2 [deg]\nparameter q0 = 2\n"
+                 "T = 1 [kg*m^2]*X'^2\nscene s { start %s }\n",
+                 i < 3 ? good[i] : "X = q0");
+        if (i < 3) {
+            parse(text);
+            continue;
+        }
+        drop();
+        said = diags_new();
+        parsed = model_parse("x.whirl", text, strlen(text), said);
+        TEST_ASSERT_NULL(parsed);
+        expect_said("X = (q0)*1 [deg], or in SI: X = (q0)*1 [rad]");
+    }
+}
+
 void suite_lang(void) {
+    RUN_TEST(test_a_value_without_its_unit_is_refused);
+    RUN_TEST(test_units_come_through_names);
     RUN_TEST(test_units);
     RUN_TEST(test_a_divided_unit_goes_from_left_to_right);
     RUN_TEST(test_arithmetic);

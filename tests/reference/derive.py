@@ -23,6 +23,13 @@ STATES = 6  # a mechanism
 HERE = pathlib.Path(__file__).parent
 
 
+# The SI units of parameters that their files declare in other units.
+UNITS = {
+    "two_mass": {"m1": "[kg]", "A": "[kg/s]", "K2": "[kg/s^2]"},
+    "simple_pendulum": {"k": "[N*m]"},
+}
+
+
 class Case:
     """One mechanism. `order` maps each unknown to its order (2 for a coordinate); `where` is the
     argument for `whirl accel`; `build` is called with the symbols and the parameters."""
@@ -102,7 +109,8 @@ class Case:
                 for name, (low, high) in self.vary.items():
                     changed[name] = sp.Rational(rng.randint(int(low * 64), int(high * 64)), 64)
             result = self.accelerations(state, changed)
-            given = [f"{k}={exact(v)}" for k, v in {**changed, **state}.items()]
+            units = UNITS.get(self.where.split("/")[-1].split(".")[0], {})
+            given = [f"{k}={exact(v)}{units.get(k, '')}" for k, v in {**changed, **state}.items()]
             wanted = [f"{k}={number_text(v)}" for k, v in result.items()]
             yield f"{self.where} | {' '.join(given)} | {' '.join(wanted)}"
 
