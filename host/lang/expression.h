@@ -24,6 +24,10 @@ void no_such_coordinate(parser *in, const token *name);
 /* The coordinate of that name, or NULL (reported); `whose` it is to be, for messages. */
 const symbol *find_coordinate(parser *in, const token *name, const char *whose);
 
+/* --- derivatives (derivative.c) --- */
+/* The let that is the time derivative of this one, named at `name`; NULL: it has none (reported). */
+const symbol *let_rate(parser *in, const symbol *let, const token *name);
+
 /* --- operators (operators.c) --- */
 expr *expr_new(parser *in, expr_op op, place at);
 const expr *expr_binary(parser *in, expr_op op, place at, const expr *left, const expr *right);

@@ -12,6 +12,7 @@ typedef struct named {
     bool is_open;        /* its own declaration is being read */
     int mark;            /* who saw it last, for walks and duplicates */
     place mark_at;
+    struct named *rate; /* of a let: its time derivative, where it was asked for */
     struct named *next; /* in its slot */
 } named;
 

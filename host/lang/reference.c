@@ -83,14 +83,14 @@ static void report_reserved(parser *in, const token *name) {
                name->text);
 }
 
-/* May a symbol of this kind, with so many primes, stand here? */
-static bool allowed_here(parser *in, const token *name, const symbol *found) {
+/* May a symbol of this kind, with so many primes, stand here? `written` is its name in the text. */
+static bool allowed_here(parser *in, const token *name, const symbol *found, const token *written) {
     const bool is_unknown = found->kind == SYM_COORDINATE || found->kind == SYM_STATE;
     const bool by_let = found->kind == SYM_LET && found->value != NULL;
     const int order = is_unknown ? name->primes : by_let ? found->value->order : 0;
     const unsigned uses = by_let ? found->value->uses : 0;
     char words[80];
-    token_words(name, words, sizeof words);
+    token_words(written, words, sizeof words);
     if (found->effect >= 0 && found->effect != in->effect && !in->all_effects) {
         diag_error(in->diags, name->at, "declare it in the mechanism to use it elsewhere",
                    "%s belongs to the effect '%s'", words,
@@ -98,7 +98,7 @@ static bool allowed_here(parser *in, const token *name, const symbol *found) {
         return false;
     }
     if (name->primes > 0 && !is_unknown) {
-        diag_error(in->diags, name->at, "only coordinates and states take primes",
+        diag_error(in->diags, name->at, "only coordinates, states and lets take primes",
                    "'%s' is %s: it has no derivative", found->name, symbol_kind_words(found->kind));
         return false;
     }
@@ -148,7 +148,8 @@ static bool allowed_here(parser *in, const token *name, const symbol *found) {
         break;
     case CONTEXT_LET:
     case CONTEXT_OUTPUT:
-        if (found->kind == SYM_COORDINATE && order > 2) {
+        if (order > 2 && (found->kind == SYM_COORDINATE ||
+                          (by_let && in->builder != NULL && !in->builder->has_equations))) {
             diag_error(in->diags, name->at, NULL, "a coordinate takes at most two primes here");
             return false;
         }
@@ -248,13 +249,29 @@ const expr *expr_name(parser *in, const token *name) {
                    found->symbol.name);
         return unknown_value(made);
     }
-    if (!allowed_here(in, name, &found->symbol)) {
+    token plain = *name;
+    made->symbol = &found->symbol;
+    while (made->symbol->kind == SYM_LET && plain.primes > 0) {
+        if (made->symbol->value == NULL || made->symbol->dim.unknown) {
+            return unknown_value(made); /* reported */
+        }
+        if ((made->symbol->value->uses & (USES_UNKNOWNS | USES_INPUT)) == 0) {
+            diag_error(in->diags, name->at, NULL, "'%s' does not move: it has no derivative",
+                       made->symbol->name);
+            return unknown_value(made);
+        }
+        made->symbol = let_rate(in, made->symbol, name);
+        if (made->symbol == NULL) {
+            return unknown_value(made);
+        }
+        plain.primes--;
+    }
+    if (!allowed_here(in, &plain, made->symbol, name)) {
         return unknown_value(made);
     }
-    made->symbol = &found->symbol;
-    made->primes = name->primes;
-    set_dimension(in, made, name);
-    return take_properties(in, made, name);
+    made->primes = plain.primes;
+    set_dimension(in, made, &plain);
+    return take_properties(in, made, &plain);
 }
 
 void no_such_coordinate(parser *in, const token *name) {

@@ -1,0 +1,171 @@
+/* test_let_rates.c: x1' and x1'' of `let x1 = ...` against derivatives written by hand. A drawn tree of functions is written
+ * down as a let, and its derivatives, by the rules of a textbook, as text: both files must become the same C. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "command.h"
+#include "derived.h"
+#include "host/base/room.h"
+#include "host/emit/emit.h"
+#include "unity.h"
+
+void suite_let_rates(void);
+
+/* A formula with its first and second derivative; "0" where it is none. Never freed before the test ends. */
+typedef struct formula {
+    char *f, *d, *dd;
+} formula;
+
+static char *kept[4000];
+static int kept_count;
+
+static char *keep(char *text) {
+    TEST_ASSERT_TRUE(kept_count < (int)(sizeof kept / sizeof kept[0]));
+    return kept[kept_count++] = text;
+}
+
+#define TEXT(...) keep(room_words(__VA_ARGS__))
+
+static void forget(void) {
+    while (kept_count > 0) {
+        free(kept[--kept_count]);
+    }
+}
+
+/* f(u), with f' and f'' as texts of u. */
+static formula chain(char *f, char *slope, char *bend, formula u) {
+    return (formula){f, TEXT("(%s)*(%s)", slope, u.d),
+                     TEXT("((%s)*(%s)^2 + (%s)*(%s))", bend, u.d, slope, u.dd)};
+}
+
+static formula leaf(dice *d) {
+    switch (dice_one_of(d, 4)) {
+    case 0: return (formula){"x/L", "x'/L", "x''/L"};
+    case 1: return (formula){"a", "a'", "a''"};
+    case 2: return (formula){"(a - 2*x/L)", "(a' - 2*x'/L)", "(a'' - 2*x''/L)"};
+    default: return (formula){TEXT("(%g + a)", 0.25 * (1 + dice_one_of(d, 8))), "a'", "a''"};
+    }
+}
+
+/* Drawn `deep` levels deep. Lets that were declared before, p0 ..., are leaves of the let form alone. */
+static formula draw(dice *d, int deep) {
+    if (deep == 0) {
+        return leaf(d);
+    }
+    const formula u = draw(d, deep - 1);
+    switch (dice_one_of(d, 14)) {
+    case 0: return chain(TEXT("sin(%s)", u.f), TEXT("cos(%s)", u.f), TEXT("-sin(%s)", u.f), u);
+    case 1: return chain(TEXT("cos(%s)", u.f), TEXT("-sin(%s)", u.f), TEXT("-cos(%s)", u.f), u);
+    case 2: return chain(TEXT("exp(%s)", u.f), TEXT("exp(%s)", u.f), TEXT("exp(%s)", u.f), u);
+    case 3: return chain(TEXT("sinh(%s)", u.f), TEXT("cosh(%s)", u.f), TEXT("sinh(%s)", u.f), u);
+    case 4: return chain(TEXT("cosh(%s)", u.f), TEXT("sinh(%s)", u.f), TEXT("cosh(%s)", u.f), u);
+    case 5: return chain(TEXT("(%s)^3", u.f), TEXT("3*(%s)^2", u.f), TEXT("6*(%s)", u.f), u);
+    case 6: return chain(TEXT("log(%s)", u.f), TEXT("(%s)^-1", u.f), TEXT("-(%s)^-2", u.f), u);
+    case 7:
+        return chain(TEXT("sqrt(%s)", u.f), TEXT("(%s)^(-1/2)/2", u.f), TEXT("-(%s)^(-3/2)/4", u.f),
+                     u);
+    case 8: return chain(TEXT("abs(%s)", u.f), TEXT("sign(%s)", u.f), "0", u);
+    case 9:
+        return chain(TEXT("(%s)^k", u.f), TEXT("k*(%s)^(k - 1)", u.f),
+                     TEXT("k*(k - 1)*(%s)^(k - 2)", u.f), u);
+    case 10: return (formula){TEXT("-(%s)", u.f), TEXT("-(%s)", u.d), TEXT("-(%s)", u.dd)};
+    default: break;
+    }
+    const formula v = draw(d, deep - 1);
+    switch (dice_one_of(d, 4)) {
+    case 0:
+        return (formula){TEXT("(%s + %s)", u.f, v.f), TEXT("(%s + %s)", u.d, v.d),
+                         TEXT("(%s + %s)", u.dd, v.dd)};
+    case 1:
+        return (formula){TEXT("(%s - %s)", u.f, v.f), TEXT("(%s - (%s))", u.d, v.d),
+                         TEXT("(%s - (%s))", u.dd, v.dd)};
+    case 2:
+        return (formula){TEXT("(%s)/(%s)", u.f, v.f),
+                         TEXT("((%s)/(%s) - (%s)*(%s)*(%s)^-2)", u.d, v.f, u.f, v.d, v.f),
+                         TEXT("((%s)/(%s) - 2*(%s)*(%s)*(%s)^-2 - (%s)*(%s)*(%s)^-2 + "
+                              "2*(%s)*(%s)^2*(%s)^-3)",
+                              u.dd, v.f, u.d, v.d, v.f, u.f, v.dd, v.f, u.f, v.d, v.f)};
+    default:
+        return (formula){
+            TEXT("(%s)*(%s)", u.f, v.f), TEXT("((%s)*(%s) + (%s)*(%s))", u.d, v.f, u.f, v.d),
+            TEXT("((%s)*(%s) + 2*(%s)*(%s) + (%s)*(%s))", u.dd, v.f, u.d, v.d, u.f, v.dd)};
+    }
+}
+
+/* The C of a mechanism in which a body moves by u and v: with derivatives of lets, or by hand. */
+static char *written(const formula *u, const formula *v, bool by_hand, char **errors) {
+    /* q is a let of lets: its derivative goes through theirs */
+    char *text = room_words(
+        "mechanism m\ncoordinate x [m]\ncoordinate a [rad]\nparameter L = 0.7 [m]\n"
+        "parameter k = 2.5\nlet u = %s\nlet v = %s\nlet q = u + 3*v\n"
+        "T = 2 [kg]*x'^2/2 + 1 [kg*m^2]*a'^2/2 + 0.5 [kg*m^2]*(%s)^2/2\nV = 3 [N*m]*u + 2 [N*m]*v\n"
+        "F = 0.1 [N*m*s]*(%s)^2/2\noutput o = %s\noutput w = %s\n",
+        u->f, v->f, by_hand ? u->d : "u'", by_hand ? TEXT("%s + 3*(%s)", u->d, v->d) : "q'",
+        by_hand ? u->dd : "u''", by_hand ? v->d : "v'");
+    derived d = derived_text(text);
+    char *made = d.image == NULL ? NULL : derived_written(emit_c, d.image);
+    *errors = room_words("%s\n%s", text, d.errors);
+    derived_free(&d);
+    free(text);
+    return made;
+}
+
+static void test_derivatives_of_lets_are_those_by_hand(void) {
+    dice d = dice_of("let_rates", 4601);
+    const unsigned cases = dice_cases(usual_or(120, 20));
+    unsigned compared = 0;
+    for (unsigned c = 0; c < cases; c++) {
+        char *errors[2];
+        const formula u = draw(&d, 1 + (int)dice_one_of(&d, 2));
+        const formula v = draw(&d, 1);
+        char *by_let = written(&u, &v, false, &errors[0]);
+        char *by_hand = written(&u, &v, true, &errors[1]);
+        TEST_ASSERT_TRUE_MESSAGE((by_let == NULL) == (by_hand == NULL), errors[by_let != NULL]);
+        if (by_let != NULL) {
+            TEST_ASSERT_TRUE_MESSAGE(strcmp(by_let, by_hand) == 0, errors[0]);
+            compared++;
+        }
+        free(by_let);
+        free(by_hand);
+        free(errors[0]);
+        free(errors[1]);
+        forget();
+    }
+    TEST_ASSERT_TRUE(compared >= cases / 2);
+}
+
+/* A derivative may stand where that of a coordinate may, and is told of as its order says. */
+static void test_derivatives_of_lets_keep_the_rules(void) {
+    static const struct {
+        const char *line;
+        const char *said;
+    } cases[] = {
+        {"V = 1 [N]*z'", "V must be"},
+        {"V = 1 [N*s^2]*z''", "T, V, F and Q take no second derivative, as 'z''' has"},
+        {"stop z' >= 0 [m/s] restitution 0", "they take no rate, as 'z'' has"},
+        {"output p = z'''", "at most two primes"},
+        {"let w = l'", "'l' does not move: it has no derivative"},
+        {"let w = n'", "the rate of the input 'f' is not known"},
+        {"when z' crosses 0 [m/s] { set x' = 0 }", ""},
+        {"friction x static 0.3 kinetic 0.2 normal abs(z')*1 [kg/s]", ""},
+        {"output p = z''", ""},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        char text[600];
+        snprintf(text, sizeof text,
+                 "mechanism m\ncoordinate x [m]\ncoordinate a [rad]\nparameter k = 2 [m]\n"
+                 "input f = 2\nlet z = x + k*sin(a)\nlet l = 2*k\nlet n = f*x\n"
+                 "T = 1 [kg]*x'^2/2 + 1 [kg*m^2]*a'^2/2\n%s\n",
+                 cases[i].line);
+        const char *report = report_of_text(text);
+        TEST_ASSERT_TRUE_MESSAGE(cases[i].said[0] == '\0' ? report[0] == '\0'
+                                                          : strstr(report, cases[i].said) != NULL,
+                                 cases[i].line);
+    }
+}
+
+void suite_let_rates(void) {
+    RUN_TEST(test_derivatives_of_lets_are_those_by_hand);
+    RUN_TEST(test_derivatives_of_lets_keep_the_rules);
+}
