@@ -8,8 +8,9 @@
 #include "host/base/room.h"
 #include "poly.h"
 
-/* An expression that needs more work than this is given up on: some 300 MB, or a few seconds. */
-#define WORK_MAX ((size_t)1 << 28)
+/* A derivation that needs more work than this is given up on: some 500 MB, or half a minute. An arm of six joints, of which
+ * no length is 0, needs 0.42e9. */
+#define WORK_MAX ((size_t)1 << 29)
 /* What a term handled counts for, in bytes. */
 #define WORK_OF_TERM 2U
 /* What objects count for, in bytes: their sizes on a host of 64 bits. What is given up on must not depend on the host. */
@@ -59,6 +60,11 @@ static void count_bytes(algebra *a, size_t bytes) {
     if (a->work > WORK_MAX) {
         a->overflow = true;
     }
+}
+
+char *algebra_limit(const algebra *a) {
+    return a->work > WORK_MAX ? room_words("more than %.0f MB of terms were made", 1e-6 * WORK_MAX)
+                              : room_words("more than %.0f operands", POLY_SIZE_MAX);
 }
 
 void algebra_work(algebra *a, size_t amount) { count_bytes(a, amount * WORK_OF_TERM); }

@@ -10,7 +10,7 @@
 #include "host/number/folding.h"
 
 /* A product of sums with more terms than this is kept as a product. */
-#define PRODUCT_TERMS_MAX 20000
+#define PRODUCT_TERMS_MAX 400000
 /* Whole powers of a sum of positions from this one on stay powers: multiplied out, (x - b)^3 would lose
  * its digits near x = b. Squares do not, for the sake of what is equal only when multiplied out. */
 #define POWER_KEPT 3.0

@@ -13,6 +13,8 @@ void algebra_free(algebra *a);
 
 /* Set when an expression grew beyond what the algebra takes on; results are then meaningless. */
 bool algebra_overflow(const algebra *a);
+/* Which limit that was, with its number; the caller frees it. */
+char *algebra_limit(const algebra *a);
 
 const poly *poly_number(algebra *a, double value);
 const poly *poly_symbol(algebra *a, const symbol *sym, int primes);

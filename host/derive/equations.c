@@ -31,8 +31,10 @@ const poly *equations_fold(const equations *e, const poly *p) {
 
 void equations_report_growth(const equations *e, diags *errors) {
     const mechanism *m = e->instance->mechanism;
+    char *limit = algebra_limit(e->algebra);
     diag_error(errors, m->at, "smaller powers of sums, or coordinates nearer to the joints, help",
-               "the equations of '%s' grow beyond what can be handled", m->name);
+               "the equations of '%s' grow beyond what can be handled: %s", m->name, limit);
+    free(limit);
 }
 
 void equations_free(equations *e) {

@@ -255,11 +255,6 @@ const expr *expr_name(parser *in, const token *name) {
         if (made->symbol->value == NULL || made->symbol->dim.unknown) {
             return unknown_value(made); /* reported */
         }
-        if ((made->symbol->value->uses & (USES_UNKNOWNS | USES_INPUT)) == 0) {
-            diag_error(in->diags, name->at, NULL, "'%s' does not move: it has no derivative",
-                       made->symbol->name);
-            return unknown_value(made);
-        }
         made->symbol = let_rate(in, made->symbol, name);
         if (made->symbol == NULL) {
             return unknown_value(made);

@@ -173,7 +173,7 @@ static void test_derivatives_of_lets_keep_the_rules(void) {
         {"Q(x) = 1 [kg]*z''", "T, V, F and Q take no second derivative, as \"z''\" has"},
         {"stop z' >= 0 [m/s] restitution 0", "they take no rate, as \"z'\" has"},
         {"output p = z'''", "at most two primes"},
-        {"let w = l'", "'l' does not move: it has no derivative"},
+        {"V = 1 [N]*(x + l'*1 [s])", ""},
         {"let w = n'", "the rate of the input 'f' is not known"},
         {"when z' crosses 0 [m/s] { set x' = 0 }", ""},
         {"friction x static 0.3 kinetic 0.2 normal abs(z')*1 [kg/s]", ""},

@@ -121,7 +121,6 @@ static void expect_report(const char *statements, const char *wanted) {
 static void test_symbols_are_called_what_they_are(void) {
     expect_report("V = m'*x", "'m' is a parameter: it has no derivative");
     expect_report("V = u'*x", "'u' is an input: it has no derivative");
-    expect_report("V = l'*x", "'l' does not move: it has no derivative");
     expect_report("output p = o'", "'o' is an output: it has no derivative");
     expect_report("V = T*x", "the kinetic energy");
     expect_report("T += V*x", "the potential energy");
