@@ -104,6 +104,37 @@ int graph_variable(graph *g, int which) {
     return entered(g, NODE_VARIABLE, which, -1, enclosure_of(0.0));
 }
 
+/* x op y of numbers. What is a double and is computed without an error stays one: 2*3 is a whole exponent, as 6 is. The
+ * errors are those of Knuth and of Dekker, whose split takes sizes below 1e150. */
+static enclosure folded(char op, enclosure x, enclosure y) {
+    const double a = x.low;
+    const double b = op == '-' ? -y.low : y.low;
+    const bool points = enclosure_is_point(x) && enclosure_is_point(y);
+    const double size = (a < 0.0 ? -a : a) + (b < 0.0 ? -b : b);
+    const bool plain = points && size < 0x1p300 && (op == '+' || op == '-' || size > 0x1p-300);
+    if (op == '+' || op == '-') {
+        const double s = a + b;
+        const double rest = s - a;
+        return plain && a - (s - rest) == 0.0 && b - rest == 0.0
+                   ? enclosure_of(s)
+                   : (op == '+' ? enclosure_add(x, y) : enclosure_sub(x, y));
+    }
+    const double r = op == '*' ? a * b : a / b;
+    const double left = op == '*' ? a : r; /* left * b is to be `whole` */
+    const double whole = op == '*' ? r : a;
+    const double c = 0x1.0000002p27 * left;
+    const double d = 0x1.0000002p27 * b;
+    const double left_high = c - (c - left);
+    const double b_high = d - (d - b);
+    const double off =
+        ((left_high * b_high - whole) + left_high * (b - b_high) + (left - left_high) * b_high) +
+        (left - left_high) * (b - b_high);
+    const double sized = whole < 0.0 ? -whole : whole;
+    return plain && left * b == whole && off == 0.0 && sized > 0x1p-600
+               ? enclosure_of(r)
+               : (op == '*' ? enclosure_mul(x, y) : enclosure_div(x, y));
+}
+
 static int made_of_two(graph *g, node_kind kind, int a, int b) {
     return entered(g, kind, a, b, enclosure_of(0.0));
 }
@@ -117,10 +148,10 @@ static int multiple(graph *g, enclosure by, int a) {
     }
     const node n = g->node[a];
     if (n.kind == NODE_NUMBER) {
-        return graph_number(g, enclosure_mul(by, n.number));
+        return graph_number(g, folded('*', by, n.number));
     }
     if (n.kind == NODE_MULTIPLE) {
-        return multiple(g, enclosure_mul(by, n.number), n.left);
+        return multiple(g, folded('*', by, n.number), n.left);
     }
     return entered(g, NODE_MULTIPLE, a, -1, by);
 }
@@ -132,7 +163,7 @@ int graph_add(graph *g, int a, int b) {
         return graph_is_zero(g, a) ? b : a;
     }
     if (graph_is_number(g, a) && graph_is_number(g, b)) {
-        return graph_number(g, enclosure_add(g->node[a].number, g->node[b].number));
+        return graph_number(g, folded('+', g->node[a].number, g->node[b].number));
     }
     if (a == b) {
         return multiple(g, enclosure_of(2.0), a);
@@ -148,7 +179,7 @@ int graph_sub(graph *g, int a, int b) {
         return graph_is_zero(g, b) ? a : graph_neg(g, b);
     }
     if (graph_is_number(g, a) && graph_is_number(g, b)) {
-        return graph_number(g, enclosure_sub(g->node[a].number, g->node[b].number));
+        return graph_number(g, folded('-', g->node[a].number, g->node[b].number));
     }
     return made_of_two(g, NODE_DIFFERENCE, a, b);
 }
@@ -174,8 +205,11 @@ int graph_mul(graph *g, int a, int b) {
 
 int graph_div(graph *g, int a, int b) {
     const node y = g->node[b];
+    if (y.kind == NODE_NUMBER && graph_is_number(g, a)) {
+        return graph_number(g, folded('/', g->node[a].number, y.number));
+    }
     if (y.kind == NODE_NUMBER) {
-        return multiple(g, enclosure_div(enclosure_of(1.0), y.number), a);
+        return multiple(g, folded('/', enclosure_of(1.0), y.number), a);
     }
     if (graph_is_zero(g, a)) {
         return a;
@@ -217,7 +251,7 @@ enum { PRODUCTS_MOST = 64 }; /* a whole exponent up to this is multiplied out */
 
 int graph_power(graph *g, int a, enclosure exponent) {
     const double e = exponent.low;
-    if (graph_is_number(g, a)) {
+    if (graph_is_number(g, a) && !enclosure_is_point(g->node[a].number)) {
         return graph_number(g, enclosure_power(g->node[a].number, exponent));
     }
     if (enclosure_is_point(exponent) && number_nearest(e) == e && e <= PRODUCTS_MOST &&
@@ -232,5 +266,6 @@ int graph_power(graph *g, int a, enclosure exponent) {
         const int whole = n > 1 && n % 2 != 0 ? graph_mul(g, even, a) : even;
         return e < 0.0 ? graph_div(g, graph_whole(g, 1), whole) : whole;
     }
-    return entered(g, NODE_POWER, a, -1, exponent);
+    return graph_is_number(g, a) ? graph_number(g, enclosure_power(g->node[a].number, exponent))
+                                 : entered(g, NODE_POWER, a, -1, exponent);
 }

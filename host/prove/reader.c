@@ -1,6 +1,10 @@
 /* reader.c: see reader.h. */
 #include "reader.h"
 
+#include <math.h>
+
+#include "host/number/folding.h"
+
 static int refused(reader_symbols *s, const expr *at, const char *what) {
     diag_error(s->errors, at->at, "only smooth functions that are enclosed can be proved about",
                "%s of what moves cannot be enclosed", what);
@@ -73,6 +77,65 @@ static int read_corner(reader_symbols *s, const expr *tree, int a, int b) {
                     least ? enclosure_lesser(x.high, y.high) : enclosure_larger(x.high, y.high)});
 }
 
+/* The angle in [-pi/2, pi/2] whose sine (or tangent) is x: what is below and above it is tried, on both sides of the
+ * double next to it, since both functions only grow there. */
+static double inverse_end(double x, bool tangent, double side) {
+    const double angle = folding_call(tangent ? FN_ATAN : FN_ASIN, x, 0.0);
+    const double most = 0x1.921fb54442d18p+0; /* pi/2, from below */
+    for (double off = 0x1p-50; off < 0x1p-8; off *= 2.0) {
+        const double y = angle + side * off;
+        if (side * y > most) {
+            break;
+        }
+        const enclosure sine = enclosure_sine(enclosure_of(y));
+        const enclosure at = tangent
+                                 ? enclosure_mul(enclosure_of(x), enclosure_cosine(enclosure_of(y)))
+                                 : enclosure_of(x);
+        if (side > 0.0 ? sine.low > at.high : sine.high < at.low) {
+            return y;
+        }
+    }
+    return side > 0.0 ? enclosure_above(most) : enclosure_below(-most);
+}
+
+static enclosure inverse(enclosure x, bool tangent) {
+    if (!enclosure_is_finite(x) || (!tangent && (x.low < -1.0 || x.high > 1.0))) {
+        return enclosure_of((double)NAN);
+    }
+    return enclosure_is_zero(x)
+               ? x
+               : (enclosure){inverse_end(x.low, tangent, -1.0), inverse_end(x.high, tangent, 1.0)};
+}
+
+/* atan2(y, x), by the quadrant; where it is cut, a NaN. */
+static enclosure inverse_ratio(enclosure y, enclosure x) {
+    const enclosure right = enclosure_times(enclosure_pi(), 0.5);
+    if (x.low > 0.0) {
+        return inverse(enclosure_div(y, x), true);
+    }
+    if (y.low > 0.0 || y.high < 0.0) {
+        const enclosure from = inverse(enclosure_div(x, y), true);
+        return enclosure_sub(y.low > 0.0 ? right : enclosure_neg(right), from);
+    }
+    return enclosure_is_zero(y) && x.high < 0.0 ? enclosure_pi() : enclosure_of((double)NAN);
+}
+
+/* Inverse functions are known of numbers only. */
+static int read_inverse(reader_symbols *s, const expr *tree, int a, int b) {
+    graph *g = s->graph;
+    if (!graph_is_number(g, a) || (b >= 0 && !graph_is_number(g, b))) {
+        return refused(s, tree, function_name(tree->function));
+    }
+    const enclosure x = g->node[a].number;
+    if (tree->function == FN_ATAN2) {
+        return graph_number(g, inverse_ratio(x, g->node[b].number));
+    }
+    const enclosure angle = inverse(x, tree->function == FN_ATAN);
+    return graph_number(g, tree->function == FN_ACOS
+                               ? enclosure_sub(enclosure_times(enclosure_pi(), 0.5), angle)
+                               : angle);
+}
+
 static int read_call(reader_symbols *s, const expr *tree) {
     graph *g = s->graph;
     const int a = read_node(s, tree->left);
@@ -97,7 +160,7 @@ static int read_call(reader_symbols *s, const expr *tree) {
     case FN_ASIN:
     case FN_ACOS:
     case FN_ATAN:
-    case FN_ATAN2: break;
+    case FN_ATAN2: return read_inverse(s, tree, a, b);
     }
     return refused(s, tree, function_name(tree->function));
 }

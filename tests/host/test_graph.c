@@ -2,9 +2,13 @@
  * are made of; slopes, against those of a tiny imaginary part; what becomes of them without some variables; that what is
  * equal is one node, and what is simplified. */
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "drawn_graph.h"
+#include "host/lang/model.h"
+#include "host/prove/reader.h"
 #include "unity.h"
 
 void suite_graph(void);
@@ -305,6 +309,86 @@ static void test_numbers(void) {
     }
 }
 
+/* The number of a power's exponent as a file writes it, and the node that it is. */
+static enclosure read_number(const char *written) {
+    char text[400];
+    snprintf(text, sizeof text,
+             "mechanism m\ncoordinate X [rad]\nparameter n = 2\nparameter h = 1.5\n"
+             "parameter p = %s\nT = 1 [kg*m^2]*X'^2\n",
+             written);
+    diags *errors = diags_new();
+    whirl_model *model = model_parse("x.whirl", text, strlen(text), errors);
+    TEST_ASSERT_NOT_NULL_MESSAGE(model, written);
+    instance *inst = instance_make(model->mechanisms[0], NULL, NULL, errors);
+    int parameters[] = {-1, -1, -1};
+    reader_symbols s = {.graph = g, .instance = inst, .parameter = parameters, .errors = errors};
+    const int number = read_node(&s, model->mechanisms[0]->parameters[2]->value);
+    TEST_ASSERT_TRUE_MESSAGE(number >= 0 && graph_is_number(g, number), written);
+    instance_free(inst);
+    model_free(model);
+    diags_free(errors);
+    return g->node[number].number;
+}
+
+/* Whole numbers stay whole through sums, products, quotients and powers that are whole. */
+static void test_whole_numbers_stay_whole(void) {
+    for (unsigned c = 0; c < dice_cases(usual_or(300, 60)); c++) {
+        const int a = 1 + (int)dice_one_of(&die, 12);
+        const int b = 1 + (int)dice_one_of(&die, 9);
+        const struct {
+            const char *form;
+            double value;
+        } cases[] = {{"%d*%d", a * b},
+                     {"%d + %d", a + b},
+                     {"%d - %d", a - b},
+                     {"n*%d + %d", 2 * a + b},
+                     {"(%d*%d)/n", a * b / 2.0},
+                     {"%d*h*%d*n", 3 * a * b},
+                     {"%d^2 - n^%d", a * a - pow(2.0, b)}};
+        for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+            char written[60];
+            snprintf(written, sizeof written, cases[i].form, a, b); // NOLINT
+            g = graph_new();
+            const enclosure is = read_number(written);
+            TEST_ASSERT_TRUE_MESSAGE(enclosure_is_point(is) && is.low == cases[i].value, written);
+            graph_free(g);
+        }
+        /* what is no double must not become one */
+        g = graph_new();
+        const int part = graph_div(g, graph_whole(g, a), graph_whole(g, 7));
+        TEST_ASSERT_EQUAL_INT(a % 7 == 0, enclosure_is_point(g->node[part].number));
+        graph_free(g);
+    }
+}
+
+/* Inverse functions of numbers hold what long double makes of them, within a few units of the last place. */
+static void test_inverse_functions_of_numbers(void) {
+    for (unsigned c = 0; c < dice_cases(usual_or(200, 60)); c++) {
+        const double u = dice_between(&die, -1.0, 1.0);
+        const double v = dice_between(&die, -30.0, 30.0);
+        const double w = dice_between(&die, -2.0, 2.0);
+        const struct {
+            const char *form;
+            long double value;
+        } cases[] = {{"asin(%.17g)", asinl((long double)u)},
+                     {"acos(%.17g)", acosl((long double)u)},
+                     {"atan(%.17g)", atanl((long double)v)},
+                     {"atan2(%.17g, %.17g)", atan2l((long double)v, (long double)w)}};
+        for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+            char written[80];
+            snprintf(written, sizeof written, cases[i].form, i < 2 ? u : v, w); // NOLINT
+            g = graph_new();
+            const enclosure is = read_number(written);
+            const long double slack = 0x1p-60L;
+            TEST_ASSERT_TRUE_MESSAGE((long double)is.low <= cases[i].value + slack &&
+                                         cases[i].value - slack <= (long double)is.high,
+                                     written);
+            TEST_ASSERT_TRUE_MESSAGE(is.high - is.low <= 1e-6, written);
+            graph_free(g);
+        }
+    }
+}
+
 void suite_graph(void) {
     die = dice_of("graph", 41);
     RUN_TEST(test_worth);
@@ -314,4 +398,6 @@ void suite_graph(void) {
     RUN_TEST(test_simple);
     RUN_TEST(test_whole_powers);
     RUN_TEST(test_numbers);
+    RUN_TEST(test_whole_numbers_stay_whole);
+    RUN_TEST(test_inverse_functions_of_numbers);
 }
