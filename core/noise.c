@@ -1,8 +1,13 @@
-/* noise.c: splitmix64, and the sum of twelve. */
+/* noise.c: splitmix64, the sum of twelve, and Teichroew's polynomial. */
 #include "noise.h"
 
 #define WORDS 3U      /* of four uniform numbers each */
 #define MEAN 0x5fffaU /* 12 * 65535 / 2 */
+
+/* x/z of the deviate x by the square of the sum z, in units of 2^-40: a_1 to a_9 of Teichroew over 4, 4^3, ... 4^9. */
+static const uint64_t polynomial[] = {UINT64_C(1085725439164), UINT64_C(4336349890),
+                                      UINT64_C(82187326), UINT64_C(560760), UINT64_C(125409)};
+enum { TERMS = sizeof polynomial / sizeof polynomial[0] };
 
 static uint64_t mix(uint64_t z) {
     z = (z ^ (z >> 30)) * UINT64_C(0xbf58476d1ce4e5b9);
@@ -21,5 +26,14 @@ int32_t wh_noise_raw(uint32_t seed, uint64_t index) {
         const uint32_t high = (uint32_t)(word >> 32);
         sum += (low & 0xffffU) + (low >> 16) + (high & 0xffffU) + (high >> 16);
     }
-    return (int32_t)(sum - MEAN);
+    const bool below = sum < MEAN;
+    const uint64_t size = below ? MEAN - sum : sum - MEAN; /* at most 6 * 2^16 */
+    const uint64_t square = (size * size) >> 16;
+    uint64_t slope =
+        polynomial[TERMS - 1]; /* below 2^41, and its product with the square below 2^63 */
+    for (unsigned k = TERMS - 1; k > 0; k--) {
+        slope = polynomial[k - 1] + ((slope * square) >> 16);
+    }
+    const int32_t deviate = (int32_t)((size * slope + (UINT64_C(1) << 39)) >> 40);
+    return below ? -deviate : deviate;
 }

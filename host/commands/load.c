@@ -191,11 +191,12 @@ int source_pick(source_model *s, bool prefer_scene, const mechanism **of, const 
 
 /* Dry friction written by hand: a note, or NULL. */
 static char *hint_for(const instance *inst) {
-    const term *friction = hint_friction(inst);
+    const symbol *on = NULL;
+    const term *friction = hint_friction(inst, &on);
     if (friction == NULL) {
         return NULL;
     }
-    const char *name = friction->coordinate->name;
+    const char *name = on->name;
     return room_words(
         "%s:%d:%d: note: this force changes its sign with %s': at rest it shakes instead of "
         "sticking\n"

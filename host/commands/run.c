@@ -37,7 +37,8 @@ static const command_usage usage = {
         "                       output (the summary then goes to standard error)\n"
         "  --columns FILE       the same between spaces, for Octave's load; - as for --csv\n"
         "  --vcd FILE           the same for waveform viewers, and what contacts do; - as for --csv\n"
-        "  --every 2ms          spacing of the records, a whole number of steps (default: every step)\n"
+        "  --every 2ms          spacing of the records, a whole number of steps (default: every step);\n"
+        "                       the last state is always recorded\n"
         "  --plot FILE          a picture, .svg, .pdf or .png, drawn by gnuplot (docs/plot.md); of it:\n" RUN_CHOICE_HELP
         "  --error X=0.1mm      take the largest step that keeps the error of one coordinate, rate or output\n"
         "  --board B            whose cost the rows at the end show: a board of docs/boards.md, or host\n"

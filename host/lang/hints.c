@@ -36,8 +36,8 @@ static bool has_sign_of_rate(const expr *tree, const symbol *own) {
     return here || has_sign_of_rate(tree->left, own) || has_sign_of_rate(tree->right, own);
 }
 
-static double force_at(const term *of, valuation *known, double rate) {
-    known->state[of->coordinate->index][1] = rate;
+static double term_at(const term *of, const symbol *coordinate, valuation *known, double rate) {
+    known->state[coordinate->index][1] = rate;
     memset(known->let_known, 0, (size_t)known->of->let_count * sizeof *known->let_known);
     return expr_value(of->value, known);
 }
@@ -46,14 +46,32 @@ static double force_at(const term *of, valuation *known, double rate) {
 static bool opposes_at_rest(const term *of, valuation *known) {
     double *rate = &known->state[of->coordinate->index][1];
     const double start = *rate;
-    const double jump = force_at(of, known, NEAR_REST) - force_at(of, known, -NEAR_REST);
+    const symbol *own = of->coordinate;
+    const double jump = term_at(of, own, known, NEAR_REST) - term_at(of, own, known, -NEAR_REST);
     const double nearer =
-        force_at(of, known, 0.1 * NEAR_REST) - force_at(of, known, -0.1 * NEAR_REST);
+        term_at(of, own, known, 0.1 * NEAR_REST) - term_at(of, own, known, -0.1 * NEAR_REST);
     *rate = start;
     return jump < 0.0 && nearer < 0.5 * jump;
 }
 
-const term *hint_friction(const instance *made) {
+/* How far F bends upwards between two rates to either side of rest. */
+static double bend(const term *of, const symbol *coordinate, valuation *known, double rate) {
+    return term_at(of, coordinate, known, rate) + term_at(of, coordinate, known, -rate) -
+           2.0 * term_at(of, coordinate, known, 0.0);
+}
+
+/* Has F a kink at rest of this coordinate? A smooth F bends a hundredth at a tenth of the rate. */
+static bool has_kink(const term *of, const symbol *coordinate, valuation *known) {
+    double *rate = &known->state[coordinate->index][1];
+    const double start = *rate;
+    const double size = term_at(of, coordinate, known, 0.0);
+    const double far = bend(of, coordinate, known, NEAR_REST);
+    const double near = bend(of, coordinate, known, 0.1 * NEAR_REST);
+    *rate = start;
+    return far > 1e-12 * (size < 0.0 ? -size : size) && near > 0.05 * far;
+}
+
+const term *hint_friction(const instance *made, const symbol **on) {
     const mechanism *of = made->mechanism;
     const term *found = NULL;
     struct arena *memory = arena_new();
@@ -71,6 +89,15 @@ const term *hint_friction(const instance *made) {
         if (each->kind == TERM_Q && each->coordinate != NULL && instance_has_term(made, each) &&
             has_sign_of_rate(each->value, each->coordinate) && opposes_at_rest(each, &known)) {
             found = each;
+            *on = each->coordinate;
+        }
+        for (int c = 0; c < of->coordinate_count && each->kind == TERM_F && found == NULL &&
+                        instance_has_term(made, each);
+             c++) {
+            if (has_kink(each, of->coordinates[c], &known)) {
+                found = each;
+                *on = of->coordinates[c];
+            }
         }
     }
     diags_free(unsaid);

@@ -190,7 +190,7 @@ static bool unknown_unit(reader *in, size_t start, size_t length) {
 static bool read_whole(reader *in, int *value) {
     if (!is_digit(peek(in))) {
         return fail(in, in->at, "a whole number is missing in this exponent",
-                    "write s^2, s^-1 or m^(1/2)");
+                    "write s^2, s^-1, m^1.5 or m^(1/2)");
     }
     *value = 0;
     while (in->at < in->length && is_digit(in->text[in->at])) {
@@ -203,7 +203,7 @@ static bool read_whole(reader *in, int *value) {
     return true;
 }
 
-/* ^2, ^-1, ^(1/2), ^(-3/2) */
+/* ^2, ^-1, ^1.5, ^(1/2), ^(-3/2) */
 static bool read_exponent(reader *in, double *exponent) {
     const bool open = peek(in) == '(';
     if (open) {
@@ -218,7 +218,15 @@ static bool read_exponent(reader *in, double *exponent) {
     if (!read_whole(in, &above)) {
         return false;
     }
-    if (open && peek(in) == '/') {
+    double tenths = 0.0;
+    if (in->at < in->length && in->text[in->at] == '.') {
+        double place = 1.0;
+        for (in->at++; in->at < in->length && is_digit(in->text[in->at]); in->at++) {
+            place *= 10.0;
+            tenths = tenths * 10.0 + (in->text[in->at] - '0');
+        }
+        tenths /= place;
+    } else if (open && peek(in) == '/') {
         in->at++;
         if (!read_whole(in, &below)) {
             return false;
@@ -233,7 +241,7 @@ static bool read_exponent(reader *in, double *exponent) {
         }
         in->at++;
     }
-    *exponent = (negative ? -above : above) / (double)below;
+    *exponent = (negative ? -1.0 : 1.0) * (above / (double)below + tenths);
     return true;
 }
 

@@ -193,7 +193,8 @@ static void mark_events(simulation *sim, uint64_t step) {
 
 /* Enter the present state wherever it belongs. */
 static void enter(simulation *sim, uint64_t step) {
-    const bool record = has_records(sim) && step % sim->settings->every == 0;
+    const bool record =
+        has_records(sim) && (step % sim->settings->every == 0 || step == sim->steps);
     if (sim->traces != NULL) {
         traces_step(sim->traces, sim->run, step);
     }
@@ -209,7 +210,8 @@ static void enter(simulation *sim, uint64_t step) {
     watch_outputs(sim, sim->records->row[0]);
     if (record) {
         sim->write_failed = !records_write(sim->records) || sim->write_failed;
-        if (sim->traces != NULL) {
+        if (sim->traces != NULL &&
+            step % sim->settings->every == 0) { /* the unit is that of its times */
             sim->write_failed = !traces_record(sim->traces, step) || sim->write_failed;
         }
     }

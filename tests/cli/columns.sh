@@ -31,4 +31,11 @@ refused() {
 refused "columns: a file that cannot be made" --columns "$scratch/missing/run.txt"
 refused "columns: a full disc" --columns /dev/full
 refused "columns: not the same file as --csv" --csv - --columns -
+# The last state is recorded whatever the spacing, once.
+for every in 1 2 3 7 13 125 333 999 1000 1001 5000; do
+    "$whirl" run epicyclic_from_rest --until 1s --every ${every}ms --csv - --quiet | tr -d '\r' >"$scratch/e.csv"
+    [ "$(tail -n 1 "$scratch/e.csv" | cut -d, -f1)" = 1 ] && [ "$(grep -c '^1,' "$scratch/e.csv")" -eq 1 ] &&
+        [ "$(wc -l <"$scratch/e.csv")" -eq $(((1000 + every - 1) / every + 2)) ]
+    verdict $? "records each $every ms end with the last state"
+done
 exit $failed

@@ -2,6 +2,7 @@
  * that only looks like it. */
 #include <stdio.h>
 
+#include "derived.h"
 #include "host/lang/hints.h"
 #include "parsed.h"
 #include "unity.h"
@@ -19,7 +20,9 @@ static int told(const char *forces) {
     parse(text);
     instantiate(NULL);
     const double before = made->start[0][1];
-    const term *found = hint_friction(made);
+    const symbol *on = NULL;
+    const term *found = hint_friction(made, &on);
+    TEST_ASSERT_TRUE(found == NULL || on->kind == SYM_COORDINATE);
     TEST_ASSERT_TRUE(made->start[0][1] == before);
     TEST_ASSERT_EQUAL_INT(0, diags_count(said));
     return found == NULL ? 0 : found->at.line;
@@ -32,6 +35,27 @@ static void test_friction_by_hand_is_told(void) {
     TEST_ASSERT_EQUAL_INT(9, told("Q(x) = -mu*N*way\nscene s { start x' = 2 [m/s] }\n"));
     TEST_ASSERT_EQUAL_INT(10, told("Q(y) = N\neffect rub { Q(x) += -mu*N*way }\n"
                                    "scene s { with rub }\n"));
+}
+
+/* Losses that grow with the size of a rate, drawn: a factor, an exponent of that size, smooth losses beside it. */
+static void test_losses_with_a_kink_are_told(void) {
+    static const char *const sizes[] = {"abs(x')", "sqrt(x'^2)",   "x'*sign(x')",
+                                        "x'*way",  "max(x', -x')", "abs(x' - y')"};
+    uint64_t seed = 4801;
+    for (unsigned i = 0; i < 200; i++) {
+        char forces[300];
+        const unsigned power = 1 + (unsigned)(random_bits(&seed) % 3);
+        const bool in_effect = (unsigned)(random_bits(&seed) % 2) == 0;
+        const int length = snprintf(
+            forces, sizeof forces, "%sF %s %.3f [W]*%s*(%s/1 [m/s])^%u + %.4f [N*s/m]*x'^2%s\n%s",
+            in_effect ? "effect rub { " : "", in_effect ? "+=" : "=",
+            random_between(&seed, 0.01, 50.0),
+            (unsigned)(random_bits(&seed) % 2) == 0 ? "(2 + sin(y/1 [m]))" : "mu",
+            sizes[(unsigned)(random_bits(&seed) % 6)], power, random_between(&seed, 0.0, 9.0),
+            in_effect ? " }" : "", in_effect ? "scene s { with rub }\n" : "");
+        TEST_ASSERT_TRUE(length < (int)sizeof forces);
+        TEST_ASSERT_EQUAL_INT_MESSAGE(power == 1 ? 9 : 0, told(forces), forces);
+    }
 }
 
 static void test_what_only_looks_like_it_is_not(void) {
@@ -48,6 +72,7 @@ static void test_what_only_looks_like_it_is_not(void) {
 
 void suite_hints(void) {
     RUN_TEST(test_friction_by_hand_is_told);
+    RUN_TEST(test_losses_with_a_kink_are_told);
     RUN_TEST(test_what_only_looks_like_it_is_not);
     drop();
 }

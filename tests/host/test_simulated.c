@@ -93,7 +93,8 @@ static const char steady[] =
 static void expect_rows(const char *text, const char *header, const char *between, const char *end,
                         const double *start, uint64_t every, uint64_t steps) {
     const char *at = said_exactly(text, header);
-    for (uint64_t step = 0; step <= steps; step += every) {
+    for (uint64_t k = 0; k * every < steps + every; k++) { /* and the last state */
+        const uint64_t step = k * every < steps ? k * every : steps;
         const double t = 1e-3 * (double)step;
         const double x = start[0] + start[1] * t;
         const double deg = 57.29577951308232;
@@ -329,7 +330,8 @@ static void test_outputs_that_end(void) {
                                        .quiet = true};
         uint64_t first = 0;
         unsigned count = 0;
-        for (uint64_t step = 0; step <= 1000; step += every) {
+        for (uint64_t k = 0; k * every < 1000 + every; k++) {
+            const uint64_t step = k * every < 1000 ? k * every : 1000;
             if (recorded && step > ends) {
                 first = count == 0 ? step : first;
                 count++;

@@ -158,6 +158,27 @@ static void test_every_unit_is_told_in_si(void) {
     }
 }
 
+/* m^1.5 of Hertz's law: decimal exponents are those written as fractions. */
+static void test_decimal_exponents(void) {
+    for (int i = 0; unit_name(i) != NULL; i++) {
+        for (int halves = -7; halves <= 7; halves++) {
+            char decimal[60];
+            char fraction[60];
+            snprintf(decimal, sizeof decimal, i % 2 == 0 ? "N/%s^%.1f" : "N/%s^(%.1f)", // NOLINT
+                     unit_name(i), 0.5 * halves);
+            snprintf(fraction, sizeof fraction, "N/%s^(%d/2)", unit_name(i), halves);
+            const unit_scale is = parsed(decimal);
+            const unit_scale wanted = parsed(fraction);
+            TEST_ASSERT_TRUE_MESSAGE(is.scale == wanted.scale && is.divisor == wanted.divisor &&
+                                         dim_fits(is.dim, wanted.dim),
+                                     decimal);
+        }
+    }
+    unit_scale result;
+    unit_error error;
+    TEST_ASSERT_FALSE(unit_parse("m^1.05", 6, &result, &error)); /* no twelfth */
+}
+
 static void test_names_are_apart(void) {
     for (int i = 0; unit_name(i) != NULL; i++) {
         for (int k = 0; k < i; k++) {
@@ -266,6 +287,7 @@ void suite_units(void) {
     RUN_TEST(test_prefixes_round_as_decimal_numbers_do);
     RUN_TEST(test_every_unit_is_told_in_si);
     RUN_TEST(test_names_are_apart);
+    RUN_TEST(test_decimal_exponents);
     RUN_TEST(test_no_unit_is_missing);
     RUN_TEST(test_hints_for_habits_mean_the_same);
 }
