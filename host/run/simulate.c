@@ -210,8 +210,7 @@ static void enter(simulation *sim, uint64_t step) {
     watch_outputs(sim, sim->records->row[0]);
     if (record) {
         sim->write_failed = !records_write(sim->records) || sim->write_failed;
-        if (sim->traces != NULL &&
-            step % sim->settings->every == 0) { /* the unit is that of its times */
+        if (sim->traces != NULL) {
             sim->write_failed = !traces_record(sim->traces, step) || sim->write_failed;
         }
     }

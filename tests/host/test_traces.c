@@ -322,12 +322,14 @@ static void expect_records(const bodies *b, double units_per_s, double off_m) {
         const told_change *c = &dump.change[i];
         const double time_s = (double)c->time / units_per_s;
         if (c->signal == z) {
-            TEST_ASSERT_TRUE(fabs(time_s - spacing_s * rows) < 1e-9);
+            const double wanted_s = fmin(spacing_s * rows, 0.9); /* the last state, too */
+            TEST_ASSERT_TRUE(fabs(time_s - wanted_s) <
+                             (wanted_s < 0.9 ? 1e-9 : 0.5 / units_per_s + 1e-9));
             TEST_ASSERT_TRUE(fabs(c->value - b->passes_mps * time_s) < off_m);
             rows++;
         }
     }
-    TEST_ASSERT_EQUAL_INT(1 + (int)(0.9 / spacing_s + 1e-9), rows);
+    TEST_ASSERT_EQUAL_INT(1 + (int)ceil(0.9 / spacing_s - 1e-9), rows);
 }
 
 /* Every column of the rows that the same run wrote, in their order: at each record what is another than before, and nothing else. */
