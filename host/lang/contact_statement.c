@@ -140,6 +140,11 @@ bool read_friction(parser *in, const statement_word *word) {
     }
     made.coordinate = find_coordinate(in, &name, "friction");
     parser_next(in);
+    if (parser_is_sign(in, '-') || parser_is_sign(in, '+')) {
+        return parser_fail(
+            in, "between two bodies: coordinate d [rad], and let b = a + d; then friction d",
+            "friction acts on one coordinate, not on a sum");
+    }
     if (!parser_expect_word(in, WORD_STATIC, WORD_FRICTION)) {
         return false;
     }

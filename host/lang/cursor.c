@@ -178,7 +178,7 @@ const char *parser_title(parser *in) {
 
 bool statement_unknown(parser *in, unsigned where) {
     char name[80];
-    char hint[120] = "";
+    char hint[200] = "";
     token_words(&in->token, name, sizeof name);
     if (in->token.kind != TOKEN_NAME) {
         const bool goes_on = parser_is_sign(in, '+') || parser_is_sign(in, '-') ||
@@ -202,7 +202,10 @@ bool statement_unknown(parser *in, unsigned where) {
             nearest_offer(&search, each->text);
         }
     }
-    if (search.best != NULL && !parser_is_sign(in, '=')) {
+    const char *first = first_word_hint(word.text, word.length);
+    if (first != NULL && !parser_is_sign(in, '=')) {
+        snprintf(hint, sizeof hint, "%s", first);
+    } else if (search.best != NULL && !parser_is_sign(in, '=')) {
         snprintf(hint, sizeof hint, "did you mean '%s'?", search.best);
     } else if (parser_is_sign(in, '=') && in->all_effects) {
         snprintf(hint, sizeof hint, "begin with set or start, or end the line before with a comma");

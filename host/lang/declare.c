@@ -9,7 +9,10 @@ static named *claim_name(parser *in, const token *name) {
     function_id function = FN_SIN;
     const int length = (int)name->length;
     if (word_is_reserved(name->text, name->length)) {
-        diag_error(in->diags, name->at, NULL, "'%.*s' is a reserved word", length, name->text);
+        char hint[80];
+        snprintf(hint, sizeof hint, "take another name, such as %.*s_1", length > 30 ? 30 : length,
+                 name->text);
+        diag_error(in->diags, name->at, hint, "'%.*s' is a reserved word", length, name->text);
         return NULL;
     }
     if (function_find(name->text, name->length, &function)) {
@@ -120,7 +123,11 @@ static bool parse_value(parser *in, symbol *made, const statement_word *word, ex
     const expr *value = NULL;
     if (!parser_is_sign(in, '=')) {
         char words[80];
-        parser_fail(in, word->form, "'=' is missing before %s",
+        const bool is_input = word->kind == SYM_INPUT && made != NULL;
+        char hint[NAME_LENGTH_MAX + 80];
+        snprintf(hint, sizeof hint, "an input has a value at the start: input %s = 0",
+                 is_input ? made->name : "");
+        parser_fail(in, is_input ? hint : word->form, "'=' is missing before %s",
                     token_words(&in->token, words, sizeof words));
     } else {
         parser_next(in);

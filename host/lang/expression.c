@@ -150,12 +150,15 @@ static const expr *parse_named(parser *in) {
     }
     if (parser_is_sign(in, '(') && !word_is_reserved(name.text, name.length)) {
         char words[80];
-        char hint[120];
+        char hint[200];
         nearest search = nearest_start(name.text, name.length);
         for (int f = 0; f < FUNCTIONS; f++) {
             nearest_offer(&search, function_name((function_id)f));
         }
-        if (search.best != NULL) {
+        const char *first = first_word_hint(name.text, name.length);
+        if (first != NULL) {
+            snprintf(hint, sizeof hint, "%s", first);
+        } else if (search.best != NULL) {
             snprintf(hint, sizeof hint, "did you mean '%s'?", search.best);
         } else {
             snprintf(hint, sizeof hint, "products are written with *");

@@ -47,8 +47,11 @@ int name_declared_later(const token *name) {
 static void report_unknown(parser *in, const token *name) {
     char hint[200] = "";
     char words[80];
+    const char *first = first_word_hint(name->text, name->length);
     const int later = in->builder != NULL && !in->all_effects ? name_declared_later(name) : 0;
-    if (later > 0) {
+    if (later == 0 && first != NULL) {
+        snprintf(hint, sizeof hint, "%s", first);
+    } else if (later > 0) {
         snprintf(hint, sizeof hint, "it is declared later, in line %d: move that line up", later);
     } else {
         nearest search = nearest_start(name->text, name->length);
@@ -79,8 +82,8 @@ static void report_reserved(parser *in, const token *name) {
             return;
         }
     }
-    diag_error(in->diags, name->at, NULL, "'%.*s' is a reserved word", (int)name->length,
-               name->text);
+    diag_error(in->diags, name->at, first_word_hint(name->text, name->length),
+               "'%.*s' is a reserved word", (int)name->length, name->text);
 }
 
 /* May a symbol of this kind, with so many primes, stand here? `written` is its name in the text. */

@@ -63,20 +63,35 @@ bool read_energy(parser *in, const statement_word *word) {
         return false;
     }
     const dimension wanted = kind == TERM_F ? dim_of(2, 1, -3, 0, 0) : dim_energy();
-    check_dimension(in, value_at, value, wanted, term_rule(kind));
+    if (value->op == EXPR_NUMBER) {
+        check_dimension(in, value_at, value, wanted, term_rule(kind));
+    } else if (!dim_fits(value->dim, wanted)) {
+        const bool needs_rate = kind != TERM_V && value->order == 0;
+        char is[DIM_TEXT_SIZE];
+        diag_error(in->diags, value_at,
+                   needs_rate ? (kind == TERM_T ? "no speed stands in it: T = m*l^2*theta'^2/2"
+                                                : "no speed stands in it: F = b*theta'^2/2")
+                              : "a number without a unit is dimensionless: write 2 [kg], 3 [N/m]",
+                   "%s, but this is %s", term_rule(kind), dim_text(value->dim, is, sizeof is));
+    }
     add_term(in, (term){kind, NULL, value, NULL, in->effect, at});
     return parser_end_statement(in, "the expression");
 }
 
 bool read_force(parser *in, const statement_word *word) {
+    (void)word;
     const place at = in->statement_at;
+    const mechanism *of = in->builder->made;
+    char form[NAME_LENGTH_MAX + 40];
+    snprintf(form, sizeof form, "write Q(%s) = ...",
+             of->coordinate_count > 0 ? of->coordinates[0]->name : "x");
     if (!parser_is_sign(in, '(')) {
-        return parser_fail(in, word->form, "Q needs its coordinate in parentheses");
+        return parser_fail(in, form, "Q needs its coordinate in parentheses");
     }
     parser_next(in);
     const token name = in->token;
     if (name.kind != TOKEN_NAME) {
-        return parser_fail(in, word->form, "Q needs its coordinate in parentheses");
+        return parser_fail(in, form, "Q needs its coordinate in parentheses");
     }
     const symbol *coordinate = find_coordinate(in, &name, "Q");
     parser_next(in);

@@ -145,6 +145,9 @@ bool word_is(word_id id, const char *text, size_t length);
 int word_find(const char *text, size_t length);
 bool word_is_reserved(const char *text, size_t length);
 
+/* What to write for a word of other languages, such as "if", that has no meaning here; or NULL. */
+const char *first_word_hint(const char *text, size_t length);
+
 /* The word of a contact: "stop". */
 const char *contact_word(contact_kind kind);
 

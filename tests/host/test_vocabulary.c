@@ -133,7 +133,38 @@ static void test_energies_have_their_dimension(void) {
     expect_report("F = m*x", "dissipation function F must be a power [kg*m^2/s^3]");
 }
 
+/* Words of other languages, wherever they stand, and first attempts: all get a hint, never a comparison by spelling. */
+static void test_first_words_get_a_hint(void) {
+    static const char *const words[] = {"t",     "time",       "if",    "floor",   "heaviside",
+                                        "table", "constraint", "given", "tunable", "every"};
+    static const char *const places[] = {
+        "V = 1 [J]*%s", "V = 1 [J]*%s(x/1 [m])", "let l2 = 3*%s + 2", "output w = sin(%s*2)",
+        "%s y x",       "effect e {\n%s x\n}"};
+    static const char *const attempts[][2] = {
+        {"F = m*x", "hint: no speed stands in it: F = "},
+        {"V = 1/2*m*9.81", "hint: a number without a unit"},
+        {"friction x - l static 1 kinetic 1 normal 1 [N]", "hint: between two bodies"},
+        {"input w", "hint: an input has a value at the start: input w = 0"},
+        {"input F", "hint: take another name, such as F_1"},
+        {"Q = 3", "hint: write Q(x) = "}};
+    for (size_t w = 0; w < sizeof words / sizeof words[0]; w++) {
+        for (size_t k = 0; k < sizeof places / sizeof places[0]; k++) {
+            char line[100];
+            char wanted[300];
+            const char *hint = first_word_hint(words[w], strlen(words[w]));
+            TEST_ASSERT_NOT_NULL_MESSAGE(hint, words[w]);
+            snprintf(line, sizeof line, places[k], words[w]); // NOLINT
+            snprintf(wanted, sizeof wanted, "hint: %s\n", hint);
+            expect_report(line, wanted);
+        }
+    }
+    for (size_t i = 0; i < sizeof attempts / sizeof attempts[0]; i++) {
+        expect_report(attempts[i][0], attempts[i][1]);
+    }
+}
+
 void suite_vocabulary(void) {
+    RUN_TEST(test_first_words_get_a_hint);
     RUN_TEST(test_functions_are_in_their_recorded_order);
     RUN_TEST(test_operations_are_in_their_recorded_order);
     RUN_TEST(test_contacts_are_in_the_core_s_order);

@@ -1,0 +1,45 @@
+/* first_words.c: words that people bring from other languages, and what does the same here. */
+#include <string.h>
+
+#include "words.h"
+
+#define CLOCK \
+    "there is no name for the time; in Q a turning coordinate is a clock (docs/language.md, " \
+    "\"What is given over time\")"
+#define CHOICE "choose with max(a, b), min(a, b) or sign(x); at a moment, with when or hold"
+#define JUMP "write (1 + sign(x))/2; of a contact, stop, hold or when"
+#define COUNT "nothing counts in steps but: when x crosses 1 [m] rising { set x = 0 [m] }"
+#define TABLE "write a formula, or an input that firmware changes: input u = 0 [N]"
+
+const char *first_word_hint(const char *text, size_t length) {
+    static const struct {
+        const char *word;
+        const char *hint;
+    } rows[] = {{"t", CLOCK},
+                {"time", CLOCK},
+                {"given", "a given motion is the force that it makes felt: Q(x) = k*xe "
+                          "(docs/language.md, \"What is given over time\")"},
+                {"every", "what happens at intervals follows a clock: when phi crosses 2*pi rising "
+                          "{ set phi = 0 [rad] }"},
+                {"if", CHOICE},
+                {"else", CHOICE},
+                {"where", CHOICE},
+                {"piecewise", CHOICE},
+                {"heaviside", JUMP},
+                {"step", JUMP},
+                {"floor", COUNT},
+                {"ceil", COUNT},
+                {"round", COUNT},
+                {"mod", COUNT},
+                {"table", TABLE},
+                {"lookup", TABLE},
+                {"interp", TABLE},
+                {"constraint", "write: hold x - l*sin(a) while 1 > 0"},
+                {"tunable", "what may change while running is an input: input k = 3 [N/m]"}};
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        if (strlen(rows[i].word) == length && memcmp(rows[i].word, text, length) == 0) {
+            return rows[i].hint;
+        }
+    }
+    return NULL;
+}
