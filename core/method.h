@@ -60,7 +60,7 @@
       .parts = 8, .positions = {1, 2, 1, 0}, .rates = {1, 3, 3, 1}, .turns = {0, 1, 2, 3}) \
     X(WH_NYSTROEM3, "nystroem3", "Nystroem 3", 3, WH_ANY_SYSTEM, 3, \
       .stage = {{1, {0}}, {3, {2}}, {3, {0, 2}}}, \
-      .places = &(const wh_places){.node = {0, WH_R(2.0) / WH_R(3.0), WH_R(2.0) / WH_R(3.0)}, \
+      .places = &(const wh_places){.node = {0, WH_R(0x1.5555555555555p-1), WH_R(0x1.5555555555555p-1)}, \
                                    .reach = {{1, {0}}, {9, {2}}, {9, {2}}}}, \
       .parts = 8, .positions = {2, 2, 0}, .rates = {2, 3, 3}, .turns = {0, 1, 1}) \
     X(WH_NYSTROEM4, "nystroem4", "Nystroem 4", 4, WH_ANY_SYSTEM, 4, \

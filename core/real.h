@@ -37,7 +37,9 @@
     "Whirl computes the same bits everywhere, and this compiler keeps more of them in between: on x86 use -msse2 -mfpmath=sse, on s390x -std=gnu11."
 #endif
 
-#if __FLT_RADIX__ != 2 || __FLT_MANT_DIG__ != 24 || (WH_DOUBLE && __DBL_MANT_DIG__ != 53)
+/* Tools that predefine nothing, such as cppcheck, read on; of a compiler without these macros wh_scene_start() finds out. */
+#if defined(__FLT_RADIX__) && \
+    (__FLT_RADIX__ != 2 || __FLT_MANT_DIG__ != 24 || (WH_DOUBLE && __DBL_MANT_DIG__ != 53))
 #error "Whirl needs IEEE 754 numbers: float of 32 bits and, with WH_DOUBLE=1, double of 64 bits."
 #endif
 
