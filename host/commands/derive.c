@@ -42,11 +42,21 @@ static void latex_steps(const loaded *made, const char *file) {
     show_steps(stdout, made->equations, SHOW_LATEX);
 }
 
-static void octave(const loaded *made, const char *file) {
+static void folded_octave(const loaded *made, const char *file) {
     if (made->image->settings.matrix != MATRIX_NONE) {
         matrix_octave(stdout, made->image, file);
     } else {
         emit_octave(stdout, made->image, file, made->contacts);
+    }
+}
+
+static void octave(const loaded *made, const char *file) {
+    if (made->image->settings.matrix != MATRIX_NONE) {
+        matrix_octave(stdout, made->image, file);
+    } else {
+        emit_octave_head(stdout, made->image, file, made->contacts);
+        show_octave(stdout, made->equations, emit_octave_variable_is_free);
+        emit_octave_end(stdout, made->image);
     }
 }
 
@@ -71,7 +81,9 @@ typedef struct form_row {
     bool shows; /* equations, of each mechanism of a file one after another; else it is code */
     void (*print_steps)(const loaded *made,
                         const char *file); /* how the equations come about (--steps) */
-    bool runs;                             /* steps the scene: momenta, method and number matter */
+    void (*print_folded)(const loaded *made,
+                         const char *file); /* values in place of names (--folded) */
+    bool runs;                              /* steps the scene: momenta, method and number matter */
     /* Code that holds the scene's name (--name): what else has that name there, or NULL. */
     const char *(*name_taken_by)(const char *name, bool with_header);
     /* Code that has a header (--header). */
@@ -95,6 +107,7 @@ static const form_row forms[] = {
      .text = "the same for a paper (with amsmath)"},
     {.word = "octave",
      .print = octave,
+     .print_folded = folded_octave,
      .name_taken_by = taken_in_octave,
      .comment = EMIT_OCTAVE_COMMENT,
      .text = "a function file that Octave and Matlab integrate as it stands"},
@@ -110,6 +123,7 @@ enum { FORMS = sizeof forms / sizeof forms[0], FORMS_TEXT_SIZE = 16 + 16 * FORMS
 static bool has_a_name(const form_row *form) { return form->name_taken_by != NULL; }
 static bool has_a_header(const form_row *form) { return form->print_header != NULL; }
 static bool has_steps(const form_row *form) { return form->runs; }
+static bool has_folded(const form_row *form) { return form->print_folded != NULL; }
 static bool has_derivation(const form_row *form) { return form->shows; }
 
 /* "--as octave or c": those of which that is true. Returns `said`. */
@@ -160,6 +174,8 @@ static void print_usage(FILE *out) {
         out, "--steps", has_derivation,
         "the derivation: the Lagrangian, and of each coordinate dL/dq', its time derivative, "
         "dL/dq, dF/dq' and Q");
+    print_option(out, "--folded", has_folded,
+                 "values in place of names, one operation a line, as the C has them");
     print_option(
         out, "--header FILE", has_a_header,
         "its header, for C and C++: names of components, inputs and outputs, their units, the "
@@ -271,9 +287,20 @@ static bool has_c_form(const image *im, source_model *from) {
     return has;
 }
 
+typedef struct derive_options {
+    common_options common;
+    const char *target;
+    const char *header;
+    const form_row *as;
+    bool steps;
+    bool folded;
+} derive_options;
+
 static int derive_one(source_model *from, const mechanism *of, const scene *in,
-                      const overrides *changes, const form_row *as, const common_options *options,
-                      bool with_steps, const char *header) {
+                      const overrides *changes, const derive_options *o, const char *header) {
+    const form_row *as = o->as;
+    const common_options *options = &o->common;
+    const bool from_equations = as->shows || (has_folded(as) && !o->folded);
     const image_settings *settings = &options->integration;
     image_settings taken = *settings;
     if (!as->runs) { /* equations and other programs' code know no tables */
@@ -282,17 +309,17 @@ static int derive_one(source_model *from, const mechanism *of, const scene *in,
     }
     const load_wish wish = {.settings = taken,
                             .use = IMAGE_TO_WRITE,
-                            .keep = as->shows ? KEEP_EQUATIONS : KEEP_IMAGE,
+                            .keep = from_equations ? KEEP_EQUATIONS : KEEP_IMAGE,
                             .conserve = as->runs || settings->matrix != MATRIX_NONE,
                             .comment = as->comment};
     loaded made;
     int code = load(&made, from, of, in, changes, &wish);
-    if (!as->shows) {
+    if (!from_equations) {
         source_forget(from);
     }
     bool good = true;
     fixed_plan *plan = NULL;
-    if (code == EXIT_DONE && with_steps && of->is_system) {
+    if (code == EXIT_DONE && o->steps && of->is_system) {
         fprintf(stderr, "%s: error: %s is given by equations: --steps derives them from energies\n",
                 from->file, of->name);
         code = EXIT_BAD_INPUT;
@@ -314,21 +341,15 @@ static int derive_one(source_model *from, const mechanism *of, const scene *in,
             if (as->runs) {
                 say_float_range(made.image);
             }
-            (with_steps ? as->print_steps : as->print)(&made, from->file);
+            (o->steps    ? as->print_steps
+             : o->folded ? as->print_folded
+                         : as->print)(&made, from->file);
         }
     }
     fixed_plan_free(plan);
     unload(&made);
     return code;
 }
-
-typedef struct derive_options {
-    common_options common;
-    const char *target;
-    const char *header;
-    const form_row *as;
-    bool steps;
-} derive_options;
 
 /* The scene's name in generated code: as a name in a .whirl file. */
 static bool take_name(change_options *options, const char *name) {
@@ -353,12 +374,15 @@ static bool take_one(int count, char **words, int *at, void *options, bool *bad)
     } else if (!*bad && strcmp(words[*at], "--steps") == 0) {
         o->steps = true;
         value = words[(*at)++];
+    } else if (!*bad && strcmp(words[*at], "--folded") == 0) {
+        o->folded = true;
+        value = words[(*at)++];
     }
     return value != NULL;
 }
 
 static bool read_options(int count, char **words, derive_options *o) {
-    static const char *const own[] = {"--as", "--header", "--name", "--steps", NULL};
+    static const char *const own[] = {"--as", "--header", "--name", "--steps", "--folded", NULL};
     const target_reader reader = {.command = "derive",
                                   .groups = options_of_derive.groups,
                                   .own = own,
@@ -367,6 +391,7 @@ static bool read_options(int count, char **words, derive_options *o) {
     if (!target_read(&reader, count, words, &o->common, o, &o->target) ||
         (o->header != NULL && !goes_with("--header", "FILE", has_a_header, o->as)) ||
         (o->steps && !goes_with("--steps", "", has_derivation, o->as)) ||
+        (o->folded && !goes_with("--folded", "", has_folded, o->as)) ||
         (o->common.change.name != NULL && !goes_with("--name", "NAME", has_a_name, o->as))) {
         return false;
     }
@@ -391,8 +416,7 @@ static int derive_opened(source_model *from, const derive_options *o) {
     if (from->name[0] == '\0' && o->as->shows) {
         for (int i = 0; i < from->model->mechanism_count && code == EXIT_DONE; i++) {
             fputs(i > 0 ? "\n" : "", stdout);
-            code = derive_one(from, from->model->mechanisms[i], NULL, &changes, o->as, &o->common,
-                              o->steps, NULL);
+            code = derive_one(from, from->model->mechanisms[i], NULL, &changes, o, NULL);
         }
         return code;
     }
@@ -401,9 +425,7 @@ static int derive_opened(source_model *from, const derive_options *o) {
     if (code == EXIT_DONE && o->header != NULL && !header_is_apart(from, o->header)) {
         code = EXIT_BAD_INPUT;
     }
-    return code == EXIT_DONE
-               ? derive_one(from, of, in, &changes, o->as, &o->common, o->steps, o->header)
-               : code;
+    return code == EXIT_DONE ? derive_one(from, of, in, &changes, o, o->header) : code;
 }
 
 int command_derive(int count, char **words) {

@@ -150,7 +150,7 @@ static void print_text(const show *s, const equations *e, const symmetry *of, in
 
 static void print_latex(const show *s, const equations *e, const symmetry *of, int number) {
     fprintf(s->out, "%% ");
-    const show plain = {s->out, SHOW_TEXT, s->algebra};
+    const show plain = show_start(s->out, SHOW_TEXT, s->algebra);
     print_motion(&plain, e, of);
     fprintf(s->out, "\n\\begin{align}\n  P_{%d} &= ", number);
     print_formula(s, of->momentum);
@@ -175,8 +175,8 @@ static void print_broken(const show *s, const equations *e, const char *prefix) 
 }
 
 static void print_all(const equations *e, const symmetries *found, bool latex) {
-    const show s = {stdout, latex ? SHOW_LATEX : SHOW_TEXT, e->algebra};
-    const show plain = {stdout, SHOW_TEXT, e->algebra};
+    const show s = show_start(stdout, latex ? SHOW_LATEX : SHOW_TEXT, e->algebra);
+    const show plain = show_start(stdout, SHOW_TEXT, e->algebra);
     const char *prefix = latex ? "% " : "";
     const mechanism *m = e->instance->mechanism;
     printf("%s%s%s%s\n", prefix, m->name, m->title[0] != '\0' ? ": " : "", m->title);

@@ -51,6 +51,46 @@ char *shown_unit_name(const symbol *s, int primes) {
     return room_words("%s%s", s->unit, per);
 }
 
+char *shown_written(const expr *given) {
+    const expr *leaf = given;
+    while (leaf != NULL && leaf->left != NULL) {
+        leaf = leaf->left;
+    }
+    if (leaf == NULL || leaf->at.source == NULL || leaf->at.source->text == NULL) {
+        return NULL;
+    }
+    const char *text = leaf->at.source->text;
+    size_t at = leaf->at.offset;
+    while (at > 0 &&
+           strchr("=\n", text[at - 1]) == NULL) { /* before it: signs, parentheses, a function */
+        at--;
+    }
+    at += strspn(text + at, " \t");
+    char *copy = room((int64_t)strlen(text + at) + 1, 1);
+    size_t length = 0;
+    int depth = 0;
+    for (; text[at] != '\0'; at++) {
+        const bool blank = strchr(" \t\r\n", text[at]) != NULL;
+        depth += (text[at] == '(') - (text[at] == ')');
+        if (depth <= 0 && strchr("\n#\",;}", text[at]) != NULL) {
+            break;
+        }
+        if (text[at] == '#') { /* a comment inside parentheses */
+            at += strcspn(text + at, "\n") - 1;
+        } else if (!blank || (length > 0 && copy[length - 1] != ' ')) {
+            copy[length++] = blank ? ' ' : text[at];
+        }
+    }
+    length -= length > 0 && copy[length - 1] == ' ';
+    copy[length] = '\0';
+    return copy;
+}
+
+char *shown_formula(const expr *given) {
+    const expr *number = given != NULL && given->op == EXPR_NEG ? given->left : given;
+    return number == NULL || number->op == EXPR_NUMBER ? NULL : shown_written(given);
+}
+
 char *shown_assignment(const symbol *s, int primes, const char *number) {
     char *si = shown_si_name(s, primes);
     char *made = unit_is_si(s->declared)

@@ -15,6 +15,12 @@ char *shown_unit_name(const symbol *s, int primes);
 /* The name of the SI unit of the same. The caller frees it. */
 char *shown_si_name(const symbol *s, int primes);
 
+/* The text of a value as it stands in the file or on the command line, "0.72 [lb]"; its blanks are single. NULL where
+ * there is no text. The caller frees it. */
+char *shown_written(const expr *given);
+/* The same of a formula; NULL for one number, with a unit or without. */
+char *shown_formula(const expr *given);
+
 /* "theta'=3 [rad/s]" of a number in SI, as options take it: with the unit where the declared one is not SI. The caller
  * frees it. */
 char *shown_assignment(const symbol *s, int primes, const char *number);

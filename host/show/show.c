@@ -8,6 +8,10 @@
 #include "host/lang/lexer.h"
 #include "show_term.h"
 
+show show_start(FILE *out, show_style style, algebra *a) {
+    return (show){.out = out, .style = style, .algebra = a};
+}
+
 /* --- sums ----------------------------------------------------------------------------------------*/
 
 static void show_sign(const show *s, bool negative, bool first) {

@@ -12,7 +12,11 @@ typedef struct show {
     FILE *out;
     show_style style;
     algebra *algebra;
+    const char *(*name)(const void *names, const symbol *sym, int primes); /* NULL: the file's */
+    const void *names;
 } show;
+
+show show_start(FILE *out, show_style style, algebra *a);
 
 /* A symbol with its primes: theta1'', \ddot{\theta}_{1}. */
 void show_symbol(const show *s, const symbol *sym, int primes);

@@ -67,13 +67,17 @@ static void write_shown(const show *s, const char *kind, const symbol *what) {
     free(unit_name);
 }
 
-/* A parameter or an input with its value, in the unit that the file writes. */
-static void write_value(const show *s, const char *kind, const symbol *what, double si_value) {
+/* A parameter or an input with its value in the unit of the file, and the formula that gives it. */
+static void write_value(const show *s, const char *kind, const symbol *what, const expr *given,
+                        double si_value) {
     const unit_scale unit = shown_unit(what, 0);
     char *unit_name = shown_unit_name(what, 0);
-    fprintf(s->out, "  %-10s %-10s = %.10g [%s]%s%s\n", kind, what->name,
+    char *formula = shown_formula(given);
+    fprintf(s->out, "  %-10s %-10s = %.10g [%s]%s%s%s%s\n", kind, what->name,
             number_shown(si_value / unit.scale * unit.divisor), unit_name,
+            formula != NULL ? " = " : "", formula != NULL ? formula : "",
             what->text[0] != '\0' ? "  " : "", what->text);
+    free(formula);
     free(unit_name);
 }
 
@@ -87,13 +91,14 @@ static void write_names(const show *s, const equations *e) {
     for (int i = 0; i < m->parameter_count; i++) {
         const symbol *p = m->parameters[i];
         if (p->effect < 0 || e->instance->with[p->effect]) {
-            write_value(s, "parameter", p, e->instance->parameter[i]);
+            write_value(s, "parameter", p, e->instance->parameter_given[i],
+                        e->instance->parameter[i]);
         }
     }
     for (int i = 0; i < m->input_count; i++) {
         const symbol *u = m->inputs[i];
         if (u->effect < 0 || e->instance->with[u->effect]) {
-            write_value(s, "input", u, e->instance->input[i]);
+            write_value(s, "input", u, e->instance->input_given[i], e->instance->input[i]);
         }
     }
     for (int i = 0; i < m->effect_count; i++) {
@@ -134,8 +139,7 @@ static const char *free_letter(const mechanism *m, const char *const *letters) {
     return *letters;
 }
 
-/* y(1) ... y(N): values first, then rates, and so on, as the dissertation numbers them. */
-static int y_number(const equations *e, int unknown_index, int primes) {
+int show_y_number(const equations *e, int unknown_index, int primes) {
     int number = 1;
     for (int level = 0; level <= primes; level++) {
         for (int i = 0; i < e->count; i++) {
@@ -150,8 +154,7 @@ static int y_number(const equations *e, int unknown_index, int primes) {
     return number;
 }
 
-/* Solve by Cramer's rule in symbols; true when the result is worth reading. */
-static bool closed_form(const equations *e, const poly **top, const poly **bottom) {
+bool show_closed_form(const equations *e, const poly **top, const poly **bottom) {
     algebra *a = e->algebra;
     const int n = e->count;
     int terms = 0;
@@ -191,7 +194,7 @@ static void reduce(algebra *a, const poly **top, const poly **bottom) {
     *bottom = poly_scale(a, poly_mul(a, *bottom, inverse), 1.0 / number);
 }
 
-static void write_fraction(const show *s, const poly *top, const poly *bottom) {
+void show_fraction(const show *s, const poly *top, const poly *bottom) {
     algebra *a = s->algebra;
     const poly *shorter[2] = {top, bottom};
     if (!poly_is_zero(top) && bottom->count > 1) {
@@ -227,7 +230,7 @@ static void write_highest(const show *s, const equations *e, int i) {
 static void write_first_order(const show *s, const equations *e) {
     const poly *top[2];
     const poly *bottom;
-    const bool readable = closed_form(e, top, &bottom);
+    const bool readable = show_closed_form(e, top, &bottom);
     int highest_order = 0;
     for (int i = 0; i < e->count; i++) {
         highest_order = e->unknowns[i].order > highest_order ? e->unknowns[i].order : highest_order;
@@ -242,7 +245,7 @@ static void write_first_order(const show *s, const equations *e) {
     for (int level = 0; level < highest_order; level++) {
         for (int i = 0; i < e->count; i++) {
             if (e->unknowns[i].order > level) {
-                fputs(y_number(e, i, level) > 1 ? ", " : "", s->out);
+                fputs(show_y_number(e, i, level) > 1 ? ", " : "", s->out);
                 show_symbol(s, e->unknowns[i].symbol, level);
             }
         }
@@ -251,17 +254,17 @@ static void write_first_order(const show *s, const equations *e) {
     for (int level = 1; level <= highest_order; level++) {
         for (int i = 0; i < e->count; i++) {
             if (e->unknowns[i].order > level) {
-                fprintf(s->out, "  %s%d' = %s%d\n", y, y_number(e, i, level - 1), y,
-                        y_number(e, i, level));
+                fprintf(s->out, "  %s%d' = %s%d\n", y, show_y_number(e, i, level - 1), y,
+                        show_y_number(e, i, level));
             }
         }
     }
     for (int i = 0; i < e->count; i++) {
-        fprintf(s->out, "  %s%d' = ", y, y_number(e, i, e->unknowns[i].order - 1));
+        fprintf(s->out, "  %s%d' = ", y, show_y_number(e, i, e->unknowns[i].order - 1));
         write_highest(s, e, i);
         if (readable) {
             fputs(" = ", s->out);
-            write_fraction(s, top[i], bottom);
+            show_fraction(s, top[i], bottom);
         }
         fputc('\n', s->out);
     }
@@ -294,7 +297,7 @@ static void write_first_order(const show *s, const equations *e) {
 }
 
 void show_text(FILE *out, const equations *e) {
-    const show s = {out, SHOW_TEXT, e->algebra};
+    const show s = show_start(out, SHOW_TEXT, e->algebra);
     const bool system = e->instance->mechanism->is_system;
     write_names(&s, e);
     fprintf(out, system ? "\nequations\n\n"
@@ -314,7 +317,7 @@ void show_text(FILE *out, const equations *e) {
 }
 
 void show_latex(FILE *out, const equations *e) {
-    const show s = {out, SHOW_LATEX, e->algebra};
+    const show s = show_start(out, SHOW_LATEX, e->algebra);
     const poly *top[2];
     const poly *bottom;
     fprintf(out, "%% %s: equations of motion\n", e->instance->mechanism->name);
@@ -325,7 +328,7 @@ void show_latex(FILE *out, const equations *e) {
         fputs(i + 1 < e->count ? " \\\\\n" : "\n", out);
     }
     fprintf(out, "\\end{align}\n");
-    if (!closed_form(e, top, &bottom)) {
+    if (!show_closed_form(e, top, &bottom)) {
         return;
     }
     fprintf(out, "%% solved for the highest derivatives\n\\begin{align}\n");
@@ -333,7 +336,7 @@ void show_latex(FILE *out, const equations *e) {
         fputs("  ", out);
         write_highest(&s, e, i);
         fputs(" &= ", out);
-        write_fraction(&s, top[i], bottom);
+        show_fraction(&s, top[i], bottom);
         fputs(i + 1 < e->count ? " \\\\\n" : "\n", out);
     }
     fprintf(out, "\\end{align}\n");

@@ -24,7 +24,7 @@ static void show_friction(const show *s, const contact_law *law) {
 }
 
 void show_events(FILE *out, const equations *e, const char *prefix, const char *heading) {
-    const show s = {out, SHOW_TEXT, e->algebra};
+    const show s = show_start(out, SHOW_TEXT, e->algebra);
     const contact_laws *laws = e->contacts;
     if (laws == NULL) {
         return;

@@ -68,7 +68,7 @@ static void write_coordinate(const show *s, const equations *e, int i) {
 }
 
 void show_steps(FILE *out, const equations *e, show_style style) {
-    const show s = {out, style, e->algebra};
+    const show s = show_start(out, style, e->algebra);
     const bool latex = style == SHOW_LATEX;
     const poly *lagrangian = poly_sub(e->algebra, e->kinetic, e->stored);
     const char *prefix = latex ? "% " : "";

@@ -65,6 +65,10 @@ void show_symbol(const show *s, const symbol *sym, int primes) {
         latex_name(s->out, sym->name, primes);
         return;
     }
+    if (s->name != NULL) {
+        fputs(s->name(s->names, sym, primes), s->out);
+        return;
+    }
     fputs(sym->name, s->out);
     for (int i = 0; i < primes; i++) {
         fputc('\'', s->out);

@@ -53,7 +53,7 @@ for scene in $SCENES; do
     system=$1
     shift
     [ "$system" != reduced ] || continue # what derives finds that by itself
-    "$whirl" derive "$scene" --as octave >"$work/$scene.m"
+    "$whirl" derive "$scene" --as octave --folded >"$work/$scene.m"
     ns=$(cd "$work" && octave-cli --norc --no-history --quiet --eval "step('$scene')")
     awk -v ns="$ns" -v own="$(cat "$work/own_ns.$system")" -v of="$system" \
         'BEGIN { print "octave", of, "ratio", ns / own }'

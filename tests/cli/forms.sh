@@ -30,6 +30,7 @@ those_with() { sed -n "s/.*$1 --as \([a-z0-9, ]*\).*/\1/p" "$2" | sed 's/ only$/
 named=$(those_with '--name NAME, with' "$scratch/help")
 headed=$(those_with '--header FILE, with' "$scratch/help")
 derived=$(those_with '--steps, with' "$scratch/help")
+folded=$(those_with '--folded, with' "$scratch/help")
 stepped=$(those_with 'The method matters to' "$scratch/help")
 is_one_of() { case " $2 " in *" $1 "*) return 0 ;; esac; return 1; }
 
@@ -57,6 +58,7 @@ while read -r form; do
     grep -qi 'stop\|restitution\|contact' "$scratch/out"
     verdict $? "--as $form: the stop is told of"
     only_with --steps '' "$form" "$derived"
+    only_with --folded '' "$form" "$folded"
     only_with --name other "$form" "$named"
     if is_one_of "$form" "$named"; then
         grep -qw other "$scratch/out" && ! grep -q 'it_bounces' "$scratch/out"

@@ -11,6 +11,7 @@
 #include "host/emit/emit.h"
 #include "host/lang/builtin.h"
 #include "host/run/engine.h"
+#include "host/show/show_equations.h"
 #include "host/show/show_events.h"
 #include "unity.h"
 
@@ -92,7 +93,7 @@ derived derived_file(const char *path) {
     fclose(in);
     diags *all = diags_new();
     derived d = derive_model(model_parse(path, text, length, all), NULL, all);
-    free(text);
+    d.text = text;
     return d;
 }
 
@@ -141,6 +142,7 @@ int derived_component(const image *im, const char *name, int primes) {
 
 void derived_free(derived *d) {
     image_free(d->image);
+    free(d->text);
     equations_free(d->equations);
     instance_free(d->instance);
     model_free(d->model);
@@ -202,14 +204,20 @@ double state_value(void *context, const symbol *sym, int primes) {
                                   : state->value[sym->index][primes];
 }
 
-void derived_octave(FILE *out, const derived *d, const char *file) {
+void derived_octave(FILE *out, const derived *d, const char *file, bool folded) {
     char *text = NULL;
     size_t size = 0;
     FILE *words = open_memstream(&text, &size);
     TEST_ASSERT_NOT_NULL(words);
     show_events(words, d->equations, "% ", "The motion between events. Not in this function:");
     fclose(words);
-    emit_octave(out, d->image, file, text);
+    if (folded) {
+        emit_octave(out, d->image, file, text);
+    } else {
+        emit_octave_head(out, d->image, file, text);
+        show_octave(out, d->equations, emit_octave_variable_is_free);
+        emit_octave_end(out, d->image);
+    }
     free(text);
 }
 

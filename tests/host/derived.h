@@ -12,6 +12,7 @@ typedef struct derived {
     equations *equations; /* NULL when it could not be derived */
     image *image;         /* NULL as well */
     char *errors;         /* "" when there are none */
+    char *text;           /* of derived_file(), which places point into; else NULL */
 } derived;
 
 /* What the language says about a text, "" when it accepts it; overwritten by the next call. Nothing is derived. */
@@ -71,7 +72,7 @@ void derived_run_known(const tape *t, const derived *d, const state_values *s, d
 char *derived_written(void (*write)(FILE *out, const image *im, const char *file), const image *im);
 
 /* The Octave form, with its contacts in words, as `whirl derive` writes it. */
-void derived_octave(FILE *out, const derived *d, const char *file);
+void derived_octave(FILE *out, const derived *d, const char *file, bool folded);
 
 /* Next random 64 bits; a number between the bounds. */
 uint64_t random_bits(uint64_t *seed);

@@ -49,7 +49,8 @@ char *printed(const derived *d, language as) {
     case TEXT: show_text(out, d->equations); break;
     case STEPS: show_steps(out, d->equations, SHOW_TEXT); break;
     case LATEX: show_latex(out, d->equations); break;
-    case OCTAVE: derived_octave(out, d, "x.whirl"); break;
+    case FOLDED: derived_octave(out, d, "x.whirl", true); break;
+    case OCTAVE: derived_octave(out, d, "x.whirl", false); break;
     }
     fclose(out);
     char *copy = malloc(size + 1); /* gcc takes the stream's own for an address of this frame */

@@ -39,7 +39,7 @@ static char *shown(algebra *a, const poly *p, show_style style) {
     size_t size = 0;
     FILE *out = open_memstream(&text, &size);
     TEST_ASSERT_NOT_NULL(out);
-    const show s = {out, style, a};
+    const show s = show_start(out, style, a);
     show_poly(&s, p);
     fclose(out);
     return text;

@@ -61,7 +61,7 @@ static void as_text(FILE *out, const derived *d) { show_text(out, d->equations);
 
 static void as_latex(FILE *out, const derived *d) { show_latex(out, d->equations); }
 
-static void as_octave(FILE *out, const derived *d) { derived_octave(out, d, "block.whirl"); }
+static void as_octave(FILE *out, const derived *d) { derived_octave(out, d, "block.whirl", false); }
 
 static void test_events_stand_beside_the_equations(void) {
     expect(as_text, "", true);

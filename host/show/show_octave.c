@@ -1,0 +1,179 @@
+/* show_octave.c: the equations as a function file for Octave and Matlab, with the names of the file: parameters, inputs
+ * and the state come first, as in the listings of the dissertation's appendices. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "host/base/room.h"
+#include "host/lang/lexer.h"
+#include "host/lang/shown.h"
+#include "show_equations.h"
+#include "show_term.h"
+
+/* The variable of a symbol's derivative; without a symbol, one of the file's own. */
+typedef struct variable {
+    const symbol *symbol;
+    int primes;
+    char *name;
+} variable;
+
+typedef struct variables {
+    bool (*is_free)(const char *name);
+    variable *row;
+    int count;
+} variables;
+
+/* "ddX" for X'', with as many underscores behind it as make it free. */
+static const char *add(variables *all, const symbol *sym, int primes, const char *name) {
+    char *made = room_words("%.*s%s", primes, "ddddddddddddddd", name);
+    bool taken = true;
+    while (taken) {
+        taken = !all->is_free(made);
+        for (int i = 0; i < all->count && !taken; i++) {
+            taken = strcmp(all->row[i].name, made) == 0;
+        }
+        if (taken) {
+            char *longer = room_words(made[0] == '_' ? "v%s" : "%s_", made);
+            free(made);
+            made = longer;
+        }
+    }
+    all->row = room_more(all->row, all->count + 1, sizeof *all->row);
+    all->row[all->count++] = (variable){sym, primes, made};
+    return made;
+}
+
+static const char *find(const void *names, const symbol *sym, int primes) {
+    const variables *all = names;
+    for (int i = 0; i < all->count; i++) {
+        if (all->row[i].symbol == sym && all->row[i].primes == primes) {
+            return all->row[i].name;
+        }
+    }
+    return sym->name;
+}
+
+static bool takes_part(const equations *e, const symbol *s) {
+    return s->effect < 0 || e->instance->with[s->effect];
+}
+
+/* "  K1 = 8756.3; % [kg/s^2] = 50 [lbf/in]: the first spring". */
+static void write_constants(const show *s, const equations *e, const symbol *const *list, int count,
+                            const double *value, const expr *const *given) {
+    for (int i = 0; i < count; i++) {
+        if (takes_part(e, list[i])) {
+            char *unit = shown_si_name(list[i], 0);
+            char *written =
+                unit_is_si(list[i]->declared) ? shown_formula(given[i]) : shown_written(given[i]);
+            fprintf(s->out, "  %s = ", find(s->names, list[i], 0));
+            show_number(s, value[i]);
+            fprintf(s->out, "; %% [%s]%s%s%s%s\n", unit, written != NULL ? " = " : "",
+                    written != NULL ? written : "",
+                    list[i]->text[0] == '\0' ? ""
+                    : written != NULL        ? ": "
+                                             : " ",
+                    list[i]->text);
+            free(written);
+            free(unit);
+        }
+    }
+}
+
+/* The highest derivatives: each with its formula, or all from A x = b. */
+static void write_highest(const show *s, const equations *e, variables *all) {
+    const int n = e->count;
+    const poly *top[2];
+    const poly *bottom;
+    if (show_closed_form(e, top, &bottom)) {
+        for (int i = 0; i < n; i++) {
+            fprintf(s->out, "  %s = ", find(all, e->unknowns[i].symbol, e->unknowns[i].order));
+            show_fraction(s, top[i], bottom);
+            fputs(";\n", s->out);
+        }
+        return;
+    }
+    char *A = room_words("%s", add(all, NULL, 0, "A"));
+    char *b = room_words("%s", add(all, NULL, 0, "b"));
+    char *x = room_words("%s", add(all, NULL, 0, "x"));
+    fprintf(s->out, "  %s = zeros(%d, %d);\n  %s = zeros(%d, 1);\n", A, n, n, b, n);
+    for (int i = 0; i < n; i++) {
+        for (int j = 0; j < n; j++) {
+            if (!poly_is_zero(e->mass[i * n + j])) {
+                fprintf(s->out, "  %s(%d, %d) = ", A, i + 1, j + 1);
+                show_poly(s, e->mass[i * n + j]);
+                fputs(";\n", s->out);
+            }
+        }
+        fprintf(s->out, "  %s(%d) = ", b, i + 1);
+        show_poly(s, equations_force(e, i));
+        fputs(";\n", s->out);
+    }
+    fprintf(s->out, "  %s = %s \\ %s;\n", x, A, b);
+    for (int i = 0; i < n; i++) {
+        fprintf(s->out, "  %s = %s(%d);\n", find(all, e->unknowns[i].symbol, e->unknowns[i].order),
+                x, i + 1);
+    }
+    free(A);
+    free(b);
+    free(x);
+}
+
+static void name_all(variables *all, const equations *e) {
+    const mechanism *m = e->instance->mechanism;
+    for (int i = 0; i < m->parameter_count; i++) {
+        add(all, m->parameters[i], 0, m->parameters[i]->name);
+    }
+    for (int i = 0; i < m->input_count; i++) {
+        add(all, m->inputs[i], 0, m->inputs[i]->name);
+    }
+    for (int primes = 0; primes <= PRIMES_MAX; primes++) {
+        for (int i = 0; i < e->count; i++) {
+            if (primes <= e->unknowns[i].order) {
+                add(all, e->unknowns[i].symbol, primes, e->unknowns[i].symbol->name);
+            }
+        }
+    }
+}
+
+/* The state by its numbers: of each level values, then rates, and so on. */
+static void write_state(const show *s, const equations *e, bool slopes) {
+    int number = 1;
+    for (int level = 0; level < PRIMES_MAX; level++) {
+        for (int i = 0; i < e->count; i++) {
+            const symbol *q = e->unknowns[i].symbol;
+            if (e->unknowns[i].order <= level) {
+                continue;
+            }
+            if (slopes) {
+                fprintf(s->out, "%s%s", number > 1 ? "; " : "", find(s->names, q, level + 1));
+            } else {
+                char *unit = shown_si_name(q, level);
+                fprintf(s->out, "  %s = y(%d); %% [%s]%s%s\n", find(s->names, q, level), number,
+                        unit, level == 0 && q->text[0] != '\0' ? " " : "",
+                        level == 0 ? q->text : "");
+                free(unit);
+            }
+            number++;
+        }
+    }
+}
+
+void show_octave(FILE *out, const equations *e, bool (*is_free)(const char *name)) {
+    const mechanism *m = e->instance->mechanism;
+    variables all = {.is_free = is_free};
+    show s = show_start(out, SHOW_TEXT, e->algebra);
+    name_all(&all, e);
+    s.name = find;
+    s.names = &all;
+    write_constants(&s, e, m->parameters, m->parameter_count, e->instance->parameter,
+                    e->instance->parameter_given);
+    write_constants(&s, e, m->inputs, m->input_count, e->instance->input, e->instance->input_given);
+    write_state(&s, e, false);
+    write_highest(&s, e, &all);
+    fputs("  dy = [", out);
+    write_state(&s, e, true);
+    fputs("];\n", out);
+    for (int i = 0; i < all.count; i++) {
+        free(all.row[i].name);
+    }
+    free(all.row);
+}
