@@ -152,11 +152,17 @@ static void print_latex(const show *s, const equations *e, const symmetry *of, i
     fprintf(s->out, "%% ");
     const show plain = show_start(s->out, SHOW_TEXT, s->algebra);
     print_motion(&plain, e, of);
-    fprintf(s->out, "\n\\begin{align}\n  P_{%d} &= ", number);
-    print_formula(s, of->momentum);
-    fprintf(s->out, " \\\\\n  \\dot{P}_{%d} &= ", number);
-    print_formula(s, force_along(e, of));
-    fprintf(s->out, "%s\n\\end{align}\n", any_contact_acts(e, of) ? " + \\text{contacts}" : "");
+    fputs("\n\\begin{align}\n", s->out);
+    const poly *const side[2] = {of->momentum, force_along(e, of)};
+    for (int i = 0; i < 2; i++) {
+        show_row row;
+        const show *to = show_row_begin(&row, s);
+        fprintf(to->out, i == 0 ? "  P_{%d} &= " : "  \\dot{P}_{%d} &= ", number);
+        print_formula(to, side[i]);
+        fputs(i == 1 && any_contact_acts(e, of) ? " + \\text{contacts}" : "", to->out);
+        show_row_end(&row);
+        fputs(i == 0 ? " \\\\\n" : "\n\\end{align}\n", s->out);
+    }
     print_sources(&plain, e, of, "% ");
 }
 

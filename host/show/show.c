@@ -22,10 +22,37 @@ static void show_sign(const show *s, bool negative, bool first) {
     }
 }
 
-static void show_sum(const show *s, const poly *p, bool leading) {
+/* The powers of a sine and a cosine that every term has; no angle: none. */
+typedef struct wave {
+    const poly *angle;
+    int sines;
+    int cosines;
+} wave;
+
+static wave common_wave(algebra *a, const poly *p) {
+    piece *pieces = room(p->count, sizeof *pieces);
+    const int count = pieces_of(a, p, pieces);
+    wave common = {pieces[0].angle, pieces[0].sines, pieces[0].cosines};
+    for (int i = 1; i < count; i++) {
+        const piece *each = &pieces[i];
+        if (each->angle != common.angle) {
+            common = (wave){NULL, 0, 0};
+        }
+        common.sines = each->sines < common.sines ? each->sines : common.sines;
+        common.cosines = each->cosines < common.cosines ? each->cosines : common.cosines;
+    }
+    free(pieces);
+    return common.sines + common.cosines > 0 ? common : (wave){NULL, 0, 0};
+}
+
+/* The terms of p, without what stands before their parentheses. */
+static void show_sum(const show *s, const poly *p, wave without, bool leading) {
     piece *pieces = room(p->count, sizeof *pieces);
     const int count = pieces_of(s->algebra, p, pieces);
     for (int i = 0; i < count; i++) {
+        pieces[i].sines -= without.sines;
+        pieces[i].cosines -= without.cosines;
+        pieces[i].angle = pieces[i].sines + pieces[i].cosines > 0 ? pieces[i].angle : NULL;
         show_sign(s, pieces[i].coefficient < 0.0, leading && i == 0);
         show_product(s, &pieces[i], fabs(pieces[i].coefficient));
     }
@@ -33,7 +60,7 @@ static void show_sum(const show *s, const poly *p, bool leading) {
 }
 
 /* A number that all coefficients are small whole multiples of, or 1. */
-static double common_number(const piece *pieces, int count) {
+static double common_multiple(const piece *pieces, int count) {
     double smallest = (double)INFINITY;
     for (int i = 0; i < count; i++) {
         smallest = number_least(smallest, fabs(pieces[i].coefficient));
@@ -45,6 +72,32 @@ static double common_number(const piece *pieces, int count) {
         }
     }
     return smallest;
+}
+
+static double common_divisor(double a, double b) {
+    while (b != 0.0) {
+        const double rest = number_remainder(a, b);
+        a = b;
+        b = rest;
+    }
+    return a;
+}
+
+double show_common_number(const piece *pieces, int count, bool whole) {
+    double tops = 0.0;
+    double bottoms = whole ? 1.0 : 0.0;
+    for (int i = 0; i < count; i++) {
+        double top;
+        double bottom;
+        if (!show_as_fraction(fabs(pieces[i].coefficient), &top, &bottom) || bottom > 36.0 ||
+            bottoms > 1e6) {
+            return common_multiple(pieces, count);
+        }
+        tops = common_divisor(tops, top);
+        const double shared = common_divisor(bottoms, bottom);
+        bottoms = whole ? bottoms / shared * bottom : shared;
+    }
+    return tops / bottoms;
 }
 
 /* The factors that every term has, as a term of its own. */
@@ -92,6 +145,18 @@ static const atom *shared_parameter(const poly *p) {
     return best;
 }
 
+/* Powers of symbols above the fraction bar, which can be parted again and again. */
+static bool has_symbols_only(const poly *p) {
+    bool only = true;
+    for (int i = 0; i < p->count; i++) {
+        for (int k = 0; k < p->terms[i].mono->count; k++) {
+            const mono_factor *f = &p->terms[i].mono->factors[k];
+            only = only && f->atom->kind == ATOM_SYMBOL && f->exponent > 0.0;
+        }
+    }
+    return only && shared_parameter(p) != NULL;
+}
+
 static void show_group(const show *s, const poly *p, const poly *key, bool leading);
 
 /* A sum without rates and without a factor common to all: K1*(X - L1) + K2*(...). */
@@ -121,7 +186,8 @@ static void show_parted(const show *s, const poly *p, bool leading) {
         show_group(s, without, one, false);
         return;
     }
-    show_sum(s, p, leading); /* every term has it, in powers of different signs */
+    show_sum(s, p, (wave){NULL, 0, 0},
+             leading); /* every term has it, in powers of different signs */
 }
 
 /* * key, unless that is one. */
@@ -139,7 +205,7 @@ static void show_group(const show *s, const poly *p, const poly *key, bool leadi
     algebra *a = s->algebra;
     piece *pieces = room(p->count, sizeof *pieces);
     const int count = pieces_of(a, p, pieces);
-    const double number = common_number(pieces, count);
+    const double number = show_common_number(pieces, count, false);
     bool negative = true;
     for (int i = 0; i < count; i++) {
         negative = negative && pieces[i].coefficient < 0.0;
@@ -165,27 +231,39 @@ static void show_group(const show *s, const poly *p, const poly *key, bool leadi
         return;
     }
     const mono *outside = common->terms[0].mono;
-    if (bare && outside->count == 0 && number == 1.0 && !negative) {
+    const wave turning = common_wave(a, inside);
+    const bool plain = outside->count == 0 && number == 1.0 && turning.angle == NULL;
+    if (bare && plain && !negative) {
         show_parted(s, p, leading);
         return;
     }
+    const piece front = {number, outside, turning.angle, turning.sines, turning.cosines};
+    const bool latex = s->style == SHOW_LATEX;
+    bool first = true;
     double top;
     double bottom;
     show_as_fraction(number, &top, &bottom);
     show_sign(s, negative, leading);
-    const piece front = {top, outside, NULL, 0, 0};
-    bool first = true;
-    if (top != 1.0) {
-        show_separate(s, &first);
-        show_number(s, top);
+    if (latex && !plain) {
+        show_product(s, &front, number);
+        first = false;
+    } else if (!plain) {
+        if (top != 1.0) {
+            show_separate(s, &first);
+            show_number(s, top);
+        }
+        show_factors(s, &front, 1, &first);
     }
-    show_factors(s, &front, 1, &first);
     show_separate(s, &first);
-    fputs(s->style == SHOW_LATEX ? "\\left(" : "(", s->out);
-    show_sum(s, inside, true);
-    fputs(s->style == SHOW_LATEX ? "\\right)" : ")", s->out);
+    fputs(latex ? "\\left(" : "(", s->out);
+    if (turning.angle == NULL && has_symbols_only(inside)) {
+        show_parted(s, inside, true);
+    } else {
+        show_sum(s, inside, turning, true);
+    }
+    fputs(latex ? "\\right)" : ")", s->out);
     show_behind(s, key);
-    const int below = show_count_below(&front) + (bottom != 1.0);
+    const int below = latex ? 0 : show_count_below(&front) + (bottom != 1.0);
     if (below > 0) {
         fputs(below > 1 ? "/(" : "/", s->out);
         first = true;
@@ -249,7 +327,7 @@ void show_poly(const show *s, const poly *p) {
     collected *groups = room(p->count, sizeof *groups);
     const int count = collect(a, p, groups);
     if (algebra_overflow(a)) { /* products are not to be had any more: the terms as they are */
-        show_sum(s, p, true);
+        show_sum(s, p, (wave){NULL, 0, 0}, true);
     } else {
         bool leading = true;
         for (int rank = PRIMES_MAX; rank >= 0; rank--) {

@@ -16,6 +16,18 @@ typedef struct show {
     const void *names;
 } show;
 
+/* A row of LaTeX, "LEFT &= RIGHT", that is broken into lines of at most 100 visible characters. */
+typedef struct show_row {
+    FILE *out;
+    char *text;
+    size_t length;
+    show inner;
+} show_row;
+
+/* Returns what the row is written with. In text it is written as it stands. */
+show *show_row_begin(show_row *row, const show *s);
+void show_row_end(show_row *row);
+
 show show_start(FILE *out, show_style style, algebra *a);
 
 /* A symbol with its primes: theta1'', \ddot{\theta}_{1}. */

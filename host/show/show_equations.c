@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "host/base/room.h"
 #include "host/lang/shown.h"
 #include "host/number/zero.h"
 #include "show.h"
@@ -53,10 +54,13 @@ static void write_left_side(const show *s, const equations *e, int i) {
 }
 
 void show_equation(const show *s, const equations *e, int i) {
-    fputs("  ", s->out);
-    write_left_side(s, e, i);
-    fputs(s->style == SHOW_LATEX ? " &= " : " = ", s->out);
-    show_poly(s, e->applied[i]);
+    show_row row;
+    const show *to = show_row_begin(&row, s);
+    fputs("  ", to->out);
+    write_left_side(to, e, i);
+    fputs(s->style == SHOW_LATEX ? " &= " : " = ", to->out);
+    show_poly(to, e->applied[i]);
+    show_row_end(&row);
 }
 
 /* What the records of a run show, and its unit there. */
@@ -184,12 +188,11 @@ bool show_closed_form(const equations *e, const poly **top, const poly **bottom)
 static void reduce(algebra *a, const poly **top, const poly **bottom) {
     const poly *both = poly_add(a, *top, poly_scale(a, *bottom, 0.7390851332151607));
     const poly *inverse = poly_pow(a, show_common(a, both), -1.0);
-    double number = (double)INFINITY;
-    for (int i = 0; i < (*top)->count + (*bottom)->count; i++) {
-        const poly_term *t =
-            i < (*top)->count ? &(*top)->terms[i] : &(*bottom)->terms[i - (*top)->count];
-        number = number_least(number, fabs(t->coefficient));
-    }
+    piece *pieces = room((*top)->count + (*bottom)->count, sizeof *pieces);
+    int count = pieces_of(a, *top, pieces);
+    count += pieces_of(a, *bottom, pieces + count);
+    const double number = show_common_number(pieces, count, true);
+    free(pieces);
     *top = poly_scale(a, poly_mul(a, *top, inverse), 1.0 / number);
     *bottom = poly_scale(a, poly_mul(a, *bottom, inverse), 1.0 / number);
 }
@@ -333,10 +336,13 @@ void show_latex(FILE *out, const equations *e) {
     }
     fprintf(out, "%% solved for the highest derivatives\n\\begin{align}\n");
     for (int i = 0; i < e->count; i++) {
-        fputs("  ", out);
-        write_highest(&s, e, i);
-        fputs(" &= ", out);
-        show_fraction(&s, top[i], bottom);
+        show_row row;
+        const show *to = show_row_begin(&row, &s);
+        fputs("  ", to->out);
+        write_highest(to, e, i);
+        fputs(" &= ", to->out);
+        show_fraction(to, top[i], bottom);
+        show_row_end(&row);
         fputs(i + 1 < e->count ? " \\\\\n" : "\n", out);
     }
     fprintf(out, "\\end{align}\n");

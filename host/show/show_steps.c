@@ -31,10 +31,13 @@ static const poly *force_of_kind(const equations *e, term_kind kind, int i) {
 static void write_slope(const show *s, const char *before, const char *of, const symbol *by,
                         int primes, const char *behind, const poly *value) {
     const bool latex = s->style == SHOW_LATEX;
-    fprintf(s->out, latex ? "  %s\\frac{\\partial %s}{\\partial " : "  %sd%s/d", before, of);
-    show_symbol(s, by, primes);
-    fprintf(s->out, latex ? "}%s &= " : "%s = ", behind);
-    show_poly(s, value);
+    show_row row;
+    const show *to = show_row_begin(&row, s);
+    fprintf(to->out, latex ? "  %s\\frac{\\partial %s}{\\partial " : "  %sd%s/d", before, of);
+    show_symbol(to, by, primes);
+    fprintf(to->out, latex ? "}%s &= " : "%s = ", behind);
+    show_poly(to, value);
+    show_row_end(&row);
     fputs(latex ? " \\\\\n" : "\n", s->out);
 }
 
@@ -57,10 +60,13 @@ static void write_coordinate(const show *s, const equations *e, int i) {
         write_slope(s, "", "F", q, 1, "", loss);
     }
     if (!poly_is_zero(outside)) {
-        fputs(latex ? "  Q_{" : "  Q(", s->out);
-        show_symbol(s, q, 0);
-        fputs(latex ? "} &= " : ") = ", s->out);
-        show_poly(s, outside);
+        show_row row;
+        const show *to = show_row_begin(&row, s);
+        fputs(latex ? "  Q_{" : "  Q(", to->out);
+        show_symbol(to, q, 0);
+        fputs(latex ? "} &= " : ") = ", to->out);
+        show_poly(to, outside);
+        show_row_end(&row);
         fputs(latex ? " \\\\\n" : "\n", s->out);
     }
     show_equation(s, e, i);
@@ -74,8 +80,12 @@ void show_steps(FILE *out, const equations *e, show_style style) {
     const char *prefix = latex ? "% " : "";
     fprintf(out, "%s%s: Lagrange's equations, d/dt(dL/dq') - dL/dq = -dF/dq' + Q\n", prefix,
             e->instance->mechanism->name);
-    fputs(latex ? "\\begin{align}\n  L = T - V &= " : "\n  L = T - V = ", out);
-    show_poly(&s, lagrangian);
+    fputs(latex ? "\\begin{align}\n" : "\n", out);
+    show_row row;
+    const show *to = show_row_begin(&row, &s);
+    fputs(latex ? "  L = T - V &= " : "  L = T - V = ", to->out);
+    show_poly(to, lagrangian);
+    show_row_end(&row);
     fputs(latex ? "\n\\end{align}\n" : "\n", out);
     for (int i = 0; i < e->count; i++) {
         write_coordinate(&s, e, i);

@@ -112,9 +112,38 @@ void show_number(const show *s, double value) {
 static void show_open(const show *s) { fputs(s->style == SHOW_LATEX ? "\\left(" : "(", s->out); }
 static void show_close(const show *s) { fputs(s->style == SHOW_LATEX ? "\\right)" : ")", s->out); }
 
-static void show_call(const show *s, function_id function, const poly *x, const poly *y) {
+static void show_exponent(const show *s, double exponent);
+
+static bool has_power_before(function_id f) {
+    static const function_id of[] = {FN_SIN, FN_COS, FN_TAN, FN_SINH, FN_COSH, FN_TANH};
+    bool found = false;
+    for (size_t i = 0; i < sizeof of / sizeof of[0]; i++) {
+        found = found || f == of[i];
+    }
+    return found;
+}
+
+/* One symbol, which needs no parentheses in LaTeX. */
+static bool is_symbol(const poly *p) {
+    return p->count == 1 && p->terms[0].coefficient == 1.0 && p->terms[0].mono->trig == TRIG_NONE &&
+           p->terms[0].mono->count == 1 && p->terms[0].mono->factors[0].exponent == 1.0 &&
+           p->terms[0].mono->factors[0].atom->kind == ATOM_SYMBOL;
+}
+
+/* A call with its exponent: sin(x)^2, \sin^{2} x. */
+static void show_call(const show *s, function_id function, const poly *x, const poly *y,
+                      double exponent) {
     const bool latex = s->style == SHOW_LATEX;
+    const bool before = latex && has_power_before(function);
     fputs(latex ? function_latex(function) : function_name(function), s->out);
+    if (before) {
+        show_exponent(s, exponent);
+    }
+    if (before && is_symbol(x)) {
+        fputs(" ", s->out);
+        show_poly(s, x);
+        return;
+    }
     show_open(s);
     show_poly(s, x);
     if (y != NULL) {
@@ -122,6 +151,9 @@ static void show_call(const show *s, function_id function, const poly *x, const 
         show_poly(s, y);
     }
     show_close(s);
+    if (!before) {
+        show_exponent(s, exponent);
+    }
 }
 
 void show_grouped(const show *s, const poly *p) {
@@ -209,7 +241,7 @@ static void show_atom(const show *s, const atom *x, double exponent) {
         show_symbol(s, x->symbol, x->primes);
         fputs(braced ? "}" : "", s->out);
         break;
-    case ATOM_CALL: show_call(s, x->function, x->argument[0], x->argument[1]); break;
+    case ATOM_CALL: show_call(s, x->function, x->argument[0], x->argument[1], exponent); return;
     case ATOM_GROUP: show_grouped(s, x->argument[0]); break;
     case ATOM_POWER:
         if (raised) {
@@ -264,8 +296,7 @@ void show_factors(const show *s, const piece *p, int side, bool *first) {
             const int exponent = wave == 0 ? p->sines : p->cosines;
             if (exponent > 0) {
                 show_separate(s, first);
-                show_call(s, wave == 0 ? FN_SIN : FN_COS, p->angle, NULL);
-                show_exponent(s, exponent);
+                show_call(s, wave == 0 ? FN_SIN : FN_COS, p->angle, NULL, exponent);
             }
         }
     }

@@ -7,6 +7,9 @@
 
 /* value = top / bottom with small whole numbers? If not, top is the value and bottom 1. */
 bool show_as_fraction(double value, double *top, double *bottom);
+/* A number that belongs in front of a sum with these coefficients: all tops and all bottoms of their fractions have its
+ * top and its bottom. With `whole`, the coefficients become whole numbers. */
+double show_common_number(const piece *pieces, int count, bool whole);
 void show_number(const show *s, double value);
 /* Where a factor stands in a product: 0 parameters, 1 inputs, 2 coordinates, then the rest. */
 int show_rank(const atom *x);

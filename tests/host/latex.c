@@ -4,6 +4,8 @@
 #include <ctype.h>
 #include <stdbool.h>
 #include <stddef.h>
+#include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 /* TeX's own limit on groups is 255, with a few for the page around. */
@@ -13,6 +15,7 @@ typedef struct reader {
     const char *at;
     const char *problem;
     int depth;
+    int width; /* of the row so far */
 } reader;
 
 static void list(reader *r, char until);
@@ -47,23 +50,35 @@ static void command(reader *r, const char *name, size_t length) {
     static const struct {
         const char *name;
         int arguments;
-    } known[] = {{"frac", 2},   {"sqrt", 1},         {"dot", 1},  {"ddot", 1},
-                 {"mathrm", 1}, {"operatorname", 1}, {"sin", 0},  {"cos", 0},
-                 {"tan", 0},    {"exp", 0},          {"sinh", 0}, {"cosh", 0},
-                 {"tanh", 0},   {"min", 0},          {"max", 0},  {"cdot", 0}};
+    } known[] = {{"frac", 2},         {"sqrt", 1},    {"dot", 1},   {"ddot", 1}, {"mathrm", 1},
+                 {"operatorname", 1}, {"sin", 0},     {"cos", 0},   {"tan", 0},  {"exp", 0},
+                 {"sinh", 0},         {"cosh", 0},    {"tanh", 0},  {"min", 0},  {"max", 0},
+                 {"cdot", 0},         {"partial", 0}, {"times", 0}, {"quad", 0}, {"varepsilon", 0}};
+    static const char wide[] = " sin cos tan exp sinh cosh tanh min max ";
+    const bool is_quad = length == 4 && strncmp(name, "quad", 4) == 0;
     static const char greek[] =
         " alpha beta gamma delta epsilon zeta eta theta iota kappa lambda mu nu xi rho sigma tau phi chi "
         "psi omega Gamma Delta Theta Lambda Xi Sigma Phi Psi Omega ";
     for (size_t i = 0; i < sizeof known / sizeof known[0]; i++) {
         if (strlen(known[i].name) == length && memcmp(known[i].name, name, length) == 0) {
+            const int before = r->width;
+            int widest = 0;
             for (int k = 0; k < known[i].arguments && r->problem == NULL; k++) {
+                r->width = before;
                 argument(r);
+                widest = r->width - before > widest ? r->width - before : widest;
             }
+            const char *at = strstr(wide, known[i].name);
+            r->width = before + (known[i].arguments > 0 ? widest
+                                 : at != NULL           ? (int)length
+                                 : is_quad              ? 2
+                                                        : 1);
             return;
         }
     }
     for (const char *at = greek; at != NULL; at = strchr(at + 1, ' ')) {
         if (strncmp(at + 1, name, length) == 0 && at[1 + length] == ' ') {
+            r->width++;
             return;
         }
     }
@@ -88,12 +103,19 @@ static void nucleus(reader *r) {
             }
             list(r, ')');
             r->at += r->problem == NULL ? strlen("\\right)") : 0;
+            r->width += 2;
+        } else if (strncmp(name, "begin{aligned}", 14) == 0) {
+            r->at = name + 14;
+            list(r, 'e');
+            r->at += r->problem == NULL ? strlen("\\end{aligned}") : 0;
         } else {
             command(r, name, length);
         }
     } else if (c == '\\' && (r->at[1] == '_' || r->at[1] == ',')) {
+        r->width += r->at[1] == '_';
         r->at += 2;
     } else if (isalnum((unsigned char)c) || (c != '\0' && strchr("+-=/.,()", c) != NULL)) {
+        r->width += strchr("+-=", c) != NULL ? 3 : 1;
         r->at++;
     } else {
         fail(r, "a character that means something else here");
@@ -102,18 +124,26 @@ static void nucleus(reader *r) {
 
 /* Up to the '}', the \right) or (until 0) the end, which is left in hand. */
 static void list(reader *r, char until) {
+    const int from = r->width;
+    int widest = 0;
+    const bool has_rows = until == '\0' || until == 'e';
     if (++r->depth > DEPTH_MAX) {
         fail(r, "nested too deep for TeX");
     }
     for (skip(r); r->problem == NULL; skip(r)) {
         const bool closes = strncmp(r->at, "\\right)", 7) == 0;
-        if (closes || *r->at == '}' || *r->at == '\0') {
-            if (until != (closes ? ')' : *r->at)) {
+        const bool ends = strncmp(r->at, "\\end{aligned}", 13) == 0;
+        if (closes || ends || *r->at == '}' || *r->at == '\0') {
+            if (until != (closes ? ')' : ends ? 'e' : *r->at)) {
                 fail(r, "something is not closed, or closed twice");
             }
             break;
         }
-        if (until == '\0' && (*r->at == '&' || strncmp(r->at, "\\\\", 2) == 0)) {
+        if (has_rows && (*r->at == '&' || strncmp(r->at, "\\\\", 2) == 0)) {
+            if (*r->at == '\\') {
+                widest = r->width > widest ? r->width : widest;
+                r->width = from;
+            }
             r->at += *r->at == '&' ? 1 : 2;
             continue;
         }
@@ -131,11 +161,54 @@ static void list(reader *r, char until) {
         }
     }
     r->depth--;
+    r->width = widest > r->width ? widest : r->width;
 }
 
 const char *latex_problem(const char *text, const char **at) {
-    reader r = {text, NULL, 0};
+    reader r = {text, NULL, 0, 0};
     list(&r, '\0');
     *at = r.at;
     return r.problem;
+}
+
+int latex_width(const char *text) {
+    reader r = {text, NULL, 0, 0};
+    list(&r, '\0');
+    return r.width;
+}
+
+char *latex_joined(const char *text) {
+    static const struct {
+        const char *mark;
+        const char *joined;
+        int deeper;
+        bool inside; /* an aligned only */
+    } marks[] = {{" \\\\\n    &\\quad \\times", " \\,", 0, true},
+                 {" \\\\\n    &\\quad", "", 0, true},
+                 {" \\\\\n    &= ", " &= ", 0, true},
+                 {"&\\begin{aligned}\n    & ", "", 1, false},
+                 {"\\begin{aligned}\n    & ", "", 1, false},
+                 {"\n  \\end{aligned}", "", -1, true}};
+    char *made = malloc(strlen(text) + 1);
+    size_t length = 0;
+    int depth = 0;
+    while (made != NULL && *text != '\0') {
+        size_t i = 0;
+        const size_t all = sizeof marks / sizeof marks[0];
+        while (i < all && (strncmp(text, marks[i].mark, strlen(marks[i].mark)) != 0 ||
+                           (marks[i].inside && depth == 0))) {
+            i++;
+        }
+        if (i == all) {
+            made[length++] = *text++;
+        } else {
+            length += (size_t)sprintf(made + length, "%s", marks[i].joined);
+            depth += marks[i].deeper;
+            text += strlen(marks[i].mark);
+        }
+    }
+    if (made != NULL) {
+        made[length] = '\0';
+    }
+    return made;
 }

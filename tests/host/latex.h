@@ -8,4 +8,10 @@
  * *at where. `&` and `\\` may stand outside all braces. */
 const char *latex_problem(const char *text, const char **at);
 
+/* The visible characters of its widest row: a fraction is as wide as its wider side, a sign has a blank on both sides. */
+int latex_width(const char *text);
+
+/* The text with the rows of each `aligned` in one line, so that each equation is a line; to be freed. */
+char *latex_joined(const char *text);
+
 #endif

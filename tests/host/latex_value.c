@@ -271,20 +271,31 @@ static latex_number symbol_with(reader *r, const char *stem, int primes) {
     return found;
 }
 
+/* A call with its exponent before the argument, or without one. An argument without parentheses is one symbol. */
 static latex_number called(reader *r, const char *name) {
     const function *f = function_called(name);
     if (f == NULL) {
         return fail_named(r, "no function of tests/host/latex_value.c", name);
     }
-    need(r, "\\left(");
-    const latex_number x = sum(r);
+    latex_number exponent = latex_constant(1.0, 0.0);
+    const bool raised = take(r, "^");
+    latex_number x;
     latex_number y = nothing;
-    if (f->arguments == 2) {
-        need(r, ",");
-        y = sum(r);
+    exponent = raised ? braced(r) : exponent;
+    if (take(r, "\\left(")) {
+        x = sum(r);
+        if (f->arguments == 2) {
+            need(r, ",");
+            y = sum(r);
+        }
+        need(r, "\\right)");
+    } else {
+        char stem[NAME_MAX_LENGTH + 1];
+        letters(r, stem);
+        x = symbol_with(r, stem, 0);
     }
-    need(r, "\\right)");
-    return call_of(r, f->value, &x, &y);
+    const latex_number value = call_of(r, f->value, &x, &y);
+    return raised ? power(r, &value, &exponent) : value;
 }
 
 static latex_number after_command(reader *r) {

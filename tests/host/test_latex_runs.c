@@ -3,12 +3,15 @@
  * gives, in double; so are the printed closed forms. How far the two may be apart follows from the state: the printed
  * digits and the roundings of both, carried through their formulas and through the inverse of the matrix. Every built-in
  * scene, tests/mechanisms, and generated mechanisms; PRINTED_MECHANISMS=N in the environment takes N of these. */
+#define _POSIX_C_SOURCE 200809L
+
 #include <float.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "latex.h"
 #include "latex_value.h"
 #include "mechanism.h"
 #include "printed.h"
@@ -245,6 +248,25 @@ static bool run_there(comparison *c) {
     return finite;
 }
 
+/* What stands between begin{align} and end{align} compiles, and no row is wider than a page. */
+static void check_widths(const char *name, const char *text) {
+    enum { PAGE = 100 };
+    static const char begin[] = "\\begin{align}";
+    for (const char *at = text; (at = strstr(at, begin)) != NULL;) {
+        at += strlen(begin);
+        const char *end = strstr(at, "\\end{align}");
+        const char *where;
+        char *block = strndup(at, (size_t)(end - at));
+        TEST_ASSERT_NULL_MESSAGE(latex_problem(block, &where), name);
+        const int width = latex_width(block);
+        if (width > PAGE) {
+            printf("  %s: a row of %d characters\n", name, width);
+        }
+        TEST_ASSERT_TRUE_MESSAGE(width <= PAGE, name);
+        free(block);
+    }
+}
+
 /* Returns how many highest derivatives were compared. */
 static int compare_all(const char *name, derived *d) {
     const equations *e = d->equations;
@@ -259,7 +281,11 @@ static int compare_all(const char *name, derived *d) {
     diags *errors = diags_new();
     image *im = image_make(e, NULL, &plainly, IMAGE_TO_WRITE, errors);
     TEST_ASSERT_NOT_NULL_MESSAGE(im, name);
-    char *text = printed(d, LATEX);
+    char *rows = printed(d, LATEX);
+    check_widths(name, rows);
+    char *text = latex_joined(rows);
+    free(rows);
+    TEST_ASSERT_NOT_NULL(text);
     comparison c = {.name = name, .of = d, .image = im};
     uint64_t seed = SEED;
     static const char begin[] = "\\begin{align}\n";
