@@ -4,7 +4,7 @@
 
 #include "commands.h"
 #include "host/derive/symmetry.h"
-#include "host/show/show.h"
+#include "host/show/show_equations.h"
 #include "load.h"
 #include "target.h"
 
@@ -150,7 +150,8 @@ static void print_text(const show *s, const equations *e, const symmetry *of, in
 
 static void print_latex(const show *s, const equations *e, const symmetry *of, int number) {
     fprintf(s->out, "%% ");
-    const show plain = show_start(s->out, SHOW_TEXT, s->algebra);
+    show plain = *s;
+    plain.style = SHOW_TEXT;
     print_motion(&plain, e, of);
     fputs("\n\\begin{align}\n", s->out);
     const poly *const side[2] = {of->momentum, force_along(e, of)};
@@ -181,8 +182,10 @@ static void print_broken(const show *s, const equations *e, const char *prefix) 
 }
 
 static void print_all(const equations *e, const symmetries *found, bool latex) {
-    const show s = show_start(stdout, latex ? SHOW_LATEX : SHOW_TEXT, e->algebra);
-    const show plain = show_start(stdout, SHOW_TEXT, e->algebra);
+    show s = show_start(stdout, latex ? SHOW_LATEX : SHOW_TEXT, e->algebra);
+    show_lets_begin(&s, e);
+    show plain = s;
+    plain.style = SHOW_TEXT;
     const char *prefix = latex ? "% " : "";
     const mechanism *m = e->instance->mechanism;
     printf("%s%s%s%s\n", prefix, m->name, m->title[0] != '\0' ? ": " : "", m->title);
@@ -212,6 +215,8 @@ static void print_all(const equations *e, const symmetries *found, bool latex) {
         printf("%snot decided: a direction or rotation that is not affine in these coordinates\n",
                prefix);
     }
+    show_lets_end(&s, latex ? "% with\n\\begin{align}\n" : "with\n", latex ? " \\\\\n" : "\n",
+                  latex ? "\n\\end{align}\n" : "\n");
 }
 
 /* --- the command ----------------------------------------------------------------------------------------*/

@@ -45,8 +45,34 @@ static wave common_wave(algebra *a, const poly *p) {
     return common.sines + common.cosines > 0 ? common : (wave){NULL, 0, 0};
 }
 
+/* ratio * let. */
+static void show_named(const show *s, const symbol *let, double ratio, bool leading) {
+    show_sign(s, ratio < 0.0, leading);
+    double top;
+    double bottom;
+    show_as_fraction(fabs(ratio), &top, &bottom);
+    const mono none = {0};
+    const piece number = {fabs(ratio), &none, NULL, 0, 0};
+    if (top != 1.0 || bottom != 1.0) {
+        bool first = false;
+        show_product(s, &number, fabs(ratio));
+        show_separate(s, &first);
+    }
+    show_symbol(s, let, 0);
+}
+
 /* The terms of p, without what stands before their parentheses. */
 static void show_sum(const show *s, const poly *p, wave without, bool leading) {
+    double ratio;
+    const poly *rest;
+    const symbol *let = without.angle == NULL ? show_let(s, p, false, &rest, &ratio) : NULL;
+    if (let != NULL) {
+        show_named(s, let, ratio, leading);
+        if (!poly_is_zero(rest)) {
+            show_sum(s, rest, without, false);
+        }
+        return;
+    }
     piece *pieces = room(p->count, sizeof *pieces);
     const int count = pieces_of(s->algebra, p, pieces);
     for (int i = 0; i < count; i++) {
@@ -161,6 +187,16 @@ static void show_group(const show *s, const poly *p, const poly *key, bool leadi
 
 /* A sum without rates and without a factor common to all: K1*(X - L1) + K2*(...). */
 static void show_parted(const show *s, const poly *p, bool leading) {
+    double ratio;
+    const poly *rest;
+    const symbol *let = show_let(s, p, false, &rest, &ratio);
+    if (let != NULL) {
+        show_named(s, let, ratio, leading);
+        if (!poly_is_zero(rest)) {
+            show_parted(s, rest, false);
+        }
+        return;
+    }
     const atom *shared = shared_parameter(p);
     algebra *a = s->algebra;
     const poly *one = poly_number(a, 1.0);
@@ -203,6 +239,14 @@ static void show_behind(const show *s, const poly *key) {
 /* sign and size * common * (inside) * key / below, each part left out where it is one. */
 static void show_group(const show *s, const poly *p, const poly *key, bool leading) {
     algebra *a = s->algebra;
+    double ratio;
+    const poly *rest;
+    const symbol *let = show_let(s, p, true, &rest, &ratio);
+    if (let != NULL) {
+        show_named(s, let, ratio, leading);
+        show_behind(s, key);
+        return;
+    }
     piece *pieces = room(p->count, sizeof *pieces);
     const int count = pieces_of(a, p, pieces);
     const double number = show_common_number(pieces, count, false);
@@ -255,13 +299,17 @@ static void show_group(const show *s, const poly *p, const poly *key, bool leadi
         show_factors(s, &front, 1, &first);
     }
     show_separate(s, &first);
-    fputs(latex ? "\\left(" : "(", s->out);
-    if (turning.angle == NULL && has_symbols_only(inside)) {
-        show_parted(s, inside, true);
+    if (turning.angle == NULL && show_let(s, inside, true, &rest, &ratio) != NULL) {
+        show_grouped(s, inside);
     } else {
-        show_sum(s, inside, turning, true);
+        fputs(latex ? "\\left(" : "(", s->out);
+        if (turning.angle == NULL && has_symbols_only(inside)) {
+            show_parted(s, inside, true);
+        } else {
+            show_sum(s, inside, turning, true);
+        }
+        fputs(latex ? "\\right)" : ")", s->out);
     }
-    fputs(latex ? "\\right)" : ")", s->out);
     show_behind(s, key);
     const int below = latex ? 0 : show_count_below(&front) + (bottom != 1.0);
     if (below > 0) {

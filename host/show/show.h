@@ -14,7 +14,9 @@ typedef struct show {
     algebra *algebra;
     const char *(*name)(const void *names, const symbol *sym, int primes); /* NULL: the file's */
     const void *names;
+    struct show_lets *lets; /* names of the file for sums; NULL: none */
 } show;
+typedef struct show_lets show_lets;
 
 /* A row of LaTeX, "LEFT &= RIGHT", that is broken into lines of at most 100 visible characters. */
 typedef struct show_row {

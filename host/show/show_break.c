@@ -18,7 +18,8 @@ typedef struct span {
 
 static bool begins(span s, const char *word) {
     const size_t length = strlen(word);
-    return (size_t)(s.end - s.from) >= length && strncmp(s.from, word, length) == 0;
+    return *s.from == *word && (size_t)(s.end - s.from) >= length &&
+           strncmp(s.from, word, length) == 0;
 }
 
 /* Depth of what holds terms together: +1 where it opens, -1 where it closes. */

@@ -299,9 +299,45 @@ static void write_first_order(const show *s, const equations *e) {
     }
 }
 
+void show_lets_end(show *s, const char *heading, const char *behind, const char *footing) {
+    show_lets *lets = s->lets;
+    char **text = room(lets->count, sizeof *text);
+    size_t length;
+    int used = 0;
+    FILE *out = s->out;
+    for (int i = lets->count - 1; i >= 0; i--) { /* a definition may name those before it */
+        lets->below = i;
+        if (lets->row[i].used) {
+            s->out = room_text(&text[i], &length);
+            show_row row;
+            const show *to = show_row_begin(&row, s);
+            fputs("  ", to->out);
+            show_symbol(to, lets->row[i].let, 0);
+            fputs(s->style == SHOW_LATEX ? " &= " : " = ", to->out);
+            show_poly(to, lets->row[i].value);
+            show_row_end(&row);
+            room_text_end(s->out);
+            used++;
+        }
+    }
+    s->out = out;
+    fputs(used > 0 ? heading : "", out);
+    for (int i = 0; i < lets->count; i++) {
+        if (text[i] != NULL) {
+            used--;
+            fprintf(out, "%s%s", text[i], used > 0 ? behind : footing);
+            free(text[i]);
+        }
+    }
+    free(text);
+    free(lets);
+    s->lets = NULL;
+}
+
 void show_text(FILE *out, const equations *e) {
-    const show s = show_start(out, SHOW_TEXT, e->algebra);
+    show s = show_start(out, SHOW_TEXT, e->algebra);
     const bool system = e->instance->mechanism->is_system;
+    show_lets_begin(&s, e);
     write_names(&s, e);
     fprintf(out, system ? "\nequations\n\n"
                         : "\nequations of motion, d/dt(dL/dq') - dL/dq = -dF/dq' + Q\n\n");
@@ -317,12 +353,31 @@ void show_text(FILE *out, const equations *e) {
     }
     show_events(out, e, "", "events inside a step, in the order in which they are taken:\n");
     write_first_order(&s, e);
+    show_lets_end(&s, "\nwith\n\n", "\n", "\n");
+}
+
+/* The highest derivatives as fractions. */
+static void write_solved(const show *s, const equations *e, const poly *const *top,
+                         const poly *bottom) {
+    fprintf(s->out, "%% solved for the highest derivatives\n\\begin{align}\n");
+    for (int i = 0; i < e->count; i++) {
+        show_row row;
+        const show *to = show_row_begin(&row, s);
+        fputs("  ", to->out);
+        write_highest(to, e, i);
+        fputs(" &= ", to->out);
+        show_fraction(to, top[i], bottom);
+        show_row_end(&row);
+        fputs(i + 1 < e->count ? " \\\\\n" : "\n", s->out);
+    }
+    fprintf(s->out, "\\end{align}\n");
 }
 
 void show_latex(FILE *out, const equations *e) {
-    const show s = show_start(out, SHOW_LATEX, e->algebra);
+    show s = show_start(out, SHOW_LATEX, e->algebra);
     const poly *top[2];
     const poly *bottom;
+    show_lets_begin(&s, e);
     fprintf(out, "%% %s: equations of motion\n", e->instance->mechanism->name);
     show_events(out, e, "% ", "the motion between events; inside a step:");
     fprintf(out, "\\begin{align}\n");
@@ -331,19 +386,8 @@ void show_latex(FILE *out, const equations *e) {
         fputs(i + 1 < e->count ? " \\\\\n" : "\n", out);
     }
     fprintf(out, "\\end{align}\n");
-    if (!show_closed_form(e, top, &bottom)) {
-        return;
+    if (show_closed_form(e, top, &bottom)) {
+        write_solved(&s, e, top, bottom);
     }
-    fprintf(out, "%% solved for the highest derivatives\n\\begin{align}\n");
-    for (int i = 0; i < e->count; i++) {
-        show_row row;
-        const show *to = show_row_begin(&row, &s);
-        fputs("  ", to->out);
-        write_highest(to, e, i);
-        fputs(" &= ", to->out);
-        show_fraction(to, top[i], bottom);
-        show_row_end(&row);
-        fputs(i + 1 < e->count ? " \\\\\n" : "\n", out);
-    }
-    fprintf(out, "\\end{align}\n");
+    show_lets_end(&s, "% with\n\\begin{align}\n", " \\\\\n", "\n\\end{align}\n");
 }

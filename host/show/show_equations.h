@@ -16,6 +16,12 @@ void show_latex(FILE *out, const equations *e);
 /* One equation of motion: "LEFT = RIGHT", in LaTeX "LEFT &= RIGHT". */
 void show_equation(const show *s, const equations *e, int i);
 
+/* From here on, sums and functions that have a name in the file (`let`) are printed by it. */
+void show_lets_begin(show *s, const equations *e);
+/* The definitions of those that were printed: `heading`, rows with `behind` between them, `footing`; nothing where there
+ * are none. */
+void show_lets_end(show *s, const char *heading, const char *behind, const char *footing);
+
 /* y(1) ... y(N): values first, then rates, and so on, as the dissertation numbers them. */
 int show_y_number(const equations *e, int unknown_index, int primes);
 

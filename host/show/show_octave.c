@@ -125,6 +125,9 @@ static void name_all(variables *all, const equations *e) {
     for (int i = 0; i < m->input_count; i++) {
         add(all, m->inputs[i], 0, m->inputs[i]->name);
     }
+    for (int i = 0; i < m->let_count; i++) {
+        add(all, m->lets[i], 0, m->lets[i]->name);
+    }
     for (int primes = 0; primes <= PRIMES_MAX; primes++) {
         for (int i = 0; i < e->count; i++) {
             if (primes <= e->unknowns[i].order) {
@@ -168,7 +171,16 @@ void show_octave(FILE *out, const equations *e, bool (*is_free)(const char *name
                     e->instance->parameter_given);
     write_constants(&s, e, m->inputs, m->input_count, e->instance->input, e->instance->input_given);
     write_state(&s, e, false);
+    char *text;
+    size_t length;
+    s.out = room_text(&text, &length); /* definitions come before their use */
+    show_lets_begin(&s, e);
     write_highest(&s, e, &all);
+    room_text_end(s.out);
+    s.out = out;
+    show_lets_end(&s, "", ";\n", ";\n");
+    fputs(text, out);
+    free(text);
     fputs("  dy = [", out);
     write_state(&s, e, true);
     fputs("];\n", out);

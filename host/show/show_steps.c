@@ -74,7 +74,8 @@ static void write_coordinate(const show *s, const equations *e, int i) {
 }
 
 void show_steps(FILE *out, const equations *e, show_style style) {
-    const show s = show_start(out, style, e->algebra);
+    show s = show_start(out, style, e->algebra);
+    show_lets_begin(&s, e);
     const bool latex = style == SHOW_LATEX;
     const poly *lagrangian = poly_sub(e->algebra, e->kinetic, e->stored);
     const char *prefix = latex ? "% " : "";
@@ -90,4 +91,6 @@ void show_steps(FILE *out, const equations *e, show_style style) {
     for (int i = 0; i < e->count; i++) {
         write_coordinate(&s, e, i);
     }
+    show_lets_end(&s, latex ? "% with\n\\begin{align}\n" : "\nwith\n\n", latex ? " \\\\\n" : "\n",
+                  latex ? "\n\\end{align}\n" : "\n");
 }

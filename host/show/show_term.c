@@ -157,6 +157,13 @@ static void show_call(const show *s, function_id function, const poly *x, const 
 }
 
 void show_grouped(const show *s, const poly *p) {
+    double ratio;
+    const poly *rest;
+    const symbol *let = show_let(s, p, true, &rest, &ratio);
+    if (let != NULL && ratio == 1.0) {
+        show_symbol(s, let, 0);
+        return;
+    }
     show_open(s);
     show_poly(s, p);
     show_close(s);
@@ -222,6 +229,11 @@ static void show_exponent(const show *s, double exponent) {
 }
 
 static void show_atom(const show *s, const atom *x, double exponent) {
+    const symbol *let = show_let_factor(s, x, exponent);
+    if (let != NULL) {
+        show_symbol(s, let, 0);
+        return;
+    }
     if (exponent == 0.5) {
         fputs(s->style == SHOW_LATEX ? "\\sqrt{" : "sqrt(", s->out);
         if (x->kind == ATOM_GROUP) {

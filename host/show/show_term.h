@@ -20,6 +20,23 @@ void show_factors(const show *s, const piece *p, int side, bool *first);
 int show_count_below(const piece *p);
 /* size * factors, as a fraction where there is something below; a factor 1 is left out. */
 void show_product(const show *s, const piece *p, double size);
+/* A let, and what it stands for. */
+typedef struct let_row {
+    const symbol *let;
+    const poly *value;
+    bool used;
+} let_row;
+
+struct show_lets {
+    int count;
+    int below; /* only those before this one may be named */
+    let_row row[];
+};
+
+/* The let that is *ratio times a part of p (`whole`: all of it), and *rest of p without it; NULL: none. */
+const symbol *show_let(const show *s, const poly *p, bool whole, const poly **rest, double *ratio);
+/* The let that is this power. */
+const symbol *show_let_factor(const show *s, const atom *x, double exponent);
 /* A sum in parentheses. */
 void show_grouped(const show *s, const poly *p);
 

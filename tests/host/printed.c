@@ -49,6 +49,7 @@ char *printed(const derived *d, language as) {
     case TEXT: show_text(out, d->equations); break;
     case STEPS: show_steps(out, d->equations, SHOW_TEXT); break;
     case LATEX: show_latex(out, d->equations); break;
+    case LATEX_STEPS: show_steps(out, d->equations, SHOW_LATEX); break;
     case FOLDED: derived_octave(out, d, "x.whirl", true); break;
     case OCTAVE: derived_octave(out, d, "x.whirl", false); break;
     }

@@ -9,7 +9,7 @@ typedef void checker(const char *name, derived *d);
 /* Calls `check` for built-in mechanisms and for each of tests/mechanisms. */
 void each_mechanism(checker *check);
 
-typedef enum language { TEXT, STEPS, LATEX, FOLDED, OCTAVE } language;
+typedef enum language { TEXT, STEPS, LATEX, LATEX_STEPS, FOLDED, OCTAVE } language;
 
 /* What one writer prints; free() it. */
 char *printed(const derived *d, language as);

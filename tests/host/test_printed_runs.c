@@ -48,6 +48,14 @@ static double symbol_here(void *context, const char *name, int length) {
             }
         }
     }
+    for (int i = 0; i < m->let_count && primes == 0;
+         i++) { /* check_lets() reads their definitions */
+        const char *let = m->lets[i]->name;
+        if ((int)strlen(let) == length && strncmp(let, name, (size_t)length) == 0) {
+            return poly_evaluate(poly_from_expr(c->of->equations->algebra, m->lets[i]->value),
+                                 state_value, (void *)(uintptr_t)&c->s);
+        }
+    }
     return (double)NAN;
 }
 
@@ -95,6 +103,22 @@ static const char *check_equations(comparison *c, const char *text) {
         line = end + 1;
     }
     return line;
+}
+
+/* "  speed = FORMULA" behind "with": the lets that formulas name. Returns how many. */
+static int check_lets(comparison *c, const char *text) {
+    const char *line = strstr(text, "\nwith\n\n");
+    int count = 0;
+    for (line = line == NULL ? "" : line + 7; *line != '\0'; count++) {
+        const char *end;
+        const char *from = strstr(line, " = ");
+        const double value = value_of(c, from + 3, &end);
+        TEST_ASSERT_EQUAL_INT_MESSAGE('\n', *end, c->name);
+        const double wanted = symbol_here(c, line + 2, (int)(from - line - 2));
+        expect_zero(c, value - wanted, 1.0 + fabs(wanted), "a let");
+        line = end + 1;
+    }
+    return count;
 }
 
 /* "  y3' = theta'' = FORMULA": the accelerations in closed form, where they are printed. */
@@ -255,6 +279,7 @@ static bool accelerate(comparison *c, const image *im) {
 }
 
 static int stepped; /* slopes that were compared with differences */
+static int named;   /* definitions of lets that were */
 
 /* Returns how many formulas were compared. */
 static int compare_all(const char *name, derived *d) {
@@ -280,6 +305,8 @@ static int compare_all(const char *name, derived *d) {
             const char *behind = check_equations(&c, text);
             check_closed_forms(&c, behind);
             check_matrix(&c, behind);
+            named += check_lets(&c, text);
+            named += steps != NULL ? check_lets(&c, steps) : 0;
             stepped += steps != NULL ? check_steps(&c, steps) : 0;
         }
     }
@@ -299,9 +326,10 @@ static int compare_scene(const scene *s) {
 }
 
 static void test_scenes_run_as_printed(void) {
-    stepped = 0;
+    stepped = named = 0;
     TEST_ASSERT_TRUE(each_builtin_scene(compare_scene) > 60);
-    TEST_ASSERT_TRUE(stepped > 1000);
+    printf("  %d definitions of lets compared\n", named);
+    TEST_ASSERT_TRUE(stepped > 1000 && named > 50);
 }
 
 static int files;

@@ -272,9 +272,20 @@ static void test_mechanisms_are_read_back_as_printed(void) {
 
 /* --- more than the algebra takes on ----------------------------------------------------------------*/
 
+/* q, n, and the lets below: a0 = q to a13, g. */
 static double q_or_n(void *context, const char *name, int length) {
     const state_values *s = context;
-    return length != 1 ? (double)NAN : *name == 'q' ? s->value[0][0] : s->instance->parameter[0];
+    const double q = s->value[0][0];
+    const double n = s->instance->parameter[0];
+    const bool is_last = length == 1 && *name == 'g';
+    double a = q;
+    for (int k = 0; k < (is_last ? 13 : (int)strtol(name + 1, NULL, 10)); k++) {
+        a = exp(-fabs(a * q + a + n));
+    }
+    return is_last        ? tan(a) + tan(2.0 * a) + tan(3.0 * a) + tan(4.0 * a) + tan(5.0 * a)
+           : *name == 'a' ? a
+           : *name == 'q' ? q
+                          : n;
 }
 
 /* Factored, this right side would have a square of a large sum in it, multiplied out: that overflows. It used to be
