@@ -19,6 +19,7 @@
 #include "host/base/unwritten.h"
 #include "host/plot/gnuplot.h"
 #include "narrow.h"
+#include "opening.h"
 #include "records.h"
 #include "slow.h"
 #include "summary.h"
@@ -41,6 +42,7 @@ typedef struct simulation {
     traces *traces;  /* NULL without --vcd */
     envelope *plot;  /* NULL without a picture */
     plot_run course; /* names and marks of a picture, and of the file about the CSV file */
+    opening opening; /* of the summary */
     uint64_t steps;  /* wanted */
     bool write_failed;
     diags *undefined; /* what was not a finite number beside the motion */
@@ -203,10 +205,17 @@ static void enter(simulation *sim, uint64_t step) {
     if (step > 0 && (sim->csv != NULL || sim->plot != NULL)) {
         mark_events(sim, step);
     }
-    if (!record && sim->plot == NULL) {
+    const bool opens = !sim->settings->quiet && step % sim->opening.each == 0;
+    if (!record && sim->plot == NULL && !opens) {
         return;
     }
     records_read(sim->records, sim->run, ratio_times(step, sim->image->step));
+    if (opens) {
+        opening_enter(&sim->opening, sim->records);
+    }
+    if (!record && sim->plot == NULL) {
+        return;
+    }
     watch_outputs(sim, sim->records->row[0]);
     if (record) {
         sim->write_failed = !records_write(sim->records) || sim->write_failed;
@@ -386,6 +395,21 @@ FILE *simulation_summary(const simulation_settings *s) {
     return out;
 }
 
+/* For a reader: a sentence, what is to be said of the run, then its numbers. */
+static void print_summary(simulation *sim, wh_status status, simulation_result result,
+                          bool against) {
+    const simulation_settings *s = sim->settings;
+    FILE *out = simulation_summary(s);
+    if (status == WH_OK) {
+        opening_print(out, &sim->opening, sim->records, sim->verdict->books);
+    }
+    summary_head(out, sim->image, s->kind, sim->run);
+    if (result == SIMULATION_DONE && s->findings != NULL) {
+        s->findings(s->context, against);
+    }
+    summary_print(out, sim->image, s->kind, sim->run, sim->verdict->books, &sim->verdict->balance);
+}
+
 simulation_result simulate(const image *im, const simulation_settings *s, bool *against) {
     *against = false;
     simulation sim = {.image = im, .settings = s, .output = -1};
@@ -401,6 +425,8 @@ simulation_result simulate(const image *im, const simulation_settings *s, bool *
         sim.records->out = sim.csv;
         sim.records->plain = sim.columns;
         records_header(sim.records);
+        records_read(sim.records, sim.run, 0.0);
+        sim.opening = opening_begin(sim.records, sim.steps);
         sim.traces = sim.vcd != NULL ? traces_open(sim.vcd, sim.records, s->every) : NULL;
         const wh_status status = loop(&sim, &interrupted);
         verdict_end(sim.verdict, sim.run, status != WH_OK, s->stop);
@@ -418,9 +444,9 @@ simulation_result simulate(const image *im, const simulation_settings *s, bool *
         }
         slow_say(stderr, im, s->kind, sim.run);
         if (!s->quiet) {
-            summary_print(simulation_summary(s), im, s->kind, sim.run, sim.verdict->books,
-                          &sim.verdict->balance);
+            print_summary(&sim, status, result, *against);
         }
+        opening_end(&sim.opening);
         if (result != SIMULATION_BAD_FILE && !finish_course(&sim)) {
             result = SIMULATION_BAD_FILE;
         }

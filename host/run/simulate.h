@@ -24,6 +24,9 @@ typedef struct simulation_settings {
     bool progress;
     double trusted_s; /* behind this time the plot is shaded (host/trust); not above 0: nowhere */
     const volatile sig_atomic_t *stop; /* set from outside to end the run cleanly; may be NULL */
+    /* What is to be said of a run that is done before its numbers; or NULL. `against` as below. */
+    void (*findings)(const void *context, bool against);
+    const void *context;
 } simulation_settings;
 
 typedef enum simulation_result {

@@ -43,8 +43,7 @@ static void print_events(FILE *out, const image *im, const engine_kind *kind, co
     }
 }
 
-void summary_print(FILE *out, const image *im, const engine_kind *kind, void *run, const books *b,
-                   const belief *balance) {
+void summary_head(FILE *out, const image *im, const engine_kind *kind, const void *run) {
     const uint64_t steps = kind->steps(run);
     fprintf(out, "%s%s%s\n", im->name, im->title[0] != '\0' ? ": " : "", im->title);
     for (int i = 0; i < im->effects; i++) {
@@ -54,6 +53,10 @@ void summary_print(FILE *out, const image *im, const engine_kind *kind, void *ru
     }
     fprintf(out, "  %s%s, %s, step %.9g s, %" PRIu64 " steps to t = %.15g s\n", image_stepper(im),
             image_sums(im), kind->name, im->step_s, steps, ratio_times(steps, im->step));
+}
+
+void summary_print(FILE *out, const image *im, const engine_kind *kind, void *run, const books *b,
+                   const belief *balance) {
     print_state(out, im, kind, run);
     if (kind->saturated != NULL) {
         const uint64_t held = kind->saturated(run);

@@ -1,0 +1,57 @@
+#!/bin/sh
+# summary.sh: the summary of `whirl run`: a sentence, what is to be said of the run, then its numbers; the same run has the
+# same summary. What the sentence says is held against the run's records. Scenes are drawn: WHIRL_SEED, WHIRL_CASES.
+. "$(dirname "$0")/../checks.sh"
+
+seed=${WHIRL_SEED:-45}
+"$whirl" list | awk '$1 == "scene" { print $2 }' >"$scratch/scenes"
+awk -v seed="$seed" 'BEGIN { srand(seed) } { print rand(), $0 }' "$scratch/scenes" | sort | awk '{ print $2 }' |
+    head -n "${WHIRL_CASES:-6}" >"$scratch/drawn"
+echo epicyclic_from_rest >>"$scratch/drawn"
+stays=0
+
+# its_way FILE: the sentence against the first and the last row of the records, and each row where a value stays
+its_way() {
+    awk -F, -v sentence="$(head -n 1 "$scratch/out")" '
+        { sub(/\r$/, "") }
+        NR == 1 { for (i = 1; i <= NF; i++) { split($i, part, " "); column[part[1]] = i; name[i] = part[1] } next }
+        { for (i = 1; i <= NF; i++) { if (NR == 2) { first[i] = $i; low[i] = high[i] = $i }
+              last[i] = $i; if ($i < low[i]) { low[i] = $i } if ($i > high[i]) { high[i] = $i } } }
+        function near(a, b,   d) { d = a - b; return (d < 0 ? -d : d) <= 0.0051 * (a < 0 ? -a : a) + 1e-300 }
+        END {
+            sub(/^The momentum of .* within [^;]*; /, "", sentence)
+            if (sentence == "Nothing moves.") { exit !(NR > 2) }
+            n = split(sentence, word, " ")
+            for (i = 1; i <= n; i++) {
+                if (word[i] == "stays") {
+                    c = column[word[i + 2]]
+                    bound = word[i + 7]
+                    exit !(c && near(first[c], word[i + 4]) && high[c] - first[c] <= bound && first[c] - low[c] <= bound)
+                }
+            }
+            found = 0
+            for (i = 1; i < n; i++) {
+                if (word[i] == "from") {
+                    c = column[word[i - 1] == "goes" ? word[i - 2] : word[i - 1]]
+                    if (!c || !near(first[c], word[i + 1]) || !near(last[c], word[i + 4])) { exit 1 }
+                    found++
+                }
+            }
+            exit !found
+        }' "$1"
+}
+
+while read -r scene; do
+    "$whirl" run "$scene" --csv "$scratch/run.csv" >"$scratch/out" 2>"$scratch/err"
+    "$whirl" run "$scene" >"$scratch/again" 2>/dev/null
+    cmp -s "$scratch/out" "$scratch/again"
+    verdict $? "$scene: the same run has the same summary"
+    head -n 1 "$scratch/out" | grep -q '^[A-Za-z].*\.$' && its_way "$scratch/run.csv"
+    verdict $? "$scene: $(head -n 1 "$scratch/out")" "$scratch/out"
+    awk '/^trusted/ { trusted = NR } /^final state/ { state = NR } END { exit !(state > 2 && trusted < state) }' "$scratch/out"
+    verdict $? "$scene: what is to be said stands above the numbers"
+    head -n 1 "$scratch/out" | grep -q 'stays at' && stays=$((stays + 1))
+done <"$scratch/drawn"
+[ "$stays" -gt 0 ]
+verdict $? "$stays scenes with something that stays"
+exit $failed
