@@ -96,6 +96,7 @@ gate-long: $(GEN)/.stamp
 	+@$(call build_board_tests,$(BOARDS_TEST))
 	@WHIRL=build/whirl TEST_SECONDS=900 sh tests/run.sh build/check/log_long \
 	    $(call gated,1,$(wordlist 1,12,$(LONG_SUITES))) $(call gated,2,$(wordlist 13,99,$(LONG_SUITES))) \
+	    "tests/cli/price.sh" "WHIRL_FEW=1 sh tests/cli/price.sh" \
 	    $(call run_cli,$(CLI_FEW) $(filter-out $(CLI_FULL),$(CLI_GATED)))
 
 # --- all cases of what `make test` takes fewer of -----------------------------------------------------------

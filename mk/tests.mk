@@ -125,8 +125,8 @@ run_cli = $(foreach t,$(1),"$(t)" "sh $(t)")
 CLI_GATED := $(foreach t,angle_parts carriage embed_headers embed_names faults figures flags headers map measure odd_values pil plots price \
     price_predicts printed_zeros prove recorded_lists settings_bits structure trust,\
     tests/cli/$(t).sh)
-# Of these, what only `make full` takes: each compares many runs for a minute or more.
-CLI_FULL := $(foreach t,map measure,tests/cli/$(t).sh)
+# Of these, what only `make full` takes: each compares many runs for a minute or more. Of price.sh gate-long takes few cases.
+CLI_FULL := $(foreach t,map measure price,tests/cli/$(t).sh)
 HOST_FULL := belief choice lockin_truth
 CLI_FEW := $(foreach t,emitted_c fixed,tests/cli/$(t).sh)
 HOST_GATED := asked_first belief busy choice contact_bound contact_centres contact_holds contact_load contact_rest contact_start \
