@@ -91,7 +91,7 @@ typedef struct wh_turning {
 /* Look up where the step begins. */
 WH_INLINE void wh_turning_look_up(const wh_waves *waves, const wh_angle *angle, unsigned angles,
                                   wh_phase *told, wh_turning *t) {
-    wh_phase phase[WH_COORDS] = {0};
+    wh_phase phase[WH_COORDS];
     WH_UNROLL
     for (unsigned i = 0; i < angles; i++) {
         phase[i] = wh_phase_of(angle[i]);
@@ -121,7 +121,7 @@ WH_INLINE void wh_far_turns(const wh_real *d, unsigned n, wh_wave *turn) {
 /* What the first turn adds, the angles having these rates: turn[waves->count]. */
 WH_INLINE void wh_turning_by(const wh_tableau *by, const wh_waves *waves, const wh_real *rate,
                              wh_real h, wh_wave *turn) {
-    wh_real d[WH_WAVES] = {0};
+    wh_real d[WH_WAVES];
     wh_real first = WH_R(0.0);
     wh_real all = WH_R(0.0);
     WH_UNROLL
@@ -251,8 +251,8 @@ WH_INLINE wh_wave wh_lean_far(wh_wave at, wh_sine_parts parts, wh_real lean, boo
 WH_INLINE void wh_turning_stage(const wh_tableau *by, const wh_waves *waves, unsigned stage,
                                 wh_real (*gained)[WH_COORDS], unsigned angles, wh_real h,
                                 bool precise, bool far, wh_turning *t, wh_wave *pair) {
-    wh_real of_angles[WH_COORDS] = {0};
-    wh_real lean[WH_WAVES] = {0};
+    wh_real of_angles[WH_COORDS];
+    wh_real lean[WH_WAVES];
     const bool leans = wh_turning_leans(&by->stage[stage], stage, gained, angles, of_angles);
     if (leans) {
         waves->rates(waves->model, h / by->stage[stage].parts, of_angles, lean);
@@ -271,8 +271,8 @@ WH_INLINE void wh_turning_reach(const wh_tableau *by, const wh_waves *waves, uns
                                 wh_given accels, unsigned angles, wh_real h, bool precise,
                                 wh_turning *t, wh_wave *pair) {
     const wh_shares *of = &by->places->reach[stage];
-    wh_real of_angles[WH_COORDS] = {0};
-    wh_real lean[WH_WAVES] = {0};
+    wh_real of_angles[WH_COORDS];
+    wh_real lean[WH_WAVES];
     WH_UNROLL
     for (unsigned i = 0; i < angles; i++) {
         of_angles[i] = wh_stage_sum(of->share, stage, accels, i);
@@ -309,16 +309,11 @@ typedef struct wh_turned_list {
     wh_real given[WH_COORDS]; /* accelerations, or slopes */
 } wh_turned_list;
 
-/* The pairs where a step begins. Only what no scene uses is zeroed: for the compiler, which cannot know. */
-WH_INLINE void wh_turned_take(const wh_waves *waves, const wh_turning *t, unsigned linears,
-                              wh_turned_list *list) {
+/* The pairs where a step begins. */
+WH_INLINE void wh_turned_take(const wh_waves *waves, const wh_turning *t, wh_turned_list *list) {
     WH_UNROLL
-    for (unsigned w = 0; w < WH_WAVES; w++) {
-        list->pair[w] = w < waves->count ? t->at[w] : (wh_wave){WH_R(0.0), WH_R(0.0)};
-    }
-    WH_UNROLL
-    for (unsigned i = linears; i < WH_COORDS; i++) {
-        list->at[i] = WH_R(0.0);
+    for (unsigned w = 0; w < waves->count; w++) {
+        list->pair[w] = t->at[w];
     }
 }
 
@@ -386,13 +381,13 @@ WH_INLINE wh_status wh_turn_second(const void *model, wh_turned_accel_fn *accel,
     k.rate = state->real + (n - angles);
     k.input = state->input;
     wh_turned_list list;
-    wh_wave turn[WH_WAVES] = {{0}};
+    wh_wave turn[WH_WAVES];
 
     if (WH_TURN_ASKS_FIRST && by->stages > 1) {
         wh_turning_by(by, waves, k.rate, h.s, turn);
     }
     wh_turning_look_up(waves, state->angle, angles, told, &k.t);
-    wh_turned_take(waves, &k.t, n - angles, &list);
+    wh_turned_take(waves, &k.t, &list);
     accel(model, list.pair, k.linear, k.rate, k.input, list.given);
     wh_copy(list.given, n, k.a1);
     if (!WH_TURN_ASKS_FIRST && by->stages > 1) {
@@ -445,15 +440,15 @@ WH_INLINE wh_status wh_turn_first(const void *model, wh_turned_slope_fn *slope,
                                   const wh_waves *waves, wh_method method, bool compensated,
                                   unsigned angles, unsigned reals, wh_span h, wh_state *state) {
     const wh_tableau *by = wh_tableau_of(method);
-    wh_turned_first k = {.k1 = {0}};
+    wh_turned_first k;
     wh_turned_list list;
-    wh_wave turn[WH_WAVES] = {{0}};
+    wh_wave turn[WH_WAVES];
 
     if (!wh_method_takes(method, WH_FIRST_ORDER)) {
         return WH_E_ARGUMENT;
     }
     wh_turning_look_up(waves, state->angle, angles, NULL, &k.t);
-    wh_turned_take(waves, &k.t, reals, &list);
+    wh_turned_take(waves, &k.t, &list);
     slope(model, list.pair, state->real, state->input, list.given);
     wh_copy(list.given, angles + reals, k.k1);
     if (by->stages > 1) {

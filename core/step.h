@@ -201,7 +201,7 @@ WH_INLINE wh_status wh_step_first(const void *model, wh_slope_fn *slope, wh_meth
                                   bool compensated, unsigned angles, unsigned reals, wh_span h,
                                   wh_state *state) {
     const wh_tableau *by = wh_tableau_of(method);
-    wh_stepped_first k = {.k1 = {0}};
+    wh_stepped_first k;
     wh_stepped_list list;
 
     if (!wh_method_takes(method, WH_FIRST_ORDER)) {

@@ -137,7 +137,7 @@ WH_INLINE unsigned wh_angles_move(const wh_real *move, wh_span rad_a_move, wh_re
                                   wh_trial *trial) {
     const wh_span per_rad = {WH_PHASE_PER_RAD, WH_PHASE_PER_RAD_REST};
     const wh_span phases = wh_span_times(rad_a_move, per_rad);
-    wh_real steps[WH_COORDS] = {0};
+    wh_real steps[WH_COORDS];
     wh_real all = WH_R(0.0);
     WH_UNROLL
     for (unsigned i = 0; i < angles; i++) {
@@ -235,12 +235,11 @@ WH_INLINE wh_status wh_second_end(const wh_tableau *by, const wh_real *a1,
     const unsigned linears = n - angles;
     const wh_real *linear = state->real;
     const wh_real *rate = state->real + linears;
-    /* zeroed for the compiler, which cannot know that no scene uses what it did not fill */
-    wh_real move[WH_COORDS] = {0};   /* mean rate that moves the position over this step */
-    wh_real gain[WH_COORDS] = {0};   /* sum of the accelerations over its parts */
-    wh_real kick[WH_COORDS] = {0};   /* change of the rate over this step */
-    wh_real pulled[WH_COORDS] = {0}; /* sum of the accelerations that moves the position */
-    wh_trial trial = {0};
+    wh_real move[WH_COORDS];   /* mean rate that moves the position over this step */
+    wh_real gain[WH_COORDS];   /* sum of the accelerations over its parts */
+    wh_real kick[WH_COORDS];   /* change of the rate over this step */
+    wh_real pulled[WH_COORDS]; /* sum of the accelerations that moves the position */
+    wh_trial trial;
 
     WH_UNROLL
     for (unsigned i = 0; i < n; i++) {
@@ -290,7 +289,7 @@ WH_INLINE wh_status wh_first_end(const wh_tableau *by, const wh_real *k1,
     const wh_span part = wh_span_over(h, by->parts);
     const unsigned n = angles + reals;
     wh_real total[WH_COORDS];
-    wh_trial trial = {0};
+    wh_trial trial;
 
     WH_UNROLL
     for (unsigned i = 0; i < n; i++) {
