@@ -37,29 +37,10 @@ static bool take_one(int count, char **words, int *at, void *options, bool *bad)
     return is_json;
 }
 
-static bool read_options(int count, char **words, describe_options *o) {
-    static const char *const own[] = {"--json", NULL};
-    const target_reader reader = {.command = "describe",
-                                  .groups = usage.groups,
-                                  .own = own,
-                                  .take = take_one,
-                                  .derives = true};
-    return target_read(&reader, count, words, &o->common, o, &o->target) &&
-           target_is_there(o->target, &usage);
-}
-
 static int describe_loaded(source_model *from, const describe_options *o) {
-    const mechanism *of;
-    const scene *in;
-    const overrides changes = options_overrides(&o->common.change);
-    const load_wish wish = {
-        .settings = o->common.integration, .use = IMAGE_TO_WRITE, .conserve = true};
     loaded made;
-    int code = source_pick(from, from->model->scene_count == 1, &of, &in);
-    if (code != EXIT_DONE) {
-        return code;
-    }
-    code = load(&made, from, of, in, &changes, &wish);
+    const int code =
+        target_load(&made, from, &o->common, (load_wish){.use = IMAGE_TO_WRITE, .conserve = true});
     source_forget(from);
     if (code == EXIT_DONE && o->as_json) {
         describe_json(stdout, made.image, from->file);
@@ -71,12 +52,13 @@ static int describe_loaded(source_model *from, const describe_options *o) {
 }
 
 int command_describe(int count, char **words) {
+    static const char *const own[] = {"--json", NULL};
     describe_options o = {.common = options_defaults()};
     if (options_help(count, words, &usage)) {
         return EXIT_DONE;
     }
     int code = EXIT_BAD_INPUT;
-    if (read_options(count, words, &o)) {
+    if (target_ask("describe", own, take_one, &usage, count, words, &o.common, &o, &o.target)) {
         source_model from;
         code = source_open(&from, o.target);
         if (code == EXIT_DONE) {

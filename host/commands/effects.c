@@ -219,7 +219,7 @@ static void print_run(const effects_options *o, const subsets *s, uint64_t out) 
             sets[given.set_count++] = s->changes->sets[i];
         }
     }
-    char *words = pricing_words(&given);
+    char *words = pricing_words(&given, false);
     char *target = pricing_quoted(o->target);
     printf("  whirl run %s%s", target, words);
     print_names(s, " --without ", out, ",");

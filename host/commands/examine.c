@@ -233,30 +233,12 @@ static bool take_one(int count, char **words, int *at, void *options, bool *bad)
     return value != NULL;
 }
 
-static bool read_options(int count, char **words, examine_options *o) {
-    static const char *const own[] = {"--as", NULL};
-    const target_reader reader = {.command = "examine",
-                                  .groups = usage.groups,
-                                  .own = own,
-                                  .take = take_one,
-                                  .derives = true};
-    return target_read(&reader, count, words, &o->common, o, &o->target) &&
-           target_is_there(o->target, &usage);
-}
-
 static int examine_loaded(source_model *from, const examine_options *o) {
-    const mechanism *of;
-    const scene *in;
-    const overrides changes = options_overrides(&o->common.change);
-    const load_wish wish = {
-        .settings = o->common.integration, .use = IMAGE_TO_RUN, .keep = KEEP_EQUATIONS};
     loaded made;
-    int code = source_pick(from, from->model->scene_count == 1, &of, &in);
-    if (code != EXIT_DONE) {
-        return code;
-    }
-    code = load(&made, from, of, in, &changes, &wish);
+    int code = target_load(&made, from, &o->common,
+                           (load_wish){.use = IMAGE_TO_RUN, .keep = KEEP_EQUATIONS});
     if (code == EXIT_DONE && made.equations->kinetic == NULL) {
+        const mechanism *of = made.equations->instance->mechanism;
         fprintf(stderr,
                 "%s:%d:%d: error: '%s' is given by equations: its symmetries follow from energies\n"
                 "hint: write T and V\n",
@@ -279,12 +261,13 @@ static int examine_loaded(source_model *from, const examine_options *o) {
 }
 
 int command_examine(int count, char **words) {
+    static const char *const own[] = {"--as", NULL};
     examine_options o = {.common = options_defaults()};
     if (options_help(count, words, &usage)) {
         return EXIT_DONE;
     }
     int code = EXIT_BAD_INPUT;
-    if (read_options(count, words, &o)) {
+    if (target_ask("examine", own, take_one, &usage, count, words, &o.common, &o, &o.target)) {
         source_model from;
         code = source_open(&from, o.target);
         if (code == EXIT_DONE) {

@@ -27,12 +27,7 @@ static const command_usage usage = {
         "  --out FILE           the picture: .svg, .pdf or .png (default: figNUMBER.svg)\n"
         "  --data NAME=FILE     the records called NAME, which then need no run (repeatable)\n",
     .tail = "",
-    .why = {[EXIT_ROW_OF(EXIT_DONE)] = "",
-            [EXIT_ROW_OF(EXIT_RUN_FAILED)] = "a run failed",
-            [EXIT_ROW_OF(EXIT_BAD_INPUT)] = "",
-            [EXIT_ROW_OF(EXIT_INTERRUPTED)] = ""}};
-
-enum { SCENE_GROUPS = OPTIONS_CHANGE | OPTIONS_STEP | OPTIONS_ENGINE | OPTIONS_NUMBER };
+    .why = OPTIONS_WHY_DRAWS};
 
 typedef struct figure_options {
     common_options common; /* looked at by the runs */
@@ -58,12 +53,12 @@ static bool take_one(int count, char **words, int *at, figure_options *o) {
         } else {
             o->given[o->given_count++] = value;
         }
-    } else if (!bad && options_take("figure", SCENE_GROUPS, count, words, at, &o->common, &bad)) {
+    } else if (!bad && options_take("figure", OPTIONS_SCENE, count, words, at, &o->common, &bad)) {
         for (int i = from; i < *at && o->passed_count < WORDS_MOST; i++) {
             o->passed[o->passed_count++] = words[i];
         }
     } else if (!bad && words[*at][0] == '-') {
-        options_unknown("figure", words[*at], SCENE_GROUPS, own);
+        options_unknown("figure", words[*at], OPTIONS_SCENE, own);
         bad = true;
     } else if (!bad && o->name != NULL) {
         fprintf(stderr, "whirl figure: error: one figure at a time, not also '%.60s'\n",
@@ -113,10 +108,11 @@ static int make_data(const figure_options *o, const char *kind, char **word, int
     static char quiet[] = "--quiet";
     static char csv_word[] = "--csv";
     if (kind[0] == 't') {
-        fprintf(stderr,
-                "whirl figure: error: the program alone cannot make %s: %s needs the rig's bench\n"
-                "hint: make figures\n",
-                word[0], word[1]);
+        fprintf(
+            stderr,
+            "whirl figure: error: the records '%s' are made by mk/figures/%s, which only make runs\n"
+            "hint: make figures, or --data %s=FILE.csv\n",
+            word[0], word[1], word[0]);
         return EXIT_BAD_INPUT;
     }
     if (mkdtemp(folder) == NULL) {

@@ -264,14 +264,16 @@ static int list_hard(void) {
     return EXIT_DONE;
 }
 
-/* A line each, of what stands in its description behind "title ". */
+/* A line each, of what stands in its description behind "title "; a `table` is made by a script. */
 static int list_figures(void) {
     for (size_t i = 0; i < builtin_figure_count; i++) {
         const char *file = strrchr(builtin_figures[i].file, '/') + 1;
         const char *name = file + (strncmp(file, "fig", 3) == 0 ? 3 : 0);
-        const char *title = strstr(builtin_figures[i].text, "title ");
-        printf("%-16.*s %.*s\n", (int)strcspn(name, "."), name,
-               title != NULL ? (int)strcspn(title + 6, "\n") : 0, title != NULL ? title + 6 : "");
+        const char *text = builtin_figures[i].text;
+        const char *title = strstr(text, "title ");
+        printf("%-16.*s %.*s%s\n", (int)strcspn(name, "."), name,
+               title != NULL ? (int)strcspn(title + 6, "\n") : 0, title != NULL ? title + 6 : "",
+               strstr(text, "\ntable ") != NULL ? " (make figures)" : "");
     }
     return EXIT_DONE;
 }

@@ -42,7 +42,7 @@ static const command_usage usage = {
         "\n"
         "  --over RANGE         twice: COUNT values of a parameter, an input, a start value or the\n"
         "                       step, even or even in the logarithm; a bare number is SI\n",
-    .groups = OPTIONS_CHANGE | OPTIONS_STEP | OPTIONS_ENGINE | OPTIONS_NUMBER,
+    .groups = OPTIONS_SCENE,
     .tail =
         "  --tolerance 1e-3     part of the range that a coordinate has in a run (default: 1e-3)\n"
         "  --csv FILE           a row for each pair; - is standard output, and the map then goes to\n"

@@ -61,8 +61,16 @@ typedef enum option_group {
     OPTIONS_CHANGE = 1, /* change an instance */
     OPTIONS_ENGINE = 2, /* how to integrate */
     OPTIONS_NUMBER = 4, /* what computes */
-    OPTIONS_STEP = 8    /* the step: of commands that do not choose it themselves */
+    OPTIONS_STEP = 8,   /* the step: of commands that do not choose it themselves */
+    OPTIONS_SCENE = 15  /* all of them: of commands that run scenes as they are asked for */
 } option_group;
+
+/* Why a command ends that draws a picture of runs. */
+#define OPTIONS_WHY_DRAWS \
+    { \
+        [EXIT_ROW_OF(EXIT_DONE)] = "", [EXIT_ROW_OF(EXIT_RUN_FAILED)] = "a run failed", \
+        [EXIT_ROW_OF(EXIT_BAD_INPUT)] = "", [EXIT_ROW_OF(EXIT_INTERRUPTED)] = "" \
+    }
 
 /* A command's help text. */
 typedef struct command_usage {

@@ -28,12 +28,7 @@ static const command_usage usage = {
         "Crosses at the foot of a panel mark events. The shade begins where single values cannot be\n"
         "trusted any more (docs/plot.md).\n",
     .tail = "",
-    .why = {[EXIT_ROW_OF(EXIT_DONE)] = "",
-            [EXIT_ROW_OF(EXIT_RUN_FAILED)] = "a run failed",
-            [EXIT_ROW_OF(EXIT_BAD_INPUT)] = "",
-            [EXIT_ROW_OF(EXIT_INTERRUPTED)] = ""}};
-
-enum { SCENE_GROUPS = OPTIONS_CHANGE | OPTIONS_STEP | OPTIONS_ENGINE | OPTIONS_NUMBER };
+    .why = OPTIONS_WHY_DRAWS};
 
 typedef struct plot_options {
     common_options common; /* looked at by the run */
@@ -61,12 +56,12 @@ static void take_one(int count, char **words, int *at, plot_options *o, bool *ba
         o->out = value;
     } else if (!*bad && (value = options_value(count, words, at, "--legend", bad)) != NULL) {
         o->choice.legend = value;
-    } else if (!*bad && options_take("plot", SCENE_GROUPS, count, words, at, &o->common, bad)) {
+    } else if (!*bad && options_take("plot", OPTIONS_SCENE, count, words, at, &o->common, bad)) {
         for (int i = from; i < *at; i++) {
             o->passed[1 + o->passed_count++] = words[i];
         }
     } else if (!*bad && words[*at][0] == '-') {
-        options_unknown("plot", words[*at], SCENE_GROUPS, own);
+        options_unknown("plot", words[*at], OPTIONS_SCENE, own);
         *bad = true;
     } else if (!*bad) {
         o->target[o->targets++] = words[(*at)++];

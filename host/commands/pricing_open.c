@@ -151,7 +151,7 @@ int pricing_open(pricing *p, const pricing_options *o) {
     p->changes = options_overrides(&o->common.change);
     overrides asked = p->changes;
     asked.until = NULL; /* the lines that name settings have an end of their own */
-    p->words = pricing_words(&asked);
+    p->words = pricing_words(&asked, false);
     p->target = pricing_quoted(o->target);
     if (!find_board(p) || !read_effort(p) || !read_error(p) || !read_ranges(p)) {
         return EXIT_BAD_INPUT;

@@ -31,21 +31,28 @@ char *pricing_quoted(const char *word) {
     return text;
 }
 
-char *pricing_words(const overrides *c) {
+char *pricing_words(const overrides *c, bool as_label) {
     char *text;
     size_t length;
     const struct {
         const char *option;
+        const char *label; /* NULL: stands in no label */
         const char *const *list;
         int count;
-    } parts[] = {{"--set", c->sets, c->set_count},      {"--start", c->starts, c->start_count},
-                 {"--with", c->with, c->with_count},    {"--without", c->without, c->without_count},
-                 {"--step", &c->step, c->step != NULL}, {"--until", &c->until, c->until != NULL}};
+    } parts[] = {{"--set ", "", c->sets, c->set_count},
+                 {"--start ", "", c->starts, c->start_count},
+                 {"--with ", "with ", c->with, c->with_count},
+                 {"--without ", "without ", c->without, c->without_count},
+                 {"--step ", NULL, &c->step, c->step != NULL},
+                 {"--until ", NULL, &c->until, c->until != NULL}};
+    const char *separator = as_label ? "" : " ";
     FILE *out = room_text(&text, &length);
     for (size_t i = 0; i < sizeof parts / sizeof parts[0]; i++) {
-        for (int k = 0; k < parts[i].count; k++) {
-            char *word = pricing_quoted(parts[i].list[k]);
-            fprintf(out, " %s %s", parts[i].option, word);
+        for (int k = 0; k < parts[i].count && (!as_label || parts[i].label != NULL); k++) {
+            char *word =
+                as_label ? room_words("%s", parts[i].list[k]) : pricing_quoted(parts[i].list[k]);
+            fprintf(out, "%s%s%s", separator, as_label ? parts[i].label : parts[i].option, word);
+            separator = as_label ? ", " : " ";
             free(word);
         }
     }

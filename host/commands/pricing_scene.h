@@ -39,7 +39,7 @@ void pricing_scene_free(pricing_scene *p); /* NULL is fine */
 
 /* A word of a command line as a shell takes it: in quotes where it must be. To be freed. */
 char *pricing_quoted(const char *word);
-/* The options that make these changes. To be freed. */
-char *pricing_words(const overrides *c);
+/* The options that make these changes, each behind a blank; or as a label "m=2, with drag", without times. To be freed. */
+char *pricing_words(const overrides *c, bool as_label);
 
 #endif

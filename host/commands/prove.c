@@ -36,7 +36,7 @@ static const command_usage usage = {
         "run is held against it. For smooth scenes: no stops, holds, dry friction or whens. The options\n"
         "are those of `whirl run`, and tell the run that is asked about.\n"
         "\n",
-    .groups = OPTIONS_CHANGE | OPTIONS_STEP | OPTIONS_ENGINE | OPTIONS_NUMBER,
+    .groups = OPTIONS_SCENE,
     .tail =
         "  --within X=1mm       what a coordinate or rate is to be within (repeatable, each name once)\n"
         "  --tolerance 1e-3     of the others: part of the range that each has in the run (default: 1e-3)\n"

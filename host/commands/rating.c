@@ -25,7 +25,7 @@ static void say_none(FILE *out, const rating_wish *w, const char *why, bool pric
         char *target = pricing_quoted(w->target);
         overrides asked = *w->changes;
         asked.step = NULL; /* it tries several */
-        char *changes = pricing_words(&asked);
+        char *changes = pricing_words(&asked, false);
         fprintf(out, "; they are shown by: whirl price %s%s%s%s", target, changes,
                 w->board_word != NULL ? " --board " : "",
                 w->board_word != NULL ? w->board_word : "");
@@ -112,6 +112,9 @@ void rating_say(FILE *out, const rating_wish *w, const trusting *trust, bool dou
 /* Steps as parts and multiples of a record's spacing, all of them decimals; a decade has five. */
 enum { PACES = 32, PACES_LONG = 10 };
 
+/* Of all tries together, whose comparison with the reference takes as long again. */
+#define TRIES_OPERATIONS (TRUSTING_OPERATIONS_1S / 2.0)
+
 /* Pace `i`, from long steps to short ones. */
 static deviation_pace pace_at(int i) {
     static const uint64_t spacings[PACES_LONG] = {50, 40, 25, 20, 16, 10, 8, 5, 4, 2};
@@ -126,26 +129,45 @@ static deviation_pace pace_at(int i) {
     return (deviation_pace){steps, 1};
 }
 
+/* Operations of a run with the error that is allowed, after one with pace and error: an error falls with the order of the
+ * method, in round numbers four orders faster at the most. */
+static double operations_for(trials *t, const setting *s, deviation_pace pace, double error) {
+    const double order = wh_methods[s->image.method].order + 4.0;
+    return trial_operations(t, s, pace) * number_power(error / t->tolerated, 1.0 / order);
+}
+
 /* The first pace that keeps the error; *longest: none was tried before it. False, told: there is none. */
 static bool find_pace(trials *t, const setting *s, deviation_pace *pace, trial_result *r,
                       bool *longest) {
     double least = -1.0;
-    bool ends_early = false; /* shorter ones take more than a second each */
+    double operations = 0.0; /* of all that were tried, and of the one that would be too many */
+    bool ends_early = false;
     *longest = true;
     for (int i = 0; i < PACES && !t->stopped; i++) {
         *pace = pace_at(i);
         if (pace->records > (uint64_t)t->records) {
             continue;
         }
-        if (trial_operations(t, s, *pace) > TRUSTING_OPERATIONS_1S) {
-            ends_early = true;
+        const double more = trial_operations(t, s, *pace);
+        ends_early = operations + more > TRIES_OPERATIONS;
+        if (ends_early) {
+            operations = more;
             break;
         }
+        operations += more;
         *r = trial_run(t, s, *pace);
         if (r->ran && r->usable && r->error <= t->tolerated) {
             return true;
         }
         *longest = false;
+        if (r->ran && r->usable && s->image.matrix == MATRIX_NONE &&
+            operations_for(t, s, *pace, r->error) > TRIES_OPERATIONS) {
+            ends_early = true;
+            operations = operations_for(t, s, *pace, r->error);
+            *pace = pace_at(i + 1);
+            least = least < 0.0 || r->error < least ? r->error : least;
+            break;
+        }
         least = r->ran && r->usable && (least < 0.0 || r->error < least) ? r->error : least;
     }
     if (t->stopped) {
@@ -156,11 +178,18 @@ static bool find_pace(trials *t, const setting *s, deviation_pace *pace, trial_r
     if (least >= 0.0) {
         snprintf(smallest, sizeof smallest, "the smallest is %.2e %s", least, trial_unit(t));
     }
+    char text[TRIAL_TIME];
+    char early[160] = "";
+    if (ends_early) {
+        snprintf(
+            early, sizeof early,
+            "; shorter ones than %s s would take %.1e operations or more, of %.1e for all tries",
+            trial_time(trial_step(t, *pace), text), operations, TRIES_OPERATIONS);
+    }
     fprintf(stderr,
             "whirl run: error: no step that was tried keeps the error: %s%s\n"
             "hint: a --method of higher order%s; `whirl choose` tries every setting\n",
-            smallest, ends_early ? "; shorter steps take more than a second each" : "",
-            s->number == &engine_float ? ", or --number double" : "");
+            smallest, early, s->number == &engine_float ? ", or --number double" : "");
     return false;
 }
 

@@ -17,6 +17,7 @@
 #include "host/run/start.h"
 #include "interrupts.h"
 #include "load.h"
+#include "pricing_scene.h"
 #include "rating.h"
 #include "run.h"
 #include "target.h"
@@ -30,7 +31,7 @@ static const command_usage usage = {
         "SCENE and MECHANISM are built in (`whirl list`), FILE is yours. A mechanism without a scene starts\n"
         "at rest at zero; of a FILE with one scene, that is run.\n"
         "\n",
-    .groups = OPTIONS_CHANGE | OPTIONS_STEP | OPTIONS_ENGINE | OPTIONS_NUMBER,
+    .groups = OPTIONS_SCENE,
     .described = true,
     .tail =
         "  --csv FILE           records, and FILE.toml, which says of what run they are; - is standard\n"
@@ -338,28 +339,6 @@ static int open_source(run_options *o, source_model *from, char **step) {
     return code;
 }
 
-/* What was asked for of the scene, in words; free it. */
-static char *changes_of(const change_options *c) {
-    const struct {
-        const char *word;
-        const char **list;
-        int count;
-    } all[] = {{"", c->sets, c->set_count},
-               {"", c->starts, c->start_count},
-               {"with ", c->with, c->with_count},
-               {"without ", c->without, c->without_count}};
-    char *made = room_words("%s", "");
-    for (size_t i = 0; i < sizeof all / sizeof all[0]; i++) {
-        for (int k = 0; k < all[i].count; k++) {
-            char *longer = room_words("%s%s%s%s", made, made[0] != '\0' ? ", " : "", all[i].word,
-                                      all[i].list[k]);
-            free(made);
-            made = longer;
-        }
-    }
-    return made;
-}
-
 static int run_target(run_options *o) {
     source_model from = {0};
     const mechanism *of;
@@ -421,7 +400,8 @@ static int run_target(run_options *o) {
 static int run_words(int count, char **words, run_options *o) {
     int code = EXIT_BAD_INPUT;
     if (read_options(count, words, o)) {
-        char *changes = changes_of(&o->common.change);
+        const overrides asked = options_overrides(&o->common.change);
+        char *changes = pricing_words(&asked, true);
         o->settings.changes = changes;
         code = run_target(o);
         free(changes);

@@ -41,7 +41,7 @@ static const command_usage usage = {
         "  --shard K/N          the K-th of N parts: their files, in order, are the whole file\n"
         "  --quiet              no progress, no summary\n"
         "\n",
-    .groups = OPTIONS_CHANGE | OPTIONS_STEP | OPTIONS_ENGINE | OPTIONS_NUMBER,
+    .groups = OPTIONS_SCENE,
     .tail = "",
     .why = {[EXIT_ROW_OF(EXIT_DONE)] = "",
             [EXIT_ROW_OF(EXIT_RUN_FAILED)] =

@@ -2,6 +2,7 @@
 #ifndef COMMANDS_TARGET_H
 #define COMMANDS_TARGET_H
 
+#include "load.h"
 #include "options.h"
 
 /* Takes one of a command's own options, with its value, and steps *at past it; false when the word at *at is none. *bad:
@@ -21,6 +22,15 @@ typedef struct target_reader {
  * something is wrong: told. */
 bool target_read(const target_reader *reader, int count, char **words, common_options *common,
                  void *options, const char **target);
+
+/* target_read() of a command that works on a scene or a mechanism alike, with the groups of its usage; and something was
+ * named. */
+bool target_ask(const char *command, const char *const *own, target_take *take,
+                const command_usage *usage, int count, char **words, common_options *common,
+                void *options, const char **target);
+
+/* load() of what was named, with the common options; of a file with one scene, that one. */
+int target_load(loaded *made, source_model *from, const common_options *common, load_wish wish);
 
 /* Was something named? Else the usage goes to standard error. */
 bool target_is_there(const char *target, const command_usage *usage);

@@ -31,7 +31,7 @@ static const command_usage usage = {
         "energy and momenta are all that a run can be asked for. The options are those of `whirl run`,\n"
         "and tell the run that is asked about.\n"
         "\n",
-    .groups = OPTIONS_CHANGE | OPTIONS_STEP | OPTIONS_ENGINE | OPTIONS_NUMBER,
+    .groups = OPTIONS_SCENE,
     .tail =
         "  --tolerance 1e-3     part of the range that a coordinate has in the run (default: 1e-3)\n"
         "  --csv FILE           a row for each coordinate and rate; - is standard output, and the words then\n"

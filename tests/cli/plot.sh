@@ -126,6 +126,16 @@ verdict $? "without gnuplot that is said"
 "$whirl" list --figures >"$scratch/figures"
 [ "$(wc -l <"$scratch/figures")" -eq "$(ls mk/figures/*.fig | wc -l)" ]
 verdict $? "all figures are listed" "$scratch/figures"
+sed -n 's/^\([^ ]*\) .* (make figures)$/\1/p' "$scratch/figures" >"$scratch/marked"
+grep -l '^table ' mk/figures/*.fig | sed 's:.*/::; s/^fig//; s/[.]fig$//' | diff - "$scratch/marked" >"$scratch/err" && [ -s "$scratch/marked" ]
+verdict $? "those that need a script are marked"
+while read -r figure; do
+    refused "which only make runs" "make figures, or --data" figure "$figure" --out "$scratch/f.svg"
+done <"$scratch/marked"
+named=$(sed -n 's/^Figures \(.*\) and five findings need scripts.*/\1/p' docs/plot.md)
+[ "$named" = "$(grep -v finding "$scratch/marked" | tr '\n' ' ' | sed 's/\([0-9]*\) \([0-9]*\) \([0-9]*\) /\1, \2 and \3/')" ] &&
+    [ "$(grep -c finding "$scratch/marked")" -eq 5 ]
+verdict $? "docs/plot.md names them: $named"
 "$whirl" figure 33 --out "$scratch/f.svg" --until 1s 2>"$scratch/err" && "$whirl" figure 33 --out "$scratch/g.svg" --until 1s --set "m1=9 [kg]" 2>"$scratch/err" &&
     grep -qF "<title>$(sed -n 's/^33  *//p' "$scratch/figures")</title>" "$scratch/f.svg" && ! cmp -s "$scratch/f.svg" "$scratch/g.svg"
 verdict $? "a figure, and the same varied"

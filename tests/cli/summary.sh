@@ -54,4 +54,11 @@ while read -r scene; do
 done <"$scratch/drawn"
 [ "$stays" -gt 0 ]
 verdict $? "$stays scenes with something that stays"
+
+# an error that no step keeps is refused before its runs begin: within seconds of processor
+for digits in 20 90 300; do
+    (ulimit -t 5 && "$whirl" run epicyclic_from_rest --error "X=1e-${digits}m") >"$scratch/out" 2>"$scratch/err"
+    [ $? -eq 1 ] && grep -q 'no step that was tried keeps the error.*would take [0-9.e+]* operations' "$scratch/err" && [ ! -s "$scratch/out" ]
+    verdict $? "an error of 1e-$digits m is refused with the number of operations" "$scratch/err"
+done
 exit $failed
