@@ -260,10 +260,18 @@ void c_fixed_header(FILE *out, const fixed_plan *p, const char *file) {
             im->title[0] != '\0' ? ": " : "");
     c_comment(out, im->title);
     fprintf(out,
+            "\n * model hash   0x%016" PRIx64
+            "\n *\n * Values are SI, whatever the model shows them in.\n",
+            im->hash);
+    c_header_licence(out);
+    fprintf(out,
             " */\n#ifndef WHIRL_SCENE_%s_H\n#define WHIRL_SCENE_%s_H\n\n"
-            "#include \"core/fixed_scene.h\"\n\n"
+            "#include \"core/fixed_scene.h\"\n",
+            im->name, im->name);
+    c_header_version(out);
+    fprintf(out,
             "#ifdef __cplusplus\nextern \"C\" {\n#endif\n\nextern const wh_fixed_scene %s;\n\n",
-            im->name, im->name, im->name);
+            im->name);
     fprintf(out,
             "/* What wh_fixed_start() takes: bytes; words for an array of uint64_t. */\n"
             "#define %s_MEMORY_BYTES WH_FIXED_BYTES(%d, %d)\n"
@@ -273,5 +281,14 @@ void c_fixed_header(FILE *out, const fixed_plan *p, const char *file) {
         "/* Numbers that wh_fixed_angle(), wh_fixed_real(), wh_fixed_set_input() take. */\nenum {\n",
         out);
     c_header_fixed_state(out, im);
-    fprintf(out, "    %s_FIXED = 1\n};\n\n#ifdef __cplusplus\n}\n#endif\n\n#endif\n", im->name);
+    fprintf(out, "    %s_FIXED = 1\n};\n\n", im->name);
+    c_header_strings(out, im, false);
+    c_header_values(out, im);
+    fputs(
+        "/* The ranges: what is set beyond them stays at their end, and is counted in state.saturated. */\n",
+        out);
+    for (int i = 0; i < im->reals + im->inputs; i++) {
+        c_header_range(out, im, i, p->range[i].low, p->range[i].high);
+    }
+    fputs("\n#ifdef __cplusplus\n}\n#endif\n\n#endif\n", out);
 }

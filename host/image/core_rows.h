@@ -3,6 +3,7 @@
 #ifndef IMAGE_CORE_ROWS_H
 #define IMAGE_CORE_ROWS_H
 
+#include "core/version.h"
 #include "core/contact.h"
 #include "core/ledger.h"
 #include "image.h"

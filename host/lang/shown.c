@@ -30,7 +30,8 @@ static char *copy_of(const char *text) { return room_copy(text, strlen(text)); }
 char *shown_si_name(const symbol *s, int primes) {
     char text[DIM_TEXT_SIZE];
     dimension dim = s->dim;
-    const bool is_angle = s->is_angle || unit_is_angle(s->unit, strlen(s->unit));
+    const bool is_angle =
+        s->is_angle || unit_is_angle(s->unit, strlen(s->unit)) || strcmp(s->unit, "mrad") == 0;
     if (is_angle && primes > 0) {
         snprintf(text, sizeof text, primes > 1 ? "rad/s^%d" : "rad/s", primes);
         return copy_of(text);
