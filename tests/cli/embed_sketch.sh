@@ -57,6 +57,12 @@ for compiler in "gcc g++ -Os" "clang clang++ -O2"; do
     verdict $? "$2 $3: three runs at once end in the interpreter's bits" "$scratch/said"
     grep -Eq '^x_cm = -?[0-9.]+ m$' "$scratch/said"
     verdict $? "$2 $3: an output by its name and unit"
+    flushing=$(gcc -print-file-name=crtfastmath.o) # as linking with -ffast-math: the start is refused
+    [ "$flushing" != crtfastmath.o ] || continue
+    "$2" -std=gnu++11 -Itests/embed -o "$scratch/flushing" tests/embed/arduino_main.cpp "$scratch/sketch.o" "$scratch/scene.o" \
+        "$scratch/angle.o" "$scratch/text.o" "$scratch/epicyclic_from_rest.o" "$scratch/thomson_a.o" "$flushing" 2>"$scratch/err" &&
+        "$scratch/flushing" 1000 >"$scratch/said" 2>"$scratch/err" && grep -q 'other arithmetic' "$scratch/said"
+    verdict $? "$2 $3: a start that is refused ends the sketch cleanly"
 done
 
 ! command -v arm-none-eabi-g++ >/dev/null 2>&1 || {
