@@ -125,8 +125,9 @@ static bool has_power_before(function_id f) {
 
 /* One symbol, which needs no parentheses in LaTeX. */
 static bool is_symbol(const poly *p) {
-    return p->count == 1 && p->terms[0].coefficient == 1.0 && p->terms[0].mono->trig == TRIG_NONE &&
-           p->terms[0].mono->count == 1 && p->terms[0].mono->factors[0].exponent == 1.0 &&
+    return p != NULL && p->count == 1 && p->terms[0].coefficient == 1.0 &&
+           p->terms[0].mono->trig == TRIG_NONE && p->terms[0].mono->count == 1 &&
+           p->terms[0].mono->factors[0].exponent == 1.0 &&
            p->terms[0].mono->factors[0].atom->kind == ATOM_SYMBOL;
 }
 
