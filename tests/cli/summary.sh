@@ -6,7 +6,7 @@
 seed=${WHIRL_SEED:-45}
 "$whirl" list | awk '$1 == "scene" { print $2 }' >"$scratch/scenes"
 awk -v seed="$seed" 'BEGIN { srand(seed) } { print rand(), $0 }' "$scratch/scenes" | sort | awk '{ print $2 }' |
-    head -n "${WHIRL_CASES:-6}" >"$scratch/drawn"
+    head -n "${WHIRL_CASES:-3}" >"$scratch/drawn"
 echo epicyclic_from_rest >>"$scratch/drawn"
 stays=0
 
