@@ -158,7 +158,9 @@ static void define_number(FILE *out, const image *im, const char *kind, const ch
 }
 
 void c_header_licence(FILE *out) {
-    fputs(" * SPDX-License-Identifier: MIT, as core/; the model is its author's.\n", out);
+    fputs(" * The model belongs to its author. The text that whirl adds has the licence of core/.\n"
+          " * SPDX-License-Identifier: MIT\n",
+          out);
 }
 
 void c_header_version(FILE *out) {
