@@ -165,9 +165,6 @@ wh_status wh_scene_start(const wh_scene *scene, wh_state *state, void *memory, s
 }
 
 wh_status wh_scene_step(const wh_scene *scene, wh_state *state) {
-    if (WH_SELDOM(state->real == NULL)) {
-        return WH_E_ARGUMENT;
-    }
     const wh_status status = scene->advance(scene, state);
     if (status == WH_OK) {
         state->steps++;
@@ -176,9 +173,6 @@ wh_status wh_scene_step(const wh_scene *scene, wh_state *state) {
 }
 
 wh_status wh_scene_steps(const wh_scene *scene, wh_state *state, uint32_t steps) {
-    if (WH_SELDOM(state->real == NULL)) {
-        return WH_E_ARGUMENT;
-    }
     if (scene->ahead != NULL && steps > 0) {
         return scene->ahead(scene, state, steps);
     }

@@ -120,8 +120,8 @@ struct wh_scene {
 wh_status wh_scene_start(const wh_scene *scene, wh_state *state, void *memory, size_t bytes);
 
 /* Do one step. Returns WH_OK; or WH_E_DIVERGED or WH_E_UNDEFINED, with the last good state kept and
- * state->fault set (a further call fails the same way, it does not go on from garbage); or WH_E_ARGUMENT for a state that was
- * not started: all zero, as static memory is, or left so by a start that was refused. */
+ * state->fault set (a further call fails the same way, it does not go on from garbage). `state` must have been started: look
+ * at what wh_scene_start() returns. A check here would cost each step of each scene. */
 wh_status wh_scene_step(const wh_scene *scene, wh_state *state);
 
 /* Do so many steps, or none, for simulating ahead. The bits are those of as many calls of wh_scene_step(); it takes fewer

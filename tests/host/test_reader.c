@@ -299,10 +299,10 @@ static void test_refused(void) {
         "%s",     "1 + %s",     "%s*2",       "a/(3 + %s)", "sin(%s)",    "tanh(%s)",     "(%s)^2",
         "2^(%s)", "min(1, %s)", "min(%s, 1)", "-(%s)",      "a*(b - %s)", "sqrt(exp(%s))"};
     static const char *const refused[][2] = {
-        {"abs(a)", "abs"},        {"sign(b)", "sign"},        {"min(a, 1)", "min"},
-        {"min(1, a)", "min"},     {"max(1, b)", "max"},       {"max(a, b)", "max"},
-        {"asin(a)", "asin"},      {"acos(a)", "acos"},        {"atan(a)", "atan"},
-        {"atan2(a, 1)", "atan2"}, {"atan2(1, 0.5)", "atan2"}, {"asin(0.5)", "asin"}};
+        {"abs(a)", "abs"},        {"sign(b)", "sign"},      {"min(a, 1)", "min"},
+        {"min(1, a)", "min"},     {"max(1, b)", "max"},     {"max(a, b)", "max"},
+        {"asin(a)", "asin"},      {"acos(a)", "acos"},      {"atan(a)", "atan"},
+        {"atan2(a, 1)", "atan2"}, {"atan2(1, b)", "atan2"}, {"asin(b/2)", "asin"}};
     for (size_t i = 0; i < sizeof refused / sizeof refused[0]; i++) {
         for (size_t k = 0; k < sizeof inside / sizeof inside[0]; k++) {
             char formula[200];
