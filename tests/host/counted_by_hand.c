@@ -302,7 +302,7 @@ void expect_common_counts(const image *im, cost_number number, const cost_counts
     TEST_ASSERT_EQUAL_INT_MESSAGE(image_turns(im), c->turned, what);
     /* an angle and what its sum lost, a real and its, inputs, and the books */
     TEST_ASSERT_EQUAL_INT_MESSAGE(2 * (im->angles + im->reals) + im->inputs +
-                                      (l->kept ? 2 * l->entries + l->accounts + l->inputs : 0),
+                                      (l->kept ? 2 * (l->entries + l->accounts) + l->inputs : 0),
                                   c->state_words, what);
     cost_list observe = {.sums = 0};
     cost_list_add_all(im->list[IMAGE_OBSERVE], &observe);
