@@ -50,7 +50,7 @@ static void replace(const wh_scene *scene, wh_state *state, unsigned at, const w
     }
     if (angle != NULL) {
         state->angle[at] = *angle;
-    } else {
+    } else if (real != NULL) {
         state->real[at - scene->angles] = *real;
     }
     if (state->carry != NULL) {

@@ -159,9 +159,12 @@ void not_linear_report(const image *im, int operation, diags *errors) {
     bool found = false;
     affine_takes(im, operation, taking);
     for (int i = 0; i < states + im->inputs; i++) {
-        if (taking[i] && i < states) {
+        if (!taking[i]) {
+            continue;
+        }
+        if (i < states) {
             wanted.states |= bit(image_component(im, i).unknown);
-        } else if (taking[i]) {
+        } else {
             wanted.inputs |= bit(i - states);
         }
     }

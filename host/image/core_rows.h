@@ -3,9 +3,9 @@
 #ifndef IMAGE_CORE_ROWS_H
 #define IMAGE_CORE_ROWS_H
 
-#include "core/version.h"
 #include "core/contact.h"
 #include "core/ledger.h"
+#include "core/version.h"
 #include "image.h"
 
 static inline wh_contact core_contact_row(const image_contact *c) {

@@ -308,7 +308,8 @@ const char *const drawn_scene_roles[IMAGE_ROLES] = {"step",   "observe", "books"
 int drawn_scene_numbers(const image *im) {
     int numbers = im->reals + im->inputs + im->held;
     numbers += im->settings.compensated ? im->angles + im->reals : 0;
-    if (im->ledger.kept) { /* each entry has a carry, each account a start and a correction; inputs as they were */
+    if (im->ledger
+            .kept) { /* each entry has a carry, each account a start and a correction; inputs as they were */
         numbers += 2 * (im->ledger.entries + im->ledger.accounts) + im->ledger.inputs;
     }
     return numbers;
