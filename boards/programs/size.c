@@ -16,7 +16,7 @@
 
 static uint64_t memory[WH_STATE_WORDS(COUNT(_ANGLES), COUNT(_REALS), COUNT(_INPUTS)) +
                        WH_CONTACT_WORDS(COUNT(_CONTACTS)) +
-                       WH_LEDGER_WORDS(COUNT(_ENTRIES), COUNT(_ACCOUNTS))];
+                       WH_LEDGER_WORDS(COUNT(_ENTRIES), 2U * COUNT(_ACCOUNTS))];
 static wh_real output[COUNT(_OUTPUTS) > 0 ? COUNT(_OUTPUTS) : 1];
 
 int main(void) {

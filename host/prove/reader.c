@@ -82,7 +82,8 @@ static int read_corner(reader_symbols *s, const expr *tree, int a, int b) {
 static double inverse_end(double x, bool tangent, double side) {
     const double angle = folding_call(tangent ? FN_ATAN : FN_ASIN, x, 0.0);
     const double most = 0x1.921fb54442d18p+0; /* pi/2, from below */
-    for (double off = 0x1p-50; off < 0x1p-8; off *= 2.0) {
+    double off = 0x1p-50;
+    for (int doubled = 0; doubled < 42; doubled++, off *= 2.0) {
         const double y = angle + side * off;
         if (side * y > most) {
             break;
