@@ -83,7 +83,7 @@ static double inverse_end(double x, bool tangent, double side) {
     const double angle = folding_call(tangent ? FN_ATAN : FN_ASIN, x, 0.0);
     const double most = 0x1.921fb54442d18p+0; /* pi/2, from below */
     double off = 0x1p-50;
-    for (int doubled = 0; doubled < 42; doubled++, off *= 2.0) {
+    for (int doubled = 0; doubled < 42; doubled++) {
         const double y = angle + side * off;
         if (side * y > most) {
             break;
@@ -95,6 +95,7 @@ static double inverse_end(double x, bool tangent, double side) {
         if (side > 0.0 ? sine.low > at.high : sine.high < at.low) {
             return y;
         }
+        off *= 2.0;
     }
     return side > 0.0 ? enclosure_above(most) : enclosure_below(-most);
 }
