@@ -41,7 +41,7 @@ static void book(const wh_scene *scene, const wh_state *state, const wh_real *be
     }
 }
 
-/* Component `at`, angles first, is replaced by what `angle` or `real` points to. */
+/* Component `at`, angles first, becomes *angle, or *real. */
 static void replace(const wh_scene *scene, wh_state *state, unsigned at, const wh_angle *angle,
                     const wh_real *real) {
     wh_real before[ACCOUNTS_MAX];

@@ -264,7 +264,7 @@ static int list_hard(void) {
     return EXIT_DONE;
 }
 
-/* A line each, of what stands in its description behind "title "; a `table` is made by a script. */
+/* A line each: the title of its description. A script makes a `table`. */
 static int list_figures(void) {
     for (size_t i = 0; i < builtin_figure_count; i++) {
         const char *file = strrchr(builtin_figures[i].file, '/') + 1;

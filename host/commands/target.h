@@ -29,7 +29,7 @@ bool target_ask(const char *command, const char *const *own, target_take *take,
                 const command_usage *usage, int count, char **words, common_options *common,
                 void *options, const char **target);
 
-/* load() of what was named, with the common options; of a file with one scene, that one. */
+/* load() of the named scene, with the common options; of a file with one scene, that one. */
 int target_load(loaded *made, source_model *from, const common_options *common, load_wish wish);
 
 /* Was something named? Else the usage goes to standard error. */

@@ -194,7 +194,7 @@ bool emit_octave_variable_is_free(const char *name) {
         "function", "global", "if", "methods", "otherwise", "parfor", "persistent", "properties",
         "return", "spmd", "switch", "try", "until", "unwind_protect", "unwind_protect_cleanup",
         "while",
-        /* the file's own, and what its lines call */
+        /* the file's own, and the functions that its lines call */
         "t", "y", "dy", "Phi", "Gamma", "g0", "zeros", "isreal", "ode45", "odeset", "save", "NaN",
         NULL};
     function_id called;

@@ -1,4 +1,4 @@
-/* first_words.c: words that people bring from other languages, and what does the same here. */
+/* first_words.c: words that people bring from other languages, and their counterparts here. */
 #include <string.h>
 
 #include "words.h"

@@ -123,7 +123,7 @@ static bool move(const apart *a, const bool *may, const double *by, double *x) {
 
 static bool fit_places(apart *a, const bool *may) {
     double worst = 1.0;
-    double wanted[HOLDS]; /* what is off goes to zero, the others stay */
+    double wanted[HOLDS]; /* zero for one that is off; the others stay */
     for (int h = 0; h < a->holds; h++) {
         const double value = law_of(a, h)[WH_LAW_FIRST];
         wanted[h] = off_zero(a, h) != 0.0 ? 0.0 : value;
@@ -172,7 +172,7 @@ static bool fit(apart *a, int primes, bool (*with)(apart *a, const bool *may)) {
     return false;
 }
 
-/* The energy that stops what the holds hold: 1/2 w (J M^-1 J^T)^-1 w of its speeds w; NaN where they repeat each other. */
+/* The energy that it takes to stop the held expressions: 1/2 w (J M^-1 J^T)^-1 w of its speeds w; NaN where they repeat each other. */
 static double lost_J(const apart *a) {
     double matrix[HOLDS][HOLDS] = {{0.0}};
     double impulse[HOLDS];

@@ -12,7 +12,7 @@
 /* Halvings of a step, and parts of it that are looked at for one contact. */
 #define HALVINGS 16
 #define PARTS_MOST 400
-/* Less than this share of what it is at the ends is a touch: rounding. */
+/* Less than this share of the gap at the ends is a touch: rounding. */
 #define TOUCH 1e-9
 /* An acceleration that both ends do not show is so many times theirs, and over a step would change the rate by this share. */
 #define HIDDEN 2.0

@@ -395,7 +395,7 @@ FILE *simulation_summary(const simulation_settings *s) {
     return out;
 }
 
-/* For a reader: a sentence, what is to be said of the run, then its numbers. */
+/* For a reader: a sentence, the findings, then the numbers. */
 static void print_summary(simulation *sim, wh_status status, simulation_result result,
                           bool against) {
     const simulation_settings *s = sim->settings;

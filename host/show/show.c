@@ -61,7 +61,7 @@ static void show_named(const show *s, const symbol *let, double ratio, bool lead
     show_symbol(s, let, 0);
 }
 
-/* The terms of p, without what stands before their parentheses. */
+/* The terms of p, without their common factor. */
 static void show_sum(const show *s, const poly *p, wave without, bool leading) {
     double ratio;
     const poly *rest;

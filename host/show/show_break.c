@@ -22,7 +22,7 @@ static bool begins(span s, const char *word) {
            strncmp(s.from, word, length) == 0;
 }
 
-/* Depth of what holds terms together: +1 where it opens, -1 where it closes. */
+/* Depth of brackets: +1 where it opens, -1 where it closes. */
 static int opens(span s) {
     return *s.from == '{' || begins(s, "\\left") || begins(s, "\\begin")  ? 1
            : *s.from == '}' || begins(s, "\\right") || begins(s, "\\end") ? -1

@@ -20,7 +20,7 @@ void show_factors(const show *s, const piece *p, int side, bool *first);
 int show_count_below(const piece *p);
 /* size * factors, as a fraction where there is something below; a factor 1 is left out. */
 void show_product(const show *s, const piece *p, double size);
-/* A let, and what it stands for. */
+/* A let, and its expression. */
 typedef struct let_row {
     const symbol *let;
     const poly *value;
