@@ -3,7 +3,7 @@
 BOARD_MACHINE  := mps2-an386
 BOARD_CPU      := -mcpu=cortex-m4 -mthumb -mfpu=fpv4-sp-d16 -mfloat-abi=hard
 BOARD_MATH     := -fno-math-errno
-BOARD_SECONDS  := 150
+BOARD_SECONDS  := 600
 BOARD_TIMING   := m4
 BOARD_WHEN     := test
 BOARD_WATCHDOG := boards/cortexm/cmsdk_watchdog.c

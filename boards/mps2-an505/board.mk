@@ -2,6 +2,6 @@
 BOARD_MACHINE  := mps2-an505
 BOARD_CPU      := -mcpu=cortex-m33 -mthumb -mfpu=fpv5-sp-d16 -mfloat-abi=hard
 BOARD_MATH     := -fno-math-errno
-BOARD_SECONDS  := 150
+BOARD_SECONDS  := 600
 BOARD_WHEN     := check
 include boards/armv8m/armv8m.mk

@@ -109,7 +109,7 @@ static void test_one_that_spin_up_took_too_far_is_not_either(void) {
 /* As docs/rig.md has it, of a rotor that is led to slow down and follows, or does not. */
 static void test_a_runaway_on_the_way_down_is_seen(void) {
     uint64_t seed = 13;
-    for (unsigned trial = 0; trial < 60U; trial++) {
+    for (unsigned trial = 0; trial < draw_cases(60); trial++) {
         draw_rotor(&seed);
         turns_at(WH_RIG_NOMINAL_RPM * EVEN_RPM);
         leads_to(WH_R(200.0) * EVEN_RPM);
