@@ -63,7 +63,7 @@ static void print_usage(FILE *out) {
           out);
     for (int i = 0; i < COMMANDS; i++) {
         if (commands[i].text != NULL) {
-            const int room = 28 - (int)strlen(commands[i].name);
+            const int room = 32 - (int)strlen(commands[i].name);
             fprintf(out, "  whirl %s %-*s%s\n", commands[i].name, room, commands[i].takes,
                     commands[i].text);
         }

@@ -85,7 +85,6 @@ static int column_of(const subsets *s, const char *name) {
 static bool read_limit(subsets *s, const char *text) {
     const size_t length = strcspn(text, "=");
     char *name = room_copy(text, length);
-    dimension wanted = dim_none();
     double si = 0.0;
     const int column = column_of(s, name);
     bool good = column > 0;
@@ -99,8 +98,7 @@ static bool read_limit(subsets *s, const char *text) {
                 name);
         good = false;
     }
-    good = good && override_dimension(s->of, name, &wanted) &&
-           pricing_quantity("effects", s->of, "--error", text + length + 1, wanted, &si);
+    good = good && pricing_size("effects", s->of, name, "--error", text + length + 1, &si);
     if (good) {
         s->limit[column] = image_shown(s->columns->column[column].unit, si);
     }
@@ -258,12 +256,10 @@ static void print_answer(const effects_options *o, subsets *s) {
 /* --- the command -------------------------------------------------------------------------------------*/
 
 static int effects_of(const effects_options *o, subsets *s, diags *errors) {
-    const int board = options_choose("effects", "board", o->board, cost_boards,
-                                     sizeof cost_boards[0], cost_board_count);
-    if (board < 0) {
+    s->board = pricing_board("effects", o->board);
+    if (s->board == NULL) {
         return EXIT_BAD_INPUT;
     }
-    s->board = &cost_boards[board];
     if (!subsets_open(s, errors)) {
         return EXIT_BAD_INPUT;
     }

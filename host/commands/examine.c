@@ -62,13 +62,13 @@ static const poly *force_along(const equations *e, const symmetry *of) {
     return poly_expanded(e->algebra, poly_sub(e->algebra, sum, of->stored));
 }
 
-/* A crossing that sets a coordinate, or its rate, which the symmetry moves. */
+/* A crossing that sets something that the momentum depends on. */
 static bool crossing_acts(const equations *e, const symmetry *of, const contact_law *law) {
     for (int k = 0; k < law->from->set_count; k++) {
-        for (int i = 0; i < e->count; i++) {
-            if (e->unknowns[i].symbol == law->from->sets[k].symbol && !poly_is_zero(of->shift[i])) {
-                return true;
-            }
+        const assignment *set = &law->from->sets[k];
+        const poly *change = poly_derivative(e->algebra, of->momentum, set->symbol, set->primes);
+        if (!poly_is_zero(poly_expanded(e->algebra, change))) {
+            return true;
         }
     }
     return false;
@@ -76,8 +76,12 @@ static bool crossing_acts(const equations *e, const symmetry *of, const contact_
 
 static bool contact_acts(const equations *e, const symmetry *of, int k) {
     const contact_law *law = &e->contacts->law[k];
-    return law->row == NULL ? crossing_acts(e, of, law)
-                            : !poly_is_zero(symmetry_along(e, of, law->row));
+    if (of->conserved) {
+        return false;
+    }
+    return law->row == NULL
+               ? crossing_acts(e, of, law)
+               : !poly_is_zero(poly_expanded(e->algebra, symmetry_along(e, of, law->row)));
 }
 
 static bool any_contact_acts(const equations *e, const symmetry *of) {
@@ -197,8 +201,7 @@ static void print_all(const equations *e, const symmetries *found, bool latex) {
     int conserved = 0;
     for (int i = 0; i < found->count; i++) {
         (latex ? print_latex : print_text)(&s, e, &found->each[i], i + 1);
-        conserved +=
-            !any_contact_acts(e, &found->each[i]) && poly_is_zero(force_along(e, &found->each[i]));
+        conserved += found->each[i].conserved ? 1 : 0;
     }
     fputs(latex ? "" : "\n", stdout);
     print_broken(&plain, e, prefix);

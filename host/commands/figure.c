@@ -10,8 +10,10 @@
 #include "host/lang/builtin.h"
 #include "host/plot/figure_draw.h"
 #include "host/plot/gnuplot.h"
+#include "host/plot/plot_run.h"
 #include "load.h"
 #include "options.h"
+#include "run.h"
 
 enum { DATA_MOST = 16, WORDS_MOST = 64 };
 
@@ -35,7 +37,8 @@ typedef struct figure_options {
     const char *out;
     const char *given[DATA_MOST]; /* NAME=FILE */
     int given_count;
-    char *passed[WORDS_MOST]; /* to every run */
+    char *passed[WORDS_MOST]; /* to every run, */
+    char *varied;             /* and as text, a blank before each word */
     int passed_count;
 } figure_options;
 
@@ -56,6 +59,9 @@ static bool take_one(int count, char **words, int *at, figure_options *o) {
     } else if (!bad && options_take("figure", OPTIONS_SCENE, count, words, at, &o->common, &bad)) {
         for (int i = from; i < *at && o->passed_count < WORDS_MOST; i++) {
             o->passed[o->passed_count++] = words[i];
+            char *longer = room_words("%s %s", o->varied, words[i]);
+            free(o->varied);
+            o->varied = longer;
         }
     } else if (!bad && words[*at][0] == '-') {
         options_unknown("figure", words[*at], OPTIONS_SCENE, own);
@@ -103,9 +109,8 @@ static const char *given_for(const figure_options *o, const char *name) {
 
 /* `kind NAME WORDS`, run into a file of its own, which is gone then. */
 static int make_data(const figure_options *o, const char *kind, char **word, int count,
-                     char **csv) {
+                     figure_data *data) {
     char folder[] = "/tmp/whirl-figure-XXXXXX";
-    static char quiet[] = "--quiet";
     static char csv_word[] = "--csv";
     if (kind[0] == 't') {
         fprintf(
@@ -130,12 +135,13 @@ static int make_data(const figure_options *o, const char *kind, char **word, int
     }
     all[n++] = csv_word;
     all[n++] = file;
-    if (kind[0] == 'r') {
-        all[n++] = quiet;
-    }
-    const int code = kind[0] == 'r' ? command_run(n, all) : command_sweep(n, all);
+    plot_run taken = {0};
+    const int code =
+        kind[0] == 'r' ? run_to_take(n, all, &(plot_choice){0}, &taken) : command_sweep(n, all);
+    data->trusted_s = taken.trusted_s;
+    plot_run_close(&taken);
     size_t length;
-    *csv = code == EXIT_DONE ? read_all(file, &length) : NULL;
+    data->csv = code == EXIT_DONE ? read_all(file, &length) : NULL;
     static const char *const ends[] = {"", ".toml", ".sweep"};
     for (size_t i = 0; i < sizeof ends / sizeof ends[0]; i++) {
         char *left = room_words("%s%s", file, ends[i]);
@@ -144,7 +150,7 @@ static int make_data(const figure_options *o, const char *kind, char **word, int
     }
     (void)rmdir(folder);
     free(file);
-    return code == EXIT_DONE && *csv == NULL ? EXIT_RUN_FAILED : code;
+    return code == EXIT_DONE && data->csv == NULL ? EXIT_RUN_FAILED : code;
 }
 
 static int take_data(const figure_options *o, const char *text, figure_data *data, int *count) {
@@ -165,7 +171,7 @@ static int take_data(const figure_options *o, const char *text, figure_data *dat
                 d->csv = read_all(given, &length);
                 code = d->csv != NULL ? EXIT_DONE : EXIT_BAD_INPUT;
             } else {
-                code = make_data(o, kinds[k], word, words, &d->csv);
+                code = make_data(o, kinds[k], word, words, d);
             }
         }
     }
@@ -200,7 +206,7 @@ static int draw(const figure_options *o, const char *where, const char *text) {
         gnuplot_can_draw_for("figure", "--out", out) && files_can_write(out) && gnuplot_is_there()
             ? take_data(o, text, data, &count)
             : EXIT_BAD_INPUT;
-    if (code == EXIT_DONE && !figure_draw(out, where, text, data, count)) {
+    if (code == EXIT_DONE && !figure_draw(out, where, text, data, count, o->varied)) {
         code = EXIT_BAD_INPUT;
     }
     if (code == EXIT_DONE && o->out == NULL) {
@@ -243,7 +249,7 @@ int command_figure(int count, char **words) {
     if (options_help(count, words, &usage)) {
         return EXIT_DONE;
     }
-    figure_options o = {.common = options_defaults()};
+    figure_options o = {.common = options_defaults(), .varied = room_words("%s", "")};
     bool good = true;
     for (int at = 0; at < count && good;) {
         good = take_one(count, words, &at, &o);
@@ -255,5 +261,6 @@ int command_figure(int count, char **words) {
         code = draw_named(&o);
     }
     options_forget(&o.common);
+    free(o.varied);
     return code;
 }

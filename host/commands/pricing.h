@@ -77,11 +77,16 @@ typedef struct pricing {
 /* Reads all that the options say of the scene. Returns an exit code, what is wrong is told; pricing_close() in any case. */
 int pricing_open(pricing *p, const pricing_options *o);
 void pricing_close(pricing *p);
+/* The board of --board, which has prices; NULL is reported. */
+const cost_board *pricing_board(const char *command, const char *value);
 /* That --measure cannot be had, and why. */
 void pricing_says_missing(const pricing *p, const char *why);
-/* A quantity of the command line in SI: false, told. `wanted` by exponents of metre, kilogram, second. */
+/* A quantity above zero of the command line, in SI: false, told. `wanted` by exponents of metre, kilogram, second. */
 bool pricing_quantity(const char *command, const mechanism *of, const char *what, const char *text,
                       dimension wanted, double *value);
+/* The same: a change of the quantity `name`. */
+bool pricing_size(const char *command, const mechanism *of, const char *name, const char *what,
+                  const char *text, double *value);
 /* Computes the references at records of this spacing up to the horizon: an exit code. */
 int pricing_begin(pricing *p, whole_ratio spacing, const volatile sig_atomic_t *stop);
 /* Records of `whirl price` to the horizon: so many to two and a half times as many. */

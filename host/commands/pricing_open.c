@@ -12,11 +12,13 @@
 #include "host/run/start.h"
 #include "pricing.h"
 
-bool pricing_quantity(const char *command, const mechanism *of, const char *what, const char *text,
-                      dimension wanted, double *value) {
+/* `name` is NULL, or of what it is a change; then `wanted` is not looked at. */
+static bool take_quantity(const char *command, const mechanism *of, const char *name,
+                          const char *what, const char *text, dimension wanted, double *value) {
     struct arena *arena = arena_new();
     diags *errors = diags_new();
-    const expr *made = override_quantity(of, what, text, wanted, arena, errors);
+    const expr *made = name == NULL ? override_quantity(of, what, text, wanted, arena, errors)
+                                    : override_size(of, name, what, text, arena, errors);
     const bool number = made != NULL && (made->uses & ~(unsigned)USES_UNIT) == 0;
     *value = number ? expr_value(made, NULL) : 0.0;
     diags_flush(errors, stderr);
@@ -30,25 +32,51 @@ bool pricing_quantity(const char *command, const mechanism *of, const char *what
     return made != NULL;
 }
 
+bool pricing_quantity(const char *command, const mechanism *of, const char *what, const char *text,
+                      dimension wanted, double *value) {
+    return take_quantity(command, of, NULL, what, text, wanted, value);
+}
+
+bool pricing_size(const char *command, const mechanism *of, const char *name, const char *what,
+                  const char *text, double *value) {
+    return take_quantity(command, of, name, what, text, dim_none(), value);
+}
+
+const cost_board *pricing_board(const char *command, const char *value) {
+    const int chosen = options_choose(command, "board", value, cost_boards, sizeof cost_boards[0],
+                                      cost_board_count);
+    static const char *const f405[] = {"netduinoplus2", "stm32-h405", "feather-f405"};
+    for (size_t i = 0; chosen < 0 && i < sizeof f405 / sizeof f405[0]; i++) {
+        if (options_same(value, f405[i])) {
+            fputs("hint: an STM32F405 has the processor of mps2-an386, which has prices\n", stderr);
+        }
+    }
+    return chosen < 0 ? NULL : &cost_boards[chosen];
+}
+
 static bool find_board(pricing *p) {
-    const int chosen =
-        options_choose(p->options->command, "board", p->options->value[PRICING_BOARD], cost_boards,
-                       sizeof cost_boards[0], cost_board_count);
-    p->board = chosen < 0 ? NULL : &cost_boards[chosen];
-    return chosen >= 0;
+    p->board = pricing_board(p->options->command, p->options->value[PRICING_BOARD]);
+    return p->board != NULL;
 }
 
 /* --error, in the dimension of what --of names. What that is, is told later if it is nothing. */
 static bool read_error(pricing *p) {
     const char *of = p->options->value[PRICING_OF];
     const char *text = p->options->value[PRICING_ERROR];
-    dimension wanted = dim_none();
-    if (of != NULL && !override_dimension(p->of, of, &wanted)) {
-        wanted.unknown = true;
-    }
+    const char *command = p->options->command;
+    const char *equals = text != NULL ? strchr(text, '=') : NULL;
     p->asks_error = text != NULL;
+    if (equals != NULL) {
+        fprintf(stderr,
+                "whirl %s: error: --error takes a value alone\n"
+                "hint: --of %.*s --error %s\n",
+                command, (int)(equals - text), text, equals + 1);
+        return false;
+    }
     return text == NULL ||
-           pricing_quantity(p->options->command, p->of, "--error", text, wanted, &p->error_si);
+           (of != NULL
+                ? pricing_size(command, p->of, of, "--error", text, &p->error_si)
+                : pricing_quantity(command, p->of, "--error", text, dim_none(), &p->error_si));
 }
 
 static bool read_effort(pricing *p) {

@@ -17,6 +17,7 @@
 #include "host/run/start.h"
 #include "interrupts.h"
 #include "load.h"
+#include "pricing.h"
 #include "pricing_scene.h"
 #include "rating.h"
 #include "run.h"
@@ -184,10 +185,8 @@ static bool files_are_apart(const simulation_settings *s) {
 
 static bool find_board(run_options *o) {
     const char *word = o->board_word != NULL ? o->board_word : COST_BOARD_DEFAULT;
-    const int chosen =
-        options_choose("run", "board", word, cost_boards, sizeof cost_boards[0], cost_board_count);
-    o->board = chosen < 0 ? NULL : &cost_boards[chosen];
-    return chosen >= 0;
+    o->board = pricing_board("run", word);
+    return o->board != NULL;
 }
 
 static bool read_options(int count, char **words, run_options *o) {

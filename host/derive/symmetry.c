@@ -95,21 +95,6 @@ static int by_mono(const void *left, const void *right) {
                                       : x->column - y->column;
 }
 
-/* A crossing sets this coordinate or its rate: only what leaves it where it is has a momentum that stays. */
-static void take_fixed(const equations *e, conditions *s, const symbol *set) {
-    const int n = e->count;
-    double *row = room(s->columns, sizeof *row);
-    for (int k = 0; k < s->columns; k++) {
-        if (e->unknowns[k < n * n ? k / n : k - n * n].symbol == set) {
-            for (int j = 0; j < s->columns; j++) {
-                row[j] = j == k ? 1.0 : 0.0;
-            }
-            conditions_take(s, row);
-        }
-    }
-    free(row);
-}
-
 /* Each term of the normal form is a row: its coefficients, by column. */
 static void take_terms(conditions *s, const poly *const *change) {
     int64_t count = 0;
@@ -148,6 +133,18 @@ static void take_row(const equations *e, conditions *s, const poly *const *row,
     take_terms(s, change);
 }
 
+/* A crossing sets this symbol: a momentum that depends on it is changed. */
+static void take_set(const equations *e, conditions *s, const assignment *set,
+                     const poly **change) {
+    for (int k = 0; k < s->columns; k++) {
+        const poly *momentum = poly_expanded(e->algebra, power_by(e, e->momentum, k));
+        change[k] = without_phases(
+            e->algebra, poly_expanded(e->algebra, poly_derivative(e->algebra, momentum, set->symbol,
+                                                                  set->primes)));
+    }
+    take_terms(s, change);
+}
+
 /* What changes a momentum beside the energies: the sum of all forces, and each contact. */
 static void take_forces(const equations *e, conditions *s, const poly **change) {
     const contact_laws *laws = e->contacts;
@@ -158,7 +155,7 @@ static void take_forces(const equations *e, conditions *s, const poly **change) 
             take_row(e, s, law->row, change);
         }
         for (int i = 0; law->row == NULL && i < law->from->set_count; i++) {
-            take_fixed(e, s, law->from->sets[i].symbol);
+            take_set(e, s, &law->from->sets[i], change);
         }
     }
 }

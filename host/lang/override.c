@@ -163,21 +163,37 @@ const expr *override_quantity(const mechanism *of, const char *what, const char 
     return diags_calls(all) == before ? made : NULL;
 }
 
+/* What a quantity of the scene can be: its symbol and how often it is derived; NULL: there is none of this name. */
+static const symbol *quantity_named(const mechanism *of, const char *name, int *primes) {
+    const size_t length = strcspn(name, "'");
+    const named *known = names_find(of->names, name, length);
+    *primes = (int)(strlen(name) - length);
+    return known != NULL && (int)strspn(name + length, "'") == *primes &&
+                   (known->symbol.kind == SYM_COORDINATE || known->symbol.kind == SYM_STATE ||
+                    known->symbol.kind == SYM_OUTPUT)
+               ? &known->symbol
+               : NULL;
+}
+
+const expr *override_size(const mechanism *of, const char *name, const char *what, const char *text,
+                          struct arena *arena, diags *all) {
+    const size_t before = diags_calls(all);
+    int primes;
+    const symbol *known = quantity_named(of, name, &primes);
+    dimension wanted = dim_none();
+    wanted.unknown = known == NULL || !dim_power(dim_of(0, 0, -1, 0, 0), (double)primes, &wanted) ||
+                     !dim_multiply(known->dim, wanted, &wanted);
+    parser in = begin(of, text, arena, all);
+    const place at = in.token.at;
+    const expr *made = parse_quantity(&in, wanted, what);
+    return diags_calls(all) == before && (known == NULL || check_unit(&in, at, made, known, primes))
+               ? made
+               : NULL;
+}
+
 const expr *override_duration(const mechanism *of, const char *what, const char *text,
                               struct arena *arena, diags *all) {
     return override_quantity(of, what, text, dim_of(0, 0, 1, 0, 0), arena, all);
-}
-
-bool override_dimension(const mechanism *of, const char *name, dimension *found) {
-    const size_t length = strcspn(name, "'");
-    const size_t primes = strlen(name) - length;
-    const named *known = names_find(of->names, name, length);
-    dimension rate = dim_none();
-    return known != NULL && strspn(name + length, "'") == primes &&
-           (known->symbol.kind == SYM_COORDINATE || known->symbol.kind == SYM_STATE ||
-            known->symbol.kind == SYM_OUTPUT) &&
-           dim_power(dim_of(0, 0, -1, 0, 0), (double)primes, &rate) &&
-           dim_multiply(known->symbol.dim, rate, found);
 }
 
 int override_effect(const mechanism *of, const char *text, struct arena *arena, diags *all) {

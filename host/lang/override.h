@@ -21,9 +21,10 @@ const expr *override_duration(const mechanism *of, const char *what, const char 
 const expr *override_quantity(const mechanism *of, const char *what, const char *text,
                               dimension wanted, struct arena *arena, diags *diags);
 
-/* The dimension of what "X", "theta'" or an output's name stands for. False when it stands for nothing that moves: not
- * reported. */
-bool override_dimension(const mechanism *of, const char *name, dimension *found);
+/* The same, a change of "X", "theta'" or an output: of its dimension, and with a unit unless it is declared in SI. A name that
+ * stands for nothing that moves is not reported. */
+const expr *override_size(const mechanism *of, const char *name, const char *what, const char *text,
+                          struct arena *arena, diags *diags);
 
 /* The index of the effect called `text`, or -1 (reported). */
 int override_effect(const mechanism *of, const char *text, struct arena *arena, diags *diags);

@@ -8,6 +8,7 @@
 #include "gnuplot.h"
 #include "host/base/room.h"
 #include "palette.h"
+#include "plot.h"
 
 enum { FIELDS = 5 };
 
@@ -18,9 +19,10 @@ typedef struct figure {
     const figure_data *data;
     int count;
     int panels;
-    int curves; /* of this panel, */
-    int named;  /* and how many of them are in the legend */
-    char *plot; /* their text */
+    int curves;       /* of this panel, */
+    int named;        /* and how many of them are in the legend */
+    double trusted_s; /* the least of its curves over time; 0: all of them are trusted to the end */
+    char *plot;       /* their text */
     char *xlabel;
 } figure;
 
@@ -69,9 +71,13 @@ static void write_expression(FILE *to, const char *text) {
 
 static void end_panel(figure *f) {
     if (f->panels > 0) {
+        if (f->trusted_s > 0.0) {
+            plot_shade(f->to, f->trusted_s);
+        }
         fputs("set xlabel ", f->to);
         gnuplot_quote(f->to, f->xlabel != NULL ? f->xlabel : "");
-        fprintf(f->to, "\n%s\n%s\nunset arrow; unset label; unset logscale; set format\n",
+        fprintf(f->to,
+                "\n%s\n%s\nunset arrow; unset label; unset object; unset logscale; set format\n",
                 f->named > 0 ? "set key above center horizontal samplen 3" : "unset key", f->plot);
         fputs("set xrange [*:*]; set yrange [*:*]; set xtics autofreq; set ytics autofreq\n",
               f->to);
@@ -82,6 +88,7 @@ static void end_panel(figure *f) {
     f->xlabel = NULL;
     f->curves = 0;
     f->named = 0;
+    f->trusted_s = 0.0;
 }
 
 /* "A | B | C" in place; how many. */
@@ -122,6 +129,11 @@ static bool take_curve(figure *f, char *words, bool law) {
         fprintf(to, "(%s) with lines lw 1.2 dt 2 lc rgb '" PALETTE_FRAME "'", field[0]);
     } else {
         const char *style = count == FIELDS ? field[4] : "lines lw 1.8";
+        const double trusted_s = f->data[number].trusted_s;
+        if (strcmp(field[1], "{time}") == 0 && trusted_s > 0.0 &&
+            (f->trusted_s == 0.0 || trusted_s < f->trusted_s)) {
+            f->trusted_s = trusted_s;
+        }
         fprintf(to, "$d%d using ", number);
         write_expression(to, field[1]);
         fputc(':', to);
@@ -196,7 +208,7 @@ static bool take_text(figure *f, const char *text) {
     return good;
 }
 
-static void write_figure(FILE *to, const figure *f, const char *title, const char *panels) {
+static void write_figure(FILE *to, const figure *f, const char *title, const char *commands) {
     fputs("set datafile separator comma\nset samples 120\nset lmargin 12\nset rmargin 3\n", to);
     for (int i = 0; i < f->count; i++) {
         fprintf(to, "$d%d << EOD\n", i);
@@ -210,20 +222,20 @@ static void write_figure(FILE *to, const figure *f, const char *title, const cha
     fprintf(to, "set multiplot layout %d,1 title ", f->panels);
     gnuplot_quote(to, title);
     /* air between the title and a legend below it */
-    fprintf(to, ".\"\\n\"\n%sunset multiplot\n", panels);
+    fprintf(to, ".\"\\n\"\n%sunset multiplot\n", commands);
 }
 
 bool figure_draw(const char *file, const char *where, const char *text, const figure_data *data,
-                 int count) {
-    char *panels = NULL;
+                 int count, const char *varied) {
+    char *commands = NULL;
     size_t length;
-    figure f = {.where = where, .data = data, .count = count, .to = room_text(&panels, &length)};
+    figure f = {.where = where, .data = data, .count = count, .to = room_text(&commands, &length)};
     bool good = take_text(&f, text);
     room_text_end(f.to);
     const char *at = text;
     char *title = figure_line(&at, "title");
-    char *words = room_words("%s", "");
-    at = text;
+    char *words = room_words("%s%s", varied[0] != '\0' ? "Varied by" : "", varied);
+    at = text + (varied[0] != '\0' ? strlen(text) : 0);
     for (char *more; (more = figure_line(&at, "caption")) != NULL; free(more)) {
         join(&words, words[0] != '\0' ? " " : "");
         join(&words, more);
@@ -231,16 +243,20 @@ bool figure_draw(const char *file, const char *where, const char *text, const fi
     if (good && title == NULL) {
         good = is_wrong(&f, "a figure needs a title", "");
     }
+    if (good && varied[0] != '\0') {
+        join(&title, ", varied:");
+        join(&title, varied);
+    }
     gnuplot g;
     const int height = f.panels == 1 ? 480 : 90 + 270 * f.panels;
     if (good && gnuplot_open(&g, file, height, title, words)) {
         fputs("set termoption noenhanced\n", g.to);
-        write_figure(g.to, &f, title, panels);
+        write_figure(g.to, &f, title, commands);
         good = gnuplot_close(&g);
     } else {
         good = false;
     }
-    free(panels);
+    free(commands);
     free(title);
     free(words);
     return good;

@@ -206,14 +206,18 @@ static void write_panel(FILE *to, const panels *p, const plot_run *runs, int pan
     fputc('\n', to);
 }
 
+void plot_shade(FILE *to, double from_s) {
+    fprintf(to,
+            "set object 1 rectangle from first %.17g, graph 0 to graph 1, graph 1 behind "
+            "fillcolor rgb '" PALETTE_SHADE "' fillstyle solid noborder\n",
+            from_s);
+}
+
 /* After the least trusted run's end in every panel, and a cross at the foot of each for an event. */
 static void write_times(FILE *to, const plot_run *runs, int count) {
     const double trusted_s = first_trusted_s(runs, count);
     if (trusted_s > 0.0) {
-        fprintf(to,
-                "set object 1 rectangle from first %.17g, graph 0 to graph 1, graph 1 behind "
-                "fillcolor rgb '" PALETTE_SHADE "' fillstyle solid noborder\n",
-                trusted_s);
+        plot_shade(to, trusted_s);
     }
     for (int k = 0; k < count; k++) {
         for (int i = 0; i < runs[k].marks; i++) {

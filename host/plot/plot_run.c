@@ -7,6 +7,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 #include "host/base/room.h"
 #include "host/base/utf8.h"
@@ -240,6 +241,11 @@ static double number_of(const char *field) {
     return end == field || end[strspn(end, " ")] != '\0' ? (double)NAN : value;
 }
 
+/* How programs write a value that is not a number. */
+static bool is_nan(const char *field) {
+    return strcasecmp(field + (field[0] == '-'), "nan") == 0 || strcmp(field, "NA") == 0;
+}
+
 /* "theta [deg]": name and unit. */
 static void name_columns(plot_run *run, char *line) {
     for (char *name = next_field(&line); name != NULL; name = next_field(&line)) {
@@ -258,7 +264,8 @@ static void name_columns(plot_run *run, char *line) {
     }
 }
 
-static void take_rows(FILE *from, char **line, size_t *size, plot_run *run) {
+/* An empty cell, or a missing one at the end, is a value that is not known. */
+static bool take_rows(const char *csv, FILE *from, char **line, size_t *size, plot_run *run) {
     int64_t most = 0;
     while (next_line(from, line, size)) {
         if (run->rows == most) {
@@ -270,8 +277,19 @@ static void take_rows(FILE *from, char **line, size_t *size, plot_run *run) {
         for (int i = 0; i < run->columns; i++) {
             const char *field = next_field(&rest);
             row[i] = field != NULL ? number_of(field) : (double)NAN;
+            if (isnan(row[i]) && field != NULL && field[0] != '\0' && !is_nan(field)) {
+                fprintf(stderr, "%s: error: row %lld, column '%.60s': '%.60s' is no number\n", csv,
+                        (long long)run->rows, run->column[i].name, field);
+                return false;
+            }
+        }
+        if (rest != NULL) {
+            fprintf(stderr, "%s: error: row %lld has more cells than the header has names\n", csv,
+                    (long long)run->rows);
+            return false;
         }
     }
+    return true;
 }
 
 /* The file's name without folders and ending. */
@@ -289,6 +307,7 @@ bool plot_run_read(const char *command, const char *csv, plot_run *run) {
     plot_run_open(run, name, name, 0);
     free(name);
     FILE *from = fopen(csv, "rb");
+    bool good = false;
     if (from == NULL || !next_line(from, &line, &size)) {
         fprintf(stderr, "%s: error: %s\nhint: whirl run SCENE --csv %s writes one\n", csv,
                 from == NULL ? strerror(errno) : "an empty file", csv);
@@ -298,16 +317,25 @@ bool plot_run_read(const char *command, const char *csv, plot_run *run) {
                 "hint: begin the file with the names of its columns: time,x,der(x)\n",
                 csv);
     } else {
+        const char *other = strpbrk(line, ";\t");
         name_columns(run, line);
-        take_rows(from, &line, &size, run);
-        read_about(csv, run);
-        if (run->rows == 0) {
-            fprintf(stderr, "%s: error: no rows: `whirl %s` has nothing to draw\n", csv, command);
+        if (run->columns == 1 && other != NULL) {
+            fprintf(stderr,
+                    "%s: error: the header has no comma, but %s\n"
+                    "hint: separate the columns by commas\n",
+                    csv, *other == ';' ? "';'" : "a tab");
+        } else {
+            good = take_rows(csv, from, &line, &size, run);
+            read_about(csv, run);
+            if (good && run->rows == 0) {
+                fprintf(stderr, "%s: error: no rows: `whirl %s` has nothing to draw\n", csv,
+                        command);
+            }
         }
     }
     if (from != NULL) {
         fclose(from);
     }
     free(line);
-    return run->rows > 0;
+    return good && run->rows > 0;
 }

@@ -249,9 +249,10 @@ void choice_print(FILE *out, const trials *t, const choice_wish *w, const choice
     fputc('\n', out);
     print_row(out, t, w, &c->best);
     if (c->has_coarser && c->coarser.result.usable) {
-        fprintf(out, "  coarser     --step %s errs by %s\n",
+        fprintf(out, "  coarser     --step %s errs by %s%s\n",
                 trial_time(trial_step(t, c->coarser.pace), step),
-                amount(t, c->coarser.result.error, text));
+                amount(t, c->coarser.result.error, text),
+                c->coarser.result.error <= w->error ? ", more than half of what is allowed" : "");
     }
     print_second(out, t, c);
     print_counts(out, c);

@@ -32,7 +32,7 @@ static void print_momenta(FILE *out, const books *b) {
         }
     }
     if (!any) {
-        fprintf(out, "no momentum is conserved: every coordinate feels a force\n");
+        fprintf(out, "no coordinate's own momentum is conserved; whirl examine tells of sums and rotations\n");
     }
 }
 
@@ -87,8 +87,8 @@ static void print_momentum(FILE *out, const image *im, const kept_account *kept,
     print_entries(out, kept, u->name);
     account_print_end(out, change, kept->left);
     if (u->is_length && time_s > 0.0) {
-        fprintf(out, "  mean force along %s: %.9g N, known to %.1e N\n", u->name, change / time_s,
-                fabs(kept->left) / time_s);
+        fprintf(out, "  mean force along %s: %.9g N; the book closes to %.1e N\n", u->name,
+                change / time_s, fabs(kept->left) / time_s);
     }
 }
 

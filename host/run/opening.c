@@ -82,16 +82,15 @@ static int next_moving(const opening *o, const records *r, const char *after) {
     return next;
 }
 
-/* "X goes from 0 m to 0.17 m, theta from 80 deg to 62 deg." */
+/* "At the end: X = 0.17 m (from 0 m), theta = 62 deg (from 80 deg)." */
 static void print_ways(FILE *out, const opening *o, const records *r) {
     int moving = 0;
     for (int i = next_moving(o, r, ""); i >= 0; i = next_moving(o, r, r->column[i].name)) {
         const record_column *c = &r->column[i];
         if (moving++ < NAMED) {
-            fprintf(out,
-                    moving > 1 ? ", %s from %.3g %s to %.3g %s" : "%s goes from %.3g %s to %.3g %s",
-                    c->name, number_shown(o->first[i]), c->unit->shown, number_shown(r->row[i]),
-                    c->unit->shown);
+            fprintf(out, "%s%s = %.3g %s (from %.3g %s)",
+                    moving > 1 ? ", " : "At the end: ", c->name, number_shown(r->row[i]),
+                    c->unit->shown, number_shown(o->first[i]), c->unit->shown);
         }
     }
     if (moving > NAMED) {
@@ -100,7 +99,7 @@ static void print_ways(FILE *out, const opening *o, const records *r) {
     fputs(moving > 0 ? ".\n" : "Nothing moves.\n", out);
 }
 
-/* "The momentum of x stays 0 kg*m/s within 5.9e-11; ", of the first name that is conserved. */
+/* "The momentum of x stays 0 kg*m/s within 5.9e-11. ", of the first name that is conserved. */
 static void print_momentum(FILE *out, const image *im, const books *b) {
     int found = -1;
     for (int i = 0; i < im->count && b != NULL; i++) {
@@ -110,7 +109,7 @@ static void print_momentum(FILE *out, const image *im, const books *b) {
         }
     }
     if (found >= 0) {
-        fprintf(out, "The momentum of %s stays %.3g %s within %.1e; ", im->unknown[found].name,
+        fprintf(out, "The momentum of %s stays %.3g %s within %.1e. ", im->unknown[found].name,
                 number_shown(b->momentum[found]), im->unknown[found].momentum_si, b->drift[found]);
     }
 }

@@ -401,9 +401,13 @@ static void print_summary(simulation *sim, wh_status status, simulation_result r
     const simulation_settings *s = sim->settings;
     FILE *out = simulation_summary(s);
     if (status == WH_OK) {
+        opening_enter(&sim->opening, sim->records);
         opening_print(out, &sim->opening, sim->records, sim->verdict->books);
     }
     summary_head(out, sim->image, s->kind, sim->run);
+    if (s->changes != NULL && s->changes[0] != '\0') {
+        fprintf(out, "  changed: %s\n", s->changes);
+    }
     if (result == SIMULATION_DONE && s->findings != NULL) {
         s->findings(s->context, against);
     }

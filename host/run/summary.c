@@ -7,6 +7,8 @@
 #include <string.h>
 
 #include "books_text.h"
+#include "core/contact.h"
+#include "host/base/statement.h"
 #include "records.h"
 
 static void print_value(FILE *out, const records *r, int column) {
@@ -31,10 +33,27 @@ static void print_state(FILE *out, const image *im, const engine_kind *kind, voi
     records_close(r);
 }
 
+/* Stops that stayed open and holds that never held, of a run without events: such a run shows nothing of them. */
+static void print_idle(FILE *out, const image *im, const engine_kind *kind, const void *run) {
+    int mode[WH_CONTACTS_LIMIT];
+    kind->modes(run, mode);
+    for (int k = 0; k < im->contacts; k++) {
+        if (im->contact[k].kind != WH_FRICTION && mode[k] == WH_FREE) {
+            char text[STATEMENT_SIZE];
+            statement_text(im->contact[k].at, text, sizeof text);
+            fprintf(out, "  never acted: %s\n", text);
+        }
+    }
+}
+
 static void print_events(FILE *out, const image *im, const engine_kind *kind, const void *run) {
     uint64_t overruns;
     const uint64_t events = kind->events(run, &overruns);
-    fprintf(out, "events             %" PRIu64 " of %d contacts\n", events, im->contacts);
+    fprintf(out, "events             %" PRIu64 " at %d contact%s\n", events, im->contacts,
+            im->contacts == 1 ? "" : "s");
+    if (events == 0) {
+        print_idle(out, im, kind, run);
+    }
     if (overruns > 0) {
         fprintf(out,
                 "  %" PRIu64 " steps had more than %d moments with events: what was left of them "

@@ -201,7 +201,7 @@ void horizon_print_line(FILE *out, const horizon *h, bool doubted) {
     } else {
         fprintf(out, "trusted            until t = %.6g s: ", h->until_s);
         print_reason(out, h);
-        fputs(image_of(h)->has_energies ? "; the books above tell what still holds\n" : "\n", out);
+        fputs(image_of(h)->has_energies ? "; the books below tell what still holds\n" : "\n", out);
     }
 }
 

@@ -75,8 +75,12 @@ verdict $? "$run moves x by what the answer says: $(cat "$scratch/err") mm"
 
 check "without --error" ask "$cart"
 says '^allowed  *[0-9.]+  *0\.12  *1e-12  *-  *-  *-  *-  0\.1 % of the range$'
-ask "$cart" --error x=5mm && cp "$scratch/out" "$scratch/mm" && ask "$cart" --error x=0.005 && cmp -s "$scratch/mm" "$scratch/out"
-verdict $? "a bare error is SI"
+for command in "effects $cart --error x=0.005" "run $cart --error x=0.005" "choose $cart --of x --error 0.005"; do
+    # shellcheck disable=SC2086
+    "$whirl" $command >"$scratch/out" 2>"$scratch/err"
+    [ $? -eq 2 ] && grep -q "'x' is declared in \[mm\], and this value has no unit" "$scratch/err"
+    verdict $? "a bare error of a quantity in mm is refused: $command" "$scratch/err"
+done
 ask "$cart" --error x=5mm --set c=2e-3 --until 1.5s --start "a=30 [deg]"
 says '^smallest set .*: pull, buffer, far_spring, weight, lift$'
 says '^  whirl run .*cart.whirl:swings --start "a=30 \[deg\]" --until 1.5s --without drag$'

@@ -137,6 +137,7 @@ named=$(sed -n 's/^Figures \(.*\) and five findings need scripts.*/\1/p' docs/pl
     [ "$(grep -c finding "$scratch/marked")" -eq 5 ]
 verdict $? "docs/plot.md names them: $named"
 "$whirl" figure 33 --out "$scratch/f.svg" --until 1s 2>"$scratch/err" && "$whirl" figure 33 --out "$scratch/g.svg" --until 1s --set "m1=9 [kg]" 2>"$scratch/err" &&
-    grep -qF "<title>$(sed -n 's/^33  *//p' "$scratch/figures")</title>" "$scratch/f.svg" && ! cmp -s "$scratch/f.svg" "$scratch/g.svg"
+    grep -qF "<title>$(sed -n 's/^33  *//p' "$scratch/figures"), varied: --until 1s</title>" "$scratch/f.svg" &&
+    grep -q '<desc>Varied by --until 1s --set m1=9 \[kg\]</desc>' "$scratch/g.svg" && ! cmp -s "$scratch/f.svg" "$scratch/g.svg"
 verdict $? "a figure, and the same varied"
 exit $failed

@@ -19,7 +19,7 @@ its_way() {
               last[i] = $i; if ($i < low[i]) { low[i] = $i } if ($i > high[i]) { high[i] = $i } } }
         function near(a, b,   d) { d = a - b; return (d < 0 ? -d : d) <= 0.0051 * (a < 0 ? -a : a) + 1e-300 }
         END {
-            sub(/^The momentum of .* within [^;]*; /, "", sentence)
+            sub(/^The momentum of .* within [^ ]*[.] /, "", sentence)
             if (sentence == "Nothing moves.") { exit !(NR > 2) }
             n = split(sentence, word, " ")
             for (i = 1; i <= n; i++) {
@@ -31,9 +31,9 @@ its_way() {
             }
             found = 0
             for (i = 1; i < n; i++) {
-                if (word[i] == "from") {
-                    c = column[word[i - 1] == "goes" ? word[i - 2] : word[i - 1]]
-                    if (!c || !near(first[c], word[i + 1]) || !near(last[c], word[i + 4])) { exit 1 }
+                if (word[i] == "(from") {
+                    c = column[word[i - 4]]
+                    if (!c || !near(first[c], word[i + 1]) || !near(last[c], word[i - 2])) { exit 1 }
                     found++
                 }
             }

@@ -13,7 +13,14 @@
 
 void suite_symmetry(void);
 
-enum { BODIES = 3, N = 2 * BODIES, COLUMNS = N * (N + 1), STATES = 2 * COLUMNS, TEXT = 4000 };
+enum {
+    ROWS = 7,
+    BODIES = 3,
+    N = 2 * BODIES,
+    COLUMNS = N * (N + 1),
+    STATES = 2 * COLUMNS,
+    TEXT = 4000
+};
 
 /* What may act on a mechanism beside its springs. */
 enum {
@@ -26,8 +33,14 @@ enum {
     WALL = 64,    /* a stop of one y */
     BUMPER = 128, /* a stop between two x: inside */
     CENTRE = 256, /* V, a spring from the origin: keeps rotations */
-    ALL = 511
+    SLIDER = 512, /* T, of the sum of two x': a momentum has the rates of both */
+    KICK = 1024,  /* a crossing that sets one x' */
+    PUT = 2048,   /* a crossing that sets one x */
+    KINDS = 12,
+    ALL = (1 << KINDS) - 1
 };
+
+#define SLIDER_KG 1.7
 
 typedef struct particles {
     int bodies;
@@ -49,6 +62,9 @@ static void write(const particles *p, char *text) {
     ADD("T = 0");
     for (int i = 0; i < p->bodies; i++) {
         ADD(" + %.17g [kg]*(x%d'^2 + y%d'^2)/2", p->mass[i], i, i);
+    }
+    if ((p->with & SLIDER) != 0) {
+        ADD(" + %.17g [kg]*(x0' + x1')^2/2", SLIDER_KG);
     }
     ADD("\nV = 0");
     for (int i = 0; i + 1 < p->bodies; i++) {
@@ -81,6 +97,12 @@ static void write(const particles *p, char *text) {
     }
     if ((p->with & BUMPER) != 0) {
         ADD("\nstop x1 - x0 >= -50 [m] restitution 1");
+    }
+    if ((p->with & KICK) != 0) {
+        ADD("\nwhen y0 crosses 40 [m] rising { set x%d' = -x%d' }", p->at, p->at);
+    }
+    if ((p->with & PUT) != 0) {
+        ADD("\nwhen y0 crosses 41 [m] rising { set x%d = 0.5 [m] }", p->at);
     }
     ADD("\n");
 #undef ADD
@@ -173,10 +195,16 @@ static double moved(int n, int k, int i, const double *of) {
     return k / n == i ? of[k % n] : 0.0;
 }
 
+/* The masses of rates i and j in T. */
+static double mass_of(const particles *p, int i, int j) {
+    const bool slides = (p->with & SLIDER) != 0 && (i == 0 || i == 2) && (j == 0 || j == 2);
+    return (i == j ? p->mass[i / 2] : 0.0) + (slides ? SLIDER_KG : 0.0);
+}
+
 /* How many motions leave T and V as they are, and of these how many no force or contact works along. */
 static void count_by_hand(const particles *p, uint64_t *seed, int *both, int *conserved) {
     static double energies[2 * STATES][COLUMNS];
-    static double all[5 * STATES][COLUMNS];
+    static double all[ROWS * STATES][COLUMNS];
     const int n = 2 * p->bodies;
     const int columns = n * (n + 1);
     double *e = &energies[0][0];
@@ -193,7 +221,8 @@ static void count_by_hand(const particles *p, uint64_t *seed, int *both, int *co
             v[i] = random_between(seed, -2.0, 2.0);
         }
         slopes(p, q, v, random_between(seed, -3.0, 3.0), stored, force);
-        for (int which = 0; which < 5; which++) {
+        const int x = 2 * p->at;
+        for (int which = 0; which < ROWS; which++) {
             double *row = &a[all_rows++ * columns];
             for (int k = 0; k < columns; k++) {
                 double sum = 0.0;
@@ -202,8 +231,17 @@ static void count_by_hand(const particles *p, uint64_t *seed, int *both, int *co
                     const double rate_way = k >= n * n ? 0.0 : moved(n, k, i, v);
                     const double wall = (p->with & WALL) != 0 && i == 2 * p->at + 1 ? 1.0 : 0.0;
                     const double bump = (p->with & BUMPER) != 0 ? (i == 2) - (double)(i == 0) : 0.0;
-                    const double of[] = {p->mass[i / 2] * v[i] * rate_way, stored[i] * way,
-                                         force[i] * way, wall * way, bump * way};
+                    double momentum = 0.0;
+                    for (int j = 0; j < n; j++) {
+                        momentum += mass_of(p, i, j) * v[j];
+                    }
+                    /* of the momentum along k, the slopes by what a crossing sets */
+                    const double kick = (p->with & KICK) != 0 ? mass_of(p, i, x) : 0.0;
+                    const bool turns =
+                        (p->with & PUT) != 0 && k < n * n && k / n == i && k % n == x;
+                    const double of[ROWS] = {
+                        momentum * rate_way, stored[i] * way, force[i] * way,        wall * way,
+                        bump * way,          kick * way,      turns ? momentum : 0.0};
                     sum += of[which];
                 }
                 row[k] = sum;
@@ -231,7 +269,7 @@ static void test_particles(void) {
         /* nothing, one thing, or a few */
         const uint64_t half = random_bits(&seed);
         p.with = c % 3U == 0 ? 0U : (unsigned)(half & random_bits(&seed)) & ALL;
-        p.with = c % 3U == 1 ? 1U << (random_bits(&seed) % 9U) : p.with;
+        p.with = c % 3U == 1 ? 1U << (random_bits(&seed) % (unsigned)KINDS) : p.with;
         for (int i = 0; i < BODIES; i++) {
             p.mass[i] = random_between(&seed, 0.2, 4.0);
             p.spring[i] = random_between(&seed, 0.5, 9.0);
