@@ -127,6 +127,13 @@ $(eval $(call pil_program,pil_dialled,boards/programs/pil_dialled.c,frames rig w
 $(eval $(call pil_program,pil_carriage,boards/programs/pil_carriage.c,frames rig whirl scenes))
 $(eval $(call pil_program,pil_cart,boards/programs/pil_cart.c,frames whirl))
 $(eval $(call pil_program,pil_taped,boards/programs/pil_taped.c,frames station rig whirl scenes))
+# A controller from outside the tree: CONTROLLER names its C files, and the first of them the program.
+CONTROLLER_LIBRARIES ?= frames whirl
+ifneq ($(CONTROLLER),)
+pil_own := own/$(basename $(notdir $(firstword $(CONTROLLER))))
+$(foreach f,$(CONTROLLER),$(if $(wildcard $(f)),,$(error CONTROLLER=$(f): there is no such file)))
+$(eval $(call pil_program,$(pil_own),$(abspath $(CONTROLLER)),$(CONTROLLER_LIBRARIES)))
+endif
 # Over the board's own console, of every board that has room for it; here on a pseudo-terminal.
 $(B)/pil_line: $(call objects,float,boards/programs/pil_line.c boards/shared/link_console.c boards/host/board.c boards/host/terminal.c) \
     $(call libraries,float,frames rig whirl scenes)
@@ -142,6 +149,9 @@ PIL_BOARDS := $(BOARD) $(filter-out $(BOARD),mps2-an385)
 ##@ Tests and quality
 .PHONY: pil-images pil-now
 pil-images: $(PIL_PROGRAMS:%=$(B)/%) $(PIL_IMAGES) ## firmware for `whirl pil`, for this machine and for BOARD
+.PHONY: pil-image
+pil-image: $(if $(CONTROLLER),$(B)/$(pil_own) $(if $(BOARD_LINK),$(ELF)/$(pil_own).elf)) ## the same of a controller of your own: CONTROLLER="my.c more.c"
+	@[ -n "$(CONTROLLER)" ] || { echo "error: no controller; such as: make pil-image CONTROLLER=path/to/my.c BOARD=mps2-an386" >&2; exit 2; }
 pil-now: $(B)/whirl
 	@$(call need,qemu-system-arm)
 	+@$(foreach b,$(PIL_BOARDS),$(call on_board,$(b),pil-images) &&) true

@@ -198,6 +198,18 @@ static void print_all(const equations *e, const symmetries *found, bool latex) {
             printf("%swith %s: %s\n", prefix, m->effects[i].name, m->effects[i].text);
         }
     }
+    for (int i = 0, left_out = 0; i < m->effect_count; i++) {
+        if (!e->instance->with[i]) {
+            printf("%s%s",
+                   left_out++ > 0 ? ", "
+                   : latex        ? "% left out: "
+                                  : "left out: ",
+                   m->effects[i].name);
+        }
+        if (i == m->effect_count - 1 && left_out > 0) {
+            fputc('\n', stdout);
+        }
+    }
     int conserved = 0;
     for (int i = 0; i < found->count; i++) {
         (latex ? print_latex : print_text)(&s, e, &found->each[i], i + 1);

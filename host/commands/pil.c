@@ -10,7 +10,6 @@
 #include "host/base/room.h"
 #include "host/base/unwritten.h"
 #include "host/monitor/port.h"
-#include "host/number/decimal.h"
 #include "host/number/functions.h"
 #include "host/pil/fault.h"
 #include "host/pil/lockstep.h"
@@ -54,7 +53,9 @@ static const command_usage usage = {
         "                       those of the tape, to the bit\n"
         "  --read TAPE          what TAPE has, as rows: each edge and sample that the firmware heard, with\n"
         "                       its time and value, and each change of its outputs and notes\n"
-        "  --csv FILE           of --read: into FILE; - (when left out) is standard output\n"
+        "  --csv FILE           of --read: the rows into FILE; - (when left out) is standard output. Of a run:\n"
+        "                       the plant's coordinates, rates and outputs, in the columns of whirl run\n"
+        "  --every 1ms          of a run: spacing of those rows, a whole number of steps (default: 1ms)\n"
         "  --bind A=B,...       the firmware's A is the scene's B\n"
         "  --place X,...        so far each edge of the firmware's stands off its place, in its order:\n"
         "                       degrees of an angle, else SI\n"
@@ -89,6 +90,7 @@ typedef struct pil_options {
     const char *replay;
     const char *read; /* a tape that is shown */
     const char *csv;
+    const char *every;
     const char *bind;
     const char *place;
     const char *jitter;
@@ -112,7 +114,7 @@ static bool take_words(int count, char **words, int *at, pil_options *o, bool *b
     } rows[] = {{"--firmware", &o->firmware}, {"--board", &o->board}, {"--tape", &o->tape},
                 {"--replay", &o->replay},     {"--read", &o->read},   {"--csv", &o->csv},
                 {"--bind", &o->bind},         {"--place", &o->place}, {"--jitter", &o->jitter},
-                {"--delay", &o->delay},       {"--port", &o->port}};
+                {"--delay", &o->delay},       {"--port", &o->port},   {"--every", &o->every}};
     for (size_t i = 0; i < sizeof rows / sizeof rows[0] && !*bad; i++) {
         const char *value = options_value(count, words, at, rows[i].option, bad);
         if (value != NULL) {
@@ -154,6 +156,7 @@ static bool take_one(int count, char **words, int *at, void *options, bool *bad)
 /* A tape that is shown needs nobody, and nobody hears it. */
 static bool is_read_alone(const pil_options *o) {
     const char *beside = o->target != NULL     ? "scene"
+                         : o->every != NULL    ? "--every"
                          : o->firmware != NULL ? "--firmware"
                          : o->tape != NULL     ? "--tape"
                          : o->replay != NULL   ? "--replay"
@@ -180,10 +183,8 @@ static bool go_together(const pil_options *o) {
     if (o->read != NULL) {
         return is_read_alone(o);
     }
-    if (o->csv != NULL) {
-        fputs("whirl pil: error: --csv is what --read writes\n"
-              "hint: --tape FILE keeps a run, then: whirl pil --read FILE --csv -\n",
-              stderr);
+    if (o->every != NULL && o->csv == NULL) {
+        fputs("whirl pil: error: --every is the spacing of --csv FILE\n", stderr);
         return false;
     }
     if (o->port == NULL && o->baud > 0.0) {
@@ -213,10 +214,12 @@ static bool go_together(const pil_options *o) {
                 "hint: whirl pil docs/plants/rig.whirl --firmware ...; or a tape: --replay TAPE\n");
         return false;
     }
-    if (o->replay != NULL && (o->target != NULL || o->tape != NULL || o->faults.count > 0)) {
+    if (o->replay != NULL &&
+        (o->target != NULL || o->tape != NULL || o->csv != NULL || o->faults.count > 0)) {
         fprintf(stderr, "whirl pil: error: --replay takes no %s: the tape is the plant\n",
                 o->target != NULL ? "scene"
                 : o->tape != NULL ? "--tape"
+                : o->csv != NULL  ? "--csv"
                                   : "--fault");
         return false;
     }
@@ -234,10 +237,10 @@ static bool is_known_board(pil_options *o) {
 }
 
 static bool read_options(int count, char **words, pil_options *o) {
-    static const char *const own[] = {"--firmware", "--board", "--tape",   "--replay",   "--read",
-                                      "--csv",      "--bind",  "--place",  "--jitter",   "--delay",
-                                      "--seed",     "--clock", "--cycles", "--patience", "--fault",
-                                      "--port",     "--baud",  "--faults", "--quiet",    NULL};
+    static const char *const own[] = {
+        "--firmware", "--board",  "--tape",  "--replay", "--read",  "--csv",    "--bind",
+        "--place",    "--jitter", "--delay", "--seed",   "--clock", "--cycles", "--patience",
+        "--fault",    "--port",   "--baud",  "--faults", "--quiet", "--every",  NULL};
     const target_reader reader = {
         .command = "pil", .groups = usage.groups, .own = own, .take = take_one};
     return target_read(&reader, count, words, &o->common, o, &o->target) && is_known_board(o) &&
@@ -262,27 +265,6 @@ static bool read_time(const char *option, const char *text, const mechanism *of,
                 option, text);
     }
     return good;
-}
-
-/* Numbers between commas. */
-static bool read_places(const char *text, plant_wish *to) {
-    unsigned count = 0;
-    for (const char *at = text; at != NULL;) {
-        const char *end = at;
-        const double number = decimal_read(at, &end);
-        if (end == at || (*end != '\0' && *end != ',') || !isfinite(number) ||
-            count == WH_SIGNALS_MAX) {
-            fprintf(stderr,
-                    "whirl pil: error: --place '%s': numbers between commas, one an edge\n"
-                    "hint: --place 0,2.5 puts the second edge 2.5 degrees on\n",
-                    text);
-            return false;
-        }
-        to->place[count++] = number;
-        at = *end == ',' ? end + 1 : NULL;
-    }
-    to->places = count;
-    return true;
 }
 
 static lockstep_wish wish_of(const pil_options *o) {
@@ -319,7 +301,7 @@ static int tell(const pil_options *o, const lockstep_wish *wish, const image *im
         fprintf(stderr, "whirl pil: interrupted after %" PRIu64 " exchanges\n", r->exchanges);
     }
     if (!o->quiet && r->end != LOCKSTEP_BAD) {
-        pil_print(stdout, wish, im, r);
+        pil_print(o->csv != NULL && strcmp(o->csv, "-") == 0 ? stderr : stdout, wish, im, r);
     }
     return code_of(r);
 }
@@ -352,14 +334,24 @@ static void close_line(const pil_options *o, port *line) {
 
 /* --- against a scene ----------------------------------------------------------------------------------------------*/
 
+static bool would_be_lost(const pil_options *o, const source_model *from, const char *option,
+                          const char *name) {
+    if (name == NULL || source_would_be_lost(from, option, name, "")) {
+        return name != NULL;
+    }
+    const bool lost = o->firmware != NULL && files_same(name, o->firmware);
+    if (lost) {
+        fprintf(stderr, "whirl pil: error: %s would be written over the firmware\n", option);
+    }
+    return lost;
+}
+
 static bool open_tape(const pil_options *o, const source_model *from, FILE **file) {
     *file = NULL;
     if (o->tape == NULL) {
         return true;
     }
-    if (source_would_be_lost(from, "--tape", o->tape, "") ||
-        (o->firmware != NULL && files_same(o->tape, o->firmware))) {
-        fprintf(stderr, "whirl pil: error: --tape would be written over a file that is read\n");
+    if (would_be_lost(o, from, "--tape", o->tape)) {
         return false;
     }
     *file = fopen(o->tape, "wb");
@@ -372,14 +364,17 @@ static bool open_tape(const pil_options *o, const source_model *from, FILE **fil
 static int run_image(const pil_options *o, const source_model *from, const image *im,
                      lockstep_wish *wish) {
     lockstep_report report;
+    recorded rows;
     if (!start_has_method(im, im->settings.method, from->errors) ||
         !start_is_possible(im, &engine_double, from->errors)) {
         diags_flush(from->errors, stderr);
         return EXIT_BAD_INPUT;
     }
-    if (!open_tape(o, from, &wish->tape)) {
+    if (would_be_lost(o, from, "--csv", o->csv) || !open_tape(o, from, &wish->tape) ||
+        !recorded_open(&rows, o->csv, im, o->every != NULL ? wish->every_s : -1.0)) {
         return EXIT_BAD_INPUT;
     }
+    wish->plant.rows = &rows;
     if (o->common.change.until != NULL) {
         wish->until_s = im->until_s;
     }
@@ -390,6 +385,9 @@ static int run_image(const pil_options *o, const source_model *from, const image
     interrupts_catch_waiting();
     lockstep_run(wish, im, &report);
     close_line(o, &line);
+    if (!recorded_close(&rows)) {
+        report.end = LOCKSTEP_FAILED;
+    }
     if (wish->tape != NULL && fclose(wish->tape) != 0 && report.end != LOCKSTEP_BAD) {
         unwritten_say(o->tape);
         report.end = LOCKSTEP_FAILED;
@@ -436,7 +434,8 @@ static int run_source(pil_options *o, source_model *from) {
     }
     if (!read_time("jitter", o->jitter, of, &wish.plant.jitter_s) ||
         !read_time("delay", o->delay, of, &wish.plant.delay_s) ||
-        !read_places(o->place, &wish.plant)) {
+        !read_time("every", o->every, of, &wish.every_s) ||
+        !plant_read_places(o->place, &wish.plant)) {
         return EXIT_BAD_INPUT;
     }
     loaded made;

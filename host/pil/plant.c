@@ -7,6 +7,7 @@
 
 #include "core/noise.h"
 #include "host/base/room.h"
+#include "host/number/decimal.h"
 #include "host/number/functions.h"
 
 #define TURN_RAD 6.283185307179586477
@@ -17,6 +18,32 @@
 /* --- start and end ----------------------------------------------------------------------------------------*/
 
 static int components(const plant *p) { return p->image->angles + p->image->reals; }
+
+bool plant_read_places(const char *text, plant_wish *to) {
+    unsigned count = 0;
+    for (const char *at = text; at != NULL;) {
+        const char *end = at;
+        const double number = decimal_read(at, &end);
+        if (end == at || (*end != '\0' && *end != ',') || !isfinite(number) ||
+            count == WH_SIGNALS_MAX) {
+            fprintf(stderr,
+                    "whirl pil: error: --place '%s': numbers between commas, one an edge\n"
+                    "hint: --place 0,2.5 puts the second edge 2.5 degrees on\n",
+                    text);
+            return false;
+        }
+        to->place[count++] = number;
+        at = *end == ',' ? end + 1 : NULL;
+    }
+    to->places = count;
+    return true;
+}
+
+static void record(const plant *p) {
+    if (p->wish.rows != NULL) {
+        recorded_enter(p->wish.rows, p->run, p->steps);
+    }
+}
 
 static void look(const plant *p, double *state, double *output) {
     engine_double.state(p->run, state, state + p->image->angles);
@@ -57,6 +84,7 @@ void plant_start(plant *p, const image *im, const binding *b, const wh_hello *he
         }
     }
     look(p, p->after, p->output_after);
+    record(p);
 }
 
 void plant_stop(plant *p) {
@@ -305,6 +333,7 @@ static bool step(plant *p) {
     look(p, p->after, p->output_after);
     see_edges(p);
     p->steps++;
+    record(p);
     take_samples(p);
     return true;
 }

@@ -8,7 +8,7 @@
 #define PIL_PLANT_H
 
 #include "bind.h"
-#include "host/run/engine.h"
+#include "recorded.h"
 
 #define PLANT_PENDING 64
 
@@ -20,6 +20,7 @@ typedef struct plant_wish {
     double jitter_s;              /* standard deviation of an edge's time */
     double delay_s;               /* of every sample */
     uint32_t seed;                /* of the jitter */
+    recorded *rows;               /* the plant is recorded there; NULL: it is not */
 } plant_wish;
 
 typedef struct plant_event {
@@ -81,6 +82,9 @@ typedef struct plant {
     uint64_t samples_seen;
     uint64_t lost; /* for which there was no room */
 } plant;
+
+/* --place: numbers between commas, one an edge. False: it is something else, which was reported. */
+bool plant_read_places(const char *text, plant_wish *to);
 
 /* The image must outlive it. */
 void plant_start(plant *p, const image *im, const binding *b, const wh_hello *hello,

@@ -27,6 +27,7 @@ typedef struct lockstep_wish {
     double until_s;       /* the firmware is let go then, if it has not ended */
     double instruction_s; /* what an instruction takes */
     FILE *tape;           /* NULL: none is kept */
+    double every_s;       /* spacing of the plant's records; 0: not said */
     const tap *taps;      /* [tap_count] */
     int tap_count;
 } lockstep_wish;

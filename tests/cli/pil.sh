@@ -269,7 +269,7 @@ refused 2 'over the tape' --read "$scratch/pc.tape" --csv "$scratch/pc.tape"
 refused 2 '--read takes no --firmware' --read "$scratch/pc.tape" --firmware "$build/pil_rig"
 refused 2 '--read takes no scene' --read "$scratch/pc.tape" $rig
 refused 2 '--read takes no --replay' --read "$scratch/pc.tape" --replay "$scratch/pc.tape"
-refused 2 '--csv is what --read writes' $rig --csv - --firmware "$build/pil_rig"
+refused 2 '--replay takes no --csv' --replay "$scratch/pc.tape" --csv - --firmware "$build/pil_rig"
 
 # --- what is refused --------------------------------------------------------------------------------------------------------
 refused 2 'no --firmware' rig_coupled

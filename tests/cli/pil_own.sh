@@ -17,7 +17,7 @@ verdict $? "docs/pil.md has a plant and a firmware"
 # build COMPILER SOURCE PROGRAM: with the page's words, but for compiler, paths and warnings
 build() {
     words=$(tr -d '\\' <"$scratch/commands" | awk '/^cc / { on = 1 } /^build/ { on = 0 } on' | tr '\n' ' ' |
-        sed "s,^cc,$1 -Wall -Wextra -Wconversion -Wshadow -Werror,; s,boards/programs/pil_table.c,$2,; s,-o build/pil_table,-o $3,")
+        sed "s,^cc,$1 -Wall -Wextra -Wconversion -Wshadow -Werror,; s, pil_table.c, $2,; s,-o build/pil_table,-o $3,")
     # shellcheck disable=SC2086 # words
     $words 2>"$scratch/err"
 }
@@ -31,6 +31,19 @@ done
 [ -n "$built" ]
 verdict $? "there is a compiler"
 
+# the board's, by make, from a folder that is not the tree's
+grep '^make' "$scratch/commands" >"$scratch/makes"
+[ "$(wc -l <"$scratch/makes")" -eq 1 ]
+verdict $? "the page builds it for a board"
+board=$(sed -n 's/.*BOARD=//p' "$scratch/makes")
+elf=
+if command -v qemu-system-arm >/dev/null 2>&1 && command -v arm-none-eabi-gcc >/dev/null 2>&1; then
+    elf=build/$board/own/pil_table.elf
+    MAKEFLAGS='' make -s pil-image "CONTROLLER=$scratch/pil_table.c" "BOARD=$board" >"$scratch/err" 2>&1 && [ -f "$elf" ] &&
+        [ -f build/own/pil_table ]
+    verdict $? "make pil-image builds a controller from outside the tree, for $board and this machine"
+fi
+
 # run PROGRAM WORD...: against the page's plant
 run() {
     program=$1
@@ -38,7 +51,7 @@ run() {
     sh tests/limit.sh 60 "$whirl" pil "$scratch/table.whirl" --firmware "$program" "$@" >"$scratch/out" 2>"$scratch/err"
 }
 # the page's own runs, in its order
-grep '^build/whirl pil' "$scratch/commands" | sed 's/^build.whirl pil table.whirl --firmware build.pil_table//' >"$scratch/runs"
+grep '^build/whirl pil' "$scratch/commands" | sed -n 's/^build.whirl pil table.whirl --firmware build.pil_table//p' >"$scratch/runs"
 [ "$(wc -l <"$scratch/runs")" -eq 2 ]
 verdict $? "the page runs it twice"
 while read -r words; do
@@ -46,6 +59,10 @@ while read -r words; do
     run "$built" $words --tape "$scratch/tape" && grep -q '^it tells  *homed 1, place ' "$scratch/out"
     verdict $? "as on the page: $words" "$scratch/out"
 done <"$scratch/runs"
+if [ -n "$elf" ]; then
+    run "$elf" && grep -q '^it tells  *homed 1, place 0.0[12]' "$scratch/out" && grep -q "board $board" "$scratch/out"
+    verdict $? "and on $board" "$scratch/out"
+fi
 
 tables=1
 [ -z "${WHIRL_FULL:-}" ] || tables=20
@@ -59,6 +76,40 @@ while read -r x m rub; do
         END { d = x + 5 * a / 6.28318530718 - 20; exit !(a != "" && d < 0.02 && d > -0.02) }'
     verdict $? "the plant says so, too"
 done <"$scratch/drawn"
+
+# The plant's record: against the samples that the firmware heard, by the encoder and by the scene's own statement of x; rows
+# are as `whirl run` has them.
+header='time,theta,der(theta),x'
+for program in "$built" $elf; do
+    every=$(awk -v seed="${WHIRL_SEED:-1}" 'BEGIN { srand(seed + 1); print 1 + int(9 * rand()) }')
+    run "$program" --tape "$scratch/tape" --csv "$scratch/plant.csv" --every "${every}ms" &&
+        "$whirl" pil --read "$scratch/tape" | awk -F, -v OFS=, '$3 == "sample" { print $1, $6 }' >"$scratch/heard" &&
+        tr -d '\r' <"$scratch/plant.csv" | awk -F, -v every="$every" -v header="$header" '
+            FNR == NR { theta[sprintf("%.3f", $1)] = $2; next }
+            FNR == 1 { if ($0 != header) bad = bad " header"; next }
+            { n++; d = $1 - (n - 1) * every / 1000; if (d * d > 1e-18) bad = bad " " $1 }
+            { d = $4 - (0.0123 + 0.005 / 6.283185307179586 * $2); if (d * d > 1e-20) bad = bad " x" }
+            (sprintf("%.3f", $1) in theta) && FNR > 2 { same++; d = $2 - theta[sprintf("%.3f", $1)]; if (d * d > 0.0008 ^ 2) bad = bad " theta" $1 }
+            END { print n, same bad; exit bad != "" || n < 300 || same < n - 2 }' "$scratch/heard" - >"$scratch/said"
+    verdict $? "${program##*/}: the plant's rows, those with samples: $(cat "$scratch/said")" "$scratch/out"
+done
+# no row where none is asked for, and what cannot be is refused
+refused() {
+    ! run "$built" --csv "$scratch/x.csv" "$@" && grep -q "error: --every" "$scratch/err"
+    verdict $? "refused: $*" "$scratch/err"
+}
+refused --every 0
+refused --every 1.03ms
+refused --every 2kg
+! run "$built" --every 2ms && grep -q 'the spacing of --csv' "$scratch/err"
+verdict $? "refused: --every without --csv" "$scratch/err"
+run "$built" --csv - --until 10ms && [ "$(wc -l <"$scratch/out")" -eq 12 ] && grep -q 'command stream' "$scratch/err"
+verdict $? "--csv - has standard output to itself" "$scratch/out"
+cp "$scratch/table.whirl" "$scratch/kept"
+! run "$built" --csv "$scratch/table.whirl" && cmp -s "$scratch/table.whirl" "$scratch/kept"
+verdict $? "the scene is not written over" "$scratch/err"
+[ ! -c /dev/full ] || { ! run "$built" --csv /dev/full && grep -q 'cannot be written' "$scratch/err"; }
+verdict $? "a full disk is told" "$scratch/err"
 
 # bug NAME STATUS PATTERN SED: the firmware with that change ends so, and the run says why
 bug() {
