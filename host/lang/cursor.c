@@ -1,6 +1,7 @@
 /* cursor.c: tokens in hand, and the way back after errors. */
 #include "cursor.h"
 
+#include <ctype.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
@@ -136,6 +137,12 @@ void parser_skip_statement(parser *in) {
     }
 }
 
+/* "2,5" as some countries write it: a comma between two digits. */
+static bool is_decimal_comma(const token *sign) {
+    return sign->sign == ',' && sign->at.offset > 0 && isdigit((unsigned char)sign->text[-1]) &&
+           isdigit((unsigned char)sign->text[1]);
+}
+
 bool parser_end_statement(parser *in, const char *what) {
     if (parser_at_end_of_line(in) || parser_is_sign(in, '}')) {
         return true;
@@ -153,8 +160,10 @@ bool parser_end_statement(parser *in, const char *what) {
         if (in->token.sign == ')') {
             return parser_fail(in, NULL, "')' without '('");
         }
-        return parser_fail(in, "a statement ends with its line", "unexpected %s after %s", words,
-                           what);
+        return parser_fail(in,
+                           is_decimal_comma(&in->token) ? "a decimal point: 2.5"
+                                                        : "a statement ends with its line",
+                           "unexpected %s after %s", words, what);
     case TOKEN_STRING:
     case TOKEN_BAD:
     case TOKEN_END:

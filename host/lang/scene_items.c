@@ -6,8 +6,10 @@
 
 bool scene_fail_name(parser *in, const statement_word *word) {
     char words[80];
-    return parser_fail(in, NULL, "%s needs a name, not %s", word->text,
-                       token_words(&in->token, words, sizeof words));
+    return parser_fail(
+        in,
+        in->token.kind == TOKEN_NUMBER ? "NAME = VALUE; a number has a decimal point: 0.1" : NULL,
+        "%s needs a name, not %s", word->text, token_words(&in->token, words, sizeof words));
 }
 
 static bool with_item(parser *in, const statement_word *word) {

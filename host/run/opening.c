@@ -99,11 +99,12 @@ static void print_ways(FILE *out, const opening *o, const records *r) {
     fputs(moving > 0 ? ".\n" : "Nothing moves.\n", out);
 }
 
-/* "The momentum of x stays 0 kg*m/s within 5.9e-11. ", of the first name that is conserved. */
+/* "The momentum of x stays 0 kg*m/s within 5.9e-11. ", of the first length whose momentum is
+ * conserved. That of an angle, such as a clock's, says nothing of where the device goes. */
 static void print_momentum(FILE *out, const image *im, const books *b) {
     int found = -1;
     for (int i = 0; i < im->count && b != NULL; i++) {
-        if (im->unknown[i].conserved && isfinite(b->drift[i]) &&
+        if (im->unknown[i].conserved && im->unknown[i].is_length && isfinite(b->drift[i]) &&
             (found < 0 || strcmp(im->unknown[i].name, im->unknown[found].name) < 0)) {
             found = i;
         }

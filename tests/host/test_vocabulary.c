@@ -163,6 +163,20 @@ static void test_first_words_get_a_hint(void) {
     }
 }
 
+/* Numbers as some countries write them, wherever one may stand. */
+static void test_a_decimal_comma_gets_a_hint(void) {
+    static const char *const forms[] = {
+        "parameter a = %u,%u [m]", "V = %u,%u [N/m]*x^2", "scene s { step %u,%u [ms] }",
+        "scene s { start x = %u,%u [m] }", "scene s { set m = %u,%u [kg] }"};
+    uint32_t drawn = 45;
+    for (unsigned i = 0; i < 40U; i++) {
+        char text[120];
+        drawn = drawn * 1664525U + 1013904223U;
+        snprintf(text, sizeof text, forms[i % 5U], drawn >> 28U, drawn >> 20U & 255U);
+        expect_report(text, "a decimal point");
+    }
+}
+
 void suite_vocabulary(void) {
     RUN_TEST(test_first_words_get_a_hint);
     RUN_TEST(test_functions_are_in_their_recorded_order);
@@ -171,4 +185,5 @@ void suite_vocabulary(void) {
     RUN_TEST(test_which_words_end_a_block);
     RUN_TEST(test_symbols_are_called_what_they_are);
     RUN_TEST(test_energies_have_their_dimension);
+    RUN_TEST(test_a_decimal_comma_gets_a_hint);
 }
