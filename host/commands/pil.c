@@ -379,13 +379,18 @@ static int run_image(const pil_options *o, const source_model *from, const image
         wish->until_s = im->until_s;
     }
     port line;
-    if (!open_line(o, wish, &line)) {
+    const bool open = open_line(o, wish, &line);
+    if (open) {
+        interrupts_catch_waiting();
+        lockstep_run(wish, im, &report);
+        close_line(o, &line);
+    }
+    const bool written = recorded_close(&rows);
+    wish->plant.rows = NULL;
+    if (!open) {
         return EXIT_BAD_INPUT;
     }
-    interrupts_catch_waiting();
-    lockstep_run(wish, im, &report);
-    close_line(o, &line);
-    if (!recorded_close(&rows)) {
+    if (!written) {
         report.end = LOCKSTEP_FAILED;
     }
     if (wish->tape != NULL && fclose(wish->tape) != 0 && report.end != LOCKSTEP_BAD) {

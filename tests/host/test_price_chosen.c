@@ -297,7 +297,9 @@ static void test_what_was_chosen_is_told(void) {
         if (coarser) {
             at = expect_near(behind(text, "\n  coarser     --step "),
                              ratio_times(1, trial_step(t, c.coarser.pace)), 1e-12);
-            expect_amount(said_words(at, "errs by"), t, c.coarser.result.error, "\n");
+            expect_amount(
+                said_words(at, "errs by"), t, c.coarser.result.error,
+                c.coarser.result.error <= w.error ? ", more than half of what is allowed\n" : "\n");
         }
         at = behind(text, "\n\nrunner-up   ");
         if (!c.has_second) {
