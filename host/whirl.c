@@ -29,7 +29,7 @@ static const command commands[] = {
     {"accel", command_accel, "FILE NAME=VALUE ...", "accelerations at one state"},
 #ifndef WHIRL_NO_SYSTEM /* no processes and no signals */
     {"run", command_run, "SCENE|FILE[:SCENE] ...", "simulate"},
-    {"plot", command_plot, "FILE.csv|SCENE ... --out FILE", "curves of recorded or new runs"},
+    {"plot", command_plot, "FILE.csv|SCENE ...", "curves of recorded or new runs"},
     {"figure", command_figure, "NUMBER", "a figure of the dissertation, as it is or varied"},
     {"sweep", command_sweep, "SCENE|FILE[:SCENE] ...", "simulate over ranges of parameters"},
     {"price", command_price, "SCENE|FILE[:SCENE] ...", "error against price, for all settings"},
@@ -63,7 +63,7 @@ static void print_usage(FILE *out) {
           out);
     for (int i = 0; i < COMMANDS; i++) {
         if (commands[i].text != NULL) {
-            const int room = 32 - (int)strlen(commands[i].name);
+            const int room = 30 - (int)strlen(commands[i].name);
             fprintf(out, "  whirl %s %-*s%s\n", commands[i].name, room, commands[i].takes,
                     commands[i].text);
         }

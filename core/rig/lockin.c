@@ -150,7 +150,7 @@ void wh_lockin_load(wh_lockin *lockin, const wh_load *load) {
 /* --- one turn ----------------------------------------------------------------------------------- */
 
 /* The last node stands for half the way to either of its neighbours. */
-static void weigh_last(wh_lockin *lockin, wh_real theta_rad, wh_real part) {
+WH_SHARED void weigh_last(wh_lockin *lockin, wh_real theta_rad, wh_real part) {
     const wh_lockin_node *node = &lockin->last;
     const wh_real rest = WH_R(0.5) * (theta_rad - lockin->before_rad) * node->rest_N;
     for (unsigned i = 0; i < WH_LOCKIN_ORDERS; i++) {
@@ -225,27 +225,30 @@ static wh_real load_between(const wh_lockin *lockin, uint32_t ticks) {
 static void place_next(wh_lockin *lockin) {
     wh_lockin_turn *turn = &lockin->next;
     const uint32_t end_ticks = turn->begin_ticks + turn->turn_ticks;
-    const uint32_t ticks = lockin->ticks[lockin->first];
-    const wh_real force_N = lockin->force_N[lockin->first];
+    uint32_t ticks = lockin->ticks[lockin->first];
+    wh_real force_N = lockin->force_N[lockin->first];
+    wh_lockin_place place = WH_LOCKIN_WITHIN;
     if (lockin->count == 0 || (int32_t)(ticks - turn->begin_ticks) <= 0) {
         return;
     }
     if (lockin->stage == WH_LOCKIN_BEGINS) {
-        turn->at_mark_N[0] = load_between(lockin, turn->begin_ticks);
-        place_node(lockin, turn->begin_ticks, turn->at_mark_N[0], WH_LOCKIN_BEGIN);
+        ticks = turn->begin_ticks;
+        force_N = load_between(lockin, ticks);
+        turn->at_mark_N[0] = force_N;
+        place = WH_LOCKIN_BEGIN;
         lockin->stage = WH_LOCKIN_SUMS;
-        return;
+    } else if ((int32_t)(ticks - end_ticks) > 0) {
+        ticks = end_ticks;
+        force_N = load_between(lockin, ticks);
+        place = WH_LOCKIN_END;
+    } else {
+        if (turn->split_seen && (int32_t)(ticks - turn->split_ticks) >= 0 &&
+            (!lockin->taken || (int32_t)(lockin->taken_ticks - turn->split_ticks) < 0)) {
+            turn->at_mark_N[1] = load_between(lockin, turn->split_ticks);
+        }
+        pop(lockin);
     }
-    if ((int32_t)(ticks - end_ticks) > 0) {
-        place_node(lockin, end_ticks, load_between(lockin, end_ticks), WH_LOCKIN_END);
-        return;
-    }
-    if (turn->split_seen && (int32_t)(ticks - turn->split_ticks) >= 0 &&
-        (!lockin->taken || (int32_t)(lockin->taken_ticks - turn->split_ticks) < 0)) {
-        turn->at_mark_N[1] = load_between(lockin, turn->split_ticks);
-    }
-    pop(lockin);
-    place_node(lockin, ticks, force_N, WH_LOCKIN_WITHIN);
+    place_node(lockin, ticks, force_N, place);
 }
 
 /* Half nodes, a few; true when the turn is through. */

@@ -462,11 +462,11 @@ wh_rig_command wh_rig_step(const wh_rig_config *config, wh_rig *rig, const wh_ri
     const wh_rig_phase phase = rig->run.phase;
     follow_trip(config, rig, inputs);
     live(config, rig, inputs);
+    follow_trip(config, rig, inputs); /* before the sums, which are for nobody then */
     if (rig->run.phase != phase) {
         rig->busy = true;
     }
     measure(config, rig, inputs->now_ticks);
-    follow_trip(config, rig, inputs);
     if (!wh_run_drives(&rig->run)) {
         age(rig, inputs->now_ticks);
         if (WH_RIG_SWINGS) {
