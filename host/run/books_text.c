@@ -32,7 +32,9 @@ static void print_momenta(FILE *out, const books *b) {
         }
     }
     if (!any) {
-        fprintf(out, "no coordinate's own momentum is conserved; whirl examine tells of sums and rotations\n");
+        fprintf(
+            out,
+            "no coordinate's own momentum is conserved; whirl examine tells of sums and rotations\n");
     }
 }
 
