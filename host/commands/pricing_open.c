@@ -12,7 +12,7 @@
 #include "host/run/start.h"
 #include "pricing.h"
 
-/* `name` is NULL, or of what it is a change; then `wanted` is not looked at. */
+/* With a `name` the value is a change of that quantity, and `wanted` is not used. */
 static bool take_quantity(const char *command, const mechanism *of, const char *name,
                           const char *what, const char *text, dimension wanted, double *value) {
     struct arena *arena = arena_new();

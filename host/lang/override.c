@@ -163,7 +163,7 @@ const expr *override_quantity(const mechanism *of, const char *what, const char 
     return diags_calls(all) == before ? made : NULL;
 }
 
-/* What a quantity of the scene can be: its symbol and how often it is derived; NULL: there is none of this name. */
+/* The coordinate, state or output of this name, and how often it is derived. NULL: there is no such name. */
 static const symbol *quantity_named(const mechanism *of, const char *name, int *primes) {
     const size_t length = strcspn(name, "'");
     const named *known = names_find(of->names, name, length);

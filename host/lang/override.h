@@ -21,8 +21,8 @@ const expr *override_duration(const mechanism *of, const char *what, const char 
 const expr *override_quantity(const mechanism *of, const char *what, const char *text,
                               dimension wanted, struct arena *arena, diags *diags);
 
-/* The same, a change of "X", "theta'" or an output: of its dimension, and with a unit unless it is declared in SI. A name that
- * stands for nothing that moves is not reported. */
+/* A change of "X", "theta'" or an output, in SI. It needs the quantity's dimension, and a unit unless SI is declared. An
+ * unknown name is not reported. NULL when it was wrong. */
 const expr *override_size(const mechanism *of, const char *name, const char *what, const char *text,
                           struct arena *arena, diags *diags);
 

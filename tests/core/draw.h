@@ -29,7 +29,7 @@ static inline unsigned draw_one_of(uint64_t *seed, unsigned count) {
     return count > 0 ? (unsigned)(draw_bits(seed) % count) : 0U;
 }
 
-/* An emulated board takes an eighth of the cases: its emulator needs minutes for all of them, and this machine takes all. */
+/* An emulated board takes an eighth of the cases, for all of them take its emulator minutes. This machine takes all. */
 enum { DRAW_PART = __STDC_HOSTED__ ? 1 : 8 };
 static inline unsigned draw_cases(unsigned all) { return all / DRAW_PART; }
 
