@@ -107,8 +107,9 @@ typedef enum wh_contact_kind {
 typedef struct wh_contact {
     uint8_t kind; /* wh_contact_kind */
     int8_t
-        direction; /* crossing: +1 rising, -1 falling, 0 both; stop: 1 if an input moves it; hold: 1 if
-                        * it is straight, its J_k constant, -1 if an input moves a curved one; else 0 */
+        direction; /* crossing: +1 rising, -1 falling, 0 both; stop: 1 if an input moves it between steps, 2 if one
+                        * with a rate does; hold: 1 if it is straight, its J_k constant, -1 if it follows
+                        * an input with a rate; else 0 */
     int16_t pin; /* the one coordinate that J_k has an entry for, if that is constant: its rate
                         * is held at zero exactly; else -1 */
     uint8_t
@@ -162,6 +163,7 @@ typedef struct wh_contact_system {
     bool compensated;
     uint8_t angles;
     uint8_t coordinates;
+    uint64_t driven; /* of those, as bits: inputs with a rate (drive.h), which nothing pushes */
 } wh_contact_system;
 
 #endif

@@ -143,7 +143,7 @@ static inline unsigned wh_contact_impulses(const wh_contact_system *of, wh_conta
             rate[pin] = WH_R(0.0);
         }
         impulse[l] += lambda[i];
-        wh_books_impulse(of, w, l, lambda[i], before[i], wh_jacobian_times(of, w, l, rate));
+        wh_books_impulse(of, w, l, lambda[i], before[i], wh_jacobian_times(of, w, l, rate), rate);
     }
     return giving;
 }

@@ -12,15 +12,21 @@ WH_INLINE bool wh_books_open(const wh_contact_system *of, const wh_contact_work 
     return of->ledger != NULL && w->books != NULL;
 }
 
-/* Contact k's force (or impulse) `lambda`, `share` long (or 1), did this to the rates' mean `rate`. */
+/* Contact k's force (or impulse) `lambda`, `share` long (or 1), worked at the mean speed J_k q' = `speed`. Of that, what
+ * moves an input does its share: the contact's energy is what the coordinates got. */
 static inline void wh_books_enter(const wh_contact_system *of, const wh_contact_work *w, unsigned k,
-                                  wh_real share, wh_real lambda, wh_real speed, wh_real *entry) {
+                                  wh_real share, wh_real lambda, wh_real speed, const wh_real *rate,
+                                  wh_real *entry) {
     const wh_real *row = wh_contact_law(of, w, k) + WH_LAW_ROWS;
     const unsigned first = wh_ledger_of_contact(of->ledger, k);
     const wh_real impulse = share * lambda;
     entry[first] += impulse * speed;
     for (unsigned i = 0; i < of->coordinates; i++) {
-        entry[first + 1U + i] += impulse * row[i];
+        if ((of->driven >> i & 1U) != 0) {
+            entry[first] -= impulse * (row[i] * rate[i]);
+        } else {
+            entry[first + 1U + i] += impulse * row[i];
+        }
     }
 }
 
@@ -35,7 +41,7 @@ static inline void wh_books_stage(const wh_contact_system *of, const wh_contact_
         wh_ledger_stage(of->ledger, of->method, phase, linear, rate, input, w->books);
     for (unsigned k = 0; k < of->forced && wh_contact_any_acts(of, w); k++) {
         if (w->force[k] != WH_R(0.0)) {
-            wh_books_enter(of, w, k, share, w->force[k], wh_jacobian_times(of, w, k, rate),
+            wh_books_enter(of, w, k, share, w->force[k], wh_jacobian_times(of, w, k, rate), rate,
                            w->books->attempt);
         }
     }
@@ -43,9 +49,11 @@ static inline void wh_books_stage(const wh_contact_system *of, const wh_contact_
 
 /* An impulse of contact k, whose speed it changed. Its work is that of the mean speed (Kelvin). */
 WH_INLINE void wh_books_impulse(const wh_contact_system *of, const wh_contact_work *w, unsigned k,
-                                wh_real impulse, wh_real before, wh_real after) {
+                                wh_real impulse, wh_real before, wh_real after,
+                                const wh_real *rate) {
     if (wh_books_open(of, w)) {
-        wh_books_enter(of, w, k, WH_R(1.0), impulse, WH_R(0.5) * (before + after), w->books->step);
+        wh_books_enter(of, w, k, WH_R(1.0), impulse, WH_R(0.5) * (before + after), rate,
+                       w->books->step);
     }
 }
 
@@ -120,7 +128,7 @@ WH_INLINE void wh_books_commit(const wh_contact_system *of, const wh_contact_wor
 #else
 
 #define wh_books_stage(of, w, phase, linear, rate, input) ((void)0)
-#define wh_books_impulse(of, w, k, impulse, before, after) ((void)0)
+#define wh_books_impulse(of, w, k, impulse, before, after, rate) ((void)0)
 #define wh_books_levels(of, w, s, input, k, sign) ((void)0)
 #define wh_books_look(of, w, s, input) ((void)0)
 #define wh_books_moved(of, w, s, input, k) ((void)0)

@@ -208,7 +208,7 @@ static inline void wh_contact_project_rates(const wh_contact_system *of, const w
         }
         if (booked) {
             wh_books_impulse(of, w, member[i], lambda[i], -wanted[i],
-                             wh_jacobian_times(of, w, member[i], rate));
+                             wh_jacobian_times(of, w, member[i], rate), rate);
         }
     }
 }

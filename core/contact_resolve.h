@@ -310,38 +310,67 @@ WH_INLINE bool wh_contact_follows(const wh_contact_system *of, const wh_contact_
     return false;
 }
 
+/* Of what follows inputs with a rate, now that those may have another rate than the step before ended with: which resting
+ * stops fall, as bits, and in *hits which are hit. A resting stop takes on the new rate if the force that presses it does
+ * so within the step. The rates of all others that hold are put right by impulses. work->law must belong to this position. */
+static inline unsigned wh_contact_follow_rates(const wh_contact_system *of, wh_contact_work *w,
+                                               wh_real h, unsigned but, unsigned *hits,
+                                               wh_real *rate) {
+    bool off = false;
+    *hits = 0;
+    for (unsigned k = 0; k < of->forced; k++) {
+        const int8_t direction = of->contact[k].direction;
+        const bool stop = wh_contact_of(of, k, WH_STOP);
+        const bool follows = stop ? direction > 1 : wh_contact_of(of, k, WH_HOLD) && direction < 0;
+        if (!follows || w->mode[k] != WH_ACTIVE || (but >> k & 1U) != 0) {
+            continue;
+        }
+        const wh_real speed = wh_jacobian_times(of, w, k, rate);
+        const wh_real near = h * w->force[k] * wh_delassus_diagonal(of, w, k);
+        const bool moves =
+            WH_ABS(speed) > WH_CONTACT_ROUNDING * wh_contact_terms(of, w, k, rate);
+        if (stop && moves && WH_ABS(speed) > near) {
+            but |= speed > WH_R(0.0) ? 1U << k : 0U;
+            *hits |= speed > WH_R(0.0) ? 0U : 1U << k;
+        } else {
+            off = off || moves;
+        }
+    }
+    if (off) {
+        wh_contact_project_rates(of, w, but | *hits, true, rate);
+    }
+    return but;
+}
+
 /* Where an input has moved a resting stop since the last step: the body is put back onto it, or falls if
- * what presses it does not close the gap within the step. The energy is the stop's. What an input does to a held
- * expression moves nobody: the hold keeps the new value. */
+ * what presses it does not close the gap within the step. What a hold keeps is put back, too. The energy is the contact's. */
 static inline void wh_contact_follow(const wh_contact_system *of, wh_contact_work *w, wh_real h,
                                      const wh_real *input, wh_contact_state *s) {
     wh_real accel[WH_COORDS];
     wh_real signal[2 * WH_CONTACTS_MAX];
-    unsigned moved = WH_CONTACTS_MAX;
     wh_contact_place spot = WH_CONTACT_HERE;
+    unsigned hits = 0;
     if (!wh_contact_follows(of, w)) {
         return;
     }
-    for (unsigned k = 0; k < of->forced; k++) {
-        moved = wh_contact_of(of, k, WH_STOP) && wh_contact_may_move(of, w, k) ? k : moved;
-    }
     wh_contact_look(of, w, s, input, accel, signal);
     for (unsigned k = 0; k < of->forced; k++) {
-        const wh_contact *c = &of->contact[k];
-        if (wh_contact_of(of, k, WH_STOP) && c->direction != 0 && w->mode[k] == WH_ACTIVE) {
+        if (!wh_contact_may_move(of, w, k)) {
+            continue;
+        }
+        spot.mover = k;
+        if (wh_contact_of(of, k, WH_STOP)) {
             const wh_real closes = WH_R(0.5) * h * h * w->force[k] * wh_delassus_diagonal(of, w, k);
             spot.but |= signal[2 * k] > closes ? 1U << k : 0U;
-        } else if (c->direction < 0) {
-            wh_contact_capture(of, w, k);
         }
     }
-    if (moved == WH_CONTACTS_MAX) {
-        return;
-    }
-    spot.mover = moved;
     (void)wh_contact_project_places(of, w, &spot, signal, input, s);
-    if (spot.but != 0) {
-        const wh_contact_moment m = {0, spot.but, h, false};
+    if (of->driven != 0) {
+        spot.but = wh_contact_follow_rates(of, w, h, spot.but, &hits, wh_contact_rates(of, s));
+        wh_contact_set_modes(of, w, hits, WH_FREE);
+    }
+    if (spot.but != 0 || hits != 0) {
+        const wh_contact_moment m = {hits, spot.but, h, false};
         wh_real impulse[WH_CONTACTS_MAX];
         (void)wh_contact_resolve(of, w, &m, input, s, impulse);
     }

@@ -112,6 +112,18 @@ WH_INLINE void wh_ledger_levels(const wh_ledger_form *form, const wh_state *stat
                  level);
 }
 
+/* The same with the inputs of the last step: the next one enters what other inputs were changed by. */
+static inline void wh_ledger_last_levels(const wh_ledger_form *form, const wh_state *state,
+                                         wh_real *level) {
+    for (unsigned k = 0; k < form->inputs; k++) {
+        wh_ledger_exchange(form, state, k);
+    }
+    wh_ledger_levels(form, state, level);
+    for (unsigned k = 0; k < form->inputs; k++) {
+        wh_ledger_exchange(form, state, k);
+    }
+}
+
 /* What went into an account since the start, entries of its own unit summed. */
 static inline wh_real wh_ledger_sum(const wh_ledger_form *form, const wh_state *state,
                                     unsigned account) {
@@ -133,13 +145,7 @@ static inline wh_real wh_ledger_error(const wh_ledger_form *form, const wh_state
     if (state->steps == 0) {
         return WH_R(0.0);
     }
-    for (unsigned k = 0; k < form->inputs; k++) {
-        wh_ledger_exchange(form, state, k);
-    }
-    wh_ledger_levels(form, state, level);
-    for (unsigned k = 0; k < form->inputs; k++) {
-        wh_ledger_exchange(form, state, k);
-    }
+    wh_ledger_last_levels(form, state, level);
     return (level[account] - state->ledger[2U * form->entries + account]) -
            wh_ledger_sum(form, state, account);
 }

@@ -2,18 +2,13 @@
 #ifndef WH_LEDGER_STEP_H
 #define WH_LEDGER_STEP_H
 
-#include "ledger.h"
+#include "drive.h"
 #include "stabilize.h"
 #include "step.h"
 
 /* Most entries. A generated scene defines its own. */
 #ifndef WH_LEDGER_MAX
 #define WH_LEDGER_MAX 2048
-#endif
-
-/* Most accounts: energy, and a momentum for each coordinate. A generated scene defines its own. */
-#ifndef WH_ACCOUNTS_MAX
-#define WH_ACCOUNTS_MAX (WH_COORDS + 1)
 #endif
 
 /* A step of the books in progress. */

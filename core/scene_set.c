@@ -1,11 +1,5 @@
 /* scene_set.c: correcting a state from a measurement: one component gets a new value, and the contacts are found again. */
-#include "ledger.h"
-#include "refuse.h"
-#include "scene.h"
-#include "unroll.h"
-
-/* The energy, and a momentum for each coordinate. */
-enum { ACCOUNTS_MAX = WH_COORDS + 1 };
+#include "drive.h"
 
 /* Most radians that an angle may be given: as contact_crossing.h has it. */
 #define ANGLE_MOST WH_R(1e9)
@@ -14,39 +8,12 @@ static bool has_books(const wh_scene *scene, const wh_state *state) {
     return scene->ledger != NULL && state->steps > 0; /* the first step takes its levels itself */
 }
 
-/* The accounts' levels with the inputs of the last step: the next one enters what inputs were changed by. */
-static void levels_of(const wh_scene *scene, const wh_state *state, wh_real *level) {
-    const wh_ledger_form *form = scene->ledger;
-    for (unsigned k = 0; k < form->inputs; k++) {
-        wh_ledger_exchange(form, state, k);
-    }
-    wh_ledger_levels(form, state, level);
-    for (unsigned k = 0; k < form->inputs; k++) {
-        wh_ledger_exchange(form, state, k);
-    }
-}
-
-static void book(const wh_scene *scene, const wh_state *state, const wh_real *before) {
-    const wh_ledger_form *form = scene->ledger;
-    wh_real *start = state->ledger + 2U * form->entries;
-    wh_real *corrected = wh_ledger_corrected(form, state);
-    wh_real level[ACCOUNTS_MAX];
-    levels_of(scene, state, level);
-    for (unsigned i = 0; i < wh_ledger_level_count(form); i++) {
-        const wh_real change = level[i] - before[i];
-        if (wh_believable(change, WH_ABSURD)) {
-            start[i] += change;
-            corrected[i] += change;
-        }
-    }
-}
-
 /* Component `at`, angles first, becomes *angle, or *real. */
 static void replace(const wh_scene *scene, wh_state *state, unsigned at, const wh_angle *angle,
                     const wh_real *real) {
-    wh_real before[ACCOUNTS_MAX];
+    wh_real before[WH_ACCOUNTS_MAX];
     if (has_books(scene, state)) {
-        levels_of(scene, state, before);
+        wh_ledger_last_levels(scene->ledger, state, before);
     }
     if (angle != NULL) {
         state->angle[at] = *angle;
@@ -63,7 +30,7 @@ static void replace(const wh_scene *scene, wh_state *state, unsigned at, const w
         state->contacts->mode[k] = WH_UNSET;
     }
     if (has_books(scene, state)) {
-        book(scene, state, before);
+        wh_ledger_correct(scene->ledger, state, before);
     }
 }
 

@@ -252,7 +252,8 @@ const poly *poly_from_expr(algebra *a, const expr *e) {
     }
     switch (e->op) {
     case EXPR_NUMBER: return poly_number(a, e->number);
-    case EXPR_SYMBOL:
+    case EXPR_SYMBOL: {
+        int primes = e->primes;
         if (e->symbol->kind == SYM_LET || e->symbol->kind == SYM_OUTPUT) {
             const poly *known = memo_get(&a->lets, e->symbol, NULL);
             if (known == NULL) {
@@ -261,7 +262,9 @@ const poly *poly_from_expr(algebra *a, const expr *e) {
             }
             return known;
         }
-        return poly_symbol(a, e->symbol, e->primes);
+        const symbol *moving = symbol_moving(e->symbol, &primes);
+        return poly_symbol(a, moving, primes);
+    }
     case EXPR_NEG: return poly_scale(a, poly_from_expr(a, e->left), -1.0);
     case EXPR_ADD: return poly_add(a, poly_from_expr(a, e->left), poly_from_expr(a, e->right));
     case EXPR_SUB: return poly_sub(a, poly_from_expr(a, e->left), poly_from_expr(a, e->right));

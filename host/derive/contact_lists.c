@@ -104,9 +104,13 @@ static tape *make_forces(layout *map, const linear_system *s) {
         int *result = t->result + k * stride;
         lowering l = layout_lowering(map, t);
         for (int i = 0; i < n; i++) {
-            row[i] = layout_ready(map, law->row[i]);
+            const bool driven = map->equations->unknowns[i].symbol->driven != NULL;
+            row[i] = driven ? poly_number(l.algebra, 0.0) : layout_ready(map, law->row[i]);
         }
         solve_highest(&l, &load, pushed);
+        for (int i = 0; i < n; i++) { /* what is driven moves the contact, and is not pushed */
+            row[i] = layout_ready(map, law->row[i]);
+        }
         row[n + WH_LAW_FIRST] = layout_ready(map, law->first);
         row[n + WH_LAW_SECOND] = layout_ready(map, law->second);
         row[n + WH_LAW_BIAS] = layout_ready(map, law->bias);
@@ -159,15 +163,14 @@ static int component_of(const layout *map, const assignment *set) {
     return -1;
 }
 
-/* Does the value depend on an input? */
-static bool input_moves(const equations *e, const poly *value) {
+/* 2: an input with a rate moves the stop; 1: another input does, between steps; 0: none. */
+static int stop_moves(const equations *e, const contact_law *law) {
     const mechanism *m = e->instance->mechanism;
-    for (int i = 0; i < m->input_count; i++) {
-        if (!poly_is_zero(poly_derivative(e->algebra, value, m->inputs[i], 0))) {
-            return true;
-        }
+    int moves = law->driven ? 2 : 0;
+    for (int i = 0; i < m->input_count && moves == 0; i++) {
+        moves = !poly_is_zero(poly_derivative(e->algebra, law->value, m->inputs[i], 0));
     }
-    return false;
+    return moves;
 }
 
 static contact_row make_row(contact_lists *c, const layout *map, const contact_law *law) {
@@ -177,12 +180,10 @@ static contact_row make_row(contact_lists *c, const layout *map, const contact_l
     row.first_set = c->set_count;
     if (from->kind != CONTACT_WHEN) {
         row.pin = pin_of(map, law);
-        const bool moves =
-            input_moves(map->equations, from->kind == CONTACT_HOLD ? law->first : law->value);
-        row.direction = from->kind == CONTACT_STOP                    ? moves
-                        : from->kind == CONTACT_HOLD && law->straight ? 1
-                        : from->kind == CONTACT_HOLD && moves         ? -1
-                                                                      : 0;
+        row.direction = from->kind == CONTACT_STOP   ? stop_moves(map->equations, law)
+                        : from->kind != CONTACT_HOLD ? 0
+                        : law->straight              ? 1
+                                                     : -law->driven;
         row.first_set = from->kind == CONTACT_HOLD && row.pin < 0 ? c->held++ : 0;
         return row;
     }

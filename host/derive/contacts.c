@@ -28,7 +28,9 @@ static void make_constraint(algebra *a, const mechanism *m, const poly *held, co
         const poly *turning = rate_of(a, m, law->row[i]);
         law->bias = poly_add(a, law->bias, poly_mul(a, turning, poly_symbol(a, q, 1)));
         double number;
-        law->straight = law->straight && poly_is_number(law->row[i], &number);
+        const bool driven = q->driven != NULL && !poly_is_zero(law->row[i]);
+        law->driven = law->driven || driven;
+        law->straight = law->straight && !driven && poly_is_number(law->row[i], &number);
     }
 }
 

@@ -16,7 +16,8 @@ typedef struct contact_law {
     const poly *second; /* friction: mu_kinetic * max(N, 0) */
     const poly *bias;   /* J' q' */
     const poly **row;   /* [coordinates] J; NULL for a crossing */
-    bool straight;      /* J is constant */
+    bool straight;      /* J is constant, and no input is in what is held */
+    bool driven;        /* it follows an input with a rate */
 } contact_law;
 
 typedef struct contact_set {

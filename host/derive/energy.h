@@ -17,6 +17,9 @@
  * algebra: the order of its terms, and with it the generated code, stays as it was. */
 const poly *energy_integral(const equations *e);
 
+/* The power of what drives unknown i, an input with a rate: what it must do beyond the forces, losses and contacts. */
+const poly *energy_drive(const equations *e, int i);
+
 /* Does any mass depend on a rate? Then an impulse is not mass times the change of the rates. */
 bool energy_mass_has_rates(const equations *e);
 

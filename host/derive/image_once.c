@@ -125,6 +125,7 @@ static void copy_unknowns(image_draft *d, const equations *e) {
                              .is_angle = s->is_angle,
                              .is_length = s->dim.twelfths[DIM_LENGTH] == DIM_DENOMINATOR,
                              .conserved = e->conserved[i],
+                             .driven = s->driven != NULL,
                              .order = e->unknowns[i].order,
                              .momentum_si = momentum_unit(d, s)};
         u->unit = image_room(d, u->order + 1, sizeof *u->unit);
@@ -265,12 +266,35 @@ static void take_ledger(image_draft *d, ledger_lists *l) {
     for (int i = 0; i < l->smooth; i++) {
         const ledger_entry *from = &l->entry[i];
         made->entry[i] = (image_entry){.kind = from->kind, .account = from->account};
-        if (from->term != NULL) {
-            made->entry[i].at = image_place(d, from->term->at);
+        if (from->at != NULL) {
+            made->entry[i].at = image_place(d, *from->at);
         }
     }
     im->list[IMAGE_POWERS] = take(&l->powers);
     im->list[IMAGE_LEVELS] = take(&l->levels);
+}
+
+/* The number in the image of an input of the mechanism. */
+static int input_number(const layout *map, const symbol *input) {
+    int number = 0;
+    while (map->input[number] != input->index) {
+        number++;
+    }
+    return number;
+}
+
+static void take_drives(image_draft *d, const layout *map) {
+    image *im = d->made;
+    const equations *e = map->equations;
+    im->drive = image_room(d, e->count, sizeof *im->drive);
+    for (int i = 0; i < e->count; i++) {
+        const symbol *input = e->unknowns[i].symbol->driven;
+        if (input != NULL) {
+            const int *at = &map->real_number[i * map->order_room];
+            im->drive[im->drives++] = (image_drive){
+                input_number(map, input), input_number(map, input->rate), at[0], at[1]};
+        }
+    }
 }
 
 static void take_program(image_draft *d, program *p) {
@@ -286,6 +310,7 @@ static void take_program(image_draft *d, program *p) {
     im->place = copy(d, map->place, p->count, sizeof *map->place);
     im->from_momentum =
         copy(d, p->conserved->unknown, im->recovered, sizeof *p->conserved->unknown);
+    take_drives(d, map);
     im->has_integral = p->integral != NULL;
     im->hash = program_hash(p);
     im->list[IMAGE_STEP] = take(&p->step);

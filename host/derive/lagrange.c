@@ -22,19 +22,36 @@ static const poly *sum_of_terms(algebra *a, const instance *inst, term_kind kind
     return sum;
 }
 
-/* An input's rate is unknown, so it may not take part in a momentum. */
+/* An input without a rate may not take part in a momentum. */
 static bool momentum_free_of_inputs(const equations *e, const poly *momentum, diags *errors) {
     const mechanism *m = e->instance->mechanism;
+    char hint[RATE_HINT_SIZE];
     for (int i = 0; i < m->input_count; i++) {
         if (poly_contains(momentum, m->inputs[i], 0)) {
             diag_error(errors, equations_kinetic_place(e->instance),
-                       "make it a parameter, or a coordinate that follows it",
+                       input_rate_hint(m->inputs[i], hint),
                        "the kinetic energy depends on input '%s', whose rate is not known",
                        m->inputs[i]->name);
             return false;
         }
     }
     return true;
+}
+
+/* How an input with a rate is accelerated. */
+static const poly *acceleration_of(algebra *a, const symbol *driven) {
+    const symbol *input = symbol_acceleration(driven);
+    return input != NULL ? poly_symbol(a, input, 0) : poly_number(a, 0.0);
+}
+
+/* Its equation: q'' = that. It has no momentum of its own, and no force moves it. */
+static void drive(equations *e, int i) {
+    algebra *a = e->algebra;
+    e->momentum[i] = e->velocity[i] = e->potential[i] = poly_number(a, 0.0);
+    for (int j = 0; j < e->count; j++) {
+        e->mass[i * e->count + j] = poly_number(a, i == j ? 1.0 : 0.0);
+    }
+    e->applied[i] = acceleration_of(a, e->unknowns[i].symbol);
 }
 
 static bool derive_lagrange(equations *e, diags *errors) {
@@ -47,6 +64,10 @@ static bool derive_lagrange(equations *e, diags *errors) {
 
     for (int i = 0; i < n && !algebra_overflow(a); i++) {
         const symbol *q = e->unknowns[i].symbol;
+        if (q->driven != NULL) {
+            drive(e, i);
+            continue;
+        }
         const poly *momentum = poly_derivative(a, lagrangian, q, 1);
         if (!momentum_free_of_inputs(e, momentum, errors)) {
             return false;
@@ -60,6 +81,12 @@ static bool derive_lagrange(equations *e, diags *errors) {
             const poly *drift =
                 poly_mul(a, poly_derivative(a, momentum, other, 0), poly_symbol(a, other, 1));
             e->velocity[i] = poly_add(a, e->velocity[i], drift);
+            if (other->driven != NULL) { /* its acceleration is known */
+                const poly *push =
+                    poly_mul(a, e->mass[i * n + j], acceleration_of(a, other));
+                e->velocity[i] = poly_add(a, e->velocity[i], push);
+                e->mass[i * n + j] = poly_number(a, 0.0);
+            }
         }
         e->applied[i] = forces_on(a, e->force, e->forces, i);
         const poly *slope = poly_expanded(a, poly_derivative(a, lagrangian, q, 0));

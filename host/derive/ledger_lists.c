@@ -4,14 +4,20 @@
 #include <stdlib.h>
 
 #include "core/ledger_step.h"
+#include "energy.h"
 #include "host/base/room.h"
 
-static void add_entry(ledger_lists *l, const poly **power, ledger_kind kind, const term *t,
+static void add_entry(ledger_lists *l, const poly **power, ledger_kind kind, const place *at,
                       int account, const poly *what) {
     if (!poly_is_zero(what)) {
-        l->entry[l->smooth] = (ledger_entry){kind, t, account};
+        l->entry[l->smooth] = (ledger_entry){kind, at, account};
         power[l->smooth++] = what;
     }
+}
+
+/* An input with a rate has no momentum, and so no entries in its account. */
+static bool is_driven(const layout *map, int i) {
+    return map->equations->unknowns[i].symbol->driven != NULL;
 }
 
 /* The entries of one statement. */
@@ -19,10 +25,12 @@ static void add_statement(ledger_lists *l, const layout *map, const statement_fo
                           const poly **power) {
     const bool drives = of->from->kind == TERM_Q;
     for (int account = 1; account < l->accounts; account++) {
-        add_entry(l, power, drives ? LEDGER_DRIVE : LEDGER_DAMPING, of->from, account,
-                  layout_ready(map, of->force[l->unknown[account]]));
+        if (!is_driven(map, l->unknown[account])) {
+            add_entry(l, power, drives ? LEDGER_DRIVE : LEDGER_DAMPING, &of->from->at, account,
+                      layout_ready(map, of->force[l->unknown[account]]));
+        }
     }
-    add_entry(l, power, drives ? LEDGER_WORK : LEDGER_LOSS, of->from, 0,
+    add_entry(l, power, drives ? LEDGER_WORK : LEDGER_LOSS, &of->from->at, 0,
               layout_ready(map, of->power));
 }
 
@@ -44,6 +52,11 @@ static const poly **smooth_entries(ledger_lists *l, const layout *map) {
     l->entry = room(most, sizeof *l->entry);
     for (int account = 1; account < l->accounts; account++) {
         const symbol *q = e->unknowns[l->unknown[account]].symbol;
+        if (q->driven != NULL) {
+            add_entry(l, power, LEDGER_WORK, &q->at, 0,
+                      layout_ready(map, energy_drive(e, l->unknown[account])));
+            continue;
+        }
         const poly *force = poly_derivative(a, lagrangian, q, 0);
         add_entry(l, power, LEDGER_ENERGIES, NULL, account, layout_ready(map, force));
     }

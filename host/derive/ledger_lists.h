@@ -12,7 +12,7 @@
 
 typedef struct ledger_entry {
     ledger_kind kind;
-    const term *term; /* of the mechanism; NULL for LEDGER_ENERGIES */
+    const place *at; /* of the term, or of the input that does it; NULL for LEDGER_ENERGIES */
     int account;
 } ledger_entry;
 

@@ -45,7 +45,7 @@ bool stabilizing_possible(const layout *map, const contact_lists *contacts, cons
 bool stabilizing_conserves(const ledger_lists *books, const equations *e, diags *errors) {
     for (int i = 0; i < books->smooth; i++) {
         if (books->entry[i].account == 0) {
-            diag_error(errors, books->entry[i].term->at,
+            diag_error(errors, *books->entry[i].at,
                        "leave it out, --without; or leave out --stabilized",
                        "--stabilized is for what nothing drives or damps: this does");
             return false;

@@ -74,8 +74,10 @@ static void write_starts(FILE *out, const image *im) {
     fprintf(out, "\n");
 }
 
-/* Contacts and books change more than wh_advance_ahead() keeps. */
-static bool has_ahead(const image *im) { return im->contacts == 0 && !im->ledger.kept; }
+/* Contacts, books and inputs with a rate change more than wh_advance_ahead() keeps. */
+static bool has_ahead(const image *im) {
+    return im->contacts == 0 && !im->ledger.kept && im->drives == 0;
+}
 
 static void write_scene(FILE *out, const image *im) {
     char hex[HEX_SIZE];
@@ -175,6 +177,9 @@ static void write_includes(FILE *out, const image *im) {
                                         {"stage_turn", "stage_turn_ledger"}};
         fprintf(out, "#include \"core/%s.h\"\n", with[image_turns(im)][im->ledger.kept]);
     }
+    if (im->drives > 0) {
+        fprintf(out, "#include \"core/drive.h\"\n");
+    }
     if (im->list[IMAGE_STEP]->tables.count > 0) {
         fprintf(out, "#include \"core/table.h\"\n");
     }
@@ -223,9 +228,23 @@ static void write_one_step(FILE *out, const image *im) {
 }
 
 static void write_advance(FILE *out, const image *im) {
-    fputs("static wh_status advance(const wh_scene *scene, wh_state *state) {\n"
-          "    return one_step(scene, state);\n}\n\n",
-          out);
+    fputs("static wh_status advance(const wh_scene *scene, wh_state *state) {\n", out);
+    if (im->drives == 0) {
+        fputs("    return one_step(scene, state);\n}\n\n", out);
+    } else {
+        fprintf(out, "    static const wh_drive drive[%d] = {", im->drives);
+        for (int i = 0; i < im->drives; i++) {
+            const wh_drive d = core_drive(&im->drive[i]);
+            fprintf(out, "%s{%d, %d, %d, %d}", i > 0 ? ", " : "", d.input, d.rate, d.value_at,
+                    d.rate_at);
+        }
+        fprintf(out,
+                "};\n    wh_drive_begin(drive, %dU, %s, state);\n"
+                "    const wh_status status = one_step(scene, state);\n"
+                "    if (status == WH_OK) {\n        wh_drive_end(drive, %dU, state);\n    }\n"
+                "    return status;\n}\n\n",
+                im->drives, im->ledger.kept ? "&ledger" : "NULL", im->drives);
+    }
     if (has_ahead(im)) {
         fprintf(out,
                 "#if defined(WH_AHEAD) && WH_AHEAD\n"

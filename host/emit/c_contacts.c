@@ -1,6 +1,8 @@
 /* c_contacts.c: the lists and the table of a scene's contacts. */
 #include "c_contacts.h"
 
+#include <inttypes.h>
+
 #include "c_list.h"
 #include "host/image/core_rows.h"
 #include "host/number/hex.h"
@@ -62,10 +64,14 @@ void c_contacts_write(FILE *out, const image *im) {
             "%s,\n    .pinned = %d,\n    .held = %d,\n"
             "    .evaluations = WH_CONTACT_EVALUATIONS(%d, %d, %d),\n"
             "    .method = %s,\n    .compensated = %s,\n"
-            "    .angles = %d,\n    .coordinates = %d,\n};\n\n",
+            "    .angles = %d,\n    .coordinates = %d,\n",
             system.kinds != 0 ? "" : "0", system.pinned, system.held, core_stages(im),
             core_stops(im), system.forced, wh_methods[system.method].name,
             system.compensated ? "true" : "false", system.angles, system.coordinates);
+    if (system.driven != 0) {
+        fprintf(out, "    .driven = UINT64_C(0x%" PRIx64 "),\n", system.driven);
+    }
+    fputs("};\n\n", out);
     fprintf(out,
             "WH_INLINE wh_status one_step(const wh_scene *scene, wh_state *state) {\n"
             "    (void)scene;\n    return wh_step_contact(&contacts, WH_R(%s), state);\n}\n\n",

@@ -22,6 +22,11 @@ bool fixed_has_step(const image *im, diags *errors) {
         diag_error(errors, im->contact[0].at, "leave it out, --without; or choose --number float",
                    "there are no events in fixed point: '%s' has this %s", im->name,
                    im->contact[0].word);
+    } else if (im->drives > 0) {
+        diag_error(errors, im->input[im->drive[0].input].at,
+                   "leave out its rate, or choose --number float",
+                   "inputs stand still inside a step in fixed point: '%s' has a rate",
+                   im->input[im->drive[0].input].name);
     } else if (s->stabilized) {
         diag_error(errors, im->at, "leave out --stabilized, or choose --number float",
                    "there is no --stabilized in fixed point");

@@ -4,6 +4,7 @@
 #define IMAGE_CORE_ROWS_H
 
 #include "core/contact.h"
+#include "core/drive.h"
 #include "core/ledger.h"
 #include "core/version.h"
 #include "image.h"
@@ -22,6 +23,10 @@ static inline wh_contact_system core_contact_system(const image *im, const wh_co
                                                     const uint8_t *target) {
     unsigned kinds = 0;
     int pinned = 0;
+    uint64_t driven = 0;
+    for (int i = 0; i < im->drives; i++) { /* linear coordinates, behind the angles */
+        driven |= UINT64_C(1) << (im->angles + im->drive[i].value_at);
+    }
     for (int k = 0; k < im->forced; k++) {
         kinds |= WH_KIND_BIT((unsigned)im->contact[k].kind);
         pinned += im->contact[k].pin >= 0;
@@ -36,7 +41,13 @@ static inline wh_contact_system core_contact_system(const image *im, const wh_co
                                .method = im->settings.method,
                                .compensated = im->settings.compensated,
                                .angles = (uint8_t)im->angles,
-                               .coordinates = (uint8_t)im->coordinates};
+                               .coordinates = (uint8_t)im->coordinates,
+                               .driven = driven};
+}
+
+static inline wh_drive core_drive(const image_drive *d) {
+    return (wh_drive){(uint8_t)d->input, (uint8_t)d->rate, (uint8_t)d->value_at,
+                      (uint8_t)d->rate_at};
 }
 
 /* What WH_CONTACT_EVALUATIONS() takes. A matrix has none. */

@@ -137,6 +137,7 @@ typedef struct image_unknown {
     bool is_angle;           /* declared as one */
     bool is_length;          /* so that its momentum over time is a force */
     bool conserved;          /* nothing changes its momentum */
+    bool driven;             /* an input with a rate: it has none */
     int order;               /* of its highest derivative */
     image_unit *unit;        /* [order + 1] of the value, the rate, ... */
     const char *momentum_si; /* unit of its momentum */
@@ -146,6 +147,14 @@ typedef struct image_unknown {
     bool
         start_written; /* its value is a product of numbers as they are written: no sum's rounding */
 } image_unknown;
+
+/* An input with a rate, which two components of the state follow inside a step: places in real[]. */
+typedef struct image_drive {
+    int input;
+    int rate; /* an input, too */
+    int value_at;
+    int rate_at;
+} image_drive;
 
 /* Which unknown, and which of its derivatives, a component of the state is. */
 typedef struct component {
@@ -305,6 +314,8 @@ typedef struct image {
         place; /* [count] unknown -> coordinate number in the scene's order, or -1 (second order) */
     int *from_momentum;        /* [recovered] unknown */
     image_quantity *input;     /* [inputs] with the value at the start */
+    image_drive *drive; /* [drives] */
+    int drives;
     image_quantity *output;    /* [own_outputs] */
     image_quantity *parameter; /* [parameters] */
 

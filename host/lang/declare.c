@@ -145,6 +145,39 @@ static bool parse_value(parser *in, symbol *made, const statement_word *word, ex
     return value != NULL;
 }
 
+/* `rate NAME`, behind an input's name or its value: the input that is its time derivative, which may come later. */
+static bool parse_rate(parser *in, symbol *made) {
+    if (!parser_is_word(in, WORD_RATE) || (made != NULL && made->rate != NULL)) {
+        return true;
+    }
+    parser_next(in);
+    token name;
+    if (in->effect >= 0) {
+        return parser_fail(in, "declare both inputs in the mechanism, before the effect",
+                           "an input of an effect takes no rate");
+    }
+    if (!take_name(in, "rate", &name)) {
+        return false;
+    }
+    named *found = names_find(in->builder->names, name.text, name.length);
+    if (name.primes > 0 || word_is_reserved(name.text, name.length) ||
+        (found != NULL && found->symbol.kind != SYM_INPUT && !found->is_placeholder)) {
+        diag_error(in->diags, name.at, "input L rate v = 0.5 [m]; input v = 0 [m/s]",
+                   "the rate of an input is another input");
+        return true;
+    }
+    if (found == NULL) {
+        found = names_add(in->builder->names, name.text, name.length);
+        found->is_placeholder = true; /* until it is declared */
+        found->symbol.kind = SYM_INPUT;
+        found->symbol.at = name.at;
+    }
+    if (made != NULL) {
+        made->rate = &found->symbol;
+    }
+    return true;
+}
+
 bool read_constant(parser *in, const statement_word *word) {
     const symbol_kind kind = (symbol_kind)word->kind;
     token name;
@@ -157,7 +190,14 @@ bool read_constant(parser *in, const statement_word *word) {
                            "a unit in the wrong place");
     }
     place value_at;
+    const bool is_input = kind == SYM_INPUT;
+    if (is_input && !parse_rate(in, made)) {
+        return false;
+    }
     if (!parse_value(in, made, word, kind == SYM_LET ? CONTEXT_LET : CONTEXT_CONSTANT, &value_at)) {
+        return false;
+    }
+    if (is_input && !parse_rate(in, made)) {
         return false;
     }
     const char *text = parser_title(in);

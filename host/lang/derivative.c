@@ -121,7 +121,13 @@ static const expr *of_power(parser *in, const expr *of, const expr *du, const ex
 static bool of_symbol(parser *in, const expr *of, const token *name, const expr **d) {
     expr *made = expr_new(in, EXPR_SYMBOL, of->at);
     *made = *of;
-    if (of->symbol->kind == SYM_LET) {
+    if (of->symbol->kind == SYM_INPUT) {
+        made->symbol = of->symbol->rate;
+        made->uses |= USES_UNIT;
+        if (!dim_divide(of->dim, dim_of(0, 0, 1, 0, 0), &made->dim)) {
+            made->dim.unknown = true;
+        }
+    } else if (of->symbol->kind == SYM_LET) {
         const symbol *rate = let_rate(in, of->symbol, name);
         if (rate == NULL || (rate->value->op == EXPR_NUMBER && rate->value->number == 0.0)) {
             return rate != NULL;
@@ -150,9 +156,9 @@ static bool derive(parser *in, const expr *of, const token *name, const expr **d
     if ((of->uses & (USES_UNKNOWNS | USES_INPUT)) == 0) {
         return true;
     }
-    if (of->op == EXPR_SYMBOL && of->symbol->kind == SYM_INPUT) {
-        diag_error(in->diags, name->at,
-                   "write the rate by hand, with an input for the input's rate",
+    if (of->op == EXPR_SYMBOL && of->symbol->kind == SYM_INPUT && of->symbol->rate == NULL) {
+        char hint[RATE_HINT_SIZE];
+        diag_error(in->diags, name->at, input_rate_hint(of->symbol, hint),
                    "%.*s has no derivative: the rate of the input '%s' is not known",
                    (int)name->length, name->text, of->symbol->name);
         return false;

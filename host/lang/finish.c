@@ -106,4 +106,5 @@ void finish_mechanism(parser *in, builder *done) {
         diag_error(in->diags, made->at, "T = m*X'^2/2", "mechanism '%s' has no kinetic energy T",
                    made->name);
     }
+    finish_inputs(in, made);
 }

@@ -254,7 +254,9 @@ static void evaluate(plan *from, instance *made) {
     }
     for (int i = 0; i < of->coordinate_count; i++) {
         for (int k = 0; k < made->start_count[i]; k++) {
-            const given *each = &from->start[i][k];
+            const symbol *input = of->coordinates[i]->driven;
+            const given *each = input == NULL ? &from->start[i][k]
+                                              : &from->input[(k == 0 ? input : input->rate)->index];
             snprintf(what, sizeof what, "the initial value of '%s'", of->coordinates[i]->name);
             made->start_at[i][k] = each->at;
             made->start_given[i][k] = each->value;

@@ -36,7 +36,22 @@ typedef struct symbol {
     int index;           /* running number within its kind in its mechanism, declaration order */
     int effect;          /* index of the effect that declared it, or -1 */
     int order;           /* coordinate: 2; state: its highest derivative in the equations; else 0 */
+    const struct symbol *rate; /* of an input: the input that is its time derivative, or NULL */
+    /* An input with a rate moves inside a step: of it and of its rate the coordinate that they drive, which the mechanism
+     * has last; of that coordinate the input; else NULL. */
+    const struct symbol *driven;
 } symbol;
+
+/* What a symbol stands for while the mechanism moves: of an input with a rate, and of that rate, the driven coordinate with
+ * *primes primes; of every other symbol itself. */
+const symbol *symbol_moving(const symbol *s, int *primes);
+
+/* The input that accelerates a driven coordinate, or NULL: its rate is constant inside a step. */
+const symbol *symbol_acceleration(const symbol *driven);
+
+/* How to declare the rate of an input, for hints: two statements that can be pasted. */
+enum { RATE_HINT_SIZE = 320 };
+char *input_rate_hint(const symbol *input, char *buffer);
 
 /* --- expressions ------------------------------------------------------------------------------- */
 

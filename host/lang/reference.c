@@ -245,6 +245,10 @@ const expr *expr_name(parser *in, const token *name) {
         return unknown_value(made);
     }
     if (found->is_placeholder) {
+        if (found->symbol.kind == SYM_INPUT) { /* named as a rate only */
+            report_unknown(in, name);
+            found->symbol.kind = SYM_LET;
+        }
         return unknown_value(made);
     }
     if (found->is_open) {

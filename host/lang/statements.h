@@ -23,6 +23,7 @@ void contact_on_system(parser *in, const contact_statement *each);
 /* The whole text, but for its scenes: these are noted, since effects may follow that they name. */
 void read_file(parser *in);                                      /* statements.c */
 void finish_mechanism(parser *in, builder *made);                /* finish.c */
+void finish_inputs(parser *in, mechanism *made);                 /* input_rate.c */
 void read_noted_scene(parser *in, const pending_scene *pending); /* scene_block.c */
 
 #endif

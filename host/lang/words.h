@@ -99,6 +99,7 @@ enum {
 
 /* Words inside statements: the statement, and whether they are reserved. */
 #define INNER_WORD_ROWS(X) \
+    X(RATE, "rate", 0) \
     X(RESTITUTION, "restitution", 0) \
     X(STATIC, "static", 0) \
     X(KINETIC, "kinetic", 0) \

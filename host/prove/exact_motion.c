@@ -32,6 +32,14 @@ static bool is_smooth(const instance *inst, diags *errors) {
             return false;
         }
     }
+    for (int i = 0; i < m->input_count; i++) {
+        if (m->inputs[i]->rate != NULL) {
+            diag_error(errors, m->inputs[i]->at,
+                       "leave out its rate, or write it as a parameter; whirl trust estimates",
+                       "an input with a rate moves inside a step, which is not enclosed");
+            return false;
+        }
+    }
     if (inst->scene != NULL && inst->scene->when_count > 0) {
         diag_error(errors, inst->scene->whens[0].at,
                    "only smooth scenes can be proved about; whirl trust estimates",

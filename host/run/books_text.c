@@ -103,6 +103,9 @@ void books_print_kept(FILE *out, const image *im, const engine_kind *kind, const
     account_print_end(out, b->energy_J[1] - b->energy_J[0], energy.left);
     kept_account_free(&energy);
     for (int account = 1; account < im->ledger.accounts; account++) {
+        if (im->unknown[im->ledger.unknown[account]].driven) {
+            continue;
+        }
         kept_account kept = kept_account_read(im, kind, run, account);
         print_momentum(out, im, &kept, im->ledger.unknown[account], b, time_s);
         kept_account_free(&kept);

@@ -90,7 +90,9 @@ static void write_names(const show *s, const equations *e) {
     fprintf(s->out, "%s %s%s%s\n\n", m->is_system ? "system" : "mechanism", m->name,
             m->title[0] != '\0' ? ": " : "", m->title);
     for (int i = 0; i < e->count; i++) {
-        write_shown(s, m->is_system ? "state" : "coordinate", m->coordinates[i]);
+        const bool driven = m->coordinates[i]->driven != NULL;
+        write_shown(s, driven ? "driven" : m->is_system ? "state" : "coordinate",
+                    m->coordinates[i]);
     }
     for (int i = 0; i < m->parameter_count; i++) {
         const symbol *p = m->parameters[i];

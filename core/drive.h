@@ -1,0 +1,76 @@
+/* drive.h: inputs with a rate (`input L rate Lv`): inside a step they move, as coordinates that nothing pushes. Part of
+ * generated scenes that have one. The caller sets value and rate between steps, or the rate alone; a step starts from
+ * both, and leaves in them where they came to. */
+#ifndef WH_DRIVE_H
+#define WH_DRIVE_H
+
+#ifdef __cplusplus
+#error "core/drive.h is C only, as generated .c files are: C++ includes core/scene.h and generated headers"
+#endif
+
+#include "ledger.h"
+#include "refuse.h"
+#include "scene.h"
+#include "unroll.h"
+
+/* Most accounts: energy, and a momentum for each coordinate. A generated scene defines its own. */
+#ifndef WH_ACCOUNTS_MAX
+#define WH_ACCOUNTS_MAX (WH_COORDS + 1)
+#endif
+
+/* Inputs, and the places in state->real[] that they drive. */
+typedef struct wh_drive {
+    uint8_t input;
+    uint8_t rate;
+    uint8_t value_at;
+    uint8_t rate_at;
+} wh_drive;
+
+/* The state was corrected, and the levels were `before`: what that changed is kept apart. */
+static inline void wh_ledger_correct(const wh_ledger_form *form, const wh_state *state,
+                                     const wh_real *before) {
+    wh_real *start = state->ledger + 2U * form->entries;
+    wh_real *corrected = wh_ledger_corrected(form, state);
+    wh_real level[WH_ACCOUNTS_MAX];
+    wh_ledger_last_levels(form, state, level);
+    for (unsigned i = 0; i < wh_ledger_level_count(form); i++) {
+        const wh_real change = level[i] - before[i];
+        if (wh_believable(change, WH_ABSURD)) {
+            start[i] += change;
+            corrected[i] += change;
+        }
+    }
+}
+
+/* Before a step: the components are where the inputs say. With books (`form`, or NULL), what that changes of the accounts is
+ * a correction, as wh_scene_set_real() has it. */
+WH_INLINE void wh_drive_begin(const wh_drive *drive, unsigned count, const wh_ledger_form *form,
+                              wh_state *state) {
+    wh_real before[WH_ACCOUNTS_MAX];
+    bool set = false;
+    for (unsigned i = 0; i < count; i++) {
+        set = set || state->real[drive[i].value_at] != state->input[drive[i].input] ||
+              state->real[drive[i].rate_at] != state->input[drive[i].rate];
+    }
+    const bool booked = set && form != NULL && state->steps > 0;
+    if (booked) {
+        wh_ledger_last_levels(form, state, before);
+    }
+    for (unsigned i = 0; i < count; i++) {
+        state->real[drive[i].value_at] = state->input[drive[i].input];
+        state->real[drive[i].rate_at] = state->input[drive[i].rate];
+    }
+    if (booked) {
+        wh_ledger_correct(form, state, before);
+    }
+}
+
+/* After a step that was done: the inputs are where the components came to. */
+WH_INLINE void wh_drive_end(const wh_drive *drive, unsigned count, wh_state *state) {
+    for (unsigned i = 0; i < count; i++) {
+        state->input[drive[i].input] = state->real[drive[i].value_at];
+        state->input[drive[i].rate] = state->real[drive[i].rate_at];
+    }
+}
+
+#endif
