@@ -165,11 +165,17 @@ static inline unsigned wh_contact_beside(const wh_contact_system *of, const wh_c
     return bits;
 }
 
+/* The interpreter defines this to see the restitution that stop k has at an impact. In generated code nothing is left of it. */
+#ifndef WH_RESTITUTION_SEEN
+#define WH_RESTITUTION_SEEN(of, k, given) ((void)0)
+#endif
+
 /* The restitution of stop k, which must be a number; beyond 0 ... 1 it counts as the nearer end. */
 WH_INLINE wh_real wh_contact_restitution(const wh_contact_system *of, wh_contact_work *w,
                                          unsigned k) {
     const wh_real given = wh_contact_law(of, w, k)[WH_LAW_FIRST];
     wh_contact_expect(w, k, given);
+    WH_RESTITUTION_SEEN(of, k, given);
     return given > WH_R(0.0) ? (given < WH_R(1.0) ? given : WH_R(1.0)) : WH_R(0.0);
 }
 

@@ -16,6 +16,15 @@ typedef struct engine_event {
     bool strikes; /* a stop or a hold gave an impulse */
 } engine_event;
 
+/* Impacts with a restitution beyond 0 to 1, which counts as the nearer end: how many, and of the first the stop, the
+ * restitution and when its step began. */
+typedef struct engine_clamped {
+    uint64_t count;
+    int contact;
+    double value;
+    double begin_s;
+} engine_clamped;
+
 typedef struct engine_kind {
     const char *name; /* "float", "double" or "fixed" (host/fixed) */
     int digits;       /* significant digits that carry a number of this kind through text */
@@ -48,6 +57,7 @@ typedef struct engine_kind {
     uint64_t (*saturated)(const void *run);
     /* What component i is kept in whole units of; SI. NULL: floating point. */
     double (*unit)(const void *run, int i);
+    engine_clamped (*clamped)(const void *run); /* NULL: there are no impacts */
 } engine_kind;
 
 extern const engine_kind engine_float;

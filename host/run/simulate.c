@@ -278,6 +278,23 @@ static void say_saturated(const simulation *sim) {
     }
 }
 
+/* A restitution that depends on the motion has left its range. */
+static void say_clamped(const simulation *sim) {
+    const engine_kind *kind = sim->settings->kind;
+    const engine_clamped c =
+        kind->clamped != NULL ? kind->clamped(sim->run) : (engine_clamped){.count = 0};
+    if (c.count > 0) {
+        char statement[STATEMENT_SIZE];
+        statement_text(sim->image->contact[c.contact].at, statement, sizeof statement);
+        fprintf(stderr,
+                "whirl run: warning: the restitution was outside 0 .. 1 in %" PRIu64
+                " impact%s, first %.6g in the step after t = %.6g s, and counted as %d: %s\n"
+                "hint: limit it: restitution max(0, min(1, ...))\n",
+                c.count, c.count == 1 ? "" : "s", c.value, c.begin_s, c.value > 1.0 ? 1 : 0,
+                statement);
+    }
+}
+
 /* What is not to be believed, why, and what would do. */
 static void say_against(simulation *sim, bool fails) {
     const watch *w = sim->verdict->watch;
@@ -311,6 +328,7 @@ static simulation_result judge(simulation *sim, wh_status status, bool interrupt
     }
     tell_outputs(sim);
     say_saturated(sim);
+    say_clamped(sim);
     const bool undefined = diags_count(sim->undefined) > 0;
     diags_flush(sim->undefined, stderr);
     const books *b = sim->verdict->books;

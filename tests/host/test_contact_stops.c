@@ -3,6 +3,10 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
+
+#include "command.h"
+#include "host/commands/commands.h"
 
 #include "unity.h"
 
@@ -300,7 +304,44 @@ static void test_too_many_bounces_are_told_and_end(void) {
     motion_close(&m);
 }
 
+/* Balls whose restitution follows the speed at which they hit: a warning says where it leaves 0 to 1, and only there. */
+static void test_a_restitution_out_of_bounds_is_told(void) {
+    dice d = dice_of("contact_stops", 5);
+    const unsigned cases = dice_cases(24);
+    unsigned told = 0;
+    for (unsigned i = 0; i < cases; i++) {
+        char text[400];
+        const double height = dice_between(&d, 0.1, 2.0);
+        const double speed = sqrt(2.0 * G * height);
+        const double e = dice_between(&d, -0.6, 1.6);
+        const double slope = dice_between(&d, -0.2, 0.2); /* it starts at e - slope speed */
+        const double begin = e - slope * speed;
+        snprintf(text, sizeof text,
+                 "mechanism ball\ncoordinate z [m]\nT = 1 [kg]*z'^2/2\nV = 9.81 [N]*z\n"
+                 "stop z >= 0 restitution %.17g + %.17g [s/m]*abs(z')\n"
+                 "scene s {\n  start z = %.17g [m]\n  until %.17g [s]\n}\n",
+                 begin, slope, height, speed / G + 0.01);
+        said what;
+        command_say_model(command_run, text, &what);
+        const char *warning = strstr(what.err, "the restitution was outside 0 .. 1 in 1 impact");
+        const bool outside = e < 0.0 || e > 1.0;
+        TEST_ASSERT_EQUAL_INT_MESSAGE(0, what.status, what.err);
+        TEST_ASSERT_TRUE_MESSAGE((warning != NULL) == outside, text);
+        if (warning != NULL) {
+            double value;
+            double begin_s;
+            const char *rest = said_number(strstr(warning, "first ") + 6, &value);
+            said_number(said_words(rest, "in the step after t ="), &begin_s);
+            expect_between("restitution", e - 1e-5, e + 1e-5, value);
+            expect_between("its step", speed / G - 1.001e-3, speed / G + 1e-6, begin_s);
+            told++;
+        }
+    }
+    TEST_ASSERT_TRUE(4 * told >= cases || cases < 24);
+}
+
 void suite_contact_stops(void) {
+    RUN_TEST(test_a_restitution_out_of_bounds_is_told);
     RUN_TEST(test_ball_comes_to_rest_and_stays_for_a_minute);
     RUN_TEST(test_perfect_bounces_gain_no_energy);
     RUN_TEST(test_impact_time_converges);
