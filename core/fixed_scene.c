@@ -100,7 +100,23 @@ void wh_fixed_set_real(const wh_fixed_scene *scene, wh_fixed_state *state, unsig
     state->real[i] = wh_fixed_of(&scene->format[i], value, &state->saturated);
 }
 
-void wh_fixed_set_input(const wh_fixed_scene *scene, wh_fixed_state *state, unsigned i,
-                        wh_real value) {
+wh_status wh_fixed_set_input(const wh_fixed_scene *scene, wh_fixed_state *state, unsigned i,
+                             wh_real value) {
+    const uint32_t before = state->saturated;
+    if (i >= scene->inputs) {
+        return WH_E_ARGUMENT;
+    }
     state->input[i] = wh_fixed_of(&scene->format[scene->reals + i], value, &state->saturated);
+    return state->saturated == before ? WH_OK : WH_E_ARGUMENT;
+}
+
+wh_status wh_fixed_set_raw_input(const wh_fixed_scene *scene, wh_fixed_state *state, unsigned i,
+                                 int32_t number) {
+    const uint32_t before = state->saturated;
+    if (i >= scene->inputs) {
+        return WH_E_ARGUMENT;
+    }
+    const wh_fixed_format *f = &scene->format[scene->reals + i];
+    state->input[i] = wh_fixed_limit(number, f->low, f->high, &state->saturated);
+    return state->saturated == before ? WH_OK : WH_E_ARGUMENT;
 }

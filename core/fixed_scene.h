@@ -7,7 +7,7 @@
  *     static uint64_t memory[gear_MEMORY_WORDS];
  *     wh_fixed_state state;
  *     if (wh_fixed_start(&gear, &state, memory, sizeof memory) != WH_OK) { return 1; }
- *     wh_fixed_set_input(&gear, &state, gear_INPUT_M, 1.5f);
+ *     if (wh_fixed_set_input(&gear, &state, gear_INPUT_M, 1.5f) != WH_OK) { return 1; }
  *     while (state.steps < gear.steps && state.saturated == 0) { wh_fixed_step(&gear, &state); }
  *     const wh_real theta_rad = wh_fixed_angle(&gear, &state, gear_ANGLE_theta);
  *     const wh_real rate_rad_s = wh_fixed_real(&gear, &state, gear_RATE_theta);
@@ -73,6 +73,7 @@ struct wh_fixed_scene {
 #define wh_fixed_angle WH_NAME(wh_fixed_angle)
 #define wh_fixed_set_real WH_NAME(wh_fixed_set_real)
 #define wh_fixed_set_input WH_NAME(wh_fixed_set_input)
+#define wh_fixed_set_raw_input WH_NAME(wh_fixed_set_raw_input)
 
 /* Put `state` at the scene's start. Returns WH_OK, WH_E_ARGUMENT where a pointer is NULL or the memory is not aligned as
  * a uint64_t, or WH_E_MEMORY where it is too little. */
@@ -95,8 +96,13 @@ wh_real wh_fixed_real(const wh_fixed_scene *scene, const wh_fixed_state *state, 
 wh_real wh_fixed_angle(const wh_fixed_scene *scene, const wh_fixed_state *state, unsigned i);
 void wh_fixed_set_real(const wh_fixed_scene *scene, wh_fixed_state *state, unsigned i,
                        wh_real value);
-void wh_fixed_set_input(const wh_fixed_scene *scene, wh_fixed_state *state, unsigned i,
-                        wh_real value);
+
+/* Input i becomes `value`, SI; or `number`, in the integers of its format. Beyond its range it becomes the nearest end, is
+ * counted as saturated, and the call returns WH_E_ARGUMENT. So it does, with nothing changed, where there is no input i. */
+wh_status wh_fixed_set_input(const wh_fixed_scene *scene, wh_fixed_state *state, unsigned i,
+                             wh_real value);
+wh_status wh_fixed_set_raw_input(const wh_fixed_scene *scene, wh_fixed_state *state, unsigned i,
+                                 int32_t number);
 
 #ifdef __cplusplus
 }

@@ -10,6 +10,7 @@
 #include "host/emit/matrix.h"
 #include "host/fixed/c_fixed.h"
 #include "host/fixed/engine_fixed.h"
+#include "host/fixed/fixed_refuse.h"
 #include "host/lang/lexer.h"
 #include "host/run/start.h"
 #include "host/show/show_equations.h"
@@ -269,9 +270,10 @@ static bool has_name(const image *im, const source_model *from, const form_row *
 static fixed_plan *plan_of(const image *im, const source_model *from, const engine_kind *number,
                            bool *good) {
     fixed_plan *plan = number == &engine_fixed ? fixed_plan_make(im, from->errors) : NULL;
-    *good = number != &engine_fixed || plan != NULL;
+    *good = number != &engine_fixed ||
+            (plan != NULL && fixed_inputs_declared(im, plan->range, from->errors));
     diags_flush(from->errors, stderr);
-    if (plan != NULL) {
+    if (plan != NULL && *good) {
         fixed_plan_say(plan, stderr, "whirl derive: note: ");
     }
     return plan;

@@ -1,6 +1,9 @@
 /* fixed_refuse.c: see fixed_refuse.h. */
 #include "fixed_refuse.h"
 
+#include <stdio.h>
+#include <string.h>
+
 #include "fixed_list.h"
 
 static bool has_noise(const image *im) {
@@ -82,4 +85,22 @@ static bool ranges_are_bounded(const image *im, const interval *range, diags *er
 
 bool fixed_ranges_hold(const image *im, const interval *range, diags *errors) {
     return ranges_are_bounded(im, range, errors) && starts_inside(im, range, errors);
+}
+
+bool fixed_inputs_declared(const image *im, const interval *range, diags *errors) {
+    bool good = true;
+    for (int i = im->reals; i < im->reals + im->inputs; i++) {
+        const char *si = im->input[i - im->reals].unit.si;
+        const bool has_unit = strcmp(si, "1") != 0;
+        if (!im->range[i].declared) {
+            char hint[200];
+            snprintf(hint, sizeof hint, "in the scene: range %.60s = %.9g .. %.9g%s%.40s%s",
+                     im->range[i].name, range[i].low, range[i].high, has_unit ? " [" : "",
+                     has_unit ? si : "", has_unit ? "]" : "");
+            diag_error(errors, im->range[i].at, hint,
+                       "code in fixed point needs the range of the input '%s'", im->range[i].name);
+            good = false;
+        }
+    }
+    return good;
 }

@@ -245,18 +245,34 @@ static void test_edges(void) {
     (void)wh_fixed_start(&scene, &state, memory, sizeof memory);
     wh_fixed_set_real(&scene, &state, 0, WH_R(-2.5));
     TEST_ASSERT_EQUAL_INT32(-5 * (INT32_C(1) << 23), state.real[0]);
-    wh_fixed_set_input(&scene, &state, 0, WH_R(804.0)); /* 100.5 eighths: away from zero */
-    TEST_ASSERT_EQUAL_INT32(101, state.input[0]);
-    wh_fixed_set_input(&scene, &state, 0, WH_R(-804.0));
+    TEST_ASSERT_EQUAL_INT(WH_OK, wh_fixed_set_input(&scene, &state, 0, WH_R(804.0)));
+    TEST_ASSERT_EQUAL_INT32(101, state.input[0]); /* 100.5 eighths: away from zero */
+    TEST_ASSERT_EQUAL_INT(WH_OK, wh_fixed_set_input(&scene, &state, 0, WH_R(-804.0)));
     TEST_ASSERT_EQUAL_INT32(-101, state.input[0]);
     TEST_ASSERT_EQUAL_UINT32(0, state.saturated);
     wh_fixed_set_real(&scene, &state, 0, WH_R(1e30));
     TEST_ASSERT_EQUAL_INT32(formats[0].high, state.real[0]);
     wh_fixed_set_real(&scene, &state, 0, WH_R(-100.5));
     TEST_ASSERT_EQUAL_INT32(formats[0].low, state.real[0]);
-    wh_fixed_set_input(&scene, &state, 0, WH_R(8001.0));
+    TEST_ASSERT_EQUAL_INT(WH_E_ARGUMENT, wh_fixed_set_input(&scene, &state, 0, WH_R(8001.0)));
     TEST_ASSERT_EQUAL_UINT32(3, state.saturated);
     TEST_ASSERT_EQUAL_INT32(1000, state.input[0]);
+    TEST_ASSERT_EQUAL_INT(WH_E_ARGUMENT, wh_fixed_set_input(&scene, &state, 1, WH_R(0.0)));
+    for (long i = 0; i < CASES;
+         i++) { /* integers: inside, beyond, and of an input that there is not */
+        const int32_t raw = draw_number() >> (draw() % 31U);
+        const wh_fixed_format *format = &formats[1];
+        const uint32_t before = state.saturated;
+        const bool inside = raw >= format->low && raw <= format->high;
+        TEST_ASSERT_EQUAL_INT(inside ? WH_OK : WH_E_ARGUMENT,
+                              wh_fixed_set_raw_input(&scene, &state, 0, raw));
+        TEST_ASSERT_EQUAL_UINT32(before + !inside, state.saturated);
+        TEST_ASSERT_EQUAL_INT32(inside              ? raw
+                                : raw > format->low ? format->high
+                                                    : format->low,
+                                state.input[0]);
+        TEST_ASSERT_EQUAL_INT(WH_E_ARGUMENT, wh_fixed_set_raw_input(&scene, &state, 1, raw));
+    }
     for (long i = 0; i < CASES; i++) { /* there and back: what float holds */
         const int32_t x = draw_number() >> 8;
         uint32_t held = 0;

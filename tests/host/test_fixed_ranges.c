@@ -1,12 +1,14 @@
 /* test_fixed_ranges.c: ranges and steps of all sizes in fixed point: what is made of them ends, and is either a step or a
  * refusal whose hint helps; and what has no acceleration moves all the same. */
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "command.h"
 #include "derived.h"
 #include "host/base/room.h"
+#include "host/commands/commands.h"
 #include "host/fixed/engine_fixed.h"
 #include "host/fixed/fixed_plan.h"
 
@@ -191,7 +193,69 @@ static void test_small_swings(void) {
     }
 }
 
+enum { INPUTS_MOST = 3, RANGES_TEXT = 400 };
+
+/* A scene with inputs that push to either side, and these ranges. What `whirl derive` says of its code in fixed point. */
+static void derive_pushed(int inputs, const double *start, const char *ranges, said *what) {
+    char text[1500];
+    int length = snprintf(text, sizeof text, "mechanism pushed\ncoordinate x [m]\n");
+    for (int i = 0; i < inputs; i++) {
+        length += snprintf(text + length, sizeof text - (size_t)length, "input u%d = %.17g [N]\n",
+                           i, start[i]);
+    }
+    length += snprintf(text + length, sizeof text - (size_t)length,
+                       "T = 2 [kg]*x'^2/2\nV = 50 [N/m]*x^2/2\nF = 3 [N*s/m]*x'^2/2\nQ(x) = u0");
+    for (int i = 1; i < inputs; i++) {
+        length += snprintf(text + length, sizeof text - (size_t)length, " + u%d", i);
+    }
+    snprintf(text + length, sizeof text - (size_t)length,
+             "\nscene s { start x = 0.3 [m]; until 1 [s]%s }\n", ranges);
+    const char *words[] = {model_keep(text), "--as", "c", "--number", "fixed", NULL};
+    command_say(command_derive, words, what);
+    model_drop();
+}
+
+/* Each input without a range is refused with a hint, and the hints, pasted, are enough. */
+static void test_inputs_must_declare_ranges(void) {
+    dice d = dice_of("fixed_ranges", 46);
+    const unsigned cases = dice_cases(24);
+    for (unsigned k = 0; k < cases; k++) {
+        const int inputs = 1 + (int)(k % INPUTS_MOST);
+        const unsigned declared = dice_one_of(&d, 1U << inputs);
+        double start[INPUTS_MOST];
+        char ranges[RANGES_TEXT] = "";
+        size_t length = 0;
+        said what;
+        for (int i = 0; i < inputs; i++) {
+            start[i] = dice_one_of(&d, 4) == 0 ? 0.0 : dice_between(&d, -2.0, 2.0);
+            if ((declared >> i & 1U) != 0) { /* on both sides of its start, and of zero or not */
+                length += (size_t)snprintf(
+                    ranges + length, sizeof ranges - length, "; range u%d = %.17g .. %.17g [N]", i,
+                    start[i] - dice_between(&d, 0.1, 3.0), start[i] + dice_between(&d, 0.1, 3.0));
+            }
+        }
+        derive_pushed(inputs, start, ranges, &what);
+        const bool all = declared == (1U << inputs) - 1U;
+        TEST_ASSERT_EQUAL_INT_MESSAGE(all ? 0 : 2, what.status, what.err);
+        const char *at = what.err;
+        for (int i = 0; i < inputs; i++) {
+            char wanted[40];
+            snprintf(wanted, sizeof wanted, "range of the input 'u%d'", i);
+            TEST_ASSERT_TRUE_MESSAGE(
+                (strstr(what.err, wanted) != NULL) == ((declared >> i & 1U) == 0), what.err);
+        }
+        while ((at = strstr(at, "in the scene: ")) != NULL) {
+            at += strlen("in the scene: ");
+            length += (size_t)snprintf(ranges + length, sizeof ranges - length, "; %.*s",
+                                       (int)strcspn(at, "\n"), at);
+        }
+        derive_pushed(inputs, start, ranges, &what);
+        TEST_ASSERT_EQUAL_INT_MESSAGE(0, what.status, what.err);
+    }
+}
+
 void suite_fixed_ranges(void) {
+    RUN_TEST(test_inputs_must_declare_ranges);
     RUN_TEST(test_ranges_and_steps_of_all_sizes);
     RUN_TEST(test_what_has_no_acceleration_moves);
     RUN_TEST(test_small_swings);
