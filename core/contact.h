@@ -163,7 +163,7 @@ typedef struct wh_contact_system {
     bool compensated;
     uint8_t angles;
     uint8_t coordinates;
-    uint64_t driven; /* of those, as bits: inputs with a rate (drive.h), which nothing pushes */
+    uint8_t driven; /* of those, the last: inputs with a rate (driven.h), which nothing pushes */
 } wh_contact_system;
 
 #endif

@@ -22,7 +22,7 @@ static inline void wh_books_enter(const wh_contact_system *of, const wh_contact_
     const wh_real impulse = share * lambda;
     entry[first] += impulse * speed;
     for (unsigned i = 0; i < of->coordinates; i++) {
-        if ((of->driven >> i & 1U) != 0) {
+        if (i + of->driven >= of->coordinates) {
             entry[first] -= impulse * (row[i] * rate[i]);
         } else {
             entry[first + 1U + i] += impulse * row[i];

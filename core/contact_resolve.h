@@ -327,8 +327,7 @@ static inline unsigned wh_contact_follow_rates(const wh_contact_system *of, wh_c
         }
         const wh_real speed = wh_jacobian_times(of, w, k, rate);
         const wh_real near = h * w->force[k] * wh_delassus_diagonal(of, w, k);
-        const bool moves =
-            WH_ABS(speed) > WH_CONTACT_ROUNDING * wh_contact_terms(of, w, k, rate);
+        const bool moves = WH_ABS(speed) > WH_CONTACT_ROUNDING * wh_contact_terms(of, w, k, rate);
         if (stop && moves && WH_ABS(speed) > near) {
             but |= speed > WH_R(0.0) ? 1U << k : 0U;
             *hits |= speed > WH_R(0.0) ? 0U : 1U << k;

@@ -2,7 +2,7 @@
 #ifndef WH_LEDGER_STEP_H
 #define WH_LEDGER_STEP_H
 
-#include "drive.h"
+#include "driven.h"
 #include "stabilize.h"
 #include "step.h"
 

@@ -1,5 +1,5 @@
 /* scene_set.c: correcting a state from a measurement: one component gets a new value, and the contacts are found again. */
-#include "drive.h"
+#include "driven.h"
 
 /* Most radians that an angle may be given: as contact_crossing.h has it. */
 #define ANGLE_MOST WH_R(1e9)

@@ -119,8 +119,8 @@ const poly *energy_drive(const equations *e, int i) {
     algebra *a = e->algebra;
     const symbol *q = e->unknowns[i].symbol;
     const poly *lagrangian = poly_sub(a, e->kinetic, e->stored);
-    const poly *force = poly_add(a, poly_derivative(a, lagrangian, q, 0),
-                                 forces_on(a, e->force, e->forces, i));
+    const poly *force =
+        poly_add(a, poly_derivative(a, lagrangian, q, 0), forces_on(a, e->force, e->forces, i));
     const poly *power = poly_add(
         a, poly_mul(a, force, poly_symbol(a, q, 1)),
         poly_mul(a, poly_derivative(a, lagrangian, q, 1), e->applied[i])); /* that of the rate */

@@ -82,8 +82,7 @@ static bool derive_lagrange(equations *e, diags *errors) {
                 poly_mul(a, poly_derivative(a, momentum, other, 0), poly_symbol(a, other, 1));
             e->velocity[i] = poly_add(a, e->velocity[i], drift);
             if (other->driven != NULL) { /* its acceleration is known */
-                const poly *push =
-                    poly_mul(a, e->mass[i * n + j], acceleration_of(a, other));
+                const poly *push = poly_mul(a, e->mass[i * n + j], acceleration_of(a, other));
                 e->velocity[i] = poly_add(a, e->velocity[i], push);
                 e->mass[i * n + j] = poly_number(a, 0.0);
             }

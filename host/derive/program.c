@@ -132,9 +132,10 @@ static tape *make_books(const program *p, layout *map, const linear_system *s) {
         wanted[BOOK_STORED] = e->stored;
         wanted[BOOK_INPUT_POWER] = forces_power(a, e->force, e->forces, TERM_Q);
         for (int i = 0; i < n; i++) {
-            wanted[BOOK_INPUT_POWER] = e->unknowns[i].symbol->driven == NULL
-                                           ? wanted[BOOK_INPUT_POWER]
-                                           : poly_add(a, wanted[BOOK_INPUT_POWER], energy_drive(e, i));
+            wanted[BOOK_INPUT_POWER] =
+                e->unknowns[i].symbol->driven == NULL
+                    ? wanted[BOOK_INPUT_POWER]
+                    : poly_add(a, wanted[BOOK_INPUT_POWER], energy_drive(e, i));
         }
         wanted[BOOK_LOSS_POWER] = poly_scale(a, forces_power(a, e->force, e->forces, TERM_F), -1.0);
         for (int i = 0; i < n; i++) {

@@ -178,7 +178,7 @@ static void write_includes(FILE *out, const image *im) {
         fprintf(out, "#include \"core/%s.h\"\n", with[image_turns(im)][im->ledger.kept]);
     }
     if (im->drives > 0) {
-        fprintf(out, "#include \"core/drive.h\"\n");
+        fprintf(out, "#include \"core/driven.h\"\n");
     }
     if (im->list[IMAGE_STEP]->tables.count > 0) {
         fprintf(out, "#include \"core/table.h\"\n");

@@ -1,8 +1,6 @@
 /* c_contacts.c: the lists and the table of a scene's contacts. */
 #include "c_contacts.h"
 
-#include <inttypes.h>
-
 #include "c_list.h"
 #include "host/image/core_rows.h"
 #include "host/number/hex.h"
@@ -69,7 +67,7 @@ void c_contacts_write(FILE *out, const image *im) {
             core_stops(im), system.forced, wh_methods[system.method].name,
             system.compensated ? "true" : "false", system.angles, system.coordinates);
     if (system.driven != 0) {
-        fprintf(out, "    .driven = UINT64_C(0x%" PRIx64 "),\n", system.driven);
+        fprintf(out, "    .driven = %d,\n", system.driven);
     }
     fputs("};\n\n", out);
     fprintf(out,

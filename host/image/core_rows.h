@@ -4,7 +4,7 @@
 #define IMAGE_CORE_ROWS_H
 
 #include "core/contact.h"
-#include "core/drive.h"
+#include "core/driven.h"
 #include "core/ledger.h"
 #include "core/version.h"
 #include "image.h"
@@ -23,10 +23,6 @@ static inline wh_contact_system core_contact_system(const image *im, const wh_co
                                                     const uint8_t *target) {
     unsigned kinds = 0;
     int pinned = 0;
-    uint64_t driven = 0;
-    for (int i = 0; i < im->drives; i++) { /* linear coordinates, behind the angles */
-        driven |= UINT64_C(1) << (im->angles + im->drive[i].value_at);
-    }
     for (int k = 0; k < im->forced; k++) {
         kinds |= WH_KIND_BIT((unsigned)im->contact[k].kind);
         pinned += im->contact[k].pin >= 0;
@@ -42,7 +38,7 @@ static inline wh_contact_system core_contact_system(const image *im, const wh_co
                                .compensated = im->settings.compensated,
                                .angles = (uint8_t)im->angles,
                                .coordinates = (uint8_t)im->coordinates,
-                               .driven = driven};
+                               .driven = (uint8_t)im->drives};
 }
 
 static inline wh_drive core_drive(const image_drive *d) {

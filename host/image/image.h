@@ -312,9 +312,9 @@ typedef struct image {
     component *real;        /* [reals] */
     int *
         place; /* [count] unknown -> coordinate number in the scene's order, or -1 (second order) */
-    int *from_momentum;        /* [recovered] unknown */
-    image_quantity *input;     /* [inputs] with the value at the start */
-    image_drive *drive; /* [drives] */
+    int *from_momentum;    /* [recovered] unknown */
+    image_quantity *input; /* [inputs] with the value at the start */
+    image_drive *drive;    /* [drives] */
     int drives;
     image_quantity *output;    /* [own_outputs] */
     image_quantity *parameter; /* [parameters] */

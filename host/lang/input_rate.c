@@ -22,8 +22,9 @@ char *input_rate_hint(const symbol *input, char *buffer) {
     const int length = (int)strcspn(rest, "#\";\r\n");
     (void)dim_divide(input->dim, dim_of(0, 0, 1, 0, 0), &dim);
     dimension_unit(dim, false, unit, sizeof unit);
-    snprintf(buffer, RATE_HINT_SIZE, "input %.40s rate %.40s_rate%.*s; input %.40s_rate = 0 [%.40s]",
-             input->name, input->name, length < 100 ? length : 0, rest, input->name,
+    snprintf(buffer, RATE_HINT_SIZE,
+             "input %.40s rate %.40s_rate%.*s; input %.40s_rate = 0 [%.40s]", input->name,
+             input->name, length < 100 ? length : 0, rest, input->name,
              strcmp(unit, "1") == 0 ? "rad" : unit);
     return buffer;
 }

@@ -160,7 +160,7 @@ static bool fit(apart *a, int primes, bool (*with)(apart *a, const bool *may)) {
         bool may[N];
         for (int i = 0; i < a->n; i++) {
             const image_unknown *u = &a->im->unknown[image_component(a->im, i).unknown];
-            may[i] = all == 1 || u->start_at[primes].source == NULL;
+            may[i] = !u->driven && (all == 1 || u->start_at[primes].source == NULL);
         }
         if (with(a, may)) {
             return true;

@@ -205,6 +205,39 @@ for file in hoop gauge; do
     printf '%s\n' --with ledger >>"$scratch/$number.options"
 done
 
+# inputs with a rate: of stops and holds, in the energies alone, with books and with an acceleration
+cat >"$scratch/driven.whirl" <<'END'
+mechanism driven "a ball on a rope that is taken in, at a wall that comes"
+coordinate x [m]
+coordinate y [m]
+input L rate Lv = 1 [m]
+input W = 0.3 [m] rate Wv
+input Wv = -0.9 [m/s]
+input Lv = -0.4 [m/s] rate La
+input La = 0.7 [m/s^2]
+T = 2 [kg]*(x'^2 + y'^2)/2
+V = 2 [kg]*9.81 [m/s^2]*y
+hold sqrt(x^2 + y^2) - L while y < 0
+stop x >= -W restitution 0.6
+scene hung { start x = 0.6 [m], y = -0.8 [m], x' = -3 [m/s], y' = 1 [m/s]; until 0.3 [s] }
+mechanism drawn "a pendulum that is taken in"
+coordinate a [rad]
+input L rate Lv = 1 [m]
+input Lv = -0.4 [m/s]
+let px = L*sin(a)
+let py = -L*cos(a)
+T = 2 [kg]*(px'^2 + py'^2)/2
+V = 2 [kg]*9.81 [m/s^2]*py
+F = 0.1 [N*s/m]*py'^2/2
+scene swung { start a = 1; until 0.3 [s] }
+END
+for scene in hung swung; do
+    for more in "" "--with ledger" "--compensated --method rk38"; do
+        # shellcheck disable=SC2086 # of words, or of none
+        add "$scratch/driven.whirl:$scene" $more
+    done
+done
+
 # a clock that is conserved, on which a force depends: it is integrated
 cat >"$scratch/w/clock.whirl" <<'END'
 mechanism clock "a force of time"

@@ -257,27 +257,6 @@ static void test_an_assignment_gives_it_anew(void) {
     }
 }
 
-/* An input that a held expression names counts as standing still: what it does to the value moves nobody. */
-static void test_an_input_moves_nobody(void) {
-    static const char *const held[] = {"sqrt((x - u)^2 + y^2)", "x - u"};
-    for (int i = 0; i < 4; i++) {
-        char text[500];
-        motion m;
-        snprintf(text, sizeof text,
-                 "mechanism tied\ncoordinate x [m]\ncoordinate y [m]\ninput u = 0 [m]\n"
-                 "T = 1 [kg]*(x'^2 + y'^2)/2\nhold %s while x > -100 [m]\n"
-                 "scene s {\n  start x = 1 [m]\n  until 1 [s]\n}\n",
-                 held[i / 2]);
-        motion_open_text(&m, text, (stepping){.kind = KINDS[i % 2], .method = WH_RK4});
-        motion_to(&m, 0.1);
-        m.kind->set_input(m.run, 0, 0.5);
-        motion_to(&m, 0.2);
-        TEST_ASSERT_TRUE(motion_value(&m, "x") == 1.0 && motion_value(&m, "x'") == 0.0);
-        TEST_ASSERT_EQUAL_UINT64(0, contacts_events(&m)); /* held from the start, and not let go */
-        motion_close(&m);
-    }
-}
-
 /* A stop that an input raises, and what is held to the body on it, straight or along a chain, the mass matrix coupled
  * or not: all of it comes along, by as much as keeps what is held. */
 static void test_what_is_held_to_a_raised_body_comes_along(void) {
@@ -318,7 +297,6 @@ static void test_what_is_held_to_a_raised_body_comes_along(void) {
 }
 
 void suite_contact_holds(void) {
-    RUN_TEST(test_an_input_moves_nobody);
     RUN_TEST(test_what_is_held_to_a_raised_body_comes_along);
     RUN_TEST(test_rods_keep_their_length);
     RUN_TEST(test_linkages_stay_closed);

@@ -1,11 +1,12 @@
-/* drive.h: inputs with a rate (`input L rate Lv`): inside a step they move, as coordinates that nothing pushes. Part of
+/* driven.h: inputs with a rate (`input L rate Lv`): inside a step they move, as coordinates that nothing pushes. Part of
  * generated scenes that have one. The caller sets value and rate between steps, or the rate alone; a step starts from
  * both, and leaves in them where they came to. */
-#ifndef WH_DRIVE_H
-#define WH_DRIVE_H
+#ifndef WH_DRIVEN_H
+#define WH_DRIVEN_H
 
 #ifdef __cplusplus
-#error "core/drive.h is C only, as generated .c files are: C++ includes core/scene.h and generated headers"
+#error \
+    "core/driven.h is C only, as generated .c files are: C++ includes core/scene.h and generated headers"
 #endif
 
 #include "ledger.h"
