@@ -20,12 +20,12 @@
 #endif
 
 /* Inputs, and the places in state->real[] that they drive. */
-typedef struct wh_drive {
+typedef struct wh_driven {
     uint8_t input;
     uint8_t rate;
     uint8_t value_at;
     uint8_t rate_at;
-} wh_drive;
+} wh_driven;
 
 /* The state was corrected, and the levels were `before`: what that changed is kept apart. */
 static inline void wh_ledger_correct(const wh_ledger_form *form, const wh_state *state,
@@ -45,8 +45,8 @@ static inline void wh_ledger_correct(const wh_ledger_form *form, const wh_state 
 
 /* Before a step: the components are where the inputs say. With books (`form`, or NULL), what that changes of the accounts is
  * a correction, as wh_scene_set_real() has it. */
-WH_INLINE void wh_drive_begin(const wh_drive *drive, unsigned count, const wh_ledger_form *form,
-                              wh_state *state) {
+WH_INLINE void wh_driven_begin(const wh_driven *drive, unsigned count, const wh_ledger_form *form,
+                               wh_state *state) {
     wh_real before[WH_ACCOUNTS_MAX];
     bool set = false;
     for (unsigned i = 0; i < count; i++) {
@@ -67,7 +67,7 @@ WH_INLINE void wh_drive_begin(const wh_drive *drive, unsigned count, const wh_le
 }
 
 /* After a step that was done: the inputs are where the components came to. */
-WH_INLINE void wh_drive_end(const wh_drive *drive, unsigned count, wh_state *state) {
+WH_INLINE void wh_driven_end(const wh_driven *drive, unsigned count, wh_state *state) {
     for (unsigned i = 0; i < count; i++) {
         state->input[drive[i].input] = state->real[drive[i].value_at];
         state->input[drive[i].rate] = state->real[drive[i].rate_at];

@@ -232,16 +232,16 @@ static void write_advance(FILE *out, const image *im) {
     if (im->drives == 0) {
         fputs("    return one_step(scene, state);\n}\n\n", out);
     } else {
-        fprintf(out, "    static const wh_drive drive[%d] = {", im->drives);
+        fprintf(out, "    static const wh_driven drive[%d] = {", im->drives);
         for (int i = 0; i < im->drives; i++) {
-            const wh_drive d = core_drive(&im->drive[i]);
+            const wh_driven d = core_drive(&im->drive[i]);
             fprintf(out, "%s{%d, %d, %d, %d}", i > 0 ? ", " : "", d.input, d.rate, d.value_at,
                     d.rate_at);
         }
         fprintf(out,
-                "};\n    wh_drive_begin(drive, %dU, %s, state);\n"
+                "};\n    wh_driven_begin(drive, %dU, %s, state);\n"
                 "    const wh_status status = one_step(scene, state);\n"
-                "    if (status == WH_OK) {\n        wh_drive_end(drive, %dU, state);\n    }\n"
+                "    if (status == WH_OK) {\n        wh_driven_end(drive, %dU, state);\n    }\n"
                 "    return status;\n}\n\n",
                 im->drives, im->ledger.kept ? "&ledger" : "NULL", im->drives);
     }

@@ -41,9 +41,9 @@ static inline wh_contact_system core_contact_system(const image *im, const wh_co
                                .driven = (uint8_t)im->drives};
 }
 
-static inline wh_drive core_drive(const image_drive *d) {
-    return (wh_drive){(uint8_t)d->input, (uint8_t)d->rate, (uint8_t)d->value_at,
-                      (uint8_t)d->rate_at};
+static inline wh_driven core_drive(const image_drive *d) {
+    return (wh_driven){(uint8_t)d->input, (uint8_t)d->rate, (uint8_t)d->value_at,
+                       (uint8_t)d->rate_at};
 }
 
 /* What WH_CONTACT_EVALUATIONS() takes. A matrix has none. */
