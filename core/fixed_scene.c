@@ -9,6 +9,9 @@ wh_status wh_fixed_start(const wh_fixed_scene *scene, wh_fixed_state *state, voi
         char byte;
         int64_t angle;
     };
+    if (state != NULL) {
+        state->real = NULL; /* not started, until it is */
+    }
     if (scene == NULL || state == NULL ||
         (uintptr_t)memory % offsetof(struct behind_a_byte, angle) != 0) {
         return WH_E_ARGUMENT;
@@ -35,13 +38,17 @@ wh_status wh_fixed_start(const wh_fixed_scene *scene, wh_fixed_state *state, voi
 }
 
 wh_status wh_fixed_step(const wh_fixed_scene *scene, wh_fixed_state *state) {
-    scene->advance(scene, state);
-    state->steps++;
-    return WH_OK;
+    if (state->real == NULL) {
+        return WH_E_ARGUMENT;
+    }
+    return scene->advance(scene, state);
 }
 
 uint64_t wh_fixed_hash(const wh_fixed_scene *scene, const wh_fixed_state *state) {
     uint64_t hash = wh_hash_u64(WH_HASH_START, state->steps);
+    if (state->real == NULL) {
+        return 0;
+    }
     hash = wh_hash_u64(hash, state->saturated);
     for (unsigned i = 0; i < scene->angles; i++) {
         hash = wh_hash_u64(hash, (uint64_t)state->angle[i]);
@@ -84,12 +91,12 @@ wh_real wh_fixed_to(const wh_fixed_format *format, int32_t number) {
 }
 
 wh_real wh_fixed_real(const wh_fixed_scene *scene, const wh_fixed_state *state, unsigned i) {
-    return wh_fixed_to(&scene->format[i], state->real[i]);
+    return state->real == NULL ? WH_R(0.0) : wh_fixed_to(&scene->format[i], state->real[i]);
 }
 
 wh_real wh_fixed_angle(const wh_fixed_scene *scene, const wh_fixed_state *state, unsigned i) {
     (void)scene;
-    const int64_t angle = state->angle[i];
+    const int64_t angle = state->real == NULL ? 0 : state->angle[i];
     const wh_real turns = (wh_real)(int32_t)(angle >> 32);
     const wh_real part = (wh_real)(uint32_t)angle * WH_R(0x1p-32);
     return (turns + part) * WH_R(6.283185307179586477);
@@ -97,13 +104,15 @@ wh_real wh_fixed_angle(const wh_fixed_scene *scene, const wh_fixed_state *state,
 
 void wh_fixed_set_real(const wh_fixed_scene *scene, wh_fixed_state *state, unsigned i,
                        wh_real value) {
-    state->real[i] = wh_fixed_of(&scene->format[i], value, &state->saturated);
+    if (state->real != NULL) {
+        state->real[i] = wh_fixed_of(&scene->format[i], value, &state->saturated);
+    }
 }
 
 wh_status wh_fixed_set_input(const wh_fixed_scene *scene, wh_fixed_state *state, unsigned i,
                              wh_real value) {
     const uint32_t before = state->saturated;
-    if (i >= scene->inputs) {
+    if (state->real == NULL || i >= scene->inputs) {
         return WH_E_ARGUMENT;
     }
     state->input[i] = wh_fixed_of(&scene->format[scene->reals + i], value, &state->saturated);
@@ -113,7 +122,7 @@ wh_status wh_fixed_set_input(const wh_fixed_scene *scene, wh_fixed_state *state,
 wh_status wh_fixed_set_raw_input(const wh_fixed_scene *scene, wh_fixed_state *state, unsigned i,
                                  int32_t number) {
     const uint32_t before = state->saturated;
-    if (i >= scene->inputs) {
+    if (state->real == NULL || i >= scene->inputs) {
         return WH_E_ARGUMENT;
     }
     const wh_fixed_format *f = &scene->format[scene->reals + i];

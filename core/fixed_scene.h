@@ -58,7 +58,8 @@ struct wh_fixed_scene {
     const int32_t *start_input;
     const void *model; /* of the interpreter; NULL in generated code */
     uint64_t model_hash;
-    void (*advance)(const wh_fixed_scene *scene, wh_fixed_state *state);
+    /* One step, counted in state->steps. WH_OK. */
+    wh_status (*advance)(const wh_fixed_scene *scene, wh_fixed_state *state);
 };
 
 /* Bytes of caller memory for so many angles, and reals and inputs together. */
@@ -80,10 +81,12 @@ struct wh_fixed_scene {
 wh_status wh_fixed_start(const wh_fixed_scene *scene, wh_fixed_state *state, void *memory,
                          size_t bytes);
 
-/* One step, beyond the scene's end, too. Always WH_OK: nothing diverges, but state->saturated counts. */
+/* One step, beyond the scene's end, too. WH_OK: nothing diverges, but state->saturated counts. Or WH_E_ARGUMENT for a state
+ * that was not started: zeroed, or refused by wh_fixed_start(). */
 wh_status wh_fixed_step(const wh_fixed_scene *scene, wh_fixed_state *state);
 
-/* Of step count, saturations, angles and reals: equal runs on any two machines give equal hashes. */
+/* Of step count, saturations, angles and reals: equal runs on any two machines give equal hashes.
+ * 0 for a state that was not started. */
 uint64_t wh_fixed_hash(const wh_fixed_scene *scene, const wh_fixed_state *state);
 
 /* The edges, in floating point, none of which a step calls. A number of this format: to the nearest, halves away from
@@ -91,7 +94,7 @@ uint64_t wh_fixed_hash(const wh_fixed_scene *scene, const wh_fixed_state *state)
 int32_t wh_fixed_of(const wh_fixed_format *format, wh_real value, uint32_t *saturated);
 wh_real wh_fixed_to(const wh_fixed_format *format, int32_t number);
 
-/* Component i of the reals, SI; angle i, unwrapped radians. */
+/* Component i of the reals, SI; angle i, unwrapped radians. Of a state that was not started 0, and nothing is set. */
 wh_real wh_fixed_real(const wh_fixed_scene *scene, const wh_fixed_state *state, unsigned i);
 wh_real wh_fixed_angle(const wh_fixed_scene *scene, const wh_fixed_state *state, unsigned i);
 void wh_fixed_set_real(const wh_fixed_scene *scene, wh_fixed_state *state, unsigned i,

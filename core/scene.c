@@ -165,14 +165,16 @@ wh_status wh_scene_start(const wh_scene *scene, wh_state *state, void *memory, s
 }
 
 wh_status wh_scene_step(const wh_scene *scene, wh_state *state) {
-    const wh_status status = scene->advance(scene, state);
-    if (status == WH_OK) {
-        state->steps++;
+    if (state->real == NULL) {
+        return WH_E_ARGUMENT;
     }
-    return status;
+    return scene->advance(scene, state);
 }
 
 wh_status wh_scene_steps(const wh_scene *scene, wh_state *state, uint32_t steps) {
+    if (state->real == NULL) {
+        return WH_E_ARGUMENT;
+    }
     if (scene->ahead != NULL && steps > 0) {
         return scene->ahead(scene, state, steps);
     }
@@ -248,6 +250,9 @@ wh_real wh_scene_time_s(const wh_scene *scene, const wh_state *state) {
 
 uint64_t wh_scene_hash(const wh_scene *scene, const wh_state *state) {
     uint64_t hash = wh_hash_u64(WH_HASH_START, state->steps);
+    if (state->real == NULL) {
+        return 0;
+    }
     for (unsigned i = 0; i < scene->angles; i++) {
 #if WH_DOUBLE
         hash = wh_hash_real(hash, state->angle[i]);
@@ -269,7 +274,7 @@ uint64_t wh_scene_hash(const wh_scene *scene, const wh_state *state) {
 
 const wh_real *wh_scene_rates(const wh_scene *scene, const wh_state *state) {
     /* reals = linear + coordinates and coordinates = linear + angles */
-    return state->real + (scene->reals - scene->angles) / 2;
+    return state->real == NULL ? NULL : state->real + (scene->reals - scene->angles) / 2;
 }
 
 /* As wh_refuse_first(), not unrolled. */

@@ -66,8 +66,8 @@ struct wh_scene {
     const wh_ledger_form *ledger; /* NULL: no books are kept */
     const void *model;            /* the interpreter's operation list; NULL in generated code */
     uint64_t model_hash;          /* of the operation list: which physics this is */
-    /* One step. On divergence returns WH_E_DIVERGED, where a contact's gap, condition, value, friction or
-     * restitution is no finite number WH_E_UNDEFINED; sets state->fault and leaves the rest as it was. Does not count the step: wh_scene_step() does. */
+    /* One step, counted in state->steps. On divergence returns WH_E_DIVERGED, where a contact's gap, condition, value,
+     * friction or restitution is no finite number WH_E_UNDEFINED; sets state->fault and leaves the rest as it was. */
     wh_status (*advance)(const wh_scene *scene, wh_state *state);
     /* So many steps, one or more, counted in state->steps: as wh_scene_steps(). NULL: advance() in a loop. Generated code
      * that is compiled with -DWH_AHEAD=1 has it. */
@@ -120,8 +120,8 @@ struct wh_scene {
 wh_status wh_scene_start(const wh_scene *scene, wh_state *state, void *memory, size_t bytes);
 
 /* Do one step. Returns WH_OK; or WH_E_DIVERGED or WH_E_UNDEFINED, with the last good state kept and
- * state->fault set (a further call fails the same way, it does not go on from garbage). `state` must have been started: look
- * at what wh_scene_start() returns. A check here would cost each step of each scene. */
+ * state->fault set (while inputs stay the same a further call fails the same way; it does not go on from garbage); or WH_E_ARGUMENT for a state that was
+ * not started: zeroed, or refused by wh_scene_start(). */
 wh_status wh_scene_step(const wh_scene *scene, wh_state *state);
 
 /* Do so many steps, or none, for simulating ahead. The bits are those of as many calls of wh_scene_step(); it takes fewer
@@ -150,10 +150,11 @@ wh_time wh_scene_time(const wh_scene *scene, const wh_state *state);
  * in float: a millisecond at 4.7 h). What the outputs of generated scenes compute with. */
 wh_real wh_scene_time_s(const wh_scene *scene, const wh_state *state);
 
-/* Hash of step count, angles, reals, what holds keep and the contacts' modes: equal runs on any two machines give equal hashes. */
+/* Hash of step count, angles, reals, what holds keep and the contacts' modes: equal runs on any two machines give equal hashes.
+ * 0 for a state that was not started. */
 uint64_t wh_scene_hash(const wh_scene *scene, const wh_state *state);
 
-/* Where the rates of a second-order scene begin in state->real. */
+/* Where the rates of a second-order scene begin in state->real. NULL for a state that was not started. */
 const wh_real *wh_scene_rates(const wh_scene *scene, const wh_state *state);
 
 /* A status in words, for consoles. */

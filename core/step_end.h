@@ -120,6 +120,14 @@ WH_INLINE wh_status wh_accept(const wh_trial *trial, unsigned angles, unsigned r
     return WH_OK;
 }
 
+/* Count a step that was done. */
+WH_INLINE wh_status wh_step_counted(wh_status status, wh_state *state) {
+    if (status == WH_OK) {
+        state->steps++;
+    }
+    return status;
+}
+
 /* trial->carry[count] as a step begins: what the last one's sums left, where they are compensated. */
 WH_INLINE void wh_carry_begin(const wh_state *state, bool compensated, unsigned count,
                               wh_trial *trial) {

@@ -230,7 +230,7 @@ static void write_one_step(FILE *out, const image *im) {
 static void write_advance(FILE *out, const image *im) {
     fputs("static wh_status advance(const wh_scene *scene, wh_state *state) {\n", out);
     if (im->drives == 0) {
-        fputs("    return one_step(scene, state);\n}\n\n", out);
+        fputs("    return wh_step_counted(one_step(scene, state), state);\n}\n\n", out);
     } else {
         fprintf(out, "    static const wh_driven drive[%d] = {", im->drives);
         for (int i = 0; i < im->drives; i++) {
@@ -242,7 +242,7 @@ static void write_advance(FILE *out, const image *im) {
                 "};\n    wh_driven_begin(drive, %dU, %s, state);\n"
                 "    const wh_status status = one_step(scene, state);\n"
                 "    if (status == WH_OK) {\n        wh_driven_end(drive, %dU, state);\n    }\n"
-                "    return status;\n}\n\n",
+                "    return wh_step_counted(status, state);\n}\n\n",
                 im->drives, im->ledger.kept ? "&ledger" : "NULL", im->drives);
     }
     if (has_ahead(im)) {

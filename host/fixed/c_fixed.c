@@ -156,7 +156,7 @@ static void begin_step(FILE *out, const fixed_plan *p) {
 }
 
 static void put_advance(FILE *out, const fixed_plan *p) {
-    fputs("static void advance(const wh_fixed_scene *scene, wh_fixed_state *state) {\n"
+    fputs("static wh_status advance(const wh_fixed_scene *scene, wh_fixed_state *state) {\n"
           "    const int32_t *input = state->input;\n"
           "    uint32_t saturated = state->saturated;\n",
           out);
@@ -177,7 +177,7 @@ static void put_advance(FILE *out, const fixed_plan *p) {
     } else {
         end_first(out, p);
     }
-    fputs("    state->saturated = saturated;\n}\n\n", out);
+    fputs("    state->saturated = saturated;\n    state->steps++;\n    return WH_OK;\n}\n\n", out);
 }
 
 /* --- the file ------------------------------------------------------------------------------------------*/

@@ -198,7 +198,7 @@ static void end_first(fixed_run *run, const fixed_stages *k) {
     }
 }
 
-static void advance(const wh_fixed_scene *scene, wh_fixed_state *state) {
+static wh_status advance(const wh_fixed_scene *scene, wh_fixed_state *state) {
     fixed_run *run = (fixed_run *)(uintptr_t)scene->model;
     const fixed_plan *p = run->plan;
     const int angles = run->image->angles;
@@ -229,6 +229,8 @@ static void advance(const wh_fixed_scene *scene, wh_fixed_state *state) {
     } else {
         end_first(run, &k);
     }
+    state->steps++;
+    return WH_OK;
 }
 
 /* --- what a run is asked -----------------------------------------------------------------------------------*/

@@ -144,9 +144,9 @@ static wh_status eventful(const wh_contact_system *of, wh_real h, wh_state *stat
 static wh_status hand_advance(const wh_scene *scene, wh_state *state) {
     const hand *m = scene->model;
     if (m->eventful) {
-        return eventful(&m->system, scene->step_s, state);
+        return wh_step_counted(eventful(&m->system, scene->step_s, state), state);
     }
-    return wh_step_contact(&m->system, scene->step_s, state);
+    return wh_step_counted(wh_step_contact(&m->system, scene->step_s, state), state);
 }
 
 /* --- its scenes ------------------------------------------------------------------------------------ */

@@ -38,8 +38,9 @@ static void accel(const void *model, const wh_phase *phase, const wh_real *linea
 }
 
 static wh_status advance(const wh_scene *scene, wh_state *of) {
-    return wh_step_second(NULL, accel, scene->method, scene->compensated, 1, 2,
-                          (wh_span){scene->step_s, length[1]}, of);
+    return wh_step_counted(wh_step_second(NULL, accel, scene->method, scene->compensated, 1, 2,
+                                          (wh_span){scene->step_s, length[1]}, of),
+                           of);
 }
 
 static wh_status ahead(const wh_scene *scene, wh_state *of, uint32_t steps) {

@@ -197,9 +197,11 @@ static const wh_fixed_format formats[] = {{24, -100 * (INT32_C(1) << 24), 100 * 
 static const int64_t start_angle[] = {INT64_C(-3) * (INT64_C(1) << 32) + (INT64_C(1) << 31)};
 static const int32_t start_number[] = {INT32_C(1) << 24};
 
-static void no_step(const wh_fixed_scene *scene, wh_fixed_state *state) {
+static wh_status no_step(const wh_fixed_scene *scene, wh_fixed_state *state) {
     (void)scene;
     state->real[0]++;
+    state->steps++;
+    return WH_OK;
 }
 
 static const wh_fixed_scene scene = {.name = "none",
@@ -212,6 +214,38 @@ static const wh_fixed_scene scene = {.name = "none",
                                      .start_real = start_number,
                                      .start_input = start_number,
                                      .advance = no_step};
+
+/* Every function that takes a state, with one that was not started: zeroed, or refused. */
+static void must_not_run(wh_fixed_state *state) {
+    const uint64_t steps = state->steps;
+    const uint32_t saturated = state->saturated;
+    TEST_ASSERT_EQUAL_INT(WH_E_ARGUMENT, wh_fixed_step(&scene, state));
+    TEST_ASSERT_TRUE(wh_fixed_hash(&scene, state) == 0);
+    TEST_ASSERT_TRUE(wh_fixed_real(&scene, state, 0) == WH_R(0.0));
+    TEST_ASSERT_TRUE(wh_fixed_angle(&scene, state, 0) == WH_R(0.0));
+    wh_fixed_set_real(&scene, state, 0, WH_R(1e30));
+    wh_fixed_set_input(&scene, state, 0, WH_R(1e30));
+    TEST_ASSERT_TRUE(state->steps == steps && state->saturated == saturated && state->real == NULL);
+}
+
+static void test_states_that_were_not_started(void) {
+    uint64_t memory[4];
+    int32_t start_real[1];
+    wh_fixed_state state = {.steps = 0};
+    must_not_run(&state);
+    for (unsigned bytes = 0; bytes < 24; bytes++) {
+        for (unsigned at = 0; at < 8; at++) {
+            state = (wh_fixed_state){.steps = 5, .saturated = 7, .real = start_real};
+            if (wh_fixed_start(&scene, &state, (char *)memory + at, bytes) != WH_OK) {
+                must_not_run(&state);
+            }
+        }
+    }
+    TEST_ASSERT_EQUAL_INT(WH_E_MEMORY, wh_fixed_start(&scene, &state, NULL, 16));
+    must_not_run(&state);
+    TEST_ASSERT_EQUAL_INT(WH_E_ARGUMENT, wh_fixed_start(NULL, &state, memory, 16));
+    must_not_run(&state);
+}
 
 static void test_scenes(void) {
     uint64_t memory[2];
@@ -292,5 +326,6 @@ void suite_fixed(void) {
     RUN_TEST(test_sines);
     RUN_TEST(test_limits);
     RUN_TEST(test_scenes);
+    RUN_TEST(test_states_that_were_not_started);
     RUN_TEST(test_edges);
 }

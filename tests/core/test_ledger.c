@@ -110,8 +110,9 @@ static const wh_ledger_form spring_books = {.powers = spring_accel,
                                             .inputs = 1};
 
 static wh_status spring_advance(const wh_scene *scene, wh_state *state) {
-    return wh_step_ledger(&spring_books, NULL, spring_accel, WH_RK4, false,
-                          (wh_span){scene->step_s, WH_R(0.0)}, state);
+    return wh_step_counted(wh_step_ledger(&spring_books, NULL, spring_accel, WH_RK4, false,
+                                          (wh_span){scene->step_s, WH_R(0.0)}, state),
+                           state);
 }
 
 /* The spring gets stiffer, then softer: each change gives (k2 - k1) x^2/2. Until the next step it is not
@@ -197,8 +198,9 @@ static const wh_ledger_form shaft_books = {.powers = NULL,
                                            .inputs = 2};
 
 static wh_status shaft_advance(const wh_scene *scene, wh_state *state) {
-    return wh_step_ledger(&shaft_books, NULL, shaft_accel, WH_RK4, false,
-                          (wh_span){scene->step_s, WH_R(0.0)}, state);
+    return wh_step_counted(wh_step_ledger(&shaft_books, NULL, shaft_accel, WH_RK4, false,
+                                          (wh_span){scene->step_s, WH_R(0.0)}, state),
+                           state);
 }
 
 /* Entry 1 is the integral of the angle, 1/12 t^3 + r t^2/2 + th t: counted from the turns that the shaft has, not from its

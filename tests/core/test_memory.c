@@ -36,14 +36,46 @@ static bool is_filled(size_t from, size_t to) {
     return all;
 }
 
+static wh_status no_step(const wh_scene *scene, wh_state *of) {
+    (void)scene;
+    (void)of;
+    TEST_FAIL_MESSAGE("a state that was not started was stepped");
+    return WH_OK;
+}
+
+static wh_status no_steps(const wh_scene *scene, wh_state *of, uint32_t steps) {
+    (void)steps;
+    return no_step(scene, of);
+}
+
+/* The state was not started: every function that takes one refuses it, and leaves it as it is. */
+static void must_not_run(const wh_scene *scene) {
+    wh_scene with_ahead = *scene;
+    const wh_state before = state;
+    with_ahead.ahead = no_steps;
+    TEST_ASSERT_TRUE(wh_scene_step(scene, &state) == WH_E_ARGUMENT);
+    TEST_ASSERT_TRUE(wh_scene_steps(scene, &state, 2) == WH_E_ARGUMENT);
+    TEST_ASSERT_TRUE(wh_scene_steps(scene, &state, 0) == WH_E_ARGUMENT);
+    TEST_ASSERT_TRUE(wh_scene_steps(&with_ahead, &state, 2) == WH_E_ARGUMENT);
+    TEST_ASSERT_TRUE(wh_scene_set_real(scene, &state, 0, WH_R(1.0)) == WH_E_ARGUMENT);
+    TEST_ASSERT_TRUE(wh_scene_set_angle(scene, &state, 0, WH_R(1.0)) == WH_E_ARGUMENT);
+    TEST_ASSERT_TRUE(wh_scene_move_angle(scene, &state, 0, WH_R(1.0)) == WH_E_ARGUMENT);
+    TEST_ASSERT_TRUE(wh_scene_hash(scene, &state) == 0);
+    TEST_ASSERT_TRUE(wh_scene_rates(scene, &state) == NULL);
+    TEST_ASSERT_TRUE(state.steps == before.steps && state.real == NULL &&
+                     state.fault == before.fault);
+}
+
 static void must_refuse(const wh_scene *scene, void *memory, size_t bytes, wh_status why) {
     fill();
     TEST_ASSERT_TRUE(wh_scene_start(scene, &state, memory, bytes) == why);
     TEST_ASSERT_TRUE(is_filled(0, 0));
-    if (scene != NULL) { /* and no correction works with such a state */
-        TEST_ASSERT_TRUE(wh_scene_set_real(scene, &state, 0, WH_R(1.0)) == WH_E_ARGUMENT);
-        TEST_ASSERT_TRUE(wh_scene_set_angle(scene, &state, 0, WH_R(1.0)) == WH_E_ARGUMENT);
-        TEST_ASSERT_TRUE(wh_scene_move_angle(scene, &state, 0, WH_R(1.0)) == WH_E_ARGUMENT);
+    if (scene != NULL) {
+        must_not_run(scene);
+    }
+    state = (wh_state){.fault = 0}; /* as static memory is */
+    if (scene != NULL) {
+        must_not_run(scene);
     }
 }
 
@@ -91,7 +123,8 @@ static wh_scene shape(unsigned angles, unsigned reals, unsigned inputs, unsigned
                             .contacts = (uint8_t)contacts,
                             .start_angle = no_angles,
                             .start_real = no_reals,
-                            .start_input = no_reals};
+                            .start_input = no_reals,
+                            .advance = no_step};
     return scene;
 }
 
@@ -149,8 +182,6 @@ static void test_nothing_and_too_much_are_refused(void) {
     fill();
     TEST_ASSERT_TRUE(wh_scene_start(&scene, NULL, words, sizeof words) == WH_E_ARGUMENT);
     TEST_ASSERT_TRUE(wh_scene_start(NULL, NULL, NULL, 0) == WH_E_ARGUMENT);
-    state = (wh_state){.fault = 0}; /* as static memory is */
-    TEST_ASSERT_TRUE(wh_scene_set_real(&scene, &state, 0, WH_R(1.0)) == WH_E_ARGUMENT);
     TEST_ASSERT_TRUE(is_filled(0, 0));
 }
 

@@ -77,10 +77,12 @@ static bool with_books;
 
 static wh_status advance(const wh_scene *scene, wh_state *state) {
     const wh_span h = {scene->step_s, WH_R(0.0)};
-    return with_books ? wh_turn_ledger(&books, NULL, turned_accel, &waves, scene->method,
-                                       scene->compensated, h, state)
-                      : wh_turn_second(NULL, turned_accel, &waves, NULL, scene->method,
-                                       scene->compensated, 1, 2, h, state);
+    return wh_step_counted(with_books
+                               ? wh_turn_ledger(&books, NULL, turned_accel, &waves, scene->method,
+                                                scene->compensated, h, state)
+                               : wh_turn_second(NULL, turned_accel, &waves, NULL, scene->method,
+                                                scene->compensated, 1, 2, h, state),
+                           state);
 }
 
 static uint64_t memory[WH_STATE_WORDS(1, 3, 2) + WH_LEDGER_WORDS(4, 3)];
