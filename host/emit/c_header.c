@@ -212,10 +212,10 @@ void c_header_range(FILE *out, const image *im, int i, double low, double high) 
     }
 }
 
-void c_header_strings(FILE *out, const image *im, bool outputs) {
+void c_header_strings(FILE *out, const image *im) {
     fprintf(out, "/* For arrays: static const char *const unit[] = %s_UNITS_OF_%s; */\n", im->name,
-            outputs && im->outputs > 0 ? "OUTPUTS" : "REALS");
-    for (int of = 0; of < (outputs ? LISTS : LIST_OUTPUTS); of++) {
+            im->outputs > 0 ? "OUTPUTS" : "REALS");
+    for (int of = 0; of < LISTS; of++) {
         write_strings(out, im, (list)of);
     }
 }
@@ -224,6 +224,8 @@ void c_header_fixed_state(FILE *out, const image *im) {
     write_items(out, im, LIST_ANGLES, "wh_fixed_angle(): unwrapped");
     write_items(out, im, LIST_REALS, "wh_fixed_real(), wh_fixed_set_real()");
     write_items(out, im, LIST_INPUTS, "wh_fixed_set_input(), between steps");
+    write_items(out, im, LIST_OUTPUTS,
+                "fixed-point code computes no outputs: these number a table of your own");
 }
 
 void emit_c_header(FILE *out, const image *im, const char *file) {
@@ -257,7 +259,7 @@ void emit_c_header(FILE *out, const image *im, const char *file) {
         "    %s_EVALUATIONS = %d,\n    %s_SIGNALS = %d\n};\n\n",
         im->name, im->contacts, im->name, im->ledger.accounts, im->name, im->ledger.entries,
         im->name, core_evaluations(im), im->name, core_signals(im));
-    c_header_strings(out, im, true);
+    c_header_strings(out, im);
     c_header_values(out, im);
     for (int i = 0; i < im->reals + im->inputs; i++) {
         if (im->range[i].declared) {

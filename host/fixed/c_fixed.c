@@ -282,7 +282,7 @@ void c_fixed_header(FILE *out, const fixed_plan *p, const char *file) {
         out);
     c_header_fixed_state(out, im);
     fprintf(out, "    %s_FIXED = 1\n};\n\n", im->name);
-    c_header_strings(out, im, false);
+    c_header_strings(out, im);
     c_header_values(out, im);
     fputs(
         "/* The ranges: what is set beyond them stays at their end, and is counted in state.saturated. */\n",

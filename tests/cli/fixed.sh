@@ -224,6 +224,11 @@ gcc $warnings -I"$scratch" -o "$scratch/example" "$scratch/example.c" "$scratch/
 verdict $? "the example in core/fixed_scene.h compiles and runs to its end" "$scratch/err"
 ! grep -q 'wh_angle_to_rad' "$scratch/gear.h" && grep -q 'wh_fixed_angle()' "$scratch/gear.h"
 verdict $? "a header names the functions that there are in fixed point"
+units() { sed -n "s/^#define gear_$1_OF_OUTPUTS //p" "$2"; }
+"$whirl" derive epicyclic_conserved --as c --name gear --header "$scratch/float.h" >/dev/null 2>&1
+[ -n "$(units UNITS "$scratch/gear.h")" ] && [ "$(units UNITS "$scratch/gear.h")" = "$(units UNITS "$scratch/float.h")" ] &&
+    [ "$(units NAMES "$scratch/gear.h")" = "$(units NAMES "$scratch/float.h")" ]
+verdict $? "it lists the outputs and units that the header in floating point lists" "$scratch/gear.h"
 "$whirl" derive two_mass_relative --number fixed >"$scratch/out" 2>"$scratch/err"
 [ $? -eq 2 ] && grep -q -- '--number fixed goes with --as c' "$scratch/err"
 verdict $? "equations have no number"
