@@ -61,6 +61,13 @@ WH_INLINE void wh_flash_copy(void *to, const void *from, unsigned count) {
 #endif
 }
 
+/* Where a list of words is kept: with them. */
+#if defined(WH_WORDS_FROM)
+#define WH_WORD_LIST __attribute__((__section__(".rodata.str.lists")))
+#else
+#define WH_WORD_LIST
+#endif
+
 WH_INLINE char wh_word_at(const char *at) {
 #if defined(__AVR_HAVE_LPMX__) && defined(WH_WORDS_FROM)
     if ((uintptr_t)at >= WH_WORDS_FROM) {

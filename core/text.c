@@ -1,8 +1,6 @@
 /* text.c: numbers as text, exactly and without the C library. */
 #include "text.h"
 
-#include "flash.h"
-
 /* A number is bytes, low byte first, with the point between two of them: sums, products and quotients by ten then need no more
  * than 16 bits, which every machine has or gets cheaply. */
 #define FRACTION_BYTES 20U /* 2^-160: below every float's last bit (2^-149) */
@@ -70,6 +68,16 @@ static void add_digits(wh_text *text, uint8_t *byte, unsigned count, unsigned de
             wh_text_add_char(text, '.');
         }
     }
+}
+
+const char *wh_words_item(const char *list, unsigned number) {
+    const char *item = list;
+    for (; number > 0 && wh_word_at(list) != '\0'; number--) {
+        item = list;
+        while (wh_word_at(list++) != '\0') {
+        }
+    }
+    return wh_word_at(list) != '\0' ? list : item;
 }
 
 void wh_text_add_unsigned(wh_text *text, uint64_t value) {

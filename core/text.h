@@ -14,7 +14,7 @@
 #ifndef WH_TEXT_H
 #define WH_TEXT_H
 
-#include "real.h"
+#include "flash.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -34,6 +34,7 @@ typedef struct wh_text {
 #define wh_text_add_signed WH_NAME(wh_text_add_signed)
 #define wh_text_add_hex WH_NAME(wh_text_add_hex)
 #define wh_text_add_fixed WH_NAME(wh_text_add_fixed)
+#define wh_words_item WH_NAME(wh_words_item)
 
 /* Most decimals wh_text_add_fixed() prints. */
 #define WH_TEXT_DECIMALS_MAX 18U
@@ -44,6 +45,9 @@ void wh_text_start(wh_text *text, char *bytes, unsigned size);
 /* Add one character; a NUL-terminated string. */
 void wh_text_add_char(wh_text *text, char character);
 void wh_text_add(wh_text *text, const char *string);
+
+/* An item of static const char list[] WH_WORD_LIST = "one\0" "two\0"; beyond them all, the last. */
+const char *wh_words_item(const char *list, unsigned number);
 
 /* Add a decimal number. */
 void wh_text_add_unsigned(wh_text *text, uint64_t value);

@@ -73,25 +73,11 @@ $(eval $(call program,firmware,boards/programs/rig.c,whirl rig virtual scenes))
 
 # What runs once in a while is made small, so that what runs each step has the flash.
 $(foreach o,$(STATION_C) boards/programs/rig.c boards/programs/station.c \
-    $(VIRTUAL_C) core/rig/swing_guess.c core/rig/life.c core/text.c core/frame.c core/cobs.c core/step_tape.c core/packed_words.c $(BOARD_FLASHED),$(B)/$(BOARD)/$(o:.c=.o)): \
+    $(VIRTUAL_C) core/rig/swing_guess.c core/rig/life.c core/text.c core/frame.c core/cobs.c $(BOARD_FLASHED),$(B)/$(BOARD)/$(o:.c=.o)): \
     FILE_FLAGS = -Os
 
 ifneq ($(BOARD_FLASHED),)
 $(B)/$(FLASHED)/boards/programs/station.o: FILE_FLAGS += -DHAL_VIRTUAL=0
-endif
-ifneq ($(filter -DWH_WORDS_PACKED=1,$(BOARD_FLASHED_FLAGS)),)
-# What is said to people goes through mk/size/pack.awk (core/packed_words.h), 2 KB of flash less: all files that have WH_WORDS().
-PACKED := $(call objects,$(FLASHED),boards/cortexm/fault_words.c boards/programs/rig.c boards/programs/station.c \
-    boards/shared/reset_words.c $(addprefix core/rig/,guard.c life.c phases.c result.c) \
-    $(addprefix core/station/,conf.c conf_answer.c errors.c selftest.c station.c tel_answer.c telemetry.c))
-compile_packed = $(BOARD_CC) $(BOARD_CFLAGS) $(BOARD_FLASHED_FLAGS) $(WARN) $(BOARD_EXTRA) $(FILE_FLAGS)
-$(PACKED:.o=.words): $(B)/$(FLASHED)/%.words: %.c $(B)/$(FLASHED)/.flags
-	@mkdir -p $(@D)
-	$(Q)$(compile_packed) -MMD -MP -MT $@ -MF $(@:.words=.d) -E $< -o $@
-$(PACKED): %.o: %.words mk/size/pack.awk core/word_pairs.h
-	$(say) CC "$@ (packed)"
-	$(Q)awk -f mk/size/pack.awk core/word_pairs.h $< >$*.i
-	$(Q)$(compile_packed) -c $*.i -o $@
 # From a compiler's cache an object comes without its call graph, and mk/size/size.sh would not know what stack it takes.
 $(foreach f,boards/% core/% $(GEN)/rig_observed,$(B)/$(BOARD)/$(f).o): export CCACHE_DISABLE := 1
 endif
@@ -126,7 +112,6 @@ $(eval $(call pil_program,pil_swing,boards/programs/pil_swing.c,frames rig whirl
 $(eval $(call pil_program,pil_dialled,boards/programs/pil_dialled.c,frames rig whirl scenes))
 $(eval $(call pil_program,pil_carriage,boards/programs/pil_carriage.c,frames rig whirl scenes))
 $(eval $(call pil_program,pil_cart,boards/programs/pil_cart.c,frames whirl))
-$(eval $(call pil_program,pil_taped,boards/programs/pil_taped.c,frames station rig whirl scenes))
 # A controller from outside the tree: CONTROLLER names its C files, and the first of them the program.
 CONTROLLER_LIBRARIES ?= frames whirl
 ifneq ($(CONTROLLER),)
@@ -141,7 +126,7 @@ $(B)/pil_line: $(call objects,float,boards/programs/pil_line.c boards/shared/lin
 $(ELF)/pil_line.elf: $(call objects,$(BOARD),boards/programs/pil_line.c boards/shared/link_console.c) $(BOARD_OBJECTS) \
     $(call libraries,$(BOARD),frames rig whirl scenes)
 	$(link_board)
-PIL_PROGRAMS := pil_rig pil_swing pil_dialled pil_carriage pil_cart pil_taped
+PIL_PROGRAMS := pil_rig pil_swing pil_dialled pil_carriage pil_cart
 PIL_IMAGES := $(if $(BOARD_LINK),$(PIL_PROGRAMS:%=$(ELF)/%.elf) $(ELF)/pil_line.elf)
 
 # On BOARD and on an M3: the tape of one on the other.

@@ -41,11 +41,3 @@ debug-now: $(GEN)/.stamp
 	@$(MAKE) $(FLASH_IMAGE)
 	@echo '$(subst ','\'',$(DEBUG_COMMAND))'
 	@$(DEBUG_COMMAND)
-
-# Words that are packed with pairs of other words are packed well enough: who adds a few need not.
-.PHONY: word-pairs word-pairs-now
-word-pairs: ## core/word_pairs.h anew: by which pairs what is flashed packs what it says
-	@$(MAKE) BOARD=netduinoplus2 word-pairs-now
-word-pairs-now: $(PACKED:.o=.words)
-	@cat $^ | awk -f mk/size/word_pairs.awk >$(ELF)/word_pairs.h && cp $(ELF)/word_pairs.h core/word_pairs.h
-	@sed -n 2p core/word_pairs.h

@@ -104,7 +104,7 @@ $(foreach b,$(CHIP_BOARDS),$(eval $(call chip_board,$(b))))
     $(foreach b,$(CHIP_BOARDS),$(patsubst %.c,$(B)/chip_$(b)/%.d,$(CHIP_DRIVERS_C) $(CHIP_LIGHT_C))))
 
 TEST_PROGRAMS := $(CHIP_BOARDS:%=$(B)/tests/chip_%) $(B)/tests/core_double $(B)/tests/core_float $(B)/tests/host $(B)/tools/mechanisms $(B)/tools/linkages $(B)/tools/price_fit $(B)/tools/price_fit_fixed \
-    $(B)/pil_rig $(B)/pil_swing $(B)/pil_dialled $(B)/pil_carriage $(B)/pil_cart $(B)/pil_taped $(B)/pil_line $(B)/tools/faults $(B)/station $(B)/tools/sim_station $(B)/tools/tel_check
+    $(B)/pil_rig $(B)/pil_swing $(B)/pil_dialled $(B)/pil_carriage $(B)/pil_cart $(B)/pil_line $(B)/tools/faults $(B)/station $(B)/tools/sim_station $(B)/tools/tel_check
 
 .PHONY: test-programs
 test-programs: $(TEST_PROGRAMS) $(B)/tests/quick_suites.list

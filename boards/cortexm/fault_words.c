@@ -1,21 +1,20 @@
 /* fault_words.c: a fault's facts in words. */
 #include "cortexm.h"
 
-#include "core/packed_words.h"
+#include "core/text.h"
 
 static const char *name_of(uint32_t exception) {
     switch (exception) {
-    case 2: return WH_WORDS("NMI");
-    case 3: return WH_WORDS("HardFault");
-    case 4: return WH_WORDS("MemManage");
-    case 5: return WH_WORDS("BusFault");
-    case 6: return WH_WORDS("UsageFault");
-    case 11: return WH_WORDS("SVCall");
-    case 12: return WH_WORDS("DebugMonitor");
-    case 14: return WH_WORDS("PendSV");
-    case 15: return WH_WORDS("SysTick");
-    default:
-        return exception < 16 ? WH_WORDS("reserved exception") : WH_WORDS("unexpected interrupt");
+    case 2: return "NMI";
+    case 3: return "HardFault";
+    case 4: return "MemManage";
+    case 5: return "BusFault";
+    case 6: return "UsageFault";
+    case 11: return "SVCall";
+    case 12: return "DebugMonitor";
+    case 14: return "PendSV";
+    case 15: return "SysTick";
+    default: return exception < 16 ? "reserved exception" : "unexpected interrupt";
     }
 }
 
@@ -32,27 +31,27 @@ static const char *cause_of(uint32_t cfsr) {
         uint32_t bit;
         const char *text;
     } causes[] = {
-        {1U << 0, WH_WORDS("instruction fetch denied")},
-        {1U << 1, WH_WORDS("data access denied")},
-        {1U << 4, WH_WORDS("stack unusable")},
-        {1U << 8, WH_WORDS("instruction fetch failed")},
-        {1U << 9, WH_WORDS("bus error")},
-        {1U << 10, WH_WORDS("imprecise bus error")},
-        {1U << 12, WH_WORDS("stack unusable")},
-        {1U << 16, WH_WORDS("undefined instruction")},
-        {1U << 17, WH_WORDS("jump to a non-Thumb address")},
-        {1U << 18, WH_WORDS("bad exception return")},
-        {1U << 19, WH_WORDS("no FPU or FPU switched off")},
-        {1U << 20, WH_WORDS("stack limit passed")},
-        {1U << 24, WH_WORDS("unaligned access")},
-        {1U << 25, WH_WORDS("division by zero")},
+        {1U << 0, "instruction fetch denied"},
+        {1U << 1, "data access denied"},
+        {1U << 4, "stack unusable"},
+        {1U << 8, "instruction fetch failed"},
+        {1U << 9, "bus error"},
+        {1U << 10, "imprecise bus error"},
+        {1U << 12, "stack unusable"},
+        {1U << 16, "undefined instruction"},
+        {1U << 17, "jump to a non-Thumb address"},
+        {1U << 18, "bad exception return"},
+        {1U << 19, "no FPU or FPU switched off"},
+        {1U << 20, "stack limit passed"},
+        {1U << 24, "unaligned access"},
+        {1U << 25, "division by zero"},
     };
     for (unsigned i = 0; i < sizeof causes / sizeof causes[0]; i++) {
         if ((cfsr & causes[i].bit) != 0) {
             return causes[i].text;
         }
     }
-    return WH_WORDS("no cause given");
+    return "no cause given";
 }
 
 static void add_status(wh_text *text, const board_fault_facts *facts) {
@@ -62,7 +61,7 @@ static void add_status(wh_text *text, const board_fault_facts *facts) {
         add_register(text, " at", facts->address);
     }
     wh_text_add(text, " (");
-    wh_text_add_words(text, cause_of(facts->cfsr));
+    wh_text_add(text, cause_of(facts->cfsr));
     wh_text_add_char(text, ')');
 }
 #else
@@ -74,15 +73,14 @@ static void add_status(wh_text *text, const board_fault_facts *facts) {
 
 void board_fault_words(wh_text *text, const board_fault_facts *facts) {
     wh_text_add_char(text, ' ');
-    wh_text_add_words(text, name_of(facts->exception));
+    wh_text_add(text, name_of(facts->exception));
     if (facts->exception >= 16) {
         wh_text_add_char(text, ' ');
         wh_text_add_unsigned(text, facts->exception - 16U);
     }
     if (facts->stack != BOARD_STACK_GOOD) {
-        wh_text_add_words(text, facts->stack == BOARD_STACK_OVERFLOW
-                                    ? WH_WORDS(", stack overflow")
-                                    : WH_WORDS(", stack pointer astray"));
+        wh_text_add(text, facts->stack == BOARD_STACK_OVERFLOW ? ", stack overflow"
+                                                               : ", stack pointer astray");
         add_register(text, ", SP", facts->sp);
     } else {
         add_register(text, ", PC", facts->pc);

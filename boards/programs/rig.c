@@ -79,7 +79,7 @@ static void put_state(uint32_t started_ticks) {
     wh_text_add_fixed(&text, (float)(hal_clock_ticks() - started_ticks) / (float)HAL_TICKS_PER_S,
                       3);
     wh_text_add(&text, " s  ");
-    wh_text_add_words(&text, wh_rig_stage_text(wh_rig_shown_stage(&rig)));
+    wh_text_add(&text, wh_rig_stage_text(wh_rig_shown_stage(&rig)));
     if (wh_run_is_closed(&rig.run)) {
         wh_text_add(&text, ", ");
         wh_text_add_fixed(&text, rig.pulses.speed.turn_radps * RPM_PER_RADPS, 1);

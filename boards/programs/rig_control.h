@@ -6,10 +6,10 @@
 #include <stddef.h>
 
 #include "core/arithmetic.h"
-#include "core/packed_words.h"
 #include "core/rig/rig.h"
 #include "core/scene.h"
 #include "core/station/seen.h"
+#include "core/text.h"
 #include "hal/clock.h"
 #include "hal/loadcell.h"
 #include "hal/motor.h"
@@ -124,11 +124,11 @@ static const char *why_no_hardware(void) {
         return wh_status_text(status);
     }
 #endif
-    return WH_WORDS("the hardware does not answer");
+    return "the hardware does not answer";
 }
 
 /* Start the hardware, and look whether the arithmetic is that of the tests: by the model's file, which has the flags of all of
- * the image. Why not, as WH_WORDS() has it, the motor off; or NULL. */
+ * the image. Why not, by wh_text_add(), the motor off; or NULL. */
 static const char *why_not_started(void) {
     if (hal_clock_start() != HAL_STARTED) {
         return why_no_hardware();
@@ -136,7 +136,7 @@ static const char *why_not_started(void) {
     if (wh_arithmetic_wrong(OWN_ARITHMETIC) != WH_PROBED_COUNT) {
         hal_motor_off(HAL_MOTOR_COAST);
         /* without all other texts of a wh_status */
-        return WH_WORDS("compiled or set up for other arithmetic than IEEE 754");
+        return "compiled or set up for other arithmetic than IEEE 754";
     }
     return NULL;
 }

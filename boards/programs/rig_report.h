@@ -2,10 +2,10 @@
 #ifndef PROGRAMS_RIG_REPORT_H
 #define PROGRAMS_RIG_REPORT_H
 
-#include "core/packed_words.h"
 #include "core/rig/carriage.h"
 #include "core/rig/datasheet.h"
 #include "core/rig/rig.h"
+#include "core/text.h"
 #include "hal/console.h"
 
 #define RPM_PER_RADPS (1.0f / WH_RIG_RADPS_PER_RPM)
@@ -14,7 +14,7 @@ static inline void put(const char *words) {
     char bytes[96];
     wh_text text;
     wh_text_start(&text, bytes, sizeof bytes);
-    wh_text_add_words(&text, words);
+    wh_text_add(&text, words);
     hal_console_write(text.bytes, text.length);
 }
 

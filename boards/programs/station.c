@@ -2,7 +2,6 @@
  *
  * It never ends. Where the model plays the hardware (hal/virtual), the model's time is held to the clock's. */
 #include "core/station/station.h"
-#include "core/station/tape_out.h"
 
 #include "boards/board.h"
 #include "hal/clock.h"
@@ -23,21 +22,12 @@ static wh_conf conf;
 #if WH_STATION_TELEMETRY
 static wh_tel tel;
 #endif
-#if WH_STATION_TAPE
-static wh_tape tape;
-#endif
 
 static void converse(void) {
     char bytes[BYTES_A_STEP];
     wh_station_take(&station, bytes, hal_console_read(bytes, sizeof bytes));
     wh_station_see(&station, &config, &rig, &seen);
-#if WH_STATION_TAPE
-    wh_tape_see(&station, &rig);
-#endif
     wh_station_step(&station, &rig);
-#if WH_STATION_TAPE
-    wh_tape_orders(&station, &rig);
-#endif
     const unsigned waiting = wh_station_peek(&station, bytes, sizeof bytes);
     wh_station_drop(&station, hal_console_offer(bytes, waiting));
 }
@@ -47,12 +37,14 @@ static void tell_reset(void) {
     char words[200];
     if (hal_reset_cause() != HAL_RESET_POWER_ON) {
         const unsigned count = hal_reset_words(words, sizeof words);
-        put("\r\n" WH_WORDS("# reset: ")); /* whatever line was under way has ended */
+        put("\r\n"
+            "# reset: "); /* whatever line was under way has ended */
         hal_console_write(words, count);
         put("\r\n");
     }
     if (hal_clock_source_now() == HAL_CLOCK_FALLBACK) {
-        put(WH_WORDS("# the crystal does not answer: no run until it does") "\r\n");
+        put("# the crystal does not answer: no run until it does"
+            "\r\n");
     }
 }
 
@@ -82,7 +74,7 @@ int main(void) {
     }
     const char *why = why_not_started();
     if (why != NULL) {
-        put(WH_WORDS("NOT STARTED: "));
+        put("NOT STARTED: ");
         put(why);
         put("\r\n");
         board_exit(2);
@@ -98,9 +90,6 @@ int main(void) {
     station.conf = &conf;
 #if WH_STATION_TELEMETRY
     station.tel = &tel;
-#endif
-#if WH_STATION_TAPE
-    station.tape = &tape;
 #endif
     hal_watchdog_start(WATCHDOG_TICKS);
     for (;;) {

@@ -1,16 +1,16 @@
 /* reset_words.c: why the processor starts, in words. */
 #include "reset_words.h"
 
-#include "core/packed_words.h"
+#include "core/text.h"
 #include "hal/reset.h"
 
 static const char *words_of(hal_reset what) {
     switch (what) {
-    case HAL_RESET_POWER_ON: return WH_WORDS("power on");
-    case HAL_RESET_WATCHDOG: return WH_WORDS("watchdog");
-    case HAL_RESET_OTHER: return WH_WORDS("other");
-    case HAL_RESET_FAULT: return WH_WORDS("fault:");
-    case HAL_RESET_SUPPLY: return WH_WORDS("supply");
+    case HAL_RESET_POWER_ON: return "power on";
+    case HAL_RESET_WATCHDOG: return "watchdog";
+    case HAL_RESET_OTHER: return "other";
+    case HAL_RESET_FAULT: return "fault:";
+    case HAL_RESET_SUPPLY: return "supply";
     }
     return "";
 }
@@ -19,14 +19,14 @@ unsigned hal_reset_words(char *words, unsigned room) {
     wh_text text;
     wh_text_start(&text, words, room);
     const hal_reset what = hal_reset_cause();
-    wh_text_add_words(&text, words_of(what));
+    wh_text_add(&text, words_of(what));
     if (what == HAL_RESET_FAULT) {
         const board_fault_when when = board_fault_told(&text);
-        wh_text_add_words(&text, WH_WORDS(", tick "));
+        wh_text_add(&text, ", tick ");
         wh_text_add_unsigned(&text, when.ticks);
-        wh_text_add_words(&text, WH_WORDS(", state "));
+        wh_text_add(&text, ", state ");
         wh_text_add_unsigned(&text, when.state);
-        wh_text_add_words(&text, WH_WORDS(", faults "));
+        wh_text_add(&text, ", faults ");
         wh_text_add_unsigned(&text, when.faults);
     }
     return text.length;

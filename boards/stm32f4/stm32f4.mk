@@ -17,7 +17,7 @@ SMALL_BY_LINK  := -Os -g -flto -flto-partition=one -ffat-lto-objects -fno-ipa-cp
                   -fno-caller-saves -fno-tree-loop-im -fno-hoist-adjacent-loads \
                   --param=max-jump-thread-duplication-stmts=0 --param=gcse-cost-distance-ratio=40
 # Words are packed, 2 kB, and control steps not recorded: 2 kB.
-BOARD_FLASHED_FLAGS := $(SMALL_BY_LINK) -DWH_SMALL=1 -DWH_WORDS_PACKED=1 -DWH_STATION_TAPE=0 -Wno-maybe-uninitialized
+BOARD_FLASHED_FLAGS := $(SMALL_BY_LINK) -DWH_SMALL=1 -Wno-maybe-uninitialized
 BOARD_FLASHED_LDFLAGS := $(BOARD_LDFLAGS) $(SMALL_BY_LINK) -fstack-usage -fcallgraph-info=su
 # Semihosting would come into every image with it.
 BOARD_LINK     :=

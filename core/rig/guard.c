@@ -1,8 +1,8 @@
 /* guard.c: what stops the rig. */
 #include "guard.h"
 
-#include "core/packed_words.h"
 #include "core/root.h"
+#include "core/text.h"
 
 void wh_guard_start(wh_guard *guard, uint32_t now_ticks) {
     *guard = (wh_guard){.trip = WH_TRIP_NONE, .load_ticks = now_ticks, .pulse_ticks = now_ticks};
@@ -121,14 +121,15 @@ WH_CALLED void wh_guard_off_pulse(const wh_guard_config *config, wh_guard *guard
 }
 
 #define NUMBER(name, number, words) number,
-#define ITEM(name, number, words) WH_WORDS(words) "\0"
+#define ITEM(name, number, words) words "\0"
 #define FITS(name, number, words) \
     _Static_assert((number) <= 255 && sizeof(words) <= 96U, \
                    "a byte in records, a line of a report");
 WH_TRIP_ROWS(FITS)
 
 const char *wh_trip_text(wh_trip reason) {
-    static const char words[] WH_WORD_LIST = WH_TRIP_ROWS(ITEM) WH_WORDS("unknown reason") "\0";
+    static const char words[] WH_WORD_LIST = WH_TRIP_ROWS(ITEM) "unknown reason"
+                                                                "\0";
     static const uint8_t numbers[] = {WH_TRIP_ROWS(NUMBER)};
     unsigned row = 0;
     while (row < sizeof numbers && numbers[row] != (unsigned)reason) {

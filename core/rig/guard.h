@@ -241,7 +241,7 @@ WH_SHARED bool wh_guard_load_comes(const wh_guard_config *config, const wh_guard
            config->load_silence_max_s * (wh_real)WH_RIG_TICKS_PER_S;
 }
 
-/* The reason in words, for consoles, as WH_WORDS() has it (core/packed_words.h). */
+/* The reason in words, for consoles, by wh_text_add(). */
 const char *wh_trip_text(wh_trip reason);
 
 #ifdef __cplusplus

@@ -1,7 +1,7 @@
 /* life.c: the rig's life cycle, as one table. */
 #include "life.h"
 
-#include "core/packed_words.h"
+#include "core/text.h"
 
 #define TO(state) \
     { WH_LIFE_##state, WH_ALLOWED }
@@ -33,27 +33,30 @@ wh_life_rule wh_life_rule_of(wh_life state, wh_rig_event event) {
 }
 
 #define ONE(name, number, words) +1
-#define ITEM(name, words) WH_WORDS(words) "\0"
-#define NUMBERED_ITEM(name, number, words) WH_WORDS(words) "\0"
+#define ITEM(name, words) words "\0"
+#define NUMBERED_ITEM(name, number, words) words "\0"
 _Static_assert(0 WH_REFUSAL_ROWS(ONE) == (int)WH_REFUSALS, "all numbers are used");
 
 const char *wh_life_text(wh_life state) {
-    static const char words[] WH_WORD_LIST = WH_LIFE_ROWS(ITEM) WH_WORDS("unknown state") "\0";
+    static const char words[] WH_WORD_LIST = WH_LIFE_ROWS(ITEM) "unknown state"
+                                                                "\0";
     return wh_words_item(words, state);
 }
 
 const char *wh_rig_event_text(wh_rig_event event) {
-    static const char words[] WH_WORD_LIST = WH_EVENT_ROWS(ITEM) WH_WORDS("unknown event") "\0";
+    static const char words[] WH_WORD_LIST = WH_EVENT_ROWS(ITEM) "unknown event"
+                                                                 "\0";
     return wh_words_item(words, event);
 }
 
 const char *wh_refusal_text(wh_refusal refusal) {
-    static const char words[] WH_WORD_LIST =
-        WH_REFUSAL_ROWS(NUMBERED_ITEM) WH_WORDS("unknown refusal") "\0";
+    static const char words[] WH_WORD_LIST = WH_REFUSAL_ROWS(NUMBERED_ITEM) "unknown refusal"
+                                                                            "\0";
     return wh_words_item(words, refusal);
 }
 
 const char *wh_rig_end_text(wh_rig_end end) {
-    static const char words[] WH_WORD_LIST = WH_END_ROWS(ITEM) WH_WORDS("unknown end") "\0";
+    static const char words[] WH_WORD_LIST = WH_END_ROWS(ITEM) "unknown end"
+                                                               "\0";
     return wh_words_item(words, end);
 }

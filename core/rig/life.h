@@ -92,7 +92,7 @@ typedef struct wh_life_rule {
 /* From the table. An event or state that there is not is refused. */
 wh_life_rule wh_life_rule_of(wh_life state, wh_rig_event event);
 
-/* In words, for consoles, as WH_WORDS() has them (core/packed_words.h). */
+/* In words, for consoles, by wh_text_add(). */
 const char *wh_life_text(wh_life state);
 const char *wh_rig_event_text(wh_rig_event event);
 const char *wh_refusal_text(wh_refusal refusal);

@@ -1,7 +1,7 @@
 /* phases.c: a test run of the eccentric-mass rig, phase by phase. */
 #include "phases.h"
 
-#include "core/packed_words.h"
+#include "core/text.h"
 #include "datasheet.h"
 
 static void enter(wh_run *run, wh_rig_phase phase, uint32_t now_ticks) {
@@ -207,10 +207,12 @@ bool wh_run_step(wh_run *run, const wh_run_scene *scene) {
     return false;
 }
 
-#define ITEM(name, words) WH_WORDS(words) "\0"
+#define ITEM(name, words) words "\0"
 
 const char *wh_phase_text(wh_rig_phase phase) {
-    static const char words[] WH_WORD_LIST =
-        WH_PHASE_ROWS(ITEM) WH_WORDS("brake") "\0" WH_WORDS("unknown phase") "\0";
+    static const char words[] WH_WORD_LIST = WH_PHASE_ROWS(ITEM) "brake"
+                                                                 "\0"
+                                                                 "unknown phase"
+                                                                 "\0";
     return wh_words_item(words, phase);
 }

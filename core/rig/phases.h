@@ -129,7 +129,7 @@ wh_led wh_run_led(const wh_run_config *config, const wh_run *run, uint32_t ticks
 /* The voltage that a steady speed takes. */
 wh_real wh_run_needs_V(const wh_run_config *config, wh_real speed_radps);
 
-/* The phase in words, for consoles, as WH_WORDS() has them (core/packed_words.h). WH_PHASES is a motor that brakes when it is
+/* The phase in words, for consoles, by wh_text_add(). WH_PHASES is a motor that brakes when it is
  * off (wh_rig_shown_stage()). */
 const char *wh_phase_text(wh_rig_phase phase);
 

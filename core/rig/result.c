@@ -1,8 +1,8 @@
 /* result.c: turns merged to a measurement that says how wrong it may be. */
 #include "result.h"
 
-#include "core/packed_words.h"
 #include "core/root.h"
+#include "core/text.h"
 #include "datasheet.h"
 #include "polar.h"
 #include "wave.h"
@@ -462,7 +462,7 @@ void wh_merge_judge(const wh_result_config *config, const wh_rotor_config *rotor
     measured->quality = (wh_quality)qualities[measured->why];
 }
 
-#define ITEM(words) WH_WORDS(words) "\0"
+#define ITEM(words) words "\0"
 #define WHY_ITEM(name, quality, words) ITEM(words)
 
 const char *wh_why_text(wh_why why) {

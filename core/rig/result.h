@@ -173,7 +173,7 @@ void wh_merge_judge(const wh_result_config *config, const wh_rotor_config *rotor
 /* Student's factor, two-sided, 95 %. Within 0.3 % for 2 and more degrees of freedom, 0 for none. */
 wh_real wh_student(uint32_t freedom);
 
-/* In words, for consoles, as WH_WORDS() has them (core/packed_words.h). */
+/* In words, for consoles, by wh_text_add(). */
 const char *wh_why_text(wh_why why);
 const char *wh_quality_text(wh_quality quality);
 

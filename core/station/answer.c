@@ -7,9 +7,7 @@
 
 /* A blank as `blank`; what has no blanks may be of a list. */
 static void add_words(wh_text *text, const char *words, char blank) {
-    wh_packed from;
-    wh_words_begin(&from, words);
-    for (char next = wh_words_read(&from); next != '\0'; next = wh_words_read(&from)) {
+    for (char next = wh_word_at(words); next != '\0'; next = wh_word_at(++words)) {
         if (next == '|' && blank != ' ') {
             break;
         }
@@ -52,11 +50,9 @@ static void add_value(wh_text *text, char as, const wh_value *value) {
 }
 
 void wh_answer(wh_text *text, const char *form, const wh_value *value) {
-    wh_packed from;
-    wh_words_begin(&from, form);
-    for (char next = wh_words_read(&from); next != '\0'; next = wh_words_read(&from)) {
+    for (char next = wh_word_at(form); next != '\0'; next = wh_word_at(++form)) {
         if (next == '@') {
-            add_value(text, wh_words_read(&from), value++);
+            add_value(text, wh_word_at(++form), value++);
         } else {
             wh_text_add_char(text, next);
         }
@@ -67,13 +63,10 @@ void wh_answer(wh_text *text, const char *form, const wh_value *value) {
 
 unsigned wh_list_find(const char *list, const char *word) {
     const char part = wh_word_at(list);
-    wh_packed from;
-    wh_words_begin(&from, list);
     unsigned number = 0;
-    for (char next = wh_words_read(&from); next == part; number++) {
+    for (char next = part; next == part; number++) {
         const char *at = word; /* as far as it is the same; or NULL */
-        for (next = wh_words_read(&from); next != '\0' && next != part;
-             next = wh_words_read(&from)) {
+        for (next = wh_word_at(++list); next != '\0' && next != part; next = wh_word_at(++list)) {
             at = at != NULL && wh_word_at(at) == next ? at + 1 : NULL;
         }
         if (at != NULL && wh_word_at(at) == '\0') {

@@ -2,7 +2,7 @@
 #ifndef WH_STATION_ANSWER_H
 #define WH_STATION_ANSWER_H
 
-#include "core/packed_words.h"
+#include "core/text.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -18,7 +18,7 @@ typedef union wh_value {
     uint32_t count;
 } wh_value;
 
-/* All words are as WH_WORDS() has them, but for the one that is looked for. */
+/* All words are as  has them, but for the one that is looked for. */
 
 /* Add a form in which a value stands where it has an @ and a letter or digit, one after the other:
  *
@@ -31,10 +31,14 @@ typedef union wh_value {
  *     @e           a number to the seventh digit, as it can be typed, without zeros at the end */
 void wh_answer(wh_text *text, const char *form, const wh_value *value);
 
-/* A list begins with what parts its items, which is in no WH_WORDS():
- * "|" WH_WORDS("off") "|" WH_WORDS("on"). */
+/* A list begins with what parts its items, which is in no :
+ * "|" "off" "|" "on". */
 
-#define WH_LIST_OFF_ON "|" WH_WORDS("off") "|" WH_WORDS("on")
+#define WH_LIST_OFF_ON \
+    "|" \
+    "off" \
+    "|" \
+    "on"
 
 /* Which of the items the word is, from 0; how many there are when it is none. */
 unsigned wh_list_find(const char *list, const char *word);

@@ -4,7 +4,6 @@
 #include <stddef.h>
 
 #include "answer.h"
-#include "brief.h"
 #include "core/flash.h"
 #include "core/frame.h"
 #include "core/root.h"
@@ -47,7 +46,7 @@ static const wh_conf_row *row_in(wh_conf_row *room, unsigned id) {
 
 const wh_conf_row *wh_conf_row_of(wh_conf_id id, wh_conf_row *room) { return ROW_IN(room, id); }
 
-#define NAME(name, ...) "|" WH_WORDS(#name)
+#define NAME(name, ...) "|" #name
 static const char *names(void) { return WH_CONF_ROWS(NAME); }
 #undef NAME
 
@@ -55,14 +54,14 @@ wh_conf_id wh_conf_find(const char *name) { return (wh_conf_id)wh_list_find(name
 const char *wh_conf_name(wh_conf_id id) { return wh_list_item(names(), id); }
 
 const char *wh_conf_words(wh_conf_id id) {
-#define WORDS(name, number, kind, unit, least, most, goes, member, words) WH_SAY(words) "\0"
+#define WORDS(name, number, kind, unit, least, most, goes, member, words) words "\0"
     static const char words[] WH_WORD_LIST = WH_CONF_ROWS(WORDS);
 #undef WORDS
     return wh_words_item(words, id);
 }
 
 const char *wh_conf_unit_text(wh_conf_id id) {
-#define WORD(unit, word, number) "|" WH_WORDS(word)
+#define WORD(unit, word, number) "|" word
     return wh_list_item(WH_CONF_UNIT_ROWS(WORD), ROW(id)->unit);
 #undef WORD
 }
@@ -114,7 +113,7 @@ static void put(wh_rig_config *c, wh_conf_id id, wh_real value) {
 
 /* --- its range ---------------------------------------------------------------------------------------- */
 
-/* As memory and tapes have it. */
+/* As memory has it. */
 static wh_real as_kept(wh_real value) { return (wh_real)(float)value; }
 
 /* What this program is built without. */
@@ -344,16 +343,6 @@ static void take_all(wh_conf *conf, const uint8_t *payload, unsigned count) {
     }
 }
 
-#if WH_STATION_TAPE
-void wh_conf_take(wh_conf *conf, const uint8_t *payload, unsigned count) {
-    take_all(conf, payload, count);
-}
-
-unsigned wh_conf_is_set(const wh_conf *conf, wh_conf_id id, float *value) {
-    *value = (float)conf->value[id];
-    return conf->given[id] ? rows[id].number : 0U;
-}
-#endif
 
 /* What the program itself has, of settings that are not as the configuration has them. */
 static void see_several(wh_real *value) {

@@ -65,8 +65,6 @@ typedef struct wh_conf {
 #define wh_conf_default WH_NAME(wh_conf_default)
 #define wh_conf_save WH_NAME(wh_conf_save)
 #define wh_conf_text WH_NAME(wh_conf_text)
-#define wh_conf_is_set WH_NAME(wh_conf_is_set)
-#define wh_conf_take WH_NAME(wh_conf_take)
 
 /* Into *config goes the program's own configuration, with what was saved. What does not fit this program (a number that
  * there is not, a value outside its range, settings that go against each other) is left out. */
@@ -79,7 +77,7 @@ const wh_conf_row *wh_conf_row_of(wh_conf_id id, wh_conf_row *room);
 /* WH_CONF_COUNT when there is none of this name. */
 wh_conf_id wh_conf_find(const char *name);
 
-/* Its name, and in words what it takes and its unit: items of lists (answer.h); what it is, as WH_WORDS() has it. */
+/* Its name, and in words what it takes and its unit: items of lists (answer.h); what it is, as  has it. */
 const char *wh_conf_name(wh_conf_id id);
 const char *wh_conf_kind_text(wh_conf_id id);
 const char *wh_conf_unit_text(wh_conf_id id);
@@ -95,13 +93,6 @@ void wh_conf_default(wh_conf *conf);
 
 /* Into memory. May take as long as the memory does (hal/settings.h). */
 wh_station_error wh_conf_save(wh_conf *conf);
-
-/* Its number, as it is stored, and its value, if somebody has set it; else 0. */
-unsigned wh_conf_is_set(const wh_conf *conf, wh_conf_id id, float *value);
-
-/* All that were set elsewhere, of this program, and nothing else: payload[count] as it is stored, numbers and values. What does
- * not fit is left out, as at a start. */
-void wh_conf_take(wh_conf *conf, const uint8_t *payload, unsigned count);
 
 /* A choice's word for a value, of a list (answer.h); NULL for a number. */
 const char *wh_conf_text(wh_conf_id id, wh_real value);

@@ -15,7 +15,7 @@ static void add_value(wh_text *answer, const char *name, wh_conf_id id, wh_real 
     if (choice != NULL) {
         value[1].word = choice;
     }
-    wh_answer(answer, choice != NULL ? WH_WORDS(" @w=@w") : WH_WORDS(" @w=@e"), value);
+    wh_answer(answer, choice != NULL ? " @w=@w" : " @w=@e", value);
 }
 
 static void add_setting(wh_text *answer, const wh_conf *conf, wh_conf_id id) {
@@ -35,7 +35,7 @@ static wh_station_error list(const wh_conf *conf, const wh_words *words, wh_text
         return WH_STATION_CONF_NONE;
     }
     uint32_t id = (uint32_t)from;
-    wh_answer(answer, WH_WORDS(" settings=@c"), settings);
+    wh_answer(answer, " settings=@c", settings);
     for (; id < WH_CONF_COUNT; id++) {
         const unsigned before = answer->length;
         add_setting(answer, conf, (wh_conf_id)id);
@@ -43,7 +43,7 @@ static wh_station_error list(const wh_conf *conf, const wh_words *words, wh_text
             const wh_value next[] = {{.count = id}};
             answer->length = before;
             answer->truncated = false;
-            wh_answer(answer, WH_WORDS(" next=@c"), next);
+            wh_answer(answer, " next=@c", next);
             break;
         }
     }
@@ -60,12 +60,11 @@ static void get(const wh_conf *conf, wh_conf_id id, wh_text *answer) {
     const wh_value words[] = {{.word = wh_conf_words(id)}};
     add_setting(answer, conf, id);
     wh_answer(answer,
-              wh_conf_text(id, conf->value[id]) == NULL
-                  ? WH_WORDS(" type=@s unit=@w least=@e most=@e")
-                  : WH_WORDS(" type=@s"),
+              wh_conf_text(id, conf->value[id]) == NULL ? " type=@s unit=@w least=@e most=@e"
+                                                        : " type=@s",
               value);
-    add_value(answer, WH_WORDS("default"), id, conf->standard[id]);
-    wh_answer(answer, WH_WORDS(": @s"), words);
+    add_value(answer, "default", id, conf->standard[id]);
+    wh_answer(answer, ": @s", words);
 }
 
 /* X(what, word): what may stand behind `conf`. */
@@ -77,7 +76,7 @@ enum { ASKED_ROWS(COUNTED) NONE };
 
 wh_station_error wh_conf_answer(wh_conf *conf, const wh_words *words, bool idle, wh_text *answer) {
     static const uint8_t wanted[] = {[GET] = 3, [SET] = 4, [SAVE] = 2, [DEFAULT] = 2};
-#define LISTED(what, word) "|" WH_WORDS(word)
+#define LISTED(what, word) "|" word
     const unsigned what = wh_list_find(ASKED_ROWS(LISTED), words->word[1]);
 #undef LISTED
     if (what == LIST) {
@@ -104,7 +103,7 @@ wh_station_error wh_conf_answer(wh_conf *conf, const wh_words *words, bool idle,
     } else if (what == SAVE) {
         error = wh_conf_save(conf);
         const wh_value sequence[] = {{.count = conf->sequence}};
-        wh_answer(answer, WH_WORDS(" sequence=@c"), sequence);
+        wh_answer(answer, " sequence=@c", sequence);
     } else {
         wh_conf_default(conf);
     }

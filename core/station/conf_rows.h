@@ -8,10 +8,17 @@
 
 /* X(kind, words): a choice's are numbered from 0. */
 #define WH_CONF_KIND_ROWS(X) \
-    X(WH_CONF_REAL, "|" WH_WORDS("real")) \
-    X(WH_CONF_WHOLE, "|" WH_WORDS("whole")) \
+    X(WH_CONF_REAL, "|" \
+                    "real") \
+    X(WH_CONF_WHOLE, "|" \
+                     "whole") \
     X(WH_CONF_SWITCH, WH_LIST_OFF_ON) \
-    X(WH_CONF_FEEDS, "|" WH_WORDS("never") "|" WH_WORDS("slow") "|" WH_WORDS("always"))
+    X(WH_CONF_FEEDS, "|" \
+                     "never" \
+                     "|" \
+                     "slow" \
+                     "|" \
+                     "always")
 
 /* X(unit, word, number): so many of it are one of the configuration's own; then those that the configuration has. */
 #define WH_CONF_SCALED_ROWS(X) \

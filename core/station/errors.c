@@ -15,12 +15,12 @@ WH_STATION_ERROR_ROWS(WH_STATION_ROW)
 #undef WH_STATION_ROW
 
 void wh_answer_refused(wh_text *answer, unsigned why) {
-#define WH_STATION_ROW(name, number, words) WH_SAY(words) "\0"
+#define WH_STATION_ROW(name, number, words) words "\0"
     static const char words[] WH_WORD_LIST = WH_STATION_ERROR_ROWS(WH_STATION_ROW);
 #undef WH_STATION_ROW
     const wh_value value[] = {{.count = why},
                               {.word = why < FIRST ? wh_refusal_text((wh_refusal)why)
                                                    : wh_words_item(words, why - FIRST)}};
     wh_text_start(answer, answer->bytes, answer->size);
-    wh_answer(answer, WH_WORDS("ERR @c @s"), value);
+    wh_answer(answer, "ERR @c @s", value);
 }

@@ -2,7 +2,6 @@
 #ifndef WH_STATION_ERRORS_H
 #define WH_STATION_ERRORS_H
 
-#include "brief.h"
 #include "core/text.h"
 
 #ifdef __cplusplus
@@ -32,8 +31,7 @@ extern "C" {
       "samples a second that part the cell's rate are wanted; with text 100 at most") \
     X(WH_STATION_TEL_CHANNEL, 117, "no such channel; tel list has them") \
     X(WH_STATION_TEL_FORMAT, 118, "frames, teleplot or arduino is wanted") \
-    X(WH_STATION_TEL_RING, 119, "the ring has nothing to be read yet") \
-    WH_OF_TAPES(X(WH_STATION_TAPED, 120, "not while a tape is recorded; tel tape off ends it"))
+    X(WH_STATION_TEL_RING, 119, "the ring has nothing to be read yet")
 
 #define WH_STATION_NAME(name, number, words) name = (number),
 typedef enum wh_station_error {

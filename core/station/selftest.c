@@ -42,11 +42,9 @@ void wh_selftest_answer(const wh_rig_config *config, const wh_rig *rig, const wh
         value[0].count &= value[i].count;
     }
     wh_answer(answer,
-              WH_WORDS(" selftest=@g arithmetic=@g clock=@g watchdog=@g supply=@g cell=@g stop=@g")
-                  WH_WORDS(" rotor=@g"),
+              " selftest=@g arithmetic=@g clock=@g watchdog=@g supply=@g cell=@g stop=@g"
+              " rotor=@g",
               value);
-    wh_answer(answer,
-              swings ? WH_WORDS(" swing=@g place_deg=@2 place_half_deg=@2")
-                     : WH_WORDS(" swing=none"),
+    wh_answer(answer, swings ? " swing=@g place_deg=@2 place_half_deg=@2" : " swing=none",
               &value[PARTS]);
 }

@@ -2,7 +2,6 @@
 #include "station.h"
 
 #include "answer.h"
-#include "brief.h"
 #include "conf_answer.h"
 #include "selftest.h"
 #include "tel_answer.h"
@@ -43,7 +42,7 @@ static void send_answer(request *r, unsigned why) {
     }
     if (why == WH_REFUSED_SUPPLY && r->station->seen != NULL) {
         const wh_value value[] = {{.number = r->station->seen->inputs.supply_V}};
-        wh_answer(&r->answer, WH_WORDS(": supply_V=@2"), value);
+        wh_answer(&r->answer, ": supply_V=@2", value);
     }
     send(r);
 }
@@ -70,7 +69,7 @@ static unsigned order_speed(request *r, wh_rig_event event) {
 static unsigned do_id(request *r) {
     const wh_value value[] = {
         {.word = r->station->program}, {.word = r->station->board}, {.count = DIALOGUE}};
-    wh_answer(&r->answer, WH_WORDS(" program=@w board=@w dialogue=@c"), value);
+    wh_answer(&r->answer, " program=@w board=@w dialogue=@c", value);
     return 0;
 }
 
@@ -92,15 +91,15 @@ static bool is_outdated(const request *r) {
 
 /* The verdict stands for the settings that it was measured with. */
 static const char *verdict(const request *r) {
-    return !r->rig->has_result ? WH_WORDS("none")
-           : is_outdated(r)    ? WH_WORDS("outdated")
+    return !r->rig->has_result ? "none"
+           : is_outdated(r)    ? "outdated"
                                : wh_quality_text(r->rig->result.force.quality);
 }
 
 static void add_result_of(request *r) {
     const wh_value of[] = {{.count = wh_rig_result_age_s(r->rig, now_ticks(r))},
                            {.count = r->rig->settings}};
-    wh_answer(&r->answer, WH_WORDS(" age_s=@c settings=@x"), of);
+    wh_answer(&r->answer, " age_s=@c settings=@x", of);
 }
 
 static unsigned do_status(request *r) {
@@ -120,20 +119,18 @@ static unsigned do_status(request *r) {
                               {.count = r->station->host_losses},
                               {.count = rig->runs},
                               {.word = wh_rig_end_text(rig->ended)}};
+    wh_answer(&r->answer, known ? " state=@w speed_rpm=@2" : " state=@w speed_rpm=-", state);
     wh_answer(&r->answer,
-              known ? WH_WORDS(" state=@w speed_rpm=@2") : WH_WORDS(" state=@w speed_rpm=-"),
-              state);
-    wh_answer(&r->answer,
-              WH_WORDS(" set_rpm=@2 motor_V=@2 trip=@c result=@w")
-                  WH_WORDS(" lost_answers=@c lost_bytes=@c host_losses=@c run=@c ended=@w"),
+              " set_rpm=@2 motor_V=@2 trip=@c result=@w"
+              " lost_answers=@c lost_bytes=@c host_losses=@c run=@c ended=@w",
               value);
     if (rig->has_result) {
         add_result_of(r);
     }
     if (!known) {
         wh_answer(&r->answer,
-                  wh_run_drives(&rig->run) ? WH_SAY(": no whole turn yet")
-                                           : WH_SAY(": no whole turns, and not at rest yet"),
+                  wh_run_drives(&rig->run) ? ": no whole turn yet"
+                                           : ": no whole turns, and not at rest yet",
                   NULL);
     }
     return 0;
@@ -144,29 +141,28 @@ static unsigned do_measure(request *r) {
     if (!r->rig->has_result) {
         return WH_STATION_NO_RESULT;
     }
-    const wh_value value[] = {
-        {.word = verdict(r)},
-        {.count = force->turns},
-        {.number = force->speed_radps * RPM_PER_RADPS},
-        {.number = force->scatter_radps * RPM_PER_RADPS},
-        {.number = force->amplitude_N},
-        {.number = force->amplitude_half_N},
-        {.number = force->phase_rad * WH_RIG_DEG_PER_RAD},
-        {.number = force->phase_half_rad * WH_RIG_DEG_PER_RAD},
-        {.number = force->expected_N},
-        {.word = force->calibrated ? WH_WORDS("entered") : WH_WORDS("uncalibrated")},
-        {.count = r->rig->runs}};
+    const wh_value value[] = {{.word = verdict(r)},
+                              {.count = force->turns},
+                              {.number = force->speed_radps * RPM_PER_RADPS},
+                              {.number = force->scatter_radps * RPM_PER_RADPS},
+                              {.number = force->amplitude_N},
+                              {.number = force->amplitude_half_N},
+                              {.number = force->phase_rad * WH_RIG_DEG_PER_RAD},
+                              {.number = force->phase_half_rad * WH_RIG_DEG_PER_RAD},
+                              {.number = force->expected_N},
+                              {.word = force->calibrated ? "entered" : "uncalibrated"},
+                              {.count = r->rig->runs}};
     const wh_value words[] = {{.word = wh_quality_text(force->quality)},
                               {.word = wh_why_text(force->why)}};
     wh_answer(&r->answer,
-              WH_WORDS(" result=@w turns=@c speed_rpm=@2 scatter_rpm=@3 force_N=@3 force_half_N=@4")
-                  WH_WORDS(" phase_deg=@3 phase_half_deg=@4 expected_N=@3 calibration=@w run=@c"),
+              " result=@w turns=@c speed_rpm=@2 scatter_rpm=@3 force_N=@3 force_half_N=@4"
+              " phase_deg=@3 phase_half_deg=@4 expected_N=@3 calibration=@w run=@c",
               value);
     add_result_of(r);
     if (is_outdated(r)) {
-        wh_answer(&r->answer, WH_WORDS(": @s with other settings: @s"), words);
+        wh_answer(&r->answer, ": @s with other settings: @s", words);
     } else {
-        wh_answer(&r->answer, WH_WORDS(": @s"), &words[1]);
+        wh_answer(&r->answer, ": @s", &words[1]);
     }
     return 0;
 }
@@ -180,23 +176,17 @@ static unsigned do_fault(request *r) {
                              {.number = record->speed_radps * RPM_PER_RADPS},
                              {.number = record->volts},
                              {.number = record->supply_V}};
-    wh_answer(&r->answer, WH_WORDS(" trip=@c"), &value[0]);
+    wh_answer(&r->answer, " trip=@c", &value[0]);
     if (trip != WH_TRIP_NONE && record->trip == trip) {
-        wh_answer(&r->answer, WH_WORDS(" in=@w speed_rpm=@2 motor_V=@2 supply_V=@2"), then);
+        wh_answer(&r->answer, " in=@w speed_rpm=@2 motor_V=@2 supply_V=@2", then);
     }
-    wh_answer(&r->answer, WH_WORDS(" ended=@w"), ended);
-    wh_answer(&r->answer, WH_WORDS(": @s"), &value[1]);
+    wh_answer(&r->answer, " ended=@w", ended);
+    wh_answer(&r->answer, ": @s", &value[1]);
     return 0;
 }
 
 static unsigned do_conf(request *r) {
     wh_station *station = r->station;
-#if WH_STATION_TAPE
-    if (station->tape != NULL && wh_tape_holds(station->tape) &&
-        wh_list_find("|" WH_WORDS("set") "|" WH_WORDS("default"), r->words.word[1]) < 2U) {
-        return WH_STATION_TAPED;
-    }
-#endif
     return station->conf != NULL
                ? wh_conf_answer(station->conf, &r->words, r->rig->state == WH_LIFE_IDLE, &r->answer)
                : WH_STATION_NOT_HERE;
@@ -205,7 +195,7 @@ static unsigned do_conf(request *r) {
 static unsigned do_tel(request *r) {
     wh_station *station = r->station;
     return WH_STATION_TELEMETRY && station->tel != NULL && station->config != NULL
-               ? wh_tel_answer(station->tel, station->tape, &station->config->measure.cell,
+               ? wh_tel_answer(station->tel, &station->config->measure.cell,
                                &r->words, &r->answer)
                : WH_STATION_NOT_HERE;
 }
@@ -247,7 +237,7 @@ static unsigned do_help(request *r);
 #define COMMAND(name, most, follows, words) COMMAND_##name,
 typedef enum command { WH_COMMAND_ROWS(COMMAND) COMMANDS } command;
 #undef COMMAND
-#define COMMAND(name, most, follows, words) " " WH_WORDS(#name)
+#define COMMAND(name, most, follows, words) " " #name
 static const char *command_names(void) { return WH_COMMAND_ROWS(COMMAND); }
 #undef COMMAND
 
@@ -276,17 +266,17 @@ static unsigned do_help(request *r) {
     const unsigned asked = wh_list_find(command_names(), r->words.word[1]);
     if (r->words.count < 2U) {
         const wh_value names[] = {{.word = command_names()}};
-        wh_answer(answer, WH_WORDS("@s"), names);
+        wh_answer(answer, "@s", names);
         return 0;
     }
     if (asked == COMMANDS) {
         return WH_STATION_NO_COMMAND;
     }
-#define COMMAND(name, most, follows, words) WH_WORDS(follows) ": " WH_SAY(words) "\0"
+#define COMMAND(name, most, follows, words) follows ": " words "\0"
     static const char words[] WH_WORD_LIST = WH_COMMAND_ROWS(COMMAND);
 #undef COMMAND
     const wh_value value[] = {{.word = r->words.word[1]}, {.word = wh_words_item(words, asked)}};
-    wh_answer(answer, WH_WORDS(" @w@s"), value);
+    wh_answer(answer, " @w@s", value);
     return 0;
 }
 
@@ -319,7 +309,7 @@ static void tell_stage(request *r) {
     const wh_trip trip = r->rig->guard.trip;
     const wh_value value[] = {{.word = wh_rig_stage_text(r->stage)}, {.word = wh_trip_text(trip)}};
     r->station->stage = r->stage;
-    wh_answer(&r->answer, trip != WH_TRIP_NONE ? WH_WORDS("# @s: @s") : WH_WORDS("# @s"), value);
+    wh_answer(&r->answer, trip != WH_TRIP_NONE ? "# @s: @s" : "# @s", value);
     send(r);
 }
 
@@ -382,7 +372,7 @@ void wh_station_take(wh_station *station, const char *bytes, unsigned count) {
 static void answer_order(request *r) {
     const wh_value value[] = {{.word = wh_rig_event_text(r->rig->asked)}};
     r->station->waits = false;
-    wh_answer(&r->answer, WH_WORDS("OK @s"), value);
+    wh_answer(&r->answer, "OK @s", value);
     send_answer(r, r->rig->answer);
 }
 

@@ -23,20 +23,14 @@
 #include "line.h"
 #include "ring.h"
 #include "seen.h"
-#include "tape_state.h"
 #include "telemetry.h"
 
 #ifdef __cplusplus
 extern "C" {
 #endif
 
-/* A literal each (core/packed_words.h). */
-#if WH_STATION_TAPE
-#define WH_TEL_FOLLOWS \
-    " list|schema CHANNEL|rate N|off|fmt FORMAT|tape on|off|ring [pulse|fault|off|read]"
-#else
+/* A literal each. */
 #define WH_TEL_FOLLOWS " list|schema CHANNEL|rate N|off|fmt FORMAT|ring [pulse|fault|off|read]"
-#endif
 
 /* X(name, most words after it, what follows, words) */
 #define WH_COMMAND_ROWS(X) \
@@ -82,7 +76,6 @@ typedef struct wh_station {
     const char *board;
     wh_conf *conf;               /* NULL: there are no settings */
     wh_tel *tel;                 /* NULL: there is no telemetry */
-    wh_tape *tape;               /* NULL: and no tape (tape_out.h) */
     const wh_rig_config *config; /* in the last step, */
     const wh_seen *seen;         /* and what that saw */
     uint32_t steps_per_s;        /* of wh_station_step(): the caller's, too */

@@ -6,12 +6,12 @@
 #include "answer.h"
 
 /* What a run's frame has of speed and drive, telemetry.c. */
-#define SPEED WH_WORDS("speed[rpm]:u2:0.02")
-#define DRIVE WH_WORDS(",drive[V]:u2:0.001")
+#define SPEED "speed[rpm]:u2:0.02"
+#define DRIVE ",drive[V]:u2:0.001"
 #define SCALE_DECIMALS 12U
 
-#define LISTED(what, word) "|" WH_WORDS(word)
-#define CHANNEL(channel, number, name) "," WH_WORDS(name)
+#define LISTED(what, word) "|" word
+#define CHANNEL(channel, number, name) "," name
 #define FORMATS WH_TEL_FORMAT_ROWS(LISTED)
 #define TRIGGERS WH_CAPTURE_ROWS(LISTED)
 #define STATES WH_CAPTURE_STATE_ROWS(LISTED)
@@ -25,33 +25,8 @@ static uint32_t rate_of(const wh_tel *tel, const wh_cell_config *cell) {
     return tel->every > 0 ? cell_per_s(cell) / tel->every : 0;
 }
 
-#if WH_STATION_TAPE
-static void add_tape(const wh_tape *tape, wh_text *answer) {
-    if (tape != NULL) {
-        const wh_value value[] = {{.word = wh_list_item(WH_TAPE_STATE_ROWS(LISTED), tape->state)}};
-        wh_answer(answer, WH_WORDS(" tape=@w"), value);
-    }
-}
 
-static wh_station_error set_tape(wh_tape *tape, const char *word, wh_text *answer) {
-    const unsigned on = wh_list_find(WH_LIST_OFF_ON, word);
-    if (tape == NULL) {
-        return WH_STATION_NOT_HERE;
-    }
-    if (on > 1U) {
-        return WH_STATION_TEL_HOW;
-    }
-    if (on != 0) {
-        wh_tape_on(tape);
-    } else {
-        wh_tape_off(tape);
-    }
-    add_tape(tape, answer);
-    return WH_STATION_FINE;
-}
-#endif
-
-static void list(const wh_tel *tel, const wh_tape *tape, const wh_cell_config *cell,
+static void list(const wh_tel *tel, const wh_cell_config *cell,
                  wh_text *answer) {
     wh_value value[] = {{.count = rate_of(tel, cell)},
                         {.word = wh_list_item(FORMATS, tel->format)},
@@ -60,12 +35,7 @@ static void list(const wh_tel *tel, const wh_tape *tape, const wh_cell_config *c
     for (unsigned i = 0; i < WH_TEL_CHANNELS; i++) {
         value[2].count += tel->dropped[i];
     }
-    wh_answer(answer, WH_WORDS(" rate=@c fmt=@w dropped=@c channels=@w"), value);
-#if WH_STATION_TAPE
-    add_tape(tape, answer);
-#else
-    (void)tape;
-#endif
+    wh_answer(answer, " rate=@c fmt=@w dropped=@c channels=@w", value);
 }
 
 static void ring_told(const wh_tel *tel, wh_text *answer) {
@@ -74,7 +44,7 @@ static void ring_told(const wh_tel *tel, wh_text *answer) {
                               {.word = wh_list_item(STATES, capture->state)},
                               {.count = capture->count},
                               {.count = (capture->count + WH_TEL_SAMPLES - 1U) / WH_TEL_SAMPLES}};
-    wh_answer(answer, WH_WORDS(" trigger=@w ring=@w steps=@c frames=@c"), value);
+    wh_answer(answer, " trigger=@w ring=@w steps=@c frames=@c", value);
 }
 
 /* --- what a frame holds ---------------------------------------------------------------------------------- */
@@ -82,42 +52,40 @@ static void ring_told(const wh_tel *tel, wh_text *answer) {
 /* "load[N]:i2:scale:offset" */
 static void add_load(const wh_cell_config *cell, wh_text *answer) {
     const wh_value offset[] = {{.number = -cell->offset_N}};
-    wh_answer(answer, WH_WORDS("load[N]:i2:"), NULL);
+    wh_answer(answer, "load[N]:i2:", NULL);
     wh_text_add_fixed(answer, cell->newton_per_count * (wh_real)(1U << wh_tel_shift(cell)),
                       SCALE_DECIMALS);
-    wh_answer(answer, WH_WORDS(":@6"), offset);
+    wh_answer(answer, ":@6", offset);
 }
 
 static void schema_run(const wh_tel *tel, const wh_cell_config *cell, wh_text *answer) {
     const wh_value period[] = {{.count = cell->period_ticks * (tel->every > 0 ? tel->every : 1U)}};
     wh_answer(answer,
-              WH_WORDS(" channel=0 name=run period_ticks=@c once=")
-                  SPEED DRIVE WH_WORDS(",state:u1:1 each="),
-              period);
+              " channel=0 name=run period_ticks=@c once=" SPEED DRIVE ",state:u1:1 each=", period);
     add_load(cell, answer);
-    wh_answer(answer, WH_WORDS(": i2 -32768, u2 65535: none"), NULL);
+    wh_answer(answer, ": i2 -32768, u2 65535: none", NULL);
 }
 
 static void schema_ring(const wh_cell_config *cell, wh_text *answer) {
-    wh_answer(answer, WH_WORDS(" channel=2 name=ring period_ticks=0 once= each=ticks:u2:1,"), NULL);
+    wh_answer(answer, " channel=2 name=ring period_ticks=0 once= each=ticks:u2:1,", NULL);
     add_load(cell, answer);
-    wh_answer(answer,
-              DRIVE WH_WORDS(",flags:u1:1,state:u1:1: flags 1, 2 pulse, 4 trigger, 8 tripped"),
-              NULL);
+    wh_answer(answer, DRIVE ",flags:u1:1,state:u1:1: flags 1, 2 pulse, 4 trigger, 8 tripped", NULL);
 }
 
 static void schema_states(wh_text *answer) {
     for (unsigned stage = 0; stage < WH_RIG_STAGES; stage++) {
         if (stage < WH_LIVES || stage > WH_RIG_STAGE_OF_PHASE) {
             const wh_value value[] = {{.count = stage}, {.word = wh_rig_stage_text(stage)}};
-            wh_answer(answer, WH_WORDS(" @c=@w"), value);
+            wh_answer(answer, " @c=@w", value);
         }
     }
 }
 
 static wh_station_error schema(const wh_tel *tel, const wh_cell_config *cell, const char *name,
                                wh_text *answer) {
-    const unsigned number = wh_list_find(CHANNELS "," WH_WORDS("states"), name);
+    const unsigned number = wh_list_find(CHANNELS ","
+                                                  "states",
+                                         name);
     if (number > WH_TEL_CHANNELS) {
         return WH_STATION_TEL_CHANNEL;
     }
@@ -125,19 +93,11 @@ static wh_station_error schema(const wh_tel *tel, const wh_cell_config *cell, co
     case WH_TEL_RUN: schema_run(tel, cell, answer); break;
     case WH_TEL_EVENT:
         wh_answer(answer,
-                  WH_WORDS(" channel=1 name=event period_ticks=0 once=what:u1:1,value:u1:1 each=")
-                      WH_WORDS(": what 0 pulse of sensor, 1 state, 2 trip, 3 end of pulse"),
+                  " channel=1 name=event period_ticks=0 once=what:u1:1,value:u1:1 each="
+                  ": what 0 pulse of sensor, 1 state, 2 trip, 3 end of pulse",
                   NULL);
         break;
     case WH_TEL_RING: schema_ring(cell, answer); break;
-#if WH_STATION_TAPE
-    case WH_TEL_TAPE:
-        wh_answer(answer,
-                  WH_WORDS(" channel=3 name=tape period_ticks=0 once= each=")
-                      WH_WORDS(": control steps, for whirl monitor --tape"),
-                  NULL);
-        break;
-#endif
     case WH_TEL_CHANNELS: schema_states(answer); break;
     }
     return WH_STATION_FINE;
@@ -164,7 +124,7 @@ static wh_station_error rate(wh_tel *tel, const wh_cell_config *cell, const char
     }
     wh_tel_rate(tel, most / per_s);
     const wh_value value[] = {{.count = per_s}, {.count = cell->period_ticks * tel->every}};
-    wh_answer(answer, WH_WORDS(" rate=@c period_ticks=@c"), value);
+    wh_answer(answer, " rate=@c period_ticks=@c", value);
     return WH_STATION_FINE;
 }
 
@@ -180,13 +140,15 @@ static wh_station_error set_format(wh_tel *tel, const wh_cell_config *cell, cons
     }
     tel->format = format;
     wh_tel_rate(tel, tel->every);
-    wh_answer(answer, WH_WORDS(" fmt=@w"), value);
+    wh_answer(answer, " fmt=@w", value);
     return WH_STATION_FINE;
 }
 
 /* Another trigger, or behind these `read`. */
 static wh_station_error set_ring(wh_tel *tel, const char *word, wh_text *answer) {
-    const unsigned what = wh_list_find(TRIGGERS "|" WH_WORDS("read"), word);
+    const unsigned what = wh_list_find(TRIGGERS "|"
+                                                "read",
+                                       word);
     if (what > WH_CAPTURE_TRIGGERS) {
         return WH_STATION_TEL_HOW;
     }
@@ -205,44 +167,35 @@ static wh_station_error set_ring(wh_tel *tel, const char *word, wh_text *answer)
 #define WITH_ROWS(X) \
     X(WITH_SCHEMA, "schema") \
     X(WITH_RATE, "rate") \
-    X(WITH_FORMAT, "fmt") X(WITH_RING, "ring") WH_OF_TAPES(X(WITH_TAPE, "tape"))
+    X(WITH_FORMAT, "fmt") X(WITH_RING, "ring") 
 #define COUNTED(what, word) what,
 typedef enum alone { ALONE_ROWS(COUNTED) ALONE_NONE } alone;
 typedef enum with { WITH_ROWS(COUNTED) WITH_NONE } with;
 #undef COUNTED
 
-static wh_station_error without_word(wh_tel *tel, wh_tape *tape, const wh_cell_config *cell,
+static wh_station_error without_word(wh_tel *tel, const wh_cell_config *cell,
                                      const char *what, wh_text *answer) {
     switch ((alone)wh_list_find(ALONE_ROWS(LISTED), what)) {
-    case ALONE_LIST: list(tel, tape, cell, answer); break;
-    case ALONE_OFF: wh_tel_rate(tel, 0);
-#if WH_STATION_TAPE
-        if (tape != NULL) {
-            wh_tape_off(tape);
-        }
-#endif
-        break;
+    case ALONE_LIST: list(tel, cell, answer); break;
+    case ALONE_OFF: wh_tel_rate(tel, 0); break;
     case ALONE_RING: ring_told(tel, answer); break;
     case ALONE_NONE: return WH_STATION_TEL_HOW;
     }
     return WH_STATION_FINE;
 }
 
-wh_station_error wh_tel_answer(wh_tel *tel, wh_tape *tape, const wh_cell_config *cell,
+wh_station_error wh_tel_answer(wh_tel *tel, const wh_cell_config *cell,
                                const wh_words *words, wh_text *answer) {
     const char *what = words->word[1];
     const char *word = words->word[2];
     if (words->count < 3U) {
-        return without_word(tel, tape, cell, what, answer);
+        return without_word(tel, cell, what, answer);
     }
     switch ((with)wh_list_find(WITH_ROWS(LISTED), what)) {
     case WITH_SCHEMA: return schema(tel, cell, word, answer);
     case WITH_RATE: return rate(tel, cell, word, answer);
     case WITH_FORMAT: return set_format(tel, cell, word, answer);
     case WITH_RING: return set_ring(tel, word, answer);
-#if WH_STATION_TAPE
-    case WITH_TAPE: return set_tape(tape, word, answer);
-#endif
     case WITH_NONE: break;
     }
     return WH_STATION_TEL_HOW;

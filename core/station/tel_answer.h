@@ -5,7 +5,7 @@
 #include "core/text.h"
 #include "errors.h"
 #include "line.h"
-#include "tape_state.h"
+#include "telemetry.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -13,8 +13,8 @@ extern "C" {
 
 #define wh_tel_answer WH_NAME(wh_tel_answer)
 
-/* What the words behind `tel` ask for, answered into *answer, which is empty; or why not. `tape` may be NULL: there is none. */
-wh_station_error wh_tel_answer(wh_tel *tel, wh_tape *tape, const wh_cell_config *cell,
+/* What the words behind `tel` ask for, answered into *answer, which is empty; or why not. */
+wh_station_error wh_tel_answer(wh_tel *tel, const wh_cell_config *cell,
                                const wh_words *words, wh_text *answer);
 
 #ifdef __cplusplus

@@ -101,19 +101,6 @@ static bool send_frame(sight *s, wh_tel_channel channel) {
     return put_out(s, channel, (const char *)line, 1U + wh_cobs_short(line + 1, frame->at));
 }
 
-#if WH_STATION_TAPE
-bool wh_tel_has_room(const wh_ring *out, unsigned count) { return fits(out, LINE_BYTES_OF(count)); }
-
-bool wh_tel_send(wh_tel *tel, wh_tel_channel channel, uint32_t ticks, const uint8_t *payload,
-                 unsigned count, wh_ring *out) {
-    sight s = {.tel = tel, .out = out};
-    begin_frame(&s, channel, ticks);
-    for (unsigned i = 0; i < count; i++) {
-        add(&s, payload[i], 1);
-    }
-    return send_frame(&s, channel);
-}
-#endif
 
 static void send_run(sight *s) {
     wh_tel *tel = s->tel;
@@ -173,13 +160,13 @@ static void send_text(sight *s, wh_real force_N) {
     wh_text text;
     wh_text_start(&text, bytes, sizeof bytes);
     wh_text_add(&text, plots ? ">" : "");
-    wh_answer(&text, WH_WORDS("load_N:@3"), &value[0]);
+    wh_answer(&text, "load_N:@3", &value[0]);
     if (s->speed != NONE_16) {
         wh_text_add(&text, next);
-        wh_answer(&text, WH_WORDS("speed_rpm:@2"), &value[1]);
+        wh_answer(&text, "speed_rpm:@2", &value[1]);
     }
     wh_text_add(&text, next);
-    wh_answer(&text, WH_WORDS("drive_V:@3"), &value[2]);
+    wh_answer(&text, "drive_V:@3", &value[2]);
     wh_text_add(&text, "\r\n");
     if (text.truncated) {
         s->tel->dropped[WH_TEL_RUN]++;

@@ -15,13 +15,11 @@
  *          bad or missing: their times are ticks + i periods within an eighth of a period
  *   event  one thing that happened, at `ticks`: a slot pulse, another state, a trip
  *   ring   what was kept of the control steps round a trigger (capture.h), ten a frame
- *   tape   all that control steps see and answer (tape_out.h)
  *
  * It waits for nobody and takes none of the console's room: frames that find none in theirs are dropped. Off at first. */
 #ifndef WH_STATION_TELEMETRY_H
 #define WH_STATION_TELEMETRY_H
 
-#include "brief.h"
 #include "capture.h"
 #include "ring.h"
 #include "seen.h"
@@ -42,8 +40,7 @@ extern "C" {
 #define WH_TEL_CHANNEL_ROWS(X) \
     X(WH_TEL_RUN, 0, "run") \
     X(WH_TEL_EVENT, 1, "event") \
-    X(WH_TEL_RING, 2, "ring") \
-    WH_OF_TAPES(X(WH_TEL_TAPE, 3, "tape"))
+    X(WH_TEL_RING, 2, "ring")
 
 #define WH_TEL_NAME(channel, number, name) channel = (number),
 typedef enum wh_tel_channel { WH_TEL_CHANNEL_ROWS(WH_TEL_NAME) WH_TEL_CHANNELS } wh_tel_channel;
@@ -90,8 +87,6 @@ typedef struct wh_tel {
 #define wh_tel_rate WH_NAME(wh_tel_rate)
 #define wh_tel_read WH_NAME(wh_tel_read)
 #define wh_tel_step WH_NAME(wh_tel_step)
-#define wh_tel_has_room WH_NAME(wh_tel_has_room)
-#define wh_tel_send WH_NAME(wh_tel_send)
 
 /* The cell's counts in 16 bits: shifted by so many. */
 unsigned wh_tel_shift(const wh_cell_config *cell);
@@ -106,12 +101,6 @@ bool wh_tel_read(wh_tel *tel);
  * `out`, of which half are not its own. */
 void wh_tel_step(wh_tel *tel, const wh_rig_config *config, const wh_rig *rig, const wh_seen *seen,
                  wh_ring *out);
-
-/* A frame, of WH_TEL_PAYLOAD_MOST bytes at most: whole, or not at all, which is counted: false. There is room for one of so
- * many bytes. */
-bool wh_tel_has_room(const wh_ring *out, unsigned count);
-bool wh_tel_send(wh_tel *tel, wh_tel_channel channel, uint32_t ticks, const uint8_t *payload,
-                 unsigned count, wh_ring *out);
 
 #ifdef __cplusplus
 }

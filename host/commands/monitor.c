@@ -12,7 +12,6 @@
 #include "host/monitor/dialogue.h"
 #include "host/monitor/port.h"
 #include "host/monitor/recording.h"
-#include "host/monitor/taping.h"
 #include "interrupts.h"
 #include "monitor_options.h"
 
@@ -33,7 +32,6 @@ typedef struct monitor {
     schema schema;
     dialogue dialogue;
     recording recording;
-    taping taping;
     FILE *file[OUTPUTS];
     FILE *shown; /* what the rig says */
     bool open;
@@ -87,7 +85,7 @@ static bool open_line(monitor *m) {
     m->unheard = 0;
     port_forget(&m->line);
     wire_forget(&m->wire);
-    m->dialogue = (dialogue){.rate = (int)m->o->rate, .tapes = m->o->output[TAPE] != NULL};
+    m->dialogue = (dialogue){.rate = (int)m->o->rate};
     if (m->line.is_line) {
         (void)port_write(&m->line, "\n",
                          1); /* what somebody has begun to type is no question's begin */
@@ -124,7 +122,6 @@ static void go_on(monitor *m) {
     }
     if (m->dialogue.asked == DIALOGUE_LISTED && m->dialogue.was_off) {
         recording_anew(&m->recording);
-        taping_anew(&m->taping);
     }
     if (m->dialogue.done && m->dialogue.refused[0] != '\0') {
         fprintf(stderr, "whirl monitor: the rig refused: %s\n", m->dialogue.refused);
@@ -157,9 +154,6 @@ static void take_frame(monitor *m) {
         return; /* of a time before */
     }
     recording_frame(&m->recording, &m->schema, &m->wire.frame);
-    if (m->file[TAPE] != NULL && m->wire.frame.channel == RECORDING_TAPE) {
-        taping_frame(&m->taping, &m->wire.frame);
-    }
 }
 
 static void take_bytes(monitor *m, const uint8_t *bytes, int count) {
@@ -288,16 +282,7 @@ static bool close_outputs(monitor *m) {
 
 static bool lost_any(const monitor *m) {
     const recording_counts *c = &m->recording.counts;
-    return c->lost > 0 || c->strange > 0 || m->wire.damaged > 0 || m->taping.lost;
-}
-
-static void tell_tape(const monitor *m) {
-    const taping *t = &m->taping;
-    fprintf(stderr, "whirl monitor: tape: %" PRIu64 " control steps, %.3f s%s%s\n", t->steps,
-            (double)t->length_ticks / 1e6, t->lost ? "; it ends there: " : "",
-            t->lost   ? t->why
-            : t->over ? ""
-                      : "; no more of it was heard");
+    return c->lost > 0 || c->strange > 0 || m->wire.damaged > 0;
 }
 
 static void tell(const monitor *m) {
@@ -318,33 +303,6 @@ static void tell(const monitor *m) {
                 " times\n",
                 m->times, c->restarts);
     }
-    if (m->file[TAPE] != NULL && m->taping.began) {
-        tell_tape(m);
-    }
-}
-
-/* What of the tape is still to come, and its end. */
-static void hear_tape_out(monitor *m) {
-    uint8_t bytes[BYTES];
-    const int64_t began_ms = now_ms();
-    while (m->taping.began && !m->taping.over && now_ms() - began_ms < ANSWER_MS) {
-        const int count = port_read(&m->line, bytes, sizeof bytes, WAIT_MS, NULL);
-        if (count < 0) {
-            return;
-        }
-        take_bytes(m, bytes, count);
-    }
-}
-
-static bool has_tape(const monitor *m) {
-    if (m->file[TAPE] != NULL && !m->taping.began) {
-        fprintf(stderr,
-                "whirl monitor: error: no tape was begun%s%s\n"
-                "hint: it begins while the rig is idle: `status`, then `stop` or `clear`\n",
-                m->taping.over ? ": " : "", m->taping.over ? m->taping.why : "");
-        return false;
-    }
-    return true;
 }
 
 /* False, and told: a line was to be recorded, and nobody has been there who could send it. */
@@ -384,12 +342,10 @@ static int run(monitor *m) {
     }
     recording_begin(&m->recording, m->file[CSV], m->file[VCD], m->file[RING],
                     m->o->output[PLOT] != NULL);
-    m->taping.out = m->file[TAPE];
     interrupts_catch_waiting();
     listen(m);
     if (m->open && m->line.is_line) {
         (void)port_write(&m->line, "tel off\n", 8);
-        hear_tape_out(m);
     }
     bool good = has_source(m) && was_read(m);
     port_close(&m->line);
@@ -399,7 +355,6 @@ static int run(monitor *m) {
     if (!m->o->quiet) {
         tell(m);
     }
-    good = has_tape(m) && good;
     good = close_outputs(m) && good;
     if (m->o->strict && lost_any(m)) {
         fputs("whirl monitor: error: something was lost, and --strict\n", stderr);

@@ -21,8 +21,6 @@ const command_usage monitor_usage = {
         "  --csv FILE           samples, as records: time, then what the rig says it tells, with its units;\n"
         "                       - is standard output (what the rig says then goes to standard error)\n"
         "  --vcd FILE           samples as real numbers, slot pulses as wires, for waveform viewers\n"
-        "  --tape FILE          all that control steps see and answer, for whirl pil --replay; the rig, once\n"
-        "                       it is idle, starts anew\n"
         "  --ring FILE          what `tel ring read` brings, as records\n"
         "  --plot FILE.svg|.png samples over time, drawn by gnuplot at the end\n"
         "  --raw FILE           all bytes that come, as they come\n"
@@ -38,8 +36,7 @@ const command_usage monitor_usage = {
             [EXIT_ROW_OF(EXIT_BAD_INPUT)] = "",
             [EXIT_ROW_OF(EXIT_INTERRUPTED)] = NULL}};
 
-static const char *const output_option[OUTPUTS] = {"--csv",  "--vcd", "--ring",
-                                                   "--tape", "--raw", "--plot"};
+static const char *const output_option[OUTPUTS] = {"--csv", "--vcd", "--ring", "--raw", "--plot"};
 
 static bool take_number(int count, char **words, int *at, monitor_options *o, bool *bad) {
     const number_option rows[] = {
@@ -109,7 +106,7 @@ static bool are_possible(const monitor_options *o) {
 }
 
 bool monitor_options_read(int count, char **words, monitor_options *o) {
-    static const char *const own[] = {"--csv",  "--vcd", "--ring", "--tape",   "--plot",  "--raw",
+    static const char *const own[] = {"--csv",  "--vcd", "--ring", "--plot",  "--raw",
                                       "--rate", "--for", "--baud", "--strict", "--quiet", NULL};
     const target_reader reader = {
         .command = "monitor", .own = own, .take = take_one, .one = "line"};

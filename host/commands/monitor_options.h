@@ -7,7 +7,7 @@
 #include "options.h"
 
 /* What can be written: a file each. */
-enum { CSV, VCD, RING, TAPE, RAW, PLOT, OUTPUTS };
+enum { CSV, VCD, RING, RAW, PLOT, OUTPUTS };
 
 typedef struct monitor_options {
     common_options common;

@@ -4,7 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* The rate behind what describes its frames, the tape last. The first has an answer that nothing else is: until it comes,
+/* The rate behind what describes its frames. The first has an answer that nothing else is: until it comes,
  * what is heard may have been said to somebody before. */
 static const struct {
     const char *words;
@@ -18,14 +18,11 @@ static const struct {
                  {"tel schema event", "OK channel=1"},
                  {"tel schema ring", "OK channel=2"},
                  {"tel schema states", "OK 0="},
-                 {"tel rate", "OK rate="},
-                 {"tel tape on", "OK tape="}};
-enum { QUESTIONS = sizeof questions / sizeof questions[0], LIST = 2, RATE = QUESTIONS - 2 };
-
-static int count_of(const dialogue *d) { return d->tapes ? QUESTIONS : QUESTIONS - 1; }
+                 {"tel rate", "OK rate="}};
+enum { QUESTIONS = sizeof questions / sizeof questions[0], LIST = 2, RATE = QUESTIONS - 1 };
 
 const char *dialogue_question(const dialogue *d, char line[DIALOGUE_LINE]) {
-    if (d->asked >= count_of(d)) {
+    if (d->asked >= (int)QUESTIONS) {
         return NULL;
     }
     if (d->asked == RATE) {
@@ -66,6 +63,6 @@ bool dialogue_answer(dialogue *d, const char *line) {
         d->was_off = strstr(line, " rate=0 ") != NULL;
     }
     d->asked++;
-    d->done = d->asked == count_of(d);
+    d->done = d->asked == (int)QUESTIONS;
     return true;
 }

@@ -9,11 +9,10 @@ enum { DIALOGUE_LINE = 48, DIALOGUE_REFUSAL = 160 };
 /* So many are answered, and the rig is known to be there; was_off is known; telemetry of a time before has ended. */
 enum { DIALOGUE_MET = 1, DIALOGUE_LISTED = 3, DIALOGUE_OFF = 4 };
 
-/* All zeros but `rate` and `tapes`: nothing asked yet. */
+/* All zeros but `rate`: nothing asked yet. */
 typedef struct dialogue {
-    int rate;   /* samples a second */
-    bool tapes; /* a tape is wanted */
-    int asked;  /* the question that waits for its answer */
+    int rate;  /* samples a second */
+    int asked; /* the question that waits for its answer */
     bool done;
     bool rate_refused;
     bool was_off; /* telemetry was off: the rig is new, or another one */

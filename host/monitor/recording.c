@@ -260,10 +260,6 @@ static void take_ring(recording *r, const schema_channel *c, const wire_frame *f
 }
 
 void recording_frame(recording *r, const schema *s, const wire_frame *frame) {
-    if (frame->channel == RECORDING_TAPE) {
-        count(r, frame);
-        return;
-    }
     if (frame->channel >= SCHEMA_CHANNELS || !s->channel[frame->channel].known) {
         r->counts.strange++;
         return;

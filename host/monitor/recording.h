@@ -56,8 +56,8 @@ typedef struct recording {
     recording_counts counts;
 } recording;
 
-/* The run's channel, the events', the ring's and the tape's, as core/station/telemetry.h numbers them. */
-enum { RECORDING_RUN, RECORDING_EVENT, RECORDING_RING, RECORDING_TAPE };
+/* The run's channel, the events' and the ring's, as core/station/telemetry.h numbers them. */
+enum { RECORDING_RUN, RECORDING_EVENT, RECORDING_RING };
 
 void recording_begin(recording *r, FILE *csv, FILE *waves, FILE *ring, bool plots);
 
@@ -67,7 +67,6 @@ void recording_anew(recording *r);
 /* Somebody has asked for samples anew, perhaps at another rate: none of those until the next that come was sent. */
 void recording_asked(recording *r);
 
-/* Of the tape's they are counted. */
 void recording_frame(recording *r, const schema *s, const wire_frame *frame);
 
 /* Draws, where it plots; false when that failed, told. */

@@ -10,7 +10,7 @@ if [ ! -d "$tree" ]; then
     mkdir -p "$tree.new/build"
     # shellcheck disable=SC2086 # a list
     cp -a $parts "$tree.new/"
-    for part in host float double gen unity tests tools whirl pil_rig pil_swing pil_dialled pil_carriage pil_cart pil_taped station; do
+    for part in host float double gen unity tests tools whirl pil_rig pil_swing pil_dialled pil_carriage pil_cart station; do
         [ ! -e "build/$part" ] || cp -a "build/$part" "$tree.new/build/"
     done
     mv "$tree.new" "$tree"

@@ -146,7 +146,7 @@ static const char *settings_told(void) {
     const wh_value value = {.count = WH_CONF_COUNT};
     wh_text text;
     wh_text_start(&text, bytes, sizeof bytes);
-    wh_answer(&text, WH_WORDS("OK settings=@c "), &value);
+    wh_answer(&text, "OK settings=@c ", &value);
     return bytes;
 }
 

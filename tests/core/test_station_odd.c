@@ -93,7 +93,7 @@ static void test_trips_are_told(void) {
         char wanted[120] = "# tripped: ";
         wh_text text;
         wh_text_start(&text, wanted + 11, sizeof wanted - 11U);
-        wh_text_add_words(&text, wh_trip_text(trip));
+        wh_text_add(&text, wh_trip_text(trip));
         wh_text_add(&text, "\r\n");
         TEST_ASSERT_EQUAL_STRING(wanted, hear());
         for (unsigned known = 0; known < 2U; known++) {
@@ -180,43 +180,6 @@ static void test_a_cell_turned_round(void) {
     TEST_ASSERT_TRUE(wh_conf_type(&conf, WH_CONF_cell_reversed, "") == WH_STATION_CONF_VALUE);
 }
 
-#if WH_STATION_TAPE
-static void own(wh_rig_config *config) { *config = even_config(); }
-
-/* What a tape says of the settings makes the same configuration elsewhere. */
-static void test_settings_of_a_tape(void) {
-    static wh_conf conf;
-    static wh_conf other;
-    bench.seed = 63;
-    unsigned told = 0;
-    for (unsigned round = 0; round < 100U; round++) {
-        wh_rig_config config;
-        wh_rig_config there;
-        uint8_t payload[WH_STORE_PAYLOAD_MOST];
-        wh_bytes bytes = {.to = payload, .room = sizeof payload};
-        wh_conf_start(&conf, own, NULL, &config);
-        wh_conf_start(&other, own, NULL, &there);
-        for (unsigned k = draw_one_of(&bench.seed, 8); k > 0; k--) {
-            const wh_conf_id id = (wh_conf_id)draw_one_of(&bench.seed, WH_CONF_COUNT);
-            wh_conf_row room;
-            const wh_conf_row *row = wh_conf_row_of(id, &room);
-            (void)wh_conf_set(&conf, id, draw_one_in(&bench.seed, 2) ? row->least : row->most);
-        }
-        for (unsigned id = 0; id < WH_CONF_COUNT; id++) {
-            float value;
-            const unsigned number = wh_conf_is_set(&conf, (wh_conf_id)id, &value);
-            if (number > 0) {
-                wh_bytes_put(&bytes, number, 1);
-                wh_bytes_put_float(&bytes, value);
-                told++;
-            }
-        }
-        wh_conf_take(&other, payload, bytes.at);
-        TEST_ASSERT_TRUE(memcmp(&config, &there, sizeof config) == 0);
-    }
-    TEST_ASSERT_TRUE(told > 100U);
-}
-#endif
 
 static uint8_t slot_bytes[WH_STORE_SLOTS][WH_STORE_SLOT_BYTES];
 static unsigned reads_left;
@@ -299,9 +262,6 @@ void suite_station_odd(void) {
     RUN_TEST(test_echo);
     RUN_TEST(test_arithmetic_is_tested);
     RUN_TEST(test_a_cell_turned_round);
-#if WH_STATION_TAPE
-    RUN_TEST(test_settings_of_a_tape);
-#endif
     RUN_TEST(test_a_memory_that_is_not_read);
     RUN_TEST(test_exact_numbers);
 }

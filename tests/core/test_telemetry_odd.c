@@ -1,10 +1,9 @@
 /* test_telemetry_odd.c: telemetry of what is none, too large or out of step: frames and plotters' lines that have no room
- * for it, cells without a period, the tape's pins. */
+ * for it, cells without a period. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/station/tape_out.h"
 #include "draw.h"
 #include "tel_bench.h"
 #include "unity.h"
@@ -185,49 +184,9 @@ static void test_rates_and_schemas(void) {
     check_answer("tel schema run", "OK channel=0 name=run period_ticks=0 ");
 }
 
-#if WH_STATION_TAPE
-/* Pins as they are, in each step of a tape; and `tel off` ends it. */
-static void test_the_tapes_pins(void) {
-    static wh_tape tape;
-    check_answer("tel schema tape", "OK channel=3 name=tape period_ticks=0 once= each=");
-    for (unsigned pins = 0; pins < 8U; pins++) {
-        tel_begin();
-        bench.got.blind = true;
-        tape = (wh_tape){.state = WH_TAPE_NONE};
-        bench.station.tape = &tape;
-        tel_type("tel tape on");
-        for (unsigned i = 0; i < 5U; i++) {
-            tel_period(true, FREE);
-            wh_tape_see(&bench.station, &bench.even.rig);
-        }
-        TEST_ASSERT_EQUAL_INT(WH_TAPE_RUNS, tape.state);
-        bench.seen.inputs.stop_pressed = (pins & 1U) != 0;
-        bench.seen.inputs.clock_is_fallback = (pins & 2U) != 0;
-        bench.seen.inputs.watchdog_has_cut = (pins & 4U) != 0;
-        bench.station.seen = &bench.seen;
-        wh_taped_before before = tape.before;
-        const unsigned from = tape.count;
-        wh_tape_see(&bench.station, &bench.even.rig);
-        wh_bytes bytes = {.from = tape.bytes + from, .room = tape.count - from};
-        wh_taped_step step;
-        TEST_ASSERT_TRUE(from > 0 && wh_taped_get(&before, &step, &bytes));
-        const unsigned wanted = ((pins & 1U) != 0 ? (unsigned)WH_TAPED_STOP : 0U) |
-                                ((pins & 2U) != 0 ? (unsigned)WH_TAPED_FALLBACK : 0U) |
-                                ((pins & 4U) != 0 ? (unsigned)WH_TAPED_CUT : 0U);
-        TEST_ASSERT_EQUAL_HEX8(wanted, step.pins);
-        tel_type("tel off");
-        wh_station_step(&bench.station, &bench.even.rig);
-        TEST_ASSERT_TRUE(tape.state == WH_TAPE_ENDS && tape.end == WH_TAPED_OFF);
-        bench.station.tape = NULL;
-    }
-}
-#endif
 
 void suite_telemetry_odd(void) {
     RUN_TEST(test_frames_of_odd_numbers);
     RUN_TEST(test_lines_of_odd_numbers);
     RUN_TEST(test_rates_and_schemas);
-#if WH_STATION_TAPE
-    RUN_TEST(test_the_tapes_pins);
-#endif
 }

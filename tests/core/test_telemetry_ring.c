@@ -159,7 +159,7 @@ static void test_answers_and_refusals(void) {
         {"tel fmt csv", "ERR 118 "},
         {"tel ring read", "ERR 119 "},
         {"tel list",
-         "OK rate=0 fmt=frames dropped=0 channels=run,event,ring" WH_OF_TAPES(",tape") "\r\n"},
+         "OK rate=0 fmt=frames dropped=0 channels=run,event,ring"  "\r\n"},
         {"tel ring", "OK trigger=off ring=off steps=0 frames=0\r\n"},
         {"tel ring pulse", "OK trigger=pulse ring=waiting steps=0 frames=0\r\n"},
         {"tel ring off", "OK trigger=off ring=off "},

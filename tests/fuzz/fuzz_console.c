@@ -9,7 +9,6 @@
 #include <string.h>
 
 #include "core/station/station.h"
-#include "core/station/tape_out.h"
 
 enum {
     STEPS_PER_S = 500,
@@ -58,7 +57,6 @@ typedef struct bench {
     wh_station station;
     wh_conf conf;
     wh_tel tel;
-    wh_tape tape;
     uint32_t ticks;
     bool any_telemetry;
 } bench;
@@ -106,11 +104,8 @@ static size_t step(bench *b, const uint8_t *data, size_t size) {
     const wh_rig_command command = wh_rig_step(&b->config, &b->rig, &seen.inputs);
     wh_station_take(&b->station, (const char *)data + 1, (unsigned)come);
     wh_station_see(&b->station, &b->config, &b->rig, &seen);
-    wh_tape_see(&b->station, &b->rig);
     wh_station_step(&b->station, &b->rig);
-    wh_tape_orders(&b->station, &b->rig);
-    b->any_telemetry =
-        b->any_telemetry || b->tel.every > 0 || b->tel.reads || b->tape.state != WH_TAPE_NONE;
+    b->any_telemetry = b->any_telemetry || b->tel.every > 0 || b->tel.reads;
     if ((how & READ) != 0) {
         hear(b);
     }
@@ -126,7 +121,6 @@ static void rest(bench *b) {
     wh_conf_start(&b->conf, own, &memory, &b->config);
     b->station.conf = &b->conf;
     b->station.tel = &b->tel;
-    b->station.tape = &b->tape;
     wh_rig_start(&b->config, &b->rig, b->ticks, NULL);
     for (unsigned i = 0; i < 800U; i++) {
         wh_rig_inputs inputs = {.now_ticks = b->ticks, .supply_V = 24.0f};

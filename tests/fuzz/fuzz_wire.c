@@ -1,5 +1,5 @@
 /* fuzz_wire.c: no bytes from a rig's line, however broken, crash who reads them: the reader of text and frames, what a rig
- * says of its telemetry, the records, the waves, the tape; nor the readers of frames and coded bytes of the core.
+ * says of its telemetry, the records, the waves; nor the readers of frames and coded bytes of the core.
  *
  * The input is what the line brings; where its first byte is odd, behind a rig's own description of its channels. */
 #include <math.h>
@@ -13,7 +13,6 @@
 #include "host/monitor/dialogue.h"
 #include "host/monitor/recording.h"
 #include "host/monitor/schema.h"
-#include "host/monitor/taping.h"
 #include "host/monitor/wire.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
@@ -67,7 +66,6 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     static FILE *nowhere;
     static schema known;
     static recording kept;
-    static taping tape;
     if (nowhere == NULL) {
         nowhere = fopen("/dev/null", "w");
     }
@@ -79,7 +77,6 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
         must(schema_take(&known, said[i]));
     }
     recording_begin(&kept, nowhere, nowhere, nowhere, true);
-    tape = (taping){.out = nowhere};
     uint64_t frames = 0;
     for (size_t i = 0; i < size; i++) {
         const wire_event event = wire_take(&w, data[i]);
@@ -91,7 +88,6 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
             }
         } else if (event == WIRE_FRAME) {
             recording_frame(&kept, &known, &w.frame);
-            taping_frame(&tape, &w.frame); /* whatever channel it says */
             frames++;
         }
     }

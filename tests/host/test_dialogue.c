@@ -36,15 +36,14 @@ static const char *answer_of(const rig *r, const char *line) {
     static const char *const answers[][2] = {
         {"id\n", "OK program=rig board=none dialogue=1"},
         {"talk off\n", "OK"},
-        {"tel list\n", "OK rate=0 fmt=frames dropped=0 channels=run,event,ring,tape tape=off"},
+        {"tel list\n", "OK rate=0 fmt=frames dropped=0 channels=run,event,ring"},
         {"tel off\n", "OK"},
         {"tel fmt frames\n", "OK fmt=frames"},
         {"tel schema run\n", "OK channel=0 name=run period_ticks=2000 once= each="},
         {"tel schema event\n", "OK channel=1 name=event period_ticks=0 once= each="},
         {"tel schema ring\n", "OK channel=2 name=ring period_ticks=0 once= each="},
         {"tel schema states\n", "OK 0=idle 1=armed"},
-        {"tel rate 125\n", "OK rate=125 period_ticks=8000"},
-        {"tel tape on\n", "OK tape=waits"}};
+        {"tel rate 125\n", "OK rate=125 period_ticks=8000"}};
     for (size_t i = 0; i < sizeof answers / sizeof answers[0]; i++) {
         if (strcmp(line, answers[i][0]) == 0) {
             return r->refuses_rate && strncmp(line, "tel rate", 8) == 0 ? "ERR 116 not so many"
@@ -76,11 +75,10 @@ static void leave(rig *r, dice *d) {
                                        "ERR 101 the line is too long",
                                        "ERR 116 not so many",
                                        "OK rate=500 period_ticks=2000",
-                                       "OK tape=waits",
                                        "OK state=idle speed_rpm=0.00",
                                        ">load_N:56.064",
                                        "# idle",
-                                       "OK rate=500 fmt=frames dropped=0 channels=run tape=off",
+                                       "OK rate=500 fmt=frames dropped=0 channels=run",
                                        "D D \x07\x1b[2J",
                                        "K fmt=frames",
                                        ""};
@@ -123,7 +121,7 @@ static void converse(dialogue *talk, rig *r, dice *d) {
 static void one_case(dice *d) {
     static rig r;
     r = (rig){.refuses_rate = dice_one_of(d, 4) == 0};
-    dialogue talk = {.rate = 125, .tapes = !r.refuses_rate && dice_one_of(d, 2) == 0};
+    dialogue talk = {.rate = 125};
     leave(&r, d);
     converse(&talk, &r, d);
     TEST_ASSERT_TRUE(talk.done);
@@ -131,7 +129,7 @@ static void one_case(dice *d) {
     TEST_ASSERT_EQUAL(r.refuses_rate, talk.rate_refused);
     TEST_ASSERT_EQUAL_STRING(r.refuses_rate ? "tel rate 125: ERR 116 not so many" : "",
                              talk.refused);
-    TEST_ASSERT_EQUAL(talk.tapes ? 11 : 10, talk.asked);
+    TEST_ASSERT_EQUAL(10, talk.asked);
     TEST_ASSERT_FALSE(dialogue_answer(&talk, "OK")); /* to somebody else */
 }
 

@@ -376,9 +376,6 @@ static void send_any(void) {
         send_event();
     } else if (kind < 8) {
         send_strange();
-    } else if (kind < 9) {
-        lose(RECORDING_TAPE);
-        send(RECORDING_TAPE, t.time_us, (const uint8_t *)"", 0);
     } else if (kind < 10) {
         begin_anew();
     } else {
