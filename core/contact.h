@@ -76,6 +76,10 @@
 /* Looks at what a step with too many events has let pass. */
 #define WH_SQUEEZE_LOOKS 3U
 
+/* Looks at what stands beyond a stop when a step begins, as after a correction: a round of the step's, so no more than its
+ * probes. A curved gap takes several. */
+#define WH_PUSH_LOOKS 12U
+
 /* A flight shorter than this share of a step is none. */
 #define WH_REST_SHARE WH_R(0.125)
 

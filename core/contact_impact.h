@@ -266,10 +266,11 @@ static inline unsigned wh_contact_hit(const wh_contact_system *of, wh_contact_wo
 static inline unsigned wh_contact_push_out(const wh_contact_system *of, wh_contact_work *w,
                                            bool coarse, const wh_real *input, wh_contact_state *s,
                                            wh_real *signal, unsigned *pushed) {
+    const unsigned looks = coarse ? WH_PUSH_LOOKS : WH_SQUEEZE_LOOKS;
     wh_real accel[WH_COORDS];
     unsigned passed = 0;
     *pushed = 0;
-    for (unsigned pass = 0; pass < WH_SQUEEZE_LOOKS; pass++) {
+    for (unsigned pass = 0; pass < looks; pass++) {
         uint8_t member[WH_CONTACTS_MAX] = {0};
         wh_real wanted[WH_CONTACTS_MAX] = {WH_R(0.0)};
         wh_real lambda[WH_CONTACTS_MAX];
@@ -277,12 +278,14 @@ static inline unsigned wh_contact_push_out(const wh_contact_system *of, wh_conta
         wh_real way[WH_COORDS] = {WH_R(0.0)};
         unsigned mover = WH_CONTACTS_MAX;
         unsigned count = 0;
+        unsigned over = 0; /* pushed too far: their gaps are curved */
         wh_contact_look(of, w, s, input, accel, signal);
         for (unsigned k = 0; k < of->forced; k++) {
             const bool stop = wh_contact_of(of, k, WH_STOP);
             if (!stop && !(wh_contact_of(of, k, WH_HOLD) && w->mode[k] == WH_ACTIVE)) {
                 continue;
             }
+            over |= coarse && stop && wh_contact_open(of, w, k, signal, s) ? 1U << k & *pushed : 0U;
             if (stop && w->mode[k] == WH_FREE &&
                 (coarse ? wh_contact_far(of, w, k, signal, s) : signal[2 * k] < WH_R(0.0))) {
                 mover = mover == WH_CONTACTS_MAX ? k : mover;
@@ -291,18 +294,38 @@ static inline unsigned wh_contact_push_out(const wh_contact_system *of, wh_conta
             wanted[count] = stop ? -signal[2 * k] : WH_R(0.0);
             member[count++] = (uint8_t)k;
         }
-        if (mover == WH_CONTACTS_MAX || pass + 1U == WH_SQUEEZE_LOOKS) {
+        if ((mover == WH_CONTACTS_MAX && over == 0) || pass + 1U == looks) {
             break;
         }
-        (void)wh_contact_lcp(of, w, member, count, wanted, false, lambda, left);
+        if (mover == WH_CONTACTS_MAX) { /* back, until they touch: only then may a stop pull */
+            unsigned kept = 0;
+            for (unsigned i = 0; i < count; i++) {
+                const unsigned k = member[i];
+                if (!wh_contact_of(of, k, WH_STOP) || (*pushed >> k & 1U) != 0) {
+                    mover = mover == WH_CONTACTS_MAX && (over >> k & 1U) != 0 ? k : mover;
+                    wanted[kept] = wanted[i];
+                    member[kept++] = (uint8_t)k;
+                }
+            }
+            count = kept;
+            (void)wh_delassus_solve(of, w, member, count, NULL, wanted, lambda);
+        } else {
+            (void)wh_contact_lcp(of, w, member, count, wanted, false, lambda, left);
+        }
         for (unsigned i = 0; i < count; i++) {
             const bool pushes = wh_contact_of(of, member[i], WH_STOP) && lambda[i] > WH_R(0.0);
             *pushed |= pushes ? 1U << member[i] : 0U;
             wh_contact_apply(of, w, member[i], lambda[i], way);
         }
+        wh_real part =
+            WH_R(1.0); /* of the way: a slope says nothing of an angle beyond half a radian */
+        for (unsigned i = 0; coarse && i < of->angles; i++) {
+            const wh_real turn = WH_ABS(way[i]);
+            part = turn * part > WH_R(0.5) ? WH_R(0.5) / turn : part;
+        }
         wh_books_look(of, w, s, input);
         for (unsigned i = 0; i < of->coordinates; i++) {
-            wh_contact_move(of, i, way[i], s);
+            wh_contact_move(of, i, part * way[i], s);
         }
         wh_books_moved(of, w, s, input, mover);
     }

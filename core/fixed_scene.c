@@ -104,7 +104,7 @@ wh_real wh_fixed_angle(const wh_fixed_scene *scene, const wh_fixed_state *state,
 
 void wh_fixed_set_real(const wh_fixed_scene *scene, wh_fixed_state *state, unsigned i,
                        wh_real value) {
-    if (state->real != NULL) {
+    if (state->real != NULL && value == value) { /* not NaN */
         state->real[i] = wh_fixed_of(&scene->format[i], value, &state->saturated);
     }
 }
@@ -112,7 +112,7 @@ void wh_fixed_set_real(const wh_fixed_scene *scene, wh_fixed_state *state, unsig
 wh_status wh_fixed_set_input(const wh_fixed_scene *scene, wh_fixed_state *state, unsigned i,
                              wh_real value) {
     const uint32_t before = state->saturated;
-    if (state->real == NULL || i >= scene->inputs) {
+    if (state->real == NULL || i >= scene->inputs || !(value == value)) { /* NaN */
         return WH_E_ARGUMENT;
     }
     state->input[i] = wh_fixed_of(&scene->format[scene->reals + i], value, &state->saturated);

@@ -94,14 +94,15 @@ uint64_t wh_fixed_hash(const wh_fixed_scene *scene, const wh_fixed_state *state)
 int32_t wh_fixed_of(const wh_fixed_format *format, wh_real value, uint32_t *saturated);
 wh_real wh_fixed_to(const wh_fixed_format *format, int32_t number);
 
-/* Component i of the reals, SI; angle i, unwrapped radians. Of a state that was not started 0, and nothing is set. */
+/* Component i of the reals, SI; angle i, unwrapped radians. Of a state that was not started 0, and nothing is set. NaN sets
+ * nothing. */
 wh_real wh_fixed_real(const wh_fixed_scene *scene, const wh_fixed_state *state, unsigned i);
 wh_real wh_fixed_angle(const wh_fixed_scene *scene, const wh_fixed_state *state, unsigned i);
 void wh_fixed_set_real(const wh_fixed_scene *scene, wh_fixed_state *state, unsigned i,
                        wh_real value);
 
 /* Input i becomes `value`, SI; or `number`, in the integers of its format. Beyond its range it becomes the nearest end, is
- * counted as saturated, and the call returns WH_E_ARGUMENT. So it does, with nothing changed, where there is no input i. */
+ * counted as saturated, and the call returns WH_E_ARGUMENT. So it does, with nothing changed, of NaN and where there is no input i. */
 wh_status wh_fixed_set_input(const wh_fixed_scene *scene, wh_fixed_state *state, unsigned i,
                              wh_real value);
 wh_status wh_fixed_set_raw_input(const wh_fixed_scene *scene, wh_fixed_state *state, unsigned i,

@@ -195,8 +195,7 @@ static unsigned do_conf(request *r) {
 static unsigned do_tel(request *r) {
     wh_station *station = r->station;
     return WH_STATION_TELEMETRY && station->tel != NULL && station->config != NULL
-               ? wh_tel_answer(station->tel, &station->config->measure.cell,
-                               &r->words, &r->answer)
+               ? wh_tel_answer(station->tel, &station->config->measure.cell, &r->words, &r->answer)
                : WH_STATION_NOT_HERE;
 }
 

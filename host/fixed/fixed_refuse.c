@@ -95,7 +95,8 @@ bool fixed_inputs_declared(const image *im, const interval *range, diags *errors
         if (!im->range[i].declared) {
             char hint[200];
             snprintf(hint, sizeof hint, "in the scene: range %.60s = %.9g .. %.9g%s%.40s%s",
-                     im->range[i].name, range[i].low, range[i].high, has_unit ? " [" : "",
+                     im->range[i].name, range[i].low < 0.0 ? range[i].low : 0.0,
+                     range[i].high > 0.0 ? range[i].high : 0.0, has_unit ? " [" : "",
                      has_unit ? si : "", has_unit ? "]" : "");
             diag_error(errors, im->range[i].at, hint,
                        "code in fixed point needs the range of the input '%s'", im->range[i].name);

@@ -90,8 +90,9 @@ bool read_stop(parser *in, const statement_word *word) {
                            token_words(&in->token, words, sizeof words));
     }
     parser_next(in);
+    const place right_at = in->token.at;
     const expr *right = parse_expression(in, CONTEXT_GAP);
-    if (right == NULL) {
+    if (right == NULL || !check_limit(in, right_at, right, left)) {
         return false;
     }
     made.value = expr_difference(in, sign.at, above ? left : right, above ? right : left);

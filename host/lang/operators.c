@@ -79,12 +79,14 @@ bool check_dimension(parser *in, place at, const expr *value, dimension wanted, 
     return false;
 }
 
-bool check_unit(parser *in, place at, const expr *value, const symbol *of, int primes) {
+/* `with_name`: with the symbol's name before the value, as a start has it. */
+static bool has_unit(parser *in, place at, const expr *value, const symbol *of, int primes,
+                     bool with_name) {
     enum { SHOWN_MAX = 60 };
     const unsigned known = USES_UNIT | USES_UNKNOWNS | USES_INPUT;
     double number = 1.0;
-    if (unit_is_si(of->declared) || (value->uses & known) != 0 || value->dim.unknown ||
-        (expr_constant(value, &number) && number == 0.0)) {
+    if (unit_is_si(of->declared) || (value->uses & known) != 0 || !dim_is_none(value->dim) ||
+        value->dim.unknown || (expr_constant(value, &number) && number == 0.0)) {
         return true;
     }
     const char *text = at.source->text + at.offset;
@@ -105,14 +107,28 @@ bool check_unit(parser *in, place at, const expr *value, const symbol *of, int p
     snprintf(number_text, sizeof number_text, plain ? "%.*s" : "(%.*s)*1",
              (int)(length > SHOWN_MAX ? SHOWN_MAX : length), text);
     const char *primes_text = "'''''''''";
-    snprintf(hint, sizeof hint, "%s%s%.*s = %s [%s]%s, or in SI: %s%s%.*s = %s [%s]%s", quote,
-             of->name, primes, primes_text, number_text, unit, quote, quote, of->name, primes,
-             primes_text, number_text, si, quote);
+    if (with_name) {
+        snprintf(hint, sizeof hint, "%s%s%.*s = %s [%s]%s, or in SI: %s%s%.*s = %s [%s]%s", quote,
+                 of->name, primes, primes_text, number_text, unit, quote, quote, of->name, primes,
+                 primes_text, number_text, si, quote);
+    } else {
+        snprintf(hint, sizeof hint, "write %s [%s], or in SI: %s [%s]", number_text, unit,
+                 number_text, si);
+    }
     diag_error(in->diags, at, hint, "'%s' is declared in [%s], and this value has no unit",
                of->name, of->unit);
     free(si);
     free(unit);
     return false;
+}
+
+bool check_unit(parser *in, place at, const expr *value, const symbol *of, int primes) {
+    return has_unit(in, at, value, of, primes, true);
+}
+
+bool check_limit(parser *in, place at, const expr *value, const expr *of) {
+    return of->op != EXPR_SYMBOL || of->symbol == NULL || of->symbol->kind == SYM_PARAMETER ||
+           has_unit(in, at, value, of->symbol, of->primes, false);
 }
 
 /* The dimension both have; when they differ, reports "cannot BEFORE left BETWEEN right". */

@@ -89,9 +89,8 @@ static bool parse_assigned(parser *in, const token *name, const symbol *of, dime
         return false;
     }
     char rule[RULE_SIZE];
-    if (of != NULL &&
-        check_dimension(in, at, *value, wanted, dimension_rule(rule, words, "is", wanted))) {
-        check_unit(in, at, *value, of, name->primes);
+    if (of != NULL && check_unit(in, at, *value, of, name->primes)) {
+        check_dimension(in, at, *value, wanted, dimension_rule(rule, words, "is", wanted));
     }
     return true;
 }

@@ -84,10 +84,10 @@ static bool range_item(parser *in, const statement_word *word) {
     }
     low = with_unit(in, low, high);
     dimension_rule(rule, words, "is", wanted);
-    if (check_dimension(in, low_at, low, wanted, rule) &&
-        check_dimension(in, high_at, high, wanted, rule) &&
-        check_unit(in, high_at, high, &found->symbol, name.primes) &&
-        check_unit(in, low_at, low, &found->symbol, name.primes)) {
+    if (check_unit(in, high_at, high, &found->symbol, name.primes) &&
+        check_unit(in, low_at, low, &found->symbol, name.primes) &&
+        check_dimension(in, low_at, low, wanted, rule) &&
+        check_dimension(in, high_at, high, wanted, rule)) {
         range_statement *longer = arena_room(in->arena, (range_statement *)made->ranges,
                                              made->range_count, sizeof *longer);
         longer[made->range_count++] =

@@ -71,8 +71,8 @@ static bool parse_set(parser *in, contact_statement *made) {
         dim_multiply(set.symbol->dim, wanted, &wanted)) {
         char rule[RULE_SIZE];
         token_words(&name, words, sizeof words);
-        if (check_dimension(in, at, set.value, wanted, dimension_rule(rule, words, "is", wanted))) {
-            check_unit(in, at, set.value, set.symbol, name.primes);
+        if (check_unit(in, at, set.value, set.symbol, name.primes)) {
+            check_dimension(in, at, set.value, wanted, dimension_rule(rule, words, "is", wanted));
         }
     }
     if (usable) {
@@ -156,7 +156,7 @@ bool read_when(parser *in, const statement_word *word) {
     }
     const place between = in->token.at;
     const expr *right = parse_expression(in, CONTEXT_EVENT);
-    if (right == NULL) {
+    if (right == NULL || !check_limit(in, between, right, left)) {
         return false;
     }
     made.value = expr_difference(in, between, left, right);

@@ -189,4 +189,21 @@ run --quiet --set m=2 --start "z'=1"; [ $? -eq 2 ] && [ "$(grep -c 'this value h
 verdict $? "and one for a mass in grams, and for a rate"
 run --quiet --set l=2 --set "m=2 [kg]" --start theta=2rad --start z=0 && [ ! -s "$scratch/err" ]
 verdict $? "taken where SI is declared or a unit is given, and for 0"
+# a limit without its unit: of a stop and of a crossing, in each unit that is not SI; the hint pasted is taken
+awk -F '\t' '$3 != 1 { print $1 }' "$scratch/names" | while read -r unit; do
+    for limit in 'stop z <= %s restitution 1' 'stop z >= -%s restitution 1' "when z crosses %s rising { set z' = 0 }"; do
+        for given in 30 "30 [$unit]" 0; do
+            # shellcheck disable=SC2059 # the limit is a form
+            { printf 'mechanism m\ncoordinate z [%s]\nT = 1 [J*s^2]*(z%s/1 [%s])^2/2\n' "$unit" "'" "$unit" && printf "$limit\n" "$given"; } >"$scratch/limit.whirl"
+            "$whirl" check "$scratch/limit.whirl" >"$scratch/out" 2>"$scratch/err"
+            code=$?
+            case $given in
+            30) [ $code -eq 2 ] && grep -q "write -\{0,1\}30 \[$unit\]" "$scratch/err" ;;
+            *) [ $code -eq 0 ] ;;
+            esac || { echo "$unit, $limit, $given" && cat "$scratch/out" "$scratch/err"; }
+        done
+    done
+done >"$scratch/limits"
+[ ! -s "$scratch/limits" ]
+verdict $? "a limit without its unit is refused, in each unit that is not SI" "$scratch/limits"
 exit $failed

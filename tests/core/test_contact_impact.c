@@ -298,6 +298,36 @@ static void test_a_squeeze_ends(void) {
     }
 }
 
+/* A correction has put the body behind a surface that curves away from it: the first push goes too far, and the others take
+ * it back, on the side on which it was. */
+static void test_what_is_pushed_too_far_comes_back(void) {
+    uint64_t seed = 309;
+    for (unsigned round = 0; round < ROUNDS; round++) {
+        wh_contact_work w;
+        wh_contact_state s;
+        wh_real signal[2 * WH_CONTACTS_MAX];
+        unsigned pushed;
+        const wh_real radius = draw_whole(&seed, 1, 8) / 4;
+        const wh_real side = draw_one_in(&seed, 2) ? WH_R(1.0) : WH_R(-1.0);
+        const wh_real depth = draw_whole(&seed, 2, 98) / 100;
+        bench_build(&seed, 1, 0);
+        (void)bench_add(&seed, WH_STOP, -1);
+        bench_state(&seed, &s);
+        s.real[0] = side * radius * depth;
+        bench_now.row[0][0] = WH_R(0.0);
+        bench_now.signal[0] = -radius * radius / 2; /* the gap: x^2/2 - radius^2/2 */
+        bench_work(&seed, false, &w);
+        w.mode[0] = WH_FREE;
+        bench_now.moves = true;
+        bench_now.lean[0] = WH_R(1.0);
+        const unsigned looks = bench_now.looks;
+        TEST_ASSERT_TRUE(
+            wh_contact_push_out(&bench_now.system, &w, true, NULL, &s, signal, &pushed) == 1U);
+        TEST_ASSERT_TRUE(WH_ABS(s.real[0] * side - radius) <= 2 * WH_CONTACT_FAR * radius);
+        TEST_ASSERT_TRUE(bench_now.looks - looks <= WH_PUSH_LOOKS);
+    }
+}
+
 void suite_contact_impact(void) {
     RUN_TEST(test_who_is_pressed);
     RUN_TEST(test_who_rests);
@@ -307,4 +337,5 @@ void suite_contact_impact(void) {
     RUN_TEST(test_who_is_beside_an_impact);
     RUN_TEST(test_a_restitution);
     RUN_TEST(test_a_squeeze_ends);
+    RUN_TEST(test_what_is_pushed_too_far_comes_back);
 }

@@ -1,5 +1,7 @@
 /* test_fixed.c: core/fixed.h's integers against 64-bit ones: both ways to a product, rounding, reciprocals, sines against those
  * of the real build, and the ways from and to reals. */
+#include <math.h>
+
 #include "core/angle.h"
 #include "core/fixed_scene.h"
 
@@ -292,6 +294,9 @@ static void test_edges(void) {
     TEST_ASSERT_EQUAL_UINT32(3, state.saturated);
     TEST_ASSERT_EQUAL_INT32(1000, state.input[0]);
     TEST_ASSERT_EQUAL_INT(WH_E_ARGUMENT, wh_fixed_set_input(&scene, &state, 1, WH_R(0.0)));
+    TEST_ASSERT_EQUAL_INT(WH_E_ARGUMENT, wh_fixed_set_input(&scene, &state, 0, (wh_real)NAN));
+    TEST_ASSERT_EQUAL_INT32(1000, state.input[0]); /* as before, and nothing counted */
+    TEST_ASSERT_EQUAL_UINT32(3, state.saturated);
     for (long i = 0; i < CASES;
          i++) { /* integers: inside, beyond, and of an input that there is not */
         const int32_t raw = draw_number() >> (draw() % 31U);
