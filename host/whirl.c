@@ -1,6 +1,7 @@
 /* whirl.c: the command line. */
 #include <errno.h>
 #include <locale.h>
+#include <signal.h>
 #include <stdbool.h>
 #include <stdio.h>
 #include <string.h>
@@ -10,6 +11,7 @@
 #include "core/arithmetic.h"
 #include "core/version.h"
 #include "host/base/nearest.h"
+#include "host/base/written.h"
 
 typedef struct command {
     const char *name;
@@ -53,7 +55,8 @@ enum { COMMANDS = sizeof commands / sizeof commands[0] };
 static void print_usage(FILE *out) {
     static const char *const why[EXITS] = {
         [EXIT_ROW_OF(EXIT_DONE)] = "",
-        [EXIT_ROW_OF(EXIT_RUN_FAILED)] = "a run did, or standard output could not be written whole",
+        [EXIT_ROW_OF(EXIT_RUN_FAILED)] =
+            "a run did, or an output could not be written whole (a full disk)",
         [EXIT_ROW_OF(EXIT_BAD_INPUT)] = "",
         [EXIT_ROW_OF(EXIT_INTERRUPTED)] = ""};
     fputs("usage: whirl COMMAND ...\n"
@@ -136,7 +139,7 @@ static int after_writing(int code) {
     const bool last_part = fflush(stdout) == 0;
     const int reason = errno;
     if (last_part && ferror(stdout) == 0) {
-        return code;
+        return written_code(code);
     }
     fprintf(stderr, "whirl: error: standard output cannot be written%s%s\n", last_part ? "" : ": ",
             last_part ? "" : strerror(reason));
@@ -145,6 +148,9 @@ static int after_writing(int code) {
 
 int main(int count, char **words) {
     setlocale(LC_ALL, "C");
+#ifdef SIGXFSZ
+    signal(SIGXFSZ, SIG_IGN); /* beyond `ulimit -f`, a write then fails as on a full disk */
+#endif
     if (wh_arithmetic_wrong(wh_arithmetic) != WH_PROBED_COUNT) {
         fputs(
             "whirl: error: this program was compiled, or is run, with other arithmetic than IEEE 754\n"

@@ -5,7 +5,7 @@
 
 #include "commands.h"
 #include "files.h"
-#include "host/base/unwritten.h"
+#include "host/base/written.h"
 #include "host/emit/emit.h"
 #include "host/emit/matrix.h"
 #include "host/fixed/c_fixed.h"
@@ -234,23 +234,15 @@ static bool header_is_apart(const source_model *from, const char *header) {
 
 static bool write_header(const form_row *as, const image *im, const fixed_plan *plan,
                          const char *file, const char *header) {
-    FILE *out = fopen(header, "w");
-    bool written = out != NULL;
-    if (written) {
+    FILE *out = written_open(header);
+    if (out != NULL) {
         if (plan != NULL) {
             c_fixed_header(out, plan, file);
         } else {
             as->print_header(out, im, file);
         }
-        written = fflush(out) == 0 && ferror(out) == 0;
     }
-    if (!written) {
-        unwritten_say(header);
-    }
-    if (out != NULL) {
-        fclose(out);
-    }
-    return written;
+    return out != NULL && written_close(out, header, true);
 }
 
 /* Can code of that form have the scene's name? Else it is said why. */

@@ -6,6 +6,7 @@
 
 #include "commands.h"
 #include "host/base/room.h"
+#include "host/base/written.h"
 #include "host/emit/emit.h"
 #include "host/fixed/c_fixed.h"
 #include "host/fixed/engine_fixed.h"
@@ -62,7 +63,7 @@ static bool write_code(const emission *to, const image *im, const fixed_plan *pl
     } else {
         (header ? emit_c_header : emit_c)(out, im, file);
     }
-    fclose(out);
+    (void)written_close(out, to->folder, true);
     return true;
 }
 
@@ -177,11 +178,11 @@ static bool open_lists(emission *to) {
 static void close_lists(emission *to) {
     for (int i = 0; i < KINDS; i++) {
         if (to->hashes[i] != NULL) {
-            fclose(to->hashes[i]);
+            (void)written_close(to->hashes[i], to->folder, true);
         }
     }
     if (to->settings != NULL) {
-        fclose(to->settings);
+        (void)written_close(to->settings, to->folder, true);
     }
 }
 

@@ -5,8 +5,8 @@
 #include <unistd.h>
 
 #include "commands.h"
-#include "files.h"
 #include "host/base/room.h"
+#include "host/base/written.h"
 #include "host/lang/builtin.h"
 #include "host/plot/figure_draw.h"
 #include "host/plot/gnuplot.h"
@@ -203,7 +203,7 @@ static int draw(const figure_options *o, const char *where, const char *text) {
                 : strncmp(o->name, "f", 1) == 0 ? room_words("%s.svg", o->name)
                                                 : room_words("fig%s.svg", o->name);
     int code =
-        gnuplot_can_draw_for("figure", "--out", out) && files_can_write(out) && gnuplot_is_there()
+        gnuplot_can_draw_for("figure", "--out", out) && written_can(out) && gnuplot_is_there()
             ? take_data(o, text, data, &count)
             : EXIT_BAD_INPUT;
     if (code == EXIT_DONE && !figure_draw(out, where, text, data, count, o->varied)) {

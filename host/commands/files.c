@@ -3,13 +3,11 @@
 
 #include "files.h"
 
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
 #include "host/base/room.h"
-#include "host/base/unwritten.h"
 
 #ifdef __wasi__ /* has none: a file goes by the name it is called by */
 static char *realpath(const char *path, char *resolved) {
@@ -56,29 +54,4 @@ bool files_same(const char *one, const char *other) {
     return strcmp(one, other) == 0 ||
            (stat(one, &first) == 0 && stat(other, &second) == 0 && S_ISREG(first.st_mode) &&
             files_are_one(&first, one, &second, other));
-}
-
-bool files_can_write(const char *name) {
-    struct stat there;
-    if (name == NULL || strcmp(name, "-") == 0) {
-        return true;
-    }
-    const bool was_there = stat(name, &there) == 0;
-    FILE *try = fopen(name, "ab");
-    if (try == NULL) {
-        unwritten_say(name);
-        return false;
-    }
-    fclose(try);
-    if (!was_there) {
-        files_drop(name);
-    }
-    return true;
-}
-
-void files_drop(const char *name) {
-    struct stat there;
-    if (lstat(name, &there) == 0 && S_ISREG(there.st_mode)) {
-        unlink(name);
-    }
 }

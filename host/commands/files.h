@@ -1,4 +1,4 @@
-/* files.h: telling whether two names lead to one file, and whether one can be written. */
+/* files.h: telling whether two names lead to one file. */
 #ifndef COMMANDS_FILES_H
 #define COMMANDS_FILES_H
 
@@ -14,12 +14,5 @@ bool files_are_one(const struct stat *one, const char *path, const struct stat *
 
 /* Are both the same file, by name or, when they are there, by what the names lead to? */
 bool files_same(const char *one, const char *other);
-
-/* Can a file of this name be written? Asked before long work, which else would be in vain. What is there stays as it is; false
- * is told on standard error. NULL and "-" can. */
-bool files_can_write(const char *name);
-
-/* Removes a file that was begun in vain. What is no ordinary file, such as a device or a pipe, stays. */
-void files_drop(const char *name);
 
 #endif

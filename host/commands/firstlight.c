@@ -7,7 +7,7 @@
 #include <time.h>
 
 #include "commands.h"
-#include "host/base/unwritten.h"
+#include "host/base/written.h"
 #include "host/monitor/light.h"
 #include "host/monitor/port.h"
 #include "interrupts.h"
@@ -194,13 +194,11 @@ static bool is_emulated(const light *l) {
 }
 
 static bool keep(const char *name, const light *l) {
-    FILE *out = fopen(name, "wb");
-    bool good = out != NULL && fwrite(l->text, 1, l->length, out) == l->length;
-    good = out != NULL && fclose(out) == 0 && good;
-    if (!good) {
-        unwritten_say(name);
+    FILE *out = written_open(name);
+    if (out != NULL) {
+        fwrite(l->text, 1, l->length, out);
     }
-    return good;
+    return out != NULL && written_close(out, name, true);
 }
 
 static int compare(const firstlight_options *o) {

@@ -10,7 +10,7 @@
 
 #include "files.h"
 #include "host/base/room.h"
-#include "host/base/unwritten.h"
+#include "host/base/written.h"
 #include "light_expect.h"
 #include "load.h"
 
@@ -77,18 +77,16 @@ int light_append(const char *page, const char *row, uint32_t crc) {
     static const char empty[] = "\nno row yet\n";
     const char *rest = behind + 1;
     rest += strncmp(rest, empty, sizeof empty - 1) == 0 ? sizeof empty - 1 : 0;
-    char *new_name = room_words("%s.new", page);
-    FILE *out = fopen(new_name, "wb");
-    bool good = out != NULL && fwrite(text, 1, (size_t)(behind + 1 - text), out) > 0 &&
-                fputs(row, out) >= 0 && fputs(rest, out) >= 0;
-    good = out != NULL && fclose(out) == 0 && good && rename(new_name, page) == 0;
+    FILE *out = written_open(page);
+    bool good = out != NULL;
+    if (good) {
+        fwrite(text, 1, (size_t)(behind + 1 - text), out);
+        fprintf(out, "%s%s", row, rest);
+        good = written_close(out, page, true);
+    }
     if (good) {
         printf("row: appended to %s\n", page);
-    } else {
-        unwritten_say(page);
-        files_drop(new_name);
     }
-    free(new_name);
     free(text);
     return good ? EXIT_DONE : EXIT_RUN_FAILED;
 }

@@ -70,17 +70,19 @@ bool source_would_be_lost(const source_model *s, const char *option, const char 
     const bool from_stdin = strcmp(s->path, "-") == 0;
     const bool model_known =
         (from_stdin ? fstat(fileno(stdin), &about_model) : stat(s->path, &about_model)) == 0;
-    char *name = room_words("%s%s", path, ending);
-    const bool lost = model_known && S_ISREG(about_model.st_mode) &&
-                      stat(name, &about_output) == 0 &&
-                      files_are_one(&about_model, from_stdin ? NULL : s->path, &about_output, name);
-    if (lost) {
-        fprintf(stderr,
-                "%s: error: %s would write over the model, which is read from this file\n"
-                "hint: give it another name\n",
-                name, option);
+    bool lost = false;
+    for (int i = 0; i < 2 && !lost; i++) { /* written.h */
+        char *name = room_words("%s%s%s", path, ending, i == 0 ? "" : ".part");
+        lost = model_known && S_ISREG(about_model.st_mode) && stat(name, &about_output) == 0 &&
+               files_are_one(&about_model, from_stdin ? NULL : s->path, &about_output, name);
+        if (lost) {
+            fprintf(stderr,
+                    "%s: error: %s would write over the model, which is read from this file\n"
+                    "hint: give it another name\n",
+                    name, option);
+        }
+        free(name);
     }
-    free(name);
     return lost;
 }
 

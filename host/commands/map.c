@@ -7,7 +7,7 @@
 #include "commands.h"
 #include "files.h"
 #include "host/base/room.h"
-#include "host/base/unwritten.h"
+#include "host/base/written.h"
 #include "host/map/map_plot.h"
 #include "host/map/map_text.h"
 #include "host/number/functions.h"
@@ -133,21 +133,12 @@ static bool read_options(int count, char **words, map_options *o) {
 
 static bool is_standard(const map_options *o) { return o->csv != NULL && strcmp(o->csv, "-") == 0; }
 
-/* What standard output did not take is told at the program's end. */
 static bool write_rows(const map_options *o, const stability_map *m) {
-    if (is_standard(o)) {
-        (void)map_csv(stdout, m);
-        return true;
-    }
-    FILE *out = fopen(o->csv, "wb");
-    const bool good = out != NULL && map_csv(out, m);
-    if (!good) {
-        unwritten_say(o->csv);
-    }
+    FILE *out = written_open(o->csv);
     if (out != NULL) {
-        fclose(out);
+        map_csv(out, m);
     }
-    return good;
+    return out != NULL && written_close(out, o->csv, true);
 }
 
 static int show(const map_options *o, const stability_map *m, const char *words) {
@@ -278,8 +269,8 @@ static int map_scene(const map_options *o, source_model *from, const mechanism *
 /* Before the work, which else would be in vain. */
 static bool can_write(const map_options *o, const source_model *from) {
     return !source_would_be_lost(from, "--csv", o->csv, "") &&
-           !source_would_be_lost(from, "--plot", o->plot, "") && files_can_write(o->csv) &&
-           files_can_write(o->plot) && (o->plot == NULL || gnuplot_is_there());
+           !source_would_be_lost(from, "--plot", o->plot, "") && written_can(o->csv) &&
+           written_can(o->plot) && (o->plot == NULL || gnuplot_is_there());
 }
 
 static int map_source(const map_options *o, source_model *from) {

@@ -8,7 +8,7 @@
 #include <unistd.h>
 
 #include "commands.h"
-#include "host/base/unwritten.h"
+#include "host/base/written.h"
 #include "host/monitor/dialogue.h"
 #include "host/monitor/port.h"
 #include "host/monitor/recording.h"

@@ -1,12 +1,12 @@
 /* new.c: `whirl new`: a commented file to start from. */
-#include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "commands.h"
 #include "host/base/room.h"
-#include "host/base/unwritten.h"
+#include "host/base/written.h"
 #include "host/lang/lexer.h"
 #include "options.h"
 
@@ -56,20 +56,15 @@ static const char template[] =
 static const char suffix[] = "_swing"; /* the scene's name ends so */
 
 static int write_new(const char *name, const char *file) {
-    FILE *out = fopen(file, "wx"); /* fails if it exists */
-    if (out == NULL && errno == EEXIST) {
+    if (access(file, F_OK) == 0) {
         fprintf(stderr, "whirl new: error: %s exists\nhint: whirl new %s_2\n", file, name);
         return EXIT_BAD_INPUT;
     }
-    bool written =
-        out != NULL && fprintf(out, template, name, name, suffix) > 0 && fflush(out) == 0;
-    if (!written) {
-        unwritten_say(file);
+    FILE *out = written_open(file);
+    if (out != NULL) {
+        fprintf(out, template, name, name, suffix);
     }
-    if (out != NULL && fclose(out) != 0) {
-        written = false;
-    }
-    if (!written) {
+    if (out == NULL || !written_close(out, file, true)) {
         return EXIT_RUN_FAILED;
     }
     printf("%s is written. Next:\n"

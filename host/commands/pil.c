@@ -8,7 +8,7 @@
 #include "commands.h"
 #include "files.h"
 #include "host/base/room.h"
-#include "host/base/unwritten.h"
+#include "host/base/written.h"
 #include "host/monitor/port.h"
 #include "host/number/functions.h"
 #include "host/pil/fault.h"

@@ -6,7 +6,7 @@
 
 #include "commands.h"
 #include "files.h"
-#include "host/base/unwritten.h"
+#include "host/base/written.h"
 #include "host/plot/gnuplot.h"
 #include "host/price/table_counted.h"
 #include "interrupts.h"
@@ -111,15 +111,11 @@ static void show_progress(void *context, int done, int of) {
 
 static bool write_csv(const char *file, const trials *t, const table *made,
                       const table_words *words) {
-    FILE *out = strcmp(file, "-") == 0 ? stdout : fopen(file, "wb");
-    const bool good = out != NULL && (table_csv(out, t, made, words) || out == stdout);
-    if (!good) {
-        unwritten_say(file);
+    FILE *out = written_open(file);
+    if (out != NULL) {
+        table_csv(out, t, made, words);
     }
-    if (out != NULL && out != stdout) {
-        fclose(out);
-    }
-    return good;
+    return out != NULL && written_close(out, file, true);
 }
 
 /* The cheapest row that keeps the error, in words. */
@@ -182,8 +178,8 @@ static bool can_measure(const pricing *p) {
 static int price_scene(const price_options *o, pricing *p) {
     const bool progress = !o->common.quiet && isatty(STDERR_FILENO);
     if (source_would_be_lost(&p->from, "--csv", o->csv, "") ||
-        source_would_be_lost(&p->from, "--plot", o->plot, "") || !files_can_write(o->csv) ||
-        !files_can_write(o->plot) || (o->measure && !can_measure(p))) {
+        source_would_be_lost(&p->from, "--plot", o->plot, "") || !written_can(o->csv) ||
+        !written_can(o->plot) || (o->measure && !can_measure(p))) {
         return EXIT_BAD_INPUT;
     }
     interrupts_catch();

@@ -9,7 +9,7 @@
 #include "files.h"
 #include "host/base/arena.h"
 #include "host/base/room.h"
-#include "host/base/unwritten.h"
+#include "host/base/written.h"
 #include "host/lang/override.h"
 #include "host/lang/value.h"
 #include "host/number/functions.h"
@@ -149,11 +149,6 @@ static bool is_standard(const prove_options *o) {
     return o->csv != NULL && strcmp(o->csv, "-") == 0;
 }
 
-static int say_unwritten(const char *file) {
-    unwritten_say(file);
-    return EXIT_BAD_INPUT;
-}
-
 typedef struct rows {
     FILE *file; /* NULL: none are wished */
     const held_wish *wish;
@@ -206,15 +201,6 @@ static int status_of(const held_found *h, const image *im) {
                                   : EXIT_RUN_FAILED;
 }
 
-/* Whole rows? */
-static bool close_rows(const rows *r) {
-    bool good = r->file == NULL || ferror(r->file) == 0;
-    if (r->file != NULL && r->file != stdout) {
-        good = fclose(r->file) == 0 && good;
-    }
-    return good;
-}
-
 static int held_out(const prove_options *o, const held_wish *w, const rows *r) {
     held_found h = held_run(w);
     if (w->progress != NULL) {
@@ -225,19 +211,16 @@ static int held_out(const prove_options *o, const held_wish *w, const rows *r) {
     }
     say_end(&h, ratio_times(w->image->steps, w->image->step));
     const int code = status_of(&h, w->image);
-    const bool good = close_rows(r);
-    if (!h.ranged && r->file != NULL && r->file != stdout) {
-        files_drop(o->csv); /* nothing is in it */
-    }
+    const bool good = written_close(r->file, o->csv, h.ranged);
     held_free(&h);
-    return good || is_standard(o) || code == EXIT_INTERRUPTED ? code : say_unwritten(o->csv);
+    return good || code == EXIT_INTERRUPTED ? code : EXIT_RUN_FAILED;
 }
 
 static int answer(const prove_options *o, const image *im, const exact_motion *m,
                   const double *within) {
-    rows r = {.file = o->csv == NULL ? NULL : is_standard(o) ? stdout : fopen(o->csv, "wb")};
+    rows r = {.file = o->csv == NULL ? NULL : written_open(o->csv)};
     if (o->csv != NULL && r.file == NULL) {
-        return say_unwritten(o->csv);
+        return EXIT_BAD_INPUT;
     }
     const held_wish wish = {.motion = m,
                             .image = im,

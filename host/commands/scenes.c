@@ -7,7 +7,7 @@
 
 #include "commands.h"
 #include "host/base/room.h"
-#include "host/base/unwritten.h"
+#include "host/base/written.h"
 #include "host/emit/emit.h"
 #include "host/lang/builtin.h"
 #include "host/show/show_equations.h"
@@ -125,7 +125,7 @@ static int emit_equations(void *context, const char *file, const loaded *made) {
     if (made->image->recovered == 0) {
         emit_octave(out, made->image, file, made->contacts);
     }
-    fclose(out);
+    (void)written_close(out, to->folder, true);
     return EXIT_DONE;
 }
 
@@ -137,7 +137,7 @@ static int emit_hashes(const emission *to, const image *im) {
     }
     (void)scenes_write_hash(out, "scene", &engine_float, im);
     (void)scenes_write_hash(out, "double", &engine_double, im);
-    fclose(out);
+    (void)written_close(out, to->folder, true);
     return EXIT_DONE;
 }
 
@@ -154,13 +154,13 @@ static int emit_image(void *context, const char *file, const image *im) {
         return EXIT_RUN_FAILED;
     }
     emit_c(out, im, file);
-    fclose(out);
+    (void)written_close(out, to->folder, true);
     out = scenes_open(to->folder, im->name, ".h");
     if (out == NULL) {
         return EXIT_RUN_FAILED;
     }
     emit_c_header(out, im, file);
-    fclose(out);
+    (void)written_close(out, to->folder, true);
     fprintf(to->declarations, "extern const wh_scene %s;\n", im->name);
     fprintf(to->index, "    &%s,\n", im->name);
     return EXIT_DONE;
@@ -192,10 +192,10 @@ int command_emit_scenes(int count, char **words) {
               to.index);
     }
     if (to.declarations != NULL) {
-        fclose(to.declarations);
+        (void)written_close(to.declarations, to.folder, true);
     }
     if (to.index != NULL) {
-        fclose(to.index);
+        (void)written_close(to.index, to.folder, true);
     }
     return code;
 }

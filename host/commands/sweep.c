@@ -254,8 +254,7 @@ static int sweep_scene(const sweep_options *o, source_model *from, const mechani
 /* The rows, and what stands beside them (host/sweep/sheet.h). */
 static bool model_would_be_lost(const source_model *from, const char *csv) {
     return source_would_be_lost(from, "--csv", csv, "") ||
-           source_would_be_lost(from, "--csv", csv, ".sweep") ||
-           source_would_be_lost(from, "--csv", csv, ".sweep.new");
+           source_would_be_lost(from, "--csv", csv, ".sweep");
 }
 
 static int processors(void) {

@@ -5,7 +5,7 @@
 
 #include "commands.h"
 #include "files.h"
-#include "host/base/unwritten.h"
+#include "host/base/written.h"
 #include "host/fixed/engine_fixed.h"
 #include "host/fixed/fixed_plan.h"
 #include "host/number/functions.h"
@@ -140,27 +140,17 @@ static void say_failure(const image *im, const engine_kind *kind, const twins *t
     }
 }
 
-static int say_unwritten(const char *file) {
-    unwritten_say(file);
-    return EXIT_BAD_INPUT;
-}
-
 static bool is_standard(const trust_options *o) {
     return o->csv != NULL && strcmp(o->csv, "-") == 0;
 }
 
-/* Before the run, so that no long one is in vain; NULL without --csv. False: it cannot be written. */
-static bool open_rows(const trust_options *o, FILE **rows) {
-    *rows = o->csv == NULL ? NULL : is_standard(o) ? stdout : fopen(o->csv, "wb");
-    return o->csv == NULL || *rows != NULL;
-}
-
-static int write_rows(const trust_options *o, FILE *rows, const horizon *h) {
-    bool good = rows == NULL || horizon_write(rows, h);
-    if (rows != NULL && rows != stdout) {
-        good = fflush(rows) == 0 && good;
+static int write_rows(const trust_options *o, const horizon *h) {
+    FILE *rows = o->csv != NULL ? written_open(o->csv) : NULL;
+    if (rows != NULL) {
+        horizon_write(rows, h);
     }
-    return good || is_standard(o) ? EXIT_DONE : say_unwritten(o->csv);
+    return o->csv == NULL || (rows != NULL && written_close(rows, o->csv, true)) ? EXIT_DONE
+                                                                                 : EXIT_BAD_INPUT;
 }
 
 static int answer(const trust_options *o, const image *im, const image *plain) {
@@ -171,9 +161,8 @@ static int answer(const trust_options *o, const image *im, const image *plain) {
                              .books = true,
                              .stop = &interrupted,
                              .progress = shows_progress(o) ? show_progress : NULL};
-    FILE *rows;
-    if (!open_rows(o, &rows)) {
-        return say_unwritten(o->csv);
+    if (!written_can(o->csv)) { /* a long run would be in vain */
+        return EXIT_BAD_INPUT;
     }
     twins *t = twins_run(&wish);
     if (wish.progress != NULL) {
@@ -188,7 +177,7 @@ static int answer(const trust_options *o, const image *im, const image *plain) {
             t->end_s, ratio_times(im->steps, im->step));
     } else {
         horizon h = horizon_of(t, o->tolerance);
-        code = write_rows(o, rows, &h);
+        code = write_rows(o, &h);
         if (!o->quiet || o->csv == NULL) {
             horizon_print(is_standard(o) ? stderr : stdout, &h);
         }
@@ -197,12 +186,6 @@ static int answer(const trust_options *o, const image *im, const image *plain) {
             code = code == EXIT_DONE ? EXIT_RUN_FAILED : code;
         }
         horizon_free(&h);
-    }
-    if (rows != NULL && rows != stdout) {
-        fclose(rows);
-        if (code == EXIT_INTERRUPTED) {
-            files_drop(o->csv); /* nothing is in it */
-        }
     }
     twins_free(t);
     return code;

@@ -1,9 +1,7 @@
 /* recorded.c: the plant of a run in the loop as comma-separated values. */
 #include "recorded.h"
 
-#include <string.h>
-
-#include "host/base/unwritten.h"
+#include "host/base/written.h"
 
 #define EVERY_S 1e-3
 
@@ -20,9 +18,8 @@ bool recorded_open(recorded *r, const char *name, const image *im, double every_
                 every_s, im->step_s);
         return false;
     }
-    r->file = strcmp(name, "-") == 0 ? stdout : fopen(name, "wb");
+    r->file = written_open(name);
     if (r->file == NULL) {
-        unwritten_say(name);
         return false;
     }
     r->rows = records_open(r->file, im, &engine_double);
@@ -33,16 +30,11 @@ bool recorded_open(recorded *r, const char *name, const image *im, double every_
 void recorded_enter(recorded *r, void *run, uint64_t steps) {
     if (r->rows != NULL && steps % r->every == 0) {
         records_read(r->rows, run, ratio_times(steps, r->rows->image->step));
-        r->failed = !records_write(r->rows) || r->failed;
+        (void)records_write(r->rows);
     }
 }
 
 bool recorded_close(recorded *r) {
     records_close(r->rows);
-    const bool own = r->file != NULL && r->file != stdout;
-    if (own && (fclose(r->file) != 0 || r->failed)) {
-        unwritten_say(r->name);
-        return false;
-    }
-    return true;
+    return written_close(r->file, r->name, true);
 }

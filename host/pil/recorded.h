@@ -9,7 +9,6 @@ typedef struct recorded {
     FILE *file;
     records *rows;
     uint64_t every; /* steps from one row to the next */
-    bool failed;
 } recorded;
 
 /* Every every_s seconds; below 0: every millisecond, or each step where a millisecond is no whole number of them. False, reported:

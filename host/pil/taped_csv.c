@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "host/base/room.h"
-#include "host/base/unwritten.h"
+#include "host/base/written.h"
 #include "taped.h"
 
 /* The rows of a tape, as they come. */
@@ -118,8 +118,7 @@ static void print_reset(rows *r, const wh_reset *reset) {
     r->told = false;
 }
 
-/* False: not all could be read, which was reported, or written. */
-static bool print_rows(taped *t, FILE *out) {
+static void print_rows(taped *t, FILE *out) {
     rows r = {.tape = t, .out = out, .ticks = t->hello.start_ticks};
     for (uint32_t per_s = 1; per_s < t->hello.ticks_per_s && r.decimals < 9; per_s *= 10U) {
         r.decimals++;
@@ -143,7 +142,6 @@ static bool print_rows(taped *t, FILE *out) {
             print_orders(&r, &turn.orders);
         }
     }
-    return !t->failed && fflush(out) == 0 && ferror(out) == 0;
 }
 
 bool taped_show(const char *name, const char *csv) {
@@ -152,15 +150,11 @@ bool taped_show(const char *name, const char *csv) {
     FILE *out = NULL;
     bool good = taped_open(t, name);
     if (good) {
-        out = is_standard ? stdout : fopen(csv, "wb");
-        /* what standard output did not take is told at the program's end */
-        good = (out != NULL && print_rows(t, out)) || (is_standard && !t->failed);
-        if (out != NULL && out != stdout) {
-            good = fclose(out) == 0 && good;
+        out = written_open(is_standard ? "-" : csv);
+        if (out != NULL) {
+            print_rows(t, out);
         }
-        if (!good && !t->failed) {
-            unwritten_say(csv);
-        }
+        good = out != NULL && written_close(out, csv, true) && !t->failed;
     }
     taped_close(t);
     free(t);

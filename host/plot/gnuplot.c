@@ -1,13 +1,13 @@
 /* gnuplot.c: see gnuplot.h. */
 #include "gnuplot.h"
 
-#include <errno.h>
 #include <signal.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "host/base/written.h"
 #include "palette.h"
 
 static const char *ending_of(const char *file) {
@@ -124,7 +124,8 @@ static void set_look(gnuplot *g, int height) {
 
 /* The end of a picture that was not begun. */
 static bool give_up(gnuplot *g) {
-    FILE *const files[] = {g->picture, g->drawn, g->said};
+    FILE *const files[] = {g->drawn, g->said};
+    (void)written_close(g->picture, g->file, false);
     for (size_t i = 0; i < sizeof files / sizeof files[0]; i++) {
         if (files[i] != NULL) {
             fclose(files[i]);
@@ -137,9 +138,8 @@ bool gnuplot_open(gnuplot *g, const char *file, int height, const char *title, c
     if (!gnuplot_is_there()) {
         return false;
     }
-    *g = (gnuplot){.file = file, .title = title, .text = text, .picture = fopen(file, "wb")};
+    *g = (gnuplot){.file = file, .title = title, .text = text, .picture = written_open(file)};
     if (g->picture == NULL) {
-        fprintf(stderr, "%s: error: cannot be written: %s\n", file, strerror(errno));
         return false;
     }
     g->drawn = tmpfile();
@@ -206,20 +206,11 @@ static void copy_picture(const gnuplot *g) {
     }
 }
 
-/* gnuplot does not notice a full disk. So look for the end that such a picture has. A pipe cannot be asked. */
-static bool is_whole(const char *file) {
+/* gnuplot does not notice a full disk. So look for the end that such a picture has. */
+static bool is_whole(const gnuplot *g) {
     char last[17] = {0};
-    struct stat about;
-    if (stat(file, &about) == 0 && !S_ISREG(about.st_mode)) {
-        return true;
-    }
-    FILE *picture = fopen(file, "rb");
-    const bool there =
-        picture != NULL && fseek(picture, -16, SEEK_END) == 0 && fread(last, 1, 16, picture) == 16;
-    if (picture != NULL) {
-        fclose(picture);
-    }
-    const char *ending = ending_of(file);
+    const bool there = fseek(g->drawn, -16, SEEK_END) == 0 && fread(last, 1, 16, g->drawn) == 16;
+    const char *ending = ending_of(g->file);
     const char *end = strcmp(ending, "svg") == 0   ? "</svg>"
                       : strcmp(ending, "pdf") == 0 ? "%%EOF"
                                                    : "IEND";
@@ -235,16 +226,17 @@ bool gnuplot_close(gnuplot *g) {
     const bool written = ferror(g->to) == 0;
     const int code = pclose(g->to);
     signal(SIGPIPE, g->before);
-    copy_picture(g);
-    const bool copied = fclose(g->picture) == 0;
-    const bool whole = copied && is_whole(g->file);
+    const bool whole = is_whole(g);
     const bool drawn = written && code == 0 && whole;
+    copy_picture(g);
+    const bool kept = written_close(g->picture, g->file, drawn);
     if (!drawn) {
+        written_not_whole();
         show_said(g->said);
         fprintf(stderr, "whirl: error: gnuplot could not draw %s\n%s", g->file,
                 code == 0 && !whole ? "hint: is the disk full?\n" : "");
     }
     fclose(g->drawn);
     fclose(g->said);
-    return drawn;
+    return drawn && kept;
 }

@@ -11,6 +11,7 @@
 
 #include "host/base/room.h"
 #include "host/base/utf8.h"
+#include "host/base/written.h"
 #include "host/number/decimal.h"
 
 void plot_run_open(plot_run *run, const char *title, const char *label, int columns) {
@@ -86,7 +87,7 @@ bool plot_run_about(const char *csv, const plot_run *run, const char *facts, con
     char *file = room_words("%s.toml", csv);
     char *title = plot_run_quoted(run->title);
     char *label = plot_run_quoted(run->label);
-    FILE *to = fopen(file, "wb");
+    FILE *to = written_open(file);
     bool good = false;
     if (to != NULL) {
         fprintf(to, "%stitle = %s\nlabel = %s\n", facts, title, label);
@@ -101,8 +102,7 @@ bool plot_run_about(const char *csv, const plot_run *run, const char *facts, con
         write_texts(to, run, true);
         write_texts(to, run, false);
         fputs(tables, to);
-        good = ferror(to) == 0;
-        good = fclose(to) == 0 && good;
+        good = written_close(to, file, true);
     }
     free(file);
     free(title);

@@ -216,7 +216,7 @@ static void csv_row(FILE *out, const trials *t, const table_row *row, const tabl
     free(derive);
 }
 
-bool table_csv(FILE *out, const trials *t, const table *made, const table_words *words) {
+void table_csv(FILE *out, const trials *t, const table *made, const table_words *words) {
     fputs("front,error,error_unit,error_basis,error_bound,component,price_per_s,price_of,"
           "price_basis,price_fitted_to,price_least,price_most,step_s",
           out);
@@ -229,5 +229,4 @@ bool table_csv(FILE *out, const trials *t, const table *made, const table_words 
     for (int i = 0; i < made->count; i++) {
         csv_row(out, t, &made->row[i], words);
     }
-    return fflush(out) == 0 && ferror(out) == 0;
 }

@@ -15,8 +15,7 @@ typedef struct table_words {
 extern const char *const table_heads[];
 
 void table_print(FILE *out, const trials *t, const table *made, const table_words *words);
-/* False when writing failed. */
-bool table_csv(FILE *out, const trials *t, const table *made, const table_words *words);
+void table_csv(FILE *out, const trials *t, const table *made, const table_words *words);
 /* Error against price, a line for each method or matrix and number at its cheapest form but tables, and the front. False,
  * told. */
 bool table_plot(const char *file, const trials *t, const table *made);

@@ -16,7 +16,7 @@
 #include "faint.h"
 #include "host/base/room.h"
 #include "host/base/statement.h"
-#include "host/base/unwritten.h"
+#include "host/base/written.h"
 #include "host/plot/gnuplot.h"
 #include "narrow.h"
 #include "opening.h"
@@ -62,27 +62,9 @@ static double now_s(void) {
 /* True when the file is open or there is none to open. */
 static bool open_records(const char *name, FILE **file) {
     if (name != NULL) {
-        *file = strcmp(name, "-") == 0 ? stdout : fopen(name, "wb");
-        if (*file == NULL) {
-            unwritten_say(name);
-        }
+        *file = written_open(name);
     }
     return name == NULL || *file != NULL;
-}
-
-/* Standard output is the same for all commands: the program looks at it when all is said (host/whirl.c). */
-static bool flush_records(const char *name, FILE *file) {
-    if (file != NULL && file != stdout && (fflush(file) != 0 || ferror(file) != 0)) {
-        unwritten_say(name);
-        return false;
-    }
-    return true;
-}
-
-static void close_records(FILE *file) {
-    if (file != NULL && file != stdout) {
-        fclose(file);
-    }
 }
 
 static bool open_files(simulation *sim) {
@@ -103,13 +85,8 @@ static bool open_files(simulation *sim) {
         !open_records(s->vcd, &sim->vcd)) {
         return false;
     }
-    if (s->plot != NULL) {
-        FILE *try = fopen(s->plot, "wb");
-        if (try == NULL) {
-            unwritten_say(s->plot);
-            return false;
-        }
-        fclose(try);
+    if (!written_can(s->plot)) {
+        return false;
     }
     if (s->plot != NULL || s->taken != NULL) {
         sim->plot = envelope_new(sim->records->columns, plot_is_path(&s->choice));
@@ -373,32 +350,39 @@ static bool write_about(const simulation *sim) {
     char *facts = about_facts(sim->image, sim->settings->kind, sim->run);
     char *tables = about_tables(sim->image);
     const bool written = plot_run_about(sim->settings->csv, &sim->course, facts, tables);
-    if (!written) {
-        char *name = room_words("%s.toml", sim->settings->csv);
-        unwritten_say(name);
-        free(name);
-    }
     free(facts);
     free(tables);
     return written;
 }
 
+/* Whether all of it is on its way. Standard output is checked at the program's end. */
+static bool is_taken(FILE *file) {
+    return file == NULL || file == stdout || (fflush(file) == 0 && ferror(file) == 0);
+}
+
+/* All of the records and the file about them, or none, replace the old ones. */
+static bool close_records(simulation *sim, bool keep) {
+    const simulation_settings *s = sim->settings;
+    struct stat there;
+    keep = keep && is_taken(sim->csv) && is_taken(sim->columns) && is_taken(sim->vcd);
+    bool good = !keep || sim->csv == NULL || sim->csv == stdout ||
+                fstat(fileno(sim->csv), &there) != 0 || !S_ISREG(there.st_mode) || write_about(sim);
+    keep = keep && good;
+    good = written_close(sim->csv, s->csv, keep) && good;
+    good = written_close(sim->columns, s->columns, keep) && good;
+    return written_close(sim->vcd, s->vcd, keep) && good;
+}
+
 /* The picture, or what it is made of for the caller. */
 static bool finish_course(simulation *sim) {
-    struct stat about;
-    bool good = true;
-    sim->course.trusted_s = sim->settings->trusted_s;
-    if (sim->csv != NULL && sim->csv != stdout && fstat(fileno(sim->csv), &about) == 0 &&
-        S_ISREG(about.st_mode)) {
-        good = write_about(sim);
-    }
     if (sim->plot != NULL) {
         sim->course.data = envelope_rows(sim->plot, &sim->course.rows);
     }
-    if (good && sim->settings->taken != NULL) {
+    bool good = true;
+    if (sim->settings->taken != NULL) {
         *sim->settings->taken = sim->course;
         sim->course = (plot_run){0};
-    } else if (good && sim->settings->plot != NULL) {
+    } else if (sim->settings->plot != NULL) {
         good = plot_draw("run", sim->settings->plot, &sim->settings->choice, &sim->course, 1);
     }
     return good;
@@ -454,13 +438,9 @@ simulation_result simulate(const image *im, const simulation_settings *s, bool *
         verdict_end(sim.verdict, sim.run, status != WH_OK, s->stop);
         result = judge(&sim, status, interrupted);
         *against = sim.verdict->against != 0 || sim.few_digits;
-        const bool csv_written = flush_records(s->csv, sim.csv);
-        const bool columns_written = flush_records(s->columns, sim.columns);
         traces_close(sim.traces);
-        const bool traces_written = flush_records(s->vcd, sim.vcd);
-        if (!csv_written || !columns_written || !traces_written) {
-            result = SIMULATION_BAD_FILE;
-        }
+        sim.course.trusted_s = s->trusted_s;
+        result = close_records(&sim, true) ? result : SIMULATION_BAD_FILE;
         if (status == WH_OK && interrupted) {
             say_interrupted(&sim);
         }
@@ -474,10 +454,9 @@ simulation_result simulate(const image *im, const simulation_settings *s, bool *
         }
         s->kind->stop(sim.run);
         diags_free(sim.undefined);
+    } else {
+        (void)close_records(&sim, false);
     }
-    close_records(sim.csv);
-    close_records(sim.columns);
-    close_records(sim.vcd);
     verdict_close(sim.verdict);
     records_close(sim.records);
     envelope_free(sim.plot);

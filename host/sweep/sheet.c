@@ -10,7 +10,7 @@
 
 #include "host/base/exit.h"
 #include "host/base/room.h"
-#include "host/base/unwritten.h"
+#include "host/base/written.h"
 
 static int refuse(const char *path, const char *why) {
     fprintf(stderr, "%s: error: %s\nhint: another --csv keeps it; --fresh overwrites it\n", path,
@@ -45,15 +45,12 @@ static char *read_text(const char *path) {
     return text;
 }
 
-/* A crash must not leave half of it: written beside, then put in place. */
 static bool write_fingerprint(const sheet_settings *s, const char *path) {
-    char *fresh = beside(path, ".new");
-    FILE *out = fopen(fresh, "wb");
-    bool good = out != NULL && fputs(s->fingerprint, out) >= 0;
-    good = out != NULL && fclose(out) == 0 && good;
-    good = good && rename(fresh, path) == 0;
-    free(fresh);
-    return good;
+    FILE *out = written_open(path);
+    if (out != NULL) {
+        fputs(s->fingerprint, out);
+    }
+    return out != NULL && written_close(out, path, true);
 }
 
 static int line_length(const char *text) { return (int)strcspn(text, "\n"); }
@@ -175,7 +172,7 @@ static int go_on(sheet *sh, const sheet_settings *s, const char *beside_path, of
         return cannot_write(s->path);
     }
     if (!write_fingerprint(s, beside_path)) {
-        return cannot_write(beside_path);
+        return EXIT_RUN_FAILED;
     }
     if (ftruncate(fileno(sh->out), whole) != 0 || fseeko(sh->out, whole, SEEK_SET) != 0) {
         return cannot_write(s->path);

@@ -205,7 +205,7 @@ void horizon_print_line(FILE *out, const horizon *h, bool doubted) {
     }
 }
 
-bool horizon_write(FILE *out, const horizon *h) {
+void horizon_write(FILE *out, const horizon *h) {
     static const char *const verdicts[] = {[HORIZON_TO_THE_END] = "end",
                                            [HORIZON_UNTIL] = "until",
                                            [HORIZON_STILL] = "still",
@@ -219,5 +219,4 @@ bool horizon_write(FILE *out, const horizon *h) {
                 h->of->shape->column[k].unit->shown, verdicts[c->verdict], c->until_s, c->range,
                 c->off);
     }
-    return ferror(out) == 0;
 }

@@ -10,7 +10,7 @@
 void horizon_print(FILE *out, const horizon *h);
 /* One line, for a summary. `doubted`: something is said against the run, which the runs beside it may share. */
 void horizon_print_line(FILE *out, const horizon *h, bool doubted);
-/* A header, and a row for each coordinate and rate. False when writing failed. */
-bool horizon_write(FILE *out, const horizon *h);
+/* A header, and a row for each coordinate and rate. */
+void horizon_write(FILE *out, const horizon *h);
 
 #endif

@@ -29,7 +29,6 @@ refused() {
     verdict $? "$what"
 }
 refused "columns: a file that cannot be made" --columns "$scratch/missing/run.txt"
-refused "columns: a full disc" --columns /dev/full
 refused "columns: not the same file as --csv" --csv - --columns -
 # The last state is recorded whatever the spacing, once.
 for every in 1 2 3 7 13 125 333 999 1000 1001 5000; do

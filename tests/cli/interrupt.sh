@@ -36,7 +36,7 @@ whole() {
 for signal in INT TERM; do
     for quiet in '' --quiet; do
         # shellcheck disable=SC2086 # perhaps no word
-        stop $signal "$scratch/r.csv" run epicyclic_from_rest --until 1000000s --csv "$scratch/r.csv" $quiet
+        stop $signal "$scratch/r.csv.part" run epicyclic_from_rest --until 1000000s --csv "$scratch/r.csv" $quiet
         name="run, $signal${quiet:+, }$quiet"
         [ "$code" -eq 130 ]
         verdict $? "$name: exit status 130"
@@ -55,7 +55,7 @@ for signal in INT TERM; do
 done
 
 # the state that was reached is that of a run to there
-stop INT "$scratch/r.dat" run epicyclic_from_rest --until 1000000s --columns "$scratch/r.dat"
+stop INT "$scratch/r.dat.part" run epicyclic_from_rest --until 1000000s --columns "$scratch/r.dat"
 said "$scratch/r.dat" 1000000
 verdict $? "run, columns: says at what time"
 check "run, columns: the records are whole" whole "$scratch/r.dat" ' ' 0.001

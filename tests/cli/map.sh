@@ -114,7 +114,7 @@ done
 # shellcheck disable=SC2086
 refused 2 'map.svg: error: cannot be written' $spring $slow --plot "$scratch/none/map.svg"
 # shellcheck disable=SC2086
-refused 2 'draws .svg and .png files' $spring $slow --plot map.pdf
+refused 2 'draws .svg, .pdf and .png files' $spring $slow --plot map.gif
 # shellcheck disable=SC2086
 refused 2 'cannot share a file' $spring $slow --plot "$scratch/map.svg" --csv "$scratch/map.svg"
 cp $spring "$scratch/mine.whirl"

@@ -131,11 +131,11 @@ for kind in svg png; do
     blocks=$((($(wc -c <"$scratch/whole.$kind") - 1) / 512))
     for most in 1 $((blocks / 2)) $blocks; do # the last one lacks less than 512 bytes
         (
-            trap '' XFSZ
             ulimit -f "$most"
             "$whirl" run epicyclic_from_rest --until 1s --quiet --plot "$scratch/half.$kind"
         ) 2>"$scratch/err"
-        [ $? -eq 2 ] && grep -q "could not draw $scratch/half.$kind" "$scratch/err"
+        [ $? -eq 1 ] && grep -qE "could not draw $scratch/half.$kind|half.$kind: error: cannot be written" "$scratch/err" &&
+            [ ! -e "$scratch/half.$kind" ]
         verdict $? "$most of $blocks blocks of a picture are none: $kind" "$scratch/err"
     done
 done

@@ -161,7 +161,7 @@ proved '^proved to the end, t = 10 s$' tests/mechanisms/double_pendulum.whirl # 
 for signal in INT TERM; do
     "$whirl" prove thomson_a --csv "$scratch/i.csv" >"$scratch/out" 2>"$scratch/err" &
     process=$!
-    await has_bytes 200000 "$scratch/i.csv"
+    await has_bytes 200000 "$scratch/i.csv.part"
     kill -$signal $process
     wait $process
     [ $? -eq 130 ] && grep -q '^whirl prove: interrupted at t = [0-9.]* s of 10 s$' "$scratch/err" &&

@@ -81,14 +81,14 @@ verdict $? "a system of first order in float: status 1, records well formed"
 
 if [ -e /dev/full ]; then
     run thomson_a --until 2s --quiet --csv /dev/full
-    [ $? -eq 2 ] && grep -q '^/dev/full: error: cannot be written: ' "$scratch/err"
+    [ $? -eq 1 ] && grep -q '^/dev/full: error: cannot be written: ' "$scratch/err"
     verdict $? "a full disc is told"
 fi
 
 # --- interrupted --------------------------------------------------------------------------------------------
 "$whirl" run thomson_b --until 1e6s --csv "$scratch/i.csv" >"$scratch/out" 2>"$scratch/err" &
 pid=$!
-await test -s "$scratch/i.csv"
+await test -s "$scratch/i.csv.part"
 kill -INT $pid
 wait $pid
 [ $? -eq 130 ] && grep -q '^state hash ' "$scratch/out"
