@@ -217,8 +217,9 @@ static int map_loaded(const map_options *o, const map_wish *plan, const image *b
     wish.told = (void *)(uintptr_t)plan->grid;
     wish.progress = !o->quiet && isatty(STDERR_FILENO) ? show_progress : NULL;
     wish.stop = &interrupted;
-    char *words = room_words("%s: %s%s, %s, tolerance %g", base->name, image_stepper(base),
-                             image_sums(base), wish.kind->name, o->tolerance);
+    char *words = room_words("%s: %s%s, %s, tolerance %g",
+                             base->title[0] != '\0' ? base->title : base->name,
+                             image_stepper(base), image_sums(base), wish.kind->name, o->tolerance);
     interrupts_catch();
     stability_map m = map_make(&wish);
     if (wish.progress != NULL) {

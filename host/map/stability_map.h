@@ -20,11 +20,11 @@
 
 /* What becomes of a run, from good to bad. X(id, mark, word, words) */
 #define MAP_VERDICT_ROWS(X) \
-    X(MAP_KEEPS, '.', "keeps", "right to the tolerance, to its end") \
-    X(MAP_OFF, 'o', "off", "bounded, and off by more than the tolerance before its end") \
+    X(MAP_KEEPS, '.', "keeps", "accurate to the tolerance until its end") \
+    X(MAP_OFF, 'o', "off", "bounded, but its error exceeds the tolerance before its end") \
     X(MAP_LOSES, 'x', "loses", \
-      "bounded, and more than a thousandth of its energy is not accounted for") \
-    X(MAP_DIVERGES, '#', "diverges", "out of all bounds, or a rate a hundred times its range off") \
+      "bounded, but more than a thousandth of its energy is unaccounted for") \
+    X(MAP_DIVERGES, '#', "diverges", "out of all bounds, or the error of a rate exceeds a hundred times its range") \
     X(MAP_NONE, '-', "none", "no such run: its values are refused") \
     X(MAP_UNTRIED, '?', "untried", "interrupted before it was run")
 #define MAP_VERDICT_ID(id, mark, word, words) id,

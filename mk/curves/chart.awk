@@ -3,9 +3,9 @@
 #   awk -F, -v scene=SCENE -v boards="BOARD..." -f words.awk -f chart.awk ROWS.csv    a panel for each board
 #   awk -F, -v scene=SCENE -v fronts="BOARD..." -f words.awk -f chart.awk PRICE.csv   one panel: the boards' fronts alone
 #
-# A panel shows each method, a colour and a shape (host/plot/palette.h), in each number, a dash, by steps from coarse to
-# fine, in the cheapest form of what
-# else can be set; and the front. ROWS.csv is of curves.sh, PRICE.csv of published.awk.
+# A panel shows the front and the seven settings with the most rows on it: each method with its colour and shape
+# (host/plot/palette.h), each number with its dash, by steps from coarse to fine, in the cheapest form of the other
+# choices. ROWS.csv is of curves.sh, PRICE.csv of published.awk. Text to draw: `title`.
 
 BEGIN {
     colour_count = split(colours, colour, " ")
@@ -36,8 +36,9 @@ fronts != "" || field("front") == 1 {
 
 fronts == "" && y <= 1 && y >= 1e-10 {
     series = field("method") SUBSEP field("number")
-    if (!(field("method") in seen)) { seen[field("method")] = method[++drawn_methods] = field("method") }
-    if (!(field("number") in seen)) { seen[field("number")] = number[++numbers] = field("number") }
+    if (!((b, series) in hits)) { hits[b, series] = 0; line[b, ++lines[b]] = series }
+    hits[b, series] += field("front") == 1
+    if (!(field("number") in dash)) { dash[field("number")] = ++numbers }
     # rows come by rising price
     if (!((b, series, field("step_s")) in drawn)) {
         drawn[b, series, field("step_s")] = 1
@@ -57,15 +58,10 @@ function data(name, rows) {
 
 function axes(what) {
     print "set xlabel " quoted(what) " noenhanced"
-    print "set ylabel " quoted("error, part of the largest value, to " until_s " s") " noenhanced"
+    print "set ylabel " quoted("largest error / largest value, to " until_s " s") " noenhanced"
     print "set logscale xy"
     print "set format '10^{%L}'"
     print "set yrange [1e-10:1]"
-}
-
-# "thomson_a+4s": a part of the motion.
-function titled(scene) {
-    return index(scene, "+") ? substr(scene, 1, index(scene, "+") - 1) ", to " until_s " s" : scene
 }
 
 # Colour and shape of a method (host/plot/palette.h).
@@ -73,20 +69,23 @@ function look(name) {
     return "pt " point[(place[name] - 1) % shape_count + 1] " lc rgb '" colour[(place[name] - 1) % colour_count + 1] "'"
 }
 
-function panel(b,    i, k, n, plot) {
+# The series of that panel with the most rows on the front; "" if each is drawn already.
+function next_series(b,    i, best) {
+    for (i = 1; i <= lines[b]; i++) {
+        if (!((b, line[b, i]) in shown) && (best == "" || hits[b, line[b, i]] > hits[b, best])) { best = line[b, i] }
+    }
+    if (best != "") { shown[b, best] = 1 }
+    return best
+}
+
+function panel(b,    k, n, plot, series, part) {
     data("front", front[b])
     plot = "$front using 1:2 with lines lw 4 lc rgb '#767676' title 'front: the least error for its price'"
-    for (i = 1; i <= numbers; i++) {
-        for (k = 1; k <= drawn_methods; k++) {
-            if ((b, method[k], number[i]) in points) {
-                data("d" (++n), points[b, method[k], number[i]])
-                plot = plot ", \\\n     $d" n " using 1:2 with linespoints lw 0.8 ps 0.6 dt " i " " look(method[k]) " notitle"
-            }
-        }
-        plot = plot ", \\\n     keyentry with lines lw 2 dt " i " lc rgb '#767676' title " quoted(number[i])
-    }
-    for (k = 1; k <= drawn_methods; k++) {
-        plot = plot ", \\\n     keyentry with points ps 0.8 " look(method[k]) " title " quoted(method[k])
+    for (k = 1; k <= 7 && (series = next_series(b)) != ""; k++) {
+        split(series, part, SUBSEP)
+        data("d" (++n), points[b, series])
+        plot = plot ", \\\n     $d" n " using 1:2 with linespoints lw 1 ps 0.6 dt " dash[part[2]] " " look(part[1]) \
+            " title " quoted(part[1] ", " part[2])
     }
     plot = plot ", \\\n     $front using 1:2 with points pt 6 ps 1.3 lw 1.5 lc rgb '#000000' title " \
         quoted("on the front, " ends[b])
@@ -116,10 +115,11 @@ END {
     print "set lmargin 12"
     if (fronts != "") {
         print "set key inside bottom left Left reverse samplen 2 font ',12' noenhanced"
+        print "set title " quoted(title) " noenhanced"
         lines_of_boards()
     } else {
-        print "set key outside right top samplen 2 font ',12' noenhanced"
-        print "set multiplot layout " panels ",1 title " quoted(titled(scene) ": error against price") " noenhanced"
+        print "set rmargin 34\nset key at graph 1.02,1 left top Left reverse samplen 2 font ',12' noenhanced"
+        print "set multiplot layout " panels ",1 title " quoted(title) " noenhanced"
         for (i = 1; i <= panels; i++) { panel(board[i]) }
         print "unset multiplot"
     }

@@ -108,6 +108,27 @@ verdict $? "4000 swings in 400000 steps: drawn as the band that they fill ($(cat
 "$whirl" run "$scratch/swings.whirl" --quiet --until 0 --plot "$scratch/point.svg"
 check "a single point is drawn" grep -q "<use xlink:href='#gpPt6'.*/>" "$scratch/point.svg"
 
+# --- the pictures of the pages: the palette's colours alone, a title and a text in words ----------------------------------
+allowed=$(grep -o '"#[0-9a-f]\{6\}"' host/plot/palette.h | tr -d '"#')
+[ "$(echo "$allowed" | wc -l)" -ge 15 ]
+verdict $? "the palette is read" /dev/null
+# of one picture: each colour that no palette has, and what is missing
+foreign() {
+    grep -o "rgb([ 0-9,]*)" "$1" | sort -u | tr -d 'rgb() ' | awk -F, '{ printf "%02x%02x%02x\n", $1, $2, $3 }' | grep -vxF "$allowed
+000000"
+    grep -q '^<title>..*</title>' "$1" && ! grep -qE '^<title>(Gnuplot|[^<]*([a-z]{3}/[a-z]{3}|[.]whirl)[^<]*)</title>' "$1" || echo "no title in words"
+    grep -q '^<desc>..*</desc>' "$1" && ! grep -q '^<desc>Produced by GNUPLOT' "$1" || echo "no alternative text"
+}
+sh mk/curves/chart.sh "$scratch/fronts.svg" docs/figures/price.csv epicyclic_from_rest fronts mps2-an386 atmega328p 2>"$scratch/err"
+for picture in "$scratch/fronts.svg" docs/figures/fi*.svg docs/figures/map_*.svg docs/figures/hard/*.svg; do
+    foreign "$picture" >"$scratch/said"
+    [ ! -s "$scratch/said" ]
+    verdict $? "${picture##*/}: the palette's colours, a title, a text" "$scratch/said"
+done
+foreign docs/figures/price.csv >"$scratch/said"
+[ "$(wc -l <"$scratch/said")" -eq 2 ]
+verdict $? "and a picture without them is seen" "$scratch/said"
+
 # --- gnuplot's own words: a stand-in that warns, and one that fails -----------------------------------
 mkdir "$scratch/bin"
 for code in 0 1; do
