@@ -17,7 +17,8 @@ $(ELF)/rig_steps.elf: BOARD_LDFLAGS := $(BOARD_FLASHED_LDFLAGS)
 endif
 
 .PHONY: rig-now rig-steps-now rig-truth-now faults-now
-rig-now: $(GEN)/.stamp
+rig-now:
+	$(staged)
 ifeq ($(ASKED_BOARD),)
 	@$(MAKE) $(B)/station
 	@exec $(B)/station

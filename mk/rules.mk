@@ -15,6 +15,9 @@ Q := @
 say = @said() { if [ -t 1 ]; then printf '\033[K  %-5s %s\r' "$$@"; elif [ "$$1" = LINK ]; then printf '  %-5s %s\n' "$$@"; fi; }; said
 endif
 
+# A long target tells its stages, in a log as well.
+stage = @[ ! -t 1 ] || printf '\033[K'; echo "$(1)"
+
 comma := ,
 WARN := -Wall -Wextra -Wconversion -Wshadow -Wdouble-promotion -Wswitch-enum
 # One arithmetic everywhere: no contraction to fused multiply-adds, no -ffast-math.

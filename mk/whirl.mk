@@ -82,11 +82,18 @@ $(foreach b,host float double $(BOARD),$(patsubst %,$(B)/$(b)/%.o,boards/program
     $(addprefix tests/core/,fed_rotor test_rig_bounds test_rig_observed test_rig_observer test_scenes))): \
     | $(GEN)/.stamp
 
+define staged
+	$(call stage,1 of 2: the program$(comma) and the built-in scenes as C)
+	@$(MAKE) $(GEN)/.stamp
+	$(call stage,2 of 2: the firmware with all scenes$(comma) some minutes the first time)
+endef
+
 # --- make run -----------------------------------------------------------------------------------
 # The third is for the commands of README.md.
 RUN_IMAGES = $(addprefix $(ELF)/,scenes.elf firmware.elf pil_rig.elf)
 .PHONY: run-now
-run-now: $(GEN)/.stamp
+run-now:
+	$(staged)
 	@$(MAKE) $(RUN_IMAGES)
 	@[ ! -t 1 ] || printf "\033[K"
 	@sh mk/demo/run.sh build/whirl $(ELF)/scenes.elf $(ELF)/firmware.elf \

@@ -95,4 +95,10 @@ for target in run test check bench size figures emulate hashes; do
     env -u MAKELEVEL -u MFLAGS MAKEFLAGS= make -n "$target" 2>/dev/null | head -n 1 | grep -q 'mk/setup/deps.sh'
     verdict $? "make $target looks first at what is there" /dev/null
 done
+# --- long targets tell their stages --------------------------------------------------------------------------------------
+for goal in rig-now run-now; do
+    env -u MAKEFLAGS -u MAKELEVEL make -n $goal 2>&1 | grep -o 'echo "[0-9] of [0-9]: .*' >"$said"
+    [ "$(cut -c7 "$said" | tr -d '\n')" = 12 ] && ! grep -v ' of 2: ' "$said"
+    verdict $? "make ${goal%-now} tells its stages" "$said"
+done
 exit $failed
