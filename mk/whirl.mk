@@ -84,7 +84,7 @@ $(foreach b,host float double $(BOARD),$(patsubst %,$(B)/$(b)/%.o,boards/program
 
 define staged
 	$(call stage,1 of 2: the program$(comma) and the built-in scenes as C)
-	@$(MAKE) $(GEN)/.stamp
+	+@$(MAKE) $(GEN)/.stamp
 	$(call stage,2 of 2: the firmware with all scenes$(comma) some minutes the first time)
 endef
 
