@@ -7,8 +7,9 @@
 #include "host/base/room.h"
 #include "show_equations.h"
 
-/* Visible characters of a line, and of the narrowest sum that is broken. */
-enum { LINE_WIDTH = 100, NARROWEST = 24, LEFT_WIDTH = 40 };
+/* Widths in points of type of 10 pt. A line of LaTeX's article is 345 pt wide, 25 of which hold the equation's number.
+ * NARROWEST: of a sum that is broken. */
+enum { LINE_WIDTH = 320, NARROWEST = 100, LEFT_WIDTH = 150, EQUALS = 14, SIGN = 13, QUAD = 10 };
 
 /* A part of a text. */
 typedef struct span {
@@ -83,7 +84,7 @@ static int width_of_command(span *s) {
     }
     const span of = {name, name + length};
     if (length == 0) { /* a thin space, an underscore */
-        const int width = *name != ',';
+        const int width = *name == ',' ? 2 : 5;
         s->from = name + 1;
         return width;
     }
@@ -91,18 +92,19 @@ static int width_of_command(span *s) {
     if (begins(of, "frac")) {
         const char *middle = behind_group(*s);
         const char *end = behind_group((span){middle, s->end});
-        const int width = larger(width_of((span){s->from, middle}), width_of((span){middle, end}));
+        const int width =
+            3 + larger(width_of((span){s->from, middle}), width_of((span){middle, end}));
         s->from = end;
         return width;
     }
     static const char *const named[] = {"sin", "cos", "tan", "exp", "min", "max"};
     for (size_t i = 0; i < sizeof named / sizeof named[0]; i++) {
         if (begins(of, named[i])) {
-            return (int)length;
+            return 6 * (int)length + 2;
         }
     }
     if (begins(of, "quad")) {
-        return 2;
+        return QUAD;
     }
     static const char *const empty[] = {"left", "right", "mathrm", "operatorname", "dot", "ddot"};
     for (size_t i = 0; i < sizeof empty / sizeof empty[0]; i++) {
@@ -110,7 +112,18 @@ static int width_of_command(span *s) {
             return 0;
         }
     }
-    return 1;
+    return begins(of, "sqrt") ? 9 : begins(of, "times") ? SIGN : 7;
+}
+
+/* Rather too wide; scripts as wide as what carries them. */
+static int width_of_character(char c) {
+    return strchr("+-", c) != NULL         ? SIGN
+           : c == '='                      ? EQUALS
+           : strchr(" {}&\n^_", c) != NULL ? 0
+           : strchr("mMwW", c) != NULL     ? 10
+           : isupper((unsigned char)c)     ? 9
+           : isdigit((unsigned char)c)     ? 5
+                                           : 6;
 }
 
 static int width_of(span s) {
@@ -119,7 +132,7 @@ static int width_of(span s) {
         if (*s.from == '\\') {
             width += width_of_command(&s);
         } else {
-            width += strchr("+-=", *s.from) != NULL ? 3 : strchr(" {}&\n^_", *s.from) == NULL;
+            width += width_of_character(*s.from);
             s.from++;
         }
     }
@@ -195,7 +208,7 @@ static char *rows_of(span s, int limit, bool factors) {
     char *text;
     size_t length;
     FILE *out = room_text(&text, &length);
-    const int indent = factors ? 4 : 2; /* of the rows behind the first */
+    const int indent = factors ? QUAD + SIGN : QUAD; /* of the rows behind the first */
     int width = 0;
     for (const char *at = s.from; at < s.end;) {
         const char *next = next_break((span){at, s.end}, factors);
@@ -240,20 +253,20 @@ static void put_row(FILE *out, const char *row) {
     const char *sign = strstr(row, " &= ");
     const span left = {row, sign};
     const span right = {sign + strlen(" &= "), row + strlen(row)};
-    if (width_of(left) + width_of(right) + 3 <= LINE_WIDTH) {
+    if (width_of(left) + width_of(right) + EQUALS <= LINE_WIDTH) {
         fputs(row, out);
         return;
     }
     if (width_of(left) <= LEFT_WIDTH) {
-        char *lines = broken(right, LINE_WIDTH - width_of(left) - 3);
+        char *lines = broken(right, LINE_WIDTH - width_of(left) - EQUALS);
         fprintf(out, "%.*s &= %s", (int)(sign - row), row, lines);
         free(lines);
         return;
     }
     const bool sums[2] = {next_break(left, false) == left.end,
                           next_break(right, false) == right.end};
-    char *lines[2] = {rows_of(left, LINE_WIDTH - 3, sums[0]),
-                      rows_of(right, LINE_WIDTH - 3, sums[1])};
+    char *lines[2] = {rows_of(left, LINE_WIDTH - EQUALS, sums[0]),
+                      rows_of(right, LINE_WIDTH - EQUALS, sums[1])};
     const char *first = lines[0] + strspn(lines[0], " ");
     fprintf(out, "  &\\begin{aligned}\n    & %s \\\\\n    &= %s\n  \\end{aligned}", first,
             lines[1]);

@@ -15,7 +15,7 @@ typedef struct reader {
     const char *at;
     const char *problem;
     int depth;
-    int width; /* of the row so far */
+    int width; /* of the row so far, in hundredths of a point */
 } reader;
 
 static void list(reader *r, char until);
@@ -45,6 +45,20 @@ static void argument(reader *r) {
     }
 }
 
+/* Of Computer Modern at 10 pt: cmmi10 a to z and A to Z, digits, and signs with their spaces, in hundredths of a point. */
+static int width_of(char c) {
+    static const int small[] = {529, 429, 433, 520, 466, 490, 477, 576, 345, 412, 521, 298, 878,
+                                600, 485, 503, 446, 451, 469, 361, 572, 485, 716, 572, 490, 465};
+    static const int large[] = {750, 759, 715, 828, 738, 643, 786, 831, 440, 555, 849, 681, 970,
+                                803, 763, 642, 791, 759, 613, 584, 683, 583, 944, 828, 581, 683};
+    return c >= 'a' && c <= 'z'   ? small[c - 'a']
+           : c >= 'A' && c <= 'Z' ? large[c - 'A']
+           : c == '+' || c == '-' ? 1222
+           : c == '='             ? 1333
+           : c == '(' || c == ')' ? 389
+                                  : 500;
+}
+
 /* The name behind the backslash is in hand. */
 static void command(reader *r, const char *name, size_t length) {
     static const struct {
@@ -69,16 +83,23 @@ static void command(reader *r, const char *name, size_t length) {
                 widest = r->width - before > widest ? r->width - before : widest;
             }
             const char *at = strstr(wide, known[i].name);
-            r->width = before + (known[i].arguments > 0 ? widest
-                                 : at != NULL           ? (int)length
-                                 : is_quad              ? 2
-                                                        : 1);
+            r->width = before + widest; /* a fraction's line and a root's sign, below, are wider */
+            for (size_t k = 0; at != NULL && k < length; k++) {
+                r->width += width_of(name[k]);
+            }
+            r->width += at != NULL                ? 167
+                        : is_quad                 ? 1000
+                        : name[0] == 't'          ? 1222
+                        : name[0] == 'f'          ? 240
+                        : name[0] == 's'          ? 833
+                        : known[i].arguments == 0 ? 531
+                                                  : 0;
             return;
         }
     }
     for (const char *at = greek; at != NULL; at = strchr(at + 1, ' ')) {
         if (strncmp(at + 1, name, length) == 0 && at[1 + length] == ' ') {
-            r->width++;
+            r->width += isupper((unsigned char)at[1]) ? 780 : 570;
             return;
         }
     }
@@ -103,7 +124,7 @@ static void nucleus(reader *r) {
             }
             list(r, ')');
             r->at += r->problem == NULL ? strlen("\\right)") : 0;
-            r->width += 2;
+            r->width += 2 * 597;
         } else if (strncmp(name, "begin{aligned}", 14) == 0) {
             r->at = name + 14;
             list(r, 'e');
@@ -112,10 +133,10 @@ static void nucleus(reader *r) {
             command(r, name, length);
         }
     } else if (c == '\\' && (r->at[1] == '_' || r->at[1] == ',')) {
-        r->width += r->at[1] == '_';
+        r->width += r->at[1] == '_' ? 500 : 167;
         r->at += 2;
     } else if (isalnum((unsigned char)c) || (c != '\0' && strchr("+-=/.,()", c) != NULL)) {
-        r->width += strchr("+-=", c) != NULL ? 3 : 1;
+        r->width += width_of(c);
         r->at++;
     } else {
         fail(r, "a character that means something else here");
@@ -157,7 +178,9 @@ static void list(reader *r, char until) {
             }
             *mine = true;
             r->at++;
+            const int before = r->width;
             argument(r);
+            r->width = before + (r->width - before) * 76 / 100; /* cmmi7 */
         }
     }
     r->depth--;
@@ -174,7 +197,7 @@ const char *latex_problem(const char *text, const char **at) {
 int latex_width(const char *text) {
     reader r = {text, NULL, 0, 0};
     list(&r, '\0');
-    return r.width;
+    return (r.width + 99) / 100;
 }
 
 char *latex_joined(const char *text) {

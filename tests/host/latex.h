@@ -8,7 +8,7 @@
  * *at where. `&` and `\\` may stand outside all braces. */
 const char *latex_problem(const char *text, const char **at);
 
-/* The visible characters of its widest row: a fraction is as wide as its wider side, a sign has a blank on both sides. */
+/* The width in points of its widest row, in Computer Modern of 10 pt: an independent count of host/show/show_break.c. */
 int latex_width(const char *text);
 
 /* The text with the rows of each `aligned` in one line, so that each equation is a line; to be freed. */
