@@ -212,7 +212,12 @@ bool statement_unknown(parser *in, unsigned where) {
         }
     }
     const char *first = first_word_hint(word.text, word.length);
-    if (first != NULL && !parser_is_sign(in, '=')) {
+    const bool sums = parser_is_sign(in, SIGN_PLUS_ASSIGN);
+    const char *energy =
+        sums || parser_is_sign(in, '=') ? energy_hint(word.text, word.length) : NULL;
+    if (energy != NULL && sums) {
+        snprintf(hint, sizeof hint, "%s", energy);
+    } else if (first != NULL && !parser_is_sign(in, '=')) {
         snprintf(hint, sizeof hint, "%s", first);
     } else if (search.best != NULL && !parser_is_sign(in, '=')) {
         snprintf(hint, sizeof hint, "did you mean '%s'?", search.best);
@@ -220,8 +225,9 @@ bool statement_unknown(parser *in, unsigned where) {
         snprintf(hint, sizeof hint, "begin with set or start, or end the line before with a comma");
     } else if (parser_is_sign(in, '=')) {
         const int length = word.length > 30 ? 30 : (int)word.length;
-        snprintf(hint, sizeof hint, "declare it: parameter %.*s = ..., or let %.*s = ...", length,
-                 word.text, length, word.text);
+        snprintf(hint, sizeof hint, "%s%sdeclare it: parameter %.*s = ..., or let %.*s = ...",
+                 energy != NULL ? energy : "", energy != NULL ? "; or " : "", length, word.text,
+                 length, word.text);
     }
     diag_error(in->diags, word.at, hint[0] == '\0' ? NULL : hint, "unknown statement %s", name);
     return false;

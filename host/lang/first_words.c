@@ -11,6 +11,22 @@
 #define COUNT "nothing counts in steps but: when x crosses 1 [m] rising { set x = 0 [m] }"
 #define TABLE "write a formula, or an input that firmware changes: input u = 0 [N]"
 
+const char *energy_hint(const char *text, size_t length) {
+    static const char *const rows[][2] = {
+        {" t k K Ek Ekin kinetic ", "the kinetic energy is T = ..."},
+        {" v u U Ep Epot potential ", "the potential energy is V = ..."},
+        {" f D dissipation ", "the dissipation function is F = ..."},
+        {" L lagrangian Lagrangian ", "write its parts, L = T - V: T = ... and V = ..."}};
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        for (const char *at = rows[i][0]; at[1] != '\0'; at = strchr(at + 1, ' ')) {
+            if (strncmp(at + 1, text, length) == 0 && at[1 + length] == ' ') {
+                return rows[i][1];
+            }
+        }
+    }
+    return NULL;
+}
+
 const char *first_word_hint(const char *text, size_t length) {
     static const struct {
         const char *word;

@@ -148,6 +148,8 @@ bool word_is_reserved(const char *text, size_t length);
 
 /* What to write for a word of other languages, such as "if", that has no meaning here; or NULL. */
 const char *first_word_hint(const char *text, size_t length);
+/* The energy that is usual under this name elsewhere, and its name here; or NULL. */
+const char *energy_hint(const char *text, size_t length);
 
 /* The word of a contact: "stop". */
 const char *contact_word(contact_kind kind);

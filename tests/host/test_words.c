@@ -82,6 +82,29 @@ static void test_a_misspelt_statement_is_offered_its_word(void) {
     }
 }
 
+/* What others call an energy, set or added to, alone and in an effect: T, V or F is named. */
+static void test_energies_by_other_names(void) {
+    static const char *const meant[][2] = {{"t", "T = ..."},       {"k", "T = ..."},
+                                           {"K", "T = ..."},       {"Ekin", "T = ..."},
+                                           {"kinetic", "T = ..."}, {"v", "V = ..."},
+                                           {"u", "V = ..."},       {"U", "V = ..."},
+                                           {"Epot", "V = ..."},    {"potential", "V = ..."},
+                                           {"f", "F = ..."},       {"D", "F = ..."},
+                                           {"L", "T = ... and V"}, {"lagrangian", "T = ... and V"}};
+    for (size_t i = 0; i < sizeof meant / sizeof meant[0]; i++) {
+        for (int form = 0; form < 3; form++) {
+            static const char *const forms[] = {"%s = 2 [J]", "%s += 2 [J]",
+                                                "effect e { %s += 2 [J] }"};
+            char line[80];
+            snprintf(line, sizeof line, forms[form], meant[i][0]);
+            const char *text = in_mechanism(line, "until 1 [s]");
+            const char *report = report_of_text(text);
+            expect_in(report, "unknown statement", text);
+            expect_in(report, meant[i][1], text);
+        }
+    }
+}
+
 /* Each word in each of the three blocks: read there, or refused by its name. */
 static void test_a_word_stands_only_where_its_row_says(void) {
     static const unsigned places[] = {IN_MECHANISM | IN_FILE, IN_EFFECT, IN_SCENE};
@@ -188,6 +211,7 @@ static void test_the_page_lists_every_unit(void) {
 void suite_words(void) {
     RUN_TEST(test_reserved_words_name_nothing);
     RUN_TEST(test_a_misspelt_statement_is_offered_its_word);
+    RUN_TEST(test_energies_by_other_names);
     RUN_TEST(test_a_word_stands_only_where_its_row_says);
     RUN_TEST(test_forms_are_good_statements);
     RUN_TEST(test_kinds_have_words);
