@@ -142,8 +142,10 @@ static bool find_pace(trials *t, const setting *s, deviation_pace *pace, trial_r
     double least = -1.0;
     double operations = 0.0; /* of all that were tried, and of the one that would be too many */
     bool ends_early = false;
+    int falls = 0; /* tries that had a smaller error than all before, */
+    int stuck = 0; /* and tries since then: round-off, if errors fell before */
     *longest = true;
-    for (int i = 0; i < PACES && !t->stopped; i++) {
+    for (int i = 0; i < PACES && !t->stopped && !(falls >= 3 && stuck >= 2); i++) {
         *pace = pace_at(i);
         if (pace->records > (uint64_t)t->records) {
             continue;
@@ -168,6 +170,9 @@ static bool find_pace(trials *t, const setting *s, deviation_pace *pace, trial_r
             least = least < 0.0 || r->error < least ? r->error : least;
             break;
         }
+        const bool fell = r->ran && r->usable && (least < 0.0 || r->error < 0.7 * least);
+        falls += fell ? 1 : 0;
+        stuck = fell ? 0 : stuck + 1;
         least = r->ran && r->usable && (least < 0.0 || r->error < least) ? r->error : least;
     }
     if (t->stopped) {
@@ -180,6 +185,7 @@ static bool find_pace(trials *t, const setting *s, deviation_pace *pace, trial_r
     }
     char text[TRIAL_TIME];
     char early[160] = "";
+    const bool rounds = falls >= 3 && stuck >= 2;
     if (ends_early) {
         snprintf(
             early, sizeof early,
@@ -188,13 +194,15 @@ static bool find_pace(trials *t, const setting *s, deviation_pace *pace, trial_r
     }
     fprintf(stderr,
             "whirl run: error: no step that was tried keeps the error: %s%s\n"
-            "hint: a --method of higher order%s; `whirl choose` tries every setting\n",
-            smallest, early, s->number == &engine_float ? ", or --number double" : "");
+            "hint: %s%s; `whirl choose` tries every setting\n",
+            smallest, rounds ? ", and shorter steps no longer reduce it: round-off" : early,
+            rounds ? "a larger --error" : "a --method of higher order",
+            s->number == &engine_float ? ", or --number double" : "");
     return false;
 }
 
-static int choose(FILE *out, pricing *p, const setting *s, const volatile sig_atomic_t *stop,
-                  char **step) {
+static int choose(pricing *p, const setting *s, const volatile sig_atomic_t *stop, char **step,
+                  char **chosen) {
     char text[TRIAL_TIME];
     int code = pricing_begin(p, pricing_spacing(p->until_s, PRICING_RECORDS), stop);
     if (code != EXIT_DONE) {
@@ -214,16 +222,15 @@ static int choose(FILE *out, pricing *p, const setting *s, const volatile sig_at
         return t->stopped ? EXIT_INTERRUPTED : EXIT_RUN_FAILED;
     }
     *step = room_words("%s", trial_time(trial_step(t, pace), text));
-    if (out != NULL) {
-        fprintf(out, "chosen step        %s s: error of %s at most %.2e %s until t = %.6g s%s\n\n",
-                *step, p->options->value[PRICING_OF], r.error, trial_unit(t), trial_horizon_s(t),
-                longest ? "; longer ones are not tried" : "");
-    }
+    *chosen = room_words("chosen step        %s s: error of %s at most %.2e %s until t = %.6g s%s",
+                         *step, p->options->value[PRICING_OF], r.error, trial_unit(t),
+                         trial_horizon_s(t), longest ? "; longer ones are not tried" : "");
     return EXIT_DONE;
 }
 
-int rating_choose(FILE *out, const common_options *common, const char *target, const char *error,
-                  const volatile sig_atomic_t *stop, source_model *from, char **step) {
+int rating_choose(const common_options *common, const char *target, const char *error,
+                  const volatile sig_atomic_t *stop, source_model *from, char **step,
+                  char **chosen) {
     const char *equals = strchr(error, '=');
     if (equals == NULL || equals == error || equals[1] == '\0' || common->change.step != NULL) {
         fputs(equals != NULL && common->change.step != NULL
@@ -243,7 +250,7 @@ int rating_choose(FILE *out, const common_options *common, const char *target, c
     o.value[PRICING_ERROR] = equals + 1;
     const setting s = {common->integration, common->number};
     int code = pricing_open(&p, &o);
-    code = code == EXIT_DONE ? choose(out, &p, &s, stop, step) : code;
+    code = code == EXIT_DONE ? choose(&p, &s, stop, step, chosen) : code;
     *from = p.from;
     p.from = (source_model){0};
     pricing_close(&p);

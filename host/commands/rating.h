@@ -26,9 +26,10 @@ typedef struct rating_wish {
 /* The rows, or a line that says why there are none. */
 void rating_say(FILE *out, const rating_wish *w, const trusting *trust, bool doubted);
 
-/* The largest step of a run that keeps `--error X=0.1mm`: *step, to be freed, and a line on `out` if that is not
- * NULL. Opens the target, as source_open() does. Returns an exit code. */
-int rating_choose(FILE *out, const common_options *common, const char *target, const char *error,
-                  const volatile sig_atomic_t *stop, source_model *from, char **step);
+/* The largest step of a run that keeps `--error X=0.1mm`: *step, and *chosen, the words for it; both to be
+ * freed. Opens the target, as source_open() does. Returns an exit code. */
+int rating_choose(const common_options *common, const char *target, const char *error,
+                  const volatile sig_atomic_t *stop, source_model *from, char **step,
+                  char **chosen);
 
 #endif

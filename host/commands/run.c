@@ -326,15 +326,16 @@ static int plan_of(image *im, const source_model *from, const simulation_setting
     return *plan != NULL ? EXIT_DONE : interrupted ? EXIT_INTERRUPTED : EXIT_BAD_INPUT;
 }
 
-/* The model; with --error also the step, *step to be freed. */
-static int open_source(run_options *o, source_model *from, char **step) {
+/* The model; with --error also the step and the words for it, to be freed. */
+static int open_source(run_options *o, source_model *from, char **step, char **chosen) {
     if (o->error == NULL) {
         return source_open(from, o->target);
     }
     interrupts_catch();
-    FILE *out = o->settings.quiet ? NULL : simulation_summary(&o->settings);
-    const int code = rating_choose(out, &o->common, o->target, o->error, &interrupted, from, step);
+    const int code =
+        rating_choose(&o->common, o->target, o->error, &interrupted, from, step, chosen);
     o->common.change.step = *step;
+    o->settings.chosen = *chosen;
     return code;
 }
 
@@ -343,7 +344,8 @@ static int run_target(run_options *o) {
     const mechanism *of;
     const scene *in;
     char *step = NULL;
-    int code = open_source(o, &from, &step);
+    char *chosen = NULL;
+    int code = open_source(o, &from, &step, &chosen);
     if (code == EXIT_DONE) {
         code = source_pick(&from, true, &of, &in);
     }
@@ -393,6 +395,7 @@ static int run_target(run_options *o) {
     }
     source_close(&from);
     free(step);
+    free(chosen);
     return code;
 }
 

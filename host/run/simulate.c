@@ -406,6 +406,11 @@ static void print_summary(simulation *sim, wh_status status, simulation_result r
         opening_enter(&sim->opening, sim->records);
         opening_print(out, &sim->opening, sim->records, sim->verdict->books);
     }
+    if (s->chosen != NULL) {
+        fprintf(out, "%s%s\n", s->chosen,
+                against ? "; chosen for this error alone, and the warning is about the whole motion"
+                        : "");
+    }
     summary_head(out, sim->image, s->kind, sim->run);
     if (s->changes != NULL && s->changes[0] != '\0') {
         fprintf(out, "  changed: %s\n", s->changes);

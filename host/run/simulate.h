@@ -17,6 +17,7 @@ typedef struct simulation_settings {
     const char *plot;    /* a picture (host/plot/gnuplot.h), or NULL */
     plot_choice choice;  /* of what it shows */
     plot_run *taken;     /* takes what a picture is made of in place of a picture; or NULL */
+    const char *chosen;  /* why this step, in words, or NULL */
     const char *changes; /* of the scene, in words, or NULL */
     bool quiet;
     double

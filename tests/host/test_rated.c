@@ -362,7 +362,14 @@ static bool check_chosen(dice *d, const rated *r) {
     }
     double step_s;
     double until_s;
-    said_number(what.out + strlen("chosen step"), &step_s);
+    const char *chosen =
+        strstr(what.out, "chosen step"); /* behind the reader's sentence, if there is one */
+    TEST_ASSERT_NOT_NULL_MESSAGE(chosen, what.out);
+    TEST_ASSERT_TRUE_MESSAGE(strchr(chosen, '\n') < strstr(what.out, " steps to t = "), what.out);
+    TEST_ASSERT_TRUE_MESSAGE((strstr(what.err, "warning") != NULL) <=
+                                 (strstr(chosen, "for this error alone") != NULL),
+                             what.err);
+    said_number(chosen + strlen("chosen step"), &step_s);
     said_number(strstr(what.out, "until t = ") + strlen("until t = "), &until_s);
     char about[RATED_TEXT + 300];
     snprintf(about, sizeof about, "%s%s %s, %s: %.100s", r->text, r->method, r->number, error,
@@ -414,6 +421,8 @@ static void test_a_run_without_rows_says_why(void) {
          RUN("thomson_a", "--error", "X=1mm", "--step", "1ms"));
     says(2, "hint: such as --error x=0.1mm", RUN("thomson_a", "--error", "1mm"));
     says(2, "Y is no output, coordinate or rate", RUN("thomson_a", "--error", "Y=1mm"));
+    says(1, "no longer reduce it: round-off",
+         RUN("thomson_a", "--error", "X=1e-15m", "--until", "2s"));
     says(2, "length", RUN("thomson_a", "--error", "X=1s"));
     says(2, "there is no board 'nix'", RUN("thomson_a", "--board", "nix"));
 #undef RUN
