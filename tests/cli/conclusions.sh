@@ -55,4 +55,10 @@ bad "a number too many" '2 numbers' "${row}run echo 1\ntake { print 1, 2 }\nwith
 bad "a row without tolerance" 'within what' "${row}run echo 1\ntake { print 1 }"
 bad "a verdict by hand" 'a verdict is computed' "${row}verdict holds"
 bad "an unknown field" 'no such field' "${row}runs echo 1"
+# The teacher's table says of each section what the list of all claims says there.
+awk -F ' [|] ' 'FNR == NR { if (/^[|]/) said[substr($1, 3), $6] = 1; next }
+    /^[|] (I|V)/ { rows++; if (!((substr($1, 3), $3) in said)) print $1 ": " $3 }
+    END { if (rows < 8) print rows " rows" }' docs/conclusions.md docs/howto/class.md >"$scratch/said"
+[ ! -s "$scratch/said" ]
+verdict $? "docs/howto/class.md has the verdicts of docs/conclusions.md" "$scratch/said"
 exit $failed
