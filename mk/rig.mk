@@ -8,8 +8,8 @@ ASKED_BOARD := $(if $(filter command environment,$(firstword $(origin BOARD))),$
 RIG_STEPS_AS := $(if $(filter -flto,$(BOARD_FLASHED_FLAGS)),$(FLASHED),$(BOARD))
 $(B)/rig_steps: $(call objects,float,boards/programs/rig_steps.c boards/host/board.c) $(call libraries,float,whirl rig virtual scenes)
 	$(link)
-$(ELF)/rig_steps.elf: $(call objects,$(RIG_STEPS_AS),boards/programs/rig_steps.c $(BOARD_SOURCES)) \
-    $(call libraries,$(RIG_STEPS_AS),whirl rig virtual scenes)
+$(ELF)/rig_steps.elf: $(call objects,$(RIG_STEPS_AS),boards/programs/rig_steps.c $(BOARD_SOURCES) $(GEN)/rig_observed.c $(GEN)/rig_fixed.c) \
+    $(call libraries,$(RIG_STEPS_AS),whirl rig virtual)
 	$(link_board)
 ifneq ($(RIG_STEPS_AS),$(BOARD))
 $(B)/$(FLASHED)/boards/programs/rig_steps.o: FILE_FLAGS += -fno-lto
