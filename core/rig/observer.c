@@ -109,7 +109,7 @@ void wh_observer_step(const wh_observer_config *config, wh_observer *observer, u
 
 wh_phase wh_observer_phase(const wh_observer *observer, uint32_t ticks) {
     if (observer->status != WH_OK) {
-        return wh_phase_at(WH_R(0.0));
+        return wh_phase_from_rad(WH_R(0.0));
     }
     wh_phase phase = wh_phase_of(observer->state.angle[0]);
     const wh_real way_rad = observer->state.real[0] * wh_rig_way_s(observer->ticks, ticks);
@@ -125,8 +125,8 @@ wh_real wh_observer_angle_rad(const wh_observer *observer, uint32_t ticks) {
 static void set_out(const wh_observer_config *config, wh_observer *observer, unsigned sensor,
                     uint32_t ticks) {
     const wh_real time_s = wh_rig_way_s(observer->mark_ticks, ticks);
-    wh_real turned_rad = signed_rad(wh_phase_at(config->mark_rad[sensor]) -
-                                    wh_phase_at(config->mark_rad[observer->mark_sensor]));
+    wh_real turned_rad = signed_rad(wh_phase_from_rad(config->mark_rad[sensor]) -
+                                    wh_phase_from_rad(config->mark_rad[observer->mark_sensor]));
     if (!(turned_rad > WH_R(0.0))) { /* the same sensor: a whole turn */
         turned_rad += WH_RIG_TWO_PI;
     }
@@ -167,8 +167,8 @@ WH_CALLED void wh_observer_mark(const wh_observer_config *config, wh_observer *o
         return;
     }
     if (observer->runs) {
-        observer->innovation_rad =
-            signed_rad(wh_phase_at(config->mark_rad[sensor]) - wh_observer_phase(observer, ticks));
+        observer->innovation_rad = signed_rad(wh_phase_from_rad(config->mark_rad[sensor]) -
+                                              wh_observer_phase(observer, ticks));
     }
     if (observer->runs && WH_ABS(observer->innovation_rad) <= config->lost_rad) {
         correct(config, observer, sensor);
