@@ -192,11 +192,12 @@ image-rules: board-images $(PIL_IMAGES) $(LIGHT_IMAGE)
 	    sh boards/check_image.sh $(IMAGES) $(PIL_IMAGES) $(LIGHT_IMAGE)
 
 # Boards with hardware of their own: what is flashed onto each, held to these rules, compiled and linted; its bytes and stack;
-# and one of them in the emulator, few cases.
+# and one of them in the emulator, few cases; its control steps, which are longer than those of mps2-an386.
 gate-flashed: $(GEN)/.stamp
 	+@$(foreach b,$(boards_flashed),$(call on_board,$(b),BOARD_EXTRA=-Werror flashed-rules tidy-board) &&) true
 	+@$(call on_board,netduinoplus2,BOARD_EXTRA=-Werror flashed-tests)
 	@sh tests/boards/f405.sh 6 12
+	+@$(call on_board,netduinoplus2,BOARD_EXTRA=-Werror rig-steps-now)
 	+@for board in $(filter-out $(BOARDS_SINGLE),$(boards_flashed)); do sh tests/boards/firstlight.sh $$board || exit 1; done
 	+@$(MAKE) -s small-now
 

@@ -9,7 +9,7 @@ BOARD_MACHINE  := netduinoplus2
 BOARD_CPU      := -mcpu=cortex-m4 -mthumb -mfpu=fpv4-sp-d16 -mfloat-abi=hard
 BOARD_MATH     := -fno-math-errno
 include boards/cortexm/cortexm.mk
-# The whole rig is to have 40 KB of flash; steps of -Os take some more instructions, of which there are enough (docs/boards.md).
+# Small, at the cost of some more instructions a control step (`make rig-steps`, gate-flashed: 1,500 at most).
 # It is optimised as a whole, 1 kB, without what copies code for speed or moves it to where it needs more registers, 1.4 kB.
 # Without that gcc takes values for uninitialized that are not.
 SMALL_BY_LINK  := -Os -g -flto -flto-partition=one -ffat-lto-objects -fno-ipa-cp -fno-early-inlining -fno-reorder-blocks -fno-tree-tail-merge \
