@@ -31,6 +31,7 @@ WH_INLINE wh_real wh_contact_dot(const wh_contact_system *of, const wh_real *a, 
 static inline void wh_contact_rows_of(const wh_contact_system *of, wh_contact_work *w,
                                       const wh_contact_point *at, const wh_real *input,
                                       wh_contact_rows *rows) {
+    of = WH_CONTACTS_HERE(of);
     of->forces(of->model, at->phase, at->linear, at->rate, input, w->law);
     rows->holds = 0;
     for (unsigned k = 0; k < of->forced; k++) {
@@ -66,6 +67,7 @@ static inline void wh_contact_rows_of(const wh_contact_system *of, wh_contact_wo
 /* The first hold that has nothing left in `after`, or points back, and did not before; or of->contacts. */
 static inline unsigned wh_contact_fallen(const wh_contact_system *of, const wh_contact_rows *before,
                                          const wh_contact_rows *after) {
+    of = WH_CONTACTS_HERE(of);
     for (unsigned k = 0; k < of->forced; k++) {
         const wh_real along = wh_contact_dot(of, before->row[k], after->way[k]);
         const wh_real against = along < WH_R(0.0) ? along * along : WH_R(0.0);

@@ -72,6 +72,7 @@ static inline void wh_contact_observe(const wh_contact_system *of, const wh_stat
 /* Step `s` by h in the modes of work. False: *fault left all bounds and s is as it was. */
 static inline bool wh_contact_try(const wh_contact_system *of, wh_contact_work *w, wh_real h,
                                   wh_real *input, wh_contact_state *s, int *fault) {
+    of = WH_CONTACTS_HERE(of);
     const wh_contact_model model = {of, w};
     wh_state view = {0, s->angle, s->real, s->carry, input, NULL, NULL, NULL, -1};
     wh_books_begin(of, w, s->angle, h);

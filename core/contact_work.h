@@ -63,6 +63,14 @@ typedef struct wh_contact_model {
     wh_contact_work *work;
 } wh_contact_model;
 
+/* The scene's contacts in a function that is not inlined. Code for size may be compiled with -fno-ipa-cp: no constants are
+ * passed into functions then, and gcc warns of loops whose counts have no bound. For speed, gcc's own way stays. */
+#if defined(WH_CONTACTS_OF) && defined(__OPTIMIZE_SIZE__)
+#define WH_CONTACTS_HERE(of) WH_CONTACTS_OF(of)
+#else
+#define WH_CONTACTS_HERE(of) (of)
+#endif
+
 /* Its contacts. A generated scene says which they are, so that the compiler sees through the pointer. */
 #ifndef WH_CONTACTS_OF
 #define WH_CONTACTS_OF(model) ((model)->of)
@@ -111,6 +119,7 @@ WH_INLINE wh_real *wh_contact_rates(const wh_contact_system *of, wh_contact_stat
 
 WH_INLINE void wh_contact_point_of(const wh_contact_system *of, wh_contact_state *s,
                                    wh_contact_point *at) {
+    of = WH_CONTACTS_HERE(of);
     const wh_real *rate = wh_contact_rates(of, s);
     WH_UNROLL
     for (unsigned i = 0; i < of->angles; i++) {

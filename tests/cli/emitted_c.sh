@@ -414,6 +414,18 @@ build() { # build COMPILER OPTIMISATION REAL WH_DOUBLE WH_AHEAD NUMBERS
     done <"$scratch/$1_$3.hashes"
 }
 
+# For size, and with no constants passed into functions, as an image may be compiled: gcc warned of contacts' loops.
+if [ -z "${WHIRL_FEW:-}${WHIRL_FULL:-}" ]; then
+    (cd "$scratch" && grep -l 'WH_CONTACTS_OF' scene_*.c | xargs grep -l '^#define WH_COORDS [12]$' | head -n 6) >"$scratch/small"
+    [ "$(wc -l <"$scratch/small")" -eq 6 ]
+    verdict $? "six scenes of contacts have one or two coordinates"
+    while read -r file; do
+        # shellcheck disable=SC2086 # a list of words
+        gcc $warnings -Os -fno-ipa-cp -S -o /dev/null "$scratch/$file" >"$scratch/said" 2>&1
+        verdict $? "-Os -fno-ipa-cp: $(sed -n 's/^ \* scene  *//p' "$scratch/$file") compiles without a warning" "$scratch/said"
+    done <"$scratch/small"
+fi
+
 other=gcc
 ! command -v clang >/dev/null 2>&1 || other=clang
 if [ -n "${WHIRL_FEW:-}" ]; then
