@@ -183,7 +183,7 @@ static double seconds_of(const grid *g, const image *base) {
     runs = runs > 0.0 ? runs : (double)g->points;
     const double operations =
         twins_operations(base, base) + OPERATIONS_A_STEP * (double)base->steps;
-    return runs * operations / TRUSTING_OPERATIONS_1S;
+    return runs * operations / TWINS_OPERATIONS_1S;
 }
 
 static bool is_affordable(const map_options *o, const grid *g, const image *base) {

@@ -97,7 +97,7 @@ static bool read_options(int count, char **words, prove_options *o) {
 
 /* Two runs, the range's and the one that is held; the tube is bounded on its way. */
 static bool is_affordable(const image *im, double effort) {
-    const double seconds = twins_operations(im, im) / TRUSTING_OPERATIONS_1S;
+    const double seconds = twins_operations(im, im) / TWINS_OPERATIONS_1S;
     if (seconds <= effort * SECONDS) {
         return true;
     }

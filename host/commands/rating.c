@@ -89,10 +89,9 @@ static void say_rows(FILE *out, const rating_wish *w, double until_s) {
     pricing_scene_free(p);
 }
 
-void rating_say(FILE *out, const rating_wish *w, const trusting *trust, bool doubted) {
+void rating_say(FILE *out, const rating_wish *w, const simulation_trust *trust) {
     bool priced;
     const char *why = refused(w, &priced);
-    const double until_s = trusting_until_s(trust, doubted);
     if (w->image->steps == 0) {
         return;
     }
@@ -100,10 +99,10 @@ void rating_say(FILE *out, const rating_wish *w, const trusting *trust, bool dou
         say_none(out, w, why, priced);
     } else if (trust->dear) {
         say_none(out, w, "they take more than a second", true);
-    } else if (until_s < 0.0) {
+    } else if (trust->until_s < 0.0) {
         say_none(out, w, "no time is known until which the run is trusted", true);
     } else {
-        say_rows(out, w, until_s);
+        say_rows(out, w, trust->until_s);
     }
 }
 
@@ -113,7 +112,7 @@ void rating_say(FILE *out, const rating_wish *w, const trusting *trust, bool dou
 enum { PACES = 32, PACES_LONG = 10 };
 
 /* Of all tries together, whose comparison with the reference takes as long again. */
-#define TRIES_OPERATIONS (TRUSTING_OPERATIONS_1S / 2.0)
+#define TRIES_OPERATIONS (TWINS_OPERATIONS_1S / 2.0)
 
 /* Pace `i`, from long steps to short ones. */
 static deviation_pace pace_at(int i) {

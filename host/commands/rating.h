@@ -4,9 +4,11 @@
 #define COMMANDS_RATING_H
 
 #include "host/price/cost_board.h"
+#include "load.h"
 #include "options.h"
 #include "pricing_scene.h"
-#include "trusting.h"
+#include "host/run/horizon.h"
+#include "host/run/simulate.h"
 
 typedef struct rating_wish {
     const char *target;
@@ -24,7 +26,7 @@ typedef struct rating_wish {
 } rating_wish;
 
 /* The rows, or a line that says why there are none. */
-void rating_say(FILE *out, const rating_wish *w, const trusting *trust, bool doubted);
+void rating_say(FILE *out, const rating_wish *w, const simulation_trust *trust);
 
 /* The largest step of a run that keeps `--error X=0.1mm`: *step, and *chosen, the words for it; both to be
  * freed. Opens the target, as source_open() does. Returns an exit code. */

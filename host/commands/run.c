@@ -262,16 +262,6 @@ static bool shows_progress(const simulation_settings *s) {
     return !s->quiet && isatty(STDERR_FILENO);
 }
 
-typedef struct findings {
-    const trusting *trust;
-    const simulation_settings *settings;
-} findings;
-
-static void say_findings(const void *context, bool against) {
-    const findings *f = context;
-    trusting_say(f->trust, f->settings, against);
-}
-
 static int run_image(run_options *o, const source_model *from, const image *im, const image *plain,
                      double every_s, rating_wish *rated) {
     if (!count_every(o, every_s, im, &o->settings.every)) {
@@ -286,18 +276,14 @@ static int run_image(run_options *o, const source_model *from, const image *im, 
     interrupts_catch();
     o->settings.stop = &interrupted;
     o->settings.progress = shows_progress(&o->settings);
-    trusting trust = trusting_look(im, plain, &o->settings);
-    bool against;
-    const findings found = {&trust, &o->settings};
-    o->settings.findings = say_findings;
-    o->settings.context = &found;
-    const simulation_result result = simulate(im, &o->settings, &against);
+    o->settings.plain = plain;
+    simulation_trust trust;
+    const simulation_result result = simulate(im, &o->settings, &trust);
     if (result == SIMULATION_DONE && !o->settings.quiet) {
         rated->image = im;
         rated->plain = plain;
-        rating_say(simulation_summary(&o->settings), rated, &trust, against);
+        rating_say(simulation_summary(&o->settings), rated, &trust);
     }
-    trusting_end(&trust);
     switch (result) {
     case SIMULATION_DONE: return EXIT_DONE;
     case SIMULATION_INTERRUPTED: return EXIT_INTERRUPTED;

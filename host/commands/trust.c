@@ -11,7 +11,7 @@
 #include "host/number/functions.h"
 #include "host/run/start.h"
 #include "host/run/undefined.h"
-#include "host/trust/horizon_text.h"
+#include "host/run/horizon_text.h"
 #include "interrupts.h"
 #include "target.h"
 #include "trusting.h"
@@ -92,7 +92,7 @@ static void show_progress(double share, void *told) {
 /* --- what is refused ---------------------------------------------------------------------------------*/
 
 static bool is_affordable(const image *im, const image *plain, double effort) {
-    const double seconds = twins_operations(im, plain) / TRUSTING_OPERATIONS_1S;
+    const double seconds = twins_operations(im, plain) / TWINS_OPERATIONS_1S;
     if (seconds <= effort * SECONDS) {
         return true;
     }

@@ -13,7 +13,7 @@
 #include "host/run/linearised.h"
 #include "host/run/start.h"
 #include "host/sweep/changes.h"
-#include "host/trust/horizon.h"
+#include "host/run/horizon.h"
 
 #define MAP_VERDICT_ROW(id, mark, word, words) [id] = {mark, word, words},
 const map_verdict_row map_verdicts[MAP_VERDICTS] = {MAP_VERDICT_ROWS(MAP_VERDICT_ROW)};
@@ -132,7 +132,6 @@ static void watch_run(const map_wish *w, const image *im, watch *seen) {
         watch_enter(seen, w->kind, b, run);
         status = step < im->steps ? w->kind->step(run) : WH_OK;
     }
-    watch_end(seen, status != WH_OK);
     books_close(b);
     w->kind->stop(run);
 }

@@ -1,7 +1,7 @@
 /* stability_map.h: what becomes of a scene's run for each pair of two swept values: does it stay bounded, keep its energy,
  * keep a tolerance? And where a method's stability ends by the linear theory.
  *
- * Each run has a finer one beside it (host/trust/twins.h), which says until when it is right, and books, which say what of
+ * Each run has a finer one beside it (host/run/twins.h), which says until when it is right, and books, which say what of
  * its energy is missing (host/run/belief.h). A map's rows are the values of the axis that is no step; the theory's limit of
  * a row is the longest step that lets no motion grow which takes part in the run by the finest step there, linearised
  * along its way (host/run/linearised.h). It knows no contacts, and nothing of motions that get faster when the step is

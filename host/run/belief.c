@@ -10,9 +10,6 @@
  * that is also N of the same sign, as a rate that grows evenly has, for runs of a thousand steps. */
 #define ROUNDINGS 32.0
 
-/* So much more than what was lost is missing where it is not the steps that lost it. */
-#define GIVEN_WRONGLY 1.5
-
 static double larger(double a, double b) { return fabs(b) > a ? fabs(b) : a; }
 
 /* Enter what the run itself kept. */
@@ -102,53 +99,5 @@ void belief_print(FILE *out, const belief *b) {
                 : b->rounded ? "the least entry that rounding lets one tell"
                              : "the largest entry of the books",
                 b->largest_J);
-    }
-}
-
-void belief_say(FILE *out, const char *who, const belief *b, const engine_kind *kind,
-                wh_method method, double way_J, const char *cure) {
-    if (way_J > 2.0 * fabs(b->left_J)) {
-        fprintf(out,
-                "%s: this run cannot be believed: up to %.3g J of its energy was missing on the "
-                "way, %.2e of the largest entry of its books\n",
-                who, way_J, way_J / b->largest_J);
-    } else {
-        fprintf(out,
-                "%s: this run cannot be believed: %.3g J of its energy is left over, %.2e of the "
-                "largest entry of its books\n",
-                who, b->left_J, b->ratio);
-    }
-    if (b->stabilized && number_most(fabs(b->left_J), way_J) > GIVEN_WRONGLY * b->lost_J) {
-        fputs(
-            "hint: --stabilized gave back what nothing had lost: its energies have too few digits; "
-            "leave it out\n",
-            out);
-    } else if (cure != NULL) {
-        fprintf(out, "hint: %s\n", cure);
-    } else if (b->exact) {
-        fputs(
-            "hint: the steps of --matrix exact are exact whatever their size: --number double tells "
-            "what rounding does\n",
-            out);
-    } else if (b->saturated) {
-        fputs("hint: values were held at an end of their range, which keeps no energy: widen it: "
-              "range NAME = A .. B\n",
-              out);
-    } else if (b->slow && kind->unit != NULL) {
-        fputs("hint: rounding took a share of what steps were to add: the note says of what\n",
-              out);
-    } else if (b->jump_s >= 0.0) {
-        fprintf(
-            out,
-            "hint: most of it was lost about t = %.9g s: a singular position was passed there, or "
-            "the step is too coarse for what happens: a smaller --step tells which, since at a "
-            "singular position none helps\n",
-            b->jump_s);
-    } else {
-        const wh_method_row *usual = &wh_methods[WH_METHOD_DEFAULT];
-        const bool better = wh_methods[method].order < usual->order;
-        fprintf(out, "hint: the step is too coarse for this motion: a smaller --step%s%s%s\n",
-                better ? ", or --method " : "", better ? usual->word : "",
-                kind == &engine_float ? "; --number double tells what float's rounding does" : "");
     }
 }

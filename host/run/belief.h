@@ -64,9 +64,5 @@ belief belief_of(books *b, const engine_kind *kind, const void *run);
 bool belief_lost(const belief *b, double limit);
 /* The line of the summary; nothing when it is not known. */
 void belief_print(FILE *out, const belief *b);
-/* `who` "whirl run: warning": that it is not believed, the likely cause and the cure: `cure`, or where that is NULL
- * what the balance alone tells. `way_J`: the most that was missing on the way, where that is more than at the end; or 0. */
-void belief_say(FILE *out, const char *who, const belief *b, const engine_kind *kind,
-                wh_method method, double way_J, const char *cure);
 
 #endif

@@ -277,6 +277,9 @@ static bool find_leans(books *b) {
     return found;
 }
 
+/* A kinetic energy that is negative by this part of all energies is no rounding. */
+#define NEGATIVE 1e-6
+
 /* --- all of a step ---------------------------------------------------------------------------------*/
 
 void books_enter(books *b, const engine_kind *kind, const void *run) {
@@ -318,6 +321,10 @@ void books_enter(books *b, const engine_kind *kind, const void *run) {
     }
     spread_enter(&b->kinetic, b->moving_J[1], b->entries);
     spread_enter(&b->stored, b->stored_J[1], b->entries);
+    if (!b->negative && b->moving_J[1] < -NEGATIVE * b->size_J) {
+        b->negative = true;
+        b->negative_s = b->time_s;
+    }
     b->size_J = number_most(b->size_J, fabs(b->kinetic_J[1]) + fabs(b->stored_J[1]));
     double all = b->energy_J[1] + power_W[0] + power_W[1];
     for (int i = 0; i < im->reals; i++) {
@@ -344,6 +351,7 @@ void books_enter(books *b, const engine_kind *kind, const void *run) {
     b->entries++;
     if (b->entries % 2 == 1) { /* Simpson's rule is complete */
         const double error = books_account(b).left;
+        b->most_J = number_most(b->most_J, fabs(error));
         if (fabs(error - b->kept_J) > fabs(b->jump_J)) {
             b->jump_J = error - b->kept_J;
             b->jump_s = b->time_s;

@@ -53,8 +53,11 @@ typedef struct books {
     double lost_J;      /* what a step may lose of entries too small for float, likewise */
     double rule_J;      /* by how much the rule may be off, in all */
     double kept_J;      /* error at the last even step */
+    double most_J;      /* the largest size that it had at an even step */
     double jump_J;      /* its largest change between two even steps, */
     double jump_s;      /* which ended here */
+    bool negative;      /* the kinetic energy was: no masses are so, */
+    double negative_s;  /* there first */
     bool undefined;     /* an energy, a power or a momentum was not a finite number */
     double undefined_s; /* there first */
     uint64_t entries;

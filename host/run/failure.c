@@ -4,6 +4,7 @@
 #include <math.h>
 
 #include "core/refuse.h"
+#include "findings.h"
 #include "host/base/diag.h"
 #include "undefined.h"
 
@@ -16,8 +17,9 @@ static bool starts_beyond(const image *im) {
 }
 
 void failure_say(FILE *out, const engine_kind *kind, const void *run, wh_status status,
-                 advice *about) {
-    const image *im = about->judged.image;
+                 const verdict *about, const image *plain,
+                 const volatile sig_atomic_t *stop) {
+    const image *im = about->image;
     diags *errors = diags_new();
     const bool known = undefined_step(im, kind, run, status, errors);
     diags_flush(errors, out);
@@ -25,7 +27,7 @@ void failure_say(FILE *out, const engine_kind *kind, const void *run, wh_status 
     if (known) {
         /* Where a linkage lies flat, a step that misses the place knows no more of how it goes on. */
         if (status != WH_E_SINGULAR) {
-            advice_say_undefined(out, about);
+            findings_say_failed(out, about, plain, stop);
         }
         return;
     }
@@ -46,5 +48,8 @@ void failure_say(FILE *out, const engine_kind *kind, const void *run, wh_status 
             (double)WH_ABSURD);
         return;
     }
-    advice_say_diverged(out, about);
+    fputs("hint: a smaller --step may carry it further; if it fails at the same time, look for a "
+          "singular position there\n",
+          out);
+    findings_say_failed(out, about, plain, stop);
 }

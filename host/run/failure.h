@@ -2,10 +2,11 @@
 #ifndef RUN_FAILURE_H
 #define RUN_FAILURE_H
 
-#include "advice.h"
+#include "verdict.h"
 
 /* A step came back with `status`: the expression that was no number there, or the coordinate that left all bounds. */
 void failure_say(FILE *out, const engine_kind *kind, const void *run, wh_status status,
-                 advice *about);
+                 const verdict *about, const image *plain,
+                 const volatile sig_atomic_t *stop);
 
 #endif

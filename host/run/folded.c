@@ -111,26 +111,6 @@ void folded_look(folded *f, const double *x) {
     }
 }
 
-/* Of a list's numbers, which have no unit in common, those are left out that are next to nothing: their rounding alone. */
-#define NEXT_TO_NOTHING 1e-9
-
-double folded_contacts_off(const folded *f) {
-    double most = 0.0;
-    for (int c = 0; c < FOLDED_CONTACTS; c++) {
-        const folded_list *l = &f->contact[c];
-        double largest = 0.0;
-        for (int i = 0; i < l->results; i++) {
-            largest = number_most(largest, l->size[i]);
-        }
-        for (int i = 0; i < f->image->ways * l->results; i++) {
-            const double least = NEXT_TO_NOTHING * largest;
-            const double size = number_most(l->size[i % l->results], least);
-            most = size > 0.0 && l->off[i] > least ? number_most(most, l->off[i] / size) : most;
-        }
-    }
-    return most;
-}
-
 /* --- the furthest ------------------------------------------------------------------------------------*/
 
 /* What each way is off, off[ways * count], of what the furthest is, each of them by itself: they have no unit in common. */

@@ -15,8 +15,6 @@
 #define SHARE_LEAST 1e-6
 /* What left and right vectors have in common, of what they could: less is rounding. */
 #define ALONE_LEAST 1e-6
-/* Of steps: from 1000 s down. */
-#define DECADES 16
 
 /* What has gone further than so many times where it is, or goes in a step, has left: its range tells nothing of here. */
 #define HERE 1e3
@@ -207,45 +205,3 @@ linearised *linearised_of(const watch *w, wh_method method) {
 }
 
 void linearised_free(linearised *l) { free(l); }
-
-double linearised_off(const linearised *l, wh_method method, double step_s) {
-    double most = 0.0;
-    for (int i = 0; i < l->motions; i++) {
-        const linear_motion *m = &l->motion[i];
-        const double off = off_of(l, method, linearised_as(m), step_s);
-        const double growth = limits_growth(method, l->form, linearised_as(m), step_s);
-        /* what grows needs no share: it takes one */
-        const bool grows = growth > 1.0 + 1e-9 && m->value.re <= 0.0 && off > 1e3;
-        most = number_most(most, grows ? off : 2.0 * m->share * off);
-    }
-    return most;
-}
-
-double linearised_worst(const linearised *l) {
-    return l->worst != NULL ? 2.0 * weight(l->worst) : 0.0;
-}
-
-double linearised_nice_s(double most_s) {
-    static const double steps[] = {5.0, 2.0, 1.0};
-    double decade = 1e3;
-    for (int i = 0; i < DECADES; i++) {
-        for (int k = 0; k < 3; k++) {
-            if (steps[k] * decade <= most_s * (1.0 + 1e-9)) {
-                return steps[k] * decade;
-            }
-        }
-        decade /= 10.0;
-    }
-    return 0.0;
-}
-
-double linearised_step_s(const linearised *l, wh_method method, double most_s, double allowed) {
-    double step_s = linearised_nice_s(most_s);
-    while (step_s > 1e-4 * most_s) {
-        if (linearised_off(l, method, step_s) <= allowed) {
-            return step_s;
-        }
-        step_s = linearised_nice_s(0.7 * step_s);
-    }
-    return 0.0;
-}

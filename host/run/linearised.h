@@ -40,16 +40,4 @@ limits_motion linearised_as(const linear_motion *m);
 linearised *linearised_of(const watch *w, wh_method method);
 void linearised_free(linearised *l); /* NULL is fine */
 
-/* The part of the energy that the method takes or gives in all, at most of all motions, in their share. */
-double linearised_off(const linearised *l, wh_method method, double step_s);
-/* What a motion would have lost is 2 off share; of the worst, as the run is. */
-double linearised_worst(const linearised *l);
-
-/* The largest of 1, 2 and 5 times powers of ten, s, not beyond `most_s`, at which no motion is off by more than
- * `allowed`; 0: none within a ten-thousandth of that. */
-double linearised_step_s(const linearised *l, wh_method method, double most_s, double allowed);
-
-/* Such a number. */
-double linearised_nice_s(double most_s);
-
 #endif

@@ -1,36 +1,20 @@
-/* remedy.h: options that would do for a run that is warned of. Linear theory, the order of the method or a close look
- * propose them; each is tried (cure.h) before it is named, a finer one where it does not do, and what could not be tried is
- * named as such. */
+/* remedy.h: options with which a run has no finding. Each is tried before it is named: the run again with it, judged as the run was. */
 #ifndef RUN_REMEDY_H
 #define RUN_REMEDY_H
 
-#include "cure.h"
-#include "judged.h"
+#include "verdict.h"
 
-enum { REMEDY_TEXT = 200 };
+typedef enum remedy_outcome {
+    REMEDY_DOES, /* nothing is found of the run with it */
+    REMEDY_NONE, /* of those tried, none does */
+    REMEDY_DEAR  /* it would take too long, or was stopped */
+} remedy_outcome;
 
-/* "--step 50ms would do, or --method rk38": false where nothing is known that would. A step that is not beyond `most_s`,
- * where the theory has one; where it is so small that a better method has more of it, that one is named with its own.
- * `saturated`: so much is missing that the theory saw another motion. */
-bool remedy_text(judged *j, cures *c, double most_s, bool saturated, char text[REMEDY_TEXT]);
+enum { REMEDY_TEXT = 120 };
 
-/* The options alone, with which what was looked at is resolved, and whether all of the run is right with them. */
-cure_outcome remedy_of_look(const judged *j, cures *c, const watch_look *look,
-                            char text[REMEDY_TEXT]);
-
-/* The options alone of a step below the run's, and whether the run is right with it. */
-cure_outcome remedy_finer(const judged *j, cures *c, char text[REMEDY_TEXT]);
-
-/* Likewise, of a step that is `step_s` or below it. */
-cure_outcome remedy_from(const judged *j, cures *c, double step_s, char text[REMEDY_TEXT]);
-
-/* Of a run that failed: does it go through with a step that is much finer, as fine as costs little? True where that is not known. */
-bool remedy_goes_through(const judged *j, cures *c);
-
-/* A float's run, with nothing changed but the number: is double enough? */
-bool remedy_is_double(const judged *j, cures *c);
-
-/* The step at which the rest is as small as the method's order makes it from `ratio`. */
-double remedy_step_by_order_s(const judged *j, double ratio);
+/* "--step 50us --compensated". `parts`: so many of a step are tried first, 1 or more. `stop` ends the search, or is NULL. */
+remedy_outcome remedy_find(const image *im, const image *plain, const engine_kind *kind,
+                           double parts, const volatile sig_atomic_t *stop,
+                           char text[REMEDY_TEXT]);
 
 #endif

@@ -10,22 +10,20 @@
 
 #include "about.h"
 #include "core/contact.h"
-#include "digits.h"
 #include "envelope.h"
 #include "failure.h"
-#include "faint.h"
+#include "findings.h"
 #include "host/base/room.h"
 #include "host/base/statement.h"
 #include "host/base/written.h"
+#include "host/number/functions.h"
 #include "host/plot/gnuplot.h"
-#include "narrow.h"
+#include "horizon_text.h"
 #include "opening.h"
 #include "records.h"
-#include "slow.h"
 #include "summary.h"
 #include "traces.h"
 #include "undefined.h"
-#include "verdict.h"
 
 /* Events that a picture marks at most. */
 #define MARKS 400.0
@@ -47,9 +45,9 @@ typedef struct simulation {
     bool write_failed;
     diags *undefined; /* what was not a finite number beside the motion */
     bool energies_told;
-    bool few_digits;      /* it was warned of */
     int output;           /* the first output that was not a finite number, or -1, */
     double output_s;      /* when, */
+    double trusted_s;     /* behind it the plot is shaded; not above 0: nowhere */
     uint64_t output_rows; /* in how many of the records and points */
 } simulation;
 
@@ -177,7 +175,7 @@ static void enter(simulation *sim, uint64_t step) {
     if (sim->traces != NULL) {
         traces_step(sim->traces, sim->run, step);
     }
-    verdict_enter(sim->verdict, sim->run);
+    verdict_enter(sim->verdict);
     tell_energies(sim);
     if (step > 0 && (sim->csv != NULL || sim->plot != NULL)) {
         mark_events(sim, step);
@@ -218,11 +216,11 @@ static wh_status loop(simulation *sim, bool *interrupted) {
         }
         step++;
         enter(sim, step);
+        if (s->stop != NULL && *s->stop) {
+            *interrupted = true;
+            break;
+        }
         if ((step & 255U) == 0) {
-            if (s->stop != NULL && *s->stop) {
-                *interrupted = true;
-                break;
-            }
             if (s->progress && now_s() - shown_s > 0.2) {
                 shown_s = now_s();
                 fprintf(stderr, "\r%5.1f %%", 100.0 * (double)step / (double)sim->steps);
@@ -272,28 +270,11 @@ static void say_clamped(const simulation *sim) {
     }
 }
 
-/* What is not to be believed, why, and what would do. */
-static void say_against(simulation *sim, bool fails) {
-    const watch *w = sim->verdict->watch;
-    verdict_say(stderr, sim->verdict, fails);
-    faint_say(stderr, sim->image, sim->settings->kind, w);
-    if (sim->settings->kind == &engine_float) {
-        const narrow lost = narrow_of(w);
-        narrow_say(stderr, sim->image, &lost);
-    }
-    if (sim->verdict->against == 0) {
-        const digits few = digits_of(sim->image, sim->settings->kind, w, &sim->verdict->balance,
-                                     sim->settings->stop);
-        digits_say(stderr, sim->image, sim->settings->kind, &few);
-        sim->few_digits = few.energy || few.component >= 0;
-    }
-}
-
 /* What the run came to, and the words for it. */
 static simulation_result judge(simulation *sim, wh_status status, bool interrupted) {
     const simulation_settings *s = sim->settings;
     if (status != WH_OK) { /* which says why the energies are no numbers either */
-        failure_say(stderr, s->kind, sim->run, status, &sim->verdict->about);
+        failure_say(stderr, s->kind, sim->run, status, sim->verdict, s->plain, s->stop);
         diags_free(sim->undefined);
         sim->undefined = diags_new();
     } else { /* an output is watched at the end, too, recorded or not */
@@ -311,13 +292,19 @@ static simulation_result judge(simulation *sim, wh_status status, bool interrupt
     const books *b = sim->verdict->books;
     if (status == WH_OK && b != NULL && b->undefined &&
         sim->output < 0) { /* of outputs a cure knows nothing */
-        advice_say_undefined(stderr, &sim->verdict->about);
+        findings_say_failed(stderr, sim->verdict, s->plain, s->stop);
     }
     if (status != WH_OK || undefined) {
         return SIMULATION_FAILED;
     }
     const bool fails = s->strict > 0.0 && belief_lost(&sim->verdict->balance, s->strict);
-    say_against(sim, fails);
+    if (fails) {
+        fprintf(stderr,
+                "whirl run: error: this run is not believed: %.3g J of its energy is left over, "
+                "%.2e of the largest entry of its books\n",
+                sim->verdict->balance.left_J, sim->verdict->balance.ratio);
+    }
+    findings_say(stderr, sim->verdict, s->plain, s->stop);
     return interrupted ? SIMULATION_INTERRUPTED : fails ? SIMULATION_FAILED : SIMULATION_DONE;
 }
 
@@ -399,7 +386,7 @@ FILE *simulation_summary(const simulation_settings *s) {
 
 /* For a reader: a sentence, the findings, then the numbers. */
 static void print_summary(simulation *sim, wh_status status, simulation_result result,
-                          bool against) {
+                          const horizon *h) {
     const simulation_settings *s = sim->settings;
     FILE *out = simulation_summary(s);
     if (status == WH_OK) {
@@ -415,14 +402,30 @@ static void print_summary(simulation *sim, wh_status status, simulation_result r
     if (s->changes != NULL && s->changes[0] != '\0') {
         fprintf(out, "  changed: %s\n", s->changes);
     }
-    if (result == SIMULATION_DONE && s->findings != NULL) {
-        s->findings(s->context, against);
+    if (result == SIMULATION_DONE && h != NULL) {
+        horizon_print_line(out, h, sim->verdict->against != 0);
+    } else if (result == SIMULATION_DONE && sim->steps > 0) {
+        fputs("trusted            whirl trust tells until when: it takes more than a second\n", out);
     }
     summary_print(out, sim->image, s->kind, sim->run, sim->verdict->books, &sim->verdict->balance);
 }
 
-simulation_result simulate(const image *im, const simulation_settings *s, bool *against) {
-    *against = false;
+/* Until when the run is trusted; NULL: not known. */
+static void trust(simulation *sim, horizon *h, simulation_trust *to) {
+    const verdict *v = sim->verdict;
+    *h = horizon_of(v->twins, HORIZON_TOLERANCE);
+    if (!h->to_the_end) {
+        sim->trusted_s = number_most(h->until_s, sim->image->step_s);
+    }
+    const bool told = h->to_the_end ? v->against == 0
+                                    : h->column[h->first].verdict != HORIZON_NOT_TOLD &&
+                                          !v->twins->between;
+    to->until_s = told ? h->until_s : -1.0;
+}
+
+simulation_result simulate(const image *im, const simulation_settings *s,
+                           simulation_trust *told) {
+    *told = (simulation_trust){.until_s = -1.0};
     simulation sim = {.image = im, .settings = s, .output = -1};
     sim.steps = im->steps;
     sim.records = records_open(NULL, im, s->kind);
@@ -431,7 +434,7 @@ simulation_result simulate(const image *im, const simulation_settings *s, bool *
     if (open_files(&sim)) {
         bool interrupted = false;
         sim.run = s->kind->start(im);
-        sim.verdict = verdict_open(im, s->kind);
+        sim.verdict = verdict_open(im, s->plain, s->kind, sim.run);
         sim.undefined = diags_new();
         sim.records->out = sim.csv;
         sim.records->plain = sim.columns;
@@ -440,29 +443,37 @@ simulation_result simulate(const image *im, const simulation_settings *s, bool *
         sim.opening = opening_begin(sim.records, sim.steps);
         sim.traces = sim.vcd != NULL ? traces_open(sim.vcd, sim.records, s->every) : NULL;
         const wh_status status = loop(&sim, &interrupted);
-        verdict_end(sim.verdict, sim.run, status != WH_OK, s->stop);
+        verdict_end(sim.verdict, status);
+        horizon h;
+        const bool known = sim.verdict->twins != NULL && status == WH_OK;
+        if (known) {
+            trust(&sim, &h, told);
+        }
         result = judge(&sim, status, interrupted);
-        *against = sim.verdict->against != 0 || sim.few_digits;
+        told->against = sim.verdict->against;
+        told->dear = sim.verdict->twins == NULL;
         traces_close(sim.traces);
-        sim.course.trusted_s = s->trusted_s;
+        sim.course.trusted_s = sim.trusted_s;
         result = close_records(&sim, true) ? result : SIMULATION_BAD_FILE;
         if (status == WH_OK && interrupted) {
             say_interrupted(&sim);
         }
-        slow_say(stderr, im, s->kind, sim.run);
         if (!s->quiet) {
-            print_summary(&sim, status, result, *against);
+            print_summary(&sim, status, result, known ? &h : NULL);
+        }
+        if (known) {
+            horizon_free(&h);
         }
         opening_end(&sim.opening);
         if (result != SIMULATION_BAD_FILE && !finish_course(&sim)) {
             result = SIMULATION_BAD_FILE;
         }
+        verdict_close(sim.verdict);
         s->kind->stop(sim.run);
         diags_free(sim.undefined);
     } else {
         (void)close_records(&sim, false);
     }
-    verdict_close(sim.verdict);
     records_close(sim.records);
     envelope_free(sim.plot);
     plot_run_close(&sim.course);

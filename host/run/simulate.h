@@ -23,11 +23,8 @@ typedef struct simulation_settings {
     double
         strict; /* a run that is out of balance by more (belief.h) has failed; 0: it is only told */
     bool progress;
-    double trusted_s; /* behind this time the plot is shaded (host/trust); not above 0: nowhere */
+    const image *plain; /* of the finer run beside it (twins_plain()); NULL: the image itself */
     const volatile sig_atomic_t *stop; /* set from outside to end the run cleanly; may be NULL */
-    /* What is to be said of a run that is done before its numbers; or NULL. `against` as below. */
-    void (*findings)(const void *context, bool against);
-    const void *context;
 } simulation_settings;
 
 typedef enum simulation_result {
@@ -41,7 +38,14 @@ typedef enum simulation_result {
 /* Standard output, or standard error where records go to standard output. */
 FILE *simulation_summary(const simulation_settings *s);
 
-/* *against: something is to be said against a run that is done (verdict.h, digits.h). */
-simulation_result simulate(const image *im, const simulation_settings *s, bool *against);
+/* What is known of a run that was made, at its end: findings as bits (verdict.h), and until when it is trusted, s; below 0: that is not
+ * told. */
+typedef struct simulation_trust {
+    unsigned against;
+    bool dear; /* it takes too long */
+    double until_s;
+} simulation_trust;
+
+simulation_result simulate(const image *im, const simulation_settings *s, simulation_trust *trust);
 
 #endif

@@ -4,6 +4,20 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+double step_nice_s(double most_s) {
+    static const double steps[] = {5.0, 2.0, 1.0};
+    double decade = 1e3;
+    for (int i = 0; i < 16; i++) {
+        for (int k = 0; k < 3; k++) {
+            if (steps[k] * decade <= most_s * (1.0 + 1e-9)) {
+                return steps[k] * decade;
+            }
+        }
+        decade /= 10.0;
+    }
+    return 0.0;
+}
+
 const char *step_text(double step_s, char text[STEP_WORD]) {
     static const struct {
         double s;

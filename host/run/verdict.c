@@ -1,92 +1,224 @@
 /* verdict.c: see verdict.h. */
 #include "verdict.h"
 
+#include <math.h>
 #include <stdlib.h>
 
-#include "busy_text.h"
 #include "host/base/room.h"
-#include "remedy.h"
+#include "host/number/functions.h"
+#include "slow.h"
 
-verdict *verdict_open(const image *im, const engine_kind *kind) {
+const finding_row finding_rows[FINDINGS] = {
+    [FINDING_MASS] = {"mass", FINDING_WARNING, 1e-4, "of an acceleration",
+                      "the rounding of the matrix alone: steps are more accurate",
+                      "have a mass matrix that is nearly singular"},
+    [FINDING_ENERGY] = {"energy", FINDING_WARNING, BELIEF_LIMIT, "of the largest entry",
+                        "half of it is the error of an amplitude, which no plot shows",
+                        "cannot be believed: too much of the largest entry of their energy books "
+                        "is left over (" BELIEF_COLUMN "), or was missing on the way"},
+    [FINDING_ACCURACY] = {"accuracy", FINDING_WARNING, 0.5, "of the run",
+                          "an error that grows evenly and is 2 % at the end passes 1 % there",
+                          "are right to 0.01 of a range for less than half of the run"},
+    [FINDING_SINGULAR] = {"singular", FINDING_WARNING, 1e-2, "of the largest pivot",
+                          "a coordinate's inertia a hundredth: its rate is ten times as large",
+                          "passed where their coordinates are singular, in steps that do not "
+                          "resolve it"},
+    [FINDING_POLE] = {"pole", FINDING_WARNING, 0.0, "steps",
+                      "no motion gets through a pole",
+                      "jumped over a place where an expression grows without bound"},
+    [FINDING_MISSED] = {"missed", FINDING_WARNING, 0.0, "steps",
+                        "a contact or a force that no step met has not acted",
+                        "passed through a contact, or over a force"},
+    [FINDING_ALIASED] = {"aliased", FINDING_WARNING, 0.0, "of the largest slope",
+                         "between.h has its limits: one hundredth of a slope in the mean",
+                         "have something faster than the step, of which its stages see too "
+                         "little"},
+    [FINDING_EVENTS] = {"events", FINDING_WARNING, 0.0, "steps",
+                        "what is left of such a step counts as rest or sticking",
+                        "had steps with more events than a step takes"},
+    [FINDING_DIGITS] = {"digits", FINDING_NOTE, SLOW_SHARE, "of the span asked for",
+                        "what rounding took from the steps, summed",
+                        "have a component that moves too slowly for the units of its steps"},
+};
+
+verdict *verdict_open(const image *im, const image *plain, const engine_kind *kind, void *run) {
     verdict *v = room(1, sizeof *v);
     v->image = im;
     v->kind = kind;
+    v->run = run;
     v->books = books_open(im);
     v->watch = watch_open(im, kind);
-    v->busy = busy_open(im, 1);
-    v->about = advice_of(im, kind, v->watch, &v->balance);
+    v->jumped = jumped_open(im);
+    v->between = between_open(im, kind);
+    const twins_wish wish = {.image = im,
+                             .kind = kind,
+                             .plain = plain != NULL ? plain : im,
+                             .jumped = v->jumped,
+                             .between = v->between};
+    if (im->steps > 0 && twins_operations(im, wish.plain) <= TWINS_OPERATIONS_1S) {
+        v->twins = twins_open(&wish, run);
+    }
     return v;
 }
 
 void verdict_close(verdict *v) {
     if (v != NULL) {
-        advice_end(&v->about);
-        busy_close(v->busy);
+        twins_free(v->twins);
+        between_close(v->between);
+        jumped_close(v->jumped);
         watch_close(v->watch);
         books_close(v->books);
         free(v);
     }
 }
 
-void verdict_enter(verdict *v, const void *run) {
-    if (v->books != NULL) {
-        books_enter(v->books, v->kind, run);
+/* Steps with more events than they take, and whose events these were. */
+static void watch_events(verdict *v) {
+    uint64_t overruns;
+    const double energy_J = v->books != NULL ? v->books->energy_J[1] : 0.0;
+    v->kind->events(v->run, &overruns);
+    if (overruns > v->overruns) {
+        engine_event event[WH_EVENT_LOG];
+        const int count = v->kind->happened(v->run, event);
+        const uint64_t begin = v->kind->steps(v->run) - 1U;
+        v->overran_s = v->overruns == 0 ? ratio_times(begin, v->image->step) : v->overran_s;
+        v->overruns = overruns;
+        v->taken_J += fabs(energy_J - v->energy_J);
+        for (int i = 0; i < count; i++) {
+            v->in_overruns[event[i].contact]++;
+        }
     }
-    watch_enter(v->watch, v->kind, v->books, run);
-    busy_enter(v->busy, v->kind, run, v->books != NULL ? v->books->energy_J[1] : 0.0);
+    v->energy_J = energy_J;
 }
 
-void verdict_end(verdict *v, const void *run, bool failed, const volatile sig_atomic_t *stop) {
-    watch_end(v->watch, failed);
-    v->about.cures.stop = stop;
-    v->balance = belief_of(v->books, v->kind, run);
-    if (failed) {
+void verdict_enter(verdict *v) {
+    if (v->books != NULL) {
+        books_enter(v->books, v->kind, v->run);
+    }
+    watch_enter(v->watch, v->kind, v->books, v->run);
+    jumped_enter(v->jumped, v->kind, v->run);
+    between_enter(v->between, v->kind, v->run);
+    if (v->image->contacts > 0) {
+        watch_events(v);
+    }
+    if (v->twins != NULL) {
+        twins_enter(v->twins);
+    }
+}
+
+/* --- judging -----------------------------------------------------------------------------------------------*/
+
+static void tell(verdict *v, finding_id id, double value, double at_s, int of) {
+    v->found[id] = (finding){true, value, at_s, of};
+    v->against |= finding_rows[id].severity == FINDING_WARNING ? FINDING_BIT(id) : 0U;
+}
+
+static double end_s(const verdict *v) {
+    return ratio_times(v->kind->steps(v->run), v->image->step);
+}
+
+/* Is it right to the end, as far as the finer run tells? */
+static bool is_right(const verdict *v) {
+    if (v->twins == NULL) {
+        return false;
+    }
+    horizon h = horizon_of(v->twins, HORIZON_TOLERANCE);
+    const bool right = h.to_the_end;
+    horizon_free(&h);
+    return right;
+}
+
+/* Where the rule that integrates powers may be off by as much as is left over, the finer run decides. */
+static void judge_energy(verdict *v) {
+    const belief *b = &v->balance;
+    if (!b->known || b->exact) {
+        if (belief_lost(b, BELIEF_LIMIT)) {
+            tell(v, FINDING_ENERGY, b->ratio, -1.0, -1);
+        }
         return;
     }
-    v->retrial = retrial_of(v->busy, v->kind, v->balance.known ? v->balance.largest_J : 0.0, stop);
-    v->against =
-        (judged_blurred(&v->about.judged) ? VERDICT_BIT(VERDICT_MASS) : 0U) |
-        (judged_numbers(&v->about.judged) ? VERDICT_BIT(VERDICT_FOLDED) : 0U) |
-        (judged_energy(&v->about.judged) ? VERDICT_BIT(VERDICT_ENERGY) : 0U) |
-        (judged_singular(&v->about.judged) ? VERDICT_BIT(VERDICT_SINGULAR) : 0U) |
-        (jumped_some(v->watch->jumped) ? VERDICT_BIT(VERDICT_JUMPED) : 0U) |
-        (between_seen(v->watch->between).component >= 0 ? VERDICT_BIT(VERDICT_BETWEEN) : 0U) |
-        (judged_swing(&v->about.judged) ? VERDICT_BIT(VERDICT_SWING) : 0U) |
-        (v->retrial.told ? VERDICT_BIT(VERDICT_CONTACTS) : 0U);
+    const double way_J = v->image->contacts == 0 ? v->books->most_J : 0.0;
+    const bool on_the_way =
+        way_J > VERDICT_ON_THE_WAY * b->largest_J && way_J > b->rounding_J;
+    const bool by_the_rule = v->image->contacts == 0 &&
+                             number_most(fabs(b->left_J), way_J) <= v->books->rule_J && is_right(v);
+    if ((belief_lost(b, BELIEF_LIMIT) || on_the_way) && !by_the_rule) {
+        tell(v, FINDING_ENERGY, number_most(b->ratio, on_the_way ? way_J / b->largest_J : 0.0),
+             b->jump_s, -1);
+    }
 }
 
-/* What the energy's balance is to be warned of with: the contacts, where they are to blame, or where the step that they take
- * is asked for the energy, too. */
-static char *cure_of(verdict *v) {
-    const bool contacts = (v->against & VERDICT_BIT(VERDICT_CONTACTS)) != 0;
-    return contacts && v->busy->overruns > 0
-               ? room_words("steps that had more events than they take do that: see there")
-           : contacts && v->retrial.parts > 0
-               ? room_words("the step is too coarse, for its contacts, too: see there")
-               : advice_cure(&v->about);
+/* Steps with too many events are told of by themselves. */
+static void judge_accuracy(verdict *v) {
+    const twins *t = v->twins;
+    horizon h = horizon_of(t, VERDICT_TOLERANCE);
+    if (!h.to_the_end && h.column[h.first].verdict == HORIZON_UNTIL && !t->between &&
+        !(t->cut_s >= 0.0 && h.until_s >= t->cut_s && t->finer_failed_s < 0.0) &&
+        h.until_s < finding_rows[FINDING_ACCURACY].limit * end_s(v)) {
+        tell(v, FINDING_ACCURACY, h.until_s, h.until_s, h.first);
+    }
+    horizon_free(&h);
 }
 
-static void say_contacts(FILE *out, const char *who, verdict *v) {
-    char options[REMEDY_TEXT];
-    busy_cure cure = {.options = options};
-    const bool is_tried = v->retrial.told && v->retrial.parts > 0;
-    if (is_tried) {
-        const double step_s = ratio_times(1, v->image->step) / (double)v->retrial.parts;
-        cure.outcome = remedy_from(&v->about.judged, &v->about.cures, step_s, options);
+/* Where a position goes off, or did before, singular coordinates are the likely reason. */
+static void judge_singular(verdict *v) {
+    const watch_singular *s = &v->watch->singular;
+    if (s->inertia > finding_rows[FINDING_SINGULAR].limit) {
+        return;
     }
-    busy_say(out, who, v->busy, &v->retrial, is_tried ? &cure : NULL);
+    horizon h = horizon_of(v->twins, VERDICT_NEAR_TOLERANCE);
+    for (int k = 1; k < v->twins->columns && !v->found[FINDING_SINGULAR].told; k++) {
+        if (v->twins->shape->column[k].primes == 0 && h.column[k].verdict == HORIZON_UNTIL) {
+            tell(v, FINDING_SINGULAR, s->inertia, s->at_s, k);
+        }
+    }
+    horizon_free(&h);
 }
 
-void verdict_say(FILE *out, verdict *v, bool fails) {
-    static const char warning[] = "whirl run: warning";
-    if (fails || (v->against & VERDICT_BIT(VERDICT_ENERGY)) != 0) {
-        char *cure = cure_of(v);
-        belief_say(out, fails ? "whirl run: error" : warning, &v->balance, v->kind,
-                   v->image->settings.method, fails ? 0.0 : v->watch->most_J, cure);
-        free(cure);
+static void judge_jumps(verdict *v) {
+    double begin_s;
+    if (jumped_some(v->jumped)) {
+        const int through = jumped_through(v->jumped, &begin_s);
+        tell(v, through >= 0 ? FINDING_MISSED : FINDING_POLE, 1.0, begin_s, through);
     }
-    if (v->busy != NULL) {
-        say_contacts(out, warning, v);
+}
+
+static void judge_aliasing(verdict *v) {
+    const between_found found = between_seen(v->between);
+    if (found.component >= 0) {
+        tell(v, FINDING_ALIASED, found.off, found.begin_s, found.component);
     }
-    advice_say(out, &v->about);
+}
+
+static void judge_events(verdict *v) {
+    const double steps = (double)v->kind->steps(v->run);
+    const bool rests = v->taken_J <= VERDICT_RESTS * v->balance.largest_J &&
+                       (double)v->overruns <= 1.0 + VERDICT_RESTS_STEPS * steps;
+    if (v->overruns > 0 && !(v->balance.known && rests)) {
+        tell(v, FINDING_EVENTS, (double)v->overruns, v->overran_s, -1);
+    }
+}
+
+void verdict_end(verdict *v, wh_status status) {
+    if (v->twins != NULL) {
+        twins_end(v->twins, status);
+    }
+    v->balance = belief_of(v->books, v->kind, v->run);
+    if (status != WH_OK) {
+        return;
+    }
+    if (v->image->mass_blur > finding_rows[FINDING_MASS].limit) {
+        tell(v, FINDING_MASS, v->image->mass_blur, -1.0, -1);
+    }
+    judge_energy(v);
+    if (v->twins != NULL && v->kind->steps(v->run) > 0) {
+        judge_accuracy(v);
+        judge_singular(v);
+    }
+    judge_jumps(v);
+    judge_aliasing(v);
+    judge_events(v);
+    if (slow_count(v->kind, v->image, v->run) > 0) {
+        tell(v, FINDING_DIGITS, slow_count(v->kind, v->image, v->run), -1.0, -1);
+    }
 }

@@ -1,48 +1,91 @@
-/* verdict.h: can a run be relied on? The one place where what is known of a run while it goes on is put together and
- * judged: its books (books.h, belief.h), how it went (watch.h, advice.h) and what its contacts did (busy.h, retrial.h).
- * `whirl run` says it in words, `whirl sweep` counts points: both ask here, so that they never disagree. Nothing of it
- * touches the run. */
+/* verdict.h: can a run be relied on? Findings against a run, made while it goes on and at its end.
+ *
+ * Two looks judge every run: a finer run beside it, in double (twins.h), and what its energy books leave over (belief.h). The others
+ * see faults that both may share: a matrix or a coordinate that is singular, a pole or a contact that a step jumped over, forcing
+ * that aliases with the step, steps with more events than they take, too few digits. `whirl run` and `whirl sweep` ask here, so that
+ * they tell the same of the same point. Nothing of it touches the run. docs/warnings.md tells users what to do. */
 #ifndef RUN_VERDICT_H
 #define RUN_VERDICT_H
 
-#include "advice.h"
-#include "retrial.h"
+#include <signal.h>
 
-/* What may be said against a run. */
-typedef enum verdict_kind {
-    VERDICT_MASS,     /* rounding leaves little of its mass matrix */
-    VERDICT_FOLDED,   /* a constant of it was lost beside a larger one */
-    VERDICT_ENERGY,   /* its energies do not balance */
-    VERDICT_SINGULAR, /* it passed a singular position that its steps do not resolve */
-    VERDICT_JUMPED,   /* a step jumped over a pole of an expression, or through a contact */
-    VERDICT_BETWEEN,  /* what it is driven by goes on between the stages of its steps */
-    VERDICT_SWING,    /* a system given by its equations lost or gained a swing */
-    VERDICT_CONTACTS, /* its contacts were too busy for its steps */
-    VERDICT_KINDS
-} verdict_kind;
+#include "belief.h"
+#include "horizon.h"
+#include "watch.h"
 
-#define VERDICT_BIT(kind) (1U << (kind))
+typedef enum finding_id {
+    FINDING_MASS,
+    FINDING_ENERGY,
+    FINDING_ACCURACY,
+    FINDING_SINGULAR,
+    FINDING_POLE,
+    FINDING_MISSED,
+    FINDING_ALIASED,
+    FINDING_EVENTS,
+    FINDING_DIGITS,
+    FINDINGS
+} finding_id;
+
+#define FINDING_BIT(id) (1U << (id))
+
+typedef enum finding_severity { FINDING_NOTE, FINDING_WARNING } finding_severity;
+
+/* The one place of thresholds: a finding is told of a value beyond its limit. */
+typedef struct finding_row {
+    const char *word;
+    finding_severity severity;
+    double limit;
+    const char *unit;   /* of the limit */
+    const char *reason; /* of the limit */
+    const char *points; /* of a sweep: "3 of 9 points ..." */
+} finding_row;
+
+extern const finding_row finding_rows[FINDINGS];
+
+/* Of a run: finding `id` is told, */
+typedef struct finding {
+    bool told;
+    double value; /* by this value, in the row's unit, */
+    double at_s;  /* at or from this time on; below 0: all the time */
+    int component; /* and of this component or contact; -1: none */
+} finding;
+
+/* Accuracy is told at this part of a range, */
+#define VERDICT_TOLERANCE 1e-2
+/* singular places where they put a position off by this one, */
+#define VERDICT_NEAR_TOLERANCE 1e-3
+/* energy that was missing on the way and came back, beyond this part of the largest entry, */
+#define VERDICT_ON_THE_WAY 3e-3
+/* and the last bounces before a rest are none to tell of: events beyond a step's took so little of the largest entry, in so few
+ * of the steps. */
+#define VERDICT_RESTS 1e-3
+#define VERDICT_RESTS_STEPS 0.01
 
 typedef struct verdict {
     const image *image;
     const engine_kind *kind;
+    void *run;
     books *books; /* NULL of a system given by its equations */
     watch *watch;
-    busy *busy;     /* NULL without contacts */
-    belief balance; /* behind verdict_end() */
-    retrial retrial;
-    advice about;
-    unsigned against; /* as bits */
+    jumped *jumped; /* NULL: over nothing */
+    between *between;
+    twins *twins; /* NULL: it would take too long */
+    uint64_t overruns;
+    double overran_s;                        /* the first of them began there */
+    uint64_t in_overruns[WH_CONTACTS_LIMIT]; /* events of each contact in them */
+    double taken_J;                          /* by how much the energy changed in them */
+    double energy_J;                         /* after the last step */
+    belief balance;                          /* after verdict_end(), as are: */
+    finding found[FINDINGS];
+    unsigned against; /* the warnings among them, as bits */
 } verdict;
 
-verdict *verdict_open(const image *im, const engine_kind *kind);
+/* `plain`: the finer run's image (twins_plain()); NULL: the image itself. All must outlive the verdict. */
+verdict *verdict_open(const image *im, const image *plain, const engine_kind *kind, void *run);
 void verdict_close(verdict *v); /* NULL is fine */
 /* Enter the state after each step, the start included. */
-void verdict_enter(verdict *v, const void *run);
-/* The run is over, `failed` if it left all bounds: what balances is known, and of a run that did not fail what is to be
- * said against it. Finer runs are made where contacts were busy; `stop` ends them, or is NULL. */
-void verdict_end(verdict *v, const void *run, bool failed, const volatile sig_atomic_t *stop);
-/* Everything of that in words, with causes and cures; `fails`: the balance as an error, for --strict. */
-void verdict_say(FILE *out, verdict *v, bool fails);
+void verdict_enter(verdict *v);
+/* The run is over; `status`: its last step's. A run that failed has no findings, but its balance is known. */
+void verdict_end(verdict *v, wh_status status);
 
 #endif

@@ -1,31 +1,47 @@
-/* watch.h: what a run that takes too coarse a step, or passes where its coordinates are singular, is known by while it goes
- * on; the judgement and the words are advice.h's.
+/* watch.h: the course of a run in bounded memory: records of its state, the range of each component, and the place at which its
+ * coordinates came closest to a singular one.
  *
- * Five things, none of which touches the run:
- *
- *   - Records of the state, at most WATCH_RECORDS, evenly over the run so far, and the start. Where it is asked why, the
- *     motion is linearised there.
- *   - A close look: the way of the last few steps again, in double, in steps so small that it is known, where the
- *     accelerations changed most. By how much the run's own steps are off it is the error of these steps, whatever
- *     its cause. On the way the mass matrix is watched: a pivot of nearly nothing is a singular position.
- *   - The energy's balance without a rule of integration: where the books' own (Simpson's) is in doubt, because the
- *     powers change within a step, what two steps did to the energy is held against what the accurate way does from
- *     the same state. Summed, that is what the method took or gave, and only that.
- *   - Steps that jump over a pole of an expression (jumped.h).
- *   - What goes on between the stages of a step (between.h).
- *
- * Scenes with contacts get records, poles and what is between stages alone: their forces are not in the right-hand side. */
+ * A singular place has a mass matrix with a pivot of nearly nothing. The matrix is eliminated after steps in which the accelerations
+ * changed most so far, so that a run asks for it as often as the logarithm of that change. Scenes with contacts are not asked: their
+ * accelerations jump. Nothing of it touches the run. */
 #ifndef RUN_WATCH_H
 #define RUN_WATCH_H
 
-#include "watched.h"
+#include "books.h"
+#include "field.h"
 
-/* `b` may be NULL. */
+enum { WATCH_RECORDS = 16 };
+
+/* Where a pivot of the mass matrix was least, of the largest that its diagonal entry had. */
+typedef struct watch_singular {
+    double inertia; /* 1 where it was not asked for */
+    int component;  /* the rate that it is of, */
+    double at_s;
+    int near;       /* the position that makes it singular, or -1, */
+    double near_at; /* which stood so there */
+} watch_singular;
+
+typedef struct watch {
+    field *field;
+    double step_s;
+    uint64_t steps;
+    double *record; /* [WATCH_RECORDS * n], evenly over the run so far, and the start */
+    double record_s[WATCH_RECORDS];
+    int records;
+    uint64_t stride;
+    double *low; /* [n] */
+    double *high;
+    double *slope; /* [2 * n] now, before */
+    double *mass;  /* [rows * rows] */
+    double *most;  /* [rows] largest diagonal entries seen */
+    double *change; /* [n] the largest change of its slope in a step, looked at */
+    bool looks;    /* for singular places */
+    watch_singular singular;
+} watch;
+
 watch *watch_open(const image *im, const engine_kind *kind);
-void watch_close(watch *w);
-/* Enter the state after each step, the start included, after the books. */
+void watch_close(watch *w); /* NULL is fine */
+/* Enter the state after each step, the start included, after the books; `b` may be NULL. */
 void watch_enter(watch *w, const engine_kind *kind, const books *b, const void *run);
-/* The run is over: what was to be looked at still is, and where it failed the next steps are. */
-void watch_end(watch *w, bool failed);
 
 #endif

@@ -6,7 +6,6 @@
 
 #include "host/base/exit.h"
 #include "host/base/room.h"
-#include "host/run/slow.h"
 #include "host/run/verdict.h"
 #include "jobs.h"
 #include "progress.h"
@@ -21,47 +20,29 @@ typedef struct sitting {
     uint64_t failed;
     int told;     /* failures described */
     uint64_t ran; /* points delivered, now */
-    uint64_t overrun_points;
-    uint64_t overrun_steps;
-    uint64_t overrun_first;          /* point */
-    uint64_t slow_points;            /* with float angles that turn too slowly */
-    uint64_t slow_first;             /* point */
-    uint64_t against[VERDICT_KINDS]; /* points of which `whirl run` would warn so, */
-    uint64_t against_first[VERDICT_KINDS];
+    uint64_t found[FINDINGS]; /* points of which `whirl run` tells so, */
+    uint64_t found_first[FINDINGS];
 } sitting;
 
 enum { TOLD_MAX = 20 };
 
-/* Of a point that did not fail, `reason` is what is to be told of it, if there is anything: its numbers of
- * overruns and of slow angles, and what is to be said against it, as bits, blanks between. */
+/* Of a point that did not fail, `reason` is its findings, as bits, if there are any. */
 static bool work(void *context, uint64_t point, FILE *row, FILE *reason) {
     const sitting *s = context;
     point_notes notes;
     const bool good = sweep_point(s->sweep, point, jobs_orphaned, row, reason, &notes);
-    if (good && (notes.overruns > 0 || notes.slow > 0 || notes.against != 0)) {
-        fprintf(reason, "%llu %d %u", (unsigned long long)notes.overruns, notes.slow,
-                notes.against);
+    if (good && notes.found != 0) {
+        fprintf(reason, "%u", notes.found);
     }
     return good;
 }
 
 static void count_notes(sitting *s, uint64_t point, const char *notes) {
-    char *rest;
-    const uint64_t overruns = strtoull(notes, &rest, 10);
-    if (overruns > 0) {
-        s->overrun_first = s->overrun_points == 0 ? point : s->overrun_first;
-        s->overrun_points++;
-        s->overrun_steps += overruns;
-    }
-    if (strtol(rest, &rest, 10) > 0) {
-        s->slow_first = s->slow_points == 0 ? point : s->slow_first;
-        s->slow_points++;
-    }
-    const unsigned long against = strtoul(rest, NULL, 10);
-    for (int k = 0; k < VERDICT_KINDS; k++) {
-        if ((against & VERDICT_BIT(k)) != 0) {
-            s->against_first[k] = s->against[k] == 0 ? point : s->against_first[k];
-            s->against[k]++;
+    const unsigned long found = strtoul(notes, NULL, 10);
+    for (int id = 0; id < FINDINGS; id++) {
+        if ((found & FINDING_BIT(id)) != 0) {
+            s->found_first[id] = s->found[id] == 0 ? point : s->found_first[id];
+            s->found[id]++;
         }
     }
 }
@@ -111,62 +92,17 @@ static void swept(const void *context, uint64_t row, FILE *out) {
     sweep_swept_fields(s->sweep, s->first + row, out);
 }
 
-/* What `whirl run` says in its summary; of the points that ran now, as rows found in the file do
- * not tell. */
-static void say_overruns(const sitting *s) {
-    if (s->overrun_points == 0) {
-        return;
-    }
-    fprintf(stderr,
-            "whirl sweep: note: %llu of %llu points overran the %d moments with events that a step "
-            "takes, in %llu step%s; first: ",
-            (unsigned long long)s->overrun_points, (unsigned long long)s->ran, WH_EVENTS_MAX,
-            (unsigned long long)s->overrun_steps, s->overrun_steps == 1 ? "" : "s");
-    name_point(s->sweep, s->overrun_first);
-    fputs("\nhint: what was left of those steps counts as rest or sticking; "
-          "a smaller --step tells more\n",
-          stderr);
-}
-
-/* The same of angles that turn too slowly. */
-static void say_slow(const sitting *s) {
-    if (s->slow_points == 0) {
-        return;
-    }
-    fprintf(
-        stderr,
-        "whirl sweep: note: at %llu of %llu points an angle turns so slowly that rounding its steps to "
-        "1.5e-9 rad, as float does, puts it off by more than %g of its way; first: ",
-        (unsigned long long)s->slow_points, (unsigned long long)s->ran, SLOW_SHARE);
-    name_point(s->sweep, s->slow_first);
-    fputs("\nhint: --compensated carries what is rounded; a larger --step rounds less\n", stderr);
-}
-
-/* What `whirl run` would warn of. */
-static void say_against(const sitting *s) {
-    static const char *const words[VERDICT_KINDS] = {
-        [VERDICT_MASS] = "have a mass matrix that is singular but for a last digit or two",
-        [VERDICT_FOLDED] = "have constants in which a small one is lost beside a large one",
-        [VERDICT_ENERGY] = "cannot be believed: what is left over of their energy books "
-                           "(" BELIEF_COLUMN "), or was missing on the way, is too much of the "
-                           "largest entry",
-        [VERDICT_SINGULAR] = "passed where their coordinates are singular, in steps that do not "
-                             "resolve it",
-        [VERDICT_JUMPED] =
-            "jumped over a place where an expression grows without bound, or through a contact",
-        [VERDICT_BETWEEN] =
-            "have something faster than the step, of which its stages see too little",
-        [VERDICT_SWING] = "have a motion that the method takes or feeds",
-        [VERDICT_CONTACTS] = "end elsewhere than in finer steps, as their contacts are too busy "
-                             "for the step"};
-    for (int k = 0; k < VERDICT_KINDS; k++) {
-        if (s->against[k] > 0) {
-            fprintf(stderr, "whirl sweep: warning: %llu of %llu points %s; first: ",
-                    (unsigned long long)s->against[k], (unsigned long long)s->ran, words[k]);
-            name_point(s->sweep, s->against_first[k]);
-            fprintf(stderr, "\nhint: %s`whirl run` of the point says more\n",
-                    k == VERDICT_MASS || k == VERDICT_FOLDED ? "no step helps: "
-                                                             : "a smaller --step; ");
+/* What `whirl run` would tell of them; of the points that ran now, as rows found in the file do not tell. */
+static void say_found(const sitting *s) {
+    for (int id = 0; id < FINDINGS; id++) {
+        if (s->found[id] > 0) {
+            const finding_row *row = &finding_rows[id];
+            fprintf(stderr, "whirl sweep: %s: %llu of %llu points %s [%s]; first: ",
+                    row->severity == FINDING_NOTE ? "note" : "warning",
+                    (unsigned long long)s->found[id], (unsigned long long)s->ran, row->points,
+                    row->word);
+            name_point(s->sweep, s->found_first[id]);
+            fputs("\nhint: `whirl run` of the point tells what would do\n", stderr);
         }
     }
 }
@@ -215,9 +151,7 @@ static int run_points(const session_settings *o, sitting *s) {
     if (!sheet_close(&s->sheet)) {
         return EXIT_RUN_FAILED;
     }
-    say_overruns(s);
-    say_slow(s);
-    say_against(s);
+    say_found(s);
     const char *hint = s->sheet.is_file ? "hint: the same command goes on from there\n" : "";
     switch (result) {
     case JOBS_DONE: say_end(o, s, workers); break;

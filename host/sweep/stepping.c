@@ -7,7 +7,6 @@
 
 #include "host/base/room.h"
 #include "host/number/functions.h"
-#include "host/run/slow.h"
 #include "host/run/undefined.h"
 #include "host/run/verdict.h"
 
@@ -28,7 +27,7 @@ typedef struct meter {
 static meter meter_open(const measuring *w, const image *im, void *run) {
     const int count = w->count;
     meter m = {.wanted = w, .image = im, .run = run};
-    m.verdict = verdict_open(im, w->kind);
+    m.verdict = verdict_open(im, NULL, w->kind, run);
     m.gauges = room(count, sizeof *m.gauges);
     m.output = room(im->outputs, sizeof *m.output);
     for (int i = 0; i < count; i++) {
@@ -100,7 +99,7 @@ static bool tell_undefined(const meter *m, wh_status status, diags *errors) {
 /* Enter what the run is judged by. False when an energy is not a finite number, said. */
 static bool balance(meter *m, diags *errors, FILE *reason) {
     const books *b = m->verdict->books;
-    verdict_enter(m->verdict, m->run);
+    verdict_enter(m->verdict);
     if (b == NULL || !b->undefined) {
         return true;
     }
@@ -167,9 +166,11 @@ static bool read_measures(const meter *m, double *value, FILE *reason, point_not
             return false;
         }
     }
-    verdict_end(m->verdict, m->run, false, NULL);
+    verdict_end(m->verdict, WH_OK);
     value[w->count] = m->verdict->balance.known ? m->verdict->balance.ratio : (double)NAN;
-    notes->against = m->verdict->against;
+    for (int id = 0; id < FINDINGS; id++) {
+        notes->found |= m->verdict->found[id].told ? FINDING_BIT(id) : 0U;
+    }
     return true;
 }
 
@@ -179,10 +180,6 @@ bool stepping_measure(const measuring *w, const image *im, bool (*abandon)(void)
     meter m = meter_open(w, im, run);
     const bool good =
         run_through(&m, abandon, errors, reason) && read_measures(&m, value, reason, notes);
-    if (good && im->contacts > 0) {
-        w->kind->events(run, &notes->overruns);
-    }
-    notes->slow = good ? slow_count(w->kind, im, run) : 0;
     meter_close(&m);
     w->kind->stop(run);
     return good;

@@ -28,9 +28,7 @@ typedef struct measuring {
 
 /* What is to be told of a point that did not fail. */
 typedef struct point_notes {
-    uint64_t overruns; /* steps that had more events than a step takes */
-    int slow;          /* float angles that turn too slowly (host/run/slow.h) */
-    unsigned against;  /* what `whirl run` would warn of, as bits (host/run/verdict.h) */
+    unsigned found; /* findings, as bits (host/run/verdict.h) */
 } point_notes;
 
 /* Run the image; value[count + 1] gets the measures and how well the energies balance (NAN where that is not known).

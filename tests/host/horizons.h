@@ -7,7 +7,7 @@
 #define TESTS_HORIZONS_H
 
 #include "derived.h"
-#include "host/trust/horizon.h"
+#include "host/run/horizon.h"
 
 typedef struct horizons_setting {
     const engine_kind *kind;
@@ -20,7 +20,7 @@ typedef struct horizons_setting {
 typedef struct horizons {
     derived made;
     image *image; /* with the setting */
-    image *plain; /* as the finer run wants it (host/trust/twins.h); for the reference, too */
+    image *plain; /* as the finer run wants it (host/run/twins.h); for the reference, too */
     twins *twins;
     horizon estimate;
     double *true_s;      /* [columns] last look at which it was right; infinite: to the end */

@@ -8,7 +8,7 @@
 
 #include "command.h"
 #include "derived.h"
-#include "host/trust/horizon_text.h"
+#include "host/run/horizon_text.h"
 
 #include "unity.h"
 

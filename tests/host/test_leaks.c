@@ -10,7 +10,7 @@
 #include "host/emit/emit.h"
 #include "host/run/summary.h"
 #include "host/run/verdict.h"
-#include "host/trust/horizon.h"
+#include "host/run/horizon.h"
 
 #include "unity.h"
 

@@ -1,6 +1,6 @@
-/* test_twins.c: a run and the finer one beside it (host/trust/twins.h), by themselves: what the finer one is made of, where
+/* test_twins.c: a run and the finer one beside it (host/run/twins.h), by themselves: what the finer one is made of, where
  * the two end, and what is told of them, of oscillators whose motion is known. */
-#include "host/trust/twins.h"
+#include "host/run/twins.h"
 
 #include <math.h>
 #include <stdio.h>

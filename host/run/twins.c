@@ -7,7 +7,7 @@
 
 #include "host/base/room.h"
 #include "host/number/functions.h"
-#include "host/run/folded.h"
+#include "folded.h"
 
 /* What looking for events takes of evaluations, beside a step's own. */
 #define EVALUATIONS_OF_EVENTS 8.0
@@ -225,8 +225,7 @@ static void take_places(twins *t) {
 
 typedef struct pair {
     twins *to;
-    const twins_wish *wish;
-    records *ours;
+    twins_wish wish;
     records *finers;
     void *finer;
     jumped *our_jumps;
@@ -237,21 +236,22 @@ typedef struct pair {
     double look_s;   /* the last look, */
     double before_s; /* and the one before it */
     uint64_t looks;
+    bool owns; /* the run, and what watches it */
 } pair;
 
 /* Where there are contacts, what differs at one look alone does not count: one of the two has had an event already that
  * the other has within the step. Of a run of one step it is all there is. */
 static void look(pair *p, double time_s) {
     twins *t = p->to;
-    const bool events = p->wish->image->contacts > 0 && p->wish->image->steps > 1U;
-    records_read(p->ours, t->run, time_s);
+    const bool events = p->wish.image->contacts > 0 && p->wish.image->steps > 1U;
+    records_read(t->shape, t->run, time_s);
     records_read(p->finers, p->finer, time_s);
     for (int k = 1; k < t->columns; k++) {
         twins_column *c = &t->column[k];
         const double value = p->finers->row[k];
-        const double off = fabs(p->ours->row[k] - value);
+        const double off = fabs(t->shape->row[k] - value);
         const double now = isfinite(off) ? off : (double)INFINITY;
-        const double ranged = t->otherwise ? p->ours->row[k] : value;
+        const double ranged = t->otherwise ? t->shape->row[k] : value;
         c->start = p->looks == 0 ? value : c->start;
         c->low = p->looks == 0 || ranged < c->low ? ranged : c->low;
         c->high = p->looks == 0 || ranged > c->high ? ranged : c->high;
@@ -295,60 +295,61 @@ static void end_passages(twins *t, double time_s) {
 static bool has_overrun(const pair *p) {
     uint64_t ours = 0;
     uint64_t finers = 0;
-    p->wish->kind->events(p->to->run, &ours);
+    p->wish.kind->events(p->to->run, &ours);
     engine_double.events(p->finer, &finers);
     return ours > 0 || finers > 0;
 }
 
-static void run_both(pair *p) {
-    twins *t = p->to;
-    const image *im = p->wish->image;
-    uint64_t step = 0;
-    jumped_enter(p->our_jumps, p->wish->kind, t->run);
-    jumped_enter(p->finer_jumps, &engine_double, p->finer);
-    between_enter(p->between, p->wish->kind, t->run);
-    look(p, 0.0);
-    while (step < im->steps && !t->stopped) {
-        t->status = p->wish->kind->step(t->run);
-        if (t->status != WH_OK) {
-            break;
-        }
-        if (t->finer_failed_s < 0.0 && !step_finer(p)) {
-            t->finer_failed_s = ratio_times(step, im->step);
-            end_passages(t, p->look_s);
-        }
-        if (t->overrun_s < 0.0 && has_overrun(p)) {
-            t->overrun_s = ratio_times(step, im->step);
-            end_passages(t, p->look_s);
-        }
-        jumped_enter(p->our_jumps, p->wish->kind, t->run);
-        between_enter(p->between, p->wish->kind, t->run);
-        if (t->jumped_s < 0.0 && (jumped_some(p->our_jumps) || jumped_some(p->finer_jumps))) {
-            double begin_s;
-            t->jumped_s = ratio_times(step, im->step);
-            t->missed = jumped_through(p->our_jumps, &begin_s) >= 0 ||
-                        jumped_through(p->finer_jumps, &begin_s) >= 0;
-            end_passages(t, p->look_s);
-        }
-        step++;
-        if (t->books != NULL) {
-            books_enter(t->books, p->wish->kind, t->run);
-        }
-        if (t->finer_failed_s < 0.0 && (step % p->stride == 0 || step == im->steps)) {
-            look(p, ratio_times(step, im->step));
-        }
-        if ((step & 255U) == 0) {
-            t->stopped = is_stopped(p->wish);
-            if (p->wish->progress != NULL) {
-                p->wish->progress((double)step / (double)im->steps, p->wish->told);
-            }
-        }
-    }
-    t->end_s = ratio_times(step, im->step);
+static bool has_jumped(const pair *p) {
+    return jumped_some(p->our_jumps) || jumped_some(p->finer_jumps);
 }
 
-twins *twins_run(const twins_wish *w) {
+/* The finer one catches up with the step that the run has just done. */
+static void follow(pair *p, uint64_t begin) {
+    twins *t = p->to;
+    const double begin_s = ratio_times(begin, p->wish.image->step);
+    if (t->finer_failed_s < 0.0 && !step_finer(p)) {
+        t->finer_failed_s = begin_s;
+        end_passages(t, p->look_s);
+    }
+    if (t->overrun_s < 0.0 && has_overrun(p)) {
+        t->overrun_s = begin_s;
+        end_passages(t, p->look_s);
+    }
+    if (t->jumped_s < 0.0 && has_jumped(p)) {
+        double ignored_s;
+        t->jumped_s = begin_s;
+        t->missed = jumped_through(p->our_jumps, &ignored_s) >= 0 ||
+                    jumped_through(p->finer_jumps, &ignored_s) >= 0;
+        end_passages(t, p->look_s);
+    }
+}
+
+void twins_enter(twins *t) {
+    pair *p = t->pair;
+    const image *im = p->wish.image;
+    const uint64_t step = p->wish.kind->steps(t->run);
+    if (p->owns) {
+        jumped_enter(p->our_jumps, p->wish.kind, t->run);
+        between_enter(p->between, p->wish.kind, t->run);
+    }
+    if (t->books != NULL) {
+        books_enter(t->books, p->wish.kind, t->run);
+    }
+    if (step == 0) {
+        jumped_enter(p->finer_jumps, &engine_double, p->finer);
+    } else {
+        follow(p, step - 1U);
+    }
+    if (step == 0 ||
+        (t->finer_failed_s < 0.0 && (step % p->stride == 0 || step == im->steps))) {
+        look(p, ratio_times(step, im->step));
+    }
+}
+
+twins *twins_open(const twins_wish *w, void *run) {
     twins *t = room(1, sizeof *t);
+    pair *p = room(1, sizeof *p);
     make_finer(t, w);
     t->otherwise = w->image->ways > 0;
     t->shape = records_open(NULL, w->image, w->kind);
@@ -358,31 +359,58 @@ twins *twins_run(const twins_wish *w) {
     t->overrun_s = -1.0;
     t->cut_s = -1.0;
     t->jumped_s = -1.0;
-    t->run = w->kind->start(w->image);
+    t->run = run;
+    t->pair = p;
     t->books = w->books ? books_open(w->image) : NULL;
-    if (t->books != NULL) {
-        books_enter(t->books, w->kind, t->run);
-    }
-    pair p = {.to = t,
-              .wish = w,
-              .ours = t->shape,
-              .finers = records_open(NULL, &t->finer, &engine_double),
-              .finer = engine_double.start(&t->finer),
-              .our_jumps = jumped_open(w->image),
-              .finer_jumps = jumped_open(&t->finer),
-              .between = between_open(w->image, w->kind),
-              .rounded = rounded_open(&t->finer),
-              .stride = 1U + (w->image->steps - (w->image->steps > 0)) / TWINS_LOOKS};
-    run_both(&p);
-    t->between = between_seen(p.between).component >= 0;
-    take_rounding(t, &p.rounded);
+    *p = (pair){.to = t,
+                .wish = *w,
+                .finers = records_open(NULL, &t->finer, &engine_double),
+                .finer = engine_double.start(&t->finer),
+                .owns = w->between == NULL,
+                .our_jumps = w->between == NULL ? jumped_open(w->image) : w->jumped,
+                .finer_jumps = jumped_open(&t->finer),
+                .between = w->between == NULL ? between_open(w->image, w->kind) : w->between,
+                .rounded = rounded_open(&t->finer),
+                .stride = 1U + (w->image->steps - (w->image->steps > 0)) / TWINS_LOOKS};
+    return t;
+}
+
+void twins_end(twins *t, wh_status status) {
+    pair *p = t->pair;
+    t->status = status;
+    t->end_s = ratio_times(p->wish.kind->steps(t->run), p->wish.image->step);
+    t->between = between_seen(p->between).component >= 0;
+    take_rounding(t, &p->rounded);
     take_places(t);
-    rounded_close(&p.rounded);
-    jumped_close(p.our_jumps);
-    jumped_close(p.finer_jumps);
-    between_close(p.between);
-    records_close(p.finers);
-    engine_double.stop(p.finer);
+}
+
+static void pair_free(pair *p) {
+    rounded_close(&p->rounded);
+    jumped_close(p->finer_jumps);
+    if (p->owns) {
+        jumped_close(p->our_jumps);
+        between_close(p->between);
+    }
+    records_close(p->finers);
+    engine_double.stop(p->finer);
+    free(p);
+}
+
+twins *twins_run(const twins_wish *w) {
+    twins *t = twins_open(w, w->kind->start(w->image));
+    wh_status status = WH_OK;
+    twins_enter(t);
+    for (uint64_t step = 0; step < w->image->steps && !t->stopped && status == WH_OK; step++) {
+        status = w->kind->step(t->run);
+        if (status == WH_OK) {
+            twins_enter(t);
+        }
+        t->stopped = is_stopped(w);
+        if ((step & 255U) == 0 && w->progress != NULL) {
+            w->progress((double)step / (double)w->image->steps, w->told);
+        }
+    }
+    twins_end(t, status);
     return t;
 }
 
@@ -390,7 +418,10 @@ void twins_free(twins *t) {
     if (t == NULL) {
         return;
     }
-    t->shape->kind->stop(t->run);
+    if (t->pair->owns) {
+        t->shape->kind->stop(t->run);
+    }
+    pair_free(t->pair);
     books_close(t->books);
     for (int k = 0; k < t->columns; k++) {
         passages_free(&t->column[k].off);

@@ -9,20 +9,25 @@
 
 #include <signal.h>
 
-#include "host/run/belief.h"
-#include "host/run/between.h"
-#include "host/run/jumped.h"
-#include "host/run/records.h"
+#include "belief.h"
+#include "between.h"
+#include "jumped.h"
+#include "records.h"
 #include "passage.h"
 
 /* The two are compared at so many evenly spaced ends of steps, at most. */
 enum { TWINS_LOOKS = 20000 };
+
+/* Operations that a second takes, about. */
+#define TWINS_OPERATIONS_1S 2.4e8
 
 typedef struct twins_wish {
     const image *image;
     const engine_kind *kind;
     const image *plain; /* as twins_plain() says: the image itself where it says nothing */
     bool books;         /* keep the run's books, and tell what they leave over */
+    jumped *jumped;   /* of a run that is watched already: what it jumped over, */
+    between *between; /* and what its stages do not see; NULL: watched here */
     const volatile sig_atomic_t *stop;          /* may be NULL */
     void (*progress)(double share, void *told); /* now and then; or NULL */
     void *told;
@@ -68,6 +73,7 @@ typedef struct twins {
         between; /* more goes on between the stages of its steps than they see (host/run/between.h) */
     bool stopped;
     books *books; /* NULL: none */
+    struct pair *pair;
 } twins;
 
 /* The settings of the image that the finer run goes by, where the run's own will not do: without tables, and a matrix that
@@ -80,6 +86,11 @@ int twins_order(const image *im);
 
 /* The two, from the start to the end of the run, or to where one of them fails. The images must outlive them. */
 twins *twins_run(const twins_wish *w);
+/* The same beside a run that the caller steps: enter it at its start and after each step. `w` is copied. */
+twins *twins_open(const twins_wish *w, void *run);
+void twins_enter(twins *t);
+/* The run has ended; `status`: its last step's. */
+void twins_end(twins *t, wh_status status);
 void twins_free(twins *t); /* NULL is fine */
 
 /* Operations that this evaluates, about. */

@@ -1,0 +1,262 @@
+/* findings.c: see findings.h. */
+#include "findings.h"
+
+#include <inttypes.h>
+#include <math.h>
+#include <stdlib.h>
+
+#include "core/contact.h"
+#include "host/base/room.h"
+#include "host/base/statement.h"
+#include "host/number/functions.h"
+#include "remedy.h"
+#include "slow.h"
+#include "step_text.h"
+
+enum { NAME_TEXT = 100 };
+
+#define PRIMES "''''''''''"
+
+/* --- each of them ---------------------------------------------------------------------------------------*/
+
+static const char *column_name(const verdict *v, int k, char text[NAME_TEXT]) {
+    const record_column *c = &v->twins->shape->column[k];
+    snprintf(text, NAME_TEXT, "%.80s%.*s", c->name, c->primes, PRIMES);
+    return text;
+}
+
+static void say_mass(FILE *out, const verdict *v) {
+    fprintf(out,
+            "%s of '%s' is nearly singular: rounding may put accelerations, in double, too, %.2g %% "
+            "off",
+            v->image->has_energies ? "the mass matrix" : "what stands with the highest derivatives",
+            v->image->mechanism, 100.0 * number_least(v->image->mass_blur, 1.0));
+}
+
+static void say_energy(FILE *out, const verdict *v) {
+    const belief *b = &v->balance;
+    const double part = v->found[FINDING_ENERGY].value;
+    if (part > 2.0 * b->ratio) {
+        fprintf(out,
+                "this run cannot be believed: up to %.3g J of its energy was missing on the way, "
+                "%.2e of the largest entry of its books",
+                part * b->largest_J, part);
+    } else {
+        fprintf(out,
+                "this run cannot be believed: %.3g J of its energy is left over, %.2e of the "
+                "largest entry of its books",
+                b->left_J, b->ratio);
+    }
+    if (b->jump_s >= 0.0) {
+        fprintf(out, ", most of it lost about t = %.6g s", b->jump_s);
+    }
+}
+
+static void say_accuracy(FILE *out, const verdict *v) {
+    const finding *f = &v->found[FINDING_ACCURACY];
+    const horizon h = horizon_of(v->twins, VERDICT_TOLERANCE);
+    const horizon_column *c = &h.column[f->component];
+    const char *unit = v->twins->shape->column[f->component].unit->shown;
+    char name[NAME_TEXT];
+    fprintf(out, "%s is right to %g of its range only until t = %.6g s of %.6g s",
+            column_name(v, f->component, name), VERDICT_TOLERANCE, f->at_s, v->twins->end_s);
+    if (isfinite(c->off)) {
+        fprintf(out, ": a finer run, in double, ends up to %.2g %s away, %.2g of the range", c->off,
+                unit, c->off / c->range);
+    } else {
+        fputs(": a finer run, in double, leaves all bounds", out);
+    }
+    horizon_free((horizon *)&h);
+}
+
+static void say_singular(FILE *out, const verdict *v) {
+    const watch_singular *s = &v->watch->singular;
+    const image *im = v->image;
+    fprintf(out,
+            "about t = %.6g s these coordinates are singular: the inertia of '%s' falls to %.2g of "
+            "its largest",
+            s->at_s, im->unknown[image_component(im, s->component).unknown].name, s->inertia);
+    if (s->near >= 0) {
+        const component c = image_component(im, s->near);
+        const image_unit *unit = &im->unknown[c.unknown].unit[0];
+        fprintf(out, ", nearest at %s = %.3g %s", im->unknown[c.unknown].name,
+                image_shown(unit, s->near_at), unit->shown);
+    }
+    char name[NAME_TEXT];
+    if (v->twins != NULL && v->found[FINDING_SINGULAR].told) {
+        fprintf(out, "; '%s' is off there",
+                column_name(v, v->found[FINDING_SINGULAR].component, name));
+    }
+}
+
+static void say_pole(FILE *out, const verdict *v) {
+    double begin_s;
+    char statement[STATEMENT_SIZE];
+    const blame_question *q = jumped_over(v->jumped, &begin_s);
+    statement_text(q->where, statement, sizeof statement);
+    fprintf(out,
+            "the step after t = %.6g s jumped over a place where %s grows without bound: %s; no "
+            "motion gets through there",
+            begin_s, q->what, statement);
+}
+
+static void say_missed(FILE *out, const verdict *v) {
+    const finding *f = &v->found[FINDING_MISSED];
+    const image *im = v->image;
+    char statement[STATEMENT_SIZE];
+    fprintf(out, "the step after t = %.6g s passed ", f->at_s);
+    if (f->component < im->contacts) {
+        statement_text(im->contact[f->component].at, statement, sizeof statement);
+        fprintf(out, "through a contact: %s", statement);
+    } else {
+        const component c = image_component(im, f->component - im->contacts);
+        fprintf(out, "over a force on %s, far larger than at both its ends",
+                im->unknown[c.unknown].name);
+    }
+}
+
+static void say_aliased(FILE *out, const verdict *v) {
+    const finding *f = &v->found[FINDING_ALIASED];
+    const component c = image_component(v->image, f->component);
+    fprintf(out,
+            "more goes on between the stages of a step than they see, seen first at t = %.6g s: in "
+            "the mean, %s%.*s is %.3g %% of its largest off",
+            f->at_s, v->image->unknown[c.unknown].name, c.primes + 1, PRIMES, 100.0 * f->value);
+}
+
+/* The contact with the most events in such steps, but for `besides`; -1: none had any. */
+static int busiest(const verdict *v, int besides) {
+    int found = -1;
+    for (int k = 0; k < v->image->contacts; k++) {
+        if (k != besides && v->in_overruns[k] > 0 &&
+            (found < 0 || v->in_overruns[k] > v->in_overruns[found])) {
+            found = k;
+        }
+    }
+    return found;
+}
+
+static void say_events(FILE *out, const verdict *v) {
+    char statement[STATEMENT_SIZE];
+    const int first = busiest(v, -1);
+    const int second = first < 0 ? -1 : busiest(v, first);
+    fprintf(out,
+            "%" PRIu64 " step%s of %" PRIu64
+            ", the first at t = %.6g s, had more than %d moments with events",
+            v->overruns, v->overruns == 1 ? "" : "s", v->kind->steps(v->run), v->overran_s,
+            WH_EVENTS_MAX);
+    for (int i = 0; i < 2 && (i == 0 ? first : second) >= 0; i++) {
+        statement_text(v->image->contact[i == 0 ? first : second].at, statement, sizeof statement);
+        fprintf(out, "%s'%s'", i == 0 ? ", most of " : " and ", statement);
+    }
+    fprintf(out, ": what was left of %s counts as rest or sticking", v->overruns == 1 ? "it" : "them");
+}
+
+static void (*const say[FINDINGS])(FILE *, const verdict *) = {
+    [FINDING_MASS] = say_mass,         [FINDING_ENERGY] = say_energy,
+    [FINDING_ACCURACY] = say_accuracy, [FINDING_SINGULAR] = say_singular,
+    [FINDING_POLE] = say_pole,         [FINDING_MISSED] = say_missed,
+    [FINDING_ALIASED] = say_aliased,   [FINDING_EVENTS] = say_events,
+};
+
+/* --- what would do ----------------------------------------------------------------------------------------*/
+
+static bool is_told(const verdict *v, finding_id id) { return v->found[id].told; }
+
+/* Causes that no step cures. */
+static bool say_cause(FILE *out, const verdict *v) {
+    const belief *b = &v->balance;
+    const char *hint = NULL;
+    if (is_told(v, FINDING_MASS)) {
+        hint = v->image->has_energies
+                   ? "a coordinate that is counted from a light body to a heavy one does that: "
+                     "count it from the heavy one"
+                   : "two equations say nearly the same: their difference tells more";
+    } else if (is_told(v, FINDING_ENERGY) && b->stabilized &&
+               number_most(fabs(b->left_J), v->books->most_J) > 1.5 * b->lost_J) {
+        hint = "--stabilized gave back what nothing had lost: its energies have too few digits; "
+               "leave it out";
+    } else if (is_told(v, FINDING_ENERGY) && b->exact) {
+        hint = "the steps of --matrix exact are exact whatever their size: --number double tells "
+               "what rounding does";
+    } else if (is_told(v, FINDING_ENERGY) && b->saturated) {
+        hint = "values were held at an end of their range, which keeps no energy: widen it: "
+               "range NAME = A .. B";
+    }
+    if (hint != NULL) {
+        fprintf(out, "hint: %s\n", hint);
+    }
+    return hint != NULL;
+}
+
+/* So many parts of a step are tried first: by the order of the method, or as the aliasing needs. */
+static double first_parts(const verdict *v) {
+    const wh_method_row *row = &wh_methods[v->image->settings.method];
+    const double ratio = v->found[FINDING_ENERGY].value;
+    double parts = ratio > 0.0 ? number_power(number_least(ratio, 1.0) / 3e-4, 1.0 / row->order) : 1.0;
+    if (is_told(v, FINDING_ALIASED)) {
+        parts = number_most(parts, v->image->step_s / between_seen(v->between).fine_step_s);
+    }
+    return parts;
+}
+
+static void say_remedy(FILE *out, const verdict *v, const image *plain,
+                       const volatile sig_atomic_t *stop) {
+    char options[REMEDY_TEXT];
+    const image *im = v->image;
+    if (im->settings.tables != TABLES_NONE && is_told(v, FINDING_ENERGY)) {
+        fputs("hint: the tables may be too coarse (not tried): more --cells, or no --tables\n", out);
+    }
+    switch (remedy_find(im, plain, v->kind, first_parts(v), stop, options)) {
+    case REMEDY_DOES: fprintf(out, "hint: %s would do (tried)\n", options); return;
+    case REMEDY_DEAR:
+        fputs("hint: a smaller --step (not tried to its end: that takes more than a second)\n", out);
+        break;
+    case REMEDY_NONE:
+        fputs("hint: no step, no other number and no method that was tried would do\n", out);
+        break;
+    }
+    if (v->books != NULL && v->books->negative) {
+        fprintf(out,
+                "hint: the kinetic energy is negative from t = %.6g s on: no masses move like that; "
+                "end the run before, or correct T\n",
+                v->books->negative_s);
+    } else if (is_told(v, FINDING_SINGULAR)) {
+        fputs("hint: take coordinates that are not singular there\n", out);
+    } else if (is_told(v, FINDING_EVENTS)) {
+        fputs("hint: restitution 0, or a condition that takes longer to come true again, ends such "
+              "events\n",
+              out);
+    } else if (v->against == FINDING_BIT(FINDING_ACCURACY)) {
+        fputs("hint: where the motion is chaotic every error grows: --until ends the run before\n",
+              out);
+    }
+}
+
+void findings_say(FILE *out, const verdict *v, const image *plain,
+                  const volatile sig_atomic_t *stop) {
+    for (int id = 0; id < FINDINGS; id++) {
+        if ((v->against & FINDING_BIT(id)) != 0) {
+            fputs("whirl run: warning: ", out);
+            say[id](out, v);
+            fprintf(out, " [%s]\n", finding_rows[id].word);
+        }
+    }
+    if (v->against != 0 && !say_cause(out, v)) {
+        say_remedy(out, v, plain, stop);
+    }
+    slow_say(out, v->image, v->kind, v->run);
+}
+
+void findings_say_failed(FILE *out, const verdict *v, const image *plain,
+                         const volatile sig_atomic_t *stop) {
+    char options[REMEDY_TEXT];
+    if (v->watch->singular.inertia <= finding_rows[FINDING_SINGULAR].limit) {
+        fputs("hint: ", out);
+        say_singular(out, v);
+        fputs("; coordinates that are not singular there need no smaller step\n", out);
+    }
+    if (remedy_find(v->image, plain, v->kind, 2.0, stop, options) == REMEDY_DOES) {
+        fprintf(out, "hint: %s would do (tried)\n", options);
+    }
+}

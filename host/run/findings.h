@@ -1,0 +1,16 @@
+/* findings.h: the findings of a run in words, each with its cause, and what would do. */
+#ifndef RUN_FINDINGS_H
+#define RUN_FINDINGS_H
+
+#include <stdio.h>
+
+#include "verdict.h"
+
+/* One line for each finding, "whirl run: warning: ... [word]", then hints. Remedies are tried: `stop` ends that, or is NULL. */
+void findings_say(FILE *out, const verdict *v, const image *plain,
+                  const volatile sig_atomic_t *stop);
+/* Of a run that has ended too early, or whose energies are no numbers: an option with which it goes on, if one is found. */
+void findings_say_failed(FILE *out, const verdict *v, const image *plain,
+                         const volatile sig_atomic_t *stop);
+
+#endif
