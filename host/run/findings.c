@@ -234,15 +234,16 @@ static void say_remedy(FILE *out, const verdict *v, const image *plain,
 }
 
 void findings_say(FILE *out, const verdict *v, const image *plain,
-                  const volatile sig_atomic_t *stop) {
+                  const volatile sig_atomic_t *stop, bool fails) {
     for (int id = 0; id < FINDINGS; id++) {
-        if ((v->against & FINDING_BIT(id)) != 0) {
-            fputs("whirl run: warning: ", out);
+        const bool is_error = fails && id == FINDING_ENERGY;
+        if (is_error || (v->against & FINDING_BIT(id)) != 0) {
+            fputs(is_error ? "whirl run: error: " : "whirl run: warning: ", out);
             say[id](out, v);
             fprintf(out, " [%s]\n", finding_rows[id].word);
         }
     }
-    if (v->against != 0 && !say_cause(out, v)) {
+    if ((fails || v->against != 0) && !say_cause(out, v)) {
         say_remedy(out, v, plain, stop);
     }
     slow_say(out, v->image, v->kind, v->run);

@@ -6,9 +6,10 @@
 
 #include "verdict.h"
 
-/* One line for each finding, "whirl run: warning: ... [word]", then hints. Remedies are tried: `stop` ends that, or is NULL. */
+/* One line for each finding, "whirl run: warning: ... [word]", then hints. Remedies are tried: `stop` ends that,
+ * or is NULL. `fails`: the energy is an error, whatever its limit. */
 void findings_say(FILE *out, const verdict *v, const image *plain,
-                  const volatile sig_atomic_t *stop);
+                  const volatile sig_atomic_t *stop, bool fails);
 /* Of a run that has ended too early, or whose energies are no numbers: an option with which it goes on, if one is found. */
 void findings_say_failed(FILE *out, const verdict *v, const image *plain,
                          const volatile sig_atomic_t *stop);

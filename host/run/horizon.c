@@ -15,6 +15,8 @@
 /* A place that stays where it is but for rounding moves by less than this part of its distance from the origin, or of one
  * metre or radian; or by less than that part of what others of its unit move. */
 #define STAYS 1e-9
+/* In float, a place that moves by less than this part of its distance stands still. */
+#define FLOAT_STAYS 3e-7
 #define BESIDE_OTHERS 1e-3
 /* A place whose start is computed by sums and is this part of a metre or radian, or less, is there by rounding; else by the scene. */
 #define STARTS 1e-12
@@ -28,6 +30,14 @@ static bool stays(const twins *t, int k) {
     const twins_column *c = &t->column[t->column[k].place];
     const double range = c->high - c->low;
     return range <= STAYS * number_most(size_of(c), c->one) || range <= BESIDE_OTHERS * c->alike;
+}
+
+bool horizon_moves(const twins *t, int k) {
+    const twins_column *c = &t->column[t->column[k].place];
+    if (t->shape->kind == &engine_float && c->high - c->low <= FLOAT_STAYS * size_of(c)) {
+        return false;
+    }
+    return !stays(t, k) || fabs(c->start) > (c->written ? 0.0 : STARTS * c->one);
 }
 
 /* What its size is known to be at least: it stays where the scene puts it, and not by chance at one metre from nothing. */

@@ -37,6 +37,8 @@ typedef struct horizon {
 } horizon;
 
 horizon horizon_of(const twins *t, double tolerance);
+/* Does column k move, or start somewhere, by the scene? What symmetry keeps at zero does not, whatever rounding makes of it. */
+bool horizon_moves(const twins *t, int k);
 void horizon_free(horizon *h);
 
 #endif

@@ -1,14 +1,13 @@
 /* remedy.c: see remedy.h. */
 #include "remedy.h"
 
-#include <math.h>
 #include <stdio.h>
 
 #include "host/number/functions.h"
 #include "step_text.h"
 
-/* A remedy leaves no more of the largest entry over: some way off what is told. */
-#define LEAVES 3e-4
+/* A remedy keeps this part of what is told: the lists of a user's run may round a little otherwise. */
+#define LEAVES 0.3
 /* No more parts of a step are tried. */
 #define PARTS_MOST 20000.0
 /* A float's sums are compensated where they are made of so many more steps. */
@@ -50,13 +49,22 @@ static bool image_with(const image *im, const wish *w, image *made) {
     return ratio_count(ratio_of(im->until_s), made->step, &made->steps) && made->steps > 0;
 }
 
-/* Steps and looks: the run, its books, and the finer run. */
-static double operations(const image *im) { return 2.0 * twins_operations(im, im); }
+/* What an evaluation takes beside its list, and what looks for events evaluates in a step, in operations. */
+#define BESIDE 40.0
+#define EVENTS_AS 8.0
+
+/* A run, its books, and the finer run, which has twice as many steps. */
+static double operations(const image *im) {
+    const double events = im->contacts > 0 ? EVENTS_AS : 0.0;
+    const double stages = wh_methods[im->settings.method].stages;
+    const double finer = number_most(stages, wh_methods[WH_METHOD_DEFAULT].stages);
+    const double evaluations = stages + 2.0 * finer + 3.0 * events;
+    return (double)im->steps * (evaluations * (im->list[IMAGE_STEP]->count + BESIDE) +
+                                2.0 * (im->list[IMAGE_BOOKS]->count + BESIDE));
+}
 
 static bool does(const verdict *v) {
-    return v->against == 0 && (v->books == NULL || !v->books->undefined) &&
-           (!v->balance.known || v->image->contacts > 0 || v->balance.ratio <= LEAVES ||
-            fabs(v->balance.left_J) <= v->books->rule_J);
+    return v->against == 0 && (v->books == NULL || !v->books->undefined);
 }
 
 static bool try(search *s, const wish *w) {
@@ -74,6 +82,7 @@ static bool try(search *s, const wish *w) {
     verdict *v = verdict_open(&with, s->plain, kind, run);
     wh_status status = WH_OK;
     uint64_t step = 0;
+    v->part = LEAVES;
     verdict_enter(v);
     while (step < with.steps && status == WH_OK && !is_stopped(s) && !jumped_some(v->jumped)) {
         status = kind->step(run);
@@ -145,23 +154,23 @@ remedy_outcome remedy_find(const image *im, const image *plain, const engine_kin
     if (im->fixed != NULL || im->settings.matrix == MATRIX_EXACT || im->steps == 0) {
         return REMEDY_NONE;
     }
-    if (kind == &engine_float) {
-        wish more = w;
-        more.compensated = true;
-        wish other = w;
-        other.in_double = true;
-        if ((!w.compensated && try(&s, &more)) || (more = other, try(&s, &other))) {
-            write_options(&s, &more, text);
+    wish other[2] = {w, w};
+    other[0].compensated = true;
+    other[1].in_double = true;
+    for (int i = w.compensated ? 1 : 0; i < (kind == &engine_float ? 2 : 1); i++) {
+        if (try(&s, &other[i])) {
+            write_options(&s, &other[i], text);
             return REMEDY_DOES;
         }
     }
     if (wh_methods[own].order < wh_methods[WH_METHOD_DEFAULT].order) {
+        w.method = WH_METHOD_DEFAULT; /* and with it finer steps */
         wish usual = w;
-        usual.method = WH_METHOD_DEFAULT;
         if (try_either(&s, &usual)) {
             write_options(&s, &usual, text);
             return REMEDY_DOES;
         }
+        parts = 1.0;
     }
     if (try_steps(&s, w, parts, text)) {
         return REMEDY_DOES;

@@ -298,13 +298,7 @@ static simulation_result judge(simulation *sim, wh_status status, bool interrupt
         return SIMULATION_FAILED;
     }
     const bool fails = s->strict > 0.0 && belief_lost(&sim->verdict->balance, s->strict);
-    if (fails) {
-        fprintf(stderr,
-                "whirl run: error: this run is not believed: %.3g J of its energy is left over, "
-                "%.2e of the largest entry of its books\n",
-                sim->verdict->balance.left_J, sim->verdict->balance.ratio);
-    }
-    findings_say(stderr, sim->verdict, s->plain, s->stop);
+    findings_say(stderr, sim->verdict, s->plain, s->stop, fails);
     return interrupted ? SIMULATION_INTERRUPTED : fails ? SIMULATION_FAILED : SIMULATION_DONE;
 }
 

@@ -46,6 +46,7 @@ verdict *verdict_open(const image *im, const image *plain, const engine_kind *ki
     v->image = im;
     v->kind = kind;
     v->run = run;
+    v->part = 1.0;
     v->books = books_open(im);
     v->watch = watch_open(im, kind);
     v->jumped = jumped_open(im);
@@ -132,30 +133,63 @@ static bool is_right(const verdict *v) {
 static void judge_energy(verdict *v) {
     const belief *b = &v->balance;
     if (!b->known || b->exact) {
-        if (belief_lost(b, BELIEF_LIMIT)) {
+        if (belief_lost(b, v->part * finding_rows[FINDING_ENERGY].limit)) {
             tell(v, FINDING_ENERGY, b->ratio, -1.0, -1);
         }
         return;
     }
     const double way_J = v->image->contacts == 0 ? v->books->most_J : 0.0;
     const bool on_the_way =
-        way_J > VERDICT_ON_THE_WAY * b->largest_J && way_J > b->rounding_J;
+        way_J > v->part * VERDICT_ON_THE_WAY * b->largest_J && way_J > b->rounding_J;
     const bool by_the_rule = v->image->contacts == 0 &&
                              number_most(fabs(b->left_J), way_J) <= v->books->rule_J && is_right(v);
-    if ((belief_lost(b, BELIEF_LIMIT) || on_the_way) && !by_the_rule) {
+    if ((belief_lost(b, v->part * finding_rows[FINDING_ENERGY].limit) || on_the_way) && !by_the_rule) {
         tell(v, FINDING_ENERGY, number_most(b->ratio, on_the_way ? way_J / b->largest_J : 0.0),
              b->jump_s, -1);
     }
 }
 
-/* Steps with too many events are told of by themselves. */
+/* Less energy than this part of all is that of a speed which float's rounding of the others covers. */
+#define FAINT 0x1p-48
+
+static bool is_faint(const verdict *v, int unknown) {
+    return v->books != NULL && v->kind == &engine_float &&
+           books_motion_J(v->books, unknown) < FAINT * v->books->size_J;
+}
+
+static bool is_worse(const horizon_column *a, const horizon_column *b) {
+    return a->until_s < b->until_s ||
+           (a->until_s == b->until_s && a->off * b->range > b->off * a->range);
+}
+
+/* The column that is right to a hundredth for the shortest time, where its error has grown as a power of the time at most: -1: none.
+ * What a chaotic motion makes of it grows faster, and no step helps; the line of trust tells that. */
+static int first_off(const verdict *v, const horizon *h) {
+    const twins *t = v->twins;
+    int found = -1;
+    horizon early = horizon_of(t, v->part * VERDICT_EARLY_TOLERANCE);
+    for (int k = 1; k < t->columns; k++) {
+        const horizon_column *c = &h->column[k];
+        if (c->verdict == HORIZON_UNTIL && horizon_moves(t, k) && !is_faint(v, t->shape->column[k].unknown) &&
+            (early.column[k].until_s <= VERDICT_BEGIN * t->end_s ||
+             c->until_s >= VERDICT_GROWS * early.column[k].until_s) &&
+            (found < 0 || is_worse(c, &h->column[found]))) {
+            found = k;
+        }
+    }
+    horizon_free(&early);
+    return found;
+}
+
+/* Steps with too many events, and what is cut off for another reason, are told of by themselves. */
 static void judge_accuracy(verdict *v) {
     const twins *t = v->twins;
-    horizon h = horizon_of(t, VERDICT_TOLERANCE);
-    if (!h.to_the_end && h.column[h.first].verdict == HORIZON_UNTIL && !t->between &&
-        !(t->cut_s >= 0.0 && h.until_s >= t->cut_s && t->finer_failed_s < 0.0) &&
-        h.until_s < finding_rows[FINDING_ACCURACY].limit * end_s(v)) {
-        tell(v, FINDING_ACCURACY, h.until_s, h.until_s, h.first);
+    horizon h = horizon_of(t, v->part * VERDICT_TOLERANCE);
+    const int k = t->between ? -1 : first_off(v, &h);
+    const double until_s = k >= 0 ? h.column[k].until_s : 0.0;
+    const bool is_cut = t->cut_s >= 0.0 && until_s >= t->cut_s && t->finer_failed_s < 0.0;
+    if (k >= 0 && !is_cut && until_s < finding_rows[FINDING_ACCURACY].limit * end_s(v)) {
+        tell(v, FINDING_ACCURACY, until_s, until_s, k);
     }
     horizon_free(&h);
 }

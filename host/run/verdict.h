@@ -52,6 +52,10 @@ typedef struct finding {
 
 /* Accuracy is told at this part of a range, */
 #define VERDICT_TOLERANCE 1e-2
+/* where it was passed at so many times the time at which this one was, or this one in such a part of the run, */
+#define VERDICT_EARLY_TOLERANCE 1e-4
+#define VERDICT_GROWS 8.0
+#define VERDICT_BEGIN 0.02
 /* singular places where they put a position off by this one, */
 #define VERDICT_NEAR_TOLERANCE 1e-3
 /* energy that was missing on the way and came back, beyond this part of the largest entry, */
@@ -65,6 +69,7 @@ typedef struct verdict {
     const image *image;
     const engine_kind *kind;
     void *run;
+    double part; /* of the limits of energy and accuracy: 1; a remedy is judged by less */
     books *books; /* NULL of a system given by its equations */
     watch *watch;
     jumped *jumped; /* NULL: over nothing */

@@ -1,6 +1,5 @@
-/* test_believed.c: whether what is left of a run's energy can be believed (host/run/belief.h), and which digits it is short of
- * (digits.h), by formulas: of books that are made up, of runs with contacts whose totals are, and of what float loses of powers
- * that are too small for it, looked at where a run is looked at. */
+/* test_believed.c: whether what is left of a run's energy can be believed (host/run/belief.h), by formulas: of books that are made up,
+ * of runs with contacts whose totals are, and of what float loses of powers that are too small for it. */
 #include <math.h>
 #include <stdbool.h>
 #include <stdlib.h>
@@ -10,8 +9,6 @@
 #include "command.h"
 #include "derived.h"
 #include "host/run/belief.h"
-#include "host/run/digits.h"
-#include "host/run/verdict.h"
 #include "made_run.h"
 #include "unity.h"
 
@@ -271,58 +268,11 @@ static void test_what_is_too_small(void) {
     }
 }
 
-/* --- digits -------------------------------------------------------------------------------------------------------------*/
-
-/* A float's run, which loses nothing: whatever its belief says is told where it is beyond all bounds, and double has the motion. */
-static void test_energies_that_float_loses(void) {
-    static const char text[] =
-        "mechanism m\ncoordinate x [m]\nT = 1 [kg]*x'^2/2\nV = 9 [N/m]*x^2/2\n"
-        "scene s { start x = 1 [m]; step 10 [ms]; until 2 [s] }\n";
-    derived d = derived_scene(text, "s");
-    derived_expect(&d, text);
-    for (unsigned c = 0; c < dice_cases(usual_or(40, 15)); c++) {
-        const engine_kind *kind = c % 5U == 4 ? &engine_double : &engine_float;
-        void *run = kind->start(d.image);
-        verdict *v = verdict_open(d.image, kind);
-        verdict_enter(v, run);
-        for (uint64_t i = 0; i < d.image->steps; i++) {
-            TEST_ASSERT_EQUAL_INT(WH_OK, kind->step(run));
-            verdict_enter(v, run);
-        }
-        verdict_end(v, run, false, NULL);
-        belief b = v->balance;
-        const double real_J = b.entry_J;
-        b.entry_J = real_J * exp(dice_between(&die, -1.0, 2.0));
-        b.left_J = b.entry_J * 0.01 * exp(dice_between(&die, -1.0, 3.0)) * (maybe() ? 1.0 : -1.0);
-        b.size_J = b.entry_J * (dice_one_of(&die, 4) == 0 ? 2e7 : 5e6);
-        b.computing_J = fabs(b.left_J) * (dice_one_of(&die, 4) == 0 ? 0.3 : 0.2);
-        b.slow = dice_one_of(&die, 5) == 0;
-        b.known = dice_one_of(&die, 5) > 0;
-        const bool lost = kind == &engine_float && b.known && !b.slow &&
-                          fabs(b.left_J) / b.entry_J > 0.01 && b.size_J < 1e7 * b.entry_J &&
-                          fabs(b.left_J) > 4.0 * b.computing_J && b.entry_J < real_J / 0.3;
-        const bool near = fabs(b.entry_J - real_J / 0.3) < 0.01 * b.entry_J;
-        const digits few = digits_of(d.image, kind, v->watch, &b, NULL);
-        TEST_ASSERT_TRUE(near || few.energy == lost);
-        TEST_ASSERT_EQUAL_INT(-1, few.component);
-        TEST_ASSERT_FALSE(few.not_known);
-        if (few.energy) {
-            expect_near(b.left_J, few.left_J, "left over");
-            expect_near(fabs(b.left_J) / b.entry_J, few.part, "its part");
-            TEST_ASSERT_TRUE(few.in_double && few.compensated);
-        }
-        verdict_close(v);
-        kind->stop(run);
-    }
-    derived_free(&d);
-}
-
 void suite_believed(void) {
     die = dice_of("believed", 95);
     const long before = blocks_in_use();
     RUN_TEST(test_made_up_books);
     RUN_TEST(test_kept_books);
     RUN_TEST(test_what_is_too_small);
-    RUN_TEST(test_energies_that_float_loses);
     TEST_ASSERT_EQUAL_INT(before, blocks_in_use());
 }

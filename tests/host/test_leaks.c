@@ -9,7 +9,7 @@
 #include "host/emit/description.h"
 #include "host/emit/emit.h"
 #include "host/run/summary.h"
-#include "host/run/verdict.h"
+#include "host/run/findings.h"
 #include "host/run/horizon.h"
 
 #include "unity.h"
@@ -65,17 +65,18 @@ static void run_watched(const image *im, const image *plain) {
     static const engine_kind *const kinds[] = {&engine_double, &engine_float};
     for (int k = 0; k < 2; k++) {
         void *run = kinds[k]->start(im);
-        verdict *v = verdict_open(im, kinds[k]);
+        verdict *v = verdict_open(im, plain, kinds[k], run);
         wh_status status = WH_OK;
-        verdict_enter(v, run);
+        verdict_enter(v);
         for (uint64_t i = 0; i < im->steps && status == WH_OK; i++) {
             status = kinds[k]->step(run);
-            verdict_enter(v, run);
+            verdict_enter(v);
         }
-        verdict_end(v, run, status != WH_OK, NULL);
+        verdict_end(v, status);
         FILE *out = tmpfile();
         TEST_ASSERT_NOT_NULL(out);
-        verdict_say(out, v, true);
+        status == WH_OK ? findings_say(out, v, plain, NULL, true)
+                        : findings_say_failed(out, v, plain, NULL);
         summary_print(out, im, kinds[k], run, v->books, &v->balance);
         fclose(out);
         verdict_close(v);

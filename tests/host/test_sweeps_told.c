@@ -196,14 +196,13 @@ static void test_notes(void) {
         const session_settings settings = {.end = points, .header = true, .jobs = 2, .quiet = true};
         sessions_open();
         const session_said s = sessions_sit(&m, settings);
-        char steps[100];
-        snprintf(steps, sizeof steps, ", in %u step%s; ", overran, overran == 1 ? "" : "s");
         TEST_ASSERT_EQUAL_INT_MESSAGE(EXIT_DONE, s.code, s.err);
-        expect_note(s.err, "whirl sweep: note: ", overran, points, overran > 0 ? steps : "",
-                    first_overrun, first_at[0]);
-        TEST_ASSERT_EQUAL_UINT(overran > 0 ? 1 : 0, times_in(s.err, " overran the 8 moments "));
-        expect_note(s.err, "whirl sweep: note: at ", slow, points, "", first_slow, first_at[1]);
-        TEST_ASSERT_EQUAL_UINT(slow > 0 ? 1 : 0, times_in(s.err, " turns so slowly "));
+        expect_note(s.err, "whirl sweep: warning: ", overran, points,
+                    "had steps with more events than a step takes [events]; ", first_overrun,
+                    first_at[0]);
+        expect_note(s.err, "whirl sweep: note: ", slow, points,
+                    "have a component that moves too slowly for the units of its steps [digits]; ",
+                    first_slow, first_at[1]);
         made_sweep_close(&m);
     }
     sessions_close();
@@ -236,13 +235,10 @@ static void test_not_believed(void) {
         snprintf(at, sizeof at, "step=%s", number_shortest(value[0], number));
         TEST_ASSERT_EQUAL_INT_MESSAGE(EXIT_DONE, s.code, s.err);
         expect_note(s.err, "whirl sweep: warning: ", 1, 2,
-                    "cannot be believed: what is left over of their energy books "
-                    "(energy_left_over), or was missing on the way, is too much of the largest "
-                    "entry; ",
+                    "cannot be believed: too much of the largest entry of their energy books is "
+                    "left over (energy_left_over), or was missing on the way [energy]; ",
                     fine_first ? 1 : 0, at);
-        TEST_ASSERT_EQUAL_UINT(1, times_in(s.err, "whirl sweep: "));
-        TEST_ASSERT_EQUAL_UINT(1, times_in(s.err, "hint: a smaller --step; `whirl run` of the "
-                                                  "point says more\n"));
+        TEST_ASSERT_TRUE(times_in(s.err, "hint: `whirl run` of the point tells what would do\n") >= 1);
         made_sweep_close(&m);
     }
     sessions_close();

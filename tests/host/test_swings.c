@@ -104,7 +104,7 @@ static void test_predator_and_prey(void) {
         char about[sizeof what.err + 600];
         snprintf(about, sizeof about, "%s, %s: H changes by %.3g; it says %s", text,
                  wh_methods[p.method].word, lost, what.err);
-        const bool is_told = strstr(what.err, "too coarse") != NULL;
+        const bool is_told = strstr(what.err, "[accuracy]") != NULL;
         if (lost > TOLD) {
             told++;
             TEST_ASSERT_TRUE_MESSAGE(is_told, about);

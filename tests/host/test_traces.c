@@ -202,9 +202,9 @@ static void run_to(const char *path, const char *csv, const image *im, const eng
                    uint64_t every) {
     const simulation_settings s = {
         .kind = kind, .every = every, .vcd = path, .csv = csv, .quiet = true};
-    bool against;
+    simulation_trust trust;
     errors_catch();
-    const simulation_result result = simulate(im, &s, &against);
+    const simulation_result result = simulate(im, &s, &trust);
     const char *told = errors_caught();
     TEST_ASSERT_EQUAL_INT_MESSAGE(SIMULATION_DONE, result, told);
 }
