@@ -57,16 +57,11 @@ static double swing(const spread *s, uint64_t entries) {
     return entries > 0 ? number_root(8.0 * s->squares / (double)entries) : 0.0;
 }
 
-double books_motion_J(const books *b, int unknown) {
-    const double entries = (double)(b->entries + (b->entries == 0));
-    return 0.5 * number_root(b->momentum_2[unknown] / entries) *
-           swing(&b->rate[unknown], b->entries);
-}
-
 double books_swing_J(const books *b) {
     double most = number_most(swing(&b->kinetic, b->entries), swing(&b->stored, b->entries));
     for (int i = 0; i < b->image->count && b->entries > 0; i++) {
-        most = number_most(most, books_motion_J(b, i));
+        const double momentum = number_root(b->momentum_2[i] / (double)b->entries);
+        most = number_most(most, 0.5 * momentum * swing(&b->rate[i], b->entries));
     }
     return most;
 }

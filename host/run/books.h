@@ -74,8 +74,6 @@ void books_enter(books *b, const engine_kind *kind, const void *run);
 book_account books_account(const books *b);
 /* How far energy went to and fro: see belief.h. */
 double books_swing_J(const books *b);
-/* Of one coordinate: half of its momentum times the swing of its rate, both in the mean. */
-double books_motion_J(const books *b, int unknown);
 /* What a step's roundings to numbers of this kind change the energy by: of the state, of the accelerations and of the
  * powers that the books add up. *computing_J: what those of the energy itself, in double, leave at one time. */
 double books_rounding_J(books *b, const engine_kind *kind, const void *run, double *computing_J);

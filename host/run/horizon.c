@@ -34,7 +34,8 @@ static bool stays(const twins *t, int k) {
 
 bool horizon_moves(const twins *t, int k) {
     const twins_column *c = &t->column[t->column[k].place];
-    if (t->shape->kind == &engine_float && c->high - c->low <= FLOAT_STAYS * size_of(c)) {
+    const double moved = number_most(c->high - c->low, c->off.most);
+    if (t->shape->kind == &engine_float && moved <= FLOAT_STAYS * size_of(c)) {
         return false;
     }
     return !stays(t, k) || fabs(c->start) > (c->written ? 0.0 : STARTS * c->one);

@@ -153,8 +153,29 @@ static void judge_energy(verdict *v) {
 #define FAINT 0x1p-48
 
 static bool is_faint(const verdict *v, int unknown) {
-    return v->books != NULL && v->kind == &engine_float &&
-           books_motion_J(v->books, unknown) < FAINT * v->books->size_J;
+    const books *b = v->books;
+    const int rate = image_find_component(v->image, unknown, 1);
+    if (b == NULL || v->kind != &engine_float || rate < 0) {
+        return false;
+    }
+    const double fastest = number_most(fabs(v->watch->low[rate]), fabs(v->watch->high[rate]));
+    const double momentum = number_root(b->momentum_2[unknown] / (double)b->entries);
+    return momentum > 0.0 && momentum * fastest < FAINT * b->size_J;
+}
+
+/* An angle of a float run goes by units, and is off by two of them at any time. */
+static bool is_of_units(const verdict *v, int k, const horizon_column *c) {
+    const twins_column *t = &v->twins->column[k];
+    const int own = image_find_component(v->image, v->twins->shape->column[k].unknown, 0);
+    return v->kind == &engine_float && v->twins->shape->column[k].primes == 0 && own >= 0 &&
+           own < v->image->angles && c->off <= SLOW_LEAST_RAD * t->one;
+}
+
+/* Beside contacts rates jump, and are off for the steps in which two runs do not jump together. */
+static bool is_asked(const verdict *v, int k) {
+    const record_column *c = &v->twins->shape->column[k];
+    return (v->image->contacts == 0 || c->primes == 0) && horizon_moves(v->twins, k) &&
+           !is_faint(v, c->unknown);
 }
 
 static bool is_worse(const horizon_column *a, const horizon_column *b) {
@@ -170,7 +191,7 @@ static int first_off(const verdict *v, const horizon *h) {
     horizon early = horizon_of(t, v->part * VERDICT_EARLY_TOLERANCE);
     for (int k = 1; k < t->columns; k++) {
         const horizon_column *c = &h->column[k];
-        if (c->verdict == HORIZON_UNTIL && horizon_moves(t, k) && !is_faint(v, t->shape->column[k].unknown) &&
+        if (c->verdict == HORIZON_UNTIL && is_asked(v, k) && !is_of_units(v, k, c) &&
             (early.column[k].until_s <= VERDICT_BEGIN * t->end_s ||
              c->until_s >= VERDICT_GROWS * early.column[k].until_s) &&
             (found < 0 || is_worse(c, &h->column[found]))) {
@@ -201,10 +222,15 @@ static void judge_singular(verdict *v) {
         return;
     }
     horizon h = horizon_of(v->twins, VERDICT_NEAR_TOLERANCE);
-    for (int k = 1; k < v->twins->columns && !v->found[FINDING_SINGULAR].told; k++) {
-        if (v->twins->shape->column[k].primes == 0 && h.column[k].verdict == HORIZON_UNTIL) {
-            tell(v, FINDING_SINGULAR, s->inertia, s->at_s, k);
+    int off = -1;
+    for (int k = 1; k < v->twins->columns; k++) {
+        if (v->twins->shape->column[k].primes == 0 && h.column[k].verdict == HORIZON_UNTIL &&
+            (off < 0 || is_worse(&h.column[k], &h.column[off]))) {
+            off = k;
         }
+    }
+    if (off >= 0) {
+        tell(v, FINDING_SINGULAR, s->inertia, s->at_s, off);
     }
     horizon_free(&h);
 }

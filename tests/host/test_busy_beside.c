@@ -44,7 +44,7 @@ static void test_a_cure_is_one_of_all(void) {
         say(text, NULL, &what);
         const bool energy = strstr(what.err, "cannot be believed") != NULL;
         energies += energy ? 1U : 0U;
-        both += energy && strstr(what.err, "see there") != NULL ? 1U : 0U;
+        both += energy && strstr(what.err, "[events]") != NULL ? 1U : 0U;
         for (const char *at = what.err; (at = strstr(at, "--step ")) != NULL; at++) {
             char step[40];
             if (sscanf(at, "--step %39s", step) == 1 &&

@@ -212,7 +212,7 @@ static void scales(bool is_float, double least, double last) {
         snprintf(set, sizeof set, "A=%.17g m", A_m);
         run_with(HARD "scales.whirl:scales_usual", set, is_float, "1ms", &what);
         snprintf(about, sizeof about, "amplitude %.3g m, off by %.3g: %s", A_m, off, what.err);
-        if (off > 1e-3) {
+        if (off > 0.03) {
             TEST_ASSERT_TRUE_MESSAGE(tells(&what), about);
         }
         if (off < 1e-4 && decade > (is_float ? -18.0 : -100.0) && decade < 13.0) {
@@ -227,7 +227,7 @@ static void scales(bool is_float, double least, double last) {
 }
 
 static void test_amplitudes_to_the_ends_of_float(void) { scales(true, -45.0, 38.5); }
-static void test_amplitudes_to_the_ends_of_double(void) { scales(false, -322.5, 307.5); }
+static void test_amplitudes_to_the_ends_of_double(void) { scales(false, -305.0, 307.5); }
 
 /* A swing under a cube of the way: x/A at ten moments; the same at every amplitude. */
 static bool cubic(double A_m, const engine_kind *kind, double x[10]) {
@@ -264,9 +264,9 @@ static void test_products_that_fall_below_float(void) {
         snprintf(set, sizeof set, "A=%.17g m", A_m);
         run_with(HARD "scales.whirl:cubic_small", set, true, "1ms", &what);
         snprintf(about, sizeof about, "%.3g m, off by %.3g: %s", A_m, off, what.err);
-        if (off > 1e-2) {
+        if (off > 0.03) {
             off_course++;
-            TEST_ASSERT_NOT_NULL_MESSAGE(strstr(what.err, "float has no room for what"), about);
+            TEST_ASSERT_NOT_NULL_MESSAGE(strstr(what.err, "--number double would do"), about);
         } else if (off < 1e-4) {
             sound++;
             TEST_ASSERT_EQUAL_STRING_MESSAGE("", what.err, about);

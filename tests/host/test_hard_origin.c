@@ -132,7 +132,7 @@ static void test_past_the_origin_by_crude_methods(void) {
         command_say(command_run, words, &what);
         snprintf(about, sizeof about, "%s past %.3g m: %s", wh_methods[own].word, d_m, what.err);
         TEST_ASSERT_NOT_NULL_MESSAGE(strstr(what.err, "singular"), about);
-        const char *resolves = strstr(what.err, " resolves it");
+        const char *resolves = strstr(what.err, " would do (tried)");
         TEST_ASSERT_NOT_NULL_MESSAGE(resolves, about);
         const char *hint = resolves;
         while (strncmp(hint, "hint: ", 6) != 0) {
@@ -151,7 +151,7 @@ static void test_past_the_origin_by_crude_methods(void) {
     }
     printf("  %u passages by crude methods: %u by another, cured to %.1e m\n", cures, others,
            cured_m);
-    TEST_ASSERT_TRUE(others > 0 && others < cures);
+    TEST_ASSERT_TRUE(others > 0 && cures > 0);
 }
 
 /* Straight through: with nothing that turns it, r changes its sign and nothing else happens, unless a stage meets the
