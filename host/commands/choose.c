@@ -300,8 +300,16 @@ static int choose_begun(const choose_options *o, pricing *p, choice_wish *w) {
     w->prices = b.missing == NULL ? prices_counted
                 : o->predict      ? prices_asked
                                   : predicted_since(b.missing, b.told);
-    const int done = choose_from(p, w, o, b.missing == NULL);
+    int done = choose_from(p, w, o, b.missing == NULL);
     w->prices = NULL; /* `b` may hold it */
+    if (done == EXIT_DONE && trial_horizon_s(&p->trial) < 0.5 * p->until_s) {
+        fprintf(stderr,
+                "whirl choose: error: errors are known until t = %.6g s only, less than half of "
+                "%.6g s\n"
+                "hint: --horizon %.6gs asks for no more\n",
+                trial_horizon_s(&p->trial), p->until_s, trial_horizon_s(&p->trial));
+        done = EXIT_RUN_FAILED;
+    }
     return done;
 }
 

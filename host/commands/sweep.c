@@ -235,6 +235,9 @@ static int sweep_scene(const sweep_options *o, source_model *from, const mechani
                     s.from_s, base.instance->until_s);
             code = EXIT_BAD_INPUT;
         }
+        if (code == EXIT_DONE && !sweep_ends_are_alike(&s, base.instance->until_s)) {
+            code = EXIT_BAD_INPUT;
+        }
         if (code == EXIT_DONE && !o->quiet) {
             say_hints(&base);
         }

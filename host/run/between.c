@@ -32,8 +32,9 @@
 /* Parts of a step: 5, 21, 85, 341, 1365, 5461: what is a whole number of periods in two of them is so in none that is likely. */
 #define PARTS_FIRST 5
 #define PARTS_MOST 5461 /* one of the row */
-/* Of all steps that are taken again. */
+/* Of all steps that are taken again; and in operations, a third of a second, half of it for one of them. */
 #define PARTS_IN_ALL 150000
+#define OPERATIONS_MOST 8e7
 /* Places of a step that are asked, and of one in so many rows many more: pulses are narrow. What is seen of these alone is asked
  * for in all steps from then on, and is in no coarser parts. */
 #define ASKED_IN_STEP 12
@@ -63,7 +64,8 @@ struct between {
     uint64_t seen;
     uint64_t first; /* steps before the first that was seen */
     int parts;      /* that the finest of those took */
-    int spent;      /* parts, so far */
+    int spent;      /* parts, so far, */
+    int afford;     /* and in all */
     bool narrow;    /* what few places do not show was seen */
     int few;        /* places of a step that are asked, */
     int many;       /* and of one in so many rows */
@@ -95,6 +97,8 @@ between *between_open(const image *im, const engine_kind *kind) {
         ASKED_PART * wh_methods[im->settings.method].stages * (double)im->steps / PLACES;
     b->few = (int)number_least(ASKED_IN_STEP, 1.0 + 0.5 * asked);
     b->many = (int)number_least(ASKED_DEEP, 1.0 + 0.5 * DEEP_ROWS * asked);
+    const double stages = 4.0 * (im->list[IMAGE_BOOKS]->count + 8.0 * b->field->n);
+    b->afford = (int)number_least(PARTS_IN_ALL, OPERATIONS_MOST / stages);
     const int64_t n = b->field->n;
     b->from = room(17 * n, sizeof *b->from);
     b->to = b->from + n;
@@ -190,7 +194,8 @@ static bool take_again(between *b, int first) {
     const int n = b->field->n;
     double *last = room(n, sizeof *last);
     bool agreed = false;
-    for (int parts = first; parts <= PARTS_MOST && !agreed; parts = 4 * parts + 1) {
+    for (int parts = first; parts <= PARTS_MOST && parts <= b->afford / 2 && !agreed;
+         parts = 4 * parts + 1) {
         memcpy(b->at, b->from, (size_t)n * sizeof *b->at);
         field_go(b->field, b->step_s, parts, b->at);
         b->spent += parts;
@@ -312,7 +317,7 @@ static void note_range(between *b) {
 void between_enter(between *b, const engine_kind *kind, const void *run) {
     const uint64_t steps = kind->steps(run);
     const int angles = b->field->image->angles;
-    if (is_asked(b, steps) && b->spent < PARTS_IN_ALL) {
+    if (is_asked(b, steps) && b->spent < b->afford) {
         const int n = b->field->n;
         kind->state(run, b->to, b->to + angles);
         unwrap(b);

@@ -27,8 +27,8 @@ static const char *column_name(const verdict *v, int k, char text[NAME_TEXT]) {
 
 static void say_mass(FILE *out, const verdict *v) {
     fprintf(out,
-            "%s of '%s' is nearly singular: rounding may put accelerations, in double, too, %.2g %% "
-            "off",
+            "%s of '%s' is singular but for a last digit or two: rounding, in double, too, may put "
+            "what it gives %.2g %% off",
             v->image->has_energies ? "the mass matrix" : "what stands with the highest derivatives",
             v->image->mechanism, 100.0 * number_least(v->image->mass_blur, 1.0));
 }
@@ -205,7 +205,13 @@ static void say_remedy(FILE *out, const verdict *v, const image *plain,
     char options[REMEDY_TEXT];
     const image *im = v->image;
     if (im->settings.tables != TABLES_NONE && is_told(v, FINDING_ENERGY)) {
-        fputs("hint: the tables may be too coarse (not tried): more --cells, or no --tables\n", out);
+        char cells[40] = "";
+        if (im->settings.cells > 0 && 2 * im->settings.cells <= IMAGE_CELLS_MOST) {
+            snprintf(cells, sizeof cells, "--cells %d, or ", 2 * im->settings.cells);
+        }
+        fprintf(out,
+                "hint: the tables may be too coarse (not tried): %sno --tables would tell\n",
+                cells);
     }
     switch (remedy_find(im, plain, v->kind, first_parts(v), stop, options)) {
     case REMEDY_DOES: fprintf(out, "hint: %s would do (tried)\n", options); return;

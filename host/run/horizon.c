@@ -75,6 +75,8 @@ static horizon_column judge(const twins *t, int k, double tolerance) {
         range <= ROUNDING_ROOM * c->rounding && isfinite(made.off) && stays(t, k)) {
         made.verdict = HORIZON_ROUNDING;
         made.until_s = t->end_s;
+    } else if (passed && t->unwrapped && made.until_s >= t->cut_s) {
+        made.verdict = HORIZON_NOT_TOLD;
     } else if (passed) {
         made.verdict = HORIZON_UNTIL;
     } else if (few) {

@@ -5,6 +5,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "undefined.h"
+
 /* Names of columns in tables; longer ones shift what follows. */
 enum { NAME_WIDTH = 16, NAME_SIZE = 160 };
 
@@ -44,7 +46,10 @@ static void print_column(FILE *out, const horizon *h, int k) {
         break;
     case HORIZON_STILL: fputs("to the end      it does not move\n", out); break;
     case HORIZON_NOT_TOLD:
-        if (c->range > 0.0) {
+        if (h->of->unwrapped && c->until_s >= h->of->cut_s) {
+            fprintf(out, "not to be told  behind %.9g s: double knows no sine of such angles\n",
+                    c->until_s);
+        } else if (c->range > 0.0) {
             fprintf(
                 out,
                 "not to be told  rounding may move it by %.2e of its range, %.4g %s, in double, "
@@ -108,14 +113,17 @@ static void print_verdict(FILE *out, const horizon *h) {
                 t->end_s);
         return;
     }
-    if (h->column[h->first].verdict == HORIZON_NOT_TOLD) {
+    if (t->unwrapped && h->until_s >= t->cut_s) {
+        fprintf(out, "not to be told behind t = %.9g s: double knows no sine beyond %g rad\n",
+                t->cut_s, ANGLE_SINE_MOST_RAD);
+    } else if (h->column[h->first].verdict == HORIZON_NOT_TOLD) {
         fprintf(out, "not to be told: double has too few digits for %s, where it is\n",
                 name_of(h, h->first, name));
     } else {
         fprintf(out, "trusted until t = %.9g s of %.9g s: %s is off first\n", h->until_s, t->end_s,
                 name_of(h, h->first, name));
     }
-    if (t->finer_failed_s >= 0.0) {
+    if (t->finer_failed_s >= 0.0 && !t->unwrapped) {
         fprintf(out, "with half the step it leaves all bounds behind t = %.9g s\n",
                 t->finer_failed_s);
     }
@@ -183,6 +191,11 @@ void horizon_print_line(FILE *out, const horizon *h, bool doubted) {
     } else if (h->to_the_end) {
         fprintf(out, "trusted            to the end: every coordinate to %.3g of its range\n",
                 h->tolerance);
+    } else if (h->of->unwrapped && h->until_s >= h->of->cut_s) {
+        fprintf(out,
+                "trusted            not to be told behind t = %.6g s: double knows no sine beyond "
+                "%g rad\n",
+                h->of->cut_s, ANGLE_SINE_MOST_RAD);
     } else if (h->column[h->first].verdict == HORIZON_NOT_TOLD) {
         const horizon_column *c = &h->column[h->first];
         fprintf(out,

@@ -12,6 +12,8 @@
 /* Halvings of a step, and parts of it that are looked at for one contact. */
 #define HALVINGS 16
 #define PARTS_MOST 400
+/* Operations on bounds that a run's steps may take together, in parts of a step, each some ten of numbers: half a second. */
+#define OPERATIONS_MOST 1e7
 /* Less than this share of the gap at the ends is a touch: rounding. */
 #define TOUCH 1e-9
 /* An acceleration that both ends do not show is so many times theirs, and over a step would change the rate by this share. */
@@ -36,6 +38,7 @@ struct missed {
     double *most;      /* [coordinates] more is hidden from both ends */
     bool *hard;        /* [contacts + coordinates] bounds say too little, once and for all */
     int parts;         /* looked at, so far */
+    double spent;      /* operations of parts */
 };
 
 static bool has_exponential(const tape *t) {
@@ -276,7 +279,8 @@ static int look_force(missed *m, int i, double low, double high, double most) {
 
 static bool passes(missed *m, looking *look, int k, double low, double high, double bar,
                    int halvings) {
-    if (m->parts++ > PARTS_MOST) {
+    m->spent += 2.0 * (m->signals != NULL ? m->signals->count : m->accel->count);
+    if (m->parts++ > PARTS_MOST || m->spent > OPERATIONS_MOST) {
         return false;
     }
     const int found = look(m, k, low, high, bar);

@@ -8,6 +8,7 @@
 #include "host/base/room.h"
 #include "host/number/functions.h"
 #include "folded.h"
+#include "undefined.h"
 
 /* What looking for events takes of evaluations, beside a step's own. */
 #define EVALUATIONS_OF_EVENTS 8.0
@@ -221,6 +222,9 @@ static void take_places(twins *t) {
     }
 }
 
+/* A step before it fails. */
+#define UNWRAPPED 0.9
+
 /* --- side by side ------------------------------------------------------------------------------------*/
 
 typedef struct pair {
@@ -281,6 +285,18 @@ static bool step_finer(pair *p) {
     return status == WH_OK;
 }
 
+/* Has an angle gone so far that double knows no sine of it? A float's turns on. */
+static bool is_unwrapped(const pair *p) {
+    double angle_rad[IMAGE_COMPONENTS_MAX];
+    double real[2 * IMAGE_COMPONENTS_MAX];
+    bool found = false;
+    engine_double.state(p->finer, angle_rad, real);
+    for (int i = 0; i < p->to->finer.angles && p->wish.kind == &engine_float; i++) {
+        found = found || fabs(angle_rad[i]) > UNWRAPPED * ANGLE_SINE_MOST_RAD;
+    }
+    return found;
+}
+
 static bool is_stopped(const twins_wish *w) { return w->stop != NULL && *w->stop; }
 
 /* Behind this time nothing is known. */
@@ -310,6 +326,7 @@ static void follow(pair *p, uint64_t begin) {
     const double begin_s = ratio_times(begin, p->wish.image->step);
     if (t->finer_failed_s < 0.0 && !step_finer(p)) {
         t->finer_failed_s = begin_s;
+        t->unwrapped = is_unwrapped(p);
         end_passages(t, p->look_s);
     }
     if (t->overrun_s < 0.0 && has_overrun(p)) {

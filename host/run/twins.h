@@ -61,6 +61,7 @@ typedef struct twins {
     double end_s;          /* of the run: its last step that was done */
     wh_status status;      /* the run's: its last step */
     void *run;             /* where it ended */
+    bool unwrapped; /* the other failed for an angle beyond those whose sine double knows */
     double finer_failed_s; /* the other left all bounds behind this time; below 0: it did not */
     double
         overrun_s; /* behind this time one of them had more events in a step than it takes; below 0: neither */

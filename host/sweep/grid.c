@@ -259,6 +259,14 @@ void grid_values(const grid *g, uint64_t point, double *value) {
     }
 }
 
+int grid_step_axis(const grid *g) {
+    int found = -1;
+    for (int i = 0; i < g->count; i++) {
+        found = g->axes[i].symbol == NULL ? i : found;
+    }
+    return found;
+}
+
 bool grid_varies_parameters(const grid *g) {
     for (int i = 0; i < g->count; i++) {
         if (g->axes[i].symbol != NULL && g->axes[i].symbol->kind == SYM_PARAMETER) {

@@ -38,6 +38,9 @@ void grid_free(grid *g);
 /* The values of point `point` < g->points, by axis: value[g->count], SI. The ends are exact. */
 void grid_values(const grid *g, uint64_t point, double *value);
 
+/* The axis that varies the step; -1: none does. */
+int grid_step_axis(const grid *g);
+
 /* Does an axis vary a parameter? Then each point has equations of its own. */
 bool grid_varies_parameters(const grid *g);
 

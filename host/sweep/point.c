@@ -10,11 +10,56 @@
 #include "host/derive/image_make.h"
 #include "host/derive/lagrange.h"
 #include "host/number/zero.h"
+#include "host/number/functions.h"
+#include "host/number/ratio.h"
 #include "host/run/belief.h"
 #include "host/run/start.h"
 
+/* Ends that differ by this part of the time are alike. */
+#define ENDS_ALIKE 1e-9
+
+static bool has_balance(const sweep *s) { return !s->measures->mechanism.is_system; }
+
 int sweep_columns(const sweep *s) {
-    return s->measures->count + (s->measures->mechanism.is_system ? 0 : 1);
+    return s->measures->count + (has_balance(s) ? 1 : 0) + (grid_step_axis(s->grid) >= 0 ? 1 : 0);
+}
+
+bool sweep_ends_are_alike(const sweep *s, double until_s) {
+    const int at = grid_step_axis(s->grid);
+    bool needed = false;
+    for (int i = 0; i < s->measures->count; i++) {
+        needed = needed || s->measures->list[i].kind == MEASURE_FINAL;
+    }
+    if (at < 0 || !needed) {
+        return true;
+    }
+    double *value = room(s->grid->count, sizeof *value);
+    double off_s = 0.0; /* the step whose end is furthest from the end asked for */
+    double most_s = ENDS_ALIKE * until_s;
+    uint64_t steps_off = 0;
+    for (uint64_t point = 0; point < s->grid->points; point++) {
+        uint64_t steps;
+        grid_values(s->grid, point, value);
+        if (value[at] >= RATIO_LEAST &&
+            ratio_count(ratio_of(until_s), ratio_of(value[at]), &steps) &&
+            fabs(value[at] * (double)steps - until_s) > most_s) {
+            most_s = fabs(value[at] * (double)steps - until_s);
+            off_s = value[at];
+            steps_off = steps;
+        }
+    }
+    free(value);
+    if (off_s > 0.0) {
+        const double down = number_most(number_floor(until_s / off_s), 1.0);
+        fprintf(stderr,
+                "whirl sweep: error: the runs end at different times: with the step %.9g s at %.9g "
+                "s, not at %.9g s, and a measure at the end would compare different moments\n"
+                "hint: the nearest steps that divide %.9g s are %.9g s and %.9g s; or measure over "
+                "the run, such as max(EXPR)\n",
+                off_s, off_s * (double)steps_off, until_s, until_s, until_s / (down + 1.0),
+                until_s / down);
+    }
+    return off_s == 0.0;
 }
 
 bool sweep_can_share(const grid *g, const image *im) {
@@ -113,11 +158,10 @@ void sweep_header(const sweep *s, FILE *out) {
     }
     for (int i = 0; i < s->measures->count; i++) {
         header_field(out, s->measures->list[i].name);
-        fputs(i + 1 < sweep_columns(s) ? "," : "\r\n", out);
+        fputs(i + 1 < s->measures->count ? "," : "", out);
     }
-    if (sweep_columns(s) > s->measures->count) {
-        fputs(BELIEF_COLUMN "\r\n", out);
-    }
+    fputs(has_balance(s) ? "," BELIEF_COLUMN : "", out);
+    fputs(grid_step_axis(s->grid) >= 0 ? ",end_s\r\n" : "\r\n", out);
 }
 
 void sweep_swept_fields(const sweep *s, uint64_t point, FILE *out) {
@@ -142,10 +186,16 @@ bool sweep_point(const sweep *s, uint64_t point, bool (*abandon)(void), FILE *ro
             fprintf(row, "%.*g", s->kind->digits, number_shown(value[i]));
         }
     }
-    if (sweep_columns(s) > s->measures->count) {
+    if (has_balance(s)) {
         fputc(',', row);
         if (good && !isnan(value[s->measures->count])) {
             fprintf(row, "%.3e", value[s->measures->count]);
+        }
+    }
+    if (grid_step_axis(s->grid) >= 0) {
+        fputc(',', row);
+        if (good) {
+            fprintf(row, "%.15g", notes->end_s);
         }
     }
     fputs("\r\n", row);

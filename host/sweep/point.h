@@ -24,8 +24,11 @@ typedef struct sweep {
 } sweep;
 
 /* Columns behind the swept values: the measures, and of a mechanism with energies how well they balance
- * (host/run/belief.h; empty where that is not known). */
+ * (host/run/belief.h; empty where that is not known); where the step is swept, the end of each run, `end_s`. */
 int sweep_columns(const sweep *s);
+
+/* Do all runs end at the same time, as far as a measure takes their end? False, told: a step does not divide the time. */
+bool sweep_ends_are_alike(const sweep *s, double until_s);
 
 /* May the points of the grid share the lists of this image of one of them? */
 bool sweep_can_share(const grid *g, const image *im);

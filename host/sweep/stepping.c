@@ -177,6 +177,7 @@ static bool read_measures(const meter *m, double *value, FILE *reason, point_not
 bool stepping_measure(const measuring *w, const image *im, bool (*abandon)(void), double *value,
                       diags *errors, FILE *reason, point_notes *notes) {
     void *run = w->kind->start(im);
+    notes->end_s = ratio_times(im->steps, im->step);
     meter m = meter_open(w, im, run);
     const bool good =
         run_through(&m, abandon, errors, reason) && read_measures(&m, value, reason, notes);

@@ -29,6 +29,7 @@ typedef struct measuring {
 /* What is to be told of a point that did not fail. */
 typedef struct point_notes {
     unsigned found; /* findings, as bits (host/run/verdict.h) */
+    double end_s;   /* of the run */
 } point_notes;
 
 /* Run the image; value[count + 1] gets the measures and how well the energies balance (NAN where that is not known).
