@@ -14,7 +14,7 @@ books *books_open(const image *im) {
     }
     const int results = im->list[IMAGE_BOOKS]->results;
     books *b = room(1, sizeof *b);
-    const size_t count = 2 * (size_t)results + 5 * (size_t)im->count + (size_t)im->inputs;
+    const size_t count = 2 * (size_t)results + 4 * (size_t)im->count + (size_t)im->inputs;
     double *numbers = room((int64_t)count, sizeof *numbers);
     b->image = im;
     b->evaluator = evaluator_new(im->list[IMAGE_BOOKS]);
@@ -23,10 +23,11 @@ books *books_open(const image *im) {
     b->momentum = b->off + results;
     b->drift = b->momentum + im->count;
     b->momentum_now = b->drift + im->count;
-    b->momentum_2 = b->momentum_now + im->count;
-    b->lean = b->momentum_2 + im->count;
+    b->lean = b->momentum_now + im->count;
     b->input = b->lean + im->count;
-    b->rate = room(im->count, sizeof *b->rate);
+    b->rate = room(2 * (int64_t)im->count, sizeof *b->rate);
+    b->push = b->rate + im->count;
+    b->frame = room(im->count, sizeof *b->frame);
     image_inputs(im, b->input);
     b->step_s = im->step_s;
     return b;
@@ -37,6 +38,7 @@ void books_close(books *b) {
         evaluator_free(b->evaluator);
         free(b->value);
         free(b->rate);
+        free(b->frame);
         free(b);
     }
 }
@@ -57,11 +59,16 @@ static double swing(const spread *s, uint64_t entries) {
     return entries > 0 ? number_root(8.0 * s->squares / (double)entries) : 0.0;
 }
 
+double books_momentum(const books *b, int unknown) {
+    const spread *s = &b->push[unknown];
+    const double mean = b->frame[unknown] ? 0.0 : s->first + s->mean;
+    return b->entries > 0 ? number_root(s->squares / (double)b->entries + mean * mean) : 0.0;
+}
+
 double books_swing_J(const books *b) {
     double most = number_most(swing(&b->kinetic, b->entries), swing(&b->stored, b->entries));
     for (int i = 0; i < b->image->count && b->entries > 0; i++) {
-        const double momentum = number_root(b->momentum_2[i] / (double)b->entries);
-        most = number_most(most, 0.5 * momentum * swing(&b->rate[i], b->entries));
+        most = number_most(most, 0.5 * books_momentum(b, i) * swing(&b->rate[i], b->entries));
     }
     return most;
 }
@@ -277,6 +284,98 @@ static bool find_leans(books *b) {
     return found;
 }
 
+/* --- what every motion keeps ---------------------------------------------------------------------------*/
+
+/* Larger mechanisms are not asked. */
+enum { FRAME_MOST = 24 };
+/* A place beside a state, in seconds of its motion; and less than this part of the changes of momenta is rounding. */
+#define FRAME_ASIDE_S 1e-5
+#define FRAME_LEAST 1e-6
+
+/* How fast each momentum changes at a drawn place, with drawn rates; false: not known there. */
+static bool momenta_change(books *b, int draw, double *change) {
+    const image *im = b->image;
+    double angle_rad[2][IMAGE_COMPONENTS_MAX];
+    double real[2][2 * IMAGE_COMPONENTS_MAX] = {{0}};
+    double from[3 * IMAGE_COMPONENTS_MAX];
+    bool finite = true;
+    for (int i = 0; i < im->angles + im->reals; i++) {
+        const uint32_t drawn = (uint32_t)(draw * (im->angles + im->reals) + i + 1) * 2654435769U;
+        const double at = i < im->angles ? b->angle_rad[i] : b->real[i - im->angles];
+        from[i] = at + (0x1p-31 * (double)drawn - 1.0) * (1.0 + fabs(at));
+    }
+    evaluate_now(b, from, from + im->angles, b->time_s);
+    for (int i = 0; i < im->angles + im->reals; i++) {
+        const component c = image_component(im, i);
+        const int rate = c.primes == 0 ? image_find_component(im, c.unknown, 1) : -1;
+        const double slope = rate >= 0 ? from[rate] : b->value[c.unknown];
+        for (int k = 0; k < 2; k++) {
+            double *to = i < im->angles ? &angle_rad[k][i] : &real[k][i - im->angles];
+            *to = from[i] + (k == 0 ? -FRAME_ASIDE_S : FRAME_ASIDE_S) * slope;
+        }
+    }
+    for (int k = 0; k < 2; k++) {
+        evaluate_now(b, angle_rad[k], real[k], b->time_s);
+        for (int i = 0; i < im->count; i++) {
+            const double p = b->value[im->count + BOOK_MOMENTA + i];
+            change[i] = k == 0 ? p : change[i] - p;
+            finite = finite && isfinite(change[i]);
+        }
+    }
+    return finite;
+}
+
+/* Gauss's elimination of the changes at twice as many places as there are momenta: sums of momenta that change nowhere are what is
+ * left, and who is in one of them is part of a frame. */
+static void find_frame(books *b) {
+    const int n = b->image->count;
+    const int rows = 2 * n;
+    if (n > FRAME_MOST || b->image->recovered > 0) {
+        return;
+    }
+    double *a = room((int64_t)rows * n, sizeof *a);
+    int pivot[FRAME_MOST];
+    int rank = 0;
+    double most = 0.0;
+    bool known = true;
+    for (int r = 0; r < rows && known; r++) {
+        known = momenta_change(b, r, a + r * n);
+        for (int i = 0; i < n && known; i++) {
+            most = number_most(most, fabs(a[r * n + i]));
+        }
+    }
+    for (int c = 0; c < n && known; c++) {
+        int best = rank;
+        for (int r = rank; r < rows; r++) {
+            best = fabs(a[r * n + c]) > fabs(a[best * n + c]) ? r : best;
+        }
+        pivot[c] = -1;
+        if (rank < rows && fabs(a[best * n + c]) > FRAME_LEAST * most) {
+            for (int i = 0; i < n; i++) {
+                const double kept = a[rank * n + i];
+                a[rank * n + i] = a[best * n + i];
+                a[best * n + i] = kept;
+            }
+            for (int r = 0; r < rows; r++) {
+                const double factor = r != rank ? a[r * n + c] / a[rank * n + c] : 0.0;
+                for (int i = c; i < n && factor != 0.0; i++) {
+                    a[r * n + i] -= factor * a[rank * n + i];
+                }
+            }
+            pivot[c] = rank++;
+        }
+    }
+    for (int c = 0; c < n && known; c++) {
+        for (int i = 0; i < n && pivot[c] < 0; i++) { /* momentum c less its share of those with a pivot */
+            const bool takes_part =
+                pivot[i] >= 0 &&
+                fabs(a[pivot[i] * n + c]) > FRAME_LEAST * fabs(a[pivot[i] * n + i]);
+            b->frame[i] = b->frame[i] || i == c || takes_part;
+        }
+    }
+    free(a);
+}
+
 /* A kinetic energy that is negative by this part of all energies is no rounding. */
 #define NEGATIVE 1e-6
 
@@ -291,6 +390,7 @@ void books_enter(books *b, const engine_kind *kind, const void *run) {
     b->time_s = (double)kind->steps(run) * b->step_s;
     if (b->entries == 0) {
         b->leans = find_leans(b);
+        find_frame(b);
         memset(b->lean, 0, (size_t)im->count * sizeof *b->lean);
     }
     const double back_J = b->leans ? reversed_J(b, b->angle_rad, b->real) : 0.0;
@@ -336,7 +436,7 @@ void books_enter(books *b, const engine_kind *kind, const void *run) {
         b->rate[i].pushed = b->rate[i].pushed || b->value[i] != 0.0;
         all += entry[BOOK_MOMENTA + i];
         const double own = entry[BOOK_MOMENTA + i] - b->lean[i];
-        b->momentum_2[i] += own * own;
+        spread_enter(&b->push[i], own, b->entries);
         b->momentum_now[i] = entry[BOOK_MOMENTA + i];
         b->drift[i] = number_most(b->drift[i], fabs(entry[BOOK_MOMENTA + i] - b->momentum[i]));
     }

@@ -40,8 +40,9 @@ typedef struct books {
     spread kinetic;       /* over the steps */
     spread stored;
     spread *rate;       /* [count] */
-    double *momentum_2; /* [count] sum of squares, without what is even in the rates: */
-    double *lean;       /* [count] that, and */
+    spread *push;       /* [count] momenta without what is even in the rates: */
+    bool *frame;        /* [count] takes part in a momentum that every motion keeps: a common speed adds nothing but its mean */
+    double *lean;       /* [count] what is even, and */
     bool
         leans; /* whether there is any: a magnetic field's, say, which depends on where the origin is */
     double *off;   /* how far off each of value[] may be, in units of rounding */
@@ -72,6 +73,8 @@ void books_close(books *b);
 void books_enter(books *b, const engine_kind *kind, const void *run);
 /* The energy's account, with what the inputs gave and the losses took. */
 book_account books_account(const books *b);
+/* Root mean square of a momentum, without the mean where a common speed may have added it. */
+double books_momentum(const books *b, int unknown);
 /* How far energy went to and fro: see belief.h. */
 double books_swing_J(const books *b);
 /* What a step's roundings to numbers of this kind change the energy by: of the state, of the accelerations and of the

@@ -12,6 +12,7 @@
 /* A rate that hardly varies is measured by this part of its size: of one that stays at 34.56 rad/s within 0.007 float keeps
  * no thousandth. A place is not, for its origin may be anywhere. */
 #define LEAST_RANGE 1e-3
+#define LEAST_RANGE_DOUBLE 1e-9
 /* A place that stays where it is but for rounding moves by less than this part of its distance from the origin, or of one
  * metre or radian; or by less than that part of what others of its unit move. */
 #define STAYS 1e-9
@@ -54,10 +55,15 @@ static bool has_few_digits(const twins *t, int k, double least) {
     return c->rounding > BOUND_OVER * least && (!stays(t, k) || c->rounding > least_size(c));
 }
 
+/* A double has digits left for what hardly varies. */
+static double least_range(const twins *t) {
+    return t->shape->kind == &engine_double ? LEAST_RANGE_DOUBLE : LEAST_RANGE;
+}
+
 static horizon_column judge(const twins *t, int k, double tolerance) {
     const twins_column *c = &t->column[k];
     const double range = c->high - c->low;
-    const double by = number_most(range, c->has_rate ? 0.0 : LEAST_RANGE * size_of(c));
+    const double by = number_most(range, c->has_rate ? 0.0 : least_range(t) * size_of(c));
     const double level = tolerance * by / t->left_out;
     horizon_column made = {.range = by,
                            .off = c->off.most * t->left_out,

@@ -159,7 +159,7 @@ static bool is_faint(const verdict *v, int unknown) {
         return false;
     }
     const double fastest = number_most(fabs(v->watch->low[rate]), fabs(v->watch->high[rate]));
-    const double momentum = number_root(b->momentum_2[unknown] / (double)b->entries);
+    const double momentum = books_momentum(b, unknown);
     return momentum > 0.0 && momentum * fastest < FAINT * b->size_J;
 }
 

@@ -44,9 +44,17 @@ void watch_close(watch *w) {
 
 static double time_s(const watch *w) { return (double)w->steps * w->step_s; }
 
+/* Is this the step of its part of the run that is kept? Another one of each part: a motion whose period divides the parts would be
+ * met in the same phase. */
+static bool is_record(const watch *w) {
+    const uint64_t part = w->steps / w->stride;
+    const uint64_t drawn = (uint32_t)(part * 2654435769U) >> 8;
+    return w->steps == 0 || w->steps % w->stride == drawn % w->stride;
+}
+
 static void enter_record(watch *w, const double *x) {
     const size_t n = (size_t)w->field->n;
-    if (w->steps % w->stride != 0) {
+    if (!is_record(w)) {
         return;
     }
     if (w->records == WATCH_RECORDS) { /* every other one stays */
@@ -57,9 +65,6 @@ static void enter_record(watch *w, const double *x) {
         }
         w->records = WATCH_RECORDS / 2;
         w->stride *= 2;
-        if (w->steps % w->stride != 0) {
-            return;
-        }
     }
     memcpy(w->record + w->records * (ptrdiff_t)n, x, n * sizeof *w->record);
     w->record_s[w->records++] = time_s(w);
@@ -133,7 +138,7 @@ static int position_near(watch *w, const double *x, int row) {
 
 static void look(watch *w, const double *x) {
     int row = -1;
-    for (int k = 0; k < w->records; k++) { /* how large the entries are elsewhere */
+    for (int k = 0; k < w->records; k += 4) { /* how large the entries are elsewhere */
         least_pivot(w, w->record + k * (ptrdiff_t)w->field->n, &row);
     }
     const double inertia = least_pivot(w, x, &row);

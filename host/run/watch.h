@@ -10,7 +10,7 @@
 #include "books.h"
 #include "field.h"
 
-enum { WATCH_RECORDS = 16 };
+enum { WATCH_RECORDS = 64 };
 
 /* Where a pivot of the mass matrix was least, of the largest that its diagonal entry had. */
 typedef struct watch_singular {
@@ -25,7 +25,7 @@ typedef struct watch {
     field *field;
     double step_s;
     uint64_t steps;
-    double *record; /* [WATCH_RECORDS * n], evenly over the run so far, and the start */
+    double *record; /* [WATCH_RECORDS * n], one of each part of the run so far, and the start */
     double record_s[WATCH_RECORDS];
     int records;
     uint64_t stride;

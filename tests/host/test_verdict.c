@@ -122,4 +122,70 @@ static void test_a_point_is_judged_as_its_run(void) {
     TEST_ASSERT_TRUE(of[FINDING_SINGULAR] + of[FINDING_ALIASED] + of[FINDING_EVENTS] > 0);
 }
 
-void suite_verdict(void) { RUN_TEST(test_a_point_is_judged_as_its_run); }
+/* --- a common speed ---------------------------------------------------------------------------------------------*/
+
+/* Wagons on a line, or discs on a shaft, that springs and perhaps a damper hold, all moving with `speed` as well. */
+static void write_chain(dice d, double speed, char text[TEXT]) {
+    const bool turns = dice_one_of(&d, 2) == 0;
+    const int count = 2 + (int)dice_one_of(&d, 3);
+    const char *unit = turns ? "rad" : "m";
+    const double step_s = pow(10.0, dice_between(&d, -3.0, 0.3));
+    const double damping = dice_one_of(&d, 3) == 0 ? dice_between(&d, 0.01, 0.3) : 0.0;
+    int at = snprintf(text, TEXT, "mechanism m\n");
+    for (int i = 0; i < count; i++) {
+        at += snprintf(text + at, TEXT - (size_t)at, "coordinate q%d [%s]\n", i, unit);
+    }
+    for (int i = 0; i < count; i++) {
+        at += snprintf(text + at, TEXT - (size_t)at, "%s%.6g [%s]*q%d'^2/2", i == 0 ? "T = " : " + ",
+                       dice_between(&d, 0.5, 2.0), turns ? "kg*m^2" : "kg", i);
+    }
+    for (int i = 1; i < count; i++) {
+        at += snprintf(text + at, TEXT - (size_t)at, "%s%.6g [%s]*(q%d - q%d)^2/2",
+                       i == 1 ? "\nV = " : " + ", dice_between(&d, 0.5, 2.0), turns ? "N*m" : "N/m",
+                       i, i - 1);
+    }
+    at += snprintf(text + at, TEXT - (size_t)at, "\nF = %.6g [%s]*(q1' - q0')^2/2\nscene s { start ",
+                   damping, turns ? "N*m*s" : "N*s/m");
+    for (int i = 0; i < count; i++) {
+        at += snprintf(text + at, TEXT - (size_t)at, "%sq%d = %.6g [%s], q%d' = %.17g [%s/s]",
+                       i > 0 ? ", " : "", i, dice_between(&d, -0.4, 0.4), unit, i, speed, unit);
+    }
+    snprintf(text + at, TEXT - (size_t)at, "\nstep %.6g [s]\nuntil %.6g [s] }\n", step_s,
+             step_s * (20.0 + dice_one_of(&d, 200)));
+}
+
+/* The findings of a run do not depend on the frame in which it is told. */
+static void test_a_common_speed_changes_nothing(void) {
+    dice d = dice_of("frames", 4701);
+    const unsigned cases = dice_cases(few_or_all(20, 300));
+    unsigned told = 0;
+    for (unsigned i = 0; i < cases; i++) {
+        char text[2][TEXT];
+        said what[2];
+        const dice drawn = d;
+        const double speed = pow(10.0, dice_between(&d, -1.0, 2.0));
+        for (int k = 0; k < 2; k++) {
+            write_chain(drawn, k == 0 ? 0.0 : speed, text[k]);
+            const char *words[] = {model_keep(text[k]), "--quiet", NULL};
+            command_say(command_run, words, &what[k]);
+        }
+        for (int k = 0; k < FINDINGS; k++) {
+            char id[20];
+            snprintf(id, sizeof id, "[%s]", finding_rows[k].word);
+            const bool still = strstr(what[0].err, id) != NULL;
+            if (still != (strstr(what[1].err, id) != NULL)) {
+                printf("%s%s\n%s%s\n", text[0], what[0].err, text[1], what[1].err);
+            }
+            TEST_ASSERT_EQUAL(still, strstr(what[1].err, id) != NULL);
+            told += still ? 1U : 0U;
+        }
+    }
+    model_drop();
+    printf("  %u chains at rest and moving along: %u findings, the same\n", cases, told);
+    TEST_ASSERT_TRUE(told > cases / 4);
+}
+
+void suite_verdict(void) {
+    RUN_TEST(test_a_point_is_judged_as_its_run);
+    RUN_TEST(test_a_common_speed_changes_nothing);
+}
