@@ -323,22 +323,24 @@ static bool has_jumped(const pair *p) {
 /* The finer one catches up with the step that the run has just done. */
 static void follow(pair *p, uint64_t begin) {
     twins *t = p->to;
+    const bool failed = t->finer_failed_s < 0.0 && !step_finer(p);
+    const bool overran = t->overrun_s < 0.0 && has_overrun(p);
+    const bool leapt = t->jumped_s < 0.0 && has_jumped(p);
+    if (!failed && !overran && !leapt) {
+        return;
+    }
     const double begin_s = ratio_times(begin, p->wish.image->step);
-    if (t->finer_failed_s < 0.0 && !step_finer(p)) {
+    end_passages(t, p->look_s);
+    if (failed) {
         t->finer_failed_s = begin_s;
         t->unwrapped = is_unwrapped(p);
-        end_passages(t, p->look_s);
     }
-    if (t->overrun_s < 0.0 && has_overrun(p)) {
-        t->overrun_s = begin_s;
-        end_passages(t, p->look_s);
-    }
-    if (t->jumped_s < 0.0 && has_jumped(p)) {
+    t->overrun_s = overran ? begin_s : t->overrun_s;
+    if (leapt) {
         double ignored_s;
         t->jumped_s = begin_s;
         t->missed = jumped_through(p->our_jumps, &ignored_s) >= 0 ||
                     jumped_through(p->finer_jumps, &ignored_s) >= 0;
-        end_passages(t, p->look_s);
     }
 }
 

@@ -401,7 +401,38 @@ static void test_words_that_are_refused(void) {
     }
 }
 
+/* Springs, and pendulums from up to a right angle, which are fastest where they hang: the limit is the method's on the imaginary axis,
+ * whatever the period has in common with the steps. */
+static void test_limits_of_swings(void) {
+    dice d = dice_of("map swings", 4702);
+    const unsigned cases = dice_cases(usual_or(20, 10));
+    double worst = 0.0;
+    for (unsigned i = 0; i < cases; i++) {
+        char text[400];
+        const bool turns = i % 2U == 0;
+        const double square = pow(10.0, dice_between(&d, -1.0, 2.5));
+        const double wanted_s = 2.8284 / sqrt(square);
+        snprintf(text, sizeof text,
+                 "mechanism m\ncoordinate q [%s]\nparameter p = 1\nT = 1 [%s]*q'^2/2\n"
+                 "V = %s%.12g [%s]*%s\nscene s { start q = %.6g [%s]; step 1 [ms]; until %.6g [s] }\n",
+                 turns ? "rad" : "m", turns ? "kg*m^2" : "kg", turns ? "-" : "", square,
+                 turns ? "J" : "N/m", turns ? "cos(q)" : "q^2/2", dice_between(&d, 0.2, 1.57),
+                 turns ? "rad" : "m", wanted_s * dice_between(&d, 8.0, 20.0));
+        char step[60];
+        snprintf(step, sizeof step, "step=%.6g..%.6g:2", wanted_s / 200.0, wanted_s / 2.0);
+        const map_asked asked = {
+            .text = text, .over = {step, "p=1..1:1"}, .method = WH_RK4, .tolerance = 1e-3};
+        drawn_map m;
+        open_map(&m, &asked);
+        worst = fmax(worst, fabs(m.map.limit_s[0] / wanted_s - 1.0));
+        TEST_ASSERT_TRUE_MESSAGE(fabs(m.map.limit_s[0] / wanted_s - 1.0) < 0.03, text);
+        close_map(&m);
+    }
+    printf("  %u springs and pendulums: the limit within %.1e\n", cases, worst);
+}
+
 void suite_map(void) {
+    RUN_TEST(test_limits_of_swings);
     RUN_TEST(test_springs_of_all_methods);
     RUN_TEST(test_decays_of_all_methods);
     RUN_TEST(test_no_limit);
