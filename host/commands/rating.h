@@ -4,11 +4,11 @@
 #define COMMANDS_RATING_H
 
 #include "host/price/cost_board.h"
+#include "host/run/horizon.h"
+#include "host/run/simulate.h"
 #include "load.h"
 #include "options.h"
 #include "pricing_scene.h"
-#include "host/run/horizon.h"
-#include "host/run/simulate.h"
 
 typedef struct rating_wish {
     const char *target;

@@ -52,9 +52,8 @@ static const command_usage usage = {
         "The summary ends with the error and the cost on a board at twice the step, the step and half of\n"
         "it, in float unless --number says another (docs/price.md), as far as they take a second.\n"
         "\n"
-        "Standard error warns of energy that the step takes or gives, of motions that are too fast for\n"
-        "it, and of singular coordinates that it passed, with a step or a method that would do\n"
-        "(docs/stability.md).\n"
+        "Standard error warns of what a finer run, the energy books and a few looks find against the\n"
+        "run, with options that were tried and would do (docs/warnings.md).\n"
         "\n"
         "Summary, records and plot are in the units that the file declares; a record's column whose name\n"
         "has no unit is SI: theta [deg] is in degrees, theta in radians.\n",

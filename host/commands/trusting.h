@@ -3,8 +3,8 @@
 #ifndef COMMANDS_TRUSTING_H
 #define COMMANDS_TRUSTING_H
 
-#include "host/run/simulate.h"
 #include "host/run/horizon.h"
+#include "host/run/simulate.h"
 #include "load.h"
 
 /* Operations that a second takes, about. */

@@ -10,10 +10,10 @@
 #include "host/lang/model.h"
 #include "host/number/functions.h"
 #include "host/run/belief.h"
+#include "host/run/horizon.h"
 #include "host/run/linearised.h"
 #include "host/run/start.h"
 #include "host/sweep/changes.h"
-#include "host/run/horizon.h"
 
 #define MAP_VERDICT_ROW(id, mark, word, words) [id] = {mark, word, words},
 const map_verdict_row map_verdicts[MAP_VERDICTS] = {MAP_VERDICT_ROWS(MAP_VERDICT_ROW)};

@@ -366,10 +366,10 @@ static void find_frame(books *b) {
         }
     }
     for (int c = 0; c < n && known; c++) {
-        for (int i = 0; i < n && pivot[c] < 0; i++) { /* momentum c less its share of those with a pivot */
-            const bool takes_part =
-                pivot[i] >= 0 &&
-                fabs(a[pivot[i] * n + c]) > FRAME_LEAST * fabs(a[pivot[i] * n + i]);
+        for (int i = 0; i < n && pivot[c] < 0;
+             i++) { /* momentum c less its share of those with a pivot */
+            const bool takes_part = pivot[i] >= 0 && fabs(a[pivot[i] * n + c]) >
+                                                         FRAME_LEAST * fabs(a[pivot[i] * n + i]);
             b->frame[i] = b->frame[i] || i == c || takes_part;
         }
     }

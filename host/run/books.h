@@ -39,10 +39,11 @@ typedef struct books {
     double power_W[2][2]; /* input and loss power at the last two even steps' ends */
     spread kinetic;       /* over the steps */
     spread stored;
-    spread *rate;       /* [count] */
-    spread *push;       /* [count] momenta without what is even in the rates: */
-    bool *frame;        /* [count] takes part in a momentum that every motion keeps: a common speed adds nothing but its mean */
-    double *lean;       /* [count] what is even, and */
+    spread *rate; /* [count] */
+    spread *push; /* [count] momenta without what is even in the rates: */
+    bool *
+        frame; /* [count] takes part in a momentum that every motion keeps: a common speed adds nothing but its mean */
+    double *lean; /* [count] what is even, and */
     bool
         leans; /* whether there is any: a magnetic field's, say, which depends on where the origin is */
     double *off;   /* how far off each of value[] may be, in units of rounding */

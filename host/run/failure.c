@@ -17,8 +17,7 @@ static bool starts_beyond(const image *im) {
 }
 
 void failure_say(FILE *out, const engine_kind *kind, const void *run, wh_status status,
-                 const verdict *about, const image *plain,
-                 const volatile sig_atomic_t *stop) {
+                 const verdict *about, const image *plain, const volatile sig_atomic_t *stop) {
     const image *im = about->image;
     diags *errors = diags_new();
     const bool known = undefined_step(im, kind, run, status, errors);

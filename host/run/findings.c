@@ -149,7 +149,8 @@ static void say_events(FILE *out, const verdict *v) {
         statement_text(v->image->contact[i == 0 ? first : second].at, statement, sizeof statement);
         fprintf(out, "%s'%s'", i == 0 ? ", most of " : " and ", statement);
     }
-    fprintf(out, ": what was left of %s counts as rest or sticking", v->overruns == 1 ? "it" : "them");
+    fprintf(out, ": what was left of %s counts as rest or sticking",
+            v->overruns == 1 ? "it" : "them");
 }
 
 static void (*const say[FINDINGS])(FILE *, const verdict *) = {
@@ -193,7 +194,8 @@ static bool say_cause(FILE *out, const verdict *v) {
 static double first_parts(const verdict *v) {
     const wh_method_row *row = &wh_methods[v->image->settings.method];
     const double ratio = v->found[FINDING_ENERGY].value;
-    double parts = ratio > 0.0 ? number_power(number_least(ratio, 1.0) / 3e-4, 1.0 / row->order) : 1.0;
+    double parts =
+        ratio > 0.0 ? number_power(number_least(ratio, 1.0) / 3e-4, 1.0 / row->order) : 1.0;
     if (is_told(v, FINDING_ALIASED)) {
         parts = number_most(parts, v->image->step_s / between_seen(v->between).fine_step_s);
     }
@@ -209,24 +211,25 @@ static void say_remedy(FILE *out, const verdict *v, const image *plain,
         if (im->settings.cells > 0 && 2 * im->settings.cells <= IMAGE_CELLS_MOST) {
             snprintf(cells, sizeof cells, "--cells %d, or ", 2 * im->settings.cells);
         }
-        fprintf(out,
-                "hint: the tables may be too coarse (not tried): %sno --tables would tell\n",
+        fprintf(out, "hint: the tables may be too coarse (not tried): %sno --tables would tell\n",
                 cells);
     }
     switch (remedy_find(im, plain, v->kind, first_parts(v), stop, options)) {
     case REMEDY_DOES: fprintf(out, "hint: %s would do (tried)\n", options); return;
     case REMEDY_DEAR:
-        fputs("hint: a smaller --step (not tried to its end: that takes more than a second)\n", out);
+        fputs("hint: a smaller --step (not tried to its end: that takes more than a second)\n",
+              out);
         break;
     case REMEDY_NONE:
         fputs("hint: no step, no other number and no method that was tried would do\n", out);
         break;
     }
     if (v->books != NULL && v->books->negative) {
-        fprintf(out,
-                "hint: the kinetic energy is negative from t = %.6g s on: no masses move like that; "
-                "end the run before, or correct T\n",
-                v->books->negative_s);
+        fprintf(
+            out,
+            "hint: the kinetic energy is negative from t = %.6g s on: no masses move like that; "
+            "end the run before, or correct T\n",
+            v->books->negative_s);
     } else if (is_told(v, FINDING_SINGULAR)) {
         fputs("hint: take coordinates that are not singular there\n", out);
     } else if (is_told(v, FINDING_EVENTS)) {

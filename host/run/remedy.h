@@ -14,7 +14,6 @@ enum { REMEDY_TEXT = 120 };
 
 /* "--step 50us --compensated". `parts`: so many of a step are tried first, 1 or more. `stop` ends the search, or is NULL. */
 remedy_outcome remedy_find(const image *im, const image *plain, const engine_kind *kind,
-                           double parts, const volatile sig_atomic_t *stop,
-                           char text[REMEDY_TEXT]);
+                           double parts, const volatile sig_atomic_t *stop, char text[REMEDY_TEXT]);
 
 #endif

@@ -13,12 +13,12 @@
 #include "envelope.h"
 #include "failure.h"
 #include "findings.h"
+#include "horizon_text.h"
 #include "host/base/room.h"
 #include "host/base/statement.h"
 #include "host/base/written.h"
 #include "host/number/functions.h"
 #include "host/plot/gnuplot.h"
-#include "horizon_text.h"
 #include "opening.h"
 #include "records.h"
 #include "summary.h"
@@ -399,7 +399,8 @@ static void print_summary(simulation *sim, wh_status status, simulation_result r
     if (result == SIMULATION_DONE && h != NULL) {
         horizon_print_line(out, h, sim->verdict->against != 0);
     } else if (result == SIMULATION_DONE && sim->steps > 0) {
-        fputs("trusted            whirl trust tells until when: it takes more than a second\n", out);
+        fputs("trusted            whirl trust tells until when: it takes more than a second\n",
+              out);
     }
     summary_print(out, sim->image, s->kind, sim->run, sim->verdict->books, &sim->verdict->balance);
 }
@@ -411,14 +412,13 @@ static void trust(simulation *sim, horizon *h, simulation_trust *to) {
     if (!h->to_the_end) {
         sim->trusted_s = number_most(h->until_s, sim->image->step_s);
     }
-    const bool told = h->to_the_end ? v->against == 0
-                                    : h->column[h->first].verdict != HORIZON_NOT_TOLD &&
-                                          !v->twins->between;
+    const bool told = h->to_the_end
+                          ? v->against == 0
+                          : h->column[h->first].verdict != HORIZON_NOT_TOLD && !v->twins->between;
     to->until_s = told ? h->until_s : -1.0;
 }
 
-simulation_result simulate(const image *im, const simulation_settings *s,
-                           simulation_trust *told) {
+simulation_result simulate(const image *im, const simulation_settings *s, simulation_trust *told) {
     *told = (simulation_trust){.until_s = -1.0};
     simulation sim = {.image = im, .settings = s, .output = -1};
     sim.steps = im->steps;

@@ -5,9 +5,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "folded.h"
 #include "host/base/room.h"
 #include "host/number/functions.h"
-#include "folded.h"
 #include "undefined.h"
 
 /* What looking for events takes of evaluations, beside a step's own. */
@@ -360,8 +360,7 @@ void twins_enter(twins *t) {
     } else {
         follow(p, step - 1U);
     }
-    if (step == 0 ||
-        (t->finer_failed_s < 0.0 && (step % p->stride == 0 || step == im->steps))) {
+    if (step == 0 || (t->finer_failed_s < 0.0 && (step % p->stride == 0 || step == im->steps))) {
         look(p, ratio_times(step, im->step));
     }
 }

@@ -12,8 +12,8 @@
 #include "belief.h"
 #include "between.h"
 #include "jumped.h"
-#include "records.h"
 #include "passage.h"
+#include "records.h"
 
 /* The two are compared at so many evenly spaced ends of steps, at most. */
 enum { TWINS_LOOKS = 20000 };
@@ -26,8 +26,8 @@ typedef struct twins_wish {
     const engine_kind *kind;
     const image *plain; /* as twins_plain() says: the image itself where it says nothing */
     bool books;         /* keep the run's books, and tell what they leave over */
-    jumped *jumped;   /* of a run that is watched already: what it jumped over, */
-    between *between; /* and what its stages do not see; NULL: watched here */
+    jumped *jumped;     /* of a run that is watched already: what it jumped over, */
+    between *between;   /* and what its stages do not see; NULL: watched here */
     const volatile sig_atomic_t *stop;          /* may be NULL */
     void (*progress)(double share, void *told); /* now and then; or NULL */
     void *told;
@@ -61,7 +61,7 @@ typedef struct twins {
     double end_s;          /* of the run: its last step that was done */
     wh_status status;      /* the run's: its last step */
     void *run;             /* where it ended */
-    bool unwrapped; /* the other failed for an angle beyond those whose sine double knows */
+    bool unwrapped;        /* the other failed for an angle beyond those whose sine double knows */
     double finer_failed_s; /* the other left all bounds behind this time; below 0: it did not */
     double
         overrun_s; /* behind this time one of them had more events in a step than it takes; below 0: neither */

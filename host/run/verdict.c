@@ -23,8 +23,7 @@ const finding_row finding_rows[FINDINGS] = {
                           "a coordinate's inertia a hundredth: its rate is ten times as large",
                           "passed where their coordinates are singular, in steps that do not "
                           "resolve it"},
-    [FINDING_POLE] = {"pole", FINDING_WARNING, 0.0, "steps",
-                      "no motion gets through a pole",
+    [FINDING_POLE] = {"pole", FINDING_WARNING, 0.0, "steps", "no motion gets through a pole",
                       "jumped over a place where an expression grows without bound"},
     [FINDING_MISSED] = {"missed", FINDING_WARNING, 0.0, "steps",
                         "a contact or a force that no step met has not acted",
@@ -143,7 +142,8 @@ static void judge_energy(verdict *v) {
         way_J > v->part * VERDICT_ON_THE_WAY * b->largest_J && way_J > b->rounding_J;
     const bool by_the_rule = v->image->contacts == 0 &&
                              number_most(fabs(b->left_J), way_J) <= v->books->rule_J && is_right(v);
-    if ((belief_lost(b, v->part * finding_rows[FINDING_ENERGY].limit) || on_the_way) && !by_the_rule) {
+    if ((belief_lost(b, v->part * finding_rows[FINDING_ENERGY].limit) || on_the_way) &&
+        !by_the_rule) {
         tell(v, FINDING_ENERGY, number_most(b->ratio, on_the_way ? way_J / b->largest_J : 0.0),
              b->jump_s, -1);
     }

@@ -45,8 +45,8 @@ extern const finding_row finding_rows[FINDINGS];
 /* Of a run: finding `id` is told, */
 typedef struct finding {
     bool told;
-    double value; /* by this value, in the row's unit, */
-    double at_s;  /* at or from this time on; below 0: all the time */
+    double value;  /* by this value, in the row's unit, */
+    double at_s;   /* at or from this time on; below 0: all the time */
     int component; /* and of this component or contact; -1: none */
 } finding;
 
@@ -69,7 +69,7 @@ typedef struct verdict {
     const image *image;
     const engine_kind *kind;
     void *run;
-    double part; /* of the limits of energy and accuracy: 1; a remedy is judged by less */
+    double part;  /* of the limits of energy and accuracy: 1; a remedy is judged by less */
     books *books; /* NULL of a system given by its equations */
     watch *watch;
     jumped *jumped; /* NULL: over nothing */

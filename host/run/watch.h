@@ -31,11 +31,11 @@ typedef struct watch {
     uint64_t stride;
     double *low; /* [n] */
     double *high;
-    double *slope; /* [2 * n] now, before */
-    double *mass;  /* [rows * rows] */
-    double *most;  /* [rows] largest diagonal entries seen */
+    double *slope;  /* [2 * n] now, before */
+    double *mass;   /* [rows * rows] */
+    double *most;   /* [rows] largest diagonal entries seen */
     double *change; /* [n] the largest change of its slope in a step, looked at */
-    bool looks;    /* for singular places */
+    bool looks;     /* for singular places */
     watch_singular singular;
 } watch;
 

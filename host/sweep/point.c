@@ -9,9 +9,9 @@
 #include "host/base/room.h"
 #include "host/derive/image_make.h"
 #include "host/derive/lagrange.h"
-#include "host/number/zero.h"
 #include "host/number/functions.h"
 #include "host/number/ratio.h"
+#include "host/number/zero.h"
 #include "host/run/belief.h"
 #include "host/run/start.h"
 

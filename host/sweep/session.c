@@ -18,8 +18,8 @@ typedef struct sitting {
     progress progress;
     uint64_t first; /* point of the sheet's first row */
     uint64_t failed;
-    int told;     /* failures described */
-    uint64_t ran; /* points delivered, now */
+    int told;                 /* failures described */
+    uint64_t ran;             /* points delivered, now */
     uint64_t found[FINDINGS]; /* points of which `whirl run` tells so, */
     uint64_t found_first[FINDINGS];
 } sitting;

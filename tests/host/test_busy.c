@@ -157,7 +157,8 @@ static void test_where_no_step_helps_the_scene_is_changed(void) {
         rattle_write(&r, text);
         say(text, NULL, false, &what);
         TEST_ASSERT_TRUE_MESSAGE(is_told(&what), text);
-        TEST_ASSERT_NOT_NULL_MESSAGE(strstr(what.err, "hint: restitution 0, or a condition"), what.err);
+        TEST_ASSERT_NOT_NULL_MESSAGE(strstr(what.err, "hint: restitution 0, or a condition"),
+                                     what.err);
         if (r.kind == BALL) {
             r.number[2] = 0.0;
             r.number[3] = 0.0;

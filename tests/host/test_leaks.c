@@ -8,9 +8,9 @@
 #include "derived.h"
 #include "host/emit/description.h"
 #include "host/emit/emit.h"
-#include "host/run/summary.h"
 #include "host/run/findings.h"
 #include "host/run/horizon.h"
+#include "host/run/summary.h"
 
 #include "unity.h"
 

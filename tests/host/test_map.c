@@ -412,12 +412,13 @@ static void test_limits_of_swings(void) {
         const bool turns = i % 2U == 0;
         const double square = pow(10.0, dice_between(&d, -1.0, 2.5));
         const double wanted_s = 2.8284 / sqrt(square);
-        snprintf(text, sizeof text,
-                 "mechanism m\ncoordinate q [%s]\nparameter p = 1\nT = 1 [%s]*q'^2/2\n"
-                 "V = %s%.12g [%s]*%s\nscene s { start q = %.6g [%s]; step 1 [ms]; until %.6g [s] }\n",
-                 turns ? "rad" : "m", turns ? "kg*m^2" : "kg", turns ? "-" : "", square,
-                 turns ? "J" : "N/m", turns ? "cos(q)" : "q^2/2", dice_between(&d, 0.2, 1.57),
-                 turns ? "rad" : "m", wanted_s * dice_between(&d, 8.0, 20.0));
+        snprintf(
+            text, sizeof text,
+            "mechanism m\ncoordinate q [%s]\nparameter p = 1\nT = 1 [%s]*q'^2/2\n"
+            "V = %s%.12g [%s]*%s\nscene s { start q = %.6g [%s]; step 1 [ms]; until %.6g [s] }\n",
+            turns ? "rad" : "m", turns ? "kg*m^2" : "kg", turns ? "-" : "", square,
+            turns ? "J" : "N/m", turns ? "cos(q)" : "q^2/2", dice_between(&d, 0.2, 1.57),
+            turns ? "rad" : "m", wanted_s * dice_between(&d, 8.0, 20.0));
         char step[60];
         snprintf(step, sizeof step, "step=%.6g..%.6g:2", wanted_s / 200.0, wanted_s / 2.0);
         const map_asked asked = {

@@ -10,7 +10,6 @@
 #include "derived.h"
 #include "host/commands/commands.h"
 #include "host/run/engine.h"
-#include "derived.h"
 #include "unity.h"
 
 void suite_small_told(void);
@@ -55,7 +54,7 @@ static void test_slow_angles(void) {
             TEST_ASSERT_NOT_NULL_MESSAGE(note, what.err);
             const char *at = said_exactly(
                 note, "whirl run: note: 'a' turns so slowly that rounding its steps to 1.5e-9 "
-                          "rad, as float does, put it off by up to ");
+                      "rad, as float does, put it off by up to ");
             at = said_exactly(said_number(at, &figure[0]), " rad, ");
             at = said_exactly(said_number(at, &figure[1]), " % of the ");
             at = said_exactly(said_number(at, &figure[2]),

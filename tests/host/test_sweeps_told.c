@@ -238,7 +238,8 @@ static void test_not_believed(void) {
                     "cannot be believed: too much of the largest entry of their energy books is "
                     "left over (energy_left_over), or was missing on the way [energy]; ",
                     fine_first ? 1 : 0, at);
-        TEST_ASSERT_TRUE(times_in(s.err, "hint: `whirl run` of the point tells what would do\n") >= 1);
+        TEST_ASSERT_TRUE(times_in(s.err, "hint: `whirl run` of the point tells what would do\n") >=
+                         1);
         made_sweep_close(&m);
     }
     sessions_close();

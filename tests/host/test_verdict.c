@@ -114,10 +114,11 @@ static void test_a_point_is_judged_as_its_run(void) {
         of[FINDINGS] += silent ? 1U : 0U;
     }
     model_drop();
-    printf("  %u runs and points: %u of the energy, %u of the accuracy, %u singular, %u aliased, %u "
-           "of events, %u silent\n",
-           cases, of[FINDING_ENERGY], of[FINDING_ACCURACY], of[FINDING_SINGULAR],
-           of[FINDING_ALIASED], of[FINDING_EVENTS], of[FINDINGS]);
+    printf(
+        "  %u runs and points: %u of the energy, %u of the accuracy, %u singular, %u aliased, %u "
+        "of events, %u silent\n",
+        cases, of[FINDING_ENERGY], of[FINDING_ACCURACY], of[FINDING_SINGULAR], of[FINDING_ALIASED],
+        of[FINDING_EVENTS], of[FINDINGS]);
     TEST_ASSERT_TRUE(of[FINDING_ENERGY] > 1 && of[FINDING_ACCURACY] > 1 && of[FINDINGS] > 1);
     TEST_ASSERT_TRUE(of[FINDING_SINGULAR] + of[FINDING_ALIASED] + of[FINDING_EVENTS] > 0);
 }
@@ -136,16 +137,18 @@ static void write_chain(dice d, double speed, char text[TEXT]) {
         at += snprintf(text + at, TEXT - (size_t)at, "coordinate q%d [%s]\n", i, unit);
     }
     for (int i = 0; i < count; i++) {
-        at += snprintf(text + at, TEXT - (size_t)at, "%s%.6g [%s]*q%d'^2/2", i == 0 ? "T = " : " + ",
-                       dice_between(&d, 0.5, 2.0), turns ? "kg*m^2" : "kg", i);
+        at +=
+            snprintf(text + at, TEXT - (size_t)at, "%s%.6g [%s]*q%d'^2/2", i == 0 ? "T = " : " + ",
+                     dice_between(&d, 0.5, 2.0), turns ? "kg*m^2" : "kg", i);
     }
     for (int i = 1; i < count; i++) {
         at += snprintf(text + at, TEXT - (size_t)at, "%s%.6g [%s]*(q%d - q%d)^2/2",
                        i == 1 ? "\nV = " : " + ", dice_between(&d, 0.5, 2.0), turns ? "N*m" : "N/m",
                        i, i - 1);
     }
-    at += snprintf(text + at, TEXT - (size_t)at, "\nF = %.6g [%s]*(q1' - q0')^2/2\nscene s { start ",
-                   damping, turns ? "N*m*s" : "N*s/m");
+    at +=
+        snprintf(text + at, TEXT - (size_t)at, "\nF = %.6g [%s]*(q1' - q0')^2/2\nscene s { start ",
+                 damping, turns ? "N*m*s" : "N*s/m");
     for (int i = 0; i < count; i++) {
         at += snprintf(text + at, TEXT - (size_t)at, "%sq%d = %.6g [%s], q%d' = %.17g [%s/s]",
                        i > 0 ? ", " : "", i, dice_between(&d, -0.4, 0.4), unit, i, speed, unit);
