@@ -40,12 +40,11 @@ emit: base image number
 fixed: base core emit image number run
 sweep: base core derive image lang number run
 price: base core derive fixed image lang number plot run
-trust: base core image number run
 prove: base core image lang number run
-map: base core derive image lang number plot run sweep trust
+map: base core derive image lang number plot run sweep
 pil: base core image number run
 monitor: base core number plot
-commands: base derive emit fixed image lang map monitor number pil plot price prove run show sweep trust
+commands: base derive emit fixed image lang map monitor number pil plot price prove run show sweep
 '
 
 # included FILE...: "FILE FOLDER" for each folder of core or host that a file names in an include

@@ -142,8 +142,9 @@ static void judge_energy(verdict *v) {
         way_J > v->part * VERDICT_ON_THE_WAY * b->largest_J && way_J > b->rounding_J;
     const bool by_the_rule = v->image->contacts == 0 &&
                              number_most(fabs(b->left_J), way_J) <= v->books->rule_J && is_right(v);
-    if ((belief_lost(b, v->part * finding_rows[FINDING_ENERGY].limit) || on_the_way) &&
-        !by_the_rule) {
+    const bool is_lost = belief_lost(b, v->part * finding_rows[FINDING_ENERGY].limit);
+    const bool is_told = (is_lost || on_the_way) && !by_the_rule;
+    if (is_told) {
         tell(v, FINDING_ENERGY, number_most(b->ratio, on_the_way ? way_J / b->largest_J : 0.0),
              b->jump_s, -1);
     }
@@ -153,14 +154,21 @@ static void judge_energy(verdict *v) {
 #define FAINT 0x1p-48
 
 static bool is_faint(const verdict *v, int unknown) {
-    const books *b = v->books;
+    const twins *t = v->twins;
     const int rate = image_find_component(v->image, unknown, 1);
-    if (b == NULL || v->kind != &engine_float || rate < 0) {
+    if (v->books == NULL || v->kind != &engine_float || rate < 0) {
         return false;
     }
-    const double fastest = number_most(fabs(v->watch->low[rate]), fabs(v->watch->high[rate]));
-    const double momentum = books_momentum(b, unknown);
-    return momentum > 0.0 && momentum * fastest < FAINT * b->size_J;
+    const double own = number_most(fabs(v->watch->low[rate]), fabs(v->watch->high[rate]));
+    double fastest = own; /* of the finer run as well: float's may stand still */
+    for (int k = 1; k < t->columns; k++) {
+        const record_column *c = &t->shape->column[k];
+        if (c->unknown == unknown && c->primes == 1) {
+            fastest = number_most(fastest, t->column[k].off.most / t->column[k].one);
+        }
+    }
+    const double mass = books_momentum(v->books, unknown) / own;
+    return own > 0.0 && mass > 0.0 && mass * fastest * fastest < FAINT * v->books->size_J;
 }
 
 /* An angle of a float run goes by units, and is off by two of them at any time. */

@@ -175,7 +175,7 @@ check "the balance of each point" sh -c "'$whirl' sweep epicyclic_from_rest --un
 check "points that cannot be believed are no failure" status 0 \
     "$whirl" sweep epicyclic_from_rest --until 2s --over 'step=1..200 [ms]:2' --measure X --quiet
 check "points that cannot be believed: how many, and the first" \
-    grep -qF 'warning: 1 of 2 points cannot be believed: what is left over of their energy books (energy_left_over), or was missing on the way, is too much of the largest entry; first: point 2 (step=0.2)' "$scratch/said"
+    grep -qF 'warning: 1 of 2 points cannot be believed: too much of the largest entry of their energy books is left over (energy_left_over), or was missing on the way [energy]; first: point 2 (step=0.2)' "$scratch/said"
 check "no balance without energies" sh -c "! '$whirl' sweep carriage_ratio --until 0.1s --over ratio=0.1..0.2:2 --quiet | grep -q energy_left_over"
 check "no period: nan, and no failure" status 0 \
     "$whirl" sweep carriage_free --until 10ms --over ratio=0.1..0.2:2 --measure 'period(X)'
@@ -189,21 +189,21 @@ between() {
 }
 check "overruns are no failure" status 0 between --csv "$scratch/between.csv"
 check "overruns: how many, and the first" \
-    grep -q "note: 3 of 5 points overran .* in 3 steps; first: point 3 (z'=13)\$" "$scratch/said"
-check "overruns: with a way out" grep -q '^hint: .* smaller --step' "$scratch/said"
+    grep -q "warning: 3 of 5 points had steps with more events .*events\]; first: point 3 (z'=13)\$" "$scratch/said"
+check "overruns: with a way out" grep -q '^hint: .whirl run. of the point tells what would do' "$scratch/said"
 check "run says the same of one" sh -c "'$whirl' run ball_between --until 20ms --start z\\'=13 | grep -q '^  1 steps had more'"
 check "run says nothing of another" sh -c "! '$whirl' run ball_between --until 20ms --start z\\'=7 | grep -q 'steps had more'"
 check "the rows do not tell" status 0 between --csv -
 check "the rows do not tell" cmp "$scratch/rows" "$scratch/between.csv"
 check "overruns are told with --quiet" status 0 between --quiet --jobs 1
-check "overruns are told with --quiet" grep -q "3 of 5 points overran" "$scratch/said"
+check "overruns are told with --quiet" grep -q "3 of 5 points had steps with more events" "$scratch/said"
 head -n 4 "$scratch/between.csv" >"$scratch/part.csv"
 cp "$scratch/between.csv.sweep" "$scratch/part.csv.sweep"
 check "overruns of the points that ran now" status 0 between --csv "$scratch/part.csv"
 check "overruns of the points that ran now" \
-    grep -q "note: 2 of 2 points overran .* in 2 steps; first: point 4 (z'=19)\$" "$scratch/said"
+    grep -q "warning: 2 of 2 points had steps with more events .*events\]; first: point 4 (z'=19)\$" "$scratch/said"
 check "with a shorter step none" status 0 between --step 0.1ms
-check "with a shorter step none" sh -c "! grep -q overran '$scratch/said'"
+check "with a shorter step none" sh -c "! grep -q events '$scratch/said'"
 
 # --- float angles that turn too slowly -------------------------------------------------------------
 cat >"$scratch/rotor.whirl" <<'END'
