@@ -33,6 +33,13 @@ static void say_mass(FILE *out, const verdict *v) {
             v->image->mechanism, 100.0 * number_least(v->image->mass_blur, 1.0));
 }
 
+static void say_constants(FILE *out, const verdict *v) {
+    fprintf(out,
+            "numbers of '%s' are computed of sums in which a small one is lost beside a large one: "
+            "rounding them, in double, too, may put one beyond all bounds",
+            v->image->mechanism);
+}
+
 static void say_energy(FILE *out, const verdict *v) {
     const belief *b = &v->balance;
     const double part = v->found[FINDING_ENERGY].value;
@@ -154,10 +161,11 @@ static void say_events(FILE *out, const verdict *v) {
 }
 
 static void (*const say[FINDINGS])(FILE *, const verdict *) = {
-    [FINDING_MASS] = say_mass,         [FINDING_ENERGY] = say_energy,
-    [FINDING_ACCURACY] = say_accuracy, [FINDING_SINGULAR] = say_singular,
-    [FINDING_POLE] = say_pole,         [FINDING_MISSED] = say_missed,
-    [FINDING_ALIASED] = say_aliased,   [FINDING_EVENTS] = say_events,
+    [FINDING_CONSTANTS] = say_constants, [FINDING_MASS] = say_mass,
+    [FINDING_ENERGY] = say_energy,       [FINDING_ACCURACY] = say_accuracy,
+    [FINDING_SINGULAR] = say_singular,   [FINDING_POLE] = say_pole,
+    [FINDING_MISSED] = say_missed,       [FINDING_ALIASED] = say_aliased,
+    [FINDING_EVENTS] = say_events,
 };
 
 /* --- what would do ----------------------------------------------------------------------------------------*/
@@ -173,6 +181,8 @@ static bool say_cause(FILE *out, const verdict *v) {
                    ? "a coordinate that is counted from a light body to a heavy one does that: "
                      "count it from the heavy one"
                    : "two equations say nearly the same: their difference tells more";
+    } else if (is_told(v, FINDING_CONSTANTS)) {
+        hint = "give the small one by itself";
     } else if (is_told(v, FINDING_ENERGY) && b->stabilized &&
                number_most(fabs(b->left_J), v->books->most_J) > 1.5 * b->lost_J) {
         hint = "--stabilized gave back what nothing had lost: its energies have too few digits; "

@@ -12,6 +12,9 @@ const finding_row finding_rows[FINDINGS] = {
     [FINDING_MASS] = {"mass", FINDING_WARNING, 1e-4, "of an acceleration",
                       "the rounding of the matrix alone: steps are more accurate",
                       "have a mass matrix that is nearly singular"},
+    [FINDING_CONSTANTS] = {"constants", FINDING_WARNING, 0.0, "numbers",
+                           "rounded otherwise, one of the file's numbers is beyond all bounds",
+                           "have numbers in which a small one is lost beside a large one"},
     [FINDING_ENERGY] = {"energy", FINDING_WARNING, BELIEF_LIMIT, "of the largest entry",
                         "half of it is the error of an amplitude, which no plot shows",
                         "cannot be believed: too much of the largest entry of their energy books "
@@ -277,6 +280,9 @@ void verdict_end(verdict *v, wh_status status) {
     }
     if (v->image->mass_blur > finding_rows[FINDING_MASS].limit) {
         tell(v, FINDING_MASS, v->image->mass_blur, -1.0, -1);
+    }
+    if (v->image->unbounded) {
+        tell(v, FINDING_CONSTANTS, 1.0, -1.0, -1);
     }
     judge_energy(v);
     if (v->twins != NULL && v->kind->steps(v->run) > 0) {

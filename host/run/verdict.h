@@ -15,6 +15,7 @@
 
 typedef enum finding_id {
     FINDING_MASS,
+    FINDING_CONSTANTS,
     FINDING_ENERGY,
     FINDING_ACCURACY,
     FINDING_SINGULAR,
