@@ -389,8 +389,9 @@ static void print_summary(simulation *sim, wh_status status, simulation_result r
     }
     if (s->chosen != NULL) {
         fprintf(out, "%s%s\n", s->chosen,
-                against ? "; chosen for this error alone, and the warning is about the whole motion"
-                        : "");
+                sim->verdict->against != 0
+                    ? "; chosen for this error alone, and the warning is about the whole motion"
+                    : "");
     }
     summary_head(out, sim->image, s->kind, sim->run);
     if (s->changes != NULL && s->changes[0] != '\0') {
