@@ -16,7 +16,7 @@ enum { N = IMAGE_COMPONENTS_MAX, HOLDS = WH_CONTACTS_LIMIT, NEWTON_MOST = 50 };
 
 /* Off zero by more than rounding, and by less than this share of its terms: an expression that is to be zero. */
 #define OFF_LEAST 1e-6
-#define OFF_MOST 0.1
+#define OFF_MOST 0.5
 
 typedef struct apart {
     const image *im;
@@ -26,6 +26,8 @@ typedef struct apart {
     int n;
     int hold[HOLDS]; /* contacts that hold where the run starts */
     int holds;
+    bool vanishes[HOLDS]; /* near the start, and changes its sign there: a distance does not */
+    bool closes;          /* one is off zero, by less than OFF_MOST */
     double place[N];
     double rate[N];
 } apart;
@@ -56,14 +58,48 @@ static double terms(const apart *a, int h, const double *x, bool places) {
     return sum;
 }
 
-/* By how much a curved hold is off zero, if that can be meant to be zero; else 0. */
+/* By how much a curved hold is off zero, if that can be meant to be zero; else 0. Where one of several is, so are the others,
+ * however far they are off: they close one linkage. */
 static double off_zero(const apart *a, int h) {
     const image_contact *c = &a->im->contact[a->hold[h]];
     const double value = law_of(a, h)[WH_LAW_FIRST];
     const double size = terms(a, h, a->place, true);
-    const bool is = c->pin < 0 && c->direction <= 0 && fabs(value) > OFF_LEAST * size &&
-                    fabs(value) < OFF_MOST * size;
+    const bool is = c->pin < 0 && c->direction <= 0 && a->vanishes[h] &&
+                    fabs(value) > OFF_LEAST * size && (a->closes || fabs(value) < OFF_MOST * size);
     return is ? value : 0.0;
+}
+
+/* The expression's value at `place` + share times its row. */
+static double value_at(apart *a, int h, const double *from, const double *row, double share) {
+    for (int i = 0; i < a->n; i++) {
+        a->place[i] = from[i] + share * row[i];
+    }
+    look(a);
+    return law_of(a, h)[WH_LAW_FIRST];
+}
+
+/* Newton's method with the least change, of this expression alone. */
+static bool has_zero(apart *a, int h) {
+    double start[N];
+    double row[N] = {0.0};
+    double value = law_of(a, h)[WH_LAW_FIRST];
+    const double least = 1e-9 * fabs(value);
+    memcpy(start, a->place, sizeof start);
+    for (int k = 0; k < NEWTON_MOST && fabs(value) > least; k++) {
+        double square = 0.0;
+        for (int i = 0; i < a->n; i++) {
+            row[i] = row_of(a, h)[i];
+            square += row[i] * row[i];
+        }
+        value = square > 0.0 ? value_at(a, h, a->place, row, -value / square) : (double)NAN;
+    }
+    double zero[N];
+    memcpy(zero, a->place, sizeof zero);
+    const bool changes = fabs(value) <= least &&
+                         value_at(a, h, zero, row, -1e-4) * value_at(a, h, zero, row, 1e-4) < 0.0;
+    memcpy(a->place, start, sizeof start);
+    look(a);
+    return changes;
 }
 
 /* Solve `matrix` x = b by elimination, x in b; false: it is singular. */
@@ -273,6 +309,12 @@ void apart_say(FILE *out, const char *who, const image *im) {
     }
     if (a.holds > 0) {
         look(&a);
+        for (int h = 0; h < a.holds; h++) {
+            a.vanishes[h] = has_zero(&a, h);
+        }
+        for (int h = 0; h < a.holds; h++) {
+            a.closes = a.closes || off_zero(&a, h) != 0.0;
+        }
         say(out, who, &a);
     }
     evaluator_free(signals);
