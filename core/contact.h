@@ -22,8 +22,8 @@
  * What a scene must offer is in `wh_contact_system`; what changes while running is in `wh_contacts` (scene.h).
  * contact_work.h has what a step works on, contact_lcp.h how contacts share a load, contact_forces.h the forces and
  * impulses, contact_ledger.h what they enter into the books, contact_locate.h the search for events,
- * contact_impact.h, contact_crossing.h and contact_resolve.h what they change, contact_begin.h what holds when a
- * run begins, contact_project.h where they belong, contact_rank.h whether the holds still determine the motion,
+ * contact_dip.h stops that are entered and left within a step, contact_impact.h, contact_crossing.h and
+ * contact_resolve.h what they change, contact_begin.h what holds when a run begins, contact_project.h where they belong, contact_rank.h whether the holds still determine the motion,
  * contact_step.h the step. Scenes without contacts include none of these files. All are C only.
  */
 #ifndef WH_CONTACT_H

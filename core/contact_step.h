@@ -3,6 +3,7 @@
 #define WH_CONTACT_STEP_H
 
 #include "contact_begin.h"
+#include "contact_dip.h"
 #include "contact_rank.h"
 
 WH_INLINE void wh_contact_modes(const wh_contact_system *of, const wh_state *state,
@@ -84,19 +85,10 @@ static inline bool wh_contact_try(const wh_contact_system *of, wh_contact_work *
     return status == WH_OK;
 }
 
-/* What is left of a step, tried: from `now` to `next`. */
-typedef struct wh_contact_attempt {
-    wh_contact_state now;
-    wh_contact_state next;
-    wh_real span;       /* how long it is, s */
-    wh_margins margins; /* at the end */
-    unsigned
-        leaving; /* free stops that open there and are nearer than the way of the try, or closed, as bits */
-    unsigned dips; /* of those, as bits: open at both ends, and perhaps closed in between */
-    int fault;     /* component that left all bounds */
-    bool made;     /* it was made, */
-    bool sound;    /* and its end is none out of bounds */
-} wh_contact_attempt;
+/* Between two events of a step; the interpreter watches this. */
+#ifndef WH_PIECE_SEEN
+#define WH_PIECE_SEEN(of, w, span, from, to) ((void)0)
+#endif
 
 /* Try `left` from `next`, a copy of `now`, which only needs to be there where holds can slip. */
 WH_INLINE void wh_contact_attempt_make(const wh_contact_system *of, wh_contact_work *w,
@@ -124,89 +116,6 @@ WH_INLINE void wh_contact_attempt_make(const wh_contact_system *of, wh_contact_w
             a->leaving |= 1U << k;
         }
     }
-}
-
-/* Where the tangents at both ends of a try cross: the least that a gap can have come to in between if it bends upwards, as
- * that of a body passing a convex obstacle does. gap, rate: at both ends, `h` apart. Returns the share of the try. */
-WH_INLINE wh_real wh_contact_tangents(const wh_real *gap, const wh_real *rate, wh_real h,
-                                      wh_real *least) {
-    const wh_real share = (gap[1] - gap[0] - rate[1] * h) / ((rate[0] - rate[1]) * h);
-    *least = gap[0] + rate[0] * h * share;
-    return share;
-}
-
-/* Of the stops that are closed at the end and on their way out, those that were open, or closing, at the begin were hit
- * all the same. Of those that are open at both ends, close at the begin and open at the end, the gap may have been below
- * zero in between. */
-WH_INLINE void wh_contact_attempt_dipped(const wh_contact_system *of, wh_contact_work *w,
-                                         const wh_real *input, wh_contact_attempt *a) {
-    wh_contact_point at;
-    wh_real before[2 * WH_CONTACTS_MAX];
-    if (!wh_contact_any_of(of, WH_STOP) || a->leaving == 0) {
-        return;
-    }
-    wh_contact_point_of(of, &a->now, &at);
-    wh_contact_signals(of, at.phase, at.linear, at.rate, input, before);
-    for (unsigned k = 0; k < of->forced; k++) {
-        const bool closes = before[2 * k] > WH_R(0.0) || before[2 * k + 1] < WH_R(0.0);
-        if ((a->leaving >> k & 1U) == 0) {
-            continue;
-        }
-        if (a->margins.signal[2 * k] >= WH_R(0.0)) {
-            const wh_real gap[2] = {before[2 * k], a->margins.signal[2 * k]};
-            const wh_real rate[2] = {before[2 * k + 1], a->margins.signal[2 * k + 1]};
-            wh_real least = WH_R(0.0);
-            if (gap[0] > WH_R(0.0) && rate[0] < WH_R(0.0)) {
-                (void)wh_contact_tangents(gap, rate, a->span, &least);
-            }
-            a->dips |= least < WH_R(0.0) ? 1U << k : 0U;
-        } else if (closes) {
-            w->inside &= ~(1U << k);
-            a->margins.value[k] = a->margins.signal[2 * k];
-        }
-    }
-}
-
-/* The share of the try at which the first of a->dips is found closed; 1: none is. Each probe on the cubic through
- * the try's ends takes the place of the end that it is like, until the tangents cross above zero. */
-WH_APART wh_real wh_contact_dip(const wh_contact_system *of, wh_contact_attempt *a,
-                                const wh_real *input) {
-    const wh_real h = a->span;
-    wh_contact_path path;
-    wh_contact_point at;
-    wh_real signal[2 * WH_CONTACTS_MAX];
-    wh_real first = WH_R(1.0);
-    wh_contact_path_of(of, &a->now, &a->next, h, &path);
-    for (unsigned i = 0; i < of->coordinates; i++) { /* rates on a straight line */
-        path.a0[i] = path.gain[i] / h;
-        path.a1[i] = path.gain[i] / h;
-    }
-    wh_contact_signals(of, path.begin.phase, path.begin.linear, path.begin.rate, input, signal);
-    for (unsigned k = 0; k < of->forced; k++) {
-        wh_real gap[2] = {signal[2 * k], a->margins.signal[2 * k]};
-        wh_real rate[2] = {signal[2 * k + 1], a->margins.signal[2 * k + 1]};
-        wh_real end[2] = {WH_R(0.0), WH_R(1.0)};
-        bool more = (a->dips >> k & 1U) != 0;
-        for (unsigned i = 0; i < WH_DIP_PROBES && more; i++) {
-            wh_real probe[2 * WH_CONTACTS_MAX];
-            wh_real least;
-            const wh_real width = end[1] - end[0];
-            const wh_real share =
-                end[0] + width * wh_contact_tangents(gap, rate, h * width, &least);
-            more = least < WH_R(0.0) && share > end[0] && share < end[1];
-            if (more) {
-                wh_contact_between(of, &path, share, &at);
-                wh_contact_signals(of, at.phase, at.linear, at.rate, input, probe);
-                const unsigned opens = probe[2 * k + 1] > WH_R(0.0);
-                first = probe[2 * k] < WH_R(0.0) && share < first ? share : first;
-                more = probe[2 * k] >= WH_R(0.0);
-                end[opens] = share;
-                gap[opens] = probe[2 * k];
-                rate[opens] = probe[2 * k + 1];
-            }
-        }
-    }
-    return first;
 }
 
 /* Did it end calmly, with all that was looked at a number? */
@@ -395,6 +304,9 @@ WH_APART wh_status wh_contact_eventful(const wh_contact_system *of, wh_contact_w
                 }
                 wh_contact_pass(of, &a->margins, w);
                 flat = wh_contact_accept(of, w, reach, &a->now, &a->next, state->input);
+                if (calm) {
+                    WH_PIECE_SEEN(of, w, reach, &a->now, &a->next);
+                }
                 if (calm && reach < left && flat == of->contacts) { /* it was no dip */
                     wh_contact_copy(of, a->next.angle, a->next.real, a->next.carry, &a->now);
                     left -= reach;
@@ -419,6 +331,7 @@ WH_APART wh_status wh_contact_eventful(const wh_contact_system *of, wh_contact_w
                 }
                 wh_contact_stabilise(of, w, span, state->input, &a->next, &a->now);
                 flat = wh_contact_accept(of, w, span, &a->next, &a->now, state->input);
+                WH_PIECE_SEEN(of, w, span, &a->next, &a->now);
                 left -= span;
                 w->located = true;
             }

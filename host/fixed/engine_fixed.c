@@ -378,4 +378,4 @@ const engine_kind engine_fixed = {
     "fixed",      9,           run_start,       run_stop,   run_step,          run_set_input,
     run_state,    run_outputs, run_hash,        run_steps,  run_fault,         run_events,
     run_happened, run_modes,   run_evaluations, run_ledger, run_component_off, run_saturated,
-    run_unit,     NULL};
+    run_unit,     NULL,         NULL};

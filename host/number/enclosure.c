@@ -230,3 +230,70 @@ enclosure enclosure_power(enclosure a, enclosure exponent) {
     }
     return enclosure_exp(enclosure_mul(exponent, enclosure_log(a)));
 }
+
+/* --- the language's functions ---------------------------------------------------------------------------*/
+
+/* Of a function that rises, or falls, within these ends. The values are right to 0.6 units of the last place. */
+static enclosure steady(function_id function, enclosure a, double least, double most) {
+    const double low = enclosure_lesser(enclosure_larger(a.low, least), most);
+    const double high = enclosure_larger(enclosure_lesser(a.high, most), least);
+    return enclosure_hull(enclosure_about(number_call(function, low, 0.0), 1),
+                          enclosure_about(number_call(function, high, 0.0), 1));
+}
+
+static enclosure size_of(enclosure a) {
+    const bool across = a.low < 0.0 && a.high > 0.0;
+    const double low = a.low < 0.0 ? -a.low : a.low;
+    const double high = a.high < 0.0 ? -a.high : a.high;
+    return (enclosure){across ? 0.0 : enclosure_lesser(low, high), enclosure_larger(low, high)};
+}
+
+/* The angle of (x, y): between those of the corners, unless zero or the jump from -pi to pi is in it. */
+static enclosure angle_of(enclosure y, enclosure x) {
+    if (x.low <= 0.0 && y.low <= 0.0 && y.high >= 0.0) {
+        return (enclosure){-enclosure_pi().high, enclosure_pi().high};
+    }
+    enclosure all = enclosure_about(number_call(FN_ATAN2, y.low, x.low), 1);
+    for (int corner = 1; corner < 4; corner++) {
+        const double angle = number_call(FN_ATAN2, (corner & 1) != 0 ? y.high : y.low,
+                                         (corner & 2) != 0 ? x.high : x.low);
+        all = enclosure_hull(all, enclosure_about(angle, 1));
+    }
+    return all;
+}
+
+enclosure enclosure_call(function_id function, enclosure a, enclosure b) {
+    if (!enclosure_is_finite(a) || !enclosure_is_finite(b)) {
+        return none();
+    }
+    enclosure f;
+    switch (function) {
+    case FN_SIN: return enclosure_sine(a);
+    case FN_COS: return enclosure_cosine(a);
+    case FN_TAN: return enclosure_div(enclosure_sine(a), enclosure_cosine(a));
+    case FN_ASIN:
+    case FN_ACOS: return steady(function, a, -1.0, 1.0);
+    case FN_EXP:
+        f = steady(function, a, -740.0, 700.0);
+        return (enclosure){a.low < -700.0 ? 0.0 : f.low, f.high};
+    case FN_COSH:
+        f = steady(function, size_of(a), 0.0, 700.0);
+        return (enclosure){enclosure_larger(f.low, 1.0), f.high};
+    case FN_SINH: return steady(function, a, -700.0, 700.0);
+    case FN_ATAN:
+    case FN_TANH: return steady(function, a, a.low, a.high);
+    case FN_LOG: return a.high > 0.0 ? steady(function, a, 0x1p-1074, a.high) : none();
+    case FN_SQRT:
+        return a.high >= 0.0 ? enclosure_root((enclosure){enclosure_larger(a.low, 0.0), a.high})
+                             : none();
+    case FN_ABS: return size_of(a);
+    case FN_SIGN:
+        return (enclosure){(a.low > 0.0) - (a.low < 0.0), (a.high > 0.0) - (a.high < 0.0)};
+    case FN_MIN:
+        return (enclosure){enclosure_lesser(a.low, b.low), enclosure_lesser(a.high, b.high)};
+    case FN_MAX:
+        return (enclosure){enclosure_larger(a.low, b.low), enclosure_larger(a.high, b.high)};
+    case FN_ATAN2: return angle_of(a, b);
+    }
+    return none();
+}

@@ -12,6 +12,8 @@
 
 #include <stdbool.h>
 
+#include "functions.h"
+
 #include "core/real.h" /* refuses compilers set to other arithmetic; whirl's start, processors (core/arithmetic.h) */
 
 #if __DBL_MANT_DIG__ != 53 || __DBL_MIN_EXP__ != -1021
@@ -118,5 +120,7 @@ enclosure enclosure_log(enclosure a);
 enclosure enclosure_whole_power(enclosure a, int n);
 /* a^exponent of a > 0; also of other a where the exponent is a whole number. */
 enclosure enclosure_power(enclosure a, enclosure exponent);
+/* The language's function of what of a, and of (a, b), it is defined for. Beyond 700 exponentials count as e^700. */
+enclosure enclosure_call(function_id function, enclosure a, enclosure b);
 
 #endif

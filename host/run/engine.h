@@ -25,6 +25,14 @@ typedef struct engine_clamped {
     double begin_s;
 } engine_clamped;
 
+/* The motion between two events of a step, or between an event and an end of the step. */
+typedef struct engine_piece {
+    double span_s;
+    const double *from; /* [angles + reals], as engine_kind's state() */
+    const double *to;
+    const int *mode; /* [contacts] */
+} engine_piece;
+
 typedef struct engine_kind {
     const char *name; /* "float", "double" or "fixed" (host/fixed) */
     int digits;       /* significant digits that carry a number of this kind through text */
@@ -58,6 +66,8 @@ typedef struct engine_kind {
     /* What component i is kept in whole units of; SI. NULL: floating point. */
     double (*unit)(const void *run, int i);
     engine_clamped (*clamped)(const void *run); /* NULL: there are no impacts */
+    /* The pieces of the last step, if it was looked at for events; else none. NULL: not known. */
+    const engine_piece *(*pieces)(const void *run, int *count);
 } engine_kind;
 
 extern const engine_kind engine_float;

@@ -111,7 +111,8 @@ static void say_missed(FILE *out, const verdict *v) {
     const finding *f = &v->found[FINDING_MISSED];
     const image *im = v->image;
     char statement[STATEMENT_SIZE];
-    fprintf(out, "the step after t = %.6g s passed ", f->at_s);
+    fprintf(out, "the step after t = %.6g s %s ", f->at_s,
+            f->value < 1.0 ? "may have passed" : "passed");
     if (f->component < im->contacts) {
         statement_text(im->contact[f->component].at, statement, sizeof statement);
         fprintf(out, "through a contact: %s", statement);
@@ -242,6 +243,10 @@ static void say_remedy(FILE *out, const verdict *v, const image *plain,
             v->books->negative_s);
     } else if (is_told(v, FINDING_SINGULAR)) {
         fputs("hint: take coordinates that are not singular there\n", out);
+    } else if (is_told(v, FINDING_MISSED) && v->found[FINDING_MISSED].value < 1.0) {
+        fputs("hint: write it without a pole or a jump on the way, such as 1/x or sign(x): Whirl "
+              "finds no bounds there\n",
+              out);
     } else if (is_told(v, FINDING_EVENTS)) {
         fputs("hint: restitution 0, or a condition that takes longer to come true again, ends such "
               "events\n",

@@ -8,7 +8,6 @@
 #include "divisors.h"
 #include "host/base/room.h"
 #include "host/number/functions.h"
-#include "missed.h"
 #include "pole.h"
 
 /* Not where the way to a pole is less than this part of what moves: there nothing but rounding grows. */
@@ -23,8 +22,8 @@ struct jumped {
     uint64_t events;
     bool leapt; /* in this step there were some */
     missed *contacts;
-    int found;   /* a question, or -1 */
-    int through; /* see missed.h; or -1 */
+    int found; /* a question, or -1 */
+    missed_found through;
     double found_s;
 };
 
@@ -35,7 +34,7 @@ jumped *jumped_open(const image *im) {
     j->of = divisors_open(im);
     j->contacts = missed_open(im);
     j->found = -1;
-    j->through = -1;
+    j->through = MISSED_NOTHING;
     j->from = room(j->components, sizeof *j->from);
     j->to = room(j->components, sizeof *j->to);
     if (j->of.count == 0 && j->contacts == NULL) {
@@ -169,7 +168,7 @@ void jumped_enter(jumped *j, const engine_kind *kind, const void *run) {
     bool changed = false;
     j->leapt = had_events(j, kind, run);
     j->through = missed_enter(j->contacts, kind, run, j->leapt);
-    j->found_s = j->through >= 0 ? ratio_times(steps - 1, j->image->step) : 0.0;
+    j->found_s = j->through.what >= 0 ? ratio_times(steps - 1, j->image->step) : 0.0;
     memcpy(j->from, j->to, (size_t)j->components * sizeof *j->to);
     kind->state(run, j->to, j->to + j->image->angles);
     divisors_see(&j->of, j->to);
@@ -179,17 +178,17 @@ void jumped_enter(jumped *j, const engine_kind *kind, const void *run) {
         d->now = divisors_value(&j->of, d);
         changed = changed || (changes_sign(d) && counts(j, d));
     }
-    if (steps > 0 && j->through < 0 && (changed || may_touch(j))) {
+    if (steps > 0 && j->through.what < 0 && (changed || may_touch(j))) {
         j->found = pole_between(j);
         j->found_s = ratio_times(steps - 1, j->image->step);
     }
 }
 
-bool jumped_some(const jumped *j) { return j != NULL && (j->found >= 0 || j->through >= 0); }
+bool jumped_some(const jumped *j) { return j != NULL && (j->found >= 0 || j->through.what >= 0); }
 
-int jumped_through(const jumped *j, double *begin_s) {
+missed_found jumped_through(const jumped *j, double *begin_s) {
     *begin_s = j != NULL ? j->found_s : 0.0;
-    return j != NULL ? j->through : -1;
+    return j != NULL ? j->through : MISSED_NOTHING;
 }
 
 const blame_question *jumped_over(const jumped *j, double *begin_s) {

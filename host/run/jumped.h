@@ -8,7 +8,7 @@
 #ifndef RUN_JUMPED_H
 #define RUN_JUMPED_H
 
-#include "engine.h"
+#include "missed.h"
 
 typedef struct jumped jumped;
 
@@ -19,8 +19,8 @@ void jumped_close(jumped *j); /* NULL is fine */
 void jumped_enter(jumped *j, const engine_kind *kind, const void *run);
 /* Has the run jumped over one? */
 bool jumped_some(const jumped *j);
-/* What it passed through, as missed_enter() tells, and when that step began; -1: it was a pole. */
-int jumped_through(const jumped *j, double *begin_s);
+/* What it passed through, as missed_enter() tells, and when that step began; nothing: it was a pole. */
+missed_found jumped_through(const jumped *j, double *begin_s);
 /* The expression whose pole it was, and when that step began. */
 const blame_question *jumped_over(const jumped *j, double *begin_s);
 

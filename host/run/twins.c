@@ -339,8 +339,8 @@ static void follow(pair *p, uint64_t begin) {
     if (leapt) {
         double ignored_s;
         t->jumped_s = begin_s;
-        t->missed = jumped_through(p->our_jumps, &ignored_s) >= 0 ||
-                    jumped_through(p->finer_jumps, &ignored_s) >= 0;
+        t->missed = jumped_through(p->our_jumps, &ignored_s).what >= 0 ||
+                    jumped_through(p->finer_jumps, &ignored_s).what >= 0;
     }
 }
 

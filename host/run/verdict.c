@@ -30,7 +30,7 @@ const finding_row finding_rows[FINDINGS] = {
                       "jumped over a place where an expression grows without bound"},
     [FINDING_MISSED] = {"missed", FINDING_WARNING, 0.0, "steps",
                         "a contact or a force that no step met has not acted",
-                        "passed through a contact, or over a force"},
+                        "passed through a contact, or over a force, or may have"},
     [FINDING_ALIASED] = {"aliased", FINDING_WARNING, 0.0, "of the largest slope",
                          "between.h has its limits: one hundredth of a slope in the mean",
                          "have something faster than the step, of which its stages see too "
@@ -249,8 +249,9 @@ static void judge_singular(verdict *v) {
 static void judge_jumps(verdict *v) {
     double begin_s;
     if (jumped_some(v->jumped)) {
-        const int through = jumped_through(v->jumped, &begin_s);
-        tell(v, through >= 0 ? FINDING_MISSED : FINDING_POLE, 1.0, begin_s, through);
+        const missed_found through = jumped_through(v->jumped, &begin_s);
+        tell(v, through.what >= 0 ? FINDING_MISSED : FINDING_POLE, through.sure ? 1.0 : 0.5,
+             begin_s, through.what);
     }
 }
 

@@ -257,6 +257,36 @@ static void test_exponentials(void) {
     }
 }
 
+/* Of each function of the language: what is between the ends is mapped between the bounds, and a point to a narrow one. */
+static void test_functions(void) {
+    for (unsigned i = 0; i < dice_cases(60000); i++) {
+        const function_id function = (function_id)(i % (unsigned)FUNCTIONS);
+        const double scale = dice_one_of(&die, 2) == 0 ? 1.0 : 0x1p-20; /* near 1, or far from it */
+        enclosure a = drawn_enclosure();
+        enclosure b = drawn_enclosure();
+        a = (enclosure){scale * a.low, scale * a.high};
+        b = (enclosure){scale * b.low, scale * b.high};
+        const double x = between(a);
+        const double y = between(b);
+        const double value = number_call(function, x, y);
+        const enclosure got = enclosure_call(function, a, b);
+        const bool large = fabs(value) > 1e300 || (function == FN_TAN && !enclosure_is_finite(got));
+        char message[200];
+        snprintf(message, sizeof message, "%s(%.17g, %.17g) = %.17g is not in [%.17g, %.17g]",
+                 function_name(function), x, y, value, got.low, got.high);
+        TEST_ASSERT_TRUE_MESSAGE(isnan(value) || large || isinf(value) || enclosure_has(got, value),
+                                 message);
+        const enclosure point = enclosure_call(function, enclosure_of(x), enclosure_of(y));
+        if (!isnan(value) && !large && enclosure_is_finite(point) && function != FN_SIGN &&
+            function != FN_TAN && function != FN_SIN && function != FN_COS &&
+            !(function == FN_ATAN2 && y <= 0.0 && x == 0.0)) {
+            expect_narrow(function_name(function), point, 16.0);
+        }
+    }
+    TEST_ASSERT_FALSE(enclosure_is_finite(
+        enclosure_call(FN_MIN, enclosure_of(1.0), (enclosure){(double)NAN, (double)NAN})));
+}
+
 void suite_enclosure(void) {
     die = dice_of("enclosure", 15);
     RUN_TEST(test_four_operations);
@@ -266,4 +296,5 @@ void suite_enclosure(void) {
     RUN_TEST(test_roots);
     RUN_TEST(test_sines);
     RUN_TEST(test_exponentials);
+    RUN_TEST(test_functions);
 }
