@@ -122,13 +122,15 @@ static bool keeps_its_place(const drawn_column *c) {
 }
 
 /* As horizon.h has it. */
-static horizon_column judged(const drawn_column *all, int k, double tolerance, double left_out,
-                             double end_s) {
+static horizon_column judged(const drawn_column *all, int k, double tolerance, const twins *t) {
+    const double left_out = t->left_out;
+    const double end_s = t->end_s;
+    const double least = t->shape->kind == &engine_double ? 1e-9 : 1e-3;
     const drawn_column *c = &all[k];
     const double moved = c->high - c->low;
     const double size = fmax(fabs(c->low), fabs(c->high));
     const bool keeps = keeps_its_place(&all[c->place]);
-    horizon_column made = {.range = c->has_rate ? moved : fmax(moved, size / 1000.0),
+    horizon_column made = {.range = c->has_rate ? moved : fmax(moved, size * least),
                            .off = most_off(c, left_out),
                            .until_s = (double)INFINITY};
     for (int i = c->looks - 1; i >= 0; i--) {
@@ -163,7 +165,9 @@ static void test_verdicts_on_drawn_columns(void) {
         drawn_column drawn[COLUMNS];
         twins_column column[COLUMNS] = {{0}};
         const double tolerance = pow(10.0, dice_between(&d, -5.0, -1.0));
-        twins t = {.column = column,
+        records shape = {.kind = n % 2U == 0 ? &engine_double : &engine_float};
+        twins t = {.shape = &shape,
+                   .column = column,
                    .columns = COLUMNS,
                    .end_s = 100.0,
                    .left_out = dice_between(&d, 1.0, 1.2)};
@@ -185,7 +189,7 @@ static void test_verdicts_on_drawn_columns(void) {
         double until_s = t.end_s;
         bool to_the_end = true;
         for (int k = 1; k < COLUMNS; k++) {
-            const horizon_column wanted = judged(drawn, k, tolerance, t.left_out, t.end_s);
+            const horizon_column wanted = judged(drawn, k, tolerance, &t);
             TEST_ASSERT_EQUAL_INT(wanted.verdict, h.column[k].verdict);
             TEST_ASSERT_EQUAL_DOUBLE(wanted.range, h.column[k].range);
             TEST_ASSERT_EQUAL_DOUBLE(wanted.off, h.column[k].off);
