@@ -25,9 +25,9 @@ void jumps_run(const char *text, const char *number, char *const more[static JUM
 }
 
 bool jumps_named(char text[static SAID_SIZE], char *words[static JUMPS_WORDS]) {
-    static const char before[] = "no motion gets through there; ";
+    static const char before[] = "\nhint: ";
     char *at = strstr(jumps_said.err, before);
-    char *end = at != NULL ? strstr(at, " stays on its side, and would do") : NULL;
+    char *end = at != NULL ? strstr(at, " would do (tried)") : NULL;
     if (end == NULL) {
         return false;
     }

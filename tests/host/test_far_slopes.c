@@ -154,6 +154,9 @@ static void take_cure(const slope_case *c, const char *text, const char *number,
     if (step_s > 0.0) {
         snprintf(step, sizeof step, "--step=%.17g", step_s);
     }
+    if (step_s <= 0.0 && strstr(warned->err, "hint: --compensated would do") != NULL) {
+        snprintf(step, sizeof step, "--compensated");
+    }
     said what;
     run_with(c, text, in_double ? "double" : number, step, &what);
     const motion_rows m = rows_of(c, what.out, far_m);
