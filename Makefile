@@ -2,7 +2,7 @@
 #
 # V=1 shows the commands. Nothing is written outside build/, but for `make figures-docs`, `make price-effects`,
 # `make price`, `make bench-boards`, `make bench-tables`, `make bench-precision`, `make bench-peers`, `make bench-links`,
-# `make price-fit` and `make stability`, which renew their part of docs/, and `make too-large`, which lists what does not fit
+# `make price-table` and `make stability`, which renew their part of docs/, and `make too-large`, which lists what does not fit
 # into a board.
 
 .DEFAULT_GOAL := help
@@ -249,14 +249,9 @@ price-effects: ## what each effect costs: instructions, bytes, error; into docs/
 	@$(MAKE) price-effects-now
 
 .PHONY: price-rows
-price-rows: ## steps of hundreds of scenes counted on every board: build/cost/rows.csv, for price-fit (an hour)
+price-rows: ## steps of a hundred scenes counted on every board: build/cost/rows.csv, for price-table (half an hour)
 	@CC="$(CC)" mk/setup/deps.sh host firmware boards quality bench
 	@$(MAKE) price-rows-now
-
-.PHONY: price-rows-fixed
-price-rows-fixed: ## the same in fixed point, for price-fit-fixed: build/cost_fixed/rows.csv (a quarter of an hour)
-	@CC="$(CC)" mk/setup/deps.sh host firmware boards quality bench
-	@$(MAKE) price-rows-fixed-now
 
 .PHONY: worst-step
 worst-step: ## the most instructions of a step with events, over a million random steps a scene (minutes)

@@ -1,7 +1,7 @@
 # curves.mk: what accuracy costs (`make price`): docs/price.md, docs/dev/fronts.md, their charts.
 
 CURVES := build/curves
-# Every setting, on every board. SCENE+4s: of that motion the first 4 s, in which it has not yet carried errors far.
+# Every method, on every board. SCENE+4s: of that motion the first 4 s, in which it has not yet carried errors far.
 CURVE_SCENES ?= two_mass_relative epicyclic_from_rest epicyclic_conserved thomson_a thomson_a+4s thomson_a_conserved rig_fixed \
     driven_hinge_from_rest spherical_flight
 # Those that are drawn.
@@ -12,9 +12,9 @@ CURVE_FIRST := epicyclic_from_rest fronts $(CURVE_COUNTED) atmega328p
 # All other scenes: these methods in each number, on a Cortex-M4F.
 CURVE_METHODS := heun rk4
 CURVE_PAGES := docs/price.md docs/dev/fronts.md
-# How long `whirl price` tries, of the scenes above and of all others; fronts are counted down to this error.
-CURVE_EFFORT ?= 1
-CURVE_EFFORT_OTHERS ?= 0.1
+# Operations of `whirl price`, of the scenes above and of each other one; fronts are counted down to this error.
+CURVE_EFFORT ?= 1e10
+CURVE_EFFORT_OTHERS ?= 1e9
 CURVE_FINEST := 1e-9
 CURVE_JOBS ?= 2
 

@@ -187,7 +187,7 @@ bench-links-now: $(GEN)/.stamp
 	@mk/price/into_page.sh build/links/links.md docs/dev/price.md links
 	@cat build/links/links.md
 
-# --- prices of any scene: cases are counted, figures are fitted to them (docs/dev/price.md) ---------------------------------
+# --- prices of any scene: cases are counted, and become a table of figures (docs/dev/price.md) -------------------------------
 PRICE_OUT ?= build/cost
 PRICE_CASES ?= $(PRICE_OUT)/cases
 PRICE_CSV ?= $(PRICE_OUT)/rows.csv
@@ -198,7 +198,7 @@ $(eval $(call build,double_$(BOARD),$(BOARD_CC),$(BOARD_CFLAGS) -DWH_DOUBLE=1 -w
 $(eval $(call library,$(B)/double_$(BOARD)/libwhirl.a,$(call objects,double_$(BOARD),$(CORE_C))))
 LIB_DOUBLE_BOARD := $(B)/double_$(BOARD)/libwhirl.a
 
-# What counting takes: what is compiled once, and the emulator. Whoever asks whether a board can be counted on makes it.
+# What counting takes: the files that are compiled once, and the emulator.
 .PHONY: price-ready-board price-ready-host price-measure-board price-measure-host price-count-run-board
 price-ready-board: build/whirl
 	@$(if $(filter single,$(BOARD_IMAGES)),true,$(call need,$(BOARD_EMULATOR)))
@@ -221,73 +221,37 @@ price-measure-host: price-ready-host
 	    BOARD_CFLAGS="$(FLAGS_float)" BOARD_LDFLAGS="" BOARD_LDLIBS="" BOARD_OBJECTS=$(B)/float/boards/host/board.o \
 	    LIB_BOARD=$(LIB_FLOAT) PLUGIN= FLAGS="$(OPT)" EMULATE="@" mk/price/measure.sh $(PRICE_CASES) $(PRICE_CSV)
 
-PRICE_FIT_C := $(patsubst %,mk/price/%.c,fit fitted judged fit_check counted)
-$(B)/tools/price_fit_fixed: $(call objects,host,mk/price/fit_fixed.c) $(LIB_HOST) $(LIB_FLOAT) $(LIB_DOUBLE)
+$(B)/tools/price_table: $(call objects,host,mk/price/table.c) $(LIB_HOST) $(LIB_FLOAT) $(LIB_DOUBLE)
 	$(link)
 
-$(B)/tools/price_fit: $(call objects,host,$(PRICE_FIT_C)) $(LIB_HOST) $(LIB_FLOAT) $(LIB_DOUBLE)
-	$(link)
-
-# Every case on this board, so many of the others on each of them: some tell the classes of work apart. In double,
-# where it is of use: this machine, and a board that computes it in software.
-PRICE_WHOLE := mps2-an386
-PRICE_DOUBLE := mps2-an386
-price_some = awk '/--(matrix|tables)/ ? few++ % 2 == 0 : plain++ % $(1) < 2' $(PRICE_OUT)/all >$(PRICE_OUT)/cases
-.PHONY: price-rows-now price-fit price-check
+# Cases on every board in float, on some in double and in fixed point.
+PRICE_SEED ?= 1
+PRICE_MANY := mps2-an386
+PRICE_DOUBLE := mps2-an386 mps2-an385-m0 mps2-an385
+.PHONY: price-rows-now price-table price-check
 price-rows-now: build/whirl build/tools/mechanisms
 	@rm -rf $(PRICE_OUT) && mkdir -p $(PRICE_OUT)
-	@WHIRL=build/whirl mk/price/cases.sh $(PRICE_OUT) 1 40 160 >$(PRICE_OUT)/all
-	+@for board in $(BOARDS_PRICED); do \
-	    case " $(PRICE_WHOLE) " in *" $$board "*) cp $(PRICE_OUT)/all $(PRICE_OUT)/cases ;; *) $(call price_some,5) ;; esac; \
-	    $(MAKE) BOARD=$$board price-measure-board || true; done
-	+@$(call price_some,8); $(MAKE) price-measure-host NUMBERS="float double" || true
-	+@for board in $(PRICE_DOUBLE); do $(MAKE) BOARD=$$board NUMBERS=double WORST=0 price-measure-board || true; done
+	@WHIRL=build/whirl sh mk/price/cases.sh $(PRICE_OUT) $(PRICE_SEED) 160 float >$(PRICE_OUT)/many
+	@head -n 110 $(PRICE_OUT)/many >$(PRICE_OUT)/some
+	@WHIRL=build/whirl sh mk/price/cases.sh $(PRICE_OUT) $(PRICE_SEED) 50 fixed >$(PRICE_OUT)/fixed
+	+@count() { $(MAKE) PRICE_CASES=$(PRICE_OUT)/$$1 NUMBERS="$$2" WORST=0 $$3 || true; }; \
+	    count some "float double" price-measure-host; \
+	    for board in $(BOARDS_PRICED); do \
+	        case " $(PRICE_MANY) " in *" $$board "*) count many float "BOARD=$$board price-measure-board" ;; \
+	        *) count some float "BOARD=$$board price-measure-board" ;; esac; \
+	        count fixed fixed "BOARD=$$board price-measure-board"; done; \
+	    for board in $(PRICE_DOUBLE); do count some double "BOARD=$$board price-measure-board"; done
 	@wc -l <$(PRICE_CSV)
 
 ##@ Price
-price-fit: build/tools/price_fit ## fit the figures that prices are predicted by to the counted rows; host/price/cost_rows.h, docs/dev/price.md
-	@build/tools/price_fit $(PRICE_CSV) >$(PRICE_OUT)/cost_rows.h 2>$(PRICE_OUT)/residuals
-	@grep '^|' $(PRICE_OUT)/residuals | grep -vE 'contacts|(cycles|flash|RAM|stack), ' >$(PRICE_OUT)/residuals.md
+price-table: build/tools/price_table ## the table of figures that prices are predicted from, of the counted rows; host/price/cost_rows.h, docs/dev/price.md
+	@build/tools/price_table $(PRICE_CSV) >$(PRICE_OUT)/cost_rows.h 2>$(PRICE_OUT)/errors.md
 	@cp $(PRICE_OUT)/cost_rows.h host/price/cost_rows.h
-	@mk/price/into_page.sh $(PRICE_OUT)/residuals.md docs/dev/price.md cost
-	@{ echo "| board | number | fitted | tested | within 10 % | median | nine of ten | largest |"; \
-	    echo "|---|---|---|---|---|---|---|---|"; sed -n 's/^@//p' $(PRICE_OUT)/residuals; } >$(PRICE_OUT)/tested.md
-	@mk/price/into_page.sh $(PRICE_OUT)/tested.md docs/dev/price.md cost-tested
-	@cat $(PRICE_OUT)/tested.md
-	@cat $(PRICE_OUT)/residuals.md
+	@mk/price/into_page.sh $(PRICE_OUT)/errors.md docs/dev/price.md cost
+	@cat $(PRICE_OUT)/errors.md
 
-# The same of fixed point: its rows have figures of their own.
-FIXED_OUT := build/cost_fixed
-.PHONY: price-rows-fixed-now price-fit-fixed
-price-rows-fixed-now: build/whirl
-	@rm -rf $(FIXED_OUT) && mkdir -p $(FIXED_OUT)
-	@WHIRL=build/whirl sh mk/price/cases_fixed.sh $(FIXED_OUT) 1 160 >$(FIXED_OUT)/cases
-	+@for board in $(BOARDS_PRICED); do \
-	    $(MAKE) BOARD=$$board NUMBERS=fixed PRICE_OUT=$(FIXED_OUT) price-measure-board || true; done
-	@wc -l <$(FIXED_OUT)/rows.csv
-
-price-fit-fixed: build/tools/price_fit_fixed ## the same of fixed point, from build/cost_fixed/rows.csv; host/price/cost_fixed_rows.h, docs/dev/price.md
-	@build/tools/price_fit_fixed $(FIXED_OUT)/rows.csv >$(FIXED_OUT)/cost_fixed_rows.h 2>$(FIXED_OUT)/residuals
-	@grep '^|' $(FIXED_OUT)/residuals >$(FIXED_OUT)/residuals.md
-	@cp $(FIXED_OUT)/cost_fixed_rows.h host/price/cost_fixed_rows.h
-	@mk/price/into_page.sh $(FIXED_OUT)/residuals.md docs/dev/price.md cost-fixed
-	@cat $(FIXED_OUT)/residuals.md
-
-# Scenes of another seed, which nothing was fitted to or judged by: PRICE_SEED, PRICE_CHECKED boards.
-PRICE_SEED ?= 5
-PRICE_CHECKED ?= $(BOARDS_PRICED)
-price-check: build/whirl build/tools/price_fit build/tools/mechanisms ## predicted prices against counted ones, of scenes drawn anew, on every board (minutes)
-	@rm -rf build/cost_check && mkdir -p build/cost_check
-	@WHIRL=build/whirl mk/price/cases.sh build/cost_check $(PRICE_SEED) 6 20 | awk 'NR % 3 > 0' >build/cost_check/cases
-	+@for board in $(PRICE_CHECKED); do \
-	    $(MAKE) BOARD=$$board PRICE_OUT=build/cost_check price-measure-board || true; done
-	@build/tools/price_fit --check build/cost_check/rows.csv
-
-# Requests drawn from a seed, and whether what `whirl choose` answers is so (docs/dev/price.md).
-CHOOSE_SEED ?= 1
-.PHONY: choose-check
-choose-check: build/whirl ## thirty drawn requests: what whirl choose answers is run, built, counted, or proved to be nothing (a quarter of an hour; CHOOSE_SEED=n)
-	@sh mk/price/choose_check.sh $(CHOOSE_SEED)
+price-check: build/tools/price_table ## predicted prices against counted ones: PRICE_CSV, such as of `make price-rows PRICE_SEED=5 PRICE_OUT=build/again`
+	@build/tools/price_table --check $(PRICE_CSV)
 
 # What tables of an angle's functions cost and save: the table of docs/dev/price.md.
 TABLE_BOARDS := mps2-an386 mps2-an385 mps2-an385-m0 atmega328p

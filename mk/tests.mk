@@ -103,7 +103,7 @@ $(foreach b,$(CHIP_BOARDS),$(eval $(call chip_board,$(b))))
 -include $(wildcard $(patsubst %.c,$(B)/chip/%.d,$(CHIP_TEST_PARTS)) \
     $(foreach b,$(CHIP_BOARDS),$(patsubst %.c,$(B)/chip_$(b)/%.d,$(CHIP_DRIVERS_C) $(CHIP_LIGHT_C))))
 
-TEST_PROGRAMS := $(CHIP_BOARDS:%=$(B)/tests/chip_%) $(B)/tests/core_double $(B)/tests/core_float $(B)/tests/host $(B)/tools/mechanisms $(B)/tools/linkages $(B)/tools/price_fit $(B)/tools/price_fit_fixed \
+TEST_PROGRAMS := $(CHIP_BOARDS:%=$(B)/tests/chip_%) $(B)/tests/core_double $(B)/tests/core_float $(B)/tests/host $(B)/tools/mechanisms $(B)/tools/linkages $(B)/tools/price_table \
     $(B)/pil_rig $(B)/pil_swing $(B)/pil_dialled $(B)/pil_carriage $(B)/pil_cart $(B)/pil_line $(B)/tools/faults $(B)/station $(B)/tools/sim_station $(B)/tools/tel_check
 
 .PHONY: test-programs
@@ -123,7 +123,7 @@ run_cli = $(foreach t,$(1),"$(t)" "sh $(t)")
 # What `make test` leaves to gate-long, so that it stays below five minutes: what compares digits of what other tests run,
 # too, or takes long. Of the scripts in CLI_FEW it takes few cases.
 CLI_GATED := $(foreach t,angle_parts carriage embed_headers embed_names faults figures flags headers map measure odd_values pil plots price \
-    price_predicts printed_zeros prove recorded_lists settings_bits structure trust,\
+    printed_zeros prove recorded_lists settings_bits structure trust,\
     tests/cli/$(t).sh)
 # Of these, what only `make full` takes: each compares many runs for a minute or more. Of price.sh gate-long takes few cases.
 CLI_FULL := $(foreach t,map measure price,tests/cli/$(t).sh)

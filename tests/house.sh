@@ -39,7 +39,7 @@ run: base core image number plot
 emit: base image number
 fixed: base core emit image number run
 sweep: base core derive image lang number run
-price: base core derive fixed image lang number plot run
+price: base core derive fixed image lang number plot run sweep
 prove: base core image lang number run
 map: base core derive image lang number plot run sweep
 pil: base core image number run

@@ -1,4 +1,4 @@
-/* choose.c: `whirl choose`: the cheapest setting that keeps an error on a board. */
+/* choose.c: `whirl choose`: the settings that keep an error on a board with the fewest cycles and the least flash. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -7,7 +7,6 @@
 #include "commands.h"
 #include "host/number/decimal.h"
 #include "host/number/functions.h"
-#include "host/price/choice_counted.h"
 #include "host/price/choice_text.h"
 #include "host/price/figure_text.h"
 #include "interrupts.h"
@@ -16,18 +15,15 @@
 /* Records to the horizon: so many to two and a half times as many. */
 #define RECORDS 1000.0
 #define RECORDS_MOST 2500.0
-/* Operations that all trials may evaluate: some twenty seconds of one processor. */
-#define OPERATIONS 4e9
-
 static const char head[] =
     "usage: whirl choose SCENE|MECHANISM[:SCENE]|FILE[:SCENE] --error E [options]\n"
     "\n"
-    "The cheapest method, number, form and step that keep an error on a board with a margin of 2, what\n"
-    "they cost and what does them again. Each figure says how it is known, and how many settings were\n"
-    "tried and why others were not. Errors are measured as by `whirl price`, which shows all settings.\n"
-    "In Whirl's source tree, where the board's compiler and emulator are, the steps of what is chosen\n"
-    "and of the runner-up are counted; of a scene with contacts, all steps to the horizon. Elsewhere\n"
-    "they are predicted, which it says, and no scene with contacts has an answer.\n"
+    "Two answers: the method, number, form and step that keep an error on a board with a margin of 2\n"
+    "and take the fewest cycles, and those with the least flash; their costs, and the lines that run,\n"
+    "write and count them. They are rows of the table that `whirl price` prints.\n"
+    "In Whirl's source tree, with the board's compiler and emulator, their steps are counted; of a scene\n"
+    "with contacts, all steps to the horizon. Elsewhere they are predicted, and no scene with contacts\n"
+    "has an answer.\n"
     "\n";
 static const char tail[] =
     "  --rate 500Hz         how often the firmware steps: a period takes whole steps (default: any\n"
@@ -52,8 +48,8 @@ static void print_help(FILE *out) {
         .why = {
             [EXIT_ROW_OF(EXIT_DONE)] = "",
             [EXIT_ROW_OF(EXIT_RUN_FAILED)] =
-                "nothing fits of what was tried (it says which limit failed, what would fit, and how\n"
-                "       many settings were left), or there is no reference that could be trusted",
+                "nothing fits (it says what would, and how many settings were left), or there is no\n"
+                "       reference that could be trusted",
             [EXIT_ROW_OF(EXIT_BAD_INPUT)] = "",
             [EXIT_ROW_OF(EXIT_INTERRUPTED)] = ""}};
     fputs(head, out);
@@ -144,30 +140,31 @@ static bool read_limits(const choose_options *o, const pricing *p, choice_wish *
     w->flash_bytes = (double)p->board->flash_bytes;
     w->ram_bytes = (double)p->board->ram_bytes;
     return (o->rate == NULL ||
-            pricing_quantity("choose", p->of, "--rate", o->rate, rate, &w->rate_Hz)) &&
+            pricing_quantity("choose", p->of, NULL, "--rate", o->rate, rate, &w->table.rate_Hz)) &&
            (o->clock == NULL ||
-            pricing_quantity("choose", p->of, "--clock", o->clock, rate, &w->clock_Hz)) &&
+            pricing_quantity("choose", p->of, NULL, "--clock", o->clock, rate, &w->clock_Hz)) &&
            (o->flash == NULL || read_bytes("--flash", o->flash, &w->flash_bytes)) &&
            (o->ram == NULL || read_bytes("--ram", o->ram, &w->ram_bytes));
 }
 
 /* Records of whole periods, 1, 2, 5, 10, ... of them, not too many; false when there is none to the horizon. */
 static bool space_records(const pricing *p, choice_wish *w, whole_ratio *spacing) {
-    w->periods = 1;
-    if (!(w->rate_Hz > 0.0)) {
+    w->table.periods = 1;
+    if (!(w->table.rate_Hz > 0.0)) {
         *spacing = pricing_spacing(p->until_s, RECORDS);
         return true;
     }
-    const whole_ratio rate = w->rate_Hz < 1e15 ? ratio_of(w->rate_Hz) : (whole_ratio){0, 1};
+    const whole_ratio rate =
+        w->table.rate_Hz < 1e15 ? ratio_of(w->table.rate_Hz) : (whole_ratio){0, 1};
     static const uint64_t mantissa[] = {1, 2, 5};
     uint64_t periods = 1;
-    for (int i = 0; p->until_s * w->rate_Hz / (double)periods > RECORDS_MOST && i < 36; i++) {
+    for (int i = 0; p->until_s * w->table.rate_Hz / (double)periods > RECORDS_MOST && i < 36; i++) {
         periods = mantissa[(i + 1) % 3];
         for (int k = (i + 1) / 3; k > 0; k--) {
             periods *= 10;
         }
     }
-    w->periods = periods;
+    w->table.periods = periods;
     uint64_t common = periods; /* Euclid's, with the rate's numerator */
     for (uint64_t rest = rate.numerator; rest != 0;) {
         const uint64_t left = common % rest;
@@ -175,16 +172,16 @@ static bool space_records(const pricing *p, choice_wish *w, whole_ratio *spacing
         rest = left;
     }
     *spacing = (whole_ratio){rate.denominator * (periods / common), rate.numerator / common};
-    if (rate.numerator == 0 && w->rate_Hz > 1.0) {
+    if (rate.numerator == 0 && w->table.rate_Hz > 1.0) {
         fprintf(stderr, "whirl choose: error: --rate %.9g Hz is more than any step can follow\n",
-                w->rate_Hz);
+                w->table.rate_Hz);
         return false;
     }
-    if (rate.numerator == 0 || p->until_s * w->rate_Hz < 1.0 - 1e-9) {
+    if (rate.numerator == 0 || p->until_s * w->table.rate_Hz < 1.0 - 1e-9) {
         fprintf(stderr,
                 "whirl choose: error: not one period of --rate %.9g Hz lies in %.9g s of motion\n"
                 "hint: a later --until, or a higher rate\n",
-                w->rate_Hz, p->until_s);
+                w->table.rate_Hz, p->until_s);
         return false;
     }
     return true;
@@ -214,53 +211,40 @@ static const char *predicted_since(const char *missing, char text[PRICES_TEXT]) 
     return text;
 }
 
-/* An answer, or EXIT_BAD_INPUT. *counts: by counted prices; false afterwards where it could not be. */
-static int choose_by(pricing *p, choice_wish *w, measured_prices *m, const choose_options *o,
-                     choice *c) {
-    measured_end end = MEASURED_COUNTED;
-    *c = m != NULL ? choice_counted(&p->trial, w, m, &end) : choice_make(&p->trial, w);
-    if (end == MEASURED_COUNTED || end == MEASURED_REFUSED) {
-        return EXIT_DONE;
-    }
-    if (o->measure) {
-        pricing_says_missing(p, "a tool is missing");
-        return EXIT_BAD_INPUT;
-    }
-    w->counted = NULL;
-    w->prices = "predicted, since a tool is missing that counts";
-    p->trial.without_events = false;
-    *c = choice_make(&p->trial, w);
-    return EXIT_DONE;
-}
-
 static int choose_from(pricing *p, choice_wish *w, const choose_options *o, bool counts) {
-    if (!p->trial.reliable) {
-        figure_reference(stderr, &p->trial);
-        return EXIT_RUN_FAILED;
+    const table_words words = {p->target, p->words, false, p->effort};
+    w->table.error = allowed_of(p);
+    w->counts = counts;
+    p->trial.tolerated = w->table.error;
+    p->trial.without_events = p->trial.image[0]->contacts > 0;
+    table *made = table_new(&p->trial, &w->table);
+    choice c = choice_make(&p->trial, made, w);
+    int code = EXIT_DONE;
+    if (p->trial.without_events && !counts) {
+        made->unpriced = made->settings;
+        made->why = "the cost of contacts depends on the motion: it must be counted";
+        made->count = 0;
+        c = choice_make(&p->trial, made, w);
+    } else if (counts && !p->trial.stopped &&
+               choice_counted(&p->trial, made, w, &words, &c) == MEASURED_MISSING) {
+        if (o->measure) {
+            pricing_says_missing(p, "a tool is missing");
+            code = EXIT_BAD_INPUT;
+        }
+        w->counts = false;
+        w->prices = "predicted, since a tool is missing that counts";
+        c = choice_make(&p->trial, made, w);
     }
-    w->error = allowed_of(p);
-    p->trial.tolerated = w->error;
-    const table_words words = {p->target, p->words, false};
-    measured_prices m = {.words = &words};
-    choice c;
-    int code = choose_by(p, w, counts ? &m : NULL, o, &c);
-    choice_row lower;
-    const double lower_Hz = code != EXIT_DONE || p->trial.stopped || c.found
-                                ? 0.0
-                                : choice_lower_rate(&p->trial, w, &c, &lower);
-    if (w->progress != NULL) {
+    if (w->table.progress != NULL) {
         fputs("\r                                        \r", stderr);
     }
     if (code == EXIT_DONE && p->trial.stopped) {
         code = EXIT_INTERRUPTED;
-    }
-    if (code == EXIT_DONE && c.found) {
-        choice_print(stdout, &p->trial, w, &c, &words);
     } else if (code == EXIT_DONE) {
-        choice_print_none(stdout, &p->trial, w, &c, &words, lower_Hz, &lower);
-        code = EXIT_RUN_FAILED;
+        choice_print(stdout, &p->trial, made, w, &c, &words);
+        code = c.fastest.row >= 0 ? EXIT_DONE : EXIT_RUN_FAILED;
     }
-    measured_free(&m);
+    table_free(made);
     return code;
 }
 
@@ -271,13 +255,10 @@ typedef struct basis {
     char told[PRICES_TEXT];
 } basis;
 
-/* Where --measure asks for what cannot be had, EXIT_BAD_INPUT. */
+/* EXIT_BAD_INPUT: --measure asks for what cannot be had. */
 static int look_for_tools(const choose_options *o, const pricing *p, basis *b) {
-    b->missing = o->predict ? "" : measured_missing(p->board, b->text);
-    if (b->missing == NULL && p->has_trial && p->trial.image[0]->contacts > 0 &&
-        !measured_takes_runs(p->board)) {
-        b->missing = "runs with contacts are counted in emulators alone";
-    }
+    b->missing =
+        o->predict ? "" : measured_missing(p->has_trial ? &p->trial : NULL, p->board, b->text);
     if (o->measure && b->missing != NULL) {
         pricing_says_missing(p, b->missing);
         return EXIT_BAD_INPUT;
@@ -290,7 +271,11 @@ static int choose_begun(const choose_options *o, pricing *p, choice_wish *w) {
     if (p->trial.stopped) {
         return EXIT_INTERRUPTED;
     }
-    if (w->progress != NULL && !o->predict) {
+    if (!p->trial.reliable) {
+        figure_reference(stderr, &p->trial);
+        return EXIT_RUN_FAILED;
+    }
+    if (w->table.progress != NULL && !o->predict) {
         fputs("\rbuilding what counts ", stderr);
     }
     const int code = look_for_tools(o, p, &b);
@@ -314,7 +299,7 @@ static int choose_begun(const choose_options *o, pricing *p, choice_wish *w) {
 }
 
 static int choose_scene(const choose_options *o, pricing *p) {
-    choice_wish w = {.operations = p->effort * OPERATIONS};
+    choice_wish w = {.table = pricing_wish(p)};
     whole_ratio spacing;
     basis early;
     if (!read_limits(o, p, &w) || !space_records(p, &w, &spacing) ||
@@ -322,7 +307,7 @@ static int choose_scene(const choose_options *o, pricing *p) {
         return EXIT_BAD_INPUT;
     }
     const bool shows = !o->common.quiet && isatty(STDERR_FILENO);
-    w.progress = shows ? show_progress : NULL;
+    w.table.progress = shows ? show_progress : NULL;
     w.counting = shows ? show_counting : NULL;
     interrupts_catch();
     int code = pricing_begin(p, spacing, &interrupted);

@@ -98,7 +98,8 @@ static bool read_limit(subsets *s, const char *text) {
                 name);
         good = false;
     }
-    good = good && pricing_size("effects", s->of, name, "--error", text + length + 1, &si);
+    good = good &&
+           pricing_quantity("effects", s->of, name, "--error", text + length + 1, dim_none(), &si);
     if (good) {
         s->limit[column] = image_shown(s->columns->column[column].unit, si);
     }

@@ -21,12 +21,10 @@
 enum { AXES = 2 };
 /* Of a map that can be looked at. */
 #define PAIRS_MOST 250000
-/* Seconds that an effort of 1 may take, about. */
-#define SECONDS 60.0
+/* Operations that it may evaluate without --effort. */
+#define EFFORT 1.5e11
 /* What looking, books and comparing take of operations, about, beside those of the step's lists. */
 #define OPERATIONS_A_STEP 200.0
-#define EFFORT_LEAST 1e-4
-#define EFFORT_MOST 1e4
 
 static const command_usage usage = {
     .head =
@@ -48,7 +46,7 @@ static const command_usage usage = {
         "  --csv FILE           a row for each pair; - is standard output, and the map then goes to\n"
         "                       standard error\n"
         "  --plot FILE.svg|.png a square for each pair, and the theory's limit as a line\n"
-        "  --effort 10          how long it may take: 1 is about a minute (1e-4 to 1e4)\n"
+        "  --effort 1.5e11      operations that it may evaluate: 1.5e10 take about a minute\n"
         "  --quiet              no progress, and no map beside --csv or --plot\n",
     .why = {[EXIT_ROW_OF(EXIT_DONE)] = "whatever became of the runs",
             [EXIT_ROW_OF(EXIT_RUN_FAILED)] = "no pair has a run",
@@ -88,7 +86,7 @@ static bool take_one(int count, char **words, int *at, void *options, bool *bad)
                                &o->tolerance);
     } else if (!*bad && (value = options_value(count, words, at, "--effort", bad)) != NULL) {
         *bad = !options_number("map", "--effort", value, EFFORT_LEAST, EFFORT_MOST,
-                               "1 is about a minute: --effort 60", &o->effort);
+                               "operations: --effort 1e12", &o->effort);
     } else if (!*bad && (value = options_value(count, words, at, "--csv", bad)) != NULL) {
         o->csv = value;
     } else if (!*bad && (value = options_value(count, words, at, "--plot", bad)) != NULL) {
@@ -170,8 +168,8 @@ static void show_progress(double runs, void *told) {
     fprintf(stderr, "\r%.1f of %llu runs ", runs, (unsigned long long)g->points);
 }
 
-/* Seconds that all runs take, about: as many steps as each step's length makes of the scene as it stands. */
-static double seconds_of(const grid *g, const image *base) {
+/* Operations of all runs, about: as many steps as each step's length makes of the scene as it stands. */
+static double operations_of(const grid *g, const image *base) {
     double runs = 0.0;
     for (int i = 0; i < AXES; i++) {
         for (uint64_t k = 0; g->axes[i].symbol == NULL && k < g->axes[i].count; k++) {
@@ -183,7 +181,7 @@ static double seconds_of(const grid *g, const image *base) {
     runs = runs > 0.0 ? runs : (double)g->points;
     const double operations =
         twins_operations(base, base) + OPERATIONS_A_STEP * (double)base->steps;
-    return runs * operations / TWINS_OPERATIONS_1S;
+    return runs * operations;
 }
 
 static bool is_affordable(const map_options *o, const grid *g, const image *base) {
@@ -192,18 +190,17 @@ static bool is_affordable(const map_options *o, const grid *g, const image *base
                 (unsigned long long)g->points, PAIRS_MOST);
         return false;
     }
-    const double seconds = seconds_of(g, base);
-    const double efforts = number_ceiling(seconds / SECONDS);
-    if (seconds <= o->effort * SECONDS) {
+    const double wanted = operations_of(g, base);
+    if (wanted <= o->effort) {
         return true;
     }
     fprintf(
         stderr,
         "whirl map: error: this would take about %.0f minutes: %llu pairs, two runs beside each "
         "other for each\nhint: fewer pairs, longer steps, a nearer --until",
-        efforts, (unsigned long long)g->points);
-    if (efforts <= EFFORT_MOST) {
-        fprintf(stderr, "; or --effort %.0f", efforts);
+        number_ceiling(wanted / TWINS_OPERATIONS_1S / 60.0), (unsigned long long)g->points);
+    if (wanted <= EFFORT_MOST) {
+        fprintf(stderr, "; or --effort %.2g", 1.1 * wanted);
     }
     fputc('\n', stderr);
     return false;
@@ -217,9 +214,9 @@ static int map_loaded(const map_options *o, const map_wish *plan, const image *b
     wish.told = (void *)(uintptr_t)plan->grid;
     wish.progress = !o->quiet && isatty(STDERR_FILENO) ? show_progress : NULL;
     wish.stop = &interrupted;
-    char *words = room_words("%s: %s%s, %s, tolerance %g",
-                             base->title[0] != '\0' ? base->title : base->name,
-                             image_stepper(base), image_sums(base), wish.kind->name, o->tolerance);
+    char *words =
+        room_words("%s: %s%s, %s, tolerance %g", base->title[0] != '\0' ? base->title : base->name,
+                   image_stepper(base), image_sums(base), wish.kind->name, o->tolerance);
     interrupts_catch();
     stability_map m = map_make(&wish);
     if (wish.progress != NULL) {
@@ -294,7 +291,8 @@ static int map_source(const map_options *o, source_model *from) {
 }
 
 int command_map(int count, char **words) {
-    map_options o = {.common = options_defaults(), .tolerance = HORIZON_TOLERANCE, .effort = 10.0};
+    map_options o = {
+        .common = options_defaults(), .tolerance = HORIZON_TOLERANCE, .effort = EFFORT};
     source_model from = {0};
     if (options_help(count, words, &usage)) {
         return EXIT_DONE;

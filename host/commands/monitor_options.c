@@ -106,8 +106,8 @@ static bool are_possible(const monitor_options *o) {
 }
 
 bool monitor_options_read(int count, char **words, monitor_options *o) {
-    static const char *const own[] = {"--csv",  "--vcd", "--ring", "--plot",  "--raw",
-                                      "--rate", "--for", "--baud", "--strict", "--quiet", NULL};
+    static const char *const own[] = {"--csv", "--vcd",  "--ring",   "--plot",  "--raw", "--rate",
+                                      "--for", "--baud", "--strict", "--quiet", NULL};
     const target_reader reader = {
         .command = "monitor", .own = own, .take = take_one, .one = "line"};
     return target_read(&reader, count, words, &o->common, o, &o->port) &&

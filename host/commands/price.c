@@ -8,25 +8,22 @@
 #include "files.h"
 #include "host/base/written.h"
 #include "host/plot/gnuplot.h"
-#include "host/price/table_counted.h"
+#include "host/price/measured.h"
 #include "interrupts.h"
 #include "pricing.h"
-
-/* Operations that all trials may evaluate: some twenty to forty seconds of one processor. */
-#define OPERATIONS 1e10
 
 static const char head[] =
     "usage: whirl price SCENE|MECHANISM[:SCENE]|FILE[:SCENE] [options]\n"
     "\n"
-    "Tries all methods, numbers, forms, matrices, tables and many steps on a scene, as far as it takes\n"
+    "Tries methods, numbers, forms, matrices, tables and many steps on a scene, as far as it takes\n"
     "them, and prints how far each is off a reference of higher precision, beside what it costs on a\n"
-    "board: cycles a simulated second, or instructions where nobody counts cycles; flash, RAM and stack.\n"
-    "Of the rows those on the front are shown: nothing is as cheap and errs less. Each figure says how\n"
-    "it is known.\n"
+    "board: cycles a simulated second, or instructions if cycles are not counted there; flash, RAM and\n"
+    "stack. It shows at most 12 rows of the front: no other row is as cheap and errs less. Each figure\n"
+    "has a letter that tells how it is known.\n"
     "What is run is named as for `whirl run`.\n"
     "\n";
 static const char tail[] =
-    "  --all                every row, not the front alone\n"
+    "  --all                every row\n"
     "  --csv FILE           every row, with the command lines that do it again; - is standard output\n"
     "                       (the table then goes to standard error)\n"
     "  --plot FILE.svg|.png error against price, a line for each method or matrix and number,\n"
@@ -138,7 +135,7 @@ static int say_cheapest(FILE *out, const pricing *p, const table *made, const ta
 }
 
 static int show(const price_options *o, pricing *p, const table *made) {
-    const table_words words = {p->target, p->words, o->all};
+    const table_words words = {p->target, p->words, o->all, p->effort};
     FILE *out = o->csv != NULL && strcmp(o->csv, "-") == 0 ? stderr : stdout;
     if (!o->common.quiet) {
         table_print(out, &p->trial, made, &words);
@@ -156,19 +153,18 @@ static int show(const price_options *o, pricing *p, const table *made) {
 }
 
 static int count_front(pricing *p, table *made, const table_wish *w) {
-    const table_words words = {p->target, p->words, false};
-    measured_prices m = {.words = &words};
-    const measured_end end = table_counted(&p->trial, made, &m, w);
-    measured_free(&m);
+    const table_words words = {p->target, p->words, false, p->effort};
+    const measured_end end = measured_front(&p->trial, made, &words, w);
     if (end == MEASURED_MISSING) {
         pricing_says_missing(p, "a tool is missing");
     }
+    p->trial.stopped = p->trial.stopped || interrupted;
     return end == MEASURED_MISSING ? EXIT_BAD_INPUT : EXIT_DONE;
 }
 
 static bool can_measure(const pricing *p) {
     char text[MEASURED_TEXT];
-    const char *missing = measured_missing(p->board, text);
+    const char *missing = measured_missing(NULL, p->board, text);
     if (missing != NULL) {
         pricing_says_missing(p, missing);
     }
@@ -189,7 +185,8 @@ static int price_scene(const price_options *o, pricing *p) {
     int code = pricing_begin(p, pricing_spacing(p->until_s, PRICING_RECORDS), &interrupted);
     table *made = NULL;
     if (code == EXIT_DONE && p->trial.reliable && !p->trial.stopped) {
-        const table_wish wish = {p->effort * OPERATIONS, progress ? show_progress : NULL, NULL};
+        table_wish wish = pricing_wish(p);
+        wish.progress = progress ? show_progress : NULL;
         made = table_new(&p->trial, &wish);
         code = o->measure && !p->trial.stopped ? count_front(p, made, &wish) : code;
     }

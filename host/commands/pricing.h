@@ -21,8 +21,11 @@
       "the worst over a range of a parameter, an input or a start value, at three\n" \
       "places, the ends among them: duty=0.2..0.8, or at five: duty=0.2..0.8:5.\n" \
       "Repeatable: all combinations") \
-    X(PRICING_EFFORT, "--effort", "1", \
-      "how long it may take: 0.1 leaves out steps that take more than a tenth as long")
+    X(PRICING_METHOD, "--method", "M,...", \
+      "try these methods in place of rk4,nystroem3,nystroem4,nystroem5, beside\n" \
+      "which others save nothing in the median; all: every one") \
+    X(PRICING_EFFORT, "--effort", "1e9", \
+      "operations that all trials may evaluate: 1e9 take about 5 s of a processor")
 #define PRICING_OPTION_ID(id, word, value, text) id,
 typedef enum pricing_option {
     PRICING_OPTION_ROWS(PRICING_OPTION_ID) PRICING_OPTIONS
@@ -67,7 +70,8 @@ typedef struct pricing {
     double error_si; /* what --error allows */
     double until_s;  /* the horizon, or the scene's end */
     double step_s;   /* the scene's own */
-    double effort;
+    double effort;   /* operations */
+    bool method[WH_METHODS];
     char *words;  /* its changes, as they are typed */
     char *target; /* as it is typed again */
     trials trial;
@@ -81,12 +85,12 @@ void pricing_close(pricing *p);
 const cost_board *pricing_board(const char *command, const char *value);
 /* That --measure cannot be had, and why. */
 void pricing_says_missing(const pricing *p, const char *why);
-/* A quantity above zero of the command line, in SI: false, told. `wanted` by exponents of metre, kilogram, second. */
-bool pricing_quantity(const char *command, const mechanism *of, const char *what, const char *text,
-                      dimension wanted, double *value);
-/* The same: a change of the quantity `name`. */
-bool pricing_size(const char *command, const mechanism *of, const char *name, const char *what,
-                  const char *text, double *value);
+/* A quantity above zero of the command line, in SI: false, told. Its dimension is that of the quantity `name`, or, if that
+ * is NULL, `wanted`. */
+bool pricing_quantity(const char *command, const mechanism *of, const char *name, const char *what,
+                      const char *text, dimension wanted, double *value);
+/* The table that is asked for: by the effort and the methods, on all processors. */
+table_wish pricing_wish(const pricing *p);
 /* Computes the references at records of this spacing up to the horizon: an exit code. */
 int pricing_begin(pricing *p, whole_ratio spacing, const volatile sig_atomic_t *stop);
 /* Records of `whirl price` to the horizon: so many to two and a half times as many. */

@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "host/base/room.h"
 #include "host/lang/override.h"
@@ -10,11 +11,11 @@
 #include "host/number/decimal.h"
 #include "host/number/functions.h"
 #include "host/run/start.h"
+#include "host/sweep/jobs.h"
 #include "pricing.h"
 
-/* With a `name` the value is a change of that quantity, and `wanted` is not used. */
-static bool take_quantity(const char *command, const mechanism *of, const char *name,
-                          const char *what, const char *text, dimension wanted, double *value) {
+bool pricing_quantity(const char *command, const mechanism *of, const char *name, const char *what,
+                      const char *text, dimension wanted, double *value) {
     struct arena *arena = arena_new();
     diags *errors = diags_new();
     const expr *made = name == NULL ? override_quantity(of, what, text, wanted, arena, errors)
@@ -30,16 +31,6 @@ static bool take_quantity(const char *command, const mechanism *of, const char *
         return false;
     }
     return made != NULL;
-}
-
-bool pricing_quantity(const char *command, const mechanism *of, const char *what, const char *text,
-                      dimension wanted, double *value) {
-    return take_quantity(command, of, NULL, what, text, wanted, value);
-}
-
-bool pricing_size(const char *command, const mechanism *of, const char *name, const char *what,
-                  const char *text, double *value) {
-    return take_quantity(command, of, name, what, text, dim_none(), value);
 }
 
 const cost_board *pricing_board(const char *command, const char *value) {
@@ -59,6 +50,9 @@ static bool find_board(pricing *p) {
     return p->board != NULL;
 }
 
+/* Operations that all trials may evaluate without --effort. */
+#define EFFORT 1e9
+
 /* --error, in the dimension of what --of names. What that is, is told later if it is nothing. */
 static bool read_error(pricing *p) {
     const char *of = p->options->value[PRICING_OF];
@@ -74,21 +68,47 @@ static bool read_error(pricing *p) {
         return false;
     }
     return text == NULL ||
-           (of != NULL
-                ? pricing_size(command, p->of, of, "--error", text, &p->error_si)
-                : pricing_quantity(command, p->of, "--error", text, dim_none(), &p->error_si));
+           pricing_quantity(command, p->of, of, "--error", text, dim_none(), &p->error_si);
 }
 
 static bool read_effort(pricing *p) {
     const char *text = p->options->value[PRICING_EFFORT];
-    const char *end = "";
-    p->effort = text == NULL ? 1.0 : decimal_read(text, &end);
-    if (end == text || *end != '\0' || !(p->effort >= 1e-4 && p->effort <= 1e4)) {
-        fprintf(stderr, "whirl %s: error: --effort takes a number from 1e-4 to 1e4, not %s\n",
-                p->options->command, text);
-        return false;
+    p->effort = EFFORT;
+    return text == NULL || options_number(p->options->command, "--effort", text, EFFORT_LEAST,
+                                          EFFORT_MOST, "operations: --effort 1e10", &p->effort);
+}
+
+static bool read_methods(pricing *p) {
+    const char *at = p->options->value[PRICING_METHOD];
+    const char *words[WH_METHODS + 1] = {[WH_METHODS] = "all"};
+    for (int i = 0; i < WH_METHODS; i++) {
+        words[i] = wh_methods[i].word;
+    }
+    while (at != NULL) {
+        const size_t length = strcspn(at, ",");
+        char *word = room_copy(at, length);
+        const int chosen = options_choose(p->options->command, "method", word, words,
+                                          sizeof words[0], WH_METHODS + 1);
+        free(word);
+        for (int m = 0; m < WH_METHODS; m++) {
+            p->method[m] = p->method[m] || chosen == m || chosen == WH_METHODS;
+        }
+        if (chosen < 0) {
+            return false;
+        }
+        at = at[length] == ',' ? at + length + 1 : NULL;
     }
     return true;
+}
+
+table_wish pricing_wish(const pricing *p) {
+    const long online = sysconf(_SC_NPROCESSORS_ONLN);
+    return (table_wish){.operations = p->effort,
+                        .method = p->options->value[PRICING_METHOD] != NULL ? p->method : NULL,
+                        .periods = 1,
+                        .workers = online < 1                  ? 1
+                                   : online > JOBS_WORKERS_MAX ? JOBS_WORKERS_MAX
+                                                               : (int)online};
 }
 
 static bool read_ranges(pricing *p) {
@@ -181,7 +201,8 @@ int pricing_open(pricing *p, const pricing_options *o) {
     asked.until = NULL; /* the lines that name settings have an end of their own */
     p->words = pricing_words(&asked, false);
     p->target = pricing_quoted(o->target);
-    if (!find_board(p) || !read_effort(p) || !read_error(p) || !read_ranges(p)) {
+    if (!find_board(p) || !read_effort(p) || !read_methods(p) || !read_error(p) ||
+        !read_ranges(p)) {
         return EXIT_BAD_INPUT;
     }
     p->scene = pricing_scene_new(p->of, p->in, &p->changes, &p->grid, p->from.errors);

@@ -116,11 +116,12 @@ static void forget(overrides *changes) {
     free((void *)(uintptr_t)changes->values);
 }
 
-/* Are these settings the same? By what images are made of, word by word. */
-static bool same_settings(const image_settings *a, const image_settings *b) {
-    return a->method == b->method && a->compensated == b->compensated &&
-           a->stabilized == b->stabilized && a->angles == b->angles && a->matrix == b->matrix &&
-           a->tables == b->tables && a->cells == b->cells;
+/* Do these settings make the same lists? The method and the form of angles are read when an image runs. */
+static bool same_lists(const image_settings *a, const image_settings *b) {
+    const bool matrix = a->matrix != MATRIX_NONE;
+    return a->compensated == b->compensated && a->stabilized == b->stabilized &&
+           a->matrix == b->matrix && a->tables == b->tables && a->cells == b->cells &&
+           (!(matrix || a->stabilized) || (a->method == b->method && a->angles == b->angles));
 }
 
 /* What `make` says of a setting that scenes need not take stays unsaid. */
@@ -134,11 +135,11 @@ static void forget_diags(pricing_scene *p, diags *of) {
     }
 }
 
-/* The image of a place with these settings, made once; its step and end are the scene's. NULL: told, or it does not take
+/* The image of a place with the lists of these settings, made once; its step and end are the scene's. NULL: told, or it does not take
  * them. */
 static const image *base_of(pricing_scene *p, int point, const image_settings *settings) {
     for (int i = 0; i < p->made_count; i++) {
-        if (p->made[i].point == point && same_settings(&p->made[i].settings, settings)) {
+        if (p->made[i].point == point && same_lists(&p->made[i].settings, settings)) {
             return p->made[i].image;
         }
     }
@@ -175,6 +176,10 @@ static image *make(void *context, int point, const setting *s, const char *step,
         base == NULL ? NULL : instance_make(p->mechanism, p->scene, &changes, p->errors);
     diags *errors = diags_of(p, &s->image);
     image *made = inst == NULL ? NULL : image_again(base, inst, errors);
+    if (made != NULL) {
+        made->settings.method = s->image.method;
+        made->settings.angles = s->image.angles;
+    }
     forget_diags(p, errors);
     instance_free(inst);
     forget(&changes);

@@ -6,7 +6,7 @@
 #include "host/price/trial.h"
 #include "host/sweep/grid.h"
 
-/* Equations and images that were made before: those of one place and one setting share their lists. */
+/* Equations and images that were made before: those of one place and setting share their lists. */
 typedef struct pricing_made {
     int point;
     image_settings settings;

@@ -20,11 +20,9 @@
 #include "target.h"
 #include "trusting.h"
 
-/* Seconds that an effort of 1 may take, about, and products of enclosures that a second takes. */
-#define SECONDS 60.0
+/* Operations that it may evaluate without --effort, and products of enclosures that a second takes. */
+#define EFFORT 1.5e10
 #define PRODUCTS_1S 1e8
-#define EFFORT_LEAST 1e-4
-#define EFFORT_MOST 1e4
 
 static const command_usage usage = {
     .head =
@@ -43,7 +41,7 @@ static const command_usage usage = {
         "  --csv FILE           a row for each step: the time, and of each coordinate and rate, in SI, the\n"
         "                       least and the most that the exact motion may be, and the run's; - is\n"
         "                       standard output, and the words then go to standard error\n"
-        "  --effort 1           how long it may take: 1 is about a minute (1e-4 to 1e4). Where it is\n"
+        "  --effort 1.5e10      operations that it may evaluate: 1.5e10 take about a minute. When it is\n"
         "                       spent, what is proved until there is told\n"
         "  --quiet              no progress, and no words beside --csv\n",
     .why = {[EXIT_ROW_OF(EXIT_DONE)] = "also where it is proved until some time only",
@@ -74,7 +72,7 @@ static bool take_one(int count, char **words, int *at, void *options, bool *bad)
                                &o->tolerance);
     } else if (!*bad && (value = options_value(count, words, at, "--effort", bad)) != NULL) {
         *bad = !options_number("prove", "--effort", value, EFFORT_LEAST, EFFORT_MOST,
-                               "1 is about a minute: --effort 10", &o->effort);
+                               "operations: --effort 1.5e11", &o->effort);
     } else if (!*bad && (value = options_value(count, words, at, "--csv", bad)) != NULL) {
         o->csv = value;
     } else if (!*bad && strcmp(words[*at], "--quiet") == 0) {
@@ -97,17 +95,17 @@ static bool read_options(int count, char **words, prove_options *o) {
 
 /* Two runs, the range's and the one that is held; the tube is bounded on its way. */
 static bool is_affordable(const image *im, double effort) {
-    const double seconds = twins_operations(im, im) / TWINS_OPERATIONS_1S;
-    if (seconds <= effort * SECONDS) {
+    const double wanted = twins_operations(im, im);
+    if (wanted <= effort) {
         return true;
     }
-    const double wanted = number_ceiling(seconds / SECONDS);
+    const double minutes = number_ceiling(wanted / TWINS_OPERATIONS_1S / 60.0);
     fprintf(stderr,
             "whirl prove: error: the run alone, of %.3g steps, would take about %.0f minutes\n"
             "hint: a nearer --until, or a longer --step",
-            (double)im->steps, wanted);
+            (double)im->steps, minutes);
     if (wanted <= EFFORT_MOST) {
-        fprintf(stderr, "; or --effort %.0f", wanted);
+        fprintf(stderr, "; or --effort %.2g", 1.1 * wanted);
     }
     fputc('\n', stderr);
     return false;
@@ -173,7 +171,7 @@ static void say_end(const held_found *h, double end_s) {
     case HELD_SPENT:
         fprintf(stderr,
                 "whirl prove: the effort is spent at t = %.15g s of %.15g s\n"
-                "hint: a larger --effort goes on, 1 being about a minute\n",
+                "hint: a larger --effort goes on\n",
                 h->tube_s, end_s);
         break;
     case HELD_STOPPED:
@@ -227,7 +225,7 @@ static int answer(const prove_options *o, const image *im, const exact_motion *m
                             .kind = o->common.number,
                             .tolerance = o->tolerance,
                             .within = within,
-                            .products_most = o->effort * SECONDS * PRODUCTS_1S,
+                            .products_most = o->effort / TWINS_OPERATIONS_1S * PRODUCTS_1S,
                             .stop = &interrupted,
                             .see = r.file != NULL ? write_row : NULL,
                             .told = &r,
@@ -278,7 +276,7 @@ static int prove_source(const prove_options *o, source_model *from) {
 }
 
 int command_prove(int count, char **words) {
-    prove_options o = {.common = options_defaults(), .tolerance = HELD_TOLERANCE, .effort = 1.0};
+    prove_options o = {.common = options_defaults(), .tolerance = HELD_TOLERANCE, .effort = EFFORT};
     source_model from = {0};
     if (options_help(count, words, &usage)) {
         return EXIT_DONE;

@@ -16,10 +16,8 @@
 #include "target.h"
 #include "trusting.h"
 
-/* Seconds that an effort of 1 may take, about. */
-#define SECONDS 60.0
-#define EFFORT_LEAST 1e-4
-#define EFFORT_MOST 1e4
+/* Operations that it may evaluate without --effort. */
+#define EFFORT 1.5e10
 
 static const command_usage usage = {
     .head =
@@ -36,7 +34,7 @@ static const command_usage usage = {
         "  --tolerance 1e-3     part of the range that a coordinate has in the run (default: 1e-3)\n"
         "  --csv FILE           a row for each coordinate and rate; - is standard output, and the words then\n"
         "                       go to standard error\n"
-        "  --effort 1           how long it may take: 1 is about a minute (1e-4 to 1e4)\n"
+        "  --effort 1.5e10      operations that it may evaluate: 1.5e10 take about a minute\n"
         "  --quiet              no progress, and no words beside --csv\n",
     .why = {[EXIT_ROW_OF(EXIT_DONE)] = "",
             [EXIT_ROW_OF(EXIT_RUN_FAILED)] =
@@ -63,7 +61,7 @@ static bool take_one(int count, char **words, int *at, void *options, bool *bad)
                                &o->tolerance);
     } else if (!*bad && (value = options_value(count, words, at, "--effort", bad)) != NULL) {
         *bad = !options_number("trust", "--effort", value, EFFORT_LEAST, EFFORT_MOST,
-                               "1 is about a minute: --effort 10", &o->effort);
+                               "operations: --effort 1.5e11", &o->effort);
     } else if (!*bad && (value = options_value(count, words, at, "--csv", bad)) != NULL) {
         o->csv = value;
     } else if (!*bad && strcmp(words[*at], "--quiet") == 0) {
@@ -92,20 +90,20 @@ static void show_progress(double share, void *told) {
 /* --- what is refused ---------------------------------------------------------------------------------*/
 
 static bool is_affordable(const image *im, const image *plain, double effort) {
-    const double seconds = twins_operations(im, plain) / TWINS_OPERATIONS_1S;
-    if (seconds <= effort * SECONDS) {
+    const double wanted = twins_operations(im, plain);
+    if (wanted <= effort) {
         return true;
     }
-    const double wanted = number_ceiling(seconds / SECONDS);
+    const double minutes = number_ceiling(wanted / TWINS_OPERATIONS_1S / 60.0);
     fprintf(
         stderr,
         "whirl trust: error: this would take about %.0f minutes: two runs beside each other, of %.3g "
         "and %.3g steps\n"
         "hint: a nearer --until tells it of the beginning, where trust ends in a chaotic motion; or "
         "a longer --step",
-        wanted, (double)im->steps, 2.0 * (double)im->steps);
+        minutes, (double)im->steps, 2.0 * (double)im->steps);
     if (wanted <= EFFORT_MOST) {
-        fprintf(stderr, "; or --effort %.0f", wanted);
+        fprintf(stderr, "; or --effort %.2g", 1.1 * wanted);
     }
     fputc('\n', stderr);
     return false;
@@ -254,7 +252,8 @@ static int trust_source(const trust_options *o, source_model *from) {
 }
 
 int command_trust(int count, char **words) {
-    trust_options o = {.common = options_defaults(), .tolerance = HORIZON_TOLERANCE, .effort = 1.0};
+    trust_options o = {
+        .common = options_defaults(), .tolerance = HORIZON_TOLERANCE, .effort = EFFORT};
     source_model from = {0};
     if (options_help(count, words, &usage)) {
         return EXIT_DONE;

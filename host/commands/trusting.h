@@ -1,14 +1,10 @@
-/* trusting.h: what `whirl trust` and `whirl run` share: the scene's image for the run beside it, and what may be taken of
- * time. */
+/* trusting.h: what `whirl trust` and `whirl run` share: the scene's image for the run beside it. */
 #ifndef COMMANDS_TRUSTING_H
 #define COMMANDS_TRUSTING_H
 
 #include "host/run/horizon.h"
 #include "host/run/simulate.h"
 #include "load.h"
-
-/* Operations that a second takes, about. */
-#define TRUSTING_OPERATIONS_1S TWINS_OPERATIONS_1S
 
 /* What load() is to keep for trusting_plain(). */
 load_keep trusting_keep(const image_settings *settings);

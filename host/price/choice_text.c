@@ -6,68 +6,62 @@
 #include "figure_text.h"
 #include "host/number/functions.h"
 
-/* Does anybody count this board's cycles? Else they are a range, and a row is judged by its instructions. */
-static bool is_counted(const cost *c) {
+/* Are this board's cycles counted? Else they are a range, and a row is compared by its instructions. */
+static bool has_cycles(const cost *c) {
     return c->cycles.basis != COST_RANGE && c->cycles.basis != COST_NOT_KNOWN;
 }
 
 /* "0.1 m", or "0.001 of the largest value". */
 enum { AMOUNT = 64 };
 static const char *amount(const trials *t, double error, char text[AMOUNT]) {
-    if (t->what.column < 0) {
-        snprintf(text, AMOUNT, "%.3g of the largest value", error);
-    } else {
-        snprintf(text, AMOUNT, "%.3g %s", error, trial_unit(t));
-    }
+    const bool part = t->what.column < 0;
+    snprintf(text, AMOUNT, "%.3g %s", error, part ? "of the largest value" : trial_unit(t));
     return text;
 }
 
-static void print_options(FILE *out, const trials *t, const choice_row *row) {
+static void print_options(FILE *out, const trials *t, const table_row *row) {
     char options[SETTING_TEXT];
     char step[TRIAL_TIME];
-    fprintf(out, "%s --step %s", setting_options(&row->setting, true, options) + 1,
+    fprintf(out, "%s --step %s\n", setting_options(&row->setting, true, options) + 1,
             trial_time(trial_step(t, row->pace), step));
 }
 
 static void print_figure(FILE *out, const char *name, const cost_figure *f, const char *unit) {
     char words[FIGURE_WORDS];
+    fprintf(out, "  %-12s", name);
     if (f->basis == COST_NOT_KNOWN) {
-        fprintf(out, "  %-12s%s\n", name, cost_basis_words[f->basis]);
+        fprintf(out, "%s\n", cost_basis_words[f->basis]);
     } else if (f->basis == COST_RANGE) {
-        fprintf(out, "  %-12s%.3g to %.3g %s, %s\n", name, f->least, f->most, unit,
-                figure_words(f, words));
-    } else if (f->basis == COST_PREDICTED) {
-        fprintf(out, "  %-12s%.0f %s, at most %.0f: %s\n", name, f->value, unit,
-                number_ceiling(f->most), figure_words(f, words));
+        fprintf(out, "%.3g to %.3g %s, %s\n", f->least, f->most, unit, figure_words(f, words));
     } else {
-        fprintf(out, "  %-12s%.0f %s, %s\n", name, f->value, unit, figure_words(f, words));
+        fprintf(out, "%.0f %s, %s\n", f->value, unit, figure_words(f, words));
     }
 }
 
-/* The most that a step is declared to take, in what the row's steps are told; 0: not known. */
-static double declared_of(const choice_row *row) {
-    return is_counted(&row->cost) ? row->run.cycles_bound : row->run.instructions_bound;
+/* The most that a step is declared to take, in the unit of the row's steps; 0: not known. */
+static double declared_of(const table_row *row) {
+    return has_cycles(&row->cost) ? row->run.cycles_bound : row->run.instructions_bound;
 }
 
-static void print_load(FILE *out, const choice_wish *w, const choice_row *row) {
-    if (!(w->clock_Hz > 0.0)) {
-        fputs("  load        not asked: give --clock\n", out);
-        return;
-    }
-    if (row->unknown[CHOICE_LOAD]) {
-        fputs("  load        not known: nobody knows the cycles of the longest step\n", out);
-        return;
-    }
+static void print_load(FILE *out, const choice_wish *w, const table_row *row,
+                       const choice_row *by) {
     const cost_figure *f = &row->cost.cycles_worst;
-    fputs("  load        ", out);
-    if (f->basis == COST_RANGE) {
-        fprintf(out, "%.2g to %.2g %%", 100.0 * row->load_most * f->least / f->most,
-                100.0 * row->load_most);
-    } else {
-        fprintf(out, "%.3g %%, at most %.3g %%,", 100.0 * row->load, 100.0 * row->load_most);
+    if (!(w->clock_Hz > 0.0) || by->unknown[CHOICE_LOAD]) {
+        fputs(w->clock_Hz > 0.0
+                  ? "  load        not known: the cycles of the longest step are not\n"
+                  : "  load        not asked: give --clock\n",
+              out);
+        return;
     }
-    if (w->rate_Hz > 0.0) {
-        fprintf(out, " of a period of %.6g s (%.6g Hz)", 1.0 / w->rate_Hz, w->rate_Hz);
+    if (f->basis == COST_RANGE) {
+        fprintf(out, "  load        %.2g to %.2g %%", 100.0 * by->load_most * f->least / f->most,
+                100.0 * by->load_most);
+    } else {
+        fprintf(out, "  load        %.3g %%, at most %.3g %%,", 100.0 * by->load,
+                100.0 * by->load_most);
+    }
+    if (w->table.rate_Hz > 0.0) {
+        fprintf(out, " of a period of %.6g s (%.6g Hz)", 1.0 / w->table.rate_Hz, w->table.rate_Hz);
     } else {
         fputs(" of real time", out);
     }
@@ -79,14 +73,14 @@ static void print_load(FILE *out, const choice_wish *w, const choice_row *row) {
     }
     if (declared_of(row) > 0.0) {
         fprintf(out, "; %.3g %% by the declared one",
-                100.0 * row->load_most * declared_of(row) /
-                    (is_counted(&row->cost) ? f->most : row->cost.instructions_worst.most));
+                100.0 * by->load_most * declared_of(row) /
+                    (has_cycles(&row->cost) ? f->most : row->cost.instructions_worst.most));
     }
     fputc('\n', out);
 }
 
-/* With contacts: of how many steps these are the mean and the longest, and what none can be longer than. */
-static void print_run(FILE *out, const choice_row *row) {
+/* With contacts: the number of steps that were counted, and the most that a step can take. */
+static void print_run(FILE *out, const table_row *row) {
     if (!(row->run.steps > 0.0)) {
         return;
     }
@@ -95,174 +89,60 @@ static void print_run(FILE *out, const choice_row *row) {
     if (declared_of(row) > 0.0) {
         fprintf(out,
                 "  declared    %.0f %s are the most that a step can take: docs/dev/events.md\n",
-                declared_of(row), is_counted(&row->cost) ? "cycles" : "instructions");
+                declared_of(row), has_cycles(&row->cost) ? "cycles" : "instructions");
     } else {
-        fputs("  declared    not known: nobody counts stretches of a step on this board\n", out);
+        fputs("  declared    not known: the stretches of a step are not counted on this board\n",
+              out);
     }
 }
 
-static void print_row(FILE *out, const trials *t, const choice_wish *w, const choice_row *row) {
+static void print_answer(FILE *out, const trials *t, const choice_wish *w, const table_row *row,
+                         const choice_row *by) {
     char text[AMOUNT];
     char name[TRIAL_NAME];
-    char step[TRIAL_TIME];
     const cost *c = &row->cost;
+    const bool cycles = has_cycles(c);
+    const char *unit = cycles ? "cycles" : "instructions";
     const char *where = t->wish.source->name(t->wish.source->context, row->result.point);
+    const uint64_t substeps = table_substeps(&w->table, row);
+    print_options(out, t, row);
     fprintf(out, "  error       %s%s, measured", row->result.bound ? "at most " : "",
             amount(t, row->result.error, text));
     if (t->what.column < 0) {
         fprintf(out, " (%s)", trial_column(t, row->result.column, name));
     }
-    fprintf(out, "%s%s; ", where[0] != '\0' ? ", worst with" : "", where);
-    fprintf(out, "%s is allowed", amount(t, w->error, text));
-    if (row->result.error > 0.0) {
-        fprintf(out, ", %.3g times as much", w->error / row->result.error);
+    fprintf(out, "%s%s; %s is allowed\n", where[0] != '\0' ? ", worst with" : "", where,
+            amount(t, w->table.error, text));
+    if (substeps > 0) {
+        fprintf(out, "  a period    %llu steps\n", (unsigned long long)substeps);
     }
-    fputc('\n', out);
-    fprintf(out, "  step        %s s", trial_time(trial_step(t, row->pace), step));
-    if (row->substeps > 0) {
-        fprintf(out, ", %llu in a period", (unsigned long long)row->substeps);
-    }
-    fputc('\n', out);
-    print_figure(out, "a step", is_counted(c) ? &c->cycles : &c->instructions,
-                 is_counted(c) ? "cycles" : "instructions");
-    print_figure(out, "the longest", is_counted(c) ? &c->cycles_worst : &c->instructions_worst,
-                 is_counted(c) ? "cycles" : "instructions");
+    print_figure(out, "a step", cycles ? &c->cycles : &c->instructions, unit);
+    print_figure(out, "the longest", cycles ? &c->cycles_worst : &c->instructions_worst, unit);
     print_run(out, row);
-    if (!is_counted(c)) {
+    if (!cycles) {
         print_figure(out, "in cycles", &c->cycles_worst, "cycles");
     }
-    print_load(out, w, row);
+    print_load(out, w, row, by);
     print_figure(out, "flash", &c->flash_bytes, "bytes");
     print_figure(out, "RAM", &c->ram_bytes, "bytes without the stack");
     print_figure(out, "stack", &c->stack_bytes, "bytes");
     print_figure(out, "state", &c->state_bytes, "bytes of these");
     for (int i = CHOICE_FLASH; i < CHOICE_LIMITS; i++) {
-        if (row->unknown[i]) {
-            fprintf(out, "  %s is limited, and not known here: measure it\n",
-                    choice_limit_words[i]);
+        if (by->unknown[i]) {
+            fprintf(out, "  %s is limited, and not known here: count it\n", choice_limit_words[i]);
         }
     }
 }
 
-static void print_second(FILE *out, const trials *t, const choice *c) {
-    if (!c->has_second) {
-        fputs("\nrunner-up   none: no other setting keeps all this\n", out);
-        return;
-    }
-    char text[AMOUNT];
-    fputs("\nrunner-up   ", out);
-    print_options(out, t, &c->second);
-    const double more = c->second.worst / c->best.worst - 1.0;
-    if (more > 0.0) {
-        fprintf(out, "\n  lost by     %.3g %% more %s in its longest steps; it errs by %s\n",
-                100.0 * more, is_counted(&c->best.cost) ? "cycles" : "instructions",
-                amount(t, c->second.result.error, text));
-    } else {
-        fprintf(out, "\n  lost by     its error, %s, for the same price\n",
-                amount(t, c->second.result.error, text));
-    }
-}
-
-static void print_lines(FILE *out, const trials *t, const choice_row *row,
+static void print_lines(FILE *out, const trials *t, const table_row *row,
                         const table_words *words) {
     char *run = table_run_line(t, &row->setting, row->pace, row->result.point, words);
     char *derive = table_derive_line(t, &row->setting, row->pace, row->result.point, words);
     char *measure = table_measure_line(t, &row->setting, row->pace, row->result.point, words);
-    fprintf(out, "\nagain       %s\nas code     %s\ncounted by  %s\n", run, derive, measure);
+    fprintf(out, "  again       %s\n  as code     %s\n  counted by  %s\n", run, derive, measure);
     free(measure);
     free(run);
     free(derive);
-}
-
-static void print_head(FILE *out, const trials *t, const choice_wish *w) {
-    fprintf(out, "%s on %s (%s)\n", t->image[0]->name, t->wish.board->name, t->wish.board->core);
-    figure_reference(out, t);
-    if (w->prices != NULL) {
-        fprintf(out, "  prices      %s\n", w->prices);
-    }
-}
-
-static void print_reasons(FILE *out, const choice *c) {
-    for (int i = 0; i < CHOICE_REASONS && c->reason[i].why != NULL; i++) {
-        fprintf(out, i == 0 ? "%s" : "; %s", c->reason[i].why);
-        if (c->reason[i].settings < c->unpriced) {
-            fprintf(out, " (%d)", c->reason[i].settings);
-        }
-    }
-    fputc('\n', out);
-}
-
-/* How many settings there are, how many were tried, and why others were not. */
-static void print_counts(FILE *out, const choice *c) {
-#define LEFT_WORDS(id, words, more) [id] = {words, more},
-    static const struct {
-        const char *why;
-        const char *more;
-    } left[CHOICE_LEFTS] = {CHOICE_LEFT_ROWS(LEFT_WORDS)};
-#undef LEFT_WORDS
-    fprintf(out, "\n%d settings, %d of them tried, %d not\n", c->settings, c->tried,
-            choice_not_tried(c));
-    if (c->unpriced > 0) {
-        fprintf(out, "  %d not tried: no price here: ", c->unpriced);
-        print_reasons(out, c);
-    }
-    for (int i = 0; i < CHOICE_LEFTS; i++) {
-        if (c->left[i] > 0) {
-            fprintf(out, "  %d not tried%s: %s%s%s\n", c->left[i],
-                    i == CHOICE_LEFT_WHOLE ? "" : " to the end", left[i].why,
-                    left[i].more[0] != '\0' ? ": " : "", left[i].more);
-        }
-    }
-}
-
-/* That nothing fits: proved where every setting was tried, and else of how many. */
-static void print_verdict(FILE *out, const choice *c) {
-    const int effort = c->left[CHOICE_LEFT_WHOLE] + c->left[CHOICE_LEFT_FINER];
-    if (choice_not_tried(c) == 0) {
-        fprintf(out, "\nnothing fits: all %d settings were tried\n", c->settings);
-        return;
-    }
-    fprintf(out, "\nnothing fits of %d settings tried; %d not tried%s\n", c->tried,
-            choice_not_tried(c), effort > 0 ? ": raise --effort" : "");
-}
-
-/* What has contacts has no price that could be predicted, but its run can be counted. */
-static void print_contacts(FILE *out, const trials *t, const table_words *words) {
-    char until[TRIAL_TIME];
-    fprintf(
-        out,
-        "nothing can be promised of contacts without counting: in Whirl's source tree, where the\n"
-        "board's compiler and emulator are, `whirl choose` counts\n"
-        "\nby evaluations  whirl price %s%s\n"
-        "counted by  sh mk/price/measure_one.sh --whole-run %s float %s%s --until %s\n",
-        words->target, words->changes, t->wish.board->name, words->target, words->changes,
-        trial_until(t, until));
-}
-
-void choice_print(FILE *out, const trials *t, const choice_wish *w, const choice *c,
-                  const table_words *words) {
-    char text[AMOUNT];
-    char step[TRIAL_TIME];
-    print_head(out, t, w);
-    fputs("\nchosen      ", out);
-    print_options(out, t, &c->best);
-    fputc('\n', out);
-    print_row(out, t, w, &c->best);
-    if (c->has_coarser && c->coarser.result.usable) {
-        fprintf(out, "  coarser     --step %s errs by %s%s\n",
-                trial_time(trial_step(t, c->coarser.pace), step),
-                amount(t, c->coarser.result.error, text),
-                c->coarser.result.error <= w->error ? ", more than half of what is allowed" : "");
-    }
-    print_second(out, t, c);
-    print_counts(out, c);
-    print_lines(out, t, &c->best, words);
-}
-
-static void print_would(FILE *out, const trials *t, const char *what, const choice_row *row) {
-    fprintf(out, "  %s: ", what);
-    print_options(out, t, row);
-    fputc('\n', out);
 }
 
 /* Two digits that are no less. */
@@ -277,76 +157,94 @@ static double no_less(double value) {
     return number_ceiling(value / unit * (1.0 - 1e-12)) * unit;
 }
 
-/* Where no one limit would do: all that the cheapest that keeps the error asks for. */
-static void print_all_at_once(FILE *out, const trials *t, const choice_wish *w, const choice *c) {
-    char what[2 * AMOUNT];
-    if (!c->has_any) {
-        fputs("  nothing that was tried\n", out);
-        return;
+static void print_clock(FILE *out, const choice_wish *w, const choice_row *row) {
+    if (row->fails[CHOICE_LOAD]) {
+        fprintf(out, "  a clock of %.3g MHz: ", no_less(1e-6 * w->clock_Hz * row->load_most));
     }
-    if (c->any.fails[CHOICE_LOAD]) {
-        fprintf(out, "  together with the next: a clock of %.3g MHz\n",
-                no_less(1e-6 * w->clock_Hz * c->any.load_most));
-    }
-    snprintf(what, sizeof what, "%.0f bytes of flash and %.0f of RAM with the stack",
-             number_ceiling(c->any.cost.flash_bytes.most),
-             number_ceiling(c->any.cost.ram_bytes.most + c->any.cost.stack_bytes.most));
-    print_would(out, t, what, &c->any);
 }
 
-void choice_print_none(FILE *out, const trials *t, const choice_wish *w, const choice *c,
-                       const table_words *words, double lower_rate_Hz, const choice_row *lower) {
+static void print_bytes(FILE *out, const table *made, const choice_row *row) {
+    const cost *c = &made->row[row->row].cost;
+    fprintf(out, "  %.0f bytes of flash and %.0f of RAM with the stack: ",
+            number_ceiling(c->flash_bytes.most),
+            number_ceiling(c->ram_bytes.most + c->stack_bytes.most));
+}
+
+/* What would have to give, and the row that would do then. */
+static void print_remedies(FILE *out, const trials *t, const table *made, const choice_wish *w,
+                           const choice *c) {
     char text[AMOUNT];
-    char what[2 * AMOUNT];
-    print_head(out, t, w);
-    print_verdict(out, c);
-    if (c->unpriced == c->settings) {
-        fputs("no setting has a price here: ", out);
-        print_reasons(out, c);
-        if (t->image[0]->contacts > 0) {
-            print_contacts(out, t, words);
-        }
-        return;
-    }
-    if (c->tried == 0 && c->left[CHOICE_LEFT_WHOLE] == c->settings - c->unpriced) {
-        fputs("at this rate even one step a period takes too long\n"
-              "hint: a shorter --horizon, a lower --rate, or more --effort\n",
-              out);
-        print_counts(out, c);
-        return;
-    }
-    if (c->refused > 0) {
-        fprintf(out, "  %d keep load, flash or RAM by no step\n", c->refused);
-    }
-    for (int i = 0; i < CHOICE_LIMITS; i++) {
-        if (c->failed[i] > 0) {
-            fprintf(out, "  %-6s fails in %d%s\n", choice_limit_words[i], c->failed[i],
-                    i == CHOICE_ERROR ? "" : " of those that keep the error");
-        }
-    }
+    const bool larger =
+        c->larger.row >= 0 && (c->larger.fails[CHOICE_FLASH] || c->larger.fails[CHOICE_RAM]);
     fputs("\nwhat would fit\n", out);
-    if (c->has_weaker) {
-        snprintf(what, sizeof what, "an error of %s",
-                 amount(t, no_less(CHOICE_MARGIN * c->weaker.result.error), text));
-        print_would(out, t, what, &c->weaker);
+    if (c->weaker.row >= 0) {
+        const table_row *row = &made->row[c->weaker.row];
+        fprintf(out,
+                "  an error of %s: ", amount(t, no_less(TABLE_MARGIN * row->result.error), text));
+        print_options(out, t, row);
     }
-    if (c->has_dearer && w->clock_Hz > 0.0 && c->dearer.fails[CHOICE_LOAD]) {
-        snprintf(what, sizeof what, "a clock of %.3g MHz",
-                 no_less(1e-6 * w->clock_Hz * c->dearer.load_most));
-        print_would(out, t, what, &c->dearer);
+    if (c->dearer.row >= 0 && c->dearer.fails[CHOICE_LOAD]) {
+        print_clock(out, w, &c->dearer);
+        print_options(out, t, &made->row[c->dearer.row]);
     }
-    if (lower_rate_Hz > 0.0) {
-        snprintf(what, sizeof what, "a rate of %.6g Hz", lower_rate_Hz);
-        print_would(out, t, what, lower);
+    if (larger) {
+        print_bytes(out, made, &c->larger);
+        print_options(out, t, &made->row[c->larger.row]);
     }
-    if (c->has_larger && (c->larger.fails[CHOICE_FLASH] || c->larger.fails[CHOICE_RAM])) {
-        snprintf(what, sizeof what, "%.0f bytes of flash and %.0f of RAM with the stack",
-                 number_ceiling(c->larger.cost.flash_bytes.most),
-                 number_ceiling(c->larger.cost.ram_bytes.most + c->larger.cost.stack_bytes.most));
-        print_would(out, t, what, &c->larger);
+    if (c->any.row >= 0 && c->dearer.row < 0 && !larger) { /* all limits at once */
+        print_clock(out, w, &c->any);
+        print_bytes(out, made, &c->any);
+        print_options(out, t, &made->row[c->any.row]);
+    } else if (c->weaker.row < 0 && c->any.row < 0) {
+        fputs("  nothing that was tried\n", out);
     }
-    if (!c->has_weaker && !c->has_dearer && !c->has_larger) {
-        print_all_at_once(out, t, w, c);
+}
+
+static void print_contacts(FILE *out, const trials *t, const table_words *words) {
+    char until[TRIAL_TIME];
+    fprintf(
+        out,
+        "the cost of contacts must be counted: `whirl choose` counts in Whirl's source tree, with the\n"
+        "board's compiler and emulator\n"
+        "\nby evaluations  whirl price %s%s\n"
+        "counted by  sh mk/price/measure_one.sh --whole-run %s float %s%s --until %s\n",
+        words->target, words->changes, t->wish.board->name, words->target, words->changes,
+        trial_until(t, until));
+}
+
+void choice_print(FILE *out, const trials *t, const table *made, const choice_wish *w,
+                  const choice *c, const table_words *words) {
+    const bool found = c->fastest.row >= 0;
+    fprintf(out, "%s on %s (%s)\n", t->image[0]->name, t->wish.board->name, t->wish.board->core);
+    figure_reference(out, t);
+    fprintf(out, "  prices      %s\n\n", w->prices);
+    if (found) {
+        const table_row *row = &made->row[c->fastest.row];
+        fputs("fewest cycles  ", out);
+        print_answer(out, t, w, row, &c->fastest);
+        print_lines(out, t, row, words);
+        fputs("\nleast flash    ", out);
+        if (c->smallest.row == c->fastest.row) {
+            fputs("the same\n", out);
+        } else if (c->smallest.row < 0) {
+            fputs("not known\n", out);
+        } else {
+            row = &made->row[c->smallest.row];
+            print_answer(out, t, w, row, &c->smallest);
+            print_lines(out, t, row, words);
+        }
+    } else if (made->broken_off + made->unpriced == 0) {
+        fprintf(out, "nothing fits: all %d settings were tried\n", made->settings);
+    } else {
+        fprintf(out, "nothing fits of the steps that were tried%s\n",
+                made->broken_off > 0 ? ": raise --effort" : "");
     }
-    print_counts(out, c);
+    if (!found && made->count > 0) {
+        print_remedies(out, t, made, w, c);
+    }
+    fputc('\n', out);
+    table_print_left(out, made, w->table.operations);
+    if (made->count == 0 && t->image[0]->contacts > 0) {
+        print_contacts(out, t, words);
+    }
 }

@@ -1,32 +1,38 @@
-/* cost.h: what a step of a scene costs on a board, predicted from its image: neither source tree nor compiler is asked.
+/* cost.h: the price of a step on a board: predicted from its image, or read from a counted row.
  *
  *     const cost_board *board = cost_board_named("mps2-an386");
  *     cost c = cost_of(image, board, COST_FLOAT);
  *
- * An image has its settings in it (method, compensated sums, angles): the price is that of these. A prediction is a sum
- * of counts, taken from the image, times figures of the board and number, fitted to counted steps (cost_rows.h, which
- * `make price-fit` writes). docs/price.md says how well it does.
+ * An image contains its settings (method, compensated sums, angles). A prediction is a sum over the classes of operations
+ * (cost_count.h) times the figures of the board and number (cost_rows.h, written by `make price-table`). It needs neither
+ * a source tree nor a compiler. docs/price.md gives its error.
  *
- * Where a source tree and a board's compiler are there, the same can be measured instead:
+ * With the source tree and the board's compiler and emulator the same is counted:
  *
  *     sh mk/price/measure_one.sh BOARD NUMBER FILE[:SCENE] [OPTIONS OF whirl derive...]
  *
- * from the tree's root (it uses and renews build/), prints COST_HEADER and one row on
- * standard output and ends with 0; with 2 where words are wrong or tools are missing, with 1 where the scene cannot be
- * derived, does not fit or does not run, each with a message on standard error. cost_measured() reads the row.
+ * prints COST_HEADER and one row, which cost_measured() reads. Exit status 2: wrong words, or a tool is missing. 1: the
+ * scene cannot be derived, does not fit or does not run.
  *
- * What neither knows: wait states of flash, caches, interrupts, other compilers and flags than those of cost_rows.h. */
+ * Neither includes wait states of flash, caches, interrupts, and other compilers and flags. */
 #ifndef PRICE_COST_H
 #define PRICE_COST_H
 
-#include "cost_figure.h"
+#include "cost_board.h"
 #include "host/image/image.h"
 
+/* A figure: the value is between `least` and `most`, of a prediction in nine of ten cases. COST_RANGE has no value.
+ * COST_NOT_KNOWN: all are 0. */
+typedef struct cost_figure {
+    cost_basis basis;
+    double value;
+    double least;
+    double most;
+} cost_figure;
+
 typedef struct cost {
-    bool
-        predictable; /* false: no figures of this board and number; `why` says so, all is COST_NOT_KNOWN */
-    const char *why; /* what is not known and why, a sentence for people; "" where all is known */
-    cost_figure instructions;       /* a step, mean of a run */
+    const char *why;          /* why figures are not known, a sentence for people; "" if all are */
+    cost_figure instructions; /* a step, mean of a run */
     cost_figure instructions_worst; /* the longest step: with contacts far above the mean */
     cost_figure cycles;             /* of the mean step */
     cost_figure cycles_worst;
@@ -37,13 +43,21 @@ typedef struct cost {
     cost_figure state_bytes; /* of these RAM bytes, the scene's own: WH_MEMORY_BYTES */
 } cost;
 
-/* Of a step in fixed point: cost_fixed.h. */
+/* In fixed point the image has its step in fixed point. A scene with contacts has no prediction: its price depends on the
+ * motion. */
 cost cost_of(const image *im, const cost_board *board, cost_number number);
 
-/* Columns of a measured row, and the row of measure_one.sh read: what it does not have (state_bytes) stays as it is. False where it is none, or of another board. */
+cost_figure cost_known(double value, cost_basis basis);
+/* Cycles of a board on which they are not counted: a range. */
+cost_figure cost_ranged(const cost_board *board, const cost_figure *instructions);
+
+/* Reads a row of measure_one.sh. Values that the row lacks (state_bytes) stay. False: not a row, or another board's. */
 #define COST_HEADER \
     "commit,compiler,flags,board,scene,number,setting,instructions,instructions_most,cycles,cycles_most," \
     "cycles_obtained,flash_bytes,ram_bytes,stack_bytes"
+enum { COST_COLUMNS = 15 };
+/* Cuts a row at its commas outside quotes; false unless it has COST_COLUMNS. */
+bool cost_cut(char *row, char *column[COST_COLUMNS]);
 bool cost_measured(const char *row, const cost_board *board, cost *c);
 
 #endif

@@ -36,13 +36,3 @@ const cost_board *cost_board_named(const char *name) {
     }
     return NULL;
 }
-
-/* Of the FPUs here only a PC's computes double (that of the M7 could: its boards are built for single alone). */
-bool cost_is_soft(const cost_board *board, cost_number number) {
-    return !board->fpu || (number == COST_DOUBLE && strcmp(board->name, "host") != 0);
-}
-
-int cost_registers(const cost_board *board, cost_number number) {
-    const bool few = strcmp(board->name, "host") == 0; /* SSE has 16, the others' FPUs 32 */
-    return cost_is_soft(board, number) ? 0 : few ? 16 : 32;
-}

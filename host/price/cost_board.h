@@ -8,7 +8,7 @@
 #define COST_BASIS_ROWS(X) \
     X(COST_NOT_KNOWN, "not known", "nobody can tell: it must be measured") \
     X(COST_EXACT, "exact", "follows from the layout") \
-    X(COST_PREDICTED, "predicted", "from the image, within a bound") \
+    X(COST_PREDICTED, "predicted", "from the image, as a sum over its operations") \
     X(COST_MEASURED, "measured", "counted in an emulator, or read off a linked image") \
     X(COST_ESTIMATED, "estimated", \
       "cycles of counted instructions by Arm's timing, no wait states") \
@@ -45,9 +45,5 @@ typedef struct cost_board {
 extern const cost_board cost_boards[];
 extern const int cost_board_count;
 const cost_board *cost_board_named(const char *name); /* NULL: there is none */
-/* Does software compute this number there? */
-bool cost_is_soft(const cost_board *board, cost_number number);
-/* How many of these numbers its FPU's registers hold; 0 where software computes them. */
-int cost_registers(const cost_board *board, cost_number number);
 
 #endif

@@ -31,13 +31,9 @@ const char *figure_text(const cost_figure *f, char text[FIGURE_TEXT]) {
 
 const char *figure_words(const cost_figure *f, char text[FIGURE_WORDS]) {
     const char *word = cost_basis_words[f->basis];
-    if (f->basis == COST_PREDICTED) {
-        const bool part = f->bound < 2.0;
-        snprintf(text, FIGURE_WORDS,
-                 part ? "%s, fitted to %s figures, within %.0f %%"
-                      : "%s, fitted to %s figures, within a factor of %.0f",
-                 word, cost_basis_words[f->of],
-                 number_ceiling(part ? 100.0 * (f->bound - 1.0) : f->bound));
+    if (f->basis == COST_PREDICTED && f->least > 0.0) {
+        snprintf(text, FIGURE_WORDS, "%s: in nine of ten counted cases within %.0f %%", word,
+                 100.0 * (number_root(f->most / f->least) - 1.0));
     } else {
         snprintf(text, FIGURE_WORDS, "%s", word);
     }

@@ -104,8 +104,6 @@ void long_list_run(long_list *l, const long_leaves *in, long double *result) {
     }
 }
 
-long double long_list_value(const long_list *l, int operation) { return l->value[operation]; }
-
 bool long_list_asks(const tape *t, int result, op_code code) {
     bool *needed = room(t->count, sizeof *needed);
     bool found = false;

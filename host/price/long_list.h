@@ -20,9 +20,6 @@ void long_list_free(long_list *l);       /* NULL is fine */
 /* result[t->results] */
 void long_list_run(long_list *l, const long_leaves *in, long double *result);
 
-/* What an operation gave in the run before: of a phase and a cell nothing of use. */
-long double long_list_value(const long_list *l, int operation);
-
 /* Does a result depend on an operation of this code? */
 bool long_list_asks(const tape *t, int result, op_code code);
 

@@ -14,46 +14,6 @@
 /* Of it: words are wrong, or a tool is missing. */
 #define STATUS_MISSING 2
 
-void measured_free(measured_prices *m) { free(m->price); }
-
-static cost_number number_of(const setting *s) {
-    return setting_is_fixed(s) ? COST_FIXED : s->number == &engine_float ? COST_FLOAT : COST_DOUBLE;
-}
-
-measured_lesson *measured_lesson_of(measured_prices *m, const setting *s) {
-    return &m->lesson[number_of(s)];
-}
-
-static const measured_price *find(const measured_prices *m, const setting *s, deviation_pace pace) {
-    char options[SETTING_TEXT];
-    setting_options(s, true, options);
-    for (int i = 0; i < m->count; i++) {
-        const measured_price *p = &m->price[i];
-        const bool at = !(m->by_run || setting_price_varies(s)) ||
-                        p->pace.steps * pace.records == pace.steps * p->pace.records;
-        if (at && strcmp(p->options, options) == 0) {
-            return p;
-        }
-    }
-    return NULL;
-}
-
-bool measured_has(const measured_prices *m, const setting *s, deviation_pace pace) {
-    return find(m, s, pace) != NULL;
-}
-
-void measured_tell(const measured_prices *m, const setting *s, deviation_pace pace, cost *c) {
-    const measured_price *p = m != NULL ? find(m, s, pace) : NULL;
-    if (p != NULL) {
-        *c = p->cost;
-    }
-}
-
-measured_run measured_run_of(const measured_prices *m, const setting *s, deviation_pace pace) {
-    const measured_price *p = m != NULL ? find(m, s, pace) : NULL;
-    return p != NULL ? p->run : (measured_run){0};
-}
-
 /* The last line that a command prints, or the first with this in it. Returns its exit status, or -1. */
 static int line_from(const char *command, const char *with, char *line, int size) {
     FILE *from = popen(command, "r");
@@ -79,15 +39,11 @@ static int line_from(const char *command, const char *with, char *line, int size
 
 static bool is_host(const cost_board *board) { return strcmp(board->name, "host") == 0; }
 
-bool measured_takes_runs(const cost_board *board) { return !is_host(board); }
-
-bool measured_takes(const cost_board *board, const setting *s) {
-    return setting_is_fixed(s) ? !is_host(board)
-                               : s->number != &engine_double || strcmp(board->core, "AVR") != 0;
-}
-
-const char *measured_missing(const cost_board *board, char text[MEASURED_TEXT]) {
+const char *measured_missing(const trials *t, const cost_board *board, char text[MEASURED_TEXT]) {
     static const char missing[] = " is missing";
+    if (t != NULL && t->image[0]->contacts > 0 && is_host(board)) {
+        return "runs with contacts are counted in emulators alone";
+    }
     if (access(COUNTS, R_OK) != 0) {
         return "this is not the root of Whirl's source tree (" COUNTS ")";
     }
@@ -150,103 +106,135 @@ static bool cut(char *row, const char *column[RUN_COLUMNS]) {
 static double value_of(const char *text) { return decimal_read(text, NULL); }
 
 /* The larger of a figure and what was counted at one more place. */
-static void grow(cost_figure *f, cost_basis basis, double value, double each_least,
-                 double each_most) {
-    if (!(f->basis == COST_NOT_KNOWN) && !(value * each_most > f->most)) {
-        return;
+static void grow(cost_figure *f, cost_basis basis, const char *text) {
+    const double value = value_of(text);
+    if (f->basis == COST_NOT_KNOWN || value > f->value) {
+        *f = cost_known(value, basis);
     }
-    *f = (cost_figure){basis,
-                       COST_MEASURED,
-                       basis == COST_RANGE ? 0.0 : value,
-                       value * each_least,
-                       value * each_most,
-                       1.0};
 }
 
-/* One place's whole run into the price: false where the row is none. */
-static bool enter_run(const cost_board *board, char *row, measured_price *p) {
+/* Adds one place's whole run to a row: false where the line is none. */
+static bool enter_run(const cost_board *board, char *line, table_row *to) {
     const char *column[RUN_COLUMNS];
-    if (!cut(row, column) || strcmp(column[0], board->name) != 0) {
+    if (!cut(line, column) || strcmp(column[0], board->name) != 0) {
         return false;
     }
-    cost *c = &p->cost;
-    const bool range = board->cycles == COST_RANGE;
-    const double least = range ? board->cycles_least : 1.0;
-    const double most = range ? board->cycles_most : 1.0;
-    grow(&c->instructions, COST_MEASURED, value_of(column[RUN_INSTRUCTIONS]), 1.0, 1.0);
-    grow(&c->instructions_worst, COST_MEASURED, value_of(column[RUN_MOST]), 1.0, 1.0);
-    grow(&c->cycles, board->cycles, value_of(column[range ? RUN_INSTRUCTIONS : RUN_CYCLES]), least,
-         most);
-    grow(&c->cycles_worst, board->cycles, value_of(column[range ? RUN_MOST : RUN_CYCLES_MOST]),
-         least, most);
-    grow(&c->flash_bytes, COST_MEASURED, value_of(column[RUN_FLASH]), 1.0, 1.0);
-    grow(&c->ram_bytes, COST_MEASURED, value_of(column[RUN_RAM]), 1.0, 1.0);
-    grow(&c->stack_bytes, COST_MEASURED, value_of(column[RUN_STACK]), 1.0, 1.0);
-    p->run.steps += value_of(column[RUN_STEPS]);
-    p->run.instructions_bound = number_most(p->run.instructions_bound, value_of(column[RUN_BOUND]));
-    p->run.cycles_bound = number_most(p->run.cycles_bound, value_of(column[RUN_CYCLES_BOUND]));
+    cost *c = &to->cost;
+    grow(&c->instructions, COST_MEASURED, column[RUN_INSTRUCTIONS]);
+    grow(&c->instructions_worst, COST_MEASURED, column[RUN_MOST]);
+    if (board->cycles == COST_RANGE) {
+        c->cycles = cost_ranged(board, &c->instructions);
+        c->cycles_worst = cost_ranged(board, &c->instructions_worst);
+    } else {
+        grow(&c->cycles, board->cycles, column[RUN_CYCLES]);
+        grow(&c->cycles_worst, board->cycles, column[RUN_CYCLES_MOST]);
+    }
+    grow(&c->flash_bytes, COST_MEASURED, column[RUN_FLASH]);
+    grow(&c->ram_bytes, COST_MEASURED, column[RUN_RAM]);
+    grow(&c->stack_bytes, COST_MEASURED, column[RUN_STACK]);
+    to->run.steps += value_of(column[RUN_STEPS]);
+    to->run.instructions_bound =
+        number_most(to->run.instructions_bound, value_of(column[RUN_BOUND]));
+    to->run.cycles_bound = number_most(to->run.cycles_bound, value_of(column[RUN_CYCLES_BOUND]));
     return true;
 }
 
-static measured_end count_line(char *line, char *row, int size) {
+/* The exit status of a line, and what it prints last. */
+static int count_line(char *line, char *row, int size) {
     char *command = room_words("%s 2>/dev/null", line);
     row[0] = '\0';
     const int status = line_from(command, NULL, row, size);
     free(command);
     free(line);
-    return status == 0                ? MEASURED_COUNTED
-           : status == STATUS_MISSING ? MEASURED_MISSING
-                                      : MEASURED_REFUSED;
+    return status;
 }
 
 /* Whole runs at all places; no bound where one of them has none. */
-static measured_end count_runs(const trials *t, const setting *s, deviation_pace pace,
-                               const table_words *words, measured_price *next) {
-    next->cost = (cost){.predictable = true, .why = ""};
+static int count_runs(const trials *t, const table_words *words, table_row *row) {
     bool bounded = true;
-    for (int p = 0; p < t->wish.source->points; p++) {
-        char row[1024];
-        const double before = next->run.instructions_bound;
-        next->run.instructions_bound = 0.0;
-        measured_end end = count_line(table_measure_line(t, s, pace, p, words), row, sizeof row);
-        if (end == MEASURED_COUNTED && !enter_run(t->wish.board, row, next)) {
-            end = MEASURED_REFUSED;
-        }
-        if (end != MEASURED_COUNTED) {
-            return end;
-        }
-        bounded = bounded && next->run.instructions_bound > 0.0;
-        next->run.instructions_bound = number_most(before, next->run.instructions_bound);
+    int status = 0;
+    row->cost = (cost){.why = ""};
+    for (int p = 0; p < t->wish.source->points && status == 0; p++) {
+        char line[1024];
+        const double before = row->run.instructions_bound;
+        row->run.instructions_bound = 0.0;
+        status = count_line(table_measure_line(t, &row->setting, row->pace, p, words), line,
+                            sizeof line);
+        status = status == 0 && !enter_run(t->wish.board, line, row) ? 1 : status;
+        bounded = bounded && row->run.instructions_bound > 0.0;
+        row->run.instructions_bound = number_most(before, row->run.instructions_bound);
     }
     if (!bounded) {
-        next->run.instructions_bound = next->run.cycles_bound = 0.0;
+        row->run.instructions_bound = row->run.cycles_bound = 0.0;
     }
+    return status;
+}
+
+static int count_step(const trials *t, const table_words *words, table_row *row) {
+    char line[1024];
+    const int status =
+        count_line(table_measure_line(t, &row->setting, row->pace, row->result.point, words), line,
+                   sizeof line);
+    return status == 0 && !cost_measured(line, t->wish.board, &row->cost) ? 1 : status;
+}
+
+/* Where counted figures stand for another row. */
+static bool is_alike(const table_row *a, const table_row *b, bool by_pace) {
+    return setting_order(&a->setting) == setting_order(&b->setting) &&
+           (!by_pace || a->pace.steps * b->pace.records == b->pace.steps * a->pace.records);
+}
+
+measured_end measured_count(const trials *t, table *made, int row, const table_words *words) {
+    const bool runs = t->image[0]->contacts > 0;
+    table_row counted = made->row[row];
+    const int status = runs ? count_runs(t, words, &counted) : count_step(t, words, &counted);
+    if (status == STATUS_MISSING) {
+        return MEASURED_MISSING;
+    }
+    int kept = 0;
+    const bool by_pace = runs || setting_price_varies(&counted.setting);
+    for (int i = 0; i < made->count; i++) {
+        table_row now = made->row[i];
+        const bool alike = is_alike(&now, &counted, by_pace);
+        if (alike) {
+            bool known;
+            now.cost = counted.cost;
+            now.run = counted.run;
+            now.counted = true;
+            now.price = table_price_of(&now.cost, ratio_times(1, trial_step(t, now.pace)), &known);
+        }
+        if (!alike || status == 0) {
+            made->row[kept++] = now;
+        }
+    }
+    made->count = kept;
+    if (status != 0) {
+        made->unpriced++;
+        made->why = "it cannot be built, linked or run there";
+    }
+    table_sort(made);
     return MEASURED_COUNTED;
 }
 
-measured_end measured_count(measured_prices *m, const trials *t, const setting *s,
-                            deviation_pace pace, int point, const cost *predicted) {
-    measured_price next = {.pace = pace, .cost = *predicted};
-    measured_end end;
-    if (m->by_run) {
-        end = count_runs(t, s, pace, m->words, &next);
-    } else {
-        char row[1024];
-        end = count_line(table_measure_line(t, s, pace, point, m->words), row, sizeof row);
-        if (end == MEASURED_COUNTED && !cost_measured(row, t->wish.board, &next.cost)) {
-            end = MEASURED_REFUSED;
+static int uncounted(const table *made) {
+    int i = 0;
+    while (i < made->count && (!made->row[i].on_front || made->row[i].counted)) {
+        i++;
+    }
+    return i;
+}
+
+measured_end measured_front(const trials *t, table *made, const table_words *words,
+                            const table_wish *w) {
+    int i = t->image[0]->contacts > 0 ? made->count : uncounted(made);
+    while (i < made->count && !(t->wish.stop != NULL && *t->wish.stop)) {
+        if (w->progress != NULL) {
+            w->progress(w->context, i, made->count);
         }
+        if (measured_count(t, made, i, words) == MEASURED_MISSING) {
+            return MEASURED_MISSING;
+        }
+        i = uncounted(made);
     }
-    if (end == MEASURED_MISSING) {
-        return end;
-    }
-    setting_options(s, true, next.options);
-    if (end == MEASURED_REFUSED) {
-        next.cost = (cost){.why = m->by_run ? "it cannot be built, linked or run to its end there"
-                                            : "it cannot be built, linked or run there"};
-        next.run = (measured_run){0};
-    }
-    m->price = room_more(m->price, m->count + 1, sizeof *m->price);
-    m->price[m->count++] = next;
-    return end;
+    return MEASURED_COUNTED;
 }

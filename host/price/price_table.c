@@ -2,29 +2,40 @@
 #include "price_table.h"
 
 #include <math.h>
+#include <stddef.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "host/base/room.h"
 #include "host/number/functions.h"
+#include "host/sweep/jobs.h"
 
-/* By 1, 2, 5, 10, 20, 50, ... */
-deviation_pace table_ladder(int rung) {
-    static const uint64_t mantissa[] = {1, 2, 5};
-    const int i = rung < TABLE_COARSEST ? TABLE_COARSEST - rung : rung - TABLE_COARSEST;
-    uint64_t many = mantissa[i % 3];
-    for (int k = i / 3; k > 0; k--) {
-        many *= 10;
-    }
-    return rung < TABLE_COARSEST ? (deviation_pace){1, many} : (deviation_pace){many, 1};
-}
-
-/* A finer step helps no more when twice in a row it took off less than this part of the error. */
+/* A finer step helps no more after it took off less than this part of the error, twice in a row. */
 #define FALLS 0.7
-enum { PATIENCE = 2 };
+enum { PATIENCE = 2, COARSEST = 5, LADDER = COARSEST + 3 * 8, SUBSTEPS = 10 + 9 * 5 };
 
 const char *const table_unit_words[] = {[PRICE_CYCLES] = "cycles",
                                         [PRICE_INSTRUCTIONS] = "instructions",
                                         [PRICE_EVALUATIONS] = "evaluations"};
+
+bool table_pace(const table_wish *w, int rung, deviation_pace *pace) {
+    static const uint64_t tens[] = {12, 15, 20, 25, 30, 40, 50, 60, 80};
+    static const uint64_t mantissa[] = {1, 2, 5};
+    const bool rated = w->rate_Hz > 0.0;
+    const int from = rated ? rung - 10 : rung < COARSEST ? COARSEST - rung : rung - COARSEST;
+    uint64_t many = !rated ? mantissa[from % 3] : from < 0 ? (uint64_t)rung + 1 : tens[from % 9];
+    for (int k = from < 0 ? 0 : from / (rated ? 9 : 3); k > 0; k--) {
+        many *= 10;
+    }
+    const bool longer = !rated && rung < COARSEST;
+    *pace =
+        longer ? (deviation_pace){1, many} : (deviation_pace){(rated ? w->periods : 1) * many, 1};
+    return rung < (rated ? SUBSTEPS : LADDER);
+}
+
+uint64_t table_substeps(const table_wish *w, const table_row *row) {
+    return w->rate_Hz > 0.0 ? row->pace.steps / w->periods : 0;
+}
 
 table_price table_price_of(const cost *c, double step_s, bool *known) {
     const bool cycles = c->cycles.basis != COST_RANGE && c->cycles.basis != COST_NOT_KNOWN;
@@ -34,69 +45,143 @@ table_price table_price_of(const cost *c, double step_s, bool *known) {
                          f->least / step_s, f->most / step_s};
 }
 
-static table_price price_by_evaluations(const trial_result *r) {
-    return (table_price){PRICE_EVALUATIONS, COST_MEASURED, r->evaluations, r->evaluations,
-                         r->evaluations};
+/* --- one setting -----------------------------------------------------------------------------------*/
+
+typedef enum ending { TRIED, NOT_OWN, UNPRICED, BROKEN_OFF } ending;
+
+typedef struct climbed {
+    ending end;
+    const char *why; /* UNPRICED */
+    double operations;
+    int count;
+    table_row row[SUBSTEPS];
+} climbed;
+
+/* With contacts rows are sorted by the evaluations of their runs. */
+static void price_by_evaluations(table_row *row) {
+    const double each = row->result.evaluations;
+    row->price = (table_price){PRICE_EVALUATIONS, COST_MEASURED, each, each, each};
 }
 
-static void add(table *made, table_row row) {
-    row.order = made->count;
-    made->row = room_more(made->row, made->count + 1, sizeof *made->row);
-    made->row[made->count++] = row;
-}
-
-/* One setting by ever finer steps, each of them as dear but for a matrix's; `each`: operations that one trial may take. */
-static void climb(trials *t, table *made, const setting *s, const cost *each_step, double each) {
+/* By ever finer steps, each of them as dear but for a matrix's and in fixed point. */
+static void climb(trials *t, const table_wish *w, const setting *s, double each, climbed *c) {
+    const bool contacts = t->image[0]->contacts > 0;
+    deviation_pace first;
+    bool own;
+    bool known;
+    (void)table_pace(w, w->rate_Hz > 0.0 ? 0 : COARSEST, &first);
+    t->planned_most = each;
+    const cost plain = trial_any_cost(t, s, first, &own);
+    (void)table_price_of(&plain, 1.0, &known);
+    if (!own || (!known && !contacts)) {
+        c->end = own ? UNPRICED : NOT_OWN;
+        c->why = plain.why;
+        return;
+    }
     int stalled = 0;
     double before = (double)INFINITY;
-    for (int rung = 0; rung < TABLE_LADDER && stalled < PATIENCE; rung++) {
-        table_row row = {.setting = *s, .pace = table_ladder(rung), .cost = *each_step};
+    table_row row = {.setting = *s};
+    for (int rung = 0; table_pace(w, rung, &row.pace) && stalled < PATIENCE && !t->stopped;
+         rung++) {
         if (row.pace.records > (uint64_t)t->records) {
             continue;
         }
-        bool known;
-        const double started = t->operations;
-        if (setting_is_fixed(s) && trial_operations(t, s, row.pace) > each) {
-            made->broken_off++; /* its price alone takes a run */
+        if (trial_operations(t, s, row.pace) > each) {
+            c->end = BROKEN_OFF;
             return;
         }
-        if (setting_price_varies(s)) {
-            bool own;
-            row.cost = trial_cost(t, s, row.pace, &own);
-            if (!own) {
-                made->coarse++;
-                continue; /* in fixed point a step may be too long */
-            }
-        }
+        row.cost = setting_price_varies(s) ? trial_cost(t, s, row.pace, &own) : plain;
         row.price = table_price_of(&row.cost, ratio_times(1, trial_step(t, row.pace)), &known);
-        if (!known && !made->counted) {
-            made->unpriced++;
-            made->why = row.cost.why;
+        row.result =
+            own && (known || contacts) ? trial_run(t, s, row.pace) : (trial_result){.ran = false};
+        if (!row.result.ran || !row.result.usable) {
+            continue; /* also in fixed point and as a matrix, which take no step that long */
+        }
+        if (contacts) {
+            price_by_evaluations(&row);
+        }
+        c->row[c->count++] = row;
+        if (w->error > 0.0 && row.result.error * TABLE_MARGIN <= w->error) {
             return;
         }
-        row.result = trial_run(t, s, row.pace);
-        if (!row.result.ran && !t->stopped && setting_price_varies(s)) {
-            made->coarse++; /* the numbers of its matrix are too large */
-            continue;
-        }
-        if (!row.result.ran) {
-            return;
-        }
-        if (made->counted) {
-            row.price = price_by_evaluations(&row.result);
-        }
-        if (row.result.usable) {
-            add(made, row);
-            stalled = row.result.error > FALLS * before ? stalled + 1 : 0;
-            before = number_least(before, row.result.error);
-        } else {
-            made->coarse++;
-        }
-        if ((t->operations - started) * 2.5 > each) {
-            made->broken_off += stalled < PATIENCE ? 1 : 0;
-            return;
+        stalled = row.result.error > FALLS * before ? stalled + 1 : 0;
+        before = number_least(before, row.result.error);
+    }
+}
+
+/* --- all of them -------------------------------------------------------------------------------------*/
+
+typedef struct table_work {
+    trials *trials;
+    const table_wish *wish;
+    table *made;
+    setting *setting; /* [count] */
+    int count;
+} table_work;
+
+/* In a worker: what it found goes to the parent as it lies in memory. */
+static bool work(void *context, uint64_t point, FILE *out, FILE *reason) {
+    const table_work *w = context;
+    climbed *c = room(1, sizeof *c);
+    (void)reason;
+    const double before = w->trials->operations;
+    climb(w->trials, w->wish, &w->setting[point], w->wish->operations / w->count, c);
+    c->operations = w->trials->operations - before;
+    const size_t size = offsetof(climbed, row) + (size_t)c->count * sizeof c->row[0];
+    const bool good = fwrite(c, 1, size, out) == size;
+    free(c);
+    return good;
+}
+
+static bool deliver(void *context, uint64_t point, bool good, const char *row, const char *reason) {
+    const table_work *w = context;
+    table *made = w->made;
+    climbed *c = room(1, sizeof *c);
+    (void)point;
+    (void)reason;
+    memcpy(c, row, offsetof(climbed, row));
+    made->row = room_more(made->row, made->count + c->count + 1, sizeof *made->row);
+    memcpy(made->row + made->count, row + offsetof(climbed, row),
+           (size_t)c->count * sizeof *made->row);
+    made->count += c->count;
+    made->settings += c->end != NOT_OWN;
+    made->broken_off += c->end == BROKEN_OFF;
+    made->unpriced += c->end == UNPRICED;
+    made->why = c->end == UNPRICED ? c->why : made->why;
+    w->trials->operations += c->operations;
+    free(c);
+    return good;
+}
+
+static bool tell_progress(void *context, uint64_t next) {
+    const table_work *w = context;
+    if (w->wish->progress != NULL) {
+        w->wish->progress(w->wish->context, (int)next, w->count);
+    }
+    return true;
+}
+
+table *table_new(trials *t, const table_wish *w) {
+    table *made = room(1, sizeof *made);
+    table_work all = {t, w, made, room(setting_count(), sizeof(setting)), 0};
+    made->why = "";
+    for (int i = 0; i < setting_count(); i++) {
+        const setting s = setting_at(i);
+        if (setting_is_asked(&s, w->method)) {
+            all.setting[all.count++] = s;
         }
     }
+    const jobs j = {.workers = w->workers,
+                    .end = (uint64_t)all.count,
+                    .context = &all,
+                    .work = work,
+                    .deliver = deliver,
+                    .pause = tell_progress,
+                    .stop = t->wish.stop};
+    t->stopped = jobs_run(&j) != JOBS_DONE || t->stopped;
+    free(all.setting);
+    table_sort(made);
+    return made;
 }
 
 static int by_price(const void *left, const void *right) {
@@ -108,58 +193,19 @@ static int by_price(const void *left, const void *right) {
     if (a->result.error != b->result.error) {
         return a->result.error < b->result.error ? -1 : 1;
     }
-    return a->order - b->order;
-}
-
-static void mark_front(table *made) {
-    double best = (double)INFINITY;
-    for (int i = 0; i < made->count; i++) {
-        table_row *row = &made->row[i];
-        row->on_front = row->result.error < best;
-        best = number_least(best, row->result.error);
-    }
+    const int words = setting_order(&a->setting) - setting_order(&b->setting);
+    return words != 0 ? words : (int)a->pace.steps - (int)b->pace.steps;
 }
 
 void table_sort(table *made) {
+    double best = (double)INFINITY;
     if (made->count > 0) {
         qsort(made->row, (size_t)made->count, sizeof *made->row, by_price);
     }
-    mark_front(made);
-}
-
-table *table_new(trials *t, const table_wish *w) {
-    table *made = room(1, sizeof *made);
-    const int count = setting_count();
-    bool *own = room(count, sizeof *own);
-    cost *price = room(count, sizeof *price);
-    made->why = "";
-    t->planned_most = w->operations / (2.0 * count);
-    int priced = 0;
-    for (int i = 0; i < count && !t->stopped; i++) {
-        const setting s = setting_at(i);
-        price[i] = trial_any_cost(t, &s, table_ladder(TABLE_COARSEST), &own[i]);
-        made->settings += own[i] ? 1 : 0;
-        bool known;
-        (void)table_price_of(&price[i], 1.0, &known);
-        priced += own[i] && known ? 1 : 0;
-        made->why = own[i] && !known ? price[i].why : made->why;
+    for (int i = 0; i < made->count; i++) {
+        made->row[i].on_front = made->row[i].result.error < best;
+        best = number_least(best, made->row[i].result.error);
     }
-    made->counted = priced == 0;
-    int done = 0;
-    for (int i = 0; i < count && !t->stopped; i++) {
-        if (own[i]) {
-            const setting s = setting_at(i);
-            if (w->progress != NULL) {
-                w->progress(w->context, done, made->settings);
-            }
-            climb(t, made, &s, &price[i], w->operations / (2.0 * made->settings));
-            done++;
-        }
-    }
-    free(own);
-    free(price);
-    table_sort(made);
-    return made;
 }
 
 void table_free(table *made) {

@@ -1,6 +1,7 @@
 /* setting.c: see setting.h. */
 #include "setting.h"
 
+#include <assert.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -21,11 +22,11 @@ static const struct {
                {"float compensated", " --number float", " --compensated", "", &engine_float, true},
                {"double", "", "", "", &engine_double, false},
                {"fixed", " --number fixed", "", " --number fixed", &engine_fixed, false}};
-enum { NUMBERS = sizeof numbers / sizeof numbers[0] };
+static_assert(sizeof numbers / sizeof numbers[0] == SETTING_NUMBERS, "a row for each number");
 
-static int number_of(const setting *s) {
+int setting_number(const setting *s) {
     int i = 0;
-    while (i < NUMBERS - 1 &&
+    while (i < SETTING_NUMBERS - 1 &&
            (numbers[i].kind != s->number || numbers[i].compensated != s->image.compensated)) {
         i++;
     }
@@ -92,7 +93,7 @@ static bool has_matrix(const setting *s) { return s->image.matrix != MATRIX_NONE
 
 static const axis_row rows[AXES] = {
     [AXIS_METHOD] = {WH_METHODS, method_word, method_of, method_put, "--method", true},
-    [AXIS_NUMBER] = {NUMBERS, number_word, number_of, number_put, NULL, true},
+    [AXIS_NUMBER] = {SETTING_NUMBERS, number_word, setting_number, number_put, NULL, true},
     [AXIS_ANGLES] = {IMAGE_ANGLES, angles_word, angles_of, angles_put, "--angles", false},
     [AXIS_MATRIX] = {IMAGE_MATRICES, matrix_word, matrix_of, matrix_put, "--matrix", false},
     [AXIS_TABLES] = {TABLES, tables_word, tables_of, tables_put, NULL, false}};
@@ -159,13 +160,34 @@ setting setting_at(int i) {
     }
 }
 
+cost_number setting_cost_number(const setting *s) {
+    return setting_is_fixed(s)           ? COST_FIXED
+           : s->number == &engine_double ? COST_DOUBLE
+                                         : COST_FLOAT;
+}
+
+bool setting_is_asked(const setting *s, const bool method[WH_METHODS]) {
+    const wh_method m = s->image.method;
+    return method != NULL
+               ? method[m]
+               : m == WH_RK4 || m == WH_NYSTROEM3 || m == WH_NYSTROEM4 || m == WH_NYSTROEM5;
+}
+
+int setting_order(const setting *s) {
+    int order = 0;
+    for (int axis = 0; axis < AXES; axis++) {
+        order = order * rows[axis].count + rows[axis].of(s);
+    }
+    return order;
+}
+
 bool setting_may_be_refused(const image_settings *s) {
     return s->matrix != MATRIX_NONE || s->tables != TABLES_NONE;
 }
 
 bool setting_price_varies(const setting *s) { return has_matrix(s) || setting_is_fixed(s); }
 
-const char *setting_form(const setting *s) { return numbers[number_of(s)].form; }
+const char *setting_form(const setting *s) { return numbers[setting_number(s)].form; }
 
 bool setting_is_own(const setting *s, const image *im) {
     diags *unsaid = diags_new();

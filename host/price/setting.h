@@ -3,6 +3,7 @@
 #ifndef PRICE_SETTING_H
 #define PRICE_SETTING_H
 
+#include "cost_board.h"
 #include "host/run/engine.h"
 
 /* What `whirl run` and `whirl derive` are told, but for the step. */
@@ -31,6 +32,15 @@ const char *setting_word(const setting *s, setting_axis axis);
  * has one method and none of the others. */
 int setting_count(void);
 setting setting_at(int i); /* 0 <= i < setting_count() */
+
+/* Is it asked for? By method; NULL: the default ones, rk4 and nystroem3 to 5. Over the points of docs/figures/price.csv the
+ * others save nothing in the median. A matrix stands in place of the default method. */
+bool setting_is_asked(const setting *s, const bool method[WH_METHODS]);
+/* Its place among all, and its number's among the numbers: float, float compensated, double, fixed. */
+int setting_order(const setting *s);
+enum { SETTING_NUMBERS = 4 };
+int setting_number(const setting *s);
+cost_number setting_cost_number(const setting *s);
 
 /* May a scene refuse to be written so, and is that no error of it? A matrix wants it linear, tables want one turn angle. */
 bool setting_may_be_refused(const image_settings *s);

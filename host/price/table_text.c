@@ -66,80 +66,84 @@ const char *const table_heads[] = {[PRICE_CYCLES] = "cycles/s",
                                    [PRICE_INSTRUCTIONS] = "instr./s",
                                    [PRICE_EVALUATIONS] = "eval./s"};
 
+/* The rows of the front that are shown: its errors fall by this factor at least, so that TABLE_ROWS rows do. */
+static int shown(const table *made, double factor, bool *show) {
+    double before = 0.0;
+    int count = 0;
+    for (int i = 0; i < made->count; i++) {
+        const table_row *row = &made->row[i];
+        show[i] = row->on_front && (count == 0 || row->result.error * factor <= before);
+        before = show[i] ? row->result.error : before;
+        count += show[i];
+    }
+    return count;
+}
+
 static void print_rows(FILE *out, const trials *t, const table *made, const table_words *words) {
     char heading[40] = "error";
+    bool *show = room(made->count, sizeof *show);
+    const int front = shown(made, 1.0, show);
+    int rows = front;
+    for (double factor = 1.1; rows > TABLE_ROWS; factor *= 1.1) {
+        rows = shown(made, factor, show);
+    }
     if (trial_unit(t)[0] != '\0') {
         snprintf(heading, sizeof heading, "error, %s", trial_unit(t));
     }
     fprintf(out, "\n  %9s  %10s  %8s  %7s  %7s  %6s   settings\n", heading,
             table_heads[made->row[0].price.unit], "flash, B", "RAM, B", "stack, B", "state");
     for (int i = 0; i < made->count; i++) {
-        if (words->all || made->row[i].on_front) {
+        if (words->all || show[i]) {
             print_row(out, t, &made->row[i]);
         }
     }
-}
-
-/* What holds for all rows: how prices are known, and what was left out. */
-static void print_notes(FILE *out, const trials *t, const table *made, const table_words *words) {
-    char text[FIGURE_WORDS];
-    int front = 0;
-    for (int i = 0; i < made->count; i++) {
-        front += made->row[i].on_front ? 1 : 0;
+    free(show);
+    fprintf(out, "\n%d rows, %d of them on the front (*): no row is as cheap and errs less",
+            made->count, front);
+    if (!words->all) {
+        fprintf(out, "; %d are shown, --all shows all", rows);
     }
     fputc('\n', out);
-    figure_legend(out, &made->row[0].cost);
+}
+
+void table_print_left(FILE *out, const table *made, double operations) {
+    fprintf(out, "%d settings", made->settings);
+    if (made->broken_off > 0) {
+        fprintf(out, "; finer steps of %d take more than their share of --effort %.3g",
+                made->broken_off, operations);
+    }
+    if (made->unpriced > 0) {
+        fprintf(out, "; %d without a price here: %s", made->unpriced, made->why);
+    }
+    fputc('\n', out);
+}
+
+static void print_notes(FILE *out, const trials *t, const table *made, const table_words *words) {
+    char text[FIGURE_WORDS];
     const table_row *first = &made->row[0];
-    if (made->counted) {
-        fprintf(
-            out,
-            "  m  measured: counted in the run\n"
-            "  evaluations of the accelerations a simulated second, since no setting has a price "
-            "on this board:\n  %s\n",
-            made->why);
+    table_print_left(out, made, words->operations);
+    figure_legend(out, &first->cost);
+    if (first->price.unit == PRICE_EVALUATIONS) {
         fputs(
-            "  `whirl choose` counts whole runs of what has contacts, where a board's compiler and "
-            "emulator are\n",
+            "  m  measured: evaluations of the accelerations a simulated second, counted in the run\n"
+            "  `whirl choose` counts the cycles of a run with contacts on the board's emulator\n",
             out);
     } else {
         fprintf(out, "  %s a simulated second: %s\n", table_unit_words[first->price.unit],
                 figure_words(first->price.unit == PRICE_CYCLES ? &first->cost.cycles
                                                                : &first->cost.instructions,
                              text));
-        if (first->price.basis == COST_PREDICTED) {
-            fputs(
-                "  --measure counts those on the front instead, in Whirl's source tree: minutes\n",
-                out);
-        }
     }
-    fprintf(
-        out,
-        "\n%d settings, %d rows, %d of them on the front: nothing is as cheap and errs less%s\n",
-        made->settings - made->unpriced, made->count, front,
-        words->all ? " (*)" : "; --all shows the others");
-    if (made->unpriced > 0) {
-        fprintf(out, "%d settings without a price here: %s\n", made->unpriced, made->why);
+    int last = made->count - 1;
+    while (last > 0 && !made->row[last].on_front) {
+        last--;
     }
-    if (made->coarse > 0) {
-        fprintf(out, "%d trials erred by more than the values themselves and are left out\n",
-                made->coarse);
-    }
-    if (made->broken_off > 0) {
-        fprintf(out, "%d settings have finer steps that were not tried: they take too long\n",
-                made->broken_off);
-    }
-    for (int i = made->count - 1; i >= 0; i--) {
-        if (made->row[i].on_front) {
-            const table_row *row = &made->row[i];
-            char *run = table_run_line(t, &row->setting, row->pace, row->result.point, words);
-            char *derive = table_derive_line(t, &row->setting, row->pace, row->result.point, words);
-            fprintf(out, "the last row of the front again, and as code:\n  %s\n  %s\n", run,
-                    derive);
-            free(run);
-            free(derive);
-            break;
-        }
-    }
+    const table_row *row = &made->row[last];
+    char *run = table_run_line(t, &row->setting, row->pace, row->result.point, words);
+    char *derive = table_derive_line(t, &row->setting, row->pace, row->result.point, words);
+    fprintf(out, "the last row of the front again, and as code:\n  %s\n  %s\n", run, derive);
+    free(run);
+    free(derive);
 }
 
 void table_print(FILE *out, const trials *t, const table *made, const table_words *words) {
@@ -165,8 +169,9 @@ void table_print(FILE *out, const trials *t, const table *made, const table_word
     if (t->reliable && made != NULL && made->count > 0) {
         print_rows(out, t, made, words);
         print_notes(out, t, made, words);
-    } else if (t->reliable && made != NULL && made->unpriced > 0) {
-        fprintf(out, "no setting has a price here: %s\n", made->why);
+    } else if (t->reliable && made != NULL && made->unpriced + made->broken_off > 0) {
+        fputs("no setting has a row: ", out);
+        table_print_left(out, made, words->operations);
     } else if (t->reliable) {
         fputs("no setting keeps to the motion: none is off by less than the values themselves\n",
               out);
@@ -187,16 +192,12 @@ static void csv_figure(FILE *out, const cost_figure *f) {
 
 static void csv_row(FILE *out, const trials *t, const table_row *row, const table_words *words) {
     char text[TRIAL_NAME];
-    const cost_basis fitted_to = row->price.unit == PRICE_CYCLES         ? row->cost.cycles.of
-                                 : row->price.unit == PRICE_INSTRUCTIONS ? row->cost.instructions.of
-                                                                         : COST_MEASURED;
     fprintf(out, "%d,%.9g,", row->on_front ? 1 : 0, row->result.error);
     figure_field(out, trial_unit(t));
     fprintf(out, ",measured,%d,", row->result.bound ? 1 : 0);
     figure_field(out, trial_column(t, row->result.column, text));
-    fprintf(out, ",%.9g,%s,%s,%s,%.9g,%.9g,", row->price.value, table_unit_words[row->price.unit],
-            cost_basis_words[row->price.basis], cost_basis_words[fitted_to], row->price.least,
-            row->price.most);
+    fprintf(out, ",%.9g,%s,%s,%.9g,%.9g,", row->price.value, table_unit_words[row->price.unit],
+            cost_basis_words[row->price.basis], row->price.least, row->price.most);
     fputs(trial_time(trial_step(t, row->pace), text), out);
     for (int axis = 0; axis < AXES; axis++) {
         fprintf(out, ",%s", setting_word(&row->setting, (setting_axis)axis));
@@ -218,7 +219,7 @@ static void csv_row(FILE *out, const trials *t, const table_row *row, const tabl
 
 void table_csv(FILE *out, const trials *t, const table *made, const table_words *words) {
     fputs("front,error,error_unit,error_basis,error_bound,component,price_per_s,price_of,"
-          "price_basis,price_fitted_to,price_least,price_most,step_s",
+          "price_basis,price_least,price_most,step_s",
           out);
     for (int axis = 0; axis < AXES; axis++) {
         fprintf(out, ",%s", setting_heading((setting_axis)axis));

@@ -8,12 +8,17 @@
 typedef struct table_words {
     const char *target;
     const char *changes; /* "" or " --set m=3 ..." */
-    bool all;            /* every row, not the front alone */
+    bool all;            /* every row */
+    double operations;   /* of --effort */
 } table_words;
 
 /* "cycles/s", ...: heads of a column of prices, by table_unit. */
 extern const char *const table_heads[];
 
+/* How many settings were tried, and why others were not, or not to the end. */
+void table_print_left(FILE *out, const table *made, double operations);
+/* At most TABLE_ROWS rows of the front, or every row. */
+enum { TABLE_ROWS = 12 };
 void table_print(FILE *out, const trials *t, const table *made, const table_words *words);
 void table_csv(FILE *out, const trials *t, const table *made, const table_words *words);
 /* Error against price, a line for each method or matrix and number at its cheapest form but tables, and the front. False,

@@ -5,7 +5,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cost_fixed.h"
 #include "host/base/nearest.h"
 #include "host/base/room.h"
 #include "host/fixed/fixed_plan.h"
@@ -293,11 +292,9 @@ double trial_operations(const trials *t, const setting *s, deviation_pace pace) 
 }
 
 static cost price_of(const trials *t, const setting *s, const image *im) {
-    const cost_number number = s->number == &engine_float ? COST_FLOAT : COST_DOUBLE;
     image priced = *im;
     priced.contacts = t->without_events ? 0 : im->contacts;
-    return setting_is_fixed(s) ? cost_fixed_of(im, t->wish.board)
-                               : cost_of(&priced, t->wish.board, number);
+    return cost_of(&priced, t->wish.board, setting_cost_number(s));
 }
 
 static image *priced_image(trials *t, int point, const setting *s, deviation_pace pace) {

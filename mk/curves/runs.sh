@@ -15,9 +15,9 @@ if [ "$1" = one ]; then
     what=${name##*/}
     board=${what#*@}
     scene=${what%@*}
-    set -- --effort "$effort"
+    set -- --effort "$effort" --method all
     if [ "$board" != "$what" ]; then
-        set -- --effort 0.0005 --horizon "$until_s" --board "$board"
+        set -- --effort 1e7 --method all --horizon "$until_s" --board "$board"
     elif [ "$scene" != "${scene%+*}" ]; then
         set -- "$@" --horizon "${scene#*+}"
     fi

@@ -104,8 +104,8 @@ ends() { # COMMAND [OPTION...]: all that it comes to
         "$whirl" pil "$plain" --firmware "$(dirname "$whirl")/pil_cart" --bind theta=a "$@" | grep -a "^plant's state"
         ;;
     prove) "$whirl" prove "$plain" --csv - --quiet "$@" ;;
-    price) "$whirl" price "$plain" --csv - --quiet --effort 0.001 "$@" ;;
-    choose) "$whirl" choose --predict "$plain" --error 1e-2 --quiet --effort 0.001 "$@" ;;
+    price) "$whirl" price "$plain" --csv - --quiet --effort 1e7 "$@" ;;
+    choose) "$whirl" choose --predict "$plain" --error 1e-2 --quiet --effort 4e6 "$@" ;;
     *) echo "no call of $command in $0" ;;
     esac
 }

@@ -119,7 +119,7 @@ done
 
 # a map keeps the places that are done, as words and as rows
 for signal in INT TERM; do
-    "$whirl" map epicyclic_from_rest --over m=1..3:1000 --over step=1..10[ms]:10 --effort 1000 --csv "$scratch/m.csv" >"$scratch/out" 2>"$scratch/err" &
+    "$whirl" map epicyclic_from_rest --over m=1..3:1000 --over step=1..10[ms]:10 --effort 1e14 --csv "$scratch/m.csv" >"$scratch/out" 2>"$scratch/err" &
     process=$!
     await has_worked 150 $process
     kill -$signal $process
@@ -139,7 +139,7 @@ mkfifo "$scratch/trusted"
 for kind in file trusted; do # `trusted` is a pipe
     rm -f "$scratch/file"
     [ $kind = file ] || cat "$scratch/trusted" >"$scratch/read" &
-    "$whirl" trust epicyclic_from_rest --until 3000s --step 1ms --effort 1000 --csv "$scratch/$kind" >"$scratch/out" 2>"$scratch/err" &
+    "$whirl" trust epicyclic_from_rest --until 3000s --step 1ms --effort 1e14 --csv "$scratch/$kind" >"$scratch/out" 2>"$scratch/err" &
     process=$!
     await has_worked 50 $process
     kill -INT $process

@@ -105,13 +105,13 @@ map --csv $gear --over step=1ms..2ms:2 --over r=0.1..0.2:100
 map --plot $gear --over step=1ms..2ms:2 --over r=0.1..0.2:2
 trust --csv $gear
 prove --csv $gear
-price --csv $gear --effort 0.001
-price --plot $gear --effort 0.001
+price --csv $gear --effort 1e7
+price --plot $gear --effort 1e7
 END
 # what a price has no error for is said, with or without a table
 for quiet in '' --quiet; do
     # shellcheck disable=SC2086
-    "$whirl" price $gear --effort 0.001 --until 0.1s --horizon 1e18s $quiet >"$scratch/out" 2>"$scratch/err"
+    "$whirl" price $gear --effort 1e7 --until 0.1s --horizon 1e18s $quiet >"$scratch/out" 2>"$scratch/err"
     [ $? -eq 1 ] && grep -q '^whirl price: error: no error of .* is known' "$scratch/err"
     verdict $? "whirl price ${quiet:-(with its table)}: that no error is known"
 done

@@ -1,5 +1,5 @@
-/* test_choice.c: what `whirl choose` chooses, against trying everything: nothing cheaper keeps the error, and where
- * nothing fits, nothing does. Requests are drawn. */
+/* test_choice.c: both answers of `whirl choose` (host/price/choice.h) for drawn requests, compared with trying everything;
+ * and the table that they are rows of (price_table.h). */
 #include "derived.h"
 
 #include <math.h>
@@ -41,6 +41,7 @@ typedef struct request {
     pricing_scene *scene;
     trials trial;
     choice_wish wish;
+    table *made;
 } request;
 
 static void open_request(request *q, const char *text, const char *board, double rate_Hz) {
@@ -54,10 +55,12 @@ static void open_request(request *q, const char *text, const char *board, double
                              .records = (int)(rate_Hz + 0.5)};
     TEST_ASSERT_TRUE(trial_begin(&q->trial, &wish));
     TEST_ASSERT_TRUE(q->trial.reliable);
-    q->wish = (choice_wish){.rate_Hz = rate_Hz, .periods = 1, .operations = 8e8};
+    q->wish =
+        (choice_wish){.table = {.rate_Hz = rate_Hz, .periods = 1, .operations = 8e8, .workers = 2}};
 }
 
 static void close_request(request *q) {
+    table_free(q->made);
     trial_end(&q->trial);
     pricing_scene_free(q->scene);
     diags_free(q->errors);
@@ -72,7 +75,7 @@ static bool keeps(request *q, const setting *s, uint64_t substeps, double *worst
     const cost c = trial_cost(&q->trial, s, pace, &own);
     const cost_figure *f =
         c.cycles_worst.basis != COST_NOT_KNOWN ? &c.cycles_worst : &c.instructions_worst;
-    *worst = f->most * (double)substeps * q->wish.rate_Hz;
+    *worst = f->most * (double)substeps * q->wish.table.rate_Hz;
     if (!own || c.instructions_worst.basis == COST_NOT_KNOWN ||
         (q->wish.clock_Hz > 0.0 && *worst > q->wish.clock_Hz) ||
         (q->wish.flash_bytes > 0.0 && c.flash_bytes.most > q->wish.flash_bytes) ||
@@ -80,198 +83,147 @@ static bool keeps(request *q, const setting *s, uint64_t substeps, double *worst
         return false;
     }
     const trial_result r = trial_run(&q->trial, s, pace);
-    return r.ran && r.usable && 2.0 * r.error <= q->wish.error;
+    return r.ran && r.usable && 2.0 * r.error <= q->wish.table.error;
+}
+
+/* The request's answer. */
+static choice choose(request *q) {
+    table_free(q->made);
+    q->made = table_new(&q->trial, &q->wish.table);
+    return choice_make(&q->trial, q->made, &q->wish);
+}
+
+static const table_row *row_of(const request *q, const choice_row *r) {
+    return &q->made->row[r->row];
 }
 
 enum { SUBSTEPS_MOST = 40 };
 
-/* All settings and substeps below a price (some settings, but for WHIRL_FULL): how many keep everything? */
-static int kept_below(request *q, double price) {
-    int kept = 0;
-    for (int i = 0; i < setting_count(); i += (int)few_or_all(14, 1)) {
+/* Of all settings (some, but for WHIRL_FULL) and substeps: the least cycles and flash of those that keep everything. */
+static void try_all(request *q, double *cycles, double *flash) {
+    *cycles = *flash = (double)INFINITY;
+    for (int i = 0; i < setting_count(); i += (int)few_or_all(5, 1)) {
         const setting s = setting_at(i);
-        for (int k = 0; k < CHOICE_SUBSTEPS && choice_substeps(k) <= SUBSTEPS_MOST; k++) {
-            bool own;
+        bool kept = !setting_is_asked(&s, NULL);
+        for (int k = 0; !kept; k++) {
             double worst;
-            const deviation_pace pace = {choice_substeps(k), 1};
-            const cost c = trial_cost(&q->trial, &s, pace, &own);
-            const cost_figure *f =
-                c.cycles_worst.basis != COST_NOT_KNOWN ? &c.cycles_worst : &c.instructions_worst;
-            if (!own || f->most * (double)pace.steps * q->wish.rate_Hz >= price * (1.0 - 1e-12)) {
+            bool own;
+            deviation_pace pace;
+            if (!table_pace(&q->wish.table, k, &pace) || pace.steps > SUBSTEPS_MOST) {
                 break;
             }
-            kept += keeps(q, &s, choice_substeps(k), &worst) ? 1 : 0;
+            kept = keeps(q, &s, pace.steps, &worst);
+            if (kept) {
+                const cost c = trial_cost(&q->trial, &s, pace, &own);
+                *cycles = fmin(*cycles, worst);
+                *flash = fmin(*flash, c.flash_bytes.value);
+            }
         }
     }
-    return kept;
 }
 
 static void test_drawn_requests(void) {
     dice d = dice_of("choice", 501);
-    const unsigned cases = dice_cases(few_or_all(3, 20));
+    const unsigned cases = dice_cases(few_or_all(4, 20));
     int found = 0;
-    int limited[CHOICE_LIMITS] = {0};
     for (unsigned n = 0; n < cases; n++) {
         static const double rates[] = {20.0, 50.0, 80.0, 100.0};
         request q;
         const char *text = texts[dice_one_of(&d, TEXTS)];
         const char *board = boards[dice_one_of(&d, 3)];
         open_request(&q, text, board, rates[dice_one_of(&d, 4)]);
-        q.wish.error = pow(10.0, dice_between(&d, -5.0, -1.0));
+        q.wish.table.error = pow(10.0, dice_between(&d, -5.0, -1.0));
         q.wish.clock_Hz = dice_one_of(&d, 3) == 0 ? 0.0 : pow(10.0, dice_between(&d, 3.5, 7.0));
         q.wish.flash_bytes = dice_one_of(&d, 3) == 0 ? dice_between(&d, 4000.0, 9000.0) : 0.0;
         q.wish.ram_bytes = dice_one_of(&d, 4) == 0 ? dice_between(&d, 200.0, 700.0) : 0.0;
-        const choice c = choice_make(&q.trial, &q.wish);
+        const choice c = choose(&q);
+        double cycles;
+        double flash;
         char what[200];
         snprintf(what, sizeof what, "case %u: %.20s on %s, error %.3g, %g Hz, clock %g, flash %g",
-                 n, text, board, q.wish.error, q.wish.rate_Hz, q.wish.clock_Hz, q.wish.flash_bytes);
-        if (c.found) {
+                 n, text, board, q.wish.table.error, q.wish.table.rate_Hz, q.wish.clock_Hz,
+                 q.wish.flash_bytes);
+        try_all(&q, &cycles, &flash);
+        if (c.fastest.row >= 0) {
             double worst;
+            const choice_row *const answers[] = {&c.fastest, &c.smallest};
             found++;
-            TEST_ASSERT_TRUE_MESSAGE(keeps(&q, &c.best.setting, c.best.substeps, &worst), what);
-            TEST_ASSERT_TRUE_MESSAGE(worst == c.best.worst || fabs(worst / c.best.worst - 1) < 1e-9,
-                                     what);
-            TEST_ASSERT_EQUAL_INT_MESSAGE(0, kept_below(&q, c.best.worst), what);
-            if (c.has_second) {
-                TEST_ASSERT_TRUE_MESSAGE(keeps(&q, &c.second.setting, c.second.substeps, &worst),
-                                         what);
-                TEST_ASSERT_TRUE_MESSAGE(c.second.worst >= c.best.worst, what);
+            for (int i = 0; i < 2; i++) {
+                const table_row *r = row_of(&q, answers[i]);
+                TEST_ASSERT_TRUE_MESSAGE(keeps(&q, &r->setting, r->pace.steps, &worst), what);
+                TEST_ASSERT_TRUE_MESSAGE(fabs(worst / answers[i]->worst - 1) < 0.03, what);
             }
-        } else if (q.wish.clock_Hz > 0.0) { /* without a clock, any number of substeps would do */
-            TEST_ASSERT_EQUAL_INT_MESSAGE(0, kept_below(&q, q.wish.clock_Hz), what);
-            for (int i = 0; i < CHOICE_LIMITS; i++) {
-                limited[i] += c.failed[i] > 0 ? 1 : 0;
-            }
+            TEST_ASSERT_TRUE_MESSAGE(c.fastest.worst <= cycles * 1.03, what);
+            TEST_ASSERT_TRUE_MESSAGE(
+                row_of(&q, &c.smallest)->cost.flash_bytes.value <= flash * 1.03, what);
+        } else {
+            TEST_ASSERT_TRUE_MESSAGE(isinf(cycles) || q.made->broken_off > 0, what);
         }
         close_request(&q);
     }
-    printf("  %u requests, %d with an answer; none by: error %d, load %d, flash %d, RAM %d\n",
-           cases, found, limited[CHOICE_ERROR], limited[CHOICE_LOAD], limited[CHOICE_FLASH],
-           limited[CHOICE_RAM]);
+    printf("  %u requests, %d with an answer\n", cases, found);
     TEST_ASSERT_TRUE(found > 0 && found < (int)cases); /* both happen */
 }
 
-/* --- what was tried, and what was not ------------------------------------------------------------------*/
+/* --- the table -----------------------------------------------------------------------------------------*/
 
-/* How many settings keep everything by some number of substeps? By trying all; with fewer cases some, which are no more. */
-static int fitting(request *q) {
-    int count = 0;
-    for (int i = 0; i < setting_count(); i += (int)few_or_all(12, 1)) {
-        const setting s = setting_at(i);
-        bool fits = false;
-        for (int k = 0; k < CHOICE_SUBSTEPS && choice_substeps(k) <= SUBSTEPS_MOST && !fits; k++) {
-            double worst;
-            fits = keeps(q, &s, choice_substeps(k), &worst);
-        }
-        count += fits;
-    }
-    return count;
+static bool is_same(const table_row *a, const table_row *b) {
+    return setting_order(&a->setting) == setting_order(&b->setting) &&
+           a->pace.steps == b->pace.steps && a->pace.records == b->pace.records &&
+           a->result.error == b->result.error && a->price.value == b->price.value;
 }
 
-static int left_of(const choice *c) {
-    int count = 0;
-    for (int i = 0; i < CHOICE_LEFTS; i++) {
-        count += c->left[i];
-    }
-    return count;
-}
-
-/* Prices that are predicted are those of the step that is told: constants of one length of it may be alike, and those of
- * another not. */
-static void test_a_price_is_that_of_its_own_step(void) {
-    dice d = dice_of("choice own steps", 505);
-    const unsigned cases = dice_cases(few_or_all(2, 20));
-    int others = 0; /* cost something else by the coarsest step */
-    for (unsigned n = 0; n < cases; n++) {
+/* The same effort gives the same rows on any number of processors; less effort gives fewer of them, and says so. */
+static void test_rows_depend_on_the_effort_alone(void) {
+    for (int n = 0; n < TEXTS; n++) {
         request q;
-        char text[400];
-        snprintf(text, sizeof text,
-                 "mechanism decay\nstate y\nequation y' + %u [1/s]*y + %u [1/s]*y^3 = %u [1/s]\n"
-                 "scene s { start y = 3; step 1 [ms]; until 1 [s] }\n",
-                 1 + dice_one_of(&d, 5), 1 + dice_one_of(&d, 2), 1 + dice_one_of(&d, 2));
-        open_request(&q, text, boards[dice_one_of(&d, 3)], 10.0 * (1 + dice_one_of(&d, 10)));
-        q.wish.error = pow(10.0, dice_between(&d, -5.0, -1.0));
-        const choice c = choice_make(&q.trial, &q.wish);
-        if (c.found) {
-            double worst;
-            double coarsest;
-            (void)keeps(&q, &c.best.setting, 1, &coarsest);
-            TEST_ASSERT_TRUE_MESSAGE(keeps(&q, &c.best.setting, c.best.substeps, &worst), text);
-            TEST_ASSERT_TRUE_MESSAGE(fabs(worst / c.best.worst - 1.0) < 1e-9, text);
-            others += !setting_price_varies(&c.best.setting) &&
-                      fabs(coarsest * (double)c.best.substeps / worst - 1.0) > 1e-9;
+        open_request(&q, texts[n], boards[n % 3], 50.0);
+        table_wish w = {.operations = 2e7, .periods = 1, .workers = 1};
+        table *one = table_new(&q.trial, &w);
+        w.workers = 3;
+        table *three = table_new(&q.trial, &w);
+        w.operations = 2e6;
+        table *less = table_new(&q.trial, &w);
+        TEST_ASSERT_EQUAL_INT(one->count, three->count);
+        for (int i = 0; i < one->count; i++) {
+            TEST_ASSERT_TRUE_MESSAGE(is_same(&one->row[i], &three->row[i]), texts[n]);
         }
+        TEST_ASSERT_TRUE_MESSAGE(less->count < one->count && less->broken_off > one->broken_off,
+                                 texts[n]);
+        for (int i = 0; i < less->count; i++) {
+            int k = 0;
+            while (k < one->count && !is_same(&less->row[i], &one->row[k])) {
+                k++;
+            }
+            TEST_ASSERT_TRUE_MESSAGE(k < one->count, texts[n]);
+        }
+        table_free(one);
+        table_free(three);
+        table_free(less);
         close_request(&q);
     }
-    printf("  %u requests, %d of another price by the coarsest step\n", cases, others);
-    TEST_ASSERT_TRUE(others > 0);
 }
 
-/* With whatever effort, each setting is without a price, tried or left, and what fits and was not found is among those left: so
- * nothing is left where it is said that nothing fits. */
-static void test_what_fits_and_is_not_found_was_left(void) {
-    dice d = dice_of("choice efforts", 504);
-    const unsigned cases = dice_cases(few_or_all(3, 8));
-    int missed = 0; /* nothing found, though something fits */
-    int proved = 0;
-    int some = 0; /* nothing found of some that were tried, and others left */
-    for (unsigned n = 0; n < cases; n++) {
-        request q;
-        const char *text = texts[dice_one_of(&d, TEXTS)];
-        open_request(&q, text, boards[dice_one_of(&d, 3)], 20.0);
-        q.wish.error = pow(10.0, dice_between(&d, -4.0, -1.5));
-        static const double decade[] = {6.0, 3.5, 4.5};
-        q.wish.clock_Hz = pow(10.0, decade[n % 3] + dice_between(&d, 0.0, 1.0));
-        q.wish.flash_bytes = n % 4 == 3 ? dice_between(&d, 3000.0, 9000.0) : 0.0;
-        const int fit = fitting(&q);
-        for (int power = 0; power < 10; power++) {
-            const double operations = 1e3 * pow(4.0, power);
-            q.wish.operations = operations;
-            const choice c = choice_make(&q.trial, &q.wish);
-            const int left = left_of(&c);
-            char what[200];
-            snprintf(what, sizeof what, "case %u, %g operations: %d settings fit, %d are left", n,
-                     operations, fit, left);
-            TEST_ASSERT_EQUAL_INT_MESSAGE(c.settings, c.unpriced + c.tried + left, what);
-            TEST_ASSERT_EQUAL_INT_MESSAGE(c.unpriced + left, choice_not_tried(&c), what);
-            TEST_ASSERT_TRUE_MESSAGE(c.found || fit <= left, what);
-            missed += !c.found && fit > 0;
-            proved += !c.found && left == 0;
-            some += !c.found && left > 0 && c.tried > 0;
-        }
-        close_request(&q);
-    }
-    printf("  %d answers missed what fits, and said what they left; %d proved that nothing fits; "
-           "%d by some of the settings\n",
-           missed, proved, some);
-    TEST_ASSERT_TRUE(missed > 0 && proved > 0 && some > 0); /* all happen */
-}
-
-/* What would fit, does: a weaker error, a faster chip. */
+/* A weaker error and a faster clock, as the answer says: they fit, and a little less does not. */
 static void test_what_would_fit_does(void) {
     request q;
     open_request(&q, texts[1], "atmega328p", 100.0);
-    q.wish.error = 1e-5;
+    q.wish.table.error = 1e-5;
     q.wish.clock_Hz = 2e5;
-    trial_memo memo = {.count = 0}; /* the same trials, judged anew */
-    q.wish.memo = &memo;
-    choice c = choice_make(&q.trial, &q.wish);
-    TEST_ASSERT_FALSE(c.found);
-    TEST_ASSERT_TRUE(c.failed[CHOICE_LOAD] > 0 || c.failed[CHOICE_ERROR] > 0);
-    if (c.has_weaker) {
-        choice_wish w = q.wish;
-        w.error = CHOICE_MARGIN * c.weaker.result.error * (1.0 + 1e-9);
-        TEST_ASSERT_TRUE_MESSAGE(choice_make(&q.trial, &w).found, "a weaker error");
-        w.error *= 0.98;
-        TEST_ASSERT_FALSE_MESSAGE(choice_make(&q.trial, &w).found, "and none that is less weak");
-    }
-    TEST_ASSERT_TRUE(c.has_dearer);
+    const choice c = choose(&q);
+    TEST_ASSERT_TRUE(c.fastest.row < 0 && c.dearer.row >= 0);
     choice_wish w = q.wish;
     w.clock_Hz = q.wish.clock_Hz * c.dearer.load_most * (1.0 + 1e-9);
-    TEST_ASSERT_TRUE_MESSAGE(choice_make(&q.trial, &w).found, "a faster chip");
+    TEST_ASSERT_TRUE_MESSAGE(choice_make(&q.trial, q.made, &w).fastest.row >= 0, "a faster chip");
     w.clock_Hz *= 0.98;
-    TEST_ASSERT_FALSE_MESSAGE(choice_make(&q.trial, &w).found, "and none that is less fast");
-    trial_memo_free(&memo);
+    TEST_ASSERT_TRUE_MESSAGE(choice_make(&q.trial, q.made, &w).fastest.row < 0, "a slower one");
+    if (c.weaker.row >= 0) {
+        w = q.wish;
+        w.table.error = TABLE_MARGIN * row_of(&q, &c.weaker)->result.error * (1.0 + 1e-9);
+        TEST_ASSERT_TRUE(choice_make(&q.trial, q.made, &w).fastest.row >= 0);
+        w.table.error *= 0.98;
+        TEST_ASSERT_TRUE(choice_make(&q.trial, q.made, &w).fastest.row < 0);
+    }
     close_request(&q);
 }
 
@@ -289,9 +241,6 @@ static void test_settings_are_all_others(void) {
             TEST_ASSERT_NOT_NULL(setting_word(&s, (setting_axis)k));
             TEST_ASSERT_NOT_NULL(setting_heading((setting_axis)k));
         }
-    }
-    for (int i = 1; i < CHOICE_SUBSTEPS; i++) {
-        TEST_ASSERT_TRUE(choice_substeps(i) > choice_substeps(i - 1));
     }
 }
 
@@ -403,12 +352,11 @@ static void test_linear_scenes_have_the_matrix_on_their_front(void) {
                  dice_between(&d, 20, 90), dice_between(&d, 0.0, 1.0));
         request q;
         open_request(&q, text, boards[dice_one_of(&d, 3)], 500.0);
-        const table_wish wish = {.operations = 3e6};
+        const table_wish wish = {.operations = 1e7, .periods = 1, .workers = 2};
         table *made = table_new(&q.trial, &wish);
         const table_row *cheapest = NULL;
         int matrices = 0;
         int on_front = 0;
-        TEST_ASSERT_FALSE_MESSAGE(made->counted, text);
         for (int i = 0; i < made->count; i++) {
             const table_row *row = &made->row[i];
             const bool matrix = row->setting.image.matrix == MATRIX_EXACT;
@@ -439,9 +387,6 @@ void suite_choice(void) {
     RUN_TEST(test_settings_are_all_others);
     RUN_TEST(test_times_come_back);
     RUN_TEST(test_drawn_requests);
-    RUN_TEST(test_a_price_is_that_of_its_own_step);
-    RUN_TEST(test_what_fits_and_is_not_found_was_left);
-    if (few_or_all(0, 1) != 0) { /* the same calls are in the tests above */
-        RUN_TEST(test_what_would_fit_does);
-    }
+    RUN_TEST(test_rows_depend_on_the_effort_alone);
+    RUN_TEST(test_what_would_fit_does);
 }

@@ -5,7 +5,6 @@
 #include "command.h"
 #include "host/fixed/engine_fixed.h"
 #include "host/fixed/fixed_plan.h"
-#include "host/price/cost_fixed.h"
 #include "priced.h"
 #include "unity.h"
 
@@ -28,15 +27,12 @@ enum { RECORDS = 100 };
 static cost cost_at(priced *p, int point, const setting *s, const char *step) {
     image *im = priced_image(p, point, s, step);
     TEST_ASSERT_NOT_NULL(im);
-    cost c = cost_of(im, p->wish.board, s->number == &engine_float ? COST_FLOAT : COST_DOUBLE);
-    if (s->number == &engine_fixed) {
-        diags *errors = diags_new();
-        fixed_plan *plan = fixed_plan_make(im, errors);
-        im->fixed = plan;
-        c = cost_fixed_of(im, p->wish.board);
-        fixed_plan_free(plan);
-        diags_free(errors);
-    }
+    diags *errors = diags_new();
+    fixed_plan *plan = s->number == &engine_fixed ? fixed_plan_make(im, errors) : NULL;
+    im->fixed = plan;
+    const cost c = cost_of(im, p->wish.board, setting_cost_number(s));
+    fixed_plan_free(plan);
+    diags_free(errors);
     image_free(im);
     return c;
 }

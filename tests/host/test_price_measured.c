@@ -1,4 +1,4 @@
-/* test_price_measured.c: prices that are counted (host/price/measured.h, table_counted.h), in a made-up source tree
+/* test_price_measured.c: prices that are counted (host/price/measured.h) and chosen by (choice.h), in a made-up source tree
  * (made_up_tree.h). */
 #include <math.h>
 #include <stdio.h>
@@ -9,7 +9,7 @@
 #include "command.h"
 #include "host/base/room.h"
 #include "host/fixed/engine_fixed.h"
-#include "host/price/table_counted.h"
+#include "host/price/choice.h"
 #include "made_up_tree.h"
 #include "priced.h"
 #include "unity.h"
@@ -39,7 +39,7 @@ static void test_what_is_missing_is_told(void) {
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         tree_keep("says", rows[i].says);
         tree_keep("status", rows[i].status);
-        const char *answer = measured_missing(cost_board_named("mps2-an386"), text);
+        const char *answer = measured_missing(NULL, cost_board_named("mps2-an386"), text);
         TEST_ASSERT_TRUE((answer == NULL) == (rows[i].answer == NULL));
         if (answer != NULL) {
             TEST_ASSERT_EQUAL_STRING(rows[i].answer, answer);
@@ -48,35 +48,14 @@ static void test_what_is_missing_is_told(void) {
     }
     tree_keep("status", "3\n");
     TEST_ASSERT_EQUAL_STRING("make price-ready-host fails",
-                             measured_missing(cost_board_named("host"), text));
+                             measured_missing(NULL, cost_board_named("host"), text));
     TEST_ASSERT_EQUAL_STRING("-s price-ready-host\n", tree_taken("made"));
     tree_keep("status", "0\n");
     unlink("mk/price/measure_one.sh");
-    TEST_ASSERT_NOT_NULL(strstr(measured_missing(cost_board_named("host"), text), "not the root"));
+    TEST_ASSERT_NOT_NULL(
+        strstr(measured_missing(NULL, cost_board_named("host"), text), "not the root"));
     TEST_ASSERT_EQUAL_STRING("", tree_taken("made"));
     tree_leave();
-}
-
-static void test_which_numbers_are_counted_where(void) {
-    for (int b = 0; b < cost_board_count; b++) {
-        const cost_board *board = &cost_boards[b];
-        const bool host = strcmp(board->name, "host") == 0;
-        const bool avr = strncmp(board->name, "atmega", 6) == 0;
-        const setting in_float = priced_setting(WH_RK4, &engine_float);
-        const setting in_double = priced_setting(WH_RK4, &engine_double);
-        const setting in_fixed = priced_setting(WH_RK4, &engine_fixed);
-        TEST_ASSERT_EQUAL_INT(!host, measured_takes_runs(board));
-        TEST_ASSERT_TRUE(measured_takes(board, &in_float));
-        TEST_ASSERT_EQUAL_INT(!avr, measured_takes(board, &in_double));
-        TEST_ASSERT_EQUAL_INT(!host, measured_takes(board, &in_fixed));
-    }
-    measured_prices m = {.count = 0};
-    const setting in_float = priced_setting(WH_HEUN, &engine_float);
-    const setting in_double = priced_setting(WH_RK4, &engine_double);
-    const setting in_fixed = priced_setting(WH_RK4, &engine_fixed);
-    TEST_ASSERT_EQUAL_PTR(&m.lesson[COST_FLOAT], measured_lesson_of(&m, &in_float));
-    TEST_ASSERT_EQUAL_PTR(&m.lesson[COST_DOUBLE], measured_lesson_of(&m, &in_double));
-    TEST_ASSERT_EQUAL_PTR(&m.lesson[COST_FIXED], measured_lesson_of(&m, &in_fixed));
 }
 
 /* --- steps -----------------------------------------------------------------------------------------------*/
@@ -91,11 +70,22 @@ static const char *const springs[] = {SPRING("9"), SPRING("16"), SPRING("25")};
     "scene s { start x = " h " [m]; step 1 [ms]; until 1 [s] }\n"
 static const char *const balls[] = {BALL("1"), BALL("2"), BALL("0.5")};
 static const whole_ratio spacing = {1, 50};
-static const table_words words = {"a.whirl:s", " --set m=3", false};
+static const table_words words = {"a.whirl:s", " --set m=3", false, 0.0};
 
 static void expect_known(double value, cost_basis basis, const cost_figure *f) {
     TEST_ASSERT_EQUAL_INT(basis, f->basis);
     TEST_ASSERT_TRUE(f->value == value && f->least == value && f->most == value);
+}
+
+/* Two rows of a setting by two steps. */
+static table table_of(table_row row[2], const setting *s, deviation_pace pace, int point) {
+    for (int i = 0; i < 2; i++) {
+        row[i] = (table_row){.setting = *s, .pace = {pace.steps * ((uint64_t)i + 1), pace.records}};
+        row[i].result.point = point;
+        row[i].cost.state_bytes = cost_known(44, COST_EXACT);
+        row[i].price.value = i;
+    }
+    return (table){.row = row, .count = 2, .why = ""};
 }
 
 static void test_steps_are_counted_and_kept(void) {
@@ -104,13 +94,11 @@ static void test_steps_are_counted_and_kept(void) {
     priced_open(&p, springs, 2);
     TEST_ASSERT_TRUE(priced_begin(&p, "mps2-an386", spacing, 20, NULL));
     tree_enter();
-    measured_prices m = {.words = &words};
-    const cost predicted = {
-        .predictable = true, .why = "", .state_bytes = {COST_EXACT, COST_EXACT, 44, 44, 44, 1}};
     const setting rk4 = priced_setting(WH_RK4, &engine_float);
     const setting heun = priced_setting(WH_HEUN, &engine_double);
     const setting in_fixed = priced_setting(WH_RK4, &engine_fixed);
-    char row[300];
+    char line[300];
+    table_row row[2];
     for (int n = 0; n < 3; n++) {
         const setting *s = n == 0 ? &rk4 : n == 1 ? &heun : &in_fixed;
         const deviation_pace pace = {n == 2 ? 4 : (uint64_t)n + 1, 1};
@@ -118,74 +106,63 @@ static void test_steps_are_counted_and_kept(void) {
         for (int i = 0; i < 7; i++) {
             v[i] = 1 + dice_one_of(&d, 9000);
         }
-        snprintf(row, sizeof row,
+        snprintf(line, sizeof line,
                  "a line before\nabc,gcc,\"-a, -b\",mps2-an386,s,float,rk4,%.0f,%.0f,%.1f,%.0f,"
                  "estimated,%.0f,%.0f,%.0f\r\n",
                  v[0], v[1], v[2] + 0.5, v[3], v[4], v[5], v[6]);
-        tree_keep(n == 1 ? "row0" : "row1", row);
+        tree_keep(n == 1 ? "row0" : "row1", line);
         tree_keep(n == 1 ? "row1" : "row0", "nothing\n");
-        TEST_ASSERT_FALSE(measured_has(&m, s, pace));
-        TEST_ASSERT_EQUAL_INT(MEASURED_COUNTED,
-                              measured_count(&m, &p.trial, s, pace, n == 1 ? 0 : 1, &predicted));
-        TEST_ASSERT_EQUAL_INT(n + 1, m.count);
+        table made = table_of(row, s, pace, n == 1 ? 0 : 1);
+        TEST_ASSERT_EQUAL_INT(MEASURED_COUNTED, measured_count(&p.trial, &made, 0, &words));
         static const char *const asked[] = {
             "mps2-an386 float a.whirl:s --set m=3 --set place=1 --method rk4 --step 0.02\n",
             "mps2-an386 double a.whirl:s --set m=3 --set place=0 --method heun --step 0.01\n",
             ("mps2-an386 fixed a.whirl:s --set m=3 --set place=1 --method rk4 --step 0.005 "
              "--until 0.4\n")};
         TEST_ASSERT_EQUAL_STRING(asked[n], tree_taken("asked"));
-        cost c = {.why = "?"};
-        measured_tell(&m, s, pace, &c);
-        expect_known(v[0], COST_MEASURED, &c.instructions);
-        expect_known(v[1], COST_MEASURED, &c.instructions_worst);
-        expect_known(v[2] + 0.5, COST_ESTIMATED, &c.cycles);
-        expect_known(v[3], COST_ESTIMATED, &c.cycles_worst);
-        expect_known(v[4], COST_MEASURED, &c.flash_bytes);
-        expect_known(v[5], COST_MEASURED, &c.ram_bytes);
-        expect_known(v[6], COST_MEASURED, &c.stack_bytes);
-        expect_known(44, COST_EXACT, &c.state_bytes);
-        TEST_ASSERT_TRUE(!(measured_run_of(&m, s, pace).steps > 0.0));
         /* a price that varies with the step is that of this one */
         const bool varies = s->number == &engine_fixed;
-        TEST_ASSERT_EQUAL_INT(!varies, measured_has(&m, s, (deviation_pace){pace.steps + 1, 1}));
-        TEST_ASSERT_TRUE(measured_has(&m, s, (deviation_pace){pace.steps * 3, pace.records * 3}));
+        int counted = 0;
+        for (int i = 0; i < 2; i++) {
+            const table_row *r = &made.row[i];
+            const cost *c = &r->cost;
+            const double each_s = ratio_times(1, trial_step(&p.trial, r->pace));
+            counted += r->counted;
+            TEST_ASSERT_TRUE(!(r->run.steps > 0.0));
+            expect_known(44, COST_EXACT, &c->state_bytes);
+            if (r->counted) {
+                expect_known(v[0], COST_MEASURED, &c->instructions);
+                expect_known(v[1], COST_MEASURED, &c->instructions_worst);
+                expect_known(v[2] + 0.5, COST_ESTIMATED, &c->cycles);
+                expect_known(v[3], COST_ESTIMATED, &c->cycles_worst);
+                expect_known(v[4], COST_MEASURED, &c->flash_bytes);
+                expect_known(v[5], COST_MEASURED, &c->ram_bytes);
+                expect_known(v[6], COST_MEASURED, &c->stack_bytes);
+                TEST_ASSERT_TRUE(fabs(r->price.value * each_s / c->cycles.value - 1.0) < 1e-12);
+            }
+        }
+        TEST_ASSERT_EQUAL_INT(varies ? 1 : 2, counted);
     }
-    setting other = rk4;
-    other.image.compensated = true;
-    TEST_ASSERT_FALSE(measured_has(&m, &other, (deviation_pace){1, 1}));
-    cost untouched = {.why = "as it was"};
-    measured_tell(&m, &other, (deviation_pace){1, 1}, &untouched);
-    measured_tell(NULL, &rk4, (deviation_pace){1, 1}, &untouched);
-    TEST_ASSERT_EQUAL_STRING("as it was", untouched.why);
-    TEST_ASSERT_TRUE(!(measured_run_of(NULL, &rk4, (deviation_pace){1, 1}).steps > 0.0));
-    /* a missing tool leaves nothing behind; what is refused has no price from then on */
+    /* a missing tool leaves the table as it is; rows that are refused leave it */
     static const struct {
         const char *status;
         const char *row;
         measured_end end;
     } rows[] = {
         {"2\n", "", MEASURED_MISSING},
-        {"1\n", "a,g,\"f\",mps2-an386,s,float,rk4,1,1,1,1,estimated,1,1,1\n", MEASURED_REFUSED},
-        {"0\n", "no row\n", MEASURED_REFUSED},
-        {"0\n", "a,g,\"f\",mps2-an385,s,float,rk4,1,1,1,1,estimated,1,1,1\n", MEASURED_REFUSED}};
+        {"1\n", "a,g,\"f\",mps2-an386,s,float,rk4,1,1,1,1,estimated,1,1,1\n", MEASURED_COUNTED},
+        {"0\n", "no row\n", MEASURED_COUNTED},
+        {"0\n", "a,g,\"f\",mps2-an385,s,float,rk4,1,1,1,1,estimated,1,1,1\n", MEASURED_COUNTED}};
     for (int i = 0; i < 4; i++) {
-        const int count = m.count;
-        other.image.method = (wh_method)i;
+        table made = table_of(row, &heun, (deviation_pace){1, 1}, 0);
         tree_keep("status", rows[i].status);
         tree_keep("row0", rows[i].row);
-        TEST_ASSERT_EQUAL_INT(rows[i].end, measured_count(&m, &p.trial, &other,
-                                                          (deviation_pace){1, 1}, 0, &predicted));
-        TEST_ASSERT_EQUAL_INT(count + (i > 0 ? 1 : 0), m.count);
-        TEST_ASSERT_EQUAL_INT(i > 0, measured_has(&m, &other, (deviation_pace){1, 1}));
-        if (i > 0) {
-            cost c = {.why = ""};
-            measured_tell(&m, &other, (deviation_pace){1, 1}, &c);
-            TEST_ASSERT_EQUAL_INT(COST_NOT_KNOWN, c.instructions.basis);
-            TEST_ASSERT_EQUAL_STRING("it cannot be built, linked or run there", c.why);
-        }
+        TEST_ASSERT_EQUAL_INT(rows[i].end, measured_count(&p.trial, &made, 0, &words));
+        TEST_ASSERT_EQUAL_INT(i > 0 ? 0 : 2, made.count);
+        TEST_ASSERT_EQUAL_INT(i > 0, made.unpriced);
+        TEST_ASSERT_EQUAL_STRING(i > 0 ? "it cannot be built, linked or run there" : "", made.why);
     }
     tree_leave();
-    measured_free(&m);
     priced_close(&p);
 }
 
@@ -206,7 +183,6 @@ static void expect_most(double each_least, double each_most, double most, cost_b
     TEST_ASSERT_TRUE(fabs(f->most - each_most * most) <= 1e-12 * f->most);
     TEST_ASSERT_TRUE(fabs(f->least - each_least * most) <= 1e-12 * f->most);
     TEST_ASSERT_TRUE(f->value == (basis == COST_RANGE ? 0.0 : most));
-    TEST_ASSERT_TRUE(f->bound == 1.0);
 }
 
 /* Of all places the most of each column, the sum of their steps, and bounds where each place has one. */
@@ -221,9 +197,7 @@ static void test_whole_runs_are_the_most_of_all_places(void) {
         const cost_board *b = p.wish.board;
         const bool range = b->cycles == COST_RANGE;
         tree_enter();
-        measured_prices m = {.words = &words, .by_run = true};
         const setting rk4 = priced_setting(WH_RK4, &engine_float);
-        const cost predicted = {.why = "not this"};
         for (int i = 0; i < 6; i++) {
             double v[PLACES][COLUMNS] = {{0}};
             double most[COLUMNS] = {0};
@@ -238,12 +212,13 @@ static void test_whole_runs_are_the_most_of_all_places(void) {
                 write_run(files[k], boards[n], v[k]);
             }
             const deviation_pace pace = {(uint64_t)i + 1, 1};
-            TEST_ASSERT_EQUAL_INT(MEASURED_COUNTED,
-                                  measured_count(&m, &p.trial, &rk4, pace, 1, &predicted));
-            cost c = {.why = "?"};
-            measured_tell(&m, &rk4, pace, &c);
-            const measured_run run = measured_run_of(&m, &rk4, pace);
-            TEST_ASSERT_TRUE(c.predictable && c.why[0] == '\0');
+            table_row row[2];
+            table made = table_of(row, &rk4, pace, 1);
+            TEST_ASSERT_EQUAL_INT(MEASURED_COUNTED, measured_count(&p.trial, &made, 0, &words));
+            const int at = made.row[0].counted ? 0 : 1;
+            TEST_ASSERT_FALSE(made.row[1 - at].counted);
+            const cost c = made.row[at].cost;
+            const counted_run run = made.row[at].run;
             expect_most(1, 1, most[3], COST_MEASURED, &c.instructions);
             expect_most(1, 1, most[4], COST_MEASURED, &c.instructions_worst);
             expect_most(range ? b->cycles_least : 1, range ? b->cycles_most : 1,
@@ -256,7 +231,6 @@ static void test_whole_runs_are_the_most_of_all_places(void) {
             TEST_ASSERT_TRUE(run.steps == steps);
             TEST_ASSERT_TRUE(run.instructions_bound == (unbounded < 0 ? most[5] : 0.0));
             TEST_ASSERT_TRUE(run.cycles_bound == (unbounded < 0 ? most[8] : 0.0));
-            TEST_ASSERT_FALSE(measured_has(&m, &rk4, (deviation_pace){pace.steps + 1, 1}));
             const char *asked = tree_taken("asked");
             TEST_ASSERT_EQUAL_STRING_LEN("--whole-run ", asked, 12);
             TEST_ASSERT_NOT_NULL(strstr(asked, " --until 0.2\n--whole-run "));
@@ -271,16 +245,14 @@ static void test_whole_runs_are_the_most_of_all_places(void) {
             char *row = room_words(bad[i], boards[n]);
             const deviation_pace pace = {(uint64_t)i + 20, 1};
             tree_keep("row2", row);
-            TEST_ASSERT_EQUAL_INT(MEASURED_REFUSED,
-                                  measured_count(&m, &p.trial, &rk4, pace, 1, &predicted));
-            cost c = {.why = "?"};
-            measured_tell(&m, &rk4, pace, &c);
-            TEST_ASSERT_EQUAL_STRING("it cannot be built, linked or run to its end there", c.why);
-            TEST_ASSERT_TRUE(measured_run_of(&m, &rk4, pace).steps == 0.0);
+            table_row rows[2];
+            table made = table_of(rows, &rk4, pace, 1);
+            TEST_ASSERT_EQUAL_INT(MEASURED_COUNTED, measured_count(&p.trial, &made, 0, &words));
+            TEST_ASSERT_EQUAL_INT(1, made.count);
+            TEST_ASSERT_FALSE(made.row[0].counted);
             free(row);
         }
         tree_leave();
-        measured_free(&m);
         priced_close(&p);
     }
 }
@@ -309,8 +281,7 @@ static void test_the_front_is_counted_until_all_of_it_is(void) {
         table_row row[5];
         for (int i = 0; i < 5; i++) {
             row[i] = (table_row){.setting = priced_setting(methods[i % 4], &engine_float),
-                                 .pace = {1, i == 4 ? 2 : 1},
-                                 .order = i};
+                                 .pace = {1, i == 4 ? 2 : 1}};
             row[i].result.error = i == 4 ? 0.9 : 0.1 * (4 - i);
             row[i].cost.cycles = cost_known(100.0 * (i % 4 + 1), COST_ESTIMATED);
             row[i].price.value = 100.0 * (i % 4 + 1) * (i == 4 ? 25.0 : 50.0);
@@ -320,13 +291,11 @@ static void test_the_front_is_counted_until_all_of_it_is(void) {
         table made = {.row = row, .count = 5, .why = ""};
         table_sort(&made);
         int told = 0;
-        measured_prices m = {.words = &words};
         const table_wish w = {.progress = count_progress, .context = &told};
-        TEST_ASSERT_EQUAL_INT(MEASURED_COUNTED, table_counted(&p.trial, &made, &m, &w));
-        TEST_ASSERT_EQUAL_INT(m.count, told);
-        TEST_ASSERT_EQUAL_INT(refused ? 4 : 3, m.count);
+        TEST_ASSERT_EQUAL_INT(MEASURED_COUNTED, measured_front(&p.trial, &made, &words, &w));
+        TEST_ASSERT_EQUAL_INT(refused ? 4 : 3, told);
         TEST_ASSERT_EQUAL_INT(refused ? 3 : 5, made.count);
-        TEST_ASSERT_EQUAL_INT(refused ? 2 : 0, made.unpriced);
+        TEST_ASSERT_EQUAL_INT(refused ? 1 : 0, made.unpriced);
         TEST_ASSERT_EQUAL_STRING(refused ? "it cannot be built, linked or run there" : "",
                                  made.why);
         for (int i = 0; i < made.count; i++) {
@@ -339,28 +308,109 @@ static void test_the_front_is_counted_until_all_of_it_is(void) {
                                                               : 500.0;
             TEST_ASSERT_TRUE(r->price.value == each * (r->pace.records == 2 ? 25.0 : 50.0));
             TEST_ASSERT_TRUE(i == 0 || made.row[i - 1].price.value <= r->price.value);
-            TEST_ASSERT_TRUE(!r->on_front || measured_has(&m, &r->setting, r->pace));
+            TEST_ASSERT_TRUE(!r->on_front || r->counted);
         }
-        /* a table by evaluations stays as it is; a missing tool ends it */
-        measured_prices none = {.words = &words};
-        made.counted = true;
-        TEST_ASSERT_EQUAL_INT(MEASURED_COUNTED, table_counted(&p.trial, &made, &none, &w));
-        TEST_ASSERT_EQUAL_INT(0, none.count);
-        made.counted = false;
         tree_keep("mk/price/measure_one.sh", "exit 2\n");
         const table_wish quiet = {.progress = NULL};
-        TEST_ASSERT_EQUAL_INT(MEASURED_MISSING, table_counted(&p.trial, &made, &none, &quiet));
-        TEST_ASSERT_EQUAL_INT(0, none.count);
-        measured_free(&m);
+        for (int i = 0; i < made.count; i++) {
+            made.row[i].counted = false;
+        }
+        TEST_ASSERT_EQUAL_INT(MEASURED_MISSING, measured_front(&p.trial, &made, &words, &quiet));
         tree_leave();
     }
     priced_close(&p);
 }
 
+/* --- choices -----------------------------------------------------------------------------------------------*/
+
+/* Drawn prices of six settings by three steps. A choice that counts its answers equals the choice from a table that is
+ * counted in all, if no prediction is too high. */
+static void test_choices_are_as_if_all_was_counted(void) {
+    dice d = dice_of("price_measured choices", 23);
+    priced p;
+    priced_open(&p, springs, 1);
+    TEST_ASSERT_TRUE(priced_begin(&p, "mps2-an386", spacing, 20, NULL));
+    int fewer = 0;
+    for (int n = 0; n < 12; n++) {
+        enum { ROWS = 18 };
+        static const wh_method methods[] = {WH_RK4,       WH_NYSTROEM3, WH_NYSTROEM4,
+                                            WH_NYSTROEM5, WH_HEUN,      WH_EULER};
+        table_row row[ROWS];
+        table_row all[ROWS];
+        tree_enter();
+        char *script = room_words("echo . >>asked\ncase \"$*\" in\n");
+        double counted[6];
+        for (int i = 0; i < 6; i++) {
+            counted[i] = 100 + dice_one_of(&d, 900);
+            char *longer = room_words("%s*%s\\ *) n=%.0f ;;\n", script, wh_methods[methods[i]].word,
+                                      counted[i]);
+            free(script);
+            script = longer;
+        }
+        char *whole =
+            room_words("%sesac\necho \"a,g,f,mps2-an386,s,float,rk4,$n,$n,$n,$n,estimated,"
+                       "$n,10,10\"\n",
+                       script);
+        tree_keep("mk/price/measure_one.sh", whole);
+        free(whole);
+        free(script);
+        for (int i = 0; i < ROWS; i++) {
+            row[i] = (table_row){.setting = priced_setting(methods[i % 6], &engine_float),
+                                 .pace = {(uint64_t)(i / 6) + 1, 1}};
+            row[i].result.error = pow(10.0, dice_between(&d, -4.0, 0.0));
+            const double predicted = counted[i % 6] * dice_between(&d, 0.8, 1.0);
+            const double each_s = ratio_times(1, trial_step(&p.trial, row[i].pace));
+            all[i] = row[i];
+            for (int k = 0; k < 2; k++) {
+                table_row *r = k == 0 ? &row[i] : &all[i];
+                const double value = k == 0 ? predicted : counted[i % 6];
+                r->cost.cycles = r->cost.cycles_worst = cost_known(value, COST_ESTIMATED);
+                r->cost.instructions = r->cost.instructions_worst = r->cost.flash_bytes =
+                    cost_known(value, COST_MEASURED);
+                r->cost.ram_bytes = r->cost.stack_bytes = cost_known(10, COST_MEASURED);
+                r->price.value = value / each_s;
+            }
+        }
+        table made = {.row = row, .count = ROWS, .why = ""};
+        table by_all = {.row = all, .count = ROWS, .why = ""};
+        table_sort(&made);
+        table_sort(&by_all);
+        const choice_wish w = {.table = {.error = 1e-1},
+                               .clock_Hz = n % 3 == 2 ? 2e4 : 0.0,
+                               .flash_bytes = n % 2 == 1 ? dice_between(&d, 90, 900) : 0.0};
+        choice c;
+        TEST_ASSERT_EQUAL_INT(MEASURED_COUNTED, choice_counted(&p.trial, &made, &w, &words, &c));
+        const choice wanted = choice_make(&p.trial, &by_all, &w);
+        const choice_row *const is[] = {&c.fastest, &c.smallest, &c.weaker, &c.larger};
+        const choice_row *const should[] = {&wanted.fastest, &wanted.smallest, &wanted.weaker,
+                                            &wanted.larger};
+        for (int i = 0; i < (wanted.fastest.row >= 0 ? 2 : 4); i++) {
+            TEST_ASSERT_EQUAL_INT(should[i]->row < 0, is[i]->row < 0);
+            if (is[i]->row >= 0) {
+                const table_row *a = &made.row[is[i]->row];
+                const table_row *b = &by_all.row[should[i]->row];
+                TEST_ASSERT_TRUE(a->counted);
+                TEST_ASSERT_TRUE(i != 0 || is[i]->worst == should[i]->worst);
+                TEST_ASSERT_TRUE(i != 2 || a->result.error == b->result.error);
+                TEST_ASSERT_TRUE(i % 2 == 0 ||
+                                 a->cost.flash_bytes.value == b->cost.flash_bytes.value);
+            }
+        }
+        int asked = 0;
+        for (const char *at = tree_taken("asked"); *at != '\0'; at++) {
+            asked += *at == '.';
+        }
+        fewer += asked < 6;
+        tree_leave();
+    }
+    TEST_ASSERT_GREATER_THAN_INT(0, fewer);
+    priced_close(&p);
+}
+
 void suite_price_measured(void) {
     RUN_TEST(test_what_is_missing_is_told);
-    RUN_TEST(test_which_numbers_are_counted_where);
     RUN_TEST(test_steps_are_counted_and_kept);
     RUN_TEST(test_whole_runs_are_the_most_of_all_places);
     RUN_TEST(test_the_front_is_counted_until_all_of_it_is);
+    RUN_TEST(test_choices_are_as_if_all_was_counted);
 }

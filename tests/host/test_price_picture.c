@@ -46,8 +46,8 @@ static void draw_table(dice *d, table *made) {
         if (dice_one_of(d, 2) == 0) { /* few of them, so that many are alike */
             s.image.method = (wh_method)dice_one_of(d, 2);
         }
-        *r =
-            (table_row){.setting = s, .pace = table_ladder(3 + (int)dice_one_of(d, 4)), .order = i};
+        static const deviation_pace paces[] = {{1, 5}, {1, 2}, {1, 1}, {2, 1}};
+        *r = (table_row){.setting = s, .pace = paces[dice_one_of(d, 4)]};
         r->result.error = dice_one_of(d, 9) == 0 ? 0.0 : pow(10.0, dice_between(d, -9.0, -1.0));
         r->price = (table_price){.unit = PRICE_INSTRUCTIONS,
                                  .value = dice_one_of(d, 9) == 0 ? 0.0 : dice_between(d, 1e3, 1e5)};

@@ -1,5 +1,5 @@
-/* test_price_trials.c: trials of settings (host/price/trial.h, trial_memo.h): steps as exact fractions, the worst and the
- * dearest of several places against each place by itself, and what is not run again. */
+/* test_price_trials.c: trials of settings (host/price/trial.h): steps as exact fractions, the worst and the
+ * dearest of several places against each place by itself. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -7,8 +7,6 @@
 
 #include "command.h"
 #include "host/fixed/engine_fixed.h"
-#include "host/price/cost_fixed.h"
-#include "host/price/trial_memo.h"
 #include "priced.h"
 #include "unity.h"
 
@@ -347,48 +345,6 @@ static void test_errors_are_the_worst_of_all_places(void) {
                      at[2] > 0);
 }
 
-static void test_what_was_run_is_not_run_again(void) {
-    priced p;
-    priced_open(&p, places, 2);
-    TEST_ASSERT_TRUE(priced_begin(&p, "mps2-an386", spacing, RECORDS, NULL));
-    trial_memo memo = {.count = 0};
-    double took[4];
-    trial_result first[4];
-    const setting rk4 = priced_setting(WH_RK4, &engine_float);
-    const setting heun = priced_setting(WH_HEUN, &engine_float);
-    const setting *const s[] = {&rk4, &heun, &rk4, &rk4};
-    const deviation_pace pace[] = {{1, 1}, {1, 1}, {2, 1}, {1, 5}};
-    for (int i = 0; i < 4; i++) {
-        const double before = p.trial.operations;
-        const int asked = p.asked;
-        first[i] = trial_memo_run(&memo, &p.trial, s[i], pace[i]);
-        took[i] = p.trial.operations - before;
-        TEST_ASSERT_EQUAL_INT(i + 1, memo.count);
-        TEST_ASSERT_EQUAL_INT(asked + 2, p.asked);
-        TEST_ASSERT_TRUE(took[i] > 0.0);
-    }
-    for (int i = 3; i >= 0; i--) {
-        const double before = p.trial.operations;
-        const int asked = p.asked;
-        const trial_result again = trial_memo_run(&memo, &p.trial, s[i], pace[i]);
-        TEST_ASSERT_TRUE(again.error == first[i].error && again.usable == first[i].usable);
-        TEST_ASSERT_TRUE(again.evaluations == first[i].evaluations &&
-                         again.point == first[i].point);
-        TEST_ASSERT_TRUE(p.trial.operations - before == took[i]);
-        TEST_ASSERT_EQUAL_INT(asked, p.asked);
-        (void)trial_memo_run(NULL, &p.trial, s[i], pace[i]);
-        TEST_ASSERT_EQUAL_INT(asked + 2, p.asked);
-    }
-    TEST_ASSERT_EQUAL_INT(4, memo.count);
-    /* what was stopped is not known, and ran not */
-    volatile sig_atomic_t stop = 1;
-    p.trial.wish.stop = &stop;
-    const trial_result none = trial_memo_run(&memo, &p.trial, &heun, pace[2]);
-    TEST_ASSERT_TRUE(!none.ran && p.trial.stopped && memo.count == 4);
-    trial_memo_free(&memo);
-    priced_close(&p);
-}
-
 void suite_price_trials(void) {
     RUN_TEST(test_steps_are_exact);
     RUN_TEST(test_times_have_as_few_digits_as_they_can);
@@ -398,5 +354,4 @@ void suite_price_trials(void) {
     RUN_TEST(test_the_horizon_is_that_of_the_place_that_ends_first);
     RUN_TEST(test_of_places_as_long_the_worst_agrees_least);
     RUN_TEST(test_errors_are_the_worst_of_all_places);
-    RUN_TEST(test_what_was_run_is_not_run_again);
 }

@@ -20,11 +20,10 @@ static const char letters[] = "-xpmesr"; /* by basis */
 
 static cost_figure drawn_figure(dice *d) {
     cost_figure f = {.basis = (cost_basis)dice_one_of(d, COST_BASES)};
-    f.of = (cost_basis)(COST_MEASURED + dice_one_of(d, 3));
+    const double within = 1.0 + pow(10.0, dice_between(d, -2.0, 0.5));
     f.value = pow(10.0, dice_between(d, 0.0, 7.0));
-    f.bound = 1.0 + pow(10.0, dice_between(d, -2.0, 0.5));
-    f.least = f.value / f.bound;
-    f.most = f.value * f.bound;
+    f.least = f.value / within;
+    f.most = f.value * within;
     return f;
 }
 
@@ -34,7 +33,6 @@ static void test_figures_say_how_they_are_known(void) {
         const cost_figure f = drawn_figure(&d);
         char text[FIGURE_TEXT];
         char words[FIGURE_WORDS];
-        char want[FIGURE_WORDS];
         char letter[8];
         double low;
         TEST_ASSERT_EQUAL_CHAR(letters[f.basis], figure_letter(f.basis));
@@ -55,20 +53,10 @@ static void test_figures_say_how_they_are_known(void) {
             TEST_ASSERT_EQUAL_STRING(cost_basis_words[f.basis], words);
             continue;
         }
-        snprintf(want, sizeof want, "predicted, fitted to %s figures, within ",
-                 cost_basis_words[f.of]);
-        const char *rest = said_words(words, want);
-        const bool factor = strncmp(rest, "a factor of", 11) == 0;
-        TEST_ASSERT_EQUAL_INT(f.bound >= 2.0, factor);
-        TEST_ASSERT_EQUAL_STRING(factor ? "" : " %", said_number(factor ? rest + 11 : rest, &low));
-        const double most = factor ? low : 1.0 + low / 100.0; /* no less, by less than one unit */
-        TEST_ASSERT_TRUE(most >= f.bound * (1 - 1e-12) &&
-                         most - (factor ? 1.0 : 0.01) < f.bound * (1 + 1e-12));
+        const char *rest = said_words(words, "predicted: in nine of ten counted cases within ");
+        TEST_ASSERT_EQUAL_STRING(" %", said_number(rest, &low));
+        TEST_ASSERT_TRUE(fabs(1.0 + low / 100.0 - f.most / f.value) <= 0.0051);
     }
-    cost_figure edge = {.basis = COST_PREDICTED, .of = COST_MEASURED, .bound = 2.0};
-    char words[FIGURE_WORDS];
-    TEST_ASSERT_EQUAL_STRING("predicted, fitted to measured figures, within a factor of 2",
-                             figure_words(&edge, words));
 }
 
 static void test_legends_have_a_line_for_each_basis_that_is_there(void) {
@@ -153,8 +141,7 @@ static void draw_rows(dice *d, table *made, table_unit unit) {
     for (int i = 0; i < ROWS; i++) {
         table_row *r = &made->row[i];
         *r = (table_row){.setting = setting_at((int)dice_one_of(d, (unsigned)setting_count())),
-                         .pace = table_ladder((int)dice_one_of(d, 12)),
-                         .order = i};
+                         .pace = {1, 1 + dice_one_of(d, 5)}};
         r->result = (trial_result){.ran = true,
                                    .usable = true,
                                    .error = pow(10.0, dice_between(d, -9.0, -1.0)),
@@ -223,7 +210,7 @@ static char *line_again(const trials *t, const table_row *r, const table_words *
 
 static void test_programs_read_what_the_rows_are(void) {
     dice d = dice_of("price_words csv", 34);
-    const table_words words = {"f.whirl:s", " --set \"a b\"", false};
+    const table_words words = {"f.whirl:s", " --set \"a b\"", false, 0.0};
     for (int n = 0; n < 3; n++) {
         priced p;
         priced_open(&p, places, 2);
@@ -236,7 +223,7 @@ static void test_programs_read_what_the_rows_are(void) {
         room_text_end(csv.to);
         const char *at = csv.text;
         TEST_ASSERT_EQUAL_STRING_LEN("front,error,error_unit,error_basis,error_bound,component,"
-                                     "price_per_s,price_of,price_basis,price_fitted_to,price_least,"
+                                     "price_per_s,price_of,price_basis,price_least,"
                                      "price_most,step_s,method,number,angles,matrix,tables,"
                                      "flash_bytes,flash_basis,ram_bytes,ram_basis,stack_bytes,"
                                      "stack_basis,state_bytes,state_basis,run,derive\r\n",
@@ -254,9 +241,6 @@ static void test_programs_read_what_the_rows_are(void) {
             at = expect_field(at, columns[r->result.column]);
             at = expect_field(expect_number(at, r->price.value, 1e-8), units[n]);
             at = expect_field(at, cost_basis_words[r->price.basis]);
-            at = expect_field(at, cost_basis_words[n == 0   ? r->cost.cycles.of
-                                                   : n == 1 ? r->cost.instructions.of
-                                                            : COST_MEASURED]);
             at = expect_number(expect_number(at, r->price.least, 1e-8), r->price.most, 1e-8);
             at = expect_field(at, trial_time(trial_step(&p.trial, r->pace), step));
             for (int a = 0; a < AXES; a++) {
@@ -312,19 +296,11 @@ static void expect_row(const char *line, const trials *t, const table_row *r) {
     (void)said_words(at, want);
 }
 
-/* "7 settings ...": a line where there are any. */
-static void expect_line(const char *text, int count, const char *words) {
-    char want[100];
-    snprintf(want, sizeof want, "\n%d%s", count, words);
-    TEST_ASSERT_EQUAL_INT_MESSAGE(count > 0, strstr(text, words) != NULL, words);
-    TEST_ASSERT_EQUAL_INT_MESSAGE(count > 0, strstr(text, want) != NULL, words);
-}
-
 static void test_people_read_what_the_rows_are(void) {
     dice d = dice_of("price_words tables", 35);
     static const char *const heads[] = {"cycles/s", "instr./s", "eval./s"};
     for (int n = 0; n < 6; n++) {
-        const table_words words = {"f.whirl:s", " --set m=3", n >= 3};
+        const table_words words = {"f.whirl:s", " --set m=3", n >= 3, 1e7};
         const int points = n == 2 ? 1 : 2;
         priced p;
         priced_open(&p, places, points);
@@ -332,10 +308,9 @@ static void test_people_read_what_the_rows_are(void) {
         table_row row[ROWS];
         table made = {.row = row, .why = "a reason"};
         draw_rows(&d, &made, (table_unit)(n % 3));
-        made.counted = n % 3 == PRICE_EVALUATIONS;
+        const bool evaluations = n % 3 == PRICE_EVALUATIONS;
         made.settings = 90;
         made.unpriced = n % 2 == 0 ? 7 : 0;
-        made.coarse = n < 3 ? 4 : 0;
         made.broken_off = n % 3 ? 5 : 0;
         caught out;
         table_print(catch_text(&out), &p.trial, &made, &words);
@@ -362,17 +337,20 @@ static void test_people_read_what_the_rows_are(void) {
         TEST_ASSERT_TRUE(*at == '\n' && shown == (words.all ? ROWS : front));
         char want[200];
         snprintf(want, sizeof want,
-                 "\n%d settings, 12 rows, %d of them on the front: nothing is as cheap and errs "
-                 "less%s\n",
-                 90 - made.unpriced, front, words.all ? " (*)" : "; --all shows the others");
+                 "\n12 rows, %d of them on the front (*): no row is as cheap and errs less%s\n",
+                 front, words.all ? "" : "; ");
+        if (words.all) {
+            (void)behind(out.text, want);
+        }
+        snprintf(want, sizeof want, "\n90 settings%s%s%s\n",
+                 made.broken_off > 0
+                     ? "; finer steps of 5 take more than their share of --effort 1e+07"
+                     : "",
+                 made.unpriced > 0 ? "; 7 without a price here: " : "",
+                 made.unpriced > 0 ? made.why : "");
         (void)behind(out.text, want);
-        expect_line(out.text, made.unpriced, " settings without a price here: a reason\n");
-        expect_line(out.text, made.coarse, " trials erred by");
-        expect_line(out.text, made.broken_off, " settings have finer steps");
-        TEST_ASSERT_EQUAL_INT(made.counted, strstr(out.text, "counted in the run") != NULL);
-        TEST_ASSERT_EQUAL_INT(!made.counted && row[0].price.basis == COST_PREDICTED,
-                              strstr(out.text, "--measure counts") != NULL);
-        if (!made.counted) {
+        TEST_ASSERT_EQUAL_INT(evaluations, strstr(out.text, "counted in the run") != NULL);
+        if (!evaluations) {
             char of[FIGURE_WORDS];
             snprintf(
                 want, sizeof want, "\n  %s a simulated second: %s\n",
@@ -394,8 +372,47 @@ static void test_people_read_what_the_rows_are(void) {
     }
 }
 
+/* Of a front of drawn rows at most twelve are shown, the cheapest and the least error among them. */
+static void test_at_most_twelve_rows_of_a_front_are_shown(void) {
+    dice d = dice_of("price_words fronts", 36);
+    priced p;
+    priced_open(&p, places, 1);
+    TEST_ASSERT_TRUE(priced_begin(&p, "mps2-an386", spacing, RECORDS, NULL));
+    for (unsigned n = 0; n < dice_cases(few_or_all(60, 600)); n++) {
+        enum { MANY = 60 };
+        table_row row[MANY];
+        table made = {.row = row, .count = 1 + (int)dice_one_of(&d, MANY), .why = ""};
+        double error = 1.0;
+        for (int i = 0; i < made.count; i++) {
+            row[i] = (table_row){.setting = setting_at(0), .pace = {(uint64_t)i + 1, 1}};
+            row[i].price.value = i + 1;
+            error *= dice_between(&d, 0.5, 0.99);
+            row[i].result.error = error;
+            row[i].cost.why = "";
+        }
+        table_sort(&made);
+        const table_words words = {"f", "", false, 1e7};
+        caught out;
+        table_print(catch_text(&out), &p.trial, &made, &words);
+        room_text_end(out.to);
+        int shown = 0;
+        for (const char *at = strstr(out.text, "\n* "); at != NULL; at = strstr(at + 1, "\n* ")) {
+            shown++;
+        }
+        char want[60];
+        snprintf(want, sizeof want, "\n* %9.2e  ", row[0].result.error);
+        TEST_ASSERT_NOT_NULL(strstr(out.text, want));
+        TEST_ASSERT_TRUE(shown <= 12 && (made.count > 12 || shown == made.count));
+        TEST_ASSERT_TRUE(made.count <= 12 || shown >= 4);
+        snprintf(want, sizeof want, "errs less; %d are shown, --all shows all\n", shown);
+        (void)behind(out.text, want);
+        free(out.text);
+    }
+    priced_close(&p);
+}
+
 static char *table_of_nothing(const trials *t, const table *made) {
-    const table_words words = {"f", "", false};
+    const table_words words = {"f", "", false, 1e7};
     caught out;
     table_print(catch_text(&out), t, made, &words);
     room_text_end(out.to);
@@ -408,7 +425,7 @@ static void test_tables_of_nothing_say_why(void) {
     TEST_ASSERT_TRUE(priced_begin(&p, "mps2-an386", spacing, RECORDS, NULL));
     table made = {.unpriced = 3, .why = "a reason"};
     char *text = table_of_nothing(&p.trial, &made);
-    (void)behind(text, "\nno setting has a price here: a reason\n");
+    (void)behind(text, "\nno setting has a row: 0 settings; 3 without a price here: a reason\n");
     /* z rests, and is no part of anything; the two agree as they are said to */
     (void)behind(text, "\n  left out    stays at zero but for rounding: z, z'\n");
     const char *at = behind(text, "the two agree within ");
@@ -446,5 +463,6 @@ void suite_price_words(void) {
     RUN_TEST(test_fields_come_back);
     RUN_TEST(test_programs_read_what_the_rows_are);
     RUN_TEST(test_people_read_what_the_rows_are);
+    RUN_TEST(test_at_most_twelve_rows_of_a_front_are_shown);
     RUN_TEST(test_tables_of_nothing_say_why);
 }

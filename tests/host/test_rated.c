@@ -313,7 +313,7 @@ static void test_rows_are_those_of_price(void) {
             run(&r, (const char *const[]){NULL}, &what);
         } while (!read_rows(what.out, r.number, &t));
         snprintf(until, sizeof until, "%.9g", t.until_s);
-        const char *const words[] = {model_keep(r.text), "--horizon", until,  "--effort", "1e-3",
+        const char *const words[] = {model_keep(r.text), "--horizon", until,  "--effort", "1e7",
                                      "--quiet",          "--csv",     prices, NULL};
         command_say(command_price, words, &what);
         model_drop();
