@@ -25,9 +25,7 @@ static uint32_t rate_of(const wh_tel *tel, const wh_cell_config *cell) {
     return tel->every > 0 ? cell_per_s(cell) / tel->every : 0;
 }
 
-
-static void list(const wh_tel *tel, const wh_cell_config *cell,
-                 wh_text *answer) {
+static void list(const wh_tel *tel, const wh_cell_config *cell, wh_text *answer) {
     wh_value value[] = {{.count = rate_of(tel, cell)},
                         {.word = wh_list_item(FORMATS, tel->format)},
                         {.count = 0},
@@ -167,14 +165,14 @@ static wh_station_error set_ring(wh_tel *tel, const char *word, wh_text *answer)
 #define WITH_ROWS(X) \
     X(WITH_SCHEMA, "schema") \
     X(WITH_RATE, "rate") \
-    X(WITH_FORMAT, "fmt") X(WITH_RING, "ring") 
+    X(WITH_FORMAT, "fmt") X(WITH_RING, "ring")
 #define COUNTED(what, word) what,
 typedef enum alone { ALONE_ROWS(COUNTED) ALONE_NONE } alone;
 typedef enum with { WITH_ROWS(COUNTED) WITH_NONE } with;
 #undef COUNTED
 
-static wh_station_error without_word(wh_tel *tel, const wh_cell_config *cell,
-                                     const char *what, wh_text *answer) {
+static wh_station_error without_word(wh_tel *tel, const wh_cell_config *cell, const char *what,
+                                     wh_text *answer) {
     switch ((alone)wh_list_find(ALONE_ROWS(LISTED), what)) {
     case ALONE_LIST: list(tel, cell, answer); break;
     case ALONE_OFF: wh_tel_rate(tel, 0); break;
@@ -184,8 +182,8 @@ static wh_station_error without_word(wh_tel *tel, const wh_cell_config *cell,
     return WH_STATION_FINE;
 }
 
-wh_station_error wh_tel_answer(wh_tel *tel, const wh_cell_config *cell,
-                               const wh_words *words, wh_text *answer) {
+wh_station_error wh_tel_answer(wh_tel *tel, const wh_cell_config *cell, const wh_words *words,
+                               wh_text *answer) {
     const char *what = words->word[1];
     const char *word = words->word[2];
     if (words->count < 3U) {

@@ -101,7 +101,6 @@ static bool send_frame(sight *s, wh_tel_channel channel) {
     return put_out(s, channel, (const char *)line, 1U + wh_cobs_short(line + 1, frame->at));
 }
 
-
 static void send_run(sight *s) {
     wh_tel *tel = s->tel;
     if (tel->samples == 0) {

@@ -374,8 +374,24 @@ static double run_unit(const void *of, int i) {
 
 static uint64_t run_saturated(const void *of) { return ((const fixed_run *)of)->state.saturated; }
 
-const engine_kind engine_fixed = {
-    "fixed",      9,           run_start,       run_stop,   run_step,          run_set_input,
-    run_state,    run_outputs, run_hash,        run_steps,  run_fault,         run_events,
-    run_happened, run_modes,   run_evaluations, run_ledger, run_component_off, run_saturated,
-    run_unit,     NULL,         NULL};
+const engine_kind engine_fixed = {"fixed",
+                                  9,
+                                  run_start,
+                                  run_stop,
+                                  run_step,
+                                  run_set_input,
+                                  run_state,
+                                  run_outputs,
+                                  run_hash,
+                                  run_steps,
+                                  run_fault,
+                                  run_events,
+                                  run_happened,
+                                  run_modes,
+                                  run_evaluations,
+                                  run_ledger,
+                                  run_component_off,
+                                  run_saturated,
+                                  run_unit,
+                                  NULL,
+                                  NULL};

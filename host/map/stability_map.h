@@ -24,7 +24,8 @@
     X(MAP_OFF, 'o', "off", "bounded, but its error exceeds the tolerance before its end") \
     X(MAP_LOSES, 'x', "loses", \
       "bounded, but more than a thousandth of its energy is unaccounted for") \
-    X(MAP_DIVERGES, '#', "diverges", "out of all bounds, or the error of a rate exceeds a hundred times its range") \
+    X(MAP_DIVERGES, '#', "diverges", \
+      "out of all bounds, or the error of a rate exceeds a hundred times its range") \
     X(MAP_NONE, '-', "none", "no such run: its values are refused") \
     X(MAP_UNTRIED, '?', "untried", "interrupted before it was run")
 #define MAP_VERDICT_ID(id, mark, word, words) id,

@@ -91,7 +91,10 @@ static void write_names(const show *s, const equations *e) {
             m->title[0] != '\0' ? ": " : "", m->title);
     for (int i = 0; i < e->count; i++) {
         const bool driven = m->coordinates[i]->driven != NULL;
-        write_shown(s, driven ? "driven" : m->is_system ? "state" : "coordinate",
+        write_shown(s,
+                    driven         ? "driven"
+                    : m->is_system ? "state"
+                                   : "coordinate",
                     m->coordinates[i]);
     }
     for (int i = 0; i < m->parameter_count; i++) {

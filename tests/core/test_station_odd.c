@@ -180,7 +180,6 @@ static void test_a_cell_turned_round(void) {
     TEST_ASSERT_TRUE(wh_conf_type(&conf, WH_CONF_cell_reversed, "") == WH_STATION_CONF_VALUE);
 }
 
-
 static uint8_t slot_bytes[WH_STORE_SLOTS][WH_STORE_SLOT_BYTES];
 static unsigned reads_left;
 

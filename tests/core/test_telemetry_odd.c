@@ -184,7 +184,6 @@ static void test_rates_and_schemas(void) {
     check_answer("tel schema run", "OK channel=0 name=run period_ticks=0 ");
 }
 
-
 void suite_telemetry_odd(void) {
     RUN_TEST(test_frames_of_odd_numbers);
     RUN_TEST(test_lines_of_odd_numbers);

@@ -158,8 +158,8 @@ static void test_answers_and_refusals(void) {
         {"tel schema 7", "ERR 117 "},
         {"tel fmt csv", "ERR 118 "},
         {"tel ring read", "ERR 119 "},
-        {"tel list",
-         "OK rate=0 fmt=frames dropped=0 channels=run,event,ring"  "\r\n"},
+        {"tel list", "OK rate=0 fmt=frames dropped=0 channels=run,event,ring"
+                     "\r\n"},
         {"tel ring", "OK trigger=off ring=off steps=0 frames=0\r\n"},
         {"tel ring pulse", "OK trigger=pulse ring=waiting steps=0 frames=0\r\n"},
         {"tel ring off", "OK trigger=off ring=off "},
