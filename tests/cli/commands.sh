@@ -64,7 +64,7 @@ output place [m] = x
 output swing [rad] = a
 effect drag "drag" { Q(x) += -0.1 [N*s/m]*x' }
 effect wind "wind" { Q(x) += 0.2 [N] }
-scene plain_swings { with drag; start x = 1 [m], a = 1 [rad]; step 10 [ms]; until 0.1 [s] }
+scene plain_swings { with drag; start x = 1 [m], a = 1 [rad]; step 10 [ms]; until 0.1 [s]; range push = -1 .. 1 [N] }
 END
 sed 's/ - 9 \[J\]\*cos(a)/ + 9 [J]*a^2/' "$scratch/plain.whirl" >"$scratch/linear.whirl"
 # which nothing drives or damps

@@ -347,6 +347,18 @@ static const char *said_head(const char *at) {
     return said_exactly(at, words);
 }
 
+static const char *said_outputs(const char *at, const char *head) {
+    const image *im = &drawn.im;
+    at = said_exactly(at, head);
+    for (int i = 0; i < im->own_outputs; i++) {
+        at = said_quantity(at, &im->output[i], "OUTPUT", i);
+    }
+    for (int i = im->own_outputs; i < im->outputs; i++) {
+        at = said_component(at, recovered(i - im->own_outputs), "OUTPUT", "OUTPUTRATE", i);
+    }
+    return said_counted(at, "OUTPUTS", im->outputs);
+}
+
 static void test_a_header_has_every_name(void) {
     for (unsigned c = 0; c < dice_cases(usual_or(200, 50)); c++) {
         drawn_scene_draw(&drawn, &die);
@@ -356,14 +368,7 @@ static void test_a_header_has_every_name(void) {
         at = said_state(at, "    /* state.angle[], read with wh_angle_to_rad(): unwrapped */\n",
                         "    /* state.real[] */\n",
                         "    /* state.input[], may change between steps */\n");
-        at = said_exactly(at, "    /* what the scene's observe() fills */\n");
-        for (int i = 0; i < im->own_outputs; i++) {
-            at = said_quantity(at, &im->output[i], "OUTPUT", i);
-        }
-        for (int i = im->own_outputs; i < im->outputs; i++) {
-            at = said_component(at, recovered(i - im->own_outputs), "OUTPUT", "OUTPUTRATE", i);
-        }
-        at = said_counted(at, "OUTPUTS", im->outputs);
+        at = said_outputs(at, "    /* what the scene's observe() fills */\n");
         at = said_bounds(at);
         at = said_strings(at, "ANGLES", im->angles, angle_item);
         at = said_strings(at, "REALS", im->reals, real_item);
@@ -387,6 +392,9 @@ static void test_a_fixed_state_has_every_name(void) {
         const char *at = said_state(text, "    /* wh_fixed_angle(): unwrapped */\n",
                                     "    /* wh_fixed_real(), wh_fixed_set_real() */\n",
                                     "    /* wh_fixed_set_input(), between steps */\n");
+        at =
+            said_outputs(at, "    /* fixed-point code computes no outputs: these number a table of "
+                             "your own */\n");
         TEST_ASSERT_EQUAL_STRING("", at);
         free(text);
     }
