@@ -44,7 +44,7 @@ lost accel "$scene"
 lost run "$scene"
 lost run "$scene" --csv -
 lost run "$scene" --csv - --until 5s
-lost sweep "$scene" --over step=1..2:2 --quiet --fresh
+lost sweep "$scene" --over step=1..2:2 --until 2 --quiet --fresh
 lost map "$scene" --over step=1ms..2ms:2 --over x=0..1:2
 lost map "$scene" --over step=1ms..2ms:2 --over x=0..1:2 --csv - --quiet
 lost hashes
