@@ -68,8 +68,12 @@ static void say_accuracy(FILE *out, const verdict *v) {
     fprintf(out, "%s is right to %g of its range only until t = %.6g s of %.6g s",
             column_name(v, f->component, name), VERDICT_TOLERANCE, f->at_s, v->twins->end_s);
     if (isfinite(c->off)) {
-        fprintf(out, ": a finer run, in double, ends up to %.2g %s away, %.2g of the range", c->off,
-                unit, c->off / c->range);
+        fprintf(out, ": a finer run, in double, ends up to %.2g %s away", c->off, unit);
+        if (c->range > 0.0) {
+            fprintf(out, ", %.2g of the range", c->off / c->range);
+        } else {
+            fputs("; here it stands still", out);
+        }
     } else {
         fputs(": a finer run, in double, leaves all bounds", out);
     }
