@@ -192,6 +192,9 @@ static missed_found force_passed(missed *m) {
 
 static missed_found piece_passed(missed *m, const engine_piece *piece) {
     missed_found found = MISSED_NOTHING;
+    if (piece->span_s <= m->image->step_s / (1 << HALVINGS)) {
+        return found; /* as thin as is_finest() has it */
+    }
     m->piece = piece;
     if (m->signals != NULL) {
         along_way(m->signals, piece->from, piece->to, piece->span_s);
