@@ -266,6 +266,7 @@ static inline unsigned wh_contact_hit(const wh_contact_system *of, wh_contact_wo
 static inline unsigned wh_contact_push_out(const wh_contact_system *of, wh_contact_work *w,
                                            bool coarse, const wh_real *input, wh_contact_state *s,
                                            wh_real *signal, unsigned *pushed) {
+    of = WH_CONTACTS_HERE(of);
     const unsigned looks = coarse ? WH_PUSH_LOOKS : WH_SQUEEZE_LOOKS;
     wh_real accel[WH_COORDS];
     unsigned passed = 0;
