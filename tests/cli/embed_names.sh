@@ -31,7 +31,7 @@ says 2 'error: --header takes a file: standard output has the C' derive thomson_
 says 2 'error: --header takes a file: standard output has the C' derive thomson_a --as c --header=
 says 2 '/nonexistent/x.h: error: cannot be written: No such' derive thomson_a --as c --header /nonexistent/x.h
 says 2 "$scratch: error: cannot be written: Is a directory" derive thomson_a --as c --header "$scratch"
-[ ! -e /dev/full ] || says 2 '/dev/full: error: cannot be written: No space' derive thomson_a --as c --header /dev/full
+[ ! -e /dev/full ] || says 1 '/dev/full: error: cannot be written: No space' derive thomson_a --as c --header /dev/full
 says 2 "unknown option '--haeder'" derive thomson_a --as c --haeder x.h
 grep -q 'hint: did you mean --header' "$scratch/err"
 verdict $? "and a hint"

@@ -264,7 +264,7 @@ refused 2 'no tape of this version' --read "$build/pil_rig"
 refused 2 'no tape of this version' --read /dev/zero
 refused 2 'cannot be read' --read "$scratch/none"
 refused 2 'cannot be written' --read "$scratch/pc.tape" --csv "$scratch/no/rows"
-[ ! -c /dev/full ] || refused 2 'cannot be written' --read "$scratch/pc.tape" --csv /dev/full
+[ ! -c /dev/full ] || refused 1 'cannot be written' --read "$scratch/pc.tape" --csv /dev/full
 refused 2 'over the tape' --read "$scratch/pc.tape" --csv "$scratch/pc.tape"
 refused 2 '--read takes no --firmware' --read "$scratch/pc.tape" --firmware "$build/pil_rig"
 refused 2 '--read takes no scene' --read "$scratch/pc.tape" $rig
