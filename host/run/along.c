@@ -21,7 +21,7 @@ typedef struct slopes {
     enclosure f[3];
 } slopes;
 
-struct along {
+struct along_bounds {
     const image *image;
     const tape *list;
     double *input;      /* [inputs] */
@@ -44,8 +44,8 @@ static const form no_form = {{(double)NAN, (double)NAN},
                              {(double)NAN, (double)NAN},
                              {(double)NAN, (double)NAN}};
 
-along *along_open(const image *im, const tape *t) {
-    along *a = room(1, sizeof *a);
+along_bounds *along_open(const image *im, const tape *t) {
+    along_bounds *a = room(1, sizeof *a);
     const int n = im->coordinates;
     a->image = im;
     a->list = t;
@@ -70,7 +70,7 @@ along *along_open(const image *im, const tape *t) {
     return a;
 }
 
-void along_close(along *a) {
+void along_close(along_bounds *a) {
     if (a != NULL) {
         free(a->input);
         free(a->cubic);
@@ -285,7 +285,7 @@ static form raised(const form *a, const form *b) {
 
 /* --- the list -----------------------------------------------------------------------------------------------*/
 
-static form phase_of(const along *a, const op *o) {
+static form phase_of(const along_bounds *a, const op *o) {
     form sum = constant(o->value);
     for (int i = 0; i < a->list->angles && o->turns != NULL; i++) {
         if (o->turns[i] != 0) {
@@ -296,7 +296,7 @@ static form phase_of(const along *a, const op *o) {
     return o->b >= 0 ? plus(&sum, &a->of[o->b]) : sum;
 }
 
-static form value_of(const along *a, const op *o) {
+static form value_of(const along_bounds *a, const op *o) {
     const int values = op_rows[o->code].values;
     const form *x = values > 0 && o->a >= 0 ? &a->of[o->a] : &no_form;
     const form *y = values > 1 && o->b >= 0 ? &a->of[o->b] : &no_form;
@@ -334,7 +334,7 @@ static form value_of(const along *a, const op *o) {
     return no_form;
 }
 
-static enclosure natural_phase(const along *a, const op *o) {
+static enclosure natural_phase(const along_bounds *a, const op *o) {
     enclosure sum = enclosure_of(o->value);
     for (int i = 0; i < a->list->angles && o->turns != NULL; i++) {
         sum = enclosure_add(sum, enclosure_times(a->place[i].value, o->turns[i]));
@@ -342,7 +342,7 @@ static enclosure natural_phase(const along *a, const op *o) {
     return o->b >= 0 ? enclosure_add(sum, a->natural[o->b]) : sum;
 }
 
-static enclosure natural_of(const along *a, const op *o) {
+static enclosure natural_of(const along_bounds *a, const op *o) {
     const int values = op_rows[o->code].values;
     const enclosure x = values > 0 && o->a >= 0 ? a->natural[o->a] : zero;
     const enclosure y = values > 1 && o->b >= 0 ? a->natural[o->b] : zero;
@@ -390,7 +390,7 @@ static void cut(form *f, double half) {
 
 /* --- the way ------------------------------------------------------------------------------------------------*/
 
-void along_way(along *a, const double *from, const double *to, double span_s) {
+void along_way(along_bounds *a, const double *from, const double *to, double span_s) {
     const int n = a->image->coordinates;
     a->span_s = span_s;
     for (int i = 0; i < n; i++) {
@@ -414,7 +414,7 @@ static enclosure between(double a, double b, double bend) {
 }
 
 /* Places and rates on the part. */
-static void go(along *a, double low, double high) {
+static void go(along_bounds *a, double low, double high) {
     const double share[3] = {low, 0.5 * low + 0.5 * high, high};
     const double h = a->span_s;
     a->half = 0.5 * (high - low);
@@ -443,7 +443,7 @@ static void go(along *a, double low, double high) {
     }
 }
 
-enclosure along_glance(along *a, int result) {
+enclosure along_glance(along_bounds *a, int result) {
     if (!a->glanced) {
         a->glanced = true;
         go(a, 0.0, 1.0);
@@ -454,7 +454,7 @@ enclosure along_glance(along *a, int result) {
     return a->natural[a->list->result[result]];
 }
 
-void along_look(along *a, int result, double low, double high) {
+void along_look(along_bounds *a, int result, double low, double high) {
     const tape *t = a->list;
     const bool *needs = result < 0 ? NULL : a->needs + (ptrdiff_t)result * t->count;
     const int last = result < 0 ? t->count - 1 : t->result[result];
@@ -469,11 +469,15 @@ void along_look(along *a, int result, double low, double high) {
     }
 }
 
-enclosure along_value(const along *a, int result) { return a->of[a->list->result[result]].value; }
+enclosure along_value(const along_bounds *a, int result) {
+    return a->of[a->list->result[result]].value;
+}
 
-enclosure along_middle(const along *a, int result) { return a->of[a->list->result[result]].middle; }
+enclosure along_middle(const along_bounds *a, int result) {
+    return a->of[a->list->result[result]].middle;
+}
 
-double along_change(const along *a, int result) {
+double along_change(const along_bounds *a, int result) {
     const form *f = &a->of[a->list->result[result]];
     const double slope = enclosure_size(f->middle_slope);
     return enclosure_is_finite(f->curve) ? slope + enclosure_size(f->curve) : slope;

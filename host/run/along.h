@@ -10,20 +10,20 @@
 #include "host/image/image.h"
 #include "host/number/enclosure.h"
 
-typedef struct along along;
+typedef struct along_bounds along_bounds;
 
 /* A list of the image that reads places, rates and inputs. */
-along *along_open(const image *im, const tape *t);
-void along_close(along *a); /* NULL is fine */
+along_bounds *along_open(const image *im, const tape *t);
+void along_close(along_bounds *a); /* NULL is fine */
 /* The way: the cubic through places and rates at its ends, `span_s` apart; from, to: [angles + reals], angles in radians. */
-void along_way(along *a, const double *from, const double *to, double span_s);
+void along_way(along_bounds *a, const double *from, const double *to, double span_s);
 /* Natural bounds of one result on the whole way: a quick look. */
-enclosure along_glance(along *a, int result);
+enclosure along_glance(along_bounds *a, int result);
 /* Bound one result, or all (-1), on the part from `low` to `high`, shares of the way. */
-void along_look(along *a, int result, double low, double high);
-enclosure along_value(const along *a, int result);  /* on the part */
-enclosure along_middle(const along *a, int result); /* at its middle */
+void along_look(along_bounds *a, int result, double low, double high);
+enclosure along_value(const along_bounds *a, int result);  /* on the part */
+enclosure along_middle(const along_bounds *a, int result); /* at its middle */
 /* By how much it would change on the whole way, at its slope and curvature there. */
-double along_change(const along *a, int result);
+double along_change(const along_bounds *a, int result);
 
 #endif

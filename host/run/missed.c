@@ -22,11 +22,11 @@
 
 struct missed {
     const image *image;
-    along *signals; /* or NULL */
-    along *accel;   /* where an exponential function is in it, or NULL */
-    double *from;   /* [angles + reals] the state before the step, */
-    double *to;     /* and after it */
-    int *mode;      /* [contacts] likewise */
+    along_bounds *signals; /* or NULL */
+    along_bounds *accel;   /* where an exponential function is in it, or NULL */
+    double *from;          /* [angles + reals] the state before the step, */
+    double *to;            /* and after it */
+    int *mode;             /* [contacts] likewise */
     int *mode_to;
     double *most;              /* [coordinates] more is hidden from both ends */
     bool *hard;                /* [coordinates] bounds say too little, once and for all */
