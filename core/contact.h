@@ -76,7 +76,7 @@
 /* Looks at what a step with too many events has let pass. */
 #define WH_SQUEEZE_LOOKS 3U
 
-/* Looks at what stands beyond a stop when a step begins, as after a correction: a round of the step's, so no more than its
+/* Looks at a body that stands beyond a stop when a step begins, as after a correction: a round of the step's, so no more than its
  * probes. A curved gap takes several. */
 #define WH_PUSH_LOOKS 12U
 

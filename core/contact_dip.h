@@ -4,7 +4,7 @@
 
 #include "contact_locate.h"
 
-/* What is left of a step, tried: from `now` to `next`. */
+/* The rest of a step, tried: from `now` to `next`. */
 typedef struct wh_contact_attempt {
     wh_contact_state now;
     wh_contact_state next;

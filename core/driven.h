@@ -27,7 +27,7 @@ typedef struct wh_driven {
     uint8_t rate_at;
 } wh_driven;
 
-/* The state was corrected, and the levels were `before`: what that changed is kept apart. */
+/* The state was corrected, and the levels were `before`: the change is booked apart. */
 static inline void wh_ledger_correct(const wh_ledger_form *form, const wh_state *state,
                                      const wh_real *before) {
     wh_real *start = state->ledger + 2U * form->entries;

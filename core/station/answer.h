@@ -31,7 +31,7 @@ typedef union wh_value {
  *     @e           a number to the seventh digit, as it can be typed, without zeros at the end */
 void wh_answer(wh_text *text, const char *form, const wh_value *value);
 
-/* A list begins with what parts its items, which is in no :
+/* A list begins with the character that parts its items, and no item has it:
  * "|" "off" "|" "on". */
 
 #define WH_LIST_OFF_ON \

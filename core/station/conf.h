@@ -77,7 +77,7 @@ const wh_conf_row *wh_conf_row_of(wh_conf_id id, wh_conf_row *room);
 /* WH_CONF_COUNT when there is none of this name. */
 wh_conf_id wh_conf_find(const char *name);
 
-/* Its name, and in words what it takes and its unit: items of lists (answer.h); what it is, as  has it. */
+/* Its name, and in words what it takes and its unit: items of lists (answer.h); and its description. */
 const char *wh_conf_name(wh_conf_id id);
 const char *wh_conf_kind_text(wh_conf_id id);
 const char *wh_conf_unit_text(wh_conf_id id);

@@ -20,7 +20,7 @@ bool written_can(const char *name);
 /* Reports that the file cannot be written, with the reason from errno. */
 void unwritten_say(const char *name);
 
-/* For the exit code: what was to be written is not whole. */
+/* For the exit code: a file could not be written whole. */
 void written_not_whole(void);
 /* The program's exit code: a failure if a file that could be opened was not taken whole. */
 int written_code(int code);

@@ -255,7 +255,7 @@ typedef struct basis {
     char told[PRICES_TEXT];
 } basis;
 
-/* EXIT_BAD_INPUT: --measure asks for what cannot be had. */
+/* EXIT_BAD_INPUT: a --measure that no run can give. */
 static int look_for_tools(const choose_options *o, const pricing *p, basis *b) {
     b->missing =
         o->predict ? "" : measured_missing(p->has_trial ? &p->trial : NULL, p->board, b->text);

@@ -104,7 +104,7 @@ const char *options_value(int count, char **words, int *at, const char *name, bo
 bool options_number(const char *command, const char *option, const char *text, double least,
                     double most, const char *hint, double *number);
 
-/* What --effort takes: operations. */
+/* --effort is a number of operations. */
 #define EFFORT_LEAST 1e4
 #define EFFORT_MOST 1e15
 

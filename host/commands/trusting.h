@@ -1,4 +1,4 @@
-/* trusting.h: what `whirl trust` and `whirl run` share: the scene's image for the run beside it. */
+/* trusting.h: shared by `whirl trust` and `whirl run`: the scene's image for the run beside it. */
 #ifndef COMMANDS_TRUSTING_H
 #define COMMANDS_TRUSTING_H
 

@@ -43,7 +43,7 @@ bool check_dimension(parser *in, place at, const expr *value, dimension wanted, 
 /* Report at `at` a value without a unit, not 0, for the symbol (or its derivative) where its declared unit is not SI. The
  * token in hand is the one behind the value. */
 bool check_unit(parser *in, place at, const expr *value, const symbol *of, int primes);
-/* The same of what a stop or a crossing compares `of` with, where `of` is one symbol alone. */
+/* The same of the limit in a stop or a crossing, where `of` is one symbol alone. */
 bool check_limit(parser *in, place at, const expr *value, const expr *of);
 /* "SUBJECT is mass [kg]", the rule for something that has its dimension already. */
 enum { RULE_SIZE = 300 };

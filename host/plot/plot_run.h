@@ -32,7 +32,7 @@ void plot_run_close(plot_run *run);
  * reported; plot_run_close() in any case. */
 bool plot_run_read(const char *command, const char *csv, plot_run *run);
 
-/* Writes CSV.toml, which says what the run was: `facts` are lines of TOML for its head, `tables` for its end. False
+/* Writes CSV.toml, which describes the run: `facts` are lines of TOML for its head, `tables` for its end. False
  * is reported. */
 bool plot_run_about(const char *csv, const plot_run *run, const char *facts, const char *tables);
 

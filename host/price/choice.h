@@ -4,7 +4,7 @@
 
 #include "measured.h"
 
-/* What must be kept, and what a row may fail by: X(id, word). */
+/* The limits that a row must keep: X(id, word). */
 #define CHOICE_LIMIT_ROWS(X) \
     X(CHOICE_ERROR, "error") \
     X(CHOICE_LOAD, "load") \
@@ -39,7 +39,7 @@ typedef struct choice_row {
 typedef struct choice {
     choice_row fastest;  /* of those that keep everything: the fewest cycles, */
     choice_row smallest; /* and the least flash */
-    /* If nothing does, by what would have to give: */
+    /* If no row does, the limit that would have to give: */
     choice_row weaker; /* the least error of those that keep the other limits */
     choice_row dearer; /* the least load of those that keep the error, flash and RAM */
     choice_row larger; /* the least flash of those that keep the error and the load */

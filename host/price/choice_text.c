@@ -170,7 +170,7 @@ static void print_bytes(FILE *out, const table *made, const choice_row *row) {
             number_ceiling(c->ram_bytes.most + c->stack_bytes.most));
 }
 
-/* What would have to give, and the row that would do then. */
+/* The limit that would have to give, and the row that would do then. */
 static void print_remedies(FILE *out, const trials *t, const table *made, const choice_wish *w,
                            const choice *c) {
     char text[AMOUNT];

@@ -6,7 +6,7 @@
 
 #include "choice.h"
 
-/* Both answers; or that nothing fits, and what would. */
+/* Both answers; or that no row fits, and the nearest one. */
 void choice_print(FILE *out, const trials *t, const table *made, const choice_wish *w,
                   const choice *c, const table_words *words);
 

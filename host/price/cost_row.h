@@ -20,7 +20,7 @@ typedef struct cost_row {
     double within;  /* the factor of error that nine of ten counted steps kept */
     double longest; /* the longest step over the mean; 1 of bytes */
     double figure
-        [COST_CLASSES]; /* what one operation takes; COST_UNSEEN: no counted step has the class */
+        [COST_CLASSES]; /* cost of one operation; COST_UNSEEN: no counted step has the class */
 } cost_row;
 
 #define COST_UNSEEN (-1.0)

@@ -1,4 +1,4 @@
-/* cost_rows.h: what one operation of each class (cost_count.h) takes; written by `make price-table`. */
+/* cost_rows.h: the cost of one operation of each class (cost_count.h); written by `make price-table`. */
 #include "cost_row.h"
 
 /* clang-format off */

@@ -139,7 +139,7 @@ static bool enter_run(const cost_board *board, char *line, table_row *to) {
     return true;
 }
 
-/* The exit status of a line, and what it prints last. */
+/* The exit status of a line, and the last line that it prints. */
 static int count_line(char *line, char *row, int size) {
     char *command = room_words("%s 2>/dev/null", line);
     row[0] = '\0';

@@ -17,7 +17,7 @@ const char *measured_missing(const trials *t, const cost_board *board, char text
 /* Counts the steps of a row (seconds), for all rows of its setting; with contacts its whole run. The table is sorted again.
  * Rows that cannot be built, linked or run lose their price and leave the table. */
 measured_end measured_count(const trials *t, table *made, int row, const table_words *words);
-/* Counts what is on the front until all of it is counted. */
+/* Counts the rows of the front until all of them are counted. */
 measured_end measured_front(const trials *t, table *made, const table_words *words,
                             const table_wish *w);
 

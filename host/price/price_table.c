@@ -119,7 +119,7 @@ typedef struct table_work {
     int count;
 } table_work;
 
-/* In a worker: what it found goes to the parent as it lies in memory. */
+/* In a worker: its result goes to the parent as it lies in memory. */
 static bool work(void *context, uint64_t point, FILE *out, FILE *reason) {
     const table_work *w = context;
     climbed *c = room(1, sizeof *c);

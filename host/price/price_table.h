@@ -4,7 +4,7 @@
 
 #include "trial.h"
 
-/* What a simulated second takes: the figure that rows are sorted by. */
+/* The cost of a simulated second: rows are sorted by it. */
 typedef enum table_unit {
     PRICE_CYCLES,
     PRICE_INSTRUCTIONS, /* on boards whose cycles are not counted */

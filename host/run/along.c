@@ -377,7 +377,7 @@ static enclosure natural_of(const along_bounds *a, const op *o) {
     return unknown;
 }
 
-/* What is known of the middle and of the slopes bounds the value. */
+/* The bounds of the middle and of the slopes bound the value. */
 static void cut(form *f, double half) {
     const enclosure way = {-half, half};
     const enclosure bend = {0.0, enclosure_above(0.5 * half * half)};

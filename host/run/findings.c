@@ -173,7 +173,7 @@ static void (*const say[FINDINGS])(FILE *, const verdict *) = {
     [FINDING_EVENTS] = say_events,
 };
 
-/* --- what would do ----------------------------------------------------------------------------------------*/
+/* --- remedies ---------------------------------------------------------------------------------------------*/
 
 static bool is_told(const verdict *v, finding_id id) { return v->found[id].told; }
 

@@ -1,4 +1,4 @@
-/* findings.h: the findings of a run in words, each with its cause, and what would do. */
+/* findings.h: the findings of a run in words, each with its cause and its remedy. */
 #ifndef RUN_FINDINGS_H
 #define RUN_FINDINGS_H
 

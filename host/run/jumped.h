@@ -19,7 +19,7 @@ void jumped_close(jumped *j); /* NULL is fine */
 void jumped_enter(jumped *j, const engine_kind *kind, const void *run);
 /* Has the run jumped over one? */
 bool jumped_some(const jumped *j);
-/* What it passed through, as missed_enter() tells, and when that step began; nothing: it was a pole. */
+/* The contact that it passed through, as missed_enter() tells, and when that step began; nothing: it was a pole. */
 missed_found jumped_through(const jumped *j, double *begin_s);
 /* The expression whose pole it was, and when that step began. */
 const blame_question *jumped_over(const jumped *j, double *begin_s);

@@ -6,7 +6,7 @@
 #include "host/number/functions.h"
 #include "step_text.h"
 
-/* A remedy keeps this part of what is told: the lists of a user's run may round a little otherwise. */
+/* A remedy keeps this part of the limit: the lists of a user's run may round a little otherwise. */
 #define LEAVES 0.3
 /* No more parts of a step are tried. */
 #define PARTS_MOST 20000.0
@@ -49,7 +49,7 @@ static bool image_with(const image *im, const wish *w, image *made) {
     return ratio_count(ratio_of(im->until_s), made->step, &made->steps) && made->steps > 0;
 }
 
-/* What an evaluation takes beside its list, and what looks for events evaluates in a step, in operations. */
+/* Operations of an evaluation beside its list, and of the search for events in a step. */
 #define BESIDE 40.0
 #define EVENTS_AS 8.0
 

@@ -38,7 +38,7 @@ typedef enum simulation_result {
 /* Standard output, or standard error where records go to standard output. */
 FILE *simulation_summary(const simulation_settings *s);
 
-/* What is known of a run that was made, at its end: findings as bits (verdict.h), and until when it is trusted, s; below 0: that is not
+/* A run at its end: findings as bits (verdict.h), and until when it is trusted, s; below 0: that is not
  * told. */
 typedef struct simulation_trust {
     unsigned against;

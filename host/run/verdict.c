@@ -214,7 +214,7 @@ static int first_off(const verdict *v, const horizon *h) {
     return found;
 }
 
-/* Steps with too many events, and what is cut off for another reason, are told of by themselves. */
+/* Steps with too many events, and runs cut off for another reason, have findings of their own. */
 static void judge_accuracy(verdict *v) {
     const twins *t = v->twins;
     horizon h = horizon_of(t, v->part * VERDICT_TOLERANCE);

@@ -3,7 +3,7 @@
  * Two looks judge every run: a finer run beside it, in double (twins.h), and what its energy books leave over (belief.h). The others
  * see faults that both may share: a matrix or a coordinate that is singular, a pole or a contact that a step jumped over, forcing
  * that aliases with the step, steps with more events than they take, too few digits. `whirl run` and `whirl sweep` ask here, so that
- * they tell the same of the same point. Nothing of it touches the run. docs/warnings.md tells users what to do. */
+ * they tell the same of the same point. Nothing of it touches the run. docs/warnings.md has the cures. */
 #ifndef RUN_VERDICT_H
 #define RUN_VERDICT_H
 

@@ -92,7 +92,7 @@ static void swept(const void *context, uint64_t row, FILE *out) {
     sweep_swept_fields(s->sweep, s->first + row, out);
 }
 
-/* What `whirl run` would tell of them; of the points that ran now, as rows found in the file do not tell. */
+/* The findings of `whirl run` for them; of the points that ran now, as rows found in the file do not tell. */
 static void say_found(const sitting *s) {
     for (int id = 0; id < FINDINGS; id++) {
         if (s->found[id] > 0) {

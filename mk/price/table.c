@@ -291,7 +291,7 @@ int main(int count, char **words) {
     bool good = row_count > 0;
     if (!checks) {
         puts(
-            "/* cost_rows.h: what one operation of each class (cost_count.h) takes; written by `make price-table`. */\n#include \"cost_row.h\"\n\n"
+            "/* cost_rows.h: the cost of one operation of each class (cost_count.h); written by `make price-table`. */\n#include \"cost_row.h\"\n\n"
             "/* clang-format off */\nstatic const cost_row cost_rows[] = {");
     }
     fputs(
