@@ -255,7 +255,8 @@ static void say_remedy(FILE *out, const verdict *v, const image *plain,
         fputs("hint: restitution 0, or a condition that takes longer to come true again, ends such "
               "events\n",
               out);
-    } else if (v->against == FINDING_BIT(FINDING_ACCURACY)) {
+    } else if (v->against == FINDING_BIT(FINDING_ACCURACY) &&
+               v->found[FINDING_ACCURACY].at_s > 0.0) {
         fputs("hint: where the motion is chaotic every error grows: --until ends the run before\n",
               out);
     }
