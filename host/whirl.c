@@ -148,7 +148,7 @@ static int after_writing(int code) {
 
 int main(int count, char **words) {
     setlocale(LC_ALL, "C");
-#ifdef SIGXFSZ
+#if defined SIGXFSZ && !defined WHIRL_NO_SYSTEM
     signal(SIGXFSZ, SIG_IGN); /* beyond `ulimit -f`, a write then fails as on a full disk */
 #endif
     if (wh_arithmetic_wrong(wh_arithmetic) != WH_PROBED_COUNT) {

@@ -43,9 +43,12 @@ static FILE *open_part(const char *name, const char *in_place) {
     FILE *file = fopen(part, "wb");
     if (file == NULL && (errno == EACCES || errno == ENAMETOOLONG)) {
         file = fopen(name, in_place);
-    } else if (file != NULL && there.st_mode != 0) {
+    }
+#ifndef WHIRL_NO_SYSTEM /* WASI has no modes */
+    if (file != NULL && there.st_mode != 0) {
         (void)fchmod(fileno(file), there.st_mode & 0777U);
     }
+#endif
     free(part);
     return file;
 }

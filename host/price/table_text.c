@@ -84,8 +84,10 @@ static void print_rows(FILE *out, const trials *t, const table *made, const tabl
     bool *show = room(made->count, sizeof *show);
     const int front = shown(made, 1.0, show);
     int rows = front;
-    for (double factor = 1.1; rows > TABLE_ROWS; factor *= 1.1) {
+    double factor = 1.1;
+    while (rows > TABLE_ROWS) {
         rows = shown(made, factor, show);
+        factor *= 1.1;
     }
     if (trial_unit(t)[0] != '\0') {
         snprintf(heading, sizeof heading, "error, %s", trial_unit(t));

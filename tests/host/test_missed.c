@@ -288,12 +288,12 @@ static void test_moving_ones(void) {
 /* Of a width $w beside the way of a step; %s are drawn numbers. */
 static const char *const rights[] = {
     "stop sqrt($x^2 + $y^2) >= 0.5*$w restitution %s",
-    "V = 9.81 [N]*$y + %s*100 [N/m]*$x^2/2\nstop $y >= -0.3 [m] restitution 0.6\n"
-    "stop abs($x) <= 1.2 [m] restitution 0.5",
+    ("V = 9.81 [N]*$y + %s*100 [N/m]*$x^2/2\nstop $y >= -0.3 [m] restitution 0.6\n"
+     "stop abs($x) <= 1.2 [m] restitution 0.5"),
     "V = %s*100 [N/m]*$y^2/2\nhold x while $x > 0 and $x < $w",
     "V = %s*8 [J]*exp(-($x/($w))^2) + 100 [N/m]*$y^2/2",
-    "V = 9.81 [N]*$y + %s*100 [N/m]*$x^2/2\n"
-    "stop $y + 0.4 [m] >= 0.1*$w*sin($x/($w)) restitution 0.5",
+    ("V = 9.81 [N]*$y + %s*100 [N/m]*$x^2/2\n"
+     "stop $y + 0.4 [m] >= 0.1*$w*sin($x/($w)) restitution 0.5"),
     "V = %s*100 [N/m]*($x^2 + $y^2)/2\nfriction x static 1 kinetic 0.8 normal 2 [N]",
     "V = %s*100 [N/m]*($x^2 + $y^2)/2\nstop sqrt($x^2 + $y^2) <= 1.5 [m] restitution 0.7",
     "V = %s*100 [N/m]*$y^2/2\nhold x while $x^2 + $y^2 < ($w)^2",
