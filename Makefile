@@ -64,7 +64,12 @@ help: ## this list
 	@echo "Whirl: write a mechanism's energies, get its motion and its firmware."
 	@awk -f mk/help.awk Makefile mk/*.mk
 	@echo ""
+	@echo "make help-all names the others: campaigns, parts of the tests, the pages' tables."
 	@echo "V=1 shows the commands; -j2 uses two cores. BOARD= names a folder of boards/."
+
+.PHONY: help-all
+help-all: ## all targets, those for authors as well
+	@awk -v all=1 -f mk/help.awk Makefile mk/*.mk
 
 .PHONY: deps
 deps: ## install the Debian packages that are missing for everything below
@@ -128,7 +133,7 @@ hashes: ## the same bits from every compiler, optimisation level, board and the 
 	@$(MAKE) hashes-now
 
 .PHONY: hashes-all
-hashes-all: ## the same bits on every board there is, on AArch64 and in WebAssembly (half an hour)
+hashes-all: ##- the same bits on every board there is, on AArch64 and in WebAssembly (half an hour)
 	@CC="$(CC)" mk/setup/deps.sh host firmware boards quality hosts
 	@$(MAKE) HASH_BUILDS="$(HASH_BUILDS_ALL)" hashes-all-now
 
@@ -149,55 +154,55 @@ flags: ## other people's compiler flags: the same bits or a refusal (a minute or
 	@$(MAKE) flags-now
 
 .PHONY: mutants
-mutants: ## small changes of the code, and whether the tests notice: MUTANTS, SEED, FOLDERS (an hour or two)
+mutants: ##- small changes of the code, and whether the tests notice: MUTANTS, SEED, FOLDERS (an hour or two)
 	@UNITY="$(UNITY)" CC="$(CC)" mk/setup/deps.sh host plot tests
 	@UNITY="$(UNITY)" mk/setup/unity.sh build/unity
 	@MAKE="$(MAKE)" sh mk/mutants/mutants.sh
 
 .PHONY: properties
-properties: ## random linkages and hybrids against their energies in numbers: PROPERTIES of each, SEED (10,000: two hours on two cores)
+properties: ##- random linkages and hybrids against their energies in numbers: PROPERTIES of each, SEED (10,000: two hours on two cores)
 	@UNITY="$(UNITY)" CC="$(CC)" mk/setup/deps.sh host tests
 	@UNITY="$(UNITY)" mk/setup/unity.sh build/unity
 	@$(MAKE) properties-now
 
 .PHONY: rig-truth
-rig-truth: ## the rig's measurement against the truth, its intervals against 1,000 noisy runs of each kind (a minute)
+rig-truth: ##- the rig's measurement against the truth, its intervals against 1,000 noisy runs of each kind (a minute)
 	@UNITY="$(UNITY)" CC="$(CC)" mk/setup/deps.sh host tests
 	@UNITY="$(UNITY)" mk/setup/unity.sh build/unity
 	@$(MAKE) $(PARALLEL) rig-truth-now
 
 .PHONY: faults
-faults: ## the rig's controller against faults of plant and links: RUNS (20,000: half an hour; with BOARD= in its emulator 2,000), SEED
+faults: ##- the rig's controller against faults of plant and links: RUNS (20,000: half an hour; with BOARD= in its emulator 2,000), SEED
 	@CC="$(CC)" mk/setup/deps.sh host $(if $(ASKED_BOARD),firmware boards)
 	@$(MAKE) $(PARALLEL) faults-now
 
 .PHONY: sine-exhaustive
-sine-exhaustive: $(B)/tools/sine_exhaustive ## the sine's worst error, over all 2^32 angles (minutes)
+sine-exhaustive: $(B)/tools/sine_exhaustive ##- the sine's worst error, over all 2^32 angles (minutes)
 	$(Q)$<
 
 .PHONY: functions-exhaustive
-functions-exhaustive: $(B)/tools/functions_exhaustive ## the float functions' worst errors, over all 2^32 floats (half an hour at most)
+functions-exhaustive: $(B)/tools/functions_exhaustive ##- the float functions' worst errors, over all 2^32 floats (half an hour at most)
 	$(Q)$<
 
 .PHONY: root-exhaustive
-root-exhaustive: $(B)/tools/root_exhaustive ## the square root in integers, over all 2^32 numbers (a minute)
+root-exhaustive: $(B)/tools/root_exhaustive ##- the square root in integers, over all 2^32 numbers (a minute)
 	$(Q)$<
 
 .PHONY: long-runs
-long-runs: $(B)/tools/long_runs ## energies and a centre of mass over LONG_STEPS steps, 10^8 when left out (an hour)
+long-runs: $(B)/tools/long_runs ##- energies and a centre of mass over LONG_STEPS steps, 10^8 when left out (an hour)
 	$(Q)$< $(or $(LONG_STEPS),1e8)
 
 .PHONY: tables-exhaustive
-tables-exhaustive: $(B)/tools/tables_exhaustive ## tables of --tables against their functions, over all 2^32 phases (a quarter of an hour)
+tables-exhaustive: $(B)/tools/tables_exhaustive ##- tables of --tables against their functions, over all 2^32 phases (a quarter of an hour)
 	$(Q)$<
 
 .PHONY: fuzz
-fuzz: ## broken files at the parser, odd mechanisms at the rest, for FUZZ_SECONDS each
+fuzz: ##- broken files at the parser, odd mechanisms at the rest, for FUZZ_SECONDS each
 	@CC="$(CC)" mk/setup/deps.sh host quality
 	@$(MAKE) fuzz-now
 
 .PHONY: format
-format: ## lay out every C file as .clang-format says
+format: ##- lay out every C file as .clang-format says
 	@CC="$(CC)" mk/setup/deps.sh quality
 	$(Q)clang-format -i $(C_FILES)
 
@@ -209,7 +214,7 @@ price: ## what accuracy costs: error against cycles of eight scenes on every boa
 	@$(MAKE) price-now
 
 .PHONY: price-all
-price-all: ## the same of every scene, predicted: build/figures/price_all.csv (hours)
+price-all: ##- the same of every scene, predicted: build/figures/price_all.csv (hours)
 	@CC="$(CC)" mk/setup/deps.sh host
 	@$(MAKE) price-all-now
 
@@ -219,37 +224,37 @@ bench: ## instructions a step, counted, on this machine and on the emulated boar
 	@$(MAKE) bench-now
 
 .PHONY: bench-boards
-bench-boards: ## a step of five scenes on every board: instructions, cycles, bytes; into docs/dev/price.md (minutes)
+bench-boards: ##- a step of five scenes on every board: instructions, cycles, bytes; into docs/dev/price.md (minutes)
 	@CC="$(CC)" mk/setup/deps.sh host firmware boards quality
 	@$(MAKE) bench-boards-now
 
 .PHONY: bench-tables
-bench-tables: ## a step that looks up in tables, beside those that compute, on four boards; into docs/dev/price.md (minutes)
+bench-tables: ##- a step that looks up in tables, beside those that compute, on four boards; into docs/dev/price.md (minutes)
 	@CC="$(CC)" mk/setup/deps.sh host firmware boards quality
 	@$(MAKE) bench-tables-now
 
 .PHONY: bench-peers
-bench-peers: ## the same steps and derivations by other libraries, as ratios; into docs/dev/price.md (installs them, large)
+bench-peers: ##- the same steps and derivations by other libraries, as ratios; into docs/dev/price.md (installs them, large)
 	@CC="$(CC)" mk/setup/deps.sh host tests bench peers
 	@$(MAKE) bench-peers-now
 
 .PHONY: bench-links
-bench-links: ## pendulums of 1 to 12 links: deriving, operations, a step, bytes; into docs/dev/price.md
+bench-links: ##- pendulums of 1 to 12 links: deriving, operations, a step, bytes; into docs/dev/price.md
 	@CC="$(CC)" mk/setup/deps.sh host firmware bench
 	@$(MAKE) bench-links-now
 
 .PHONY: bench-precision
-bench-precision: ## work against precision of every method, by counted instructions; into docs/dev/numerics.md
+bench-precision: ##- work against precision of every method, by counted instructions; into docs/dev/numerics.md
 	@CC="$(CC)" mk/setup/deps.sh host firmware bench
 	@$(MAKE) bench-precision-now
 
 .PHONY: price-effects
-price-effects: ## what each effect costs: instructions, bytes, error; into docs/dev/effects.md (minutes)
+price-effects: ##- what each effect costs: instructions, bytes, error; into docs/dev/effects.md (minutes)
 	@CC="$(CC)" mk/setup/deps.sh host firmware bench
 	@$(MAKE) price-effects-now
 
 .PHONY: price-rows
-price-rows: ## steps of a hundred scenes counted on every board: build/cost/rows.csv, for price-table (half an hour)
+price-rows: ##- steps of a hundred scenes counted on every board: build/cost/rows.csv, for price-table (half an hour)
 	@CC="$(CC)" mk/setup/deps.sh host firmware boards quality bench
 	@$(MAKE) price-rows-now
 
@@ -259,7 +264,7 @@ worst-step: ## the most instructions of a step with events, over a million rando
 	@$(MAKE) worst-now
 
 .PHONY: rig-steps
-rig-steps: ## instructions that a control step of the rig takes on BOARD, at most RIG_STEP_MOST (a minute)
+rig-steps: ##- instructions that a control step of the rig takes on BOARD, at most RIG_STEP_MOST (a minute)
 	@CC="$(CC)" mk/setup/deps.sh host firmware bench
 	@$(MAKE) rig-steps-now
 
@@ -281,12 +286,12 @@ conclusions: ## the dissertation's claims beside Whirl's numbers, with a verdict
 	@$(MAKE) conclusions-now
 
 .PHONY: octave-check
-octave-check: ## the generated Octave files under ode45, against whirl run (installs Octave, large)
+octave-check: ##- the generated Octave files under ode45, against whirl run (installs Octave, large)
 	@CC="$(CC)" mk/setup/deps.sh host octave
 	@$(MAKE) octave-check-now
 
 .PHONY: stability
-stability: ## the stability maps of docs/stability.md, anew: every script of mk/stability (minutes)
+stability: ##- the stability maps of docs/stability.md, anew: every script of mk/stability (minutes)
 	@CC="$(CC)" mk/setup/deps.sh host plot
 	@$(MAKE) stability-now
 
@@ -298,7 +303,7 @@ emulate: ## run BOARD's firmware in the emulator
 	@$(MAKE) emulate-now
 
 .PHONY: too-large
-too-large: ## list anew what does not fit into BOARD, one with small memory (many minutes)
+too-large: ##- list anew what does not fit into BOARD, one with small memory (many minutes)
 	@CC="$(CC)" mk/setup/deps.sh host $(BOARD_DEPS)
 	@$(MAKE) whirl
 	@$(MAKE) $(GEN)/.stamp
@@ -311,5 +316,5 @@ clean: ## remove what was built, except the fetched test framework
 	$(Q)[ ! -d build ] || find build -mindepth 1 -maxdepth 1 ! -name unity -exec rm -rf {} +
 
 .PHONY: distclean
-distclean: ## remove build/ altogether
+distclean: ##- remove build/ altogether
 	$(Q)rm -rf build

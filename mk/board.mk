@@ -181,7 +181,7 @@ run-suites: # the portable suites, what guards the stack, the watchdog, and firs
 print-hashes: # a line for each scene, with the hash of its last state
 	@$(call need,$(BOARD_EMULATOR))
 	@$(call emulate,$(ELF)/scenes.elf)
-bench-matrix: $(ELF)/bench_matrix.elf $(PLUGIN) ## a step of linear scenes as one matrix, on BOARD
+bench-matrix: $(ELF)/bench_matrix.elf $(PLUGIN) ##- a step of linear scenes as one matrix, on BOARD
 	@mkdir -p $(FIGURES)
 	@$(call count_board,$<)
 print-matrix-hashes: $(ELF)/scenes_matrix.elf # of linear scenes, a step as one matrix

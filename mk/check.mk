@@ -11,11 +11,12 @@ check-now: $(GEN)/.stamp
 	@sh tests/gates.sh build/check "$(MAKE)" $(GATES)
 
 ##@ Tests and quality
-## gate-NAME: one quality gate alone; `make check` names them
+##- gate-NAME: one quality gate alone; `make check` names them
 .PHONY: $(addprefix gate-,$(subst +, ,$(GATES)))
 
 gate-house:
 	@sh tests/house.sh
+	@sh tests/weight.sh
 
 # --- warnings are errors, with both compilers, in every build -------------------------------------
 # What is compiled for boards only; a board's own make lints its part (tidy-board).
@@ -72,7 +73,7 @@ gate-tidy: $(GEN)/.stamp
 	+@$(foreach b,$(BOARDS),$(call on_board,$(b),tidy-board) &&) true
 
 .PHONY: tidy-deep
-tidy-deep: ## gate-tidy with all paths of the static analyzer, a quarter of an hour
+tidy-deep: ##- gate-tidy with all paths of the static analyzer, a quarter of an hour
 	+@$(MAKE) gate-tidy TIDY_PATHS=
 
 .PHONY: tidy-board
@@ -156,7 +157,7 @@ gate-sanitizers: $(GEN)/.stamp
 	+@$(ASAN_BUILD) asan-run
 
 .PHONY: sanitizers-all
-sanitizers-all: $(GEN)/.stamp ## gate-sanitizers with all suites and scripts that run an instrumented program (half an hour)
+sanitizers-all: $(GEN)/.stamp ##- gate-sanitizers with all suites and scripts that run an instrumented program (half an hour)
 	+@$(ASAN_BUILD) CLI_LESS_ASAN= HOST_LESS_ASAN= ASAN_REALS="float double" asan-run
 
 # Values read before they are written, which the sanitizers do not see.
@@ -254,10 +255,10 @@ gate-docs: docs-programs
 	@sh tests/docs.sh check $(DOC_PAGES)
 	@sh mk/conclusions/table.sh check docs/conclusions.md
 
-docs-all: docs-programs ## the commands of all pages, also the slow ones, print what stands below them (a quarter of an hour)
+docs-all: docs-programs ##- the commands of all pages, also the slow ones, print what stands below them (a quarter of an hour)
 	@sh tests/docs.sh slow $(DOC_PAGES)
 
-docs-renew: docs-programs ## all pages with what their commands print now: DOC_PAGES=docs/pil.md
+docs-renew: docs-programs ##- all pages with what their commands print now: DOC_PAGES=docs/pil.md
 	@sh tests/docs.sh renew $(DOC_PAGES)
 
 # --- one arithmetic everywhere ----------------------------------------------------------------------
@@ -287,7 +288,7 @@ hashes-now gate-hashes: $(GEN)/.stamp
 	@$(MAKE) hashes-settings SETTINGS=some
 # HASH_BOARDS="mps2-an386 rv32imac": on these.
 HASH_BOARDS ?= $(BOARDS)
-hashes-matrix: $(GEN)/.stamp ## the same bits on every board of linear scenes, a step as one matrix (minutes)
+hashes-matrix: $(GEN)/.stamp ##- the same bits on every board of linear scenes, a step as one matrix (minutes)
 	@$(MAKE) build/scenes_matrix
 	@$(call compare_matrix_hashes,$(HASH_BOARDS))
 

@@ -18,7 +18,7 @@ endif
 
 ##@ Tests and quality
 .PHONY: coverage coverage-now
-coverage: ## lines and branches of the core that the portable suites reach; fails below 99 and 97 per cent (minutes)
+coverage: ##- lines and branches of the core that the portable suites reach; fails below 99 and 97 per cent (minutes)
 	@UNITY="$(UNITY)" CC=gcc mk/setup/deps.sh host tests
 	@UNITY="$(UNITY)" mk/setup/unity.sh build/unity
 	@$(MAKE) coverage-now

@@ -43,7 +43,7 @@ price-drawn-now: build/whirl
 	    cp $(FIGURES)/$$svg docs/figures/; done
 
 ##@ Price
-price-pages: ## the tables of docs/price.md and docs/dev/fronts.md, anew from docs/figures/price.csv
+price-pages: ##- the tables of docs/price.md and docs/dev/fronts.md, anew from docs/figures/price.csv
 	@$(call need,gnuplot)
 	@mk/curves/pages.sh docs/figures $(CURVE_PAGES)
 	@mk/curves/chart.sh $(FIGURES)/price_fronts.svg docs/figures/price.csv $(CURVE_FIRST)
@@ -58,5 +58,5 @@ price-all-now: build/whirl
 	    $(BOARDS_PRICED) --
 	@echo "Every row: $(FIGURES)/price_all.csv"
 
-price-again: build/whirl ## what docs/figures/price.csv says was counted, once more, from its command lines: SCENES, SOME (minutes)
+price-again: build/whirl ##- what docs/figures/price.csv says was counted, once more, from its command lines: SCENES, SOME (minutes)
 	@SOME=$(or $(SOME),1) mk/curves/again.sh docs/figures/price.csv $(CURVES)/again $(SCENES)

@@ -12,7 +12,7 @@ figures-now: build/whirl build/pil_rig build/pil_carriage
 	@echo "Drawn: $(FIGURES)/*.svg and *.png"
 
 ##@ The dissertation
-figures-docs: figures ## the same, copied into docs/
+figures-docs: figures ##- the same, copied into docs/
 	@mkdir -p docs/figures
 	@cp $(patsubst mk/figures/%.fig,$(FIGURES)/%.svg,$(FIGS) $(FINDINGS)) docs/figures/
 	@cp $(FIGURES)/figures.md docs/figures.md
@@ -21,7 +21,7 @@ figures-docs: figures ## the same, copied into docs/
 .PHONY: conclusions-now conclusions-renew
 conclusions-now: build/whirl build/firmware
 	@sh mk/conclusions/table.sh print
-conclusions-renew: build/whirl build/firmware ## the same, written into docs/conclusions.md
+conclusions-renew: build/whirl build/firmware ##- the same, written into docs/conclusions.md
 	@sh mk/conclusions/table.sh renew docs/conclusions.md
 
 octave-check-now: build/whirl

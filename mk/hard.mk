@@ -68,7 +68,7 @@ $(addprefix hard-host-,$(HASH_HOSTS)): hard-host-%:
 	@$(call need,$(host_run_$*))
 	@$(MAKE) B=build/hosts/$* CC="$(host_cc_$*)" OPT=-O1 $(host_set_$*) build/hosts/$*/scenes_hard
 ##@ Tests and quality
-hashes-hard: build/whirl $(HARD_C) ## the same bits on every board of the hard cases of docs/hard_cases.md (a minute; HARD_BOARDS="...")
+hashes-hard: build/whirl $(HARD_C) ##- the same bits on every board of the hard cases of docs/hard_cases.md (a minute; HARD_BOARDS="...")
 	+@$(MAKE) $(addprefix hard-build-,$(HARD_BUILDS)) $(addprefix hard-host-,$(HARD_HOSTS))
 	+@$(foreach b,$(HARD_BOARDS),$(call on_board,$(b),hard-images) &&) true
 	@sh tests/hashes.sh build/hash/hard "the interpreter" "sh tests/hard_hashes.sh $(HARD_UNTIL) $(HARD)" \
@@ -77,5 +77,5 @@ hashes-hard: build/whirl $(HARD_C) ## the same bits on every board of the hard c
 	    $(foreach b,$(HARD_BOARDS),"$(b)" "$(call on_board,$(b),print-hard-hashes)")
 
 .PHONY: guards
-guards: build/tests/host ## takes each guard of a hard case away: does a test fail? (minutes; in a copy of the tree)
+guards: build/tests/host ##- takes each guard of a hard case away: does a test fail? (minutes; in a copy of the tree)
 	@MAKE="$(MAKE)" sh mk/mutants/guards.sh

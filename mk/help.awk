@@ -2,7 +2,8 @@
 #
 #   ##@ Section               what follows belongs to it; sections may come again in a later file
 #   target: ... ## words      a target
-#   ## target-NAME: words     a family of targets, whatever NAME is
+#   target: ... ##- words     one that authors use: listed with all=1
+#   ## target-NAME: words     a family of targets, whatever NAME is (##- with all=1)
 
 /^##@ / {
     section = substr($0, 5)
@@ -12,19 +13,23 @@
     next
 }
 
-/^[a-z][a-z0-9-]*:.*## / {
+/##- / && !all {
+    next
+}
+
+/^[a-z][a-z0-9-]*:.*##-? / {
     target = $0
     sub(/:.*/, "", target)
     words = $0
-    sub(/^.*## /, "", words)
+    sub(/^.*##-? /, "", words)
     add(target, words)
 }
 
-/^## [a-z][a-zA-Z0-9-]*: / {
+/^##-? [a-z][a-zA-Z0-9-]*: / {
     target = $2
     sub(/:$/, "", target)
     words = $0
-    sub(/^## [^ ]* /, "", words)
+    sub(/^##-? [^ ]* /, "", words)
     add(target, words)
 }
 
@@ -34,6 +39,9 @@ function add(target, words) {
 
 END {
     for (i = 1; i <= count; i++) {
+        if (lines[sections[i]] == "") {
+            continue
+        }
         printf "\n%s\n%s", sections[i], lines[sections[i]]
     }
 }

@@ -66,7 +66,7 @@ gate-hosts:
 HOSTS_SUITES ?= m32 aarch64 armhf
 .PHONY: hosts-suites $(addprefix suites-,$(HOSTS))
 ##@ Tests and quality
-hosts-suites: $(addprefix suites-,$(HOSTS_SUITES)) ## the portable suites built for other processors, emulated (many minutes)
+hosts-suites: $(addprefix suites-,$(HOSTS_SUITES)) ##- the portable suites built for other processors, emulated (many minutes)
 $(addprefix suites-,$(HOSTS)): suites-%: $(GEN)/.stamp $(UNITY_DIR)/unity.c
 	@$(MAKE) B=build/hosts/$* CC="$(host_cc_$*)" OPT=-O1 $(host_set_$*) \
 	    build/hosts/$*/tests/core_float build/hosts/$*/tests/core_double

@@ -158,7 +158,7 @@ endif
 
 ##@ Boards
 .PHONY: size-files size-files-now
-size-files: ## bytes of flash of each file in the rig's firmware with a console, of BOARD
+size-files: ##- bytes of flash of each file in the rig's firmware with a console, of BOARD
 	@CC="$(CC)" mk/setup/deps.sh host $(BOARD_DEPS)
 	@$(MAKE) size-files-now
 size-files-now: $(GEN)/.stamp
@@ -244,13 +244,13 @@ price-rows-now: build/whirl build/tools/mechanisms
 	@wc -l <$(PRICE_CSV)
 
 ##@ Price
-price-table: build/tools/price_table ## the table of figures that prices are predicted from, of the counted rows; host/price/cost_rows.h, docs/dev/price.md
+price-table: build/tools/price_table ##- the table of figures that prices are predicted from, of the counted rows; host/price/cost_rows.h, docs/dev/price.md
 	@build/tools/price_table $(PRICE_CSV) >$(PRICE_OUT)/cost_rows.h 2>$(PRICE_OUT)/errors.md
 	@cp $(PRICE_OUT)/cost_rows.h host/price/cost_rows.h
 	@mk/price/into_page.sh $(PRICE_OUT)/errors.md docs/dev/price.md cost
 	@cat $(PRICE_OUT)/errors.md
 
-price-check: build/tools/price_table ## predicted prices against counted ones: PRICE_CSV, such as of `make price-rows PRICE_SEED=5 PRICE_OUT=build/again`
+price-check: build/tools/price_table ##- predicted prices against counted ones: PRICE_CSV, such as of `make price-rows PRICE_SEED=5 PRICE_OUT=build/again`
 	@build/tools/price_table --check $(PRICE_CSV)
 
 # What tables of an angle's functions cost and save: the table of docs/dev/price.md.
@@ -282,7 +282,7 @@ price-fixed-board: build/whirl
 	    $(or $(BOARD_RUN_BY),$(PLUGIN))
 	@$(TO_PRICE) TIMING=$(BOARD_TIMING) HOST_LIB=$(LIB_FLOAT) HOST_BOARD=$(B)/float/boards/host/board.o \
 	    $(if $(FIXED_SCENES),SCENES="$(FIXED_SCENES)") $(if $(filter single,$(BOARD_IMAGES)),PLUGIN=) mk/price/fixed.sh
-price-fixed: build/whirl ## Instructions of a step in fixed point, on boards without an FPU (FIXED_BOARDS, FIXED_SCENES)
+price-fixed: build/whirl ##- Instructions of a step in fixed point, on boards without an FPU (FIXED_BOARDS, FIXED_SCENES)
 	+@for board in $(FIXED_BOARDS); do $(MAKE) BOARD=$$board price-fixed-board || exit 1; done
 
 # Work against precision of every method: the tables of docs/dev/numerics.md. `@jumping`: inputs jump every 2 ms.

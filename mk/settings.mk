@@ -120,7 +120,7 @@ $(addprefix settings-host-,$(HASH_HOSTS)): settings-host-%:
 	@$(MAKE) B=build/hosts/$* CC="$(host_cc_$*)" OPT=-O1 $(host_set_$*) settings-programs
 
 ##@ Tests and quality
-hashes-settings: settings-written ## the same bits on every board with every setting of six scenes (half an hour; SETTINGS=some SETTINGS_BOARDS="...")
+hashes-settings: settings-written ##- the same bits on every board with every setting of six scenes (half an hour; SETTINGS=some SETTINGS_BOARDS="...")
 	+@$(MAKE) $(addprefix settings-build-,$(SETTINGS_BUILDS)) $(addprefix settings-host-,$(SETTINGS_HOSTS))
 	+@$(foreach b,$(SETTINGS_BOARDS),$(call on_board,$(b),SETTINGS=$(SETTINGS) settings-images) &&) true
 	@HASH_SECONDS=7200 sh tests/hashes.sh build/hash/settings_$(SETTINGS) $(foreach k,$(SETTINGS_KINDS),-- $(call compare_settings,$(k)))

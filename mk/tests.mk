@@ -149,26 +149,26 @@ test-now: $(GEN)/.stamp
 
 ##@ Tests and quality
 # Parts of it, for while one works on something.
-test-core: $(GEN)/.stamp ## the portable suites alone, in float and double on this machine
+test-core: $(GEN)/.stamp ##- the portable suites alone, in float and double on this machine
 	@$(MAKE) build/tests/core_double build/tests/core_float
 	@sh tests/run.sh build/tests/log $(RUN_CORE)
 
 # Until when runs can be trusted, as `whirl trust` has it, against references in long double (docs/stability.md).
 TRUST_SEED ?= 14
 .PHONY: trust-check
-trust-check: build/tests/host ## whirl trust on thirty drawn chaotic mechanisms and all its scenes, against long double (a minute; TRUST_SEED=n)
+trust-check: build/tests/host ##- whirl trust on thirty drawn chaotic mechanisms and all its scenes, against long double (a minute; TRUST_SEED=n)
 	@WHIRL_FULL=1 WHIRL_SEED=$(TRUST_SEED) build/tests/host trust trust_scenes
 	@WHIRL_CASES=30 WHIRL_SEED=$(TRUST_SEED) build/tests/host trust_drawn
 
-test-host: $(GEN)/.stamp ## the suites of the program alone
+test-host: $(GEN)/.stamp ##- the suites of the program alone
 	@$(MAKE) build/tests/host build/tests/quick_suites.list
 	@sh tests/run.sh build/tests/log $(RUN_HOST)
 
-test-cli: $(GEN)/.stamp ## the scripts of tests/cli alone
+test-cli: $(GEN)/.stamp ##- the scripts of tests/cli alone
 	@$(MAKE) test-programs
 	@WHIRL=build/whirl sh tests/run.sh build/tests/log $(RUN_LONG) $(RUN_CLI)
 
-test-board: $(GEN)/.stamp ## the portable suites alone, on the emulated boards that `make test` takes
+test-board: $(GEN)/.stamp ##- the portable suites alone, on the emulated boards that `make test` takes
 	+@$(call build_board_tests,$(BOARDS_TEST))
 	@sh tests/run.sh build/tests/log $(RUN_BOARD)
 

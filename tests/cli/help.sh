@@ -1,10 +1,16 @@
 #!/bin/sh
-# help.sh: `make` alone lists every public target: all that make knows but for those that serve another, and all that
-# the docs tell of; and what the docs name is there.
+# help.sh: `make help-all` lists every public target: all that make knows but for those that serve another, and all
+# that the docs name; `make` alone lists at most 30 of them. Files and suites that the docs name are there.
 . "$(dirname "$0")/../checks.sh"
 
-MAKEFLAGS= make >"$scratch/help" 2>"$scratch/err" && sed -n 's/^  make \([a-zA-Z0-9-]*\) .*/\1/p' "$scratch/help" | sort -u >"$scratch/listed"
-verdict $? "make alone prints a list"
+MAKEFLAGS= make help-all >"$scratch/help" 2>"$scratch/err" &&
+    sed -n 's/^  make \([a-zA-Z0-9-]*\) .*/\1/p' "$scratch/help" | sort -u >"$scratch/listed"
+verdict $? "make help-all prints a list"
+MAKEFLAGS= make >"$scratch/help" 2>"$scratch/err" &&
+    sed -n 's/^  make \([a-zA-Z0-9-]*\) .*/\1/p' "$scratch/help" | sort >"$scratch/first" &&
+    comm -23 "$scratch/first" "$scratch/listed" >"$scratch/err" && [ ! -s "$scratch/err" ] &&
+    [ "$(wc -l <"$scratch/first")" -le 30 ] && [ "$(wc -l <"$scratch/first")" -ge 20 ]
+verdict $? "make alone lists at most 30 of them"
 
 # What other targets call: a target's second half (-now), and parts of one.
 parts='FORCE|objects|test-objects|board-objects|asan-run|image-rules|board-images|board-tests|run-suites|bench-board|bench-tables-board|price-fixed-board|cycles-agree|test-programs|fuzz-programs'

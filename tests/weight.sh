@@ -1,0 +1,50 @@
+#!/bin/sh
+# weight.sh: the lines of the tracked files, against the budget; `table` prints a line for each subsystem too.
+# A limit is lowered when lines have gone. Growth is paid for by removal, not by a higher limit.
+set -u
+
+# The name, its limit, and the aim for the state that is tagged 0.3.0.
+budget='
+product 95000 80000
+tests 124500 100000
+mk 11500 8000
+files 2075 1700
+'
+
+files() { # files SUBSYSTEM
+    case $1 in
+    product) git ls-files core hal boards host | grep -E '\.(c|h|inc|js|mjs|html)$' ;;
+    files) git ls-files ;;
+    tests) git ls-files tests | grep -E '\.(c|h|cpp|sh|py|mjs|awk)$' ;;
+    mk) git ls-files mk ;;
+    esac
+}
+weight() {
+    if [ "$1" = files ]; then
+        files files | wc -l
+    else
+        files "$1" | xargs cat | wc -l
+    fi
+}
+
+if [ "${1:-}" = table ]; then
+    printf '| folder | files | lines |\n| :-- | --: | --: |\n'
+    for folder in core hal boards host/*/ tests/*/ mk; do
+        listed=$(git ls-files "$folder" | grep -E '\.(c|h|cpp|inc|js|mjs|sh|py|awk|mk)$')
+        [ -z "$listed" ] ||
+            printf '| %s | %d | %d |\n' "${folder%/}" "$(echo "$listed" | wc -l)" "$(echo "$listed" | xargs cat | wc -l)"
+    done
+    printf '\n| weighed | now | limit | aim |\n| :-- | --: | --: | --: |\n'
+fi
+bad=0
+for name in product tests mk files; do
+    now=$(weight $name)
+    limit=$(echo "$budget" | sed -n "s/^$name \([0-9]*\) .*/\1/p")
+    aim=$(echo "$budget" | sed -n "s/^$name [0-9]* //p")
+    [ "${1:-}" != table ] || echo "| $name | $now | $limit | $aim |"
+    if [ "$now" -gt "$limit" ]; then
+        echo "error: $name: $now, more than $limit; hint: remove as much as you add (sh tests/weight.sh table)"
+        bad=1
+    fi
+done
+exit $bad
