@@ -99,6 +99,8 @@ arrows_hold
         $(files host | grep -v '^host/base/room\.c$')
     rule "a step of a sweep knows the image only" '^#include "host/(lang|algebra|derive)/' host/sweep/stepping.* \
         host/sweep/gauge.*
+    rule "runs are stepped by host/run/loop.c alone; host/pil/plant.c is paced by firmware" \
+        '(->|engine_[a-z]+\.)step *\(' $(files host | grep -vxE 'host/(run/loop|pil/plant)\.c')
     rule "white space at a line's end" '[[:space:]]$' $all
     rule "a tab" '	' $all
     twice=$(files core hal host | sed 's/\.[ch]$//' | sort -u | sed 's:.*/::' | sort | uniq -d)

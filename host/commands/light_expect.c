@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "host/run/engine.h"
+#include "host/run/loop.h"
 #include "load.h"
 
 /* A control period, 2 ms, may begin so much early or late (hal/clock.h). */
@@ -38,10 +38,7 @@ static int run_scene(const char *name, light_expected *e) {
     code = code == EXIT_DONE ? load(&made, &from, of, in, NULL, &wish) : code;
     if (code == EXIT_DONE) {
         void *run = engine_float.start(made.image);
-        wh_status status = WH_OK;
-        while (engine_float.steps(run) < made.image->steps && status == WH_OK) {
-            status = engine_float.step(run);
-        }
+        const wh_status status = loop_steps(&engine_float, run, made.image->steps);
         (void)snprintf(e->of[light_field("model.", name)], LIGHT_EXPECTED, "0x%016" PRIx64,
                        made.image->hash);
         (void)snprintf(e->of[light_field("hash.", name)], LIGHT_EXPECTED,

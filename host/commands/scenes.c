@@ -10,6 +10,7 @@
 #include "host/base/written.h"
 #include "host/emit/emit.h"
 #include "host/lang/builtin.h"
+#include "host/run/loop.h"
 #include "host/show/show_equations.h"
 #include "load.h"
 #include "scenes.h"
@@ -101,10 +102,7 @@ typedef struct emission {
 
 uint64_t scenes_write_hash(FILE *out, const char *what, const engine_kind *kind, const image *im) {
     void *run = kind->start(im);
-    wh_status status = WH_OK;
-    while (kind->steps(run) < im->steps && status == WH_OK) {
-        status = kind->step(run);
-    }
+    const wh_status status = loop_steps(kind, run, im->steps);
     fprintf(out, "%s %s steps %" PRIu64 " hash 0x%016" PRIx64 " %s\n", what, im->name,
             kind->steps(run), kind->hash(run), wh_status_text(status));
     uint64_t overruns;

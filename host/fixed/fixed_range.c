@@ -7,7 +7,7 @@
 #include <stdio.h>
 
 #include "host/base/room.h"
-#include "host/run/engine.h"
+#include "host/run/loop.h"
 
 static interval twice(interval seen) {
     if (seen.low == 0.0 && seen.high == 0.0) {
@@ -32,24 +32,38 @@ static void show(const fixed_watch *watch, uint64_t step, uint64_t steps) {
     }
 }
 
+typedef struct looking {
+    const image *image;
+    void *run;
+    double *angle_rad;
+    double *real;
+    interval *seen;
+    const fixed_watch *watch;
+} looking;
+
+static bool see(void *of, uint64_t step) {
+    const looking *at = of;
+    show(at->watch, step, at->image->steps);
+    engine_double.state(at->run, at->angle_rad, at->real);
+    for (int i = 0; i < at->image->reals; i++) {
+        const interval now = {at->real[i], at->real[i]};
+        at->seen[i] = step == 0 ? now : interval_hull(at->seen[i], now);
+    }
+    return true;
+}
+
 static bool look(const image *im, interval *seen, const fixed_watch *watch, diags *errors) {
     void *run = engine_double.start(im);
     double *angle = room(im->angles, sizeof *angle);
     double *real = room(im->reals, sizeof *real);
-    wh_status status = WH_OK;
-    engine_double.state(run, angle, real);
-    for (int i = 0; i < im->reals; i++) {
-        seen[i] = (interval){real[i], real[i]};
-    }
-    for (uint64_t step = 0; step < im->steps && status == WH_OK && !fixed_watch_stops(watch);
-         step++) {
-        show(watch, step, im->steps);
-        status = engine_double.step(run);
-        engine_double.state(run, angle, real);
-        for (int i = 0; i < im->reals; i++) {
-            seen[i] = interval_hull(seen[i], (interval){real[i], real[i]});
-        }
-    }
+    looking at = {im, run, angle, real, seen, watch};
+    const loop l = {.kind = &engine_double,
+                    .run = run,
+                    .steps = im->steps,
+                    .stop = watch != NULL ? watch->stop : NULL,
+                    .see = {{see, &at}}};
+    wh_status status;
+    (void)loop_run(&l, &status);
     if (watch != NULL && watch->progress) {
         fputs("\r                                      \r", stderr);
     }

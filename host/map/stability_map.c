@@ -12,6 +12,7 @@
 #include "host/run/belief.h"
 #include "host/run/horizon.h"
 #include "host/run/linearised.h"
+#include "host/run/loop.h"
 #include "host/run/start.h"
 #include "host/sweep/changes.h"
 
@@ -121,19 +122,31 @@ static double longest_stable_s(const linearised *l, wh_method method) {
 
 static bool is_stopped(const map_wish *w) { return w->stop != NULL && *w->stop; }
 
-static void watch_run(const map_wish *w, const image *im, watch *seen) {
-    void *run = w->kind->start(im);
-    books *b = books_open(im);
-    wh_status status = WH_OK;
-    for (uint64_t step = 0; status == WH_OK && step <= im->steps && !is_stopped(w); step++) {
-        if (b != NULL) {
-            books_enter(b, w->kind, run);
-        }
-        watch_enter(seen, w->kind, b, run);
-        status = step < im->steps ? w->kind->step(run) : WH_OK;
+typedef struct watching {
+    const engine_kind *kind;
+    void *run;
+    books *books;
+    watch *seen;
+} watching;
+
+static bool see(void *of, uint64_t step) {
+    const watching *at = of;
+    (void)step;
+    if (at->books != NULL) {
+        books_enter(at->books, at->kind, at->run);
     }
-    books_close(b);
-    w->kind->stop(run);
+    watch_enter(at->seen, at->kind, at->books, at->run);
+    return true;
+}
+
+static void watch_run(const map_wish *w, const image *im, watch *seen) {
+    watching at = {w->kind, w->kind->start(im), books_open(im), seen};
+    const loop l = {
+        .kind = w->kind, .run = at.run, .steps = im->steps, .stop = w->stop, .see = {{see, &at}}};
+    wh_status status;
+    (void)loop_run(&l, &status);
+    books_close(at.books);
+    w->kind->stop(at.run);
 }
 
 /* Of the run of this point: NAN where it is not known. */

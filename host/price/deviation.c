@@ -4,6 +4,7 @@
 #include <math.h>
 #include <stddef.h>
 
+#include "host/run/loop.h"
 #include "long_functions.h"
 
 /* Enter a record: false when the run is of no use any more. */
@@ -37,7 +38,7 @@ static bool take_step(const engine_kind *kind, void *run, const image *im, count
     uint64_t declared;
     const bool matrix = im->list[IMAGE_MATRIX] != NULL;
     const uint64_t before = kind->evaluations(run, &declared);
-    const bool good = kind->step(run) == WH_OK;
+    const bool good = loop_steps(kind, run, 1) == WH_OK;
     const double taken = matrix ? 1.0 : (double)(kind->evaluations(run, &declared) - before);
     c->in_steps += taken;
     c->most = taken > c->most ? taken : c->most;

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "host/number/functions.h"
+#include "host/run/loop.h"
 
 /* As many times finer than the scene's step, if they may take the operations. */
 #define FINER 16.0
@@ -44,11 +45,8 @@ int fine_steps_run(const reference_wish *w, const records *shape, uint64_t steps
         for (int i = 0; i < shape->columns; i++) {
             row[(size_t)done * (size_t)shape->columns + (size_t)i] = (long double)r->row[i];
         }
-        wh_status status = WH_OK;
-        for (uint64_t k = 0; k < steps && status == WH_OK && done < w->records; k++) {
-            status = engine_double.step(run);
-        }
-        if (status != WH_OK || done == w->records || (w->stop != NULL && *w->stop)) {
+        if (done == w->records || (w->stop != NULL && *w->stop) ||
+            loop_steps(&engine_double, run, steps) != WH_OK) {
             break;
         }
     }

@@ -9,6 +9,7 @@
 #include "host/derive/lagrange.h"
 #include "host/image/core_rows.h"
 #include "host/run/field.h"
+#include "host/run/loop.h"
 #include "host/run/start.h"
 #include "host/run/undefined.h"
 
@@ -267,11 +268,11 @@ static bool run_from(subsets *s, int first, diags *errors) {
             break;
         }
         for (int i = 1; i < count; i++) {
-            if (lanes[i].run != NULL && engine->step(lanes[i].run) != WH_OK) {
+            if (lanes[i].run != NULL && loop_steps(engine, lanes[i].run, 1) != WH_OK) {
                 lane_stop(&lanes[i], "needed: the run diverges without it");
             }
         }
-        status = engine->step(lanes[0].run);
+        status = loop_steps(engine, lanes[0].run, 1);
         if (status != WH_OK && !undefined_step(s->image, engine, lanes[0].run, status, errors)) {
             diag_error(errors, s->image->at, "a smaller --step, or an earlier --until",
                        "with all effects the run diverges in the step after t = %.9g s", time_s);

@@ -8,6 +8,7 @@
 #include "host/base/room.h"
 #include "host/number/functions.h"
 #include "host/number/ratio.h"
+#include "host/run/loop.h"
 
 /* --- the run's states, SI, in the order of the motion's -----------------------------------------------*/
 
@@ -74,28 +75,38 @@ static void set_within(const held_wish *w, held_found *h) {
     }
 }
 
+typedef struct ranging {
+    const reading *reading;
+    void *run;
+    int states;
+    double *low;
+    double *high;
+} ranging;
+
+static bool see(void *of, uint64_t step) {
+    const ranging *at = of;
+    const double *value = at->reading->value;
+    read_run(at->reading, at->run);
+    for (int i = 0; i < at->states; i++) {
+        at->low[i] = step == 0 ? value[i] : number_least(at->low[i], value[i]);
+        at->high[i] = step == 0 ? value[i] : number_most(at->high[i], value[i]);
+    }
+    return true;
+}
+
 static void find_ranges(const held_wish *w, const reading *r, held_found *h) {
     void *run = w->kind->start(w->image);
     const int n = h->states;
     double *low = room(n, sizeof *low);
     double *high = room(n, sizeof *high);
-    h->status = WH_OK;
-    for (uint64_t step = 0;; step++) {
-        read_run(r, run);
-        for (int i = 0; i < n; i++) {
-            low[i] = step == 0 ? r->value[i] : number_least(low[i], r->value[i]);
-            high[i] = step == 0 ? r->value[i] : number_most(high[i], r->value[i]);
-        }
-        h->run_steps = step;
-        h->ranged = (step & 255U) != 0 || !is_stopped(w);
-        if (step == w->image->steps || !h->ranged) {
-            break;
-        }
-        h->status = w->kind->step(run);
-        if (h->status != WH_OK) {
-            break;
-        }
-    }
+    ranging at = {r, run, n, low, high};
+    const loop l = {.kind = w->kind,
+                    .run = run,
+                    .steps = w->image->steps,
+                    .stop = w->stop,
+                    .see = {{see, &at}}};
+    h->ranged = loop_run(&l, &h->status) != LOOP_INTERRUPTED;
+    h->run_steps = w->kind->steps(run);
     w->kind->stop(run);
     for (int i = 0; i < n; i++) {
         h->state[i].open = true;
@@ -165,7 +176,7 @@ static uint64_t look_within(going *g, double h_s, enclosure *last_s) {
     uint64_t count = 0;
     while (g->done < g->held->run_steps && !all_closed(g->held)) {
         const enclosure tau = enclosure_add(g->next_s, enclosure_times(g->step_s, (double)count));
-        if (!(tau.high <= h_s) || g->wish->kind->step(g->run) != WH_OK) {
+        if (!(tau.high <= h_s) || loop_steps(g->wish->kind, g->run, 1) != WH_OK) {
             break;
         }
         g->done++;

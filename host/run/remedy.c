@@ -4,6 +4,7 @@
 #include <stdio.h>
 
 #include "host/number/functions.h"
+#include "loop.h"
 #include "step_text.h"
 
 /* A remedy keeps this part of the limit: the lists of a user's run may round a little otherwise. */
@@ -67,6 +68,14 @@ static bool does(const verdict *v) {
     return v->against == 0 && (v->books == NULL || !v->books->undefined);
 }
 
+/* Of no use any more once it has jumped. */
+static bool see(void *of, uint64_t step) {
+    verdict *v = of;
+    (void)step;
+    verdict_enter(v);
+    return !jumped_some(v->jumped);
+}
+
 static bool try(search *s, const wish *w) {
     image with;
     if (is_stopped(s) || !image_with(s->image, w, &with)) {
@@ -80,20 +89,15 @@ static bool try(search *s, const wish *w) {
     const engine_kind *kind = w->in_double ? &engine_double : s->kind;
     void *run = kind->start(&with);
     verdict *v = verdict_open(&with, s->plain, kind, run);
-    wh_status status = WH_OK;
-    uint64_t step = 0;
     v->part = LEAVES;
-    verdict_enter(v);
-    while (step < with.steps && status == WH_OK && !is_stopped(s) && !jumped_some(v->jumped)) {
-        status = kind->step(run);
-        if (status == WH_OK) {
-            step++;
-            verdict_enter(v);
-        }
-    }
-    s->spent += operations(&with) * (double)step / (double)(with.steps + (with.steps == 0));
+    const loop l = {
+        .kind = kind, .run = run, .steps = with.steps, .stop = s->stop, .see = {{see, v}}};
+    wh_status status;
+    const bool whole = loop_run(&l, &status) == LOOP_DONE;
+    s->spent +=
+        operations(&with) * (double)kind->steps(run) / (double)(with.steps + (with.steps == 0));
     verdict_end(v, status);
-    const bool good = status == WH_OK && step == with.steps && does(v);
+    const bool good = whole && does(v);
     verdict_close(v);
     kind->stop(run);
     return good;

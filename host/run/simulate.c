@@ -19,6 +19,7 @@
 #include "host/base/written.h"
 #include "host/number/functions.h"
 #include "host/plot/gnuplot.h"
+#include "loop.h"
 #include "opening.h"
 #include "records.h"
 #include "summary.h"
@@ -43,6 +44,7 @@ typedef struct simulation {
     opening opening; /* of the summary */
     uint64_t steps;  /* wanted */
     bool write_failed;
+    double shown_s;   /* when progress was, of the clock */
     diags *undefined; /* what was not a finite number beside the motion */
     bool energies_told;
     int output;           /* the first output that was not a finite number, or -1, */
@@ -203,30 +205,26 @@ static void enter(simulation *sim, uint64_t step) {
     }
 }
 
-static wh_status loop(simulation *sim, bool *interrupted) {
-    const simulation_settings *s = sim->settings;
-    wh_status status = WH_OK;
-    double shown_s = now_s();
-    uint64_t step = 0;
-    enter(sim, 0);
-    while (step < sim->steps && !sim->write_failed) {
-        status = s->kind->step(sim->run);
-        if (status != WH_OK) {
-            break;
-        }
-        step++;
-        enter(sim, step);
-        if (s->stop != NULL && *s->stop) {
-            *interrupted = true;
-            break;
-        }
-        if ((step & 255U) == 0) {
-            if (s->progress && now_s() - shown_s > 0.2) {
-                shown_s = now_s();
-                fprintf(stderr, "\r%5.1f %%", 100.0 * (double)step / (double)sim->steps);
-            }
-        }
+static bool see(void *of, uint64_t step) {
+    simulation *sim = of;
+    enter(sim, step);
+    if (sim->settings->progress && (step & 255U) == 0 && now_s() - sim->shown_s > 0.2) {
+        sim->shown_s = now_s();
+        fprintf(stderr, "\r%5.1f %%", 100.0 * (double)step / (double)sim->steps);
     }
+    return !sim->write_failed;
+}
+
+static wh_status go(simulation *sim, bool *interrupted) {
+    const simulation_settings *s = sim->settings;
+    const loop l = {.kind = s->kind,
+                    .run = sim->run,
+                    .steps = sim->steps,
+                    .stop = s->stop,
+                    .see = {{see, sim}}};
+    wh_status status;
+    sim->shown_s = now_s();
+    *interrupted = loop_run(&l, &status) == LOOP_INTERRUPTED;
     if (s->progress) {
         fprintf(stderr, "\r        \r");
     }
@@ -437,7 +435,7 @@ simulation_result simulate(const image *im, const simulation_settings *s, simula
         records_read(sim.records, sim.run, 0.0);
         sim.opening = opening_begin(sim.records, sim.steps);
         sim.traces = sim.vcd != NULL ? traces_open(sim.vcd, sim.records, s->every) : NULL;
-        const wh_status status = loop(&sim, &interrupted);
+        const wh_status status = go(&sim, &interrupted);
         verdict_end(sim.verdict, status);
         horizon h;
         const bool known = sim.verdict->twins != NULL && status == WH_OK;

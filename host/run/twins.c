@@ -8,6 +8,7 @@
 #include "folded.h"
 #include "host/base/room.h"
 #include "host/number/functions.h"
+#include "loop.h"
 #include "undefined.h"
 
 /* What looking for events takes of evaluations, beside a step's own. */
@@ -275,14 +276,14 @@ static void look(pair *p, double time_s) {
 }
 
 static bool step_finer(pair *p) {
-    wh_status status = WH_OK;
-    for (uint64_t i = 0; i < p->to->each && status == WH_OK; i++) {
-        status = engine_double.step(p->finer);
-        if (status == WH_OK) {
+    bool good = true;
+    for (uint64_t i = 0; i < p->to->each && good; i++) {
+        good = loop_steps(&engine_double, p->finer, 1) == WH_OK;
+        if (good) {
             jumped_enter(p->finer_jumps, &engine_double, p->finer);
         }
     }
-    return status == WH_OK;
+    return good;
 }
 
 /* Has an angle gone so far that double knows no sine of it? A float's turns on. */
@@ -296,8 +297,6 @@ static bool is_unwrapped(const pair *p) {
     }
     return found;
 }
-
-static bool is_stopped(const twins_wish *w) { return w->stop != NULL && *w->stop; }
 
 /* Behind this time nothing is known. */
 static void end_passages(twins *t, double time_s) {
@@ -414,20 +413,25 @@ static void pair_free(pair *p) {
     free(p);
 }
 
+static bool see(void *of, uint64_t step) {
+    twins *t = of;
+    const twins_wish *w = &t->pair->wish;
+    twins_enter(t);
+    if ((step & 255U) == 0 && w->progress != NULL) {
+        w->progress((double)step / (double)(w->image->steps + (w->image->steps == 0)), w->told);
+    }
+    return true;
+}
+
 twins *twins_run(const twins_wish *w) {
     twins *t = twins_open(w, w->kind->start(w->image));
-    wh_status status = WH_OK;
-    twins_enter(t);
-    for (uint64_t step = 0; step < w->image->steps && !t->stopped && status == WH_OK; step++) {
-        status = w->kind->step(t->run);
-        if (status == WH_OK) {
-            twins_enter(t);
-        }
-        t->stopped = is_stopped(w);
-        if ((step & 255U) == 0 && w->progress != NULL) {
-            w->progress((double)step / (double)w->image->steps, w->told);
-        }
-    }
+    const loop l = {.kind = w->kind,
+                    .run = t->run,
+                    .steps = w->image->steps,
+                    .stop = w->stop,
+                    .see = {{see, t}}};
+    wh_status status;
+    t->stopped = loop_run(&l, &status) == LOOP_INTERRUPTED;
     twins_end(t, status);
     return t;
 }

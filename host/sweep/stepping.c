@@ -7,6 +7,7 @@
 
 #include "host/base/room.h"
 #include "host/number/functions.h"
+#include "host/run/loop.h"
 #include "host/run/undefined.h"
 #include "host/run/verdict.h"
 
@@ -109,6 +110,24 @@ static bool balance(meter *m, diags *errors, FILE *reason) {
     return false;
 }
 
+typedef struct walk {
+    meter *meter;
+    uint64_t from; /* the step from which series count */
+    bool (*abandon)(void);
+    diags *errors;
+    FILE *reason;
+    bool good;
+} walk;
+
+static bool see(void *of, uint64_t step) {
+    walk *w = of;
+    w->good = balance(w->meter, w->errors, w->reason);
+    if (w->good && w->meter->series && step >= w->from) {
+        meter_enter(w->meter, false);
+    }
+    return w->good && !(step % ABANDON_STEPS == 0 && w->abandon != NULL && w->abandon());
+}
+
 /* Step to the end. False when the run failed, said on `reason` or reported. */
 static bool run_through(meter *m, bool (*abandon)(void), diags *errors, FILE *reason) {
     const engine_kind *kind = m->wanted->kind;
@@ -125,24 +144,15 @@ static bool run_through(meter *m, bool (*abandon)(void), diags *errors, FILE *re
                 (double)PERIOD_SAMPLES_MAX);
         return false;
     }
-    for (uint64_t step = 0;; step++) {
-        if (!balance(m, errors, reason)) {
-            return false;
-        }
-        if (m->series && step >= from) {
-            meter_enter(m, false);
-        }
-        if (step == steps || (step % ABANDON_STEPS == 0 && abandon != NULL && abandon())) {
-            break;
-        }
-        const wh_status status = kind->step(m->run);
-        if (status != WH_OK) {
-            if (!tell_undefined(m, status, errors)) {
-                fprintf(reason, "diverged in the step after t = %.9g s",
-                        ratio_times(step, im->step));
-            }
-            return false;
-        }
+    walk w = {m, from, abandon, errors, reason, true};
+    const loop l = {.kind = kind, .run = m->run, .steps = steps, .see = {{see, &w}}};
+    wh_status status;
+    if (loop_run(&l, &status) == LOOP_FAILED && !tell_undefined(m, status, errors)) {
+        fprintf(reason, "diverged in the step after t = %.9g s",
+                ratio_times(kind->steps(m->run), im->step));
+    }
+    if (status != WH_OK || !w.good) {
+        return false;
     }
     meter_enter(m, true);
     return true;
