@@ -4,6 +4,7 @@
 #include <inttypes.h>
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "core/contact.h"
 #include "host/base/room.h"
@@ -128,12 +129,15 @@ static void say_missed(FILE *out, const verdict *v) {
 }
 
 static void say_aliased(FILE *out, const verdict *v) {
-    const finding *f = &v->found[FINDING_ALIASED];
-    const component c = image_component(v->image, f->component);
-    fprintf(out,
-            "more goes on between the stages of a step than they see, seen first at t = %.6g s: in "
-            "the mean, %s%.*s is %.3g %% of its largest off",
-            f->at_s, v->image->unknown[c.unknown].name, c.primes + 1, PRIMES, 100.0 * f->value);
+    const twins_aliased *a = &v->twins->aliased;
+    const char *unit = v->twins->shape->column[a->column].unit->shown;
+    char name[NAME_TEXT];
+    fprintf(
+        out,
+        "more goes on between the stages of a step than they see: with steps of %.4g s, which share no "
+        "period with these, %s ends at %.6g%s%s, not at %.6g",
+        a->step_s, column_name(v, a->column, name), a->other, strcmp(unit, "1") == 0 ? "" : " ",
+        strcmp(unit, "1") == 0 ? "" : unit, a->value);
 }
 
 /* The contact with the most events in such steps, but for `besides`; -1: none had any. */
@@ -205,16 +209,11 @@ static bool say_cause(FILE *out, const verdict *v) {
     return hint != NULL;
 }
 
-/* So many parts of a step are tried first: by the order of the method, or as the aliasing needs. */
+/* So many parts of a step are tried first, by the order of the method. */
 static double first_parts(const verdict *v) {
     const wh_method_row *row = &wh_methods[v->image->settings.method];
     const double ratio = v->found[FINDING_ENERGY].value;
-    double parts =
-        ratio > 0.0 ? number_power(number_least(ratio, 1.0) / 3e-4, 1.0 / row->order) : 1.0;
-    if (is_told(v, FINDING_ALIASED)) {
-        parts = number_most(parts, v->image->step_s / between_seen(v->between).fine_step_s);
-    }
-    return parts;
+    return ratio > 0.0 ? number_power(number_least(ratio, 1.0) / 3e-4, 1.0 / row->order) : 1.0;
 }
 
 static void say_remedy(FILE *out, const verdict *v, const image *plain,

@@ -69,7 +69,7 @@ static horizon_column judge(const twins *t, int k, double tolerance) {
                            .off = c->off.most * t->left_out,
                            .rounding = c->rounding,
                            .until_s = passages_until_s(&c->off, level)};
-    if (t->between) { /* puts off both alike, nobody knows from when on */
+    if (t->aliased.column > 0) { /* puts off both alike, nobody knows from when on */
         made.verdict = HORIZON_UNTIL;
         made.until_s = 0.0;
         return made;

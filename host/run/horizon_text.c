@@ -142,7 +142,7 @@ static void print_verdict(FILE *out, const horizon *h) {
                       "without bound: no motion gets through there\n",
                 t->jumped_s);
     }
-    if (t->between) {
+    if (t->aliased.column > 0) {
         fprintf(out, "more goes on between the stages of its steps than they see, so that half the "
                      "step says nothing\n");
     }
@@ -206,7 +206,7 @@ void horizon_print_line(FILE *out, const horizon *h, bool doubted) {
         } else {
             fprintf(out, "rounding may be why it stands still\n");
         }
-    } else if (h->of->between) {
+    } else if (h->of->aliased.column > 0) {
         fputs(
             "trusted            not to be told: more goes on between the stages of its steps than "
             "they see\n",

@@ -64,8 +64,12 @@ static double operations(const image *im) {
                                 2.0 * (im->list[IMAGE_BOOKS]->count + BESIDE));
 }
 
+/* A finer run that ended early tells of no remedy. */
 static bool does(const verdict *v) {
-    return v->against == 0 && (v->books == NULL || !v->books->undefined);
+    const twins *t = v->twins;
+    const bool is_told =
+        t == NULL || t->cut_s < 0.0 || t->cut_s >= finding_rows[FINDING_ACCURACY].limit * t->end_s;
+    return is_told && v->against == 0 && (v->books == NULL || !v->books->undefined);
 }
 
 /* Of no use any more once it has jumped. */

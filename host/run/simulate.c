@@ -411,9 +411,9 @@ static void trust(simulation *sim, horizon *h, simulation_trust *to) {
     if (!h->to_the_end) {
         sim->trusted_s = number_most(h->until_s, sim->image->step_s);
     }
-    const bool told = h->to_the_end
-                          ? v->against == 0
-                          : h->column[h->first].verdict != HORIZON_NOT_TOLD && !v->twins->between;
+    const bool told = h->to_the_end ? v->against == 0
+                                    : h->column[h->first].verdict != HORIZON_NOT_TOLD &&
+                                          v->twins->aliased.column == 0;
     to->until_s = told ? h->until_s : -1.0;
 }
 

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "aliasing.h"
 #include "folded.h"
 #include "host/base/room.h"
 #include "host/number/functions.h"
@@ -235,7 +236,6 @@ typedef struct pair {
     void *finer;
     jumped *our_jumps;
     jumped *finer_jumps;
-    between *between; /* stages of ours */
     rounded rounded;
     uint64_t stride; /* steps between looks */
     double look_s;   /* the last look, */
@@ -349,7 +349,6 @@ void twins_enter(twins *t) {
     const uint64_t step = p->wish.kind->steps(t->run);
     if (p->owns) {
         jumped_enter(p->our_jumps, p->wish.kind, t->run);
-        between_enter(p->between, p->wish.kind, t->run);
     }
     if (t->books != NULL) {
         books_enter(t->books, p->wish.kind, t->run);
@@ -383,10 +382,9 @@ twins *twins_open(const twins_wish *w, void *run) {
                 .wish = *w,
                 .finers = records_open(NULL, &t->finer, &engine_double),
                 .finer = engine_double.start(&t->finer),
-                .owns = w->between == NULL,
-                .our_jumps = w->between == NULL ? jumped_open(w->image) : w->jumped,
+                .owns = !w->watched,
+                .our_jumps = w->watched ? w->jumped : jumped_open(w->image),
                 .finer_jumps = jumped_open(&t->finer),
-                .between = w->between == NULL ? between_open(w->image, w->kind) : w->between,
                 .rounded = rounded_open(&t->finer),
                 .stride = 1U + (w->image->steps - (w->image->steps > 0)) / TWINS_LOOKS};
     return t;
@@ -396,9 +394,11 @@ void twins_end(twins *t, wh_status status) {
     pair *p = t->pair;
     t->status = status;
     t->end_s = ratio_times(p->wish.kind->steps(t->run), p->wish.image->step);
-    t->between = between_seen(p->between).component >= 0;
     take_rounding(t, &p->rounded);
     take_places(t);
+    if (status == WH_OK && !t->stopped && t->end_s > 0.0) {
+        aliasing_find(t, p->finers->row, p->wish.stop);
+    }
 }
 
 static void pair_free(pair *p) {
@@ -406,7 +406,6 @@ static void pair_free(pair *p) {
     jumped_close(p->finer_jumps);
     if (p->owns) {
         jumped_close(p->our_jumps);
-        between_close(p->between);
     }
     records_close(p->finers);
     engine_double.stop(p->finer);

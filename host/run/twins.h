@@ -10,7 +10,6 @@
 #include <signal.h>
 
 #include "belief.h"
-#include "between.h"
 #include "jumped.h"
 #include "passage.h"
 #include "records.h"
@@ -26,8 +25,8 @@ typedef struct twins_wish {
     const engine_kind *kind;
     const image *plain; /* as twins_plain() says: the image itself where it says nothing */
     bool books;         /* keep the run's books, and tell what they leave over */
-    jumped *jumped;     /* of a run that is watched already: what it jumped over, */
-    between *between;   /* and what its stages do not see; NULL: watched here */
+    bool watched;       /* the caller owns the run, and what it jumped over: */
+    jumped *jumped;     /* NULL: over nothing */
     const volatile sig_atomic_t *stop;          /* may be NULL */
     void (*progress)(double share, void *told); /* now and then; or NULL */
     void *told;
@@ -47,6 +46,15 @@ typedef struct twins_column {
     double alike;    /* the largest range of what is no rate and has its unit */
     passages off;
 } twins_column;
+
+/* More goes on within a step than its stages see (aliasing.h). */
+typedef struct twins_aliased {
+    int column;    /* that is furthest off at the end; 0: none is */
+    double part;   /* of its range, by which it is */
+    double value;  /* in the column's unit, and */
+    double other;  /* with another step, */
+    double step_s; /* this one */
+} twins_aliased;
 
 typedef struct twins {
     image finer;   /* the other's image; shares its lists */
@@ -70,8 +78,7 @@ typedef struct twins {
     bool missed;  /* or passed through something (host/run/missed.h) */
     double
         cut_s; /* the last look before the first of these three: nothing is known behind it; below 0: they are none */
-    bool
-        between; /* more goes on between the stages of its steps than they see (host/run/between.h) */
+    twins_aliased aliased;
     bool stopped;
     books *books; /* NULL: none */
     struct pair *pair;

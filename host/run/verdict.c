@@ -31,8 +31,8 @@ const finding_row finding_rows[FINDINGS] = {
     [FINDING_MISSED] = {"missed", FINDING_WARNING, 0.0, "steps",
                         "a contact or a force that no step met has not acted",
                         "passed through a contact, or over a force, or may have"},
-    [FINDING_ALIASED] = {"aliased", FINDING_WARNING, 0.0, "of the largest slope",
-                         "between.h has its limits: one hundredth of a slope in the mean",
+    [FINDING_ALIASED] = {"aliased", FINDING_WARNING, HORIZON_TOLERANCE, "of a range",
+                         "as far as a run is trusted; aliasing.h adds what steps alone are off",
                          "have something faster than the step, of which its stages see too "
                          "little"},
     [FINDING_EVENTS] = {"events", FINDING_WARNING, 0.0, "steps",
@@ -52,12 +52,11 @@ verdict *verdict_open(const image *im, const image *plain, const engine_kind *ki
     v->books = books_open(im);
     v->watch = watch_open(im, kind);
     v->jumped = jumped_open(im);
-    v->between = between_open(im, kind);
     const twins_wish wish = {.image = im,
                              .kind = kind,
                              .plain = plain != NULL ? plain : im,
-                             .jumped = v->jumped,
-                             .between = v->between};
+                             .watched = true,
+                             .jumped = v->jumped};
     if (im->steps > 0 && twins_operations(im, wish.plain) <= TWINS_OPERATIONS_1S) {
         v->twins = twins_open(&wish, run);
     }
@@ -67,7 +66,6 @@ verdict *verdict_open(const image *im, const image *plain, const engine_kind *ki
 void verdict_close(verdict *v) {
     if (v != NULL) {
         twins_free(v->twins);
-        between_close(v->between);
         jumped_close(v->jumped);
         watch_close(v->watch);
         books_close(v->books);
@@ -100,7 +98,6 @@ void verdict_enter(verdict *v) {
     }
     watch_enter(v->watch, v->kind, v->books, v->run);
     jumped_enter(v->jumped, v->kind, v->run);
-    between_enter(v->between, v->kind, v->run);
     if (v->image->contacts > 0) {
         watch_events(v);
     }
@@ -218,7 +215,7 @@ static int first_off(const verdict *v, const horizon *h) {
 static void judge_accuracy(verdict *v) {
     const twins *t = v->twins;
     horizon h = horizon_of(t, v->part * VERDICT_TOLERANCE);
-    const int k = t->between ? -1 : first_off(v, &h);
+    const int k = t->aliased.column > 0 ? -1 : first_off(v, &h);
     const double until_s = k >= 0 ? h.column[k].until_s : 0.0;
     const bool is_cut = t->cut_s >= 0.0 && until_s >= t->cut_s && t->finer_failed_s < 0.0;
     if (k >= 0 && !is_cut && until_s < finding_rows[FINDING_ACCURACY].limit * end_s(v)) {
@@ -257,9 +254,9 @@ static void judge_jumps(verdict *v) {
 }
 
 static void judge_aliasing(verdict *v) {
-    const between_found found = between_seen(v->between);
-    if (found.component >= 0) {
-        tell(v, FINDING_ALIASED, found.off, found.begin_s, found.component);
+    const twins_aliased *found = &v->twins->aliased;
+    if (found->column > 0) {
+        tell(v, FINDING_ALIASED, found->part, -1.0, found->column);
     }
 }
 
@@ -290,9 +287,9 @@ void verdict_end(verdict *v, wh_status status) {
     if (v->twins != NULL && v->kind->steps(v->run) > 0) {
         judge_accuracy(v);
         judge_singular(v);
+        judge_aliasing(v);
     }
     judge_jumps(v);
-    judge_aliasing(v);
     judge_events(v);
     if (slow_count(v->kind, v->image, v->run) > 0) {
         tell(v, FINDING_DIGITS, slow_count(v->kind, v->image, v->run), -1.0, -1);

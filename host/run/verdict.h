@@ -74,7 +74,6 @@ typedef struct verdict {
     books *books; /* NULL of a system given by its equations */
     watch *watch;
     jumped *jumped; /* NULL: over nothing */
-    between *between;
     twins *twins; /* NULL: it would take too long */
     uint64_t overruns;
     double overran_s;                        /* the first of them began there */

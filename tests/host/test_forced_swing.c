@@ -183,7 +183,8 @@ static void test_nearly_whole_turns(void) {
         forced_case c = draw(&d);
         const double more = pow(10.0, dice_between(&d, -2.5, -0.05));
         c.summed = true;
-        c.steps = RECORDS * (1 + (int)dice_one_of(&d, 30));
+        c.steps = RECORDS * 10 *
+                  (1 + (int)dice_one_of(&d, 3)); /* records of whole numbers of remedies' steps */
         c.clock_radps = (6.283185307179586 * turns[dice_one_of(&d, 9)] +
                          (dice_one_of(&d, 2) == 0 ? more : -more)) /
                         c.step_s;

@@ -1,0 +1,15 @@
+/* aliasing.h: does more go on within a step than its stages see? A force at 1 kHz, in steps of 4 ms, is the same at every
+ * stage, and is one that stands still. In steps of half the length it is that too, so that the finer run agrees.
+ *
+ * A third run takes a step that shares no period with either: the run's span over a prime number of steps. It meets
+ * such a force at other moments each time, and ends elsewhere by more than the runs differ.
+ */
+#ifndef RUN_ALIASING_H
+#define RUN_ALIASING_H
+
+#include "twins.h"
+
+/* Of the runs' end: `now[columns]` is the finer run's. A limit is a part of a column's range. */
+void aliasing_find(twins *t, const double *now, const volatile sig_atomic_t *stop);
+
+#endif
