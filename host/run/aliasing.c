@@ -2,8 +2,11 @@
 #include "aliasing.h"
 
 #include <math.h>
+#include <stdlib.h>
+#include <string.h>
 
 #include "horizon.h"
+#include "host/base/room.h"
 #include "host/number/functions.h"
 #include "loop.h"
 
@@ -24,15 +27,15 @@ static bool is_prime(uint64_t n) {
 }
 
 /* False: its step is no ratio of two numbers. */
-static bool third_image(const twins *t, image *im) {
+static bool third_image(const twins *t, uint64_t steps, image *im) {
     const image *run = t->shape->image;
     *im = t->finer;
-    im->steps = 1U + (uint64_t)(STEPS * (double)run->steps);
+    im->steps = 1U + (uint64_t)(STEPS * (double)steps);
     while (!is_prime(im->steps)) {
         im->steps++;
     }
     im->step = run->step;
-    if (__builtin_mul_overflow(im->step.numerator, run->steps, &im->step.numerator) ||
+    if (__builtin_mul_overflow(im->step.numerator, steps, &im->step.numerator) ||
         __builtin_mul_overflow(im->step.denominator, im->steps, &im->step.denominator)) {
         return false;
     }
@@ -46,34 +49,67 @@ static bool is_compared(const twins *t, const horizon_column *c, int k) {
            c->verdict != HORIZON_ROUNDING;
 }
 
-static void compare(twins *t, const horizon *h, const double *now, const double *other) {
+static void compare(twins *t, const horizon *h, const double *now, const double *other,
+                    double step_s) {
     for (int k = 1; k < t->columns; k++) {
         const horizon_column *c = &h->column[k];
         const double off = fabs(other[k] - now[k]);
         const double range = number_most(c->range, off);
-        const double least =
-            h->tolerance * range + ITS_OWN * (c->off + c->rounding) + ALIKE * t->column[k].one;
+        const double within = h->tolerance * range; /* so far the run and the finer one agree */
+        const double least = within + ITS_OWN * (number_least(c->off, within) + c->rounding) +
+                             ALIKE * t->column[k].one;
         if (is_compared(t, c, k) && off > least && off / range > t->aliased.part) {
-            t->aliased = (twins_aliased){k, off / range, now[k], other[k], t->aliased.step_s};
+            t->aliased = (twins_aliased){.column = k,
+                                         .part = off / range,
+                                         .value = now[k],
+                                         .other = other[k],
+                                         .at_s = now[0],
+                                         .step_s = step_s};
         }
     }
 }
 
-void aliasing_find(twins *t, const double *now, const volatile sig_atomic_t *stop) {
-    image im;
-    wh_status status;
-    horizon h = horizon_of(t, HORIZON_TOLERANCE);
-    if (t->cut_s < 0.0 && t->shape->image->settings.matrix == MATRIX_NONE && third_image(t, &im)) {
-        records *r = records_open(NULL, &im, &engine_double);
-        void *run = engine_double.start(&im);
-        const loop l = {.kind = &engine_double, .run = run, .steps = im.steps, .stop = stop};
-        t->aliased.step_s = im.step_s;
-        if (loop_run(&l, &status) == LOOP_DONE) {
-            records_read(r, run, t->end_s);
-            compare(t, &h, now, r->row);
+/* The steps until which the finer run trusts every column. */
+static uint64_t trusted_steps(const twins *t, const horizon *h) {
+    const image *im = t->shape->image;
+    double until_s = t->end_s;
+    for (int k = 1; k < t->columns; k++) {
+        if (h->column[k].verdict == HORIZON_UNTIL) {
+            until_s = number_least(until_s, h->column[k].until_s);
         }
-        engine_double.stop(run);
-        records_close(r);
+    }
+    return until_s < t->end_s ? (uint64_t)(until_s / im->step_s) : im->steps;
+}
+
+/* Where that many steps of this image end: row[columns]. False where they fail, or are stopped. */
+static bool end_of(const twins *t, const image *im, const volatile sig_atomic_t *stop,
+                   double *row) {
+    wh_status status;
+    records *r = records_open(NULL, im, &engine_double);
+    void *run = engine_double.start(im);
+    const loop l = {.kind = &engine_double, .run = run, .steps = im->steps, .stop = stop};
+    const bool good = loop_run(&l, &status) == LOOP_DONE;
+    records_read(r, run, ratio_times(im->steps, im->step));
+    memcpy(row, r->row, (size_t)t->columns * sizeof *row);
+    engine_double.stop(run);
+    records_close(r);
+    return good;
+}
+
+void aliasing_find(twins *t, const double *now, const volatile sig_atomic_t *stop) {
+    image third;
+    horizon h = horizon_of(t, HORIZON_TOLERANCE);
+    const uint64_t steps = trusted_steps(t, &h);
+    if (steps > 0 && t->shape->image->settings.matrix == MATRIX_NONE &&
+        third_image(t, steps, &third)) {
+        image finer = t->finer;
+        double *row = room(2 * (int64_t)t->columns, sizeof *row);
+        finer.steps = steps * t->each;
+        const bool whole = steps == t->shape->image->steps;
+        if (end_of(t, &third, stop, row) && (whole || end_of(t, &finer, stop, row + t->columns))) {
+            compare(t, &h, whole ? now : row + t->columns, row, third.step_s);
+        }
+        free(row);
     }
     horizon_free(&h);
 }

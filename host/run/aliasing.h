@@ -2,7 +2,8 @@
  * stage, and is one that stands still. In steps of half the length it is that too, so that the finer run agrees.
  *
  * A third run takes a step that shares no period with either: the run's span over a prime number of steps. It meets
- * such a force at other moments each time, and ends elsewhere by more than the runs differ.
+ * such a force at other moments each time, and ends elsewhere. They are compared at the end of the
+ * span that the finer run trusts.
  */
 #ifndef RUN_ALIASING_H
 #define RUN_ALIASING_H

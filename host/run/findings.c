@@ -131,13 +131,13 @@ static void say_missed(FILE *out, const verdict *v) {
 static void say_aliased(FILE *out, const verdict *v) {
     const twins_aliased *a = &v->twins->aliased;
     const char *unit = v->twins->shape->column[a->column].unit->shown;
+    const bool plain = strcmp(unit, "1") == 0;
     char name[NAME_TEXT];
-    fprintf(
-        out,
-        "more goes on between the stages of a step than they see: with steps of %.4g s, which share no "
-        "period with these, %s ends at %.6g%s%s, not at %.6g",
-        a->step_s, column_name(v, a->column, name), a->other, strcmp(unit, "1") == 0 ? "" : " ",
-        strcmp(unit, "1") == 0 ? "" : unit, a->value);
+    fprintf(out,
+            "more goes on between the stages of a step than they see: with steps of %.4g s, which "
+            "share no period with these, %s is %.6g%s%s at t = %.6g s, not %.6g",
+            a->step_s, column_name(v, a->column, name), a->other, plain ? "" : " ",
+            plain ? "" : unit, a->at_s, a->value);
 }
 
 /* The contact with the most events in such steps, but for `besides`; -1: none had any. */

@@ -64,12 +64,20 @@ static double operations(const image *im) {
                                 2.0 * (im->list[IMAGE_BOOKS]->count + BESIDE));
 }
 
-/* A finer run that ended early tells of no remedy. */
+/* Is it wrong from its begin on? A motion that is chaotic is right for longer. */
+static bool is_off_at_once(const verdict *v) {
+    if (v->twins == NULL) {
+        return false;
+    }
+    horizon h = horizon_of(v->twins, HORIZON_TOLERANCE);
+    const bool off = h.first >= 0 && h.column[h.first].verdict == HORIZON_UNTIL &&
+                     h.until_s < VERDICT_BEGIN * v->twins->end_s;
+    horizon_free(&h);
+    return off;
+}
+
 static bool does(const verdict *v) {
-    const twins *t = v->twins;
-    const bool is_told =
-        t == NULL || t->cut_s < 0.0 || t->cut_s >= finding_rows[FINDING_ACCURACY].limit * t->end_s;
-    return is_told && v->against == 0 && (v->books == NULL || !v->books->undefined);
+    return v->against == 0 && (v->books == NULL || !v->books->undefined) && !is_off_at_once(v);
 }
 
 /* Of no use any more once it has jumped. */

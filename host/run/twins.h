@@ -49,7 +49,8 @@ typedef struct twins_column {
 
 /* More goes on within a step than its stages see (aliasing.h). */
 typedef struct twins_aliased {
-    int column;    /* that is furthest off at the end; 0: none is */
+    int column;    /* that is furthest off; 0: none is */
+    double at_s;   /* then */
     double part;   /* of its range, by which it is */
     double value;  /* in the column's unit, and */
     double other;  /* with another step, */

@@ -256,7 +256,7 @@ static void judge_jumps(verdict *v) {
 static void judge_aliasing(verdict *v) {
     const twins_aliased *found = &v->twins->aliased;
     if (found->column > 0) {
-        tell(v, FINDING_ALIASED, found->part, -1.0, found->column);
+        tell(v, FINDING_ALIASED, found->part, found->at_s, found->column);
     }
 }
 
