@@ -46,55 +46,84 @@ static double furthest(const opening *o, const records *r, const char *si) {
     return most;
 }
 
-/* A length among the outputs that stays while another length moves: a centre of mass before any other, and of several the
- * first name, so that the order of the file does not matter. -1: none. */
-static int staying(const opening *o, const records *r, double *within) {
-    int found = -1;
-    bool is_found_centre = false;
-    const double most = furthest(o, r, "m");
-    for (int i = 1; i < r->columns; i++) {
-        const record_column *c = &r->column[i];
-        const bool is_centre = strstr(c->name, "cm") != NULL;
-        const double far = number_most(o->high[i] - o->first[i], o->first[i] - o->low[i]);
-        const bool stays = c->unknown < 0 && strcmp(c->unit->si, "m") == 0 &&
-                           far * c->unit->scale / c->unit->divisor < STAYS * most;
-        if (stays &&
-            (found < 0 || (is_centre && !is_found_centre) ||
-             (is_centre == is_found_centre && strcmp(c->name, r->column[found].name) < 0))) {
-            found = i;
-            is_found_centre = is_centre;
-            *within = far;
-        }
-    }
-    return found;
+/* How far column `i` got from its start. */
+static double strayed(const opening *o, int i) {
+    return number_most(o->high[i] - o->first[i], o->first[i] - o->low[i]);
 }
 
-/* The moving coordinate whose name follows `after`; -1: none. */
-static int next_moving(const opening *o, const records *r, const char *after) {
+/* A length among the outputs that stays while another length moves. No more is known of it, whatever its name. */
+static bool stays(const opening *o, const records *r, int i, double most) {
+    const record_column *c = &r->column[i];
+    return c->unknown < 0 && strcmp(c->unit->si, "m") == 0 &&
+           strayed(o, i) * c->unit->scale / c->unit->divisor < STAYS * most;
+}
+
+/* A coordinate that moves, or an output that is a length. */
+static bool moves(const opening *o, const records *r, int i, bool is_output) {
+    const record_column *c = &r->column[i];
+    return c->primes == 0 && o->high[i] > o->low[i] &&
+           (is_output ? c->unknown < 0 && strcmp(c->unit->si, "m") == 0 : c->unknown >= 0);
+}
+
+/* The next column by name among those that are marked, so that the order of the file does not matter. -1: none. */
+static int next_by_name(const records *r, const bool *marked) {
     int next = -1;
     for (int i = 1; i < r->columns; i++) {
-        const record_column *c = &r->column[i];
-        if (c->unknown >= 0 && c->primes == 0 && o->high[i] > o->low[i] &&
-            strcmp(c->name, after) > 0 && (next < 0 || strcmp(c->name, r->column[next].name) < 0)) {
+        if (marked[i] && (next < 0 || strcmp(r->column[i].name, r->column[next].name) < 0)) {
             next = i;
         }
     }
     return next;
 }
 
-/* "At the end: X = 0.17 m (from 0 m), theta = 62 deg (from 80 deg)." */
-static void print_ways(FILE *out, const opening *o, const records *r) {
-    int moving = 0;
-    for (int i = next_moving(o, r, ""); i >= 0; i = next_moving(o, r, r->column[i].name)) {
+/* "x_cm stays at 0.6 m within 1.1e-09 m, y_cm at 0 m within 0.0e+00 m." False: no output stays. */
+static bool print_staying(FILE *out, const opening *o, const records *r) {
+    const double most = furthest(o, r, "m");
+    bool *marked = room(r->columns, sizeof *marked);
+    int named = 0;
+    for (int i = 1; i < r->columns; i++) {
+        marked[i] = stays(o, r, i, most);
+    }
+    for (int i; (i = next_by_name(r, marked)) >= 0 && named < NAMED; named++) {
+        marked[i] = false;
         const record_column *c = &r->column[i];
-        if (moving++ < NAMED) {
-            fprintf(out, "%s%s = %.3g %s (from %.3g %s)",
-                    moving > 1 ? ", " : "At the end: ", c->name, number_shown(r->row[i]),
-                    c->unit->shown, number_shown(o->first[i]), c->unit->shown);
+        fprintf(out, "%s%s%s at %.3g %s within %.1e %s", named > 0 ? ", " : "", c->name,
+                named > 0 ? "" : " stays", number_shown(o->first[i]), c->unit->shown,
+                1.05 * strayed(o, i), c->unit->shown);
+    }
+    free(marked);
+    fputs(named > 0 ? ".\n" : "", out);
+    return named > 0;
+}
+
+/* From the start to the end, or between the extremes if start and end are less than half the range apart. */
+static void print_way(FILE *out, const opening *o, const records *r, int i, bool is_first) {
+    const record_column *c = &r->column[i];
+    const bool swings = fabs(r->row[i] - o->first[i]) < (o->high[i] - o->low[i]) / 2.0;
+    fprintf(out, "%s%s%s %s %.3g %s %s %.3g %s", is_first ? "" : ", ", c->name,
+            is_first ? " moves" : "", swings ? "between" : "from",
+            number_shown(swings ? o->low[i] : o->first[i]), c->unit->shown, swings ? "and" : "to",
+            number_shown(swings ? o->high[i] : r->row[i]), c->unit->shown);
+}
+
+/* "x_cm moves from 0 m to 0.17 m, theta between -80 deg and 80 deg, and 1 more moves.": lengths among the outputs, then
+ * coordinates. */
+static void print_ways(FILE *out, const opening *o, const records *r) {
+    bool *marked = room(r->columns, sizeof *marked);
+    int moving = 0;
+    for (int group = 0; group < 2; group++) {
+        for (int i = 1; i < r->columns; i++) {
+            marked[i] = moves(o, r, i, group == 0);
+        }
+        for (int i; (i = next_by_name(r, marked)) >= 0; marked[i] = false) {
+            if (moving++ < NAMED) {
+                print_way(out, o, r, i, moving == 1);
+            }
         }
     }
+    free(marked);
     if (moving > NAMED) {
-        fprintf(out, ", and %d more move", moving - NAMED);
+        fprintf(out, ", and %d more move%s", moving - NAMED, moving == NAMED + 1 ? "s" : "");
     }
     fputs(moving > 0 ? ".\n" : "Nothing moves.\n", out);
 }
@@ -116,15 +145,8 @@ static void print_momentum(FILE *out, const image *im, const books *b) {
 }
 
 void opening_print(FILE *out, const opening *o, const records *r, const books *b) {
-    double within;
-    const int stays = staying(o, r, &within);
-    if (stays >= 0) {
-        const record_column *c = &r->column[stays];
-        fprintf(out, "%s stays at %s = %.3g %s within %.1e %s.\n",
-                strstr(c->name, "cm") != NULL ? "The centre of mass" : "An output", c->name,
-                number_shown(o->first[stays]), c->unit->shown, 1.05 * within, c->unit->shown);
-        return;
+    if (!print_staying(out, o, r)) {
+        print_momentum(out, r->image, b);
+        print_ways(out, o, r);
     }
-    print_momentum(out, r->image, b);
-    print_ways(out, o, r);
 }

@@ -1,5 +1,5 @@
-/* opening.h: the sentence that a run's summary opens with: a centre of mass or a momentum that stays, or how far the
- * coordinates went. */
+/* opening.h: the sentence that a run's summary opens with: the outputs that stay, or a momentum that stays and from where
+ * to where outputs and coordinates move. */
 #ifndef RUN_OPENING_H
 #define RUN_OPENING_H
 
