@@ -353,10 +353,7 @@ void show_text(FILE *out, const equations *e) {
         show_equation(&s, e, i);
         fputc('\n', out);
     }
-    if (e->contacts != NULL) {
-        fputc('\n', out);
-    }
-    show_events(out, e, "", "events inside a step, in the order in which they are taken:\n");
+    show_contacts(&s, e);
     write_first_order(&s, e);
     show_lets_end(&s, "\nwith\n\n", "\n", "\n");
 }
@@ -384,13 +381,13 @@ void show_latex(FILE *out, const equations *e) {
     const poly *bottom;
     show_lets_begin(&s, e);
     fprintf(out, "%% %s: equations of motion\n", e->instance->mechanism->name);
-    show_events(out, e, "% ", "the motion between events; inside a step:");
     fprintf(out, "\\begin{align}\n");
     for (int i = 0; i < e->count; i++) {
         show_equation(&s, e, i);
         fputs(i + 1 < e->count ? " \\\\\n" : "\n", out);
     }
     fprintf(out, "\\end{align}\n");
+    show_contacts(&s, e);
     if (show_closed_form(e, top, &bottom)) {
         write_solved(&s, e, top, bottom);
     }

@@ -9,4 +9,7 @@
  * one instant are taken; nothing when there are none. Every line begins with `prefix`. */
 void show_events(FILE *out, const equations *e, const char *prefix, const char *heading);
 
+/* The same below equations for readers, in the style of `s` and with its names for sums. */
+void show_contacts(const show *s, const equations *e);
+
 #endif

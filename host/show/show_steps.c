@@ -2,6 +2,7 @@
 #include "host/derive/forces.h"
 #include "show.h"
 #include "show_equations.h"
+#include "show_events.h"
 
 /* d/dt of the momentum: the mass matrix times the accelerations, and what the rates do to it. equations.h keeps the latter
  * together with -dT/dq. */
@@ -91,6 +92,7 @@ void show_steps(FILE *out, const equations *e, show_style style) {
     for (int i = 0; i < e->count; i++) {
         write_coordinate(&s, e, i);
     }
+    show_contacts(&s, e);
     show_lets_end(&s, latex ? "% with\n\\begin{align}\n" : "\nwith\n\n", latex ? " \\\\\n" : "\n",
                   latex ? "\n\\end{align}\n" : "\n");
 }

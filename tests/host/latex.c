@@ -67,7 +67,8 @@ static void command(reader *r, const char *name, size_t length) {
     } known[] = {{"frac", 2},         {"sqrt", 1},    {"dot", 1},   {"ddot", 1}, {"mathrm", 1},
                  {"operatorname", 1}, {"sin", 0},     {"cos", 0},   {"tan", 0},  {"exp", 0},
                  {"sinh", 0},         {"cosh", 0},    {"tanh", 0},  {"min", 0},  {"max", 0},
-                 {"cdot", 0},         {"partial", 0}, {"times", 0}, {"quad", 0}, {"varepsilon", 0}};
+                 {"cdot", 0},         {"partial", 0}, {"times", 0}, {"quad", 0}, {"varepsilon", 0},
+                 {"text", 1}};
     static const char wide[] = " sin cos tan exp sinh cosh tanh min max ";
     const bool is_quad = length == 4 && strncmp(name, "quad", 4) == 0;
     static const char greek[] =
@@ -87,13 +88,13 @@ static void command(reader *r, const char *name, size_t length) {
             for (size_t k = 0; at != NULL && k < length; k++) {
                 r->width += width_of(name[k]);
             }
-            r->width += at != NULL                ? 167
-                        : is_quad                 ? 1000
-                        : name[0] == 't'          ? 1222
-                        : name[0] == 'f'          ? 240
-                        : name[0] == 's'          ? 833
-                        : known[i].arguments == 0 ? 531
-                                                  : 0;
+            r->width += at != NULL                            ? 167
+                        : is_quad                             ? 1000
+                        : strcmp(known[i].name, "times") == 0 ? 1222
+                        : name[0] == 'f'                      ? 240
+                        : name[0] == 's'                      ? 833
+                        : known[i].arguments == 0             ? 531
+                                                              : 0;
             return;
         }
     }
@@ -135,7 +136,7 @@ static void nucleus(reader *r) {
     } else if (c == '\\' && (r->at[1] == '_' || r->at[1] == ',')) {
         r->width += r->at[1] == '_' ? 500 : 167;
         r->at += 2;
-    } else if (isalnum((unsigned char)c) || (c != '\0' && strchr("+-=/.,()", c) != NULL)) {
+    } else if (isalnum((unsigned char)c) || (c != '\0' && strchr("+-=/.,:>()", c) != NULL)) {
         r->width += width_of(c);
         r->at++;
     } else {
