@@ -31,7 +31,7 @@ static void latex_letters(FILE *out, const char *text) {
     }
 }
 
-/* The name's letters, then what stands behind them as an index: theta1 -> \theta_{1}. */
+/* The name's letters, then the rest as an index: theta1 -> \theta_{1}, no_load -> \mathrm{no}_{\mathrm{load}}. */
 static void latex_name(FILE *out, const char *name, int primes) {
     size_t stem = 0;
     while (isalpha((unsigned char)name[stem])) {
@@ -51,9 +51,10 @@ static void latex_name(FILE *out, const char *name, int primes) {
     }
     fprintf(out, "%s", primes > 0 ? "}" : "");
     if (*rest != '\0') {
-        fprintf(out, "_{");
+        const bool word = isalpha((unsigned char)rest[0]) && isalpha((unsigned char)rest[1]);
+        fprintf(out, word ? "_{\\mathrm{" : "_{");
         latex_letters(out, rest);
-        fprintf(out, "}");
+        fprintf(out, word ? "}}" : "}");
     }
     if (primes > 2) {
         fprintf(out, "^{(%d)}", primes);

@@ -204,10 +204,15 @@ static latex_number braced(reader *r) {
     return inside;
 }
 
-/* Letters and digits up to the brace, "_" for "\_". */
+/* Letters and digits up to the brace, "_" for "\_"; an index of letters is a \mathrm. */
 static void braced_name(reader *r, char *name) {
     int length = 0;
     need(r, "{");
+    if (take(r, "\\mathrm")) {
+        braced_name(r, name);
+        need(r, "}");
+        return;
+    }
     while (r->problem == NULL && *r->at != '}') {
         r->at += *r->at == '\\';
         if ((!isalnum((unsigned char)*r->at) && *r->at != '_') || length == NAME_MAX_LENGTH) {
