@@ -1,8 +1,10 @@
 /* examine.c: `whirl examine`: which momenta a mechanism keeps, and which forces change the others. */
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "commands.h"
+#include "host/base/room.h"
 #include "host/derive/symmetry.h"
 #include "host/show/show_equations.h"
 #include "load.h"
@@ -92,11 +94,57 @@ static bool any_contact_acts(const equations *e, const symmetry *of) {
     return any;
 }
 
+/* The potential energies by statement: -dV along the symmetry. */
+static void print_stored(const show *s, const equations *e, const symmetry *of,
+                         const char *prefix) {
+    algebra *a = e->algebra;
+    const mechanism *m = e->instance->mechanism;
+    const poly **row = room(e->count, sizeof *row);
+    for (int k = 0; k < m->term_count; k++) {
+        const term *from = &m->terms[k];
+        if (from->kind != TERM_V || !instance_has_term(e->instance, from)) {
+            continue;
+        }
+        const poly *stored = poly_from_expr(a, from->value);
+        for (int i = 0; i < e->count; i++) {
+            row[i] = poly_scale(a, poly_derivative(a, stored, e->unknowns[i].symbol, 0), -1.0);
+        }
+        const poly *value = symmetry_along(e, of, row);
+        if (!poly_is_zero(value)) {
+            fprintf(s->out, "%spotential energy V", prefix);
+            say_where(s->out, e, from->effect, from->at);
+            print_source(s, value);
+        }
+    }
+    free(row);
+}
+
+/* A shift of lengths by different amounts: two carts that are pushed the same way keep the difference of their momenta. */
+static void print_uncommon(const show *s, const equations *e, const symmetry *of,
+                           const char *prefix) {
+    const symbol *moved[2] = {NULL, NULL};
+    double by[2];
+    for (int i = 0; i < e->count && moved[1] == NULL && of->conserved; i++) {
+        const symbol *q = e->unknowns[i].symbol;
+        const int k = moved[0] != NULL;
+        if (q->dim.twelfths[DIM_LENGTH] == DIM_DENOMINATOR && !poly_is_zero(of->shift[i]) &&
+            poly_is_number(of->shift[i], &by[k]) && (k == 0 || by[0] < by[1] || by[0] > by[1])) {
+            moved[k] = q;
+        }
+    }
+    if (moved[1] != NULL) {
+        fprintf(s->out,
+                "%snot a common shift of %s and %s: not the total momentum, unless one is "
+                "measured from the other or in another direction\n",
+                prefix, moved[0]->name, moved[1]->name);
+    }
+}
+
 static void print_sources(const show *s, const equations *e, const symmetry *of,
                           const char *prefix) {
+    print_uncommon(s, e, of, prefix);
     if (!poly_is_zero(of->stored)) {
-        fprintf(s->out, "%spotential energy V", prefix);
-        print_source(s, poly_scale(e->algebra, of->stored, -1.0));
+        print_stored(s, e, of, prefix);
     }
     for (int k = 0; k < e->forces; k++) {
         const term *from = e->force[k].from;

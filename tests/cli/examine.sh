@@ -56,11 +56,31 @@ for hidden in 'V += 1e-6 [N/m]*X^2/2' 'F += 1e-6 [N*s/m]*(X'"'"' + 0.01 [m]*thet
     if [ $where = mechanism ]; then
         says "without: $hidden" 'conserved momenta: 1' "$scratch/device.whirl"
         says "$hidden is found" 'conserved momenta: 0' "$scratch/device.whirl" --with hidden
-        says "and named" "line 5 (effect hidden)\|potential energy V" "$scratch/device.whirl" --with hidden
+        says "and named" "line 5 (effect hidden)" "$scratch/device.whirl" --with hidden
     else
         says "$hidden is found" 'conserved momenta: 0' "$scratch/device.whirl"
     fi
 done
+# Two carts with forces of drawn signs and sizes: only equal and opposite ones keep the total momentum. A potential energy of
+# the left cart is named by its line.
+awk -v seed="${WHIRL_SEED:-46}" 'BEGIN { srand(seed); for (i = 0; i < 12; i++) {
+    left = (rand() < 0.5 ? -1 : 1) * int(1 + 4 * rand())
+    print left, i % 3 == 0 ? -left : (rand() < 0.5 ? -1 : 1) * int(1 + 4 * rand()), int(1 + 5 * rand()) } }' >"$scratch/pairs"
+while read -r left right lines; do
+    { echo 'mechanism carts "two carts"'
+        printf 'coordinate u [m]\ncoordinate v [m]\nlet f = 3 [N/m]*(v - u)\n'
+        echo "T = 2 [kg]*u'^2/2 + 5 [kg]*v'^2/2"
+        printf 'Q(u) = %s*f\nQ(v) = %s*f\n' "$left" "$right"
+        yes '# another line' | head -n "$lines"
+        echo 'effect tied "a spring" { V += 1 [N/m]*u^2/2 }'
+        echo 'scene go { step 1 [ms]; until 1 [s] }'
+    } >"$scratch/carts.whirl"
+    "$whirl" examine "$scratch/carts.whirl" >"$scratch/out" 2>&1
+    remarks=$(grep -c '^     not a common shift of u and v: not the total momentum' "$scratch/out")
+    [ "$remarks" -eq $((left + right != 0)) ] && grep -q 'conserved momenta: 1$' "$scratch/out"
+    verdict $? "forces $left f and $right f: the total momentum or not" "$scratch/out"
+    says "the spring's line" "potential energy V, line $((lines + 8)) (effect tied): -u$" "$scratch/carts.whirl" --with tied
+done <"$scratch/pairs"
 "$whirl" examine eccentric_ratio >"$scratch/out" 2>"$scratch/err"
 [ $? -eq 2 ] && grep -q '^hint: write T and V$' "$scratch/err"
 verdict $? "a system of equations is refused with a hint"
