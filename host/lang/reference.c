@@ -143,7 +143,9 @@ static bool allowed_here(parser *in, const token *name, const symbol *found, con
         break;
     case CONTEXT_EVENT:
         if (order > 1) {
-            diag_error(in->diags, name->at, NULL,
+            diag_error(in->diags, name->at,
+                       "write it with coordinates and rates: whirl derive prints the expression "
+                       "of each second derivative",
                        "stop, friction, hold and when take no second derivative, as %s %s", words,
                        by_let ? "has" : "is");
             return false;

@@ -177,6 +177,10 @@ static void test_derivatives_of_lets_keep_the_rules(void) {
         {"let w = n'", "the rate of the input 'f' is not known"},
         {"when z' crosses 0 [m/s] { set x' = 0 }", ""},
         {"friction x static 0.3 kinetic 0.2 normal abs(z')*1 [kg/s]", ""},
+        {"friction x static 0.3 kinetic 0.2 normal 1 [kg]*z''",
+         "hint: write it with coordinates and rates"},
+        {"when a'' crosses 0 [rad/s^2] { set x' = 0 }",
+         "hint: write it with coordinates and rates"},
         {"output p = z''", ""},
     };
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
