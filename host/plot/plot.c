@@ -132,10 +132,11 @@ static void write_legend(FILE *to, const panels *p, const panels_quantity *q, in
     free(words);
 }
 
-/* One run: a colour for each quantity of the panel. Several: a colour for each run, a dash for each quantity. */
+/* One run: a colour for each quantity of the panel. Several: a colour for each run, and a dash for each curve, so that a
+ * print without colours tells five of them apart. */
 static void write_style(FILE *to, const panels *p, int of_panel, int k, bool points) {
     const int line = p->runs == 1 ? of_panel : k;
-    const int dash = p->runs == 1 ? palette_dash(line) : 1 + of_panel % 5;
+    const int dash = p->runs == 1 ? palette_dash(line) : 1 + (of_panel * p->runs + k) % 5;
     if (points) {
         fprintf(to, "points pt %d ps 0.6 lc rgb '%s'", palette_point(line), palette_line(line));
     } else {
@@ -213,7 +214,7 @@ void plot_shade(FILE *to, double from_s) {
             from_s);
 }
 
-/* After the least trusted run's end in every panel, and a cross at the foot of each for an event. */
+/* After the least trusted run's end in every panel, and a cross on the axis of each for an event. */
 static void write_times(FILE *to, const plot_run *runs, int count) {
     const double trusted_s = first_trusted_s(runs, count);
     if (trusted_s > 0.0) {
@@ -222,7 +223,7 @@ static void write_times(FILE *to, const plot_run *runs, int count) {
     for (int k = 0; k < count; k++) {
         for (int i = 0; i < runs[k].marks; i++) {
             fprintf(to,
-                    "set label at first %.17g, graph 0.03 '' point pt 2 ps 0.7 lc rgb '%s' front\n",
+                    "set label at first %.17g, graph 0 '' point pt 2 ps 0.7 lc rgb '%s' front\n",
                     runs[k].mark_s[i], count > 1 ? palette_line(k) : PALETTE_FRAME);
         }
     }
@@ -290,9 +291,9 @@ static bool draw_panels(const panels *p, const char *file, const plot_choice *ch
         fprintf(g.to, "set multiplot layout %d,1 title ", p->count);
         gnuplot_quote(g.to, title);
         fprintf(g.to,
-                ".\"\\n\" noenhanced\nset key above left Left reverse noenhanced samplen 2\n"
+                ".\"\\n\" noenhanced\nset key above left Left reverse noenhanced samplen %d\n"
                 "set lmargin %d\nset rmargin %d\n",
-                LEFT_MARGIN, RIGHT_MARGIN);
+                p->runs > 1 ? 4 : 2, LEFT_MARGIN, RIGHT_MARGIN);
         const extent x = quantity_extent(p, runs, p->x);
         write_range(g.to, "x", x.least, x.most);
         if (time) {

@@ -78,6 +78,21 @@ verdict $? "two runs in two panels: four curves, named by their changes, and no 
 "$whirl" plot "$scratch/soft.csv" "$scratch/stiff.csv" --y x --legend "soft, stiff" --title "Two springs" --out "$scratch/two.svg" 2>"$scratch/err" &&
     grep -q '<text>soft<' "$scratch/two.svg" && grep -q '<text>stiff<' "$scratch/two.svg" && well_formed "$scratch/two.svg" "Two springs"
 verdict $? "a legend and a title of one's own"
+# without colours: up to five curves of a panel have dashes that differ, whatever runs and quantities they are of
+for drawn in "1 2" "1 3" "1 4" "1 5" "2 2"; do
+    # shellcheck disable=SC2086 # two numbers
+    set -- $drawn
+    quantities=$(echo x,x0 | cut -d, -f1-"$1")
+    runs=
+    for k in $(seq "$2"); do
+        awk -v k="$k" -v seed="$seed" 'BEGIN { srand(seed + k); print "time,x,x0"; for (i = 0; i < 9; i++) print i "," rand() "," rand() }' >"$scratch/dash$k.csv"
+        runs="$runs $scratch/dash$k.csv"
+    done
+    # shellcheck disable=SC2086 # files
+    "$whirl" plot $runs --panel "$quantities" --out "$scratch/dashes.svg" 2>"$scratch/err" &&
+        [ "$(sed -n "s/.*dasharray='\([^']*\)'.*M.* L.*/\1/p" "$scratch/dashes.svg" | sort -u | wc -l)" -eq $(($1 * $2 - 1)) ]
+    verdict $? "$2 runs of $1 quantities in a panel: their curves differ without colours"
+done
 # a file of another program's, with a comment and quotes, and without a file about it
 printf '# made by hand\n"time","x [mm]",other\n0,1,2\n1,2.5,\n2,3,4\n' >"$scratch/hand.csv"
 "$whirl" plot "$scratch/hand.csv" --out "$scratch/hand.svg" 2>"$scratch/err" && grep -q 'x lies between 1 and 3 mm\.' "$scratch/hand.svg" &&
