@@ -208,8 +208,33 @@ static bool is_for_left_out(const subsets *s, uint64_t out, const char *set) {
     return is;
 }
 
+/* The names that --with gives, without those that are left out; *out keeps what the scene itself, or `all`, has. */
+static void leave_out(const subsets *s, overrides *given, const char **names, uint64_t *out) {
+    bool all = false;
+    given->with = names;
+    given->with_count = 0;
+    for (int i = 0; i < s->changes->with_count; i++) {
+        const char *name = s->changes->with[i];
+        bool is_out = false;
+        all = all || strcmp(name, "all") == 0;
+        for (int k = 0; k < s->effects; k++) {
+            is_out = is_out || ((*out >> (unsigned)k & 1U) != 0 &&
+                                strcmp(name, s->of->effects[s->effect[k]].name) == 0);
+        }
+        if (!is_out) {
+            names[given->with_count++] = name;
+        }
+    }
+    for (int k = 0; k < s->effects; k++) {
+        if (!all && (s->in == NULL || !s->in->with[s->effect[k]])) {
+            *out &= ~((uint64_t)1 << (unsigned)k);
+        }
+    }
+}
+
 static void print_run(const effects_options *o, const subsets *s, uint64_t out) {
     overrides given = *s->changes;
+    const char **names = room(given.with_count, sizeof *names);
     const char **sets = room(given.set_count, sizeof *sets);
     given.sets = sets;
     given.set_count = 0;
@@ -218,6 +243,7 @@ static void print_run(const effects_options *o, const subsets *s, uint64_t out) 
             sets[given.set_count++] = s->changes->sets[i];
         }
     }
+    leave_out(s, &given, names, &out);
     char *words = pricing_words(&given, false);
     char *target = pricing_quoted(o->target);
     printf("  whirl run %s%s", target, words);
@@ -225,6 +251,7 @@ static void print_run(const effects_options *o, const subsets *s, uint64_t out) 
     putchar('\n');
     free(target);
     free(words);
+    free(names);
     free(sets);
 }
 
