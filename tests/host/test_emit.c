@@ -266,8 +266,10 @@ static void test_latex_is_balanced(void) {
     {
         check_latex("names", &d);
         char *text = printed(&d, LATEX);
-        TEST_ASSERT_NOT_NULL(strstr(text, "\\mathrm{mass}_{\\mathrm{of\\_it}} \\, \\ddot{\\phi}_{1\\_a}"));
-        TEST_ASSERT_NOT_NULL(strstr(text, "\\mathrm{mass}_{\\mathrm{of\\_it}} \\, \\ddot{\\mathrm{\\_odd}}"));
+        TEST_ASSERT_NOT_NULL(
+            strstr(text, "\\mathrm{mass}_{\\mathrm{of\\_it}} \\, \\ddot{\\phi}_{1\\_a}"));
+        TEST_ASSERT_NOT_NULL(
+            strstr(text, "\\mathrm{mass}_{\\mathrm{of\\_it}} \\, \\ddot{\\mathrm{\\_odd}}"));
         TEST_ASSERT_NOT_NULL(strstr(text, "1.5 \\cdot 10^{-7}"));
         free(text);
     }
