@@ -32,10 +32,6 @@ int image_find_component(const image *im, int unknown, int primes) {
     return -1;
 }
 
-int image_slope_component(const image *im, int i) {
-    return im->form == WH_FIRST_ORDER ? i : im->coordinates + i;
-}
-
 const char *image_stepper(const image *im) {
     switch (im->settings.matrix) {
     case MATRIX_NONE: break;

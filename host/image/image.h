@@ -353,8 +353,6 @@ void image_free(image *im); /* NULL is fine */
 component image_component(const image *im, int i);
 /* Which of them is this derivative of this unknown; -1: none. */
 int image_find_component(const image *im, int unknown, int primes);
-/* The component whose slope result i of a step's list is. */
-int image_slope_component(const image *im, int i);
 
 /* What steps it, in words: the method's title, or which matrix. */
 const char *image_stepper(const image *im);

@@ -361,10 +361,6 @@ bool unit_parse(const char *text, size_t length, unit_scale *result, unit_error 
 
 bool unit_is_si(unit_scale u) { return fabs(u.scale - u.divisor) <= 1e-14 * u.divisor; }
 
-double unit_number(unit_scale u, double si) {
-    return unit_is_si(u) ? si : si * u.divisor / u.scale;
-}
-
 const char *unit_name(int index) { return index < UNIT_COUNT ? units[index].name : NULL; }
 
 char *unit_in_si(int index, double *value, char *buffer, size_t size) {

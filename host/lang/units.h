@@ -66,8 +66,6 @@ bool unit_parse(const char *text, size_t length, unit_scale *result, unit_error 
 /* Is one of this unit one of SI, but for the rounding of its factors: no need to say which? Also true of {0},
  * no unit. */
 bool unit_is_si(unit_scale u);
-/* The number in unit u of an SI value; the value itself when unit_is_si(u). */
-double unit_number(unit_scale u, double si);
 
 /* The name of unit `index`, counted from 0, or NULL beyond the last. */
 const char *unit_name(int index);

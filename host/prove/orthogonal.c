@@ -73,18 +73,6 @@ void orthogonal_axes(int n, const double *of, const double *radii, double *axes)
     free(v);
 }
 
-void frame_product(int n, const enclosure *a, const enclosure *b, enclosure *to) {
-    for (int i = 0; i < n; i++) {
-        for (int j = 0; j < n; j++) {
-            enclosure sum = enclosure_of(0.0);
-            for (int k = 0; k < n; k++) {
-                sum = enclosure_add(sum, enclosure_mul(a[i * n + k], b[k * n + j]));
-            }
-            to[i * n + j] = sum;
-        }
-    }
-}
-
 void frame_apply(int n, const enclosure *a, const enclosure *x, enclosure *to) {
     for (int i = 0; i < n; i++) {
         enclosure sum = enclosure_of(0.0);

@@ -12,8 +12,7 @@ void orthogonal_axes(int n, const double *of, const double *radii, double *axes)
 /* inverse[n * n]: encloses that of `axes`. False: they are too far from orthogonal to tell. */
 bool orthogonal_inverse(int n, const double *axes, enclosure *inverse);
 
-/* to[n * n] = a b, to[n] = a x. */
-void frame_product(int n, const enclosure *a, const enclosure *b, enclosure *to);
+/* to[n] = a x. */
 void frame_apply(int n, const enclosure *a, const enclosure *x, enclosure *to);
 
 #endif

@@ -21,7 +21,6 @@ field *field_open(const image *im, const engine_kind *kind) {
     }
     f->value = room(im->list[IMAGE_BOOKS]->results, sizeof *f->value);
     f->input = room(im->inputs, sizeof *f->input);
-    f->stage = room(5 * (int64_t)f->n, sizeof *f->stage);
     f->base = room(im->count, sizeof *f->base);
     f->next = room(f->n, sizeof *f->next);
     f->rate = room(f->n, sizeof *f->rate);
@@ -42,7 +41,6 @@ void field_close(field *f) {
         evaluator_free(f->evaluator);
         free(f->value);
         free(f->input);
-        free(f->stage);
         free(f->base);
         free(f->next);
         free(f->rate);
@@ -69,13 +67,6 @@ void field_rounding(field *f, const double *x, double *off) {
         off[i] = f->next[i] >= 0 ? 0.0 : 0x1p-53 * error[at] + im->mass_blur * fabs(f->value[at]);
     }
     free(error);
-}
-
-double field_energy_J(const field *f) {
-    const image *im = f->image;
-    const double *entry = f->value + im->count;
-    return im->has_integral ? entry[BOOK_MOMENTA + im->count]
-                            : entry[BOOK_KINETIC] + entry[BOOK_STORED];
 }
 
 bool field_jacobian(field *f, const double *x, const double *size, double *matrix) {
@@ -123,23 +114,4 @@ void field_mass(field *f, const double *x, const double *size, double *matrix) {
         }
     }
     free(at);
-}
-
-void field_go(field *f, double span_s, int parts, double *x) {
-    const int n = f->n;
-    double *at = f->stage;
-    double *k[4] = {at + n, at + 2 * n, at + 3 * n, at + 4 * n};
-    const double h = span_s / parts;
-    static const double reach[4] = {0.0, 0.5, 0.5, 1.0};
-    for (int step = 0; step < parts; step++) {
-        for (int s = 0; s < 4; s++) {
-            for (int i = 0; i < n; i++) {
-                at[i] = s == 0 ? x[i] : x[i] + reach[s] * h * k[s - 1][i];
-            }
-            field_slope(f, at, k[s]);
-        }
-        for (int i = 0; i < n; i++) {
-            x[i] += h / 6.0 * (k[0][i] + 2.0 * (k[1][i] + k[2][i]) + k[3][i]);
-        }
-    }
 }

@@ -16,7 +16,6 @@ typedef struct field {
     evaluator *evaluator;
     double *value; /* results of the image's books list at the state looked at last */
     double *input;
-    double *stage; /* [5 * n] */
     double *base;  /* [unknowns] momenta */
     int *next;     /* [n] the component that is the slope of this one; else -1 - its unknown */
     int *rate;     /* [rows] the component that is the rate of this coordinate */
@@ -30,14 +29,10 @@ void field_slope(field *f, const double *x, double *slope);
 /* Of the state x[n] whose slope was asked for last: how far off rounding in double may put each highest one, at most; off[n], of the
  * others 0. */
 void field_rounding(field *f, const double *x, double *off);
-/* What the books balance, at the state whose slope was asked for last. J. */
-double field_energy_J(const field *f);
 /* matrix[n * n], row by row: how the slope changes with the state; `size[n]` is the size of a component where it
  * counts. False where it has no value. */
 bool field_jacobian(field *f, const double *x, const double *size, double *matrix);
 /* matrix[rows * rows]; `size` as above. The scene must have energies. */
 void field_mass(field *f, const double *x, const double *size, double *matrix);
-/* Carry x[n] on by `span_s` in `parts` equal steps of Runge-Kutta 4. */
-void field_go(field *f, double span_s, int parts, double *x);
 
 #endif
