@@ -112,6 +112,7 @@ static int make_data(const figure_options *o, const char *kind, char **word, int
                      figure_data *data) {
     char folder[] = "/tmp/whirl-figure-XXXXXX";
     static char csv_word[] = "--csv";
+    static char strict_word[] = "--strict=off"; /* warnings are printed all the same */
     if (kind[0] == 't') {
         fprintf(
             stderr,
@@ -125,7 +126,7 @@ static int make_data(const figure_options *o, const char *kind, char **word, int
         return EXIT_RUN_FAILED;
     }
     char *file = room_words("%s/records.csv", folder);
-    char *all[2 * WORDS_MOST + 3];
+    char *all[2 * WORDS_MOST + 4];
     int n = 0;
     for (int i = 1; i < count; i++) {
         all[n++] = word[i];
@@ -133,6 +134,7 @@ static int make_data(const figure_options *o, const char *kind, char **word, int
     for (int i = 0; i < o->passed_count; i++) {
         all[n++] = o->passed[i];
     }
+    all[n++] = strict_word;
     all[n++] = csv_word;
     all[n++] = file;
     plot_run taken = {0};

@@ -12,6 +12,7 @@
 #include "host/image/turned.h"
 #include "host/number/decimal.h"
 #include "host/number/functions.h"
+#include "host/run/finding.h"
 #include "host/run/methods.h"
 
 typedef struct option_row {
@@ -337,6 +338,32 @@ bool options_take_number(const char *command, const number_option *options, size
         return true;
     }
     return false;
+}
+
+bool options_strict(const char *command, char **words, int *at, double *strict, bool *bad) {
+    static const char name[] = "--strict";
+    const size_t length = sizeof name - 1;
+    const char *value = words[*at] + length;
+    if (*bad || strncmp(words[*at], name, length) != 0 || (*value != '\0' && *value != '=')) {
+        return false;
+    }
+    ++*at;
+    *strict = STRICT_FINDINGS;
+    if (strcmp(value, "=off") == 0) {
+        *strict = STRICT_OFF;
+    } else if (*value == '=') {
+        const char *end;
+        *strict = decimal_read(value + 1, &end);
+        *bad = end == value + 1 || *end != '\0' || !(*strict > 0.0 && *strict <= 1.0);
+    }
+    if (*bad) {
+        fprintf(
+            stderr,
+            "whirl %s: error: --strict takes 'off', or a part of the largest entry of the books\n"
+            "hint: --strict=off, or such as --strict=1e-6: above 0, at most 1\n",
+            command);
+    }
+    return true;
 }
 
 static bool take_cells(const char *command, const char *value, int *cells) {

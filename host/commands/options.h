@@ -108,6 +108,12 @@ bool options_number(const char *command, const char *option, const char *text, d
 #define EFFORT_LEAST 1e4
 #define EFFORT_MOST 1e15
 
+/* --strict, --strict=off or --strict=LIMIT, as verdict_fails() takes it; false if the word is another. */
+bool options_strict(const char *command, char **words, int *at, double *strict, bool *bad);
+#define OPTIONS_STRICT_HELP \
+    "  --strict=off         exit status 0 also if a warning is against a run (default: 1)\n" \
+    "  --strict=LIMIT       allow this part of the largest entry of the energy books to be left over\n"
+
 /* An option that takes a number between two bounds, both allowed. */
 typedef struct number_option {
     const char *option;

@@ -10,9 +10,8 @@
 #include "host/base/room.h"
 #include "host/fixed/engine_fixed.h"
 #include "host/fixed/fixed_plan.h"
-#include "host/number/decimal.h"
 #include "host/run/apart.h"
-#include "host/run/belief.h"
+#include "host/run/finding.h"
 #include "host/run/simulate.h"
 #include "host/run/start.h"
 #include "interrupts.h"
@@ -44,16 +43,15 @@ static const command_usage usage = {
         "  --plot FILE          a picture, .svg, .pdf or .png, drawn by gnuplot (docs/plot.md); of it:\n" RUN_CHOICE_HELP
         "  --error X=0.1mm      take the largest step that keeps the error of one coordinate, rate or output\n"
         "  --board B            whose cost the rows at the end show: a board of docs/boards.md, or host\n"
-        "                       (default: mps2-an386, a Cortex-M4F)\n"
-        "  --strict[=LIMIT]     fail when more than LIMIT (1e-3) of the largest entry of the energy books\n"
-        "                       is left over; without it such a run is only warned of\n"
+        "                       (default: mps2-an386, a Cortex-M4F)\n" OPTIONS_STRICT_HELP
         "  --quiet              no summary, no progress\n"
         "\n"
         "The summary ends with the error and the cost on a board at twice the step, the step and half of\n"
         "it, in float unless --number says another (docs/price.md), as far as they take a second.\n"
         "\n"
         "Standard error warns of what a finer run, the energy books and a few looks find against the\n"
-        "run, with options that were tried and would do (docs/warnings.md).\n"
+        "run, with options that were tried and would do (docs/warnings.md). Such a run ends with exit\n"
+        "status 1, after all outputs are written.\n"
         "\n"
         "Summary, records and plot are in the units that the file declares; a record's column whose name\n"
         "has no unit is SI: theta [deg] is in degrees, theta in radians.\n",
@@ -61,7 +59,7 @@ static const command_usage usage = {
         [EXIT_ROW_OF(EXIT_DONE)] = "",
         [EXIT_ROW_OF(EXIT_RUN_FAILED)] =
             "it diverged, or something was not a finite number (it says when, where and what to\n"
-            "       try; the records so far are kept), or --strict does not believe it",
+            "       try; the records so far are kept), or a warning is against it (see --strict)",
         [EXIT_ROW_OF(EXIT_BAD_INPUT)] = "",
         [EXIT_ROW_OF(EXIT_INTERRUPTED)] = ""}};
 
@@ -84,30 +82,6 @@ static bool take_flag(char **words, int *at, const char *name) {
     return true;
 }
 
-/* --strict or --strict=LIMIT; *bad when the limit is none. */
-static bool take_strict(char **words, int *at, double *limit, bool *bad) {
-    static const char name[] = "--strict";
-    const size_t length = sizeof name - 1;
-    const char *word = words[*at];
-    if (strncmp(word, name, length) != 0 || (word[length] != '\0' && word[length] != '=')) {
-        return false;
-    }
-    ++*at;
-    *limit = BELIEF_LIMIT;
-    if (word[length] == '=') {
-        const char *end;
-        *limit = decimal_read(word + length + 1, &end);
-        *bad = end == word + length + 1 || *end != '\0' || !(*limit > 0.0 && *limit <= 1.0);
-    }
-    if (*bad) {
-        fprintf(stderr,
-                "whirl run: error: %s takes a part of the largest entry of the books\n"
-                "hint: such as --strict=1e-6; above 0, at most 1; %g when left out\n",
-                name, BELIEF_LIMIT);
-    }
-    return true;
-}
-
 /* One option, with its value where it has one; false when the word is none. */
 static bool take_one(int count, char **words, int *at, void *options, bool *bad) {
     run_options *o = options;
@@ -115,7 +89,7 @@ static bool take_one(int count, char **words, int *at, void *options, bool *bad)
     if (run_take_choice("run", count, words, at, &o->settings.choice, bad) || *bad) {
         return true;
     }
-    if (take_strict(words, at, &o->settings.strict, bad)) {
+    if (options_strict("run", words, at, &o->settings.strict, bad)) {
         return true;
     }
     if (!*bad && (value = options_value(count, words, at, "--csv", bad)) != NULL) {
@@ -132,6 +106,9 @@ static bool take_one(int count, char **words, int *at, void *options, bool *bad)
         o->error = value;
     } else if (!*bad && (value = options_value(count, words, at, "--board", bad)) != NULL) {
         o->board_word = value;
+    } else if (!*bad && take_flag(words, at, "--json")) {
+        o->settings.json = true;
+        return true;
     } else if (!*bad && take_flag(words, at, "--quiet")) {
         o->settings.quiet = true;
         return true;
@@ -189,9 +166,9 @@ static bool find_board(run_options *o) {
 }
 
 static bool read_options(int count, char **words, run_options *o) {
-    static const char *const own[] = {"--csv",   "--columns",      "--vcd",   "--every",
-                                      "--plot",  "--error",        "--board", "--strict",
-                                      "--quiet", RUN_CHOICE_WORDS, NULL};
+    static const char *const own[] = {"--csv",  "--columns", "--vcd",          "--every",
+                                      "--plot", "--error",   "--board",        "--strict",
+                                      "--json", "--quiet",   RUN_CHOICE_WORDS, NULL};
     const target_reader reader = {
         .command = "run", .groups = usage.groups, .own = own, .take = take_one};
     o->common.number = NULL;
@@ -206,6 +183,12 @@ static bool read_options(int count, char **words, run_options *o) {
         memcmp(&o->settings.choice, &(plot_choice){0}, sizeof(plot_choice)) != 0) {
         fputs("whirl run: error: --y, --x, --panel and --title choose what --plot draws\n"
               "hint: --plot picture.svg\n",
+              stderr);
+        return false;
+    }
+    if (o->settings.json && simulation_summary(&o->settings) != stdout) {
+        fputs("whirl run: error: --json and records cannot share standard output\n"
+              "hint: --csv records.csv\n",
               stderr);
         return false;
     }
@@ -278,18 +261,15 @@ static int run_image(run_options *o, const source_model *from, const image *im, 
     o->settings.plain = plain;
     simulation_trust trust;
     const simulation_result result = simulate(im, &o->settings, &trust);
-    if (result == SIMULATION_DONE && !o->settings.quiet) {
+    if (result == SIMULATION_DONE && !o->settings.quiet && !o->settings.json) {
         rated->image = im;
         rated->plain = plain;
         rating_say(simulation_summary(&o->settings), rated, &trust);
     }
-    switch (result) {
-    case SIMULATION_DONE: return EXIT_DONE;
-    case SIMULATION_INTERRUPTED: return EXIT_INTERRUPTED;
-    case SIMULATION_BAD_FILE: return EXIT_BAD_INPUT;
-    case SIMULATION_FAILED: break;
+    if (result == SIMULATION_DONE && trust.fails != 0) {
+        finding_say_status(stderr, "run", trust.fails);
     }
-    return EXIT_RUN_FAILED;
+    return simulation_status(result, &trust);
 }
 
 /* Its step in fixed point, which the image then has: takes as long as a run where ranges are not declared. */
@@ -403,6 +383,7 @@ int run_to_take(int count, char **words, const plot_choice *choice, plot_run *ta
     o.settings.taken = taken;
     o.settings.choice = *choice;
     o.settings.quiet = true;
+    o.settings.strict = STRICT_OFF; /* a picture shows until when a run is trusted */
     return run_words(count, words, &o);
 }
 

@@ -38,17 +38,19 @@ static const command_usage usage = {
         "                       command goes on with the FILE of a sweep that was broken off\n"
         "  --fresh              start FILE anew instead\n"
         "  --jobs N             processes (default: one a processor); the rows do not depend on it\n"
-        "  --shard K/N          the K-th of N parts: their files, in order, are the whole file\n"
+        "  --shard K/N          the K-th of N parts: their files, in order, are the whole file\n" OPTIONS_STRICT_HELP
+        "  --json               one JSON object on standard output in place of rows (docs/warnings.md)\n"
         "  --quiet              no progress, no summary\n"
         "\n",
     .groups = OPTIONS_SCENE,
     .tail = "",
-    .why = {[EXIT_ROW_OF(EXIT_DONE)] = "",
-            [EXIT_ROW_OF(EXIT_RUN_FAILED)] =
-                "points did (their measures are empty; the others are there), or the file could\n"
-                "       not be written",
-            [EXIT_ROW_OF(EXIT_BAD_INPUT)] = "such as the FILE of another sweep",
-            [EXIT_ROW_OF(EXIT_INTERRUPTED)] = ""}};
+    .why = {
+        [EXIT_ROW_OF(EXIT_DONE)] = "",
+        [EXIT_ROW_OF(EXIT_RUN_FAILED)] =
+            "points did (their measures are empty; the others are there), a warning is against\n"
+            "       one (see --strict), or the file could not be written",
+        [EXIT_ROW_OF(EXIT_BAD_INPUT)] = "such as the FILE of another sweep",
+        [EXIT_ROW_OF(EXIT_INTERRUPTED)] = ""}};
 
 /* --- options -----------------------------------------------------------------------------------*/
 
@@ -63,8 +65,10 @@ typedef struct sweep_options {
     const char *csv;
     shard part;
     int jobs;
+    double strict;
     bool fresh;
     bool quiet;
+    bool json;
 } sweep_options;
 
 /* A whole number from 1 to `limit`, up to the end of the text or `end`. */
@@ -124,7 +128,7 @@ static bool take_flag(char **words, int *at, sweep_options *o) {
     const struct {
         const char *name;
         bool *flag;
-    } flags[] = {{"--fresh", &o->fresh}, {"--quiet", &o->quiet}};
+    } flags[] = {{"--fresh", &o->fresh}, {"--quiet", &o->quiet}, {"--json", &o->json}};
     for (size_t i = 0; i < sizeof flags / sizeof flags[0]; i++) {
         if (strcmp(words[*at], flags[i].name) == 0) {
             *flags[i].flag = true;
@@ -137,18 +141,26 @@ static bool take_flag(char **words, int *at, sweep_options *o) {
 
 static bool take_one(int count, char **words, int *at, void *options, bool *bad) {
     sweep_options *o = options;
-    return take_flag(words, at, o) || take_valued(count, words, at, o, bad);
+    return take_flag(words, at, o) || options_strict("sweep", words, at, &o->strict, bad) ||
+           take_valued(count, words, at, o, bad);
 }
 
 static bool read_options(int count, char **words, sweep_options *o) {
-    static const char *const own[] = {"--over", "--measure", "--from",  "--csv", "--fresh",
-                                      "--jobs", "--shard",   "--quiet", NULL};
+    static const char *const own[] = {"--over",   "--measure", "--from",  "--csv",
+                                      "--fresh",  "--jobs",    "--shard", "--json",
+                                      "--strict", "--quiet",   NULL};
     const target_reader reader = {
         .command = "sweep", .groups = usage.groups, .own = own, .take = take_one};
     if (!target_read(&reader, count, words, &o->common, o, &o->target) ||
         !target_is_there(o->target, &usage)) {
         return false;
     }
+    if (o->json && strcmp(o->csv, "-") != 0) {
+        fprintf(stderr, "whirl sweep: error: --json prints the rows that --csv FILE keeps\n"
+                        "hint: leave one of them out\n");
+        return false;
+    }
+    o->csv = o->json ? "/dev/null" : o->csv;
     if (o->over_count == 0) {
         fprintf(stderr, "whirl sweep: error: nothing to sweep over\n"
                         "hint: such as --over \"r=10..60 [mm]:11\"\n");
@@ -190,6 +202,7 @@ static int sweep_loaded(const sweep_options *o, const source_model *from, const 
                                        .jobs = o->jobs,
                                        .fresh = o->fresh,
                                        .quiet = o->quiet,
+                                       .json = o->json,
                                        .stop = &interrupted};
     interrupts_catch();
     const int code = session_run(s, &settings);
@@ -217,7 +230,8 @@ static int sweep_scene(const sweep_options *o, source_model *from, const mechani
                .scene = in,
                .changes = &changes,
                .kind = o->common.number,
-               .engine = o->common.integration};
+               .engine = o->common.integration,
+               .strict = o->strict};
     good = good && read_from(o, of, in, &changes, from->errors, &s.from_s);
     measures *wanted = good ? measures_new(of, o->measure, o->measure_count, from->errors) : NULL;
     diags_flush(from->errors, stderr);

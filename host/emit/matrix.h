@@ -3,7 +3,7 @@
 #define EMIT_MATRIX_H
 
 #include "host/image/image.h"
-#include "json.h"
+#include "host/base/json.h"
 
 /* Tables of Phi, Gamma and g, of ten digits. */
 void matrix_text(FILE *out, const image *im);

@@ -265,16 +265,48 @@ void findings_say(FILE *out, const verdict *v, const image *plain,
                   const volatile sig_atomic_t *stop, bool fails) {
     for (int id = 0; id < FINDINGS; id++) {
         const bool is_error = fails && id == FINDING_ENERGY;
-        if (is_error || (v->against & FINDING_BIT(id)) != 0) {
-            fputs(is_error ? "whirl run: error: " : "whirl run: warning: ", out);
+        const bool is_warning = (v->against & FINDING_BIT(id)) != 0;
+        if (is_error || (is_told(v, (finding_id)id) && say[id] != NULL)) {
+            fprintf(out, "whirl run: %s: ", is_error ? "error" : is_warning ? "warning" : "note");
             say[id](out, v);
             fprintf(out, " [%s]\n", finding_rows[id].word);
         }
     }
-    if ((fails || v->against != 0) && !say_cause(out, v)) {
+    if ((fails || v->against != 0 || is_told(v, FINDING_MASS)) && !say_cause(out, v)) {
         say_remedy(out, v, plain, stop);
     }
     slow_say(out, v->image, v->kind, v->run);
+}
+
+void findings_message(FILE *out, const verdict *v, finding_id id) {
+    static const char begin[] = "whirl run: note: ";
+    if (say[id] != NULL) {
+        say[id](out, v);
+        return;
+    }
+    char *text = NULL;
+    size_t length;
+    FILE *slow = room_text(&text, &length);
+    slow_say(slow, v->image, v->kind, v->run);
+    room_text_end(slow);
+    fprintf(out, "%.*s", (int)strcspn(text + sizeof begin - 1, "\n"), text + sizeof begin - 1);
+    free(text);
+}
+
+bool findings_where(const verdict *v, finding_id id, char name[FINDINGS_NAME]) {
+    const int of = v->found[id].component;
+    const image *im = v->image;
+    if (id == FINDING_ACCURACY || id == FINDING_SINGULAR) {
+        (void)column_name(v, of, name);
+    } else if (id == FINDING_MISSED && of < im->contacts) {
+        statement_text(im->contact[of].at, name, FINDINGS_NAME);
+    } else if (id == FINDING_MISSED || id == FINDING_ALIASED) {
+        const component c = image_component(im, id == FINDING_MISSED ? of - im->contacts : of);
+        snprintf(name, FINDINGS_NAME, "%.80s%.*s", im->unknown[c.unknown].name, c.primes, PRIMES);
+    } else {
+        return false;
+    }
+    return true;
 }
 
 void findings_say_failed(FILE *out, const verdict *v, const image *plain,

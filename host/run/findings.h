@@ -4,12 +4,17 @@
 
 #include <stdio.h>
 
+#include "host/base/statement.h"
 #include "verdict.h"
 
 /* One line for each finding, "whirl run: warning: ... [word]", then hints. Remedies are tried: `stop` ends that,
  * or is NULL. `fails`: the energy is an error, whatever its limit. */
 void findings_say(FILE *out, const verdict *v, const image *plain,
                   const volatile sig_atomic_t *stop, bool fails);
+/* A finding that is told: in words, without its name; and what it is of, false if it is of the whole run. */
+enum { FINDINGS_NAME = STATEMENT_SIZE };
+void findings_message(FILE *out, const verdict *v, finding_id id);
+bool findings_where(const verdict *v, finding_id id, char name[FINDINGS_NAME]);
 /* Of a run that has ended too early, or whose energies are no numbers: an option with which it goes on, if one is found. */
 void findings_say_failed(FILE *out, const verdict *v, const image *plain,
                          const volatile sig_atomic_t *stop);

@@ -14,6 +14,7 @@
 #include "failure.h"
 #include "findings.h"
 #include "horizon_text.h"
+#include "host/base/exit.h"
 #include "host/base/room.h"
 #include "host/base/statement.h"
 #include "host/base/written.h"
@@ -22,6 +23,7 @@
 #include "loop.h"
 #include "opening.h"
 #include "records.h"
+#include "run_json.h"
 #include "summary.h"
 #include "traces.h"
 #include "undefined.h"
@@ -45,6 +47,7 @@ typedef struct simulation {
     uint64_t steps;  /* wanted */
     bool write_failed;
     double shown_s;   /* when progress was, of the clock */
+    char *said;       /* the findings */
     diags *undefined; /* what was not a finite number beside the motion */
     bool energies_told;
     int output;           /* the first output that was not a finite number, or -1, */
@@ -271,16 +274,13 @@ static void say_clamped(const simulation *sim) {
 /* What the run came to, and the words for it. */
 static simulation_result judge(simulation *sim, wh_status status, bool interrupted) {
     const simulation_settings *s = sim->settings;
+    records_read(sim->records, sim->run, ratio_times(s->kind->steps(sim->run), sim->image->step));
     if (status != WH_OK) { /* which says why the energies are no numbers either */
         failure_say(stderr, s->kind, sim->run, status, sim->verdict, s->plain, s->stop);
         diags_free(sim->undefined);
         sim->undefined = diags_new();
-    } else { /* an output is watched at the end, too, recorded or not */
-        records_read(sim->records, sim->run,
-                     ratio_times(s->kind->steps(sim->run), sim->image->step));
-        if (sim->output < 0) {
-            watch_outputs(sim, sim->records->row[0]);
-        }
+    } else if (sim->output < 0) { /* an output is watched at the end, too, recorded or not */
+        watch_outputs(sim, sim->records->row[0]);
     }
     tell_outputs(sim);
     say_saturated(sim);
@@ -296,8 +296,12 @@ static simulation_result judge(simulation *sim, wh_status status, bool interrupt
         return SIMULATION_FAILED;
     }
     const bool fails = s->strict > 0.0 && belief_lost(&sim->verdict->balance, s->strict);
-    findings_say(stderr, sim->verdict, s->plain, s->stop, fails);
-    return interrupted ? SIMULATION_INTERRUPTED : fails ? SIMULATION_FAILED : SIMULATION_DONE;
+    size_t length;
+    FILE *text = room_text(&sim->said, &length);
+    findings_say(text, sim->verdict, s->plain, s->stop, fails);
+    room_text_end(text);
+    fputs(sim->said, stderr);
+    return interrupted ? SIMULATION_INTERRUPTED : SIMULATION_DONE;
 }
 
 /* The quantities' names, as in the records. */
@@ -417,6 +421,14 @@ static void trust(simulation *sim, horizon *h, simulation_trust *to) {
     to->until_s = told ? h->until_s : -1.0;
 }
 
+int simulation_status(simulation_result result, const simulation_trust *trust) {
+    static const int status[] = {[SIMULATION_DONE] = EXIT_DONE,
+                                 [SIMULATION_FAILED] = EXIT_RUN_FAILED,
+                                 [SIMULATION_INTERRUPTED] = EXIT_INTERRUPTED,
+                                 [SIMULATION_BAD_FILE] = EXIT_BAD_INPUT};
+    return result == SIMULATION_DONE && trust->fails != 0 ? EXIT_RUN_FAILED : status[result];
+}
+
 simulation_result simulate(const image *im, const simulation_settings *s, simulation_trust *told) {
     *told = (simulation_trust){.until_s = -1.0};
     simulation sim = {.image = im, .settings = s, .output = -1};
@@ -443,7 +455,7 @@ simulation_result simulate(const image *im, const simulation_settings *s, simula
             trust(&sim, &h, told);
         }
         result = judge(&sim, status, interrupted);
-        told->against = sim.verdict->against;
+        told->fails = verdict_fails(sim.verdict, s->strict);
         told->dear = sim.verdict->twins == NULL;
         traces_close(sim.traces);
         sim.course.trusted_s = sim.trusted_s;
@@ -451,7 +463,7 @@ simulation_result simulate(const image *im, const simulation_settings *s, simula
         if (status == WH_OK && interrupted) {
             say_interrupted(&sim);
         }
-        if (!s->quiet) {
+        if (!s->quiet && !s->json) {
             print_summary(&sim, status, result, known ? &h : NULL);
         }
         if (known) {
@@ -461,6 +473,15 @@ simulation_result simulate(const image *im, const simulation_settings *s, simula
         if (result != SIMULATION_BAD_FILE && !finish_course(&sim)) {
             result = SIMULATION_BAD_FILE;
         }
+        if (s->json) {
+            run_json(stdout, &(run_json_wish){sim.verdict,
+                                              sim.records,
+                                              sim.said,
+                                              told->until_s,
+                                              simulation_status(result, told),
+                                              {s->csv, s->columns, s->vcd, s->plot}});
+        }
+        free(sim.said);
         verdict_close(sim.verdict);
         s->kind->stop(sim.run);
         diags_free(sim.undefined);

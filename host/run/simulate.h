@@ -20,8 +20,8 @@ typedef struct simulation_settings {
     const char *chosen;  /* why this step, in words, or NULL */
     const char *changes; /* of the scene, in words, or NULL */
     bool quiet;
-    double
-        strict; /* a run that is out of balance by more (belief.h) has failed; 0: it is only told */
+    bool json;     /* one object on standard output in place of the summary (run_json.h) */
+    double strict; /* verdict_fails() */
     bool progress;
     const image *plain; /* of the finer run beside it (twins_plain()); NULL: the image itself */
     const volatile sig_atomic_t *stop; /* set from outside to end the run cleanly; may be NULL */
@@ -29,8 +29,8 @@ typedef struct simulation_settings {
 
 typedef enum simulation_result {
     SIMULATION_DONE,
-    SIMULATION_FAILED, /* diverged, not a number somewhere, or not believed with `strict`; said on
-                             * standard error, the records so far are kept */
+    SIMULATION_FAILED, /* diverged, or not a number somewhere; said on standard error, the records so
+                             * far are kept */
     SIMULATION_INTERRUPTED, /* by *stop */
     SIMULATION_BAD_FILE     /* a file could not be written, or gnuplot failed; said */
 } simulation_result;
@@ -38,13 +38,16 @@ typedef enum simulation_result {
 /* Standard output, or standard error where records go to standard output. */
 FILE *simulation_summary(const simulation_settings *s);
 
-/* A run at its end: findings as bits (verdict.h), and until when it is trusted, s; below 0: that is not
- * told. */
+/* A run at its end: the findings that fail it, as bits (verdict_fails()), and until when it is trusted, s; below 0: that
+ * is not told. */
 typedef struct simulation_trust {
-    unsigned against;
+    unsigned fails;
     bool dear; /* it takes too long */
     double until_s;
 } simulation_trust;
+
+/* The exit status (host/base/exit.h). */
+int simulation_status(simulation_result result, const simulation_trust *trust);
 
 simulation_result simulate(const image *im, const simulation_settings *s, simulation_trust *trust);
 

@@ -2,6 +2,8 @@
 
 #include <string.h>
 
+#include "host/number/functions.h"
+
 bool slow_component(const engine_kind *kind, const void *run, int i) {
     double span;
     const double off = kind->component_off(run, i, &span);
@@ -22,6 +24,16 @@ int slow_count(const engine_kind *kind, const image *im, const void *run) {
         count += slow_component(kind, run, i);
     }
     return count;
+}
+
+double slow_share(const engine_kind *kind, const image *im, const void *run) {
+    double share = 0.0;
+    for (int i = 0; i < components(kind, im, run); i++) {
+        double span;
+        const double off = kind->component_off(run, i, &span);
+        share = slow_component(kind, run, i) ? number_most(share, off / span) : share;
+    }
+    return share;
 }
 
 static void say_angle(FILE *out, const image *im, const engine_kind *kind, const void *run, int i) {

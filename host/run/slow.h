@@ -22,6 +22,9 @@ bool slow_component(const engine_kind *kind, const void *run, int i);
 /* How many are. */
 int slow_count(const engine_kind *kind, const image *im, const void *run);
 
+/* The largest part of its span that one of them is put off by; 0: there is none. */
+double slow_share(const engine_kind *kind, const image *im, const void *run);
+
 /* A note for each, and how to cure them. */
 void slow_say(FILE *out, const image *im, const engine_kind *kind, const void *run);
 

@@ -8,41 +8,6 @@
 #include "host/number/functions.h"
 #include "slow.h"
 
-const finding_row finding_rows[FINDINGS] = {
-    [FINDING_MASS] = {"mass", FINDING_WARNING, 1e-4, "of an acceleration",
-                      "the rounding of the matrix alone: steps are more accurate",
-                      "have a mass matrix that is nearly singular"},
-    [FINDING_CONSTANTS] = {"constants", FINDING_WARNING, 0.0, "numbers",
-                           "rounded otherwise, one of the file's numbers is beyond all bounds",
-                           "have numbers in which a small one is lost beside a large one"},
-    [FINDING_ENERGY] = {"energy", FINDING_WARNING, BELIEF_LIMIT, "of the largest entry",
-                        "half of it is the error of an amplitude, which no plot shows",
-                        "cannot be believed: too much of the largest entry of their energy books "
-                        "is left over (" BELIEF_COLUMN "), or was missing on the way"},
-    [FINDING_ACCURACY] = {"accuracy", FINDING_WARNING, 0.5, "of the run",
-                          "an error that grows evenly and is 2 % at the end passes 1 % there",
-                          "are right to 0.01 of a range for less than half of the run"},
-    [FINDING_SINGULAR] = {"singular", FINDING_WARNING, 1e-2, "of the largest pivot",
-                          "a coordinate's inertia a hundredth: its rate is ten times as large",
-                          "passed where their coordinates are singular, in steps that do not "
-                          "resolve it"},
-    [FINDING_POLE] = {"pole", FINDING_WARNING, 0.0, "steps", "no motion gets through a pole",
-                      "jumped over a place where an expression grows without bound"},
-    [FINDING_MISSED] = {"missed", FINDING_WARNING, 0.0, "steps",
-                        "a contact or a force that no step met has not acted",
-                        "passed through a contact, or over a force, or may have"},
-    [FINDING_ALIASED] = {"aliased", FINDING_WARNING, HORIZON_TOLERANCE, "of a range",
-                         "as far as a run is trusted; aliasing.h adds what steps alone are off",
-                         "have something faster than the step, of which its stages see too "
-                         "little"},
-    [FINDING_EVENTS] = {"events", FINDING_WARNING, 0.0, "steps",
-                        "what is left of such a step counts as rest or sticking",
-                        "had steps with more events than a step takes"},
-    [FINDING_DIGITS] = {"digits", FINDING_NOTE, SLOW_SHARE, "of the span asked for",
-                        "what rounding took from the steps, summed",
-                        "have a component that moves too slowly for the units of its steps"},
-};
-
 verdict *verdict_open(const image *im, const image *plain, const engine_kind *kind, void *run) {
     verdict *v = room(1, sizeof *v);
     v->image = im;
@@ -108,9 +73,12 @@ void verdict_enter(verdict *v) {
 
 /* --- judging -----------------------------------------------------------------------------------------------*/
 
+/* An acceleration that rounding moves by less than the tolerance of trust leaves the run right: a note. */
 static void tell(verdict *v, finding_id id, double value, double at_s, int of) {
+    const bool is_note = finding_rows[id].severity == FINDING_NOTE ||
+                         (id == FINDING_MASS && value <= HORIZON_TOLERANCE);
     v->found[id] = (finding){true, value, at_s, of};
-    v->against |= finding_rows[id].severity == FINDING_WARNING ? FINDING_BIT(id) : 0U;
+    v->against |= is_note ? 0U : FINDING_BIT(id);
 }
 
 static double end_s(const verdict *v) {
@@ -219,7 +187,7 @@ static void judge_accuracy(verdict *v) {
     const double until_s = k >= 0 ? h.column[k].until_s : 0.0;
     const bool is_cut = t->cut_s >= 0.0 && until_s >= t->cut_s && t->finer_failed_s < 0.0;
     if (k >= 0 && !is_cut && until_s < finding_rows[FINDING_ACCURACY].limit * end_s(v)) {
-        tell(v, FINDING_ACCURACY, until_s, until_s, k);
+        tell(v, FINDING_ACCURACY, until_s / end_s(v), until_s, k);
     }
     horizon_free(&h);
 }
@@ -248,8 +216,8 @@ static void judge_jumps(verdict *v) {
     double begin_s;
     if (jumped_some(v->jumped)) {
         const missed_found through = jumped_through(v->jumped, &begin_s);
-        tell(v, through.what >= 0 ? FINDING_MISSED : FINDING_POLE, through.sure ? 1.0 : 0.5,
-             begin_s, through.what);
+        tell(v, through.what >= 0 ? FINDING_MISSED : FINDING_POLE,
+             through.what < 0 || through.sure ? 1.0 : 0.5, begin_s, through.what);
     }
 }
 
@@ -291,7 +259,16 @@ void verdict_end(verdict *v, wh_status status) {
     }
     judge_jumps(v);
     judge_events(v);
-    if (slow_count(v->kind, v->image, v->run) > 0) {
-        tell(v, FINDING_DIGITS, slow_count(v->kind, v->image, v->run), -1.0, -1);
+    const double slow = slow_share(v->kind, v->image, v->run);
+    if (slow > 0.0) {
+        tell(v, FINDING_DIGITS, slow, -1.0, -1);
     }
+}
+
+unsigned verdict_fails(const verdict *v, double strict) {
+    const unsigned energy = FINDING_BIT(FINDING_ENERGY);
+    return strict == STRICT_FINDINGS ? v->against
+           : strict < 0.0
+               ? 0U
+               : (v->against & ~energy) | (belief_lost(&v->balance, strict) ? energy : 0U);
 }

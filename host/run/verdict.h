@@ -10,38 +10,9 @@
 #include <signal.h>
 
 #include "belief.h"
+#include "finding.h"
 #include "horizon.h"
 #include "watch.h"
-
-typedef enum finding_id {
-    FINDING_MASS,
-    FINDING_CONSTANTS,
-    FINDING_ENERGY,
-    FINDING_ACCURACY,
-    FINDING_SINGULAR,
-    FINDING_POLE,
-    FINDING_MISSED,
-    FINDING_ALIASED,
-    FINDING_EVENTS,
-    FINDING_DIGITS,
-    FINDINGS
-} finding_id;
-
-#define FINDING_BIT(id) (1U << (id))
-
-typedef enum finding_severity { FINDING_NOTE, FINDING_WARNING } finding_severity;
-
-/* The one place of thresholds: a finding is told of a value beyond its limit. */
-typedef struct finding_row {
-    const char *word;
-    finding_severity severity;
-    double limit;
-    const char *unit;   /* of the limit */
-    const char *reason; /* of the limit */
-    const char *points; /* of a sweep: "3 of 9 points ..." */
-} finding_row;
-
-extern const finding_row finding_rows[FINDINGS];
 
 /* Of a run: finding `id` is told, */
 typedef struct finding {
@@ -92,5 +63,7 @@ void verdict_close(verdict *v); /* NULL is fine */
 void verdict_enter(verdict *v);
 /* The run is over; `status`: its last step's. A run that failed has no findings, but its balance is known. */
 void verdict_end(verdict *v, wh_status status);
+/* The findings, as bits, for which the exit status is 1. */
+unsigned verdict_fails(const verdict *v, double strict);
 
 #endif

@@ -159,6 +159,9 @@ static void add_symbol(measures *m, const mechanism *of, const symbol *s, int pr
     memset(name + 4 * depth + length, ')', depth);
     expr *made = arena_alloc(m->arena, sizeof *made);
     *made = (expr){.op = EXPR_SYMBOL, .symbol = s, .primes = primes, .dim = s->dim, .height = 1};
+    for (int k = 0; k < primes; k++) {
+        (void)dim_divide(made->dim, dim_of(0, 0, 1, 0, 0), &made->dim);
+    }
     add(m, MEASURE_FINAL, name, as_recorded(m, of, made));
 }
 

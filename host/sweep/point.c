@@ -108,7 +108,7 @@ static bool measure_image(const sweep *s, const image *im, bool (*abandon)(void)
         const measure *each = &s->measures->list[i];
         list[i] = (measured){each->kind, each->name, channel_of(im, each->of, i)};
     }
-    const measuring wanted = {s->kind, s->from_s, list, count};
+    const measuring wanted = {s->kind, s->from_s, list, count, s->strict};
     const bool good = stepping_measure(&wanted, im, abandon, value, errors, reason, notes);
     free(list);
     return good;

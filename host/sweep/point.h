@@ -17,6 +17,7 @@ typedef struct sweep {
     const engine_kind *kind;
     image_settings engine;
     double from_s; /* measure from this time on */
+    double strict; /* verdict_fails() */
     /* The image whose lists every point takes, or NULL: parameters are folded into them, and so is the
      * momentum of a conserved coordinate, so a sweep that varies them derives each point anew. A
      * point's rows do not depend on the points before it: nothing is carried over. */

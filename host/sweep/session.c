@@ -6,15 +6,17 @@
 
 #include "host/base/exit.h"
 #include "host/base/room.h"
-#include "host/run/verdict.h"
+#include "host/run/finding.h"
 #include "jobs.h"
 #include "progress.h"
 #include "sheet.h"
+#include "sweep_json.h"
 
 /* What the parent process knows while rows come in. */
 typedef struct sitting {
     const sweep *sweep;
     sheet sheet;
+    json *json; /* or NULL */
     progress progress;
     uint64_t first; /* point of the sheet's first row */
     uint64_t failed;
@@ -22,29 +24,50 @@ typedef struct sitting {
     uint64_t ran;             /* points delivered, now */
     uint64_t found[FINDINGS]; /* points of which `whirl run` tells so, */
     uint64_t found_first[FINDINGS];
+    unsigned against;
+    unsigned fails; /* for these findings the exit status is 1 */
 } sitting;
 
 enum { TOLD_MAX = 20 };
 
-/* Of a point that did not fail, `reason` is its findings, as bits, if there are any. */
+/* Of a point that did not fail, `reason` is its findings, the warnings, and those that count, as bits, if there are any. */
 static bool work(void *context, uint64_t point, FILE *row, FILE *reason) {
     const sitting *s = context;
     point_notes notes;
     const bool good = sweep_point(s->sweep, point, jobs_orphaned, row, reason, &notes);
-    if (good && notes.found != 0) {
-        fprintf(reason, "%u", notes.found);
+    if (good && (notes.found | notes.fails) != 0) {
+        fprintf(reason, "%u %u %u", notes.found, notes.against, notes.fails);
     }
     return good;
 }
 
-static void count_notes(sitting *s, uint64_t point, const char *notes) {
-    const unsigned long found = strtoul(notes, NULL, 10);
+static bool count_notes(sitting *s, uint64_t point, const char *notes) {
+    char *rest;
+    const unsigned long found = strtoul(notes, &rest, 10);
+    const unsigned long against = strtoul(rest, &rest, 10);
+    const unsigned long fails = strtoul(rest, NULL, 10);
+    bool good = true;
+    s->against |= (unsigned)against;
+    s->fails |= (unsigned)fails;
     for (int id = 0; id < FINDINGS; id++) {
         if ((found & FINDING_BIT(id)) != 0) {
             s->found_first[id] = s->found[id] == 0 ? point : s->found_first[id];
             s->found[id]++;
         }
+        if (((against | fails) & FINDING_BIT(id)) != 0) {
+            good = sheet_note(&s->sheet, finding_rows[id].word) && good;
+        }
     }
+    return good;
+}
+
+/* Findings of rows that were in the file: a sweep that goes on ends as one that was not broken off. */
+static unsigned fails_before(const sitting *s) {
+    unsigned fails = 0;
+    for (int id = 0; id < FINDINGS && s->sweep->strict >= 0.0; id++) {
+        fails |= sheet_has_note(&s->sheet, finding_rows[id].word) ? FINDING_BIT(id) : 0U;
+    }
+    return fails;
 }
 
 /* "point 17 (r=0.02, theta'=31.4)" */
@@ -75,8 +98,14 @@ static bool deliver(void *context, uint64_t point, bool good, const char *row, c
             fprintf(stderr, "further failures are not listed: their measures are empty\n");
         }
         s->told += s->told <= TOLD_MAX ? 1 : 0;
-    } else if (reason[0] != '\0') {
-        count_notes(s, point, reason);
+    } else if (reason[0] != '\0' && !count_notes(s, point, reason)) {
+        return false;
+    }
+    if (s->json != NULL) {
+        char *rest;
+        const unsigned found = good ? (unsigned)strtoul(reason, &rest, 10) : 0U;
+        const unsigned against = good ? (unsigned)strtoul(rest, NULL, 10) : 0U;
+        sweep_json_point(s->json, row, good ? NULL : reason, found, against);
     }
     return fputs(row, s->sheet.out) >= 0;
 }
@@ -98,7 +127,7 @@ static void say_found(const sitting *s) {
         if (s->found[id] > 0) {
             const finding_row *row = &finding_rows[id];
             fprintf(stderr, "whirl sweep: %s: %llu of %llu points %s [%s]; first: ",
-                    row->severity == FINDING_NOTE ? "note" : "warning",
+                    (s->against & FINDING_BIT(id)) == 0 ? "note" : "warning",
                     (unsigned long long)s->found[id], (unsigned long long)s->ran, row->points,
                     row->word);
             name_point(s->sweep, s->found_first[id]);
@@ -136,6 +165,7 @@ static int run_points(const session_settings *o, sitting *s) {
     const uint64_t missing = o->end - next;
     const int workers = missing < (uint64_t)o->jobs ? (int)missing : o->jobs;
     s->failed = s->sheet.failed;
+    s->fails = fails_before(s);
     s->progress = progress_start(!o->quiet && isatty(STDERR_FILENO) ? stderr : NULL, s->sheet.rows,
                                  o->end - o->first);
     const jobs plan = {.workers = workers,
@@ -166,7 +196,10 @@ static int run_points(const session_settings *o, sitting *s) {
         return EXIT_RUN_FAILED;
     case JOBS_REFUSED: return EXIT_RUN_FAILED;
     }
-    return s->failed > 0 ? EXIT_RUN_FAILED : EXIT_DONE;
+    if (s->fails != 0) {
+        finding_say_status(stderr, "sweep", s->fails);
+    }
+    return s->failed > 0 || s->fails != 0 ? EXIT_RUN_FAILED : EXIT_DONE;
 }
 
 int session_run(const sweep *s, const session_settings *o) {
@@ -187,8 +220,17 @@ int session_run(const sweep *s, const session_settings *o) {
                                      .context = &here,
                                      .fresh = o->fresh};
     int code = sheet_open(&here.sheet, &settings);
+    json written = {.out = stdout};
+    const bool writes = code == EXIT_DONE && o->json;
+    if (writes) {
+        here.json = &written;
+        sweep_json_begin(&written, s);
+    }
     if (code == EXIT_DONE) {
         code = run_points(o, &here);
+    }
+    if (writes) {
+        sweep_json_end(&written, here.failed, code);
     }
     free(header);
     return code;

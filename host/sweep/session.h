@@ -15,6 +15,7 @@ typedef struct session_settings {
     int jobs;    /* worker processes */
     bool fresh;
     bool quiet;
+    bool json;                         /* one object on standard output; `csv` is then no file */
     const volatile sig_atomic_t *stop; /* set from outside to end it cleanly */
 } session_settings;
 

@@ -23,10 +23,6 @@ static int cannot_write(const char *path) {
     return EXIT_RUN_FAILED;
 }
 
-static char *beside(const char *path, const char *ending) {
-    return room_words("%s%s", path, ending);
-}
-
 /* --- the fingerprint ---------------------------------------------------------------------------*/
 
 static char *read_text(const char *path) {
@@ -45,18 +41,20 @@ static char *read_text(const char *path) {
     return text;
 }
 
-static bool write_fingerprint(const sheet_settings *s, const char *path) {
-    FILE *out = written_open(path);
+static bool write_fingerprint(const sheet *sh, const char *fingerprint) {
+    FILE *out = written_open(sh->beside);
     if (out != NULL) {
-        fputs(s->fingerprint, out);
+        fprintf(out, "%s%s", fingerprint, sh->notes);
     }
-    return out != NULL && written_close(out, path, true);
+    return out != NULL && written_close(out, sh->beside, true);
 }
+
+#define NOTED "noted: "
 
 static int line_length(const char *text) { return (int)strcspn(text, "\n"); }
 
-static int check_fingerprint(const sheet_settings *s, const char *path) {
-    char *there = read_text(path);
+static int check_fingerprint(sheet *sh, const sheet_settings *s) {
+    char *there = read_text(sh->beside);
     if (there == NULL) {
         return refuse(s->path, "it is no sweep's: there is no FILE.sweep beside it");
     }
@@ -68,7 +66,10 @@ static int check_fingerprint(const sheet_settings *s, const char *path) {
         new += line_length(new) + (new[line_length(new)] == '\n');
     }
     int code = EXIT_DONE;
-    if (*old != '\0' || *new != '\0') {
+    if (*new == '\0' && strncmp(old, NOTED, sizeof NOTED - 1) == 0) {
+        free(sh->notes);
+        sh->notes = room_words("%s", old);
+    } else if (*old != '\0' || *new != '\0') {
         code = refuse(s->path, "it belongs to another sweep");
         fprintf(stderr, "  there: %.*s\n  here:  %.*s\n", line_length(old), old, line_length(new),
                 new);
@@ -157,11 +158,11 @@ static int lock(const sheet *sh, const char *path) {
     return EXIT_BAD_INPUT;
 }
 
-static int go_on(sheet *sh, const sheet_settings *s, const char *beside_path, off_t size) {
+static int go_on(sheet *sh, const sheet_settings *s, off_t size) {
     off_t whole = 0;
     int code = EXIT_DONE;
     if (size > 0 && !s->fresh) {
-        code = check_fingerprint(s, beside_path);
+        code = check_fingerprint(sh, s);
         code = code == EXIT_DONE ? check_rows(sh, s, &whole) : code;
     }
     if (code != EXIT_DONE) {
@@ -171,7 +172,7 @@ static int go_on(sheet *sh, const sheet_settings *s, const char *beside_path, of
     if (whole == 0 && ftruncate(fileno(sh->out), 0) != 0) {
         return cannot_write(s->path);
     }
-    if (!write_fingerprint(s, beside_path)) {
+    if (!write_fingerprint(sh, s->fingerprint)) {
         return EXIT_RUN_FAILED;
     }
     if (ftruncate(fileno(sh->out), whole) != 0 || fseeko(sh->out, whole, SEEK_SET) != 0) {
@@ -183,14 +184,21 @@ static int go_on(sheet *sh, const sheet_settings *s, const char *beside_path, of
     return EXIT_DONE;
 }
 
+static void forget(sheet *sh) {
+    free(sh->beside);
+    free(sh->notes);
+    sh->beside = sh->notes = NULL;
+}
+
 int sheet_open(sheet *sh, const sheet_settings *s) {
-    *sh = (sheet){.path = s->path};
+    *sh = (sheet){.path = s->path, .notes = room_words("%s", "")};
     struct stat about = {0};
     const bool is_stdout = strcmp(s->path, "-") == 0;
     const bool exists = !is_stdout && stat(s->path, &about) == 0;
     if (is_stdout || (exists && !S_ISREG(about.st_mode))) {
         sh->out = is_stdout ? stdout : fopen(s->path, "wb");
         if (sh->out == NULL || fputs(s->header, sh->out) < 0) {
+            forget(sh);
             return cannot_write(s->path);
         }
         return EXIT_DONE;
@@ -200,6 +208,7 @@ int sheet_open(sheet *sh, const sheet_settings *s) {
     sh->out = file < 0 ? NULL : fdopen(file, "r+b");
     if (sh->out == NULL) {
         cannot_write(s->path);
+        forget(sh);
         return EXIT_BAD_INPUT; /* a wrong path is bad input, as for `run` */
     }
     int code = lock(sh, s->path);
@@ -207,18 +216,43 @@ int sheet_open(sheet *sh, const sheet_settings *s) {
         code = cannot_write(s->path);
     }
     if (code == EXIT_DONE) {
-        char *path = beside(s->path, ".sweep");
-        code = go_on(sh, s, path, about.st_size);
-        free(path);
+        sh->beside = room_words("%s.sweep", s->path);
+        code = go_on(sh, s, about.st_size);
     }
     if (code != EXIT_DONE) {
         fclose(sh->out);
         sh->out = NULL;
+        forget(sh);
     }
     return code;
 }
 
+bool sheet_has_note(const sheet *sh, const char *word) {
+    char *line = room_words(NOTED "%s\n", word);
+    const bool has = strstr(sh->notes, line) != NULL;
+    free(line);
+    return has;
+}
+
+bool sheet_note(sheet *sh, const char *word) {
+    if (sheet_has_note(sh, word)) {
+        return true;
+    }
+    char *notes = room_words("%s" NOTED "%s\n", sh->notes, word);
+    free(sh->notes);
+    sh->notes = notes;
+    FILE *out = sh->beside != NULL ? fopen(sh->beside, "ab") : NULL;
+    const bool good = out == NULL || fprintf(out, NOTED "%s\n", word) > 0;
+    const bool closed = out == NULL || fclose(out) == 0;
+    if (sh->beside != NULL && (out == NULL || !good || !closed)) {
+        unwritten_say(sh->beside);
+        return false;
+    }
+    return true;
+}
+
 bool sheet_close(sheet *s) {
+    forget(s);
     if (s->out == NULL) {
         return true;
     }

@@ -3,7 +3,7 @@
  * Beside FILE stands FILE.sweep: the sweep's settings, a line each, that decide every byte of FILE.
  * FILE itself stays plain. A run goes on with a FILE whose settings, header and swept values are
  * its own, drops a last line that was torn off, and refuses any other. While a sweep writes FILE it
- * holds a lock on it. */
+ * holds a lock on it. Lines "noted: WORD" at the end of FILE.sweep keep the findings of rows that are there. */
 #ifndef SWEEP_SHEET_H
 #define SWEEP_SHEET_H
 
@@ -17,6 +17,8 @@ typedef struct sheet {
     bool is_file;    /* not standard output, a pipe or a device: can be gone on with */
     uint64_t rows;   /* already there */
     uint64_t failed; /* of them, with empty measures */
+    char *beside;    /* FILE.sweep */
+    char *notes;     /* its lines "noted: WORD"; "" for none */
 } sheet;
 
 typedef struct sheet_settings {
@@ -34,6 +36,9 @@ typedef struct sheet_settings {
 /* Open and check; the header is written when it is not there yet. Returns an exit code: 0 good,
  * 1 the file could not be written, 2 it is another sweep's or in use (said on standard error). */
 int sheet_open(sheet *sh, const sheet_settings *s);
+/* Keep this word beside the rows. False when it was not written (said). */
+bool sheet_note(sheet *sh, const char *word);
+bool sheet_has_note(const sheet *sh, const char *word);
 /* False when something was not written (said). */
 bool sheet_close(sheet *sh);
 

@@ -181,6 +181,8 @@ static bool read_measures(const meter *m, double *value, FILE *reason, point_not
     for (int id = 0; id < FINDINGS; id++) {
         notes->found |= m->verdict->found[id].told ? FINDING_BIT(id) : 0U;
     }
+    notes->against = m->verdict->against;
+    notes->fails = verdict_fails(m->verdict, w->strict);
     return true;
 }
 

@@ -24,12 +24,15 @@ typedef struct measuring {
     double from_s; /* measure from this time on */
     const measured *list;
     int count;
+    double strict; /* verdict_fails() */
 } measuring;
 
 /* What is to be told of a point that did not fail. */
 typedef struct point_notes {
-    unsigned found; /* findings, as bits (host/run/verdict.h) */
-    double end_s;   /* of the run */
+    unsigned found;   /* findings, as bits (host/run/finding.h), */
+    unsigned against; /* the warnings among them, */
+    unsigned fails;   /* and those for which the exit status is 1 */
+    double end_s;     /* of the run */
 } point_notes;
 
 /* Run the image; value[count + 1] gets the measures and how well the energies balance (NAN where that is not known).

@@ -37,8 +37,8 @@ record() {
     if [ ! -s "$file" ]; then
         rm -f "$file.raw" "$file.raw.sweep" # a sweep would go on with it
         case $kind in
-        run) "$whirl" run "$@" --quiet --csv "$file.raw" ;;
-        sweep) "$whirl" sweep "$@" --csv "$file.raw" >/dev/null ;;
+        run) "$whirl" run "$@" --strict=off --quiet --csv "$file.raw" ;;
+        sweep) "$whirl" sweep "$@" --strict=off --csv "$file.raw" >/dev/null ;;
         table)
             script=$1
             shift

@@ -94,8 +94,8 @@ ends() { # COMMAND [OPTION...]: all that it comes to
     derive) "$whirl" derive "$plain" --as c "$@" ;;
     describe) "$whirl" describe "$plain" --json "$@" ;;
     examine) "$whirl" examine "$plain" "$@" ;;
-    run) "$whirl" run "$plain" --csv - --quiet "$@" ;;
-    sweep) "$whirl" sweep "$plain" --over x=1..1.5:2 --quiet "$@" ;;
+    run) "$whirl" run "$plain" --csv - --quiet --strict=off "$@" ;;
+    sweep) "$whirl" sweep "$plain" --over x=1..1.5:2 --quiet --strict=off "$@" ;;
     map) "$whirl" map "$plain" --over x=1..1.5:2 --over a=1..1.2:2 --csv - --quiet "$@" ;;
     effects) "$whirl" effects "$plain" "$@" ;;
     trust) "$whirl" trust "$plain" --csv - --quiet "$@" ;;

@@ -172,7 +172,7 @@ check "a condition that is no number: the others are there" test "$(tr -d '\r' <
 check "the balance of each point" sh -c "'$whirl' sweep epicyclic_from_rest --until 2s --over 'step=1..200 [ms]:2' --measure X --quiet |
     tr -d '\r' | awk -F, 'NR == 1 { bad = \$3 != \"energy_left_over\" } NR == 2 { bad = bad || !(\$3 < 1e-9) }
     NR == 3 { bad = bad || !(\$3 > 1e-3) } END { exit bad }'"
-check "points that cannot be believed are no failure" status 0 \
+check "points that cannot be believed: exit status 1" status 1 \
     "$whirl" sweep epicyclic_from_rest --until 2s --over 'step=1..200 [ms]:2' --measure X --quiet
 check "points that cannot be believed: how many, and the first" \
     grep -qF 'warning: 1 of 2 points cannot be believed: too much of the largest entry of their energy books is left over (energy_left_over), or was missing on the way [energy]; first: point 2 (step=0.2)' "$scratch/said"
@@ -187,21 +187,23 @@ check "no period: nan" test "$(grep -c ',nan' "$scratch/rows")" -eq 2
 between() {
     "$whirl" sweep ball_between --until 20ms --over "z'=1..25 [m/s]:5" --measure z "$@"
 }
-check "overruns are no failure" status 0 between --csv "$scratch/between.csv"
+check "overruns: exit status 1" status 1 between --csv "$scratch/between.csv"
 check "overruns: how many, and the first" \
     grep -q "warning: 3 of 5 points had steps with more events .*events\]; first: point 3 (z'=13)\$" "$scratch/said"
 check "overruns: with a way out" grep -q '^hint: .whirl run. of the point tells what would do' "$scratch/said"
 check "run says the same of one" sh -c "'$whirl' run ball_between --until 20ms --start z\\'=13 | grep -q '^  1 steps had more'"
 check "run says nothing of another" sh -c "! '$whirl' run ball_between --until 20ms --start z\\'=7 | grep -q 'steps had more'"
-check "the rows do not tell" status 0 between --csv -
+check "the rows do not tell" status 1 between --csv -
 check "the rows do not tell" cmp "$scratch/rows" "$scratch/between.csv"
-check "overruns are told with --quiet" status 0 between --quiet --jobs 1
+check "overruns are told with --quiet" status 1 between --quiet --jobs 1
 check "overruns are told with --quiet" grep -q "3 of 5 points had steps with more events" "$scratch/said"
 head -n 4 "$scratch/between.csv" >"$scratch/part.csv"
 cp "$scratch/between.csv.sweep" "$scratch/part.csv.sweep"
-check "overruns of the points that ran now" status 0 between --csv "$scratch/part.csv"
+check "overruns of the points that ran now" status 1 between --csv "$scratch/part.csv"
 check "overruns of the points that ran now" \
     grep -q "warning: 2 of 2 points had steps with more events .*events\]; first: point 4 (z'=19)\$" "$scratch/said"
+check "overruns of rows found in the file count too" status 1 between --csv "$scratch/part.csv"
+check "overruns of rows found in the file count too: not with --strict=off" status 0 between --csv "$scratch/part.csv" --strict=off
 check "with a shorter step none" status 0 between --step 0.1ms
 check "with a shorter step none" sh -c "! grep -q events '$scratch/said'"
 
@@ -213,10 +215,13 @@ T = 1 [kg*m^2]*a'^2/2
 scene drift { step 1 [ms]; until 1 [s] }
 END
 drift() { "$whirl" sweep "$scratch/rotor.whirl" --over "a'=1e-7..1e-1 [rad/s]:4,log" --measure a --number float "$@"; }
-check "slow angles are no failure" status 0 drift
+check "slow angles: 0 with --strict=off" status 0 drift --strict=off
 check "slow angles: how many, and the first" \
     grep -q "note: 2 of 4 points have a component that moves too slowly .*digits\]; first: point 1 (a'=1e-07)\$" "$scratch/said"
 check "slow angles: with a way out" grep -q '^hint: .whirl run. of the point tells what would do' "$scratch/said"
+check "slow angles: a note alone is no failure" status 0 \
+    "$whirl" sweep "$scratch/rotor.whirl" --over "a'=1e-4..1e-4 [rad/s]:1" --measure a --number float
+check "slow angles: a note alone" grep -q 'note: 1 of 1 points .*digits' "$scratch/said"
 check "compensated there are none" status 0 drift --compensated
 check "compensated there are none" sh -c "! grep -q slowly '$scratch/said'"
 

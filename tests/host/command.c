@@ -47,6 +47,16 @@ void command_say(int (*command)(int count, char **words), const char *const *wor
     read_back(err, what->err);
 }
 
+int said_owes(const char *err) {
+    bool owes = false;
+    for (const char *at = err; (at = strstr(at, ": warning: ")) != NULL; at++) {
+        const char *end = at + strcspn(at, "\n");
+        const char *first = strstr(at, "]; first: ");
+        owes = owes || end[-1] == ']' || (first != NULL && first < end);
+    }
+    return owes ? 1 : 0;
+}
+
 static char kept[] = "build/tests/model-XXXXXX";
 static bool is_kept;
 

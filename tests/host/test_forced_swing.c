@@ -109,7 +109,7 @@ typedef struct tally {
 
 static double run_with(const forced_case *c, const char *const *words, said *what) {
     command_say(command_run, words, what);
-    TEST_ASSERT_EQUAL_INT_MESSAGE(0, what->status, what->err);
+    TEST_ASSERT_EQUAL_INT_MESSAGE(said_owes(what->err), what->status, what->err);
     return off_by(c, what->out);
 }
 

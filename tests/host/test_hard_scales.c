@@ -105,7 +105,7 @@ static bool warns(const char *text) {
     const char *const words[] = {model_keep(text), "--number", "float", "--quiet", NULL};
     command_say(command_run, words, &what);
     model_drop();
-    return what.status == 0 && strstr(what.err, "float has no room") != NULL;
+    return what.status == said_owes(what.err) && strstr(what.err, "float has no room") != NULL;
 }
 
 /* How far units are drawn: powers of two up to `most`; what came of the runs in them. */

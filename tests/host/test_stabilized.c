@@ -267,7 +267,7 @@ static void run_with(const char *text, const char *const *options, said *what) {
     }
     command_say(command_run, words, what);
     model_drop();
-    TEST_ASSERT_EQUAL_INT_MESSAGE(0, what->status, what->err);
+    TEST_ASSERT_EQUAL_INT_MESSAGE(said_owes(what->err), what->status, what->err);
 }
 
 /* A step that is too coarse is not made to look good: what loses the hundredth that is warned of in a thousand steps still

@@ -1,14 +1,17 @@
 /* test_verdict.c: `whirl sweep` says of a point what `whirl run` says of it alone: they ask one judge. Drawn springs,
  * dampers, swings of systems, flights past a pole, fast forces, springs far away and balls between stops, in steps from fine to
- * useless, by all methods: the findings of both are the same; beside it, that the judge has said something of every kind, and nothing of many. */
+ * useless, by all methods: the findings of both are the same, and so are the exit statuses: 1 exactly after a warning, 0 with
+ * --strict=off, by the energy's ratio with a limit. The judge has said something of every kind, and nothing of many. */
 #include <math.h>
 #include <stdbool.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "command.h"
 #include "host/commands/commands.h"
-#include "host/run/verdict.h"
+#include "host/run/finding.h"
+#include "json_check.h"
 #include "unity.h"
 
 void suite_verdict(void);
@@ -75,12 +78,170 @@ static void draw(dice *d, unsigned shape, char text[TEXT]) {
     }
 }
 
+/* Once more with this --strict: the same is written, and what is said on standard error begins the same. */
+static void say_with(const char *strict, int (*command)(int, char **), const char **words,
+                     const said *before, said *what) {
+    int count = 0;
+    const char *again[20];
+    for (; words[count] != NULL; count++) {
+        again[count] = words[count];
+    }
+    again[count] = strict;
+    again[count + 1] = NULL;
+    command_say(command, again, what);
+    TEST_ASSERT_EQUAL_STRING(before->out, what->out);
+}
+
+static bool is_failed(const said *what) { return strstr(what->err, ": error: ") != NULL; }
+
+static const char *value_at(const said *what, const char *path) {
+    static char value[100];
+    TEST_ASSERT_NOT_NULL_MESSAGE(json_value(what->out, path, value), path);
+    return value;
+}
+
+/* --json: one object, with the same findings, the same words on standard error and the same status. */
+static void expect_json(int (*command)(int, char **), const char **words, const said *before,
+                        const char *list) {
+    said what;
+    char why[100];
+    int count = 0;
+    unsigned in_text = 0;
+    const char *again[20];
+    for (; words[count] != NULL; count++) {
+        again[count] = words[count];
+    }
+    again[count] = "--json";
+    again[count + 1] = NULL;
+    command_say(command, again, &what);
+    TEST_ASSERT_TRUE_MESSAGE(json_is_valid(what.out, why), why);
+    TEST_ASSERT_EQUAL_STRING(before->err, what.err);
+    TEST_ASSERT_EQUAL_INT(before->status, what.status);
+    TEST_ASSERT_EQUAL_INT(before->status, atoi(value_at(&what, "exit")));
+    const int told = json_length(what.out, list);
+    for (int k = 0; k < FINDINGS; k++) {
+        char id[20];
+        bool is_note = false;
+        bool is_row = false;
+        snprintf(id, sizeof id, "[%s]", finding_rows[k].word);
+        for (int i = 0; i < told; i++) {
+            char path[60];
+            snprintf(path, sizeof path, "%s/%d/id", list, i);
+            if (strcmp(value_at(&what, path), finding_rows[k].word) == 0) {
+                is_row = true;
+                snprintf(path, sizeof path, "%s/%d/severity", list, i);
+                is_note = strcmp(value_at(&what, path), "note") == 0;
+                in_text += 1U;
+            }
+        }
+        TEST_ASSERT_TRUE_MESSAGE(is_note || is_row == (strstr(before->err, id) != NULL), what.out);
+    }
+    TEST_ASSERT_EQUAL_INT(is_failed(before) ? 0 : told, (int)in_text);
+}
+
+/* Every built-in scene, and a title with all that must be escaped. */
+static void test_json_of_all_scenes(void) {
+    said list;
+    said what;
+    char why[100];
+    unsigned scenes = 0;
+    const char *none[] = {NULL};
+    command_say(command_list, none, &list);
+    char *rest = NULL;
+    for (char *line = strtok_r(list.out, "\n", &rest); line != NULL;
+         line = strtok_r(NULL, "\n", &rest)) {
+        char name[80];
+        if (sscanf(line, "scene %79s", name) == 1) {
+            const char *words[] = {name, "--json", "--until", "10ms", NULL};
+            command_say(command_run, words, &what);
+            TEST_ASSERT_TRUE_MESSAGE(json_is_valid(what.out, why), why);
+            TEST_ASSERT_EQUAL_STRING(name, value_at(&what, "scene"));
+            TEST_ASSERT_EQUAL_INT(what.status, atoi(value_at(&what, "exit")));
+            scenes++;
+        }
+    }
+    TEST_ASSERT_TRUE(scenes > 40);
+    const char *titled[] = {
+        model_keep("mechanism m\ncoordinate x [m]\nT = 1 [kg]*x'^2/2\n"
+                   "output none = sqrt(x/1 [m] - 1)\n"
+                   "scene s \"Gr\303\266\303\237e \\ x\" { step 1 [ms]; until 2 [ms] }\n"),
+        "--json", NULL};
+    command_say(command_run, titled, &what);
+    TEST_ASSERT_TRUE_MESSAGE(json_is_valid(what.out, why), why);
+    TEST_ASSERT_EQUAL_STRING("Gr\303\266\303\237e \\\\ x", value_at(&what, "title"));
+    TEST_ASSERT_EQUAL_STRING("null", value_at(&what, "values/2/value"));
+    TEST_ASSERT_EQUAL_INT(1, what.status);
+    model_drop();
+}
+
+/* With no option, with --strict=off and with a drawn limit. Returns whether the status is 1 because of a finding. */
+static bool expect_statuses(dice *d, const char **run, const char **sweep, const said *ran,
+                            const said *swept, const char *about) {
+    said off[2];
+    said limited[2];
+    char limit[40];
+    snprintf(limit, sizeof limit, "--strict=%.3e", pow(10.0, dice_between(d, -9.0, 0.0)));
+    const bool failed = is_failed(ran);
+    TEST_ASSERT_EQUAL_INT_MESSAGE(failed ? 1 : said_owes(ran->err), ran->status, about);
+    TEST_ASSERT_EQUAL_INT_MESSAGE(ran->status, swept->status, about);
+    for (int k = 0; k < 2; k++) {
+        const said *what = k == 0 ? ran : swept;
+        const size_t same = strlen(k == 0 ? ran->err : swept->err);
+        const char *last = strstr(what->err, ": exit status 1 because of [");
+        TEST_ASSERT_EQUAL_MESSAGE(!failed && said_owes(what->err) == 1, last != NULL, about);
+        const char **words = k == 0 ? run : sweep;
+        int (*command)(int, char **) = k == 0 ? command_run : command_sweep;
+        say_with("--strict=off", command, words, what, &off[k]);
+        say_with(limit, command, words, what, &limited[k]);
+        TEST_ASSERT_EQUAL_INT_MESSAGE(failed ? 1 : 0, off[k].status, about);
+        const size_t length = strlen(off[k].err);
+        TEST_ASSERT_TRUE_MESSAGE(strncmp(off[k].err, what->err, length) == 0, about);
+        TEST_ASSERT_EQUAL_MESSAGE(last == NULL, length == same, about);
+    }
+    TEST_ASSERT_EQUAL_INT_MESSAGE(limited[0].status, limited[1].status, about);
+    return !failed && ran->status == 1;
+}
+
+/* The ratio of the energy decides, and the other findings as ever. */
+static void test_a_limit_is_one_of_the_energy(void) {
+    dice d = dice_of("limit", 15005);
+    unsigned of[2] = {0};
+    for (unsigned i = 0; i < dice_cases(few_or_all(12, 100)); i++) {
+        char text[TEXT];
+        char limit[40];
+        said what;
+        draw(&d, 0, text);
+        const char *const plain[] = {model_keep(text), NULL};
+        command_say(command_run, plain, &what);
+        const char *at = strstr(what.out, "energy left over ");
+        if (at == NULL) {
+            continue;
+        }
+        const double ratio = strtod(at + strlen("energy left over "), NULL);
+        const double share = i % 2 == 0 ? 0.9 : 1.1;
+        if (!(ratio > 1e-12 && share * ratio < 1.0)) {
+            continue;
+        }
+        snprintf(limit, sizeof limit, "--strict=%.3e", share * ratio);
+        const char *const words[] = {model_keep(text), limit, NULL};
+        command_say(command_run, words, &what);
+        const char *last = strstr(what.err, "exit status 1 because of");
+        const bool energy = last != NULL && strstr(last, "[energy]") != NULL;
+        TEST_ASSERT_EQUAL_MESSAGE(share < 1.0, energy, text);
+        TEST_ASSERT_EQUAL_INT_MESSAGE(last != NULL, what.status, text);
+        of[i % 2]++;
+    }
+    model_drop();
+    TEST_ASSERT_TRUE(of[0] > 1 && of[1] > 1);
+}
+
 static void test_a_point_is_judged_as_its_run(void) {
     static const char *const methods[] = {"rk4", "heun", "leapfrog", "semi-implicit-euler",
                                           "nystroem5"};
     dice d = dice_of("verdict", 15004);
     const unsigned cases = dice_cases(few_or_all(21, 300));
     unsigned of[FINDINGS + 1] = {0};
+    unsigned not_believed = 0;
     for (unsigned i = 0; i < cases; i++) {
         char text[TEXT];
         char about[TEXT + 2 * SAID_SIZE + 100];
@@ -101,12 +262,14 @@ static void test_a_point_is_judged_as_its_run(void) {
         command_say(command_sweep, sweep, &swept);
         snprintf(about, sizeof about, "%s--method %s --number %s\n%s\n%s", text, methods[method],
                  number, ran.err, swept.err);
-        TEST_ASSERT_EQUAL_INT_MESSAGE(ran.status, swept.status, about);
-        for (int k = 0; k < FINDINGS && ran.status == 0; k++) {
+        expect_json(command_run, run, &ran, "findings");
+        expect_json(command_sweep, sweep, &swept, "rows/0/findings");
+        not_believed += expect_statuses(&d, run, sweep, &ran, &swept, about) ? 1U : 0U;
+        for (int k = 0; k < FINDINGS && !is_failed(&ran); k++) {
             char id[20];
             snprintf(id, sizeof id, "[%s]", finding_rows[k].word);
             const bool told = strstr(ran.err, id) != NULL;
-            const bool is_note = finding_rows[k].severity == FINDING_NOTE;
+            const bool is_note = finding_rows[k].severity == FINDING_NOTE; /* without the id */
             TEST_ASSERT_TRUE_MESSAGE(is_note || told == (strstr(swept.err, id) != NULL), about);
             of[k] += told ? 1U : 0U;
             silent = silent && !told;
@@ -116,9 +279,10 @@ static void test_a_point_is_judged_as_its_run(void) {
     model_drop();
     printf(
         "  %u runs and points: %u of the energy, %u of the accuracy, %u singular, %u aliased, %u "
-        "of events, %u silent\n",
+        "of events, %u silent; %u with exit status 1\n",
         cases, of[FINDING_ENERGY], of[FINDING_ACCURACY], of[FINDING_SINGULAR], of[FINDING_ALIASED],
-        of[FINDING_EVENTS], of[FINDINGS]);
+        of[FINDING_EVENTS], of[FINDINGS], not_believed);
+    TEST_ASSERT_TRUE(not_believed > 1 && not_believed < cases);
     TEST_ASSERT_TRUE(of[FINDING_ENERGY] > 1 && of[FINDING_ACCURACY] > 1 && of[FINDINGS] > 1);
     TEST_ASSERT_TRUE(of[FINDING_SINGULAR] + of[FINDING_ALIASED] + of[FINDING_EVENTS] > 0);
 }
@@ -190,5 +354,7 @@ static void test_a_common_speed_changes_nothing(void) {
 
 void suite_verdict(void) {
     RUN_TEST(test_a_point_is_judged_as_its_run);
+    RUN_TEST(test_a_limit_is_one_of_the_energy);
+    RUN_TEST(test_json_of_all_scenes);
     RUN_TEST(test_a_common_speed_changes_nothing);
 }

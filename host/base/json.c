@@ -5,7 +5,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "host/base/utf8.h"
+#include "utf8.h"
 
 static void put_text(FILE *out, const char *text) {
     const size_t length = strlen(text);

@@ -2,8 +2,8 @@
  *
  * Numbers keep all digits of a double; what is no finite number is null, since JSON has no word for it. Text is
  * UTF-8; bytes that are not become U+FFFD. */
-#ifndef EMIT_JSON_H
-#define EMIT_JSON_H
+#ifndef BASE_JSON_H
+#define BASE_JSON_H
 
 #include <stdbool.h>
 #include <stdint.h>

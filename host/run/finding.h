@@ -1,0 +1,47 @@
+/* finding.h: the findings that a run may have, their severity and their limits: the rows that all outputs are made of. */
+#ifndef RUN_FINDING_H
+#define RUN_FINDING_H
+
+#include <stdio.h>
+
+typedef enum finding_id {
+    FINDING_MASS,
+    FINDING_CONSTANTS,
+    FINDING_ENERGY,
+    FINDING_ACCURACY,
+    FINDING_SINGULAR,
+    FINDING_POLE,
+    FINDING_MISSED,
+    FINDING_ALIASED,
+    FINDING_EVENTS,
+    FINDING_DIGITS,
+    FINDINGS
+} finding_id;
+
+#define FINDING_BIT(id) (1U << (id))
+
+/* A warning: the run is not believed, and `whirl run` and `whirl sweep` end with exit status 1. A note keeps 0. A small value
+ * may make a note of a warning (verdict.c). */
+typedef enum finding_severity { FINDING_NOTE, FINDING_WARNING } finding_severity;
+
+/* --strict: STRICT_OFF keeps exit status 0, STRICT_FINDINGS asks the findings. A positive value is a limit of
+ * the energy left over, in place of FINDING_ENERGY. */
+#define STRICT_OFF (-1.0)
+#define STRICT_FINDINGS 0.0
+
+/* The one place of thresholds: a finding is told of a value beyond its limit. */
+typedef struct finding_row {
+    const char *word;
+    finding_severity severity;
+    double limit;
+    const char *unit;   /* of the limit */
+    const char *reason; /* of the limit */
+    const char *points; /* of a sweep: "3 of 9 points ..." */
+} finding_row;
+
+extern const finding_row finding_rows[FINDINGS];
+
+/* The last line of a command that ends with exit status 1 because of these findings, as bits. */
+void finding_say_status(FILE *out, const char *command, unsigned fails);
+
+#endif

@@ -1,0 +1,100 @@
+/* sweep_json.c: see sweep_json.h. */
+#include "sweep_json.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "core/method.h"
+#include "core/version.h"
+#include "host/lang/units.h"
+#include "host/number/decimal.h"
+#include "host/run/belief.h"
+#include "host/run/finding.h"
+#include "host/run/methods.h"
+
+static void put_column(json *j, const char *name, const char *unit) {
+    json_open(j, NULL, '{');
+    json_text(j, "name", name);
+    json_text(j, "unit", unit);
+    json_close(j, '}');
+}
+
+static const char *axis_unit(const axis *a, char text[DIM_TEXT_SIZE]) {
+    if (a->symbol == NULL) {
+        return "s";
+    }
+    dimension dim = a->symbol->dim;
+    for (int i = 0; i < a->primes; i++) {
+        (void)dim_divide(dim, dim_of(0, 0, 1, 0, 0), &dim);
+    }
+    return dim_symbols(dim, text, DIM_TEXT_SIZE);
+}
+
+void sweep_json_begin(json *j, const sweep *s) {
+    char unit[DIM_TEXT_SIZE];
+    const bool is_scene = s->scene != NULL;
+    json_open(j, NULL, '{');
+    json_whole(j, "schema", 1);
+    json_text(j, "command", "sweep");
+    json_text(j, "version", WH_VERSION);
+    json_text(j, "scene", is_scene ? s->scene->name : s->measures->mechanism.name);
+    json_text(j, "title", is_scene ? s->scene->title : s->measures->mechanism.title);
+    json_text(j, "number", s->kind->name);
+    json_text(j, "method", wh_methods[s->engine.method].word);
+    json_open(j, "columns", '[');
+    for (int i = 0; i < s->grid->count; i++) {
+        put_column(j, s->grid->axes[i].column, axis_unit(&s->grid->axes[i], unit));
+    }
+    for (int i = 0; i < s->measures->count; i++) {
+        const measure *m = &s->measures->list[i];
+        put_column(j, m->name,
+                   m->kind == MEASURE_PERIOD ? "s" : dim_symbols(m->of->dim, unit, sizeof unit));
+    }
+    if (!s->measures->mechanism.is_system) {
+        put_column(j, BELIEF_COLUMN, "1");
+    }
+    if (grid_step_axis(s->grid) >= 0) {
+        put_column(j, "end_s", "s");
+    }
+    json_close(j, ']');
+    json_open(j, "rows", '[');
+}
+
+void sweep_json_point(json *j, const char *row, const char *error, unsigned found,
+                      unsigned against) {
+    json_open(j, NULL, '{');
+    json_open(j, "values", '[');
+    for (const char *at = row;; at++) {
+        const char *end;
+        const double value = decimal_read(at, &end);
+        json_number(j, NULL, end == at ? (double)NAN : value);
+        at += strcspn(at, ",\r");
+        if (*at != ',') {
+            break;
+        }
+    }
+    json_close(j, ']');
+    json_open(j, "findings", '[');
+    for (int id = 0; id < FINDINGS; id++) {
+        if ((found & FINDING_BIT(id)) != 0) {
+            json_open(j, NULL, '{');
+            json_text(j, "id", finding_rows[id].word);
+            json_text(j, "severity", (against & FINDING_BIT(id)) != 0 ? "warning" : "note");
+            json_close(j, '}');
+        }
+    }
+    json_close(j, ']');
+    if (error != NULL) {
+        json_text(j, "error", error);
+    } else {
+        json_null(j, "error");
+    }
+    json_close(j, '}');
+}
+
+void sweep_json_end(json *j, uint64_t failed, int status) {
+    json_close(j, ']');
+    json_count(j, "failed", failed);
+    json_whole(j, "exit", status);
+    json_close(j, '}');
+}
