@@ -9,6 +9,7 @@
 #include "host/fixed/engine_fixed.h"
 #include "host/fixed/fixed_plan.h"
 #include "host/number/functions.h"
+#include "host/run/apart.h"
 #include "host/run/horizon_text.h"
 #include "host/run/start.h"
 #include "host/run/undefined.h"
@@ -210,6 +211,7 @@ static int trust_loaded(const trust_options *o, image *im, const image *plain, d
     if (!is_affordable(im, plain, o->effort) || !can_start(im, o->common.number, errors)) {
         return EXIT_BAD_INPUT;
     }
+    apart_say(stderr, "whirl trust", im);
     interrupts_catch();
     int code = EXIT_DONE;
     if (o->common.number == &engine_fixed) {

@@ -11,11 +11,11 @@
 #include "host/base/room.h"
 #include "host/base/statement.h"
 #include "host/number/functions.h"
+#include "verdict.h"
 
 enum { N = IMAGE_COMPONENTS_MAX, HOLDS = WH_CONTACTS_LIMIT, NEWTON_MOST = 50 };
 
-/* Off zero by more than rounding, and by less than this share of its terms: an expression that is to be zero. */
-#define OFF_LEAST 1e-6
+/* An expression that is to be zero is off by more than rounding (the finding's limit), and by less than this share of its terms. */
 #define OFF_MOST 0.5
 
 typedef struct apart {
@@ -65,7 +65,8 @@ static double off_zero(const apart *a, int h) {
     const double value = law_of(a, h)[WH_LAW_FIRST];
     const double size = terms(a, h, a->place, true);
     const bool is = c->pin < 0 && c->direction <= 0 && a->vanishes[h] &&
-                    fabs(value) > OFF_LEAST * size && (a->closes || fabs(value) < OFF_MOST * size);
+                    fabs(value) > finding_rows[FINDING_APART].limit * size &&
+                    (a->closes || fabs(value) < OFF_MOST * size);
     return is ? value : 0.0;
 }
 
@@ -246,28 +247,34 @@ static void say_values(FILE *out, const apart *a, const double *was_place, const
     fputs("\n", out);
 }
 
+/* The rate of a held expression, if that is more than rounding; else 0. */
+static double moving(const apart *a, int h) {
+    const double speed = along(a, h, a->rate);
+    const double least = finding_rows[FINDING_APART].limit * terms(a, h, a->rate, false);
+    return fabs(speed) > least ? speed : 0.0;
+}
+
 static void say(FILE *out, const char *who, apart *a) {
     char statement[STATEMENT_SIZE];
     bool off = false;
     bool moves = false;
     for (int h = 0; h < a->holds; h++) {
         const double value = off_zero(a, h);
-        const double speed = along(a, h, a->rate);
+        const double speed = moving(a, h);
         statement_text(a->im->contact[a->hold[h]].at, statement, sizeof statement);
         if (value != 0.0) {
             off = true;
             fprintf(out,
-                    "%s: warning: what a hold holds starts %.6g (SI) off zero, and stays so: %s\n",
+                    "%s: warning: what a hold holds starts %.6g (SI) off zero, and stays so: %s "
+                    "[apart]\n",
                     who, value, statement);
         }
-        if (fabs(speed) > OFF_LEAST * terms(a, h, a->rate, false)) {
+        if (speed != 0.0) {
             moves = true;
-            fprintf(out, "%s: warning: what a hold holds starts at a rate of %.6g (SI): %s\n", who,
-                    speed, statement);
+            fprintf(out,
+                    "%s: warning: what a hold holds starts at a rate of %.6g (SI): %s [apart]\n",
+                    who, speed, statement);
         }
-    }
-    if (!off && !moves) {
-        return;
     }
     if (moves && isfinite(lost_J(a))) {
         fprintf(out, "%s: warning: an impulse at t = 0 stops that, and takes %.6g J\n", who,
@@ -284,9 +291,10 @@ static void say(FILE *out, const char *who, apart *a) {
     }
 }
 
-void apart_say(FILE *out, const char *who, const image *im) {
+bool apart_say(FILE *out, const char *who, const image *im) {
+    bool fits = true;
     if (im->list[IMAGE_FORCES] == NULL || im->list[IMAGE_SIGNALS] == NULL) {
-        return;
+        return !fits;
     }
     apart a = {.im = im,
                .forces = evaluator_new(im->list[IMAGE_FORCES]),
@@ -315,11 +323,17 @@ void apart_say(FILE *out, const char *who, const image *im) {
         for (int h = 0; h < a.holds; h++) {
             a.closes = a.closes || off_zero(&a, h) != 0.0;
         }
-        say(out, who, &a);
+        for (int h = 0; h < a.holds; h++) {
+            fits = fits && off_zero(&a, h) == 0.0 && moving(&a, h) == 0.0;
+        }
+        if (!fits && out != NULL) {
+            say(out, who, &a);
+        }
     }
     evaluator_free(signals);
     evaluator_free(a.forces);
     free(signal);
     free(a.input);
     free(a.law);
+    return !fits;
 }

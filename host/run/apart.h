@@ -4,11 +4,12 @@
 #ifndef RUN_APART_H
 #define RUN_APART_H
 
+#include <stdbool.h>
 #include <stdio.h>
 
 #include "host/image/image.h"
 
-/* Nothing is said where all fit. `who`: "whirl run". */
-void apart_say(FILE *out, const char *who, const image *im);
+/* True: a hold does not fit. That is said on `out`, if not NULL; `who`: "whirl run". */
+bool apart_say(FILE *out, const char *who, const image *im);
 
 #endif

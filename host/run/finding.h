@@ -14,11 +14,14 @@ typedef enum finding_id {
     FINDING_MISSED,
     FINDING_ALIASED,
     FINDING_EVENTS,
+    FINDING_APART,
     FINDING_DIGITS,
     FINDINGS
 } finding_id;
 
 #define FINDING_BIT(id) (1U << (id))
+/* Of the start, which no step and no number cures. */
+#define FINDING_OF_SCENE FINDING_BIT(FINDING_APART)
 
 /* A warning: the run is not believed, and `whirl run` and `whirl sweep` end with exit status 1. A note keeps 0. A small value
  * may make a note of a warning (verdict.c). */

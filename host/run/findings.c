@@ -254,7 +254,7 @@ static void say_remedy(FILE *out, const verdict *v, const image *plain,
         fputs("hint: restitution 0, or a condition that takes longer to come true again, ends such "
               "events\n",
               out);
-    } else if (v->against == FINDING_BIT(FINDING_ACCURACY) &&
+    } else if ((v->against & ~FINDING_OF_SCENE) == FINDING_BIT(FINDING_ACCURACY) &&
                v->found[FINDING_ACCURACY].at_s > 0.0) {
         fputs("hint: where the motion is chaotic every error grows: --until ends the run before\n",
               out);
@@ -272,7 +272,8 @@ void findings_say(FILE *out, const verdict *v, const image *plain,
             fprintf(out, " [%s]\n", finding_rows[id].word);
         }
     }
-    if ((fails || v->against != 0 || is_told(v, FINDING_MASS)) && !say_cause(out, v)) {
+    if ((fails || (v->against & ~FINDING_OF_SCENE) != 0 || is_told(v, FINDING_MASS)) &&
+        !say_cause(out, v)) {
         say_remedy(out, v, plain, stop);
     }
     slow_say(out, v->image, v->kind, v->run);

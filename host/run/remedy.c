@@ -77,7 +77,8 @@ static bool is_off_at_once(const verdict *v) {
 }
 
 static bool does(const verdict *v) {
-    return v->against == 0 && (v->books == NULL || !v->books->undefined) && !is_off_at_once(v);
+    return (v->against & ~FINDING_OF_SCENE) == 0 && (v->books == NULL || !v->books->undefined) &&
+           !is_off_at_once(v);
 }
 
 /* Of no use any more once it has jumped. */

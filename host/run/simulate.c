@@ -391,7 +391,7 @@ static void print_summary(simulation *sim, wh_status status, simulation_result r
     }
     if (s->chosen != NULL) {
         fprintf(out, "%s%s\n", s->chosen,
-                sim->verdict->against != 0
+                (sim->verdict->against & ~FINDING_OF_SCENE) != 0
                     ? "; chosen for this error alone, and the warning is about the whole motion"
                     : "");
     }
@@ -400,7 +400,7 @@ static void print_summary(simulation *sim, wh_status status, simulation_result r
         fprintf(out, "  changed: %s\n", s->changes);
     }
     if (result == SIMULATION_DONE && h != NULL) {
-        horizon_print_line(out, h, sim->verdict->against != 0);
+        horizon_print_line(out, h, (sim->verdict->against & ~FINDING_OF_SCENE) != 0);
     } else if (result == SIMULATION_DONE && sim->steps > 0) {
         fputs("trusted            whirl trust tells until when: it takes more than a second\n",
               out);
@@ -415,7 +415,7 @@ static void trust(simulation *sim, horizon *h, simulation_trust *to) {
     if (!h->to_the_end) {
         sim->trusted_s = number_most(h->until_s, sim->image->step_s);
     }
-    const bool told = h->to_the_end ? v->against == 0
+    const bool told = h->to_the_end ? (v->against & ~FINDING_OF_SCENE) == 0
                                     : h->column[h->first].verdict != HORIZON_NOT_TOLD &&
                                           v->twins->aliased.column == 0;
     to->until_s = told ? h->until_s : -1.0;

@@ -4,6 +4,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "apart.h"
 #include "host/base/room.h"
 #include "host/number/functions.h"
 #include "slow.h"
@@ -259,6 +260,9 @@ void verdict_end(verdict *v, wh_status status) {
     }
     judge_jumps(v);
     judge_events(v);
+    if (apart_say(NULL, NULL, v->image)) {
+        tell(v, FINDING_APART, 1.0, 0.0, -1);
+    }
     const double slow = slow_share(v->kind, v->image, v->run);
     if (slow > 0.0) {
         tell(v, FINDING_DIGITS, slow, -1.0, -1);

@@ -53,7 +53,7 @@ typedef struct verdict {
     double energy_J;                         /* after the last step */
     belief balance;                          /* after verdict_end(), as are: */
     finding found[FINDINGS];
-    unsigned against; /* the warnings among them, as bits */
+    unsigned against; /* the warnings of the run among them, as bits */
 } verdict;
 
 /* `plain`: the finer run's image (twins_plain()); NULL: the image itself. All must outlive the verdict. */

@@ -1,7 +1,8 @@
 /* test_verdict.c: `whirl sweep` says of a point what `whirl run` says of it alone: they ask one judge. Drawn springs,
  * dampers, swings of systems, flights past a pole, fast forces, springs far away and balls between stops, in steps from fine to
- * useless, by all methods: the findings of both are the same, and so are the exit statuses: 1 exactly after a warning, 0 with
- * --strict=off, by the energy's ratio with a limit. The judge has said something of every kind, and nothing of many. */
+ * useless, by all methods, and rods that do not fit where they start, of which `whirl trust` says the same: the findings of both
+ * are the same, and so are the exit statuses: 1 exactly after a warning, 0 with --strict=off, by the energy's ratio with a limit.
+ * The judge has said something of every kind, and nothing of many. */
 #include <math.h>
 #include <stdbool.h>
 #include <stdio.h>
@@ -16,7 +17,7 @@
 
 void suite_verdict(void);
 
-enum { TEXT = 1200, SHAPES = 7 };
+enum { TEXT = 1200, SHAPES = 8 };
 
 static void draw(dice *d, unsigned shape, char text[TEXT]) {
     const double coarse = pow(10.0, dice_between(d, -2.0, 0.4));
@@ -75,6 +76,24 @@ static void draw(dice *d, unsigned shape, char text[TEXT]) {
                  "scene s { start x = 0.5 [mm], x' = %.12g [m/s]\nstep 1 [ms]\nuntil 50 [ms] }\n",
                  pow(10.0, dice_between(d, 0.0, 1.7)));
         break;
+    case 7: { /* a pendulum on a rod: of its length or not, along it or across */
+        const double rod_m = dice_between(d, 0.2, 3.0);
+        const double angle_rad = dice_between(d, -3.0, 3.0);
+        const double at_m = rod_m * (dice_one_of(d, 2) == 0 ? 1.0 : dice_between(d, 0.8, 1.2));
+        const double along = dice_one_of(d, 2) == 0 ? 0.0 : dice_between(d, -1.0, 1.0);
+        const double across = dice_between(d, -1.0, 1.0);
+        snprintf(
+            text, TEXT,
+            "mechanism m\ncoordinate x [m]\ncoordinate y [m]\nparameter p = 1\n"
+            "T = 1 [kg]*(x'^2 + y'^2)/2\nV = 9.81 [N]*y\n"
+            "hold sqrt(x^2 + y^2) - %.17g [m] while 1 > 0\n"
+            "scene s { start x = %.17g [m], y = %.17g [m], x' = %.17g [m/s], y' = %.17g [m/s]\n"
+            "step 1 [ms]\nuntil 50 [ms] }\n",
+            rod_m, at_m * cos(angle_rad), at_m * sin(angle_rad),
+            along * cos(angle_rad) - across * sin(angle_rad),
+            along * sin(angle_rad) + across * cos(angle_rad));
+        break;
+    }
     }
 }
 
@@ -239,7 +258,7 @@ static void test_a_point_is_judged_as_its_run(void) {
     static const char *const methods[] = {"rk4", "heun", "leapfrog", "semi-implicit-euler",
                                           "nystroem5"};
     dice d = dice_of("verdict", 15004);
-    const unsigned cases = dice_cases(few_or_all(21, 300));
+    const unsigned cases = dice_cases(few_or_all(32, 320));
     unsigned of[FINDINGS + 1] = {0};
     unsigned not_believed = 0;
     for (unsigned i = 0; i < cases; i++) {
@@ -247,6 +266,7 @@ static void test_a_point_is_judged_as_its_run(void) {
         char about[TEXT + 2 * SAID_SIZE + 100];
         said ran;
         said swept;
+        said trusted = {.status = -1};
         bool silent = true;
         const unsigned shape = i % SHAPES;
         draw(&d, shape, text);
@@ -260,6 +280,10 @@ static void test_a_point_is_judged_as_its_run(void) {
                                "--jobs",   "1",       NULL};
         command_say(command_run, run, &ran);
         command_say(command_sweep, sweep, &swept);
+        if (shape == 7) { /* the other findings are of what it does not ask */
+            const char *trust[] = {file, "--quiet", "--number", number, NULL};
+            command_say(command_trust, trust, &trusted);
+        }
         snprintf(about, sizeof about, "%s--method %s --number %s\n%s\n%s", text, methods[method],
                  number, ran.err, swept.err);
         expect_json(command_run, run, &ran, "findings");
@@ -271,6 +295,9 @@ static void test_a_point_is_judged_as_its_run(void) {
             const bool told = strstr(ran.err, id) != NULL;
             const bool is_note = finding_rows[k].severity == FINDING_NOTE; /* without the id */
             TEST_ASSERT_TRUE_MESSAGE(is_note || told == (strstr(swept.err, id) != NULL), about);
+            TEST_ASSERT_TRUE_MESSAGE(k != FINDING_APART || shape != 7 ||
+                                         told == (strstr(trusted.err, id) != NULL),
+                                     about);
             of[k] += told ? 1U : 0U;
             silent = silent && !told;
         }
@@ -279,11 +306,12 @@ static void test_a_point_is_judged_as_its_run(void) {
     model_drop();
     printf(
         "  %u runs and points: %u of the energy, %u of the accuracy, %u singular, %u aliased, %u "
-        "of events, %u silent; %u with exit status 1\n",
+        "of events, %u apart, %u silent; %u with exit status 1\n",
         cases, of[FINDING_ENERGY], of[FINDING_ACCURACY], of[FINDING_SINGULAR], of[FINDING_ALIASED],
-        of[FINDING_EVENTS], of[FINDINGS], not_believed);
+        of[FINDING_EVENTS], of[FINDING_APART], of[FINDINGS], not_believed);
     TEST_ASSERT_TRUE(not_believed > 1 && not_believed < cases);
     TEST_ASSERT_TRUE(of[FINDING_ENERGY] > 1 && of[FINDING_ACCURACY] > 1 && of[FINDINGS] > 1);
+    TEST_ASSERT_TRUE(of[FINDING_APART] > 1);
     TEST_ASSERT_TRUE(of[FINDING_SINGULAR] + of[FINDING_ALIASED] + of[FINDING_EVENTS] > 0);
 }
 
