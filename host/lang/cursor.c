@@ -149,19 +149,23 @@ bool parser_end_statement(parser *in, const char *what) {
     }
     char words[80];
     token_words(&in->token, words, sizeof words);
+    const char *first = first_word_hint(in->token.text, in->token.length);
     switch (in->token.kind) {
     case TOKEN_UNIT:
         return parser_fail(in, "a unit belongs to a number: 2 [kg]", "a unit without a number");
     case TOKEN_NAME:
     case TOKEN_NUMBER:
-        return parser_fail(in, "products are written with *, units in brackets: 2*m, 2 [m]",
-                           "an operator is missing before %s", words);
+        return parser_fail(
+            in,
+            first != NULL ? first : "products are written with *, units in brackets: 2*m, 2 [m]",
+            "an operator is missing before %s", words);
     case TOKEN_SIGN:
         if (in->token.sign == ')') {
             return parser_fail(in, NULL, "')' without '('");
         }
         return parser_fail(in,
                            is_decimal_comma(&in->token) ? "a decimal point: 2.5"
+                           : first != NULL              ? first
                                                         : "a statement ends with its line",
                            "unexpected %s after %s", words, what);
     case TOKEN_STRING:

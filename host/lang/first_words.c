@@ -4,11 +4,12 @@
 #include "words.h"
 
 #define CLOCK \
-    "there is no name for the time; in Q a turning coordinate is a clock (docs/language.md, " \
-    "\"What is given over time\")"
+    "there is no name for the time; in Q and in the condition of a hold a coordinate is a clock " \
+    "(docs/language.md, \"What is given over time\")"
 #define CHOICE "choose with max(a, b), min(a, b) or sign(x); at a moment, with when or hold"
 #define JUMP "write (1 + sign(x))/2; of a contact, stop, hold or when"
 #define COUNT "nothing counts in steps but: when x crosses 1 [m] rising { set x = 0 [m] }"
+#define PARAMETER "write: parameter m = 2 [kg]"
 #define TABLE "write a formula, or an input that firmware changes: input u = 0 [N]"
 
 const char *energy_hint(const char *text, size_t length) {
@@ -31,27 +32,45 @@ const char *first_word_hint(const char *text, size_t length) {
     static const struct {
         const char *word;
         const char *hint;
-    } rows[] = {{"t", CLOCK},
-                {"time", CLOCK},
-                {"given", "a given motion is the force that it makes felt: Q(x) = k*xe "
-                          "(docs/language.md, \"What is given over time\")"},
-                {"every", "what happens at intervals follows a clock: when phi crosses 2*pi rising "
-                          "{ set phi = 0 [rad] }"},
-                {"if", CHOICE},
-                {"else", CHOICE},
-                {"where", CHOICE},
-                {"piecewise", CHOICE},
-                {"heaviside", JUMP},
-                {"step", JUMP},
-                {"floor", COUNT},
-                {"ceil", COUNT},
-                {"round", COUNT},
-                {"mod", COUNT},
-                {"table", TABLE},
-                {"lookup", TABLE},
-                {"interp", TABLE},
-                {"constraint", "write: hold x - l*sin(a) while 1 > 0"},
-                {"tunable", "what may change while running is an input: input k = 3 [N/m]"}};
+    } rows[] = {
+        {"t", CLOCK},
+        {"time", CLOCK},
+        {"given",
+         "a given motion is the force that it makes felt: Q(x) = k*xe "
+         "(docs/language.md, \"What is given over time\"); a condition: hold x while x > 0 [m]"},
+        {"every", "what happens at intervals follows a clock: when phi crosses 2*pi rising "
+                  "{ set phi = 0 [rad] }"},
+        {"if", CHOICE},
+        {"else", CHOICE},
+        {"where", CHOICE},
+        {"piecewise", CHOICE},
+        {"?", CHOICE},
+        {">", CHOICE},
+        {"<", CHOICE},
+        {">=", CHOICE},
+        {"<=", CHOICE},
+        {"==", CHOICE},
+        {"&", "join two comparisons with and: x > a and x < b"},
+        {"|", "join two comparisons with or: x < a or x > b"},
+        {"sgn", "write sign(x)"},
+        {"pow", "powers are written with ^: a^b"},
+        {"ln", "the natural logarithm is log(x)"},
+        {"log10", "log(x) is the natural logarithm: log(x)/log(10)"},
+        {"const", PARAMETER},
+        {"constant", PARAMETER},
+        {"param", PARAMETER},
+        {"parameters", PARAMETER},
+        {"heaviside", JUMP},
+        {"step", JUMP},
+        {"floor", COUNT},
+        {"ceil", COUNT},
+        {"round", COUNT},
+        {"mod", COUNT},
+        {"table", TABLE},
+        {"lookup", TABLE},
+        {"interp", TABLE},
+        {"constraint", "write: hold x - l*sin(a) while 1 > 0"},
+        {"tunable", "what may change while running is an input: input k = 3 [N/m]"}};
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         if (strlen(rows[i].word) == length && memcmp(rows[i].word, text, length) == 0) {
             return rows[i].hint;

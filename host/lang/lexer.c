@@ -7,6 +7,7 @@
 
 #include "host/base/utf8.h"
 #include "host/number/decimal.h"
+#include "words.h"
 
 enum { NUMBER_LENGTH_MAX = 100 };
 
@@ -237,7 +238,8 @@ static void read_stray(lexer *in, token *made) {
     } else if (c < 0x20 || c == 0x7f) {
         diag_error(in->diags, made->at, NULL, "control character %d in the text", c);
     } else {
-        diag_error(in->diags, made->at, NULL, "unexpected character '%c'", c);
+        const char sign = (char)c;
+        diag_error(in->diags, made->at, first_word_hint(&sign, 1), "unexpected character '%c'", c);
     }
     advance(in, 1);
 }

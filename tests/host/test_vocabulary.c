@@ -133,10 +133,31 @@ static void test_energies_have_their_dimension(void) {
     expect_report("F = m*x", "dissipation function F must be a power [kg*m^2/s^3]");
 }
 
+static void expect_word_hint(const char *form, const char *word) {
+    char line[100];
+    char wanted[300];
+    const char *hint = first_word_hint(word, strlen(word));
+    TEST_ASSERT_NOT_NULL_MESSAGE(hint, word);
+    snprintf(line, sizeof line, form, word); // NOLINT
+    snprintf(wanted, sizeof wanted, "hint: %s\n", hint);
+    expect_report(line, wanted);
+}
+
 /* Words of other languages, wherever they stand, and first attempts: all get a hint, never a comparison by spelling. */
 static void test_first_words_get_a_hint(void) {
-    static const char *const words[] = {"t",     "time",       "if",    "floor",   "heaviside",
-                                        "table", "constraint", "given", "tunable", "every"};
+    static const char *const words[] = {
+        "t",     "time", "if",  "floor", "heaviside", "table", "constraint", "given",     "tunable",
+        "every", "sgn",  "pow", "ln",    "log10",     "const", "param",      "parameters"};
+    static const char *const signs[][2] = {{"V = x %s 0", "=="},
+                                           {"V = x %s 0", ">"},
+                                           {"V = x %s 0", "<="},
+                                           {"let c = 3 %s 2", "?"},
+                                           {"V = 3 [J] %s x", "if"},
+                                           {"hold x while x > 0 [m] %s 1 > 0", "given"},
+                                           {"hold x while %s > 1", "t"},
+                                           {"stop x - %s >= 0 restitution 1", "time"},
+                                           {"hold x while x > 0 [m] %s x < 1 [m]", "&"},
+                                           {"hold x while x > 0 [m] %s x < 1 [m]", "|"}};
     static const char *const places[] = {
         "V = 1 [J]*%s", "V = 1 [J]*%s(x/1 [m])", "let l2 = 3*%s + 2", "output w = sin(%s*2)",
         "%s y x",       "effect e {\n%s x\n}"};
@@ -146,17 +167,18 @@ static void test_first_words_get_a_hint(void) {
         {"friction x - l static 1 kinetic 1 normal 1 [N]", "hint: between two bodies"},
         {"input w", "hint: an input has a value at the start: input w = 0"},
         {"input F", "hint: take another name, such as F_1"},
-        {"Q = 3", "hint: write Q(x) = "}};
+        {"Q = 3", "hint: write Q(x) = "},
+        {"V = 1 [J]*arctan(x/1 [m])", "hint: did you mean 'atan'?"},
+        {"V = 1 [J]*arcsin(x/1 [m])", "hint: did you mean 'asin'?"},
+        {"V = 1 [J]*arccos(x/1 [m])", "hint: did you mean 'acos'?"},
+        {"hold x given 1 > 0", "hint: hold x - y while"}};
     for (size_t w = 0; w < sizeof words / sizeof words[0]; w++) {
         for (size_t k = 0; k < sizeof places / sizeof places[0]; k++) {
-            char line[100];
-            char wanted[300];
-            const char *hint = first_word_hint(words[w], strlen(words[w]));
-            TEST_ASSERT_NOT_NULL_MESSAGE(hint, words[w]);
-            snprintf(line, sizeof line, places[k], words[w]); // NOLINT
-            snprintf(wanted, sizeof wanted, "hint: %s\n", hint);
-            expect_report(line, wanted);
+            expect_word_hint(places[k], words[w]);
         }
+    }
+    for (size_t i = 0; i < sizeof signs / sizeof signs[0]; i++) {
+        expect_word_hint(signs[i][0], signs[i][1]);
     }
     for (size_t i = 0; i < sizeof attempts / sizeof attempts[0]; i++) {
         expect_report(attempts[i][0], attempts[i][1]);
