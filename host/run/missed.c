@@ -1,6 +1,7 @@
 /* missed.c: see missed.h. */
 #include "missed.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -29,7 +30,6 @@ struct missed {
     int *mode;             /* [contacts] likewise */
     int *mode_to;
     double *most;              /* [coordinates] more is hidden from both ends */
-    bool *hard;                /* [coordinates] bounds say too little, once and for all */
     const engine_piece *piece; /* the one that is looked at */
     double size;               /* the larger margin at its ends */
     int parts;                 /* looked at, so far */
@@ -61,7 +61,6 @@ missed *missed_open(const image *im) {
     m->most = m->to + all;
     m->mode = room(2 * im->contacts, sizeof *m->mode);
     m->mode_to = m->mode + im->contacts;
-    m->hard = room(im->coordinates, sizeof *m->hard);
     return m;
 }
 
@@ -71,7 +70,6 @@ void missed_close(missed *m) {
         along_close(m->accel);
         free(m->from);
         free(m->mode);
-        free(m->hard);
         free(m);
     }
 }
@@ -162,8 +160,9 @@ static missed_found contact_passed(missed *m) {
     return found;
 }
 
-/* The coordinate whose acceleration on the way is hidden from both ends. */
+/* The coordinate whose acceleration on the way is hidden from both ends. One at rest in balance has bounds of underflow alone. */
 static missed_found force_passed(missed *m) {
+    missed_found found = MISSED_NOTHING;
     const int n = m->image->coordinates;
     bool open[IMAGE_COMPONENTS_MAX];
     for (int end = 0; end < 2; end++) {
@@ -175,19 +174,18 @@ static missed_found force_passed(missed *m) {
     }
     for (int i = 0; i < n; i++) {
         const double rate = number_most(fabs(m->piece->from[n + i]), fabs(m->piece->to[n + i]));
-        m->most[i] = number_most(m->most[i], TURNS * rate / m->piece->span_s);
-        open[i] = m->most[i] - m->most[i] == 0.0 && !m->hard[i] &&
+        m->most[i] = number_most(number_most(m->most[i], TURNS * rate / m->piece->span_s), DBL_MIN);
+        open[i] = m->most[i] - m->most[i] == 0.0 &&
                   !(enclosure_size(along_glance(m->accel, i)) <= m->most[i]);
     }
-    for (int i = 0; i < n; i++) {
+    for (int i = 0; i < n && !found.sure; i++) {
         m->parts = 0;
         const int passed = open[i] ? passes(m, look_force, i, 0.0, 1.0, m->most[i], HALVINGS) : 0;
-        if (passed > 0) {
-            return (missed_found){.what = m->image->contacts + i, .sure = true};
-        }
-        m->hard[i] = m->hard[i] || passed < 0;
+        found = passed > 0 || (passed < 0 && found.what < 0)
+                    ? (missed_found){.what = m->image->contacts + i, .sure = passed > 0}
+                    : found;
     }
-    return MISSED_NOTHING;
+    return found;
 }
 
 static missed_found piece_passed(missed *m, const engine_piece *piece) {

@@ -5,7 +5,8 @@
  * The way of a step is the cubic through the places and rates at its ends. A step with events has a way between each two of
  * them. Each gap and condition is bounded on it by Taylor forms (along.h). The way is halved until a place inside is found or
  * excluded. A contact that stays open after so many parts is reported as open. Accelerations are bounded so if an exponential
- * function is in them: far above those at both ends, and enough to turn the rate, the step has passed over a force. */
+ * function is in them: far above those at both ends, and enough to turn the rate, the step has passed over a force. One that
+ * stays open is reported as open. */
 #ifndef RUN_MISSED_H
 #define RUN_MISSED_H
 
@@ -17,7 +18,7 @@ typedef struct missed missed;
 missed *missed_open(const image *im);
 void missed_close(missed *m); /* NULL is fine */
 /* `what`: the contact that a step passed through, or the number of contacts plus the coordinate whose force it passed over,
- * or -1. Not sure: a contact that could neither be found nor excluded. */
+ * or -1. Not sure: it could neither be found nor excluded. */
 typedef struct missed_found {
     int what;
     bool sure;

@@ -191,6 +191,31 @@ static void test_flat_ones(void) {
     TEST_ASSERT_TRUE(told * 4 > cases && met * 10 > cases);
 }
 
+/* A hill behind a place without bounds, the tip of a weak force's cone that the way goes through: told of the tip, or of the hill. */
+static void test_hills_behind_a_tip(void) {
+    dice d = dice_of("missed", 5);
+    const unsigned cases = dice_cases(20);
+    unsigned met = 0;
+    for (unsigned k = 0; k < cases; k++) {
+        motion m;
+        char more[TEXT];
+        char from[400];
+        const flight f = flight_draw(&d);
+        const double hill_J = 0.5 * f.v_m_s * f.v_m_s * dice_between(&d, 1.2, 5.0);
+        snprintf(from, sizeof from,
+                 "V = %.17g [J]*exp(-($x/($w))^2) + 1e-9 [J]*exp(-sqrt(($x + %.17g [m])^2 + "
+                 "$y^2)/(1 [m]))",
+                 hill_J, dice_between(&d, 0.2, 0.8));
+        place_write(&f, thickness_m(&d), from, more);
+        const bool is_told = fly(&m, &f, more, 0.0);
+        const bool is_met = motion_value(&m, "x") < f.place_m[0];
+        TEST_ASSERT_TRUE_MESSAGE(is_told || is_met, text);
+        met += is_met;
+        motion_close(&m);
+    }
+    TEST_ASSERT_TRUE(met < cases);
+}
+
 /* Two places on straight lines at constant speed, the second one perhaps on a turning disk: the least distance of both, by
  * looking often. */
 typedef struct pass {
@@ -377,6 +402,7 @@ static void test_right_runs(void) {
 void suite_missed(void) {
     RUN_TEST(test_posts);
     RUN_TEST(test_flat_ones);
+    RUN_TEST(test_hills_behind_a_tip);
     RUN_TEST(test_moving_ones);
     RUN_TEST(test_right_runs);
 }
