@@ -1,6 +1,7 @@
 /* equations.c: what is asked of equations that stand, or nearly so. */
 #include "equations.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 
 place equations_kinetic_place(const instance *inst) {
@@ -32,8 +33,16 @@ const poly *equations_fold(const equations *e, const poly *p) {
 void equations_report_growth(const equations *e, diags *errors) {
     const mechanism *m = e->instance->mechanism;
     char *limit = algebra_limit(e->algebra);
-    diag_error(errors, m->at, "smaller powers of sums, or coordinates nearer to the joints, help",
-               "the equations of '%s' grow beyond what can be handled: %s", m->name, limit);
+    char hint[200] = "smaller powers of sums, or coordinates nearer to the joints, help";
+    if (m->parameter_count >
+        0) { /* products of parameters are terms of their own, those of numbers none */
+        snprintf(hint, sizeof hint,
+                 "write let in place of parameter: %d of them become numbers; smaller powers of "
+                 "sums, or coordinates nearer to the joints, help too",
+                 m->parameter_count);
+    }
+    diag_error(errors, m->at, hint, "the equations of '%s' grow beyond what can be handled: %s",
+               m->name, limit);
     free(limit);
 }
 

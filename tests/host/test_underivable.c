@@ -110,6 +110,39 @@ static void test_too_many_components(void) {
     free(states);
 }
 
+/* A product of sums of parameters, as in the energies of a long chain: what the hint says makes it derive. */
+static void test_a_hint_about_parameters_helps(void) {
+    dice d = dice_of("parameters", 2);
+    for (unsigned k = 0; k < 3; k++) {
+        char text[2][4000];
+        char wanted[100];
+        const unsigned sums = 11 + dice_one_of(&d, 3);
+        snprintf(wanted, sizeof wanted,
+                 "hint: write let in place of parameter: %u of them become numbers", 3 * sums);
+        for (int lets = 0; lets < 2; lets++) {
+            const dice drawn = d;
+            size_t at = (size_t)snprintf(text[lets], sizeof text[lets],
+                                         "mechanism m\ncoordinate x\ncoordinate y\n");
+            for (unsigned i = 0; i < 3 * sums; i++) {
+                at += (size_t)snprintf(text[lets] + at, sizeof text[lets] - at, "%s p%u = %.3f\n",
+                                       lets ? "let" : "parameter", i, dice_between(&d, 0.1, 2.0));
+            }
+            at += (size_t)snprintf(text[lets] + at, sizeof text[lets] - at,
+                                   "T = 1 [kg*m^2]*(x'^2 + y'^2)/2\nV = 1 [J]");
+            for (unsigned i = 0; i < sums; i++) {
+                at += (size_t)snprintf(text[lets] + at, sizeof text[lets] - at,
+                                       "*(p%u + p%u*x + p%u*y)", 3 * i, 3 * i + 1, 3 * i + 2);
+            }
+            snprintf(text[lets] + at, sizeof text[lets] - at, "\n");
+            d = lets ? d : drawn;
+        }
+        expect_refused(text[0], wanted);
+        derived helped = derived_text(text[1]);
+        TEST_ASSERT_NOT_NULL_MESSAGE(helped.image, helped.errors);
+        derived_free(&helped);
+    }
+}
+
 static void test_expressions_that_explode_are_refused(void) {
     static const char front[] = "mechanism m\ncoordinate x\ncoordinate y\nlet a0 = x + y + 1\n";
     static const char tail[] = "T = 1 [kg*m^2]*(x'^2 + y'^2)\nV = 1 [J]*a30\n";
@@ -194,6 +227,7 @@ void suite_underivable(void) {
     RUN_TEST(test_the_start_is_tried_too);
     RUN_TEST(test_constants_that_are_not_finite);
     RUN_TEST(test_too_many_components);
+    RUN_TEST(test_a_hint_about_parameters_helps);
     RUN_TEST(test_expressions_that_explode_are_refused);
     RUN_TEST(test_nothing_is_compared_with_itself);
 }
