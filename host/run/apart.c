@@ -11,11 +11,10 @@
 #include "host/base/room.h"
 #include "host/base/statement.h"
 #include "host/number/functions.h"
-#include "verdict.h"
 
 enum { N = IMAGE_COMPONENTS_MAX, HOLDS = WH_CONTACTS_LIMIT, NEWTON_MOST = 50 };
 
-/* An expression that is to be zero is off by more than rounding (the finding's limit), and by less than this share of its terms. */
+/* An expression that is to be zero is off by more than APART_LEAST, and by less than this share of its terms. */
 #define OFF_MOST 0.5
 
 typedef struct apart {
@@ -65,7 +64,7 @@ static double off_zero(const apart *a, int h) {
     const double value = law_of(a, h)[WH_LAW_FIRST];
     const double size = terms(a, h, a->place, true);
     const bool is = c->pin < 0 && c->direction <= 0 && a->vanishes[h] &&
-                    fabs(value) > finding_rows[FINDING_APART].limit * size &&
+                    fabs(value) > APART_LEAST * size &&
                     (a->closes || fabs(value) < OFF_MOST * size);
     return is ? value : 0.0;
 }
@@ -250,7 +249,7 @@ static void say_values(FILE *out, const apart *a, const double *was_place, const
 /* The rate of a held expression, if that is more than rounding; else 0. */
 static double moving(const apart *a, int h) {
     const double speed = along(a, h, a->rate);
-    const double least = finding_rows[FINDING_APART].limit * terms(a, h, a->rate, false);
+    const double least = APART_LEAST * terms(a, h, a->rate, false);
     return fabs(speed) > least ? speed : 0.0;
 }
 

@@ -9,6 +9,9 @@
 
 #include "host/image/image.h"
 
+/* Off zero, or moving, by more than this share of its terms is more than rounding. */
+#define APART_LEAST 1e-6
+
 /* True: a hold does not fit. That is said on `out`, if not NULL; `who`: "whirl run". */
 bool apart_say(FILE *out, const char *who, const image *im);
 

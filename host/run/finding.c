@@ -1,6 +1,7 @@
 /* finding.c: see finding.h. */
 #include "finding.h"
 
+#include "apart.h"
 #include "belief.h"
 #include "horizon.h"
 #include "slow.h"
@@ -35,7 +36,7 @@ const finding_row finding_rows[FINDINGS] = {
     [FINDING_EVENTS] = {"events", FINDING_WARNING, 0.0, "steps",
                         "what is left of such a step counts as rest or sticking",
                         "had steps with more events than a step takes"},
-    [FINDING_APART] = {"apart", FINDING_WARNING, 1e-6, "of the terms of what is held",
+    [FINDING_APART] = {"apart", FINDING_WARNING, APART_LEAST, "of the terms of what is held",
                        "a start in decimal digits fits to less",
                        "have holds that do not fit where they start"},
     [FINDING_DIGITS] = {"digits", FINDING_NOTE, SLOW_SHARE, "of the span asked for",
