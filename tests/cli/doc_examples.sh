@@ -21,6 +21,14 @@ for example in "$scratch"/*.whirl; do
     verdict $? "$name"
 done
 
+# --- a reader keeps one folder: `whirl new` of a page writes no file that README has him save.
+for page in docs/*.md docs/howto/*.md; do
+    for name in $(sed -n 's/^[$] build\/whirl new //p' "$page"); do
+        ! grep -q "^\`\`\`whirl $name[.]whirl$" README.md
+        verdict $? "$page: whirl new $name after README" /dev/null
+    done
+done
+
 # --- the programs of pages: what stands in blocks with a file name, and the commands that derive and compile it. They end by
 # themselves, with status 0 or 1, also where the start is refused: here an object file that makes the processor flush small
 # numbers, as linking with -ffast-math does. WHIRL_FULL: twelve sets of flags. (gate-docs runs them as they are.)
