@@ -14,7 +14,7 @@ books *books_open(const image *im) {
     }
     const int results = im->list[IMAGE_BOOKS]->results;
     books *b = room(1, sizeof *b);
-    const size_t count = 2 * (size_t)results + 4 * (size_t)im->count + (size_t)im->inputs;
+    const size_t count = 2 * (size_t)results + 5 * (size_t)im->count + (size_t)im->inputs;
     double *numbers = room((int64_t)count, sizeof *numbers);
     b->image = im;
     b->evaluator = evaluator_new(im->list[IMAGE_BOOKS]);
@@ -24,7 +24,8 @@ books *books_open(const image *im) {
     b->drift = b->momentum + im->count;
     b->momentum_now = b->drift + im->count;
     b->lean = b->momentum_now + im->count;
-    b->input = b->lean + im->count;
+    b->terms = b->lean + im->count;
+    b->input = b->terms + im->count;
     b->rate = room(2 * (int64_t)im->count, sizeof *b->rate);
     b->push = b->rate + im->count;
     b->frame = room(im->count, sizeof *b->frame);
@@ -187,9 +188,34 @@ static double step_lost_J(const books *b, const engine_kind *kind) {
            (SUMS_OF_A_STEP * entries * FLOAT_LEAST + (isfinite(lost_W) ? b->step_s * lost_W : 0.0));
 }
 
+/* Momenta are sums over the rates, and of what does not depend on these. */
+static void look_at_momenta(books *b) {
+    const image *im = b->image;
+    double real[2 * IMAGE_COMPONENTS_MAX];
+    double sum[IMAGE_COMPONENTS_MAX];
+    memcpy(real, b->real, sizeof real);
+    for (int i = 0; i < im->count; i++) {
+        sum[i] = fabs(b->lean[i]);
+    }
+    for (int k = 0; k < im->reals; k++) {
+        if (im->real[k].primes == 1 && b->real[k] != 0.0) {
+            real[k] = 0.0;
+            evaluate_now(b, b->angle_rad, real, b->time_s);
+            real[k] = b->real[k];
+            for (int i = 0; i < im->count; i++) {
+                sum[i] += fabs(b->momentum_now[i] - b->value[im->count + BOOK_MOMENTA + i]);
+            }
+        }
+    }
+    for (int i = 0; i < im->count; i++) {
+        b->terms[i] = number_most(b->terms[i], sum[i]);
+    }
+}
+
 /* Look at the present state. */
 static void look_at_rounding(books *b, const engine_kind *kind, const void *run) {
     const double state_J = state_rounding_J(b, kind, run);
+    look_at_momenta(b);
     evaluate_now(b, b->angle_rad, b->real, b->time_s);
     evaluator_rounding(b->evaluator, b->angle_rad, 0.0, b->off);
     const double off_J = energy_of(b->image, b->off);

@@ -28,6 +28,7 @@ typedef struct books {
     double *momentum;     /* [count] at the start */
     double *momentum_now; /* [count] */
     double *drift;        /* [count] largest change since */
+    double *terms;        /* [count] sum of the terms' magnitudes, largest of those looked at */
     double angle_rad[IMAGE_COMPONENTS_MAX];
     double real[2 * IMAGE_COMPONENTS_MAX];
     double kinetic_J[2]; /* start, now */

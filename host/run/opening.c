@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "horizon.h"
 #include "host/base/room.h"
 #include "host/number/functions.h"
 #include "host/number/zero.h"
@@ -138,9 +139,16 @@ static void print_momentum(FILE *out, const image *im, const books *b) {
             found = i;
         }
     }
-    if (found >= 0) {
-        fprintf(out, "The momentum of %s stays %.3g %s within %.1e. ", im->unknown[found].name,
-                number_shown(b->momentum[found]), im->unknown[found].momentum_si, b->drift[found]);
+    if (found < 0) {
+        return;
+    }
+    const char *si = im->unknown[found].momentum_si;
+    fprintf(out, "The momentum of %s ", im->unknown[found].name);
+    if (b->drift[found] <= HORIZON_TOLERANCE * b->terms[found]) {
+        fprintf(out, "stays %.3g %s within %.1e. ", number_shown(b->momentum[found]), si,
+                b->drift[found]);
+    } else {
+        fprintf(out, "drifts by %.2g %s, though it is conserved. ", b->drift[found], si);
     }
 }
 
