@@ -211,6 +211,15 @@ static const char *predicted_since(const char *missing, char text[PRICES_TEXT]) 
     return text;
 }
 
+/* A run with contacts, whose cost no prediction tells. */
+static int says_contacts(const pricing *p, const char *missing) {
+    fprintf(stderr,
+            "whirl choose: error: the cost of contacts must be counted: %s\n"
+            "hint: whirl price %s%s shows errors and evaluations without that\n",
+            missing, p->target, p->words);
+    return EXIT_RUN_FAILED;
+}
+
 static int choose_from(pricing *p, choice_wish *w, const choose_options *o, bool counts) {
     const table_words words = {p->target, p->words, false, p->effort};
     w->table.error = allowed_of(p);
@@ -220,16 +229,13 @@ static int choose_from(pricing *p, choice_wish *w, const choose_options *o, bool
     table *made = table_new(&p->trial, &w->table);
     choice c = choice_make(&p->trial, made, w);
     int code = EXIT_DONE;
-    if (p->trial.without_events && !counts) {
-        made->unpriced = made->settings;
-        made->why = "the cost of contacts depends on the motion: it must be counted";
-        made->count = 0;
-        c = choice_make(&p->trial, made, w);
-    } else if (counts && !p->trial.stopped &&
-               choice_counted(&p->trial, made, w, &words, &c) == MEASURED_MISSING) {
+    if (counts && !p->trial.stopped &&
+        choice_counted(&p->trial, made, w, &words, &c) == MEASURED_MISSING) {
         if (o->measure) {
             pricing_says_missing(p, "a tool is missing");
             code = EXIT_BAD_INPUT;
+        } else if (p->trial.without_events) {
+            code = says_contacts(p, "a tool is missing");
         }
         w->counts = false;
         w->prices = "predicted, since a tool is missing that counts";
@@ -281,6 +287,9 @@ static int choose_begun(const choose_options *o, pricing *p, choice_wish *w) {
     const int code = look_for_tools(o, p, &b);
     if (code != EXIT_DONE) {
         return code;
+    }
+    if (b.missing != NULL && p->trial.image[0]->contacts > 0) {
+        return says_contacts(p, o->predict ? "leave out --predict" : b.missing);
     }
     w->prices = b.missing == NULL ? prices_counted
                 : o->predict      ? prices_asked

@@ -19,15 +19,17 @@ static const engine_kind *number_of(const rating_wish *w) {
     return w->number != NULL ? w->number : pc ? &engine_double : &engine_float;
 }
 
-static void say_none(FILE *out, const rating_wish *w, const char *why, bool priced) {
+/* The line ends with the command that shows them, if there is one. */
+static void say_none(FILE *out, const rating_wish *w, const char *why, const char *command) {
     fprintf(out, "accuracy and cost  not shown: %s", why);
-    if (priced) {
+    if (command != NULL) {
         char *target = pricing_quoted(w->target);
         overrides asked = *w->changes;
         asked.step = NULL; /* it tries several */
         char *changes = pricing_words(&asked, false);
-        fprintf(out, "; they are shown by: whirl price %s%s%s%s", target, changes,
-                w->board_word != NULL ? " --board " : "",
+        fprintf(out, "; %sthey are shown by: whirl %s %s%s%s%s",
+                strcmp(command, "price") != 0 ? "in Whirl's source tree " : "", command, target,
+                changes, w->board_word != NULL ? " --board " : "",
                 w->board_word != NULL ? w->board_word : "");
         free(target);
         free(changes);
@@ -36,15 +38,13 @@ static void say_none(FILE *out, const rating_wish *w, const char *why, bool pric
 }
 
 /* Why no rows can be made of a scene, whatever its run came to; NULL: they can. */
-static const char *refused(const rating_wish *w, bool *priced) {
+static const char *refused(const rating_wish *w) {
     diags *unsaid = diags_new();
     const bool held = number_of(w) == &engine_double || start_angles_are_held(w->image, unsaid);
     diags_free(unsaid);
-    *priced = w->image->contacts > 0;
-    return w->image->contacts > 0    ? "events make the cost of a step depend on the motion"
-           : w->settings->stabilized ? "the cost of --stabilized is not known"
-           : !held                   ? "a start angle has more turns than float counts"
-                                     : NULL;
+    return w->settings->stabilized ? "the cost of --stabilized is not known"
+           : !held                 ? "a start angle has more turns than float counts"
+                                   : NULL;
 }
 
 /* Operations that the rows may evaluate: a second, with the angles that are turned beside them. */
@@ -71,16 +71,16 @@ static void say_rows(FILE *out, const rating_wish *w, double until_s) {
     const double steps = number_floor(until_s / w->image->step_s * (1.0 + 1e-12));
     wish.steps = (uint64_t)number_least(steps, (double)w->image->steps);
     if (wish.steps < 2) {
-        say_none(out, w, "the run is trusted for less than two steps", true);
+        say_none(out, w, "the run is trusted for less than two steps", "price");
     } else if (three_rows_operations(&wish, w->image) > ROWS_OPERATIONS) {
-        say_none(out, w, "they take more than a second", true);
+        say_none(out, w, "they take more than a second", "price");
     } else {
         three_rows rows;
         three_rows_make(&rows, &wish);
         if (rows.trial.stopped) {
-            say_none(out, w, "interrupted", true);
+            say_none(out, w, "interrupted", "price");
         } else if (!rows.trial.reliable) {
-            say_none(out, w, "there is no reference to compare with", true);
+            say_none(out, w, "there is no reference to compare with", NULL);
         } else {
             three_rows_print(out, &rows);
         }
@@ -90,17 +90,22 @@ static void say_rows(FILE *out, const rating_wish *w, double until_s) {
 }
 
 void rating_say(FILE *out, const rating_wish *w, const simulation_trust *trust) {
-    bool priced;
-    const char *why = refused(w, &priced);
     if (w->image->steps == 0) {
         return;
     }
-    if (why != NULL) {
-        say_none(out, w, why, priced);
+    const char *why = refused(w);
+    const bool on_board = strcmp(w->board->name, "host") != 0;
+    if (trust->still) {
+        say_none(out, w, "nothing moves", NULL);
+    } else if (w->image->contacts > 0) { /* which choose counts, in emulators alone */
+        say_none(out, w, "events make the cost of a step depend on the motion",
+                 on_board ? "choose --error 1e-3" : "price");
+    } else if (why != NULL) {
+        say_none(out, w, why, NULL);
     } else if (trust->dear) {
-        say_none(out, w, "they take more than a second", true);
+        say_none(out, w, "they take more than a second", "price");
     } else if (trust->until_s < 0.0) {
-        say_none(out, w, "no time is known until which the run is trusted", true);
+        say_none(out, w, "no time is known until which the run is trusted", "price");
     } else {
         say_rows(out, w, trust->until_s);
     }

@@ -200,18 +200,6 @@ static void print_remedies(FILE *out, const trials *t, const table *made, const 
     }
 }
 
-static void print_contacts(FILE *out, const trials *t, const table_words *words) {
-    char until[TRIAL_TIME];
-    fprintf(
-        out,
-        "the cost of contacts must be counted: `whirl choose` counts in Whirl's source tree, with the\n"
-        "board's compiler and emulator\n"
-        "\nby evaluations  whirl price %s%s\n"
-        "counted by  sh mk/price/measure_one.sh --whole-run %s float %s%s --until %s\n",
-        words->target, words->changes, t->wish.board->name, words->target, words->changes,
-        trial_until(t, until));
-}
-
 void choice_print(FILE *out, const trials *t, const table *made, const choice_wish *w,
                   const choice *c, const table_words *words) {
     const bool found = c->fastest.row >= 0;
@@ -244,7 +232,4 @@ void choice_print(FILE *out, const trials *t, const table *made, const choice_wi
     }
     fputc('\n', out);
     table_print_left(out, made, w->table.operations);
-    if (made->count == 0 && t->image[0]->contacts > 0) {
-        print_contacts(out, t, words);
-    }
 }

@@ -45,7 +45,8 @@ const char *measured_missing(const trials *t, const cost_board *board, char text
         return "runs with contacts are counted in emulators alone";
     }
     if (access(COUNTS, R_OK) != 0) {
-        return "this is not the root of Whirl's source tree (" COUNTS ")";
+        return "this is not the root of Whirl's source tree; run it there to count with the "
+               "emulator";
     }
     char line[MEASURED_TEXT] = "";
     char *target = is_host(board) ? room_words("price-ready-host")

@@ -120,16 +120,28 @@ void table_print_left(FILE *out, const table *made, double operations) {
     fputc('\n', out);
 }
 
+/* Why columns are empty, and the command that fills them. */
+static void say_contacts(FILE *out, const trials *t, const table_words *words) {
+    const char *board = t->wish.board->name;
+    fputs("  m  measured: evaluations of the accelerations a simulated second, counted in the run\n"
+          "  -  not known: the cost of contacts depends on the motion\n",
+          out);
+    if (strcmp(board, "host") != 0) {
+        fprintf(
+            out,
+            "run this in the root of Whirl's source tree to count cycles, flash and RAM with the "
+            "emulator:\n  whirl choose %s%s --error 1e-3 --board %s\n",
+            words->target, words->changes, board);
+    }
+}
+
 static void print_notes(FILE *out, const trials *t, const table *made, const table_words *words) {
     char text[FIGURE_WORDS];
     const table_row *first = &made->row[0];
     table_print_left(out, made, words->operations);
     figure_legend(out, &first->cost);
     if (first->price.unit == PRICE_EVALUATIONS) {
-        fputs(
-            "  m  measured: evaluations of the accelerations a simulated second, counted in the run\n"
-            "  `whirl choose` counts the cycles of a run with contacts on the board's emulator\n",
-            out);
+        say_contacts(out, t, words);
     } else {
         fprintf(out, "  %s a simulated second: %s\n", table_unit_words[first->price.unit],
                 figure_words(first->price.unit == PRICE_CYCLES ? &first->cost.cycles

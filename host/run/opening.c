@@ -77,6 +77,14 @@ static int next_by_name(const records *r, const bool *marked) {
     return next;
 }
 
+bool opening_moves(const opening *o, const records *r) {
+    bool some = false;
+    for (int i = 1; i < r->columns; i++) {
+        some = some || moves(o, r, i, false);
+    }
+    return some;
+}
+
 /* "x_cm stays at 0.6 m within 1.1e-09 m, y_cm at 0 m within 0.0e+00 m." False: no output stays. */
 static bool print_staying(FILE *out, const opening *o, const records *r) {
     const double most = furthest(o, r, "m");

@@ -17,6 +17,8 @@ opening opening_begin(const records *r, uint64_t steps);
 void opening_end(opening *o);
 /* The row that the records hold. */
 void opening_enter(opening *o, const records *r);
+/* Does a coordinate move, of a run that ended? */
+bool opening_moves(const opening *o, const records *r);
 /* The sentence, of a run that ends with the row that the records hold. `b` may be NULL. */
 void opening_print(FILE *out, const opening *o, const records *r, const books *b);
 

@@ -463,6 +463,7 @@ simulation_result simulate(const image *im, const simulation_settings *s, simula
         if (status == WH_OK && interrupted) {
             say_interrupted(&sim);
         }
+        told->still = !opening_moves(&sim.opening, sim.records);
         if (!s->quiet && !s->json) {
             print_summary(&sim, status, result, known ? &h : NULL);
         }

@@ -42,7 +42,8 @@ FILE *simulation_summary(const simulation_settings *s);
  * is not told. */
 typedef struct simulation_trust {
     unsigned fails;
-    bool dear; /* it takes too long */
+    bool dear;  /* it takes too long */
+    bool still; /* no coordinate moves */
     double until_s;
 } simulation_trust;
 

@@ -142,12 +142,15 @@ missing 2 "$scratch/drawn.whirl:r23_1" "nothing can be counted on mps2-an386: 'n
 missing 0 "$scratch/drawn.whirl:r23_1" "^  prices  *predicted, since nothing can be counted: 'no-such-compiler' is missing"
 missing 1 ball_bounces 'the cost of contacts must be counted'
 choose ball_bounces --error 1e-2 --board host --horizon 1s
-[ $? -eq 1 ] && grep -q 'counted in emulators alone' "$scratch/out"
-verdict $? "a run with contacts is not counted on this machine, which is said" "$scratch/out"
+[ $? -eq 1 ] && grep -q 'counted in emulators alone' "$scratch/err"
+verdict $? "a run with contacts is not counted on this machine, which is said" "$scratch/err"
 program=$(cd "$(dirname "$whirl")" && pwd)/whirl
 (cd "$scratch" && "$program" choose drawn.whirl:r23_1 --error 1e-2 --effort 4e7 --measure >"$scratch/out" 2>"$scratch/err")
 [ $? -eq 2 ] && grep -q "not the root of Whirl's source tree" "$scratch/err"
 verdict $? "outside of the source tree --measure fails: exit status 2" "$scratch/err"
+(cd "$scratch" && "$program" choose ball_bounces --error 1e-2 --horizon 1s >"$scratch/out" 2>"$scratch/err")
+[ $? -eq 1 ] && grep -q "contacts must be counted: .*root of Whirl's source tree; run it there" "$scratch/err" && [ ! -s "$scratch/out" ]
+verdict $? "nor does choose of a run with contacts, which says where to run it" "$scratch/err"
 (cd "$scratch" && "$program" choose drawn.whirl:r23_1 --error 1e-2 --effort 4e7 >"$scratch/out" 2>"$scratch/err")
 [ $? -eq 0 ] && grep -q "^  prices  *predicted, since .* not the root of Whirl's source tree" "$scratch/out"
 verdict $? "and without it prices are predicted, which is said" "$scratch/out"

@@ -409,8 +409,8 @@ static void says(int status, const char *text, const char *const *words) {
 static void test_a_run_without_rows_says_why(void) {
 #define RUN(...) ((const char *const[]){__VA_ARGS__, NULL})
     says(0,
-         "not shown: events make the cost of a step depend on the motion; they are shown by: "
-         "whirl price ball_bounces --set e=0.5 --until 1s --board rv32imac\n",
+         "not shown: events make the cost of a step depend on the motion; in Whirl's source tree they are shown by: "
+         "whirl choose --error 1e-3 ball_bounces --set e=0.5 --until 1s --board rv32imac\n",
          RUN("ball_bounces", "--set", "e=0.5", "--until", "1s", "--board", "rv32imac"));
     says(
         0,
