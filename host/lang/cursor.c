@@ -143,11 +143,56 @@ static bool is_decimal_comma(const token *sign) {
            isdigit((unsigned char)sign->text[1]);
 }
 
+const char *parser_operator_hint(const parser *in, char hint[OPERATOR_HINT]) {
+    const token *next = &in->token;
+    const char *line = next->text - next->at.offset; /* of the text */
+    const char *end = next->text;                    /* of the operand before it */
+    while (end > line && (end[-1] == ' ' || end[-1] == '\t')) {
+        end--;
+    }
+    const char *begin = end;
+    while (begin > line &&
+           (isalnum((unsigned char)begin[-1]) || strchr("_.'", begin[-1]) != NULL)) {
+        begin--;
+    }
+    const bool opens = parser_is_sign(in, '(');
+    const char *name = opens ? next->text + 1 : next->text;
+    const size_t length = opens ? strcspn(name, ")\n") : next->length;
+    const size_t rest = opens ? length + 2 : length + (size_t)next->primes;
+    const int before = (int)(end - begin);
+    const bool known = in->names != NULL && names_find(in->names, name, length) != NULL;
+    size_t unit = length; /* of kg/s as far as it is one */
+    while (!opens && (isalnum((unsigned char)name[unit]) || strchr("*/^", name[unit]) != NULL) &&
+           name[unit] != '\0') {
+        unit++;
+    }
+    unit_scale scale;
+    unit_error unsaid;
+    const bool counts =
+        isdigit((unsigned char)*begin) && (unit_parse(name, unit, &scale, &unsaid) ||
+                                           unit_parse(name, unit = length, &scale, &unsaid));
+    const bool whole = !opens || (name[length] == ')' && memchr(name, '(', length) == NULL);
+    if (before == 0 || before > 40 || rest > 60 || !whole) {
+        snprintf(hint, OPERATOR_HINT, "products are written with *, units in brackets: 2*m, 2 [m]");
+    } else if (counts && !known) {
+        snprintf(hint, OPERATOR_HINT, "write %.*s [%.*s]", before, begin, (int)unit, name);
+    } else {
+        snprintf(hint, OPERATOR_HINT, "write %.*s*%.*s", before, begin, (int)rest, next->text);
+    }
+    if (counts && known) {
+        const size_t at = strlen(hint);
+        snprintf(hint + at, OPERATOR_HINT - at, ", or with a unit %.*s [%.*s]", before, begin,
+                 (int)unit, name);
+    }
+    return hint;
+}
+
 bool parser_end_statement(parser *in, const char *what) {
     if (parser_at_end_of_line(in) || parser_is_sign(in, '}')) {
         return true;
     }
     char words[80];
+    char hint[OPERATOR_HINT];
     token_words(&in->token, words, sizeof words);
     const char *first = first_word_hint(in->token.text, in->token.length);
     switch (in->token.kind) {
@@ -155,10 +200,8 @@ bool parser_end_statement(parser *in, const char *what) {
         return parser_fail(in, "a unit belongs to a number: 2 [kg]", "a unit without a number");
     case TOKEN_NAME:
     case TOKEN_NUMBER:
-        return parser_fail(
-            in,
-            first != NULL ? first : "products are written with *, units in brackets: 2*m, 2 [m]",
-            "an operator is missing before %s", words);
+        return parser_fail(in, first != NULL ? first : parser_operator_hint(in, hint),
+                           "an operator is missing before %s", words);
     case TOKEN_SIGN:
         if (in->token.sign == ')') {
             return parser_fail(in, NULL, "')' without '('");
@@ -166,6 +209,7 @@ bool parser_end_statement(parser *in, const char *what) {
         return parser_fail(in,
                            is_decimal_comma(&in->token) ? "a decimal point: 2.5"
                            : first != NULL              ? first
+                           : parser_is_sign(in, '(')    ? parser_operator_hint(in, hint)
                                                         : "a statement ends with its line",
                            "unexpected %s after %s", words, what);
     case TOKEN_STRING:
@@ -202,6 +246,17 @@ bool statement_unknown(parser *in, unsigned where) {
     }
     const token word = in->token;
     parser_next(in);
+    if (in->builder != NULL && !in->all_effects) { /* what it may declare is not complained of */
+        const token *declared = in->token.kind == TOKEN_NAME ? &in->token : &word;
+        const bool fresh = !word_is_reserved(declared->text, declared->length) &&
+                           names_find(in->names, declared->text, declared->length) == NULL;
+        if (fresh && (declared != &word || parser_is_sign(in, '='))) {
+            named *unknown = names_add(in->builder->names, declared->text, declared->length);
+            unknown->is_placeholder = true;
+            unknown->symbol.kind = SYM_LET;
+            unknown->symbol.dim.unknown = true;
+        }
+    }
     const statement_word *elsewhere = token_statement(&word);
     if (elsewhere != NULL && elsewhere->stands == IN_SCENE && !parser_is_sign(in, '=')) {
         snprintf(hint, sizeof hint, "in a scene: %s", elsewhere->form);

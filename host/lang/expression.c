@@ -86,7 +86,8 @@ bool parse_close(parser *in, place open) {
         return false;
     }
     if (in->token.kind == TOKEN_NAME || in->token.kind == TOKEN_NUMBER) {
-        return parser_fail(in, "products are written with *, units in brackets: 2*m, 2 [m]",
+        char hint[OPERATOR_HINT];
+        return parser_fail(in, parser_operator_hint(in, hint),
                            "')' or an operator is missing before %s", words);
     }
     if (in->token.kind == TOKEN_UNIT) {
@@ -144,13 +145,16 @@ static const expr *parse_named(parser *in) {
         if (parser_is_sign(in, '(')) {
             return parse_call(in, function, name.at);
         }
-        diag_error(in->diags, name.at, NULL, "%s needs its argument in parentheses",
+        char hint[40];
+        snprintf(hint, sizeof hint, parser_is_sign(in, '^') ? "write %s(x)^2" : "write %s(x)",
+                 function_name(function));
+        diag_error(in->diags, name.at, hint, "%s needs its argument in parentheses",
                    function_name(function));
         return NULL;
     }
     if (parser_is_sign(in, '(') && !word_is_reserved(name.text, name.length)) {
         char words[80];
-        char hint[200];
+        char hint[300];
         nearest search = nearest_start(name.text, name.length);
         for (int f = 0; f < FUNCTIONS; f++) {
             nearest_offer(&search, function_name((function_id)f));
@@ -160,8 +164,14 @@ static const expr *parse_named(parser *in) {
             snprintf(hint, sizeof hint, "%s", first);
         } else if (search.best != NULL) {
             snprintf(hint, sizeof hint, "did you mean '%s'?", search.best);
+        } else if (in->names != NULL && names_find(in->names, name.text, name.length) != NULL) {
+            snprintf(hint, sizeof hint, "products are written with *; a coordinate has no (t)");
         } else {
-            snprintf(hint, sizeof hint, "products are written with *");
+            size_t at = (size_t)snprintf(hint, sizeof hint, "the functions are");
+            for (int f = 0; f < FUNCTIONS; f++) {
+                at += (size_t)snprintf(hint + at, sizeof hint - at, "%s %s", f > 0 ? "," : "",
+                                       function_name((function_id)f));
+            }
         }
         diag_error(in->diags, name.at, hint, "there is no function %s",
                    token_words(&name, words, sizeof words));
@@ -202,7 +212,8 @@ static const expr *parse_primary(parser *in) {
         parser_fail(in, "a line goes on only while a parenthesis or brace is open",
                     "a value is missing before the end of the line");
     } else if (in->token.kind == TOKEN_UNIT) {
-        parser_fail(in, "a unit belongs to a number: 2 [kg]", "a unit without a number");
+        parser_fail(in, "a unit belongs to a number: 2 [kg]; there are no matrices",
+                    "a unit without a number");
     } else {
         parser_fail(in, NULL, "a value is missing before %s", words);
     }

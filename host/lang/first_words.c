@@ -10,6 +10,8 @@
 #define JUMP "write (1 + sign(x))/2; of a contact, stop, hold or when"
 #define COUNT "nothing counts in steps but: when x crosses 1 [m] rising { set x = 0 [m] }"
 #define PARAMETER "write: parameter m = 2 [kg]"
+#define RATE "a derivative in time is a prime: x', x''"
+#define NOISE "an output has noise: noise y deviation 0.01 [m] seed 7"
 #define TABLE "write a formula, or an input that firmware changes: input u = 0 [N]"
 
 const char *energy_hint(const char *text, size_t length) {
@@ -51,7 +53,7 @@ const char *first_word_hint(const char *text, size_t length) {
         {"<=", CHOICE},
         {"==", CHOICE},
         {"&", "join two comparisons with and: x > a and x < b"},
-        {"|", "join two comparisons with or: x < a or x > b"},
+        {"|", "join two comparisons with or: x < a or x > b; for the size of x, write abs(x)"},
         {"sgn", "write sign(x)"},
         {"pow", "powers are written with ^: a^b"},
         {"ln", "the natural logarithm is log(x)"},
@@ -60,6 +62,16 @@ const char *first_word_hint(const char *text, size_t length) {
         {"constant", PARAMETER},
         {"param", PARAMETER},
         {"parameters", PARAMETER},
+        {"Piecewise", CHOICE},
+        {"diff", RATE},
+        {"derivative", RATE},
+        {"Derivative", RATE},
+        {"rand", NOISE},
+        {"random", NOISE},
+        {"dirac", "a blow changes a rate: when x crosses 1 [m] rising { set x' = 2 [m/s] }"},
+        {"PI", "write pi"},
+        {"Pi", "write pi"},
+        {"e", "write exp(1)"},
         {"heaviside", JUMP},
         {"step", JUMP},
         {"floor", COUNT},

@@ -75,9 +75,33 @@ lexer lexer_start(const source *text, diags *all) {
     return in;
 }
 
+/* Of other languages: to the end of the line, or of what opens with a slash and a star. */
+static bool skip_foreign_comment(lexer *in) {
+    const int c = at_offset(in, 0);
+    const int next = at_offset(in, 1);
+    if (c != '%' && (c != '/' || (next != '/' && next != '*'))) {
+        return false;
+    }
+    diag_error(in->diags, in->at, "a comment begins with #", "unexpected '%.*s'", c == '%' ? 1 : 2,
+               in->at.source->text + in->at.offset);
+    const bool block = next == '*';
+    advance(in, block ? 2 : 1);
+    while (at_offset(in, 0) > 0 && (block || at_offset(in, 0) != '\n')) {
+        const bool ends = block && at_offset(in, 0) == '*' && at_offset(in, 1) == '/';
+        advance(in, ends ? 2 : 1);
+        if (ends) {
+            break;
+        }
+    }
+    return true;
+}
+
 static void skip_space(lexer *in) {
     for (;;) {
         const int c = at_offset(in, 0);
+        if (skip_foreign_comment(in)) {
+            continue;
+        }
         if (c == '#') {
             while (at_offset(in, 0) != '\n' && at_offset(in, 0) > 0) {
                 advance(in, 1);
@@ -207,7 +231,15 @@ static void read_unit(lexer *in, token *made) {
         advance(in, length + 1);
         return;
     }
-    diag_error(in->diags, made->at, "write the unit like this: 2 [N*s/m]",
+    const char *text = in->at.source->text;
+    size_t before = made->at.offset;
+    while (before > 0 && text[before - 1] == ' ') {
+        before--;
+    }
+    diag_error(in->diags, made->at,
+               before > 0 && text[before - 1] == '='
+                   ? "there are no matrices: give each number a name"
+                   : "write the unit like this: 2 [N*s/m]",
                "this unit is not closed with ']'");
     made->kind = TOKEN_BAD;
     while (at_offset(in, 0) > 0 && at_offset(in, 0) != '\n') {
@@ -239,7 +271,11 @@ static void read_stray(lexer *in, token *made) {
         diag_error(in->diags, made->at, NULL, "control character %d in the text", c);
     } else {
         const char sign = (char)c;
-        diag_error(in->diags, made->at, first_word_hint(&sign, 1), "unexpected character '%c'", c);
+        const int next = at_offset(in, 1);
+        const bool each = c == '.' && next > 0 && strchr("*/^", next) != NULL; /* as of matrices */
+        diag_error(in->diags, made->at,
+                   each ? "an operator has no point: *, /, ^" : first_word_hint(&sign, 1),
+                   "unexpected character '%c'", c);
     }
     advance(in, 1);
 }

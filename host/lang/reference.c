@@ -44,6 +44,29 @@ int name_declared_later(const token *name) {
     return 0;
 }
 
+/* "x'" for a rate as others write it, such as xdot, of a name that has one; false: it is none. */
+static bool rate_hint(parser *in, const token *name, char *hint, size_t size) {
+    static const char *const forms[][3] = {
+        {"", "dot", "'"}, {"", "_dot", "'"}, {"", "ddot", "''"}, {"", "_ddot", "''"},
+        {"d", "", "'"},   {"dd", "", "''"},  {"d", "dt", "'"},   {"d", "_dt", "'"}};
+    for (size_t i = 0; i < sizeof forms / sizeof forms[0] && in->names != NULL; i++) {
+        const size_t before = strlen(forms[i][0]);
+        const size_t behind = strlen(forms[i][1]);
+        if (name->length > before + behind && strncmp(name->text, forms[i][0], before) == 0 &&
+            strncmp(name->text + name->length - behind, forms[i][1], behind) == 0) {
+            const size_t length = name->length - before - behind;
+            const named *found = names_find(in->names, name->text + before, length);
+            if (found != NULL && !found->is_placeholder &&
+                (found->symbol.kind == SYM_COORDINATE || found->symbol.kind == SYM_STATE ||
+                 found->symbol.kind == SYM_LET)) {
+                snprintf(hint, size, "write %s%s", found->symbol.name, forms[i][2]);
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
 static void report_unknown(parser *in, const token *name) {
     char hint[200] = "";
     char words[80];
@@ -53,7 +76,7 @@ static void report_unknown(parser *in, const token *name) {
         snprintf(hint, sizeof hint, "%s", first);
     } else if (later > 0) {
         snprintf(hint, sizeof hint, "it is declared later, in line %d: move that line up", later);
-    } else {
+    } else if (!rate_hint(in, name, hint, sizeof hint)) {
         nearest search = nearest_start(name->text, name->length);
         names_offer(in->names, in->all_effects ? -2 : in->effect, &search);
         for (int f = 0; f < FUNCTIONS; f++) {
@@ -311,6 +334,8 @@ const symbol *find_coordinate(parser *in, const token *name, const char *whose) 
                    words);
         return NULL;
     }
-    no_such_coordinate(in, name);
+    if (found == NULL || found->symbol.kind == SYM_INPUT) { /* else it was reported */
+        no_such_coordinate(in, name);
+    }
     return NULL;
 }

@@ -59,7 +59,7 @@ bool read_energy(parser *in, const statement_word *word) {
     }
     const place value_at = in->token.at;
     const expr *value = parse_expression(in, CONTEXT_FORCE);
-    if (value == NULL) {
+    if (value == NULL || !parser_end_statement(in, "the expression")) {
         return false;
     }
     const dimension wanted = kind == TERM_F ? dim_of(2, 1, -3, 0, 0) : dim_energy();
@@ -75,7 +75,7 @@ bool read_energy(parser *in, const statement_word *word) {
                    "%s, but this is %s", term_rule(kind), dim_text(value->dim, is, sizeof is));
     }
     add_term(in, (term){kind, NULL, value, NULL, in->effect, at});
-    return parser_end_statement(in, "the expression");
+    return true;
 }
 
 bool read_force(parser *in, const statement_word *word) {
@@ -108,7 +108,7 @@ bool read_force(parser *in, const statement_word *word) {
     }
     const place value_at = in->token.at;
     const expr *value = parse_expression(in, CONTEXT_FORCE);
-    if (value == NULL) {
+    if (value == NULL || !parser_end_statement(in, "the expression")) {
         return false;
     }
     if (coordinate != NULL) {
@@ -123,7 +123,7 @@ bool read_force(parser *in, const statement_word *word) {
         }
     }
     add_term(in, (term){TERM_Q, coordinate, value, NULL, in->effect, at});
-    return parser_end_statement(in, "the expression");
+    return true;
 }
 
 bool read_equation(parser *in, const statement_word *word) {

@@ -175,7 +175,14 @@ static bool unknown_unit(reader *in, size_t start, size_t length) {
             snprintf(hint, sizeof hint, "write %s", habits[i].meant);
         }
     }
-    if (hint[0] == '\0') {
+    size_t stem = length;
+    while (stem > 0 && is_digit(name[stem - 1])) {
+        stem--;
+    }
+    if (hint[0] == '\0' && stem < length && find_unit(name, stem) != NULL) {
+        snprintf(hint, sizeof hint, "write %.*s^%.*s", (int)stem, name, shown - (int)stem,
+                 name + stem);
+    } else if (hint[0] == '\0') {
         nearest search = nearest_start(name, length);
         for (int i = 0; i < UNIT_COUNT; i++) {
             nearest_offer(&search, units[i].name);
@@ -247,6 +254,15 @@ static bool read_exponent(reader *in, double *exponent) {
 
 static bool read_product(reader *in, unit_scale *result);
 
+#define BARE "leave the brackets out: a number without them has no unit"
+
+/* Is the text this, and blanks? */
+static bool is_all(const reader *in, const char *sign) {
+    const size_t blanks = strspn(in->text, " ");
+    return strncmp(in->text + blanks, sign, strlen(sign)) == 0 &&
+           blanks + strlen(sign) + strspn(in->text + blanks + strlen(sign), " ") >= in->length;
+}
+
 static bool read_factor(reader *in, unit_scale *result) {
     const char c = peek(in);
     const size_t start = in->at;
@@ -281,11 +297,12 @@ static bool read_factor(reader *in, unit_scale *result) {
         *result =
             (unit_scale){found->scale, found->divisor, dim_of_quantity(found->of), exact(found)};
     } else if (c == '\0' && in->at >= in->length) {
-        return fail(in, start, "a unit is missing here", "");
+        return fail(in, start, "a unit is missing here", is_all(in, "") ? BARE : "");
     } else if ((unsigned char)c >= 0x80) {
         return fail(in, start, "units are written in ASCII", "write N*m, m^2, ohm, um, deg");
     } else {
-        return fail(in, start, "a unit was expected here", "write it like N*s/m or kg*m^2");
+        return fail(in, start, "a unit was expected here",
+                    is_all(in, "-") ? BARE : "write it like N*s/m or kg*m^2");
     }
     if (peek(in) == '^') {
         const size_t sign_at = in->at++;

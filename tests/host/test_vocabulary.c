@@ -146,8 +146,10 @@ static void expect_word_hint(const char *form, const char *word) {
 /* Words of other languages, wherever they stand, and first attempts: all get a hint, never a comparison by spelling. */
 static void test_first_words_get_a_hint(void) {
     static const char *const words[] = {
-        "t",     "time", "if",  "floor", "heaviside", "table", "constraint", "given",     "tunable",
-        "every", "sgn",  "pow", "ln",    "log10",     "const", "param",      "parameters"};
+        "t",          "time",       "if",      "floor", "heaviside",  "table",
+        "constraint", "given",      "tunable", "every", "sgn",        "pow",
+        "ln",         "log10",      "const",   "param", "parameters", "Piecewise",
+        "diff",       "derivative", "random",  "dirac", "PI"};
     static const char *const signs[][2] = {{"V = x %s 0", "=="},
                                            {"V = x %s 0", ">"},
                                            {"V = x %s 0", "<="},
@@ -185,6 +187,83 @@ static void test_first_words_get_a_hint(void) {
     }
 }
 
+/* Statements as other languages write them, of drawn names and numbers. The hint has the words that mend them, and with these
+ * the statement is read. */
+static void test_other_notations_are_mended(void) {
+    static const char names[][6] = {"q", "theta", "x_1", "arm"};
+    static const char units[][8] = {"kg", "m/s", "N*s/m", "deg", "kg*m^2"};
+    static const char calls[][6] = {"sin", "cos", "exp", "tanh", "sqrt"};
+    static const struct { /* $ name, K number, U unit, C function */
+        const char *wrong, *hint, *right;
+    } rows[] = {
+        {"let a = $dot*2", "write $'", "let a = $'*2"},
+        {"let a = $_dot", "write $'", "let a = $'"},
+        {"let a = 3*d$", "write $'", "let a = 3*$'"},
+        {"let a = d$_dt", "write $'", "let a = $'"},
+        {"let a = $ddot", "write $''", "let a = $''"},
+        {"let a = dd$", "write $''", "let a = $''"},
+        {"let a = $(t)", "a coordinate has no (t)", "let a = $"},
+        {"let a = K*e", "write exp(1)", "let a = K*exp(1)"},
+        {"let a = Pi*K", "write pi", "let a = pi*K"},
+        {"let a = K .* $", "an operator has no point", "let a = K * $"},
+        {"let a = |$|", "write abs(x)", "let a = abs($)"},
+        {"let a = K$", "write K*$", "let a = K*$"},
+        {"let a = (K $)", "write K*$", "let a = (K*$)"},
+        {"let a = K*$ $'", "write $*$'", "let a = K*$*$'"},
+        {"let a = K($ + 1)", "write K*($ + 1)", "let a = K*($ + 1)"},
+        {"let a = C^2(K)", "write C(x)^2", "let a = C(K)^2"},
+        {"let a = C K", "write C(x)", "let a = C(K)"},
+        {"let a = integrate($)", "the functions are sin, cos", "let a = exp($)"},
+        {"let a = [K K; K K]", "there are no matrices", "let a = K"},
+        {"parameter a = K U", "write K [U]", "parameter a = K [U]"},
+        {"parameter a = K (U)", "write K [U]", "parameter a = K [U]"},
+        {"parameter a = K [-]", "leave the brackets out", "parameter a = K"},
+        {"parameter a = K [ ]", "leave the brackets out", "parameter a = K"},
+        {"parameter a = K [N*m/s2]", "write s^2", "parameter a = K [N*m/s^2]"},
+        {"parameter a = K // U", "a comment begins with #", "parameter a = K # U"},
+        {"parameter a = K /* U */", "a comment begins with #", "parameter a = K # U"},
+        {"/* U\n $ */ parameter a = K", "a comment begins with #", "parameter a = K"},
+        {"% U\nparameter a = K", "a comment begins with #", "# U\nparameter a = K"},
+        {"paramter a = K [U]\nlet b = 2*a\nV = b*a*mass", "did you mean 'parameter'?", "let b = $"},
+        {"coordiante b [m]\nV = 1 [N/m]*b^2\nQ(b) = 1 [N]", "mean 'coordinate'?", "let b = $"}};
+    uint64_t seed = 7;
+    for (unsigned i = 0; i < 8U * (unsigned)(sizeof rows / sizeof rows[0]); i++) {
+        const char *const of[3] = {rows[i / 8U].wrong, rows[i / 8U].hint, rows[i / 8U].right};
+        const char *name = names[(unsigned)(random_bits(&seed) % 4)];
+        const char *unit = units[(unsigned)(random_bits(&seed) % 5)];
+        const char *call = calls[(unsigned)(random_bits(&seed) % 5)];
+        const unsigned number = 1U + (unsigned)(random_bits(&seed) % 99);
+        char made[3][200];
+        for (unsigned k = 0; k < 3U; k++) {
+            size_t at = 0;
+            for (const char *c = of[k]; *c != '\0'; c++) {
+                char digits[12];
+                snprintf(digits, sizeof digits, "%u", number);
+                const char *put = *c == 'K'   ? digits
+                                  : *c == 'U' ? unit
+                                  : *c == 'C' ? call
+                                  : *c == '$' ? name
+                                              : NULL;
+                at += (size_t)snprintf(made[k] + at, sizeof made[k] - at,
+                                       put != NULL ? "%s" : "%.1s", put != NULL ? put : c);
+            }
+        }
+        char text[TEXT_SIZE];
+        static const char form[] =
+            "mechanism trial\ncoordinate %s [rad]\nparameter mass = 2 [kg*m^2]\n"
+            "T = mass*%s'^2/2\n%s\n";
+        snprintf(text, sizeof text, form, name, name, made[0]);
+        const char *report = report_of_text(text);
+        TEST_ASSERT_NOT_NULL_MESSAGE(strstr(report, made[1]), report);
+        const char *first = strstr(report, ": error: ");
+        TEST_ASSERT_NOT_NULL_MESSAGE(first, text);
+        const bool bars = strchr(made[0], '|') != NULL; /* both are told */
+        TEST_ASSERT_TRUE_MESSAGE(bars || strstr(first + 1, ": error: ") == NULL, report);
+        snprintf(text, sizeof text, form, name, name, made[2]);
+        TEST_ASSERT_EQUAL_STRING_MESSAGE("", report_of_text(text), text);
+    }
+}
+
 /* Numbers as some countries write them, wherever one may stand. */
 static void test_a_decimal_comma_gets_a_hint(void) {
     static const char *const forms[] = {
@@ -201,6 +280,7 @@ static void test_a_decimal_comma_gets_a_hint(void) {
 
 void suite_vocabulary(void) {
     RUN_TEST(test_first_words_get_a_hint);
+    RUN_TEST(test_other_notations_are_mended);
     RUN_TEST(test_functions_are_in_their_recorded_order);
     RUN_TEST(test_operations_are_in_their_recorded_order);
     RUN_TEST(test_contacts_are_in_the_core_s_order);
