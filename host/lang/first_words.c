@@ -12,6 +12,7 @@
 #define PARAMETER "write: parameter m = 2 [kg]"
 #define RATE "a derivative in time is a prime: x', x''"
 #define NOISE "an output has noise: noise y deviation 0.01 [m] seed 7"
+#define BLOW "a blow changes a rate: when x crosses 1 [m] rising { set x' = 2 [m/s] }"
 #define TABLE "write a formula, or an input that firmware changes: input u = 0 [N]"
 
 const char *energy_hint(const char *text, size_t length) {
@@ -68,7 +69,7 @@ const char *first_word_hint(const char *text, size_t length) {
         {"Derivative", RATE},
         {"rand", NOISE},
         {"random", NOISE},
-        {"dirac", "a blow changes a rate: when x crosses 1 [m] rising { set x' = 2 [m/s] }"},
+        {"dirac", BLOW},
         {"PI", "write pi"},
         {"Pi", "write pi"},
         {"e", "write exp(1)"},
