@@ -19,6 +19,10 @@
 #define AXIS_MOST 26
 #define TEXT_MOST 60
 
+/* Of a panel with a line of legend, and of each line more, in pixels; of a legend, its entries' samples and letters. */
+enum { PANEL_HEIGHT = 260, KEY_LINE = 21, KEY_WIDTH = 760, KEY_SAMPLE = 60 };
+#define KEY_LETTER 8.5
+
 /* A part of gnuplot's enhanced text. Its marks are escaped; with `raised`, the exponent after ^ is raised,
  * "m^(1/2)" whole and without its parentheses. */
 static void write_part(FILE *to, const char *text, bool raised) {
@@ -119,17 +123,14 @@ static char *names_of(const panels *p, int panel, size_t most) {
 }
 
 /* The quantity, with one run what it is, if there is room for that; with several, the run. */
-static void write_legend(FILE *to, const panels *p, const panels_quantity *q, int k,
-                         const plot_run *run) {
+static char *legend_of(const panels *p, const panels_quantity *q, int k, const plot_run *run) {
     const char *text = run->column[q->column[k]].text;
     const int together = quantities_in(p, q->panel);
-    char *words = p->runs == 1 && together <= 2 && text[0] != '\0' && strlen(text) <= TEXT_MOST
-                      ? room_words("%s: %s", q->name, text)
-                  : p->runs == 1  ? room_words("%s", q->name)
-                  : together == 1 ? room_words("%s", p->label[k])
-                                  : room_words("%s, %s", q->name, p->label[k]);
-    gnuplot_quote(to, words);
-    free(words);
+    return p->runs == 1 && together <= 2 && text[0] != '\0' && strlen(text) <= TEXT_MOST
+               ? room_words("%s: %s", q->name, text)
+           : p->runs == 1  ? room_words("%s", q->name)
+           : together == 1 ? room_words("%s", p->label[k])
+                           : room_words("%s, %s", q->name, p->label[k]);
 }
 
 /* One run: a colour for each quantity of the panel. Several: a colour for each run, and a dash for each curve, so that a
@@ -153,20 +154,55 @@ static double first_trusted_s(const plot_run *runs, int count) {
     return least;
 }
 
-/* Entries of the first panel's legend that are no curves. */
-static void write_signs(FILE *to, const plot_run *runs, int count) {
-    const double trusted_s = first_trusted_s(runs, count);
+/* "" when all is trusted; of several runs short, since a legend's columns are as wide as its longest entry. */
+static char *trust_sign(const plot_run *runs, int count) {
+    const double until_s = first_trusted_s(runs, count);
+    return !(until_s > 0.0) ? room_words("%s", "")
+           : count > 1
+               ? room_words("trusted until %.6g s", until_s)
+               : room_words("after %.6g s no single value is to be trusted, energy and momenta are",
+                            until_s);
+}
+
+static int marks_in(const plot_run *runs, int count) {
     int marks = 0;
     for (int k = 0; k < count; k++) {
         marks += runs[k].marks;
     }
-    if (trusted_s > 0.0) {
+    return marks;
+}
+
+/* Lines of a panel's legend, in columns as wide as its longest entry. */
+static int key_lines(const panels *p, const plot_run *runs, int panel, bool time) {
+    const bool signs = time && panel == 0;
+    char *trusted = trust_sign(runs, p->runs);
+    size_t longest = signs ? strlen(trusted) : 0;
+    free(trusted);
+    int entries = (longest > 0 ? 1 : 0) + (signs && marks_in(runs, p->runs) > 0 ? 1 : 0);
+    for (int i = 0; i < p->quantities; i++) {
+        for (int k = 0; k < p->runs && p->quantity[i].panel == panel; k++) {
+            char *words = legend_of(p, &p->quantity[i], k, &runs[k]);
+            longest = strlen(words) > longest ? strlen(words) : longest;
+            free(words);
+            entries++;
+        }
+    }
+    const int columns =
+        (int)number_most(1.0, KEY_WIDTH / (KEY_SAMPLE + KEY_LETTER * (double)longest));
+    return (entries + columns - 1) / columns;
+}
+
+/* Entries of the first panel's legend that are no curves. */
+static void write_signs(FILE *to, const plot_run *runs, int count) {
+    char *trusted = trust_sign(runs, count);
+    if (trusted[0] != '\0') {
         fprintf(to,
                 ", keyentry with boxes fillstyle solid noborder lc rgb '" PALETTE_SHADE
-                "' title 'after %.6g s no single value is to be trusted, energy and momenta are'",
-                trusted_s);
+                "' title '%s'",
+                trusted);
     }
-    if (marks > 0) {
+    free(trusted);
+    if (marks_in(runs, count) > 0) {
         fputs(", keyentry with points pt 2 ps 0.7 lc rgb '" PALETTE_FRAME "' title 'event'", to);
     }
 }
@@ -182,6 +218,7 @@ static void write_panel(FILE *to, const panels *p, const plot_run *runs, int pan
         }
     }
     write_range(to, "y", e.least, e.most);
+    fprintf(to, "set key vertical maxrows %d\n", key_lines(p, runs, panel, time));
     char *names = names_of(p, panel, AXIS_MOST);
     write_axis(to, "y", names, p->unit[panel]);
     free(names);
@@ -192,8 +229,10 @@ static void write_panel(FILE *to, const panels *p, const plot_run *runs, int pan
                 fprintf(to, "%s$data%d using %d:%d with ", drawn++ > 0 ? ", " : "plot ", k,
                         p->x[k] + 1, q->column[k] + 1);
                 write_style(to, p, of_panel, k, runs[k].rows == 1);
+                char *words = legend_of(p, q, k, &runs[k]);
                 fputs(" title ", to);
-                write_legend(to, p, q, k, &runs[k]);
+                gnuplot_quote(to, words);
+                free(words);
             }
         }
         of_panel += q->panel == panel ? 1 : 0;
@@ -283,7 +322,12 @@ static bool draw_panels(const panels *p, const char *file, const plot_choice *ch
     char *title = title_of(p, choice, runs);
     char *text = alternative_text(p, runs);
     gnuplot g;
-    bool drawn = gnuplot_open(&g, file, 120 + 260 * p->count, title, text);
+    int lines = 1;
+    for (int i = 0; i < p->count; i++) {
+        lines = (int)number_most(lines, key_lines(p, runs, i, time));
+    }
+    const int each = PANEL_HEIGHT + KEY_LINE * (lines - 1);
+    bool drawn = gnuplot_open(&g, file, 120 + each * p->count, title, text);
     if (drawn) {
         for (int k = 0; k < p->runs; k++) {
             write_data(g.to, &runs[k], k);

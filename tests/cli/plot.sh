@@ -93,6 +93,24 @@ for drawn in "1 2" "1 3" "1 4" "1 5" "2 2"; do
         [ "$(sed -n "s/.*dasharray='\([^']*\)'.*M.* L.*/\1/p" "$scratch/dashes.svg" | sort -u | wc -l)" -eq $(($1 * $2 - 1)) ]
     verdict $? "$2 runs of $1 quantities in a panel: their curves differ without colours"
 done
+# lowest FILE: the height of its lowest frame, in tenths of a pixel
+lowest() {
+    sed -n "s/.* d='M[0-9.]*,\([0-9.]*\) L[0-9.]*,\([0-9.]*\) L[0-9.]*,.* Z  '.*/\1 \2/p" "$1" |
+        awk '{ h = $1 - $2; h = h < 0 ? -h : h; if (NR == 1 || h < least) { least = h } } END { printf "%d", 10 * least }'
+}
+"$whirl" plot "$scratch/soft.csv" --y "x, a" --out "$scratch/one.svg" 2>"$scratch/err"
+one=$(lowest "$scratch/one.svg")
+for runs in 2 3 5 8 13 20; do
+    words=$(awk -v runs=$runs -v seed="$seed" 'BEGIN { srand(seed + runs); letters = "moderately long names of a run with words"
+        for (i = 0; i < runs; i++) { printf "%s%s %d", i ? "," : "", substr(letters, 1, 1 + int(rand() * 40)), i } }')
+    files=$(for k in $(seq $runs); do echo "$scratch/soft.csv"; done)
+    for choice in "--y=x,a" "--panel=x --panel=a,a"; do
+        # shellcheck disable=SC2086 # words
+        "$whirl" plot $files $choice --legend "$words" --out "$scratch/many.svg" 2>"$scratch/err"
+        [ "$one" -gt 1000 ] && [ "$(lowest "$scratch/many.svg")" -ge "$one" ]
+        verdict $? "$runs runs, $choice: panels $(lowest "$scratch/many.svg") high, of one run $one"
+    done
+done
 # a file of another program's, with a comment and quotes, and without a file about it
 printf '# made by hand\n"time","x [mm]",other\n0,1,2\n1,2.5,\n2,3,4\n' >"$scratch/hand.csv"
 "$whirl" plot "$scratch/hand.csv" --out "$scratch/hand.svg" 2>"$scratch/err" && grep -q 'x lies between 1 and 3 mm\.' "$scratch/hand.svg" &&
