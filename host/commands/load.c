@@ -144,13 +144,24 @@ void source_close(source_model *s) {
     free(s->name);
 }
 
+static bool has_scene(const whirl_model *m, const mechanism *of) {
+    for (int i = 0; i < m->scene_count; i++) {
+        if (m->scenes[i]->mechanism == of) {
+            return true;
+        }
+    }
+    return false;
+}
+
 static void say_choices(const source_model *s, bool scenes) {
     fprintf(stderr, "hint: name one:");
     for (int i = 0; scenes && i < s->model->scene_count; i++) {
         fprintf(stderr, " %s:%s", s->file, s->model->scenes[i]->name);
     }
     for (int i = 0; i < s->model->mechanism_count; i++) {
-        fprintf(stderr, " %s:%s", s->file, s->model->mechanisms[i]->name);
+        if (!scenes || !has_scene(s->model, s->model->mechanisms[i])) {
+            fprintf(stderr, " %s:%s", s->file, s->model->mechanisms[i]->name);
+        }
     }
     fprintf(stderr, "\n");
 }

@@ -313,6 +313,7 @@ static int run_target(run_options *o) {
     int code = open_source(o, &from, &step, &chosen);
     if (code == EXIT_DONE) {
         code = source_pick(&from, true, &of, &in);
+        o->settings.no_scene = code == EXIT_DONE && in == NULL;
     }
     if (code == EXIT_DONE && model_would_be_lost(&from, &o->settings)) {
         code = EXIT_BAD_INPUT;

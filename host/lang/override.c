@@ -196,22 +196,33 @@ const expr *override_duration(const mechanism *of, const char *what, const char 
     return override_quantity(of, what, text, dim_of(0, 0, 1, 0, 0), arena, all);
 }
 
+const char *effect_hint(const mechanism *of, const char *text, size_t length,
+                        char hint[EFFECT_HINT]) {
+    nearest search = nearest_start(text, length);
+    size_t at = (size_t)snprintf(hint, EFFECT_HINT, "one of ");
+    for (int i = 0; i <= of->effect_count && at < EFFECT_HINT; i++) {
+        const bool last = i == of->effect_count;
+        const char *name = last ? word_row(WORD_LEDGER)->text : of->effects[i].name;
+        nearest_offer(&search, name);
+        at += (size_t)snprintf(hint + at, EFFECT_HINT - at, last ? "%s" : "%s, ", name);
+    }
+    if (search.best != NULL) {
+        snprintf(hint, EFFECT_HINT, "did you mean '%s'?", search.best);
+    } else if (of->effect_count == 0) {
+        snprintf(hint, EFFECT_HINT, "the mechanism '%s' has no effects", of->name);
+    }
+    return hint;
+}
+
 int override_effect(const mechanism *of, const char *text, struct arena *arena, diags *all) {
     parser in = begin(of, text, arena, all);
-    nearest search = nearest_start(text, strlen(text));
     for (int i = 0; i < of->effect_count; i++) {
         if (strcmp(of->effects[i].name, text) == 0) {
             return i;
         }
-        nearest_offer(&search, of->effects[i].name);
     }
-    nearest_offer(&search, word_row(WORD_LEDGER)->text);
-    char hint[120] = "";
-    if (search.best != NULL) {
-        snprintf(hint, sizeof hint, "did you mean '%s'?", search.best);
-    } else if (of->effect_count == 0) {
-        snprintf(hint, sizeof hint, "the mechanism '%s' has no effects", of->name);
-    }
-    diag_error(all, in.token.at, hint[0] == '\0' ? NULL : hint, "unknown effect '%.60s'", text);
+    char hint[EFFECT_HINT];
+    diag_error(all, in.token.at, effect_hint(of, text, strlen(text), hint),
+               "unknown effect '%.60s'", text);
     return -1;
 }

@@ -26,6 +26,10 @@ const expr *override_quantity(const mechanism *of, const char *what, const char 
 const expr *override_size(const mechanism *of, const char *name, const char *what, const char *text,
                           struct arena *arena, diags *diags);
 
+/* What to say of a name that is no effect: one that is near, or all; returns `hint`. */
+enum { EFFECT_HINT = 300 };
+const char *effect_hint(const mechanism *of, const char *text, size_t length,
+                        char hint[EFFECT_HINT]);
 /* The index of the effect called `text`, or -1 (reported). */
 int override_effect(const mechanism *of, const char *text, struct arena *arena, diags *diags);
 

@@ -2,6 +2,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "override.h"
 #include "scene_block.h"
 
 bool scene_fail_name(parser *in, const statement_word *word) {
@@ -19,7 +20,6 @@ static bool with_item(parser *in, const statement_word *word) {
     }
     const token name = in->token;
     const mechanism *of = into->made->mechanism;
-    nearest search = nearest_start(name.text, name.length);
     parser_next(in);
     if (token_is_word(&name, WORD_NONE)) {
         return true;
@@ -33,18 +33,11 @@ static bool with_item(parser *in, const statement_word *word) {
             into->with[i] = true;
             return true;
         }
-        nearest_offer(&search, of->effects[i].name);
     }
-    nearest_offer(&search, word_row(WORD_LEDGER)->text);
-    char hint[120] = "";
+    char hint[EFFECT_HINT];
     char words[80];
-    if (search.best != NULL) {
-        snprintf(hint, sizeof hint, "did you mean '%s'?", search.best);
-    } else if (of->effect_count == 0) {
-        snprintf(hint, sizeof hint, "the mechanism '%s' has no effects", of->name);
-    }
-    diag_error(in->diags, name.at, hint[0] == '\0' ? NULL : hint, "unknown effect %s",
-               token_words(&name, words, sizeof words));
+    diag_error(in->diags, name.at, effect_hint(of, name.text, name.length, hint),
+               "unknown effect %s", token_words(&name, words, sizeof words));
     return true;
 }
 

@@ -396,6 +396,9 @@ static void print_summary(simulation *sim, wh_status status, simulation_result r
                     : "");
     }
     summary_head(out, sim->image, s->kind, sim->run);
+    if (s->no_scene) {
+        fputs("  no scene was named: everything starts at zero unless --start sets it\n", out);
+    }
     if (s->changes != NULL && s->changes[0] != '\0') {
         fprintf(out, "  changed: %s\n", s->changes);
     }

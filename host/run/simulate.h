@@ -19,6 +19,7 @@ typedef struct simulation_settings {
     plot_run *taken;     /* takes what a picture is made of in place of a picture; or NULL */
     const char *chosen;  /* why this step, in words, or NULL */
     const char *changes; /* of the scene, in words, or NULL */
+    bool no_scene;       /* a mechanism as it is */
     bool quiet;
     bool json;     /* one object on standard output in place of the summary (run_json.h) */
     double strict; /* verdict_fails() */

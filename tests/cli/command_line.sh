@@ -109,6 +109,24 @@ if [ -r /proc/self/mem ]; then # a file that breaks off in reading is no shorter
 fi
 says 2 'it has more than one scene' run core/models/thomson.whirl
 says 2 'hint: name one: core/models/thomson.whirl:thomson_a ' run core/models/thomson.whirl:foo
+# of each file with several scenes these alone are named, and of each mechanism with effects all of them
+for file in core/models/*.whirl; do
+    awk -v file="$file" '/^mechanism/ { mechanisms++; name = $2; effects = "" }
+        /^effect/ { effects = effects $2 ", " }
+        /^scene/ { scenes = scenes " " file ":" $2; count++ }
+        END { print mechanisms, count, name, (effects == "" ? "-" : effects "ledger"); print "hint: name one:" scenes }' "$file" >"$scratch/of"
+    read -r mechanisms count name effects <"$scratch/of"
+    [ "$mechanisms" -eq 1 ] || continue
+    if [ "$count" -gt 1 ]; then
+        "$whirl" run "$file" >"$scratch/out" 2>"$scratch/err"
+        [ $? -eq 2 ] && [ "$(sed -n 2p "$scratch/err")" = "$(sed -n 2p "$scratch/of")" ]
+        verdict $? "$file: $count scenes are named"
+    fi
+    if [ "$effects" != - ]; then
+        says 2 "hint: one of $effects\$" run "$file:$name" --with zzzzzzzzz
+    fi
+done
+prints 'no scene was named: everything starts at zero' run core/models/thomson.whirl:thomson --until 2ms
 says 2 'no mechanism here' derive -
 says 2 'more than one thing to derive: thomson' derive epicyclic thomson
 says 2 "one scene at a time, not also 'thomson_b'" run thomson_a thomson_b
