@@ -40,6 +40,7 @@ typedef struct pricing_options {
     const char **vary;                  /* [word count] */
     int vary_count;
     bool quiet;
+    bool balance; /* overrides.balance */
 } pricing_options;
 
 enum { PRICING_GROUPS = OPTIONS_CHANGE };

@@ -197,6 +197,7 @@ int pricing_open(pricing *p, const pricing_options *o) {
         return code;
     }
     p->changes = options_overrides(&o->common.change);
+    p->changes.balance = o->balance;
     overrides asked = p->changes;
     asked.until = NULL; /* the lines that name settings have an end of their own */
     p->words = pricing_words(&asked, false);

@@ -8,6 +8,7 @@
 #include "host/fixed/engine_fixed.h"
 #include "host/number/functions.h"
 #include "host/price/three_rows.h"
+#include "host/run/remedy.h"
 #include "host/run/start.h"
 #include "pricing.h"
 
@@ -140,9 +141,9 @@ static double operations_for(trials *t, const setting *s, deviation_pace pace, d
     return trial_operations(t, s, pace) * number_power(error / t->tolerated, 1.0 / order);
 }
 
-/* The first pace that keeps the error; *longest: none was tried before it. False, told: there is none. */
-static bool find_pace(trials *t, const setting *s, deviation_pace *pace, trial_result *r,
-                      bool *longest) {
+/* The first pace that keeps the error, its number; *longest: none was tried before it. -1, told: there is none. */
+static int find_pace(trials *t, const setting *s, deviation_pace *pace, trial_result *r,
+                     bool *longest) {
     double least = -1.0;
     double operations = 0.0; /* of all that were tried, and of the one that would be too many */
     bool ends_early = false;
@@ -163,7 +164,7 @@ static bool find_pace(trials *t, const setting *s, deviation_pace *pace, trial_r
         operations += more;
         *r = trial_run(t, s, *pace);
         if (r->ran && r->usable && r->error <= t->tolerated) {
-            return true;
+            return i;
         }
         *longest = false;
         if (r->ran && r->usable && s->image.matrix == MATRIX_NONE &&
@@ -181,7 +182,7 @@ static bool find_pace(trials *t, const setting *s, deviation_pace *pace, trial_r
     }
     if (t->stopped) {
         fputs("whirl run: interrupted\n", stderr);
-        return false;
+        return -1;
     }
     char smallest[60] = "all failed";
     if (least >= 0.0) {
@@ -202,6 +203,45 @@ static bool find_pace(trials *t, const setting *s, deviation_pace *pace, trial_r
             smallest, rounds ? ", and shorter steps no longer reduce it: round-off" : early,
             rounds ? "a larger --error" : "a --method of higher order",
             s->number == &engine_float ? ", or --number double" : "");
+    return -1;
+}
+
+/* Would `whirl run` warn of the whole run at this pace? */
+static bool is_warned_of(const trials *t, const setting *s, deviation_pace pace) {
+    const trial_source *from = t->wish.source;
+    char text[TRIAL_TIME];
+    setting finer = *s;
+    const bool other = twins_plain(&s->image, &finer.image);
+    trial_time(trial_step(t, pace), text);
+    image *im = from->make(from->context, 0, s, text, NULL);
+    image *plain = other ? from->make(from->context, 0, &finer, text, NULL) : NULL;
+    const bool warned = im != NULL && !remedy_not_needed(im, plain, s->number, t->wish.stop);
+    image_free(im);
+    image_free(plain);
+    return warned;
+}
+
+/* Of the paces from number `at` on that keep the error, the first of which the run is not warned of; if none of these few is
+ * that, the first. True: it is another than the first. */
+static bool find_unwarned(trials *t, const setting *s, int at, deviation_pace *pace,
+                          trial_result *r) {
+    enum { MORE = 6 };
+    if (setting_is_fixed(s) || s->image.matrix != MATRIX_NONE || !is_warned_of(t, s, *pace)) {
+        return false;
+    }
+    double operations = 0.0;
+    for (int i = at + 1; i < PACES && i <= at + MORE && !t->stopped; i++) {
+        const deviation_pace next = pace_at(i);
+        operations += 4.0 * trial_operations(t, s, next); /* the run, and a finer one beside it */
+        if (next.records <= (uint64_t)t->records && operations <= TRIES_OPERATIONS) {
+            const trial_result one = trial_run(t, s, next);
+            if (one.ran && one.usable && one.error <= t->tolerated && !is_warned_of(t, s, next)) {
+                *pace = next;
+                *r = one;
+                return true;
+            }
+        }
+    }
     return false;
 }
 
@@ -222,13 +262,19 @@ static int choose(pricing *p, const setting *s, const volatile sig_atomic_t *sto
     deviation_pace pace;
     trial_result r;
     bool longest;
-    if (!find_pace(t, s, &pace, &r, &longest)) {
+    const int at = find_pace(t, s, &pace, &r, &longest);
+    if (at < 0) {
         return t->stopped ? EXIT_INTERRUPTED : EXIT_RUN_FAILED;
     }
+    trial_time(trial_step(t, pace), text);
+    char *longer = find_unwarned(t, s, at, &pace, &r)
+                       ? room_words("; %s s keeps the error, too, but with warnings", text)
+                       : room_words("%s", longest ? "; longer ones are not tried" : "");
     *step = room_words("%s", trial_time(trial_step(t, pace), text));
     *chosen = room_words("chosen step        %s s: error of %s at most %.2e %s until t = %.6g s%s",
                          *step, p->options->value[PRICING_OF], r.error, trial_unit(t),
-                         trial_horizon_s(t), longest ? "; longer ones are not tried" : "");
+                         trial_horizon_s(t), longer);
+    free(longer);
     return EXIT_DONE;
 }
 
@@ -250,6 +296,7 @@ int rating_choose(const common_options *common, const char *target, const char *
     pricing p;
     o.target = target;
     o.common.change = common->change;
+    o.balance = true; /* the run is judged by it */
     o.value[PRICING_OF] = of;
     o.value[PRICING_ERROR] = equals + 1;
     const setting s = {common->integration, common->number};

@@ -19,6 +19,7 @@ typedef struct search {
     const image *plain;
     const engine_kind *kind;
     const volatile sig_atomic_t *stop;
+    double part;  /* of the limits */
     double spent; /* operations */
     bool dear;
 } search;
@@ -102,7 +103,7 @@ static bool try(search *s, const wish *w) {
     const engine_kind *kind = w->in_double ? &engine_double : s->kind;
     void *run = kind->start(&with);
     verdict *v = verdict_open(&with, s->plain, kind, run);
-    v->part = LEAVES;
+    v->part = s->part;
     const loop l = {
         .kind = kind, .run = run, .steps = with.steps, .stop = s->stop, .see = {{see, v}}};
     wh_status status;
@@ -164,7 +165,7 @@ static bool try_steps(search *s, wish w, double parts, char text[REMEDY_TEXT]) {
 remedy_outcome remedy_find(const image *im, const image *plain, const engine_kind *kind,
                            double parts, const volatile sig_atomic_t *stop,
                            char text[REMEDY_TEXT]) {
-    search s = {.image = im, .plain = plain, .kind = kind, .stop = stop};
+    search s = {.image = im, .plain = plain, .kind = kind, .stop = stop, .part = LEAVES};
     const wh_method own = im->settings.matrix == MATRIX_RK4 ? WH_RK4 : im->settings.method;
     wish w = {im->step_s, own, im->settings.compensated, false};
     text[0] = '\0';
@@ -193,4 +194,11 @@ remedy_outcome remedy_find(const image *im, const image *plain, const engine_kin
         return REMEDY_DOES;
     }
     return s.dear ? REMEDY_DEAR : REMEDY_NONE;
+}
+
+bool remedy_not_needed(const image *im, const image *plain, const engine_kind *kind,
+                       const volatile sig_atomic_t *stop) {
+    search s = {.image = im, .plain = plain, .kind = kind, .stop = stop, .part = 1.0};
+    const wish own = {im->step_s, im->settings.method, im->settings.compensated, false};
+    return try(&s, &own);
 }

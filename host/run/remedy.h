@@ -16,4 +16,8 @@ enum { REMEDY_TEXT = 120 };
 remedy_outcome remedy_find(const image *im, const image *plain, const engine_kind *kind,
                            double parts, const volatile sig_atomic_t *stop, char text[REMEDY_TEXT]);
 
+/* Is nothing found of a run of this image? */
+bool remedy_not_needed(const image *im, const image *plain, const engine_kind *kind,
+                       const volatile sig_atomic_t *stop);
+
 #endif
