@@ -125,11 +125,23 @@ static bool may_be_repeated(const char *name) {
     return false;
 }
 
-static bool is_new(char **words, int at, const char *name) {
+/* Of an option that is the word at `at`; "" when it is missing. */
+static const char *value_at(int count, char **words, int at, const char *name) {
+    const size_t length = strlen(name);
+    return words[at][length] == '=' ? words[at] + length + 1 : at + 1 < count ? words[at + 1] : "";
+}
+
+static bool is_new(int count, char **words, int at, const char *name) {
     for (int i = 0; i < at && !may_be_repeated(name); i++) {
         if (is_option(words[i], name)) {
-            fprintf(stderr, "whirl: error: %s is there twice: '%s' and '%s'\nhint: leave one out\n",
-                    name, words[i], words[at]);
+            fprintf(stderr, "whirl: error: %s is there twice: '%s' and '%s'\n", name, words[i],
+                    words[at]);
+            if (strcmp(name, "--y") == 0) { /* a list */
+                fprintf(stderr, "hint: --y \"%s, %s\"\n", value_at(count, words, i, name),
+                        value_at(count, words, at, name));
+            } else {
+                fputs("hint: leave one out\n", stderr);
+            }
             return false;
         }
     }
@@ -142,7 +154,7 @@ const char *options_value(int count, char **words, int *at, const char *name, bo
     if (!is_option(word, name)) {
         return NULL;
     }
-    if (!is_new(words, *at, name)) {
+    if (!is_new(count, words, *at, name)) {
         *bad = true;
         ++*at;
         return NULL;

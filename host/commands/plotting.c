@@ -68,6 +68,45 @@ static void take_one(int count, char **words, int *at, plot_options *o, bool *ba
     }
 }
 
+/* "l=20cm" of --set l=20cm or --set=l=20cm, or of --start; NULL: another word. */
+static const char *assigned(const plot_options *o, int i) {
+    static const char *const options[] = {"--set", "--start"};
+    for (int k = 0; k < 2; k++) {
+        const size_t length = strlen(options[k]);
+        if (strncmp(o->passed[i], options[k], length) == 0) {
+            return o->passed[i][length] == '='                           ? o->passed[i] + length + 1
+                   : o->passed[i][length] == '\0' && i < o->passed_count ? o->passed[i + 1]
+                                                                         : NULL;
+        }
+    }
+    return NULL;
+}
+
+/* Options change every scene: no name can have two values. */
+static bool sets_once(const plot_options *o) {
+    for (int i = 1; i <= o->passed_count; i++) {
+        for (int k = i + 1; k <= o->passed_count; k++) {
+            const char *first = assigned(o, i);
+            const char *second = assigned(o, k);
+            const size_t length = first != NULL ? strcspn(first, "= ") : 0;
+            const char *option = strncmp(o->passed[i], "--start", 7) == 0 ? "start" : "set";
+            if (first != NULL && second != NULL && strcspn(second, "= ") == length &&
+                strncmp(first, second, length) == 0) {
+                fprintf(stderr,
+                        "whirl plot: error: %.*s is given twice, and options change every scene\n"
+                        "hint: record each run, then draw both:\n"
+                        "  whirl run %s --%s \"%s\" --csv a.csv\n"
+                        "  whirl run %s --%s \"%s\" --csv b.csv\n"
+                        "  whirl plot a.csv b.csv --out %s\n",
+                        (int)length, first, o->target[0], option, first, o->target[o->targets - 1],
+                        option, second, o->out);
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
 /* Nothing is missing, and nothing contradicts. */
 static bool is_whole(const plot_options *o) {
     bool scenes = false;
@@ -95,7 +134,7 @@ static bool is_whole(const plot_options *o) {
             return false;
         }
     }
-    return gnuplot_can_draw_for("plot", "--out", o->out) && gnuplot_is_there();
+    return sets_once(o) && gnuplot_can_draw_for("plot", "--out", o->out) && gnuplot_is_there();
 }
 
 static int draw_all(plot_options *o) {

@@ -134,6 +134,7 @@ refused() { # refused ERROR HINT WORD...: exit status 2, both said, nothing draw
     verdict $? "refused: $error"
 }
 out="--out=$scratch/no.svg"
+case $whirl in /*) program=$whirl ;; *) program=$PWD/$whirl ;; esac
 refused "no quantity is called 'pul'" "did you mean pull?" plot "$scratch/soft.csv" --y pul "$out"
 refused "no quantity is called 'zzzzzz'" "the quantities are time, x, a, x', a', pull" plot "$scratch/soft.csv" --y zzzzzz "$out"
 refused "no quantity is called 'pul'" "did you mean pull?" run "$model" --y pul --plot "$scratch/no.svg"
@@ -149,6 +150,13 @@ refused "no file for the picture" "--out picture.svg" plot "$scratch/soft.csv"
 refused "draws .svg, .pdf and .png files" "--out picture.svg" plot "$scratch/soft.csv" --out "$scratch/no.txt"
 refused "--legend names 1 of 2 runs" '--legend "first, second"' plot "$scratch/soft.csv" "$scratch/stiff.csv" --legend one "$out"
 refused "--set changes a scene" "whirl plot SCENE --set" plot "$scratch/soft.csv" --set k=1 "$out"
+refused "k is given twice, and options change every scene" "record each run, then draw both:" plot "$model" --set k=5 "$model" --set=k=90 "$out"
+sed -n 's/^  whirl //p' "$scratch/err" | (cd "$scratch" && while read -r line; do eval "\"$program\" $line" || exit 1; done) >"$scratch/said" 2>&1 && [ -s "$scratch/no.svg" ]
+verdict $? "whose commands do" "$scratch/said"
+rm -f "$scratch/no.svg"
+for name in k "x'"; do
+    refused "--y is there twice" "--y \"a, $name\"" plot "$model" --y a --y="$name" "$out"
+done
 refused "choose what --plot draws" "--plot picture.svg" run "$model" --y x
 refused "no figure is called '999'" '`whirl list --figures` lists them' figure 999
 PATH=/nonexistent "$(command -v "$whirl" || echo "$whirl")" plot "$scratch/soft.csv" "$out" 2>"$scratch/err"
