@@ -120,12 +120,21 @@ void table_print_left(FILE *out, const table *made, double operations) {
     fputc('\n', out);
 }
 
-/* Why columns are empty, and the command that fills them. */
+/* Above the table: m is no metre. */
+static void print_letters(FILE *out, const table_row *first) {
+    fputs("\nletters behind figures: how each is known\n", out);
+    figure_legend(out, &first->cost);
+    if (first->price.unit == PRICE_EVALUATIONS) {
+        fputs(
+            "  m  measured: evaluations of the accelerations a simulated second, counted in the run\n"
+            "  -  not known: the cost of contacts depends on the motion\n",
+            out);
+    }
+}
+
+/* The command that fills the columns that are empty. */
 static void say_contacts(FILE *out, const trials *t, const table_words *words) {
     const char *board = t->wish.board->name;
-    fputs("  m  measured: evaluations of the accelerations a simulated second, counted in the run\n"
-          "  -  not known: the cost of contacts depends on the motion\n",
-          out);
     if (strcmp(board, "host") != 0) {
         fprintf(
             out,
@@ -139,7 +148,6 @@ static void print_notes(FILE *out, const trials *t, const table *made, const tab
     char text[FIGURE_WORDS];
     const table_row *first = &made->row[0];
     table_print_left(out, made, words->operations);
-    figure_legend(out, &first->cost);
     if (first->price.unit == PRICE_EVALUATIONS) {
         say_contacts(out, t, words);
     } else {
@@ -181,6 +189,7 @@ void table_print(FILE *out, const trials *t, const table *made, const table_word
     }
     figure_reference(out, t);
     if (t->reliable && made != NULL && made->count > 0) {
+        print_letters(out, &made->row[0]);
         print_rows(out, t, made, words);
         print_notes(out, t, made, words);
     } else if (t->reliable && made != NULL && made->unpriced + made->broken_off > 0) {

@@ -322,6 +322,8 @@ static void test_people_read_what_the_rows_are(void) {
         TEST_ASSERT_EQUAL_INT(n % 2 == 0, strstr(out.text, "largest value, of the worst") != NULL);
         const char *at = behind(out.text, "   settings\n");
         TEST_ASSERT_NOT_NULL(strstr(out.text, heads[n % 3]));
+        const char *above = strstr(out.text, "\nletters behind figures: ");
+        TEST_ASSERT_TRUE(above != NULL && above < strstr(out.text, heads[n % 3]));
         int front = 0;
         int shown = 0;
         const table_row *last = NULL;
