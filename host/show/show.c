@@ -289,7 +289,9 @@ static void show_group(const show *s, const poly *p, const poly *key, bool leadi
     show_as_fraction(number, &top, &bottom);
     show_sign(s, negative, leading);
     if (latex && !plain) {
-        show_product(s, &front, number);
+        show before = *s;
+        before.bracketed = true;
+        show_product(&before, &front, number);
         first = false;
     } else if (!plain) {
         if (top != 1.0) {

@@ -15,6 +15,8 @@ typedef struct show {
     const char *(*name)(const void *names, const symbol *sym, int primes); /* NULL: the file's */
     const void *names;
     struct show_lets *lets; /* names of the file for sums; NULL: none */
+    bool
+        bracketed; /* a parenthesis follows: in LaTeX a function's symbol has its own, not \cos a (b + c) */
 } show;
 typedef struct show_lets show_lets;
 

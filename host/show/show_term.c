@@ -141,7 +141,7 @@ static void show_call(const show *s, function_id function, const poly *x, const 
     if (before) {
         show_exponent(s, exponent);
     }
-    if (before && is_symbol(x)) {
+    if (before && is_symbol(x) && !s->bracketed) {
         fputs(" ", s->out);
         show_poly(s, x);
         return;
@@ -297,7 +297,13 @@ void show_separate(const show *s, bool *first) {
 }
 
 /* The factors of one side of the fraction bar: +1 above, -1 below. */
-void show_factors(const show *s, const piece *p, int side, bool *first) {
+void show_factors(const show *outer, const piece *p, int side, bool *first) {
+    show inner = *outer;
+    const show *s = &inner;
+    for (int i = 0; i < p->mono->count; i++) {
+        const atom_kind kind = p->mono->factors[i].atom->kind;
+        inner.bracketed = inner.bracketed || kind == ATOM_GROUP || kind == ATOM_POWER;
+    }
     for (int rank = 0; rank < RANKS; rank++) {
         for (int i = 0; i < p->mono->count; i++) {
             const mono_factor *f = &p->mono->factors[i];

@@ -16,7 +16,7 @@ int show_rank(const atom *x);
 /* The sign between two factors, unless this is the first. */
 void show_separate(const show *s, bool *first);
 /* The factors above (side 1) or below (-1) the fraction bar. */
-void show_factors(const show *s, const piece *p, int side, bool *first);
+void show_factors(const show *outer, const piece *p, int side, bool *first);
 int show_count_below(const piece *p);
 /* size * factors, as a fraction where there is something below; a factor 1 is left out. */
 void show_product(const show *s, const piece *p, double size);

@@ -152,6 +152,8 @@ static void list(reader *r, char until) {
     if (++r->depth > DEPTH_MAX) {
         fail(r, "nested too deep for TeX");
     }
+    bool bare = false; /* behind a function whose argument has no parentheses */
+    bool opens = false;
     for (skip(r); r->problem == NULL; skip(r)) {
         const bool closes = strncmp(r->at, "\\right)", 7) == 0;
         const bool ends = strncmp(r->at, "\\end{aligned}", 13) == 0;
@@ -169,6 +171,18 @@ static void list(reader *r, char until) {
             r->at += *r->at == '&' ? 1 : 2;
             continue;
         }
+        static const char functions[] = " sin cos tan sinh cosh tanh ";
+        const size_t length = *r->at == '\\' ? strspn(r->at + 1, "acdefghinostl") : 0;
+        const char *found = functions;
+        while (length >= 3 && (found = strstr(found + 1, " ")) != NULL &&
+               (strncmp(found + 1, r->at + 1, length) != 0 || found[1 + length] != ' ')) {
+        }
+        const bool is_function = length >= 3 && found != NULL;
+        if (bare && !opens && strncmp(r->at, "\\left(", 6) == 0) {
+            fail(r, "a parenthesis behind a function without one");
+            break;
+        }
+        bare = bare && strchr("+-=", *r->at) == NULL;
         nucleus(r);
         bool has[2] = {false, false};
         for (skip(r); r->problem == NULL && (*r->at == '^' || *r->at == '_'); skip(r)) {
@@ -183,6 +197,8 @@ static void list(reader *r, char until) {
             argument(r);
             r->width = before + (r->width - before) * 76 / 100; /* cmmi7 */
         }
+        opens = is_function && strncmp(r->at, "\\left(", 6) == 0;
+        bare = is_function ? bare || !opens : bare;
     }
     r->depth--;
     r->width = widest > r->width ? widest : r->width;
