@@ -21,6 +21,7 @@ typedef struct figure {
     int panels;
     int curves;       /* of this panel, */
     int named;        /* and how many of them are in the legend */
+    bool varied;      /* marks of the motion as it is are left out */
     double trusted_s; /* the least of its curves over time; 0: all of them are trusted to the end */
     char *plot;       /* their text */
     char *xlabel;
@@ -175,7 +176,10 @@ static bool take_line(figure *f, char *line) {
         return f->panels > 0 ? take_curve(f, rest, line[0] == 'l')
                              : is_wrong(f, "before the first panel: ", line);
     } else if (strcmp(line, "set") == 0 && f->panels > 0) {
-        fprintf(f->to, "set %s\n", rest);
+        const bool marks = strncmp(rest, "arrow", 5) == 0 || strncmp(rest, "label", 5) == 0;
+        if (!f->varied || !marks) {
+            fprintf(f->to, "set %s\n", rest);
+        }
     } else if (strcmp(line, "xlabel") == 0) {
         free(f->xlabel);
         f->xlabel = room_words("%s", rest);
@@ -229,7 +233,11 @@ bool figure_draw(const char *file, const char *where, const char *text, const fi
                  int count, const char *varied) {
     char *commands = NULL;
     size_t length;
-    figure f = {.where = where, .data = data, .count = count, .to = room_text(&commands, &length)};
+    figure f = {.where = where,
+                .data = data,
+                .count = count,
+                .varied = varied[0] != '\0',
+                .to = room_text(&commands, &length)};
     bool good = take_text(&f, text);
     room_text_end(f.to);
     const char *at = text;

@@ -181,4 +181,13 @@ verdict $? "docs/plot.md names them: $named"
     grep -qF "<title>$(sed -n 's/^33  *//p' "$scratch/figures"), varied: --until 1s</title>" "$scratch/f.svg" &&
     grep -q '<desc>Varied by --until 1s --set m1=9 \[kg\]</desc>' "$scratch/g.svg" && ! cmp -s "$scratch/f.svg" "$scratch/g.svg"
 verdict $? "a figure, and the same varied"
+# marks of the motion as it is: not on one that is varied
+printf '%s\n' 'title Marked' 'caption Marked.' 'run a thomson_a --until 1s' "panel X' [m/s]" \
+    "set arrow from 0.4, graph 0 to 0.4, graph 1 nohead lc rgb '#123456'" "set label 'read here' at 0.5, graph 0.5" \
+    'curve a | {time} | {der(X)} | -' >"$scratch/marked.fig"
+marks() { grep -ciE 'read here|rgb\( *18, *52, *86\)' "$scratch/marked.svg"; }
+"$whirl" figure "$scratch/marked.fig" --out "$scratch/marked.svg" 2>"$scratch/err" && [ "$(marks)" -ge 2 ]
+verdict $? "a figure with its marks" "$scratch/err"
+"$whirl" figure "$scratch/marked.fig" --set r=60mm --out "$scratch/marked.svg" 2>"$scratch/err" && [ "$(marks)" -eq 0 ]
+verdict $? "and varied, without them" "$scratch/err"
 exit $failed
