@@ -13,8 +13,11 @@ scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 
 awk -v into="$scratch/" -f "$here/rows.awk" "$rows"
+all=$(find "$scratch" -name '*.command' | wc -l)
+echo "running the $all commands of the claims" >&2
 find "$scratch" -name '*.command' | sort |
-    xargs -P "$(nproc 2>/dev/null || echo 1)" -n 1 sh -c 'sh "$1" >"$1.said" 2>"$1.err" </dev/null || : >"$1.failed"' _
+    xargs -P "$(nproc 2>/dev/null || echo 1)" -n 1 sh -c 'sh "$1" >"$1.said" 2>"$1.err" </dev/null || : >"$1.failed"; echo' _ |
+    awk -v all="$all" 'NR % 10 == 0 || NR == all { print NR " of " all; fflush() }' >&2
 for failed in "$scratch"/*.failed; do
     [ -e "$failed" ] || continue
     echo "error: $(cat "${failed%.failed}")" >&2
