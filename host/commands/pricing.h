@@ -18,9 +18,9 @@
     X(PRICING_ERROR, "--error", "0.1mm", "the error that is allowed; a bare number is SI") \
     X(PRICING_HORIZON, "--horizon", "T", "look at errors until then (default: the scene's end)") \
     X(PRICING_VARY, "--vary", "RANGE", \
-      "the worst over a range of a parameter, an input or a start value, at three\n" \
-      "places, the ends among them: duty=0.2..0.8, or at five: duty=0.2..0.8:5.\n" \
-      "Repeatable: all combinations") \
+      "the worst of sampled places of a parameter, an input or a start value:\n" \
+      "duty=0.2..0.8 samples three, the ends among them, duty=0.2..0.8:5 five.\n" \
+      "Repeatable: all combinations. The scene's own values are always sampled too") \
     X(PRICING_METHOD, "--method", "M,...", \
       "try these methods in place of rk4,nystroem3,nystroem4,nystroem5, beside\n" \
       "which others save nothing in the median; all: every one") \

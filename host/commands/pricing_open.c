@@ -177,7 +177,10 @@ static bool read_times(pricing *p) {
                                                     p->from.errors, &p->until_s);
     }
     diags_flush(p->from.errors, stderr);
-    good = good && can_start(p, inst);
+    if (good) {
+        pricing_scene_add_own(p->scene, inst);
+        good = can_start(p, inst);
+    }
     instance_free(inst);
     if (good && !(p->until_s > 0.0)) {
         fprintf(stderr, "whirl %s: error: a motion of no time has no errors\nhint: --horizon 1s\n",

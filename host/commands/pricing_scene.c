@@ -60,6 +60,11 @@ char *pricing_words(const overrides *c, bool as_label) {
     return text;
 }
 
+/* Is there nothing to change at this point? */
+static bool is_own(const pricing_scene *p, int point) {
+    return p->grid->count == 0 || (p->has_own && point == p->source.points - 1);
+}
+
 static bool is_start(const axis *a) {
     return a->symbol->kind == SYM_COORDINATE || a->symbol->kind == SYM_STATE;
 }
@@ -71,10 +76,11 @@ static const char *name_of(void *context, int point) {
     size_t length;
     free(p->name);
     FILE *out = room_text(&p->name, &length);
-    if (p->grid->count > 0) {
+    const int axes = is_own(p, point) ? 0 : p->grid->count;
+    if (axes > 0) {
         grid_values(p->grid, (uint64_t)point, value);
     }
-    for (int i = 0; i < p->grid->count; i++) {
+    for (int i = 0; i < axes; i++) {
         const axis *a = &p->grid->axes[i];
         char *word = shown_assignment(a->symbol, a->primes, number_shortest(value[i], number));
         char *quoted = pricing_quoted(word);
@@ -95,17 +101,18 @@ static overrides changes_at(const pricing_scene *p, int point) {
     overrides changes = *p->changes;
     double *value = room(g->count, sizeof *value);
     const char **texts = room(g->count, sizeof(const char *));
-    if (g->count > 0) {
+    const int axes = is_own(p, point) ? 0 : g->count;
+    if (axes > 0) {
         grid_values(g, (uint64_t)point, value);
     }
-    for (int i = 0; i < g->count; i++) {
+    for (int i = 0; i < axes; i++) {
         char number[NUMBER_SIZE];
         snprintf(number, sizeof number, "%.17g", value[i]);
         texts[i] = shown_assignment(g->axes[i].symbol, g->axes[i].primes, number);
     }
     free(value);
     changes.values = texts;
-    changes.value_count = g->count;
+    changes.value_count = axes;
     return changes;
 }
 
@@ -196,11 +203,40 @@ pricing_scene *pricing_scene_new(const mechanism *of, const scene *in, const ove
                          .changes = changes,
                          .grid = g,
                          .errors = errors,
-                         .instance = room(points, sizeof(instance *)),
-                         .equations = room(points, sizeof(equations *)),
+                         .instance = room(points + 1, sizeof(instance *)), /* and the scene's own */
+                         .equations = room(points + 1, sizeof(equations *)),
                          .source = {.points = points, .make = make, .name = name_of}};
     p->source.context = p;
     return p;
+}
+
+static double own_value(const instance *own, const axis *a) {
+    switch (a->symbol->kind) {
+    case SYM_PARAMETER: return own->parameter[a->symbol->index];
+    case SYM_INPUT: return own->input[a->symbol->index];
+    case SYM_COORDINATE:
+    case SYM_STATE: return own->start[a->symbol->index][a->primes];
+    case SYM_LET:
+    case SYM_OUTPUT:
+    case SYM_RECORD: break; /* no axis */
+    }
+    return 0.0;
+}
+
+void pricing_scene_add_own(pricing_scene *p, const instance *own) {
+    const grid *g = p->grid;
+    double *value = room(g->count, sizeof *value);
+    bool among = g->count == 0;
+    for (int point = 0; point < p->source.points && !among; point++) {
+        grid_values(g, (uint64_t)point, value);
+        among = true;
+        for (int i = 0; i < g->count; i++) {
+            among = among && value[i] == own_value(own, &g->axes[i]);
+        }
+    }
+    free(value);
+    p->has_own = !among;
+    p->source.points += !among;
 }
 
 void pricing_scene_lend(pricing_scene *p, const image_settings *settings, const image *lent) {

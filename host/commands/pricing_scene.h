@@ -24,7 +24,8 @@ typedef struct pricing_scene {
     equations **equations; /* [points] NULL: not yet */
     pricing_made *made;    /* [made_count] */
     int made_count;
-    char *name; /* of the place that was asked for last */
+    bool has_own; /* the last point is the scene's own place, which is no point of the grid */
+    char *name;   /* of the place that was asked for last */
     trial_source source;
 } pricing_scene;
 
@@ -33,6 +34,8 @@ enum { PRICING_PLACES_MAX = 64, PRICING_PLACES = 3 };
 
 pricing_scene *pricing_scene_new(const mechanism *of, const scene *in, const overrides *changes,
                                  const grid *g, diags *errors);
+/* The scene's own values, if they are no point of the grid, become a point. Call it before any image is made. */
+void pricing_scene_add_own(pricing_scene *p, const instance *own);
 /* An image that was made with these settings, and is not the scene's to free. NULL is fine. */
 void pricing_scene_lend(pricing_scene *p, const image_settings *settings, const image *lent);
 void pricing_scene_free(pricing_scene *p); /* NULL is fine */

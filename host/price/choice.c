@@ -136,8 +136,7 @@ static void drop_long(const trials *t, table *made) {
     for (int i = 0; i < made->count; i++) {
         const table_row *row = &made->row[i];
         const double each = (double)t->image[0]->list[IMAGE_STEP]->count;
-        const double evaluations =
-            row->result.evaluations * trial_horizon_s(t) * t->wish.source->points;
+        const double evaluations = row->result.evaluations * trial_horizon_s(t) * t->points;
         if (evaluations * each <= RUN_INSTRUCTIONS) {
             made->row[kept++] = *row;
         } else {

@@ -103,7 +103,7 @@ static void print_answer(FILE *out, const trials *t, const choice_wish *w, const
     const cost *c = &row->cost;
     const bool cycles = has_cycles(c);
     const char *unit = cycles ? "cycles" : "instructions";
-    const char *where = t->wish.source->name(t->wish.source->context, row->result.point);
+    const char *at = trial_place(t, row->result.point);
     const uint64_t substeps = table_substeps(&w->table, row);
     print_options(out, t, row);
     fprintf(out, "  error       %s%s, measured", row->result.bound ? "at most " : "",
@@ -111,8 +111,11 @@ static void print_answer(FILE *out, const trials *t, const choice_wish *w, const
     if (t->what.column < 0) {
         fprintf(out, " (%s)", trial_column(t, row->result.column, name));
     }
-    fprintf(out, "%s%s; %s is allowed\n", where[0] != '\0' ? ", worst with" : "", where,
-            amount(t, w->table.error, text));
+    if (t->points > 1) {
+        fprintf(out, ", worst of %d sampled places with%s", t->points,
+                at[0] != '\0' ? at : " the scene's own values");
+    }
+    fprintf(out, "; %s is allowed\n", amount(t, w->table.error, text));
     if (substeps > 0) {
         fprintf(out, "  a period    %llu steps\n", (unsigned long long)substeps);
     }
@@ -126,7 +129,9 @@ static void print_answer(FILE *out, const trials *t, const choice_wish *w, const
     print_figure(out, "flash", &c->flash_bytes, "bytes");
     print_figure(out, "RAM", &c->ram_bytes, "bytes without the stack");
     print_figure(out, "stack", &c->stack_bytes, "bytes");
-    print_figure(out, "state", &c->state_bytes, "bytes of these");
+    if (c->state_bytes.basis != COST_NOT_KNOWN) {
+        print_figure(out, "state", &c->state_bytes, "bytes of these");
+    }
     for (int i = CHOICE_FLASH; i < CHOICE_LIMITS; i++) {
         if (by->unknown[i]) {
             fprintf(out, "  %s is limited, and not known here: count it\n", choice_limit_words[i]);
@@ -137,7 +142,7 @@ static void print_answer(FILE *out, const trials *t, const choice_wish *w, const
 static void print_lines(FILE *out, const trials *t, const table_row *row,
                         const table_words *words) {
     char *run = table_run_line(t, &row->setting, row->pace, row->result.point, words);
-    char *derive = table_derive_line(t, &row->setting, row->pace, row->result.point, words);
+    char *derive = table_derive_line(t, &row->setting, row->pace, words);
     char *measure = table_measure_line(t, &row->setting, row->pace, row->result.point, words);
     fprintf(out, "  again       %s\n  as code     %s\n  counted by  %s\n", run, derive, measure);
     free(measure);

@@ -63,7 +63,7 @@ void figure_legend(FILE *out, const cost *c) {
 
 /* Does a column count at any place? */
 static bool counts(const trials *t, int column) {
-    for (int p = 0; p < t->wish.source->points; p++) {
+    for (int p = 0; p < t->points; p++) {
         if (t->reference[p]->column[column].counts) {
             return true;
         }
@@ -89,7 +89,7 @@ void figure_reference(FILE *out, const trials *t) {
     const reference *r = t->reference[t->worst];
     fprintf(out, "  reference   %s\n", r->how);
     if (r->kind == REFERENCE_NONE) {
-        const char *where = t->wish.source->name(t->wish.source->context, t->worst);
+        const char *where = trial_place(t, t->worst);
         fprintf(out, "              none that could be trusted%s%s: %s\n",
                 where[0] != '\0' ? ", with" : "", where, r->why);
         return;
@@ -105,6 +105,9 @@ void figure_reference(FILE *out, const trials *t) {
     }
     if (t->what.column < 0) {
         say_missing(out, t);
+    }
+    if (t->still != NULL) {
+        fprintf(out, "  left out    nothing moves with%.*s\n", (int)strlen(t->still) - 1, t->still);
     }
 }
 

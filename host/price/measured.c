@@ -155,7 +155,7 @@ static int count_runs(const trials *t, const table_words *words, table_row *row)
     bool bounded = true;
     int status = 0;
     row->cost = (cost){.why = ""};
-    for (int p = 0; p < t->wish.source->points && status == 0; p++) {
+    for (int p = 0; p < t->points && status == 0; p++) {
         char line[1024];
         const double before = row->run.instructions_bound;
         row->run.instructions_bound = 0.0;

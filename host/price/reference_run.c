@@ -239,10 +239,11 @@ reference *reference_new(const reference_wish *w) {
     if (r->records < 1 || !knows(r)) {
         r->kind = REFERENCE_NONE;
         if (r->why == NULL) {
+            r->still = !moves(r);
             r->why =
-                room_words(moves(r) ? "the two never agree: what moves is rounding alone, or this "
-                                      "horizon is too long to be looked at"
-                                    : "nothing moves");
+                room_words(!r->still ? "the two never agree: what moves is rounding alone, or this "
+                                       "horizon is too long to be looked at"
+                                     : "nothing moves");
         }
     }
     return r;

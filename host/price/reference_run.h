@@ -35,6 +35,7 @@ typedef struct reference {
     char *how;    /* the two settings, in words */
     char *why;    /* what ends the trust before the end, in words; or there is none at all; "" */
     bool broken;  /* it ends early for want of small steps, not because the motion runs apart */
+    bool still;   /* there is none, because nothing moves */
     bool stopped; /* by *stop: it is of no use */
 } reference;
 

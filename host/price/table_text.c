@@ -12,11 +12,11 @@ static char *line_of(const trials *t, const setting *s, deviation_pace pace, int
     char options[SETTING_TEXT];
     char step[TRIAL_TIME];
     char until[TRIAL_TIME];
-    return room_words(
-        "whirl %s %s%s%s%s%s --step %s --until %s%s", run ? "run" : "derive", words->target,
-        words->changes, t->wish.source->name(t->wish.source->context, point),
-        setting_options(s, run, options), run ? "" : setting_form(s),
-        trial_time(trial_step(t, pace), step), trial_until(t, until), run ? "" : " --as c");
+    return room_words("whirl %s %s%s%s%s%s --step %s --until %s%s", run ? "run" : "derive",
+                      words->target, words->changes, run ? trial_place(t, point) : "",
+                      setting_options(s, run, options), run ? "" : setting_form(s),
+                      trial_time(trial_step(t, pace), step), trial_until(t, until),
+                      run ? "" : " --as c");
 }
 
 char *table_run_line(const trials *t, const setting *s, deviation_pace pace, int point,
@@ -24,9 +24,9 @@ char *table_run_line(const trials *t, const setting *s, deviation_pace pace, int
     return line_of(t, s, pace, point, words, true);
 }
 
-char *table_derive_line(const trials *t, const setting *s, deviation_pace pace, int point,
+char *table_derive_line(const trials *t, const setting *s, deviation_pace pace,
                         const table_words *words) {
-    return line_of(t, s, pace, point, words, false);
+    return line_of(t, s, pace, 0, words, false);
 }
 
 char *table_measure_line(const trials *t, const setting *s, deviation_pace pace, int point,
@@ -38,8 +38,7 @@ char *table_measure_line(const trials *t, const setting *s, deviation_pace pace,
     const bool ranged = runs || setting_is_fixed(s); /* whose ranges are those to the end */
     return room_words("sh mk/price/measure_one.sh%s %s %s %s%s%s%s --step %s%s%s",
                       runs ? " --whole-run" : "", t->wish.board->name, s->number->name,
-                      words->target, words->changes,
-                      t->wish.source->name(t->wish.source->context, point),
+                      words->target, words->changes, trial_place(t, point),
                       setting_options(s, false, options), trial_time(trial_step(t, pace), step),
                       ranged ? " --until " : "", ranged ? trial_until(t, until) : "");
 }
@@ -162,7 +161,7 @@ static void print_notes(FILE *out, const trials *t, const table *made, const tab
     }
     const table_row *row = &made->row[last];
     char *run = table_run_line(t, &row->setting, row->pace, row->result.point, words);
-    char *derive = table_derive_line(t, &row->setting, row->pace, row->result.point, words);
+    char *derive = table_derive_line(t, &row->setting, row->pace, words);
     fprintf(out, "the last row of the front again, and as code:\n  %s\n  %s\n", run, derive);
     free(run);
     free(derive);
@@ -183,9 +182,8 @@ void table_print(FILE *out, const trials *t, const table *made, const table_word
                 "records\n",
                 trial_column(t, t->what.column, name));
     }
-    if (t->wish.source->points > 1) {
-        fprintf(out, "              the worst of %d places of what varies\n",
-                t->wish.source->points);
+    if (t->points > 1) {
+        fprintf(out, "              the worst of %d sampled places of what varies\n", t->points);
     }
     figure_reference(out, t);
     if (t->reliable && made != NULL && made->count > 0) {
@@ -230,7 +228,7 @@ static void csv_row(FILE *out, const trials *t, const table_row *row, const tabl
     csv_figure(out, &row->cost.stack_bytes);
     csv_figure(out, &row->cost.state_bytes);
     char *run = table_run_line(t, &row->setting, row->pace, row->result.point, words);
-    char *derive = table_derive_line(t, &row->setting, row->pace, row->result.point, words);
+    char *derive = table_derive_line(t, &row->setting, row->pace, words);
     fputc(',', out);
     figure_field(out, run);
     fputc(',', out);

@@ -25,10 +25,11 @@ void table_csv(FILE *out, const trials *t, const table *made, const table_words 
  * told. */
 bool table_plot(const char *file, const trials *t, const table *made);
 
-/* The lines that do a row again: `whirl run ...` and `whirl derive ... --as c`; free them. */
+/* The lines that do a row again: `whirl run ...` at a place, and `whirl derive ... --as c` with the scene's own values, as
+ * a product has them. Free them. */
 char *table_run_line(const trials *t, const setting *s, deviation_pace pace, int point,
                      const table_words *words);
-char *table_derive_line(const trials *t, const setting *s, deviation_pace pace, int point,
+char *table_derive_line(const trials *t, const setting *s, deviation_pace pace,
                         const table_words *words);
 /* Counts the same row's step where a source tree and the board's compiler are: `sh mk/price/measure_one.sh ...`. */
 char *table_measure_line(const trials *t, const setting *s, deviation_pace pace, int point,

@@ -52,6 +52,10 @@ whole_ratio trial_step(const trials *t, deviation_pace pace) {
     return s;
 }
 
+const char *trial_place(const trials *t, int point) {
+    return t->wish.source->name(t->wish.source->context, t->place[point]);
+}
+
 double trial_horizon_s(const trials *t) {
     return ratio_times((uint64_t)t->records, t->wish.spacing);
 }
@@ -120,7 +124,7 @@ static void cut(trials *t) {
     t->records = t->wish.records;
     t->reliable = true;
     double least = 0.0;
-    for (int p = 0; p < t->wish.source->points; p++) {
+    for (int p = 0; p < t->points; p++) {
         const reference *r = t->reference[p];
         t->reliable = t->reliable && r->kind != REFERENCE_NONE;
         const double agreement = reference_agreement(r);
@@ -130,7 +134,7 @@ static void cut(trials *t) {
             least = agreement;
         }
     }
-    for (int p = 0; p < t->wish.source->points; p++) {
+    for (int p = 0; p < t->points; p++) {
         reference_cut(t->reference[p], t->records);
         if (t->reference[p]->kind == REFERENCE_NONE) {
             t->worst = p; /* it is what is to be told */
@@ -138,11 +142,42 @@ static void cut(trials *t) {
     }
 }
 
+/* Drops the places where nothing moves: no error is a part of anything there. If nothing moves at all, that is the report. */
+static void drop_still(trials *t) {
+    int kept = 0;
+    for (int p = 0; p < t->points; p++) {
+        kept += !t->reference[p]->still;
+    }
+    if (kept == 0 || kept == t->points) {
+        return;
+    }
+    size_t length;
+    FILE *out = room_text(&t->still, &length);
+    const int points = t->points;
+    t->points = 0;
+    for (int p = 0; p < points; p++) {
+        const int to = t->points;
+        if (t->reference[p]->still) {
+            const char *at = trial_place(t, p);
+            fprintf(out, "%s,", at[0] != '\0' ? at : " the scene's own values");
+            reference_free(t->reference[p]);
+            image_free(t->image[p]);
+            continue;
+        }
+        t->place[to] = t->place[p];
+        t->image[to] = t->image[p];
+        t->reference[to] = t->reference[p];
+        t->points++;
+    }
+    room_text_end(out);
+}
+
 bool trial_begin(trials *t, const trial_wish *w) {
     const int points = w->source->points;
     const image_settings standard = IMAGE_SETTINGS_DEFAULT;
     const setting plain = {w->plain != NULL ? *w->plain : standard, &engine_double};
     *t = (trials){.wish = *w,
+                  .place = room(points, sizeof *t->place),
                   .image = room(points, sizeof(image *)),
                   .reference = room(points, sizeof(reference *)),
                   .planned = room(points, sizeof(trial_planned))};
@@ -158,11 +193,14 @@ bool trial_begin(trials *t, const trial_wish *w) {
                                      .by = w->by,
                                      .stop = w->stop};
         t->reference[p] = reference_new(&wish);
+        t->place[p] = p;
+        t->points++;
         t->stopped = t->stopped || t->reference[p]->stopped;
         if (p == 0 && !find_column(t)) {
             return false;
         }
     }
+    drop_still(t);
     cut(t);
     return true;
 }
@@ -210,6 +248,11 @@ static void keep(trials *t, int point, deviation_pace pace, image *im) {
     t->planned[point] = (trial_planned){im, pace};
 }
 
+static image *make_at(const trials *t, int point, const setting *s, const char *step,
+                      const char *until) {
+    return t->wish.source->make(t->wish.source->context, t->place[point], s, step, until);
+}
+
 static image *image_of(trials *t, int point, const setting *s, deviation_pace pace) {
     char step[TRIAL_TIME];
     char until[TRIAL_TIME];
@@ -217,22 +260,24 @@ static image *image_of(trials *t, int point, const setting *s, deviation_pace pa
     if (!setting_is_fixed(s)) {
         const whole_ratio spacing = t->wish.spacing;
         snprintf(until, sizeof until, "%.17g", ratio_times((uint64_t)t->wish.records, spacing));
-        return t->wish.source->make(t->wish.source->context, point, s, step, until);
+        return make_at(t, point, s, step, until);
     }
     image *im = kept(t, point, pace);
     if (im == NULL) {
-        im = t->wish.source->make(t->wish.source->context, point, s, step, trial_until(t, until));
+        im = make_at(t, point, s, step, trial_until(t, until));
         im = im != NULL ? in_fixed_point(t, im) : NULL;
     }
     return im;
 }
 
 void trial_end(trials *t) {
-    for (int p = 0; t->image != NULL && p < t->wish.source->points; p++) {
+    for (int p = 0; t->image != NULL && p < t->points; p++) {
         reference_free(t->reference[p]);
         image_free(t->image[p]);
         drop(t->planned[p].image);
     }
+    free(t->place);
+    free(t->still);
     free(t->reference);
     free(t->image);
     free(t->planned);
@@ -258,7 +303,7 @@ static void enter(const trials *t, int point, const deviation *d, trial_result *
 
 trial_result trial_run(trials *t, const setting *s, deviation_pace pace) {
     trial_result worst = {.ran = true};
-    for (int p = 0; p < t->wish.source->points; p++) {
+    for (int p = 0; p < t->points; p++) {
         image *im = image_of(t, p, s, pace);
         if (im == NULL) {
             return (trial_result){.ran = false};
@@ -288,7 +333,7 @@ double trial_operations(const trials *t, const setting *s, deviation_pace pace) 
     const double steps = (double)t->records * (double)pace.steps / (double)pace.records;
     const double each = (double)t->image[0]->list[IMAGE_STEP]->count + 1.0;
     const double runs = setting_is_fixed(s) ? 2.0 : 1.0; /* one for the ranges */
-    return runs * steps * each * wh_methods[s->image.method].stages * t->wish.source->points;
+    return runs * steps * each * wh_methods[s->image.method].stages * t->points;
 }
 
 static cost price_of(const trials *t, const setting *s, const image *im) {
@@ -302,18 +347,17 @@ static image *priced_image(trials *t, int point, const setting *s, deviation_pac
     const trial_wish *w = &t->wish;
     return w->priced_step.numerator == 0 || setting_price_varies(s)
                ? image_of(t, point, s, pace)
-               : w->source->make(w->source->context, point, s, trial_time(w->priced_step, step),
-                                 NULL);
+               : make_at(t, point, s, trial_time(w->priced_step, step), NULL);
 }
 
 cost trial_cost(trials *t, const setting *s, deviation_pace pace, bool *own) {
     cost dearest = {0};
     *own = true;
-    for (int p = 0; p < t->wish.source->points; p++) {
+    for (int p = 0; p < t->points; p++) {
         image *im = priced_image(t, p, s, pace);
         if (im == NULL && setting_price_varies(s) &&
             !setting_is_fixed(s)) { /* a step that long has no matrix: its own may */
-            im = t->wish.source->make(t->wish.source->context, p, s, NULL, NULL);
+            im = make_at(t, p, s, NULL, NULL);
         }
         if (im == NULL) {
             *own = !setting_may_be_refused(&s->image) && !setting_is_fixed(s);

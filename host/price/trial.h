@@ -9,11 +9,11 @@
 /* Where images come from: the scene, varied. */
 typedef struct trial_source {
     void *context;
-    int points; /* the scene itself, or so many places of its ranges */
+    int points; /* the scene itself, or so many places of its ranges and the scene's own values */
     /* The image of a place, to run with this setting, step and end ("0.001", seconds; NULL: the scene's own). The caller
      * frees it. NULL when there is none: told, but where the scene does not take the setting (setting_may_be_refused()). */
     image *(*make)(void *context, int point, const setting *s, const char *step, const char *until);
-    /* A place in words, for people: "duty=0.2"; "" where nothing varies. Valid until the next call. */
+    /* A place as options: " --set duty=0.2"; "" is the scene itself. Valid until the next call. */
     const char *(*name)(void *context, int point);
 } trial_source;
 
@@ -37,7 +37,10 @@ typedef struct trial_planned {
 
 typedef struct trials {
     trial_wish wish;
-    image **image;          /* [points] of the references */
+    int points; /* the source's places without those where nothing moves, unless nothing moves at all */
+    int *place;    /* [points] their numbers in the source */
+    char *still;   /* the options of the places that were left out: " --set M=0,"; or NULL */
+    image **image; /* [points] of the references */
     reference **reference;  /* [points] */
     trial_planned *planned; /* [points] in fixed point: priced and to be run */
     int worst;              /* the point whose reference ends first, or agrees least */
@@ -82,6 +85,8 @@ cost trial_any_cost(trials *t, const setting *s, deviation_pace pace, bool *own)
 /* Would that take more than t->planned_most? */
 bool trial_is_slow_to_plan(const trials *t, const setting *s, deviation_pace pace);
 
+/* The options of a point: " --set duty=0.2"; "" is the scene itself. Valid until the next call. */
+const char *trial_place(const trials *t, int point);
 whole_ratio trial_step(const trials *t, deviation_pace pace);
 double trial_horizon_s(const trials *t);
 /* The unit of errors: "m", or "" for parts of the largest value. */

@@ -236,19 +236,48 @@ static void test_the_horizon_is_that_of_the_place_that_ends_first(void) {
         }
         priced_close(&p);
     }
-    /* nothing moves at the second place: that is what is to be told */
-    static const char *const still[] = {"mechanism m\nstate y\nequation y' + 1 [1/s]*y = 0 [1/s]\n"
+}
+
+/* Places where nothing moves are left out; if nothing moves at all, that is the report. */
+static void test_places_where_nothing_moves_are_left_out(void) {
+    static const char *const texts[] = {"mechanism m\nstate y\nequation y' + 1 [1/s]*y = 0 [1/s]\n"
                                         "scene s { start y = 1; step 1 [ms]; until 1 [s] }\n",
                                         "mechanism m\nstate y\nequation y' + 1 [1/s]*y = 0 [1/s]\n"
-                                        "scene s { start y = 0; step 1 [ms]; until 1 [s] }\n",
-                                        "mechanism m\nstate y\nequation y' + 2 [1/s]*y = 0 [1/s]\n"
-                                        "scene s { start y = 1; step 1 [ms]; until 1 [s] }\n"};
-    priced p;
-    priced_open(&p, still, 3);
-    TEST_ASSERT_TRUE(priced_begin(&p, "mps2-an386", spacing, RECORDS, NULL));
-    TEST_ASSERT_FALSE(p.trial.reliable);
-    TEST_ASSERT_EQUAL_INT(1, p.trial.worst);
-    priced_close(&p);
+                                        "scene s { start y = 0; step 1 [ms]; until 1 [s] }\n"};
+    for (unsigned still = 0; still < 8; still++) {
+        const char *chosen[3];
+        char left_out[80] = "";
+        int moving = 0;
+        int moved[3];
+        for (int k = 0; k < 3; k++) {
+            const unsigned rests = still >> (unsigned)k & 1U;
+            chosen[k] = texts[rests];
+            moved[moving] = k;
+            moving += rests == 0;
+            if (rests != 0) {
+                snprintf(left_out + strlen(left_out), sizeof left_out - strlen(left_out),
+                         " --set place=%d,", k);
+            }
+        }
+        priced p;
+        priced_open(&p, chosen, 3);
+        TEST_ASSERT_TRUE(priced_begin(&p, "mps2-an386", spacing, RECORDS, NULL));
+        TEST_ASSERT_EQUAL_INT(moving == 0 ? 3 : moving, p.trial.points);
+        TEST_ASSERT_TRUE(p.trial.reliable == (moving > 0));
+        for (int k = 0; k < moving; k++) {
+            char name[20];
+            snprintf(name, sizeof name, " --set place=%d", moved[k]);
+            TEST_ASSERT_EQUAL_STRING(name, trial_place(&p.trial, k));
+        }
+        if (moving == 0 || moving == 3) {
+            TEST_ASSERT_NULL(p.trial.still);
+        } else {
+            TEST_ASSERT_EQUAL_STRING(left_out, p.trial.still);
+        }
+        const setting rk4 = priced_setting(WH_RK4, &engine_double);
+        TEST_ASSERT_TRUE(moving == 0 || trial_run(&p.trial, &rk4, (deviation_pace){1, 1}).usable);
+        priced_close(&p);
+    }
 }
 
 static void test_of_places_as_long_the_worst_agrees_least(void) {
@@ -352,6 +381,7 @@ void suite_price_trials(void) {
     RUN_TEST(test_errors_have_the_unit_of_what_is_asked);
     RUN_TEST(test_what_is_no_component_is_told);
     RUN_TEST(test_the_horizon_is_that_of_the_place_that_ends_first);
+    RUN_TEST(test_places_where_nothing_moves_are_left_out);
     RUN_TEST(test_of_places_as_long_the_worst_agrees_least);
     RUN_TEST(test_errors_are_the_worst_of_all_places);
 }

@@ -196,15 +196,19 @@ static const char *expect_figure(const char *at, const cost_figure *f) {
     return expect_field(at, cost_basis_words[f->basis]);
 }
 
-/* "whirl run TARGET CHANGES PLACE OPTIONS --step S --until U". */
+/* "whirl run TARGET CHANGES PLACE OPTIONS --step S --until U"; the line that writes C names no place. */
 static char *line_again(const trials *t, const table_row *r, const table_words *words, bool run) {
     char options[SETTING_TEXT];
     char step[TRIAL_TIME];
+    char where[24] = "";
     setting_options(&r->setting, run, options);
     trial_time(trial_step(t, r->pace), step);
-    return room_words("whirl %s %s%s --set place=%d%s%s --step %s --until 0.4%s",
-                      run ? "run" : "derive", words->target, words->changes, r->result.point,
-                      options, !run && setting_is_fixed(&r->setting) ? " --number fixed" : "", step,
+    if (run) {
+        snprintf(where, sizeof where, " --set place=%d", r->result.point);
+    }
+    return room_words("whirl %s %s%s%s%s%s --step %s --until 0.4%s", run ? "run" : "derive",
+                      words->target, words->changes, where, options,
+                      !run && setting_is_fixed(&r->setting) ? " --number fixed" : "", step,
                       run ? "" : " --as c");
 }
 
@@ -316,7 +320,8 @@ static void test_people_read_what_the_rows_are(void) {
         table_print(catch_text(&out), &p.trial, &made, &words);
         room_text_end(out.to);
         (void)said_words(out.text, "s on mps2-an386 (Cortex-M4F)\n  error       measured: ");
-        TEST_ASSERT_EQUAL_INT(points > 1, strstr(out.text, "the worst of 2 places") != NULL);
+        TEST_ASSERT_EQUAL_INT(points > 1,
+                              strstr(out.text, "the worst of 2 sampled places") != NULL);
         TEST_ASSERT_EQUAL_INT(n % 2, strstr(out.text, "deviation of x' from") != NULL);
         TEST_ASSERT_EQUAL_INT(n % 2, strstr(out.text, "  error, mm/s  ") != NULL);
         TEST_ASSERT_EQUAL_INT(n % 2 == 0, strstr(out.text, "largest value, of the worst") != NULL);
