@@ -63,7 +63,7 @@ struct wh_fixed_scene {
 };
 
 /* Bytes of caller memory for so many angles, and reals and inputs together. */
-#define WH_FIXED_BYTES(angles, numbers) ((size_t)(angles)*8U + (size_t)(numbers)*4U)
+#define WH_FIXED_BYTES(angles, numbers) (WH_SIZE(angles) * 8U + WH_SIZE(numbers) * 4U)
 
 #define wh_fixed_start WH_NAME(wh_fixed_start)
 #define wh_fixed_step WH_NAME(wh_fixed_step)

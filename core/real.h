@@ -60,6 +60,13 @@ typedef float wh_real;
 #define WH_NAME(name) name
 #endif
 
+/* A size in macros that C and C++ use, without a cast of the old style in C++. */
+#ifdef __cplusplus
+#define WH_SIZE(x) static_cast<size_t>(x)
+#else
+#define WH_SIZE(x) ((size_t)(x))
+#endif
+
 #if defined(__GNUC__)
 #define WH_INLINE static inline __attribute__((always_inline))
 #else

@@ -85,20 +85,20 @@ struct wh_scene {
     ((contacts) > 0 ? (WH_NUMBER_BYTES(angles, all_reals) + 7U) / 8U * 8U + sizeof(wh_contacts) \
                     : WH_NUMBER_BYTES(angles, all_reals))
 #define WH_NUMBER_BYTES(angles, all_reals) \
-    ((size_t)(angles) * sizeof(wh_angle) + (size_t)(all_reals) * sizeof(wh_real))
+    (WH_SIZE(angles) * sizeof(wh_angle) + WH_SIZE(all_reals) * sizeof(wh_real))
 
 /* By hand, enough for either: eight-byte words of caller memory for a state of so many angles, reals and inputs. */
 #define WH_STATE_WORDS(angles, reals, inputs) \
-    ((size_t)(angles) + (2U * (size_t)(reals) + (size_t)(angles) + (size_t)(inputs)))
+    (WH_SIZE(angles) + (2U * WH_SIZE(reals) + WH_SIZE(angles) + WH_SIZE(inputs)))
 
 /* What a scene with so many contacts needs on top. */
 #define WH_CONTACT_WORDS(contacts) ((contacts) > 0 ? (sizeof(wh_contacts) + 7U) / 8U : 0U)
 
 /* And one with so many holds that could slip. */
-#define WH_HELD_WORDS(held) ((size_t)(held))
+#define WH_HELD_WORDS(held) (WH_SIZE(held))
 
 /* And one with a ledger of so many entries and accounts. */
-#define WH_LEDGER_WORDS(entries, accounts) (2U * (size_t)(entries) + (size_t)(accounts))
+#define WH_LEDGER_WORDS(entries, accounts) (2U * WH_SIZE(entries) + WH_SIZE(accounts))
 
 #define wh_scene_start WH_NAME(wh_scene_start)
 #define wh_scene_step WH_NAME(wh_scene_step)
@@ -119,8 +119,8 @@ struct wh_scene {
  * modes make other bits than those of every other machine: state->fault then says how. */
 wh_status wh_scene_start(const wh_scene *scene, wh_state *state, void *memory, size_t bytes);
 
-/* Do one step. Returns WH_OK; or WH_E_DIVERGED or WH_E_UNDEFINED, with the last good state kept and
- * state->fault set (while inputs stay the same a further call fails the same way; it does not go on from garbage); or WH_E_ARGUMENT for a state that was
+/* Do one step; `scene` and `state` are no null pointers. Returns WH_OK; or WH_E_DIVERGED, WH_E_UNDEFINED or WH_E_SINGULAR,
+ * with the last good state kept and state->fault set (while inputs stay the same a further call fails the same way; it does not go on from garbage); or WH_E_ARGUMENT for a state that was
  * not started: zeroed, or refused by wh_scene_start(). */
 wh_status wh_scene_step(const wh_scene *scene, wh_state *state);
 

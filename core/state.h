@@ -29,7 +29,7 @@ enum {
     WH_FREE = 0,   /* stop out of touch; hold let go */
     WH_ACTIVE = 1, /* stop resting; hold held */
     WH_STUCK = 0,  /* friction */
-    WH_UNSET = 127 /* before the first step */
+    WH_UNSET = 127 /* after the start and after a correction, until the next step */
 };
 
 /* An event of a scene with contacts (contact.h). */

@@ -8,4 +8,17 @@
 
 enum { WH_VERSION_MAJOR = 0, WH_VERSION_MINOR = 1, WH_VERSION_PATCH = 0 };
 
+/* A scene's header refers to the scene by a name with a hash of the header, WH_LINKS_TO. The .c gives the scene that second
+ * name, WH_LINKED_AS. A header of another version of the scene then leaves an undefined symbol for the linker. No byte. */
+#if defined(__GNUC__) && defined(__ELF__)
+#define WH_STRING_OF(text) #text
+#define WH_STRING(text) WH_STRING_OF(text)
+#define WH_LINKS_TO(symbol) __asm__(WH_STRING(__USER_LABEL_PREFIX__) #symbol)
+#define WH_LINKED_AS(scene, symbol) \
+    extern const __typeof__(scene) symbol __attribute__((alias(#scene)))
+#else
+#define WH_LINKS_TO(symbol)
+#define WH_LINKED_AS(scene, symbol) extern const int wh_linked_by_name
+#endif
+
 #endif

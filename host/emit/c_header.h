@@ -16,6 +16,16 @@ void c_header_fixed_state(FILE *out, const image *im);
  * version; names and units of lists; values as macros; the range of number i. */
 void c_header_licence(FILE *out);
 void c_header_version(FILE *out);
+/* Writes all of a header behind the scene's declaration. */
+typedef void c_header_body(FILE *out, const void *of);
+/* The scene's declaration in a header with this body, and the body: version.h's WH_LINKS_TO(). */
+void c_header_declare(FILE *out, const char *type, const char *scene, c_header_body *body,
+                      const void *of);
+/* The scene's declaration in its .c, and its second name: WH_LINKED_AS(). */
+void c_header_link(FILE *out, const char *type, const char *scene, c_header_body *body,
+                   const void *of);
+/* That of a scene in floating point, an image. */
+c_header_body c_header_of_image;
 void c_header_strings(FILE *out, const image *im);
 void c_header_values(FILE *out, const image *im);
 void c_header_range(FILE *out, const image *im, int i, double low, double high);

@@ -231,6 +231,30 @@ static void put_banner(FILE *out, const fixed_plan *p, const char *file) {
     fputs(" */\n", out);
 }
 
+static void header_body(FILE *out, const void *of) {
+    const fixed_plan *p = of;
+    const image *im = p->image;
+    fprintf(out,
+            "/* What wh_fixed_start() takes: bytes; words for an array of uint64_t. */\n"
+            "#define %s_MEMORY_BYTES WH_FIXED_BYTES(%d, %d)\n"
+            "#define %s_MEMORY_WORDS ((%s_MEMORY_BYTES + 7U) / 8U)\n\n",
+            im->name, im->angles, im->reals + im->inputs, im->name, im->name);
+    fputs(
+        "/* Numbers that wh_fixed_angle(), wh_fixed_real(), wh_fixed_set_input() take. */\nenum {\n",
+        out);
+    c_header_fixed_state(out, im);
+    fprintf(out, "    %s_FIXED = 1\n};\n\n", im->name);
+    c_header_strings(out, im);
+    c_header_values(out, im);
+    fputs(
+        "/* The ranges: what is set beyond them stays at their end, and is counted in state.saturated. */\n",
+        out);
+    for (int i = 0; i < im->reals + im->inputs; i++) {
+        c_header_range(out, im, i, p->range[i].low, p->range[i].high);
+    }
+    fputs("\n#ifdef __cplusplus\n}\n#endif\n\n#endif\n", out);
+}
+
 void c_fixed(FILE *out, const fixed_plan *p, const char *file) {
     const image *im = p->image;
     put_banner(out, p, file);
@@ -238,11 +262,12 @@ void c_fixed(FILE *out, const fixed_plan *p, const char *file) {
     put_starts(out, p);
     c_fixed_list(out, p->list, p->second);
     put_advance(out, p);
+    c_header_link(out, "wh_fixed_scene", im->name, header_body, p);
     fprintf(out,
-            "extern const wh_fixed_scene %s;\nconst wh_fixed_scene %s = {\n    .name = \"%s\",\n"
+            "const wh_fixed_scene %s = {\n    .name = \"%s\",\n"
             "    .angles = %d,\n    .reals = %d,\n    .inputs = %d,\n"
             "    .steps = UINT64_C(%" PRIu64 "),\n",
-            im->name, im->name, im->name, im->angles, im->reals, im->inputs, im->steps);
+            im->name, im->name, im->angles, im->reals, im->inputs, im->steps);
     fprintf(out, "    .format = %s,\n    .start_angle = %s,\n    .start_real = %s,\n",
             im->reals + im->inputs > 0 ? "formats" : "NULL",
             im->angles > 0 ? "start_angle" : "NULL", im->reals > 0 ? "start_real" : "NULL");
@@ -269,26 +294,5 @@ void c_fixed_header(FILE *out, const fixed_plan *p, const char *file) {
             "#include \"core/fixed_scene.h\"\n",
             im->name, im->name);
     c_header_version(out);
-    fprintf(out,
-            "#ifdef __cplusplus\nextern \"C\" {\n#endif\n\nextern const wh_fixed_scene %s;\n\n",
-            im->name);
-    fprintf(out,
-            "/* What wh_fixed_start() takes: bytes; words for an array of uint64_t. */\n"
-            "#define %s_MEMORY_BYTES WH_FIXED_BYTES(%d, %d)\n"
-            "#define %s_MEMORY_WORDS ((%s_MEMORY_BYTES + 7U) / 8U)\n\n",
-            im->name, im->angles, im->reals + im->inputs, im->name, im->name);
-    fputs(
-        "/* Numbers that wh_fixed_angle(), wh_fixed_real(), wh_fixed_set_input() take. */\nenum {\n",
-        out);
-    c_header_fixed_state(out, im);
-    fprintf(out, "    %s_FIXED = 1\n};\n\n", im->name);
-    c_header_strings(out, im);
-    c_header_values(out, im);
-    fputs(
-        "/* The ranges: what is set beyond them stays at their end, and is counted in state.saturated. */\n",
-        out);
-    for (int i = 0; i < im->reals + im->inputs; i++) {
-        c_header_range(out, im, i, p->range[i].low, p->range[i].high);
-    }
-    fputs("\n#ifdef __cplusplus\n}\n#endif\n\n#endif\n", out);
+    c_header_declare(out, "wh_fixed_scene", im->name, header_body, p);
 }

@@ -149,4 +149,62 @@ for standard in c11 gnu11 gnu17; do
     [ ! -s "$scratch/err" ]
     verdict $? "the core and generated C, -std=$standard -pedantic"
 done
+
+# --- a header and the .c of another version of the scene do not link, and no byte is spent on it ------------
+# pair FOLDER NAMES K LINE TEXT OPTION...: header and .c of masses on springs, with this line and this text in the file.
+pair() {
+    folder=$scratch/$1
+    mkdir "$folder"
+    {
+        echo "mechanism pair \"$5\""
+        for name in $2; do echo "coordinate $name [m] \"$5 $name\""; done
+        printf 'parameter k = %s [N/m]\n%b\n' "$3" "$4"
+        echo "T = $(for name in $2; do printf '1 [kg]*%s'\''^2/2 + ' "$name"; done)0 [J]"
+        echo "V = $(for name in $2; do printf 'k*%s^2/2 + ' "$name"; done)0 [J]"
+        echo "scene stroke { start a = 1 [m]; step 1 [ms]; until 1 [s]; range a = -2 .. 2 [m] }"
+    } >"$folder/pair.whirl"
+    shift 5
+    "$whirl" derive "$folder/pair.whirl" --as c "$@" --header "$folder/stroke.h" >"$folder/stroke.c" 2>"$scratch/err" ||
+        verdict 1 "$folder"
+}
+echo '#include "stroke.h"
+const void *scene(void); const void *scene(void) { return &stroke; }
+unsigned long words(void); unsigned long words(void) { return stroke_MEMORY_WORDS; }' | tee "$scratch/main.c" >"$scratch/main.cpp"
+# The name that the header of FOLDER asks for, and that its .c has: COMPILER FOLDER
+asked() { $1 $warnings -I. -I"$scratch/$2" -c -o "$scratch/o.o" "$scratch/main.${3:-c}" 2>>"$scratch/said" && nm "$scratch/o.o" | sed -n 's/.* U //p' | grep stroke; }
+given() { $1 $warnings -I. -c -o "$scratch/o.o" "$scratch/$2/stroke.c" 2>>"$scratch/said" && nm "$scratch/o.o" | sed -n 's/.* [RD] //p' | grep stroke_H; }
+names=$(awk 'BEGIN { srand(5); n = split("a b c d e", w); for (i = n; i > 1; i--) { j = 1 + int(i*rand()); t = w[i]; w[i] = w[j]; w[j] = t }
+    for (i = 1; i <= n; i++) printf "%s ", w[i] }') # drawn, and turned by one below
+for number in float fixed; do
+    pair of_$number "$names" 9 '' text --number $number
+    pair text_$number "$names" 9 '# a comment\n' 'another text' --number $number
+    pair effect_$number "$names" 9 'effect rub { parameter drag = 1 [N*s/m]; F += drag*a'\''^2/2 }' text --number $number
+    pair order_$number "${names#* }${names%% *}" 9 '' text --number $number
+    pair value_$number "$names" 9.5 '' text --number $number
+    pair output_$number "$names" 9 'output twice [m] = 2*a' text --number $number
+    pair step_$number "$names" 9 '' text --number $number --step 0.5ms
+    for compiler in gcc clang arm-none-eabi-gcc avr-gcc; do
+        { [ $number = float ] || [ $compiler = gcc ]; } && have $compiler || continue
+        some="of text order"
+        [ $compiler != gcc ] || some="of text effect order value output step"
+        : >"$scratch/said"
+        same=$(asked "$compiler" of_$number)
+        wrong=''
+        for folder in $some; do
+            own=$(given "$compiler" ${folder}_$number)
+            case $folder in
+            of | text | effect) [ "$own" = "$same" ] ;;
+            *) [ "$own" != "$same" ] && [ "$own" = "$(asked "$compiler" ${folder}_$number)" ] ;;
+            esac || wrong="$wrong $folder"
+        done
+        [ -n "$same" ] && [ -z "$wrong" ] && [ ! -s "$scratch/said" ]
+        verdict $? "$compiler, $number: only a header of the same scene links to its .c$wrong" "$scratch/said"
+    done
+    [ "$(asked "g++ -std=c++11 -Wold-style-cast" of_$number cpp)" = "$(given gcc of_$number)" ]
+    verdict $? "g++, $number: the same name"
+    size "$scratch/o.o" >"$scratch/with"
+    sed '/^WH_LINKED_AS/d' "$scratch/of_$number/stroke.c" >"$scratch/text_$number/stroke.c"
+    ! given gcc text_$number >/dev/null && size "$scratch/o.o" | cmp -s - "$scratch/with"
+    verdict $? "$number: the second name takes no byte" "$scratch/with"
+done
 exit $failed
