@@ -16,13 +16,16 @@ static bool has_noise(const image *im) {
     return false;
 }
 
+static const char refused_part[] =
+    "--number float; or put it into an effect, and leave that out: --without EFFECT";
+
 bool fixed_has_step(const image *im, diags *errors) {
     const image_settings *s = &im->settings;
     if (has_noise(im)) {
-        diag_error(errors, im->at, "leave it out, --without; or choose --number float",
+        diag_error(errors, im->at, refused_part,
                    "outputs of '%s' have noise, which fixed point has not", im->name);
     } else if (im->contacts > 0) {
-        diag_error(errors, im->contact[0].at, "leave it out, --without; or choose --number float",
+        diag_error(errors, im->contact[0].at, refused_part,
                    "there are no events in fixed point: '%s' has this %s", im->name,
                    im->contact[0].word);
     } else if (im->drives > 0) {
