@@ -31,7 +31,7 @@ static const command_usage usage = {
     .tail =
         "  --error X=1mm,...    allowed errors of coordinates, rates or outputs: others are free. A bare\n"
         "                       number is SI (default: 0.1 % of each coordinate's range)\n"
-        "  --board B            whose price: a board of docs/boards.md, or host (default: mps2-an386,\n"
+        "  --board B            whose price: an emulated board of docs/boards.md, or host (mps2-an386,\n"
         "                       a Cortex-M4F)\n",
     .why = {[EXIT_ROW_OF(EXIT_DONE)] = "",
             [EXIT_ROW_OF(EXIT_RUN_FAILED)] = "with all its effects the run diverged",

@@ -11,7 +11,8 @@
 /* X(id, word, what stands behind it, text) of both. */
 #define PRICING_OPTION_ROWS(X) \
     X(PRICING_BOARD, "--board", "B", \
-      "whose price: a board of docs/boards.md, or host (default: mps2-an386, a\nCortex-M4F)") \
+      "whose price: an emulated board of docs/boards.md, or host (default: mps2-an386,\n" \
+      "a Cortex-M4F, also for an STM32F405)") \
     X(PRICING_OF, "--of", "X", \
       "the error of one output, coordinate or rate, in its own unit; without it\n" \
       "each coordinate and rate as a part of its largest value, the worst of them") \

@@ -39,7 +39,7 @@ const cost_board *pricing_board(const char *command, const char *value) {
     static const char *const f405[] = {"netduinoplus2", "stm32-h405", "feather-f405"};
     for (size_t i = 0; chosen < 0 && i < sizeof f405 / sizeof f405[0]; i++) {
         if (options_same(value, f405[i])) {
-            fputs("hint: an STM32F405 has the processor of mps2-an386, which has prices\n", stderr);
+            fputs("hint: --board mps2-an386 has the processor of an STM32F405\n", stderr);
         }
     }
     return chosen < 0 ? NULL : &cost_boards[chosen];

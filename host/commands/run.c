@@ -42,8 +42,8 @@ static const command_usage usage = {
         "                       the last state is always recorded\n"
         "  --plot FILE          a picture, .svg, .pdf or .png, drawn by gnuplot (docs/plot.md); of it:\n" RUN_CHOICE_HELP
         "  --error X=0.1mm      take the largest step that keeps the error of one coordinate, rate or output\n"
-        "  --board B            whose cost the rows at the end show: a board of docs/boards.md, or host\n"
-        "                       (default: mps2-an386, a Cortex-M4F)\n" OPTIONS_STRICT_HELP
+        "  --board B            whose cost the rows at the end show: an emulated board of docs/boards.md,\n"
+        "                       or host (default: mps2-an386, a Cortex-M4F)\n" OPTIONS_STRICT_HELP
         "  --quiet              no summary, no progress\n"
         "\n"
         "The summary ends with the error and the cost on a board at twice the step, the step and half of\n"

@@ -392,6 +392,7 @@ for command in price choose; do
     refused 'no scene' $command $e
     refused 'one scene at a time' $command "$s" other $e
     refused "there is no board 'nix'" $command "$s" $e --board nix
+    refused 'hint: --board mps2-an386 has the processor' $command "$s" $e --board stm32-h405
     refused 'is no output, coordinate or rate' $command "$s" $e --of y
     refused "did you mean 'x_mm'" $command "$s" $e --of x_mn
     refused "is no output, coordinate or rate" $command "$s" $e --of "x''"
