@@ -99,9 +99,10 @@ PREFIX ?= /usr/local
 INSTALLED = $(DESTDIR)$(PREFIX)
 .PHONY: install uninstall
 install: $(B)/whirl ## the program and the core's sources into PREFIX (/usr/local), below DESTDIR
-	$(Q)mkdir -p "$(INSTALLED)/bin" "$(INSTALLED)/share/whirl/core"
+	$(Q)mkdir -p "$(INSTALLED)/bin" "$(INSTALLED)/share/whirl/core" "$(INSTALLED)/share/whirl/boards/shared"
 	$(Q)install -m 755 $(B)/whirl "$(INSTALLED)/bin/whirl"
 	$(Q)install -m 644 core/*.c core/*.h "$(INSTALLED)/share/whirl/core"
+	$(Q)install -m 644 boards/shared/mem.c "$(INSTALLED)/share/whirl/boards/shared"
 	$(Q)install -m 644 LICENSE README.md "$(INSTALLED)/share/whirl"
 uninstall: ## remove what `make install` put there
 	$(Q)rm -f "$(INSTALLED)/bin/whirl"
