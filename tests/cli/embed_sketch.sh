@@ -74,6 +74,22 @@ done
     verdict $? "avr-g++ compiles it for an ATmega2560"
 }
 
+# The CMake project of docs/howto/firmware.md, with what is installed; and with a path that has no core.
+if command -v cmake >/dev/null 2>&1; then
+    mkdir "$scratch/cmake"
+    for block in 'c main.c' 'cmake CMakeLists.txt'; do
+        awk -v head="\`\`\`$block" '$0 == head { into = 1; next } /^```/ { into = 0 } into' docs/howto/firmware.md >"$scratch/cmake/${block#* }"
+    done
+    (cd "$scratch/cmake" && "$installed/bin/whirl" new swing && "$installed/bin/whirl" derive swing.whirl --as c --header swing_swing.h >swing_swing.c &&
+        cmake -S . -B build -DWHIRL="$core_in" && cmake --build build && ./build/swing >said) >"$scratch/err" 2>&1 &&
+        grep -qx "$(cat "$scratch/cmake/said")" docs/howto/firmware.md
+    verdict $? "the CMake project of docs/howto/firmware.md builds and prints what the page says"
+    ! cmake -S "$scratch/cmake" -B "$scratch/cmake/wrong" -DWHIRL=nowhere >"$scratch/err" 2>&1 && grep -q 'not the absolute path' "$scratch/err"
+    verdict $? "a WHIRL without the core stops CMake with a reason"
+fi
+cmp -s boards/shared/mem.c "$core_in/boards/shared/mem.c"
+verdict $? "mem.c is installed"
+
 env -u MAKEFLAGS -u MAKEOVERRIDES make -s uninstall DESTDIR="$scratch/tree" PREFIX=/usr >"$scratch/err" 2>&1 &&
     find "$scratch/tree" -type f >"$scratch/left" && [ ! -s "$scratch/left" ]
 verdict $? "make uninstall leaves no file" "$scratch/left"
