@@ -201,6 +201,18 @@ refuse() { # refuse WORDS TARGET OPTION...
     verdict $? "refused: $words"
 }
 refuse "there are no events in fixed point" carriage_stop
+cat >"$scratch/w/stopped.whirl" <<'END'
+mechanism stopped "a stop in an effect"
+coordinate x [m]
+T = 1 [kg]*x'^2/2
+V = 9 [N/m]*x^2/2
+effect end { stop x >= -0.5 [m] restitution 0.5 }
+scene stopped_rings { with end; start x = 1 [m]; step 1 [ms]; until 1 [s]; range x = -2 .. 2 [m], x' = -9 .. 9 [m/s] }
+END
+refuse "there are no events in fixed point" "$scratch/w/stopped.whirl"
+grep -q 'put it into an effect, and leave that out: --without EFFECT$' "$scratch/err" &&
+    "$whirl" derive "$scratch/w/stopped.whirl" --without end --as c --number fixed >"$scratch/out" 2>"$scratch/err" && [ -s "$scratch/out" ]
+verdict $? "and as the hint says, it has a step in fixed point without the effect"
 sed "s/x' = -300 .. 300/x' = 300 .. -300/" "$scratch/w/cart.whirl" >"$scratch/w/empty.whirl"
 refuse "the range of 'x'' holds nothing: from 0.3 to -0.3" "$scratch/w/empty.whirl:cart_narrow"
 refuse "keeps a ledger" two_mass_relative --with ledger
