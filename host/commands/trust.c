@@ -9,6 +9,7 @@
 #include "host/fixed/engine_fixed.h"
 #include "host/fixed/fixed_plan.h"
 #include "host/number/functions.h"
+#include "host/run/aliasing.h"
 #include "host/run/apart.h"
 #include "host/run/horizon_text.h"
 #include "host/run/start.h"
@@ -175,6 +176,7 @@ static int answer(const trust_options *o, const image *im, const image *plain) {
             "of the whole run\n",
             t->end_s, ratio_times(im->steps, im->step));
     } else {
+        aliasing_find(t, &interrupted);
         horizon h = horizon_of(t, o->tolerance);
         code = write_rows(o, &h);
         if (!o->quiet || o->csv == NULL) {

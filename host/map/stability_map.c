@@ -9,6 +9,7 @@
 #include "host/derive/lagrange.h"
 #include "host/lang/model.h"
 #include "host/number/functions.h"
+#include "host/run/aliasing.h"
 #include "host/run/belief.h"
 #include "host/run/horizon.h"
 #include "host/run/linearised.h"
@@ -250,6 +251,7 @@ static void try_point(row_runs *p, uint64_t point) {
         twins *t = twins_run(&wish);
         whole = !t->stopped;
         if (whole) {
+            aliasing_find(t, w->stop);
             cell = cell_of(p, t);
         }
         twins_free(t);

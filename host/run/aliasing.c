@@ -96,7 +96,10 @@ static bool end_of(const twins *t, const image *im, const volatile sig_atomic_t 
     return good;
 }
 
-void aliasing_find(twins *t, const double *now, const volatile sig_atomic_t *stop) {
+void aliasing_find(twins *t, const volatile sig_atomic_t *stop) {
+    if (t->status != WH_OK || t->stopped || !(t->end_s > 0.0)) {
+        return;
+    }
     image third;
     horizon h = horizon_of(t, HORIZON_TOLERANCE);
     const uint64_t steps = trusted_steps(t, &h);
@@ -107,7 +110,7 @@ void aliasing_find(twins *t, const double *now, const volatile sig_atomic_t *sto
         finer.steps = steps * t->each;
         const bool whole = steps == t->shape->image->steps;
         if (end_of(t, &third, stop, row) && (whole || end_of(t, &finer, stop, row + t->columns))) {
-            compare(t, &h, whole ? now : row + t->columns, row, third.step_s);
+            compare(t, &h, whole ? t->finer_end : row + t->columns, row, third.step_s);
         }
         free(row);
     }

@@ -10,7 +10,7 @@
 
 #include "twins.h"
 
-/* Of the runs' end: `now[columns]` is the finer run's. A limit is a part of a column's range. */
-void aliasing_find(twins *t, const double *now, const volatile sig_atomic_t *stop);
+/* Once the runs have ended: fills in t->aliased. */
+void aliasing_find(twins *t, const volatile sig_atomic_t *stop);
 
 #endif

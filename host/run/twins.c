@@ -5,7 +5,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "aliasing.h"
 #include "folded.h"
 #include "host/base/room.h"
 #include "host/number/functions.h"
@@ -396,9 +395,7 @@ void twins_end(twins *t, wh_status status) {
     t->end_s = ratio_times(p->wish.kind->steps(t->run), p->wish.image->step);
     take_rounding(t, &p->rounded);
     take_places(t);
-    if (status == WH_OK && !t->stopped && t->end_s > 0.0) {
-        aliasing_find(t, p->finers->row, p->wish.stop);
-    }
+    t->finer_end = p->finers->row;
 }
 
 static void pair_free(pair *p) {

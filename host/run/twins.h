@@ -79,7 +79,8 @@ typedef struct twins {
     bool missed;  /* or passed through something (host/run/missed.h) */
     double
         cut_s; /* the last look before the first of these three: nothing is known behind it; below 0: they are none */
-    twins_aliased aliased;
+    const double *finer_end; /* [columns] the finer run's, at the last look */
+    twins_aliased aliased;   /* after aliasing_find() */
     bool stopped;
     books *books; /* NULL: none */
     struct pair *pair;

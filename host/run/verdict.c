@@ -4,6 +4,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "aliasing.h"
 #include "apart.h"
 #include "host/base/room.h"
 #include "host/number/functions.h"
@@ -241,6 +242,7 @@ static void judge_events(verdict *v) {
 void verdict_end(verdict *v, wh_status status) {
     if (v->twins != NULL) {
         twins_end(v->twins, status);
+        aliasing_find(v->twins, NULL);
     }
     v->balance = belief_of(v->books, v->kind, v->run);
     if (status != WH_OK) {
