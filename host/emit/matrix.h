@@ -2,8 +2,8 @@
 #ifndef EMIT_MATRIX_H
 #define EMIT_MATRIX_H
 
-#include "host/image/image.h"
 #include "host/base/json.h"
+#include "host/image/image.h"
 
 /* Tables of Phi, Gamma and g, of ten digits. */
 void matrix_text(FILE *out, const image *im);

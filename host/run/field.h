@@ -16,9 +16,9 @@ typedef struct field {
     evaluator *evaluator;
     double *value; /* results of the image's books list at the state looked at last */
     double *input;
-    double *base;  /* [unknowns] momenta */
-    int *next;     /* [n] the component that is the slope of this one; else -1 - its unknown */
-    int *rate;     /* [rows] the component that is the rate of this coordinate */
+    double *base; /* [unknowns] momenta */
+    int *next;    /* [n] the component that is the slope of this one; else -1 - its unknown */
+    int *rate;    /* [rows] the component that is the rate of this coordinate */
 } field;
 
 field *field_open(const image *im, const engine_kind *kind);

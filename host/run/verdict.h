@@ -45,7 +45,7 @@ typedef struct verdict {
     books *books; /* NULL of a system given by its equations */
     watch *watch;
     jumped *jumped; /* NULL: over nothing */
-    twins *twins; /* NULL: it would take too long */
+    twins *twins;   /* NULL: it would take too long */
     uint64_t overruns;
     double overran_s;                        /* the first of them began there */
     uint64_t in_overruns[WH_CONTACTS_LIMIT]; /* events of each contact in them */
