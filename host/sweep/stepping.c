@@ -125,7 +125,8 @@ static bool see(void *of, uint64_t step) {
     if (w->good && w->meter->series && step >= w->from) {
         meter_enter(w->meter, false);
     }
-    return w->good && !(step % ABANDON_STEPS == 0 && w->abandon != NULL && w->abandon());
+    const bool asks = step % ABANDON_STEPS == 0 && step < w->meter->image->steps;
+    return w->good && !(asks && w->abandon != NULL && w->abandon());
 }
 
 /* Step to the end. False when the run failed, said on `reason` or reported. */

@@ -47,9 +47,11 @@ static void expect_real(int at, const char *name, double value) {
 
 static void check_scene(const image *im) {
     char words[100];
-    snprintf(words, sizeof words, "extern const wh_scene %s ; const wh_scene %s = {", im->name,
+    snprintf(words, sizeof words, "extern const wh_scene %s ; WH_LINKED_AS ( %s ,", im->name,
              im->name);
-    const int at = c_need(&emitted.file, 0, words);
+    int at = c_need(&emitted.file, 0, words);
+    snprintf(words, sizeof words, ") ; const wh_scene %s = {", im->name);
+    at = c_need(&emitted.file, at + 1, words);
     snprintf(words, sizeof words, "\"%s\"", im->name);
     expect_field(at, "name", words);
     expect_field(at, "form", im->form == WH_SECOND_ORDER ? "WH_SECOND_ORDER" : "WH_FIRST_ORDER");
