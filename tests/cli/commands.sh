@@ -94,6 +94,10 @@ ends() { # COMMAND [OPTION...]: all that it comes to
     derive) "$whirl" derive "$plain" --as c "$@" ;;
     describe) "$whirl" describe "$plain" --json "$@" ;;
     examine) "$whirl" examine "$plain" "$@" ;;
+    figure) # of the scene, with the state as a curve
+        printf 'title Plain\nrun a %s --every 10ms\npanel X [m]\ncurve a | {time} | {x} | -\n' "$plain" >"$scratch/plain.fig"
+        "$whirl" figure "$scratch/plain.fig" --out "$scratch/plain.svg" "$@" && cat "$scratch/plain.svg"
+        ;;
     run) "$whirl" run "$plain" --csv - --quiet --strict=off "$@" ;;
     sweep) "$whirl" sweep "$plain" --over x=1..1.5:2 --quiet --strict=off "$@" ;;
     map) "$whirl" map "$plain" --over x=1..1.5:2 --over a=1..1.2:2 --csv - --quiet "$@" ;;
