@@ -160,7 +160,10 @@ done
 # --- a name for generated code -----------------------------------------------------------------------------
 code thomson_a --name other --header "$scratch/other.h" >"$scratch/other.c" 2>"$scratch/err"
 code thomson_a >"$scratch/plain.c"
-sed 's/\bthomson_a\b/other/g' "$scratch/plain.c" | cmp -s - "$scratch/other.c" &&
+for code in plain other; do # linked with a header of these names
+    sed 's/\bthomson_a\b/other/g; s/\b[a-z_]*_HEADER_[0-9a-f]\{8\}\b/header/; s/SCENE_thomson_a_/SCENE_other_/' "$scratch/$code.c" >"$scratch/$code.words"
+done
+cmp -s "$scratch/plain.words" "$scratch/other.words" &&
     grep -q 'other_MEMORY_BYTES' "$scratch/other.h" && ! grep -q 'thomson_a_' "$scratch/other.h"
 verdict $? "--name: the same code under another name, in the header too"
 "$whirl" derive thomson_a --as octave --name other 2>"$scratch/err" | grep -q '^function .*other('
@@ -193,7 +196,7 @@ while IFS="$tab" read -r name promised; do
         scene=$file:$each
         [ -f "$file" ] || scene=$name
         # shellcheck disable=SC2046 # words
-        "$whirl" run "$scene" $([ "$scene" = "$file:$each" ] || echo --step 1ms --number float) >"$scratch/out" 2>"$scratch/err"
+        "$whirl" run "$scene" --strict=off $([ "$scene" = "$file:$each" ] || echo --step 1ms --number float) >"$scratch/out" 2>"$scratch/err"
         status=$?
         if [ $status -ne 0 ]; then is=refused
         elif grep -q '^whirl run: warning: ' "$scratch/err" || { [ "$scene" = thomson_a ] && grep -q '^trusted  *until t = ' "$scratch/out"; }; then is=told
