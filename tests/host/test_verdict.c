@@ -136,7 +136,7 @@ static void expect_json(int (*command)(int, char **), const char **words, const 
     TEST_ASSERT_TRUE_MESSAGE(json_is_valid(what.out, why), why);
     TEST_ASSERT_EQUAL_STRING(before->err, what.err);
     TEST_ASSERT_EQUAL_INT(before->status, what.status);
-    TEST_ASSERT_EQUAL_INT(before->status, atoi(value_at(&what, "exit")));
+    TEST_ASSERT_EQUAL_INT(before->status, (int)strtol(value_at(&what, "exit"), NULL, 10));
     const int told = json_length(what.out, list);
     for (int k = 0; k < FINDINGS; k++) {
         char id[20];
@@ -175,7 +175,7 @@ static void test_json_of_all_scenes(void) {
             command_say(command_run, words, &what);
             TEST_ASSERT_TRUE_MESSAGE(json_is_valid(what.out, why), why);
             TEST_ASSERT_EQUAL_STRING(name, value_at(&what, "scene"));
-            TEST_ASSERT_EQUAL_INT(what.status, atoi(value_at(&what, "exit")));
+            TEST_ASSERT_EQUAL_INT(what.status, (int)strtol(value_at(&what, "exit"), NULL, 10));
             scenes++;
         }
     }
