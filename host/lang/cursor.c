@@ -246,7 +246,8 @@ bool statement_unknown(parser *in, unsigned where) {
     }
     const token word = in->token;
     parser_next(in);
-    if (in->builder != NULL && !in->all_effects) { /* what it may declare is not complained of */
+    if (in->builder != NULL &&
+        !in->all_effects) { /* names that it may declare are not complained of */
         const token *declared = in->token.kind == TOKEN_NAME ? &in->token : &word;
         const bool fresh = !word_is_reserved(declared->text, declared->length) &&
                            names_find(in->names, declared->text, declared->length) == NULL;

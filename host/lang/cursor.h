@@ -27,7 +27,7 @@ const char *token_words(const token *each, char *buffer, size_t size);
 /* Skip what is left of a statement that failed, with the braces it opened. */
 void parser_skip_statement(parser *in);
 void parser_skip_lines(parser *in); /* empty ones */
-/* What to write where an operator is missing before the name, number or '(' in hand; returns `hint`. */
+/* The hint where an operator is missing before the name, number or '(' in hand; returns `hint`. */
 enum { OPERATOR_HINT = 200 };
 const char *parser_operator_hint(const parser *in, char hint[OPERATOR_HINT]);
 bool parser_end_statement(parser *in, const char *what);

@@ -75,7 +75,7 @@ lexer lexer_start(const source *text, diags *all) {
     return in;
 }
 
-/* Of other languages: to the end of the line, or of what opens with a slash and a star. */
+/* A comment of another language: to the end of the line, or to a star and a slash. */
 static bool skip_foreign_comment(lexer *in) {
     const int c = at_offset(in, 0);
     const int next = at_offset(in, 1);

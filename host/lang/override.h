@@ -26,7 +26,7 @@ const expr *override_quantity(const mechanism *of, const char *what, const char 
 const expr *override_size(const mechanism *of, const char *name, const char *what, const char *text,
                           struct arena *arena, diags *diags);
 
-/* What to say of a name that is no effect: one that is near, or all; returns `hint`. */
+/* The hint for a name that is no effect: one that is near, or all; returns `hint`. */
 enum { EFFECT_HINT = 300 };
 const char *effect_hint(const mechanism *of, const char *text, size_t length,
                         char hint[EFFECT_HINT]);

@@ -188,7 +188,7 @@ static double step_lost_J(const books *b, const engine_kind *kind) {
            (SUMS_OF_A_STEP * entries * FLOAT_LEAST + (isfinite(lost_W) ? b->step_s * lost_W : 0.0));
 }
 
-/* Momenta are sums over the rates, and of what does not depend on these. */
+/* Momenta are sums over the rates, and of terms without rates. */
 static void look_at_momenta(books *b) {
     const image *im = b->image;
     double real[2 * IMAGE_COMPONENTS_MAX];

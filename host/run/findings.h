@@ -11,7 +11,7 @@
  * or is NULL. `fails`: the energy is an error, whatever its limit. */
 void findings_say(FILE *out, const verdict *v, const image *plain,
                   const volatile sig_atomic_t *stop, bool fails);
-/* A finding that is told: in words, without its name; and what it is of, false if it is of the whole run. */
+/* A finding that is told: in words, without its name; and its subject, false if that is the whole run. */
 enum { FINDINGS_NAME = STATEMENT_SIZE };
 void findings_message(FILE *out, const verdict *v, finding_id id);
 bool findings_where(const verdict *v, finding_id id, char name[FINDINGS_NAME]);

@@ -15,7 +15,7 @@ typedef struct said {
 /* Runs `command` (command_run, ...) on the words, the last of which is followed by NULL. */
 void command_say(int (*command)(int count, char **words), const char *const *words, said *what);
 
-/* The exit status that `whirl run` and `whirl sweep` owe to what they said: 1 after a warning with a finding's name. */
+/* The exit status that `whirl run` and `whirl sweep` owe to their messages: 1 after a warning with a finding's name. */
 int said_owes(const char *err);
 
 /* A step as a warning writes it, "200us": s. */

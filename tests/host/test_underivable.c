@@ -110,7 +110,7 @@ static void test_too_many_components(void) {
     free(states);
 }
 
-/* A product of sums of parameters, as in the energies of a long chain: what the hint says makes it derive. */
+/* A product of sums of parameters, as in the energies of a long chain. With the hint's change it derives. */
 static void test_a_hint_about_parameters_helps(void) {
     dice d = dice_of("parameters", 2);
     for (unsigned k = 0; k < 3; k++) {

@@ -97,7 +97,7 @@ static void draw(dice *d, unsigned shape, char text[TEXT]) {
     }
 }
 
-/* Once more with this --strict: the same is written, and what is said on standard error begins the same. */
+/* Once more with this --strict: the same is written, and standard error begins the same. */
 static void say_with(const char *strict, int (*command)(int, char **), const char **words,
                      const said *before, said *what) {
     int count = 0;
@@ -280,7 +280,7 @@ static void test_a_point_is_judged_as_its_run(void) {
                                "--jobs",   "1",       NULL};
         command_say(command_run, run, &ran);
         command_say(command_sweep, sweep, &swept);
-        if (shape == 7) { /* the other findings are of what it does not ask */
+        if (shape == 7) { /* it does not ask for the other findings */
             const char *trust[] = {file, "--quiet", "--number", number, NULL};
             command_say(command_trust, trust, &trusted);
         }
