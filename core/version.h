@@ -15,7 +15,7 @@ enum { WH_VERSION_MAJOR = 0, WH_VERSION_MINOR = 1, WH_VERSION_PATCH = 0 };
 #define WH_STRING(text) WH_STRING_OF(text)
 #define WH_LINKS_TO(symbol) __asm__(WH_STRING(__USER_LABEL_PREFIX__) #symbol)
 #define WH_LINKED_AS(scene, symbol) \
-    extern const __typeof__(scene) symbol __attribute__((alias(WH_STRING(scene))))
+    extern const __typeof__(scene) symbol __attribute__((weak, alias(WH_STRING(scene))))
 #else
 #define WH_LINKS_TO(symbol)
 #define WH_LINKED_AS(scene, symbol) extern const int wh_linked_by_name

@@ -172,7 +172,7 @@ const void *scene(void); const void *scene(void) { return &stroke; }
 unsigned long words(void); unsigned long words(void) { return stroke_MEMORY_WORDS; }' | tee "$scratch/main.c" >"$scratch/main.cpp"
 # The name that the header of FOLDER asks for, and that its .c has: COMPILER FOLDER
 asked() { $1 $warnings -I. -I"$scratch/$2" -c -o "$scratch/o.o" "$scratch/main.${3:-c}" 2>>"$scratch/said" && nm "$scratch/o.o" | sed -n 's/.* U //p' | grep stroke; }
-given() { $1 $warnings -I. -c -o "$scratch/o.o" "$scratch/$2/stroke.c" 2>>"$scratch/said" && nm "$scratch/o.o" | sed -n 's/.* [RD] //p' | grep stroke_H; }
+given() { $1 $warnings -I. -c -o "$scratch/o.o" "$scratch/$2/stroke.c" 2>>"$scratch/said" && nm "$scratch/o.o" | sed -n 's/.* [RDV] //p' | grep stroke_H; }
 names=$(awk 'BEGIN { srand(5); n = split("a b c d e", w); for (i = n; i > 1; i--) { j = 1 + int(i*rand()); t = w[i]; w[i] = w[j]; w[j] = t }
     for (i = 1; i <= n; i++) printf "%s ", w[i] }') # drawn, and turned by one below
 for number in float fixed; do
