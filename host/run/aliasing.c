@@ -97,18 +97,18 @@ static bool end_of(const twins *t, const image *im, const volatile sig_atomic_t 
 }
 
 void aliasing_find(twins *t, const volatile sig_atomic_t *stop) {
-    if (t->status != WH_OK || t->stopped || !(t->end_s > 0.0)) {
-        return;
+    const image *im = t->shape->image;
+    if (t->status != WH_OK || im->steps == 0 || t->shape->kind->steps(t->run) != im->steps) {
+        return; /* it has failed, or was stopped */
     }
     image third;
     horizon h = horizon_of(t, HORIZON_TOLERANCE);
     const uint64_t steps = trusted_steps(t, &h);
-    if (steps > 0 && t->shape->image->settings.matrix == MATRIX_NONE &&
-        third_image(t, steps, &third)) {
+    if (steps > 0 && im->settings.matrix == MATRIX_NONE && third_image(t, steps, &third)) {
         image finer = t->finer;
         double *row = room(2 * (int64_t)t->columns, sizeof *row);
         finer.steps = steps * t->each;
-        const bool whole = steps == t->shape->image->steps;
+        const bool whole = steps == im->steps;
         if (end_of(t, &third, stop, row) && (whole || end_of(t, &finer, stop, row + t->columns))) {
             compare(t, &h, whole ? t->finer_end : row + t->columns, row, third.step_s);
         }

@@ -103,6 +103,7 @@ static bool try(search *s, const wish *w) {
     const engine_kind *kind = w->in_double ? &engine_double : s->kind;
     void *run = kind->start(&with);
     verdict *v = verdict_open(&with, s->plain, kind, run);
+    v->stop = s->stop;
     v->part = s->part;
     const loop l = {
         .kind = kind, .run = run, .steps = with.steps, .stop = s->stop, .see = {{see, v}}};

@@ -443,6 +443,7 @@ simulation_result simulate(const image *im, const simulation_settings *s, simula
         bool interrupted = false;
         sim.run = s->kind->start(im);
         sim.verdict = verdict_open(im, s->plain, s->kind, sim.run);
+        sim.verdict->stop = s->stop;
         sim.undefined = diags_new();
         sim.records->out = sim.csv;
         sim.records->plain = sim.columns;

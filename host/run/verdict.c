@@ -242,7 +242,7 @@ static void judge_events(verdict *v) {
 void verdict_end(verdict *v, wh_status status) {
     if (v->twins != NULL) {
         twins_end(v->twins, status);
-        aliasing_find(v->twins, NULL);
+        aliasing_find(v->twins, v->stop);
     }
     v->balance = belief_of(v->books, v->kind, v->run);
     if (status != WH_OK) {

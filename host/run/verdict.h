@@ -41,6 +41,7 @@ typedef struct verdict {
     const image *image;
     const engine_kind *kind;
     void *run;
+    const volatile sig_atomic_t *stop; /* an interrupt; NULL, as verdict_open leaves it: none */
     double part;  /* of the limits of energy and accuracy: 1; a remedy is judged by less */
     books *books; /* NULL of a system given by its equations */
     watch *watch;
