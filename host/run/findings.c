@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "apart.h"
 #include "core/contact.h"
 #include "host/base/room.h"
 #include "host/base/statement.h"
@@ -280,29 +281,42 @@ void findings_say(FILE *out, const verdict *v, const image *plain,
 }
 
 void findings_message(FILE *out, const verdict *v, finding_id id) {
-    static const char begin[] = "whirl run: note: ";
+    static const char *const begins[] = {"note: ", "warning: "};
     if (say[id] != NULL) {
         say[id](out, v);
         return;
     }
     char *text = NULL;
     size_t length;
-    FILE *slow = room_text(&text, &length);
-    slow_say(slow, v->image, v->kind, v->run);
-    room_text_end(slow);
-    fprintf(out, "%.*s", (int)strcspn(text + sizeof begin - 1, "\n"), text + sizeof begin - 1);
+    FILE *whole = room_text(&text, &length);
+    if (id == FINDING_APART) {
+        (void)apart_say(whole, "whirl run", v->image);
+    } else {
+        slow_say(whole, v->image, v->kind, v->run);
+    }
+    room_text_end(whole);
+    const char *begin = begins[id == FINDING_APART];
+    const char *at = strstr(text, begin);
+    if (at != NULL) { /* the first line, without its head and its finding's name */
+        char tail[40];
+        at += strlen(begin);
+        const size_t line = strcspn(at, "\n");
+        const size_t name = (size_t)snprintf(tail, sizeof tail, " [%s]", finding_rows[id].word);
+        const bool is_named = line > name && strncmp(at + line - name, tail, name) == 0;
+        fprintf(out, "%.*s", (int)(is_named ? line - name : line), at);
+    }
     free(text);
 }
 
 bool findings_where(const verdict *v, finding_id id, char name[FINDINGS_NAME]) {
     const int of = v->found[id].component;
     const image *im = v->image;
-    if (id == FINDING_ACCURACY || id == FINDING_SINGULAR) {
+    if (id == FINDING_ACCURACY || id == FINDING_SINGULAR || id == FINDING_ALIASED) {
         (void)column_name(v, of, name);
     } else if (id == FINDING_MISSED && of < im->contacts) {
         statement_text(im->contact[of].at, name, FINDINGS_NAME);
-    } else if (id == FINDING_MISSED || id == FINDING_ALIASED) {
-        const component c = image_component(im, id == FINDING_MISSED ? of - im->contacts : of);
+    } else if (id == FINDING_MISSED) {
+        const component c = image_component(im, of - im->contacts);
         snprintf(name, FINDINGS_NAME, "%.80s%.*s", im->unknown[c.unknown].name, c.primes, PRIMES);
     } else {
         return false;
