@@ -312,6 +312,9 @@ static void test_people_read_what_the_rows_are(void) {
         table_row row[ROWS];
         table made = {.row = row, .why = "a reason"};
         draw_rows(&d, &made, (table_unit)(n % 3));
+        for (int i = 0; i < made.count && points == 1; i++) {
+            row[i].result.point = 0;
+        }
         const bool evaluations = n % 3 == PRICE_EVALUATIONS;
         made.settings = 90;
         made.unpriced = n % 2 == 0 ? 7 : 0;
