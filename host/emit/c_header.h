@@ -12,6 +12,9 @@ void c_comment(FILE *out, const char *text);
 /* Enumerators of components, inputs and outputs of a scene in fixed point, a line each. */
 void c_header_fixed_state(FILE *out, const image *im);
 
+/* The first lines of a header's comment; `form` follows the scene's name. */
+void c_header_title(FILE *out, const image *im, const char *file, const char *form);
+
 /* Parts of headers in floating and fixed point: the licence's line of the head; the check that core and scene are of one
  * version; names and units of lists; values as macros; the range of number i. */
 void c_header_licence(FILE *out);
