@@ -1,5 +1,5 @@
 #!/bin/sh
-# bad_input.sh WHIRL: every file of tests/bad must be refused by WHIRL with exit status 2 and a message: where it is
+# bad_input.sh WHIRL: every text of tests/bad must be refused by WHIRL with exit status 2 and a message: where it is
 # derived; effect_mass_*, whose fault is what the scene is with, where that is run.
 #
 # With the sanitizers' build of whirl any slip in memory or arithmetic shows as another exit status.
@@ -9,11 +9,12 @@ whirl=${1:?usage: bad_input.sh WHIRL}
 export ASAN_OPTIONS=exitcode=99 UBSAN_OPTIONS=print_stacktrace=1
 count=0
 bad=0
-out=$(mktemp)
-trap 'rm -f "$out"' EXIT
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
+out=$scratch/out
 
-for file in tests/bad/*; do
-    [ -f "$file" ] || continue
+sh tests/bad.sh "$scratch/bad"
+for file in "$scratch"/bad/*; do
     count=$((count + 1))
     case $file in
     */effect_mass_*) command=run ;;
@@ -27,5 +28,5 @@ for file in tests/bad/*; do
         bad=$((bad + 1))
     fi
 done
-echo "$count files, $bad not refused as they should"
+echo "$count texts, $bad not refused as they should"
 [ "$count" -gt 0 ] && [ "$bad" -eq 0 ]

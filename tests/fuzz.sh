@@ -12,7 +12,7 @@ for fuzzer in "$@"; do
     found=${fuzzer%.fuzzer}.found
     mkdir -p "$corpus" "$found"
     case $fuzzer in
-    *fuzz_lang.fuzzer | *fuzz_derive.fuzzer) cp core/models/*.whirl tests/bad/* "$corpus/" ;;
+    *fuzz_lang.fuzzer | *fuzz_derive.fuzzer) cp core/models/*.whirl "$corpus/" && sh tests/bad.sh "$corpus" ;;
     esac
     kept=tests/fuzz/kept/$(basename "$fuzzer" .fuzzer).tar.gz
     [ ! -f "$kept" ] || tar -xzf "$kept" --strip-components=1 -C "$corpus"

@@ -73,8 +73,9 @@ done
 says 2 '^usage: whirl new' new
 says 2 '^usage: whirl check' check
 says 2 'cannot be read' check "$scratch/nothing.whirl"
-# every broken file of tests/bad is refused by its place; good ones beside it are still checked
-for file in tests/bad/*.whirl; do
+# every broken text of tests/bad is refused by its place; good ones beside it are still checked
+sh tests/bad.sh "$scratch/bad"
+for file in "$scratch"/bad/*; do
     "$whirl" check "$file" "$scratch/swing.whirl" >"$scratch/out" 2>"$scratch/err" </dev/null
     [ $? -eq 2 ] && grep -q "^$file:[0-9]*:[0-9]*: error: " "$scratch/err" && grep -q 'swing.whirl: no errors' "$scratch/out" ||
         echo "$file"
@@ -290,7 +291,7 @@ says 2 "'thetta' is unknown" accel epicyclic thetta=1
 
 # --- what cannot be derived or run --------------------------------------------------------------------
 says 2 'core/models/epicyclic.whirl:[0-9]+:11: error: singular mass matrix' derive epicyclic --set m=0
-for file in tests/bad/derive_*.whirl; do
+for file in "$scratch"/bad/derive_*; do
     place=$(sed -n '1s/^# expect: \([0-9]*:[0-9]*\): .*/\1/p' "$file")
     [ -n "$place" ] || place='no expectation on the first line'
     for call in derive describe accel run; do
@@ -371,8 +372,8 @@ says 2 'starts.whirl:5:1: error: the run starts beyond this stop, by 0.25 1/m$' 
 says 2 'starts.whirl:5:1: error: the distance to this stop is not a finite number where the run starts' \
     run "$scratch/starts.whirl" --start x=-1
 says 2 'error: the run starts beyond this stop' run "$scratch/starts.whirl" --start x=-1.5
-says 2 'error: a restitution is from 0 to 1, and this is 1.5' run tests/bad/contact_input_restitution.whirl
-prints '^ball: ' run tests/bad/contact_input_restitution.whirl --set e=0.5 --until 1s
+says 2 'error: a restitution is from 0 to 1, and this is 1.5' run "$scratch/bad/contact_input_restitution.whirl"
+prints '^ball: ' run "$scratch/bad/contact_input_restitution.whirl" --set e=0.5 --until 1s
 says 2 'contacts.whirl:[0-9]+:[0-9]+: error: the run starts beyond this stop, by 0.25 m' run ball_bounces --start z=-0.25
 says 0 "" run ball_bounces --start z=0 --until 10ms --csv -
 

@@ -1,7 +1,7 @@
-/* test_bad_input.c: broken files are refused with all their errors, each at its place.
+/* test_bad_input.c: broken texts are refused with all their errors, each at its place.
  *
- * Every file of tests/bad says at its top, in lines `# expect: LINE:COLUMN: TEXT`, which errors it
- * has: all of them, in their order. Run from the root of the project. */
+ * Every text in the archives of tests/bad says at its top, in lines `# expect: LINE:COLUMN: TEXT`,
+ * which errors it has: all of them, in their order. Run from the root of the project. */
 #define _POSIX_C_SOURCE 200809L
 
 #include <dirent.h>
@@ -18,7 +18,7 @@
 void suite_bad_input(void);
 
 #define FOLDER "tests/bad"
-enum { FILES_MIN = 40, LINE_SIZE = 512 };
+enum { TEXTS_MIN = 141, LINE_SIZE = 512 };
 
 /* Make one instance; with `derive`, its equations and lists too, unless something is wrong already. */
 static void try_instance(const mechanism *of, const scene *in, bool derive, diags *all) {
@@ -87,15 +87,14 @@ static char *read_whole(const char *path, size_t *length) {
     char *text = calloc(1, 65536);
     TEST_ASSERT_NOT_NULL(text);
     *length = fread(text, 1, 65535, in);
+    TEST_ASSERT_TRUE_MESSAGE(feof(in), path);
     fclose(in);
     return text;
 }
 
-/* Returns false, and says why, when the errors of one file are not those it announces. */
-static bool file_fails_as_announced(const char *path) {
+/* Returns false, and says why, when the errors of one text are not those it announces. */
+static bool text_fails_as_announced(const char *path, const char *text, size_t length) {
     static const char mark[] = "# expect: ";
-    size_t length = 0;
-    char *text = read_whole(path, &length);
     int errors = 0;
     char *report = full_report_on(path, text, length, true, &errors);
     int announced = 0;
@@ -138,28 +137,48 @@ static bool file_fails_as_announced(const char *path) {
         printf("%s\n", report);
     }
     free(report);
-    free(text);
     return good;
 }
 
-static void test_every_bad_file_has_the_errors_it_announces(void) {
+/* Tries the texts of an archive, each below its line "=== NAME"; returns how many there are, and counts failures. */
+static int try_archive(const char *path, int *failed) {
+    size_t length = 0;
+    char *all = read_whole(path, &length);
+    int texts = 0;
+    for (char *name = all; strncmp(name, "=== ", 4) == 0; texts++) {
+        name += 4;
+        char *text = strchr(name, '\n');
+        TEST_ASSERT_NOT_NULL_MESSAGE(text, path);
+        *text++ = '\0';
+        char *next = strstr(text, "\n=== ");
+        next = next == NULL ? strchr(text, '\0') : next + 1;
+        const char kept = *next;
+        *next = '\0';
+        *failed += text_fails_as_announced(name, text, (size_t)(next - text)) ? 0 : 1;
+        *next = kept;
+        name = next;
+    }
+    free(all);
+    return texts;
+}
+
+static void test_every_bad_text_has_the_errors_it_announces(void) {
     struct dirent **entries = NULL;
     const int count = scandir(FOLDER, &entries, NULL, alphasort);
     TEST_ASSERT_GREATER_THAN_INT_MESSAGE(0, count, "run the tests from the root of the project");
-    int files = 0;
+    int texts = 0;
     int failed = 0;
     for (int i = 0; i < count; i++) {
-        if (strstr(entries[i]->d_name, ".whirl") != NULL) {
+        if (strstr(entries[i]->d_name, ".texts") != NULL) {
             char path[LINE_SIZE];
             snprintf(path, sizeof path, "%s/%s", FOLDER, entries[i]->d_name);
-            files++;
-            failed += file_fails_as_announced(path) ? 0 : 1;
+            texts += try_archive(path, &failed);
         }
         free(entries[i]);
     }
     free(entries);
     TEST_ASSERT_EQUAL_INT(0, failed);
-    TEST_ASSERT_GREATER_OR_EQUAL_INT(FILES_MIN, files);
+    TEST_ASSERT_GREATER_OR_EQUAL_INT(TEXTS_MIN, texts);
 }
 
 static void test_nothing_and_next_to_nothing(void) {
@@ -374,7 +393,7 @@ static void test_every_beginning_and_every_changed_byte(void) {
 }
 
 void suite_bad_input(void) {
-    RUN_TEST(test_every_bad_file_has_the_errors_it_announces);
+    RUN_TEST(test_every_bad_text_has_the_errors_it_announces);
     RUN_TEST(test_nothing_and_next_to_nothing);
     RUN_TEST(test_binary_is_no_text);
     RUN_TEST(test_columns_count_characters);
