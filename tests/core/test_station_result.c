@@ -270,7 +270,42 @@ static void test_an_age_beyond_the_timer(void) {
     TEST_ASSERT_TRUE(age_s - before_s >= 3U * 3600U - 1U && age_s - before_s <= 3U * 3600U + 1U);
 }
 
+/* Whatever is against a result, the console says it whole, of numbers as large as a rig can have; and of larger ones it says a
+ * line that has an end. */
+static void test_every_verdict_is_said(void) {
+    static const char other[] = "conf set settle_time 2";
+    wh_measured *force = &even.rig.result.force;
+    begin();
+    start();
+    for (unsigned i = 0; i < FOREVER && !even_is_over(&even); i++) {
+        period();
+    }
+    TEST_ASSERT_TRUE(has_result);
+    for (unsigned i = 0; i < 4U * WH_WHYS; i++) {
+        const char *words = wh_why_text((wh_why)(i % WH_WHYS));
+        const bool is_odd = i >= 2U * WH_WHYS; /* numbers that no rig has */
+        const wh_real most = is_odd ? WH_R(-1e30) : WH_R(-9999.99);
+        if (i == WH_WHYS || i == 3U * WH_WHYS) {
+            TEST_ASSERT_TRUE(is_ok(other));
+        } else if (i == 2U * WH_WHYS) {
+            TEST_ASSERT_TRUE(is_ok("conf default"));
+        }
+        force->why = (wh_why)(i % WH_WHYS);
+        force->quality = WH_DOUBTFUL;
+        force->turns = 65535U;
+        force->calibrated = false;
+        force->speed_radps = force->scatter_radps = most / WH_R(10.0);
+        force->amplitude_N = force->amplitude_half_N = force->expected_N = most;
+        force->phase_rad = force->phase_half_rad = most / WH_R(100.0);
+        TEST_ASSERT_TRUE(is_ok("measure"));
+        if (!is_odd) {
+            TEST_ASSERT_NOT_NULL_MESSAGE(strstr(heard, words), words);
+        }
+    }
+}
+
 void suite_station_result(void) {
+    RUN_TEST(test_every_verdict_is_said);
     RUN_TEST(test_answers_belong_to_the_last_start);
     RUN_TEST(test_any_other_setting_has_another_hash);
     RUN_TEST(test_an_age_beyond_the_timer);
