@@ -1,9 +1,8 @@
 # Whirl: energies in, firmware out. `make` lists the targets; the machinery is in mk/.
 #
-# V=1 shows the commands. Nothing is written outside build/, but for `make figures-docs`, `make price-effects`,
-# `make price`, `make bench-boards`, `make bench-tables`, `make bench-precision`, `make bench-peers`, `make bench-links`,
-# `make price-table` and `make stability`, which renew their part of docs/, and `make too-large`, which lists what does not fit
-# into a board.
+# V=1 shows the commands. Nothing is written outside build/, but for `make figures-docs`, `make price`, `make bench-boards`,
+# `make bench-peers`, `make price-table` and `make stability`, which renew their part of docs/, and `make too-large`, which
+# lists what does not fit into a board.
 
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
@@ -229,30 +228,10 @@ bench-boards: ##- a step of five scenes on every board: instructions, cycles, by
 	@CC="$(CC)" mk/setup/deps.sh host firmware boards quality
 	@$(MAKE) bench-boards-now
 
-.PHONY: bench-tables
-bench-tables: ##- a step that looks up in tables, beside those that compute, on four boards; into docs/dev/price.md (minutes)
-	@CC="$(CC)" mk/setup/deps.sh host firmware boards quality
-	@$(MAKE) bench-tables-now
-
 .PHONY: bench-peers
 bench-peers: ##- the same steps and derivations by other libraries, as ratios; into docs/dev/price.md (installs them, large)
 	@CC="$(CC)" mk/setup/deps.sh host tests bench peers
 	@$(MAKE) bench-peers-now
-
-.PHONY: bench-links
-bench-links: ##- pendulums of 1 to 12 links: deriving, operations, a step, bytes; into docs/dev/price.md
-	@CC="$(CC)" mk/setup/deps.sh host firmware bench
-	@$(MAKE) bench-links-now
-
-.PHONY: bench-precision
-bench-precision: ##- work against precision of every method, by counted instructions; into docs/dev/numerics.md
-	@CC="$(CC)" mk/setup/deps.sh host firmware bench
-	@$(MAKE) bench-precision-now
-
-.PHONY: price-effects
-price-effects: ##- what each effect costs: instructions, bytes, error; into docs/dev/effects.md (minutes)
-	@CC="$(CC)" mk/setup/deps.sh host firmware bench
-	@$(MAKE) price-effects-now
 
 .PHONY: price-rows
 price-rows: ##- steps of a hundred scenes counted on every board: build/cost/rows.csv, for price-table (half an hour)

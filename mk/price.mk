@@ -171,22 +171,6 @@ TO_PRICE = WHIRL=build/whirl BOARD=$(BOARD) BOARD_CC=$(BOARD_CC) BOARD_NM=$(BOAR
     BOARD_LDLIBS="$(BOARD_LDLIBS)" BOARD_OBJECTS="$(BOARD_OBJECTS)" LIB_BOARD=$(call libraries,$(BOARD),whirl) \
     PLUGIN=$(PLUGIN) FLAGS="$(call TOLD,$(BOARD_CFLAGS))" EMULATE="$(call emulate,@)"
 
-# What each effect costs: build/price/effects.csv, and the tables of docs/dev/effects.md.
-.PHONY: price-effects-now
-price-effects-now: $(GEN)/.stamp
-	@$(MAKE) $(BOARD_OBJECTS) $(call libraries,$(BOARD),whirl) $(PLUGIN)
-	@OUT=build/price $(TO_PRICE) mk/price/price.sh $(MODELS)
-	@mk/price/into_page.sh build/price/tables.md docs/dev/effects.md
-	@cat build/price/tables.md
-
-# How derivation and step grow with the number of links: the table of docs/dev/price.md.
-.PHONY: bench-links-now
-bench-links-now: $(GEN)/.stamp
-	@$(MAKE) $(BOARD_OBJECTS) $(call libraries,$(BOARD),whirl) $(PLUGIN)
-	@OUT=build/links $(TO_PRICE) mk/price/links.sh
-	@mk/price/into_page.sh build/links/links.md docs/dev/price.md links
-	@cat build/links/links.md
-
 # --- prices of any scene: cases are counted, and become a table of figures (docs/dev/price.md) -------------------------------
 PRICE_OUT ?= build/cost
 PRICE_CASES ?= $(PRICE_OUT)/cases
@@ -228,7 +212,7 @@ $(B)/tools/price_table: $(call objects,host,mk/price/table.c) $(LIB_HOST) $(LIB_
 PRICE_SEED ?= 1
 PRICE_MANY := mps2-an386
 PRICE_DOUBLE := mps2-an386 mps2-an385-m0 mps2-an385
-.PHONY: price-rows-now price-table price-check
+.PHONY: price-rows-now price-table
 price-rows-now: build/whirl build/tools/mechanisms
 	@rm -rf $(PRICE_OUT) && mkdir -p $(PRICE_OUT)
 	@WHIRL=build/whirl sh mk/price/cases.sh $(PRICE_OUT) $(PRICE_SEED) 160 float >$(PRICE_OUT)/many
@@ -249,53 +233,3 @@ price-table: build/tools/price_table ##- the table of figures that prices are pr
 	@cp $(PRICE_OUT)/cost_rows.h host/price/cost_rows.h
 	@mk/price/into_page.sh $(PRICE_OUT)/errors.md docs/dev/price.md cost
 	@cat $(PRICE_OUT)/errors.md
-
-price-check: build/tools/price_table ##- predicted prices against counted ones: PRICE_CSV, such as of `make price-rows PRICE_SEED=5 PRICE_OUT=build/again`
-	@build/tools/price_table --check $(PRICE_CSV)
-
-# What tables of an angle's functions cost and save: the table of docs/dev/price.md.
-TABLE_BOARDS := mps2-an386 mps2-an385 mps2-an385-m0 atmega328p
-.PHONY: bench-tables-board bench-tables-now
-bench-tables-board: $(GEN)/.stamp
-	@$(MAKE) $(BOARD_OBJECTS) $(call libraries,$(BOARD),whirl) \
-	    $(or $(BOARD_RUN_BY),$(PLUGIN))
-	@OUT=build/turn_tables/$(BOARD) $(TO_PRICE) TIMING=$(BOARD_TIMING) EMULATE="$(call emulate,IMAGE)" \
-	    SMALL=$(if $(filter single,$(BOARD_IMAGES)),1 PLUGIN=,0) mk/price/turn_tables.sh
-
-bench-tables-now: $(GEN)/.stamp build/whirl
-	+@for board in $(TABLE_BOARDS); do $(MAKE) BOARD=$$board bench-tables-board || exit 1; done
-	@mkdir -p build/turn_tables
-	@WHIRL=build/whirl mk/price/turn_errors.sh >build/turn_tables/errors
-	@awk -f mk/price/turn_errors.awk build/turn_tables/errors >build/turn_tables/errors.md
-	@awk -f mk/price/turn_tables.awk build/turn_tables/errors $(TABLE_BOARDS:%=build/turn_tables/%/rows) \
-	    >build/turn_tables/price.md
-	@mk/price/into_page.sh build/turn_tables/errors.md docs/dev/numerics.md turn-tables
-	@mk/price/into_page.sh build/turn_tables/price.md docs/dev/price.md turn-tables
-	@cat build/turn_tables/errors.md build/turn_tables/price.md
-
-# Steps in fixed point, on boards without an FPU.
-FIXED_BOARDS ?= mps2-an385-m0 mps2-an385 atmega328p
-FIXED_SCENES ?=
-.PHONY: price-fixed price-fixed-board
-price-fixed-board: build/whirl
-	@$(MAKE) $(BOARD_OBJECTS) $(call libraries,$(BOARD),whirl) $(LIB_FLOAT) $(B)/float/boards/host/board.o \
-	    $(or $(BOARD_RUN_BY),$(PLUGIN))
-	@$(TO_PRICE) TIMING=$(BOARD_TIMING) HOST_LIB=$(LIB_FLOAT) HOST_BOARD=$(B)/float/boards/host/board.o \
-	    $(if $(FIXED_SCENES),SCENES="$(FIXED_SCENES)") $(if $(filter single,$(BOARD_IMAGES)),PLUGIN=) mk/price/fixed.sh
-price-fixed: build/whirl ##- Instructions of a step in fixed point, on boards without an FPU (FIXED_BOARDS, FIXED_SCENES)
-	+@for board in $(FIXED_BOARDS); do $(MAKE) BOARD=$$board price-fixed-board || exit 1; done
-
-# Work against precision of every method: the tables of docs/dev/numerics.md. `@jumping`: inputs jump every 2 ms.
-PRECISION_SCENES ?= epicyclic_conserved thomson_a_conserved rig_fixed two_mass_relative spherical_flight \
-    mk/price/separable.whirl:twins_swing build/precision_links.whirl:swing_4 \
-    epicyclic_conserved@jumping thomson_a_conserved@jumping rig_fixed@jumping
-.PHONY: bench-precision-now
-bench-precision-now: $(GEN)/.stamp
-	@$(MAKE) $(BOARD_OBJECTS) $(call libraries,$(BOARD),whirl) $(call libraries,double,whirl) \
-	    $(call objects,double,boards/host/board.c) $(B)/tools/precision $(PLUGIN)
-	@awk -v n=4 -v scene=1 -f mk/price/links.awk >build/precision_links.whirl
-	@OUT=build/precision PRECISION=$(B)/tools/precision HOST_CC="$(CC)" HOST_CFLAGS="-std=c11 $(OPT) -ffp-contract=off -fno-math-errno" \
-	    BENCH_HOST="$(call objects,double,boards/host/board.c) $(call libraries,double,whirl)" \
-	    $(TO_PRICE) mk/price/precision.sh $(PRECISION_SCENES)
-	@mk/price/into_page.sh build/precision/precision.md docs/dev/numerics.md precision
-	@cat build/precision/precision.md

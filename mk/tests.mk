@@ -212,10 +212,6 @@ $(B)/tools/tables_exhaustive: $(call objects,host,tests/tools/tables_exhaustive.
     $(LIB_FLOAT) $(LIB_DOUBLE)
 	$(link)
 
-# How far each method is off, by step.
-$(B)/tools/precision: $(call objects,host,tests/tools/precision.c) $(LIB_HOST) $(LIB_FLOAT) $(LIB_DOUBLE)
-	$(link)
-
 # Energies and the centre of mass over many steps.
 $(B)/tools/long_runs: $(call objects,host,tests/tools/long_runs.c tests/host/motion.c $(UNITY_DIR)/unity.c) \
     $(LIB_HOST) $(LIB_FLOAT) $(LIB_DOUBLE)

@@ -10,7 +10,6 @@
  *     failed NAME STATUS                     the scene could not be counted
  *
  * Built with BENCH_SMALL=1 it leaves out the language's functions and the processor's own count, for small memories.
- * Built with COUNT_RECORDS=1 it counts the computing of the outputs as well, with "record" as METHOD.
  *
  * Interval 0 is around nothing. On a board an interval holds the call too (loading the arguments
  * and the branch); callgrind counts the called function alone. */
@@ -23,15 +22,10 @@
 #ifndef COUNTED_STEPS
 #define COUNTED_STEPS 100U
 #endif
-#ifndef COUNT_RECORDS
-#define COUNT_RECORDS 0
-#endif
 #ifndef BENCH_SMALL
 #define BENCH_SMALL 0
 #endif
 #define STEPS_A_CALL 100U /* as mk/count/figures.awk divides by */
-#define COUNTED_RECORDS 100U
-#define OUTPUTS_MAX 64U
 #define COUNTED_PAIRS 64U
 
 static unsigned intervals;
@@ -87,24 +81,6 @@ static void count_pairs(void) {
     }
     say_counted("wh_sincos", "-", "", first, intervals - 1U);
 }
-
-#if COUNT_RECORDS
-static void count_records(const wh_scene *scene, wh_state *state) {
-    static wh_real output[OUTPUTS_MAX];
-    const unsigned first = intervals;
-    if (scene->observe == NULL || scene->outputs > OUTPUTS_MAX) {
-        return;
-    }
-    for (unsigned i = 0; i < COUNTED_RECORDS; i++) {
-        wh_count_begin();
-        scene->observe(scene, state, output);
-        wh_count_end();
-        intervals++;
-        state->steps++; /* the noise looks at it */
-    }
-    say_counted(scene->name, "record", "", first, intervals - 1U);
-}
-#endif
 
 #if !BENCH_SMALL
 static const struct {
@@ -210,9 +186,6 @@ static bool count_scene(const wh_scene *scene) {
     if (board_cycles_start()) {
         time_scene(scene, &state);
     }
-#endif
-#if COUNT_RECORDS
-    count_records(scene, &state);
 #endif
     return true;
 }

@@ -1,10 +1,10 @@
 #!/bin/sh
-# into_page.sh TABLES PAGE [NAME]: put the tables between the page's two marks, in place of what is there. The marks are
+# into_page.sh TABLES PAGE NAME: put the tables between the page's two marks, in place of what is there. The marks are
 # comments "NAME: begin" and "NAME: end".
 set -eu
 tables=$1
 page=$2
-name=${3:-price-effects}
+name=$3
 for mark in begin end; do
     if [ "$(grep -c "^<!-- $name: $mark -->\$" "$page")" -ne 1 ]; then
         echo "into_page.sh: $page has no single line <!-- $name: $mark -->" >&2

@@ -1,8 +1,6 @@
 /* table.c: the table of figures that prices are predicted from (host/price/cost_rows.h): `make price-table` calls it.
  *
  *     price_table ROWS.csv >cost_rows.h    writes the table, and its errors to standard error
- *     price_table --check ROWS.csv         compares the program's predictions with counted rows; exit status 1 unless
- *                                          four of five are within the stated error
  *
  * ROWS.csv is written by measure.sh. A figure is what one operation of a class takes: the least squares of the relative
  * error over the counted steps of a board and number, with no figure below zero. The stated error is that of scenes that
@@ -28,7 +26,6 @@ typedef struct row {
     cost_counts counts;
     double value[COST_QUANTITIES]; /* 0: not counted */
     double longest[2];             /* over the mean, of instructions and of cycles */
-    cost predicted;
 } row;
 
 static row *rows;
@@ -101,7 +98,6 @@ static bool count_row(row *r, char *const column[COST_COLUMNS]) {
             good = im->contacts == 0 && (r->number != COST_FIXED || plan != NULL);
             if (good) {
                 r->counts = cost_count(im, r->board, r->number);
-                r->predicted = cost_of(im, r->board, r->number);
             }
             im->fixed = NULL;
             fixed_plan_free(plan);
@@ -256,44 +252,19 @@ static void write_row(const selection *s) {
     printf("}},\n");
 }
 
-static bool check(const selection *s) {
-    static double factor[ROWS_MOST];
-    int count = 0;
-    int within = 0;
-    for (int i = 0; i < row_count; i++) {
-        const row *r = &rows[i];
-        const cost_figure *of[COST_QUANTITIES] = {
-            &r->predicted.instructions, &r->predicted.cycles, &r->predicted.flash_bytes,
-            &r->predicted.ram_bytes, &r->predicted.stack_bytes};
-        const cost_figure *f = of[s->quantity];
-        if (is_of(r, s) && f->basis == COST_PREDICTED) {
-            factor[count++] = factor_of(f->value, r->value[s->quantity]);
-            within += r->value[s->quantity] >= f->least && r->value[s->quantity] <= f->most;
-        }
-    }
-    if (count > 0) {
-        (void)tell(s, factor, count);
-    }
-    return within >= 0.8 * count;
-}
-
 int main(int count, char **words) {
-    const bool checks = count == 3 && strcmp(words[1], "--check") == 0;
-    if (count != 2 && !checks) {
-        fputs("usage: price_table [--check] ROWS.csv\n", stderr);
+    if (count != 2) {
+        fputs("usage: price_table ROWS.csv\n", stderr);
         return 2;
     }
     rows = calloc(ROWS_MOST, sizeof *rows);
     if (rows == NULL) {
         return 1;
     }
-    read_rows(words[count - 1]);
-    bool good = row_count > 0;
-    if (!checks) {
-        puts(
-            "/* cost_rows.h: the cost of one operation of each class (cost_count.h); written by `make price-table`. */\n#include \"cost_row.h\"\n\n"
-            "/* clang-format off */\nstatic const cost_row cost_rows[] = {");
-    }
+    read_rows(words[1]);
+    puts(
+        "/* cost_rows.h: the cost of one operation of each class (cost_count.h); written by `make price-table`. */\n#include \"cost_row.h\"\n\n"
+        "/* clang-format off */\nstatic const cost_row cost_rows[] = {");
     fputs(
         "| board | number | of a step | counted | half within | nine of ten within | all within |\n"
         "|---|---|---|---|---|---|---|\n",
@@ -302,16 +273,10 @@ int main(int count, char **words) {
         for (int n = 0; n < COST_NUMBERS; n++) {
             for (int q = 0; q < COST_QUANTITIES; q++) {
                 const selection s = {&cost_boards[b], (cost_number)n, (cost_quantity)q};
-                if (checks) {
-                    good = check(&s) && good;
-                } else {
-                    write_row(&s);
-                }
+                write_row(&s);
             }
         }
     }
-    if (!checks) {
-        puts("};\n/* clang-format on */");
-    }
-    return good ? 0 : 1;
+    puts("};\n/* clang-format on */");
+    return row_count > 0 ? 0 : 1;
 }
