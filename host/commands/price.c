@@ -7,7 +7,6 @@
 #include "commands.h"
 #include "files.h"
 #include "host/base/written.h"
-#include "host/plot/gnuplot.h"
 #include "host/price/measured.h"
 #include "interrupts.h"
 #include "pricing.h"
@@ -26,13 +25,11 @@ static const char tail[] =
     "  --all                every row\n"
     "  --csv FILE           every row, with the command lines that do it again; - is standard output\n"
     "                       (the table then goes to standard error)\n"
-    "  --plot FILE.svg|.png error against price, a line for each method or matrix and number,\n"
-    "                       and the front\n"
     "  --measure            count what is on the front instead of predicting it: in Whirl's source\n"
     "                       tree, where the board's compiler and emulator are; takes minutes\n"
     "  --quiet              no table, no progress\n"
     "\n";
-static const char *const own[] = {"--all", "--csv", "--plot", "--measure", NULL};
+static const char *const own[] = {"--all", "--csv", "--measure", NULL};
 
 static void print_help(FILE *out) {
     const command_usage common = {.head = "", .groups = PRICING_GROUPS, .tail = ""};
@@ -56,13 +53,11 @@ static void print_help(FILE *out) {
 typedef struct price_options {
     pricing_options common;
     const char *csv;
-    const char *plot;
     bool all;
     bool measure;
 } price_options;
 
 static bool take_own(int count, char **words, int *at, price_options *o, bool *bad) {
-    const char *value;
     if (strcmp(words[*at], "--all") == 0) {
         o->all = true;
         ++*at;
@@ -73,32 +68,14 @@ static bool take_own(int count, char **words, int *at, price_options *o, bool *b
         ++*at;
         return true;
     }
-    if ((value = options_value(count, words, at, "--csv", bad)) != NULL) {
-        o->csv = value;
-    } else if (!*bad && (value = options_value(count, words, at, "--plot", bad)) != NULL) {
-        o->plot = value;
-    }
+    const char *value = options_value(count, words, at, "--csv", bad);
+    o->csv = value != NULL ? value : o->csv;
     return value != NULL || *bad;
-}
-
-static bool files_fit(const price_options *o) {
-    if (o->plot != NULL && !gnuplot_can_draw_for("price", "--plot", o->plot)) {
-        return false;
-    }
-    if (o->csv != NULL && o->plot != NULL && files_same(o->csv, o->plot)) {
-        fputs("whirl price: error: --csv and --plot cannot share a file\n", stderr);
-        return false;
-    }
-    return true;
 }
 
 static bool take_one(int count, char **words, int *at, void *options, bool *bad) {
     price_options *o = options;
     return take_own(count, words, at, o, bad) || pricing_take(count, words, at, &o->common, bad);
-}
-
-static bool read_options(int count, char **words, price_options *o) {
-    return pricing_read(count, words, own, take_one, o, &o->common) && files_fit(o);
 }
 
 static void show_progress(void *context, int done, int of) {
@@ -145,8 +122,7 @@ static int show(const price_options *o, pricing *p, const table *made) {
                 p->trial.reliable ? ": no setting has a row" : ", without a reference to trust");
         return EXIT_RUN_FAILED;
     }
-    if ((o->csv != NULL && !write_csv(o->csv, &p->trial, made, &words)) ||
-        (o->plot != NULL && !table_plot(o->plot, &p->trial, made))) {
+    if (o->csv != NULL && !write_csv(o->csv, &p->trial, made, &words)) {
         return EXIT_BAD_INPUT;
     }
     return p->asks_error ? say_cheapest(out, p, made, &words) : EXIT_DONE;
@@ -173,9 +149,8 @@ static bool can_measure(const pricing *p) {
 
 static int price_scene(const price_options *o, pricing *p) {
     const bool progress = !o->common.quiet && isatty(STDERR_FILENO);
-    if (source_would_be_lost(&p->from, "--csv", o->csv, "") ||
-        source_would_be_lost(&p->from, "--plot", o->plot, "") || !written_can(o->csv) ||
-        !written_can(o->plot) || (o->measure && !can_measure(p))) {
+    if (source_would_be_lost(&p->from, "--csv", o->csv, "") || !written_can(o->csv) ||
+        (o->measure && !can_measure(p))) {
         return EXIT_BAD_INPUT;
     }
     interrupts_catch();
@@ -210,7 +185,7 @@ int command_price(int count, char **words) {
     }
     price_options o = {.common = pricing_defaults("price", count)};
     int code = EXIT_BAD_INPUT;
-    if (read_options(count, words, &o)) {
+    if (pricing_read(count, words, own, take_one, &o, &o.common)) {
         pricing p;
         code = pricing_open(&p, &o.common);
         if (code == EXIT_DONE) {

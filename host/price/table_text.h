@@ -1,4 +1,4 @@
-/* table_text.h: a table of errors and prices for people, for programs and as a picture. */
+/* table_text.h: a table of errors and prices for people and for programs. */
 #ifndef PRICE_TABLE_TEXT_H
 #define PRICE_TABLE_TEXT_H
 
@@ -21,9 +21,6 @@ void table_print_left(FILE *out, const table *made, double operations);
 enum { TABLE_ROWS = 12 };
 void table_print(FILE *out, const trials *t, const table *made, const table_words *words);
 void table_csv(FILE *out, const trials *t, const table *made, const table_words *words);
-/* Error against price, a line for each method or matrix and number at its cheapest form but tables, and the front. False,
- * told. */
-bool table_plot(const char *file, const trials *t, const table *made);
 
 /* The lines that do a row again: `whirl run ...` at a place, and `whirl derive ... --as c` with the scene's own values, as
  * a product has them. Free them. */

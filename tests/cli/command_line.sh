@@ -265,7 +265,6 @@ says 2 '--every often is not a time' run thomson_a --every often
 says 2 '/nonexistent/x.csv: error: cannot be written' run thomson_a --csv /nonexistent/x.csv
 for plot in x.gif '' -; do
     says 2 "plot draws .svg, .pdf and .png files, not '$plot'" run thomson_a --plot "$plot"
-    says 2 "plot draws .svg, .pdf and .png files, not '$plot'" price thomson_a --plot "$plot"
 done
 says 2 '/nonexistent/x.svg: error: cannot be written' run thomson_a --plot /nonexistent/x.svg
 says 2 'error' accel epicyclic theta

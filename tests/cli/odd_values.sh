@@ -106,7 +106,6 @@ map --plot $gear --over step=1ms..2ms:2 --over r=0.1..0.2:2
 trust --csv $gear
 prove --csv $gear
 price --csv $gear --effort 1e7
-price --plot $gear --effort 1e7
 END
 # what a price has no error for is said, with or without a table
 for quiet in '' --quiet; do

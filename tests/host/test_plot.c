@@ -10,7 +10,6 @@
 
 #include "command.h"
 #include "host/plot/gnuplot.h"
-#include "host/plot/scatter.h"
 #include "unity.h"
 
 void suite_plot(void);
@@ -183,16 +182,8 @@ static void test_no_picture(void) {
         TEST_IGNORE_MESSAGE("no gnuplot here");
     }
     static const double data[] = {1.0, 2.0, 3.0, 4.0};
-    const scatter_series series[] = {
-        {.name = "light", .x = data, .y = data, .count = 4},
-        {.name = "heavy", .x = data, .y = data, .count = 4, .heavy = true}};
     plot_run run =
         run_of("title", (const char *const[]){"name"}, (const char *const[]){"m"}, 1, data, 2);
-    for (int count = 1; count <= 2; count++) {
-        TEST_ASSERT_TRUE(scatter_draw(PICTURE, "title", "x", "y", series, count, "more"));
-        TEST_ASSERT_FALSE(
-            scatter_draw("/dev/null/x.svg", "title", "x", "y", series, count, "more"));
-    }
     TEST_ASSERT_FALSE(draw("/dev/null/x.svg", &run));
     plot_run_close(&run);
     unlink(PICTURE);

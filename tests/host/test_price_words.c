@@ -1,5 +1,5 @@
 /* test_price_words.c: what is printed of prices (host/price/figure_text.h, table_text.h): figures with their digits and how
- * they are known, rows of a made-up table for people, for programs and for gnuplot, read back here. */
+ * they are known, rows of a made-up table for people and for programs, read back here. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
