@@ -7,8 +7,8 @@
 #include "commands.h"
 #include "host/number/decimal.h"
 #include "host/number/functions.h"
-#include "host/price/choice_text.h"
-#include "host/price/figure_text.h"
+#include "host/price/choice.h"
+#include "host/price/table_text.h"
 #include "interrupts.h"
 #include "pricing.h"
 

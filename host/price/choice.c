@@ -1,6 +1,8 @@
 /* choice.c: see choice.h. */
 #include "choice.h"
 
+#include <stdlib.h>
+
 #include "host/number/functions.h"
 
 #define CHOICE_LIMIT_WORD(id, word) word,
@@ -190,4 +192,239 @@ measured_end choice_counted(trials *t, table *made, const choice_wish *w, const 
         *c = choice_make(t, made, w);
     }
     return MEASURED_COUNTED;
+}
+
+/* --- for people ------------------------------------------------------------------------------------*/
+
+/* Are this board's cycles counted? Else they are a range, and a row is compared by its instructions. */
+static bool has_cycles(const cost *c) {
+    return c->cycles.basis != COST_RANGE && c->cycles.basis != COST_NOT_KNOWN;
+}
+
+/* "0.1 m", or "0.001 of the largest value". */
+enum { AMOUNT = 64 };
+static const char *amount(const trials *t, double error, char text[AMOUNT]) {
+    const bool part = t->what.column < 0;
+    snprintf(text, AMOUNT, "%.3g %s", error, part ? "of the largest value" : trial_unit(t));
+    return text;
+}
+
+static void print_options(FILE *out, const trials *t, const table_row *row) {
+    char options[SETTING_TEXT];
+    char step[TRIAL_TIME];
+    fprintf(out, "%s --step %s\n", setting_options(&row->setting, true, options) + 1,
+            trial_time(trial_step(t, row->pace), step));
+}
+
+static void print_figure(FILE *out, const char *name, const cost_figure *f, const char *unit) {
+    char words[FIGURE_WORDS];
+    fprintf(out, "  %-12s", name);
+    if (f->basis == COST_NOT_KNOWN) {
+        fprintf(out, "%s\n", cost_basis_words[f->basis]);
+    } else if (f->basis == COST_RANGE) {
+        fprintf(out, "%.3g to %.3g %s, %s\n", f->least, f->most, unit, figure_words(f, words));
+    } else {
+        fprintf(out, "%.0f %s, %s\n", f->value, unit, figure_words(f, words));
+    }
+}
+
+/* The most that a step is declared to take, in the unit of the row's steps; 0: not known. */
+static double declared_of(const table_row *row) {
+    return has_cycles(&row->cost) ? row->run.cycles_bound : row->run.instructions_bound;
+}
+
+static void print_load(FILE *out, const choice_wish *w, const table_row *row,
+                       const choice_row *by) {
+    const cost_figure *f = &row->cost.cycles_worst;
+    if (!(w->clock_Hz > 0.0) || by->unknown[CHOICE_LOAD]) {
+        fputs(w->clock_Hz > 0.0
+                  ? "  load        not known: the cycles of the longest step are not\n"
+                  : "  load        not asked: give --clock\n",
+              out);
+        return;
+    }
+    if (f->basis == COST_RANGE) {
+        fprintf(out, "  load        %.2g to %.2g %%", 100.0 * by->load_most * f->least / f->most,
+                100.0 * by->load_most);
+    } else {
+        fprintf(out, "  load        %.3g %%, at most %.3g %%,", 100.0 * by->load,
+                100.0 * by->load_most);
+    }
+    if (w->table.rate_Hz > 0.0) {
+        fprintf(out, " of a period of %.6g s (%.6g Hz)", 1.0 / w->table.rate_Hz, w->table.rate_Hz);
+    } else {
+        fputs(" of real time", out);
+    }
+    fprintf(out, " at %.6g MHz, by the longest", 1e-6 * w->clock_Hz);
+    if (row->run.steps > 0.0) {
+        fprintf(out, " of %.0f counted steps", row->run.steps);
+    } else {
+        fputs(" step", out);
+    }
+    if (declared_of(row) > 0.0) {
+        fprintf(out, "; %.3g %% by the declared one",
+                100.0 * by->load_most * declared_of(row) /
+                    (has_cycles(&row->cost) ? f->most : row->cost.instructions_worst.most));
+    }
+    fputc('\n', out);
+}
+
+/* With contacts: the number of steps that were counted, and the most that a step can take. */
+static void print_run(FILE *out, const table_row *row) {
+    if (!(row->run.steps > 0.0)) {
+        return;
+    }
+    fprintf(out, "  of          %.0f counted steps: every one to the horizon, events included\n",
+            row->run.steps);
+    if (declared_of(row) > 0.0) {
+        fprintf(out,
+                "  declared    %.0f %s are the most that a step can take: docs/dev/events.md\n",
+                declared_of(row), has_cycles(&row->cost) ? "cycles" : "instructions");
+    } else {
+        fputs("  declared    not known: the stretches of a step are not counted on this board\n",
+              out);
+    }
+}
+
+static void print_answer(FILE *out, const trials *t, const choice_wish *w, const table_row *row,
+                         const choice_row *by) {
+    char text[AMOUNT];
+    char name[TRIAL_NAME];
+    const cost *c = &row->cost;
+    const bool cycles = has_cycles(c);
+    const char *unit = cycles ? "cycles" : "instructions";
+    const char *at = trial_place(t, row->result.point);
+    const uint64_t substeps = table_substeps(&w->table, row);
+    print_options(out, t, row);
+    fprintf(out, "  error       %s%s, measured", row->result.bound ? "at most " : "",
+            amount(t, row->result.error, text));
+    if (t->what.column < 0) {
+        fprintf(out, " (%s)", trial_column(t, row->result.column, name));
+    }
+    if (t->points > 1) {
+        fprintf(out, ", worst of %d sampled places with%s", t->points,
+                at[0] != '\0' ? at : " the scene's own values");
+    }
+    fprintf(out, "; %s is allowed\n", amount(t, w->table.error, text));
+    if (substeps > 0) {
+        fprintf(out, "  a period    %llu steps\n", (unsigned long long)substeps);
+    }
+    print_figure(out, "a step", cycles ? &c->cycles : &c->instructions, unit);
+    print_figure(out, "the longest", cycles ? &c->cycles_worst : &c->instructions_worst, unit);
+    print_run(out, row);
+    if (!cycles) {
+        print_figure(out, "in cycles", &c->cycles_worst, "cycles");
+    }
+    print_load(out, w, row, by);
+    print_figure(out, "flash", &c->flash_bytes, "bytes");
+    print_figure(out, "RAM", &c->ram_bytes, "bytes without the stack");
+    print_figure(out, "stack", &c->stack_bytes, "bytes");
+    if (c->state_bytes.basis != COST_NOT_KNOWN) {
+        print_figure(out, "state", &c->state_bytes, "bytes of these");
+    }
+    for (int i = CHOICE_FLASH; i < CHOICE_LIMITS; i++) {
+        if (by->unknown[i]) {
+            fprintf(out, "  %s is limited, and not known here: count it\n", choice_limit_words[i]);
+        }
+    }
+}
+
+static void print_lines(FILE *out, const trials *t, const table_row *row,
+                        const table_words *words) {
+    char *run = table_run_line(t, &row->setting, row->pace, row->result.point, words);
+    char *derive = table_derive_line(t, &row->setting, row->pace, words);
+    char *measure = table_measure_line(t, &row->setting, row->pace, row->result.point, words);
+    fprintf(out, "  again       %s\n  as code     %s\n  counted by  %s\n", run, derive, measure);
+    free(measure);
+    free(run);
+    free(derive);
+}
+
+/* Two digits that are no less. */
+static double no_less(double value) {
+    double unit = 1.0;
+    while (value / unit >= 100.0) {
+        unit *= 10.0;
+    }
+    while (value > 0.0 && value / unit < 10.0) {
+        unit /= 10.0;
+    }
+    return number_ceiling(value / unit * (1.0 - 1e-12)) * unit;
+}
+
+static void print_clock(FILE *out, const choice_wish *w, const choice_row *row) {
+    if (row->fails[CHOICE_LOAD]) {
+        fprintf(out, "  a clock of %.3g MHz: ", no_less(1e-6 * w->clock_Hz * row->load_most));
+    }
+}
+
+static void print_bytes(FILE *out, const table *made, const choice_row *row) {
+    const cost *c = &made->row[row->row].cost;
+    fprintf(out, "  %.0f bytes of flash and %.0f of RAM with the stack: ",
+            number_ceiling(c->flash_bytes.most),
+            number_ceiling(c->ram_bytes.most + c->stack_bytes.most));
+}
+
+/* The limit that would have to give, and the row that would do then. */
+static void print_remedies(FILE *out, const trials *t, const table *made, const choice_wish *w,
+                           const choice *c) {
+    char text[AMOUNT];
+    const bool larger =
+        c->larger.row >= 0 && (c->larger.fails[CHOICE_FLASH] || c->larger.fails[CHOICE_RAM]);
+    fputs("\nwhat would fit\n", out);
+    if (c->weaker.row >= 0) {
+        const table_row *row = &made->row[c->weaker.row];
+        fprintf(out,
+                "  an error of %s: ", amount(t, no_less(TABLE_MARGIN * row->result.error), text));
+        print_options(out, t, row);
+    }
+    if (c->dearer.row >= 0 && c->dearer.fails[CHOICE_LOAD]) {
+        print_clock(out, w, &c->dearer);
+        print_options(out, t, &made->row[c->dearer.row]);
+    }
+    if (larger) {
+        print_bytes(out, made, &c->larger);
+        print_options(out, t, &made->row[c->larger.row]);
+    }
+    if (c->any.row >= 0 && c->dearer.row < 0 && !larger) { /* all limits at once */
+        print_clock(out, w, &c->any);
+        print_bytes(out, made, &c->any);
+        print_options(out, t, &made->row[c->any.row]);
+    } else if (c->weaker.row < 0 && c->any.row < 0) {
+        fputs("  nothing that was tried\n", out);
+    }
+}
+
+void choice_print(FILE *out, const trials *t, const table *made, const choice_wish *w,
+                  const choice *c, const table_words *words) {
+    const bool found = c->fastest.row >= 0;
+    fprintf(out, "%s on %s (%s)\n", t->image[0]->name, t->wish.board->name, t->wish.board->core);
+    figure_reference(out, t);
+    fprintf(out, "  prices      %s\n\n", w->prices);
+    if (found) {
+        const table_row *row = &made->row[c->fastest.row];
+        fputs("fewest cycles  ", out);
+        print_answer(out, t, w, row, &c->fastest);
+        print_lines(out, t, row, words);
+        fputs("\nleast flash    ", out);
+        if (c->smallest.row == c->fastest.row) {
+            fputs("the same\n", out);
+        } else if (c->smallest.row < 0) {
+            fputs("not known\n", out);
+        } else {
+            row = &made->row[c->smallest.row];
+            print_answer(out, t, w, row, &c->smallest);
+            print_lines(out, t, row, words);
+        }
+    } else if (made->broken_off + made->unpriced == 0) {
+        fprintf(out, "nothing fits: all %d settings were tried\n", made->settings);
+    } else {
+        fprintf(out, "nothing fits of the steps that were tried%s\n",
+                made->broken_off > 0 ? ": raise --effort" : "");
+    }
+    if (!found && made->count > 0) {
+        print_remedies(out, t, made, w, c);
+    }
+    fputc('\n', out);
+    table_print_left(out, made, w->table.operations);
 }

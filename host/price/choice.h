@@ -2,6 +2,8 @@
 #ifndef PRICE_CHOICE_H
 #define PRICE_CHOICE_H
 
+#include <stdio.h>
+
 #include "measured.h"
 
 /* The limits that a row must keep: X(id, word). */
@@ -52,5 +54,9 @@ choice choice_make(const trials *t, const table *made, const choice_wish *w);
  * counted are expected to take as many cycles an evaluation as the last counted one in their number. */
 measured_end choice_counted(trials *t, table *made, const choice_wish *w, const table_words *words,
                             choice *c);
+
+/* Both answers; or that no row fits, and the nearest one. */
+void choice_print(FILE *out, const trials *t, const table *made, const choice_wish *w,
+                  const choice *c, const table_words *words);
 
 #endif

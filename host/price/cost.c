@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cost_row.h"
+#include "cost_count.h"
 #include "host/fixed/fixed_plan.h"
 #include "host/image/core_rows.h"
 #include "host/run/start.h"

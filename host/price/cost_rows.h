@@ -1,5 +1,5 @@
 /* cost_rows.h: the cost of one operation of each class (cost_count.h); written by `make price-table`. */
-#include "cost_row.h"
+#include "cost_count.h"
 
 /* clang-format off */
 static const cost_row cost_rows[] = {

@@ -5,7 +5,7 @@
 #include <stddef.h>
 
 #include "host/run/loop.h"
-#include "long_functions.h"
+#include "long_list.h"
 
 /* Enter a record: false when the run is of no use any more. */
 static bool enter(const reference *r, const records *now, int record, deviation_of_what what,

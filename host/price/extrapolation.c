@@ -7,7 +7,6 @@
 
 #include "host/base/room.h"
 #include "host/number/functions.h"
-#include "long_functions.h"
 #include "long_list.h"
 
 struct extrapolation {

@@ -6,12 +6,125 @@
 #include <string.h>
 
 #include "extrapolation.h"
-#include "fine_steps.h"
 #include "host/base/room.h"
 #include "host/number/functions.h"
-#include "long_functions.h"
+#include "host/run/loop.h"
 #include "long_list.h"
-#include "reference_rows.h"
+
+/* --- a state as a row of records -------------------------------------------------------------------*/
+
+struct long_rows {
+    const records *shape;
+    long_list *observe;
+    double *input;
+    long double *output; /* [image->outputs] */
+};
+
+long_rows *long_rows_new(const records *shape) {
+    const image *im = shape->image;
+    long_rows *l = room(1, sizeof *l);
+    *l = (long_rows){shape, long_list_new(im->list[IMAGE_OBSERVE]),
+                     room(im->inputs, sizeof *l->input), room(im->outputs, sizeof *l->output)};
+    image_inputs(im, l->input);
+    return l;
+}
+
+void long_rows_free(long_rows *l) {
+    if (l != NULL) {
+        long_list_free(l->observe);
+        free(l->input);
+        free(l->output);
+        free(l);
+    }
+}
+
+static int column_of(const records *r, component c) {
+    int column = 1;
+    while (r->column[column].unknown != c.unknown || r->column[column].primes != c.primes) {
+        column++;
+    }
+    return column;
+}
+
+void long_rows_read(long_rows *l, const long double *state, long double time_s, long double *row) {
+    const records *r = l->shape;
+    const image *im = r->image;
+    const long double *real = state + im->angles;
+    const int linear = im->form == WH_SECOND_ORDER ? im->coordinates - im->angles : 0;
+    const long_leaves in = {state, real, real + linear, l->input, time_s};
+    long_list_run(l->observe, &in, l->output);
+    memset(row, 0, (size_t)r->columns * sizeof *row);
+    for (int i = 0; i < im->angles + im->reals; i++) {
+        row[column_of(r, image_component(im, i))] = state[i];
+    }
+    for (int i = 0; i < im->own_outputs; i++) {
+        row[r->columns - im->own_outputs + i] = l->output[i];
+    }
+    for (int k = 0; k < im->recovered; k++) {
+        for (int primes = 0; primes < 2; primes++) {
+            const component c = {im->from_momentum[k], primes};
+            row[column_of(r, c)] = l->output[im->own_outputs + 2 * k + primes];
+        }
+    }
+    for (int i = 1; i < r->columns; i++) {
+        const image_unit *u = r->column[i].unit;
+        row[i] = row[i] * (long double)u->divisor / (long double)u->scale;
+    }
+    row[0] = time_s;
+}
+
+/* --- by fine steps ---------------------------------------------------------------------------------*/
+
+/* As many times finer than the scene's step, if they may take the operations. */
+#define FINER 16.0
+/* Evaluations of a step: RK4's, and what looking for events takes besides. */
+#define EVALUATIONS 4.0
+#define EVALUATIONS_CONTACTS 12.0
+
+uint64_t fine_steps_of(const reference_wish *w) {
+    const image *im = w->image;
+    if (w->by.steps > 0) {
+        return w->by.steps;
+    }
+    const double spacing_s = ratio_times(1, w->spacing);
+    const double each =
+        (im->contacts > 0 ? EVALUATIONS_CONTACTS : EVALUATIONS) * im->list[IMAGE_STEP]->count;
+    const double wanted = number_ceiling(FINER * spacing_s / im->step_s / 2.0);
+    const double affordable = number_floor(w->operations / each / w->records / 2.0);
+    return 2U * (uint64_t)number_most(1.0, number_least(wanted, affordable));
+}
+
+int fine_steps_run(const reference_wish *w, const records *shape, uint64_t steps,
+                   long double *row) {
+    image copy = *w->image;
+    copy.settings = (image_settings)IMAGE_SETTINGS_DEFAULT;
+    copy.settings.compensated = true;
+    copy.list[IMAGE_MATRIX] = NULL;
+    if (w->by.steps > 0) {
+        copy.settings.method = w->by.method;
+    }
+    copy.step = (whole_ratio){w->spacing.numerator, w->spacing.denominator * steps};
+    copy.step_s = ratio_times(1, copy.step);
+    copy.steps = steps * (uint64_t)w->records;
+    records *r = records_open(NULL, &copy, &engine_double);
+    void *run = engine_double.start(&copy);
+    int done = 0;
+    for (;; done++) {
+        records_read(r, run, ratio_times((uint64_t)done, w->spacing));
+        for (int i = 0; i < shape->columns; i++) {
+            row[(size_t)done * (size_t)shape->columns + (size_t)i] = (long double)r->row[i];
+        }
+        if (done == w->records || (w->stop != NULL && *w->stop) ||
+            loop_steps(&engine_double, run, steps) != WH_OK) {
+            break;
+        }
+    }
+    engine_double.stop(run);
+    records_close(r);
+    return done;
+}
+
+/* --- two computations, and what they agree about ---------------------------------------------------*/
 
 /* The finer of two extrapolations, and the one that it is held against: of other orders, so by other steps. */
 static const extrapolation_setting fine = {6, 16.0 * (double)LDBL_EPSILON};

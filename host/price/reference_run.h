@@ -7,7 +7,26 @@
 #ifndef PRICE_REFERENCE_RUN_H
 #define PRICE_REFERENCE_RUN_H
 
-#include "reference_wish.h"
+#include <signal.h>
+
+#include "host/run/records.h"
+
+/* A cheap reference: a run in double with compensated sums, compared with one of twice its step. */
+typedef struct reference_steps {
+    uint64_t steps; /* in a record's spacing, even; 0: not wanted, but the best reference */
+    wh_method method;
+    int order;    /* by which its error falls as the step gets shorter */
+    double limit; /* it is trusted while the two differ by less of a component's largest value */
+} reference_steps;
+
+typedef struct reference_wish {
+    const image *image;  /* whatever its step and end are */
+    whole_ratio spacing; /* of the records, s */
+    int records;         /* behind the start */
+    double operations;   /* most that each of the two computations may evaluate */
+    reference_steps by;
+    const volatile sig_atomic_t *stop; /* may be NULL */
+} reference_wish;
 
 typedef enum reference_kind {
     REFERENCE_NONE, /* nothing that could be trusted: `why` */
@@ -50,5 +69,22 @@ void reference_free(reference *r); /* NULL is fine */
 /* The column of a name, "X", "X'" or an output's; -1: there is none. *noisy: it is an output with noise of its own,
  * which no reference can have. */
 int reference_find(const reference *r, const char *name, bool *noisy);
+
+/* A state in long double as a row of records. */
+typedef struct long_rows long_rows;
+
+long_rows *long_rows_new(const records *shape); /* which must outlive it */
+void long_rows_free(long_rows *l);
+/* row[shape->columns], in their units; `state` as engine_kind.state() has it, angles first. */
+void long_rows_read(long_rows *l, const long double *state, long double time_s, long double *row);
+
+/* A reference by the interpreter: RK4 in double with compensated sums, by steps far finer than the scene's. It shares much
+ * with the runs that it judges.
+ *
+ * The steps of a record's spacing: the wished ones; else those that are fine enough for the scene and within the operations, for the finer of
+ * the two computations; even. */
+uint64_t fine_steps_of(const reference_wish *w);
+/* Fills row[(wanted + 1)][columns] by so many steps a record; returns the records behind the start. */
+int fine_steps_run(const reference_wish *w, const records *shape, uint64_t steps, long double *row);
 
 #endif

@@ -1,7 +1,6 @@
 /* three_rows.c: see three_rows.h. */
 #include "three_rows.h"
 
-#include "figure_text.h"
 #include "host/number/functions.h"
 #include "table_text.h"
 

@@ -9,7 +9,7 @@
 
 #include "host/lang/builtin.h"
 #include "host/price/extrapolation.h"
-#include "host/price/reference_rows.h"
+#include "host/price/reference_run.h"
 #include "unity.h"
 
 /* Looks of the reference, at most, and the least steps between two. */

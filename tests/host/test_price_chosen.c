@@ -1,4 +1,4 @@
-/* test_price_chosen.c: choices in words (host/price/choice_text.h), of made-up ones, read back. */
+/* test_price_chosen.c: choices in words (host/price/choice.h), of made-up ones, read back. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -7,8 +7,8 @@
 #include "caught.h"
 #include "command.h"
 #include "host/base/room.h"
-#include "host/price/choice_text.h"
-#include "host/price/figure_text.h"
+#include "host/price/choice.h"
+#include "host/price/table_text.h"
 #include "priced.h"
 #include "unity.h"
 

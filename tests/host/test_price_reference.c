@@ -7,7 +7,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "host/price/long_functions.h"
+#include "host/price/long_list.h"
 #include "host/price/reference_run.h"
 #include "unity.h"
 

@@ -1,5 +1,5 @@
-/* test_price_states.c: rows of the reference (host/price/reference_rows.h), of fine steps (fine_steps.h), and which of them a
- * reference takes, until when, and in what words (reference_run.h): against the records of a run, closed forms and a walk over the
+/* test_price_states.c: rows of the reference (host/price/reference_run.h), of fine steps, and which of them a
+ * reference takes, until when, and in what words: against the records of a run, closed forms and a walk over the
  * rows. */
 #include <float.h>
 #include <math.h>
@@ -10,9 +10,7 @@
 #include "blocks.h"
 #include "command.h"
 #include "derived.h"
-#include "host/price/fine_steps.h"
-#include "host/price/long_functions.h"
-#include "host/price/reference_rows.h"
+#include "host/price/long_list.h"
 #include "host/price/reference_run.h"
 #include "priced.h"
 #include "unity.h"

@@ -1,4 +1,4 @@
-/* test_price_words.c: what is printed of prices (host/price/figure_text.h, table_text.h): figures with their digits and how
+/* test_price_words.c: what is printed of prices (host/price/table_text.h): figures with their digits and how
  * they are known, rows of a made-up table for people and for programs, read back here. */
 #include <math.h>
 #include <stdio.h>
@@ -9,7 +9,6 @@
 #include "command.h"
 #include "host/base/room.h"
 #include "host/fixed/engine_fixed.h"
-#include "host/price/figure_text.h"
 #include "host/price/table_text.h"
 #include "priced.h"
 #include "unity.h"
