@@ -190,7 +190,7 @@ price-ready-board: build/whirl
 	    $(or $(BOARD_RUN_BY),$(PLUGIN))
 price-ready-host: build/whirl
 	@$(call need,valgrind)
-	@$(MAKE) $(LIB_FLOAT) $(B)/float/boards/host/board.o
+	@$(MAKE) $(LIB_FLOAT) $(if $(filter double,$(NUMBERS)),$(LIB_DOUBLE)) $(B)/float/boards/host/board.o
 price-measure-board: price-ready-board
 	@mkdir -p $(PRICE_OUT)
 	@OUT=$(PRICE_OUT) NUMBERS="$(NUMBERS)" TIMING=$(BOARD_TIMING) $(TO_PRICE) LIB_DOUBLE=$(LIB_DOUBLE_BOARD) \
@@ -203,7 +203,7 @@ price-measure-host: price-ready-host
 	@mkdir -p $(PRICE_OUT)
 	@OUT=$(PRICE_OUT) NUMBERS="$(NUMBERS)" WHIRL=build/whirl BOARD=host BOARD_CC=$(CC) BOARD_NM=nm BOARD_SIZE=size \
 	    BOARD_CFLAGS="$(FLAGS_float)" BOARD_LDFLAGS="" BOARD_LDLIBS="" BOARD_OBJECTS=$(B)/float/boards/host/board.o \
-	    LIB_BOARD=$(LIB_FLOAT) PLUGIN= FLAGS="$(OPT)" EMULATE="@" mk/price/measure.sh $(PRICE_CASES) $(PRICE_CSV)
+	    LIB_BOARD=$(LIB_FLOAT) LIB_DOUBLE=$(LIB_DOUBLE) PLUGIN= FLAGS="$(OPT)" EMULATE="@" mk/price/measure.sh $(PRICE_CASES) $(PRICE_CSV)
 
 $(B)/tools/price_table: $(call objects,host,mk/price/table.c) $(LIB_HOST) $(LIB_FLOAT) $(LIB_DOUBLE)
 	$(link)
@@ -218,7 +218,7 @@ price-rows-now: build/whirl build/tools/mechanisms
 	@WHIRL=build/whirl sh mk/price/cases.sh $(PRICE_OUT) $(PRICE_SEED) 160 float >$(PRICE_OUT)/many
 	@head -n 110 $(PRICE_OUT)/many >$(PRICE_OUT)/some
 	@WHIRL=build/whirl sh mk/price/cases.sh $(PRICE_OUT) $(PRICE_SEED) 50 fixed >$(PRICE_OUT)/fixed
-	+@count() { $(MAKE) PRICE_CASES=$(PRICE_OUT)/$$1 NUMBERS="$$2" WORST=0 $$3 || true; }; \
+	+@count() { $(MAKE) PRICE_CASES=$(PRICE_OUT)/$$1 NUMBERS="$$2" $$3 || true; }; \
 	    count some "float double" price-measure-host; \
 	    for board in $(BOARDS_PRICED); do \
 	        case " $(PRICE_MANY) " in *" $$board "*) count many float "BOARD=$$board price-measure-board" ;; \

@@ -3,10 +3,9 @@
 # call it with what TO_PRICE of mk/price.mk says (BOARD, its compiler, flags, objects and emulator), and
 #
 #   OUT      a folder to work in; generated C is kept there for the next board
-#   NUMBERS  some of "float", "double", "fixed"; LIB_BOARD is the core's library in float. Default: float
+#   NUMBERS  some of "float", "double", "fixed"; LIB_BOARD is the core's library in float, LIB_DOUBLE in double.
+#            Default: float
 #   STEPS    counted steps of each. Default: 50
-#   WORST    random steps of a scene with contacts (boards/programs/worst.c), whose longest one is told as the most, in
-#            QEMU; 0: the most is that of STEPS steps. Default: 5000
 #
 # CASES has lines "ID TARGET OPTIONS OF whirl derive...", ID a C identifier. Appends to ROWS.csv, with a header if it is
 # new, a row for each case that runs:
@@ -14,16 +13,16 @@
 #   commit,compiler,flags,board,scene,number,setting,instructions,instructions_most,cycles,cycles_most,
 #   cycles_obtained,flash_bytes,ram_bytes,stack_bytes
 #
-# Instructions and cycles are those of a step: mean and most of STEPS steps behind the first twenty; of a scene with
-# contacts, the middle one of them, which has no event, and the longest of WORST random ones. Flash and RAM are
+# Instructions and cycles are those of a step: mean and most of STEPS steps behind the first twenty. Flash and RAM are
 # those of the smallest firmware around the scene (boards/programs/size.c), the stack what the steps took of it. What
-# cannot be derived, does not fit or does not run is told on standard error and left out; then the exit status is 1.
+# cannot be derived, has contacts, does not fit or does not run is told on standard error and left out; then the exit
+# status is 1.
 set -eu
 here=$(dirname "$0")
 . "$here/../count/common.sh"
-: "${NUMBERS:=float}" "${STEPS:=50}" "${WORST:=5000}"
+: "${NUMBERS:=float}" "${STEPS:=50}"
 NM=${BOARD_NM:-nm}
-export OUT BOARD BOARD_CC BOARD_CFLAGS BOARD_LDFLAGS BOARD_LDLIBS BOARD_OBJECTS LIB_BOARD BOARD_SIZE WHIRL
+export OUT BOARD BOARD_CC BOARD_CFLAGS BOARD_LDFLAGS BOARD_LDLIBS BOARD_OBJECTS LIB_BOARD LIB_DOUBLE BOARD_SIZE WHIRL
 
 COST_HEADER="commit,compiler,flags,board,scene,number,setting,instructions,instructions_most,cycles,cycles_most,"
 COST_HEADER="${COST_HEADER}cycles_obtained,flash_bytes,ram_bytes,stack_bytes"
@@ -49,9 +48,12 @@ if [ "$1" = case ]; then
             exit 0
         }
     fi
-    [ "$number" != double ] || BOARD_CFLAGS="$BOARD_CFLAGS -DWH_DOUBLE=1"
+    if grep -q "_CONTACTS = [1-9]" "$gen.h"; then
+        echo "measure.sh: $target $*: steps with contacts are counted over a whole run: measure_one.sh --whole-run" >&2
+        exit 0
+    fi
     lib=$LIB_BOARD
-    [ "$number" != double ] || lib=$OUT/$BOARD/double/libwhirl.a
+    [ "$number" != double ] || BOARD_CFLAGS="$BOARD_CFLAGS -DWH_DOUBLE=1" lib=$LIB_DOUBLE
     smallest="-DPRICE_SCENE=$id boards/programs/size.c"
     [ "$number" != fixed ] || smallest="-DFIXED_SCENE=$id boards/programs/size_fixed.c"
     # shellcheck disable=SC2086
@@ -83,40 +85,6 @@ csv=$2
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 mkdir -p "$OUT/gen" "$OUT/gen_fixed"
-
-# core_in_double: the core's library once more, where nobody has made it (LIB_DOUBLE)
-core_in_double() {
-    if [ -n "${LIB_DOUBLE:-}" ]; then
-        cp "$LIB_DOUBLE" "$OUT/$BOARD/double/libwhirl.a"
-        return
-    fi
-    for file in core/*.c; do
-        # shellcheck disable=SC2086
-        $BOARD_CC $BOARD_CFLAGS -DWH_DOUBLE=1 -w -c "$file" -o "$OUT/$BOARD/double/core_$(basename "$file" .c).o"
-    done
-    rm -f "$OUT/$BOARD/double/libwhirl.a"
-    ar rcs "$OUT/$BOARD/double/libwhirl.a" "$OUT/$BOARD"/double/core_*.o
-}
-
-# worst ID...: the longest of WORST random steps of these, which have contacts: "ID MOST" to $work/longest
-worst() {
-    elf=$mine/worst.elf
-    "$here/../count/index.sh" "$@" >"$mine/scenes.c"
-    objects=
-    for id in "$@"; do objects="$objects $mine/$id.o"; done
-    for file in boards/programs/worst.c "$mine/scenes.c"; do
-        # shellcheck disable=SC2086
-        $BOARD_CC $flags -w "-I$OUT/gen" "-DWORST_STEPS=${WORST}U" -c "$file" -o "$mine/$(basename "$file" .c)_.o"
-    done
-    # shellcheck disable=SC2086
-    $BOARD_CC $BOARD_LDFLAGS -o "$elf" "$mine/worst_.o" "$mine/scenes_.o" $objects $BOARD_OBJECTS "$lib" "$LIB_BOARD" \
-        $BOARD_LDLIBS
-    EMULATE=$(echo "$emulate" | sed "s|@|$elf|; s|limit.sh [0-9]*|limit.sh 1800|")
-    (count ",every=$WORST") 2>"$work/said" || { grep -q '^interval' "$work/counts" 2>/dev/null || cat "$work/said" >&2; }
-    awk '{ sub(/\r$/, "") }
-        $1 == "interval" { counted[$2] = $3 }
-        $1 == "count" && $5 in counted { print $2, counted[$5] - counted[0] }' "$work/counts" "$work/console" >>"$work/longest"
-}
 
 # bench ID...: one image of these, and its counts appended to $work/counted: ID MEAN MOST CYCLES MOST STACK
 bench() {
@@ -154,14 +122,6 @@ bench() {
         sh -c "$EMULATE counts=$work/counts" >"$work/console" 2>"$work/said" || true
     fi
     awk '
-        function middle(value, n,    i, j, key) {
-            for (i = 1; i < n; i++) {
-                key = value[i]
-                for (j = i - 1; j >= 0 && value[j] > key; j--) { value[j + 1] = value[j] }
-                value[j + 1] = key
-            }
-            return value[int((n - 1) / 2)]
-        }
         { sub(/\r$/, "") }
         $1 == "interval" { counted[$2] = $3 }
         $1 == "cycles" { cycles[$2] = $3; timed = 1 }
@@ -169,23 +129,18 @@ bench() {
         $1 == "failed" { print "measure.sh: " $2 ": " $3 " " $4 " " $5 > "/dev/stderr" }
         $1 == "count" && $3 != "-" {
             sum = most = sum_c = most_c = n = 0
-            delete sorted
-            delete sorted_c
             for (i = $5; i <= $6; i++) {
                 if (!(i in counted)) { next }
                 now = counted[i] - counted[0]
                 sum += now
                 most = now > most ? now : most
-                sorted[n] = now
                 now = timed ? cycles[i] - cycles[0] : 0
                 sum_c += now
                 most_c = now > most_c ? now : most_c
-                sorted_c[n] = now
                 n++
             }
             if (n > 0) {
-                print $2, sum / n, most, (timed ? sum_c / n : ""), (timed ? most_c : ""), (stack[$2] ? stack[$2] : ""), \
-                    middle(sorted, n), (timed ? middle(sorted_c, n) : "")
+                print $2, sum / n, most, (timed ? sum_c / n : ""), (timed ? most_c : ""), (stack[$2] ? stack[$2] : "")
             }
         }' OFS=, "$work/counts" "$work/console" >>"$work/counted" || true
 }
@@ -201,14 +156,12 @@ for number in $NUMBERS; do
     rm -rf "$mine"
     mkdir -p "$mine"
     if [ "$number" = double ]; then
-        core_in_double
-        lib=$mine/libwhirl.a
+        lib=$LIB_DOUBLE
         flags="$flags -DWH_DOUBLE=1"
     fi
     awk -v number="$number" 'NF > 1 { id = $1; $1 = ""; printf "%s %s%s%c", id, number, $0, 0 }' "$cases" |
         xargs -0 -n 1 -P 2 sh "$0" case
     : >"$work/counted"
-    : >"$work/longest"
     ids=$(awk 'NF > 1 { print $1 }' "$cases" | while read -r id; do [ ! -s "$mine/$id.bytes" ] || [ ! -s "$mine/$id.o" ] || echo "$id"; done)
     each=60
     [ -n "${PLUGIN:-}" ] || [ "$BOARD" = host ] || each=1
@@ -218,16 +171,6 @@ for number in $NUMBERS; do
         # shellcheck disable=SC2086
         [ -z "$group" ] || bench $group </dev/null
     done <"$work/groups"
-    for id in $ids; do
-        [ "$number" = fixed ] || ! grep -q "${id}_CONTACTS = [1-9]" "$OUT/gen/$id.h" || echo "$id"
-    done >"$work/eventful"
-    if [ -n "${PLUGIN:-}" ] && [ "$WORST" -gt 0 ]; then
-        xargs -n 60 <"$work/eventful" >"$work/groups"
-        while read -r group; do
-            # shellcheck disable=SC2086
-            [ -z "$group" ] || worst $group </dev/null
-        done <"$work/groups"
-    fi
     obtained=
     [ -z "${TIMING:-}" ] || obtained=estimated
     [ -n "${PLUGIN:-}" ] || [ "$BOARD" = host ] || obtained=simulated
@@ -235,12 +178,9 @@ for number in $NUMBERS; do
     awk -v head="$(commit_of_checkout),$(compiler_of "$BOARD_CC"),\"$FLAGS\",$BOARD" -v number="$number" \
         -v obtained="$obtained" -v board="$BOARD" '
         FILENAME ~ /bytes$/ { bytes[$1] = board == "host" ? "," : $2 "," $3; next }
-        FILENAME ~ /eventful$/ { eventful[$1] = 1; next }
-        FILENAME ~ /longest$/ { longest[$1] = $2; next }
         FILENAME ~ /counted$/ {
             split($0, f, ",")
-            if (f[1] in eventful) { f[2] = f[7]; f[4] = f[8] }
-            found[f[1]] = f[2] "," (f[1] in longest ? longest[f[1]] : f[3]) "," f[4] "," f[5]; stack[f[1]] = board == "host" ? "" : f[6]; next }
+            found[f[1]] = f[2] "," f[3] "," f[4] "," f[5]; stack[f[1]] = board == "host" ? "" : f[6]; next }
         ($1 in found) && ($1 in bytes) {
             method = "rk4"
             more = ""
@@ -251,7 +191,7 @@ for number in $NUMBERS; do
                 else { more = more ":" $i } # what the option before it is given
             }
             print head "," $2 "," number "," method more "," found[$1] "," (board == "host" ? "" : obtained) "," bytes[$1] "," stack[$1]
-        }' "$work/bytes" "$work/eventful" "$work/longest" "$work/counted" "$cases" >"$work/rows"
+        }' "$work/bytes" "$work/counted" "$cases" >"$work/rows"
     cat "$work/rows" >>"$csv"
     wanted=$((wanted + $(awk 'NF > 1' "$cases" | wc -l)))
     told=$((told + $(wc -l <"$work/rows")))
