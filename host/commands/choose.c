@@ -25,86 +25,17 @@ static const char head[] =
     "with contacts, all steps to the horizon. Elsewhere they are predicted, and no scene with contacts\n"
     "has an answer.\n"
     "\n";
-static const char tail[] =
-    "  --rate 500Hz         how often the firmware steps: a period takes whole steps (default: any\n"
-    "                       step will do)\n"
-    "  --clock 16MHz        of the processor: the longest steps must fit into the period (default: the\n"
-    "                       board's own, if it has one)\n"
-    "  --flash 32KB         what the firmware may take; K, KB and KiB are 1024 bytes (default: what\n"
-    "                       the board has, if it is one chip)\n"
-    "  --ram 2KB            the same of its memory and stack\n"
-    "  --predict            predict what steps take, though it could be counted: a few seconds less\n"
-    "  --measure            count, or fail where that cannot be\n"
-    "  --quiet              no progress\n"
-    "\n";
-static const char *const own[] = {"--rate",    "--clock",   "--flash", "--ram",
-                                  "--predict", "--measure", NULL};
-
-static void print_help(FILE *out) {
-    const command_usage common = {.head = "", .groups = PRICING_GROUPS, .tail = ""};
-    const command_usage end = {
-        .head = "",
-        .tail = "",
-        .why = {
-            [EXIT_ROW_OF(EXIT_DONE)] = "",
-            [EXIT_ROW_OF(EXIT_RUN_FAILED)] =
-                "nothing fits (it says what would, and how many settings were left), or there is no\n"
-                "       reference that could be trusted",
-            [EXIT_ROW_OF(EXIT_BAD_INPUT)] = "",
-            [EXIT_ROW_OF(EXIT_INTERRUPTED)] = ""}};
-    fputs(head, out);
-    pricing_describe(out);
-    fputs(tail, out);
-    options_usage(out, &common);
-    options_usage(out, &end);
-}
-
-typedef struct choose_options {
-    pricing_options common;
-    const char *rate;
-    const char *clock;
-    const char *flash;
-    const char *ram;
-    bool measure; /* or fail */
-    bool predict;
-} choose_options;
-
-static bool take_one(int count, char **words, int *at, void *options, bool *bad) {
-    choose_options *o = options;
-    const char **const values[] = {&o->rate, &o->clock, &o->flash, &o->ram};
-    bool *const asked = strcmp(words[*at], "--measure") == 0   ? &o->measure
-                        : strcmp(words[*at], "--predict") == 0 ? &o->predict
-                                                               : NULL;
-    if (asked != NULL) {
-        *asked = true;
-        ++*at;
-        return true;
-    }
-    for (int i = 0; i < (int)(sizeof values / sizeof values[0]) && !*bad; i++) {
-        const char *value = options_value(count, words, at, own[i], bad);
-        if (value != NULL) {
-            *values[i] = value;
-            return true;
-        }
-    }
-    return !*bad && pricing_take(count, words, at, &o->common, bad);
-}
-
-static bool read_options(int count, char **words, choose_options *o) {
-    if (!pricing_read(count, words, own, take_one, o, &o->common)) {
-        return false;
-    }
-    if (o->measure && o->predict) {
+static bool fits(const pricing *p) {
+    if (p->options->value[PRICING_MEASURE] != NULL && p->options->value[PRICING_PREDICT] != NULL) {
         fputs("whirl choose: error: --measure and --predict: one of the two\n", stderr);
         return false;
     }
-    if (o->common.value[PRICING_ERROR] == NULL) {
+    if (!p->asks_error) {
         fputs("whirl choose: error: --error is missing: without it, the cheapest step is none\n"
               "hint: such as --error 1e-3, a part of the largest value, or --of X --error 0.1mm\n",
               stderr);
-        return false;
     }
-    return true;
+    return p->asks_error;
 }
 
 /* "32KB", "2048", "1 MiB": bytes. */
@@ -134,17 +65,19 @@ static bool read_bytes(const char *option, const char *text, double *bytes) {
     return false;
 }
 
-static bool read_limits(const choose_options *o, const pricing *p, choice_wish *w) {
-    const dimension rate = dim_of(0, 0, -1, 0, 0);
+static bool read_limits(const pricing *p, choice_wish *w) {
+    const dimension per_s = dim_of(0, 0, -1, 0, 0);
+    const char *const *v = p->options->value;
     w->clock_Hz = p->board->clock_Hz;
     w->flash_bytes = (double)p->board->flash_bytes;
     w->ram_bytes = (double)p->board->ram_bytes;
-    return (o->rate == NULL ||
-            pricing_quantity("choose", p->of, NULL, "--rate", o->rate, rate, &w->table.rate_Hz)) &&
-           (o->clock == NULL ||
-            pricing_quantity("choose", p->of, NULL, "--clock", o->clock, rate, &w->clock_Hz)) &&
-           (o->flash == NULL || read_bytes("--flash", o->flash, &w->flash_bytes)) &&
-           (o->ram == NULL || read_bytes("--ram", o->ram, &w->ram_bytes));
+    return (v[PRICING_RATE] == NULL ||
+            pricing_quantity("choose", p->of, NULL, "--rate", v[PRICING_RATE], per_s,
+                             &w->table.rate_Hz)) &&
+           (v[PRICING_CLOCK] == NULL || pricing_quantity("choose", p->of, NULL, "--clock",
+                                                         v[PRICING_CLOCK], per_s, &w->clock_Hz)) &&
+           (v[PRICING_FLASH] == NULL || read_bytes("--flash", v[PRICING_FLASH], &w->flash_bytes)) &&
+           (v[PRICING_RAM] == NULL || read_bytes("--ram", v[PRICING_RAM], &w->ram_bytes));
 }
 
 /* Records of whole periods, 1, 2, 5, 10, ... of them, not too many; false when there is none to the horizon. */
@@ -220,7 +153,7 @@ static int says_contacts(const pricing *p, const char *missing) {
     return EXIT_RUN_FAILED;
 }
 
-static int choose_from(pricing *p, choice_wish *w, const choose_options *o, bool counts) {
+static int choose_from(pricing *p, choice_wish *w, bool counts) {
     const table_words words = {p->target, p->words, false, p->effort};
     w->table.error = allowed_of(p);
     w->counts = counts;
@@ -231,7 +164,7 @@ static int choose_from(pricing *p, choice_wish *w, const choose_options *o, bool
     int code = EXIT_DONE;
     if (counts && !p->trial.stopped &&
         choice_counted(&p->trial, made, w, &words, &c) == MEASURED_MISSING) {
-        if (o->measure) {
+        if (p->options->value[PRICING_MEASURE] != NULL) {
             pricing_says_missing(p, "a tool is missing");
             code = EXIT_BAD_INPUT;
         } else if (p->trial.without_events) {
@@ -261,18 +194,20 @@ typedef struct basis {
     char told[PRICES_TEXT];
 } basis;
 
+static bool predicts(const pricing *p) { return p->options->value[PRICING_PREDICT] != NULL; }
+
 /* EXIT_BAD_INPUT: a --measure that no run can give. */
-static int look_for_tools(const choose_options *o, const pricing *p, basis *b) {
+static int look_for_tools(const pricing *p, basis *b) {
     b->missing =
-        o->predict ? "" : measured_missing(p->has_trial ? &p->trial : NULL, p->board, b->text);
-    if (o->measure && b->missing != NULL) {
+        predicts(p) ? "" : measured_missing(p->has_trial ? &p->trial : NULL, p->board, b->text);
+    if (p->options->value[PRICING_MEASURE] != NULL && b->missing != NULL) {
         pricing_says_missing(p, b->missing);
         return EXIT_BAD_INPUT;
     }
     return EXIT_DONE;
 }
 
-static int choose_begun(const choose_options *o, pricing *p, choice_wish *w) {
+static int choose_begun(pricing *p, choice_wish *w) {
     basis b;
     if (p->trial.stopped) {
         return EXIT_INTERRUPTED;
@@ -281,20 +216,20 @@ static int choose_begun(const choose_options *o, pricing *p, choice_wish *w) {
         figure_reference(stderr, &p->trial);
         return EXIT_RUN_FAILED;
     }
-    if (w->table.progress != NULL && !o->predict) {
+    if (w->table.progress != NULL && !predicts(p)) {
         fputs("\rbuilding what counts ", stderr);
     }
-    const int code = look_for_tools(o, p, &b);
+    const int code = look_for_tools(p, &b);
     if (code != EXIT_DONE) {
         return code;
     }
     if (b.missing != NULL && p->trial.image[0]->contacts > 0) {
-        return says_contacts(p, o->predict ? "leave out --predict" : b.missing);
+        return says_contacts(p, predicts(p) ? "leave out --predict" : b.missing);
     }
     w->prices = b.missing == NULL ? prices_counted
-                : o->predict      ? prices_asked
+                : predicts(p)     ? prices_asked
                                   : predicted_since(b.missing, b.told);
-    int done = choose_from(p, w, o, b.missing == NULL);
+    int done = choose_from(p, w, b.missing == NULL);
     w->prices = NULL; /* `b` may hold it */
     if (done == EXIT_DONE && trial_horizon_s(&p->trial) < 0.5 * p->until_s) {
         fprintf(stderr,
@@ -307,43 +242,27 @@ static int choose_begun(const choose_options *o, pricing *p, choice_wish *w) {
     return done;
 }
 
-static int choose_scene(const choose_options *o, pricing *p) {
+static int choose_scene(pricing *p) {
     choice_wish w = {.table = pricing_wish(p)};
     whole_ratio spacing;
     basis early;
-    if (!read_limits(o, p, &w) || !space_records(p, &w, &spacing) ||
-        (o->measure && look_for_tools(o, p, &early) != EXIT_DONE)) {
+    if (!fits(p) || !read_limits(p, &w) || !space_records(p, &w, &spacing) ||
+        (p->options->value[PRICING_MEASURE] != NULL && look_for_tools(p, &early) != EXIT_DONE)) {
         return EXIT_BAD_INPUT;
     }
-    const bool shows = !o->common.quiet && isatty(STDERR_FILENO);
+    const bool shows = p->options->value[PRICING_QUIET] == NULL && isatty(STDERR_FILENO);
     w.table.progress = shows ? show_progress : NULL;
     w.counting = shows ? show_counting : NULL;
     interrupts_catch();
-    int code = pricing_begin(p, spacing, &interrupted);
-    if (code == EXIT_DONE) {
-        code = choose_begun(o, p, &w);
-    }
-    if (code == EXIT_INTERRUPTED) {
-        fputs("whirl choose: interrupted\n", stderr);
-    }
-    return code;
+    const int code = pricing_begin(p, spacing, &interrupted);
+    return code == EXIT_DONE ? choose_begun(p, &w) : code;
 }
 
 int command_choose(int count, char **words) {
-    if (options_wants_help(count, words)) {
-        print_help(stdout);
-        return EXIT_DONE;
-    }
-    choose_options o = {.common = pricing_defaults("choose", count)};
-    int code = EXIT_BAD_INPUT;
-    if (read_options(count, words, &o)) {
-        pricing p;
-        code = pricing_open(&p, &o.common);
-        if (code == EXIT_DONE) {
-            code = choose_scene(&o, &p);
-        }
-        pricing_close(&p);
-    }
-    pricing_forget(&o.common);
-    return code;
+    static const pricing_command choose = {
+        "choose", PRICING_CHOOSE, head,
+        "nothing fits (it says what would, and how many settings were left), or there is no\n"
+        "       reference that could be trusted",
+        choose_scene};
+    return pricing_run(&choose, count, words);
 }

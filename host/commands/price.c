@@ -21,63 +21,6 @@ static const char head[] =
     "has a letter that tells how it is known.\n"
     "What is run is named as for `whirl run`.\n"
     "\n";
-static const char tail[] =
-    "  --all                every row\n"
-    "  --csv FILE           every row, with the command lines that do it again; - is standard output\n"
-    "                       (the table then goes to standard error)\n"
-    "  --measure            count what is on the front instead of predicting it: in Whirl's source\n"
-    "                       tree, where the board's compiler and emulator are; takes minutes\n"
-    "  --quiet              no table, no progress\n"
-    "\n";
-static const char *const own[] = {"--all", "--csv", "--measure", NULL};
-
-static void print_help(FILE *out) {
-    const command_usage common = {.head = "", .groups = PRICING_GROUPS, .tail = ""};
-    const command_usage end = {
-        .head = "",
-        .tail = "",
-        .why = {
-            [EXIT_ROW_OF(EXIT_DONE)] = "",
-            [EXIT_ROW_OF(EXIT_RUN_FAILED)] =
-                "there is no reference that could be trusted, no setting that keeps to the motion,\n"
-                "       none with a price, or none within --error",
-            [EXIT_ROW_OF(EXIT_BAD_INPUT)] = "",
-            [EXIT_ROW_OF(EXIT_INTERRUPTED)] = ""}};
-    fputs(head, out);
-    pricing_describe(out);
-    fputs(tail, out);
-    options_usage(out, &common);
-    options_usage(out, &end);
-}
-
-typedef struct price_options {
-    pricing_options common;
-    const char *csv;
-    bool all;
-    bool measure;
-} price_options;
-
-static bool take_own(int count, char **words, int *at, price_options *o, bool *bad) {
-    if (strcmp(words[*at], "--all") == 0) {
-        o->all = true;
-        ++*at;
-        return true;
-    }
-    if (strcmp(words[*at], "--measure") == 0) {
-        o->measure = true;
-        ++*at;
-        return true;
-    }
-    const char *value = options_value(count, words, at, "--csv", bad);
-    o->csv = value != NULL ? value : o->csv;
-    return value != NULL || *bad;
-}
-
-static bool take_one(int count, char **words, int *at, void *options, bool *bad) {
-    price_options *o = options;
-    return take_own(count, words, at, o, bad) || pricing_take(count, words, at, &o->common, bad);
-}
-
 static void show_progress(void *context, int done, int of) {
     (void)context;
     fprintf(stderr, "\r%3d of %d settings ", done, of);
@@ -111,10 +54,12 @@ static int say_cheapest(FILE *out, const pricing *p, const table *made, const ta
     return EXIT_RUN_FAILED;
 }
 
-static int show(const price_options *o, pricing *p, const table *made) {
-    const table_words words = {p->target, p->words, o->all, p->effort};
-    FILE *out = o->csv != NULL && strcmp(o->csv, "-") == 0 ? stderr : stdout;
-    if (!o->common.quiet) {
+static int show(pricing *p, const table *made) {
+    const char *const *value = p->options->value;
+    const char *csv = value[PRICING_CSV];
+    const table_words words = {p->target, p->words, value[PRICING_ALL] != NULL, p->effort};
+    FILE *out = csv != NULL && strcmp(csv, "-") == 0 ? stderr : stdout;
+    if (value[PRICING_QUIET] == NULL) {
         table_print(out, &p->trial, made, &words);
     }
     if (!p->trial.reliable || made == NULL || made->count == 0) {
@@ -122,7 +67,7 @@ static int show(const price_options *o, pricing *p, const table *made) {
                 p->trial.reliable ? ": no setting has a row" : ", without a reference to trust");
         return EXIT_RUN_FAILED;
     }
-    if (o->csv != NULL && !write_csv(o->csv, &p->trial, made, &words)) {
+    if (csv != NULL && !write_csv(csv, &p->trial, made, &words)) {
         return EXIT_BAD_INPUT;
     }
     return p->asks_error ? say_cheapest(out, p, made, &words) : EXIT_DONE;
@@ -147,10 +92,12 @@ static bool can_measure(const pricing *p) {
     return missing == NULL;
 }
 
-static int price_scene(const price_options *o, pricing *p) {
-    const bool progress = !o->common.quiet && isatty(STDERR_FILENO);
-    if (source_would_be_lost(&p->from, "--csv", o->csv, "") || !written_can(o->csv) ||
-        (o->measure && !can_measure(p))) {
+static int price_scene(pricing *p) {
+    const char *csv = p->options->value[PRICING_CSV];
+    const bool measure = p->options->value[PRICING_MEASURE] != NULL;
+    const bool progress = p->options->value[PRICING_QUIET] == NULL && isatty(STDERR_FILENO);
+    if (source_would_be_lost(&p->from, "--csv", csv, "") || !written_can(csv) ||
+        (measure && !can_measure(p))) {
         return EXIT_BAD_INPUT;
     }
     interrupts_catch();
@@ -163,36 +110,25 @@ static int price_scene(const price_options *o, pricing *p) {
         table_wish wish = pricing_wish(p);
         wish.progress = progress ? show_progress : NULL;
         made = table_new(&p->trial, &wish);
-        code = o->measure && !p->trial.stopped ? count_front(p, made, &wish) : code;
+        code = measure && !p->trial.stopped ? count_front(p, made, &wish) : code;
     }
     if (progress) {
         fputs("\r                    \r", stderr);
     }
     if (code == EXIT_DONE && p->trial.stopped) {
-        fputs("whirl price: interrupted\n", stderr);
         code = EXIT_INTERRUPTED;
     } else if (code == EXIT_DONE) {
-        code = show(o, p, made);
+        code = show(p, made);
     }
     table_free(made);
     return code;
 }
 
 int command_price(int count, char **words) {
-    if (options_wants_help(count, words)) {
-        print_help(stdout);
-        return EXIT_DONE;
-    }
-    price_options o = {.common = pricing_defaults("price", count)};
-    int code = EXIT_BAD_INPUT;
-    if (pricing_read(count, words, own, take_one, &o, &o.common)) {
-        pricing p;
-        code = pricing_open(&p, &o.common);
-        if (code == EXIT_DONE) {
-            code = price_scene(&o, &p);
-        }
-        pricing_close(&p);
-    }
-    pricing_forget(&o.common);
-    return code;
+    static const pricing_command price = {
+        "price", PRICING_PRICE, head,
+        "there is no reference that could be trusted, no setting that keeps to the motion,\n"
+        "       none with a price, or none within --error",
+        price_scene};
+    return pricing_run(&price, count, words);
 }

@@ -16,12 +16,13 @@
 #include "host/sweep/jobs.h"
 
 typedef struct pricing_row {
+    unsigned commands;
     const char *word;
     const char *value;
     const char *text;
 } pricing_row;
 
-#define ROW(id, word, value, text) [id] = {word, value, text},
+#define ROW(id, who, word, value, text) [id] = {PRICING_##who, word, value, text},
 static const pricing_row rows[PRICING_OPTIONS] = {PRICING_OPTION_ROWS(ROW)};
 #undef ROW
 
@@ -34,22 +35,41 @@ pricing_options pricing_defaults(const char *command, int word_count) {
                              .vary = room(word_count, sizeof(const char *))};
 }
 
-void pricing_forget(pricing_options *o) {
-    options_forget(&o->common);
-    free(o->vary);
-}
-
-void pricing_describe(FILE *out) {
+static void print_help(FILE *out, const pricing_command *c) {
+    const command_usage common = {.head = "", .groups = PRICING_GROUPS, .tail = ""};
+    const command_usage end = {.head = "",
+                               .tail = "",
+                               .why = {[EXIT_ROW_OF(EXIT_DONE)] = "",
+                                       [EXIT_ROW_OF(EXIT_RUN_FAILED)] = c->failed,
+                                       [EXIT_ROW_OF(EXIT_BAD_INPUT)] = "",
+                                       [EXIT_ROW_OF(EXIT_INTERRUPTED)] = ""}};
+    fputs(c->head, out);
     for (int i = 0; i < PRICING_OPTIONS; i++) {
-        const int width = fprintf(out, "  %s %s", rows[i].word, rows[i].value);
-        fprintf(out, "%*s", TEXT_COLUMN - width, "");
-        options_text(out, rows[i].text, TEXT_COLUMN, TEXT_COLUMN, TEXT_COLUMN + OPTION_TEXT_WIDTH);
+        if ((rows[i].commands & c->bit) != 0) {
+            const char *value = rows[i].value != NULL ? rows[i].value : "";
+            const int width = fprintf(out, "  %s %s", rows[i].word, value);
+            fprintf(out, "%*s", TEXT_COLUMN - width, "");
+            options_text(out, rows[i].text, TEXT_COLUMN, TEXT_COLUMN,
+                         TEXT_COLUMN + OPTION_TEXT_WIDTH);
+        }
     }
+    fputc('\n', out);
+    options_usage(out, &common);
+    options_usage(out, &end);
 }
 
-bool pricing_take(int count, char **words, int *at, pricing_options *o, bool *bad) {
+static bool take(int count, char **words, int *at, void *options, bool *bad) {
+    pricing_options *o = options;
     for (int i = 0; i < PRICING_OPTIONS && !*bad; i++) {
-        const char *value = options_value(count, words, at, rows[i].word, bad);
+        const char *value = NULL;
+        if ((rows[i].commands & o->bit) == 0) {
+            continue;
+        }
+        if (rows[i].value != NULL) {
+            value = options_value(count, words, at, rows[i].word, bad);
+        } else if (strcmp(words[*at], rows[i].word) == 0) {
+            value = words[(*at)++];
+        }
         if (value != NULL) {
             o->value[i] = value;
             if (i == PRICING_VARY) {
@@ -58,28 +78,20 @@ bool pricing_take(int count, char **words, int *at, pricing_options *o, bool *ba
             return true;
         }
     }
-    if (!*bad && strcmp(words[*at], "--quiet") == 0) {
-        o->quiet = true;
-        ++*at;
-        return true;
-    }
     return false;
 }
 
-bool pricing_read(int count, char **words, const char *const *own, target_take *take, void *options,
-                  pricing_options *o) {
-    enum { WORDS_MOST = PRICING_OPTIONS + 32 };
-    const char *all[WORDS_MOST] = {"--quiet"};
-    int all_count = 1;
+static bool read_words(int count, char **words, pricing_options *o) {
+    const char *own[PRICING_OPTIONS + 1] = {NULL};
+    int all = 0;
     for (int i = 0; i < PRICING_OPTIONS; i++) {
-        all[all_count++] = rows[i].word;
-    }
-    for (; *own != NULL && all_count < WORDS_MOST - 1; own++) {
-        all[all_count++] = *own;
+        if ((rows[i].commands & o->bit) != 0) {
+            own[all++] = rows[i].word;
+        }
     }
     const target_reader reader = {
-        .command = o->command, .groups = PRICING_GROUPS, .own = all, .take = take};
-    if (!target_read(&reader, count, words, &o->common, options, &o->target)) {
+        .command = o->command, .groups = PRICING_GROUPS, .own = own, .take = take};
+    if (!target_read(&reader, count, words, &o->common, o, &o->target)) {
         return false;
     }
     if (o->target == NULL) {
@@ -89,6 +101,30 @@ bool pricing_read(int count, char **words, const char *const *own, target_take *
                 o->command, o->command);
     }
     return o->target != NULL;
+}
+
+int pricing_run(const pricing_command *c, int count, char **words) {
+    if (options_wants_help(count, words)) {
+        print_help(stdout, c);
+        return EXIT_DONE;
+    }
+    pricing_options o = pricing_defaults(c->name, count);
+    int code = EXIT_BAD_INPUT;
+    o.bit = c->bit;
+    if (read_words(count, words, &o)) {
+        pricing p;
+        code = pricing_open(&p, &o);
+        if (code == EXIT_DONE) {
+            code = c->run(&p);
+        }
+        if (code == EXIT_INTERRUPTED) {
+            fprintf(stderr, "whirl %s: interrupted\n", c->name);
+        }
+        pricing_close(&p);
+    }
+    options_forget(&o.common);
+    free(o.vary);
+    return code;
 }
 
 void pricing_says_missing(const pricing *p, const char *why) {

@@ -8,58 +8,84 @@
 #include "pricing_scene.h"
 #include "target.h"
 
-/* X(id, word, what stands behind it, text) of both. */
+/* Which of the two takes an option. */
+enum { PRICING_PRICE = 1, PRICING_CHOOSE = 2, PRICING_BOTH = 3 };
+
+/* X(id, who takes it, word, its value or NULL for none, text). */
 #define PRICING_OPTION_ROWS(X) \
-    X(PRICING_BOARD, "--board", "B", \
-      "whose price: an emulated board of docs/boards.md, or host (default: mps2-an386,\n" \
-      "a Cortex-M4F, also for an STM32F405)") \
-    X(PRICING_OF, "--of", "X", \
-      "the error of one output, coordinate or rate, in its own unit; without it\n" \
-      "each coordinate and rate as a part of its largest value, the worst of them") \
-    X(PRICING_ERROR, "--error", "0.1mm", "the error that is allowed; a bare number is SI") \
-    X(PRICING_HORIZON, "--horizon", "T", "look at errors until then (default: the scene's end)") \
-    X(PRICING_VARY, "--vary", "RANGE", \
-      "the worst of sampled places of a parameter, an input or a start value:\n" \
-      "duty=0.2..0.8 samples three, the ends among them, duty=0.2..0.8:5 five.\n" \
-      "Repeatable: all combinations. The scene's own values are always sampled too") \
-    X(PRICING_METHOD, "--method", "M,...", \
-      "try these methods in place of rk4,nystroem3,nystroem4,nystroem5, beside\n" \
-      "which others save nothing in the median; all: every one") \
-    X(PRICING_EFFORT, "--effort", "1e9", \
-      "operations that all trials may evaluate: 1e9 take about 5 s of a processor")
-#define PRICING_OPTION_ID(id, word, value, text) id,
+    X(PRICING_BOARD, BOTH, "--board", "B", \
+      "whose price: an emulated board of docs/boards.md, or host (default: mps2-an386, a " \
+      "Cortex-M4F, also for an STM32F405)") \
+    X(PRICING_OF, BOTH, "--of", "X", \
+      "the error of one output, coordinate or rate, in its own unit; without it each " \
+      "coordinate and rate as a part of its largest value, the worst of them") \
+    X(PRICING_ERROR, BOTH, "--error", "0.1mm", "the error that is allowed; a bare number is SI") \
+    X(PRICING_HORIZON, BOTH, "--horizon", "T", \
+      "look at errors until then (default: the scene's end)") \
+    X(PRICING_VARY, BOTH, "--vary", "RANGE", \
+      "the worst of sampled places of a parameter, an input or a start value: duty=0.2..0.8 " \
+      "samples three, the ends among them, duty=0.2..0.8:5 five. Repeatable: all " \
+      "combinations. The scene's own values are always sampled too") \
+    X(PRICING_METHOD, BOTH, "--method", "M,...", \
+      "try these methods in place of rk4,nystroem3,nystroem4,nystroem5, beside which others " \
+      "save nothing in the median; all: every one") \
+    X(PRICING_EFFORT, BOTH, "--effort", "1e9", \
+      "operations that all trials may evaluate: 1e9 take about 5 s of a processor") \
+    X(PRICING_ALL, PRICE, "--all", NULL, "every row") \
+    X(PRICING_CSV, PRICE, "--csv", "FILE", \
+      "every row, with the command lines that do it again; - is standard output (the table " \
+      "then goes to standard error)") \
+    X(PRICING_RATE, CHOOSE, "--rate", "500Hz", \
+      "how often the firmware steps: a period takes whole steps (default: any step will do)") \
+    X(PRICING_CLOCK, CHOOSE, "--clock", "16MHz", \
+      "of the processor: the longest steps must fit into the period (default: the board's " \
+      "own, if it has one)") \
+    X(PRICING_FLASH, CHOOSE, "--flash", "32KB", \
+      "what the firmware may take; K, KB and KiB are 1024 bytes (default: what the board has, " \
+      "if it is one chip)") \
+    X(PRICING_RAM, CHOOSE, "--ram", "2KB", "the same of its memory and stack") \
+    X(PRICING_PREDICT, CHOOSE, "--predict", NULL, \
+      "predict what steps take, though it could be counted: a few seconds less") \
+    X(PRICING_MEASURE, BOTH, "--measure", NULL, \
+      "count, or fail where that cannot be: in Whirl's source tree, with the board's compiler " \
+      "and emulator. price counts its front, which takes minutes") \
+    X(PRICING_QUIET, BOTH, "--quiet", NULL, "no progress; of price no table, either")
+#define PRICING_OPTION_ID(id, who, word, value, text) id,
 typedef enum pricing_option {
     PRICING_OPTION_ROWS(PRICING_OPTION_ID) PRICING_OPTIONS
 } pricing_option;
 #undef PRICING_OPTION_ID
 
+typedef struct pricing pricing;
+
+typedef struct pricing_command {
+    const char *name;   /* "price" */
+    unsigned bit;       /* PRICING_PRICE or PRICING_CHOOSE */
+    const char *head;   /* of its help text */
+    const char *failed; /* why its exit status may be 1 */
+    int (*run)(pricing *p);
+} pricing_command;
+
 typedef struct pricing_options {
     const char *command; /* "price" */
+    unsigned bit;
     common_options common;
     const char *target;
     const char *value[PRICING_OPTIONS]; /* NULL: not given; of --vary the last */
     const char **vary;                  /* [word count] */
     int vary_count;
-    bool quiet;
     bool balance; /* overrides.balance */
 } pricing_options;
 
 enum { PRICING_GROUPS = OPTIONS_CHANGE };
 
 pricing_options pricing_defaults(const char *command, int word_count);
-void pricing_forget(pricing_options *o);
-/* Prints the lines of a help text. */
-void pricing_describe(FILE *out);
-/* Takes the word at *at if it is an option of both alone; else false, *at as it was. *bad: told. */
-bool pricing_take(int count, char **words, int *at, pricing_options *o, bool *bad);
-/* All words: `take` takes those of the command, `own` (NULL at the end), and calls pricing_take(). False: told; also where
- * no scene is named. */
-bool pricing_read(int count, char **words, const char *const *own, target_take *take, void *options,
-                  pricing_options *o);
+/* Reads the words, opens the scene, runs the command. */
+int pricing_run(const pricing_command *c, int count, char **words);
 
 /* --- the scene -------------------------------------------------------------------------------------*/
 
-typedef struct pricing {
+struct pricing {
     const pricing_options *options;
     source_model from;
     const mechanism *of;
@@ -78,7 +104,7 @@ typedef struct pricing {
     char *target; /* as it is typed again */
     trials trial;
     bool has_trial;
-} pricing;
+};
 
 /* Reads all that the options say of the scene. Returns an exit code, what is wrong is told; pricing_close() in any case. */
 int pricing_open(pricing *p, const pricing_options *o);

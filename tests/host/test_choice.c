@@ -227,36 +227,6 @@ static void test_what_would_fit_does(void) {
     close_request(&q);
 }
 
-static void test_settings_are_all_others(void) {
-    for (int i = 0; i < setting_count(); i++) {
-        char one[SETTING_TEXT];
-        char other[SETTING_TEXT];
-        const setting s = setting_at(i);
-        setting_options(&s, true, one);
-        for (int k = 0; k < i; k++) {
-            const setting before = setting_at(k);
-            TEST_ASSERT_TRUE_MESSAGE(strcmp(one, setting_options(&before, true, other)) != 0, one);
-        }
-        for (int k = 0; k < AXES; k++) {
-            TEST_ASSERT_NOT_NULL(setting_word(&s, (setting_axis)k));
-            TEST_ASSERT_NOT_NULL(setting_heading((setting_axis)k));
-        }
-    }
-}
-
-/* Steps as text come back as the same fraction, whatever the rate. */
-static void test_times_come_back(void) {
-    dice d = dice_of("choice times", 502);
-    for (int i = 0; i < 3000; i++) {
-        whole_ratio time = {1 + dice_one_of(&d, 500), 1 + dice_one_of(&d, 100000)};
-        char text[TRIAL_TIME];
-        time = ratio_of((double)time.numerator / (double)time.denominator);
-        const whole_ratio again = ratio_of(strtod(trial_time(time, text), NULL));
-        TEST_ASSERT_TRUE_MESSAGE(
-            again.numerator == time.numerator && again.denominator == time.denominator, text);
-    }
-}
-
 /* --- which settings a scene has ------------------------------------------------------------------------*/
 
 /* The code that a setting of this scene becomes; NULL: it does not take it. To be freed. */
@@ -384,8 +354,6 @@ static void test_linear_scenes_have_the_matrix_on_their_front(void) {
 void suite_choice(void) {
     RUN_TEST(test_settings_of_a_scene_are_those_that_differ);
     RUN_TEST(test_linear_scenes_have_the_matrix_on_their_front);
-    RUN_TEST(test_settings_are_all_others);
-    RUN_TEST(test_times_come_back);
     RUN_TEST(test_drawn_requests);
     RUN_TEST(test_rows_depend_on_the_effort_alone);
     RUN_TEST(test_what_would_fit_does);
