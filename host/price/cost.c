@@ -108,22 +108,22 @@ cost cost_of(const image *im, const cost_board *board, cost_number number) {
 
 /* --- counted -----------------------------------------------------------------------------------------*/
 
-bool cost_cut(char *row, char *column[COST_COLUMNS]) {
+bool cost_cut(char *row, char **column, int columns) {
     int count = 0;
     bool quoted = false;
     row[strcspn(row, "\r\n")] = '\0';
     column[count++] = row;
-    for (char *at = row; *at != '\0' && count <= COST_COLUMNS; at++) {
+    for (char *at = row; *at != '\0' && count <= columns; at++) {
         quoted = quoted != (*at == '"');
         if (*at == ',' && !quoted) {
             *at = '\0';
-            if (count < COST_COLUMNS) {
+            if (count < columns) {
                 column[count] = at + 1;
             }
             count++;
         }
     }
-    return count == COST_COLUMNS;
+    return count == columns;
 }
 
 static cost_figure told(const char *text, cost_basis basis) {
@@ -137,7 +137,7 @@ bool cost_measured(const char *row, const cost_board *board, cost *c) {
         return false;
     }
     memcpy(copy, row, strlen(row) + 1);
-    if (!cost_cut(copy, column) || strcmp(column[3], board->name) != 0) {
+    if (!cost_cut(copy, column, COST_COLUMNS) || strcmp(column[3], board->name) != 0) {
         return false;
     }
     c->why = "";

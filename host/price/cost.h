@@ -56,8 +56,8 @@ cost_figure cost_ranged(const cost_board *board, const cost_figure *instructions
     "commit,compiler,flags,board,scene,number,setting,instructions,instructions_most,cycles,cycles_most," \
     "cycles_obtained,flash_bytes,ram_bytes,stack_bytes"
 enum { COST_COLUMNS = 15 };
-/* Cuts a row at its commas outside quotes; false unless it has COST_COLUMNS. */
-bool cost_cut(char *row, char *column[COST_COLUMNS]);
+/* Cuts a row at its commas outside quotes; false unless it has so many columns. */
+bool cost_cut(char *row, char **column, int columns);
 bool cost_measured(const char *row, const cost_board *board, cost *c);
 
 #endif

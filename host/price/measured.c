@@ -88,22 +88,6 @@ enum {
     RUN_COLUMNS
 };
 
-/* Cuts a row at its commas. */
-static bool cut(char *row, const char *column[RUN_COLUMNS]) {
-    int count = 0;
-    column[count++] = row;
-    for (char *at = row; *at != '\0'; at++) {
-        if (*at == ',') {
-            *at = '\0';
-            if (count == RUN_COLUMNS) {
-                return false;
-            }
-            column[count++] = at + 1;
-        }
-    }
-    return count == RUN_COLUMNS;
-}
-
 static double value_of(const char *text) { return decimal_read(text, NULL); }
 
 /* The larger of a figure and what was counted at one more place. */
@@ -116,8 +100,8 @@ static void grow(cost_figure *f, cost_basis basis, const char *text) {
 
 /* Adds one place's whole run to a row: false where the line is none. */
 static bool enter_run(const cost_board *board, char *line, table_row *to) {
-    const char *column[RUN_COLUMNS];
-    if (!cut(line, column) || strcmp(column[0], board->name) != 0) {
+    char *column[RUN_COLUMNS];
+    if (!cost_cut(line, column, RUN_COLUMNS) || strcmp(column[0], board->name) != 0) {
         return false;
     }
     cost *c = &to->cost;

@@ -285,14 +285,13 @@ void trial_end(trials *t) {
 
 /* --- trials ----------------------------------------------------------------------------------------*/
 
-static void enter(const trials *t, int point, const deviation *d, trial_result *worst) {
+static void enter(int point, const deviation *d, trial_result *worst) {
     const bool bound = d->error < 3.0 * d->known;
     const double error = bound ? d->error + d->known : d->error;
     const bool first = point == 0;
     worst->evaluations = number_most(worst->evaluations, d->evaluations);
     worst->evaluations_most = number_most(worst->evaluations_most, d->evaluations_most);
     worst->usable = (first || worst->usable) && d->usable;
-    (void)t;
     if (first || !(error <= worst->error)) {
         worst->error = error;
         worst->bound = bound;
@@ -321,7 +320,7 @@ trial_result trial_run(trials *t, const setting *s, deviation_pace pace) {
             t->stopped = true;
             return (trial_result){.ran = false};
         }
-        enter(t, p, &d, &worst);
+        enter(p, &d, &worst);
         if (!worst.usable) {
             break;
         }

@@ -182,15 +182,9 @@ for number in $NUMBERS; do
             split($0, f, ",")
             found[f[1]] = f[2] "," f[3] "," f[4] "," f[5]; stack[f[1]] = board == "host" ? "" : f[6]; next }
         ($1 in found) && ($1 in bytes) {
-            method = "rk4"
-            more = ""
-            for (i = 3; i <= NF; i++) {
-                if ($i == "--method") { method = $(i + 1); i++ }
-                else if ($i == "--angles") { more = more ($(i + 1) == "turned" ? "" : "-" $(i + 1)); i++ }
-                else if ($i ~ /^--/) { option = $i; sub(/^--/, "", option); more = more "-" option }
-                else { more = more ":" $i } # what the option before it is given
-            }
-            print head "," $2 "," number "," method more "," found[$1] "," (board == "host" ? "" : obtained) "," bytes[$1] "," stack[$1]
+            setting = $3
+            for (i = 4; i <= NF; i++) { setting = setting " " $i }
+            print head "," $2 "," number ",\"" setting "\"," found[$1] "," (board == "host" ? "" : obtained) "," bytes[$1] "," stack[$1]
         }' "$work/bytes" "$work/counted" "$cases" >"$work/rows"
     cat "$work/rows" >>"$csv"
     wanted=$((wanted + $(awk 'NF > 1' "$cases" | wc -l)))

@@ -35,40 +35,6 @@ static const char *const words_of[COST_QUANTITIES] = {"INSTRUCTIONS", "CYCLES", 
 
 /* --- reading -----------------------------------------------------------------------------------------*/
 
-/* "rk4-tables:linear-compensated" as options of a command line. */
-static int setting_words(char *setting, char *words[WORDS_MOST]) {
-    static char text[WORDS_MOST][64];
-    int count = 0;
-    size_t longest = 0;
-    for (int m = 0; m < WH_METHODS; m++) {
-        const size_t length = strlen(wh_methods[m].word);
-        if (strncmp(setting, wh_methods[m].word, length) == 0 && length > longest) {
-            longest = length;
-        }
-    }
-    snprintf(text[count++], sizeof text[0], "--method");
-    snprintf(text[count++], sizeof text[0], "%.*s", (int)longest, setting);
-    char *at = setting + longest;
-    while (*at == '-' && count < WORDS_MOST - 2) {
-        char *const word = at + 1;
-        const size_t length = strcspn(word, "-:");
-        const bool angles = strncmp(word, "lookup", length) == 0;
-        snprintf(text[count++], sizeof text[0], "--%.*s", angles ? 6 : (int)length,
-                 angles ? "angles" : word);
-        at = word + length;
-        if (*at == ':' || angles) {
-            char *const value = angles ? word : at + 1;
-            const size_t size = strcspn(value, "-");
-            snprintf(text[count++], sizeof text[0], "%.*s", (int)size, value);
-            at = value + size;
-        }
-    }
-    for (int i = 0; i < count; i++) {
-        words[i] = text[i];
-    }
-    return count;
-}
-
 static bool count_row(row *r, char *const column[COST_COLUMNS]) {
     char setting[128];
     char *words[WORDS_MOST];
@@ -79,7 +45,11 @@ static bool count_row(row *r, char *const column[COST_COLUMNS]) {
     common_options options = options_defaults();
     bool bad = false;
     snprintf(setting, sizeof setting, "%s", column[6]);
-    const int count = setting_words(setting, words);
+    int count = 0;
+    for (char *word = strtok(setting, " \""); word != NULL && count < WORDS_MOST;
+         word = strtok(NULL, " \"")) {
+        words[count++] = word;
+    }
     for (int at = 0; at < count && !bad;) {
         bad = !options_take("price_table", OPTIONS_ENGINE | OPTIONS_CHANGE | OPTIONS_STEP, count,
                             words, &at, &options, &bad) ||
@@ -121,7 +91,7 @@ static void read_rows(const char *path) {
     }
     while (fgets(line, sizeof line, in) != NULL && row_count < ROWS_MOST) {
         row *r = &rows[row_count];
-        if (!cost_cut(line, column) || strcmp(column[0], "commit") == 0) {
+        if (!cost_cut(line, column, COST_COLUMNS) || strcmp(column[0], "commit") == 0) {
             continue;
         }
         *r = (row){.board = cost_board_named(column[3]),

@@ -157,10 +157,10 @@ verdict $? "and without it prices are predicted, which is said" "$scratch/out"
 
 # --- measure_one.sh ------------------------------------------------------------------------------------------------------
 sh mk/price/measure_one.sh mps2-an386 float "$scratch/drawn.whirl:r23_2" --compensated >"$scratch/row" 2>"$scratch/err" &&
-    [ "$(awk -F, 'END { print NR, $4, $6, $7, ($8 > 50) }' "$scratch/row")" = "2 mps2-an386 float rk4-compensated 1" ]
+    [ "$(awk -F, 'END { print NR, $4, $6, $7, ($8 > 50) }' "$scratch/row")" = "2 mps2-an386 float \"--compensated\" 1" ]
 verdict $? "measure_one.sh measures a file's scene"
 sh mk/price/measure_one.sh mps2-an386 fixed epicyclic_conserved --until 1s >"$scratch/row" 2>"$scratch/err" &&
-    [ "$(awk -F, 'END { print NR, $4, $6, $7, ($8 > 50), ($15 > 50) }' "$scratch/row")" = "2 mps2-an386 fixed rk4-until:1s 1 1" ]
+    [ "$(awk -F, 'END { print NR, $4, $6, $7, ($8 > 50), ($15 > 50) }' "$scratch/row")" = "2 mps2-an386 fixed \"--until 1s\" 1 1" ]
 verdict $? "and in fixed point" "$scratch/err"
 sh mk/price/measure_one.sh nowhere float thomson_a >"$scratch/out" 2>"$scratch/err"
 [ $? -eq 2 ] && grep -q 'there is no boards/nowhere' "$scratch/err"
