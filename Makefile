@@ -213,11 +213,6 @@ price: ## what accuracy costs: error against cycles of eight scenes on every boa
 	@CC="$(CC)" mk/setup/deps.sh host plot firmware boards quality bench
 	@$(MAKE) price-now
 
-.PHONY: price-all
-price-all: ##- the same of every scene, predicted: build/figures/price_all.csv (hours)
-	@CC="$(CC)" mk/setup/deps.sh host
-	@$(MAKE) price-all-now
-
 .PHONY: bench
 bench: ## instructions a step, counted, on this machine and on the emulated boards
 	@CC="$(CC)" mk/setup/deps.sh host firmware bench

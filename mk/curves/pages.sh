@@ -1,5 +1,5 @@
 #!/bin/sh
-# pages.sh FOLDER PAGE...: renew the blocks of pages that show prices, from FOLDER/price.csv and FOLDER/price_scenes.csv.
+# pages.sh FOLDER PAGE...: renew the blocks of pages that show prices, from FOLDER/price.csv.
 #
 # A block stands between <!-- price-table WORDS: begin --> and <!-- price-table WORDS: end -->; tables.awk says what WORDS
 # may be.
@@ -12,9 +12,7 @@ trap 'rm -f "$table"' EXIT
 for page in "$@"; do
     sed -n 's/^<!-- price-table \(.*\): begin -->$/\1/p' "$page" >"$table.blocks"
     while read -r block; do
-        data=$folder/price.csv
-        [ "$block" != scenes ] || data=$folder/price_scenes.csv
-        awk -F, -v block="$block" -f "$here/words.awk" -f "$here/decades.awk" -f "$here/tables.awk" "$data" >"$table"
+        awk -F, -v block="$block" -f "$here/words.awk" -f "$here/decades.awk" -f "$here/tables.awk" "$folder/price.csv" >"$table"
         "$here/../price/into_page.sh" "$table" "$page" "price-table $block"
     done <"$table.blocks"
     rm -f "$table.blocks"

@@ -3,8 +3,7 @@
 #   awk -F, -v block=BLOCK -f words.awk -f decades.awk -f tables.awk docs/figures/price.csv
 #
 # BLOCK is `chips SCENE BOARD...`: for each of these boards a table of the cheapest setting within each decade of the error;
-# `boards SCENE`: the prices on every board; `first SCENE BOARD...`: some decades on these boards, in one table. Or `scenes`,
-# of price_scenes.csv: the cheapest of its settings, every scene.
+# `boards SCENE`: the prices on every board; `first SCENE BOARD...`: some decades on these boards, in one table.
 
 FNR == 1 {
     header()
@@ -13,19 +12,6 @@ FNR == 1 {
 }
 
 { plain_row() }
-
-word[1] == "scenes" {
-    scene = field("scene")
-    if (!(scene in unit)) { order[++boards] = scene; unit[scene] = field("price_of") }
-    for (d = 2; d <= 8; d += 2) {
-        if (field("error") <= decade(d) && (!((scene, d) in price) || field("per_s") < price[scene, d])) {
-            price[scene, d] = field("per_s") + 0
-            run[scene, d] = field("method") ", " field("number") ", " step_words(field("step_s") + 0)
-            basis[scene, d] = unit[scene] == "evaluations" ? "counted" : "predicted"
-        }
-    }
-    next
-}
 
 field("scene") == word[2] {
     board = field("board")
@@ -118,24 +104,11 @@ function first(    i, d) {
     }
 }
 
-function scenes(    i, d) {
-    print "| scene | a second | 1e-2 | 1e-4 | 1e-6 | 1e-8 |"
-    print "|---|---|---|---|---|---|"
-    for (i = 1; i <= boards; i++) {
-        printf "| `%s` | %s |", order[i], unit[order[i]]
-        for (d = 2; d <= 8; d += 2) {
-            printf " %s |", (order[i], d) in price ? about(order[i], d) short(price[order[i], d]) ": " run[order[i], d] : "–"
-        }
-        print ""
-    }
-}
-
 END {
     if (failed) { exit 1 }
     if (boards == 0) { wrong("no row of " word[2]) }
     if (word[1] == "chips") { chips() }
     else if (word[1] == "boards") { all_boards() }
     else if (word[1] == "first") { first() }
-    else if (word[1] == "scenes") { scenes() }
     else { wrong("what is " word[1] "?") }
 }
