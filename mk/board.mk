@@ -143,10 +143,13 @@ pil-now: $(B)/whirl
 	@sh mk/demo/pil.sh $(B)/whirl $(PIL_BOARDS)
 
 # Only the test framework takes something from a C library: the jump out of a failed test.
-$(ELF)/tests.elf: IMAGE_LIBS := -lc
-$(ELF)/tests.elf: $(call objects,$(BOARD),$(CORE_TEST_PARTS)) $(BOARD_OBJECTS) \
-    $(call libraries,$(BOARD),scenes station rig virtual whirl)
+$(ELF)/tests.elf $(ELF)/tests_less.elf: IMAGE_LIBS := -lc
+$(ELF)/tests.elf: $(call objects,$(BOARD),$(CORE_TEST_PARTS))
+$(ELF)/tests_less.elf: $(call objects,$(BOARD),$(CORE_LESS_PARTS))
+$(ELF)/tests.elf $(ELF)/tests_less.elf: $(BOARD_OBJECTS) $(call libraries,$(BOARD),scenes station rig virtual whirl)
 	$(link_board)
+# SUITES=less: all but CORE_RUNS.
+TESTS_ELF := $(ELF)/tests$(SUITES:%=_%).elf
 
 emulate = $(call BOARD_EMULATE,$(1))
 
@@ -172,15 +175,24 @@ WATCHDOG := $(if $(BOARD_WATCHDOG),$(ELF)/watchdog.elf)
 $(ELF)/watchdog.elf: $(call objects,$(BOARD),tests/boards/watchdog.c $(BOARD_WATCHDOG)) $(BOARD_OBJECTS) $(call libraries,$(BOARD),whirl)
 	$(link_board)
 
-.PHONY: board-images board-tests run-suites print-hashes print-matrix-hashes bench-matrix
+.PHONY: board-images short-images board-tests run-suites print-hashes print-short-hashes print-matrix-hashes bench-matrix
 board-images: $(IMAGES)
-board-tests: $(ELF)/tests.elf $(GUARDS) $(WATCHDOG) $(PIL_IMAGES) $(STATION) $(ELF)/firstlight.elf
+board-tests: $(TESTS_ELF) $(GUARDS) $(WATCHDOG) $(PIL_IMAGES) $(STATION) $(ELF)/firstlight.elf
 run-suites: # the portable suites, what guards the stack, the watchdog, and first light
-	@status=0; $(call emulate,$(ELF)/tests.elf) || status=1; sh tests/boards/guard.sh $(BOARD) || status=1; \
+	@status=0; $(call emulate,$(TESTS_ELF)) || status=1; sh tests/boards/guard.sh $(BOARD) || status=1; \
 	    sh tests/boards/watchdog.sh $(BOARD) || status=1; sh tests/boards/firstlight.sh $(BOARD) || status=1; exit $$status
 print-hashes: # a line for each scene, with the hash of its last state
 	@$(call need,$(BOARD_EMULATOR))
 	@$(call emulate,$(ELF)/scenes.elf)
+# The first steps of each scene.
+$(ELF)/scenes_short.elf: boards/programs/scenes.c $(BOARD_OBJECTS) $(call libraries,$(BOARD),scenes whirl)
+	@mkdir -p $(@D)
+	$(say) LINK $@
+	$(Q)$(BOARD_CC) $(BOARD_CFLAGS) $(WARN) $(BOARD_EXTRA) -DSCENE_STEPS_MOST=$(SINGLE_STEPS)U $(BOARD_LDFLAGS) -o $@ $(filter %.c %.o,$^) \
+	    -Wl,--start-group $(filter %.a,$^) -Wl,--end-group $(IMAGE_LIBS) $(BOARD_LDLIBS)
+short-images: $(ELF)/scenes_short.elf
+print-short-hashes:
+	@$(call emulate,$(ELF)/scenes_short.elf)
 bench-matrix: $(ELF)/bench_matrix.elf $(PLUGIN) ##- a step of linear scenes as one matrix, on BOARD
 	@mkdir -p $(FIGURES)
 	@$(call count_board,$<)

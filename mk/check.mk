@@ -91,7 +91,7 @@ gate-cppcheck:
 	    $(filter core/%.c hal/%.c boards/%.c,$(C_FILES))
 
 # --- what `make test` leaves out, to be quick ---------------------------------------------------------------
-gated = "host suites that make test leaves out$(comma) part $(1) of 2" 'sh tests/each.sh build/tests/host $(2)'
+gated = "host suites that make test leaves out$(comma) part $(1) of 2" 'WHIRL_FEW=1 sh tests/each.sh build/tests/host $(2)'
 LONG_SUITES := $(filter-out $(HOST_FULL),$(HOST_GATED))
 gate-long: $(GEN)/.stamp
 	@$(MAKE) test-programs
@@ -99,7 +99,7 @@ gate-long: $(GEN)/.stamp
 	@WHIRL=build/whirl TEST_SECONDS=900 sh tests/run.sh build/check/log_long \
 	    $(call gated,1,$(wordlist 1,12,$(LONG_SUITES))) $(call gated,2,$(wordlist 13,99,$(LONG_SUITES))) \
 	    "tests/cli/price.sh" "WHIRL_FEW=1 sh tests/cli/price.sh" \
-	    $(call run_cli,$(CLI_FEW) $(filter-out $(CLI_FULL),$(CLI_GATED)))
+	    $(call run_cli,$(filter-out $(CLI_FULL),$(CLI_GATED)))
 
 # --- all cases of what `make test` takes fewer of -----------------------------------------------------------
 # Those that ask for WHIRL_FULL, `rest`: what `make test` and gate-long do whole is not done again; and those that they leave out.
@@ -109,7 +109,7 @@ full_part = "host suites$(comma) all cases$(comma) part $(1) of 6" 'sh tests/eac
 .PHONY: full-now
 full-now: $(GEN)/.stamp
 	@$(MAKE) test-programs
-	@mkdir -p $(dir $(FULL_LIST)) && { grep -l few_or_all tests/host/test_*.c | sed 's|.*/||'; printf 'test_%s.c\n' $(HOST_FULL); } | sort -u >$(FULL_LIST)
+	@mkdir -p $(dir $(FULL_LIST)) && { grep -lE "few_or_all|usual_or" tests/host/test_*.c | sed 's|.*/||'; printf 'test_%s.c\n' $(HOST_FULL); } | sort -u >$(FULL_LIST)
 	@WHIRL_FULL=rest WHIRL=build/whirl TEST_SECONDS=3600 sh tests/run.sh build/check/log_full \
 	    $(foreach p,0 1 2 3 4 5,$(call full_part,$(p))) $(call run_cli,$(filter-out $(CLI_FULL),$(CLI_ASKS))) \
 	    $(foreach t,$(CLI_FULL),"$(t)" "WHIRL_FULL=1 sh $(t)")
@@ -123,7 +123,9 @@ $(B)/float/$(GEN)/%.o: FILE_FLAGS = $(SCENE_OPT)
 $(B)/double/$(GEN)/%.o: FILE_FLAGS = $(or $(SCENE_OPT),$(LEAST_O2))
 # Tests of the host's suites are not what is asked: their arrays are guarded, and no more.
 ASAN_TEST_OPT := -O0 -fno-sanitize=undefined,float-cast-overflow
-ASAN_BUILD = $(MAKE) MAIN="CC='$(CC)' OPT='$(OPT)' EXTRA='$(EXTRA)'" B=build/asan CC=gcc OPT="-O1 -fno-omit-frame-pointer" SCENE_OPT=-O0 TEST_OPT="$(ASAN_TEST_OPT)" \
+# Nor are generated scenes: the core that they include is asked in the suites and in the interpreter. It halves what they compile.
+ASAN_SCENE_OPT = $(ASAN_TEST_OPT)
+ASAN_BUILD = $(MAKE) MAIN="CC='$(CC)' OPT='$(OPT)' EXTRA='$(EXTRA)'" B=build/asan CC=gcc OPT="-O1 -fno-omit-frame-pointer" SCENE_OPT="$(ASAN_SCENE_OPT)" TEST_OPT="$(ASAN_TEST_OPT)" \
     EXTRA="-fsanitize=$(SANITIZE) -fno-sanitize-recover=all"
 
 # Scripts that run no instrumented program, or have it do what other scripts or a suite have it do, too.
@@ -148,8 +150,7 @@ asan-run: $(filter-out $(if $(filter double,$(ASAN_REALS)),,%/core_double) %/pri
 	@printf 'test_%s.c\n' $(HOST_LESS_ASAN) | grep -vxFf - $(B)/tests/host_suites.list >$(ASAN_LIST)
 	@env -u MAKEFLAGS -u MFLAGS -u MAKEOVERRIDES -u B -u SCENE_OPT -u MAIN $(MAIN) \
 	    ASAN_OPTIONS="malloc_context_size=5:$$ASAN_OPTIONS" WHIRL_FEW=1 WHIRL=$(B)/whirl TEST_SECONDS=900 \
-	    sh tests/run.sh $(B)/tests/log $(call asan_cli,$(CLI_LONG)) $(call run_host,$(ASAN_LIST)) \
-	    $(call asan_cli,$(filter-out $(CLI_LONG),$(CLI_TESTS))) $(RUN_CHIP) \
+	    sh tests/run.sh $(B)/tests/log $(call run_host,$(ASAN_LIST)) $(call asan_cli,$(CLI_TESTS)) $(RUN_CHIP) \
 	    $(foreach r,$(ASAN_REALS),"portable suites$(comma) $(r)" $(B)/tests/core_$(r))
 
 gate-sanitizers: $(GEN)/.stamp
@@ -158,7 +159,7 @@ gate-sanitizers: $(GEN)/.stamp
 
 .PHONY: sanitizers-all
 sanitizers-all: $(GEN)/.stamp ##- gate-sanitizers with all suites and scripts that run an instrumented program (half an hour)
-	+@$(ASAN_BUILD) CLI_LESS_ASAN= HOST_LESS_ASAN= ASAN_REALS="float double" asan-run
+	+@$(ASAN_BUILD) CLI_LESS_ASAN= HOST_LESS_ASAN= SCENE_OPT=-O0 ASAN_REALS="float double" asan-run
 
 # Values read before they are written, which the sanitizers do not see.
 MEMCHECK = valgrind -q --error-exitcode=9
@@ -176,8 +177,8 @@ gate-bad-input:
 	@sh tests/bad_input.sh build/asan/whirl
 	+@$(ASAN_BUILD) kept-now
 
-# What reads a line, from the console and from a rig: anew each time, a minute each, at the same time.
-GATE_FUZZ_SECONDS ?= 60
+# What reads a line, from the console and from a rig: anew each time, half a minute each, at the same time.
+GATE_FUZZ_SECONDS ?= 30
 gate-fuzz:
 	@$(call need,clang)
 	+@$(FUZZ_BUILD) $(FUZZERS_OF_LINES)
@@ -197,7 +198,7 @@ image-rules: board-images $(PIL_IMAGES) $(LIGHT_IMAGE)
 gate-flashed: $(GEN)/.stamp
 	+@$(foreach b,$(boards_flashed),$(call on_board,$(b),BOARD_EXTRA=-Werror flashed-rules tidy-board) &&) true
 	+@$(call on_board,netduinoplus2,BOARD_EXTRA=-Werror flashed-tests)
-	@sh tests/boards/f405.sh 6 12
+	@sh tests/boards/f405.sh 3 6
 	+@$(call on_board,netduinoplus2,BOARD_EXTRA=-Werror rig-steps-now)
 	+@for board in $(filter-out $(BOARDS_SINGLE),$(boards_flashed)); do sh tests/boards/firstlight.sh $$board || exit 1; done
 	+@$(MAKE) -s small-now
@@ -226,12 +227,12 @@ gate-libm:
 	@$(MAKE) B=build/libm/clang CC=clang OPT=-O0 build/libm/clang/whirl
 	@sh tests/no_libm.sh build/libm/gcc/whirl build/libm/clang/whirl
 
-# --- boards that `make test` does not take: the suites, and what guards the stack --------------------------
+# --- boards that `make test` does not take: the suites without the rig's runs, and what guards the stack ----
 # mps2-an505 has the instructions of the board that `make test` takes: its suites are left to `make test-boards`.
 BOARDS_CHECKED = $(filter-out mps2-an505 $(BOARDS_TEST) $(boards_without_suites),$(BOARDS))
 gate-boards: $(GEN)/.stamp
-	+@$(call build_board_tests,$(BOARDS_CHECKED))
-	@sh tests/run.sh build/check/log_boards $(foreach b,$(BOARDS_CHECKED),$(call run_board,$(b)))
+	+@$(foreach b,$(BOARDS_CHECKED),$(call on_board,$(b),SUITES=less board-tests) &&) true
+	@SUITES=less sh tests/run.sh build/check/log_boards $(foreach b,$(BOARDS_CHECKED),$(call run_board,$(b)))
 
 # --- both ways to estimate a Cortex-M's cycles say the same ------------------------------------------
 gate-cycles: $(GEN)/.stamp
@@ -278,14 +279,28 @@ compare_hashes = sh tests/hashes.sh build/hash "the interpreter" "build/whirl ha
 compare_matrix_hashes = sh tests/hashes.sh build/hash/matrix "the interpreter" "sh tests/matrix_hashes.sh $(MATRIX)" \
     "this machine" build/scenes_matrix $(foreach b,$(1),"$(b)" "$(call on_board,$(b),print-matrix-hashes)")
 
-.PHONY: hashes-matrix hashes-now hashes-all-now gate-hashes $(addprefix hash-,$(HASH_BUILDS_ALL))
-hashes-now gate-hashes: $(GEN)/.stamp
+.PHONY: hashes-matrix hashes-now hashes-all-now $(addprefix hash-,$(HASH_BUILDS_ALL))
+hashes-now: $(GEN)/.stamp
 	+@$(call build_hashes,$(BOARDS))
 	@$(MAKE) hash-host-wasm
 	@$(call compare_hashes,$(BOARDS)) $(call hash_hosts,wasm)
 	@$(MAKE) hashes-matrix
 	@$(MAKE) hashes-hard
 	@$(MAKE) hashes-settings SETTINGS=some
+
+# In the gate one board runs the scenes to their ends, the others their first steps: a board that computes otherwise shows that
+# in the first steps, and `make hashes` runs them all. Of settings: with an FPU and without.
+BOARDS_FIRST = $(filter-out $(BOARDS_TEST),$(BOARDS))
+gate-hashes: $(GEN)/.stamp
+	+@$(call build_hashes,$(BOARDS_TEST))
+	+@$(foreach b,$(BOARDS_FIRST),$(call on_board,$(b),short-images) &&) true
+	@$(MAKE) hash-host-wasm build/scenes_short
+	@$(call compare_hashes,$(BOARDS_TEST)) $(call hash_hosts,wasm) \
+	    -- "The first $(SINGLE_STEPS) steps:" "this machine" build/scenes_short \
+	    $(foreach b,$(BOARDS_FIRST),"$(b)" "$(call on_board,$(b),print-short-hashes)")
+	@$(MAKE) hashes-matrix HASH_BOARDS="$(BOARDS_TEST) mps2-an385 rv32imafc"
+	@$(MAKE) hashes-hard HARD_BUILDS="gcc-O0 clang-O2" HARD_BOARDS="$(BOARDS_TEST) mps2-an385 rv32imafc"
+	@$(MAKE) hashes-settings SETTINGS=some SETTINGS_BUILDS=clang-O2 SETTINGS_BOARDS="$(BOARDS_TEST) mps2-an385"
 # HASH_BOARDS="mps2-an386 rv32imac": on these.
 HASH_BOARDS ?= $(BOARDS)
 hashes-matrix: $(GEN)/.stamp ##- the same bits on every board of linear scenes, a step as one matrix (minutes)

@@ -48,6 +48,15 @@ $(foreach t,core host chip,$(B)/tests/$(t)_suites.c): $(B)/tests/%_suites.c: tes
 	$(Q)sh $< tests/$*/test_*.c >$@
 
 CORE_TEST_PARTS := $(CORE_TEST_C) $(B)/tests/core_suites.c $(UNITY_DIR)/unity.c
+# Those that boards leave to mps2-an386, but for `make test-boards`: whole runs of the rig, whose bits are those of every board
+# (gate-hashes); what differs between processors, conversions, roots, functions and the core's steps, they keep.
+CORE_RUNS := rig_feed rig_lead rig_motor rig_observer rig_off rig_pulses rig_run rig_slope rig_swing rig_swing_pulses \
+    virtual_rig_faults virtual_rig_halts
+CORE_LESS_C := $(filter-out $(CORE_RUNS:%=tests/core/test_%.c),$(CORE_TEST_C))
+CORE_LESS_PARTS := $(CORE_LESS_C) $(B)/tests/less_suites.c $(UNITY_DIR)/unity.c
+$(B)/tests/less_suites.c: tests/suites.sh mk/tests.mk $(CORE_LESS_C)
+	$(say) GEN $@
+	$(Q)mkdir -p $(@D) && sh $< $(filter tests/core/test_%,$(CORE_LESS_C)) >$@
 HOST_TEST_PARTS := $(HOST_TEST_C) $(B)/tests/host_suites.c $(UNITY_DIR)/unity.c
 $(foreach b,host float double $(BOARD),$(call objects,$(b),$(CORE_TEST_PARTS) $(HOST_TEST_PARTS) tests/tools/long_runs.c)): \
     | $(UNITY_DIR)/unity.c
@@ -115,27 +124,25 @@ test-programs: $(TEST_PROGRAMS) $(B)/tests/quick_suites.list
 RUN_CHIP = $(foreach b,$(CHIP_BOARDS),"drivers of the STM32F405 on a played chip$(comma) $(b)" \
     "$(B)/tests/chip_$(b) $(if $(filter netduinoplus2,$(b)),,chip_clock chip_slots chip_cell chip_firstlight)")
 RUN_CORE = "portable suites, double" $(B)/tests/core_double "portable suites, float" $(B)/tests/core_float
-# The host suites in four parts, so that all processors have work to the end; what takes longest goes first.
-part = "host suites$(comma) part $(1) of 4" 'sh tests/each.sh $(B)/tests/host $$(sh tests/part.sh $(2) $(1) 4)'
+# The host suites in four parts, so that all processors have work to the end; what takes longest goes first. Of drawn cases CI
+# takes few of every class (WHIRL_FEW); a suite by hand takes the usual ones, and `make full` all.
+part = "host suites$(comma) part $(1) of 4" 'WHIRL_FEW=1 sh tests/each.sh $(B)/tests/host $$(sh tests/part.sh $(2) $(1) 4)'
 run_host = $(foreach p,0 1 2 3,$(call part,$(p),$(1)))
-CLI_LONG := $(foreach t,emitted_c price embed_names flags,tests/cli/$(t).sh)
+CLI_LONG := $(foreach t,docs commands embed_sketch,tests/cli/$(t).sh)
 run_cli = $(foreach t,$(1),"$(t)" "sh $(t)")
 # What `make test` leaves to gate-long, so that it stays below five minutes: what compares digits of what other tests run,
-# too, or takes long. Of the scripts in CLI_FEW it takes few cases.
-CLI_GATED := $(foreach t,angle_parts carriage embed_headers embed_names faults figures flags headers map measure odd_values pil plots price \
+# too, or takes long.
+CLI_GATED := $(foreach t,angle_parts carriage embed_headers embed_names emitted_c faults figures fixed flags headers map measure odd_values pil plots price \
     printed_zeros prove recorded_lists settings_bits structure trust,\
     tests/cli/$(t).sh)
 # Of these, what only `make full` takes: each compares many runs for a minute or more. Of price.sh gate-long takes few cases.
 CLI_FULL := $(foreach t,map measure price,tests/cli/$(t).sh)
 HOST_FULL := belief choice lockin_truth
-CLI_FEW := $(foreach t,emitted_c fixed,tests/cli/$(t).sh)
 HOST_GATED := asked_first belief busy choice contact_bound contact_centres contact_holds contact_load contact_rest contact_start \
     contact_together exact_books far_slopes figures_thomson fixed_ranges force_free hard_cases hard_edges hybrids ledger_scenes lockin_truth map \
     methods printed_runs prove_drawn reference rounding tables tape_gauge trajectory trust trust_scenes turned_errors warnings
 RUN_HOST = $(call run_host,$(B)/tests/quick_suites.list)
-run_few = $(foreach t,$(1),"$(t)$(comma) few cases" "WHIRL_FEW=1 sh $(t)")
-RUN_LONG = $(call run_few,$(CLI_FEW))
-RUN_CLI = $(call run_cli,$(filter-out $(CLI_FEW) $(CLI_GATED),$(CLI_TESTS)))
+RUN_CLI = $(call run_cli,$(CLI_LONG) $(filter-out $(CLI_LONG) $(CLI_GATED),$(CLI_TESTS)))
 run_board = "portable suites$(comma) $(1)" "$(call on_board,$(1),run-suites)"
 RUN_BOARD = $(foreach b,$(BOARDS_TEST),$(call run_board,$(b)))
 build_board_tests = $(foreach b,$(1),$(call on_board,$(b),board-tests) &&) true
@@ -145,7 +152,7 @@ test-now: $(GEN)/.stamp
 	@$(MAKE) test-programs
 	+@$(call build_board_tests,$(BOARDS_TEST))
 	@[ ! -t 1 ] || printf "\033[K"
-	@WHIRL=build/whirl sh tests/run.sh build/tests/log $(RUN_LONG) $(RUN_HOST) $(RUN_BOARD) $(RUN_CLI) $(RUN_CHIP) $(RUN_CORE)
+	@WHIRL=build/whirl sh tests/run.sh build/tests/log $(RUN_HOST) $(RUN_BOARD) $(RUN_CLI) $(RUN_CHIP) $(RUN_CORE)
 
 ##@ Tests and quality
 # Parts of it, for while one works on something.
@@ -166,7 +173,7 @@ test-host: $(GEN)/.stamp ##- the suites of the program alone
 
 test-cli: $(GEN)/.stamp ##- the scripts of tests/cli alone
 	@$(MAKE) test-programs
-	@WHIRL=build/whirl sh tests/run.sh build/tests/log $(RUN_LONG) $(RUN_CLI)
+	@WHIRL=build/whirl sh tests/run.sh build/tests/log $(RUN_CLI)
 
 test-board: $(GEN)/.stamp ##- the portable suites alone, on the emulated boards that `make test` takes
 	+@$(call build_board_tests,$(BOARDS_TEST))

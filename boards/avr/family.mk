@@ -16,4 +16,4 @@ gate-avr: build/whirl $(GEN)/.stamp
 	@$(MAKE) BOARD=atmega328p build/avr_run
 	@sh tests/boards/avr_cycles.sh build/avr_run build/check/avr_cycles
 	+@$(call on_board,atmega2560,BOARD_EXTRA=-Werror build/atmega2560/station.elf build/tools/atmega)
-	@sh tests/boards/atmega.sh 330 4 12
+	@sh tests/boards/atmega.sh 330 4 6

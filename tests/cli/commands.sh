@@ -133,12 +133,13 @@ while read -r word value group; do
         [ "$command$word" != derive--number ] || plain=$scratch/linear.whirl:plain_swings
         base=
         [ "$word" != --cells ] || base="--tables cubic" # which has them
+        without=$scratch/without_${command}_$(basename "$plain")${base:+_tables}
         # shellcheck disable=SC2086 # of words, or of none
-        ends "$command" $base >"$scratch/without" 2>/dev/null
+        [ -e "$without" ] || ends "$command" $base >"$without" 2>/dev/null
         # shellcheck disable=SC2086
         ends "$command" $base "$@" >"$scratch/with" 2>"$scratch/err"
         status=$?
-        [ $status -eq 0 ] && [ -s "$scratch/with" ] && ! cmp -s "$scratch/without" "$scratch/with"
+        [ $status -eq 0 ] && [ -s "$scratch/with" ] && ! cmp -s "$without" "$scratch/with"
         verdict $? "whirl $command $* makes a difference ($value, $group)"
     done <"$scratch/commands"
 done <"$scratch/rows"

@@ -47,7 +47,6 @@ lost run "$scene" --csv - --until 5s
 lost sweep "$scene" --over step=1..2:2 --until 2 --quiet --fresh
 lost map "$scene" --over step=1ms..2ms:2 --over x=0..1:2
 lost map "$scene" --over step=1ms..2ms:2 --over x=0..1:2 --csv - --quiet
-lost hashes
 
 # A command that has nothing to say there does not mind; what else is wrong keeps its own exit status.
 check "nothing said, nothing lost" sh -c '"$1" run "$2" --quiet >/dev/full' - "$whirl" "$scene"

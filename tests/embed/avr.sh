@@ -50,7 +50,11 @@ while read -r scene until options; do
         >"$folder/generated.c" || exit 1
     # shellcheck disable=SC2086
     run=$("$whirl" run "$scene" --until "$until" $options --number float | sed -n 's/^state hash *0x//p')
-    for dialect in "c11 c++11" "c11 gnu++11" "gnu11 c++11" "gnu11 gnu++11" "c11 c++11 -U__AVR_HAVE_LPMX__"; do
+    # a dialect knows nothing of scenes: all of them with the first
+    others="c11 gnu++11,gnu11 c++11,gnu11 gnu++11,c11 c++11 -U__AVR_HAVE_LPMX__,"
+    [ $compared -eq 0 ] || others=
+    echo "${others}c11 c++11" | tr ',' '\n' >"$folder/dialects"
+    while read -r dialect; do
         # shellcheck disable=SC2086
         set -- $dialect
         what="$scene, -std=$1, from -std=$2 ${3:-}"
@@ -70,20 +74,20 @@ while read -r scene until options; do
         0000*) ;;
         *) wrong "$what: the sine's table is at $at, not in flash" ;;
         esac
-        sh tests/limit.sh 60 simavr -m atmega2560 -f 16000000 "$folder/image.elf" 2>&1 | tr -dc '0-9a-f.\n' |
+        sh tests/limit.sh 60 simavr -m atmega2560 -f 16000000 "$folder/image.elf" 2>&1 </dev/null | tr -dc '0-9a-f.\n' |
             grep -Eo '[0-9a-f]{16}\.' | tr -d '.' >"$folder/said"
         if [ "$(tr '\n' ' ' <"$folder/said")" = "$run $sines " ]; then
             compared=$((compared + 1))
         else
             wrong "$what: hashes are not $run and $sines" "$folder/said"
         fi
-    done
+    done <"$folder/dialects"
 done <<END
 thomson_a 4ms
 rig_fixed 20ms
 ball_bounces 20ms --with ledger
 epicyclic_from_rest 20ms --compensated
 END
-[ "$compared" -ge 20 ] || wrong "only $compared images had the right bits"
+[ "$compared" -ge 8 ] || wrong "only $compared images had the right bits"
 [ $bad -ne 0 ] || echo "$compared images on an ATmega2560 have this machine's bits, their table in flash"
 exit $bad
