@@ -135,9 +135,9 @@ CLI_NOT_ASAN := $(foreach t,boards conclusions docs enclosures families flags fo
 CLI_LESS_ASAN := $(foreach t,asked_first carriage commands effects_cost_nothing embed_headers embed_names embed_sketch emitted_c faults figures \
     fixed float_range full_output measure pil price price_pages printed_zeros recorded_bits recorded_lists settings_bits suites swing trust,\
     tests/cli/$(t).sh)
-HOST_LESS_ASAN := accuracy arm asked_first belief aliasing books_told busy choice coarse_tables contact_bound contact_centres contact_curved \
+HOST_LESS_ASAN := accuracy arm asked_first aliasing books_told busy choice coarse_tables contact_bound contact_centres contact_curved \
     contact_devices contact_holds contact_law contact_load contact_moments contact_rest contact_scenes contact_squeezed contact_start contact_together convergence cost counts crossings cures describe devices double_functions effect_parts effect_subsets effect_work enclosure energy_integral energy_kept exact_books far_origin far_slopes figures_thomson fixed_loss fixed_ranges fixed_runs forced_swing \
-    force_free hard_cases hard_contacts hard_edges hard_origin hinged hybrids image image_rows jumped latex_runs leans ledger_scenes limits linkages lockin_truth map mass_scales matrix_runs methods plant price_counted price_reference printed_runs prove_drawn pulse_trains \
+    force_free hard_cases hard_contacts hard_edges hard_origin hinged hybrids image image_rows jumped latex_runs leans ledger_scenes limits linkages lockin_truth map mass_scales matrix_runs methods plant price_counted price_reference prove_drawn pulse_trains \
     rated reference rounding slow_angles stabilized stabilized_beside tables tape_gauge trajectory trust trust_drawn trust_scenes turned turned_errors warnings
 ASAN_REALS := float
 ASAN_LIST = $(B)/tests/asan_suites.list

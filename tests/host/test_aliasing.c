@@ -110,7 +110,7 @@ static bool trusted(const said *what) { return strstr(what->out, "to the end: ev
 static void test_what_is_wrong_is_told(void) {
     static const named_cure none;
     dice d = dice_of("aliasing", 20261127);
-    const unsigned cases = dice_cases(few_or_all(usual_or(36, 18), 600));
+    const unsigned cases = dice_cases(few_or_all(usual_or(36, 12), 600));
     unsigned wrong = 0;
     unsigned by_this = 0;
     unsigned right = 0;

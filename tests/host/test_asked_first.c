@@ -179,7 +179,7 @@ static int compare_scene(const scene *in) {
 static void test_built_in_scenes(void) { expect_none(each_builtin_scene(compare_scene)); }
 
 static void test_generated_mechanisms(void) {
-    const int wanted = (int)dice_cases(few_or_all(4, MECHANISMS));
+    const int wanted = (int)dice_cases(few_or_all(usual_or(4, 2), MECHANISMS));
     int done = 0;
     for (uint64_t number = 0; done < wanted; number++) {
         char text[MECHANISM_SIZE];

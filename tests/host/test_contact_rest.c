@@ -46,7 +46,7 @@ static void write_wagons(uint64_t *seed, bool curved, bool both, char *text, siz
 static void check_wagons(bool curved, bool both, const char *words) {
     static const double steps_s[] = {5e-3, 2e-3, 1e-3, 0.5e-3};
     uint64_t seed = 31;
-    const int pairs = (int)few_or_all(4, 60);
+    const int pairs = (int)few_or_all(usual_or(4, 2), 60);
     for (int i = 0; i < pairs; i++) {
         char text[1200];
         double rests[4];
@@ -127,7 +127,7 @@ static void test_rows_of_wagons(void) {
     uint64_t most = 0;
     int overran = 0;
     int runs = 0;
-    const int rows = (int)dice_cases(few_or_all(3, 18));
+    const int rows = (int)dice_cases(few_or_all(usual_or(3, 2), 18));
     for (int i = 0; i < rows; i++) {
         char text[3000];
         const int wagons = 2 + i % 3;

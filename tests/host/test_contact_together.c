@@ -76,7 +76,7 @@ static void test_the_order_of_the_file_does_not_matter(void) {
 
 /* No stop, friction or hold ever gives energy, whatever happens together (but in a step that cannot hold all). */
 static void test_no_contact_gives_energy(void) {
-    const long runs = wanted_runs((long)few_or_all(15, 130));
+    const long runs = wanted_runs((long)few_or_all(usual_or(15, 5), 130));
     double worst = 0.0;
     for (long i = 0; i < 2 * runs; i++) {
         char text[4000];

@@ -98,7 +98,7 @@ enum { POSTS = sizeof posts / sizeof posts[0] };
 /* Posts of 0.1 to 32 mm, met in the middle, off it, or not at all; restitution 1. */
 static void test_posts(void) {
     dice d = dice_of("missed", 1);
-    const unsigned cases = dice_cases(few_or_all(60, 120));
+    const unsigned cases = dice_cases(few_or_all(usual_or(60, 20), 120));
     unsigned thin = 0;
     for (unsigned k = 0; k < cases; k++) {
         motion m;
@@ -242,7 +242,7 @@ static double pass_least_m(const flight *f, const pass *p) {
  * the straight lines meet, or told. */
 static void test_moving_ones(void) {
     dice d = dice_of("missed", 4);
-    const unsigned cases = dice_cases(few_or_all(40, 120));
+    const unsigned cases = dice_cases(few_or_all(usual_or(40, 15), 120));
     unsigned hits = 0;
     unsigned thin = 0;
     for (unsigned k = 0; k < cases; k++) {
@@ -365,7 +365,7 @@ static bool is_right(const motion *m, const char *of, stepping how) {
 /* Random linkages with stops and frictions, and bodies before what is wide: nothing is told of a run that is right. */
 static void test_right_runs(void) {
     dice d = dice_of("missed", 3);
-    const unsigned cases = dice_cases(few_or_all(30, 120));
+    const unsigned cases = dice_cases(few_or_all(usual_or(30, 15), 120));
     uint64_t seed = d.state;
     unsigned told = 0;
     for (unsigned k = 0; k < cases; k++) {

@@ -29,7 +29,8 @@ static const char front[] =
 
 static int cases(int usual) {
     const char *wanted = getenv("SHOW_CASES");
-    return wanted != NULL ? (int)strtol(wanted, NULL, 10) : usual;
+    return wanted != NULL ? (int)strtol(wanted, NULL, 10)
+                          : usual / (getenv("WHIRL_FEW") != NULL ? 3 : 1);
 }
 
 /* --- one expression --------------------------------------------------------------------------------*/
