@@ -132,13 +132,23 @@ ASAN_BUILD = $(MAKE) MAIN="CC='$(CC)' OPT='$(OPT)' EXTRA='$(EXTRA)'" B=build/asa
 CLI_NOT_ASAN := $(foreach t,boards conclusions docs enclosures families flags foreign fresh headers help map no_libm runners setup structure,tests/cli/$(t).sh)
 # And what is left to `make sanitizers-all`: scripts and suites that derive and step as others do, to compare digits,
 # or whose many runs each try their cures.
-CLI_LESS_ASAN := $(foreach t,asked_first carriage commands effects_cost_nothing embed_headers embed_names embed_sketch emitted_c faults figures \
-    fixed float_range full_output measure pil price price_pages printed_zeros recorded_bits recorded_lists settings_bits suites swing trust,\
+CLI_LESS_ASAN := $(foreach t,angle_parts asked_first carriage columns commands coverage_sum doc_examples \
+    effects_cost_nothing embed_fixed embed_headers embed_names embed_sketch emitted_c faults figures fixed \
+    float_range forms full_output measure memory noise odd_values pil plot plots price price_pages printed_zeros \
+    prove recorded_bits recorded_lists settings_bits sizes suites summary swing trust undefined units \
+    worst_step_marks,\
     tests/cli/$(t).sh)
-HOST_LESS_ASAN := accuracy arm asked_first aliasing books_told busy choice coarse_tables contact_bound contact_centres contact_curved \
-    contact_devices contact_holds contact_law contact_load contact_moments contact_rest contact_scenes contact_squeezed contact_start contact_together convergence cost counts crossings cures describe devices double_functions effect_parts effect_subsets effect_work enclosure energy_integral energy_kept exact_books far_origin far_slopes figures_thomson fixed_loss fixed_ranges fixed_runs forced_swing \
-    force_free hard_cases hard_contacts hard_edges hard_origin hinged hybrids image image_rows jumped latex_runs leans ledger_scenes limits linkages lockin_truth map mass_scales matrix_runs methods plant price_counted price_reference prove_drawn pulse_trains \
-    rated reference rounding slow_angles stabilized stabilized_beside tables tape_gauge trajectory trust trust_drawn trust_scenes turned turned_errors warnings
+HOST_LESS_ASAN := accuracy aliasing angle_parts apart arm asked_first blurred books_told busy busy_beside c_names \
+    choice coarse_tables contact_bound contact_centres contact_curved contact_devices contact_holds contact_law \
+    contact_load contact_moments contact_rest contact_scenes contact_squeezed contact_start contact_together \
+    convergence cost counts crossings cures describe devices double_functions effect_parts effect_subsets \
+    effect_work effects enclosure energy_integral energy_kept exact_books far_origin far_slopes figures_thomson \
+    firstlight fixed_loss fixed_ranges fixed_runs folded folded_numbers force_free forced_swing hard_cases \
+    hard_contacts hard_edges hard_origin hinged hybrids image_rows jumped latex_runs leans ledger_scenes \
+    limits linkages lockin_truth map mass_scales matrix_runs methods never_singular octave order_told plant \
+    price_counted price_reference prove_drawn pulse_trains rated reference repeats_truth rounding show slope_truth \
+    slow_angles stabilized stabilized_beside swings symmetry tables tape_gauge trajectory trust trust_drawn \
+    trust_scenes turned turned_errors undefined verdict walled warnings
 ASAN_REALS := float
 ASAN_LIST = $(B)/tests/asan_suites.list
 asan_cli = $(call run_cli,$(filter-out $(CLI_NOT_ASAN) $(CLI_LESS_ASAN),$(1)))

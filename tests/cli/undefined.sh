@@ -58,7 +58,7 @@ try() { # try NAME NUMBER STATEMENT [MORE]
     done
     hash=$(awk '/state hash/ { print $3 }' "$scratch/out")
     "$whirl" derive "$scratch/$1.whirl:trial" --as c >"$scratch/$1.c" 2>"$scratch/err"
-    ${CC:-cc} -std=c11 -O2 -ffp-contract=off -I. -o "$scratch/$1" "$scratch/main.c" "$scratch/$1.c" \
+    ${CC:-cc} -std=c11 -O0 -ffp-contract=off -I. -o "$scratch/$1" "$scratch/main.c" "$scratch/$1.c" \
         "$scratch/scene.o" "$scratch/angle.o" "$scratch/root.o" 2>"$scratch/err"
     verdict $? "$1: generated C compiles"
     "$scratch/$1" >"$scratch/got"
