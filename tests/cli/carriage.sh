@@ -1,14 +1,14 @@
 #!/bin/sh
 # carriage.sh: the dissertation's carriage measured by the rig's firmware in the loop (I.3.2.2, I.3.5): force at the pin over the
 # weight ratio, displacement over speed and radius, against closed forms; what it is told wrongly; drawn
-# benches (six; with WHIRL_FULL twelve; BENCHES=200: so many); a Cortex-M4F.
+# benches (three; with WHIRL_FULL twelve; BENCHES=200: so many); a Cortex-M4F.
 . "$(dirname "$0")/../checks.sh"
 
 build=$(dirname "$whirl")
 plant=docs/plants/carriage.whirl
 m4=build/mps2-an386/pil_carriage.elf
 [ -z "${WHIRL_FULL:-}" ] || BENCHES=${BENCHES:-12}
-drawn=${BENCHES:-6}
+drawn=${BENCHES:-3}
 close_to() { awk -v a="$1" -v b="$2" -v most="$3" 'BEGIN { d = a - b; exit !(a != "" && d <= most && d >= -most) }'; }
 
 # --- the plant: the mechanism of core/models, and what its centre of mass asks for ---------------------------------------

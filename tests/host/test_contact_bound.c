@@ -22,7 +22,7 @@ enum { FEW_STEPS = 6000, RANDOM_STEPS = 20000, RUN = 20, SAMPLES = 200 };
 static long random_steps(void) {
     const char *wanted = getenv("WHIRL_RANDOM_STEPS");
     const long count = wanted != NULL ? strtol(wanted, NULL, 10) : 0;
-    return count > 0 ? count : (long)few_or_all(usual_or(FEW_STEPS, FEW_STEPS / 2), RANDOM_STEPS);
+    return count > 0 ? count : (long)few_or_all(FEW_STEPS, RANDOM_STEPS);
 }
 
 /* States of the scene's own run, evenly over it. */

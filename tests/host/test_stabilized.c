@@ -151,6 +151,7 @@ static void test_energy_stays(void) {
         {&engine_float, true, 5e-7}, {&engine_double, true, 1e-12}, {&engine_double, false, 1e-12}};
     dice d = dice_of("stabilized", 20261128);
     const unsigned cases = usual_or(dice_cases(few_or_all(3, 60)), 3);
+    const uint64_t steps = usual_or(200000, 40000);
     double most[3] = {0.0, 0.0, 0.0};
     double without = 0.0;
     unsigned bursts = 0; /* what is chaotic may lose more in its second half */
@@ -165,8 +166,8 @@ static void test_energy_stays(void) {
                                 .step_s = step_s};
         stepping with = plain;
         with.stabilized = true;
-        const drift lost = drift_of(&c, plain, 200000);
-        const drift kept = drift_of(&c, with, 200000);
+        const drift lost = drift_of(&c, plain, steps);
+        const drift kept = drift_of(&c, with, steps);
         const double rounds = numbers[n].rounds * (1.0 + terms_of(&c));
         char what[256];
         snprintf(what, sizeof what, "case %u, %s: %.2e, then %.2e; without %.2e", i,
@@ -274,7 +275,7 @@ static void run_with(const char *text, const char *const *options, said *what) {
  * does, and is warned of. */
 static void test_coarse_steps_are_told(void) {
     dice d = dice_of("stabilized springs", 20261201);
-    for (unsigned i = 0; i < 8; i++) {
+    for (unsigned i = 0; i < usual_or(8, 2); i++) {
         const double swing = dice_between(&d, 0.3, 1.5); /* h w */
         char text[TEXT];
         said what;
@@ -294,7 +295,7 @@ static void test_coarse_steps_are_told(void) {
  * the step: what it loses is given to both. So it is told as it is without. */
 static void test_what_others_lost_is_told(void) {
     dice d = dice_of("stabilized pairs", 20261202);
-    const unsigned cases = usual_or(16, 6);
+    const unsigned cases = usual_or(16, 3);
     unsigned told = 0;
     for (unsigned i = 0; i < cases; i++) {
         static const char *const words[2][3] = {{"--quiet", NULL},
