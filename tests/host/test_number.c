@@ -1,16 +1,20 @@
 /* test_number.c: what the host computes numbers with, against the machine's library, whose functions of these
  * are exact. Seeds are fixed. */
-#include "bits.h"
-#include "host/lang/units.h"
-#include "host/number/functions.h"
-
-#include "tests/scattered.h"
-#include "unity.h"
-
+#include <inttypes.h>
 #include <math.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <string.h>
+
+#include "bits.h"
+#include "command.h"
+#include "derived.h"
+#include "host/lang/units.h"
+#include "host/number/functions.h"
+#include "host/number/ratio.h"
+#include "host/number/wide.h"
+#include "tests/scattered.h"
+#include "unity.h"
 
 void suite_number(void);
 
@@ -157,6 +161,142 @@ static void test_powers_of_units(void) {
     }
 }
 
+/* --- whole numbers of 128 bits ---------------------------------------------------------------- */
+
+/* Whole numbers of 128 bits do as the compiler's own, where it has them, and as schoolbooks say
+ * everywhere. */
+enum { NUMBERS = 40000 };
+
+static uint64_t seed = 20261123;
+
+/* Of any length, with rows of zeros and ones. */
+static wide any_wide(void) {
+    wide n = {random_bits(&seed), random_bits(&seed)};
+    if (random_bits(&seed) % 3 == 0) {
+        n.high = 0;
+    }
+    if (random_bits(&seed) % 3 == 0) {
+        n.low = random_bits(&seed) % 2 == 0 ? 0 : UINT64_MAX;
+    }
+    return wide_right(n, (int)(random_bits(&seed) % 128));
+}
+
+static bool same_wide(wide a, wide b) { return !wide_below(a, b) && !wide_below(b, a); }
+
+static void test_laws(void) {
+    for (int i = 0; i < NUMBERS; i++) {
+        const wide a = any_wide();
+        const wide b = any_wide();
+        const wide c = any_wide();
+        const int bits = (int)(random_bits(&seed) % 128);
+        TEST_ASSERT_TRUE(same_wide(wide_minus(wide_plus(a, b), b), a));
+        TEST_ASSERT_TRUE(same_wide(wide_times(a, wide_plus(b, c)),
+                                   wide_plus(wide_times(a, b), wide_times(a, c))));
+        TEST_ASSERT_TRUE(same_wide(wide_left(a, bits), wide_times(a, wide_left(wide_of(1), bits))));
+        if (!wide_is_zero(b)) {
+            wide rest;
+            const wide quotient = wide_over(a, b, &rest);
+            TEST_ASSERT_TRUE(wide_below(rest, b));
+            TEST_ASSERT_TRUE(same_wide(wide_plus(wide_times(quotient, b), rest), a));
+            TEST_ASSERT_TRUE(!wide_below(a, quotient));
+        }
+        if (bits > 0) {
+            TEST_ASSERT_TRUE(
+                same_wide(wide_right(a, bits), wide_over(a, wide_left(wide_of(1), bits), NULL)));
+        }
+    }
+}
+
+#ifdef __SIZEOF_INT128__
+__extension__ typedef unsigned __int128 native;
+
+static native native_of(wide a) { return (native)a.high << 64 | a.low; }
+
+static void test_the_compilers_own(void) {
+    for (int i = 0; i < NUMBERS; i++) {
+        const wide a = any_wide();
+        const wide b = any_wide();
+        const int bits = (int)(random_bits(&seed) % 128);
+        TEST_ASSERT_TRUE(native_of(wide_plus(a, b)) == native_of(a) + native_of(b));
+        TEST_ASSERT_TRUE(native_of(wide_minus(a, b)) == native_of(a) - native_of(b));
+        TEST_ASSERT_TRUE(native_of(wide_times(a, b)) == native_of(a) * native_of(b));
+        TEST_ASSERT_TRUE(native_of(wide_left(a, bits)) == native_of(a) << bits);
+        TEST_ASSERT_TRUE(native_of(wide_right(a, bits)) == native_of(a) >> bits);
+        TEST_ASSERT_TRUE(wide_below(a, b) == (native_of(a) < native_of(b)));
+        if (!wide_is_zero(b)) {
+            TEST_ASSERT_TRUE(native_of(wide_over(a, b, NULL)) == native_of(a) / native_of(b));
+        }
+    }
+}
+#endif
+
+/* --- times as fractions ----------------------------------------------------------------------- */
+
+/* Times as fractions (host/number/ratio.h): what a decimal or a simple fraction is taken for, and
+ * how often one goes into another, against whole numbers counted by the test; halves among them.
+ * */
+static bool same_ratio(whole_ratio r, uint64_t of, uint64_t in) {
+    return r.numerator * in == of * r.denominator; /* both below 2^32 */
+}
+
+static void test_decimals_and_fractions_are_themselves(void) {
+    dice d = dice_of("ratio", 71);
+    for (unsigned k = 0; k < 4000U; k++) {
+        const uint64_t of = 1U + dice_one_of(&d, 9999);
+        uint64_t in = 1;
+        for (unsigned i = dice_one_of(&d, 6); i > 0; i--) {
+            in *= 10U;
+        }
+        TEST_ASSERT_TRUE(same_ratio(ratio_of((double)of / (double)in), of, in));
+        const uint64_t less = 1U + dice_one_of(&d, 60);
+        const uint64_t more = 1U + dice_one_of(&d, 60);
+        TEST_ASSERT_TRUE(same_ratio(ratio_of((double)less / (double)more), less, more));
+    }
+    const whole_ratio none = ratio_of(-1.0);
+    TEST_ASSERT_TRUE(none.numerator == 0 && none.denominator == 1);
+    TEST_ASSERT_TRUE(ratio_of(0.0).numerator == 0 && ratio_of((double)NAN).numerator == 0);
+}
+
+/* Any double is within 2^-51 of what it is taken for, and what is beyond the ends of their range, of the nearer end. */
+static void test_nothing_is_far_off(void) {
+    dice d = dice_of("ratio", 72);
+    for (unsigned k = 0; k < 4000U; k++) {
+        const int power =
+            k % 2U == 0 ? (int)dice_one_of(&d, 130) - 65 : (int)dice_one_of(&d, 2096) - 1073;
+        const double drawn = ldexp(dice_between(&d, 1.0, 2.0), power);
+        const double value = fmin(fmax(drawn, RATIO_LEAST), RATIO_MOST);
+        const whole_ratio r = ratio_of(drawn);
+        TEST_ASSERT_TRUE(r.denominator > 0 && r.denominator >> 60 == 0 && r.numerator >> 60 == 0);
+        const long double is = (long double)r.numerator / (long double)r.denominator;
+        TEST_ASSERT_TRUE(fabsl(is - (long double)value) <= 0x1p-51L * (long double)value);
+        const uint64_t count = 1U + dice_one_of(&d, 1U << 30);
+        const long double times = (long double)count * is;
+        TEST_ASSERT_TRUE(fabsl((long double)ratio_times(count, r) - times) <= 0x1.1p-53L * times);
+    }
+}
+
+static void test_counts_are_nearest(void) {
+    dice d = dice_of("ratio", 73);
+    for (unsigned k = 0; k < 4000U; k++) {
+        whole_ratio whole = {dice_one_of(&d, 1U << 20), 1U + dice_one_of(&d, 1U << 10)};
+        const whole_ratio part = {1U + dice_one_of(&d, 1U << 10), 1U + dice_one_of(&d, 1U << 10)};
+        if (k % 2U == 0) { /* a whole number of them and a half, and what is next to it */
+            const uint64_t halves = 1U + dice_one_of(&d, 2000);
+            whole =
+                (whole_ratio){halves * part.numerator * 1000U + k % 3U, 2000U * part.denominator};
+        }
+        const uint64_t over = whole.numerator * part.denominator;
+        const uint64_t under = whole.denominator * part.numerator;
+        uint64_t count = 0;
+        TEST_ASSERT_TRUE(ratio_count(whole, part, &count));
+        TEST_ASSERT_EQUAL_UINT64(over / under + (2U * (over % under) > under ? 1U : 0U), count);
+    }
+    uint64_t count = 0;
+    const whole_ratio most = {UINT64_C(1) << 59, 1};
+    TEST_ASSERT_TRUE(ratio_count(most, (whole_ratio){1, 16}, &count) && count == UINT64_C(1) << 63);
+    TEST_ASSERT_FALSE(ratio_count(most, (whole_ratio){1, 17}, &count));
+}
+
 void suite_number(void) {
     RUN_TEST(test_whole_numbers);
     RUN_TEST(test_roots);
@@ -165,4 +305,12 @@ void suite_number(void) {
     RUN_TEST(test_sizes);
     RUN_TEST(test_language);
     RUN_TEST(test_powers_of_units);
+    printf("wide: seed %" PRIu64 "\n", seed);
+    RUN_TEST(test_laws);
+#ifdef __SIZEOF_INT128__
+    RUN_TEST(test_the_compilers_own);
+#endif
+    RUN_TEST(test_decimals_and_fractions_are_themselves);
+    RUN_TEST(test_nothing_is_far_off);
+    RUN_TEST(test_counts_are_nearest);
 }
