@@ -2,7 +2,7 @@
 # fixed.sh: fixed point. `whirl derive --as c --number fixed` compiles without a warning with gcc and clang, has no
 # floating-point operation, and steps to the bits of `whirl run --number fixed`, by both ways to a product: every built-in scene
 # that has such a step, and made-up mechanisms. What has none is refused with exit status 2 and a hint. Ranges are told.
-# `make gate-long` takes one build by each compiler, and for each small core the calls of every other scene; with WHIRL_FULL
+# `make gate-long` takes one build by each compiler, and for each small core the calls of every fourth scene; with WHIRL_FULL
 # (make full) there is the other way to a product by gcc, too, and the calls of all.
 . "$(dirname "$0")/../checks.sh"
 
@@ -139,7 +139,7 @@ if [ -z "${WHIRL_FEW:-}" ] && command -v arm-none-eabi-gcc >/dev/null 2>&1; then
         turn=0
         [ $cpu = cortex-m3 ] || turn=1
         for file in core/fixed.c "$scratch"/scene_*.c; do
-            turn=$(((turn + 1) % 2))
+            turn=$(((turn + 1) % 4))
             [ "$file" = core/fixed.c ] || [ -n "${WHIRL_FULL:-}" ] || [ $turn -eq 1 ] || continue
             arm-none-eabi-gcc -std=c11 -O2 -mcpu=$cpu -mthumb -I. -c "$file" -o "$scratch/one.o" 2>/dev/null
             arm-none-eabi-nm "$scratch/one.o" >>"$scratch/symbols"

@@ -51,11 +51,9 @@ done
 # Contacts are numbered stops, holds, frictions, crossings.
 try() { # try NAME NUMBER STATEMENT [MORE]
     model "$3" "${4:-}" >"$scratch/$1.whirl"
-    for number in double float; do
-        "$whirl" run "$scratch/$1.whirl:trial" --number $number >"$scratch/out" 2>"$scratch/err"
-        check "$1, $number: the interpreter ends with status 1" test $? -eq 1
-        check "$1, $number: it names the expression" grep -qF "is not a finite number: ${3% \}}" "$scratch/err"
-    done
+    "$whirl" run "$scratch/$1.whirl:trial" --number float >"$scratch/out" 2>"$scratch/err"
+    check "$1: the interpreter ends with status 1" test $? -eq 1
+    check "$1: it names the expression" grep -qF "is not a finite number: ${3% \}}" "$scratch/err"
     hash=$(awk '/state hash/ { print $3 }' "$scratch/out")
     "$whirl" derive "$scratch/$1.whirl:trial" --as c >"$scratch/$1.c" 2>"$scratch/err"
     ${CC:-cc} -std=c11 -O0 -ffp-contract=off -I. -o "$scratch/$1" "$scratch/main.c" "$scratch/$1.c" \

@@ -193,7 +193,7 @@ static void go_to(place where) {
 
 /* A board's emulator takes seconds for each. */
 #ifndef OFF_BENCHES
-#define OFF_BENCHES (__STDC_HOSTED__ ? 360U : 24U)
+#define OFF_BENCHES (__STDC_HOSTED__ && !WH_DOUBLE ? 360U : 24U)
 #endif
 #define OFF_ALL (OFF_BENCHES >= 360U) /* enough for some of each kind */
 

@@ -2,6 +2,7 @@
  * ratios. Generated matrices, on their own and as mechanisms, against elimination in exact order in long double. */
 #define _POSIX_C_SOURCE 200809L
 
+#include "command.h"
 #include "derived.h"
 
 #include <float.h>
@@ -19,7 +20,8 @@ enum { MOST = 6, ROOM = MOST * MOST };
 
 static int cases(int usual) {
     const char *more = getenv("WHIRL_MASS_CASES");
-    return more != NULL ? (int)strtol(more, NULL, 10) : usual;
+    return more != NULL ? (int)strtol(more, NULL, 10)
+                        : (int)usual_or((unsigned)usual, (unsigned)usual / 4);
 }
 
 /* x of M x = b, with the largest pivots. */
