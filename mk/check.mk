@@ -26,11 +26,11 @@ PC_BOARD_C := $(PROGRAM_C) $(wildcard boards/host/*.c)
 .PHONY: objects test-objects board-objects board-own-objects
 TESTS_C := $(HOST_TEST_C) $(wildcard tests/tools/*.c tests/outside/*.c tests/fuzz/*.c)
 test-objects: $(call objects,host,$(TESTS_C)) $(call objects,chip,$(CHIP_TEST_C)) \
-    $(call objects,float,$(CORE_TEST_C)) $(call objects,double,$(CORE_TEST_C))
+    $(call objects,float,$(CORE_TEST_C)) $(call objects,double,$(CORE_TEST_C) $(SCENE_C))
 objects: $(call objects,host,$(WHIRL_MAIN_C) $(WHIRL_C) $(GEN)/builtin_models.c $(HOST_TOOL_C)) \
     $(foreach b,$(CHIP_BOARDS),$(call objects,chip_$(b),$(CHIP_DRIVERS_C))) \
     $(call objects,float,$(PORTABLE_C) $(PC_BOARD_C) $(SCENE_C)) \
-    $(call objects,double,$(CORE_C) $(RIG_C) $(STATION_C) $(SCENE_C))
+    $(call objects,double,$(CORE_C) $(RIG_C) $(STATION_C))
 board-objects: board-own-objects $(call objects,$(BOARD),$(PORTABLE_C) $(PROGRAM_C) $(CORE_TEST_C) $(SCENE_C))
 board-own-objects: $(call objects,$(BOARD),$(BOARD_OWN_C)) $(call objects,$(FLASHED),$(BOARD_FLASHED_C))
 
@@ -51,7 +51,7 @@ syntax = printf '%s\n' $(1) | xargs -n 8 -P $(JOBS) clang $(LINT_FLAGS) $(2) -We
 gate-clang: $(GEN)/.stamp
 	+@$(CLANG_BUILD) -k objects
 	@$(call syntax,$(TESTS_C) $(CORE_TEST_C))
-	@$(call syntax,$(CORE_TEST_C),-DWH_DOUBLE=1)
+	@$(call syntax,$(CORE_TEST_C) $(SCENE_C),-DWH_DOUBLE=1)
 	@$(call syntax,$(CHIP_TEST_C),$(CHIP_FLAGS))
 
 # --- layout and lint ------------------------------------------------------------------------------

@@ -59,7 +59,7 @@ hosts-now:
 
 # In `make check`: fewer of them, and fewer mechanisms.
 gate-hosts:
-	+@$(MAKE) -j $(JOBS) MECHANISMS=100 $(addprefix host-,$(HOSTS_CI))
+	+@$(MAKE) -j $(JOBS) MECHANISMS=40 $(addprefix host-,$(HOSTS_CI))
 	@sh tests/hosts/compare.sh build/hosts/out $(foreach h,$(HOSTS_CI),$(h) "$(host_is_$(h))")
 
 # The portable suites on the foreign processors, in float and in double (many minutes: every scene is compiled).
