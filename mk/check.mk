@@ -159,7 +159,8 @@ asan-run: $(filter-out $(if $(filter double,$(ASAN_REALS)),,%/core_double) %/pri
 	@env -u MAKEFLAGS -u MFLAGS -u MAKEOVERRIDES -u B -u SCENE_OPT -u MAIN $(MAIN) \
 	    ASAN_OPTIONS="malloc_context_size=5:$$ASAN_OPTIONS" WHIRL_FEW=1 WHIRL=$(B)/whirl TEST_SECONDS=900 \
 	    sh tests/run.sh $(B)/tests/log $(call run_host,$(ASAN_LIST)) $(call asan_cli,$(CLI_TESTS)) $(RUN_CHIP) \
-	    $(foreach r,$(ASAN_REALS),"portable suites$(comma) $(r)" $(B)/tests/core_$(r))
+	    $(foreach r,$(ASAN_REALS),"portable suites$(comma) $(r)" \
+	        "$(B)/tests/core_$(r) $(patsubst tests/core/test_%.c,%,$(filter tests/core/test_%,$(CORE_LESS_C)))")
 
 gate-sanitizers: $(GEN)/.stamp
 	@$(MAKE) test-programs
@@ -167,7 +168,7 @@ gate-sanitizers: $(GEN)/.stamp
 
 .PHONY: sanitizers-all
 sanitizers-all: $(GEN)/.stamp ##- gate-sanitizers with all suites and scripts that run an instrumented program (half an hour)
-	+@$(ASAN_BUILD) CLI_LESS_ASAN= HOST_LESS_ASAN= SCENE_OPT=-O0 ASAN_REALS="float double" asan-run
+	+@$(ASAN_BUILD) CLI_LESS_ASAN= HOST_LESS_ASAN= CORE_RUNS= SCENE_OPT=-O0 ASAN_REALS="float double" asan-run
 
 # Values read before they are written, which the sanitizers do not see.
 MEMCHECK = valgrind -q --error-exitcode=9
