@@ -1,17 +1,20 @@
 /* test_leaks.c: what was taken is given back: after deriving a scene, running and writing it in any way, or being refused
  * one, as many blocks are in use as before. Where the C library does not tell, the sanitizers do. */
+#include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "blocks.h"
+#include "command.h"
 #include "derived.h"
+#include "host/base/exit.h"
+#include "host/base/room.h"
 #include "host/emit/description.h"
 #include "host/emit/emit.h"
 #include "host/run/findings.h"
 #include "host/run/horizon.h"
 #include "host/run/summary.h"
-
 #include "unity.h"
 
 void suite_leaks(void);
@@ -171,8 +174,143 @@ static void test_what_is_refused_gives_everything_back(void) {
     }
 }
 
+/* --- memory that is taken --------------------------------------------------------------------- */
+
+/* Memory of drawn sizes is all there, and zero where it says so; sizes that no memory has end the
+ * program with its message, however they come about. */
+enum { BYTES_MOST = 5000 };
+
+static bool all_are(const unsigned char *bytes, size_t count, unsigned char value) {
+    for (size_t i = 0; i < count; i++) {
+        if (bytes[i] != value) {
+            return false;
+        }
+    }
+    return true;
+}
+
+static void test_rooms_of_drawn_sizes(void) {
+    dice d = dice_of("room", 2511);
+    for (unsigned i = 0; i < 200; i++) {
+        const size_t size = 1U + dice_one_of(&d, 40);
+        const size_t head = dice_one_of(&d, 60);
+        const int64_t count = (int64_t)dice_one_of(&d, 100);
+        const size_t bytes = size * (size_t)count;
+        unsigned char *plain = room(count, size);
+        unsigned char *tail = room_tail(head + 1, count, size);
+        TEST_ASSERT_TRUE(all_are(plain, bytes, 0));
+        TEST_ASSERT_TRUE(all_are(tail, head + 1 + bytes, 0));
+        memset(plain, 7, bytes);
+        memset(tail, 9, head + 1 + bytes);
+        plain = room_more(plain, count + 1 + (int64_t)dice_one_of(&d, 100), size);
+        TEST_ASSERT_TRUE(all_are(plain, bytes, 7));
+        char *copy = room_copy((const char *)plain, bytes);
+        TEST_ASSERT_TRUE(all_are((const unsigned char *)copy, bytes, 7));
+        TEST_ASSERT_EQUAL_CHAR('\0', copy[bytes]);
+        free(copy);
+        free(tail);
+        free(plain);
+    }
+}
+
+static void test_words_of_any_length(void) {
+    for (int length = 0; length < BYTES_MOST; length = length * 5 / 4 + 1) {
+        char *words = room_words("%*s|%d", length, "", length);
+        TEST_ASSERT_EQUAL_INT('|', words[length]);
+        TEST_ASSERT_EQUAL_INT(length, (int)strtol(words + length + 1, NULL, 10));
+        TEST_ASSERT_EQUAL_size_t((size_t)length, strspn(words, " "));
+        free(words);
+    }
+}
+
+static void test_texts_of_any_length(void) {
+    for (int length = 0; length < BYTES_MOST; length = length * 5 / 4 + 1) {
+        char *text = NULL;
+        size_t bytes = 0;
+        FILE *to = room_text(&text, &bytes);
+        fprintf(to, "%*s|", length, "");
+        room_text_end(to);
+        TEST_ASSERT_EQUAL_size_t((size_t)length + 1U, bytes);
+        TEST_ASSERT_EQUAL_size_t(bytes, strlen(text));
+        TEST_ASSERT_EQUAL_INT('|', text[length]);
+        free(text);
+    }
+}
+
+/* Half of what the largest size_t is: twice it is none. */
+#define HALF (SIZE_MAX / 2U + 1U)
+
+/* The address sanitizer ends a program that asks its heap for what no heap has. */
+#if defined(__SANITIZE_ADDRESS__)
+#define SANITIZED 1
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer)
+#define SANITIZED 1
+#endif
+#endif
+
+static void end_badly(const char *name, const char *mode) {
+    FILE *to = fopen(name, mode);
+    if (to != NULL) {
+        fputs("text", to);
+        room_text_end(to);
+    }
+}
+
+/* What there is no memory for: counts below zero, products and sums that a size_t holds after they overflowed; then what
+ * the heap itself refuses. */
+static int ask(int count, char **words) {
+    (void)count;
+    void *made = NULL;
+    switch (words[0][0]) {
+    case 'a': made = room(-1, 8); break;
+    case 'b': made = room_more(NULL, -1, 8); break;
+    case 'c': made = room_tail(8, -1, 8); break;
+    case 'd': made = room_copy("", SIZE_MAX); break;
+    case 'e': made = room_more(NULL, 2, HALF + 4U); break;
+    case 'f': made = room_tail(8, 2, HALF + 4U); break;
+    case 'g': made = room_tail(SIZE_MAX - 7U, 2, 8); break;
+#ifndef SANITIZED
+    case 'h': made = room(INT64_MAX, 1); break;
+    case 'i': made = room_more(NULL, INT64_MAX, 1); break;
+    case 'j': made = room_tail(0, INT64_MAX, 1); break;
+    case 'k': made = room_copy("", HALF); break;
+    case 'l': made = room(3, HALF); break;
+#endif
+    /* Streams that took not all: one that says so as it is closed, and one that said so before. */
+    case 'm': end_badly("/dev/full", "w"); break;
+    case 'n': end_badly("/dev/null", "r"); break;
+    default: return 0;
+    }
+    free(made);
+    return 0;
+}
+
+#ifdef SANITIZED
+#define ASKED "abcdefgmn"
+#else
+#define ASKED "abcdefghijklmn"
+#endif
+
+static void test_what_there_is_no_room_for(void) {
+    static const char asked[] = ASKED "-";
+    for (size_t i = 0; asked[i] != '\0'; i++) {
+        const char word[] = {asked[i], '\0'};
+        const char *const words[] = {word, NULL};
+        const bool ends = asked[i] != '-';
+        said what;
+        command_say(ask, words, &what);
+        TEST_ASSERT_EQUAL_INT_MESSAGE(ends ? EXIT_RUN_FAILED : 0, what.status, word);
+        TEST_ASSERT_EQUAL_STRING_MESSAGE(ends ? "whirl: out of memory\n" : "", what.err, word);
+    }
+}
+
 void suite_leaks(void) {
     RUN_TEST(test_scenes_give_everything_back);
     RUN_TEST(test_other_settings_give_everything_back);
     RUN_TEST(test_what_is_refused_gives_everything_back);
+    RUN_TEST(test_rooms_of_drawn_sizes);
+    RUN_TEST(test_words_of_any_length);
+    RUN_TEST(test_texts_of_any_length);
+    RUN_TEST(test_what_there_is_no_room_for);
 }
