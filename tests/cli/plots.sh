@@ -70,7 +70,7 @@ nasty() { # nasty NUMBER: a title
     }' | tr -d '"' | tr '\n' ' ' | sed 's/ $//'
 }
 number=0
-while [ $number -lt "${PLOT_CASES:-24}" ]; do
+while [ $number -lt "${PLOT_CASES:-5}" ]; do
     number=$((number + 1))
     title=$(nasty $number)
     printf 'mechanism m\ncoordinate x [m]\nT = 1 [kg]*x'"'"'^2/2\noutput k_x [m^(1/2)*kg] = 1 [m^(1/2)*kg]\nscene s "' >"$scratch/in/m.whirl"
