@@ -137,7 +137,7 @@ CLI_GATED := $(foreach t,angle_parts carriage embed_headers embed_names emitted_
     tests/cli/$(t).sh)
 # Of these, what only `make full` takes: each compares many runs for a minute or more. Of price.sh gate-long takes few cases.
 CLI_FULL := $(foreach t,map measure price,tests/cli/$(t).sh)
-HOST_FULL := choice lockin_truth trajectory trust turned_errors
+HOST_FULL := asked_first choice lockin_truth trajectory trust trust_scenes turned_errors
 HOST_GATED := asked_first busy choice contact_bound contact_centres contact_holds contact_load contact_rest contact_start \
     contact_together exact_books far_slopes figures_thomson fixed_ranges force_free hard_cases hard_edges hybrids ledger_scenes lockin_truth map \
     methods prove_drawn reference rounding tables tape_gauge trajectory trust trust_scenes turned_errors warnings

@@ -321,7 +321,7 @@ static void test_carts_that_stand(void) {
 static void test_cures_are_silent(void) {
     static const char *const methods[] = {"euler", "heun", "semi-implicit-euler", "rk4"};
     dice d = dice_of("far cures", 20261130);
-    const unsigned cases = dice_cases(few_or_all(usual_or(30, 15), 400));
+    const unsigned cases = dice_cases(few_or_all(usual_or(30, 8), 400));
     unsigned told = 0;
     unsigned cures = 0;
     for (unsigned i = 0; i < cases; i++) {

@@ -347,7 +347,7 @@ static void arm_text(dice *d, double k, char *text, size_t size) {
 
 static void test_rounding_alone_is_nothing_lost(void) {
     dice d = dice_of("folded", 2);
-    const unsigned cases = dice_cases(usual_or(few_or_all(20, 200), 4));
+    const unsigned cases = dice_cases(usual_or(few_or_all(20, 200), 2));
     unsigned asked = 0;
     for (unsigned k = 0; k < cases; k++) {
         char text[2000];
@@ -383,7 +383,7 @@ static void test_numbers_beside_a_rest(void) {
  * decimals leave it, but all of what moves the mass. */
 static void test_what_is_nearly_the_same(void) {
     dice d = dice_of("folded", 4);
-    for (unsigned k = 0; k < dice_cases(usual_or(40, 10)); k++) {
+    for (unsigned k = 0; k < dice_cases(usual_or(40, 5)); k++) {
         char text[600];
         said what;
         const double stiff = power_of_ten(&d, 10.0, 14.0);

@@ -139,7 +139,7 @@ static void test_a_torque_twice_a_turn_is_not_good(void) {
 
 /* Noise and hum to 0.3 N, jitter to 100 us, inertia, any set-point: at most one in a hundred is doubtful. */
 static void test_healthy_benches_are_good(void) {
-    const unsigned runs = few_or_all(usual_or(400, 100), 2000);
+    const unsigned runs = few_or_all(usual_or(400, 50), 2000);
     unsigned doubtful = 0;
     scattered_state = UINT64_C(0x5eed0a35);
     for (unsigned run = 0; run < runs; run++) {
