@@ -33,8 +33,7 @@ static const command_usage usage = {
         "\n"
         "A stability map: the scene is run for each pair of two swept values, one of which may be the\n"
         "step, and a mark tells what became of it: right to the tolerance, off by more, its energy not\n"
-        "kept, or out of all bounds. Where one is the step, the longest that the linear theory lets be\n"
-        "stable stands beside it.\n"
+        "kept, or out of all bounds.\n"
         "\n"
         "  whirl map two_mass_relative --over step=5ms..0.5s:21,log --over 'm1=1..100 [kg]:5,log'\n"
         "\n"
@@ -45,7 +44,7 @@ static const command_usage usage = {
         "  --tolerance 1e-3     part of the range that a coordinate has in a run (default: 1e-3)\n"
         "  --csv FILE           a row for each pair; - is standard output, and the map then goes to\n"
         "                       standard error\n"
-        "  --plot FILE.svg|.png a square for each pair, and the theory's limit as a line\n"
+        "  --plot FILE.svg|.png a square for each pair\n"
         "  --effort 1.5e11      operations that it may evaluate: 1.5e10 take about a minute\n"
         "  --quiet              no progress, and no map beside --csv or --plot\n",
     .why = {[EXIT_ROW_OF(EXIT_DONE)] = "whatever became of the runs",

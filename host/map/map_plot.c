@@ -77,28 +77,6 @@ static void write_cells(FILE *to, const stability_map *m, map_verdict verdict) {
     fputs("EOD\n", to);
 }
 
-/* As high as its cell, so that a row alone has a line, too; what lies beyond the picture is none of it. How many. */
-static uint64_t write_limits(FILE *to, const stability_map *m) {
-    const axis *along = &m->grid->axes[m->along];
-    const axis *rows = &m->grid->axes[1 - m->along];
-    const double least = edge(along, map_along(m, 0), false);
-    const double most = edge(along, map_along(m, along->count - 1), true);
-    uint64_t count = 0;
-    fputs("$limit << EOD\n", to);
-    for (uint64_t row = 0; row < rows->count; row++) {
-        const double y = map_row(m, row);
-        if (m->limit_s[row] > least && m->limit_s[row] < most) {
-            fprintf(to, "%.9g %.9g\n%.9g %.9g\n", m->limit_s[row], edge(rows, y, false),
-                    m->limit_s[row], edge(rows, y, true));
-            count++;
-        } else {
-            fputc('\n', to);
-        }
-    }
-    fputs("EOD\n", to);
-    return count;
-}
-
 static bool is_drawn(const stability_map *m, int verdict) {
     return verdict < PALETTE_AREAS && map_count(m, (map_verdict)verdict) > 0;
 }
@@ -121,7 +99,6 @@ static bool draw(const char *file, const stability_map *m, const char *words, co
             write_cells(g.to, m, (map_verdict)i);
         }
     }
-    const uint64_t limits = write_limits(g.to, m);
     const char *comma = "plot ";
     for (int i = 0; i < MAP_VERDICTS; i++) {
         if (is_drawn(m, i)) {
@@ -131,9 +108,7 @@ static bool draw(const char *file, const stability_map *m, const char *words, co
             comma = ", ";
         }
     }
-    if (limits > 0) {
-        fprintf(g.to, "%s$limit with lines lw 3 lc rgb 'black' title 'limit of theory'", comma);
-    } else if (*comma == 'p') {
+    if (*comma == 'p') {
         fputs("plot NaN notitle", g.to);
     }
     fputc('\n', g.to);

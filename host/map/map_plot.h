@@ -4,7 +4,7 @@
 
 #include "stability_map.h"
 
-/* A rectangle for each pair and the theory's limit as a line, to .svg or .png; `words` stand above. False: told on
+/* A rectangle for each pair, to .svg or .png; `words` stand above. False: told on
  * standard error. */
 bool map_plot(const char *file, const stability_map *m, const char *words);
 

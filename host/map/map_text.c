@@ -12,28 +12,11 @@ static map_verdict verdict_at(const stability_map *m, uint64_t row, uint64_t at)
 
 /* --- for people ------------------------------------------------------------------------------------------*/
 
-static void print_limit(FILE *out, double limit_s) {
-    if (limit_s > 0.0) {
-        fprintf(out, "  %.4g s", limit_s);
-    } else if (isfinite(limit_s)) {
-        fputs("  none", out);
-    }
-}
-
 static void print_row(FILE *out, const stability_map *m, uint64_t row) {
-    const uint64_t count = along_of(m)->count;
-    const double limit_s = m->limit_s[row];
-    bool behind = !isfinite(limit_s);
     fprintf(out, "  %-12.6g ", map_row(m, row));
-    for (uint64_t i = 0; i < count; i++) {
-        if (!behind && limit_s < map_along(m, i)) {
-            fputc('|', out);
-            behind = true;
-        }
+    for (uint64_t i = 0; i < along_of(m)->count; i++) {
         fputc(map_verdicts[verdict_at(m, row, i)].mark, out);
     }
-    fputs(behind ? "" : "|", out);
-    print_limit(out, limit_s);
     fputc('\n', out);
 }
 
@@ -41,10 +24,9 @@ static void print_row(FILE *out, const stability_map *m, uint64_t row) {
 void map_print(FILE *out, const stability_map *m, const char *words) {
     const axis *along = along_of(m);
     const axis *rows = rows_of(m);
-    fprintf(out, "%s\n\n  %-12.40s %.40s from %.6g to %.6g%s%s\n", words, rows->column,
+    fprintf(out, "%s\n\n  %-12.40s %.40s from %.6g to %.6g%s\n", words, rows->column,
             along->column, map_along(m, 0), map_along(m, along->count - 1),
-            along->is_log ? ", logarithmic" : "",
-            m->has_limit ? "; |: longest stable step, by the linear theory" : "");
+            along->is_log ? ", logarithmic" : "");
     const bool rises = rows->from <= rows->to;
     for (uint64_t i = 0; i < rows->count; i++) {
         print_row(out, m, rises ? rows->count - 1 - i : i);
@@ -68,7 +50,6 @@ static void field(FILE *out, double value) {
 
 static void write_row(FILE *out, const stability_map *m, uint64_t point) {
     const map_cell *c = &m->cell[point];
-    const uint64_t second = m->grid->axes[1].count;
     const bool known = c->verdict != MAP_NONE;
     char text[NUMBER_SIZE];
     double value[2];
@@ -79,13 +60,12 @@ static void write_row(FILE *out, const stability_map *m, uint64_t point) {
     field(out, known ? c->until_s : (double)NAN);
     field(out, known ? c->end_s : (double)NAN);
     field(out, c->left_over);
-    field(out, m->limit_s[m->along == 1 ? point / second : point % second]);
     fputs("\r\n", out);
 }
 
 void map_csv(FILE *out, const stability_map *m) {
     const grid *g = m->grid;
-    fprintf(out, "%s,%s,verdict,until,end,energy_left_over,limit\r\n", g->axes[0].column,
+    fprintf(out, "%s,%s,verdict,until,end,energy_left_over\r\n", g->axes[0].column,
             g->axes[1].column);
     for (uint64_t i = 0; i < g->points; i++) {
         if (m->cell[i].verdict != MAP_UNTRIED) {

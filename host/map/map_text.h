@@ -9,7 +9,7 @@
 /* A row for each row, a mark for each value along it, rising; `|` behind the last step that theory lets be. `words`
  * tell what was run. */
 void map_print(FILE *out, const stability_map *m, const char *words);
-/* A row for each pair that was tried: both values, verdict, times, what is missing of the energy, the theory's limit. */
+/* A row for each pair that was tried: both values, verdict, times, what is missing of the energy. */
 void map_csv(FILE *out, const stability_map *m);
 
 #endif

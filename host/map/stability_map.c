@@ -12,7 +12,6 @@
 #include "host/run/aliasing.h"
 #include "host/run/belief.h"
 #include "host/run/horizon.h"
-#include "host/run/linearised.h"
 #include "host/run/loop.h"
 #include "host/run/start.h"
 #include "host/sweep/changes.h"
@@ -87,84 +86,6 @@ static map_images images_at(const map_wish *w, uint64_t point) {
     changes_forget(w->changes, &changes);
     diags_free(errors);
     return made;
-}
-
-/* --- the theory ------------------------------------------------------------------------------------------*/
-
-/* What takes part in a motion by less is not seen in it. */
-#define SHARE_LEAST 1e-3
-/* Growth and decay below this part of the frequency are those of the differences that linearise. */
-#define DAMPING_LEAST 1e-6
-
-/* The longest step that lets none of these motions grow, but for those that grow by themselves or take part by less. */
-static double longest_of(const linearised *l, wh_method method, double share) {
-    double limit_s = (double)NAN;
-    for (int i = 0; i < l->motions; i++) {
-        const linear_motion *each = &l->motion[i];
-        const double size = complex_size(each->value);
-        limits_motion along = limits_scaled(linearised_as(each), 1.0 / size);
-        if (fabs(along.value.re) < DAMPING_LEAST) {
-            along.value.re = 0.0;
-            along.rates.re = fabs(along.rates.re) < 2.0 * DAMPING_LEAST ? 0.0 : along.rates.re;
-        }
-        if (size > 0.0 && along.value.re <= 0.0 && each->share >= share) {
-            const double longest_s = limits_interval(method, l->form, along) / size;
-            limit_s = number_least(longest_s, limit_s);
-        }
-    }
-    return limit_s;
-}
-
-/* Where all has come to rest between two records none is seen to take part: then of all. */
-static double longest_stable_s(const linearised *l, wh_method method) {
-    const double limit_s = longest_of(l, method, SHARE_LEAST);
-    return isnan(limit_s) ? longest_of(l, method, 0.0) : limit_s;
-}
-
-static bool is_stopped(const map_wish *w) { return w->stop != NULL && *w->stop; }
-
-typedef struct watching {
-    const engine_kind *kind;
-    void *run;
-    books *books;
-    watch *seen;
-} watching;
-
-static bool see(void *of, uint64_t step) {
-    const watching *at = of;
-    (void)step;
-    if (at->books != NULL) {
-        books_enter(at->books, at->kind, at->run);
-    }
-    watch_enter(at->seen, at->kind, at->books, at->run);
-    return true;
-}
-
-static void watch_run(const map_wish *w, const image *im, watch *seen) {
-    watching at = {w->kind, w->kind->start(im), books_open(im), seen};
-    const loop l = {
-        .kind = w->kind, .run = at.run, .steps = im->steps, .stop = w->stop, .see = {{see, &at}}};
-    wh_status status;
-    (void)loop_run(&l, &status);
-    books_close(at.books);
-    w->kind->stop(at.run);
-}
-
-/* Of the run of this point: NAN where it is not known. */
-static double limit_at(const map_wish *w, uint64_t point) {
-    map_images made = images_at(w, point);
-    double limit_s = (double)NAN;
-    if (made.of != NULL && made.of->contacts == 0 && w->settings.matrix != MATRIX_EXACT) {
-        const wh_method method = w->settings.matrix == MATRIX_RK4 ? WH_RK4 : w->settings.method;
-        watch *seen = watch_open(made.of, w->kind);
-        watch_run(w, made.of, seen);
-        linearised *l = linearised_of(seen, method);
-        limit_s = is_stopped(w) ? (double)NAN : longest_stable_s(l, method);
-        linearised_free(l);
-        watch_close(seen);
-    }
-    images_free(&made);
-    return limit_s;
 }
 
 /* --- a row ---------------------------------------------------------------------------------------------*/
@@ -263,20 +184,17 @@ static void try_point(row_runs *p, uint64_t point) {
     }
 }
 
+static bool is_stopped(const map_wish *w) { return w->stop != NULL && *w->stop; }
+
 static void try_row(const map_wish *w, stability_map *m, uint64_t row) {
     row_runs p = {.wish = w, .map = m};
     for (uint64_t i = 0; i < w->grid->axes[m->along].count && !is_stopped(w); i++) {
         const uint64_t point = map_point(m, row, i);
-        if (i == 0 && m->has_limit) {
-            m->limit_s[row] = limit_at(w, point);
-        }
-        if (!m->has_limit) { /* another scene, not the same in other steps */
+        if (!m->by_step) { /* another scene, not the same in other steps */
             free(p.range);
             p.range = NULL;
         }
-        if (!is_stopped(w)) {
-            try_point(&p, point);
-        }
+        try_point(&p, point);
         if (w->progress != NULL) {
             show_share(0.0, &p);
         }
@@ -290,15 +208,11 @@ stability_map map_make(const map_wish *w) {
     const grid *g = w->grid;
     stability_map m = {.grid = g,
                        .along = g->axes[0].symbol == NULL ? 0 : 1,
-                       .has_limit = g->axes[0].symbol == NULL || g->axes[1].symbol == NULL};
+                       .by_step = g->axes[0].symbol == NULL || g->axes[1].symbol == NULL};
     const uint64_t rows = g->axes[1 - m.along].count;
     m.cell = room((int64_t)g->points, sizeof *m.cell);
-    m.limit_s = room((int64_t)rows, sizeof *m.limit_s);
     for (uint64_t i = 0; i < g->points; i++) {
         m.cell[i] = (map_cell){.verdict = MAP_UNTRIED, .left_over = (double)NAN};
-    }
-    for (uint64_t i = 0; i < rows; i++) {
-        m.limit_s[i] = (double)NAN;
     }
     for (uint64_t i = 0; i < rows && !is_stopped(w); i++) {
         try_row(w, &m, i);
@@ -308,7 +222,6 @@ stability_map map_make(const map_wish *w) {
 
 void map_free(stability_map *m) {
     free(m->cell);
-    free(m->limit_s);
     *m = (stability_map){0};
 }
 

@@ -1,11 +1,8 @@
 /* stability_map.h: what becomes of a scene's run for each pair of two swept values: does it stay bounded, keep its energy,
- * keep a tolerance? And where a method's stability ends by the linear theory.
+ * keep a tolerance?
  *
  * Each run has a finer one beside it (host/run/twins.h), which says until when it is right, and books, which say what of
- * its energy is missing (host/run/belief.h). A map's rows are the values of the axis that is no step; the theory's limit of
- * a row is the longest step that lets no motion grow which takes part in the run by the finest step there, linearised
- * along its way (host/run/linearised.h). It knows no contacts, and nothing of motions that get faster when the step is
- * long. */
+ * its energy is missing (host/run/belief.h). A map's rows are the values of the axis that is no step. */
 #ifndef MAP_STABILITY_MAP_H
 #define MAP_STABILITY_MAP_H
 
@@ -64,8 +61,7 @@ typedef struct stability_map {
     map_cell *cell;  /* [grid->points] */
     uint64_t done;   /* cells; fewer than points where it was stopped */
     int along;       /* the step's axis, or where neither is the step 1 */
-    bool has_limit;  /* one is the step */
-    double *limit_s; /* [count of the other axis] longest stable step; 0: none is, NAN: not known */
+    bool by_step;    /* one is the step */
 } stability_map;
 
 /* Place by row, from the shortest step of each on. */

@@ -8,9 +8,6 @@
 #include "host/base/room.h"
 #include "host/number/functions.h"
 
-/* A change of a component by which slopes are taken: the root of what a double rounds. */
-#define CHANGE 0x1p-20
-
 field *field_open(const image *im, const engine_kind *kind) {
     field *f = room(1, sizeof *f);
     f->image = im;
@@ -67,31 +64,6 @@ void field_rounding(field *f, const double *x, double *off) {
         off[i] = f->next[i] >= 0 ? 0.0 : 0x1p-53 * error[at] + im->mass_blur * fabs(f->value[at]);
     }
     free(error);
-}
-
-bool field_jacobian(field *f, const double *x, const double *size, double *matrix) {
-    const int n = f->n;
-    bool finite = true;
-    double *at = room(3 * (int64_t)n, sizeof *at);
-    double *up = at + n;
-    double *down = up + n;
-    memcpy(at, x, (size_t)n * sizeof *at);
-    for (int k = 0; k < n; k++) {
-        const double change = CHANGE * number_most(fabs(size[k]), CHANGE);
-        at[k] = x[k] + change;
-        field_slope(f, at, up);
-        const double high = at[k];
-        at[k] = x[k] - change;
-        field_slope(f, at, down);
-        const double across = high - at[k]; /* as rounded */
-        at[k] = x[k];
-        for (int i = 0; i < n; i++) {
-            matrix[i * n + k] = (up[i] - down[i]) / across;
-            finite = finite && isfinite(matrix[i * n + k]);
-        }
-    }
-    free(at);
-    return finite;
 }
 
 /* The momenta are linear in the rates, or nearly so. */

@@ -29,10 +29,7 @@ void field_slope(field *f, const double *x, double *slope);
 /* Of the state x[n] whose slope was asked for last: how far off rounding in double may put each highest one, at most; off[n], of the
  * others 0. */
 void field_rounding(field *f, const double *x, double *off);
-/* matrix[n * n], row by row: how the slope changes with the state; `size[n]` is the size of a component where it
- * counts. False where it has no value. */
-bool field_jacobian(field *f, const double *x, const double *size, double *matrix);
-/* matrix[rows * rows]; `size` as above. The scene must have energies. */
+/* matrix[rows * rows]; `size[n]` is the size of a component where it counts. The scene must have energies. */
 void field_mass(field *f, const double *x, const double *size, double *matrix);
 
 #endif

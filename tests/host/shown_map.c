@@ -49,17 +49,6 @@ static void rising(const axis *a, double *value, uint64_t *which) {
     }
 }
 
-/* Beyond the map on either side, at none, or within it. */
-static double drawn_limit_s(dice *d, const shown_map *s, uint64_t along) {
-    const double *v = s->value[0];
-    switch (dice_one_of(d, 5)) {
-    case 0: return (double)NAN;
-    case 1: return 0.0;
-    case 2: return 3.0 * v[along - 1];
-    default: return dice_between(d, 0.5 * v[0], 1.2 * v[along - 1]);
-    }
-}
-
 void shown_map_draw(dice *d, shown_map *s) {
     memset(s, 0, sizeof *s);
     static char names[3][8] = {"step", "k", "m"};
@@ -77,8 +66,7 @@ void shown_map_draw(dice *d, shown_map *s) {
                              .cell = s->cell,
                              .done = s->grid.points,
                              .along = along,
-                             .has_limit = step < 2,
-                             .limit_s = s->limit_s};
+                             .by_step = step < 2};
     const unsigned kinds = 1 + dice_one_of(d, MAP_VERDICTS);
     for (uint64_t i = 0; i < s->grid.points; i++) {
         const map_verdict verdict = (map_verdict)dice_one_of(d, kinds);
@@ -86,8 +74,6 @@ void shown_map_draw(dice *d, shown_map *s) {
                                 dice_one_of(d, 2) == 0 ? (double)NAN : dice_between(d, 0.0, 1.0)};
     }
     for (uint64_t row = 0; row < rows->count; row++) {
-        s->limit_of[row] = step < 2 ? drawn_limit_s(d, s, across) : (double)NAN;
-        s->limit_s[s->place[1][row]] = s->limit_of[row];
         for (uint64_t i = 0; i < across; i++) {
             const uint64_t first = along == 0 ? s->place[0][i] : s->place[1][row];
             const uint64_t second = along == 0 ? s->place[1][row] : s->place[0][i];

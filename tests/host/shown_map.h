@@ -14,11 +14,9 @@ typedef struct shown_map {
     grid grid;
     stability_map map;
     map_cell cell[SHOWN_MOST * SHOWN_MOST];
-    double limit_s[SHOWN_MOST];
     double value[2][SHOWN_MOST];   /* of the axis along, and of the rows; rising */
     uint64_t place[2][SHOWN_MOST]; /* which of its axis each is */
     const map_cell *at[SHOWN_MOST][SHOWN_MOST];
-    double limit_of[SHOWN_MOST]; /* of the rows as they rise */
 } shown_map;
 
 /* Points into itself: it stays where it is. */

@@ -1,5 +1,5 @@
 /* test_map_picture.c: drawn maps as pictures: what gnuplot is told, read again and held to what the map was drawn from: which
- * verdict fills which pairs, where each cell ends, where the limit stands. `cat` plays gnuplot, so that its picture is what
+ * verdict fills which pairs, and where each cell ends. `cat` plays gnuplot, so that its picture is what
  * it was told. */
 #include <math.h>
 #include <stdio.h>
@@ -84,31 +84,6 @@ static void expect_boxes(const shown_map *s, map_verdict verdict, const char *te
     TEST_ASSERT_EQUAL_INT(0, strncmp(text, "EOD\n", 4));
 }
 
-/* The limit where it is within the picture, as high as its row; a gap where it is not. */
-static unsigned expect_limits(const shown_map *s, const double ends[2], const char *text) {
-    const axis *rows = &s->axes[1 - s->map.along];
-    unsigned count = 0;
-    for (uint64_t k = 0; k < rows->count; k++) {
-        const uint64_t row = rows->from <= rows->to ? k : rows->count - 1 - k;
-        const double limit_s = s->limit_of[row];
-        if (!(limit_s > ends[0] && limit_s < ends[1])) {
-            TEST_ASSERT_EQUAL_INT('\n', *text);
-            text++;
-            continue;
-        }
-        box b;
-        text = said_words(said_number(said_number(text, &b.left), &b.low), "\n");
-        text = said_words(said_number(said_number(text, &b.right), &b.high), "\n");
-        TEST_ASSERT_DOUBLE_WITHIN(1e-8 * limit_s, limit_s, b.left);
-        TEST_ASSERT_DOUBLE_WITHIN(1e-8 * limit_s, limit_s, b.right);
-        expect_end(rows, s->value[1], row, false, b.low);
-        expect_end(rows, s->value[1], row, true, b.high);
-        count++;
-    }
-    TEST_ASSERT_EQUAL_INT(0, strncmp(text, "EOD\n", 4));
-    return count;
-}
-
 /* A range, its logarithm and its label. */
 static void expect_axis(const char *told, const axis *a, const double *v, char letter,
                         double *ends) {
@@ -163,11 +138,7 @@ static void expect_picture(const shown_map *s) {
             any = true;
         }
     }
-    const char *limits = strstr(told, "$limit << EOD\n");
-    TEST_ASSERT_NOT_NULL(limits);
-    const bool line = expect_limits(s, ends, strchr(limits, '\n') + 1) > 0;
-    expect_plot_line(told, line, "$limit with lines");
-    expect_plot_line(told, !line && !any, "plot NaN");
+    expect_plot_line(told, !any, "plot NaN");
     TEST_ASSERT_NULL(strstr(told, "plot ,"));
 }
 

@@ -1,5 +1,5 @@
 /* test_map_shown.c: drawn maps in words and in rows, read again and held to what they were drawn from: what stands at which
- * pair, and where the limit stands. */
+ * pair. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -17,25 +17,16 @@ enum { LINE = 400 };
 
 /* --- in words --------------------------------------------------------------------------------------------*/
 
-/* A row as it should stand: its marks, with the limit between the last step that it lets be and the next. */
+/* A row as it should stand. */
 static void marks_of(const shown_map *s, uint64_t row, char *marks) {
-    const double limit_s = s->limit_of[row];
-    bool before = isfinite(limit_s);
     for (uint64_t i = 0; i < shown_map_across(s); i++) {
-        if (before && s->value[0][i] > limit_s) {
-            *marks++ = '|';
-            before = false;
-        }
         *marks++ = ".ox#-?"[s->at[row][i]->verdict];
-    }
-    if (before) {
-        *marks++ = '|';
     }
     *marks = '\0';
 }
 
 static void expect_row(const shown_map *s, uint64_t row, const char *line) {
-    char marks[2 * SHOWN_MOST];
+    char marks[1 + SHOWN_MOST];
     char found[LINE] = "";
     double value = 0.0;
     marks_of(s, row, marks);
@@ -43,16 +34,7 @@ static void expect_row(const shown_map *s, uint64_t row, const char *line) {
     behind += strspn(behind, " ");
     TEST_ASSERT_DOUBLE_WITHIN(1e-5 * fabs(s->value[1][row]) + 1e-9, s->value[1][row], value);
     TEST_ASSERT_EQUAL_STRING(marks, found);
-    const double limit_s = s->limit_of[row];
-    if (isnan(limit_s)) {
-        TEST_ASSERT_EQUAL_STRING("\n", behind);
-    } else if (limit_s == 0.0) {
-        TEST_ASSERT_EQUAL_STRING("none\n", behind);
-    } else {
-        char *unit;
-        TEST_ASSERT_DOUBLE_WITHIN(1e-3 * limit_s, limit_s, strtod(behind, &unit));
-        TEST_ASSERT_EQUAL_STRING(" s\n", unit);
-    }
+    TEST_ASSERT_EQUAL_STRING("\n", behind);
 }
 
 /* Each verdict that occurs, from good to bad, and how often. */
@@ -99,7 +81,6 @@ static void expect_words(const shown_map *s) {
     TEST_ASSERT_DOUBLE_WITHIN(1e-5 * fabs(from), s->value[0][0], from);
     TEST_ASSERT_DOUBLE_WITHIN(1e-5 * fabs(to), s->value[0][shown_map_across(s) - 1], to);
     TEST_ASSERT_EQUAL_INT(s->axes[s->map.along].is_log, strstr(line, ", logarithmic") != NULL);
-    TEST_ASSERT_EQUAL_INT(s->map.has_limit, strstr(line, "longest stable step") != NULL);
     for (uint64_t row = shown_map_rows(s); row-- > 0;) { /* the largest on top */
         TEST_ASSERT_NOT_NULL(fgets(line, sizeof line, both));
         expect_row(s, row, line);
@@ -134,7 +115,7 @@ static void expect_csv(const shown_map *s) {
     rewind(both);
     TEST_ASSERT_NOT_NULL(fgets(line, sizeof line, both));
     char head[LINE];
-    snprintf(head, sizeof head, "%s,%s,verdict,until,end,energy_left_over,limit\r\n",
+    snprintf(head, sizeof head, "%s,%s,verdict,until,end,energy_left_over\r\n",
              s->axes[0].column, s->axes[1].column);
     TEST_ASSERT_EQUAL_STRING(head, line);
     for (uint64_t i = 0; i < s->grid.points; i++) {
@@ -154,7 +135,6 @@ static void expect_csv(const shown_map *s) {
         expect_field(known ? c->until_s : (double)NAN, &at);
         expect_field(known ? c->end_s : (double)NAN, &at);
         expect_field(c->left_over, &at);
-        expect_field(s->limit_s[which[1 - s->map.along]], &at);
         TEST_ASSERT_EQUAL_STRING("\r\n", at);
     }
     TEST_ASSERT_NULL(fgets(line, sizeof line, both));
