@@ -19,8 +19,6 @@ watch *watch_open(const image *im, const engine_kind *kind) {
     const int64_t n = w->field->n;
     const int64_t rows = w->field->rows;
     w->step_s = im->step_s;
-    w->stride = 1;
-    w->record = room(WATCH_RECORDS * n, sizeof *w->record);
     w->low = room(5 * n, sizeof *w->low);
     w->high = w->low + n;
     w->slope = w->high + n;
@@ -35,7 +33,6 @@ watch *watch_open(const image *im, const engine_kind *kind) {
 void watch_close(watch *w) {
     if (w != NULL) {
         field_close(w->field);
-        free(w->record);
         free(w->low);
         free(w->mass);
         free(w);
@@ -43,32 +40,6 @@ void watch_close(watch *w) {
 }
 
 static double time_s(const watch *w) { return (double)w->steps * w->step_s; }
-
-/* Is this the step of its part of the run that is kept? Another one of each part: a motion whose period divides the parts would be
- * met in the same phase. */
-static bool is_record(const watch *w) {
-    const uint64_t part = w->steps / w->stride;
-    const uint64_t drawn = (uint32_t)(part * 2654435769U) >> 8;
-    return w->steps == 0 || w->steps % w->stride == drawn % w->stride;
-}
-
-static void enter_record(watch *w, const double *x) {
-    const size_t n = (size_t)w->field->n;
-    if (!is_record(w)) {
-        return;
-    }
-    if (w->records == WATCH_RECORDS) { /* every other one stays */
-        for (int k = 1; 2 * k < WATCH_RECORDS; k++) {
-            memcpy(w->record + k * (ptrdiff_t)n, w->record + 2 * k * (ptrdiff_t)n,
-                   n * sizeof *w->record);
-            w->record_s[k] = w->record_s[2 * k];
-        }
-        w->records = WATCH_RECORDS / 2;
-        w->stride *= 2;
-    }
-    memcpy(w->record + w->records * (ptrdiff_t)n, x, n * sizeof *w->record);
-    w->record_s[w->records++] = time_s(w);
-}
 
 /* --- singular places ------------------------------------------------------------------------------------*/
 
@@ -138,9 +109,6 @@ static int position_near(watch *w, const double *x, int row) {
 
 static void look(watch *w, const double *x) {
     int row = -1;
-    for (int k = 0; k < w->records; k += 4) { /* how large the entries are elsewhere */
-        least_pivot(w, w->record + k * (ptrdiff_t)w->field->n, &row);
-    }
     const double inertia = least_pivot(w, x, &row);
     if (inertia < w->singular.inertia) {
         const int near = position_near(w, x, row);
@@ -186,8 +154,11 @@ void watch_enter(watch *w, const engine_kind *kind, const books *b, const void *
         w->low[i] = w->steps == 0 || x[i] < w->low[i] ? x[i] : w->low[i];
         w->high[i] = w->steps == 0 || x[i] > w->high[i] ? x[i] : w->high[i];
     }
-    enter_record(w, x);
     if (w->looks) {
+        int row;
+        if ((w->steps & (w->steps - 1U)) == 0) { /* how large the entries are elsewhere */
+            (void)least_pivot(w, x, &row);
+        }
         read_slopes(w, b, x);
         if (w->steps > 2 && bends_most(w)) {
             look(w, x);

@@ -1,5 +1,4 @@
-/* watch.h: the course of a run in bounded memory: records of its state, the range of each component, and the place at which its
- * coordinates came closest to a singular one.
+/* watch.h: the range of each component of a run, and the place at which its coordinates came closest to a singular one.
  *
  * A singular place has a mass matrix with a pivot of nearly nothing. The matrix is eliminated after steps in which the accelerations
  * changed most so far, so that a run asks for it as often as the logarithm of that change. Scenes with contacts are not asked: their
@@ -9,8 +8,6 @@
 
 #include "books.h"
 #include "field.h"
-
-enum { WATCH_RECORDS = 64 };
 
 /* Where a pivot of the mass matrix was least, of the largest that its diagonal entry had. */
 typedef struct watch_singular {
@@ -25,10 +22,6 @@ typedef struct watch {
     field *field;
     double step_s;
     uint64_t steps;
-    double *record; /* [WATCH_RECORDS * n], one of each part of the run so far, and the start */
-    double record_s[WATCH_RECORDS];
-    int records;
-    uint64_t stride;
     double *low; /* [n] */
     double *high;
     double *slope;  /* [2 * n] now, before */
