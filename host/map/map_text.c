@@ -24,9 +24,8 @@ static void print_row(FILE *out, const stability_map *m, uint64_t row) {
 void map_print(FILE *out, const stability_map *m, const char *words) {
     const axis *along = along_of(m);
     const axis *rows = rows_of(m);
-    fprintf(out, "%s\n\n  %-12.40s %.40s from %.6g to %.6g%s\n", words, rows->column,
-            along->column, map_along(m, 0), map_along(m, along->count - 1),
-            along->is_log ? ", logarithmic" : "");
+    fprintf(out, "%s\n\n  %-12.40s %.40s from %.6g to %.6g%s\n", words, rows->column, along->column,
+            map_along(m, 0), map_along(m, along->count - 1), along->is_log ? ", logarithmic" : "");
     const bool rises = rows->from <= rows->to;
     for (uint64_t i = 0; i < rows->count; i++) {
         print_row(out, m, rises ? rows->count - 1 - i : i);

@@ -58,10 +58,10 @@ typedef struct map_wish {
 
 typedef struct stability_map {
     const grid *grid;
-    map_cell *cell;  /* [grid->points] */
-    uint64_t done;   /* cells; fewer than points where it was stopped */
-    int along;       /* the step's axis, or where neither is the step 1 */
-    bool by_step;    /* one is the step */
+    map_cell *cell; /* [grid->points] */
+    uint64_t done;  /* cells; fewer than points where it was stopped */
+    int along;      /* the step's axis, or where neither is the step 1 */
+    bool by_step;   /* one is the step */
 } stability_map;
 
 /* Place by row, from the shortest step of each on. */

@@ -115,8 +115,8 @@ static void expect_csv(const shown_map *s) {
     rewind(both);
     TEST_ASSERT_NOT_NULL(fgets(line, sizeof line, both));
     char head[LINE];
-    snprintf(head, sizeof head, "%s,%s,verdict,until,end,energy_left_over\r\n",
-             s->axes[0].column, s->axes[1].column);
+    snprintf(head, sizeof head, "%s,%s,verdict,until,end,energy_left_over\r\n", s->axes[0].column,
+             s->axes[1].column);
     TEST_ASSERT_EQUAL_STRING(head, line);
     for (uint64_t i = 0; i < s->grid.points; i++) {
         const map_cell *c = &s->cell[i];
