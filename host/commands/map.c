@@ -44,6 +44,7 @@ static const command_usage usage = {
         "  --tolerance 1e-3     part of the range that a coordinate has in a run (default: 1e-3)\n"
         "  --csv FILE           a row for each pair; - is standard output, and the map then goes to\n"
         "                       standard error\n"
+        "  --json               one JSON object on standard output in place of the map (docs/warnings.md)\n"
         "  --plot FILE.svg|.png a square for each pair\n"
         "  --effort 1.5e11      operations that it may evaluate: 1.5e10 take about a minute\n"
         "  --quiet              no progress, and no map beside --csv or --plot\n",
@@ -61,6 +62,7 @@ typedef struct map_options {
     const char *plot;
     double tolerance;
     double effort;
+    bool json;
     bool quiet;
 } map_options;
 
@@ -90,13 +92,15 @@ static bool take_one(int count, char **words, int *at, void *options, bool *bad)
         o->csv = value;
     } else if (!*bad && (value = options_value(count, words, at, "--plot", bad)) != NULL) {
         o->plot = value;
-    } else if (!*bad && strcmp(words[*at], "--quiet") == 0) {
-        o->quiet = true;
+    } else if (!*bad && (strcmp(words[*at], "--quiet") == 0 || strcmp(words[*at], "--json") == 0)) {
+        *(words[*at][2] == 'q' ? &o->quiet : &o->json) = true;
         ++*at;
         return true;
     }
     return value != NULL;
 }
+
+static bool is_standard(const map_options *o) { return o->csv != NULL && strcmp(o->csv, "-") == 0; }
 
 /* Nothing is missing, and nothing contradicts. */
 static bool is_whole(const map_options *o) {
@@ -110,6 +114,12 @@ static bool is_whole(const map_options *o) {
     if (o->plot != NULL && !gnuplot_can_draw_for("map", "--plot", o->plot)) {
         return false;
     }
+    if (o->json && is_standard(o)) {
+        fputs("whirl map: error: --json and rows cannot share standard output\n"
+              "hint: --csv rows.csv\n",
+              stderr);
+        return false;
+    }
     if (o->csv != NULL && o->plot != NULL && files_same(o->csv, o->plot)) {
         fputs("whirl map: error: --csv and --plot cannot share a file\n", stderr);
         return false;
@@ -119,7 +129,7 @@ static bool is_whole(const map_options *o) {
 
 static bool read_options(int count, char **words, map_options *o) {
     static const char *const own[] = {"--over", "--tolerance", "--effort", "--csv",
-                                      "--plot", "--quiet",     NULL};
+                                      "--plot", "--json",      "--quiet",  NULL};
     const target_reader reader = {
         .command = "map", .groups = usage.groups, .own = own, .take = take_one};
     return target_read(&reader, count, words, &o->common, o, &o->target) &&
@@ -127,8 +137,6 @@ static bool read_options(int count, char **words, map_options *o) {
 }
 
 /* --- the answer -----------------------------------------------------------------------------------------*/
-
-static bool is_standard(const map_options *o) { return o->csv != NULL && strcmp(o->csv, "-") == 0; }
 
 static bool write_rows(const map_options *o, const stability_map *m) {
     FILE *out = written_open(o->csv);
@@ -139,7 +147,7 @@ static bool write_rows(const map_options *o, const stability_map *m) {
 }
 
 static int show(const map_options *o, const stability_map *m, const char *words) {
-    if (!o->quiet || (o->csv == NULL && o->plot == NULL)) {
+    if (!o->json && (!o->quiet || (o->csv == NULL && o->plot == NULL))) {
         map_print(is_standard(o) ? stderr : stdout, m, words);
     }
     int code = o->csv == NULL || write_rows(o, m) ? EXIT_DONE : EXIT_BAD_INPUT;
@@ -222,6 +230,9 @@ static int map_loaded(const map_options *o, const map_wish *plan, const image *b
         fputs("\r                                        \r", stderr);
     }
     const int code = show(o, &m, words);
+    if (o->json) {
+        map_json(stdout, &m, base, &wish, code);
+    }
     map_free(&m);
     free(words);
     return code;

@@ -12,6 +12,7 @@
 #include "host/run/aliasing.h"
 #include "host/run/apart.h"
 #include "host/run/horizon_text.h"
+#include "host/run/run_json.h"
 #include "host/run/start.h"
 #include "host/run/undefined.h"
 #include "interrupts.h"
@@ -36,6 +37,7 @@ static const command_usage usage = {
         "  --tolerance 1e-3     part of the range that a coordinate has in the run (default: 1e-3)\n"
         "  --csv FILE           a row for each coordinate and rate; - is standard output, and the words then\n"
         "                       go to standard error\n"
+        "  --json               one JSON object on standard output in place of words (docs/warnings.md)\n"
         "  --effort 1.5e10      operations that it may evaluate: 1.5e10 take about a minute\n"
         "  --quiet              no progress, and no words beside --csv\n",
     .why = {[EXIT_ROW_OF(EXIT_DONE)] = "",
@@ -50,6 +52,7 @@ typedef struct trust_options {
     const char *csv;
     double tolerance;
     double effort;
+    bool json;
     bool quiet;
 } trust_options;
 
@@ -66,20 +69,35 @@ static bool take_one(int count, char **words, int *at, void *options, bool *bad)
                                "operations: --effort 1.5e11", &o->effort);
     } else if (!*bad && (value = options_value(count, words, at, "--csv", bad)) != NULL) {
         o->csv = value;
-    } else if (!*bad && strcmp(words[*at], "--quiet") == 0) {
-        o->quiet = true;
+    } else if (!*bad && (strcmp(words[*at], "--quiet") == 0 || strcmp(words[*at], "--json") == 0)) {
+        *(words[*at][2] == 'q' ? &o->quiet : &o->json) = true;
         ++*at;
         return true;
     }
     return value != NULL;
 }
 
+static bool is_standard(const trust_options *o) {
+    return o->csv != NULL && strcmp(o->csv, "-") == 0;
+}
+
+static bool is_whole(const trust_options *o) {
+    if (o->json && is_standard(o)) {
+        fputs("whirl trust: error: --json and rows cannot share standard output\n"
+              "hint: --csv rows.csv\n",
+              stderr);
+        return false;
+    }
+    return true;
+}
+
 static bool read_options(int count, char **words, trust_options *o) {
-    static const char *const own[] = {"--tolerance", "--csv", "--effort", "--quiet", NULL};
+    static const char *const own[] = {"--tolerance", "--csv",   "--effort",
+                                      "--json",      "--quiet", NULL};
     const target_reader reader = {
         .command = "trust", .groups = usage.groups, .own = own, .take = take_one};
     return target_read(&reader, count, words, &o->common, o, &o->target) &&
-           target_is_there(o->target, &usage);
+           target_is_there(o->target, &usage) && is_whole(o);
 }
 
 static bool shows_progress(const trust_options *o) { return !o->quiet && isatty(STDERR_FILENO); }
@@ -140,10 +158,6 @@ static void say_failure(const image *im, const engine_kind *kind, const twins *t
     }
 }
 
-static bool is_standard(const trust_options *o) {
-    return o->csv != NULL && strcmp(o->csv, "-") == 0;
-}
-
 static int write_rows(const trust_options *o, const horizon *h) {
     FILE *rows = o->csv != NULL ? written_open(o->csv) : NULL;
     if (rows != NULL) {
@@ -179,12 +193,15 @@ static int answer(const trust_options *o, const image *im, const image *plain) {
         aliasing_find(t, &interrupted);
         horizon h = horizon_of(t, o->tolerance);
         code = write_rows(o, &h);
-        if (!o->quiet || o->csv == NULL) {
+        if (!o->json && (!o->quiet || o->csv == NULL)) {
             horizon_print(is_standard(o) ? stderr : stdout, &h);
         }
         if (t->status != WH_OK) {
             say_failure(im, kind, t);
             code = code == EXIT_DONE ? EXIT_RUN_FAILED : code;
+        }
+        if (o->json) {
+            horizon_json(stdout, &h, code);
         }
         horizon_free(&h);
     }

@@ -3,6 +3,9 @@
 
 #include <math.h>
 
+#include "host/run/run_json.h"
+#include "host/sweep/sweep_json.h"
+
 static const axis *along_of(const stability_map *m) { return &m->grid->axes[m->along]; }
 static const axis *rows_of(const stability_map *m) { return &m->grid->axes[1 - m->along]; }
 
@@ -71,4 +74,39 @@ void map_csv(FILE *out, const stability_map *m) {
             write_row(out, m, i);
         }
     }
+}
+
+static void put_pair(json *j, const stability_map *m, uint64_t point) {
+    const map_cell *c = &m->cell[point];
+    const bool known = c->verdict != MAP_NONE;
+    double value[2];
+    grid_values(m->grid, point, value);
+    json_open(j, NULL, '{');
+    json_open(j, "values", '[');
+    json_number(j, NULL, value[0]);
+    json_number(j, NULL, value[1]);
+    json_close(j, ']');
+    json_text(j, "verdict", map_verdicts[c->verdict].word);
+    json_time(j, "until_s", known ? c->until_s : -1.0);
+    json_time(j, "end_s", known ? c->end_s : -1.0);
+    json_number(j, "energy_left_over", c->left_over);
+    json_close(j, '}');
+}
+
+void map_json(FILE *out, const stability_map *m, const image *of, const map_wish *w, int status) {
+    json j = {.out = out};
+    json_begin(&j, "map", of->name, of->title, w->kind, w->settings.method);
+    json_number(&j, "tolerance", w->tolerance);
+    json_open(&j, "columns", '[');
+    sweep_json_axes(&j, m->grid);
+    json_close(&j, ']');
+    json_open(&j, "rows", '[');
+    for (uint64_t i = 0; i < m->grid->points; i++) {
+        if (m->cell[i].verdict != MAP_UNTRIED) {
+            put_pair(&j, m, i);
+        }
+    }
+    json_close(&j, ']');
+    json_whole(&j, "exit", status);
+    json_close(&j, '}');
 }

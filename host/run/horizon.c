@@ -115,6 +115,12 @@ horizon horizon_of(const twins *t, double tolerance) {
     return h;
 }
 
+double horizon_trusted_s(const horizon *h) {
+    const bool untold = !h->to_the_end && (h->column[h->first].verdict == HORIZON_NOT_TOLD ||
+                                           h->of->aliased.column > 0);
+    return untold ? -1.0 : h->until_s;
+}
+
 void horizon_free(horizon *h) {
     free(h->column);
     h->column = NULL;

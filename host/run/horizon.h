@@ -39,6 +39,8 @@ typedef struct horizon {
 horizon horizon_of(const twins *t, double tolerance);
 /* Does column k move, or start somewhere, by the scene? What symmetry keeps at zero does not, whatever rounding makes of it. */
 bool horizon_moves(const twins *t, int k);
+/* Until when the run is right; below 0: not told, for want of digits or because the finer run shares what is wrong. */
+double horizon_trusted_s(const horizon *h);
 void horizon_free(horizon *h);
 
 #endif

@@ -218,18 +218,19 @@ void horizon_print_line(FILE *out, const horizon *h, bool doubted) {
     }
 }
 
+const char *const horizon_words[] = {[HORIZON_TO_THE_END] = "end",
+                                     [HORIZON_UNTIL] = "until",
+                                     [HORIZON_STILL] = "still",
+                                     [HORIZON_ROUNDING] = "rounding",
+                                     [HORIZON_NOT_TOLD] = "untold"};
+
 void horizon_write(FILE *out, const horizon *h) {
-    static const char *const verdicts[] = {[HORIZON_TO_THE_END] = "end",
-                                           [HORIZON_UNTIL] = "until",
-                                           [HORIZON_STILL] = "still",
-                                           [HORIZON_ROUNDING] = "rounding",
-                                           [HORIZON_NOT_TOLD] = "untold"};
     char name[NAME_SIZE];
     fputs("column,unit,verdict,until,range,off\r\n", out);
     for (int k = 1; k < h->of->columns; k++) {
         const horizon_column *c = &h->column[k];
         fprintf(out, "%s,%s,%s,%.15g,%.17g,%.17g\r\n", name_of(h, k, name),
-                h->of->shape->column[k].unit->shown, verdicts[c->verdict], c->until_s, c->range,
-                c->off);
+                h->of->shape->column[k].unit->shown, horizon_words[c->verdict], c->until_s,
+                c->range, c->off);
     }
 }

@@ -10,6 +10,8 @@
 void horizon_print(FILE *out, const horizon *h);
 /* One line, for a summary. `doubted`: something is said against the run, which the runs beside it may share. */
 void horizon_print_line(FILE *out, const horizon *h, bool doubted);
+/* Of each verdict. */
+extern const char *const horizon_words[];
 /* A header, and a row for each coordinate and rate. */
 void horizon_write(FILE *out, const horizon *h);
 

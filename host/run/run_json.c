@@ -6,16 +6,35 @@
 
 #include "core/version.h"
 #include "findings.h"
-#include "host/base/json.h"
+#include "horizon_text.h"
 #include "host/base/room.h"
 
-/* A value, or null below zero. */
-static void put_time(json *j, const char *key, double time_s) {
+void json_begin(json *j, const char *command, const char *scene, const char *title,
+                const engine_kind *kind, wh_method method) {
+    json_open(j, NULL, '{');
+    json_whole(j, "schema", 1);
+    json_text(j, "command", command);
+    json_text(j, "version", WH_VERSION);
+    json_text(j, "scene", scene);
+    json_text(j, "title", title);
+    json_text(j, "number", kind->name);
+    json_text(j, "method", wh_methods[method].word);
+}
+
+void json_time(json *j, const char *key, double time_s) {
     if (time_s >= 0.0) {
         json_number(j, key, time_s);
     } else {
         json_null(j, key);
     }
+}
+
+static void put_head(json *j, const char *command, const image *im, const engine_kind *kind,
+                     const void *run) {
+    json_begin(j, command, im->name, im->title, kind, im->settings.method);
+    json_number(j, "step_s", im->step_s);
+    json_count(j, "steps", kind->steps(run));
+    json_number(j, "end_s", ratio_times(kind->steps(run), im->step));
 }
 
 static void put_values(json *j, const records *r) {
@@ -53,7 +72,7 @@ static void put_findings(json *j, const verdict *v) {
         } else {
             json_null(j, "where");
         }
-        put_time(j, "from_s", f->at_s);
+        json_time(j, "from_s", f->at_s);
         json_number(j, "value", f->value);
         json_number(j, "limit", finding_rows[id].limit);
         json_text(j, "limit_unit", finding_rows[id].unit);
@@ -93,18 +112,8 @@ void run_json(FILE *out, const run_json_wish *w) {
     const verdict *v = w->verdict;
     const image *im = v->image;
     json j = {.out = out};
-    json_open(&j, NULL, '{');
-    json_whole(&j, "schema", 1);
-    json_text(&j, "command", "run");
-    json_text(&j, "version", WH_VERSION);
-    json_text(&j, "scene", im->name);
-    json_text(&j, "title", im->title);
-    json_text(&j, "number", v->kind->name);
-    json_text(&j, "method", wh_methods[im->settings.method].word);
-    json_number(&j, "step_s", im->step_s);
-    json_count(&j, "steps", v->kind->steps(v->run));
-    json_number(&j, "end_s", ratio_times(v->kind->steps(v->run), im->step));
-    put_time(&j, "trusted_until_s", w->until_s);
+    put_head(&j, "run", im, v->kind, v->run);
+    json_time(&j, "trusted_until_s", w->until_s);
     put_values(&j, w->records);
     if (v->balance.known) {
         json_number(&j, BELIEF_COLUMN, v->balance.ratio);
@@ -115,5 +124,31 @@ void run_json(FILE *out, const run_json_wish *w) {
     put_hints(&j, w->said != NULL ? w->said : "");
     put_files(&j, w->file);
     json_whole(&j, "exit", w->status);
+    json_close(&j, '}');
+}
+
+void horizon_json(FILE *out, const horizon *h, int status) {
+    const records *shape = h->of->shape;
+    json j = {.out = out};
+    put_head(&j, "trust", shape->image, shape->kind, h->of->run);
+    json_number(&j, "tolerance", h->tolerance);
+    json_time(&j, "trusted_until_s", horizon_trusted_s(h));
+    json_open(&j, "columns", '[');
+    for (int k = 1; k < h->of->columns; k++) {
+        const horizon_column *c = &h->column[k];
+        const record_column *r = &shape->column[k];
+        char name[FINDINGS_NAME];
+        snprintf(name, sizeof name, "%.80s%.*s", r->name, r->primes, "''''''''''");
+        json_open(&j, NULL, '{');
+        json_text(&j, "name", name);
+        json_text(&j, "unit", r->unit->shown);
+        json_text(&j, "verdict", horizon_words[c->verdict]);
+        json_number(&j, "until_s", c->until_s);
+        json_number(&j, "range", c->range);
+        json_number(&j, "off", c->off);
+        json_close(&j, '}');
+    }
+    json_close(&j, ']');
+    json_whole(&j, "exit", status);
     json_close(&j, '}');
 }

@@ -1,14 +1,15 @@
-/* run_json.h: a run as one JSON object: its end, its findings and how it ended (docs/warnings.md has the schema). */
+/* run_json.h: a run, or until when one is trusted, as one JSON object (docs/warnings.md has the schema). */
 #ifndef RUN_RUN_JSON_H
 #define RUN_RUN_JSON_H
 
+#include "horizon.h"
+#include "host/base/json.h"
 #include "records.h"
-#include "verdict.h"
 
 enum { RUN_JSON_FILES = 4 };
 
 typedef struct run_json_wish {
-    const verdict *verdict;
+    const struct verdict *verdict;
     const records *records;           /* with the last state */
     const char *said;                 /* by findings_say(); or NULL */
     double until_s;                   /* trusted; below 0: not told */
@@ -17,5 +18,13 @@ typedef struct run_json_wish {
 } run_json_wish;
 
 void run_json(FILE *out, const run_json_wish *w);
+/* `status`: exit status. */
+void horizon_json(FILE *out, const horizon *h, int status);
+
+/* The keys with which every command's object begins. */
+void json_begin(json *j, const char *command, const char *scene, const char *title,
+                const engine_kind *kind, wh_method method);
+/* A time, or null below zero. */
+void json_time(json *j, const char *key, double time_s);
 
 #endif

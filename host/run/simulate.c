@@ -418,10 +418,8 @@ static void trust(simulation *sim, horizon *h, simulation_trust *to) {
     if (!h->to_the_end) {
         sim->trusted_s = number_most(h->until_s, sim->image->step_s);
     }
-    const bool told = h->to_the_end ? (v->against & ~FINDING_OF_SCENE) == 0
-                                    : h->column[h->first].verdict != HORIZON_NOT_TOLD &&
-                                          v->twins->aliased.column == 0;
-    to->until_s = told ? h->until_s : -1.0;
+    const bool doubted = h->to_the_end && (v->against & ~FINDING_OF_SCENE) != 0;
+    to->until_s = doubted ? -1.0 : horizon_trusted_s(h);
 }
 
 int simulation_status(simulation_result result, const simulation_trust *trust) {

@@ -5,12 +5,11 @@
 #include <string.h>
 
 #include "core/method.h"
-#include "core/version.h"
 #include "host/lang/units.h"
 #include "host/number/decimal.h"
 #include "host/run/belief.h"
 #include "host/run/finding.h"
-#include "host/run/methods.h"
+#include "host/run/run_json.h"
 
 static void put_column(json *j, const char *name, const char *unit) {
     json_open(j, NULL, '{');
@@ -30,21 +29,21 @@ static const char *axis_unit(const axis *a, char text[DIM_TEXT_SIZE]) {
     return dim_symbols(dim, text, DIM_TEXT_SIZE);
 }
 
+void sweep_json_axes(json *j, const grid *g) {
+    char unit[DIM_TEXT_SIZE];
+    for (int i = 0; i < g->count; i++) {
+        put_column(j, g->axes[i].column, axis_unit(&g->axes[i], unit));
+    }
+}
+
 void sweep_json_begin(json *j, const sweep *s) {
     char unit[DIM_TEXT_SIZE];
     const bool is_scene = s->scene != NULL;
-    json_open(j, NULL, '{');
-    json_whole(j, "schema", 1);
-    json_text(j, "command", "sweep");
-    json_text(j, "version", WH_VERSION);
-    json_text(j, "scene", is_scene ? s->scene->name : s->measures->mechanism.name);
-    json_text(j, "title", is_scene ? s->scene->title : s->measures->mechanism.title);
-    json_text(j, "number", s->kind->name);
-    json_text(j, "method", wh_methods[s->engine.method].word);
+    json_begin(j, "sweep", is_scene ? s->scene->name : s->measures->mechanism.name,
+               is_scene ? s->scene->title : s->measures->mechanism.title, s->kind,
+               s->engine.method);
     json_open(j, "columns", '[');
-    for (int i = 0; i < s->grid->count; i++) {
-        put_column(j, s->grid->axes[i].column, axis_unit(&s->grid->axes[i], unit));
-    }
+    sweep_json_axes(j, s->grid);
     for (int i = 0; i < s->measures->count; i++) {
         const measure *m = &s->measures->list[i];
         put_column(j, m->name,

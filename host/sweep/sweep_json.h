@@ -6,6 +6,8 @@
 #include "host/base/json.h"
 #include "point.h"
 
+/* A column for each axis. */
+void sweep_json_axes(json *j, const grid *g);
 void sweep_json_begin(json *j, const sweep *s);
 /* `row`: as in the CSV file. `error`: why the point failed, or NULL. `found`, `against`: its findings and the warnings
  * among them, as bits. */

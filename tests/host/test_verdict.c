@@ -158,6 +158,94 @@ static void expect_json(int (*command)(int, char **), const char **words, const 
     TEST_ASSERT_EQUAL_INT(is_failed(before) ? 0 : told, (int)in_text);
 }
 
+/* The next field of a row in CSV, and what JSON has at that path: null is empty, or no finite number. */
+static void expect_field(char **at, const said *what, const char *path) {
+    char *end = *at + strcspn(*at, ",\r");
+    const char behind = *end;
+    char *stop;
+    *end = '\0';
+    const char *value = value_at(what, path);
+    const double number = strtod(*at, &stop);
+    if (strcmp(value, "null") == 0) {
+        TEST_ASSERT_TRUE_MESSAGE(**at == '\0' || !isfinite(number), path);
+    } else if (*stop == '\0') {
+        TEST_ASSERT_TRUE_MESSAGE(fabs(strtod(value, NULL) - number) <= 1e-14 * fabs(number), path);
+    } else {
+        TEST_ASSERT_EQUAL_STRING_MESSAGE(*at, value, path);
+    }
+    *at = behind == '\0' ? end : end + 1;
+}
+
+/* The rows of --csv - are those of `list` in the object of --json, whose standard error and status are the same but for the words. */
+static void expect_rows(int (*command)(int, char **), const char *const *words, const char *list,
+                        const char *const *keys) {
+    static said csv;
+    static said object;
+    char why[100];
+    const char *with[20];
+    int count = 0;
+    for (; words[count] != NULL; count++) {
+        with[count] = words[count];
+    }
+    with[count] = "--json";
+    with[count + 1] = NULL;
+    command_say(command, with, &object);
+    with[count] = "--csv=-";
+    command_say(command, with, &csv);
+    TEST_ASSERT_EQUAL_INT(csv.status, object.status);
+    TEST_ASSERT_TRUE_MESSAGE(json_is_valid(object.out, why), object.err);
+    TEST_ASSERT_EQUAL_INT(csv.status, (int)strtol(value_at(&object, "exit"), NULL, 10));
+    int rows = 0;
+    for (char *line = strchr(csv.out, '\n') + 1; *line != '\0'; rows++) {
+        char *at = line;
+        line += strcspn(line, "\n") + 1;
+        for (int k = 0; keys[k] != NULL; k++) {
+            char path[80];
+            snprintf(path, sizeof path, "%s/%d/%s", list, rows, keys[k]);
+            expect_field(&at, &object, path);
+        }
+    }
+    TEST_ASSERT_EQUAL_INT(json_length(object.out, list), rows);
+}
+
+/* What trust is told of, and the sentence about the run; pairs of a map. */
+static void test_json_of_trust_and_map(void) {
+    static const char *const columns[] = {"name",  "unit", "verdict", "until_s",
+                                          "range", "off",  NULL};
+    static const char *const pairs[] = {"values/0", "values/1",         "verdict", "until_s",
+                                        "end_s",    "energy_left_over", NULL};
+    dice d = dice_of("json", 15006);
+    unsigned told[2] = {0};
+    for (unsigned i = 0; i < 4 * SHAPES; i++) {
+        char text[TEXT];
+        said what;
+        draw(&d, i % SHAPES, text);
+        const char *file = model_keep(text);
+        const char *trust[] = {file, "--quiet", NULL};
+        expect_rows(command_trust, trust, "columns", columns);
+        const char *json[] = {file, "--quiet", "--json", NULL};
+        command_say(command_trust, trust, &what);
+        const char *until = strstr(what.out, "trusted until t = ");
+        const bool end = strstr(what.out, "trusted to the end, t = ") != NULL;
+        const double said_s = until != NULL ? strtod(until + 18, NULL) : 0.0;
+        const bool aliased = strstr(what.out, "between the stages") != NULL;
+        command_say(command_trust, json, &what);
+        const char *value = value_at(&what, "trusted_until_s");
+        if (until != NULL && !aliased) {
+            TEST_ASSERT_TRUE(fabs(strtod(value, NULL) - said_s) <= 1e-8 * said_s);
+        }
+        TEST_ASSERT_TRUE_MESSAGE(!end || strcmp(value, "null") != 0, text);
+        told[end] += 1U;
+        if (i % SHAPES == 0) {
+            const char *map[] = {file, "--quiet", "--over=step=10ms..1s:5,log", "--over=p=1..1:1",
+                                 NULL};
+            expect_rows(command_map, map, "rows", pairs);
+        }
+    }
+    model_drop();
+    TEST_ASSERT_TRUE(told[0] > 1 && told[1] > 1);
+}
+
 /* Every built-in scene, and a title with all that must be escaped. */
 static void test_json_of_all_scenes(void) {
     said list;
@@ -384,5 +472,6 @@ void suite_verdict(void) {
     RUN_TEST(test_a_point_is_judged_as_its_run);
     RUN_TEST(test_a_limit_is_one_of_the_energy);
     RUN_TEST(test_json_of_all_scenes);
+    RUN_TEST(test_json_of_trust_and_map);
     RUN_TEST(test_a_common_speed_changes_nothing);
 }
