@@ -290,10 +290,18 @@ static void say(FILE *out, const char *who, apart *a) {
     }
 }
 
-bool apart_say(FILE *out, const char *who, const image *im) {
-    bool fits = true;
+/* How far it is off, or moves, by which part of its terms; 0: it fits. */
+static double part_of(const apart *a, int h) {
+    const double off = fabs(off_zero(a, h));
+    const double speed = fabs(moving(a, h));
+    return number_most(off > 0.0 ? off / terms(a, h, a->place, true) : 0.0,
+                       speed > 0.0 ? speed / terms(a, h, a->rate, false) : 0.0);
+}
+
+double apart_say(FILE *out, const char *who, const image *im) {
+    double part = 0.0;
     if (im->list[IMAGE_FORCES] == NULL || im->list[IMAGE_SIGNALS] == NULL) {
-        return !fits;
+        return part;
     }
     apart a = {.im = im,
                .forces = evaluator_new(im->list[IMAGE_FORCES]),
@@ -323,9 +331,9 @@ bool apart_say(FILE *out, const char *who, const image *im) {
             a.closes = a.closes || off_zero(&a, h) != 0.0;
         }
         for (int h = 0; h < a.holds; h++) {
-            fits = fits && off_zero(&a, h) == 0.0 && moving(&a, h) == 0.0;
+            part = number_most(part, part_of(&a, h));
         }
-        if (!fits && out != NULL) {
+        if (part > 0.0 && out != NULL) {
             say(out, who, &a);
         }
     }
@@ -334,5 +342,5 @@ bool apart_say(FILE *out, const char *who, const image *im) {
     free(signal);
     free(a.input);
     free(a.law);
-    return !fits;
+    return part;
 }

@@ -4,7 +4,6 @@
 #ifndef RUN_APART_H
 #define RUN_APART_H
 
-#include <stdbool.h>
 #include <stdio.h>
 
 #include "host/image/image.h"
@@ -12,7 +11,8 @@
 /* Off zero, or moving, by more than this share of its terms is more than rounding. */
 #define APART_LEAST 1e-6
 
-/* True: a hold does not fit. That is said on `out`, if not NULL; `who`: "whirl run". */
-bool apart_say(FILE *out, const char *who, const image *im);
+/* By which part of its terms a hold is off zero or moves, at most; 0: all fit. That is said on `out`, if not NULL;
+ * `who`: "whirl run". */
+double apart_say(FILE *out, const char *who, const image *im);
 
 #endif

@@ -44,6 +44,21 @@ typedef struct finding_row {
 
 extern const finding_row finding_rows[FINDINGS];
 
+/* What else a finding asks for, beside its row's limit. */
+/* accuracy: parts of a range. The first is told; where it grows less than GROWS times as long as the second took, and that took
+ * longer than BEGIN of the run, the motion is chaotic, and no step helps. */
+#define VERDICT_TOLERANCE 1e-2
+#define VERDICT_EARLY_TOLERANCE 1e-4
+#define VERDICT_GROWS 8.0
+#define VERDICT_BEGIN 0.02
+/* singular: part of a range by which a position is off there; as far as a run is trusted */
+#define VERDICT_NEAR_TOLERANCE 1e-3
+/* energy: part of the largest entry that was missing on the way and came back; no plot shows it */
+#define VERDICT_ON_THE_WAY 3e-3
+/* events: the last bounces before a rest are none to tell of: parts of the largest entry, and of the steps */
+#define VERDICT_RESTS 1e-3
+#define VERDICT_RESTS_STEPS 0.01
+
 /* The last line of a command that ends with exit status 1 because of these findings, as bits. */
 void finding_say_status(FILE *out, const char *command, unsigned fails);
 

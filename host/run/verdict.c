@@ -262,8 +262,9 @@ void verdict_end(verdict *v, wh_status status) {
     }
     judge_jumps(v);
     judge_events(v);
-    if (apart_say(NULL, NULL, v->image)) {
-        tell(v, FINDING_APART, 1.0, 0.0, -1);
+    const double part = apart_say(NULL, NULL, v->image);
+    if (part > 0.0) {
+        tell(v, FINDING_APART, part, 0.0, -1);
     }
     const double slow = slow_share(v->kind, v->image, v->run);
     if (slow > 0.0) {

@@ -22,21 +22,6 @@ typedef struct finding {
     int component; /* and of this component or contact; -1: none */
 } finding;
 
-/* Accuracy is told at this part of a range, */
-#define VERDICT_TOLERANCE 1e-2
-/* where it was passed at so many times the time at which this one was, or this one in such a part of the run, */
-#define VERDICT_EARLY_TOLERANCE 1e-4
-#define VERDICT_GROWS 8.0
-#define VERDICT_BEGIN 0.02
-/* singular places where they put a position off by this one, */
-#define VERDICT_NEAR_TOLERANCE 1e-3
-/* energy that was missing on the way and came back, beyond this part of the largest entry, */
-#define VERDICT_ON_THE_WAY 3e-3
-/* and the last bounces before a rest are none to tell of: events beyond a step's took so little of the largest entry, in so few
- * of the steps. */
-#define VERDICT_RESTS 1e-3
-#define VERDICT_RESTS_STEPS 0.01
-
 typedef struct verdict {
     const image *image;
     const engine_kind *kind;
