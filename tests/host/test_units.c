@@ -281,7 +281,25 @@ static void test_dimensions_are_written_in_their_usual_units(void) {
     }
 }
 
+/* Up to 99, down to -99, in each of them. */
+static void test_exponents_end_at_both_ends(void) {
+    for (int i = 0; i < 2 * DIM_BASES; i++) {
+        const int sign = i < DIM_BASES ? 1 : -1;
+        int one[DIM_BASES] = {0};
+        one[i % DIM_BASES] = sign;
+        const dimension unit = dim_of(one[0], one[1], one[2], one[3], one[4]);
+        dimension made = dim_none();
+        for (int k = 0; k < 99; k++) {
+            TEST_ASSERT_TRUE(dim_multiply(made, unit, &made));
+        }
+        TEST_ASSERT_FALSE(dim_multiply(made, unit, &made));
+        TEST_ASSERT_FALSE(
+            dim_divide(made, dim_of(-one[0], -one[1], -one[2], -one[3], -one[4]), &made));
+    }
+}
+
 void suite_units(void) {
+    RUN_TEST(test_exponents_end_at_both_ends);
     RUN_TEST(test_dimensions_are_written_in_their_usual_units);
     RUN_TEST(test_every_unit_is_what_the_standards_say);
     RUN_TEST(test_prefixes_round_as_decimal_numbers_do);
