@@ -1,8 +1,11 @@
 /* twofold.c: sums and products of two doubles each. */
+#define WH_DOUBLE 1
 #include "twofold.h"
 
 #include <math.h>
 #include <string.h>
+
+#include "core/span.h"
 
 /* a + b exactly. */
 static twofold two_sum(double a, double b) {
@@ -17,19 +20,7 @@ static twofold quick_sum(double a, double b) {
     return (twofold){sum, b - (sum - a)};
 }
 
-/* a b exactly: each factor is split into halves whose products a double holds (Veltkamp, Dekker). */
-static twofold two_product(double a, double b) {
-    static const double split = 134217729.0; /* 2^27 + 1 */
-    const double product = a * b;
-    const double a_wide = split * a;
-    const double a_high = a_wide - (a_wide - a);
-    const double b_wide = split * b;
-    const double b_high = b_wide - (b_wide - b);
-    const double a_low = a - a_high;
-    const double b_low = b - b_high;
-    return (twofold){product, ((a_high * b_high - product) + a_high * b_low + a_low * b_high) +
-                                  a_low * b_low};
-}
+static twofold two_product(double a, double b) { return (twofold){a * b, wh_product_rest(a, b)}; }
 
 twofold twofold_of(double value) { return (twofold){value, 0.0}; }
 
