@@ -34,6 +34,7 @@ static const command_usage usage = {
         "\n",
     .groups = OPTIONS_SCENE,
     .tail =
+        "  --proved             as `whirl prove`, with its options\n"
         "  --tolerance 1e-3     part of the range that a coordinate has in the run (default: 1e-3)\n"
         "  --csv FILE           a row for each coordinate and rate; - is standard output, and the words then\n"
         "                       go to standard error\n"
@@ -92,8 +93,8 @@ static bool is_whole(const trust_options *o) {
 }
 
 static bool read_options(int count, char **words, trust_options *o) {
-    static const char *const own[] = {"--tolerance", "--csv",   "--effort",
-                                      "--json",      "--quiet", NULL};
+    static const char *const own[] = {"--proved", "--tolerance", "--csv", "--effort",
+                                      "--json",   "--quiet",     NULL};
     const target_reader reader = {
         .command = "trust", .groups = usage.groups, .own = own, .take = take_one};
     return target_read(&reader, count, words, &o->common, o, &o->target) &&
@@ -272,7 +273,22 @@ static int trust_source(const trust_options *o, source_model *from) {
     return code;
 }
 
+/* A word less; true: it was there. */
+static bool take_proved(int *count, char **words) {
+    for (int i = 0; i < *count; i++) {
+        if (strcmp(words[i], "--proved") == 0) {
+            --*count;
+            memmove(&words[i], &words[i + 1], (size_t)(*count - i) * sizeof *words);
+            return true;
+        }
+    }
+    return false;
+}
+
 int command_trust(int count, char **words) {
+    if (take_proved(&count, words)) {
+        return command_prove(count, words);
+    }
     trust_options o = {
         .common = options_defaults(), .tolerance = HORIZON_TOLERANCE, .effort = EFFORT};
     source_model from = {0};

@@ -38,6 +38,9 @@ proved "^  theta'  *to the end  *within 5.00e-01 rad/s: off by at most" epicycli
 proved '^proved to the end, t = 1 s$' epicyclic_conserved --until 1s --number float
 proved '^proved to the end, t = 5 s$' tests/mechanisms/lorenz.whirl --start x=1 --step 2ms --until 5s
 proved '^proved to the end, t = 0 s$' epicyclic_from_rest --until 0
+"$whirl" prove epicyclic_from_rest --until 0.1s --csv - >"$scratch/rows" 2>"$scratch/err"
+"$whirl" trust epicyclic_from_rest --until 0.1s --proved --csv - 2>&1 >"$scratch/out" | cmp - "$scratch/err" && cmp "$scratch/rows" "$scratch/out" && [ -s "$scratch/rows" ]
+verdict $? "whirl trust --proved says the same"
 # a step that is too coarse is off, and that is proved, too
 proved 'behind it off by more: proved$' epicyclic_from_rest --until 3s --method semi-implicit-euler --step 10ms --tolerance 1e-4
 # a start that float cannot have is off from the beginning
