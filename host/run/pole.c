@@ -5,7 +5,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "growth.h"
 #include "host/base/room.h"
 #include "host/number/functions.h"
 
@@ -26,6 +25,26 @@ enum { SECTIONS = 72 };
 /* Places that are none, with more parts of the way about them. */
 enum { PARTS_MOST = 16 };
 
+/* It is asked at so many distances, each GROWTH_CLOSER times nearer than the one before. */
+enum { GROWTH_POINTS = 10 };
+#define GROWTH_CLOSER 1.7099759466766968 /* the third root of 5 */
+/* The farthest of them, of the nearest. */
+#define GROWTH_REACH 125.0
+/* What grows beyond all numbers was so large before. */
+#define GROWTH_BEYOND 1e60
+
+typedef enum growth {
+    GROWTH_ROUGH, /* it does not go on evenly: rounding, or a zero; from farther off it may */
+    GROWTH_NONE,  /* evenly, and no pole: it has a limit, or one over a root has */
+    GROWTH_POLE   /* evenly */
+} growth;
+
+/* Each time, at least, a pole grows 1.71 times; one over the distance to the 9/10 grows 1.62 times. No power of two: numbers with
+ * the same digits are rounded alike, and what that leaves would grow as evenly. */
+#define GROWS 1.64
+/* What goes on evenly changes as much each time, but for this. */
+#define EVEN 1.1
+
 typedef struct part {
     double low; /* shares of the way */
     double high;
@@ -40,6 +59,29 @@ typedef struct looker {
     bool *done;    /* [values] it has been seen to be no pole there */
     double *touch; /* [4 * signs] */
 } looker;
+
+/* How value[k * stride] goes on, at the k-th distance, the farthest first. */
+static growth growth_of(const double *value, int stride) {
+    double least = (double)INFINITY;
+    double most = 0.0;
+    for (int k = 1; k < GROWTH_POINTS; k++) {
+        const double before = value[(k - 1) * stride];
+        const double now = value[k * stride];
+        const double by = before == now ? 1.0 : now / before; /* both may be nothing */
+        if (isinf(now) && isfinite(before) && fabs(before) > GROWTH_BEYOND) {
+            return GROWTH_POLE;
+        }
+        if (!(by > 0.0) || isinf(now)) { /* or no number, or another sign */
+            return GROWTH_ROUGH;
+        }
+        least = number_least(least, by);
+        most = number_most(most, by);
+    }
+    if (!(most < EVEN * least)) {
+        return GROWTH_ROUGH;
+    }
+    return least > GROWS ? GROWTH_POLE : GROWTH_NONE;
+}
 
 /* The first that changes its sign in this part; -1: none. */
 static int changes(const looker *l) {

@@ -2,7 +2,7 @@
  *
  * Some values change their sign at a pole (what is divided by), others grow there (the expressions). Where a sign changes,
  * that place is found by halving, and each expression is followed towards it on both sides: from the nearest distances on at
- * which it, and what changes its sign, go on evenly (growth.h), for nearer there is but rounding. A pole is where it grows
+ * which it, and what changes its sign, go on evenly, for nearer there is but rounding. A pole is where it grows
  * there as one over the distance does, or faster. What has a limit, or may be integrated (one over a root), is none; neither is
  * what grows in leaps, nor what ends growing. Behind each place that is none the rest of the way is looked at by itself: 1 + k/s
  * has changed its sign twice where s has changed its own.
