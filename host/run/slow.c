@@ -36,27 +36,22 @@ double slow_share(const engine_kind *kind, const image *im, const void *run) {
     return share;
 }
 
-static void say_angle(FILE *out, const image *im, const engine_kind *kind, const void *run, int i) {
-    double span_rad;
-    const double off_rad = kind->component_off(run, i, &span_rad);
-    fprintf(out,
-            "whirl run: note: '%s' turns so slowly that rounding its steps to 1.5e-9 rad, as float "
-            "does, put it off by up to %.2g rad, %.2g %% of the %.2g rad that it should cover\n",
-            im->unknown[im->angle[i].unknown].name, off_rad, 100.0 * off_rad / span_rad, span_rad);
-}
-
-static void say_fixed(FILE *out, const image *im, const engine_kind *kind, const void *run, int i) {
+static void say(FILE *out, const image *im, const engine_kind *kind, const void *run, int i) {
     const component c = image_component(im, i);
     const image_unknown *u = &im->unknown[c.unknown];
-    const char *si = u->unit[c.primes].si;
+    const char *si = kind->unit == NULL ? "rad" : u->unit[c.primes].si;
     const char *unit = strcmp(si, "1") == 0 ? "" : si;
     const char *space = unit[0] != '\0' ? " " : "";
     double span;
     const double off = kind->component_off(run, i, &span);
-    fprintf(out,
-            "whirl run: note: '%s%.*s' moves so slowly that rounding, to %.2g%s%s and of what is "
-            "added to it, put it off by up to %.2g%s%s",
-            u->name, c.primes, "''''''''''", kind->unit(run, i), space, unit, off, space, unit);
+    fprintf(out, "whirl run: note: '%s%.*s' ", u->name, c.primes, "''''''''''");
+    if (kind->unit == NULL) {
+        fputs("turns so slowly that rounding its steps to 1.5e-9 rad, as float does,", out);
+    } else {
+        fprintf(out, "moves so slowly that rounding, to %.2g%s%s and of what is added to it,",
+                kind->unit(run, i), space, unit);
+    }
+    fprintf(out, " put it off by up to %.2g%s%s", off, space, unit);
     if (span > 0.0) {
         fprintf(out, ", %.2g %% of the %.2g%s%s that it should cover", 100.0 * off / span, span,
                 space, unit);
@@ -67,7 +62,7 @@ static void say_fixed(FILE *out, const image *im, const engine_kind *kind, const
 void slow_say(FILE *out, const image *im, const engine_kind *kind, const void *run) {
     for (int i = 0; i < components(kind, im, run); i++) {
         if (slow_component(kind, run, i)) {
-            (kind->unit != NULL ? say_fixed : say_angle)(out, im, kind, run, i);
+            say(out, im, kind, run, i);
         }
     }
     if (slow_count(kind, im, run) > 0) {

@@ -11,7 +11,6 @@
 
 #include "belief.h"
 #include "jumped.h"
-#include "passage.h"
 #include "records.h"
 
 /* The two are compared at so many evenly spaced ends of steps, at most. */
@@ -31,6 +30,29 @@ typedef struct twins_wish {
     void (*progress)(double share, void *told); /* now and then; or NULL */
     void *told;
 } twins_wish;
+
+/* Behind `time_s` it was for the first time as large as `size`. */
+typedef struct passage {
+    double time_s;
+    double size;
+} passage;
+
+typedef struct passages {
+    passage *passed; /* [count] rising in both */
+    int count;
+    int room;
+    double most;
+} passages;
+
+/* Levels are told apart to this part of themselves. */
+#define PASSAGE_GRAIN 1e-3
+
+/* The difference is `size` at one look, the look before that was at before_s. What is no number passes every level. */
+void passages_enter(passages *p, double before_s, double size);
+void passages_free(passages *p);
+
+/* The last look before it was more than `level`; infinite where it never was. */
+double passages_until_s(const passages *p, double level);
 
 /* A coordinate or rate. */
 typedef struct twins_column {
