@@ -121,7 +121,10 @@ static void say_missed(FILE *out, const verdict *v) {
             f->value < 1.0 ? "may have passed" : "passed");
     if (f->component < im->contacts) {
         statement_text(im->contact[f->component].at, statement, sizeof statement);
-        fprintf(out, "through a contact: %s", statement);
+        fprintf(out, "%s: %s",
+                im->contact[f->component].kind == WH_FRICTION ? "over a narrow change of a friction"
+                                                              : "through a contact",
+                statement);
     } else {
         const component c = image_component(im, f->component - im->contacts);
         fprintf(out, "over a force on %s, far larger than at both its ends",

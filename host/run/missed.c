@@ -24,7 +24,9 @@
 struct missed {
     const image *image;
     along_bounds *signals; /* or NULL */
-    along_bounds *accel;   /* where an exponential function is in it, or NULL */
+    along_bounds *accel;   /* where they are asked for, or NULL */
+    bool hills;            /* an exponential function is in them */
+    along_bounds *laws;    /* of the contacts, where a friction's limits move, or NULL */
     double *from;          /* [angles + reals] the state before the step, */
     double *to;            /* and after it */
     int *mode;             /* [contacts] likewise */
@@ -43,19 +45,36 @@ static bool has_exponential(const tape *t) {
     return some;
 }
 
+/* The result of the contacts' laws that is this row of contact k. */
+static int law_of(const image *im, int k, int row) {
+    return k * (WH_LAW_ROWS + 2 * im->coordinates) + row;
+}
+
+/* A friction whose limits are no numbers. */
+static bool has_moving_limits(const image *im, int k) {
+    const tape *t = im->list[IMAGE_FORCES];
+    return im->contact[k].kind == WH_FRICTION &&
+           (t->ops[t->result[law_of(im, k, WH_LAW_FIRST)]].code != OP_CONSTANT ||
+            t->ops[t->result[law_of(im, k, WH_LAW_SECOND)]].code != OP_CONSTANT);
+}
+
 missed *missed_open(const image *im) {
-    const tape *signals = im->forced > 0 ? im->list[IMAGE_SIGNALS] : NULL;
-    const tape *accel = im->form == WH_SECOND_ORDER && has_exponential(im->list[IMAGE_STEP])
-                            ? im->list[IMAGE_STEP]
-                            : NULL;
-    if (signals == NULL && accel == NULL) {
+    const tape *signals = im->contacts > 0 ? im->list[IMAGE_SIGNALS] : NULL;
+    const bool hills = im->form == WH_SECOND_ORDER && has_exponential(im->list[IMAGE_STEP]);
+    const tape *laws = NULL;
+    for (int k = 0; k < im->forced; k++) {
+        laws = has_moving_limits(im, k) ? im->list[IMAGE_FORCES] : laws;
+    }
+    if (signals == NULL && !hills) {
         return NULL;
     }
     missed *m = room(1, sizeof *m);
     const int64_t all = im->angles + im->reals;
     m->image = im;
     m->signals = signals != NULL ? along_open(im, signals) : NULL;
-    m->accel = accel != NULL ? along_open(im, accel) : NULL;
+    m->hills = hills;
+    m->accel = hills || laws != NULL ? along_open(im, im->list[IMAGE_STEP]) : NULL;
+    m->laws = laws != NULL ? along_open(im, laws) : NULL;
     m->from = room(2 * all + im->coordinates, sizeof *m->from);
     m->to = m->from + all;
     m->most = m->to + all;
@@ -68,6 +87,7 @@ void missed_close(missed *m) {
     if (m != NULL) {
         along_close(m->signals);
         along_close(m->accel);
+        along_close(m->laws);
         free(m->from);
         free(m->mode);
         free(m);
@@ -78,7 +98,7 @@ void missed_close(missed *m) {
 
 /* Above zero: the contact stays as it is. */
 static enclosure margin(const missed *m, int k, enclosure signal) {
-    const bool is = m->image->contact[k].kind == WH_STOP || m->piece->mode[k] == WH_ACTIVE;
+    const bool is = m->image->contact[k].kind == WH_STOP || m->piece->mode[k] > 0;
     return is ? signal : enclosure_neg(signal);
 }
 
@@ -103,13 +123,28 @@ static int look_contact(missed *m, int k, double low, double high, double beyond
     return outside || (is_finest(low, high) && enclosure_is_finite(value)) ? 0 : -1;
 }
 
-static int look_force(missed *m, int i, double low, double high, double most) {
-    along_look(m->accel, i, low, high);
-    const enclosure middle = along_middle(m->accel, i);
+static int look_size(along_bounds *a, int i, double low, double high, double most) {
+    along_look(a, i, low, high);
+    const enclosure middle = along_middle(a, i);
     if (middle.low > most || middle.high < -most) {
         return 1;
     }
-    return enclosure_size(along_value(m->accel, i)) <= most ? 0 : -1;
+    return enclosure_size(along_value(a, i)) <= most ? 0 : -1;
+}
+
+static int look_force(missed *m, int i, double low, double high, double most) {
+    return look_size(m->accel, i, low, high, most);
+}
+
+static int look_drag(missed *m, int i, double low, double high, double most) {
+    return look_size(m->laws, i, low, high, most);
+}
+
+static int look_grip(missed *m, int i, double low, double high, double least) {
+    along_look(m->laws, i, low, high);
+    return along_middle(m->laws, i).high < least  ? 1
+           : along_value(m->laws, i).low >= least ? 0
+                                                  : -1;
 }
 
 static int passes(missed *m, looking *look, int k, double low, double high, double bar,
@@ -126,6 +161,13 @@ static int passes(missed *m, looking *look, int k, double low, double high, doub
     const int first = passes(m, look, k, low, middle, bar, halvings - 1);
     const int second = first > 0 ? 0 : passes(m, look, k, middle, high, bar, halvings - 1);
     return first > 0 || second > 0 ? 1 : first < 0 || second < 0 ? -1 : 0;
+}
+
+/* What was found before, or this: the first that is sure counts. */
+static missed_found or_this(missed_found found, int passed, int what) {
+    return passed > 0 || (passed < 0 && found.what < 0)
+               ? (missed_found){.what = what, .sure = passed > 0}
+               : found;
 }
 
 /* Does contact k, which is in the same mode at both ends, leave it on the way? */
@@ -146,15 +188,80 @@ static int contact_passes(missed *m, int k) {
     return passes(m, look_contact, k, 0.0, 1.0, beyond, HALVINGS);
 }
 
+static double middle_of(along_bounds *a, int result) {
+    const enclosure e = along_middle(a, result);
+    return 0.5 * e.low + 0.5 * e.high;
+}
+
+/* What friction k meets at the ends. It is the sum of its row's parts: how fast a force of 1 turns its rate, and how large
+ * a force keeps it stuck, if no other contact bears on it. */
+typedef struct met {
+    double turns;
+    double load;
+    double rate;
+} met;
+
+static met met_by(missed *m, int k) {
+    const int n = m->image->coordinates;
+    const int rows = law_of(m->image, k, WH_LAW_ROWS);
+    met of = {0.0, 0.0, 0.0};
+    for (int end = 0; end < 2; end++) {
+        along_look(m->laws, -1, end, end);
+        along_look(m->accel, -1, end, end);
+        double pull = middle_of(m->laws, law_of(m->image, k, WH_LAW_BIAS));
+        double rate = 0.0;
+        double turns = 0.0;
+        for (int i = 0; i < n; i++) {
+            const double row = middle_of(m->laws, rows + i);
+            pull += row * middle_of(m->accel, i);
+            rate += row * (end == 0 ? m->piece->from : m->piece->to)[n + i];
+            turns += row * middle_of(m->laws, rows + n + i);
+        }
+        of.load = number_most(of.load, fabs(pull) / turns);
+        of.rate = number_most(of.rate, fabs(rate));
+        of.turns = number_most(of.turns, turns);
+    }
+    for (int l = 0; l < m->image->forced; l++) {
+        const bool bears = m->image->contact[l].kind == WH_FRICTION || m->piece->mode[l] != WH_FREE;
+        of.load = l != k && bears ? (double)INFINITY : of.load;
+    }
+    return of;
+}
+
+/* Has friction k, between ends at which it slides, far more to slide against, or less to keep it where it sticks? */
+static int limit_passes(missed *m, int k) {
+    const bool sticks = m->piece->mode[k] == WH_STUCK;
+    const int i = law_of(m->image, k, sticks ? WH_LAW_FIRST : WH_LAW_SECOND);
+    double drag = 0.0;
+    double grip = (double)INFINITY;
+    for (int end = 0; end < 2; end++) {
+        along_look(m->laws, i, end, end);
+        const enclosure value = along_value(m->laws, i);
+        drag += enclosure_is_finite(value) ? HIDDEN * enclosure_size(value) : 0.0;
+        grip = value.low / HIDDEN < grip ? value.low / HIDDEN : grip;
+    }
+    const enclosure glance = along_glance(m->laws, i);
+    if (sticks ? glance.low >= grip : glance.high <= drag) {
+        return 0;
+    }
+    const met of = met_by(m, k);
+    m->parts = 0;
+    return sticks ? passes(m, look_grip, i, 0.0, 1.0, number_least(grip, of.load), HALVINGS)
+                  : passes(m, look_drag, i, 0.0, 1.0,
+                           number_most(drag, TURNS * of.rate / (m->piece->span_s * of.turns)),
+                           HALVINGS);
+}
+
 static missed_found contact_passed(missed *m) {
     missed_found found = MISSED_NOTHING;
-    for (int k = 0; k < m->image->forced && !found.sure; k++) {
-        const int what = m->image->contact[k].kind;
-        if (what == WH_HOLD || (what == WH_STOP && m->piece->mode[k] == WH_FREE)) {
-            const int passed = contact_passes(m, k);
-            found = passed > 0 || (passed < 0 && found.what < 0)
-                        ? (missed_found){.what = k, .sure = passed > 0}
-                        : found;
+    for (int k = 0; k < m->image->contacts && !found.sure; k++) {
+        const image_contact *c = &m->image->contact[k];
+        const int mode = m->piece->mode[k];
+        if (c->kind == WH_HOLD || (c->kind == WH_STOP && mode == WH_FREE) ||
+            (c->kind == WH_WHEN && c->sets > 0 && mode != 0)) {
+            found = or_this(found, contact_passes(m, k), k);
+        } else if (c->kind == WH_FRICTION && has_moving_limits(m->image, k)) {
+            found = or_this(found, limit_passes(m, k), k);
         }
     }
     return found;
@@ -168,22 +275,21 @@ static missed_found force_passed(missed *m) {
     for (int end = 0; end < 2; end++) {
         along_look(m->accel, -1, end, end);
         for (int i = 0; i < n; i++) {
-            const double size = HIDDEN * enclosure_size(along_value(m->accel, i));
+            const enclosure value =
+                along_value(m->accel, i); /* an end without bounds shows nothing */
+            const double size = enclosure_is_finite(value) ? HIDDEN * enclosure_size(value) : 0.0;
             m->most[i] = (end == 0 ? 0.0 : m->most[i]) + size;
         }
     }
     for (int i = 0; i < n; i++) {
         const double rate = number_most(fabs(m->piece->from[n + i]), fabs(m->piece->to[n + i]));
         m->most[i] = number_most(number_most(m->most[i], TURNS * rate / m->piece->span_s), DBL_MIN);
-        open[i] = m->most[i] - m->most[i] == 0.0 &&
-                  !(enclosure_size(along_glance(m->accel, i)) <= m->most[i]);
+        open[i] = !(enclosure_size(along_glance(m->accel, i)) <= m->most[i]);
     }
     for (int i = 0; i < n && !found.sure; i++) {
         m->parts = 0;
         const int passed = open[i] ? passes(m, look_force, i, 0.0, 1.0, m->most[i], HALVINGS) : 0;
-        found = passed > 0 || (passed < 0 && found.what < 0)
-                    ? (missed_found){.what = m->image->contacts + i, .sure = passed > 0}
-                    : found;
+        found = or_this(found, passed, m->image->contacts + i);
     }
     return found;
 }
@@ -194,15 +300,14 @@ static missed_found piece_passed(missed *m, const engine_piece *piece) {
         return found; /* as thin as is_finest() has it */
     }
     m->piece = piece;
-    if (m->signals != NULL) {
-        along_way(m->signals, piece->from, piece->to, piece->span_s);
-        found = contact_passed(m);
+    along_bounds *const bounds[] = {m->signals, m->accel, m->laws};
+    for (int i = 0; i < 3; i++) {
+        if (bounds[i] != NULL) {
+            along_way(bounds[i], piece->from, piece->to, piece->span_s);
+        }
     }
-    if (m->accel != NULL && found.what < 0) {
-        along_way(m->accel, piece->from, piece->to, piece->span_s);
-        found = force_passed(m);
-    }
-    return found;
+    found = m->signals != NULL ? contact_passed(m) : found;
+    return found.what < 0 && m->hills ? force_passed(m) : found;
 }
 
 missed_found missed_enter(missed *m, const engine_kind *kind, const void *run, bool eventful) {

@@ -1,12 +1,13 @@
-/* missed.h: contacts and forces that a step passes through: a latch between two places, a stop or a steep hill of potential
- * energy thinner than the way of a step. Both ends of the step are outside, so the core sees nothing of it. A step of half
+/* missed.h: contacts and forces that a step passes through: a latch between two places, a crossing that is crossed back, a
+ * stop, a steep hill of potential energy or a friction's narrow limit, each thinner than the way of a step. Both ends of the step are outside, so the core sees nothing of it. A step of half
  * the length sees it no better.
  *
  * The way of a step is the cubic through the places and rates at its ends. A step with events has a way between each two of
  * them. Each gap and condition is bounded on it by Taylor forms (along.h). The way is halved until a place inside is found or
  * excluded. A contact that stays open after so many parts is reported as open. Accelerations are bounded so if an exponential
  * function is in them: far above those at both ends, and enough to turn the rate, the step has passed over a force. One that
- * stays open is reported as open. */
+ * stays open is reported as open. A friction's limits are bounded so if they move: it has passed over one if they are far
+ * larger than at both ends where it slides, or too small to keep it where it sticks. */
 #ifndef RUN_MISSED_H
 #define RUN_MISSED_H
 
@@ -14,7 +15,7 @@
 
 typedef struct missed missed;
 
-/* NULL where there is neither a stop, a hold nor such a force. */
+/* NULL where there is neither a contact nor such a force. */
 missed *missed_open(const image *im);
 void missed_close(missed *m); /* NULL is fine */
 /* `what`: the contact that a step passed through, or the number of contacts plus the coordinate whose force it passed over,

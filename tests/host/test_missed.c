@@ -216,6 +216,62 @@ static void test_hills_behind_a_tip(void) {
     TEST_ASSERT_TRUE(met < cases);
 }
 
+/* A bump of height 1 and width about $w at $x = 0. */
+static const char *const bumps[] = {
+    "exp(-($x/($w))^2)",
+    "1/(1 + ($x/($w))^6)",
+    "max(0, 1 - ($x/($w))^2)",
+    "cosh(min(abs($x)/($w), 300))^(-2)",
+};
+
+enum { BUMPS = sizeof bumps / sizeof bumps[0] };
+
+/* What a body passes on the way that one in a scene of its own speed v needs; %s is the bump. Friction presses where it slides, lets go
+ * where it sticks (there y waits, pulled), slides by a coefficient that jumps, and a crossing halves the speed. */
+static const char *const narrow[] = {
+    "friction y static 0.3 kinetic 0.2 normal 1 [mN] + 1e7 [N]*%s",
+    "V = 1 [N/m]*$y^2/2\nfriction y static 0.9 kinetic 0.8 normal 10 [mN]*(1 - %s)",
+    "friction y static 9e5*%s + 0.3 kinetic 8e5*%s + 0.2 normal 10 [N]",
+    "when %s crosses 0.5 rising { set y' = 0 [m/s] }",
+};
+
+enum { NARROW = sizeof narrow / sizeof narrow[0] };
+
+/* Limits of a friction, and crossings, that are there for a part of a step alone: what y does is as in the closed form, or told. */
+static void test_narrow_limits_and_crossings(void) {
+    dice d = dice_of("missed", 6);
+    const unsigned cases = dice_cases(few_or_all(48, 240));
+    unsigned told = 0;
+    unsigned met = 0;
+    for (unsigned k = 0; k < cases; k++) {
+        motion m;
+        char more[TEXT];
+        char from[400];
+        flight f = flight_draw(&d);
+        f.bounce_s = 0.0;
+        const char *bump = bumps[dice_one_of(&d, BUMPS)];
+        const double w_m = f.v_m_s * f.step_s * exp(dice_between(&d, log(1e-3), log(3.0)));
+        snprintf(from, sizeof from, narrow[k % NARROW], bump, bump);
+        place_write(&f, w_m, from, more);
+        const double y_m = k % NARROW == 1 ? 8e-3 : 0.0;
+        snprintf(text, sizeof text,
+                 "mechanism m\ncoordinate x [m]\ncoordinate y [m]\nT = 1 [kg]*(x'^2 + y'^2)/2\n%s\n"
+                 "scene s {\nstart x = %.17g [m], x' = %.17g [m/s], y = %.17g [m]%s\n"
+                 "step %.17g [s]\nuntil %.17g [s]\n}\n",
+                 more, f.place_m[0] + f.start_m, f.v_m_s, f.place_m[1] + y_m,
+                 k % NARROW == 1 ? "" : ", y' = 1e-3 [m/s]", f.step_s, f.until_s);
+        motion_open_text(&m, text, IN_DOUBLE);
+        const bool is_told = jumps_some(&m);
+        const bool is_met = k % NARROW == 1 ? motion_value(&m, "y") - f.place_m[1] < y_m
+                                            : fabs(motion_value(&m, "y'")) < 1e-9;
+        TEST_ASSERT_TRUE_MESSAGE(is_told || is_met, text);
+        told += is_told;
+        met += is_met;
+        motion_close(&m);
+    }
+    TEST_ASSERT_TRUE(told * 4 > cases && met * 10 > cases);
+}
+
 /* Two places on straight lines at constant speed, the second one perhaps on a turning disk: the least distance of both, by
  * looking often. */
 typedef struct pass {
@@ -403,6 +459,7 @@ void suite_missed(void) {
     RUN_TEST(test_posts);
     RUN_TEST(test_flat_ones);
     RUN_TEST(test_hills_behind_a_tip);
+    RUN_TEST(test_narrow_limits_and_crossings);
     RUN_TEST(test_moving_ones);
     RUN_TEST(test_right_runs);
 }
