@@ -143,12 +143,20 @@ enclosure enclosure_cosine(enclosure a) {
 
 /* --- roots, exponentials, powers -----------------------------------------------------------------------*/
 
+/* Its square is exact: a whole number stays one. */
+static bool is_whole_root(double root, double of) {
+    return root <= 0x1p26 && number_nearest(root) == root && root * root == of;
+}
+
 enclosure enclosure_root(enclosure a) {
     if (!(a.low >= 0.0) || !enclosure_is_finite(a)) {
         return none();
     }
-    const double low = enclosure_below(number_root(a.low));
-    return (enclosure){enclosure_larger(low, 0.0), enclosure_above(number_root(a.high))};
+    const double low = number_root(a.low);
+    const double high = number_root(a.high);
+    return (enclosure){is_whole_root(low, a.low) ? low
+                                                 : enclosure_larger(enclosure_below(low), 0.0),
+                       is_whole_root(high, a.high) ? high : enclosure_above(high)};
 }
 
 /* e^x of one number: the series of x / 2^n, squared n times. */

@@ -3,9 +3,11 @@
 
 #include <math.h>
 
+#include "core/contact.h"
 #include "core/refuse.h"
 #include "findings.h"
 #include "host/base/diag.h"
+#include "host/base/statement.h"
 #include "undefined.h"
 
 static bool starts_beyond(const image *im) {
@@ -14,6 +16,26 @@ static bool starts_beyond(const image *im) {
         found = found || !(fabs(im->start_real[i]) < (double)WH_ABSURD);
     }
     return found;
+}
+
+/* The first stop or hold that pushes the component's coordinate beside another one; -1: none. */
+static int pushing(const image *im, int fault) {
+    const int n = im->coordinates;
+    const int own_place = fault < n ? fault : fault - n;
+    for (int k = 0; k < im->forced && fault >= 0; k++) {
+        const tape *t = im->list[IMAGE_FORCES];
+        const int *row = t->result + k * (WH_LAW_ROWS + 2 * n) + WH_LAW_ROWS;
+        int entries = 0;
+        for (int i = 0; i < n; i++) {
+            const op *o = &t->ops[row[i]];
+            entries += o->code != OP_CONSTANT || o->value != 0.0;
+        }
+        const op *own = &t->ops[row[own_place]];
+        if (entries > 1 && (own->code != OP_CONSTANT || own->value != 0.0)) {
+            return k;
+        }
+    }
+    return -1;
 }
 
 void failure_say(FILE *out, const engine_kind *kind, const void *run, wh_status status,
@@ -46,6 +68,16 @@ void failure_say(FILE *out, const engine_kind *kind, const void *run, wh_status 
             "origin, or units, nearer to it\n",
             (double)WH_ABSURD);
         return;
+    }
+    const int k = pushing(im, fault);
+    if (k >= 0) {
+        char statement[STATEMENT_SIZE];
+        statement_text(im->contact[k].at, statement, sizeof statement);
+        fprintf(
+            out,
+            "hint: '%s' pushes all that it names: a clock there needs far more inertia than what "
+            "it meets, or is an input with a rate\n",
+            statement);
     }
     fputs("hint: a smaller --step may carry it further; if it fails at the same time, look for a "
           "singular position there\n",

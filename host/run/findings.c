@@ -173,6 +173,14 @@ static void say_events(FILE *out, const verdict *v) {
             v->overruns == 1 ? "it" : "them");
 }
 
+static bool is_without_restitution(const image *im, int k) {
+    const tape *t = im->list[IMAGE_FORCES];
+    const op *o = k >= 0 && im->contact[k].kind == WH_STOP
+                      ? &t->ops[t->result[k * (WH_LAW_ROWS + 2 * im->coordinates) + WH_LAW_FIRST]]
+                      : NULL;
+    return o != NULL && o->code == OP_CONSTANT && o->value == 0.0;
+}
+
 static void (*const say[FINDINGS])(FILE *, const verdict *) = {
     [FINDING_CONSTANTS] = say_constants, [FINDING_MASS] = say_mass,
     [FINDING_ENERGY] = say_energy,       [FINDING_ACCURACY] = say_accuracy,
@@ -206,6 +214,10 @@ static bool say_cause(FILE *out, const verdict *v) {
     } else if (is_told(v, FINDING_ENERGY) && b->saturated) {
         hint = "values were held at an end of their range, which keeps no energy: widen it: "
                "range NAME = A .. B";
+    } else if (v->against == FINDING_BIT(FINDING_EVENTS) &&
+               is_without_restitution(v->image, busiest(v, -1))) {
+        hint = "rounding parts bodies that nothing presses together, and they meet again: "
+               "restitution 0.01, or a force that presses them, ends such events";
     }
     if (hint != NULL) {
         fprintf(out, "hint: %s\n", hint);

@@ -344,6 +344,7 @@ static void test_whole_numbers_stay_whole(void) {
                      {"n*%d + %d", 2 * a + b},
                      {"(%d*%d)/n", a * b / 2.0},
                      {"%d*h*%d*n", 3 * a * b},
+                     {"sqrt(%d^2) + (%d^4)^0.5", a + b * b},
                      {"%d^2 - n^%d", a * a - pow(2.0, b)}};
         for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
             char written[60];
