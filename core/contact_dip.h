@@ -8,7 +8,7 @@
 typedef struct wh_contact_attempt {
     wh_contact_state now;
     wh_contact_state next;
-    wh_real span;       /* how long it is, s */
+    wh_real span;       /* how long it is, s: wh_contact_attempt_dipped() */
     wh_margins margins; /* at the end */
     unsigned
         leaving; /* free stops that open there and are nearer than the way of the try, or closed, as bits */
@@ -31,9 +31,12 @@ WH_INLINE wh_real wh_contact_tangents(const wh_real *gap, const wh_real *rate, w
  * all the same. Of those that are open at both ends, close at the begin and open at the end, the gap may have been below
  * zero in between. */
 WH_INLINE void wh_contact_attempt_dipped(const wh_contact_system *of, wh_contact_work *w,
-                                         const wh_real *input, wh_contact_attempt *a) {
+                                         wh_real span, const wh_real *input,
+                                         wh_contact_attempt *a) {
     wh_contact_point at;
     wh_real before[2 * WH_CONTACTS_MAX];
+    a->span = span;
+    a->dips = 0;
     if (!wh_contact_any_of(of, WH_STOP) || a->leaving == 0) {
         return;
     }

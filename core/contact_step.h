@@ -94,10 +94,7 @@ static inline bool wh_contact_try(const wh_contact_system *of, wh_contact_work *
 WH_INLINE void wh_contact_attempt_make(const wh_contact_system *of, wh_contact_work *w,
                                        wh_real left, wh_real *input, wh_contact_attempt *a) {
     wh_contact_point at;
-    a->made = true;
-    a->span = left;
     a->leaving = 0;
-    a->dips = 0;
     a->sound = wh_contact_try(of, w, left, input, &a->next, &a->fault);
     if (!a->sound) {
         return;
@@ -288,7 +285,7 @@ WH_APART wh_status wh_contact_eventful(const wh_contact_system *of, wh_contact_w
                 wh_contact_blame(of, w, reach, state->input, &a->now);
                 return wh_contact_refuse(w, a->fault, state);
             }
-            wh_contact_attempt_dipped(of, w, state->input, a);
+            wh_contact_attempt_dipped(of, w, reach, state->input, a);
             if (a->dips != 0 && round + 2U < WH_EVENTS_MAX) {
                 const wh_real share = wh_contact_dip(of, a, state->input);
                 if (share < WH_R(1.0)) { /* the try ends there instead, and is one of the moments */
@@ -371,7 +368,7 @@ WH_APART wh_status wh_contact_eventful(const wh_contact_system *of, wh_contact_w
 static inline wh_status wh_step_contact(const wh_contact_system *of, wh_real h, wh_state *state) {
     wh_contact_work work;
     wh_contact_attempt a;
-    a.made = false;
+    bool made = false;
     wh_contact_work_begin(of, state, &work);
 #if WH_LEDGER
     wh_ledger_work books;
@@ -402,7 +399,9 @@ static inline wh_status wh_step_contact(const wh_contact_system *of, wh_real h, 
             state->contacts->logged = 0;
             return WH_OK;
         }
+        made = true;
     }
+    a.made = made;
     return wh_contact_eventful(of, &work, h, &a, state);
 }
 

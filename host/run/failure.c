@@ -18,20 +18,17 @@ static bool starts_beyond(const image *im) {
     return found;
 }
 
-/* The first stop or hold that pushes the component's coordinate beside another one; -1: none. */
-static int pushing(const image *im, int fault) {
+/* The first contact that pushes more than one coordinate; -1: none. */
+static int pushing(const image *im) {
     const int n = im->coordinates;
-    const int own_place = fault < n ? fault : fault - n;
-    for (int k = 0; k < im->forced && fault >= 0; k++) {
+    for (int k = 0; k < im->forced; k++) {
         const tape *t = im->list[IMAGE_FORCES];
-        const int *row = t->result + k * (WH_LAW_ROWS + 2 * n) + WH_LAW_ROWS;
         int entries = 0;
         for (int i = 0; i < n; i++) {
-            const op *o = &t->ops[row[i]];
+            const op *o = &t->ops[t->result[k * (WH_LAW_ROWS + 2 * n) + WH_LAW_ROWS + i]];
             entries += o->code != OP_CONSTANT || o->value != 0.0;
         }
-        const op *own = &t->ops[row[own_place]];
-        if (entries > 1 && (own->code != OP_CONSTANT || own->value != 0.0)) {
+        if (entries > 1) {
             return k;
         }
     }
@@ -69,7 +66,7 @@ void failure_say(FILE *out, const engine_kind *kind, const void *run, wh_status 
             (double)WH_ABSURD);
         return;
     }
-    const int k = pushing(im, fault);
+    const int k = pushing(im);
     if (k >= 0) {
         char statement[STATEMENT_SIZE];
         statement_text(im->contact[k].at, statement, sizeof statement);
