@@ -161,18 +161,20 @@ refused 2 "cannot be written" epicyclic_from_rest --csv "$scratch"
 cp "$scratch/pole.whirl" "$scratch/mine.whirl"
 refused 2 "would write over the model" "$scratch/mine.whirl" --csv "$scratch/mine.whirl"
 
-# --- what docs/stability.md prints -----------------------------------------------------------------------------------------
+# --- what docs/dev/stability.md prints -----------------------------------------------------------------------------------------
 mkdir "$scratch/board" "$scratch/board/build"
 ln -s "$PWD/core" "$scratch/board/core"
 ln -s "$(realpath "$whirl")" "$scratch/board/build/whirl"
 awk -v into="$scratch/board" '
-    /^## Stability limits$/ { exit }
+    /^## A twin on a board$/ { on = 1; next }
+    /^## / { on = 0 }
+    !on { next }
     /^```c$/ { file = into "/main.c"; next }
     /^```sh/ { file = into "/commands"; next }
     /^```/ { file = ""; next }
     /^    / && !/^    [$]/ && main && !printed && file == "" { sub(/^    /, ""); print > (into "/wanted"); printed = 1 }
     file ~ /main[.]c$/ { main = 1 }
-    file != "" { print > file }' docs/stability.md
+    file != "" { print > file }' docs/dev/stability.md
 (cd "$scratch/board" && sh -e commands) >"$scratch/board/said" 2>"$scratch/err" && cmp "$scratch/board/said" "$scratch/board/wanted" 2>"$scratch/err"
-verdict $? "docs/stability.md: the twin of a board builds, and says what stands there: $(cat "$scratch/board/said")"
+verdict $? "docs/dev/stability.md: the twin of a board builds, and says what stands there: $(cat "$scratch/board/said")"
 exit $failed
