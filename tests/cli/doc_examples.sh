@@ -44,7 +44,7 @@ flushing=$(gcc -print-file-name=crtfastmath.o)
 echo "$flushing" >"$scratch/sets"
 [ -z "${WHIRL_FULL:-}" ] || printf '%s\n' -O0 -O3 -Os "-std=gnu11 -Og" -DWH_DOUBLE=1 -ffast-math -Ofast -funsafe-math-optimizations \
     -ffinite-math-only -mfpmath=387 -fsingle-precision-constant >>"$scratch/sets"
-for page in docs/language.md docs/tutorial.md docs/howto/firmware.md docs/howto/observer.md; do
+for page in docs/tutorial.md docs/howto/firmware.md docs/howto/observer.md; do
     into=$scratch/$(echo "$page" | tr / _)
     mkdir -p "$into/build"
     ln -s "$PWD/core" "$into/core"
@@ -70,9 +70,9 @@ for page in docs/language.md docs/tutorial.md docs/howto/firmware.md docs/howto/
 done
 
 for flag in -DWH_DOUBLE=0 -DWH_DOUBLE=1; do
-    (cd "$scratch/docs_language.md" && cc -std=c11 -O1 -Wall -Wextra -Wconversion -Wshadow -Werror -ffp-contract=off $flag -I. \
-        -o strict main.c swing.c core/scene.c core/angle.c && ./strict) >/dev/null 2>"$scratch/err"
-    verdict $? "docs/language.md: without a warning, $flag"
+    (cd "$scratch/docs_howto_firmware.md" && cc -std=c11 -O1 -Wall -Wextra -Wconversion -Wshadow -Werror -ffp-contract=off $flag -I. \
+        -o strict main.c swing_swing.c core/scene.c core/angle.c && ./strict) >/dev/null 2>"$scratch/err"
+    verdict $? "docs/howto/firmware.md: without a warning, $flag"
 done
 
 [ "$count" -ge 4 ]
