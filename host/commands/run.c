@@ -121,7 +121,11 @@ bool run_take_choice(const char *command, int count, char **words, int *at, plot
     const struct {
         const char *option;
         const char **place;
-    } own[] = {{"--y", &to->y}, {"--x", &to->x}, {"--title", &to->title}};
+    } own[] = {{"--y", &to->y},
+               {"--x", &to->x},
+               {"--title", &to->title},
+               {"--xlabel", &to->xlabel},
+               {"--ylabel", &to->ylabel}};
     const char *value = NULL;
     for (size_t i = 0; i < sizeof own / sizeof own[0] && !*bad && value == NULL; i++) {
         value = options_value(count, words, at, own[i].option, bad);
@@ -181,9 +185,10 @@ static bool read_options(int count, char **words, run_options *o) {
     o->settings.kind = o->common.number;
     if (o->settings.plot == NULL && o->settings.taken == NULL &&
         memcmp(&o->settings.choice, &(plot_choice){0}, sizeof(plot_choice)) != 0) {
-        fputs("whirl run: error: --y, --x, --panel and --title choose what --plot draws\n"
-              "hint: --plot picture.svg\n",
-              stderr);
+        fputs(
+            "whirl run: error: --y, --x, --panel, --title, --xlabel and --ylabel choose what --plot draws\n"
+            "hint: --plot picture.svg\n",
+            stderr);
         return false;
     }
     if (o->settings.json && simulation_summary(&o->settings) != stdout) {

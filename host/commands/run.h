@@ -10,8 +10,10 @@
     "                       (default: coordinates and outputs)\n" \
     "  --panel NAMES        quantities that share a panel (repeatable)\n" \
     "  --x NAME             over this quantity in place of the time\n" \
-    "  --title TEXT         above the picture\n"
-#define RUN_CHOICE_WORDS "--y", "--panel", "--x", "--title"
+    "  --title TEXT         above the picture\n" \
+    "  --xlabel TEXT        below it, in place of quantity and unit; --ylabel TEXTS: of the panels,\n" \
+    "                       between commas\n"
+#define RUN_CHOICE_WORDS "--y", "--panel", "--x", "--title", "--xlabel", "--ylabel"
 
 /* If words[*at] is one of these, takes it and steps *at past it. What is wrong is reported and sets *bad. */
 bool run_take_choice(const char *command, int count, char **words, int *at, plot_choice *to,

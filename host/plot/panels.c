@@ -138,8 +138,7 @@ static bool add(panels *p, const char *command, const char *name, const plot_run
     return true;
 }
 
-/* The next of a list between commas, without blanks at its ends; NULL at the list's end. Free it. */
-static char *next_of(const char **list) {
+char *panels_next(const char **list) {
     if (*list == NULL) {
         return NULL;
     }
@@ -155,7 +154,7 @@ static char *next_of(const char **list) {
 static bool add_list(panels *p, const char *command, const char *list, const plot_run *runs,
                      int panel) {
     bool good = true;
-    for (char *name = next_of(&list); name != NULL; name = good ? next_of(&list) : NULL) {
+    for (char *name = panels_next(&list); name != NULL; name = good ? panels_next(&list) : NULL) {
         good = add(p, command, name, runs, panel);
         free(name);
     }
@@ -182,7 +181,7 @@ static bool add_all(panels *p, const char *command, const plot_run *runs) {
 static bool name_runs(panels *p, const char *command, const char *legend, const plot_run *runs) {
     const char *list = legend;
     for (int k = 0; k < p->runs; k++) {
-        char *label = next_of(&list);
+        char *label = panels_next(&list);
         if (label == NULL && legend != NULL) {
             fprintf(stderr,
                     "whirl %s: error: --legend names %d of %d runs\n"

@@ -14,6 +14,8 @@ typedef struct plot_choice {
     int panels;
     const char *legend; /* labels of the runs, between commas; or NULL */
     const char *title;
+    const char *xlabel; /* NULL: quantity and unit */
+    const char *ylabel; /* of the panels, between commas; what is left out: quantities and unit */
 } plot_choice;
 
 /* Is there a quantity for each name, and one unit in each panel? Needs columns, no data. False is reported. */
@@ -42,6 +44,8 @@ typedef struct panels {
     int runs;
 } panels;
 
+/* The next of a list between commas, without blanks at its ends; NULL at the list's end. Free it. */
+char *panels_next(const char **list);
 /* False is reported. panels_free() in any case. */
 bool panels_make(panels *p, const char *command, const plot_choice *choice, const plot_run *runs,
                  int count);

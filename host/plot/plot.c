@@ -207,7 +207,9 @@ static void write_signs(FILE *to, const plot_run *runs, int count) {
     }
 }
 
-static void write_panel(FILE *to, const panels *p, const plot_run *runs, int panel, bool time) {
+/* With this label of the y axis, which is freed, or with the quantities' names and unit. */
+static void write_panel(FILE *to, const panels *p, const plot_run *runs, int panel, bool time,
+                        char *ylabel) {
     extent e = nothing;
     int drawn = 0;
     int of_panel = 0;
@@ -219,8 +221,8 @@ static void write_panel(FILE *to, const panels *p, const plot_run *runs, int pan
     }
     write_range(to, "y", e.least, e.most);
     fprintf(to, "set key vertical maxrows %d\n", key_lines(p, runs, panel, time));
-    char *names = names_of(p, panel, AXIS_MOST);
-    write_axis(to, "y", names, p->unit[panel]);
+    char *names = ylabel != NULL ? ylabel : names_of(p, panel, AXIS_MOST);
+    write_axis(to, "y", names, ylabel != NULL ? NULL : p->unit[panel]);
     free(names);
     for (int i = 0; i < p->quantities; i++) {
         const panels_quantity *q = &p->quantity[i];
@@ -343,10 +345,16 @@ static bool draw_panels(const panels *p, const char *file, const plot_choice *ch
         if (time) {
             write_times(g.to, runs, p->runs);
         }
+        const char *ylabels = choice->ylabel;
         for (int i = 0; i < p->count; i++) {
-            write_axis(g.to, "x", i == p->count - 1 ? p->x_name : "",
-                       i == p->count - 1 ? p->x_unit : NULL);
-            write_panel(g.to, p, runs, i, time);
+            const bool last = i == p->count - 1;
+            const char *own = choice->xlabel;
+            write_axis(g.to, "x",
+                       !last         ? ""
+                       : own != NULL ? own
+                                     : p->x_name,
+                       last && own == NULL ? p->x_unit : NULL);
+            write_panel(g.to, p, runs, i, time, panels_next(&ylabels));
         }
         fputs("unset multiplot\n", g.to);
         drawn = gnuplot_close(&g);

@@ -2,6 +2,7 @@
 #include "fingerprint.h"
 
 #include <inttypes.h>
+#include <stdlib.h>
 
 #include "core/hash.h"
 #include "host/base/room.h"
@@ -60,11 +61,16 @@ char *fingerprint_make(const sweep *s, const char *model_text, const instance *b
     put_instance(out, base);
     for (int i = 0; i < s->grid->count; i++) {
         const axis *a = &s->grid->axes[i];
-        fprintf(out, "over %s: %.17g to %.17g, %" PRIu64 " values%s\n", a->name, a->from, a->to,
-                a->count, a->is_log ? ", logarithmic" : "");
+        char *unit = sweep_unit(a->symbol, a->primes);
+        fprintf(out, "over %s%s: %.17g to %.17g, %" PRIu64 " values%s\n", a->name, unit, a->from,
+                a->to, a->count, a->is_log ? ", logarithmic" : "");
+        free(unit);
     }
     for (int i = 0; i < s->measures->count; i++) {
-        fprintf(out, "measure: %s\n", s->measures->list[i].name);
+        const measure *m = &s->measures->list[i];
+        char *unit = sweep_unit(measure_symbol(m), m->of->primes);
+        fprintf(out, "measure: %s%s\n", m->name, unit);
+        free(unit);
     }
     fprintf(out, "shard: %" PRIu64 "/%" PRIu64 "\n", part.number, part.of);
     fprintf(out, "operations: 0x%016" PRIx64 "\n", im->hash);

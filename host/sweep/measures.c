@@ -16,6 +16,10 @@ static const char *const kind_names[] = {[MEASURE_FINAL] = "",    [MEASURE_MAX] 
                                          [MEASURE_MIN] = "min",   [MEASURE_AMPLITUDE] = "amplitude",
                                          [MEASURE_MEAN] = "mean", [MEASURE_PERIOD] = "period"};
 
+const symbol *measure_symbol(const measure *m) {
+    return m->kind != MEASURE_PERIOD && m->of->op == EXPR_SYMBOL ? m->of->symbol : NULL;
+}
+
 static size_t blanks(const char *text) { return strspn(text, " \t"); }
 
 /* The length of "(...)" at the start of the text, parentheses balanced; 0 when it is not closed.

@@ -23,6 +23,9 @@ typedef struct measure {
     const expr *of;
 } measure;
 
+/* The symbol, with m->of->primes, in whose declared unit the column stands; NULL: it is SI. */
+const symbol *measure_symbol(const measure *m);
+
 typedef struct measures {
     struct arena *arena;
     measure *list; /* [count] */

@@ -9,6 +9,7 @@
 #include "host/base/room.h"
 #include "host/derive/image_make.h"
 #include "host/derive/lagrange.h"
+#include "host/lang/shown.h"
 #include "host/number/functions.h"
 #include "host/number/ratio.h"
 #include "host/number/zero.h"
@@ -135,33 +136,58 @@ static bool measure_point(const sweep *s, uint64_t point, bool (*abandon)(void),
 
 /* --- rows --------------------------------------------------------------------------------------*/
 
+char *sweep_unit(const symbol *of, int primes) {
+    if (of == NULL || unit_is_si(of->declared)) {
+        return room_words("%s", "");
+    }
+    char *name = shown_unit_name(of, primes);
+    char *unit = room_words(" [%s]", name);
+    free(name);
+    return unit;
+}
+
+static double in_unit(const symbol *of, double si) {
+    return of == NULL || unit_is_si(of->declared) ? si
+                                                  : si * of->declared.divisor / of->declared.scale;
+}
+
 /* A field of a header: quoted where RFC 4180 wants it. */
-static void header_field(FILE *out, const char *text) {
-    if (strpbrk(text, ",\"\r\n") == NULL) {
-        fputs(text, out);
-        return;
+static void header_field(FILE *out, const char *name, const symbol *of, int primes) {
+    char *unit = sweep_unit(of, primes);
+    char *text = room_words("%s%s", name, unit);
+    const bool quoted = strpbrk(text, ",\"\r\n") != NULL;
+    fputs(quoted ? "\"" : "", out);
+    for (const char *at = text; *at != '\0'; at++) {
+        fputs(*at == '"' ? "\"" : "", out);
+        fputc(*at, out);
     }
-    fputc('"', out);
-    for (; *text != '\0'; text++) {
-        if (*text == '"') {
-            fputc('"', out);
-        }
-        fputc(*text, out);
-    }
-    fputc('"', out);
+    fputs(quoted ? "\"" : "", out);
+    free(text);
+    free(unit);
 }
 
 void sweep_header(const sweep *s, FILE *out) {
     for (int i = 0; i < s->grid->count; i++) {
-        header_field(out, s->grid->axes[i].column);
+        const axis *a = &s->grid->axes[i];
+        header_field(out, a->column, a->symbol, a->primes);
         fputc(',', out);
     }
     for (int i = 0; i < s->measures->count; i++) {
-        header_field(out, s->measures->list[i].name);
+        const measure *m = &s->measures->list[i];
+        header_field(out, m->name, measure_symbol(m), m->of->primes);
         fputs(i + 1 < s->measures->count ? "," : "", out);
     }
     fputs(has_balance(s) ? "," BELIEF_COLUMN : "", out);
     fputs(grid_step_axis(s->grid) >= 0 ? ",end_s\r\n" : "\r\n", out);
+}
+
+char *sweep_swept_value(const axis *a, double si, char text[NUMBER_SIZE]) {
+    const double shown = in_unit(a->symbol, si);
+    if (shown == si) {
+        return number_shortest(si, text);
+    }
+    snprintf(text, NUMBER_SIZE, "%.15g", number_shown(shown)); /* 4 in, not 3.9999999999999996 in */
+    return text;
 }
 
 void sweep_swept_fields(const sweep *s, uint64_t point, FILE *out) {
@@ -169,7 +195,8 @@ void sweep_swept_fields(const sweep *s, uint64_t point, FILE *out) {
     char text[NUMBER_SIZE];
     grid_values(s->grid, point, value);
     for (int i = 0; i < s->grid->count; i++) {
-        fprintf(out, "%s%s", i > 0 ? "," : "", number_shortest(value[i], text));
+        fprintf(out, "%s%s", i > 0 ? "," : "",
+                sweep_swept_value(&s->grid->axes[i], value[i], text));
     }
     free(value);
 }
@@ -183,7 +210,8 @@ bool sweep_point(const sweep *s, uint64_t point, bool (*abandon)(void), FILE *ro
     for (int i = 0; i < s->measures->count; i++) {
         fputc(',', row);
         if (good) {
-            fprintf(row, "%.*g", s->kind->digits, number_shown(value[i]));
+            const symbol *of = measure_symbol(&s->measures->list[i]);
+            fprintf(row, "%.*g", s->kind->digits, number_shown(in_unit(of, value[i])));
         }
     }
     if (has_balance(s)) {

@@ -34,8 +34,13 @@ bool sweep_ends_are_alike(const sweep *s, double until_s);
 /* May the points of the grid share the lists of this image of one of them? */
 bool sweep_can_share(const grid *g, const image *im);
 
+/* What stands behind a column's name: the symbol's declared unit, " [deg]"; "" where it is SI or `of` is NULL. The caller
+ * frees it. */
+char *sweep_unit(const symbol *of, int primes);
+
 /* The CSV fields of the swept values, as header and for one point, without a line's end. */
 void sweep_header(const sweep *s, FILE *out);
+char *sweep_swept_value(const axis *a, double si, char text[NUMBER_SIZE]);
 void sweep_swept_fields(const sweep *s, uint64_t point, FILE *out);
 
 /* Run the point and write its row, line's end included. A run that fails, or has a measure, an energy or a

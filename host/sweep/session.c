@@ -77,8 +77,11 @@ static void name_point(const sweep *s, uint64_t point) {
     grid_values(s->grid, point, value);
     fprintf(stderr, "point %llu (", (unsigned long long)point + 1);
     for (int i = 0; i < s->grid->count; i++) {
-        fprintf(stderr, "%s%s=%s", i > 0 ? ", " : "", s->grid->axes[i].name,
-                number_shortest(value[i], text));
+        const axis *a = &s->grid->axes[i];
+        char *unit = sweep_unit(a->symbol, a->primes);
+        fprintf(stderr, "%s%s=%s%s", i > 0 ? ", " : "", a->name,
+                sweep_swept_value(a, value[i], text), unit);
+        free(unit);
     }
     fprintf(stderr, ")");
     free(value);

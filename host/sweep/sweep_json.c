@@ -2,37 +2,34 @@
 #include "sweep_json.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "core/method.h"
+#include "host/base/room.h"
+#include "host/lang/shown.h"
 #include "host/lang/units.h"
 #include "host/number/decimal.h"
 #include "host/run/belief.h"
 #include "host/run/finding.h"
 #include "host/run/run_json.h"
 
-static void put_column(json *j, const char *name, const char *unit) {
+/* In the declared unit of `of`, else in that of the dimension. */
+static void put_column(json *j, const char *name, const symbol *of, int primes, const char *si) {
+    char *unit = of != NULL ? shown_unit_name(of, primes) : room_words("%s", si);
     json_open(j, NULL, '{');
     json_text(j, "name", name);
     json_text(j, "unit", unit);
     json_close(j, '}');
-}
-
-static const char *axis_unit(const axis *a, char text[DIM_TEXT_SIZE]) {
-    if (a->symbol == NULL) {
-        return "s";
-    }
-    dimension dim = a->symbol->dim;
-    for (int i = 0; i < a->primes; i++) {
-        (void)dim_divide(dim, dim_of(0, 0, 1, 0, 0), &dim);
-    }
-    return dim_symbols(dim, text, DIM_TEXT_SIZE);
+    free(unit);
 }
 
 void sweep_json_axes(json *j, const grid *g) {
-    char unit[DIM_TEXT_SIZE];
     for (int i = 0; i < g->count; i++) {
-        put_column(j, g->axes[i].column, axis_unit(&g->axes[i], unit));
+        const axis *a = &g->axes[i];
+        char *unit = a->symbol == NULL ? room_words("s") : shown_si_name(a->symbol, a->primes);
+        put_column(j, a->column, NULL, 0, unit);
+        free(unit);
     }
 }
 
@@ -43,17 +40,20 @@ void sweep_json_begin(json *j, const sweep *s) {
                is_scene ? s->scene->title : s->measures->mechanism.title, s->kind,
                s->engine.method);
     json_open(j, "columns", '[');
-    sweep_json_axes(j, s->grid);
+    for (int i = 0; i < s->grid->count; i++) {
+        const axis *a = &s->grid->axes[i];
+        put_column(j, a->column, a->symbol, a->primes, "s");
+    }
     for (int i = 0; i < s->measures->count; i++) {
         const measure *m = &s->measures->list[i];
-        put_column(j, m->name,
+        put_column(j, m->name, measure_symbol(m), m->of->primes,
                    m->kind == MEASURE_PERIOD ? "s" : dim_symbols(m->of->dim, unit, sizeof unit));
     }
     if (!s->measures->mechanism.is_system) {
-        put_column(j, BELIEF_COLUMN, "1");
+        put_column(j, BELIEF_COLUMN, NULL, 0, "1");
     }
     if (grid_step_axis(s->grid) >= 0) {
-        put_column(j, "end_s", "s");
+        put_column(j, "end_s", NULL, 0, "s");
     }
     json_close(j, ']');
     json_open(j, "rows", '[');

@@ -78,6 +78,10 @@ verdict $? "two runs in two panels: four curves, named by their changes, and no 
 "$whirl" plot "$scratch/soft.csv" "$scratch/stiff.csv" --y x --legend "soft, stiff" --title "Two springs" --out "$scratch/two.svg" 2>"$scratch/err" &&
     grep -q '<text>soft<' "$scratch/two.svg" && grep -q '<text>stiff<' "$scratch/two.svg" && well_formed "$scratch/two.svg" "Two springs"
 verdict $? "a legend and a title of one's own"
+"$whirl" plot "$scratch/soft.csv" --y "x, x'" --xlabel "after release" --ylabel "place, speed [m/s]" --out "$scratch/two.svg" 2>"$scratch/err" &&
+    grep -q '>after release<' "$scratch/two.svg" && grep -q '>place<' "$scratch/two.svg" && grep -qF '>speed [m/s]<' "$scratch/two.svg" &&
+    ! grep -qF 'time [s]' "$scratch/two.svg"
+verdict $? "axis titles of one's own"
 # without colours: up to five curves of a panel have dashes that differ, whatever runs and quantities they are of
 for drawn in "1 2" "1 3" "1 4" "1 5" "2 2"; do
     # shellcheck disable=SC2086 # two numbers

@@ -11,15 +11,6 @@ status() {
     [ $? -eq "$wanted" ]
 }
 
-# judge WHAT FILE CONDITION: the awk condition holds for every row behind the header, and there is one.
-judge() {
-    tr -d '\r' <"$2" | tail -n +2 >"$scratch/judged"
-    check "$1" awk -F, "
-        function off(a, b) { return a > b ? a - b : b - a }
-        !($3) { bad = 1; print }
-        END { exit bad || NR == 0 }" "$scratch/judged"
-}
-
 # --- the same bytes ------------------------------------------------------------------------------
 # 10,000 points that share one program, and some that are derived each.
 many() {
@@ -42,9 +33,10 @@ derived --jobs 1 --csv "$scratch/derived1.csv"
 derived --jobs 3 --csv "$scratch/derived3.csv"
 check "the same from 1 job and 3, each point derived" \
     cmp "$scratch/derived1.csv" "$scratch/derived3.csv"
-printf 'ratio,r_disc,amplitude(X),"max(ratio, 0.5)",energy_left_over\r\n' >"$scratch/header"
+printf 'ratio,r_disc [in],amplitude(X),"max(ratio, 0.5)",energy_left_over\r\n' >"$scratch/header"
 head -n 1 "$scratch/derived1.csv" >"$scratch/first"
 check "the header, quoted where it must be" cmp "$scratch/header" "$scratch/first"
+check "values in the header's units" test "$(sed -n '2,6p' "$scratch/derived1.csv" | cut -d, -f2 | tr '\n' ' ')" = "4 5 6 7 8 "
 check "every line ends as RFC 4180 says" \
     test "$(grep -c "$(printf '\r')\$" "$scratch/many1.csv")" -eq 10001
 
@@ -135,6 +127,33 @@ check "refused: another row" status 2 small --csv "$scratch/small.csv" --measure
 sed 's/^ratio/radius/' "$scratch/kept.csv" >"$scratch/small.csv"
 check "refused: another header" status 2 small --csv "$scratch/small.csv" --measure X
 echo 'something else' >"$scratch/foreign.csv"
+# Columns stand in the units that the file declares, as those of `whirl run`; expressions in SI. A file of an older version,
+# which had SI throughout, is refused, and the difference is shown.
+cat >"$scratch/shown.whirl" <<'END'
+mechanism shown "a pendulum in degrees"
+coordinate th [deg]
+parameter m = 1 [kg]
+parameter l = 40 [cm]
+T = m*l^2*th'^2/2
+V = -m*9.81 [m/s^2]*l*cos(th)
+output h [mm] = l*(1 - cos(th))
+scene shown_swings { start th = 80 [deg]; until 1 [s] }
+END
+shown() { "$whirl" sweep "$scratch/shown.whirl" --over 'l=40..80 [cm]:2' --quiet "$@"; }
+shown >"$scratch/rows"
+"$whirl" run "$scratch/shown.whirl" --quiet --csv - >"$scratch/run"
+check "columns and final values are those of run" test "$(sed -n '1,2p' "$scratch/rows" | cut -d, -f2-4)" = \
+    "$({ grep ^time "$scratch/run" && tail -n 1 "$scratch/run"; } | tr -d '\r' | cut -d, -f2-4)"
+check "among them degrees and millimetres" grep -q '^l \[cm\],th \[deg\],der(th) \[deg/s\],h \[mm\],' "$scratch/rows"
+shown --csv "$scratch/shown.csv" --measure 'max(th)' --measure 'max(2*th)' --measure 'period(th)'
+check "measures of a quantity in its unit, others in SI" \
+    sh -c "tr -d '\r' <'$scratch/shown.csv' | awk -F, 'NR == 1 && \$2 != \"max(th) [deg]\" { exit 1 }
+        NR == 2 { d = \$2*3.14159265358979/90 - \$3; exit !(d*d < 1e-20 && \$3 > 1) }'"
+check "and so in JSON" sh -c "'$whirl' sweep '$scratch/shown.whirl' --over 'm=1..1:1' --measure 'max(th)' --json --quiet | grep -A 1 '\"max(th)\"' | grep -q '\"unit\": \"deg\"'"
+sed -i 's/^measure: max(th) .*/measure: max(th)/' "$scratch/shown.csv.sweep"
+check "refused: an older file, in SI" status 2 shown --csv "$scratch/shown.csv" --measure 'max(th)' --measure 'max(2*th)' \
+    --measure 'period(th)'
+check "with both units" grep -q '^  here:  measure: max(th) \[deg\]' "$scratch/said"
 check "refused: no sweep's file" status 2 small --csv "$scratch/foreign.csv" --measure X
 check "refused: it is still there" grep -q '^something else$' "$scratch/foreign.csv"
 check "--fresh starts anew" status 0 small --csv "$scratch/small.csv" --measure X --fresh
