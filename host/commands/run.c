@@ -185,10 +185,9 @@ static bool read_options(int count, char **words, run_options *o) {
     o->settings.kind = o->common.number;
     if (o->settings.plot == NULL && o->settings.taken == NULL &&
         memcmp(&o->settings.choice, &(plot_choice){0}, sizeof(plot_choice)) != 0) {
-        fputs(
-            "whirl run: error: --y, --x, --panel, --title, --xlabel and --ylabel choose what --plot draws\n"
-            "hint: --plot picture.svg\n",
-            stderr);
+        fputs("whirl run: error: --y, --x and the like choose what --plot draws\n"
+              "hint: --plot picture.svg\n",
+              stderr);
         return false;
     }
     if (o->settings.json && simulation_summary(&o->settings) != stdout) {

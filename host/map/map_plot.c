@@ -5,25 +5,12 @@
 #include <stdlib.h>
 
 #include "host/base/room.h"
-#include "host/lang/units.h"
+#include "host/lang/shown.h"
 #include "host/number/functions.h"
 #include "host/plot/gnuplot.h"
 #include "host/plot/palette.h"
 
 enum { HEIGHT = 620 };
-
-/* Of the axis's values, which are SI. */
-static void unit_of(const axis *a, char unit[DIM_TEXT_SIZE]) {
-    dimension dim = a->symbol != NULL ? a->symbol->dim : dim_of(0, 0, 1, 0, 0);
-    for (int k = 0; a->symbol != NULL && k < a->primes; k++) {
-        (void)dim_divide(dim, dim_of(0, 0, 1, 0, 0), &dim);
-    }
-    if (a->symbol != NULL && a->symbol->is_angle && a->primes < 2) {
-        snprintf(unit, DIM_TEXT_SIZE, "%s", a->primes == 0 ? "rad" : "rad/s");
-    } else {
-        dim_unit(dim, unit, DIM_TEXT_SIZE);
-    }
-}
 
 /* A gnuplot axis is logarithmic where its values are above zero: those below are drawn evenly. */
 static bool is_log(const axis *a) { return a->is_log && a->from > 0.0; }
@@ -41,13 +28,15 @@ static double edge(const axis *a, double value, bool up) {
 }
 
 static void set_axis(FILE *to, const axis *a, char letter) {
-    char unit[DIM_TEXT_SIZE];
-    unit_of(a, unit);
+    char *unit = a->symbol == NULL                 ? room_words("s")
+                 : unit_is_si(a->symbol->declared) ? shown_unit_name(a->symbol, a->primes)
+                                                   : shown_si_name(a->symbol, a->primes);
     const double least = number_least(a->from, a->to);
     const double most = number_most(a->from, a->to);
     fprintf(to, "set %clabel ", letter);
     gnuplot_quote(to, a->column);
     fprintf(to, ".' [%s]' noenhanced\n", unit);
+    free(unit);
     if (is_log(a)) {
         fprintf(to, "set logscale %c\n", letter);
     }
