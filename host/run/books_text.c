@@ -89,8 +89,8 @@ static void print_momentum(FILE *out, const image *im, const kept_account *kept,
     print_entries(out, kept, u->name);
     account_print_end(out, change, kept->left);
     if (u->is_length && time_s > 0.0) {
-        fprintf(out, "  mean force along %s: %.9g N; the book closes to %.1e N\n", u->name,
-                change / time_s, fabs(kept->left) / time_s);
+        fprintf(out, "  change divided by the run's length, along %s: %.9g N; closes to %.1e N\n",
+                u->name, change / time_s, fabs(kept->left) / time_s);
     }
 }
 

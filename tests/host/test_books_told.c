@@ -154,7 +154,7 @@ static void test_conserved_momenta(void) {
     TEST_ASSERT_TRUE(none > 3U);
 }
 
-/* Of each coordinate: what gave to it, what changed, and the mean force. */
+/* Of each coordinate: what gave to it, what changed, and that over the time. */
 static void test_ledgers(void) {
     static const char *const givers[KINDS] = {[FREE] = NULL,
                                               [PUSHED] = "\n  Q(",
@@ -175,12 +175,12 @@ static void test_ledgers(void) {
             const char *book = strstr(what.out, head);
             TEST_ASSERT_NOT_NULL_MESSAGE(book, what.out);
             const char *change = strstr(book + 1, "\n  change ");
-            const char *force = strstr(book + 1, "\n  mean force along ");
+            const char *force = strstr(book + 1, "\n  change divided by the run's length, along ");
             TEST_ASSERT_TRUE_MESSAGE(change != NULL && force != NULL && change < force, book);
             const double wanted = change_Ns(&m.body[i], m.until_s);
             const char *number = change + strlen("\n  change ");
             expect_number(number + strspn(number, " +"), wanted, book);
-            force += strlen("\n  mean force along ");
+            force += strlen("\n  change divided by the run's length, along ");
             TEST_ASSERT_EQUAL_CHAR(name_of(i), force[0]);
             expect_number(force + 3, wanted / m.until_s, book);
             for (int by = PUSHED; by < KINDS; by++) {
