@@ -34,8 +34,7 @@ bool sweep_ends_are_alike(const sweep *s, double until_s);
 /* May the points of the grid share the lists of this image of one of them? */
 bool sweep_can_share(const grid *g, const image *im);
 
-/* What stands behind a column's name: the symbol's declared unit, " [deg]"; "" where it is SI or `of` is NULL. The caller
- * frees it. */
+/* Behind a column's name: " [deg]", the declared unit; "" where it is SI or `of` is NULL. Free it. */
 char *sweep_unit(const symbol *of, int primes);
 
 /* The CSV fields of the swept values, as header and for one point, without a line's end. */
