@@ -7,11 +7,11 @@
 #include <string.h>
 
 #include "commands/commands.h"
-#include "commands/load.h"
 #include "core/arithmetic.h"
 #include "core/version.h"
 #include "host/base/nearest.h"
 #include "host/base/written.h"
+#include "host/commands/load.h"
 
 typedef struct command {
     const char *name;

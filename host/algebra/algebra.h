@@ -39,7 +39,7 @@ struct algebra {
     const poly *one;
 };
 
-/* Interning (intern.c). Scratch objects are freed by the caller; what is interned lives in the
+/* Interning (poly.c). Scratch objects are freed by the caller; what is interned lives in the
  * arena. */
 mono *mono_scratch(int factors);
 const mono *mono_intern(algebra *a, mono *candidate);
@@ -53,11 +53,11 @@ const atom *atom_of_polys(algebra *a, atom_kind kind, function_id function, cons
                           const poly *y);
 
 /* The derivative of a function by x (which = 0) or y (1), of whatever stands in these places; y may be NULL
- * where the function takes one (slopes.c). */
+ * where the function takes one (calculus.c). */
 const poly *function_slope(algebra *a, function_id function, int which, const poly *x,
                            const poly *y);
 
-/* --- the order of the normal form (order.c): negative, 0 for the same, positive -------------------*/
+/* --- the order of the normal form (poly.c): negative, 0 for the same, positive -------------------*/
 
 /* What decides between two atoms, but for their arguments. */
 uint64_t atom_rank(const atom *x);
@@ -65,7 +65,7 @@ int atom_order(const atom *x, const atom *y);
 int mono_order(const mono *x, const mono *y);
 int poly_order(const poly *x, const poly *y);
 
-/* --- looking (shape.c) ---------------------------------------------------------------------------*/
+/* --- looking (poly.c) ---------------------------------------------------------------------------*/
 
 /* x + y, or zero when what is left is a rounding error of the decimals they came from. */
 double coefficient_sum(double x, double y);
@@ -75,7 +75,7 @@ bool power_multiplies_out(const poly *base, double exponent, double kept);
 /* A sum of positions, parameters and numbers: no rate, no sine, no function? */
 bool poly_is_place(const poly *p);
 
-/* --- sums of many polys (sums.c) ------------------------------------------------------------------*/
+/* --- sums of many polys (poly.c) ------------------------------------------------------------------*/
 
 typedef struct sum_item {
     const mono *mono;

@@ -38,8 +38,8 @@ typedef enum atom_kind {
 
 struct atom {
     atom_kind kind;
-    unsigned id;          /* for hash tables; orders nothing (order.c does) */
-    uint64_t rank;        /* where it stands among others: order.c */
+    unsigned id;          /* for hash tables; orders nothing (poly.c does) */
+    uint64_t rank;        /* where it stands among others: poly.c */
     const symbol *symbol; /* ATOM_SYMBOL */
     int primes;
     function_id function;    /* ATOM_CALL, else FUNCTION_NONE or unused */

@@ -2,7 +2,7 @@
 #ifndef ALGEBRA_POLY_H
 #define ALGEBRA_POLY_H
 
-#include "normal_form.h"
+#include "host/algebra/normal_form.h"
 
 algebra *algebra_new(void);
 void algebra_free(algebra *a);

@@ -6,10 +6,10 @@
 
 #include "commands.h"
 #include "host/base/room.h"
+#include "host/commands/load.h"
 #include "host/number/zero.h"
 #include "host/run/engine.h"
 #include "host/run/undefined.h"
-#include "load.h"
 #include "options.h"
 
 static const command_usage usage = {

@@ -2,7 +2,7 @@
 #include <stdio.h>
 
 #include "commands.h"
-#include "load.h"
+#include "host/commands/load.h"
 #include "options.h"
 
 static const command_usage usage = {

@@ -6,15 +6,15 @@
 #include "commands.h"
 #include "files.h"
 #include "host/base/written.h"
+#include "host/commands/load.h"
 #include "host/emit/emit.h"
 #include "host/emit/matrix.h"
 #include "host/fixed/c_fixed.h"
 #include "host/fixed/engine_fixed.h"
-#include "host/fixed/fixed_refuse.h"
+#include "host/fixed/fixed_plan.h"
 #include "host/lang/lexer.h"
 #include "host/run/start.h"
 #include "host/show/show_equations.h"
-#include "load.h"
 #include "target.h"
 
 static void text(const loaded *made, const char *file) {

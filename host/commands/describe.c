@@ -3,8 +3,8 @@
 #include <string.h>
 
 #include "commands.h"
+#include "host/commands/load.h"
 #include "host/emit/description.h"
-#include "load.h"
 #include "target.h"
 
 static const command_usage usage = {

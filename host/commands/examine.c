@@ -5,9 +5,9 @@
 
 #include "commands.h"
 #include "host/base/room.h"
+#include "host/commands/load.h"
 #include "host/derive/symmetry.h"
 #include "host/show/show_equations.h"
-#include "load.h"
 #include "target.h"
 
 static const command_usage usage = {

@@ -7,11 +7,11 @@
 #include "commands.h"
 #include "host/base/room.h"
 #include "host/base/written.h"
+#include "host/commands/load.h"
 #include "host/lang/builtin.h"
 #include "host/plot/figure_draw.h"
 #include "host/plot/gnuplot.h"
 #include "host/plot/plot_run.h"
-#include "load.h"
 #include "options.h"
 #include "run.h"
 

@@ -1,19 +1,218 @@
 /* firstlight.c: `whirl firstlight`: the record of a board's first light compared with the interpreter's runs, and with the
  * emulator's record; a row for docs/silicon.md. */
 #include <inttypes.h>
+#include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
 
-#include "commands.h"
+#include "host/base/room.h"
 #include "host/base/written.h"
+#include "host/commands/commands.h"
+#include "host/commands/files.h"
+#include "host/commands/interrupts.h"
+#include "host/commands/load.h"
+#include "host/commands/target.h"
 #include "host/monitor/light.h"
 #include "host/monitor/port.h"
-#include "interrupts.h"
-#include "light_expect.h"
-#include "light_page.h"
-#include "target.h"
+#include "host/run/loop.h"
+
+/* === what the record should have ============================================================== */
+/* What the record of a board's first light should have: the interpreter's runs of the scenes, and a board whose
+ * crystal, sensors and stop line answer. */
+
+enum { LIGHT_EXPECTED = 100 };
+
+/* Of each field; "": nothing. All zeros before light_expect(). */
+typedef struct light_expected {
+    char of[LIGHT_FIELDS][LIGHT_EXPECTED];
+} light_expected;
+
+typedef enum light_verdict {
+    LIGHT_EQUAL,
+    LIGHT_DIFFERS,
+    LIGHT_NONE, /* the board or emulator cannot give it */
+    LIGHT_TOLD  /* nothing is expected */
+} light_verdict;
+
+/* A control period, 2 ms, may begin so much early or late (hal/clock.h). */
+#define PERIOD_LEAST_US 1900
+#define PERIOD_MOST_US 2100
+
+/* The number of the field `name` + `more`, which there is. */
+static int light_field(const char *name, const char *more) {
+    char whole[LIGHT_EXPECTED];
+    (void)snprintf(whole, sizeof whole, "%s%s", name, more);
+    int i = 0;
+    while (strcmp(light_names[i], whole) != 0) {
+        i++;
+    }
+    return i;
+}
+
+/* The interpreter in float has the boards' bits. */
+static int run_scene(const char *name, light_expected *e) {
+    static const load_wish wish = {.settings = IMAGE_SETTINGS_DEFAULT,
+                                   .use = IMAGE_TO_WRITE,
+                                   .keep = KEEP_IMAGE,
+                                   .conserve = true};
+    source_model from;
+    const mechanism *of = NULL;
+    const scene *in = NULL;
+    loaded made = {.image = NULL};
+    int code = source_open(&from, name);
+    code = code == EXIT_DONE ? source_pick(&from, true, &of, &in) : code;
+    code = code == EXIT_DONE ? load(&made, &from, of, in, NULL, &wish) : code;
+    if (code == EXIT_DONE) {
+        void *run = engine_float.start(made.image);
+        const wh_status status = loop_steps(&engine_float, run, made.image->steps);
+        (void)snprintf(e->of[light_field("model.", name)], LIGHT_EXPECTED, "0x%016" PRIx64,
+                       made.image->hash);
+        (void)snprintf(e->of[light_field("hash.", name)], LIGHT_EXPECTED,
+                       "0x%016" PRIx64 " %" PRIu64 " steps, %s", engine_float.hash(run),
+                       engine_float.steps(run), wh_status_text(status));
+        engine_float.stop(run);
+    }
+    unload(&made);
+    source_close(&from);
+    return code;
+}
+
+/* Runs the scenes. Returns an exit code. */
+static int light_expect(light_expected *e) {
+#define SCENE_NAME(scene) #scene,
+    static const char *const scenes[] = {WH_LIGHT_SCENES(SCENE_NAME)};
+    int code = EXIT_DONE;
+    for (int i = 0; i < LIGHT_SCENES && code == EXIT_DONE; i++) {
+        code = run_scene(scenes[i], e);
+    }
+    static const char *const known[][2] = {
+        {"version", WH_VERSION}, {"clock", "crystal"}, {"stop", "released"}, {"selftest", "good"}};
+    for (size_t i = 0; i < sizeof known / sizeof known[0]; i++) {
+        (void)snprintf(e->of[light_field(known[i][0], "")], LIGHT_EXPECTED, "%s", known[i][1]);
+    }
+    (void)snprintf(e->of[light_field("period_us", "")], LIGHT_EXPECTED, "%d %d", PERIOD_LEAST_US,
+                   PERIOD_MOST_US);
+    return code;
+}
+
+static bool may_be_none(const char *name) {
+    return strncmp(name, "model.", 6) != 0 && strncmp(name, "hash.", 5) != 0 &&
+           strcmp(name, "version") != 0 && strcmp(name, "board") != 0 &&
+           strcmp(name, "compiler") != 0;
+}
+
+static light_verdict light_judge(int field, const char *value, const char *wanted) {
+    const char *name = light_names[field];
+    if (light_is_none(value) && may_be_none(name)) {
+        return LIGHT_NONE;
+    }
+    if (wanted[0] == '\0' || strcmp(name, "stack") == 0) {
+        return LIGHT_TOLD; /* interrupts of silicon take stack, too */
+    }
+    if (strcmp(name, "period_us") == 0) {
+        char *end = NULL;
+        const long least = strtol(value, &end, 10);
+        const bool two = *end == ' ';
+        const long most = two ? strtol(end + 1, &end, 10) : 0;
+        return two && *end == '\0' && least >= PERIOD_LEAST_US && most <= PERIOD_MOST_US &&
+                       least <= most
+                   ? LIGHT_EQUAL
+                   : LIGHT_DIFFERS;
+    }
+    if (strcmp(name, "selftest") == 0) { /* its parts follow */
+        return strncmp(value, "good ", 5) == 0 ? LIGHT_EQUAL : LIGHT_DIFFERS;
+    }
+    return strcmp(value, wanted) == 0 ? LIGHT_EQUAL : LIGHT_DIFFERS;
+}
+
+/* === the page of first lights: a table with a row for each record ============================= */
+
+#define LIGHT_PAGE "docs/silicon.md"
+
+/* Medians of the scenes' steps. */
+static void cycles_of(const light *l, char *cell, size_t size) {
+    size_t used = 0;
+    cell[0] = '\0';
+    for (int i = 0; i < LIGHT_FIELDS; i++) {
+        char median[16] = WH_LIGHT_NONE;
+        if (strncmp(light_names[i], "cycles.", 7) == 0 && used < size) {
+            (void)sscanf(l->value[i], "%*s %15s", median);
+            used +=
+                (size_t)snprintf(cell + used, size - used, "%s%s", used > 0 ? " / " : "", median);
+        }
+    }
+}
+
+/* The record's row, to be freed: `equal` hashes are, the fields `differ` are not. */
+static char *light_row(const light *l, int equal, const char *differ) {
+    char cycles[120];
+    char date[16] = "";
+    const time_t now = time(NULL);
+    const struct tm *day = localtime(&now);
+    if (day != NULL) {
+        (void)strftime(date, sizeof date, "%Y-%m-%d", day);
+    }
+    cycles_of(l, cycles, sizeof cycles);
+#define VALUE(name) l->value[light_field(name, "")]
+    char *row = room_words(
+        "| %s | %s | %s | %s | %d of %d | %s | %s | %s | %.4s | %s%s | 0x%08" PRIx32 " |\n", date,
+        VALUE("board"), VALUE("chip"), VALUE("clock"), equal, LIGHT_SCENES, cycles, VALUE("stack"),
+        VALUE("period_us"), VALUE("selftest"), differ[0] != '\0' ? "differs: " : "equal", differ,
+        l->crc);
+#undef VALUE
+    return row;
+}
+
+/* Puts the row behind the last one of the page's table, unless the page has this record already; says so. Returns an exit
+ * code.
+ *
+ * Behind the last row of the page's table; a record that it has is not put there again. */
+static int light_append(const char *page, const char *row, uint32_t crc) {
+    size_t length = 0;
+    char seen[24];
+    char *text = read_all(page, &length);
+    if (text == NULL) {
+        fputs("hint: --page FILE names it; " LIGHT_PAGE " is there from the project's root\n",
+              stderr);
+        return EXIT_RUN_FAILED;
+    }
+    (void)snprintf(seen, sizeof seen, "| 0x%08" PRIx32 " |", crc);
+    if (strstr(text, seen) != NULL) {
+        printf("row: %s has this record already\n", page);
+        free(text);
+        return EXIT_DONE;
+    }
+    char *behind = NULL; /* the last line of a table */
+    for (char *at = text; at != NULL; at = *at != '\0' ? strchr(at + 1, '\n') : NULL) {
+        behind = at[0] == '|' || (at[0] == '\n' && at[1] == '|') ? at + 1 : behind;
+    }
+    behind = behind != NULL ? strchr(behind, '\n') : NULL;
+    if (behind == NULL) {
+        free(text);
+        fprintf(stderr, "%s: error: there is no table for the row\nhint: " LIGHT_PAGE " has one\n",
+                page);
+        return EXIT_RUN_FAILED;
+    }
+    static const char empty[] = "\nno row yet\n";
+    const char *rest = behind + 1;
+    rest += strncmp(rest, empty, sizeof empty - 1) == 0 ? sizeof empty - 1 : 0;
+    FILE *out = written_open(page);
+    bool good = out != NULL;
+    if (good) {
+        fwrite(text, 1, (size_t)(behind + 1 - text), out);
+        fprintf(out, "%s%s", row, rest);
+        good = written_close(out, page, true);
+    }
+    if (good) {
+        printf("row: appended to %s\n", page);
+    }
+    free(text);
+    return good ? EXIT_DONE : EXIT_RUN_FAILED;
+}
+
+/* === the command ============================================================================== */
 
 #define ASK_S 3.0
 enum { WAIT_MS = 100, BYTES_MOST = 1 << 20 };

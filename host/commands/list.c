@@ -4,9 +4,9 @@
 
 #include "commands.h"
 #include "hard_rows.h"
+#include "host/commands/load.h"
 #include "host/lang/builtin.h"
 #include "host/lang/units.h"
-#include "load.h"
 #include "options.h"
 
 static const command_usage usage = {

@@ -2,8 +2,8 @@
 #ifndef COMMANDS_PRICING_H
 #define COMMANDS_PRICING_H
 
+#include "host/commands/load.h"
 #include "host/price/table_text.h"
-#include "load.h"
 #include "options.h"
 #include "pricing_scene.h"
 #include "target.h"

@@ -3,10 +3,10 @@
 #ifndef COMMANDS_RATING_H
 #define COMMANDS_RATING_H
 
+#include "host/commands/load.h"
 #include "host/price/cost_board.h"
 #include "host/run/horizon.h"
 #include "host/run/simulate.h"
-#include "load.h"
 #include "options.h"
 #include "pricing_scene.h"
 

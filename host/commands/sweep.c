@@ -7,14 +7,13 @@
 
 #include "commands.h"
 #include "host/base/room.h"
+#include "host/commands/load.h"
 #include "host/lang/builtin.h"
 #include "host/run/start.h"
 #include "host/sweep/changes.h"
-#include "host/sweep/fingerprint.h"
 #include "host/sweep/jobs.h"
 #include "host/sweep/session.h"
 #include "interrupts.h"
-#include "load.h"
 #include "target.h"
 
 static const command_usage usage = {

@@ -2,7 +2,7 @@
 #ifndef COMMANDS_TARGET_H
 #define COMMANDS_TARGET_H
 
-#include "load.h"
+#include "host/commands/load.h"
 #include "options.h"
 
 /* Takes one of a command's own options, with its value, and steps *at past it; false when the word at *at is none. *bad:

@@ -11,7 +11,7 @@
 #include "host/number/functions.h"
 #include "host/run/aliasing.h"
 #include "host/run/apart.h"
-#include "host/run/horizon_text.h"
+#include "host/run/horizon.h"
 #include "host/run/run_json.h"
 #include "host/run/start.h"
 #include "host/run/undefined.h"

@@ -2,9 +2,9 @@
 #ifndef COMMANDS_TRUSTING_H
 #define COMMANDS_TRUSTING_H
 
+#include "host/commands/load.h"
 #include "host/run/horizon.h"
 #include "host/run/simulate.h"
-#include "load.h"
 
 /* What load() is to keep for trusting_plain(). */
 load_keep trusting_keep(const image_settings *settings);

@@ -2,7 +2,7 @@
 #ifndef DERIVE_BLAME_H
 #define DERIVE_BLAME_H
 
-#include "equations.h"
+#include "host/derive/equations.h"
 #include "image_parts.h"
 
 /* Enter them, with the questions of each contact. The image has its inputs and contacts. */

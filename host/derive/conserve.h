@@ -12,7 +12,7 @@
 #ifndef DERIVE_CONSERVE_H
 #define DERIVE_CONSERVE_H
 
-#include "equations.h"
+#include "host/derive/equations.h"
 
 typedef struct conservation {
     int count;          /* unknowns recovered */

@@ -6,8 +6,8 @@
 #include "contacts.h"
 #include "core/contact.h"
 #include "core/hash.h"
-#include "energy.h"
 #include "host/base/room.h"
+#include "host/derive/equations.h"
 
 #define SAME_KIND(id, ...) \
     _Static_assert((int)CONTACT_##id == (int)WH_##id, "the core handles contacts in this order");

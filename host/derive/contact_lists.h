@@ -2,8 +2,8 @@
 #ifndef DERIVE_CONTACT_LISTS_H
 #define DERIVE_CONTACT_LISTS_H
 
+#include "host/derive/solve.h"
 #include "layout.h"
-#include "solve.h"
 
 typedef struct contact_row {
     const contact_statement *from;

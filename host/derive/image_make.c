@@ -1,8 +1,426 @@
-/* image_make.c: see image_make.h. The image, and what it would be if its numbers had been folded otherwise. */
-#include "image_make.h"
+/* image_make.c: The image, and what it would be if its numbers had been folded otherwise. */
+#include "host/derive/image_make.h"
 
+#include <stdio.h>
+#include <string.h>
+
+#include "core/contact.h"
+#include "host/derive/blame.h"
+#include "host/derive/image_parts.h"
+#include "host/derive/lagrange.h"
+#include "host/derive/matrix_make.h"
+#include "host/derive/program.h"
+#include "host/image/tape_gauge.h"
+#include "host/lang/lexer.h"
+#include "host/lang/shown.h"
+#include "host/lang/words.h"
 #include "host/number/folding.h"
-#include "lagrange.h"
+#include "host/number/phase.h"
+
+/* --- what does not depend on the lists -------------------------------------------------------------*/
+
+static void name_it(image_draft *d, const instance *inst) {
+    image *im = d->made;
+    const mechanism *m = inst->mechanism;
+    im->name = image_text(d, inst->name);
+    im->title = image_text(d, inst->scene != NULL ? inst->scene->title : m->title);
+    im->mechanism = image_text(d, m->name);
+    im->mechanism_at = image_place(d, m->at);
+    im->at = image_place(d, inst->scene != NULL ? inst->scene->at : m->at);
+    im->effects = m->effect_count;
+    im->effect = image_room(d, im->effects, sizeof *im->effect);
+    for (int i = 0; i < im->effects; i++) {
+        im->effect[i] = (image_effect){image_text(d, m->effects[i].name),
+                                       image_text(d, m->effects[i].text), inst->with[i]};
+    }
+}
+
+static void time_it(image *im, const instance *inst) {
+    im->step_s = inst->step_s;
+    im->step = inst->step;
+    im->steps = inst->steps;
+    im->until_s = inst->until_s;
+}
+
+/* Parts of a start that are looked at: of p*p, where p is q*q and so on, there are as many as two to the depth. */
+enum { MOST_PARTS = 1000 };
+
+/* Is it a product of numbers as they are written? Else, where it is next to nothing, it may be what sums round. */
+static bool is_written(const instance *inst, const expr *e, int *parts) {
+    if (++*parts > MOST_PARTS) {
+        return false;
+    }
+    switch (e->op) {
+    case EXPR_NUMBER: return true;
+    case EXPR_SYMBOL:
+        return e->symbol->kind == SYM_LET ? is_written(inst, e->symbol->value, parts)
+               : e->symbol->kind == SYM_PARAMETER
+                   ? is_written(inst, inst->parameter_given[e->symbol->index], parts)
+                   : false;
+    case EXPR_NEG: return is_written(inst, e->left, parts);
+    case EXPR_MUL:
+    case EXPR_DIV:
+    case EXPR_POW: return is_written(inst, e->left, parts) && is_written(inst, e->right, parts);
+    case EXPR_ADD:
+    case EXPR_SUB:
+    case EXPR_CALL: return false;
+    }
+    return false;
+}
+
+/* Where unknown i starts. */
+static void start_unknown(image_draft *d, const instance *inst, int i) {
+    image_unknown *u = &d->made->unknown[i];
+    u->starts = inst->start_count[i];
+    u->start = image_room(d, u->starts, sizeof *u->start);
+    u->start_at = image_room(d, u->starts, sizeof *u->start_at);
+    for (int k = 0; k < u->starts; k++) {
+        u->start[k] = inst->start[i][k];
+        u->start_at[k] = image_place(d, inst->start_at[i][k]);
+    }
+    int parts = 0;
+    u->start_written =
+        inst->start_given[i][0] != NULL && is_written(inst, inst->start_given[i][0], &parts);
+}
+
+/* The starts of the components and the inputs, once those of the unknowns and the components are known. */
+static void start_components(image_draft *d) {
+    image *im = d->made;
+    im->start_rad = image_room(d, im->angles, sizeof *im->start_rad);
+    im->start_turns = image_room(d, im->angles, sizeof *im->start_turns);
+    im->start_real = image_room(d, im->reals, sizeof *im->start_real);
+    for (int i = 0; i < im->angles; i++) {
+        im->start_rad[i] = im->unknown[im->angle[i].unknown].start[0];
+        im->start_turns[i] = phase_of_start(im->start_rad[i]);
+    }
+    for (int i = 0; i < im->reals; i++) {
+        const component c = im->real[i];
+        const image_unknown *u = &im->unknown[c.unknown];
+        im->start_real[i] = c.primes < u->starts ? u->start[c.primes] : 0.0;
+    }
+}
+
+/* Energy over rate. */
+static const char *momentum_unit(image_draft *d, const symbol *q) {
+    char si[DIM_TEXT_SIZE];
+    dimension dim = q->dim;
+    for (int k = 0; k < DIM_BASES; k++) {
+        dim.twelfths[k] = (short)-dim.twelfths[k];
+    }
+    dim.any = false;
+    dim.twelfths[DIM_LENGTH] = (short)(dim.twelfths[DIM_LENGTH] + 2 * DIM_DENOMINATOR);
+    dim.twelfths[DIM_MASS] = (short)(dim.twelfths[DIM_MASS] + DIM_DENOMINATOR);
+    dim.twelfths[DIM_TIME] = (short)(dim.twelfths[DIM_TIME] - DIM_DENOMINATOR);
+    return image_text(d, dimension_unit(dim, false, si, sizeof si));
+}
+
+static void copy_unknowns(image_draft *d, const equations *e) {
+    image *im = d->made;
+    im->unknown = image_room(d, im->count, sizeof *im->unknown);
+    for (int i = 0; i < im->count; i++) {
+        const symbol *s = e->unknowns[i].symbol;
+        image_unknown *u = &im->unknown[i];
+        *u = (image_unknown){.name = image_text(d, s->name),
+                             .text = image_text(d, s->text),
+                             .at = image_place(d, s->at),
+                             .is_angle = s->is_angle,
+                             .is_length = s->dim.twelfths[DIM_LENGTH] == DIM_DENOMINATOR,
+                             .conserved = e->conserved[i],
+                             .driven = s->driven != NULL,
+                             .order = e->unknowns[i].order,
+                             .momentum_si = momentum_unit(d, s)};
+        u->unit = image_room(d, u->order + 1, sizeof *u->unit);
+        for (int primes = 0; primes <= u->order; primes++) {
+            u->unit[primes] = image_unit_of(d, s, primes);
+        }
+        start_unknown(d, e->instance, i);
+    }
+}
+
+static void copy_quantities(image_draft *d, const program *p, const instance *inst) {
+    image *im = d->made;
+    const mechanism *m = inst->mechanism;
+    im->input = image_room(d, im->inputs, sizeof *im->input);
+    for (int i = 0; i < im->inputs; i++) {
+        const int k = p->layout.input[i];
+        im->input[i] = image_quantity_of(d, m->inputs[k], inst->input[k]);
+    }
+    im->output = image_room(d, im->own_outputs, sizeof *im->output);
+    for (int i = 0; i < im->own_outputs; i++) {
+        im->output[i] = image_quantity_of(d, m->outputs[i], 0.0);
+    }
+    im->parameter = image_room(d, m->parameter_count, sizeof *im->parameter);
+    for (int i = 0; i < m->parameter_count; i++) {
+        if (instance_lacks(inst, m->parameters[i]) == NULL) {
+            im->parameter[im->parameters++] =
+                image_quantity_of(d, m->parameters[i], inst->parameter[i]);
+        }
+    }
+}
+
+static const char *primed_name(image_draft *d, const char *name, int primes) {
+    char text[NAME_LENGTH_MAX + 16];
+    snprintf(text, sizeof text, "%s%.*s", name, primes, "''''''''''");
+    return image_text(d, text);
+}
+
+/* What components and inputs keep to in fixed point, as far as it is declared. */
+static void copy_ranges(image_draft *d, const equations *e, const layout *map) {
+    image *im = d->made;
+    const instance *inst = e->instance;
+    im->range = image_room(d, im->reals + im->inputs, sizeof *im->range);
+    for (int i = 0; i < im->reals; i++) {
+        const component c = im->real[i];
+        const image_unknown *u = &im->unknown[c.unknown];
+        im->range[i].name = primed_name(d, u->name, c.primes);
+        im->range[i].at = u->at;
+    }
+    for (int i = 0; i < im->inputs; i++) {
+        im->range[im->reals + i].name = im->input[i].name;
+        im->range[im->reals + i].at = im->input[i].at;
+    }
+    im->angle_range = image_room(d, im->angles, sizeof *im->angle_range);
+    for (int i = 0; i < im->angles; i++) {
+        im->angle_range[i].name = im->unknown[im->angle[i].unknown].name;
+    }
+    for (int k = 0; k < inst->range_count; k++) {
+        const range_value *r = &inst->range[k];
+        for (int i = 0; i < im->angles; i++) {
+            if (e->unknowns[im->angle[i].unknown].symbol == r->symbol && r->primes == 0) {
+                im->angle_range[i] = (image_range){im->angle_range[i].name, image_place(d, r->at),
+                                                   true, r->low, r->high};
+            }
+        }
+        for (int i = 0; i < im->reals + im->inputs; i++) {
+            const bool real = i < im->reals;
+            const symbol *s = real ? e->unknowns[im->real[i].unknown].symbol
+                                   : inst->mechanism->inputs[map->input[i - im->reals]];
+            if (s == r->symbol && r->primes == (real ? im->real[i].primes : 0)) {
+                im->range[i] =
+                    (image_range){im->range[i].name, image_place(d, r->at), true, r->low, r->high};
+            }
+        }
+    }
+}
+
+/* --- the lists ---------------------------------------------------------------------------------------*/
+
+static void *copy(image_draft *d, const void *from, int count, size_t size) {
+    void *made = image_room(d, count, size);
+    if (count > 0) {
+        memcpy(made, from, (size_t)count * size);
+    }
+    return made;
+}
+
+/* The list is the image's from now on. */
+static tape *take(tape **list) {
+    tape *taken = *list;
+    *list = NULL;
+    return taken;
+}
+
+static void take_contacts(image_draft *d, contact_lists *c) {
+    image *im = d->made;
+    char si[DIM_TEXT_SIZE];
+    im->contacts = c->count;
+    im->forced = c->forced;
+    im->held = c->held;
+    im->set_count = c->set_count;
+    im->target = copy(d, c->target, c->set_count, sizeof *c->target);
+    im->contact = image_room(d, c->count, sizeof *im->contact);
+    for (int k = 0; k < c->count; k++) {
+        const contact_row *row = &c->row[k];
+        const contact_statement *from = row->from;
+        const char *gap = row->kind == WH_STOP
+                              ? dimension_unit(row->from->value->dim, false, si, sizeof si)
+                              : "1";
+        im->contact[k] = (image_contact){
+            .kind = row->kind,
+            .word = image_text(d, contact_loosens(from) ? "normal" : contact_word(from->kind)),
+            .undefined = image_text(d, contact_loosens(from) ? "the normal force of this friction"
+                                                             : contact_undefined(from->kind)),
+            .direction = row->direction,
+            .pin = row->pin,
+            .first_set = row->first_set,
+            .sets = row->sets,
+            .unit = image_text(d, gap),
+            .at = image_place(d, row->from->at)};
+    }
+    im->list[IMAGE_SIGNALS] = take(&c->signals);
+    im->list[IMAGE_FORCES] = take(&c->forces);
+    im->list[IMAGE_SETS] = take(&c->sets);
+}
+
+static void take_ledger(image_draft *d, ledger_lists *l) {
+    image *im = d->made;
+    image_ledger *made = &im->ledger;
+    made->kept = true;
+    made->smooth = l->smooth;
+    made->entries = l->entries + im->settings.stabilized;
+    made->accounts = l->accounts;
+    made->inputs = l->inputs;
+    made->turned = l->turned;
+    made->unknown = copy(d, l->unknown, l->accounts, sizeof *l->unknown);
+    made->input = copy(d, l->input, l->inputs, sizeof *l->input);
+    made->entry = image_room(d, l->smooth, sizeof *made->entry);
+    for (int i = 0; i < l->smooth; i++) {
+        const ledger_entry *from = &l->entry[i];
+        made->entry[i] = (image_entry){.kind = from->kind, .account = from->account};
+        if (from->at != NULL) {
+            made->entry[i].at = image_place(d, *from->at);
+        }
+    }
+    im->list[IMAGE_POWERS] = take(&l->powers);
+    im->list[IMAGE_LEVELS] = take(&l->levels);
+}
+
+/* The number in the image of an input of the mechanism. */
+static int input_number(const layout *map, const symbol *input) {
+    int number = 0;
+    while (map->input[number] != input->index) {
+        number++;
+    }
+    return number;
+}
+
+static void take_drives(image_draft *d, const layout *map) {
+    image *im = d->made;
+    const equations *e = map->equations;
+    im->drive = image_room(d, e->count, sizeof *im->drive);
+    for (int i = 0; i < e->count; i++) {
+        const symbol *input = e->unknowns[i].symbol->driven;
+        if (input != NULL) {
+            const int *at = &map->real_number[i * map->order_room];
+            im->drive[im->drives++] = (image_drive){input_number(map, input),
+                                                    input_number(map, input->rate), at[0], at[1]};
+        }
+    }
+}
+
+static void take_program(image_draft *d, program *p) {
+    image *im = d->made;
+    const layout *map = &p->layout;
+    im->form = map->form;
+    im->coordinates = map->coordinates;
+    im->angles = map->angles;
+    im->reals = map->reals;
+    im->recovered = p->conserved->count;
+    im->angle = copy(d, map->angle, map->angles, sizeof *map->angle);
+    im->real = copy(d, map->real, map->reals, sizeof *map->real);
+    im->place = copy(d, map->place, p->count, sizeof *map->place);
+    im->from_momentum =
+        copy(d, p->conserved->unknown, im->recovered, sizeof *p->conserved->unknown);
+    take_drives(d, map);
+    im->has_integral = p->integral != NULL;
+    im->hash = program_hash(p);
+    im->list[IMAGE_STEP] = take(&p->step);
+    im->list[IMAGE_OBSERVE] = take(&p->observe);
+    im->list[IMAGE_BOOKS] = take(&p->books);
+    im->list[IMAGE_TABLES] = take(&p->tables);
+    if (p->contacts != NULL) {
+        take_contacts(d, p->contacts);
+    }
+    im->ledger.asked = p->ledger_asked;
+    if (p->ledger != NULL) {
+        take_ledger(d, p->ledger);
+    }
+}
+
+/* The matrix that is asked for; `use` tells whether there is a blame list. The image, or NULL, reported. An image that
+ * once had a matrix has one for every step, unless its numbers grow too large: that needs no equations. */
+static image *with_matrix(image_draft *d, const equations *e, image_use use, diags *errors) {
+    bool wants_blame;
+    bool good = matrix_make(d, use == IMAGE_TO_RUN, &wants_blame, errors);
+    if (wants_blame) {
+        blame_make(d, e);
+        good = matrix_make(d, true, &wants_blame, errors);
+    }
+    image *made = image_draft_done(d);
+    if (!good) {
+        image_free(made);
+        made = NULL;
+    }
+    return made;
+}
+
+/* Does the mass matrix depend on anything but parameters? */
+static bool mass_moves(const equations *e) {
+    bool moves = false;
+    for (int i = 0; i < e->count * e->count && !moves; i++) {
+        double value;
+        moves = !poly_is_number(equations_fold(e, e->mass[i]), &value);
+    }
+    return moves;
+}
+
+image *image_once(const equations *e, const bool *conserve, const image_settings *settings,
+                  image_use use, diags *errors) {
+    image_settings done = *settings;
+    program *p = program_make(e, conserve, settings, errors);
+    if (p == NULL || !program_look_up(p, e, &done, errors)) {
+        program_free(p);
+        return NULL;
+    }
+    /* Contacts solve with the same matrix; tables are rounded once by themselves. What is folded the other way is never
+     * run in float, for which this is. */
+    if (done.compensated && p->contacts == NULL && done.tables == TABLES_NONE &&
+        folding_way() == FOLDING_NEAREST) {
+        tape_gauge(&p->step, tape_gauge_price(p->step));
+    }
+    image_draft d = image_draft_new();
+    image *im = d.made;
+    im->settings = done;
+    im->count = p->count;
+    im->inputs = p->layout.inputs;
+    im->outputs = p->outputs;
+    im->own_outputs = e->instance->mechanism->output_count;
+    im->has_energies = e->kinetic != NULL;
+    im->mass_blur = e->mass_blur;
+    im->mass_moves = mass_moves(e);
+    name_it(&d, e->instance);
+    time_it(im, e->instance);
+    copy_unknowns(&d, e);
+    copy_quantities(&d, p, e->instance);
+    take_program(&d, p);
+    start_components(&d);
+    copy_ranges(&d, e, &p->layout);
+    program_free(p);
+    if (use == IMAGE_TO_RUN) {
+        blame_make(&d, e);
+    }
+    return im->settings.matrix != MATRIX_NONE ? with_matrix(&d, e, use, errors)
+                                              : image_draft_done(&d);
+}
+
+image *image_again(const image *base, const instance *inst, diags *errors) {
+    image_draft d = image_draft_new();
+    image *im = d.made;
+    struct arena *memory = im->memory;
+    *im = *base;
+    im->memory = memory;
+    im->base = base->base != NULL ? base->base : base;
+    time_it(im, inst);
+    im->unknown = copy(&d, base->unknown, im->count, sizeof *im->unknown);
+    for (int i = 0; i < im->count; i++) {
+        start_unknown(&d, inst, i);
+    }
+    im->input = copy(&d, base->input, im->inputs, sizeof *im->input);
+    for (int k = 0, i = 0; k < inst->mechanism->input_count; k++) {
+        if (instance_lacks(inst, inst->mechanism->inputs[k]) == NULL) {
+            im->input[i++].value = inst->input[k];
+        }
+    }
+    start_components(&d);
+    if (im->settings.matrix == MATRIX_NONE || im->step_s == im->base->step_s) {
+        im->list[IMAGE_MATRIX] = im->base->list[IMAGE_MATRIX];
+        im->matrix = im->base->matrix;
+        return image_draft_done(&d);
+    }
+    return with_matrix(&d, NULL, IMAGE_TO_RUN, errors);
+}
+
+/* === the image, and ways of folding its numbers =============================================== */
 
 /* Where sums of constants lose more of an addend, it is asked what that does. */
 #define FOLDED_MUCH 1e-9

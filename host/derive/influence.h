@@ -2,7 +2,7 @@
 #ifndef DERIVE_INFLUENCE_H
 #define DERIVE_INFLUENCE_H
 
-#include "equations.h"
+#include "host/derive/equations.h"
 
 /* What changes the momentum of coordinate i beside the energies, in words with lines of the
  * file: "the Q in line 9, the stop in line 12"; *count is how many there are. */

@@ -2,7 +2,7 @@
 #ifndef DERIVE_LAGRANGE_H
 #define DERIVE_LAGRANGE_H
 
-#include "equations.h"
+#include "host/derive/equations.h"
 
 /* Derive. Returns NULL on error, reported to `diags` (no kinetic energy for a coordinate, singular
  * mass matrix, not linear in the highest derivative, an expression that grows out of bounds). */

@@ -4,9 +4,9 @@
 
 #include "conserve.h"
 #include "core/scene.h"
-#include "equations.h"
+#include "host/derive/equations.h"
+#include "host/derive/lower.h"
 #include "host/image/image.h"
-#include "lower.h"
 
 typedef struct layout {
     const equations *equations;

@@ -4,8 +4,8 @@
 #include <stdlib.h>
 
 #include "core/ledger_step.h"
-#include "energy.h"
 #include "host/base/room.h"
+#include "host/derive/equations.h"
 
 static void add_entry(ledger_lists *l, const poly **power, ledger_kind kind, const place *at,
                       int account, const poly *what) {

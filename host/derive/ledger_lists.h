@@ -3,7 +3,7 @@
  *
  * What changes the momentum p_i = dL/dq_i' is, by Lagrange's equations, dL/dq_i (gravity, springs, and
  * what the other coordinates' motion does), each generalized force, each damper and each contact. What
- * changes the energy, or the energy integral where that is not T + V (energy.h), is the work of each
+ * changes the energy, or the energy integral where that is not T + V (equations.h), is the work of each
  * generalized force, each damper's loss, each contact, and each change of an input that the energies name. */
 #ifndef DERIVE_LEDGER_LISTS_H
 #define DERIVE_LEDGER_LISTS_H
@@ -29,7 +29,7 @@ typedef struct ledger_lists {
     tape *levels;
 } ledger_lists;
 
-/* Enter the lists of a scene with so many contacts, whose energy integral is `integral` (NULL: T + V, see energy.h).
+/* Enter the lists of a scene with so many contacts, whose energy integral is `integral` (NULL: T + V, see equations.h).
  * NULL on error, reported. */
 ledger_lists *ledger_lists_make(layout *map, const poly *integral, int contacts, diags *errors);
 void ledger_lists_free(ledger_lists *l);

@@ -1,5 +1,5 @@
 /* lower.c: from polys to operations: half angles, factoring, sharing. */
-#include "lower.h"
+#include "host/derive/lower.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -7,8 +7,543 @@
 
 #include "host/base/room.h"
 #include "host/number/folding.h"
-#include "pieces.h"
-#include "waves.h"
+
+/* === powers from multiple angles ============================================================== */
+/* Powers of sines and cosines from multiple angles.
+ *
+ * With s = sin(x)^2 and c = cos(x)^2, a sum over k = 0 ... n of a_k cos 2kx is a sum of products
+ * s^j c^(n-j), and one of sin 2kx is sin x cos x times such a sum of degree n - 1. Where it has no c^n, it
+ * cancels near x = 0, and without s^n near x = pi/2: there the products keep the digits. */
+
+/* Coefficients that differ by less than this part count as equal: they come from the same number. */
+#define SAME_PIECE 1e-13
+/* What is left of a sum below this part of what was added counts as cancelled, as in the algebra. */
+#define CANCELLED 1e-14
+/* Powers are put back up to sin(x)^16, from k = 0 ... 8. */
+#define MULTIPLE_MAX 8
+#define INDICES (MULTIPLE_MAX + 1)
+/* The numbers that make up what is put back may be so much larger, without their signs, at the worst
+ * angle, than the sum it replaces: more would lose elsewhere what is won near the zero. */
+#define GROWTH_MAX 8.0
+
+/* One by one: between a pointer of 32 bits and a double there may be bytes that belong to neither. */
+static bool same_factors(const mono *x, const mono *y) {
+    bool same = x->count == y->count;
+    for (int i = 0; i < x->count && same; i++) {
+        same = x->factors[i].atom == y->factors[i].atom &&
+               x->factors[i].exponent == y->factors[i].exponent;
+    }
+    return same;
+}
+
+static bool halves_to_whole(const poly *angle) {
+    for (int i = 0; i < angle->count; i++) {
+        if (number_remainder(angle->terms[i].coefficient, 2.0) != 0.0) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/* --- families of multiple angles -----------------------------------------------------------------*/
+
+typedef struct family {
+    trig trig;                   /* TRIG_COS: c_k cos 2kx; TRIG_SIN: c_k sin 2kx */
+    int last;                    /* largest k */
+    double coefficient[INDICES]; /* c_k */
+    int member[INDICES];         /* the poly's term, or -1 */
+    int members;
+} family;
+
+/* m with angle = m * base, a whole number; 0 when there is none. */
+static int multiple_of(const poly *angle, const poly *base) {
+    if (angle->count != base->count) {
+        return 0;
+    }
+    const double m = angle->terms[0].coefficient / base->terms[0].coefficient;
+    bool good = m == number_floor(m) && m >= 1.0 && m <= MULTIPLE_MAX;
+    for (int i = 0; i < angle->count && good; i++) {
+        good = angle->terms[i].mono == base->terms[i].mono &&
+               angle->terms[i].coefficient == m * base->terms[i].coefficient;
+    }
+    return good ? (int)m : 0;
+}
+
+/* The terms that belong to term `base`: false when its angle is itself a multiple of another's. */
+static bool collect(const poly *p, const bool *used, int base, family *f) {
+    const mono *lead = p->terms[base].mono;
+    *f = (family){.trig = lead->trig};
+    memset(f->member, -1, sizeof f->member);
+    for (int i = 0; i < p->count; i++) {
+        const mono *m = p->terms[i].mono;
+        const bool flat = lead->trig == TRIG_COS && m->trig == TRIG_NONE;
+        if (used[i] || !same_factors(m, lead) || (m->trig != lead->trig && !flat)) {
+            continue;
+        }
+        if (!flat && i != base && multiple_of(lead->angle, m->angle) > 0 &&
+            halves_to_whole(m->angle)) {
+            return false;
+        }
+        const int k = flat ? 0 : multiple_of(m->angle, lead->angle);
+        if (flat || k > 0) {
+            f->coefficient[k] = p->terms[i].coefficient;
+            f->member[k] = i;
+            f->last = k > f->last ? k : f->last;
+            f->members++;
+        }
+    }
+    return true;
+}
+
+/* A sum of coefficient[j] s^j c^(degree-j); `added` is what was added up without signs. */
+typedef struct expansion {
+    int degree;
+    double coefficient[INDICES];
+    double added[INDICES];
+} expansion;
+
+/* p (s + c) = p, written one degree higher. */
+static void times_one(double *p, int degree) {
+    p[degree + 1] = 0.0;
+    for (int j = degree + 1; j > 0; j--) {
+        p[j] += p[j - 1];
+    }
+}
+
+/* The family's sum, but for sin x cos x. With P_0 = cos 0 = 1 or P_1 = sin 2x / (sin x cos x) = 2,
+ * P_(k+1) = 2 (c - s) P_k - (c + s)^2 P_(k-1). */
+static expansion expand(const family *f) {
+    const int first = f->trig == TRIG_SIN ? 1 : 0;
+    double before[INDICES + 1] = {0};
+    double now[INDICES + 1] = {first == 1 ? 2.0 : 1.0};
+    expansion sum = {.degree = f->last - first};
+    for (int k = first; k <= f->last; k++) {
+        const int degree = k - first;
+        if (degree > 0) {
+            times_one(sum.coefficient, degree - 1);
+            times_one(sum.added, degree - 1);
+        }
+        for (int j = 0; j <= degree; j++) {
+            sum.coefficient[j] += f->coefficient[k] * now[j];
+            sum.added[j] += fabs(f->coefficient[k] * now[j]);
+        }
+        /* cos 2x is half of what the recurrence would make of cos 0 alone */
+        const double turn = k == 0 ? 1.0 : 2.0;
+        double next[INDICES + 1] = {0};
+        for (int j = 0; j <= degree + 1 && j < INDICES; j++) {
+            next[j] =
+                turn * ((j <= degree ? now[j] : 0.0) - (j > 0 ? now[j - 1] : 0.0)) - before[j];
+        }
+        memcpy(before, now, sizeof before);
+        memcpy(now, next, sizeof now);
+        if (degree + 2 < INDICES) {
+            times_one(before, degree);
+            times_one(before, degree + 1);
+        }
+    }
+    return sum;
+}
+
+/* The largest value of |sin x|^a |cos x|^b. */
+static double largest_product(int a, int b) {
+    const double share = a + b > 0 ? (double)a / (a + b) : 0.0;
+    return number_power(share, a / 2.0) * number_power(1.0 - share, b / 2.0);
+}
+
+/* Put the family's expansion into pieces[]; returns how many, 0 when it should stay as it is. */
+static int products_of(algebra *a, const poly *p, int base, const family *f, piece *pieces) {
+    const expansion sum = expand(f);
+    double before = 0.0;
+    for (int k = 0; k <= f->last; k++) {
+        before += fabs(f->coefficient[k]);
+    }
+    const mono *lead = p->terms[base].mono;
+    const poly *angle = poly_scale(a, lead->angle, 0.5);
+    const int front = f->trig == TRIG_SIN ? 1 : 0;
+    double after = 0.0;
+    int count = 0;
+    bool vanishes = false; /* at 0 or at pi/2 */
+    for (int j = 0; j <= sum.degree; j++) {
+        if (folding_cancels(sum.coefficient[j], sum.added[j], CANCELLED)) {
+            vanishes = vanishes || j == 0 || j == sum.degree;
+            continue;
+        }
+        if (count == f->members) {
+            return 0; /* more terms than before */
+        }
+        const int sines = front + 2 * j;
+        const int cosines = front + 2 * (sum.degree - j);
+        after += sum.added[j] * largest_product(sines, cosines);
+        pieces[count++] = (piece){sum.coefficient[j], lead, angle, sines, cosines};
+    }
+    return f->last > 1 && vanishes && after <= GROWTH_MAX * before ? count : 0;
+}
+
+/* The expansion of every family; what they are made of is used. */
+static int find_families(algebra *a, const poly *p, bool *used, piece *pieces) {
+    int count = 0;
+    for (int i = 0; i < p->count; i++) {
+        const mono *m = p->terms[i].mono;
+        family f;
+        if (used[i] || m->trig == TRIG_NONE || !halves_to_whole(m->angle) ||
+            !collect(p, used, i, &f)) {
+            continue;
+        }
+        const int made = products_of(a, p, i, &f, pieces + count);
+        for (int k = 0; k <= f.last && made > 0; k++) {
+            if (f.member[k] >= 0) {
+                used[f.member[k]] = true;
+            }
+        }
+        count += made;
+    }
+    return count;
+}
+
+/* --- squares -------------------------------------------------------------------------------------*/
+
+/* c (1 - cos 2x) and c (1 + cos 2x), also where other multiples of x do not belong to them. */
+static int find_squares(algebra *a, const poly *p, bool *used, piece *pieces) {
+    int count = 0;
+    for (int i = 0; i < p->count; i++) {
+        const poly_term *turning = &p->terms[i];
+        if (used[i] || turning->mono->trig != TRIG_COS || !halves_to_whole(turning->mono->angle)) {
+            continue;
+        }
+        for (int j = 0; j < p->count; j++) {
+            const poly_term *flat = &p->terms[j];
+            if (used[j] || flat->mono->trig != TRIG_NONE ||
+                !same_factors(flat->mono, turning->mono) ||
+                !folding_same(fabs(flat->coefficient), fabs(turning->coefficient), SAME_PIECE)) {
+                continue;
+            }
+            const bool like = (flat->coefficient < 0.0) == (turning->coefficient < 0.0);
+            pieces[count++] =
+                (piece){2.0 * flat->coefficient, turning->mono,
+                        poly_scale(a, turning->mono->angle, 0.5), like ? 0 : 2, like ? 2 : 0};
+            used[i] = used[j] = true;
+            break;
+        }
+    }
+    return count;
+}
+
+int pieces_of(algebra *a, const poly *p, piece *pieces) {
+    bool *used = room(p->count, sizeof *used);
+    int count = find_families(a, p, used, pieces);
+    count += find_squares(a, p, used, pieces + count);
+    for (int i = 0; i < p->count; i++) {
+        if (!used[i]) {
+            const mono *m = p->terms[i].mono;
+            pieces[count++] = (piece){p->terms[i].coefficient, m, m->angle, m->trig == TRIG_SIN,
+                                      m->trig == TRIG_COS};
+        }
+    }
+    free(used);
+    return count;
+}
+
+/* === which sines are evaluated ================================================================ */
+/* Sines and cosines of several angles from as few evaluations as possible.
+ *
+ * which sines are evaluated, and which follow by the addition theorems.
+ *
+ * Evaluating a pair costs some thirty instructions, sin(a + b) from known pairs at most six. So the
+ * angles are taken in order of size, and one that is a sum, a difference or the double of others is
+ * not evaluated. An angle such as theta2 - theta1 that stands alone is evaluated as one phase. Where another angle leads,
+ * it is evaluated as well: of b = a - (a - b) and 2a - b = a + (a - b) all four products are shared. */
+
+typedef enum wave_rule {
+    WAVE_EVALUATED, /* by the core's sine */
+    WAVE_DOUBLE,    /* 2 p */
+    WAVE_SUM,       /* p + q */
+    WAVE_DIFFERENCE /* p - q */
+} wave_rule;
+
+struct wave {
+    const poly *angle;
+    wave_rule rule;
+    int p;
+    int q;
+    int sine; /* operation, or -1 */
+    int cosine;
+};
+
+/* Of many known angles only the first, the smallest, are tried as parts of another. */
+#define PARTS_MAX 96
+#define BETWEEN_MAX 32
+
+static int find(const lowering *l, const poly *angle) {
+    for (int i = 0; i < l->wave_count; i++) {
+        if (l->waves[i].angle == angle) {
+            return i;
+        }
+    }
+    return -1;
+}
+
+static int append(lowering *l, wave w) {
+    if (l->wave_count == l->wave_room) {
+        l->wave_room = l->wave_room == 0 ? 16 : l->wave_room * 2;
+        l->waves = room_more(l->waves, l->wave_room, sizeof *l->waves);
+    }
+    w.sine = -1;
+    w.cosine = -1;
+    l->waves[l->wave_count] = w;
+    return l->wave_count++;
+}
+
+/* How large an angle is: sum of the factors of its parts. */
+static double size_of(const poly *angle) {
+    double size = 0.0;
+    for (int i = 0; i < angle->count; i++) {
+        size += fabs(angle->terms[i].coefficient);
+    }
+    return size + 0.01 * angle->count;
+}
+
+/* Angles are kept with a positive first factor: cos(-x) = cos(x), sin(-x) = -sin(x). */
+static const poly *upright(lowering *l, const poly *angle, bool *flipped) {
+    *flipped = angle->count > 0 && angle->terms[0].coefficient < 0.0;
+    return *flipped ? poly_scale(l->algebra, angle, -1.0) : angle;
+}
+
+/* How many sines stand inside one another in it. */
+static int sines_inside(const poly *p) {
+    int most = 0;
+    for (int i = 0; i < p->count; i++) {
+        const mono *m = p->terms[i].mono;
+        int here = m->angle == NULL ? 0 : 1 + sines_inside(m->angle);
+        most = here > most ? here : most;
+        for (int k = 0; k < m->count; k++) {
+            const atom *x = m->factors[k].atom;
+            const int own = lower_is_tangent(x);
+            for (int j = 0; j < 2 && x->kind != ATOM_SYMBOL && x->argument[j] != NULL; j++) {
+                here = own + sines_inside(x->argument[j]);
+                most = here > most ? here : most;
+            }
+        }
+    }
+    return most;
+}
+
+/* May a wave be part of this angle's rule? Not if more sines are inside it: the angle's own could be one of
+ * them, and each would be made from the other. Rules lead to earlier waves, evaluating one to fewer sines
+ * inside: so there is an end. */
+static bool may_be_part(const lowering *l, int part, const poly *angle) {
+    return sines_inside(l->waves[part].angle) <= sines_inside(angle);
+}
+
+/* A rule that makes `angle` from two known ones, if there is one. */
+static bool rule_for(lowering *l, const poly *angle, wave *w) {
+    int longest = 0;
+    for (int i = 0; i < l->wave_count; i++) {
+        longest = l->waves[i].angle->count > longest ? l->waves[i].angle->count : longest;
+    }
+    for (int i = 0; i < l->wave_count && i < PARTS_MAX; i++) {
+        bool flipped;
+        const poly *rest = poly_sub(l->algebra, angle, l->waves[i].angle);
+        double number;
+        if (poly_is_number(rest, &number) || rest->count > longest) {
+            continue; /* equal but for a fixed offset: no help; or none of those known */
+        }
+        rest = upright(l, rest, &flipped);
+        const int other = find(l, rest);
+        if (other < 0 || !may_be_part(l, i, angle) || !may_be_part(l, other, angle)) {
+            continue;
+        }
+        if (other == i) {
+            *w = (wave){angle, WAVE_DOUBLE, i, i, -1, -1};
+            return true;
+        }
+        *w = (wave){angle, flipped ? WAVE_DIFFERENCE : WAVE_SUM, i, other, -1, -1};
+        return true;
+    }
+    return false;
+}
+
+/* The turn angle that the term is a number times of, or -1. */
+static int turn_of(const lowering *l, const poly_term *t) {
+    const mono *m = t->mono;
+    const bool alone = m->trig == TRIG_NONE && m->count == 1 && m->factors[0].exponent == 1.0;
+    const atom *x = alone ? m->factors[0].atom : NULL;
+    return alone && x->kind == ATOM_SYMBOL && x->primes == 0 ? l->turn(l->context, x->symbol) : -1;
+}
+
+/* Does a turn angle stand in this angle, times a number? */
+static bool waves_turns(const lowering *l, const poly *angle) {
+    for (int i = 0; i < angle->count; i++) {
+        if (turn_of(l, &angle->terms[i]) >= 0) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* Is a part of a turn angle in it, such as half of one? */
+static bool has_part(const lowering *l, const poly *angle) {
+    for (int i = 0; i < angle->count; i++) {
+        if (!tape_is_whole(angle->terms[i].coefficient) && turn_of(l, &angle->terms[i]) >= 0) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* What has parts of turn angles stands in records only: it is evaluated, so that it is as precise as a
+ * sine can be, and nothing follows from it, so that whoever stands beside it keeps its bits. */
+static int without_parts(const lowering *l, const poly **angles, int count) {
+    int kept = 0;
+    for (int i = 0; i < count; i++) {
+        if (!has_part(l, angles[i])) {
+            angles[kept++] = angles[i];
+        }
+    }
+    return kept;
+}
+
+/* Choose rules for `count` angles (no duplicates). */
+static void waves_plan(lowering *l, const poly **angles, int count) {
+    count = without_parts(l, angles, count);
+    for (int i = 1; i < count; i++) { /* smallest first; stable */
+        const poly *angle = angles[i];
+        int j = i;
+        while (j > 0 && size_of(angles[j - 1]) > size_of(angle)) {
+            angles[j] = angles[j - 1];
+            j--;
+        }
+        angles[j] = angle;
+    }
+    if (l->lead > 0 && l->lead < count) {
+        const poly *first = angles[l->lead];
+        memmove(angles + 1, angles, (size_t)l->lead * sizeof *angles);
+        angles[0] = first;
+    }
+    for (int i = 0; i < count; i++) {
+        wave w;
+        if (find(l, angles[i]) >= 0) {
+            continue;
+        }
+        if (rule_for(l, angles[i], &w)) {
+            append(l, w);
+            continue;
+        }
+        /* One step between may do: 3a = 2a + a. */
+        bool made = false;
+        const int known = l->wave_count;
+        for (int k = 0; k < known && k < BETWEEN_MAX && !made; k++) {
+            bool flipped;
+            wave between;
+            const poly *rest = poly_sub(l->algebra, angles[i], l->waves[k].angle);
+            rest = upright(l, rest, &flipped);
+            if (rest->count > 0 && rule_for(l, rest, &between)) {
+                append(l, between);
+                made = rule_for(l, angles[i], &w);
+            }
+        }
+        append(l, made ? w : (wave){angles[i], WAVE_EVALUATED, -1, -1, -1, -1});
+    }
+}
+
+/* The phase of an angle: numbers times turn angles, a fixed offset, and the rest in radians. */
+static int phase_of(lowering *l, const poly *angle) {
+    double *multiple = room(l->tape->angles, sizeof *multiple);
+    double offset = 0.0;
+    const poly *rest = poly_number(l->algebra, 0.0);
+    for (int i = 0; i < angle->count; i++) {
+        const poly_term *t = &angle->terms[i];
+        const int turn = turn_of(l, t);
+        if (turn >= 0) {
+            multiple[turn] += t->coefficient;
+        } else if (t->mono->count == 0 && t->mono->trig == TRIG_NONE) {
+            offset += t->coefficient;
+        } else {
+            rest = poly_add(l->algebra, rest, poly_of_term(l->algebra, t->coefficient, t->mono));
+        }
+    }
+    const int radians = poly_is_zero(rest) ? -1 : lower(l, rest);
+    const int phase = tape_phase(l->tape, multiple, offset, radians);
+    free(multiple);
+    return phase;
+}
+
+/* Each operation stands in a statement of its own here and in lower.c: C leaves open which argument of a call
+ * is entered first, and that would be the order of the list. */
+static int sine_of(lowering *l, int i);
+
+static int cosine_of(lowering *l, int i) {
+    const wave w = l->waves[i];
+    tape *t = l->tape;
+    if (w.cosine >= 0) {
+        return w.cosine;
+    }
+    int result = -1;
+    switch (w.rule) {
+    case WAVE_EVALUATED: result = tape_unary(t, OP_COS, phase_of(l, w.angle)); break;
+    case WAVE_DOUBLE: {
+        const int c = cosine_of(l, w.p);
+        const int twice = tape_mul(t, tape_constant(t, 2.0), c);
+        const int squares = tape_mul(t, twice, c);
+        result = tape_sub(t, squares, tape_constant(t, 1.0));
+        break;
+    }
+    case WAVE_SUM:
+    case WAVE_DIFFERENCE: {
+        const int cos_p = cosine_of(l, w.p);
+        const int cos_q = cosine_of(l, w.q);
+        const int cc = tape_mul(t, cos_p, cos_q);
+        const int sin_p = sine_of(l, w.p);
+        const int sin_q = sine_of(l, w.q);
+        const int ss = tape_mul(t, sin_p, sin_q);
+        result = w.rule == WAVE_SUM ? tape_sub(t, cc, ss) : tape_add(t, cc, ss);
+        break;
+    }
+    }
+    l->waves[i].cosine = result;
+    return result;
+}
+
+static int sine_of(lowering *l, int i) {
+    const wave w = l->waves[i];
+    tape *t = l->tape;
+    if (w.sine >= 0) {
+        return w.sine;
+    }
+    int result = -1;
+    switch (w.rule) {
+    case WAVE_EVALUATED: result = tape_unary(t, OP_SIN, phase_of(l, w.angle)); break;
+    case WAVE_DOUBLE: {
+        const int c = cosine_of(l, w.p);
+        const int twice = tape_mul(t, tape_constant(t, 2.0), c);
+        result = tape_mul(t, twice, sine_of(l, w.p));
+        break;
+    }
+    case WAVE_SUM:
+    case WAVE_DIFFERENCE: {
+        const int sin_p = sine_of(l, w.p);
+        const int cos_q = cosine_of(l, w.q);
+        const int sc = tape_mul(t, sin_p, cos_q);
+        const int cos_p = cosine_of(l, w.p);
+        const int sin_q = sine_of(l, w.q);
+        const int cs = tape_mul(t, cos_p, sin_q);
+        result = w.rule == WAVE_SUM ? tape_add(t, sc, cs) : tape_sub(t, sc, cs);
+        break;
+    }
+    }
+    l->waves[i].sine = result;
+    return result;
+}
+
+static int planned(lowering *l, const poly *angle) {
+    const int i = find(l, angle);
+    return i >= 0 ? i : append(l, (wave){angle, WAVE_EVALUATED, -1, -1, -1, -1});
+}
+
+/* The operation for the sine or cosine of an angle; an angle that was not planned is evaluated. */
+static int waves_sine(lowering *l, const poly *angle) { return sine_of(l, planned(l, angle)); }
+static int waves_cosine(lowering *l, const poly *angle) { return cosine_of(l, planned(l, angle)); }
+
+/* === polys to operations ====================================================================== */
 
 /* Coefficients that differ by less than this part count as equal: they come from the same number. */
 #define SAME 1e-13

@@ -2,7 +2,7 @@
 #ifndef DERIVE_MATRIX_MAKE_H
 #define DERIVE_MATRIX_MAKE_H
 
-#include "image_parts.h"
+#include "host/derive/image_parts.h"
 
 /* Makes the matrix and its list that the image's settings ask for; of an image that is complete but for them. Returns true;
  * or false, reported, where there is none: events, books, another method, what is not linear, numbers that grow too large.

@@ -3,7 +3,7 @@
 #define DERIVE_NOISE_RECORDS_H
 
 #include "conserve.h"
-#include "lower.h"
+#include "host/derive/lower.h"
 
 /* Add the noises that take part to those results that are outputs of the mechanism itself; a sweep's
  * measures, which stand in their place, are none. result[mechanism->output_count]. */

@@ -3,11 +3,11 @@
 
 #include <stdlib.h>
 
-#include "energy.h"
 #include "host/base/room.h"
+#include "host/derive/equations.h"
+#include "host/derive/tables.h"
 #include "noise_records.h"
 #include "stabilizing.h"
-#include "tables.h"
 
 /* --- the lists -----------------------------------------------------------------------------------*/
 

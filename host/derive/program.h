@@ -20,7 +20,8 @@ typedef struct program {
     contact_lists *contacts; /* NULL without any */
     ledger_lists *ledger;    /* NULL when no books are kept */
     bool ledger_asked;       /* by `with ledger`, --stabilized: else they only balance the run */
-    const poly *integral; /* the energy integral where it is not T + V, else NULL: see energy.h */
+    const poly
+        *integral; /* the energy integral where it is not T + V, else NULL: see equations.h */
     /* For the host's books: highest derivatives (by unknown), then for a mechanism T, V, input
      * power, loss power, the momenta (by unknown) and, if there is one, the integral. */
     tape *books;

@@ -2,7 +2,7 @@
 #ifndef DERIVE_SINGULAR_H
 #define DERIVE_SINGULAR_H
 
-#include "equations.h"
+#include "host/derive/equations.h"
 
 /* Tries the mass matrix at a number of generic states and at the start. False, with an error that
  * names the cause, when it is singular at all of them, has no finite value at any or, that of a

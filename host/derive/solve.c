@@ -1,16 +1,755 @@
 /* solve.c: solving for the highest derivatives in the cheapest of several arrangements.
  *
- * Arrangements (arrange.h) differ in the scale of the equations, in which coordinates with a constant diagonal
+ * Arrangements (solve.h) differ in the scale of the equations, in which coordinates with a constant diagonal
  * are eliminated while still symbolic (a carriage's total mass, a body on a hinge: what is left comes to its normal
  * form again and may shrink), in the order of elimination, and in which sines are evaluated. Two equations that remain
  * are solved by Cramer's rule: one division. The winner is what tape_weight() says, not a belief. */
-#include "solve.h"
+#include "host/derive/solve.h"
 
+#include <math.h>
 #include <stdlib.h>
 
-#include "arrange.h"
-#include "eliminate.h"
 #include "host/base/room.h"
+#include "host/image/tape.h"
+#include "host/number/folding.h"
+
+/* === solving n linear equations by entering operations into a tape ============================ */
+/* Gauss's elimination and Cramer's rule, as operations. */
+
+static int minus_product(tape *t, int from, int x, int y) {
+    return tape_sub(t, from, tape_mul(t, x, y));
+}
+
+/* --- symmetric positive definite -----------------------------------------------------------------*/
+
+/* x_k = (f_k - sum over later unknowns of m_kj x_j) / m_kk */
+static void substitute_back(tape *t, int n, const int *mass, const int *force, const int *order,
+                            int at, int *solution) {
+    const int k = order[at];
+    int rest = force[k];
+    for (int i = at + 1; i < n; i++) {
+        rest = minus_product(t, rest, mass[k * n + order[i]], solution[order[i]]);
+    }
+    solution[k] = tape_div(t, rest, mass[k * n + k]);
+}
+
+static void solve_pair(tape *t, int n, const int *mass, const int *force, int i, int j,
+                       int *solution) {
+    const int mixed = mass[i * n + j];
+    const int determinant =
+        minus_product(t, tape_mul(t, mass[i * n + i], mass[j * n + j]), mixed, mixed);
+    const int inverse = tape_div(t, tape_constant(t, 1.0), determinant);
+    const int x = minus_product(t, tape_mul(t, force[i], mass[j * n + j]), mixed, force[j]);
+    const int y = minus_product(t, tape_mul(t, force[j], mass[i * n + i]), mixed, force[i]);
+    solution[i] = tape_mul(t, x, inverse);
+    solution[j] = tape_mul(t, y, inverse);
+}
+
+static void eliminate_symmetric(tape *t, int n, int *mass, int *force, const int *order, int done,
+                                int *solution) {
+    int left = n - 1; /* the last place whose value is still wanted */
+    double value;
+    for (int at = done; at < n - 1; at++) {
+        const int k = order[at];
+        const bool fixed = tape_is_constant(t, mass[k * n + k], &value);
+        if (at == n - 2 && !fixed) {
+            solve_pair(t, n, mass, force, k, order[n - 1], solution);
+            left = n - 3;
+            break;
+        }
+        const int inverse = tape_div(t, tape_constant(t, 1.0), mass[k * n + k]);
+        for (int x = at + 1; x < n; x++) {
+            const int i = order[x];
+            const int part = tape_mul(t, inverse, mass[k * n + i]);
+            for (int y = x; y < n; y++) {
+                const int j = order[y];
+                mass[i * n + j] = minus_product(t, mass[i * n + j], part, mass[k * n + j]);
+                mass[j * n + i] = mass[i * n + j];
+            }
+            force[i] = minus_product(t, force[i], part, force[k]);
+        }
+    }
+    for (; left >= 0; left--) {
+        substitute_back(t, n, mass, force, order, left, solution);
+    }
+}
+
+/* --- any regular matrix --------------------------------------------------------------------------*/
+
+/* A number between 0.3 and 0.67, another for each leaf: it depends on what the leaf is, not on its place in
+ * the list. */
+static double generic(double of) {
+    return 0.3 + 0.37 * number_remainder(fabs(of) * 0.6180339887, 1.0);
+}
+
+/* What every operation gives at a made-up generic state: tells vanishing pivots from others. */
+static double *sample(const tape *t) {
+    double *v = room(t->count, sizeof *v);
+    for (int i = 0; i < t->count; i++) {
+        const op *o = &t->ops[i];
+        const int values = op_rows[o->code].values;
+        const double a = values > 0 ? v[o->a] : 0.0;
+        const double b = (values > 1 || o->code == OP_PHASE) && o->b >= 0 ? v[o->b] : 0.0;
+        switch (o->code) {
+        case OP_CONSTANT: v[i] = o->value; break;
+        case OP_LINEAR:
+        case OP_RATE:
+        case OP_INPUT:
+        case OP_ACCEL:
+        case OP_TIME:
+        case OP_RADIANS:
+        case OP_NOISE: v[i] = generic(1.0 + 31.0 * (double)o->code + o->a); break;
+        case OP_PHASE:
+            v[i] = o->value + b;
+            for (int k = 0; k < t->angles && o->turns != NULL; k++) {
+                v[i] += o->turns[k] * generic(1.0 + k);
+            }
+            break;
+        case OP_ADD: v[i] = a + b; break;
+        case OP_SUB: v[i] = a - b; break;
+        case OP_MUL: v[i] = a * b; break;
+        case OP_DIV: v[i] = a / b; break;
+        case OP_NEG: v[i] = -a; break;
+        case OP_SQRT: v[i] = number_root(fabs(a)); break;
+        case OP_CELL: /* no list that is eliminated from has tables */
+        case OP_LINE:
+        case OP_CUBIC:
+        case OP_SIN:
+        case OP_COS:
+        case OP_ABS:
+        case OP_SIGN:
+        case OP_MIN:
+        case OP_MAX:
+        case OP_CALL:
+        case OP_POW: v[i] = generic(31.0 * (double)o->code + 7.0 * a + 3.0 * b); break;
+        }
+    }
+    return v;
+}
+
+/* Determinant of the equations rows[] in the unknowns columns[], by cofactors (size <= 3). */
+static int determinant(tape *t, int n, const int *mass, const int *rows, const int *columns,
+                       int size) {
+    if (size == 1) {
+        return mass[rows[0] * n + columns[0]];
+    }
+    int sum = tape_constant(t, 0.0);
+    for (int c = 0; c < size; c++) {
+        int rest[3];
+        int kept = 0;
+        for (int k = 0; k < size; k++) {
+            if (k != c) {
+                rest[kept++] = columns[k];
+            }
+        }
+        const int minor = determinant(t, n, mass, rows + 1, rest, size - 1);
+        const int product = tape_mul(t, mass[rows[0] * n + columns[c]], minor);
+        sum = c % 2 == 0 ? tape_add(t, sum, product) : tape_sub(t, sum, product);
+    }
+    return sum;
+}
+
+static void solve_cramer(tape *t, int n, const int *mass, const int *force, const int *rows,
+                         const int *columns, int size, int *solution) {
+    const int all = determinant(t, n, mass, rows, columns, size);
+    const int inverse = tape_div(t, tape_constant(t, 1.0), all);
+    int *swapped = room((int64_t)n * n, sizeof *swapped);
+    for (int c = 0; c < size; c++) {
+        for (int i = 0; i < n * n; i++) {
+            swapped[i] = mass[i];
+        }
+        for (int r = 0; r < size; r++) {
+            swapped[rows[r] * n + columns[c]] = force[rows[r]];
+        }
+        const int top = determinant(t, n, swapped, rows, columns, size);
+        solution[columns[c]] = size == 1 ? tape_div(t, top, all) : tape_mul(t, top, inverse);
+    }
+    free(swapped);
+}
+
+/* Move the best pivot among the equations and unknowns from `at` on to place `at`: a constant one if
+ * there is any, else the largest at the sample state. Returns whether it is constant. */
+static bool bring_pivot(const tape *t, int n, const int *mass, int *rows, int *columns, int at) {
+    double *v = sample(t);
+    double best = -1.0;
+    bool best_constant = false;
+    int row = at;
+    int column = at;
+    for (int i = at; i < n; i++) {
+        for (int j = at; j < n; j++) {
+            const int entry = mass[rows[i] * n + columns[j]];
+            const bool constant = t->ops[entry].code == OP_CONSTANT && t->ops[entry].value != 0.0;
+            const double size = isfinite(v[entry]) ? fabs(v[entry]) : 0.0;
+            if ((constant && !best_constant) || (constant == best_constant && size > best)) {
+                best = size;
+                best_constant = constant;
+                row = i;
+                column = j;
+            }
+        }
+    }
+    free(v);
+    int swap = rows[at];
+    rows[at] = rows[row];
+    rows[row] = swap;
+    swap = columns[at];
+    columns[at] = columns[column];
+    columns[column] = swap;
+    return best_constant;
+}
+
+static void eliminate_general(tape *t, int n, int *mass, int *force, int *solution) {
+    int *rows = room(2 * (int64_t)n, sizeof *rows);
+    int *columns = rows + n;
+    for (int i = 0; i < n; i++) {
+        rows[i] = columns[i] = i;
+    }
+    int at = 0;
+    while (at < n) {
+        const bool constant = bring_pivot(t, n, mass, rows, columns, at);
+        if (!constant && n - at <= 3) {
+            solve_cramer(t, n, mass, force, rows + at, columns + at, n - at, solution);
+            break;
+        }
+        const int pivot = mass[rows[at] * n + columns[at]];
+        for (int i = at + 1; i < n; i++) {
+            const int r = rows[i];
+            const int part = tape_div(t, mass[r * n + columns[at]], pivot);
+            for (int j = at + 1; j < n; j++) {
+                const int above = mass[rows[at] * n + columns[j]];
+                mass[r * n + columns[j]] = minus_product(t, mass[r * n + columns[j]], part, above);
+            }
+            force[r] = minus_product(t, force[r], part, force[rows[at]]);
+        }
+        at++;
+    }
+    for (at = at - 1; at >= 0; at--) {
+        int rest = force[rows[at]];
+        for (int j = at + 1; j < n; j++) {
+            rest = minus_product(t, rest, mass[rows[at] * n + columns[j]], solution[columns[j]]);
+        }
+        solution[columns[at]] = tape_div(t, rest, mass[rows[at] * n + columns[at]]);
+    }
+    free(rows);
+}
+
+/* mass[n * n] and force[n] are operations (overwritten). order[n] is the order of elimination; the
+ * first `done` of it have been eliminated from the others already, in symbols, and only need their
+ * values from back substitution. solution[n] receives the operations. A symmetric matrix is taken
+ * as positive definite; any other is solved by the largest pivot at a sample state, and by Cramer's
+ * rule once three equations are left, so that no division by a vanishing pivot is made where the
+ * determinant does not vanish. */
+static void eliminate(tape *t, bool symmetric, int n, int *mass, int *force, const int *order,
+                      int done, int *solution) {
+    if (symmetric) {
+        eliminate_symmetric(t, n, mass, force, order, done, solution);
+    } else {
+        eliminate_general(t, n, mass, force, solution);
+    }
+}
+
+/* === a coordinate that hangs on a hinge ======================================================= */
+/* Eliminating a coordinate that hangs on a hinge, in symbols.
+ *
+ * the part of a mass that its hinge can push.
+ *
+ * A body on a hinge, q its angle: its row of the equations is
+ *
+ *     A q'' + sum_j P_j x_j = f,        P_j = Re(z_j exp(i c q)),    f = Re(w exp(i c q)) + rest
+ *
+ * with z_j and w that q is not part of. Gauss's elimination leaves -P_i P_j / A beside the others' m_ij, where all
+ * stands that the body does to them. With the quadratures P~_j = Im(z_j exp(i c q)),
+ *
+ *     P_i P_j = Re(z_i conj(z_j)) - P~_i P~_j
+ *
+ * and the first part, in which q is no longer, comes together with m_ij in the normal form. What is left of the body is
+ * what it is seen as from the hinge: a mass along the rod. So it is with the forces, where the rod's pull is one
+ * factor for all. A P~ is minus the derivative of P by q, over c. */
+
+static const poly *bend(algebra *a, const poly *p, const symbol *q) {
+    return poly_derivative(a, poly_derivative(a, p, q, 0), q, 0);
+}
+
+/* c^2 where p'' = -c^2 p and p is not zero; else 0. */
+static double frequency_squared(algebra *a, const poly *p, const symbol *q) {
+    const poly *bent = bend(a, p, q);
+    if (poly_is_zero(p) || bent->count != p->count) {
+        return 0.0;
+    }
+    const double squared = -bent->terms[0].coefficient / p->terms[0].coefficient;
+    const poly *rest = poly_add(a, bent, poly_scale(a, p, squared));
+    return squared > 0.0 && poly_is_zero(rest) ? squared : 0.0;
+}
+
+typedef struct wave_of {
+    const poly *here;   /* Re(z exp(i c q)) */
+    const poly *across; /* Im */
+} wave_of;
+
+static wave_of wave_make(algebra *a, const poly *p, const symbol *q, double c) {
+    return (wave_of){p, poly_scale(a, poly_derivative(a, p, q, 0), -1.0 / c)};
+}
+
+/* Re(z_x conj(z_y)) */
+static const poly *without_turn(algebra *a, wave_of x, wave_of y) {
+    return poly_add(a, poly_mul(a, x.here, y.here), poly_mul(a, x.across, y.across));
+}
+
+/* The frequency that all entries of row k share, or 0. */
+static double shared_frequency(algebra *a, int n, const poly *const *mass, const bool *gone, int k,
+                               const symbol *q) {
+    double squared = 0.0;
+    for (int j = 0; j < n; j++) {
+        const poly *entry = mass[k * n + j];
+        if (j == k || gone[j] || poly_is_zero(entry)) {
+            continue;
+        }
+        const double own = frequency_squared(a, entry, q);
+        if (own == 0.0 || (squared != 0.0 && fabs(own - squared) > 1e-12 * squared)) {
+            return 0.0;
+        }
+        squared = own;
+    }
+    return number_root(squared);
+}
+
+/* What the turning's own rate pulls with: the others' forces have g across_i q'^2, with one g for all. Takes it out
+ * of them; g. */
+static double take_pull(algebra *a, int n, const poly **force, const poly *const *across,
+                        const poly *rate_squared) {
+    double g = 0.0;
+    for (int i = 0; i < n; i++) {
+        if (poly_is_zero(across[i])) {
+            continue;
+        }
+        const poly *one = poly_mul(a, across[i], rate_squared);
+        double own = 0.0;
+        for (int t = 0; t < force[i]->count && one->count > 0; t++) {
+            if (force[i]->terms[t].mono == one->terms[0].mono) {
+                own = force[i]->terms[t].coefficient / one->terms[0].coefficient;
+            }
+        }
+        const poly *rest = poly_sub(a, force[i], poly_scale(a, one, own));
+        if (own == 0.0 || rest->count > force[i]->count - one->count ||
+            (g != 0.0 && fabs(own - g) > 1e-12 * fabs(g))) {
+            return 0.0;
+        }
+        g = own;
+    }
+    for (int i = 0; i < n; i++) {
+        const poly *one = poly_mul(a, across[i], rate_squared);
+        force[i] = poly_sub(a, force[i], poly_scale(a, one, g));
+    }
+    return g;
+}
+
+/* Eliminate the angle `turning`, unknown k of n, from the equations of those that are not gone, mass[n * n] and force[n].
+ * True where its own diagonal is a number, *own, and its other entries are waves of it of one frequency: then, of what
+ * is left,
+ *
+ *     mass_ij + across_i across_j / own,        force_i + across_i across_n / own
+ *
+ * stand for the equations without k; row k stays as it was. across[n + 1] is 0 for k and for those that are gone.
+ * False, with nothing changed, for all others. */
+static bool hinge_eliminate(algebra *a, int n, const poly **mass, const poly **force,
+                            const bool *gone, int k, const symbol *turning, double *own,
+                            const poly **across) {
+    if (!poly_is_number(mass[k * n + k], own) || *own <= 0.0) {
+        return false;
+    }
+    const double c = shared_frequency(a, n, mass, gone, k, turning);
+    if (c == 0.0) {
+        return false;
+    }
+    const poly *waving = poly_scale(a, bend(a, force[k], turning), -1.0 / (c * c));
+    const poly *still = poly_sub(a, force[k], waving);
+    if (poly_contains(still, turning, 0)) {
+        return false;
+    }
+    const wave_of pull = wave_make(a, waving, turning, c);
+    for (int i = 0; i < n; i++) {
+        const bool left = i != k && !gone[i];
+        across[i] = left ? wave_make(a, mass[k * n + i], turning, c).across : poly_number(a, 0.0);
+    }
+    const poly *rate = poly_symbol(a, turning, 1);
+    const poly *rate_squared = poly_mul(a, rate, rate);
+    const double g = take_pull(a, n, force, across, rate_squared);
+    across[n] = poly_add(a, pull.across, poly_scale(a, rate_squared, g * *own));
+    for (int i = 0; i < n; i++) {
+        if (i == k || gone[i]) {
+            continue;
+        }
+        const wave_of beside = {mass[k * n + i], across[i]};
+        for (int j = 0; j < n; j++) {
+            const wave_of above = {mass[k * n + j], across[j]};
+            if (j != k && !gone[j]) {
+                const poly *taken = poly_scale(a, without_turn(a, beside, above), 1.0 / *own);
+                mass[i * n + j] = poly_sub(a, mass[i * n + j], taken);
+            }
+        }
+        const poly *taken = without_turn(a, beside, pull);
+        taken = poly_add(a, taken, poly_mul(a, beside.here, still));
+        force[i] = poly_sub(a, force[i], poly_scale(a, taken, 1.0 / *own));
+    }
+    return true;
+}
+
+/* === forms of the equations =================================================================== */
+/* The equations M x = f brought into one of several forms before they are entered into a list.
+ *
+ * scales, and what is eliminated while the equations are still symbols. */
+
+/* Which form. */
+typedef struct arrangement {
+    bool scaled;
+    bool rescaled; /* what is left after symbolic elimination */
+    bool hinged;   /* what hangs on hinges goes first, in the order: solve.h */
+    int lead;      /* the sine that is evaluated first: lower.h */
+    int first;     /* unknown eliminated symbolically; -1 none; -2 every constant diagonal */
+    int order[COORDINATES_MAX]; /* of elimination */
+} arrangement;
+
+/* The equations as an arrangement leaves them: all polys in one piece, for lower_plan(). */
+typedef struct arranged {
+    int n;
+    int polys;
+    const poly **mass;  /* [n * n] */
+    const poly **force; /* [n] */
+    int hinges;
+    const poly **across; /* [hinges * (n + 1)] of solve.h */
+    double *inverse;     /* [hinges] what products of them are multiplied by */
+    double *scale;       /* [n] of rows and columns */
+    bool *gone;          /* [n] eliminated in symbols */
+    int *order;          /* [n] those first */
+    int eliminated;
+} arranged;
+
+/* Symbolic elimination stops when an entry would get more terms than this. */
+#define SYMBOLIC_TERMS_MAX 60
+
+/* --- scaling -------------------------------------------------------------------------------------*/
+
+/* Different numbers that are counted; later ones are not, in what is large beyond any choice. */
+#define TALLY_MAX 128
+
+/* Starts as {0}. */
+typedef struct tally {
+    double size[TALLY_MAX];
+    int uses[TALLY_MAX];
+    int count;
+} tally;
+
+static void tally_add(tally *t, const poly *p) {
+    for (int i = 0; i < p->count; i++) {
+        const double size = fabs(p->terms[i].coefficient);
+        int k = 0;
+        while (k < t->count && fabs(t->size[k] - size) > 1e-13 * size) {
+            k++;
+        }
+        if (k == t->count && k < TALLY_MAX) {
+            t->size[t->count++] = size;
+        }
+        if (k < t->count) {
+            t->uses[k]++;
+        }
+    }
+}
+
+static double tally_favourite(const tally *t) {
+    int best = -1;
+    for (int k = 0; k < t->count; k++) {
+        if (best < 0 || t->uses[k] > t->uses[best]) {
+            best = k;
+        }
+    }
+    return best < 0 ? 1.0 : t->size[best];
+}
+
+/* scale[i] for row and column i, and a common divisor, so that most coefficients become one. */
+static double choose_scales(const linear_system *s, double *scale) {
+    const int n = s->n;
+    tally all = {.count = 0};
+    bool any_turning = false;
+    for (int i = 0; i < n; i++) {
+        any_turning = any_turning || s->turning[i];
+    }
+    for (int i = 0; i < n; i++) {
+        scale[i] = 1.0;
+        if (any_turning && !s->turning[i]) {
+            continue;
+        }
+        tally_add(&all, s->force[i]);
+        for (int j = 0; j < n; j++) {
+            if (!any_turning || s->turning[j]) {
+                tally_add(&all, s->mass[i * n + j]);
+            }
+        }
+    }
+    const double common = tally_favourite(&all);
+    for (int i = 0; i < n && any_turning; i++) {
+        if (!s->turning[i]) {
+            tally row = {.count = 0};
+            for (int j = 0; j < n; j++) {
+                if (s->turning[j]) {
+                    tally_add(&row, s->mass[i * n + j]);
+                }
+            }
+            scale[i] = row.count == 0 ? 1.0 : common / tally_favourite(&row);
+        }
+    }
+    return common;
+}
+
+/* c * scale, put onto a simple fraction where it comes out a rounding error beside one: 1.0000000000000002 would
+ * cost a product. */
+static double scale_number(double c, double scale) {
+    const double scaled = folding_product(c, scale);
+    const double nearest = number_floor(scaled * 48.0 + 0.5) / 48.0;
+    return nearest != 0.0 && folding_same(scaled, nearest, 1e-15) ? nearest : scaled;
+}
+
+static const poly *scale_simply(algebra *a, const poly *p, double scale) {
+    return poly_each_number(a, p, scale_number, scale);
+}
+
+/* --- symbolic elimination ------------------------------------------------------------------------*/
+
+static bool number_at(const poly *const *mass, int n, int i, double *value) {
+    return poly_is_number(mass[i * n + i], value) && *value != 0.0;
+}
+
+/* Eliminate unknown k from the others in symbols. False, with nothing changed, if it would grow. */
+static bool eliminate_symbolic(algebra *a, int n, const poly **mass, const poly **force,
+                               const bool *gone, int k) {
+    double diagonal;
+    if (!number_at(mass, n, k, &diagonal)) {
+        return false;
+    }
+    for (int i = 0; i < n; i++) {
+        for (int j = 0; j < n && !gone[i]; j++) {
+            if (mass[i * n + k]->count * mass[k * n + j]->count > SYMBOLIC_TERMS_MAX) {
+                return false;
+            }
+        }
+    }
+    for (int i = 0; i < n; i++) {
+        if (gone[i] || i == k || poly_is_zero(mass[i * n + k])) {
+            continue;
+        }
+        const poly *part = poly_scale(a, mass[i * n + k], 1.0 / diagonal);
+        for (int j = 0; j < n; j++) {
+            if (!gone[j] && j != k) {
+                mass[i * n + j] = poly_sub(a, mass[i * n + j], poly_mul(a, part, mass[k * n + j]));
+            }
+        }
+        force[i] = poly_sub(a, force[i], poly_mul(a, part, force[k]));
+    }
+    return true;
+}
+
+/* Of those that are eliminated, in their order, who is not wanted and whom nobody that is wanted is made from: their
+ * equations need not be computed, and what sines stand in no other one need not be taken. */
+static void forget_unwanted(algebra *a, const linear_system *s, const poly **mass,
+                            const poly **force, const int *order, int eliminated) {
+    const int n = s->n;
+    for (int e = 0; e < eliminated && !s->wanted[order[e]]; e++) {
+        const int k = order[e];
+        for (int i = 0; i < n; i++) {
+            if (i != k) {
+                mass[k * n + i] = mass[i * n + k] = poly_number(a, 0.0);
+            }
+        }
+        force[k] = poly_number(a, 0.0);
+    }
+}
+
+/* What is left by symbols divided by the size that most of its numbers have: they become one. */
+static void scale_what_is_left(algebra *a, int n, const poly **mass, const poly **force,
+                               const bool *gone) {
+    tally all = {.count = 0};
+    for (int i = 0; i < n; i++) {
+        for (int j = 0; j < n && !gone[i]; j++) {
+            if (!gone[j]) {
+                tally_add(&all, mass[i * n + j]);
+            }
+        }
+        if (!gone[i]) {
+            tally_add(&all, force[i]);
+        }
+    }
+    const double scale = 1.0 / tally_favourite(&all);
+    for (int i = 0; i < n; i++) {
+        for (int j = 0; j < n && !gone[i]; j++) {
+            if (!gone[j]) {
+                mass[i * n + j] = scale_simply(a, mass[i * n + j], scale);
+            }
+        }
+        if (!gone[i]) {
+            force[i] = scale_simply(a, force[i], scale);
+        }
+    }
+}
+
+/* --- one arrangement -----------------------------------------------------------------------------*/
+
+static arranged arranged_room(int n) {
+    arranged w = {.n = n, .polys = n * n + n + n * (n + 1)};
+    w.mass = room(w.polys, sizeof *w.mass);
+    w.force = w.mass + n * n;
+    w.across = w.force + n;
+    w.inverse = room(n, sizeof *w.inverse);
+    w.scale = room(n, sizeof *w.scale);
+    w.gone = room(n, sizeof *w.gone);
+    w.order = room(n, sizeof *w.order);
+    return w;
+}
+
+static void arranged_free(arranged *w) {
+    free(w->mass);
+    free(w->inverse);
+    free(w->scale);
+    free(w->gone);
+    free(w->order);
+}
+
+static void scale_all(algebra *a, const linear_system *s, const arrangement *how, arranged *w) {
+    const int n = s->n;
+    double common = 1.0;
+    for (int i = 0; i < n; i++) {
+        w->scale[i] = 1.0;
+    }
+    if (how->scaled) {
+        common = choose_scales(s, w->scale);
+    }
+    for (int i = 0; i < n; i++) {
+        for (int j = 0; j < n; j++) {
+            const double factor_ij = w->scale[i] * w->scale[j] / common;
+            w->mass[i * n + j] =
+                how->scaled ? scale_simply(a, s->mass[i * n + j], factor_ij) : s->mass[i * n + j];
+        }
+        w->force[i] =
+            how->scaled ? scale_simply(a, s->force[i], w->scale[i] / common) : s->force[i];
+    }
+    for (int i = 0; i < n * (n + 1); i++) {
+        w->across[i] = poly_number(a, 0.0);
+    }
+}
+
+static void put_away(arranged *w, int k) {
+    w->gone[k] = true;
+    w->order[w->eliminated++] = k;
+}
+
+/* Is unknown k on none of the hinges so far? */
+static bool off_hinges(const arranged *w, int k) {
+    bool off = true;
+    for (int h = 0; h < w->hinges; h++) {
+        off = off && poly_is_zero(w->across[h * (w->n + 1) + k]);
+    }
+    return off;
+}
+
+/* All that hang on hinges, in the order. False: none does. */
+static bool eliminate_hinged(algebra *a, const linear_system *s, const arrangement *how,
+                             arranged *w) {
+    const int n = s->n;
+    for (int i = 0; i < n; i++) {
+        const int k = how->order[i];
+        const poly **across = w->across + w->hinges * (n + 1);
+        double own;
+        if (off_hinges(w, k) &&
+            hinge_eliminate(a, n, w->mass, w->force, w->gone, k, s->unknown[k], &own, across)) {
+            w->inverse[w->hinges++] = 1.0 / own;
+            put_away(w, k);
+        }
+    }
+    return w->hinges > 0;
+}
+
+/* What is left of the equations of unknown i, and of its column, times a number: what else is said of it (across) too. */
+static void scale_unknown(algebra *a, arranged *w, int i, double scale) {
+    const int n = w->n;
+    for (int j = 0; j < n; j++) {
+        w->mass[i * n + j] = scale_simply(a, w->mass[i * n + j], scale);
+        w->mass[j * n + i] = scale_simply(a, w->mass[j * n + i], scale);
+    }
+    for (int h = 0; h < w->hinges; h++) {
+        const poly **across = &w->across[h * (n + 1) + i];
+        *across = scale_simply(a, *across, scale);
+    }
+    w->force[i] = scale_simply(a, w->force[i], scale);
+    w->scale[i] *= scale;
+}
+
+/* So that most numbers that the hinges left become one: all equations, then rows and columns of unknowns that are no
+ * angles. */
+static void scale_beside_hinges(algebra *a, const linear_system *s, arranged *w) {
+    const int n = s->n;
+    const double common = 1.0 / w->inverse[0];
+    for (int h = 0; h < w->hinges; h++) {
+        w->inverse[h] = scale_number(w->inverse[h], common);
+    }
+    for (int i = 0; i < n; i++) {
+        for (int j = 0; j < n && !w->gone[i]; j++) {
+            if (!w->gone[j]) {
+                w->mass[i * n + j] = scale_simply(a, w->mass[i * n + j], common);
+            }
+        }
+        if (!w->gone[i]) {
+            w->force[i] = scale_simply(a, w->force[i], common);
+        }
+    }
+    for (int i = 0; i < n; i++) {
+        if (w->gone[i] || s->turning[i]) {
+            continue;
+        }
+        tally row = {.count = 0};
+        for (int h = 0; h < w->hinges; h++) {
+            tally_add(&row, w->across[h * (n + 1) + i]);
+        }
+        tally_add(&row, w->force[i]);
+        for (int j = 0; j < n; j++) {
+            if (j != i) {
+                tally_add(&row, w->mass[i * n + j]);
+            }
+        }
+        scale_unknown(a, w, i, 1.0 / tally_favourite(&row));
+    }
+}
+
+/* False: they cannot be arranged so. To be freed either way. */
+static bool arrange(algebra *a, const linear_system *s, const arrangement *how, arranged *w) {
+    const int n = s->n;
+    *w = arranged_room(n);
+    scale_all(a, s, how, w);
+    if (how->hinged && !eliminate_hinged(a, s, how, w)) {
+        return false;
+    }
+    for (int i = 0; i < n && how->first != -1; i++) {
+        const int k = how->order[i];
+        if ((how->first == -2 || how->first == k) &&
+            eliminate_symbolic(a, n, w->mass, w->force, w->gone, k)) {
+            put_away(w, k);
+        }
+    }
+    if (how->hinged && how->rescaled) {
+        scale_beside_hinges(a, s, w);
+    } else if (how->rescaled && w->eliminated > 0) {
+        scale_what_is_left(a, n, w->mass, w->force, w->gone);
+    }
+    if (s->sparing) {
+        forget_unwanted(a, s, w->mass, w->force, w->order, w->eliminated);
+    }
+    int entered = w->eliminated;
+    for (int i = 0; i < n; i++) {
+        if (!w->gone[how->order[i]]) {
+            w->order[entered++] = how->order[i];
+        }
+    }
+    return true;
+}
+
+/* === the cheapest of several arrangements ===================================================== */
 
 /* Elimination orders are tried exhaustively up to so many unknowns. */
 #define PERMUTED_MAX 4
@@ -21,7 +760,7 @@
 
 /* --- one arrangement -----------------------------------------------------------------------------*/
 
-/* What hinge.h wants added: operations of `across`, for one hinge. */
+/* What solve.h wants added: operations of `across`, for one hinge. */
 static void add_across(tape *t, int n, const int *across, double inverse, int *mass, int *force) {
     const int factor = tape_constant(t, inverse);
     for (int i = 0; i < n; i++) {

@@ -11,7 +11,7 @@
 #ifndef DERIVE_SYMMETRY_H
 #define DERIVE_SYMMETRY_H
 
-#include "equations.h"
+#include "host/derive/equations.h"
 
 typedef struct symmetry {
     const poly **shift;   /* [count] A q + b */

@@ -1,14 +1,503 @@
-/* tables.c: see tables.h. */
-#include "tables.h"
+/* tables.c: a step's list as sums of products of rates, inputs and reals, whose coefficients depend on turn angles
+ * and on nothing else. */
+#include "host/derive/tables.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "core/table.h"
+#include "host/base/arena.h"
 #include "host/base/room.h"
-#include "table_numbers.h"
-#include "turn_function.h"
+
+/* === functions of one angle, at any part of its turn, with their slopes ======================= */
+/* In double, by the program's own functions: the same on every host. */
+
+/* What an operation of the list gives at some angle. */
+typedef struct turn_value {
+    double value;
+    double slope; /* a turn */
+    double size;  /* what it would be if nothing cancelled: rounding leaves 1e-16 of this */
+} turn_value;
+
+#define TURN_RAD 6.283185307179586477
+
+/* Sine and cosine of parts of a turn: exact at quarter turns, and as symmetric as they are. */
+static void turn_wave_of(double turns, double *sine, double *cosine) {
+    const double quarters = number_even(4.0 * turns);
+    const double rest_rad = (turns - 0.25 * quarters) * TURN_RAD;
+    const double s = number_sine(rest_rad);
+    const double c = number_cosine(rest_rad);
+    const int quarter = (int)(quarters - 4.0 * number_floor(0.25 * quarters));
+    *sine = quarter == 0 ? s : quarter == 1 ? c : quarter == 2 ? -s : -c;
+    *cosine = quarter == 0 ? c : quarter == 1 ? -s : quarter == 2 ? -c : s;
+}
+
+static turn_value turn_product_of(turn_value x, turn_value y) {
+    return (turn_value){x.value * y.value, x.slope * y.value + x.value * y.slope, x.size * y.size};
+}
+
+static turn_value quotient_of(turn_value x, turn_value y) {
+    const double value = x.value / y.value;
+    return (turn_value){value, (x.slope - value * y.slope) / y.value,
+                        (x.size + fabs(value) * y.size) / fabs(y.value)};
+}
+
+static turn_value turn_function_of(function_id function, turn_value x, turn_value y) {
+    const bool two = function_arguments(function) > 1;
+    const double value = number_call(function, x.value, y.value);
+    const double slope = number_slope(function, 0, x.value, y.value) * x.slope +
+                         (two ? number_slope(function, 1, x.value, y.value) * y.slope : 0.0);
+    return (turn_value){value, slope, fabs(value)};
+}
+
+static turn_value power_of(turn_value x, turn_value y) {
+    const double value = number_power(x.value, y.value);
+    const double by_exponent =
+        y.slope == 0.0 ? 0.0 : value * number_call(FN_LOG, x.value, 0.0) * y.slope;
+    return (turn_value){value, y.value * value / x.value * x.slope + by_exponent, fabs(value)};
+}
+
+static turn_value of_wave(op_code code, double turns, int multiple) {
+    double sine;
+    double cosine;
+    turn_wave_of(turns, &sine, &cosine);
+    return code == OP_SIN
+               ? (turn_value){sine, TURN_RAD * multiple * cosine, multiple != 0 ? 1.0 : fabs(sine)}
+               : (turn_value){cosine, -TURN_RAD * multiple * sine,
+                              multiple != 0 ? 1.0 : fabs(cosine)};
+}
+
+/* All of the list's operations, value[t->count], `turns` being the way round of an angle of which phase i takes
+ * multiple[i] (of operations that are no phases, nothing). All are functions of that angle: no rates or reals. */
+static void turn_evaluate(const tape *t, const int *multiple, double turns, turn_value *value) {
+    for (int i = 0; i < t->count; i++) {
+        const op *o = &t->ops[i];
+        const int values = op_rows[o->code].values;
+        const turn_value none = {0.0, 0.0, 0.0};
+        const turn_value x = values > 0 ? value[o->a] : none;
+        const turn_value y = values > 1 && o->b >= 0 ? value[o->b] : none;
+        switch (o->code) {
+        case OP_CONSTANT: value[i] = (turn_value){o->value, 0.0, fabs(o->value)}; break;
+        case OP_SIN:
+        case OP_COS: {
+            const double way = multiple[o->a] * turns;
+            const double within = way - number_floor(way);
+            value[i] = of_wave(o->code, within + t->ops[o->a].value / TURN_RAD, multiple[o->a]);
+            break;
+        }
+        case OP_ADD:
+            value[i] = (turn_value){x.value + y.value, x.slope + y.slope, x.size + y.size};
+            break;
+        case OP_SUB:
+            value[i] = (turn_value){x.value - y.value, x.slope - y.slope, x.size + y.size};
+            break;
+        case OP_NEG: value[i] = (turn_value){-x.value, -x.slope, x.size}; break;
+        case OP_MUL: value[i] = turn_product_of(x, y); break;
+        case OP_DIV: value[i] = quotient_of(x, y); break;
+        case OP_SQRT: value[i] = turn_function_of(FN_SQRT, x, y); break;
+        case OP_CALL: value[i] = turn_function_of(o->function, x, y); break;
+        case OP_POW: value[i] = power_of(x, y); break;
+        case OP_PHASE:  /* no value of its own */
+        case OP_LINEAR: /* and these are in no such list */
+        case OP_RATE:
+        case OP_INPUT:
+        case OP_ACCEL:
+        case OP_TIME:
+        case OP_RADIANS:
+        case OP_NOISE:
+        case OP_ABS:
+        case OP_SIGN:
+        case OP_MIN:
+        case OP_MAX:
+        case OP_CELL:
+        case OP_LINE:
+        case OP_CUBIC: value[i] = none; break;
+        }
+    }
+}
+
+/* === the numbers of tables: what stands in each cell for functions of one angle =============== */
+/* A table's pieces meet at knots half a cell from the cells' middles. Through the function's values there, straight
+ * pieces would be off by h^2/8 f'', and by h^2/12 f'' on the mean; cubic ones, with its slopes, by h^4/384 f'''' and
+ * h^4/720 f''''. Always to one side: a mechanism that turns and turns would sum that up. So the knots are moved by that
+ * mean (taken from the differences between knots): nothing is left of it, and the worst is a third and a half less. */
+
+/* What is tabled: operations of a list of functions of one angle, of which its phase i takes multiple[i]. */
+typedef struct table_functions {
+    const tape *list;
+    const int *multiple; /* [list->count] */
+    const int *function; /* [tables] operations */
+} table_functions;
+
+/* The knot `at`, of 2^bits on a ring. */
+static double knot(const double *of, int cells, int at) { return of[at & (cells - 1)]; }
+
+static double second_difference(const double *of, int n, int i) {
+    return (knot(of, n, i - 1) + knot(of, n, i + 1)) - 2.0 * of[i];
+}
+
+static double fourth_difference(const double *of, int n, int i) {
+    return (knot(of, n, i - 2) + knot(of, n, i + 2)) -
+           4.0 * (knot(of, n, i - 1) + knot(of, n, i + 1)) + 6.0 * of[i];
+}
+
+/* Cell i of the table, between knots i and i + 1. */
+static void write_linear(const double *value, int n, int i, double *number) {
+    const double left = value[i] - second_difference(value, n, i) / 12.0;
+    const int next = (i + 1) & (n - 1);
+    const double right = value[next] - second_difference(value, n, next) / 12.0;
+    number[0] = 0.5 * (left + right);
+    number[1] = right - left;
+}
+
+static void write_cubic(const double *value, const double *slope, int n, int i, double *number) {
+    double knots[2];
+    double slopes[2];
+    for (int k = 0; k < 2; k++) {
+        const int at = (i + k) & (n - 1);
+        knots[k] = value[at] + fourth_difference(value, n, at) / 720.0;
+        slopes[k] = slope[at] + fourth_difference(slope, n, at) / 720.0;
+    }
+    const double rise = knots[1] - knots[0];
+    const double both = slopes[0] + slopes[1];
+    number[2] = 0.5 * (slopes[1] - slopes[0]);
+    number[3] = both - 2.0 * rise;
+    number[0] = 0.5 * (knots[0] + knots[1]) - 0.25 * number[2];
+    number[1] = rise - 0.25 * number[3];
+}
+
+/* Is table k the same, or the opposite, when the angle turns the other way? To the bit. */
+static bool mirrors(const tape_tables *of, int k, bool odd) {
+    const int n = 1 << of->bits;
+    for (int i = 0; i <= n / 2; i++) {
+        const double *here = &of->number[(i * of->count + k) * of->terms];
+        const double *there = &of->number[(((n - i) & (n - 1)) * of->count + k) * of->terms];
+        for (int c = 0; c < of->terms; c++) {
+            const bool opposite = (c % 2 != 0) != odd;
+            if (here[c] != (opposite ? -there[c] : there[c])) {
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
+static void find_mirrors(tape_tables *of) {
+    of->folds = true;
+    for (int k = 0; k < of->count; k++) {
+        of->odd[k] = mirrors(of, k, true);
+        of->folds = of->folds && (of->odd[k] || mirrors(of, k, false));
+    }
+}
+
+/* How far off its function each table is, at `TRIED` places a cell, its middle and its knots among them: there, or
+ * nearly, the worst ones are. */
+static void measure(const table_functions *f, tape_tables *of) {
+    enum { TRIED = 16 };
+    const tape *c = f->list;
+    const int n = 1 << of->bits;
+    turn_value *all = room(c->count, sizeof *all);
+    for (int i = 0; i < n * TRIED; i++) {
+        const double y = (double)(i % TRIED) / TRIED - 0.5;
+        const int cell = i / TRIED;
+        turn_evaluate(c, f->multiple, (cell + y) / n, all);
+        for (int k = 0; k < of->count; k++) {
+            const double *number = &of->number[(cell * of->count + k) * of->terms];
+            double value = 0.0;
+            for (int term = of->terms - 1; term >= 0; term--) {
+                value = number[term] + y * value;
+            }
+            const double exact = all[f->function[k]].value;
+            of->size[k] = number_most(of->size[k], fabs(exact));
+            of->off[k] = number_most(of->off[k], fabs(value - exact));
+        }
+    }
+    free(all);
+}
+
+/* Fills in all of the tables but for their count, bits and terms. */
+static void table_numbers(const table_functions *f, tape_tables *into) {
+    const tape *c = f->list;
+    const int n = 1 << into->bits;
+    turn_value *all = room(c->count, sizeof *all);
+    double *value = room((int64_t)into->count * n, sizeof *value);
+    double *slope = room((int64_t)into->count * n, sizeof *slope);
+    for (int i = 0; i < n; i++) {
+        turn_evaluate(c, f->multiple, (i - 0.5) / n, all);
+        for (int k = 0; k < into->count; k++) {
+            value[k * n + i] = all[f->function[k]].value;
+            slope[k * n + i] = all[f->function[k]].slope / n;
+        }
+    }
+    for (int i = 0; i < n; i++) {
+        for (int k = 0; k < into->count; k++) {
+            double *number = &into->number[(i * into->count + k) * into->terms];
+            if (into->terms == WH_TABLE_LINEAR) {
+                write_linear(&value[k * n], n, i, number);
+            } else {
+                write_cubic(&value[k * n], &slope[k * n], n, i, number);
+            }
+            for (int term = 0; term < into->terms; term++) {
+                number[term] = number[term] == 0.0 ? 0.0 : number[term]; /* one zero */
+            }
+        }
+    }
+    find_mirrors(into);
+    measure(f, into);
+    free(all);
+    free(value);
+    free(slope);
+}
+
+/* === a list as sums of products =============================================================== */
+/* Operation by operation, from the first on: sums are added, multiplied out and divided by
+ * what depends on the angles alone. */
+
+typedef struct collecting {
+    products *made;
+    const tape *list;
+    product_sum *sum; /* [list->count] */
+    int *number;      /* [list->count] symbol, or -1 */
+    refusal *why;
+} collecting;
+
+static void refuse_product(collecting *c, const char *reason, const char *hint) {
+    if (c->why->reason == NULL) {
+        *c->why = (refusal){reason, hint, -1};
+    }
+}
+
+static void find_symbols(collecting *c) {
+    products *p = c->made;
+    p->symbol = room(c->list->count, sizeof *p->symbol);
+    for (int i = 0; i < c->list->count; i++) {
+        const op_code code = c->list->ops[i].code;
+        const bool is_symbol = code == OP_LINEAR || code == OP_RATE || code == OP_INPUT;
+        c->number[i] = is_symbol ? p->symbols : -1;
+        if (is_symbol) {
+            p->symbol[p->symbols++] = i;
+        }
+    }
+}
+
+/* A byte at least, so that every product has an address of its own. */
+static unsigned char *powers_new(const products *p) {
+    return arena_alloc(p->memory, (size_t)p->symbols + 1U);
+}
+
+static bool is_zero(const tape *t, int a) {
+    double value;
+    return tape_is_constant(t, a, &value) && value == 0.0;
+}
+
+/* sum += coefficient * powers. What cancels leaves. */
+static void enter(collecting *c, product_sum *sum, const unsigned char *power, int coefficient) {
+    products *p = c->made;
+    for (int i = 0; i < sum->count; i++) {
+        term_product *same = &sum->product[i];
+        if (memcmp(same->power, power, (size_t)p->symbols) == 0) {
+            same->coefficient = tape_add(p->coefficients, same->coefficient, coefficient);
+            if (is_zero(p->coefficients, same->coefficient)) {
+                *same = sum->product[--sum->count];
+            }
+            return;
+        }
+    }
+    if (is_zero(p->coefficients, coefficient)) {
+        return;
+    }
+    if (sum->count == PRODUCTS_MOST) {
+        refuse_product(c, "are sums of too many products of rates, inputs and reals",
+                       "leave --tables out: as they stand they take fewer operations");
+        return;
+    }
+    sum->product = arena_room(p->memory, sum->product, sum->count, sizeof *sum->product);
+    sum->product[sum->count++] = (term_product){power, coefficient};
+}
+
+static product_sum of_angles(collecting *c, int coefficient) {
+    product_sum sum = {NULL, 0};
+    enter(c, &sum, powers_new(c->made), coefficient);
+    return sum;
+}
+
+/* Does it depend on the angles alone? Then *coefficient is what it is. */
+static bool is_of_angles(collecting *c, product_sum sum, int *coefficient) {
+    bool alone = sum.count <= 1;
+    for (int i = 0; i < c->made->symbols && sum.count == 1; i++) {
+        alone = alone && sum.product[0].power[i] == 0;
+    }
+    *coefficient = !alone          ? -1
+                   : sum.count > 0 ? sum.product[0].coefficient
+                                   : tape_constant(c->made->coefficients, 0.0);
+    return alone;
+}
+
+static product_sum factor_symbol(collecting *c, int i) {
+    product_sum sum = {NULL, 0};
+    unsigned char *power = powers_new(c->made);
+    power[c->number[i]] = 1;
+    enter(c, &sum, power, tape_constant(c->made->coefficients, 1.0));
+    return sum;
+}
+
+/* x + sign * y */
+static product_sum added(collecting *c, product_sum x, product_sum y, int sign) {
+    tape *t = c->made->coefficients;
+    product_sum sum = {NULL, 0};
+    for (int i = 0; i < x.count; i++) {
+        enter(c, &sum, x.product[i].power, x.product[i].coefficient);
+    }
+    for (int i = 0; i < y.count; i++) {
+        const int with = y.product[i].coefficient;
+        enter(c, &sum, y.product[i].power, sign < 0 ? tape_unary(t, OP_NEG, with) : with);
+    }
+    return sum;
+}
+
+static product_sum multiplied(collecting *c, product_sum x, product_sum y) {
+    products *p = c->made;
+    product_sum sum = {NULL, 0};
+    for (int i = 0; i < x.count; i++) {
+        for (int k = 0; k < y.count && c->why->reason == NULL; k++) {
+            unsigned char *power = powers_new(p);
+            for (int s = 0; s < p->symbols; s++) {
+                const int both = x.product[i].power[s] + y.product[k].power[s];
+                power[s] = (unsigned char)both;
+                if (both > 64) {
+                    refuse_product(c, "take a rate, an input or a real to more than its 64th power",
+                                   NULL);
+                }
+            }
+            enter(c, &sum, power,
+                  tape_mul(p->coefficients, x.product[i].coefficient, y.product[k].coefficient));
+        }
+    }
+    return sum;
+}
+
+static product_sum divided(collecting *c, product_sum x, product_sum y) {
+    product_sum sum = {NULL, 0};
+    int by;
+    if (!is_of_angles(c, y, &by)) {
+        refuse_product(c, "are divided by what depends on a rate, an input or a real",
+                       "tables take what is divided by the one turn angle's functions only");
+        return sum;
+    }
+    for (int i = 0; i < x.count; i++) {
+        enter(c, &sum, x.product[i].power,
+              tape_div(c->made->coefficients, x.product[i].coefficient, by));
+    }
+    return sum;
+}
+
+/* A function of one or two operands, of the angles alone. */
+static product_sum function_of(collecting *c, const op *o) {
+    tape *t = c->made->coefficients;
+    int a;
+    int b = -1;
+    if (!is_of_angles(c, c->sum[o->a], &a) ||
+        (op_rows[o->code].values > 1 && o->b >= 0 && !is_of_angles(c, c->sum[o->b], &b))) {
+        refuse_product(
+            c, "hold a function (a root, a size, a sign, ...) of a rate, an input or a real",
+            "tables take products of these, no functions of them");
+        return (product_sum){NULL, 0};
+    }
+    if (o->code == OP_ABS || o->code == OP_SIGN || o->code == OP_MIN || o->code == OP_MAX) {
+        refuse_product(
+            c, "have a bend or a jump at some angle (a size, a sign, a least or a largest)",
+            "between the entries of a table it would be smoothed out: leave --tables out");
+        return (product_sum){NULL, 0};
+    }
+    return of_angles(c, o->code == OP_CALL  ? tape_call(t, o->function, a, b)
+                        : o->code == OP_POW ? tape_pow(t, a, b)
+                                            : tape_unary(t, o->code, a));
+}
+
+static product_sum wave_of(collecting *c, const op *o) {
+    tape *t = c->made->coefficients;
+    const op *phase = &c->list->ops[o->a];
+    double *multiple = NULL;
+    if (phase->b >= 0 || phase->parts != NULL) {
+        refuse_product(
+            c, "hold a sine or cosine of what is no turn angle",
+            "an angle that stands outside sines, too, is kept in radians: leave --tables out");
+        return (product_sum){NULL, 0};
+    }
+    if (phase->turns != NULL) {
+        multiple = room(t->angles, sizeof *multiple);
+        for (int k = 0; k < t->angles; k++) {
+            multiple[k] = phase->turns[k];
+        }
+    }
+    const int copy = tape_phase(t, multiple, phase->value, -1);
+    free(multiple);
+    return of_angles(c, tape_leaf(t, o->code, copy));
+}
+
+static product_sum sum_of(collecting *c, int i) {
+    const op *o = &c->list->ops[i];
+    const product_sum none = {NULL, 0};
+    switch (o->code) {
+    case OP_CONSTANT: return of_angles(c, tape_constant(c->made->coefficients, o->value));
+    case OP_LINEAR:
+    case OP_RATE:
+    case OP_INPUT: return factor_symbol(c, i);
+    case OP_PHASE: return none;
+    case OP_SIN:
+    case OP_COS: return wave_of(c, o);
+    case OP_ADD: return added(c, c->sum[o->a], c->sum[o->b], 1);
+    case OP_SUB: return added(c, c->sum[o->a], c->sum[o->b], -1);
+    case OP_NEG: return added(c, none, c->sum[o->a], -1);
+    case OP_MUL: return multiplied(c, c->sum[o->a], c->sum[o->b]);
+    case OP_DIV: return divided(c, c->sum[o->a], c->sum[o->b]);
+    case OP_SQRT:
+    case OP_ABS:
+    case OP_SIGN:
+    case OP_MIN:
+    case OP_MAX:
+    case OP_CALL:
+    case OP_POW: return function_of(c, o);
+    case OP_ACCEL: /* in no step */
+    case OP_TIME:
+    case OP_RADIANS:
+    case OP_NOISE:
+    case OP_CELL:
+    case OP_LINE:
+    case OP_CUBIC: break;
+    }
+    abort();
+}
+
+products products_of(const tape *list, refusal *why) {
+    products p = {.coefficients = tape_new(list->angles, 0),
+                  .result = room(list->results, sizeof *p.result),
+                  .results = list->results,
+                  .memory = arena_new()};
+    collecting c = {&p, list, room(list->count, sizeof *c.sum), room(list->count, sizeof *c.number),
+                    why};
+    *why = (refusal){NULL, NULL, -1};
+    find_symbols(&c);
+    for (int i = 0; i < list->count && why->reason == NULL; i++) {
+        c.sum[i] = sum_of(&c, i);
+    }
+    for (int i = 0; i < list->results; i++) {
+        p.result[i] = c.sum[list->result[i]];
+    }
+    free(c.sum);
+    free(c.number);
+    return p;
+}
+
+void products_free(products *p) {
+    tape_free(p->coefficients);
+    free(p->symbol);
+    free(p->result);
+    arena_free(p->memory);
+}
+
+/* === tables in the place of sines and divisions =============================================== */
 
 /* Where it is tried of what kind a coefficient is; sums and multiples of an angle are told apart by less. */
 enum { TRIES = 4096 };

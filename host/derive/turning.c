@@ -2,7 +2,7 @@
  * cosines, with whole factors. */
 #include <math.h>
 
-#include "lower.h"
+#include "host/derive/lower.h"
 
 static bool whole_in_angle(const poly *angle, const symbol *sym) {
     for (int i = 0; i < angle->count; i++) {

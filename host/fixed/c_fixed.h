@@ -4,7 +4,7 @@
 
 #include <stdio.h>
 
-#include "fixed_plan.h"
+#include "host/fixed/fixed_plan.h"
 
 /* The scene as C for core/fixed_scene.h, and its header, for C and C++. */
 void c_fixed(FILE *out, const fixed_plan *plan, const char *file);

@@ -4,8 +4,8 @@
 #include <stdlib.h>
 
 #include "fixed_loss.h"
-#include "fixed_plan.h"
 #include "host/base/room.h"
+#include "host/fixed/fixed_plan.h"
 #include "host/number/functions.h"
 
 #define RAD_PER_UNIT (6.283185307179586477 / 4294967296.0)

@@ -2,15 +2,14 @@
  * a 32-bit integer with a binary point of its own.
  *
  * Made in three steps: copied (fixed_list.c: what has no fixed form is refused; the step goes into the results), its values
- * enclosed (fixed_hull.c), its points chosen (fixed_bits.c). What runs it (engine_fixed.c) and what writes it as C (c_fixed.c)
- * read numbers and shifts only, so both give the same bits.
- */
+ * enclosed (fixed_list.c), its points chosen (fixed_list.c). What runs it (engine_fixed.c) and what writes it as C (c_fixed.c)
+ * read numbers and shifts only, so both give the same bits. */
 #ifndef FIXED_FIXED_LIST_H
 #define FIXED_FIXED_LIST_H
 
-#include "fixed_range.h"
+#include "host/fixed/fixed_range.h"
+#include "host/fixed/interval.h"
 #include "host/image/image.h"
-#include "interval.h"
 
 /* Of a value's size, binary digits: values fill 2^29 at most, so that what rounding adds, and twice that, fits; results
  * 2^28, since a step adds six of them; what is kept from step to step 2^30. */

@@ -3,7 +3,7 @@
 #ifndef FIXED_FIXED_LOSS_H
 #define FIXED_FIXED_LOSS_H
 
-#include "fixed_plan.h"
+#include "host/fixed/fixed_plan.h"
 
 typedef struct fixed_loss fixed_loss;
 

@@ -4,8 +4,22 @@
 #define FIXED_FIXED_PLAN_H
 
 #include "core/fixed_scene.h"
-#include "fixed_list.h"
-#include "fixed_range.h"
+#include "host/fixed/fixed_list.h"
+#include "host/fixed/fixed_range.h"
+#include "host/fixed/interval.h"
+#include "host/image/image.h"
+
+/* === what a scene may have that fixed point has not, each refused at its place ================ */
+
+/* Contacts, books, noise, other methods and settings: false, reported. */
+bool fixed_has_step(const image *im, diags *errors);
+
+/* Ranges of the reals and inputs: larger than anything may be, or a start outside its own: false, reported. */
+bool fixed_ranges_hold(const image *im, const interval *range, diags *errors);
+
+/* Code takes inputs that nobody has run yet: each input without a declared range is reported, with the range that a run
+ * takes; false: there is one. */
+bool fixed_inputs_declared(const image *im, const interval *range, diags *errors);
 
 /* x 2^shift number 2^-(32 + by), rounded: times a constant, to another binary point. */
 typedef struct fixed_gain {

@@ -1,5 +1,5 @@
 /* interval.h: intervals of reals. What is computed is not rounded outwards: whoever uses them widens by more than doubles err
- * (fixed_hull.c). */
+ * (fixed_list.c). */
 #ifndef FIXED_INTERVAL_H
 #define FIXED_INTERVAL_H
 

@@ -330,7 +330,7 @@ typedef struct image {
         *fixed; /* of a run in fixed point (host/fixed), which is not the image's; or NULL */
 
     bool has_energies; /* not a system given outright */
-    bool has_integral; /* the energy that is booked is not T + V (host/derive/energy.h) */
+    bool has_integral; /* the energy that is booked is not T + V (host/derive/equations.h) */
 
     image_contact *contact; /* [contacts] crossings come last */
     int contacts;

@@ -16,7 +16,7 @@
  *           l, r, u   in Octave: the linear component, rate, input that a counts
  *
  * What each operation computes, in four more places: host/run/evaluate.inc, host/run/rounding.c,
- * host/derive/eliminate.c, host/image/tape_bias.c; what multiplying it takes: tape_multiply.c, tape_freedom.c.
+ * host/derive/solve.c, host/image/tape_gauge.c; what multiplying it takes: tape_gauge.c, tape_gauge.c.
  */
 #ifndef IMAGE_OP_ROWS_H
 #define IMAGE_OP_ROWS_H

@@ -138,7 +138,7 @@ void tape_prune(tape *t);
  * then. */
 void tape_share_sums(tape *t);
 /* Put the operations of a finished list into an order with few values live at a time, if that carries values less often
- * than the order they have (tape_order.c). What is computed stays the same, to the bit; phases stay in their order. */
+ * than the order they have (tape_use.c). What is computed stays the same, to the bit; phases stay in their order. */
 void tape_order(tape *t);
 /* How often a list in its order carries values between memory and some twenty registers, at best: an estimate. */
 int tape_carried(const tape *t);

@@ -1,10 +1,639 @@
 /* tape_gauge.c: looking for the numbers that leave float's constants next to what they are. */
-#include "tape_gauge.h"
+#include "host/image/tape_gauge.h"
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "host/base/room.h"
+
+/* === which operations may be multiplied together ============================================== */
+/* Which operations of a list may be multiplied together.
+ *
+ * Each operation is multiplied by x to some exponent of its own. Sums want equal exponents of what they add, products add
+ * them, constants and products with constants have whichever is wanted, results have none. These are linear
+ * equations, and the solutions are the freedom. */
+
+/* Exponents are small whole numbers and halves, and so are all entries: what is below is zero. */
+#define NOTHING 1e-9
+
+/* Rows of `columns` numbers. */
+typedef struct matrix {
+    double *at;
+    int rows;
+    int columns;
+} matrix;
+
+static matrix matrix_new(int rows, int columns) {
+    return (matrix){room((int64_t)rows * columns + 1, sizeof(double)), rows, columns};
+}
+
+static double *row_of(const matrix *m, int row) { return m->at + (size_t)row * (size_t)m->columns; }
+
+static void swap_rows(const matrix *m, int x, int y) {
+    for (int c = 0; c < m->columns; c++) {
+        const double kept = row_of(m, x)[c];
+        row_of(m, x)[c] = row_of(m, y)[c];
+        row_of(m, y)[c] = kept;
+    }
+}
+
+/* Subtract row `of`, whose entry in column c is one, from all others, so that these have none there. */
+static void clear_column(const matrix *m, int of, int c) {
+    for (int r = 0; r < m->rows; r++) {
+        const double factor = r != of ? row_of(m, r)[c] : 0.0;
+        for (int k = 0; k < m->columns && factor != 0.0; k++) {
+            double *entry = &row_of(m, r)[k];
+            *entry -= factor * row_of(m, of)[k];
+            *entry = fabs(*entry) < NOTHING ? 0.0 : *entry;
+        }
+    }
+}
+
+/* Gauss and Jordan: lead[row] is its leading column. Returns how many rows are left. */
+static int reduce(const matrix *m, int *lead) {
+    int rank = 0;
+    for (int c = 0; c < m->columns && rank < m->rows; c++) {
+        int best = rank;
+        for (int r = rank; r < m->rows; r++) {
+            best = fabs(row_of(m, r)[c]) > fabs(row_of(m, best)[c]) ? r : best;
+        }
+        const double pivot = row_of(m, best)[c];
+        if (pivot == 0.0) {
+            continue;
+        }
+        swap_rows(m, best, rank);
+        for (int k = 0; k < m->columns; k++) {
+            row_of(m, rank)[k] /= pivot;
+        }
+        clear_column(m, rank, c);
+        lead[rank++] = c;
+    }
+    return rank;
+}
+
+/* The vectors that m turns into zero, as rows; m is destroyed. */
+static matrix kernel_of(const matrix *m) {
+    int *lead = room((int64_t)m->rows + 1, sizeof *lead);
+    bool *leads = room((int64_t)m->columns + 1, sizeof *leads);
+    const int rank = reduce(m, lead);
+    matrix kernel = matrix_new(m->columns - rank, m->columns);
+    int made = 0;
+    for (int r = 0; r < rank; r++) {
+        leads[lead[r]] = true;
+    }
+    for (int c = 0; c < m->columns; c++) {
+        if (!leads[c]) {
+            row_of(&kernel, made)[c] = 1.0;
+            for (int r = 0; r < rank; r++) {
+                row_of(&kernel, made)[lead[r]] = -row_of(m, r)[c];
+            }
+            made++;
+        }
+    }
+    free(lead);
+    free(leads);
+    return kernel;
+}
+
+/* --- the equations of a list -----------------------------------------------------------------------------------*/
+
+/* The unknowns: an exponent for each operation, and one for each place where a sum, a product or the like takes a
+ * raw value, for it may take this as it is or multiplied. */
+typedef struct unknowns {
+    const tape *of;
+    int *column; /* [2 * count] of the places, by operation, a before b; 0: none */
+    int *place;  /* [columns] 2 * operation, or that and one */
+    int columns;
+} unknowns;
+
+static bool is_constant(const tape *t, int i) { return t->ops[i].code == OP_CONSTANT; }
+
+static int operand_of(const op *o, int which) { return which == 0 ? o->a : o->b; }
+
+/* Does it take constants by itself? Then it asks nothing. */
+static bool absorbs(const tape *t, const op *o) {
+    return (o->code == OP_MUL || o->code == OP_DIV) &&
+           (is_constant(t, o->a) || is_constant(t, o->b));
+}
+
+static bool has_exponent(const tape *t, int i) {
+    const op *o = &t->ops[i];
+    return !tape_is_raw(o) && o->code != OP_CONSTANT && o->code != OP_PHASE;
+}
+
+static unknowns unknowns_of(const tape *t) {
+    unknowns u = {t, room(2 * (int64_t)t->count + 1, sizeof(int)),
+                  room(3 * (int64_t)t->count + 1, sizeof(int)), t->count};
+    for (int i = 0; i < t->count; i++) {
+        const op *o = &t->ops[i];
+        for (int which = 0; has_exponent(t, i) && !absorbs(t, o) && which < op_rows[o->code].values;
+             which++) {
+            if (tape_is_raw(&t->ops[operand_of(o, which)])) {
+                u.place[u.columns] = 2 * i + which;
+                u.column[2 * i + which] = u.columns++;
+            }
+        }
+    }
+    return u;
+}
+
+static int column_of(const unknowns *u, int i, int which) {
+    const int column = u->column[2 * i + which];
+    return column != 0 ? column : operand_of(&u->of->ops[i], which);
+}
+
+/* One more equation: `own` times the exponent of i is that of its operand a, and `b` times that of operand b. Constants have
+ * any. */
+static void equation(const unknowns *u, matrix *m, double own, int i, double a, double b) {
+    const op *o = &u->of->ops[i];
+    double *row = row_of(m, m->rows++);
+    row[i] += own;
+    if (a != 0.0 && !is_constant(u->of, o->a)) {
+        row[column_of(u, i, 0)] -= a;
+    }
+    if (b != 0.0 && !is_constant(u->of, o->b)) {
+        row[column_of(u, i, 1)] -= b;
+    }
+}
+
+static void equations_of(const unknowns *u, int i, matrix *m) {
+    const op *o = &u->of->ops[i];
+    switch (o->code) {
+    case OP_ADD:
+    case OP_SUB:
+    case OP_MIN:
+    case OP_MAX:
+        if (!is_constant(u->of, o->a)) {
+            equation(u, m, 1.0, i, 1.0, 0.0);
+        }
+        if (!is_constant(u->of, o->b)) {
+            equation(u, m, 1.0, i, 0.0, 1.0);
+        }
+        break;
+    case OP_MUL:
+    case OP_DIV:
+        if (!absorbs(u->of, o)) {
+            equation(u, m, 1.0, i, 1.0, o->code == OP_MUL ? 1.0 : -1.0);
+        }
+        break;
+    case OP_NEG:
+    case OP_ABS: equation(u, m, 1.0, i, 1.0, 0.0); break;
+    case OP_SQRT: equation(u, m, 2.0, i, 1.0, 0.0); break;
+    case OP_PHASE:
+    case OP_CONSTANT:
+    case OP_LINEAR:
+    case OP_RATE:
+    case OP_INPUT:
+    case OP_ACCEL:
+    case OP_TIME:
+    case OP_RADIANS:
+    case OP_NOISE:
+    case OP_SIN:
+    case OP_COS:
+    case OP_CELL:
+    case OP_LINE:
+    case OP_CUBIC:
+    case OP_SIGN:
+    case OP_CALL:
+    case OP_POW: equation(u, m, 1.0, i, 0.0, 0.0); break; /* as they are */
+    }
+}
+
+/* All solutions, raw values multiplied wherever it takes that. */
+static matrix all_freedoms(const unknowns *u) {
+    const tape *t = u->of;
+    matrix m = matrix_new(2 * t->count + t->results, u->columns);
+    m.rows = 0;
+    for (int i = 0; i < t->count; i++) {
+        equations_of(u, i, &m);
+    }
+    for (int i = 0; i < t->results; i++) {
+        equation(u, &m, 1.0, t->result[i], 0.0, 0.0);
+    }
+    const matrix kernel = kernel_of(&m);
+    free(m.at);
+    return kernel;
+}
+
+/* --- those that multiply few raw values --------------------------------------------------------------------------*/
+
+enum { PLACES = 64, SUBSETS_OF = 5 };
+
+/* Places of raw values that are multiplied, those of one value alike. */
+typedef struct chosen {
+    int column[PLACES];
+    int like[PLACES]; /* an earlier column of the same value, or itself */
+    int count;
+} chosen;
+
+/* Does this solution multiply at each of these places, and does it change anything? */
+static bool tells(const tape *t, const double *e, const chosen *c) {
+    bool all = true;
+    bool changes = false;
+    for (int k = 0; k < c->count; k++) {
+        all = all && e[c->column[k]] != 0.0;
+    }
+    for (int i = 0; i < t->count; i++) {
+        changes = changes || (e[i] != 0.0 && !absorbs(t, &t->ops[i]));
+    }
+    return all && changes;
+}
+
+/* So that the least exponent is one. */
+static void normalise(double *e, int length) {
+    double least = 0.0;
+    for (int i = 0; i < length; i++) {
+        e[i] = fabs(e[i]) < NOTHING ? 0.0 : e[i];
+        if (e[i] != 0.0 && (least == 0.0 || fabs(e[i]) < fabs(least))) {
+            least = e[i];
+        }
+    }
+    for (int i = 0; i < length && least != 0.0; i++) {
+        e[i] /= least;
+    }
+}
+
+static void keep(tape_freedoms *f, const unknowns *u, const double *e) {
+    const int n = u->of->count;
+    f->exponent = room_more(f->exponent, (f->count + 1) * f->length, sizeof *f->exponent);
+    double *kept = f->exponent + (size_t)f->count * (size_t)f->length;
+    for (int i = 0; i < f->length; i++) {
+        const int column = i < n ? i : u->column[i - n];
+        kept[i] = i < n || column != 0 ? e[column] : 0.0;
+    }
+    f->count++;
+}
+
+/* What of `all` multiplies raw values at the chosen places only, those of one value alike. */
+static matrix limits_of(const unknowns *u, const matrix *all, const chosen *c) {
+    matrix m = matrix_new(u->columns, all->rows);
+    m.rows = 0;
+    for (int column = u->of->count; column < u->columns; column++) {
+        int like = -1;
+        for (int k = 0; k < c->count; k++) {
+            like = c->column[k] == column ? c->like[k] : like;
+        }
+        for (int k = 0; k < all->rows && like != column; k++) {
+            row_of(&m, m.rows)[k] =
+                row_of(all, k)[column] - (like >= 0 ? row_of(all, k)[like] : 0.0);
+        }
+        m.rows += like != column;
+    }
+    return m;
+}
+
+static void add_freedoms(const unknowns *u, const matrix *all, const chosen *c, tape_freedoms *f) {
+    const matrix m = limits_of(u, all, c);
+    const matrix shares = kernel_of(&m);
+    double *e = room((int64_t)u->columns + 1, sizeof *e);
+    for (int s = 0; s < shares.rows; s++) {
+        for (int i = 0; i < u->columns; i++) {
+            e[i] = 0.0;
+            for (int k = 0; k < all->rows; k++) {
+                e[i] += row_of(&shares, s)[k] * row_of(all, k)[i];
+            }
+        }
+        normalise(e, u->columns);
+        if (tells(u->of, e, c)) {
+            keep(f, u, e);
+        }
+    }
+    free(e);
+    free(shares.at);
+    free(m.at);
+}
+
+/* Choose the places of raw value `raw` whose bits are set, too. */
+static chosen choose(const unknowns *u, chosen c, int raw, unsigned which) {
+    int first = -1;
+    int seen = 0;
+    for (int column = u->of->count; column < u->columns && c.count < PLACES; column++) {
+        const int place = u->place[column];
+        if (operand_of(&u->of->ops[place / 2], place % 2) == raw) {
+            if ((which >> (seen < SUBSETS_OF ? seen : SUBSETS_OF - 1) & 1U) != 0) {
+                first = first < 0 ? column : first;
+                c.column[c.count] = column;
+                c.like[c.count++] = first;
+            }
+            seen++;
+        }
+    }
+    return c;
+}
+
+static int places_of(const unknowns *u, int raw) {
+    return choose(u, (chosen){.count = 0}, raw, ~0U).count;
+}
+
+tape_freedoms tape_freedoms_of(const tape *t) {
+    tape_freedoms f = {NULL, 0, 3 * t->count};
+    const unknowns u = unknowns_of(t);
+    const matrix all = all_freedoms(&u);
+    const chosen none = {.count = 0};
+    add_freedoms(&u, &all, &none, &f);
+    for (int i = 0; i < t->count && all.rows > 0; i++) {
+        const int places = tape_is_raw(&t->ops[i]) ? places_of(&u, i) : 0;
+        const unsigned subsets = 1U << (places < SUBSETS_OF ? places : SUBSETS_OF);
+        for (unsigned which = 1; which < subsets; which++) {
+            const chosen one = choose(&u, none, i, which);
+            add_freedoms(&u, &all, &one, &f);
+        }
+        for (int k = 0; k < i && places > 0; k++) {
+            if (tape_is_raw(&t->ops[k]) && places_of(&u, k) > 0) {
+                const chosen both = choose(&u, choose(&u, none, k, ~0U), i, ~0U);
+                add_freedoms(&u, &all, &both, &f);
+            }
+        }
+    }
+    free(u.column);
+    free(u.place);
+    free(all.at);
+    return f;
+}
+
+void tape_freedoms_free(tape_freedoms *f) {
+    free(f->exponent);
+    f->exponent = NULL;
+    f->count = 0;
+}
+
+/* === a list with its operations multiplied by numbers, and the same results =================== */
+
+typedef struct multiplied {
+    const tape *from;
+    const double *times; /* [3 * from->count] */
+    tape *to;
+    int *made; /* [from->count] on `to`: times as large, but raw values as they are */
+} multiplied;
+
+bool tape_is_raw(const op *o) {
+    switch (op_rows[o->code].kind) {
+    case OP_IS_LEAF:
+    case OP_IS_WAVE:
+    case OP_IS_LOOKUP:
+    case OP_IS_CALL: return true;
+    case OP_IS_CONSTANT:
+    case OP_IS_PHASE:
+    case OP_IS_CELL:
+    case OP_IS_UNARY:
+    case OP_IS_BINARY: break;
+    }
+    return o->code == OP_SIGN || o->code == OP_POW;
+}
+
+/* A constant; where double's rounding alone keeps it from being a float, that float. */
+static int constant(tape *t, double value) {
+    const double nearest = (double)(float)value;
+    return tape_constant(t, fabs(value - nearest) <= 1e-15 * fabs(value) ? nearest : value);
+}
+
+/* `times` operation i, for whoever takes it. */
+static int taken(const multiplied *m, int i, double times) {
+    const op *o = &m->from->ops[i];
+    double number;
+    if (o->code == OP_CONSTANT) {
+        return constant(m->to, o->value * times);
+    }
+    if (o->code == OP_MUL && tape_is_constant(m->from, o->a, &number)) {
+        return taken(m, o->b, number * times);
+    }
+    const double has = tape_is_raw(o) ? 1.0 : m->times[i];
+    return tape_mul(m->to, constant(m->to, times / has), m->made[i]);
+}
+
+static int make_phase(const multiplied *m, const op *o) {
+    double *multiple = room(m->from->angles, sizeof *multiple);
+    for (int k = 0; k < m->from->angles; k++) {
+        multiple[k] = (o->turns != NULL ? o->turns[k] : 0) + (o->parts != NULL ? o->parts[k] : 0.0);
+    }
+    const int radians = o->b >= 0 ? taken(m, o->b, 1.0) : -1;
+    const int made = tape_phase(m->to, multiple, o->value, radians);
+    free(multiple);
+    return made;
+}
+
+/* How often an operand is taken: a raw value as that place of the operation says. */
+static double times_of(const multiplied *m, int i, int which) {
+    const op *o = &m->from->ops[i];
+    const int operand = which == 0 ? o->a : o->b;
+    return tape_is_raw(&m->from->ops[operand]) ? m->times[m->from->count + 2 * i + which]
+                                               : m->times[operand];
+}
+
+/* A product or quotient of what is multiplied already, and what is left to multiply by. One call after the other, in the same
+ * order everywhere. */
+static int make_product(const multiplied *m, int i) {
+    const op *o = &m->from->ops[i];
+    const double a = times_of(m, i, 0);
+    const double b = times_of(m, i, 1);
+    const double wanted = m->times[i];
+    if (o->code == OP_DIV && m->from->ops[o->a].code == OP_CONSTANT) {
+        const int below = taken(m, o->b, b);
+        return tape_div(m->to, taken(m, o->a, wanted * b), below);
+    }
+    const int x = taken(m, o->a, a);
+    const int y = taken(m, o->b, b);
+    const bool divides = o->code == OP_DIV;
+    const int made = divides ? tape_div(m->to, x, y) : tape_mul(m->to, x, y);
+    return tape_mul(m->to, constant(m->to, divides ? wanted * b / a : wanted / (a * b)), made);
+}
+
+/* Of two operands the second is entered first, by whatever compiler: arguments of one call have no order. */
+static int make(const multiplied *m, int i) {
+    const op *o = &m->from->ops[i];
+    const double times = m->times[i];
+    double number;
+    int second;
+    switch (o->code) {
+    case OP_CONSTANT: return -1; /* made where it is taken */
+    case OP_LINEAR:
+    case OP_RATE:
+    case OP_INPUT:
+    case OP_ACCEL:
+    case OP_TIME:
+    case OP_RADIANS: return tape_leaf(m->to, o->code, o->a);
+    case OP_NOISE: return tape_noise(m->to, (uint32_t)o->value);
+    case OP_PHASE: return make_phase(m, o);
+    case OP_SIN:
+    case OP_COS: return tape_unary(m->to, o->code, m->made[o->a]);
+    case OP_ADD:
+        second = taken(m, o->b, times);
+        return tape_add(m->to, taken(m, o->a, times), second);
+    case OP_SUB:
+        second = taken(m, o->b, times);
+        return tape_sub(m->to, taken(m, o->a, times), second);
+    case OP_MUL:
+        return tape_is_constant(m->from, o->a, &number) ? -1 /* likewise */ : make_product(m, i);
+    case OP_DIV: return make_product(m, i);
+    case OP_NEG:
+    case OP_ABS: return tape_unary(m->to, o->code, taken(m, o->a, times));
+    case OP_SQRT: return tape_unary(m->to, o->code, taken(m, o->a, times * times));
+    case OP_SIGN: return tape_unary(m->to, o->code, taken(m, o->a, times_of(m, i, 0)));
+    case OP_MIN:
+    case OP_MAX:
+        second = taken(m, o->b, times);
+        return tape_call(m->to, o->code == OP_MIN ? FN_MIN : FN_MAX, taken(m, o->a, times), second);
+    case OP_CALL:
+        second = o->b >= 0 ? taken(m, o->b, 1.0) : -1;
+        return tape_call(m->to, o->function, taken(m, o->a, 1.0), second);
+    case OP_POW: second = taken(m, o->b, 1.0); return tape_pow(m->to, taken(m, o->a, 1.0), second);
+    case OP_CELL:
+    case OP_LINE:
+    case OP_CUBIC: break; /* a list with tables keeps its constants */
+    }
+    abort();
+}
+
+tape *tape_multiplied(const tape *t, const double *times) {
+    multiplied m = {t, times, tape_new(t->angles, t->results), room(t->count, sizeof(int))};
+    for (int i = 0; i < t->count; i++) {
+        m.made[i] = make(&m, i);
+    }
+    for (int i = 0; i < t->results; i++) {
+        m.to->result[i] = taken(&m, t->result[i], 1.0);
+    }
+    free(m.made);
+    tape_prune(m.to);
+    tape_order(m.to);
+    return m.to;
+}
+
+/* === what a list's constants, rounded to float, do to what it computes ======================== */
+
+enum { SIZES = 3, STATES = 6 };
+
+/* Of rates and of whatever else is no position: at rest forces and torques count, fast the rates alone. */
+static const double size_of_rates[SIZES] = {0.0, 1.0, 10.0};
+
+/* A number between -1 and 1 for this leaf in this state. */
+static double drawn(op_code code, int which, int state) {
+    uint64_t x = (uint64_t)code * 7919U + (uint64_t)which * 131U + (uint64_t)state * 1000003U + 1U;
+    for (int i = 0; i < 3; i++) {
+        x = (x ^ (x >> 31)) * UINT64_C(0x9e3779b97f4a7c15);
+    }
+    return (double)(x >> 11) * 0x1p-52 - 1.0;
+}
+
+static double phase_at(const tape *t, const op *o, int state, double radians) {
+    double sum = o->value + radians;
+    for (int k = 0; k < t->angles; k++) {
+        const double turns = o->turns != NULL ? o->turns[k] : 0.0;
+        const double parts = o->parts != NULL ? o->parts[k] : 0.0;
+        sum += (turns + parts) * 3.2 * drawn(OP_PHASE, k, state);
+    }
+    return sum;
+}
+
+static double value_at(const tape *t, const op *o, int state, double rates, bool as_float,
+                       const double *v) {
+    const double a = op_rows[o->code].values > 0 ? v[o->a] : 0.0;
+    const double b =
+        (op_rows[o->code].values > 1 || o->code == OP_PHASE) && o->b >= 0 ? v[o->b] : 0.0;
+    switch (o->code) {
+    case OP_CONSTANT: return as_float ? (double)(float)o->value : o->value;
+    case OP_LINEAR: return drawn(o->code, o->a, state);
+    case OP_RATE: return rates * drawn(o->code, o->a, state);
+    case OP_INPUT:
+    case OP_ACCEL:
+    case OP_TIME:
+    case OP_RADIANS:
+    case OP_CELL:
+    case OP_LINE:
+    case OP_CUBIC:
+    case OP_NOISE: return 2.0 + drawn(o->code, o->a, state);
+    case OP_PHASE: return phase_at(t, o, state, b);
+    case OP_SIN: return number_sine(a);
+    case OP_COS: return number_cosine(a);
+    case OP_ADD: return a + b;
+    case OP_SUB: return a - b;
+    case OP_MUL: return a * b;
+    case OP_DIV: return a / b;
+    case OP_NEG: return -a;
+    case OP_SQRT: return number_root(a);
+    case OP_ABS: return fabs(a);
+    case OP_SIGN: return number_call(FN_SIGN, a, 0.0);
+    case OP_MIN: return number_least(a, b);
+    case OP_MAX: return number_most(a, b);
+    case OP_CALL: return number_call(o->function, a, b);
+    case OP_POW: return number_power(a, b);
+    }
+    abort();
+}
+
+/* The results of a list in a state: result[t->results]. */
+static void results_at(const tape *t, int state, double rates, bool as_float, double *v,
+                       double *result) {
+    for (int i = 0; i < t->count; i++) {
+        v[i] = value_at(t, &t->ops[i], state, rates, as_float, v);
+    }
+    for (int i = 0; i < t->results; i++) {
+        result[i] = v[t->result[i]];
+    }
+}
+
+/* What counts of an error in a result that no list reads again: a carriage's acceleration that nothing depends on ends as
+ * much off as it is; another one's error grows with the motion. */
+#define UNREAD (1.0 / 64.0)
+
+/* Of each result, does the list depend on the component that it moves? Both orders: angles, then reals. */
+static void weigh_results(const tape *t, double *weight) {
+    for (int i = 0; i < t->results; i++) {
+        weight[i] = UNREAD;
+    }
+    for (int i = 0; i < t->count; i++) {
+        const op *o = &t->ops[i];
+        const int component = o->code == OP_RATE     ? o->a
+                              : o->code == OP_LINEAR ? t->angles + o->a
+                                                     : t->results;
+        if (component < t->results) {
+            weight[component] = 1.0;
+        }
+        for (int k = 0; k < t->angles && k < t->results && o->turns != NULL; k++) {
+            weight[k] = o->turns[k] != 0 ? 1.0 : weight[k];
+        }
+    }
+}
+
+double tape_bias(const tape *t, const tape *like) {
+    const int n = t->results;
+    double *v = room((int64_t)t->count + like->count, sizeof *v);
+    double *off = room(5 * (int64_t)n, sizeof *off);
+    double *size = off + n;
+    double *now = off + 2 * n;
+    double *meant = off + 3 * n;
+    double *weight = off + 4 * n;
+    double squares = 0.0;
+    double entries = 0.0;
+    weigh_results(like, weight);
+    for (int s = 0; s < SIZES; s++) {
+        for (int i = 0; i < n; i++) {
+            off[i] = size[i] = 0.0;
+        }
+        for (int state = 0; state < STATES; state++) {
+            results_at(t, state, size_of_rates[s], true, v, now);
+            results_at(like, state, size_of_rates[s], false, v, meant);
+            for (int i = 0; i < n; i++) {
+                /* at a state where there is no such value, as below a root's zero, nothing is told */
+                const bool told = isfinite(now[i]) && isfinite(meant[i]);
+                off[i] += told ? fabs(now[i] - meant[i]) : 0.0;
+                size[i] += told ? fabs(meant[i]) : 0.0;
+            }
+        }
+        for (int i = 0; i < n; i++) {
+            if (size[i] > 0.0) {
+                const double relative = weight[i] * off[i] / size[i];
+                squares += relative * relative;
+                entries += weight[i] * weight[i];
+            }
+        }
+    }
+    free(v);
+    free(off);
+    return entries > 0.0 ? number_root(squares / entries) : (double)NAN;
+}
+
+/* === the numbers that leave float its constants =============================================== */
 
 enum {
     LONGEST = 250, /* operations of a list that is looked at */

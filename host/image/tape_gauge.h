@@ -4,7 +4,7 @@
 #ifndef IMAGE_TAPE_GAUGE_H
 #define IMAGE_TAPE_GAUGE_H
 
-#include "tape.h"
+#include "host/image/tape.h"
 
 /* What float's constants make of the results of a finished list, rounding nothing else: the root of the mean square, over
  * its results and over made-up states with rates of three sizes, of how much they are off, relative to their size.

@@ -1,11 +1,556 @@
 /* tape_use.c: looking at a finished list: what is needed, what it costs. */
+#include <limits.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "host/base/hashing.h"
 #include "host/base/room.h"
-#include "tape.h"
+#include "host/image/tape.h"
+
+/* === which operations need which ============================================================== */
+/* Which operations of a list need which, and what their order costs. */
+
+/* Single-precision registers that an FPU of Arm or RISC-V has for a list: 32, less what the step around it keeps. */
+enum { TAPE_REGISTERS = 20 };
+
+/* Who needs whom. A phase stands behind the one before it: the waves of a list are numbered by their places. */
+typedef struct tape_needs {
+    const tape *t;
+    int *before; /* [t->count]: of a phase the one before it; else -1 */
+    bool *given; /* [t->count]: nothing need be computed for it */
+    int *first;  /* [t->count + 1]: where its users begin in user[], in their order */
+    int *user;
+} tape_needs;
+
+enum { NEEDED_MOST = 3, TAKEN_MOST = 2 };
+
+/* What must stand before operation i; returns how many. */
+static int tape_needed(const tape_needs *n, int i, int found[static NEEDED_MOST]) {
+    int count = tape_operands(&n->t->ops[i], found);
+    if (n->before[i] >= 0) {
+        found[count++] = n->before[i];
+    }
+    return count;
+}
+
+/* The values that operation i takes from registers, each once; returns how many. Constants and phases are none. */
+static int tape_taken(const tape *t, int i, int found[static TAKEN_MOST]) {
+    int operand[TAKEN_MOST];
+    const int operands = tape_operands(&t->ops[i], operand);
+    int count = 0;
+    for (int k = 0; k < operands; k++) {
+        const op_kind kind = op_rows[t->ops[operand[k]].code].kind;
+        const bool again = k > 0 && operand[k] == operand[0];
+        if (kind != OP_IS_CONSTANT && kind != OP_IS_PHASE && kind != OP_IS_CELL && !again) {
+            found[count++] = operand[k];
+        }
+    }
+    return count;
+}
+
+static bool may_be_given(const op *o) {
+    switch (op_rows[o->code].kind) {
+    case OP_IS_CONSTANT:
+    case OP_IS_LEAF:
+    case OP_IS_PHASE:
+    case OP_IS_CELL:
+    case OP_IS_WAVE: return true;
+    case OP_IS_LOOKUP:
+    case OP_IS_UNARY:
+    case OP_IS_BINARY:
+    case OP_IS_CALL: break;
+    }
+    return false;
+}
+
+static tape_needs tape_needs_of(const tape *t) {
+    tape_needs n = {.t = t,
+                    .before = room(t->count, sizeof *n.before),
+                    .given = room(t->count, sizeof *n.given),
+                    .first = room((int64_t)t->count + 1, sizeof *n.first)};
+    int found[NEEDED_MOST];
+    int phase = -1;
+    for (int i = 0; i < t->count; i++) {
+        const bool is_phase = t->ops[i].code == OP_PHASE;
+        n.before[i] = is_phase ? phase : -1;
+        phase = is_phase ? i : phase;
+        n.given[i] = may_be_given(&t->ops[i]);
+        for (int k = tape_needed(&n, i, found); k > 0; k--) {
+            n.given[i] = n.given[i] && n.given[found[k - 1]];
+            n.first[found[k - 1] + 1]++;
+        }
+    }
+    for (int i = 0; i < t->count; i++) {
+        n.first[i + 1] += n.first[i];
+    }
+    n.user = room(n.first[t->count], sizeof *n.user);
+    int *next = room_more(NULL, t->count, sizeof *next);
+    memcpy(next, n.first, (size_t)t->count * sizeof *next);
+    for (int i = 0; i < t->count; i++) {
+        for (int k = tape_needed(&n, i, found); k > 0; k--) {
+            n.user[next[found[k - 1]]++] = i;
+        }
+    }
+    free(next);
+    return n;
+}
+
+static void tape_needs_free(tape_needs *n) {
+    free(n->before);
+    free(n->given);
+    free(n->first);
+    free(n->user);
+}
+
+/* --- how often values are carried ----------------------------------------------------------------*/
+
+/* When each value of a list that is done in some sequence is wanted. */
+typedef struct wanted {
+    int *first; /* [ops + 1]: where a value's times begin in time[] */
+    int *time;  /* places in the sequence; behind its end for results */
+    int *next;  /* [ops]: which of its times comes next */
+} wanted;
+
+/* Value v is wanted at a time: counted first, entered in the second pass. */
+static void want(wanted *w, int pass, int v, int time) {
+    if (pass == 0) {
+        w->first[v + 1]++;
+    } else {
+        w->time[w->next[v]++] = time;
+    }
+}
+
+static wanted wanted_of(const tape *t, const int *sequence, int count) {
+    wanted w = {room((int64_t)t->count + 1, sizeof *w.first), NULL,
+                room_more(NULL, t->count, sizeof *w.next)};
+    int found[TAKEN_MOST];
+    for (int pass = 0; pass < 2; pass++) {
+        for (int at = 0; at < count; at++) {
+            for (int k = tape_taken(t, sequence[at], found); k > 0; k--) {
+                want(&w, pass, found[k - 1], at);
+            }
+        }
+        for (int i = 0; i < t->results; i++) {
+            want(&w, pass, t->result[i], count);
+        }
+        for (int i = 0; i < t->count && pass == 0; i++) {
+            w.first[i + 1] += w.first[i];
+        }
+        w.time = pass == 0 ? room(w.first[t->count], sizeof *w.time) : w.time;
+        memcpy(w.next, w.first, (size_t)t->count * sizeof *w.next);
+    }
+    return w;
+}
+
+static void wanted_free(wanted *w) {
+    free(w->first);
+    free(w->time);
+    free(w->next);
+}
+
+/* When value v is wanted next, or INT_MAX. */
+static int next_time(const wanted *w, int v) {
+    return w->next[v] < w->first[v + 1] ? w->time[w->next[v]] : INT_MAX;
+}
+
+/* Values in registers, and what carrying them has cost. */
+typedef struct registers {
+    int value[TAPE_REGISTERS];
+    int count;
+    bool *stored; /* [ops]: memory has it, too */
+    int carried;
+} registers;
+
+/* Value v gets a register: if need be, that of the one that is wanted last. (What an operation takes is wanted now.) */
+static void hold(const wanted *w, registers *r, int v) {
+    if (r->count == TAPE_REGISTERS) {
+        int last = 0;
+        for (int k = 1; k < TAPE_REGISTERS; k++) {
+            last = next_time(w, r->value[k]) > next_time(w, r->value[last]) ? k : last;
+        }
+        const int gone = r->value[last];
+        if (!r->stored[gone]) {
+            r->stored[gone] = true;
+            r->carried++;
+        }
+        r->value[last] = r->value[--r->count];
+    }
+    r->value[r->count++] = v;
+}
+
+static bool is_held(const registers *r, int v) {
+    int k = 0;
+    while (k < r->count && r->value[k] != v) {
+        k++;
+    }
+    return k < r->count;
+}
+
+/* Loads and stores of values where that is done in this sequence, registers being given up as is best: those whose values
+ * are wanted last (Belady, 1966). */
+static int tape_carried_by(const tape_needs *n, const int *sequence, int count) {
+    wanted w = wanted_of(n->t, sequence, count);
+    registers r = {.stored = room(n->t->count, sizeof *r.stored)};
+    int found[TAKEN_MOST];
+    for (int i = 0; i < n->t->count; i++) {
+        r.stored[i] = n->given[i];
+    }
+    for (int at = 0; at < count; at++) {
+        const int values = tape_taken(n->t, sequence[at], found);
+        for (int k = 0; k < values; k++) {
+            if (!is_held(&r, found[k])) {
+                hold(&w, &r, found[k]);
+                r.carried++;
+            }
+        }
+        for (int k = 0; k < values; k++) {
+            w.next[found[k]]++;
+        }
+        int kept = 0;
+        for (int k = 0; k < r.count; k++) {
+            if (next_time(&w, r.value[k]) < INT_MAX) {
+                r.value[kept++] = r.value[k];
+            }
+        }
+        r.count = kept;
+        if (next_time(&w, sequence[at]) < INT_MAX) {
+            hold(&w, &r, sequence[at]);
+        }
+    }
+    const int carried = r.carried;
+    free(r.stored);
+    wanted_free(&w);
+    return carried;
+}
+
+/* What is computed, that is not given, in the order of the list; to be freed. */
+static int *tape_computed(const tape_needs *n, int *count) {
+    int *sequence = room_more(NULL, n->t->count, sizeof *sequence);
+    *count = 0;
+    for (int i = 0; i < n->t->count; i++) {
+        if (!n->given[i]) {
+            sequence[(*count)++] = i;
+        }
+    }
+    return sequence;
+}
+
+int tape_carried(const tape *t) {
+    tape_needs n = tape_needs_of(t);
+    int count;
+    int *sequence = tape_computed(&n, &count);
+    const int times = tape_carried_by(&n, sequence, count);
+    free(sequence);
+    tape_needs_free(&n);
+    return times;
+}
+
+/* === tape order =============================================================================== */
+/* An order of a finished list's operations in which few values are live at a time.
+ *
+ * A list comes in the order in which it was entered: a whole matrix before its first row is eliminated. Of a large one
+ * more values wait than a processor has registers, and a third of what is executed carries them to memory and back.
+ * Here the next operation is always one that ends the most lives. Of those it is the first as entered, or the one that
+ * is soonest taken for the last time, as entered: two orders. What need not be computed (the state, the pairs of sine and
+ * cosine) is read where it is first wanted.
+ *
+ * That looks one operation ahead. So both are compared with the order as entered, by how often values would be carried,
+ * and the best is taken: a list whose values fit into registers keeps its order. */
+
+typedef struct schedule {
+    const tape_needs *needs;
+    int *waits; /* [ops]: how many of what it needs are still to be computed */
+    int *uses;  /* [ops]: how many operations are still to take it, and results to be it */
+    int *ends;  /* [ops]: how many lives it ends */
+    int *until; /* [ops]: the last that takes it */
+    int *ready; /* those that wait for nothing, in no order */
+    int count;  /* of them */
+    bool *done; /* [ops] */
+} schedule;
+
+/* One operation less will take value v: the last one ends its life. */
+static void use_up(schedule *s, int v) {
+    const tape_needs *n = s->needs;
+    if (--s->uses[v] != 1) {
+        return;
+    }
+    for (int k = n->first[v]; k < n->first[v + 1]; k++) {
+        const int u = n->user[k];
+        if (!s->done[u] && !n->given[u]) {
+            s->ends[u]++;
+            return;
+        }
+    }
+}
+
+static schedule schedule_of(const tape_needs *n) {
+    const tape *t = n->t;
+    schedule s = {.needs = n,
+                  .waits = room(t->count, sizeof *s.waits),
+                  .uses = room(t->count, sizeof *s.uses),
+                  .ends = room(t->count, sizeof *s.ends),
+                  .until = room(t->count, sizeof *s.until),
+                  .ready = room_more(NULL, t->count, sizeof *s.ready),
+                  .done = room(t->count, sizeof *s.done)};
+    int found[NEEDED_MOST];
+    for (int i = 0; i < t->count; i++) {
+        if (n->given[i]) {
+            continue;
+        }
+        for (int k = tape_needed(n, i, found); k > 0; k--) {
+            s.waits[i] += !n->given[found[k - 1]];
+        }
+        for (int k = tape_taken(t, i, found); k > 0; k--) {
+            s.uses[found[k - 1]]++;
+        }
+        if (s.waits[i] == 0) {
+            s.ready[s.count++] = i;
+        }
+    }
+    for (int v = 0; v < t->count; v++) {
+        s.until[v] = n->first[v] < n->first[v + 1] ? n->user[n->first[v + 1] - 1] : v;
+    }
+    for (int i = 0; i < t->results; i++) {
+        s.uses[t->result[i]] += 2; /* never ends */
+        s.until[t->result[i]] = t->count;
+    }
+    for (int v = 0; v < t->count; v++) {
+        s.uses[v]++;
+        use_up(&s, v);
+    }
+    return s;
+}
+
+static void schedule_free(schedule *s) {
+    free(s->waits);
+    free(s->uses);
+    free(s->ends);
+    free(s->until);
+    free(s->ready);
+    free(s->done);
+}
+
+/* Which one of those that end as many lives comes first. */
+typedef enum first_of { AS_ENTERED, SOONEST_DONE, FIRST_OF } first_of;
+
+/* Is operation i to come before operation j? */
+static bool leads(const schedule *s, first_of way, int i, int j) {
+    if (s->ends[i] != s->ends[j]) {
+        return s->ends[i] > s->ends[j];
+    }
+    const bool soonest = way == SOONEST_DONE && s->until[i] != s->until[j];
+    return soonest ? s->until[i] < s->until[j] : i < j;
+}
+
+/* The next operation, no longer among those that are ready. */
+static int take_best(schedule *s, first_of way) {
+    int best = 0;
+    for (int k = 1; k < s->count; k++) {
+        best = leads(s, way, s->ready[k], s->ready[best]) ? k : best;
+    }
+    const int i = s->ready[best];
+    s->ready[best] = s->ready[--s->count];
+    return i;
+}
+
+/* A sequence of what is computed. */
+static int *ending_lives(const tape_needs *n, int count, first_of way) {
+    schedule s = schedule_of(n);
+    int *sequence = room_more(NULL, count, sizeof *sequence);
+    int found[TAKEN_MOST];
+    for (int at = 0; at < count; at++) {
+        const int i = take_best(&s, way);
+        sequence[at] = i;
+        s.done[i] = true;
+        for (int k = tape_taken(n->t, i, found); k > 0; k--) {
+            use_up(&s, found[k - 1]);
+        }
+        for (int k = n->first[i]; k < n->first[i + 1]; k++) {
+            const int u = n->user[k];
+            if (--s.waits[u] == 0 && !n->given[u]) {
+                s.ready[s.count++] = u;
+            }
+        }
+    }
+    schedule_free(&s);
+    return sequence;
+}
+
+/* --- the list in its new order -------------------------------------------------------------------*/
+
+typedef struct placing {
+    const tape_needs *needs;
+    int *order;  /* [ops]: which operation stands there */
+    int *number; /* [ops]: where it stands, or -1 */
+    int count;
+} placing;
+
+/* Operation i, and before it what is given and has not been wanted yet. */
+static void put_next(placing *p, int i) {
+    int found[NEEDED_MOST];
+    const int count = p->number[i] < 0 ? tape_needed(p->needs, i, found) : 0;
+    for (int k = 0; k < count; k++) {
+        put_next(p, found[k]);
+    }
+    if (p->number[i] < 0) {
+        p->number[i] = p->count;
+        p->order[p->count++] = i;
+    }
+}
+
+static void reorder(tape *t, const tape_needs *n, const int *sequence, int count) {
+    placing p = {n, room_more(NULL, t->count, sizeof *p.order),
+                 room_more(NULL, t->count, sizeof *p.number), 0};
+    memset(p.number, -1, (size_t)t->count * sizeof *p.number);
+    for (int at = 0; at < count; at++) {
+        put_next(&p, sequence[at]);
+    }
+    for (int i = 0; i < t->count; i++) { /* what only results are, or nobody wants */
+        put_next(&p, i);
+    }
+    tape_renumber(t, p.order, p.number);
+    free(p.order);
+    free(p.number);
+}
+
+void tape_order(tape *t) {
+    if (t->count <= TAPE_REGISTERS) {
+        return;
+    }
+    tape_needs n = tape_needs_of(t);
+    int count;
+    int *best = tape_computed(&n, &count);
+    int least = tape_carried_by(&n, best, count);
+    bool moved = false;
+    for (int way = 0; way < FIRST_OF; way++) {
+        int *tried = ending_lives(&n, count, (first_of)way);
+        const int carried = tape_carried_by(&n, tried, count);
+        if (carried < least) {
+            int *worse = best;
+            best = tried;
+            tried = worse;
+            least = carried;
+            moved = true;
+        }
+        free(tried);
+    }
+    if (moved) {
+        reorder(t, &n, best, count);
+    }
+    free(best);
+    tape_needs_free(&n);
+}
+
+/* === sums that are there already ============================================================== */
+/* A + 2 b where a + b is there already is (a + b) + b: a product less.
+ *
+ * Such pairs come with kinetic energies: a chain of two arms moves with sin x + sin y, and its forces have
+ * sin x + 2 sin y. */
+
+/* b, where operation i is 2 b and nobody but one takes it; else -1. */
+static int doubled(const tape *t, const int *uses, int i) {
+    const op *o = &t->ops[i];
+    double two;
+    if (o->code != OP_MUL || uses[i] != 1) {
+        return -1;
+    }
+    if (tape_is_constant(t, o->a, &two) && two == 2.0) {
+        return o->b;
+    }
+    return tape_is_constant(t, o->b, &two) && two == 2.0 ? o->a : -1;
+}
+
+/* Half of what sum i adds, the twice taken part once, and that part; false if the list has no such half. */
+static bool half_of(const tape *t, const int *uses, int i, int *half, int *part) {
+    const op *o = &t->ops[i];
+    const int twice_a = doubled(t, uses, o->a);
+    const int twice_b = doubled(t, uses, o->b);
+    *half = -1;
+    if (twice_b >= 0) {
+        *part = twice_b;
+        *half = tape_find_binary(t, o->code, o->a, twice_b);
+    }
+    if (*half < 0 && twice_a >= 0) {
+        *part = twice_a;
+        *half = tape_find_binary(t, o->code, twice_a, o->b);
+    }
+    return *half >= 0;
+}
+
+static int *uses_of(const tape *t) {
+    int *uses = room(t->count, sizeof *uses);
+    int operand[2];
+    for (int i = 0; i < t->count; i++) {
+        for (int k = tape_operands(&t->ops[i], operand); k > 0; k--) {
+            uses[operand[k - 1]]++;
+        }
+    }
+    for (int i = 0; i < t->results; i++) {
+        uses[t->result[i]]++;
+    }
+    return uses;
+}
+
+typedef struct walk {
+    const tape *t;
+    int *order;
+    int *number; /* -1: not there yet */
+    int count;
+} walk;
+
+/* Operation i behind all that it takes: most of that stands there already. */
+static void put(walk *w, int i) {
+    int operand[2];
+    if (w->number[i] >= 0) {
+        return;
+    }
+    const int count = tape_operands(&w->t->ops[i], operand);
+    for (int k = 0; k < count; k++) {
+        put(w, operand[k]);
+    }
+    w->number[i] = w->count;
+    w->order[w->count++] = i;
+}
+
+/* A half may stand behind what takes it now. */
+static void put_in_order(tape *t) {
+    walk w = {t, room(t->count, sizeof *w.order), room(t->count, sizeof *w.number), 0};
+    for (int i = 0; i < t->count; i++) {
+        w.number[i] = -1;
+    }
+    for (int i = 0; i < t->count; i++) {
+        put(&w, i);
+    }
+    tape_renumber(t, w.order, w.number);
+    free(w.order);
+    free(w.number);
+}
+
+void tape_share_sums(tape *t) {
+    int *uses = uses_of(t);
+    bool shared = false;
+    for (int i = 0; i < t->count; i++) {
+        op *o = &t->ops[i];
+        int half;
+        int part;
+        if ((o->code == OP_ADD || o->code == OP_SUB) && half_of(t, uses, i, &half, &part)) {
+            /* 2 b - a = (b - a) + b */
+            const op_code code = o->code == OP_SUB && t->ops[half].b == part ? OP_SUB : OP_ADD;
+            *o = (op){.code = code, .function = FUNCTION_NONE, .a = half, .b = part};
+            uses[part] += 1;
+            uses[half] += 1;
+            shared = true;
+        }
+    }
+    free(uses);
+    if (shared) {
+        put_in_order(t);
+        tape_prune(t);
+    }
+}
+
+/* === what is needed, and its cost ============================================================= */
 
 int tape_operands(const op *o, int operand[static 2]) {
     const bool values = op_rows[o->code].values > 0;

@@ -4,7 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "expression.h"
+#include "host/lang/expression.h"
 
 /* A derivative that is 0 has no tree: *d is NULL. All functions return false after an error. */
 static bool derive(parser *in, const expr *of, const token *name, const expr **d);

@@ -7,12 +7,349 @@
  *   primary := NUMBER [UNIT] | NAME | FUNCTION ( sum {, sum} ) | ( sum )
  *
  * Recursion is bounded by NESTING_MAX. */
+#include "host/lang/expression.h"
+
+#include <ctype.h>
 #include <stdio.h>
 #include <string.h>
 
-#include "expression.h"
+#include "host/lang/cursor.h"
 
-#include "cursor.h"
+#define PI 3.14159265358979323846
+
+static const char *skip_blanks(const char *text) {
+    while (*text == ' ' || *text == '\t') {
+        text++;
+    }
+    return text;
+}
+
+static bool continues_name(char c) { return isalnum((unsigned char)c) || c == '_'; }
+
+int name_declared_later(const token *name) {
+    const source *from = name->at.source;
+    const char *text = from->text + name->at.offset;
+    const char *const end = from->text + from->length;
+    int line = name->at.line;
+    while ((text = memchr(text, '\n', (size_t)(end - text))) != NULL) {
+        line++;
+        text = skip_blanks(text + 1);
+        size_t length = 0;
+        while (continues_name(text[length])) {
+            length++;
+        }
+        const int word = word_find(text, length);
+        if (word == WORD_MECHANISM) {
+            return 0;
+        }
+        if (word != WORDS && (word_row((word_id)word)->rules & DECLARES) != 0) {
+            const char *declared = skip_blanks(text + length);
+            if (strncmp(declared, name->text, name->length) == 0 &&
+                !continues_name(declared[name->length])) {
+                return line;
+            }
+        }
+    }
+    return 0;
+}
+
+/* "x'" for a rate as others write it, such as xdot, of a name that has one; false: it is none. */
+static bool rate_hint(parser *in, const token *name, char *hint, size_t size) {
+    static const char *const forms[][3] = {
+        {"", "dot", "'"}, {"", "_dot", "'"}, {"", "ddot", "''"}, {"", "_ddot", "''"},
+        {"d", "", "'"},   {"dd", "", "''"},  {"d", "dt", "'"},   {"d", "_dt", "'"}};
+    for (size_t i = 0; i < sizeof forms / sizeof forms[0] && in->names != NULL; i++) {
+        const size_t before = strlen(forms[i][0]);
+        const size_t behind = strlen(forms[i][1]);
+        if (name->length > before + behind && strncmp(name->text, forms[i][0], before) == 0 &&
+            strncmp(name->text + name->length - behind, forms[i][1], behind) == 0) {
+            const size_t length = name->length - before - behind;
+            const named *found = names_find(in->names, name->text + before, length);
+            if (found != NULL && !found->is_placeholder &&
+                (found->symbol.kind == SYM_COORDINATE || found->symbol.kind == SYM_STATE ||
+                 found->symbol.kind == SYM_LET)) {
+                snprintf(hint, size, "write %s%s", found->symbol.name, forms[i][2]);
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
+static void report_unknown(parser *in, const token *name) {
+    char hint[200] = "";
+    char words[80];
+    const char *first = first_word_hint(name->text, name->length);
+    const int later = in->builder != NULL && !in->all_effects ? name_declared_later(name) : 0;
+    if (later == 0 && first != NULL) {
+        snprintf(hint, sizeof hint, "%s", first);
+    } else if (later > 0) {
+        snprintf(hint, sizeof hint, "it is declared later, in line %d: move that line up", later);
+    } else if (!rate_hint(in, name, hint, sizeof hint)) {
+        nearest search = nearest_start(name->text, name->length);
+        names_offer(in->names, in->all_effects ? -2 : in->effect, &search);
+        for (int f = 0; f < FUNCTIONS; f++) {
+            if (parser_is_sign(in, '(')) {
+                nearest_offer(&search, function_name((function_id)f));
+            }
+        }
+        if (search.best != NULL) {
+            snprintf(hint, sizeof hint, "did you mean '%s'?", search.best);
+        }
+    }
+    token plain = *name;
+    plain.primes = 0;
+    diag_error(in->diags, name->at, hint[0] == '\0' ? NULL : hint, "unknown name %s",
+               token_words(&plain, words, sizeof words));
+}
+
+static void report_reserved(parser *in, const token *name) {
+    static const word_id quantities[] = {WORD_T, WORD_V, WORD_F, WORD_Q};
+    for (size_t i = 0; i < sizeof quantities / sizeof quantities[0]; i++) {
+        if (word_is(quantities[i], name->text, name->length)) {
+            const statement_word *word = word_row(quantities[i]);
+            diag_error(in->diags, name->at, "give the expression a name with let",
+                       "%s is %s and cannot be used in an expression", word->text,
+                       term_meaning((term_kind)word->kind));
+            return;
+        }
+    }
+    diag_error(in->diags, name->at, first_word_hint(name->text, name->length),
+               "'%.*s' is a reserved word", (int)name->length, name->text);
+}
+
+/* May a symbol of this kind, with so many primes, stand here? `written` is its name in the text. */
+static bool allowed_here(parser *in, const token *name, const symbol *found, const token *written) {
+    const bool is_unknown = found->kind == SYM_COORDINATE || found->kind == SYM_STATE;
+    const bool by_let = found->kind == SYM_LET && found->value != NULL;
+    const int order = is_unknown ? name->primes : by_let ? found->value->order : 0;
+    const unsigned uses = by_let ? found->value->uses : 0;
+    char words[80];
+    token_words(written, words, sizeof words);
+    if (found->effect >= 0 && found->effect != in->effect && !in->all_effects) {
+        diag_error(in->diags, name->at, "declare it in the mechanism to use it elsewhere",
+                   "%s belongs to the effect '%s'", words,
+                   in->builder->made->effects[found->effect].name);
+        return false;
+    }
+    if (name->primes > 0 && !is_unknown) {
+        diag_error(in->diags, name->at, "only coordinates, states and lets take primes",
+                   "'%s' is %s: it has no derivative", found->name, symbol_kind_words(found->kind));
+        return false;
+    }
+    if (found->kind == SYM_OUTPUT && in->context != CONTEXT_OUTPUT) {
+        diag_error(in->diags, name->at, "give its expression a name with let",
+                   "%s is an output: only later outputs can use it", words);
+        return false;
+    }
+    switch (in->context) {
+    case CONTEXT_CONSTANT:
+        if (found->kind == SYM_INPUT || (uses & USES_INPUT) != 0) {
+            diag_error(in->diags, name->at, NULL,
+                       "%s changes while running: only numbers and parameters can stand here",
+                       words);
+            return false;
+        }
+        if (is_unknown || (uses & USES_UNKNOWNS) != 0) {
+            diag_error(in->diags, name->at, NULL,
+                       "%s depends on the motion: only numbers and parameters can stand here",
+                       words);
+            return false;
+        }
+        break;
+    case CONTEXT_FORCE:
+        if (order > 1) {
+            diag_error(in->diags, name->at, NULL,
+                       "T, V, F and Q take no second derivative, as %s %s", words,
+                       by_let ? "has" : "is");
+            return false;
+        }
+        break;
+    case CONTEXT_GAP:
+        if (order > 0) {
+            diag_error(in->diags, name->at, "write what is to be limited or held, not its rate",
+                       "stop and hold act on coordinates: they take no rate, as %s %s", words,
+                       by_let ? "has" : "is");
+            return false;
+        }
+        break;
+    case CONTEXT_EVENT:
+        if (order > 1) {
+            diag_error(in->diags, name->at,
+                       "write it with coordinates and rates: whirl derive prints the expression "
+                       "of each second derivative",
+                       "stop, friction, hold and when take no second derivative, as %s %s", words,
+                       by_let ? "has" : "is");
+            return false;
+        }
+        break;
+    case CONTEXT_LET:
+    case CONTEXT_OUTPUT:
+        if (order > 2 && (found->kind == SYM_COORDINATE ||
+                          (by_let && in->builder != NULL && !in->builder->has_equations))) {
+            diag_error(in->diags, name->at, NULL, "a coordinate takes at most two primes here");
+            return false;
+        }
+        break;
+    case CONTEXT_EQUATION: break;
+    }
+    return true;
+}
+
+static void set_dimension(parser *in, expr *made, const token *name) {
+    dimension per_time = dim_none();
+    made->dim = made->symbol->dim;
+    if (name->primes > 0 && !made->dim.unknown) {
+        if (!dim_power(dim_of(0, 0, -1, 0, 0), name->primes, &per_time) ||
+            !dim_multiply(made->dim, per_time, &made->dim)) {
+            diag_error(in->diags, name->at, NULL,
+                       "the exponents of this dimension are out of range");
+            made->dim.unknown = true;
+        }
+    }
+}
+
+static const expr *unknown_value(expr *made) {
+    made->dim = dim_none();
+    made->dim.unknown = true;
+    return made;
+}
+
+/* Rules for height, order and uses of a name: those of its expression, where it stands for one. */
+static const expr *take_properties(parser *in, expr *made, const token *name) {
+    const symbol *found = made->symbol;
+    switch (found->kind) {
+    case SYM_COORDINATE:
+    case SYM_STATE:
+        made->uses = USES_UNKNOWNS;
+        made->order = name->primes;
+        break;
+    case SYM_PARAMETER:
+    case SYM_INPUT:
+        made->uses = found->kind == SYM_PARAMETER ? USES_PARAMETER : USES_INPUT;
+        made->uses |= found->value == NULL ? USES_UNIT : found->value->uses & USES_UNIT;
+        break;
+    case SYM_LET:
+    case SYM_OUTPUT:
+    case SYM_RECORD:
+        made->uses = found->kind == SYM_OUTPUT ? USES_OUTPUT : 0;
+        if (found->value != NULL) {
+            /* A let of plain numbers is no plain number: its name stands for a quantity. */
+            made->uses |= found->value->uses | (found->kind == SYM_LET ? USES_UNIT : 0);
+            made->order = found->value->order;
+            made->height = found->value->height + 1;
+        }
+        if (made->height > EXPR_HEIGHT_MAX) {
+            diag_error(in->diags, name->at, NULL,
+                       "'%s' and what it stands for are more than %d operators deep", found->name,
+                       EXPR_HEIGHT_MAX);
+            return NULL;
+        }
+        break;
+    }
+    return made;
+}
+
+const expr *expr_name(parser *in, const token *name) {
+    expr *made = expr_new(in, EXPR_SYMBOL, name->at);
+    if (token_is_word(name, WORD_PI)) {
+        made->op = EXPR_NUMBER;
+        made->number = PI;
+        made->exact = enclosure_pi();
+        return made;
+    }
+    if (word_is_reserved(name->text, name->length)) {
+        report_reserved(in, name);
+        return unknown_value(made);
+    }
+    named *found = in->names == NULL ? NULL : names_find(in->names, name->text, name->length);
+    if (found == NULL) {
+        if (in->names == NULL) {
+            diag_error(in->diags, name->at, NULL, "only numbers can stand here");
+            return unknown_value(made);
+        }
+        report_unknown(in, name);
+        if (in->builder != NULL && !in->all_effects) {
+            /* Told once: the name is known as unknown from here on. */
+            found = names_add(in->builder->names, name->text, name->length);
+            found->is_placeholder = true;
+            found->symbol.kind = SYM_LET;
+            found->symbol.dim.unknown = true;
+        }
+        return unknown_value(made);
+    }
+    if (found->is_placeholder) {
+        if (found->symbol.kind == SYM_INPUT) { /* named as a rate only */
+            report_unknown(in, name);
+            found->symbol.kind = SYM_LET;
+        }
+        return unknown_value(made);
+    }
+    if (found->is_open) {
+        diag_error(in->diags, name->at, NULL, "'%s' is used in its own declaration",
+                   found->symbol.name);
+        return unknown_value(made);
+    }
+    token plain = *name;
+    made->symbol = &found->symbol;
+    while (made->symbol->kind == SYM_LET && plain.primes > 0) {
+        if (made->symbol->value == NULL || made->symbol->dim.unknown) {
+            return unknown_value(made); /* reported */
+        }
+        made->symbol = let_rate(in, made->symbol, name);
+        if (made->symbol == NULL) {
+            return unknown_value(made);
+        }
+        plain.primes--;
+    }
+    if (!allowed_here(in, &plain, made->symbol, name)) {
+        return unknown_value(made);
+    }
+    made->primes = plain.primes;
+    set_dimension(in, made, &plain);
+    return take_properties(in, made, &plain);
+}
+
+void no_such_coordinate(parser *in, const token *name) {
+    char words[80];
+    token_words(name, words, sizeof words);
+    nearest search = nearest_start(name->text, name->length);
+    char hint[120] = "";
+    const mechanism *inside = in->builder->made;
+    for (int i = 0; i < inside->coordinate_count; i++) {
+        nearest_offer(&search, inside->coordinates[i]->name);
+    }
+    if (search.best != NULL) {
+        snprintf(hint, sizeof hint, "did you mean '%s'?", search.best);
+    }
+    diag_error(in->diags, name->at, hint[0] == '\0' ? NULL : hint, "unknown coordinate %s", words);
+}
+
+const symbol *find_coordinate(parser *in, const token *name, const char *whose) {
+    const named *found = names_find(in->builder->names, name->text, name->length);
+    char words[80];
+    token_words(name, words, sizeof words);
+    if (found != NULL && !found->is_placeholder &&
+        (found->symbol.kind == SYM_COORDINATE || found->symbol.kind == SYM_STATE)) {
+        if (name->primes > 0) {
+            diag_error(in->diags, name->at, NULL, "%s belongs to a coordinate, without primes",
+                       whose);
+            return NULL;
+        }
+        return &found->symbol;
+    }
+    if (found != NULL && !found->is_placeholder) {
+        diag_error(in->diags, name->at, NULL, "%s belongs to a coordinate, which %s is not", whose,
+                   words);
+        return NULL;
+    }
+    if (found == NULL || found->symbol.kind == SYM_INPUT) { /* else it was reported */
+        no_such_coordinate(in, name);
+    }
+    return NULL;
+}
+
+/* === the grammar ============================================================================== */
 
 static const expr *parse_sum(parser *in);
 static const expr *parse_signed(parser *in);

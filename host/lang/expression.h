@@ -1,12 +1,12 @@
-/* expression.h: reading expressions: the grammar (expression.c, condition.c), names (reference.c), and what
+/* expression.h: reading expressions: the grammar (expression.c, contact_statement.c), names (expression.c), and what
  * operators make of dimensions (operators.c). Recursion is bounded by NESTING_MAX and EXPR_HEIGHT_MAX. */
 #ifndef LANG_EXPRESSION_H
 #define LANG_EXPRESSION_H
 
-#include "parser.h"
-#include "words.h"
+#include "host/lang/parser.h"
+#include "host/lang/words.h"
 
-/* --- grammar (expression.c, condition.c) --- */
+/* --- grammar (expression.c, contact_statement.c) --- */
 const expr *parse_expression(parser *in, expr_context context); /* NULL: gave up */
 bool parse_close(parser *in, place open);                       /* the ')' that closes `open` */
 /* Comparisons joined by `and`, `or` as one expression: true when above zero. The statement is for hints. */
@@ -14,7 +14,7 @@ const expr *parse_condition(parser *in, word_id statement);
 /* The unit token in hand; *text is set to what it says, without blanks. */
 bool parse_unit(parser *in, unit_scale *result, const char **text);
 
-/* --- names (reference.c) --- */
+/* --- names (expression.c) --- */
 const expr *expr_name(parser *in, const token *name);
 /* The line in which a later statement of the mechanism declares the name, or 0. */
 int name_declared_later(const token *name);

@@ -2,8 +2,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "host/lang/statements.h"
 #include "shown.h"
-#include "statements.h"
 
 const symbol *symbol_moving(const symbol *s, int *primes) {
     if (s->kind != SYM_INPUT || s->driven == NULL) {

@@ -11,12 +11,12 @@
 #include <stdint.h>
 
 #include "host/base/diag.h"
+#include "host/lang/units.h"
 #include "host/number/enclosure.h"
 #include "host/number/folding.h"
 #include "host/number/functions.h"
 #include "host/number/ratio.h"
 #include "kinds.h"
-#include "units.h"
 
 /* --- symbols ----------------------------------------------------------------------------------- */
 

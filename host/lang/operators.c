@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "expression.h"
+#include "host/lang/expression.h"
 #include "shown.h"
 #include "value.h"
 

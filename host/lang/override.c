@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "cursor.h"
-#include "expression.h"
+#include "host/lang/expression.h"
 #include "value.h"
 
 static parser begin(const mechanism *of, const char *text, struct arena *arena, diags *all) {

@@ -1,5 +1,5 @@
 /* parser.h: what is known while a text is read. Its floor is cursor.h (tokens), above it come expressions
- * (expression.h) and statements (statements.h); model_parse.c is the roof. */
+ * (expression.h) and statements (statements.h); statements.c is the roof. */
 #ifndef LANG_PARSER_H
 #define LANG_PARSER_H
 

@@ -1,8 +1,355 @@
-/* scene.c: scene blocks. They are read last, so that they may name effects that follow them. */
-#include "scene_block.h"
-
+/* scene_block.c: scene blocks. They are read last, so that they may name effects that follow them. */
 #include <stdio.h>
 #include <string.h>
+
+#include "host/lang/override.h"
+#include "host/lang/statements.h"
+#include "host/lang/value.h"
+
+/* NAME of a symbol of the mechanism; *found is NULL when it is none (reported). */
+static bool scene_take_symbol(parser *in, draft *into, const statement_word *word, token *name,
+                              named **found);
+/* ITEM {, ITEM}: a line may end after a comma. */
+static bool scene_list(parser *in, const statement_word *word, statement_reader *read);
+
+static bool is_number(const expr *tree) {
+    while (tree->op == EXPR_NEG) {
+        tree = tree->left;
+    }
+    return tree->op == EXPR_NUMBER;
+}
+
+/* -5 .. 5 [m]: a bare number before a number with a unit has that unit, too. */
+static const expr *with_unit(parser *in, const expr *low, const expr *high) {
+    if (!is_number(low) || !is_number(high) || low->uses != 0 || (high->uses & USES_UNIT) == 0) {
+        return low;
+    }
+    expr *made = expr_new(in, EXPR_NUMBER, low->at);
+    made->number = expr_value(low, NULL) * in->number_unit.scale / in->number_unit.divisor;
+    made->dim = in->number_unit.dim;
+    made->dim.any = made->number == 0.0;
+    made->uses = USES_UNIT;
+    return made;
+}
+
+static bool has_range(parser *in, const token *name, const named *found) {
+    const symbol *what = &found->symbol;
+    const bool moves = what->kind == SYM_COORDINATE || what->kind == SYM_STATE;
+    const scene *made = in->draft->made;
+    if (!moves && what->kind != SYM_INPUT) {
+        diag_error(in->diags, name->at, NULL,
+                   "range takes coordinates, their rates and inputs, and '%s' is none", what->name);
+        return false;
+    }
+    if ((moves && what->order > 0 && name->primes >= what->order) || (!moves && name->primes > 0)) {
+        diag_error(in->diags, name->at, NULL, "range takes '%s' with %s", what->name,
+                   moves ? "fewer primes: what follows from the equations has no range"
+                         : "no prime: an input has no rate");
+        return false;
+    }
+    for (int i = 0; i < made->range_count; i++) {
+        if (made->ranges[i].symbol == what && made->ranges[i].primes == name->primes) {
+            diag_error(in->diags, name->at, NULL,
+                       "the range of '%s%.*s' was already given in line %d", what->name,
+                       name->primes, "'''''''''", made->ranges[i].at.line);
+            return false;
+        }
+    }
+    return true;
+}
+
+static bool range_item(parser *in, const statement_word *word) {
+    draft *into = in->draft;
+    scene *made = into->made;
+    token name;
+    named *found = NULL;
+    dimension wanted = dim_none();
+    char words[80];
+    char rule[RULE_SIZE];
+    if (!scene_take_symbol(in, into, word, &name, &found)) {
+        return false;
+    }
+    bool usable = found != NULL && !found->is_placeholder && has_range(in, &name, found);
+    usable = usable && dim_power(dim_of(0, 0, -1, 0, 0), name.primes, &wanted) &&
+             dim_multiply(found->symbol.dim, wanted, &wanted);
+    token_words(&name, words, sizeof words);
+    if (!parser_expect_sign(in, '=', "behind the name")) {
+        return false;
+    }
+    const place low_at = in->token.at;
+    const expr *low = parse_expression(in, CONTEXT_CONSTANT);
+    if (low == NULL || !parser_is_sign(in, SIGN_TO)) {
+        return low == NULL
+                   ? false
+                   : parser_fail(in, word->form, "'..' is missing in the range of %s", words);
+    }
+    parser_next(in);
+    const place high_at = in->token.at;
+    const expr *high = parse_expression(in, CONTEXT_CONSTANT);
+    if (high == NULL) {
+        return false;
+    }
+    if (!usable) {
+        return true;
+    }
+    low = with_unit(in, low, high);
+    dimension_rule(rule, words, "is", wanted);
+    if (check_unit(in, high_at, high, &found->symbol, name.primes) &&
+        check_unit(in, low_at, low, &found->symbol, name.primes) &&
+        check_dimension(in, low_at, low, wanted, rule) &&
+        check_dimension(in, high_at, high, wanted, rule)) {
+        range_statement *longer = arena_room(in->arena, (range_statement *)made->ranges,
+                                             made->range_count, sizeof *longer);
+        longer[made->range_count++] =
+            (range_statement){&found->symbol, name.primes, low, high, name.at};
+        made->ranges = longer;
+    }
+    return true;
+}
+
+bool read_range(parser *in, const statement_word *word) { return scene_list(in, word, range_item); }
+
+/* === what the lists of a scene hold: with, set, start, conserve =============================== */
+
+/* "WORD needs a name": the token in hand is none. */
+static bool scene_fail_name(parser *in, const statement_word *word) {
+    char words[80];
+    return parser_fail(
+        in,
+        in->token.kind == TOKEN_NUMBER ? "NAME = VALUE; a number has a decimal point: 0.1" : NULL,
+        "%s needs a name, not %s", word->text, token_words(&in->token, words, sizeof words));
+}
+
+static bool with_item(parser *in, const statement_word *word) {
+    draft *into = in->draft;
+    if (in->token.kind != TOKEN_NAME) {
+        return scene_fail_name(in, word);
+    }
+    const token name = in->token;
+    const mechanism *of = into->made->mechanism;
+    parser_next(in);
+    if (token_is_word(&name, WORD_NONE)) {
+        return true;
+    }
+    if (token_is_word(&name, WORD_LEDGER)) {
+        into->made->ledger = true;
+        return true;
+    }
+    for (int i = 0; i < of->effect_count; i++) {
+        if (token_is(&name, of->effects[i].name)) {
+            into->with[i] = true;
+            return true;
+        }
+    }
+    char hint[EFFECT_HINT];
+    char words[80];
+    diag_error(in->diags, name.at, effect_hint(of, name.text, name.length, hint),
+               "unknown effect %s", token_words(&name, words, sizeof words));
+    return true;
+}
+
+static bool scene_take_symbol(parser *in, draft *into, const statement_word *word, token *name,
+                              named **found) {
+    if (in->token.kind != TOKEN_NAME) {
+        return scene_fail_name(in, word);
+    }
+    *name = in->token;
+    parser_next(in);
+    *found = names_find(into->of->names, name->text, name->length);
+    if (*found != NULL) {
+        return true;
+    }
+    nearest search = nearest_start(name->text, name->length);
+    char hint[120] = "";
+    char words[80];
+    names_offer(into->of->names, -2, &search);
+    if (search.best != NULL) {
+        snprintf(hint, sizeof hint, "did you mean '%s'?", search.best);
+    }
+    diag_error(in->diags, name->at, hint[0] == '\0' ? NULL : hint,
+               "%s is unknown in mechanism '%s'", token_words(name, words, sizeof words),
+               into->made->mechanism->name);
+    return true;
+}
+
+/* = EXPR of the symbol, with the wanted dimension (not checked when the name is unknown: NULL). */
+static bool parse_assigned(parser *in, const token *name, const symbol *of, dimension wanted,
+                           const expr **value) {
+    char words[80];
+    token_words(name, words, sizeof words);
+    if (!parser_is_sign(in, '=')) {
+        char next[80];
+        return parser_fail(in, NULL, "'=' is missing after %s, before %s", words,
+                           token_words(&in->token, next, sizeof next));
+    }
+    parser_next(in);
+    const place at = in->token.at;
+    *value = parse_expression(in, CONTEXT_CONSTANT);
+    if (*value == NULL) {
+        return false;
+    }
+    char rule[RULE_SIZE];
+    if (of != NULL && check_unit(in, at, *value, of, name->primes)) {
+        check_dimension(in, at, *value, wanted, dimension_rule(rule, words, "is", wanted));
+    }
+    return true;
+}
+
+static bool set_item(parser *in, const statement_word *word) {
+    draft *into = in->draft;
+    token name;
+    named *found = NULL;
+    const expr *value = NULL;
+    if (!scene_take_symbol(in, into, word, &name, &found)) {
+        return false;
+    }
+    bool usable = found != NULL && !found->is_placeholder;
+    if (usable && found->symbol.kind != SYM_PARAMETER && found->symbol.kind != SYM_INPUT) {
+        const bool moves = found->symbol.kind == SYM_COORDINATE || found->symbol.kind == SYM_STATE;
+        diag_error(in->diags, name.at, moves ? "give its initial value with start" : NULL,
+                   "only parameters and inputs can be set, and '%s' is none", found->symbol.name);
+        usable = false;
+    } else if (usable && name.primes > 0) {
+        diag_error(in->diags, name.at, NULL, "'%s' has no derivative", found->symbol.name);
+        usable = false;
+    } else if (usable && found->mark == into->number) {
+        diag_error(in->diags, name.at, NULL, "'%s' was already set in line %d", found->symbol.name,
+                   found->mark_at.line);
+    }
+    if (!parse_assigned(in, &name, usable ? &found->symbol : NULL,
+                        usable ? found->symbol.dim : dim_none(), &value)) {
+        return false;
+    }
+    if (usable) {
+        scene *made = into->made;
+        found->mark = into->number;
+        found->mark_at = name.at;
+        assignment *longer =
+            arena_room(in->arena, (assignment *)made->sets, made->set_count, sizeof *longer);
+        longer[made->set_count++] = (assignment){&found->symbol, 0, value, name.at};
+        made->sets = longer;
+    }
+    return true;
+}
+
+/* When the scene has been read: what it sets must belong to effects that it names, which may stand behind. */
+static void scene_check_sets(parser *in, const draft *read) {
+    const scene *made = read->made;
+    for (int i = 0; i < made->set_count; i++) {
+        const assignment *each = &made->sets[i];
+        const int of = each->symbol->effect;
+        if (of >= 0 && !read->with[of]) {
+            const char *name = made->mechanism->effects[of].name;
+            char hint[120];
+            snprintf(hint, sizeof hint, "add to the scene: with %.80s", name);
+            diag_error(in->diags, each->at, hint,
+                       "'%s' belongs to the effect '%s', which this scene does not name",
+                       each->symbol->name, name);
+        }
+    }
+}
+
+static void check_started_once(parser *in, const scene *made, const symbol *what,
+                               const token *name) {
+    for (int i = 0; i < made->start_count; i++) {
+        if (made->starts[i].symbol == what && made->starts[i].primes == name->primes) {
+            char words[80];
+            diag_error(in->diags, name->at, NULL, "%s was already given in line %d",
+                       token_words(name, words, sizeof words), made->starts[i].at.line);
+        }
+    }
+}
+
+static bool start_item(parser *in, const statement_word *word) {
+    draft *into = in->draft;
+    token name;
+    named *found = NULL;
+    const expr *value = NULL;
+    dimension wanted = dim_none();
+    if (!scene_take_symbol(in, into, word, &name, &found)) {
+        return false;
+    }
+    bool usable = found != NULL && !found->is_placeholder;
+    if (usable && found->symbol.kind != SYM_COORDINATE && found->symbol.kind != SYM_STATE) {
+        const bool sets = found->symbol.kind == SYM_PARAMETER || found->symbol.kind == SYM_INPUT;
+        diag_error(in->diags, name.at, sets ? "use set for it" : NULL,
+                   "start takes coordinates and their rates, and '%s' is none", found->symbol.name);
+        usable = false;
+    } else if (usable && name.primes >= found->symbol.order && found->symbol.order > 0) {
+        diag_error(in->diags, name.at, NULL,
+                   "start takes '%s' with at most %d prime%s: the next follows from the equations",
+                   found->symbol.name, found->symbol.order - 1,
+                   found->symbol.order == 2 ? "" : "s");
+        usable = false;
+    } else if (usable) {
+        check_started_once(in, into->made, &found->symbol, &name);
+        usable = dim_power(dim_of(0, 0, -1, 0, 0), name.primes, &wanted) &&
+                 dim_multiply(found->symbol.dim, wanted, &wanted);
+    }
+    if (!parse_assigned(in, &name, usable ? &found->symbol : NULL, wanted, &value)) {
+        return false;
+    }
+    if (usable) {
+        scene *made = into->made;
+        assignment *longer =
+            arena_room(in->arena, (assignment *)made->starts, made->start_count, sizeof *longer);
+        longer[made->start_count++] = (assignment){&found->symbol, name.primes, value, name.at};
+        made->starts = longer;
+    }
+    return true;
+}
+
+static bool conserve_item(parser *in, const statement_word *word) {
+    draft *into = in->draft;
+    token name;
+    named *found = NULL;
+    if (!scene_take_symbol(in, into, word, &name, &found)) {
+        return false;
+    }
+    if (found == NULL || found->is_placeholder) {
+        return true;
+    }
+    if (found->symbol.kind != SYM_COORDINATE || name.primes > 0) {
+        diag_error(in->diags, name.at, NULL, "conserve takes coordinates, without primes");
+        return true;
+    }
+    into->conserve[found->symbol.index] = true;
+    return true;
+}
+
+static bool scene_list(parser *in, const statement_word *word, statement_reader *read) {
+    for (;;) {
+        if (!read(in, word)) {
+            return false;
+        }
+        if (!parser_is_sign(in, ',')) {
+            return parser_end_statement(in, "the list");
+        }
+        parser_next(in);
+        while (in->token.kind == TOKEN_NEWLINE) {
+            parser_next(in);
+        }
+    }
+}
+
+bool read_with(parser *in, const statement_word *word) { return scene_list(in, word, with_item); }
+
+bool read_set(parser *in, const statement_word *word) { return scene_list(in, word, set_item); }
+
+bool read_start(parser *in, const statement_word *word) { return scene_list(in, word, start_item); }
+
+bool read_conserve(parser *in, const statement_word *word) {
+    return scene_list(in, word, conserve_item);
+}
+
+/* === the block and its statements ============================================================= */
+/* The statements of a scene, for the two files that read it. The scene is the parser's draft. */
+
+statement_reader read_use, read_step, read_until; /* scene_block.c */
+
+statement_reader read_with, read_set, read_start, read_conserve; /* scene_block.c */
+
+statement_reader read_range; /* scene_block.c */
 
 static void choose_mechanism(parser *in, draft *into, builder *chosen) {
     into->of = chosen;
@@ -157,7 +504,7 @@ static void read_scene(parser *in, const pending_scene *pending, draft *into) {
     }
     in->scenes = arena_room(in->arena, in->scenes, in->scene_count, sizeof *in->scenes);
     in->scenes[in->scene_count++] = into->made;
-    into->number = 2 + in->scene_count; /* apart from the marks of finish.c */
+    into->number = 2 + in->scene_count; /* apart from the marks of statements.c */
     const bool good = parse_body(in);
     if (good && into->of == NULL) {
         diag_error(in->diags, into->made->at, "name its mechanism with: use NAME",

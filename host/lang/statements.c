@@ -1,8 +1,118 @@
 /* statements.c: which statement comes next, and who reads it; mechanisms and effects. */
-#include "statements.h"
+#include "host/lang/statements.h"
 
 #include <stdio.h>
 #include <string.h>
+
+#include "host/lang/model.h"
+
+enum { SEEN_IN_EQUATION = 1, SEEN_IN_OUTPUT = 2 };
+
+/* The highest derivative of each state in the equations. Each let is walked once; recursion is
+ * bounded by EXPR_HEIGHT_MAX. */
+static void raise_orders(const expr *tree) {
+    if (tree == NULL) {
+        return;
+    }
+    if (tree->op == EXPR_SYMBOL && tree->symbol != NULL) {
+        named *entry = (named *)tree->symbol;
+        if (entry->symbol.kind == SYM_STATE && tree->primes > entry->symbol.order) {
+            entry->symbol.order = tree->primes;
+        }
+        if (entry->symbol.kind == SYM_LET && entry->mark != SEEN_IN_EQUATION) {
+            entry->mark = SEEN_IN_EQUATION;
+            raise_orders(entry->symbol.value);
+        }
+    }
+    raise_orders(tree->left);
+    raise_orders(tree->right);
+}
+
+/* Outputs may use a state up to its highest derivative. */
+static void check_orders(parser *in, const expr *tree) {
+    if (tree == NULL) {
+        return;
+    }
+    if (tree->op == EXPR_SYMBOL && tree->symbol != NULL) {
+        named *entry = (named *)tree->symbol;
+        if (entry->symbol.kind == SYM_STATE && tree->primes > entry->symbol.order) {
+            diag_error(in->diags, tree->at, NULL,
+                       "no equation has this derivative of '%s': its highest has %d prime%s",
+                       entry->symbol.name, entry->symbol.order,
+                       entry->symbol.order == 1 ? "" : "s");
+        }
+        if (entry->symbol.kind == SYM_LET && entry->mark == 0) {
+            entry->mark = SEEN_IN_OUTPUT;
+            check_orders(in, entry->symbol.value);
+        }
+    }
+    check_orders(in, tree->left);
+    check_orders(in, tree->right);
+}
+
+static void finish_system(parser *in, builder *done) {
+    mechanism *made = done->made;
+    if (made->coordinate_count == 0) {
+        diag_error(in->diags, made->at, "declare one with: state x", "mechanism '%s' has no state",
+                   made->name);
+        return;
+    }
+    if (done->equation_count != made->coordinate_count) {
+        diag_error(in->diags, made->at, NULL,
+                   "mechanism '%s' has %d state%s but %d equation%s: as many are needed",
+                   made->name, made->coordinate_count, made->coordinate_count == 1 ? "" : "s",
+                   done->equation_count, done->equation_count == 1 ? "" : "s");
+        return;
+    }
+    for (int i = 0; i < made->term_count; i++) {
+        raise_orders(made->terms[i].value);
+        raise_orders(made->terms[i].right);
+    }
+    for (int i = 0; i < made->coordinate_count; i++) {
+        const symbol *state = made->coordinates[i];
+        if (state->order == 0) {
+            diag_error(in->diags, state->at, "at least one equation must contain it with a prime",
+                       "no equation has a derivative of '%s'", state->name);
+            return;
+        }
+    }
+    for (int i = 0; i < made->output_count; i++) {
+        check_orders(in, made->outputs[i]->value);
+    }
+}
+
+/* All of T may come from effects: which scene has any is seen when its equations are derived. */
+static bool has_kinetic_energy(const mechanism *made) {
+    for (int i = 0; i < made->term_count; i++) {
+        if (made->terms[i].kind == TERM_T) {
+            return true;
+        }
+    }
+    return false;
+}
+
+void finish_mechanism(parser *in, builder *done) {
+    mechanism *made = done->made;
+    made->is_system = done->has_equations;
+    if (done->nameless || done->broken || done->mixed) {
+        return; /* what seems to be missing may stand in the lines that failed */
+    }
+    if (made->is_system) {
+        finish_system(in, done);
+        for (int i = 0; i < made->contact_count; i++) {
+            contact_on_system(in, &made->contacts[i]);
+        }
+    } else if (made->coordinate_count == 0) {
+        diag_error(in->diags, made->at, "declare one with: coordinate theta [rad]",
+                   "mechanism '%s' has no coordinate", made->name);
+    } else if (done->energy_at[0].line == 0 && !has_kinetic_energy(made)) {
+        diag_error(in->diags, made->at, "T = m*X'^2/2", "mechanism '%s' has no kinetic energy T",
+                   made->name);
+    }
+    finish_inputs(in, made);
+}
+
+/* === which statement comes next =============================================================== */
 
 static bool read_statement(parser *in, unsigned where);
 
@@ -216,5 +326,59 @@ void read_file(parser *in) {
             }
             parser_skip_statement(in);
         }
+    }
+}
+
+/* === a text from its first to its last byte =================================================== */
+
+static void parse_all(parser *in, place start) {
+    read_file(in);
+    if (in->builder_count == 0 && in->pending_count == 0 && diags_count(in->diags) == 0) {
+        diag_error(in->diags, start, FILE_FORM, "no mechanism here");
+    }
+    for (int i = 0; i < in->builder_count; i++) {
+        finish_mechanism(in, in->builders[i]);
+    }
+    for (int i = 0; i < in->pending_count && diags_count(in->diags) <= DIAG_MAX; i++) {
+        read_noted_scene(in, &in->pending[i]);
+    }
+}
+
+whirl_model *model_parse(const char *file, const char *text, size_t length, diags *all) {
+    struct arena *memory = arena_new();
+    source *whole = arena_alloc(memory, sizeof *whole);
+    whole->file = arena_copy(memory, file, strlen(file));
+    const bool too_long = length > MODEL_BYTES_MAX;
+    whole->length = too_long ? 0 : length;
+    whole->text = arena_copy(memory, text, whole->length);
+    parser in = {.diags = all, .arena = memory, .effect = -1};
+    const size_t before = diags_calls(all);
+    in.lexer = lexer_start(whole, all);
+    if (too_long) {
+        diag_error(all, in.lexer.at, NULL, "the text is longer than %zu bytes", MODEL_BYTES_MAX);
+    } else {
+        parse_all(&in, in.lexer.at);
+    }
+    if (diags_calls(all) != before || diags_count(all) > DIAG_MAX) {
+        arena_free(memory);
+        return NULL;
+    }
+    whirl_model *made = arena_alloc(memory, sizeof *made);
+    const mechanism **mechanisms =
+        arena_alloc(memory, (size_t)in.builder_count * sizeof *mechanisms);
+    for (int i = 0; i < in.builder_count; i++) {
+        mechanisms[i] = in.builders[i]->made;
+    }
+    made->mechanisms = mechanisms;
+    made->mechanism_count = in.builder_count;
+    made->scenes = in.scenes;
+    made->scene_count = in.scene_count;
+    made->arena = memory;
+    return made;
+}
+
+void model_free(whirl_model *done) {
+    if (done != NULL) {
+        arena_free(done->arena);
     }
 }

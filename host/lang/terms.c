@@ -2,7 +2,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "statements.h"
+#include "host/lang/statements.h"
 
 static void add_term(parser *in, term made) {
     mechanism *into = in->builder->made;

@@ -5,8 +5,8 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+#include "host/lang/quantities.h"
 #include "host/number/enclosure.h"
-#include "quantities.h"
 
 /* Exponents of m, kg, s, A, K in twelfths, so that square and cube roots stay exact. Angles are
  * dimensionless: rad = 1. `any` marks a literal zero, which fits every dimension. */

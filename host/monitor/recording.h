@@ -6,9 +6,9 @@
 #include <stdint.h>
 #include <stdio.h>
 
+#include "host/monitor/wire.h"
 #include "host/plot/vcd.h"
 #include "schema.h"
-#include "wire.h"
 
 /* What was lost, and where. */
 typedef struct recording_counts {

@@ -14,7 +14,7 @@
  *   value        FUNCTION_CORE(...): a function of core/function.h, in both numbers, on every board;
  *                FUNCTION_OWN(operation, ...): an operation of its own in the operation list, and its value in
  *                double. Who takes this column says what the two make of it.
- *   slopes       in double. In symbols: host/algebra/slopes.c, which has a function for each row
+ *   slopes       in double. In symbols: host/algebra/calculus.c, which has a function for each row
  */
 #ifndef NUMBER_FUNCTION_ROWS_H
 #define NUMBER_FUNCTION_ROWS_H

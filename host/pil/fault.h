@@ -7,12 +7,12 @@
 #ifndef PIL_FAULT_H
 #define PIL_FAULT_H
 
-#include "report.h"
+#include "host/pil/report.h"
 
 typedef enum fault_place {
     FAULT_EDGES,
     FAULT_SAMPLES,
-    FAULT_INPUT,     /* of the scene; it has to have one of the name that fault_tap.c knows */
+    FAULT_INPUT,     /* of the scene; it has to have one of the name that fault.c knows */
     FAULT_ORDERS,    /* and how long they take */
     FAULT_LINE,      /* what gets lost on it */
     FAULT_PARAMETER, /* of the scene, for the whole run: whoever loads it asks fault_parameters() */

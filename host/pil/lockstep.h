@@ -6,7 +6,7 @@
 #ifndef PIL_LOCKSTEP_H
 #define PIL_LOCKSTEP_H
 
-#include "report.h"
+#include "host/pil/report.h"
 
 /* Runs it; the process is gone when it returns. */
 void lockstep_run(const lockstep_wish *wish, const image *im, lockstep_report *report);

@@ -4,8 +4,8 @@
 
 #include <stdio.h>
 
-#include "guest.h"
-#include "plant.h"
+#include "host/pil/guest.h"
+#include "host/pil/plant.h"
 
 /* The seam for faults (fault.h), and for whoever watches: asked in turn, before the first word, after the firmware has
  * spoken and before it is spoken to. What they make of a message is what the other side hears; the answer may take
@@ -80,5 +80,10 @@ typedef struct lockstep_report {
     uint64_t tape_hash;  /* of a tape's */
     uint64_t plant_hash; /* of the scene's last state */
 } lockstep_report;
+
+/* === what a run in the loop was, in words ===================================================== */
+
+/* `im` is the plant's; NULL: it was a tape. */
+void pil_print(FILE *out, const lockstep_wish *wish, const image *im, const lockstep_report *r);
 
 #endif

@@ -2,7 +2,7 @@
 #ifndef PIL_TALK_H
 #define PIL_TALK_H
 
-#include "report.h"
+#include "host/pil/report.h"
 
 typedef struct talk {
     const lockstep_wish *wish;

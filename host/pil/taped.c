@@ -1,11 +1,49 @@
 /* taped.c: reading what `whirl pil --tape` has kept. */
-#include "taped.h"
+#include "host/pil/taped.h"
 
 #include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
+#include "core/exchange.h"
 #include "core/hash.h"
-#include "talk.h"
+#include "host/base/room.h"
+#include "host/base/written.h"
+#include "host/pil/guest.h"
+#include "host/pil/lockstep.h"
+#include "host/pil/talk.h"
+
+/* === taped ==================================================================================== */
+/* Reading what `whirl pil --tape` has kept: the frames that went over the line, in their order: hello, then readings
+ * and orders in turns; hello and a reset where the firmware was started again. */
+
+typedef struct taped {
+    const char *name;
+    FILE *file;
+    wh_hello hello; /* whose firmware it was */
+    wh_signal signal[WH_SIGNALS_MAX];
+    uint64_t hash;  /* of all orders so far, and of what was to be remembered */
+    uint64_t turns; /* read so far */
+    uint16_t sequence;
+    double before_s; /* the last reset */
+    bool failed;     /* it cannot be read, or is broken: reported */
+    wh_frame_reader reader;
+    bool endless; /* no frame where there had to be one */
+    uint8_t bytes[WH_FRAME_BYTES(GUEST_LINE_BYTES)];
+    uint8_t words[GUEST_LINE_BYTES]; /* of the hello */
+} taped;
+
+/* What the firmware heard at `ticks`, and what it said to that; or a reset, with which its timer begins anew. */
+typedef struct taped_turn {
+    uint32_t ticks;
+    double time_s; /* of the plant */
+    bool is_reset; /* then there is nothing of the rest but this: */
+    wh_reset reset;
+    wh_readings readings;
+    bool answered; /* false: the firmware had ended, or was let go */
+    wh_orders orders;
+} taped_turn;
 
 /* A frame and the zeros round it have so many bytes at most: a device that never ends is no tape. */
 static bool read_frame(taped *t, wh_frame *frame) {
@@ -42,7 +80,8 @@ static double time_of(const taped *t, uint32_t ticks) {
     return t->before_s + (double)(ticks - t->hello.start_ticks) / (double)t->hello.ticks_per_s;
 }
 
-bool taped_open(taped *t, const char *name) {
+/* Reads the hello. False: reported. taped_close() in any case. */
+static bool taped_open(taped *t, const char *name) {
     wh_frame frame;
     *t = (taped){.name = name, .file = fopen(name, "rb"), .hash = WH_HASH_START};
     wh_frame_reader_start(&t->reader, t->bytes, sizeof t->bytes);
@@ -62,13 +101,14 @@ bool taped_open(taped *t, const char *name) {
     return true;
 }
 
-void taped_close(taped *t) {
+static void taped_close(taped *t) {
     if (t->file != NULL) {
         fclose(t->file);
     }
 }
 
-unsigned taped_channels(const taped *t, wh_signal_kind kind) {
+/* Signals of the kind: its channels. */
+static unsigned taped_channels(const taped *t, wh_signal_kind kind) {
     unsigned count = 0;
     for (unsigned i = 0; i < t->hello.signals; i++) {
         count += t->signal[i].kind == kind;
@@ -121,7 +161,8 @@ static bool read_orders(taped *t, wh_frame *frame) {
     return false;
 }
 
-bool taped_next(taped *t, taped_turn *turn) {
+/* False at its end, and when it is broken, which is reported and t->failed then. */
+static bool taped_next(taped *t, taped_turn *turn) {
     wh_frame frame;
     *turn = (taped_turn){.is_reset = false};
     if (!read_frame(t, &frame)) {
@@ -153,4 +194,236 @@ bool taped_next(taped *t, taped_turn *turn) {
     t->sequence++;
     t->turns++;
     return true;
+}
+
+/* === a tape as a table ======================================================================== */
+/* A tape as a table: what the firmware heard, and what it said, a row each. */
+
+/* The rows of a tape, as they come. */
+typedef struct rows {
+    const taped *tape;
+    FILE *out;
+    int decimals; /* of a time: a tick */
+    uint32_t ticks;
+    uint64_t heard;              /* ticks since the plant's time 0 */
+    bool cut;                    /* that has been told */
+    bool told;                   /* outputs and notes have, with these: */
+    float value[WH_SIGNALS_MAX]; /* by channel, the notes behind the outputs */
+} rows;
+
+static const wh_signal *signal_of(const taped *t, wh_signal_kind kind, unsigned channel) {
+    for (unsigned i = 0; i < t->hello.signals; i++) {
+        if (t->signal[i].kind == kind && channel-- == 0) {
+            return &t->signal[i];
+        }
+    }
+    return NULL; /* taped_next() has looked at all of them */
+}
+
+static void print_time(const rows *r, int64_t ticks) {
+    fprintf(r->out, "%.*f,", r->decimals, (double)ticks / (double)r->tape->hello.ticks_per_s);
+}
+
+/* A stamp lies within half of its 32 bits of the time at which it was heard. */
+static void begin_row(const rows *r, uint32_t stamp, const char *kind) {
+    print_time(r, (int64_t)r->heard + (int32_t)(stamp - r->ticks));
+    print_time(r, (int64_t)r->heard);
+    fprintf(r->out, "%s,", kind);
+}
+
+/* Names and units stand on a tape as somebody's firmware sent them: what would break a row does not. */
+static void print_word(FILE *out, const char *word) {
+    for (; *word != '\0'; word++) {
+        const bool breaks = (unsigned char)*word < 0x20 || strchr(",\"\x7f", *word) != NULL;
+        fputc(breaks ? '_' : *word, out);
+    }
+    fputc(',', out);
+}
+
+static void print_named(const rows *r, const wh_signal *s, unsigned channel) {
+    fprintf(r->out, "%u,", channel + 1);
+    print_word(r->out, s->name);
+}
+
+static void print_edge(const rows *r, const wh_edge *e) {
+    begin_row(r, e->ticks, "edge");
+    print_named(r, signal_of(r->tape, WH_SIGNAL_EDGE, e->channel), e->channel);
+    fputs(",,\n", r->out);
+}
+
+static void print_sample(const rows *r, const wh_sample *e) {
+    const wh_signal *s = signal_of(r->tape, WH_SIGNAL_SAMPLE, e->channel);
+    begin_row(r, e->ticks, "sample");
+    print_named(r, s, e->channel);
+    fprintf(r->out, "%.9g,", (double)e->raw * (double)s->per_count);
+    print_word(r->out, s->unit);
+    fputs(e->status == WH_SAMPLE_GOOD        ? "good\n"
+          : e->status == WH_SAMPLE_SATURATED ? "saturated\n"
+                                             : "disconnected\n",
+          r->out);
+}
+
+/* Edges and samples, each in the order of their stamps on the tape, by time. */
+static void print_readings(const rows *r, const wh_readings *readings) {
+    unsigned edge = 0;
+    unsigned sample = 0;
+    while (edge < readings->edges || sample < readings->samples) {
+        const bool is_edge =
+            edge < readings->edges &&
+            (sample == readings->samples ||
+             (int32_t)(readings->edge[edge].ticks - readings->sample[sample].ticks) <= 0);
+        if (is_edge) {
+            print_edge(r, &readings->edge[edge++]);
+        } else {
+            print_sample(r, &readings->sample[sample++]);
+        }
+    }
+}
+
+static void print_orders(rows *r, const wh_orders *orders) {
+    const unsigned outputs = taped_channels(r->tape, WH_SIGNAL_OUTPUT);
+    for (unsigned i = 0; i < orders->outputs; i++) {
+        const bool is_note = i >= outputs;
+        const unsigned channel = is_note ? i - outputs : i;
+        const wh_signal *s =
+            signal_of(r->tape, is_note ? WH_SIGNAL_NOTE : WH_SIGNAL_OUTPUT, channel);
+        if (r->told && memcmp(&r->value[i], &orders->output[i], sizeof r->value[i]) == 0) {
+            continue;
+        }
+        r->value[i] = orders->output[i];
+        begin_row(r, r->ticks, is_note ? "note" : "output");
+        print_named(r, s, channel);
+        fprintf(r->out, "%.9g,", (double)orders->output[i]);
+        print_word(r->out, s->unit);
+        fputc('\n', r->out);
+    }
+    r->told = true;
+}
+
+/* The firmware knows of nothing that was before, and its timer begins anew. */
+static void print_reset(rows *r, const wh_reset *reset) {
+    begin_row(r, r->ticks, "reset");
+    fprintf(r->out, ",,,,%s\n", reset->cause == WH_RESET_WATCHDOG ? "watchdog" : "other");
+    r->ticks = r->tape->hello.start_ticks;
+    r->cut = false;
+    r->told = false;
+}
+
+static void print_rows(taped *t, FILE *out) {
+    rows r = {.tape = t, .out = out, .ticks = t->hello.start_ticks};
+    for (uint32_t per_s = 1; per_s < t->hello.ticks_per_s && r.decimals < 9; per_s *= 10U) {
+        r.decimals++;
+    }
+    fputs("time,heard,kind,channel,signal,value,unit,status\n", out);
+    taped_turn turn;
+    while (ferror(out) == 0 && taped_next(t, &turn)) {
+        r.heard += turn.ticks - r.ticks;
+        r.ticks = turn.ticks;
+        if (turn.is_reset) {
+            print_reset(&r, &turn.reset);
+            continue;
+        }
+        print_readings(&r, &turn.readings);
+        if ((turn.readings.flags & WH_READING_CUT) != 0 && !r.cut) {
+            begin_row(&r, r.ticks, "cut");
+            fputs(",,,,\n", out);
+            r.cut = true;
+        }
+        if (turn.answered) {
+            print_orders(&r, &turn.orders);
+        }
+    }
+}
+
+bool taped_show(const char *name, const char *csv) {
+    const bool is_standard = csv == NULL || strcmp(csv, "-") == 0;
+    taped *t = room(1, sizeof *t);
+    FILE *out = NULL;
+    bool good = taped_open(t, name);
+    if (good) {
+        out = written_open(is_standard ? "-" : csv);
+        if (out != NULL) {
+            print_rows(t, out);
+        }
+        good = out != NULL && written_close(out, csv, true) && !t->failed;
+    }
+    taped_close(t);
+    free(t);
+    return good;
+}
+
+/* === a tape in the place of the plant ========================================================= */
+/* A tape in the plant's place. */
+
+static void say_difference(const wh_orders *kept, const wh_orders *now, const talk *t) {
+    fprintf(stderr, "whirl pil: error: exchange %llu, t = %.6f s: other orders than on the tape\n",
+            (unsigned long long)t->report->exchanges, t->report->time_s);
+    for (unsigned i = 0; i < now->outputs && i < kept->outputs; i++) {
+        if (memcmp(&now->output[i], &kept->output[i], sizeof now->output[i]) != 0) {
+            fprintf(stderr, "hint: output %u is %.9g, on the tape %.9g\n", i + 1,
+                    (double)now->output[i], (double)kept->output[i]);
+        }
+    }
+}
+
+/* One turn. False at the tape's end and when something is wrong, which report->end then says. */
+static bool play(taped *from, talk *t) {
+    lockstep_report *r = t->report;
+    taped_turn kept;
+    wh_orders now;
+    if (!taped_next(from, &kept)) {
+        r->end = from->failed ? LOCKSTEP_BAD : LOCKSTEP_LET_GO;
+        return false;
+    }
+    r->time_s = kept.time_s;
+    if (kept.is_reset) {
+        return talk_restart(t, kept.ticks, &kept.reset);
+    }
+    if (!talk_tell(t, kept.ticks, &kept.readings) || !talk_hear(t, &now)) {
+        if (r->end == LOCKSTEP_DONE && kept.answered) {
+            fprintf(stderr,
+                    "whirl pil: error: exchange %llu, t = %.6f s: the firmware ended, and the tape "
+                    "goes on\n",
+                    (unsigned long long)r->exchanges, r->time_s);
+            r->end = LOCKSTEP_DIFFERENT;
+        }
+        return false;
+    }
+    if (!kept.answered) { /* the taped firmware had ended here, or was let go */
+        r->end = LOCKSTEP_LET_GO;
+        return false;
+    }
+    r->tape_hash = from->hash;
+    if (r->tape_hash != r->hash) {
+        say_difference(&kept.orders, &now, t);
+        r->end = LOCKSTEP_DIFFERENT;
+        return false;
+    }
+    return true;
+}
+
+void lockstep_replay(const lockstep_wish *wish, const char *file, lockstep_report *report) {
+    taped *from = room(1, sizeof *from);
+    talk *t = room(1, sizeof *t);
+    *report = (lockstep_report){.end = LOCKSTEP_DONE, .tape_hash = WH_HASH_START};
+    t->guest.up = -1;
+    t->guest.down = -1;
+    t->report = report;
+    if (!taped_open(from, file)) {
+        report->end = LOCKSTEP_BAD;
+    } else if (talk_start(t, wish, report, NULL)) {
+        if (!talk_is_same_hello(&from->hello, &t->hello)) {
+            fprintf(stderr,
+                    "%s: error: it is of '%s', whose signals are not those of the firmware '%s'\n",
+                    file, from->hello.program, t->hello.program);
+            report->end = LOCKSTEP_BAD;
+        } else {
+            while (play(from, t)) {
+            }
+        }
+    }
+    talk_end(t);
+    taped_close(from);
+    free(from);
+    free(t);
 }

@@ -1,48 +1,13 @@
-/* taped.h: reading what `whirl pil --tape` has kept: the frames that went over the line, in their order: hello, then readings
- * and orders in turns; hello and a reset where the firmware was started again. */
+/* taped.h: a tape as a table: what the firmware heard, and what it said, a row each. */
 #ifndef PIL_TAPED_H
 #define PIL_TAPED_H
 
-#include <stdio.h>
+#include <stdbool.h>
 
-#include "core/exchange.h"
-#include "guest.h"
-
-typedef struct taped {
-    const char *name;
-    FILE *file;
-    wh_hello hello; /* whose firmware it was */
-    wh_signal signal[WH_SIGNALS_MAX];
-    uint64_t hash;  /* of all orders so far, and of what was to be remembered */
-    uint64_t turns; /* read so far */
-    uint16_t sequence;
-    double before_s; /* the last reset */
-    bool failed;     /* it cannot be read, or is broken: reported */
-    wh_frame_reader reader;
-    bool endless; /* no frame where there had to be one */
-    uint8_t bytes[WH_FRAME_BYTES(GUEST_LINE_BYTES)];
-    uint8_t words[GUEST_LINE_BYTES]; /* of the hello */
-} taped;
-
-/* What the firmware heard at `ticks`, and what it said to that; or a reset, with which its timer begins anew. */
-typedef struct taped_turn {
-    uint32_t ticks;
-    double time_s; /* of the plant */
-    bool is_reset; /* then there is nothing of the rest but this: */
-    wh_reset reset;
-    wh_readings readings;
-    bool answered; /* false: the firmware had ended, or was let go */
-    wh_orders orders;
-} taped_turn;
-
-/* Reads the hello. False: reported. taped_close() in any case. */
-bool taped_open(taped *t, const char *name);
-void taped_close(taped *t);
-
-/* False at its end, and when it is broken, which is reported and t->failed then. */
-bool taped_next(taped *t, taped_turn *turn);
-
-/* Signals of the kind: its channels. */
-unsigned taped_channels(const taped *t, wh_signal_kind kind);
+/* Columns: when it was, by its stamp, and when the firmware heard or said it, both in s since the plant's time 0; the kind
+ * (edge, sample, output, note; cut: the watchdog has cut the outputs); which of that kind, from 1; its signal; value and
+ * unit; what a sample is worth (good, saturated, disconnected). An edge has no value. Outputs and notes have a row when
+ * they change. `csv` NULL or "-": standard output. False: not all could be read or written, which was reported. */
+bool taped_show(const char *name, const char *csv);
 
 #endif

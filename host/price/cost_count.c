@@ -8,7 +8,7 @@
 #include "host/image/core_rows.h"
 #include "host/image/turned.h"
 
-/* Longer lists become functions of their own (host/emit/c_list.c, host/fixed/c_fixed_list.c). */
+/* Longer lists become functions of their own (host/emit/c_list.c, host/fixed/c_fixed.c). */
 enum { INLINED_MOST = 150, INLINED_FIXED = 80 };
 /* Values of the state and its stages beyond these lie in memory, not in registers of the FPU. */
 enum { REGISTERS = 16 };

@@ -3,8 +3,8 @@
 #ifndef PROVE_EXACT_MOTION_H
 #define PROVE_EXACT_MOTION_H
 
-#include "graph.h"
 #include "host/lang/model.h"
+#include "host/prove/graph.h"
 
 /* Which unknown of the mechanism, and which of its derivatives. */
 typedef struct exact_state {

@@ -5,9 +5,10 @@
 #define PROVE_HELD_H
 
 #include <signal.h>
+#include <stdio.h>
 
+#include "host/prove/tube.h"
 #include "host/run/engine.h"
-#include "tube.h"
 
 #define HELD_TOLERANCE 1e-3 /* of a coordinate's range in the run */
 
@@ -69,5 +70,16 @@ typedef struct held_found {
 
 held_found held_run(const held_wish *w);
 void held_free(held_found *h);
+
+/* === in words ================================================================================= */
+/* What is proved of a run, in words and in rows. */
+
+void held_print(FILE *out, const held_found *h, const held_wish *w);
+
+/* Rows of comma-separated values, in SI, with all digits: the time, and of each state the least and the most that the exact
+ * motion may be, and what the run has. */
+void held_rows_head(FILE *out, const held_wish *w);
+void held_row(FILE *out, const held_wish *w, uint64_t step, const enclosure *exact,
+              const double *run);
 
 #endif

@@ -3,8 +3,8 @@
 #ifndef PROVE_READER_H
 #define PROVE_READER_H
 
-#include "graph.h"
 #include "host/lang/model.h"
+#include "host/prove/graph.h"
 
 typedef struct reader_symbols {
     graph *graph;

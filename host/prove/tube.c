@@ -7,7 +7,7 @@
 
 #include "host/base/room.h"
 #include "host/number/functions.h"
-#include "zonotope.h"
+#include "host/prove/zonotope.h"
 
 /* The step is as long as the remainder, in parts of the largest value that a state has had, stays below this... */
 #define REMAINDER 0x1p-54

@@ -5,9 +5,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "horizon.h"
 #include "host/base/room.h"
 #include "host/number/functions.h"
+#include "host/run/horizon.h"
 #include "loop.h"
 
 /* Steps of the third run in one of the run's: more than one, so that it is the more accurate, and near no simple ratio. */

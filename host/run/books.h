@@ -1,6 +1,6 @@
 /* books.h: the energy and momentum balance of a run, kept in double beside it.
  *
- * What balances is kinetic + stored energy, or the energy integral where that is not their sum (host/derive/energy.h);
+ * What balances is kinetic + stored energy, or the energy integral where that is not their sum (host/derive/equations.h);
  * account.h says how. The powers are those that the ledger (core/ledger.h) keeps by statement, summed; the integration
  * is not the ledger's, on purpose. A ledger is part of the scene: it flies on the board, in the run's numbers, with the
  * method's own stages. These books judge the run, ledger included, and share neither: double, and Simpson's rule on the

@@ -6,8 +6,8 @@
 #ifndef RUN_DIVISORS_H
 #define RUN_DIVISORS_H
 
-#include "blamed.h"
 #include "field.h"
+#include "host/run/undefined.h"
 
 typedef struct divisor {
     int node;      /* of the blame list; where `derived` an operation of the books list */

@@ -8,7 +8,7 @@
 #include "findings.h"
 #include "host/base/diag.h"
 #include "host/base/statement.h"
-#include "undefined.h"
+#include "host/run/undefined.h"
 
 static bool starts_beyond(const image *im) {
     bool found = false;

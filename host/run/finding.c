@@ -3,7 +3,7 @@
 
 #include "apart.h"
 #include "belief.h"
-#include "horizon.h"
+#include "host/run/horizon.h"
 #include "slow.h"
 
 const finding_row finding_rows[FINDINGS] = {

@@ -11,9 +11,9 @@
 #include "host/base/room.h"
 #include "host/base/statement.h"
 #include "host/number/functions.h"
+#include "host/run/summary.h"
 #include "remedy.h"
 #include "slow.h"
-#include "step_text.h"
 
 enum { NAME_TEXT = 100 };
 

@@ -1,10 +1,12 @@
 /* horizon.h: until when a run is right to a tolerance, coordinate by coordinate, as far as a run with half its step tells
  * (twins.h): until the first time at which the two differ by more than the tolerance times the range that the coordinate
  * has in the whole of the finer run. What this is worth is measured in docs/dev/stability.md. */
-#ifndef TRUST_HORIZON_H
-#define TRUST_HORIZON_H
+#ifndef RUN_HORIZON_H
+#define RUN_HORIZON_H
 
-#include "twins.h"
+#include <stdio.h>
+
+#include "host/run/twins.h"
 
 #define HORIZON_TOLERANCE 1e-3
 
@@ -42,5 +44,17 @@ bool horizon_moves(const twins *t, int k);
 /* Until when the run is right; below 0: not told, for want of digits or because the finer run shares what is wrong. */
 double horizon_trusted_s(const horizon *h);
 void horizon_free(horizon *h);
+
+/* === in words ================================================================================= */
+/* Until when a run can be trusted, in words and as comma-separated values. */
+
+/* All of it: of each coordinate and rate, of the run, and what can be relied on behind that. */
+void horizon_print(FILE *out, const horizon *h);
+/* One line, for a summary. `doubted`: something is said against the run, which the runs beside it may share. */
+void horizon_print_line(FILE *out, const horizon *h, bool doubted);
+/* Of each verdict. */
+extern const char *const horizon_words[];
+/* A header, and a row for each coordinate and rate. */
+void horizon_write(FILE *out, const horizon *h);
 
 #endif

@@ -4,8 +4,8 @@
 #include <stdio.h>
 
 #include "host/number/functions.h"
+#include "host/run/summary.h"
 #include "loop.h"
-#include "step_text.h"
 
 /* A remedy keeps this part of the limit: the lists of a user's run may round a little otherwise. */
 #define LEAVES 0.3

@@ -6,8 +6,8 @@
 
 #include "core/version.h"
 #include "findings.h"
-#include "horizon_text.h"
 #include "host/base/room.h"
+#include "host/run/horizon.h"
 
 void json_begin(json *j, const char *command, const char *scene, const char *title,
                 const engine_kind *kind, wh_method method) {

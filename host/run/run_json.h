@@ -2,8 +2,8 @@
 #ifndef RUN_RUN_JSON_H
 #define RUN_RUN_JSON_H
 
-#include "horizon.h"
 #include "host/base/json.h"
+#include "host/run/horizon.h"
 #include "records.h"
 
 enum { RUN_JSON_FILES = 4 };

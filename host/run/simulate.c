@@ -8,25 +8,23 @@
 #include <sys/stat.h>
 #include <time.h>
 
-#include "about.h"
 #include "core/contact.h"
 #include "envelope.h"
 #include "failure.h"
 #include "findings.h"
-#include "horizon_text.h"
 #include "host/base/exit.h"
 #include "host/base/room.h"
 #include "host/base/statement.h"
 #include "host/base/written.h"
 #include "host/number/functions.h"
 #include "host/plot/gnuplot.h"
+#include "host/run/horizon.h"
+#include "host/run/summary.h"
+#include "host/run/undefined.h"
 #include "loop.h"
-#include "opening.h"
 #include "records.h"
 #include "run_json.h"
-#include "summary.h"
 #include "traces.h"
-#include "undefined.h"
 
 /* Events that a picture marks at most. */
 #define MARKS 400.0

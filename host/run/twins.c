@@ -8,8 +8,8 @@
 #include "folded.h"
 #include "host/base/room.h"
 #include "host/number/functions.h"
+#include "host/run/undefined.h"
 #include "loop.h"
-#include "undefined.h"
 
 /* What looking for events takes of evaluations, beside a step's own. */
 #define EVALUATIONS_OF_EVENTS 8.0

@@ -11,7 +11,7 @@
 
 #include "belief.h"
 #include "finding.h"
-#include "horizon.h"
+#include "host/run/horizon.h"
 #include "watch.h"
 
 /* Of a run: finding `id` is told, */

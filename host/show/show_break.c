@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "host/base/room.h"
-#include "show_equations.h"
+#include "host/show/show_equations.h"
 
 /* Widths in points of type of 10 pt. A line of LaTeX's article is 345 pt wide, 25 of which hold the equation's number.
  * NARROWEST: of a sum that is broken. */
@@ -212,17 +212,17 @@ static char *rows_of(span s, int limit, bool factors) {
     int width = 0;
     for (const char *at = s.from; at < s.end;) {
         const char *next = next_break((span){at, s.end}, factors);
-        char *piece = broken((span){at, next}, limit - indent);
-        const int more = width_of((span){piece, piece + strlen(piece)});
+        char *part = broken((span){at, next}, limit - indent);
+        const int more = width_of((span){part, part + strlen(part)});
         if (width > 0 && width + more > limit) {
             fputs(factors ? " \\\\\n    &\\quad \\times" : " \\\\\n    &\\quad", out);
             width = indent;
-            fputs(piece + (factors ? strlen(" \\,") : 0), out);
+            fputs(part + (factors ? strlen(" \\,") : 0), out);
         } else {
-            fputs(piece, out);
+            fputs(part, out);
         }
         width += more;
-        free(piece);
+        free(part);
         at = next;
     }
     room_text_end(out);

@@ -6,7 +6,7 @@
 #include <stdio.h>
 
 #include "host/derive/equations.h"
-#include "show.h"
+#include "host/show/show.h"
 
 /* The equations of motion, one a coordinate, terms collected by second derivative and factored; then
  * the first-order form. */

@@ -3,7 +3,7 @@
 #define SHOW_SHOW_EVENTS_H
 
 #include "host/derive/equations.h"
-#include "show.h"
+#include "host/show/show.h"
 
 /* A heading, then a line for each contact that takes part, in the order in which events at
  * one instant are taken; nothing when there are none. Every line begins with `prefix`. */

@@ -3,8 +3,8 @@
 #include <stdlib.h>
 
 #include "host/base/room.h"
-#include "show_equations.h"
-#include "show_term.h"
+#include "host/show/show.h"
+#include "host/show/show_equations.h"
 
 /* A name is shorter than a sum, a product or a function; not than a symbol, a number or a sine among factors. */
 static bool shortens(const poly *p) {

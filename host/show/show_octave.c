@@ -6,8 +6,8 @@
 #include "host/base/room.h"
 #include "host/lang/lexer.h"
 #include "host/lang/shown.h"
-#include "show_equations.h"
-#include "show_term.h"
+#include "host/show/show.h"
+#include "host/show/show_equations.h"
 
 /* The variable of a symbol's derivative; without a symbol, one of the file's own. */
 typedef struct variable {

@@ -1,16 +1,141 @@
 /* session.c: points to rows to a file, with what is to be said meanwhile. */
-#include "session.h"
+#include "host/sweep/session.h"
 
+#include <inttypes.h>
 #include <stdlib.h>
+#include <time.h>
 #include <unistd.h>
 
+#include "core/hash.h"
 #include "host/base/exit.h"
 #include "host/base/room.h"
+#include "host/image/turned.h"
 #include "host/run/finding.h"
-#include "jobs.h"
-#include "progress.h"
-#include "sheet.h"
-#include "sweep_json.h"
+#include "host/sweep/jobs.h"
+#include "host/sweep/sheet.h"
+#include "host/sweep/sweep_json.h"
+
+static uint64_t hash_text(const char *text) {
+    uint64_t hash = WH_HASH_START;
+    for (; *text != '\0'; text++) {
+        hash = wh_hash_u64(hash, (unsigned char)*text);
+    }
+    return hash;
+}
+
+static void put_instance(FILE *out, const instance *base) {
+    const mechanism *m = base->mechanism;
+    for (int i = 0; i < m->effect_count; i++) {
+        fprintf(out, "effect %s: %s\n", m->effects[i].name, base->with[i] ? "with" : "without");
+    }
+    for (int i = 0; i < m->parameter_count; i++) {
+        fprintf(out, "set %s: %.17g\n", m->parameters[i]->name, base->parameter[i]);
+    }
+    for (int i = 0; i < m->input_count; i++) {
+        fprintf(out, "set %s: %.17g\n", m->inputs[i]->name, base->input[i]);
+    }
+    for (int i = 0; i < m->coordinate_count; i++) {
+        for (int k = 0; k < base->start_count[i]; k++) {
+            fprintf(out, "start %s (%d primes): %.17g\n", m->coordinates[i]->name, k,
+                    base->start[i][k]);
+        }
+    }
+}
+
+char *fingerprint_make(const sweep *s, const char *model_text, const instance *base,
+                       const image *im, shard part) {
+    char *text = NULL;
+    size_t length = 0;
+    FILE *out = room_text(&text, &length);
+    fprintf(out, "whirl sweep: settings of the CSV beside this file, format 3\n");
+    fprintf(out, "scene: %s\n", base->name);
+    fprintf(out, "model text: 0x%016" PRIx64 "\n", hash_text(model_text));
+    fprintf(out, "number: %s%s\n", s->kind->name, s->engine.compensated ? ", compensated" : "");
+    if (s->engine.stabilized) {
+        fprintf(out, "stabilized\n");
+    }
+    fprintf(out, "method: %s\n", wh_methods[s->engine.method].word);
+    fprintf(out, "angles: %s\n", image_angles_words[s->engine.angles]);
+    if (s->engine.matrix != MATRIX_NONE) {
+        fprintf(out, "matrix: %s\n", image_matrix_words[s->engine.matrix]);
+    }
+    if (s->engine.tables != TABLES_NONE) {
+        fprintf(out, "tables: %s, %d cells\n", image_tables_words[s->engine.tables],
+                1 << im->list[IMAGE_STEP]->tables.bits);
+    }
+    fprintf(out, "step: %.17g s\nuntil: %.17g s\n", base->step_s, base->until_s);
+    fprintf(out, "measured from: %.17g s\n", s->from_s);
+    put_instance(out, base);
+    for (int i = 0; i < s->grid->count; i++) {
+        const axis *a = &s->grid->axes[i];
+        char *unit = sweep_unit(a->symbol, a->primes);
+        fprintf(out, "over %s%s: %.17g to %.17g, %" PRIu64 " values%s\n", a->name, unit, a->from,
+                a->to, a->count, a->is_log ? ", logarithmic" : "");
+        free(unit);
+    }
+    for (int i = 0; i < s->measures->count; i++) {
+        const measure *m = &s->measures->list[i];
+        char *unit = sweep_unit(measure_symbol(m), m->of->primes);
+        fprintf(out, "measure: %s%s\n", m->name, unit);
+        free(unit);
+    }
+    fprintf(out, "shard: %" PRIu64 "/%" PRIu64 "\n", part.number, part.of);
+    fprintf(out, "operations: 0x%016" PRIx64 "\n", im->hash);
+    room_text_end(out);
+    return text;
+}
+
+/* === drawing the progress of a sweep ========================================================== */
+
+enum { BAR_WIDTH = 30 };
+#define SHOW_EVERY_S 0.2
+
+static double now_s(void) {
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+progress progress_start(FILE *out, uint64_t from, uint64_t end) {
+    return (progress){.out = out, .from = from, .end = end, .start_s = now_s()};
+}
+
+double progress_elapsed_s(const progress *p) { return now_s() - p->start_s; }
+
+void progress_show(progress *p, uint64_t done) {
+    const double now = now_s();
+    if (p->out == NULL || now - p->shown_s < SHOW_EVERY_S) {
+        return;
+    }
+    p->shown_s = now;
+    p->drawn = true;
+    const double part = p->end > 0 ? (double)done / (double)p->end : 1.0;
+    const double rate = (double)(done - p->from) / (now - p->start_s);
+    char bar[BAR_WIDTH + 1];
+    for (int i = 0; i < BAR_WIDTH; i++) {
+        bar[i] = (double)i < part * BAR_WIDTH ? '#' : '.';
+    }
+    bar[BAR_WIDTH] = '\0';
+    fprintf(p->out, "\r%5.1f %% [%s] %llu/%llu", 100.0 * part, bar, (unsigned long long)done,
+            (unsigned long long)p->end);
+    if (done > p->from && rate > 0.0) {
+        const double left_s = (double)(p->end - done) / rate;
+        fprintf(p->out, "  %.3g points/s  %.0f:%02.0f:%02.0f to go  ", rate,
+                (double)(long)(left_s / 3600.0), (double)((long)(left_s / 60.0) % 60),
+                (double)((long)left_s % 60));
+    }
+    fflush(p->out);
+}
+
+void progress_clear(progress *p) {
+    if (p->drawn) {
+        fprintf(p->out, "\r%*s\r", BAR_WIDTH + 70, "");
+        fflush(p->out);
+        p->drawn = false;
+    }
+}
+
+/* === the session ============================================================================== */
 
 /* What the parent process knows while rows come in. */
 typedef struct sitting {

@@ -1,7 +1,6 @@
 #!/bin/sh
 # structure.sh: who includes whom in core, hal and host, and who calls whom in the program, as its objects say. All
-# arrows go one way: between folders, between headers, and between files (a header with the .c of its name), but for the
-# recursions within a folder that docs/dev/DESIGN.md names.
+# arrows go one way: between folders, between headers, and between files (a header with the .c of its name).
 . "$(dirname "$0")/../checks.sh"
 
 # circles.awk: of the arrows on standard input, "FROM TO" a line, those that lie on a circle, as "A B C: ..." lines.
@@ -35,12 +34,6 @@ END {
 }
 END
 
-# What an expression is made of is lowered by what lowers expressions; a term that holds an expression prints it.
-cat >"$scratch/named" <<'END'
-derive/lower derive/waves
-show/show show/show_term
-END
-
 # --- who includes whom -----------------------------------------------------------------------------------------------
 
 # arrows_of [FOLDER...]: "FROM TO" for each include of a file of these folders by another. A name in an include is a
@@ -61,10 +54,10 @@ arrows_of() {
 arrows_of core hal host >"$scratch/includes"
 files=$(wc -l <"$scratch/files")
 
-# no_circle WHAT [NAMED]: the arrows in $scratch/arrows have no circle but those of the file NAMED
+# no_circle WHAT: the arrows in $scratch/arrows have no circle
 no_circle() {
     awk -f "$scratch/circles.awk" "$scratch/arrows" | sort -u >"$scratch/found"
-    diff "${2:-/dev/null}" "$scratch/found" >"$scratch/err" 2>&1
+    diff /dev/null "$scratch/found" >"$scratch/err" 2>&1
     verdict $? "$1"
 }
 
@@ -77,8 +70,7 @@ grep '\.h [^ ]*\.h$' "$scratch/includes" >"$scratch/arrows"
 no_circle "headers: no circle"
 
 sed -E 's/\.(h|c|inc)( |$)/\2/g' "$scratch/includes" | awk '$1 != $2' | sort -u >"$scratch/arrows"
-sed "s:[a-z]*/:host/&:g" "$scratch/named" >"$scratch/named_files"
-no_circle "files, each a header with the .c of its name: the circles are the recursions that have a name" "$scratch/named_files"
+no_circle "files, each a header with the .c of its name: no circle"
 
 sed 's:/[^/ ]*\( \|$\):\1:g' "$scratch/includes" | awk '$1 != $2 && $1 != "host"' | sort -u >"$scratch/arrows"
 no_circle "folders: no circle"
@@ -113,11 +105,6 @@ verdict $? "$(sort -u -k1,1 "$scratch/folders" | wc -l) folders of host/, $(wc -
 
 awk '{ split($1, a, "/"); split($2, b, "/") } a[1] == b[1]' "$scratch/arrows" |
     awk -f "$scratch/circles.awk" | sort -u >"$scratch/found"
-diff "$scratch/named" "$scratch/found" >"$scratch/err" 2>&1
-verdict $? "$(cut -d' ' -f1 "$scratch/symbols" | sort -u | wc -l) files: those that need each other are the recursions that have a name"
-for file in lower waves show_term; do
-    grep -q "$file\.c" docs/dev/DESIGN.md || echo "docs/dev/DESIGN.md does not name $file.c" >>"$scratch/unnamed"
-done
-[ ! -s "$scratch/unnamed" ]
-verdict $? "docs/dev/DESIGN.md names them" "$scratch/unnamed"
+diff /dev/null "$scratch/found" >"$scratch/err" 2>&1
+verdict $? "$(cut -d' ' -f1 "$scratch/symbols" | sort -u | wc -l) files: no two need each other"
 exit $failed

@@ -10,7 +10,6 @@
 
 #include "core/cobs.h"
 #include "core/frame.h"
-#include "host/monitor/dialogue.h"
 #include "host/monitor/recording.h"
 #include "host/monitor/schema.h"
 #include "host/monitor/wire.h"

@@ -232,13 +232,13 @@ double random_between(uint64_t *seed, double low, double high) {
     return low + (high - low) * (double)(random_bits(seed) >> 11) * 0x1p-53;
 }
 
-char *repeated(const char *front, const char *piece, int times, const char *tail) {
-    const size_t room = strlen(front) + strlen(tail) + (size_t)times * (strlen(piece) + 16) + 1;
+char *repeated(const char *front, const char *part, int times, const char *tail) {
+    const size_t room = strlen(front) + strlen(tail) + (size_t)times * (strlen(part) + 16) + 1;
     char *text = malloc(room);
     TEST_ASSERT_NOT_NULL(text);
     size_t at = (size_t)snprintf(text, room, "%s", front);
     for (int i = 1; i <= times; i++) {
-        for (const char *c = piece; *c != '\0'; c++) {
+        for (const char *c = part; *c != '\0'; c++) {
             if (*c == '#' || *c == '@') { /* number, number before */
                 at += (size_t)snprintf(text + at, room - at, "%d", *c == '#' ? i : i - 1);
             } else {

@@ -10,7 +10,6 @@
 #include <unistd.h>
 
 #include "host/commands/files.h"
-#include "host/commands/find.h"
 #include "host/commands/load.h"
 #include "host/commands/options.h"
 #include "unity.h"

@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "command.h"
-#include "host/monitor/dialogue.h"
+#include "host/monitor/wire.h"
 #include "unity.h"
 
 void suite_dialogue(void);

@@ -1,4 +1,4 @@
-/* test_held_text.c: what `whirl prove` says of drawn findings (host/prove/held_text.h), read back: numbers that are not less
+/* test_held_text.c: what `whirl prove` says of drawn findings (host/prove/held.h), read back: numbers that are not less
  * than what was found, nor much more; which state is told of at the end; rows to the last bit. */
 #include <math.h>
 #include <stdlib.h>
@@ -6,7 +6,7 @@
 
 #include "drawn_image.h"
 #include "host/base/room.h"
-#include "host/prove/held_text.h"
+#include "host/prove/held.h"
 #include "unity.h"
 
 void suite_held_text(void);

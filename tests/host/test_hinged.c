@@ -1,4 +1,4 @@
-/* test_hinged.c: bodies on hinges, which derivation eliminates by what their hinges see (host/derive/hinge.c): random
+/* test_hinged.c: bodies on hinges, which derivation eliminates by what their hinges see (host/derive/solve.c): random
  * carriages, arms and hinged bodies, whose accelerations must fulfil the equations they were solved from. */
 #define _POSIX_C_SOURCE 200809L
 

@@ -8,7 +8,7 @@
 
 #include "command.h"
 #include "derived.h"
-#include "host/run/horizon_text.h"
+#include "host/run/horizon.h"
 
 #include "unity.h"
 

@@ -13,7 +13,7 @@
 #include "command.h"
 #include "host/base/room.h"
 #include "host/sweep/jobs.h"
-#include "host/sweep/progress.h"
+#include "host/sweep/session.h"
 #include "unity.h"
 
 void suite_jobs(void);
@@ -232,7 +232,7 @@ static void test_workers_end_when_they_are_told(void) {
 
 /* --- the line of progress --------------------------------------------------------------------- */
 
-/* The line that shows how far a sweep has got (host/sweep/progress.h), read again: what is done,
+/* The line that shows how far a sweep has got (host/sweep/session.h), read again: what is done,
  * the bar, how fast, and how long it will take at that pace. */
 static char *shown;
 static size_t length;

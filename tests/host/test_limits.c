@@ -5,7 +5,7 @@
 #include <stdlib.h>
 
 #include "command.h"
-#include "host/run/step_text.h"
+#include "host/run/summary.h"
 #include "motion.h"
 
 #include "unity.h"

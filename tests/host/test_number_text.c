@@ -15,7 +15,6 @@
 #include "derived.h"
 #include "host/base/utf8.h"
 #include "host/number/decimal.h"
-#include "host/number/hex.h"
 #include "unity.h"
 
 void suite_number_text(void);

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 
 #include "derived.h"
-#include "host/derive/pieces.h"
+#include "host/derive/lower.h"
 #include "unity.h"
 
 void suite_pieces(void);
@@ -132,8 +132,8 @@ static void test_other_rows_stay_as_they_are(void) {
     TEST_ASSERT_EQUAL_INT(3, pieces_of(a, few, pieces));
     const poly *many = tall;
     for (int k = 1; k < 8; k++) {
-        const poly *wave = poly_cos(a, poly_scale(a, u, 2.0 * k));
-        many = poly_add(a, many, poly_scale(a, poly_sub(a, wave, one), 1e-3));
+        const poly *cosine = poly_cos(a, poly_scale(a, u, 2.0 * k));
+        many = poly_add(a, many, poly_scale(a, poly_sub(a, cosine, one), 1e-3));
     }
     piece room[16];
     TEST_ASSERT_EQUAL_INT(9, pieces_of(a, many, room));
@@ -151,11 +151,11 @@ static void test_pieces_have_the_sums_value(void) {
             const poly *v = poly_symbol(a, &variables[1], 0);
             const poly *angle = poly_add(a, poly_scale(a, u, (double)(random_bits(&seed) % 3)),
                                          poly_scale(a, v, (double)(random_bits(&seed) % 2)));
-            const poly *wave =
+            const poly *cosine =
                 random_bits(&seed) % 2 == 0 ? poly_sin(a, angle) : poly_cos(a, angle);
             const poly *front = random_bits(&seed) % 2 == 0 ? u : poly_number(a, 2.0);
             const double exponent = 2.0 * (double)(1 + random_bits(&seed) % 3);
-            sum = poly_add(a, sum, poly_mul(a, front, poly_pow(a, wave, exponent)));
+            sum = poly_add(a, sum, poly_mul(a, front, poly_pow(a, cosine, exponent)));
         }
         if (random_bits(&seed) % 2 == 0) {
             sum = poly_derivative(a, sum, &variables[0], 0);
@@ -188,10 +188,10 @@ static void test_each_of_several_comes_back(void) {
         for (unsigned k = 0; k < 3; k++) {
             const unsigned power = which >> (2 * k) & 3U;
             const poly *beside = poly_pow(a, v, (double)k + 1.0);
-            const poly *wave = power == 1 ? poly_cos(a, u) : poly_sin(a, u);
+            const poly *cosine = power == 1 ? poly_cos(a, u) : poly_sin(a, u);
             const double exponent = power == 3 ? 4.0 : 2.0;
             if (power > 0) {
-                sum = poly_add(a, sum, poly_mul(a, beside, poly_pow(a, wave, exponent)));
+                sum = poly_add(a, sum, poly_mul(a, beside, poly_pow(a, cosine, exponent)));
                 parts++;
             }
         }

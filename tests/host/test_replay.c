@@ -1,4 +1,4 @@
-/* test_replay.c: a tape in the plant's place (host/pil/replay.c), drawn: played to its end, or to the firmware's; ended at the
+/* test_replay.c: a tape in the plant's place (host/pil/taped.c), drawn: played to its end, or to the firmware's; ended at the
  * first answer that is not the tape's, which is said; refused where it is another firmware's, or none. */
 #define _POSIX_C_SOURCE 200809L
 

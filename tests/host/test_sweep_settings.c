@@ -6,7 +6,7 @@
 
 #include "blocks.h"
 #include "host/base/room.h"
-#include "host/sweep/fingerprint.h"
+#include "host/sweep/session.h"
 #include "made_sweep.h"
 #include "unity.h"
 

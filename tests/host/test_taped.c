@@ -6,7 +6,7 @@
 #include <unistd.h>
 
 #include "core/exchange.h"
-#include "host/pil/taped_csv.h"
+#include "host/pil/taped.h"
 
 #include "unity.h"
 

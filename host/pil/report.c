@@ -1,8 +1,10 @@
-/* pil_text.c: the report of `whirl pil`. */
-#include "pil_text.h"
+/* report.c: what is wished of a run in the loop, and what became of it. */
+#include "host/pil/report.h"
 
 #include <inttypes.h>
 #include <string.h>
+
+/* === the report of `whirl pil` ================================================================ */
 
 static void print_computing(FILE *out, const lockstep_wish *wish, const lockstep_report *r) {
     if (!r->counted) {

@@ -1,0 +1,705 @@
+/* fault.c: what breaks in a run in the loop: sensors, load cell, supply, drive stage, mechanism, line, and the time that
+ * the controller takes; and who presses stop, or resets its processor. Never the controller itself.
+ *
+ * A fault is words: KIND[:CHANNEL][=SIZE][@WHEN][+DURATION]. CHANNEL counts from 1, of edges or of samples; left out, it
+ * is all edges, or the first sample. WHEN is a time, or NOTE=VALUE, or NOTE=VALUE~TIME: so long after the firmware's note
+ * of that name has come to that value. What is left out: at the start, to the end. */
+#include "host/pil/fault.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/hash.h"
+#include "core/noise.h"
+#include "host/base/nearest.h"
+#include "host/base/room.h"
+#include "host/number/decimal.h"
+#include "host/number/functions.h"
+
+/* === faults of readings ======================================================================= */
+/* What faults of sensors, of the load cell and of the line make of what the plant says. */
+
+double fault_draw(const fault_plan *plan, fault_case *f) {
+    uint64_t hash = wh_hash_u64(WH_HASH_START, plan->seed);
+    hash = wh_hash_u64(hash, (uint64_t)(f - plan->fault));
+    hash = wh_hash_u64(hash, f->draws++);
+    return (double)(hash >> 11) * 0x1p-53;
+}
+
+#define HUM_HZ 60.0
+#define TURN_RAD 6.283185307179586477
+#define INVENTED_S 0.1 /* from one to the next, at most */
+#define SPIKES_ONE_IN 50.0
+#define TOLD_S 1e-9 /* of rounding */
+
+static bool is_of(const fault_case *f, unsigned channel) {
+    const bool samples = fault_rows[f->kind].place == FAULT_SAMPLES;
+    return f->channel < 0 ? !samples || channel == 0 : f->channel == (int)channel;
+}
+
+/* --- edges ---------------------------------------------------------------------------------------------------*/
+
+/* In order of time, as a timer hands them out; none when there is no room. */
+static void add_edge(wh_readings *r, wh_edge edge) {
+    if (r->edges == WH_EDGES_MAX) {
+        return;
+    }
+    unsigned at = r->edges++;
+    for (; at > 0 && (int32_t)(r->edge[at - 1].ticks - edge.ticks) > 0; at--) {
+        r->edge[at] = r->edge[at - 1];
+    }
+    r->edge[at] = edge;
+}
+
+static void tell_later(fault_case *f, fault_pending what) {
+    if (f->pending_count < FAULT_PENDING) {
+        f->pending[f->pending_count++] = what;
+    }
+}
+
+static uint32_t ticks_of(const fault_plan *plan, double time_s) {
+    return (uint32_t)(int64_t)number_floor(time_s * plan->ticks_per_s);
+}
+
+/* One pulse. False: it does not come. */
+static bool break_edge(const fault_plan *plan, fault_case *f, double time_s, wh_edge *edge) {
+    if (f->kind == FAULT_EDGE_DEAD) {
+        return false;
+    }
+    if (f->kind == FAULT_EDGE_LOST && f->left > 0) {
+        f->left--;
+        return false;
+    }
+    if (f->kind == FAULT_EDGE_SWAPPED && edge->channel < 2) {
+        edge->channel ^= 1U;
+    }
+    if (f->kind == FAULT_EDGE_STAMP) {
+        edge->ticks += ticks_of(plan, f->size);
+    }
+    if (f->kind == FAULT_EDGE_LATE || f->kind == FAULT_EDGE_DOUBLE) {
+        const bool again = f->kind == FAULT_EDGE_DOUBLE;
+        fault_pending later = {.at_s = time_s + f->size, .is_edge = true, .edge = *edge};
+        later.edge.ticks += again ? ticks_of(plan, f->size) : 0;
+        tell_later(f, later);
+        return again;
+    }
+    return true;
+}
+
+/* Pulses of nothing, since the last readings. */
+static void invent_edges(const fault_plan *plan, fault_case *f, double time_s, wh_readings *r) {
+    const bool storm = f->kind == FAULT_EDGE_STORM;
+    const uint32_t now_ticks = plant_ticks(plan->plant);
+    while (f->next_s <= time_s && (storm || f->left > 0)) {
+        if (f->next_s > f->begin_s || storm) {
+            const int channel = f->channel >= 0 ? f->channel : fault_draw(plan, f) < 0.5 ? 0 : 1;
+            add_edge(r, (wh_edge){.ticks = now_ticks - ticks_of(plan, time_s - f->next_s),
+                                  .channel = (uint8_t)channel});
+            f->left -= f->left > 0;
+        }
+        f->next_s += storm ? 1.0 / f->size : INVENTED_S * fault_draw(plan, f);
+    }
+}
+
+static void break_edges(const fault_plan *plan, fault_case *f, double time_s, wh_readings *r) {
+    const wh_readings all = *r;
+    r->edges = 0;
+    for (unsigned i = 0; i < all.edges; i++) {
+        wh_edge edge = all.edge[i];
+        if (!is_of(f, edge.channel) || break_edge(plan, f, time_s, &edge)) {
+            add_edge(r, edge);
+        }
+    }
+    if (f->kind == FAULT_EDGE_STORM || f->kind == FAULT_EDGE_INVENTED) {
+        invent_edges(plan, f, time_s, r);
+    }
+}
+
+/* --- samples -------------------------------------------------------------------------------------------------*/
+
+static const wh_signal *signal_of(const fault_plan *plan, unsigned channel) {
+    const binding *b = plan->plant->binding;
+    for (unsigned i = 0; i < b->count; i++) {
+        if (b->bound[i].signal.kind == WH_SIGNAL_SAMPLE && b->bound[i].channel == channel) {
+            return &b->bound[i].signal;
+        }
+    }
+    return NULL;
+}
+
+static void set_value(const fault_plan *plan, wh_sample *s, double value, bool added) {
+    const wh_signal *of = signal_of(plan, s->channel);
+    const double count = (double)of->per_count;
+    const double counts = value / count + (added ? (double)s->raw : 0.0);
+    const double low = (double)of->low / count;
+    const double high = (double)of->high / count;
+    const double held = counts < low ? low : counts > high ? high : counts;
+    s->raw = (int32_t)number_floor(held + 0.5);
+    if (s->status != WH_SAMPLE_DISCONNECTED) {
+        s->status = counts <= low || counts >= high ? WH_SAMPLE_SATURATED : WH_SAMPLE_GOOD;
+    }
+}
+
+static void change_value(const fault_plan *plan, fault_case *f, double time_s, wh_sample *s) {
+    const double hum = f->size * number_sine(TURN_RAD * HUM_HZ * time_s);
+    if (f->kind == FAULT_CELL_PICKUP || f->kind == FAULT_CELL_HUM) {
+        set_value(plan, s, hum, f->kind == FAULT_CELL_HUM);
+    } else if (f->kind == FAULT_CELL_NOISE) {
+        set_value(plan, s, f->size * (double)wh_noise(plan->seed ^ 0x6E6F6973U, f->draws++), true);
+    } else if (f->kind == FAULT_CELL_SPIKES && fault_draw(plan, f) * SPIKES_ONE_IN < 1.0) {
+        set_value(plan, s, fault_draw(plan, f) < 0.5 ? f->size : -f->size, true);
+    } else if (f->kind == FAULT_READS) {
+        set_value(plan, s, f->size, false);
+    } else if (f->kind == FAULT_CELL_SATURATED) {
+        set_value(plan, s, (double)INFINITY, false);
+    } else if (f->kind == FAULT_CELL_OPEN) {
+        s->raw = 0;
+        s->status = WH_SAMPLE_DISCONNECTED;
+    } else if (f->kind == FAULT_CELL_FROZEN) {
+        f->held.raw = f->holds ? f->held.raw : s->raw;
+        f->holds = true;
+        s->raw = f->held.raw;
+        s->status = WH_SAMPLE_GOOD;
+    }
+}
+
+static void add_sample(wh_readings *r, wh_sample sample) {
+    if (r->samples < WH_SAMPLES_MAX) {
+        r->sample[r->samples++] = sample;
+    }
+}
+
+static void break_samples(const fault_plan *plan, fault_case *f, double time_s, wh_readings *r) {
+    const wh_readings all = *r;
+    r->samples = 0;
+    for (unsigned i = 0; i < all.samples; i++) {
+        wh_sample s = all.sample[i];
+        if (!is_of(f, s.channel)) {
+            add_sample(r, s);
+            continue;
+        }
+        if (f->kind == FAULT_CELL_DEAD ||
+            (f->kind == FAULT_CELL_LOST && fault_draw(plan, f) < f->size)) {
+            continue;
+        }
+        if (f->kind == FAULT_CELL_LATE) {
+            tell_later(f, (fault_pending){.at_s = time_s + f->size, .sample = s});
+            continue;
+        }
+        change_value(plan, f, time_s, &s);
+        add_sample(r, s);
+        if (f->kind == FAULT_CELL_REPEATED) {
+            add_sample(r, s);
+        }
+    }
+}
+
+/* --- both ----------------------------------------------------------------------------------------------------*/
+
+static void tell_pending(fault_case *f, double time_s, wh_readings *r) {
+    unsigned kept = 0;
+    for (unsigned i = 0; i < f->pending_count; i++) {
+        const fault_pending *p = &f->pending[i];
+        if (p->at_s > time_s + TOLD_S) {
+            f->pending[kept++] = *p;
+        } else if (p->is_edge) {
+            add_edge(r, p->edge);
+        } else {
+            add_sample(r, p->sample);
+        }
+    }
+    f->pending_count = kept;
+}
+
+void fault_readings(fault_plan *plan, fault_case *f, double time_s, wh_readings *r) {
+    const fault_place at = fault_rows[f->kind].place;
+    if (f->active && at == FAULT_EDGES) {
+        break_edges(plan, f, time_s, r);
+    } else if (f->active && at == FAULT_SAMPLES) {
+        break_samples(plan, f, time_s, r);
+    } else if (f->active && f->kind == FAULT_READINGS_LOST && fault_draw(plan, f) < f->size) {
+        r->edges = 0;
+        r->samples = 0;
+    }
+    tell_pending(f, time_s, r);
+}
+
+/* === when faults begin and end ================================================================ */
+/* When faults begin and end, and what they do to the plant and to orders. */
+
+/* Which of the scene's inputs, and what becomes of its healthy value. */
+static const struct {
+    fault_kind kind;
+    const char *input;
+    bool times;   /* its value is multiplied; else it takes the size, */
+    double value; /* or this, if not 0 */
+} inputs[] = {
+    {FAULT_CELL_TURNED, "cell_gain", false, -1.0},
+    {FAULT_CELL_GAIN, "cell_gain", true, 0.0},
+    {FAULT_CELL_OFFSET, "cell_offset", false, 0.0},
+    {FAULT_SUPPLY, "volts", true, 0.0},
+    {FAULT_FREEWHEEL, "freewheel", false, 1.0},
+    {FAULT_RUNAWAY, "runaway", false, 0.0},
+    {FAULT_STUCK, "runaway", false, 0.0},
+    {FAULT_STUCK, "enable_stuck", false, 1.0},
+    {FAULT_MOTOR, "stall", true, 0.0},
+    {FAULT_FRICTION, "bearing_friction", false, 0.0},
+    {FAULT_JAM, "bearing_friction", false, 0.0},
+    {FAULT_COUPLING, "k", true, 0.0},
+    {FAULT_STOP, "stop_pressed", false, 1.0},
+};
+enum { INPUTS = sizeof inputs / sizeof inputs[0] };
+
+/* --- before it begins ----------------------------------------------------------------------------------------*/
+
+static int input_of(const image *im, const char *name) {
+    for (int i = 0; i < im->inputs; i++) {
+        if (strcmp(im->input[i].name, name) == 0) {
+            return i;
+        }
+    }
+    return -1;
+}
+
+static bool find_inputs(const fault_case *f, const image *im) {
+    for (int i = 0; i < INPUTS; i++) {
+        if (inputs[i].kind == f->kind && input_of(im, inputs[i].input) < 0) {
+            fprintf(stderr,
+                    "whirl pil: error: --fault %s: '%s' has no input '%s'\n"
+                    "hint: docs/plants/rig.whirl has\n",
+                    fault_rows[f->kind].word, im->name, inputs[i].input);
+            return false;
+        }
+    }
+    return true;
+}
+
+/* Notes stand behind the outputs, in their order. */
+static bool find_note(fault_case *f, const wh_hello *hello) {
+    int at = 0;
+    for (unsigned i = 0; i < hello->signals; i++) {
+        at += hello->signal[i].kind == WH_SIGNAL_OUTPUT;
+    }
+    for (unsigned i = 0; i < hello->signals && f->note[0] != '\0'; i++) {
+        const wh_signal *s = &hello->signal[i];
+        if (s->kind == WH_SIGNAL_NOTE && strcmp(s->name, f->note) == 0) {
+            f->note_at = at;
+            return true;
+        }
+        at += s->kind == WH_SIGNAL_NOTE;
+    }
+    if (f->note[0] != '\0') {
+        fprintf(stderr, "whirl pil: error: --fault %s@%s=...: the firmware tells no '%s'\n",
+                fault_rows[f->kind].word, f->note, f->note);
+    }
+    return f->note[0] == '\0';
+}
+
+static bool has_channel(const fault_case *f, const plant *p) {
+    const fault_place at = fault_rows[f->kind].place;
+    const unsigned count = at == FAULT_SAMPLES ? p->binding->samples : p->binding->edges;
+    const bool asks = at == FAULT_SAMPLES || at == FAULT_EDGES || at == FAULT_SENSORS;
+    if (asks && f->channel >= (int)count) {
+        fprintf(stderr, "whirl pil: error: --fault %s:%d: the firmware has %u such channels\n",
+                fault_rows[f->kind].word, f->channel + 1, count);
+        return false;
+    }
+    return true;
+}
+
+/* --- the plant -----------------------------------------------------------------------------------------------*/
+
+static void set_inputs(const fault_plan *plan, const fault_case *f, bool broken) {
+    const image *im = plan->plant->image;
+    for (int i = 0; i < INPUTS; i++) {
+        if (inputs[i].kind != f->kind) {
+            continue;
+        }
+        const int at = input_of(im, inputs[i].input);
+        const double healthy = im->input[at].value;
+        const double size = inputs[i].value != 0.0 ? inputs[i].value : f->size;
+        const double wrong = inputs[i].times ? healthy * size : size;
+        engine_double.set_input(plan->plant->run, at, broken ? wrong : healthy);
+    }
+}
+
+/* Where a sensor stands: degrees of an angle, else SI. */
+static void set_sensors(const fault_plan *plan, const fault_case *f, bool broken) {
+    plant *p = plan->plant;
+    if (f->kind == FAULT_EDGE_JITTER) {
+        p->wish.jitter_s += (broken ? 1.0 : -1.0) * f->size * plan->ticks_per_s;
+        return;
+    }
+    for (unsigned i = 0; i < p->binding->count; i++) {
+        const bound *b = &p->binding->bound[i];
+        if (b->signal.kind == WH_SIGNAL_EDGE && (f->channel < 0 || f->channel == (int)b->channel)) {
+            const double off = b->turns ? f->size * 0.017453292519943295 : f->size;
+            p->wish.place[b->channel] += broken ? off : -off;
+        }
+    }
+}
+
+static void change(fault_plan *plan, fault_case *f, double time_s, bool begins) {
+    f->active = begins;
+    if (begins) {
+        f->happened = true;
+        f->begin_s = time_s;
+        f->next_s = time_s;
+        f->left =
+            f->kind == FAULT_EDGE_LOST || f->kind == FAULT_EDGE_INVENTED ? (uint32_t)f->size : 1;
+    }
+    if (fault_rows[f->kind].place == FAULT_INPUT) {
+        set_inputs(plan, f, begins);
+    } else if (fault_rows[f->kind].place == FAULT_SENSORS) {
+        set_sensors(plan, f, begins);
+    }
+}
+
+/* --- the processor --------------------------------------------------------------------------------------------*/
+
+static double due_ticks(const fault_plan *plan, const fault_case *f) {
+    return (f->begin_s + f->after_s) * plan->ticks_per_s;
+}
+
+/* There was a reset: what was on its way is lost, outputs are 0, and who asked for it is served. */
+static void see_reset(fault_plan *plan) {
+    const double then_ticks = plan->plant->reset.last_ticks;
+    plan->last = (wh_orders){.outputs = plan->last.outputs};
+    for (unsigned i = 0; i < plan->count; i++) {
+        fault_case *f = &plan->fault[i];
+        f->pending_count = 0;
+        if (f->kind == FAULT_RESET && f->reached && !f->happened &&
+            due_ticks(plan, f) <= then_ticks) {
+            f->happened = true;
+            f->begin_s = then_ticks / plan->ticks_per_s;
+        }
+    }
+}
+
+/* The plant is told of the next one beforehand: it need not be when anybody speaks. */
+static void order_reset(fault_plan *plan, const fault_case *f) {
+    plant_resets *r = &plan->plant->reset;
+    if (f->kind == FAULT_RESET && f->reached && !f->happened && due_ticks(plan, f) < r->at_ticks) {
+        r->at_ticks = due_ticks(plan, f);
+        r->takes_ticks = f->size * plan->ticks_per_s;
+    }
+    if (f->kind == FAULT_WATCHDOG_RESETS && f->active) {
+        r->by_watchdog = true;
+        r->watchdog_ticks = f->size * plan->ticks_per_s;
+    }
+}
+
+static void look_for_resets(fault_plan *plan) {
+    plant_resets *r = &plan->plant->reset;
+    if (r->count != plan->resets) {
+        plan->resets = r->count;
+        see_reset(plan);
+    }
+    r->at_ticks = (double)INFINITY;
+    r->by_watchdog = false;
+    for (unsigned i = 0; i < plan->count; i++) {
+        order_reset(plan, &plan->fault[i]);
+    }
+}
+
+/* Begins a fault whose time has come, and ends one whose time is over. */
+static void look_at_time(fault_plan *plan, double time_s) {
+    for (unsigned i = 0; i < plan->count; i++) {
+        fault_case *f = &plan->fault[i];
+        if (fault_rows[f->kind].place == FAULT_PARAMETER) {
+            f->happened = true;
+        } else if (f->kind == FAULT_RESET) {
+            continue; /* the plant does it */
+        } else if (!f->happened && f->reached && time_s >= f->begin_s + f->after_s) {
+            change(plan, f, time_s, true);
+        } else if (f->active && time_s >= f->begin_s + f->duration_s) {
+            change(plan, f, time_s, false);
+        }
+    }
+    look_for_resets(plan);
+}
+
+/* --- as a tap ------------------------------------------------------------------------------------------------*/
+
+static bool tap_start(void *of, const wh_hello *hello, plant *p) {
+    fault_plan *plan = of;
+    plan->plant = p;
+    plan->ticks_per_s = (double)hello->ticks_per_s;
+    for (unsigned i = 0; i < plan->count; i++) {
+        fault_case *f = &plan->fault[i];
+        if (!find_inputs(f, p->image) || !find_note(f, hello) || !has_channel(f, p)) {
+            return false;
+        }
+        f->reached = f->note_at < 0;
+    }
+    look_at_time(plan, 0.0);
+    return true;
+}
+
+static uint32_t times(uint32_t count, double size) {
+    const double many = (double)count * size;
+    return many < 4e9 ? (uint32_t)many : 4000000000U;
+}
+
+static void take_time(fault_case *f, wh_orders *orders, double *late_s) {
+    if (f->kind == FAULT_SLOW) {
+        orders->acted_timer = times(orders->acted_timer, f->size);
+        orders->busy_timer = times(orders->busy_timer, f->size);
+    } else if (f->kind == FAULT_LATE) {
+        *late_s += f->size;
+    } else if (f->kind == FAULT_HANG && f->left > 0) {
+        *late_s += f->size;
+        f->left = 0;
+    } else if (f->kind == FAULT_UNKICKED) {
+        orders->flags &= (uint8_t)~WH_ORDER_ALIVE;
+    } else if (f->kind == FAULT_UNWATCHED) {
+        orders->watchdog_ticks = 0;
+    }
+}
+
+/* What was lost says neither what the outputs are nor that anybody is alive. */
+static void lose_orders(fault_plan *plan, wh_orders *orders) {
+    const wh_orders sent = *orders;
+    *orders = plan->last;
+    orders->until_ticks = sent.until_ticks;
+    orders->acted_timer = sent.acted_timer;
+    orders->busy_timer = sent.busy_timer;
+    orders->outputs = sent.outputs;
+    orders->flags = 0;
+}
+
+static void tap_orders(void *of, double time_s, wh_orders *orders, double *late_s) {
+    fault_plan *plan = of;
+    bool lost = false;
+    for (unsigned i = 0; i < plan->count; i++) {
+        fault_case *f = &plan->fault[i];
+        if (!f->reached && orders->output[f->note_at] == (float)f->value) {
+            f->reached = true;
+            f->begin_s = time_s;
+        }
+    }
+    look_at_time(plan, time_s);
+    for (unsigned i = 0; i < plan->count; i++) {
+        fault_case *f = &plan->fault[i];
+        if (f->active && fault_rows[f->kind].place == FAULT_ORDERS) {
+            take_time(f, orders, late_s);
+        }
+        lost = lost || (f->active && f->kind == FAULT_ORDERS_LOST && fault_draw(plan, f) < f->size);
+    }
+    if (lost) {
+        lose_orders(plan, orders);
+    } else {
+        plan->last = *orders;
+    }
+}
+
+static void tap_readings(void *of, double time_s, wh_readings *readings) {
+    fault_plan *plan = of;
+    look_at_time(plan, time_s);
+    for (unsigned i = 0; i < plan->count; i++) {
+        fault_case *f = &plan->fault[i];
+        if (f->active || f->pending_count > 0) {
+            fault_readings(plan, f, time_s, readings);
+        }
+    }
+}
+
+tap fault_tap(fault_plan *plan) {
+    return (tap){.name = "faults",
+                 .of = plan,
+                 .start = tap_start,
+                 .orders = tap_orders,
+                 .readings = tap_readings};
+}
+
+/* === faults in words ========================================================================== */
+/* Faults in words. */
+
+#define FAULT_ROW(which, word, place, size, least, most, unit, words) \
+    {word, place, size, least, most, unit, words},
+const fault_row fault_rows[FAULT_KINDS] = {FAULT_ROWS(FAULT_ROW)};
+#undef FAULT_ROW
+
+/* What one fault's words are read from; `at` goes on, up to `end`. */
+typedef struct words_of_fault {
+    const char *begin;
+    const char *at;
+    const char *end;
+} words_of_fault;
+
+static bool wrong(const words_of_fault *w, const char *what, const char *hint) {
+    fprintf(stderr, "whirl pil: error: --fault %.*s: %s\nhint: %s\n", (int)(w->end - w->begin),
+            w->begin, what, hint);
+    return false;
+}
+
+static bool takes(words_of_fault *w, char mark) {
+    const bool is = w->at < w->end && *w->at == mark;
+    w->at += is;
+    return is;
+}
+
+static bool read_number(words_of_fault *w, double *number) {
+    const char *end = w->at;
+    *number = decimal_read(w->at, &end);
+    const bool good = end > w->at && end <= w->end && isfinite(*number);
+    w->at = good ? end : w->at;
+    return good;
+}
+
+/* 20us, 1.5ms, 0.2s, or 0.2. */
+static bool read_time(words_of_fault *w, double *time_s) {
+    static const struct {
+        const char *word;
+        double s;
+    } units[] = {{"us", 1e-6}, {"ms", 1e-3}, {"s", 1.0}};
+    if (!read_number(w, time_s)) {
+        return false;
+    }
+    for (size_t i = 0; i < sizeof units / sizeof units[0]; i++) {
+        const size_t length = strlen(units[i].word);
+        if ((size_t)(w->end - w->at) >= length && strncmp(w->at, units[i].word, length) == 0) {
+            *time_s *= units[i].s;
+            w->at += length;
+            break;
+        }
+    }
+    return *time_s >= 0.0;
+}
+
+static bool read_kind(words_of_fault *w, fault_case *f) {
+    const size_t length = strcspn(w->begin, ":=@+,");
+    nearest search = nearest_start(w->begin, length);
+    for (int i = 0; i < FAULT_KINDS; i++) {
+        const char *word = fault_rows[i].word;
+        nearest_offer(&search, word);
+        if (strlen(word) == length && strncmp(word, w->begin, length) == 0) {
+            f->kind = (fault_kind)i;
+            f->size = fault_rows[i].size;
+            w->at = w->begin + length;
+            return true;
+        }
+    }
+    char *hint = search.best != NULL ? room_words("did you mean '%s'?", search.best)
+                                     : room_words("whirl pil --faults lists the kinds");
+    wrong(w, "no kind of fault is called so", hint);
+    free(hint);
+    return false;
+}
+
+static bool read_channel(words_of_fault *w, fault_case *f) {
+    const fault_place at = fault_rows[f->kind].place;
+    double number;
+    f->channel = -1;
+    if (!takes(w, ':')) {
+        return true;
+    }
+    if (at != FAULT_EDGES && at != FAULT_SAMPLES && at != FAULT_SENSORS) {
+        return wrong(w, "it has no channels", "leave :CHANNEL out");
+    }
+    if (!read_number(w, &number) || !(number >= 1.0 && number <= (double)WH_SIGNALS_MAX) ||
+        number != number_floor(number)) {
+        return wrong(w, "no such channel", "channels count from 1, such as edge-dead:2");
+    }
+    f->channel = (int)number - 1;
+    return true;
+}
+
+static bool read_size(words_of_fault *w, fault_case *f) {
+    const fault_row *row = &fault_rows[f->kind];
+    if (!takes(w, '=')) {
+        return true;
+    }
+    if (!(row->least < row->most)) {
+        return wrong(w, "it has no size", "leave =SIZE out");
+    }
+    if (!(strcmp(row->unit, "s") == 0 && *w->at != '-' ? read_time(w, &f->size)
+                                                       : read_number(w, &f->size)) ||
+        !(f->size >= row->least && f->size <= row->most)) {
+        char *hint = room_words("a number from %g to %g%s%s", row->least, row->most,
+                                row->unit[0] != '\0' ? " " : "", row->unit);
+        wrong(w, "no such size", hint);
+        free(hint);
+        return false;
+    }
+    return true;
+}
+
+static bool read_when(words_of_fault *w, fault_case *f) {
+    static const char hint[] = "@1.5s, @state=4, or @state=4~200ms: so long after that";
+    if (!takes(w, '@')) {
+        return true;
+    }
+    if (fault_rows[f->kind].place == FAULT_PARAMETER) {
+        return wrong(w, "it is there from the start to the end", "leave @WHEN out");
+    }
+    const size_t length = strcspn(w->at, "=,+~");
+    if (w->at[length] != '=') {
+        return read_time(w, &f->after_s) || wrong(w, "no such time", hint);
+    }
+    if (length == 0 || length >= sizeof f->note) {
+        return wrong(w, "no such note", hint);
+    }
+    memcpy(f->note, w->at, length);
+    w->at += length + 1;
+    return (read_number(w, &f->value) && (!takes(w, '~') || read_time(w, &f->after_s))) ||
+           wrong(w, "no such time", hint);
+}
+
+static bool read_duration(words_of_fault *w, fault_case *f) {
+    f->duration_s = (double)INFINITY;
+    if (!takes(w, '+')) {
+        return true;
+    }
+    const bool lasts = fault_rows[f->kind].place != FAULT_PARAMETER && f->kind != FAULT_RESET;
+    return (lasts && read_time(w, &f->duration_s)) ||
+           wrong(w, "no such duration", "a time, such as +500ms");
+}
+
+static bool read_one(fault_plan *plan, words_of_fault *w) {
+    fault_case *f = &plan->fault[plan->count];
+    if (plan->count == FAULTS_MAX) {
+        return wrong(w, "too many faults", "sixteen at most");
+    }
+    *f = (fault_case){.note_at = -1};
+    if (!read_kind(w, f) || !read_channel(w, f) || !read_size(w, f) || !read_when(w, f) ||
+        !read_duration(w, f)) {
+        return false;
+    }
+    plan->count++;
+    return w->at == w->end ||
+           wrong(w, "what is behind it?", "KIND[:CHANNEL][=SIZE][@WHEN][+DURATION]");
+}
+
+bool fault_read(fault_plan *plan, const char *text) {
+    for (const char *at = text; at != NULL;) {
+        const char *end = at + strcspn(at, ",");
+        words_of_fault w = {at, at, end};
+        if (!read_one(plan, &w)) {
+            return false;
+        }
+        at = *end == ',' ? end + 1 : NULL;
+    }
+    return true;
+}
+
+char *fault_parameter(const fault_plan *plan, unsigned i) {
+    const fault_case *f = &plan->fault[i];
+    const fault_row *row = &fault_rows[f->kind];
+    return row->place == FAULT_PARAMETER ? room_words("%s=%.17g", row->word, f->size) : NULL;
+}
+
+void fault_print_kinds(FILE *out) {
+    for (int i = 0; i < FAULT_KINDS; i++) {
+        const fault_row *row = &fault_rows[i];
+        char size[48] = "";
+        if (row->least < row->most) {
+            snprintf(size, sizeof size, "=%g%s%s", row->size, row->unit[0] != '\0' ? " " : "",
+                     row->unit);
+        }
+        fprintf(out, "    %-16s%-10s %s\n", row->word, size, row->words);
+    }
+}
+
+/* === fault ==================================================================================== */
