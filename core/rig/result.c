@@ -22,12 +22,13 @@
 
 /* Of the force, what a healthy rig repeats each turn in harmonics 3 to 6 (tests/host/test_repeats_truth.c): by damping, as
  * tan(psi) E^2, and by a swing that is another, as E times the arrow; by a motor that cannot brake enough; by a carriage's
- * wave; and the cell's own bend. */
+ * wave; the cell's own bend; and sums over few samples a turn, by the square of the angle between two. */
 #define REPEATS_LAG WH_R(0.4)
 #define REPEATS_ARROW WH_R(1.6)
 #define REPEATS_CUT WH_R(0.29)
 #define REPEATS_TWICE WH_R(6.0)
 #define REPEATS_CELL WH_R(1e-4)
+#define REPEATS_STEP WH_R(0.012)
 
 /* What marks that jitter by an angle leave of the force in a turn, as a part of that angle. */
 #define REPEATS_JITTER WH_R(0.15)
@@ -349,13 +350,14 @@ static wh_real swing_off(const wh_rotor_config *rotor, const wh_merge *merge,
 static wh_real repeats_limit_N(const wh_merge *merge, const wh_turn_angle *angle,
                                const wh_measured *measured) {
     const wh_real swing = WH_ABS(merge->swing_rad);
+    const wh_real samples = (wh_real)(merge->repeats.samples > 0 ? merge->repeats.samples : 1U);
+    const wh_real turns = (wh_real)(merge->turns > 0 ? merge->turns : 1U);
     const wh_real part = REPEATS_LAG * angle->lag_rad * swing * swing +
                          REPEATS_ARROW * swing * measured->swing_off_rad +
-                         REPEATS_CUT * angle->cut + REPEATS_TWICE * angle->twice_rad + REPEATS_CELL;
-    const wh_real samples = (wh_real)(merge->repeats.samples > 0 ? merge->repeats.samples : 1U);
+                         REPEATS_CUT * angle->cut + REPEATS_TWICE * angle->twice_rad +
+                         REPEATS_CELL + REPEATS_STEP * square_of(WH_RIG_TWO_PI * turns / samples);
     /* a coefficient over N samples of variance s^2 has 2 s^2/N, and s^2 is half the mean squared difference */
     const wh_real noise_N2 = merge->repeats.changes_N2 / (samples * samples);
-    const wh_real turns = (wh_real)(merge->turns > 0 ? merge->turns : 1U);
     const wh_real jitter = REPEATS_JITTER * measured->jitter_s * measured->speed_radps;
     return WH_SQRT(REPEATS_NOISE * noise_N2 +
                    square_of(measured->expected_N) * (square_of(part) + square_of(jitter) / turns));

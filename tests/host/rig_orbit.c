@@ -215,6 +215,8 @@ void rig_measure(const rig_orbit *orbit, const rig_noise *noise, const wh_rotor_
     wh_rotor_config unused;
     wh_cell_config cell;
     rig_measure_config(&judged, &unused, &cell);
+    cell.period_ticks *= noise->slower > 0 ? noise->slower : 1U;
+    const double period_s = cell.period_ticks * 1e-6;
     scattered_state = scattered_seed * UINT64_C(0x9e3779b97f4a7c15) + 1U;
     for (unsigned i = 0; i < 16; i++) {
         scattered();
@@ -224,7 +226,7 @@ void rig_measure(const rig_orbit *orbit, const rig_noise *noise, const wh_rotor_
     lockin.angle.held_V = (wh_real)(orbit->drive_Nm / 0.0625);
     wh_merge merge = {0};
     const uint32_t begin = UINT32_MAX - 1500000U; /* the timer wraps on the way */
-    const double first_mark_s = uniform() * 0.002 + 0.001;
+    const double first_mark_s = uniform() * period_s + 0.001;
     unsigned marks = 0;
     double due_s = first_mark_s + noise->jitter_s * normal();
     unsigned done = 0;
@@ -232,7 +234,7 @@ void rig_measure(const rig_orbit *orbit, const rig_noise *noise, const wh_rotor_
     double follows_N = 0.0;
     int32_t mean[3] = {0};
     for (uint32_t i = 1; merge.turns + merge.left_out < turns && done < before + turns; i++) {
-        const double now_s = i * 0.002;
+        const double now_s = i * period_s;
         while (due_s <= now_s) { /* the timer drops fractions */
             wh_lockin_mark(&lockin, marks % 2U, begin + (uint32_t)(due_s * 1e6),
                            marks / 2U * 4U + marks % 2U);
@@ -255,13 +257,13 @@ void rig_measure(const rig_orbit *orbit, const rig_noise *noise, const wh_rotor_
             shown_N = force_N;
         }
         int32_t raw = (int32_t)lround(shown_N / (double)HAL_LOADCELL_N_PER_COUNT);
-        uint32_t stamp = begin + i * HAL_LOADCELL_PERIOD_TICKS;
+        uint32_t stamp = begin + i * cell.period_ticks;
         if (noise->conversions > 0) {
             mean[0] = mean[1];
             mean[1] = mean[2];
             mean[2] = mean_at(orbit, noise, t_s, on_top_N);
             raw = hal_averaged_middle(mean[0], mean[1], mean[2]);
-            stamp -= HAL_LOADCELL_PERIOD_TICKS;
+            stamp -= cell.period_ticks;
         }
         const wh_load load = wh_cell_load(&cell, stamp, raw, WH_LOAD_OK);
         wh_lockin_load(&lockin, &load);

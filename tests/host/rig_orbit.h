@@ -48,6 +48,8 @@ void rig_orbit_find(const rig_plant *plant, double speed_rpm, double lead_rad, r
 typedef struct rig_noise {
     double cell_N;   /* standard deviations: of each sample's force, */
     double jitter_s; /* and of each mark's time */
+    unsigned
+        slower; /* samples come so many times slower than HAL_LOADCELL_PERIOD_TICKS; 0: they do not */
     /* a converter that is coarser than the cell's counts, and its driver: a sample is what a mean of so many conversions,
      * evenly over its 2 ms, says with those beside it (hal/averaged.h); each conversion has whole counts of so much, which
      * the converter's own noise moves by so many. 0: none */
