@@ -300,6 +300,7 @@ hashes-now: $(GEN)/.stamp
 # In the gate one board runs the scenes to their ends, the others their first steps: a board that computes otherwise shows that
 # in the first steps, and `make hashes` runs them all. Of settings: with an FPU and without.
 BOARDS_FIRST = $(filter-out $(BOARDS_TEST),$(BOARDS))
+BOARDS_KINDS = $(BOARDS_TEST) $(filter %-an385 rv32%fc,$(BOARDS))
 gate-hashes: $(GEN)/.stamp
 	+@$(call build_hashes,$(BOARDS_TEST))
 	+@$(foreach b,$(BOARDS_FIRST),$(call on_board,$(b),short-images) &&) true
@@ -307,8 +308,8 @@ gate-hashes: $(GEN)/.stamp
 	@$(call compare_hashes,$(BOARDS_TEST)) $(call hash_hosts,wasm) \
 	    -- "The first $(SINGLE_STEPS) steps:" "this machine" build/scenes_short \
 	    $(foreach b,$(BOARDS_FIRST),"$(b)" "$(call on_board,$(b),print-short-hashes)")
-	@$(MAKE) hashes-matrix HASH_BOARDS="$(BOARDS_TEST) mps2-an385 rv32imafc"
-	@$(MAKE) hashes-hard HARD_BUILDS="gcc-O0 clang-O2" HARD_BOARDS="$(BOARDS_TEST) mps2-an385 rv32imafc"
+	@$(MAKE) hashes-matrix HASH_BOARDS="$(BOARDS_KINDS)"
+	@$(MAKE) hashes-hard HARD_BUILDS="gcc-O0 clang-O2" HARD_BOARDS="$(BOARDS_KINDS)"
 	@$(MAKE) hashes-settings SETTINGS=some SETTINGS_BUILDS=clang-O2 SETTINGS_BOARDS="$(BOARDS_TEST) mps2-an385"
 # HASH_BOARDS="mps2-an386 rv32imac": on these.
 HASH_BOARDS ?= $(BOARDS)

@@ -100,6 +100,7 @@ begin
 says id 'OK ' "a dead link is replaced"
 exec 3>&-
 first=$running
+: >"$scratch/said" # the first one's words, before they are awaited
 RIG_SETTINGS=$scratch/others "$station" >"$scratch/said" 2>"$scratch/err" </dev/null &
 running=$!
 await grep -q 'console is' "$scratch/said"

@@ -5,11 +5,11 @@
 #include <string.h>
 
 static const symbol swept[2] = {
-    {.kind = SYM_PARAMETER, .name = "k", .text = "", .unit = "", .dim.twelfths = {0, 12, -24}},
+    {.kind = SYM_PARAMETER, .name = "k", .text = "", .unit = "N/m", .dim.twelfths = {0, 12, -24}},
     {.kind = SYM_PARAMETER,
      .name = "m",
      .text = "",
-     .unit = "",
+     .unit = "kg",
      .index = 1,
      .dim.twelfths = {0, 12}}};
 
