@@ -1,7 +1,7 @@
 /* c_list.c: an operation list as C. Every operation becomes one statement, so that the compiler has the
  * same operations in the same order as the interpreter. Constants are written in hexadecimal: the
  * float build rounds the double exactly as the interpreter does. */
-#include "host/emit/c_list.h"
+#include "c_list.h"
 
 #include <inttypes.h>
 #include <math.h>
@@ -9,46 +9,7 @@
 
 #include "host/number/decimal.h"
 #include "host/number/phase.h"
-
-static void operands(FILE *out, const tape *t, const op *o, const op_style *style) {
-    style->operand(out, t, o->a);
-    if (o->b >= 0) {
-        fputs(", ", out);
-        style->operand(out, t, o->b);
-    }
-}
-
-/* A constant is a number. */
-static void or_no_number(FILE *out, const tape *t, int b, const op_style *style) {
-    if (t->ops[b].code != OP_CONSTANT) {
-        fputs(" || ", out);
-        style->operand(out, t, b);
-        fputs(" != ", out);
-        style->operand(out, t, b);
-    }
-}
-
-void op_text(FILE *out, const tape *t, const op *o, const char *form, const op_style *style) {
-    for (const char *at = form; *at != '\0'; at++) {
-        if (*at != '$') {
-            fputc(*at, out);
-            continue;
-        }
-        at++;
-        switch (*at) {
-        case 'a': style->operand(out, t, o->a); break;
-        case 'b': style->operand(out, t, o->b); break;
-        case 'f': fputs(function_name(o->function), out); break;
-        case 'o': operands(out, t, o, style); break;
-        case 'n': or_no_number(out, t, o->b, style); break;
-        case 'i': fprintf(out, "%d", o->a); break;
-        case 'v': fprintf(out, "%.0f", o->value); break;
-        default: style->leaf(out, style->context, *at, o->a); break;
-        }
-    }
-}
-
-/* === the list ================================================================================= */
+#include "op_text.h"
 
 /* A list of more operations than this is called at each stage and not inlined there: for 7 to 12 % more instructions on
  * the Cortex-M4F half of the flash and less (seven links of a pendulum: 8 and not 15 KB, ten: 14 and not 33). */

@@ -343,13 +343,7 @@ bool read_conserve(parser *in, const statement_word *word) {
 }
 
 /* === the block and its statements ============================================================= */
-/* The statements of a scene, for the two files that read it. The scene is the parser's draft. */
-
-statement_reader read_use, read_step, read_until; /* scene_block.c */
-
-statement_reader read_with, read_set, read_start, read_conserve; /* scene_block.c */
-
-statement_reader read_range; /* scene_block.c */
+/* The scene is the parser's draft. */
 
 static void choose_mechanism(parser *in, draft *into, builder *chosen) {
     into->of = chosen;
