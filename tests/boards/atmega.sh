@@ -21,7 +21,7 @@ more)
 *) $atmega run $image "${1:-330}" || failed=1 ;;
 esac
 $atmega slots $image 100 "$seed" || failed=1
-$atmega storm $image 1500 "$seed" || failed=1
+$atmega storm $image 5000 "$seed" || failed=1
 $atmega faults $image "${2:-12}" "$seed" || failed=1
 $atmega resets $image "${3:-24}" "$seed" || failed=1
 $atmega supply $image 4 "$seed" || failed=1
