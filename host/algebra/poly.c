@@ -11,7 +11,7 @@
 #include "host/number/folding.h"
 
 /* === the order of the normal form ============================================================= */
-/* The order of the normal form. It looks at what things are, never at when they were made: the same
+/* It looks at what things are, never at when they were made: the same
  * expression has the same form whoever asked for what before, and whichever compiler built the program.
  *
  * Equal things are one object, so two that are not the same pointer differ somewhere: comparing ends at the

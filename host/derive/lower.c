@@ -246,7 +246,7 @@ int pieces_of(algebra *a, const poly *p, piece *pieces) {
 /* === which sines are evaluated ================================================================ */
 /* Sines and cosines of several angles from as few evaluations as possible.
  *
- * which sines are evaluated, and which follow by the addition theorems.
+ * Which sines are evaluated, and which follow by the addition theorems.
  *
  * Evaluating a pair costs some thirty instructions, sin(a + b) from known pairs at most six. So the
  * angles are taken in order of size, and one that is a sum, a difference or the double of others is

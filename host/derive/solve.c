@@ -251,7 +251,7 @@ static void eliminate(tape *t, bool symmetric, int n, int *mass, int *force, con
 /* === a coordinate that hangs on a hinge ======================================================= */
 /* Eliminating a coordinate that hangs on a hinge, in symbols.
  *
- * the part of a mass that its hinge can push.
+ * The part of a mass that its hinge can push.
  *
  * A body on a hinge, q its angle: its row of the equations is
  *
@@ -397,7 +397,7 @@ static bool hinge_eliminate(algebra *a, int n, const poly **mass, const poly **f
 /* === forms of the equations =================================================================== */
 /* The equations M x = f brought into one of several forms before they are entered into a list.
  *
- * scales, and what is eliminated while the equations are still symbols. */
+ * Scales, and what is eliminated while the equations are still symbols. */
 
 /* Which form. */
 typedef struct arrangement {

@@ -514,7 +514,6 @@ tap fault_tap(fault_plan *plan) {
 }
 
 /* === faults in words ========================================================================== */
-/* Faults in words. */
 
 #define FAULT_ROW(which, word, place, size, least, most, unit, words) \
     {word, place, size, least, most, unit, words},
@@ -701,5 +700,3 @@ void fault_print_kinds(FILE *out) {
         fprintf(out, "    %-16s%-10s %s\n", row->word, size, row->words);
     }
 }
-
-/* === fault ==================================================================================== */
