@@ -184,11 +184,11 @@ run-suites: # the portable suites, what guards the stack, the watchdog, and firs
 print-hashes: # a line for each scene, with the hash of its last state
 	@$(call need,$(BOARD_EMULATOR))
 	@$(call emulate,$(ELF)/scenes.elf)
-# The first steps of each scene.
+# The first steps of each scene. A specs file is given once.
 $(ELF)/scenes_short.elf: boards/programs/scenes.c $(BOARD_OBJECTS) $(call libraries,$(BOARD),scenes whirl)
 	@mkdir -p $(@D)
 	$(say) LINK $@
-	$(Q)$(BOARD_CC) $(BOARD_CFLAGS) $(WARN) $(BOARD_EXTRA) -DSCENE_STEPS_MOST=$(SINGLE_STEPS)U $(BOARD_LDFLAGS) -o $@ $(filter %.c %.o,$^) \
+	$(Q)$(BOARD_CC) $(BOARD_CFLAGS) $(WARN) $(BOARD_EXTRA) -DSCENE_STEPS_MOST=$(SINGLE_STEPS)U $(filter-out $(BOARD_CFLAGS),$(BOARD_LDFLAGS)) -o $@ $(filter %.c %.o,$^) \
 	    -Wl,--start-group $(filter %.a,$^) -Wl,--end-group $(IMAGE_LIBS) $(BOARD_LDLIBS)
 short-images: $(ELF)/scenes_short.elf
 print-short-hashes:
