@@ -70,7 +70,7 @@ static void write_name(FILE *out, const char *name) {
 static void write_comment(FILE *out, const char *text) {
     fputs("$comment ", out);
     for (const char *at = text; *at != '\0'; at++) {
-        fputc(*at >= '\0' && *at < ' ' ? ' ' : *at, out);
+        fputc((unsigned char)*at < ' ' ? ' ' : *at, out);
         if (strncmp(at, "$end", 4) == 0) {
             fputc(' ', out);
         }
