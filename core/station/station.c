@@ -26,7 +26,7 @@ typedef struct request {
 
 /* --- lines out ------------------------------------------------------------------------------------ */
 
-/* What the answer has goes out, and it is empty again. One that is too long is cut, so that its line has an end. */
+/* The answer goes out, and is empty again. One that is too long is cut, so that its line has an end. */
 static void send(request *r) {
     wh_text *text = &r->answer;
     text->size += END_BYTES;

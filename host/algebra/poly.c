@@ -89,8 +89,8 @@ int poly_order(const poly *x, const poly *y) {
     return of_ints(x->count, y->count);
 }
 
-/* === what a look tells ======================================================================== */
-/* What can be said of a poly, and of two numbers in one, by looking: nothing is made. */
+/* === questions about a poly =================================================================== */
+/* Nothing is made. */
 
 /* Sums below this part of what was added are rounding errors of the decimals they came from. */
 #define CANCELLED 1e-14

@@ -18,9 +18,8 @@
 #include "host/monitor/port.h"
 #include "host/run/loop.h"
 
-/* === what the record should have ============================================================== */
-/* What the record of a board's first light should have: the interpreter's runs of the scenes, and a board whose
- * crystal, sensors and stop line answer. */
+/* === the expected record ====================================================================== */
+/* The interpreter's runs of the scenes, and a board whose crystal, sensors and stop line answer. */
 
 enum { LIGHT_EXPECTED = 100 };
 

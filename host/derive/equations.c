@@ -60,7 +60,7 @@ const poly *forces_power(algebra *a, const statement_force *forces, int count, t
     return sum;
 }
 
-/* === what is asked of equations that stand ==================================================== */
+/* === questions to finished equations ========================================================== */
 
 place equations_kinetic_place(const instance *inst) {
     const mechanism *m = inst->mechanism;

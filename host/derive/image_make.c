@@ -1,4 +1,4 @@
-/* image_make.c: The image, and what it would be if its numbers had been folded otherwise. */
+/* image_make.c: the image, and what it would be if its numbers had been folded otherwise. */
 #include "host/derive/image_make.h"
 
 #include <stdio.h>

@@ -12,7 +12,7 @@
 #include "host/number/functions.h"
 #include "host/number/twofold.h"
 
-/* === one step of x' = A x + B u + c with all but x held: what is added to x =================== */
+/* === the change in one step of x' = A x + B u + c, all but x held ============================= */
 /* Scaling, a series, squaring. */
 
 /* Each halving of the step costs a squaring, and each squaring up to one of the 104 bits: 50 leave a double its digits. */

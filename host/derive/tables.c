@@ -117,7 +117,7 @@ static void turn_evaluate(const tape *t, const int *multiple, double turns, turn
     }
 }
 
-/* === the numbers of tables: what stands in each cell for functions of one angle =============== */
+/* === the numbers in the cells of tables ======================================================= */
 /* A table's pieces meet at knots half a cell from the cells' middles. Through the function's values there, straight
  * pieces would be off by h^2/8 f'', and by h^2/12 f'' on the mean; cubic ones, with its slopes, by h^4/384 f'''' and
  * h^4/720 f''''. Always to one side: a mechanism that turns and turns would sum that up. So the knots are moved by that

@@ -307,8 +307,8 @@ bool fixed_bits(fixed_list *l, const image *im, diags *errors) {
     return good;
 }
 
-/* === what values can be ======================================================================= */
-/* What the values of a list can be: interval arithmetic, cell by cell of the turn angles. A whole turn at once
+/* === ranges of values ========================================================================= */
+/* Interval arithmetic, cell by cell of the turn angles. A whole turn at once
  * would know no denominator from zero. */
 
 /* Cells a turn, and of all turn angles together. */

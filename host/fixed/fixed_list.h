@@ -1,8 +1,8 @@
 /* fixed_list.h: an operation list in fixed point: what the accelerations' list (host/image/tape.h) becomes when each value is
  * a 32-bit integer with a binary point of its own.
  *
- * Made in three steps: copied (fixed_list.c: what has no fixed form is refused; the step goes into the results), its values
- * enclosed (fixed_list.c), its points chosen (fixed_list.c). What runs it (engine_fixed.c) and what writes it as C (c_fixed.c)
+ * Made in three steps: copied (an operation without a fixed form is refused; the step goes into the results), its values
+ * enclosed, its points chosen. What runs it (engine_fixed.c) and what writes it as C (c_fixed.c)
  * read numbers and shifts only, so both give the same bits. */
 #ifndef FIXED_FIXED_LIST_H
 #define FIXED_FIXED_LIST_H

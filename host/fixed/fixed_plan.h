@@ -9,7 +9,7 @@
 #include "host/fixed/interval.h"
 #include "host/image/image.h"
 
-/* === what a scene may have that fixed point has not, each refused at its place ================ */
+/* === statements that fixed point refuses, each at its place =================================== */
 
 /* Contacts, books, noise, other methods and settings: false, reported. */
 bool fixed_has_step(const image *im, diags *errors);

@@ -16,7 +16,7 @@
  *           l, r, u   in Octave: the linear component, rate, input that a counts
  *
  * What each operation computes, in four more places: host/run/evaluate.inc, host/run/rounding.c,
- * host/derive/solve.c, host/image/tape_gauge.c; what multiplying it takes: tape_gauge.c, tape_gauge.c.
+ * host/derive/solve.c, host/image/tape_gauge.c, which also multiplies it.
  */
 #ifndef IMAGE_OP_ROWS_H
 #define IMAGE_OP_ROWS_H

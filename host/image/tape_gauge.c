@@ -499,7 +499,7 @@ tape *tape_multiplied(const tape *t, const double *times) {
     return m.to;
 }
 
-/* === what a list's constants, rounded to float, do to what it computes ======================== */
+/* === the bias of constants that are rounded to float ========================================== */
 
 enum { SIZES = 3, STATES = 6 };
 

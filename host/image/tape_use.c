@@ -9,7 +9,7 @@
 #include "host/image/tape.h"
 
 /* === which operations need which ============================================================== */
-/* Which operations of a list need which, and what their order costs. */
+/* And the cost of their order. */
 
 /* Single-precision registers that an FPU of Arm or RISC-V has for a list: 32, less what the step around it keeps. */
 enum { TAPE_REGISTERS = 20 };
@@ -550,7 +550,7 @@ void tape_share_sums(tape *t) {
     }
 }
 
-/* === what is needed, and its cost ============================================================= */
+/* === need and cost ============================================================================ */
 
 int tape_operands(const op *o, int operand[static 2]) {
     const bool values = op_rows[o->code].values > 0;

@@ -1,5 +1,5 @@
-/* expression.h: reading expressions: the grammar (expression.c, contact_statement.c), names (expression.c), and what
- * operators make of dimensions (operators.c). Recursion is bounded by NESTING_MAX and EXPR_HEIGHT_MAX. */
+/* expression.h: reading expressions: the grammar and names (expression.c), conditions (contact_statement.c), and the
+ * dimensions of operators (operators.c). Recursion is bounded by NESTING_MAX and EXPR_HEIGHT_MAX. */
 #ifndef LANG_EXPRESSION_H
 #define LANG_EXPRESSION_H
 

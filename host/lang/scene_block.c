@@ -109,7 +109,7 @@ static bool range_item(parser *in, const statement_word *word) {
 
 bool read_range(parser *in, const statement_word *word) { return scene_list(in, word, range_item); }
 
-/* === what the lists of a scene hold: with, set, start, conserve =============================== */
+/* === the lists of a scene: with, set, start, conserve ========================================= */
 
 /* "WORD needs a name": the token in hand is none. */
 static bool scene_fail_name(parser *in, const statement_word *word) {

@@ -18,7 +18,7 @@
 #include "host/number/functions.h"
 
 /* === faults of readings ======================================================================= */
-/* What faults of sensors, of the load cell and of the line make of what the plant says. */
+/* Of sensors, of the load cell and of the line. */
 
 double fault_draw(const fault_plan *plan, fault_case *f) {
     uint64_t hash = wh_hash_u64(WH_HASH_START, plan->seed);
@@ -226,7 +226,7 @@ void fault_readings(fault_plan *plan, fault_case *f, double time_s, wh_readings 
 }
 
 /* === when faults begin and end ================================================================ */
-/* When faults begin and end, and what they do to the plant and to orders. */
+/* And their effect on the plant and on orders. */
 
 /* Which of the scene's inputs, and what becomes of its healthy value. */
 static const struct {

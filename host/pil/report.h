@@ -81,7 +81,7 @@ typedef struct lockstep_report {
     uint64_t plant_hash; /* of the scene's last state */
 } lockstep_report;
 
-/* === what a run in the loop was, in words ===================================================== */
+/* === in words ================================================================================= */
 
 /* `im` is the plant's; NULL: it was a tape. */
 void pil_print(FILE *out, const lockstep_wish *wish, const image *im, const lockstep_report *r);
