@@ -200,6 +200,21 @@ static bool name_runs(panels *p, const char *command, const char *legend, const 
     return list == NULL;
 }
 
+/* An axis without a label of its own keeps quantity and unit; a label without an axis is a mistake. */
+static bool labels_fit(const panels *p, const char *command, const char *labels) {
+    int more = 0;
+    for (const char *at = labels; at != NULL && *at != '\0'; at++) {
+        more += *at == ',';
+    }
+    if (more >= p->count && p->count > 0) {
+        fprintf(stderr,
+                "whirl %s: error: --ylabel has %d texts for %d panel%s\n"
+                "hint: a comma stands between the texts of two panels\n",
+                command, more + 1, p->count, p->count == 1 ? "" : "s");
+    }
+    return more < p->count || p->count == 0;
+}
+
 bool plot_is_path(const plot_choice *choice) {
     return choice->x != NULL && strcmp(choice->x, "t") != 0 && strcmp(choice->x, "time") != 0;
 }
@@ -224,10 +239,11 @@ bool panels_make(panels *p, const char *command, const plot_choice *choice, cons
             return false;
         }
     }
-    if (choice->y != NULL || choice->panels > 0) {
-        return choice->y == NULL || add_list(p, command, choice->y, runs, -1);
-    }
-    return add_all(p, command, runs);
+    const bool chosen = choice->y != NULL || choice->panels > 0;
+    const bool added = !chosen             ? add_all(p, command, runs)
+                       : choice->y != NULL ? add_list(p, command, choice->y, runs, -1)
+                                           : true;
+    return added && labels_fit(p, command, choice->ylabel);
 }
 
 void panels_free(panels *p) {

@@ -123,12 +123,27 @@ static const expr *as_recorded(measures *m, const mechanism *of, const expr *tre
     return kept;
 }
 
+/* Measures come one by one: a comma outside all parentheses is a list's. */
+static bool is_list(const source *typed, diags *errors) {
+    int depth = 0;
+    for (const char *at = typed->text; *at != '\0'; at++) {
+        depth += *at == '(' ? 1 : *at == ')' ? -1 : 0;
+        if (*at == ',' && depth <= 0) {
+            const size_t offset = (size_t)(at - typed->text);
+            diag_error(errors, (place){typed, 1, (int)offset + 1, offset},
+                       "--measure max(X) --measure max(Y)", "one measure at a time");
+            return true;
+        }
+    }
+    return false;
+}
+
 static const expr *read_expression(measures *m, const mechanism *of, const char *text,
                                    size_t length, diags *errors) {
     const size_t before = diags_calls(errors);
     source *typed = arena_alloc(m->arena, sizeof *typed);
     *typed = (source){"<measure>", arena_copy(m->arena, text, length), length};
-    if (has_measure_inside(typed, errors)) {
+    if (is_list(typed, errors) || has_measure_inside(typed, errors)) {
         return NULL;
     }
     parser in = {.diags = errors, .arena = m->arena, .effect = -1, .all_effects = true};

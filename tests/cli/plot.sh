@@ -152,6 +152,7 @@ $(printf '0,1\n1,2\n' >"$scratch/bare.csv")
 END
 refused "no file for the picture" "--out picture.svg" plot "$scratch/soft.csv"
 refused "draws .svg, .pdf and .png files" "--out picture.svg" plot "$scratch/soft.csv" --out "$scratch/no.txt"
+refused "--ylabel has 3 texts for 1 panel" 'a comma stands between' plot "$scratch/soft.csv" --y x --ylabel "a, b, c" "$out"
 refused "--legend names 1 of 2 runs" '--legend "first, second"' plot "$scratch/soft.csv" "$scratch/stiff.csv" --legend one "$out"
 refused "--set changes a scene" "whirl plot SCENE --set" plot "$scratch/soft.csv" --set k=1 "$out"
 refused "k is given twice, and options change every scene" "record each run, then draw both:" plot "$model" --set k=5 "$model" --set=k=90 "$out"

@@ -288,6 +288,41 @@ static void test_measures_inside_are_told(void) {
     }
 }
 
+/* Two measures in one text are refused at the comma between them; a function's own commas are no list. */
+static void test_a_list_of_measures_is_told(void) {
+    static const char *const one[] = {"theta",       "max(theta)",        "mean(2*theta)",
+                                      "theta*theta", "atan2(theta, 2)",   "max(theta, 1)",
+                                      "min(theta)",  "max(max(theta, 1))"};
+    const unsigned count = sizeof one / sizeof one[0];
+    for (unsigned c = 0; c < count * count; c++) {
+        char text[100];
+        char wanted[60];
+        char *told = NULL;
+        size_t length = 0;
+        snprintf(text, sizeof text, "%s%s%s", one[c / count], c % 2U == 0 ? "," : " , ",
+                 one[c % count]);
+        const char *const list[] = {text};
+        open_sample();
+        TEST_ASSERT_NULL(measures_new(parsed->mechanisms[0], list, 1, heard));
+        FILE *out = open_memstream(&told, &length);
+        TEST_ASSERT_NOT_NULL(out);
+        diags_flush(heard, out);
+        fclose(out);
+        snprintf(wanted, sizeof wanted, "<measure>:1:%d: error: one measure at a time\n",
+                 (int)strlen(one[c / count]) + 1 + (int)(c % 2U));
+        TEST_ASSERT_EQUAL_STRING_LEN(wanted, told, strlen(wanted));
+        free(told);
+        close_sample();
+    }
+    for (unsigned c = 0; c < count; c++) {
+        open_sample();
+        measures *m = measures_new(parsed->mechanisms[0], &one[c], 1, heard);
+        TEST_ASSERT_TRUE_MESSAGE(m != NULL, one[c]);
+        measures_free(m);
+        close_sample();
+    }
+}
+
 static void test_default_measures_are_the_columns_of_run(void) {
     static const char *const wanted[] = {"theta", "der(theta)", "height"};
     open_sample();
@@ -314,5 +349,6 @@ void suite_sweep(void) {
     RUN_TEST(test_mean_is_over_time);
     RUN_TEST(test_measures_are_read);
     RUN_TEST(test_measures_inside_are_told);
+    RUN_TEST(test_a_list_of_measures_is_told);
     RUN_TEST(test_default_measures_are_the_columns_of_run);
 }
