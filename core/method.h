@@ -55,6 +55,9 @@
     X(WH_RK4, "rk4", "Runge-Kutta 4", 4, WH_ANY_SYSTEM, 4, \
       .stage = {{1, {0}}, {2, {1}}, {2, {0, 1}}, {1, {0, 0, 1}}}, \
       .parts = 6, .positions = {1, 1, 1, 0}, .rates = {1, 2, 2, 1}, .turns = {0, 1, 1, 2}) \
+    X(WH_RK4_PLAIN, "rk4-plain", "Runge-Kutta 4, plain", 4, WH_ANY_SYSTEM, 4, \
+      .stage = {{1, {0}}, {2, {1}}, {2, {0, 1}}, {1, {0, 0, 1}}}, \
+      .parts = 6, .positions = {1, 1, 1, 0}, .rates = {1, 2, 2, 1}) \
     X(WH_RK38, "rk38", "Kutta's 3/8 rule", 4, WH_ANY_SYSTEM, 4, \
       .stage = {{1, {0}}, {3, {1}}, {3, {-1, 3}}, {1, {1, -1, 1}}}, \
       .parts = 8, .positions = {1, 2, 1, 0}, .rates = {1, 3, 3, 1}, .turns = {0, 1, 2, 3}) \

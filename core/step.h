@@ -28,12 +28,9 @@
 
 #include "ahead.h"
 #include "arithmetic.h"
+#include "rk4.h"
 #include "root.h"
 #include "step_end.h"
-
-/* Derivatives of a first-order system: slope[angles + reals], angles first (rad/s). */
-typedef void wh_slope_fn(const void *model, const wh_phase *phase, const wh_real *real,
-                         const wh_real *input, wh_real *slope);
 
 /* Where an angle stands at a stage whose shares of the rates have `sum`. In the middle of a step it goes half of
  * where the whole step leads. False as wh_phase_move(). */
@@ -140,6 +137,14 @@ WH_INLINE unsigned wh_step_second_stage(const void *model, wh_accel_fn *accel, c
 WH_INLINE wh_status wh_step_second(const void *model, wh_accel_fn *accel, wh_method method,
                                    bool compensated, unsigned angles, unsigned n, wh_span h,
                                    wh_state *state) {
+    if (method == WH_RK4_PLAIN && !compensated) {
+        const wh_rk4_system plain = {.model = model,
+                                     .accel = accel,
+                                     .coordinates = n,
+                                     .angles = angles,
+                                     .reals = 2 * n - angles};
+        return wh_rk4_step(&plain, h.s, state);
+    }
     const wh_tableau *by = wh_tableau_of(method);
     wh_stepped_second k = {
         .linear = state->real, .rate = state->real + (n - angles), .input = state->input};
@@ -200,6 +205,14 @@ WH_INLINE unsigned wh_step_first_stage(const void *model, wh_slope_fn *slope, co
 WH_INLINE wh_status wh_step_first(const void *model, wh_slope_fn *slope, wh_method method,
                                   bool compensated, unsigned angles, unsigned reals, wh_span h,
                                   wh_state *state) {
+    if (method == WH_RK4_PLAIN && !compensated) {
+        const wh_rk4_system plain = {.model = model,
+                                     .slope = slope,
+                                     .angles = angles,
+                                     .reals = reals,
+                                     .coordinates = angles};
+        return wh_rk4_step(&plain, h.s, state);
+    }
     const wh_tableau *by = wh_tableau_of(method);
     wh_stepped_first k;
     wh_stepped_list list;

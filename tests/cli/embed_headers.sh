@@ -9,7 +9,7 @@ gen="$(dirname "$whirl")/gen"
 [ -d "$gen" ] || gen=build/gen
 warnings="-Wall -Wextra -Wconversion -Wshadow -Wdouble-promotion -Wundef -pedantic -Werror -ffp-contract=off"
 
-only_c=$(ls core/step.h core/step_[!t]*.h core/stage_*.h core/ahead.h core/matrix_step.h core/refuse.h core/driven.h core/small_turn.h core/table.h core/unroll.h core/ledger_step.h core/stabilize.h core/arithmetic.h core/contact*.h core/function_*.h)
+only_c=$(ls core/rk4.h core/step.h core/step_[!t]*.h core/stage_*.h core/ahead.h core/matrix_step.h core/refuse.h core/driven.h core/small_turn.h core/table.h core/unroll.h core/ledger_step.h core/stabilize.h core/arithmetic.h core/contact*.h core/function_*.h)
 public=$( (ls core/*.h core/rig/*.h hal/*.h hal/virtual/*.h boards/board.h; echo "$only_c" "$only_c") |
     tr ' ' '\n' | sort | uniq -u)
 scenes=$(cd "$gen" && ls ./*.h | sed 's|^\./||')
