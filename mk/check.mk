@@ -17,6 +17,7 @@ check-now: $(GEN)/.stamp
 gate-house:
 	@sh tests/house.sh
 	@sh tests/weight.sh
+	@sh tests/english.sh
 
 # --- warnings are errors, with both compilers, in every build -------------------------------------
 # What is compiled for boards only; a board's own make lints its part (tidy-board).

@@ -1,0 +1,115 @@
+#!/bin/sh
+# english.sh: the English of comments and of the user's pages in figures, against limits; `table` prints the figures, and
+# `long` the sentences of more than 35 words.
+#
+# "what" counts with its kin: whoever, whatever, nobody, none, behind, anew, likewise. A figure is a floor and not the aim:
+# docs/dev/style.md has the rules. A limit is lowered when sentences have been rewritten.
+set -u
+
+# The name, and the limits: "what" in 1,000 words, words of a mean sentence, sentences of more than 35 words.
+budget='
+core 21 18 110
+hal-boards 22 18 25
+host 23 18 95
+tests 26 18 240
+pages 11 18 60
+'
+
+files() { # files NAME
+    case $1 in
+    core) git ls-files core | grep -E '\.(c|h)$' ;;
+    hal-boards) git ls-files hal boards | grep -E '\.(c|h)$' ;;
+    host) git ls-files host | grep -E '\.(c|h|inc)$' ;;
+    tests) git ls-files tests | grep -E '\.(c|h)$' ;;
+    pages) git ls-files README.md 'docs/*.md' 'docs/howto/*.md' | grep -v -e ^docs/dev/ -e ^docs/hard/ ;;
+    esac
+}
+
+# prose NAME: its paragraphs, a line each, "FILE<tab>TEXT". Of pages, neither code nor tables nor headings.
+prose() {
+    if [ "$1" = pages ]; then
+        files "$1" | xargs awk '
+            function flush() { if (text != "") { print file "\t" text } text = "" }
+            FNR == 1 { flush(); file = FILENAME; code = 0 }
+            /^ *```/ { code = !code; flush(); next }
+            code || /^ *\|/ || /^#/ || /^</ { flush(); next }
+            /^ *$/ { flush(); next }
+            /^ *([-*]|[0-9]+\.) / { flush(); sub(/^ *([-*]|[0-9]+\.) /, "") }
+            { gsub(/`[^`]*`/, "X"); gsub(/\]\([^)]*\)/, ""); gsub(/\[/, ""); text = text " " $0 }
+            END { flush() }'
+    else
+        files "$1" | xargs awk '
+            function flush() { if (text ~ /[a-z]/) { print file "\t" text } text = "" }
+            FNR == 1 { flush(); file = FILENAME; inside = 0 }
+            {
+                line = $0
+                if (!inside) {
+                    if (match(line, /\/\/ /)) { flush(); text = substr(line, RSTART + 3); flush(); next }
+                    if (!match(line, /\/\*/)) { next }
+                    flush()
+                    line = substr(line, RSTART + 2)
+                    inside = 1
+                }
+                ended = match(line, /\*\//)
+                if (ended) { line = substr(line, 1, RSTART - 1) }
+                sub(/^ *\*? ?/, "", line)
+                if (line ~ /^ *$/ || line ~ /^=+ .*=+ *$/) { flush() } else { text = text " " line }
+                if (ended) { flush(); inside = 0 }
+            }
+            END { flush() }'
+    fi
+}
+
+# figures NAME: words, "what" in 1,000, mean sentence, sentences over 30 and over 35 words; LONG=1: the latter themselves
+figures() {
+    prose "$1" | awk -F'\t' -v long="${LONG:-0}" '
+        {
+            n = split($2, word, " ")
+            count = 0
+            for (i = 1; i <= n; i++) {
+                bare = tolower(word[i])
+                gsub(/[^a-z]/, "", bare)
+                if (bare == "") { continue }
+                words++
+                count++
+                if (bare ~ /^(what|whats|whoever|whatever|nobody|none|behind|anew|likewise)$/) { what++ }
+                if (count == 1) { first = i }
+                if (word[i] ~ /[.!?][)"]*$/ || i == n) {
+                    if (count >= 3) { sentences++; total += count }
+                    over30 += count > 30
+                    if (count > 35) {
+                        over35++
+                        if (long) {
+                            line = $1 ":"
+                            for (k = first; k <= i; k++) { line = line " " word[k] }
+                            print line
+                        }
+                    }
+                    count = 0
+                }
+            }
+        }
+        END { if (!long) { printf "%d %.1f %.1f %d %d\n", words, 1000 * what / words, total / sentences, over30, over35 } }'
+}
+
+if [ "${1:-}" = long ]; then
+    for name in core hal-boards host tests pages; do LONG=1 figures $name; done
+    exit 0
+fi
+[ "${1:-}" != table ] || printf '| read | words | "what" in 1,000 | mean sentence | over 30 words | over 35 words |\n| :-- | --: | --: | --: | --: | --: |\n'
+bad=0
+for name in core hal-boards host tests pages; do
+    read -r words what mean over30 over35 <<END
+$(figures $name)
+END
+    [ "${1:-}" != table ] || echo "| $name | $words | $what | $mean | $over30 | $over35 |"
+    read -r what_most mean_most long_most <<END
+$(echo "$budget" | sed -n "s/^$name //p")
+END
+    if awk "BEGIN { exit !($what > $what_most || $mean > $mean_most || $over35 > $long_most) }"; then
+        echo "error: $name: $what of \"what\" in 1,000 words, $mean words a sentence, $over35 sentences of more than 35 words; the limits are $what_most, $mean_most and $long_most"
+        echo "hint: docs/dev/style.md; sh tests/english.sh long"
+        bad=1
+    fi
+done
+exit $bad
