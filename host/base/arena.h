@@ -1,4 +1,4 @@
-/* arena.h: memory that is handed out piece by piece and given back all at once. */
+/* arena.h: a memory arena: allocation piece by piece, release all at once. */
 #ifndef BASE_ARENA_H
 #define BASE_ARENA_H
 
@@ -6,7 +6,7 @@
 
 struct arena;
 
-/* Running out of memory ends the program with a message: no caller ever sees NULL. */
+/* Out of memory, the program ends with a message: no function returns NULL. */
 struct arena *arena_new(void);
 void arena_free(struct arena *arena); /* NULL is fine */
 
@@ -16,8 +16,8 @@ void *arena_alloc(struct arena *arena, size_t size);
 /* A copy of `length` bytes with a zero byte after them. */
 char *arena_copy(struct arena *arena, const char *text, size_t length);
 
-/* Room for one more element behind the `count` that `array` holds: returns `array`, or a copy of it
- * twice as long. The capacity is always the power of two at or above `count`. */
+/* Space for one more element after the first `count` of `array`. Returns `array`, or a copy of twice the size. The
+ * capacity is always the smallest power of two that is at least `count`. */
 void *arena_room(struct arena *arena, void *array, int count, size_t element_size);
 
 #endif

@@ -9,14 +9,15 @@
 #include "utf8.h"
 
 enum {
-    LINE_WIDTH = 100, /* characters of a source line shown; a longer one is cut around the caret */
+    LINE_WIDTH = 100, /* characters of a source line in a message; a longer one is cut around the
+                       * caret */
     CARET_MOST = 70,  /* furthest column of the caret in a line that is cut */
     TEXT_SIZE = 400,
     FILE_SIZE = 256
 };
 
 typedef struct entry {
-    const source *source; /* compared only: never followed after diag_error() returns */
+    const source *source; /* only compared: may dangle after diag_error() returns */
     int file_order;
     char file[FILE_SIZE];
     int line;
@@ -25,7 +26,7 @@ typedef struct entry {
     char message[TEXT_SIZE];
     char hint[TEXT_SIZE];
     char shown[4 * LINE_WIDTH + 8];
-    int caret; /* characters before the caret, or -1 for none */
+    int caret; /* characters before the caret, or -1 without a caret */
 } entry;
 
 struct diags {
@@ -52,7 +53,7 @@ int diags_count(const diags *all) { return all->reported; }
 
 size_t diags_calls(const diags *all) { return all->calls; }
 
-/* Copy the line around the place, one shown character for each column, harmless to a terminal. */
+/* Copy the line around the place, one character a column, without control characters. */
 static void copy_line(entry *made, place at) {
     const char *text = at.source->text;
     const size_t length = at.source->length;
@@ -81,7 +82,7 @@ static void copy_line(entry *made, place at) {
             made->shown[used++] = c == '\t' ? ' ' : '?';
             i++;
             while (c >= 0x80 && i < length && ((unsigned char)text[i] & 0xc0) == 0x80) {
-                i++; /* a column counts each byte that does not continue a character */
+                i++; /* UTF-8 continuation bytes do not count */
             }
         } else {
             memcpy(made->shown + used, text + i, bytes);
@@ -93,7 +94,7 @@ static void copy_line(entry *made, place at) {
     made->caret = before;
 }
 
-/* Another source may lie where a freed one did, so that the line itself is compared, too. */
+/* The lines are compared, too: a new source may have the address of a freed one. */
 static bool is_repeat(const diags *all, const entry *made) {
     for (int i = 0; i < all->held; i++) {
         const entry *each = &all->entries[i];

@@ -1,14 +1,14 @@
-/* diag.h: errors in a user's file, each with its place, the source line, a caret and a hint. */
+/* diag.h: errors in a user's file, each with its place, source line, caret and hint. */
 #ifndef BASE_DIAG_H
 #define BASE_DIAG_H
 
 #include <stddef.h>
 #include <stdio.h>
 
-#define DIAG_MAX 20 /* errors told of one file; a last line says when there were more */
+#define DIAG_MAX 20 /* errors reported for one file; a last line says if there were more */
 
-/* A place in a source text: line and column count from 1, the column in characters. `text` is the
- * whole text it lies in (NULL when there is none), so that the line can be shown. */
+/* A place in a source text. Line and column count from 1, the column in characters. `text` is the whole text, from
+ * which the line is printed, or NULL. */
 typedef struct source {
     const char *file;
     const char *text;
@@ -28,21 +28,21 @@ typedef struct diags diags;
 diags *diags_new(void);
 void diags_free(diags *diags);
 
-/* Report an error at `at`; `hint` may be NULL. Copies its texts. Repeats at one place are dropped. */
+/* Report an error at `at`; `hint` may be NULL. Copies its texts. A repeat at the same place is dropped. */
 void diag_error(diags *diags, place at, const char *hint, const char *format, ...)
     __attribute__((format(printf, 4, 5)));
 
-/* Errors to be printed: repeats do not count, those beyond DIAG_MAX do. */
+/* Number of errors, including those beyond DIAG_MAX, without repeats. */
 int diags_count(const diags *diags);
 
-/* Calls of diag_error() since diags_new(), repeats included: unchanged means that all went well. */
+/* Calls of diag_error() since diags_new(), repeats included: unchanged means no error. */
 size_t diags_calls(const diags *diags);
 
-/* Print all, in the order of their places, and forget them:
+/* Print all errors, ordered by place, and forget them:
  *   file:line:column: error: text
  *       source line
  *            ^
- *   hint: ...                                                                              */
+ *   hint: ... */
 void diags_flush(diags *diags, FILE *out);
 
 #endif

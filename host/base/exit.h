@@ -1,10 +1,10 @@
-/* exit.h: how a command ends. */
+/* exit.h: exit statuses. */
 #ifndef BASE_EXIT_H
 #define BASE_EXIT_H
 
 #include <stdio.h>
 
-/* X(name, status, meaning): all that anybody says of them is made of these rows. */
+/* X(name, status, meaning): help, documents and code all use these rows. */
 #define EXIT_ROWS(X) \
     X(EXIT_DONE, 0, "done") \
     X(EXIT_RUN_FAILED, 1, "failed") \
@@ -20,9 +20,8 @@ enum { EXIT_ROWS(EXIT_VALUE) };
 enum { EXIT_ROWS(EXIT_ROW) EXITS };
 #undef EXIT_ROW
 
-/* The part of a help text that says with which status a command ends: a line for each row, with what that means there,
- * why[EXIT_ROW_OF(name)]; "" adds nothing, and NULL leaves the line out. Lines after the first of `why` begin with
- * seven spaces. */
+/* Print the part of a help text that lists the exit statuses, one line each. why[EXIT_ROW_OF(name)] adds the meaning
+ * for this command: "" adds nothing, NULL omits the line. Lines of `why` after its first begin with seven spaces. */
 void exit_describe(FILE *out, const char *const *why);
 
 #endif

@@ -1,6 +1,5 @@
-/* hashing.h: hashes of the host's own: texts and words, for tables and for telling things apart. A state's bits, and what
- * goes into files, are core/hash.h's; the constants of FNV-1a stand there and here alone.
- */
+/* hashing.h: hashes inside the host, for tables and comparisons. core/hash.h hashes states and file contents; the
+ * constants of FNV-1a are defined only there and here. */
 #ifndef BASE_HASHING_H
 #define BASE_HASHING_H
 
@@ -9,7 +8,7 @@
 
 #include "core/hash.h"
 
-/* FNV-1a, 32 bits, of `length` bytes. An output's name gives its noise a seed by it: runs depend on its bits. */
+/* FNV-1a, 32 bits, of `length` bytes. The hash of an output's name seeds its noise, so runs depend on its bits. */
 static inline uint32_t hash_text(const char *text, size_t length) {
     uint32_t hash = 2166136261U;
     for (size_t i = 0; i < length; i++) {
@@ -18,12 +17,12 @@ static inline uint32_t hash_text(const char *text, size_t length) {
     return hash;
 }
 
-/* The step of FNV-1a, 64 bits, on a whole word that is a hash already. */
+/* One step of FNV-1a, 64 bits, on a word that is already a hash. */
 static inline uint64_t hash_of_hashes(uint64_t hash, uint64_t word) {
     return (hash ^ word) * WH_HASH_PRIME;
 }
 
-/* Mix a word in, for tables of this run of the program: faster, and never written anywhere. */
+/* Mix a word in, for tables in memory: faster than FNV-1a, and never written to a file. */
 static inline uint64_t hash_mix(uint64_t hash, uint64_t word) {
     hash ^= word + UINT64_C(0x9e3779b97f4a7c15) + (hash << 6) + (hash >> 2);
     return hash * UINT64_C(0xff51afd7ed558ccd);

@@ -27,7 +27,6 @@ static void put_text(FILE *out, const char *text) {
     fputc('"', out);
 }
 
-/* What stands before a value. */
 static void begin(json *j, const char *key) {
     if (j->depth > 0) {
         fprintf(j->out, "%s\n%*s", j->filled ? "," : "", 2 * j->depth, "");

@@ -1,7 +1,5 @@
-/* json.h: writing JSON (RFC 8259), value by value: commas, indentation and escapes are made here.
- *
- * Numbers keep all digits of a double; what is no finite number is null, since JSON has no word for it. Text is
- * UTF-8; bytes that are not become U+FFFD. */
+/* json.h: a JSON writer (RFC 8259): commas, indentation and escapes. Numbers keep all digits of a double; a number that
+ * is not finite becomes null. Text is UTF-8; invalid bytes become U+FFFD. */
 #ifndef BASE_JSON_H
 #define BASE_JSON_H
 
@@ -12,10 +10,10 @@
 typedef struct json {
     FILE *out;
     int depth;
-    bool filled; /* the innermost object or array has something in it */
+    bool filled; /* the innermost object or array is not empty */
 } json;
 
-/* `key` is NULL within an array and for the whole. */
+/* `key` is NULL within an array and at the top level. */
 void json_open(json *j, const char *key, char bracket);
 void json_close(json *j, char bracket);
 

@@ -1,5 +1,5 @@
-/* nearest.c: edit distance with swaps of neighbours (optimal string alignment). An edit costs 2, a
- * change between capital and small letter 1, so that `x` finds `X` before it finds `y`. */
+/* nearest.c: edit distance with swaps of neighbours (optimal string alignment). An edit costs 2, a change of case 1, so
+ * that `x` finds `X` before `y`. */
 #include "nearest.h"
 
 #include <string.h>
@@ -12,7 +12,7 @@ static int smaller(int a, int b) { return a < b ? a : b; }
 
 nearest nearest_start(const char *wanted, size_t length) {
     nearest search = {wanted, length, NULL, 0, 0};
-    /* One edit in three letters; a single letter only finds itself in the other case. */
+    /* One edit for three letters; a single letter matches only its other case. */
     search.cost = length <= 1 ? 2 : length < 6 ? 3 : 2 * (int)(length / 3) + 1;
     return search;
 }

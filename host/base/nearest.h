@@ -1,4 +1,4 @@
-/* nearest.h: which known name a misspelt one is closest to. */
+/* nearest.h: the known name closest to a misspelt one. */
 #ifndef BASE_NEAREST_H
 #define BASE_NEAREST_H
 

@@ -21,7 +21,7 @@ static size_t bytes_of(int64_t count, size_t size) {
 }
 
 void *room(int64_t count, size_t size) {
-    /* calloc() looks at the product itself */
+    /* calloc() checks the product for overflow */
     void *made = count > 0 && (uint64_t)count <= SIZE_MAX ? calloc((size_t)count, size)
                                                           : calloc(bytes_of(count, size), 1);
     if (made == NULL) {
@@ -86,7 +86,7 @@ FILE *room_text(char **text, size_t *length) {
     return made;
 }
 
-/* What such a stream could not write, it had no memory for. */
+/* A memory stream fails only when memory runs out. */
 void room_text_end(FILE *stream) {
     const int failed = ferror(stream);
     if (fclose(stream) != 0 || failed != 0) {

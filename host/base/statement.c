@@ -1,4 +1,4 @@
-/* statement.c: a statement of a model's file in words. */
+/* statement.c: the text of a statement of a model file. */
 #include "statement.h"
 
 #include <stdio.h>

@@ -4,8 +4,8 @@
 
 #include <stddef.h>
 
-/* Bytes of the character at `text` with `left` bytes to go (left > 0), or 0 when it is malformed or
- * a control character above ASCII, which could steer a terminal as the ASCII ones do. */
+/* Length in bytes of the character at `text`, with `left` > 0 bytes remaining. Returns 0 if it is malformed, or a
+ * control character above ASCII: these could steer a terminal, as ASCII ones do. */
 size_t utf8_length(const char *text, size_t left);
 
 #endif

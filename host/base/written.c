@@ -33,7 +33,7 @@ static bool can_be_replaced(const char *name, struct stat *there) {
     return S_ISREG(there->st_mode) && there->st_nlink == 1 && access(name, W_OK) == 0;
 }
 
-/* `in_place`: how a file is opened that cannot be replaced. */
+/* `in_place`: the mode for a file that cannot be replaced. */
 static FILE *open_part(const char *name, const char *in_place) {
     struct stat there;
     if (!can_be_replaced(name, &there)) {
@@ -63,7 +63,7 @@ static FILE *open_as(const char *name, const char *in_place) {
 
 FILE *written_open(const char *name) { return open_as(name, "wb"); }
 
-/* Whether the open file has that name. */
+/* Is this the open file's name? */
 static bool is_at(FILE *file, const char *name) {
     struct stat one;
     struct stat other;
@@ -79,7 +79,7 @@ bool written_close(FILE *file, const char *name, bool keep) {
     const bool in_place = !is_at(file, part);
     errno = 0;
     const bool taken = fflush(file) == 0 && ferror(file) == 0;
-    if (!taken && errno == 0) { /* an earlier write failed: the next one tells why */
+    if (!taken && errno == 0) { /* an earlier write failed: this one sets errno */
         fputc('\n', file);
         (void)fflush(file);
     }

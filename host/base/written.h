@@ -1,28 +1,28 @@
-/* written.h: files that are written whole or stay as they were: the text stands in NAME.part until it is complete. */
+/* written.h: atomic file writing: the text goes to NAME.part, which replaces NAME when it is complete. */
 #ifndef BASE_WRITTEN_H
 #define BASE_WRITTEN_H
 
 #include <stdbool.h>
 #include <stdio.h>
 
-/* "-" is standard output. Devices, pipes, links and files of folders that take no new file are written in place.
- * NULL is reported. */
+/* "-" is standard output. Devices, pipes, links, and files in folders without write permission are written in place.
+ * Returns NULL after reporting an error. */
 FILE *written_open(const char *name);
 
-/* Puts the text in its place if all of it was taken and `keep` says so. False, reported: it was not taken. NULL is
- * closed already, and a file that was opened otherwise is only closed.
- * Standard output is checked at the program's end (host/whirl.c). */
+/* Replace the file if all text was written and `keep` is true. Returns false after reporting a failed write. NULL
+ * counts as closed, and a file from another function is only closed. The end of the program checks standard output
+ * (host/whirl.c). */
 bool written_close(FILE *file, const char *name, bool keep);
 
-/* Whether written_open() would succeed; nothing is changed. NULL and "-" can be written. False is reported. */
+/* True if written_open() would succeed; changes nothing. NULL and "-" are writable. Returns false after reporting. */
 bool written_can(const char *name);
 
-/* Reports that the file cannot be written, with the reason from errno. */
+/* Report that the file cannot be written, with the reason from errno. */
 void unwritten_say(const char *name);
 
-/* For the exit code: a file could not be written whole. */
+/* Record for the exit status that a file is incomplete. */
 void written_not_whole(void);
-/* The program's exit code: a failure if a file that could be opened was not taken whole. */
+/* The program's exit status: a failure if an opened file could not be written completely. */
 int written_code(int code);
 
 #endif
