@@ -1,5 +1,5 @@
-/* builtin.h: the models that are part of the program: the files of core/models, as they were when it
- * was built. The definitions are generated (mk/setup/embed_models.sh). */
+/* builtin.h: the models built into the program: copies of the files in core/models. mk/setup/embed_models.sh generates
+ * the definitions. */
 #ifndef LANG_BUILTIN_H
 #define LANG_BUILTIN_H
 
@@ -7,15 +7,15 @@
 
 struct builtin_model {
     const char *file; /* path within the project, for messages: "core/models/NAME.whirl" */
-    const char *text; /* UTF-8, every line ended by a line feed, and a NUL behind the last */
+    const char *text; /* UTF-8; every line ends in a line feed; NUL-terminated */
     size_t length;    /* bytes without that NUL */
 };
 
-/* [builtin_model_count], in the order of their file names. One more entry, all zero, ends them. */
+/* [builtin_model_count], ordered by file name, followed by one zero entry. */
 extern const struct builtin_model builtin_models[];
 extern const size_t builtin_model_count;
 
-/* The same of the descriptions of figures, mk/figures/NAME.fig (host/plot/figure_draw.h). */
+/* The same for the descriptions of figures, mk/figures/NAME.fig (host/plot/figure_draw.h). */
 extern const struct builtin_model builtin_figures[];
 extern const size_t builtin_figure_count;
 

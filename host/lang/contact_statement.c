@@ -1,4 +1,4 @@
-/* contact_statement.c: stop, friction and hold; `when` has its own file. */
+/* contact_statement.c: the parser of stop, friction and hold; `when` has its own file. */
 #include <stdio.h>
 #include <string.h>
 
@@ -7,15 +7,15 @@
 #include "host/lang/statements.h"
 
 /* === the condition of a hold ================================================================== */
-/* The condition of `hold ... while`.
+/* The condition of `hold ... while`:
  *
  *   condition  := both { or both }
  *   both       := comparison { and comparison }
  *   comparison := sum (> | >= | < | <=) sum | ( condition )
  *
- * It becomes one expression, true when above zero: a > b is a - b, `and` is min, `or` is max. What a
- * parenthesis holds, a condition or the beginning of a sum, shows only behind it: both are read by the
- * same functions, and a sum goes on from there. Recursion is bounded by NESTING_MAX. */
+ * It becomes one expression, true when above zero: a > b is a - b, `and` is min, `or` is max. Only the text after a
+ * closing parenthesis shows if it enclosed a condition or the beginning of a sum. So the same functions read both, and
+ * a sum continues after it. NESTING_MAX bounds the recursion. */
 
 typedef struct reading {
     word_id statement; /* for hints */
@@ -84,7 +84,7 @@ static const expr *parse_comparison(parser *in, reading *how, bool *is_condition
     if (by == NULL) {
         return NULL;
     }
-    /* Of comparisons only the signs matter: lengths and speeds may be joined. */
+    /* Only the signs of comparisons matter: a length and a speed may be joined. */
     expr *made = expr_new(in, by->op, by->at);
     *made = *by;
     made->dim = dim_none();
@@ -92,7 +92,7 @@ static const expr *parse_comparison(parser *in, reading *how, bool *is_condition
     return made;
 }
 
-/* PART { word PART }, the parts conditions unless there is but one. */
+/* PART { word PART }; two or more parts must be conditions. */
 static const expr *parse_joined(parser *in, reading *how, word_id word, function_id function,
                                 const expr *(*part)(parser *, reading *, bool *),
                                 bool *is_condition) {
@@ -134,7 +134,7 @@ const expr *parse_condition(parser *in, word_id statement) {
 
 static const char *form(void) { return word_row(WORD_WHEN)->form; }
 
-/* The coordinate or rate to be set; *usable is false when it is none (reported). */
+/* The coordinate or rate to be set; *usable is false for another name (reported). */
 static bool take_target(parser *in, const contact_statement *made, assignment *set, bool *usable) {
     char words[80];
     const token name = in->token;
@@ -254,7 +254,7 @@ static bool parse_block(parser *in, contact_statement *made) {
     return parser_end_statement(in, "the crossing");
 }
 
-/* False when what stands there is neither direction nor brace, nor nearly so. */
+/* False if the token is neither a direction nor a brace, nor similar to a direction. */
 static bool take_direction(parser *in, contact_statement *made) {
     if (parser_is_word(in, WORD_RISING) || parser_is_word(in, WORD_FALLING)) {
         made->direction = parser_is_word(in, WORD_RISING) ? 1 : -1;
@@ -311,7 +311,7 @@ void contact_on_system(parser *in, const contact_statement *each) {
                "'%s' does not go with state and equation", contact_word(each->kind));
 }
 
-/* Both take part whenever one of them does. */
+/* Are both active whenever one of them is? */
 static bool always_meet(const contact_statement *a, const contact_statement *b) {
     return a->effect == b->effect || a->effect < 0 || b->effect < 0;
 }
@@ -357,7 +357,7 @@ contact_statement contact_begun(const parser *in, const statement_word *word) {
         .kind = (contact_kind)word->kind, .effect = in->effect, .at = in->statement_at};
 }
 
-/* What a stop or a hold acts on must move. */
+/* The quantity of a stop or a hold must move. */
 static void check_moves(parser *in, place at, const expr *value, const char *what) {
     if ((value->uses & USES_UNKNOWNS) == 0 && !value->dim.unknown) {
         diag_error(in->diags, at, NULL, "%s must depend on a coordinate", what);

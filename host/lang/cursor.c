@@ -1,4 +1,4 @@
-/* cursor.c: tokens in hand, and the way back after errors. */
+/* cursor.c: access to tokens, and recovery after errors. */
 #include "cursor.h"
 
 #include <ctype.h>
@@ -123,7 +123,7 @@ void parser_skip_statement(parser *in) {
         if (braces == 0 && (parser_at_end_of_line(in) || parser_is_sign(in, '}'))) {
             return;
         }
-        /* After an unclosed parenthesis or brace the next statement is the way back. */
+        /* After an unclosed parenthesis or brace, resume at the next statement. */
         if (in->token.at.offset != in->statement_at.offset && in->token.starts_line &&
             (braces > 0 ? parser_leaves(in, ENDS_EFFECT) : parser_is_body_word(in))) {
             return;
@@ -137,7 +137,7 @@ void parser_skip_statement(parser *in) {
     }
 }
 
-/* "2,5" as some countries write it: a comma between two digits. */
+/* "2,5", the decimal comma of some countries: a comma between two digits. */
 static bool is_decimal_comma(const token *sign) {
     return sign->sign == ',' && sign->at.offset > 0 && isdigit((unsigned char)sign->text[-1]) &&
            isdigit((unsigned char)sign->text[1]);
@@ -161,7 +161,7 @@ const char *parser_operator_hint(const parser *in, char hint[OPERATOR_HINT]) {
     const size_t rest = opens ? length + 2 : length + (size_t)next->primes;
     const int before = (int)(end - begin);
     const bool known = in->names != NULL && names_find(in->names, name, length) != NULL;
-    size_t unit = length; /* of kg/s as far as it is one */
+    size_t unit = length; /* length of the longest prefix that is a unit, as of kg/s */
     while (!opens && (isalnum((unsigned char)name[unit]) || strchr("*/^", name[unit]) != NULL) &&
            name[unit] != '\0') {
         unit++;
@@ -246,8 +246,7 @@ bool statement_unknown(parser *in, unsigned where) {
     }
     const token word = in->token;
     parser_next(in);
-    if (in->builder != NULL &&
-        !in->all_effects) { /* names that it may declare are not complained of */
+    if (in->builder != NULL && !in->all_effects) { /* do not report names that it may declare */
         const token *declared = in->token.kind == TOKEN_NAME ? &in->token : &word;
         const bool fresh = !word_is_reserved(declared->text, declared->length) &&
                            names_find(in->names, declared->text, declared->length) == NULL;

@@ -1,11 +1,11 @@
-/* declare.c: coordinate, state, parameter, input, let, output. */
+/* declare.c: the parser of coordinate, state, parameter, input, let and output. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "host/lang/statements.h"
 
-/* NULL: unknown, or no output (reported). */
+/* NULL: unknown, or not an output (reported). */
 static const symbol *find_output(parser *in, const token *name) {
     char words[80];
     char hint[120] = "";
@@ -49,7 +49,7 @@ static bool parse_seed(parser *in, uint32_t *seed) {
     return true;
 }
 
-/* The output as it is recorded; noises of several effects on one output share it. */
+/* The recorded output; noises of several effects on one output share it. */
 static const symbol *record_of(parser *in, const symbol *output) {
     const mechanism *inside = in->builder->made;
     for (int i = 0; i < inside->noise_count; i++) {
@@ -63,7 +63,7 @@ static const symbol *record_of(parser *in, const symbol *output) {
     return record;
 }
 
-/* Both take part whenever one of them does. */
+/* Are both active whenever one of them is? */
 static bool always_meet(const noise *a, const noise *b) {
     return a->effect == b->effect || a->effect < 0 || b->effect < 0;
 }
@@ -121,7 +121,7 @@ bool read_noise(parser *in, const statement_word *word) {
 
 /* === coordinate, state, parameter, input, let, output ========================================= */
 
-/* A fresh symbol under this name, or NULL when it cannot have it (reported). */
+/* A new symbol of this name, or NULL if the name is not available (reported). */
 static named *claim_name(parser *in, const token *name) {
     function_id function = FN_SIN;
     const int length = (int)name->length;
@@ -187,7 +187,6 @@ static symbol *declare(parser *in, const token *name, symbol_kind kind) {
     return made;
 }
 
-/* The name after the statement's word. */
 static bool take_name(parser *in, const char *statement, token *name) {
     char words[80];
     *name = in->token;
@@ -229,7 +228,7 @@ bool read_unknown(parser *in, const statement_word *word) {
     return parser_end_statement(in, "the declaration");
 }
 
-/* = EXPR, after the name; declares it even when the expression fails. */
+/* = EXPR, after the name. Declares the name even if the expression fails. */
 static bool parse_value(parser *in, symbol *made, const statement_word *word, expr_context context,
                         place *value_at) {
     named *entry = made == NULL ? NULL : (named *)made;
@@ -256,13 +255,13 @@ static bool parse_value(parser *in, symbol *made, const statement_word *word, ex
         made->value = value;
         if (value != NULL) {
             made->dim = value->dim;
-            made->dim.any &= made->kind == SYM_LET; /* a zero with a name of its own is a number */
+            made->dim.any &= made->kind == SYM_LET; /* a zero with a name is an ordinary number */
         }
     }
     return value != NULL;
 }
 
-/* `rate NAME`, behind an input's name or its value: the input that is its time derivative, which may come later. */
+/* `rate NAME`, after an input's name or value: the input that is its time derivative. It may be declared later. */
 static bool parse_rate(parser *in, symbol *made) {
     if (!parser_is_word(in, WORD_RATE) || (made != NULL && made->rate != NULL)) {
         return true;

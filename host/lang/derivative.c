@@ -1,5 +1,5 @@
-/* derivative.c: time derivatives of lets, by the chain rule. Each is a let of its own, without a statement, so that
- * readers of expressions take it like any other; it is made once, when it is first named. */
+/* derivative.c: time derivatives of lets, by the chain rule. Each derivative is a let without a statement, made when it
+ * is first named. Other code treats it like any let. */
 #include <stdint.h>
 #include <stdio.h>
 #include <string.h>
@@ -25,7 +25,7 @@ static const expr *call(parser *in, function_id f, place at, const expr *a) {
     return a == NULL ? NULL : expr_call(in, f, at, a, NULL);
 }
 
-/* a^n; negative powers keep their base whole, as a quotient by a product would not. NULL: too deep, which was reported. */
+/* a^n. Negative powers keep their base whole; a quotient by a product would not. NULL: too deep (reported). */
 static const expr *power(parser *in, const expr *a, double n) {
     return a == NULL ? NULL : binary(in, EXPR_POW, a->at, a, number(in, a->at, n));
 }
@@ -47,7 +47,7 @@ static const expr *sum(parser *in, expr_op op, place at, const expr *a, const ex
     return expr_binary(in, op, at, a, b);
 }
 
-/* How fast the function of u grows with u; NULL: not at all, or too deep. */
+/* The derivative of the function by its argument u; NULL: zero, or too deep. */
 static const expr *slope(parser *in, const expr *of) {
     const expr *u = of->left;
     const place at = of->at;
@@ -88,7 +88,7 @@ static const expr *of_call(parser *in, const expr *of, const expr *du, const exp
         const expr *size = binary(in, EXPR_ADD, at, square(in, u), square(in, v));
         return binary(in, EXPR_MUL, at, top, power(in, size, -1.0));
     }
-    if (of->function == FN_MIN || of->function == FN_MAX) { /* half of each where they meet */
+    if (of->function == FN_MIN || of->function == FN_MAX) { /* half of each at equality */
         const expr *lead = call(in, FN_SIGN, at, binary(in, EXPR_SUB, at, u, v));
         const expr *half = number(in, at, of->function == FN_MIN ? -0.5 : 0.5);
         return sum(in, EXPR_ADD, at,
@@ -198,7 +198,7 @@ static bool derive(parser *in, const expr *of, const token *name, const expr **d
 }
 
 const symbol *let_rate(parser *in, const symbol *let, const token *name) {
-    named *entry = (named *)(uintptr_t)let; /* a symbol of the mechanism that is being read */
+    named *entry = (named *)(uintptr_t)let; /* a symbol of the current mechanism */
     const expr *d = NULL;
     if (entry->rate != NULL) {
         return &entry->rate->symbol;

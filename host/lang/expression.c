@@ -53,7 +53,7 @@ int name_declared_later(const token *name) {
     return 0;
 }
 
-/* "x'" for a rate as others write it, such as xdot, of a name that has one; false: it is none. */
+/* The hint "x'" for a rate in another spelling, such as xdot, if x has a rate; else false. */
 static bool rate_hint(parser *in, const token *name, char *hint, size_t size) {
     static const char *const forms[][3] = {
         {"", "dot", "'"}, {"", "_dot", "'"}, {"", "ddot", "''"}, {"", "_ddot", "''"},
@@ -118,7 +118,7 @@ static void report_reserved(parser *in, const token *name) {
                "'%.*s' is a reserved word", (int)name->length, name->text);
 }
 
-/* May a symbol of this kind, with so many primes, stand here? `written` is its name in the text. */
+/* Is a symbol of this kind with so many primes allowed here? `written` is its name in the text. */
 static bool allowed_here(parser *in, const token *name, const symbol *found, const token *written) {
     const bool is_unknown = found->kind == SYM_COORDINATE || found->kind == SYM_STATE;
     const bool by_let = found->kind == SYM_LET && found->value != NULL;
@@ -215,7 +215,7 @@ static const expr *unknown_value(expr *made) {
     return made;
 }
 
-/* Rules for height, order and uses of a name: those of its expression, where it stands for one. */
+/* Height, order and uses of a name: for a let or an output, those of its expression. */
 static const expr *take_properties(parser *in, expr *made, const token *name) {
     const symbol *found = made->symbol;
     switch (found->kind) {
@@ -234,7 +234,7 @@ static const expr *take_properties(parser *in, expr *made, const token *name) {
     case SYM_RECORD:
         made->uses = found->kind == SYM_OUTPUT ? USES_OUTPUT : 0;
         if (found->value != NULL) {
-            /* A let of plain numbers is no plain number: its name stands for a quantity. */
+            /* A let of plain numbers has a unit: its name stands for a quantity. */
             made->uses |= found->value->uses | (found->kind == SYM_LET ? USES_UNIT : 0);
             made->order = found->value->order;
             made->height = found->value->height + 1;
@@ -270,7 +270,7 @@ const expr *expr_name(parser *in, const token *name) {
         }
         report_unknown(in, name);
         if (in->builder != NULL && !in->all_effects) {
-            /* Told once: the name is known as unknown from here on. */
+            /* Report once: the name is added as an unknown one. */
             found = names_add(in->builder->names, name->text, name->length);
             found->is_placeholder = true;
             found->symbol.kind = SYM_LET;

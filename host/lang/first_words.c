@@ -1,4 +1,4 @@
-/* first_words.c: words that people bring from other languages, and their counterparts here. */
+/* first_words.c: words of other languages, and their counterparts here. */
 #include <string.h>
 
 #include "words.h"

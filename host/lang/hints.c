@@ -6,12 +6,12 @@
 #include "host/base/arena.h"
 #include "value.h"
 
-/* A rate far below any that matters, SI. A force that vanishes with the rate is ten times
- * smaller at a tenth of it. */
+/* A rate far below any rate of interest, SI. A force that vanishes with the rate is ten times smaller at a tenth of it.
+ */
 #define NEAR_REST 1e-6
 
-/* Does the tree name a coordinate other than `own`, or `own` without a prime? Lets are walked
- * through; recursion is bounded by EXPR_HEIGHT_MAX. */
+/* Does the tree name a coordinate other than `own`, or `own` without a prime? The walk enters lets; EXPR_HEIGHT_MAX
+ * bounds the recursion. */
 static bool names_others(const expr *tree, const symbol *own) {
     if (tree == NULL || (tree->uses & USES_UNKNOWNS) == 0) {
         return false;
@@ -23,7 +23,7 @@ static bool names_others(const expr *tree, const symbol *own) {
     return names_others(tree->left, own) || names_others(tree->right, own);
 }
 
-/* sign(an expression of the coordinate's rate and constants), somewhere in the tree. */
+/* Does the tree contain sign(an expression of the coordinate's rate and constants)? */
 static bool has_sign_of_rate(const expr *tree, const symbol *own) {
     if (tree == NULL || (tree->uses & USES_UNKNOWNS) == 0) {
         return false;
@@ -42,7 +42,7 @@ static double term_at(const term *of, const symbol *coordinate, valuation *known
     return expr_value(of->value, known);
 }
 
-/* Does the force jump against the motion at rest? False where it is not a number. */
+/* Does the force jump against the motion at rest? False if it is not finite. */
 static bool opposes_at_rest(const term *of, valuation *known) {
     double *rate = &known->state[of->coordinate->index][1];
     const double start = *rate;
@@ -54,13 +54,14 @@ static bool opposes_at_rest(const term *of, valuation *known) {
     return jump < 0.0 && nearer < 0.5 * jump;
 }
 
-/* How far F bends upwards between two rates to either side of rest. */
+/* The second difference of F over two rates on either side of rest. */
 static double bend(const term *of, const symbol *coordinate, valuation *known, double rate) {
     return term_at(of, coordinate, known, rate) + term_at(of, coordinate, known, -rate) -
            2.0 * term_at(of, coordinate, known, 0.0);
 }
 
-/* Has F a kink at rest of this coordinate? A smooth F bends a hundredth at a tenth of the rate. */
+/* Has F a kink at rest of this coordinate? The second difference of a smooth F shrinks to a hundredth at a tenth of the
+ * rate. */
 static bool has_kink(const term *of, const symbol *coordinate, valuation *known) {
     double *rate = &known->state[coordinate->index][1];
     const double start = *rate;

@@ -1,4 +1,4 @@
-/* input_rate.c: inputs with a rate. Inside a step such an input moves like a coordinate whose acceleration is given. */
+/* input_rate.c: inputs with a rate. Inside a step such an input moves like a coordinate of given acceleration. */
 #include <stdio.h>
 #include <string.h>
 
@@ -29,7 +29,7 @@ char *input_rate_hint(const symbol *input, char *buffer) {
     return buffer;
 }
 
-/* Is the rate an input that can be one? */
+/* Is the rate an input of the right kind? */
 static bool check_rate(parser *in, const mechanism *made, const symbol *s) {
     const named *rate = (const named *)s->rate;
     char unit[DIM_TEXT_SIZE];
@@ -71,7 +71,7 @@ static bool is_rate(const mechanism *made, const symbol *s) {
     return is;
 }
 
-/* The coordinate that follows the input. */
+/* Add the coordinate that follows the input. */
 static void drive(parser *in, mechanism *made, named *input) {
     named *coordinate = arena_alloc(in->arena, sizeof *coordinate);
     named *rate = (named *)input->symbol.rate;
@@ -89,7 +89,8 @@ static void drive(parser *in, mechanism *made, named *input) {
     rate->symbol.driven = rate->symbol.driven != NULL ? rate->symbol.driven : &coordinate->symbol;
 }
 
-/* An input in the expression that has no rate, or with `rates` one that is a rate; NULL: none. Each let is walked once. */
+/* An input without a rate in the expression, or with `rates` one that is a rate; NULL if there is none. Each let is
+ * visited once. */
 static const symbol *find_input(const mechanism *made, const expr *tree, bool rates, int mark) {
     if (tree == NULL || (tree->uses & USES_INPUT) == 0) {
         return NULL;
@@ -110,7 +111,7 @@ static const symbol *find_input(const mechanism *made, const expr *tree, bool ra
     return found != NULL ? found : find_input(made, tree->right, rates, mark);
 }
 
-/* A hold keeps a value, so it must know how fast the inputs in it change. */
+/* A hold fixes a value, so it needs the rates of the inputs in it. */
 static void check_contact(parser *in, const mechanism *made, const contact_statement *each,
                           int mark) {
     char hint[RATE_HINT_SIZE];

@@ -27,13 +27,12 @@ const effect *instance_lacks(const instance *of, const symbol *what) {
 }
 
 /* === ranges of contacts and of noise ========================================================== */
-/* What can only be checked with the numbers of one run: the ranges of contacts
- * and of noise that take part in it. */
+/* Checks that need the numbers of one run: the ranges of its active contacts and noise. */
 
-/* What decimals leave: 0.1 + 0.2 is not above 0.3, and 0.3 - 0.2 - 0.1 not below zero. */
+/* Rounding of decimals: 0.1 + 0.2 does not count as above 0.3, nor 0.3 - 0.2 - 0.1 as below zero. */
 #define LAST_DIGITS 1e-15
 
-/* The value at the start, or NAN when it changes with the motion, or is not finite (reported). */
+/* The value at the start; NAN if it changes with the motion, or is not finite (reported). */
 static double value_at_start(const expr *tree, valuation *known, const char *what) {
     if ((tree->uses & USES_UNKNOWNS) != 0) {
         return (double)NAN;
@@ -76,7 +75,7 @@ static void check_noise(const noise *each, valuation *known) {
     }
 }
 
-/* What two effects give separately, they must not give together. */
+/* Statements of two effects that exclude each other. */
 static void check_pairs(const instance *made, diags *all) {
     const mechanism *of = made->mechanism;
     for (int i = 0; i < of->contact_count; i++) {
@@ -107,7 +106,7 @@ static void check_pairs(const instance *made, diags *all) {
     }
 }
 
-/* A scene may name what belongs to any effect; an input is there only with its effect. */
+/* A scene may name symbols of any effect; an input exists only with its effect. */
 static void check_inputs(const instance *made, const expr *tree, diags *all) {
     if (tree == NULL) {
         return;
@@ -128,7 +127,7 @@ static void check_inputs(const instance *made, const expr *tree, diags *all) {
     check_inputs(made, tree->right, all);
 }
 
-/* The numbers of events and of what they set are bounded. */
+/* Count events and the values they set against their limits. */
 static void count_event(const contact_statement *each, int *events, int *sets, diags *all) {
     *events += 1;
     *sets += each->set_count;
@@ -141,8 +140,8 @@ static void count_event(const contact_statement *each, int *events, int *sets, d
     }
 }
 
-/* Report what is out of range in `made`, whose parameters are `known`. Inputs count with the
- * value they start with: whoever changes them while running answers for what they are then. */
+/* Report values out of range in `made`, whose parameters are `known`. Inputs count with their initial value; a program
+ * that changes them while running is responsible for the new values. */
 static void limits_check(const instance *made, valuation *known) {
     const mechanism *of = made->mechanism;
     known->input = made->input;
@@ -229,17 +228,16 @@ instance *instance_again(const instance *first) {
 
 #define STEP_DEFAULT_S 1e-3
 #define UNTIL_DEFAULT_S 10.0
-#define ROUNDING 1e-9 /* of a step: what the conversion of units may leave */
+#define ROUNDING 1e-9 /* of a step: rounding of unit conversions */
 
 enum { WORDS_SIZE = 120 };
 
-/* An expression and where it was given. */
 typedef struct given {
     const expr *value; /* NULL: nothing given */
     place at;
 } given;
 
-/* What the scene and the command line give, the later over the earlier. */
+/* The values of the scene and the command line; the later one wins. */
 typedef struct plan {
     valuation values;
     given *input;  /* [input_count] */
@@ -300,7 +298,7 @@ static void apply_scene(plan *into, const scene *from, instance *made) {
     }
 }
 
-/* A change that could change nothing is a mistake. */
+/* A change without effect is reported as a mistake. */
 static bool takes_part(const instance *made, override_kind kind, const assignment *change,
                        diags *all) {
     const effect *missing = instance_lacks(made, change->symbol);
@@ -318,7 +316,7 @@ static bool takes_part(const instance *made, override_kind kind, const assignmen
     return false;
 }
 
-/* Given twice, one of the two would change nothing. */
+/* A second value for the same symbol is an error: one of the two would have no effect. */
 static bool is_first(const assignment *before, int count, const assignment *change, diags *all) {
     for (int i = 0; i < count; i++) {
         if (before[i].symbol == change->symbol && before[i].primes == change->primes) {
@@ -346,7 +344,7 @@ static void apply_texts(plan *into, instance *made, override_kind kind, const ch
     }
 }
 
-/* "all" comes before the names beside it, which take away or add. */
+/* "all" comes before the other names, which add or remove. */
 static void apply_all(instance *made, const char *const *texts, int count, bool wanted) {
     bool found = false;
     for (int i = 0; i < count && !found; i++) {
@@ -512,7 +510,7 @@ static void allocate(instance *made) {
     }
 }
 
-/* An instance without numbers yet, and the plan they follow from. */
+/* An instance without numbers, and the plan for computing them. */
 static instance *begin(const mechanism *of, const scene *from, const overrides *changes, diags *all,
                        plan *what) {
     struct arena *memory = arena_new();

@@ -1,16 +1,16 @@
-/* kinds.h: the kinds of symbols, terms and contacts, and what messages call them. */
+/* kinds.h: the kinds of symbols, terms and contacts, and their names in messages. */
 #ifndef LANG_KINDS_H
 #define LANG_KINDS_H
 
-/* Symbols: the kind, and one of it in a message. */
+/* Symbols: the kind, and its name in messages. */
 #define SYMBOL_KIND_ROWS(X) \
     X(COORDINATE, "a coordinate") /* generalized coordinate: may carry primes */ \
-    X(STATE, "a state")           /* unknown of a system given outright: may carry primes */ \
+    X(STATE, "a state")           /* unknown of a system given by equations: may carry primes */ \
     X(PARAMETER, "a parameter")   /* constant of a run; value from an expression of constants */ \
-    X(INPUT, "an input")          /* may change while running; value likewise */ \
-    X(LET, "a let")               /* shorthand; stands for its expression */ \
-    X(OUTPUT, "an output")        /* computed for records; may be used by later outputs */ \
-    X(RECORD, "an output")        /* as it is recorded, noise included: in measures only */
+    X(INPUT, "an input")   /* may change while running; value from an expression of constants */ \
+    X(LET, "a let")        /* shorthand; stands for its expression */ \
+    X(OUTPUT, "an output") /* computed for records; may be used by later outputs */ \
+    X(RECORD, "an output") /* the recorded output, noise included: in measures only */
 
 #define SYMBOL_KIND(id, words) SYM_##id,
 typedef enum symbol_kind { SYMBOL_KIND_ROWS(SYMBOL_KIND) } symbol_kind;
@@ -18,8 +18,8 @@ typedef enum symbol_kind { SYMBOL_KIND_ROWS(SYMBOL_KIND) } symbol_kind;
 
 const char *symbol_kind_words(symbol_kind kind);
 
-/* Contributions to a mechanism: the kind, what it is, what it gives a run (of a value that is no number there), and the
- * rule of its dimension where that is one of all (Q's follows from its coordinate, an equation's from its sides). */
+/* Terms: the kind, its name, the quantity that is undefined if its value is not finite, and the rule of its dimension.
+ * Q's rule follows from its coordinate, an equation's from its sides: "" here. */
 #define TERM_KIND_ROWS(X) \
     X(T, "the kinetic energy", "the kinetic energy", \
       "kinetic energy T must be an energy [kg*m^2/s^2]") \
@@ -38,8 +38,9 @@ const char *term_meaning(term_kind kind);
 const char *term_part(term_kind kind);
 const char *term_rule(term_kind kind);
 
-/* Contacts, in the order in which the core handles those of one moment: the kind (its word is WORD_STOP, ... of words.h;
- * the core's is WH_STOP, ... of core/contact.h), one of them in a message, and what of it may be no number. */
+/* Contacts, in the order in which the core handles simultaneous ones: the kind, its name in messages, and the
+ * quantities that may be undefined. Its word is WORD_STOP, ... (words.h), its kind in the core WH_STOP, ...
+ * (core/contact.h). */
 #define CONTACT_KIND_ROWS(X) \
     X(STOP, "the stop", "the restitution, or the gap, of this stop") \
     X(HOLD, "the hold", "the condition of this hold, or what it holds,") \

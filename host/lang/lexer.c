@@ -17,7 +17,7 @@ static int at_offset(const lexer *in, size_t ahead) {
     return offset < text->length ? (unsigned char)text->text[offset] : -1;
 }
 
-/* Move over one byte; columns count characters, so the bytes that continue one do not count. */
+/* Advance by one byte. Columns count characters, so UTF-8 continuation bytes do not count. */
 static void step_over(place *at) {
     const unsigned char c = (unsigned char)at->source->text[at->offset++];
     if (c == '\n') {
@@ -48,8 +48,8 @@ static bool is_letter(int c) {
 
 static bool is_digit(int c) { return c >= '0' && c <= '9'; }
 
-/* Lines end with a line feed, which a carriage return may precede. One anywhere else would hide what follows it from
- * whoever shows the file, behind a comment all of a file whose lines end with it alone. */
+/* Lines end with a line feed, optionally after a carriage return. A lone carriage return would hide the text after it
+ * when the file is displayed. After a comment, it could hide a whole file with such line ends. */
 static void check_line_ends(const lexer *in) {
     const source *text = in->at.source;
     const char *at = text->text + in->at.offset;
@@ -209,7 +209,7 @@ static void read_string(lexer *in, token *made) {
         diag_error(in->diags, made->at, "a text ends on the line it begins on, with \"",
                    "this text is not closed");
         made->kind = TOKEN_BAD;
-        length--; /* leave what ended it */
+        length--; /* without the closing character */
     } else if (!is_clean || !is_utf8) {
         diag_error(in->diags, made->at, is_clean ? "save the file as UTF-8" : NULL,
                    is_clean ? "this text is not UTF-8" : "a control character in this text");

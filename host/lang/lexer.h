@@ -1,4 +1,4 @@
-/* lexer.h: a .whirl text cut into tokens. */
+/* lexer.h: the lexer of .whirl texts. */
 #ifndef LANG_LEXER_H
 #define LANG_LEXER_H
 
@@ -18,9 +18,9 @@ typedef enum token_kind {
     TOKEN_NEWLINE,
     TOKEN_NAME,   /* letters, digits, underscores, then `primes` primes */
     TOKEN_NUMBER, /* without unit */
-    TOKEN_UNIT,   /* [ ... ]: `text` is what stands between the brackets */
-    TOKEN_STRING, /* " ... ": `text` is what stands between the quotes */
-    TOKEN_SIGN,   /* one of + - * / ^ ( ) { } , ; = < > or the two-character signs below */
+    TOKEN_UNIT,   /* [ ... ]: `text` is between the brackets */
+    TOKEN_STRING, /* " ... ": `text` is between the quotes */
+    TOKEN_SIGN,   /* one of + - * / ^ ( ) { } , ; = < > or a two-character sign listed below */
     TOKEN_BAD     /* unreadable; already reported */
 } token_kind;
 
@@ -34,18 +34,18 @@ typedef struct token {
     size_t length;
     int primes;
     double number;
-    enclosure exact;  /* what is written, which a double may not be */
-    bool starts_line; /* nothing but space before it on its line */
+    enclosure exact;  /* the exact decimal value, which a double may not have */
+    bool starts_line; /* first token of its line */
 } token;
 
 typedef struct lexer {
     place at; /* of the next character */
     bool starts_line;
-    bool stopped; /* only TOKEN_END from here on */
+    bool stopped; /* only TOKEN_END follows */
     diags *diags;
 } lexer;
 
-/* `source` must outlive the lexer and its text must end with a zero byte (not counted). */
+/* `source` must outlive the lexer. Its text must end with a zero byte outside its length. */
 lexer lexer_start(const source *source, diags *diags);
 token lexer_next(lexer *in);
 

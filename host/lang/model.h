@@ -1,8 +1,7 @@
-/* model.h: what a .whirl file says, with names resolved, units converted to SI and dimensions
- * checked. host/lang fills it; host/derive reads it. Nothing here knows algebra.
+/* model.h: the contents of a .whirl file, with names resolved, units converted to SI and dimensions checked. host/lang
+ * fills it; host/derive reads it. It does not depend on the algebra.
  *
- * Everything lives in the arena of the `model` and is freed with it.
- */
+ * The arena of the `model` owns everything and frees it. */
 #ifndef LANG_MODEL_H
 #define LANG_MODEL_H
 
@@ -25,10 +24,10 @@ typedef struct expr expr;
 typedef struct symbol {
     symbol_kind kind;
     const char *name;
-    const char *text; /* the description in quotes, or "" */
-    const char *unit; /* the declared unit, without blanks, or ""; of a parameter or input, the one
-                          behind the only number of its value */
-    unit_scale declared; /* what that unit is; divisor 0 when there is none */
+    const char *text;    /* the description in quotes, or "" */
+    const char *unit;    /* the declared unit, without blanks, or ""; for a parameter or input, the
+                       * unit after the only number of its value */
+    unit_scale declared; /* the scale of that unit; divisor 0 without a unit */
     dimension dim;       /* of the symbol without primes */
     bool is_angle;       /* declared [rad] (or [deg], [rev]): coordinate or state */
     const expr *value;   /* parameter, input, let, output, record: its expression; else NULL */
@@ -36,20 +35,20 @@ typedef struct symbol {
     int index;           /* running number within its kind in its mechanism, declaration order */
     int effect;          /* index of the effect that declared it, or -1 */
     int order;           /* coordinate: 2; state: its highest derivative in the equations; else 0 */
-    const struct symbol *rate; /* of an input: the input that is its time derivative, or NULL */
-    /* An input with a rate moves inside a step: of it and of its rate the coordinate that they drive, which the mechanism
-     * has last; of that coordinate the input; else NULL. */
+    const struct symbol *rate; /* input: the input that is its time derivative, or NULL */
+    /* An input with a rate moves inside a step. For the input and its rate: the coordinate that they drive, which is
+     * after the declared ones. For that coordinate: the input. Else NULL. */
     const struct symbol *driven;
 } symbol;
 
-/* What a symbol stands for while the mechanism moves: of an input with a rate, and of that rate, the driven coordinate with
- * *primes primes; of every other symbol itself. */
+/* The symbol that takes the place of `s` during motion. For an input with a rate, and for that rate, it is the driven
+ * coordinate with *primes primes; for any other symbol it is `s`. */
 const symbol *symbol_moving(const symbol *s, int *primes);
 
-/* The input that accelerates a driven coordinate, or NULL: its rate is constant inside a step. */
+/* The input that accelerates a driven coordinate, or NULL. Its rate is constant inside a step. */
 const symbol *symbol_acceleration(const symbol *driven);
 
-/* How to declare the rate of an input, for hints: two statements that can be pasted. */
+/* A hint that declares the rate of an input: two statements that can be pasted. */
 enum { RATE_HINT_SIZE = 320 };
 char *input_rate_hint(const symbol *input, char *buffer);
 
@@ -72,15 +71,15 @@ struct expr {
     function_id function;
     int primes;      /* time derivatives on a symbol: 0, 1, 2, ... */
     double number;   /* SI value of EXPR_NUMBER */
-    enclosure exact; /* the same as it is written, which a double may not be */
+    enclosure exact; /* the exact decimal value, which a double may not have */
     const symbol *symbol;
     const expr *left;
     const expr *right;
-    place at; /* for messages: the operator's or the operand's place */
+    place at; /* the operator's or the operand's place, for messages */
     dimension dim;
-    int height;    /* 1 for a leaf; a let or output named counts with its expression */
-    int order;     /* most primes on any coordinate or state in it, through lets too */
-    unsigned uses; /* USES_ bits of what it depends on, through lets too */
+    int height;    /* 1 for a leaf; a let or output counts with its expression */
+    int order;     /* most primes on any coordinate or state, through lets too */
+    unsigned uses; /* USES_ bits of its dependencies, through lets too */
 };
 
 enum {
@@ -91,7 +90,7 @@ enum {
     USES_UNIT = 16 /* a number in it has a unit */
 };
 
-/* Highest expression tree the parser lets through, lets included: readers may recurse. */
+/* Greatest height of an expression tree, lets included: recursive readers rely on it. */
 #define EXPR_HEIGHT_MAX 1000
 
 /* --- mechanisms -------------------------------------------------------------------------------- */
@@ -113,8 +112,8 @@ typedef struct effect {
     int last_line; /* where its block ends */
 } effect;
 
-/* `set NAME = EXPR` or `start NAME' = EXPR` of a scene, where the value is an expression of constants;
- * or one assignment of a `when`, where it may name coordinates, rates, parameters and inputs. */
+/* `set NAME = EXPR` or `start NAME' = EXPR` of a scene, with an expression of constants. Or one assignment of a `when`,
+ * with coordinates, rates, parameters and inputs. */
 typedef struct assignment {
     const symbol *symbol;
     int primes;
@@ -125,8 +124,8 @@ typedef struct assignment {
 /* One contact, handled inside the step (core/contact.h says how). */
 typedef struct contact_statement {
     contact_kind kind;
-    /* stop: left - right, >= 0 when apart (coordinates, no rates); hold: the expression whose rate is
-     * held at zero (coordinates, no rates); when: left - right (rates allowed); friction: NULL. */
+    /* stop: left - right, >= 0 when apart (coordinates, no rates). hold: the expression whose rate is zero while it
+     * holds (coordinates, no rates). when: left - right (rates allowed). friction: NULL. */
     const expr *value;
     const symbol *coordinate;    /* friction: acts on its rate; else NULL */
     const expr *restitution;     /* stop: 0 to 1 */
@@ -141,20 +140,20 @@ typedef struct contact_statement {
     place at;
 } contact_statement;
 
-/* Most stops, frictions, holds and whens that take part in one run, and values its whens set. */
+/* Limits of one run: stops, frictions, holds and whens together, and values set by whens. */
 enum { CONTACTS_MAX = 16, SETS_MAX = 128 };
 
 /* `noise OUTPUT deviation EXPR seed NUMBER`: Gaussian noise on a recorded output (core/noise.h). */
 typedef struct noise {
     const symbol *output;
-    const symbol *record;  /* the output with its noise, SYM_RECORD: one for each output */
-    const expr *deviation; /* an expression of constants, of the output's dimension, >= 0 */
+    const symbol *record;  /* the noisy output, SYM_RECORD: one for each output */
+    const expr *deviation; /* expression of constants, in the output's dimension, >= 0 */
     uint32_t seed;
     int effect;
     place at;
 } noise;
 
-/* `range NAME = A .. B` of a scene: what it keeps to in fixed point. */
+/* `range NAME = A .. B` of a scene: the bounds of a symbol in fixed point. */
 typedef struct range_statement {
     const symbol *symbol; /* a coordinate, a state, an input */
     int primes;
@@ -185,11 +184,11 @@ typedef struct mechanism {
     int noise_count;
     const effect *effects;
     int effect_count;
-    bool is_system;            /* given by state/equation instead of T, V, F, Q */
-    const struct names *names; /* of host/lang: finds symbols by name */
+    bool is_system;            /* given by state/equation, not by T, V, F, Q */
+    const struct names *names; /* finds symbols by name (names.h) */
 } mechanism;
 
-/* Largest numbers of things in one mechanism or file. */
+/* Limits of one mechanism or file. */
 enum { COORDINATES_MAX = 64, EFFECTS_MAX = 500, MECHANISMS_MAX = 500, SCENES_MAX = 1000 };
 
 /* --- scenes ------------------------------------------------------------------------------------ */
@@ -200,14 +199,14 @@ typedef struct scene {
     place at;      /* of its name */
     int last_line; /* where its block ends */
     const mechanism *mechanism;
-    const bool *with; /* [mechanism->effect_count] effects called for */
+    const bool *with; /* [mechanism->effect_count] active effects */
     const assignment *sets;
     int set_count;
     const assignment *starts;
     int start_count;
     const bool *conserve;           /* [mechanism->coordinate_count] */
-    bool ledger;                    /* `with ledger`: the books of energy and momentum are kept */
-    const contact_statement *whens; /* `when` statements of the scene's own */
+    bool ledger;                    /* `with ledger`: record the balance of energy and momentum */
+    const contact_statement *whens; /* `when` statements of the scene itself */
     int when_count;
     const range_statement *ranges;
     int range_count;
@@ -225,34 +224,35 @@ typedef struct whirl_model {
 
 #define MODEL_BYTES_MAX ((size_t)16 << 20) /* a longer text is refused */
 
-/* Parse and check `text` (`length` bytes, any bytes), called `file` in messages. Returns NULL when
- * there was an error; all errors (up to 20) are in `diags`. Free the result with model_free(). */
+/* Parse and check `text` (`length` bytes, any bytes). Messages call it `file`. Returns NULL after an error; `diags` has
+ * the errors, at most 20. Free the result with model_free(). */
 whirl_model *model_parse(const char *file, const char *text, size_t length, diags *diags);
 void model_free(whirl_model *model);
 
 /* --- instances: a scene, or a bare mechanism, with the command line's changes, in numbers -------- */
 
-/* Changes from the command line; every `const char *` is text as typed ("m=3 [kg]", "theta'=1.2").
- * On the command line a bare number is an SI value of whatever dimension is wanted, where the declared unit is SI. */
+/* Changes from the command line; every `const char *` is text as typed ("m=3 [kg]", "theta'=1.2"). If the declared unit
+ * is SI, a bare number is an SI value of the wanted dimension. */
 typedef struct overrides {
     const char *const *sets;
     int set_count; /* --set: parameters and inputs */
     const char *const *starts;
     int start_count; /* --start: coordinates and rates */
     const char *const *values;
-    int value_count; /* either kind, told by the name (`accel`) */
+    int value_count; /* either kind, depending on the name (`accel`) */
     const char *const *with;
     int with_count; /* effect names added, or "ledger"; "all": every effect */
     const char *const *without;
-    int without_count; /* taken away again; "all" comes first; "conserve": what the scene conserves */
+    int without_count; /* effect names removed; "all" comes first; "conserve": removes the scene's
+                        * conserve */
     const char *step;  /* "1ms", "1 [ms]", "0.001", or NULL */
     const char *until; /* or NULL */
     const char
-        *name; /* instead of the scene's or mechanism's, or NULL; lives as long as the instance */
-    bool balance; /* keep books of contacts inside the run even where nobody asked for them */
+        *name;    /* replaces the scene's or mechanism's name, or NULL; must outlive the instance */
+    bool balance; /* balance contacts inside the run even without `with ledger` */
 } overrides;
 
-/* The same in numbers, SI: low < high. */
+/* The same in SI numbers: low < high. */
 typedef struct range_value {
     const symbol *symbol;
     int primes;
@@ -264,52 +264,53 @@ typedef struct range_value {
 typedef struct instance {
     const mechanism *mechanism;
     const scene *scene;   /* NULL for a bare mechanism */
-    const char *name;     /* scene's name, or the mechanism's, or another that was asked for */
+    const char *name;     /* the scene's name, the mechanism's, or overrides.name */
     bool *with;           /* [effect_count] */
-    const bool *conserve; /* [coordinate_count] to be recovered from their momentum, or NULL */
-    bool ledger;          /* keep the books of energy and momentum */
-    bool balance; /* the same where there are contacts and it can be done, to balance the run */
-    double *parameter;            /* [parameter_count] SI */
-    double *input;                /* [input_count] SI */
-    const expr **parameter_given; /* what the values are of, */
+    const bool *conserve; /* [coordinate_count] recover this coordinate's rate from its momentum, or
+                           * NULL */
+    bool ledger;          /* record the balance of energy and momentum */
+    bool balance;         /* balance the run if it has contacts and the balance is possible */
+    double *parameter;    /* [parameter_count] SI */
+    double *input;        /* [input_count] SI */
+    const expr **parameter_given; /* expressions of the values */
     const expr **input_given;
     const expr ***start_given; /* NULL: nothing, which is 0 */
     double **start;            /* [coordinate_count][order] value, rate, ...: SI; order >= 2 */
-    place **start_at;          /* like start: where it was given; no source where it was not */
+    place **start_at;          /* like start: the place of the value; no source for a default */
     int *start_count;          /* [coordinate_count] entries in start[i] (2 for coordinates) */
     range_value *range;        /* [range_count] */
     int range_count;
     double step_s;         /* default 1e-3 */
     double until_s;        /* default 10 */
     folding_notes folding; /* of the expressions above */
-    whole_ratio step;      /* step_s, as it was written */
-    uint64_t steps;        /* to the end: until_s / step_s to the nearest, at most 2^63 */
+    whole_ratio step;      /* step_s, exactly as written */
+    uint64_t steps;        /* until_s / step_s rounded to the nearest, at most 2^63 */
     struct arena *arena;
 } instance;
 
-/* Which terms take part: those of the mechanism itself and of the effects in instance->with. */
+/* Active terms: those of the mechanism itself and of the effects in instance->with. */
 bool instance_has_term(const instance *instance, const term *term);
-/* The same of a contact of the mechanism. */
+/* The same for a contact of the mechanism. */
 bool instance_has_contact(const instance *instance, const contact_statement *contact);
 /* The same of a noise. */
 bool instance_has_noise(const instance *instance, const noise *noise);
 
-/* The effect that declared this parameter or input, where it takes no part in the instance; NULL where it
- * does, and for what belongs to no effect. */
+/* The inactive effect that declared this parameter or input. NULL if the effect is active, or if the symbol belongs to
+ * no effect. */
 const effect *instance_lacks(const instance *instance, const symbol *what);
 
-/* Evaluate a scene (or, with scene NULL, the mechanism at rest at zero) to numbers. `changes` may be
- * NULL. Returns NULL on error, reported to `diags`. */
+/* Evaluate a scene to numbers. Without a scene (NULL), evaluate the mechanism at rest at zero. `changes` may be NULL.
+ * Returns NULL after an error, reported to `diags`. */
 instance *instance_make(const mechanism *mechanism, const scene *scene, const overrides *changes,
                         diags *diags);
-/* The same with parameters, inputs and initial values folded in the way that folding_way() tells; all else is that
- * of the first, which must outlive it. NULL where they are no finite numbers so. */
+/* A copy with parameters, inputs and initial values folded with the setting of folding_way(). The first instance must
+ * outlive it. NULL if a value is not finite. */
 instance *instance_again(const instance *first);
 void instance_free(instance *instance);
 
-/* A time of the command line that is not the run's own, such as `--from 1.5 [s]`: seconds, at
- * least 0. `text` may name parameters, which have their values in the scene with its changes.
- * `what` is its name in messages. False on error, reported to `diags`. */
+/* A time from the command line, such as `--from 1.5 [s]`, in seconds, at least 0. `text` may name parameters, with
+ * their values in the changed scene. `what` is its name in messages. Returns false after an error, reported to `diags`.
+ */
 bool instance_duration(const mechanism *mechanism, const scene *scene, const overrides *changes,
                        const char *what, const char *text, diags *diags, double *seconds);
 

@@ -9,10 +9,10 @@
 typedef struct named {
     symbol symbol;       /* first: a `const symbol *` of a mechanism is the address of a `named` */
     bool is_placeholder; /* used but not declared; reported */
-    bool is_open;        /* its own declaration is being read */
-    int mark;            /* who saw it last, for walks and duplicates */
+    bool is_open;        /* the parser is reading its declaration */
+    int mark;            /* number of the last visit, for walks and duplicates */
     place mark_at;
-    struct named *rate; /* of a let: its time derivative, where it was asked for */
+    struct named *rate; /* let: its time derivative, if an expression has named it */
     struct named *next; /* in its slot */
 } named;
 
@@ -20,9 +20,9 @@ typedef struct names names;
 
 names *names_new(struct arena *arena);
 named *names_find(const names *all, const char *text, size_t length);
-/* A new entry; the name must not be in yet. */
+/* Add an entry; the name must be new. */
 named *names_add(names *all, const char *text, size_t length);
-/* Offer all declared names of the effects allowed (`effect_index` -1: of none, -2: of any). */
+/* Offer the declared names of the allowed effects (`effect_index` -1: no effect's, -2: every effect's). */
 void names_offer(const names *all, int effect_index, nearest *search);
 
 #endif

@@ -43,7 +43,7 @@ bool expr_constant(const expr *tree, double *value) {
     return *value - *value == 0.0;
 }
 
-/* A number written without unit, perhaps with a sign. */
+/* A number without a unit, with or without a sign. */
 static bool is_bare_number(const expr *tree) {
     while (tree->op == EXPR_NEG) {
         tree = tree->left;
@@ -79,7 +79,7 @@ bool check_dimension(parser *in, place at, const expr *value, dimension wanted, 
     return false;
 }
 
-/* `with_name`: with the symbol's name before the value, as a start has it. */
+/* `with_name`: put the symbol's name before the value, as in a start. */
 static bool has_unit(parser *in, place at, const expr *value, const symbol *of, int primes,
                      bool with_name) {
     enum { SHOWN_MAX = 60 };
@@ -131,7 +131,7 @@ bool check_limit(parser *in, place at, const expr *value, const expr *of) {
            has_unit(in, at, value, of->symbol, of->primes, false);
 }
 
-/* The dimension both have; when they differ, reports "cannot BEFORE left BETWEEN right". */
+/* The common dimension; if they differ, reports "cannot BEFORE left BETWEEN right". */
 static dimension common_dimension(parser *in, place at, const expr *left, const expr *right,
                                   const char *before, const char *between) {
     dimension common = left->dim.any ? right->dim : left->dim;
@@ -221,7 +221,7 @@ const expr *expr_binary(parser *in, expr_op op, place at, const expr *left, cons
     return made;
 }
 
-/* Are they written alike, but for blanks and parentheses? */
+/* Equal texts, apart from blanks and parentheses? */
 static bool are_same(const expr *a, const expr *b) {
     if (a == NULL || b == NULL || a->op != b->op) {
         return a == b;

@@ -19,8 +19,8 @@ static parser begin(const mechanism *of, const char *text, struct arena *arena, 
     return in;
 }
 
-/* [+|-] NUMBER UNIT up to the end, the unit without brackets: "1ms", "-8.5 rad/s". NULL when the
- * text has another form: `in` is then unchanged. */
+/* [+|-] NUMBER UNIT up to the end, the unit without brackets: "1ms", "-8.5 rad/s". NULL for another form; `in` is then
+ * unchanged. */
 static const expr *parse_plain_quantity(parser *in) {
     const parser before = *in;
     const token first = in->token;
@@ -56,7 +56,7 @@ static const expr *parse_plain_quantity(parser *in) {
     return first.sign == '-' && first.kind == TOKEN_SIGN ? expr_negate(in, first.at, made) : made;
 }
 
-/* The rest of the text. A value of bare numbers is SI in whatever dimension is wanted. */
+/* The remaining text. A value of bare numbers is SI in the wanted dimension. */
 static const expr *parse_quantity(parser *in, dimension wanted, const char *what) {
     const place at = in->token.at;
     const expr *made = parse_plain_quantity(in);
@@ -99,7 +99,7 @@ static named *find_name(parser *in, const mechanism *of, const token *name) {
     return NULL;
 }
 
-/* May this symbol be changed this way? */
+/* Can this symbol be changed this way? */
 static bool check_target(parser *in, override_kind kind, const token *name, const symbol *target) {
     const bool moves = target->kind == SYM_COORDINATE || target->kind == SYM_STATE;
     const bool is_constant = target->kind == SYM_PARAMETER || target->kind == SYM_INPUT;
@@ -163,7 +163,7 @@ const expr *override_quantity(const mechanism *of, const char *what, const char 
     return diags_calls(all) == before ? made : NULL;
 }
 
-/* The coordinate, state or output of this name, and how often it is derived. NULL: there is no such name. */
+/* The coordinate, state or output of this name, and its number of derivatives. NULL: unknown name. */
 static const symbol *quantity_named(const mechanism *of, const char *name, int *primes) {
     const size_t length = strcspn(name, "'");
     const named *known = names_find(of->names, name, length);

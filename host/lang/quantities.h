@@ -1,10 +1,9 @@
-/* quantities.h: physical quantities: what each is called in messages, where the name is beyond doubt, and the units that
- * people write for it. */
+/* quantities.h: physical quantities: their names in messages, if unambiguous, and their usual units. */
 #ifndef LANG_QUANTITIES_H
 #define LANG_QUANTITIES_H
 
-/* Exponents of m, kg, s, A, K; its name in messages; its unit in hints; its unit in records and books ("" for all three:
- * none, or as in base units). */
+/* Exponents of m, kg, s, A, K; its name in messages; its unit in hints; its unit in records and the balance. "" means
+ * no name, or base units. */
 #define QUANTITY_ROWS(X) \
     X(NUMBER, 0, 0, 0, 0, 0, "", "", "") \
     X(ANGLE, 0, 0, 0, 0, 0, "", "", "") \

@@ -1,4 +1,4 @@
-/* scene_block.c: scene blocks. They are read last, so that they may name effects that follow them. */
+/* scene_block.c: the parser of scene blocks. They are read last, so that they may name later effects. */
 #include <stdio.h>
 #include <string.h>
 
@@ -6,7 +6,7 @@
 #include "host/lang/statements.h"
 #include "host/lang/value.h"
 
-/* NAME of a symbol of the mechanism; *found is NULL when it is none (reported). */
+/* NAME of a symbol of the mechanism; *found is NULL if it is unknown (reported). */
 static bool scene_take_symbol(parser *in, draft *into, const statement_word *word, token *name,
                               named **found);
 /* ITEM {, ITEM}: a line may end after a comma. */
@@ -19,7 +19,7 @@ static bool is_number(const expr *tree) {
     return tree->op == EXPR_NUMBER;
 }
 
-/* -5 .. 5 [m]: a bare number before a number with a unit has that unit, too. */
+/* -5 .. 5 [m]: a bare number before a number with a unit gets that unit, too. */
 static const expr *with_unit(parser *in, const expr *low, const expr *high) {
     if (!is_number(low) || !is_number(high) || low->uses != 0 || (high->uses & USES_UNIT) == 0) {
         return low;
@@ -111,7 +111,7 @@ bool read_range(parser *in, const statement_word *word) { return scene_list(in, 
 
 /* === the lists of a scene: with, set, start, conserve ========================================= */
 
-/* "WORD needs a name": the token in hand is none. */
+/* Report "WORD needs a name". */
 static bool scene_fail_name(parser *in, const statement_word *word) {
     char words[80];
     return parser_fail(
@@ -172,7 +172,7 @@ static bool scene_take_symbol(parser *in, draft *into, const statement_word *wor
     return true;
 }
 
-/* = EXPR of the symbol, with the wanted dimension (not checked when the name is unknown: NULL). */
+/* = EXPR of the symbol, with the wanted dimension (not checked for an unknown name: NULL). */
 static bool parse_assigned(parser *in, const token *name, const symbol *of, dimension wanted,
                            const expr **value) {
     char words[80];
@@ -232,7 +232,8 @@ static bool set_item(parser *in, const statement_word *word) {
     return true;
 }
 
-/* When the scene has been read: what it sets must belong to effects that it names, which may stand behind. */
+/* At the end of the scene: the symbols that it sets must belong to effects that it names. They may be named after the
+ * set. */
 static void scene_check_sets(parser *in, const draft *read) {
     const scene *made = read->made;
     for (int i = 0; i < made->set_count; i++) {
@@ -343,7 +344,6 @@ bool read_conserve(parser *in, const statement_word *word) {
 }
 
 /* === the block and its statements ============================================================= */
-/* The scene is the parser's draft. */
 
 static void choose_mechanism(parser *in, draft *into, builder *chosen) {
     into->of = chosen;
@@ -458,7 +458,7 @@ static bool parse_body(parser *in) {
             parser_skip_statement(in);
         }
         if (into->of == NULL && (had_mechanism || into->has_content)) {
-            return false; /* an unknown mechanism: nothing more to check here */
+            return false; /* unknown mechanism: no further checks */
         }
     }
 }
@@ -498,7 +498,7 @@ static void read_scene(parser *in, const pending_scene *pending, draft *into) {
     }
     in->scenes = arena_room(in->arena, in->scenes, in->scene_count, sizeof *in->scenes);
     in->scenes[in->scene_count++] = into->made;
-    into->number = 2 + in->scene_count; /* apart from the marks of statements.c */
+    into->number = 2 + in->scene_count; /* distinct from the marks of statements.c */
     const bool good = parse_body(in);
     if (good && into->of == NULL) {
         diag_error(in->diags, into->made->at, "name its mechanism with: use NAME",

@@ -1,4 +1,4 @@
-/* statements.c: which statement comes next, and who reads it; mechanisms and effects. */
+/* statements.c: dispatch of statements to their readers; mechanisms and effects. */
 #include "host/lang/statements.h"
 
 #include <stdio.h>
@@ -8,8 +8,8 @@
 
 enum { SEEN_IN_EQUATION = 1, SEEN_IN_OUTPUT = 2 };
 
-/* The highest derivative of each state in the equations. Each let is walked once; recursion is
- * bounded by EXPR_HEIGHT_MAX. */
+/* The highest derivative of each state in the equations. Each let is visited once; EXPR_HEIGHT_MAX bounds the
+ * recursion. */
 static void raise_orders(const expr *tree) {
     if (tree == NULL) {
         return;
@@ -81,7 +81,7 @@ static void finish_system(parser *in, builder *done) {
     }
 }
 
-/* All of T may come from effects: which scene has any is seen when its equations are derived. */
+/* All of T may come from effects. Deriving the equations shows which scenes have a T. */
 static bool has_kinetic_energy(const mechanism *made) {
     for (int i = 0; i < made->term_count; i++) {
         if (made->terms[i].kind == TERM_T) {
@@ -95,7 +95,7 @@ void finish_mechanism(parser *in, builder *done) {
     mechanism *made = done->made;
     made->is_system = done->has_equations;
     if (done->nameless || done->broken || done->mixed) {
-        return; /* what seems to be missing may stand in the lines that failed */
+        return; /* the failed lines may contain the missing part */
     }
     if (made->is_system) {
         finish_system(in, done);
@@ -117,7 +117,7 @@ void finish_mechanism(parser *in, builder *done) {
 static bool read_statement(parser *in, unsigned where);
 
 static bool parse_name(parser *in, effect *made) {
-    /* words that stand where effects are called for */
+    /* words that begin a list of effects elsewhere */
     static const struct {
         word_id word;
         const char *as;
@@ -233,7 +233,7 @@ static bool read_mechanism(parser *in, const statement_word *word) {
     return parser_end_statement(in, "the mechanism's title");
 }
 
-/* Remember where the scene is and move on behind it: effects may follow that it names. */
+/* Note the place of the scene and skip it: it may name later effects. */
 static bool read_scene(parser *in, const statement_word *word) {
     (void)word;
     if (in->pending_count == SCENES_MAX) {
@@ -260,11 +260,11 @@ static bool read_scene(parser *in, const statement_word *word) {
 static statement_reader *const readers[] = {BODY_WORD_ROWS(READER)};
 #undef READER
 
-/* Coordinates go with energies, states with equations: one way or the other. */
+/* Coordinates need energies, states need equations; a mechanism has one or the other. */
 static void note_way(parser *in, const statement_word *word) {
     builder *into = in->builder;
     if (into == NULL) {
-        return; /* the words of a file go both ways */
+        return; /* words of a file suit both */
     }
     into->has_equations |= (word->rules & BY_EQUATIONS) != 0;
     into->has_energies |= (word->rules & BY_ENERGIES) != 0;
@@ -294,7 +294,7 @@ static bool read_statement(parser *in, unsigned where) {
     return readers[word - word_row((word_id)0)](in, word);
 }
 
-/* What stands outside all blocks. */
+/* Statements outside all blocks. */
 static bool read_outside(parser *in) {
     const bool in_file = parser_is_word(in, WORD_MECHANISM) || parser_is_word(in, WORD_SCENE);
     if (in->builder == NULL && !in_file) {

@@ -1,6 +1,6 @@
-/* statements.h: the functions that read statements: a row of words.h each. When one is called, the token in hand is the
- * one behind the statement's word; it returns false when it gave up inside the statement (the error is reported), and
- * its caller skips to the next one. */
+/* statements.h: the readers of statements, one for each row of words.h. The current token is the one after the
+ * statement's word. A reader returns false, after a report, if it gave up inside the statement; its caller then skips
+ * to the next one. */
 #ifndef LANG_STATEMENTS_H
 #define LANG_STATEMENTS_H
 
@@ -15,12 +15,12 @@ statement_reader read_stop, read_friction, read_hold;      /* contact_statement.
 statement_reader read_when;                                /* contact_statement.c */
 statement_reader read_noise;                               /* declare.c */
 
-/* A contact of the statement being read; and adding it to its mechanism, or to the scene being read: true. */
+/* Begin the contact of the current statement. Add it to its mechanism or to the current scene; returns true. */
 contact_statement contact_begun(const parser *in, const statement_word *word);
 bool add_contact(parser *in, const contact_statement *made);
 void contact_on_system(parser *in, const contact_statement *each);
 
-/* The whole text, but for its scenes: these are noted, since effects may follow that they name. */
+/* Read the whole text except the scenes. These are noted and read last: they may name later effects. */
 void read_file(parser *in);                                      /* statements.c */
 void finish_mechanism(parser *in, builder *made);                /* statements.c */
 void finish_inputs(parser *in, mechanism *made);                 /* input_rate.c */

@@ -1,4 +1,4 @@
-/* terms.c: T, V, F, Q and equation. */
+/* terms.c: the parser of T, V, F, Q and equation. */
 #include <stdio.h>
 #include <string.h>
 
@@ -32,7 +32,7 @@ static bool parse_assign_sign(parser *in, const char *what) {
     return true;
 }
 
-/* A second `T =` of the same mechanism. */
+/* Report a second `T =` of the same mechanism. */
 static void check_once(parser *in, place *first, place at, const char *what) {
     if (in->effect >= 0) {
         return;
@@ -52,7 +52,7 @@ bool read_energy(parser *in, const statement_word *word) {
     if (parser_is_sign(in, '=')) {
         check_once(in, first, at, word->text);
     } else if (in->effect < 0) {
-        *first = at; /* a wrong `+=` in the mechanism was meant as `=` */
+        *first = at; /* a wrong `+=` in the mechanism counts as `=` */
     }
     if (!parse_assign_sign(in, word->text)) {
         return false;

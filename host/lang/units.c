@@ -1,4 +1,4 @@
-/* units.c: the unit table and the reader of unit expressions. */
+/* units.c: the unit table, and the parser of unit expressions. */
 #include "host/lang/units.h"
 
 #include <math.h>
@@ -12,7 +12,7 @@
 
 typedef struct unit_entry {
     const char *name;
-    double scale; /* one of it is scale / divisor of SI */
+    double scale; /* one unit is scale / divisor in SI */
     double divisor;
     quantity_id of;
 } unit_entry;
@@ -21,7 +21,7 @@ typedef struct unit_entry {
 #define POUND_KG 0.45359237
 #define POUND_FORCE_N 4.4482216152605
 
-/* Of one quantity together; the one of SI has no factor. */
+/* Grouped by quantity; the SI unit has no factor. */
 static const unit_entry units[] = {
     {"m", 1, 1, QUANTITY_LENGTH},
     {"km", 1e3, 1, QUANTITY_LENGTH},
@@ -96,7 +96,7 @@ static const unit_entry units[] = {
 };
 enum { UNIT_COUNT = sizeof units / sizeof units[0] };
 
-/* What people write, and what it is called here. */
+/* Other spellings, and the unit's name here. */
 static const struct {
     const char *written;
     const char *meant;
@@ -148,8 +148,8 @@ static const unit_entry *find_unit(const char *name, size_t length) {
     return NULL;
 }
 
-/* A factor of the table, between what it may be: a whole number is one; the others are decimals or multiples of pi, to the
- * nearest double, perhaps times a number. */
+/* An enclosure of a table's factor. A whole number is exact. The others are decimals or multiples of pi, perhaps times
+ * a number, rounded to the nearest double. */
 static enclosure exact_factor(double factor) {
     return number_nearest(factor) == factor ? enclosure_of(factor) : enclosure_about(factor, 1);
 }
@@ -158,7 +158,7 @@ static enclosure exact(const unit_entry *u) {
     return enclosure_div(exact_factor(u->scale), exact_factor(u->divisor));
 }
 
-/* An exponent that is no whole number of halves is the double next to it. */
+/* An exponent that is not a multiple of 1/2 is the nearest double. */
 static enclosure exact_power(enclosure base, double exponent) {
     const bool is_exact = number_nearest(2.0 * exponent) == 2.0 * exponent;
     return enclosure_power(base, is_exact ? enclosure_of(exponent) : enclosure_about(exponent, 0));
@@ -256,7 +256,7 @@ static bool read_product(reader *in, unit_scale *result);
 
 #define BARE "leave the brackets out: a number without them has no unit"
 
-/* Is the text this, and blanks? */
+/* Does the rest of the text consist of this sign and blanks? */
 static bool is_all(const reader *in, const char *sign) {
     const size_t blanks = strspn(in->text, " ");
     return strncmp(in->text + blanks, sign, strlen(sign)) == 0 &&
@@ -311,7 +311,7 @@ static bool read_factor(reader *in, unit_scale *result) {
             return false;
         }
         const unit_scale base = *result;
-        const double size = fabs(exponent); /* 1/ms is 1000/s: its factors change places */
+        const double size = fabs(exponent); /* 1/ms is 1000/s: the factors change places */
         result->scale = number_power(exponent < 0.0 ? base.divisor : base.scale, size);
         result->divisor = number_power(exponent < 0.0 ? base.scale : base.divisor, size);
         result->exact = exact_power(base.exact, exponent);
@@ -382,7 +382,7 @@ const char *unit_name(int index) { return index < UNIT_COUNT ? units[index].name
 
 char *unit_in_si(int index, double *value, char *buffer, size_t size) {
     *value = units[index].scale / units[index].divisor;
-    if (units[index].of == QUANTITY_FREQUENCY) { /* a rpm is no tenth of a Hz to anybody */
+    if (units[index].of == QUANTITY_FREQUENCY) { /* users do not read rpm as a fraction of Hz */
         return dim_unit(dim_of_quantity(QUANTITY_FREQUENCY), buffer, size);
     }
     for (int i = 0; i < UNIT_COUNT; i++) {
@@ -501,7 +501,7 @@ static void append_factor(char *buffer, size_t size, const char *symbol, int twe
     append(buffer, size, factor);
 }
 
-/* The order in which SI writes its base units in products. */
+/* The order of base units in SI products. */
 static const struct {
     int base;
     const char *symbol;
@@ -560,7 +560,7 @@ dimension dim_of_quantity(quantity_id which) {
     return dim_of(e[DIM_LENGTH], e[DIM_MASS], e[DIM_TIME], e[DIM_CURRENT], e[DIM_TEMPERATURE]);
 }
 
-/* What has no name of its own is a number of some unit. */
+/* A dimension without a name is a number in base units. */
 static const quantity_row *find_quantity(dimension dim) {
     for (int i = 0; i < QUANTITIES; i++) {
         if (same_exponents(dim, dim_of_quantity((quantity_id)i))) {

@@ -1,4 +1,4 @@
-/* units.h: physical dimensions and the units a .whirl file may write. SI inside. */
+/* units.h: physical dimensions, and the units of .whirl files. Values inside are SI. */
 #ifndef LANG_UNITS_H
 #define LANG_UNITS_H
 
@@ -16,7 +16,7 @@ enum { DIM_LENGTH, DIM_MASS, DIM_TIME, DIM_CURRENT, DIM_TEMPERATURE, DIM_BASES }
 typedef struct dimension {
     short twelfths[DIM_BASES];
     bool any;
-    bool unknown; /* something in it was already reported: fits everything, to keep quiet */
+    bool unknown; /* contains a reported error: fits everything, to avoid more reports */
 } dimension;
 
 /* A dimension with whole exponents. */
@@ -25,11 +25,11 @@ dimension dim_of_quantity(quantity_id which);
 dimension dim_none(void);
 dimension dim_energy(void); /* also torque */
 
-/* Alike, or one of them fits everything. */
+/* Equal, or one of them fits everything. */
 bool dim_fits(dimension a, dimension b);
 bool dim_is_none(dimension dim); /* dimensionless, zero or unknown */
 
-/* a*b, a/b, base^exponent. False when an exponent leaves the range +-99 or is no twelfth. */
+/* a*b, a/b, base^exponent. False if an exponent leaves the range +-99 or is not a multiple of 1/12. */
 bool dim_multiply(dimension a, dimension b, dimension *product);
 bool dim_divide(dimension a, dimension b, dimension *quotient);
 bool dim_power(dimension base, double exponent, dimension *power);
@@ -38,43 +38,43 @@ bool dim_power(dimension base, double exponent, dimension *power);
 char *dim_text(dimension dim, char *buffer, size_t size);
 /* "kg*m^2/s^2"; "1" when dimensionless. */
 char *dim_symbols(dimension dim, char *buffer, size_t size);
-/* The unit people write for it: "N*m", "rad/s"; base units when there is no usual one. */
+/* The usual unit: "N*m", "rad/s"; base units if there is no usual one. */
 char *dim_unit(dimension dim, char *buffer, size_t size);
-/* The unit of records and books: "N", "N*m*s"; base units when there is no usual one. */
+/* The unit of records and the balance: "N", "N*m*s"; base units if there is no usual one. */
 char *dim_recorded_unit(dimension dim, char *buffer, size_t size);
 #define DIM_TEXT_SIZE 128
 
-/* SI value = number * scale / divisor. Two factors, so that 7 [ms] is 7/1000, correctly rounded.
- * scale/divisor lies between 1e-200 and 1e200. */
+/* SI value = number * scale / divisor. Two factors make 7 [ms] exactly 7/1000, correctly rounded. scale/divisor lies
+ * between 1e-200 and 1e200. */
 typedef struct unit_scale {
     double scale;
     double divisor;
     dimension dim;
-    enclosure exact; /* what one of it is in SI, which two doubles may not be */
+    enclosure exact; /* enclosure of the unit in SI, which two doubles may not represent exactly */
 } unit_scale;
 
 typedef struct unit_error {
     size_t offset; /* where in the text */
     char message[160];
-    char hint[160]; /* "" when there is none */
+    char hint[160]; /* "" without a hint */
 } unit_error;
 
-/* Read a unit expression such as `N*s/m`, `lbf*s^2/in`, `kg*(m/s)^2`, `1/s`, `m^(1/2)`: factors are
- * taken from left to right. Returns false and fills `error` when it is none. */
+/* Read a unit expression such as `N*s/m`, `lbf*s^2/in`, `kg*(m/s)^2`, `1/s`, `m^(1/2)`. Factors associate from left to
+ * right. Returns false and fills `error` if the text is no unit. */
 bool unit_parse(const char *text, size_t length, unit_scale *result, unit_error *error);
 
-/* Is one of this unit one of SI, but for the rounding of its factors: no need to say which? Also true of {0},
- * no unit. */
+/* Is the unit an SI unit, up to the rounding of its factors? Then messages need not name it. True also for {0}, no
+ * unit. */
 bool unit_is_si(unit_scale u);
 
 /* The name of unit `index`, counted from 0, or NULL beyond the last. */
 const char *unit_name(int index);
 
-/* What unit `index`, one of them, is in SI: the unit's name, or base units where it has none, cut to `size` bytes;
- * returns `buffer`. One of it is *value of those. */
+/* The SI unit of unit `index`, by name or in base units, cut to `size` bytes; returns `buffer`. One unit `index` is
+ * *value SI units. */
 char *unit_in_si(int index, double *value, char *buffer, size_t size);
 
-/* True when the text names an angle by itself: rad, deg or rev. */
+/* True if the text itself names an angle: rad, deg or rev. */
 bool unit_is_angle(const char *text, size_t length);
 
 #endif

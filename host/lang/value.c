@@ -8,7 +8,7 @@
 
 enum {
     NAME_BUFFER = 100,
-    DEPTH_MAX = 20000 /* operators in a chain of values set one from the other: bounds recursion */
+    DEPTH_MAX = 20000 /* operators in a chain of values that set each other: bounds the recursion */
 };
 
 valuation valuation_new(const mechanism *of, struct arena *arena, diags *all) {

@@ -1,9 +1,7 @@
-/* words.h: every word of the language that stands at the beginning of a statement, or has its place inside one.
- *
- * A new statement is a row here and the function that reads it; a new word inside one is a row below. What the parser
- * goes by (which words are known where, which ends a block whose brace was forgotten, what nobody may name a parameter,
- * which one a misspelt word is near to), and what docs/language.md must list, follows from the rows.
- */
+/* words.h: the words of the language: every word that begins a statement, or has its place inside one. A new statement
+ * is a row here and the function that reads it; a new word inside one is a row below. The parser follows the rows:
+ * which words are allowed where, which end a block with a forgotten brace, which are reserved, and which one a misspelt
+ * word resembles. docs/language.md must list them all. */
 #ifndef LANG_WORDS_H
 #define LANG_WORDS_H
 
@@ -14,36 +12,35 @@
 
 /* Where a statement may stand. */
 enum {
-    IN_FILE = 1, /* outside all blocks: it is the file's, though a mechanism may have begun */
+    IN_FILE = 1, /* outside all blocks, even after a mechanism has begun */
     IN_MECHANISM = 2,
     IN_EFFECT = 4,
     IN_SCENE = 8,
     IN_BODY = IN_FILE | IN_MECHANISM | IN_EFFECT
 };
 
-/* What else there is to a word. */
+/* Rules of a word. */
 enum {
     RESERVED = 1,      /* no name of the user's */
     DECLARES = 2,      /* a name, which follows it */
-    ENDS_EFFECT = 4,   /* at the beginning of a line inside an effect: its brace was forgotten */
+    ENDS_EFFECT = 4,   /* at the beginning of a line inside an effect: its brace is missing */
     ENDS_SCENE = 8,    /* the same of a scene */
     ENDS_WHEN = 16,    /* and of a `when` */
-    INTO_EFFECT = 32,  /* in a scene it is told to go into an effect */
+    INTO_EFFECT = 32,  /* in a scene: the message points to an effect */
     BY_ENERGIES = 64,  /* for mechanisms given by their energies only */
     BY_EQUATIONS = 128 /* for systems given by their equations only */
 };
 #define FILE_FORM "a file begins with: mechanism NAME \"title\""
 #define ENDS_ALL (ENDS_EFFECT | ENDS_SCENE | ENDS_WHEN)
 
-/* Statements of files, mechanisms and effects, in the order in which a misspelt one is compared with them:
+/* Statements of files, mechanisms and effects, in the order of comparison with a misspelt word:
  *
- *   word          as it is written, and its name here: WORD_COORDINATE
- *   stands        where
- *   rules         what else there is to it
- *   reader        reads what follows it (statements.c)
- *   kind          of what it makes: symbol_kind, term_kind or contact_kind, as its reader has it
- *   form          its usual look, for hints
- */
+ *   word    its spelling, and its name here: WORD_COORDINATE is `coordinate`
+ *   where   the blocks that allow it
+ *   rules   its other rules
+ *   reader  reads the part after it (statements.c)
+ *   kind    of its result: symbol_kind, term_kind or contact_kind, as its reader expects
+ *   form    its usual form, for hints */
 #define BODY_WORD_ROWS(X) \
     X(MECHANISM, "mechanism", IN_FILE, RESERVED | ENDS_ALL, read_mechanism, 0, \
       "mechanism pendulum \"A pendulum\"") \
@@ -86,7 +83,7 @@ enum {
     X(NOISE, "noise", IN_MECHANISM | IN_EFFECT, INTO_EFFECT, read_noise, 0, \
       "noise angle_read deviation 0.1 [deg] seed 7")
 
-/* Statements of scenes alone (scene_block.c), with the same columns. */
+/* Statements of scenes only (scene_block.c), with the same columns. */
 #define SCENE_WORD_ROWS(X) \
     X(USE, "use", IN_SCENE, RESERVED, read_use, 0, "use NAME") \
     X(WITH, "with", IN_SCENE, RESERVED, read_with, 0, "with EFFECT, EFFECT") \
@@ -142,13 +139,13 @@ const statement_word *word_row(word_id id);
 
 /* Is it this word? */
 bool word_is(word_id id, const char *text, size_t length);
-/* The word that begins a statement, or WORDS: none does. */
+/* The word that begins a statement, or WORDS if there is no such word. */
 int word_find(const char *text, size_t length);
 bool word_is_reserved(const char *text, size_t length);
 
-/* What to write for a word of other languages, such as "if", that has no meaning here; or NULL. */
+/* The hint for a word of other languages without a meaning here, such as "if"; or NULL. */
 const char *first_word_hint(const char *text, size_t length);
-/* The energy that is usual under this name elsewhere, and its name here; or NULL. */
+/* The energy with this name in other texts, and its name here; or NULL. */
 const char *energy_hint(const char *text, size_t length);
 
 /* The word of a contact: "stop". */
