@@ -1,4 +1,4 @@
-/* algebra.h: the tables in which the objects of normal_form.h are interned, and what makes these. For host/algebra only. */
+/* algebra.h: tables that intern the objects of normal_form.h, and their constructors. For host/algebra only. */
 #ifndef ALGEBRA_ALGEBRA_H
 #define ALGEBRA_ALGEBRA_H
 
@@ -18,7 +18,7 @@ typedef struct intern_table {
     size_t count;
 } intern_table;
 
-/* A result that was worked out before. */
+/* A memoized result. */
 typedef struct memo_pair {
     const void *left;
     const void *right;
@@ -33,14 +33,13 @@ struct algebra {
     intern_table products;    /* memo_pair: poly, poly */
     intern_table derivatives; /* memo_pair: poly, atom */
     intern_table lets;        /* memo_pair: symbol, NULL */
-    size_t work;              /* terms handled and bytes kept so far: what bounds time and memory */
+    size_t work;              /* terms handled and bytes allocated so far: bounds time and memory */
     bool overflow;
     const poly *zero;
     const poly *one;
 };
 
-/* Interning (poly.c). Scratch objects are freed by the caller; what is interned lives in the
- * arena. */
+/* Interning (poly.c). The caller frees scratch objects; the arena owns interned ones. */
 mono *mono_scratch(int factors);
 const mono *mono_intern(algebra *a, mono *candidate);
 const mono *mono_make(algebra *a, const mono_factor *factors, int count, trig kind,
@@ -52,14 +51,14 @@ const poly *poly_intern(algebra *a, poly *candidate);
 const atom *atom_of_polys(algebra *a, atom_kind kind, function_id function, const poly *x,
                           const poly *y);
 
-/* The derivative of a function by x (which = 0) or y (1), of whatever stands in these places; y may be NULL
- * where the function takes one (calculus.c). */
+/* The derivative of a function by its argument x (which = 0) or y (1), at these arguments (calculus.c). y may be NULL
+ * for a function of one argument. */
 const poly *function_slope(algebra *a, function_id function, int which, const poly *x,
                            const poly *y);
 
 /* --- the order of the normal form (poly.c): negative, 0 for the same, positive -------------------*/
 
-/* What decides between two atoms, but for their arguments. */
+/* The order of atoms, apart from their arguments. */
 uint64_t atom_rank(const atom *x);
 int atom_order(const atom *x, const atom *y);
 int mono_order(const mono *x, const mono *y);
@@ -67,12 +66,12 @@ int poly_order(const poly *x, const poly *y);
 
 /* --- looking (poly.c) ---------------------------------------------------------------------------*/
 
-/* x + y, or zero when what is left is a rounding error of the decimals they came from. */
+/* x + y, or zero if the sum is only a rounding error of decimals. */
 double coefficient_sum(double x, double y);
-bool exponent_is_whole(double x); /* and small enough to count by */
-/* Does a power of a sum, from the exponent `kept` on a power if it is one of positions, multiply out? */
+bool exponent_is_whole(double x); /* and small enough for a counter */
+/* Is a power of a sum multiplied out? Powers of sums of positions are not, from the exponent `kept` on. */
 bool power_multiplies_out(const poly *base, double exponent, double kept);
-/* A sum of positions, parameters and numbers: no rate, no sine, no function? */
+/* A sum of positions, parameters and numbers only, without rates and functions? */
 bool poly_is_place(const poly *p);
 
 /* --- sums of many polys (poly.c) ------------------------------------------------------------------*/
@@ -90,18 +89,18 @@ typedef struct poly_sum {
     size_t room;
 } poly_sum;
 
-/* Count work; sets a->overflow when it is too much. */
+/* Count work; sets a->overflow above the limit. */
 void algebra_work(algebra *a, size_t amount);
 void sum_add(algebra *a, poly_sum *s, const poly *p, double scale);
-/* Add up `row` by itself, then add it to `s`; `row` is empty then, its memory is kept. */
+/* Sum up `row` by itself, then add it to `s`. `row` is then empty; its memory is reused. */
 void sum_add_row(poly_sum *s, poly_sum *row);
-/* The sum; frees what `s` holds. */
+/* The sum; frees the memory of `s`. */
 const poly *sum_close(algebra *a, poly_sum *s);
 
-/* base^exponent, where whole powers of such sums stay powers from the exponent `kept` on. */
+/* base^exponent. Whole powers of sums of positions stay powers from the exponent `kept` on. */
 const poly *poly_power(algebra *a, const poly *base, double exponent, double kept);
 
-/* The poly remembered for the pair, or NULL; and remember it. */
+/* The memoized poly of the pair, or NULL; and memoize it. */
 const poly *memo_get(intern_table *table, const void *left, const void *right);
 void memo_put(algebra *a, intern_table *table, const void *left, const void *right,
               const poly *result);

@@ -1,4 +1,4 @@
-/* calculus.c: derivatives, substitution, and the way from a parsed expression to its normal form. */
+/* calculus.c: derivatives, substitution, and conversion of parsed expressions to normal form. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -6,8 +6,8 @@
 #include "host/algebra/poly.h"
 
 /* === slopes =================================================================================== */
-/* The derivative of each of the language's functions, in symbols: one function for each row of
- * host/number/function_rows.h, slope_of_<word>(). The first argument is x, the second, where there is one, y. */
+/* Symbolic derivatives of the language's functions: slope_of_<word>() for each row of host/number/function_rows.h. The
+ * first argument is x; the second, if any, is y. */
 
 typedef struct call {
     const poly *x;
@@ -102,7 +102,7 @@ static const poly *slope_of_cosh(algebra *a, const call *of, int which) {
     return poly_call(a, FN_SINH, of->x, NULL);
 }
 
-/* cosh(x)^-2, which keeps its digits where the tangent is near one. */
+/* cosh(x)^-2 keeps its digits when tanh(x) is near one. */
 static const poly *slope_of_tanh(algebra *a, const call *of, int which) {
     (void)which;
     return poly_pow(a, poly_call(a, FN_COSH, of->x, NULL), -2.0);
@@ -115,7 +115,8 @@ static const poly *slope_of_sign(algebra *a, const call *of, int which) {
     return a->zero;
 }
 
-/* 1 for the one that is taken, 1/2 for each where they meet: by how the first is ahead of the second. */
+/* The weight of an argument of min or max: 1 for the selected one, 1/2 for each at equality. `side` tells which
+ * argument is ahead. */
 static const poly *share(algebra *a, const call *of, double side) {
     const poly *lead = poly_call(a, FN_SIGN, poly_sub(a, of->x, of->y), NULL);
     return poly_add(a, poly_number(a, 0.5), poly_scale(a, lead, side));
@@ -130,7 +131,7 @@ static const poly *slope_of_max(algebra *a, const call *of, int which) {
 }
 
 /* === the number of a poly ===================================================================== */
-/* The number a poly stands for. For checks and for constants; runs use operation lists. */
+/* The value of a constant poly, for checks and constants; runs use operation lists. */
 
 static double atom_value(const atom *x, poly_value *value, void *context) {
     if (x->kind == ATOM_SYMBOL) {
@@ -328,7 +329,7 @@ const poly *poly_determinant(algebra *a, const poly *const *m, int n, unsigned r
     return sum;
 }
 
-/* --- what is inside ------------------------------------------------------------------------------*/
+/* --- substitution -------------------------------------------------------------------------------- */
 
 bool poly_contains(const poly *p, const symbol *sym, int primes) {
     if (primes >= 0 && !poly_may_contain(p, sym, primes)) {
@@ -362,7 +363,7 @@ bool poly_contains(const poly *p, const symbol *sym, int primes) {
 typedef struct substitution {
     poly_replacement *replace;
     void *context;
-    double kept;       /* whole powers of groups stay powers from this one on, where they can */
+    double kept;       /* exponent from which whole powers of groups stay powers, if possible */
     intern_table done; /* memo_pair: poly or atom, NULL */
 } substitution;
 
@@ -420,7 +421,7 @@ static const poly *substitute(algebra *a, const poly *p, substitution *s) {
 }
 
 const poly *poly_substitute(algebra *a, const poly *p, poly_replacement *replace, void *context) {
-    /* (x - b)^2, the slope of (x - b)^3, stays one, too */
+    /* (x - b)^2, the slope of (x - b)^3, also stays a power */
     substitution s = {replace, context, 2.0, {0}};
     const poly *result = substitute(a, p, &s);
     free(s.done.slots);

@@ -1,21 +1,20 @@
-/* normal_form.h: what symbolic expressions in one normal form are made of.
+/* normal_form.h: the normal form of symbolic expressions.
  *
- * Every expression is a `poly`: a sum of terms, each a number times a product of atoms with
- * exponents times at most one sine or cosine. Products of sines and cosines are turned into sums
- * (multiple angles), so that what is equal for a planar mechanism also looks equal:
+ * Every expression is a `poly`, a sum of terms. A term is a number times a product of atoms with exponents, times at
+ * most one sine or cosine. Products of sines and cosines become sums (multiple angles), so equal expressions of a
+ * planar mechanism have equal forms:
  *
  *     sin(a)*sin(b) = cos(a - b)/2 - cos(a + b)/2        sin(a)^2 + cos(a)^2 = 1
  *
- * Whole powers of sums of positions, from the third on, stay powers, so that (x - b)^3 keeps its digits
- * near x = b. They are equal to each other, whatever the order, sign and scale of the sum; with what is
- * multiplied out they compare equal after poly_expanded() only.
+ * Whole powers of sums of positions stay powers from the third on, so that (x - b)^3 keeps its digits near x = b. They
+ * are equal to each other for any order, sign and scale of the sum. They equal their expanded form only after
+ * poly_expanded().
  *
- * All three kinds of object are interned in an `algebra`: equal objects are the same pointer, and
- * results that were asked for before are found again. Nothing is ever changed once made.
+ * All three kinds of object are interned in an `algebra`: equal objects are the same pointer, and results are memoized.
+ * Objects never change.
  *
- * Coefficients are doubles. Numbers that cancel to less than 1e-14 of what was added count as
- * cancelled, so that decimal parameters (0.1 + 0.2 - 0.3) do not leave ghost terms behind.
- */
+ * Coefficients are doubles. A sum below 1e-14 of its addends counts as zero, so that decimal parameters (0.1 + 0.2 -
+ * 0.3) leave no spurious terms. */
 #ifndef ALGEBRA_NORMAL_FORM_H
 #define ALGEBRA_NORMAL_FORM_H
 
@@ -33,20 +32,20 @@ typedef enum atom_kind {
     ATOM_SYMBOL, /* a coordinate, rate, acceleration, parameter or input */
     ATOM_CALL,   /* a function other than sine and cosine, of one or two polys */
     ATOM_POWER,  /* base^exponent with an exponent that is not a number */
-    ATOM_GROUP /* a sum kept whole, because it is the base of a power or too large to multiply out */
+    ATOM_GROUP   /* a sum kept whole: the base of a power, or too large to multiply out */
 } atom_kind;
 
 struct atom {
     atom_kind kind;
-    unsigned id;          /* for hash tables; orders nothing (poly.c does) */
-    uint64_t rank;        /* where it stands among others: poly.c */
+    unsigned id;          /* for hash tables only; poly.c defines the order */
+    uint64_t rank;        /* its rank in the order of atoms: poly.c */
     const symbol *symbol; /* ATOM_SYMBOL */
     int primes;
     function_id function;    /* ATOM_CALL, else FUNCTION_NONE or unused */
     const poly *argument[2]; /* ATOM_CALL; base and exponent of ATOM_POWER; [0] of ATOM_GROUP */
     uint64_t symbols;        /* Bloom set of the symbols inside: see poly_may_contain() */
-    bool keeps_powers;       /* a power of a sum is inside that could be multiplied out */
-    double size;             /* leaves it would have, written out */
+    bool keeps_powers;       /* contains a power of a sum that could be multiplied out */
+    double size;             /* number of leaves when written out */
 };
 
 typedef enum trig { TRIG_NONE, TRIG_COS, TRIG_SIN } trig;
@@ -77,9 +76,8 @@ struct poly {
     int count;
     uint64_t symbols;
     bool keeps_powers;
-    double
-        size; /* leaves it would have, written out: what shares is counted as often as it is used */
-    poly_term terms[]; /* in mono_order(); none means zero */
+    double size;       /* number of leaves when written out: shared parts count at each use */
+    poly_term terms[]; /* in mono_order(); zero has no terms */
 };
 
 #endif

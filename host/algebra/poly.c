@@ -11,16 +11,14 @@
 #include "host/number/folding.h"
 
 /* === the order of the normal form ============================================================= */
-/* It looks at what things are, never at when they were made: the same
- * expression has the same form whoever asked for what before, and whichever compiler built the program.
- *
- * Equal things are one object, so two that are not the same pointer differ somewhere: comparing ends at the
- * first difference, and whatever both share in front of it costs one look. */
+/* The order depends on contents, never on time of creation. So an expression has the same form after any other work,
+ * and with any compiler. Equal objects are identical, so two different pointers differ somewhere. A comparison ends at
+ * the first difference and skips shared parts in one step. */
 
 static int of_ints(int x, int y) { return (x > y) - (x < y); }
 
-/* A number's bits, so that they are in the order of what they say: a total one, zeros of two signs and what is no
- * number included. */
+/* A number's bits, mapped so that their order is that of the numbers. The order is total: it includes both zeros and
+ * NaN. */
 static uint64_t place_of(double x) {
     uint64_t bits;
     memcpy(&bits, &x, sizeof bits);
@@ -57,7 +55,7 @@ int atom_order(const atom *x, const atom *y) {
     return order;
 }
 
-/* The number alone comes first: size_of_sum() in poly.c counts on it. */
+/* The pure number comes first: size_of_sum() in poly.c relies on it. */
 int mono_order(const mono *x, const mono *y) {
     if (x == y) {
         return 0;
@@ -92,9 +90,9 @@ int poly_order(const poly *x, const poly *y) {
 /* === questions about a poly =================================================================== */
 /* Nothing is made. */
 
-/* Sums below this part of what was added are rounding errors of the decimals they came from. */
+/* A sum below this part of its addends is a rounding error of decimals. */
 #define CANCELLED 1e-14
-/* A whole power of a sum is multiplied out while it stays below so many terms. */
+/* A whole power of a sum is multiplied out if the result has fewer terms. */
 #define POWER_TERMS_MAX 64
 
 bool poly_is_zero(const poly *p) { return p->count == 0; }
@@ -112,7 +110,7 @@ bool poly_is_number(const poly *p, double *value) {
 }
 
 double coefficient_sum(double x, double y) {
-    if (!isfinite(x + y)) { /* infinity is not small beside itself */
+    if (!isfinite(x + y)) { /* infinity is not small relative to itself */
         return x + y;
     }
     return folding_cancels(x + y, number_most(fabs(x), fabs(y)), CANCELLED) ? 0.0
@@ -141,7 +139,7 @@ bool power_multiplies_out(const poly *base, double exponent, double kept) {
         (exponent >= kept && poly_is_place(base))) {
         return false;
     }
-    int terms = 1; /* asked for each product that holds a power: no pow() for it */
+    int terms = 1; /* called for each product with a power, so without pow() */
     for (int i = 0; i < (int)exponent && base->count > 1 && terms <= POWER_TERMS_MAX; i++) {
         terms *= base->count;
     }
@@ -149,7 +147,7 @@ bool power_multiplies_out(const poly *base, double exponent, double kept) {
 }
 
 /* === many polys at once ======================================================================= */
-/* Adding many polys at once. Adding them one by one would make, and keep, every sum between. */
+/* Sums of many polys at once. Adding one by one would build and keep every partial sum. */
 
 static void push(poly_sum *s, const mono *m, double coefficient) {
     if (s->count == s->room) {
@@ -176,7 +174,7 @@ static int by_mono(const void *x, const void *y) {
     return left->turn < right->turn ? -1 : 1;
 }
 
-/* Sort, and add what belongs to the same product in the order in which it came. */
+/* Sort the terms, and add those of the same product in their original order. */
 static void collect(poly_sum *s) {
     if (s->count > 1) {
         qsort(s->items, s->count, sizeof *s->items, by_mono);
@@ -216,14 +214,15 @@ const poly *sum_close(algebra *a, poly_sum *s) {
 }
 
 /* === one object for equal things ============================================================== */
-/* One object for equal things: atoms, products and sums are looked up before they are made. */
+/* Interning: atoms, products and sums are looked up before they are made. */
 
-/* A derivation that needs more work than this is given up on: some 500 MB, or half a minute. An arm of six joints, of which
- * no length is 0, needs 0.42e9. */
+/* Limit of the work of a derivation: some 500 MB, or half a minute. An arm of six joints with no zero length needs
+ * 0.42e9. */
 #define WORK_MAX ((size_t)1 << 29)
-/* What a term handled counts for, in bytes. */
+/* Work of handling a term, in bytes. */
 #define WORK_OF_TERM 2U
-/* What objects count for, in bytes: their sizes on a host of 64 bits. What is given up on must not depend on the host. */
+/* Work of making objects, in bytes: their sizes on a 64-bit host. Fixed numbers, so that the limit does not depend on
+ * the host. */
 enum { ATOM_BYTES = 72, MONO_BYTES = 48, POLY_BYTES = 32, PART_BYTES = 16, PAIR_BYTES = 24 };
 
 static uint64_t bits_of(double value) {
@@ -251,7 +250,7 @@ static void table_grow(intern_table *table) {
     table->size = size;
 }
 
-/* The slot where an equal object lies, or the empty slot where it belongs. */
+/* The slot of an equal object, or the empty slot for a new one. */
 static intern_slot *table_find(intern_table *table, uint64_t hash, const void *candidate,
                                bool (*equal)(const void *, const void *)) {
     if (table->count * 2 >= table->size) {
@@ -279,7 +278,7 @@ char *algebra_limit(const algebra *a) {
 
 void algebra_work(algebra *a, size_t amount) { count_bytes(a, amount * WORK_OF_TERM); }
 
-/* A new object's number. With its slots in the hash table it takes some 48 bytes more than itself. */
+/* A new object's number. Its slots in the hash table take some 48 bytes more. */
 static unsigned next_id(algebra *a, intern_table *table, size_t bytes) {
     count_bytes(a, bytes + 48);
     return (unsigned)table->count++;
@@ -381,7 +380,7 @@ static bool mono_equal(const void *x, const void *y) {
     return true;
 }
 
-/* `candidate` may lie in scratch memory: it is copied when it is new. */
+/* `candidate` may be scratch memory: a new object is copied. */
 const mono *mono_intern(algebra *a, mono *candidate) {
     uint64_t hash = hash_mix((uint64_t)candidate->trig,
                              candidate->angle == NULL ? 0 : candidate->angle->id + 1U);
@@ -530,10 +529,10 @@ void memo_put(algebra *a, intern_table *table, const void *left, const void *rig
 
 /* === sums, products and powers ================================================================ */
 
-/* A product of sums with more terms than this is kept as a product. */
+/* A product of sums with more terms than this stays a product. */
 #define PRODUCT_TERMS_MAX 400000
-/* Whole powers of a sum of positions from this one on stay powers: multiplied out, (x - b)^3 would lose
- * its digits near x = b. Squares do not, for the sake of what is equal only when multiplied out. */
+/* Whole powers of a sum of positions from this one on stay powers: expanded, (x - b)^3 would lose its digits near x =
+ * b. Squares are expanded, since some are equal only in expanded form. */
 #define POWER_KEPT 3.0
 
 const poly *poly_of_atom(algebra *a, const atom *x, double exponent) {
@@ -597,7 +596,7 @@ const poly *poly_each_number(algebra *a, const poly *p, double (*change)(double 
                              double by) {
     algebra_work(a, (size_t)p->count);
     poly *changed = poly_scratch(p->count);
-    for (int i = 0; i < p->count; i++) { /* the order is one of the products alone */
+    for (int i = 0; i < p->count; i++) { /* the order depends on the products alone */
         const double number = change(p->terms[i].coefficient, by);
         if (number != 0.0) {
             changed->terms[changed->count++] = (poly_term){number, p->terms[i].mono};
@@ -645,8 +644,8 @@ static const poly *trig_product(algebra *a, trig left, const poly *x, trig right
 
 /* --- products ------------------------------------------------------------------------------------*/
 
-/* Powers that do not stay a power: |p|^n = p^n for an even n, and a whole power of a group that is small enough to
- * be multiplied out. Returns NULL for all others. */
+/* Powers that are replaced: |p|^n = p^n for an even n, and a small whole power of a group, which is multiplied out.
+ * Returns NULL for all others. */
 static const poly *power_expands(algebra *a, const mono_factor *f) {
     if (f->atom->kind == ATOM_CALL && f->atom->function == FN_ABS && f->exponent >= 2.0) {
         const poly *inside = f->atom->argument[0];
@@ -665,7 +664,7 @@ static const poly *power_expands(algebra *a, const mono_factor *f) {
     return NULL;
 }
 
-/* The product of two products; more than one term when sines multiply or a group opens. */
+/* The product of two products; several terms if sines multiply or a group is expanded. */
 static const poly *mono_product(algebra *a, const mono *left, const mono *right) {
     mono *product = mono_scratch(left->count + right->count);
     const poly *extra = NULL;
@@ -745,7 +744,8 @@ const poly *poly_mul(algebra *a, const poly *left, const poly *right) {
     if (a->overflow) {
         return a->zero;
     }
-    if (poly_order(right, left) < 0) { /* one order, so that rounding does not depend on it */
+    if (poly_order(right, left) < 0) { /* a fixed order makes rounding independent of the arguments'
+                                        * order */
         const poly *swap = left;
         left = right;
         right = swap;
@@ -760,7 +760,7 @@ const poly *poly_mul(algebra *a, const poly *left, const poly *right) {
 
 /* --- powers and functions ------------------------------------------------------------------------*/
 
-/* A product to a power. Only what is true for every real value of the atoms: (x^2)^(1/2) is not x. */
+/* A product to a power, by rules valid for every real value of the atoms: (x^2)^(1/2) is not x. */
 static const poly *term_pow(algebra *a, const poly_term *t, double exponent) {
     const mono *m = t->mono;
     const bool whole = exponent_is_whole(exponent);
@@ -794,7 +794,7 @@ static const poly *term_pow(algebra *a, const poly_term *t, double exponent) {
         return poly_mul(a, poly_pow(a, poly_of_term(a, t->coefficient, plain), exponent),
                         poly_pow(a, poly_of_term(a, 1.0, wave), exponent));
     }
-    /* Take out the size of the number; its sign stays inside unless the exponent is whole. */
+    /* Take out the size of the number. Its sign stays inside unless the exponent is whole. */
     const double sign = t->coefficient < 0.0 ? -1.0 : 1.0;
     const double outside = whole ? folding_power(t->coefficient, exponent)
                                  : folding_power(fabs(t->coefficient), exponent);
@@ -805,8 +805,8 @@ static const poly *term_pow(algebra *a, const poly_term *t, double exponent) {
     return poly_scale(a, poly_of_atom(a, group_of(a, inside), exponent), outside);
 }
 
-/* Equal sums should be one group: by which number to divide. A whole power's is not that of a constant,
- * so that x - b stays what it is when b becomes a number. */
+/* The divisor that makes equal sums one group. In a whole power the constant does not decide it, so that x - b keeps
+ * its form when b becomes a number. */
 static double size_of_sum(const poly *p, double exponent) {
     const bool constant = p->terms[0].mono->count == 0 && p->terms[0].mono->trig == TRIG_NONE;
     return constant && exponent_is_whole(exponent) && exponent > 0.0 ? p->terms[1].coefficient
@@ -834,7 +834,7 @@ const poly *poly_power(algebra *a, const poly *base, double exponent, double kep
         }
         return p;
     }
-    /* The sign stays inside where it cannot leave a broken power. */
+    /* The sign stays inside if it cannot leave a fractional power. */
     const double size = size_of_sum(base, exponent);
     const double outside = exponent_is_whole(exponent) ? size : fabs(size);
     const poly *inside = poly_scale(a, base, 1.0 / outside);
@@ -860,7 +860,7 @@ const poly *poly_call(algebra *a, function_id function, const poly *x, const pol
     if (poly_is_number(x, &vx) && (y == NULL || poly_is_number(y, &vy))) {
         return poly_number(a, folding_call(function, vx, vy));
     }
-    /* The normal form has these three itself; all others are atoms. */
+    /* Sine, cosine and square root have normal forms of their own; other functions are atoms. */
     if (function == FN_SIN) {
         return poly_sin(a, x);
     }

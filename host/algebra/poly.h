@@ -1,4 +1,4 @@
-/* poly.h: computing with expressions in the normal form of normal_form.h. */
+/* poly.h: arithmetic with expressions in the normal form of normal_form.h. */
 #ifndef ALGEBRA_POLY_H
 #define ALGEBRA_POLY_H
 
@@ -7,13 +7,12 @@
 algebra *algebra_new(void);
 void algebra_free(algebra *a);
 
-/* The largest size of an expression: whoever walks through one, shared parts again and again, takes a
- * bounded time. */
+/* Greatest size of an expression. It bounds the time of walks that visit shared parts repeatedly. */
 #define POLY_SIZE_MAX 1e6
 
-/* Set when an expression grew beyond what the algebra takes on; results are then meaningless. */
+/* True after an expression exceeded a limit of the algebra; results are then meaningless. */
 bool algebra_overflow(const algebra *a);
-/* Which limit that was, with its number; the caller frees it. */
+/* The exceeded limit in words, with its number; the caller frees it. */
 char *algebra_limit(const algebra *a);
 
 const poly *poly_number(algebra *a, double value);
@@ -24,7 +23,7 @@ const atom *atom_symbol(algebra *a, const symbol *sym, int primes);
 const poly *poly_add(algebra *a, const poly *left, const poly *right);
 const poly *poly_sub(algebra *a, const poly *left, const poly *right);
 const poly *poly_scale(algebra *a, const poly *p, double scale);
-/* p with the number of each term changed: change(number, by). */
+/* p with change(number, by) applied to the number of each term. */
 const poly *poly_each_number(algebra *a, const poly *p, double (*change)(double number, double by),
                              double by);
 const poly *poly_mul(algebra *a, const poly *left, const poly *right);
@@ -38,41 +37,40 @@ const poly *poly_cos(algebra *a, const poly *angle);
 const poly *poly_of_term(algebra *a, double coefficient, const mono *m);
 
 bool poly_is_zero(const poly *p);
-/* True, and *value set, when p is a number. */
+/* True if p is a number, which goes to *value. */
 bool poly_is_number(const poly *p, double *value);
-/* False only when p surely does not contain the symbol with so many primes. */
+/* False only if p certainly does not contain the symbol with so many primes. */
 bool poly_may_contain(const poly *p, const symbol *sym, int primes);
-/* Exactly: does p contain the symbol with so many primes (-1: any number of primes)? */
+/* Exact test: does p contain the symbol with so many primes (-1: any number of primes)? */
 bool poly_contains(const poly *p, const symbol *sym, int primes);
 
 /* --- calculus.c ---------------------------------------------------------------------------------*/
 
-/* Determinant of the given rows and columns (bit sets, equally many) of the n by n matrix m, n <= 32.
- * For a few rows: it is expanded by cofactors. */
+/* Determinant of the given rows and columns (bit sets of equal size) of the n by n matrix m, n <= 32. Expansion by
+ * cofactors: for a few rows only. */
 const poly *poly_determinant(algebra *a, const poly *const *m, int n, unsigned rows,
                              unsigned columns);
 
-/* Partial derivative by the symbol with so many primes, all else held. */
+/* Partial derivative by the symbol with so many primes. */
 const poly *poly_derivative(algebra *a, const poly *p, const symbol *sym, int primes);
 
-/* Rebuild p with every atom that `replace` answers for (non-NULL) replaced by its answer. */
+/* p with atoms replaced: `replace` returns the replacement of an atom, or NULL. */
 typedef const poly *poly_replacement(void *context, algebra *a, const symbol *sym, int primes);
 const poly *poly_substitute(algebra *a, const poly *p, poly_replacement *replace, void *context);
 
-/* p with the powers of sums that were kept multiplied out, where that stays small: for telling whether
- * it is zero. */
+/* p with its powers of sums multiplied out, unless the result is large: a test for zero. */
 const poly *poly_expanded(algebra *a, const poly *p);
 
-/* The value of p, with `value` answering for every symbol. */
+/* The value of p; `value` returns the value of each symbol. */
 typedef double poly_value(void *context, const symbol *sym, int primes);
 double poly_evaluate(const poly *p, poly_value *value, void *context);
-/* The sum of the sizes of its terms: what the rounding of poly_evaluate() is a part of. Sines and cosines
- * count as one, as their errors do. */
+/* The sum of the sizes of its terms: the reference for round-off in poly_evaluate(). Sines and cosines count as one, as
+ * their errors do. */
 double poly_magnitude(const poly *p, poly_value *value, void *context);
-/* Are all numbers in it finite, inside functions too? */
+/* Are all numbers in p finite, including those inside functions? */
 bool poly_is_finite(const poly *p);
 
-/* The poly of a parsed expression; lets are replaced by what they stand for. */
+/* The poly of a parsed expression; lets are replaced by their expressions. */
 const poly *poly_from_expr(algebra *a, const expr *e);
 
 #endif

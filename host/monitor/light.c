@@ -58,7 +58,7 @@ static bool keep_text(light *l, const char *from, const char *end) {
     return true;
 }
 
-/* Its lines are the fields, in their order, in printable words. */
+/* The lines must be the fields, in order, in printable characters. */
 static bool split(light *l, size_t body) {
     memcpy(l->lines, l->text, l->length + 1);
     char *at = l->lines + BEGIN + 1;

@@ -1,4 +1,4 @@
-/* light.h: the record of a board's first light (core/light_fields.h), as it came over a line or stands in a terminal's log. */
+/* light.h: the record of a board's first light (core/light_fields.h), from a serial line or a terminal's log. */
 #ifndef MONITOR_LIGHT_H
 #define MONITOR_LIGHT_H
 
@@ -17,18 +17,18 @@ enum { LIGHT_ROOM = 8192 };
 extern const char *const light_names[LIGHT_FIELDS];
 
 typedef struct light {
-    char text[LIGHT_ROOM];  /* the record as its board meant it, a line feed behind each line */
+    char text[LIGHT_ROOM];  /* the record as the board wrote it, a line feed after each line */
     size_t length;          /* of it, */
     char lines[LIGHT_ROOM]; /* and again, in words: */
     const char *value[LIGHT_FIELDS]; /* of light_names[] */
     uint32_t crc;
 } light;
 
-/* Reads bytes[count]: noise, then one record, and nothing behind it. Carriage returns before a line feed are a terminal's. NULL
- * when the record is whole; else what is wrong with it, in words, and *hint. */
+/* Read bytes[count]: noise, then one record at the end. Carriage returns before line feeds come from a terminal and are
+ * dropped. NULL if the record is whole; else the error in words, with *hint. */
 const char *light_read(light *l, const char *bytes, size_t count, const char **hint);
 
-/* Where a record begins last; NULL: nowhere. And behind its end, from there on; NULL: it has none yet. */
+/* The beginning of the last record, or NULL. And the first byte after a record's end, searched from `from`, or NULL. */
 const char *light_begin(const char *bytes, size_t count);
 const char *light_end(const char *from, const char *end);
 

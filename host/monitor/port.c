@@ -45,10 +45,10 @@ static bool make_plain(port *p, double baud) {
            tcsetattr(p->file, TCSANOW, &plain) == 0;
 }
 
-/* Who reads what another one waits for, takes it away from him. */
+/* Two readers of a line would take bytes from each other. */
 static bool have_alone(int file) {
     if (flock(file, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) {
-        return true; /* or nobody can know */
+        return true; /* or exclusion is not available */
     }
     errno = EBUSY;
     return false;

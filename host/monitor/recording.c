@@ -10,12 +10,12 @@
 
 /* Of the rig's clock (1 MHz). */
 #define TICKS_PER_S 1e6
-/* Events come a control step or two behind what they tell of. */
+/* Events arrive a control step or two after their time stamps. */
 #define SETTLED_US 50000
-/* How long a pulse is shown whose end nobody tells. */
+/* Displayed length of a pulse if the rig does not report ends. */
 #define PULSE_US 100
 #define ROWS_MOST 100000
-/* More of a channel's frames cannot be missing: then the rig began anew. */
+/* A larger gap in a channel's count means that the rig has restarted. */
 #define GAP_MOST 0x8000U
 
 enum { EVENT_PULSE, EVENT_STATE, EVENT_TRIP, EVENT_END };
@@ -34,7 +34,7 @@ static int64_t time_of(recording *r, uint32_t ticks) {
     return r->time_us + (int32_t)(ticks - r->ticks);
 }
 
-/* What was told at last is what others are near to. */
+/* Store the latest ticks: other ticks are unwrapped near them. */
 static void go_on(recording *r, uint32_t ticks) {
     r->time_us = time_of(r, ticks);
     r->ticks = ticks;
@@ -43,7 +43,7 @@ static void go_on(recording *r, uint32_t ticks) {
 void recording_anew(recording *r) {
     r->counts.restarts += r->timed;
     r->time_us = r->expects ? r->expected_us : r->time_us;
-    r->timed = false; /* the next ticks are this time's */
+    r->timed = false; /* the next ticks belong to this time */
     memset(r->channel, 0, sizeof r->channel);
     r->expects = false;
     r->ends = r->high[0] = r->high[1] = false; /* it may be another program's */
@@ -76,7 +76,7 @@ static void put_number(FILE *to, bool there, double value) {
     }
 }
 
-/* Names and signals, once they are known. */
+/* Write names and signals, once they are known. */
 static void head(recording *r, const schema_channel *c) {
     if (r->headed) {
         return;
@@ -109,7 +109,7 @@ static void head(recording *r, const schema_channel *c) {
     }
 }
 
-/* Every second of what there is, and from now on. */
+/* Keep every second sample, of stored and of future ones. */
 static void thin_out(recording *r) {
     const size_t row = (size_t)r->columns;
     for (int64_t i = 0; i < r->rows / 2; i++) {
@@ -135,7 +135,7 @@ static void keep_row(recording *r, const double *values) {
            (size_t)r->columns * sizeof values[0]);
 }
 
-/* One sample: its own values, then those that the frame has once. */
+/* One sample: its own values, then those common to the frame. */
 static void take_sample(recording *r, const schema_channel *c, int64_t time_us, const uint8_t *each,
                         const uint8_t *once) {
     double values[1 + 2 * SCHEMA_FIELDS];
@@ -210,7 +210,7 @@ static void take_event(recording *r, const schema_channel *run, const wire_frame
         return;
     }
     if (pulses) {
-        if (r->high[value]) { /* its end was lost on the way */
+        if (r->high[value]) { /* the end of the last pulse was lost */
             vcd_change(r->vcd, r->pulse[value], time_us - 1, 0.0);
         }
         r->high[value] = r->ends;

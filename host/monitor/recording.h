@@ -1,4 +1,4 @@
-/* recording.h: what comes of a rig's telemetry: records, waves, what is plotted, and how much was lost. */
+/* recording.h: the recording of a rig's telemetry: records, waves, the plot, and counts of losses. */
 #ifndef MONITOR_RECORDING_H
 #define MONITOR_RECORDING_H
 
@@ -10,16 +10,16 @@
 #include "host/plot/vcd.h"
 #include "schema.h"
 
-/* What was lost, and where. */
+/* Losses, and their places. */
 typedef struct recording_counts {
     uint64_t frames;
     uint64_t samples;
     uint64_t pulses;
     uint64_t lost;         /* frames that did not come, */
-    uint64_t dropped;      /* of which the rig had no room for so many */
+    uint64_t dropped;      /* of those, dropped by the rig for lack of space */
     uint64_t lost_samples; /* by their times */
-    uint64_t strange;      /* frames that no schema is known of */
-    uint64_t restarts;     /* the rig began anew */
+    uint64_t strange;      /* frames without a known schema */
+    uint64_t restarts;     /* restarts of the rig */
 } recording_counts;
 
 typedef struct recording_channel {
@@ -38,16 +38,16 @@ typedef struct recording {
     bool ring_headed;
     recording_channel channel[SCHEMA_CHANNELS];
     bool timed;
-    uint32_t ticks;  /* the last that was told, */
-    int64_t time_us; /* and what time that was, since the first */
+    uint32_t ticks;  /* ticks of the last frame, */
+    int64_t time_us; /* and its time since the first frame */
     bool expects;    /* a sample at: */
     int64_t expected_us;
     int signal[2 * SCHEMA_FIELDS]; /* of the run's fields; then */
     int pulse[2];
-    bool ends;    /* of pulses are told, */
-    bool high[2]; /* and one is still to come */
+    bool ends;    /* the rig reports the ends of pulses, */
+    bool high[2]; /* and this pulse has not ended yet */
     int trip;
-    double *row; /* what is plotted: rows of `columns`, thinned out where they are too many */
+    double *row; /* plotted rows of `columns` values, thinned out above the limit */
     int64_t rows;
     int64_t room;
     int columns;
@@ -56,23 +56,23 @@ typedef struct recording {
     recording_counts counts;
 } recording;
 
-/* The run's channel, the events' and the ring's, as core/station/telemetry.h numbers them. */
+/* The channels of runs, events and the ring, numbered as in core/station/telemetry.h. */
 enum { RECORDING_RUN, RECORDING_EVENT, RECORDING_RING };
 
 void recording_begin(recording *r, FILE *csv, FILE *waves, FILE *ring, bool plots);
 
-/* The rig began anew: its clock and its counts have nothing to do with what was before. */
+/* The rig has restarted: its clock and counts are unrelated to earlier ones. */
 void recording_anew(recording *r);
 
-/* Somebody has asked for samples anew, perhaps at another rate: none of those until the next that come was sent. */
+/* Samples were requested again, perhaps at another rate: the next ones do not continue the sequence. */
 void recording_asked(recording *r);
 
 void recording_frame(recording *r, const schema *s, const wire_frame *frame);
 
-/* Draws, where it plots; false when that failed, told. */
+/* Draw the plot, if there is one; false after a failure, reported. */
 bool recording_plot(const recording *r, const schema *s, const char *file);
 
-/* What waits is written, and what it holds given back. */
+/* Write pending data and free all memory. */
 void recording_end(recording *r);
 
 #endif

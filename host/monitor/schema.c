@@ -7,7 +7,7 @@
 
 #include "host/number/decimal.h"
 
-/* Behind " name=" in the line; NULL when it has none. */
+/* The text after " name=" in the line; NULL without it. */
 static const char *value_of(const char *line, const char *name) {
     const size_t length = strlen(name);
     for (const char *at = strchr(line, ' '); at != NULL; at = strchr(at + 1, ' ')) {
@@ -28,7 +28,7 @@ static bool read_whole(const char *at, double most, uint32_t *number) {
     return true;
 }
 
-/* The characters up to one of `ends`, at most SCHEMA_NAME - 1; NULL when there are none or too many. */
+/* The characters up to one of `ends`, at most SCHEMA_NAME - 1; NULL if there are none or too many. */
 static const char *copy_word(char *to, const char *from, const char *ends) {
     const size_t length = strcspn(from, ends);
     if (length == 0 || length >= SCHEMA_NAME) {
@@ -53,7 +53,7 @@ static bool set_name(schema_field *field, const char *word) {
     return true;
 }
 
-/* "name[unit]:i2:scale:offset", the offset may be missing; returns what stands behind it, NULL when it is none. */
+/* "name[unit]:i2:scale:offset"; the offset is optional. Returns the following text, or NULL if unreadable. */
 static const char *read_field(schema_field *field, const char *at) {
     char word[SCHEMA_NAME];
     *field = (schema_field){.scale = 1.0};
@@ -81,7 +81,7 @@ static const char *read_field(schema_field *field, const char *at) {
     return at;
 }
 
-/* Between commas, up to a blank, a colon in front of words, or the end. -1: they do not read. */
+/* Fields between commas, up to a blank, a colon before words, or the end. -1: unreadable. */
 static int read_fields(schema_field *fields, const char *at) {
     int count = 0;
     if (at == NULL) {

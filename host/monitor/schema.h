@@ -1,4 +1,4 @@
-/* schema.h: what a rig's telemetry holds, as it says of itself (`tel schema`). */
+/* schema.h: the schema of a rig's telemetry, as the rig describes it (`tel schema`). */
 #ifndef MONITOR_SCHEMA_H
 #define MONITOR_SCHEMA_H
 
@@ -18,7 +18,7 @@ typedef struct schema_field {
 typedef struct schema_channel {
     bool known;
     char name[SCHEMA_NAME];
-    uint32_t period_ticks; /* of what repeats; 0: none */
+    uint32_t period_ticks; /* of periodic frames; 0: no period */
     schema_field once[SCHEMA_FIELDS];
     int onces;
     schema_field each[SCHEMA_FIELDS];
@@ -27,15 +27,15 @@ typedef struct schema_channel {
 
 typedef struct schema {
     schema_channel channel[SCHEMA_CHANNELS];
-    char state[SCHEMA_STATES][SCHEMA_NAME]; /* "" where there is none */
+    char state[SCHEMA_STATES][SCHEMA_NAME]; /* "" for an unnamed state */
     bool states_known;
 } schema;
 
-/* An answer of the console: true when it describes a channel, the states or another rate, which are then known. One that
- * does not read leaves all as it was. */
+/* Take an answer of the console. True if it describes a channel, the states or another rate, which are then known. An
+ * unreadable answer changes nothing. */
 bool schema_take(schema *s, const char *line);
 
-/* The value at bytes[field->size]; false when there is none. */
+/* The value at bytes[field->size]; false if it has no value. */
 bool schema_value(const schema_field *field, const uint8_t *bytes, double *value);
 
 /* Bytes of fields[count]. */

@@ -1,4 +1,4 @@
-/* wire.c: a rig's line, as it comes: text here, frames of telemetry there (core/station/telemetry.h). */
+/* wire.c: the byte stream of a rig: text mixed with telemetry frames (core/station/telemetry.h). */
 #include "host/monitor/wire.h"
 
 #include <stdio.h>
@@ -46,7 +46,7 @@ static wire_event end_chunk(wire *w) {
     return WIRE_FRAME;
 }
 
-/* By the second byte it is known what the first was of; a line feed is no frame's first. */
+/* The second byte decides whether the first began a frame. No frame begins with a line feed. */
 static wire_event add(wire *w, uint8_t byte) {
     if (!w->is_frame && w->length == 1U) {
         w->is_frame = byte >= 0x80U;
@@ -73,7 +73,7 @@ wire_event wire_take(wire *w, uint8_t byte) {
     wire_event event = WIRE_NOTHING;
     if (w->is_frame) {
         event = end_chunk(w);
-    } else if (w->length == 1U) { /* one byte of text between two frames, as an echo is */
+    } else if (w->length == 1U) { /* one byte of text between two frames, such as an echo */
         event = add_text(w, (char)w->chunk[0]);
     }
     w->length = 0;
@@ -93,8 +93,8 @@ void wire_forget(wire *w) {
 
 /* === questions before a recording ============================================================= */
 
-/* The rate behind what describes its frames. The first has an answer that nothing else is: until it comes,
- * what is heard may have been said to somebody before. */
+/* The rate follows the answer that describes its frames. The first question has a unique answer: until it arrives,
+ * received lines may answer another program's questions. */
 static const struct {
     const char *words;
     const char *answer; /* how it begins */
@@ -122,7 +122,7 @@ const char *dialogue_question(const dialogue *d, char line[DIALOGUE_LINE]) {
     return line;
 }
 
-/* Those that are OK alone are nothing else. */
+/* A bare OK must be the whole line. */
 static bool begins(const char *line, const char *answer) {
     return strcmp(answer, "OK") == 0 ? strcmp(line, answer) == 0
                                      : strncmp(line, answer, strlen(answer)) == 0;
@@ -138,7 +138,7 @@ bool dialogue_answer(dialogue *d, const char *line) {
         return true; /* its echo */
     }
     const bool met = d->asked >= DIALOGUE_MET;
-    const char *from = met ? line : strstr(line, questions[0].answer); /* behind half a frame */
+    const char *from = met ? line : strstr(line, questions[0].answer); /* after a partial frame */
     const bool good = from != NULL && begins(from, questions[d->asked].answer);
     const bool refuses = met && strncmp(line, "ERR ", 4) == 0;
     if (!good && !refuses) {

@@ -1,4 +1,4 @@
-/* wire.h: a rig's line, as it comes: text here, frames of telemetry there (core/station/telemetry.h). */
+/* wire.h: the byte stream of a rig: text mixed with telemetry frames (core/station/telemetry.h). */
 #ifndef MONITOR_WIRE_H
 #define MONITOR_WIRE_H
 
@@ -22,46 +22,46 @@ typedef enum wire_event { WIRE_NOTHING, WIRE_TEXT, WIRE_FRAME } wire_event;
 typedef struct wire {
     uint8_t chunk[WIRE_ROOM]; /* of a frame, since the last zero */
     unsigned length;
-    bool is_text;  /* what has come since the last zero, */
-    bool is_frame; /* or a frame's; neither: not known yet */
+    bool is_text;  /* the bytes since the last zero are text, */
+    bool is_frame; /* or a frame; neither: not known yet */
     bool too_long;
-    char line[WIRE_LINE + 1]; /* of text, as far as it has come; whole after WIRE_TEXT */
+    char line[WIRE_LINE + 1]; /* text received so far; complete after WIRE_TEXT */
     unsigned columns;
     bool line_done;
-    wire_frame frame; /* after WIRE_FRAME, until the next byte */
-    uint64_t damaged; /* what stood between two zeros and was no frame */
+    wire_frame frame; /* valid after WIRE_FRAME, until the next byte */
+    uint64_t damaged; /* chunks between two zeros that are no frame */
 } wire;
 
-/* The next byte. A line of text ends with a line feed, and has no end of its own here. */
+/* Take the next byte. A line of text ends with a line feed, which is not stored. */
 wire_event wire_take(wire *w, uint8_t byte);
 
-/* Nothing of what was begun will go on: the line was broken off. */
+/* Discard an incomplete line or frame: the line was interrupted. */
 void wire_forget(wire *w);
 
 /* === questions before a recording ============================================================= */
-/* What a rig is asked before it is recorded: what its telemetry holds, then for it. */
+/* The dialogue before a recording: it asks the rig for its telemetry's schema, then for telemetry. */
 
 enum { DIALOGUE_LINE = 48, DIALOGUE_REFUSAL = 160 };
 
-/* So many are answered, and the rig is known to be there; was_off is known; telemetry of a time before has ended. */
+/* After so many answers: the rig is present; was_off is known; earlier telemetry has ended. */
 enum { DIALOGUE_MET = 1, DIALOGUE_LISTED = 3, DIALOGUE_OFF = 4 };
 
-/* All zeros but `rate`: nothing asked yet. */
+/* All zeros except `rate`: nothing asked yet. */
 typedef struct dialogue {
     int rate;  /* samples a second */
-    int asked; /* the question that waits for its answer */
+    int asked; /* the current question */
     bool done;
     bool rate_refused;
     bool was_off; /* telemetry was off: the rig is new, or another one */
     char refused
-        [DIALOGUE_REFUSAL]; /* the first question that was not answered with OK, and what was; if any */
+        [DIALOGUE_REFUSAL]; /* the first question not answered with OK, and its answer; if any */
 } dialogue;
 
-/* The line that is to be sent now, with its end; NULL when all are answered. */
+/* The line to send now, with its end; NULL after the last answer. */
 const char *dialogue_question(const dialogue *d, char line[DIALOGUE_LINE]);
 
-/* A line that came. True when it was an answer, or the echo of a question: nobody else's. What was in the line before the
- * first question, and answers that come twice, since somebody has asked again, answer nothing: `asked` stays. */
+/* A received line. True if it is an answer, or the echo of a question: not for other readers. Lines from before the
+ * first question, and repeated answers after a repeated question, leave `asked` unchanged. */
 bool dialogue_answer(dialogue *d, const char *line);
 
 #endif
