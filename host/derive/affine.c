@@ -1,4 +1,4 @@
-/* affine.c: every operation of a list with the coefficients of what it depends on. */
+/* affine.c: propagation of affine coefficients through an operation list. */
 #include "affine.h"
 
 #include <math.h>
@@ -8,19 +8,19 @@
 #include "host/base/room.h"
 #include "host/number/folding.h"
 
-/* Of a sum that cancels, this part of its summands and less is nothing, as in host/algebra: decimal parameters leave no
- * ghosts of a spring between two masses that move together. */
+/* A sum below this part of its addends counts as zero, as in host/algebra. Decimal parameters must leave no spurious
+ * spring between two masses that move together. */
 #define GHOST 1e-14
 
 int affine_states(const image *im) { return im->angles + im->reals; }
 int affine_columns(const image *im) { return affine_states(im) + im->inputs + 1; }
 
-/* The column of a leaf; -1: of what is no state and no input. */
+/* The column of a leaf, or -1 if it is neither state nor input. */
 static int column_of(const image *im, const op *o) {
     if (o->code == OP_LINEAR) {
         return im->angles + o->a;
     }
-    if (o->code == OP_RATE) { /* behind all positions, those of angles too */
+    if (o->code == OP_RATE) { /* after all positions, those of angles included */
         return im->coordinates + o->a;
     }
     return o->code == OP_INPUT ? affine_states(im) + o->a : -1;
@@ -51,7 +51,7 @@ static void multiply(const twofold *a, twofold factor, int columns, twofold *to)
     }
 }
 
-/* The coefficients of operation o, from those of all before it. False where it has none. */
+/* The coefficients of operation o, from those of all earlier ones. False if it is not affine. */
 static bool step(const image *im, const op *o, const twofold *all, twofold *to) {
     const int columns = affine_columns(im);
     const twofold *a = all + (ptrdiff_t)(o->a >= 0 ? o->a : 0) * columns;
@@ -83,7 +83,7 @@ static bool step(const image *im, const op *o, const twofold *all, twofold *to) 
         }
         return true;
     case OP_PHASE:
-    case OP_CELL: return true; /* what is made of them is not */
+    case OP_CELL: return true; /* operations on them are not affine */
     case OP_SIN:
     case OP_COS:
     case OP_LINE:

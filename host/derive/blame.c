@@ -1,4 +1,4 @@
-/* blame.c: expressions as they were written, and the slopes of energies and gaps, node by node. */
+/* blame.c: the list of expressions in the spelling of the file, and of the derivatives of energies and gaps. */
 #include "blame.h"
 
 #include <math.h>
@@ -10,7 +10,7 @@
 #include "host/base/arena.h"
 #include "host/base/room.h"
 
-/* A poly or an atom that was entered before. */
+/* A poly or an atom entered before. */
 typedef struct known {
     const void *what;
     int node;
@@ -50,7 +50,7 @@ static int enter_symbol(maker *k, const symbol *s, int primes) {
     case SYM_STATE: return enter(k, (blame_node){.code = BLAME_STATE, .a = s->index, .b = primes});
     case SYM_LET: /* below */
     case SYM_OUTPUT:
-    case SYM_RECORD: break; /* in no expression that moves anything */
+    case SYM_RECORD: break; /* not in equations of motion */
     }
     return enter_number(k, (double)NAN);
 }
@@ -59,7 +59,7 @@ static int enter_symbol(maker *k, const symbol *s, int primes) {
 
 static int of_expr(maker *k, const expr *tree);
 
-/* A let stands at many places, and is entered once. */
+/* A let may occur at many places; it is entered once. */
 static int of_let(maker *k, const symbol *let) {
     if (k->let[let->index] < 0) {
         k->let[let->index] = of_expr(k, let->value);
@@ -95,7 +95,7 @@ static int of_expr(maker *k, const expr *tree) {
     return node;
 }
 
-/* --- what was derived from them ------------------------------------------------------------------------*/
+/* --- derivatives of expressions ------------------------------------------------------------------------ */
 
 static known *find(const maker *k, const void *what) {
     size_t at = (size_t)(((uintptr_t)what >> 4) * UINT64_C(0x9e3779b97f4a7c15) >> 32);
@@ -187,7 +187,7 @@ static int of_poly(maker *k, const poly *p) {
     return remember(k, p, node);
 }
 
-/* Sums and products of numbers, symbols and waves have slopes wherever they have values. */
+/* Sums and products of numbers, symbols and waves are differentiable wherever they are defined. */
 static bool has_slopes(const poly *p) {
     for (int i = 0; i < p->count; i++) {
         const mono *m = p->terms[i].mono;
@@ -225,7 +225,7 @@ static void ask_value(maker *k, place where, const expr *tree, const char *what)
     }
 }
 
-/* Its slopes along the unknowns with so many primes: 0, the coordinates; 1, their rates. */
+/* The derivatives by the unknowns with so many primes: 0, the coordinates; 1, their rates. */
 static void ask_slopes(maker *k, place where, const expr *tree, const char *what, int primes) {
     const equations *e = k->equations;
     const poly *value = poly_from_expr(e->algebra, tree);
@@ -250,7 +250,7 @@ static void ask_term(maker *k, const term *t) {
     ask_value(k, where, t->right, part);
     if (differentiated) {
         snprintf(slope, sizeof slope, "the slope of %s", part);
-        if (t->kind != TERM_F) { /* whose slopes along the coordinates act on nothing */
+        if (t->kind != TERM_F) { /* its derivatives by the coordinates are not used */
             ask_slopes(k, where, t->value, slope, 0);
         }
         ask_slopes(k, where, t->value, slope, 1);

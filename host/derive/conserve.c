@@ -1,4 +1,4 @@
-/* conserve.c: which coordinates can be recovered, and how. */
+/* conserve.c: the choice of recoverable coordinates, and their recovery. */
 #include "conserve.h"
 
 #include <math.h>
@@ -18,7 +18,7 @@ static double start_value(void *context, const symbol *s, int primes) {
     case SYM_COORDINATE:
     case SYM_STATE:
         return primes < inst->start_count[s->index] ? inst->start[s->index][primes] : 0.0;
-    case SYM_LET: /* expressions: none stands in a poly */
+    case SYM_LET: /* expressions: not in polys */
     case SYM_OUTPUT:
     case SYM_RECORD: break;
     }
@@ -31,8 +31,8 @@ static double at_start(const equations *e, const poly *p) {
 
 /* --- integrating a momentum's coefficients -------------------------------------------------------*/
 
-/* Antiderivative by q of one term that is a power of q times what does not contain q, or a sine or
- * cosine whose angle is linear in q; NULL for any other. */
+/* The antiderivative by q of one term. The term must be a power of q times a factor without q, or a sine or cosine with
+ * an angle linear in q. NULL for any other. */
 static const poly *integrate_term(algebra *a, const poly_term *t, const symbol *q) {
     const mono *m = t->mono;
     const poly *factors = poly_number(a, t->coefficient);
@@ -91,7 +91,7 @@ static const poly *potential_of(const equations *e, const poly *const *mass) {
     return g;
 }
 
-/* The same; where powers of sums that were kept are in the way, with them multiplied out. */
+/* The same; if kept powers of sums prevent it, with them multiplied out. */
 static const poly *potential_of_any(const equations *e, const poly *const *mass) {
     const poly *g = potential_of(e, mass);
     if (g == NULL) {
@@ -138,7 +138,7 @@ static bool check_wanted(const equations *e, int i, diags *errors) {
     return false;
 }
 
-/* The momentum must be linear in the rates, p = sum m_j q_j', for the algebra above. */
+/* The recovery needs a momentum that is linear in the rates, p = sum m_j q_j'. */
 static bool is_linear(const equations *e, const poly *momentum, const poly *const *mass) {
     algebra *a = e->algebra;
     const poly *rest = momentum;
@@ -152,7 +152,7 @@ typedef struct momentum_law {
     double momentum;    /* constant value, SI */
     double start;       /* G at the start */
     const poly **mass;  /* [equations->count] coefficients of the rates */
-    const poly *others; /* G less the conserved coordinates' part */
+    const poly *others; /* G without the conserved coordinates' part */
 } momentum_law;
 
 /* sum over the conserved of m_kl x_l = right_k, solved for x by Cramer's rule. */
@@ -216,7 +216,7 @@ static bool make_law(const equations *e, conservation *c, int k, momentum_law *l
         law->mass[j] = equations_fold(e, e->mass[i * n + j]);
         c->closed = c->closed && (c->number[j] < 0 || poly_is_number(law->mass[j], &value));
     }
-    /* inside a step there is no time from which a place could follow that others depend on */
+    /* a step has no time from which to compute a position that others depend on */
     c->closed = c->closed && !influence_of(e, e->unknowns[i].symbol);
     if (is_linear(e, momentum, law->mass)) {
         return true;
@@ -226,7 +226,7 @@ static bool make_law(const equations *e, conservation *c, int k, momentum_law *l
     return false;
 }
 
-/* G for each law, when there is one; else the coordinates are integrated. */
+/* G for each law, if it exists; else the coordinates are integrated. */
 static void make_potentials(const equations *e, conservation *c, momentum_law *laws) {
     algebra *a = e->algebra;
     for (int k = 0; k < c->count && c->closed; k++) {

@@ -1,14 +1,14 @@
-/* conserve.h: coordinates recovered from their conserved momentum instead of being integrated.
+/* conserve.h: coordinates recovered from their conserved momentum instead of being integrated (Routh's procedure;
+ * Goldstein, Classical Mechanics, section 8.3).
  *
  * A coordinate X that appears in no energy and feels no force keeps its momentum
  *
  *     p = dL/dX' = sum_j m_Xj(q) q_j',
  *
- * so its rate follows algebraically from the others'. Where the momentum is the rate of a function
- * G(q) (a centre of mass times the total mass), X itself follows too: G(q) = G(q0) + p t. Then neither
- * X nor X' is part of the state, and their drift is rounding only. Where it is not, or where a force or a contact
- * depends on X (a step knows no time), X is integrated from its algebraic rate. (Routh's procedure; Goldstein, Classical Mechanics, section 8.3.)
- */
+ * so its rate follows algebraically from the others'. If the momentum is the rate of a function G(q) (a centre of mass
+ * times the total mass), X itself follows too: G(q) = G(q0) + p t. Then neither X nor X' is part of the state, and
+ * their drift is round-off only. Otherwise X is integrated from its algebraic rate. So it is if a force or a contact
+ * depends on X, since a step knows no time. */
 #ifndef DERIVE_CONSERVE_H
 #define DERIVE_CONSERVE_H
 
@@ -17,24 +17,25 @@
 typedef struct conservation {
     int count;          /* unknowns recovered */
     int *unknown;       /* [count] */
-    int *number;        /* [equations->count] place in unknown[], or -1 */
+    int *number;        /* [equations->count] index in unknown[], or -1 */
     bool closed;        /* the coordinates follow from G(q); else they are integrated */
-    const poly **rate;  /* [count] the rates from the others' */
-    const poly **value; /* [count] the coordinates from the others and time; NULL unless closed */
+    const poly **rate;  /* [count] the rates as functions of the others' */
+    const poly **value; /* [count] the coordinates as functions of the others and time; NULL unless
+                         * closed */
 } conservation;
 
-/* At most so many coordinates are recovered at once. */
+/* Most coordinates recovered at once. */
 #define CONSERVED_MAX 3
 
-/* The time of a run, in the polys above. */
+/* The symbol of time in the polys above. */
 extern const symbol conservation_time;
 
-/* What `wanted` [equations->count] asks for (NULL: nothing), checked. NULL with an error when a named
+/* The coordinates that `wanted` [equations->count] names (NULL: none), checked. NULL with an error if a named
  * coordinate's momentum is not conserved. */
 conservation *conservation_make(const equations *e, const bool *wanted, diags *errors);
 void conservation_free(conservation *c);
 
-/* p with the conserved coordinates and rates replaced by what they follow from. */
+/* p with the conserved coordinates and rates replaced by their expressions. */
 const poly *conservation_settle(const equations *e, const conservation *c, const poly *p);
 
 #endif

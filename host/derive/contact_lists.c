@@ -17,7 +17,7 @@ CONTACT_KIND_ROWS(SAME_KIND)
 _Static_assert((int)CONTACTS_MAX == WH_CONTACTS_LIMIT && (int)SETS_MAX == WH_SETS_MAX,
                "the core has room for what a run may have");
 
-/* Folded, and free of conserved coordinates. */
+/* Folded, and without conserved coordinates. */
 static const poly *ready(const equations *e, const conservation *c, const poly *p) {
     return conservation_settle(e, c, equations_fold(e, p));
 }
@@ -89,7 +89,7 @@ static tape *make_sets(layout *map) {
     return t;
 }
 
-/* The rows and what they push: M^-1 J^T by the same elimination as the accelerations. */
+/* The rows and their responses M^-1 J^T, by the same elimination as the accelerations. */
 static tape *make_forces(layout *map, const linear_system *s) {
     const contact_laws *laws = map->equations->contacts;
     const int n = map->equations->count;
@@ -108,7 +108,7 @@ static tape *make_forces(layout *map, const linear_system *s) {
             row[i] = driven ? poly_number(l.algebra, 0.0) : layout_ready(map, law->row[i]);
         }
         solve_highest(&l, &load, pushed);
-        for (int i = 0; i < n; i++) { /* what is driven moves the contact, and is not pushed */
+        for (int i = 0; i < n; i++) { /* a driven coordinate moves the contact but is not pushed */
             row[i] = layout_ready(map, law->row[i]);
         }
         row[n + WH_LAW_FIRST] = layout_ready(map, law->first);
@@ -132,7 +132,7 @@ static tape *make_forces(layout *map, const linear_system *s) {
     return t;
 }
 
-/* The coordinate of the scene that alone has an entry in the row, if that is a number; else -1. */
+/* The only scene coordinate with an entry in the row, if the entry is a number; else -1. */
 static int pin_of(const layout *map, const contact_law *law) {
     int pin = -1;
     for (int i = 0; i < map->equations->count; i++) {
@@ -149,7 +149,7 @@ static int pin_of(const layout *map, const contact_law *law) {
     return pin;
 }
 
-/* The state's component that an assignment writes, or -1: a conserved coordinate has none. */
+/* The state component of an assignment, or -1: a conserved coordinate has none. */
 static int component_of(const layout *map, const assignment *set) {
     const component *const lists[] = {map->angle, map->real};
     const int counts[] = {map->angles, map->reals};
@@ -163,7 +163,7 @@ static int component_of(const layout *map, const assignment *set) {
     return -1;
 }
 
-/* 2: an input with a rate moves the stop; 1: another input does, between steps; 0: none. */
+/* 2: an input with a rate moves the stop; 1: another input moves it between steps; 0: it is fixed. */
 static int stop_moves(const equations *e, const contact_law *law) {
     const mechanism *m = e->instance->mechanism;
     int moves = law->driven ? 2 : 0;
@@ -194,8 +194,8 @@ static contact_row make_row(contact_lists *c, const layout *map, const contact_l
     return row;
 }
 
-/* Are these expressions free of numbers that are not finite, with the parameters put in? `max` may have swallowed
- * one: what is asked is each expression as it was written. */
+/* Are all numbers in these expressions finite, with the parameters' values? `max` may hide an infinite one, so each
+ * expression is checked in its original form. */
 static bool are_finite(const equations *e, const expr *const *each, int count) {
     for (int i = 0; i < count; i++) {
         if (each[i] != NULL &&
@@ -206,7 +206,7 @@ static bool are_finite(const equations *e, const expr *const *each, int count) {
     return true;
 }
 
-/* Values put in for the parameters may leave 1/0: a contact would be on no side of anything. */
+/* Parameter values may produce 1/0: a contact would then have no defined side. */
 static bool have_finite_laws(const equations *e, diags *errors) {
     static const char hint[] =
         "look for a division by zero, a root or logarithm of what is below it, "
@@ -231,7 +231,7 @@ static bool have_finite_laws(const equations *e, diags *errors) {
     return finite;
 }
 
-/* An impulse takes the mass matrix as it is before it, which must be so throughout. */
+/* An impulse uses the mass matrix before it, so the matrix must not change during it. */
 static bool have_impulses(const equations *e, diags *errors) {
     for (int k = 0; k < e->contacts->count; k++) {
         const contact_statement *h = e->contacts->law[k].from;

@@ -1,4 +1,4 @@
-/* contact_lists.h: a scene's contacts as numbers: the lists and the table that core/contact.h takes. */
+/* contact_lists.h: a scene's contacts as operation lists and a table for core/contact.h. */
 #ifndef DERIVE_CONTACT_LISTS_H
 #define DERIVE_CONTACT_LISTS_H
 
@@ -26,11 +26,11 @@ typedef struct contact_lists {
     tape *sets; /* NULL without any */
 } contact_lists;
 
-/* Every poly that the step of a scene with these laws computes, folded and settled: p[] is filled (when
- * not NULL) and the number returned. */
+/* Every poly of the step of a scene with these laws, folded and settled. Fills p[] (if not NULL) and returns their
+ * number. */
 int contact_lists_polys(const equations *e, const conservation *c, const poly **p);
 
-/* Enter the lists. `s` is the folded system. NULL on error, reported. */
+/* Enter the lists. `s` is the folded system. NULL after an error, reported. */
 contact_lists *contact_lists_make(layout *map, const linear_system *s, diags *errors);
 /* `hash` with the lists and the table mixed in. */
 uint64_t contact_lists_hash(const contact_lists *c, uint64_t hash);

@@ -1,4 +1,4 @@
-/* contacts.c: collecting an instance's contacts and differentiating them. */
+/* contacts.c: the symbolic contacts of an instance, and their derivatives. */
 #include "contacts.h"
 
 #include <stdlib.h>
@@ -73,7 +73,7 @@ bool contact_loosens(const contact_statement *h) {
     return h->kind == CONTACT_WHEN && h->normal != NULL;
 }
 
-/* Does the motion change it? Inputs do so between steps only. */
+/* Does the motion change it? Inputs change it only between steps. */
 static bool moves(algebra *a, const mechanism *m, const poly *value) {
     for (int i = 0; i < m->coordinate_count; i++) {
         for (int primes = 0; primes < 2; primes++) {
@@ -85,7 +85,7 @@ static bool moves(algebra *a, const mechanism *m, const poly *value) {
     return false;
 }
 
-/* Behind all others, a crossing for every friction whose normal force may vanish; as far as there is room. */
+/* After all others, a crossing for every friction whose normal force may vanish, as long as there is space. */
 static void make_loosening(algebra *a, const mechanism *m, contact_laws *laws) {
     const int written = laws->count;
     laws->loose = room(written, sizeof *laws->loose);

@@ -1,4 +1,4 @@
-/* equations.c: what is asked of equations that stand, or nearly so. */
+/* equations.c: queries on complete equations. */
 #include "host/derive/equations.h"
 
 #include <math.h>
@@ -93,7 +93,7 @@ void equations_report_growth(const equations *e, diags *errors) {
     char *limit = algebra_limit(e->algebra);
     char hint[200] = "smaller powers of sums, or coordinates nearer to the joints, help";
     if (m->parameter_count >
-        0) { /* products of parameters are terms of their own, those of numbers none */
+        0) { /* products of parameters are separate terms, products of numbers are not */
         snprintf(hint, sizeof hint,
                  "write let in place of parameter: %d of them become numbers; smaller powers of "
                  "sums, or coordinates nearer to the joints, help too",
@@ -123,13 +123,13 @@ void equations_free(equations *e) {
 }
 
 /* === the energy that the book keeps =========================================================== */
-/* Telling a quadratic form of the rates from anything else, and the integral of the latter. */
+/* The test for a quadratic form of the rates, and the energy integral of other forms. */
 
-/* States that T is tried at; so many of them must give numbers. */
+/* Sampled states; so many must give finite values. */
 #define TRIES 12
 #define TRIES_NEEDED 3
-/* What rounding may leave of Euler's theorem, as part of its terms. T must be exactly zero at rest, so this
- * only has to find kinks, such as abs(x'), whose second derivative vanishes. */
+/* Round-off allowed in Euler's theorem, relative to its terms. T must be exactly zero at rest, so this test only has to
+ * find kinks, such as abs(x'), whose second derivative vanishes. */
 #define EULER_ROUNDING 1e-9
 
 typedef struct trial_state {
@@ -138,7 +138,7 @@ typedef struct trial_state {
     bool at_rest;
 } trial_state;
 
-/* Numbers between 0.2 and 1.8, rates with either sign: the fractional part of multiples of a root. */
+/* Numbers between 0.2 and 1.8, rates with either sign: fractional parts of multiples of an irrational root. */
 static double trial_value(void *context, const symbol *s, int primes) {
     const trial_state *state = context;
     if (s->kind == SYM_PARAMETER) {
@@ -175,7 +175,7 @@ bool energy_mass_has_rates(const equations *e) {
     return false;
 }
 
-/* At rest a quadratic form and its slopes are zero. *known: they are numbers there. */
+/* At rest a quadratic form and its derivatives are zero. *known: they are finite there. */
 static bool nothing_at_rest(const equations *e, unsigned number, bool *known) {
     trial_state state = {e->instance, number, true};
     double most = fabs(poly_evaluate(e->kinetic, trial_value, &state));
@@ -201,8 +201,8 @@ static bool twice_itself(const equations *e, unsigned number, bool *known) {
     return fabs(rest) <= EULER_ROUNDING * size;
 }
 
-/* Is T a homogeneous quadratic form of the rates, and V free of them? With masses free of rates T is a form
- * of second degree plus one of first and one of none, which show at rest. */
+/* Is T a homogeneous quadratic form of the rates, and V free of them? If no mass contains a rate, T has degree two at
+ * most. Its parts of degree one and zero show at rest. */
 static bool is_quadratic(const equations *e) {
     if (has_rates(e, e->stored) || energy_mass_has_rates(e)) {
         return false;

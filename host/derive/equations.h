@@ -1,12 +1,11 @@
-/* equations.h: the equations of motion of one instance, in symbols.
+/* equations.h: the symbolic equations of motion of one instance.
  *
  * For a mechanism given by energies these are Lagrange's equations (dissertation eq. (1)):
  *
  *     d/dt(dL/dq') - dL/dq = -dF/dq' + Q,        L = T - V
  *
- * kept in the parts that a reader wants to see apart: sum_j mass[i][j] q_j'' + velocity[i] +
- * potential[i] = applied[i]. For a system given outright, mass[e][s] is the coefficient of the
- * highest derivative of unknown s in equation e. */
+ * The parts stay separate for readers: sum_j mass[i][j] q_j'' + velocity[i] + potential[i] = applied[i]. For a system
+ * given by equations, mass[e][s] is the coefficient of the highest derivative of unknown s in equation e. */
 #ifndef DERIVE_EQUATIONS_H
 #define DERIVE_EQUATIONS_H
 
@@ -15,23 +14,23 @@
 #include "host/number/folding.h"
 
 /* === forces =================================================================================== */
-/* What acts on the coordinates besides the energies, by the statement that it comes from. The equations of
- * motion, the powers of the host's books and the entries of the ledger are all made of these. */
+/* The forces on the coordinates besides the energies, by statement. The equations of motion, the power balance and the
+ * entries of the ledger all use them. */
 
-/* Of one statement Q or F: the generalized forces Q_i, or -dF/dq_i', and their power, the sum of force times rate:
- * positive where energy comes in. */
+/* The forces of one statement Q or F: Q_i or -dF/dq_i', and their power, the sum of force times rate. Positive power
+ * adds energy. */
 typedef struct statement_force {
     const term *from;
     const poly **force; /* [coordinates] of the mechanism */
     const poly *power;
 } statement_force;
 
-/* Those of the statements that take part, in the order of the file; *count of them. Empty for a system. The algebra
- * may overflow. Free with forces_free(). */
+/* The forces of the active statements, in the order of the file; *count of them. Empty for a system. The algebra may
+ * overflow. Free with forces_free(). */
 statement_force *forces_derive(algebra *a, const instance *inst, int *count);
 void forces_free(statement_force *forces, int count);
 
-/* What all of them do to coordinate i. */
+/* The total of these forces on coordinate i. */
 const poly *forces_on(algebra *a, const statement_force *forces, int count, int i);
 /* The power of all statements of a kind, TERM_Q or TERM_F. */
 const poly *forces_power(algebra *a, const statement_force *forces, int count, term_kind kind);
@@ -47,54 +46,53 @@ typedef struct equations {
     int count;         /* unknowns, and equations */
     unknown *unknowns; /* [count] */
     const poly **mass; /* [count * count] row by row */
-    double
-        mass_blur; /* by such a part rounding of mass[] puts accelerations off, at the best of the states tried */
+    double mass_blur;  /* relative error of accelerations from rounding mass[], at the best of the
+                    * sampled states */
     folding_notes folding;  /* of the file's numbers */
     const poly **velocity;  /* [count] centrifugal and Coriolis terms; zero for a system */
-    const poly **potential; /* [count] dV/dq; for a system all else, moved to the left */
+    const poly **potential; /* [count] dV/dq; for a system all other terms, moved to the left */
     const poly **applied;   /* [count] Q - dF/dq'; zero for a system */
-    /* Energies and what follows from them; NULL for a system. */
+    /* Energies and results derived from them; NULL for a system. */
     const poly *kinetic;
     const poly *stored;
-    statement_force *force; /* [forces] by statement: applied[], and what they give to the energy */
+    statement_force *force; /* [forces] by statement: the parts of applied[], and their power */
     int forces;
     const poly **momentum;  /* [count] dL/dq' */
     bool *conserved;        /* [count] momentum[i] is constant: no force, no potential, no loss */
     const poly **output;    /* [mechanism->output_count] */
-    contact_laws *contacts; /* stops, holds, frictions, crossings; NULL when there are none */
+    contact_laws *contacts; /* stops, holds, frictions, crossings; NULL without contacts */
 } equations;
 
 void equations_free(equations *e);
 
-/* Where the first kinetic energy stands. */
+/* The place of the first kinetic energy. */
 place equations_kinetic_place(const instance *inst);
 
-/* Report that the equations grew beyond what can be handled. */
+/* Report that the equations exceed the limits of size. */
 void equations_report_growth(const equations *e, diags *errors);
 
-/* mass * highest = force: everything but the highest derivatives, on the right. */
+/* mass * highest = force: the right side has all terms except the highest derivatives. */
 const poly *equations_force(const equations *e, int i);
 
-/* p with the instance's values put in for its parameters. */
+/* p with the parameters replaced by the instance's values. */
 const poly *equations_fold(const equations *e, const poly *p);
 
 /* === the energy that the book keeps =========================================================== */
-/* Which quantity the energy book keeps.
+/* The quantity in the energy balance.
  *
  * Lagrange's equations with forces Q and a dissipation function F change the energy integral (Jacobi's)
  *
  *     h = sum_i q_i' dL/dq_i' - L,      dh/dt = sum_i q_i' (Q_i - dF/dq_i') - (dL/dt of the inputs),
  *
- * and no other sum of energies (Goldstein, Classical Mechanics, section 2.7). With T a homogeneous
- * quadratic form of the rates and V free of them, h is T + V. On a turntable, in a magnetic potential or
- * at relativistic speeds it is not: there T + V also changes by what keeps the turntable turning, which
- * no statement of the file mentions. */
+ * and no other sum of energies (Goldstein, Classical Mechanics, section 2.7). If T is a homogeneous quadratic form of
+ * the rates and V contains no rate, h is T + V. On a turntable, in a magnetic potential or at relativistic speeds it is
+ * not. There T + V also changes by the work of the turntable's drive, which no statement of the file mentions. */
 
-/* h, folded, where it is not T + V; NULL where it is, or for a system. Where it is, nothing enters the
- * algebra: the order of its terms, and with it the generated code, stays as it was. */
+/* h, folded, if it differs from T + V; else, and for a system, NULL. If it equals T + V, nothing enters the algebra. So
+ * the order of its terms, and with it the generated code, does not change. */
 const poly *energy_integral(const equations *e);
 
-/* The power of what drives unknown i, an input with a rate: what it must do beyond the forces, losses and contacts. */
+/* The power of the drive of unknown i, an input with a rate: its work beyond the forces, losses and contacts. */
 const poly *energy_drive(const equations *e, int i);
 
 /* Does any mass depend on a rate? Then an impulse is not mass times the change of the rates. */

@@ -1,4 +1,4 @@
-/* image_make.c: the image, and what it would be if its numbers had been folded otherwise. */
+/* image_make.c: the image, and its variants with other ways of folding numbers. */
 #include "host/derive/image_make.h"
 
 #include <stdio.h>
@@ -17,7 +17,7 @@
 #include "host/number/folding.h"
 #include "host/number/phase.h"
 
-/* --- what does not depend on the lists -------------------------------------------------------------*/
+/* --- parts independent of the lists ---------------------------------------------------------------- */
 
 static void name_it(image_draft *d, const instance *inst) {
     image *im = d->made;
@@ -42,10 +42,10 @@ static void time_it(image *im, const instance *inst) {
     im->until_s = inst->until_s;
 }
 
-/* Parts of a start that are looked at: of p*p, where p is q*q and so on, there are as many as two to the depth. */
+/* Greatest number of examined parts of a start. If p*p has p = q*q and so on, there are two to the power of the depth. */
 enum { MOST_PARTS = 1000 };
 
-/* Is it a product of numbers as they are written? Else, where it is next to nothing, it may be what sums round. */
+/* Is it a product of literal numbers? If not, a value near zero may be the round-off of a sum. */
 static bool is_written(const instance *inst, const expr *e, int *parts) {
     if (++*parts > MOST_PARTS) {
         return false;
@@ -83,7 +83,7 @@ static void start_unknown(image_draft *d, const instance *inst, int i) {
         inst->start_given[i][0] != NULL && is_written(inst, inst->start_given[i][0], &parts);
 }
 
-/* The starts of the components and the inputs, once those of the unknowns and the components are known. */
+/* The starts of the components and the inputs, from those of the unknowns. */
 static void start_components(image_draft *d) {
     image *im = d->made;
     im->start_rad = image_room(d, im->angles, sizeof *im->start_rad);
@@ -164,7 +164,7 @@ static const char *primed_name(image_draft *d, const char *name, int primes) {
     return image_text(d, text);
 }
 
-/* What components and inputs keep to in fixed point, as far as it is declared. */
+/* The declared ranges of components and inputs, for fixed point. */
 static void copy_ranges(image_draft *d, const equations *e, const layout *map) {
     image *im = d->made;
     const instance *inst = e->instance;
@@ -213,7 +213,7 @@ static void *copy(image_draft *d, const void *from, int count, size_t size) {
     return made;
 }
 
-/* The list is the image's from now on. */
+/* Transfer the list to the image. */
 static tape *take(tape **list) {
     tape *taken = *list;
     *list = NULL;
@@ -327,8 +327,8 @@ static void take_program(image_draft *d, program *p) {
     }
 }
 
-/* The matrix that is asked for; `use` tells whether there is a blame list. The image, or NULL, reported. An image that
- * once had a matrix has one for every step, unless its numbers grow too large: that needs no equations. */
+/* Make the requested matrix; `use` tells whether there is a blame list. Returns the image, or NULL, reported. An image
+ * with a matrix has one for every step, unless its numbers grow too large; that needs no equations. */
 static image *with_matrix(image_draft *d, const equations *e, image_use use, diags *errors) {
     bool wants_blame;
     bool good = matrix_make(d, use == IMAGE_TO_RUN, &wants_blame, errors);
@@ -362,8 +362,8 @@ image *image_once(const equations *e, const bool *conserve, const image_settings
         program_free(p);
         return NULL;
     }
-    /* Contacts solve with the same matrix; tables are rounded once by themselves. What is folded the other way is never
-     * run in float, for which this is. */
+    /* Contacts solve with the same matrix, and tables round on their own. Variants are never run in float, for which
+     * this is. */
     if (done.compensated && p->contacts == NULL && done.tables == TABLES_NONE &&
         folding_way() == FOLDING_NEAREST) {
         tape_gauge(&p->step, tape_gauge_price(p->step));
@@ -422,7 +422,7 @@ image *image_again(const image *base, const instance *inst, diags *errors) {
 
 /* === the image, and ways of folding its numbers =============================================== */
 
-/* Where sums of constants lose more of an addend, it is asked what that does. */
+/* If folding sums loses much of an addend, variants show the effect. */
 #define FOLDED_MUCH 1e-9
 
 _Static_assert((int)FOLDING_WAYS - (int)FOLDING_OTHER == (int)IMAGE_WAYS, "a place for each way");
@@ -445,7 +445,7 @@ static bool is_alike(const image *im, const image *other) {
     return alike;
 }
 
-/* The numbers and all of the derivation again; NULL where it comes to something else. */
+/* Repeat the evaluation and the derivation; NULL if the result has another form. */
 static image *make_otherwise(image *im, const equations *e, const bool *conserve,
                              const image_settings *settings, int way) {
     diags *unsaid = diags_new();

@@ -1,4 +1,3 @@
-/* image_parts.c: see image_parts.h. */
 #include "image_parts.h"
 
 #include <stdlib.h>

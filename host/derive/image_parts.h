@@ -8,21 +8,21 @@
 /* An image in the making. */
 typedef struct image_draft {
     image *made;
-    /* Sources that places lie in, and their copies: [sources] */
+    /* [sources] sources of places, and their copies */
     const source **original;
     source **copy;
     int sources;
 } image_draft;
 
 image_draft image_draft_new(void);
-/* Forgets what is not part of the image, which it returns. */
+/* Free the helper data, and return the image. */
 image *image_draft_done(image_draft *d);
 
-/* Zeroed room for `count` things in the image's memory; none for none. */
+/* Zeroed memory of the image for `count` elements; NULL for count 0. */
 void *image_room(image_draft *d, int count, size_t size);
 const char *image_text(image_draft *d, const char *text);
 
-/* The same place in a copy of its source, which the image keeps: one copy of each. */
+/* The same place in the image's copy of its source; each source is copied once. */
 place image_place(image_draft *d, place at);
 
 /* The unit of a symbol's derivative with so many primes. */

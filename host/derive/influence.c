@@ -1,4 +1,4 @@
-/* influence.c: looking through forces, losses and contacts for one coordinate. */
+/* influence.c: the search of forces, losses and contacts for one coordinate. */
 #include "influence.h"
 
 #include <stdio.h>

@@ -1,4 +1,4 @@
-/* lagrange.c: Lagrange's equations, and systems given outright. */
+/* lagrange.c: Lagrange's equations, and systems given by their equations. */
 #include "lagrange.h"
 
 #include <math.h>
@@ -22,7 +22,7 @@ static const poly *sum_of_terms(algebra *a, const instance *inst, term_kind kind
     return sum;
 }
 
-/* An input without a rate may not take part in a momentum. */
+/* An input without a rate must not occur in a momentum. */
 static bool momentum_free_of_inputs(const equations *e, const poly *momentum, diags *errors) {
     const mechanism *m = e->instance->mechanism;
     char hint[RATE_HINT_SIZE];
@@ -38,13 +38,13 @@ static bool momentum_free_of_inputs(const equations *e, const poly *momentum, di
     return true;
 }
 
-/* How an input with a rate is accelerated. */
+/* The acceleration of an input with a rate. */
 static const poly *acceleration_of(algebra *a, const symbol *driven) {
     const symbol *input = symbol_acceleration(driven);
     return input != NULL ? poly_symbol(a, input, 0) : poly_number(a, 0.0);
 }
 
-/* Its equation: q'' = that. It has no momentum of its own, and no force moves it. */
+/* Its equation: q'' = that. It has no momentum, and no force moves it. */
 static void drive(equations *e, int i) {
     algebra *a = e->algebra;
     e->momentum[i] = e->velocity[i] = e->potential[i] = poly_number(a, 0.0);
@@ -176,10 +176,10 @@ static bool derive_system(equations *e, diags *errors) {
 
 static const poly **polys(int count) { return room(count, sizeof(const poly *)); }
 
-/* Beyond what the algebra, or those who walk through its results, can do in a reasonable time? */
+/* Beyond the limits of the algebra, or of walks through its results? */
 static bool too_large(const equations *e) {
     if (algebra_overflow(e->algebra)) {
-        return true; /* and what was not reached is missing */
+        return true; /* and the unvisited part is missing */
     }
     double size = 0.0;
     for (int i = 0; i < e->count; i++) {

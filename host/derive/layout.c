@@ -1,4 +1,4 @@
-/* layout.c: which numbers a state consists of, and where an expression's symbols are found in it. */
+/* layout.c: the components of a state, and the mapping from symbols to them. */
 #include "layout.h"
 
 #include <stdlib.h>
@@ -14,7 +14,7 @@ int layout_turn(void *context, const symbol *s) {
     return moves ? map->angle_number[s->index] : -1;
 }
 
-/* An input of an effect that is not called for cannot change: a constant. */
+/* An input of an inactive effect cannot change: a constant. */
 static int input_leaf(const layout *map, tape *t, const symbol *s) {
     for (int i = 0; i < map->inputs; i++) {
         if (map->input[i] == s->index) {
@@ -50,8 +50,7 @@ int layout_leaf(void *context, tape *t, const symbol *s, int primes) {
 
 /* --- arranging the state -------------------------------------------------------------------------*/
 
-/* Is this derivative of the unknown part of the state? Conserved coordinates are not, but for their
- * value where it must be integrated. */
+/* Is this derivative of the unknown part of the state? Conserved coordinates are not, except an integrated value. */
 static bool in_state(const layout *map, int i, int primes) {
     if (map->conserved->number[i] < 0) {
         return primes < map->equations->unknowns[i].order;
@@ -64,7 +63,7 @@ static int add_real(layout *map, int i, int primes) {
     return map->reals++;
 }
 
-/* An effect that is not called for leaves no trace: its inputs take no part either. */
+/* Inactive effects leave no trace: their inputs are left out, too. */
 static void arrange_inputs(layout *map, const instance *inst) {
     const mechanism *m = inst->mechanism;
     map->input = room(m->input_count, sizeof *map->input);

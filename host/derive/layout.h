@@ -1,4 +1,4 @@
-/* layout.h: which numbers a state consists of, and where an expression's symbols are found in it. */
+/* layout.h: the components of a state, and the mapping from symbols to them. */
 #ifndef DERIVE_LAYOUT_H
 #define DERIVE_LAYOUT_H
 
@@ -13,9 +13,9 @@ typedef struct layout {
     const conservation *conserved;
     wh_form form;
     int coordinates;  /* integrated coordinates, angles included (second order) */
-    int angles;       /* components kept as turn angles */
-    int reals;        /* components kept as reals */
-    int inputs;       /* the mechanism's own and those of the effects called for */
+    int angles;       /* components stored as turn angles */
+    int reals;        /* components stored as reals */
+    int inputs;       /* the mechanism's own and those of the active effects */
     int *input;       /* [inputs] number in the mechanism */
     component *angle; /* [angles] */
     component *real;  /* [reals] */
@@ -29,13 +29,13 @@ typedef struct layout {
     const int *record;  /* operations of recorded outputs (noise_records.h), or NULL */
 } layout;
 
-/* Arrange the state: an angle that `dynamics` [count] have only inside sines and cosines becomes a turn angle.
- * False when there are too many components. */
+/* Arrange the state. An angle that `dynamics` [count] contain only inside sines and cosines becomes a turn angle. False
+ * if there are too many components. */
 bool layout_arrange(layout *map, const equations *e, const conservation *conserved,
                     const poly *const *dynamics, int count);
 void layout_free(layout *map);
 
-/* p as lists want it: folded, and free of conserved coordinates. */
+/* p ready for a list: folded, and without conserved coordinates. */
 const poly *layout_ready(const layout *map, const poly *p);
 
 /* `leaf` and `turn` of a lowering whose context is a layout; and such a lowering onto `t`. */

@@ -1,4 +1,4 @@
-/* ledger_lists.c: entering the books' lists. */
+/* ledger_lists.c: entry of the ledger's lists. */
 #include "ledger_lists.h"
 
 #include <stdlib.h>
@@ -15,7 +15,7 @@ static void add_entry(ledger_lists *l, const poly **power, ledger_kind kind, con
     }
 }
 
-/* An input with a rate has no momentum, and so no entries in its account. */
+/* An input with a rate has no momentum, so its account has no entries. */
 static bool is_driven(const layout *map, int i) {
     return map->equations->unknowns[i].symbol->driven != NULL;
 }
@@ -42,7 +42,7 @@ static void order_accounts(ledger_lists *l, const layout *map) {
     }
 }
 
-/* What goes into the accounts while nothing happens. */
+/* The continuous entries, between events. */
 static const poly **smooth_entries(ledger_lists *l, const layout *map) {
     const equations *e = map->equations;
     algebra *a = e->algebra;
@@ -66,7 +66,7 @@ static const poly **smooth_entries(ledger_lists *l, const layout *map) {
     return power;
 }
 
-/* Inputs that the energies name: their changes between steps are entries. */
+/* Inputs in the energies: their changes between steps are entries. */
 static void find_inputs(ledger_lists *l, const layout *map) {
     const equations *e = map->equations;
     const poly *kinetic = layout_ready(map, e->kinetic);
@@ -105,7 +105,7 @@ static tape *make_levels(const ledger_lists *l, const poly *integral, layout *ma
     return t;
 }
 
-/* May the books of this scene be kept? */
+/* Can this scene have a ledger? */
 static bool can_keep(const layout *map, diags *errors) {
     const mechanism *m = map->equations->instance->mechanism;
     if (m->is_system) {
@@ -139,7 +139,7 @@ ledger_lists *ledger_lists_make(layout *map, const poly *integral, int contacts,
     if (good) {
         l->powers = enter(map, power, l->smooth);
         l->levels = make_levels(l, integral, map);
-        /* an angle that the equations have only inside sines with whole factors, and a power does not */
+        /* an angle that the equations have only inside sines with whole factors, but a power has elsewhere */
         l->turned = tape_reads_turns(l->powers);
     }
     if (!good) {

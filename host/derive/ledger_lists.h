@@ -1,10 +1,9 @@
-/* ledger_lists.h: the books of a scene as numbers: the lists that core/ledger.h takes, and what their entries
- * mean.
+/* ledger_lists.h: the ledger of a scene as operation lists for core/ledger.h, and the meaning of its entries.
  *
- * What changes the momentum p_i = dL/dq_i' is, by Lagrange's equations, dL/dq_i (gravity, springs, and
- * what the other coordinates' motion does), each generalized force, each damper and each contact. What
- * changes the energy, or the energy integral where that is not T + V (equations.h), is the work of each
- * generalized force, each damper's loss, each contact, and each change of an input that the energies name. */
+ * By Lagrange's equations, the momentum p_i = dL/dq_i' changes by dL/dq_i (gravity, springs, the other coordinates'
+ * motion), each generalized force, each damper and each contact. The energy, or the energy integral if that is not T +
+ * V (equations.h), has these changes: the work of each generalized force, each damper's loss, each contact, and each
+ * change of an input in the energies. */
 #ifndef DERIVE_LEDGER_LISTS_H
 #define DERIVE_LEDGER_LISTS_H
 
@@ -12,25 +11,25 @@
 
 typedef struct ledger_entry {
     ledger_kind kind;
-    const place *at; /* of the term, or of the input that does it; NULL for LEDGER_ENERGIES */
+    const place *at; /* of the term or input that causes it; NULL for LEDGER_ENERGIES */
     int account;
 } ledger_entry;
 
 typedef struct ledger_lists {
     ledger_entry *entry; /* [smooth] */
     int smooth;
-    int entries; /* smooth, then for each contact its energy and its impulse by coordinate, then inputs */
+    int entries; /* smooth ones, then each contact's energy and impulses by coordinate, then inputs */
     int accounts; /* 1 + unknowns: the energy, then the momenta */
-    int *unknown; /* [accounts] whose momentum an account is; -1 for the energy */
-    int *input;   /* [inputs] of the program: those that the energies name */
+    int *unknown; /* [accounts] the unknown of a momentum; -1 for the energy */
+    int *input;   /* [inputs] inputs of the program in the energies */
     int inputs;
-    bool turned; /* a power names a turn angle outside sines and cosines */
+    bool turned; /* a power has a turn angle outside sines and cosines */
     tape *powers;
     tape *levels;
 } ledger_lists;
 
-/* Enter the lists of a scene with so many contacts, whose energy integral is `integral` (NULL: T + V, see equations.h).
- * NULL on error, reported. */
+/* Enter the lists of a scene with so many contacts and the energy integral `integral` (NULL: T + V, see equations.h).
+ * NULL after an error, reported. */
 ledger_lists *ledger_lists_make(layout *map, const poly *integral, int contacts, diags *errors);
 void ledger_lists_free(ledger_lists *l);
 

@@ -1,4 +1,4 @@
-/* lower.c: from polys to operations: half angles, factoring, sharing. */
+/* lower.c: conversion of polys to operations: half angles, factoring, sharing. */
 #include "host/derive/lower.h"
 
 #include <math.h>
@@ -9,24 +9,22 @@
 #include "host/number/folding.h"
 
 /* === powers from multiple angles ============================================================== */
-/* Powers of sines and cosines from multiple angles.
- *
- * With s = sin(x)^2 and c = cos(x)^2, a sum over k = 0 ... n of a_k cos 2kx is a sum of products
- * s^j c^(n-j), and one of sin 2kx is sin x cos x times such a sum of degree n - 1. Where it has no c^n, it
- * cancels near x = 0, and without s^n near x = pi/2: there the products keep the digits. */
+/* Powers of sines and cosines from multiple angles. With s = sin(x)^2 and c = cos(x)^2, a sum over k = 0 ... n of a_k
+ * cos 2kx is a sum of products s^j c^(n-j). A sum of sin 2kx is sin x cos x times such a sum of degree n - 1. Without
+ * c^n it cancels near x = 0, without s^n near x = pi/2: there the products keep the digits. */
 
 /* Coefficients that differ by less than this part count as equal: they come from the same number. */
 #define SAME_PIECE 1e-13
-/* What is left of a sum below this part of what was added counts as cancelled, as in the algebra. */
+/* A sum below this part of its addends counts as cancelled, as in the algebra. */
 #define CANCELLED 1e-14
-/* Powers are put back up to sin(x)^16, from k = 0 ... 8. */
+/* Powers up to sin(x)^16, from k = 0 ... 8. */
 #define MULTIPLE_MAX 8
 #define INDICES (MULTIPLE_MAX + 1)
-/* The numbers that make up what is put back may be so much larger, without their signs, at the worst
- * angle, than the sum it replaces: more would lose elsewhere what is won near the zero. */
+/* Limit of the growth of coefficients: the absolute sum of the products, at the worst angle, relative to the original
+ * sum. Above it, the loss elsewhere would exceed the gain near the zero. */
 #define GROWTH_MAX 8.0
 
-/* One by one: between a pointer of 32 bits and a double there may be bytes that belong to neither. */
+/* Compared member by member: padding bytes between a 32-bit pointer and a double are undefined. */
 static bool same_factors(const mono *x, const mono *y) {
     bool same = x->count == y->count;
     for (int i = 0; i < x->count && same; i++) {
@@ -55,7 +53,7 @@ typedef struct family {
     int members;
 } family;
 
-/* m with angle = m * base, a whole number; 0 when there is none. */
+/* The whole number m with angle = m * base; 0 if there is none. */
 static int multiple_of(const poly *angle, const poly *base) {
     if (angle->count != base->count) {
         return 0;
@@ -69,7 +67,7 @@ static int multiple_of(const poly *angle, const poly *base) {
     return good ? (int)m : 0;
 }
 
-/* The terms that belong to term `base`: false when its angle is itself a multiple of another's. */
+/* The terms of the family of term `base`; false if its angle is itself a multiple of another's. */
 static bool collect(const poly *p, const bool *used, int base, family *f) {
     const mono *lead = p->terms[base].mono;
     *f = (family){.trig = lead->trig};
@@ -95,7 +93,7 @@ static bool collect(const poly *p, const bool *used, int base, family *f) {
     return true;
 }
 
-/* A sum of coefficient[j] s^j c^(degree-j); `added` is what was added up without signs. */
+/* A sum of coefficient[j] s^j c^(degree-j); `added` is the sum of absolute addends. */
 typedef struct expansion {
     int degree;
     double coefficient[INDICES];
@@ -110,8 +108,8 @@ static void times_one(double *p, int degree) {
     }
 }
 
-/* The family's sum, but for sin x cos x. With P_0 = cos 0 = 1 or P_1 = sin 2x / (sin x cos x) = 2,
- * P_(k+1) = 2 (c - s) P_k - (c + s)^2 P_(k-1). */
+/* The family's sum, without a factor sin x cos x. With P_0 = cos 0 = 1 or P_1 = sin 2x / (sin x cos x) = 2, P_(k+1) = 2
+ * (c - s) P_k - (c + s)^2 P_(k-1). */
 static expansion expand(const family *f) {
     const int first = f->trig == TRIG_SIN ? 1 : 0;
     double before[INDICES + 1] = {0};
@@ -127,7 +125,7 @@ static expansion expand(const family *f) {
             sum.coefficient[j] += f->coefficient[k] * now[j];
             sum.added[j] += fabs(f->coefficient[k] * now[j]);
         }
-        /* cos 2x is half of what the recurrence would make of cos 0 alone */
+        /* cos 2x is half of the recurrence from cos 0 alone */
         const double turn = k == 0 ? 1.0 : 2.0;
         double next[INDICES + 1] = {0};
         for (int j = 0; j <= degree + 1 && j < INDICES; j++) {
@@ -150,7 +148,7 @@ static double largest_product(int a, int b) {
     return number_power(share, a / 2.0) * number_power(1.0 - share, b / 2.0);
 }
 
-/* Put the family's expansion into pieces[]; returns how many, 0 when it should stay as it is. */
+/* Write the family's expansion to pieces[]; returns their number, or 0 if it should not change. */
 static int products_of(algebra *a, const poly *p, int base, const family *f, piece *pieces) {
     const expansion sum = expand(f);
     double before = 0.0;
@@ -179,7 +177,7 @@ static int products_of(algebra *a, const poly *p, int base, const family *f, pie
     return f->last > 1 && vanishes && after <= GROWTH_MAX * before ? count : 0;
 }
 
-/* The expansion of every family; what they are made of is used. */
+/* The expansion of every family; its terms are marked as used. */
 static int find_families(algebra *a, const poly *p, bool *used, piece *pieces) {
     int count = 0;
     for (int i = 0; i < p->count; i++) {
@@ -202,7 +200,7 @@ static int find_families(algebra *a, const poly *p, bool *used, piece *pieces) {
 
 /* --- squares -------------------------------------------------------------------------------------*/
 
-/* c (1 - cos 2x) and c (1 + cos 2x), also where other multiples of x do not belong to them. */
+/* c (1 - cos 2x) and c (1 + cos 2x), even if other multiples of x are present. */
 static int find_squares(algebra *a, const poly *p, bool *used, piece *pieces) {
     int count = 0;
     for (int i = 0; i < p->count; i++) {
@@ -244,14 +242,11 @@ int pieces_of(algebra *a, const poly *p, piece *pieces) {
 }
 
 /* === which sines are evaluated ================================================================ */
-/* Sines and cosines of several angles from as few evaluations as possible.
- *
- * Which sines are evaluated, and which follow by the addition theorems.
- *
- * Evaluating a pair costs some thirty instructions, sin(a + b) from known pairs at most six. So the
- * angles are taken in order of size, and one that is a sum, a difference or the double of others is
- * not evaluated. An angle such as theta2 - theta1 that stands alone is evaluated as one phase. Where another angle leads,
- * it is evaluated as well: of b = a - (a - b) and 2a - b = a + (a - b) all four products are shared. */
+/* Sines and cosines of several angles from as few evaluations as possible: the choice between evaluation and the
+ * addition theorems. Evaluating a pair costs some thirty instructions, sin(a + b) from known pairs at most six. So the
+ * angles are taken in order of size, and a sum, a difference or a double of earlier ones is not evaluated. An isolated
+ * angle such as theta2 - theta1 is evaluated as one phase. Another leading angle is evaluated as well: b = a - (a - b)
+ * and 2a - b = a + (a - b) share all four products. */
 
 typedef enum wave_rule {
     WAVE_EVALUATED, /* by the core's sine */
@@ -269,7 +264,7 @@ struct wave {
     int cosine;
 };
 
-/* Of many known angles only the first, the smallest, are tried as parts of another. */
+/* Only the first, smallest known angles are tried as parts of another. */
 #define PARTS_MAX 96
 #define BETWEEN_MAX 32
 
@@ -293,7 +288,7 @@ static int append(lowering *l, wave w) {
     return l->wave_count++;
 }
 
-/* How large an angle is: sum of the factors of its parts. */
+/* The size of an angle: sum of the factors of its parts. */
 static double size_of(const poly *angle) {
     double size = 0.0;
     for (int i = 0; i < angle->count; i++) {
@@ -308,7 +303,7 @@ static const poly *upright(lowering *l, const poly *angle, bool *flipped) {
     return *flipped ? poly_scale(l->algebra, angle, -1.0) : angle;
 }
 
-/* How many sines stand inside one another in it. */
+/* The nesting depth of sines in it. */
 static int sines_inside(const poly *p) {
     int most = 0;
     for (int i = 0; i < p->count; i++) {
@@ -327,9 +322,8 @@ static int sines_inside(const poly *p) {
     return most;
 }
 
-/* May a wave be part of this angle's rule? Not if more sines are inside it: the angle's own could be one of
- * them, and each would be made from the other. Rules lead to earlier waves, evaluating one to fewer sines
- * inside: so there is an end. */
+/* Can a wave be part of this angle's rule? Not if it has more nested sines: one of them could be the angle's own, a
+ * circular definition. Rules lead to earlier waves, evaluation to fewer nested sines, so the recursion ends. */
 static bool may_be_part(const lowering *l, int part, const poly *angle) {
     return sines_inside(l->waves[part].angle) <= sines_inside(angle);
 }
@@ -345,7 +339,7 @@ static bool rule_for(lowering *l, const poly *angle, wave *w) {
         const poly *rest = poly_sub(l->algebra, angle, l->waves[i].angle);
         double number;
         if (poly_is_number(rest, &number) || rest->count > longest) {
-            continue; /* equal but for a fixed offset: no help; or none of those known */
+            continue; /* equal except for a constant: no help; or too long to be a known angle */
         }
         rest = upright(l, rest, &flipped);
         const int other = find(l, rest);
@@ -362,7 +356,7 @@ static bool rule_for(lowering *l, const poly *angle, wave *w) {
     return false;
 }
 
-/* The turn angle that the term is a number times of, or -1. */
+/* The turn angle of a term that is a number times it, or -1. */
 static int turn_of(const lowering *l, const poly_term *t) {
     const mono *m = t->mono;
     const bool alone = m->trig == TRIG_NONE && m->count == 1 && m->factors[0].exponent == 1.0;
@@ -370,7 +364,7 @@ static int turn_of(const lowering *l, const poly_term *t) {
     return alone && x->kind == ATOM_SYMBOL && x->primes == 0 ? l->turn(l->context, x->symbol) : -1;
 }
 
-/* Does a turn angle stand in this angle, times a number? */
+/* Does this angle contain a turn angle times a number? */
 static bool waves_turns(const lowering *l, const poly *angle) {
     for (int i = 0; i < angle->count; i++) {
         if (turn_of(l, &angle->terms[i]) >= 0) {
@@ -380,7 +374,7 @@ static bool waves_turns(const lowering *l, const poly *angle) {
     return false;
 }
 
-/* Is a part of a turn angle in it, such as half of one? */
+/* Does it contain a fraction of a turn angle, such as half of one? */
 static bool has_part(const lowering *l, const poly *angle) {
     for (int i = 0; i < angle->count; i++) {
         if (!tape_is_whole(angle->terms[i].coefficient) && turn_of(l, &angle->terms[i]) >= 0) {
@@ -390,8 +384,8 @@ static bool has_part(const lowering *l, const poly *angle) {
     return false;
 }
 
-/* What has parts of turn angles stands in records only: it is evaluated, so that it is as precise as a
- * sine can be, and nothing follows from it, so that whoever stands beside it keeps its bits. */
+/* Fractions of turn angles occur in records only. Their sines are evaluated, for full precision, and no other sine
+ * follows from them, so the other results keep their bits. */
 static int without_parts(const lowering *l, const poly **angles, int count) {
     int kept = 0;
     for (int i = 0; i < count; i++) {
@@ -402,7 +396,7 @@ static int without_parts(const lowering *l, const poly **angles, int count) {
     return kept;
 }
 
-/* Choose rules for `count` angles (no duplicates). */
+/* Choose rules for `count` different angles. */
 static void waves_plan(lowering *l, const poly **angles, int count) {
     count = without_parts(l, angles, count);
     for (int i = 1; i < count; i++) { /* smallest first; stable */
@@ -428,7 +422,7 @@ static void waves_plan(lowering *l, const poly **angles, int count) {
             append(l, w);
             continue;
         }
-        /* One step between may do: 3a = 2a + a. */
+        /* One intermediate angle may suffice: 3a = 2a + a. */
         bool made = false;
         const int known = l->wave_count;
         for (int k = 0; k < known && k < BETWEEN_MAX && !made; k++) {
@@ -445,7 +439,7 @@ static void waves_plan(lowering *l, const poly **angles, int count) {
     }
 }
 
-/* The phase of an angle: numbers times turn angles, a fixed offset, and the rest in radians. */
+/* The phase of an angle: numbers times turn angles, a fixed offset, and the remaining part in radians. */
 static int phase_of(lowering *l, const poly *angle) {
     double *multiple = room(l->tape->angles, sizeof *multiple);
     double offset = 0.0;
@@ -467,8 +461,8 @@ static int phase_of(lowering *l, const poly *angle) {
     return phase;
 }
 
-/* Each operation stands in a statement of its own here and in lower.c: C leaves open which argument of a call
- * is entered first, and that would be the order of the list. */
+/* Each operation is a statement of its own here and in lower.c: C leaves the order of evaluation of arguments open, and
+ * it would decide the order of the list. */
 static int sine_of(lowering *l, int i);
 
 static int cosine_of(lowering *l, int i) {
@@ -539,7 +533,7 @@ static int planned(lowering *l, const poly *angle) {
     return i >= 0 ? i : append(l, (wave){angle, WAVE_EVALUATED, -1, -1, -1, -1});
 }
 
-/* The operation for the sine or cosine of an angle; an angle that was not planned is evaluated. */
+/* The operation for the sine or cosine of an angle; an unplanned angle is evaluated. */
 static int waves_sine(lowering *l, const poly *angle) { return sine_of(l, planned(l, angle)); }
 static int waves_cosine(lowering *l, const poly *angle) { return cosine_of(l, planned(l, angle)); }
 
@@ -613,8 +607,8 @@ void lower_done(lowering *l) {
 /* --- factoring -----------------------------------------------------------------------------------*/
 
 #define FACTORS_MAX 24
-/* Whole exponents beyond this are no row of products, in tape_power() either. They are taken at once: an int would
- * cut large ones, and a reciprocal taken before them would have its rounding multiplied. */
+/* Larger whole exponents are not expanded to products, here or in tape_power(). They are handled first: an int would
+ * truncate large ones, and the power would amplify the rounding of a reciprocal. */
 #define EXPONENT_MAX 64.0
 
 typedef struct power {
@@ -655,7 +649,7 @@ static int atom_node(lowering *l, const atom *x) {
     if (x->kind == ATOM_SYMBOL) {
         return l->leaf(l->context, l->tape, x->symbol, x->primes);
     }
-    /* a phase has 1.5e-9 rad: enough for a turn angle, whose own digits these are, not for a small number */
+    /* a phase has 1.5e-9 rad: enough for a turn angle, which has the same digits, but not for a small number */
     if (lower_is_tangent(x) && waves_turns(l, x->argument[0])) {
         const int s = waves_sine(l, x->argument[0]);
         return tape_div(l->tape, s, waves_cosine(l, x->argument[0]));
@@ -693,7 +687,7 @@ static void product_factor(lowering *l, product *p, const mono_factor *f) {
     product_multiply(l, p, node, (int)size);
 }
 
-/* Sum of the products' nodes with one size of coefficient taken out: c (x - y + ...). */
+/* Sum of the products' nodes, with the common size of their coefficients taken out: c (x - y + ...). */
 static int sum_of_like(lowering *l, const product *products, const int *nodes, const bool *member,
                        int count, double size) {
     tape *t = l->tape;
@@ -708,7 +702,7 @@ static int sum_of_like(lowering *l, const product *products, const int *nodes, c
     return tape_mul(t, tape_constant(t, size), sum);
 }
 
-/* Products without a common factor: terms with coefficients of one size are added first. */
+/* Products without a common factor: terms with coefficients of the same size are added first. */
 static int sum_flat(lowering *l, const product *products, int count) {
     tape *t = l->tape;
     int *nodes = room(count, sizeof *nodes);
@@ -750,7 +744,7 @@ static int by_number(const void *x, const void *y) {
     return (left > right) - (left < right);
 }
 
-/* Most sums are short, and qsort() has a long way to its first comparison. */
+/* Most sums are short, and qsort() has a high fixed cost. */
 static void sort_numbers(int *numbers, int count) {
     enum { SHORT = 24 };
     if (count > SHORT) {
@@ -784,7 +778,7 @@ static int *sorted_nodes(const product *products, int count, int *total) {
     return nodes;
 }
 
-/* How often `node` is among the sorted nodes. */
+/* The number of occurrences of `node` among the sorted nodes. */
 static int times_in(const int *nodes, int total, int node) {
     int edge[2]; /* the first not below the node, the first above it */
     for (int side = 0; side < 2; side++) {
@@ -803,7 +797,7 @@ static int times_in(const int *nodes, int total, int node) {
     return edge[1] - edge[0];
 }
 
-/* The node that most products share; rates first, so that sums of sines stay whole. -1: none. */
+/* The node in the most products, or -1; rates first, so that sums of sines stay whole. */
 static int most_shared(const lowering *l, const product *products, int count) {
     int total;
     int *nodes = sorted_nodes(products, count, &total);
@@ -825,7 +819,7 @@ static int most_shared(const lowering *l, const product *products, int count) {
     return best;
 }
 
-/* Takes the products apart: they are of no use after it. */
+/* Consumes the products. */
 static int sum_of(lowering *l, product *products, int count) {
     tape *t = l->tape;
     if (count <= 0) {
@@ -845,7 +839,7 @@ static int sum_of(lowering *l, product *products, int count) {
     }
     product *with = room_more(NULL, count, sizeof *with); /* large: not cleared */
     int in = 0;
-    int out = 0; /* those without it move to the front */
+    int out = 0; /* those without the node move to the front */
     for (int i = 0; i < count; i++) {
         product *p = &products[i];
         int k = 0;
@@ -865,7 +859,7 @@ static int sum_of(lowering *l, product *products, int count) {
         }
         with[in++] = *p;
     }
-    bool negative = out > 0; /* then the sum is taken away: no operation for its sign */
+    bool negative = out > 0; /* then the sum is subtracted: saves the operation for its sign */
     for (int i = 0; i < in; i++) {
         negative = negative && with[i].coefficient < 0.0;
     }

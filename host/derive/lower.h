@@ -1,5 +1,4 @@
-/* lower.h: from polys to operations: which sines are evaluated and which follow from them, what is
- * factored out, what is shared. */
+/* lower.h: conversion of polys to operations: evaluation and reuse of sines, factoring, sharing. */
 #ifndef DERIVE_LOWER_H
 #define DERIVE_LOWER_H
 
@@ -7,23 +6,21 @@
 #include "host/image/tape.h"
 
 /* === powers from multiple angles ============================================================== */
-/* A poly's terms with powers of sines and cosines put back where the normal form made
- * multiple angles of them. */
+/* A poly's terms, with the multiple angles of the normal form converted back to powers of sines and cosines. */
 
-/* One term on its way: coefficient * the mono's factors * sin(angle)^sines * cos(angle)^cosines. */
+/* One term: coefficient * the mono's factors * sin(angle)^sines * cos(angle)^cosines. */
 typedef struct piece {
     double coefficient;
-    const mono *mono;  /* its factors; its own sine or cosine is replaced by the powers */
+    const mono *mono;  /* its factors; the powers replace its own sine or cosine */
     const poly *angle; /* NULL when both powers are 0 */
     int sines;
     int cosines;
 } piece;
 
-/* Terms that cancel near x = 0 or x = pi/2, such as c (1 - cos 2x) = 2 c sin(x)^2 and
- * c (3 - 4 cos 2x + cos 4x) = 8 c sin(x)^4 (the poles of spherical coordinates), and their slopes, such
- * as 2 sin 2x - sin 4x = 8 sin(x)^3 cos(x): the sums would lose all digits there, the powers keep them.
- * x itself must be a whole multiple of the coordinates.
- * piece[p->count] receives the pieces; returns their number. */
+/* Converts terms that cancel near x = 0 or x = pi/2 to powers. Examples: c (1 - cos 2x) = 2 c sin(x)^2, and c (3 - 4
+ * cos 2x + cos 4x) = 8 c sin(x)^4 (the poles of spherical coordinates). Their derivatives too: 2 sin 2x - sin 4x = 8
+ * sin(x)^3 cos(x). The sums would lose all digits there; the powers do not. x must be a whole multiple of the
+ * coordinates. Writes to piece[p->count]; returns the number of pieces. */
 int pieces_of(algebra *a, const poly *p, piece *pieces);
 
 typedef struct wave wave;
@@ -31,20 +28,19 @@ typedef struct wave wave;
 typedef struct lowering {
     algebra *algebra;
     tape *tape;
-    /* The operation for a symbol that stands outside sines (a leaf of the tape). */
+    /* The operation for a symbol outside sines (a leaf of the tape). */
     int (*leaf)(void *context, tape *t, const symbol *sym, int primes);
-    /* Index of the turn angle that the symbol is kept as, or -1. */
+    /* Index of the symbol's turn angle, or -1. */
     int (*turn)(void *context, const symbol *sym);
     void *context;
-    /* Which of the planned angles, by size, is evaluated before all others: 0 the smallest. */
+    /* The planned angle that is evaluated first: its rank by size, 0 for the smallest. */
     int lead;
     wave *waves;
     int wave_count;
     int wave_room;
 } lowering;
 
-/* Announce everything that will be lowered, before lowering any of it: the choice of which sines to
- * evaluate looks at all of them. */
+/* Announce all polys before lowering the first: the choice of evaluated sines depends on all of them. */
 void lower_plan(lowering *l, const poly *const *polys, int count);
 
 /* The operation that computes p. */
@@ -52,13 +48,13 @@ int lower(lowering *l, const poly *p);
 
 void lower_done(lowering *l);
 
-/* A tangent is the one function that may be made of a turn angle's sine and cosine. */
+/* Only a tangent can be computed from a turn angle's sine and cosine. */
 static inline bool lower_is_tangent(const atom *x) {
     return x->kind == ATOM_CALL && x->function == FN_TAN;
 }
 
-/* True when every place of the symbol (no primes) in p is inside a sine or cosine, with a whole
- * factor: then it can be kept as a turn angle. */
+/* True if the symbol (without primes) occurs in p only inside sines and cosines, with whole factors. Then it can be a
+ * turn angle. */
 bool lower_only_in_waves(const poly *p, const symbol *sym);
 
 #endif

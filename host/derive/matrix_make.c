@@ -1,4 +1,4 @@
-/* matrix_make.c: from rates to what a step adds, rounded once, and to the list that adds it. */
+/* matrix_make.c: the change of the state in a step from its rates, rounded once, and the list that adds it. */
 #include "host/derive/matrix_make.h"
 
 #include <math.h>
@@ -12,13 +12,14 @@
 #include "host/number/functions.h"
 #include "host/number/twofold.h"
 
-/* === the change in one step of x' = A x + B u + c, all but x held ============================= */
+/* === the change in one step of x' = A x + B u + c, with constant u ============================= */
 /* Scaling, a series, squaring. */
 
-/* Each halving of the step costs a squaring, and each squaring up to one of the 104 bits: 50 leave a double its digits. */
+/* Each halving of the step costs a squaring, and each squaring up to one of the 104 bits: after 50, a double's digits
+ * remain. */
 enum { HALVINGS_MOST = 50 };
 
-/* Powers of a matrix of norm 1/2 and below leave 2^-110 of it behind after so many. */
+/* The remainder of the series after so many powers of a matrix of norm 1/2 or less is 2^-110 of the matrix. */
 enum { POWERS = 26 };
 
 /* to = a[states * states of its columns] b, for b of as many columns as `to`. */
@@ -34,8 +35,8 @@ static void product(const twofold *a, const twofold *b, int states, int columns,
     }
 }
 
-/* The same, but the exponential's series ends with the power `order`: what a Runge-Kutta method of that order and as many
- * stages makes of it, whatever its weights. */
+/* The same, but the exponential's series ends with the power `order`. A Runge-Kutta method of that order with as many
+ * stages gives this result for any weights. */
 static void exponential_series(twofold *step, int states, int columns, int order) {
     const int count = states * columns;
     twofold *power = room(count, sizeof *power);
@@ -87,8 +88,9 @@ static void in_units(twofold *a, int i, double by, int states, int columns) {
     }
 }
 
-/* Units, powers of two, in which rows and columns of A are of a size (Parlett & Reinsch, Numerische Mathematik 13 (1969)
- * 293): a stiffness of 1e9 N/m beside a rate of 1e-3 m/s would else want many halvings. */
+/* Balancing by powers of two, which makes corresponding rows and columns of A similar in size (Parlett & Reinsch,
+ * Numerische Mathematik 13 (1969) 293). Otherwise a stiffness of 1e9 N/m next to a rate of 1e-3 m/s would need many
+ * halvings. */
 static void balance(twofold *a, double *unit, int states, int columns) {
     for (int i = 0; i < states; i++) {
         unit[i] = 1.0;
@@ -110,8 +112,9 @@ static void balance(twofold *a, double *unit, int states, int columns) {
     }
 }
 
-/* What of the states is below this part of the largest of its row, in balanced units, is beyond the digits that were kept:
- * the last of twenty masses in a row has a part of 1e-60 in what the first one does within a millisecond, and no float. */
+/* Entries of states below this part of the largest in their row, in balanced units, are beyond the available digits.
+ * Example: the last of twenty masses in a row contributes 1e-60 to the first one's motion within a millisecond, below
+ * the range of float. */
 #define LEAST_PART 0x1p-100
 
 static void drop_least(twofold *step, int states, int columns) {
@@ -129,11 +132,11 @@ static void drop_least(twofold *step, int states, int columns) {
     }
 }
 
-/* step[states * columns], on entry the rates A | B | c times the step, becomes exp([A B c; 0 0 0] h) - 1 without its lower
- * rows: what one step adds to the states. Scaling and squaring of the exponential less one, so that what a step hardly
- * changes keeps its digits (Moler & Van Loan, Nineteen Dubious Ways to Compute the Exponential of a Matrix, method 3), after
- * balancing by powers of two. False where a number outgrows the doubles, or the steps that were needed to begin with are
- * so small that digits would be lost: step[] is then of no use. */
+/* On entry step[states * columns] has the rates A | B | c times the step. On return it has exp([A B c; 0 0 0] h) - 1
+ * without its lower rows: the change of the states in one step. The method is scaling and squaring of the exponential
+ * minus one, which keeps the digits of small changes, after balancing (Moler & Van Loan, Nineteen Dubious Ways to
+ * Compute the Exponential of a Matrix, method 3). False if a number overflows, or if the scaled steps are so small that
+ * digits would be lost: step[] is then invalid. */
 static bool exponential_exact(twofold *step, int states, int columns) {
     const int count = states * columns;
     double *unit = room(states, sizeof *unit);
@@ -169,7 +172,7 @@ static bool exponential_exact(twofold *step, int states, int columns) {
 
 /* === the matrix of a step ===================================================================== */
 
-/* --- what has none ---------------------------------------------------------------------------------*/
+/* --- scenes without a matrix ----------------------------------------------------------------------- */
 
 static bool is_possible(const image *im, diags *errors) {
     static const char hint[] = "leave out --matrix";
@@ -200,7 +203,7 @@ static bool is_possible(const image *im, diags *errors) {
 
 /* --- the list --------------------------------------------------------------------------------------*/
 
-/* The operation for a column: a state, an input or what is constant. No column of a turn angle has entries. */
+/* The operation for a column: a state, an input or the constant. Columns of turn angles have no entries. */
 static int leaf(const image *im, tape *t, int column) {
     const int real = column - im->angles;
     const int linears = im->form == WH_SECOND_ORDER ? im->coordinates - im->angles : im->reals;
@@ -213,7 +216,7 @@ static int leaf(const image *im, tape *t, int column) {
     return real < linears ? tape_leaf(t, OP_LINEAR, real) : tape_leaf(t, OP_RATE, real - linears);
 }
 
-/* The sum of a row's entries, each the double that stands for it, times their columns. */
+/* The sum of a row's entries, each rounded to double, times their columns. */
 static int enter_row(const image *im, tape *t, const twofold *row,
                      double (*constant)(twofold entry)) {
     int sum = tape_constant(t, 0.0);
@@ -226,7 +229,7 @@ static int enter_row(const image *im, tape *t, const twofold *row,
     return sum;
 }
 
-/* The row, in which column `of` has one more than it says. Where that is nearly 1, only the difference is rounded. */
+/* A row whose entry in column `of` is stored minus 1. If the full entry is nearly 1, only the difference is rounded. */
 static int enter_near(const image *im, tape *t, twofold *row, int of) {
     if (row[of].high < -0.5 || row[of].high > 1.0) {
         row[of] = twofold_add(row[of], twofold_of(1.0));
@@ -235,13 +238,13 @@ static int enter_near(const image *im, tape *t, twofold *row, int of) {
     return tape_add(t, leaf(im, t, of), enter_row(im, t, row, twofold_constant));
 }
 
-/* Digits of an entry that a float has no room for, where a float has room for those. */
+/* The part of an entry beyond a float's digits, if a float can represent that part. */
 static double rest(twofold entry) {
     const double beyond = twofold_beyond_float(entry);
     return fits_float(beyond) ? beyond : 0.0;
 }
 
-/* The mean rate of turn angle i over a step of h in which it moves by row[]: of a coordinate, nearly its rate. */
+/* The mean rate of turn angle i over a step of h with the change row[]: nearly its rate, for a coordinate. */
 static int enter_angle(const image *im, tape *t, twofold *row, int i, twofold h) {
     for (int k = 0; k < affine_columns(im); k++) {
         row[k] = twofold_div(row[k], h);
@@ -254,7 +257,7 @@ static int enter_angle(const image *im, tape *t, twofold *row, int i, twofold h)
     return enter_near(im, t, row, rate);
 }
 
-/* `change` is what a step of h adds; it is used up. */
+/* `change` is the change in a step of h; it is overwritten. */
 static tape *make_list(const image *im, twofold *change, twofold h) {
     const int states = affine_states(im);
     const bool compensated = im->settings.compensated;

@@ -1,4 +1,4 @@
-/* noise_records.c: noise behind the exact outputs. */
+/* noise_records.c: noise added after the exact outputs. */
 #include "noise_records.h"
 
 #include <stdlib.h>
@@ -7,7 +7,7 @@
 #include "host/base/hashing.h"
 #include "host/base/room.h"
 
-/* Outputs with the same seed have noise of their own each: their names' hash (FNV-1a) tells them apart. */
+/* The noises of outputs with the same seed differ: the hash of the name (FNV-1a) enters the seed. */
 static uint32_t seed_of(const noise *of) {
     return hash_text(of->output->name, strlen(of->output->name)) ^ of->seed;
 }
@@ -32,7 +32,7 @@ void noise_on_outputs(const equations *e, lowering *l, int *result) {
     }
 }
 
-/* Does any noise on this record's output take part? */
+/* Has this record's output any active noise? */
 static bool is_noisy(const equations *e, const symbol *record) {
     const mechanism *m = e->instance->mechanism;
     for (int k = 0; k < m->noise_count; k++) {
@@ -48,7 +48,7 @@ typedef struct recording {
     const conservation *conserved;
 } recording;
 
-/* The output of a record, as lists want it. */
+/* The output of a record, ready for a list. */
 static const poly *exact_output(const recording *r, const symbol *record) {
     const equations *e = r->equations;
     const poly *output = poly_from_expr(e->algebra, record->value);
@@ -106,7 +106,7 @@ int noise_record_node(const equations *e, const int *node, const symbol *record)
     const mechanism *m = e->instance->mechanism;
     int k = 0;
     while (m->noises[k].record != record) {
-        k++; /* every record is that of a noise */
+        k++; /* every record belongs to a noise */
     }
     return node[k];
 }

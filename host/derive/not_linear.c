@@ -1,4 +1,4 @@
-/* not_linear.c: the innermost part of an expression, as it was written, that gives too high a power of the state. */
+/* not_linear.c: the innermost subexpression, in the spelling of the file, whose degree in the state is too high. */
 #include "not_linear.h"
 
 #include <stdio.h>
@@ -10,14 +10,14 @@
 #include "host/base/statement.h"
 #include "host/number/functions.h"
 
-/* Of what is no sum of powers. Degrees add up, and stay below an int. */
+/* The degree of an expression that is not a polynomial. Sums of degrees stay within an int. */
 enum { NO_POWER = 1000 };
 
-/* What a node of the blame list is made of. */
+/* The dependencies of a node of the blame list. */
 typedef struct made_of {
     int degree;      /* in states, rates and inputs together */
-    uint64_t states; /* unknowns that take part, a bit each: of more than 64, some share one */
-    uint64_t inputs; /* likewise */
+    uint64_t states; /* unknowns it depends on, a bit each: above 64 they share bits */
+    uint64_t inputs; /* inputs, in the same way */
 } made_of;
 
 static uint64_t bit(int number) { return UINT64_C(1) << (number % 64); }
@@ -62,8 +62,8 @@ static made_of node_made_of(const image_blame *b, const made_of *of, int i) {
     return both;
 }
 
-/* May the operand beside one of degree `other` have no more than the whole may? Where the operand alone is fine, it is the
- * two together that are not. */
+/* Has the operand next to one of degree `other` the same limit as the whole? If both operands are within their limits,
+ * only their combination exceeds it. */
 static bool passes_on(blame_code code, int other) {
     switch (code) {
     case BLAME_SAME:
@@ -81,7 +81,7 @@ static bool passes_on(blame_code code, int other) {
     return false;
 }
 
-/* The innermost part of `node` whose degree is above `most` and of no operand of it. */
+/* The innermost part of `node` whose degree exceeds `most` while no operand's does. */
 static int innermost(const image_blame *b, const made_of *of, int node, int most) {
     for (;;) {
         const blame_node *n = &b->node[node];
@@ -98,7 +98,7 @@ static int innermost(const image_blame *b, const made_of *of, int node, int most
     }
 }
 
-/* The names of what takes part: "theta", "x and y", "x, y and M". */
+/* The names of the dependencies: "theta", "x and y", "x, y and M". */
 static char *names(const image *im, made_of of) {
     char *text = NULL;
     size_t length = 0;

@@ -11,7 +11,7 @@
 
 /* --- the lists -----------------------------------------------------------------------------------*/
 
-/* The slope of a component of a first-order scene. */
+/* The derivative of a component of a first-order scene. */
 static int slope_of(layout *map, lowering *l, component of, const int *highest) {
     const int k = map->conserved->number[of.unknown];
     if (k >= 0) {
@@ -70,7 +70,7 @@ static tape *make_observer(layout *map, const linear_system *s, const poly *cons
         t->result[i] = highest[i];
     }
     for (int i = 0; i < n && e->contacts != NULL; i++) {
-        if (map->place[i] >= 0) { /* with the contacts' forces: the core knows them */
+        if (map->place[i] >= 0) { /* with the contacts' forces: the core has them */
             highest[i] = tape_leaf(t, OP_ACCEL, map->place[i]);
         }
     }
@@ -151,7 +151,7 @@ static tape *make_books(const program *p, layout *map, const linear_system *s) {
     return t;
 }
 
-/* Values put in for the parameters may leave 1/0, or a number too large: nothing runs on that. */
+/* Parameter values may produce 1/0, or a number that is too large: such a program cannot run. */
 static bool lists_finite(const program *p, const equations *e, diags *errors) {
     static const char hint[] =
         "look for a division by zero, or values that are too large or too small";
@@ -180,8 +180,8 @@ static bool lists_finite(const program *p, const equations *e, diags *errors) {
     return finite && output < 0;
 }
 
-/* A step knows phases only. The coordinates whose turns its lists would need are reals, so that none does,
- * unless a factor came out too large while the equations were solved. */
+/* A step knows phases only. Coordinates whose turns the lists need are reals, so normally no list needs them. The
+ * exception is a factor that grew too large while solving the equations. */
 static bool steps_need_no_turns(const program *p, const equations *e, diags *errors) {
     const contact_lists *c = p->contacts;
     const tape *const lists[] = {p->step, c != NULL ? c->signals : NULL,

@@ -1,4 +1,4 @@
-/* program.h: an instance as numbers: operation lists with every parameter folded in. */
+/* program.h: an instance as operation lists, with every parameter folded in. */
 #ifndef DERIVE_PROGRAM_H
 #define DERIVE_PROGRAM_H
 
@@ -11,28 +11,27 @@ typedef struct program {
     int count;   /* unknowns */
     int outputs; /* the mechanism's, then value and rate of each conserved coordinate */
     conservation *conserved;
-    /* Second order: result[i] is the acceleration of scene coordinate i. First order: the slope of
-     * component i, angles first. */
+    /* Second order: result[i] is the acceleration of scene coordinate i. First order: the derivative of component i,
+     * angles first. */
     tape *step;
-    tape *tables; /* what its tables hold, exactly; NULL without any (program_look_up()) */
+    tape *tables; /* exact list of the tables' functions; NULL without tables (program_look_up()) */
     /* The outputs. */
     tape *observe;
     contact_lists *contacts; /* NULL without any */
-    ledger_lists *ledger;    /* NULL when no books are kept */
-    bool ledger_asked;       /* by `with ledger`, --stabilized: else they only balance the run */
-    const poly
-        *integral; /* the energy integral where it is not T + V, else NULL: see equations.h */
-    /* For the host's books: highest derivatives (by unknown), then for a mechanism T, V, input
-     * power, loss power, the momenta (by unknown) and, if there is one, the integral. */
+    ledger_lists *ledger;    /* NULL without a ledger */
+    bool ledger_asked;       /* by `with ledger`, --stabilized: else it only balances the run */
+    const poly *integral; /* the energy integral if it is not T + V, else NULL: see equations.h */
+    /* For the host's balance: the highest derivatives (by unknown). For a mechanism then T, V, input power, loss power,
+     * the momenta (by unknown) and the integral, if any. */
     tape *books;
 } program;
 
-/* `conserve` [count] names the coordinates to recover from their momentum, or is NULL. NULL on error
- * (too many components, a momentum that is not conserved, a constant that is not finite), reported to
- * `errors`. */
+/* `conserve` [count] names the coordinates to recover from their momentum, or is NULL. NULL after an error, reported to
+ * `errors`: too many components, a momentum that is not conserved, or a constant that is not finite. */
 program *program_make(const equations *e, const bool *conserve, const image_settings *settings,
                       diags *errors);
-/* The step looks up in tables what it owes to an angle (tables.h). False where it cannot, reported with its place. */
+/* Replace the step's functions of one angle by table look-ups (tables.h). False if that is impossible, reported with
+ * its place. */
 bool program_look_up(program *p, const equations *e, image_settings *settings, diags *errors);
 void program_free(program *p);
 

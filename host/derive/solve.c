@@ -1,9 +1,8 @@
-/* solve.c: solving for the highest derivatives in the cheapest of several arrangements.
- *
- * Arrangements (solve.h) differ in the scale of the equations, in which coordinates with a constant diagonal
- * are eliminated while still symbolic (a carriage's total mass, a body on a hinge: what is left comes to its normal
- * form again and may shrink), in the order of elimination, and in which sines are evaluated. Two equations that remain
- * are solved by Cramer's rule: one division. The winner is what tape_weight() says, not a belief. */
+/* solve.c: the solution for the highest derivatives in the cheapest of several arrangements. Arrangements (solve.h)
+ * differ in the scale of the equations, the order of elimination, the evaluated sines, and the symbolic elimination.
+ * Coordinates with a constant diagonal may be eliminated symbolically (a carriage's total mass, a body on a hinge): the
+ * remaining equations return to normal form and may shrink. Two remaining equations are solved by Cramer's rule, with
+ * one division. tape_weight() decides between them. */
 #include "host/derive/solve.h"
 
 #include <math.h>
@@ -14,7 +13,7 @@
 #include "host/number/folding.h"
 
 /* === solving n linear equations by entering operations into a tape ============================ */
-/* Gauss's elimination and Cramer's rule, as operations. */
+/* Gaussian elimination and Cramer's rule, as operations. */
 
 static int minus_product(tape *t, int from, int x, int y) {
     return tape_sub(t, from, tape_mul(t, x, y));
@@ -47,7 +46,7 @@ static void solve_pair(tape *t, int n, const int *mass, const int *force, int i,
 
 static void eliminate_symmetric(tape *t, int n, int *mass, int *force, const int *order, int done,
                                 int *solution) {
-    int left = n - 1; /* the last place whose value is still wanted */
+    int left = n - 1; /* the last place whose value is still needed */
     double value;
     for (int at = done; at < n - 1; at++) {
         const int k = order[at];
@@ -76,13 +75,12 @@ static void eliminate_symmetric(tape *t, int n, int *mass, int *force, const int
 
 /* --- any regular matrix --------------------------------------------------------------------------*/
 
-/* A number between 0.3 and 0.67, another for each leaf: it depends on what the leaf is, not on its place in
- * the list. */
+/* A number between 0.3 and 0.67, different for each leaf. It depends on the leaf itself, not on its place in the list. */
 static double generic(double of) {
     return 0.3 + 0.37 * number_remainder(fabs(of) * 0.6180339887, 1.0);
 }
 
-/* What every operation gives at a made-up generic state: tells vanishing pivots from others. */
+/* The value of every operation at an artificial generic state: distinguishes vanishing pivots from others. */
 static double *sample(const tape *t) {
     double *v = room(t->count, sizeof *v);
     for (int i = 0; i < t->count; i++) {
@@ -111,7 +109,7 @@ static double *sample(const tape *t) {
         case OP_DIV: v[i] = a / b; break;
         case OP_NEG: v[i] = -a; break;
         case OP_SQRT: v[i] = number_root(fabs(a)); break;
-        case OP_CELL: /* no list that is eliminated from has tables */
+        case OP_CELL: /* lists under elimination have no tables */
         case OP_LINE:
         case OP_CUBIC:
         case OP_SIN:
@@ -167,8 +165,8 @@ static void solve_cramer(tape *t, int n, const int *mass, const int *force, cons
     free(swapped);
 }
 
-/* Move the best pivot among the equations and unknowns from `at` on to place `at`: a constant one if
- * there is any, else the largest at the sample state. Returns whether it is constant. */
+/* Move the best pivot among the equations and unknowns from `at` on to position `at`: a constant one if there is any,
+ * else the largest at the sample state. Returns true if it is constant. */
 static bool bring_pivot(const tape *t, int n, const int *mass, int *rows, int *columns, int at) {
     double *v = sample(t);
     double best = -1.0;
@@ -233,12 +231,11 @@ static void eliminate_general(tape *t, int n, int *mass, int *force, int *soluti
     free(rows);
 }
 
-/* mass[n * n] and force[n] are operations (overwritten). order[n] is the order of elimination; the
- * first `done` of it have been eliminated from the others already, in symbols, and only need their
- * values from back substitution. solution[n] receives the operations. A symmetric matrix is taken
- * as positive definite; any other is solved by the largest pivot at a sample state, and by Cramer's
- * rule once three equations are left, so that no division by a vanishing pivot is made where the
- * determinant does not vanish. */
+/* mass[n * n] and force[n] are operations (overwritten). order[n] is the order of elimination. The first `done`
+ * unknowns are already eliminated symbolically, and only need back substitution. solution[n] receives the operations. A
+ * symmetric matrix is assumed to be positive definite. Any other matrix is solved with the largest pivot at a sample
+ * state, and by Cramer's rule for the last three equations. So no division by a vanishing pivot occurs if the
+ * determinant is nonzero. */
 static void eliminate(tape *t, bool symmetric, int n, int *mass, int *force, const int *order,
                       int done, int *solution) {
     if (symmetric) {
@@ -249,28 +246,26 @@ static void eliminate(tape *t, bool symmetric, int n, int *mass, int *force, con
 }
 
 /* === a coordinate that hangs on a hinge ======================================================= */
-/* Eliminating a coordinate that hangs on a hinge, in symbols.
+/* Symbolic elimination of a coordinate on a hinge.
  *
- * The part of a mass that its hinge can push.
- *
- * A body on a hinge, q its angle: its row of the equations is
+ * A body on a hinge with the angle q has this row of the equations:
  *
  *     A q'' + sum_j P_j x_j = f,        P_j = Re(z_j exp(i c q)),    f = Re(w exp(i c q)) + rest
  *
- * with z_j and w that q is not part of. Gauss's elimination leaves -P_i P_j / A beside the others' m_ij, where all
- * stands that the body does to them. With the quadratures P~_j = Im(z_j exp(i c q)),
+ * z_j and w do not contain q. Gaussian elimination adds -P_i P_j / A to the others' m_ij, the total effect of the body
+ * on them. With the quadratures P~_j = Im(z_j exp(i c q)),
  *
  *     P_i P_j = Re(z_i conj(z_j)) - P~_i P~_j
  *
- * and the first part, in which q is no longer, comes together with m_ij in the normal form. What is left of the body is
- * what it is seen as from the hinge: a mass along the rod. So it is with the forces, where the rod's pull is one
- * factor for all. A P~ is minus the derivative of P by q, over c. */
+ * The first part has no q and joins m_ij in the normal form. The second part is the body as seen from the hinge: a mass
+ * along the rod, the part of its mass that the hinge can push. The same holds for the forces, with the rod's pull as
+ * one common factor. A P~ is minus the derivative of P by q, divided by c. */
 
 static const poly *bend(algebra *a, const poly *p, const symbol *q) {
     return poly_derivative(a, poly_derivative(a, p, q, 0), q, 0);
 }
 
-/* c^2 where p'' = -c^2 p and p is not zero; else 0. */
+/* c^2 if p'' = -c^2 p and p is not zero; else 0. */
 static double frequency_squared(algebra *a, const poly *p, const symbol *q) {
     const poly *bent = bend(a, p, q);
     if (poly_is_zero(p) || bent->count != p->count) {
@@ -295,7 +290,7 @@ static const poly *without_turn(algebra *a, wave_of x, wave_of y) {
     return poly_add(a, poly_mul(a, x.here, y.here), poly_mul(a, x.across, y.across));
 }
 
-/* The frequency that all entries of row k share, or 0. */
+/* The common frequency of all entries of row k, or 0. */
 static double shared_frequency(algebra *a, int n, const poly *const *mass, const bool *gone, int k,
                                const symbol *q) {
     double squared = 0.0;
@@ -313,8 +308,7 @@ static double shared_frequency(algebra *a, int n, const poly *const *mass, const
     return number_root(squared);
 }
 
-/* What the turning's own rate pulls with: the others' forces have g across_i q'^2, with one g for all. Takes it out
- * of them; g. */
+/* The centrifugal pull: the others' forces contain g across_i q'^2, with a common g. Removes it from them; returns g. */
 static double take_pull(algebra *a, int n, const poly **force, const poly *const *across,
                         const poly *rate_squared) {
     double g = 0.0;
@@ -343,14 +337,13 @@ static double take_pull(algebra *a, int n, const poly **force, const poly *const
     return g;
 }
 
-/* Eliminate the angle `turning`, unknown k of n, from the equations of those that are not gone, mass[n * n] and force[n].
- * True where its own diagonal is a number, *own, and its other entries are waves of it of one frequency: then, of what
- * is left,
+/* Eliminate the angle `turning`, unknown k of n, from the remaining equations mass[n * n] and force[n]. True if its own
+ * diagonal is a number, *own, and its other entries are waves of it of one frequency. Then
  *
  *     mass_ij + across_i across_j / own,        force_i + across_i across_n / own
  *
- * stand for the equations without k; row k stays as it was. across[n + 1] is 0 for k and for those that are gone.
- * False, with nothing changed, for all others. */
+ * replace the equations without k; row k is unchanged. across[n + 1] is 0 for k and for eliminated unknowns. False,
+ * with nothing changed, for all others. */
 static bool hinge_eliminate(algebra *a, int n, const poly **mass, const poly **force,
                             const bool *gone, int k, const symbol *turning, double *own,
                             const poly **across) {
@@ -395,21 +388,19 @@ static bool hinge_eliminate(algebra *a, int n, const poly **mass, const poly **f
 }
 
 /* === forms of the equations =================================================================== */
-/* The equations M x = f brought into one of several forms before they are entered into a list.
- *
- * Scales, and what is eliminated while the equations are still symbols. */
+/* The equations M x = f in one of several forms, before entry into a list: scales, and symbolic elimination. */
 
 /* Which form. */
 typedef struct arrangement {
     bool scaled;
-    bool rescaled; /* what is left after symbolic elimination */
-    bool hinged;   /* what hangs on hinges goes first, in the order: solve.h */
+    bool rescaled; /* the equations after symbolic elimination */
+    bool hinged;   /* unknowns on hinges are eliminated first, in this order: solve.h */
     int lead;      /* the sine that is evaluated first: lower.h */
     int first;     /* unknown eliminated symbolically; -1 none; -2 every constant diagonal */
     int order[COORDINATES_MAX]; /* of elimination */
 } arrangement;
 
-/* The equations as an arrangement leaves them: all polys in one piece, for lower_plan(). */
+/* The equations of an arrangement: all polys in one array, for lower_plan(). */
 typedef struct arranged {
     int n;
     int polys;
@@ -417,19 +408,19 @@ typedef struct arranged {
     const poly **force; /* [n] */
     int hinges;
     const poly **across; /* [hinges * (n + 1)] of solve.h */
-    double *inverse;     /* [hinges] what products of them are multiplied by */
+    double *inverse;     /* [hinges] factor of their products */
     double *scale;       /* [n] of rows and columns */
     bool *gone;          /* [n] eliminated in symbols */
     int *order;          /* [n] those first */
     int eliminated;
 } arranged;
 
-/* Symbolic elimination stops when an entry would get more terms than this. */
+/* Symbolic elimination stops before an entry gets more terms than this. */
 #define SYMBOLIC_TERMS_MAX 60
 
 /* --- scaling -------------------------------------------------------------------------------------*/
 
-/* Different numbers that are counted; later ones are not, in what is large beyond any choice. */
+/* Most different numbers in a tally; further ones are ignored in large equations. */
 #define TALLY_MAX 128
 
 /* Starts as {0}. */
@@ -465,7 +456,7 @@ static double tally_favourite(const tally *t) {
     return best < 0 ? 1.0 : t->size[best];
 }
 
-/* scale[i] for row and column i, and a common divisor, so that most coefficients become one. */
+/* scale[i] for row and column i, and a common divisor, chosen to turn most coefficients into one. */
 static double choose_scales(const linear_system *s, double *scale) {
     const int n = s->n;
     tally all = {.count = 0};
@@ -500,8 +491,7 @@ static double choose_scales(const linear_system *s, double *scale) {
     return common;
 }
 
-/* c * scale, put onto a simple fraction where it comes out a rounding error beside one: 1.0000000000000002 would
- * cost a product. */
+/* c * scale, rounded to a simple fraction if it is within round-off of one: 1.0000000000000002 would cost a product. */
 static double scale_number(double c, double scale) {
     const double scaled = folding_product(c, scale);
     const double nearest = number_floor(scaled * 48.0 + 0.5) / 48.0;
@@ -518,7 +508,7 @@ static bool number_at(const poly *const *mass, int n, int i, double *value) {
     return poly_is_number(mass[i * n + i], value) && *value != 0.0;
 }
 
-/* Eliminate unknown k from the others in symbols. False, with nothing changed, if it would grow. */
+/* Eliminate unknown k from the others symbolically. False, with nothing changed, if an entry would grow too much. */
 static bool eliminate_symbolic(algebra *a, int n, const poly **mass, const poly **force,
                                const bool *gone, int k) {
     double diagonal;
@@ -547,8 +537,8 @@ static bool eliminate_symbolic(algebra *a, int n, const poly **mass, const poly 
     return true;
 }
 
-/* Of those that are eliminated, in their order, who is not wanted and whom nobody that is wanted is made from: their
- * equations need not be computed, and what sines stand in no other one need not be taken. */
+/* Eliminated unknowns, in order, up to the first wanted one. No wanted solution depends on them, so their equations,
+ * and sines found only there, need not be computed. */
 static void forget_unwanted(algebra *a, const linear_system *s, const poly **mass,
                             const poly **force, const int *order, int eliminated) {
     const int n = s->n;
@@ -563,7 +553,7 @@ static void forget_unwanted(algebra *a, const linear_system *s, const poly **mas
     }
 }
 
-/* What is left by symbols divided by the size that most of its numbers have: they become one. */
+/* Divide the remaining equations by the most frequent size of their numbers, which becomes one. */
 static void scale_what_is_left(algebra *a, int n, const poly **mass, const poly **force,
                                const bool *gone) {
     tally all = {.count = 0};
@@ -649,7 +639,7 @@ static bool off_hinges(const arranged *w, int k) {
     return off;
 }
 
-/* All that hang on hinges, in the order. False: none does. */
+/* Eliminate all unknowns on hinges, in order. False if there are none. */
 static bool eliminate_hinged(algebra *a, const linear_system *s, const arrangement *how,
                              arranged *w) {
     const int n = s->n;
@@ -666,7 +656,7 @@ static bool eliminate_hinged(algebra *a, const linear_system *s, const arrangeme
     return w->hinges > 0;
 }
 
-/* What is left of the equations of unknown i, and of its column, times a number: what else is said of it (across) too. */
+/* Scale the remaining equation of unknown i, its column, and its entries in across. */
 static void scale_unknown(algebra *a, arranged *w, int i, double scale) {
     const int n = w->n;
     for (int j = 0; j < n; j++) {
@@ -681,8 +671,8 @@ static void scale_unknown(algebra *a, arranged *w, int i, double scale) {
     w->scale[i] *= scale;
 }
 
-/* So that most numbers that the hinges left become one: all equations, then rows and columns of unknowns that are no
- * angles. */
+/* Turn most numbers of the remaining equations into one: scale all equations, then rows and columns of unknowns that
+ * are not angles. */
 static void scale_beside_hinges(algebra *a, const linear_system *s, arranged *w) {
     const int n = s->n;
     const double common = 1.0 / w->inverse[0];
@@ -717,7 +707,7 @@ static void scale_beside_hinges(algebra *a, const linear_system *s, arranged *w)
     }
 }
 
-/* False: they cannot be arranged so. To be freed either way. */
+/* False if this arrangement is impossible. Free it either way. */
 static bool arrange(algebra *a, const linear_system *s, const arrangement *how, arranged *w) {
     const int n = s->n;
     *w = arranged_room(n);
@@ -751,16 +741,16 @@ static bool arrange(algebra *a, const linear_system *s, const arrangement *how, 
 
 /* === the cheapest of several arrangements ===================================================== */
 
-/* Elimination orders are tried exhaustively up to so many unknowns. */
+/* Up to so many unknowns, all orders of elimination are tried, */
 #define PERMUTED_MAX 4
-/* ... and while the equations have no more leaves than this: large ones take the first order. */
+/* if the equations have no more leaves than this; larger ones use the first order. */
 #define PERMUTED_SIZE_MAX 4000.0
-/* So many sines are tried as the first to be evaluated, besides the smallest angle's. */
+/* So many sines are tried as the first evaluated one, besides the smallest angle's. */
 #define LEADS_MAX 5
 
 /* --- one arrangement -----------------------------------------------------------------------------*/
 
-/* What solve.h wants added: operations of `across`, for one hinge. */
+/* Add the terms with `across` for one hinge (solve.h). */
 static void add_across(tape *t, int n, const int *across, double inverse, int *mass, int *force) {
     const int factor = tape_constant(t, inverse);
     for (int i = 0; i < n; i++) {
@@ -775,7 +765,8 @@ static void add_across(tape *t, int n, const int *across, double inverse, int *m
     }
 }
 
-/* Entered on `t`; solution[] receives the operations. False, with nothing entered, if it cannot be arranged so. */
+/* Enter the solution on `t`; solution[] receives the operations. False, with nothing entered, if this arrangement is
+ * impossible. */
 static bool enter(const lowering *like, tape *t, const linear_system *s, const arrangement *how,
                   int *solution) {
     const int n = s->n;
@@ -875,7 +866,7 @@ static void try_it(const lowering *l, const linear_system *s, const arrangement 
     }
 }
 
-/* All ways of eliminating in the order of `like`. */
+/* All methods of elimination in the order of `like`. */
 static void try_order(const lowering *l, const linear_system *s, const arrangement *like,
                       bool permuted, choice *best) {
     for (int scaled = 0; scaled < 2; scaled++) {
@@ -899,7 +890,7 @@ static void try_order(const lowering *l, const linear_system *s, const arrangeme
     }
 }
 
-/* The best one with other sines evaluated first. */
+/* The best one, with other sines evaluated first. */
 static void try_leads(const lowering *l, const linear_system *s, choice *best) {
     arrangement how = best->how;
     for (how.lead = 1; how.lead <= LEADS_MAX; how.lead++) {

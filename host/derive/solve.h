@@ -13,19 +13,18 @@ typedef struct linear_system {
     const poly **mass;            /* [n * n], parameters folded */
     const poly **force;           /* [n] */
     const symbol *const *unknown; /* [n] */
-    const bool *turning;          /* [n] unknown is an angle: its row keeps the energy's scale */
-    const bool *wanted;           /* [n] unknown's solution is needed: what it costs counts */
-    /* Solutions that are not wanted may come out as anything, and more arrangements are tried. False where contacts
-     * solve with the same matrix: their steps keep their bits. */
+    const bool *turning;          /* [n] unknown is an angle: its row keeps the scale of energy */
+    const bool *wanted;           /* [n] the unknown's solution is needed: its cost counts */
+    /* Unwanted solutions are arbitrary, which allows more arrangements. False if contacts solve with the same matrix:
+     * their steps must not change by a bit. */
     bool sparing;
-    /* Roundings count more than operations: no hinge is eliminated (solve.h), whose list rounds two to five times as
-     * much as what it replaces (docs/dev/numerics.md). */
+    /* Precision counts more than operations: no hinge is eliminated (solve.h). A list with hinges has two to five times
+     * the round-off (docs/dev/numerics.md). */
     bool precise;
 } linear_system;
 
-/* Enters the solution into l->tape and stores the operation for each unknown in solution[n].
- * `leaf`, `turn` and `context` of *l are set by the caller; several arrangements are tried on tapes
- * of their own and the cheapest is entered. */
+/* Enter the solution into l->tape and store the operation for each unknown in solution[n]. The caller sets `leaf`,
+ * `turn` and `context` of *l. Several arrangements are tried on separate tapes; the cheapest is entered. */
 void solve_highest(lowering *l, const linear_system *system, int *solution);
 
 #endif

@@ -1,4 +1,4 @@
-/* stabilizing.h: which scenes may give back what their energy drifts by (--stabilized; core/stabilize.h). */
+/* stabilizing.h: the conditions for correcting the energy drift of a scene (--stabilized; core/stabilize.h). */
 #ifndef DERIVE_STABILIZING_H
 #define DERIVE_STABILIZING_H
 
@@ -6,12 +6,12 @@
 #include "layout.h"
 #include "ledger_lists.h"
 
-/* Before there are books: an energy, and steps of stages without events: what is done to rates behind a step would be done
- * behind its contacts' back. `contacts` may be NULL, and so is `integral` where the energy is T + V. False where it cannot,
- * reported with its place. */
+/* The check before the ledger exists. The scene needs an energy and a method of stages without events: contacts would
+ * not see a correction of the rates after a step. `contacts` may be NULL, and `integral` is NULL if the energy is T +
+ * V. False if impossible, reported with its place. */
 bool stabilizing_possible(const layout *map, const contact_lists *contacts, const poly *integral,
                           const image_settings *settings, diags *errors);
-/* Of the books: nothing gives energy or takes it. */
+/* The check of the ledger: nothing may add or remove energy. */
 bool stabilizing_conserves(const ledger_lists *books, const equations *e, diags *errors);
 
 #endif

@@ -8,11 +8,11 @@
 #include "host/number/functions.h"
 #include "null_space.h"
 
-/* Singular values below such a part of the largest are zero: of coefficients, and of values at drawn states. What is hidden
- * in an energy may be a millionth of it. */
+/* Singular values below this part of the largest count as zero: of coefficients, and of values at drawn states. A part
+ * of an energy may be as small as a millionth of it. */
 #define ZERO_OF_TERMS 1e-12
 #define ZERO_OF_VALUES 1e-11
-/* Draws of one state: a function may have no value at some. */
+/* Attempts to draw one state: a function may be undefined at some. */
 #define DRAWS 50
 
 /* --- the change of an energy ----------------------------------------------------------------------*/
@@ -34,7 +34,7 @@ static const poly *change_by(const equations *e, const poly *energy, int k) {
                     poly_mul(a, poly_derivative(a, energy, moved, 1), poly_symbol(a, with, 1)));
 }
 
-/* The angle without its number, which goes to *number. */
+/* The angle without its constant, which goes to *number. */
 static const poly *angle_without_number(algebra *a, const poly *angle, double *number) {
     *number = 0.0;
     for (int i = 0; i < angle->count; i++) {
@@ -45,7 +45,7 @@ static const poly *angle_without_number(algebra *a, const poly *angle, double *n
     return *number != 0.0 ? poly_sub(a, angle, poly_number(a, *number)) : angle;
 }
 
-/* sin(theta + 0.5) and sin(theta) are not independent: sines and cosines of sums with a number are written as sums. */
+/* sin(theta + 0.5) and sin(theta) are not independent, so sines and cosines with a constant phase are expanded. */
 static const poly *without_phases(algebra *a, const poly *p) {
     const poly *sum = poly_number(a, 0.0);
     for (int i = 0; i < p->count; i++) {
@@ -124,7 +124,7 @@ static void take_terms(conditions *s, const poly *const *change) {
     free(all);
 }
 
-/* The power of a generalized force, or the rate of a gap, is to vanish. */
+/* The power of a generalized force, or the rate of a gap, must vanish. */
 static void take_row(const equations *e, conditions *s, const poly *const *row,
                      const poly **change) {
     for (int k = 0; k < s->columns; k++) {
@@ -133,7 +133,7 @@ static void take_row(const equations *e, conditions *s, const poly *const *row,
     take_terms(s, change);
 }
 
-/* A crossing sets this symbol: a momentum that depends on it is changed. */
+/* A crossing sets this symbol, and changes every momentum that depends on it. */
 static void take_set(const equations *e, conditions *s, const assignment *set,
                      const poly **change) {
     for (int k = 0; k < s->columns; k++) {
@@ -145,7 +145,7 @@ static void take_set(const equations *e, conditions *s, const assignment *set,
     take_terms(s, change);
 }
 
-/* What changes a momentum beside the energies: the sum of all forces, and each contact. */
+/* Changes of a momentum besides the energies: the sum of all forces, and each contact. */
 static void take_forces(const equations *e, conditions *s, const poly **change) {
     const contact_laws *laws = e->contacts;
     take_row(e, s, e->applied, change);
@@ -162,7 +162,7 @@ static void take_forces(const equations *e, conditions *s, const poly **change) 
 
 /* --- the check by values ---------------------------------------------------------------------------*/
 
-/* A number for every symbol of a state, the same each time it is asked. */
+/* A fixed number for every symbol of a state. */
 static double drawn_value(void *context, const symbol *s, int primes) {
     const uint64_t *seed = context;
     uint64_t x = *seed * UINT64_C(0x9e3779b97f4a7c15) +
@@ -172,7 +172,7 @@ static double drawn_value(void *context, const symbol *s, int primes) {
     return 0.1 + 1.7 * (double)(x >> 11) * 0x1p-53 - (*seed % 2 == 0 ? 0.0 : 1.0);
 }
 
-/* How many motions leave an energy as it is, by its changes' values at drawn states; -1 without a value. */
+/* The number of motions that leave an energy unchanged, from its changes at drawn states; -1 without a value. */
 static int count_by_values(const equations *e, const poly *const *change) {
     const int columns = columns_of(e);
     conditions of_values = conditions_none(columns);
@@ -232,7 +232,7 @@ static symmetry symmetry_of(const equations *e, const double *by) {
     return s;
 }
 
-/* What of v is left beside known[count], orthonormal rows; true, and added to them, when it is more than rounding. */
+/* Orthogonalize v against known[count], orthonormal rows. True, and v is added, if the result exceeds round-off. */
 static bool is_new(const double *v, double *known, int *count, int columns) {
     double *mine = &known[*count * columns];
     const double length = vector_length(v, columns);
@@ -264,12 +264,12 @@ static bool is_new(const double *v, double *known, int *count, int columns) {
 typedef struct finding {
     const equations *equations;
     symmetries *found;
-    double *known; /* [columns * columns] orthonormal rows: what was found */
+    double *known; /* [columns * columns] orthonormal rows: the symmetries found */
     int count;     /* of them */
     double *basis; /* [columns * columns] scratch */
 } finding;
 
-/* Those that meet all conditions and were not found before; returns how many meet them. */
+/* Find new symmetries that meet all conditions; returns the number of all that meet them. */
 static int find_more(finding *f, const conditions *c, bool of_both, bool conserved) {
     const int count = null_space(c, ZERO_OF_TERMS, f->basis);
     null_space_tidy(f->basis, count, c->columns);
@@ -292,7 +292,7 @@ static int find_more(finding *f, const conditions *c, bool of_both, bool conserv
     return count;
 }
 
-/* Leaves shifts alone: every entry of A is to be zero. */
+/* Restrict to shifts: every entry of A is zero. */
 static void take_no_turning(conditions *s, int n) {
     double *row = room(s->columns, sizeof *row);
     for (int k = 0; k < n * n; k++) {

@@ -1,13 +1,14 @@
 /* symmetry.h: affine symmetries of a mechanism, and their momenta (Noether, "Invariante Variationsprobleme", 1918).
  *
- * A motion of the coordinates q -> q + e*(A q + b), with constant A and b, changes the kinetic energy by e*dT. All (A, b)
- * with dT = 0 for every state form a linear space: dT is linear in A and b, and each term of its normal form must vanish.
- * The same is asked of the potential energy. Lagrange's equations then give the rate of the momentum P = sum dT/dq_i' (A q + b)_i:
+ * A motion of the coordinates q -> q + e*(A q + b), with constant A and b, changes the kinetic energy by e*dT. All (A,
+ * b) with dT = 0 for every state form a linear space: dT is linear in A and b, and each term of its normal form must
+ * vanish. The potential energy has the same condition. Lagrange's equations then give the rate of the momentum P = sum
+ * dT/dq_i' (A q + b)_i:
  *
  *     dP/dt = -dV + sum (Q_i - dF/dq_i') (A q + b)_i + contacts
  *
- * Translations and rotations are affine in Cartesian coordinates and in joint angles. In others, such as spherical ones, a
- * direction is not: then nothing is found for it, and nothing is claimed. */
+ * Translations and rotations are affine in Cartesian coordinates and in joint angles. In others, such as spherical
+ * ones, a direction is not affine: the search then finds nothing and claims nothing. */
 #ifndef DERIVE_SYMMETRY_H
 #define DERIVE_SYMMETRY_H
 
@@ -16,24 +17,24 @@
 typedef struct symmetry {
     const poly **shift;   /* [count] A q + b */
     const poly *momentum; /* P, with the parameters as symbols */
-    const poly *stored;   /* dV; zero when the potential energy has the symmetry, too */
+    const poly *stored;   /* dV; zero if the potential energy has the symmetry, too */
     bool conserved;       /* no energy, force or contact changes P */
 } symmetry;
 
 typedef struct symmetries {
-    int count;      /* those with a conserved momentum, the others of T and V, then the shifts
-                     * (A = 0) of T that V does not have */
+    int count;      /* those with a conserved momentum, then other symmetries of T and V, then
+                     * shifts (A = 0) of T only */
     symmetry *each; /* [count] */
-    int broken;     /* further symmetries of T that V does not have: rotations */
-    bool complete;  /* no affine symmetry of T or V is missing, by their values at drawn states */
+    int broken;     /* further symmetries of T only: rotations */
+    bool complete;  /* values at drawn states show no missing affine symmetry of T or V */
     bool flat;      /* T has constant coefficients: every direction and rotation is affine */
 } symmetries;
 
-/* Of a mechanism given by energies, with the values of its parameters. NULL when the algebra overflows. */
+/* For a mechanism given by energies, with the values of its parameters. NULL if the algebra overflows. */
 symmetries *symmetries_find(const equations *e);
 void symmetries_free(symmetries *s);
 
-/* Sum of row[i] times what the symmetry moves coordinate i by: the power of a generalized force, or the rate of a gap. */
+/* Sum of row[i] times the symmetry's motion of coordinate i: the power of a generalized force, or the rate of a gap. */
 const poly *symmetry_along(const equations *e, const symmetry *s, const poly *const *row);
 
 #endif

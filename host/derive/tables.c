@@ -1,5 +1,5 @@
-/* tables.c: a step's list as sums of products of rates, inputs and reals, whose coefficients depend on turn angles
- * and on nothing else. */
+/* tables.c: a step's list as sums of products of rates, inputs and reals, with coefficients that depend on turn angles
+ * only. */
 #include "host/derive/tables.h"
 
 #include <math.h>
@@ -11,18 +11,18 @@
 #include "host/base/room.h"
 
 /* === functions of one angle, at any part of its turn, with their slopes ======================= */
-/* In double, by the program's own functions: the same on every host. */
+/* In double, with the program's own functions: identical on every host. */
 
-/* What an operation of the list gives at some angle. */
+/* The value of an operation at some angle. */
 typedef struct turn_value {
     double value;
     double slope; /* a turn */
-    double size;  /* what it would be if nothing cancelled: rounding leaves 1e-16 of this */
+    double size;  /* sum of absolute addends; round-off is 1e-16 of it */
 } turn_value;
 
 #define TURN_RAD 6.283185307179586477
 
-/* Sine and cosine of parts of a turn: exact at quarter turns, and as symmetric as they are. */
+/* Sine and cosine of a fraction of a turn: exact at quarter turns, and with exact symmetries. */
 static void turn_wave_of(double turns, double *sine, double *cosine) {
     const double quarters = number_even(4.0 * turns);
     const double rest_rad = (turns - 0.25 * quarters) * TURN_RAD;
@@ -68,8 +68,8 @@ static turn_value of_wave(op_code code, double turns, int multiple) {
                               multiple != 0 ? 1.0 : fabs(cosine)};
 }
 
-/* All of the list's operations, value[t->count], `turns` being the way round of an angle of which phase i takes
- * multiple[i] (of operations that are no phases, nothing). All are functions of that angle: no rates or reals. */
+/* Evaluate all operations of the list to value[t->count] at an angle of `turns`. Phase i takes multiple[i] of it;
+ * entries of other operations are unused. All operations are functions of that angle: no rates or reals. */
 static void turn_evaluate(const tape *t, const int *multiple, double turns, turn_value *value) {
     for (int i = 0; i < t->count; i++) {
         const op *o = &t->ops[i];
@@ -99,7 +99,7 @@ static void turn_evaluate(const tape *t, const int *multiple, double turns, turn
         case OP_CALL: value[i] = turn_function_of(o->function, x, y); break;
         case OP_POW: value[i] = power_of(x, y); break;
         case OP_PHASE:  /* no value of its own */
-        case OP_LINEAR: /* and these are in no such list */
+        case OP_LINEAR: /* and not in such lists */
         case OP_RATE:
         case OP_INPUT:
         case OP_ACCEL:
@@ -118,19 +118,20 @@ static void turn_evaluate(const tape *t, const int *multiple, double turns, turn
 }
 
 /* === the numbers in the cells of tables ======================================================= */
-/* A table's pieces meet at knots half a cell from the cells' middles. Through the function's values there, straight
- * pieces would be off by h^2/8 f'', and by h^2/12 f'' on the mean; cubic ones, with its slopes, by h^4/384 f'''' and
- * h^4/720 f''''. Always to one side: a mechanism that turns and turns would sum that up. So the knots are moved by that
- * mean (taken from the differences between knots): nothing is left of it, and the worst is a third and a half less. */
+/* A table's pieces meet at knots half a cell from the cells' middles. With the function's values at the knots, straight
+ * pieces would have errors of h^2/8 f'', and h^2/12 f'' on average. Cubic pieces, with its slopes, would have h^4/384
+ * f'''' and h^4/720 f''''. The error has one sign, and a rotating mechanism would accumulate it. So the knots are moved
+ * by the mean error, estimated from differences between knots. The mean error vanishes, and the largest error falls by
+ * a third (straight) or a half (cubic). */
 
-/* What is tabled: operations of a list of functions of one angle, of which its phase i takes multiple[i]. */
+/* The tabled functions: operations of a list of functions of one angle; its phase i takes multiple[i] of the angle. */
 typedef struct table_functions {
     const tape *list;
     const int *multiple; /* [list->count] */
     const int *function; /* [tables] operations */
 } table_functions;
 
-/* The knot `at`, of 2^bits on a ring. */
+/* The knot `at` on a ring of 2^bits. */
 static double knot(const double *of, int cells, int at) { return of[at & (cells - 1)]; }
 
 static double second_difference(const double *of, int n, int i) {
@@ -167,7 +168,7 @@ static void write_cubic(const double *value, const double *slope, int n, int i, 
     number[1] = rise - 0.25 * number[3];
 }
 
-/* Is table k the same, or the opposite, when the angle turns the other way? To the bit. */
+/* Is table k even or odd in the angle, to the bit? */
 static bool mirrors(const tape_tables *of, int k, bool odd) {
     const int n = 1 << of->bits;
     for (int i = 0; i <= n / 2; i++) {
@@ -191,8 +192,8 @@ static void find_mirrors(tape_tables *of) {
     }
 }
 
-/* How far off its function each table is, at `TRIED` places a cell, its middle and its knots among them: there, or
- * nearly, the worst ones are. */
+/* The error of each table, at `TRIED` places a cell, including its middle and its knots: the largest errors are at or
+ * near these. */
 static void measure(const table_functions *f, tape_tables *of) {
     enum { TRIED = 16 };
     const tape *c = f->list;
@@ -216,7 +217,7 @@ static void measure(const table_functions *f, tape_tables *of) {
     free(all);
 }
 
-/* Fills in all of the tables but for their count, bits and terms. */
+/* Fill in all fields of the tables except count, bits and terms. */
 static void table_numbers(const table_functions *f, tape_tables *into) {
     const tape *c = f->list;
     const int n = 1 << into->bits;
@@ -251,8 +252,7 @@ static void table_numbers(const table_functions *f, tape_tables *into) {
 }
 
 /* === a list as sums of products =============================================================== */
-/* Operation by operation, from the first on: sums are added, multiplied out and divided by
- * what depends on the angles alone. */
+/* The operations in order: sums are added, multiplied out, and divided by functions of the angles alone. */
 
 typedef struct collecting {
     products *made;
@@ -281,7 +281,7 @@ static void find_symbols(collecting *c) {
     }
 }
 
-/* A byte at least, so that every product has an address of its own. */
+/* At least one byte, so that every product has its own address. */
 static unsigned char *powers_new(const products *p) {
     return arena_alloc(p->memory, (size_t)p->symbols + 1U);
 }
@@ -291,7 +291,7 @@ static bool is_zero(const tape *t, int a) {
     return tape_is_constant(t, a, &value) && value == 0.0;
 }
 
-/* sum += coefficient * powers. What cancels leaves. */
+/* sum += coefficient * powers. Cancelled terms are removed. */
 static void enter(collecting *c, product_sum *sum, const unsigned char *power, int coefficient) {
     products *p = c->made;
     for (int i = 0; i < sum->count; i++) {
@@ -322,7 +322,7 @@ static product_sum of_angles(collecting *c, int coefficient) {
     return sum;
 }
 
-/* Does it depend on the angles alone? Then *coefficient is what it is. */
+/* Does it depend on the angles alone? Then *coefficient is its value. */
 static bool is_of_angles(collecting *c, product_sum sum, int *coefficient) {
     bool alone = sum.count <= 1;
     for (int i = 0; i < c->made->symbols && sum.count == 1; i++) {
@@ -392,7 +392,7 @@ static product_sum divided(collecting *c, product_sum x, product_sum y) {
     return sum;
 }
 
-/* A function of one or two operands, of the angles alone. */
+/* A function of one or two operands that depend on the angles alone. */
 static product_sum function_of(collecting *c, const op *o) {
     tape *t = c->made->coefficients;
     int a;
@@ -499,33 +499,33 @@ void products_free(products *p) {
 
 /* === tables in the place of sines and divisions =============================================== */
 
-/* Where it is tried of what kind a coefficient is; sums and multiples of an angle are told apart by less. */
+/* Angles at which coefficients are classified. Fewer would distinguish sums and multiples of an angle. */
 enum { TRIES = 4096 };
 
-/* Of the size that it would have if nothing cancelled: what is less is nothing, or the same. */
+/* Relative to the sum of absolute addends: smaller values count as zero, smaller differences as equal. */
 #define ALIKE 1e-13
 
-/* A divisor that comes as near to zero as this, of its largest, is taken to reach it. */
+/* A divisor closer to zero than this part of its maximum counts as reaching zero. */
 #define POLE 1e-6
 
 typedef enum coefficient_kind { IS_NOTHING, IS_CONSTANT, IS_TABLE } coefficient_kind;
 
-/* What stands before a product. */
+/* The coefficient of a product. */
 typedef struct coefficient {
     int of; /* operation of the coefficients' list */
     coefficient_kind kind;
     int table;
     double factor; /* of the table, or the constant */
     double *value; /* [TRIES] */
-    double size;   /* the largest of its sizes there */
+    double size;   /* its largest absolute value there */
 } coefficient;
 
 typedef struct tabling {
     products *from;
     refusal *why;
-    int *turns;               /* [angles] of the phase that is looked up */
-    int *multiple;            /* [coefficients->count] of that, by phase */
-    coefficient *coefficient; /* [count]: the products', one result's behind the other's */
+    int *turns;               /* [angles] of the looked-up phase */
+    int *multiple;            /* [coefficients->count] multiple of that phase, by phase */
+    coefficient *coefficient; /* [count] of the products, result after result */
     int count;
     int *table; /* [tables] operations of the coefficients' list */
     int tables;
@@ -579,7 +579,7 @@ static bool shares(int *turns, const int *other, int angles) {
     return true;
 }
 
-/* An angle that is in the other phase and not in this one, or its first. */
+/* An angle in the other phase and not in this one, or its first. */
 static int angle_of_other(const int *turns, const int *other, int angles) {
     for (int k = 0; k < angles; k++) {
         if (other[k] != 0 && turns[k] == 0) {
@@ -616,7 +616,7 @@ static void find_phase(tabling *t) {
     }
 }
 
-/* --- constants, poles, and what differs by a factor ----------------------------------------------------*/
+/* --- constants, poles, and common factors -------------------------------------------------------------- */
 
 typedef struct span_of {
     double least;
@@ -676,7 +676,7 @@ static bool is_constant(const coefficient *c) {
     return true;
 }
 
-/* Is c, which is largest at `peak`, a multiple of `of`? */
+/* Is c, with its maximum at `peak`, a multiple of `of`? */
 static bool is_multiple(const coefficient *c, int peak, const coefficient *of, double *factor) {
     *factor = of->value[peak] != 0.0 ? c->value[peak] / of->value[peak] : 0.0;
     const double size = c->size + fabs(*factor) * of->size;
@@ -721,7 +721,7 @@ static void sort_out(tabling *t) {
 
 /* --- the list --------------------------------------------------------------------------------------*/
 
-/* A product that is left to be summed up. */
+/* A product in a remaining sum. */
 typedef struct part {
     int coefficient; /* operation of the new list */
     unsigned char *power;
@@ -749,7 +749,7 @@ static int product_of(const writing *w, const part *p) {
     return tape_mul(w->made, p->coefficient, made);
 }
 
-/* The symbol that most of the parts have, if that is more than one of them; or -1. */
+/* The symbol in the most parts, if it is in more than one; or -1. */
 static int commonest(const writing *w, const part *parts, int count) {
     int best = -1;
     int most = 1;
@@ -766,7 +766,7 @@ static int commonest(const writing *w, const part *parts, int count) {
     return best;
 }
 
-/* The sum of parts[count], which are used up. Nested: what several have is taken out of them. */
+/* The sum of parts[count], which are overwritten. Common symbols are factored out, recursively. */
 static int sum_up(const writing *w, part *parts, int count) {
     const int common = w->nested ? commonest(w, parts, count) : -1;
     int with = 0;
@@ -830,7 +830,7 @@ static tape *write_list(const tabling *t, const tape *list, image_tables form, i
     return made;
 }
 
-/* The cheaper one of both ways to write it. */
+/* The cheaper of the two forms. */
 static tape *cheaper(const tabling *t, const tape *list, image_tables form, int bits) {
     tape *made[2];
     for (int k = 0; k < 2; k++) {
@@ -844,7 +844,7 @@ static tape *cheaper(const tabling *t, const tape *list, image_tables form, int 
     return made[taken];
 }
 
-/* The coefficients' list becomes that of what the tables hold. */
+/* The coefficients' list becomes the exact list of the tables. */
 static tape *take_exact(tabling *t) {
     tape *exact = t->from->coefficients;
     t->from->coefficients = NULL;

@@ -1,4 +1,4 @@
-/* tables.h: a step's list with tables of one angle's functions in place of its sines and divisions. */
+/* tables.h: look-up tables of one angle's functions that replace the sines and divisions of a step's list. */
 #ifndef DERIVE_TABLES_H
 #define DERIVE_TABLES_H
 
@@ -6,8 +6,7 @@
 #include "host/image/tape.h"
 
 /* === a list as sums of products =============================================================== */
-/* A step's list as sums of products of rates, inputs and reals, whose coefficients depend on turn angles
- * and on nothing else. */
+/* A step's list as sums of products of rates, inputs and reals, with coefficients that depend on turn angles only. */
 
 /* Most products of one sum. */
 enum { PRODUCTS_MOST = 128 };
@@ -24,7 +23,7 @@ typedef struct product_sum {
 } product_sum;
 
 typedef struct products {
-    tape *coefficients; /* of turn angles: no rate, input or real is in it */
+    tape *coefficients; /* functions of turn angles only: no rate, input or real */
     int *symbol;        /* [symbols] operations of the list: OP_LINEAR, OP_RATE, OP_INPUT */
     int symbols;
     product_sum *result; /* [results of the list] */
@@ -32,26 +31,26 @@ typedef struct products {
     struct arena *memory;
 } products;
 
-/* Why a list is no such sums, in words behind "the accelerations ", and what to do about it. NULL: it is. */
+/* The reason why a list has no such form, in words after "the accelerations ", and a hint. NULL: it has. */
 typedef struct refusal {
     const char *reason;
     const char *hint;
-    int angle; /* turn angle that it is about, or -1 */
+    int angle; /* the turn angle concerned, or -1 */
 } refusal;
 
 products products_of(const tape *list, refusal *why);
 void products_free(products *p);
 
-/* Cells of a table, a turn, where nothing else is asked for. */
+/* Default number of cells of a table, for one turn. */
 enum { TABLES_CELLS_LINEAR = 256, TABLES_CELLS_CUBIC = 64 };
 
-/* The accelerations (or slopes) as sum_k c_k(phase) m_k, m_k products of rates, inputs and reals: `list` with the c_k
- * that are no constants as tables, whose phase is the one turn angle, or the one whole multiple or sum of such, that
- * all are functions of. c_k that differ by a factor share one. *exact is a list of what the tables hold. NULL, with
- * *why filled in: it has not that form. */
+/* The accelerations (or derivatives) as sum_k c_k(phase) m_k, with m_k products of rates, inputs and reals. The result
+ * is `list` with a table for each c_k that is not constant. All must be functions of one phase: the one turn angle, or
+ * one whole multiple or sum of such. c_k that differ by a factor share a table. *exact is a list of the tables'
+ * functions. NULL, with *why, if the list has no such form. */
 tape *tables_make(const tape *list, image_tables form, int cells, tape **exact, refusal *why);
 
-/* As many cells as that form takes by itself. */
+/* The default number of cells of that form. */
 int tables_cells(image_tables form);
 
 #endif

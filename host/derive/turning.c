@@ -1,5 +1,4 @@
-/* turning.c: which coordinates can be kept as turn angles: those that only ever stand inside sines and
- * cosines, with whole factors. */
+/* turning.c: the choice of turn angles: coordinates that occur only inside sines and cosines, with whole factors. */
 #include <math.h>
 
 #include "host/derive/lower.h"
