@@ -14,12 +14,10 @@
 #include "host/number/decimal.h"
 
 /* === c names ================================================================================== */
-/* Names that generated C cannot give to a scene, since its readers have them already.
- *
- * A scene is a global object, and its name stands in whoever's program, between whatever headers that includes. Any
- * name of C's library would do harm there: a declaration of it that a header makes, a macro, a function that the
- * compiler knows without any header ("conflicting types for built-in function"), a definition that the linker
- * takes for the library's own. tests/host/test_c_names.c asks the compilers. */
+/* Names that a scene cannot have in generated C. A scene is a global object, and its name appears in arbitrary programs
+ * among arbitrary headers. Any name of C's library would conflict: with a header's declaration, a macro, a function
+ * built into the compiler ("conflicting types for built-in function"), or the library's definition at link time.
+ * tests/host/test_c_names.c checks the list with the compilers. */
 
 /* Keywords, up to C23. */
 static const char words_of_c[] =
@@ -28,7 +26,7 @@ static const char words_of_c[] =
     "return short signed sizeof static static_assert struct switch thread_local true typedef "
     "typeof typeof_unqual union unsigned void volatile while";
 
-/* Those that C does not have, up to C++20, with the functions that a compiler of coroutines knows. */
+/* Words of C++ up to C++20 that C does not have, and the built-in functions of compilers with coroutines. */
 static const char words_of_cpp[] =
     "and and_eq bitand bitor catch char8_t class co_await co_return co_yield compl concept "
     "const_cast consteval constinit coro_destroy coro_done coro_promise coro_resume decltype delete dynamic_cast explicit export friend "
@@ -36,8 +34,8 @@ static const char words_of_cpp[] =
     "reinterpret_cast requires static_cast std template this throw try typeid typename using "
     "virtual xor xor_eq";
 
-/* What a generated file has for itself: objects and functions. (It declares its scene behind all of them: what is named
- * within functions is free.) */
+/* Objects and functions of a generated file itself. (It declares its scene after all of them, so names inside functions
+ * are free.) */
 static const char own[] =
     "main accelerations slopes step_matrix one_step advance ahead observe start_angle start_real "
     "start_input contacts contact_signals contact_forces contact_sets contact_table "
@@ -45,11 +43,11 @@ static const char own[] =
     "wave_sines wave_rates "
     "WH";
 
-/* Macros that a GNU dialect begins with, for one target or another. */
+/* Predefined macros of GNU dialects, for any target. */
 static const char predefined[] =
     "AVR MIPSEB MIPSEL WIN32 WINNT i386 linux mc68000 mips sparc sun unix";
 
-/* Of <math.h> and <complex.h>: each has variants for other types. */
+/* Functions of <math.h> and <complex.h>: each has variants for other types. */
 static const char maths[] =
     "M_1_PI M_2_PI M_2_SQRTPI M_E M_LN10 M_LN2 M_LOG10E M_LOG2E M_PI M_PI_2 M_PI_4 M_SQRT1_2 "
     "M_SQRT2 acos acosh acospi asin asinh asinpi atan atan2 atan2pi atanh atanpi cabs cacos "
@@ -65,7 +63,7 @@ static const char maths[] =
     "setpayload setpayloadsig signbit significand sin sincos sinh sinpi sqrt tan tanh tanpi "
     "tgamma totalorder totalordermag trunc ufromfp ufromfpx y0 y1 yn";
 
-/* All else that headers have: types, macros, objects, */
+/* Other names in headers: types, macros, objects, */
 static const char types_and_macros[] =
     "BIG_ENDIAN BUFSIZ CHAR_BIT CHAR_MAX CHAR_MIN CLOCKS_PER_SEC DECIMAL_DIG EDOM EILSEQ EOF "
     "ERANGE EXIT_FAILURE EXIT_SUCCESS FD_SETSIZE FILE FILENAME_MAX FOPEN_MAX HUGE_VAL "
@@ -85,7 +83,7 @@ static const char types_and_macros[] =
     "uid_t uint uintmax_t uintptr_t ulong unreachable ushort va_copy va_end va_list va_start "
     "wchar_t wctrans_t wctype_t wint_t";
 
-/* and functions; with those that only compilers know by their names. */
+/* and functions, including built-in functions of compilers. */
 static const char functions[] =
     "a64l abort abs aligned_alloc alloca arc4random arc4random_buf arc4random_uniform asctime "
     "asctime_r at_quick_exit atexit atof atoi atol atoll bcmp bcopy bsearch btowc bzero "
@@ -132,11 +130,11 @@ static const char families[] =
     "FLT_ DBL_ LDBL_ DEC32_ DEC64_ DEC128_ FE_ LC_ FP_ ATOMIC_ atomic_ memory_order_ mtx_ "
     "cnd_ thrd_ tss_ pthread_ stdc_ ckd_ wh_ WH_ _";
 
-/* What stands behind a function's name for another type. */
+/* The suffixes of a function's variants for other types. */
 static const char *const variants[] = {"",     "f",    "l",     "f16",  "f32", "f64", "f128",
                                        "f32x", "f64x", "f128x", "bf16", "d32", "d64", "d128"};
 
-/* The word that `words` begins with; they are parted by spaces. NULL: there is none. */
+/* The first word in `words`, separated by spaces; NULL at the end. */
 static const char *next_word(const char *words, size_t *length) {
     words += strspn(words, " ");
     *length = strcspn(words, " ");
@@ -304,7 +302,7 @@ static void c_ledger_bounds(FILE *out, const image *im) {
             l->entries > 0 ? l->entries : 1, l->accounts);
 }
 
-/* A wh_levels_fn: "ledger_levels" and "ledger_powers" are of one length. */
+/* A wh_levels_fn: "ledger_levels" and "ledger_powers" have equal lengths. */
 static void write_of_angles(FILE *out, const image *im, const tape *t, const char *name,
                             const char *result) {
     fprintf(out,
@@ -432,14 +430,14 @@ static void write_starts(FILE *out, const image *im) {
     fprintf(out, "\n");
 }
 
-/* Contacts, books and inputs with a rate change more than wh_advance_ahead() keeps. */
+/* wh_advance_ahead() does not keep the additional data of contacts, ledgers and inputs with a rate. */
 static bool has_ahead(const image *im) {
     return im->contacts == 0 && !im->ledger.kept && im->drives == 0;
 }
 
 static void write_scene(FILE *out, const image *im) {
     char hex[HEX_SIZE];
-    /* declared here and not above, where it would stand before the names in functions */
+    /* declared here: further up it would hide names in functions */
     c_header_link(out, "wh_scene", im->name, c_header_of_image, im);
     fprintf(out, "const wh_scene %s = {\n    .name = \"%s\",\n    .form = %s,\n    .method = %s,\n",
             im->name, im->name, im->form == WH_SECOND_ORDER ? "WH_SECOND_ORDER" : "WH_FIRST_ORDER",
@@ -493,7 +491,7 @@ static void write_names(FILE *out, const image *im) {
     }
 }
 
-/* What a step computes with: the matrix, or the right-hand side of each stage. */
+/* The list that a step computes: the matrix, or the right-hand side of each stage. */
 static const tape *moving(const image *im) {
     return im->list[im->list[IMAGE_MATRIX] != NULL ? IMAGE_MATRIX : IMAGE_STEP];
 }
@@ -613,7 +611,7 @@ static void write_advance(FILE *out, const image *im) {
     }
 }
 
-/* Room for fewer than four would make gcc spill other things, not fewer. */
+/* With space for fewer than four stages gcc spills other values, not fewer. */
 static int most_stages(const image *im) {
     const int stages = wh_methods[im->settings.method].stages;
     return stages > 4 ? stages : 4;

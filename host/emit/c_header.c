@@ -1,9 +1,7 @@
-/* c_header.c: a scene's C header: where its components, inputs and outputs are, by name, with their units,
- * and the memory that it takes. C11 and C++11.
- *
- * Every name is SCENE_KIND_NAME, with scene and name as the file has them: no two of a scene are equal,
- * since no KIND begins with another one and an underscore, and none is a word of C or C++. All are enumerators of one
- * type (adding two of several is deprecated in C++20) or macros: nothing is stored unless it is used. */
+/* c_header.c: a scene's C header for C11 and C++11: the indices of its components, inputs and outputs, by name, with
+ * their units, and the size of its memory. Every name is SCENE_KIND_NAME, with scene and name spelled as in the file.
+ * The names of a scene differ, since no KIND is another one plus an underscore. None is a word of C or C++. All are
+ * macros or enumerators of one type (C++20 deprecates adding two enumeration types), so unused ones take no memory. */
 #include "c_header.h"
 
 #include <inttypes.h>
@@ -15,7 +13,8 @@
 #include "host/base/room.h"
 #include "host/image/core_rows.h"
 
-/* Bytes of the character at `text` that changes the direction of writing, or 0: compilers warn of these. */
+/* Length in bytes of the character at `text` if it changes the writing direction, else 0: compilers warn of these
+ * characters. */
 static size_t turns_direction(const char *text) {
     const unsigned char *c = (const unsigned char *)text;
     if (c[0] == 0xe2 && ((c[1] == 0x80 && c[2] >= 0x8e && c[2] <= 0xae) ||
@@ -41,7 +40,7 @@ void c_comment(FILE *out, const char *text) {
     }
 }
 
-/* --- what there is in an array of the state, or behind observe() ---------------------------------- */
+/* --- arrays of the state, and the results of observe() ------------------------------------------ */
 
 typedef enum list { LIST_ANGLES, LIST_REALS, LIST_INPUTS, LIST_OUTPUTS, LISTS } list;
 
@@ -89,7 +88,8 @@ static item item_of(const image *im, list of, int i) {
     case LIST_REALS: return of_unknown(im, im->real[i]);
     case LIST_INPUTS: return of_quantity(&im->input[i]);
     case LIST_OUTPUTS:
-        if (i >= im->own_outputs) { /* value and rate of what is recovered from its momentum */
+        if (i >=
+            im->own_outputs) { /* value and rate of coordinates recovered from their momentum */
             const int k = i - im->own_outputs;
             return of_unknown(im, (component){im->from_momentum[k / 2], k % 2});
         }
@@ -119,7 +119,7 @@ static void write_items(FILE *out, const image *im, list of, const char *where) 
     fprintf(out, "    %s_%s = %d,\n\n", prefix, lists[of].counted, count_of(im, of));
 }
 
-/* Names and units as strings: what stands between the braces of an array. */
+/* Names and units as strings: the initializer of an array. */
 static void write_strings(FILE *out, const image *im, list of) {
     if (count_of(im, of) == 0) {
         return;
@@ -150,7 +150,7 @@ static void write_memory(FILE *out, const image *im) {
         im->name, im->angles, core_memory_reals(im), im->contacts, im->name, im->name);
 }
 
-/* A number in the core's: WH_R() wants a point or an exponent. */
+/* A number in the core's format: WH_R() needs a point or an exponent. */
 static void define_number(FILE *out, const image *im, const char *kind, const char *name,
                           double value) {
     char text[40];
@@ -230,7 +230,7 @@ void c_header_fixed_state(FILE *out, const image *im) {
                 "fixed-point code computes no outputs: these number a table of your own");
 }
 
-/* "SCENE_HEADER_1a2b3c4d", by all of the body but comments. To be freed. */
+/* "SCENE_HEADER_1a2b3c4d", a hash of the body without comments. To be freed. */
 static char *linked_name(const char *scene, c_header_body *body, const void *of) {
     char *text;
     size_t length;

@@ -1,4 +1,4 @@
-/* c_header.h: a scene's C header, and texts of the user in comments. */
+/* c_header.h: a scene's C header, and user texts in comments. */
 #ifndef EMIT_C_HEADER_H
 #define EMIT_C_HEADER_H
 
@@ -6,28 +6,28 @@
 
 #include "host/image/image.h"
 
-/* `text` as part of a comment that it cannot end, nor have compilers warn of: on one line. */
+/* `text` for a comment, on one line. It cannot end the comment, and causes no compiler warnings. */
 void c_comment(FILE *out, const char *text);
 
-/* Enumerators of components, inputs and outputs of a scene in fixed point, a line each. */
+/* Enumerators of components, inputs and outputs of a scene in fixed point, one a line. */
 void c_header_fixed_state(FILE *out, const image *im);
 
 /* The first lines of a header's comment; `form` follows the scene's name. */
 void c_header_title(FILE *out, const image *im, const char *file, const char *form);
 
-/* Parts of headers in floating and fixed point: the licence's line of the head; the check that core and scene are of one
- * version; names and units of lists; values as macros; the range of number i. */
+/* Parts of headers in floating and fixed point: the head's line about the licence; the check that core and scene have
+ * the same version; names and units of lists; values as macros; the range of number i. */
 void c_header_licence(FILE *out);
 void c_header_version(FILE *out);
-/* Writes all of a header behind the scene's declaration. */
+/* Writes the whole header after the scene's declaration. */
 typedef void c_header_body(FILE *out, const void *of);
 /* The scene's declaration in a header with this body, and the body: version.h's WH_LINKS_TO(). */
 void c_header_declare(FILE *out, const char *type, const char *scene, c_header_body *body,
                       const void *of);
-/* The scene's declaration in its .c, and its second name: WH_LINKED_AS(). */
+/* The scene's declaration in its .c file, and its second name: WH_LINKED_AS(). */
 void c_header_link(FILE *out, const char *type, const char *scene, c_header_body *body,
                    const void *of);
-/* That of a scene in floating point, an image. */
+/* The body for a scene in floating point, an image. */
 c_header_body c_header_of_image;
 void c_header_strings(FILE *out, const image *im);
 void c_header_values(FILE *out, const image *im);

@@ -1,6 +1,6 @@
-/* c_list.c: an operation list as C. Every operation becomes one statement, so that the compiler has the
- * same operations in the same order as the interpreter. Constants are written in hexadecimal: the
- * float build rounds the double exactly as the interpreter does. */
+/* c_list.c: an operation list as C. Every operation becomes one statement, so that the compiler and the interpreter
+ * have the same operations in the same order. Constants are hexadecimal: the float build rounds the double exactly as
+ * the interpreter does. */
 #include "c_list.h"
 
 #include <inttypes.h>
@@ -11,17 +11,17 @@
 #include "host/number/phase.h"
 #include "op_text.h"
 
-/* A list of more operations than this is called at each stage and not inlined there: for 7 to 12 % more instructions on
- * the Cortex-M4F half of the flash and less (seven links of a pendulum: 8 and not 15 KB, ten: 14 and not 33). */
+/* A longer list is called at each stage and not inlined. On the Cortex-M4F this costs 7 to 12 % more instructions and
+ * saves half of the flash or more (seven links of a pendulum: 8 and not 15 KB, ten: 14 and not 33). */
 enum { INLINED_MOST = 150 };
 
-/* From so many operations on, a compiler is to keep to their order (WH_LONG_LIST of core/step.h). On the Cortex-M4F 67
- * operations take 1 % fewer instructions by it and 2 % more cycles, 131 take 4 % and 2 % fewer. */
+/* From so many operations on, the compiler should keep their order (WH_LONG_LIST of core/step.h). On the Cortex-M4F,
+ * this saves 1 % of the instructions of 67 operations but costs 2 % more cycles; of 131 it saves 4 % and 2 %. */
 enum { LONG_LEAST = 100 };
 
 bool c_list_is_long(const tape *t) { return tape_operations(t) >= LONG_LEAST; }
 
-/* An operand: constants stand in place. */
+/* An operand; constants are written in place. */
 static const char *operand(const tape *t, int a, char text[static 48]) {
     if (t->ops[a].code == OP_CONSTANT) {
         const double value = t->ops[a].value;
@@ -33,7 +33,7 @@ static const char *operand(const tape *t, int a, char text[static 48]) {
     return text;
 }
 
-/* "wh_phase_times(...)": what the float build takes as integers is computed here. */
+/* "wh_phase_times(...)": constants that the float build needs as integers are computed here. */
 static void write_part(FILE *out, int angle, double multiple) {
     uint32_t whole;
     uint64_t part;
@@ -45,7 +45,7 @@ static void write_part(FILE *out, int angle, double multiple) {
             angle, hex_write(multiple, hex), whole, part);
 }
 
-/* The phase without what is in radians; returns what stands before another term. */
+/* The phase without its part in radians; returns the sign before the next term. */
 static const char *write_turns(FILE *out, const tape *t, const op *o) {
     const char *plus = "";
     if (o->value != 0.0 || (o->turns == NULL && o->parts == NULL && o->b < 0)) {
@@ -91,7 +91,7 @@ static void write_operand(FILE *out, const tape *t, int a) {
     fputs(operand(t, a, text), out);
 }
 
-/* Does a sine or cosine of phase i take part? */
+/* Does the list use a sine or cosine of phase i? */
 static bool takes(const tape *t, op_code code, int i) {
     bool found = false;
     for (int k = i + 1; k < t->count; k++) {
@@ -100,7 +100,7 @@ static bool takes(const tape *t, op_code code, int i) {
     return found;
 }
 
-/* Those of wave `wave`, which is phase i. */
+/* The sine and cosine of wave `wave`, which is phase i. */
 static void write_pair(FILE *out, const tape *t, int i, int wave) {
     if (takes(t, OP_SIN, i)) {
         fprintf(out, "    const wh_real s%d = wave[%d].sine;\n", i, wave);
@@ -126,7 +126,7 @@ static void write_cell(FILE *out, const tape *t, int i) {
     fprintf(out, ");\n");
 }
 
-/* Is it looked up in an odd table that folds? */
+/* Is it a look-up in an odd table with folding? */
 static bool is_mirrored(const tape *t, const op *o) {
     return op_rows[o->code].kind == OP_IS_LOOKUP && t->tables.folds &&
            t->tables.odd[(int)o->value / t->tables.terms];
@@ -250,7 +250,7 @@ void c_list_matrix(FILE *out, const tape *t) {
     write_function(out, t, C_PHASES, "step_matrix", true, "WH_INLINE");
 }
 
-/* The rate of a wave times `scale`, as the interpreter sums it up. Of one angle, the numbers make one. */
+/* The rate of a wave times `scale`, summed as in the interpreter. For a single angle, the numbers become one. */
 static void write_rate(FILE *out, const tape *t, const op *o) {
     const char *plus = "";
     int terms = 0;

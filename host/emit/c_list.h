@@ -8,26 +8,28 @@
 
 bool c_list_uses(const tape *t, op_code code);
 bool c_list_uses_phase(const tape *t);
-/* Has it so many operations that their order is worth keeping? */
+/* Has the list so many operations that the compiler should keep their order? */
 bool c_list_is_long(const tape *t);
 /* "(void)NAME;" unless it is used. */
 void c_list_ignore(FILE *out, bool used, const char *name);
-/* What a list of the generated file looks up sines by, or takes them as. */
+/* The input of a generated list for its sines: phases to look up, or pairs. */
 typedef enum c_angles { C_PHASES, C_WAVES } c_angles;
 
 /* The statements, the results stored in the array `result`, and the closing brace. */
 void c_list_body(FILE *out, const tape *t, c_angles angles, const char *result);
-/* A whole wh_accel_fn (second order) or wh_slope_fn, or wh_turned_accel_fn or wh_turned_slope_fn. What core/ calls by a pointer in a constant must not have to be
- * inlined: gcc -Og sees through the pointer when it is too late for that, and refuses. */
+/* A whole wh_accel_fn (second order) or wh_slope_fn, or wh_turned_accel_fn or wh_turned_slope_fn. core/ calls it
+ * through a pointer in a constant, so it must not require inlining: gcc -Og resolves the pointer too late for that and
+ * reports an error. */
 void c_list_function(FILE *out, const tape *t, c_angles angles, const char *name, bool second,
                      bool by_pointer);
 
-/* "step_matrix", what wh_step_matrix() calls: once a step, so that inlining it takes no flash on any processor. */
+/* "step_matrix", the function that wh_step_matrix() calls. It is called once a step, so inlining it takes no flash on
+ * any processor. */
 void c_list_matrix(FILE *out, const tape *t);
-/* "cells", the tables of a list; nothing where it has none. */
+/* "cells", the tables of a list; nothing without tables. */
 void c_list_cells(FILE *out, const tape *t);
 
-/* "waves", the wh_waves of a list that takes pairs, and what it needs. */
+/* "waves", the wh_waves of a list that takes pairs, and their data. */
 void c_list_waves(FILE *out, const tape *t);
 
 #endif

@@ -33,7 +33,7 @@ static void put_hex(json *j, const char *key, uint64_t value) {
     json_text(j, key, text);
 }
 
-/* Where it stands in the file, and what stands there. */
+/* The place in the file, and the statement there. */
 static void put_place(json *j, place at) {
     char text[STATEMENT_SIZE];
     statement_text(at, text, sizeof text);
@@ -48,7 +48,7 @@ static void put_unit(json *j, const image_unit *unit) {
     json_number(j, "unit_si", image_shows_si(unit) ? 1.0 : unit->scale / unit->divisor);
 }
 
-/* What it keeps to in fixed point, where that is declared. */
+/* The range in fixed point, if declared. */
 static void put_range(json *j, const image_range *range) {
     if (!range->declared) {
         json_null(j, "range");
@@ -212,7 +212,7 @@ static void put_lists(json *j, const image *im) {
     json_close(j, '}');
 }
 
-/* How a step looks up what it owes to an angle; null where it computes that. */
+/* The table look-ups of a step; null if it computes all functions of angles. */
 static void put_tables(json *j, const image *im) {
     const tape_tables *of = &im->list[IMAGE_STEP]->tables;
     if (of->count == 0) {

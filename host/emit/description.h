@@ -1,4 +1,4 @@
-/* description.h: what an image holds, for programs (docs/describe.md) and for readers. */
+/* description.h: the contents of an image, for programs (docs/describe.md) and for readers. */
 #ifndef EMIT_DESCRIPTION_H
 #define EMIT_DESCRIPTION_H
 
@@ -6,7 +6,7 @@
 
 #include "host/image/image.h"
 
-/* Raised when a field changes its meaning or goes; new fields may come at any time. */
+/* Increased when a field changes its meaning or is removed; new fields may appear at any time. */
 #define DESCRIBE_VERSION 1
 
 /* One JSON object. `file` is the .whirl file's name. */

@@ -78,7 +78,7 @@ static void put_ledger(FILE *out, const image *im) {
     }
 }
 
-/* Those that are declared: fixed point takes the others from a run. */
+/* Declared ranges only; fixed point measures the others in a run. */
 static void put_ranges(FILE *out, const image *im) {
     bool any = false;
     for (int i = 0; i < im->reals + im->inputs; i++) {

@@ -54,7 +54,7 @@ static void write_phase(FILE *out, const image *im, const op *o) {
     }
 }
 
-/* What leaves count: of an image. */
+/* The numbers of leaves, for an image. */
 static void write_leaf(FILE *out, const void *context, char what, int a) {
     const image *im = context;
     if (what == 'u') {
@@ -65,7 +65,7 @@ static void write_leaf(FILE *out, const void *context, char what, int a) {
     }
 }
 
-/* The lists of records have operations that no step has, and that are not written here. */
+/* The lists of records have operations that no step has; they are not written here. */
 static void write_operation(FILE *out, const image *im, int i) {
     const op_style style = {write_operand, write_leaf, im};
     const tape *t = im->list[IMAGE_STEP];
@@ -83,7 +83,7 @@ static void write_operation(FILE *out, const image *im, int i) {
     fputs(";\n", out);
 }
 
-/* Does a list hold what is not a number in C where Octave goes on with a complex one? */
+/* Does a list contain an operation that gives NaN in C but a complex number in Octave? */
 static bool may_be_complex(const tape *t) {
     bool found = false;
     for (int i = 0; i < t->count; i++) {
@@ -107,7 +107,7 @@ static void write_start(FILE *out, const image *im) {
     free(start);
 }
 
-/* The highest derivative of unknown i, which is the rate of its derivative before that. */
+/* The highest derivative of unknown i, as the rate of the derivative below it. */
 static void write_highest(FILE *out, const image *im, int i) {
     const tape *t = im->list[IMAGE_STEP];
     int c = 0;
@@ -194,7 +194,7 @@ bool emit_octave_variable_is_free(const char *name) {
         "function", "global", "if", "methods", "otherwise", "parfor", "persistent", "properties",
         "return", "spmd", "switch", "try", "until", "unwind_protect", "unwind_protect_cleanup",
         "while",
-        /* the file's own, and the functions that its lines call */
+        /* names of the file itself, and functions it calls */
         "t", "y", "dy", "Phi", "Gamma", "g0", "zeros", "isreal", "ode45", "odeset", "save", "NaN",
         NULL};
     function_id called;

@@ -1,4 +1,3 @@
-/* op_text.c: see op_text.h. */
 #include "op_text.h"
 
 static void operands(FILE *out, const tape *t, const op *o, const op_style *style) {

@@ -1,4 +1,4 @@
-/* op_text.h: an operation's right-hand side, by its row (host/image/op_rows.h). */
+/* op_text.h: the right-hand side of an operation from its row (host/image/op_rows.h). */
 #ifndef EMIT_OP_TEXT_H
 #define EMIT_OP_TEXT_H
 
@@ -6,11 +6,11 @@
 
 #include "host/image/tape.h"
 
-/* How one language writes what rows leave open. */
+/* The language-dependent parts of the rows. */
 typedef struct op_style {
-    /* The operand that is operation a. */
+    /* Writes operand a. */
     void (*operand)(FILE *out, const tape *t, int a);
-    /* What a leaf counts: `what` is l, r or u, `a` its place; NULL where no row asks for it. */
+    /* Writes the number of a leaf: `what` is l, r or u, `a` its index. NULL if no row needs it. */
     void (*leaf)(FILE *out, const void *context, char what, int a);
     const void *context; /* of leaf() */
 } op_style;

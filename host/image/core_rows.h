@@ -1,5 +1,5 @@
-/* core_rows.h: the image as the core's tables want it (core/contact.h, core/ledger.h): the one place where the one
- * becomes the other. The interpreter fills in the functions and hands it on; the generated C writes it down. */
+/* core_rows.h: conversion of the image to the core's tables (core/contact.h, core/ledger.h), in one place. The
+ * interpreter adds the functions and passes them on; the generated C prints them. */
 #ifndef IMAGE_CORE_ROWS_H
 #define IMAGE_CORE_ROWS_H
 
@@ -17,8 +17,8 @@ static inline wh_contact core_contact_row(const image_contact *c) {
                         .sets = (uint8_t)c->sets};
 }
 
-/* But for the functions, the ledger and the number of evaluations. `contact` [contacts] and `target` [set_count] are
- * the caller's. */
+/* All except the functions, the ledger and the number of evaluations. The caller owns `contact` [contacts] and `target`
+ * [set_count]. */
 static inline wh_contact_system core_contact_system(const image *im, const wh_contact *contact,
                                                     const uint8_t *target) {
     unsigned kinds = 0;
@@ -46,12 +46,12 @@ static inline wh_driven core_drive(const image_drive *d) {
                        (uint8_t)d->rate_at};
 }
 
-/* What WH_CONTACT_EVALUATIONS() takes. A matrix has none. */
+/* The argument of WH_CONTACT_EVALUATIONS(): stages; a matrix has none. */
 static inline int core_stages(const image *im) {
     return im->settings.matrix != MATRIX_NONE ? 0 : wh_methods[im->settings.method].stages;
 }
 
-/* Where wh_step_matrix() finds the rates: behind so many reals. */
+/* The position of the rates for wh_step_matrix(): the number of reals before them. */
 static inline int core_rates_at(const image *im) {
     return im->form == WH_SECOND_ORDER ? im->coordinates - im->angles : 0;
 }
@@ -64,7 +64,7 @@ static inline int core_stops(const image *im) {
     return stops;
 }
 
-/* The most that a step evaluates: the accelerations (or slopes), and the contacts' signals. */
+/* The largest number of results in a step: accelerations (or derivatives), and the contacts' signals. */
 static inline int core_evaluations(const image *im) {
     const int stages = core_stages(im);
     return im->contacts == 0 ? stages : WH_CONTACT_EVALUATIONS(stages, core_stops(im), im->forced);
@@ -74,7 +74,7 @@ static inline int core_signals(const image *im) {
     return im->contacts == 0 ? 0 : WH_CONTACT_SIGNALS(im->forced, im->contacts - im->forced);
 }
 
-/* But for the functions. `account` [smooth] and `input` [inputs] are the caller's. */
+/* All except the functions. The caller owns `account` [smooth] and `input` [inputs]. */
 static inline wh_ledger_form core_ledger_form(const image *im, const uint8_t *account,
                                               const uint8_t *input) {
     const image_ledger *l = &im->ledger;
@@ -90,14 +90,14 @@ static inline wh_ledger_form core_ledger_form(const image *im, const uint8_t *ac
                             .stabilized = im->settings.stabilized};
 }
 
-/* Of the books: entries and what they are rounded by, and a word for each of the form's accounts. */
+/* Words of the ledger: entries, their round-off, and one for each of the form's accounts. */
 static inline int core_ledger_words(const image *im) {
     const wh_ledger_form form = core_ledger_form(im, NULL, NULL);
     return im->ledger.kept ? 2 * form.entries + form.accounts : 0;
 }
 
-/* The second argument of WH_MEMORY_BYTES(): numbers of the state, low parts of compensated sums, inputs, what is held
- * and the books. */
+/* The second argument of WH_MEMORY_BYTES(): numbers of the state, low parts of compensated sums, inputs, holds and the
+ * ledger. */
 static inline int core_memory_reals(const image *im) {
     const int carried = im->settings.compensated ? im->angles + im->reals : 0;
     return im->reals + carried + im->inputs + im->held + core_ledger_words(im);

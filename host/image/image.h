@@ -1,13 +1,12 @@
-/* image.h: one scene, ready to run, to be written as code or to be described: all that is known of it when
- * its derivation has ended, in numbers, names and operation lists.
+/* image.h: the image: one scene with its effects and settings, ready to run, to be written as code, or to be described.
+ * It has the complete result of the derivation in numbers, names and operation lists, for both number types. It has
+ * pointers only to itself, so the language and the algebra may be freed (host/derive/image_make.h makes it). host/run
+ * and host/emit read only the image.
  *
- * One image is one scene with its effects and settings, for both numbers. It points into nothing but itself: the
- * language and the algebra that it came from may be gone (host/derive/image_make.h makes it). What runs (host/run) and
- * what writes code or describes (host/emit) reads this and nothing else. Arrays say their length in brackets; units
- * are SI, angles radians; an `index` counts from 0. All text is never NULL.
+ * Arrays state their length in brackets; units are SI, angles radians; an `index` counts from 0. Texts are never NULL.
  *
- * Room for more: a list that is added gets a role; what is known of each operation of a list (its range) stands
- * beside that list, by role; what is known of a parameter stands in its row. */
+ * To extend it: a new list gets a role. A property of each operation of a list (its range) is stored beside that list,
+ * by role. A property of a parameter is stored in its row. */
 #ifndef IMAGE_IMAGE_H
 #define IMAGE_IMAGE_H
 
@@ -16,14 +15,14 @@
 #include "host/number/ratio.h"
 #include "tape.h"
 
-/* So many other ways of folding numbers are asked, at most. */
+/* Most variants with other ways of folding numbers. */
 enum { IMAGE_WAYS = 6 };
 
 /* Most coordinates of a mechanism, or first-order components of a system. */
 #define IMAGE_COMPONENTS_MAX 64
 
-/* Where a stage's sines of turn angles come from: they are looked up once a step and turned on (core/stage_turn.h),
- * where that can be, or looked up at each stage (core/step.h). */
+/* The source of a stage's sines of turn angles: looked up once a step and then turned (core/stage_turn.h), if possible,
+ * or looked up at each stage (core/step.h). */
 #define IMAGE_ANGLES_ROWS(X) \
     X(ANGLES_TURNED, "turned") \
     X(ANGLES_LOOKUP, "lookup")
@@ -33,11 +32,11 @@ typedef enum image_angles { IMAGE_ANGLES_ROWS(IMAGE_ANGLES_NAME) } image_angles;
 #define IMAGE_ANGLES_ONE(id, word) +1
 enum { IMAGE_ANGLES = IMAGE_ANGLES_ROWS(IMAGE_ANGLES_ONE) };
 #undef IMAGE_ANGLES_ONE
-/* Their words on command lines and in descriptions. */
+/* Their words in options and descriptions. */
 extern const char *const image_angles_words[IMAGE_ANGLES];
 
-/* A whole step as one constant matrix (core/matrix_step.h), of a mechanism that is linear: no, the exact motion with
- * inputs held over the step, or what WH_RK4 makes of it. */
+/* A whole step of a linear mechanism as one constant matrix (core/matrix_step.h): none, the exact motion with constant
+ * inputs during the step, or the result of WH_RK4. */
 #define IMAGE_MATRIX_ROWS(X) \
     X(MATRIX_NONE, "none") \
     X(MATRIX_EXACT, "exact") \
@@ -48,11 +47,11 @@ typedef enum image_matrix_of { IMAGE_MATRIX_ROWS(IMAGE_MATRIX_NAME) } image_matr
 #define IMAGE_MATRIX_ONE(id, word) +1
 enum { IMAGE_MATRICES = IMAGE_MATRIX_ROWS(IMAGE_MATRIX_ONE) };
 #undef IMAGE_MATRIX_ONE
-/* Their words on command lines and in descriptions. */
+/* Their words in options and descriptions. */
 extern const char *const image_matrix_words[IMAGE_MATRICES];
 
-/* What the accelerations owe to the one turn angle that they depend on: computed, or looked up in tables of its turn
- * (core/table.h), between whose entries it is interpolated so. */
+/* The accelerations' functions of their single turn angle: computed, or interpolated in tables of one turn
+ * (core/table.h), linearly or cubically. */
 #define IMAGE_TABLES_ROWS(X) \
     X(TABLES_NONE, "none") \
     X(TABLES_LINEAR, "linear") \
@@ -65,52 +64,53 @@ enum { IMAGE_TABLES_FORMS = IMAGE_TABLES_ROWS(IMAGE_TABLES_ONE) };
 #undef IMAGE_TABLES_ONE
 extern const char *const image_tables_words[IMAGE_TABLES_FORMS];
 
-/* Cells of such a table, a turn: powers of two. */
+/* Cells of such a table, for one turn: powers of two. */
 enum { IMAGE_CELLS_LEAST = 8, IMAGE_CELLS_MOST = 65536 };
 
 /* How to integrate. */
 typedef struct image_settings {
     wh_method method;
     bool compensated;
-    bool stabilized; /* give back what the energy drifts by (core/stabilize.h): wants the books */
+    bool stabilized; /* correct the energy drift (core/stabilize.h): needs the ledger */
     image_angles angles;
     image_matrix_of matrix;
     image_tables tables;
-    int cells; /* of a table, a turn: a power of two; 0: as many as its form takes by itself */
+    int cells; /* of a table, for one turn: a power of two; 0: the default of its form */
 } image_settings;
 
-/* What is integrated with unless something else is asked for. */
+/* The default method. */
 #define IMAGE_SETTINGS_DEFAULT \
     { WH_METHOD_DEFAULT, false, false, ANGLES_TURNED, MATRIX_NONE, TABLES_NONE, 0 }
 
 /* --- the lists -----------------------------------------------------------------------------------*/
 
 typedef enum image_role {
-    IMAGE_STEP, /* second order: result[i] is the acceleration of the scene's coordinate i; first order:
-                    * the slope of component i, angles first */
-    IMAGE_OBSERVE, /* the outputs, then value and rate of each coordinate recovered from its momentum */
-    IMAGE_BOOKS, /* highest derivatives (by unknown); of a mechanism with energies also what image_book
-                  * names, the momenta (by unknown) and, where there is one, the energy integral */
-    IMAGE_SIGNALS, /* of the contacts, as core/contact.h wants them: the next three */
+    IMAGE_STEP,    /* second order: result[i] is the acceleration of the scene's coordinate i; first
+                 * order: the derivative of component i, angles first */
+    IMAGE_OBSERVE, /* the outputs, then value and rate of each coordinate recovered from its
+                    * momentum */
+    IMAGE_BOOKS, /* highest derivatives (by unknown). For a mechanism with energies also the entries
+                  * of image_book, the momenta (by unknown) and the energy integral, if any */
+    IMAGE_SIGNALS, /* of the contacts, for core/contact.h: the next three */
     IMAGE_FORCES,
     IMAGE_SETS,
-    IMAGE_POWERS, /* of the ledger, as core/ledger.h wants them: the last two */
+    IMAGE_POWERS, /* of the ledger, for core/ledger.h: the last two */
     IMAGE_LEVELS,
-    IMAGE_MATRIX, /* a whole step, as core/matrix_step.h wants it */
-    IMAGE_TABLES, /* what the tables of a step hold, exactly: result[k] is that of table k */
+    IMAGE_MATRIX, /* a whole step, for core/matrix_step.h */
+    IMAGE_TABLES, /* the exact functions of a step's tables: result[k] is that of table k */
     IMAGE_ROLES
 } image_role;
 
-/* In IMAGE_BOOKS, behind the highest derivatives. */
+/* In IMAGE_BOOKS, after the highest derivatives. */
 enum { BOOK_KINETIC, BOOK_STORED, BOOK_INPUT_POWER, BOOK_LOSS_POWER, BOOK_MOMENTA };
 
 /* --- names, units, places ------------------------------------------------------------------------*/
 
-/* The unit in which people read a number, and the SI unit that it has here. */
+/* The displayed unit of a number, and its SI unit here. */
 typedef struct image_unit {
     const char *shown; /* "deg/s" */
     const char *si;    /* "rad/s" */
-    double scale;      /* number shown = SI * divisor / scale; 1 and 1 where it is shown in SI */
+    double scale;      /* displayed number = SI * divisor / scale; both 1 if displayed in SI */
     double divisor;
 } image_unit;
 
@@ -129,26 +129,26 @@ typedef struct image_effect {
     bool with; /* takes part */
 } image_effect;
 
-/* A coordinate, or an unknown of a system given outright. */
+/* A coordinate, or an unknown of a system given by equations. */
 typedef struct image_unknown {
     const char *name;
     const char *text;
     place at;
     bool is_angle;           /* declared as one */
-    bool is_length;          /* so that its momentum over time is a force */
+    bool is_length;          /* then its momentum per time is a force */
     bool conserved;          /* nothing changes its momentum */
-    bool driven;             /* an input with a rate: it has none */
+    bool driven;             /* an input with a rate: it has no momentum */
     int order;               /* of its highest derivative */
     image_unit *unit;        /* [order + 1] of the value, the rate, ... */
     const char *momentum_si; /* unit of its momentum */
-    int starts;              /* order, or 2 when that is more */
+    int starts;              /* order, but at least 2 */
     double *start;           /* [starts] value, rate, ... */
-    place *start_at;         /* [starts] where it was given; no source where it was not */
+    place *start_at;         /* [starts] place of the value; no source for a default */
     bool
-        start_written; /* its value is a product of numbers as they are written: no sum's rounding */
+        start_written; /* its value is a product of literal numbers, without the round-off of a sum */
 } image_unknown;
 
-/* An input with a rate, which two components of the state follow inside a step: places in real[]. */
+/* An input with a rate, followed by two components of the state inside a step: indices in real[]. */
 typedef struct image_drive {
     int input;
     int rate; /* an input, too */
@@ -156,18 +156,18 @@ typedef struct image_drive {
     int rate_at;
 } image_drive;
 
-/* Which unknown, and which of its derivatives, a component of the state is. */
+/* The unknown of a state component, and the order of its derivative. */
 typedef struct component {
     int unknown;
     int primes;
 } component;
 
-/* Of a component kept as a real, or an input: what it keeps to in fixed point. */
+/* The range in fixed point of a real component or an input. */
 typedef struct image_range {
     const char *name; /* "theta'" */
-    place at;         /* of the range, or of what it would be of */
+    place at;         /* of the range, or of its symbol */
     bool declared;
-    double low; /* SI; of what is declared */
+    double low; /* SI; of the declared symbol */
     double high;
 } image_range;
 
@@ -176,15 +176,16 @@ typedef struct image_range {
 typedef struct image_contact {
     int kind;         /* wh_contact_kind */
     const char *word; /* of the statement: "stop", "hold", ... */
-    const char *
-        undefined; /* what of it may be no number: "the condition of this hold, or what it holds," */
+    const char
+        *undefined; /* the parts that may be undefined: "the condition of this hold, or what it
+                    * holds," */
     int direction;
     int pin;
     int first_set;
     int sets;
-    const char *unit; /* SI, of a stop's gap; "1" for others */
+    const char *unit; /* SI, of a stop's gap; "1" for other kinds */
     place at;
-    /* In the blame list: what may have no value, and what counts only at an impact. */
+    /* In the blame list: expressions that may be undefined, and those needed only at an impact. */
     int first_question, questions;
     int first_late, late;
 } image_contact;
@@ -204,27 +205,27 @@ typedef struct image_entry {
 } image_entry;
 
 typedef struct image_ledger {
-    bool kept;  /* books are kept, */
-    bool asked; /* by `with ledger`: else they only balance the run */
-    int smooth; /* entries of what goes on while nothing happens */
-    int entries; /* smooth, then for each contact its energy and its impulse by coordinate, then inputs */
+    bool kept;  /* the run has a ledger, */
+    bool asked; /* by `with ledger`: else it only balances the run */
+    int smooth; /* continuous entries, between events */
+    int entries; /* smooth ones, then each contact's energy and impulses by coordinate, then inputs */
     int accounts;       /* 1 + unknowns: the energy, then the momenta */
-    int inputs;         /* those that the energies name: their changes are the last entries */
-    bool turned;        /* a power names a turn angle outside sines and cosines */
+    int inputs;         /* inputs in the energies: their changes are the last entries */
+    bool turned;        /* a power has a turn angle outside sines and cosines */
     image_entry *entry; /* [smooth] */
-    int *unknown;       /* [accounts] whose momentum an account is; -1 for the energy */
-    int *input;         /* [inputs] numbers of the image's inputs */
+    int *unknown;       /* [accounts] the unknown of a momentum; -1 for the energy */
+    int *input;         /* [inputs] indices of the image's inputs */
 } image_ledger;
 
-/* --- what is to blame ------------------------------------------------------------------------------*/
+/* --- blame lists --------------------------------------------------------------------------------- */
 
-/* The expressions of the file, operation by operation as they were written, so that a message can point at the one
- * that has no value: nothing is folded or shared that stands at two places. */
+/* The expressions of the file, operation by operation, in the spelling of the file, so that a message can point at the
+ * undefined one. They are not folded, and an expression at two places is not shared. */
 typedef enum blame_code {
     BLAME_NUMBER, /* number */
     BLAME_STATE,  /* unknown a, its derivative b */
     BLAME_INPUT,  /* input a of the image */
-    BLAME_SAME,   /* node a: a name for it */
+    BLAME_SAME,   /* node a, with a name */
     BLAME_ADD,
     BLAME_SUB,
     BLAME_MUL,
@@ -237,17 +238,17 @@ typedef enum blame_code {
 typedef struct blame_node {
     blame_code code;
     function_id function;
-    int a; /* nodes before this one, but for states and inputs */
+    int a; /* earlier nodes; for states and inputs indices */
     int b;
     double number;
-    place at; /* no source in what was derived from an expression */
+    place at; /* no source in a derived expression */
 } blame_node;
 
-/* Is this a finite number? If not, `what` is to be told of the statement at `where`. */
+/* The check that a number is finite. If not, a message names `what` in the statement at `where`. */
 typedef struct blame_question {
     int node;
-    bool derived; /* a slope: only the statement can be blamed, not a part of it */
-    int power;    /* of the state that it has at most where a mechanism is linear; of terms only */
+    bool derived; /* a derivative: the message can name only the statement, not a part of it */
+    int power;    /* highest degree in the state in a linear mechanism; of terms only */
     const char *what;
     place where;
 } blame_question;
@@ -257,17 +258,17 @@ typedef struct image_blame {
     int nodes;
     blame_question *question; /* [questions]: those of terms, of sets, then of contacts */
     int questions;
-    int terms; /* energies, losses, forces, equations, and their slopes */
+    int terms; /* energies, losses, forces, equations, and their derivatives */
     int sets;  /* values that crossings set */
 } image_blame;
 
 /* --- a step as a matrix ------------------------------------------------------------------------------*/
 
-/* x+ = Phi x + Gamma u + g: `states` rows, angles first; columns: states, inputs, 1. Angles in radians; SI units. */
+/* x+ = Phi x + Gamma u + g: `states` rows, angles first; columns: states, inputs, 1. SI units, angles in radians. */
 typedef struct image_matrix {
     int states;
     int columns;
-    double *entry; /* [states * columns] row by row, the nearest doubles */
+    double *entry; /* [states * columns] row by row, rounded to the nearest double */
 } image_matrix;
 
 /* --- the image ---------------------------------------------------------------------------------------*/
@@ -275,7 +276,7 @@ typedef struct image_matrix {
 typedef struct image {
     struct arena *memory;
     const struct image
-        *base; /* whose lists these are; NULL: its own. It must not go before this one */
+        *base; /* the owner of the lists, which must outlive this image; NULL: this one */
 
     const char *name; /* the scene's, or the mechanism's */
     const char *title;
@@ -294,19 +295,19 @@ typedef struct image {
     wh_form form;
     int count;        /* unknowns */
     int coordinates;  /* integrated coordinates, angles included (second order) */
-    int angles;       /* components kept as turn angles */
-    int reals;        /* components kept as reals */
-    int inputs;       /* the mechanism's own and those of the effects called for */
+    int angles;       /* components stored as turn angles */
+    int reals;        /* components stored as reals */
+    int inputs;       /* the mechanism's own and those of the active effects */
     int own_outputs;  /* the mechanism's */
     int outputs;      /* those, then value and rate of each recovered coordinate */
-    int recovered;    /* coordinates that follow from their momentum */
-    int parameters;   /* the mechanism's own and those of the effects called for */
-    double mass_blur; /* by such a part rounding of the mass matrix puts accelerations off */
-    bool mass_moves;  /* it depends on where the mechanism is, or on an input */
-    /* Where digits were lost in folding: the same folded in other ways (host/number/folding.h), for their lists. */
+    int recovered;    /* coordinates recovered from their momentum */
+    int parameters;   /* the mechanism's own and those of the active effects */
+    double mass_blur; /* relative error of the accelerations from rounding the mass matrix */
+    bool mass_moves;  /* the mass matrix depends on the position or on an input */
+    /* If folding lost digits: variants with other ways of folding (host/number/folding.h), for their lists. */
     struct image *otherwise[IMAGE_WAYS];
     int ways;
-    bool unbounded;         /* folded so, one of the file's numbers is none */
+    bool unbounded;         /* in a variant, a number of the file is not finite */
     image_unknown *unknown; /* [count] */
     component *angle;       /* [angles] */
     component *real;        /* [reals] */
@@ -320,58 +321,58 @@ typedef struct image {
     image_quantity *parameter; /* [parameters] */
 
     double *start_rad; /* [angles] */
-    int64_t *
-        start_turns; /* [angles] the same as float keeps it: 2^32 a turn; 0 where that holds it not */
+    int64_t
+        *start_turns; /* [angles] the start in float, 2^32 a turn; 0 if float cannot represent it */
     double *start_real; /* [reals] */
 
     image_range *range;       /* [reals + inputs] components, then inputs */
-    image_range *angle_range; /* [angles] of which nothing takes one */
+    image_range *angle_range; /* [angles] always empty: angles have no range */
     const struct fixed_plan
-        *fixed; /* of a run in fixed point (host/fixed), which is not the image's; or NULL */
+        *fixed; /* the run in fixed point (host/fixed), which the image does not own; or NULL */
 
     bool has_energies; /* not a system given outright */
-    bool has_integral; /* the energy that is booked is not T + V (host/derive/equations.h) */
+    bool has_integral; /* the energy in the balance is not T + V (host/derive/equations.h) */
 
     image_contact *contact; /* [contacts] crossings come last */
     int contacts;
-    int forced;    /* contacts that have a force: all but crossings */
+    int forced;    /* contacts with a force: all but crossings */
     int held;      /* holds without a pin */
     int set_count; /* values that crossings set */
     int *target;   /* [set_count] component of the state, angles first */
     image_ledger ledger;
-    image_blame blame; /* empty unless it was asked for */
+    image_blame blame; /* empty unless requested */
 
-    image_matrix matrix; /* empty unless settings.matrix asks for one */
+    image_matrix matrix; /* empty unless settings.matrix requests one */
 
-    uint64_t hash;           /* of what moves it */
-    tape *list[IMAGE_ROLES]; /* NULL where there is none */
+    uint64_t hash;           /* of the equations of motion */
+    tape *list[IMAGE_ROLES]; /* NULL for a missing list */
 } image;
 
 void image_free(image *im); /* NULL is fine */
 
 /* Component i of the state: angles first. */
 component image_component(const image *im, int i);
-/* Which of them is this derivative of this unknown; -1: none. */
+/* The index of the component that is this derivative of this unknown, or -1. */
 int image_find_component(const image *im, int unknown, int primes);
 
-/* What steps it, in words: the method's title, or which matrix. */
+/* The stepper in words: the method's title, or the matrix. */
 const char *image_stepper(const image *im);
-/* Behind that: " compensated", " stabilized", both, or "". */
+/* The words after it: " compensated", " stabilized", both, or "". */
 const char *image_sums(const image *im);
 
-/* The number that people read of an SI value, and whether that is the value itself. */
+/* The displayed number of an SI value, and whether both are equal. */
 double image_shown(const image_unit *unit, double si);
 bool image_shows_si(const image_unit *unit);
 
-/* The inputs as the run starts, input[inputs]; and where its component i does: angles, in radians, then reals. */
+/* The inputs at the start, input[inputs]; and the start of component i: angles, in radians, then reals. */
 void image_inputs(const image *im, double *input);
 double image_start(const image *im, int i);
 
-/* Does what runs on a board call functions of core/function.h? */
+/* Does the code for a board call functions of core/function.h? */
 bool image_calls(const image *im);
 
-/* The first constant of what moves the scene, or input, that float has no room for, or 0: a run in float would go
- * on with a digit or two of it, or with nothing. */
+/* The first constant of the equations, or the first input, that float can represent only with one or two digits or as
+ * zero or infinity; 0: none. */
 double image_out_of_float(const image *im);
 
 #endif

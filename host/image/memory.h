@@ -1,5 +1,5 @@
-/* memory.h: the memory that a scene takes, by number, in bytes of this machine: what WH_MEMORY_BYTES() comes to where
- * pointers play no part, as on every board with eight-byte alignment of its 64-bit integers. */
+/* memory.h: the memory of a scene for each number type, in bytes of this machine: WH_MEMORY_BYTES(). It equals that of
+ * any board with eight-byte alignment of 64-bit integers if pointers do not matter. */
 #ifndef IMAGE_MEMORY_H
 #define IMAGE_MEMORY_H
 

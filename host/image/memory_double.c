@@ -1,4 +1,4 @@
-/* memory_double.c: as the reference computes. */
+/* memory_double.c: memory in double, the reference's number type. */
 #define WH_DOUBLE 1
 #include "core_rows.h"
 #include "memory.h"

@@ -1,4 +1,4 @@
-/* memory_float.c: as the boards compute. */
+/* memory_float.c: memory in float, the boards' number type. */
 #include "core_rows.h"
 #include "memory.h"
 

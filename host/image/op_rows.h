@@ -1,23 +1,22 @@
-/* op_rows.h: the operations of a list, a row each. All that lists operations is made of these rows, or switches
- * over op_code with -Wswitch-enum.
+/* op_rows.h: the table of operations. All lists of operations are made of these rows, or switch over op_code with
+ * -Wswitch-enum.
  *
- * X(id, kind, cost, C, Octave, what it is)
+ * X(id, kind, cost, C, Octave, meaning)
  *
- *   id      OP_id of tape.h. The order is part of how models are hashed: a new one comes last.
- *   kind    OP_IS_... of tape.h: what stands in a and b
+ *   id      OP_id of tape.h. Model hashes depend on the order: add a new one at the end.
+ *   kind    OP_IS_... of tape.h: the meaning of a and b
  *   cost    OP_COSTS_... of tape.h
- *   C, Octave  its right-hand side in generated code; NULL: not written so. In it, a dollar sign stands before
+ *   C, Octave  its right-hand side in generated code; NULL: not written. A dollar sign precedes
  *           a, b   the operands
- *           f      the function that is called, and
- *           o      its operands, a comma between them
- *           n      what tells b from no number: " || b != b", or nothing where b is a constant
+ *           f      the called function, and
+ *           o      its operands, separated by commas
+ *           n      a test for b being NaN: " || b != b", or nothing if b is a constant
  *           i      the number in a
  *           v      the value, a whole number
- *           l, r, u   in Octave: the linear component, rate, input that a counts
+ *           l, r, u   in Octave: the linear component, rate, input with the number a
  *
- * What each operation computes, in four more places: host/run/evaluate.inc, host/run/rounding.c,
- * host/derive/solve.c, host/image/tape_gauge.c, which also multiplies it.
- */
+ * Four more files evaluate each operation: host/run/evaluate.inc, host/run/rounding.c, host/derive/solve.c,
+ * host/image/tape_gauge.c, which also multiplies it. */
 #ifndef IMAGE_OP_ROWS_H
 #define IMAGE_OP_ROWS_H
 

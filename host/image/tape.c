@@ -1,4 +1,4 @@
-/* tape.c: entering operations once, folded and with signs pulled outwards. */
+/* tape.c: entry of operations, with sharing, folding and signs moved outwards. */
 #include "tape.h"
 
 #include <math.h>
@@ -48,7 +48,7 @@ const op_row op_rows[OPS] = {
 #undef ROW
 };
 
-/* The operation that a function of the language is. */
+/* The operation of a function of the language. */
 static const op_code operation_of[FUNCTIONS] = {
 #define FUNCTION_CORE(value) OP_CALL
 #define FUNCTION_OWN(operation, value) OP_##operation
@@ -57,7 +57,7 @@ static const op_code operation_of[FUNCTIONS] = {
 #undef ROW
 };
 
-/* The function of the language that an operation of its own is, or FUNCTION_NONE. */
+/* The function of the language with this operation, or FUNCTION_NONE. */
 static function_id function_of(op_code code) {
     int f = 0;
     while (f < FUNCTIONS && operation_of[f] != code) {
@@ -72,7 +72,7 @@ static uint64_t mix(uint64_t hash, uint64_t word) {
     return (hash ^ word) * UINT64_C(0x9e3779b97f4a7c15) + (hash >> 29);
 }
 
-/* How hashes of models have counted operations that are no call since there were 14 functions. */
+/* The code's number in hashes of models, fixed since there were 14 functions. */
 #define HASHED_NO_FUNCTION UINT64_C(14)
 
 uint64_t tape_op_hash(const tape *t, const op *o) {
@@ -136,7 +136,7 @@ static int enter(tape *t, op o) {
 }
 
 int tape_find_binary(const tape *t, op_code code, int a, int b) {
-    /* a product's constant stands first, whatever its number */
+    /* a product's constant goes first, whatever its number */
     const bool fixed_a = code == OP_MUL && t->ops[a].code == OP_CONSTANT;
     const bool fixed_b = code == OP_MUL && t->ops[b].code == OP_CONSTANT;
     const bool swapped = fixed_a != fixed_b ? fixed_b : (code == OP_ADD || code == OP_MUL) && a > b;
@@ -184,7 +184,7 @@ bool tape_is_whole(double multiple) {
     return multiple == number_floor(multiple) && fabs(multiple) <= 2147483647.0;
 }
 
-/* Nothing is cut here: a number that is not whole goes among the parts. */
+/* No truncation here: a number that is not whole goes to the parts. */
 int tape_phase(tape *t, const double *multiple, double offset_rad, int radians) {
     int *turns = NULL;
     double *parts = NULL;
@@ -376,7 +376,7 @@ int tape_call(tape *t, function_id function, int a, int b) {
     case OP_IS_UNARY: return tape_unary(t, code, a);
     case OP_IS_BINARY: return enter_op(t, code, a, b);
     case OP_IS_CALL: return enter(t, (op){.code = code, .function = function, .a = a, .b = b});
-    case OP_IS_CONSTANT: /* no function is one of these */
+    case OP_IS_CONSTANT: /* not a function */
     case OP_IS_LEAF:
     case OP_IS_CELL:
     case OP_IS_LOOKUP:

@@ -1,10 +1,7 @@
-/* tape.h: the operation list: a model's right-hand side as a table of elementary operations.
- *
- * One list, three readers: the interpreter (host/run), the generated C and Octave (host/emit). Each
- * operation is one IEEE operation on earlier results, so all readers give the same bits. Equal
- * operations are entered once; constants are folded; signs are pulled outwards, where they vanish
- * into subtractions.
- */
+/* tape.h: the operation list: a model's right-hand side as a table of elementary operations. One list serves the
+ * interpreter (host/run) and the generated C and Octave (host/emit). Each operation is one IEEE operation on earlier
+ * results, so all of them give the same bits. Equal operations are entered once; constants are folded; signs move
+ * outwards and vanish into subtractions. */
 #ifndef IMAGE_TAPE_H
 #define IMAGE_TAPE_H
 
@@ -26,7 +23,7 @@ enum { OPS = 0 OP_ROWS(OP_ONE) }; /* how many there are */
 
 typedef enum op_kind {
     OP_IS_CONSTANT,
-    OP_IS_LEAF,   /* a is an index, or nothing */
+    OP_IS_LEAF,   /* a is an index, or unused */
     OP_IS_PHASE,  /* b is an operation or -1 */
     OP_IS_WAVE,   /* a is a phase */
     OP_IS_UNARY,  /* a is an operation */
@@ -50,8 +47,8 @@ typedef enum op_cost {
 typedef struct op_row {
     op_kind kind;
     op_cost cost;
-    int values;    /* most earlier values that it takes: a, a and b; none of a leaf or a phase */
-    const char *c; /* NULL: not written so */
+    int values;         /* most earlier values it uses: a, a and b; 0 for a leaf or a phase */
+    const char *c;      /* NULL: not written so */
     const char *octave; /* NULL */
 } op_row;
 
@@ -63,22 +60,21 @@ typedef struct op {
     int a;
     int b;
     double value;     /* OP_CONSTANT, OP_PHASE, OP_NOISE, OP_LINE, OP_CUBIC */
-    const int *turns; /* OP_PHASE, OP_CELL: [angles] whole factors, or NULL when there are none */
-    /* OP_PHASE: [angles] factors that take the whole angle, not only its phase; or NULL. For records,
-     * never in a step. */
+    const int *turns; /* OP_PHASE, OP_CELL: [angles] whole factors, or NULL */
+    /* OP_PHASE: [angles] factors of the whole angle, not only its phase; or NULL. For records, never in a step. */
     const double *parts;
 } op;
 
-/* The tables of a list, as core/table.h has them but for the scale of float: y counts cells. */
+/* The tables of a list in the form of core/table.h, except for the scale of float: y counts cells. */
 typedef struct tape_tables {
     int count;
     int bits;       /* 2^bits cells */
-    int terms;      /* numbers a cell of one table: WH_TABLE_LINEAR, WH_TABLE_CUBIC */
+    int terms;      /* numbers in a cell of one table: WH_TABLE_LINEAR, WH_TABLE_CUBIC */
     double *number; /* [2^bits][count][terms], in the list's arena */
-    double *size;   /* [count]: the largest value of what it holds, */
-    double *off;    /* [count]: and the most that interpolating is off it, but for rounding */
+    double *size;   /* [count]: the largest absolute value of the table, */
+    double *off;    /* [count]: and its largest interpolation error, without round-off */
     bool folds;     /* each is even or odd: */
-    bool *odd;      /* [count], likewise */
+    bool *odd;      /* [count]: odd, else even */
 } tape_tables;
 
 typedef struct tape {
@@ -88,9 +84,9 @@ typedef struct tape {
     int angles; /* length of every `turns` */
     int *index; /* hash index of ops */
     int index_size;
-    int *result; /* operation numbers of what the list computes */
+    int *result; /* operation numbers of the list's results */
     int results;
-    tape_tables tables; /* none: all zero */
+    tape_tables tables; /* without tables: all zero */
     struct arena *arena;
 } tape;
 
@@ -100,13 +96,13 @@ void tape_free(tape *t);
 int tape_constant(tape *t, double value);
 int tape_leaf(tape *t, op_code code, int which);
 int tape_noise(tape *t, uint32_t seed);
-/* `multiple` [t->angles] of each turn angle may be NULL, and holds any numbers: those that are whole
- * multiply phases, the others whole angles. `radians` is an operation or -1. */
+/* `multiple` [t->angles] of each turn angle may be NULL. Whole numbers in it multiply phases, others the whole angles.
+ * `radians` is an operation or -1. */
 int tape_phase(tape *t, const double *multiple, double offset_rad, int radians);
-/* Can a phase be multiplied by this number? Whole numbers, within bounds, can. */
+/* Can a phase be multiplied by this number? It must be a whole number within bounds. */
 bool tape_is_whole(double multiple);
-/* Room for tables, zeroed. Then the cell of the phase that these multiples of the turn angles make, [t->angles], and
- * table `which` there. */
+/* Allocate zeroed tables. Enter the cell of the phase with these multiples of the turn angles, [t->angles], and the
+ * look-up in table `which` there. */
 void tape_tables_new(tape *t, int count, int bits, int terms);
 int tape_cell(tape *t, const int *turns);
 int tape_look_up(tape *t, int cell, int which);
@@ -115,70 +111,70 @@ int tape_add(tape *t, int a, int b);
 int tape_sub(tape *t, int a, int b);
 int tape_mul(tape *t, int a, int b);
 int tape_div(tape *t, int a, int b);
-/* A function of what operations a and b (or -1) give: whichever operation that is. */
+/* A function of operations a and b (or -1), as the operation of its own or a call. */
 int tape_call(tape *t, function_id function, int a, int b);
 int tape_pow(tape *t, int base, int exponent);
-/* base to a fixed power, by products and square roots where that is possible. */
+/* base to a fixed power, by products and square roots if possible. */
 int tape_power(tape *t, int base, double exponent);
 bool tape_is_constant(const tape *t, int a, double *value);
 
-/* The operation that computes this of a and b, or -1: there is none yet. */
+/* The operation with this code and operands a and b, or -1 if there is none yet. */
 int tape_find_binary(const tape *t, op_code code, int a, int b);
 
-/* After operations were moved: rebuild the index that finds equal ones. */
+/* Rebuild the index of equal operations, after operations were moved. */
 void tape_reindex(tape *t);
 uint64_t tape_op_hash(const tape *t, const op *o);
 
-/* The earlier operations that o takes, a phase's radians too; returns how many. */
+/* The earlier operations that o uses, a phase's radians too; returns their number. */
 int tape_operands(const op *o, int operand[static 2]);
 
-/* Drop what no result needs and renumber. */
+/* Remove operations that no result uses, and renumber. */
 void tape_prune(tape *t);
-/* Take sums that differ in one part from others of those others, where that saves a product. Drops what no result needs
- * then. */
+/* Replace a sum that differs from another one in a single part by a sum of that sum and the part, if this saves a
+ * product. Removes operations that are then unused. */
 void tape_share_sums(tape *t);
-/* Put the operations of a finished list into an order with few values live at a time, if that carries values less often
- * than the order they have (tape_use.c). What is computed stays the same, to the bit; phases stay in their order. */
+/* Reorder a finished list so that few values are live at a time, if the estimate of memory traffic falls (tape_use.c).
+ * The results do not change by a bit; phases stay in their order. */
 void tape_order(tape *t);
-/* How often a list in its order carries values between memory and some twenty registers, at best: an estimate. */
+/* Estimate of the least number of loads and stores of the list in its order, with some twenty registers. */
 int tape_carried(const tape *t);
-/* Another order of the operations: order[t->count] says which one stands there, number[t->count] where each one goes.
- * None may come before what it takes. */
+/* Reorder the operations: order[t->count] is the operation at each position, number[t->count] its new position. No
+ * operation may precede its operands. */
 void tape_renumber(tape *t, const int *order, const int *number);
 
-/* Does the list want whole angles, turns included, and not only their phases? No step has those. */
+/* Does the list use whole angles, turns included, and not only their phases? A step has no whole angles. */
 bool tape_reads_turns(const tape *t);
 
 /* A wave: a phase made of turn angles, which a step can turn on (core/stage_turn.h). */
 static inline bool tape_is_wave(const op *o) { return o->code == OP_PHASE && o->turns != NULL; }
 int tape_waves(const tape *t);
-/* Is every wave nothing but turn angles and a number? Then the list can take their pairs of sine and cosine, in the
- * order of its operations. */
+/* Is every wave a sum of turn angles and a number? Then the list can receive its pairs of sine and cosine, in the order
+ * of its operations. */
 bool tape_takes_waves(const tape *t);
 
-/* The first result in which a constant takes part that is not finite, or -1. */
+/* The first result that depends on a constant that is not finite, or -1. */
 int tape_not_finite(const tape *t);
 
 /* Is a number zero, or within float's normal numbers? */
 bool fits_float(double value);
-/* The first constant that float keeps with fewer digits than it has, as zero or as infinite; 0: there is none. */
+/* The first constant that float represents with fewer than its digits, as zero or as infinite; 0: none. */
 double tape_out_of_float(const tape *t);
 
-/* What a list costs. */
+/* The cost of a list. */
 typedef struct tape_cost {
     int arithmetic; /* additions, subtractions, products, negations, comparisons */
     int divisions;
     int roots;
-    int waves;    /* sines and cosines, a pair of one phase counted once */
+    int waves;    /* sines and cosines; those of one phase count once */
     int calls;    /* of core/function.h */
-    int look_ups; /* in tables; what interpolates is counted as arithmetic */
+    int look_ups; /* in tables; the interpolation counts as arithmetic */
 } tape_cost;
 
 tape_cost tape_count(const tape *t);
-/* One number to compare lists by: rough instructions on a Cortex-M4F. */
+/* A number for comparing lists: rough instructions on a Cortex-M4F. */
 int tape_weight(const tape *t);
-/* Operations in the sense of flop counts: every operation of the list that is not a leaf, a phase or
- * a constant, a sine and a cosine each counting one. */
+/* Operations in the sense of flop counts: every operation except leaves, phases and constants. A sine and a cosine
+ * count one each. */
 int tape_operations(const tape *t);
 uint64_t tape_hash(const tape *t);
 

@@ -1,4 +1,4 @@
-/* tape_gauge.c: looking for the numbers that leave float's constants next to what they are. */
+/* tape_gauge.c: the search for factors that bring float's constants close to their exact values. */
 #include "host/image/tape_gauge.h"
 
 #include <math.h>
@@ -8,13 +8,11 @@
 #include "host/base/room.h"
 
 /* === which operations may be multiplied together ============================================== */
-/* Which operations of a list may be multiplied together.
- *
- * Each operation is multiplied by x to some exponent of its own. Sums want equal exponents of what they add, products add
- * them, constants and products with constants have whichever is wanted, results have none. These are linear
- * equations, and the solutions are the freedom. */
+/* The operations of a list that can be multiplied together. Each operation is multiplied by x to an exponent of its
+ * own. A sum needs equal exponents of its parts; a product adds them. Constants, and products with constants, accept
+ * any exponent; results have exponent zero. These are linear equations, and their solutions are the freedom. */
 
-/* Exponents are small whole numbers and halves, and so are all entries: what is below is zero. */
+/* Exponents are small whole numbers and halves, as are all entries: smaller values are zero. */
 #define NOTHING 1e-9
 
 /* Rows of `columns` numbers. */
@@ -38,7 +36,7 @@ static void swap_rows(const matrix *m, int x, int y) {
     }
 }
 
-/* Subtract row `of`, whose entry in column c is one, from all others, so that these have none there. */
+/* Subtract row `of`, with entry one in column c, from all others to clear that column. */
 static void clear_column(const matrix *m, int of, int c) {
     for (int r = 0; r < m->rows; r++) {
         const double factor = r != of ? row_of(m, r)[c] : 0.0;
@@ -50,7 +48,7 @@ static void clear_column(const matrix *m, int of, int c) {
     }
 }
 
-/* Gauss and Jordan: lead[row] is its leading column. Returns how many rows are left. */
+/* Gauss-Jordan elimination: lead[row] is its leading column. Returns the number of nonzero rows. */
 static int reduce(const matrix *m, int *lead) {
     int rank = 0;
     for (int c = 0; c < m->columns && rank < m->rows; c++) {
@@ -72,7 +70,7 @@ static int reduce(const matrix *m, int *lead) {
     return rank;
 }
 
-/* The vectors that m turns into zero, as rows; m is destroyed. */
+/* The null space of m, as rows; m is destroyed. */
 static matrix kernel_of(const matrix *m) {
     int *lead = room((int64_t)m->rows + 1, sizeof *lead);
     bool *leads = room((int64_t)m->columns + 1, sizeof *leads);
@@ -98,8 +96,8 @@ static matrix kernel_of(const matrix *m) {
 
 /* --- the equations of a list -----------------------------------------------------------------------------------*/
 
-/* The unknowns: an exponent for each operation, and one for each place where a sum, a product or the like takes a
- * raw value, for it may take this as it is or multiplied. */
+/* The unknowns: an exponent for each operation, and one for each place where an operation uses a raw value. That place
+ * may use it as it is or multiplied. */
 typedef struct unknowns {
     const tape *of;
     int *column; /* [2 * count] of the places, by operation, a before b; 0: none */
@@ -111,7 +109,7 @@ static bool is_constant(const tape *t, int i) { return t->ops[i].code == OP_CONS
 
 static int operand_of(const op *o, int which) { return which == 0 ? o->a : o->b; }
 
-/* Does it take constants by itself? Then it asks nothing. */
+/* Does a constant operand absorb any factor? Then there is no equation. */
 static bool absorbs(const tape *t, const op *o) {
     return (o->code == OP_MUL || o->code == OP_DIV) &&
            (is_constant(t, o->a) || is_constant(t, o->b));
@@ -143,8 +141,8 @@ static int column_of(const unknowns *u, int i, int which) {
     return column != 0 ? column : operand_of(&u->of->ops[i], which);
 }
 
-/* One more equation: `own` times the exponent of i is that of its operand a, and `b` times that of operand b. Constants have
- * any. */
+/* Add an equation: `own` times the exponent of i equals `a` times that of operand a, and `b` times that of operand b.
+ * Constants accept any exponent. */
 static void equation(const unknowns *u, matrix *m, double own, int i, double a, double b) {
     const op *o = &u->of->ops[i];
     double *row = row_of(m, m->rows++);
@@ -200,7 +198,7 @@ static void equations_of(const unknowns *u, int i, matrix *m) {
     }
 }
 
-/* All solutions, raw values multiplied wherever it takes that. */
+/* All solutions, with raw values multiplied at any place. */
 static matrix all_freedoms(const unknowns *u) {
     const tape *t = u->of;
     matrix m = matrix_new(2 * t->count + t->results, u->columns);
@@ -220,7 +218,7 @@ static matrix all_freedoms(const unknowns *u) {
 
 enum { PLACES = 64, SUBSETS_OF = 5 };
 
-/* Places of raw values that are multiplied, those of one value alike. */
+/* Places with multiplied raw values; those of the same value share a factor. */
 typedef struct chosen {
     int column[PLACES];
     int like[PLACES]; /* an earlier column of the same value, or itself */
@@ -240,7 +238,7 @@ static bool tells(const tape *t, const double *e, const chosen *c) {
     return all && changes;
 }
 
-/* So that the least exponent is one. */
+/* Scale the smallest exponent to one. */
 static void normalise(double *e, int length) {
     double least = 0.0;
     for (int i = 0; i < length; i++) {
@@ -265,7 +263,7 @@ static void keep(tape_freedoms *f, const unknowns *u, const double *e) {
     f->count++;
 }
 
-/* What of `all` multiplies raw values at the chosen places only, those of one value alike. */
+/* The solutions in `all` that multiply raw values only at the chosen places, with a common exponent for each value. */
 static matrix limits_of(const unknowns *u, const matrix *all, const chosen *c) {
     matrix m = matrix_new(u->columns, all->rows);
     m.rows = 0;
@@ -304,7 +302,7 @@ static void add_freedoms(const unknowns *u, const matrix *all, const chosen *c, 
     free(m.at);
 }
 
-/* Choose the places of raw value `raw` whose bits are set, too. */
+/* Also choose the places of raw value `raw` whose bits are set. */
 static chosen choose(const unknowns *u, chosen c, int raw, unsigned which) {
     int first = -1;
     int seen = 0;
@@ -364,7 +362,7 @@ typedef struct multiplied {
     const tape *from;
     const double *times; /* [3 * from->count] */
     tape *to;
-    int *made; /* [from->count] on `to`: times as large, but raw values as they are */
+    int *made; /* [from->count] on `to`: multiplied values, but raw values as they are */
 } multiplied;
 
 bool tape_is_raw(const op *o) {
@@ -382,13 +380,13 @@ bool tape_is_raw(const op *o) {
     return o->code == OP_SIGN || o->code == OP_POW;
 }
 
-/* A constant; where double's rounding alone keeps it from being a float, that float. */
+/* A constant. If only double's round-off separates it from a float, that float. */
 static int constant(tape *t, double value) {
     const double nearest = (double)(float)value;
     return tape_constant(t, fabs(value - nearest) <= 1e-15 * fabs(value) ? nearest : value);
 }
 
-/* `times` operation i, for whoever takes it. */
+/* Operation i multiplied by `times`, for its users. */
 static int taken(const multiplied *m, int i, double times) {
     const op *o = &m->from->ops[i];
     double number;
@@ -413,7 +411,7 @@ static int make_phase(const multiplied *m, const op *o) {
     return made;
 }
 
-/* How often an operand is taken: a raw value as that place of the operation says. */
+/* The factor of an operand: for a raw value, the factor of that place. */
 static double times_of(const multiplied *m, int i, int which) {
     const op *o = &m->from->ops[i];
     const int operand = which == 0 ? o->a : o->b;
@@ -421,8 +419,7 @@ static double times_of(const multiplied *m, int i, int which) {
                                                : m->times[operand];
 }
 
-/* A product or quotient of what is multiplied already, and what is left to multiply by. One call after the other, in the same
- * order everywhere. */
+/* A product or quotient of multiplied operands, and the remaining factor. The calls have a fixed order. */
 static int make_product(const multiplied *m, int i) {
     const op *o = &m->from->ops[i];
     const double a = times_of(m, i, 0);
@@ -439,7 +436,7 @@ static int make_product(const multiplied *m, int i) {
     return tape_mul(m->to, constant(m->to, divides ? wanted * b / a : wanted / (a * b)), made);
 }
 
-/* Of two operands the second is entered first, by whatever compiler: arguments of one call have no order. */
+/* The second operand is entered first with every compiler: the order of evaluation of arguments is undefined. */
 static int make(const multiplied *m, int i) {
     const op *o = &m->from->ops[i];
     const double times = m->times[i];
@@ -464,7 +461,7 @@ static int make(const multiplied *m, int i) {
         second = taken(m, o->b, times);
         return tape_sub(m->to, taken(m, o->a, times), second);
     case OP_MUL:
-        return tape_is_constant(m->from, o->a, &number) ? -1 /* likewise */ : make_product(m, i);
+        return tape_is_constant(m->from, o->a, &number) ? -1 /* constant */ : make_product(m, i);
     case OP_DIV: return make_product(m, i);
     case OP_NEG:
     case OP_ABS: return tape_unary(m->to, o->code, taken(m, o->a, times));
@@ -503,7 +500,8 @@ tape *tape_multiplied(const tape *t, const double *times) {
 
 enum { SIZES = 3, STATES = 6 };
 
-/* Of rates and of whatever else is no position: at rest forces and torques count, fast the rates alone. */
+/* Sizes of rates and other leaves that are no positions: at rest forces and torques matter, at high speed only the
+ * rates. */
 static const double size_of_rates[SIZES] = {0.0, 1.0, 10.0};
 
 /* A number between -1 and 1 for this leaf in this state. */
@@ -572,11 +570,11 @@ static void results_at(const tape *t, int state, double rates, bool as_float, do
     }
 }
 
-/* What counts of an error in a result that no list reads again: a carriage's acceleration that nothing depends on ends as
- * much off as it is; another one's error grows with the motion. */
+/* The weight of an error in a result that the list does not use again, such as the acceleration of a carriage that
+ * nothing depends on. Its error does not grow; the error of another result grows with the motion. */
 #define UNREAD (1.0 / 64.0)
 
-/* Of each result, does the list depend on the component that it moves? Both orders: angles, then reals. */
+/* For each result: does the list depend on its component? Both orders: angles, then reals. */
 static void weigh_results(const tape *t, double *weight) {
     for (int i = 0; i < t->results; i++) {
         weight[i] = UNREAD;
@@ -614,7 +612,7 @@ double tape_bias(const tape *t, const tape *like) {
             results_at(t, state, size_of_rates[s], true, v, now);
             results_at(like, state, size_of_rates[s], false, v, meant);
             for (int i = 0; i < n; i++) {
-                /* at a state where there is no such value, as below a root's zero, nothing is told */
+                /* at a state without such a value, as below a root's zero, the state does not count */
                 const bool told = isfinite(now[i]) && isfinite(meant[i]);
                 off[i] += told ? fabs(now[i] - meant[i]) : 0.0;
                 size[i] += told ? fabs(meant[i]) : 0.0;
@@ -636,17 +634,17 @@ double tape_bias(const tape *t, const tape *like) {
 /* === the numbers that leave float its constants =============================================== */
 
 enum {
-    LONGEST = 250, /* operations of a list that is looked at */
+    LONGEST = 250, /* operations of an examined list */
     FIVES = 6,     /* most of each prime */
     THREES = 3,
     SEVENS = 1,
-    REALS = 512,      /* numbers between one and two that are tried, */
-    VANISHING = 24,   /* and those that leave a constant as one */
-    ROUNDS = 3,       /* each from what the last one found */
-    PATIENCE = 150000 /* operations of lists, after which a round ends */
+    REALS = 512,      /* tried numbers between one and two, */
+    VANISHING = 24,   /* and those that turn a constant into one */
+    ROUNDS = 3,       /* each starts from the result of the previous one */
+    PATIENCE = 150000 /* total operations of tried lists; then a round ends */
 };
 
-/* Half is clearly better, and what is not a hundredth less is no better. */
+/* Half is a clear improvement; less than a hundredth is none. */
 #define CLEARLY 0.5
 #define LESS 0.99
 
@@ -663,10 +661,10 @@ typedef struct gauge_search {
     double bias;
     int operations;
     double *times; /* [3 * from->count] */
-    int64_t tried; /* operations of lists that were tried */
+    int64_t tried; /* total operations of tried lists */
 } gauge_search;
 
-/* x to the e: whole powers as products, for these are to be exact. */
+/* x to the e: whole powers as products, which are exact here. */
 static double power(double x, double e) {
     if (e == number_floor(e) && fabs(e) <= 4.0) {
         double product = 1.0;
@@ -678,7 +676,7 @@ static double power(double x, double e) {
     return number_power(x, e);
 }
 
-/* More operations are taken for a bias that is clearly better, as many for one that is less, fewer for one that is not more. */
+/* More operations are accepted for a clearly lower bias, as many for a lower one, fewer for an equal one. */
 static bool is_better(const gauge_search *s, double bias, int operations) {
     return bias < CLEARLY * s->bias || (bias < LESS * s->bias && operations <= s->operations) ||
            (bias <= s->bias && operations < s->operations);
@@ -709,8 +707,8 @@ static void try_number(gauge_search *s, const double *exponent, double x) {
 
 /* --- which numbers ----------------------------------------------------------------------------------------------*/
 
-/* Products of small primes, the simplest first: decimals times enough fives are whole numbers over powers of two, thirds
- * times three are whole. Twos change nothing. */
+/* Products of small primes, the simplest first. Decimals times enough fives are whole numbers over powers of two;
+ * thirds times three are whole. Factors of two change nothing. */
 static void try_primes(gauge_search *s, const double *exponent) {
     for (int all = 1; all <= FIVES + THREES + SEVENS; all++) {
         for (int fives = -FIVES; fives <= FIVES; fives++) {
@@ -727,7 +725,7 @@ static void try_primes(gauge_search *s, const double *exponent) {
     }
 }
 
-/* Those after which a product with a constant is none. */
+/* Numbers that turn the constant of a product into one. */
 static void try_vanishing(gauge_search *s, const double *exponent) {
     int tried = 0;
     double number;
@@ -751,7 +749,7 @@ static void try_reals(gauge_search *s, const double *exponent) {
     }
 }
 
-/* Can this freedom be afforded? With a number that leaves no constant as one. */
+/* Is the number of operations acceptable for a generic number, which turns no constant into one? */
 static bool affordable(const gauge_search *s, const double *exponent) {
     for (int i = 0; i < 3 * s->from->count; i++) {
         s->times[i] = power(1.2345678901, exponent[i]);
@@ -762,7 +760,7 @@ static bool affordable(const gauge_search *s, const double *exponent) {
     return can;
 }
 
-/* Simple numbers for every freedom first, for the round may end. */
+/* Simple numbers first, for every freedom: the round may end early. */
 static void search_round(gauge_search *s) {
     tape_freedoms f = tape_freedoms_of(s->from);
     bool *can = room((int64_t)f.count + 1, sizeof *can);

@@ -1,44 +1,44 @@
-/* tape_gauge.h: the gauge freedom of a list: its values may be multiplied by numbers that drop out again, as
- * a numerator and its denominator may, or the equations of a system. Constants of float are better off with some of
- * these numbers than with others: 1.08 - 0.36 s^2 under M is 27 - 9 s^2 under 25 M, and no constant is rounded. */
+/* tape_gauge.h: the gauge freedom of a list: factors of its values that cancel, as in a numerator and its denominator,
+ * or in the equations of a system. Some factors suit the constants of float better: 1.08 - 0.36 s^2 over M is 27 - 9
+ * s^2 over 25 M, where no constant is rounded. */
 #ifndef IMAGE_TAPE_GAUGE_H
 #define IMAGE_TAPE_GAUGE_H
 
 #include "host/image/tape.h"
 
-/* What float's constants make of the results of a finished list, rounding nothing else: the root of the mean square, over
- * its results and over made-up states with rates of three sizes, of how much they are off, relative to their size.
- * What the list does not depend on again counts little.
- * `like` is the list that says what they are, itself or another one that computes the same. NaN where there
- * is no telling. */
+/* The relative error of the results of a finished list due to constants rounded to float, with exact operations
+ * otherwise. It is the root mean square over the results and over artificial states with rates of three sizes. Results
+ * that do not feed back into the list have a small weight. The list `like` gives the reference; it is the same list, or
+ * another one with equal results. NaN if undefined. */
 double tape_bias(const tape *t, const tape *like);
 
-/* Most operations that a better list may have more: one, and one for each forty that there are. */
+/* Most additional operations of a better list: one, and one for each forty operations. */
 int tape_gauge_price(const tape *t);
 
-/* A list that computes the same, but for double's rounding, whose bias is at most half of that of *t takes the place of
- * *t, if there is one that is found and costs no more than so many operations more. */
+/* Replace *t by a list that gives the same results, except for double's round-off, with at most half the bias. Without
+ * such a list within the allowed number of additional operations, *t stays. */
 void tape_gauge(tape **t, int price);
 
 /* --- parts of it -----------------------------------------------------------------------------------------------*/
 
-/* Can a value be had as it is only, so that multiplying it costs a product? What a leaf, a sine or a function gives. */
+/* Is the value of this operation raw? Multiplying a leaf, a sine or a function costs a product. */
 bool tape_is_raw(const op *o);
 
-/* Vectors of exponents: what may be multiplied together by x to these, for any x > 0. First one for each operation, then
- * two for each: those of its operands, where these are raw values, which may be taken as they are or multiplied. */
+/* Vectors of exponents: all values may be multiplied by x to these, for any x > 0. The first entries are one for each
+ * operation. Then come two for each operation, for its raw operands, which may be used as they are or multiplied. */
 typedef struct tape_freedoms {
     double *exponent; /* [count * length] */
     int count;
     int length; /* 3 * operations of the list */
 } tape_freedoms;
 
-/* Those that need no product more, those that multiply one raw value, at all places or at some, and those that multiply two. */
+/* First the freedoms without an additional product, then those that multiply one raw value, at all places or at some,
+ * then those that multiply two. */
 tape_freedoms tape_freedoms_of(const tape *t);
 void tape_freedoms_free(tape_freedoms *f);
 
-/* The list whose operations are times[3 * count] > 0 as large, in the same order, where the constants, and products that
- * are put in where these do not do, give the same results. Finished (tape_prune(), tape_order()). */
+/* The list with operations times[3 * count] > 0 as large, in the same order. Constants, and products where constants do
+ * not suffice, keep the results the same. Finished (tape_prune(), tape_order()). */
 tape *tape_multiplied(const tape *t, const double *times);
 
 #endif

@@ -1,4 +1,4 @@
-/* tape_use.c: looking at a finished list: what is needed, what it costs. */
+/* tape_use.c: analysis of a finished list: needed operations, cost, and order. */
 #include <limits.h>
 #include <math.h>
 #include <stdlib.h>
@@ -9,23 +9,23 @@
 #include "host/image/tape.h"
 
 /* === which operations need which ============================================================== */
-/* And the cost of their order. */
+/* The cost of a list, and of its order. */
 
-/* Single-precision registers that an FPU of Arm or RISC-V has for a list: 32, less what the step around it keeps. */
+/* Single-precision registers of an Arm or RISC-V FPU for a list: 32, less those of the surrounding step. */
 enum { TAPE_REGISTERS = 20 };
 
-/* Who needs whom. A phase stands behind the one before it: the waves of a list are numbered by their places. */
+/* Dependencies. A phase follows the previous phase: a list numbers its waves in order. */
 typedef struct tape_needs {
     const tape *t;
-    int *before; /* [t->count]: of a phase the one before it; else -1 */
-    bool *given; /* [t->count]: nothing need be computed for it */
-    int *first;  /* [t->count + 1]: where its users begin in user[], in their order */
+    int *before; /* [t->count]: for a phase the previous one; else -1 */
+    bool *given; /* [t->count]: needs no computation */
+    int *first;  /* [t->count + 1]: start of its users in user[], in order */
     int *user;
 } tape_needs;
 
 enum { NEEDED_MOST = 3, TAKEN_MOST = 2 };
 
-/* What must stand before operation i; returns how many. */
+/* The operations that must precede operation i; returns their number. */
 static int tape_needed(const tape_needs *n, int i, int found[static NEEDED_MOST]) {
     int count = tape_operands(&n->t->ops[i], found);
     if (n->before[i] >= 0) {
@@ -34,7 +34,8 @@ static int tape_needed(const tape_needs *n, int i, int found[static NEEDED_MOST]
     return count;
 }
 
-/* The values that operation i takes from registers, each once; returns how many. Constants and phases are none. */
+/* The values that operation i reads from registers, each once; returns their number. Constants and phases need no
+ * register. */
 static int tape_taken(const tape *t, int i, int found[static TAKEN_MOST]) {
     int operand[TAKEN_MOST];
     const int operands = tape_operands(&t->ops[i], operand);
@@ -105,14 +106,14 @@ static void tape_needs_free(tape_needs *n) {
 
 /* --- how often values are carried ----------------------------------------------------------------*/
 
-/* When each value of a list that is done in some sequence is wanted. */
+/* The times of use of each value of a list in a given sequence. */
 typedef struct wanted {
-    int *first; /* [ops + 1]: where a value's times begin in time[] */
-    int *time;  /* places in the sequence; behind its end for results */
-    int *next;  /* [ops]: which of its times comes next */
+    int *first; /* [ops + 1]: start of a value's times in time[] */
+    int *time;  /* positions in the sequence; for results after its end */
+    int *next;  /* [ops]: index of the next time */
 } wanted;
 
-/* Value v is wanted at a time: counted first, entered in the second pass. */
+/* Value v is used at a time: the first pass counts, the second one enters. */
 static void want(wanted *w, int pass, int v, int time) {
     if (pass == 0) {
         w->first[v + 1]++;
@@ -149,12 +150,12 @@ static void wanted_free(wanted *w) {
     free(w->next);
 }
 
-/* When value v is wanted next, or INT_MAX. */
+/* The next use of value v, or INT_MAX. */
 static int next_time(const wanted *w, int v) {
     return w->next[v] < w->first[v + 1] ? w->time[w->next[v]] : INT_MAX;
 }
 
-/* Values in registers, and what carrying them has cost. */
+/* Values in registers, and the number of loads and stores so far. */
 typedef struct registers {
     int value[TAPE_REGISTERS];
     int count;
@@ -162,7 +163,8 @@ typedef struct registers {
     int carried;
 } registers;
 
-/* Value v gets a register: if need be, that of the one that is wanted last. (What an operation takes is wanted now.) */
+/* Give value v a register, if necessary that of the value with the latest next use. (Operands of the current operation
+ * are in use now.) */
 static void hold(const wanted *w, registers *r, int v) {
     if (r->count == TAPE_REGISTERS) {
         int last = 0;
@@ -187,8 +189,8 @@ static bool is_held(const registers *r, int v) {
     return k < r->count;
 }
 
-/* Loads and stores of values where that is done in this sequence, registers being given up as is best: those whose values
- * are wanted last (Belady, 1966). */
+/* Loads and stores of values in this sequence with the best replacement: that of the value with the latest next use
+ * (Belady, 1966). */
 static int tape_carried_by(const tape_needs *n, const int *sequence, int count) {
     wanted w = wanted_of(n->t, sequence, count);
     registers r = {.stored = room(n->t->count, sizeof *r.stored)};
@@ -224,7 +226,7 @@ static int tape_carried_by(const tape_needs *n, const int *sequence, int count) 
     return carried;
 }
 
-/* What is computed, that is not given, in the order of the list; to be freed. */
+/* The operations to compute, in the order of the list; to be freed. */
 static int *tape_computed(const tape_needs *n, int *count) {
     int *sequence = room_more(NULL, n->t->count, sizeof *sequence);
     *count = 0;
@@ -247,29 +249,26 @@ int tape_carried(const tape *t) {
 }
 
 /* === tape order =============================================================================== */
-/* An order of a finished list's operations in which few values are live at a time.
- *
- * A list comes in the order in which it was entered: a whole matrix before its first row is eliminated. Of a large one
- * more values wait than a processor has registers, and a third of what is executed carries them to memory and back.
- * Here the next operation is always one that ends the most lives. Of those it is the first as entered, or the one that
- * is soonest taken for the last time, as entered: two orders. What need not be computed (the state, the pairs of sine and
- * cosine) is read where it is first wanted.
- *
- * That looks one operation ahead. So both are compared with the order as entered, by how often values would be carried,
- * and the best is taken: a list whose values fit into registers keeps its order. */
+/* A reordering of a finished list's operations with few live values. A list starts in order of entry: a whole matrix
+ * before its first row is eliminated. In a large list more values wait than a processor has registers, and a third of
+ * the instructions move them to memory and back. Here the next operation is always one that ends the most lives. Ties
+ * go to the first in order of entry, or to the operation with the earliest last use: two orders. Given values (the
+ * state, the pairs of sine and cosine) are read at their first use. This looks one operation ahead. So both orders are
+ * compared with the order of entry by loads and stores, and the best is taken. A list whose values fit into registers
+ * keeps its order. */
 
 typedef struct schedule {
     const tape_needs *needs;
-    int *waits; /* [ops]: how many of what it needs are still to be computed */
-    int *uses;  /* [ops]: how many operations are still to take it, and results to be it */
-    int *ends;  /* [ops]: how many lives it ends */
-    int *until; /* [ops]: the last that takes it */
-    int *ready; /* those that wait for nothing, in no order */
+    int *waits; /* [ops]: dependencies not yet computed */
+    int *uses;  /* [ops]: remaining users, a result included */
+    int *ends;  /* [ops]: number of lives it ends */
+    int *until; /* [ops]: its last user */
+    int *ready; /* operations without pending dependencies, unordered */
     int count;  /* of them */
     bool *done; /* [ops] */
 } schedule;
 
-/* One operation less will take value v: the last one ends its life. */
+/* Value v has one user less: its last user ends its life. */
 static void use_up(schedule *s, int v) {
     const tape_needs *n = s->needs;
     if (--s->uses[v] != 1) {
@@ -331,10 +330,10 @@ static void schedule_free(schedule *s) {
     free(s->done);
 }
 
-/* Which one of those that end as many lives comes first. */
+/* The order of operations that end equally many lives. */
 typedef enum first_of { AS_ENTERED, SOONEST_DONE, FIRST_OF } first_of;
 
-/* Is operation i to come before operation j? */
+/* Does operation i come before operation j? */
 static bool leads(const schedule *s, first_of way, int i, int j) {
     if (s->ends[i] != s->ends[j]) {
         return s->ends[i] > s->ends[j];
@@ -343,7 +342,7 @@ static bool leads(const schedule *s, first_of way, int i, int j) {
     return soonest ? s->until[i] < s->until[j] : i < j;
 }
 
-/* The next operation, no longer among those that are ready. */
+/* Remove and return the next ready operation. */
 static int take_best(schedule *s, first_of way) {
     int best = 0;
     for (int k = 1; k < s->count; k++) {
@@ -354,7 +353,7 @@ static int take_best(schedule *s, first_of way) {
     return i;
 }
 
-/* A sequence of what is computed. */
+/* A sequence of the operations to compute. */
 static int *ending_lives(const tape_needs *n, int count, first_of way) {
     schedule s = schedule_of(n);
     int *sequence = room_more(NULL, count, sizeof *sequence);
@@ -386,7 +385,7 @@ typedef struct placing {
     int count;
 } placing;
 
-/* Operation i, and before it what is given and has not been wanted yet. */
+/* Place operation i, after its given operands that are not placed yet. */
 static void put_next(placing *p, int i) {
     int found[NEEDED_MOST];
     const int count = p->number[i] < 0 ? tape_needed(p->needs, i, found) : 0;
@@ -406,7 +405,7 @@ static void reorder(tape *t, const tape_needs *n, const int *sequence, int count
     for (int at = 0; at < count; at++) {
         put_next(&p, sequence[at]);
     }
-    for (int i = 0; i < t->count; i++) { /* what only results are, or nobody wants */
+    for (int i = 0; i < t->count; i++) { /* only results, or unused */
         put_next(&p, i);
     }
     tape_renumber(t, p.order, p.number);
@@ -443,12 +442,10 @@ void tape_order(tape *t) {
 }
 
 /* === sums that are there already ============================================================== */
-/* A + 2 b where a + b is there already is (a + b) + b: a product less.
- *
- * Such pairs come with kinetic energies: a chain of two arms moves with sin x + sin y, and its forces have
- * sin x + 2 sin y. */
+/* A + 2 b is (a + b) + b if a + b already exists: this saves a product. Kinetic energies produce such pairs: a chain of
+ * two arms moves with sin x + sin y, and its forces have sin x + 2 sin y. */
 
-/* b, where operation i is 2 b and nobody but one takes it; else -1. */
+/* b if operation i is 2 b with a single user; else -1. */
 static int doubled(const tape *t, const int *uses, int i) {
     const op *o = &t->ops[i];
     double two;
@@ -461,7 +458,7 @@ static int doubled(const tape *t, const int *uses, int i) {
     return tape_is_constant(t, o->b, &two) && two == 2.0 ? o->a : -1;
 }
 
-/* Half of what sum i adds, the twice taken part once, and that part; false if the list has no such half. */
+/* Half of sum i, with the doubled part once, and that part; false if the list has no such half. */
 static bool half_of(const tape *t, const int *uses, int i, int *half, int *part) {
     const op *o = &t->ops[i];
     const int twice_a = doubled(t, uses, o->a);
@@ -499,7 +496,7 @@ typedef struct walk {
     int count;
 } walk;
 
-/* Operation i behind all that it takes: most of that stands there already. */
+/* Place operation i after all its operands, most of which are already placed. */
 static void put(walk *w, int i) {
     int operand[2];
     if (w->number[i] >= 0) {
@@ -513,7 +510,7 @@ static void put(walk *w, int i) {
     w->order[w->count++] = i;
 }
 
-/* A half may stand behind what takes it now. */
+/* A half may come after its new user: restore the order. */
 static void put_in_order(tape *t) {
     walk w = {t, room(t->count, sizeof *w.order), room(t->count, sizeof *w.number), 0};
     for (int i = 0; i < t->count; i++) {
@@ -571,7 +568,7 @@ static void renumber(op *o, const int *number) {
     o->b = (values || o->code == OP_PHASE) && o->b >= 0 ? number[o->b] : o->b;
 }
 
-/* x * (1/y) where nothing else wants 1/y is x/y: one rounding and one operation less. */
+/* x * (1/y) becomes x/y if 1/y has no other use: saves one rounding and one operation. */
 static void fuse_reciprocals(tape *t) {
     int *uses = room(t->count, sizeof *uses);
     int operand[2];

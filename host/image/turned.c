@@ -1,4 +1,4 @@
-/* turned.c: which form of the step a scene gets. */
+/* turned.c: the choice of the form of a scene's step. */
 #include "turned.h"
 
 #include "core/stage_turn.h"

@@ -1,4 +1,5 @@
-/* turned.h: does a scene's step turn its sines on (core/stage_turn.h), or look them up at each stage (core/step.h)? */
+/* turned.h: the choice between turning a scene's sines (core/stage_turn.h) and looking them up at each stage
+ * (core/step.h). */
 #ifndef IMAGE_TURNED_H
 #define IMAGE_TURNED_H
 
@@ -7,8 +8,9 @@
 /* Most angles whose sines a step turns. */
 #define TURNED_WAVES_MAX 256
 
-/* Of an image's step and settings, and of nothing else: the interpreter and generated code agree. False where that was
- * set (--angles lookup), where tables take the place of sines, where there are contacts or no turn angle, and where the method or the list does not take it. */
+/* Depends only on the image's step and settings, so the interpreter and generated code agree. False with --angles
+ * lookup, with tables in place of sines, with contacts, without a turn angle, and if the method or the list does not
+ * support it. */
 bool image_turns(const image *im);
 
 #endif
