@@ -1,4 +1,4 @@
-/* show.c: sums for readers: collected by rates and accelerations, factored. */
+/* show.c: polys for readers: collected by rates and accelerations, factored. */
 #include "host/show/show.h"
 
 #include <ctype.h>
@@ -32,7 +32,8 @@ static void latex_letters(FILE *out, const char *text) {
     }
 }
 
-/* The name's letters, then the rest as an index: theta1 -> \theta_{1}, no_load -> \mathrm{no}_{\mathrm{load}}. */
+/* The name's letters, then the remaining part as an index: theta1 -> \theta_{1}, no_load ->
+ * \mathrm{no}_{\mathrm{load}}. */
 static void latex_name(FILE *out, const char *name, int primes) {
     size_t stem = 0;
     while (isalpha((unsigned char)name[stem])) {
@@ -77,7 +78,6 @@ void show_symbol(const show *s, const symbol *sym, int primes) {
     }
 }
 
-/* value = top / bottom with small whole numbers? */
 bool show_as_fraction(double value, double *top, double *bottom) {
     for (int whole = 1; whole <= 360; whole++) {
         const double q = whole;
@@ -96,7 +96,7 @@ bool show_as_fraction(double value, double *top, double *bottom) {
 void show_number(const show *s, double value) {
     char text[40];
     int digits = 15;
-    do { /* the fewest digits that give the number back */
+    do { /* the fewest digits that reproduce the number */
         snprintf(text, sizeof text, "%.*g", digits, value);
         digits++;
     } while (decimal_read(text, NULL) != value && digits <= 17);
@@ -172,7 +172,7 @@ void show_grouped(const show *s, const poly *p) {
     show_close(s);
 }
 
-/* A name, a whole number, one call: what takes an exponent without parentheses. */
+/* A name, a whole number or one call: it takes an exponent without parentheses. */
 static bool is_primary(const poly *p) {
     double value;
     if (poly_is_number(p, &value)) {
@@ -189,9 +189,8 @@ static bool is_primary(const poly *p) {
            (m->factors[0].atom->kind == ATOM_SYMBOL || m->factors[0].atom->kind == ATOM_CALL);
 }
 
-/* base^exponent, both expressions. In text `^` binds from the right: what is not a primary stands in
- * parentheses on either side. LaTeX takes one superscript on a base: braces keep those of primes and
- * dots inside. */
+/* base^exponent, both expressions. In text `^` binds from the right: other than primaries, both sides get parentheses.
+ * LaTeX allows one superscript on a base: braces enclose those of primes and dots. */
 static void show_power(const show *s, const poly *base, const poly *exponent) {
     const bool latex = s->style == SHOW_LATEX;
     if (is_primary(base)) {
@@ -273,7 +272,6 @@ static void show_atom(const show *s, const atom *x, double exponent) {
 
 enum { RANKS = 4 + PRIMES_MAX }; /* of show_rank() */
 
-/* What a factor is, for the order in which a product is written. */
 int show_rank(const atom *x) {
     if (x->kind != ATOM_SYMBOL) {
         return 3;
@@ -297,7 +295,6 @@ void show_separate(const show *s, bool *first) {
     *first = false;
 }
 
-/* The factors of one side of the fraction bar: +1 above, -1 below. */
 void show_factors(const show *outer, const piece *p, int side, bool *first) {
     show inner = *outer;
     const show *s = &inner;
@@ -331,7 +328,7 @@ int show_count_below(const piece *p) {
     return count;
 }
 
-/* |coefficient| times the factors: 2*m*r*sin(a)/3. A lone number is written, a factor 1 is not. */
+/* The size of the coefficient times the factors: 2*m*r*sin(a)/3. A lone number is written, a factor 1 is not. */
 void show_product(const show *s, const piece *p, double size) {
     double top;
     double bottom;
@@ -378,7 +375,7 @@ static void show_sign(const show *s, bool negative, bool first) {
     }
 }
 
-/* The powers of a sine and a cosine that every term has; no angle: none. */
+/* The powers of a sine and a cosine common to all terms; without an angle: no such factor. */
 typedef struct wave {
     const poly *angle;
     int sines;
@@ -441,7 +438,7 @@ static void show_sum(const show *s, const poly *p, wave without, bool leading) {
     free(pieces);
 }
 
-/* A number that all coefficients are small whole multiples of, or 1. */
+/* A number of which all coefficients are small whole multiples, or 1. */
 static double common_multiple(const piece *pieces, int count) {
     double smallest = (double)INFINITY;
     for (int i = 0; i < count; i++) {
@@ -482,7 +479,6 @@ double show_common_number(const piece *pieces, int count, bool whole) {
     return tops / bottoms;
 }
 
-/* The factors that every term has, as a term of its own. */
 const poly *show_common(algebra *a, const poly *p) {
     const poly *common = poly_number(a, 1.0);
     const mono *first = p->terms[0].mono;
@@ -505,7 +501,7 @@ const poly *show_common(algebra *a, const poly *p) {
     return common;
 }
 
-/* The parameter that most terms contain, if at least two do. */
+/* The parameter in the most terms, if it is in two or more. */
 static const atom *shared_parameter(const poly *p) {
     const atom *best = NULL;
     int best_uses = 1;
@@ -527,7 +523,7 @@ static const atom *shared_parameter(const poly *p) {
     return best;
 }
 
-/* Powers of symbols above the fraction bar, which can be parted again and again. */
+/* Powers of symbols above the fraction bar, which can be split repeatedly. */
 static bool has_symbols_only(const poly *p) {
     bool only = true;
     for (int i = 0; i < p->count; i++) {
@@ -541,7 +537,7 @@ static bool has_symbols_only(const poly *p) {
 
 static void show_group(const show *s, const poly *p, const poly *key, bool leading);
 
-/* A sum without rates and without a factor common to all: K1*(X - L1) + K2*(...). */
+/* A sum without rates and without a common factor: K1*(X - L1) + K2*(...). */
 static void show_parted(const show *s, const poly *p, bool leading) {
     double ratio;
     const poly *rest;
@@ -592,7 +588,7 @@ static void show_behind(const show *s, const poly *key) {
     }
 }
 
-/* sign and size * common * (inside) * key / below, each part left out where it is one. */
+/* sign and size * common * (inside) * key / below; a part equal to one is omitted. */
 static void show_group(const show *s, const poly *p, const poly *key, bool leading) {
     algebra *a = s->algebra;
     double ratio;
@@ -682,7 +678,7 @@ static void show_group(const show *s, const poly *p, const poly *key, bool leadi
     }
 }
 
-/* The rates and accelerations of a term: what its coefficient is collected by. */
+/* The rates and accelerations of a term, by which its coefficient is collected. */
 static const poly *motion_of(algebra *a, const mono *m, int *highest) {
     const poly *key = poly_number(a, 1.0);
     *highest = 0;
@@ -696,14 +692,14 @@ static const poly *motion_of(algebra *a, const mono *m, int *highest) {
     return key;
 }
 
-/* The terms with the same rates and accelerations, without these. */
+/* The terms with the same rates and accelerations, divided by these. */
 typedef struct collected {
     const poly *key;
     const poly *terms;
     int highest; /* most primes in the key */
 } collected;
 
-/* Returns how many groups there are. */
+/* Returns the number of groups. */
 static int collect(algebra *a, const poly *p, collected *groups) {
     int count = 0;
     for (int i = 0; i < p->count; i++) {
@@ -732,7 +728,7 @@ void show_poly(const show *s, const poly *p) {
     }
     collected *groups = room(p->count, sizeof *groups);
     const int count = collect(a, p, groups);
-    if (algebra_overflow(a)) { /* products are not to be had any more: the terms as they are */
+    if (algebra_overflow(a)) { /* products are no longer available: print the terms as they are */
         show_sum(s, p, (wave){NULL, 0, 0}, true);
     } else {
         bool leading = true;

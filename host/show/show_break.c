@@ -1,5 +1,5 @@
-/* show_break.c: line breaks in LaTeX, at the signs of a sum, with amsmath's aligned. A sum inside parentheses or below a
- * root is broken where it stands. */
+/* show_break.c: line breaks in LaTeX, at the signs of a sum, with amsmath's aligned. A sum inside parentheses or below
+ * a root is broken in place. */
 #include <ctype.h>
 #include <stdlib.h>
 #include <string.h>
@@ -7,8 +7,8 @@
 #include "host/base/room.h"
 #include "host/show/show_equations.h"
 
-/* Widths in points of type of 10 pt. A line of LaTeX's article is 345 pt wide, 25 of which hold the equation's number.
- * NARROWEST: of a sum that is broken. */
+/* Widths in points of 10 pt type. A line of LaTeX's article is 345 pt wide, including 25 for the equation's number.
+ * NARROWEST: of a broken sum. */
 enum { LINE_WIDTH = 320, NARROWEST = 100, LEFT_WIDTH = 150, EQUALS = 14, SIGN = 13, QUAD = 10 };
 
 /* A part of a text. */
@@ -23,14 +23,14 @@ static bool begins(span s, const char *word) {
            strncmp(s.from, word, length) == 0;
 }
 
-/* Depth of brackets: +1 where it opens, -1 where it closes. */
+/* Depth of brackets: +1 for an opening one, -1 for a closing one. */
 static int opens(span s) {
     return *s.from == '{' || begins(s, "\\left") || begins(s, "\\begin")  ? 1
            : *s.from == '}' || begins(s, "\\right") || begins(s, "\\end") ? -1
                                                                           : 0;
 }
 
-/* Behind the group that opens at s.from. */
+/* The end of the group that opens at s.from. */
 static const char *behind_group(span s) {
     int depth = 0;
     do {
@@ -60,7 +60,7 @@ static int width_of_rows(span s) {
     return larger(widest, width_of((span){row, s.end}));
 }
 
-/* A command and its arguments; *s moves behind them. */
+/* A command and its arguments; *s advances past them. */
 static int width_of_command(span *s) {
     static const char aligned[] = "\\begin{aligned}";
     static const char behind[] = "\\end{aligned}";
@@ -115,7 +115,7 @@ static int width_of_command(span *s) {
     return begins(of, "sqrt") ? 9 : begins(of, "times") ? SIGN : 7;
 }
 
-/* Rather too wide; scripts as wide as what carries them. */
+/* Rounded up; scripts count as wide as their base. */
 static int width_of_character(char c) {
     return strchr("+-", c) != NULL         ? SIGN
            : c == '='                      ? EQUALS
@@ -139,7 +139,8 @@ static int width_of(span s) {
     return width;
 }
 
-/* Where the next term begins at depth 0: before its sign, or behind the sign between two factors; s.end: nowhere. */
+/* The beginning of the next term at depth 0: its sign, or with `factors` the end of the sign between two factors; s.end
+ * if there is none. */
 static const char *next_break(span s, bool factors) {
     int depth = 0;
     for (span at = {s.from, s.end}; at.from < s.end; at.from++) {
@@ -154,7 +155,7 @@ static const char *next_break(span s, bool factors) {
 
 static char *broken(span s, int limit);
 
-/* The widest group of s; no name. */
+/* The widest group of s; names do not count. */
 static span widest_group(span s) {
     span widest = {s.from, s.from};
     int most = 0;
@@ -180,7 +181,7 @@ static span widest_group(span s) {
     return widest;
 }
 
-/* s with its widest groups broken, until it has that width, or no group is wide enough. */
+/* s with its widest groups broken, until it has that width or no group is wide enough. */
 static char *narrowed(span s, int limit) {
     char *text = room_copy(s.from, (size_t)(s.end - s.from));
     for (;;) {
@@ -208,7 +209,7 @@ static char *rows_of(span s, int limit, bool factors) {
     char *text;
     size_t length;
     FILE *out = room_text(&text, &length);
-    const int indent = factors ? QUAD + SIGN : QUAD; /* of the rows behind the first */
+    const int indent = factors ? QUAD + SIGN : QUAD; /* of the rows after the first */
     int width = 0;
     for (const char *at = s.from; at < s.end;) {
         const char *next = next_break((span){at, s.end}, factors);
@@ -229,7 +230,7 @@ static char *rows_of(span s, int limit, bool factors) {
     return text;
 }
 
-/* s in at most that width: one line, or rows of an aligned. */
+/* s within that width: one line, or rows of an aligned. */
 static char *broken(span s, int limit) {
     if (width_of(s) <= limit) {
         return room_copy(s.from, (size_t)(s.end - s.from));

@@ -1,4 +1,4 @@
-/* show_equations.c: the equations of motion and the first-order form, for the screen and for a paper. */
+/* show_equations.c: the equations of motion and the first-order form, for screen and paper. */
 #include "host/show/show_equations.h"
 
 #include <math.h>
@@ -11,10 +11,10 @@
 #include "host/show/show_events.h"
 
 /* === step by step ============================================================================= */
-/* Lagrange's equations step by step, one coordinate after another: what a student writes by hand. */
+/* Lagrange's equations step by step, one coordinate after another, as in a derivation by hand. */
 
-/* d/dt of the momentum: the mass matrix times the accelerations, and what the rates do to it. equations.h keeps the latter
- * together with -dT/dq. */
+/* d/dt of the momentum: the mass matrix times the accelerations, plus the terms of the rates. equations.h combines the
+ * latter with -dT/dq. */
 static const poly *momentum_rate(const equations *e, int i) {
     algebra *a = e->algebra;
     const poly *sum =
@@ -26,7 +26,7 @@ static const poly *momentum_rate(const equations *e, int i) {
     return sum;
 }
 
-/* What the statements of a kind do to coordinate i: Q, or -dF/dq'. */
+/* The force of all statements of a kind on coordinate i: Q, or -dF/dq'. */
 static const poly *force_of_kind(const equations *e, term_kind kind, int i) {
     const poly *sum = poly_number(e->algebra, 0.0);
     for (int k = 0; k < e->forces; k++) {
@@ -108,8 +108,7 @@ void show_steps(FILE *out, const equations *e, show_style style) {
 
 /* === the equations of motion ================================================================== */
 
-/* A closed formula for an acceleration with more terms than this is not read by anyone: the mass
- * matrix is printed instead. */
+/* A closed formula for an acceleration with more terms is unreadable: the mass matrix is printed instead. */
 #define READABLE_TERMS 24
 
 /* Inertia, centrifugal and potential terms of equation i, on one side. */
@@ -159,7 +158,7 @@ void show_equation(const show *s, const equations *e, int i) {
     show_row_end(&row);
 }
 
-/* What the records of a run show, and its unit there. */
+/* A quantity of the records of a run, and its unit there. */
 static void write_shown(const show *s, const char *kind, const symbol *what) {
     char *unit_name = shown_unit_name(what, 0);
     fprintf(s->out, "  %-10s %-10s [%s]%s%s\n", kind, what->name, unit_name,
@@ -167,7 +166,7 @@ static void write_shown(const show *s, const char *kind, const symbol *what) {
     free(unit_name);
 }
 
-/* A parameter or an input with its value in the unit of the file, and the formula that gives it. */
+/* A parameter or an input with its value in the unit of the file, and its formula. */
 static void write_value(const show *s, const char *kind, const symbol *what, const expr *given,
                         double si_value) {
     const unit_scale unit = shown_unit(what, 0);
@@ -216,15 +215,15 @@ static void write_names(const show *s, const equations *e) {
     }
 }
 
-/* Is the name this letter and a number, as those that are made up here? */
+/* Is the name this letter and a number, like the generated ones? */
 static bool is_numbered(const char *name, const char *letter) {
     const size_t length = strlen(letter);
     return strncmp(name, letter, length) == 0 && name[length] != '\0' &&
            strspn(name + length, "0123456789") == strlen(name + length);
 }
 
-/* The first of the letters, ended by NULL, that no symbol of the mechanism has with a number behind it,
- * so that y1 means one thing; or the last. */
+/* The first of the letters, ended by NULL, that no symbol of the mechanism uses with a number, so that y1 is unique; or
+ * the last. */
 static const char *free_letter(const mechanism *m, const char *const *letters) {
     for (; letters[1] != NULL; letters++) {
         bool taken = false;
@@ -285,7 +284,7 @@ bool show_closed_form(const equations *e, const poly **top, const poly **bottom)
     return size <= READABLE_TERMS && !algebra_overflow(a);
 }
 
-/* Divide both by the factors they share; 0.7391 keeps equal terms of the two from cancelling. */
+/* Divide both by their common factors; 0.7391 keeps equal terms of the two from cancelling. */
 static void reduce(algebra *a, const poly **top, const poly **bottom) {
     const poly *both = poly_add(a, *top, poly_scale(a, *bottom, 0.7390851332151607));
     const poly *inverse = poly_pow(a, show_common(a, both), -1.0);
@@ -406,7 +405,7 @@ void show_lets_end(show *s, const char *heading, const char *behind, const char 
     size_t length;
     int used = 0;
     FILE *out = s->out;
-    for (int i = lets->count - 1; i >= 0; i--) { /* a definition may name those before it */
+    for (int i = lets->count - 1; i >= 0; i--) { /* a definition may use earlier names */
         lets->below = i;
         if (lets->row[i].used) {
             s->out = room_text(&text[i], &length);

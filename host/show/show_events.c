@@ -1,4 +1,3 @@
-/* show_events.c: see show_events.h. */
 #include "show_events.h"
 
 static void show_crossing(const show *s, const contact_law *law, const contact_set *set) {

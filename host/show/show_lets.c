@@ -1,4 +1,4 @@
-/* show_lets.c: the file's own names for sums and functions, where a formula has the whole of one. */
+/* show_lets.c: names of the file for sums and functions, if a formula contains the whole of one. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -6,7 +6,7 @@
 #include "host/show/show.h"
 #include "host/show/show_equations.h"
 
-/* A name is shorter than a sum, a product or a function; not than a symbol, a number or a sine among factors. */
+/* A name is shorter than a sum, a product or a function, but not than a symbol, a number or a sine among factors. */
 static bool shortens(const poly *p) {
     double number;
     const mono *m = p->count == 1 ? p->terms[0].mono : NULL;
@@ -29,7 +29,7 @@ void show_lets_begin(show *s, const equations *e) {
     s->lets->below = s->lets->count;
 }
 
-/* value * ratio is a part of p, term by term. Terms of both stand in one order. */
+/* Is value * ratio a part of p, term by term? The terms of both are in the same order. */
 static bool is_part(const poly *p, const poly *value, double *ratio) {
     int at = 0;
     for (int i = 0; i < value->count; i++) {

@@ -1,4 +1,4 @@
-/* show_octave.c: the equations as a function file for Octave and Matlab, with the names of the file: parameters, inputs
+/* show_octave.c: the equations as a function file for Octave and Matlab, with the names of the file. Parameters, inputs
  * and the state come first, as in the listings of the dissertation's appendices. */
 #include <stdlib.h>
 #include <string.h>
@@ -9,7 +9,7 @@
 #include "host/show/show.h"
 #include "host/show/show_equations.h"
 
-/* The variable of a symbol's derivative; without a symbol, one of the file's own. */
+/* The variable of a symbol's derivative; without a symbol, one of the generated file itself. */
 typedef struct variable {
     const symbol *symbol;
     int primes;
@@ -22,7 +22,7 @@ typedef struct variables {
     int count;
 } variables;
 
-/* "ddX" for X'', with as many underscores behind it as make it free. */
+/* "ddX" for X'', followed by as many underscores as make it unique. */
 static const char *add(variables *all, const symbol *sym, int primes, const char *name) {
     char *made = room_words("%.*s%s", primes, "ddddddddddddddd", name);
     bool taken = true;
@@ -137,7 +137,7 @@ static void name_all(variables *all, const equations *e) {
     }
 }
 
-/* The state by its numbers: of each level values, then rates, and so on. */
+/* The state by its numbers: values, then rates, and so on. */
 static void write_state(const show *s, const equations *e, bool slopes) {
     int number = 1;
     for (int level = 0; level < PRIMES_MAX; level++) {
