@@ -19,7 +19,7 @@ void dual_take_from(enclosure *to, const enclosure *a, int width) {
     }
 }
 
-/* to += a b, where nothing is done for zeros */
+/* to += a b; zeros are skipped */
 static void add_product(enclosure *to, enclosure a, enclosure b) {
     if (!enclosure_is_zero(a) && !enclosure_is_zero(b)) {
         *to = enclosure_add(*to, enclosure_mul(a, b));

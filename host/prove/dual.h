@@ -1,5 +1,5 @@
-/* dual.h: an enclosure with its slopes by all states: entry 0 is the value, then come `width` - 1 slopes; or the value
- * alone, of width 1. Entries that are exactly zero cost next to nothing. */
+/* dual.h: an enclosure with its derivatives by all states: entry 0 is the value, then come `width` - 1 derivatives.
+ * With width 1 it is the value alone. Entries that are exactly zero cost almost nothing. */
 #ifndef PROVE_DUAL_H
 #define PROVE_DUAL_H
 
@@ -20,7 +20,7 @@ void dual_add_products(enclosure *to, enclosure number, const enclosure *a, cons
 void dual_scale(enclosure *to, enclosure number, int width);
 /* to /= a */
 void dual_divide(enclosure *to, const enclosure *a, int width);
-/* The slopes of a function of `a` whose value is to[0] and whose own slope there is this. */
+/* The derivatives of a function of `a` with value to[0] and derivative `slope` there. */
 void dual_chain(enclosure *to, enclosure slope, const enclosure *a, int width);
 
 #endif

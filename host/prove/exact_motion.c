@@ -1,4 +1,4 @@
-/* exact_motion.c: see exact_motion.h. */
+/* exact_motion.c: the exact equations of motion as a graph, solved for the highest derivatives. */
 #include "exact_motion.h"
 
 #include <stdlib.h>
@@ -18,7 +18,7 @@ typedef struct making {
     diags *errors;
 } making;
 
-/* --- what is refused ---------------------------------------------------------------------------------*/
+/* --- refused scenes ---------------------------------------------------------------------------------- */
 
 static bool is_smooth(const instance *inst, diags *errors) {
     const mechanism *m = inst->mechanism;
@@ -52,7 +52,7 @@ static bool is_smooth(const instance *inst, diags *errors) {
 
 /* --- the equations -----------------------------------------------------------------------------------*/
 
-/* The sum of what the terms of a kind say; -1: reported. */
+/* The sum of all terms of a kind; -1: reported. */
 static int sum_of_terms(making *k, term_kind kind, int unknown) {
     const mechanism *m = k->instance->mechanism;
     int sum = graph_whole(k->graph, 0);
@@ -106,8 +106,8 @@ static bool not_linear(making *k, const term *t) {
     return false;
 }
 
-/* left - right = 0, linear in the highest derivatives: host/derive has seen to it, but as far as its normal form tells,
- * in which the smallest terms are dropped. */
+/* left - right = 0, linear in the highest derivatives. host/derive has checked this in its normal form, which drops the
+ * smallest terms. */
 static bool given_outright(making *k) {
     graph *g = k->graph;
     const mechanism *m = k->instance->mechanism;
@@ -137,8 +137,8 @@ static bool given_outright(making *k) {
 
 /* --- solved ------------------------------------------------------------------------------------------*/
 
-/* What may stand in the denominator: a number best, then anything but zero. On the diagonal only where the matrix is one
- * of inertia: positive definite, so none of its pivots is zero. */
+/* An admissible pivot: preferably a number, else any value other than zero. An inertia matrix is positive definite, so
+ * its diagonal has only nonzero pivots; then only the diagonal is used. */
 static bool find_pivot(const making *k, const bool *row_done, const bool *column_done, int *row,
                        int *column) {
     const bool diagonal = !k->instance->mechanism->is_system;
@@ -157,7 +157,7 @@ static bool find_pivot(const making *k, const bool *row_done, const bool *column
     return best > 0;
 }
 
-/* Row i less a multiple of row p, so that column c of it becomes zero. */
+/* Subtract a multiple of row p from row i to make column c of it zero. */
 static void take_row(making *k, int i, int p, int c) {
     graph *g = k->graph;
     const int n = k->count;
@@ -173,7 +173,7 @@ static void take_row(making *k, int i, int p, int c) {
     k->force[i] = graph_sub(g, k->force[i], graph_mul(g, by, k->force[p]));
 }
 
-/* Row p of column c, where all unknowns but those of earlier pivots are known. */
+/* Solve row p for column c; all other unknowns except those of earlier pivots are known. */
 static void substitute(making *k, int p, int c, const bool *known) {
     graph *g = k->graph;
     int right = k->force[p];
@@ -217,10 +217,10 @@ static bool solve(making *k) {
     return good;
 }
 
-/* --- what is needed of it ----------------------------------------------------------------------------*/
+/* --- the needed nodes -------------------------------------------------------------------------------- */
 
 static void need(const graph *g, bool *needed, int a) {
-    for (int i = a; i >= 0; i--) { /* operands stand before what is made of them */
+    for (int i = a; i >= 0; i--) { /* operands come before their users */
         const node *n = &g->node[i];
         if (i == a) {
             needed[i] = true;
@@ -298,7 +298,7 @@ static bool read_starts(making *k, exact_motion *m) {
     return true;
 }
 
-/* A number that could not be enclosed (1/0, the root of -1) is NaN. */
+/* A number without an enclosure (1/0, the root of -1) is NaN. */
 static bool is_defined(const exact_motion *m, const mechanism *of, diags *errors) {
     bool good = true;
     for (int i = 0; i < m->nodes; i++) {

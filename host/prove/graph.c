@@ -1,9 +1,4 @@
-/* graph.c: expressions as a graph of operations, in which what is equal is one node. Nothing is rounded in it and nothing
- * is left out: numbers are enclosures, and only what is true of all real values is simplified (0 + x, 1 x, x - x). So a
- * motion that is enclosed by its nodes is enclosed by what the energies say; the algebra's normal form, which drops
- * terms below 1e-14, takes no part.
- *
- * Nodes are numbers from 0 on, operands before what is made of them. */
+/* graph.c: the graph of operations. */
 #include "host/prove/graph.h"
 
 #include <stdint.h>
@@ -109,8 +104,8 @@ int graph_variable(graph *g, int which) {
     return entered(g, NODE_VARIABLE, which, -1, enclosure_of(0.0));
 }
 
-/* x op y of numbers. What is a double and is computed without an error stays one: 2*3 is a whole exponent, as 6 is. The
- * errors are those of Knuth and of Dekker, whose split takes sizes below 1e150. */
+/* x op y for numbers. A double computed without an error stays a double: 2*3 is a whole exponent, as 6 is. The error
+ * terms are Knuth's and Dekker's; Dekker's split requires sizes below 1e150. */
 static enclosure folded(char op, enclosure x, enclosure y) {
     const double a = x.low;
     const double b = op == '-' ? -y.low : y.low;
@@ -125,7 +120,7 @@ static enclosure folded(char op, enclosure x, enclosure y) {
                    : (op == '+' ? enclosure_add(x, y) : enclosure_sub(x, y));
     }
     const double r = op == '*' ? a * b : a / b;
-    const double left = op == '*' ? a : r; /* left * b is to be `whole` */
+    const double left = op == '*' ? a : r; /* left * b must equal `whole` */
     const double whole = op == '*' ? r : a;
     const double c = 0x1.0000002p27 * left;
     const double d = 0x1.0000002p27 * b;
@@ -189,7 +184,7 @@ int graph_sub(graph *g, int a, int b) {
     return made_of_two(g, NODE_DIFFERENCE, a, b);
 }
 
-/* Numbers come to the front: what is constant in a product is one multiple. */
+/* Numbers move to the front: the constants of a product form one factor. */
 int graph_mul(graph *g, int a, int b) {
     const node x = g->node[a];
     const node y = g->node[b];
@@ -225,7 +220,7 @@ int graph_div(graph *g, int a, int b) {
     return made_of_two(g, NODE_RATIO, a, b);
 }
 
-/* A sine and its cosine are made together, one behind the other: their Taylor coefficients need each other. */
+/* A sine and its cosine are made together, in adjacent nodes: their Taylor coefficients depend on each other. */
 static int wave(graph *g, int a, bool cosine) {
     const enclosure of = g->node[a].number;
     if (graph_is_number(g, a)) {
@@ -252,7 +247,7 @@ int graph_log(graph *g, int a) {
                                  : entered(g, NODE_LOG, a, -1, enclosure_of(0.0));
 }
 
-enum { PRODUCTS_MOST = 64 }; /* a whole exponent up to this is multiplied out */
+enum { PRODUCTS_MOST = 64 }; /* larger whole exponents are not multiplied out */
 
 int graph_power(graph *g, int a, enclosure exponent) {
     const double e = exponent.low;
@@ -276,12 +271,12 @@ int graph_power(graph *g, int a, enclosure exponent) {
 }
 
 /* === derivatives ============================================================================== */
-/* Derivatives of a graph's nodes, and nodes with zeros put in. */
+/* Derivatives of a graph's nodes, and nodes with zeros substituted. */
 
-/* What became of the nodes met so far. Nodes are made meanwhile, but only those that were there before are asked for. */
+/* The results for the nodes visited so far. New nodes appear meanwhile, but only earlier ones are looked up. */
 typedef struct rewriting {
     graph *graph;
-    int *to; /* [nodes at the beginning] -1: not yet */
+    int *to; /* [number of nodes at the start] -1: not yet */
     int variable;
 } rewriting;
 
@@ -293,7 +288,7 @@ static rewriting begin(graph *g, int variable) {
     return r;
 }
 
-/* The slope of sine, cosine, exp and so on by their argument. */
+/* The derivative of sine, cosine, exp and so on by their argument. */
 static int outer_slope(graph *g, int a) {
     const node n = g->node[a];
     switch (n.kind) {

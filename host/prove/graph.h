@@ -1,9 +1,7 @@
-/* graph.h: expressions as a graph of operations, in which what is equal is one node. Nothing is rounded in it and nothing
- * is left out: numbers are enclosures, and only what is true of all real values is simplified (0 + x, 1 x, x - x). So a
- * motion that is enclosed by its nodes is enclosed by what the energies say; the algebra's normal form, which drops
- * terms below 1e-14, takes no part.
- *
- * Nodes are numbers from 0 on, operands before what is made of them. */
+/* graph.h: expressions as a graph of operations in which equal subexpressions are one node. Nothing is rounded or
+ * dropped: numbers are enclosures, and simplifications are valid for all real values (0 + x, 1 x, x - x). So enclosing
+ * the nodes encloses the motion of the given energies. The algebra's normal form, which drops terms below 1e-14, is not
+ * involved. Nodes are numbers from 0 on, operands before their users. */
 #ifndef PROVE_GRAPH_H
 #define PROVE_GRAPH_H
 
@@ -20,7 +18,7 @@ typedef enum node_kind {
     NODE_MULTIPLE, /* number * left */
     NODE_SQUARE,
     NODE_RATIO,
-    NODE_SINE, /* right: the cosine of the same, the next node */
+    NODE_SINE, /* right: the cosine of the same angle, the next node */
     NODE_COSINE,
     NODE_EXP,
     NODE_LOG,
@@ -29,7 +27,7 @@ typedef enum node_kind {
 
 typedef struct node {
     node_kind kind;
-    int left; /* -1: none */
+    int left; /* -1: no operand */
     int right;
     enclosure number;
 } node;
@@ -38,11 +36,11 @@ typedef struct graph {
     node *node;
     int count;
     int room;
-    int *slot; /* [slots] nodes by their hash; -1: none */
+    int *slot; /* [slots] hash table of nodes; -1: empty */
     int slots;
 } graph;
 
-/* More nodes than this are too many to be evaluated again and again. */
+/* A graph with more nodes is too large for repeated evaluation. */
 enum { GRAPH_NODES_MAX = 20000 };
 
 graph *graph_new(void);
@@ -68,7 +66,7 @@ bool graph_is_one(const graph *g, int a);
 
 /* The derivative by a variable. */
 int graph_slope(graph *g, int a, int variable);
-/* `a` with numbers 0 in place of the variables from `first` on. */
+/* `a` with 0 in place of the variables from `first` on. */
 int graph_without(graph *g, int a, int first);
 
 #endif

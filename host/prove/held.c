@@ -1,6 +1,4 @@
-/* held.c: a run's records held against a tube round the exact motion: until when each coordinate and rate is proved to be
- * within a tolerance of it, at the end of every step. The records are those of the run as it is, float's or double's, to
- * the bit. */
+/* held.c: comparison of a run's records with the tube, step by step. */
 #include "host/prove/held.h"
 
 #include <inttypes.h>
@@ -54,11 +52,11 @@ static void read_run(const reading *r, void *run) {
 
 static bool is_stopped(const held_wish *w) { return w->stop != NULL && *w->stop; }
 
-/* --- what it is to be within -------------------------------------------------------------------------*/
+/* --- the tolerances ----------------------------------------------------------------------------------- */
 
-/* Of a size, and of the range that another state of the same unit has: what has less of a range hardly moves. */
+/* Relative to a state's size, and to the range of another state of the same unit: a smaller range hardly moves. */
 #define LITTLE 1e-3
-/* SI, in place of the range of what does not move at all, nor another of its unit: the tube has a width even there. */
+/* SI, replaces the range if neither this state nor another of its unit moves: the tube has a width even there. */
 #define STILL 1e-9
 
 static const char *unit_of(const held_wish *w, int i) {
@@ -124,7 +122,7 @@ static void find_ranges(const held_wish *w, const reading *r, held_found *h) {
 
 /* --- record by record --------------------------------------------------------------------------------*/
 
-/* No state is asked about any more? */
+/* Are all states finished? */
 static bool all_closed(const held_found *h) {
     for (int i = 0; i < h->states; i++) {
         if (h->state[i].open) {
@@ -175,7 +173,8 @@ static void look_now(going *g) {
     }
 }
 
-/* The records within the open step, of h_s; *last_s: the last one's time in it. Returns how many. */
+/* Compare the records within the open step of length h_s; *last_s: the time of the last one in it. Returns their
+ * number. */
 static uint64_t look_within(going *g, double h_s, enclosure *last_s) {
     uint64_t count = 0;
     while (g->done < g->held->run_steps && !all_closed(g->held)) {
@@ -205,7 +204,7 @@ static bool go_on(going *g) {
     if (look_within(g, h_s, &last_s) > 0) {
         good = tube_on(g->tube, last_s);
         g->next_s = g->step_s;
-    } else { /* it is shorter than what is left of the run's step */
+    } else { /* it is shorter than the remaining part of the run's step */
         const double part_s = number_least(h_s, 0.5 * g->next_s.low);
         good = tube_on(g->tube, enclosure_of(part_s));
         g->next_s = enclosure_sub(g->next_s, enclosure_of(part_s));
@@ -213,7 +212,7 @@ static bool go_on(going *g) {
     return good && g->next_s.low > 0.0;
 }
 
-/* What ends it now; HELD_AT_END: nothing yet, if `more` is to come. */
+/* The reason for an end now; HELD_AT_END if there is none yet and `more` is to come. */
 static held_end ended(const going *g, bool on) {
     const held_wish *w = g->wish;
     const bool spent = w->products_most > 0.0 && tube_products(g->tube) > w->products_most;
@@ -307,11 +306,12 @@ typedef struct figure {
     char text[40];
 } figure;
 
-/* Not less than x, with so many places: what is proved of x is true of what is printed. */
+/* Rounded up to so many places: statements proved for x also hold for the printed number. */
 static figure not_less(double x, int places) {
     figure f;
     const char *end;
-    double shown = enclosure_above(enclosure_above(x)); /* it may have been divided by its unit */
+    double shown = enclosure_above(enclosure_above(x)); /* the conversion to its unit may have
+                                                         * rounded it */
     snprintf(f.text, sizeof f.text, "%.*e", places, x);
     while (x > 0.0 && decimal_read(f.text, &end) < x) {
         shown *= 1.001;
@@ -320,7 +320,7 @@ static figure not_less(double x, int places) {
     return f;
 }
 
-/* What is behind the last proved time. */
+/* The reason why the proved time ends. */
 static const char *behind(const held_found *h, const held_state *s) {
     static const char *const ends[] = {[HELD_AT_END] = "",
                                        [HELD_RUN_ENDS] = "; there the run fails",
@@ -358,7 +358,7 @@ static void print_state(FILE *out, const held_found *h, const held_wish *w, int 
             wide.text, behind(h, s));
 }
 
-/* The state of which the least is proved; -1: all is. */
+/* The state with the shortest proof, or -1 if all are proved to the end. */
 static int first_of(const held_found *h) {
     int first = -1;
     for (int i = 0; i < h->states; i++) {

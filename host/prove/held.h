@@ -1,6 +1,5 @@
-/* held.h: a run's records held against a tube round the exact motion: until when each coordinate and rate is proved to be
- * within a tolerance of it, at the end of every step. The records are those of the run as it is, float's or double's, to
- * the bit. */
+/* held.h: comparison of a run's records with a tube around the exact motion. For each coordinate and rate it proves a
+ * time up to which all step ends are within a tolerance. The records are bit-exact, in float or double. */
 #ifndef PROVE_HELD_H
 #define PROVE_HELD_H
 
@@ -18,9 +17,9 @@ typedef struct held_wish {
     const engine_kind *kind;
     double tolerance;
     const double *within;              /* [states] SI; 0: the tolerance times the range */
-    double products_most;              /* of enclosures that it may take; 0: as many as it wants */
+    double products_most;              /* limit on products of enclosures; 0: no limit */
     const volatile sig_atomic_t *stop; /* may be NULL */
-    /* At the start, and at the end of each of the run's steps that the tube gets to: where the exact motion is,
+    /* Called at the start and at the end of each step that the tube reaches, with the enclosure of the exact motion,
      * exact[states], and the run, SI. May be NULL. */
     void (*see)(void *told, uint64_t step, const enclosure *exact, const double *run);
     void *told;
@@ -28,33 +27,35 @@ typedef struct held_wish {
 } held_wish;
 
 typedef enum held_verdict {
-    HELD_TO_THE_END, /* within, at every step's end: proved */
-    HELD_LEFT,       /* proved until until_s; and at the step behind it proved to be further off */
-    HELD_UNTOLD,     /* proved until until_s; behind it the tube is too wide to tell */
-    HELD_UNENDED /* proved until until_s, where the tube or the run ends: held_found's `end` says why */
+    HELD_TO_THE_END, /* proved within the tolerance at every step's end */
+    HELD_LEFT,       /* proved until until_s; at the next step it is proved to be outside */
+    HELD_UNTOLD,     /* proved until until_s; after it the tube is too wide to decide */
+    HELD_UNENDED /* proved until until_s, the end of the tube or the run: held_found's `end` has the
+                  * reason */
 } held_verdict;
 
-/* What ended it. */
+/* The reason for the end. */
 typedef enum held_end {
-    HELD_AT_END,   /* of the run's steps, or all states have left */
+    HELD_AT_END,   /* the end of the run, or all states have left their tolerances */
     HELD_RUN_ENDS, /* the run failed */
-    HELD_NO_STEP,  /* no step of the tube leads on */
-    HELD_SPENT,    /* it would take more than it may */
+    HELD_NO_STEP,  /* the tube has no further step */
+    HELD_SPENT,    /* the limit on products was reached */
     HELD_STOPPED   /* it was asked to stop */
 } held_end;
 
-/* Of a state of the motion; SI. */
+/* For a state of the motion; SI. */
 typedef struct held_state {
     held_verdict verdict;
     bool open;
-    bool begun;   /* it is within at the start: else nothing is proved */
-    double range; /* the most less the least value in the run, at least a thousandth of its size */
+    bool begun;   /* within the tolerance at the start: else nothing is proved */
+    double range; /* the largest minus the smallest value in the run, but at least a thousandth of
+                   * its size */
     double
-        within; /* what it is to be within: asked for, or the tolerance times its range, or times a thousandth of the
-                      largest range of its unit */
+        within; /* its tolerance: requested, or the tolerance times its range, or times a thousandth
+                 * of the largest range in its unit */
     double until_s;
-    double off;    /* not less than it has been off, until then */
-    double radius; /* of the tube, the most until then */
+    double off;    /* upper bound of its error until then */
+    double radius; /* largest radius of the tube until then */
 } held_state;
 
 typedef struct held_found {
@@ -65,19 +66,19 @@ typedef struct held_found {
     uint64_t tube_steps;
     double tube_s; /* the tube's last time */
     held_end end;
-    bool ranged; /* the run was done, so that it is known what it is to be within */
+    bool ranged; /* the run is complete, so the tolerances are known */
 } held_found;
 
 held_found held_run(const held_wish *w);
 void held_free(held_found *h);
 
 /* === in words ================================================================================= */
-/* What is proved of a run, in words and in rows. */
+/* The results for a run, in words and in rows. */
 
 void held_print(FILE *out, const held_found *h, const held_wish *w);
 
-/* Rows of comma-separated values, in SI, with all digits: the time, and of each state the least and the most that the exact
- * motion may be, and what the run has. */
+/* Rows of comma-separated values, in SI, with all digits: the time, and for each state the least and greatest value of
+ * the exact motion, and the run's value. */
 void held_rows_head(FILE *out, const held_wish *w);
 void held_row(FILE *out, const held_wish *w, uint64_t step, const enclosure *exact,
               const double *run);

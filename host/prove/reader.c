@@ -59,7 +59,7 @@ static enclosure sign_of(enclosure a) {
                                       : 0.0};
 }
 
-/* What has corners is known of numbers only. */
+/* Functions with corners accept only numbers. */
 static int read_corner(reader_symbols *s, const expr *tree, int a, int b) {
     graph *g = s->graph;
     if (!graph_is_number(g, a) || (b >= 0 && !graph_is_number(g, b))) {
@@ -77,8 +77,8 @@ static int read_corner(reader_symbols *s, const expr *tree, int a, int b) {
                     least ? enclosure_lesser(x.high, y.high) : enclosure_larger(x.high, y.high)});
 }
 
-/* The angle in [-pi/2, pi/2] whose sine (or tangent) is x: what is below and above it is tried, on both sides of the
- * double next to it, since both functions only grow there. */
+/* A bound of the angle in [-pi/2, pi/2] with the sine (or tangent) x. Neighbouring doubles on both sides are tested;
+ * both functions increase monotonically there. */
 static double inverse_end(double x, bool tangent, double side) {
     const double angle = folding_call(tangent ? FN_ATAN : FN_ASIN, x, 0.0);
     const double most = 0x1.921fb54442d18p+0; /* pi/2, from below */
@@ -109,7 +109,7 @@ static enclosure inverse(enclosure x, bool tangent) {
                : (enclosure){inverse_end(x.low, tangent, -1.0), inverse_end(x.high, tangent, 1.0)};
 }
 
-/* atan2(y, x), by the quadrant; where it is cut, a NaN. */
+/* atan2(y, x), by quadrant; NaN at its cut. */
 static enclosure inverse_ratio(enclosure y, enclosure x) {
     const enclosure right = enclosure_times(enclosure_pi(), 0.5);
     if (x.low > 0.0) {
@@ -122,7 +122,7 @@ static enclosure inverse_ratio(enclosure y, enclosure x) {
     return enclosure_is_zero(y) && x.high < 0.0 ? enclosure_pi() : enclosure_of((double)NAN);
 }
 
-/* Inverse functions are known of numbers only. */
+/* Inverse functions accept only numbers. */
 static int read_inverse(reader_symbols *s, const expr *tree, int a, int b) {
     graph *g = s->graph;
     if (!graph_is_number(g, a) || (b >= 0 && !graph_is_number(g, b))) {

@@ -1,5 +1,5 @@
-/* reader.h: what a model's expressions say, as nodes of a graph: parameters, inputs and starts as they are written, not as
- * doubles. */
+/* reader.h: conversion of a model's expressions to nodes of a graph. Parameters, inputs and starts are exact decimals,
+ * not doubles. */
 #ifndef PROVE_READER_H
 #define PROVE_READER_H
 
@@ -10,10 +10,10 @@ typedef struct reader_symbols {
     graph *graph;
     const instance *instance;
     int *
-        first; /* [coordinate_count] the variable that is an unknown's value; its rate is the next one */
+        first; /* [coordinate_count] the variable of an unknown's value; its rate is the next one */
     int *
-        order; /* [coordinate_count] of its highest derivative, which is the variable highest + unknown */
-    int highest;    /* how many variables the state has */
+        order; /* [coordinate_count] of its highest derivative, which is variable highest + unknown */
+    int highest;    /* number of variables of the state */
     int *parameter; /* [parameter_count] nodes; -1: not yet */
     int *let;       /* [let_count] the same */
     diags *errors;

@@ -1,5 +1,5 @@
-/* taylor.c: see taylor.h. Of each node, u and v being its operands, coefficient k follows from theirs up to k and from its
- * own below k. */
+/* taylor.c: the recurrences of Taylor coefficients. With u and v the operands of a node, coefficient k follows from
+ * theirs up to k and from its own below k. */
 #include "taylor.h"
 
 #include <stdlib.h>
@@ -32,7 +32,7 @@ const enclosure *taylor_of(const taylor *t, int i, int k) { return at(t, i, k); 
 
 static enclosure whole(int value) { return enclosure_of((double)value); }
 
-/* How much is found of coefficient k. */
+/* Number of entries of coefficient k. */
 static int width_of(const taylor *t, int k) { return k <= t->slopes_to ? t->width : 1; }
 
 /* to = sum of u_j v_(k-j) */
@@ -66,7 +66,7 @@ static void ratio(const taylor *t, const node *n, int self, int k, enclosure *to
     dual_divide(to, at(t, n->right, 0), width_of(t, k));
 }
 
-/* s' = u' c, c' = -u' s: k s_k = sum of j u_j c_(k-j), the cosine likewise. `self` is the cosine, behind the sine. */
+/* s' = u' c, c' = -u' s: k s_k = sum of j u_j c_(k-j), and similarly the cosine. `self` is the cosine, after the sine. */
 static void waves(const taylor *t, const node *n, int self, int k) {
     enclosure *sine = at(t, self - 1, k);
     enclosure *cosine = at(t, self, k);
@@ -148,7 +148,7 @@ static void find(const taylor *t, int self, int k) {
     const node *n = &t->motion->node[self];
     enclosure *to = at(t, self, k);
     if (n->kind == NODE_SINE || (n->kind == NODE_VARIABLE && k == 0)) {
-        return; /* it stands there, or comes with its cosine */
+        return; /* already computed, or computed with its cosine */
     }
     dual_zero(to, width_of(t, k));
     switch (n->kind) {
@@ -200,7 +200,7 @@ bool taylor_find(taylor *t, const enclosure *x) {
     return all_finite(t);
 }
 
-/* A product's: each coefficient is a sum of products, and each of its slopes one of two. */
+/* The cost of a product: each coefficient is a sum of products, and each derivative a sum of two. */
 static double products_to(int order) { return 0.5 * (double)(order + 1) * (double)(order + 2); }
 
 double taylor_products(const taylor *t) {

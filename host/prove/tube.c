@@ -9,9 +9,9 @@
 #include "host/number/functions.h"
 #include "host/prove/zonotope.h"
 
-/* The step is as long as the remainder, in parts of the largest value that a state has had, stays below this... */
+/* The step is as long as the remainder, relative to the largest value of a state so far, stays below this, */
 #define REMAINDER 0x1p-54
-/* ... and shorter ones than this lead nowhere, s. */
+/* but a step shorter than this is useless, s. */
 #define STEP_LEAST_S 1e-9
 #define STEP_FIRST_S 0.01
 enum { TRIALS = 60, GENERATORS = 3000 };
@@ -20,19 +20,20 @@ struct tube {
     const exact_motion *motion;
     int states;
     int order;
-    int first;        /* coefficients up to this one are told by their slopes, */
-    taylor *middle;   /* from the middle of what is known; those behind it are so small... */
-    taylor *all;      /* that they are taken wherever the motion may be */
+    int first;        /* coefficients up to this one use derivatives, */
+    taylor *middle;   /* from the centre; the later ones are so small */
+    taylor *all;      /* that they are evaluated over the whole box */
     taylor *over;     /* over a whole step, one order more */
-    double *centre;   /* [states] x is centre and off, */
+    double *centre;   /* [states] x is centre plus off, */
     zonotope *off;    /* which lies in a box... */
-    enclosure *box;   /* [states] of x, along the states, */
+    enclosure *box;   /* [states] of x, along the state axes, */
     double *axes;     /* [states * states] and along these axes */
     enclosure *along; /* [states] */
-    enclosure *turn;  /* [first + 1][states * states] coefficients of the slopes times the axes */
+    enclosure *turn;  /* [first + 1][states * states] coefficients of the derivatives times the axes
+                       */
     enclosure *stay;  /* [states] over the step */
     double *largest;  /* [states] */
-    double open_s;    /* of the open step; 0: none */
+    double open_s;    /* length of the open step; 0: not open */
     double guess_s;   /* of the next one */
     uint64_t steps;
     double products;
@@ -62,7 +63,7 @@ tube *tube_new(const exact_motion *m, int order) {
         t->along[i] = enclosure_sub(m->start[i], enclosure_of(t->centre[i]));
         t->box[i] = m->start[i];
     }
-    zonotope_map(t->off, t->turn, t->along); /* of nothing yet: the map does not matter */
+    zonotope_map(t->off, t->turn, t->along); /* the set is empty: the map does not matter */
     return t;
 }
 
@@ -104,16 +105,16 @@ static enclosure polynomial_over(const tube *t, int i, enclosure span) {
 
 static enclosure power_of(enclosure h, int n) { return enclosure_whole_power(h, n); }
 
-/* tau^(order + 1) times the next coefficient, wherever in `stay` it is taken: Lagrange's remainder. */
+/* tau^(order + 1) times the next coefficient over `stay`: Lagrange's remainder. */
 static enclosure remainder_of(const tube *t, int i, enclosure tau) {
     return enclosure_mul(power_of(tau, t->order + 1), taylor_of(t->over, i, t->order + 1)[0]);
 }
 
 static enclosure widened(enclosure a, double by) { return enclosure_add(a, (enclosure){-by, by}); }
 
-/* Does a motion from the box stay in `stay` for h_s? If it left it for the first time at t, its Taylor polynomial with
- * Lagrange's remainder up to then, taken in `stay`, would put it inside. *excess: the largest remainder in parts of what is
- * wished. */
+/* Does every motion from the box stay in `stay` for h_s? Assume that one leaves it first at t. Its Taylor polynomial
+ * with Lagrange's remainder over `stay` up to t would put it inside: a contradiction. *excess: the largest remainder
+ * relative to the wanted one. */
 static bool stays(tube *t, double h_s, double *excess) {
     const enclosure span = {0.0, h_s};
     *excess = (double)INFINITY;
@@ -138,7 +139,7 @@ static bool stays(tube *t, double h_s, double *excess) {
     return good;
 }
 
-/* The next trial's length by the remainder's order, neither much shorter nor much longer. */
+/* The next trial's length from the remainder's order, with bounded change. */
 static double changed(double h_s, double excess, int order) {
     const double factor =
         excess > 0.0 ? 0.9 * number_power(1.0 / excess, 1.0 / (double)(order + 1)) : 2.0;
@@ -189,7 +190,7 @@ double tube_open(tube *t, double most_s) {
 
 /* --- in the step -------------------------------------------------------------------------------------*/
 
-/* How far the middle gets: its polynomial less its start, what the later coefficients add, and the remainder. */
+/* The displacement of the centre: its polynomial minus its start, the later coefficients, and the remainder. */
 static enclosure way_at(const tube *t, int i, enclosure tau) {
     enclosure sum = taylor_of(t->all, i, t->order)[0];
     for (int k = t->order - 1; k > 0; k--) {
@@ -234,7 +235,8 @@ static bool all_finite(const tube *t) {
     return good;
 }
 
-/* The new centre, and what the way there leaves over, which is small: so little is lost of it. */
+/* Move the centre by the middle of the displacement; the remainder of its enclosure goes to `left`. The displacement is
+ * small, so little precision is lost. */
 static void go_to(tube *t, enclosure tau, enclosure *left) {
     for (int i = 0; i < t->states; i++) {
         const enclosure way = way_at(t, i, tau);
@@ -258,7 +260,7 @@ bool tube_on(tube *t, enclosure tau_s) {
     t->products +=
         2.0 * (double)n * (double)n * (double)t->off->count; /* here, and when it opens */
     for (int i = 0; i < n; i++) {
-        /* slopes are taken between the centre and where the motion may be */
+        /* derivatives cover the segment from the centre to the motion */
         const enclosure centre = enclosure_of(t->centre[i]);
         t->box[i] = enclosure_hull(enclosure_add(centre, t->box[i]), centre);
     }

@@ -1,11 +1,10 @@
-/* tube.h: a tube round the exact motion, from its start on: at each time a box in which it lies, proved.
- *
- * Steps as Lohner's (Enclosing the solutions of ordinary initial and boundary value problems, 1987; Nedialkov, Jackson,
- * Corliss, Validated solutions of initial value problems, 1999): over [0, h] the motion stays in a box that its own
- * Taylor series leads back into; then x(t + tau) is the Taylor polynomial from the middle of what is known, plus the
- * polynomial's slopes times how far the motion may be off the middle, plus the remainder, of that box. What may be off is kept as a
- * box along axes that turn with the motion. All in enclosures: rounding is in it, and so are parameters that no double
- * is. */
+/* tube.h: a tube around the exact motion from its start: at each time a box that provably contains it. The steps are
+ * Lohner's (Enclosing the solutions of ordinary initial and boundary value problems, 1987; Nedialkov, Jackson, Corliss,
+ * Validated solutions of initial value problems, 1999). First, a box is found that contains the motion over [0, h],
+ * since its own Taylor series leads back into it. Then x(t + tau) is the Taylor polynomial from the centre of the
+ * current set, plus the polynomial's derivatives times the deviation from the centre, plus the remainder over that box.
+ * The deviation is a box along axes that turn with the motion. All numbers are enclosures: they include round-off, and
+ * parameters that no double represents. */
 #ifndef PROVE_TUBE_H
 #define PROVE_TUBE_H
 
@@ -21,13 +20,13 @@ typedef struct tube tube;
 tube *tube_new(const exact_motion *m, int order);
 void tube_free(tube *t);
 
-/* Opens a step at the present time and tells how long it is, s; 0: no step that is worth one leads on. `most_s`: it need
- * not be longer. Until tube_on() the tube then is known at tau_s in [0, that]: x[states]. */
+/* Open a step of at most `most_s` at the present time. Returns its length, s, or 0 if no step of useful length is
+ * possible. Until tube_on() the tube is known at tau_s in [0, length]: x[states]. */
 double tube_open(tube *t, double most_s);
 void tube_at(const tube *t, enclosure tau_s, enclosure *x);
-/* The present time becomes this one of the open step. False: nothing is known there any more. */
+/* Move the present time to this time of the open step. False if the tube ends there. */
 bool tube_on(tube *t, enclosure tau_s);
-/* Steps so far, and products of enclosures, about: what they cost. */
+/* Steps so far, and their estimated cost in products of enclosures. */
 uint64_t tube_steps(const tube *t);
 double tube_products(const tube *t);
 

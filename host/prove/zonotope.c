@@ -1,7 +1,4 @@
-/* zonotope.c: what a point may be off a centre, as the sum of a known drift and of generators, each times some number from -1
- * to 1 (Kuehn, Rigorously computed orbits of dynamical systems without the wrapping effect, Computing 61, 1998). A linear map
- * maps them exactly, but for rounding, which becomes more generators: nothing is wrapped into a box until there are too
- * many of them, and then the smallest only. */
+/* zonotope.c: linear maps of zonotopes, and their reduction. */
 #include "host/prove/zonotope.h"
 
 #include <stdlib.h>
@@ -11,10 +8,10 @@
 #include "host/number/functions.h"
 
 /* === orthogonal =============================================================================== */
-/* Axes for a box that turns along with the motion: nearly orthogonal, so that enclosing a turned box by a new one
- * along them costs little. (Lohner, Enclosing the solutions of ordinary initial and boundary value problems, 1987.) */
+/* Axes for a box that turns with the motion. They are nearly orthogonal, so enclosing a turned box in a new one along
+ * them costs little (Lohner, Enclosing the solutions of ordinary initial and boundary value problems, 1987). */
 
-/* The columns of `of` into a[n * n], the one that makes the box longest first. */
+/* The columns of `of` into a[n * n], by their contribution to the box, longest first. */
 static void sorted(int n, const double *of, const double *radii, double *a) {
     bool *taken = room(n, sizeof *taken);
     for (int c = 0; c < n; c++) {
@@ -31,7 +28,7 @@ static void sorted(int n, const double *of, const double *radii, double *a) {
                 best = j;
             }
         }
-        best = best >= 0 ? best : c; /* only what is no number gets here */
+        best = best >= 0 ? best : c; /* only NaN reaches this */
         taken[best] = true;
         for (int i = 0; i < n; i++) {
             a[i * n + c] = of[i * n + best];
@@ -40,7 +37,7 @@ static void sorted(int n, const double *of, const double *radii, double *a) {
     free(taken);
 }
 
-/* Reflects columns `from` on of m by v[n], which acts on rows k on. */
+/* Apply the reflection by v[n], on rows k on, to columns `from` on of m. */
 static void reflect(int n, double *m, const double *v, int k, int from) {
     double norm = 0.0;
     for (int i = k; i < n; i++) {
@@ -57,8 +54,8 @@ static void reflect(int n, double *m, const double *v, int k, int from) {
     }
 }
 
-/* axes[n * n], a column each: the columns of `of`, longest first as seen with radii[n], made orthogonal one after the other
- * (Householder's reflections, in doubles: no error in it can make a result wrong, but only wide). */
+/* axes[n * n], a column each: the columns of `of`, orthogonalized in order of their length times radii[n]
+ * (Householder's reflections). Doubles suffice: their round-off can only widen the result. */
 static void orthogonal_axes(int n, const double *of, const double *radii, double *axes) {
     double *a = room((int64_t)n * n, sizeof *a);
     double *v = room((int64_t)n * n, sizeof *v); /* a row for each reflection */
@@ -94,7 +91,7 @@ static void frame_apply(int n, const enclosure *a, const enclosure *x, enclosure
     }
 }
 
-/* The largest sum of sizes in a row of I - A^T A. */
+/* The largest absolute row sum of I - A^T A. */
 static double off_orthogonal(int n, const double *axes) {
     double most = 0.0;
     for (int i = 0; i < n; i++) {
@@ -112,9 +109,8 @@ static double off_orthogonal(int n, const double *axes) {
     return most;
 }
 
-/* inverse[n * n]: encloses that of `axes`. False: they are too far from orthogonal to tell.
- *
- * A^-1 = (I - E)^-1 A^T with E = I - A^T A, and (I - E)^-1 is off I by at most |E| / (1 - |E|) in the row norm. */
+/* inverse[n * n]: an enclosure of the inverse of `axes`. False if they are too far from orthogonal. A^-1 = (I - E)^-1
+ * A^T with E = I - A^T A. In the row norm, (I - E)^-1 differs from I by at most |E| / (1 - |E|). */
 static bool orthogonal_inverse(int n, const double *axes, enclosure *inverse) {
     const double e = off_orthogonal(n, axes);
     if (!(e < 0.25)) {
@@ -157,7 +153,7 @@ void zonotope_free(zonotope *z) {
 
 static double size_of(double x) { return x < 0.0 ? -x : x; }
 
-/* The sum of sizes, rounded up. */
+/* The sum of absolute values, rounded up. */
 static double sum_up(double a, double b) { return b == 0.0 ? a : enclosure_above(a + b); }
 
 void zonotope_box(const zonotope *z, enclosure *box) {
@@ -172,7 +168,7 @@ void zonotope_box(const zonotope *z, enclosure *box) {
 
 /* --- along axes -----------------------------------------------------------------------------------------*/
 
-/* The n longest generators as columns, or axes where there are fewer. */
+/* The n longest generators as columns; unit axes fill missing ones. */
 static void longest(const zonotope *z, double *columns, double *radii) {
     const int n = z->n;
     double *length = room(n, sizeof *length);
@@ -201,7 +197,7 @@ static void longest(const zonotope *z, double *columns, double *radii) {
     free(length);
 }
 
-/* How far generators `from` on reach along each row of the inverse axes. */
+/* The extent of generators `from` on along each row of the inverse axes. */
 static void reach(const zonotope *z, const enclosure *inverse, int from, double *radius) {
     const int n = z->n;
     for (int i = 0; i < n; i++) {
@@ -217,7 +213,7 @@ static void reach(const zonotope *z, const enclosure *inverse, int from, double 
     }
 }
 
-/* Axes and their inverse; where those of the generators are no good, those of the dimensions. */
+/* Axes and their inverse; if those of the generators are unsuitable, the unit axes. */
 static void find_axes(const zonotope *z, double *axes, enclosure *inverse) {
     const int n = z->n;
     double *columns = room((int64_t)n * n, sizeof *columns);
@@ -285,7 +281,7 @@ static void sort_by_size(zonotope *z) {
     free(sorted);
 }
 
-/* The smaller half becomes one box along axes. What its corners are rounded is added to noise[n]. */
+/* The smaller half becomes one box along axes. The rounding of its corners is added to noise[n]. */
 static void reduce(zonotope *z, double *noise) {
     const int n = z->n;
     double *axes = room((int64_t)n * n, sizeof *axes);
@@ -311,8 +307,7 @@ static void reduce(zonotope *z, double *noise) {
 
 /* --- mapped --------------------------------------------------------------------------------------------*/
 
-/* vector[n] becomes the middle of map vector + more (NULL: nothing); what that is off is added to noise[n]. to[n] is
- * room. */
+/* vector[n] becomes the centre of map vector + more (NULL: nothing); its error is added to noise[n]. to[n] is scratch. */
 static void map_vector(int n, const enclosure *map, double *vector, const enclosure *more,
                        enclosure *to, double *noise) {
     for (int i = 0; i < n; i++) {
