@@ -9,7 +9,7 @@
 
 enum { NAME_BYTES = 80 };
 
-/* An angle is a number: rad and 1, rad/s and 1/s are one. */
+/* An angle is a number: rad equals 1, rad/s equals 1/s. */
 static bool is_same_unit(const char *one, const char *other) {
     char both[2][NAME_BYTES];
     const char *const of[2] = {one, other};
@@ -99,7 +99,7 @@ static void rename_signal(const char *renames, const char *name, char *other) {
     }
 }
 
-/* What its ends stand for, in counts, must be numbers that a sample has. */
+/* The values of its end counts must be in the range of a sample. */
 static bool fits_counts(const wh_signal *s) {
     return (double)s->low / (double)s->per_count >= (double)INT32_MIN &&
            (double)s->high / (double)s->per_count <= (double)INT32_MAX;
@@ -150,8 +150,8 @@ static bool bind_one(bound *b, const image *im, const char *renames) {
     return has_good_range(b);
 }
 
-/* What is against a renaming, or NULL. A name that the firmware does not have would rename nothing, without a word, and
- * so would the second of two. */
+/* The reason why a renaming is invalid, or NULL. A name that the firmware does not have would silently rename nothing,
+ * and so would a second renaming of the same name. */
 static const char *against(const binding *b, const char *renames, const char *at, size_t length) {
     const size_t name = strcspn(at, "=");
     if (name == 0 || name >= length || name + 1U == length) {

@@ -1,4 +1,4 @@
-/* bind.h: which of a scene's quantities each of a firmware's signals is: by name, with their units compared. */
+/* bind.h: assignment of a firmware's signals to a scene's quantities, by name and unit. */
 #ifndef PIL_BIND_H
 #define PIL_BIND_H
 
@@ -8,12 +8,12 @@
 typedef enum bound_place { BOUND_INPUT, BOUND_OUTPUT, BOUND_COMPONENT, BOUND_NOWHERE } bound_place;
 
 typedef struct bound {
-    wh_signal signal; /* its words belong to the hello */
+    wh_signal signal; /* its texts belong to the hello */
     unsigned channel;
     bound_place place;
-    int index;  /* of the input, the output or the component of the state (angles first) */
-    int rate;   /* the component that is its rate; -1: none */
-    bool turns; /* an angle: what it reads comes again each turn */
+    int index;  /* index of the input, the output or the state component (angles first) */
+    int rate;   /* the component of its rate, or -1 */
+    bool turns; /* an angle: its reading repeats every turn */
 } bound;
 
 typedef struct binding {
@@ -25,8 +25,8 @@ typedef struct binding {
     unsigned notes; /* which are bound to nothing */
 } binding;
 
-/* What a firmware may read: an output, a coordinate or a rate of that name, to place, index, rate and turns. Returns its
- * unit; NULL: there is none. */
+/* A readable quantity of that name, an output, coordinate or rate: sets place, index, rate and turns. Returns its unit,
+ * or NULL if there is none. */
 const char *bind_read(bound *b, const image *im, const char *name);
 
 /* `renames` are words NAME=OTHER between commas, or NULL: the firmware's NAME is the scene's OTHER. False, reported. */

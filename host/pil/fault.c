@@ -1,9 +1,4 @@
-/* fault.c: what breaks in a run in the loop: sensors, load cell, supply, drive stage, mechanism, line, and the time that
- * the controller takes; and who presses stop, or resets its processor. Never the controller itself.
- *
- * A fault is words: KIND[:CHANNEL][=SIZE][@WHEN][+DURATION]. CHANNEL counts from 1, of edges or of samples; left out, it
- * is all edges, or the first sample. WHEN is a time, or NOTE=VALUE, or NOTE=VALUE~TIME: so long after the firmware's note
- * of that name has come to that value. What is left out: at the start, to the end. */
+/* fault.c: faults of sensors, supply, drive stage, mechanism, line and processor in a run in the loop. */
 #include "host/pil/fault.h"
 
 #include <math.h>
@@ -18,7 +13,7 @@
 #include "host/number/functions.h"
 
 /* === faults of readings ======================================================================= */
-/* Of sensors, of the load cell and of the line. */
+/* Faults of sensors, the load cell and the line. */
 
 double fault_draw(const fault_plan *plan, fault_case *f) {
     uint64_t hash = wh_hash_u64(WH_HASH_START, plan->seed);
@@ -29,7 +24,7 @@ double fault_draw(const fault_plan *plan, fault_case *f) {
 
 #define HUM_HZ 60.0
 #define TURN_RAD 6.283185307179586477
-#define INVENTED_S 0.1 /* from one to the next, at most */
+#define INVENTED_S 0.1 /* longest interval between false pulses */
 #define SPIKES_ONE_IN 50.0
 #define TOLD_S 1e-9 /* of rounding */
 
@@ -40,7 +35,7 @@ static bool is_of(const fault_case *f, unsigned channel) {
 
 /* --- edges ---------------------------------------------------------------------------------------------------*/
 
-/* In order of time, as a timer hands them out; none when there is no room. */
+/* Insert by time, the order of a timer; dropped if there is no space. */
 static void add_edge(wh_readings *r, wh_edge edge) {
     if (r->edges == WH_EDGES_MAX) {
         return;
@@ -62,7 +57,7 @@ static uint32_t ticks_of(const fault_plan *plan, double time_s) {
     return (uint32_t)(int64_t)number_floor(time_s * plan->ticks_per_s);
 }
 
-/* One pulse. False: it does not come. */
+/* Change one pulse. False: it is lost. */
 static bool break_edge(const fault_plan *plan, fault_case *f, double time_s, wh_edge *edge) {
     if (f->kind == FAULT_EDGE_DEAD) {
         return false;
@@ -87,7 +82,7 @@ static bool break_edge(const fault_plan *plan, fault_case *f, double time_s, wh_
     return true;
 }
 
-/* Pulses of nothing, since the last readings. */
+/* False pulses since the last readings. */
 static void invent_edges(const fault_plan *plan, fault_case *f, double time_s, wh_readings *r) {
     const bool storm = f->kind == FAULT_EDGE_STORM;
     const uint32_t now_ticks = plant_ticks(plan->plant);
@@ -226,13 +221,13 @@ void fault_readings(fault_plan *plan, fault_case *f, double time_s, wh_readings 
 }
 
 /* === when faults begin and end ================================================================ */
-/* And their effect on the plant and on orders. */
+/* Their effect on the plant and on orders. */
 
-/* Which of the scene's inputs, and what becomes of its healthy value. */
+/* The scene's input of a fault, and the change of its normal value. */
 static const struct {
     fault_kind kind;
     const char *input;
-    bool times;   /* its value is multiplied; else it takes the size, */
+    bool times;   /* its value is multiplied by the size; else replaced by it, */
     double value; /* or this, if not 0 */
 } inputs[] = {
     {FAULT_CELL_TURNED, "cell_gain", false, -1.0},
@@ -275,7 +270,7 @@ static bool find_inputs(const fault_case *f, const image *im) {
     return true;
 }
 
-/* Notes stand behind the outputs, in their order. */
+/* Notes follow the outputs, in their order. */
 static bool find_note(fault_case *f, const wh_hello *hello) {
     int at = 0;
     for (unsigned i = 0; i < hello->signals; i++) {
@@ -324,7 +319,7 @@ static void set_inputs(const fault_plan *plan, const fault_case *f, bool broken)
     }
 }
 
-/* Where a sensor stands: degrees of an angle, else SI. */
+/* Sensor positions: degrees for an angle, else SI. */
 static void set_sensors(const fault_plan *plan, const fault_case *f, bool broken) {
     plant *p = plan->plant;
     if (f->kind == FAULT_EDGE_JITTER) {
@@ -362,7 +357,7 @@ static double due_ticks(const fault_plan *plan, const fault_case *f) {
     return (f->begin_s + f->after_s) * plan->ticks_per_s;
 }
 
-/* There was a reset: what was on its way is lost, outputs are 0, and who asked for it is served. */
+/* After a reset, delayed readings are lost, outputs are 0, and the request for it is done. */
 static void see_reset(fault_plan *plan) {
     const double then_ticks = plan->plant->reset.last_ticks;
     plan->last = (wh_orders){.outputs = plan->last.outputs};
@@ -377,7 +372,7 @@ static void see_reset(fault_plan *plan) {
     }
 }
 
-/* The plant is told of the next one beforehand: it need not be when anybody speaks. */
+/* Announce the next reset to the plant: it may happen between messages. */
 static void order_reset(fault_plan *plan, const fault_case *f) {
     plant_resets *r = &plan->plant->reset;
     if (f->kind == FAULT_RESET && f->reached && !f->happened && due_ticks(plan, f) < r->at_ticks) {
@@ -403,7 +398,7 @@ static void look_for_resets(fault_plan *plan) {
     }
 }
 
-/* Begins a fault whose time has come, and ends one whose time is over. */
+/* Begin a fault at its time, and end it after its duration. */
 static void look_at_time(fault_plan *plan, double time_s) {
     for (unsigned i = 0; i < plan->count; i++) {
         fault_case *f = &plan->fault[i];
@@ -458,7 +453,7 @@ static void take_time(fault_case *f, wh_orders *orders, double *late_s) {
     }
 }
 
-/* What was lost says neither what the outputs are nor that anybody is alive. */
+/* Lost orders neither set outputs nor feed the watchdog. */
 static void lose_orders(fault_plan *plan, wh_orders *orders) {
     const wh_orders sent = *orders;
     *orders = plan->last;
@@ -520,7 +515,7 @@ tap fault_tap(fault_plan *plan) {
 const fault_row fault_rows[FAULT_KINDS] = {FAULT_ROWS(FAULT_ROW)};
 #undef FAULT_ROW
 
-/* What one fault's words are read from; `at` goes on, up to `end`. */
+/* The reading position in a fault's words; `at` advances up to `end`. */
 typedef struct words_of_fault {
     const char *begin;
     const char *at;

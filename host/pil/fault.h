@@ -1,9 +1,9 @@
-/* fault.h: what breaks in a run in the loop: sensors, load cell, supply, drive stage, mechanism, line, and the time that
- * the controller takes; and who presses stop, or resets its processor. Never the controller itself.
+/* fault.h: faults in a run in the loop: sensors, load cell, supply, drive stage, mechanism, line, and the controller's
+ * computing time; also a press of stop, and a reset of its processor. The controller's code itself has no faults.
  *
- * A fault is words: KIND[:CHANNEL][=SIZE][@WHEN][+DURATION]. CHANNEL counts from 1, of edges or of samples; left out, it
- * is all edges, or the first sample. WHEN is a time, or NOTE=VALUE, or NOTE=VALUE~TIME: so long after the firmware's note
- * of that name has come to that value. What is left out: at the start, to the end. */
+ * The syntax of a fault is KIND[:CHANNEL][=SIZE][@WHEN][+DURATION]. CHANNEL counts edges or samples from 1; without it,
+ * all edges or the first sample. WHEN is a time, or NOTE=VALUE, or NOTE=VALUE~TIME: so long after the firmware's note
+ * of that name reaches that value. Without WHEN a fault begins at the start, without DURATION it lasts to the end. */
 #ifndef PIL_FAULT_H
 #define PIL_FAULT_H
 
@@ -12,15 +12,15 @@
 typedef enum fault_place {
     FAULT_EDGES,
     FAULT_SAMPLES,
-    FAULT_INPUT,     /* of the scene; it has to have one of the name that fault.c knows */
+    FAULT_INPUT,     /* of the scene, which must have an input of the name in fault.c */
     FAULT_ORDERS,    /* and how long they take */
-    FAULT_LINE,      /* what gets lost on it */
-    FAULT_PARAMETER, /* of the scene, for the whole run: whoever loads it asks fault_parameters() */
-    FAULT_SENSORS,   /* where edges stand, and their jitter */
-    FAULT_PROCESSOR  /* it starts anew */
+    FAULT_LINE,      /* losses on the line */
+    FAULT_PARAMETER, /* of the scene, for the whole run: the loader asks fault_parameters() */
+    FAULT_SENSORS,   /* edge positions, and their jitter */
+    FAULT_PROCESSOR  /* it restarts */
 } fault_place;
 
-/* X(which, word, place, size when left out, least, most, unit, words). Where least and most are equal there is no size. */
+/* X(which, word, place, default size, least, most, unit, words). If least equals most, the fault has no size. */
 #define FAULT_ROWS(X) \
     X(FAULT_EDGE_DEAD, "edge-dead", FAULT_EDGES, 0, 0, 0, "", "no pulses come") \
     X(FAULT_EDGE_LOST, "edge-lost", FAULT_EDGES, 1, 1, 1e6, "", "so many pulses are lost") \
@@ -112,7 +112,7 @@ extern const fault_row fault_rows[FAULT_KINDS];
 #define FAULTS_MAX 16
 #define FAULT_PENDING 64
 
-/* What is told later. */
+/* Delayed readings. */
 typedef struct fault_pending {
     double at_s;
     bool is_edge;
@@ -122,7 +122,7 @@ typedef struct fault_pending {
 
 typedef struct fault_case {
     fault_kind kind;
-    int channel; /* -1: none was named */
+    int channel; /* -1: not given */
     double size;
     char note[32]; /* "": the time alone counts */
     double value;  /* of the note */
@@ -130,8 +130,8 @@ typedef struct fault_case {
     double duration_s;
     /* While it runs: */
     int note_at;    /* in orders.output */
-    int input;      /* of the scene; of FAULT_STUCK the first of two */
-    double healthy; /* the input's value, or what was wished of a sensor */
+    int input;      /* of the scene; for FAULT_STUCK the first of two */
+    double healthy; /* the input's normal value, or a sensor's requested one */
     bool reached;   /* the note's value, */
     bool active;
     bool happened; /* it was active once */
@@ -139,7 +139,7 @@ typedef struct fault_case {
     uint64_t draws;
     uint32_t left; /* pulses */
     double next_s; /* one more */
-    bool holds;    /* a sample that was the last good one */
+    bool holds;    /* has stored the last good sample */
     wh_sample held;
     unsigned pending_count;
     fault_pending pending[FAULT_PENDING];
@@ -156,13 +156,13 @@ typedef struct fault_plan {
     unsigned resets; /* of the plant's, by now */
 } fault_plan;
 
-/* Adds the faults of `text`, between commas. False, reported. */
+/* Add the faults in `text`, separated by commas. False, reported. */
 bool fault_read(fault_plan *plan, const char *text);
 
-/* The `set` of its parameters, such as "inertia=2", to be freed; NULL: fault i is of no parameter. */
+/* The `set` of its parameters, such as "inertia=2", to be freed; NULL if fault i changes no parameter. */
 char *fault_parameter(const fault_plan *plan, unsigned i);
 
-/* As taps have it; one run. */
+/* The faults as a tap; for one run. */
 tap fault_tap(fault_plan *plan);
 
 /* A table of all kinds. */
@@ -170,10 +170,10 @@ void fault_print_kinds(FILE *out);
 
 /* --- between the files of faults --------------------------------------------------------------------------------*/
 
-/* From 0 to below 1, another each time. */
+/* A new random number from 0 to below 1. */
 double fault_draw(const fault_plan *plan, fault_case *f);
 
-/* What an active fault, or one that has something to tell yet, makes of readings at time_s. */
+/* Apply an active fault, or its pending readings, to the readings at time_s. */
 void fault_readings(fault_plan *plan, fault_case *f, double time_s, wh_readings *r);
 
 #endif

@@ -1,4 +1,4 @@
-/* guest.c: starting, hearing and ending the process that runs the firmware. */
+/* guest.c: start of the firmware's process, communication with it, and its end. */
 #include "guest.h"
 
 #include <errno.h>
@@ -13,7 +13,7 @@
 #include <sys/prctl.h>
 #endif
 
-/* Of the guest (hal/link.h has the same numbers). */
+/* The guest's descriptors (hal/link.h has the same numbers). */
 enum { DOWN = 3, UP = 4, ABOVE = 10 };
 enum { POLL_MS = 50 };
 
@@ -23,7 +23,7 @@ static double now_s(void) {
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-/* --- what kind of image ---------------------------------------------------------------------------------*/
+/* --- the kind of image --------------------------------------------------------------------------------- */
 
 /* Executable and linkable format: magic, then at byte 18 the machine, in the file's byte order. */
 static bool is_elf(const unsigned char *head, size_t count, bool *arm) {
@@ -75,7 +75,7 @@ bool guest_machine_of(const char *board, char machine[GUEST_MACHINE_BYTES]) {
 
 /* --- start ------------------------------------------------------------------------------------------------*/
 
-/* Whatever numbers the pipes have: first out of the way, then to their places. The rest closes by itself. */
+/* Move the pipes out of the way of any numbers, then to their places. Other descriptors close by themselves. */
 static bool place_line(int down, int up) {
     const int high_down = fcntl(down, F_DUPFD_CLOEXEC, ABOVE);
     const int high_up = fcntl(up, F_DUPFD_CLOEXEC, ABOVE);
@@ -84,7 +84,8 @@ static bool place_line(int down, int up) {
            dup2(high_down, DOWN) >= 0 && dup2(high_up, UP) >= 0;
 }
 
-/* In a group of its own, so that Ctrl-C comes to us alone and we end it in order; and not without us. */
+/* A process group of its own: Ctrl-C reaches only this process, which ends the guest in order. The guest does not
+ * outlive it. */
 static bool tie_to(pid_t parent) {
 #if defined(__linux__)
     if (prctl(PR_SET_PDEATHSIG, SIGKILL) != 0) {
@@ -148,7 +149,7 @@ bool guest_start(guest *g, const guest_wish *wish) {
         fprintf(stderr, "whirl pil: error: no pipe: %s\n", strerror(errno));
         return false;
     }
-    signal(SIGPIPE, SIG_IGN); /* a guest that has gone is told by what is written to it */
+    signal(SIGPIPE, SIG_IGN); /* a write error reports a dead guest */
     fflush(stdout);           /* the guest's console is the same file */
     const pid_t parent = getpid();
     g->pid = fork();
@@ -171,7 +172,7 @@ bool guest_start(guest *g, const guest_wish *wish) {
 
 static bool is_stopped(const guest *g) { return g->wish.stop != NULL && *g->wish.stop != 0; }
 
-/* Waits until the line can be read; in pieces, so that an interrupt that came before the wait is seen. */
+/* Wait until the line is readable, in short intervals, so that an interrupt from before the wait is noticed. */
 static guest_heard wait_to_read(const guest *g, double end_s) {
     struct pollfd line = {.fd = g->up, .events = POLLIN};
     do {
@@ -185,7 +186,7 @@ static guest_heard wait_to_read(const guest *g, double end_s) {
     return GUEST_SILENT;
 }
 
-/* What is no frame is as good as silence: a line that babbles must come to an end. */
+/* Invalid frames count as silence, so that a babbling line reaches the timeout. */
 guest_heard guest_receive(guest *g, wh_frame *frame) {
     const double end_s = now_s() + g->wish.patience_s;
     for (;;) {
@@ -210,7 +211,7 @@ guest_heard guest_receive(guest *g, wh_frame *frame) {
     }
 }
 
-/* A pipe takes a few kilobytes without waiting, and in turns there is never more than one frame in it. A serial line is
+/* A pipe accepts a few kilobytes without blocking, and taking turns puts at most one frame in it. A serial line is
  * slower. */
 guest_heard guest_send(guest *g, const uint8_t *bytes, unsigned count) {
     struct pollfd line = {.fd = g->down, .events = POLLOUT};
@@ -239,7 +240,7 @@ static void close_line(int *descriptor) {
     }
 }
 
-/* False: it still runs when the patience is at its end. */
+/* False if it still runs after the patience. */
 static bool wait_for_end(const guest *g, int *status) {
     const double end_s = now_s() + g->wish.patience_s;
     const struct timespec pause = {.tv_nsec = 1000000};

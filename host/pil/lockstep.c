@@ -1,4 +1,4 @@
-/* lockstep.c: firmware and plant in turns. */
+/* lockstep.c: the exchange of firmware and plant in turns. */
 #include "lockstep.h"
 
 #include <math.h>
@@ -6,11 +6,11 @@
 
 #include "talk.h"
 
-/* A firmware may catch up on what it has missed, so many times with no time in between. */
+/* A firmware may catch up on missed periods: so many exchanges at the same time. */
 #define STANDING_MOST 10000U
 #define PIECE_S 0.1
 #define WATCHED_PIECE_S 1e-3
-#define PIECE_STEPS 1e4 /* at most: steps may be as short as they like */
+#define PIECE_STEPS 1e4 /* at most: steps may be arbitrarily short */
 
 static double now_s(void) {
     struct timespec t;
@@ -32,7 +32,7 @@ typedef struct loop {
     double ticks_per_s;
     double per_count; /* instructions */
     bool watched;
-    unsigned standing; /* exchanges since the plant's time went on */
+    unsigned standing; /* exchanges since the plant's time last advanced */
 } loop;
 
 static double plant_s(const loop *l) { return plant_now(&l->plant) / l->ticks_per_s; }
@@ -76,7 +76,7 @@ static void let_taps_watch(const loop *l) {
     }
 }
 
-/* When the firmware hears again: when it wants to, or when it has computed, whichever is later. */
+/* The time of the next readings: the later of the requested time and the end of computing. */
 static double next_ticks(loop *l, const wh_orders *orders, double busy_ticks) {
     const double now = plant_now(&l->plant);
     const int32_t ahead = (int32_t)(orders->until_ticks - plant_ticks(&l->plant));
@@ -90,7 +90,7 @@ static double next_ticks(loop *l, const wh_orders *orders, double busy_ticks) {
     return wanted;
 }
 
-/* In pieces, so that somebody who interrupts is heard while the plant has far to go; no further than is wished. */
+/* Advance in pieces, so that an interrupt is noticed on long ways; never past the end. */
 static bool advance(loop *l, double until_ticks) {
     const lockstep_wish *wish = l->talk.wish;
     const double most = wish->until_s * l->ticks_per_s;
@@ -143,7 +143,7 @@ static bool plant_goes_on(loop *l, const wh_orders *orders, double late_s) {
     return true;
 }
 
-/* An output that is no number is a bug of the firmware's; what hardware would make of it, nobody knows. */
+/* An output that is NaN is a bug of the firmware, with unknown effect on real hardware. */
 static bool are_numbers(loop *l, const wh_orders *orders) {
     for (unsigned i = 0; i < l->binding.count; i++) {
         const bound *b = &l->binding.bound[i];
@@ -159,7 +159,7 @@ static bool are_numbers(loop *l, const wh_orders *orders) {
     return true;
 }
 
-/* Where computing takes no time, nothing else ends this. */
+/* If computing takes no time, only this check ends the loop. */
 static bool time_goes_on(loop *l, double before_ticks) {
     l->standing = plant_now(&l->plant) > before_ticks ? 0 : l->standing + 1;
     if (l->standing < STANDING_MOST) {
@@ -180,7 +180,7 @@ static bool is_over(loop *l) {
     return over;
 }
 
-/* The processor was reset: it stays in it for its time, and starts again. */
+/* The processor was reset: wait for the reset time, then restart it. */
 static bool restart(loop *l) {
     plant *p = &l->plant;
     wh_reset reset = l->talk.remembered;
@@ -247,7 +247,8 @@ static bool has_places(const loop *l, unsigned places) {
     return has;
 }
 
-/* What is late is on its way meanwhile; for what does not fit there the plant would have no room, and firmware starved. */
+/* Delayed readings are queued meanwhile. If they do not fit into a queue, the plant would lose them, and the firmware
+ * would starve. */
 static bool has_room(const loop *l, double delay_s) {
     double most = 0.0;
     for (unsigned i = 0; i < l->binding.count; i++) {

@@ -1,18 +1,16 @@
-/* lockstep.h: a firmware image and a plant, in turns, until the firmware ends; or a tape in the plant's place.
- *
- * While one computes the other waits, so that a run is the same each time, however fast either is. What the firmware
- * computes with costs plant time: instructions that it counted, times seconds an instruction, until what it set takes
- * effect, and until it hears again. */
+/* lockstep.h: a firmware image and a plant, in turns, until the firmware ends; or a tape in place of the plant. One
+ * waits while the other computes, so a run is reproducible at any speed. The firmware's computing costs plant time: its
+ * counted instructions times the seconds for each. This delays its outputs, and its next readings. */
 #ifndef PIL_LOCKSTEP_H
 #define PIL_LOCKSTEP_H
 
 #include "host/pil/report.h"
 
-/* Runs it; the process is gone when it returns. */
+/* Run it; the process is gone on return. */
 void lockstep_run(const lockstep_wish *wish, const image *im, lockstep_report *report);
 
-/* The firmware once more, against what a tape kept; each of its orders must be that of the tape, but for what was
- * counted. */
+/* Run the firmware again on the readings of a tape. Each of its orders must equal the tape's, except for instruction
+ * counts. */
 void lockstep_replay(const lockstep_wish *wish, const char *file, lockstep_report *report);
 
 #endif

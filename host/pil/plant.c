@@ -1,4 +1,4 @@
-/* plant.c: sensors and actuators round a scene. */
+/* plant.c: sensors and actuators of a scene. */
 #include "plant.h"
 
 #include <math.h>
@@ -12,7 +12,7 @@
 
 #define TURN_RAD 6.283185307179586477
 #define TURN_DEG 360.0
-/* Steps' ends that rounding put just before an instant count as there. */
+/* A step end counts as reaching an instant if only round-off separates them. */
 #define NEARLY 1e-6
 
 /* --- start and end ----------------------------------------------------------------------------------------*/
@@ -102,14 +102,14 @@ double plant_now(const plant *p) { return (double)p->steps * p->step_ticks; }
 
 bool plant_has_reached(const plant *p, double ticks) { return plant_now(p) + NEARLY >= ticks; }
 
-/* A timer shows whole ticks, and wraps. */
+/* A timer has whole ticks, and wraps. */
 static uint32_t shown(const plant *p, double ticks) {
     return p->start_ticks + (uint32_t)(uint64_t)number_floor(ticks + NEARLY);
 }
 
 uint32_t plant_ticks(const plant *p) { return shown(p, plant_now(p)); }
 
-/* --- what the controller sets -----------------------------------------------------------------------------*/
+/* --- outputs of the controller ----------------------------------------------------------------------------- */
 
 static void set_inputs(plant *p) {
     for (unsigned i = 0; i < p->binding->count; i++) {
@@ -163,7 +163,7 @@ static void watch(plant *p) {
 
 /* --- a reset of the controller ----------------------------------------------------------------------------*/
 
-/* True when it is in one. Orders that have not taken effect never do. */
+/* True in a reset. Pending orders then never take effect. */
 static bool is_reset(plant *p) {
     if (!p->reset.now && plant_has_reached(p, p->reset.at_ticks)) {
         p->reset.now = true;
@@ -187,7 +187,7 @@ void plant_restart(plant *p) {
     p->samples.count = 0;
 }
 
-/* --- what the sensors see -----------------------------------------------------------------------------------*/
+/* --- inputs of the controller ------------------------------------------------------------------------------ */
 
 static void enqueue(plant *p, plant_queue *q, plant_event event) {
     if (q->count == PLANT_PENDING) {
@@ -201,7 +201,7 @@ static void enqueue(plant *p, plant_queue *q, plant_event event) {
     q->event[at] = event;
 }
 
-/* Of what an edge watches, over a step: both ends, and the rates times the step. */
+/* The watched quantity of an edge over a step: both ends, and the rates times the step. */
 typedef struct span_of_step {
     double from;
     double to;
@@ -229,7 +229,7 @@ static double at_part(const span_of_step *s, double part) {
     return s->from + ((a * part + b) * part + s->slope_from) * part;
 }
 
-/* Where the cubic meets `level`, which lies between its ends: by halving, to a double's last bits. */
+/* The position where the cubic meets `level`, which is between its ends: bisection to a double's last bits. */
 static double part_at(const span_of_step *s, double level) {
     double low = 0.0;
     double high = 1.0;
@@ -243,8 +243,8 @@ static double part_at(const span_of_step *s, double level) {
     return high;
 }
 
-/* The level that the step crosses on its way into the range: upwards at its lower end, downwards at the upper. Of an
- * angle, that of the turn that it is in. */
+/* The level that the step crosses on its way into the range: upwards at its lower end, downwards at the upper. For an
+ * angle, the level in the present turn. */
 static bool enters(const span_of_step *s, const bound *b, double off, double *level) {
     const bool up = s->to > s->from;
     *level = (double)(up ? b->signal.low : b->signal.high) + off;
@@ -354,7 +354,7 @@ bool plant_advance(plant *p, double until_ticks) {
     return true;
 }
 
-/* Those of a queue that are there by now, `most` at most; the others of them are lost. */
+/* Take the due entries of a queue, `most` at most; further due ones are lost. */
 static unsigned leave(plant *p, plant_queue *q, unsigned most, unsigned *there) {
     *there = 0;
     while (*there < q->count && q->event[*there].at_ticks <= plant_now(p) + NEARLY) {

@@ -1,9 +1,8 @@
-/* plant.h: a scene as a controller's hardware: it runs in double, and sensors stand around it.
- *
- * Time is in ticks of the controller's timer since the plant's start. The scene runs in its own steps, which are finer;
- * edges are located within a step, on the cubic through its ends, of what is on one side of the level at one end and on the
- * other at the next (the cubic alone does not tell a turn within the step from a stop or a blow); samples are those of the first step's end at or after
- * their instant, and so are changes of the outputs. */
+/* plant.h: a scene as a controller's hardware: the scene runs in double, surrounded by sensors. Time is in ticks of the
+ * controller's timer since the plant's start. The scene has its own, finer steps. An edge is located within a step, on
+ * the cubic through its ends, if the two ends are on different sides of the level. (The cubic alone cannot distinguish
+ * a turn within the step from a stop or an impact.) Samples are those of the first step end at or after their instant;
+ * changes of outputs take effect there, too. */
 #ifndef PIL_PLANT_H
 #define PIL_PLANT_H
 
@@ -12,15 +11,15 @@
 
 #define PLANT_PENDING 64
 
-/* What is not in the scene: where sensors stand, what they add, how late they are. */
+/* Settings outside the scene: positions, noise and delay of the sensors. */
 typedef struct plant_wish {
-    double place[WH_SIGNALS_MAX]; /* of each edge: so far its place is off; degrees of an angle,
+    double place[WH_SIGNALS_MAX]; /* position error of each edge's sensor; degrees for an angle,
                                    * else SI */
-    unsigned places;              /* so many of them were given */
+    unsigned places;              /* number of given ones */
     double jitter_s;              /* standard deviation of an edge's time */
     double delay_s;               /* of every sample */
     uint32_t seed;                /* of the jitter */
-    recorded *rows;               /* the plant is recorded there; NULL: it is not */
+    recorded *rows;               /* recording of the plant, or NULL */
 } plant_wish;
 
 typedef struct plant_event {
@@ -37,13 +36,13 @@ typedef struct plant_queue {
     unsigned count;
 } plant_queue;
 
-/* Of the controller's processor: in a reset its pins float, and the plant's inputs are 0. */
+/* Resets of the controller's processor: its pins float, and the plant's inputs are 0. */
 typedef struct plant_resets {
-    double at_ticks;    /* it is reset at the first step at or after; infinite: not at all */
-    double takes_ticks; /* so long it is in it */
-    bool by_watchdog;   /* a watchdog that is starved resets it, instead of cutting the outputs, */
+    double at_ticks;    /* time of a reset, at the first step at or after; infinite: no reset */
+    double takes_ticks; /* length of a reset */
+    bool by_watchdog; /* a starved watchdog resets the processor, instead of cutting the outputs, */
     double watchdog_ticks; /* for so long */
-    bool now;              /* it is in it: somebody has to start it again, see plant_restart() */
+    bool now;              /* in reset: the caller has to restart it, see plant_restart() */
     bool starved;          /* and the watchdog was it */
     unsigned count;
     double last_ticks; /* it was reset */
@@ -57,33 +56,34 @@ typedef struct plant {
     wh_status status;
     uint64_t steps;
     double step_ticks;
-    uint32_t start_ticks; /* the controller's timer at the start, were it not set back since */
-    uint32_t timer_ticks; /* what it begins with */
-    double *before;       /* [components] angles first */
-    double *after;        /* [components] */
-    double *output;       /* [outputs] */
-    double *output_after; /* [outputs] */
-    bool sees_outputs;    /* an edge is on one */
+    uint32_t
+        start_ticks; /* the controller's timer at the start, extrapolated from its last reset */
+    uint32_t timer_ticks;            /* the timer's value after a reset */
+    double *before;                  /* [components] angles first */
+    double *after;                   /* [components] */
+    double *output;                  /* [outputs] */
+    double *output_after;            /* [outputs] */
+    bool sees_outputs;               /* an edge is on one */
     uint64_t period[WH_SIGNALS_MAX]; /* of each sample: ticks, */
     uint64_t due[WH_SIGNALS_MAX];    /* and when the next is */
     wh_orders orders;                /* the last, */
-    bool waits;                      /* which have not yet taken effect: */
+    bool waits;                      /* orders that have not taken effect yet: */
     double act_ticks;                /* then they do */
     uint64_t alive_ticks;            /* the watchdog was kicked */
     bool cut;                        /* it has cut, */
     double cut_ticks;                /* then */
     plant_resets reset;
-    double in_effect[WH_SIGNALS_MAX];   /* of each output: what it is, */
+    double in_effect[WH_SIGNALS_MAX];   /* present value of each output, */
     double since_ticks[WH_SIGNALS_MAX]; /* since then */
     plant_queue edges;
     plant_queue samples;
     uint64_t edges_made;
     uint64_t edges_seen; /* handed out */
     uint64_t samples_seen;
-    uint64_t lost; /* for which there was no room */
+    uint64_t lost; /* lost for lack of space */
 } plant;
 
-/* --place: numbers between commas, one an edge. False: it is something else, which was reported. */
+/* --place: one number for each edge, separated by commas. False, reported, for any other text. */
 bool plant_read_places(const char *text, plant_wish *to);
 
 /* The image must outlive it. */
@@ -91,23 +91,23 @@ void plant_start(plant *p, const image *im, const binding *b, const wh_hello *he
                  const plant_wish *wish);
 void plant_stop(plant *p);
 
-/* Now, in ticks since the start and as the controller's timer shows it. */
+/* The present time, in ticks since the start and as the controller's timer shows it. */
 double plant_now(const plant *p);
 uint32_t plant_ticks(const plant *p);
-/* Is it there, but for rounding? */
+/* Has the plant reached this time, up to round-off? */
 bool plant_has_reached(const plant *p, double ticks);
 
-/* Orders that were sent now and take effect `late_ticks` later, or at the next orders if those come before. */
+/* Orders sent now, which take effect `late_ticks` later, or with the next orders if those come first. */
 void plant_order(plant *p, const wh_orders *orders, double late_ticks);
 
-/* To the first step's end at or after until_ticks, or until the processor is reset, whichever is first. False: the scene
- * diverged; plant.status says how. */
+/* Run to the first step end at or after until_ticks, or to a reset of the processor. False if the scene diverged;
+ * plant.status has the reason. */
 bool plant_advance(plant *p, double until_ticks);
 
-/* The processor starts again: its timer begins anew, the watchdog hears of no one, and what was not handed out is lost. */
+/* Restart the processor: its timer and the watchdog restart, and pending readings are lost. */
 void plant_restart(plant *p);
 
-/* What is there by now and was not handed out yet. */
+/* The pending readings up to now. */
 void plant_read(plant *p, wh_readings *readings);
 
 #endif

@@ -1,4 +1,4 @@
-/* recorded.c: the plant of a run in the loop as comma-separated values. */
+/* recorded.c: records of the plant of a run in the loop as comma-separated values. */
 #include "recorded.h"
 
 #include "host/base/written.h"

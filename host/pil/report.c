@@ -1,4 +1,4 @@
-/* report.c: what is wished of a run in the loop, and what became of it. */
+/* report.c: the report of a run in the loop. */
 #include "host/pil/report.h"
 
 #include <inttypes.h>
@@ -48,7 +48,7 @@ static void print_notes(FILE *out, const lockstep_report *r) {
     fputs(r->notes > 0 ? "\n" : "", out);
 }
 
-/* Of a replay: what the command stream was held to, and how far. */
+/* For a replay: the result of comparing the orders with the tape. */
 static const char *as_on_tape(lockstep_end end) {
     switch (end) {
     case LOCKSTEP_DONE:

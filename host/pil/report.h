@@ -1,4 +1,4 @@
-/* report.h: what is wished of a run in the loop, and what became of it. */
+/* report.h: the settings of a run in the loop, and its results. */
 #ifndef PIL_REPORT_H
 #define PIL_REPORT_H
 
@@ -7,9 +7,9 @@
 #include "host/pil/guest.h"
 #include "host/pil/plant.h"
 
-/* The seam for faults (fault.h), and for whoever watches: asked in turn, before the first word, after the firmware has
- * spoken and before it is spoken to. What they make of a message is what the other side hears; the answer may take
- * *late_s longer. A tape has what the firmware heard and said. NULL: not asked. */
+/* The interface for faults (fault.h) and observers. They are called in turn: before the first message, after each
+ * message of the firmware, and before each message to it. A message reaches the other side as they changed it; the
+ * answer may take *late_s longer. A tape has the messages as the firmware received and sent them. NULL: no call. */
 typedef struct tap {
     const char *name;
     void *of;
@@ -24,30 +24,30 @@ typedef struct lockstep_wish {
     guest_wish guest;
     plant_wish plant;
     const char *renames;  /* see bind_signals() */
-    double until_s;       /* the firmware is let go then, if it has not ended */
-    double instruction_s; /* what an instruction takes */
-    FILE *tape;           /* NULL: none is kept */
-    double every_s;       /* spacing of the plant's records; 0: not said */
+    double until_s;       /* the end of the run, if the firmware has not ended */
+    double instruction_s; /* time for one instruction */
+    FILE *tape;           /* NULL: no tape */
+    double every_s;       /* interval of the plant's records; 0: not given */
     const tap *taps;      /* [tap_count] */
     int tap_count;
 } lockstep_wish;
 
 typedef enum lockstep_end {
     LOCKSTEP_DONE,      /* the firmware ended: status */
-    LOCKSTEP_LET_GO,    /* until_s, or the tape's end */
-    LOCKSTEP_BAD,       /* what was asked for cannot be: reported */
+    LOCKSTEP_LET_GO,    /* until_s, or the end of the tape */
+    LOCKSTEP_BAD,       /* the settings are impossible: reported */
     LOCKSTEP_FAILED,    /* reported */
     LOCKSTEP_DIFFERENT, /* from the tape: reported */
     LOCKSTEP_STOPPED    /* interrupted */
 } lockstep_end;
 
-/* The most of something, and when it was. */
+/* The maximum of a quantity, and its time. */
 typedef struct peak {
     double value;
     double at_s;
 } peak;
 
-/* What a firmware tells of itself: the last value. */
+/* The last value of a firmware's note. */
 typedef struct told_note {
     char name[32];
     char unit[16];
@@ -64,11 +64,11 @@ typedef struct lockstep_report {
     unsigned notes;
     double time_s; /* of the plant */
     double wall_s;
-    bool counted; /* the firmware counts what it computes */
+    bool counted; /* the firmware counts its instructions */
     peak acted;   /* instructions until the outputs were set, */
     peak busy;    /* and until it waited */
     uint64_t overruns;
-    peak late_s; /* beyond when it wanted to hear again */
+    peak late_s; /* delay after the requested time of the next readings */
     uint64_t edges;
     uint64_t samples;
     uint64_t lost;
@@ -76,14 +76,14 @@ typedef struct lockstep_report {
     double cut_s;        /* then */
     unsigned resets;     /* of the firmware's processor, */
     double reset_s;      /* the last then */
-    uint64_t hash;       /* of all orders, but for what was counted */
+    uint64_t hash;       /* of all orders, without instruction counts */
     uint64_t tape_hash;  /* of a tape's */
     uint64_t plant_hash; /* of the scene's last state */
 } lockstep_report;
 
 /* === in words ================================================================================= */
 
-/* `im` is the plant's; NULL: it was a tape. */
+/* `im` is the plant's; NULL for a tape. */
 void pil_print(FILE *out, const lockstep_wish *wish, const image *im, const lockstep_report *r);
 
 #endif

@@ -1,11 +1,11 @@
-/* talk.c: frames to and from the firmware, and its beginning and end. */
+/* talk.c: frames to and from the firmware, its start and its end. */
 #include "talk.h"
 
 #include <string.h>
 
 #include "core/hash.h"
 
-#define ASK_S 0.25 /* from asking for a hello to asking again */
+#define ASK_S 0.25 /* interval between requests for a hello */
 
 /* --- frames ---------------------------------------------------------------------------------------------------*/
 
@@ -17,7 +17,7 @@ static void keep_on_tape(talk *t, const uint8_t *bytes, unsigned count) {
     }
 }
 
-/* A frame as it was heard, coded again: frames are coded in one way only. */
+/* Record a received frame by coding it again: the coding of a frame is unique. */
 static void keep_heard(talk *t, const wh_frame *frame) {
     uint8_t coded[WH_FRAME_BYTES(GUEST_LINE_BYTES)];
     keep_on_tape(t, coded, wh_frame_write(frame, coded, sizeof coded));
@@ -33,7 +33,7 @@ static void say_silent(const talk *t) {
                 : "an endless loop, or a read that nobody answers");
 }
 
-/* A key that interrupts is for all in the terminal, and the firmware may end by it first. */
+/* Ctrl-C reaches all processes in the terminal, and the firmware may end first. */
 static lockstep_end when_ended(const talk *t) {
     const volatile sig_atomic_t *stop = t->guest.wish.stop;
     return stop != NULL && *stop ? LOCKSTEP_STOPPED : LOCKSTEP_DONE;
@@ -77,7 +77,7 @@ static bool say(talk *t, const wh_frame *frame) {
     case GUEST_ENDED:
     case GUEST_SILENT: break;
     }
-    t->report->end = when_ended(t); /* how it ended tells the rest */
+    t->report->end = when_ended(t); /* its end has the details */
     return false;
 }
 
@@ -91,7 +91,7 @@ bool talk_tell(talk *t, uint32_t ticks, const wh_readings *readings) {
     return say(t, &frame);
 }
 
-/* Asks for what it says next: its hello, or that its end was heard. */
+/* Ask for its next message: its hello, or the answer to its end. */
 static guest_heard ask(talk *t) {
     uint8_t coded[WH_FRAME_BYTES(0)];
     const wh_frame frame = {.kind = WH_FRAME_ASK};
@@ -110,8 +110,8 @@ static bool take_end(talk *t, const wh_frame *frame) {
     return false;
 }
 
-/* The next frame that is not there to be remembered. A firmware that was asked for its hello more than once says it as
- * often, before its first orders. */
+/* The next frame other than remembered data. After repeated requests, a firmware sends its hello several times before
+ * its first orders. */
 static bool hear_past_remembered(talk *t, wh_frame *frame) {
     while (hear_frame(t, frame)) {
         if (frame->kind == WH_FRAME_END) {
@@ -177,7 +177,7 @@ uint64_t talk_hash_bytes(uint64_t hash, const uint8_t *bytes, unsigned count) {
 
 /* --- beginning and end ------------------------------------------------------------------------------------------*/
 
-/* It ended before it has said anything; what cannot be run at all has been told by what was to become it. */
+/* It ended before its first message. If the image could not be run, the child has reported that. */
 static void say_no_hello(talk *t) {
     const guest_end_status end = guest_end(&t->guest);
     t->report->end = LOCKSTEP_BAD;
@@ -193,7 +193,7 @@ static void say_no_hello(talk *t) {
     }
 }
 
-/* Into the caller's words and signals. */
+/* Into the caller's texts and signals. */
 static bool take_hello_frame(talk *t, const wh_frame *frame, wh_hello *hello, wh_signal *signal,
                              uint8_t *words, unsigned room) {
     if (frame->kind != WH_FRAME_HELLO || frame->length > room) {
@@ -218,7 +218,8 @@ static bool take_hello(talk *t, wh_hello *hello, wh_signal *signal, uint8_t *wor
     return take_hello_frame(t, &frame, hello, signal, words, room);
 }
 
-/* Over a line: whoever waits there for a plant's first word says its hello again. What else comes is of a time before. */
+/* On a serial line: a firmware that waits for a plant's first message sends its hello again. Other frames are from an
+ * earlier run. */
 static bool ask_for_hello(talk *t) {
     const double patience_s = t->guest.wish.patience_s;
     wh_frame frame;
@@ -292,7 +293,7 @@ bool talk_start(talk *t, const lockstep_wish *wish, lockstep_report *report, FIL
     return hear_hello(t);
 }
 
-/* How the last one ended counts for nothing. */
+/* The previous process's exit status does not matter. */
 bool talk_restart(talk *t, uint32_t ticks, const wh_reset *reset) {
     uint8_t words[GUEST_LINE_BYTES];
     wh_signal signal[WH_SIGNALS_MAX];

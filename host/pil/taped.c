@@ -1,4 +1,4 @@
-/* taped.c: reading what `whirl pil --tape` has kept. */
+/* taped.c: the reader of tapes of `whirl pil --tape`. */
 #include "host/pil/taped.h"
 
 #include <errno.h>
@@ -15,37 +15,37 @@
 #include "host/pil/talk.h"
 
 /* === taped ==================================================================================== */
-/* Reading what `whirl pil --tape` has kept: the frames that went over the line, in their order: hello, then readings
- * and orders in turns; hello and a reset where the firmware was started again. */
+/* A tape has the frames of the line in order: hello, then readings and orders in turns; hello and a reset after each
+ * restart of the firmware. */
 
 typedef struct taped {
     const char *name;
     FILE *file;
-    wh_hello hello; /* whose firmware it was */
+    wh_hello hello; /* the firmware's */
     wh_signal signal[WH_SIGNALS_MAX];
-    uint64_t hash;  /* of all orders so far, and of what was to be remembered */
+    uint64_t hash;  /* of all orders and remembered data so far */
     uint64_t turns; /* read so far */
     uint16_t sequence;
     double before_s; /* the last reset */
-    bool failed;     /* it cannot be read, or is broken: reported */
+    bool failed;     /* unreadable or broken: reported */
     wh_frame_reader reader;
-    bool endless; /* no frame where there had to be one */
+    bool endless; /* a frame is missing */
     uint8_t bytes[WH_FRAME_BYTES(GUEST_LINE_BYTES)];
     uint8_t words[GUEST_LINE_BYTES]; /* of the hello */
 } taped;
 
-/* What the firmware heard at `ticks`, and what it said to that; or a reset, with which its timer begins anew. */
+/* The firmware's readings at `ticks` and its answer; or a reset, which also resets its timer. */
 typedef struct taped_turn {
     uint32_t ticks;
     double time_s; /* of the plant */
-    bool is_reset; /* then there is nothing of the rest but this: */
+    bool is_reset; /* then only this field is valid: */
     wh_reset reset;
     wh_readings readings;
-    bool answered; /* false: the firmware had ended, or was let go */
+    bool answered; /* false: the firmware had ended, or the run was over */
     wh_orders orders;
 } taped_turn;
 
-/* A frame and the zeros round it have so many bytes at most: a device that never ends is no tape. */
+/* Longest frame with the zeros around it: an endless device is not a tape. */
 static bool read_frame(taped *t, wh_frame *frame) {
     for (size_t i = 0; i < sizeof t->bytes + 2; i++) {
         const int byte = getc(t->file);
@@ -57,12 +57,12 @@ static bool read_frame(taped *t, wh_frame *frame) {
     return false;
 }
 
-/* It ends within a frame, had what is none, or could not be read on. */
+/* The tape ends within a frame, has an invalid one, or a read failed. */
 static bool is_cut_off(const taped *t) {
     return t->reader.dropped > 0 || t->reader.length > 0 || t->endless || ferror(t->file) != 0;
 }
 
-/* What a tape cannot be. */
+/* Report that the file is not a tape. */
 static bool is_no_tape(taped *t, const char *why) {
     if (ferror(t->file) != 0) {
         fprintf(stderr, "%s: error: cannot be read: %s\n", t->name, strerror(errno));
@@ -75,12 +75,12 @@ static bool is_no_tape(taped *t, const char *why) {
     return false;
 }
 
-/* Of the plant, of what the firmware's timer says. */
+/* Plant time from the firmware's timer. */
 static double time_of(const taped *t, uint32_t ticks) {
     return t->before_s + (double)(ticks - t->hello.start_ticks) / (double)t->hello.ticks_per_s;
 }
 
-/* Reads the hello. False: reported. taped_close() in any case. */
+/* Read the hello. False: reported. Call taped_close() in any case. */
 static bool taped_open(taped *t, const char *name) {
     wh_frame frame;
     *t = (taped){.name = name, .file = fopen(name, "rb"), .hash = WH_HASH_START};
@@ -116,7 +116,7 @@ static unsigned taped_channels(const taped *t, wh_signal_kind kind) {
     return count;
 }
 
-/* Of channels that the hello has. */
+/* Do all channels exist in the hello? */
 static bool has_channels(const taped *t, const taped_turn *turn) {
     const unsigned edges = taped_channels(t, WH_SIGNAL_EDGE);
     const unsigned samples = taped_channels(t, WH_SIGNAL_SAMPLE);
@@ -132,7 +132,7 @@ static bool has_channels(const taped *t, const taped_turn *turn) {
     return good;
 }
 
-/* The frame is a hello: the firmware was started again. The next one says why. */
+/* The frame is a hello: the firmware was restarted. The next one has the reason. */
 static bool take_reset(taped *t, wh_frame *frame, taped_turn *turn) {
     wh_hello hello;
     wh_signal signal[WH_SIGNALS_MAX];
@@ -150,7 +150,7 @@ static bool take_reset(taped *t, wh_frame *frame, taped_turn *turn) {
     return true;
 }
 
-/* The next frame that is not there to be remembered. */
+/* The next frame other than remembered data. */
 static bool read_orders(taped *t, wh_frame *frame) {
     while (read_frame(t, frame)) {
         if (frame->kind != WH_FRAME_REMEMBER) {
@@ -161,7 +161,7 @@ static bool read_orders(taped *t, wh_frame *frame) {
     return false;
 }
 
-/* False at its end, and when it is broken, which is reported and t->failed then. */
+/* False at the end, and on a broken tape: then it is reported, and t->failed is set. */
 static bool taped_next(taped *t, taped_turn *turn) {
     wh_frame frame;
     *turn = (taped_turn){.is_reset = false};
@@ -197,18 +197,18 @@ static bool taped_next(taped *t, taped_turn *turn) {
 }
 
 /* === a tape as a table ======================================================================== */
-/* A tape as a table: what the firmware heard, and what it said, a row each. */
+/* A tape as a table: one row for each input and output of the firmware. */
 
-/* The rows of a tape, as they come. */
+/* The state of the table's rows. */
 typedef struct rows {
     const taped *tape;
     FILE *out;
     int decimals; /* of a time: a tick */
     uint32_t ticks;
     uint64_t heard;              /* ticks since the plant's time 0 */
-    bool cut;                    /* that has been told */
-    bool told;                   /* outputs and notes have, with these: */
-    float value[WH_SIGNALS_MAX]; /* by channel, the notes behind the outputs */
+    bool cut;                    /* a row has reported the cut */
+    bool told;                   /* outputs and notes have rows, with these values: */
+    float value[WH_SIGNALS_MAX]; /* by channel, the notes after the outputs */
 } rows;
 
 static const wh_signal *signal_of(const taped *t, wh_signal_kind kind, unsigned channel) {
@@ -217,21 +217,21 @@ static const wh_signal *signal_of(const taped *t, wh_signal_kind kind, unsigned 
             return &t->signal[i];
         }
     }
-    return NULL; /* taped_next() has looked at all of them */
+    return NULL; /* taped_next() has checked all of them */
 }
 
 static void print_time(const rows *r, int64_t ticks) {
     fprintf(r->out, "%.*f,", r->decimals, (double)ticks / (double)r->tape->hello.ticks_per_s);
 }
 
-/* A stamp lies within half of its 32 bits of the time at which it was heard. */
+/* A stamp has 32 bits: it is within half of its range of the time of the message. */
 static void begin_row(const rows *r, uint32_t stamp, const char *kind) {
     print_time(r, (int64_t)r->heard + (int32_t)(stamp - r->ticks));
     print_time(r, (int64_t)r->heard);
     fprintf(r->out, "%s,", kind);
 }
 
-/* Names and units stand on a tape as somebody's firmware sent them: what would break a row does not. */
+/* Names and units on a tape are as the firmware sent them: characters that would break a row are replaced. */
 static void print_word(FILE *out, const char *word) {
     for (; *word != '\0'; word++) {
         const bool breaks = (unsigned char)*word < 0x20 || strchr(",\"\x7f", *word) != NULL;
@@ -263,7 +263,7 @@ static void print_sample(const rows *r, const wh_sample *e) {
           r->out);
 }
 
-/* Edges and samples, each in the order of their stamps on the tape, by time. */
+/* Edges and samples, merged by time; each kind keeps its order on the tape. */
 static void print_readings(const rows *r, const wh_readings *readings) {
     unsigned edge = 0;
     unsigned sample = 0;
@@ -300,7 +300,7 @@ static void print_orders(rows *r, const wh_orders *orders) {
     r->told = true;
 }
 
-/* The firmware knows of nothing that was before, and its timer begins anew. */
+/* The firmware has lost all earlier data, and its timer restarts. */
 static void print_reset(rows *r, const wh_reset *reset) {
     begin_row(r, r->ticks, "reset");
     fprintf(r->out, ",,,,%s\n", reset->cause == WH_RESET_WATCHDOG ? "watchdog" : "other");
@@ -353,7 +353,7 @@ bool taped_show(const char *name, const char *csv) {
 }
 
 /* === a tape in the place of the plant ========================================================= */
-/* A tape in the plant's place. */
+/* A tape in place of the plant. */
 
 static void say_difference(const wh_orders *kept, const wh_orders *now, const talk *t) {
     fprintf(stderr, "whirl pil: error: exchange %llu, t = %.6f s: other orders than on the tape\n",
@@ -366,7 +366,7 @@ static void say_difference(const wh_orders *kept, const wh_orders *now, const ta
     }
 }
 
-/* One turn. False at the tape's end and when something is wrong, which report->end then says. */
+/* One turn. False at the tape's end and after an error, which is in report->end. */
 static bool play(taped *from, talk *t) {
     lockstep_report *r = t->report;
     taped_turn kept;
@@ -389,7 +389,7 @@ static bool play(taped *from, talk *t) {
         }
         return false;
     }
-    if (!kept.answered) { /* the taped firmware had ended here, or was let go */
+    if (!kept.answered) { /* the recorded firmware had ended here, or the run was over */
         r->end = LOCKSTEP_LET_GO;
         return false;
     }

@@ -1,13 +1,15 @@
-/* taped.h: a tape as a table: what the firmware heard, and what it said, a row each. */
+/* taped.h: a tape as a table: one row for each input and output of the firmware. */
 #ifndef PIL_TAPED_H
 #define PIL_TAPED_H
 
 #include <stdbool.h>
 
-/* Columns: when it was, by its stamp, and when the firmware heard or said it, both in s since the plant's time 0; the kind
- * (edge, sample, output, note; cut: the watchdog has cut the outputs); which of that kind, from 1; its signal; value and
- * unit; what a sample is worth (good, saturated, disconnected). An edge has no value. Outputs and notes have a row when
- * they change. `csv` NULL or "-": standard output. False: not all could be read or written, which was reported. */
+/* Columns: the event's time, by its stamp; the time when the firmware received or sent it, both in s since the plant's
+ * time 0; the kind (edge, sample, output, note; cut: the watchdog has cut the outputs); the channel of that kind, from
+ * 1; its signal; value and unit; a sample's quality (good, saturated, disconnected).
+ *
+ * An edge has no value. Outputs and notes have a row at each change. `csv` NULL or "-": standard output. False,
+ * reported, if reading or writing is incomplete. */
 bool taped_show(const char *name, const char *csv);
 
 #endif
