@@ -1,4 +1,4 @@
-/* figure_draw.c: see figure_draw.h. */
+/* figure_draw.c: the picture of a figure's description. */
 #include "figure_draw.h"
 
 #include <stdio.h>
@@ -20,9 +20,9 @@ typedef struct figure {
     int count;
     int panels;
     int curves;       /* of this panel, */
-    int named;        /* and how many of them are in the legend */
-    bool varied;      /* marks of the motion as it is are left out */
-    double trusted_s; /* the least of its curves over time; 0: all of them are trusted to the end */
+    int named;        /* the number of those in the legend */
+    bool varied;      /* omit marks of the original motion */
+    double trusted_s; /* the least of its curves over time; 0: all are trusted to the end */
     char *plot;       /* their text */
     char *xlabel;
 } figure;
@@ -92,7 +92,7 @@ static void end_panel(figure *f) {
     f->trusted_s = 0.0;
 }
 
-/* "A | B | C" in place; how many. */
+/* Split "A | B | C" in place; returns the number of fields. */
 static int split(char *text, char *field[FIELDS]) {
     int count = 0;
     for (char *at = text; at != NULL && count < FIELDS; count++) {
@@ -225,7 +225,7 @@ static void write_figure(FILE *to, const figure *f, const char *title, const cha
     }
     fprintf(to, "set multiplot layout %d,1 title ", f->panels);
     gnuplot_quote(to, title);
-    /* air between the title and a legend below it */
+    /* space between the title and a legend below it */
     fprintf(to, ".\"\\n\"\n%sunset multiplot\n", commands);
 }
 

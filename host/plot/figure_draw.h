@@ -1,4 +1,4 @@
-/* figure_draw.h: a figure's description as a picture. mk/figures/figures.sh tells the form of a .fig text. */
+/* figure_draw.h: drawing a figure from its description. mk/figures/figures.sh documents the format of a .fig text. */
 #ifndef PLOT_FIGURE_DRAW_H
 #define PLOT_FIGURE_DRAW_H
 
@@ -8,15 +8,16 @@
 typedef struct figure_data {
     char *name;
     char *csv;        /* text with a header line */
-    double trusted_s; /* until when; 0: to the end, or not known */
+    double trusted_s; /* end of the trusted time; 0: the whole time, or unknown */
 } figure_data;
 
-/* The rest of the next line of `text` from *at on that begins with `word` and a blank; NULL at the end. Free it. */
+/* The remaining text of the next line of `text` from *at on that begins with `word` and a blank; NULL at the end. Free
+ * it. */
 char *figure_line(const char **at, const char *word);
 
-/* Draws it. `varied` holds the options that change its runs, "" without any: the title names them, and the caption, which
- * describes the original, is left out. False, reported, when the description is wrong (`where` names it) or the picture
- * cannot be drawn. */
+/* Draw it. `varied` has the options that change its runs, or "". With options the title names them, and the caption,
+ * which describes the original, is omitted. False, reported, if the description is wrong (`where` names it) or the
+ * picture cannot be drawn. */
 bool figure_draw(const char *file, const char *where, const char *text, const figure_data *data,
                  int count, const char *varied);
 

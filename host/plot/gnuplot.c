@@ -31,10 +31,10 @@ bool gnuplot_can_draw_for(const char *command, const char *option, const char *f
     return can;
 }
 
-/* A character, text[at], between gnuplot's double quotes. Letters and the bytes of UTF-8 stand for themselves, all
- * else is its octal code, so that nothing of it is a `command`, a @macro, an escape or a quote; digits too, lest
- * they lengthen the code before them. The picture's XML has no control characters: each becomes a blank. Nor has
- * it "]]>", whose > gnuplot leaves alone: a character without width (U+2060) parts it. */
+/* A character, text[at], between gnuplot's double quotes. Letters and bytes of UTF-8 are literal; other characters are
+ * octal codes, so that they cannot form a `command`, a @macro, an escape or a quote. Digits are octal, too: they could
+ * extend a preceding code. XML has no control characters: each becomes a blank. "]]>" must not occur in XML, and
+ * gnuplot does not escape its >: a zero-width character (U+2060) splits it. */
 void gnuplot_character(FILE *to, const char *text, size_t at) {
     const unsigned char code = (unsigned char)text[at];
     const unsigned char lower = code | 0x20;
@@ -48,7 +48,6 @@ void gnuplot_character(FILE *to, const char *text, size_t at) {
     }
 }
 
-/* Text as it is written, where gnuplot is told "noenhanced". */
 void gnuplot_quote(FILE *to, const char *text) {
     fputc('"', to);
     for (size_t at = 0; text[at] != '\0'; at++) {
@@ -57,7 +56,7 @@ void gnuplot_quote(FILE *to, const char *text) {
     fputc('"', to);
 }
 
-/* Puts the file in the place of a stream, until put_back() of what this returns; -1 when there was none. */
+/* Redirect a stream to the file; put_back() of the result restores it; -1 if the stream was closed. */
 static int put_in_place(FILE *file, int stream) {
     const int before = dup(stream);
     if (before >= 0) {
@@ -73,8 +72,8 @@ static void put_back(int before, int stream) {
     }
 }
 
-/* gnuplot, which draws to its standard output, the picture: the file's name, which could begin with a | or ~,
- * never reaches it. Its messages are kept in `said` and shown only when it fails. */
+/* Start gnuplot, which draws to its standard output, the picture. So it never receives the file's name, which could
+ * begin with | or ~. Its messages go to `said`, and are shown only after a failure. */
 static FILE *start_gnuplot(FILE *picture, FILE *said) {
     fflush(stdout);
     fflush(stderr);
@@ -102,7 +101,7 @@ bool gnuplot_is_there(void) {
     return there;
 }
 
-/* The one look of all pictures. */
+/* The common look of all pictures. */
 static void set_look(gnuplot *g, int height) {
     const char *ending = ending_of(g->file);
     if (strcmp(ending, "svg") == 0) {
@@ -122,7 +121,7 @@ static void set_look(gnuplot *g, int height) {
           g->to);
 }
 
-/* The end of a picture that was not begun. */
+/* The end of a picture that failed to begin. */
 static bool give_up(gnuplot *g) {
     FILE *const files[] = {g->drawn, g->said};
     (void)written_close(g->picture, g->file, false);
@@ -159,7 +158,7 @@ bool gnuplot_open(gnuplot *g, const char *file, int height, const char *title, c
     return true;
 }
 
-/* XML's text: a control character is a blank. */
+/* XML text: a control character becomes a blank. */
 static void put_xml(FILE *to, const char *text) {
     for (const char *at = text; *at != '\0'; at++) {
         const unsigned char code = (unsigned char)*at;
@@ -179,7 +178,7 @@ static const char dark[] =
     "[stroke='rgb(216, 216, 216)'],[stroke=\"rgb(216, 216, 216)\"]{stroke:#30363d}"
     "[fill='rgb(228, 228, 228)'],[fill = 'rgb(228, 228, 228)']{fill:#262c36}}</style>\n";
 
-/* gnuplot's picture; an SVG with a title and alternative text in place of the words that gnuplot has for them. */
+/* gnuplot's picture; in an SVG, a title and alternative text replace gnuplot's words for them. */
 static void copy_picture(const gnuplot *g) {
     char line[4096];
     size_t length;
@@ -206,7 +205,7 @@ static void copy_picture(const gnuplot *g) {
     }
 }
 
-/* gnuplot does not notice a full disk. So look for the end that such a picture has. */
+/* gnuplot does not notice a full disk. So check for the end that such a picture has. */
 static bool is_whole(const gnuplot *g) {
     char last[17] = {0};
     const bool there = fseek(g->drawn, -16, SEEK_END) == 0 && fread(last, 1, 16, g->drawn) == 16;

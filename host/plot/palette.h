@@ -1,8 +1,7 @@
-/* palette.h: the colours and point shapes of every picture, on a white and on a dark page.
- *
- * Every line colour has a contrast of 3:1 (WCAG 2.1, 1.4.11) with both backgrounds. Any two differ by 11 (CIEDE2000) to
- * the eye without and with colour blindness of each kind (Machado, Oliveira and Fernandes, 2009).
- * tests/host/test_palette.c computes both. mk/curves/chart.sh reads the rows of lines, too. */
+/* palette.h: the colours and point shapes of all pictures, on white and dark pages. Every line colour has a contrast of
+ * 3:1 (WCAG 2.1, 1.4.11) with both backgrounds. Any two differ by 11 (CIEDE2000), in normal vision and with each kind
+ * of colour blindness (Machado, Oliveira and Fernandes, 2009). tests/host/test_palette.c computes both.
+ * mk/curves/chart.sh also reads the rows of lines. */
 #ifndef PLOT_PALETTE_H
 #define PLOT_PALETTE_H
 
@@ -16,7 +15,7 @@
     X("#c2058b") \
     X("#b87289")
 
-/* Areas from good to bad: apart by lightness alone. */
+/* Areas from good to bad: distinguished by lightness alone. */
 #define PALETTE_AREA_ROWS(X) \
     X("#d0e6f0") \
     X("#8fbf7f") \
@@ -37,7 +36,7 @@ enum {
     PALETTE_AREAS = PALETTE_AREA_ROWS(PALETTE_ONE)
 };
 
-/* Line i of a picture, from 0. After the last colour they come again: draw these with another dash. */
+/* Line i of a picture, from 0. After the last colour they repeat, with another dash. */
 static inline const char *palette_line(int i) {
     static const char *const lines[] = {PALETTE_LINE_ROWS(PALETTE_WORD)};
     return lines[i % PALETTE_LINES];

@@ -68,7 +68,7 @@ static const char *unit_words(const char *unit) {
     return unit == NULL ? "a unit that no file tells" : unit;
 }
 
-/* The quantity's columns and its one unit. False: no run has it, or the runs' units differ; reported. */
+/* The quantity's columns and its unit. False, reported, if no run has it, or the runs' units differ. */
 static bool find_columns(const char *command, const char *name, const plot_run *runs, int count,
                          int *column, const char **unit) {
     int first = -1;
@@ -94,7 +94,7 @@ static bool find_columns(const char *command, const char *name, const plot_run *
     return first >= 0;
 }
 
-/* `panel` below 0: the one of its unit. */
+/* `panel` below 0: the panel of its unit. */
 static bool add(panels *p, const char *command, const char *name, const plot_run *runs, int panel) {
     panels_quantity *q = &p->quantity[p->quantities];
     const char *unit = NULL;
@@ -200,7 +200,7 @@ static bool name_runs(panels *p, const char *command, const char *legend, const 
     return list == NULL;
 }
 
-/* An axis without a label of its own keeps quantity and unit; a label without an axis is a mistake. */
+/* An axis without its own label shows quantity and unit; a label without an axis is an error. */
 static bool labels_fit(const panels *p, const char *command, const char *labels) {
     int more = 0;
     for (const char *at = labels; at != NULL && *at != '\0'; at++) {

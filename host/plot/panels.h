@@ -6,26 +6,27 @@
 
 enum { PLOT_PANELS = 16 };
 
-/* What is drawn. All zero: every coordinate and output, without rates, a panel for each unit. */
+/* The choice of curves. All zero: every coordinate and output, without rates, a panel for each unit. */
 typedef struct plot_choice {
     const char *x;                  /* a quantity; NULL: column 0 */
-    const char *y;                  /* quantities between commas, a panel for each unit; or NULL */
+    const char *y;                  /* quantities separated by commas, a panel for each unit; or
+                                     * NULL */
     const char *panel[PLOT_PANELS]; /* quantities that share a panel */
     int panels;
-    const char *legend; /* labels of the runs, between commas; or NULL */
+    const char *legend; /* labels of the runs, separated by commas; or NULL */
     const char *title;
     const char *xlabel; /* NULL: quantity and unit */
-    const char *ylabel; /* of the panels, between commas; what is left out: quantities and unit */
+    const char *ylabel; /* of the panels, separated by commas; default: quantities and unit */
 } plot_choice;
 
-/* Is there a quantity for each name, and one unit in each panel? Needs columns, no data. False is reported. */
+/* Does each name have a quantity, and each panel one unit? Needs columns, no data. False is reported. */
 bool plot_fits(const char *command, const plot_choice *choice, const plot_run *runs, int count);
-/* True when x is another quantity than column 0. */
+/* True if x is a quantity other than column 0. */
 bool plot_is_path(const plot_choice *choice);
 
 enum { PANELS_MOST = 64, PANELS_QUANTITIES = 256 };
 
-/* A quantity that is drawn: of each run its column, or -1. */
+/* A drawn quantity: its column in each run, or -1. */
 typedef struct panels_quantity {
     char *name;  /* as people write it: theta' */
     int *column; /* [runs] */
@@ -44,9 +45,9 @@ typedef struct panels {
     int runs;
 } panels;
 
-/* The next of a list between commas, without blanks at its ends; NULL at the list's end. Free it. */
+/* The next entry of a list separated by commas, without blanks at its ends; NULL at the end of the list. Free it. */
 char *panels_next(const char **list);
-/* False is reported. panels_free() in any case. */
+/* False is reported. Call panels_free() in any case. */
 bool panels_make(panels *p, const char *command, const plot_choice *choice, const plot_run *runs,
                  int count);
 void panels_free(panels *p);

@@ -1,4 +1,4 @@
-/* plot.c: handing curves to gnuplot. */
+/* plot.c: gnuplot commands for the curves of runs. */
 #include "plot.h"
 
 #include <math.h>
@@ -12,19 +12,19 @@
 #include "palette.h"
 #include "panels.h"
 
-/* Left of all panels, in characters: y tics as wide as -2.5x10^-300 and the axis's label, so that their x axes stand
- * below each other. */
+/* Left margin of all panels, in characters: room for y tics such as -2.5x10^-300 and the axis's label, so that the x
+ * axes align. */
 #define LEFT_MARGIN 15
 #define RIGHT_MARGIN 4
 #define AXIS_MOST 26
 #define TEXT_MOST 60
 
-/* Of a panel with a line of legend, and of each line more, in pixels; of a legend, its entries' samples and letters. */
+/* Height of a panel with a one-line legend, and of each further line, in pixels; widths of a legend and its samples. */
 enum { PANEL_HEIGHT = 260, KEY_LINE = 21, KEY_WIDTH = 760, KEY_SAMPLE = 60 };
 #define KEY_LETTER 8.5
 
-/* A part of gnuplot's enhanced text. Its marks are escaped; with `raised`, the exponent after ^ is raised,
- * "m^(1/2)" whole and without its parentheses. */
+/* A part of gnuplot's enhanced text, with its special characters escaped. With `raised`, the exponent after ^ is
+ * raised, "m^(1/2)" whole and without its parentheses. */
 static void write_part(FILE *to, const char *text, bool raised) {
     for (const char *at = text; *at != '\0'; at++) {
         if (*at != '^' || !raised) {
@@ -52,10 +52,10 @@ static void write_axis(FILE *to, const char *axis, const char *name, const char 
     fputs("\"\n", to);
 }
 
-/* A part of its size below which a curve counts as flat: the tics could not tell it. */
+/* A curve counts as flat below this part of its size: the tics could not show its range. */
 #define FLAT 1e-10
 
-/* The range of an axis that gnuplot would warn of, or fail at: of one value, or of none. */
+/* The range of an axis with one value or no value, which would cause warnings or errors in gnuplot. */
 static void write_range(FILE *to, const char *axis, double least, double most) {
     if (!(least <= most)) {
         fprintf(to, "set %srange [-1:1]\n", axis);
@@ -75,7 +75,7 @@ typedef struct extent {
     double most;
 } extent;
 
-/* Of the finite values of a run's column; least above most where there are none. */
+/* Join with the finite values of a run's column; least above most if there are none. */
 static extent joined(extent e, const plot_run *run, int column) {
     for (int r = 0; r < run->rows && column >= 0; r++) {
         const double value = run->data[(size_t)r * (size_t)run->columns + (size_t)column];
@@ -103,7 +103,8 @@ static int quantities_in(const panels *p, int panel) {
     return count;
 }
 
-/* The names of a panel's quantities, or of all (-1), between commas; free it. Too long for an axis: how many. */
+/* The names of a panel's quantities, or of all (-1), separated by commas; free it. If too long for an axis: their
+ * number. */
 static char *names_of(const panels *p, int panel, size_t most) {
     char *names = room_words("%s", "");
     int count = 0;
@@ -122,7 +123,7 @@ static char *names_of(const panels *p, int panel, size_t most) {
     return names;
 }
 
-/* The quantity, with one run what it is, if there is room for that; with several, the run. */
+/* The quantity, for one run with its description if that fits; for several runs, the run. */
 static char *legend_of(const panels *p, const panels_quantity *q, int k, const plot_run *run) {
     const char *text = run->column[q->column[k]].text;
     const int together = quantities_in(p, q->panel);
@@ -133,8 +134,8 @@ static char *legend_of(const panels *p, const panels_quantity *q, int k, const p
                            : room_words("%s, %s", q->name, p->label[k]);
 }
 
-/* One run: a colour for each quantity of the panel. Several: a colour for each run, and a dash for each curve, so that a
- * print without colours tells five of them apart. */
+/* For one run: a colour for each quantity of the panel. For several: a colour for each run, and a dash for each curve,
+ * so that five are distinguishable without colours. */
 static void write_style(FILE *to, const panels *p, int of_panel, int k, bool points) {
     const int line = p->runs == 1 ? of_panel : k;
     const int dash = p->runs == 1 ? palette_dash(line) : 1 + (of_panel * p->runs + k) % 5;
@@ -154,7 +155,7 @@ static double first_trusted_s(const plot_run *runs, int count) {
     return least;
 }
 
-/* "" when all is trusted; of several runs short, since a legend's columns are as wide as its longest entry. */
+/* "" if all is trusted; short for several runs, since a legend's columns are as wide as its longest entry. */
 static char *trust_sign(const plot_run *runs, int count) {
     const double until_s = first_trusted_s(runs, count);
     return !(until_s > 0.0) ? room_words("%s", "")
@@ -192,7 +193,7 @@ static int key_lines(const panels *p, const plot_run *runs, int panel, bool time
     return (entries + columns - 1) / columns;
 }
 
-/* Entries of the first panel's legend that are no curves. */
+/* Entries of the first panel's legend other than curves. */
 static void write_signs(FILE *to, const plot_run *runs, int count) {
     char *trusted = trust_sign(runs, count);
     if (trusted[0] != '\0') {
@@ -207,7 +208,7 @@ static void write_signs(FILE *to, const plot_run *runs, int count) {
     }
 }
 
-/* With this label of the y axis, which is freed, or with the quantities' names and unit. */
+/* Label the y axis with this text, which is freed, or with the quantities' names and unit. */
 static void write_panel(FILE *to, const panels *p, const plot_run *runs, int panel, bool time,
                         char *ylabel) {
     extent e = nothing;
@@ -255,7 +256,7 @@ void plot_shade(FILE *to, double from_s) {
             from_s);
 }
 
-/* After the least trusted run's end in every panel, and a cross on the axis of each for an event. */
+/* The shade after the least trusted time in every panel, and a cross on each axis for an event. */
 static void write_times(FILE *to, const plot_run *runs, int count) {
     const double trusted_s = first_trusted_s(runs, count);
     if (trusted_s > 0.0) {
@@ -281,7 +282,7 @@ static void write_data(FILE *to, const plot_run *run, int number) {
     fputs("EOD\n", to);
 }
 
-/* Of the picture: what was asked for, the one run's, or its axes in words. Free it. */
+/* The picture's title: the requested one, the run's, or its axes in words. Free it. */
 static char *title_of(const panels *p, const plot_choice *choice, const plot_run *runs) {
     bool alike = true;
     for (int k = 1; k < p->runs; k++) {

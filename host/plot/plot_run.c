@@ -1,4 +1,5 @@
-/* plot_run.c: see plot_run.h. CSV is RFC 4180's, with lines of comment after a #. The file about it is TOML 1.0. */
+/* plot_run.c: reading and writing of runs. CSV follows RFC 4180, with comment lines after a #. The description is TOML
+ * 1.0. */
 #include "plot_run.h"
 
 #include <ctype.h>
@@ -110,7 +111,7 @@ bool plot_run_about(const char *csv, const plot_run *run, const char *facts, con
     return good;
 }
 
-/* The string at *at, which is behind it then; NULL when there is none. Free it. */
+/* The string at *at, which advances past it; NULL if there is none. Free it. */
 static char *string_at(const char **at) {
     char *made = room_words("%s", *at);
     size_t length = 0;
@@ -202,7 +203,7 @@ static void read_about(const char *csv, plot_run *run) {
 
 /* --- the numbers ----------------------------------------------------------------------------------------------------- */
 
-/* The next line that is no comment, without its end, as text of UTF-8; false at the file's end. */
+/* The next line other than a comment, without its end, as UTF-8 text; false at the file's end. */
 static bool next_line(FILE *from, char **line, size_t *size) {
     ssize_t length;
     do {
@@ -241,7 +242,7 @@ static double number_of(const char *field) {
     return end == field || end[strspn(end, " ")] != '\0' ? (double)NAN : value;
 }
 
-/* How programs write a value that is not a number. */
+/* The spellings of NaN in other programs. */
 static bool is_nan(const char *field) {
     return strcasecmp(field + (field[0] == '-'), "nan") == 0 || strcmp(field, "NA") == 0;
 }
@@ -264,7 +265,7 @@ static void name_columns(plot_run *run, char *line) {
     }
 }
 
-/* An empty cell, or a missing one at the end, is a value that is not known. */
+/* An empty cell, or a missing one at the end, is an unknown value. */
 static bool take_rows(const char *csv, FILE *from, char **line, size_t *size, plot_run *run) {
     int64_t most = 0;
     while (next_line(from, line, size)) {

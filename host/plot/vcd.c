@@ -16,7 +16,7 @@ typedef enum vcd_kind { VCD_WIRE, VCD_REAL, VCD_EVENT } vcd_kind;
 
 typedef struct vcd_signal {
     vcd_kind kind;
-    char value[VALUE_SIZE]; /* as it was written last; "": it was not */
+    char value[VALUE_SIZE]; /* the last written value; "": not written yet */
 } vcd_signal;
 
 typedef struct change {
@@ -35,7 +35,7 @@ struct vcd {
     bool begun;
     bool timed; /* a time was written */
     int64_t time;
-    int64_t last;    /* of all that was told */
+    int64_t last;    /* the latest time of a change */
     change *waiting; /* in order of time */
     int64_t count;
     int64_t room;
@@ -49,7 +49,7 @@ static bool is_simple(char c) {
            c == '$';
 }
 
-/* Colons, too, are a vector's to some viewers. */
+/* Some viewers also take colons as vectors. */
 static void write_name(FILE *out, const char *name) {
     char *copy = room_words("%s", name);
     char *to = copy;
@@ -66,7 +66,7 @@ static void write_name(FILE *out, const char *name) {
     free(copy);
 }
 
-/* Without what would end it. */
+/* A comment without its end mark. */
 static void write_comment(FILE *out, const char *text) {
     fputs("$comment ", out);
     for (const char *at = text; *at != '\0'; at++) {
@@ -105,7 +105,7 @@ void vcd_scope(vcd *v, const char *scope) {
     open_scope(v, scope);
 }
 
-/* What stands for it before its values: digits, the least first, of the printable characters from '!' on. */
+/* The identifier of a signal: digits, the least significant first, of the printable characters from '!' on. */
 static void write_mark(FILE *out, int64_t signal) {
     enum { DIGITS = '~' - '!' + 1 };
     do {
@@ -204,7 +204,7 @@ void vcd_change(vcd *v, int signal, int64_t time, double value) {
     v->last = time > v->last ? time : v->last;
 }
 
-/* What waits up to this time is written. */
+/* Write pending changes up to this time. */
 static void write_until(vcd *v, int64_t time) {
     begin(v);
     int64_t done = 0;
