@@ -1,4 +1,4 @@
-/* accel.c: `whirl accel`: the highest derivatives at one state, to the last digit. */
+/* accel.c: `whirl accel`: the highest derivatives at one state, with all digits. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -47,7 +47,7 @@ static void print(const image *im, const double *result) {
     }
 }
 
-/* Which expression it is that is no number at this state. */
+/* Report the expression that is not finite at this state. */
 static void tell_undefined(const image *im, const char *file) {
     diags *errors = diags_new();
     const undefined_at at = {

@@ -1,4 +1,4 @@
-/* check.c: `whirl check`: reads a file and derives all that it holds, without running anything. */
+/* check.c: `whirl check`: parses a file and derives all its scenes and mechanisms, without running them. */
 #include <stdio.h>
 
 #include "commands.h"

@@ -1,5 +1,5 @@
-/* commands.h: what `whirl` can be told to do. Each takes the words behind its name and returns an
- * exit code (host/base/exit.h). */
+/* commands.h: the commands of `whirl`. Each takes the words after its name and returns an exit status
+ * (host/base/exit.h). */
 #ifndef COMMANDS_COMMANDS_H
 #define COMMANDS_COMMANDS_H
 

@@ -75,21 +75,22 @@ static const char *taken_in_c(const char *name, bool with_header) {
     return with_header && !emit_c_name_is_free_in_cpp(name) ? "a word of C++" : NULL;
 }
 
-/* All that the command knows of a form. */
+/* The properties of a form. */
 typedef struct form_row {
     const char *word;
     void (*print)(const loaded *made, const char *file);
-    bool shows; /* equations, of each mechanism of a file one after another; else it is code */
+    bool shows; /* equations, of each mechanism of a file in turn; else code */
     void (*print_steps)(const loaded *made,
-                        const char *file); /* how the equations come about (--steps) */
+                        const char *file); /* the derivation of the equations (--steps) */
     void (*print_folded)(const loaded *made,
                          const char *file); /* values in place of names (--folded) */
-    bool runs;                              /* steps the scene: momenta, method and number matter */
-    /* Code that holds the scene's name (--name): what else has that name there, or NULL. */
+    bool runs;                              /* it steps the scene: momenta, method and number type
+                                             * matter */
+    /* For code with the scene's name (--name): the other owner of that name there, or NULL. */
     const char *(*name_taken_by)(const char *name, bool with_header);
-    /* Code that has a header (--header). */
+    /* For code with a header (--header). */
     void (*print_header)(FILE *out, const image *im, const char *file);
-    /* Code that has no steps of its own for contacts: begins each line that tells of them. */
+    /* For code without contacts: begins each line of the comment about them. */
     const char *comment;
     const char *text;
 } form_row;
@@ -127,7 +128,7 @@ static bool has_steps(const form_row *form) { return form->runs; }
 static bool has_folded(const form_row *form) { return form->print_folded != NULL; }
 static bool has_derivation(const form_row *form) { return form->shows; }
 
-/* "--as octave or c": those of which that is true. Returns `said`. */
+/* "--as octave or c": the forms for which that is true. Returns `said`. */
 static const char *forms_with(bool (*is_true)(const form_row *form), char said[FORMS_TEXT_SIZE]) {
     size_t length = (size_t)snprintf(said, FORMS_TEXT_SIZE, "--as");
     int left = 0;
@@ -193,7 +194,8 @@ static void print_usage(FILE *out) {
         forms_with(has_steps, said));
 }
 
-/* Does the option, "--header" or so, with its value's word, go with this form? Else it is said with which. */
+/* Is the option, such as "--header", with its value's word, valid for this form? Else the forms that accept it are
+ * reported. */
 static bool goes_with(const char *option, const char *value, bool (*of)(const form_row *form),
                       const form_row *as) {
     char said[FORMS_TEXT_SIZE];
@@ -209,7 +211,7 @@ static bool goes_with(const char *option, const char *value, bool (*of)(const fo
     return of(as);
 }
 
-/* The files that --header must not be, which are read and written at the same time. */
+/* --header must not be a file that is read or written at the same time. */
 static bool header_is_apart(const source_model *from, const char *header) {
     struct stat about_output;
     struct stat about_header;
@@ -245,7 +247,7 @@ static bool write_header(const form_row *as, const image *im, const fixed_plan *
     return out != NULL && written_close(out, header, true);
 }
 
-/* Can code of that form have the scene's name? Else it is said why. */
+/* Can code of that form have the scene's name? Else the reason is reported. */
 static bool has_name(const image *im, const source_model *from, const form_row *as,
                      const char *header) {
     const char *taken_by = as->name_taken_by(im->name, header != NULL);
@@ -258,7 +260,7 @@ static bool has_name(const image *im, const source_model *from, const form_row *
     return taken_by == NULL;
 }
 
-/* Its step in fixed point where that is asked for; *good: or it is not. */
+/* The step in fixed point, if requested; *good is false after an error. */
 static fixed_plan *plan_of(const image *im, const source_model *from, const engine_kind *number,
                            bool *good) {
     fixed_plan *plan = number == &engine_fixed ? fixed_plan_make(im, from->errors) : NULL;
@@ -271,7 +273,7 @@ static fixed_plan *plan_of(const image *im, const source_model *from, const engi
     return plan;
 }
 
-/* Can this be C for the core? Else it is said why. */
+/* Can this be C for the core? Else the reason is reported. */
 static bool has_c_form(const image *im, source_model *from) {
     const bool has = start_angles_are_held(im, from->errors) &&
                      start_has_method(im, im->settings.method, from->errors);
@@ -297,7 +299,7 @@ static int derive_one(source_model *from, const mechanism *of, const scene *in,
     const bool from_equations = as->shows || (has_folded(as) && !o->folded);
     const image_settings *settings = &options->integration;
     image_settings taken = *settings;
-    if (!as->runs) { /* equations and other programs' code know no tables */
+    if (!as->runs) { /* equations and code for other programs have no tables */
         taken.tables = TABLES_NONE;
         taken.cells = 0;
     }
@@ -345,7 +347,7 @@ static int derive_one(source_model *from, const mechanism *of, const scene *in,
     return code;
 }
 
-/* The scene's name in generated code: as a name in a .whirl file. */
+/* The scene's name in generated code, with the rules of names in a .whirl file. */
 static bool take_name(change_options *options, const char *name) {
     options->name = name;
     return options_is_name("derive", name, NAME_LENGTH_MAX);
@@ -401,7 +403,7 @@ static bool read_options(int count, char **words, derive_options *o) {
     return o->target != NULL;
 }
 
-/* All mechanisms of a file, where none is named and the form shows them; else the one that is meant. */
+/* All mechanisms of a file, if the form shows them and no name is given; else the named one. */
 static int derive_opened(source_model *from, const derive_options *o) {
     const overrides changes = options_overrides(&o->common.change);
     const mechanism *of;
@@ -414,7 +416,7 @@ static int derive_opened(source_model *from, const derive_options *o) {
         }
         return code;
     }
-    /* the file's only scene; of several, none is meant: the mechanism */
+    /* the file's only scene; with several, its mechanism */
     code = source_pick(from, from->model->scene_count == 1, &of, &in);
     if (code == EXIT_DONE && o->header != NULL && !header_is_apart(from, o->header)) {
         code = EXIT_BAD_INPUT;

@@ -1,4 +1,4 @@
-/* describe.c: `whirl describe`: what a scene's image holds, for programs and for readers. */
+/* describe.c: `whirl describe`: the contents of a scene's image, for programs and for readers. */
 #include <stdio.h>
 #include <string.h>
 

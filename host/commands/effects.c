@@ -1,4 +1,4 @@
-/* effects.c: `whirl effects`: how far each effect of a scene moves it, its price, and the smallest set that is needed. */
+/* effects.c: `whirl effects`: the influence of each effect of a scene, its price, and the smallest sufficient set. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -13,7 +13,7 @@
 #include "host/price/subsets.h"
 #include "pricing.h"
 
-/* The error without --error: a part of each coordinate's range, and what round-off moves at rest, in SI. */
+/* The error without --error: relative to each coordinate's range, and the round-off at rest, in SI. */
 #define ERROR_PART 1e-3
 #define ERROR_LEAST 1e-12
 
@@ -61,7 +61,7 @@ static const char primes[] = "''''''''''";
 
 static bool is_coordinate(const record_column *c) { return c->unknown >= 0 && c->primes == 0; }
 
-/* The column called `name`; 0, told, when there is none. */
+/* The column `name`; 0, reported, if there is none. */
 static int column_of(const subsets *s, const char *name) {
     nearest search = nearest_start(name, strlen(name));
     for (int i = 1; i < s->columns->columns; i++) {
@@ -136,7 +136,7 @@ static void print_cell(const char *head, bool is_head, const char *format, doubl
     free(text);
 }
 
-/* A row; the headings if `moved` is NULL. Of contacts only the longest step has a price. */
+/* A row; the headings if `moved` is NULL. With contacts, only the longest step has a price. */
 static void print_row(const subsets *s, const char *name, const double *moved, const double *figure,
                       int contacts, const char *verdict) {
     const char *const words[SUBSET_FIGURES] = {
@@ -192,7 +192,7 @@ static void print_names(const subsets *s, const char *head, uint64_t bits, const
     }
 }
 
-/* --set of an effect that is left out: `run` refuses it. */
+/* --set of a parameter of an omitted effect: `run` would refuse it. */
 static bool is_for_left_out(const subsets *s, uint64_t out, const char *set) {
     struct arena *memory = arena_new();
     diags *unsaid = diags_new();
@@ -208,7 +208,7 @@ static bool is_for_left_out(const subsets *s, uint64_t out, const char *set) {
     return is;
 }
 
-/* The names that --with gives, without those that are left out; *out keeps what the scene itself, or `all`, has. */
+/* The names of --with without the omitted ones; *out receives those that the scene itself, or `all`, has. */
 static void leave_out(const subsets *s, overrides *given, const char **names, uint64_t *out) {
     bool all = false;
     given->with = names;

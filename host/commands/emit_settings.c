@@ -1,4 +1,4 @@
-/* emit_settings.c: for the project's own build: scenes with every setting that `whirl price` tries, as C, and their state
+/* emit_settings.c: for the project's own build: scenes with every setting of `whirl price`, as C, and their state
  * hashes (tests/settings_hashes.sh). */
 #include <stdio.h>
 #include <stdlib.h>
@@ -16,25 +16,26 @@
 #include "load.h"
 #include "scenes.h"
 
-/* What computes: each has a list of hashes, named as it is. Float and double are built of the same C. */
+/* The number types: each has a list of hashes, with its name. Float and double are built from the same C. */
 typedef enum kind_of { OF_FLOAT, OF_DOUBLE, OF_FIXED, KINDS } kind_of;
 static const engine_kind *const kinds[KINDS] = {&engine_float, &engine_double, &engine_fixed};
 
-/* Words of an axis, at most. */
+/* Most words of an axis. */
 enum { WORDS = 40 };
 
 typedef struct emission {
     const char *folder;
     uint64_t steps; /* at most so many */
-    int every;      /* of so many settings of a scene one, */
-    int seen; /* counted through all scenes, so that each has others; and all that have a new word */
+    int every;      /* one of so many settings of a scene is written, */
+    int seen; /* counted through all scenes, so that each gets others; also every one with a new
+               * word */
     const char *word[AXES][WORDS];
     FILE *hashes[KINDS];
-    FILE *
-        settings; /* NAME SCENE OPTIONS OF `whirl run` but for float and double..., and the events of the run in float */
+    FILE *settings; /* NAME SCENE OPTIONS OF `whirl run` without float and double..., and the events
+                   * of the run in float */
 } emission;
 
-/* Has none before it this word on some axis? */
+/* Is one of its words new on its axis? */
 static bool has_new_word(emission *to, const setting *s) {
     bool has = false;
     for (int axis = 0; axis < AXES; axis++) {
@@ -51,7 +52,7 @@ static bool has_new_word(emission *to, const setting *s) {
     return has;
 }
 
-/* A scene's C or its header; the plan is NULL but for fixed point. False: reported. */
+/* A scene's C or its header; the plan is NULL except for fixed point. False: reported. */
 static bool write_code(const emission *to, const image *im, const fixed_plan *plan,
                        const char *file, bool header) {
     FILE *out = scenes_open(to->folder, im->name, header ? ".h" : ".c");
@@ -72,7 +73,7 @@ static bool write_both(const emission *to, const image *im, const fixed_plan *pl
     return write_code(to, im, plan, file, false) && write_code(to, im, plan, file, true);
 }
 
-/* The same in fixed point, if it has such a step: few settings have, so each is written. */
+/* The same in fixed point, if it has such a step: few settings have one, so all are written. */
 static bool write_fixed(const emission *to, image *im, const setting *s, int number,
                         const char *file, const char *target) {
     char options[SETTING_TEXT];
@@ -109,7 +110,7 @@ static bool write_setting(const emission *to, image *im, const setting *s, int n
     return done;
 }
 
-/* The image with these settings, or NULL: the scene does not take them. Other errors are reported in *good. */
+/* The image with these settings, or NULL if the scene does not support them. Other errors are reported in *good. */
 static image *image_with(const equations *e, const setting *s, source_model *from, bool *good) {
     diags *unsaid = diags_new();
     image *im = image_make(e, e->instance->conserve, &s->image, IMAGE_TO_WRITE,

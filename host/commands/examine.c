@@ -1,4 +1,4 @@
-/* examine.c: `whirl examine`: which momenta a mechanism keeps, and which forces change the others. */
+/* examine.c: `whirl examine`: the conserved momenta of a mechanism, and the forces that change the others. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -30,9 +30,9 @@ typedef struct examine_options {
     bool latex;
 } examine_options;
 
-/* --- what acts on a momentum ------------------------------------------------------------------------*/
+/* --- causes of a momentum's change ----------------------------------------------------------------- */
 
-/* The place of a statement, and its effect, behind a text. */
+/* The place of a statement, and its effect, after a text. */
 static void say_where(FILE *out, const equations *e, int within, place at) {
     fprintf(out, ", line %d", at.line);
     if (within >= 0) {
@@ -40,7 +40,7 @@ static void say_where(FILE *out, const equations *e, int within, place at) {
     }
 }
 
-/* A formula of so many terms is read; a longer one is counted. */
+/* A formula with more terms is not printed; its terms are counted. */
 #define READABLE_TERMS 40
 
 static void print_formula(const show *s, const poly *value) {
@@ -58,13 +58,13 @@ static void print_source(const show *s, const poly *value) {
     fputc('\n', s->out);
 }
 
-/* The sum of all forces along the symmetry, contacts apart. */
+/* The sum of all forces along the symmetry, without contacts. */
 static const poly *force_along(const equations *e, const symmetry *of) {
     const poly *sum = symmetry_along(e, of, e->applied);
     return poly_expanded(e->algebra, poly_sub(e->algebra, sum, of->stored));
 }
 
-/* A crossing that sets something that the momentum depends on. */
+/* Does a crossing set a symbol of the momentum? */
 static bool crossing_acts(const equations *e, const symmetry *of, const contact_law *law) {
     for (int k = 0; k < law->from->set_count; k++) {
         const assignment *set = &law->from->sets[k];
@@ -119,7 +119,7 @@ static void print_stored(const show *s, const equations *e, const symmetry *of,
     free(row);
 }
 
-/* A shift of lengths by different amounts: two carts that are pushed the same way keep the difference of their momenta. */
+/* A shift of lengths by different amounts: two carts pushed the same way conserve the difference of their momenta. */
 static void print_uncommon(const show *s, const equations *e, const symmetry *of,
                            const char *prefix) {
     const symbol *moved[2] = {NULL, NULL};
@@ -219,7 +219,7 @@ static void print_latex(const show *s, const equations *e, const symmetry *of, i
     print_sources(&plain, e, of, "% ");
 }
 
-/* Coordinates whose own shift the kinetic energy does not have: the terms that change. */
+/* Coordinates whose own shift changes the kinetic energy: the terms that change. */
 static void print_broken(const show *s, const equations *e, const char *prefix) {
     for (int i = 0; i < e->count; i++) {
         const symbol *q = e->unknowns[i].symbol;

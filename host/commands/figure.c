@@ -1,4 +1,4 @@
-/* figure.c: `whirl figure`: a figure of the dissertation, as it is or varied. */
+/* figure.c: `whirl figure`: a figure of the dissertation, in its original or a varied form. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -80,7 +80,7 @@ static bool take_one(int count, char **words, int *at, figure_options *o) {
 
 /* --- its records ----------------------------------------------------------------------------------------- */
 
-/* Words as a shell has them, of a description that comes with the program; in place. */
+/* Split a built-in description into words by the shell's rules; in place. */
 static int words_of(char *line, char **word) {
     int count = 0;
     char *to = line;
@@ -109,12 +109,12 @@ static const char *given_for(const figure_options *o, const char *name) {
     return NULL;
 }
 
-/* `kind NAME WORDS`, run into a file of its own, which is gone then. */
+/* Run `kind NAME WORDS` into a temporary file. */
 static int make_data(const figure_options *o, const char *kind, char **word, int count,
                      figure_data *data) {
     char folder[] = "/tmp/whirl-figure-XXXXXX";
     static char csv_word[] = "--csv";
-    static char strict_word[] = "--strict=off"; /* warnings are printed all the same */
+    static char strict_word[] = "--strict=off"; /* warnings are printed in any case */
     if (kind[0] == 't') {
         fprintf(
             stderr,

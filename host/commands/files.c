@@ -1,4 +1,4 @@
-/* files.c: by inode, and without. */
+/* files.c: comparison of files by inode, path or attributes. */
 #define _XOPEN_SOURCE 700 /* realpath() */
 
 #include "files.h"
@@ -9,7 +9,7 @@
 
 #include "host/base/room.h"
 
-#ifdef __wasi__ /* has none: a file goes by the name it is called by */
+#ifdef __wasi__ /* not available: a file has only its given name */
 static char *realpath(const char *path, char *resolved) {
     (void)resolved;
     return room_copy(path, strlen(path));
@@ -30,7 +30,7 @@ static bool same_time(struct timespec one, struct timespec other) {
     return one.tv_sec == other.tv_sec && one.tv_nsec == other.tv_nsec;
 }
 
-/* Nothing tells them apart: a link, or a file that came without a name. */
+/* All attributes are equal: a link, or a file that came without a name. */
 static bool look_alike(const struct stat *one, const struct stat *other) {
     return one->st_dev == other->st_dev && one->st_mode == other->st_mode &&
            one->st_size == other->st_size && one->st_nlink == other->st_nlink &&

@@ -1,5 +1,5 @@
-/* firstlight.c: `whirl firstlight`: the record of a board's first light compared with the interpreter's runs, and with the
- * emulator's record; a row for docs/silicon.md. */
+/* firstlight.c: `whirl firstlight`: comparison of the record of a board's first light with the interpreter's runs and
+ * the emulator's record; a row for docs/silicon.md. */
 #include <inttypes.h>
 #include <stdbool.h>
 #include <stdio.h>
@@ -19,11 +19,11 @@
 #include "host/run/loop.h"
 
 /* === the expected record ====================================================================== */
-/* The interpreter's runs of the scenes, and a board whose crystal, sensors and stop line answer. */
+/* The interpreter's runs of the scenes, and a board with working crystal, sensors and stop line. */
 
 enum { LIGHT_EXPECTED = 100 };
 
-/* Of each field; "": nothing. All zeros before light_expect(). */
+/* The expected value of each field; "": no expectation. All zeros before light_expect(). */
 typedef struct light_expected {
     char of[LIGHT_FIELDS][LIGHT_EXPECTED];
 } light_expected;
@@ -31,15 +31,15 @@ typedef struct light_expected {
 typedef enum light_verdict {
     LIGHT_EQUAL,
     LIGHT_DIFFERS,
-    LIGHT_NONE, /* the board or emulator cannot give it */
+    LIGHT_NONE, /* the board or emulator cannot provide it */
     LIGHT_TOLD  /* nothing is expected */
 } light_verdict;
 
-/* A control period, 2 ms, may begin so much early or late (hal/clock.h). */
+/* Allowed jitter of the beginning of a control period, 2 ms (hal/clock.h). */
 #define PERIOD_LEAST_US 1900
 #define PERIOD_MOST_US 2100
 
-/* The number of the field `name` + `more`, which there is. */
+/* The index of the field `name` + `more`, which must exist. */
 static int light_field(const char *name, const char *more) {
     char whole[LIGHT_EXPECTED];
     (void)snprintf(whole, sizeof whole, "%s%s", name, more);
@@ -50,7 +50,7 @@ static int light_field(const char *name, const char *more) {
     return i;
 }
 
-/* The interpreter in float has the boards' bits. */
+/* The interpreter in float gives the boards' bits. */
 static int run_scene(const char *name, light_expected *e) {
     static const load_wish wish = {.settings = IMAGE_SETTINGS_DEFAULT,
                                    .use = IMAGE_TO_WRITE,
@@ -78,7 +78,7 @@ static int run_scene(const char *name, light_expected *e) {
     return code;
 }
 
-/* Runs the scenes. Returns an exit code. */
+/* Run the scenes. Returns an exit status. */
 static int light_expect(light_expected *e) {
 #define SCENE_NAME(scene) #scene,
     static const char *const scenes[] = {WH_LIGHT_SCENES(SCENE_NAME)};
@@ -108,7 +108,7 @@ static light_verdict light_judge(int field, const char *value, const char *wante
         return LIGHT_NONE;
     }
     if (wanted[0] == '\0' || strcmp(name, "stack") == 0) {
-        return LIGHT_TOLD; /* interrupts of silicon take stack, too */
+        return LIGHT_TOLD; /* interrupts of silicon use stack, too */
     }
     if (strcmp(name, "period_us") == 0) {
         char *end = NULL;
@@ -144,7 +144,7 @@ static void cycles_of(const light *l, char *cell, size_t size) {
     }
 }
 
-/* The record's row, to be freed: `equal` hashes are, the fields `differ` are not. */
+/* The record's row, to be freed: `equal` is the number of equal hashes, `differ` the fields that differ. */
 static char *light_row(const light *l, int equal, const char *differ) {
     char cycles[120];
     char date[16] = "";
@@ -164,10 +164,8 @@ static char *light_row(const light *l, int equal, const char *differ) {
     return row;
 }
 
-/* Puts the row behind the last one of the page's table, unless the page has this record already; says so. Returns an exit
- * code.
- *
- * Behind the last row of the page's table; a record that it has is not put there again. */
+/* Add the row after the last one of the page's table, unless the page already has this record; reports it. Returns an
+ * exit status. */
 static int light_append(const char *page, const char *row, uint32_t crc) {
     size_t length = 0;
     char seen[24];
@@ -183,7 +181,7 @@ static int light_append(const char *page, const char *row, uint32_t crc) {
         free(text);
         return EXIT_DONE;
     }
-    char *behind = NULL; /* the last line of a table */
+    char *behind = NULL; /* the end of a table's last line */
     for (char *at = text; at != NULL; at = *at != '\0' ? strchr(at + 1, '\n') : NULL) {
         behind = at[0] == '|' || (at[0] == '\n' && at[1] == '|') ? at + 1 : behind;
     }
@@ -217,7 +215,7 @@ static int light_append(const char *page, const char *row, uint32_t crc) {
 enum { WAIT_MS = 100, BYTES_MOST = 1 << 20 };
 
 typedef struct firstlight_options {
-    common_options common; /* none of them is taken */
+    common_options common; /* no common options are accepted */
     const char *source;
     const char *page;
     const char *board;
@@ -287,7 +285,7 @@ static int say_wrong(const char *name, const char *why, const char *hint) {
     return EXIT_BAD_INPUT;
 }
 
-/* All that a file has; or of a line the first record that is whole, asked for again and again. */
+/* The whole of a file; or from a line the first complete record, requested repeatedly. */
 static int listen(port *line, const firstlight_options *o, const char *from_name, light *l) {
     static char bytes[BYTES_MOST];
     size_t count = 0;
@@ -337,7 +335,7 @@ static int read_record(const firstlight_options *o, const char *from_name, light
     return code;
 }
 
-/* The emulator's record is of these scenes, too; then its board, compiler and stack are what is compared with. */
+/* The emulator's record must be of these scenes, too. Its board, compiler and stack are then the reference. */
 static int expect_emulated(const firstlight_options *o, light_expected *e) {
     static light emulated;
     const int code = read_record(o, o->emulated, &emulated);
@@ -363,7 +361,7 @@ static const char *const verdict_words[] = {[LIGHT_EQUAL] = "equal",
                                             [LIGHT_NONE] = "none",
                                             [LIGHT_TOLD] = "-"};
 
-/* The names of fields with this light_verdict, parted by commas; "": there are none. */
+/* The names of fields with this light_verdict, separated by commas, or "". */
 static void list_of(const light_verdict *found, light_verdict which, char *names, size_t size) {
     size_t used = 0;
     names[0] = '\0';

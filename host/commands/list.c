@@ -31,7 +31,7 @@ enum { OUTSIDE = -1 }; /* of every effect */
 
 /* --- the table ------------------------------------------------------------------------------------- */
 
-/* WORD behind what there is, with a comma between them. */
+/* Append WORD, with a comma if needed. */
 static void add_word(bool *any, const char *word) {
     printf("%s%s", *any ? "," : "", word);
     *any = true;
@@ -52,7 +52,7 @@ static void put_effects(const mechanism *m, const bool *with, bool ledger) {
     end_words(any);
 }
 
-/* What the mechanism's statements in `effect`, or outside of every effect, are. */
+/* The kinds of the mechanism's statements in `effect`, or outside every effect. */
 static void put_what_is_in(const mechanism *m, int within) {
     bool any = false;
     bool has_terms = false;
@@ -94,7 +94,7 @@ static void put_what_is_in_scene(const scene *in) {
     end_words(any);
 }
 
-/* A text that may hold anything, as C writes it: neither a field's end nor a line's is in it. */
+/* An arbitrary text, escaped as in C: it contains no separators of fields or lines. */
 static void put_text(const char *text) {
     for (const char *at = text; *at != '\0'; at++) {
         switch (*at) {
@@ -119,7 +119,7 @@ static void put_place(const char *kind, const char *name, const mechanism *of, c
     printf("\t%d\t%d\t", first_line, last_line);
 }
 
-/* Step and length of a scene, or of the mechanism at rest; false when they are wrong (reported). */
+/* Step and length of a scene, or of the mechanism at rest; false after an error (reported). */
 static bool put_times(const mechanism *of, const scene *in, diags *errors) {
     instance *made = instance_make(of, in, NULL, errors);
     if (made == NULL) {
@@ -177,7 +177,7 @@ static bool put_lines(const source_model *from, const mechanism *of) {
 typedef struct form {
     const char *word;
     const char *head; /* a line before all others, or NULL */
-    /* What the mechanism and its scenes say; false when something is wrong (reported). */
+    /* The lines of the mechanism and its scenes; false after an error (reported). */
     bool (*put)(const source_model *from, const mechanism *of);
 } form;
 
@@ -252,7 +252,7 @@ static int list_units(void) {
     return EXIT_DONE;
 }
 
-/* The table that docs/hard_cases.md begins with. */
+/* The first table of docs/hard_cases.md. */
 static int list_hard(void) {
 #define HARD_WORDS(name, in, limit, verdict) {name, limit, verdict, in},
     static const char *const rows[][4] = {{"case", "limit of the theory", "verdict", "scenes"},
@@ -264,7 +264,7 @@ static int list_hard(void) {
     return EXIT_DONE;
 }
 
-/* A line each: the title of its description. A script makes a `table`. */
+/* One line each: the title of its description. A script makes a `table`. */
 static int list_figures(void) {
     for (size_t i = 0; i < builtin_figure_count; i++) {
         const char *file = strrchr(builtin_figures[i].file, '/') + 1;

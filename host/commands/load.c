@@ -1,4 +1,4 @@
-/* load.c: finding, reading and deriving what the user named. */
+/* load.c: finding, reading and deriving the target. */
 #include "host/commands/load.h"
 
 #include <errno.h>
@@ -16,7 +16,7 @@
 #include "host/lang/override.h"
 #include "host/show/show_events.h"
 
-/* What is looked for. */
+/* The parts of the target. */
 typedef struct sought {
     const char *mechanism; /* [mechanism_length]; NULL: any */
     size_t mechanism_length;
@@ -43,7 +43,7 @@ static bool knows_mechanism(const sought *w, const whirl_model *m) {
     return false;
 }
 
-/* The mechanism that the sought leads to in one model, as source_pick() will find it; NULL: none. */
+/* The mechanism in one model that the target names, as source_pick() will find it; or NULL. */
 static const mechanism *find_in(const sought *w, const whirl_model *m) {
     for (int i = 0; i < m->scene_count; i++) {
         if (is_mechanism(w, m->scenes[i]->mechanism) && strcmp(m->scenes[i]->name, w->name) == 0) {
@@ -71,7 +71,7 @@ static void say_ambiguous(const sought *w, const struct builtin_model *models,
     fputc('\n', stderr);
 }
 
-/* All scenes of the mechanism that was named. */
+/* All scenes of the named mechanism. */
 static void say_scenes(const sought *w, whirl_model *const *read, size_t count) {
     fputs("hint: one of:", stderr);
     for (size_t i = 0; i < count; i++) {
@@ -84,7 +84,7 @@ static void say_scenes(const sought *w, whirl_model *const *read, size_t count) 
     fputs(", or the mechanism alone\n", stderr);
 }
 
-/* The nearest scene of the mechanism that was named; without one, the nearest of everything. */
+/* The nearest scene of the named mechanism; without one, the nearest of all names. */
 static void say_unknown(const sought *w, const char *target, whirl_model *const *read,
                         size_t count) {
     bool known = false;
@@ -182,12 +182,12 @@ char *read_all(const char *path, size_t *length) {
     for (;;) {
         *length += fread(text + *length, 1, size - *length - 1, in);
         if (*length < size - 1 || *length > MODEL_BYTES_MAX) {
-            break; /* the parser says that it is too long */
+            break; /* the parser reports that it is too long */
         }
         size *= 2;
         text = room_more(text, (int64_t)size, 1);
     }
-    if (ferror(in) != 0) { /* what was read so far may be a model, but not the one that is meant */
+    if (ferror(in) != 0) { /* the part that was read may be a valid but different model */
         fprintf(stderr, "%s: error: cannot be read: %s\n", path, strerror(errno));
         free(text);
         text = NULL;
@@ -231,7 +231,7 @@ bool source_would_be_lost(const source_model *s, const char *option, const char 
     return lost;
 }
 
-/* Where FILE ends in FILE:NAME, or the whole length. */
+/* The length of FILE in FILE:NAME, or the whole length. */
 static size_t file_part(const char *target) {
     const char *colon = strrchr(target, ':');
     if (colon == NULL || file_exists(target)) {
@@ -347,7 +347,7 @@ int source_pick(source_model *s, bool prefer_scene, const mechanism **of, const 
     return EXIT_BAD_INPUT;
 }
 
-/* Dry friction written by hand: a note, or NULL. */
+/* A note on dry friction written by hand, or NULL. */
 static char *hint_for(const instance *inst) {
     const symbol *on = NULL;
     const term *friction = hint_friction(inst, &on);

@@ -1,4 +1,4 @@
-/* monitor.c: `whirl monitor`: a rig's console, and its telemetry recorded. */
+/* monitor.c: `whirl monitor`: a rig's console, and a recorder of its telemetry. */
 #include <errno.h>
 #include <inttypes.h>
 #include <stdbool.h>
@@ -19,7 +19,7 @@
 #include "host/monitor/wire.h"
 #include "host/plot/gnuplot.h"
 
-/* What can be written: a file each. */
+/* The outputs, a file each. */
 enum { CSV, VCD, RING, RAW, PLOT, OUTPUTS };
 
 typedef struct monitor_options {
@@ -131,7 +131,7 @@ static bool are_possible(const monitor_options *o) {
     return are_apart(o) && (o->output[PLOT] == NULL || gnuplot_is_there());
 }
 
-/* False when something is wrong with them, or missing: told. The caller forgets o->common. */
+/* False, reported, if the options are invalid or incomplete. The caller forgets o->common. */
 static bool monitor_options_read(int count, char **words, monitor_options *o) {
     static const char *const own[] = {"--csv", "--vcd",  "--ring",   "--plot",  "--raw", "--rate",
                                       "--for", "--baud", "--strict", "--quiet", NULL};
@@ -161,17 +161,17 @@ typedef struct monitor {
     dialogue dialogue;
     recording recording;
     FILE *file[OUTPUTS];
-    FILE *shown; /* what the rig says */
+    FILE *shown; /* the rig's messages */
     bool open;
     bool typing;     /* standard input has not ended */
-    bool half_typed; /* what came of it has no end of line yet */
-    bool live;       /* a line, no file that has kept one */
-    bool met;        /* the rig has answered, once at least */
-    bool begun;      /* and has sent what was left of a time before */
-    int unheard;     /* questions since the line was opened that nobody has answered */
+    bool half_typed; /* the typed text has no end of line yet */
+    bool live;       /* a line, not a recorded file */
+    bool met;        /* the rig has answered at least once */
+    bool begun;      /* and has sent the data left from an earlier time */
+    int unheard;     /* unanswered questions since the line was opened */
     int64_t asked_ms;
-    int64_t kept_ms;  /* when all records were in their files */
-    int64_t alive_ms; /* when the rig heard of this program for the last time */
+    int64_t kept_ms;  /* time when all records were last written to their files */
+    int64_t alive_ms; /* time of the last message to the rig */
     uint64_t times;   /* that the line was opened */
 } monitor;
 
@@ -216,14 +216,14 @@ static bool open_line(monitor *m) {
     m->dialogue = (dialogue){.rate = (int)m->o->rate};
     if (m->line.is_line) {
         (void)port_write(&m->line, "\n",
-                         1); /* what somebody has begun to type is no question's begin */
+                         1); /* text typed by the user must not begin the question */
         ask(m);
     }
     return true;
 }
 
-/* Half a frame and a line that is broken have what a terminal would obey; from a rig that has not answered yet they are
- * no words. */
+/* Partial frames and disturbed lines contain control characters that a terminal would obey. Such lines from a rig that
+ * has not answered yet are not shown. */
 static void show(const monitor *m, const char *line) {
     char shown[WIRE_LINE + 1];
     size_t count = 0;
@@ -241,7 +241,7 @@ static void show(const monitor *m, const char *line) {
     }
 }
 
-/* The next question; what it has told by now. */
+/* Send the next question, or start after the last answer. */
 static void go_on(monitor *m) {
     m->met = true;
     if (m->dialogue.asked == DIALOGUE_OFF && !m->begun) {
@@ -272,7 +272,7 @@ static void take_text(monitor *m, const char *line) {
         }
         return;
     }
-    if (line[0] != '\0') { /* what is left of stay_alive() when the rig echoes */
+    if (line[0] != '\0') { /* an echo of stay_alive() */
         show(m, line);
     }
 }
@@ -316,7 +316,7 @@ static bool written(const monitor *m) {
     return true;
 }
 
-/* Whatever ends this program: what it has heard a second ago is in the files. */
+/* However this program ends: data older than a second is in the files. */
 static void keep_records(monitor *m) {
     const int64_t now = now_ms();
     if (now - m->kept_ms < KEPT_MS) {
@@ -330,8 +330,8 @@ static void keep_records(monitor *m) {
     }
 }
 
-/* The rig ends a run when it hears nothing for as long as its setting `host` says. An empty line asks for nothing, and does
- * not cut one in two that is being typed. */
+/* The rig ends a run when it hears nothing for the time of its setting `host`. An empty line is no request. It is not
+ * sent while a line is being typed, which it would split. */
 static void stay_alive(monitor *m) {
     const int64_t now = now_ms();
     if (m->line.is_line && m->met && !m->half_typed && now - m->alive_ms >= ALIVE_MS) {
@@ -359,7 +359,7 @@ static void listen(monitor *m) {
             port_close(&m->line);
             m->open = false;
             if (!was_line) {
-                return; /* a file's end, or all that could be read */
+                return; /* a file's end, or its readable part */
             }
             fprintf(stderr, "whirl monitor: %s is gone; waiting for it\n", m->o->port);
             continue;
@@ -433,7 +433,7 @@ static void tell(const monitor *m) {
     }
 }
 
-/* False, and told: a line was to be recorded, and nobody has been there who could send it. */
+/* False, reported: a line was to be recorded, but no rig was there to send it. */
 static bool has_source(const monitor *m) {
     bool records = false;
     for (int i = 0; i < OUTPUTS; i++) {
@@ -448,7 +448,7 @@ static bool has_source(const monitor *m) {
     return false;
 }
 
-/* False, and told: a file that had more. */
+/* False, reported, if a file had more data. */
 static bool was_read(const monitor *m) {
     if (m->live || m->line.failed == 0) {
         return true;

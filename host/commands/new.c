@@ -1,4 +1,4 @@
-/* new.c: `whirl new`: a commented file to start from. */
+/* new.c: `whirl new`: a commented file as a starting point. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

@@ -1,4 +1,4 @@
-/* options.c: reading the words of a command line. */
+/* options.c: parsing of the command line. */
 #include "options.h"
 
 #include <ctype.h>
@@ -17,7 +17,7 @@
 
 typedef struct option_row {
     const char *word;
-    const char *value; /* what stands behind it; "" for nothing */
+    const char *value; /* the value's name; "" without a value */
     option_group group;
     const char *text;
 } option_row;
@@ -25,7 +25,7 @@ typedef struct option_row {
 #define ROW(id, word, value, group, text) [id] = {word, value, group, text},
 static const option_row option_rows[OPTIONS] = {OPTION_ROWS(ROW)};
 
-/* Columns of help texts: where the description begins. */
+/* Columns of help texts: the beginning of the description, and the width. */
 enum { TEXT_COLUMN = 23, LINE_COLUMNS = 78 };
 
 void options_text(FILE *out, const char *text, int column, int margin, int width) {
@@ -60,7 +60,7 @@ static void put_word(FILE *out, const char *word, int *column) {
     *column += fprintf(out, " %s", word);
 }
 
-/* Their words in lines, and where they are described. */
+/* The options' words in lines, and a reference to their description. */
 static void name_them(FILE *out, unsigned groups) {
     int column = fprintf(out, " ");
     for (int i = 0; i < OPTIONS; i++) {
@@ -112,7 +112,7 @@ static bool is_option(const char *word, const char *name) {
     return strncmp(word, name, length) == 0 && (word[length] == '\0' || word[length] == '=');
 }
 
-/* The only ones of which there may be several. */
+/* The options that may be repeated. */
 static bool may_be_repeated(const char *name) {
     static const char *const all[] = {"--set",  "--start",  "--with", "--without",
                                       "--over", "--panel",  "--data", "--measure",
@@ -125,7 +125,7 @@ static bool may_be_repeated(const char *name) {
     return false;
 }
 
-/* Of an option that is the word at `at`; "" when it is missing. */
+/* The value of the option at `at`; "" if it is missing. */
 static const char *value_at(int count, char **words, int at, const char *name) {
     const size_t length = strlen(name);
     return words[at][length] == '=' ? words[at] + length + 1 : at + 1 < count ? words[at + 1] : "";
@@ -180,7 +180,7 @@ static void push(const char ***list, int *count, const char *text) {
     longer[(*count)++] = text;
 }
 
-/* A copy of text[length], which the options keep. */
+/* A copy of text[length], owned by the options. */
 static const char *keep(change_options *c, const char *text, size_t length) {
     char *name = room_copy(text, length);
     c->owned = room_more(c->owned, c->owned_count + 1, sizeof *c->owned);
@@ -197,8 +197,8 @@ static bool is_in(const char *const *list, int count, const char *name) {
     return false;
 }
 
-/* Each name of "E, E,...", with blanks around it or none. False when one is missing or there twice, within
- * the list or since the command began (reported). */
+/* Each name of "E, E,...", with optional blanks. False, reported, if a name is missing or repeated, in the list or on
+ * the command line. */
 static bool push_names(change_options *c, const char ***list, int *count, const char *option,
                        const char *text) {
     static const char blank[] = " \t\r\n";
@@ -238,7 +238,7 @@ static bool push_names(change_options *c, const char ***list, int *count, const 
     }
 }
 
-/* The value of the option `which` at words[*at], "" of one that has none; NULL when it is not there. */
+/* The value of the option `which` at words[*at], "" for an option without a value; NULL for another word. */
 static const char *common_value(common_option which, int count, char **words, int *at, bool *bad) {
     const option_row *row = &option_rows[which];
     if (row->value[0] != '\0') {
@@ -395,7 +395,7 @@ static bool take_cells(const char *command, const char *value, int *cells) {
     return good;
 }
 
-/* Sweeps, and prices, look for no ranges. */
+/* Sweeps and prices do not search for ranges. */
 static bool knows_fixed(const char *command) {
     return strcmp(command, "run") == 0 || strcmp(command, "derive") == 0 ||
            strcmp(command, "trust") == 0;

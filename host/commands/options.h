@@ -1,4 +1,4 @@
-/* options.h: reading the words of a command line. */
+/* options.h: parsing of the command line. */
 #ifndef COMMANDS_OPTIONS_H
 #define COMMANDS_OPTIONS_H
 
@@ -9,9 +9,8 @@
 #include "host/lang/model.h"
 #include "host/run/engine.h"
 
-/* Options that several commands have, in the order of help texts: X(which, word, what stands behind it, group,
- * description, broken into lines of OPTION_TEXT_WIDTH columns). Of methods the description is made from
- * core/method.h. */
+/* Options of several commands, in the order of help texts: X(id, word, value, group, description, broken into lines of
+ * OPTION_TEXT_WIDTH columns). The descriptions of methods are made from core/method.h. */
 #define OPTION_ROWS(X) \
     X(OPTION_SET, "--set", "NAME=EXPR", OPTIONS_CHANGE, \
       "a parameter or an input; a bare number is SI, and refused where the\n" \
@@ -56,16 +55,16 @@ enum { OPTIONS = OPTION_ROWS(OPTION_ONE) };
 
 enum { OPTION_TEXT_WIDTH = 76 };
 
-/* What a command takes of them: a sum of these. */
+/* The groups that a command accepts: a sum of these. */
 typedef enum option_group {
     OPTIONS_CHANGE = 1, /* change an instance */
     OPTIONS_ENGINE = 2, /* how to integrate */
-    OPTIONS_NUMBER = 4, /* what computes */
-    OPTIONS_STEP = 8,   /* the step: of commands that do not choose it themselves */
-    OPTIONS_SCENE = 15  /* all of them: of commands that run scenes as they are asked for */
+    OPTIONS_NUMBER = 4, /* the number type and its programs */
+    OPTIONS_STEP = 8,   /* the step, for commands that do not choose it themselves */
+    OPTIONS_SCENE = 15  /* all of them, for commands that run scenes with given settings */
 } option_group;
 
-/* Why a command ends that draws a picture of runs. */
+/* The exit statuses of commands that draw a picture of runs. */
 #define OPTIONS_WHY_DRAWS \
     { \
         [EXIT_ROW_OF(EXIT_DONE)] = "", [EXIT_ROW_OF(EXIT_RUN_FAILED)] = "a run failed", \
@@ -75,61 +74,61 @@ typedef enum option_group {
 /* A command's help text. */
 typedef struct command_usage {
     const char *head;
-    unsigned groups; /* of options whose lines follow: */
-    bool described;  /* a line each; else their words, and that `whirl run` describes them */
+    unsigned groups; /* of options in the help text: */
+    bool described;  /* one line each; else only the words, with a reference to `whirl run` */
     const char *tail;
     const char *why
-        [EXITS]; /* it ends with which status (host/base/exit.h); nothing is said of it if all are NULL */
+        [EXITS]; /* [EXITS] the meaning of each exit status (host/base/exit.h); all NULL: omitted */
 } command_usage;
 
 void options_usage(FILE *out, const command_usage *usage);
 
-/* A text of a help, which begins at `column`: broken at blanks into lines of at most `width` columns, those after the
- * first from `margin` on. */
+/* Print a text of a help, which begins at `column`, broken at blanks into lines of at most `width` columns; later lines
+ * are indented by `margin`. */
 void options_text(FILE *out, const char *text, int column, int margin, int width);
 
 /* Is --help or -h among the words? */
 bool options_wants_help(int count, char **words);
 
-/* Prints `usage` and returns true when --help or -h is among the words. */
+/* If --help or -h is among the words, print `usage` and return true. */
 bool options_help(int count, char **words, const command_usage *usage);
 
-/* If words[*at] is `name` (or `name=VALUE`), returns its value and steps *at past it. Returns NULL if
- * it is not; a missing value is reported and sets *bad, and so is an option that was there before, if it is none of those
- * that may be: one value would take the place of the other. */
+/* If words[*at] is `name` (or `name=VALUE`), return its value and advance *at past it. Returns NULL for another word. A
+ * missing value is reported and sets *bad. So is a repeated option, unless it may be repeated: one value would replace
+ * the other. */
 const char *options_value(int count, char **words, int *at, const char *name, bool *bad);
 
-/* A number between two bounds, both allowed, for this option of this command; false, reported with the hint, where it is
- * none. */
+/* A number between two bounds, inclusive, for this option of this command; false, reported with the hint, for other
+ * text. */
 bool options_number(const char *command, const char *option, const char *text, double least,
                     double most, const char *hint, double *number);
 
-/* --effort is a number of operations. */
+/* The range of --effort, a number of operations. */
 #define EFFORT_LEAST 1e4
 #define EFFORT_MOST 1e15
 
-/* --strict, --strict=off or --strict=LIMIT, as verdict_fails() takes it; false if the word is another. */
+/* --strict, --strict=off or --strict=LIMIT, for verdict_fails(); false for another word. */
 bool options_strict(const char *command, char **words, int *at, double *strict, bool *bad);
 #define OPTIONS_STRICT_HELP \
     "  --strict=off         exit status 0 also if a warning is against a run (default: 1)\n" \
     "  --strict=LIMIT       allow this part of the largest entry of the energy books to be left over\n"
 
-/* An option that takes a number between two bounds, both allowed. */
+/* An option with a number between two bounds, inclusive. */
 typedef struct number_option {
     const char *option;
     double *number; /* where it goes */
     double least;
     double most;
-    bool whole; /* it must be a whole one */
+    bool whole; /* must be a whole number */
     const char *hint;
 } number_option;
 
-/* If words[*at] is one of these options, takes its number, steps *at past it and returns true. What is wrong with it is
+/* If words[*at] is one of these options, take its number, advance *at past it and return true. An invalid number is
  * reported and sets *bad. */
 bool options_take_number(const char *command, const number_option *options, size_t options_count,
                          int count, char **words, int *at, bool *bad);
 
-/* What changes an instance: --set, --start, --with, --without, --step, --until. */
+/* Changes to an instance: --set, --start, --with, --without, --step, --until. */
 typedef struct change_options {
     const char **sets;
     int set_count;
@@ -141,43 +140,43 @@ typedef struct change_options {
     int without_count;
     const char *step;
     const char *until;
-    const char *name; /* --name, where a command has it; else NULL */
+    const char *name; /* --name, for commands that have it; else NULL */
     char **owned;     /* pieces of comma lists */
     int owned_count;
 } change_options;
 
-/* Where the common options of a command go. */
+/* The values of a command's common options. */
 typedef struct common_options {
     change_options change;
     image_settings
         integration; /* --method, --compensated, --stabilized, --angles, --matrix, --tables, --cells */
-    const engine_kind *number; /* --number: what computes */
+    const engine_kind *number; /* --number: the number type and its programs */
 } common_options;
 
-/* As they are without any option. */
+/* The values without any option. */
 common_options options_defaults(void);
 void options_forget(common_options *options);
 
-/* If words[*at] is an option of `groups`, takes it, steps *at past it and returns true. What is wrong with its value
- * is reported and sets *bad. */
+/* If words[*at] is an option of `groups`, take it, advance *at past it and return true. An invalid value is reported
+ * and sets *bad. */
 bool options_take(const char *command, unsigned groups, int count, char **words, int *at,
                   common_options *to, bool *bad);
 
-/* A name as in a .whirl file, of at most `most` letters? Else that is reported, with a hint. */
+/* A name as in a .whirl file, of at most `most` letters? Any other is reported, with a hint. */
 bool options_is_name(const char *command, const char *name, int most);
 
 overrides options_overrides(const change_options *changes);
 
-/* Are they the same word, in upper or lower case? */
+/* Equal words, ignoring case? */
 bool options_same(const char *a, const char *b);
 
-/* Which of rows[count], `size` bytes each with its word at the beginning, has the word `value`, in any case; -1 when none has:
- * that is reported, with the words. */
+/* The index of the row in rows[count], `size` bytes each beginning with its word, whose word equals `value`, ignoring
+ * case; -1 if there is no such row: reported, with the words. */
 int options_choose(const char *command, const char *what, const char *value, const void *rows,
                    size_t size, int count);
 
-/* Report a word that no option takes, with the nearest of the common ones in `groups`, of --help and of the command's
- * `own` (NULL ends the list). */
+/* Report an unknown word, with the nearest of the common options in `groups`, of --help and of the command's `own`
+ * (NULL ends the list). */
 void options_unknown(const char *command, const char *word, unsigned groups,
                      const char *const *own);
 

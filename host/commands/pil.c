@@ -1,4 +1,4 @@
-/* pil.c: `whirl pil`: a firmware image against a scene as its plant, or against a tape. */
+/* pil.c: `whirl pil`: a firmware image with a scene as its plant, or with a tape. */
 #include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
@@ -85,7 +85,7 @@ typedef struct pil_options {
     const char *firmware;
     const char *port; /* a serial line to it */
     const char *board;
-    char machine[GUEST_MACHINE_BYTES]; /* of its folder; "": it has none */
+    char machine[GUEST_MACHINE_BYTES]; /* of its folder; "": without one */
     const char *tape;
     const char *replay;
     const char *read; /* a tape that is shown */
@@ -153,7 +153,7 @@ static bool take_one(int count, char **words, int *at, void *options, bool *bad)
     return quiet || kinds;
 }
 
-/* A tape that is shown needs nobody, and nobody hears it. */
+/* A tape that is only shown needs no firmware. */
 static bool is_read_alone(const pil_options *o) {
     const char *beside = o->target != NULL     ? "scene"
                          : o->every != NULL    ? "--every"
@@ -175,7 +175,7 @@ static bool is_read_alone(const pil_options *o) {
 
 static double baud_of(const pil_options *o) { return o->baud > 0.0 ? o->baud : BAUD; }
 
-/* What stands together, and what does not. */
+/* Valid combinations of options. */
 static bool go_together(const pil_options *o) {
     if (o->kinds) {
         return true;
@@ -226,7 +226,7 @@ static bool go_together(const pil_options *o) {
     return true;
 }
 
-/* The boards here are known away from their sources, too. */
+/* The program knows the boards even away from their sources. */
 static bool is_known_board(pil_options *o) {
     static const struct {
         const char *word;
@@ -247,7 +247,7 @@ static bool read_options(int count, char **words, pil_options *o) {
            go_together(o);
 }
 
-/* --- what is wished ---------------------------------------------------------------------------------------------*/
+/* --- the settings --------------------------------------------------------------------------------------------- */
 
 static bool read_time(const char *option, const char *text, const mechanism *of, double *time_s) {
     *time_s = 0.0;
@@ -257,7 +257,7 @@ static bool read_time(const char *option, const char *text, const mechanism *of,
     diags *errors = diags_new();
     const bool good =
         instance_duration(of, NULL, NULL, option, text, errors, time_s) && *time_s <= LONGEST_S;
-    diags_free(errors); /* what it is not says more than why it is not */
+    diags_free(errors); /* a general message is clearer than the parser's */
     if (!good) {
         fprintf(stderr,
                 "whirl pil: error: --%s '%s' is not a time, from 0 to an hour\n"
@@ -306,7 +306,7 @@ static int tell(const pil_options *o, const lockstep_wish *wish, const image *im
     return code_of(r);
 }
 
-/* The line to a board, if that is where the firmware is. */
+/* The line to a board, if the firmware is there. */
 static bool open_line(const pil_options *o, lockstep_wish *wish, port *line) {
     if (o->port == NULL) {
         return true;
@@ -400,7 +400,7 @@ static int run_image(const pil_options *o, const source_model *from, const image
     return tell(o, wish, im, &report);
 }
 
-/* Changes of parameters that are faults come last. */
+/* Faults that change parameters come last. */
 static int load_plant(const pil_options *o, source_model *from, const mechanism *of,
                       const scene *in, loaded *made) {
     char *parameter[FAULTS_MAX];

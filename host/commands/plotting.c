@@ -1,4 +1,4 @@
-/* plotting.c: `whirl plot`: curves of runs, recorded or new, over each other. */
+/* plotting.c: `whirl plot`: curves of recorded or new runs in one picture. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -36,7 +36,7 @@ typedef struct plot_options {
     const char *out;
     char **target; /* [targets] */
     int targets;
-    char **passed; /* [1 + passed_count] to each scene, which is passed[0] */
+    char **passed; /* [1 + passed_count] for each scene, which is passed[0] */
     int passed_count;
 } plot_options;
 
@@ -82,7 +82,7 @@ static const char *assigned(const plot_options *o, int i) {
     return NULL;
 }
 
-/* Options change every scene: no name can have two values. */
+/* Options apply to every scene, so no name can have two values. */
 static bool sets_once(const plot_options *o) {
     for (int i = 1; i <= o->passed_count; i++) {
         for (int k = i + 1; k <= o->passed_count; k++) {
@@ -107,7 +107,7 @@ static bool sets_once(const plot_options *o) {
     return true;
 }
 
-/* Nothing is missing, and nothing contradicts. */
+/* Are the options complete and consistent? */
 static bool is_whole(const plot_options *o) {
     bool scenes = false;
     for (int i = 0; i < o->targets; i++) {

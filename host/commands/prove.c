@@ -1,4 +1,4 @@
-/* prove.c: `whirl prove`: until when a run is proved to be within a tolerance of the exact motion. */
+/* prove.c: `whirl prove`: the time until which a run is proved to be within a tolerance of the exact motion. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -20,7 +20,7 @@
 #include "target.h"
 #include "trusting.h"
 
-/* Operations that it may evaluate without --effort, and products of enclosures that a second takes. */
+/* Default limit of operations without --effort, and products of enclosures in a second. */
 #define EFFORT 1.5e10
 #define PRODUCTS_1S 1e8
 
@@ -60,7 +60,7 @@ typedef struct prove_options {
     bool quiet;
 } prove_options;
 
-/* One option, with its value where it has one; false when the word is none. */
+/* One option, with its value if it has one; false for another word. */
 static bool take_one(int count, char **words, int *at, void *options, bool *bad) {
     prove_options *o = options;
     const char *value = NULL;
@@ -93,7 +93,7 @@ static bool read_options(int count, char **words, prove_options *o) {
            target_is_there(o->target, &usage);
 }
 
-/* Two runs, the range's and the one that is held; the tube is bounded on its way. */
+/* The cost of two runs, the range's and the compared one; the tube has a limit of its own. */
 static bool is_affordable(const image *im, double effort) {
     const double wanted = twins_operations(im, im);
     if (wanted <= effort) {
@@ -111,7 +111,7 @@ static bool is_affordable(const image *im, double effort) {
     return false;
 }
 
-/* within[states]: SI, 0 where nothing was said. False: reported. */
+/* within[states]: SI, 0 if not given. False: reported. */
 static bool read_within(const prove_options *o, const mechanism *of, const exact_motion *m,
                         double *within, diags *errors) {
     struct arena *memory = arena_new();
@@ -132,8 +132,7 @@ static bool read_within(const prove_options *o, const mechanism *of, const exact
                                "'%s%.*s' is given twice on the command line", a.symbol->name,
                                a.primes, "'''''''''");
                 }
-                within[s] =
-                    enclosure_below(value); /* what is written may be less than the double */
+                within[s] = enclosure_below(value); /* the exact decimal may be below the double */
             }
         }
     }
@@ -148,7 +147,7 @@ static bool is_standard(const prove_options *o) {
 }
 
 typedef struct rows {
-    FILE *file; /* NULL: none are wished */
+    FILE *file; /* NULL: no rows */
     const held_wish *wish;
 } rows;
 
@@ -157,7 +156,7 @@ static void write_row(void *told, uint64_t step, const enclosure *exact, const d
     held_row(r->file, r->wish, step, exact, run);
 }
 
-/* What ended the tube before its end. */
+/* The reason why the tube ended early. */
 static void say_end(const held_found *h, double end_s) {
     switch (h->end) {
     case HELD_AT_END:

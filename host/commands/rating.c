@@ -14,13 +14,13 @@
 
 /* --- the rows --------------------------------------------------------------------------------------*/
 
-/* What the board's programs compute in, unless the command line says it. */
+/* The number type of the board's programs, unless the command line gives one. */
 static const engine_kind *number_of(const rating_wish *w) {
     const bool pc = strcmp(w->board->name, "host") == 0;
     return w->number != NULL ? w->number : pc ? &engine_double : &engine_float;
 }
 
-/* The line ends with the command that shows them, if there is one. */
+/* The line ends with the command that shows the rows, if there is one. */
 static void say_none(FILE *out, const rating_wish *w, const char *why, const char *command) {
     fprintf(out, "accuracy and cost  not shown: %s", why);
     if (command != NULL) {
@@ -38,7 +38,7 @@ static void say_none(FILE *out, const rating_wish *w, const char *why, const cha
     fputc('\n', out);
 }
 
-/* Why no rows can be made of a scene, whatever its run came to; NULL: they can. */
+/* The reason why a scene can have no rows, whatever its run gives; NULL: it can. */
 static const char *refused(const rating_wish *w) {
     diags *unsaid = diags_new();
     const bool held = number_of(w) == &engine_double || start_angles_are_held(w->image, unsaid);
@@ -48,7 +48,7 @@ static const char *refused(const rating_wish *w) {
                                    : NULL;
 }
 
-/* Operations that the rows may evaluate: a second, with the angles that are turned beside them. */
+/* Limit of operations for the rows: a second, including the turned sines. */
 #define ROWS_OPERATIONS 1e8
 
 static void say_rows(FILE *out, const rating_wish *w, double until_s) {
@@ -98,7 +98,7 @@ void rating_say(FILE *out, const rating_wish *w, const simulation_trust *trust) 
     const bool on_board = strcmp(w->board->name, "host") != 0;
     if (trust->still) {
         say_none(out, w, "nothing moves", NULL);
-    } else if (w->image->contacts > 0) { /* which choose counts, in emulators alone */
+    } else if (w->image->contacts > 0) { /* only choose counts them, in emulators */
         say_none(out, w, "events make the cost of a step depend on the motion",
                  on_board ? "choose --error 1e-3" : "price");
     } else if (why != NULL) {
@@ -114,13 +114,13 @@ void rating_say(FILE *out, const rating_wish *w, const simulation_trust *trust) 
 
 /* --- the step of --error -----------------------------------------------------------------------------*/
 
-/* Steps as parts and multiples of a record's spacing, all of them decimals; a decade has five. */
+/* Steps as fractions and multiples of a record's interval, all decimals; a decade has five. */
 enum { PACES = 32, PACES_LONG = 10 };
 
-/* Of all tries together, whose comparison with the reference takes as long again. */
+/* For all tries together; comparing with the reference takes the same time again. */
 #define TRIES_OPERATIONS (TWINS_OPERATIONS_1S / 2.0)
 
-/* Pace `i`, from long steps to short ones. */
+/* Pace `i`, from long to short steps. */
 static deviation_pace pace_at(int i) {
     static const uint64_t spacings[PACES_LONG] = {50, 40, 25, 20, 16, 10, 8, 5, 4, 2};
     static const uint64_t parts[] = {1, 2, 4, 5, 8};
@@ -134,20 +134,21 @@ static deviation_pace pace_at(int i) {
     return (deviation_pace){steps, 1};
 }
 
-/* Operations of a run with the error that is allowed, after one with pace and error: an error falls with the order of the
- * method, in round numbers four orders faster at the most. */
+/* Estimate of the operations of a run with the allowed error, from a run with this pace and error. The error is assumed
+ * to fall four orders faster than the method's order, roughly the fastest case. */
 static double operations_for(trials *t, const setting *s, deviation_pace pace, double error) {
     const double order = wh_methods[s->image.method].order + 4.0;
     return trial_operations(t, s, pace) * number_power(error / t->tolerated, 1.0 / order);
 }
 
-/* The first pace that keeps the error, its number; *longest: none was tried before it. -1, told: there is none. */
+/* The first pace that satisfies the error, its number; *longest: it is the first one tried. -1, reported, if there is
+ * no such pace. */
 static int find_pace(trials *t, const setting *s, deviation_pace *pace, trial_result *r,
                      bool *longest) {
     double least = -1.0;
-    double operations = 0.0; /* of all that were tried, and of the one that would be too many */
+    double operations = 0.0; /* of all tried ones, or of the first one above the limit */
     bool ends_early = false;
-    int falls = 0; /* tries that had a smaller error than all before, */
+    int falls = 0; /* tries with a smaller error than all before, */
     int stuck = 0; /* and tries since then: round-off, if errors fell before */
     *longest = true;
     for (int i = 0; i < PACES && !t->stopped && !(falls >= 3 && stuck >= 2); i++) {
@@ -206,7 +207,7 @@ static int find_pace(trials *t, const setting *s, deviation_pace *pace, trial_re
     return -1;
 }
 
-/* Would `whirl run` warn of the whole run at this pace? */
+/* Would `whirl run` print a warning for the whole run at this pace? */
 static bool is_warned_of(const trials *t, const setting *s, deviation_pace pace) {
     const trial_source *from = t->wish.source;
     char text[TRIAL_TIME];
@@ -221,8 +222,8 @@ static bool is_warned_of(const trials *t, const setting *s, deviation_pace pace)
     return warned;
 }
 
-/* Of the paces from number `at` on that keep the error, the first of which the run is not warned of; if none of these few is
- * that, the first. True: it is another than the first. */
+/* Of the next few paces after number `at` that satisfy the error, the first without a warning; else the pace does not
+ * change. True if it changes. */
 static bool find_unwarned(trials *t, const setting *s, int at, deviation_pace *pace,
                           trial_result *r) {
     enum { MORE = 6 };
@@ -232,7 +233,7 @@ static bool find_unwarned(trials *t, const setting *s, int at, deviation_pace *p
     double operations = 0.0;
     for (int i = at + 1; i < PACES && i <= at + MORE && !t->stopped; i++) {
         const deviation_pace next = pace_at(i);
-        operations += 4.0 * trial_operations(t, s, next); /* the run, and a finer one beside it */
+        operations += 4.0 * trial_operations(t, s, next); /* the run, and its finer run */
         if (next.records <= (uint64_t)t->records && operations <= TRIES_OPERATIONS) {
             const trial_result one = trial_run(t, s, next);
             if (one.ran && one.usable && one.error <= t->tolerated && !is_warned_of(t, s, next)) {
@@ -296,7 +297,7 @@ int rating_choose(const common_options *common, const char *target, const char *
     pricing p;
     o.target = target;
     o.common.change = common->change;
-    o.balance = true; /* the run is judged by it */
+    o.balance = true; /* the verdict on the run needs it */
     o.value[PRICING_OF] = of;
     o.value[PRICING_ERROR] = equals + 1;
     const setting s = {common->integration, common->number};

@@ -1,5 +1,4 @@
-/* rating.h: the rows of accuracy and cost that end a run (host/price/three_rows.h), and the step that `--error`
- * chooses. */
+/* rating.h: the rows of accuracy and cost at the end of a run (host/price/three_rows.h), and the step for `--error`. */
 #ifndef COMMANDS_RATING_H
 #define COMMANDS_RATING_H
 
@@ -14,7 +13,7 @@ typedef struct rating_wish {
     const char *target;
     const cost_board *board;
     const char *board_word;    /* NULL: the default board */
-    const engine_kind *number; /* of the command line; NULL: the board's */
+    const engine_kind *number; /* from the command line; NULL: the board's */
     const image_settings *settings;
     const overrides *changes;
     const mechanism *of;
@@ -25,11 +24,11 @@ typedef struct rating_wish {
     const volatile sig_atomic_t *stop;
 } rating_wish;
 
-/* The rows, or a line that says why there are none. */
+/* The rows, or a line with the reason for their absence. */
 void rating_say(FILE *out, const rating_wish *w, const simulation_trust *trust);
 
-/* The largest step of a run that keeps `--error X=0.1mm`: *step, and *chosen, the words for it; both to be
- * freed. Opens the target, as source_open() does. Returns an exit code. */
+/* The largest step of a run that satisfies `--error X=0.1mm`: *step, and *chosen, its description; both to be freed.
+ * Opens the target, as source_open() does. Returns an exit status. */
 int rating_choose(const common_options *common, const char *target, const char *error,
                   const volatile sig_atomic_t *stop, source_model *from, char **step,
                   char **chosen);

@@ -1,4 +1,4 @@
-/* run.c: `whirl run`: simulate, keep records, balance the books. */
+/* run.c: `whirl run`: simulation, records, and the energy balance. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -70,7 +70,7 @@ typedef struct run_options {
     const char *error;
     const char *board_word;
     const cost_board *board;
-    const engine_kind *number; /* of the command line; NULL: none was given */
+    const engine_kind *number; /* from the command line; NULL: not given */
     simulation_settings settings;
 } run_options;
 
@@ -82,7 +82,7 @@ static bool take_flag(char **words, int *at, const char *name) {
     return true;
 }
 
-/* One option, with its value where it has one; false when the word is none. */
+/* One option, with its value if it has one; false for another word. */
 static bool take_one(int count, char **words, int *at, void *options, bool *bad) {
     run_options *o = options;
     const char *value = NULL;
@@ -208,7 +208,7 @@ static bool model_would_be_lost(const source_model *from, const simulation_setti
            source_would_be_lost(from, "--plot", s->plot, "");
 }
 
-/* --every in seconds; below 0 when it is no time. 0 when it is left out. */
+/* --every in seconds; 0 without it, below 0 if it is not a time. */
 static double read_every_s(const run_options *o, const mechanism *of) {
     double spacing_s = 0.0;
     if (o->every != NULL) {
@@ -216,7 +216,7 @@ static double read_every_s(const run_options *o, const mechanism *of) {
         if (!instance_duration(of, NULL, NULL, "every", o->every, errors, &spacing_s)) {
             spacing_s = -1.0;
         }
-        diags_free(errors); /* what it is not says more than why it is not */
+        diags_free(errors); /* a general message is clearer than the parser's */
     }
     return spacing_s;
 }
@@ -276,7 +276,7 @@ static int run_image(run_options *o, const source_model *from, const image *im, 
     return simulation_status(result, &trust);
 }
 
-/* Its step in fixed point, which the image then has: takes as long as a run where ranges are not declared. */
+/* The step in fixed point, stored in the image. Without declared ranges this takes as long as a run. */
 static int plan_of(image *im, const source_model *from, const simulation_settings *s,
                    fixed_plan **plan) {
     const fixed_watch watch = {&interrupted, shows_progress(s)};
@@ -295,7 +295,7 @@ static int plan_of(image *im, const source_model *from, const simulation_setting
     return *plan != NULL ? EXIT_DONE : interrupted ? EXIT_INTERRUPTED : EXIT_BAD_INPUT;
 }
 
-/* The model; with --error also the step and the words for it, to be freed. */
+/* The model; with --error also the step and its description, to be freed. */
 static int open_source(run_options *o, source_model *from, char **step, char **chosen) {
     if (o->error == NULL) {
         return source_open(from, o->target);
@@ -388,7 +388,7 @@ int run_to_take(int count, char **words, const plot_choice *choice, plot_run *ta
     o.settings.taken = taken;
     o.settings.choice = *choice;
     o.settings.quiet = true;
-    o.settings.strict = STRICT_OFF; /* a picture shows until when a run is trusted */
+    o.settings.strict = STRICT_OFF; /* a picture shows the end of the trusted time */
     return run_words(count, words, &o);
 }
 

@@ -1,10 +1,10 @@
-/* run.h: what `whirl run` and `whirl plot` share. */
+/* run.h: the common part of `whirl run` and `whirl plot`. */
 #ifndef COMMANDS_RUN_H
 #define COMMANDS_RUN_H
 
 #include "host/plot/plot.h"
 
-/* The options of a picture's choice, for help texts. */
+/* The options of the choice of curves, for help texts. */
 #define RUN_CHOICE_HELP \
     "  --y NAMES            quantities between commas, a panel for each unit: --y \"X', theta\"\n" \
     "                       (default: coordinates and outputs)\n" \
@@ -15,12 +15,12 @@
     "                       between commas\n"
 #define RUN_CHOICE_WORDS "--y", "--panel", "--x", "--title", "--xlabel", "--ylabel"
 
-/* If words[*at] is one of these, takes it and steps *at past it. What is wrong is reported and sets *bad. */
+/* If words[*at] is one of these, take it and advance *at past it. An error is reported and sets *bad. */
 bool run_take_choice(const char *command, int count, char **words, int *at, plot_choice *to,
                      bool *bad);
 
-/* As command_run() with these words and --quiet; what a picture is made of goes to *taken, thinned out for this
- * choice, in place of a picture. plot_run_close() in any case. */
+/* As command_run() with these words and --quiet. The data of a picture goes to *taken, thinned out for this choice, in
+ * place of a picture. Call plot_run_close() in any case. */
 int run_to_take(int count, char **words, const plot_choice *choice, plot_run *taken);
 
 #endif

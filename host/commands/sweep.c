@@ -1,4 +1,4 @@
-/* sweep.c: `whirl sweep`: a run for every point of a grid, a row of measures each. */
+/* sweep.c: `whirl sweep`: a run for every point of a grid, with a row of measures each. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -104,7 +104,7 @@ static bool read_shard(const char *text, sweep_options *o) {
     return true;
 }
 
-/* One option with a value; false when the word is none of them. */
+/* One option with a value; false for another word. */
 static bool take_valued(int count, char **words, int *at, sweep_options *o, bool *bad) {
     const char *value = NULL;
     if (!*bad && (value = options_value(count, words, at, "--over", bad)) != NULL) {
@@ -209,7 +209,7 @@ static int sweep_loaded(const sweep_options *o, const source_model *from, const 
     return code;
 }
 
-/* --from in seconds: read like --until, so that it may name parameters too. */
+/* --from in seconds: parsed like --until, so that it may name parameters, too. */
 static bool read_from(const sweep_options *o, const mechanism *of, const scene *in,
                       const overrides *changes, diags *errors, double *from_s) {
     *from_s = 0.0;
@@ -267,7 +267,7 @@ static int sweep_scene(const sweep_options *o, source_model *from, const mechani
     return code;
 }
 
-/* The rows, and what stands beside them (host/sweep/sheet.h). */
+/* The rows, and the files beside them (host/sweep/sheet.h). */
 static bool model_would_be_lost(const source_model *from, const char *csv) {
     return source_would_be_lost(from, "--csv", csv, "") ||
            source_would_be_lost(from, "--csv", csv, ".sweep");

@@ -1,4 +1,4 @@
-/* trust.c: `whirl trust`: until when each coordinate of a run is right to a tolerance. */
+/* trust.c: `whirl trust`: the time until which each coordinate of a run is within a tolerance. */
 #include <stdio.h>
 #include <string.h>
 #include <unistd.h>
@@ -19,7 +19,7 @@
 #include "target.h"
 #include "trusting.h"
 
-/* Operations that it may evaluate without --effort. */
+/* Default limit of operations without --effort. */
 #define EFFORT 1.5e10
 
 static const command_usage usage = {
@@ -57,7 +57,7 @@ typedef struct trust_options {
     bool quiet;
 } trust_options;
 
-/* One option, with its value where it has one; false when the word is none. */
+/* One option, with its value if it has one; false for another word. */
 static bool take_one(int count, char **words, int *at, void *options, bool *bad) {
     trust_options *o = options;
     const char *value = NULL;
@@ -108,7 +108,7 @@ static void show_progress(double share, void *told) {
     fprintf(stderr, "\r%5.1f %%", 100.0 * share);
 }
 
-/* --- what is refused ---------------------------------------------------------------------------------*/
+/* --- refused scenes ---------------------------------------------------------------------------------- */
 
 static bool is_affordable(const image *im, const image *plain, double effort) {
     const double wanted = twins_operations(im, plain);
@@ -210,7 +210,7 @@ static int answer(const trust_options *o, const image *im, const image *plain) {
     return code;
 }
 
-/* Its step in fixed point, which the image then has: found by a run in double where ranges are not declared. */
+/* The step in fixed point, stored in the image. Without declared ranges a run in double finds them. */
 static int plan_of(image *im, const trust_options *o, diags *errors, fixed_plan **plan) {
     const fixed_watch watch = {&interrupted, shows_progress(o)};
     *plan = fixed_plan_make_watched(im, &watch, errors);
@@ -273,7 +273,7 @@ static int trust_source(const trust_options *o, source_model *from) {
     return code;
 }
 
-/* A word less; true: it was there. */
+/* Remove the word --proved; true if it was there. */
 static bool take_proved(int *count, char **words) {
     for (int i = 0; i < *count; i++) {
         if (strcmp(words[i], "--proved") == 0) {

@@ -1,4 +1,4 @@
-/* trusting.h: shared by `whirl trust` and `whirl run`: the scene's image for the run beside it. */
+/* trusting.h: the common part of `whirl trust` and `whirl run`: the scene's image for the finer run beside it. */
 #ifndef COMMANDS_TRUSTING_H
 #define COMMANDS_TRUSTING_H
 
@@ -6,7 +6,7 @@
 #include "host/run/horizon.h"
 #include "host/run/simulate.h"
 
-/* What load() is to keep for trusting_plain(). */
+/* The data that load() must store for trusting_plain(). */
 load_keep trusting_keep(const image_settings *settings);
 /* The image of twins_plain(), to be freed. NULL: it is the image itself. */
 image *trusting_plain(const loaded *made);
