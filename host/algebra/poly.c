@@ -88,7 +88,6 @@ int poly_order(const poly *x, const poly *y) {
 }
 
 /* === questions about a poly =================================================================== */
-/* Nothing is made. */
 
 /* A sum below this part of its addends is a rounding error of decimals. */
 #define CANCELLED 1e-14

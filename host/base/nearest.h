@@ -7,7 +7,7 @@
 typedef struct nearest {
     const char *wanted;
     size_t length;
-    const char *best; /* NULL: nothing near enough */
+    const char *best; /* NULL: no similar name */
     int cost;
     int offers;
 } nearest;

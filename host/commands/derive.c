@@ -95,7 +95,7 @@ typedef struct form_row {
     const char *text;
 } form_row;
 
-/* The first stands for itself. */
+/* The first is the default. */
 static const form_row forms[] = {
     {.word = "text",
      .print = text,

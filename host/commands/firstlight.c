@@ -32,7 +32,7 @@ typedef enum light_verdict {
     LIGHT_EQUAL,
     LIGHT_DIFFERS,
     LIGHT_NONE, /* the board or emulator cannot provide it */
-    LIGHT_TOLD  /* nothing is expected */
+    LIGHT_TOLD  /* no expectation */
 } light_verdict;
 
 /* Allowed jitter of the beginning of a control period, 2 ms (hal/clock.h). */

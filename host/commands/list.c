@@ -181,7 +181,7 @@ typedef struct form {
     bool (*put)(const source_model *from, const mechanism *of);
 } form;
 
-/* The first stands for itself. */
+/* The first is the default. */
 static const form forms[] = {
     {.word = "text", .head = NULL, .put = put_lines},
     {.word = "table",
@@ -200,7 +200,7 @@ static const form *form_of(const char *word) {
     return NULL;
 }
 
-/* `first`: nothing was listed before. */
+/* `first`: no entry was listed before. */
 static int list_one(const source_model *from, const form *as, bool first) {
     bool good = from->model != NULL;
     if (good && first && as->head != NULL) {

@@ -189,7 +189,7 @@ static void ask(monitor *m) {
     char line[DIALOGUE_LINE];
     const char *question = dialogue_question(&m->dialogue, line);
     if (question != NULL) {
-        (void)port_write(&m->line, question, strlen(question)); /* else it is asked again */
+        (void)port_write(&m->line, question, strlen(question)); /* on failure it is sent again */
         m->asked_ms = now_ms();
     }
 }
@@ -325,7 +325,7 @@ static void keep_records(monitor *m) {
     m->kept_ms = now;
     for (int i = 0; i < OUTPUTS; i++) {
         if (m->file[i] != NULL) {
-            (void)fflush(m->file[i]); /* ferror() is asked for */
+            (void)fflush(m->file[i]); /* ferror() is checked later */
         }
     }
 }

@@ -116,7 +116,7 @@ bool options_strict(const char *command, char **words, int *at, double *strict, 
 /* An option with a number between two bounds, inclusive. */
 typedef struct number_option {
     const char *option;
-    double *number; /* where it goes */
+    double *number; /* its destination */
     double least;
     double most;
     bool whole; /* must be a whole number */
@@ -170,8 +170,8 @@ overrides options_overrides(const change_options *changes);
 /* Equal words, ignoring case? */
 bool options_same(const char *a, const char *b);
 
-/* The index of the row in rows[count], `size` bytes each beginning with its word, whose word equals `value`, ignoring
- * case; -1 if there is no such row: reported, with the words. */
+/* The index of the row whose word equals `value`, ignoring case. Each of rows[count] has `size` bytes and begins with
+ * its word. -1 if there is no such row: reported, with the words. */
 int options_choose(const char *command, const char *what, const char *value, const void *rows,
                    size_t size, int count);
 

@@ -7,12 +7,9 @@
 /* One stop, hold, friction or crossing. */
 typedef struct contact_law {
     const contact_statement *from;
-    const poly
-        *value; /* stop: the gap; hold: its condition; friction: the rate; crossing: its left -
-                 * right */
-    const poly *speed; /* J q': rate of the gap or of the hold's expression; zero for others */
-    const poly *
-        first; /* stop: restitution; friction: mu_static * max(N, 0); curved hold: its expression */
+    const poly *value;  /* stop: gap; hold: condition; friction: rate; crossing: left - right */
+    const poly *speed;  /* J q': rate of the gap or of the hold's expression; zero for others */
+    const poly *first;  /* stop: restitution; friction: mu_static * max(N, 0); curved hold: value */
     const poly *second; /* friction: mu_kinetic * max(N, 0) */
     const poly *bias;   /* J' q' */
     const poly **row;   /* [coordinates] J; NULL for a crossing */

@@ -122,7 +122,7 @@ void equations_free(equations *e) {
     free(e);
 }
 
-/* === the energy that the book keeps =========================================================== */
+/* === the energy in the balance ================================================================ */
 /* The test for a quadratic form of the rates, and the energy integral of other forms. */
 
 /* Sampled states; so many must give finite values. */

@@ -77,7 +77,7 @@ const poly *equations_force(const equations *e, int i);
 /* p with the parameters replaced by the instance's values. */
 const poly *equations_fold(const equations *e, const poly *p);
 
-/* === the energy that the book keeps =========================================================== */
+/* === the energy in the balance ================================================================ */
 /* The quantity in the energy balance.
  *
  * Lagrange's equations with forces Q and a dissipation function F change the energy integral (Jacobi's)

@@ -68,7 +68,7 @@ static bool is_written(const instance *inst, const expr *e, int *parts) {
     return false;
 }
 
-/* Where unknown i starts. */
+/* The start of unknown i. */
 static void start_unknown(image_draft *d, const instance *inst, int i) {
     image_unknown *u = &d->made->unknown[i];
     u->starts = inst->start_count[i];

@@ -4,7 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Those named one by one. */
+/* Influences listed by name, at most. */
 enum { TOLD_MAX = 4 };
 
 static void tell(char text[INFLUENCE_TEXT_SIZE], int *count, const char *what, place at) {

@@ -4,8 +4,9 @@
 
 #include "host/derive/equations.h"
 
-/* Derive. Returns NULL after an error, reported to `diags`: a coordinate without kinetic energy, a singular mass
- * matrix, an equation that is nonlinear in the highest derivative, or an expression above the limit of size. */
+/* Derive the equations. Returns NULL after an error, reported to `diags`. Errors are a coordinate without kinetic
+ * energy, a singular mass matrix, an equation that is nonlinear in the highest derivative, and an expression above the
+ * limit of size. */
 equations *equations_derive(const instance *inst, diags *errors);
 /* The same in an algebra that was used before (`before` may be NULL). The result must not depend on the earlier use
  * (tests/host/test_asked_first.c). */

@@ -1,9 +1,9 @@
 /* ledger_lists.h: the ledger of a scene as operation lists for core/ledger.h, and the meaning of its entries.
  *
  * By Lagrange's equations, the momentum p_i = dL/dq_i' changes by dL/dq_i (gravity, springs, the other coordinates'
- * motion), each generalized force, each damper and each contact. The energy, or the energy integral if that is not T +
- * V (equations.h), has these changes: the work of each generalized force, each damper's loss, each contact, and each
- * change of an input in the energies. */
+ * motion), each generalized force, each damper and each contact. The energy changes by the work of each generalized
+ * force, each damper's loss, each contact, and each change of an input in the energies. If the energy integral is not T
+ * + V, it takes the place of the energy (equations.h). */
 #ifndef DERIVE_LEDGER_LISTS_H
 #define DERIVE_LEDGER_LISTS_H
 

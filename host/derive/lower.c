@@ -297,7 +297,7 @@ static double size_of(const poly *angle) {
     return size + 0.01 * angle->count;
 }
 
-/* Angles are kept with a positive first factor: cos(-x) = cos(x), sin(-x) = -sin(x). */
+/* Angles have a positive first factor: cos(-x) = cos(x), sin(-x) = -sin(x). */
 static const poly *upright(lowering *l, const poly *angle, bool *flipped) {
     *flipped = angle->count > 0 && angle->terms[0].coefficient < 0.0;
     return *flipped ? poly_scale(l->algebra, angle, -1.0) : angle;

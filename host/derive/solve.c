@@ -165,8 +165,8 @@ static void solve_cramer(tape *t, int n, const int *mass, const int *force, cons
     free(swapped);
 }
 
-/* Move the best pivot among the equations and unknowns from `at` on to position `at`: a constant one if there is any,
- * else the largest at the sample state. Returns true if it is constant. */
+/* Move the best pivot among the equations and unknowns from `at` on to position `at`. It is a constant one if there is
+ * any, else the largest at the sample state. Returns true if it is constant. */
 static bool bring_pivot(const tape *t, int n, const int *mass, int *rows, int *columns, int at) {
     double *v = sample(t);
     double best = -1.0;
@@ -396,7 +396,7 @@ typedef struct arrangement {
     bool rescaled; /* the equations after symbolic elimination */
     bool hinged;   /* unknowns on hinges are eliminated first, in this order: solve.h */
     int lead;      /* the sine that is evaluated first: lower.h */
-    int first;     /* unknown eliminated symbolically; -1 none; -2 every constant diagonal */
+    int first; /* unknown eliminated symbolically; -1: no unknown; -2: every constant diagonal */
     int order[COORDINATES_MAX]; /* of elimination */
 } arrangement;
 
@@ -411,7 +411,7 @@ typedef struct arranged {
     double *inverse;     /* [hinges] factor of their products */
     double *scale;       /* [n] of rows and columns */
     bool *gone;          /* [n] eliminated in symbols */
-    int *order;          /* [n] those first */
+    int *order;          /* [n] eliminated unknowns first */
     int eliminated;
 } arranged;
 
@@ -855,7 +855,7 @@ static bool can_be_permuted(const linear_system *s) {
 
 typedef struct choice {
     arrangement how;
-    int weight; /* -1: nothing was tried */
+    int weight; /* -1: nothing tried yet */
 } choice;
 
 static void try_it(const lowering *l, const linear_system *s, const arrangement *how,

@@ -658,7 +658,7 @@ static void try_angles(tabling *t) {
     free(span);
 }
 
-/* Where it is largest. */
+/* The position of its maximum. */
 static int peak_of(const coefficient *c) {
     int at = 0;
     for (int s = 1; s < TRIES; s++) {
@@ -870,7 +870,7 @@ static void take_coefficients(tabling *t) {
     }
 }
 
-/* NULL where it was refused. */
+/* NULL if refused. */
 static tape *make(tabling *t, const tape *list, image_tables form, int bits, tape **exact) {
     find_phase(t);
     if (t->why->reason != NULL) {

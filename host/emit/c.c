@@ -15,9 +15,9 @@
 
 /* === c names ================================================================================== */
 /* Names that a scene cannot have in generated C. A scene is a global object, and its name appears in arbitrary programs
- * among arbitrary headers. Any name of C's library would conflict: with a header's declaration, a macro, a function
- * built into the compiler ("conflicting types for built-in function"), or the library's definition at link time.
- * tests/host/test_c_names.c checks the list with the compilers. */
+ * among arbitrary headers. Any name of C's library would conflict with a header's declaration, a macro, or the
+ * library's definition at link time. So would a function built into the compiler ("conflicting types for built-in
+ * function"). tests/host/test_c_names.c checks the list with the compilers. */
 
 /* Keywords, up to C23. */
 static const char words_of_c[] =
@@ -292,8 +292,8 @@ static void c_contacts_write(FILE *out, const image *im) {
             hex_write(im->step_s, hex));
 }
 
-/* === a scene's books as C ===================================================================== */
-/* The lists of a scene's books. */
+/* === a scene's ledger as C ==================================================================== */
+/* The lists of a scene's ledger. */
 
 /* The declared bounds: before the core's headers. */
 static void c_ledger_bounds(FILE *out, const image *im) {

@@ -15,8 +15,8 @@ void c_header_fixed_state(FILE *out, const image *im);
 /* The first lines of a header's comment; `form` follows the scene's name. */
 void c_header_title(FILE *out, const image *im, const char *file, const char *form);
 
-/* Parts of headers in floating and fixed point: the head's line about the licence; the check that core and scene have
- * the same version; names and units of lists; values as macros; the range of number i. */
+/* Parts of headers in floating and fixed point. The head's line about the licence, and the check that core and scene
+ * have the same version. Names and units of lists, values as macros, and the range of number i. */
 void c_header_licence(FILE *out);
 void c_header_version(FILE *out);
 /* Writes the whole header after the scene's declaration. */

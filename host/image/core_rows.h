@@ -46,7 +46,7 @@ static inline wh_driven core_drive(const image_drive *d) {
                        (uint8_t)d->rate_at};
 }
 
-/* The argument of WH_CONTACT_EVALUATIONS(): stages; a matrix has none. */
+/* The argument of WH_CONTACT_EVALUATIONS(): the number of stages; 0 for a matrix. */
 static inline int core_stages(const image *im) {
     return im->settings.matrix != MATRIX_NONE ? 0 : wh_methods[im->settings.method].stages;
 }
@@ -64,7 +64,7 @@ static inline int core_stops(const image *im) {
     return stops;
 }
 
-/* The largest number of results in a step: accelerations (or derivatives), and the contacts' signals. */
+/* The largest number of evaluations in a step, of the accelerations (or derivatives) and of the contacts' signals. */
 static inline int core_evaluations(const image *im) {
     const int stages = core_stages(im);
     return im->contacts == 0 ? stages : WH_CONTACT_EVALUATIONS(stages, core_stops(im), im->forced);

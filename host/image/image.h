@@ -120,13 +120,13 @@ typedef struct image_quantity {
     const char *text; /* the description in quotes, or "" */
     image_unit unit;
     double value; /* SI; of an output 0 */
-    place at;     /* where it was declared */
+    place at;     /* place of its declaration */
 } image_quantity;
 
 typedef struct image_effect {
     const char *name;
     const char *text;
-    bool with; /* takes part */
+    bool with; /* active */
 } image_effect;
 
 /* A coordinate, or an unknown of a system given by equations. */
@@ -136,7 +136,7 @@ typedef struct image_unknown {
     place at;
     bool is_angle;           /* declared as one */
     bool is_length;          /* then its momentum per time is a force */
-    bool conserved;          /* nothing changes its momentum */
+    bool conserved;          /* its momentum is constant */
     bool driven;             /* an input with a rate: it has no momentum */
     int order;               /* of its highest derivative */
     image_unit *unit;        /* [order + 1] of the value, the rate, ... */
@@ -176,9 +176,8 @@ typedef struct image_range {
 typedef struct image_contact {
     int kind;         /* wh_contact_kind */
     const char *word; /* of the statement: "stop", "hold", ... */
-    const char
-        *undefined; /* the parts that may be undefined: "the condition of this hold, or what it
-                    * holds," */
+    const char *
+        undefined; /* parts that may be undefined: "the condition of this hold, or what it holds," */
     int direction;
     int pin;
     int first_set;
@@ -320,10 +319,9 @@ typedef struct image {
     image_quantity *output;    /* [own_outputs] */
     image_quantity *parameter; /* [parameters] */
 
-    double *start_rad; /* [angles] */
-    int64_t
-        *start_turns; /* [angles] the start in float, 2^32 a turn; 0 if float cannot represent it */
-    double *start_real; /* [reals] */
+    double *start_rad;    /* [angles] */
+    int64_t *start_turns; /* [angles] the start in float, 2^32 a turn; 0 if not representable */
+    double *start_real;   /* [reals] */
 
     image_range *range;       /* [reals + inputs] components, then inputs */
     image_range *angle_range; /* [angles] always empty: angles have no range */
@@ -372,7 +370,7 @@ double image_start(const image *im, int i);
 bool image_calls(const image *im);
 
 /* The first constant of the equations, or the first input, that float can represent only with one or two digits or as
- * zero or infinity; 0: none. */
+ * zero or infinity; 0 if all fit. */
 double image_out_of_float(const image *im);
 
 #endif

@@ -4,16 +4,16 @@
  * X(id, kind, cost, C, Octave, meaning)
  *
  *   id      OP_id of tape.h. Model hashes depend on the order: add a new one at the end.
- *   kind    OP_IS_... of tape.h: the meaning of a and b
- *   cost    OP_COSTS_... of tape.h
- *   C, Octave  its right-hand side in generated code; NULL: not written. A dollar sign precedes
- *           a, b   the operands
- *           f      the called function, and
- *           o      its operands, separated by commas
- *           n      a test for b being NaN: " || b != b", or nothing if b is a constant
- *           i      the number in a
- *           v      the value, a whole number
- *           l, r, u   in Octave: the linear component, rate, input with the number a
+ *   kind    OP_IS_... of tape.h: the meaning of a and b.
+ *   cost    OP_COSTS_... of tape.h.
+ *   C, Octave  its right-hand side in generated code; NULL: not written. A dollar sign marks these:
+ *           a, b   the operands.
+ *           f      the called function.
+ *           o      its operands, separated by commas.
+ *           n      a test for b being NaN: " || b != b", or nothing if b is a constant.
+ *           i      the number in a.
+ *           v      the value, a whole number.
+ *           l, r, u   in Octave: the linear component, rate, input with the number a.
  *
  * Four more files evaluate each operation: host/run/evaluate.inc, host/run/rounding.c, host/derive/solve.c,
  * host/image/tape_gauge.c, which also multiplies it. */

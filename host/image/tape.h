@@ -118,7 +118,7 @@ int tape_pow(tape *t, int base, int exponent);
 int tape_power(tape *t, int base, double exponent);
 bool tape_is_constant(const tape *t, int a, double *value);
 
-/* The operation with this code and operands a and b, or -1 if there is none yet. */
+/* The operation with this code and operands a and b, or -1 if there is no such operation yet. */
 int tape_find_binary(const tape *t, op_code code, int a, int b);
 
 /* Rebuild the index of equal operations, after operations were moved. */
@@ -157,7 +157,7 @@ int tape_not_finite(const tape *t);
 
 /* Is a number zero, or within float's normal numbers? */
 bool fits_float(double value);
-/* The first constant that float represents with fewer than its digits, as zero or as infinite; 0: none. */
+/* The first constant that float represents with fewer than its digits, as zero or as infinite; 0 if all fit. */
 double tape_out_of_float(const tape *t);
 
 /* The cost of a list. */

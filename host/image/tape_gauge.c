@@ -214,7 +214,7 @@ static matrix all_freedoms(const unknowns *u) {
     return kernel;
 }
 
-/* --- those that multiply few raw values --------------------------------------------------------------------------*/
+/* --- solutions that multiply few raw values ---------------------------------------------------------------------- */
 
 enum { PLACES = 64, SUBSETS_OF = 5 };
 
@@ -443,7 +443,7 @@ static int make(const multiplied *m, int i) {
     double number;
     int second;
     switch (o->code) {
-    case OP_CONSTANT: return -1; /* made where it is taken */
+    case OP_CONSTANT: return -1; /* entered at each use */
     case OP_LINEAR:
     case OP_RATE:
     case OP_INPUT:
@@ -644,7 +644,7 @@ enum {
     PATIENCE = 150000 /* total operations of tried lists; then a round ends */
 };
 
-/* Half is a clear improvement; less than a hundredth is none. */
+/* The bias must fall to half for a clear improvement, and by a hundredth for any. */
 #define CLEARLY 0.5
 #define LESS 0.99
 
@@ -657,7 +657,7 @@ typedef struct gauge_search {
     const tape *like;
     const tape *from; /* the last round's */
     int most;         /* operations */
-    tape *best;       /* NULL: none */
+    tape *best;       /* NULL: not found yet */
     double bias;
     int operations;
     double *times; /* [3 * from->count] */

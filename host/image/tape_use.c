@@ -380,8 +380,8 @@ static int *ending_lives(const tape_needs *n, int count, first_of way) {
 
 typedef struct placing {
     const tape_needs *needs;
-    int *order;  /* [ops]: which operation stands there */
-    int *number; /* [ops]: where it stands, or -1 */
+    int *order;  /* [ops]: operation at each position */
+    int *number; /* [ops]: its position, or -1 */
     int count;
 } placing;
 

@@ -36,7 +36,7 @@ static const expr *negative(parser *in, const expr *a) {
     return a == NULL ? NULL : expr_negate(in, a->at, a);
 }
 
-/* a + b, a - b, where NULL is 0. */
+/* a + b, a - b, with NULL for 0. */
 static const expr *sum(parser *in, expr_op op, place at, const expr *a, const expr *b) {
     if (b == NULL) {
         return a;
@@ -73,7 +73,7 @@ static const expr *slope(parser *in, const expr *of) {
     case FN_ATAN2: /* of two arguments, below */
     case FN_MIN:
     case FN_MAX:
-    case FN_SIGN: break; /* 0, but for where it jumps */
+    case FN_SIGN: break; /* 0, except at its jump */
     }
     return NULL;
 }

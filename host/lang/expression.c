@@ -343,7 +343,7 @@ const symbol *find_coordinate(parser *in, const token *name, const char *whose) 
                    words);
         return NULL;
     }
-    if (found == NULL || found->symbol.kind == SYM_INPUT) { /* else it was reported */
+    if (found == NULL || found->symbol.kind == SYM_INPUT) { /* else already reported */
         no_such_coordinate(in, name);
     }
     return NULL;

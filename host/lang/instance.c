@@ -233,7 +233,7 @@ instance *instance_again(const instance *first) {
 enum { WORDS_SIZE = 120 };
 
 typedef struct given {
-    const expr *value; /* NULL: nothing given */
+    const expr *value; /* NULL: not given */
     place at;
 } given;
 

@@ -8,7 +8,7 @@
     X(STATE, "a state")           /* unknown of a system given by equations: may carry primes */ \
     X(PARAMETER, "a parameter")   /* constant of a run; value from an expression of constants */ \
     X(INPUT, "an input")   /* may change while running; value from an expression of constants */ \
-    X(LET, "a let")        /* shorthand; stands for its expression */ \
+    X(LET, "a let")        /* shorthand for its expression */ \
     X(OUTPUT, "an output") /* computed for records; may be used by later outputs */ \
     X(RECORD, "an output") /* the recorded output, noise included: in measures only */
 

@@ -31,7 +31,7 @@ typedef struct symbol {
     dimension dim;       /* of the symbol without primes */
     bool is_angle;       /* declared [rad] (or [deg], [rev]): coordinate or state */
     const expr *value;   /* parameter, input, let, output, record: its expression; else NULL */
-    place at;            /* where it was declared */
+    place at;            /* place of its declaration */
     int index;           /* running number within its kind in its mechanism, declaration order */
     int effect;          /* index of the effect that declared it, or -1 */
     int order;           /* coordinate: 2; state: its highest derivative in the equations; else 0 */
@@ -109,7 +109,7 @@ typedef struct effect {
     const char *name;
     const char *text;
     place at;      /* of its name */
-    int last_line; /* where its block ends */
+    int last_line; /* end of its block */
 } effect;
 
 /* `set NAME = EXPR` or `start NAME' = EXPR` of a scene, with an expression of constants. Or one assignment of a `when`,
@@ -197,7 +197,7 @@ typedef struct scene {
     const char *name;
     const char *title;
     place at;      /* of its name */
-    int last_line; /* where its block ends */
+    int last_line; /* end of its block */
     const mechanism *mechanism;
     const bool *with; /* [mechanism->effect_count] active effects */
     const assignment *sets;
@@ -263,18 +263,18 @@ typedef struct range_value {
 
 typedef struct instance {
     const mechanism *mechanism;
-    const scene *scene;   /* NULL for a bare mechanism */
-    const char *name;     /* the scene's name, the mechanism's, or overrides.name */
-    bool *with;           /* [effect_count] */
-    const bool *conserve; /* [coordinate_count] recover this coordinate's rate from its momentum, or
-                           * NULL */
-    bool ledger;          /* record the balance of energy and momentum */
-    bool balance;         /* balance the run if it has contacts and the balance is possible */
-    double *parameter;    /* [parameter_count] SI */
-    double *input;        /* [input_count] SI */
+    const scene *scene; /* NULL for a bare mechanism */
+    const char *name;   /* the scene's name, the mechanism's, or overrides.name */
+    bool *with;         /* [effect_count] */
+    const bool
+        *conserve;     /* [coordinate_count] recover this coordinate from its momentum, or NULL */
+    bool ledger;       /* record the balance of energy and momentum */
+    bool balance;      /* balance the run if it has contacts and the balance is possible */
+    double *parameter; /* [parameter_count] SI */
+    double *input;     /* [input_count] SI */
     const expr **parameter_given; /* expressions of the values */
     const expr **input_given;
-    const expr ***start_given; /* NULL: nothing, which is 0 */
+    const expr ***start_given; /* NULL: not given, which is 0 */
     double **start;            /* [coordinate_count][order] value, rate, ...: SI; order >= 2 */
     place **start_at;          /* like start: the place of the value; no source for a default */
     int *start_count;          /* [coordinate_count] entries in start[i] (2 for coordinates) */

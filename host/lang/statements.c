@@ -112,7 +112,7 @@ void finish_mechanism(parser *in, builder *done) {
     finish_inputs(in, made);
 }
 
-/* === which statement comes next =============================================================== */
+/* === dispatch of statements =================================================================== */
 
 static bool read_statement(parser *in, unsigned where);
 

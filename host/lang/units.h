@@ -54,7 +54,7 @@ typedef struct unit_scale {
 } unit_scale;
 
 typedef struct unit_error {
-    size_t offset; /* where in the text */
+    size_t offset; /* position in the text */
     char message[160];
     char hint[160]; /* "" without a hint */
 } unit_error;

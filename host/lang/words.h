@@ -10,7 +10,7 @@
 
 #include "kinds.h"
 
-/* Where a statement may stand. */
+/* The places for a statement. */
 enum {
     IN_FILE = 1, /* outside all blocks, even after a mechanism has begun */
     IN_MECHANISM = 2,
@@ -35,12 +35,12 @@ enum {
 
 /* Statements of files, mechanisms and effects, in the order of comparison with a misspelt word:
  *
- *   word    its spelling, and its name here: WORD_COORDINATE is `coordinate`
- *   where   the blocks that allow it
- *   rules   its other rules
- *   reader  reads the part after it (statements.c)
- *   kind    of its result: symbol_kind, term_kind or contact_kind, as its reader expects
- *   form    its usual form, for hints */
+ *   word    its spelling, and its name here: WORD_COORDINATE is `coordinate`.
+ *   where   the blocks that allow it.
+ *   rules   its other rules.
+ *   reader  reads the part after it (statements.c).
+ *   kind    of its result: symbol_kind, term_kind or contact_kind, as its reader expects.
+ *   form    its usual form, for hints. */
 #define BODY_WORD_ROWS(X) \
     X(MECHANISM, "mechanism", IN_FILE, RESERVED | ENDS_ALL, read_mechanism, 0, \
       "mechanism pendulum \"A pendulum\"") \

@@ -15,7 +15,7 @@ typedef struct recording_counts {
     uint64_t frames;
     uint64_t samples;
     uint64_t pulses;
-    uint64_t lost;         /* frames that did not come, */
+    uint64_t lost;         /* missing frames, */
     uint64_t dropped;      /* of those, dropped by the rig for lack of space */
     uint64_t lost_samples; /* by their times */
     uint64_t strange;      /* frames without a known schema */
@@ -64,7 +64,7 @@ void recording_begin(recording *r, FILE *csv, FILE *waves, FILE *ring, bool plot
 /* The rig has restarted: its clock and counts are unrelated to earlier ones. */
 void recording_anew(recording *r);
 
-/* Samples were requested again, perhaps at another rate: the next ones do not continue the sequence. */
+/* Samples were requested again, perhaps at another rate. The gap before the next ones is no loss. */
 void recording_asked(recording *r);
 
 void recording_frame(recording *r, const schema *s, const wire_frame *frame);

@@ -18,7 +18,7 @@ typedef struct wire_frame {
 
 typedef enum wire_event { WIRE_NOTHING, WIRE_TEXT, WIRE_FRAME } wire_event;
 
-/* All zeros: nothing heard. */
+/* All zeros at the start. */
 typedef struct wire {
     uint8_t chunk[WIRE_ROOM]; /* of a frame, since the last zero */
     unsigned length;

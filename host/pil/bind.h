@@ -22,7 +22,7 @@ typedef struct binding {
     unsigned outputs;            /* of the firmware */
     unsigned edges;
     unsigned samples;
-    unsigned notes; /* which are bound to nothing */
+    unsigned notes; /* notes are not bound */
 } binding;
 
 /* A readable quantity of that name, an output, coordinate or rate: sets place, index, rate and turns. Returns its unit,

@@ -1,5 +1,6 @@
-/* fault.h: faults in a run in the loop: sensors, load cell, supply, drive stage, mechanism, line, and the controller's
- * computing time; also a press of stop, and a reset of its processor. The controller's code itself has no faults.
+/* fault.h: faults in a run in the loop. They affect sensors, load cell, supply, drive stage, mechanism, line, and the
+ * controller's computing time. Others press stop, or reset the controller's processor. The controller's code itself has
+ * no faults.
  *
  * The syntax of a fault is KIND[:CHANNEL][=SIZE][@WHEN][+DURATION]. CHANNEL counts edges or samples from 1; without it,
  * all edges or the first sample. WHEN is a time, or NOTE=VALUE, or NOTE=VALUE~TIME: so long after the firmware's note

@@ -1,7 +1,7 @@
 /* plant.h: a scene as a controller's hardware: the scene runs in double, surrounded by sensors. Time is in ticks of the
  * controller's timer since the plant's start. The scene has its own, finer steps. An edge is located within a step, on
- * the cubic through its ends, if the two ends are on different sides of the level. (The cubic alone cannot distinguish
- * a turn within the step from a stop or an impact.) Samples are those of the first step end at or after their instant;
+ * the cubic through its ends, if the two ends are on different sides of the level. The cubic alone cannot distinguish a
+ * turn within the step from a stop or an impact. Samples are those of the first step end at or after their instant;
  * changes of outputs take effect there, too. */
 #ifndef PIL_PLANT_H
 #define PIL_PLANT_H
@@ -56,8 +56,7 @@ typedef struct plant {
     wh_status status;
     uint64_t steps;
     double step_ticks;
-    uint32_t
-        start_ticks; /* the controller's timer at the start, extrapolated from its last reset */
+    uint32_t start_ticks;            /* timer at the start, extrapolated from its last reset */
     uint32_t timer_ticks;            /* the timer's value after a reset */
     double *before;                  /* [components] angles first */
     double *after;                   /* [components] */

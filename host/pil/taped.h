@@ -4,9 +4,13 @@
 
 #include <stdbool.h>
 
-/* Columns: the event's time, by its stamp; the time when the firmware received or sent it, both in s since the plant's
- * time 0; the kind (edge, sample, output, note; cut: the watchdog has cut the outputs); the channel of that kind, from
- * 1; its signal; value and unit; a sample's quality (good, saturated, disconnected).
+/* Columns:
+ *
+ *   the event's time, by its stamp, and the time when the firmware received or sent it, s since the plant's time 0.
+ *   the kind: edge, sample, output, note; cut: the watchdog has cut the outputs.
+ *   the channel of that kind, from 1, and its signal.
+ *   value and unit.
+ *   a sample's quality: good, saturated, disconnected.
  *
  * An edge has no value. Outputs and notes have a row at each change. `csv` NULL or "-": standard output. False,
  * reported, if reading or writing is incomplete. */

@@ -20,7 +20,7 @@ typedef struct figure {
     int count;
     int panels;
     int curves;       /* of this panel, */
-    int named;        /* the number of those in the legend */
+    int named;        /* number of curves in the legend */
     bool varied;      /* omit marks of the original motion */
     double trusted_s; /* the least of its curves over time; 0: all are trusted to the end */
     char *plot;       /* their text */

@@ -40,7 +40,7 @@ typedef enum held_end {
     HELD_RUN_ENDS, /* the run failed */
     HELD_NO_STEP,  /* the tube has no further step */
     HELD_SPENT,    /* the limit on products was reached */
-    HELD_STOPPED   /* it was asked to stop */
+    HELD_STOPPED   /* the caller stopped it */
 } held_end;
 
 /* For a state of the motion; SI. */

@@ -92,7 +92,7 @@ static bool find(tube *t, taylor *series, const enclosure *x) {
     return taylor_find(series, x);
 }
 
-/* --- where the motion stays over a step --------------------------------------------------------------*/
+/* --- enclosure of the motion over a step ------------------------------------------------------------- */
 
 /* sum of [0, h]^k x_k over k <= order, from the whole box. */
 static enclosure polynomial_over(const tube *t, int i, enclosure span) {

@@ -1,7 +1,7 @@
-/* zonotope.h: the deviation of a point from a centre, as the sum of a known drift and of generators, each times a
- * number from -1 to 1 (Kuehn, Rigorously computed orbits of dynamical systems without the wrapping effect, Computing
- * 61, 1998). A linear map transforms them exactly, except for round-off, which becomes new generators. Only when there
- * are too many generators are the smallest ones enclosed in a box. */
+/* zonotope.h: the deviation of a point from a centre as a zonotope: a known drift plus generators, each times a number
+ * from -1 to 1. (Kuehn, Rigorously computed orbits of dynamical systems without the wrapping effect, Computing 61,
+ * 1998.) A linear map transforms them exactly, except for round-off, which becomes new generators. Only when there are
+ * too many generators are the smallest ones enclosed in a box. */
 #ifndef PROVE_ZONOTOPE_H
 #define PROVE_ZONOTOPE_H
 

@@ -280,7 +280,7 @@ int show_rank(const atom *x) {
     case SYM_PARAMETER: return 0;
     case SYM_INPUT: return 1;
     case SYM_COORDINATE:
-    case SYM_STATE: return x->primes == 0 ? 2 : 3 + x->primes; /* sines stand at 3 */
+    case SYM_STATE: return x->primes == 0 ? 2 : 3 + x->primes; /* sines have rank 3 */
     case SYM_LET:                                              /* expressions: no atoms */
     case SYM_OUTPUT:
     case SYM_RECORD: break;
@@ -620,7 +620,7 @@ static void show_group(const show *s, const poly *p, const poly *key, bool leadi
     const poly *inside = poly_mul(a, p, poly_pow(a, common, -1.0));
     inside = poly_scale(a, inside, (negative ? -1.0 : 1.0) / number);
     const bool bare = key->terms[0].mono->count == 0;
-    if (algebra_overflow(a)) { /* nothing is factored any more */
+    if (algebra_overflow(a)) { /* no more factoring */
         show_sign(s, false, leading);
         show_grouped(s, p);
         show_behind(s, key);
