@@ -79,7 +79,7 @@ bool poly_is_place(const poly *p);
 typedef struct sum_item {
     const mono *mono;
     double coefficient;
-    size_t turn; /* the order of entering */
+    size_t turn; /* the order of entry */
 } sum_item;
 
 /* Starts as {0}. */

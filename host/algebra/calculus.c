@@ -12,7 +12,7 @@
 typedef struct call {
     const poly *x;
     const poly *y;    /* NULL */
-    const poly *self; /* the function of them */
+    const poly *self; /* the function of these arguments */
 } call;
 
 /* The derivative by x (which = 0) or y (1). */
@@ -144,7 +144,7 @@ static double atom_value(const atom *x, poly_value *value, void *context) {
     case ATOM_GROUP: return first;
     case ATOM_POWER: return number_power(first, second);
     case ATOM_CALL: return number_call(x->function, first, second);
-    case ATOM_SYMBOL: break; /* answered above */
+    case ATOM_SYMBOL: break; /* handled above */
     }
     return 0.0;
 }

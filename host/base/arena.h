@@ -8,7 +8,7 @@ struct arena;
 
 /* Out of memory, the program ends with a message: no function returns NULL. */
 struct arena *arena_new(void);
-void arena_free(struct arena *arena); /* NULL is fine */
+void arena_free(struct arena *arena); /* NULL is allowed */
 
 /* `size` zeroed bytes, aligned for any type. */
 void *arena_alloc(struct arena *arena, size_t size);

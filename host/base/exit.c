@@ -1,4 +1,3 @@
-/* exit.c: see exit.h. */
 #include "exit.h"
 
 #define ROW(name, status, meaning) [EXIT_ROW_OF(name)] = {status, meaning},

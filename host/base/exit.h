@@ -9,7 +9,7 @@
     X(EXIT_DONE, 0, "done") \
     X(EXIT_RUN_FAILED, 1, "failed") \
     X(EXIT_BAD_INPUT, 2, "bad input") \
-    X(EXIT_INTERRUPTED, 130, "interrupted") /* 128 + SIGINT, as shells have it */
+    X(EXIT_INTERRUPTED, 130, "interrupted") /* 128 + SIGINT, as in shells */
 
 #define EXIT_VALUE(name, status, meaning) name = status,
 enum { EXIT_ROWS(EXIT_VALUE) };

@@ -15,7 +15,7 @@ void statement_text(place at, char *text, size_t size) {
         start--;
     }
     size_t end = start;
-    int open = 0; /* braces of its own */
+    int open = 0; /* depth of its own braces */
     while (end < from->length && strchr("\n#", from->text[end]) == NULL &&
            (from->text[end] != '}' || open > 0)) {
         open += from->text[end] == '{' ? 1 : 0;

@@ -1,4 +1,3 @@
-/* written.c: see written.h. */
 #include "written.h"
 
 #include <errno.h>

@@ -62,7 +62,6 @@ static void tell_undefined(const image *im, const char *file) {
     diags_free(errors);
 }
 
-/* Returns an exit code. */
 static int print_image(const image *im, const char *file) {
     const tape *books = im->list[IMAGE_BOOKS];
     double *result = room(books->results, sizeof *result);

@@ -357,7 +357,7 @@ static bool take_one(int count, char **words, int *at, void *options, bool *bad)
     derive_options *o = options;
     const char *value = options_value(count, words, at, "--as", bad);
     if (value != NULL) {
-        if (options_same("matlab", value)) { /* runs the same function file */
+        if (options_same("matlab", value)) { /* it runs the same function file */
             value = "octave";
         }
         const int chosen = options_choose("derive", "form", value, forms, sizeof forms[0], FORMS);

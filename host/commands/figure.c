@@ -34,7 +34,7 @@ static const command_usage usage = {
     .why = OPTIONS_WHY_DRAWS};
 
 typedef struct figure_options {
-    common_options common; /* looked at by the runs */
+    common_options common; /* the runs parse these */
     const char *name;
     const char *out;
     const char *given[DATA_MOST]; /* NAME=FILE */

@@ -16,7 +16,7 @@ static char *realpath(const char *path, char *resolved) {
 }
 #endif
 
-/* Both resolve, to one name. */
+/* Do both resolve to the same path? */
 static bool one_path(const char *path, const char *other_path) {
     char *resolved = realpath(path, NULL);
     char *other = realpath(other_path, NULL);

@@ -120,7 +120,7 @@ static light_verdict light_judge(int field, const char *value, const char *wante
                    ? LIGHT_EQUAL
                    : LIGHT_DIFFERS;
     }
-    if (strcmp(name, "selftest") == 0) { /* its parts follow */
+    if (strcmp(name, "selftest") == 0) { /* it consists of the next fields */
         return strncmp(value, "good ", 5) == 0 ? LIGHT_EQUAL : LIGHT_DIFFERS;
     }
     return strcmp(value, wanted) == 0 ? LIGHT_EQUAL : LIGHT_DIFFERS;

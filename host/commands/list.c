@@ -27,7 +27,7 @@ static const command_usage usage = {
         "  --figures    what `whirl figure` draws: name and title\n",
     .tail = ""};
 
-enum { OUTSIDE = -1 }; /* of every effect */
+enum { OUTSIDE = -1 }; /* outside every effect */
 
 /* --- the table ------------------------------------------------------------------------------------- */
 

@@ -20,7 +20,7 @@
 typedef struct sought {
     const char *mechanism; /* [mechanism_length]; NULL: any */
     size_t mechanism_length;
-    const char *name; /* a scene's, or a mechanism's */
+    const char *name; /* of a scene or a mechanism */
 } sought;
 
 static sought wish_of(const char *target) {

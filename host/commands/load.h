@@ -18,7 +18,7 @@ int find_builtin(const struct builtin_model *models, size_t count, const char *t
 
 /* A .whirl file, or the only built-in model that has the target. Free with source_close(). */
 typedef struct source_model {
-    const char *file; /* as in messages */
+    const char *file; /* its name in messages */
     char *text;       /* owned; NULL for a built-in model */
     char *path;       /* owned */
     char *name;       /* owned: the name after the ':', or the built-in name; "" without a name */
@@ -66,7 +66,7 @@ typedef struct loaded {
  * longer needed. Returns an exit status; call unload() in any case. */
 int load(loaded *made, source_model *source, const mechanism *of, const scene *in,
          const overrides *changes, const load_wish *wish);
-/* On standard error: the hint. */
+/* Print the hint on standard error. */
 void say_hints(const loaded *made);
 /* Warn of values that float cannot represent. */
 void say_float_range(const image *im);

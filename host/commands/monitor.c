@@ -172,7 +172,7 @@ typedef struct monitor {
     int64_t asked_ms;
     int64_t kept_ms;  /* time when all records were last written to their files */
     int64_t alive_ms; /* time of the last message to the rig */
-    uint64_t times;   /* that the line was opened */
+    uint64_t times;   /* times the line was opened */
 } monitor;
 
 /* --- the line ------------------------------------------------------------------------------------------------- */
@@ -246,7 +246,7 @@ static void go_on(monitor *m) {
     m->met = true;
     if (m->dialogue.asked == DIALOGUE_OFF && !m->begun) {
         m->begun = true;
-        m->wire.damaged = 0; /* of a time before */
+        m->wire.damaged = 0; /* from an earlier time */
     }
     if (m->dialogue.asked == DIALOGUE_LISTED && m->dialogue.was_off) {
         recording_anew(&m->recording);
@@ -279,7 +279,7 @@ static void take_text(monitor *m, const char *line) {
 
 static void take_frame(monitor *m) {
     if (m->line.is_line && !m->begun) {
-        return; /* of a time before */
+        return; /* from an earlier time */
     }
     recording_frame(&m->recording, &m->schema, &m->wire.frame);
 }
@@ -340,7 +340,7 @@ static void stay_alive(monitor *m) {
     }
 }
 
-/* Until it is to end. */
+/* Listen until the end. */
 static void listen(monitor *m) {
     const int64_t began_ms = now_ms();
     uint8_t bytes[BYTES];

@@ -53,7 +53,7 @@ static const char template[] =
     "  until 5 [s]\n"
     "}\n";
 
-static const char suffix[] = "_swing"; /* the scene's name ends so */
+static const char suffix[] = "_swing"; /* the ending of the scene's name */
 
 static int write_new(const char *name, const char *file) {
     if (access(file, F_OK) == 0) {

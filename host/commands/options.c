@@ -136,7 +136,7 @@ static bool is_new(int count, char **words, int at, const char *name) {
         if (is_option(words[i], name)) {
             fprintf(stderr, "whirl: error: %s is there twice: '%s' and '%s'\n", name, words[i],
                     words[at]);
-            if (strcmp(name, "--y") == 0) { /* a list */
+            if (strcmp(name, "--y") == 0) { /* a list of quantities */
                 fprintf(stderr, "hint: --y \"%s, %s\"\n", value_at(count, words, i, name),
                         value_at(count, words, at, name));
             } else {

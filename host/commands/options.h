@@ -57,8 +57,8 @@ enum { OPTION_TEXT_WIDTH = 76 };
 
 /* The groups that a command accepts: a sum of these. */
 typedef enum option_group {
-    OPTIONS_CHANGE = 1, /* change an instance */
-    OPTIONS_ENGINE = 2, /* how to integrate */
+    OPTIONS_CHANGE = 1, /* changes to an instance */
+    OPTIONS_ENGINE = 2, /* the method of integration */
     OPTIONS_NUMBER = 4, /* the number type and its programs */
     OPTIONS_STEP = 8,   /* the step, for commands that do not choose it themselves */
     OPTIONS_SCENE = 15  /* all of them, for commands that run scenes with given settings */

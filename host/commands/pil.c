@@ -83,12 +83,12 @@ typedef struct pil_options {
     common_options common;
     const char *target;
     const char *firmware;
-    const char *port; /* a serial line to it */
+    const char *port; /* a serial line to the board */
     const char *board;
     char machine[GUEST_MACHINE_BYTES]; /* of its folder; "": without one */
     const char *tape;
     const char *replay;
-    const char *read; /* a tape that is shown */
+    const char *read; /* a tape to show */
     const char *csv;
     const char *every;
     const char *bind;
@@ -100,9 +100,9 @@ typedef struct pil_options {
     double clock_Hz;
     double cycles;
     double patience_s;
-    double baud; /* 0: not said */
+    double baud; /* 0: not given */
     bool quiet;
-    bool kinds; /* of faults are listed */
+    bool kinds; /* list the kinds of faults */
 } pil_options;
 
 /* --- options ------------------------------------------------------------------------------------------------*/

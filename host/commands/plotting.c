@@ -31,7 +31,7 @@ static const command_usage usage = {
     .why = OPTIONS_WHY_DRAWS};
 
 typedef struct plot_options {
-    common_options common; /* looked at by the run */
+    common_options common; /* the run parses these */
     plot_choice choice;
     const char *out;
     char **target; /* [targets] */

@@ -1,4 +1,3 @@
-/* rating.c: see rating.h. */
 #include "rating.h"
 
 #include <stdlib.h>
@@ -26,7 +25,7 @@ static void say_none(FILE *out, const rating_wish *w, const char *why, const cha
     if (command != NULL) {
         char *target = pricing_quoted(w->target);
         overrides asked = *w->changes;
-        asked.step = NULL; /* it tries several */
+        asked.step = NULL; /* it tries several steps */
         char *changes = pricing_words(&asked, false);
         fprintf(out, "; %sthey are shown by: whirl %s %s%s%s%s",
                 strcmp(command, "price") != 0 ? "in Whirl's source tree " : "", command, target,

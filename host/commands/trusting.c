@@ -1,4 +1,3 @@
-/* trusting.c: see trusting.h. */
 #include "trusting.h"
 
 #include "host/run/twins.h"

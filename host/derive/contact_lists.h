@@ -23,7 +23,7 @@ typedef struct contact_lists {
     int *target;      /* [set_count] component of the state, angles first */
     tape *signals;
     tape *forces;
-    tape *sets; /* NULL without any */
+    tape *sets; /* NULL without sets */
 } contact_lists;
 
 /* Every poly of the step of a scene with these laws, folded and settled. Fills p[] (if not NULL) and returns their

@@ -107,7 +107,7 @@ static void make_loosening(algebra *a, const mechanism *m, contact_laws *laws) {
 contact_laws *contact_laws_make(algebra *a, const instance *inst) {
     const mechanism *m = inst->mechanism;
     const int own = inst->scene != NULL ? inst->scene->when_count : 0;
-    const int most = 2 * m->contact_count + own; /* each friction with a crossing */
+    const int most = 2 * m->contact_count + own; /* a crossing for each friction */
     contact_laws *laws = room(1, sizeof *laws);
     laws->law = room(most, sizeof *laws->law);
     laws->sets = room(most, sizeof *laws->sets);

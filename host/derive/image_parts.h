@@ -5,7 +5,7 @@
 #include "host/image/image.h"
 #include "host/lang/model.h"
 
-/* An image in the making. */
+/* An unfinished image. */
 typedef struct image_draft {
     image *made;
     /* [sources] sources of places, and their copies */

@@ -634,7 +634,7 @@ static void product_multiply(lowering *l, product *p, int node, int exponent) {
             return;
         }
     }
-    if (p->count == FACTORS_MAX) { /* never seen; still correct */
+    if (p->count == FACTORS_MAX) { /* never observed, but still correct */
         const int last = FACTORS_MAX - 1;
         const int first = tape_power(l->tape, p->powers[last].node, p->powers[last].exponent);
         const int more = tape_power(l->tape, node, exponent);

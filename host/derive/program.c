@@ -1,4 +1,4 @@
-/* program.c: entering the lists. */
+/* program.c: entry of the lists. */
 #include "program.h"
 
 #include <stdlib.h>

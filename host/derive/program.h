@@ -17,7 +17,7 @@ typedef struct program {
     tape *tables; /* exact list of the tables' functions; NULL without tables (program_look_up()) */
     /* The outputs. */
     tape *observe;
-    contact_lists *contacts; /* NULL without any */
+    contact_lists *contacts; /* NULL without contacts */
     ledger_lists *ledger;    /* NULL without a ledger */
     bool ledger_asked;       /* by `with ledger`, --stabilized: else it only balances the run */
     const poly *integral; /* the energy integral if it is not T + V, else NULL: see equations.h */

@@ -390,7 +390,7 @@ static bool hinge_eliminate(algebra *a, int n, const poly **mass, const poly **f
 /* === forms of the equations =================================================================== */
 /* The equations M x = f in one of several forms, before entry into a list: scales, and symbolic elimination. */
 
-/* Which form. */
+/* The choices of an arrangement. */
 typedef struct arrangement {
     bool scaled;
     bool rescaled; /* the equations after symbolic elimination */
@@ -798,7 +798,7 @@ static bool enter(const lowering *like, tape *t, const linear_system *s, const a
     return can;
 }
 
-/* -1: it cannot be arranged so. */
+/* -1 if this arrangement is impossible. */
 static int weigh(const lowering *l, const linear_system *s, const arrangement *how) {
     tape *t = tape_new(l->tape->angles, s->n);
     int weight = -1;

@@ -1,4 +1,3 @@
-/* stabilizing.c: see stabilizing.h. */
 #include "stabilizing.h"
 
 static const char no_stabilized[] = "leave out --stabilized";

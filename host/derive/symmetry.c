@@ -1,4 +1,3 @@
-/* symmetry.c: see symmetry.h. */
 #include "symmetry.h"
 
 #include <math.h>
@@ -265,7 +264,7 @@ typedef struct finding {
     const equations *equations;
     symmetries *found;
     double *known; /* [columns * columns] orthonormal rows: the symmetries found */
-    int count;     /* of them */
+    int count;     /* number of these rows */
     double *basis; /* [columns * columns] scratch */
 } finding;
 

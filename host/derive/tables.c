@@ -240,7 +240,7 @@ static void table_numbers(const table_functions *f, tape_tables *into) {
                 write_cubic(&value[k * n], &slope[k * n], n, i, number);
             }
             for (int term = 0; term < into->terms; term++) {
-                number[term] = number[term] == 0.0 ? 0.0 : number[term]; /* one zero */
+                number[term] = number[term] == 0.0 ? 0.0 : number[term]; /* only one zero */
             }
         }
     }
@@ -459,7 +459,7 @@ static product_sum sum_of(collecting *c, int i) {
     case OP_MAX:
     case OP_CALL:
     case OP_POW: return function_of(c, o);
-    case OP_ACCEL: /* in no step */
+    case OP_ACCEL: /* not in a step */
     case OP_TIME:
     case OP_RADIANS:
     case OP_NOISE:
@@ -780,7 +780,7 @@ static int sum_up(const writing *w, part *parts, int count) {
         }
     }
     if (with > 0) {
-        const int inner = sum_up(w, parts, with); /* one power less each time */
+        const int inner = sum_up(w, parts, with); /* one power less in each */
         sum = tape_mul(w->made, symbol_of(w, common), inner);
         return tape_add(w->made, sum, sum_up(w, parts + with, count - with));
     }

@@ -8,7 +8,7 @@
 /* === a list as sums of products =============================================================== */
 /* A step's list as sums of products of rates, inputs and reals, with coefficients that depend on turn angles only. */
 
-/* Most products of one sum. */
+/* Most products in one sum. */
 enum { PRODUCTS_MOST = 128 };
 
 /* coefficient * symbol[0]^power[0] * symbol[1]^power[1] ... */
@@ -18,7 +18,7 @@ typedef struct term_product {
 } term_product;
 
 typedef struct product_sum {
-    term_product *product; /* [count], each with other powers */
+    term_product *product; /* [count], all with different powers */
     int count;
 } product_sum;
 

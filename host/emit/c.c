@@ -125,7 +125,7 @@ static const char functions[] =
     "wcstoll wcstombs wcstoul wcstoull wcstoumax wcsxfrm wctob wctomb wctrans wctype wmemchr "
     "wmemcmp wmemcpy wmemmove wmemset wprintf wscanf";
 
-/* How whole families begin. */
+/* The prefixes of whole families. */
 static const char families[] =
     "FLT_ DBL_ LDBL_ DEC32_ DEC64_ DEC128_ FE_ LC_ FP_ ATOMIC_ atomic_ memory_order_ mtx_ "
     "cnd_ thrd_ tss_ pthread_ stdc_ ckd_ wh_ WH_ _";
@@ -547,7 +547,7 @@ static void write_includes(FILE *out, const image *im) {
     }
 }
 
-/* Of a scene without contacts. */
+/* For a scene without contacts. */
 static void write_one_step(FILE *out, const image *im) {
     const bool second = im->form == WH_SECOND_ORDER;
     const char *method = wh_methods[im->settings.method].name;

@@ -8,7 +8,7 @@ static void operands(FILE *out, const tape *t, const op *o, const op_style *styl
     }
 }
 
-/* A constant is a number. */
+/* The test for a NaN; empty for a constant. */
 static void or_no_number(FILE *out, const tape *t, int b, const op_style *style) {
     if (t->ops[b].code != OP_CONSTANT) {
         fputs(" || ", out);

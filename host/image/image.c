@@ -1,4 +1,4 @@
-/* image.c: reading an image. */
+/* image.c: access to an image. */
 #include "image.h"
 
 #include "host/base/arena.h"
@@ -75,7 +75,8 @@ static bool list_calls(const tape *t) {
 bool image_calls(const image *im) {
     bool calls = false;
     for (int role = 0; role < IMAGE_ROLES; role++) {
-        calls = calls || (role != IMAGE_BOOKS && list_calls(im->list[role])); /* those stay here */
+        calls = calls || (role != IMAGE_BOOKS && list_calls(im->list[role])); /* the balance runs on
+                                                                               * the host only */
     }
     return calls;
 }

@@ -134,7 +134,7 @@ typedef struct image_unknown {
     const char *name;
     const char *text;
     place at;
-    bool is_angle;           /* declared as one */
+    bool is_angle;           /* declared in an angle's unit */
     bool is_length;          /* then its momentum per time is a force */
     bool conserved;          /* its momentum is constant */
     bool driven;             /* an input with a rate: it has no momentum */
@@ -151,7 +151,7 @@ typedef struct image_unknown {
 /* An input with a rate, followed by two components of the state inside a step: indices in real[]. */
 typedef struct image_drive {
     int input;
-    int rate; /* an input, too */
+    int rate; /* also an input */
     int value_at;
     int rate_at;
 } image_drive;
@@ -346,7 +346,7 @@ typedef struct image {
     tape *list[IMAGE_ROLES]; /* NULL for a missing list */
 } image;
 
-void image_free(image *im); /* NULL is fine */
+void image_free(image *im); /* NULL is allowed */
 
 /* Component i of the state: angles first. */
 component image_component(const image *im, int i);

@@ -170,7 +170,7 @@ int tape_constant(tape *t, double value) {
                          .function = FUNCTION_NONE,
                          .a = -1,
                          .b = -1,
-                         .value = value == 0.0 ? 0.0 : value}); /* one zero */
+                         .value = value == 0.0 ? 0.0 : value}); /* only one zero */
 }
 
 int tape_leaf(tape *t, op_code code, int which) { return enter_op(t, code, which, -1); }

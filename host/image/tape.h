@@ -18,7 +18,7 @@ typedef enum op_code { OP_ROWS(OP_ID) } op_code;
 #undef OP_ID
 
 #define OP_ONE(...) +1
-enum { OPS = 0 OP_ROWS(OP_ONE) }; /* how many there are */
+enum { OPS = 0 OP_ROWS(OP_ONE) }; /* number of operations */
 #undef OP_ONE
 
 typedef enum op_kind {
@@ -48,7 +48,7 @@ typedef struct op_row {
     op_kind kind;
     op_cost cost;
     int values;         /* most earlier values it uses: a, a and b; 0 for a leaf or a phase */
-    const char *c;      /* NULL: not written so */
+    const char *c;      /* NULL: not written in C */
     const char *octave; /* NULL */
 } op_row;
 
@@ -166,7 +166,7 @@ typedef struct tape_cost {
     int divisions;
     int roots;
     int waves;    /* sines and cosines; those of one phase count once */
-    int calls;    /* of core/function.h */
+    int calls;    /* calls of core/function.h */
     int look_ups; /* in tables; the interpolation counts as arithmetic */
 } tape_cost;
 

@@ -705,7 +705,7 @@ static void try_number(gauge_search *s, const double *exponent, double x) {
     tape_free(made);
 }
 
-/* --- which numbers ----------------------------------------------------------------------------------------------*/
+/* --- candidate numbers ------------------------------------------------------------------------------------------ */
 
 /* Products of small primes, the simplest first. Decimals times enough fives are whole numbers over powers of two;
  * thirds times three are whole. Factors of two change nothing. */

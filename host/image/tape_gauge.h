@@ -19,7 +19,7 @@ int tape_gauge_price(const tape *t);
  * such a list within the allowed number of additional operations, *t stays. */
 void tape_gauge(tape **t, int price);
 
-/* --- parts of it -----------------------------------------------------------------------------------------------*/
+/* --- its parts ----------------------------------------------------------------------------------------------- */
 
 /* Is the value of this operation raw? Multiplying a leaf, a sine or a function costs a product. */
 bool tape_is_raw(const op *o);

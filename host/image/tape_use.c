@@ -8,7 +8,7 @@
 #include "host/base/room.h"
 #include "host/image/tape.h"
 
-/* === which operations need which ============================================================== */
+/* === dependencies between operations ========================================================== */
 /* The cost of a list, and of its order. */
 
 /* Single-precision registers of an Arm or RISC-V FPU for a list: 32, less those of the surrounding step. */
@@ -104,7 +104,7 @@ static void tape_needs_free(tape_needs *n) {
     free(n->user);
 }
 
-/* --- how often values are carried ----------------------------------------------------------------*/
+/* --- loads and stores of values ------------------------------------------------------------------ */
 
 /* The times of use of each value of a list in a given sequence. */
 typedef struct wanted {
@@ -159,7 +159,7 @@ static int next_time(const wanted *w, int v) {
 typedef struct registers {
     int value[TAPE_REGISTERS];
     int count;
-    bool *stored; /* [ops]: memory has it, too */
+    bool *stored; /* [ops]: memory has a copy */
     int carried;
 } registers;
 
@@ -311,7 +311,7 @@ static schedule schedule_of(const tape_needs *n) {
         s.until[v] = n->first[v] < n->first[v + 1] ? n->user[n->first[v + 1] - 1] : v;
     }
     for (int i = 0; i < t->results; i++) {
-        s.uses[t->result[i]] += 2; /* never ends */
+        s.uses[t->result[i]] += 2; /* results stay alive */
         s.until[t->result[i]] = t->count;
     }
     for (int v = 0; v < t->count; v++) {
@@ -441,7 +441,7 @@ void tape_order(tape *t) {
     tape_needs_free(&n);
 }
 
-/* === sums that are there already ============================================================== */
+/* === existing sums ============================================================================ */
 /* A + 2 b is (a + b) + b if a + b already exists: this saves a product. Kinetic energies produce such pairs: a chain of
  * two arms moves with sin x + sin y, and its forces have sin x + 2 sin y. */
 
@@ -547,7 +547,7 @@ void tape_share_sums(tape *t) {
     }
 }
 
-/* === need and cost ============================================================================ */
+/* === needed operations and cost =============================================================== */
 
 int tape_operands(const op *o, int operand[static 2]) {
     const bool values = op_rows[o->code].values > 0;
@@ -561,7 +561,7 @@ int tape_operands(const op *o, int operand[static 2]) {
     return count;
 }
 
-/* The same, to be changed. */
+/* The same, for modification. */
 static void renumber(op *o, const int *number) {
     const bool values = op_rows[o->code].values > 0;
     o->a = values && o->a >= 0 ? number[o->a] : o->a;

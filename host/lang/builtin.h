@@ -8,7 +8,7 @@
 struct builtin_model {
     const char *file; /* path within the project, for messages: "core/models/NAME.whirl" */
     const char *text; /* UTF-8; every line ends in a line feed; NUL-terminated */
-    size_t length;    /* bytes without that NUL */
+    size_t length;    /* without the final NUL */
 };
 
 /* [builtin_model_count], ordered by file name, followed by one zero entry. */

@@ -26,7 +26,7 @@ bool parser_expect_sign(parser *in, int sign, const char *where);
 const char *token_words(const token *each, char *buffer, size_t size);
 /* Skip to the end of a failed statement, including the braces it opened. */
 void parser_skip_statement(parser *in);
-void parser_skip_lines(parser *in); /* empty ones */
+void parser_skip_lines(parser *in); /* skip empty lines */
 /* The hint for a missing operator before the current name, number or '('; returns `hint`. */
 enum { OPERATOR_HINT = 200 };
 const char *parser_operator_hint(const parser *in, char hint[OPERATOR_HINT]);

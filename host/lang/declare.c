@@ -182,7 +182,7 @@ static symbol *declare(parser *in, const token *name, symbol_kind kind) {
     case SYM_INPUT: append(in, &into->inputs, &into->input_count, made); break;
     case SYM_LET: append(in, &into->lets, &into->let_count, made); break;
     case SYM_OUTPUT: append(in, &into->outputs, &into->output_count, made); break;
-    case SYM_RECORD: break; /* never declared: noise makes it */
+    case SYM_RECORD: break; /* not declared: a noise makes it */
     }
     return made;
 }
@@ -234,7 +234,7 @@ static bool parse_value(parser *in, symbol *made, const statement_word *word, ex
     named *entry = made == NULL ? NULL : (named *)made;
     if (entry != NULL) {
         entry->is_open = true;
-        made->dim.unknown = true; /* until its expression is read */
+        made->dim.unknown = true; /* until its expression is known */
     }
     const expr *value = NULL;
     if (!parser_is_sign(in, '=')) {

@@ -259,7 +259,7 @@ static void apply(plan *into, const assignment *change) {
     case SYM_STATE: into->start[index][change->primes] = value; break;
     case SYM_LET:
     case SYM_OUTPUT:
-    case SYM_RECORD: break; /* refused when it was read */
+    case SYM_RECORD: break; /* refused by the parser */
     }
 }
 

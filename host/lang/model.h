@@ -222,7 +222,7 @@ typedef struct whirl_model {
     struct arena *arena;
 } whirl_model;
 
-#define MODEL_BYTES_MAX ((size_t)16 << 20) /* a longer text is refused */
+#define MODEL_BYTES_MAX ((size_t)16 << 20) /* longer texts are refused */
 
 /* Parse and check `text` (`length` bytes, any bytes). Messages call it `file`. Returns NULL after an error; `diags` has
  * the errors, at most 20. Free the result with model_free(). */
@@ -292,7 +292,7 @@ typedef struct instance {
 bool instance_has_term(const instance *instance, const term *term);
 /* The same for a contact of the mechanism. */
 bool instance_has_contact(const instance *instance, const contact_statement *contact);
-/* The same of a noise. */
+/* The same for a noise. */
 bool instance_has_noise(const instance *instance, const noise *noise);
 
 /* The inactive effect that declared this parameter or input. NULL if the effect is active, or if the symbol belongs to

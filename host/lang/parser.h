@@ -21,7 +21,7 @@ typedef enum expr_context {
     CONTEXT_OUTPUT    /* up to second derivatives, and earlier outputs */
 } expr_context;
 
-/* A mechanism being read. */
+/* The current mechanism. */
 typedef struct builder {
     mechanism *made;
     struct names *names;
@@ -29,13 +29,13 @@ typedef struct builder {
     place *force_at;    /* [COORDINATES_MAX] first `Q(c) =` */
     int equation_count;
     bool has_energies;  /* has a coordinate, T, V, F or Q */
-    bool has_equations; /* state or equation was met */
+    bool has_equations; /* has a state or an equation */
     bool mixed;         /* mixing energies with equations was reported */
     bool nameless;      /* replaces a missing `mechanism` line */
     bool broken;        /* a statement failed: report nothing as missing */
 } builder;
 
-/* A scene being read. */
+/* The current scene. */
 typedef struct draft {
     scene *made;
     bool *with;
@@ -58,18 +58,18 @@ typedef struct pending_scene {
 typedef struct parser {
     lexer lexer;
     token token;     /* the current token */
-    int parentheses; /* open ones: lines go on */
+    int parentheses; /* number of open ones: lines continue */
     int nesting;
-    place statement_at; /* of the statement being read */
+    place statement_at; /* of the current statement */
     diags *diags;
     struct arena *arena;
     expr_context context;
     unit_scale number_unit; /* the unit after the last number, and its text */
     const char *number_unit_text;
     const expr *ready;         /* first operand of the next expression, if already read */
-    int effect;                /* the one being read, or -1 */
+    int effect;                /* the current one, or -1 */
     bool all_effects;          /* a scene may name the parameters of every effect */
-    const struct names *names; /* NULL: no names at all */
+    const struct names *names; /* NULL: no names allowed */
     builder *builder;          /* the current mechanism, or NULL */
     draft *draft;              /* the current scene, or NULL */
     builder **builders;

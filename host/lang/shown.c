@@ -1,4 +1,3 @@
-/* shown.c: see shown.h. */
 #include "shown.h"
 
 #include <stdio.h>

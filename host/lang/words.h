@@ -21,11 +21,11 @@ enum {
 
 /* Rules of a word. */
 enum {
-    RESERVED = 1,      /* no name of the user's */
-    DECLARES = 2,      /* a name, which follows it */
+    RESERVED = 1,      /* not available as a user's name */
+    DECLARES = 2,      /* declares the name after it */
     ENDS_EFFECT = 4,   /* at the beginning of a line inside an effect: its brace is missing */
-    ENDS_SCENE = 8,    /* the same of a scene */
-    ENDS_WHEN = 16,    /* and of a `when` */
+    ENDS_SCENE = 8,    /* the same for a scene */
+    ENDS_WHEN = 16,    /* and for a `when` */
     INTO_EFFECT = 32,  /* in a scene: the message points to an effect */
     BY_ENERGIES = 64,  /* for mechanisms given by their energies only */
     BY_EQUATIONS = 128 /* for systems given by their equations only */
@@ -137,7 +137,7 @@ typedef struct statement_word {
 
 const statement_word *word_row(word_id id);
 
-/* Is it this word? */
+/* Does the text spell this word? */
 bool word_is(word_id id, const char *text, size_t length);
 /* The word that begins a statement, or WORDS if there is no such word. */
 int word_find(const char *text, size_t length);

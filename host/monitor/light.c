@@ -1,4 +1,3 @@
-/* light.c: see light.h. */
 #include "light.h"
 
 #include <inttypes.h>

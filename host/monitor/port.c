@@ -1,4 +1,3 @@
-/* port.c: see port.h. */
 #include "port.h"
 
 #include <errno.h>

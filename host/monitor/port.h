@@ -28,7 +28,7 @@ void port_forget(const port *p);
 /* Report on standard error that it cannot be opened, with the reason from errno and the hint. */
 void port_say_unopened(const char *name, const char *hint);
 
-/* As it was before. */
+/* Restores the line's settings. */
 void port_close(port *p);
 
 /* Read at most `room` bytes, after waiting at most wait_ms for them. With `typed` not NULL, a line on standard input

@@ -1,4 +1,3 @@
-/* recording.c: see recording.h. */
 #include "recording.h"
 
 #include <math.h>
@@ -8,7 +7,7 @@
 #include "host/base/room.h"
 #include "host/plot/plot.h"
 
-/* Of the rig's clock (1 MHz). */
+/* The rig's clock is 1 MHz. */
 #define TICKS_PER_S 1e6
 /* Events arrive a control step or two after their time stamps. */
 #define SETTLED_US 50000
@@ -46,7 +45,7 @@ void recording_anew(recording *r) {
     r->timed = false; /* the next ticks belong to this time */
     memset(r->channel, 0, sizeof r->channel);
     r->expects = false;
-    r->ends = r->high[0] = r->high[1] = false; /* it may be another program's */
+    r->ends = r->high[0] = r->high[1] = false; /* another program may have started */
 }
 
 void recording_asked(recording *r) { r->expects = false; }
@@ -246,7 +245,8 @@ static void take_ring(recording *r, const schema_channel *c, const wire_frame *f
     }
     uint32_t ticks = frame->ticks;
     for (const uint8_t *at = frame->payload; at < frame->payload + frame->length;) {
-        ticks += (uint16_t)((unsigned)at[0] + ((unsigned)at[1] << 8) - ticks); /* their low half */
+        ticks += (uint16_t)((unsigned)at[0] + ((unsigned)at[1] << 8) - ticks); /* the payload has
+                                                                                * the low half */
         fprintf(r->ring, "%.6f", (double)time_of(r, ticks) / TICKS_PER_S);
         at += 2;
         for (int i = 1; i < c->eaches; i++) {
@@ -285,7 +285,7 @@ bool recording_plot(const recording *r, const schema *s, const char *file) {
         const schema_field *field = i < c->eaches ? &c->each[i] : &c->once[i - c->eaches];
         snprintf(names[i], sizeof names[i], "%s", field->name);
         char *unit = strchr(names[i], '[');
-        column[i + 1] = (plot_column){"der()", NULL, ""}; /* a state is no curve */
+        column[i + 1] = (plot_column){"der()", NULL, ""}; /* a state has no curve */
         if (unit != NULL) {
             unit[-1] = '\0';
             unit[strlen(unit) - 1U] = '\0';

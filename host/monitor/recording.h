@@ -17,7 +17,7 @@ typedef struct recording_counts {
     uint64_t pulses;
     uint64_t lost;         /* missing frames, */
     uint64_t dropped;      /* of those, dropped by the rig for lack of space */
-    uint64_t lost_samples; /* by their times */
+    uint64_t lost_samples; /* by their time stamps */
     uint64_t strange;      /* frames without a known schema */
     uint64_t restarts;     /* restarts of the rig */
 } recording_counts;
@@ -29,8 +29,8 @@ typedef struct recording_channel {
 } recording_channel;
 
 typedef struct recording {
-    FILE *csv;   /* may be NULL, */
-    FILE *waves; /* and this */
+    FILE *csv;   /* optional */
+    FILE *waves; /* optional */
     FILE *ring;
     vcd *vcd;
     bool plots;
@@ -42,7 +42,7 @@ typedef struct recording {
     int64_t time_us; /* and its time since the first frame */
     bool expects;    /* a sample at: */
     int64_t expected_us;
-    int signal[2 * SCHEMA_FIELDS]; /* of the run's fields; then */
+    int signal[2 * SCHEMA_FIELDS]; /* of the run's fields */
     int pulse[2];
     bool ends;    /* the rig reports the ends of pulses, */
     bool high[2]; /* and this pulse has not ended yet */

@@ -1,4 +1,3 @@
-/* schema.c: see schema.h. */
 #include "schema.h"
 
 #include <math.h>
@@ -138,7 +137,7 @@ static bool take_states(schema *s, const char *line) {
     return true;
 }
 
-/* Another rate has another period. */
+/* Another rate changes the period. */
 static bool take_rate(schema *s, const char *line) {
     uint32_t period_ticks = 0;
     if (!s->channel[0].known ||

@@ -97,7 +97,7 @@ void wire_forget(wire *w) {
  * received lines may answer another program's questions. */
 static const struct {
     const char *words;
-    const char *answer; /* how it begins */
+    const char *answer; /* its beginning */
 } questions[] = {{"id", "OK program="},
                  {"talk off", "OK"},
                  {"tel list", "OK rate="},

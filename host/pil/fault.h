@@ -14,7 +14,7 @@ typedef enum fault_place {
     FAULT_EDGES,
     FAULT_SAMPLES,
     FAULT_INPUT,     /* of the scene, which must have an input of the name in fault.c */
-    FAULT_ORDERS,    /* and how long they take */
+    FAULT_ORDERS,    /* and their computing time */
     FAULT_LINE,      /* losses on the line */
     FAULT_PARAMETER, /* of the scene, for the whole run: the loader asks fault_parameters() */
     FAULT_SENSORS,   /* edge positions, and their jitter */
@@ -125,7 +125,7 @@ typedef struct fault_case {
     fault_kind kind;
     int channel; /* -1: not given */
     double size;
-    char note[32]; /* "": the time alone counts */
+    char note[32]; /* "": only the time counts */
     double value;  /* of the note */
     double after_s;
     double duration_s;
@@ -133,13 +133,13 @@ typedef struct fault_case {
     int note_at;    /* in orders.output */
     int input;      /* of the scene; for FAULT_STUCK the first of two */
     double healthy; /* the input's normal value, or a sensor's requested one */
-    bool reached;   /* the note's value, */
+    bool reached;   /* the note has reached its value, */
     bool active;
-    bool happened; /* it was active once */
+    bool happened; /* was active at least once */
     double begin_s;
     uint64_t draws;
     uint32_t left; /* pulses */
-    double next_s; /* one more */
+    double next_s; /* time of the next one */
     bool holds;    /* has stored the last good sample */
     wh_sample held;
     unsigned pending_count;
@@ -153,8 +153,8 @@ typedef struct fault_plan {
     /* While it runs: */
     plant *plant;
     double ticks_per_s;
-    wh_orders last;  /* that got through */
-    unsigned resets; /* of the plant's, by now */
+    wh_orders last;  /* that were not lost */
+    unsigned resets; /* of the plant so far */
 } fault_plan;
 
 /* Add the faults in `text`, separated by commas. False, reported. */
@@ -166,7 +166,7 @@ char *fault_parameter(const fault_plan *plan, unsigned i);
 /* The faults as a tap; for one run. */
 tap fault_tap(fault_plan *plan);
 
-/* A table of all kinds. */
+/* Print a table of all kinds. */
 void fault_print_kinds(FILE *out);
 
 /* --- between the files of faults --------------------------------------------------------------------------------*/

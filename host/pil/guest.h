@@ -34,7 +34,7 @@ typedef struct guest {
     pid_t pid; /* 0: no process */
     int up;    /* -1: closed */
     int down;
-    uint8_t line[GUEST_LINE_BYTES]; /* read, not yet looked at */
+    uint8_t line[GUEST_LINE_BYTES]; /* received, not yet decoded */
     unsigned line_at;
     unsigned line_end;
     wh_frame_reader reader;

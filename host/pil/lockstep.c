@@ -128,7 +128,7 @@ static bool plant_goes_on(loop *l, const wh_orders *orders, double late_s) {
     lockstep_report *r = l->report;
     const double acted = (double)orders->acted_timer * l->per_count;
     const double busy = (double)orders->busy_timer * l->per_count;
-    const double ticks = l->talk.wish->instruction_s * l->ticks_per_s; /* an instruction */
+    const double ticks = l->talk.wish->instruction_s * l->ticks_per_s; /* per instruction */
     note_most(&r->acted, acted, plant_s(l));
     note_most(&r->busy, busy, plant_s(l));
     const double late = late_s * l->ticks_per_s;

@@ -118,7 +118,7 @@ static void set_inputs(plant *p) {
             const double value = (double)p->orders.output[b->channel];
             const double low = (double)b->signal.low;
             const double high = (double)b->signal.high;
-            const double held = value > high ? high : value >= low ? value : low; /* NaN: low */
+            const double held = value > high ? high : value >= low ? value : low; /* low for NaN */
             const double now = p->cut || p->reset.now ? 0.0 : held;
             engine_double.set_input(p->run, b->index, now);
             if (now != p->in_effect[b->channel]) {
@@ -290,7 +290,8 @@ static plant_event convert(const bound *b, double value) {
         value = low;
         e.status = WH_SAMPLE_SATURATED;
     }
-    e.raw = (int32_t)number_floor(value / (double)b->signal.per_count + 0.5); /* bind.c: it fits */
+    e.raw =
+        (int32_t)number_floor(value / (double)b->signal.per_count + 0.5); /* checked in bind.c */
     return e;
 }
 

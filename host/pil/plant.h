@@ -23,7 +23,7 @@ typedef struct plant_wish {
 } plant_wish;
 
 typedef struct plant_event {
-    double at_ticks; /* when it is there */
+    double at_ticks; /* time of its arrival */
     uint32_t ticks;  /* the stamp */
     int32_t raw;
     uint8_t channel;
@@ -41,11 +41,11 @@ typedef struct plant_resets {
     double at_ticks;    /* time of a reset, at the first step at or after; infinite: no reset */
     double takes_ticks; /* length of a reset */
     bool by_watchdog; /* a starved watchdog resets the processor, instead of cutting the outputs, */
-    double watchdog_ticks; /* for so long */
+    double watchdog_ticks; /* its timeout */
     bool now;              /* in reset: the caller has to restart it, see plant_restart() */
-    bool starved;          /* and the watchdog was it */
+    bool starved;          /* the watchdog caused it */
     unsigned count;
-    double last_ticks; /* it was reset */
+    double last_ticks; /* time of the last one */
 } plant_resets;
 
 typedef struct plant {
@@ -62,30 +62,30 @@ typedef struct plant {
     double *after;                   /* [components] */
     double *output;                  /* [outputs] */
     double *output_after;            /* [outputs] */
-    bool sees_outputs;               /* an edge is on one */
-    uint64_t period[WH_SIGNALS_MAX]; /* of each sample: ticks, */
-    uint64_t due[WH_SIGNALS_MAX];    /* and when the next is */
-    wh_orders orders;                /* the last, */
+    bool sees_outputs;               /* an edge watches an output */
+    uint64_t period[WH_SIGNALS_MAX]; /* of each sample: interval, ticks, */
+    uint64_t due[WH_SIGNALS_MAX];    /* and next time */
+    wh_orders orders;                /* the last ones, */
     bool waits;                      /* orders that have not taken effect yet: */
-    double act_ticks;                /* then they do */
-    uint64_t alive_ticks;            /* the watchdog was kicked */
-    bool cut;                        /* it has cut, */
-    double cut_ticks;                /* then */
+    double act_ticks;                /* time of their effect */
+    uint64_t alive_ticks;            /* last kick of the watchdog */
+    bool cut;                        /* it has cut the outputs */
+    double cut_ticks;                /* at this time */
     plant_resets reset;
     double in_effect[WH_SIGNALS_MAX];   /* present value of each output, */
-    double since_ticks[WH_SIGNALS_MAX]; /* since then */
+    double since_ticks[WH_SIGNALS_MAX]; /* and the time of its setting */
     plant_queue edges;
     plant_queue samples;
     uint64_t edges_made;
-    uint64_t edges_seen; /* handed out */
+    uint64_t edges_seen; /* delivered to the controller */
     uint64_t samples_seen;
-    uint64_t lost; /* lost for lack of space */
+    uint64_t lost; /* dropped for lack of space */
 } plant;
 
 /* --place: one number for each edge, separated by commas. False, reported, for any other text. */
 bool plant_read_places(const char *text, plant_wish *to);
 
-/* The image must outlive it. */
+/* The image must outlive the plant. */
 void plant_start(plant *p, const image *im, const binding *b, const wh_hello *hello,
                  const plant_wish *wish);
 void plant_stop(plant *p);

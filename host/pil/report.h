@@ -16,8 +16,7 @@ typedef struct tap {
     bool (*start)(void *of, const wh_hello *hello, plant *plant); /* false: reported */
     void (*orders)(void *of, double time_s, wh_orders *orders, double *late_s);
     void (*readings)(void *of, double time_s, wh_readings *readings);
-    void (*watch)(void *of, double time_s,
-                  const plant *plant); /* every millisecond of the plant's */
+    void (*watch)(void *of, double time_s, const plant *plant); /* each millisecond of the plant */
 } tap;
 
 typedef struct lockstep_wish {
@@ -66,7 +65,7 @@ typedef struct lockstep_report {
     double wall_s;
     bool counted; /* the firmware counts its instructions */
     peak acted;   /* instructions until the outputs were set, */
-    peak busy;    /* and until it waited */
+    peak busy;    /* and until it waited again */
     uint64_t overruns;
     peak late_s; /* delay after the requested time of the next readings */
     uint64_t edges;
@@ -75,9 +74,9 @@ typedef struct lockstep_report {
     bool cut;            /* the watchdog has cut the outputs, */
     double cut_s;        /* then */
     unsigned resets;     /* of the firmware's processor, */
-    double reset_s;      /* the last then */
+    double reset_s;      /* time of the last one */
     uint64_t hash;       /* of all orders, without instruction counts */
-    uint64_t tape_hash;  /* of a tape's */
+    uint64_t tape_hash;  /* of the tape's orders */
     uint64_t plant_hash; /* of the scene's last state */
 } lockstep_report;
 

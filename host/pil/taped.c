@@ -26,7 +26,7 @@ typedef struct taped {
     uint64_t hash;  /* of all orders and remembered data so far */
     uint64_t turns; /* read so far */
     uint16_t sequence;
-    double before_s; /* the last reset */
+    double before_s; /* time of the last reset */
     bool failed;     /* unreadable or broken: reported */
     wh_frame_reader reader;
     bool endless; /* a frame is missing */
@@ -203,7 +203,7 @@ static bool taped_next(taped *t, taped_turn *turn) {
 typedef struct rows {
     const taped *tape;
     FILE *out;
-    int decimals; /* of a time: a tick */
+    int decimals; /* of a time: one tick */
     uint32_t ticks;
     uint64_t heard;              /* ticks since the plant's time 0 */
     bool cut;                    /* a row has reported the cut */

@@ -19,11 +19,11 @@ typedef struct figure {
     const figure_data *data;
     int count;
     int panels;
-    int curves;       /* of this panel, */
+    int curves;       /* in this panel, */
     int named;        /* number of curves in the legend */
     bool varied;      /* omit marks of the original motion */
     double trusted_s; /* the least of its curves over time; 0: all are trusted to the end */
-    char *plot;       /* their text */
+    char *plot;       /* their gnuplot text */
     char *xlabel;
 } figure;
 

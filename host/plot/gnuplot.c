@@ -1,4 +1,3 @@
-/* gnuplot.c: see gnuplot.h. */
 #include "gnuplot.h"
 
 #include <signal.h>

@@ -1,4 +1,3 @@
-/* panels.c: see panels.h. */
 #include "panels.h"
 
 #include <stdio.h>

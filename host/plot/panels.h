@@ -28,7 +28,7 @@ enum { PANELS_MOST = 64, PANELS_QUANTITIES = 256 };
 
 /* A drawn quantity: its column in each run, or -1. */
 typedef struct panels_quantity {
-    char *name;  /* as people write it: theta' */
+    char *name;  /* as displayed: theta' */
     int *column; /* [runs] */
     int panel;
 } panels_quantity;
@@ -36,7 +36,7 @@ typedef struct panels_quantity {
 typedef struct panels {
     panels_quantity quantity[PANELS_QUANTITIES];
     int quantities;
-    const char *unit[PANELS_MOST]; /* NULL: not known */
+    const char *unit[PANELS_MOST]; /* NULL: unknown */
     int count;
     int *x; /* [runs] column */
     const char *x_unit;

@@ -6,7 +6,7 @@
 
 typedef struct plot_column {
     char *name; /* x, der(x), der(der(x)), ... */
-    char *unit; /* as declared; NULL: not known */
+    char *unit; /* as declared; NULL: unknown */
     char *text; /* the quantity in words, or "" */
 } plot_column;
 

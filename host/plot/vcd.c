@@ -1,4 +1,3 @@
-/* vcd.c: see vcd.h. */
 #include "vcd.h"
 
 #include <inttypes.h>
@@ -9,7 +8,7 @@
 
 #include "host/base/room.h"
 
-/* Room for a value's text. */
+/* Size of a value's text. */
 enum { VALUE_SIZE = 40 };
 
 typedef enum vcd_kind { VCD_WIRE, VCD_REAL, VCD_EVENT } vcd_kind;
@@ -33,10 +32,10 @@ struct vcd {
     int64_t signals;
     int64_t signal_room;
     bool begun;
-    bool timed; /* a time was written */
+    bool timed; /* a time has been written */
     int64_t time;
     int64_t last;    /* the latest time of a change */
-    change *waiting; /* in order of time */
+    change *waiting; /* ordered by time */
     int64_t count;
     int64_t room;
     uint64_t late;

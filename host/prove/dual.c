@@ -1,4 +1,3 @@
-/* dual.c: see dual.h. */
 #include "dual.h"
 
 void dual_zero(enclosure *to, int width) {

@@ -11,7 +11,7 @@
 
 typedef enum node_kind {
     NODE_NUMBER,   /* number */
-    NODE_VARIABLE, /* left: which */
+    NODE_VARIABLE, /* left: its number */
     NODE_SUM,
     NODE_DIFFERENCE,
     NODE_PRODUCT,

@@ -158,10 +158,10 @@ typedef struct going {
     held_found *held;
     tube *tube;
     void *run;
-    enclosure step_s; /* the run's step */
+    enclosure step_s; /* the run's step length */
     enclosure next_s; /* from the tube's time to the run's next record */
     enclosure *exact; /* [states] */
-    uint64_t done;    /* the run's steps */
+    uint64_t done;    /* completed steps of the run */
 } going;
 
 static void look_now(going *g) {

@@ -62,7 +62,7 @@ typedef struct held_found {
     held_state *state; /* [motion->states] */
     int states;
     wh_status status;   /* of the run's last step */
-    uint64_t run_steps; /* that were done */
+    uint64_t run_steps; /* completed ones */
     uint64_t tube_steps;
     double tube_s; /* the tube's last time */
     held_end end;

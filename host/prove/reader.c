@@ -1,4 +1,3 @@
-/* reader.c: see reader.h. */
 #include "reader.h"
 
 #include <math.h>

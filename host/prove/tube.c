@@ -1,4 +1,3 @@
-/* tube.c: see tube.h. */
 #include "tube.h"
 
 #include <math.h>
@@ -34,7 +33,7 @@ struct tube {
     enclosure *stay;  /* [states] over the step */
     double *largest;  /* [states] */
     double open_s;    /* length of the open step; 0: not open */
-    double guess_s;   /* of the next one */
+    double guess_s;   /* for the next step */
     uint64_t steps;
     double products;
 };
@@ -258,7 +257,7 @@ bool tube_on(tube *t, enclosure tau_s) {
     zonotope_map(t->off, slope, left);
     zonotope_box(t->off, t->box);
     t->products +=
-        2.0 * (double)n * (double)n * (double)t->off->count; /* here, and when it opens */
+        2.0 * (double)n * (double)n * (double)t->off->count; /* here, and at its opening */
     for (int i = 0; i < n; i++) {
         /* derivatives cover the segment from the centre to the motion */
         const enclosure centre = enclosure_of(t->centre[i]);

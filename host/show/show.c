@@ -281,7 +281,7 @@ int show_rank(const atom *x) {
     case SYM_INPUT: return 1;
     case SYM_COORDINATE:
     case SYM_STATE: return x->primes == 0 ? 2 : 3 + x->primes; /* sines have rank 3 */
-    case SYM_LET:                                              /* expressions: no atoms */
+    case SYM_LET:                                              /* expressions: not atoms */
     case SYM_OUTPUT:
     case SYM_RECORD: break;
     }
@@ -578,7 +578,7 @@ static void show_parted(const show *s, const poly *p, bool leading) {
              leading); /* every term has it, in powers of different signs */
 }
 
-/* * key, unless that is one. */
+/* * key, omitted if it is one. */
 static void show_behind(const show *s, const poly *key) {
     if (key->terms[0].mono->count > 0) {
         bool first = false;

@@ -130,7 +130,8 @@ static void write_left_side(const show *s, const equations *e, int i) {
         show_poly(s, sum);
         return;
     }
-    const poly *rest = poly_add(a, e->velocity[i], e->potential[i]); /* no products: A q'' + rest */
+    const poly *rest = poly_add(a, e->velocity[i], e->potential[i]); /* products impossible: A q'' +
+                                                                      * rest */
     bool leading = true;
     for (int j = 0; j < e->count; j++) {
         if (!poly_is_zero(e->mass[i * e->count + j])) {
