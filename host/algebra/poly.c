@@ -11,14 +11,13 @@
 #include "host/number/folding.h"
 
 /* === the order of the normal form ============================================================= */
-/* The order depends on contents, never on time of creation. So an expression has the same form after any other work,
- * and with any compiler. Equal objects are identical, so two different pointers differ somewhere. A comparison ends at
- * the first difference and skips shared parts in one step. */
+/* The order of atoms, products and sums depends on their contents, never on the time of creation. So an expression has
+ * the same form after any other work, and with any compiler. Equal objects are identical, so two different pointers
+ * differ somewhere. A comparison ends at the first difference and skips shared parts in one step. */
 
 static int of_ints(int x, int y) { return (x > y) - (x < y); }
 
-/* A number's bits, mapped so that their order is that of the numbers. The order is total: it includes both zeros and
- * NaN. */
+/* A number's bits as an integer of the same order. It is a total order that includes both zeros and NaN. */
 static uint64_t place_of(double x) {
     uint64_t bits;
     memcpy(&bits, &x, sizeof bits);

@@ -86,7 +86,7 @@ typedef struct form_row {
                          const char *file); /* values in place of names (--folded) */
     bool runs;                              /* it steps the scene: momenta, method and number type
                                              * matter */
-    /* For code with the scene's name (--name): the other owner of that name there, or NULL. */
+    /* For code with the scene's name (--name): the owner of that name there, if it is taken, or NULL. */
     const char *(*name_taken_by)(const char *name, bool with_header);
     /* For code with a header (--header). */
     void (*print_header)(FILE *out, const image *im, const char *file);

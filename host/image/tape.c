@@ -91,7 +91,7 @@ uint64_t tape_op_hash(const tape *t, const op *o) {
     return hash ^ (hash >> 31);
 }
 
-/* Two arrays [t->angles], either of which may be NULL. */
+/* Compare two arrays [t->angles], either of which may be NULL. */
 static bool same_array(const tape *t, const void *x, const void *y, size_t size) {
     return x == y || (x != NULL && y != NULL && memcmp(x, y, (size_t)t->angles * size) == 0);
 }

@@ -28,7 +28,8 @@ typedef struct light {
  * dropped. NULL if the record is whole; else the error in words, with *hint. */
 const char *light_read(light *l, const char *bytes, size_t count, const char **hint);
 
-/* The beginning of the last record, or NULL. And the first byte after a record's end, searched from `from`, or NULL. */
+/* light_begin() finds the beginning of the last record, light_end() the first byte after a record's end; both return
+ * NULL if it is missing. */
 const char *light_begin(const char *bytes, size_t count);
 const char *light_end(const char *from, const char *end);
 

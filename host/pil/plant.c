@@ -290,8 +290,7 @@ static plant_event convert(const bound *b, double value) {
         value = low;
         e.status = WH_SAMPLE_SATURATED;
     }
-    e.raw =
-        (int32_t)number_floor(value / (double)b->signal.per_count + 0.5); /* checked in bind.c */
+    e.raw = (int32_t)number_floor(value / (double)b->signal.per_count + 0.5); /* in range: bind.c */
     return e;
 }
 
