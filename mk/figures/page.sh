@@ -4,19 +4,15 @@ set -eu
 cat <<'END'
 # Figures
 
-The dissertation's simulated figures, drawn anew from Whirl's runs, to be scrolled through beside
-it, and the two that its rig measured, from what the rig's firmware heard of its bench in the loop
-([pil.md](pil.md)): the same quantities on the axes, units labelled, captions our own. What follows
-from them is in [findings.md](findings.md), the mechanisms are in [models.md](models.md).
+The dissertation's simulated figures, drawn from Whirl's runs, and two measured ones, from the rig's
+firmware in the loop ([pil.md](pil.md)). [findings.md](findings.md) has the conclusions,
+[models.md](models.md) the mechanisms. The command below each figure prints its numbers.
 
-`make figures` draws each as SVG and PNG in `build/figures/`; `make figures-docs` also copies the SVGs
-and this page, which is made from the descriptions `mk/figures/*.fig`, into `docs/`. The drawings hold
-no date and no machine's name: drawn twice, they are the same files. The commands below print the
-numbers behind each figure.
+`make figures` draws each as SVG and PNG in `build/figures/`. `make figures-docs` also copies the SVGs
+into `docs/`, and writes this page from the descriptions `mk/figures/*.fig`.
 
-Not here: figures 1 to 10, 12 to 16, 18, 21 to 23, 25, 27 to 31, 35, 41 to 43, 47 to 49 and 56 are
-drawings and photographs. What figure 25's carriage does on its rail, as the firmware measures it,
-is in [rig.md](rig.md#on-a-carriage).
+Figures 1 to 10, 12 to 16, 18, 21 to 23, 25, 27 to 31, 35, 41 to 43, 47 to 49 and 56 are drawings and
+photographs, and not here. The motion of figure 25's carriage is in [rig.md](rig.md#on-a-carriage).
 END
 for fig in "$@"; do
     name=$(basename "$fig" .fig)
