@@ -1,5 +1,5 @@
-/* ahead.h: many steps in one call, the state in registers between them. Part of step.h; compiled where WH_AHEAD is 1, for it is a
- * second copy of the step. */
+/* ahead.h: many steps in one call, with the state in registers between them. Part of step.h. Compiled only if WH_AHEAD
+ * is 1, because it is a second copy of the step. */
 #ifndef WH_AHEAD_H
 #define WH_AHEAD_H
 
@@ -11,22 +11,22 @@
 #include "scene.h"
 #include "unroll.h"
 
-/* Constants are to be loaded before the loop, as many as there are registers for: up to 5 % of the instructions of a small
- * scene. What gcse shares there takes more of those than it saves; in a larger scene it saves. */
+/* Constants should be loaded before the loop, as many as fit into registers: up to 5 % of the instructions of a small
+ * scene. In a small scene gcse needs more of them than it saves; in a larger one it saves. */
 #if defined(WH_AHEAD) && WH_AHEAD && defined(__GNUC__) && !defined(__clang__)
 #pragma GCC optimize("ira-loop-pressure")
 #if defined(WH_WAVES) && WH_WAVES <= 1
 #pragma GCC optimize("no-gcse")
 #endif
-/* Of one coordinate, expressions moved to where they are used stand right before what waits for them: up to 4 % of the cycles
+/* With one coordinate, expressions moved to their use stall the operation that waits for them: up to 4 % of the cycles
  * of a Cortex-M4F. */
 #if defined(WH_COORDS) && WH_COORDS <= 1
 #pragma GCC optimize("no-tree-ter")
 #endif
 #endif
 
-/* scene->advance() by so many steps > 0, counted in state->steps. What changes is copied to where no pointer of the caller's
- * leads. Returns as wh_scene_steps(). */
+/* scene->advance() by `steps` > 0, counted in state->steps. Variables are copied to memory that no pointer of the
+ * caller refers to. Returns as wh_scene_steps(). */
 WH_INLINE wh_status wh_steps_ahead(const wh_scene *of,
                                    wh_status (*one)(const wh_scene *of, wh_state *state),
                                    unsigned angles, unsigned reals, bool compensated,

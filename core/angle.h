@@ -1,12 +1,11 @@
 /* angle.h: angles as 2^32 steps a turn, and their sine and cosine.
  *
- * An angle that only ever appears inside sine and cosine is kept as a 64-bit integer: the low
- * 32 bits are the phase within the turn, the high 32 bits count whole turns. It wraps by itself,
- * is as precise after a million turns as in the first, needs no range reduction, and sums and
- * integer multiples of phases are integer operations. (float32 radians lose a digit every ten
- * turns and freeze at 1 ms steps near 512 rad.)
+ * An angle that appears only inside sine and cosine is stored as a 64-bit integer: the low 32 bits are the phase within
+ * the turn, the high 32 bits count whole turns. It wraps by itself, is as precise after a million turns as in the
+ * first, and needs no range reduction. Sums and integer multiples of phases are integer operations. (float32 radians
+ * lose a digit every ten turns and freeze at 1 ms steps near 512 rad.)
  *
- * The double reference build keeps radians: it checks the integer arithmetic instead of sharing it.
+ * The double reference build uses radians: it checks the integer arithmetic instead of sharing it.
  */
 #ifndef WH_ANGLE_H
 #define WH_ANGLE_H
@@ -22,17 +21,16 @@ extern "C" {
 #define wh_angle_to_rad WH_NAME(wh_angle_to_rad)
 #define wh_phase_times WH_NAME(wh_phase_times)
 
-/* The stored angle of unwrapped radians: whole turns are kept. Precision and range as with
- * wh_phase_from_rad(). */
+/* The stored angle of unwrapped radians, whole turns included. Precision and range as with wh_phase_from_rad(). */
 wh_angle wh_angle_from_rad(wh_real rad);
 
-/* The unwrapped radians of a stored angle. Float: rounded to the nearest (by 0.504 of the last
- * place at worst); any angle is in range. */
+/* The unwrapped radians of a stored angle. Float: rounded to the nearest (within 0.504 of the last place); any angle is
+ * in range. */
 wh_real wh_angle_to_rad(wh_angle angle);
 
-/* The phase of an angle times a number that need not be whole: half an angle, 1.5 or 0.37 times one. Whole
- * turns count there, which a phase has lost: half of one turn is half a turn. Float: within 0.75 phase
- * units (1.1e-9 rad), however many turns. Double: the product, rounded. For records, never in a step. */
+/* The phase of an angle times a factor that need not be whole, such as 0.5, 1.5 or 0.37. Whole turns count here: half
+ * of one turn is half a turn. (A phase has lost its turns.) Float: within 0.75 phase units (1.1e-9 rad), for any number
+ * of turns. Double: the product, rounded. For records, never in a step. */
 wh_phase wh_phase_times(wh_angle angle, wh_factor factor);
 
 #ifdef __cplusplus

@@ -1,9 +1,9 @@
-/* arithmetic.h: whether the file that includes this computes as Whirl must, on the machine that it runs on.
+/* arithmetic.h: checks that the file that includes it computes as Whirl must, on the machine it runs on.
  *
- * real.h refuses what the compiler tells about other people's flags. What no macro tells (contraction that the
- * pragmas do not reach, clang's -fassociative-math and -freciprocal-math, a start-up file that makes subnormals
- * zero, another rounding) shows in numbers that the compiler cannot know. The file computes them here, so that
- * its own flags count; scene.c compares them with what they must be, at every wh_scene_start(). C only. */
+ * real.h refuses compiler flags that macros reveal. No macro reveals contraction that the pragmas do not reach, clang's
+ * -fassociative-math and -freciprocal-math, a start-up file that flushes subnormals to zero, or another rounding mode.
+ * These show in numbers that the compiler cannot evaluate. The file computes them here, with its own flags; scene.c
+ * compares them with their references at every wh_scene_start(). C only. */
 #ifndef WH_ARITHMETIC_H
 #define WH_ARITHMETIC_H
 
@@ -15,11 +15,11 @@
 
 /* The numbers, in flash (scene.c). */
 typedef struct wh_probes {
-    wh_real factor; /* 1 + r: of its square 1 + 2 r + r^2 the last is lost in rounding */
+    wh_real factor; /* 1 + r: rounding drops the last term of its square 1 + 2 r + r^2 */
     wh_real square; /* 1 + 2 r */
     wh_real one;
     wh_real quarter_unit; /* a quarter of one's last place */
-    wh_real half_unit;    /* half of it, and as little more as there is */
+    wh_real half_unit;    /* half of it, plus the least possible */
     wh_real least;        /* the smallest normal number */
     wh_real half;
     wh_real two;
@@ -33,19 +33,21 @@ typedef struct wh_probes {
 #define wh_probe WH_NAME(wh_probe)
 extern const wh_probes wh_probe;
 
-/* What is made of them. */
+/* Results computed from them. */
 typedef enum wh_probed {
-    WH_PROBED_PRODUCT, /* not 0 where products are not rounded before a sum: contraction, x87 */
-    WH_PROBED_ORDER,   /* not 0 where a sum is put into another order */
-    WH_PROBED_ROUNDING, /* not one's last place where a sum is not rounded to the nearest, or twice */
-    WH_PROBED_SUBNORMAL, /* 0 where numbers below the smallest normal one are */
-    WH_PROBED_FIVE, /* three thirds, rounded otherwise where division is a product with a reciprocal */
+    WH_PROBED_PRODUCT,   /* not 0 if products are not rounded before a sum: contraction, x87 */
+    WH_PROBED_ORDER,     /* not 0 if a sum is reordered */
+    WH_PROBED_ROUNDING,  /* not one's last place if a sum is not rounded to the nearest, or rounded
+                         * twice */
+    WH_PROBED_SUBNORMAL, /* 0 if subnormal numbers are flushed to zero */
+    WH_PROBED_FIVE, /* three thirds, rounded differently if division is a product with a reciprocal */
     WH_PROBED_SEVEN,
     WH_PROBED_TEN,
-    WH_PROBED_THIRD, /* the same, where the compiler knows the divisor */
-    WH_PROBED_ZERO,  /* has a sign where zeros do not keep theirs */
-    WH_PROBED_NAN, /* 0 where the compiler believes that all is a number: no guard would notice one that is none */
-    WH_PROBED_LITERAL, /* seventy, but for what is divided by a tenth that was cut to float */
+    WH_PROBED_THIRD, /* the same, with a divisor known to the compiler */
+    WH_PROBED_ZERO,  /* has a sign if zeros do not keep theirs */
+    WH_PROBED_NAN, /* 0 if the compiler assumes that NaN never occurs: guards against NaN would not
+                    * work */
+    WH_PROBED_LITERAL, /* seventy, unless a tenth used as divisor was cut to float */
     WH_PROBED_COUNT
 } wh_probed;
 
@@ -72,8 +74,8 @@ static inline void wh_arithmetic(wh_real result[WH_PROBED_COUNT]) {
     result[WH_PROBED_LITERAL] = seven / WH_R(0.1);
 }
 
-/* The first of what compute() gives that is not what it must be, or WH_PROBED_COUNT. With wh_arithmetic it
- * judges the file that calls it. */
+/* The first result of compute() that differs from its reference, or WH_PROBED_COUNT. With wh_arithmetic it checks the
+ * file that calls it. */
 #define wh_arithmetic_wrong WH_NAME(wh_arithmetic_wrong)
 wh_probed wh_arithmetic_wrong(void (*compute)(wh_real *result));
 

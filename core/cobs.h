@@ -1,7 +1,8 @@
-/* cobs.h: bytes coded so that none of them is zero, and a zero ends them: consistent overhead byte stuffing (Cheshire &
- * Baker, IEEE/ACM Transactions on Networking 7, 1999), one byte in 254 more; and a sum of 16 bits over short ones.
+/* cobs.h: consistent overhead byte stuffing (Cheshire & Baker, IEEE/ACM Transactions on Networking 7, 1999), and a
+ * 16-bit CRC for short blocks.
  *
- * A reader that comes in the middle, or has lost bytes, is in step again after the next zero. */
+ * Coded bytes are never zero, and a zero ends them; the code adds one byte in 254. A reader that starts in the middle,
+ * or has lost bytes, is in step again after the next zero. */
 #ifndef WH_COBS_H
 #define WH_COBS_H
 
@@ -11,15 +12,15 @@
 extern "C" {
 #endif
 
-/* So many bytes take at most so many on the line, the zero included. A constant where `count` is. */
+/* Most bytes on the line for `count` bytes, including the zero. A constant if `count` is. */
 #define WH_COBS_BYTES(count) ((count) + (count) / 254U + 2U)
 
-/* Blocks of up to 254 bytes without a zero, each behind a byte that says where the next zero would be. */
+/* Blocks of up to 254 bytes without a zero, each after a byte that gives the position of the next zero. */
 typedef struct wh_cobs {
     uint8_t *bytes; /* the caller's, room[] */
     unsigned room;
     unsigned at;   /* the next byte */
-    unsigned head; /* the byte in front of this block */
+    unsigned head; /* the byte before this block */
     bool full;     /* there was no room */
 } wh_cobs;
 
@@ -33,19 +34,20 @@ typedef struct wh_cobs {
 void wh_cobs_start(wh_cobs *cobs, uint8_t *bytes, unsigned room);
 void wh_cobs_put(wh_cobs *cobs, uint8_t byte);
 
-/* The zero. Returns how many bytes there are; 0 when there was no room: nothing in them is then of use. */
+/* Append the zero. Returns the number of bytes; 0 if there was no room: the bytes are then useless. */
 unsigned wh_cobs_end(wh_cobs *cobs);
 
-/* bytes[1] to bytes[count], of which there are 253 at most, in place: with the head in front of them and the zero behind
- * them. Returns how many there are. */
+/* Code bytes[1] to bytes[count] in place, count <= 253, with the head before them and the zero after them. Returns the
+ * number of bytes. */
 #define WH_COBS_SHORT_MOST 253U
 unsigned wh_cobs_short(uint8_t *bytes, unsigned count);
 
-/* What was coded, without its zero; in place, as what is decoded is never longer. Returns its length; 0 when it was none. */
+/* Decode `length` coded bytes, without their zero, in place: the result is never longer. Returns its length; 0 if the
+ * bytes are no valid code. */
 unsigned wh_cobs_decode(uint8_t *bytes, unsigned length);
 
-/* CRC-16/CCITT of bytes[count], polynomial 0x1021, high bit first; `crc` is WH_CRC16_START, or what the bytes before
- * gave. */
+/* CRC-16/CCITT of bytes[count], polynomial 0x1021, high bit first. `crc` is WH_CRC16_START, or the CRC of the bytes
+ * before. */
 #define WH_CRC16_START 0xFFFFU
 uint16_t wh_crc16(uint16_t crc, const uint8_t *bytes, unsigned count);
 

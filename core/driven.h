@@ -1,6 +1,6 @@
-/* driven.h: inputs with a rate (`input L rate Lv`): inside a step they move, as coordinates that nothing pushes. Part of
- * generated scenes that have one. The caller sets value and rate between steps, or the rate alone; a step starts from
- * both, and leaves in them where they came to. */
+/* driven.h: inputs with a rate (`input L rate Lv`). Inside a step they move as coordinates without forces. Part of
+ * generated scenes that have one. The caller sets value and rate between steps, or the rate alone. A step starts from
+ * both and updates both. */
 #ifndef WH_DRIVEN_H
 #define WH_DRIVEN_H
 
@@ -14,12 +14,12 @@
 #include "scene.h"
 #include "unroll.h"
 
-/* Most accounts: energy, and a momentum for each coordinate. A generated scene defines its own. */
+/* Most accounts: the energy, and a momentum for each coordinate. A generated scene defines its own. */
 #ifndef WH_ACCOUNTS_MAX
 #define WH_ACCOUNTS_MAX (WH_COORDS + 1)
 #endif
 
-/* Inputs, and the places in state->real[] that they drive. */
+/* Inputs, and the indices in state->real[] that they drive. */
 typedef struct wh_driven {
     uint8_t input;
     uint8_t rate;
@@ -27,7 +27,7 @@ typedef struct wh_driven {
     uint8_t rate_at;
 } wh_driven;
 
-/* The state was corrected, and the levels were `before`: the change is booked apart. */
+/* The state was corrected, and the levels were `before`: the change is stored as a correction. */
 static inline void wh_ledger_correct(const wh_ledger_form *form, const wh_state *state,
                                      const wh_real *before) {
     wh_real *start = state->ledger + 2U * form->entries;
@@ -43,8 +43,8 @@ static inline void wh_ledger_correct(const wh_ledger_form *form, const wh_state 
     }
 }
 
-/* Before a step: the components are where the inputs say. With books (`form`, or NULL), what that changes of the accounts is
- * a correction, as wh_scene_set_real() has it. */
+/* Before a step: copy the inputs to the components. With a ledger (`form`, or NULL), the change of the accounts is a
+ * correction, as in wh_scene_set_real(). */
 WH_INLINE void wh_driven_begin(const wh_driven *drive, unsigned count, const wh_ledger_form *form,
                                wh_state *state) {
     wh_real before[WH_ACCOUNTS_MAX];
@@ -66,7 +66,7 @@ WH_INLINE void wh_driven_begin(const wh_driven *drive, unsigned count, const wh_
     }
 }
 
-/* After a step that was done: the inputs are where the components came to. */
+/* After a completed step: copy the components to the inputs. */
 WH_INLINE void wh_driven_end(const wh_driven *drive, unsigned count, wh_state *state) {
     for (unsigned i = 0; i < count; i++) {
         state->input[drive[i].input] = state->real[drive[i].value_at];

@@ -1,11 +1,12 @@
-/* exchange.h: what a controller and the plant that it runs against tell each other: the payloads of their frames.
+/* exchange.h: the payloads of the frames between a controller and the plant that it runs against.
  *
- * The controller speaks first: a `hello` names its inputs and outputs, with units and ranges. From then on they take
- * turns. The plant tells the time, and what the sensors gave since the last turn (`wh_readings`); the controller says
- * what its outputs are from now on, and when it wants to be told again (`wh_orders`). Both sides are this file, so that
- * there is one place of what a byte means.
+ * The controller speaks first: a `hello` names its inputs and outputs, with units and ranges. Then they take turns. The
+ * plant sends the time and the sensors' readings since the last turn (`wh_readings`). The controller sends its new
+ * outputs and the time at which it wants the next readings (`wh_orders`). Both sides use this file, so the meaning of a
+ * byte is defined once.
  *
- * A controller that is reset says hello again, and the plant tells it that, and what it had asked to be remembered.
+ * A controller that is reset sends its hello again. The plant answers with the reset and the bytes that the controller
+ * had asked it to remember.
  *
  * Times are ticks of the controller's own timer, 32 bits, wrapping; values are SI, as floats; converters give counts.
  */
@@ -23,11 +24,11 @@ enum {
     WH_FRAME_HELLO = 1,
     WH_FRAME_ORDERS = 2,
     WH_FRAME_READINGS = 3,
-    WH_FRAME_RESET = 4, /* to a controller that starts again, before its first readings: wh_reset */
+    WH_FRAME_RESET = 4, /* to a controller that restarts, before its first readings: wh_reset */
     /* from the controller, before its orders: bytes that outlive a reset, 0 to WH_REMEMBER_MAX */
     WH_FRAME_REMEMBER = 5,
-    /* over a line that tells neither when a controller starts nor when it ends: to one, before its first readings, to say its
-     * hello again; and from one, in place of orders: it ends, with this status (4 bytes) */
+    /* for a line that shows neither a controller's start nor its end. To a controller, before its first readings: send
+     * the hello again. From a controller, instead of orders: it ends, with this status (4 bytes) */
     WH_FRAME_ASK = 6,
     WH_FRAME_END = 7
 };
@@ -37,21 +38,22 @@ enum {
 #define WH_SAMPLES_MAX 24U
 
 typedef enum wh_signal_kind {
-    WH_SIGNAL_OUTPUT, /* a value that the controller sets, from `low` to `high` */
-    WH_SIGNAL_SAMPLE, /* a converter's counts: every period_ticks the nearest of value / per_count, whose ends
-                       * stand for `low` and `high` */
-    WH_SIGNAL_EDGE, /* a pulse when the value comes to lie from `low` to `high`; of an angle, in any turn */
-    WH_SIGNAL_NOTE /* a value that the controller tells of itself: its state, a result. No plant has it */
+    WH_SIGNAL_OUTPUT, /* a value that the controller sets, in `low`..`high` */
+    WH_SIGNAL_SAMPLE, /* a converter's counts: every period_ticks the nearest of value / per_count;
+                       * the ends of its range are `low` and `high` */
+    WH_SIGNAL_EDGE,   /* a pulse when the value enters `low`..`high`; for an angle, in any turn */
+    WH_SIGNAL_NOTE /* a value that the controller reports of itself: its state, a result. No plant
+                    * has it */
 } wh_signal_kind;
 
-/* The signals of a kind are its channels, numbered from 0 in the order in which they stand. */
+/* The signals of a kind are its channels, numbered from 0 in their order. */
 typedef struct wh_signal {
     wh_signal_kind kind;
-    const char *name; /* of what it is in the plant: an input; an output, coordinate or rate */
+    const char *name; /* its name in the plant: an input; an output, coordinate or rate */
     const char *unit; /* SI */
     float low;
     float high;
-    float per_count;       /* of a sample: unit a count */
+    float per_count;       /* of a sample: units per count */
     uint32_t period_ticks; /* of a sample */
 } wh_signal;
 
@@ -59,28 +61,28 @@ typedef struct wh_hello {
     const char *program;
     const char *board;
     uint32_t ticks_per_s; /* of all time stamps */
-    uint32_t timer_per_s; /* of what computing time is counted in; 0: it is not counted */
+    uint32_t timer_per_s; /* the rate of the timer that measures computing time; 0: no such timer */
     uint32_t start_ticks; /* the timer at the plant's time 0 */
     const wh_signal *signal;
     unsigned signals;
 } wh_hello;
 
-/* What a board's memory must hold for a hello whose words have so many characters in all. */
+/* Memory a board needs for a hello whose words have this many characters in all. */
 #define WH_HELLO_BYTES(signals, words) (15U + 19U * (signals) + (words))
 
 enum { WH_ORDER_ALIVE = 1 }; /* wh_orders.flags: the watchdog is kicked */
 
 typedef struct wh_orders {
-    uint32_t until_ticks; /* to be told again then */
-    uint32_t acted_timer; /* counts from the readings' arrival until the outputs were set, */
-    uint32_t busy_timer;  /* and until these orders were sent; */
+    uint32_t until_ticks; /* time of the next readings */
+    uint32_t acted_timer; /* counts from the readings' arrival until the outputs were set */
+    uint32_t busy_timer;  /* counts until these orders were sent */
+    uint32_t step_timer;  /* of the longest control step since the last orders; 0: not measured */
     uint32_t
-        step_timer; /* of the longest control step since the last orders; 0: it tells of none */
-    uint32_t
-        watchdog_ticks; /* so long without WH_ORDER_ALIVE: outputs go to zero for good; 0: never */
+        watchdog_ticks; /* without WH_ORDER_ALIVE for this long, outputs go to zero permanently; 0:
+                         * never */
     uint8_t flags;
     unsigned outputs;             /* and notes */
-    float output[WH_SIGNALS_MAX]; /* by channel: the outputs, behind them the notes */
+    float output[WH_SIGNALS_MAX]; /* by channel: the outputs, then the notes */
 } wh_orders;
 
 typedef struct wh_edge {
@@ -88,7 +90,7 @@ typedef struct wh_edge {
     uint8_t channel;
 } wh_edge;
 
-/* What a sample is worth. */
+/* Validity of a sample. */
 typedef enum wh_sample_status {
     WH_SAMPLE_GOOD,
     WH_SAMPLE_SATURATED, /* at an end of the converter */
@@ -115,15 +117,15 @@ typedef struct wh_readings {
 
 #define WH_REMEMBER_MAX 32U
 
-/* Why a controller starts again. Without one it is a power-on. */
+/* Why a controller restarts. A power-on has no such frame. */
 enum { WH_RESET_WATCHDOG = 1, WH_RESET_OTHER = 2 };
 typedef struct wh_reset {
     uint8_t cause;
-    unsigned count; /* what it had remembered: */
+    unsigned count; /* the bytes it had remembered: */
     uint8_t remembered[WH_REMEMBER_MAX];
 } wh_reset;
 
-/* The longest payloads; of readings it is the longer. */
+/* Length of the longest payloads; for readings, the longer of the two. */
 #define WH_ORDERS_BYTES (22U + 4U * WH_SIGNALS_MAX)
 #define WH_RESET_BYTES (1U + WH_REMEMBER_MAX)
 #define WH_READINGS_BYTES (3U + 5U * WH_EDGES_MAX + 10U * WH_SAMPLES_MAX)
@@ -137,14 +139,14 @@ typedef struct wh_reset {
 #define wh_reset_put WH_NAME(wh_reset_put)
 #define wh_reset_get WH_NAME(wh_reset_get)
 
-/* Write a payload into bytes[room]; returns its length, 0 when there is no room. */
+/* Write a payload into bytes[room]; returns its length, or 0 if there is no room. */
 unsigned wh_hello_put(const wh_hello *hello, uint8_t *bytes, unsigned room);
 unsigned wh_orders_put(const wh_orders *orders, uint8_t *bytes, unsigned room);
 unsigned wh_readings_put(const wh_readings *readings, uint8_t *bytes, unsigned room);
 unsigned wh_reset_put(const wh_reset *reset, uint8_t *bytes, unsigned room);
 
-/* Read a payload; false when it is none: too short, too long, or with counts or kinds that there are not. Strings of
- * a hello point into `bytes`; its signals go to signal[WH_SIGNALS_MAX]. */
+/* Read a payload; false if it is invalid: too short, too long, or with unknown counts or kinds. Strings of a hello
+ * point into `bytes`; its signals go to signal[WH_SIGNALS_MAX]. */
 bool wh_hello_get(wh_hello *hello, wh_signal *signal, const uint8_t *bytes, unsigned length);
 bool wh_orders_get(wh_orders *orders, const uint8_t *bytes, unsigned length);
 bool wh_readings_get(wh_readings *readings, const uint8_t *bytes, unsigned length);

@@ -1,11 +1,11 @@
-/* fixed.h: arithmetic in fixed point: 32-bit integers that stand for x 2^-bits, the same bits on every machine.
+/* fixed.h: fixed-point arithmetic: 32-bit integers that stand for x 2^-bits, the same bits on every machine.
  *
- * For processors without floating-point arithmetic. A number's `bits` are known where the code is generated and are no
- * part of the number. Generated code keeps numbers within 2^30 in size (host/fixed), so that nothing here overflows.
+ * For processors without floating-point arithmetic. The generator knows a number's `bits`; they are not stored with it.
+ * Generated code keeps numbers within 2^30 in size (host/fixed), so nothing here overflows.
  *
- * The one costly operation is the upper half of a product of two numbers. It is exact (rounded down), and there are two
- * ways to it with the same bits: where the processor has a 32 x 32 = 64 bit product by that, elsewhere (Cortex-M0, AVR)
- * by four of 16 x 16 = 32 bits.
+ * The one costly operation is the upper half of a product of two numbers. It is exact (rounded down). It has two
+ * implementations with the same bits: one 32 x 32 = 64 bit product if the processor has it, otherwise (Cortex-M0, AVR)
+ * four 16 x 16 = 32 bit products.
  */
 #ifndef WH_FIXED_H
 #define WH_FIXED_H
@@ -16,7 +16,7 @@
 extern "C" {
 #endif
 
-#if defined(WH_FIXED_NARROW) /* as it was asked for */
+#if defined(WH_FIXED_NARROW) /* as requested */
 #elif defined(__AVR__) || defined(__ARM_ARCH_6M__) || defined(__ARM_ARCH_8M_BASE__) || \
     (defined(__riscv) && !defined(__riscv_mul))
 #define WH_FIXED_NARROW 1
@@ -31,7 +31,7 @@ extern "C" {
 #define WH_FIXED_AVR 0
 #endif
 
-/* Of generated functions: which are called, and those that are inlined where that is no waste of flash. */
+/* Storage classes of generated functions: called ones, and ones that are inlined if flash allows it. */
 #if defined(__GNUC__)
 #define WH_FIXED_CALLED __attribute__((noinline, unused))
 #else
@@ -48,8 +48,8 @@ WH_INLINE int32_t wh_fixed_high_wide(int32_t a, int32_t b) {
     return (int32_t)(((int64_t)a * b) >> 32);
 }
 
-/* Products of 16 bits: uu of two without a sign, su of one with and one without, ss of two with. (avr-gcc makes one of 32
- * bits of them where an operand is used again.) */
+/* 16-bit products: uu of two unsigned numbers, su of a signed and an unsigned one, ss of two signed ones. (avr-gcc
+ * makes a 32-bit product of them if an operand is used again.) */
 #if WH_FIXED_AVR
 WH_INLINE uint32_t wh_fixed_uu(uint16_t a, uint16_t b) {
     uint32_t product;
@@ -92,7 +92,7 @@ WH_INLINE int32_t wh_fixed_su(int16_t a, uint16_t b) { return (int32_t)a * (int3
 WH_INLINE int32_t wh_fixed_ss(int16_t a, int16_t b) { return (int32_t)a * b; }
 #endif
 
-/* floor(a b / 2^32) by these. Where b is a constant whose lower half is zero, two of them go. */
+/* floor(a b / 2^32) by these. If b is a constant with a zero lower half, two of them drop out. */
 WH_INLINE int32_t wh_fixed_high_narrow(int32_t a, int32_t b) {
     const int16_t a_high = (int16_t)(a >> 16);
     const int16_t b_high = (int16_t)(b >> 16);
@@ -108,7 +108,7 @@ WH_INLINE int32_t wh_fixed_high_narrow(int32_t a, int32_t b) {
 #define wh_fixed_sine_table WH_NAME(wh_fixed_sine_table)
 #define wh_fixed_seed_table WH_NAME(wh_fixed_seed_table)
 
-/* wh_fixed_high_narrow(), for processors on which it is long. */
+/* wh_fixed_high_narrow() as a call, for processors on which it is long. */
 int32_t wh_fixed_high_called(int32_t a, int32_t b);
 
 WH_INLINE int32_t wh_fixed_high(int32_t a, int32_t b) {
@@ -134,12 +134,12 @@ WH_INLINE int32_t wh_fixed_mul(int32_t a, int32_t b, int by) {
     return wh_fixed_round(wh_fixed_high(a, b), by);
 }
 
-/* The 15 upper digits of x (up to 2^28) times a number of 15, 2^-by: of what is small beside what it is added to. */
+/* The 15 upper digits of x (up to 2^28) times a 15-digit number, 2^-by: for terms that are small compared with the sum. */
 WH_INLINE int32_t wh_fixed_mul_short(int32_t x, int16_t number, int by) {
     return wh_fixed_round(wh_fixed_ss((int16_t)(x >> 14), number), by);
 }
 
-/* Modulo 2^32, where the compiler knows nothing of it: sums whose parts may be larger than they are. */
+/* Modulo 2^32, opaque to the compiler: for sums whose parts may be larger than the sum. */
 WH_INLINE int32_t wh_fixed_add(int32_t a, int32_t b) {
     return (int32_t)((uint32_t)a + (uint32_t)b);
 }
@@ -154,12 +154,12 @@ WH_INLINE int32_t wh_fixed_least(int32_t a, int32_t b) { return b < a ? b : a; }
 WH_INLINE int32_t wh_fixed_most(int32_t a, int32_t b) { return b > a ? b : a; }
 WH_INLINE int32_t wh_fixed_size(int32_t x) { return x < 0 ? -x : x; }
 
-/* -1, 0 or 1 with so many digits behind the point. */
+/* -1, 0 or 1 with this many digits after the point. */
 WH_INLINE int32_t wh_fixed_sign(int32_t x, int bits) {
     return (int32_t)((uint32_t)(int32_t)((x > 0) - (x < 0)) << bits);
 }
 
-/* x, or the nearest of low to high; then one is counted. */
+/* x, limited to low..high; counts each limiting. */
 WH_INLINE int32_t wh_fixed_limit(int32_t x, int32_t low, int32_t high, uint32_t *saturated) {
     if (WH_SELDOM((uint32_t)x - (uint32_t)low > (uint32_t)high - (uint32_t)low)) {
         ++*saturated;
@@ -168,8 +168,8 @@ WH_INLINE int32_t wh_fixed_limit(int32_t x, int32_t low, int32_t high, uint32_t 
     return x;
 }
 
-/* x >> by, 7, 15 or 22 digits of an x that has as many as are used here: an AVR shifts by bytes in no time, by one after
- * the other else. */
+/* x >> by for 7, 15 or 22, for an x with as many digits as occur here. An AVR shifts by whole bytes at no cost and by
+ * single bits otherwise. */
 WH_INLINE int32_t wh_fixed_down(int32_t x, int by) {
 #if WH_FIXED_AVR
     return by == 7    ? (x + x) >> 8
@@ -183,7 +183,7 @@ WH_INLINE int32_t wh_fixed_down(int32_t x, int by) {
 
 /* --- sine and cosine -----------------------------------------------------------------------------------------*/
 
-/* Binary digits of a sine behind the point. */
+/* Binary digits of a sine after the point. */
 #define WH_FIXED_SINE_BITS 30
 #define WH_FIXED_SECTOR_BITS 7
 #define WH_FIXED_QUARTER (1U << (WH_FIXED_SECTOR_BITS - 2))
@@ -220,8 +220,8 @@ WH_INLINE uint16_t wh_flash_uint16(const uint16_t *from) {
 }
 #endif
 
-/* Sine and cosine of a phase (2^32 a turn), 2^30 each: the method of sine.h in integers. With s and c from the table and
- * the rest y, 2^31 for pi/128: sin = s + (c sin r + s (cos r - 1)). What is small is a product of 16 bits. */
+/* Sine and cosine of a phase (2^32 a turn), 2^30 each: the method of sine.h in integers. s and c are from the table,
+ * and y is the remaining angle, 2^31 for pi/128: sin = s + (c sin r + s (cos r - 1)). Small terms are 16-bit products. */
 WH_INLINE void wh_fixed_sincos_here(uint32_t phase, int32_t *sine, int32_t *cosine) {
     const unsigned rest_bits = 32U - WH_FIXED_SECTOR_BITS;
     const uint8_t sector = (uint8_t)((uint8_t)((phase + (UINT32_C(1) << (rest_bits - 1U))) >> 24) >>
@@ -229,18 +229,18 @@ WH_INLINE void wh_fixed_sincos_here(uint32_t phase, int32_t *sine, int32_t *cosi
     const int32_t *middle = &wh_fixed_sine_table[sector];
     const int32_t s = wh_flash_int32(&middle[0]);
     const int32_t c = wh_flash_int32(&middle[WH_FIXED_QUARTER]);
-#if WH_FIXED_AVR /* likewise */
+#if WH_FIXED_AVR /* as above */
     const int32_t y = (int32_t)((phase << 8) >> 1 |
                                 ((phase & UINT32_C(0x01000000)) != 0 ? UINT32_C(0x80000000) : 0U));
 #else
     const int32_t y = (int32_t)(phase << WH_FIXED_SECTOR_BITS);
 #endif
     const int16_t upper = (int16_t)(y >> 16);
-    /* -(upper + 1/2)^2, 2^15 for 1: what lies below `upper` is half a unit, on the average */
+    /* -(upper + 1/2)^2, 2^15 for 1: the digits below `upper` are half a unit on average */
     const int16_t square = (int16_t)wh_fixed_down(wh_fixed_ss(upper, (int16_t)~upper), 15);
     const int16_t cos_less_1 =
         (int16_t)wh_fixed_down(wh_fixed_ss(square, 20211) + 16384, 15); /* 2^26 */
-    /* sin r/y is 25735 2^16 and a rest, with which goes what sin r is short of r: 2^35/2^31 */
+    /* sin r/y is 25735 2^16 plus a remainder, which includes the third-order term of sin r: 2^35/2^31 */
     const int16_t rest = (int16_t)((wh_fixed_ss(square, 1323) >> 11) + 7594);
     const int32_t sin_r =
         wh_fixed_high(y, INT32_C(25735) * 65536) + (wh_fixed_ss(upper, rest) >> 13);
@@ -265,7 +265,7 @@ WH_INLINE void wh_fixed_sincos(uint32_t phase, int32_t *sine, int32_t *cosine) {
 #endif
 }
 
-/* The same of one of several waves: where products are long, that is called. */
+/* The same for one of several waves: a call if products are long. */
 WH_INLINE void wh_fixed_sincos_shared(uint32_t phase, int32_t *sine, int32_t *cosine) {
 #if WH_FIXED_NARROW
     wh_fixed_sincos_called(phase, sine, cosine);
@@ -276,7 +276,7 @@ WH_INLINE void wh_fixed_sincos_shared(uint32_t phase, int32_t *sine, int32_t *co
 
 /* --- quotients -----------------------------------------------------------------------------------------------*/
 
-/* Zeros in front of x > 0. */
+/* Leading zeros of x > 0. */
 WH_INLINE int wh_fixed_zeros(uint32_t x) {
 #if defined(__GNUC__)
     return sizeof(int) >= sizeof(uint32_t) ? __builtin_clz((unsigned)x)
@@ -290,8 +290,8 @@ WH_INLINE int wh_fixed_zeros(uint32_t x) {
 #endif
 }
 
-/* 2^61/d for d >= 2^31, off by less than 2^-28 of itself: a table, then two steps of Newton's, the first with 16 digits, the
- * second with as many of a result as are new. */
+/* 2^61/d for d >= 2^31, relative error below 2^-28: a table, then two Newton steps, the first with 16 digits, the
+ * second with only the new digits. */
 WH_INLINE int32_t wh_fixed_reciprocal(uint32_t d) {
     const uint16_t d_high = (uint16_t)(d >> 16);
     const uint16_t d_low = (uint16_t)d;

@@ -1,7 +1,7 @@
 /* fixed_scene.h: a scene that steps in fixed point (fixed.h), for processors without floating-point arithmetic.
  *
  * A file made by `whirl derive SCENE --as c --number fixed --name gear --header gear.h` defines one constant `gear`, a
- * `wh_fixed_scene`; no step of it has a floating-point operation. What changes lives in a `wh_fixed_state` and in memory
+ * `wh_fixed_scene`; its steps have no floating-point operation. The variables live in a `wh_fixed_state` and in memory
  * that the caller owns:
  *
  *     static uint64_t memory[gear_MEMORY_WORDS];
@@ -12,10 +12,10 @@
  *     const wh_real theta_rad = wh_fixed_angle(&gear, &state, gear_ANGLE_theta);
  *     const wh_real rate_rad_s = wh_fixed_real(&gear, &state, gear_RATE_theta);
  *
- * Each input and each component but turn angles has a range. What would leave it stays at its end, and is counted in
- * state.saturated: where that is not 0, the motion is not to be believed. Inside their ranges nothing overflows, which was
- * proved when the code was made. What a step adds is rounded to the range's 2^-30 or so: below half of that it is gone,
- * uncounted (`whirl run --number fixed` tells how much).
+ * Each input and each component except turn angles has a range. A value that would leave it stays at its end, and
+ * state.saturated counts it. If state.saturated is not 0, the motion is wrong. Inside the ranges nothing overflows; the
+ * generator proved it. The increment of a step is rounded to about 2^-30 of the range. Smaller increments than half of
+ * that are lost without being counted (`whirl run --number fixed` prints the loss).
  */
 #ifndef WH_FIXED_SCENE_H
 #define WH_FIXED_SCENE_H
@@ -28,20 +28,20 @@
 extern "C" {
 #endif
 
-/* How a component or an input is kept: value 2^bits, from low to high. */
+/* Format of a component or an input: value 2^bits, from low to high. */
 typedef struct wh_fixed_format {
     int16_t bits;
     int32_t low;
     int32_t high;
 } wh_fixed_format;
 
-/* The changing part of a run. The pointers point into the memory given to wh_fixed_start(). */
+/* The variables of a run. The pointers point into the memory given to wh_fixed_start(). */
 typedef struct wh_fixed_state {
     uint64_t steps;
-    uint32_t saturated; /* values that stayed at an end of their range, since the start */
+    uint32_t saturated; /* values limited to their range since the start */
     int64_t *angle;     /* [scene->angles] 2^32 a turn, turns counted */
-    int32_t *
-        real; /* [scene->reals] as wh_state has them: linear positions, then all rates; or components */
+    int32_t
+        *real; /* [scene->reals] as in wh_state: linear positions, then all rates; or components */
     int32_t *input; /* [scene->inputs] */
 } wh_fixed_state;
 
@@ -62,7 +62,7 @@ struct wh_fixed_scene {
     wh_status (*advance)(const wh_fixed_scene *scene, wh_fixed_state *state);
 };
 
-/* Bytes of caller memory for so many angles, and reals and inputs together. */
+/* Bytes of caller memory for this many angles, and reals and inputs together. */
 #define WH_FIXED_BYTES(angles, numbers) (WH_SIZE(angles) * 8U + WH_SIZE(numbers) * 4U)
 
 #define wh_fixed_start WH_NAME(wh_fixed_start)
@@ -76,33 +76,34 @@ struct wh_fixed_scene {
 #define wh_fixed_set_input WH_NAME(wh_fixed_set_input)
 #define wh_fixed_set_raw_input WH_NAME(wh_fixed_set_raw_input)
 
-/* Put `state` at the scene's start. Returns WH_OK, WH_E_ARGUMENT where a pointer is NULL or the memory is not aligned as
- * a uint64_t, or WH_E_MEMORY where it is too little. */
+/* Put `state` at the scene's start. Returns WH_OK; WH_E_ARGUMENT if a pointer is NULL or the memory is not aligned as a
+ * uint64_t; or WH_E_MEMORY if it is too small. */
 wh_status wh_fixed_start(const wh_fixed_scene *scene, wh_fixed_state *state, void *memory,
                          size_t bytes);
 
-/* One step, beyond the scene's end, too. WH_OK: nothing diverges, but state->saturated counts. Or WH_E_ARGUMENT for a state
- * that was not started: zeroed, or refused by wh_fixed_start(). */
+/* One step, also beyond the scene's end. Returns WH_OK (nothing diverges, but state->saturated counts), or
+ * WH_E_ARGUMENT for a state that was not started: zeroed, or refused by wh_fixed_start(). */
 wh_status wh_fixed_step(const wh_fixed_scene *scene, wh_fixed_state *state);
 
-/* Of step count, saturations, angles and reals: equal runs on any two machines give equal hashes.
- * 0 for a state that was not started. */
+/* Hash of step count, saturations, angles and reals: equal runs on any two machines give equal hashes. 0 for a state
+ * that was not started. */
 uint64_t wh_fixed_hash(const wh_fixed_scene *scene, const wh_fixed_state *state);
 
-/* The edges, in floating point, none of which a step calls. A number of this format: to the nearest, halves away from
- * zero; beyond the range (or no number) the nearest end (low), and *saturated counts it. */
+/* Conversions, in floating point; no step calls them. A number of this format: to the nearest, halves away from zero.
+ * Beyond the range the nearest end, for NaN the low one; *saturated counts both. */
 int32_t wh_fixed_of(const wh_fixed_format *format, wh_real value, uint32_t *saturated);
 wh_real wh_fixed_to(const wh_fixed_format *format, int32_t number);
 
-/* Component i of the reals, SI; angle i, unwrapped radians. Of a state that was not started 0, and nothing is set. NaN sets
- * nothing. */
+/* Component i of the reals, SI; angle i, unwrapped radians. For a state that was not started they return 0 and set
+ * nothing. NaN sets nothing. */
 wh_real wh_fixed_real(const wh_fixed_scene *scene, const wh_fixed_state *state, unsigned i);
 wh_real wh_fixed_angle(const wh_fixed_scene *scene, const wh_fixed_state *state, unsigned i);
 void wh_fixed_set_real(const wh_fixed_scene *scene, wh_fixed_state *state, unsigned i,
                        wh_real value);
 
-/* Input i becomes `value`, SI; or `number`, in the integers of its format. Beyond its range it becomes the nearest end, is
- * counted as saturated, and the call returns WH_E_ARGUMENT. So it does, with nothing changed, of NaN and where there is no input i. */
+/* Set input i to `value`, SI; or to `number`, in the integers of its format. Beyond its range it is set to the nearest
+ * end and counted as saturated, and the call returns WH_E_ARGUMENT. NaN and a missing input i give WH_E_ARGUMENT and
+ * change nothing. */
 wh_status wh_fixed_set_input(const wh_fixed_scene *scene, wh_fixed_state *state, unsigned i,
                              wh_real value);
 wh_status wh_fixed_set_raw_input(const wh_fixed_scene *scene, wh_fixed_state *state, unsigned i,

@@ -1,16 +1,16 @@
 /* flash.h: constant tables that stay in flash.
  *
- * An AVR reads its flash with an instruction of its own, and what is only `const` there is copied to its
- * scarce memory. avr-gcc's __flash says otherwise, but neither in strict C11 nor in C++; so the attribute
- * and the instruction are written out here. Elsewhere nothing is special about a constant. (The smallest
- * ones, __AVR_TINY__, have no such instruction; their constants stay where they are.)
+ * An AVR reads its flash with a special instruction; a plain `const` object is copied to its scarce memory. avr-gcc's
+ * __flash avoids the copy, but exists neither in strict C11 nor in C++. So the attribute and the instruction are
+ * written out here. Elsewhere constants are ordinary. (The smallest AVRs, __AVR_TINY__, have no such instruction; their
+ * constants are ordinary, too.)
  *
  *     const wh_real table[2] WH_FLASH = {WH_R(1.0), WH_R(0.5)};
  *     wh_real half = wh_flash_real(&table[1]);
  *
- * Words are other people's pointers, and nobody knows of one whether it was a constant. Where WH_WORDS_FROM is defined (with
- * a linker's script that does it: boards/atmega) constant words stay in flash, at addresses from there on, where no memory is;
- * whoever reads a word that may be one asks by wh_word_at(). */
+ * Strings are pointers from the caller, which may or may not be constants. If WH_WORDS_FROM is defined (with a linker
+ * script that supports it: boards/atmega), constant strings stay in flash, at addresses from there on, where no memory
+ * is. Code that reads such a string uses wh_word_at(). */
 #ifndef WH_FLASH_H
 #define WH_FLASH_H
 
@@ -19,7 +19,7 @@
 #if !defined(__AVR__) || defined(__AVR_TINY__) || WH_DOUBLE
 
 #define WH_FLASH
-/* A number of a table that is WH_FLASH; on AVR in the lowest 64 kB, where linkers put such tables. */
+/* A number of a WH_FLASH table; on AVR in the lowest 64 kB, where linkers put such tables. */
 WH_INLINE wh_real wh_flash_real(const wh_real *from) { return *from; }
 
 #elif defined(__clang__)
@@ -48,7 +48,7 @@ WH_INLINE wh_real wh_flash_real(const wh_real *from) {
 
 #endif
 
-/* Bytes of a constant that is WH_FLASH. */
+/* Copy the bytes of a WH_FLASH constant. */
 WH_INLINE void wh_flash_copy(void *to, const void *from, unsigned count) {
 #if defined(__AVR_HAVE_LPMX__) && !WH_DOUBLE
     uint8_t *bytes = (uint8_t *)to;
@@ -61,7 +61,7 @@ WH_INLINE void wh_flash_copy(void *to, const void *from, unsigned count) {
 #endif
 }
 
-/* Where a list of words is kept: with them. */
+/* Section for a list of strings: together with them. */
 #if defined(WH_WORDS_FROM)
 #define WH_WORD_LIST __attribute__((__section__(".rodata.str.lists")))
 #else

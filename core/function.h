@@ -1,7 +1,8 @@
-/* function.h: the functions of the language beside sine, cosine and square root, by the core itself.
+/* function.h: the language's functions other than sine, cosine and square root, in the core's own arithmetic.
  *
- * Every operation in them is an IEEE 754 addition, multiplication, division, root or conversion of wh_real,
- * or one of integers: the same bits on every machine, and no library's. Float computes in float alone.
+ * Every operation is an IEEE 754 addition, multiplication, division, root or conversion of wh_real, or an integer
+ * operation. So the bits are the same on every machine, and no library is needed. The float build computes in float
+ * alone.
  *
  * Special cases as in C's Annex F: infinities, NaN, signed zeros and subnormals included.
  */
@@ -26,14 +27,14 @@ extern "C" {
 #define wh_cosh WH_NAME(wh_cosh)
 #define wh_tanh WH_NAME(wh_tanh)
 
-/* All of them, once more, for who lists them: ONE(name) of one argument, TWO(name) of two. */
+/* X-macro of all of them: ONE(name) of one argument, TWO(name) of two. */
 #define WH_FUNCTIONS(ONE, TWO) \
     ONE(exp) \
     ONE(log) \
     ONE(tan) ONE(asin) ONE(acos) ONE(atan) TWO(atan2) TWO(pow) ONE(sinh) ONE(cosh) ONE(tanh)
 
-/* Within one unit in the last place: e^x, the natural logarithm, the angles in radians, and the hyperbolic sine,
- * cosine and tangent. */
+/* e^x, the natural logarithm, the inverse trigonometric functions in radians, and the hyperbolic sine, cosine and
+ * tangent: within one unit in the last place. */
 wh_real wh_exp(wh_real x);
 wh_real wh_log(wh_real x);
 wh_real wh_asin(wh_real x);
@@ -47,7 +48,7 @@ wh_real wh_tanh(wh_real x);
 wh_real wh_tan(wh_real rad);
 /* The angle of the point (x, y), -pi to pi. */
 wh_real wh_atan2(wh_real y, wh_real x);
-/* base^exponent; exact where the result is a number of wh_real. */
+/* base^exponent; exact if the result is a wh_real. */
 wh_real wh_pow(wh_real base, wh_real exponent);
 
 #ifdef __cplusplus

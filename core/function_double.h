@@ -1,8 +1,8 @@
-/* function_double.h: what the double build of function.h computes with; private to core/function_*_double.c.
+/* function_double.h: the arithmetic of the double functions; private to core/function_*_double.c.
  *
- * A pair holds a number as the sum of two doubles, the second at most half a unit of the first: some
- * hundred bits. It is made of additions, products and quotients alone. Results leave as the rounded
- * sum of a pair, so that they err by little more than half a unit in the last place.
+ * A pair holds a number as the sum of two doubles, the second at most half a unit of the first: about a hundred bits.
+ * It needs only additions, products and quotients. A result is the rounded sum of a pair, so its error is little more
+ * than half a unit in the last place.
  */
 #ifndef WH_FUNCTION_DOUBLE_H
 #define WH_FUNCTION_DOUBLE_H
@@ -36,11 +36,11 @@ double wh_cosine(double rad);
 
 /* The logarithm of a positive finite number, to 70 bits and more. */
 wh_pair wh_log_pair(double x);
-/* e^exponent, rounded once, subnormals too. |exponent| < 1e4. */
+/* e^exponent, rounded once, including subnormals. |exponent| < 1e4. */
 double wh_exp_pair(wh_pair exponent);
 /* The same as a pair from 0.99 to 2, to 60 bits, and a power of two. */
 wh_pair wh_exp_parts(wh_pair exponent, int *power_of_two);
-/* A pair from 0.99 to 2 times 2^exponent, rounded once, infinite and subnormal where it must be. */
+/* A pair from 0.99 to 2 times 2^exponent, rounded once, including infinity and subnormals. */
 double wh_scaled_pair(wh_pair x, int exponent);
 
 WH_INLINE uint64_t wh_bits(double x) {

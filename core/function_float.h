@@ -1,8 +1,8 @@
-/* function_float.h: the arithmetic of the float build's own functions (function_*_float.c alone include it).
+/* function_float.h: the integer arithmetic of the float functions (included by function_*_float.c only).
  *
- * All of it is integers: a number is taken apart into a sign, 32 binary digits and an exponent, the function is
- * computed of these with some 30 digits, and one rounding makes a float of it. That costs less than pairs of
- * floats would, also where there is no hardware for floats, and leaves compilers nothing to reorder or fuse.
+ * A number is split into a sign, 32 binary digits and an exponent. The function is computed from these with about 30
+ * digits, and one rounding makes a float of it. That is cheaper than pairs of floats, even without floating-point
+ * hardware, and compilers have nothing to reorder or fuse.
  *
  * Fixed point: "Q31" is a uint32_t that counts 2^-31, and so on.
  */
@@ -16,7 +16,7 @@
 #include "flash.h"
 #include "function.h"
 
-/* Magnitudes of a float as bits: order as integers is order as numbers. */
+/* Magnitudes of a float as bits: their order as integers is their order as numbers. */
 #define WH_BITS_SIGN UINT32_C(0x80000000)
 #define WH_BITS_ONE UINT32_C(0x3f800000)
 #define WH_BITS_INFINITE UINT32_C(0x7f800000)
@@ -38,7 +38,7 @@ WH_INLINE uint32_t wh_bits_of(float x) { return (wh_word){.value = x}.bits; }
 
 WH_INLINE float wh_float_of_bits(uint32_t bits) { return (wh_word){.bits = bits}.value; }
 
-/* A number of a table that is WH_FLASH: on an AVR that takes instructions that take floats here. */
+/* A number of a WH_FLASH table. An AVR needs special instructions for it, which read floats here. */
 WH_INLINE uint32_t wh_flash_word(const uint32_t *from) {
 #if defined(__AVR__)
     return wh_bits_of(wh_flash_real((const float *)(const void *)from));
@@ -50,7 +50,7 @@ WH_INLINE uint32_t wh_flash_word(const uint32_t *from) {
 /* The upper half of a product. */
 WH_INLINE uint32_t wh_high(uint32_t a, uint32_t b) { return (uint32_t)(((uint64_t)a * b) >> 32); }
 
-/* Zeros in front of the first digit of x > 0. An int has 16 bits on the smallest machines. */
+/* Leading zeros of x > 0. An int has 16 bits on the smallest machines. */
 WH_INLINE uint32_t wh_leading_zeros(uint32_t x) {
     return (uint32_t)(sizeof(int) >= 4 ? __builtin_clz((unsigned)x)
                                        : __builtin_clzl((unsigned long)x));
@@ -58,7 +58,7 @@ WH_INLINE uint32_t wh_leading_zeros(uint32_t x) {
 
 WH_INLINE uint32_t wh_leading_zeros_64(uint64_t x) { return (uint32_t)__builtin_clzll(x); }
 
-/* Of a finite magnitude that is not zero, subnormal ones included. */
+/* For a finite magnitude that is not zero, subnormal ones included. */
 WH_INLINE wh_digits wh_digits_of(uint32_t magnitude) {
     wh_digits d = {(magnitude << 8) | WH_TOP_BIT, (int32_t)(magnitude >> 23) - 127};
     if (magnitude < UINT32_C(0x00800000)) {
@@ -74,7 +74,7 @@ WH_INLINE uint32_t wh_square(wh_digits x) {
     return shift > 31 ? 0U : wh_high(x.size, x.size) >> shift;
 }
 
-/* series[0] x^(count - 1) + ... + series[count - 1], of fractions of 2^32. */
+/* series[0] x^(count - 1) + ... + series[count - 1], in fractions of 2^32. */
 WH_INLINE uint32_t wh_series(const uint32_t *series, unsigned count, uint32_t x) {
     uint32_t sum = wh_flash_word(&series[0]);
     for (unsigned i = 1; i < count; i++) {
@@ -96,21 +96,21 @@ WH_INLINE wh_digits wh_longer(wh_digits x, uint32_t more) {
 #define wh_float_octaves WH_NAME(wh_float_octaves)
 #define wh_float_exp2 WH_NAME(wh_float_exp2)
 
-/* The float nearest to size/2^31 * 2^exponent, for size > 0 and whatever exponent: ties to even, infinite
- * beyond the largest float, subnormal and zero below the least. sign is WH_BITS_SIGN or 0. */
+/* The float nearest to size/2^31 * 2^exponent, for size > 0 and any exponent. Ties to even; infinite beyond the largest
+ * float, subnormal and zero below the least. sign is WH_BITS_SIGN or 0. */
 float wh_float_round(uint32_t sign, uint32_t size, int32_t exponent);
 
-/* num/den, or twice that where it is below one, in Q31, rounded down; num and den have their top bit set and
- * the 8 lowest not. */
+/* num/den, or twice that if it is below one, in Q31, rounded down. num and den have their top bit set and their 8
+ * lowest bits clear. */
 uint32_t wh_float_ratio(uint32_t num, uint32_t den);
 
-/* 1/x, x > 0: by at most 1e-9 of it. */
+/* 1/x, x > 0: relative error at most 1e-9. */
 wh_digits wh_float_inverse(wh_digits x);
 
 /* x log2(e) as Q32, rounded, for x of 24 digits from 2^-27 to below 2^9. */
 uint64_t wh_float_octaves(wh_digits x);
 
-/* 2^(power/2^32), the power below 2^10 in size and negative as integers are: by at most 6e-10 of it. */
+/* 2^(power/2^32), |power/2^32| < 2^10, negative powers in two's complement: relative error at most 6e-10. */
 wh_digits wh_float_exp2(uint64_t power);
 
 #endif

@@ -1,4 +1,4 @@
-/* ledger_step.h: keeping the books of ledger.h while a scene steps. C only, as step.h is. */
+/* ledger_step.h: fills the ledger (ledger.h) while a scene steps. C only, as step.h is. */
 #ifndef WH_LEDGER_STEP_H
 #define WH_LEDGER_STEP_H
 
@@ -11,17 +11,17 @@
 #define WH_LEDGER_MAX 2048
 #endif
 
-/* A step of the books in progress. */
+/* The ledger's part of a step in progress. */
 typedef struct wh_ledger_work {
     wh_real attempt[WH_LEDGER_MAX]; /* of the present try */
     wh_real step[WH_LEDGER_MAX];    /* of the whole step so far */
-    wh_real span;                   /* length of the present try, s; zero: there is none */
+    wh_real span;                   /* length of the present try, s; zero: no try */
     const wh_angle *angle;          /* where it begins */
     unsigned stage;
 } wh_ledger_work;
 
-/* Share of the step that stage `stage` of the method counts for in its quadrature. Compared one by one: where the
- * stage is not known before it runs, no table is left for it. */
+/* Weight of stage `stage` in the method's quadrature. Compared one by one, so that no table remains if the stage is not
+ * constant. */
 WH_INLINE wh_real wh_ledger_weight(wh_method method, unsigned stage) {
     const wh_tableau *by = wh_tableau_of(method);
     wh_real rates = by->rates[0];
@@ -34,7 +34,7 @@ WH_INLINE wh_real wh_ledger_weight(wh_method method, unsigned stage) {
     return rates / by->parts;
 }
 
-/* A try from `angle` on, [form->angles], which stays as it is until the last stage has been. */
+/* Begin a try at `angle`, [form->angles], which must not change before the last stage. */
 WH_INLINE void wh_ledger_begin(const wh_ledger_form *form, const wh_angle *angle, wh_ledger_work *w,
                                wh_real span) {
     for (unsigned i = 0; i < form->entries; i++) {
@@ -45,14 +45,14 @@ WH_INLINE void wh_ledger_begin(const wh_ledger_form *form, const wh_angle *angle
     w->stage = 0;
 }
 
-/* The try is part of the run: its entries count. */
+/* The try becomes part of the run: its entries count. */
 WH_INLINE void wh_ledger_accept(const wh_ledger_form *form, wh_ledger_work *w) {
     for (unsigned i = 0; i < form->entries; i++) {
         w->step[i] += w->attempt[i];
     }
 }
 
-/* Enter the smooth entries at one stage. Returns the time that the stage counts for, s. */
+/* Enter the smooth entries at one stage. Returns the stage's weight in time, s. */
 WH_INLINE wh_real wh_ledger_stage(const wh_ledger_form *form, wh_method method,
                                   const wh_phase *phase, const wh_real *linear, const wh_real *rate,
                                   const wh_real *input, wh_ledger_work *w) {
@@ -76,7 +76,7 @@ WH_INLINE wh_real wh_ledger_stage(const wh_ledger_form *form, wh_method method,
     return share;
 }
 
-/* Before a step: what inputs that were changed since the last one give, one after another. */
+/* Before a step: the entries of inputs that changed since the last step, one after another. */
 static inline void wh_ledger_move(const wh_ledger_form *form, const wh_state *state,
                                   wh_ledger_work *w) {
     const wh_real *kept = wh_ledger_kept(form, state);
@@ -113,8 +113,7 @@ WH_INLINE void wh_ledger_open(const wh_ledger_form *form, wh_state *state, wh_le
     }
 }
 
-/* After a step: its entries join the totals, and what the energy has drifted by is given back where the scene asks for
- * that. */
+/* After a step: its entries join the totals. If the scene asks for it, the step gives back the energy drift. */
 WH_INLINE void wh_ledger_commit(const wh_ledger_form *form, const wh_ledger_work *w,
                                 wh_state *state) {
     wh_real *total = state->ledger;
@@ -139,7 +138,7 @@ typedef struct wh_ledger_model {
     wh_ledger_work *work;
 } wh_ledger_model;
 
-/* The accelerations, with a stage of the books. A wh_accel_fn. */
+/* The accelerations, with a stage of the ledger. A wh_accel_fn. */
 WH_INLINE void wh_ledger_accel(const void *of, const wh_phase *phase, const wh_real *linear,
                                const wh_real *rate, const wh_real *input, wh_real *accel) {
     const wh_ledger_model *m = of;

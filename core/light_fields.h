@@ -1,11 +1,11 @@
-/* light_fields.h: the record of a board's first light, lines of text that an image prints (boards/programs/firstlight.c) and
- * `whirl firstlight` reads:
+/* light_fields.h: the record of a board's first light. An image (boards/programs/firstlight.c) prints it as lines of
+ * text, and `whirl firstlight` reads it:
  *
  *     firstlight record 1
  *     NAME VALUE          a field a line, in the order of WH_LIGHT_FIELDS
  *     end 0x01234567      CRC-32 (frame.h) of all lines before, each with a line feed and no carriage return
  *
- * A field that a board or emulator cannot give has the value `none`. */
+ * A field that is not available on a board or emulator has the value `none`. */
 #ifndef WH_LIGHT_FIELDS_H
 #define WH_LIGHT_FIELDS_H
 
@@ -16,7 +16,7 @@
 #define WH_LIGHT_NONE "none"
 
 /* Scenes that the image runs to their end: one angle under gravity, a hinge, a gear on a carriage, a coordinate that is
- * recovered from its momentum, and stops with friction. */
+ * computed from its momentum, and stops with friction. */
 #define WH_LIGHT_SCENES(X) \
     X(rig_fixed) \
     X(driven_hinge_from_rest) \
@@ -24,8 +24,8 @@
     X(thomson_a_conserved) \
     X(shuttle_buffers)
 
-/* Names of fields, in their order. Of each scene: the hash of its operations; the hash of its last state, with steps and
- * status; least, median and most cycles of a step. */
+/* Names of fields, in their order. For each scene: the hash of its operations; the hash of its last state, with steps
+ * and status; least, median and most cycles of a step. */
 #define WH_LIGHT_OF_SCENE(scene) "model." #scene, "hash." #scene, "cycles." #scene,
 #define WH_LIGHT_FIELDS \
     "board", "chip", "version", "compiler", WH_LIGHT_SCENES(WH_LIGHT_OF_SCENE) "stack", "clock", \

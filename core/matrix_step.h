@@ -1,8 +1,9 @@
-/* matrix_step.h: a whole step as one constant matrix, of a scene that is linear: x+ = Phi x + Gamma u + g.
+/* matrix_step.h: a whole step of a linear scene as one constant matrix: x+ = Phi x + Gamma u + g.
  *
- * The scene's list computes the products; what is 0 is left out there, what is 1 costs no product. Where a step hardly
- * changes a component, x+ = x + ((Phi - 1) x + Gamma u + g): rounding the entries of Phi - 1, not those of Phi, is a small
- * part of the change and not of the state. Bounds, statuses and turn angles are those of every step (step_end.h).
+ * The scene's list computes the products. It omits entries of 0, and entries of 1 cost no product. If a step hardly
+ * changes a component, x+ = x + ((Phi - 1) x + Gamma u + g). Rounding the entries of Phi - 1 is then a small part of
+ * the change; rounding those of Phi would be a small part of the state. Bounds, statuses and turn angles are those of
+ * every step (step_end.h).
  */
 #ifndef WH_MATRIX_STEP_H
 #define WH_MATRIX_STEP_H
@@ -16,11 +17,11 @@
 #include "arithmetic.h"
 #include "step_end.h"
 
-/* As wh_all_believable(). Without floating-point arithmetic in the processor, sizes are compared by their bits: a tenth of
- * what three sums and a comparison take on an ATmega328P. */
+/* As wh_all_believable(). Without floating-point hardware, it compares sizes by their bits: on an ATmega328P a tenth of
+ * the cost of three sums and a comparison. */
 WH_INLINE bool wh_matrix_believable(const wh_real *value, unsigned n) {
 #if WH_SOFT_FLOAT && !WH_DOUBLE
-    /* the upper byte of 2^39: what is below cannot sum up to WH_ABSURD */
+    /* the upper byte of 2^39: smaller numbers cannot sum up to WH_ABSURD */
     static const uint8_t large = 0x53;
     unsigned i = 0;
     for (; i < n; i++) {
@@ -39,7 +40,7 @@ WH_INLINE bool wh_matrix_believable(const wh_real *value, unsigned n) {
     return wh_all_believable(value, n);
 }
 
-/* Take over what a list gave of a scene without turn angles and low parts, or refuse the step. */
+/* Accept the list's results for a scene without turn angles and low parts, or refuse the step. */
 WH_INLINE wh_status wh_matrix_accept(const wh_real *given, unsigned reals, wh_state *state) {
     if (!wh_matrix_believable(given, reals)) {
         return wh_refuse_among(given, reals, 0, state);
@@ -51,9 +52,9 @@ WH_INLINE wh_status wh_matrix_accept(const wh_real *given, unsigned reals, wh_st
     return WH_OK;
 }
 
-/* value + increment + *carry, which is replaced by what rounding took from both sums. Most of *carry is whole units of the
- * increment's last place, as what was taken before is; what the constants' rounding adds is less than half of one, so that
- * wh_sum() would lose it in every step: 2.5e-5 rad in 1e6 steps of an oscillator, where so it is 5e-8. */
+/* value + increment + *carry; *carry becomes the round-off of both sums. Most of *carry is whole units of the
+ * increment's last place. The constants' rounding adds less than half of one, which wh_sum() would lose in every step:
+ * 2.5e-5 rad in 1e6 steps of an oscillator. This sum loses 5e-8. */
 WH_INLINE wh_real wh_matrix_sum(wh_real value, wh_real increment, wh_real *carry) {
     const wh_real wanted = increment + *carry;
     const wh_real of_carry = wanted - increment;
@@ -63,15 +64,15 @@ WH_INLINE wh_real wh_matrix_sum(wh_real value, wh_real increment, wh_real *carry
     return sum;
 }
 
-/* One step of h, from the list `matrix`, which is called as accelerations are, but without phases. The rates are behind
- * `rates_at` other reals (second order; else it does not matter). The list gives, of the
+/* One step of h by the list `matrix`, which is called as accelerations are, but without phases. The rates follow
+ * `rates_at` other reals (second order; otherwise unused). The list gives
  *
  *     angles             the mean rate over the step
- *     reals              where they stand after it; compensated, by how much they change
- *     reals once more    compensated: what rounding the constants to float takes from that
+ *     reals              their values after it; compensated: their changes
+ *     reals once more    compensated: the change's error from rounding the constants to float
  *
  * angles <= WH_COORDS, reals <= 2 WH_COORDS. Returns WH_OK, or WH_E_DIVERGED with state->fault set and the rest of the
- * state as it was. */
+ * state unchanged. */
 WH_INLINE wh_status wh_step_matrix(const void *model, wh_accel_fn *matrix, bool compensated,
                                    unsigned angles, unsigned reals, unsigned rates_at, wh_span h,
                                    wh_state *state) {

@@ -1,6 +1,8 @@
-/* method.h: the integration methods, a row each. All that is known of a method stands in its row: whatever steps,
- * keeps books, counts evaluations, reads command lines, prints or tests methods reads it here. Adding a method
- * is adding a row (and its line in docs/dev/numerics.md, which a test holds to these).
+/* method.h: the integration methods, one row each.
+ *
+ * A row holds every property of its method. The stepping, the ledger, the evaluation counts, the command line, the
+ * listings and the tests all read it. To add a method, add its row and its line in docs/dev/numerics.md (a test
+ * compares the two).
  */
 #ifndef WH_METHOD_H
 #define WH_METHOD_H
@@ -8,38 +10,38 @@
 #include "real.h"
 
 /* X(name in C, word of command lines, title, order, systems that it takes, stages, its tableau). Enumerators count from
- * 0 in this order; generated code says them by name.
+ * 0 in this order; generated code uses their names.
  *
- * A step evaluates the right-hand side once a stage. Stage i looks at where
+ * A step evaluates the right-hand side once a stage. Stage i is evaluated at
  *
  *     begin + h/parts * sum_j share[j] * (rate of stage j),        .stage[i] = {parts, {share...}}
  *
- * stands, j before i: a row of Butcher's A, with a common denominator. A share of zero leaves nothing behind in
- * generated code. At the end of the step, with h/parts * sum_i share[i] * (derivative of stage i),
+ * with j before i: a row of Butcher's A, with a common denominator. A share of zero costs nothing in generated code. At
+ * the end of the step, with h/parts * sum_i share[i] * (derivative of stage i),
  *
  *     x' = f(x):        x moves by .rates                             (Butcher's b)
  *     q'' = f(q, q'):   q' moves by .rates, and q by h times q' moved by .positions
  *
- * so that a method may have weights of its own for positions (Nystroem's, semi-implicit Euler). Those of a
- * Runge-Kutta method are .positions = b A; only such a method takes systems of first order. Both have the same
- * .parts: the sum for positions is part of that for rates. The books (ledger_step.h) weigh the stages by .rates, too.
+ * so a method may have its own weights for positions (Nystroem's, semi-implicit Euler). A Runge-Kutta method has
+ * .positions = b A; only such a method takes systems of first order. Both have the same .parts: the sum for positions
+ * is part of the sum for rates. The ledger (ledger_step.h) weighs the stages by .rates, too.
  *
- * Nystroem's methods know that positions are moved by rates, and say with .places where the position of stage i stands:
+ * Nystroem's methods use that rates move positions. Their .places gives the position of stage i:
  *
  *     begin + c h q' + h^2/parts * sum_j share[j] a_j,     .places->reach[i] = {parts, {share...}}, c = .places->node[i],
  *
- * where the accelerations of the earlier stages are a_j; a Runge-Kutta method's reach is A A. The rates of stage i are those
- * that .stage[i] gives. Two stages with the same node and reach stand at the same place: what a list computes of positions
- * alone (sines, mass matrix, divisions) a compiler that has inlined it computes once. Systems of first order, where the row
- * takes them, are stepped by .stage alone.
+ * where a_j are the accelerations of the earlier stages; a Runge-Kutta method's reach is A A. The rates of stage i
+ * follow from .stage[i]. Two stages with the same node and reach have the same position: a compiler that has inlined a
+ * list computes its terms of positions alone (sines, mass matrix, divisions) once. First-order systems, if the row
+ * takes them, use .stage alone.
  *
- * Compositions of kicks and drifts are rows of the same columns: with kicks b_i at nodes c_i, .rates = b,
- * .positions = b (1 - c), .reach[i] has shares b_j (c_i - c_j), and .stage none: they have no rates to show to
- * accelerations that ask for them, and are refused there (WH_NO_RATES). Their first stage may stand away from the begin.
+ * Compositions of kicks and drifts are rows of the same columns. With kicks b_i at nodes c_i, .rates = b, .positions =
+ * b (1 - c), and .reach[i] has shares b_j (c_i - c_j). They have no .stage: they have no rates for accelerations that
+ * depend on rates, which therefore refuse them (WH_NO_RATES). Their first stage need not be at the step's begin.
  *
- * A row of several stages whose sines can be those of the step's begin, turned on (stage_turn.h), says with .turns how many
- * times as far as stage 1 stage i is, as the rates at the begin lead. That follows from the shares
- * (tests/core/test_stage_turn.c). A row without it is stepped by looking up.
+ * A row of several stages may rotate the sines of the step's begin (stage_turn.h). Its .turns gives the distance of
+ * stage i as a multiple of that of stage 1, both extrapolated by the rates at the begin. They follow from the shares
+ * (tests/core/test_stage_turn.c). A row without .turns looks its sines up.
  */
 /* clang-format off */
 #define WH_SHORT_METHOD_ROWS(X) \
@@ -75,7 +77,7 @@
       .stage = {{1, {0}}}, \
       .places = &(const wh_places){.node = {WH_R(0.5)}, .reach = {{1, {0}}}}, \
       .parts = 2, .positions = {1}, .rates = {2})
-/* Those of more than four stages. */
+/* Rows of more than four stages. */
 #define WH_LONG_METHOD_ROWS(X) \
     X(WH_NYSTROEM5, "nystroem5", "Nystroem 5", 5, WH_ANY_SYSTEM, 6, \
       .stage = {{1, {0}}, {4, {1}}, {8, {1, 1}}, {2, {0, -1, 2}}, {16, {3, 0, 0, 9}}, {7, {-3, 2, 12, -12, 8}}}, \
@@ -86,7 +88,7 @@
 #define WH_METHOD_ROWS(X) WH_SHORT_METHOD_ROWS(X) WH_LONG_METHOD_ROWS(X)
 /* clang-format on */
 
-/* The method of whoever names none. */
+/* The default method. */
 #define WH_METHOD_DEFAULT WH_RK4
 
 #define WH_METHOD_NAME(id, word, title, order, takes, stages, ...) id,
@@ -97,14 +99,15 @@ typedef enum wh_method { WH_METHOD_ROWS(WH_METHOD_NAME) } wh_method;
 enum { WH_METHODS = WH_METHOD_ROWS(WH_METHOD_ONE) };
 #undef WH_METHOD_ONE
 
-/* Systems that a method takes: a bit for each wh_form (scene.h), and one where accelerations must not take rates. */
+/* Systems that a method takes: a bit for each wh_form (scene.h), and one for methods whose accelerations must not
+ * depend on rates. */
 enum { WH_SECOND_ORDER_ONLY = 1, WH_ANY_SYSTEM = 3, WH_NO_RATES = 5 };
 
 #ifdef __cplusplus
 extern "C" {
 #endif
 
-/* What users are told of a method. */
+/* A method's data for users. */
 typedef struct wh_method_row {
     const char *word;  /* on command lines, in file names */
     const char *name;  /* in C */
@@ -121,8 +124,8 @@ extern const wh_method_row wh_methods[WH_METHODS];
 }
 #else
 
-/* The rows that are to be had. A generated scene says how many stages its method has (WH_STAGES): with room for two more
- * a row takes 8-bit chips 200 bytes of RAM, where the compiler leaves anything of it. */
+/* The available rows. A generated scene defines its method's number of stages (WH_STAGES). Room for two more stages
+ * costs 8-bit chips 200 bytes of RAM if the compiler keeps any of the row. */
 #if defined(WH_STAGES) && WH_STAGES <= 4
 #define WH_TABLEAUS(X) WH_SHORT_METHOD_ROWS(X)
 #define WH_NO_TABLEAUS(X) WH_LONG_METHOD_ROWS(X)
@@ -136,11 +139,11 @@ union wh_method_stages {
     WH_TABLEAUS(WH_METHOD_STAGES)
 };
 #undef WH_METHOD_STAGES
-/* Most stages of a row that is to be had. */
+/* Most stages of an available row. */
 #define WH_STAGES_MAX sizeof(union wh_method_stages)
 
-/* share[j] parts of `parts`: what stage j's derivative counts for. Numbers, not integers: rows of higher order
- * have shares that are no ratios of small ones. */
+/* share[j] parts of `parts`: the weight of stage j's derivative. Not integers: rows of higher order have shares that
+ * are not ratios of small integers. */
 typedef struct wh_shares {
     wh_real parts;
     wh_real share[WH_STAGES_MAX];
@@ -154,7 +157,7 @@ typedef struct wh_places {
 typedef struct wh_tableau {
     unsigned stages;
     wh_shares stage[WH_STAGES_MAX];
-    const wh_places *places; /* NULL: where the rates lead */
+    const wh_places *places; /* NULL: positions follow the rates */
     wh_real parts;
     wh_real positions[WH_STAGES_MAX];
     wh_real rates[WH_STAGES_MAX];
@@ -166,8 +169,8 @@ typedef struct wh_tableau {
 WH_TABLEAUS(WH_METHOD_TABLEAU)
 #undef WH_METHOD_TABLEAU
 
-/* An object each, and not an array: where the method is a constant, nothing is left in generated code of the others,
- * and nothing of its own where the loops over it are unrolled. */
+/* One object each, not an array: if the method is constant, generated code contains only its row, and not even that if
+ * the loops over it are unrolled. */
 WH_INLINE const wh_tableau *wh_tableau_of(wh_method method) {
 #define WH_METHOD_NONE(id, ...) case id:
 #define WH_METHOD_TABLEAU(id, ...) \
@@ -180,7 +183,7 @@ WH_INLINE const wh_tableau *wh_tableau_of(wh_method method) {
     }
 #undef WH_METHOD_NONE
 #undef WH_METHOD_TABLEAU
-    return &wh_tableau_WH_RK4; /* none: a method is one of these */
+    return &wh_tableau_WH_RK4; /* every method has a case above */
 }
 
 #endif

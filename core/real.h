@@ -1,11 +1,10 @@
-/* real.h: the number the core computes with, and the words every core file needs.
+/* real.h: the number the core computes with, and the macros every core file needs.
  *
- * Boards and `whirl run --number float` use float. Compiling with WH_DOUBLE=1 gives the reference
- * build in double. Both are freestanding and neither calls libm: only IEEE 754 additions, multiplications,
- * divisions, square roots and conversions are left, so the same source gives the same bits on every
- * machine, if the compiler leaves them what they are. It is told so here, for every function of a file that
- * stands behind the #include: no contraction to fused multiply-adds, whatever the flags. What cannot be
- * switched off is refused here, as far as macros tell, and else by wh_scene_start() (arithmetic.h).
+ * Boards and `whirl run --number float` use float. Compiling with WH_DOUBLE=1 gives the reference build in double. Both
+ * are freestanding and neither calls libm. They use only IEEE 754 additions, multiplications, divisions, square roots
+ * and conversions. So the same source gives the same bits on every machine, unless the compiler changes the operations.
+ * This file forbids the contraction to fused multiply-adds in every function after its #include, for any flags. It
+ * refuses other such options if macros reveal them; wh_scene_start() finds the rest (arithmetic.h).
  */
 #ifndef WH_REAL_H
 #define WH_REAL_H
@@ -29,7 +28,7 @@
     "Whirl computes the same bits everywhere, which fast-math forbids: compile this file without -ffast-math, -Ofast, -funsafe-math-optimizations and their parts."
 #endif
 
-/* 16, 32: what is smaller than float is computed as it is. */
+/* 16, 32: types smaller than float are computed in their own precision. */
 #if defined(__FLT_EVAL_METHOD__) && __FLT_EVAL_METHOD__ != 0 && __FLT_EVAL_METHOD__ != 16 && \
     __FLT_EVAL_METHOD__ != 32 && \
     !(WH_DOUBLE && (__FLT_EVAL_METHOD__ == 1 || __FLT_EVAL_METHOD__ == 64))
@@ -37,7 +36,7 @@
     "Whirl computes the same bits everywhere, and this compiler keeps more of them in between: on x86 use -msse2 -mfpmath=sse, on s390x -std=gnu11."
 #endif
 
-/* Tools that predefine nothing, such as cppcheck, read on; of a compiler without these macros wh_scene_start() finds out. */
+/* Tools that predefine no macros, such as cppcheck, read on. wh_scene_start() checks compilers without these macros. */
 #if defined(__FLT_RADIX__) && \
     (__FLT_RADIX__ != 2 || __FLT_MANT_DIG__ != 24 || (WH_DOUBLE && __DBL_MANT_DIG__ != 53))
 #error "Whirl needs IEEE 754 numbers: float of 32 bits and, with WH_DOUBLE=1, double of 64 bits."
@@ -53,14 +52,14 @@ typedef float wh_real;
 #define WH_ABS(x) __builtin_fabsf(x)
 #endif
 
-/* The host links both builds of the core into one program, so the double one carries a suffix. */
+/* The host links both builds of the core into one program, so the double one has a suffix. */
 #if WH_DOUBLE
 #define WH_NAME(name) name##_d
 #else
 #define WH_NAME(name) name
 #endif
 
-/* A size in macros that C and C++ use, without a cast of the old style in C++. */
+/* A size for macros in C and C++, without an old-style cast in C++. */
 #ifdef __cplusplus
 #define WH_SIZE(x) static_cast<size_t>(x)
 #else
@@ -73,8 +72,8 @@ typedef float wh_real;
 #define WH_INLINE static inline
 #endif
 
-/* What generated code has inlined, but for processors without floating-point arithmetic: beside what that takes there,
- * a call costs little, and their flash is small. */
+/* Generated code inlines these functions, except on processors without floating-point arithmetic: a call costs little
+ * there compared with the arithmetic, and their flash is small. */
 #if defined(__AVR__) || (defined(__arm__) && !defined(__ARM_FP)) || \
     (defined(__riscv) && !defined(__riscv_flen))
 #define WH_SOFT_FLOAT 1
@@ -87,16 +86,16 @@ typedef float wh_real;
 #define WH_INLINE_WITH_FPU WH_INLINE
 #endif
 
-/* Are reals told to a function in the registers that they are computed in, on a chip whose flash is small? A way that is
- * hardly ever taken is a call there, then, of a function that all scenes share. */
+/* 1 on a chip with small flash that passes reals in floating-point registers. There a rare path is a call of a function
+ * that all scenes share. */
 #if defined(__ARM_PCS_VFP) && !WH_DOUBLE && !(defined(WH_AHEAD) && WH_AHEAD)
 #define WH_REALS_IN_REGISTERS 1
 #else
 #define WH_REALS_IN_REGISTERS 0
 #endif
 
-/* Where flash is smaller than time is short (-DWH_SMALL=1), a function that is to stay one: inside another it would take more,
- * whatever the compiler thinks. WH_SHARED: one in a header, inline elsewhere. */
+/* Where flash is scarcer than time (-DWH_SMALL=1), a function that must not be inlined: a copy would be larger,
+ * whatever the compiler estimates. WH_SHARED: the same in a header, inline elsewhere. */
 #ifndef WH_SMALL
 #define WH_SMALL 0
 #endif
@@ -108,7 +107,7 @@ typedef float wh_real;
 #define WH_SHARED WH_INLINE
 #endif
 
-/* A function, and a way, that are hardly ever taken: for size, and out of the others' way. */
+/* A function, and a branch, that rarely run: optimized for size, and placed away from the others. */
 #if defined(__GNUC__)
 #define WH_COLD __attribute__((cold))
 #else
@@ -133,9 +132,9 @@ typedef float wh_real;
     X(WH_E_ARGUMENT, -3, "an argument is out of range") \
     /* the last good state is kept */ \
     X(WH_E_UNDEFINED, -4, "an expression of a contact is not a finite number") \
-    /* holds came to where they do; the last good state is kept */ \
+    /* holds met where they do; the last good state is kept */ \
     X(WH_E_SINGULAR, -5, "holds leave more than one motion") \
-    /* other bits than everywhere else would be computed: arithmetic.h says why */ \
+    /* the build would compute other bits than all others: arithmetic.h says why */ \
     X(WH_E_ARITHMETIC, -6, "compiled or set up for other arithmetic than IEEE 754")
 
 #define WH_STATUS_VALUE(name, value, words) name = (value),

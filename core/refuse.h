@@ -1,4 +1,4 @@
-/* refuse.h: which numbers no mechanism has, and refusing the step that gave one. Part of step_end.h. */
+/* refuse.h: bounds on a mechanism's numbers, and refusing a step that exceeds them. Part of step_end.h. */
 #ifndef WH_REFUSE_H
 #define WH_REFUSE_H
 
@@ -9,20 +9,20 @@
 
 #include "state.h"
 
-/* A linear position or a rate beyond this is no mechanism's: the step is refused. */
+/* Limit on linear positions and rates: the step is refused beyond it. */
 #define WH_ABSURD WH_R(1e15)
 
-/* True for finite numbers of a believable size; false for NaN. */
+/* True for finite numbers within the limit; false for NaN. */
 WH_INLINE bool wh_believable(wh_real value, wh_real limit) { return WH_ABS(value) < limit; }
 
-/* Refuse the step: component `fault` left all bounds. */
+/* Refuse the step because component `fault` left its bounds. */
 WH_INLINE wh_status wh_refuse(wh_state *state, unsigned fault) {
     state->fault = (int)fault;
     return WH_E_DIVERGED;
 }
 
-/* wh_refuse_first() of step_end.h, called with 2 to 4, and 5 to 8, numbers that are in registers already, the last one in
- * the place of those that are not there: what a step that ends so would hold of comparisons is there once, in scene.c. */
+/* wh_refuse_first() of step_end.h as a call, for 2 to 4, and 5 to 8, numbers in registers; the last number fills unused
+ * places. So scene.c has the comparisons once, instead of each step. */
 #define wh_refuse_four WH_NAME(wh_refuse_four)
 #define wh_refuse_eight WH_NAME(wh_refuse_eight)
 wh_status wh_refuse_four(wh_state *state, unsigned first, unsigned n, wh_real a, wh_real b,

@@ -1,9 +1,9 @@
-/* root.h: the square root, correctly rounded, and no library's.
+/* root.h: the square root, correctly rounded, without a library.
  *
- * WH_SQRT(x) is the processor's instruction where the compiler surely gives that and nothing else, and
- * wh_sqrt() elsewhere: the same bits. What stands between is errno: without -fno-math-errno compilers put a
- * call of libm's sqrtf beside the instruction, for negative numbers, or make it the call alone (-O0, -Os,
- * -ffreestanding). x86 has an intrinsic that is free of it; on other processors the flag saves time.
+ * WH_SQRT(x) is the processor's instruction if the compiler surely emits only that, and wh_sqrt() otherwise, with the
+ * same bits. The obstacle is errno: without -fno-math-errno, compilers add a call of libm's sqrtf for negative numbers,
+ * or emit only the call (-O0, -Os, -ffreestanding). x86 has an intrinsic that avoids errno; on other processors the
+ * flag saves time.
  */
 #ifndef WH_ROOT_H
 #define WH_ROOT_H
@@ -16,15 +16,15 @@ extern "C" {
 
 #define wh_sqrt WH_NAME(wh_sqrt)
 
-/* The square root rounded to the nearest real, computed in integers. As IEEE 754 has it: infinity and both
- * zeros are their own roots; the roots of NaN and of negative numbers are NaN. */
+/* The square root rounded to the nearest real, computed in integers. As in IEEE 754, infinity and both zeros are their
+ * own roots; the roots of NaN and of negative numbers are NaN. */
 wh_real wh_sqrt(wh_real x);
 
 /* WH_ROOT_BUILTIN: the compiler's root is the instruction alone. */
 #if defined(__GNUC__) && defined(__NO_MATH_ERRNO__)
 #if defined(__aarch64__) || defined(__wasm__)
 #define WH_ROOT_BUILTIN 1
-#elif defined(__ARM_FP) /* of which sizes, in bytes: 4 and 8 are bits of it */
+#elif defined(__ARM_FP) /* bits 4 and 8 are the supported sizes in bytes */
 #define WH_ROOT_BUILTIN (__ARM_FP >> (WH_DOUBLE ? 3 : 2) & 1)
 #elif defined(__riscv_flen) && defined(__riscv_fsqrt)
 #define WH_ROOT_BUILTIN (__riscv_flen >= (WH_DOUBLE ? 64 : 32))
@@ -36,7 +36,7 @@ wh_real wh_sqrt(wh_real x);
 
 #if defined(__GNUC__) && defined(__SSE2_MATH__) /* x86, computing with SSE */
 WH_INLINE wh_real wh_root_sse(wh_real x) {
-    /* in every place: that costs less than zeros in the others */
+    /* in every place: cheaper than zeros in the others */
 #if WH_DOUBLE
     typedef double reals __attribute__((vector_size(16)));
     const reals all = {x, x};

@@ -1,18 +1,17 @@
 /* sine.h: sine and cosine together, and the phase of radians. Part of angle.h.
  *
- * The turn is cut into 128 sectors. With s, c the sine and cosine of the middle of the sector that
- * the angle is in, and r the rest, at most pi/128,
+ * The turn is cut into 128 sectors. s and c are the sine and cosine of the middle of the angle's sector, and r is the
+ * angle from there, at most pi/128:
  *
  *     sin = s + (s (cos r - 1) + c sin r)        cos = c + (c (cos r - 1) - s sin r)
  *
- * where the bracket is below 1/40, so that its own rounding hardly shows: what is left is the
- * rounding of the table and of the last sum, half a unit in the last place each. No quadrant, no
- * swap, no sign, no branch; quarter turns come out exact, and no value is beyond one.
+ * The bracket is below 1/40, so its own round-off hardly matters. The error is that of the table and of the last sum,
+ * half a unit in the last place each. There is no quadrant, swap, sign or branch. Quarter turns are exact, and no value
+ * is beyond one.
  *
- * The usual alternative, polynomials for an eighth of a turn, was built and measured in both
- * numbers: it saves the table (640 bytes of flash in float) and is worse in everything else. The
- * sign and the swap cost instructions, and its last steps round numbers near one.
- * docs/dev/numerics.md has the figures.
+ * The usual alternative is a polynomial for an eighth of a turn. It was built and measured in both numbers: it saves
+ * the table (640 bytes of flash in float) and is worse in everything else. The sign and the swap cost instructions, and
+ * its last steps round numbers near one. docs/dev/numerics.md has the figures.
  */
 #ifndef WH_SINE_H
 #define WH_SINE_H
@@ -24,13 +23,12 @@
 extern "C" {
 #endif
 
-/* Sine and cosine of a phase together; a caller that drops one pays for one. At most 1 in size,
- * and exact at quarter turns. Float: the worst error over all 2^32 phases is 6.3e-8 (`make
- * sine-exhaustive` measures it). Double: 1.4e-16 for |phase| <= 5e8 rad; beyond it, or of NaN, both
- * are NaN. docs/dev/numerics.md says how and what it costs. */
+/* Sine and cosine of a phase together; a caller that drops one pays for one. At most 1 in size, and exact at quarter
+ * turns. Float: the worst error over all 2^32 phases is 6.3e-8 (`make sine-exhaustive` measures it). Double: 1.4e-16
+ * for |phase| <= 5e8 rad; for larger phases and NaN, both are NaN. docs/dev/numerics.md has the method and its cost. */
 WH_INLINE void wh_sincos(wh_phase phase, wh_real *sine, wh_real *cosine);
 
-/* The same in two parts each, whose sums those are: what is added to them before the parts are is not rounded twice. */
+/* The same as sums of two parts each. A term that is added before the parts are summed is not rounded twice. */
 typedef struct wh_sine_parts {
     wh_real sine;
     wh_real cosine;
@@ -45,23 +43,23 @@ typedef struct wh_wave {
     wh_real cosine;
 } wh_wave;
 
-/* Phase of an angle in radians, for arguments that are not kept as a turn angle. Float: within one
- * phase unit (1.5e-9 rad) for |rad| < 1e9; larger or NaN gives phase 0. Double: rad itself. */
+/* Phase of an angle in radians, for arguments that are not turn angles. Float: within one phase unit (1.5e-9 rad) for
+ * |rad| < 1e9; larger or NaN gives phase 0. Double: rad itself. */
 WH_INLINE wh_phase wh_phase_from_rad(wh_real rad);
 
-/* A float phase has no room for "not a number": where rad has none either, or is too large for a phase,
- * make sine and cosine NaN, so that the step is refused as it is in double. */
+/* Set sine and cosine to NaN if rad is NaN or too large for a phase, so that the step is refused as in double. A float
+ * phase cannot represent NaN. */
 WH_INLINE void wh_sincos_of_range(wh_real rad, wh_real *sine, wh_real *cosine);
 
-/* Sectors of a turn, as a power of two, and how many of them make a quarter turn. */
+/* Sectors of a turn, as a power of two, and sectors of a quarter turn. */
 #define WH_SINE_BITS 7
 #define WH_SINE_QUARTER (1U << (WH_SINE_BITS - 2))
 
-/* Sine of the sectors' middles, a turn and a quarter, so that the cosine is WH_SINE_QUARTER on. */
+/* Sine of the sectors' middles, for a turn and a quarter: the cosine is WH_SINE_QUARTER entries later. */
 #define wh_sine_table WH_NAME(wh_sine_table)
 extern const wh_real wh_sine_table[(1U << WH_SINE_BITS) + WH_SINE_QUARTER] WH_FLASH;
 
-/* Sine and cosine of `sector`'s middle turned on by r, from sin r and cos r - 1: what the turn adds. */
+/* The increments of sine and cosine from `sector`'s middle by a rotation of r, given sin r and cos r - 1. */
 WH_INLINE void wh_sine_turn_on(uint32_t sector, wh_real sin_r, wh_real cos_r_less_1,
                                wh_sine_parts *parts) {
     const wh_real *middle = &wh_sine_table[sector];
@@ -76,7 +74,7 @@ WH_INLINE void wh_sine_turn_on(uint32_t sector, wh_real sin_r, wh_real cos_r_les
 #if WH_DOUBLE
 
 WH_INLINE void wh_sincos_parts(wh_phase phase, wh_sine_parts *parts) {
-    /* Beyond this the products below are no longer exact. NaN fails the comparison, too. */
+    /* Above it the products below are not exact. NaN fails the comparison, too. */
     const double angle = WH_ABS(phase) <= 5e8 ? phase : __builtin_nan("");
 
     /* Adding 1.5 * 2^52 rounds to an integer and leaves it in the low bits of the sum. */
@@ -86,10 +84,10 @@ WH_INLINE void wh_sincos_parts(wh_phase phase, wh_sine_parts *parts) {
     uint64_t bits;
     __builtin_memcpy(&bits, &sum, sizeof bits);
 
-    /* pi/64 in three parts (Cody & Waite, Software Manual for the Elementary Functions, chapter 8):
-     * the first two have 18 and 16 bits, so that their products with up to 2^34 sectors are exact
-     * and so are the differences. 0x1.921f8p-5, 0x1.aa22p-24 and 0x1.68c234c4c6629p-44: C++11 has no such
-     * numbers, and to 17 digits decimal ones are the same. */
+    /* pi/64 in three parts (Cody & Waite, Software Manual for the Elementary Functions, chapter 8). The first two have
+     * 18 and 16 bits, so their products with up to 2^34 sectors are exact, and so are the differences. They are
+     * 0x1.921f8p-5, 0x1.aa22p-24 and 0x1.68c234c4c6629p-44; C++11 has no such literals, and 17 decimal digits give the
+     * same numbers. */
     double r = angle - sectors * 0.049087285995483398;
     r = r - sectors * 9.9216777016408741e-08;
     r = r - sectors * 8.0104504737328716e-14;
@@ -117,21 +115,21 @@ WH_INLINE void wh_sincos_parts(wh_phase phase, wh_sine_parts *parts) {
     const unsigned rest_bits = 32U - WH_SINE_BITS;
     const uint32_t sector = (phase + (UINT32_C(1) << (rest_bits - 1U))) >> rest_bits;
 
-    /* The rest, times 2^7: with the sector shifted out its sign comes right by itself, and its 25
-     * significant bits convert exactly. The scale, 2^39 a turn, is hidden in the constants. */
+    /* The remaining angle, times 2^7. With the sector shifted out its sign is right, and its 25 significant bits
+     * convert exactly. The constants include the scale, 2^39 a turn. */
     const float y = (float)(int32_t)(phase << WH_SINE_BITS);
 
-    /* Minimax for |r| <= pi/128: sin r to 5e-12, cos r to 2.6e-9. The numbers are 0x1.921fb6p-37,
-     * -0x1.4ab89ep-112 and -0x1.3bd07p-74, which C++11 cannot write so. */
+    /* Minimax for |r| <= pi/128: sin r to 5e-12, cos r to 2.6e-9. The numbers are 0x1.921fb6p-37, -0x1.4ab89ep-112 and
+     * -0x1.3bd07p-74; C++11 has no such literals. */
     const float z = y * y;
     const float sin_r = y * (1.14290478e-11f + z * -2.48806948e-34f);
     const float cos_r_less_1 = z * -6.53088477e-23f;
     wh_sine_turn_on(sector, sin_r, cos_r_less_1, parts);
 }
 
-/* wh_angle_from_rad(), inline here because a phase needs only its low half: the compiler drops the
- * other. There are 2^32/(2 pi) phase units in a radian: 683565276 - 1819212470/2^32 for the whole
- * radians, 1367130551/2^33 * 2^31 for the fraction. Integers are exact where products round. */
+/* wh_angle_from_rad(), inline because a phase needs only its low half: the compiler drops the other. There are 2^32/(2
+ * pi) phase units in a radian: 683565276 - 1819212470/2^32 for the whole radians, 1367130551/2^33 * 2^31 for the
+ * fraction. Integers are exact; products would round. */
 #define WH_RAD_MOST 1e9f
 WH_INLINE int64_t wh_angle_of_rad(float rad) {
     const float in_range = WH_ABS(rad) < WH_RAD_MOST ? rad : 0.0f; /* NaN is not in range */

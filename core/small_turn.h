@@ -1,5 +1,4 @@
-/* small_turn.h: what turning on by d adds: sin d and cos d - 1, by two short polynomials. Part of
-stage_turn.h. */
+/* small_turn.h: sin d and cos d - 1, the increments of a rotation by d, by two short polynomials. Part of stage_turn.h. */
 #ifndef WH_SMALL_TURN_H
 #define WH_SMALL_TURN_H
 
@@ -10,16 +9,13 @@ stage_turn.h. */
 
 #include "sine.h"
 
-/* rad, up to which turns are small */
+/* limit of small rotations, rad */
 #define WH_TURN_SMALL WH_R(0.5)
 
-/* Most times that a turn is halved: one of 2^15 rad is small then. What is beyond ends as infinity
-or NaN, and the step is
- * refused. */
+/* Most halvings of a rotation: they make 2^15 rad small. Larger ones end as infinity or NaN, and the step is refused. */
 #define WH_TURN_HALVINGS 16U
 
-/* The turn by d rad, |d| <= 1/2: within 4.1e-8 and 1.9e-9 in float, 7e-18 and 2e-19 in double,
-without rounding. */
+/* The rotation by d rad, |d| <= 1/2: within 4.1e-8 and 1.9e-9 in float, 7e-18 and 2e-19 in double, before rounding. */
 WH_INLINE_WITH_FPU wh_wave wh_small_turn(wh_real d) {
     const wh_real z = d * d;
     wh_wave turn;
@@ -41,9 +37,9 @@ WH_INLINE_WITH_FPU wh_wave wh_small_turn(wh_real d) {
     return turn;
 }
 
-/* The same for any d: the turn by d / 2^k, doubled k times, and what it errs by with it: within
- * 7e-7 |d| in float, 1.3e-15 |d| in double. `surely`: it is not small. Seldom needed, and no call, over
- * which all that a step holds in registers would have to be kept. */
+/* The same for any d: the rotation by d / 2^k, doubled k times. The error doubles with it: within 7e-7 |d| in float,
+ * 1.3e-15 |d| in double. `surely`: d is not small. Rarely needed. Not a call, because a call would spill all registers
+ * of the step. */
 WH_INLINE_WITH_FPU WH_COLD wh_wave wh_far_turn(wh_real d, bool surely) {
     unsigned doublings = 0;
     if (surely || WH_ABS(d) > WH_TURN_SMALL) {
@@ -63,7 +59,7 @@ WH_INLINE_WITH_FPU WH_COLD wh_wave wh_far_turn(wh_real d, bool surely) {
     return turn;
 }
 
-/* wh_far_turn() of any d, called; in angle.c. */
+/* wh_far_turn() of any d as a call; in angle.c. */
 #define wh_far_turn_called WH_NAME(wh_far_turn_called)
 wh_wave wh_far_turn_called(wh_real d);
 

@@ -1,24 +1,24 @@
-/* span.h: constants in two parts, whose sum is nearer to what is meant than one real can be. Where sums are compensated, a
- * step of a millisecond would else be 4.7e-8 of itself too long in float, in every step. Part of step.h. */
+/* span.h: constants as sums of two reals, for more precision than one has. With compensated sums in float, a step of a
+ * millisecond as one real would be too long by 4.7e-8 of itself, in every step. Part of step.h. */
 #ifndef WH_SPAN_H
 #define WH_SPAN_H
 
 #include "turn.h"
 
-/* s + rest_s, rest_s below half a unit in the last place of s. A length of time, or what follows from one. */
+/* s + rest_s, rest_s below half a unit in the last place of s. A length of time, or a constant derived from one. */
 typedef struct wh_span {
     wh_real s;
     wh_real rest_s;
 } wh_span;
 
-/* For generated code. Double needs no rest. */
+/* For generated code. Double needs no rest_s. */
 #if WH_DOUBLE
 #define WH_SPAN(s, rest_s) ((wh_span){s, 0.0})
 #else
 #define WH_SPAN(s, rest_s) ((wh_span){WH_R(s), WH_R(rest_s)})
 #endif
 
-/* What rounding takes from a b (Dekker's product, Veltkamp's split: Muller et al., Handbook of Floating-Point Arithmetic,
+/* The round-off of a b (Dekker's product, Veltkamp's split: Muller et al., Handbook of Floating-Point Arithmetic,
  * section 4.4). */
 WH_INLINE wh_real wh_product_rest(wh_real a, wh_real b) {
     const wh_real split = WH_DOUBLE ? WH_R(134217729.0) : WH_R(4097.0);

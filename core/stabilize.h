@@ -1,22 +1,22 @@
-/* stabilize.h: what the energy drifts by is given back along the rates, a little in every step, for runs so long that a
- * method's own error, or rounding's, would sum up. Part of ledger_step.h.
+/* stabilize.h: energy stabilization by small corrections along the rates. Part of ledger_step.h. For runs so long that
+ * the method's error, or round-off, would add up.
  *
- * The books say by how much the energy has changed more than what went in and out (ledger.h): the drift D, in which what was
- * given back before does not count. Rates that are all made longer by a part s change the energy by s P, P = sum q_i' p_i with
- * the momenta p_i, where the kinetic energy is a quadratic form of the rates; and the directions of motion, what stands still
- * and the ratios of momenta stay. So each step sets
+ * The ledger gives the drift D: the part of the energy's change that no entry explains (ledger.h), without earlier
+ * corrections. If the kinetic energy is a quadratic form of the rates, scaling all rates by 1 + s changes the energy by
+ * s P, with P = sum q_i' p_i and the momenta p_i. Directions of motion, zero rates and ratios of momenta do not change.
+ * So each step sets
  *
  *     s = -D / (1024 max P),     at most 2^-20 in size,
  *
- * which is x' = f(x) - g F(x) D(x) with F along the rates (Ascher, Chin & Reich, Stabilization of DAEs and invariant manifolds,
- * Numerische Mathematik 67, 1994). A thousandth of the drift, and not all of it, for a float's D is noise of its last digits:
- * that is averaged over a thousand steps, and the rest goes into the carries of compensated sums. max P is the most that P has
- * been, so that s is the same where a swing turns back: of the P of that moment, a small one, all would be given to what is
- * slow and goes on.
+ * which is x' = f(x) - g F(x) D(x) with F along the rates (Ascher, Chin & Reich, Stabilization of DAEs and invariant
+ * manifolds, Numerische Mathematik 67, 1994). A step corrects only a thousandth of the drift, because a float's D is
+ * noise of its last digits. A thousand steps average it, and compensated sums carry the fraction. max P is the largest
+ * P so far, so that s does not grow when a swing turns back. With the small P of that moment, the slow parts that still
+ * move would get the whole correction.
  *
- * One number says nothing of where energy was lost: what a fast motion lost is given to all. So what is given back is an entry of
- * the books, and to be looked at as the loss that it makes up for. It is for motions that nothing drives or damps: elsewhere D
- * is also what the books' own rule errs by, of which the motion knows nothing.
+ * D does not show where the energy was lost: a loss of the fast motion is returned to all motions. So the correction is
+ * an entry of the ledger, and to be read as a loss of that size. It is for motions without drive and damping. In
+ * others, D includes the quadrature error of the ledger, which is not an error of the motion.
  */
 #ifndef WH_STABILIZE_H
 #define WH_STABILIZE_H
@@ -31,11 +31,11 @@
 #include "ledger.h"
 #include "refuse.h"
 
-/* Part of the drift that a step gives back, 2^-10, and the largest part of themselves that rates change by, 2^-20. */
+/* Share of the drift that a step corrects, 2^-10, and the largest relative change of the rates, 2^-20. */
 #define WH_STABILIZE_SHARE WH_R(0.0009765625)
 #define WH_STABILIZE_MOST WH_R(9.5367431640625e-7)
 
-/* Behind a step and its entries. `level` [form->accounts] is room to work in. */
+/* After a step and its entries. `level` [form->accounts] is working space. */
 WH_INLINE void wh_stabilize(const wh_ledger_form *form, wh_state *state, wh_real *level) {
     wh_real *most = wh_ledger_most(form, state);
     if (state->steps == 0) { /* the books begin */
@@ -48,7 +48,7 @@ WH_INLINE void wh_stabilize(const wh_ledger_form *form, wh_state *state, wh_real
     wh_real *total = state->ledger + wh_ledger_of_stabilized(form);
     wh_real *rest = total + form->entries;
     const wh_real drift = wh_ledger_error(form, state, 0, level) + (*total + *rest);
-    wh_real gain = WH_R(0.0); /* of energy, where the rates grow by all of themselves */
+    wh_real gain = WH_R(0.0); /* P, J */
     for (unsigned i = 0; i < n; i++) {
         gain += rate[i] * level[1 + i];
     }

@@ -1,4 +1,4 @@
-/* stage_sums.h: what a step's stages give, added up as the method's row says (method.h). Part of step.h. */
+/* stage_sums.h: weighted sums of a step's stages, by the method's row (method.h). Part of step.h. */
 #ifndef WH_STAGE_SUMS_H
 #define WH_STAGE_SUMS_H
 
@@ -12,7 +12,7 @@
 #include "method.h"
 #include "unroll.h"
 
-/* Most stages of a method. A generated scene defines those of its own: with more there would be more to spill. */
+/* Most stages of a method. A generated scene defines its own number: more would spill more registers. */
 #ifndef WH_STAGES
 #define WH_STAGES WH_STAGES_MAX
 #define WH_HAS_LONG_ROWS 1
@@ -20,13 +20,14 @@
 #define WH_HAS_LONG_ROWS 1
 #endif
 
-/* All stages but the first: stage(s); for each. Unrolled by hand where the compiler cannot be asked to: else shares would be
- * looked up and multiplied by while the program runs. */
+/* All stages but the first: stage(s); for each. Unrolled by hand if the compiler has no pragma for it: otherwise the
+ * program would look up and multiply shares as it runs. */
 #ifdef WH_UNROLLS
 #define WH_LATER_STAGES(by, stage) \
     do { \
         WH_UNROLL \
-        for (unsigned s = 1; s < WH_STAGES; s++) { /* with this bound gcc has fewer to spill */ \
+        for (unsigned s = 1; s < WH_STAGES; \
+             s++) { /* with this bound gcc spills fewer registers */ \
             if (s >= (by)->stages) { \
                 break; \
             } \
@@ -59,7 +60,7 @@ WH_INLINE void wh_copy(const wh_real *from, unsigned n, wh_real *to) {
     }
 }
 
-/* What the stages gave: of the first, and of the others. */
+/* The stages' results: the first's, and the others'. */
 typedef struct wh_given {
     const wh_real *first;
     wh_real (*next)[WH_COORDS];
@@ -80,18 +81,18 @@ WH_INLINE wh_real wh_stage_sum(const wh_real *share, unsigned stage, wh_given gi
     return sum;
 }
 
-/* Does the row say where its stages stand, apart from their rates? */
+/* Does the row give its stages' positions apart from their rates? */
 WH_INLINE bool wh_stage_reaches(const wh_tableau *by) { return by->places != NULL; }
 
-/* Does its first stage stand away from the begin? */
+/* Is its first stage away from the begin? */
 WH_INLINE bool wh_begins_away(const wh_tableau *by) {
     return by->places != NULL && by->places->node[0] != WH_R(0.0);
 }
 
-/* Do all its stages stand at the begin? */
+/* Are all its stages at the begin? */
 WH_INLINE bool wh_all_begin(const wh_tableau *by) { return by->stages == 1 && !wh_begins_away(by); }
 
-/* How far component i, of rate `rate`, of such a stage stands from the begin. */
+/* Distance of component i, of rate `rate`, from the begin at such a stage. */
 WH_INLINE wh_real wh_stage_reach(const wh_tableau *by, unsigned stage, wh_real rate,
                                  wh_given accels, wh_real h, unsigned i) {
     const wh_shares *of = &by->places->reach[stage];
@@ -99,14 +100,14 @@ WH_INLINE wh_real wh_stage_reach(const wh_tableau *by, unsigned stage, wh_real r
            h * h / of->parts * wh_stage_sum(of->share, stage, accels, i);
 }
 
-/* Do a stage and the one before it count alike at the step's end? Those are added up first: a sum instead of a
- * product each, and it may serve positions and rates. Where there are no positions, the rates decide. */
+/* Have a stage and the one before it equal weights at the step's end? Such stages are added first: a sum instead of two
+ * products, which may serve positions and rates. Without positions, the rates decide. */
 WH_INLINE bool wh_stages_alike(const wh_tableau *by, unsigned stage, bool has_positions) {
     return stage < WH_STAGES && stage < by->stages && by->rates[stage] == by->rates[stage - 1] &&
            (!has_positions || by->positions[stage] == by->positions[stage - 1]);
 }
 
-/* Stage `stage` gave `now`: kept in given[], and in the sums of those that count alike. */
+/* Store result `now` of stage `stage` in given[], and in the sums of stages with equal weights. */
 WH_INLINE void wh_stage_given(const wh_tableau *by, unsigned stage, bool has_positions, unsigned n,
                               const wh_real *first, const wh_real *now, wh_real (*given)[WH_COORDS],
                               wh_real (*alike)[WH_COORDS]) {
@@ -119,7 +120,7 @@ WH_INLINE void wh_stage_given(const wh_tableau *by, unsigned stage, bool has_pos
     }
 }
 
-/* sum += share * more, and the first one is the sum. */
+/* sum += share * more; the first one sets the sum. */
 WH_INLINE void wh_total_add(wh_real *sum, bool *any, wh_real share, wh_real more) {
     if (share != WH_R(0.0)) {
         *sum = *any ? *sum + share * more : share * more;

@@ -1,26 +1,26 @@
-/* stage_turn.h: steps whose stages turn sines and cosines on instead of looking them up.
+/* stage_turn.h: steps whose stages rotate sines and cosines instead of looking them up.
  *
- * A step looks up the sine and cosine of each angle that its list takes once, where it begins. Stage s stands
+ * A step looks up the sine and cosine of each angle of its list once, at its begin. With r the angle's rate at the
+ * begin and r_j that of stage j, stage s is further on by
  *
- *     c_s h r + h sum_j share_j (r_j - r) / parts,        c_s = sum_j share_j / parts,
+ *     c_s h r + h sum_j share_j (r_j - r) / parts,        c_s = sum_j share_j / parts.
  *
- * further on, with r the angle's rate at the begin and r_j that of stage j.
+ * The first part is a whole multiple of d = c_1 h r, the rotation of the method's first later stage. So one sine and
+ * one cosine of a small angle, two short polynomials, serve all stages: p' = p + w, w' = w + b p'. Here p is a sine (or
+ * a cosine), w the increment of the last rotation and b = 2 (cos d - 1).
  *
- * The first part is a whole number of turns by the method's first one, d = c_1 h r, so that one sine and one cosine of a
- * small angle, two short polynomials, serve all stages: p' = p + w, w' = w + b p', where p is a sine (or a cosine), w
- * what the last turn added and b = 2 (cos d - 1).
- *
- * The second part, the lean e, is of order h^2, for r_j - r is of order h. (s, c) leans by half of it in c, by all of
- * it in s and by half in c again: a turn by e but for e^3/6, which is of order h^6. So the stages stand where looking up
- * would find them to an order that no method here knows of. Of the classic method, with d = h/2 v:
+ * The second part, the lean e, is of order h^2, because r_j - r is of order h. (s, c) leans by half of e in c, by all
+ * of it in s and by half in c again. That is a rotation by e except for e^3/6, which is of order h^6. So the stages
+ * agree with looked-up ones to a higher order than any method here has. The classic method, with d = h/2 v:
  *
  *     stage 2:  one turn     stage 3:  one turn, leaning by h^2 a1/4     stage 4:  two turns, leaning by h^2 a2/2
  *
- * The angle itself is moved by the whole step as ever (step.h) and looked up anew in the next one: nothing drifts.
+ * The whole step moves the angle itself as usual (step.h), and the next step looks it up again: nothing drifts.
  *
- * The polynomials are good for half a radian, |d| summed over the angles whose sine the list takes; one check tells.
- * Beyond it d is halved until it is small and the turn doubled as often (small_turn.h): the stages are nearly as right as ever,
- * and the step takes more instructions. Nothing is refused that looking up at each stage (step.h) would take.
+ * The polynomials are valid up to half a radian, |d| summed over the angles whose sine the list takes; one check
+ * decides. Beyond it, d is halved until it is small and the rotation doubled as often (small_turn.h). The stages are
+ * then nearly as accurate, and the step takes more instructions. Turning refuses no step that looking up at each stage
+ * (step.h) would accept.
  */
 #ifndef WH_STAGE_TURN_H
 #define WH_STAGE_TURN_H
@@ -33,8 +33,8 @@
 #include "small_turn.h"
 #include "step.h"
 
-/* gcc would compute what only some ways need before they part: 1 % more instructions on a Cortex-M4F, and up to 3 % more
- * cycles. In double, on a PC, it is the other way round. */
+/* gcc would compute the operands of some branches before the branch: 1 % more instructions on a Cortex-M4F, and up to 3
+ * % more cycles. In double, on a PC, this saves instructions. */
 #if defined(__GNUC__) && !defined(__clang__) && !WH_DOUBLE
 #pragma GCC optimize("no-tree-pre")
 #endif
@@ -44,8 +44,8 @@
 #define WH_WAVES 256
 #endif
 
-/* On a PC, other registers leave fewer copies: 1 to 6 % fewer instructions; and of one angle, constants loaded where they are
- * needed leave more of the registers: 1 % (2 % more where the list has no quotient). */
+/* On a PC, other register choices need fewer copies: 1 to 6 % fewer instructions. With one angle, loading constants at
+ * their use frees registers: 1 % (2 % more if the list has no quotient). */
 #if defined(__GNUC__) && !defined(__clang__) && defined(__x86_64__)
 #pragma GCC optimize("rename-registers")
 #if WH_WAVES <= 1
@@ -53,42 +53,44 @@
 #endif
 #endif
 
-/* Before the first accelerations there is little to keep over the call that the check may lead to; but what turning
- * takes is to be kept over them, and the 16 registers of a PC are too few for that: 3 % more instructions. */
+/* Checking before the first accelerations leaves few registers to save over the call that the check may lead to. But
+ * the turning's variables must then survive the accelerations, and the 16 registers of a PC are too few for that: 3 %
+ * more instructions. */
 #define WH_TURN_ASKS_FIRST (!WH_DOUBLE)
 
-/* As wh_accel_fn and wh_slope_fn, with the waves' pairs in place of the angles' phases. */
+/* As wh_accel_fn and wh_slope_fn, with the waves' pairs instead of the angles' phases. */
 typedef void wh_turned_accel_fn(const void *model, const wh_wave *pair, const wh_real *linear,
                                 const wh_real *rate, const wh_real *input, wh_real *accel);
 typedef void wh_turned_slope_fn(const void *model, const wh_wave *pair, const wh_real *real,
                                 const wh_real *input, wh_real *slope);
 
-/* The angles whose sine and cosine a list takes: waves. Each is a turn angle, or a sum of whole multiples of some. */
+/* The waves: angles whose sine and cosine a list takes. Each is a turn angle, or a sum of whole multiples of some. */
 typedef struct wh_waves {
     const void *model;
     /* parts[count] at the angles' phases */
     void (*sines)(const void *model, const wh_phase *phase, wh_sine_parts *parts);
-    /* the waves' rates times `scale`, result[count], from those of the angles; anything linear in them */
+    /* the waves' rates times `scale`, result[count], from the angles' rates; also for other quantities linear in the
+     * rates */
     void (*rates)(const void *model, wh_real scale, const wh_real *rate, wh_real *result);
     unsigned count; /* <= WH_WAVES */
 } wh_waves;
 
-/* Has the method's row what turning takes? */
+/* Does the method's row have the data for turning? */
 WH_INLINE bool wh_method_turns(wh_method method) {
     const wh_tableau *by = wh_tableau_of(method);
     return !wh_begins_away(by) && (by->stages == 1 || by->turns[1] == 1);
 }
 
-/* A step's pairs on their way. */
+/* A step's pairs in progress. */
 typedef struct wh_turning {
-    wh_sine_parts parts[WH_WAVES]; /* and what was added to it, where turning is precise */
-    wh_wave at[WH_WAVES];          /* as the rates at the begin alone lead */
-    wh_wave way[WH_WAVES];         /* what the next turn adds, or the last one added */
+    wh_sine_parts parts[WH_WAVES]; /* and their increments, if turning is precise */
+    wh_wave at[WH_WAVES];          /* by the rates at the begin alone */
+    wh_wave way[WH_WAVES];         /* increment of the next rotation, or of the last */
     wh_real bend[WH_WAVES];        /* 2 (cos d - 1) */
     unsigned turns;                /* done */
 } wh_turning;
 
-/* Look up where the step begins. */
+/* Look up at the step's begin. */
 WH_INLINE void wh_turning_look_up(const wh_waves *waves, const wh_angle *angle, unsigned angles,
                                   wh_phase *told, wh_turning *t) {
     wh_phase phase[WH_COORDS];
@@ -108,8 +110,8 @@ WH_INLINE void wh_turning_look_up(const wh_waves *waves, const wh_angle *angle, 
     t->turns = 0;
 }
 
-/* turn[n] by d[n], which are not small together. More than one turn needs a frame in any case, and where it begins few
- * numbers are in registers that a call would take. */
+/* turn[n] by d[n], which are not small together. Several rotations need a stack frame anyway, and at the begin a call
+ * spills few registers. */
 WH_INLINE void wh_far_turns(const wh_real *d, unsigned n, wh_wave *turn) {
     WH_UNROLL
     for (unsigned i = 0; i < n; i++) {
@@ -118,7 +120,7 @@ WH_INLINE void wh_far_turns(const wh_real *d, unsigned n, wh_wave *turn) {
     }
 }
 
-/* What the first turn adds, the angles having these rates: turn[waves->count]. */
+/* The first rotation's increments, for these rates of the angles: turn[waves->count]. */
 WH_INLINE void wh_turning_by(const wh_tableau *by, const wh_waves *waves, const wh_real *rate,
                              wh_real h, wh_wave *turn) {
     wh_real d[WH_WAVES];
@@ -143,7 +145,7 @@ WH_INLINE void wh_turning_by(const wh_tableau *by, const wh_waves *waves, const 
     }
 }
 
-/* Begin to turn so from the pairs in turning->at. */
+/* Begin to turn by them from the pairs in turning->at. */
 WH_INLINE void wh_turning_begin(const wh_waves *waves, const wh_wave *turn, bool precise,
                                 wh_turning *t) {
     WH_UNROLL
@@ -156,7 +158,8 @@ WH_INLINE void wh_turning_begin(const wh_waves *waves, const wh_wave *turn, bool
     }
 }
 
-/* Turn on, so often in all. Precise: what turns add is summed up by itself, so that each pair is rounded once. */
+/* Rotate further, up to this total number of rotations. Precise: increments are summed separately, so that each pair is
+ * rounded once. */
 WH_INLINE void wh_turning_to(const wh_waves *waves, unsigned turns, bool precise, wh_turning *t) {
     WH_UNROLL
     for (unsigned k = 0; k < WH_STAGES; k++) {
@@ -195,8 +198,8 @@ WH_INLINE void wh_turning_to(const wh_waves *waves, unsigned turns, bool precise
     }
 }
 
-/* What the angles lean by at a stage, times h / parts, from what their rates have gained by the earlier ones,
- * gained[j][angle] by stage j + 1. False where the stage does not lean. */
+/* The angles' leans at a stage, times h / parts, from the gains of their rates by earlier stages, gained[j][angle] by
+ * stage j + 1. False if the stage does not lean. */
 WH_INLINE bool wh_turning_leans(const wh_shares *of, unsigned stage, wh_real (*gained)[WH_COORDS],
                                 unsigned angles, wh_real *lean) {
     bool leans = false;
@@ -215,7 +218,7 @@ WH_INLINE bool wh_turning_leans(const wh_shares *of, unsigned stage, wh_real (*g
     return leans;
 }
 
-/* The pair that leans by this. */
+/* The pair with this lean. */
 WH_INLINE_WITH_FPU wh_wave wh_lean(wh_wave at, wh_sine_parts parts, wh_real lean, bool precise) {
     const wh_real half = WH_R(0.5) * lean;
     const wh_real cosine = at.cosine - half * at.sine;
@@ -230,7 +233,7 @@ WH_INLINE_WITH_FPU wh_wave wh_lean(wh_wave at, wh_sine_parts parts, wh_real lean
     return leant;
 }
 
-/* The pair turned on by any lean. */
+/* The pair rotated by any lean. */
 WH_INLINE wh_wave wh_lean_far(wh_wave at, wh_sine_parts parts, wh_real lean, bool precise) {
     const wh_wave turn =
         WH_ABS(lean) <= WH_TURN_SMALL ? wh_small_turn(lean) : wh_far_turn(lean, true);
@@ -266,7 +269,7 @@ WH_INLINE void wh_turning_stage(const wh_tableau *by, const wh_waves *waves, uns
     }
 }
 
-/* The same for a row that says where its stages stand. */
+/* The same for a row that gives its stages' positions. */
 WH_INLINE void wh_turning_reach(const wh_tableau *by, const wh_waves *waves, unsigned stage,
                                 wh_given accels, unsigned angles, wh_real h, bool precise,
                                 wh_turning *t, wh_wave *pair) {
@@ -285,7 +288,7 @@ WH_INLINE void wh_turning_reach(const wh_tableau *by, const wh_waves *waves, uns
     }
 }
 
-/* Where the angles stand at a stage, for who must know (the books): as wh_stage_angle(). */
+/* The angles' phases at a stage, for the ledger: as wh_stage_angle(). */
 WH_INLINE void wh_turning_tell(const wh_tableau *by, unsigned stage, const wh_real *rate,
                                wh_given rates, wh_given accels, unsigned angles, wh_real h,
                                const wh_state *state, wh_phase *told) {
@@ -301,7 +304,7 @@ WH_INLINE void wh_turning_tell(const wh_tableau *by, unsigned stage, const wh_re
     }
 }
 
-/* What a list takes and gives. Apart from all else, which stays in registers where the list is called. */
+/* Arguments and results of a list. A struct of its own: all other variables stay in registers if the list is called. */
 typedef struct wh_turned_list {
     wh_wave pair[WH_WAVES];
     wh_real at[WH_COORDS];    /* linear positions, or reals, */
@@ -309,7 +312,7 @@ typedef struct wh_turned_list {
     wh_real given[WH_COORDS]; /* accelerations, or slopes */
 } wh_turned_list;
 
-/* The pairs where a step begins. */
+/* The pairs at a step's begin. */
 WH_INLINE void wh_turned_take(const wh_waves *waves, const wh_turning *t, wh_turned_list *list) {
     WH_UNROLL
     for (unsigned w = 0; w < waves->count; w++) {
@@ -317,20 +320,20 @@ WH_INLINE void wh_turned_take(const wh_waves *waves, const wh_turning *t, wh_tur
     }
 }
 
-/* A step of q'' = f(q, q', u) on its way. */
+/* A step of q'' = f(q, q', u) in progress. */
 typedef struct wh_turned_second {
     const wh_real *linear; /* where it begins */
     const wh_real *rate;
     const wh_real *input;
     wh_turning t;
     wh_real a1[WH_COORDS];                /* accelerations of the first stage */
-    wh_real gained[WH_STAGES][WH_COORDS]; /* what the rates of all others have gained */
+    wh_real gained[WH_STAGES][WH_COORDS]; /* gains of the rates by all later stages */
     wh_real rates[WH_STAGES][WH_COORDS];
     wh_real accels[WH_STAGES][WH_COORDS];
-    wh_real alike[WH_STAGES][WH_COORDS]; /* sums of those that count alike */
+    wh_real alike[WH_STAGES][WH_COORDS]; /* sums of stages with equal weights */
 } wh_turned_second;
 
-/* Its stage s > 0. */
+/* Stage s > 0. */
 WH_INLINE void wh_turn_second_stage(const void *model, wh_turned_accel_fn *accel,
                                     const wh_waves *waves, wh_phase *told, const wh_tableau *by,
                                     unsigned s, bool compensated, unsigned angles, unsigned n,
@@ -402,16 +405,17 @@ WH_INLINE wh_status wh_turn_second(const void *model, wh_turned_accel_fn *accel,
     return wh_second_end(by, k.a1, k.alike, true, compensated, angles, n, h, state);
 }
 
-/* A step of x' = f(x, u) on its way. */
+/* A step of x' = f(x, u) in progress. */
 typedef struct wh_turned_first {
     wh_turning t;
     wh_real k1[WH_COORDS];                /* derivatives of the first stage */
-    wh_real gained[WH_STAGES][WH_COORDS]; /* those of all others less the first's, of angles */
-    wh_real slopes[WH_STAGES][WH_COORDS]; /* those of all but the first */
-    wh_real alike[WH_STAGES][WH_COORDS];  /* sums of those that count alike */
+    wh_real gained[WH_STAGES][WH_COORDS]; /* derivatives of the angles at later stages less the
+                                           * first's */
+    wh_real slopes[WH_STAGES][WH_COORDS]; /* derivatives of the later stages */
+    wh_real alike[WH_STAGES][WH_COORDS];  /* sums of stages with equal weights */
 } wh_turned_first;
 
-/* Its stage s > 0. */
+/* Stage s > 0. */
 WH_INLINE void wh_turn_first_stage(const void *model, wh_turned_slope_fn *slope,
                                    const wh_waves *waves, const wh_tableau *by, unsigned s,
                                    bool compensated, unsigned angles, unsigned reals, wh_real h,

@@ -1,4 +1,5 @@
-/* stage_turn_ledger.h: keeping the books of ledger.h while the stages' sines are turned (stage_turn.h). C only, as step.h is. */
+/* stage_turn_ledger.h: fills the ledger (ledger.h) while the stages' sines are turned (stage_turn.h). C only, as step.h
+ * is. */
 #ifndef WH_STAGE_TURN_LEDGER_H
 #define WH_STAGE_TURN_LEDGER_H
 
@@ -19,7 +20,7 @@ typedef struct wh_turn_ledger_model {
     const wh_phase *phase; /* [form->angles] of the present stage */
 } wh_turn_ledger_model;
 
-/* The accelerations, with a stage of the books, which look up their own sines. A wh_turned_accel_fn. */
+/* The accelerations, with a stage of the ledger, which looks up its own sines. A wh_turned_accel_fn. */
 WH_INLINE void wh_turn_ledger_accel(const void *of, const wh_wave *pair, const wh_real *linear,
                                     const wh_real *rate, const wh_real *input, wh_real *accel) {
     const wh_turn_ledger_model *m = of;
@@ -27,7 +28,7 @@ WH_INLINE void wh_turn_ledger_accel(const void *of, const wh_wave *pair, const w
     (void)wh_ledger_stage(m->form, m->method, m->phase, linear, rate, input, m->work);
 }
 
-/* wh_turn_second() with books, and with its bits. */
+/* wh_turn_second() with a ledger, and with the same bits. */
 WH_INLINE wh_status wh_turn_ledger(const wh_ledger_form *form, const void *model,
                                    wh_turned_accel_fn *accel, const wh_waves *waves,
                                    wh_method method, bool compensated, wh_span h, wh_state *state) {

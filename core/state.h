@@ -1,4 +1,4 @@
-/* state.h: what changes while a scene runs (scene.h), and the functions that compute with it. */
+/* state.h: the variables of a running scene (scene.h), and the functions that compute with them. */
 #ifndef WH_STATE_H
 #define WH_STATE_H
 
@@ -8,26 +8,26 @@
 extern "C" {
 #endif
 
-/* How a scene's state is arranged.
+/* The layout of a scene's state.
  *
- * Second order (Lagrangian mechanisms, q'' = f(q, q', u)): coordinates are ordered with the
- * angles first. angle[i] is coordinate i for i < angles; real[] holds the positions of the other
- * coordinates, then the rates of all coordinates in the same order. reals = 2*coordinates - angles.
+ * Second order (Lagrangian mechanisms, q'' = f(q, q', u)): coordinates are ordered with the angles first. angle[i] is
+ * coordinate i for i < angles; real[] holds the positions of the other coordinates, then the rates of all coordinates
+ * in the same order. reals = 2*coordinates - angles.
  *
- * First order (systems given outright): angle[] and real[] are the components of x' = f(x, u). */
+ * First order (systems stated directly): angle[] and real[] are the components of x' = f(x, u). */
 typedef enum wh_form { WH_SECOND_ORDER, WH_FIRST_ORDER } wh_form;
 
-/* Most moments with events in one step, and most events that are logged. */
+/* Limit on moments with events in one step, and on logged events. */
 #define WH_EVENTS_MAX 8
 #define WH_EVENT_LOG 16
 
 /* Most contacts of any scene. */
 #define WH_CONTACTS_LIMIT 16
 
-/* Modes of a contact. Friction that slides has the sign of its rate, a crossing the side it is on. */
+/* Modes of a contact. Sliding friction has the sign of its rate, a crossing the side it is on. */
 enum {
-    WH_FREE = 0,   /* stop out of touch; hold let go */
-    WH_ACTIVE = 1, /* stop resting; hold held */
+    WH_FREE = 0,   /* stop out of touch; hold released */
+    WH_ACTIVE = 1, /* stop resting; hold closed */
     WH_STUCK = 0,  /* friction */
     WH_UNSET = 127 /* after the start and after a correction, until the next step */
 };
@@ -40,7 +40,7 @@ typedef struct wh_event {
     wh_real impulse; /* of a stop or a hold, else 0 */
 } wh_event;
 
-/* What of the contacts changes while running. */
+/* The variables of the contacts. */
 typedef struct wh_contacts {
     uint64_t events;   /* since the start */
     uint64_t overruns; /* steps that had WH_EVENTS_MAX moments with events */
@@ -49,21 +49,21 @@ typedef struct wh_contacts {
     int8_t mode[WH_CONTACTS_LIMIT]; /* [scene->contacts] are in use */
 } wh_contacts;
 
-/* The changing part of a run. All pointers point into the memory given to wh_scene_start(). */
+/* The variables of a run. All pointers point into the memory given to wh_scene_start(). */
 typedef struct wh_state {
-    uint64_t steps;  /* steps done; time follows from them and is never a running sum */
+    uint64_t steps;  /* steps done; time is computed from them and is never a running sum */
     wh_angle *angle; /* [scene->angles] */
     wh_real *real;   /* [scene->reals] SI units */
     wh_real *carry;  /* [scene->angles + scene->reals] low parts when compensated, else NULL */
     wh_real *input;  /* [scene->inputs] SI units; the caller may change them between steps */
     wh_contacts *contacts; /* NULL without contacts */
-    wh_real *held; /* [scene->held] what holds keep: curved ones what it is, straight ones by how
-                      * much it has slipped; SI units */
-    wh_real *
-        ledger; /* the books' totals, their carries, the levels at the start, the corrections; or NULL */
-    /* after WH_E_DIVERGED: the component at fault, angles first, then reals; after WH_E_UNDEFINED or
-     * WH_E_SINGULAR: the contact, in the order of contact.h; after WH_E_ARITHMETIC: what is wrong, a
-     * wh_probed (arithmetic.h) */
+    wh_real *held; /* [scene->held] holds' values: the value itself of a curved one, the slip so far
+                    * of a straight one; SI units */
+    wh_real
+        *ledger; /* the ledger's totals, their carries, the levels at the start, the corrections; or
+                 * NULL */
+    /* after WH_E_DIVERGED: the component at fault, angles first, then reals; after WH_E_UNDEFINED or WH_E_SINGULAR: the
+     * contact, in the order of contact.h; after WH_E_ARITHMETIC: the failed probe, a wh_probed (arithmetic.h) */
     int fault;
 } wh_state;
 

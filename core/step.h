@@ -1,16 +1,15 @@
 /* step.h: the fixed-step integrators, one readable inline source.
  *
- * A generated scene and the host's interpreter both include this file. In a generated scene the
- * counts, the method and `compensated` are constants and the right-hand side is inlined, so the
- * compiler unrolls the loops and drops whatever the scene does not call for; the order of the
- * floating-point operations, and so every bit of the result, is the same in both. Neither is C++: what
- * embeds a scene includes scene.h and the generated header.
+ * A generated scene and the host's interpreter both include this file. In a generated scene the counts, the method and
+ * `compensated` are constants and the right-hand side is inlined, so the compiler unrolls the loops and drops unused
+ * operations. Both have the same order of floating-point operations, and so the same bits. Both are C only: programs
+ * that embed a scene include scene.h and the generated header.
  *
- * One loop over a method's row (method.h) steps all of them; where the row is constant, the compiler unrolls it.
+ * One loop over a method's row (method.h) steps every method.
  *
- * For q'' = f(q, q', u) the position stages are written out, which gives the same method's numbers on the first-order
- * form to rounding, with fewer operations (Hairer, Norsett & Wanner, Solving Ordinary Differential Equations I,
- * section II.14). Of the classic method:
+ * For q'' = f(q, q', u) the position stages are written out. The result is that of the same method on the first-order
+ * form, up to round-off, with fewer operations (Hairer, Norsett & Wanner, Solving Ordinary Differential Equations I,
+ * section II.14). The classic method:
  *
  *     v2 = v + h/2 a1          q2 = q + h/2 v          a2 = f(q2, v2)
  *     v3 = v + h/2 a2          q3 = q + h/2 v2         a3 = f(q3, v3)
@@ -32,8 +31,8 @@
 #include "root.h"
 #include "step_end.h"
 
-/* Where an angle stands at a stage whose shares of the rates have `sum`. In the middle of a step it goes half of
- * where the whole step leads. False as wh_phase_move(). */
+/* An angle at a stage whose shares of the rates have `sum`. A stage in the middle of the step moves it by half of the
+ * whole step's change. False as wh_phase_move(). */
 WH_INLINE bool wh_stage_angle(wh_angle angle, wh_real sum, wh_real h, wh_real parts,
                               wh_phase *phase) {
     return parts == WH_R(2.0)
@@ -41,7 +40,7 @@ WH_INLINE bool wh_stage_angle(wh_angle angle, wh_real sum, wh_real h, wh_real pa
                : wh_phase_move(wh_phase_of(angle), sum * (h / parts * WH_PHASE_PER_RAD), phase);
 }
 
-/* What a list takes and gives. Apart from all else, which stays in registers where the list is called. */
+/* Arguments and results of a list. A struct of its own: all other variables stay in registers if the list is called. */
 typedef struct wh_stepped_list {
     wh_phase phase[WH_COORDS];
     wh_real at[WH_COORDS];    /* linear positions, or reals, */
@@ -49,7 +48,7 @@ typedef struct wh_stepped_list {
     wh_real given[WH_COORDS]; /* accelerations, or slopes */
 } wh_stepped_list;
 
-/* Only what no scene uses is zeroed: for the compiler, which cannot know. */
+/* Zeroes only entries that no scene uses: the compiler cannot know that they are unused. */
 WH_INLINE void wh_stepped_begin(const wh_state *state, unsigned angles, unsigned linears,
                                 wh_stepped_list *list) {
     WH_UNROLL
@@ -61,7 +60,7 @@ WH_INLINE void wh_stepped_begin(const wh_state *state, unsigned angles, unsigned
     }
 }
 
-/* A step of q'' = f(q, q', u) on its way. */
+/* A step of q'' = f(q, q', u) in progress. */
 typedef struct wh_stepped_second {
     const wh_real *linear; /* where it begins */
     const wh_real *rate;
@@ -69,10 +68,10 @@ typedef struct wh_stepped_second {
     wh_real a1[WH_COORDS];               /* accelerations of the first stage */
     wh_real rates[WH_STAGES][WH_COORDS]; /* of all others */
     wh_real accels[WH_STAGES][WH_COORDS];
-    wh_real alike[WH_STAGES][WH_COORDS]; /* sums of those that count alike */
+    wh_real alike[WH_STAGES][WH_COORDS]; /* sums of stages with equal weights */
 } wh_stepped_second;
 
-/* The positions of stage s of a row with a reach. As wh_step_second_stage(). */
+/* The positions of stage s of a row with a reach. Returns as wh_step_second_stage(). */
 WH_INLINE unsigned wh_step_reach(const wh_tableau *by, unsigned s, wh_given accels, unsigned angles,
                                  unsigned linears, wh_real h, const wh_state *state,
                                  wh_stepped_list *list, const wh_stepped_second *k) {
@@ -91,7 +90,7 @@ WH_INLINE unsigned wh_step_reach(const wh_tableau *by, unsigned s, wh_given acce
     return angles;
 }
 
-/* Its stage s > 0. The angle that is to move by half a turn or more, or `angles`. */
+/* Stage s > 0. Returns the angle that would move by half a turn or more, or `angles`. */
 WH_INLINE unsigned wh_step_second_stage(const void *model, wh_accel_fn *accel, const wh_tableau *by,
                                         unsigned s, unsigned angles, unsigned n, wh_real h,
                                         const wh_state *state, wh_stepped_list *list,
@@ -132,8 +131,8 @@ WH_INLINE unsigned wh_step_second_stage(const void *model, wh_accel_fn *accel, c
     return angles;
 }
 
-/* One step of q'' = f(q, q', u). angles <= n <= WH_COORDS. Returns WH_OK, or WH_E_DIVERGED with
- * state->fault set and the rest of the state as it was. */
+/* One step of q'' = f(q, q', u). angles <= n <= WH_COORDS. Returns WH_OK, or WH_E_DIVERGED with state->fault set and
+ * the rest of the state unchanged. */
 WH_INLINE wh_status wh_step_second(const void *model, wh_accel_fn *accel, wh_method method,
                                    bool compensated, unsigned angles, unsigned n, wh_span h,
                                    wh_state *state) {
@@ -165,14 +164,14 @@ WH_INLINE wh_status wh_step_second(const void *model, wh_accel_fn *accel, wh_met
     return wh_second_end(by, k.a1, k.alike, false, compensated, angles, n, h, state);
 }
 
-/* A step of x' = f(x, u) on its way. */
+/* A step of x' = f(x, u) in progress. */
 typedef struct wh_stepped_first {
     wh_real k1[WH_COORDS];                /* derivatives of the first stage */
-    wh_real slopes[WH_STAGES][WH_COORDS]; /* those of all but the first */
-    wh_real alike[WH_STAGES][WH_COORDS];  /* sums of those that count alike */
+    wh_real slopes[WH_STAGES][WH_COORDS]; /* those of the later stages */
+    wh_real alike[WH_STAGES][WH_COORDS];  /* sums of stages with equal weights */
 } wh_stepped_first;
 
-/* Its stage s > 0. As wh_step_second_stage(). */
+/* Stage s > 0. Returns as wh_step_second_stage(). */
 WH_INLINE unsigned wh_step_first_stage(const void *model, wh_slope_fn *slope, const wh_tableau *by,
                                        unsigned s, unsigned angles, unsigned reals, wh_real h,
                                        const wh_state *state, wh_stepped_list *list,
@@ -199,9 +198,10 @@ WH_INLINE unsigned wh_step_first_stage(const void *model, wh_slope_fn *slope, co
     return angles;
 }
 
-/* One step of x' = f(x, u) with `angles` turn angles and `reals` reals, angles + reals <= WH_COORDS. A method that
- * does not take such a system, semi-implicit Euler: it moves rates before positions, and here is no telling them
- * apart: WH_E_ARGUMENT, with the state as it was. Else returns as wh_step_second(). */
+/* One step of x' = f(x, u) with `angles` turn angles and `reals` reals, angles + reals <= WH_COORDS. Returns
+ * WH_E_ARGUMENT with the state unchanged for a method that does not take such a system. Semi-implicit Euler does not:
+ * it moves rates before positions, and a first-order system does not distinguish them. Otherwise returns as
+ * wh_step_second(). */
 WH_INLINE wh_status wh_step_first(const void *model, wh_slope_fn *slope, wh_method method,
                                   bool compensated, unsigned angles, unsigned reals, wh_span h,
                                   wh_state *state) {

@@ -1,4 +1,4 @@
-/* step_end.h: the end of a step: what its stages gave moves the state, unless that leaves all bounds. Part of step.h. */
+/* step_end.h: the end of a step: the stages' sums move the state, unless it leaves its bounds. Part of step.h. */
 #ifndef WH_STEP_END_H
 #define WH_STEP_END_H
 
@@ -13,9 +13,9 @@
 #include "stage_sums.h"
 #include "sum.h"
 
-/* *angle moved on by `steps` phase units, less than WH_PHASE_STEP_MAX in size, rounded to the nearest: dropping the
- * fraction would slow every angle down by half a unit a step. Compensated, *carry goes in and is what is rounded away;
- * by itself, for beside a large step nothing of it would be left. */
+/* Move *angle by `steps` phase units, less than WH_PHASE_STEP_MAX in size, rounded to the nearest: truncation would
+ * slow every angle down by half a unit a step. Compensated: *carry is added and becomes the round-off. It is added
+ * separately, because a large step would absorb it. */
 WH_INLINE void wh_angle_move(wh_angle *angle, wh_real steps, bool compensated, wh_real *carry) {
 #if WH_DOUBLE
     *angle = wh_sum(*angle, steps, compensated, carry);
@@ -25,20 +25,20 @@ WH_INLINE void wh_angle_move(wh_angle *angle, wh_real steps, bool compensated, w
         const float left = (steps - (float)whole) + *carry;
         const int32_t more = wh_whole(left);
         *carry = left - (float)more;
-        whole += more; /* no overflow: `steps` is whole where it is large */
+        whole += more; /* no overflow: large `steps` are whole */
     }
-    /* turns beyond 2^31 wrap like the phase, and are no undefined behaviour */
+    /* turns beyond 2^31 wrap as the phase does, without undefined behaviour */
     *angle = (wh_angle)((uint64_t)*angle + (uint64_t)(int64_t)whole);
 #endif
 }
 
-/* Whoever defines this is told what rounding took from the step of turn angle i, h long, in units: the interpreter
- * (host/run/loss.inc). Nothing else does, and then nothing is left of it. */
+/* A definition of this macro receives the round-off of the step of turn angle i, h long, in units: the interpreter
+ * (host/run/loss.inc) defines it. Elsewhere it costs nothing. */
 #ifndef WH_ANGLE_LOST
 #define WH_ANGLE_LOST(i, h, lost) ((void)0)
 #endif
 
-/* Is value[n] a mechanism's? All are asked at once, by the sum of their sizes, which is not below any of them. */
+/* Are value[n] within a mechanism's limit? One check for all: the sum of their sizes is not below any of them. */
 WH_INLINE bool wh_all_believable(const wh_real *value, unsigned n) {
     wh_real all = WH_R(0.0);
     WH_UNROLL
@@ -48,8 +48,8 @@ WH_INLINE bool wh_all_believable(const wh_real *value, unsigned n) {
     return n == 0 || all < WH_ABSURD;
 }
 
-/* Refuse the step for value[n], the components from `first` on, which are not all believable: the first that by itself
- * is not is blamed, or else the last. */
+/* Refuse the step because value[n], the components from `first` on, are not all believable. The fault is the first one
+ * that exceeds the limit by itself, otherwise the last. */
 WH_INLINE wh_status wh_refuse_first(const wh_real *value, unsigned n, unsigned first,
                                     wh_state *state) {
     WH_UNROLL
@@ -61,7 +61,7 @@ WH_INLINE wh_status wh_refuse_first(const wh_real *value, unsigned n, unsigned f
     return wh_refuse(state, first + n - 1);
 }
 
-/* wh_refuse_first(), with as little flash as may be. */
+/* wh_refuse_first(), with the least flash. */
 WH_INLINE wh_status wh_refuse_among(const wh_real *value, unsigned n, unsigned first,
                                     wh_state *state) {
     if (WH_REALS_IN_REGISTERS && n > 1 && n <= 4) {
@@ -75,7 +75,7 @@ WH_INLINE wh_status wh_refuse_among(const wh_real *value, unsigned n, unsigned f
     return wh_refuse_first(value, n, first, state);
 }
 
-/* Refuse the step where `far`, an angle that was to move by half a turn or more, is one. */
+/* Refuse the step if an angle `far` would move by half a turn or more. */
 #define WH_REFUSE_FAR(far) \
     do { \
         const unsigned far_angle = (far); \
@@ -84,14 +84,14 @@ WH_INLINE wh_status wh_refuse_among(const wh_real *value, unsigned n, unsigned f
         } \
     } while (false)
 
-/* Where a step's results wait until the whole step is known to be sound. */
+/* A step's results until the whole step is known to be sound. */
 typedef struct wh_trial {
     wh_angle angle[WH_COORDS];
     wh_real real[2 * WH_COORDS];
     wh_real carry[2 * WH_COORDS];
 } wh_trial;
 
-/* Take the trial over into the state. */
+/* Copy the trial to the state. */
 WH_INLINE void wh_commit(const wh_trial *trial, unsigned angles, unsigned reals, bool compensated,
                          wh_state *state) {
     WH_UNROLL
@@ -110,7 +110,7 @@ WH_INLINE void wh_commit(const wh_trial *trial, unsigned angles, unsigned reals,
     }
 }
 
-/* Take a sound trial over, or refuse the step. */
+/* Copy a sound trial to the state, or refuse the step. */
 WH_INLINE wh_status wh_accept(const wh_trial *trial, unsigned angles, unsigned reals,
                               bool compensated, wh_state *state) {
     if (!wh_all_believable(trial->real, reals)) {
@@ -120,7 +120,7 @@ WH_INLINE wh_status wh_accept(const wh_trial *trial, unsigned angles, unsigned r
     return WH_OK;
 }
 
-/* Count a step that was done. */
+/* Count a completed step. */
 WH_INLINE wh_status wh_step_counted(wh_status status, wh_state *state) {
     if (status == WH_OK) {
         state->steps++;
@@ -128,7 +128,7 @@ WH_INLINE wh_status wh_step_counted(wh_status status, wh_state *state) {
     return status;
 }
 
-/* trial->carry[count] as a step begins: what the last one's sums left, where they are compensated. */
+/* trial->carry[count] at a step's begin: the carries of the last step, if sums are compensated. */
 WH_INLINE void wh_carry_begin(const wh_state *state, bool compensated, unsigned count,
                               wh_trial *trial) {
     WH_UNROLL
@@ -137,9 +137,9 @@ WH_INLINE void wh_carry_begin(const wh_state *state, bool compensated, unsigned 
     }
 }
 
-/* trial->angle[] of this step, h long: the state's, each moved on by move[] times rad_a_move; trial->carry[], where sums
- * are compensated, goes in and is what is left. The first angle that was to move by half a turn or more, or by NaN, or
- * `angles`. Seldom is there one: first all are asked at once, by the sum of their sizes. */
+/* trial->angle[] of this step, h long: the state's angles, each moved by move[] times rad_a_move. Compensated:
+ * trial->carry[] is added and becomes the round-off. Returns the first angle that would move by half a turn or more, or
+ * by NaN; or `angles`. That is rare, so one check of the sum of sizes comes first. */
 WH_INLINE unsigned wh_angles_move(const wh_real *move, wh_span rad_a_move, wh_real h,
                                   bool compensated, unsigned angles, const wh_state *state,
                                   wh_trial *trial) {
@@ -173,10 +173,10 @@ WH_INLINE unsigned wh_angles_move(const wh_real *move, wh_span rad_a_move, wh_re
     return angles;
 }
 
-/* value + by factor, as wh_sum(); product is by.s factor, `h` the step. What the rest of `by` adds is less than half a unit
- * in the last place of the product: in one sum with it, it would be rounded away in every step. So what the state did not
- * take is told from the product alone, and the carry, which is small, keeps the rest. Not where the step has no rest:
- * those of contacts, whose carry is to be zero where nothing moves. */
+/* value + by factor, as wh_sum(); product is by.s factor, `h` the step. The part by.rest_s adds less than half a unit
+ * in the product's last place: a sum with the product would lose it in every step. So the round-off follows from the
+ * product alone, and the carry, which is small, takes the part of rest_s. Not if the step has no rest_s, as the steps
+ * of contacts: their carry must stay zero if nothing moves. */
 WH_INLINE wh_real wh_sum_product(wh_real value, wh_span by, wh_real factor, wh_real product,
                                  wh_span h, bool compensated, wh_real *carry) {
     if (!compensated || WH_DOUBLE) {
@@ -192,20 +192,20 @@ WH_INLINE wh_real wh_sum_product(wh_real value, wh_span by, wh_real factor, wh_r
     return sum;
 }
 
-/* What h^2 over the row's parts is short of, in s^2, as two roundings and the stages leave it: a sum of accelerations is
- * to be taken by it once more where it moves positions. Stages go by h.s, whose rest would be rounded away there. So they
- * stand short of where they should by a part e of their way, which changes the rates as if h/2 e times the forces' change
- * were missing, and the energy in every step by as much, always the same way: 5e-13 of a pendulum's in a millisecond.
- * Where the positions lack the part e of h^2/2 times the accelerations, too, both together are the derivative of what
- * stays small, and the energy stays, where the mass matrix is constant; where it is not, most of it (docs/dev/numerics.md). A
- * row of one stage where the step begins has none that stands elsewhere. */
+/* The error of h^2 over the row's parts, in s^2, from two roundings and the stages. A sum of accelerations that moves
+ * positions is multiplied by it once more. Stages use h.s, because rounding would lose its rest_s there. So they fall
+ * short by a part e of their distance. This changes the rates as if h/2 e times the forces' change were missing, and
+ * the energy in every step by as much, always with the same sign: 5e-13 of a pendulum's in a millisecond. If the
+ * positions also lack the part e of h^2/2 times the accelerations, both errors are the derivative of a small quantity.
+ * The energy then stays constant if the mass matrix is constant, and most of the error vanishes if it is not
+ * (docs/dev/numerics.md). A row with one stage, at the step's begin, has no such stages. */
 WH_INLINE wh_real wh_square_short(const wh_tableau *by, wh_span h, wh_span part) {
     const wh_real stages = wh_all_begin(by) ? WH_R(0.0) : h.rest_s / by->parts;
     return h.s * (part.rest_s + stages);
 }
 
-/* The same of angles, in phase units times s^2. Stages that turn sines on (stage_turn.h) go by h.s alone, others by its
- * product with WH_PHASE_PER_RAD, rounded, or by one after the other. */
+/* The same for angles, in phase units times s^2. Stages that turn sines (stage_turn.h) use h.s alone. Others use its
+ * product with WH_PHASE_PER_RAD, rounded, or multiply by one after the other. */
 WH_INLINE wh_real wh_turn_short(const wh_tableau *by, wh_span h, wh_span part, bool turned) {
     const wh_span per_rad = {WH_PHASE_PER_RAD, WH_PHASE_PER_RAD_REST};
     const wh_span phases = wh_span_times(h, per_rad);
@@ -219,8 +219,8 @@ WH_INLINE wh_real wh_turn_short(const wh_tableau *by, wh_span h, wh_span part, b
     return phases.s * part.rest_s + part.s * phases.rest_s; /* wh_stage_angle() */
 }
 
-/* What positions lack of this step, into their carries, pulled[] being the sums of accelerations that move them. Not where
- * the step has no rest, as in wh_sum_product(); but a turn has one. */
+/* Add the positions' error of this step to their carries; pulled[] are the sums of accelerations that move them. Not if
+ * the step has no rest_s, as in wh_sum_product(); but a turn has one. */
 WH_INLINE void wh_carry_positions(const wh_tableau *by, const wh_real *pulled, wh_span part,
                                   wh_span h, bool turned, unsigned angles, unsigned linears,
                                   wh_trial *trial) {
@@ -234,8 +234,8 @@ WH_INLINE void wh_carry_positions(const wh_tableau *by, const wh_real *pulled, w
     }
 }
 
-/* The end of a step of q'' = f: what the stages gave, a1 and the sums of those that count alike, moves the state. `turned`:
- * they turned sines on. Returns as wh_step_second(). */
+/* The end of a step of q'' = f: the stages' results, a1 and the sums of stages with equal weights, move the state.
+ * `turned`: they turned sines. Returns as wh_step_second(). */
 WH_INLINE wh_status wh_second_end(const wh_tableau *by, const wh_real *a1,
                                   wh_real (*alike)[WH_COORDS], bool turned, bool compensated,
                                   unsigned angles, unsigned n, wh_span h, wh_state *state) {
@@ -290,7 +290,7 @@ WH_INLINE wh_status wh_second_end(const wh_tableau *by, const wh_real *a1,
     return wh_accept(&trial, angles, linears + n, compensated, state);
 }
 
-/* The end of a step of x' = f, likewise. */
+/* The same for a step of x' = f. */
 WH_INLINE wh_status wh_first_end(const wh_tableau *by, const wh_real *k1,
                                  wh_real (*alike)[WH_COORDS], bool compensated, unsigned angles,
                                  unsigned reals, wh_span h, wh_state *state) {

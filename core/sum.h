@@ -1,4 +1,4 @@
-/* sum.h: sums that may carry their rounding error along. */
+/* sum.h: sums with optional compensation for round-off. */
 #ifndef WH_SUM_H
 #define WH_SUM_H
 

@@ -1,15 +1,15 @@
-/* table.h: functions of one phase, looked up: constant tables in flash, interpolated within a cell.
+/* table.h: functions of one phase as constant tables in flash, interpolated within a cell.
  *
- * What the accelerations of a mechanism owe to its one turn angle, sines, divisions and roots included, stands in
- * tables (host/derive/tables.c), and a step reads it there. The turn is cut into 2^bits cells whose middles are whole
- * multiples of a cell. Of each cell stand the polynomials in y, the way from its middle in cells, of all the tables
- * one behind the other, so that one look at the phase finds all of them:
+ * The terms of a mechanism's accelerations that depend on its one turn angle, including sines, divisions and roots, are
+ * in tables (host/derive/tables.c), and a step reads them there. The turn is cut into 2^bits cells whose middles are
+ * whole multiples of a cell. A cell stores the polynomials of all tables one after the other, so that one lookup of the
+ * phase finds all of them. y is the distance from the cell's middle, in cells:
  *
  *     linear: a + y b        cubic: a + y (b + y (c + y d)),        -1/2 <= y < 1/2
  *
- * The pieces meet in their values, the cubic ones in their slopes, too. Four numbers a cell and not values and slopes at
- * its ends: that takes twice the flash, and six operations where it would take eleven, which is what counts without an
- * FPU. What is added to `a` is small: of the rounding of a sum little more is left than that of its result.
+ * The pieces are continuous, the cubic ones also in their slopes. A cubic cell has four numbers instead of values and
+ * slopes at its ends: twice the flash, but six operations instead of eleven, which matters without an FPU. The
+ * increment to `a` is small, so that the round-off is little more than that of the result.
  */
 #ifndef WH_TABLE_H
 #define WH_TABLE_H
@@ -28,12 +28,12 @@
 #define WH_TABLE_BITS_LEAST 3U
 #define WH_TABLE_BITS_MOST 16U
 
-/* Numbers a cell of one table. */
+/* Numbers per cell of one table. */
 #define WH_TABLE_LINEAR 2U
 #define WH_TABLE_CUBIC 4U
 
-/* Where all of a list's tables are even or odd, half a turn of them says it all: half the flash, and the same bits. Without
- * an FPU that costs a step 1 % of its cycles or less, and is done; with one it would cost a seventh. */
+/* If all of a list's tables are even or odd, half a turn suffices: half the flash, and the same bits. Without an FPU
+ * this costs at most 1 % of a step's cycles, and is used; with one it would cost a seventh. */
 #ifndef WH_TABLE_FOLD
 #if !WH_DOUBLE && (defined(__AVR__) || (defined(__arm__) && !defined(__ARM_FP)) || \
                    (defined(__riscv) && !defined(__riscv_flen)))
@@ -49,8 +49,8 @@
 /* Cells of such tables. */
 #define WH_TABLE_HALF(bits) (WH_TABLE_FOLD ? (1U << ((bits)-1U)) + 1U : 1U << (bits))
 
-/* The coefficient of y, y^2 and y^3 as it stands in a table. In float y is kept as 2^32 times a cell, as whole as
- * the phase leaves it: the scale is in the table and costs nothing. */
+/* The coefficient of y, y^2 and y^3 in a table. Float stores y as 2^32 times a cell, with all digits of the phase; the
+ * table's coefficients contain the scale at no cost. */
 #if WH_DOUBLE
 #define WH_TABLE_B(x) (x)
 #define WH_TABLE_C(x) (x)
@@ -61,8 +61,8 @@
 #define WH_TABLE_D(x) ((x)*0x1p-96f)
 #endif
 
-/* The cell that `phase` is in, of 2^bits: cells[number * width], and the way from its middle in *y. Float: any phase.
- * Double: |phase| <= 5e8 rad; beyond it, or of NaN, *y is NaN. */
+/* The cell of `phase`, of 2^bits cells: cells[number * width]; *y is the distance from its middle. Float: any phase.
+ * Double: |phase| <= 5e8 rad; beyond it, or for NaN, *y is NaN. */
 WH_INLINE const wh_real *wh_table_cell(const wh_real *cells, unsigned bits, unsigned width,
                                        wh_phase phase, wh_real *y);
 
@@ -77,8 +77,8 @@ WH_INLINE double wh_table_whole(double x, uint32_t *low) {
     return sum - 6755399441055744.0;
 }
 
-/* As wh_sincos_parts() finds its sector: up to 128 cells a turn with pi/64 in three parts, whose products are exact;
- * more of them are parts of those. */
+/* As wh_sincos_parts() finds its sector: up to 128 cells a turn with pi/64 in three parts, whose products are exact.
+ * More cells are parts of those. */
 WH_INLINE const wh_real *wh_table_cell(const wh_real *cells, unsigned bits, unsigned width,
                                        wh_phase phase, wh_real *y) {
     const unsigned coarse = bits < 7U ? bits : 7U;
@@ -103,15 +103,15 @@ WH_INLINE const wh_real *wh_table_cell(const wh_real *cells, unsigned bits, unsi
                                        wh_phase phase, wh_real *y) {
     const unsigned rest_bits = 32U - bits;
     const uint32_t number = (phase + (UINT32_C(1) << (rest_bits - 1U))) >> rest_bits;
-    /* With the cell shifted out, the sign of the way from its middle comes right by itself. */
+    /* With the cell shifted out, the sign of the distance from its middle is right. */
     *y = (float)(int32_t)(phase << bits);
     return cells + (size_t)number * width;
 }
 
 #endif
 
-/* Likewise of tables that are even or odd. *back: from a phase beyond half a turn its mirror image was taken, and the
- * value of an odd function wants wh_table_back(). */
+/* The same for tables that are even or odd. *back: the phase was beyond half a turn and was mirrored, and the value of
+ * an odd function needs wh_table_back(). */
 WH_INLINE const wh_real *wh_table_half(const wh_real *cells, unsigned bits, unsigned width,
                                        wh_phase phase, wh_real *y, bool *back) {
 #if WH_TABLE_FOLD
@@ -128,7 +128,7 @@ WH_INLINE const wh_real *wh_table_half(const wh_real *cells, unsigned bits, unsi
 #endif
 }
 
-/* -value; but zero stays zero, which no table makes negative. */
+/* -value; but zero stays zero, as in the tables, which have no negative zero. */
 WH_INLINE wh_real wh_table_back(wh_real value, bool back) {
 #if WH_TABLE_FOLD
     uint32_t bits;

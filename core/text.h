@@ -7,9 +7,9 @@
  *     wh_text_add_fixed(&text, speed_radps, 2);
  *     hal_console_write(text.bytes, text.length);
  *
- * Nothing is ever written beyond the buffer; what does not fit is dropped and `truncated` is set.
- * The buffer always ends in NUL. Floats are converted exactly, in integers: a single-precision
- * build needs no double arithmetic for it, and every machine prints the same characters.
+ * Nothing is written beyond the buffer: excess characters are dropped and `truncated` is set. The buffer always ends in
+ * NUL. Floats are converted exactly, in integers: a single-precision build needs no double arithmetic for it, and every
+ * machine prints the same characters.
  */
 #ifndef WH_TEXT_H
 #define WH_TEXT_H
@@ -46,7 +46,7 @@ void wh_text_start(wh_text *text, char *bytes, unsigned size);
 void wh_text_add_char(wh_text *text, char character);
 void wh_text_add(wh_text *text, const char *string);
 
-/* An item of static const char list[] WH_WORD_LIST = "one\0" "two\0"; beyond them all, the last. */
+/* An item of static const char list[] WH_WORD_LIST = "one\0" "two\0"; beyond the end, the last. */
 const char *wh_words_item(const char *list, unsigned number);
 
 /* Add a decimal number. */
@@ -56,10 +56,9 @@ void wh_text_add_signed(wh_text *text, int64_t value);
 /* Add the low `digits` hexadecimal digits of value, lower case, zeros kept. digits is 1 to 16. */
 void wh_text_add_hex(wh_text *text, uint64_t value, unsigned digits);
 
-/* Add value with `decimals` digits after the point (at most WH_TEXT_DECIMALS_MAX), correctly
- * rounded, ties to even: the characters of C's "%.*f", but for the sign of what rounds to zero, which
- * has none. Not-a-number gives "nan", infinities "inf" and "-inf"; a double of magnitude 2^128 or more
- * gives "huge" or "-huge" (no float is so large). */
+/* Add value with `decimals` digits after the point (at most WH_TEXT_DECIMALS_MAX), correctly rounded, ties to even. The
+ * characters are those of C's "%.*f", except that a value that rounds to zero has no sign. Not-a-number gives "nan",
+ * infinities "inf" and "-inf". A double of magnitude 2^128 or more gives "huge" or "-huge" (no float is so large). */
 void wh_text_add_fixed(wh_text *text, wh_real value, unsigned decimals);
 
 #ifdef __cplusplus

@@ -1,15 +1,16 @@
-/* version.h: the version of Whirl: of its program, and of images that name it. */
+/* version.h: the version of Whirl's program, and of images that name it. */
 #ifndef WH_VERSION_H
 #define WH_VERSION_H
 
 #define WH_VERSION "0.1.0"
 
-#define WH_VERSION_NUMBER 100 /* 10000 major + 100 minor + patch: generated headers ask for it */
+#define WH_VERSION_NUMBER 100 /* 10000 major + 100 minor + patch: generated headers check it */
 
 enum { WH_VERSION_MAJOR = 0, WH_VERSION_MINOR = 1, WH_VERSION_PATCH = 0 };
 
-/* A scene's header refers to the scene by a name with a hash of the header, WH_LINKS_TO. The .c gives the scene that second
- * name, WH_LINKED_AS. A header of another version of the scene then leaves an undefined symbol for the linker. No byte. */
+/* A scene's header refers to the scene by a name with a hash of the header, WH_LINKS_TO. The .c file gives the scene
+ * that second name, WH_LINKED_AS. If the header belongs to another version of the scene, the linker reports an
+ * undefined symbol. This costs no byte. */
 #if defined(__GNUC__) && defined(__ELF__)
 #define WH_STRING_OF(text) #text
 #define WH_STRING(text) WH_STRING_OF(text)
