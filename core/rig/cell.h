@@ -1,7 +1,7 @@
 /* cell.h: the load cell's counts as newtons, for the controller.
  *
- * Whatever the hardware, the controller sees a time, a force and how far to trust it. Gain, offset and
- * the delay of filter and converter are applied here and nowhere else. */
+ * For any hardware the controller sees a time, a force and a status. Gain, offset and the delay of filter and converter
+ * are applied only here. */
 #ifndef WH_RIG_CELL_H
 #define WH_RIG_CELL_H
 
@@ -11,14 +11,14 @@
 extern "C" {
 #endif
 
-/* What the converter says of a sample: X(name, words). hal/loadcell.h has the same, in this order. */
+/* The converter's status of a sample: X(name, words). hal/loadcell.h has the same, in this order. */
 #define WH_LOAD_ROWS(X) \
     X(WH_LOAD_OK, "ok") \
     X(WH_LOAD_SATURATED, "saturated") \
     X(WH_LOAD_DISCONNECTED, "disconnected") \
-    /* converted at another time than its stamp says */ \
+    /* converted at another time than its stamp */ \
     X(WH_LOAD_LATE, "late") \
-    /* the converter has nothing new: the last value once more */ \
+    /* the converter has no new value: the last one again */ \
     X(WH_LOAD_REPEATED, "repeated")
 
 #define WH_LOAD_NAME(name, words) name,
@@ -26,24 +26,24 @@ typedef enum wh_load_status { WH_LOAD_ROWS(WH_LOAD_NAME) WH_LOAD_STATUSES } wh_l
 #undef WH_LOAD_NAME
 
 typedef struct wh_cell_config {
-    wh_real newton_per_count; /* negative for a cell that is mounted the other way round */
-    wh_real offset_N;         /* what the cell shows without any force */
-    /* of filter and converter: so long before its stamp the force was there */
+    wh_real newton_per_count; /* negative for a cell mounted in reverse */
+    wh_real offset_N;         /* reading without force */
+    /* delay of filter and converter: the stamp's time less that of the force */
     uint32_t delay_ticks;
     uint32_t period_ticks; /* between samples */
     int32_t raw_max;       /* counts of a full-scale load, either sign: saturated */
 } wh_cell_config;
 
 typedef struct wh_load {
-    uint32_t ticks; /* when the force was there */
+    uint32_t ticks; /* time of the force */
     wh_real force_N;
     wh_load_status status;
 } wh_load;
 
 #define wh_load_text WH_NAME(wh_load_text)
 
-/* The force behind a sample of `raw` counts, stamped `ticks`, of which the hardware says `status`. At
- * full scale it is saturated, whatever the hardware says. */
+/* The force of a sample of `raw` counts, stamped `ticks`, with the hardware's `status`. At full scale it is saturated,
+ * for any status. */
 WH_INLINE wh_load wh_cell_load(const wh_cell_config *config, uint32_t ticks, int32_t raw,
                                wh_load_status status) {
     wh_load load;

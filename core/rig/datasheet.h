@@ -1,7 +1,7 @@
-/* datasheet.h: the eccentric-mass rig in numbers, as its controller needs them.
+/* datasheet.h: the eccentric-mass rig's data for its controller.
  *
- * Weights and radii: Almesallmy (2006), the force formula of I.3.2.1. The rig's physics is not here
- * but in core/models/eccentric.whirl; tests/core/test_virtual_rig.c compares the two. */
+ * Weights and radii: Almesallmy (2006), the force formula of I.3.2.1. The rig's physics is in
+ * core/models/eccentric.whirl; tests/core/test_virtual_rig.c compares the two. */
 #ifndef WH_RIG_DATASHEET_H
 #define WH_RIG_DATASHEET_H
 
@@ -10,17 +10,17 @@
 /* Time stamps of the rig are counts of a 1 MHz timer, 32 bits, wrapping. */
 #define WH_RIG_TICKS_PER_S 1000000U
 
-/* From one to a later one, s; less than 71.6 minutes. */
+/* From a stamp to a later one, s; less than 71.6 minutes. */
 WH_SHARED wh_real wh_rig_since_s(uint32_t then_ticks, uint32_t now_ticks) {
     return (wh_real)(now_ticks - then_ticks) / (wh_real)WH_RIG_TICKS_PER_S;
 }
 
-/* The same, and below 0 from one to an earlier one; less than 35.8 minutes. */
+/* The same, negative to an earlier stamp; less than 35.8 minutes. */
 WH_SHARED wh_real wh_rig_way_s(uint32_t from_ticks, uint32_t to_ticks) {
     return (wh_real)(int32_t)(to_ticks - from_ticks) / (wh_real)WH_RIG_TICKS_PER_S;
 }
 
-/* From one to a later one it is more than most_s. */
+/* Is a later stamp more than most_s after this one? */
 WH_SHARED bool wh_rig_is_over(uint32_t then_ticks, uint32_t now_ticks, wh_real most_s) {
     return wh_rig_since_s(then_ticks, now_ticks) > most_s;
 }
@@ -30,8 +30,8 @@ WH_SHARED bool wh_rig_is_over(uint32_t then_ticks, uint32_t now_ticks, wh_real m
 #define WH_RIG_DEG_PER_RAD WH_R(57.29577951308232)
 #define WH_RIG_LBF_PER_N WH_R(0.22480894309971047)
 
-/* Of both sets: arm 0.152 lb, 7.25 in long, discs 0.15 lb; centres of the discs 6.5 in from the shaft, and so many metres
- * where they are put elsewhere. */
+/* Of both sets: arm 0.152 lb, 7.25 in long, discs 0.15 lb; centres of the discs 6.5 in from the shaft, or disc_m metres
+ * if they are moved. */
 #define WH_RIG_ECCENTRIC_KG (WH_R(2.0) * (WH_R(0.152) + WH_R(0.15)) * WH_R(0.45359237))
 #define WH_RIG_DISC_RADIUS_M (WH_R(6.5) * WH_R(0.0254))
 
@@ -41,8 +41,8 @@ WH_SHARED bool wh_rig_is_over(uint32_t then_ticks, uint32_t now_ticks, wh_real m
      WH_R(0.45359237))
 #define WH_RIG_MASS_MOMENT_KGM WH_RIG_MASS_MOMENT_AT_KGM(WH_RIG_DISC_RADIUS_M)
 
-/* Of all that turns: two sets, the arm a slender rod, the discs points; 5e-4 kg m^2 of motor, couplings and
- * shafts, which is assumed. */
+/* Of all rotating parts: two sets, the arm a slender rod, the discs points; 5e-4 kg m^2 of motor, couplings and shafts,
+ * which is assumed. */
 #define WH_RIG_INERTIA_AT_KGM2(disc_m) \
     (WH_R(2.0) * \
          (WH_R(0.152) * (WH_R(17.520833333333332) * WH_R(0.0254) * WH_R(0.0254)) + \
@@ -51,14 +51,14 @@ WH_SHARED bool wh_rig_is_over(uint32_t then_ticks, uint32_t now_ticks, wh_real m
      WH_R(5e-4))
 #define WH_RIG_INERTIA_KGM2 WH_RIG_INERTIA_AT_KGM2(WH_RIG_DISC_RADIUS_M)
 
-/* The motor's torque line at rated voltage: at standstill, and the speed without load. */
+/* The motor's torque line at rated voltage: torque at standstill, and speed without load. */
 #define WH_RIG_STALL_NM WH_R(1.5)
 #define WH_RIG_NO_LOAD_RADPS (WH_R(600.0) * WH_RIG_RADPS_PER_RPM)
 
-/* What a turn's mean speed is held back with when it rises: the torque line, and 0.001 N m s of the bearings. */
+/* Damping of a turn's mean speed: the torque line, and 0.001 N m s of the bearings. */
 #define WH_RIG_DAMPING_NMS (WH_RIG_STALL_NM / WH_RIG_NO_LOAD_RADPS + WH_R(0.001))
 
-/* Supply for which the torque line above is the motor's. */
+/* Supply of the torque line above. */
 #define WH_RIG_RATED_V WH_R(24.0)
 
 #define WH_RIG_GRAVITY_MPS2 WH_R(9.80665)
@@ -66,19 +66,19 @@ WH_SHARED bool wh_rig_is_over(uint32_t then_ticks, uint32_t now_ticks, wh_real m
 /* Speed of the measurement (I.3.2.1): 5.5 turns a second. */
 #define WH_RIG_NOMINAL_RPM WH_R(330.0)
 
-/* What a 1/4 in shaft carries for ever (docs/rig.md derives 416 rpm), rounded down: faster than this
- * the guard stops the rig. Set-points keep a tenth away from it, for the loop's overshoot. */
+/* Endurance limit of a 1/4 in shaft (docs/rig.md derives 416 rpm), rounded down: the guard stops the rig above it.
+ * Set-points stay a tenth below it, for the loop's overshoot. */
 #define WH_RIG_SHAFT_LIMIT_RPM WH_R(400.0)
 #define WH_RIG_TARGET_MAX_RPM WH_R(360.0)
 
-/* Below some 145 rpm gravity stops the rotor on its way over the top before the pulses can tell the
- * loop (docs/rig.md). Set-points keep a sixth away from that, as the loop dips. */
+/* Below about 145 rpm, gravity stops the rotor on its way over the top before the pulses show it to the loop
+ * (docs/rig.md). Set-points stay a sixth above that, because the loop dips. */
 #define WH_RIG_TARGET_MIN_RPM WH_R(170.0)
 
 /* With gravity's torque fed forward to the motor. */
 #define WH_RIG_TARGET_MIN_FED_RPM WH_R(100.0)
 
-/* The motor's supply may be so much of the rated voltage. */
+/* Range of the motor's supply, in parts of the rated voltage. */
 #define WH_RIG_SUPPLY_LEAST WH_R(0.45)
 #define WH_RIG_SUPPLY_MOST WH_R(1.55)
 

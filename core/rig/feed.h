@@ -1,9 +1,9 @@
 /* feed.h: feed-forward of gravity's torque to the motor.
  *
- * Arms that turn in a vertical plane are pulled back with S g sin(theta - gamma), S the sum of mass times radius, gamma
- * the direction in which gravity pulls: the rotor would swing by E = S g/(I omega^2) about its mean speed. A motor that is
- * given that torque on top holds it at the mean. theta is the observer's, at the middle of the time for which the voltage
- * will hold: half a control step of zero-order hold, and one of computing and of the motor's inductance. */
+ * Gravity pulls arms in a vertical plane back with S g sin(theta - gamma). S is the sum of mass times radius, gamma the
+ * direction of gravity. The rotor's speed would vary by E = S g/(I omega^2) about its mean. A motor with that torque
+ * added holds it at the mean. theta is the observer's angle at the middle of the time for which the voltage will be
+ * applied. That is half a control step of zero-order hold, and the delay of computing and of the motor's inductance. */
 #ifndef WH_RIG_FEED_H
 #define WH_RIG_FEED_H
 
@@ -17,9 +17,10 @@ typedef struct wh_feed_config {
     wh_real weight_Nm;   /* S g: the largest torque of gravity */
     wh_real gravity_rad; /* gamma: the angle at which the arms hang */
     wh_real stall_Nm;    /* motor torque at standstill and rated voltage, > 0 */
-    uint32_t lead_ticks; /* from now to the middle of the time for which the voltage will hold */
-    wh_real fade_s;      /* from nothing to all of it; 0: at once */
-    wh_real most;        /* of the rated voltage, either way, >= 0 */
+    uint32_t
+        lead_ticks; /* from now to the middle of the time for which the voltage will be applied */
+    wh_real fade_s; /* fade-in time; 0: at once */
+    wh_real most;   /* limit, in parts of the rated voltage, >= 0 */
 } wh_feed_config;
 
 typedef struct wh_feed {
@@ -37,8 +38,8 @@ extern const wh_feed_config wh_feed_standard;
 
 #define wh_feed_step WH_NAME(wh_feed_step)
 
-/* One control step of step_s seconds, after the observer's: the voltage to be added to the drive's, as a fraction of the
- * rated one. 0, and faded in anew later, while the observer is not valid or a number is none. */
+/* One control step of step_s seconds, after the observer's: the voltage to add to the drive's, in parts of the rated
+ * voltage. 0 while the observer is not valid or a number is NaN; then it fades in again. */
 wh_real wh_feed_step(const wh_feed_config *config, wh_feed *feed, const wh_observer *observer,
                      uint32_t now_ticks, wh_real step_s);
 

@@ -1,9 +1,10 @@
-/* free_rotor.h: a rotor with nothing but gravity and friction to move it, and how where it is follows from where it was.
+/* free_rotor.h: a rotor under gravity and friction alone, and the derivatives of its motion with respect to its causes.
  *
- *     q'' = -g sin q - f sign q' - c q'          q its angle from where it hangs; g = S g/I, f and c friction over I
+ *     q'' = -g sin q - f sign q' - c q'          q its angle from hanging; g = S g/I, f and c friction over I
  *
- * Stoermer's steps: drift, kick, drift, forwards in time or backwards. Friction turns round with the motion within the step:
- * there the rate is broken, and what follows of it is multiplied with the ratio of the accelerations after and before. */
+ * Stoermer's steps: drift, kick, drift, forwards in time or backwards. Friction changes sign with the motion within the
+ * step. There the rate has a kink, and the derivatives are multiplied with the ratio of the accelerations after and
+ * before. */
 #ifndef WH_RIG_FREE_ROTOR_H
 #define WH_RIG_FREE_ROTOR_H
 
@@ -14,7 +15,7 @@
 extern "C" {
 #endif
 
-/* What the way follows from: q and q' at its beginning, g, f, c. */
+/* The causes of the motion: initial q and q', g, f, c. */
 enum { WH_FREE_Q, WH_FREE_RATE, WH_FREE_GRAVITY, WH_FREE_FRICTION, WH_FREE_DRAG, WH_FREE_CAUSES };
 
 typedef struct wh_free_rotor {
@@ -29,10 +30,10 @@ typedef struct wh_free_rotor {
 
 void wh_free_rotor_start(wh_free_rotor *rotor, wh_real q_rad, wh_real rate_radps);
 
-/* A step of h seconds, forwards or (h < 0) backwards, far shorter than a swing. `cause` has g, f and c in its places. */
+/* A step of h seconds, forwards or (h < 0) backwards, much shorter than a swing. `cause` has g, f and c in its places. */
 void wh_free_rotor_step(const wh_real *cause, wh_free_rotor *rotor, wh_real h);
 
-/* Into -pi ... pi, from less than a turn beyond; 0 for what is further, or is no number. */
+/* Wrap into -pi ... pi, from less than a turn beyond; 0 for larger angles and NaN. */
 WH_SHARED wh_real wh_free_angle(wh_real rad) {
     const wh_real half = WH_R(0.5) * WH_RIG_TWO_PI;
     const wh_real near = rad > half ? rad - WH_RIG_TWO_PI : rad < -half ? rad + WH_RIG_TWO_PI : rad;

@@ -1,4 +1,4 @@
-/* guard.h: what stops the rig, in every state. The first reason to stop stays until it is cleared. */
+/* guard.h: the reasons to stop the rig, checked in every state. The first reason stays until it is cleared. */
 #ifndef WH_RIG_GUARD_H
 #define WH_RIG_GUARD_H
 
@@ -10,8 +10,8 @@
 extern "C" {
 #endif
 
-/* Reasons to stop: X(name, number, words). Numbers are for consoles and records, and stay; 1 was a refused set-point, which
- * is a refusal now (life.h). The words fit a line of the report: 95 characters. */
+/* Reasons to stop: X(name, number, words). Numbers are for consoles and records, and never change; 1 was a refused
+ * set-point, now a refusal (life.h). The words fit a line of the report: 95 characters. */
 #define WH_TRIP_ROWS(X) \
     X(WH_TRIP_NONE, 0, "no fault") \
     X(WH_TRIP_OVERSPEED, 2, "over-speed") \
@@ -39,62 +39,65 @@ typedef enum wh_trip { WH_TRIP_ROWS(WH_TRIP_NAME) } wh_trip;
 typedef struct wh_guard_config {
     wh_real target_min_radps; /* smallest set-point, see docs/rig.md; with gravity fed forward, */
     wh_real target_min_fed_radps;
-    wh_real target_max_radps; /* largest */
-    wh_real limit_radps;      /* largest speed, mean of a turn */
-    wh_real ripple; /* by how much a part of a turn may be faster, as a fraction, at the limit */
-    wh_real over;   /* by how much the speed may be above where it is led, as a fraction */
-    wh_real climb;  /* by how much two marks running may raise a turn's speed, as a fraction, */
-    wh_real climb_start_radps2;  /* beyond this, while the rotor is taken over, */
-    wh_real climb_behind_radps2; /* this, while it is behind the set-point by more */
+    wh_real target_max_radps;    /* largest */
+    wh_real limit_radps;         /* largest speed, mean of a turn */
+    wh_real ripple;              /* excess speed within a turn, as a fraction, at the limit */
+    wh_real over;                /* excess over the speed that the rotor is led to, as a fraction */
+    wh_real climb;               /* rise of a turn's speed at two marks running, as a fraction, */
+    wh_real climb_start_radps2;  /* or by this while the rotor is taken over, */
+    wh_real climb_behind_radps2; /* or by this while it is slower than the set-point by more */
     wh_real behind_radps;        /* than this, */
     wh_real climb_there_radps2;  /* and else this */
-    /* what gravity makes of standstill at the top: 2 sqrt(S g / I), at the bottom */
+    /* speed at the bottom after a fall from rest at the top: 2 sqrt(S g / I) */
     wh_real fall_radps;
     uint32_t lost_max;          /* pulses that may be lost in a run */
     unsigned doubt_max;         /* see wh_pulses */
-    uint32_t rejected_max;      /* and be none */
+    uint32_t rejected_max;      /* and rejected */
     wh_real silence_max_s;      /* longest time without a pulse while the loop is closed */
     wh_real slow_silence_max_s; /* and while the rotor starts */
     wh_real load_silence_max_s; /* longest time without a load sample */
-    /* a load that moves by less than this times the speed's square is still */
+    /* a load that changes by less than this times the speed's square is constant */
     wh_real load_still_kgm;
-    uint32_t stuck_pulses; /* slot pulses that come while the load does not move: stuck */
+    uint32_t stuck_pulses; /* slot pulses during a constant load: stuck */
     wh_real supply_min_V;
     wh_real supply_max_V;
-    wh_real rest_s; /* so long without a pulse: at rest */
-    /* a turn of a rotor that brakes is slower than the last one by this at least, */
+    wh_real rest_s; /* without a pulse for this long: at rest */
+    /* each turn of a braked rotor is slower than the last by at least this, */
     wh_real braked_radps;
     wh_real hand_radps; /* and a hand turns it no faster than this */
 } wh_guard_config;
 
-/* The motor is off, or brakes: what the pulses say, whatever was commanded. A turn is the time between two pulses of one
- * sensor. Over a turn gravity cancels, so that
+/* Checks of the pulses while the motor is off, or brakes, independent of the commands. A turn is the time between two
+ * pulses of one sensor. Over a turn gravity cancels:
  *
- *  - a rotor that brakes loses 2 pi c/I of its mean speed in a turn, c the damping of the torque line, I at most six times
- *    the configured inertia. Where a turn loses less than half of that, the enable goes off until the next run (`released`);
- *  - with the enable off nothing but friction acts, and turns only get slower.
+ * - A braked rotor loses 2 pi c/I of its mean speed in a turn. c is the damping of the torque line, I at most six times
+ *   the configured inertia. If a turn loses less than half of that, the enable goes off until the next run
+ *   (`released`).
+ * - With the enable off only friction acts, and turns only get slower.
  *
- * A rotor that swings about its hanging place fires a sensor twice in each swing, and the times between these pulses get
- * shorter as the swing gets smaller: they are no turns. Pulses show turns
+ * A rotor that swings about its hanging position fires a sensor twice in each swing. The times between these pulses get
+ * shorter as the swing decays: they are not turns. Pulses show turns
  *
- *  - while both sensors fire in turn. A swing that turns back between both edges of sensor 2's slot does so, too, but once:
- *    sensor 1, sensor 2, sensor 1 again on the way back. So the same of sensor 2 is a turn, of sensor 1 when sensor 2 is next;
- *  - where one sensor fires alone (the other is dead) faster than any swing: two intervals of a swing last a period, which is
- *    at least 2 pi sqrt(I/S g), so they do not both look faster than 2 sqrt(S g/I). A rotor of half the inertia is allowed for;
- *  - after `released`, where such a sensor's intervals get longer three times running by 2 % at least. Of a swing that
- *    friction ends the last two do. */
+ * - while both sensors fire alternately. A swing that turns back between the two edges of sensor 2's slot does so once,
+ *   too: sensor 1, sensor 2, sensor 1 again on the way back. So for sensor 2 an interval is a turn; for sensor 1 it is
+ *   a turn if sensor 2 is next.
+ * - if one sensor fires alone (the other is dead) faster than any swing. Two intervals of a swing last a period, at
+ *   least 2 pi sqrt(I/S g), so they cannot both appear faster than 2 sqrt(S g/I). The bound allows for half the
+ *   inertia.
+ * - after `released`, if such a sensor's intervals get longer three times running by at least 2 %. At the end of a
+ *   swing stopped by friction only the last two do. */
 typedef struct wh_off {
     bool released;
     bool doubted;      /* by pulses of one sensor alone, */
-    bool asks;         /* or of both in turn: the next pulse says whether it swings */
-    uint8_t sensor;    /* of the last pulse, from 1; 0: there was none */
-    uint8_t alternate; /* pulses running whose sensor was not the one before's, */
+    bool asks;         /* or of both in turn: the next pulse shows whether it swings */
+    uint8_t sensor;    /* of the last pulse, from 1; 0: no pulse yet */
+    uint8_t alternate; /* successive pulses with a sensor other than the one before's, */
     uint8_t alone;     /* or was */
     struct wh_off_turns {
         uint32_t ticks;       /* of the last pulse, */
-        uint32_t turn_ticks;  /* since the one before; 0: there was none */
+        uint32_t turn_ticks;  /* since the one before; 0: no such pulse */
         uint32_t first_ticks; /* of the turn before they got faster */
-        uint8_t faster;       /* turns running that were faster than the last, */
+        uint8_t faster;       /* successive turns that were faster than the last, */
         uint8_t longer;       /* or clearly slower */
         bool seen;
     } of[WH_SPEED_SENSORS];
@@ -105,12 +108,12 @@ typedef struct wh_guard {
     bool quiet;     /* no pulse for rest_s: latched, since times wrap */
     bool load_good; /* the last load sample was ok, and is not old: latched, since times wrap */
     uint32_t pulses_seen;
-    uint32_t pulse_ticks;     /* of the last pulse, true or not; at first, the start */
+    uint32_t pulse_ticks;     /* of the last pulse, accepted or not; at first, the start */
     uint32_t lost_before;     /* pulses already lost when the motor began to drive, */
     uint32_t rejected_before; /* or rejected */
     uint32_t load_ticks;      /* of the last load sample; at first, the start */
     uint32_t load_pulses;     /* pulses taken by then */
-    uint32_t still_pulses;    /* samples with a new pulse since the load last moved, */
+    uint32_t still_pulses;    /* samples with a new pulse since the load last changed, */
     wh_real still_N;          /* and where to */
     wh_off off;
 } wh_guard;
@@ -125,16 +128,18 @@ typedef struct wh_guard {
 
 void wh_guard_start(wh_guard *guard, uint32_t now_ticks);
 
-/* True for set-points that the loop can hold, with gravity `fed` forward or not, and the shaft carries; false for NaN. */
+/* True for set-points that the loop can hold, with gravity `fed` forward or not, and that the shaft can bear; false for
+ * NaN. */
 bool wh_guard_allows(const wh_guard_config *config, wh_real target_radps, bool fed);
 
-/* The fastest interval between two pulses of a rotor that is led to no more than base_radps: faster by `over`, and by `falls`
- * times what falling from the top makes of it. From rest at the bottom gravity adds nothing. */
+/* The fastest interval between two pulses of a rotor that is led to at most base_radps. It is faster by `over`, and by
+ * `falls` times the gain of a fall from the top. From rest at the bottom gravity adds nothing. */
 #define WH_GUARD_LIGHTER \
-    WH_R(1.5) /* so falls a rotor of half the configured inertia, with some margin */
+    WH_R(1.5) /* a rotor of half the configured inertia falls so, with some margin */
 wh_real wh_guard_bound_radps(const wh_guard_config *config, wh_real base_radps, wh_real falls);
 
-/* How fast may a turn's speed rise that is so far behind where it is led? Where it is ahead it slows. */
+/* Limit on the rise of a turn's speed, given how far the speed is below the one it is led to. Above it, the rotor
+ * slows. */
 WH_INLINE wh_real wh_guard_climb_radps2(const wh_guard_config *config, wh_real behind_radps,
                                         bool is_led) {
     if (is_led && behind_radps > config->behind_radps) {
@@ -144,17 +149,17 @@ WH_INLINE wh_real wh_guard_climb_radps2(const wh_guard_config *config, wh_real b
                                                 : WH_R(-2.0) * config->climb_there_radps2;
 }
 
-/* Stop for this reason, unless there is one already. */
+/* Stop for this reason, unless the rig already has one. */
 void wh_guard_trip(wh_guard *guard, wh_trip reason);
 
-/* The motor begins to drive: pulses that came before say nothing of what comes after. */
+/* The motor begins to drive: earlier pulses no longer count. */
 void wh_guard_drives(wh_guard *guard);
 
 /* A pulse of sensor 0 or 1 while the motor is off; `brakes`: the enable is on. Trips, or releases the brake. */
 void wh_guard_off_pulse(const wh_guard_config *config, wh_guard *guard, bool brakes,
                         unsigned sensor, uint32_t ticks);
 
-/* Each step, in every state, with the number of pulses that ever came: does the rotor rest? */
+/* Each step, in every state, with the total number of pulses: does the rotor rest? */
 WH_INLINE void wh_guard_quiet(const wh_guard_config *config, wh_guard *guard, uint32_t pulses_ever,
                               uint32_t now_ticks) {
     if (pulses_ever != guard->pulses_seen) {
@@ -163,16 +168,17 @@ WH_INLINE void wh_guard_quiet(const wh_guard_config *config, wh_guard *guard, ui
         guard->quiet = false;
     } else if ((wh_real)(int32_t)(now_ticks - guard->pulse_ticks) >=
                config->rest_s * (wh_real)WH_RIG_TICKS_PER_S) {
-        guard->quiet = true; /* and stays so: these times wrap every 71.6 minutes */
+        guard->quiet = true; /* latched: these times wrap every 71.6 minutes */
     }
 }
 
-/* Each step, in every state: over-speed, of a turn, of two pulse intervals running beyond the bound, or of a turn that two
- * marks running find faster than whatever leads it could make it. `reason` is what that means: WH_TRIP_OVERSPEED, or
- * WH_TRIP_RUNS_ON with the motor off. Then a sensor that fires again and again is one in whose slot the rotor swings, and only
- * pulses that alternate are turns: at least `alternate` of them running, 0 while the motor drives. */
-#define WH_GUARD_BRAKES 1U /* the enable is on: no time is lost */
-#define WH_GUARD_COASTS 6U /* it is off: the turns that one invented pulse falsifies are over */
+/* Each step, in every state: over-speed. It is a turn above the limit, two successive pulse intervals above the bound,
+ * or a turn that at two successive marks is faster than the drive could make it. `reason` is the trip:
+ * WH_TRIP_OVERSPEED, or WH_TRIP_RUNS_ON with the motor off. With the motor off, a sensor that fires repeatedly may
+ * swing in its slot, and only alternating pulses are turns: at least `alternate` of them running, 0 while the motor
+ * drives. */
+#define WH_GUARD_BRAKES 1U /* the enable is on: react at once */
+#define WH_GUARD_COASTS 6U /* it is off: the turns that one false pulse corrupts have passed */
 WH_INLINE void wh_guard_speed(const wh_guard_config *config, wh_guard *guard,
                               const wh_pulses *pulses, wh_trip reason, unsigned alternate) {
     const wh_speed *speed = &pulses->speed;
@@ -181,7 +187,7 @@ WH_INLINE void wh_guard_speed(const wh_guard_config *config, wh_guard *guard,
     }
     /* one early pulse may be a disturbance, two are a speed */
     const bool sure = !pulses->waits || pulses->fast > 0; /* nothing takes it back */
-    /* one early pulse may be a disturbance, and a load that goes away lets the rotor climb: both at once are neither */
+    /* one early pulse may be a disturbance, and a load that vanishes lets the speed rise; both at once are a trip */
     const bool climbs =
         pulses->fast > 0 && pulses->climb_before_radps > WH_R(0.0) &&
         pulses->climb_radps > WH_R(0.0) &&
@@ -192,7 +198,7 @@ WH_INLINE void wh_guard_speed(const wh_guard_config *config, wh_guard *guard,
     }
 }
 
-/* While the motor drives: lost, invented and doubtful pulses, silence for longer than silence_max_s. */
+/* While the motor drives: lost, false and doubtful pulses, and silence for longer than silence_max_s. */
 WH_INLINE void wh_guard_pulses(const wh_guard_config *config, wh_guard *guard,
                                const wh_pulses *pulses, wh_real silence_max_s, uint32_t now_ticks) {
     if (pulses->speed.lost - guard->lost_before > config->lost_max ||
@@ -208,8 +214,8 @@ WH_INLINE bool wh_guard_supply(const wh_guard_config *config, wh_real supply_V) 
     return supply_V >= config->supply_min_V && supply_V <= config->supply_max_V;
 }
 
-/* Look at a load sample, the tare in it, in every state. `turning`: the load must be changing with the rotor's turns;
- * `needed`: a bad one stops the rig. A sample that repeats the last one is none. */
+/* Check a load sample, tare included, in every state. `turning`: the load must change with the rotor's turns. `needed`:
+ * a bad sample stops the rig. A repeated sample does not count. */
 WH_INLINE void wh_guard_load(const wh_guard_config *config, wh_guard *guard, const wh_speed *speed,
                              const wh_load *load, bool turning, bool needed) {
     if (load->status == WH_LOAD_REPEATED) {
@@ -220,8 +226,8 @@ WH_INLINE void wh_guard_load(const wh_guard_config *config, wh_guard *guard, con
     if (needed && !guard->load_good) {
         wh_guard_trip(guard, WH_TRIP_LOAD_CELL);
     }
-    /* measured in turns, not in time: the load of a jammed rotor stands still as well. And one pulse a
-     * sample: all that a late controller finds waiting are no turns of the samples behind them. */
+    /* measured in turns, not in time: the load of a jammed rotor is constant as well. At most one pulse a sample: when
+     * a controller is late, the waiting pulses are older than the samples */
     guard->still_pulses += speed->taken != guard->load_pulses ? 1U : 0U;
     guard->load_pulses = speed->taken;
     const wh_real still_N = config->load_still_kgm * speed->turn_radps * speed->turn_radps;
@@ -233,7 +239,7 @@ WH_INLINE void wh_guard_load(const wh_guard_config *config, wh_guard *guard, con
     }
 }
 
-/* True while load samples still come. */
+/* True while load samples arrive. */
 WH_SHARED bool wh_guard_load_comes(const wh_guard_config *config, const wh_guard *guard,
                                    uint32_t now_ticks) {
     /* signed: a stamp may be later than the step's own reading of the timer */

@@ -1,4 +1,4 @@
-/* inputs.h: what a control step sees beside pulses and samples, orders among it. */
+/* inputs.h: a control step's inputs other than pulses and samples, including orders. */
 #ifndef WH_RIG_INPUTS_H
 #define WH_RIG_INPUTS_H
 
@@ -9,10 +9,10 @@
 extern "C" {
 #endif
 
-/* Who asks for stop: the drive stage's fault may share the stop input's line. */
+/* The source of a stop request: the drive stage's fault may share the stop input's line. */
 typedef enum wh_stop_by { WH_STOP_BY_EITHER, WH_STOP_BY_INPUT, WH_STOP_BY_DRIVE } wh_stop_by;
 
-/* What a control step sees beside pulses, samples and orders. */
+/* A control step's inputs other than pulses, samples and orders. */
 typedef struct wh_rig_inputs {
     uint32_t now_ticks;
     wh_real supply_V;

@@ -1,10 +1,10 @@
-/* life.h: the rig's life cycle: which states there are, what may happen in each, and what is refused, by name.
+/* life.h: the rig's life cycle: its states, the events allowed in each, and the refusals by name.
  *
  *     IDLE --arm--> ARMED --start--> RUNNING --done, stop--> STOPPING --rested--> IDLE
  *       \_____________\________________\_______trip___________/--> TRIPPED --clear--> IDLE
  *
- * Nothing moves without `arm` and then `start`. One table has every pair of state and event; a test goes through it.
- * What else an event asks for (a supply, a rig at rest) is in rig.c, and refused by the names that are here. */
+ * The motor moves only after `arm` and then `start`. One table has every pair of state and event; a test checks all.
+ * Further conditions of an event (a supply, a rig at rest) are in rig.c, with the refusals listed here. */
 #ifndef WH_RIG_LIFE_H
 #define WH_RIG_LIFE_H
 
@@ -22,20 +22,20 @@ extern "C" {
     X(WH_LIFE_STOPPING, "stopping") /* slowing down, or motor off, until the rotor rests */ \
     X(WH_LIFE_TRIPPED, "tripped")   /* motor off; latched until `clear` */
 
-/* X(name, words): orders from outside, then what the rig itself finds. */
+/* X(name, words): orders from outside, then the rig's own findings. */
 #define WH_EVENT_ROWS(X) \
     X(WH_EVENT_ARM, "arm") \
     X(WH_EVENT_START, "start")         /* value: set-point, rad/s */ \
     X(WH_EVENT_SET, "set")             /* value: another set-point, rad/s */ \
     X(WH_EVENT_STOP, "stop")           /* motor off at once */ \
-    X(WH_EVENT_CLEAR, "clear")         /* the trip is understood, its cause gone */ \
-    X(WH_EVENT_HOST_LOST, "host lost") /* who gives orders is gone: as configured */ \
+    X(WH_EVENT_CLEAR, "clear")         /* the trip is understood and its cause removed */ \
+    X(WH_EVENT_HOST_LOST, "host lost") /* the giver of orders is gone: as configured */ \
     X(WH_EVENT_DONE, "done")           /* the run is through */ \
     X(WH_EVENT_RESTED, "rested")       /* the rotor rests */ \
     X(WH_EVENT_EXPIRED, "expired")     /* armed for too long */ \
     X(WH_EVENT_TRIP, "trip")           /* the guard has a reason to stop */
 
-/* X(name, number, words): numbers are for consoles and records, and stay. */
+/* X(name, number, words): numbers are for consoles and records, and never change. */
 #define WH_REFUSAL_ROWS(X) \
     X(WH_ALLOWED, 0, "done") \
     X(WH_REFUSED_NOT_ARMED, 1, "the rig is not armed") \
@@ -59,7 +59,7 @@ extern "C" {
 
 /* How the last run ended, until the next start: X(name, words). */
 #define WH_END_ROWS(X) \
-    X(WH_END_NONE, "none") /* no run since the reset, or it goes on */ \
+    X(WH_END_NONE, "none") /* no run since the reset, or it is in progress */ \
     X(WH_END_DONE, "done") /* the record is measured */ \
     X(WH_END_STOP_INPUT, "stop input") \
     X(WH_END_DRIVE_FAULT, "drive fault") \
@@ -77,10 +77,11 @@ typedef enum wh_refusal { WH_REFUSAL_ROWS(WH_REFUSAL_NAME) WH_REFUSALS } wh_refu
 #undef WH_LIFE_NAME
 #undef WH_REFUSAL_NAME
 
-/* What becomes of an event in a state. */
+/* The result of an event in a state. */
 typedef struct wh_life_rule {
-    wh_life next;       /* the state it leads to, if nothing else is against it */
-    wh_refusal refusal; /* WH_ALLOWED, or why it is refused: then `next` is where the rig is */
+    wh_life next; /* the next state, if no other condition refuses the event */
+    wh_refusal
+        refusal; /* WH_ALLOWED, or the reason for refusal: `next` is then the present state */
 } wh_life_rule;
 
 #define wh_life_rule_of WH_NAME(wh_life_rule_of)
@@ -89,7 +90,7 @@ typedef struct wh_life_rule {
 #define wh_refusal_text WH_NAME(wh_refusal_text)
 #define wh_rig_end_text WH_NAME(wh_rig_end_text)
 
-/* From the table. An event or state that there is not is refused. */
+/* From the table. An unknown event or state is refused. */
 wh_life_rule wh_life_rule_of(wh_life state, wh_rig_event event);
 
 /* In words, for consoles, by wh_text_add(). */

@@ -1,24 +1,24 @@
-/* lockin.h: the load's once-per-turn part, turn by turn, as the samples come.
+/* lockin.h: digital lock-in: the load's once-per-turn component, turn by turn, as samples arrive.
  *
- * Almesallmy (2006), I.3.3 and I.3.4, read the phase off an oscilloscope: sensor 1's spike sits on
- * the load's peak. Here the load is multiplied with the cosine and sine of the rotor's angle and
- * integrated over the angle of whole turns, from one mark of sensor 1 to its next:
+ * Almesallmy (2006), I.3.3 and I.3.4, read the phase off an oscilloscope: sensor 1's spike sits on the load's peak.
+ * Here the load is multiplied with the cosine and sine of the rotor's angle and integrated over the angle of whole
+ * turns, from one mark of sensor 1 to its next:
  *
- *     in_phase = 1/pi of the integral of F cos(theta) d theta, quadrature likewise with the sine
+ *     in_phase = 1/pi of the integral of F cos(theta) d theta, quadrature the same with the sine
  *
- * so a turn's result is the first Fourier coefficient over the angle (order tracking). Signs: the load
- * counts positive along the loading-train axis towards the mass at theta = 0, and
- *     load(theta) = mean + amplitude cos(theta + phase) + the rest:
- * phase 0 has the load's peak with the mass on the axis; positive, the peak comes before the mass.
+ * A turn's result is the first Fourier coefficient over the angle (order tracking). Signs: the load is positive along
+ * the loading-train axis towards the mass at theta = 0, and
+ *     load(theta) = mean + amplitude cos(theta + phase) + the residual.
+ * At phase 0 the load peaks with the mass on the axis; at a positive phase it peaks before the mass.
  *
- * Samples wait until the mark that ends their turn; then some are taken each control step, so that no step
- * has much to do. What the turn before lets expect (mean, first and second order) is taken off first and
- * added again: the trapezoidal rule then integrates little more than what is new, and a sample that is far
- * from what is expected is an outlier, left out and counted.
+ * Samples wait until the mark that ends their turn. Each control step then takes some of them, to bound its work. The
+ * prediction from the turn before (mean, first and second order) is subtracted first and added again at the end. The
+ * trapezoidal rule then integrates little more than the change. A sample far from the prediction is an outlier: it is
+ * left out and counted.
  *
  *     every control step:
  *         wh_lockin_mark() for each slot pulse that was taken, wh_lockin_load() for each sample
- *         if (wh_lockin_work(...)) lockin.turn is the result of a turn more */
+ *         if (wh_lockin_work(...)) lockin.turn is the result of another turn */
 #ifndef WH_RIG_LOCKIN_H
 #define WH_RIG_LOCKIN_H
 
@@ -30,17 +30,17 @@
 extern "C" {
 #endif
 
-/* What a small chip's build may set: it has less memory, and less time in a control step. */
+/* A small chip's build may set these: it has less memory, and less time in a control step. */
 #ifndef WH_LOCKIN_SAMPLES
 #define WH_LOCKIN_SAMPLES 384U /* that can wait: a turn at 100 rpm, 2 ms a sample, and a quarter */
 #endif
 #define WH_LOCKIN_HALVES_AT_ONCE 3U /* half nodes worked on in one control step, */
-#define WH_LOCKIN_STALE_AT_ONCE 8U  /* and so many samples dropped that belong to no turn */
+#define WH_LOCKIN_STALE_AT_ONCE 8U  /* and samples dropped that belong to no turn */
 
 /* Why a turn does not count: X(name, words). */
 #define WH_TURN_ROWS(X) \
     X(WH_TURN_OK, "ok") \
-    /* nothing yet to compare it with */ \
+    /* no earlier turn to compare it with */ \
     X(WH_TURN_FIRST, "first") \
     X(WH_TURN_GAP, "load samples are missing") \
     X(WH_TURN_OUTLIERS, "too many outliers") \
@@ -67,12 +67,13 @@ typedef struct wh_lockin_turn {
     uint32_t split_ticks;     /* sensor 2's mark, when seen */
     wh_lockin_orders force_N; /* at[1]: amplitude cos(phase); at[2]: -amplitude sin(phase) */
     wh_real mean_N;           /* over the time */
-    wh_real residual_N;       /* what orders 0 to 2 leave, rms */
+    wh_real residual_N;       /* rms after orders 0 to 2 */
     wh_real at_mark_N[2];     /* load at each sensor's mark */
 } wh_lockin_turn;
 
 typedef enum wh_lockin_stage {
-    WH_LOCKIN_WAITS, /* for a mark; lockin->piece counts what of a stage is done, where it is done in pieces */
+    WH_LOCKIN_WAITS, /* for a mark; lockin->piece counts the finished pieces of a stage that has
+                      * several */
     WH_LOCKIN_SHAPES,
     WH_LOCKIN_CORRECTS,
     WH_LOCKIN_RESHAPES,
@@ -81,7 +82,7 @@ typedef enum wh_lockin_stage {
     WH_LOCKIN_ENDS
 } wh_lockin_stage;
 
-/* Where in the turn a node lies whose place is known and whose weight is not yet: at the marks, or at a sample. */
+/* Place of a node with known place and unknown weight: at the marks, or at a sample. */
 typedef enum wh_lockin_place {
     WH_LOCKIN_NOWHERE,
     WH_LOCKIN_BEGIN,
@@ -89,24 +90,24 @@ typedef enum wh_lockin_place {
     WH_LOCKIN_END
 } wh_lockin_place;
 
-/* A point of the load's course within the turn. */
+/* A point of the load's curve within the turn. */
 typedef struct wh_lockin_node {
     wh_real part; /* of the turn's time */
     wh_real theta_rad;
     wh_real force_N;
-    wh_real rest_N;         /* less what is expected */
-    wh_lockin_orders waves; /* what each order's coefficient is multiplied with there */
+    wh_real rest_N;         /* less the prediction */
+    wh_lockin_orders waves; /* factors of each order's coefficient there */
 } wh_lockin_node;
 
-/* What is large comes last: of a processor's instructions the short ones reach no further. */
+/* Small members come first: a processor's short instructions reach no further. */
 typedef struct wh_lockin {
     wh_lockin_stage stage;
     uint8_t piece;
 
-    /* the turn that the rotor makes: since this mark */
+    /* the turn in progress: since this mark */
     bool open;
     bool split_seen;
-    bool taken; /* there was a sample that was taken, */
+    bool taken; /* a sample was accepted, */
     bool any;   /* and one at all */
     bool expects;
     wh_lockin_place place;
@@ -118,7 +119,7 @@ typedef struct wh_lockin {
     /* samples that wait, the oldest first; the last one taken; the newest */
     uint16_t first;
     uint16_t count;
-    uint16_t equal; /* samples running that are equal to the one before */
+    uint16_t equal; /* successive samples equal to the one before */
     uint16_t most_equal;
     uint32_t taken_ticks;
     wh_real taken_N;
@@ -126,7 +127,7 @@ typedef struct wh_lockin {
     wh_real newest_N;
     uint32_t refused; /* samples that were not ok, or out of order */
 
-    /* the turn that is worked on */
+    /* the turn being evaluated */
     wh_lockin_turn next;
     uint16_t next_equal;
     wh_real part_per_tick;
@@ -138,11 +139,11 @@ typedef struct wh_lockin {
     wh_real widest;     /* part between two nodes */
     wh_real before_rad; /* of the node before the last, */
     wh_real before_part;
-    wh_lockin_node last;   /* and the last one, whose weight the next decides */
+    wh_lockin_node last;   /* and the last one, whose weight depends on the next */
     wh_lockin_node placed; /* unless `place` is nowhere */
     wh_repeats repeats;    /* valid until the next turn's sums begin */
 
-    wh_lockin_turn turn; /* the last one that is done */
+    wh_lockin_turn turn; /* the last finished one */
     wh_turn_angle angle;
     wh_real force_N[WH_LOCKIN_SAMPLES];
     uint32_t ticks[WH_LOCKIN_SAMPLES];
@@ -159,24 +160,24 @@ typedef struct wh_lockin {
 
 void wh_lockin_start(const wh_rotor_config *rotor, wh_lockin *lockin);
 
-/* Begin anew, the counters apart: within a control step, where clearing the samples' memory would take too long. */
+/* Begin again, except for the counters: in a control step, where clearing the samples' memory would take too long. */
 void wh_lockin_forget(const wh_rotor_config *rotor, wh_lockin *lockin);
 
 /* Sensor 0 or 1 was passed at `ticks`, the rotor having made `quarter` quarter turns (wrapping). */
 void wh_lockin_mark(wh_lockin *lockin, unsigned sensor, uint32_t ticks, uint32_t quarter);
 
-/* Gravity is fed forward from now on, or no longer: see wh_turn_angle_feed(). The turn that is under way does not count
- * when that changes. */
+/* Gravity is fed forward from now on, or no longer: see wh_turn_angle_feed(). If that changes, the turn in progress
+ * does not count. */
 void wh_lockin_feed(wh_lockin *lockin, bool fed, wh_real stall_Nm_per_V);
 
-/* The count of quarter turns has begun afresh: the turn that is under way does not count. */
+/* The count of quarter turns has restarted: the turn in progress does not count. */
 void wh_lockin_gap(wh_lockin *lockin);
 
-/* A sample of the load, in order of time. One that is not ok, or not newer than the last, is left out. */
+/* A sample of the load, in order of time. A sample that is not ok, or not newer than the last, is left out. */
 void wh_lockin_load(wh_lockin *lockin, const wh_load *load);
 
-/* A bounded piece of the work, once a control step: of a turn's sums so many half nodes, WH_LOCKIN_HALVES_AT_ONCE where
- * nothing else is to be done. Returns true when lockin->turn is new. */
+/* A bounded piece of the work, once a control step. `halves` half nodes of a turn's sums, or WH_LOCKIN_HALVES_AT_ONCE
+ * if the step has no other work. Returns true if lockin->turn is new. */
 bool wh_lockin_work(const wh_rotor_config *rotor, const wh_cell_config *cell, wh_lockin *lockin,
                     unsigned halves);
 

@@ -1,6 +1,6 @@
-/* measure.h: what a run measures: turns from the lock-in, merged over the record to a result.
+/* measure.h: a run's measurement: turns from the lock-in, merged over the record to a result.
  *
- * The work of a turn is done in pieces, one a control step. Only turns that lie within the record as a whole count. */
+ * A turn's work is done in pieces, one a control step. Only turns that lie entirely within the record count. */
 #ifndef WH_RIG_MEASURE_H
 #define WH_RIG_MEASURE_H
 
@@ -19,7 +19,7 @@ typedef struct wh_measure_config {
     wh_tare_config tare;
     wh_result_config result;
     wh_real record_s;     /* whole turns within this time are measured, */
-    wh_real record_turns; /* or within that of so many turns if that is longer */
+    wh_real record_turns; /* or within the time of this many turns if that is longer */
 } wh_measure_config;
 
 typedef struct wh_rig_result {
@@ -35,12 +35,12 @@ typedef struct wh_rig_result {
 
 typedef struct wh_measure {
     bool records;
-    bool adds;               /* before `due`: the turn itself */
-    bool peaks;              /* low_N and high_N are of something */
-    bool ends;               /* the record's last turn is through */
-    uint8_t due;             /* pieces of work that the last turn, or the record's end, has left */
-    uint32_t begin_ticks;    /* of the record, */
-    wh_real record_s;        /* and how long it lasts */
+    bool adds;            /* before `due`: the turn itself */
+    bool peaks;           /* low_N and high_N are valid */
+    bool ends;            /* the record's last turn is finished */
+    uint8_t due;          /* pieces of work outstanding from the last turn, or the record's end */
+    uint32_t begin_ticks; /* of the record, */
+    wh_real record_s;     /* record's duration */
     uint32_t skipped_before; /* turns, when the record began */
     wh_tare tare;
     wh_merge merge;       /* of the record */
@@ -56,28 +56,28 @@ typedef struct wh_measure {
 #define wh_measure_lasts WH_NAME(wh_measure_lasts)
 #define wh_measure_end WH_NAME(wh_measure_end)
 
-/* A run begins, with the tare: before anything else, all else of *measure zero. */
+/* A run begins, with the tare: the first call, with the rest of *measure zero. */
 void wh_measure_begin(const wh_measure_config *config, wh_measure *measure);
 
-/* A mark that is sure, in order of time. */
+/* A confirmed mark, in order of time. */
 void wh_measure_mark(wh_measure *measure, const wh_mark *mark);
 
 /* A sample: of the tare, or of a turning rotor. */
 void wh_measure_load(wh_measure *measure, const wh_load *load, bool at_rest);
 
-/* A bounded piece of the work, once a control step; of a turn's sums so many half nodes. What cannot be made smaller is done
- * where they are WH_LOCKIN_HALVES_AT_ONCE or more. */
+/* A bounded piece of the work, once a control step; `halves` half nodes of a turn's sums. Work that cannot be split is
+ * done if `halves` is WH_LOCKIN_HALVES_AT_ONCE or more. */
 void wh_measure_work(const wh_measure_config *config, wh_measure *measure, unsigned halves);
 
-/* The record begins now, at a speed > 0; what an earlier one merged is forgotten. */
+/* The record begins now, at a speed > 0; an earlier record's turns are dropped. */
 void wh_measure_record(const wh_measure_config *config, wh_measure *measure, wh_real speed_radps,
                        uint32_t now_ticks);
 
 /* True during the record, at `ticks`. */
 bool wh_measure_lasts(const wh_measure *measure, uint32_t ticks);
 
-/* Once the record's time is over, each control step until it returns true: its last turn is through, and all are merged once
- * more. result.force.turns is then 0 if not one could be used. */
+/* After the record's time, each control step until it returns true: then its last turn is finished, and all are merged
+ * again. result.force.turns is then 0 if no turn was usable. */
 bool wh_measure_end(wh_measure *measure, uint32_t now_ticks);
 
 #ifdef __cplusplus

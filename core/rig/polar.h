@@ -1,4 +1,4 @@
-/* polar.h: amplitude and phase of what has a cosine's and a sine's part. */
+/* polar.h: amplitude and phase from a cosine and a sine component. */
 #ifndef WH_RIG_POLAR_H
 #define WH_RIG_POLAR_H
 
@@ -12,13 +12,12 @@ extern "C" {
 #define wh_polar_begin WH_NAME(wh_polar_begin)
 #define wh_polar_rounds WH_NAME(wh_polar_rounds)
 
-/* x = radius cos(angle), y = radius sin(angle) without square root and arc tangent: the angle is
- * improved with the core's own sine until y vanishes in the turned frame. angle_rad: -pi ... pi.
- * (0, 0) gives 0 and 0. */
+/* x = radius cos(angle), y = radius sin(angle) without square root and arc tangent: iterations with the core's own sine
+ * rotate the frame until y vanishes. angle_rad: -pi ... pi. (0, 0) gives 0 and 0. */
 void wh_polar(wh_real x, wh_real y, wh_real *radius, wh_real *angle_rad);
 
-/* The same in pieces: the angle to begin with, then WH_POLAR_ROUNDS rounds. |t| <= 1 at first and each takes it to about its
- * fifth power: four are plenty. */
+/* The same in pieces: the initial angle, then WH_POLAR_ROUNDS rounds. Initially |t| <= 1, and each round takes it to
+ * about its fifth power: four are plenty. */
 #define WH_POLAR_ROUNDS 4U
 wh_real wh_polar_begin(wh_real x, wh_real y);
 void wh_polar_rounds(wh_real x, wh_real y, unsigned rounds, wh_real *radius, wh_real *angle_rad);

@@ -1,12 +1,12 @@
-/* pulses.h: which slot pulses are true.
+/* pulses.h: separates true slot pulses from disturbances.
  *
- * A disturbance that counts as a pulse must not be taken for the rotor, nor make the next true pulse be rejected. So
+ * Noise must neither count as a pulse nor cause the next true pulse to be rejected. So
  *
- *  - a pulse that comes early (before the window round what the last turn lets expect) or needs more than the speed that
- *    can be (`bound`) is a suspect: the next pulse tells whether it was one. Two fast intervals running are a speed;
- *  - a pulse that cannot follow the last one may be the true one of the two: the one that is closer to its time stays,
- *    the other is taken back;
- *  - a mark goes to the measurement when nothing can take it back any more: an eighth of a turn later, or with the next. */
+ * - a pulse is a suspect if it is early (before the window around the time predicted from the last turn) or needs more
+ *   than the possible speed (`bound`). The next pulse decides. Two successive fast intervals are a speed.
+ * - a pulse that cannot follow the last one may be the true one of the two: the one closer to its predicted time stays,
+ *   the other is withdrawn.
+ * - a mark goes to the measurement once no pulse can withdraw it: an eighth of a turn later, or with the next. */
 #ifndef WH_RIG_PULSES_H
 #define WH_RIG_PULSES_H
 
@@ -23,34 +23,34 @@ typedef struct wh_pulse {
     unsigned sensor; /* 0 or 1 */
 } wh_pulse;
 
-/* A pulse that is sure. */
+/* A confirmed pulse. */
 typedef struct wh_mark {
     wh_pulse pulse;
     uint32_t quarter; /* the rotor's position, quarter turns, wrapping */
-    bool gap;         /* before it nobody knows how many turns there were */
+    bool gap;         /* the number of turns before it is unknown */
 } wh_mark;
 
 typedef struct wh_pulses {
     bool suspects; /* `suspect` is one */
-    bool waits;    /* the last pulse is not sure yet */
-    bool alert;    /* the last pulse came a little early: the next that does is no disturbance */
-    /* the rotor all but rests, undriven: an interval far beyond the bound is as good as two; the caller renews it */
+    bool waits;    /* the last pulse is unconfirmed */
+    bool alert;    /* the last pulse was a little early: the next early one is no disturbance */
+    /* the rotor almost rests, undriven: one interval far beyond the bound counts as two; set by the caller */
     bool slow;
-    wh_real bound_radps;  /* a faster interval is not expected; ditto. 0: no bound */
-    wh_real window;       /* so early, as a part of a turn, a pulse may come; ditto */
-    wh_real climb_radps2; /* a turn's speed may rise by so much each second; ditto */
-    /* by so much more than it may the turn's speed rose, else 0: */
+    wh_real bound_radps;  /* faster intervals are not expected; ditto. 0: no bound */
+    wh_real window;       /* a pulse may be early by this part of a turn; ditto */
+    wh_real climb_radps2; /* limit on the rise of a turn's speed per second; ditto */
+    /* excess of the turn's speed over that limit, else 0: with the last pulse, */
     wh_real climb_radps;        /* with the last pulse, */
     wh_real climb_before_radps; /* and with the one before */
-    unsigned fast;              /* intervals beyond the bound, running */
-    /* pulses running whose sensor was not the one before's: a rotor that swings has none */
+    unsigned fast;              /* successive intervals beyond the bound */
+    /* successive pulses with a sensor other than the one before's: none for a rotor that swings */
     unsigned alternate;
-    /* grows by two with each pulse whose truth was doubtful and shrinks by one with each that fits */
+    /* grows by two with each doubtful pulse and shrinks by one with each that fits */
     unsigned doubt;
-    uint32_t rejected; /* pulses that are none */
+    uint32_t rejected; /* false pulses */
     wh_pulse suspect;
     wh_mark last;       /* pulse */
-    wh_speed speed;     /* of the pulses that were taken */
+    wh_speed speed;     /* from the accepted pulses */
     wh_speed before;    /* the same without the last one */
     wh_speed suspected; /* the same with the suspect */
     unsigned marks;
@@ -62,16 +62,16 @@ typedef struct wh_pulses {
 #define wh_pulses_take WH_NAME(wh_pulses_take)
 #define wh_pulses_sure WH_NAME(wh_pulses_sure)
 
-/* Begin: nothing is known. impossible_radps as for wh_speed_start(). */
+/* Begin with unknown state. impossible_radps as for wh_speed_start(). */
 void wh_pulses_start(wh_pulses *pulses, wh_real impossible_radps);
 
-/* Begin anew. */
+/* Restart. */
 void wh_pulses_forget(wh_pulses *pulses);
 
 /* A pulse of sensor 0 or 1 captured at `ticks`, in order of time. */
 void wh_pulses_take(wh_pulses *pulses, unsigned sensor, uint32_t ticks);
 
-/* The same where there may be one. */
+/* The same if there may be one. */
 bool wh_pulses_sure(wh_pulses *pulses, uint32_t now_ticks, wh_mark *mark);
 
 /* The next mark that is sure by now; false when there is none. To be asked until there is none, each control step. */

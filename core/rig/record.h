@@ -1,5 +1,4 @@
-/* record.h: what a trip leaves for whoever reads it later, also after a reset: then as bytes, the same on every
- * processor. */
+/* record.h: the record of a trip, readable later and also after a reset: as bytes, the same on every processor. */
 #ifndef WH_RIG_RECORD_H
 #define WH_RIG_RECORD_H
 
@@ -9,11 +8,11 @@
 extern "C" {
 #endif
 
-/* Handed to wh_rig_start() after a reset, it is latched again. */
+/* Given to wh_rig_start() after a reset, it is latched again. */
 typedef struct wh_trip_record {
     wh_trip trip;
     wh_rig_phase phase;
-    uint32_t ticks; /* of a timer that a reset may have set back since */
+    uint32_t ticks; /* of a timer that a reset may have cleared since */
     wh_real speed_radps;
     wh_real volts;
     wh_real supply_V;
@@ -27,7 +26,7 @@ typedef struct wh_trip_record {
 /* Into bytes[WH_TRIP_RECORD_BYTES]. */
 void wh_trip_record_put(const wh_trip_record *record, uint8_t *bytes);
 
-/* False when they are none of a trip: another length, a trip or a phase that there is not. */
+/* False if the bytes are no record: another length, or an unknown trip or phase. */
 bool wh_trip_record_get(wh_trip_record *record, const uint8_t *bytes, unsigned length);
 
 #ifdef __cplusplus

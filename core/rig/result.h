@@ -1,19 +1,18 @@
-/* result.h: turns merged to a measurement that says how wrong it may be, and whether to believe it.
+/* result.h: turns merged to a measurement with its uncertainty and its quality.
  *
  * The half-widths are for 95 %: roots of the sum of squares of
  *
- *     scatter     Student's factor times the standard error of the mean over the turns
- *     marks       (phase) neighbouring turns share a mark, so their scatter shows but half of what jitter of
- *                 the marks does to the mean; how much there is, the second differences of the marks tell
- *     split       (phase) the rotor's inertia, or the part of gravity that is left, comes from marks with the same jitter
- *     reference   what the angle within the turn would be off if the rotor's damping were off by its tolerance,
- *                 and the third order that it leaves out; while gravity is fed, if that were at an angle off by its
- *                 tolerance; and where the motor cannot brake as much as that asks for, what it leaves; on a carriage
- *                 (amplitude), if what gives way were off by its tolerance
- *     drift       (phase) the reference runs at a constant mean speed within a turn
- *     floors      calibration: as configured; 0.5 % and 0.5 degrees until it is
+ * - scatter: Student's factor times the standard error of the mean over the turns.
+ * - marks (phase): the scatter shows only half of the effect of the marks' jitter, because neighbouring turns share a
+ *   mark. The second differences of the marks give the jitter.
+ * - split (phase): the rotor's inertia, or the part of gravity that remains, comes from marks with the same jitter.
+ * - reference: the angle's error within the turn if the rotor's damping has an error of its tolerance, and the
+ *   neglected third order. While gravity is fed, also the effect of an error of the feeding angle, and of a motor that
+ *   cannot brake as much as commanded. On a carriage (amplitude), also an error of the moving mass by its tolerance.
+ * - drift (phase): the reference assumes a constant mean speed within a turn.
+ * - floors: calibration, as configured; 0.5 % and 0.5 degrees before calibration.
  *
- * A result is good; or doubtful or refused, and then there is a reason. */
+ * A result is good; or doubtful or refused, with a reason. */
 #ifndef WH_RIG_RESULT_H
 #define WH_RIG_RESULT_H
 
@@ -54,19 +53,20 @@ typedef enum wh_why { WH_WHY_ROWS(WH_WHY_NAME) WH_WHYS } wh_why;
 #undef WH_WHY_NAME
 
 typedef struct wh_result_config {
-    wh_real mount_factor; /* force as a part of that on a fixed mount: 1; carriage: 1/(1 + ratio) */
+    wh_real mount_factor; /* force relative to that on a fixed mount: 1; carriage: 1/(1 + ratio) */
     wh_real amplitude_floor; /* calibration, 95 %: as a part of the force, */
-    wh_real phase_floor_rad; /* of the sensors' places and the delays; 0: uncalibrated */
-    wh_real amplitude_off; /* so far from what is expected, as a part of it, a force is doubtful, */
+    wh_real phase_floor_rad; /* of the sensors' positions and the delays; 0: uncalibrated */
+    wh_real
+        amplitude_off; /* a force is doubtful if it differs from the expected one by this part, */
     wh_real amplitude_wrong; /* or refused */
-    wh_real phase_off_rad;   /* likewise its phase */
+    wh_real phase_off_rad;   /* the same for its phase */
     wh_real phase_wrong_rad;
-    wh_real residual_large; /* as a part of the force expected */
-    wh_real mean_off;       /* likewise */
-    wh_real inertia_off;    /* as a part of what the rotor is said to have, either way */
+    wh_real residual_large; /* in parts of the expected force */
+    wh_real mean_off;       /* the same */
+    wh_real inertia_off;    /* in parts of the rotor's configured inertia, either way */
 } wh_result_config;
 
-/* Turns as they come; zeros: none yet. */
+/* Turns merged so far; zeros: no turns. */
 typedef struct wh_merge {
     bool follows; /* the last turn was used: the next one's differences count */
     bool split_follows;
@@ -74,7 +74,7 @@ typedef struct wh_merge {
     uint32_t left_out;
     uint32_t samples;
     uint32_t outliers;
-    uint32_t split_turns; /* of which at_mark_N[1] is the mean */
+    uint32_t split_turns; /* turns averaged in at_mark_N[1] */
     wh_real jitter_s2;    /* sum of squares of second differences of marks, */
     uint32_t jitters;     /* so many */
     uint32_t first_ticks; /* a turn's time: of the first, and of the last that was used */
@@ -94,7 +94,7 @@ typedef struct wh_merge {
     wh_real expected_N;
     wh_real swing_rad;
     wh_real turn_s;
-    wh_real turn_s2; /* sum of squares about it */
+    wh_real turn_s2; /* sum of squares about its mean */
     wh_real at_mark_N[2];
 } wh_merge;
 
@@ -107,25 +107,25 @@ typedef struct wh_measured {
     uint32_t outliers;
     wh_real speed_radps;
     wh_real scatter_radps; /* of the turns' speeds, standard deviation */
-    wh_real mean_N;        /* over time, the tare taken off */
+    wh_real mean_N;        /* over time, less the tare */
     wh_real amplitude_N;
     wh_real amplitude_half_N; /* half-width of the interval, 95 % */
     wh_real phase_rad;        /* -pi ... pi */
     wh_real phase_half_rad;
-    wh_real expected_N; /* amplitude: what masses, speed and mount let expect */
-    wh_real residual_N; /* rms of what orders 0 to 2 leave */
+    wh_real expected_N; /* amplitude expected from masses, speed and mount */
+    wh_real residual_N; /* rms after orders 0 to 2 */
     wh_real
-        repeats_N; /* of it, harmonics 3 to 6 that repeat each turn: root of the sum of squares, or the third's */
-    wh_real repeats_limit_N; /* noise and a healthy rig make no more */
+        repeats_N; /* of it, harmonics 3 to 6 that repeat each turn: root of the sum of squares, or
+                    * the third's */
+    wh_real repeats_limit_N; /* limit from noise and a healthy rig */
     wh_real jitter_s;        /* of the marks, standard deviation */
     wh_real inertia_kgm2;
-    wh_real
-        swing_off_rad; /* by how much the load says that the speed's swing is another, as an arrow */
-    wh_real left_part;    /* of gravity, either way, where it is fed forward; else 0 */
-    wh_real at_mark_N[2]; /* the tare taken off */
+    wh_real swing_off_rad; /* error of the speed's swing according to the load, as a vector */
+    wh_real left_part;     /* remaining part of gravity, either way, if it is fed forward; else 0 */
+    wh_real at_mark_N[2];  /* the tare taken off */
 } wh_measured;
 
-/* Half-widths for 95 % until a calibration is entered: of a load cell and sensors as they are bought and mounted. */
+/* Half-widths for 95 % before calibration: of a commercial load cell and sensors as mounted. */
 #define WH_UNCALIBRATED_PART WH_R(0.005)
 #define WH_UNCALIBRATED_RAD (WH_R(0.5) / WH_RIG_DEG_PER_RAD)
 
@@ -144,25 +144,26 @@ WH_INLINE bool wh_result_is_calibrated(const wh_result_config *config) {
 #define wh_why_text WH_NAME(wh_why_text)
 #define wh_quality_text WH_NAME(wh_quality_text)
 
-/* Take a turn; `angle` as it was found with. A turn that does not count breaks the row. */
+/* Add a turn; `angle` as used for it. A turn that does not count breaks the series. */
 void wh_merge_add(const wh_result_config *config, const wh_rotor_config *rotor, wh_merge *merge,
                   const wh_lockin_turn *turn, const wh_turn_angle *angle);
 
-/* Evaluate a harmonic of what repeats, once each, WH_REPEATS_FIRST to WH_REPEATS_LAST: after the last turn. */
+/* Evaluate a harmonic of the repeating part, once each, WH_REPEATS_FIRST to WH_REPEATS_LAST: after the last turn. */
 void wh_merge_harmonic(wh_merge *merge, unsigned harmonic);
 
-/* Means and half-widths; the half-widths are 0 with less than two turns. `tare_N` is taken off. */
+/* Means and half-widths; the half-widths are 0 with fewer than two turns. `tare_N` is subtracted. */
 void wh_merge_mean(const wh_result_config *config, const wh_rotor_config *rotor,
                    const wh_merge *merge, const wh_turn_angle *angle, wh_real tare_N,
                    wh_measured *measured);
 
 #define WH_MERGE_MEAN_PIECES (WH_RIG_SMALL_PIECES ? 6U : 2U)
-/* The same in pieces, each once, in their order: 0 ... WH_MERGE_MEAN_PIECES - 1. Until the last *measured is under way. */
+/* The same in pieces, each once, in their order: 0 ... WH_MERGE_MEAN_PIECES - 1. *measured is incomplete until the
+ * last. */
 void wh_merge_mean_piece(const wh_result_config *config, const wh_rotor_config *rotor,
                          const wh_merge *merge, const wh_turn_angle *angle, wh_real tare_N,
                          wh_measured *measured, unsigned piece);
 
-/* What the load says of the speed's swing, what repeats, and the turns' scatter: after wh_merge_mean(). */
+/* Evaluate the speed's swing according to the load, the repeating part, and the turns' scatter: after wh_merge_mean(). */
 void wh_merge_compare(const wh_rotor_config *rotor, const wh_merge *merge,
                       const wh_turn_angle *angle, wh_measured *measured);
 

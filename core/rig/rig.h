@@ -22,17 +22,17 @@
 extern "C" {
 #endif
 
-#define WH_RIG_ORDERS_MOST 4U /* that may be posted between two control steps */
+#define WH_RIG_ORDERS_MOST 4U /* posted between two control steps */
 
-/* When gravity's torque is fed forward to the motor. It takes the ripple out of the speed, and with it gravity's part of the
- * load's peaks. */
+/* When gravity's torque is fed forward to the motor. This removes the ripple of the speed, and with it gravity's part
+ * of the load's peaks. */
 typedef enum wh_feed_when {
     WH_FEED_NEVER,
-    WH_FEED_SLOW, /* where the set-point is too slow without */
+    WH_FEED_SLOW, /* for set-points that are too slow without it */
     WH_FEED_ALWAYS
 } wh_feed_when;
 
-/* 0, as a small chip's build may say: observer.scene is NULL, and nothing can be fed forward. */
+/* 0, possible in a small chip's build: observer.scene is NULL, and gravity is never fed forward. */
 #ifndef WH_RIG_FEEDS
 #define WH_RIG_FEEDS 1
 #endif
@@ -47,15 +47,16 @@ typedef struct wh_rig_config {
     wh_feed_when feeds;
     wh_real impossible_radps; /* see wh_speed_start() */
     wh_real armed_max_s;
-    wh_real tripped_max_s; /* after a trip nothing more can be done than to wait so long */
+    wh_real tripped_max_s; /* longest wait for rest after a trip */
     wh_real rest_max_s;    /* with the motor off, to come to rest */
-    /* the motor brakes at a run's end and after `stop`, else it coasts, as it does after a trip and the stop input */
+    /* the motor brakes at a run's end and after `stop`; otherwise it coasts, as it always does after a trip and the
+     * stop input */
     bool stop_brakes;
-    /* a run that comes to its end coasts in any case, and its swing tells where the sensors stand; `stop` may brake */
+    /* a completed run always coasts, and its swing gives the sensors' positions; `stop` may brake */
     bool swings;
-    bool host_loss_stops; /* a run ends when who gives orders is gone, else it goes on */
-    uint32_t host_max_s;  /* gone: nothing heard for so long; 0: never (the console's) */
-    uint32_t settings;    /* hash of the settings that it has (core/station/conf.h); 0: none */
+    bool host_loss_stops; /* a run ends when the giver of orders is lost; otherwise it goes on */
+    uint32_t host_max_s;  /* lost: silent for this long; 0: never (the console's) */
+    uint32_t settings;    /* hash of its settings (core/station/conf.h); 0: no settings */
 } wh_rig_config;
 
 typedef enum wh_motor_way { WH_MOTOR_COASTS, WH_MOTOR_BRAKES, WH_MOTOR_DRIVES } wh_motor_way;
@@ -65,23 +66,23 @@ typedef struct wh_rig_command {
     wh_real volts; /* mean voltage, 0 to the supply; 0 unless the motor drives */
 } wh_rig_command;
 
-/* What is small comes first: of a processor's instructions the short ones reach no further. */
+/* Small members come first: a processor's short instructions reach no further. */
 typedef struct wh_rig {
     wh_life state;
-    bool brakes; /* the motor, when it goes off */
-    /* the run's: the observer goes with the rotor, and once it is valid gravity is fed forward */
+    bool brakes; /* the motor, when switched off */
+    /* for this run: the observer follows the rotor, and once it is valid gravity is fed forward */
     bool fed;
-    /* a pulse or a mark is work enough for one step: the rest waits for the next */
+    /* a pulse or a mark is work enough for one step: other work waits for the next */
     bool busy;
     bool decides;  /* a pulse of this step came after a suspect */
-    uint8_t loads; /* samples since the last step: more than one leave it time for less */
-    bool rested;   /* motor off, and the rotor rests, or will not: all that can be done is done */
-    /* it rests: no pulses; where those cannot be believed, after all the time it may take */
+    uint8_t loads; /* samples since the last step: with more than one the step has less time */
+    bool rested;   /* motor off, and the rotor rests or the wait is over */
+    /* no pulses; if they are unreliable, after the longest wait */
     bool at_rest;
-    bool has_result; /* of run number `runs`: from `start` to the end of its record there is none */
+    bool has_result;    /* of run number `runs`: false from `start` to the end of its record */
     wh_rig_end ended;   /* the run */
-    wh_rig_event asked; /* the last order that was taken, */
-    wh_refusal answer;  /* and what became of it */
+    wh_rig_event asked; /* the last order processed, */
+    wh_refusal answer;  /* and the answer to it */
     wh_run run;
     wh_guard guard;
     uint32_t answers;     /* so many were */
@@ -91,24 +92,24 @@ typedef struct wh_rig {
     uint32_t pulses_before; /* `arm` */
     uint32_t runs;          /* starts since the reset */
     uint32_t settings;      /* config->settings of the result, */
-    uint32_t result_s;      /* whole seconds since it was through, up to */
+    uint32_t result_s;      /* whole seconds since it was finished, up to */
     uint32_t result_ticks;  /* this time */
-    /* of each sensor the last pulse and the one before, whatever became of them */
+    /* of each sensor the last pulse and the one before, accepted or not */
     uint32_t heard_ticks[WH_SPEED_SENSORS][2];
     wh_feed feed;
     wh_rig_command command; /* since the last step */
     wh_pulses pulses;
-    wh_trip_record record; /* of the trip that is latched */
+    wh_trip_record record; /* of the latched trip */
     unsigned orders;
     wh_rig_order order[WH_RIG_ORDERS_MOST];
     wh_observer observer;
-    wh_rig_result result; /* when has_result; kept until the next start */
+    wh_rig_result result; /* if has_result; stays until the next start */
     wh_swing swing;       /* of the last run that ended in one: swing.result */
     wh_measure measure;
 } wh_rig;
 
-/* The rig of eccentric.whirl. measure.cell and the sensors' angles come from the hardware: wh_rig_slots() and the
- * caller fill them in; observer.scene is rig_fixed, or NULL: then nothing is fed forward. */
+/* The rig of eccentric.whirl. measure.cell and the sensors' angles depend on the hardware: wh_rig_slots() and the
+ * caller fill them in. observer.scene is rig_fixed, or NULL: then gravity is never fed forward. */
 #define wh_rig_standard WH_NAME(wh_rig_standard)
 extern const wh_rig_config wh_rig_standard;
 
@@ -129,11 +130,11 @@ extern const wh_rig_config wh_rig_standard;
 #define wh_rig_speed WH_NAME(wh_rig_speed)
 #define wh_rig_cause WH_NAME(wh_rig_cause)
 
-/* Where the rig is, as one number for consoles and records: of a run WH_RIG_STAGE_OF_PHASE + its phase, else the state. */
+/* The rig's stage as one number for consoles and records: in a run WH_RIG_STAGE_OF_PHASE + its phase, else the state. */
 #define WH_RIG_STAGE_OF_PHASE 8U
 unsigned wh_rig_stage(const wh_rig *rig);
 
-/* The same for consoles and telemetry, where a motor that brakes has a number of its own. */
+/* The same for consoles and telemetry, with a number of its own for a motor that brakes. */
 #define WH_RIG_STAGE_BRAKES (WH_RIG_STAGE_OF_PHASE + (unsigned)WH_PHASES)
 #define WH_RIG_STAGES (WH_RIG_STAGE_BRAKES + 1U)
 unsigned wh_rig_shown_stage(const wh_rig *rig);
@@ -141,17 +142,17 @@ unsigned wh_rig_shown_stage(const wh_rig *rig);
 /* Either in words. */
 const char *wh_rig_stage_text(unsigned stage);
 
-/* The mean speed of the last whole turn, or 0 at rest. False: it is not known, as before the first turn, or of a rotor that
- * swings: its pulses do not alternate. */
+/* The mean speed of the last whole turn, or 0 at rest. False if unknown: before the first turn, or for a rotor that
+ * swings (its pulses do not alternate). */
 bool wh_rig_speed(const wh_rig *rig, uint32_t now_ticks, wh_real *speed_radps);
 
-/* Seconds since the result was through. */
+/* Seconds since the result was finished. */
 uint32_t wh_rig_result_age_s(const wh_rig *rig, uint32_t now_ticks);
 
-/* Of the guard's trip, in the step that trips: the same, or its likely cause. Part of wh_rig_step(). */
+/* The guard's trip or its likely cause, in the step that trips. Part of wh_rig_step(). */
 wh_trip wh_rig_cause(const wh_rig_config *config, const wh_rig *rig, uint32_t now_ticks);
 
-/* Sensors on the loading-train axis and a quarter turn on, whose pulses come with the arms so far short. */
+/* Sensors on the loading-train axis and a quarter turn later. Their pulses come when the arms are lead_rad before them. */
 void wh_rig_slots(wh_rig_config *config, wh_real lead_rad);
 
 /* A brushed motor's torque line: each > 0. */
@@ -164,28 +165,28 @@ typedef struct wh_rig_motor {
 /* The motor that the configuration is for. */
 void wh_rig_motor_of(const wh_rig_config *config, wh_rig_motor *motor);
 
-/* Scale everything that depends on the motor from the configuration's motor to this one: gains, spin-up, supply, bounds of
- * the guard, damping, feed-forward. The observer's scene must have the configuration's motor: call it once. */
+/* Scale everything that depends on the motor from the configuration's motor to this one: gains, spin-up, supply, bounds
+ * of the guard, damping, feed-forward. The observer's scene must have the configuration's motor: call this once. */
 void wh_rig_use_motor(wh_rig_config *config, const wh_rig_motor *motor);
 
-/* No pulse comes faster than at the speed without load at the highest supply: again after another guard.supply_max_V. */
+/* Limit pulses to the speed without load at the highest supply. Call it again after a change of guard.supply_max_V. */
 void wh_rig_bound_pulses(wh_rig_config *config);
 
-/* Idle, motor off, whatever the rotor does; or tripped, if `before` (may be NULL) is the record of a trip. */
+/* Idle, motor off, for any motion of the rotor; or tripped, if `before` (may be NULL) is the record of a trip. */
 void wh_rig_start(const wh_rig_config *config, wh_rig *rig, uint32_t now_ticks,
                   const wh_trip_record *before);
 
-/* An order for the next control step. False: WH_RIG_ORDERS_MOST wait already. rig->answer says what became of it. */
+/* An order for the next control step. False: WH_RIG_ORDERS_MOST are waiting. rig->answer gives the result. */
 bool wh_rig_post(wh_rig *rig, wh_rig_event event, wh_real value);
 
 /* A slot pulse of sensor 0 or 1, captured at `ticks`. */
 void wh_rig_pulse(const wh_rig_config *config, wh_rig *rig, unsigned sensor, uint32_t ticks);
 
-/* A load sample as the hardware has it: counts, stamped `ticks`, and what it says of it. */
+/* A load sample as the hardware gives it: counts, stamped `ticks`, and its status. */
 void wh_rig_load(const wh_rig_config *config, wh_rig *rig, uint32_t ticks, int32_t raw,
                  wh_load_status status);
 
-/* What is against an order that the state allows; WH_ALLOWED: nothing. Part of wh_rig_step(). */
+/* The reason to refuse an order that the state allows, or WH_ALLOWED. Part of wh_rig_step(). */
 wh_refusal wh_order_refused(const wh_rig_config *config, const wh_rig *rig,
                             const wh_rig_inputs *inputs, const wh_rig_order *order);
 

@@ -1,9 +1,9 @@
 /* speed.h: speed of the rotor from the pulses of the two slot sensors.
  *
- * Sensor 0 stands at 0, sensor 1 a quarter turn on, so the pulses of a turning rotor alternate and
- * the rotor moves on by 1, 3, 1, 3, ... quarters. A sensor that fires twice running has lost one
- * pulse of the other in between. Speed is measured from a sensor's pulse to its next one: a whole
- * turn, over which the ripple that gravity makes cancels, and twice a turn there is a new value. */
+ * Sensor 0 is at 0, sensor 1 a quarter turn later. So the pulses of a turning rotor alternate and the rotor advances by
+ * 1, 3, 1, 3, ... quarters. If a sensor fires twice running, a pulse of the other was lost in between. Speed is
+ * measured from a sensor's pulse to its next one. Over this whole turn gravity's ripple cancels, and two new values
+ * come each turn. */
 #ifndef WH_RIG_SPEED_H
 #define WH_RIG_SPEED_H
 
@@ -20,14 +20,14 @@ typedef struct wh_speed {
     bool known;                  /* a whole turn has been measured */
     bool running;                /* at least one pulse has been taken since the last gap */
     bool seen[WH_SPEED_SENSORS]; /* seen_ticks and seen_quarter are valid */
-    wh_real impossible_radps;    /* a pulse that would need more is rejected */
+    wh_real impossible_radps;    /* a pulse that would need a higher speed is rejected */
     wh_real turn_radps;          /* mean over the last whole turn; valid when known */
     wh_real interval_radps;      /* mean since the pulse before the last, 0 after a gap; ditto */
     uint32_t ticks;              /* time of the last pulse taken */
-    uint32_t quarter;            /* rotor's position at it, quarter turns, wrapping */
+    uint32_t quarter;            /* rotor's position then, quarter turns, wrapping */
     uint32_t taken;              /* pulses taken */
-    uint32_t lost;               /* pulses that must have been there */
-    uint32_t restarts;           /* gaps after which `quarter` began afresh */
+    uint32_t lost;               /* missing pulses */
+    uint32_t restarts;           /* gaps after which `quarter` restarted */
     uint32_t rejected;           /* pulses that cannot be */
     uint32_t seen_ticks[WH_SPEED_SENSORS];
     uint32_t seen_quarter[WH_SPEED_SENSORS];
@@ -39,17 +39,16 @@ typedef struct wh_speed {
 /* Forget everything. impossible_radps > 0: no pulse can come faster than this. */
 void wh_speed_start(wh_speed *speed, wh_real impossible_radps);
 
-/* Take a pulse of `sensor` (0 or 1) captured at `ticks`, in order of time. Returns false when it is
- * rejected: closer to the last one than impossible_radps allows, or no such sensor.
+/* Process a pulse of `sensor` (0 or 1) captured at `ticks`, in order of time. Returns false if it is rejected: closer
+ * to the last one than impossible_radps allows, or no such sensor.
  *
- * One lost pulse is bridged. A pulse that comes more than a quarter turn later than the turn's speed
- * lets expect is taken for the first one after a gap in which two or more were lost: they are counted
- * as two, measuring starts afresh, and the last speed stays until a whole turn has been seen again. (Behind two gaps
- * running it is unknown: it may be what was wrong.)
- * Sensors in the wrong order, or a rotor turning backwards, look like such a gap each turn. */
+ * One lost pulse is bridged. A pulse more than a quarter turn later than the turn's speed predicts is the first one
+ * after a gap in which at least two were lost. They count as two, and measuring restarts. The last speed stays until
+ * another whole turn is measured. (After two successive gaps it is unknown: it may itself be wrong.) Sensors in the
+ * wrong order, or a rotor turning backwards, cause such a gap each turn. */
 bool wh_speed_pulse(wh_speed *speed, unsigned sensor, uint32_t ticks);
 
-/* Seconds since the last pulse taken; 0 when there was none. */
+/* Seconds since the last accepted pulse; 0 without one. */
 WH_INLINE wh_real wh_speed_silence_s(const wh_speed *speed, uint32_t now_ticks) {
     /* signed: a pulse may be stamped later than the step's own reading of the timer */
     const int32_t age_ticks = (int32_t)(now_ticks - speed->ticks);
@@ -58,8 +57,8 @@ WH_INLINE wh_real wh_speed_silence_s(const wh_speed *speed, uint32_t now_ticks) 
                : WH_R(0.0);
 }
 
-/* True when no pulse has come for more than a whole turn at the known speed, so that at least one
- * was lost (regular intervals are at most three quarters of a turn). */
+/* True if no pulse has come for more than a whole turn at the known speed, so that at least one was lost (regular
+ * intervals are at most three quarters of a turn). */
 WH_INLINE bool wh_speed_is_overdue(const wh_speed *speed, uint32_t now_ticks) {
     return speed->known && wh_speed_silence_s(speed, now_ticks) * speed->turn_radps > WH_RIG_TWO_PI;
 }

@@ -1,4 +1,4 @@
-/* swing_guess.h: the first guess of a free swing, from the times of its pulses alone: see free_swing.h, whose part it is. */
+/* swing_guess.h: the first guess of a free swing, from its pulses' times alone. Part of free_swing.h. */
 #ifndef WH_RIG_SWING_GUESS_H
 #define WH_RIG_SWING_GUESS_H
 
@@ -13,10 +13,11 @@ extern "C" {
 #define wh_swing_leave_top WH_NAME(wh_swing_leave_top)
 #define wh_swing_guess WH_NAME(wh_swing_guess)
 
-/* Near the top times tell all of the amplitude, and guesses of them nothing: a pass begins behind such swings. */
+/* Near the top, times depend strongly on the amplitude, and guesses of it are useless there: a pass begins after such
+ * swings. */
 void wh_swing_leave_top(const wh_swing_config *config, wh_swing *swing);
 
-/* x, what it may be off by, and both as the regression begins with; swing->start counts the guesses. */
+/* x and its uncertainty, with which the regression begins; swing->start counts the guesses. */
 void wh_swing_guess(const wh_swing_config *config, wh_swing *swing);
 
 #ifdef __cplusplus

@@ -1,4 +1,4 @@
-/* swing_state.h: what is known of a free swing, as free_swing.h finds it. */
+/* swing_state.h: the state of a free swing's evaluation (free_swing.h). */
 #ifndef WH_RIG_SWING_STATE_H
 #define WH_RIG_SWING_STATE_H
 
@@ -20,11 +20,11 @@ enum wh_swing_unknown {
 };
 
 #define WH_SWING_SENSORS 2U
-#define WH_SWING_TURNING 6U /* pulses that are kept from before the swing, */
+#define WH_SWING_TURNING 6U /* pulses stored from before the swing, */
 #define WH_SWING_PULSES 36U /* and in all */
 #define WH_SWING_LAST 10U   /* of sensor 1's last */
 
-/* Pieces of the work: on the way to a pulse or at it, the equations in two, another pass, another guess, the end. */
+/* Pieces of the work: before a pulse or at it, the equations in two, another pass, another guess, the end. */
 typedef enum wh_swing_piece {
     WH_SWING_GOES,
     WH_SWING_FACTORS,
@@ -34,7 +34,7 @@ typedef enum wh_swing_piece {
     WH_SWING_ENDS
 } wh_swing_piece;
 
-/* What became of it: X(name, words). */
+/* The outcome: X(name, words). */
 #define WH_SWING_ROWS(X) \
     X(WH_SWING_NONE, "no run has ended in a free swing") \
     X(WH_SWING_SWINGS, "the rotor is not at rest yet") \
@@ -51,21 +51,22 @@ typedef enum wh_swing_why { WH_SWING_ROWS(WH_SWING_NAME) WH_SWING_WHYS } wh_swin
 #undef WH_SWING_NAME
 
 typedef struct wh_swing_config {
-    wh_real lead_rad;  /* pulses come so far before the sensor, from either side */
-    wh_real most_rad;  /* sensors stand within this off their places, at 95 % */
+    wh_real lead_rad;  /* pulses come this far before the sensor, from either side */
+    wh_real most_rad;  /* sensors are within this of their positions, at 95 % */
     wh_real jitter_s;  /* of the pulses, standard deviation */
-    wh_real rough_rad; /* what else is off at a pulse, ditto: a coupling's twist */
-    wh_real floor_rad; /* calibration, 95 %: slot, lead, friction that is not the same either way */
-    wh_real wide_rad;  /* a wider interval says nothing */
-    wh_real off_rad; /* a sensor 1 off its place by this and its interval makes a result doubtful */
+    wh_real rough_rad; /* further error of a pulse, ditto: a coupling's twist */
+    wh_real floor_rad; /* calibration, 95 %: slot, lead, friction that differs with the direction */
+    wh_real wide_rad;  /* limit of a useful interval */
+    wh_real off_rad;   /* a result becomes doubtful if sensor 1's position error and its interval
+                      * exceed this */
     unsigned swings_least; /* half ones */
 } wh_swing_config;
 
 typedef struct wh_swung {
     wh_swing_why why;
-    wh_real place_rad[WH_SWING_SENSORS]; /* when found: how far on a sensor stands, */
+    wh_real place_rad[WH_SWING_SENSORS]; /* when found: the sensor's position, */
     wh_real half_rad[WH_SWING_SENSORS];  /* half-widths of the intervals, 95 % */
-    unsigned swings;                     /* half ones, from which that comes */
+    unsigned swings;                     /* half swings used */
 } wh_swung;
 
 typedef struct wh_swing {
@@ -75,25 +76,25 @@ typedef struct wh_swing {
     bool forward; /* passed this way, */
     uint8_t sensor;
     bool swings;          /* the rotor has passed sensor 1 backwards: at kept[first], */
-    wh_swing_piece piece; /* of the work, that is next */
+    wh_swing_piece piece; /* the next piece of the work */
     unsigned first;
-    unsigned passed; /* and then so often, kept or not */
+    unsigned passed; /* and its later passages, stored or not */
     unsigned kept;
-    unsigned start; /* guesses before this one led nowhere */
+    unsigned start; /* guesses before this one that failed */
     unsigned pass;
-    unsigned at;     /* the pulse that is next */
-    unsigned fits;   /* pulses that were taken on this pass, */
+    unsigned at;     /* the next pulse */
+    unsigned fits;   /* pulses used in this pass, */
     unsigned strays; /* that cannot be, */
-    /* and that were of each sensor: a swing seen from sensor 1 alone could be its mirror image */
+    /* and their number for each sensor: a swing seen by sensor 1 alone could be its mirror image */
     unsigned fits_of[WH_SWING_SENSORS];
     uint32_t ticks;                     /* of `way` */
-    wh_real soft_rad2;                  /* variance that pulses are given beside their own */
-    wh_free_rotor way;                  /* where the rotor is on a pass */
+    wh_real soft_rad2;                  /* variance added to the pulses' own */
+    wh_free_rotor way;                  /* the rotor during a pass */
     uint32_t last_ticks[WH_SWING_LAST]; /* sensor 1's, the newest first */
-    wh_real x
-        [WH_NORMAL_UNKNOWNS]; /* q - place and q' at the first passage, g, f, c, the sensors' places, */
+    wh_real x[WH_NORMAL_UNKNOWNS]; /* q - place and q' at the first passage, g, f, c, the sensors'
+                               * positions, */
     wh_real guess[WH_NORMAL_UNKNOWNS];  /* as they were guessed, */
-    wh_real within[WH_NORMAL_UNKNOWNS]; /* and how well: standard deviations */
+    wh_real within[WH_NORMAL_UNKNOWNS]; /* and their standard deviations */
     uint32_t kept_ticks[WH_SWING_PULSES];
     uint8_t kept_sensor[WH_SWING_PULSES];
     wh_normal normal; /* equations of this pass, in units of `within` */

@@ -1,4 +1,4 @@
-/* wave.h: sine and cosine of an angle, which the rig asks for in many places. */
+/* wave.h: sine and cosine of an angle. */
 #ifndef WH_RIG_WAVE_H
 #define WH_RIG_WAVE_H
 
