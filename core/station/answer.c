@@ -1,11 +1,11 @@
-/* answer.c: how the console's answers are put together. */
+/* answer.c: formatting of the console's answers. */
 #include "answer.h"
 
 #include <stddef.h>
 
 /* --- answers ----------------------------------------------------------------------------------------- */
 
-/* A blank as `blank`; what has no blanks may be of a list. */
+/* `blank` replaces blanks; words without blanks may be list items. */
 static void add_words(wh_text *text, const char *words, char blank) {
     for (char next = wh_word_at(words); next != '\0'; next = wh_word_at(++words)) {
         if (next == '|' && blank != ' ') {
@@ -15,7 +15,7 @@ static void add_words(wh_text *text, const char *words, char blank) {
     }
 }
 
-/* Seven digits that count: a float has no more, and nine can be typed (line.h). */
+/* Seven significant digits: a float has no more, and nine can be typed (line.h). */
 static void add_exact(wh_text *text, wh_real number) {
     unsigned decimals = 8;
     wh_real size = WH_ABS(number);
@@ -65,7 +65,7 @@ unsigned wh_list_find(const char *list, const char *word) {
     const char part = wh_word_at(list);
     unsigned number = 0;
     for (char next = part; next == part; number++) {
-        const char *at = word; /* as far as it is the same; or NULL */
+        const char *at = word; /* up to the first difference; or NULL */
         for (next = wh_word_at(++list); next != '\0' && next != part; next = wh_word_at(++list)) {
             at = at != NULL && wh_word_at(at) == next ? at + 1 : NULL;
         }

@@ -1,4 +1,4 @@
-/* answer.h: how the console's answers are put together: "OK name=value name=value: words"; and lists of words. */
+/* answer.h: formatting of the console's answers, "OK name=value name=value: words"; and lists of words. */
 #ifndef WH_STATION_ANSWER_H
 #define WH_STATION_ANSWER_H
 
@@ -18,21 +18,20 @@ typedef union wh_value {
     uint32_t count;
 } wh_value;
 
-/* All words are as  has them, but for the one that is looked for. */
+/* All words may stay in flash (core/flash.h), except the one that is searched for. */
 
-/* Add a form in which a value stands where it has an @ and a letter or digit, one after the other:
+/* Add a form to the text. An @ and a letter or digit stand for the next value:
  *
- *     @w           a word, to the end of the list's item that it is: a blank in it as _
+ *     @w           a word, to the end of its list item, with _ for blanks
  *     @s           words
  *     @c           a count
- *     @x           the same in eight hexadecimal digits
+ *     @x           a count in eight hexadecimal digits
  *     @g           good or bad: a count of 1 or 0
- *     @0 ... @9    a number, with so many decimals
- *     @e           a number to the seventh digit, as it can be typed, without zeros at the end */
+ *     @0 ... @9    a number with this many decimals
+ *     @e           a number to the seventh digit, as it can be typed, without trailing zeros */
 void wh_answer(wh_text *text, const char *form, const wh_value *value);
 
-/* A list begins with the character that parts its items, and no item has it:
- * "|" "off" "|" "on". */
+/* A list begins with the character that separates its items and that no item contains: "|" "off" "|" "on". */
 
 #define WH_LIST_OFF_ON \
     "|" \
@@ -40,10 +39,10 @@ void wh_answer(wh_text *text, const char *form, const wh_value *value);
     "|" \
     "on"
 
-/* Which of the items the word is, from 0; how many there are when it is none. */
+/* The word's index in the list, from 0; the number of items if it is not there. */
 unsigned wh_list_find(const char *list, const char *word);
 
-/* This one of them, of which there are more. */
+/* The item with this index, which the list must have. */
 const char *wh_list_item(const char *list, unsigned number);
 
 #ifdef __cplusplus

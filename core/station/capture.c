@@ -1,4 +1,4 @@
-/* capture.c: the control steps round a trigger. */
+/* capture.c: the control steps around a trigger. */
 #include "capture.h"
 
 #define HALF (WH_CAPTURE_STEPS / 2U)

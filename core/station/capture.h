@@ -1,4 +1,4 @@
-/* capture.h: the control steps round a trigger: a ring that goes on until half of it is behind the trigger. */
+/* capture.h: the control steps around a trigger: a ring that stops half its length after the trigger. */
 #ifndef WH_STATION_CAPTURE_H
 #define WH_STATION_CAPTURE_H
 
@@ -9,9 +9,9 @@ extern "C" {
 #endif
 
 #define WH_CAPTURE_STEPS 192U /* 0.38 s at 500 Hz */
-#define WH_CAPTURE_BYTES 8U   /* of a step, as a frame has it */
+#define WH_CAPTURE_BYTES 8U   /* of a step in a frame */
 
-/* What triggers it: X(trigger, word) */
+/* Triggers: X(trigger, word) */
 #define WH_CAPTURE_ROWS(X) \
     X(WH_CAPTURE_OFF, "off") \
     X(WH_CAPTURE_PULSE, "pulse") /* a slot pulse */ \
@@ -31,7 +31,7 @@ typedef struct wh_captured {
     uint8_t stage;
 } wh_captured;
 
-/* How far it is: X(state, word) */
+/* Progress: X(state, word) */
 #define WH_CAPTURE_STATE_ROWS(X) \
     X(WH_CAPTURE_NONE, "off") \
     X(WH_CAPTURE_WAITS, "waiting") \
@@ -48,10 +48,10 @@ typedef enum wh_capture_state {
 typedef struct wh_capture {
     wh_capture_trigger trigger;
     wh_capture_state state;
-    unsigned left;        /* steps to come behind the trigger */
-    unsigned count;       /* steps that are kept, */
-    unsigned next;        /* and where the next goes */
-    uint32_t first_ticks; /* of the oldest, all of them */
+    unsigned left;        /* steps still to record after the trigger */
+    unsigned count;       /* stored steps, */
+    unsigned next;        /* and the next one's index */
+    uint32_t first_ticks; /* of the oldest, all 32 bits */
     wh_captured step[WH_CAPTURE_STEPS];
 } wh_capture;
 
@@ -59,7 +59,7 @@ typedef struct wh_capture {
 #define wh_capture_step WH_NAME(wh_capture_step)
 #define wh_capture_at WH_NAME(wh_capture_at)
 
-/* Anew, for this trigger. It counts once half of the ring is filled; what comes before is no trigger. */
+/* Restart with this trigger. Triggers count once half of the ring is filled. */
 void wh_capture_start(wh_capture *capture, wh_capture_trigger trigger);
 
 /* Does it take steps? */
@@ -67,10 +67,11 @@ WH_INLINE bool wh_capture_runs(const wh_capture *capture) {
     return capture->state == WH_CAPTURE_WAITS || capture->state == WH_CAPTURE_TRIGGERED;
 }
 
-/* While it does: a control step, less than 65 ms behind the one before; its flags without 4. `now_ticks`: the whole of them. */
+/* In that state: record a control step, less than 65 ms after the one before; its flags without 4. `now_ticks`: all 32
+ * bits. */
 void wh_capture_step(wh_capture *capture, const wh_captured *step, uint32_t now_ticks);
 
-/* Step i of those that are kept, the oldest first. */
+/* Stored step i, from the oldest. */
 const wh_captured *wh_capture_at(const wh_capture *capture, unsigned i);
 
 #ifdef __cplusplus

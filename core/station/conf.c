@@ -1,4 +1,4 @@
-/* conf.c: the rig's settings as numbers that have names. */
+/* conf.c: the rig's settings as named numbers. */
 #include "conf.h"
 
 #include <stddef.h>
@@ -14,7 +14,7 @@ static const wh_real per_unit[] = {WH_CONF_SCALED_ROWS(UNIT)};
 #undef UNIT
 #define DEG per_unit[WH_CONF_DEG]
 
-/* Where words stay in flash, so do these. */
+/* In flash with the strings, if those stay there. */
 #if defined(WH_WORDS_FROM)
 #define ROWS_KEPT WH_FLASH
 #else
@@ -27,7 +27,7 @@ static const wh_real per_unit[] = {WH_CONF_SCALED_ROWS(UNIT)};
 static const wh_conf_row rows[] ROWS_KEPT = {WH_CONF_ROWS(ROW)};
 #undef ROW
 
-/* Of the motor's line, that the damping is at least: who has measured it may be off by some. */
+/* Least damping in parts of the slope of the motor's line: a measured damping may have an error. */
 #define LINE_PART WH_R(0.9)
 
 #define ENTRY_BYTES 5U /* a setting's number, and its value */
@@ -66,7 +66,7 @@ const char *wh_conf_unit_text(wh_conf_id id) {
 #undef WORD
 }
 
-/* A list: what a choice takes, or one word. */
+/* A list: a choice's values, or one word. */
 static const char *choices(wh_conf_id id) {
 #define WORDS(kind, words) words "\0"
     static const char words[] WH_WORD_LIST = WH_CONF_KIND_ROWS(WORDS);
@@ -80,12 +80,12 @@ const char *wh_conf_kind_text(wh_conf_id id) { return choices(id) + 1; }
 
 static bool is_on(wh_real value) { return value > WH_R(0.5); }
 
-/* So many of its unit are one of the configuration's. */
+/* Number of the setting's units in one of the configuration's. */
 static wh_real units(const wh_conf_row *row) {
     return row->unit < sizeof per_unit / sizeof per_unit[0] ? per_unit[row->unit] : WH_R(1.0);
 }
 
-/* The member that a row names is of the type that goes with its kind; all but real ones are whole numbers. */
+/* The type of a row's member follows from its kind; all except reals are whole numbers. */
 static wh_real value_of(const wh_rig_config *c, wh_conf_id id) {
     const wh_conf_row *row = ROW(id);
     const void *member = (const uint8_t *)c + row->place;
@@ -116,13 +116,13 @@ static void put(wh_rig_config *c, wh_conf_id id, wh_real value) {
 /* As memory has it. */
 static wh_real as_kept(wh_real value) { return (wh_real)(float)value; }
 
-/* What this program is built without. */
+/* Features that this build omits. */
 static bool is_absent(wh_conf_id id, wh_real value) {
     return is_on(value) &&
            ((id == WH_CONF_feeds && !WH_RIG_FEEDS) || (id == WH_CONF_swings && !WH_RIG_SWINGS));
 }
 
-/* May this setting have this value? */
+/* Is this value possible for this setting? */
 static wh_station_error fits(wh_conf_id id, wh_real value) {
     const wh_conf_row *row = ROW(id);
     const wh_real kept = as_kept(value);
@@ -135,7 +135,7 @@ static wh_station_error fits(wh_conf_id id, wh_real value) {
 
 /* --- into the rig's configuration --------------------------------------------------------------------- */
 
-/* What gravity and the masses' force do elsewhere, in proportion: docs/rig.md has the reasons. */
+/* Effects of gravity and of the masses' force on other settings, in proportion: docs/rig.md has the reasons. */
 static void put_rotor(const wh_conf *conf, wh_rig_config *c) {
     const wh_real moment = conf->value[WH_CONF_mass_moment];
     const wh_real moments = moment / conf->standard[WH_CONF_mass_moment];
@@ -170,7 +170,7 @@ static bool has_motor(const wh_conf *conf) {
            conf->given[WH_CONF_stall_torque];
 }
 
-/* The defaults of these follow from the motor. */
+/* Their defaults follow from the motor. */
 static const uint8_t of_motor[] = {WH_CONF_damping, WH_CONF_gain,         WH_CONF_gain_integral,
                                    WH_CONF_spin_up, WH_CONF_supply_least, WH_CONF_supply_most};
 
@@ -202,7 +202,7 @@ static void begin_with_motor(wh_conf *conf) {
     }
 }
 
-/* It lifts the arms, brings the rotor up to the largest set-point at its rated voltage, and is slowed down by no less than its own
+/* The motor lifts the arms, reaches the largest set-point at its rated voltage, and has at least the damping of its own
  * line. */
 static bool motor_goes(const wh_conf *conf) {
     const wh_real *value = conf->value;
@@ -222,7 +222,7 @@ static bool motor_goes(const wh_conf *conf) {
            value[WH_CONF_damping] >= LINE_PART * line_Nms;
 }
 
-/* A different set of settings has a different one. */
+/* Different settings have different hashes. */
 static uint32_t hash(const wh_conf *conf) {
     uint32_t crc = 0;
     for (unsigned id = 0; id < WH_CONF_COUNT; id++) {
@@ -242,7 +242,7 @@ static bool go_together(const wh_conf *conf) {
            value[WH_CONF_supply_least] < value[WH_CONF_supply_most];
 }
 
-/* False: they do not go together. Then settings that do are to be put back, and this called again. */
+/* False: the settings contradict each other. The caller must then restore consistent ones and call this again. */
 static bool renew(wh_conf *conf) {
     wh_rig_config *c = conf->config;
     bool goes[WH_CONF_CELL + 1U] = {false};
@@ -343,7 +343,7 @@ static void take_all(wh_conf *conf, const uint8_t *payload, unsigned count) {
     }
 }
 
-/* What the program itself has, of settings that are not as the configuration has them. */
+/* The program's own values of settings that several members represent. */
 static void see_several(wh_real *value) {
     value[WH_CONF_sensor1] += value[WH_CONF_slot_lead];
     value[WH_CONF_sensor2] += value[WH_CONF_slot_lead];

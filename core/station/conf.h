@@ -1,8 +1,8 @@
-/* conf.h: the rig's settings as numbers that have names: from one table (conf_rows.h), within their ranges, into the rig's
- * configuration and into memory that keeps them.
+/* conf.h: the rig's settings as named numbers. One table (conf_rows.h) gives their ranges, their places in the rig's
+ * configuration and their numbers in permanent memory.
  *
- * A setting that nobody has set is what the program's own configuration has, to the bit. Only what is set is stored, with
- * its number: another version of the program takes what it knows and leaves the rest at its own. */
+ * A setting that is not set equals the program's own configuration, to the bit. Only set ones are stored, with their
+ * numbers: another version of the program takes those it knows, and its own values for the others. */
 #ifndef WH_STATION_CONF_H
 #define WH_STATION_CONF_H
 
@@ -24,7 +24,7 @@ typedef enum wh_conf_unit { WH_CONF_UNIT_ROWS(WH_CONF_NAME) WH_CONF_UNITS } wh_c
 typedef enum wh_conf_kind { WH_CONF_KIND_ROWS(WH_CONF_NAME) WH_CONF_KINDS } wh_conf_kind;
 #undef WH_CONF_NAME
 
-/* With what others it makes something of the configuration. */
+/* The effect of a setting, alone or with others, on the configuration. */
 typedef enum wh_conf_goes {
     WH_CONF_ALONE,
     WH_CONF_ROTOR,
@@ -43,14 +43,14 @@ typedef struct wh_conf_row {
 } wh_conf_row;
 
 typedef struct wh_conf {
-    /* Fills in the program's own configuration, whose settings go together. */
+    /* Fills in the program's own configuration, whose settings are consistent. */
     void (*own)(wh_rig_config *config);
-    const wh_store_memory *memory; /* NULL: nothing is kept */
-    wh_rig_config *config;         /* the rig's: renewed with each change */
+    const wh_store_memory *memory; /* NULL: settings are not saved */
+    wh_rig_config *config;         /* the rig's: updated with each change */
     wh_real value[WH_CONF_COUNT];
-    wh_real standard[WH_CONF_COUNT]; /* of a setting that was not given */
-    bool given[WH_CONF_COUNT];       /* set by somebody, even to its default */
-    uint32_t sequence;               /* of what was loaded or saved last; 0: nothing was */
+    wh_real standard[WH_CONF_COUNT]; /* of settings that are not set */
+    bool given[WH_CONF_COUNT];       /* set by the user, even to its default */
+    uint32_t sequence;               /* of the record last loaded or saved; 0: none */
 } wh_conf;
 
 #define wh_conf_start WH_NAME(wh_conf_start)
@@ -66,35 +66,35 @@ typedef struct wh_conf {
 #define wh_conf_save WH_NAME(wh_conf_save)
 #define wh_conf_text WH_NAME(wh_conf_text)
 
-/* Into *config goes the program's own configuration, with what was saved. What does not fit this program (a number that
- * there is not, a value outside its range, settings that go against each other) is left out. */
+/* Set *config to the program's own configuration, with the saved settings. Saved settings that do not fit this program
+ * are left out: an unknown number, a value outside its range, settings that contradict each other. */
 void wh_conf_start(wh_conf *conf, void (*own)(wh_rig_config *config), const wh_store_memory *memory,
                    wh_rig_config *config);
 
-/* *room is for it where constants stay in flash (core/flash.h). */
+/* *room is for the row if constants stay in flash (core/flash.h). */
 const wh_conf_row *wh_conf_row_of(wh_conf_id id, wh_conf_row *room);
 
-/* WH_CONF_COUNT when there is none of this name. */
+/* WH_CONF_COUNT if no setting has this name. */
 wh_conf_id wh_conf_find(const char *name);
 
-/* Its name, and in words what it takes and its unit: items of lists (answer.h); and its description. */
+/* Its name; its values and unit in words, items of lists (answer.h); and its description. */
 const char *wh_conf_name(wh_conf_id id);
 const char *wh_conf_kind_text(wh_conf_id id);
 const char *wh_conf_unit_text(wh_conf_id id);
 const char *wh_conf_words(wh_conf_id id);
 
-/* Set it, in its unit, a choice by its number; or what was typed for it. The configuration follows, unless it is
- * refused. While the rig is idle only. */
+/* Set it, in its unit, a choice by its number; or from typed text. The configuration follows, unless it is refused.
+ * Only while the rig is idle. */
 wh_station_error wh_conf_set(wh_conf *conf, wh_conf_id id, wh_real value);
 wh_station_error wh_conf_type(wh_conf *conf, wh_conf_id id, const char *typed);
 
-/* All as if nobody had set any. What is saved stays. */
+/* Reset all settings to their defaults. The saved ones stay. */
 void wh_conf_default(wh_conf *conf);
 
-/* Into memory. May take as long as the memory does (hal/settings.h). */
+/* Save to memory. Takes as long as the memory does (hal/settings.h). */
 wh_station_error wh_conf_save(wh_conf *conf);
 
-/* A choice's word for a value, of a list (answer.h); NULL for a number. */
+/* A choice's word for a value, from a list (answer.h); NULL for a number. */
 const char *wh_conf_text(wh_conf_id id, wh_real value);
 
 #ifdef __cplusplus

@@ -5,10 +5,10 @@
 
 #include "answer.h"
 
-/* Of an answer, for what `conf list` says behind the settings. */
+/* Space in an answer for the text that `conf list` adds after the settings. */
 #define LIST_TAIL 12U
 
-/* " name=value", a choice's in words. */
+/* " name=value", a choice's value in words. */
 static void add_value(wh_text *answer, const char *name, wh_conf_id id, wh_real number) {
     const char *choice = wh_conf_text(id, number);
     wh_value value[] = {{.word = name}, {.number = number}};
@@ -67,7 +67,7 @@ static void get(const wh_conf *conf, wh_conf_id id, wh_text *answer) {
     wh_answer(answer, ": @s", words);
 }
 
-/* X(what, word): what may stand behind `conf`. */
+/* X(what, word): the words allowed after `conf`. */
 #define ASKED_ROWS(X) \
     X(LIST, "list") X(GET, "get") X(SET, "set") X(SAVE, "save") X(DEFAULT, "default")
 #define COUNTED(what, word) what,

@@ -1,12 +1,12 @@
-/* conf_rows.h: the settings of a rig: one row each.
+/* conf_rows.h: the settings of a rig, one row each.
  *
- * X(name, number, kind, unit, least, most, goes, member, words): the name as it is typed, which stays; the number as it is
- * stored, which stays and is not used again; the range in the unit; what of the configuration comes of it and others (conf.c);
- * where in wh_rig_config it is. */
+ * X(name, number, kind, unit, least, most, goes, member, words). The name is typed, and never changes. The number is
+ * stored, never changes and is never used again. The range is in the unit. `goes` is the setting's effect on the
+ * configuration (conf.c), `member` its place in wh_rig_config. */
 #ifndef WH_STATION_CONF_ROWS_H
 #define WH_STATION_CONF_ROWS_H
 
-/* X(kind, words): a choice's are numbered from 0. */
+/* X(kind, words): the values of a choice are numbered from 0. */
 #define WH_CONF_KIND_ROWS(X) \
     X(WH_CONF_REAL, "|" \
                     "real") \
@@ -20,7 +20,8 @@
                      "|" \
                      "always")
 
-/* X(unit, word, number): so many of it are one of the configuration's own; then those that the configuration has. */
+/* X(unit, word, number): `number` of these units are one of the configuration's own; then the configuration's own
+ * units. */
 #define WH_CONF_SCALED_ROWS(X) \
     X(DEG, "deg", 57.29577951308232) \
     X(RPM, "rpm", 9.549296585513721) \

@@ -1,10 +1,10 @@
-/* errors.c: why a line at the console is refused, in words. */
+/* errors.c: reasons for refusing a console line, in words. */
 #include "errors.h"
 
 #include "answer.h"
 #include "core/rig/life.h"
 
-/* The numbers are in step with the rows. */
+/* Indices of the rows. */
 #define WH_STATION_ROW(name, number, words) ROW_##name,
 enum { WH_STATION_ERROR_ROWS(WH_STATION_ROW) ROWS };
 #undef WH_STATION_ROW

@@ -1,4 +1,4 @@
-/* errors.h: why a line at the console is refused. */
+/* errors.h: reasons for refusing a console line. */
 #ifndef WH_STATION_ERRORS_H
 #define WH_STATION_ERRORS_H
 
@@ -8,7 +8,7 @@
 extern "C" {
 #endif
 
-/* Why a line is refused, beside the rig's own refusals (wh_refusal, 1 ... 99): X(name, number, words). Numbers stay. */
+/* Reasons other than the rig's own refusals (wh_refusal, 1 ... 99): X(name, number, words). Numbers never change. */
 #define WH_STATION_ERROR_ROWS(X) \
     X(WH_STATION_NO_COMMAND, 100, "no such command; help lists them") \
     X(WH_STATION_LINE, 101, "the line is too long, or has what is no character") \
@@ -42,7 +42,7 @@ typedef enum wh_station_error {
 
 #define wh_answer_refused WH_NAME(wh_answer_refused)
 
-/* Instead of what the answer has: "ERR why words", of a wh_station_error or a wh_refusal. */
+/* Replace the answer by "ERR why words", from a wh_station_error or a wh_refusal. */
 void wh_answer_refused(wh_text *answer, unsigned why);
 
 #ifdef __cplusplus

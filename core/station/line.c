@@ -1,4 +1,4 @@
-/* line.c: bytes from a terminal to lines, and a line to its words. */
+/* line.c: splits a terminal's bytes into lines, and a line into words. */
 #include "line.h"
 
 enum { BACKSPACE = 0x08, TAB = 0x09, FEED = 0x0A, RETURN = 0x0D, ESCAPE = 0x1B, DELETE = 0x7F };
@@ -11,7 +11,7 @@ static void forget(wh_line *line) {
     line->ended = false;
 }
 
-/* An arrow key sends Escape, [ or O, and then up to a letter: that must not begin the next line. */
+/* An arrow key sends Escape, [ or O, and more up to a letter: these bytes must not begin the next line. */
 static bool belongs_to_key(wh_line *line, unsigned char byte) {
     const unsigned key = line->key;
     line->key = NO_KEY;
@@ -67,7 +67,7 @@ wh_line_event wh_line_take(wh_line *line, char character) {
 static bool is_blank(char character) { return character == ' ' || character == TAB; }
 
 void wh_line_split(wh_words *words, char *text) {
-    static const char none[] = ""; /* in memory, as what is typed */
+    static const char none[] = ""; /* in memory, as typed text is */
     bool within = false;
     for (unsigned i = 0; i < WH_LINE_WORDS; i++) {
         words->word[i] = none;

@@ -1,4 +1,4 @@
-/* line.h: bytes from a terminal to lines, and a line to its words. */
+/* line.h: splits a terminal's bytes into lines, and a line into words. */
 #ifndef WH_STATION_LINE_H
 #define WH_STATION_LINE_H
 
@@ -9,21 +9,21 @@ extern "C" {
 #endif
 
 #define WH_LINE_MOST 79U /* characters of a line */
-#define WH_LINE_WORDS 4U /* of which are told apart; more are counted */
+#define WH_LINE_WORDS 4U /* stored words; more are counted */
 
 typedef enum wh_line_event {
     WH_LINE_NOTHING,
-    WH_LINE_WHOLE, /* line->text has it, until the next one begins */
-    WH_LINE_BAD,   /* it was too long, or had what is no character: forgotten */
-    WH_LINE_ESCAPE /* the Escape key; what was typed is forgotten */
+    WH_LINE_WHOLE, /* in line->text until the next line begins */
+    WH_LINE_BAD,   /* too long, or with an invalid character: dropped */
+    WH_LINE_ESCAPE /* the Escape key; typed characters are dropped */
 } wh_line_event;
 
 /* All zeros: nothing typed. */
 typedef struct wh_line {
-    bool ended;    /* the next byte begins anew */
-    bool returned; /* after a carriage return, whose line feed is no line */
+    bool ended;    /* the next byte begins a line */
+    bool returned; /* after a carriage return: a line feed does not count */
     bool bad;
-    uint8_t key; /* within what a key beyond the letters sends, which begins with Escape */
+    uint8_t key; /* state in the sequence of a special key, which begins with Escape */
     unsigned length;
     char text[WH_LINE_MOST + 1U];
 } wh_line;
@@ -37,13 +37,13 @@ typedef struct wh_words {
 #define wh_line_split WH_NAME(wh_line_split)
 #define wh_line_number WH_NAME(wh_line_number)
 
-/* Lines end with carriage return, line feed or both; backspace and delete take the last character back. */
+/* Lines end with carriage return, line feed or both; backspace and delete remove the last character. */
 wh_line_event wh_line_take(wh_line *line, char byte);
 
-/* Words are parted by blanks and tabulators. Writes ends of words into the text. */
+/* Split a line at blanks and tabulators. Writes the words' ends into the text. */
 void wh_line_split(wh_words *words, char *text);
 
-/* "330", "-3.5", ".5": a sign, digits, a point, digits; nine of them at most. False when it is anything else. */
+/* "330", "-3.5", ".5": a sign, digits, a point, digits; at most nine digits. False for other text. */
 bool wh_line_number(const char *word, wh_real *number);
 
 #ifdef __cplusplus

@@ -1,4 +1,4 @@
-/* ring.c: bytes that wait, first in, first out. */
+/* ring.c: a FIFO of bytes. */
 #include "ring.h"
 
 bool wh_ring_put(wh_ring *ring, const char *bytes, uint32_t count) {

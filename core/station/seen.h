@@ -1,4 +1,4 @@
-/* seen.h: what a control step saw, for who looks on: telemetry, self-test. */
+/* seen.h: a control step's observations, for telemetry and self-test. */
 #ifndef WH_STATION_SEEN_H
 #define WH_STATION_SEEN_H
 
@@ -21,7 +21,7 @@ typedef struct wh_seen {
     bool pulsed; /* the next two are of this step */
     unsigned sensor;
     uint32_t pulse_ticks;
-    bool ended; /* so has a pulse's end: */
+    bool ended; /* a pulse's end came, too: */
     unsigned end_sensor;
     uint32_t end_ticks;
     unsigned samples; /* so many of: */

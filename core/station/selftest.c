@@ -6,7 +6,7 @@
 #include "answer.h"
 #include "core/arithmetic.h"
 
-/* More of it is a load, or a cell that is not wired. */
+/* A larger part of the range is a load, or an unwired cell. */
 #define LOAD_PART WH_R(0.5)
 #define PARTS 8U
 

@@ -1,4 +1,4 @@
-/* station.c: the rig's console: what each line asks for, and its answer. */
+/* station.c: the rig's console: executes each line and answers it. */
 #include "station.h"
 
 #include "answer.h"
@@ -7,14 +7,14 @@
 #include "tel_answer.h"
 
 #define RPM_PER_RADPS (WH_R(1.0) / WH_RIG_RADPS_PER_RPM)
-/* `measure` takes up to 380, with the longest words against a result. */
+/* `measure` takes up to 380, with the longest reason against a result. */
 #define ANSWER_BYTES 400U
 #define END_BYTES 2U /* "\r\n" */
 #define ESCAPE_KEY '\x1b'
 #define HOST_MOST_S WH_R(3600.0)
-#define DIALOGUE 1U /* a program at the other end asks `id` for it */
+#define DIALOGUE 1U /* a program at the other end finds it by `id` */
 
-/* What a command has to work with. */
+/* A command's context. */
 typedef struct request {
     wh_station *station;
     wh_rig *rig;
@@ -26,7 +26,7 @@ typedef struct request {
 
 /* --- lines out ------------------------------------------------------------------------------------ */
 
-/* The answer goes out, and is empty again. One that is too long is cut, so that its line has an end. */
+/* Send the answer and clear it. One that is too long is cut, so that its line has an end. */
 static void send(request *r) {
     wh_text *text = &r->answer;
     text->size += END_BYTES;
@@ -53,9 +53,9 @@ static void send_answer(request *r, unsigned why) {
 
 /* --- what it can be asked -------------------------------------------------------------------------- */
 
-/* Each of these returns why it is refused, or 0. */
+/* Each of these returns the reason for refusal, or 0. */
 
-/* The answer comes when the rig has one. */
+/* The answer follows when the rig has one. */
 static unsigned order(request *r, wh_rig_event event, wh_real value) {
     r->station->answers = r->rig->answers;
     r->station->waits = wh_rig_post(r->rig, event, value);
@@ -83,7 +83,7 @@ static unsigned do_set(request *r) { return order_speed(r, WH_EVENT_SET); }
 static unsigned do_stop(request *r) { return order(r, WH_EVENT_STOP, WH_R(0.0)); }
 static unsigned do_clear(request *r) { return order(r, WH_EVENT_CLEAR, WH_R(0.0)); }
 
-/* Without wh_station_see() there is no clock, and an age is that of the last step with the motor off. */
+/* Without wh_station_see() there is no clock: ages end at the last step with the motor off. */
 static uint32_t now_ticks(const request *r) {
     return r->station->seen != NULL ? r->station->seen->inputs.now_ticks : r->rig->result_ticks;
 }
@@ -93,7 +93,7 @@ static bool is_outdated(const request *r) {
     return r->station->conf != NULL && r->rig->settings != r->station->conf->config->settings;
 }
 
-/* The verdict stands for the settings that it was measured with. */
+/* The verdict is valid for the settings of its measurement. */
 static const char *verdict(const request *r) {
     return !r->rig->has_result ? "none"
            : is_outdated(r)    ? "outdated"
@@ -244,8 +244,8 @@ typedef enum command { WH_COMMAND_ROWS(COMMAND) COMMANDS } command;
 static const char *command_names(void) { return WH_COMMAND_ROWS(COMMAND); }
 #undef COMMAND
 
-/* By cases, not by pointers: what calls through a pointer itself (settings) would look like recursion to who bounds the
- * stack. */
+/* A switch instead of function pointers: the stack analysis would report recursion, because some functions call through
+ * pointers themselves (settings). */
 static unsigned run(request *r) {
 #define COMMAND(name, most, follows, words) 1U + (most),
     static const uint8_t words_most[] = {WH_COMMAND_ROWS(COMMAND)};
@@ -287,7 +287,7 @@ static unsigned do_help(request *r) {
 
 static unsigned typed(const wh_line *line) { return line->ended ? 0 : line->length; }
 
-/* The next line of what came, as far as it has come. */
+/* The next line of the received bytes, as far as they go. */
 static wh_line_event next_line(wh_station *station) {
     char byte;
     while (wh_ring_peek(&station->in, &byte, 1) == 1U) {
@@ -316,7 +316,7 @@ static void tell_stage(request *r) {
     send(r);
 }
 
-/* Whether just now whoever gives the orders has been silent for too long: the rig is told, once. */
+/* True if the giver of orders has just been silent for too long: the rig is informed once. */
 static bool host_is_lost(wh_station *station, wh_rig *rig) {
     const uint32_t host_steps = station->host_told ? station->host_steps
                                 : station->config != NULL
@@ -324,7 +324,7 @@ static bool host_is_lost(wh_station *station, wh_rig *rig) {
                                     : 0;
     if (host_steps == 0 || station->silent_steps > host_steps ||
         (station->silent_steps == host_steps &&
-         !wh_rig_post(rig, WH_EVENT_HOST_LOST, WH_R(0.0)))) { /* no room: in the next step */
+         !wh_rig_post(rig, WH_EVENT_HOST_LOST, WH_R(0.0)))) { /* no room: retry in the next step */
         return false;
     }
     station->silent_steps++;
@@ -349,11 +349,11 @@ void wh_station_see(wh_station *station, const wh_rig_config *config, const wh_r
     }
 }
 
-/* "start 330" that lost a byte may be "start 30": a line without all of its bytes is made one that is refused. */
+/* Without one byte "start 330" could be "start 30": an incomplete line is changed to one that is refused. */
 static void take_byte(wh_station *station, char byte) {
     static const char spoilt[] = {'\1', '\n'};
     if (byte == ESCAPE_KEY) {
-        station->escaped = true; /* what waits was typed before it */
+        station->escaped = true; /* waiting bytes were typed before it */
         station->spoils = false;
         wh_ring_drop(&station->in, wh_ring_waiting(&station->in));
     }
@@ -393,7 +393,7 @@ void wh_station_step(wh_station *station, wh_rig *rig) {
         answer_order(&r);
     }
     if (station->waits || host_is_lost(station, rig)) {
-        return; /* an order's answer is the next one, as no two are in the queue */
+        return; /* the next answer is the order's: the queue never holds two */
     }
     wh_text_add(&r.answer, "OK");
     if (station->escaped) {

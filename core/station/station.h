@@ -2,18 +2,18 @@
  *
  *     OK name=value name=value: words         ERR number words
  *
- * For a person at any terminal, and for a program at the other end of a serial line. It waits for nobody: bytes come and
- * go through rings, and an answer that finds no room, because nobody reads, is dropped whole and counted.
+ * For a person at any terminal, and for a program at the other end of a serial line. It never waits: bytes go through
+ * rings. An answer without room, because its reader is slow, is dropped as a whole and counted.
  *
- *     every control step, after wh_rig_step() and what the motor is told:
- *         wh_station_see(&station, &config, &rig, &seen)  for telemetry, where there is one
- *         wh_station_take(&station, bytes, count)         what has come
- *         wh_station_step(&station, &rig)                 one line's worth of work at most
- *         count = wh_station_peek(&station, bytes, room)  what wants out: as many as the console takes,
- *         wh_station_drop(&station, taken)                and those are gone
+ *     every control step, after wh_rig_step() and the motor's command:
+ *         wh_station_see(&station, &config, &rig, &seen)  for telemetry, if there is one
+ *         wh_station_take(&station, bytes, count)         the bytes that came
+ *         wh_station_step(&station, &rig)                 at most the work of one line
+ *         count = wh_station_peek(&station, bytes, room)  bytes to send: the console takes some,
+ *         wh_station_drop(&station, taken)                and those are removed
  *
- * Orders go to the rig by wh_rig_post(), and what became of them is the answer. The Escape key is `stop`, before anything
- * that waits. */
+ * wh_rig_post() passes orders to the rig; their outcome is the answer. The Escape key means `stop`, before all waiting
+ * input. */
 #ifndef WH_STATION_STATION_H
 #define WH_STATION_STATION_H
 
@@ -32,7 +32,7 @@ extern "C" {
 /* A literal each. */
 #define WH_TEL_FOLLOWS " list|schema CHANNEL|rate N|off|fmt FORMAT|ring [pulse|fault|off|read]"
 
-/* X(name, most words after it, what follows, words) */
+/* X(name, most words after it, arguments, words) */
 #define WH_COMMAND_ROWS(X) \
     X(help, 1, " [COMMAND]", "the commands, or what one does") \
     X(id, 0, "", "program, board, version of this dialogue") \
@@ -52,12 +52,12 @@ extern "C" {
       "the setting host, until a reset: a run ends when nothing is heard for so long") \
     X(talk, 1, " on|off", "echo what is typed, tell of each new state")
 
-/* 0, as a small chip's build may say: station->tel stays NULL, and nothing of telemetry is linked. */
+/* 0, possible in a small chip's build: station->tel stays NULL, and no telemetry is linked. */
 #ifndef WH_STATION_TELEMETRY
 #define WH_STATION_TELEMETRY 1
 #endif
 
-/* What waits: bytes that came; and that want out, of which half are the console's own. */
+/* Bytes waiting to be read; and to be sent, of which half are the console's own. */
 #ifndef WH_STATION_IN_BYTES
 #define WH_STATION_IN_BYTES 256U
 #endif
@@ -65,25 +65,25 @@ extern "C" {
 #define WH_STATION_OUT_BYTES 1024U
 #endif
 
-/* It must not be moved once it is started. What is large comes last: what is near has shorter instructions. */
+/* Must not be moved in memory once started. Large members come last: instructions for near ones are shorter. */
 typedef struct wh_station {
     bool talks;
     bool escaped;        /* stop, before anything else */
-    bool spoils;         /* bytes were lost, and so is the line to its end */
-    bool waits;          /* for what becomes of an order */
+    bool spoils;         /* bytes were lost: the line is invalid to its end */
+    bool waits;          /* for the outcome of an order */
     uint32_t answers;    /* rig->answers when it was given */
     const char *program; /* the caller's, */
     const char *board;
-    wh_conf *conf;               /* NULL: there are no settings */
-    wh_tel *tel;                 /* NULL: there is no telemetry */
+    wh_conf *conf;               /* NULL: no settings */
+    wh_tel *tel;                 /* NULL: no telemetry */
     const wh_rig_config *config; /* in the last step, */
-    const wh_seen *seen;         /* and what that saw */
+    const wh_seen *seen;         /* and its observations */
     uint32_t steps_per_s;        /* of wh_station_step(): the caller's, too */
-    unsigned stage;              /* as last told */
-    uint32_t lost_bytes;         /* that came while there was no room, */
-    uint32_t lost_answers;       /* and answers that had none */
-    bool host_told;              /* by the command `host`: that counts, and not the setting */
-    uint32_t host_steps;         /* so many without a byte, and the host is lost; 0: never */
+    unsigned stage;              /* as last reported */
+    uint32_t lost_bytes;         /* received without room for them, */
+    uint32_t lost_answers;       /* and answers without room */
+    bool host_told;              /* by the command `host`, which overrides the setting */
+    uint32_t host_steps;         /* steps without a byte after which the host is lost; 0: never */
     uint32_t silent_steps;
     uint32_t host_losses;
     wh_ring in;
@@ -98,28 +98,28 @@ typedef struct wh_station {
 #define wh_station_see WH_NAME(wh_station_see)
 #define wh_station_step WH_NAME(wh_station_step)
 
-/* `steps_per_s`: how often wh_station_step() is called. Nobody is watched at first. What else there is (conf, tel) the caller
- * puts in afterwards. */
+/* `steps_per_s`: the rate of wh_station_step(). No host is watched at first. The caller sets the other parts (conf,
+ * tel) afterwards. */
 void wh_station_start(wh_station *station, const char *program, const char *board,
                       uint32_t steps_per_s);
 
-/* Bytes that came. Looks for Escape at once. */
+/* Bytes received. Looks for Escape at once. */
 void wh_station_take(wh_station *station, const char *bytes, unsigned count);
 
-/* What the last control step saw, which stays as it is until the next. What telemetry has to say of it takes none of the console's room. */
+/* The last control step's observations, unchanged until the next. Telemetry takes none of the console's room. */
 void wh_station_see(wh_station *station, const wh_rig_config *config, const wh_rig *rig,
                     const wh_seen *seen);
 
-/* Does what the oldest line asks for, if the one before is answered. Where who gives the orders has not been heard for as
- * long as `host` said, the rig gets WH_EVENT_HOST_LOST, once: its configuration says what that ends. */
+/* Execute the oldest line, if the one before is answered. If the giver of orders has been silent for the time of
+ * `host`, the rig gets WH_EVENT_HOST_LOST, once; its configuration says what ends then. */
 void wh_station_step(wh_station *station, wh_rig *rig);
 
-/* What wants out: the oldest bytes, `room` at most; returns how many. */
+/* Bytes to send: the oldest, at most `room`; returns their number. */
 static inline unsigned wh_station_peek(const wh_station *station, char *bytes, unsigned room) {
     return (unsigned)wh_ring_peek(&station->out, bytes, room);
 }
 
-/* So many of them are out. */
+/* This many of them are sent. */
 static inline void wh_station_drop(wh_station *station, unsigned count) {
     wh_ring_drop(&station->out, count);
 }

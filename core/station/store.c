@@ -1,11 +1,11 @@
-/* store.c: bytes that outlive the power, in two slots. */
+/* store.c: bytes that survive a power loss, in two slots. */
 #include "store.h"
 
 #include "core/frame.h"
 
 #define FORMAT 0x5701U
 #define HEAD_BYTES WH_STORE_HEAD_BYTES
-#define WITH_ITS_CRC 0x2144DF1CU /* the CRC-32 of whatever ends in its own */
+#define WITH_ITS_CRC 0x2144DF1CU /* the CRC-32 of any bytes that end in their own CRC */
 
 /* Numbers of four bytes. */
 static uint32_t get(const uint8_t *bytes) {
@@ -19,8 +19,8 @@ static void put(uint8_t *bytes, uint32_t number) {
     bytes[3] = (uint8_t)(number >> 24);
 }
 
-/* The sequence of a slot's record, 0 when there is no good one; how long that is, with head and CRC. Piece by piece, as there is
- * no room for another one. */
+/* Returns the sequence of a slot's record, 0 if it is not good, and its length with head and CRC. Reads in pieces,
+ * because there is no room for a second record. */
 static uint32_t read_slot(const wh_store_memory *memory, unsigned slot, unsigned *length) {
     uint8_t bytes[HEAD_BYTES];
     uint32_t sequence = 0;
@@ -45,7 +45,7 @@ static uint32_t read_slot(const wh_store_memory *memory, unsigned slot, unsigned
     return crc == WITH_ITS_CRC ? sequence : 0;
 }
 
-/* The slot of the newest record; 1 when there is none. */
+/* The slot of the newest record; 1 without one. */
 static unsigned newest(const wh_store_memory *memory, uint32_t *sequence, unsigned *length) {
     unsigned first_length;
     const uint32_t first = read_slot(memory, 0, &first_length);
@@ -75,7 +75,7 @@ uint32_t wh_store_save(const wh_store_memory *memory, uint8_t *bytes, unsigned c
         return 0;
     }
     const unsigned slot = 1U - newest(memory, &sequence, &before);
-    sequence += sequence != UINT32_MAX ? 1U : 2U; /* none is 0 */
+    sequence += sequence != UINT32_MAX ? 1U : 2U; /* skips 0 */
     put(bytes, FORMAT | (uint32_t)count << 16);
     put(bytes + 4, sequence);
     put(bytes + HEAD_BYTES + count, wh_frame_crc(0, bytes, HEAD_BYTES + count));

@@ -5,7 +5,7 @@
 
 #include "answer.h"
 
-/* What a run's frame has of speed and drive, telemetry.c. */
+/* Speed and drive in a frame of the channel run, telemetry.c. */
 #define SPEED "speed[rpm]:u2:0.02"
 #define DRIVE ",drive[V]:u2:0.001"
 #define SCALE_DECIMALS 12U
@@ -103,7 +103,7 @@ static wh_station_error schema(const wh_tel *tel, const wh_cell_config *cell, co
 
 /* --- what it is told --------------------------------------------------------------------------------------- */
 
-/* As text there is room for so many a second. */
+/* Text has room for fewer samples a second. */
 static bool is_too_fast(wh_tel_format format, uint32_t per_s) {
     return format != WH_TEL_FRAMES && per_s > WH_TEL_TEXT_PER_S_MOST;
 }
@@ -115,7 +115,7 @@ static wh_station_error rate(wh_tel *tel, const wh_cell_config *cell, const char
     if (!wh_line_number(word, &wanted)) {
         return WH_STATION_TEL_RATE;
     }
-    const uint32_t per_s = (uint32_t)(int32_t)wanted; /* which has nine digits at most */
+    const uint32_t per_s = (uint32_t)(int32_t)wanted; /* at most nine digits */
     if ((wh_real)(int32_t)wanted != wanted || per_s == 0 || per_s > most || most % per_s != 0 ||
         is_too_fast(tel->format, per_s)) {
         return WH_STATION_TEL_RATE;
@@ -142,7 +142,7 @@ static wh_station_error set_format(wh_tel *tel, const wh_cell_config *cell, cons
     return WH_STATION_FINE;
 }
 
-/* Another trigger, or behind these `read`. */
+/* Another trigger, or `read`. */
 static wh_station_error set_ring(wh_tel *tel, const char *word, wh_text *answer) {
     const unsigned what = wh_list_find(TRIGGERS "|"
                                                 "read",
@@ -160,7 +160,7 @@ static wh_station_error set_ring(wh_tel *tel, const char *word, wh_text *answer)
     return WH_STATION_FINE;
 }
 
-/* X(what, word): asked with no word behind it, and with one. */
+/* X(what, word): requests without and with a further word. */
 #define ALONE_ROWS(X) X(ALONE_LIST, "list") X(ALONE_OFF, "off") X(ALONE_RING, "ring")
 #define WITH_ROWS(X) \
     X(WITH_SCHEMA, "schema") \

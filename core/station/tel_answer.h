@@ -13,7 +13,7 @@ extern "C" {
 
 #define wh_tel_answer WH_NAME(wh_tel_answer)
 
-/* What the words behind `tel` ask for, answered into *answer, which is empty; or why not. */
+/* Answer the words after `tel` into *answer, which is empty; returns the reason if it is refused. */
 wh_station_error wh_tel_answer(wh_tel *tel, const wh_cell_config *cell, const wh_words *words,
                                wh_text *answer);
 

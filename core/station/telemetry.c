@@ -1,4 +1,4 @@
-/* telemetry.c: frames, or lines for plotters, of what the rig does. */
+/* telemetry.c: frames, or lines for plotters, of the rig's data. */
 #include "telemetry.h"
 
 #include "answer.h"
@@ -8,13 +8,13 @@
 #define RUN_BYTES (5U + 2U * WH_TEL_SAMPLES)
 #define EVENT_BYTES 2U
 #define LINE_BYTES_OF(count) (WH_TEL_FIXED_BYTES + (count))
-#define BEFORE 2U /* of a frame on the line: a zero, and what the code puts in front */
+#define BEFORE 2U /* of a frame on the line: a zero, and the first byte of the code */
 #define TEXT_BYTES 96U
 
 _Static_assert(WH_TEL_FIXED_BYTES + WH_TEL_PAYLOAD_MOST <= WH_COBS_SHORT_MOST, "frames are short");
 #define NONE_16 0xFFFFU
 
-/* Where it goes, and what of. */
+/* The destination and the source. */
 typedef struct sight {
     wh_tel *tel;
     const wh_rig_config *config;
@@ -23,13 +23,13 @@ typedef struct sight {
     wh_ring *out;
     unsigned stage;
     uint16_t speed; /* in 1/50 rpm */
-    wh_bytes frame; /* that is being put together */
-    unsigned spare; /* room that is to be left for others */
+    wh_bytes frame; /* in progress */
+    unsigned spare; /* room reserved for others */
 } sight;
 
 /* --- numbers ------------------------------------------------------------------------------------------ */
 
-/* Rounded, within 16 bits; NONE_16 for what is none. */
+/* Rounded, within 16 bits; NONE_16 for NaN. */
 static uint16_t in_16(wh_real number) {
     if (!(number >= WH_R(0.0))) {
         return number < WH_R(0.0) ? 0 : NONE_16;
@@ -66,12 +66,12 @@ static uint16_t speed_50(const wh_rig *rig, uint32_t now_ticks) {
 
 /* --- frames ------------------------------------------------------------------------------------------- */
 
-/* Half of what can wait is the console's own. */
+/* Half of the buffer is the console's own. */
 static bool fits(const wh_ring *out, unsigned count) {
     return wh_ring_room(out) >= out->size / 2U + count;
 }
 
-/* Whole, or not at all. */
+/* Send the whole frame, or nothing. */
 static bool put_out(const sight *s, wh_tel_channel channel, const char *bytes, unsigned count) {
     if (fits(s->out, count + s->spare) && wh_ring_put(s->out, bytes, count)) {
         return true;
@@ -124,7 +124,7 @@ static void send_event(sight *s, wh_tel_event what, unsigned value, uint32_t tic
     (void)send_frame(s, WH_TEL_EVENT);
 }
 
-/* Of the ring none is dropped: it waits for room. */
+/* The ring's frames are never dropped: they wait for room. */
 static void send_ring(sight *s) {
     wh_tel *tel = s->tel;
     const wh_capture *capture = &tel->capture;
@@ -194,7 +194,7 @@ static void take_sample(sight *s, const wh_seen_sample *sample) {
     const uint32_t period = cell->period_ticks * tel->every;
     const uint32_t due = tel->first_ticks + tel->samples * period;
     if (load.ticks - due + period / 8U > period / 4U) {
-        send_run(s); /* what there is: these are no neighbours */
+        send_run(s); /* the samples so far: the next one is no neighbour */
     }
     if (tel->samples == 0) {
         tel->first_ticks = load.ticks;
@@ -209,9 +209,9 @@ static void take_events(sight *s) {
     wh_tel *tel = s->tel;
     const wh_seen *seen = s->seen;
     const unsigned trip = (unsigned)s->rig->guard.trip;
-    if (seen->ended) { /* the first to be left out where a storm fills the line */
+    if (seen->ended) { /* the first to be dropped if many pulses fill the line */
         s->spare = LINE_BYTES_OF(RUN_BYTES) +
-                   2U * LINE_BYTES_OF(EVENT_BYTES); /* of what comes in this step */
+                   2U * LINE_BYTES_OF(EVENT_BYTES); /* for later data of this step */
         send_event(s, WH_TEL_END, seen->end_sensor, seen->end_ticks);
         s->spare = 0;
     }
@@ -250,7 +250,7 @@ void wh_tel_rate(wh_tel *tel, uint32_t every) {
     tel->every = every;
     tel->passed = 0;
     tel->samples = 0;
-    tel->stage = NONE_16; /* told anew */
+    tel->stage = NONE_16; /* to be reported again */
     tel->trip = NONE_16;
 }
 

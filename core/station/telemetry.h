@@ -1,22 +1,22 @@
-/* telemetry.h: what the rig does, sample by sample, beside the console's text on the same line.
+/* telemetry.h: the rig's data, sample by sample, on the same line as the console's text.
  *
- * A frame is, before it is coded (core/cobs.h), with numbers of several bytes low byte first:
+ * A frame before coding (core/cobs.h), with multi-byte numbers low byte first:
  *
  *     0x80 + channel 1 | sequence 2 | dropped 2 | ticks 4 | payload | CRC-16/CCITT 2
  *
- * and on the line it stands between two zeros. Text has no zero, and its second byte is no 0x80 or more: whoever looks at
- * what stands between two zeros knows by its second byte what it is, and text can be shown as it comes. `sequence` is the
- * channel's and counts also frames that are dropped here, for want of room; `dropped` counts the channel's that were, so
- * what a gap in the sequence has more was lost on the way. Both wrap.
+ * On the line it stands between two zeros. Text has no zeros, and its second byte is below 0x80. So the second byte
+ * between two zeros distinguishes frames from text, and text can be shown as it comes. `sequence` counts the channel's
+ * frames, including those dropped here for lack of room; `dropped` counts the dropped ones. The rest of a gap in the
+ * sequence was lost on the line. Both wrap.
  *
  * Channels describe themselves: WH_TEL_CHANNEL_ROWS, and `tel schema` at the console.
  *
- *   run    ten samples of the load, and speed, drive, state at the last of them. A frame has less where samples are late,
+ *   run    ten samples of the load, and speed, drive, state at the last of them. A frame has fewer if samples are late,
  *          bad or missing: their times are ticks + i periods within an eighth of a period
- *   event  one thing that happened, at `ticks`: a slot pulse, another state, a trip
- *   ring   what was kept of the control steps round a trigger (capture.h), ten a frame
+ *   event  one event, at `ticks`: a slot pulse, another state, a trip
+ *   ring   the stored control steps around a trigger (capture.h), ten a frame
  *
- * It waits for nobody and takes none of the console's room: frames that find none in theirs are dropped. Off at first. */
+ * It never waits and takes none of the console's room: frames without room of their own are dropped. Off at first. */
 #ifndef WH_STATION_TELEMETRY_H
 #define WH_STATION_TELEMETRY_H
 
@@ -32,8 +32,8 @@ extern "C" {
 #define WH_TEL_HEAD_BYTES 9U
 #define WH_TEL_FIXED_BYTES (WH_TEL_HEAD_BYTES + 5U) /* on the line: zeros, code, sum */
 #define WH_TEL_PAYLOAD_MOST (WH_TEL_SAMPLES * WH_CAPTURE_BYTES)
-#define WH_TEL_NO_LOAD (-32768) /* there was no good sample */
-/* Text takes more room: no more samples a second. */
+#define WH_TEL_NO_LOAD (-32768) /* no good sample */
+/* Text takes more room: the limit on samples a second. */
 #define WH_TEL_TEXT_PER_S_MOST 100U
 
 /* X(channel, number, name) */
@@ -46,12 +46,12 @@ extern "C" {
 typedef enum wh_tel_channel { WH_TEL_CHANNEL_ROWS(WH_TEL_NAME) WH_TEL_CHANNELS } wh_tel_channel;
 #undef WH_TEL_NAME
 
-/* What an event is of. */
+/* Kinds of events. */
 typedef enum wh_tel_event {
     WH_TEL_PULSE, /* value: the sensor, 0 or 1 */
     WH_TEL_STATE, /* wh_rig_shown_stage() */
     WH_TEL_TRIP,  /* a wh_trip */
-    WH_TEL_END    /* of a pulse, as WH_TEL_PULSE has its beginning */
+    WH_TEL_END    /* of a pulse; WH_TEL_PULSE is its beginning */
 } wh_tel_event;
 
 /* X(format, word) */
@@ -64,22 +64,22 @@ typedef enum wh_tel_event {
 typedef enum wh_tel_format { WH_TEL_FORMAT_ROWS(WH_TEL_NAME) WH_TEL_FORMATS } wh_tel_format;
 #undef WH_TEL_NAME
 
-/* All zeros: off. What is large comes last: what is near has shorter instructions. */
+/* All zeros: off. Large members come last: instructions for near ones are shorter. */
 typedef struct wh_tel {
-    bool reads; /* the ring goes out, from: */
+    bool reads; /* the ring is being sent, from: */
     uint16_t sequence[WH_TEL_CHANNELS];
     uint16_t dropped[WH_TEL_CHANNELS]; /* of text: of WH_TEL_RUN */
     unsigned read_at;
     uint32_t read_ticks;
-    uint32_t every; /* so many samples of the cell for one of these; 0: off */
+    uint32_t every; /* cell samples for each one here; 0: off */
     uint32_t passed;
     wh_tel_format format;
-    unsigned samples; /* of the frame that is under way: */
+    unsigned samples; /* of the frame in progress: */
     uint32_t first_ticks;
     int16_t load[WH_TEL_SAMPLES];
-    unsigned stage; /* as last told */
+    unsigned stage; /* as last reported */
     unsigned trip;
-    uint8_t line[WH_TEL_FIXED_BYTES + WH_TEL_PAYLOAD_MOST]; /* a frame, as it goes out */
+    uint8_t line[WH_TEL_FIXED_BYTES + WH_TEL_PAYLOAD_MOST]; /* a frame, as sent */
     wh_capture capture;
 } wh_tel;
 
@@ -88,17 +88,17 @@ typedef struct wh_tel {
 #define wh_tel_read WH_NAME(wh_tel_read)
 #define wh_tel_step WH_NAME(wh_tel_step)
 
-/* The cell's counts in 16 bits: shifted by so many. */
+/* Shift that makes the cell's counts fit 16 bits. */
 unsigned wh_tel_shift(const wh_cell_config *cell);
 
-/* From now on each so many-th of the cell's samples; 0: off. */
+/* From now on send every `every`-th sample of the cell; 0: off. */
 void wh_tel_rate(wh_tel *tel, uint32_t every);
 
-/* The ring's frames are to go out, from its begin. False: it is not full yet. */
+/* Send the ring's frames from its begin. False: it is not full yet. */
 bool wh_tel_read(wh_tel *tel);
 
-/* After each control step: at most its pulse's and two samples' work, or a frame's of the ring. What wants out goes into
- * `out`, of which half are not its own. */
+/* After each control step: at most the work of its pulse and two samples, or of one frame of the ring. Bytes to send go
+ * into `out`, half of which belongs to others. */
 void wh_tel_step(wh_tel *tel, const wh_rig_config *config, const wh_rig *rig, const wh_seen *seen,
                  wh_ring *out);
 
