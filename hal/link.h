@@ -1,9 +1,9 @@
-/* link.h: a line of bytes to whoever plays the plant, both ways.
+/* link.h: a two-way line of bytes to the simulator of the plant.
  *
- * The board implements it (boards/<family>/link.c): files of the debugger's side by semihosting under an emulator, two
- * file descriptors on the PC; on silicon a UART would do. Bytes come in order, none of them is lost, and a read may
- * bring fewer than there is room for. When the other side is gone there is nothing left to control: the program then
- * ends by itself, with exit status HAL_LINK_GONE. */
+ * The board implements it (boards/<family>/link.c): by semihosting with files on the debugger's side under an emulator,
+ * by two file descriptors on the PC; on silicon a UART would do. Bytes arrive in order and without loss; a read may
+ * return fewer than there is room for. If the other side is gone, the program ends by itself, with exit status
+ * HAL_LINK_GONE. */
 #ifndef HAL_LINK_H
 #define HAL_LINK_H
 
@@ -16,25 +16,25 @@ extern "C" {
 
 #define HAL_LINK_GONE 3
 
-/* Descriptors that the other side hands to the program, or to its emulator: what is read, what is written. */
+/* Descriptors that the other side passes to the program, or to its emulator: to read, to write. */
 #define HAL_LINK_DOWN 3
 #define HAL_LINK_UP 4
 
-/* Opens the line; false when there is none. To be called before the others. */
+/* Opens the line; false without one. Call it before the others. */
 bool hal_link_open(void);
 
-/* Waits until there is something; then up to room >= 1 bytes. Returns how many, at least one. */
+/* Waits for data; then reads up to room >= 1 bytes. Returns their number, at least one. */
 unsigned hal_link_read(uint8_t *bytes, unsigned room);
 
 /* Writes all. */
 void hal_link_write(const uint8_t *bytes, unsigned count);
 
-/* A free-running count, wrapping at 2^32, of hal_link_timer_per_s() a second, by which computing time is told. 0 a
- * second where there is none that means anything. */
+/* A free-running count, wrapping at 2^32, of hal_link_timer_per_s() a second, to measure computing time. 0 a second if
+ * there is no meaningful one. */
 uint32_t hal_link_timer(void);
 uint32_t hal_link_timer_per_s(void);
 
-/* Who speaks: the board's name. */
+/* The board's name. */
 const char *hal_link_board(void);
 
 #ifdef __cplusplus

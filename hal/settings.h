@@ -1,7 +1,7 @@
-/* settings.h: memory that keeps settings without power: two slots in two sectors of their own, for core/station/store.h.
+/* settings.h: permanent memory for settings: two slots in separate sectors, for core/station/store.h.
  *
- * To be called with the motor off: the erase of a flash sector may hold up the processor for half a second, beyond any
- * watchdog's time, which the caller makes longer before. Not from an interrupt. */
+ * Call it with the motor off: the erase of a flash sector may block the processor for half a second. That exceeds any
+ * watchdog's time, which the caller must lengthen first. Not from an interrupt. */
 #ifndef HAL_SETTINGS_H
 #define HAL_SETTINGS_H
 
@@ -14,23 +14,24 @@ extern "C" {
 /* Bytes of a slot at least. */
 #define HAL_SETTINGS_BYTES 256U
 
-/* The longest that one call may take, capture timer (clock.h). */
+/* The longest time of one call, in ticks of the capture timer (clock.h). */
 #define HAL_SETTINGS_TICKS 1000000U
 
 typedef enum hal_settings_result {
     HAL_SETTINGS_DONE,
-    HAL_SETTINGS_OUTSIDE, /* there is no such slot, or it has no such bytes, or none begins there: nothing was begun */
-    HAL_SETTINGS_BUSY,  /* the memory does not come to rest: nothing was begun */
-    HAL_SETTINGS_FAILED /* the memory says so: protected, worn out, not there */
+    HAL_SETTINGS_OUTSIDE, /* no such slot, no such bytes in it, or no write may begin there: nothing
+                           * was changed */
+    HAL_SETTINGS_BUSY,    /* the memory stays busy: nothing was changed */
+    HAL_SETTINGS_FAILED   /* the memory reports it: protected, worn out, absent */
 } hal_settings_result;
 
-/* slot 0 or 1; at + count <= HAL_SETTINGS_BYTES. A supply that fails in one of these leaves anything in this slot, and nothing
- * else in the other. */
+/* slot 0 or 1; at + count <= HAL_SETTINGS_BYTES. A power failure during one of these leaves arbitrary bytes in this
+ * slot and does not touch the other. */
 
-/* All bytes of the slot are 0xFF. */
+/* Set all bytes of the slot to 0xFF. */
 hal_settings_result hal_settings_erase(unsigned slot);
 
-/* Of a slot that was erased, front to back; `at` is a multiple of 4, `count` may be any. */
+/* Write to an erased slot, front to back; `at` is a multiple of 4, `count` may be any. */
 hal_settings_result hal_settings_write(unsigned slot, unsigned at, const uint8_t *bytes,
                                        unsigned count);
 

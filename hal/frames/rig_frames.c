@@ -1,7 +1,7 @@
-/* rig_frames.c: the rig's hal_ functions, on a plant at the other end of a line.
+/* rig_frames.c: the rig's hal_ functions, with a plant at the other end of a line.
  *
- * Names are those of docs/plants/rig.whirl, with dials of its own or of docs/plants/carriage.whirl. Time stands still while the
- * controller computes; how long it took goes with the outputs, and the plant makes them wait so long. */
+ * Names are those of docs/plants/rig.whirl, with its dials or those of docs/plants/carriage.whirl. Simulated time stops
+ * while the controller computes. The computing time is sent with the outputs, and the plant delays them by it. */
 #include "rig_frames.h"
 
 #include <stddef.h>
@@ -27,7 +27,7 @@ _Static_assert(HAL_MOTOR_SUPPLY_IS_SEEN(HAL_MOTOR_SUPPLY_MOST_mV, SUPPLY_FULL_mV
                "the measurement ends too near to its limit");
 #define SUPPLY_RATED_V 24.0f /* until it is measured */
 
-#define WRAP_AFTER_S 5U /* as hal/virtual has it: every run crosses the timer's wrap */
+#define WRAP_AFTER_S 5U /* as in hal/virtual: every run crosses the timer's wrap */
 
 /* A slot sensor: the slot, 2 * HAL_SLOT_LEAD_DEG wide, covers it. */
 #define SLOT_AT(deg) \
@@ -38,9 +38,9 @@ _Static_assert(HAL_MOTOR_SUPPLY_IS_SEEN(HAL_MOTOR_SUPPLY_MOST_mV, SUPPLY_FULL_mV
     }
 
 enum { DUTY, ENABLE };                    /* outputs */
-enum { CELL_FORCE, SUPPLY, STOP, DIALS }; /* samples, the first dial behind them */
+enum { CELL_FORCE, SUPPLY, STOP, DIALS }; /* samples, then the first dial */
 
-/* A dial's converter has 20 bits: what it rounds is less than any bound of a test. */
+/* A dial's converter has 20 bits: its rounding is below every test's bound. */
 #define DIAL_PER_COUNT (1.0f / 1048576.0f)
 
 static const wh_signal signals[] = {
@@ -100,11 +100,11 @@ _Static_assert(SIGNALS + BENCH_SIGNALS <= WH_SIGNALS_MAX, "room for all");
 static hal_turns plant;
 static float supply_V = SUPPLY_RATED_V;
 static bool stop_pressed;
-static bool stop_heard;        /* until then, and when nothing came for long, */
-static uint32_t stop_ticks;    /* since this reading arrived, it counts as pressed */
+static bool stop_heard;        /* false before the first reading and after a long silence: */
+static uint32_t stop_ticks;    /* time of this reading; until then stop counts as pressed */
 static uint32_t load_ticks;    /* stamp of the last sample of the load, */
 static bool load_seen;         /* when there was one */
-static const wh_signal *dials; /* and notes; NULL: it has none */
+static const wh_signal *dials; /* and notes; NULL: no dials */
 static unsigned dial_signals;
 static float dial[HAL_DIALS];
 static bool dial_heard[HAL_DIALS];
@@ -118,7 +118,7 @@ static void see_dial(const wh_sample *sample) {
     }
 }
 
-/* Longer than the guard waits for the load cell: where all readings stay away, that is what is told. */
+/* Longer than the guard waits for the load cell: if all readings fail, that is the reported trip. */
 #define STOP_SILENCE_TICKS (25U * HAL_STOP_PERIOD_TICKS)
 
 static void see_stop(const wh_sample *sample) {
@@ -127,10 +127,10 @@ static void see_stop(const wh_sample *sample) {
     stop_ticks = plant.ticks;
 }
 
-/* The newest of what is not yet taken. */
+/* The newest reading not yet taken. */
 static void see_levels(void) {
     if (plant.ticks - stop_ticks > STOP_SILENCE_TICKS) {
-        stop_heard = false; /* and stays so: these times wrap */
+        stop_heard = false; /* latched: these times wrap */
     }
     for (unsigned i = plant.sample; i < plant.readings.samples; i++) {
         const wh_sample *sample = &plant.readings.sample[i];
@@ -207,7 +207,7 @@ unsigned hal_motor_start(void) {
     return hal_motor_status();
 }
 
-/* Without a supply nothing drives, and nothing is divided by. */
+/* Without a supply the motor has no drive, and the division would fail. */
 void hal_motor_set_voltage(float volts) {
     if (motor_started) {
         drive(supply_V > SUPPLY_V_PER_COUNT ? volts / supply_V : 0.0f);
@@ -260,7 +260,7 @@ bool hal_slots_take(hal_slot_edge *edge) {
     return true;
 }
 
-/* The line's: edges and samples together. */
+/* The line's count: edges and samples together. */
 uint32_t hal_slots_overruns(void) { return plant.lost; }
 
 static uint8_t load_status(uint8_t status) {
@@ -314,7 +314,7 @@ unsigned hal_reset_words(char *words, unsigned room) {
     return text.length;
 }
 
-void hal_reset_mark(uint32_t state) { (void)state; /* who plays the plant hears of it by notes */ }
+void hal_reset_mark(uint32_t state) { (void)state; /* the plant's side learns it from notes */ }
 
 void hal_remember(const void *bytes, unsigned count) { hal_turns_remember(&plant, bytes, count); }
 

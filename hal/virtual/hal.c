@@ -11,14 +11,14 @@
 
 #if !WH_DOUBLE
 
-/* The board's one rig: hardware is global, and so is what plays it. */
+/* The board's only rig: hardware is global, and so is its simulation. */
 static hal_virtual_rig board_rig;
 
 hal_virtual_rig *hal_virtual_rig_instance(void) { return &board_rig; }
 
 static bool motor_started;
 
-/* The pulse whose leading edge was taken last; pulses are further apart than they are long. */
+/* The pulse whose leading edge was taken last; pulses are farther apart than their length. */
 static bool is_high;
 static hal_slot_edge pulse;
 
@@ -125,7 +125,7 @@ unsigned hal_reset_words(char *words, unsigned room) {
     return text.length;
 }
 
-void hal_reset_mark(uint32_t state) { (void)state; /* nothing of a model's faults */ }
+void hal_reset_mark(uint32_t state) { (void)state; /* the model has no faults to record */ }
 
 void hal_remember(const void *bytes, unsigned count) {
     const uint8_t *from = bytes;

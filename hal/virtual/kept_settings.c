@@ -1,4 +1,4 @@
-/* kept_settings.c: hal/settings.h in plain memory: of a rig that is played, gone with it. */
+/* kept_settings.c: hal/settings.h in plain memory, for a simulated rig: lost at its end. */
 #include <stdbool.h>
 
 #include "core/real.h"

@@ -3,7 +3,7 @@
 
 #include "hal/clock.h"
 
-/* The reference build in double keeps angles in radians; boards, and so this, count them. */
+/* The double reference build has angles in radians; boards, and so this file, count them. */
 #if !WH_DOUBLE
 
 #define QUARTER_TURN 0x40000000U
@@ -50,16 +50,16 @@ float hal_virtual_rig_speed_radps(const hal_virtual_rig *rig) {
     return wh_scene_rates(rig->scene, &rig->state)[0];
 }
 
-/* One step of the model as the sensors see it: the angle's way and its rates at both ends. */
+/* One step of the model: the angle's change, and its rates at both ends. */
 typedef struct slice {
     uint32_t phase; /* at the beginning */
     float way;      /* phase units turned */
-    float before;   /* rate at the beginning, phase units a step */
+    float before;   /* rate at the begin, phase units a step */
     float after;    /* at the end */
 } slice;
 
-/* Way after the part s (0 to 1) of the slice: the cubic through both angles and both rates. At 1 ms
- * and 330 rpm it is off by less than 1e-9 rad, far below a microsecond's 3e-5. */
+/* The angle after the part s (0 to 1) of the slice: the cubic through both angles and both rates. At 1 ms and 330 rpm
+ * its error is below 1e-9 rad, far below a microsecond's 3e-5. */
 static float way_at(const slice *during, float s, float *slope) {
     const float a = during->before + during->after - 2.0f * during->way;
     const float b = 3.0f * during->way - 2.0f * during->before - during->after;
@@ -67,8 +67,8 @@ static float way_at(const slice *during, float s, float *slope) {
     return ((a * s + b) * s + during->before) * s;
 }
 
-/* True when the slice carries the rotor onto `edge` in the direction that opens the slot; *part is
- * then where in the slice, 0 to 1. */
+/* True if the slice moves the rotor onto `edge` in the direction that opens the slot; *part is the place in the slice,
+ * 0 to 1. */
 static bool opens(const slice *during, uint32_t edge, bool forward, float *part) {
     const float gap = (float)(int32_t)(edge - during->phase);
     if (forward ? !(gap > 0.0f && during->way >= gap) : !(gap < 0.0f && during->way <= gap)) {
@@ -78,7 +78,8 @@ static bool opens(const slice *during, uint32_t edge, bool forward, float *part)
     for (unsigned round = 0; round < 3; round++) {
         float slope;
         const float miss = way_at(during, s, &slope) - gap;
-        if (slope * during->way > 0.0f) { /* else it turns back here: the straight line will do */
+        if (slope * during->way > 0.0f) { /* otherwise it turns back here: the straight line is
+                                           * accurate enough */
             s -= miss / slope;
         }
     }
@@ -101,8 +102,8 @@ static void add_pulse(hal_virtual_rig *rig, unsigned sensor, uint32_t ticks) {
     }
 }
 
-/* Pulses of the slice that began at `ticks`. A slice is far shorter than a quarter turn, so there is
- * one at most: the slot opens a sensor `lead` before it, or `lead` behind it when turning back. */
+/* Pulses of the slice that began at `ticks`. A slice is much shorter than a quarter turn, so it has at most one pulse.
+ * The slot opens a sensor `lead` before it, or `lead` after it when turning back. */
 static void watch_slots(hal_virtual_rig *rig, const slice *during, uint32_t ticks) {
     const uint32_t lead = (uint32_t)(HAL_SLOT_LEAD_DEG * DEG);
     for (unsigned sensor = 0; sensor < 2; sensor++) {
@@ -148,7 +149,7 @@ static void read_load_cell(hal_virtual_rig *rig) {
     }
 }
 
-/* What the drive stage makes of its command, as the model's duty. Without current, which is without torque, the motor
+/* The drive stage's result for its command, as the model's duty. Without current there is no torque, and the motor
  * shows its back-EMF. */
 static float duty_of(const hal_virtual_rig *rig) {
     const float back_emf = hal_virtual_rig_speed_radps(rig) * (1.0f / HAL_VIRTUAL_NO_LOAD_RADPS);

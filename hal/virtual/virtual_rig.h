@@ -1,12 +1,12 @@
-/* virtual_rig.h: hardware played by the core's own model of the eccentric-mass rig.
+/* virtual_rig.h: hardware simulated by the core's own model of the eccentric-mass rig.
  *
- * All physics is in core/models/eccentric.whirl (scene rig_fixed); here are only the sensors around
- * it: slot edges located inside the model's step, the load cell's converter, the timer, the
- * watchdog. One step of the model is one slice of time; between two calls time stands still, so the
- * same calls give the same bits on every machine. Single precision only.
+ * All physics is in core/models/eccentric.whirl (scene rig_fixed). This file has only the sensors around it: slot edges
+ * located inside the model's step, the load cell's converter, the timer, the watchdog. One step of the model is one
+ * slice of time. Time stops between two calls, so the same calls give the same bits on every machine. Single precision
+ * only.
  *
- * The hal_ functions (clock.h, motor.h, ...) act on one board-wide rig, hal_virtual_rig_instance();
- * the functions below serve any number of rigs in memory of the caller. */
+ * The hal_ functions (clock.h, motor.h, ...) act on one board-wide rig, hal_virtual_rig_instance(); the functions below
+ * serve any number of rigs in the caller's memory. */
 #ifndef HAL_VIRTUAL_RIG_H
 #define HAL_VIRTUAL_RIG_H
 
@@ -27,81 +27,80 @@ extern "C" {
 #define HAL_VIRTUAL_SAMPLES 8U
 #define HAL_VIRTUAL_PULSE_TICKS 150U /* the monostable's */
 
-/* Supply at which the model's duty of 1 is full duty, and the speed, rad/s, that the motor has then without load:
- * where back-EMF equals the voltage. tests/core/test_virtual_rig.c compares it with the model. */
+/* Supply for which the model's duty of 1 is full duty, and the motor's speed without load at it, rad/s (back-EMF equals
+ * the voltage). tests/core/test_virtual_rig.c compares it with the model. */
 #define HAL_VIRTUAL_RATED_V 24.0f
 #define HAL_VIRTUAL_NO_LOAD_RADPS 62.831853f
 
-/* The timer wraps so long after the start that every run crosses the wrap. */
+/* The timer wraps this long after the start, so that every run crosses the wrap. */
 #define HAL_VIRTUAL_WRAP_AFTER_S 5U
 
-/* What can be made to fail; all off after hal_virtual_rig_start(). May be set at any time. */
+/* Injected faults; all off after hal_virtual_rig_start(). May be set at any time. */
 typedef struct hal_virtual_faults {
-    unsigned lose_pulses[2]; /* so many of the sensor's next pulses are swallowed */
+    unsigned lose_pulses[2]; /* number of the sensor's next pulses to lose */
     bool dead_sensor[2];     /* gives no pulse */
-    unsigned lose_samples;   /* so many of the next load samples are swallowed */
+    unsigned lose_samples;   /* number of the next load samples to lose */
     bool stuck_load_cell;    /* repeats its last count */
-    float
-        stuck; /* the drive stage gives this share of the supply, whatever the voltage; 0: it obeys */
-    bool deaf;       /* and whatever the enable; the watchdog still cuts it */
-    bool freewheels; /* the drive stage cannot brake: it only pushes */
+    float stuck; /* the drive stage gives this share of the supply for any command; 0: no fault */
+    bool deaf;   /* and for any enable; the watchdog still cuts it */
+    bool freewheels; /* the drive stage cannot brake: it only drives */
 } hal_virtual_faults;
 
 typedef struct hal_virtual_rig {
     const wh_scene *scene;
     wh_state state;
     uint64_t memory[WH_STATE_WORDS(1, 1, 1)];
-    wh_status status;      /* WH_E_DIVERGED: the model gave up; time goes on, nothing moves */
+    wh_status status;      /* WH_E_DIVERGED: the model diverged; time goes on, the rotor stands
+                            * still */
     uint32_t ticks;        /* now, 1 MHz, wrapping */
     uint32_t step_ticks;   /* one step of the model */
     float volts;           /* as commanded, */
     bool enabled;          /* and whether the drive is on */
     float supply_V;        /* HAL_VIRTUAL_RATED_V at the start; may be set at any time */
-    uint32_t sample_ticks; /* the next load sample is due */
+    uint32_t sample_ticks; /* time of the next load sample */
     int32_t last_raw;
     hal_slot_edge pulse[HAL_VIRTUAL_PULSES];
     unsigned pulses;
-    uint32_t overruns; /* pulses that found no room */
+    uint32_t overruns; /* pulses without room */
     hal_load_sample sample[HAL_VIRTUAL_SAMPLES];
     unsigned samples;
     bool watched; /* the watchdog is armed */
     bool cut;     /* it has cut the motor */
     uint32_t watchdog_ticks;
     uint32_t kicked_ticks;
-    bool
-        stop_cuts; /* stop was pressed for a moment, and has cut the drive by itself: until it is off. May be set at any time */
-    bool stop_pressed; /* by whoever stands there: may be set at any time */
+    bool stop_cuts; /* a short press of stop has cut the drive, until it is switched off. May be set
+                    * at any time */
+    bool stop_pressed; /* by a person at the rig: may be set at any time */
     hal_reset cause;   /* why the processor started, */
-    bool in_reset;     /* or starts: what it controls turns on meanwhile */
+    bool in_reset;     /* or starting: the plant goes on meanwhile */
     uint8_t remembered[HAL_REMEMBER_BYTES];
     unsigned remembers; /* so many */
     hal_virtual_faults faults;
 } hal_virtual_rig;
 
-/* Put the rig at rest at its scene's start, motor off, watchdog off. Returns false when the scene is
- * not the fixed rig: one angle, one input, at least one output, whole microseconds a step. */
+/* Put the rig at rest at its scene's start, motor off, watchdog off. Returns false if the scene is not the fixed rig:
+ * one angle, one input, at least one output, whole microseconds a step. */
 bool hal_virtual_rig_start(hal_virtual_rig *rig, const wh_scene *scene);
 
-/* Let time pass until `ticks`, in whole steps of the model: may end up to one step later. */
+/* Advance time to `ticks`, in whole steps of the model: may end up to one step later. */
 void hal_virtual_rig_advance(hal_virtual_rig *rig, uint32_t ticks);
 
-/* The processor is reset, for a cause that is no power-on: drive and watchdog are off, pulses and samples that were not taken
- * are lost, and the timer begins anew; the rotor turns on. hal_clock_start() then starts no other rig. */
+/* Reset the processor, for a cause other than power-on. Drive and watchdog are off, pulses and samples not yet taken
+ * are lost, and the timer restarts; the rotor goes on. hal_clock_start() then starts no other rig. */
 void hal_virtual_rig_reset(hal_virtual_rig *rig, hal_reset cause);
 
-/* What reaches the drive stage: a voltage, the enable on; or off. As hal_motor_off(), hal_slots_take(), hal_loadcell_take()
- * on this rig; of slots the leading edges alone. */
+/* Input of the drive stage: a voltage, the enable on; or off. As hal_motor_off(), hal_slots_take(), hal_loadcell_take()
+ * on this rig; only leading edges of slots. */
 void hal_virtual_rig_drive(hal_virtual_rig *rig, float volts);
 void hal_virtual_rig_motor_off(hal_virtual_rig *rig, hal_motor_off_way way);
 bool hal_virtual_rig_take_pulse(hal_virtual_rig *rig, hal_slot_edge *leading);
 bool hal_virtual_rig_take_sample(hal_virtual_rig *rig, hal_load_sample *sample);
 
-/* Arms' angle (phase within the turn, 2^32 a turn) and speed, for tests: the truth behind the
- * sensors. */
+/* True angle of the arms (phase within the turn, 2^32 a turn) and speed, for tests. */
 uint32_t hal_virtual_rig_phase(const hal_virtual_rig *rig);
 float hal_virtual_rig_speed_radps(const hal_virtual_rig *rig);
 
-/* The rig behind the hal_ functions. */
+/* The rig that the hal_ functions use. */
 hal_virtual_rig *hal_virtual_rig_instance(void);
 
 /* The model that hal_clock_start() starts: core/models/eccentric.whirl, scene rig_fixed. */
