@@ -1,9 +1,9 @@
-/* carriage.c: the rig on a carriage that is free along a level rail. */
+/* carriage.c: the rig on a carriage that moves freely along a level rail. */
 #include "carriage.h"
 
 #include "datasheet.h"
 
-/* Where gravity does not show the rotor's inertia, it is known to so much. */
+/* Tolerance of the rotor's inertia, which gravity does not show here. */
 #define YIELDS_TOLERANCE WH_R(0.1)
 
 void wh_carriage_mount(wh_rig_config *config, const wh_carriage *carriage) {
@@ -23,7 +23,7 @@ void wh_carriage_mount(wh_rig_config *config, const wh_carriage *carriage) {
 
 wh_real wh_carriage_displacement_m(const wh_rig_config *config, const wh_carriage *carriage,
                                    const wh_measured *force) {
-    /* what is expected is part S <w^2> */
+    /* the expected force is the part S <w^2> */
     const wh_real square = force->expected_N / (config->measure.result.mount_factor *
                                                 config->measure.rotor.mass_moment_kgm);
     return square > WH_R(0.0)

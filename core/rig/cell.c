@@ -1,4 +1,4 @@
-/* cell.c: what a load cell's sample is worth, in words. */
+/* cell.c: a load sample's status in words. */
 #include "cell.h"
 
 const char *wh_load_text(wh_load_status status) {

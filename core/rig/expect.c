@@ -1,13 +1,15 @@
-/* expect.c: how fast, and how early, may the next slot pulse come? */
+/* expect.c: bounds on the speed and time of the next slot pulse. */
 #include "expect.h"
 
 #include "datasheet.h"
 
 #define SETTLE_WINDOW WH_R(0.03)
-#define RAMP_WINDOW WH_R(0.12) /* no mark is sure before */
-#define RECORD_PART WH_R(0.8)  /* of what the record lets the speed be off */
-#define FIRST_PART WH_R(0.8)   /* of where it is led: from rest it takes time to get there */
-#define SLOW_RADPS WH_R(16.0)  /* a pulse or two of a rotor that brakes are slower */
+#define RAMP_WINDOW WH_R(0.12) /* until the first confirmed mark */
+#define RECORD_PART WH_R(0.8)  /* of the speed error that the record allows */
+#define FIRST_PART \
+    WH_R(0.8)                 /* of the speed the rotor is led to: from rest it takes time to reach
+                                * it */
+#define SLOW_RADPS WH_R(16.0) /* a pulse or two of a braked rotor are slower */
 
 void wh_expect_pulses(const wh_guard_config *guard, const wh_run_config *running, wh_run *run,
                       wh_pulses *pulses, bool open, uint32_t ticks) {
@@ -22,7 +24,7 @@ void wh_expect_pulses(const wh_guard_config *guard, const wh_run_config *running
                                ? guard->climb_start_radps2
                                : wh_guard_climb_radps2(guard, led.lead_radps - speed->turn_radps,
                                                        wh_run_is_closed(run));
-    /* it falls as the rotor does, and rises with what leads it alone: a drive that runs away does not take it along */
+    /* it falls as the rotor does, and rises only with the commanded speed: a runaway drive does not raise it */
     run->left_radps =
         speed->known && speed->turn_radps < led.base_radps ? speed->turn_radps : led.base_radps;
     pulses->window = phase == WH_PHASE_RECORD
@@ -30,19 +32,19 @@ void wh_expect_pulses(const wh_guard_config *guard, const wh_run_config *running
                          : (phase == WH_PHASE_SETTLE ? SETTLE_WINDOW : RAMP_WINDOW);
 }
 
-/* With the motor off nothing makes the rotor faster again than it was between its last two pulses, but gravity. A sensor
- * that fires again is one in whose slot it swings, or has missed a pulse: what was known of its speed is nothing now. */
+/* With the motor off, only gravity can make the rotor faster than between its last two pulses. A sensor that fires
+ * twice running swings in its slot or has missed a pulse: the speed is then unknown. */
 void wh_expect_slower(wh_run *run, wh_pulses *pulses, bool brakes, unsigned sensor,
                       uint32_t ticks) {
     static const wh_real moved_rad[] = {WH_R(0.75) * WH_RIG_TWO_PI, WH_R(0.25) * WH_RIG_TWO_PI};
     if (!pulses->speed.running || sensor >= WH_SPEED_SENSORS) {
         return;
     }
-    const bool same = sensor == pulses->last.pulse.sensor; /* with a suspect between them, too */
+    const bool same = sensor == pulses->last.pulse.sensor; /* also with a suspect between them */
     const bool again = same && !pulses->suspects;
     const wh_real moved = same ? WH_RIG_TWO_PI : moved_rad[sensor];
     const wh_real passed_s = wh_rig_since_s(pulses->speed.ticks, ticks);
-    /* over which it was not driven: before that it may have gathered speed */
+    /* over an undriven interval: before, it may have gained speed */
     const bool coasted = (int32_t)(pulses->speed.ticks - run->since_ticks) >= 0;
     if (coasted && moved < run->off_radps * passed_s) {
         run->off_radps = moved / passed_s;
@@ -50,8 +52,9 @@ void wh_expect_slower(wh_run *run, wh_pulses *pulses, bool brakes, unsigned sens
     if (again) {
         wh_pulses_forget(pulses);
     }
-    /* While it brakes only: one that swings freely passes the sensors to and fro, and no interval is a speed. And at sensor 1
-     * only: from there back to sensor 0 a rotor that failed at the top falls a quarter turn, which reads as three forward. */
+    /* Only while it brakes: one that swings freely passes the sensors to and fro, and no interval is a speed. And only
+     * at sensor 1: a rotor that failed at the top falls a quarter turn back to sensor 0, which looks like three
+     * quarters forward. */
     pulses->slow =
         run->phase == WH_PHASE_OFF && brakes && sensor == 1U && run->off_radps < SLOW_RADPS;
 }

@@ -19,7 +19,7 @@ wh_real wh_feed_step(const wh_feed_config *config, wh_feed *feed, const wh_obser
     const wh_wave wave = wh_wave_at(wh_observer_phase(observer, now_ticks + config->lead_ticks) -
                                     wh_phase_from_rad(config->gravity_rad));
     const wh_real voltage = feed->part * wave.sine * (config->weight_Nm / config->stall_Nm);
-    if (!(WH_ABS(voltage) <= config->most)) { /* what is no number, too */
+    if (!(WH_ABS(voltage) <= config->most)) { /* also NaN */
         return voltage > WH_R(0.0) ? config->most : voltage < WH_R(0.0) ? -config->most : WH_R(0.0);
     }
     return voltage;

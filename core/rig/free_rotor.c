@@ -1,4 +1,4 @@
-/* free_rotor.c: a rotor with nothing but gravity and friction to move it. */
+/* free_rotor.c: a rotor under gravity and friction alone. */
 #include "free_rotor.h"
 
 #include "wave.h"

@@ -1,4 +1,4 @@
-/* free_swing.c: where the sensors stand, from the swing in which a rotor comes to rest. */
+/* free_swing.c: the sensors' positions, from the free swing of a rotor that comes to rest. */
 #include "free_swing.h"
 
 #include "core/root.h"
@@ -36,11 +36,11 @@ WH_CALLED void wh_swing_pulse(wh_swing *swing, unsigned sensor, uint32_t ticks) 
     if (swing->result.why != WH_SWING_SWINGS || sensor >= WH_SWING_SENSORS) {
         return;
     }
-    /* a sensor that is passed twice running is passed the other way */
+    /* a sensor that fires twice running is passed in the opposite direction */
     const bool again = swing->any && sensor == swing->sensor;
     if (!swing->forward && sensor == 1U && swing->sensor == 0) {
         swing->forward =
-            true; /* backwards it does not get over the top: a pulse was lost, and it turns */
+            true; /* backwards it cannot get over the top: a pulse was lost, and it turns */
         swing->swings = false;
         swing->kept = 0;
         swing->passed = 0;
@@ -65,7 +65,7 @@ WH_CALLED void wh_swing_pulse(wh_swing *swing, unsigned sensor, uint32_t ticks) 
 
 #define STEP_TICKS 8000
 
-/* A step towards the next pulse. False: it is there. */
+/* A step towards the next pulse. False: the pulse is reached. */
 static bool advance(wh_swing *swing) {
     const int32_t left = (int32_t)(swing->kept_ticks[swing->at] - swing->ticks);
     if (left == 0) {
@@ -80,18 +80,18 @@ static bool advance(wh_swing *swing) {
 
 #define PASSES 12U
 #define SOFT_PASSES 6U
-/* from then on a pulse that is far off is none */
+/* from this pass on, pulses with a large residual are left out */
 #define SURE_PASSES SOFT_PASSES
 
 /* --- passes -------------------------------------------------------------------------------------------- */
 
-/* The angle from the bottom at which a sensor sees the slot's leading edge, so far behind that on the way forwards. */
+/* The angle from the bottom at which a sensor sees the slot's leading edge; forwards it is `lead` before the sensor. */
 static WH_CALLED wh_real stands(const wh_rotor_config *rotor, const wh_swing *swing,
                                 unsigned sensor, wh_real lead) {
     return rotor->mark_rad[sensor] + lead - rotor->gravity_rad + swing->x[WH_SWING_PLACE + sensor];
 }
 
-/* Back to the first passage of the bottom, from which it goes on to later pulses, or to earlier ones. */
+/* Back to the first passage of the bottom, the start for later pulses and for earlier ones. */
 static void set_out(const wh_swing_config *config, const wh_rotor_config *rotor, wh_swing *swing) {
     swing->ticks = swing->kept_ticks[swing->first];
     wh_free_rotor_start(
@@ -106,7 +106,7 @@ static void begin_pass(const wh_swing_config *config, const wh_rotor_config *rot
         left[i] = (swing->guess[i] - swing->x[i]) / swing->within[i];
     }
     wh_normal_start(&swing->normal, left);
-    /* at first pulses are far from where they should be, and what they tell is not linear */
+    /* at first the residuals are large and depend on the unknowns nonlinearly */
     swing->soft_rad2 = swing->pass == 0            ? WH_R(0.0025)
                        : swing->pass < SOFT_PASSES ? WH_R(0.3) * swing->soft_rad2
                                                    : WH_R(0.0);
@@ -133,7 +133,7 @@ static void rest(const wh_swing_config *config, const wh_rotor_config *rotor, wh
     }
 }
 
-/* Then it stops within a swing or two, and what stops it is a friction that nobody knows. */
+/* A slower rotor stops within a swing or two, by a friction that is unknown. */
 #define SLOW_RAD WH_R(0.12)
 #define SLOW_FRICTIONS WH_R(1.5)
 
@@ -145,7 +145,7 @@ static bool is_slow(const wh_swing *swing) {
 
 #define FAR_RAD WH_R(0.5)
 
-/* A pulse that the rotor has come to on its pass. Returns false when there is no way further. */
+/* Process a pulse that the pass has reached. Returns false if the pass cannot go on. */
 static bool take(const wh_swing_config *config, const wh_rotor_config *rotor, wh_swing *swing) {
     const wh_free_rotor *way = &swing->way;
     const unsigned sensor = swing->kept_sensor[swing->at];
@@ -175,7 +175,7 @@ static bool take(const wh_swing_config *config, const wh_rotor_config *rotor, wh
 
 static void conclude(const wh_swing_config *config, wh_swing *swing) {
     wh_swung *result = &swing->result;
-    /* more unknowns than pulses have no misfit */
+    /* with more unknowns than pulses there is no misfit */
     const wh_real freedom =
         swing->fits > WH_NORMAL_UNKNOWNS ? (wh_real)(swing->fits - WH_NORMAL_UNKNOWNS) : WH_R(1.0);
     const wh_real rough = swing->normal.misfit / freedom;
@@ -202,7 +202,7 @@ static void conclude(const wh_swing_config *config, wh_swing *swing) {
 
 #define FOREIGN WH_R(9.0)
 
-/* Gauss's step, but no unknown by more than its guess may be off. Returns what is next. */
+/* Gauss's step, limited for each unknown to its guess's uncertainty. Returns the next piece. */
 static wh_swing_piece move(wh_swing *swing) {
     const wh_real *y = swing->normal.right;
     wh_normal_solve(&swing->normal);
@@ -228,10 +228,11 @@ static wh_swing_piece move(wh_swing *swing) {
     return swing->pass == PASSES || (fits && stays) ? WH_SWING_ENDS : WH_SWING_PASSES;
 }
 
-/* At a pulse: on to the next, or back to the first passage and on to the ones before it. */
+/* At a pulse: on to the next, or back to the first passage and on to the pulses before it. */
 static void go_on(const wh_swing_config *config, const wh_rotor_config *rotor, wh_swing *swing) {
     const bool later = swing->at > swing->first;
-    const unsigned next = later ? swing->at + 1U : swing->at - 1U; /* before the first: too large */
+    const unsigned next = later ? swing->at + 1U : swing->at - 1U; /* before the first: wraps to a
+                                                                    * large number */
     if (take(config, rotor, swing) && next < swing->kept) {
         swing->at = next;
     } else if (later && swing->first > 0) {

@@ -1,4 +1,4 @@
-/* guard.c: what stops the rig. */
+/* guard.c: the reasons to stop the rig. */
 #include "guard.h"
 
 #include "core/root.h"
@@ -29,17 +29,18 @@ WH_CALLED void wh_guard_trip(wh_guard *guard, wh_trip reason) {
 
 void wh_guard_drives(wh_guard *guard) { guard->off = (wh_off){.released = false}; }
 
-/* Closer pulses of one sensor than at 1,000 rpm are no turns: 36 V make 900 rpm at most. */
+/* Pulses of one sensor closer than at 1,000 rpm are not turns: 36 V make 900 rpm at most. */
 #define BOUNCE_TICKS 60000U
 #define LONGER \
-    WH_R(1.02) /* a turn that coasts than the last: so are two of a swing at most, the last ones */
-#define FASTER WH_R(1.01) /* all turns that get faster together */
-#define ALTERNATE_PAIR 4U /* so many pulses alternate over two turns of a sensor, */
+    WH_R(1.02) /* slowing of a coasting turn: at most two intervals of a swing have it, the last
+                * ones */
+#define FASTER WH_R(1.01) /* gain of all faster turns together */
+#define ALTERNATE_PAIR 4U /* alternating pulses over two turns of a sensor, */
 #define ALTERNATE_RISE 6U /* and over three */
-#define ALONE_PAIR 2U     /* likewise of one that fires alone */
+#define ALONE_PAIR 2U     /* the same for one that fires alone */
 #define ALONE_RISE 3U
 #define ALONE_COASTS 4U
-#define ALONE_SURE 6U /* more than a shiver about the hanging place */
+#define ALONE_SURE 6U /* more than the jitter at the hanging position */
 
 static uint8_t one_more(uint8_t count) {
     return (uint8_t)(count < ALONE_SURE ? count + 1U : count);
@@ -49,7 +50,7 @@ static WH_CALLED wh_real radps_of(uint32_t turn_ticks) {
     return WH_RIG_TWO_PI * (wh_real)WH_RIG_TICKS_PER_S / (wh_real)turn_ticks;
 }
 
-/* What a turn says beside the one before, both without a pulse too many. */
+/* Compare a turn with the one before, both without an extra pulse. */
 static void see_turn(const wh_guard_config *config, wh_guard *guard, bool brakes, unsigned sensor,
                      uint32_t before_ticks) {
     wh_off *off = &guard->off;

@@ -8,7 +8,7 @@
 #define NO(state, why) \
     { WH_LIFE_##state, WH_REFUSED_##why }
 
-/* Columns as in WH_LIFE_ROWS. `stop` and a trip are heard everywhere; what a state already is it stays. */
+/* Columns as in WH_LIFE_ROWS. Every state accepts `stop` and a trip; an event for the present state changes nothing. */
 /* clang-format off */
 static const wh_life_rule rules[WH_EVENTS][WH_LIVES] = {
     /*                       idle                   armed                   running               stopping                tripped */

@@ -1,4 +1,4 @@
-/* lockin.c: the load's once-per-turn part, turn by turn, as the samples come. */
+/* lockin.c: digital lock-in: the load's once-per-turn component, turn by turn. */
 #include "lockin.h"
 
 #include "core/root.h"
@@ -7,19 +7,19 @@
 
 #define PI WH_R(3.141592653589793)
 
-/* Nodes further apart than so many periods leave a turn without a result; a tenth of outliers likewise. */
+/* A turn does not count if nodes are farther apart than this many periods, or if a tenth are outliers. */
 #define GAP_PERIODS WH_R(3.5)
 #define OUTLIERS_PER_TURN 10U
 
-/* So many equal samples running are no load that changes: not even the peak at 100 rpm without noise. */
+/* This many equal samples running are no changing load: without noise, not even the peak at 100 rpm gives so many. */
 #define FROZEN_SAMPLES 8U
 
-/* An outlier is further off than six standard deviations of the rest, and than what a speed that is
- * just 1 % different makes of the load. */
+/* An outlier differs by more than six standard deviations of the residual, and by more than the effect of a speed
+ * change of 1 %. */
 #define OUTLIER_DEVIATIONS WH_R(6.0)
 #define OUTLIER_PART WH_R(0.02)
 
-/* A turn's time against the one before: not to count, and not to find the inertia from. */
+/* A turn's time changed by more than this part: the turn does not count, and does not serve to estimate the inertia. */
 #define STEADY_PART 64U
 #define STILL_PART 256U
 
@@ -44,7 +44,7 @@ void wh_lockin_forget(const wh_rotor_config *rotor, wh_lockin *lockin) {
 /* --- marks -------------------------------------------------------------------------------------- */
 
 static WH_CALLED void close_turn(wh_lockin *lockin, uint32_t ticks) {
-    if (lockin->stage != WH_LOCKIN_WAITS) { /* a cell that fell silent in the middle of a turn */
+    if (lockin->stage != WH_LOCKIN_WAITS) { /* a cell that stopped in the middle of a turn */
         lockin->skipped++;
         return;
     }
@@ -100,7 +100,7 @@ static void pop(wh_lockin *lockin) {
     lockin->count--;
 }
 
-/* Take what is older than the turn of interest, the last of it apart; so many at most. */
+/* Drop samples older than the turn, except for the last of them; at most a fixed number. */
 static void drop_stale(wh_lockin *lockin, uint32_t begin_ticks) {
     for (unsigned i = 0; i < WH_LOCKIN_STALE_AT_ONCE && lockin->count > 0; i++) {
         if ((int32_t)(lockin->ticks[lockin->first] - begin_ticks) > 0) {
@@ -133,7 +133,7 @@ void wh_lockin_load(wh_lockin *lockin, const wh_load *load) {
     lockin->any = true;
     lockin->newest_ticks = load->ticks;
     lockin->newest_N = load->force_N;
-    /* what no turn will ask for, or what a turn slower than all that are measured leaves no room for */
+    /* either no turn will need them, or the turn is slower than any measured one */
     if (lockin->count == WH_LOCKIN_SAMPLES) {
         pop(lockin);
     }
@@ -149,7 +149,7 @@ void wh_lockin_load(wh_lockin *lockin, const wh_load *load) {
 
 /* --- one turn ----------------------------------------------------------------------------------- */
 
-/* The last node stands for half the way to either of its neighbours. */
+/* The last node's weight: half the distance to each of its neighbours. */
 WH_SHARED void weigh_last(wh_lockin *lockin, wh_real theta_rad, wh_real part) {
     const wh_lockin_node *node = &lockin->last;
     const wh_real rest = WH_R(0.5) * (theta_rad - lockin->before_rad) * node->rest_N;
@@ -161,7 +161,7 @@ WH_SHARED void weigh_last(wh_lockin *lockin, wh_real theta_rad, wh_real part) {
     lockin->mean += WH_R(0.5) * (part - lockin->before_part) * node->force_N;
 }
 
-/* The load was force_N at this time of the turn: first half of a node's work, its place. */
+/* First half of a node's work, its place: the load was force_N at this time of the turn. */
 static void place_node(wh_lockin *lockin, uint32_t ticks, wh_real force_N, wh_lockin_place place) {
     wh_lockin_node *node = &lockin->placed;
     node->force_N = force_N;
@@ -188,7 +188,7 @@ static void weigh_node(wh_lockin *lockin) {
             lockin->next.outliers++;
             return;
         }
-        node->force_N -= rest_N; /* at the mark the load is as expected, then */
+        node->force_N -= rest_N; /* the load at the mark is then the predicted one */
         rest_N = WH_R(0.0);
     }
     node->rest_N = rest_N;
@@ -210,7 +210,7 @@ static void weigh_node(wh_lockin *lockin) {
     lockin->last = *node;
 }
 
-/* The load at a time between the sample that was taken and the oldest that waits. */
+/* The load at a time between the last processed sample and the oldest waiting one. */
 static wh_real load_between(const wh_lockin *lockin, uint32_t ticks) {
     const wh_real later_N = lockin->force_N[lockin->first];
     if (!lockin->taken) {
@@ -251,7 +251,7 @@ static void place_next(wh_lockin *lockin) {
     place_node(lockin, ticks, force_N, place);
 }
 
-/* Half nodes, a few; true when the turn is through. */
+/* A few half nodes; true when the turn is finished. */
 static bool take_samples(wh_lockin *lockin, unsigned halves) {
     if (lockin->stage == WH_LOCKIN_BEGINS) {
         drop_stale(lockin, lockin->next.begin_ticks);
@@ -295,7 +295,7 @@ static wh_turn_fault fault_of(const wh_cell_config *cell, const wh_lockin *locki
     return lockin->expects ? WH_TURN_OK : WH_TURN_FIRST;
 }
 
-/* The turn is through: from its sums to its orders, and to its result. */
+/* The turn is finished: from its sums to its orders, and to its result. */
 static void end_sums(wh_lockin *lockin) {
     wh_lockin_turn *turn = &lockin->next;
     weigh_last(lockin, lockin->last.theta_rad, lockin->last.part);
@@ -318,8 +318,8 @@ static WH_CALLED void end_turn(const wh_cell_config *cell, wh_lockin *lockin) {
     turn->mean_N = lockin->mean;
     turn->fault = fault_of(cell, lockin);
     const bool whole = turn->fault <= WH_TURN_FIRST;
-    /* a gap says nothing against what was expected, unless outliers made it: what is far from it turn after turn is
-     * what must be expected */
+    /* a gap does not invalidate the prediction, unless outliers caused it: values that differ turn after turn become
+     * the prediction */
     if (whole) {
         lockin->expects = true;
         lockin->expected_N = turn->force_N;
@@ -346,7 +346,7 @@ static void begin_turn(wh_lockin *lockin) {
 /* --- pieces ------------------------------------------------------------------------------------- */
 
 #if WH_RIG_SMALL_PIECES
-/* So many are done in one go, or one after the other: true when the last is. */
+/* All pieces at once, or one after the other: true after the last. */
 static bool last_piece(wh_lockin *lockin, unsigned pieces) {
     lockin->piece++;
     if (lockin->piece < pieces) {
@@ -357,7 +357,7 @@ static bool last_piece(wh_lockin *lockin, unsigned pieces) {
 }
 #endif
 
-/* True when the shape is there. */
+/* True when the shape is finished. */
 static bool shape(const wh_rotor_config *rotor, wh_lockin *lockin) {
     const wh_real speed_radps =
         WH_RIG_TWO_PI * (wh_real)WH_RIG_TICKS_PER_S / (wh_real)lockin->next.turn_ticks;
@@ -370,7 +370,7 @@ static bool shape(const wh_rotor_config *rotor, wh_lockin *lockin) {
 #endif
 }
 
-/* True when sensor 2's mark has said what it can. */
+/* True when sensor 2's mark is evaluated. */
 static bool correct(const wh_rotor_config *rotor, wh_lockin *lockin) {
     const wh_lockin_turn *turn = &lockin->next;
     if (!turn->split_seen || !is_steady(lockin, STILL_PART)) {
@@ -391,7 +391,7 @@ static bool correct(const wh_rotor_config *rotor, wh_lockin *lockin) {
 #endif
 }
 
-/* True when the turn's result is there. */
+/* True when the turn's result is finished. */
 static bool end(const wh_cell_config *cell, wh_lockin *lockin) {
     if (lockin->piece == 0) {
         end_sums(lockin);
@@ -432,7 +432,7 @@ WH_CALLED bool wh_lockin_work(const wh_rotor_config *rotor, const wh_cell_config
         }
         return done;
     }
-    if (done) { /* with one stage; its next follows it */
+    if (done) { /* if one stage is finished, the next follows */
         lockin->stage = (wh_lockin_stage)(lockin->stage + 1);
     }
     return false;

@@ -1,4 +1,4 @@
-/* look.c: what the controller's state says: stage, speed, a result's age, the likely cause of a trip. */
+/* look.c: read-out of the controller's state: stage, speed, a result's age, the likely cause of a trip. */
 #include "rig.h"
 
 WH_CALLED unsigned wh_rig_stage(const wh_rig *rig) {
@@ -26,7 +26,7 @@ uint32_t wh_rig_result_age_s(const wh_rig *rig, uint32_t now_ticks) {
 
 #define HEARD_TICKS (8U * WH_RIG_TICKS_PER_S)
 
-/* Four pulses of alternating sensors: the ticks between them, the newest first, and whose the last was. */
+/* Four pulses of alternating sensors: the ticks between them, the newest first, and the sensor of the last. */
 static bool last_ways(const wh_rig *rig, uint32_t now_ticks, uint32_t *way, unsigned *last) {
     *last = (int32_t)(rig->heard_ticks[1][0] - rig->heard_ticks[0][0]) > 0 ? 1U : 0U;
     const uint32_t *newest = rig->heard_ticks[*last];
@@ -50,7 +50,7 @@ bool wh_rig_speed(const wh_rig *rig, uint32_t now_ticks, wh_real *speed_radps) {
     if (!drives && rig->guard.quiet) {
         return true;
     }
-    /* a rotor that slows down over the top looks like a gap to speed.h, which keeps the speed before it */
+    /* speed.h takes a rotor that slows down over the top for a gap, and keeps the speed before it */
     if (!drives && last_ways(rig, now_ticks, way, &last)) {
         *speed_radps = WH_RIG_TWO_PI * (wh_real)WH_RIG_TICKS_PER_S / (wh_real)(way[0] + way[1]);
         return true;
@@ -63,8 +63,8 @@ bool wh_rig_speed(const wh_rig *rig, uint32_t now_ticks, wh_real *speed_radps) {
 /* A whole turn at 3,200 rpm: the fastest motor of the settings (2,000 rpm) at the highest supply turns slower. */
 #define STORM_TICKS 18750U
 
-/* The direction: forwards the way from sensor 1 to sensor 2 is a quarter turn, and backwards three. It must take longer than
- * both ways back, since a rotor that starts changes its speed. Pulses that come faster than any rotor turns tell of none. */
+/* The direction: forwards, from sensor 1 to sensor 2 is a quarter turn, backwards three quarters. It must take longer
+ * than both ways back, because a starting rotor changes its speed. Pulses faster than any rotor show no direction. */
 static bool order_is_wrong(const wh_rig *rig, uint32_t now_ticks) {
     uint32_t way[3];
     unsigned last;
@@ -77,8 +77,8 @@ static bool order_is_wrong(const wh_rig *rig, uint32_t now_ticks) {
     return last == 1U ? way[0] > way[1] && way[2] > way[1] : way[1] > way[0] && way[1] > way[2];
 }
 
-/* The rotor starts or was just taken over: the motor leads it, and not yet the loop. A bound that falls then shows with two
- * pulses more. */
+/* The rotor starts or was just taken over: the commanded voltage leads it, not yet the loop. A falling bound then shows
+ * after two further pulses. */
 #define TWO_PULSES_S WH_R(0.5)
 
 static bool starts(const wh_rig *rig, uint32_t now_ticks) {

@@ -1,9 +1,9 @@
-/* measure.c: what a run measures. */
+/* measure.c: a run's measurement. */
 #include "measure.h"
 
 #include "datasheet.h"
 
-/* A turn's samples are through within a fraction of the next turn. */
+/* A turn's samples are processed within a fraction of the next turn. */
 #define LAST_TURN_MAX_S WH_R(0.5)
 
 void wh_measure_begin(const wh_measure_config *config, wh_measure *measure) {
@@ -50,10 +50,10 @@ void wh_measure_load(wh_measure *measure, const wh_load *load, bool at_rest) {
     }
 }
 
-/* Pieces in which turns are merged to a result: the last is its verdict. */
+/* Pieces of merging turns to a result: the last is the verdict. */
 #define MERGE_PIECES (WH_MERGE_MEAN_PIECES + 2U)
 
-/* Before them, of a turn: what repeats is merged; at the record's end: a harmonic of it each. */
+/* Pieces before them: for a turn, merging its repeating part; at the record's end, one of its harmonics each. */
 #define TURN_PIECES (MERGE_PIECES + 1U)
 #define END_PIECES (MERGE_PIECES + WH_REPEATS_LAST - WH_REPEATS_FIRST + 1U)
 
@@ -102,7 +102,7 @@ void wh_measure_work(const wh_measure_config *config, wh_measure *measure, unsig
     const bool sums = measure->due == 0 && !adds && measure->lockin.stage <= WH_LOCKIN_SUMS &&
                       measure->lockin.stage >= WH_LOCKIN_BEGINS;
     if (!sums && halves < WH_LOCKIN_HALVES_AT_ONCE) {
-        return; /* what cannot be made smaller waits for a step that has nothing else to do */
+        return; /* work that cannot be split waits for a step without other work */
     }
     if (adds) {
         add_turn(config, measure);
@@ -115,7 +115,7 @@ void wh_measure_work(const wh_measure_config *config, wh_measure *measure, unsig
     if (!wh_lockin_work(&config->rotor, &config->cell, &measure->lockin, halves)) {
         return;
     }
-    /* turns that lie within the record as a whole */
+    /* turns that lie entirely within the record */
     const wh_lockin_turn *turn = &measure->lockin.turn;
     const bool begins_within = (int32_t)(turn->begin_ticks - measure->begin_ticks) >= 0;
     if (begins_within && wh_measure_lasts(measure, turn->begin_ticks + turn->turn_ticks)) {

@@ -26,7 +26,7 @@ void wh_normal_add(wh_normal *normal, const wh_real row[N], wh_real off, wh_real
     normal->misfit += weight * off * off;
 }
 
-/* Rounding takes so much of a diagonal's 1 where the rows have made it large. */
+/* Round-off of a diagonal's prior 1 after the rows have made it large. */
 #define PIVOT_LEAST WH_R(1e-3)
 
 void wh_normal_factor(wh_normal *normal) {

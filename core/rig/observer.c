@@ -4,7 +4,7 @@
 #include "datasheet.h"
 #include "wave.h"
 
-/* More than a turn without a mark: one was missed, whichever sensor's. */
+/* More than a turn without a mark: one of either sensor was missed. */
 #define MISSED_RAD (WH_R(1.06) * WH_RIG_TWO_PI)
 
 const wh_observer_config wh_observer_standard = WH_OBSERVER_STANDARD;
@@ -93,7 +93,7 @@ void wh_observer_step(const wh_observer_config *config, wh_observer *observer, u
     for (uint32_t i = 0; i < steps && status == WH_OK; i++) { /* one, as a rule */
         status = wh_scene_step(config->scene, state);
     }
-    if (status != WH_OK) { /* a drive that is no number */
+    if (status != WH_OK) { /* the drive is NaN */
         wh_observer_forget(observer);
         observer->ticks = now_ticks;
         return;
@@ -121,7 +121,7 @@ wh_real wh_observer_angle_rad(const wh_observer *observer, uint32_t ticks) {
     return signed_rad(wh_observer_phase(observer, ticks));
 }
 
-/* Set out from this mark, at the mean speed since the one before. */
+/* Start at this mark, with the mean speed since the one before. */
 static void set_out(const wh_observer_config *config, wh_observer *observer, unsigned sensor,
                     uint32_t ticks) {
     const wh_real time_s = wh_rig_way_s(observer->mark_ticks, ticks);
@@ -131,7 +131,7 @@ static void set_out(const wh_observer_config *config, wh_observer *observer, uns
         turned_rad += WH_RIG_TWO_PI;
     }
     const wh_real speed_radps = turned_rad / time_s;
-    observer->valid = false; /* but the torque is as good as it was */
+    observer->valid = false; /* but the torque is still valid */
     observer->good_marks = 0;
     observer->runs = time_s > WH_R(0.0) && speed_radps > config->slowest_radps &&
                      speed_radps < config->fastest_radps;

@@ -1,4 +1,4 @@
-/* orders.c: what an order asks for, beside the state that life.c has: a supply, a rig at rest, a cause that is gone. */
+/* orders.c: conditions of an order beyond life.c's states: a supply, a rig at rest, a removed cause. */
 #include "rig.h"
 
 static WH_CALLED bool cell_is_good(const wh_rig_config *config, const wh_rig *rig,
@@ -29,7 +29,7 @@ static wh_refusal may_arm(const wh_rig_config *config, const wh_rig *rig,
 
 static wh_refusal may_turn(const wh_rig_config *config, const wh_rig *rig,
                            const wh_rig_inputs *inputs, wh_real target_radps) {
-    /* slower set-points can be held where gravity's torque can be fed forward */
+    /* slower set-points are possible if gravity's torque can be fed forward */
     const bool can_feed = config->feeds != WH_FEED_NEVER && rig->observer.status == WH_OK;
     const bool feeds = can_feed && (config->feeds == WH_FEED_ALWAYS ||
                                     target_radps < config->guard.target_min_radps);
@@ -40,7 +40,7 @@ static wh_refusal may_turn(const wh_rig_config *config, const wh_rig *rig,
                                                                           : WH_REFUSED_VOLTAGE;
 }
 
-/* Rest, and the cause gone. Without pulses that can be believed rest is a matter of time. */
+/* Rest, and the cause removed. With unreliable pulses, rest is a matter of time. */
 static wh_refusal may_clear(const wh_rig_config *config, const wh_rig *rig,
                             const wh_rig_inputs *inputs) {
     if (!rig->at_rest || !rig->guard.quiet) {

@@ -29,13 +29,13 @@ void wh_run_off(wh_run *run, wh_real speed_radps, uint32_t now_ticks) {
     enter(run, WH_PHASE_OFF, now_ticks);
 }
 
-#define JUMP_S WH_R(0.5) /* by steps, as its first turn's speed is old, for so long */
+#define JUMP_S WH_R(0.5) /* in steps, because its first turn's speed is old, for this time */
 
 wh_led wh_run_led(const wh_run_config *config, const wh_run *run, uint32_t ticks) {
     if (!wh_run_drives(run)) {
         return (wh_led){.lead_radps = run->off_radps, .base_radps = run->off_radps};
     }
-    /* without load the motor goes where the voltage takes it; once the rotor follows it is the set-point that leads */
+    /* without load the motor's speed follows the voltage; once the loop is closed the set-point leads */
     const wh_real led = run->volts / config->rated_V * config->no_load_radps;
     const wh_real setpoint = run->drive.setpoint_radps;
     const bool opens = run->phase == WH_PHASE_SPIN_UP;
@@ -51,18 +51,18 @@ wh_real wh_run_needs_V(const wh_run_config *config, wh_real speed_radps) {
     return speed_radps / config->no_load_radps * config->rated_V + config->drag_V;
 }
 
-/* Slower than gravity allows only once it is fed forward. */
+/* Set-points too slow for gravity are used only once it is fed forward. */
 static bool ramp(wh_run *run, const wh_run_scene *scene) {
     const bool allowed = wh_guard_allows(scene->guarding, run->target_radps, scene->fed);
     run->drive.target_radps = allowed ? run->target_radps : scene->guarding->target_min_radps;
     if (wh_rig_is_over(run->since_ticks, scene->now_ticks, scene->config->ramp_max_s)) {
-        wh_guard_trip(scene->guard, WH_TRIP_UNSETTLED); /* gravity that cannot be fed, for one */
+        wh_guard_trip(scene->guard, WH_TRIP_UNSETTLED); /* for example, gravity cannot be fed */
     }
     return allowed && wh_drive_at_target(&run->drive);
 }
 
-/* The slot of a hanging rotor stands at sensor 1, where a shiver makes pulses; but one that passes sensor 2, or
- * passes sensor 1 again and again, is no hanging rotor. */
+/* A hanging rotor's slot is at sensor 1, where jitter makes pulses. A rotor that passes sensor 2, or sensor 1
+ * repeatedly, is not hanging. */
 #define TARE_PULSES_MOST 2U
 
 static void tare(wh_run *run, const wh_run_scene *scene) {
@@ -76,7 +76,7 @@ static void tare(wh_run *run, const wh_run_scene *scene) {
         return;
     }
     run->volts = scene->config->spin_up_V;
-    /* what was seen so far is that shiver, and it grows old */
+    /* pulses so far are that jitter, and old */
     wh_pulses_forget(scene->pulses);
     wh_guard_drives(scene->guard);
     wh_lockin_gap(&scene->measure->lockin);
@@ -94,7 +94,7 @@ static void spin_up(wh_run *run, const wh_run_scene *scene) {
     if (speed->known && speed->turn_radps >= config->take_over_radps) {
         wh_drive_start(&run->drive, speed->turn_radps, run->volts);
         run->closed_ticks = scene->now_ticks;
-        /* the first turns swing so much that the count of lost pulses means nothing */
+        /* the speed of the first turns varies so much that the count of lost pulses is meaningless */
         scene->guard->lost_before = speed->lost;
         scene->guard->rejected_before = scene->pulses->rejected;
         enter(run, WH_PHASE_RAMP, scene->now_ticks);
@@ -136,8 +136,8 @@ static void settle(wh_run *run, const wh_run_scene *scene) {
     }
 }
 
-/* A single turn: the trip must come before a drive that runs away is fast. 2 rpm are six times what 120 us of jitter make of
- * a turn at 330 rpm. */
+/* A single turn, because the trip must come before a runaway drive is fast. 2 rpm are six times the error of a turn at
+ * 330 rpm with 120 us of jitter. */
 static bool record(wh_run *run, const wh_run_scene *scene) {
     see_turn(run, &scene->pulses->speed);
     const wh_real off = WH_ABS(scene->pulses->speed.turn_radps - run->target_radps);
@@ -167,7 +167,7 @@ static bool record(wh_run *run, const wh_run_scene *scene) {
 static void close_loop(wh_run *run, const wh_run_scene *scene) {
     const wh_run_config *config = scene->config;
     const wh_speed *speed = &scene->pulses->speed;
-    /* a speed that is no longer confirmed by pulses must not move the motor */
+    /* a speed that pulses no longer confirm must not drive the motor */
     if (speed->known && !wh_speed_is_overdue(speed, scene->now_ticks)) {
         run->volts = wh_drive_step(&config->drive, &run->drive, speed->turn_radps, scene->supply_V,
                                    config->step_s);

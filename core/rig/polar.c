@@ -1,4 +1,4 @@
-/* polar.c: amplitude and phase of what has a cosine's and a sine's part. */
+/* polar.c: amplitude and phase from a cosine and a sine component. */
 #include "polar.h"
 
 #include "wave.h"

@@ -1,15 +1,15 @@
-/* pulses.c: which slot pulses are true. */
+/* pulses.c: separates true slot pulses from disturbances. */
 #include "pulses.h"
 
 #include "datasheet.h"
 
-#define TWICE_PART WH_R(0.5) /* of a turn, within which a sensor sees the slot but once */
+#define TWICE_PART WH_R(0.5) /* of a turn, within which a sensor sees the slot only once */
 #define ALERT_PART WH_R(0.005)
 #define CLIMB_PART WH_R(0.01)
 #define BOUNCE_PART WH_R(0.02)
-#define DOUBT 2U              /* of a pulse that is none */
+#define DOUBT 2U              /* of a false pulse */
 #define SUDDEN WH_R(1.6)      /* times the bound */
-#define SURE_PART WH_R(0.125) /* of a turn, after which no pulse takes back the last one */
+#define SURE_PART WH_R(0.125) /* of a turn, after which no pulse can withdraw the last one */
 
 void wh_pulses_start(wh_pulses *pulses, wh_real impossible_radps) {
     *pulses = (wh_pulses){.window = WH_R(1.0)};
@@ -25,7 +25,7 @@ static WH_CALLED wh_real turn_ticks(const wh_speed *speed) {
     return WH_RIG_TWO_PI / speed->turn_radps * (wh_real)WH_RIG_TICKS_PER_S;
 }
 
-/* How much earlier than a turn (its ticks) after its sensor's last one a pulse comes, ticks; 0 where nobody knows. */
+/* Time of a pulse before the end of a turn since its sensor's last one, ticks; 0 if unknown. */
 static wh_real early_ticks(const wh_speed *speed, const wh_pulse *pulse, wh_real turn) {
     if (!speed->known || !speed->seen[pulse->sensor] ||
         speed->quarter - speed->seen_quarter[pulse->sensor] > 3U) {
@@ -70,7 +70,7 @@ static WH_CALLED bool is_sudden(const wh_pulses *pulses, const wh_speed *speed) 
     return pulses->slow && speed->interval_radps > SUDDEN * pulses->bound_radps;
 }
 
-/* By how much a turn's speed rose beyond what it may: of two running a disturbance makes but one. */
+/* Excess of a turn's speed over the permitted rise: a disturbance causes only one of two in succession. */
 static wh_real climb(const wh_pulses *pulses, const wh_speed *after) {
     const wh_speed *before = &pulses->before;
     const wh_real may = pulses->climb_radps2 * wh_rig_since_s(before->ticks, after->ticks);
@@ -78,7 +78,7 @@ static wh_real climb(const wh_pulses *pulses, const wh_speed *after) {
     return before->known && after->known && beyond > WH_R(0.0) ? beyond : WH_R(0.0);
 }
 
-/* The speed after this pulse; what it replaces is the speed without it, or before the last one where that is taken back. */
+/* The speed after this pulse. The replaced one is the speed without it, or before the last one if that is withdrawn. */
 static void accept(wh_pulses *pulses, const wh_pulse *pulse, const wh_speed *after) {
     const wh_speed *before = &pulses->before;
     const bool alternates = after->lost == before->lost && before->running;
@@ -92,7 +92,7 @@ static void accept(wh_pulses *pulses, const wh_pulse *pulse, const wh_speed *aft
     pulses->speed = *after;
 }
 
-/* The speed with a pulse more. False: it cannot be. */
+/* The speed with one more pulse. False: impossible. */
 static bool with(const wh_speed *speed, const wh_pulse *pulse, wh_speed *after) {
     *after = *speed;
     return wh_speed_pulse(after, pulse->sensor, pulse->ticks);
@@ -109,13 +109,14 @@ static void take_next(wh_pulses *pulses, const wh_pulse *pulse, const wh_speed *
     accept(pulses, pulse, after);
 }
 
-/* A pulse that is none. Beside a mere bounce disturbances are rare, and where they are not it is the speed that is wrong. */
+/* A false pulse. Apart from bounces, disturbances are rare; if they are frequent, the speed is wrong. */
 static WH_CALLED void reject(wh_pulses *pulses, unsigned doubt) {
     pulses->rejected++;
     pulses->doubt += doubt;
 }
 
-/* The pulse after a suspect: with it, or without? Without, if that is likely, and more so than both together. */
+/* The pulse after a suspect: accept the suspect or reject it? Reject if that is likely, and likelier than both being
+ * true. */
 static void decide(wh_pulses *pulses, const wh_pulse *pulse) {
     const wh_pulse suspect = pulses->suspect;
     wh_speed without;
@@ -124,7 +125,7 @@ static void decide(wh_pulses *pulses, const wh_pulse *pulse) {
     pulses->alert = false;
     const bool alone_likely = with(&pulses->speed, pulse, &without) && is_likely(pulses, &without);
     const bool both_are = with(&pulses->suspected, pulse, &both);
-    /* one that is none, and a true one lost as well: less likely than that both are true, however fast */
+    /* a false pulse together with a lost true one is less likely than two true ones, at any speed */
     const bool fits = both_are && both.lost == pulses->speed.lost &&
                       (is_likely(pulses, &both) || without.lost > pulses->speed.lost);
     if (alone_likely && (pulse->sensor == suspect.sensor || !fits)) {
@@ -140,7 +141,7 @@ static void decide(wh_pulses *pulses, const wh_pulse *pulse) {
     }
 }
 
-/* The sensor of the last pulse again, within that part of a turn of so many ticks. */
+/* The last pulse's sensor again, within a part of a turn of this many ticks. */
 static WH_CALLED bool soon_after(const wh_pulses *pulses, const wh_pulse *pulse, wh_real part,
                                  wh_real turn) {
     const wh_pulse *last = &pulses->last.pulse;
@@ -148,7 +149,7 @@ static WH_CALLED bool soon_after(const wh_pulses *pulses, const wh_pulse *pulse,
            (wh_real)(pulse->ticks - last->ticks) < part * turn;
 }
 
-/* A pulse that cannot follow the last one: is it that one which is none? */
+/* A pulse that cannot follow the last one: is the last one false? */
 static void compare(wh_pulses *pulses, const wh_pulse *pulse, wh_real turn) {
     wh_speed instead;
     reject(pulses, soon_after(pulses, pulse, BOUNCE_PART, turn) ? 0U : DOUBT);
@@ -182,7 +183,7 @@ void wh_pulses_take(wh_pulses *pulses, unsigned sensor, uint32_t ticks) {
     }
     const wh_real early =
         pulses->speed.known ? early_ticks(&pulses->speed, &pulse, turn) / turn : WH_R(0.0);
-    /* where one interval was fast, or the last pulse early, the next is the speed's */
+    /* after a fast interval, or an early last pulse, the next pulse gives the speed */
     const bool trusted =
         !pulses->speed.running || pulses->fast > 0 || pulses->alert || is_sudden(pulses, &after);
     pulses->alert = early > ALERT_PART;
@@ -194,7 +195,7 @@ void wh_pulses_take(wh_pulses *pulses, unsigned sensor, uint32_t ticks) {
     }
     pulses->doubt -= pulses->doubt > 0 ? 1U : 0U;
     take_next(pulses, &pulse, &after);
-    /* a rotor that was to slow down and did not comes early, too */
+    /* a rotor that should slow down and does not is early, too */
     if (pulses->climb_radps > CLIMB_PART * after.turn_radps) {
         pulses->alert = true;
     }

@@ -1,4 +1,4 @@
-/* result.c: turns merged to a measurement that says how wrong it may be. */
+/* result.c: turns merged to a measurement with its uncertainty. */
 #include "result.h"
 
 #include "core/root.h"
@@ -8,21 +8,24 @@
 #include "wave.h"
 
 #define PI WH_R(3.141592653589793)
-/* Of gravity, fed forward: then it is fed wrongly, or does not reach the arms, and what turns them is not known. */
+/* Remaining part of gravity with feed: above it the feed is wrong or does not reach the arms, and the torque on them is
+ * unknown. */
 #define FED_LEFT_MOST WH_R(0.15)
 
-/* The speed's swing, beside what the phase may be off: of a rotor whose damping is not the one configured the split makes
- * 1/sqrt(2) of it an error of the phase. */
+/* The speed's swing, in addition to the phase's error. If the rotor's damping is not the configured one, the split
+ * makes 1/sqrt(2) of it an error of the phase. */
 #define SWING_OFF_RAD WH_R(0.01)
 
-/* Noise alone exceeds these multiples of its variance in one of 100,000 results: the sum of squares of the eight coefficients of
- * four harmonics, and of the two of the third (chi-squared). A bend or a torque twice a turn is all in the third. */
+/* In one of 100,000 results, noise alone exceeds these multiples of its variance. The first is for the sum of squares
+ * of the eight coefficients of four harmonics, the second for the two of the third (chi-squared). A nonlinearity or a
+ * torque twice a turn is all in the third. */
 #define REPEATS_NOISE WH_R(37.3)
 #define THIRD_NOISE WH_R(23.0)
 
-/* Of the force, what a healthy rig repeats each turn in harmonics 3 to 6 (tests/host/test_repeats_truth.c): by damping, as
- * tan(psi) E^2, and by a swing that is another, as E times the arrow; by a motor that cannot brake enough; by a carriage's
- * wave; the cell's own bend; and sums over few samples a turn, by the square of the angle between two. */
+/* Parts of the force that a healthy rig repeats each turn in harmonics 3 to 6 (tests/host/test_repeats_truth.c). The
+ * causes are damping, as tan(psi) E^2; an error of the swing, as E times the vector; a motor that cannot brake enough.
+ * Others are a carriage's wave; the cell's own nonlinearity; and sums over few samples a turn, by the square of the
+ * angle between two. */
 #define REPEATS_LAG WH_R(0.4)
 #define REPEATS_ARROW WH_R(1.6)
 #define REPEATS_CUT WH_R(0.29)
@@ -30,7 +33,7 @@
 #define REPEATS_CELL WH_R(1e-4)
 #define REPEATS_STEP WH_R(0.012)
 
-/* What marks that jitter by an angle leave of the force in a turn, as a part of that angle. */
+/* Effect of the marks' angular jitter on the force in a turn, in parts of that angle. */
 #define REPEATS_JITTER WH_R(0.15)
 
 static wh_real square_of(wh_real x) { return x * x; }
@@ -58,7 +61,7 @@ static void add_jitter(wh_merge *merge, uint32_t before_ticks, uint32_t now_tick
     merge->jitters++;
 }
 
-/* Second differences of either sensor's marks: of the turns' times, where a turn follows one. */
+/* Second differences of each sensor's marks: of the turns' times, if a turn follows another. */
 static void add_marks(wh_merge *merge, const wh_lockin_turn *turn) {
     const bool adjoins =
         merge->follows && merge->begin_ticks + merge->last_ticks == turn->begin_ticks;
@@ -79,7 +82,7 @@ static void add_marks(wh_merge *merge, const wh_lockin_turn *turn) {
     merge->follows = true;
 }
 
-/* A mean goes on by a value, of which it is this part. */
+/* Update a mean by a value with this weight. */
 static WH_CALLED void go_on(wh_real *mean, wh_real value, wh_real part) {
     *mean += part * (value - *mean);
 }
@@ -112,8 +115,8 @@ void wh_merge_add(const wh_result_config *config, const wh_rotor_config *rotor, 
 
     const wh_real turn_s = (wh_real)turn->turn_ticks / (wh_real)WH_RIG_TICKS_PER_S;
     const wh_real swing2 = angle->swing_rad * angle->swing_rad;
-    /* S <w^2> over the angle: the cube of the speed over time, and so 3/2 of the square of the swing; of what goes twice
-     * a turn the speed swings by twice the angle */
+    /* S <w^2> over the angle: the cube of the speed over time, and so 3/2 of the square of the swing. A wave of twice
+     * the angle makes the speed vary by twice its amplitude */
     const wh_real twice2 = WH_R(4.0) * square_of(angle->twice_rad);
     const wh_real expected = config->mount_factor * rotor->mass_moment_kgm *
                              square_of(WH_RIG_TWO_PI / turn_s) *
@@ -143,17 +146,17 @@ void wh_merge_harmonic(wh_merge *merge, unsigned harmonic) {
 
 /* --- their mean --------------------------------------------------------------------------------- */
 
-/* Square of the phase's half-width from the marks, beside what the turns' scatter shows of them. */
+/* Square of the phase's half-width from the marks, beyond the part visible in the turns' scatter. */
 static wh_real marks_rad2(const wh_merge *merge, const wh_turn_angle *angle, wh_real jitter_s) {
     const wh_real jitter2 = square_of(jitter_s * WH_RIG_TWO_PI / merge->turn_s);
     const wh_real turns = (wh_real)merge->turns;
-    /* a turn has the mean of its two marks, so its variance is one half; the mean of many has one of n */
+    /* a turn has the mean of its two marks, so its variance is one half; the mean of n turns has one n-th */
     const wh_real shared = WH_R(0.5) * jitter2 / turns;
     if (angle->splits == 0) {
         return shared;
     }
-    /* the split at a quarter: variances of 1, 9/16 and 1/16. On average half of the turns that it comes from are of those
-     * that are merged, and with them it shares marks. */
+    /* the split at a quarter: variances of 1, 9/16 and 1/16. On average half of the turns behind the split are among
+     * the merged ones, and share marks with them */
     const wh_real averaged =
         (wh_real)(angle->splits < WH_TURN_ANGLE_PATIENCE ? angle->splits : WH_TURN_ANGLE_PATIENCE);
     const wh_real follows = WH_ABS(angle->base_per_split);
@@ -200,7 +203,7 @@ WH_INLINE void jitter_of_marks(const wh_merge *merge, wh_measured *measured) {
     }
 }
 
-/* Scatter along the mean and across it, in the halves' places for now. */
+/* Scatter along the mean and across it, stored in the halves for now. */
 WH_INLINE void scatter_of_mean(const wh_merge *merge, wh_real size2, wh_real t2,
                                wh_measured *measured) {
     const wh_real x = merge->in_phase_N;
@@ -213,12 +216,12 @@ WH_INLINE void scatter_of_mean(const wh_merge *merge, wh_real size2, wh_real t2,
     measured->phase_half_rad = factor * (y * y * s[0] + both + x * x * s[2]);
 }
 
-/* What is off beside the scatter: the parts that amplitude and phase share. */
+/* Errors other than the scatter that amplitude and phase share. */
 typedef struct parts_off {
     wh_real third;
     wh_real lag;
     wh_real quadrature;
-    wh_real cut; /* what a motor that cannot brake enough leaves (tests/host/test_lockin_truth.c) */
+    wh_real cut; /* effect of a motor that cannot brake enough (tests/host/test_lockin_truth.c) */
 } parts_off;
 
 WH_INLINE parts_off off_of(const wh_rotor_config *rotor, const wh_merge *merge,
@@ -227,7 +230,7 @@ WH_INLINE parts_off off_of(const wh_rotor_config *rotor, const wh_merge *merge,
     return (parts_off){
         .third = WH_R(0.125) * swing * swing * swing,
         .lag = WH_ABS(angle->base_per_lag) * rotor->damping_tolerance * angle->lag_rad,
-        /* fed at another angle, gravity leaves a swing that the split takes for one a quarter turn on */
+        /* gravity fed at a wrong angle leaves a swing that the split takes for one a quarter turn later */
         .quadrature = angle->fed ? rotor->fed_tolerance_rad * angle->whole_rad : WH_R(0.0),
         .cut = angle->cut * angle->cut};
 }
@@ -329,10 +332,10 @@ void wh_merge_mean(const wh_result_config *config, const wh_rotor_config *rotor,
 
 /* --- verdict ------------------------------------------------------------------------------------ */
 
-/* By how much the load says that the speed's swing, E in the direction psi - gamma as an arrow, is another than the
- * reference's. Over the rotor's own angle the force's second order is 3/2 E/(1 + 3/2 E^2) of its first, in that direction;
- * where the reference's swing is off by an arrow it shows that once more with the weight of 1/2, together 2. Less twice the
- * first order's phase it hardly hangs on a delay, and not on the cell's gain. */
+/* Difference of the speed's swing according to the load from the reference's. The swing is a vector of size E in the
+ * direction psi - gamma. Over the rotor's own angle the force's second order is 3/2 E/(1 + 3/2 E^2) of its first, in
+ * that direction. An error vector of the reference's swing appears once more with the weight of 1/2, together 2. After
+ * subtracting twice the first order's phase, the result hardly depends on a delay, and not on the cell's gain. */
 static wh_real swing_off(const wh_rotor_config *rotor, const wh_merge *merge,
                          const wh_turn_angle *angle, const wh_measured *measured) {
     if (!(angle->whole_rad > WH_R(0.0)) || !(measured->amplitude_N > WH_R(0.0))) {
@@ -356,15 +359,15 @@ static wh_real repeats_limit_N(const wh_merge *merge, const wh_turn_angle *angle
                          REPEATS_ARROW * swing * measured->swing_off_rad +
                          REPEATS_CUT * angle->cut + REPEATS_TWICE * angle->twice_rad +
                          REPEATS_CELL + REPEATS_STEP * square_of(WH_RIG_TWO_PI * turns / samples);
-    /* a coefficient over N samples of variance s^2 has 2 s^2/N, and s^2 is half the mean squared difference */
+    /* a coefficient over N samples of variance s^2 has variance 2 s^2/N, and s^2 is half the mean squared difference */
     const wh_real noise_N2 = merge->repeats.changes_N2 / (samples * samples);
     const wh_real jitter = REPEATS_JITTER * measured->jitter_s * measured->speed_radps;
     return WH_SQRT(REPEATS_NOISE * noise_N2 +
                    square_of(measured->expected_N) * (square_of(part) + square_of(jitter) / turns));
 }
 
-/* Where the motor cannot brake enough the residual tells nothing of the cell: force and phase must then be as expected within
- * their intervals and so much. What is expected may be 0.5 % from the truth itself. */
+/* If the motor cannot brake enough, the residual contains no information on the cell. Force and phase must then be as
+ * expected within their intervals plus this part. The expected values may differ from the truth by 0.5 %. */
 #define CUT_OFF WH_R(0.005)
 #define CUT_TURNED_RAD WH_R(0.01)
 
@@ -391,7 +394,7 @@ static wh_why reason(const wh_result_config *config, const wh_rotor_config *roto
     if (phase > WH_R(0.5) * PI) {
         return WH_WHY_POLARITY;
     }
-    /* written so that what is not a number is refused */
+    /* written so that NaN is refused */
     if (!(off <= config->amplitude_wrong * expected)) {
         return WH_WHY_AMPLITUDE;
     }
@@ -430,7 +433,7 @@ static wh_why reason(const wh_result_config *config, const wh_rotor_config *roto
     if (half > WH_R(0.05) * measured->amplitude_N) {
         return WH_WHY_WIDE;
     }
-    /* the calibration is not in question here */
+    /* the calibration does not matter here */
     const wh_real floor_rad = floor_or(config->phase_floor_rad, WH_UNCALIBRATED_RAD);
     const wh_real seen_rad2 = square_of(measured->phase_half_rad) - square_of(floor_rad);
     const wh_real seen_rad = seen_rad2 > WH_R(0.0) ? WH_SQRT(seen_rad2) : WH_R(0.0);

@@ -1,4 +1,4 @@
-/* rig.c: the eccentric-mass rig's controller: orders, guard and run in their order, each control step. */
+/* rig.c: the eccentric-mass rig's controller: orders, guard and run, in this order, each control step. */
 #include "rig.h"
 
 #include <stddef.h>
@@ -27,9 +27,9 @@ void wh_rig_start(const wh_rig_config *config, wh_rig *rig, uint32_t now_ticks,
     wh_pulses_start(&rig->pulses, config->impossible_radps);
     wh_guard_start(&rig->guard, now_ticks);
     (void)wh_observer_start(&config->observer, &rig->observer,
-                            now_ticks); /* then it is never valid */
+                            now_ticks); /* it is then never valid */
     enter(rig, WH_LIFE_IDLE, now_ticks);
-    /* who knows how fast the rotor turned before */
+    /* the rotor's earlier speed is unknown */
     rig->run.off_radps = config->guard.limit_radps;
     rig->run.since_ticks = now_ticks;
     if (before != NULL && before->trip != WH_TRIP_NONE) {
@@ -101,7 +101,7 @@ static void trip(wh_rig *rig, const wh_rig_inputs *inputs) {
                                    .supply_V = inputs->supply_V};
 }
 
-/* Is gravity fed forward to a run at this speed? */
+/* Decide whether a run at this speed gets gravity fed forward. */
 static WH_CALLED void choose_feed(const wh_rig_config *config, wh_rig *rig, wh_real target_radps) {
     rig->fed = config->feeds == WH_FEED_ALWAYS ||
                (config->feeds == WH_FEED_SLOW && target_radps < config->guard.target_min_radps);
@@ -126,7 +126,7 @@ static void begin_run(const wh_rig_config *config, wh_rig *rig, wh_real target_r
     wh_run_start(&rig->run, target_radps, now_ticks);
 }
 
-/* How fast it may be now: the last turn of a rotor that still gathers speed is old. */
+/* Upper bound on the present speed: the last turn of an accelerating rotor is old. */
 static wh_real fastest_radps(const wh_rig_config *config, const wh_rig *rig, uint32_t now_ticks) {
     const wh_real turn_radps = rig->pulses.speed.turn_radps;
     const wh_real led_radps = wh_run_drives(&rig->run)
@@ -150,7 +150,7 @@ static wh_rig_end stopped_by(const wh_rig_inputs *inputs, wh_rig_event event) {
     return WH_END_STOP_OR_FAULT;
 }
 
-/* The state is left for `next`, or is begun anew. */
+/* Go to state `next`, or restart the present one. */
 static void follow(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs *inputs,
                    const wh_rig_order *order, wh_life next) {
     const uint32_t now = inputs->now_ticks;
@@ -163,7 +163,7 @@ static void follow(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs
         break;
     case WH_EVENT_STOP:
     case WH_EVENT_HOST_LOST:
-        /* a stop never puts the enable on */
+        /* a stop never switches the enable on */
         rig->brakes = config->stop_brakes && (wh_run_drives(&rig->run) || brakes(rig));
         if (moves && rig->run.phase != WH_PHASE_OFF) {
             rig->ended = stopped_by(inputs, order->event);
@@ -183,7 +183,7 @@ static void follow(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs
     case WH_EVENT_EXPIRED: rig->run.phase = WH_PHASE_NONE; break;
     case WH_EVENT_CLEAR:
         rig->guard.trip = WH_TRIP_NONE;
-        rig->record = (wh_trip_record){.trip = WH_TRIP_NONE}; /* a reset finds none */
+        rig->record = (wh_trip_record){.trip = WH_TRIP_NONE}; /* a reset finds no record */
         break;
     case WH_EVENT_ARM: rig->pulses_before = rig->pulses_ever; break;
     case WH_EVENT_DONE: rig->ended = WH_END_DONE; break;
@@ -194,7 +194,7 @@ static void follow(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs
     }
 }
 
-/* Returns what is against it. */
+/* Returns the reason for refusal. */
 static wh_refusal happens(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs *inputs,
                           const wh_rig_order *order) {
     const wh_life_rule rule = wh_life_rule_of(rig->state, order->event);
@@ -214,7 +214,7 @@ static void finds(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs 
     (void)happens(config, rig, inputs, &order);
 }
 
-/* Orders are for others to give; what the rig finds itself is none. */
+/* Only external orders: the rig's own findings are not orders. */
 static void take_orders(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs *inputs) {
     for (unsigned i = 0; i < rig->orders; i++) {
         const wh_rig_order *order = &rig->order[i];
@@ -240,7 +240,7 @@ static wh_real silence_s(const wh_rig_config *config, const wh_rig *rig) {
                                : SILENT_RAD / rig->run.drive.setpoint_radps;
 }
 
-/* With the motor off: what is known of a rotor that rests? */
+/* With the motor off: clear data that a resting rotor makes invalid. */
 static void rest(const wh_rig_config *config, wh_rig *rig, uint32_t now_ticks) {
     wh_guard_quiet(&config->guard, &rig->guard, rig->pulses_ever, now_ticks);
     if (rig->guard.quiet) {
@@ -260,7 +260,7 @@ static void watch(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs 
     if (!drives) {
         rest(config, rig, inputs->now_ticks);
     }
-    /* with the motor off nothing speeds up a rotor whose speed was known */
+    /* with the motor off, a rotor of known speed cannot gain speed */
     const bool slows = !drives && rig->run.off_radps < config->guard.limit_radps;
     wh_guard_speed(&config->guard, guard, &rig->pulses,
                    !slows        ? WH_TRIP_OVERSPEED
@@ -271,7 +271,7 @@ static void watch(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs 
                                  : WH_GUARD_COASTS);
     if (rig->run.phase == WH_PHASE_SPIN_UP && !rig->pulses.speed.running &&
         wh_rig_is_over(rig->run.since_ticks, inputs->now_ticks, config->guard.slow_silence_max_s)) {
-        wh_guard_trip(guard, WH_TRIP_STALLED); /* or is not seen: it must not get fast */
+        wh_guard_trip(guard, WH_TRIP_STALLED); /* or no sensor sees it: it must not get fast */
     }
     if (drives) {
         wh_guard_pulses(&config->guard, guard, &rig->pulses, silence_s(config, rig),
@@ -282,7 +282,7 @@ static void watch(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs 
         wh_guard_trip(guard, WH_TRIP_SUPPLY);
     }
     if (!wh_guard_load_comes(&config->guard, guard, inputs->now_ticks)) {
-        guard->load_good = false; /* until one comes: stamps wrap */
+        guard->load_good = false; /* until a sample comes: stamps wrap */
         if (needed) {
             wh_guard_trip(guard, WH_TRIP_LOAD_CELL);
         }
@@ -291,7 +291,7 @@ static void watch(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs 
 
 /* --- where the rotor is --------------------------------------------------------------------------- */
 
-/* The pulse after a suspect takes as long as two: the observer makes up for such a step in the next one. */
+/* The pulse after a suspect costs as much as two: the observer catches up in the next step. */
 static bool postpones(const wh_rig *rig, uint32_t now_ticks) {
     return rig->decides && now_ticks - rig->observer.ticks < 2U * rig->observer.step_ticks;
 }
@@ -304,7 +304,7 @@ static void observe(const wh_rig_config *config, wh_rig *rig, uint32_t now_ticks
     wh_observer_step(&config->observer, &rig->observer, now_ticks,
                      rig->command.volts / config->run.rated_V);
     if (rig->observer.ticks - before_ticks > rig->observer.step_ticks) {
-        rig->loads++; /* two steps of it are as much as a sample more */
+        rig->loads++; /* two of its steps cost as much as one more sample */
     }
     if (!rig->busy && rig->pulses.speed.taken != rig->observed) {
         rig->busy = true;
@@ -314,7 +314,7 @@ static void observe(const wh_rig_config *config, wh_rig *rig, uint32_t now_ticks
     }
 }
 
-/* What gravity takes of the voltage, V. */
+/* Gravity's part of the voltage, V. */
 static wh_real feed_V(const wh_rig_config *config, wh_rig *rig, uint32_t now_ticks) {
     if (!rig->fed || !wh_run_is_closed(&rig->run)) {
         rig->feed.part = WH_R(0.0);
@@ -331,7 +331,7 @@ static wh_real feed_V(const wh_rig_config *config, wh_rig *rig, uint32_t now_tic
 
 /* --- states -------------------------------------------------------------------------------------- */
 
-/* Motor off: the rotor rests when pulses stay away. */
+/* Motor off: the rotor rests if no pulses come. */
 static void wait_for_rest(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs *inputs) {
     const bool tripped = rig->state == WH_LIFE_TRIPPED;
     const wh_real passed_s =
@@ -354,7 +354,7 @@ static void wait_for_rest(const wh_rig_config *config, wh_rig *rig, const wh_rig
     }
 }
 
-/* More pulses than a shiver's: somebody turns the rotor. */
+/* More pulses than jitter makes: a person turns the rotor. */
 #define ARMED_PULSES_MOST 2U
 
 static void live(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs *inputs) {
@@ -386,8 +386,8 @@ static void live(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs *
     }
 }
 
-/* How much of a turn's sums there is time for: a late controller finds samples, and the observer's steps, for more than one
- * step and none for the next. Where a mark may get sure, and the rotor is observed, there is less. */
+/* Half nodes of a turn's sums for which there is time. A late controller finds samples, and the observer's steps, of
+ * more than one step, and in the next none. If a mark may be confirmed, and the rotor is observed, there is less time. */
 static unsigned halves(const wh_rig *rig) {
     if (WH_RIG_SMALL_PIECES) {
         return rig->loads == 0 ? WH_LOCKIN_HALVES_AT_ONCE : rig->loads == 1U ? 1U : 0U;
@@ -424,7 +424,7 @@ static void age(wh_rig *rig, uint32_t now_ticks) {
     }
 }
 
-/* Motor off: it swings out after a run, or has, and what that tells is worked on. */
+/* Motor off: the rotor swings out after a run, or has; its swing is evaluated. */
 static void swing(const wh_rig_config *config, wh_rig *rig) {
     const bool swings = config->swings && rig->run.phase == WH_PHASE_OFF && !rig->brakes;
     wh_swing_step(&config->swing, &config->measure.rotor, &rig->swing, swings,
@@ -442,7 +442,7 @@ static wh_rig_command command_of(const wh_rig_config *config, wh_rig *rig,
     return (wh_rig_command){brakes(rig) ? WH_MOTOR_BRAKES : WH_MOTOR_COASTS, WH_R(0.0)};
 }
 
-/* What has tripped is not done any more in this step. */
+/* A tripped rig skips the rest of the step. */
 static void follow_trip(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs *inputs) {
     if (rig->guard.trip != WH_TRIP_NONE && rig->state != WH_LIFE_TRIPPED) {
         finds(config, rig, inputs, WH_EVENT_TRIP);
@@ -456,13 +456,13 @@ wh_rig_command wh_rig_step(const wh_rig_config *config, wh_rig *rig, const wh_ri
     watch(config, rig, inputs);
     if (inputs->stop_pressed) {
         finds(config, rig, inputs, WH_EVENT_STOP);
-        rig->guard.off.released = true; /* that takes the enable in any case */
+        rig->guard.off.released = true; /* releasing the brake switches the enable off in any case */
     }
     take_orders(config, rig, inputs);
     const wh_rig_phase phase = rig->run.phase;
     follow_trip(config, rig, inputs);
     live(config, rig, inputs);
-    follow_trip(config, rig, inputs); /* before the sums, which are for nobody then */
+    follow_trip(config, rig, inputs); /* before the sums, which are then useless */
     if (rig->run.phase != phase) {
         rig->busy = true;
     }

@@ -18,7 +18,7 @@ void wh_speed_start(wh_speed *speed, wh_real impossible_radps) {
     *speed = (wh_speed){.impossible_radps = impossible_radps};
 }
 
-/* Counting of quarter turns begins afresh at this sensor. */
+/* Counting of quarter turns restarts at this sensor. */
 static void begin(wh_speed *speed, unsigned sensor) {
     speed->running = true;
     speed->quarter = sensor;
@@ -26,7 +26,7 @@ static void begin(wh_speed *speed, unsigned sensor) {
     speed->seen[1] = false;
 }
 
-/* To the next position of this sensor: 1 or 3 quarters, or the whole turn. False: that would be too fast. */
+/* Move to the next position of this sensor: 1 or 3 quarters, or the whole turn. False: that would be too fast. */
 static bool go_on(wh_speed *speed, unsigned sensor, uint32_t ticks) {
     const uint32_t ahead = (sensor - speed->quarter) % QUARTERS;
     const uint32_t moved = ahead == 0 ? QUARTERS : ahead;
@@ -35,12 +35,12 @@ static bool go_on(wh_speed *speed, unsigned sensor, uint32_t ticks) {
     if (interval == 0 || interval_radps > speed->impossible_radps) {
         return false;
     }
-    /* what else it might be is a whole turn further on: four quarters late, or (order reversed) two */
+    /* the alternative is a whole turn later: four quarters late, or (order reversed) two */
     const wh_real due_quarters = (wh_real)moved * speed->turn_radps / interval_radps;
     if (speed->known && due_quarters > (wh_real)(moved + 1U)) {
         speed->lost += 2;
         speed->restarts++;
-        /* one gap keeps the speed; a second one running says that it was wrong */
+        /* one gap keeps the speed; a second successive one shows that it was wrong */
         speed->known = speed->interval_radps > WH_R(0.0);
         speed->interval_radps = WH_R(0.0);
         begin(speed, sensor);

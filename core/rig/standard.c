@@ -1,12 +1,12 @@
-/* standard.c: the rig of eccentric.whirl in its controller's numbers. */
+/* standard.c: the controller's data for the rig of eccentric.whirl. */
 #include "datasheet.h"
 #include "rig.h"
 
 #define RPM(x) (WH_R(x) * WH_RIG_RADPS_PER_RPM)
 
-/* The loop: from voltage to mean speed the rotor is a lag of about 0.24 s with a gain of 60 rad/s for 24 V, and
- * a speed taken over the last turn is some 0.15 s old. The integral's zero cancels the lag, the gain
- * puts the crossover at 2.5 rad/s: 65 degrees of phase margin. docs/rig.md has the reasons. */
+/* The loop. From voltage to mean speed the rotor is a lag of about 0.24 s with a gain of 60 rad/s for 24 V. The speed
+ * over the last turn is some 0.15 s old. The integral's zero cancels the lag, the gain puts the crossover at 2.5 rad/s:
+ * 65 degrees of phase margin. docs/rig.md has the reasons. */
 const wh_rig_config wh_rig_standard = {
     .run = {.step_s = WH_R(0.002),
             .drive = {.proportional_V_per_radps = WH_R(0.24),
@@ -45,7 +45,7 @@ const wh_rig_config wh_rig_standard = {
               .silence_max_s = WH_R(0.5),
               .slow_silence_max_s = WH_R(2.0),
               .load_silence_max_s = WH_R(0.02), /* ten samples' periods */
-              /* a tenth of what the masses' force moves it by */
+              /* a tenth of the change that the masses' force causes */
               .load_still_kgm = WH_R(0.1) * WH_RIG_MASS_MOMENT_KGM,
               .stuck_pulses = 3, /* a whole turn from the first to the last */
               .supply_min_V = WH_RIG_SUPPLY_LEAST * WH_RIG_RATED_V,
@@ -126,7 +126,7 @@ void wh_rig_use_motor(wh_rig_config *config, const wh_rig_motor *motor) {
     run->drive.proportional_V_per_radps *= per_torque;
     run->drive.integral_V_per_rad *= per_torque * damping_Nms / rotor->damping_Nms;
     run->drag_V *= per_torque;
-    /* from standstill to where the loop is closed the torque is nowhere more than it was */
+    /* from standstill to the take-over, the torque is nowhere larger than before */
     const wh_real over = run->take_over_radps;
     const wh_real at_rest =
         volts_for(motor, torque_at(&before, run->spin_up_V, WH_R(0.0)), WH_R(0.0));
@@ -141,7 +141,7 @@ void wh_rig_use_motor(wh_rig_config *config, const wh_rig_motor *motor) {
     observer->per_radps =
         WH_R(1.0) / observer->no_load_radps - observer->per_drive / motor->no_load_radps;
     observer->no_load_radps = motor->no_load_radps;
-    /* the stage gives no negative voltage: what is fed is cut off at the speed where the motor's own voltage is less */
+    /* the stage gives no negative voltage: it cuts off the feed at speeds where the motor's own voltage is lower */
     config->feed.most *= before.stall_Nm / motor->stall_Nm;
     const wh_real slowest = config->guard.target_min_fed_radps * before.stall_Nm / motor->stall_Nm *
                             motor->no_load_radps / before.no_load_radps;

@@ -1,4 +1,4 @@
-/* swing_guess.c: the first guess of a free swing, from the times of its pulses alone. */
+/* swing_guess.c: the first guess of a free swing, from its pulses' times alone. */
 #include "swing_guess.h"
 
 #include "core/root.h"
@@ -35,12 +35,12 @@ static wh_real guess_root(const wh_swing *swing) {
             second_s = period_s;
         }
     }
-    /* they are the smaller the more there were */
+    /* the more swings, the smaller they are */
     const wh_real longer = WH_R(1.0) + WH_R(0.1) / (wh_real)swing->passed;
     return longer * WH_RIG_TWO_PI / (count > 4U ? second_s : shortest_s);
 }
 
-/* The next pulse of sensor 1, or none: swing->kept. */
+/* The index of sensor 1's next pulse, or swing->kept. */
 static WH_CALLED unsigned next_of(const wh_swing *swing, unsigned at) {
     unsigned next = at + 1U;
     while (next < swing->kept && swing->kept_sensor[next] != 0) {
@@ -95,7 +95,7 @@ void wh_swing_guess(const wh_swing_config *config, wh_swing *swing) {
     }
     x[WH_SWING_RATE] = WH_R(-2.0) * root * sine;
     x[WH_SWING_GRAVITY] = gravity;
-    /* a swing loses 2 f/g on either side, in so many halves; A is some 2.3 sin(A/2) */
+    /* a swing loses 2 f/g on either side, over its half swings; A is some 2.3 sin(A/2) */
     x[WH_SWING_FRICTION] = gravity * WH_R(2.3) * sine / (wh_real)(2U * swing->passed + 1U);
     x[WH_SWING_DRAG] = WH_R(0.003) * gravity;
     swing->within[WH_SWING_Q] =

@@ -5,26 +5,26 @@
 #include "datasheet.h"
 #include "wave.h"
 
-/* Beyond this the series says nothing any more: a rotor that hardly gets over the top. */
+/* Beyond this the series is invalid: the rotor hardly gets over the top. */
 #define SWING_MOST WH_R(0.35)
 
-/* How much the split changes with the swing, at least, if anything shall be found from it. */
+/* Least derivative of the split with respect to the swing for an estimate. */
 #define SLOPE_LEAST WH_R(0.15)
 
-/* The first splits correct an inertia that may be far off, by Newton's method; then they are averaged. */
+/* The first splits correct an inertia with a large error, by Newton's method; later ones are averaged. */
 #define SPLITS_TO_FIND 3U
 
-/* Within most, either way; NaN too. */
+/* Limit to `most`, either way; also for NaN. */
 static wh_real within(wh_real value, wh_real most) {
     return value < most ? value > -most ? value : -most : most;
 }
 
-/* The arc sine of little. */
+/* The arc sine of a small number. */
 static wh_real small_arc(wh_real sine) {
     return sine * (WH_R(1.0) + WH_R(0.16666667) * sine * sine);
 }
 
-/* What the swing adds to base + phi where u has these sine and cosine. */
+/* The swing's addition to base + phi at u with this sine and cosine. */
 static wh_real added(const wh_turn_angle *angle, wh_wave u) {
     return angle->swing_rad * u.sine + angle->second_sine * (WH_R(2.0) * u.sine * u.cosine) +
            angle->second_cosine * (WH_R(2.0) * u.cosine * u.cosine - WH_R(1.0));
@@ -45,11 +45,11 @@ void wh_turn_angle_feed(wh_turn_angle *angle, bool fed, wh_real stall_Nm_per_V) 
     }
 }
 
-/* A carriage that gives way: a wave of twice the angle more. */
+/* The wave of twice the angle from a carriage that yields. */
 static void add_carriage(const wh_rotor_config *config, wh_turn_angle *angle, wh_real speed_radps) {
     const wh_real yields = config->yields_kgm2;
     const wh_real mean = angle->inertia_kgm2 - WH_R(0.5) * yields;
-    if (!(yields > WH_R(0.0)) || !(mean > yields)) { /* fixed, or arms that weigh nothing */
+    if (!(yields > WH_R(0.0)) || !(mean > yields)) { /* fixed, or arms without mass */
         angle->twice_rad = WH_R(0.0);
         return;
     }
@@ -64,8 +64,8 @@ static void add_carriage(const wh_rotor_config *config, wh_turn_angle *angle, wh
     angle->second_cosine -= angle->twice_rad * turned.sine;
 }
 
-/* A motor that cannot brake as much as is asked of it: what it leaves of gravity is a pulse, S g (-sin(theta - gamma) - k)
- * where that is above 0, which has twice the angle in it. k is what the drive's own voltage gives at standstill, over S g. */
+/* A motor that cannot brake as much as commanded leaves a pulse of gravity's torque: S g (-sin(theta - gamma) - k) if
+ * that is positive, which contains twice the angle. k is the torque at standstill of the drive's own voltage, over S g. */
 static void add_cut(const wh_rotor_config *config, wh_turn_angle *angle, wh_real speed_radps) {
     const wh_real weight_Nm = config->mass_moment_kgm * config->gravity_mps2;
     const wh_real held_Nm = angle->held_V * angle->stall_Nm_per_V;
@@ -108,7 +108,7 @@ WH_INLINE void shape_swing(const wh_rotor_config *config, wh_turn_angle *angle,
 }
 
 WH_INLINE void shape_begin(const wh_rotor_config *config, wh_turn_angle *angle) {
-    /* base + what is added at the begin is the mark's angle, and u there is base + psi - gamma */
+    /* base plus the addition at the begin is the mark's angle, and u there is base + psi - gamma */
     const wh_real begins = config->mark_rad[0] + angle->lag_rad - config->gravity_rad;
     for (unsigned round = 0; round < 2U; round++) {
         const wh_wave u = wh_wave_of(angle->begin_rad);
@@ -140,7 +140,7 @@ void wh_turn_angle_shape_piece(const wh_rotor_config *config, wh_turn_angle *ang
 }
 #endif
 
-/* u's waves at the turn's begin and where it is split are known. */
+/* u's waves at the turn's begin and at the split are known. */
 WH_INLINE wh_real split_by(const wh_rotor_config *config, wh_turn_angle *angle, wh_real passed,
                            wh_wave from, wh_wave to) {
     const wh_real off = config->mark_rad[1] - (angle->base_rad + passed + added(angle, to));
@@ -152,14 +152,14 @@ WH_INLINE wh_real split_by(const wh_rotor_config *config, wh_turn_angle *angle, 
     const wh_real cosine2 = WH_R(1.0) - sine * sine;
     const wh_real bends = WH_R(1.0) / (WH_R(1.0) + swing * from.cosine);
     const wh_real turns = to.cosine - from.cosine;
-    /* of the swing, the lag following it where it is the inertia's: d psi = tan psi dE / E */
+    /* of the swing, with the lag that follows from the inertia: d psi = tan psi dE / E */
     const wh_real lag_per_swing = angle->fed ? WH_R(0.0) : sine / (WH_SQRT(cosine2) * swing);
     const wh_real begin_per_swing = (lag_per_swing - from.sine) * bends;
     const wh_real split_per_swing = (to.sine - from.sine) + swing * turns * begin_per_swing;
     const wh_real base_per_swing = -from.sine - swing * from.cosine * begin_per_swing;
     if (!(WH_ABS(split_per_swing) > SLOPE_LEAST)) {
-        /* the lag of too light a rotor turns the split back: from a heavier one Newton's method arrives.
-         * But gravity along a diagonal leaves the split as it is, whatever the rotor. */
+        /* for too light a rotor the lag reverses the split's change: Newton's method converges from a heavier one. With
+         * gravity along a diagonal, the split does not depend on the rotor. */
         if (!angle->fed && WH_ABS(to.sine - from.sine) > WH_R(2.0) * SLOPE_LEAST) {
             angle->inertia_kgm2 *= WH_R(1.25);
         }
@@ -178,7 +178,7 @@ WH_INLINE wh_real split_by(const wh_rotor_config *config, wh_turn_angle *angle, 
             WH_R(1.0));
         return off;
     }
-    /* d ln E / d ln I = -cos^2 psi; within a factor of two, whatever the mark */
+    /* d ln E / d ln I = -cos^2 psi; within a factor of two, for any mark */
     const wh_real change = within(-off / (split_per_swing * swing * cosine2), WH_R(0.5));
     angle->inertia_kgm2 *= WH_R(1.0) + change / (wh_real)turns_averaged;
     return off;
