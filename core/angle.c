@@ -75,8 +75,8 @@ wh_phase wh_phase_times(wh_angle angle, wh_factor factor) { return angle * facto
 
 wh_angle wh_angle_from_rad(wh_real rad) { return wh_angle_of_rad(rad); }
 
-/* Done in integers up to the one rounding to float: 24 bits of a float are fewer than an angle has,
- * and a product of two rounded factors would err by more than one unit in the last place. */
+/* In integers up to the one rounding to float: a float has fewer bits than an angle, and a product of two rounded
+ * factors would err by more than one unit in the last place. */
 wh_real wh_angle_to_rad(wh_angle angle) {
     if (angle == 0) {
         return 0.0f;
@@ -89,14 +89,14 @@ wh_real wh_angle_to_rad(wh_angle angle) {
     }
     const uint64_t two_pi = UINT64_C(3373259426); /* 2^29 * 2 pi */
     const uint64_t product = (size >> 32) * two_pi + (((size & UINT32_MAX) * two_pi) >> 32);
-    /* A bit dropped but not zero must still tell a tie from a little more than one. */
+    /* The dropped bits must still distinguish a tie from a larger value. */
     const uint32_t bits = (uint32_t)(product >> 32) | ((uint32_t)product != 0 ? 1U : 0U);
     const float magnitude = (float)bits * scale;
     return angle < 0 ? -magnitude : magnitude;
 }
 
-/* The low 32 bits in front of the point of a 64 by 64 bit product, the point standing in front of the 64
- * bits of factor.part, rounded. As unsigned, a negative angle is 2^64 too large. */
+/* The low 32 bits before the point of a 64 by 64 bit product, rounded; the point is before the 64 bits of factor.part.
+ * As unsigned, a negative angle is 2^64 too large. */
 wh_phase wh_phase_times(wh_angle angle, wh_factor factor) {
     const uint64_t size = (uint64_t)angle;
     const uint64_t size_low = size & UINT32_MAX;

@@ -1,4 +1,4 @@
-/* cobs.c: bytes without zeros, and a sum over them. */
+/* cobs.c: consistent overhead byte stuffing, and a CRC. */
 #include "cobs.h"
 
 static void put_raw(wh_cobs *c, uint8_t byte) {
@@ -32,7 +32,7 @@ void wh_cobs_put(wh_cobs *cobs, uint8_t byte) {
 }
 
 unsigned wh_cobs_end(wh_cobs *cobs) {
-    close_block(cobs); /* the head that it opens is the zero that ends them */
+    close_block(cobs); /* the head of the new block is the final zero */
     return cobs->full ? 0 : cobs->at;
 }
 
@@ -66,7 +66,7 @@ unsigned wh_cobs_short(uint8_t *bytes, unsigned count) {
     return count + 2U;
 }
 
-/* All eight bits at once: what leaves at the top comes back at the places of the polynomial's ones. */
+/* All eight bits at once: bits that leave at the top return at the places of the polynomial's ones. */
 uint16_t wh_crc16(uint16_t crc, const uint8_t *bytes, unsigned count) {
     for (unsigned i = 0; i < count; i++) {
         unsigned out = (crc >> 8 ^ bytes[i]) & 0xFFU;

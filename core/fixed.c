@@ -1,4 +1,4 @@
-/* fixed.c: the tables of fixed.h, and what is called where it would be long inline. */
+/* fixed.c: the tables of fixed.h, and functions too long to inline. */
 #include "fixed.h"
 
 /* clang-format off */
@@ -48,7 +48,7 @@ const uint16_t wh_fixed_seed_table[128] WH_FLASH = {
 /* clang-format on */
 
 #if WH_FIXED_AVR
-/* Sixteen products of bytes, added up column by column; then what a sign takes away. */
+/* Sixteen products of bytes, added column by column; then the correction for signs. */
 int32_t wh_fixed_high_called(int32_t a, int32_t b) {
     int32_t high;
     uint8_t one;

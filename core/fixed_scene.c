@@ -1,4 +1,4 @@
-/* fixed_scene.c: starting, stepping and comparing runs in fixed point, and the ways from and to reals. */
+/* fixed_scene.c: starting, stepping and comparing runs in fixed point, and conversions from and to reals. */
 #include "fixed_scene.h"
 
 #include "hash.h"
@@ -10,7 +10,7 @@ wh_status wh_fixed_start(const wh_fixed_scene *scene, wh_fixed_state *state, voi
         int64_t angle;
     };
     if (state != NULL) {
-        state->real = NULL; /* not started, until it is */
+        state->real = NULL; /* not started yet */
     }
     if (scene == NULL || state == NULL ||
         (uintptr_t)memory % offsetof(struct behind_a_byte, angle) != 0) {
@@ -59,7 +59,7 @@ uint64_t wh_fixed_hash(const wh_fixed_scene *scene, const wh_fixed_state *state)
     return hash;
 }
 
-/* value 2^bits: exact, but where it leaves the reals. */
+/* value 2^bits: exact within the range of reals. */
 static wh_real scaled(wh_real value, int bits) {
     const wh_real by = bits < 0 ? WH_R(0.5) : WH_R(2.0);
     for (int left = bits < 0 ? -bits : bits; left > 0; left--) {
@@ -70,7 +70,7 @@ static wh_real scaled(wh_real value, int bits) {
 
 int32_t wh_fixed_of(const wh_fixed_format *format, wh_real value, uint32_t *saturated) {
     const wh_real number = scaled(value, format->bits);
-    const wh_real high = (wh_real)format->high; /* off by 64 in float: beyond 2^24 only */
+    const wh_real high = (wh_real)format->high; /* error up to 64 in float, beyond 2^24 only */
     const wh_real low = (wh_real)format->low;
     if (!(number > low)) {
         *saturated += number == low ? 0U : 1U;

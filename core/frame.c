@@ -14,8 +14,8 @@ static uint32_t crc_step(uint32_t crc, uint8_t byte) {
     return crc;
 }
 #else
-/* Four bits at a time: the reflected polynomial 0xEDB88320 times each number of four bits. On an 8-bit processor a record's sum
- * is to end within a control step. */
+/* Four bits at a time: the reflected polynomial 0xEDB88320 times each number of four bits. An 8-bit processor must
+ * finish a record's CRC within a control step. */
 static uint32_t crc_step(uint32_t crc, uint8_t byte) {
     static const uint32_t of_nibble[16] = {0x00000000U, 0x1DB71064U, 0x3B6E20C8U, 0x26D930ACU,
                                            0x76DC4190U, 0x6B6B51F4U, 0x4DB26158U, 0x5005713CU,
@@ -94,7 +94,7 @@ bool wh_frame_take(wh_frame_reader *reader, uint8_t byte, wh_frame *frame) {
         return false;
     }
     const unsigned length = reader->length;
-    const bool nothing = length == 0; /* two zeros on end: a sender may begin with one */
+    const bool nothing = length == 0; /* two successive zeros: a sender may begin with one */
     const bool good =
         !reader->too_long && parse(reader->bytes, wh_cobs_decode(reader->bytes, length), frame);
     reader->dropped += !good && !nothing;

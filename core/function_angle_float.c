@@ -1,13 +1,13 @@
 /* function_angle_float.c: the inverse circular functions in float.
  *
- * Polynomials in the argument's square: minimax with the first coefficient held at one, so that a small
- * argument comes out as it is.
+ * Minimax polynomials in the argument's square, with the first coefficient fixed at one, so that a small argument is
+ * returned unchanged.
  */
 #include "function_float.h"
 
 #if !WH_DOUBLE
 
-/* Angles in Q30, for all but the smallest. */
+/* Angles in Q30, except the smallest. */
 #define QUARTER_TURN UINT32_C(1686629713)
 #define HALF_TURN UINT32_C(3373259425)
 
@@ -21,12 +21,12 @@ static float angle_sum(uint32_t sign, uint32_t base, bool minus, wh_digits angle
     return wh_float_round(sign, minus ? base - part : base + part, 1);
 }
 
-/* The arc whose tangent is t, for 0 < t <= 1: by at most 5e-10 of it. */
+/* The arc whose tangent is t, for 0 < t <= 1: relative error at most 5e-10. */
 static wh_digits arc_of_tangent(wh_digits t) {
     static const uint32_t series[] WH_FLASH = {4758830U,   31312263U,  96570224U,  191677941U,
                                                289373305U, 378361278U, 474929245U, 613311670U,
                                                858979164U, 1431655485U}; /* Q32, signs alternate */
-    if (t.exponent == 0) { /* t is one, whose square would overflow */
+    if (t.exponent == 0) { /* t is one; its square would overflow */
         t = (wh_digits){UINT32_MAX, -1};
     }
     const uint32_t square = wh_square(t);
@@ -68,8 +68,8 @@ float wh_atan2(float y, float x) {
 
 float wh_atan(float x) { return wh_atan2(x, 1.0f); }
 
-/* The root of size * 2^32, for size of 2^30 or more: Newton's method from a straight line, at last with
- * all digits. By at most 2^-30 of it. */
+/* The root of size * 2^32, for size of 2^30 or more: Newton's method from a straight line, the last step with all
+ * digits. Relative error at most 2^-30. */
 static uint32_t root_of(uint32_t size) {
     const uint32_t line = wh_high(size, 43691U) + 23156U; /* (size/2^30 + 2.12)/3, times 2^15 */
     const uint32_t near = (line + size / line) >> 1;
@@ -79,9 +79,8 @@ static uint32_t root_of(uint32_t size) {
     return ((root + ratio) << 15) + (behind >> 1);
 }
 
-/* The arc whose sine is the magnitude, up to one half; from there to one, half of what is missing to a
- * quarter turn, by the sine of that: sqrt((1 - x)/2). By at most 5e-10 of it. A magnitude of 0 or one gives
- * size 0. */
+/* The arc whose sine is the magnitude, up to one half. From one half to one, half of its complement to a quarter turn,
+ * by that angle's sine: sqrt((1 - x)/2). Relative error at most 5e-10. A magnitude of 0 or one gives size 0. */
 static wh_digits arc_of_sine(uint32_t magnitude) {
     static const uint32_t series[] WH_FLASH = {161131133U, 62013972U,  136612917U,
                                                191198894U, 322144200U, 715827596U}; /* Q32 */
@@ -93,7 +92,8 @@ static wh_digits arc_of_sine(uint32_t magnitude) {
     } else if (magnitude != WH_BITS_ONE) {
         const uint32_t missing =
             UINT32_C(0x1000000) - ((magnitude & UINT32_C(0x7fffff)) | UINT32_C(0x800000));
-        const uint32_t shift = (wh_leading_zeros(missing) - 1U) | 1U; /* odd: the root's is whole */
+        const uint32_t shift =
+            (wh_leading_zeros(missing) - 1U) | 1U; /* odd, so that the root's shift is whole */
         s = (wh_digits){root_of(missing << shift), 2 - (int32_t)((shift - 1U) / 2U)};
     }
     const uint32_t square = wh_square(s);

@@ -1,15 +1,15 @@
 /* function_atan_double.c: angles from ratios in double.
  *
- * The angle of a point (x, y) with 0 <= y <= x is that of the next ray with a slope c of whole 64ths, from
- * a table of pairs, and the angle to it, whose tangent is (y - c x)/(x + c y): at most 1/128, so a short
- * series does. The other functions are such angles: the arc sine of s is that of (root(1 - s^2), s).
+ * For a point (x, y) with 0 <= y <= x, a table of pairs has the angle of the next ray whose slope c is a multiple of
+ * 1/64. The remaining angle has the tangent (y - c x)/(x + c y), at most 1/128, so a short series suffices. The other
+ * functions are such angles: the arc sine of s is that of (root(1 - s^2), s).
  */
 #include "function_double.h"
 #include "root.h"
 
 #if WH_DOUBLE
 
-#define SMALL 0x1p-28 /* up to here the angle is its own tangent and sine, rounded */
+#define SMALL 0x1p-28 /* up to here the angle equals its tangent and sine, rounded */
 
 static const wh_pair pi = {0x1.921fb54442d18p1, 0x1.1a62633145c07p-53};
 static const wh_pair half_pi = {0x1.921fb54442d18p0, 0x1.1a62633145c07p-54};
@@ -60,7 +60,7 @@ static wh_pair with_part(wh_pair a, double c, wh_pair b) {
     return (wh_pair){sum.high, sum.low + (a.low + part.low + c * b.low)};
 }
 
-/* 0 <= y <= x, x > 0, to some 65 bits. */
+/* 0 <= y <= x, x > 0, to about 65 bits. */
 static wh_pair eighth(wh_pair x, wh_pair y) {
     const int i = (int)(y.high / x.high * 64.0 + 0.5);
     const double c = i / 64.0;
@@ -126,7 +126,7 @@ double wh_acos(double x) {
 /* The exponent's field: 0 for zero and subnormals, 2047 for infinity. */
 static int field_of(double size) { return (int)(wh_bits(size) >> 52); }
 
-/* The angle of (x, y) in the first quarter, both finite and not zero, with x taken for -x if `behind`. */
+/* The angle of (x, y) in the first quarter, both finite and not zero; `behind`: of (-x, y). */
 static double finite_angle(double x, double y, bool behind) {
     const int rise = field_of(y) - field_of(x);
     if (rise < -64) {
@@ -135,7 +135,7 @@ static double finite_angle(double x, double y, bool behind) {
     if (rise > 64) {
         return half_pi.high;
     }
-    /* About 1: neither the products nor their lower halves leave the range. */
+    /* About 1: neither the products nor their lower halves overflow or underflow. */
     const int larger = rise > 0 ? field_of(y) : field_of(x);
     const double scale = larger > 1523 ? 0x1p-600 : larger < 623 ? 0x1p600 : 1.0;
     const wh_pair angle = quarter((wh_pair){x * scale, 0.0}, (wh_pair){y * scale, 0.0});

@@ -1,7 +1,7 @@
 /* function_exp_double.c: e^x in double.
  *
- * x = k ln(2)/64 + r with |r| < 2^-7.5, e^x = 2^(k/64) e^r: the fractions of k from a table of pairs,
- * e^r from its series.
+ * x = k ln(2)/64 + r with |r| < 2^-7.5, e^x = 2^(k/64) e^r. The fractions of k are from a table of pairs, e^r from its
+ * series.
  */
 #include "function_double.h"
 
@@ -49,8 +49,8 @@ static const wh_pair fraction[64] = {
     /* clang-format on */
 };
 
-/* A pair times 2^exponent. Where that is subnormal, a large number added takes the bits off that have no
- * room, in one rounding, and what is left is counted in units of 2^-1074. */
+/* A pair times 2^exponent. If the result is subnormal, adding a large number rounds off the excess bits once, and the
+ * remainder is counted in units of 2^-1074. */
 WH_INLINE double scaled(wh_pair x, int exponent) {
     if (exponent > 1023) {
         return exponent > 1024 ? WH_INFINITY : x.high * 2.0 * 0x1p1023;

@@ -1,16 +1,16 @@
-/* function_exp_float.c: exp, log and power in float, by way of 2^x and the logarithm to base 2.
+/* function_exp_float.c: exp, log and power in float, by 2^x and the logarithm to base 2.
  *
- * The logarithm is kept with 55 digits behind the point, of which 39 and more are right, so that a power
- * is nearly as exact as its one rounding: a result that is a float comes out as that float.
- * Polynomials: minimax, with coefficients that are integers.
+ * The logarithm has 55 digits after the point, of which at least 39 are right. So a power's error is little more than
+ * its one rounding: an exact result that is a float is returned exactly. Polynomials are minimax, with integer
+ * coefficients.
  */
 #include "function_float.h"
 
 #if !WH_DOUBLE
 
-#define POINT 55 /* digits behind the point of a logarithm */
+#define POINT 55 /* digits after the point of a logarithm */
 
-/* 2^fraction in Q31, for a fraction in Q32: by at most 1.2e-10 of it, and never falling as the fraction grows. */
+/* 2^fraction in Q31, for a fraction in Q32: relative error at most 1.2e-10, monotonic in the fraction. */
 static uint32_t exp2_of(uint32_t fraction) {
     static const uint32_t slope[] WH_FLASH = {89165U,     627085U,     5751038U,   41300811U,
                                               238389830U, 1031764893U, 2977044473U};
@@ -33,9 +33,9 @@ static uint64_t shifted(uint64_t size, int32_t shift) { return ((size >> (shift 
 
 /* The logarithm to base 2, times 2^POINT, of a finite magnitude above zero.
  *
- * A number of 7 binary digits near 1/size takes size to within 1/16 of one, without rounding. What is left,
- * z, has the polynomial log2(e) z - z^2 (...). Between 31/32 and 17/16 nothing else is added, so that small
- * logarithms are as exact as large ones. */
+ * A 7-bit number near 1/size brings size to within 1/16 of one, without rounding. The remainder z has the polynomial
+ * log2(e) z - z^2 (...). Between 31/32 and 17/16 no other term is added, so that small logarithms have the same
+ * relative precision as large ones. */
 static int64_t log2_of(uint32_t magnitude) {
     /* A sector's number in Q7 in the upper 8 bits; -log2 of it in Q55 in the others. */
     static const uint32_t inverses[] WH_FLASH = {
@@ -95,7 +95,7 @@ float wh_log(float x) {
     if ((bits & ~WH_BITS_SIGN) == 0U) {
         return wh_float_of_bits(WH_BITS_SIGN | WH_BITS_INFINITE);
     }
-    if (bits >= WH_BITS_INFINITE) { /* below zero, infinite or not a number */
+    if (bits >= WH_BITS_INFINITE) { /* negative, infinite or NaN */
         return wh_float_of_bits(bits == WH_BITS_INFINITE ? bits : WH_BITS_NAN);
     }
     const int64_t log2 = log2_of(bits);
@@ -109,7 +109,7 @@ float wh_log(float x) {
                           (int32_t)(63 - POINT) - (int32_t)zeros);
 }
 
-/* 0: no whole number, 1: odd, 2: even. Infinity is even. */
+/* 0: not whole, 1: odd, 2: even. Infinity is even. */
 static uint32_t wholeness(uint32_t magnitude) {
     const uint32_t exponent = magnitude >> 23;
     if (exponent < 127U) {
@@ -130,7 +130,7 @@ float wh_pow(float base, float exponent) {
     const uint32_t x = base_bits & ~WH_BITS_SIGN;
     const uint32_t y = exponent_bits & ~WH_BITS_SIGN;
     if (y == 0U || base_bits == WH_BITS_ONE) {
-        return 1.0f; /* even of what is not a number */
+        return 1.0f; /* even for NaN */
     }
     if (x > WH_BITS_INFINITE || y > WH_BITS_INFINITE) {
         return wh_float_of_bits(WH_BITS_NAN);

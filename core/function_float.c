@@ -10,7 +10,7 @@ float wh_float_round(uint32_t sign, uint32_t size, int32_t exponent) {
     if (exponent > 127) {
         return wh_float_of_bits(sign | WH_BITS_INFINITE);
     }
-    uint32_t drop = 8U; /* digits that a float has no room for */
+    uint32_t drop = 8U; /* digits beyond a float's precision */
     uint32_t start = 0U;
     if (exponent >= -126) {
         start = (uint32_t)(exponent + 126) << 23; /* the leading digit adds the last one */
@@ -22,10 +22,10 @@ float wh_float_round(uint32_t sign, uint32_t size, int32_t exponent) {
     const uint32_t kept = drop < 32U ? size >> drop : 0U;
     const uint32_t rest = size << (32U - drop);
     const uint32_t up = rest > WH_TOP_BIT || (rest == WH_TOP_BIT && (kept & 1U) != 0U) ? 1U : 0U;
-    return wh_float_of_bits(sign | (start + kept + up)); /* a carry goes on into the exponent */
+    return wh_float_of_bits(sign | (start + kept + up)); /* a carry increments the exponent */
 }
 
-/* Long division, eight digits at a time, so that what 32 bits divide by 32 is enough. */
+/* Long division, eight digits at a time, so that 32-bit divisions suffice. */
 uint32_t wh_float_ratio(uint32_t num, uint32_t den) {
     const uint32_t by = den >> 8;
     uint32_t rest = num < den ? num : num >> 1;
@@ -38,7 +38,7 @@ uint32_t wh_float_ratio(uint32_t num, uint32_t den) {
     return ratio;
 }
 
-/* Division has room for 24 digits, and the slope tells what the others make of it. */
+/* Division has room for 24 digits; the slope gives the effect of the others. */
 wh_digits wh_float_inverse(wh_digits x) {
     const uint32_t zeros = wh_leading_zeros(x.size);
     const uint32_t size = x.size << zeros;

@@ -1,4 +1,4 @@
-/* function_hyperbolic_double.c: the hyperbolic functions in double, by e^x and e^-x in pairs; near zero, where these
+/* function_hyperbolic_double.c: the hyperbolic functions in double, by e^x and e^-x in pairs. Near zero, where these
  * cancel, by their series.
  */
 #include "function_double.h"
@@ -27,7 +27,7 @@ static wh_pair near_cosine(double x) {
     return wh_pair_of(sum.high, sum.low + (0.5 * square.low + more));
 }
 
-/* e^x, as it is: |x| < 700. */
+/* e^x unscaled: |x| < 700. */
 static wh_pair exp_of(double x) {
     int power;
     const wh_pair parts = wh_exp_parts((wh_pair){x, 0.0}, &power);
@@ -39,7 +39,7 @@ static wh_pair exp_of(double x) {
 static double half_sum(double size, double sign) {
     int power;
     wh_pair sum = wh_exp_parts((wh_pair){size, 0.0}, &power);
-    if (power < 64) { /* beyond, e^-size is nothing beside it */
+    if (power < 64) { /* above it e^-size is negligible */
         const wh_pair left = exp_of(-size);
         const double scale = wh_power_of_two(-power) * -sign;
         sum = wh_difference(sum, (wh_pair){left.high * scale, left.low * scale});

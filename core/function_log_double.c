@@ -1,15 +1,14 @@
 /* function_log_double.c: the natural logarithm in double.
  *
- * x = 2^e m with m about 1, and m = (1 + r)/c with c from a table and |r| <= 2^-8:
- * log x = e log 2 - log c + log(1 + r). c has 15 bits, so r is known exactly; about 1, c is 1. The
- * result is a pair, since pow() needs more than 53 bits of it.
+ * x = 2^e m with m about 1, and m = (1 + r)/c with c from a table and |r| <= 2^-8. Then log x = e log 2 - log c + log(1
+ * + r). c has 15 bits, so r is exact; about 1, c is 1. The result is a pair, since pow() needs more than 53 bits of it.
  */
 #include "function_double.h"
 
 #if WH_DOUBLE
 
 #define LN2_HIGH \
-    0x1.62e42fefa4p-1 /* a multiple of 2^-40, as the table's: e LN2_HIGH + .high is exact */
+    0x1.62e42fefa4p-1 /* a multiple of 2^-40, as the table's entries: e LN2_HIGH + .high is exact */
 #define LN2_LOW (-0x1.8432a1b0e2634p-43)
 
 /* m is from here to twice this: half a step of the table below 0.7109. */

@@ -1,12 +1,12 @@
-/* function_pow_double.c: powers in double, as e^(y log x) with both in pairs: some sixty bits of the result,
- * so that one which is a double comes out as it. */
+/* function_pow_double.c: powers in double, as e^(y log x) with both in pairs: about sixty bits of the result, so that
+ * an exact result that is a double is returned exactly. */
 #include "function_double.h"
 
 #if WH_DOUBLE
 
 typedef enum parity { BROKEN, ODD, EVEN } parity;
 
-/* What kind of number a finite y is. */
+/* The parity of a finite y. */
 static parity parity_of(double y) {
     const double size = WH_ABS(y);
     if (size >= 0x1p53) {
@@ -36,7 +36,7 @@ static double positive_power(double size, double y) {
     return wh_exp_pair(wh_pair_of(product.high, product.low + logarithm.low * y));
 }
 
-/* Where base or exponent is zero or infinite; neither is NaN. */
+/* For a base or exponent of zero or infinity; neither is NaN. */
 static double edge_power(double base, double y) {
     if (y == WH_INFINITY || y == -WH_INFINITY) {
         const double size = WH_ABS(base);

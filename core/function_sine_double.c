@@ -1,17 +1,17 @@
 /* function_sine_double.c: sine, cosine and tangent in double, for angles of any size.
  *
- * The angle is counted in quarter turns with as many bits of 2/pi as its own size calls for (Payne and
- * Hanek, ACM SIGNUM Newsletter 18 (1983) 1): in integers, 190 bits behind the point. No double comes nearer to a
- * multiple of a quarter turn than 2^-62 of one, so what is left over has 70 right bits and more.
+ * The angle is counted in quarter turns with as many bits of 2/pi as its size requires (Payne and Hanek, ACM SIGNUM
+ * Newsletter 18 (1983) 1): in integers, 190 bits after the point. No double comes nearer to a multiple of a quarter
+ * turn than 2^-62 of one, so the remainder has at least 70 right bits.
  */
 #include "function_double.h"
 
 #if WH_DOUBLE
 
 #define QUARTER_OF_PI 0x1.921fb54442d18p-1
-#define SMALL 0x1p-28 /* up to here an angle is its own sine and tangent, rounded */
+#define SMALL 0x1p-28 /* up to here an angle equals its sine and tangent, rounded */
 
-/* 2/pi, 64 bits a word, behind a word of zeros. */
+/* 2/pi, 64 bits a word, after a word of zeros. */
 static const uint64_t two_by_pi[20] = {
     /* clang-format off */
     UINT64_C(0x0), UINT64_C(0xa2f9836e4e441529), UINT64_C(0xfc2757d1f534ddc0),
@@ -74,7 +74,7 @@ static turned reduced(double rad) {
     if (rad <= QUARTER_OF_PI) {
         return (turned){{rad, 0.0}, 0};
     }
-    /* rad = mantissa 2^(field - 1075); bits of 2/pi that make whole turns with it are left out. */
+    /* rad = mantissa 2^(field - 1075); bits of 2/pi that contribute only whole turns are left out. */
     const uint64_t bits = wh_bits(rad);
     const uint64_t mantissa = (bits & (UINT64_MAX >> 12)) | (UINT64_C(1) << 52);
     const unsigned field = (unsigned)(bits >> 52) & 2047U;
@@ -90,7 +90,7 @@ static turned reduced(double rad) {
     word[1] = (word[1] << 2) | (word[2] >> 62);
     word[2] <<= 2;
     const bool over = word[0] >> 63 != 0;
-    if (over) { /* negated but for a unit of the lowest bit, which is of no account */
+    if (over) { /* negated except for a unit of the lowest bit, which is negligible */
         quarters++;
         word[0] = ~word[0];
         word[1] = ~word[1];
@@ -135,7 +135,7 @@ static wave wave_of(wh_pair rest) {
     return (wave){wh_pair_of(sine.high, sine_low), wh_pair_of(cosine.high, cosine_low)};
 }
 
-/* The sine of the angle and so many quarter turns. */
+/* The sine of the angle plus `quarters` quarter turns. */
 static double sine_after(double rad, unsigned quarters) {
     const turned at = reduced(rad);
     const wave w = wave_of(at.rest);

@@ -1,4 +1,4 @@
-/* method.c: what users are told of the methods. */
+/* method.c: the methods' data for users. */
 #include "method.h"
 
 #define ROW(id, word, title, order, takes, stages, ...) \

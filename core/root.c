@@ -1,8 +1,7 @@
 /* root.c: the square root in integers.
  *
- * The number is x * 4^k, 1 <= x < 4, and the root's bits are those of sqrt(x) with k for an exponent. No root
- * lies halfway between two numbers (its square would have more bits than x can), so rounding to the nearest
- * knows no ties. */
+ * The number is x * 4^k, 1 <= x < 4, and the root's bits are those of sqrt(x) with exponent k. No root lies halfway
+ * between two numbers (its square would have more bits than x can), so rounding to the nearest never meets a tie. */
 #include "root.h"
 
 #if WH_DOUBLE
@@ -24,17 +23,17 @@ typedef union real_bits {
     word bits;
 } real_bits;
 
-/* 1: also a float's root by bits, as where a product of 64 bits takes longer than 25 comparisons. The same bits. */
+/* 1: a float's root also bit by bit, if a 64-bit product takes longer than 25 comparisons. The same bits. */
 #ifndef WH_ROOT_BY_BITS
 #define WH_ROOT_BY_BITS 0
 #endif
 
 #if WH_DOUBLE || WH_ROOT_BY_BITS
 
-/* sqrt(x) * 2^52 (float: 2^23) to the nearest, of x times as much: one bit after the other, the highest first. */
+/* sqrt(x) * 2^52 (float: 2^23) to the nearest, from x with the same factor: bit by bit, the highest first. */
 static word root_of(word x) {
     word rest = x << 1;
-    word twice = 0; /* the root so far, two times, in the place of the next bit */
+    word twice = 0; /* twice the root so far, at the place of the next bit */
     word root = 0;
     for (word bit = ONE << 1; bit != 0; bit >>= 1) {
         if (twice + bit <= rest) {
@@ -49,7 +48,7 @@ static word root_of(word x) {
 
 #else
 
-/* 2^8/sqrt(x) for the sixteenths of 1 to 2, behind them those of 2 to 4: each the best for its stretch. */
+/* 2^8/sqrt(x) for the sixteenths of 1 to 2, then those of 2 to 4: each the best for its interval. */
 static const uint8_t reciprocal_root[32] = {
     252, 245, 238, 232, 226, 221, 216, 211, 207, 203, 199, 195, 192, 189, 185, 182,
     178, 173, 168, 164, 160, 156, 153, 149, 146, 143, 141, 138, 136, 133, 131, 129,
@@ -57,7 +56,7 @@ static const uint8_t reciprocal_root[32] = {
 
 static uint32_t high_half(uint32_t a, uint32_t b) { return (uint32_t)((uint64_t)a * b >> 32); }
 
-/* sqrt(x) * 2^23 to the nearest, of x * 2^23: two Newton steps for the reciprocal root, one for the root. */
+/* sqrt(x) * 2^23 to the nearest, from x * 2^23: two Newton steps for the reciprocal root, one for the root. */
 static word root_of(word x) {
     const bool two = x >= ONE << 1; /* 2 <= x < 4 */
     const unsigned stretch = (unsigned)(two ? 16U + (x >> 20 & 15U) : x >> 19 & 15U);
@@ -68,7 +67,7 @@ static word root_of(word x) {
         r = high_half(r, ((UINT32_C(3) << 28) - x_r_r) << 2) << 1;
     }
     uint32_t root = high_half(scaled, r) >> 6;
-    /* x * 2^46 less the root's square: small, so that its low half is all of it */
+    /* x * 2^46 less the root's square: small, so that its low half suffices */
     const int32_t rest = (int32_t)((x << 23) - root * root);
     root += (uint32_t)(((int64_t)rest * r + (INT64_C(1) << 54)) >> 55);
     return root;
@@ -98,7 +97,7 @@ wh_real wh_sqrt(wh_real x) {
     if (exponent % 2 == 0) { /* the bias is odd */
         fraction <<= 1;
     }
-    /* the root's leading bit is one exponent more */
+    /* the root's leading bit increments the exponent */
     as.bits = ((word)((exponent + BIAS) / 2 - 1) << FRACTION_BITS) + root_of(fraction);
     return as.real;
 }

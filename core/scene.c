@@ -47,7 +47,7 @@ static const wh_real probed[WH_PROBED_COUNT] = {
     [WH_PROBED_LITERAL] = WH_R(70.0),
 };
 
-/* By their bits: nothing is computed here that could hide it. */
+/* Compares bits: a floating-point comparison here could hide the error. */
 wh_probed wh_arithmetic_wrong(void (*compute)(wh_real *result)) {
     wh_real result[WH_PROBED_COUNT];
     unsigned i = 0;
@@ -58,7 +58,7 @@ wh_probed wh_arithmetic_wrong(void (*compute)(wh_real *result)) {
     return (wh_probed)i;
 }
 
-/* The core's own arithmetic, and that of the scene's file, which may have been compiled with other flags. */
+/* Checks the core's own arithmetic, and that of the scene's file, which may have been compiled with other flags. */
 static wh_probed first_wrong(const wh_scene *scene) {
     void (*const compute[])(wh_real * result) = {wh_arithmetic, scene->arithmetic};
     wh_probed wrong = WH_PROBED_COUNT;
@@ -93,8 +93,8 @@ static size_t all_reals(const wh_scene *scene) {
     return scene->reals + carries(scene) + scene->inputs + scene->held + ledgers(scene);
 }
 
-/* Whatever lies in a state's memory may begin here: at an address that is a multiple of what the compiler puts
- * them at in a struct, which on some machines (i386, AVR) is less than their size. */
+/* Every object in a state's memory may begin here: the address is a multiple of the alignment in a struct, which on
+ * some machines (i386, AVR) is less than the size. */
 static bool is_aligned(const void *memory) {
     struct behind_a_byte {
         char byte;
@@ -107,7 +107,7 @@ static bool is_aligned(const void *memory) {
     return (uintptr_t)memory % offsetof(struct behind_a_byte, behind) == 0;
 }
 
-/* Can such a scene be started there at all? */
+/* Can this scene start with this state and memory? */
 static bool is_possible(const wh_scene *scene, const wh_state *state, const void *memory) {
     return scene != NULL && state != NULL && scene->contacts <= WH_CONTACTS_LIMIT &&
            wh_method_takes(scene->method, scene->form) && is_aligned(memory);
@@ -115,7 +115,7 @@ static bool is_possible(const wh_scene *scene, const wh_state *state, const void
 
 wh_status wh_scene_start(const wh_scene *scene, wh_state *state, void *memory, size_t bytes) {
     if (state != NULL) {
-        state->real = NULL; /* not started, until it is */
+        state->real = NULL; /* not started yet */
     }
     if (!is_possible(scene, state, memory)) {
         return WH_E_ARGUMENT;
@@ -142,7 +142,7 @@ wh_status wh_scene_start(const wh_scene *scene, wh_state *state, void *memory, s
     reals += scene->held;
     state->ledger = scene->ledger != NULL ? reals : NULL;
 
-    for (size_t i = 0; i < numbers; i++) { /* carried, held and booked: nothing yet */
+    for (size_t i = 0; i < numbers; i++) { /* carries, holds' values and ledger */
         state->real[i] = WH_R(0.0);
     }
     for (unsigned i = 0; i < scene->angles; i++) {
@@ -185,11 +185,11 @@ wh_status wh_scene_steps(const wh_scene *scene, wh_state *state, uint32_t steps)
     return status;
 }
 
-/* part / of, 0 <= part < of < 2^63, to the nearest real: long division, with one bit more than a real has
- * and a mark for what lies below them. May round up to one. */
+/* part / of, 0 <= part < of < 2^63, to the nearest real: long division, with one bit more than a real has and a sticky
+ * bit for the lower ones. May round up to one. */
 static wh_real rounded(uint64_t part, uint64_t of) {
     const unsigned bits = sizeof(wh_real) == sizeof(float) ? 25 : 54;
-    wh_real unit = WH_R(1.0); /* in the end of the last bit, the mark */
+    wh_real unit = WH_R(1.0); /* finally that of the sticky bit */
     uint64_t quotient = 0;
     if (part == 0) {
         return WH_R(0.0);

@@ -1,7 +1,8 @@
-/* scene_set.c: correcting a state from a measurement: one component gets a new value, and the contacts are found again. */
+/* scene_set.c: correcting a state from a measurement: one component gets a new value, and contact modes are determined
+ * again. */
 #include "driven.h"
 
-/* Most radians that an angle may be given: as contact_crossing.h has it. */
+/* Limit on an angle's radians: as in contact_crossing.h. */
 #define ANGLE_MOST WH_R(1e9)
 
 static bool has_books(const wh_scene *scene, const wh_state *state) {

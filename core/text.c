@@ -1,8 +1,8 @@
 /* text.c: numbers as text, exactly and without the C library. */
 #include "text.h"
 
-/* A number is bytes, low byte first, with the point between two of them: sums, products and quotients by ten then need no more
- * than 16 bits, which every machine has or gets cheaply. */
+/* A number is bytes, low byte first, with the point between two of them. Sums, products and quotients by ten then need
+ * only 16 bits, which are cheap on every machine. */
 #define FRACTION_BYTES 20U /* 2^-160: below every float's last bit (2^-149) */
 #define WHOLE_BYTES 16U    /* 2^128: above every float */
 #define BYTES (FRACTION_BYTES + WHOLE_BYTES + 8U) /* times 10^18 */
@@ -150,7 +150,7 @@ static void multiply_by_ten(uint8_t *byte) {
     }
 }
 
-/* To the next whole number, of two as near to the even one: half is added, and something less than half where it is even. */
+/* To the nearest whole number, ties to even: adds one half, or a little less than half if the number is even. */
 static void round_to_whole(uint8_t *byte) {
     unsigned carry = byte[FRACTION_BYTES] & 1U;
     for (unsigned i = 0; i < BYTES; i++) {
@@ -160,8 +160,8 @@ static void round_to_whole(uint8_t *byte) {
     }
 }
 
-/* The mantissa's bits into byte[BYTES], all zeros so far. False: it is longer than WHOLE_BYTES have room for, as doubles may be.
- * Bits below 2^-160 belong to doubles below 2^-107: far from any tie at 18 decimals. */
+/* Copy the mantissa's bits into byte[BYTES], initially all zeros. False: it exceeds WHOLE_BYTES, as doubles may. Bits
+ * below 2^-160 belong to doubles below 2^-107: far from any tie at 18 decimals. */
 static bool lay(const parts *number, uint8_t *byte) {
     const int place = number->exponent + 8 * (int)FRACTION_BYTES;
     const int odd = place & 7;

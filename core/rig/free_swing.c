@@ -85,7 +85,7 @@ static bool advance(wh_swing *swing) {
 
 /* --- passes -------------------------------------------------------------------------------------------- */
 
-/* The angle from the bottom at which a sensor sees the slot's leading edge; forwards it is `lead` before the sensor. */
+/* The angle from the bottom that is `lead` after a sensor's pulse (at the slot's leading edge) on the way forwards. */
 static WH_CALLED wh_real stands(const wh_rotor_config *rotor, const wh_swing *swing,
                                 unsigned sensor, wh_real lead) {
     return rotor->mark_rad[sensor] + lead - rotor->gravity_rad + swing->x[WH_SWING_PLACE + sensor];
