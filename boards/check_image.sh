@@ -1,10 +1,10 @@
 #!/bin/sh
-# check_image.sh ELF...: fail if a firmware image contains what firmware here must not contain:
+# check_image.sh ELF...: fail if a firmware image contains forbidden code:
 # a heap, the C library's mathematics or printing, or double-precision arithmetic in software.
 # NM names the nm to use; it defaults to arm-none-eabi-nm.
-# FLASHED lists those of them that are flashed, for a board of its own: these must hold no breakpoint, which without a debugger is
-# a fault, and no way out of main(). OBJDUMP shows their code.
-# UNDRIVEN lists those that must not be able to enable the motor: nothing of them calls what does.
+# FLASHED lists the flashed ones among them: these must contain no breakpoint, which without a debugger is a fault, and no way out
+# of main(). OBJDUMP shows their code.
+# UNDRIVEN lists those that must not be able to enable the motor: they must not call the function that does.
 set -u
 NM=${NM:-arm-none-eabi-nm}
 OBJDUMP=${OBJDUMP:-arm-none-eabi-objdump}
@@ -17,7 +17,7 @@ if [ $# -eq 0 ]; then
 fi
 
 failed=0
-# only_flashed ELF: complain about what an image that is flashed must not hold.
+# only_flashed ELF: report code that a flashed image must not contain.
 only_flashed() {
     if ! code=$("$OBJDUMP" -d "$1"); then
         return 1

@@ -194,8 +194,8 @@ WH_INLINE wh_real wh_sum_product(wh_real value, wh_span by, wh_real factor, wh_r
 
 /* The error of h^2 over the row's parts, in s^2, from two roundings and the stages. A sum of accelerations that moves
  * positions is multiplied by it once more. Stages use h.s, because rounding would lose its rest_s there. So they fall
- * short by a part e of their distance. This changes the rates as if h/2 e times the forces' change were missing, and
- * the energy in every step by as much, always with the same sign: 5e-13 of a pendulum's in a millisecond. If the
+ * short by a part e of their distance. This changes the rates as if h/2 e times the forces' change were missing. The
+ * energy changes by as much in every step, always with the same sign: 5e-13 of a pendulum's in a millisecond. If the
  * positions also lack the part e of h^2/2 times the accelerations, both errors are the derivative of a small quantity.
  * The energy then stays constant if the mass matrix is constant, and most of the error vanishes if it is not
  * (docs/dev/numerics.md). A row with one stage, at the step's begin, has no such stages. */

@@ -1,5 +1,5 @@
-/* atmega.h: what the drivers of the ATmega2560 share. Places in its data sheet (DS40002211A) are given as "DS 17.3". Which timer
- * does what is the chip's, so pins are here, by their names on the chip and on an Arduino Mega:
+/* atmega.h: declarations shared by the drivers of the ATmega2560. "DS 17.3" is a section of its data sheet
+ * (DS40002211A). The chip fixes the timers' pins, so they are here, by their names on the chip and on an Arduino Mega:
  *
  *   timer 1    PWM on OC1A, PB5 (D11); enable on PB6 (D12); stop on PB4 (D10)
  *   timer 2    starts the converter 5000 times a second: load cell on ADC0 (A0), supply on ADC1 (A1)
@@ -24,7 +24,7 @@
 /* The divider before the supply's input: 50 V at the reference. */
 #define ATMEGA_SUPPLY_FULL_mV UINT32_C(50000)
 
-/* Interrupts off, from here to atmega_go_on(): what was is handed back. */
+/* Interrupts off, from here to atmega_go_on(). Returns the state before. */
 static inline uint8_t atmega_hold(void) {
     const uint8_t before = SREG;
     cli();
@@ -32,26 +32,26 @@ static inline uint8_t atmega_hold(void) {
 }
 static inline void atmega_go_on(uint8_t before) { SREG = before; }
 
-/* Timers 4 and 5 count the same, two to a tick (time_base.c). */
+/* Timers 4 and 5 have the same count, two to a tick (time_base.c). */
 #define ATMEGA_COUNTS_PER_TICK 2U
 void atmega_time_base_start(void);
 
 /* Now, with interrupts off. */
 uint32_t atmega_ticks(void);
 
-/* An instant as an interrupt keeps it, for whoever takes it within 4 s: the count, and how often it had wrapped. */
+/* An instant stored by an interrupt, valid for 4 s: the count, and the number of its wraps. */
 typedef struct atmega_instant {
     uint16_t count;
     uint8_t wraps;
 } atmega_instant;
 
-/* The interrupts' own: wraps so far, the lowest byte. */
+/* Set by interrupts: wraps so far, the lowest byte. */
 extern volatile uint8_t atmega_wraps;
 
-/* Within an interrupt: when both timers showed `count`, which was less than half a wrap ago. */
+/* Within an interrupt: the time at which both timers showed `count`, less than half a wrap ago. */
 static inline atmega_instant atmega_instant_of(uint16_t count) {
     atmega_instant at = {count, atmega_wraps};
-    const uint16_t now = TCNT4; /* first: a wrap behind it is not of interest */
+    const uint16_t now = TCNT4; /* first: a wrap after it does not matter */
     const bool pending = (TIFR4 & _BV(TOV4)) != 0;
     if (count >= 0x8000U && now < 0x8000U) { /* it was before the last wrap */
         at.wraps = (uint8_t)(at.wraps - (pending ? 0U : 1U));
@@ -64,8 +64,8 @@ static inline atmega_instant atmega_instant_of(uint16_t count) {
 /* It as ticks. */
 uint32_t atmega_ticks_of(atmega_instant at);
 
-/* The watchdog, from now on resetting after 2048 << twice of its oscillator's clocks (DS 12.5.2); the second store within four
- * clocks of the first. */
+/* Start the watchdog: it resets after 2048 << twice of its oscillator's clocks (DS 12.5.2). The second store must
+ * follow within four clocks of the first. */
 static inline void atmega_watch(uint8_t twice) {
     const uint8_t change = _BV(WDCE) | _BV(WDE);
     const uint8_t settings =
@@ -77,8 +77,8 @@ static inline void atmega_watch(uint8_t twice) {
     atmega_go_on(before);
 }
 
-/* The supply as it was when a sample of the load was last taken (cell.c): parts of ATMEGA_WHOLE a volt; 0: there is none. A division
- * for each would be one in control steps that have no time for it. */
+/* The supply at the last sample of the load (cell.c): parts of ATMEGA_WHOLE a volt; 0: none. A division for each would
+ * fall into control steps that have no time for it. */
 #define ATMEGA_WHOLE 25600U
 float atmega_parts_per_V(void);
 
@@ -87,36 +87,36 @@ void atmega_motor_start(void);
 void atmega_slots_start(void);
 void atmega_cell_start(void);
 
-/* What is a fault on a chip that has none in hardware. */
+/* Faults, on a chip that detects none in hardware. */
 typedef enum atmega_fault_kind {
     ATMEGA_FAULT_NONE,
-    ATMEGA_FAULT_STRAY,  /* an interrupt that nobody takes */
-    ATMEGA_FAULT_STACK,  /* the stack has come down to the variables */
-    ATMEGA_FAULT_RESTART /* the program began anew, and there was no reset: it ran astray */
+    ATMEGA_FAULT_STRAY,  /* an interrupt without a handler */
+    ATMEGA_FAULT_STACK,  /* the stack has reached the variables */
+    ATMEGA_FAULT_RESTART /* the program restarted without a reset: a wild jump */
 } atmega_fault_kind;
 
-/* The motor off, a record of it kept, a reset. `at`: where it was, a byte's address; 0: not known. */
+/* Switch the motor off, record the fault, reset. `at`: the byte address of the fault; 0: unknown. */
 _Noreturn void atmega_fault(atmega_fault_kind kind, uint32_t at);
 
-/* A fault's record, in memory that a reset leaves alone. */
+/* A fault's record, in memory that a reset does not clear. */
 typedef struct atmega_fault_record {
     uint8_t kind; /* an atmega_fault_kind */
     uint32_t at;
-    uint32_t ticks;  /* of the clock, which begins anew with each start */
+    uint32_t ticks;  /* of the clock, which restarts at each start */
     uint32_t state;  /* hal_reset_mark()'s last */
-    uint16_t faults; /* so many since the power came, this one included */
+    uint16_t faults; /* faults since power-on, including this one */
     uint16_t sum;
 } atmega_fault_record;
 
 void atmega_keep_fault(atmega_fault_kind kind, uint32_t at, uint32_t ticks);
 
-/* What there is of the start before, once; false: none. */
+/* Read the record from before the start, once; false: none. */
 bool atmega_take_fault(atmega_fault_record *record);
 
-/* The power came: nothing of this is known any more, nor of what was remembered. */
+/* Power-on: forget this record, and the remembered bytes. */
 void atmega_forget(void);
 
-/* MCUSR as the processor started (DS 12.5.1); 0: there was no reset. */
+/* MCUSR at the processor's start (DS 12.5.1); 0: no reset occurred. */
 uint8_t atmega_reset_flags(void);
 
 #endif

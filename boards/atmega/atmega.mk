@@ -1,6 +1,6 @@
-# atmega.mk: boards with an ATmega2560: what boards/avr has, with drivers for all of the rig's hardware. Programs that end, with an
-# exit status, are for the emulator; what is flashed never does, and is a build of its own (BOARD_FLASHED_FLAGS): its memory, 8 KB,
-# holds no telemetry and no samples of slow turns, its 16 MHz no observer and no free swing (docs/boards.md).
+# atmega.mk: boards with an ATmega2560: boards/avr, with drivers for all of the rig's hardware. Programs that end, with an exit
+# status, are for the emulator. A flashed one never ends, and has its own build (BOARD_FLASHED_FLAGS). Its 8 KB of memory have no
+# room for telemetry and samples of slow turns, its 16 MHz no time for an observer and a free swing (docs/boards.md).
 include boards/avr/avr.mk
 BOARD_ATMEGA   := $(addprefix boards/atmega/,board.c cell.c eeprom.c fault.c kept.c motor.c reset.c rig_clock.c slots.c stop.c time_base.c \
                   usart.c watchdog.c)

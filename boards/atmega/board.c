@@ -1,4 +1,4 @@
-/* board.c: board.h on an ATmega2560 with the rig's hardware; and how a program ends there: never. */
+/* board.c: board.h on an ATmega2560 with the rig's hardware. Programs never end there. */
 #include "boards/board.h"
 
 #include "hal/motor.h"
@@ -17,7 +17,7 @@ void board_start(void) {
 
 bool board_converse(void) { return true; }
 
-/* Holds still, the motor off. */
+/* Stops, the motor off. */
 _Noreturn void board_exit(int code) {
     (void)code;
     hal_motor_off(HAL_MOTOR_COAST);

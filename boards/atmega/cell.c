@@ -1,12 +1,13 @@
 /* cell.c: load cell and supply by the chip's 10-bit converter (DS 26).
  *
- * Timer 2 starts a conversion every 200 us: sixteen of the cell, the rest of the supply, which makes a sample each 8 ms. A
- * sample is the mean of its sixteen, stamped with the middle of them, so that it has no delay left; a force that turns at 6 Hz
- * comes out 0.06 % too small. One count of the converter is 0.434 N; the mean of sixteen has 0.03 N where the force moves by
- * some counts meanwhile, and less than half a count where it does not: 0.22 N.
+ * Timer 2 starts a conversion every 200 us: sixteen of the cell, then those of the supply, for a sample each 8 ms. A
+ * sample is the mean of its sixteen, stamped with their middle, so that it has no delay. A force that turns at 6 Hz
+ * becomes 0.06 % too small. One count of the converter is 0.434 N. The error of a mean of sixteen is 0.03 N if the
+ * force moves by some counts meanwhile, and below half a count, 0.22 N, if it does not.
  *
- * The amplifier puts no force at half of the reference, the chip's own supply. Near either end it is saturated; a whole sample
- * near the lower one is a broken wire, which is pulled down there, but for what leaks into the pin. */
+ * The amplifier's output without force is half of the reference, the chip's own supply. Near either end it is
+ * saturated. A whole sample near the lower end is a broken wire, which a resistor pulls down except for the pin's
+ * leakage. */
 #include "hal/loadcell.h"
 #include "hal/motor.h"
 
@@ -15,29 +16,29 @@
 #define TICK_TICKS 200U
 #define CELL_TICKS 16U
 #define ALL_TICKS (HAL_LOADCELL_PERIOD_TICKS / TICK_TICKS)
-#define SUPPLY_TICKS \
-    8U /* the last of them: what is measured with most of the others is of no use */
+#define SUPPLY_TICKS 8U /* the last conversion of the supply; most of the others are not used */
 _Static_assert(ALL_TICKS *TICK_TICKS == HAL_LOADCELL_PERIOD_TICKS &&
                    ALL_TICKS >= CELL_TICKS + SUPPLY_TICKS && ALL_TICKS <= 255U,
                "a sample each period");
 
-/* Timer 2 counts each 2 us. */
+/* Timer 2 counts every 2 us. */
 #define TIMER_COUNT_TICKS 2U
 _Static_assert(F_CPU / 32U == 1000000U / TIMER_COUNT_TICKS, "the prescaler's 32nd");
 
-/* Sampled and held one and a half clocks of 125 kHz after the start (DS 26.4). */
+/* The input is sampled and held one and a half clocks of 125 kHz after the start (DS 26.4). */
 #define HELD_TICKS 12U
-/* From the middle of the sixteen to the tick behind the last. */
+/* From the middle of the sixteen to the tick after the last. */
 #define BEHIND_TICKS (CELL_TICKS * TICK_TICKS / 2U + TICK_TICKS / 2U - HELD_TICKS)
 
 #define FULL 1023U
 #define MIDDLE 512U
-#define RAIL (FULL / 64U)       /* no amplifier is linear nearer to an end: 73 mV */
+#define RAIL (FULL / 64U)       /* margin in which no amplifier is linear: 73 mV */
 #define OPEN_BELOW (FULL / 16U) /* 0.3 V */
 #define REFERENCE _BV(REFS0)
 #define CONVERTER (_BV(ADEN) | _BV(ADPS2) | _BV(ADPS1) | _BV(ADPS0)) /* a 128th: 125 kHz */
 
-/* Measured with each sample of the cell, not each control step. A sum with a conversion above its end has this bit. */
+/* Measured with each sample of the cell, not in each control step. This bit marks a sum with a conversion beyond its
+ * end. */
 #define SUPPLY_END (FULL - RAIL)
 #define SUPPLY_BEYOND 0x8000U
 #define SUPPLY_V_PER_COUNT ((float)ATMEGA_SUPPLY_FULL_mV / 1000.0f / 1024.0f)
@@ -61,7 +62,7 @@ static volatile uint16_t supply_sum;
 static float supply_V;
 static float parts_per_V;
 
-/* Of the sample that is under way; the interrupt's alone. */
+/* Index in the present sample; used by the interrupt only. */
 static uint8_t place;
 static uint16_t sum;
 static uint16_t supply;
@@ -78,7 +79,7 @@ void atmega_cell_start(void) {
     TIFR2 = _BV(OCF2A);
     TIMSK2 = _BV(OCIE2A);
     TCCR2B = _BV(CS21) | _BV(CS20);
-    place = CELL_TICKS; /* what ends at the first tick is none */
+    place = CELL_TICKS; /* the conversion that ends at the first tick does not count */
 }
 
 static uint8_t status_now(void) {
@@ -87,8 +88,8 @@ static uint8_t status_now(void) {
                                                    : HAL_LOAD_OK);
 }
 
-/* A sample is whole: by an interrupt of its own, so that those of ticks have less to save. The tick was a little before now: by what
- * its timer has counted since. */
+/* A sample is complete: in a separate interrupt, so that the ticks' interrupts save fewer registers. Its timer has
+ * counted the time since the tick. */
 ISR(TIMER2_COMPB_vect) {
     const uint16_t late = (uint16_t)(TCNT2 * (TIMER_COUNT_TICKS * ATMEGA_COUNTS_PER_TICK));
     const uint16_t count = (uint16_t)(TCNT4 - late);
@@ -106,7 +107,7 @@ ISR(TIMER2_COMPB_vect) {
     saturated = false;
 }
 
-/* What began a tick ago has ended 96 us ago. */
+/* The conversion started a tick ago ended 96 us later. */
 ISR(TIMER2_COMPA_vect) {
     const uint16_t count = ADC;
     uint8_t next = (uint8_t)(place + 1U);
@@ -147,7 +148,7 @@ static void renew_supply(void) {
     parts_per_V = counts > 0 ? (float)ATMEGA_WHOLE / supply_V : 0.0f;
 }
 
-/* Sixteen counts of 10 bits are 14 bits: a quarter of ours. */
+/* Sixteen counts of 10 bits are 14 bits: a quarter of hal/loadcell.h's. */
 bool hal_loadcell_take(hal_load_sample *sample) {
     if (tail == head) {
         return false;

@@ -1,11 +1,12 @@
-/* eeprom.c: settings in the chip's EEPROM (DS 8.6), two slots of 256 bytes. Its bytes are erased and written one by one, 1.8 ms
- * each: a slot takes 0.46 s at most. Bytes that are what they shall be are left alone. */
+/* eeprom.c: settings in the chip's EEPROM (DS 8.6), two slots of 256 bytes. Its bytes are erased and written one by
+ * one, 1.8 ms each: a slot takes at most 0.46 s. Bytes with the right value are skipped. */
 #include "hal/settings.h"
 
 #include "atmega.h"
 
 #define FIRST \
-    256U /* a supply that fails may spoil the byte that the address register shows: 0 whenever nothing is under way */
+    256U /* a failing supply may corrupt the byte in the address register: 0 while no write is in
+          * progress */
 #define SLOTS 2U
 #define ERASED 0xFFU
 #define ERASE _BV(EEPM0)
@@ -20,7 +21,7 @@ static uint16_t address_of(unsigned slot, unsigned at) {
     return (uint16_t)(FIRST + slot * HAL_SETTINGS_BYTES + at);
 }
 
-/* No byte takes 20 ms, at whatever speed this loop goes round. */
+/* A byte takes less than 20 ms, at any speed of this loop. */
 static bool rests(void) {
     for (uint16_t i = 0; i < 60000U; i++) {
         if ((EECR & _BV(EEPE)) == 0) {
@@ -44,7 +45,7 @@ static uint8_t load(uint16_t address) {
     return byte;
 }
 
-/* The second store within four clocks of the first. False: the byte is not what it should be. */
+/* The second store must follow within four clocks of the first. False: the byte has a wrong value. */
 static bool program(uint16_t address, uint8_t mode, uint8_t byte) {
     if (!rests()) {
         return false;

@@ -1,8 +1,8 @@
-/* fault.c: what is a fault on a chip that knows none: an interrupt that nobody takes, a stack that has come down to the variables,
- * and a program that began anew without a reset, as one does that ran astray: erased flash leads to address 0.
+/* fault.c: faults on a chip without fault hardware. They are an interrupt without a handler, a stack that has reached
+ * the variables, and a program that restarted without a reset. The last happens after a wild jump: erased flash leads
+ * to address 0.
  *
- * Off first: before any of them does anything else the enable's pin is low, by an instruction that needs neither a register nor the
- * stack. */
+ * The motor is switched off first: one instruction that needs neither a register nor the stack clears the enable's pin. */
 #include "boards/board.h"
 #include "hal/motor.h"
 
@@ -11,16 +11,16 @@
 #define OFF "cbi 0x05, 6\n\t" /* PORTB's enable */
 _Static_assert(ATMEGA_ENABLE_BIT == 6, "the bit that OFF clears");
 
-/* The first piece of the start-up code, after a reset and without one. */
+/* The first piece of the start-up code, with or without a reset. */
 __attribute__((naked, used, section(".init0"))) void atmega_off_first(void);
 __attribute__((naked, used, section(".init0"))) void atmega_off_first(void) {
     __asm__ volatile(OFF "cli");
 }
 
-/* Kept, not cleared: the start-up code has not come to the variables yet. */
+/* Not cleared: the start-up code initializes the variables later. */
 __attribute__((section(".noinit"))) static volatile uint8_t flags;
 
-/* A watchdog that has bitten goes on biting, every 16 ms, until its flag is gone. */
+/* After a watchdog reset the watchdog goes on resetting, every 16 ms, until its flag is cleared. */
 __attribute__((used)) void atmega_see_reset(void);
 __attribute__((used)) void atmega_see_reset(void) {
     const uint8_t change = _BV(WDCE) | _BV(WDE);
@@ -32,7 +32,7 @@ __attribute__((used)) void atmega_see_reset(void) {
     WDTCSR = 0;
 }
 
-/* Where the stack has been set up, and before the variables are. */
+/* After the stack is set up, before the variables are. */
 __attribute__((naked, used, section(".init3"))) void atmega_first(void);
 __attribute__((naked, used, section(".init3"))) void atmega_first(void) {
     __asm__ volatile("call atmega_see_reset");
@@ -40,7 +40,7 @@ __attribute__((naked, used, section(".init3"))) void atmega_first(void) {
 
 uint8_t atmega_reset_flags(void) { return flags; }
 
-/* Record, then a reset by the watchdog: there is no other that the program can ask for. */
+/* Record, then reset by the watchdog: software cannot request another reset. */
 _Noreturn void atmega_fault(atmega_fault_kind kind, uint32_t at) {
     hal_motor_off(HAL_MOTOR_COAST);
     cli();

@@ -1,4 +1,4 @@
-/* kept.c: a fault's record, in memory that a reset leaves alone. */
+/* kept.c: a fault's record, in memory that a reset does not clear. */
 #include <stddef.h>
 
 #include "atmega.h"
@@ -7,7 +7,7 @@
 
 BOARD_KEPT static atmega_fault_record fault;
 
-/* A sum will do: only what comes of a reset that is none of the power's is looked at. */
+/* A sum suffices: it is read only after resets other than power-on. */
 static uint16_t sum_of_fault(void) {
     return (uint16_t)(wh_frame_crc(BOARD_KEPT_CRC_START, &fault.kind,
                                    offsetof(atmega_fault_record, sum)));

@@ -1,8 +1,8 @@
-/* motor.c: the drive stage: timer 1 as a PWM of 20 kHz on OC1A, phase correct (DS 17.9.4), the enable on a pin. Both pins are low
- * where the timer does not have them.
+/* motor.c: the drive stage: timer 1 as a phase-correct PWM of 20 kHz on OC1A (DS 17.9.4), the enable on a pin. Both
+ * pins are low when the timer does not drive them.
  *
- * The PWM has 400 steps, 60 mV of 24 V: what a step leaves of the voltage that was asked for is added to the next, so that the mean
- * is exact. */
+ * The PWM has 400 steps, 60 mV of 24 V. The quantization error of the voltage is added to the next control step's
+ * voltage, so that the mean is exact. */
 #include "hal/motor.h"
 
 #include "hal/stop.h"
@@ -10,15 +10,15 @@
 #include "atmega.h"
 
 #define WHOLE 400U /* F_CPU/2 / 20 kHz */
-#define PARTS 64U  /* of a step are carried on */
+#define PARTS 64U  /* of a step, carried forward */
 _Static_assert(WHOLE *PARTS == ATMEGA_WHOLE, "all of the supply");
 
-static volatile bool driving; /* also an interrupt may switch it off */
-static uint16_t carried;      /* parts of a step that are owed */
+static volatile bool driving; /* an interrupt may also clear it */
+static uint16_t carried;      /* the carried error, in parts of a step */
 
-/* Timer 1 with OC1A low, duty 0 and disconnected from its pin. OC1A keeps its level from the last disconnection, and only a strobe
- * in normal mode sets it (DS 17.7.1, 17.8). The pin is an input until then. Normal mode also takes OCR1A at once. ICR1
- * follows the mode: it can be written only where it is the TOP (DS 17.6). */
+/* Timer 1 with OC1A low, duty 0 and disconnected from its pin. OC1A keeps its level from the last disconnection, and
+ * only a strobe in normal mode sets it (DS 17.7.1, 17.8). The pin is an input until then. In normal mode OCR1A also
+ * takes effect at once. ICR1 comes after the mode: it is writable only in modes in which it is the TOP (DS 17.6). */
 static void set_up_timer(void) {
     DDRB &= (uint8_t)~_BV(ATMEGA_PWM_BIT);
     TCCR1B = 0;
@@ -32,7 +32,7 @@ static void set_up_timer(void) {
     DDRB |= _BV(ATMEGA_PWM_BIT);
 }
 
-/* Off from the first store on; the pins' level behind the timer is low. */
+/* Off from the first store on; the pins' port level is low. */
 void atmega_motor_start(void) {
     PORTB &= (uint8_t)~_BV(ATMEGA_ENABLE_BIT);
     PORTB &= (uint8_t)~_BV(ATMEGA_PWM_BIT);
@@ -43,7 +43,7 @@ void atmega_motor_start(void) {
     driving = false;
 }
 
-/* NaN, and no supply: 0. */
+/* NaN and a missing supply give 0. */
 static uint16_t parts_of(float volts) {
     const float parts = volts * atmega_parts_per_V();
     return !(parts > 0.0f) ? 0U : parts >= (float)ATMEGA_WHOLE ? WHOLE * PARTS : (uint16_t)parts;
@@ -51,11 +51,11 @@ static uint16_t parts_of(float volts) {
 
 unsigned hal_motor_start(void) {
     const unsigned status = hal_motor_status();
-    const uint8_t before = atmega_hold(); /* an off that comes now comes behind it */
+    const uint8_t before = atmega_hold(); /* an off that comes now takes effect after this */
     if (!driving && (status & HAL_MOTOR_FAULT) == 0) {
         driving = true;
         carried = 0;
-        set_up_timer(); /* again: an off may have come in the middle of a voltage */
+        set_up_timer(); /* again: an off may have interrupted a change of voltage */
         PORTB |= _BV(ATMEGA_ENABLE_BIT);
         TCCR1A = _BV(COM1A1) | _BV(WGM11);
     }
@@ -75,13 +75,13 @@ void hal_motor_set_voltage(float volts) {
     OCR1A = steps;
 }
 
-/* The enable first, by one instruction: it is also a fault's first (fault.c). */
+/* The enable first, by one instruction: it is also a fault's first action (fault.c). */
 void hal_motor_off(hal_motor_off_way way) {
     if (way != HAL_MOTOR_BRAKE) {
         PORTB &= (uint8_t)~_BV(ATMEGA_ENABLE_BIT);
     }
     TCCR1A = _BV(WGM11); /* off the pin, which is low */
-    OCR1A = 0;           /* it counts from the next period on: so does a start's 0 */
+    OCR1A = 0;           /* effective in the next period, as a start's 0 is */
     if (way == HAL_MOTOR_BRAKE) {
         PORTB |= _BV(ATMEGA_ENABLE_BIT);
     }
@@ -89,7 +89,7 @@ void hal_motor_off(hal_motor_off_way way) {
     carried = 0;
 }
 
-/* Nothing cuts it beside the software. */
+/* Only software switches it off. */
 unsigned hal_motor_status(void) {
     return (hal_stop_pressed() ? HAL_MOTOR_FAULT : 0U) |
            (hal_motor_supply_V() > 0.0f ? 0U : HAL_MOTOR_NO_SUPPLY);

@@ -1,4 +1,4 @@
-/* reset.c: why the chip starts (DS 12.5.1), and what was before (kept.c). */
+/* reset.c: the cause of the chip's start (DS 12.5.1), and the record from before (kept.c). */
 #include "hal/reset.h"
 
 #include "core/text.h"
@@ -10,7 +10,7 @@ static hal_reset cause;
 static bool known;
 static atmega_fault_record fault;
 
-/* With the power all flags may be set; a fault resets by the watchdog. No flag at all: there was no reset. */
+/* At power-on all flags may be set; a fault resets by the watchdog. Without a flag there was no reset. */
 static hal_reset cause_of(uint8_t flags, bool faulted) {
     if ((flags & _BV(PORF)) != 0) {
         return HAL_RESET_POWER_ON;
@@ -34,7 +34,7 @@ hal_reset hal_reset_cause(void) {
         const bool faulted = atmega_take_fault(&fault);
         cause = cause_of(flags, faulted);
         if (cause == HAL_RESET_POWER_ON) {
-            atmega_forget(); /* memory outlives a short time without power */
+            atmega_forget(); /* memory survives a short power failure */
         }
     }
     return cause;

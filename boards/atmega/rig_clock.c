@@ -1,4 +1,4 @@
-/* rig_clock.c: the start of the rig's hardware, and what its clock is (its time: boards/shared/rig_time.c). */
+/* rig_clock.c: the start of the rig's hardware, and its clock's source (its time: boards/shared/rig_time.c). */
 #include "hal/clock.h"
 
 #include "boards/board.h"
@@ -7,7 +7,7 @@
 
 #include "atmega.h"
 
-/* The motor first: it is off from here on whatever else fails. */
+/* The motor first: it is off from here on, even if later parts fail. */
 hal_start hal_clock_start(void) {
     atmega_motor_start();
     (void)hal_reset_cause();
@@ -16,7 +16,7 @@ hal_start hal_clock_start(void) {
     return board_ticks_go_on() ? HAL_STARTED : HAL_START_NO_TIMER;
 }
 
-/* Fuses choose it, and there is no other: one that stops leaves the processor without a clock. */
+/* Fuses choose it, and there is no other: if it stops, the processor has no clock. */
 hal_clock_source hal_clock_source_now(void) { return HAL_CLOCK_CRYSTAL; }
 
 uint32_t hal_clock_tolerance_ppm(void) { return 100; }

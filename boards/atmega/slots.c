@@ -1,10 +1,10 @@
-/* slots.c: the slot sensors on the input captures of timers 4 and 5, which take the time of an edge by themselves (DS 17.6),
- * after four samples alike of their noise canceller, 0.25 us: rising and falling ones in turn. The interrupt only carries the
- * stamps away.
+/* slots.c: the slot sensors on the input captures of timers 4 and 5, which stamp an edge by themselves (DS 17.6). Their
+ * noise canceller requires four equal samples, 0.25 us. They wait for rising and falling edges alternately. The
+ * interrupt only stores the stamps.
  *
- * The chip does not tell that a capture was overwritten before it was read: edges of one sensor within an interrupt's latency
- * are one, the later. Where a pulse has ended by then, its end is not told. Overruns count what found no room, and beginnings
- * that came too soon behind an end. */
+ * The chip does not report a capture that is overwritten before it is read: edges of one sensor within an interrupt's
+ * latency count as one, the later. If a pulse has ended by then, its end is missing. Overruns count edges without room,
+ * and beginnings too soon after an end. */
 #include "hal/slots.h"
 
 #include "atmega.h"
@@ -25,7 +25,7 @@ static volatile bool stopped;
 static void listen(void) {
     TCCR4B |= _BV(ICES4);
     TCCR5B |= _BV(ICES5);
-    TIFR4 = _BV(ICF4); /* what a storm has left may be of any age: forgotten */
+    TIFR4 = _BV(ICF4); /* edges left by a storm may be of any age: drop them */
     TIFR5 = _BV(ICF5);
     TIMSK4 |= _BV(ICIE4);
     TIMSK5 |= _BV(ICIE5);
@@ -41,7 +41,7 @@ void atmega_slots_start(void) {
     atmega_go_on(before);
 }
 
-/* Full: no more interrupts until one is taken. */
+/* When full: no more interrupts until an edge is taken. */
 static void keep(uint8_t of, uint16_t count) {
     if ((uint8_t)(head - tail) == EDGES_KEPT) {
         overruns++;
@@ -58,21 +58,22 @@ static void keep(uint8_t of, uint16_t count) {
     head++;
 }
 
-/* Whether the edge that a sensor's timer waits for has been already, unseen. */
+/* True if the edge that a sensor's timer waits for has already passed, unseen. */
 static inline bool waits_in_vain(uint8_t sensor, const volatile uint8_t *control,
                                  const volatile uint8_t *flags) {
     const bool high = (PINL & _BV(sensor)) != 0;
     return high == ((*control & _BV(ICES4)) != 0) && (*flags & _BV(ICF4)) == 0;
 }
 
-/* From now on it waits for the other edge; turning to it may set the flag (DS 17.6.3). */
+/* Wait for the other edge from now on; the change may set the flag (DS 17.6.3). */
 static inline void wait_for_other(volatile uint8_t *control, volatile uint8_t *flags) {
     *control ^= _BV(ICES4);
     *flags = _BV(ICF4);
 }
 
-/* Which edge a sensor's timer has captured, the sensor's bits of kept_edge. Then the other one is waited for; where that has been
- * already, this one again. A burst may go on meanwhile: what it leaves is looked at with each edge that is taken. */
+/* The edge that a sensor's timer has captured, as the sensor's bits of kept_edge. Then it waits for the other edge; if
+ * that has already passed, for this one again. A burst may go on meanwhile: its remains are checked with each edge
+ * taken. */
 static inline uint8_t turn(uint8_t sensor, volatile uint8_t *control, volatile uint8_t *flags) {
     const bool rose = (*control & _BV(ICES4)) != 0;
     wait_for_other(control, flags);
@@ -84,7 +85,7 @@ static inline uint8_t turn(uint8_t sensor, volatile uint8_t *control, volatile u
 }
 _Static_assert(ICES4 == ICES5 && ICF4 == ICF5 && PL0 == 0 && PL1 == 1, "one turn() for both");
 
-/* Of two that came in one go the earlier first. */
+/* Of two simultaneous ones, the earlier first. */
 static void fetch(bool first, bool second) {
     const uint16_t first_count = ICR4;
     const uint16_t second_count = ICR5;
@@ -106,7 +107,7 @@ ISR(TIMER4_CAPT_vect) { fetch(true, (TIFR5 & _BV(ICF5)) != 0); }
 
 ISR(TIMER5_CAPT_vect) { fetch((TIFR4 & _BV(ICF4)) != 0, true); }
 
-/* A low pin's next edge is a rise, whatever a burst has left. */
+/* A low pin's next edge is a rise, after any burst. */
 static void go_on_waiting(void) {
     if ((TCCR4B & TCCR5B & _BV(ICES4)) != 0) {
         return;

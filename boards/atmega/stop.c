@@ -1,12 +1,12 @@
-/* stop.c: the stop input, pulled up: the chain of stop contacts, closed while all is well, holds it low. Open and broken are
- * pressed; a line that touches ground is not seen. */
+/* stop.c: the stop input, pulled up: the closed chain of stop contacts holds it low. An open chain and a broken wire
+ * count as pressed; a short to ground is not detected. */
 #include "hal/stop.h"
 
 #include "atmega.h"
 
 bool hal_stop_pressed(void) { return (PINB & _BV(ATMEGA_STOP_BIT)) != 0; }
 
-/* No line comes from the drive stage. */
+/* The drive stage has no line of its own. */
 hal_stop_source hal_stop_source_now(void) { return HAL_STOP_INPUT; }
 
 bool hal_stop_heard(void) { return true; }

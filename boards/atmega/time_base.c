@@ -1,5 +1,5 @@
-/* time_base.c: timers 4 and 5 as one free-running count of 2 MHz, which its overflows carry on to 32 bits of 1 MHz. Both are
- * let go at the same instant (DS 18.2: their prescaler is held), so that a capture of either means the same. */
+/* time_base.c: timers 4 and 5 as one free-running count of 2 MHz, extended by its overflows to 32 bits of 1 MHz. Both
+ * start at the same instant (DS 18.2: their prescaler is stopped), so that their captures have the same time base. */
 #include "boards/board.h"
 
 #include "atmega.h"
@@ -17,7 +17,7 @@ ISR(TIMER4_OVF_vect) {
     atmega_wraps++;
 }
 
-/* Noise cancelled, rising edges, an eighth of the clock; no interrupts but the wrap's. */
+/* Noise canceller, rising edges, an eighth of the clock; only the overflow interrupt. */
 void atmega_time_base_start(void) {
     GTCCR = _BV(TSM) | _BV(PSRSYNC);
     TCCR4A = 0;
@@ -34,7 +34,7 @@ void atmega_time_base_start(void) {
 uint32_t atmega_ticks(void) {
     const uint16_t now = TCNT4;
     uint32_t base = base_ticks;
-    if ((TIFR4 & _BV(TOV4)) != 0 && now < 0x8000U) { /* wrapped, and not counted yet */
+    if ((TIFR4 & _BV(TOV4)) != 0 && now < 0x8000U) { /* wrapped, but not counted yet */
         base += TICKS_PER_WRAP;
     }
     return base + now / ATMEGA_COUNTS_PER_TICK;

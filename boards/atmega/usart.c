@@ -1,5 +1,5 @@
-/* usart.c: the console on USART 0, 115,200 baud at double speed (117,647: 2.1 % fast; DS 22.11), 8 bits, no parity: rings both
- * ways, which interrupts fill and empty; and, for a fault or before anything else is up, by polling. */
+/* usart.c: the console on USART 0, 115,200 baud at double speed (117,647: 2.1 % fast; DS 22.11), 8 bits, no parity.
+ * Interrupts fill and empty rings in both directions. For a fault, or before other parts are up, it polls. */
 #include "boards/board.h"
 
 #include "atmega.h"
@@ -7,7 +7,7 @@
 #define BAUD 115200UL
 #define BAUD_DIVISOR ((F_CPU + 4UL * BAUD) / (8UL * BAUD) - 1UL)
 
-/* Powers of two, of which 256 is a multiple: indices count on and wrap. A control step of 2 ms takes 24 bytes at most. */
+/* Powers of two that divide 256: indices wrap freely. A control step of 2 ms takes at most 24 bytes. */
 #define IN_BYTES 64U
 #define OUT_BYTES 64U
 
@@ -16,7 +16,7 @@ static volatile uint8_t in_head; /* the interrupt's */
 static volatile uint8_t in_tail;
 static volatile char out[OUT_BYTES];
 static volatile uint8_t out_head;
-static volatile uint8_t out_tail; /* the interrupt's, and of who holds it off */
+static volatile uint8_t out_tail; /* used by the interrupt, and by code that disables it */
 static volatile bool lost;
 
 void atmega_usart_start(void);
@@ -37,7 +37,7 @@ static void keep(char byte) {
     }
 }
 
-/* A byte that was overrun, or broken, leaves a zero, as one does that found no room: no line with it is obeyed. */
+/* An overrun, damaged or dropped byte becomes a zero: a line with a zero is not executed. */
 ISR(USART0_RX_vect) {
     const uint8_t status = UCSR0A;
     const char byte = (char)UDR0;
@@ -80,7 +80,7 @@ unsigned hal_console_offer(const char *bytes, unsigned count) {
     return taken;
 }
 
-/* Ready within a byte's time, 87 us: one that never gets ready is no reason to hang. */
+/* Ready within a byte's time, 87 us: the wait is bounded, so that a dead device does not hang the program. */
 static void send(char byte) {
     for (uint16_t i = 0; i < 10000U && (UCSR0A & _BV(UDRE0)) == 0; i++) {
     }
@@ -92,7 +92,7 @@ void hal_console_write(const char *bytes, unsigned count) {
         atmega_usart_start();
     }
     const uint8_t before = atmega_hold();
-    for (; out_tail != out_head; out_tail++) { /* what was offered before comes before */
+    for (; out_tail != out_head; out_tail++) { /* earlier bytes first */
         send(out[out_tail % OUT_BYTES]);
     }
     for (unsigned i = 0; i < count; i++) {

@@ -1,12 +1,12 @@
-/* watchdog.c: the chip's watchdog (DS 12.4), which resets; in a reset pins float, and the drive is off. Its oscillator has 128
- * kHz, within 15 %: it never bites before the time, and within 2.4 times of it. */
+/* watchdog.c: the chip's watchdog (DS 12.4), which resets it; in a reset pins float, and the drive is off. Its
+ * oscillator has 128 kHz, within 15 %: it never acts before the time, and always within 2.4 times of it. */
 #include "hal/watchdog.h"
 
 #include "atmega.h"
 #include "boards/avr/stack.h"
 
 #define SHORTEST_TICKS UINT32_C(13900) /* 2048 clocks, 16 ms, less 13 % */
-#define LONGEST 9U                     /* times two so often: 8 s */
+#define LONGEST 9U                     /* doublings: 8 s */
 
 /* May be called again, with another time. */
 void hal_watchdog_start(uint32_t timeout_ticks) {
@@ -17,7 +17,7 @@ void hal_watchdog_start(uint32_t timeout_ticks) {
     atmega_watch(twice);
 }
 
-/* Once a control step: what else nobody would notice is looked at here. */
+/* Once a control step. It also checks conditions that no other code checks. */
 void hal_watchdog_kick(void) {
     if (!avr_stack_is_whole()) {
         atmega_fault(ATMEGA_FAULT_STACK, 0);

@@ -1,6 +1,6 @@
-# avr.mk: what the boards of this family share; boards/cortexm/cortexm.mk says what the variables are. Memory is small:
-# there is one image a suite and one a scene (BOARD_IMAGES := single, mk/single.mk), and what fits in none is in the
-# board's too_large.txt. The linker's script is the compiler's own; a board says how large its memories are:
+# avr.mk: settings shared by the boards of this family; boards/cortexm/cortexm.mk explains the variables. Memory is small: each
+# suite and each scene has its own image (BOARD_IMAGES := single, mk/single.mk); the board's too_large.txt lists those that do
+# not fit. The linker script is the compiler's own; a board gives the size of its memories:
 #
 #   BOARD_MCU      the chip's name, to compiler and emulator
 #   BOARD_FLASH    bytes
@@ -16,8 +16,8 @@ BOARD_SIZE     := $(BOARD_CROSS)size
 BOARD_OBJCOPY  := $(BOARD_CROSS)objcopy
 BOARD_OBJDUMP  := $(BOARD_CROSS)objdump
 BOARD_CPU      := -mmcu=$(BOARD_MCU)
-# gcc 5 takes arrays that are filled up to a count for arrays that are not; and, where it unrolls a loop up to a count,
-# the passes that a count never takes for stores beyond the array.
+# gcc 5 wrongly warns of arrays that are filled up to a count as uninitialized. In an unrolled loop up to a count, it also takes
+# passes that never run for stores beyond the array.
 BOARD_CFLAGS   := $(BOARD_CPU) -DF_CPU=16000000UL -std=c11 -Os -ffp-contract=off -ffreestanding \
                   -ffunction-sections -fdata-sections -Wno-maybe-uninitialized -Wno-array-bounds \
                   -Iboards/$(BOARD) -I.

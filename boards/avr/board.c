@@ -1,5 +1,5 @@
-/* board.c: board.h on the AVR family (Microchip ATmega328P and ATmega2560 data sheets): the first USART, and
- * an end that the emulator understands. The C library's start-up code has filled the memory. */
+/* board.c: board.h on the AVR family (Microchip ATmega328P and ATmega2560 data sheets): the first USART, and an end
+ * that the emulator recognizes. The C library's start-up code has initialized memory. */
 #include "boards/board.h"
 
 #include <avr/interrupt.h>
@@ -20,8 +20,7 @@ void board_start(void) {
 }
 
 void hal_console_write(const char *bytes, unsigned count) {
-    if ((UCSR0B & _BV(TXEN0)) ==
-        0) { /* a program that forgot board_start() must not hang without a word */
+    if ((UCSR0B & _BV(TXEN0)) == 0) { /* without board_start() the program must not hang silently */
         board_start();
     }
     for (unsigned i = 0; i < count; i++) {
@@ -49,8 +48,8 @@ unsigned hal_console_offer(const char *bytes, unsigned count) {
 
 bool board_converse(void) { return true; }
 
-/* The code stands in the first general purpose register when the processor falls asleep with its interrupts off:
- * boards/avr/run/avr_run.c reads it there. On silicon that is all that happens. */
+/* The exit code is in the first general purpose register when the processor sleeps with its interrupts off;
+ * boards/avr/run/avr_run.c reads it there. On silicon the processor only sleeps. */
 _Noreturn void board_exit(int code) {
     GPIOR0 = (uint8_t)code;
     cli();

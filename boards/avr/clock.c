@@ -1,5 +1,5 @@
 /* clock.c: the board's clock on AVR's sixteen-bit timer, whose overflows an interrupt counts. In a file of its own: a
- * program that does not ask for the time has no interrupt, and its steps take the same cycles every time. */
+ * program without it has no interrupt, and its steps always take the same cycles. */
 #include "boards/board.h"
 
 #include <avr/interrupt.h>
@@ -21,7 +21,7 @@ uint32_t board_ticks(void) {
     cli();
     uint16_t low = TCNT1;
     uint16_t high = overflows;
-    if ((TIFR1 & _BV(TOV1)) != 0) { /* wrapped, and not counted yet */
+    if ((TIFR1 & _BV(TOV1)) != 0) { /* wrapped, but not counted yet */
         low = TCNT1;
         high++;
     }

@@ -1,11 +1,11 @@
 # code_stack.awk: the worst stack of an AVR's program by its code, since that compiler (gcc 5) writes no call graphs.
 #
 # Input: lines "pointer CALLER CALLEE..." (pointers.rows), then `avr-objdump -d` of the image. Variables: root, where to begin;
-# address, bytes of a return address. Prints what stack.awk does: "stack BYTES", "path A > B", on recursion "recursion NAME", and fails then. As there, a call
-# through a pointer of which nothing is said may reach whatever is not called by name.
+# address, bytes of a return address. Prints, as stack.awk does, "stack BYTES", "path A > B", and on recursion "recursion NAME", and
+# then fails. As there, a call through a pointer without a row may reach every function that is not called by name.
 #
-# A function's frame: what it pushes, and what it takes from the frame's pointer between reading the stack's pointer and
-# writing it. Each of its calls is taken to come with all of it. What is jumped to at the end of a function is in its place.
+# A function's frame: its pushes, and its subtraction from the frame pointer between reading and writing the stack pointer. Each
+# of its calls counts with the whole frame. A jump at the end of a function replaces the function.
 function hex(digits,    i, n) {
     n = 0
     for (i = 1; i <= length(digits); i++) { n = 16 * n + index("0123456789abcdef", substr(digits, i, 1)) - 1 }

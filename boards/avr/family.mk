@@ -1,4 +1,4 @@
-# family.mk: what runs this family's programs here, and its gate.
+# family.mk: the emulator of this family's programs, and its gate.
 # AVR programs run on simavr, which counts cycles.
 build/avr_run: boards/avr/run/avr_run.c
 	@$(call need,$(CC))

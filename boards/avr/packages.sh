@@ -1,4 +1,4 @@
-# packages.sh: what this family takes (mk/setup/deps.sh).
+# packages.sh: the tools of this family (mk/setup/deps.sh).
 want gcc-avr "the AVR gate" have avr-gcc
 want avr-libc "its C library, for the gate's own program" have_file /usr/lib/avr/include/avr/io.h
 want simavr "the emulated AVR" have simavr

@@ -5,8 +5,8 @@
 #   size.sh figures.csv ELF...
 #
 # Appends rows to figures.csv and prints a table, as mk/size/size.sh does. `computed` is the deepest path from the start, an interrupt on it
-# (none interrupts another) with its return address, three bytes. Fails on recursion, on more flash than there is, and if the
-# stack's room, what variables leave below MEMORY_TOP, is too small for it.
+# (interrupts do not nest) with its return address, three bytes. Fails on recursion, on too much flash, and if the memory between
+# the variables and MEMORY_TOP is too small for the stack.
 set -eu
 here=$(dirname "$0")
 root=$here/../..

@@ -1,4 +1,4 @@
-/* stack.c: the stack's paint on an AVR. The stack has what the variables leave; no part of the chip guards it. */
+/* stack.c: the stack's paint on an AVR. The stack has all memory after the variables; no hardware guards it. */
 #include "stack.h"
 
 #include <avr/io.h>

@@ -15,7 +15,7 @@ void hal_console_write(const char *bytes, unsigned count) { uart_write(bytes, co
 
 bool board_converse(void) { return true; }
 
-/* Device and revision, where the chip has a register of its own for it; else the core's CPUID. */
+/* Device and revision, if the chip has a register for it; otherwise the core's CPUID. */
 #ifndef BOARD_CHIP_ID
 #define BOARD_CHIP_ID 0xE000ED00U
 #endif

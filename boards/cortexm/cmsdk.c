@@ -23,8 +23,7 @@ void uart_start(void) {
     REGISTER(UART_CTRL) = UART_CTRL_TX_ENABLE | UART_CTRL_RX_ENABLE;
 }
 
-/* The transmitter never gets ready before it is switched on: a program that forgot board_start()
- * must not hang without a word. */
+/* The transmitter never gets ready before it is switched on: without board_start() a program must not hang silently. */
 void uart_write(const char *bytes, unsigned count) {
     if ((REGISTER(UART_CTRL) & UART_CTRL_TX_ENABLE) == 0) {
         uart_start();

@@ -1,6 +1,6 @@
-/* cmsdk_watchdog.c: hal/watchdog.h on Arm's CMSDK APB watchdog (Cortex-M System Design Kit Technical Reference Manual, 4.4), as
- * on the MPS2 boards: one that resets. It counts down twice: at the end of the first count it asks for the interrupt,
- * which is the NMI there, at the end of the second it resets, so after twice the timeout. */
+/* cmsdk_watchdog.c: hal/watchdog.h on Arm's CMSDK APB watchdog (Cortex-M System Design Kit Technical Reference Manual,
+ * 4.4), as on the MPS2 boards: one that resets. It counts down twice. After the first count it requests the interrupt,
+ * which is the NMI there. After the second it resets: after twice the timeout. */
 #include "cortexm.h"
 
 #include "hal/clock.h"
@@ -24,7 +24,7 @@ void hal_watchdog_start(uint32_t timeout_ticks) {
     REGISTER(WATCHDOG_LOCK) = 0;
 }
 
-/* Clearing the interrupt loads the count anew, whether there was one or not. */
+/* Clearing the interrupt reloads the count, with or without a pending one. */
 void hal_watchdog_kick(void) {
     REGISTER(WATCHDOG_LOCK) = WATCHDOG_KEY;
     REGISTER(WATCHDOG_CLEAR) = 1;

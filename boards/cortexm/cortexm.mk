@@ -1,13 +1,13 @@
-# cortexm.mk: what the boards of this family share. A board.mk sets, and then includes this:
+# cortexm.mk: settings shared by the boards of this family. A board.mk sets these, and then includes this file:
 #
 #   BOARD_MACHINE  its name in QEMU
 #   BOARD_CPU      the flags that name the processor
 #   BOARD_MATH     further flags
 #   BOARD_SECONDS  processor seconds that the emulator may take for a program
 #   BOARD_TIMING   the core whose cycles mk/count/thumb_cycles.h estimates, if any
-#   BOARD_WATCHDOG its hal/watchdog.h, of hardware that a program may take (tests/boards/watchdog.c); may be missing
+#   BOARD_WATCHDOG its hal/watchdog.h, if programs may use its hardware (tests/boards/watchdog.c); may be missing
 #   BOARD_SUITES   `none`: the portable suites are too large for it; may be missing
-#   BOARD_WHEN     what takes the board by itself: `test`, `check` or `all` (mk/board.mk)
+#   BOARD_WHEN     the target that includes the board: `test`, `check` or `all` (mk/board.mk)
 #
 # This sets
 #
@@ -17,17 +17,17 @@
 #   BOARD_LDFLAGS  everything for linking, before the objects
 #   BOARD_LDLIBS   after the objects
 #   BOARD_SOURCES  the board's own code, to be linked with every program
-#   BOARD_LINK     its hal/link.h, of programs whose plant is elsewhere (may be missing)
-#   BOARD_TIDY     what clang-tidy takes these sources for
+#   BOARD_LINK     its hal/link.h, for programs with a remote plant (may be missing)
+#   BOARD_TIDY     clang-tidy's flags for these sources
 #   BOARD_EMULATOR the emulator's command
-#   BOARD_RUN_BY   what the emulator's command is built from sources here as (may be missing: it is installed)
+#   BOARD_RUN_BY   the emulator's path, if it is built from sources here (missing: it is installed)
 #   BOARD_EMULATE  $(call BOARD_EMULATE,program.elf) runs it within BOARD_SECONDS; console on stdout,
 #                  exit status the program's; more emulator options may be appended
 #   BOARD_SERIAL   $(call BOARD_SERIAL,program.elf) runs it until it is ended, its console a pseudo-terminal that the
 #                  emulator names (may be missing)
 #
-# Another family asks for what it takes and sets the same variables. No rules here: paths are from the repository's root. What
-# does not depend on BOARD, as rules for its tools, its tests' programs and its gate, is in its family.mk.
+# Another family requires its own inputs and sets the same variables. No rules here: paths are from the repository's root. Rules
+# independent of BOARD, for its tools, its tests' programs and its gate, are in its family.mk.
 $(call board_needs,BOARD_MACHINE BOARD_CPU BOARD_SECONDS,: it stands before the include of boards/cortexm/cortexm.mk)
 BOARD_DEPS     := cortexm
 BOARD_CROSS    := arm-none-eabi-

@@ -1,12 +1,11 @@
-/* demo.c: how a program ends whose board an emulator plays, or that a debugger watches: with an exit status. No image that
- * is flashed has this (flashed.c). */
+/* demo.c: the end of a program under an emulator or debugger: with an exit status. Flashed images have flashed.c
+ * instead. */
 #include "cortexm.h"
 
 #include "boards/board.h"
 
-/* Semihosting's SYS_EXIT_EXTENDED (Arm semihosting specification, 0x20): the emulator or debugger
- * ends with our code. With nobody listening the breakpoint becomes a hard fault, whose handler
- * comes here again: the second time there is nothing left to do but stop. */
+/* Semihosting's SYS_EXIT_EXTENDED (Arm semihosting specification, 0x20): the emulator or debugger ends with our code.
+ * Without one the breakpoint becomes a hard fault, whose handler comes here again: the second time the program stops. */
 _Noreturn void board_exit(int code) {
     static volatile int leaving = 0;
     const uint32_t application_exit = 0x20026U;

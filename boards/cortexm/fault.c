@@ -1,4 +1,4 @@
-/* fault.c: every exception that nobody takes: what the board drives is off, then what happened and where is noted. */
+/* fault.c: handler of every unhandled exception: it switches the board's outputs off, then records the fault. */
 #include "cortexm.h"
 
 void board_fault_report(const uint32_t *frame, uint32_t exception);
@@ -10,8 +10,8 @@ void board_fault_report(const uint32_t *frame, uint32_t exception);
                      : \
                      : "i"(address), "i"(value));
 
-/* The stacked frame is where SP points (this program runs on the main stack only). What follows runs on a stack of its own:
- * after an overflow the old one is of no use. */
+/* SP points to the stacked frame (this program uses only the main stack). The handler runs on a stack of its own: after
+ * an overflow the old one is unusable. */
 __attribute__((naked)) void board_fault(void) {
     BOARD_SAFE_ROWS(SAFE_STORE)
     __asm__ volatile("cpsid i\n\t"
@@ -28,7 +28,7 @@ __attribute__((naked)) void board_fault(void) {
 CORTEXM_VECTOR_ROWS(WEAK_VECTOR)
 BOARD_VECTOR_ROWS(WEAK_VECTOR)
 
-/* Armv8-M's, when the stack pointer would have passed MSPLIM; nothing was stacked below it then. */
+/* Armv8-M's: the stack pointer would have passed MSPLIM; no frame was stacked below it then. */
 #define STACK_LIMIT_PASSED (1U << 20)
 
 #define CFSR_MEMORY_ADDRESS (1U << 7)

@@ -25,7 +25,7 @@ static void add_register(wh_text *text, const char *name, uint32_t value) {
 }
 
 #if __ARM_ARCH >= 7
-/* The causes that come up in practice (Armv7-M Architecture Reference Manual, B3.2.15). */
+/* The common causes (Armv7-M Architecture Reference Manual, B3.2.15). */
 static const char *cause_of(uint32_t cfsr) {
     static const struct {
         uint32_t bit;

@@ -1,5 +1,5 @@
-/* flashed.c: how a program ends that runs on a board of its own: never. A fault is noted and the processor starts again; a
- * program that cannot go on holds still, the motor off. */
+/* flashed.c: the end of a program on a real board: it never ends. A fault is recorded and the processor restarts. A
+ * program that cannot go on stops with the motor off. */
 #include "boards/board.h"
 #include "hal/motor.h"
 
@@ -17,7 +17,7 @@ _Noreturn void board_exit(int code) {
     hold_still();
 }
 
-/* The stores that switch off are made (fault.c). */
+/* fault.c has made the stores that switch off. */
 _Noreturn void board_fault_ends(const board_fault_facts *facts) {
     board_kept_fault(facts, board_ticks());
     __asm__ volatile("dsb" ::: "memory");

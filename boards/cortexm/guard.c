@@ -1,7 +1,6 @@
-/* guard.c: the strip below the stack that nobody may touch, on Armv6-M and Armv7-M (Armv7-M Architecture Reference
- * Manual, B3.5): an overflow faults at once instead of quietly eating what comes next. Chips without a memory
- * protection unit, every Cortex-M0 among them, read a region count of zero and go without. Armv8-M's unit is another:
- * boards/armv8m/guard.c. */
+/* guard.c: the protected strip below the stack, on Armv6-M and Armv7-M (Armv7-M Architecture Reference Manual, B3.5):
+ * an overflow faults at once instead of silently overwriting variables. Chips without a memory protection unit, such as
+ * every Cortex-M0, read a region count of zero and have no guard. Armv8-M's unit differs: boards/armv8m/guard.c. */
 #include "cortexm.h"
 
 #if __ARM_ARCH > 7

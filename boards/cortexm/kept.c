@@ -1,4 +1,5 @@
-/* kept.c: a fault's record, in memory that a reset leaves alone. What counts has the CRC-32 of its bytes behind it. */
+/* kept.c: a fault's record, in memory that a reset does not clear. A valid record is followed by the CRC-32 of its
+ * bytes. */
 #include "kept.h"
 
 #include <stddef.h>
@@ -15,7 +16,7 @@ static uint32_t crc_of_fault(void) {
 
 static bool fault_holds(void) { return fault.crc == crc_of_fault(); }
 
-/* All that stands there counts from here on. */
+/* Make the present content valid. */
 static void seal(void) {
     board_kept_settle();
     fault.crc = crc_of_fault();
@@ -33,7 +34,7 @@ void board_kept_fault(const board_fault_facts *facts, uint32_t ticks) {
     seal();
 }
 
-/* Written only where there is something to forget: a reset finds it whole at nearly any instant. */
+/* Written only if there is a record to drop: so a reset at nearly any instant finds it intact. */
 bool board_kept_take_fault(board_fault_record *record) {
     const bool held = fault_holds();
     const bool there = held && fault.facts.exception != 0;
@@ -41,7 +42,7 @@ bool board_kept_take_fault(board_fault_record *record) {
         *record = fault;
     }
     if (!held) {
-        fault.faults = 0; /* else the count goes on */
+        fault.faults = 0; /* otherwise the count continues */
     }
     if (there || !held) {
         fault.facts.exception = 0;

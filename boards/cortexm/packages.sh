@@ -1,4 +1,4 @@
-# packages.sh: what this family takes (mk/setup/deps.sh).
+# packages.sh: the tools of this family (mk/setup/deps.sh).
 # The Arm compiler knows where its C library is, wherever it came from.
 have_arm_library() {
     have_file /usr/lib/arm-none-eabi/lib/libc.a /usr/lib/arm-none-eabi/newlib/libc.a && return 0

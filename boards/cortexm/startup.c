@@ -10,10 +10,10 @@ typedef void (*vector)(void);
 #define CORE_ROW(number, name) [(number)] = on_##name,
 #define CHIP_ROW(number, name) [16 + (number)] = on_##name,
 
-/* A row overrides what the range before it says: that is meant. */
+/* A row deliberately overrides the range before it. */
 #pragma GCC diagnostic ignored "-Woverride-init"
 
-/* Sixteen system vectors, then the chip's interrupts. Rows take the place of the fault handler, which has all the others. */
+/* Sixteen system vectors, then the chip's interrupts. Rows replace the fault handler, which serves all others. */
 __attribute__((section(".vectors"), used)) static const vector vectors[16 + BOARD_INTERRUPTS] = {
     [2 ... 16 + BOARD_INTERRUPTS - 1] = board_fault,
     [0] = (vector)(uintptr_t)board_stack_top,
@@ -27,11 +27,11 @@ static void enable_fpu(void) {
 #endif
 }
 
-/* A loader in ROM leaves the table its own. */
+/* A loader in ROM leaves its own table active. */
 static void take_vectors(void) {
 #if __ARM_ARCH >= 7
     REGISTER(SCB_VTOR) = (uint32_t)(uintptr_t)vectors;
-    REGISTER(SCB_SHCSR) |= 7U << 16; /* usage, bus and memory faults by their own names */
+    REGISTER(SCB_SHCSR) |= 7U << 16; /* separate vectors for usage, bus and memory faults */
     __asm__ volatile("dsb" ::: "memory");
 #endif
 }

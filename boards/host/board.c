@@ -10,7 +10,7 @@
 const char *const board_name = "host";
 const uint32_t board_ticks_per_s = 1000000U;
 
-/* By lines, so that output to a file or pipe is there before a crash; unbuffered is as good. */
+/* Line by line, so that a file or pipe has the output before a crash; unbuffered is also acceptable. */
 void board_start(void) {
     if (setvbuf(stdout, NULL, _IOLBF, BUFSIZ) != 0) {
         setbuf(stdout, NULL);
@@ -33,8 +33,7 @@ _Noreturn void board_exit(int code) {
 uint32_t board_ticks(void) {
     struct timespec now;
     if (clock_gettime(CLOCK_MONOTONIC, &now) != 0) {
-        board_exit(
-            EXIT_FAILURE); /* POSIX has no reason for this; a clock at rest would hang loops */
+        board_exit(EXIT_FAILURE); /* cannot happen by POSIX; a stopped clock would hang loops */
     }
     const uint64_t seconds = (uint64_t)now.tv_sec;
     const uint64_t nanoseconds = (uint64_t)now.tv_nsec;
@@ -45,7 +44,7 @@ void board_wait_until(uint32_t ticks) {
     for (int32_t left = (int32_t)(ticks - board_ticks()); left > 0;
          left = (int32_t)(ticks - board_ticks())) {
         const struct timespec nap = {.tv_sec = left / 1000000, .tv_nsec = left % 1000000 * 1000};
-        (void)nanosleep(&nap, NULL); /* a signal ends it early, and it is looked at again */
+        (void)nanosleep(&nap, NULL); /* if a signal ends it early, the loop checks again */
     }
 }
 

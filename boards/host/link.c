@@ -1,4 +1,4 @@
-/* link.c: hal/link.h on the PC: two descriptors that whoever started the program handed to it. */
+/* link.c: hal/link.h on the PC: two descriptors inherited from the parent process. */
 #define _POSIX_C_SOURCE 200809L
 
 #include "hal/link.h"
@@ -36,7 +36,7 @@ void hal_link_write(const uint8_t *bytes, unsigned count) {
     }
 }
 
-/* The PC's time is no measure of a controller's. */
+/* The PC's time does not represent a controller's. */
 uint32_t hal_link_timer(void) { return 0; }
 uint32_t hal_link_timer_per_s(void) { return 0; }
 const char *hal_link_board(void) { return board_name; }

@@ -1,4 +1,4 @@
-/* settings.c: hal/settings.h in a file: RIG_SETTINGS names it (build/rig.settings unless told). What is written is on the
+/* settings.c: hal/settings.h in a file: RIG_SETTINGS names it (default build/rig.settings). Written data are on the
  * disk when the call returns. */
 #define _POSIX_C_SOURCE 200809L
 
@@ -55,7 +55,7 @@ hal_settings_result hal_settings_write(unsigned slot, unsigned at, const uint8_t
     return put(slot, at, bytes, count);
 }
 
-/* A file that is not there, or ends before, has been erased. */
+/* A missing or shorter file counts as erased. */
 hal_settings_result hal_settings_read(unsigned slot, unsigned at, uint8_t *bytes, unsigned count) {
     if (!within(slot, at, count)) {
         return HAL_SETTINGS_OUTSIDE;

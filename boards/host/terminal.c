@@ -1,6 +1,6 @@
-/* terminal.c: a pseudo-terminal in the place of a board's serial line: any terminal program opens its other end.
+/* terminal.c: a pseudo-terminal instead of a board's serial line: any terminal program opens its other end.
  *
- * RIG_TTY names a link to it (build/rig.tty unless told), which goes when the program ends, also by Ctrl-C. */
+ * RIG_TTY names a link to it (default build/rig.tty), which is removed when the program ends, also by Ctrl-C. */
 #define _XOPEN_SOURCE 700
 
 #include <errno.h>
@@ -17,11 +17,12 @@
 #include "boards/board.h"
 
 static int line = -1;
-static int other_end = -1; /* kept open: the line is there whether or not somebody is at it */
+static int other_end = -1; /* kept open: the line exists with or without a partner */
 static const char *link_name;
 static char own_terminal[64];
 
-/* For exit() and signals: what may be called there. A link to another terminal is that of a program that has begun since. */
+/* For exit() and signals: uses only functions allowed there. A link to another terminal belongs to a program started
+ * since. */
 static void remove_link(void) {
     if (link_name != NULL) {
         char to[sizeof own_terminal];
@@ -40,7 +41,7 @@ static void end_by(int number) {
     (void)raise(number);
 }
 
-/* A link that an earlier run has left may be replaced; a file may not. */
+/* Replaces a link from an earlier run, but not a file. */
 static bool make_link(const char *terminal) {
     struct stat there;
     const char *wanted = getenv("RIG_TTY");

@@ -1,18 +1,18 @@
 /* bench.c: the program whose instructions are counted: single steps of every generated scene.
  *
- * The same source runs on every board under the counting plugin (count_board.sh) and on the PC
- * under callgrind (count_host.sh). It only says on the console which interval is which:
+ * The same source runs on every board under the counting plugin (count_board.sh) and on the PC under callgrind
+ * (count_host.sh). It only prints the intervals' meanings on the console:
  *
- *     count NAME METHOD NUMBER FIRST LAST    intervals FIRST to LAST hold one step each, or, after "-ahead" as a METHOD's end,
- *                                            STEPS_A_CALL
+ *     count NAME METHOD NUMBER FIRST LAST    intervals FIRST to LAST hold one step each, or, if METHOD ends in "-ahead",
+ *                                            STEPS_A_CALL steps
  *     stack NAME BYTES                       deepest stack of the program during those steps
- *     silicon NAME MIN MEDIAN MAX            cycles of a step, where the processor counts them itself (board.h)
+ *     silicon NAME MIN MEDIAN MAX            cycles of a step, if the processor counts them itself (board.h)
  *     failed NAME STATUS                     the scene could not be counted
  *
- * Built with BENCH_SMALL=1 it leaves out the language's functions and the processor's own count, for small memories.
+ * With BENCH_SMALL=1 it omits the language's functions and the processor's own count, for small memories.
  *
- * Interval 0 is around nothing. On a board an interval holds the call too (loading the arguments
- * and the branch); callgrind counts the called function alone. */
+ * Interval 0 is empty. On a board an interval holds the call too (loading the arguments and the branch); callgrind
+ * counts the called function alone. */
 #include "boards/programs/counted.h"
 #include "boards/programs/step_cycles.h"
 #include "core/function.h"
@@ -144,7 +144,7 @@ static void time_scene(const wh_scene *scene, wh_state *state) {
 }
 #endif
 
-/* Steps of a scene that takes many a call (ahead.h). */
+/* Steps of a scene that does many in a call (ahead.h). */
 static wh_status count_ahead(const wh_scene *scene, wh_state *state) {
     const unsigned first = intervals;
     wh_status status = WH_OK;

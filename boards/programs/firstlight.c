@@ -1,8 +1,9 @@
-/* firstlight.c: first light of a board: five scenes to their end, then two seconds of the rig's control loop at rest and the
- * console's self-test, and one record of it all on the console (core/light_fields.h, docs/firstlight.md).
+/* firstlight.c: first light of a board. It runs five scenes to their end, then two seconds of the rig's control loop at
+ * rest and the console's self-test. It prints one record of all on the console (core/light_fields.h,
+ * docs/firstlight.md).
  *
- * The motor is never enabled: the image has no call of hal_motor_start(), which boards/check_image.sh checks. On hardware of
- * its own it prints the record again for each line that is typed; in an emulator it ends. */
+ * The motor is never enabled: the image has no call of hal_motor_start() (checked by boards/check_image.sh). On real
+ * hardware it prints the record again for each typed line; in an emulator it ends. */
 #include "core/light_fields.h"
 
 #include "boards/board.h"
@@ -11,7 +12,7 @@
 #include "core/text.h"
 #include "core/version.h"
 
-/* The board has the rig's hardware; else those fields are `none`. */
+/* 1: the board has the rig's hardware; otherwise those fields are `none`. */
 #ifndef LIGHT_HARDWARE
 #define LIGHT_HARDWARE 0
 #endif
@@ -85,7 +86,7 @@ static void line_hex(uint64_t number, unsigned digits) {
     line_word("0x");
     wh_text_add_hex(&line, number, digits);
 }
-/* To the CRC a line ends with a line feed, to a terminal with a carriage return before it. */
+/* For the CRC a line ends with a line feed; a terminal also gets a carriage return before it. */
 static void line_end(void) {
     wh_text_add_char(&line, '\n');
     crc = wh_frame_crc(crc, (const uint8_t *)line.bytes, line.length);
@@ -156,7 +157,7 @@ static void say_stack(void) {
 /* --- the rig at rest ---------------------------------------------------------------------------------------------- */
 
 #if LIGHT_HARDWARE
-#define PERIODS 1000U /* two seconds: the rotor is known to rest after 1.5 */
+#define PERIODS 1000U /* two seconds: rest is known after 1.5 */
 
 /* Least and most of some values. */
 typedef struct range {
@@ -170,7 +171,7 @@ static void range_take(range *r, int32_t value) {
 }
 
 static struct {
-    const char *why_not; /* the rig's hardware was not started; NULL: it was */
+    const char *why_not; /* the reason why the rig's hardware did not start; NULL: it started */
     range period_ticks;
     range period_cycles;
     unsigned samples;
@@ -296,7 +297,7 @@ static void say_rest(void) {
     }
 }
 
-/* Of what waits; noise on an open line seldom is one. */
+/* True if a waiting byte ends a line; noise on an open line seldom does. */
 static bool line_end_typed(void) {
     char typed[16];
     bool ended = false;

@@ -1,10 +1,10 @@
-/* fixed.c: counts single steps of one scene in fixed point, and prints the hash of its state behind them:
+/* fixed.c: counts single steps of one scene in fixed point, and prints the hash of its last state:
  *
  *     fixed NAME FIRST LAST hash 0x... saturated N     intervals FIRST to LAST hold one step each
  *     stack NAME BYTES                                 deepest stack of the program during those steps
- *     count NAME rk4 fixed FIRST LAST                  the intervals once more, as bench.c says them
+ *     count NAME rk4 fixed FIRST LAST                  the intervals again, in the format of bench.c
  *
- * Interval 0 is around nothing. Built with FIXED_SCENE the scene's name, and its header included first. */
+ * Interval 0 is empty. Build with FIXED_SCENE as the scene's name, and its header included first. */
 #include "boards/board.h"
 #include "core/fixed_scene.h"
 #include "core/text.h"
@@ -25,7 +25,7 @@ static uint64_t memory[OF(FIXED_SCENE, _MEMORY_WORDS)];
 void wh_count_begin(void);
 void wh_count_end(void);
 
-/* Nothing but a return. The operands differ so that the compiler does not make one of the two. */
+/* Only a return. The operands differ so that the compiler does not merge the two. */
 __attribute__((noinline)) void wh_count_begin(void) { __asm__ volatile("" : : "i"(1) : "memory"); }
 __attribute__((noinline)) void wh_count_end(void) { __asm__ volatile("" : : "i"(2) : "memory"); }
 

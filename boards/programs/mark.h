@@ -1,8 +1,8 @@
 /* mark.h: marks for the counting plugin, which cost no instruction.
  *
- * WH_MARK(kind) writes the address of the instruction that follows it, and `kind` (1 to 3), into the section
- * .wh_marks of the object file, once for each place the compiler puts it, inlined ones included. The linker is
- * told to keep the section (R), which nothing refers to. */
+ * WH_MARK(kind) writes the address of the instruction that follows it, and `kind` (1 to 3), into the section .wh_marks
+ * of the object file. The compiler's copies, including inlined ones, each have an entry. The linker must retain the
+ * section (R), although it has no references. */
 #ifndef WH_MARK_H
 #define WH_MARK_H
 

@@ -1,5 +1,5 @@
-/* obey.h: what the rig's controller commands goes to the motor, and whether that was stopped. A part of a program, or of a test
- * in its place. */
+/* obey.h: passes the controller's commands to the motor, and reads stops. A part of a program, or of a test that
+ * replaces one. */
 #ifndef PROGRAMS_OBEY_H
 #define PROGRAMS_OBEY_H
 
@@ -9,12 +9,12 @@
 #include "hal/motor.h"
 #include "hal/stop.h"
 
-/* 0: a program that never drives; nothing here calls hal_motor_start(). */
+/* 0: a program that never drives; it has no call of hal_motor_start(). */
 #ifndef RIG_DRIVES
 #define RIG_DRIVES 1
 #endif
 
-/* Stop is pressed; or it was, for less than a control step, and has cut the drive by itself. */
+/* True if stop is pressed, or was pressed for less than a control step and has cut the drive by itself. */
 static inline bool stop_was_pressed(bool watchdog_has_cut) {
     return hal_stop_pressed() || (!watchdog_has_cut && (hal_motor_status() & HAL_MOTOR_CUT) != 0);
 }
@@ -24,13 +24,14 @@ _Static_assert((int)HAL_STOP_EITHER == (int)WH_STOP_BY_EITHER &&
                    (int)HAL_STOP_DRIVE == (int)WH_STOP_BY_DRIVE,
                "one list of who asks for stop");
 
-/* Whose it was, when stop_was_pressed(): of a short one that is over only the cut is left. */
+/* The source of the stop, if stop_was_pressed(): after a short press only the cut remains. */
 static inline wh_stop_by stop_was_by(void) {
     return hal_stop_pressed() ? (wh_stop_by)hal_stop_source_now() : WH_STOP_BY_EITHER;
 }
 
-/* *drives: so was the command before; false at first. The motor is started where a command to drive begins, and not again: what
- * an interrupt has switched off, or stop has kept from starting, does not come by itself before the rig was off, too. */
+/* *drives: the last command drove the motor; false at first. The motor is started only at the first of successive
+ * driving commands. After an interrupt has switched it off, or stop has prevented a start, it restarts only after the
+ * rig was off, too. */
 static inline void obey(const wh_rig_command *command, bool *drives) {
     if (command->way != WH_MOTOR_DRIVES) {
         hal_motor_off(command->way == WH_MOTOR_BRAKES ? HAL_MOTOR_BRAKE : HAL_MOTOR_COAST);
@@ -40,7 +41,7 @@ static inline void obey(const wh_rig_command *command, bool *drives) {
 #if RIG_DRIVES
     if (!*drives) {
         *drives = true;
-        (void)hal_motor_start(); /* why not is among the inputs of the next step */
+        (void)hal_motor_start(); /* the inputs of the next step have the reason for a failure */
     }
     hal_motor_set_voltage(command->volts);
 #else

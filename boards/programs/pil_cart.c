@@ -1,9 +1,9 @@
 /* pil_cart.c: a controller that holds a rod upright on a cart (docs/plants/cart.whirl), for `whirl pil`.
  *
- * Two encoders every millisecond, a light barrier in the middle of the rail, a motor. State feedback with the poles of
- * the linear system at -6, -6, -2 and -2 per second, by hand (docs/pil.md): the force is a sum of angle, place and their
- * rates, which are differences of counts, smoothed. Exit status 0: it stands in the middle after ten seconds; 1: it does
- * not; 2: there is no plant. */
+ * It has two encoders every millisecond, a light barrier in the middle of the rail, and a motor. State feedback puts
+ * the poles of the linear system at -6, -6, -2 and -2 per second, by hand (docs/pil.md). The force is a sum of angle,
+ * position and their rates, which are smoothed differences of counts. Exit status 0: the rod is upright in the middle
+ * after ten seconds; 1: it is not; 2: no plant. */
 #include "boards/board.h"
 #include "core/text.h"
 #include "hal/frames/turns.h"
@@ -18,7 +18,7 @@
 #define M_PER_COUNT 1e-5f
 #define PUSH_MAX_N 20.0f
 #define BARRIER_M 0.005f
-#define UPRIGHT_RAD 0.02f /* so near counts as done */
+#define UPRIGHT_RAD 0.02f /* tolerance of upright */
 #define MIDDLE_M 0.03f
 
 /* N/rad, N*s/rad, N/m, N*s/m */
@@ -50,7 +50,7 @@ static const wh_signal signals[] = {
 
 static hal_turns plant;
 
-/* What an encoder tells: the value, and its rate. */
+/* An encoder's value and its rate. */
 typedef struct motion {
     float value;
     float rate; /* a second */

@@ -1,5 +1,5 @@
-/* pil_line.c: pil_dialled.c over the board's own serial line (boards/shared/link_console.c), for `whirl pil --port`: who is
- * at the other end does not see a program end, and is told. */
+/* pil_line.c: pil_dialled.c over the board's own serial line (boards/shared/link_console.c), for `whirl pil --port`.
+ * The other side cannot see the program's end, and gets a message. */
 #include "boards/board.h"
 #include "hal/frames/rig_frames.h"
 #include "hal/link.h"
@@ -7,7 +7,7 @@
 static _Noreturn void tell_and_exit(int status) {
     uint8_t heard;
     hal_frames_end(status);
-    (void)hal_link_read(&heard, 1); /* it has been told */
+    (void)hal_link_read(&heard, 1); /* the message was read */
     board_exit(status);
 }
 

@@ -1,10 +1,10 @@
 /* rig.c: the firmware of the eccentric-mass rig, the same on every board.
  *
- * The controller of core/rig/rig.h on whatever hardware hal/ offers, and for want of a console the orders for one test run:
- * `arm` as soon as the rotor rests, `start` at 330 rpm; then the report. After a reset that is no power-on, and once stop
- * was pressed, it orders nothing. Exit status 0: done; 1: the guard tripped, stop was pressed, it was reset, an order
- * or what was measured is refused, the report says why; 2: not started, for the hardware does not answer or the arithmetic
- * is not that of the tests. */
+ * The controller of core/rig/rig.h on the hardware of hal/. Without a console it gives the orders of one test run
+ * itself: `arm` as soon as the rotor rests, `start` at 330 rpm; then it reports. After a reset other than power-on, and
+ * after a stop, it gives no orders. Exit status 0: done. 1: the guard tripped, stop was pressed, the processor was
+ * reset, or an order or the result was refused; the report gives the reason. 2: not started, because the hardware does
+ * not answer or the arithmetic is not that of the tests. */
 #include "core/rig/rig.h"
 
 #include <stddef.h>
@@ -22,17 +22,17 @@
 #include "rig_control.h"
 #include "rig_report.h"
 
-/* On a carriage, with what an operator has dialled in (pil_carriage.c). */
+/* 1: on a carriage, with an operator's dials (pil_carriage.c). */
 #ifndef RIG_CARRIAGE
 #define RIG_CARRIAGE 0
 #endif
-/* At other set-points than one, and with gravity fed forward in parts (pil_dialled.c). */
+/* 1: at several set-points, and with a dialled part of gravity fed forward (pil_dialled.c). */
 #ifndef RIG_DIALLED
 #define RIG_DIALLED 0
 #endif
 #if RIG_CARRIAGE
 static wh_carriage carriage;
-static float displacement_m; /* of the carriage, by what was measured */
+static float displacement_m; /* of the carriage, from the measurement */
 #endif
 
 /* The set-point of the run. */
@@ -40,20 +40,20 @@ static float displacement_m; /* of the carriage, by what was measured */
 #define RIG_TARGET_RPM WH_RIG_NOMINAL_RPM
 #endif
 
-/* 1: the run ends in a free swing, which tells where the sensors stand. */
+/* 1: the run ends in a free swing, which gives the sensors' positions. */
 #ifndef RIG_SWINGS
 #define RIG_SWINGS 0
 #endif
 
-/* So often the motor is told that it is off before the program ends. */
+/* Number of off commands to the motor before the program ends. */
 #define LAST_ORDERS 10U
 
-/* The rotor must rest before `arm`: one that turned on before the reset gets so long. */
+/* The rotor must rest before `arm`: limit for one that was turning before the reset. */
 #define PATIENCE_TICKS (120U * HAL_TICKS_PER_S)
 
 static float target_radps = RIG_TARGET_RPM * WH_RIG_RADPS_PER_RPM;
 
-/* To whoever judges a run in the loop (docs/pil.md). */
+/* Notes for a judge of a run in the loop (docs/pil.md). */
 static void tell(void) {
 #if HAL_FRAMES
     const wh_measured *force = &rig.result.force;
@@ -92,10 +92,10 @@ static void put_state(uint32_t started_ticks) {
 }
 
 #if RIG_CARRIAGE || RIG_DIALLED
-/* A dial may be read late, or a reading be lost: so long at most. */
+/* Limit of the wait for the dials: a reading may be late or lost. */
 #define DIALS_MOST_TICKS (20U * HAL_DIAL_TICKS)
 
-/* False: they are not heard. */
+/* False: no readings. */
 static bool wait_for_dials(void) {
     const uint32_t started = hal_clock_ticks();
     for (uint32_t waited = 0;
@@ -110,7 +110,7 @@ static bool wait_for_dials(void) {
 }
 #endif
 
-/* What the operator has dialled in. False: nobody knows. */
+/* The operator's dials. False: unknown. */
 #if RIG_CARRIAGE
 static bool take_dials(wh_rig_config *config) {
     if (!wait_for_dials()) {
@@ -125,7 +125,7 @@ static bool take_dials(wh_rig_config *config) {
 #elif RIG_DIALLED
 static bool take_dials(wh_rig_config *config) {
     if (hal_reset_cause() != HAL_RESET_POWER_ON) {
-        return true; /* nothing will be ordered, and what has tripped is to be told at once */
+        return true; /* no orders will be given, and a trip must be reported at once */
     }
     if (!wait_for_dials()) {
         return false;
@@ -158,18 +158,18 @@ static void put_plant_hash(void) {
 }
 #endif
 
-/* Who gives the orders: `arm` once the rotor rests, then `start`. A rig that was reset, or stopped, it leaves alone:
- * somebody has to look at it first. */
+/* The operator: `arm` once the rotor rests, then `start`. It gives no orders to a rig that was reset, or stopped: a
+ * person must check it first. */
 typedef enum operator_step {
     WAITS_FOR_REST,
     HAS_ARMED,
     HAS_STARTED,
     WAS_RESET,
     WAS_STOPPED,
-    STOP_SILENT /* nobody knows whether stop is pressed */
+    STOP_SILENT /* the stop input is unknown */
 } operator_step;
 
-/* A stop input that was not heard yet may still be: what it says then counts before the rig is armed. */
+/* A stop input without a reading may still get one: it then counts before the rig is armed. */
 static void look_at_stop(operator_step *at, bool rests) {
     if (!hal_stop_pressed()) {
         return;
@@ -181,7 +181,7 @@ static void look_at_stop(operator_step *at, bool rests) {
     }
 }
 
-/* Returns true when there is nothing more to wait for. */
+/* Returns true when the wait is over. */
 static bool operate(operator_step *at, uint32_t waited_ticks) {
     const bool rests = rig.guard.quiet || waited_ticks > PATIENCE_TICKS;
     look_at_stop(at, rests);
@@ -207,7 +207,7 @@ static bool operate(operator_step *at, uint32_t waited_ticks) {
     return (rig.state == WH_LIFE_IDLE && !wh_swing_works(&rig.swing)) || rig.answer != WH_ALLOWED;
 }
 
-/* The control loop, until the run is over. Returns how far the operator came. */
+/* The control loop, until the run is over. Returns the operator's last step. */
 static operator_step run(const wh_rig_config *config) {
     const uint32_t started = hal_clock_ticks();
     uint32_t due = started;
@@ -233,7 +233,7 @@ static operator_step run(const wh_rig_config *config) {
             put_state(started);
         }
     } while (!operate(&operator_at, hal_clock_ticks() - started));
-    /* The motor may be at the end of a line that loses orders. A late controller has passed `due` long ago. */
+    /* The motor may be at the end of a line that loses orders. A late controller is past `due` by then. */
     for (unsigned i = 0; i < LAST_ORDERS; i++) {
         hal_motor_off(HAL_MOTOR_COAST);
         hal_clock_wait_until(hal_clock_ticks() + CONTROL_TICKS);
@@ -263,7 +263,7 @@ static void put_supply(float supply_V) {
     hal_console_write(text.bytes, text.length);
 }
 
-/* Why there is no result, or no more than one. */
+/* The reason why there is no result, or only one. */
 static void put_end(operator_step ended) {
     if (hal_reset_cause() != HAL_RESET_POWER_ON) {
         put(hal_reset_cause() == HAL_RESET_WATCHDOG ? "RESET by the watchdog" : "RESET");

@@ -1,5 +1,5 @@
-/* rig_control.h: the rig's controller between the hal_ functions: what every program of the rig does each control step. A
- * part of such a program, of which there is one in an image. */
+/* rig_control.h: the rig's controller on the hal_ functions: the control step of every program of the rig. A part of
+ * such a program; an image has one. */
 #ifndef PROGRAMS_RIG_CONTROL_H
 #define PROGRAMS_RIG_CONTROL_H
 
@@ -20,7 +20,7 @@
 #include "rig_own.h"
 #include "trip_memory.h"
 
-/* The rig's only hardware so far is played by the model; a real one comes with its own hal. */
+/* The rig's only hardware so far is simulated by the model; a real one has its own hal. */
 #ifndef HAL_VIRTUAL
 #define HAL_VIRTUAL 1
 #endif
@@ -43,7 +43,7 @@ _Static_assert((int)HAL_LOAD_SATURATED == (int)WH_LOAD_SATURATED &&
 
 #define CONTROL_TICKS 2000U /* 500 Hz, as wh_rig_standard.step_s */
 #define WATCHDOG_TICKS (10U * CONTROL_TICKS)
-/* A step, and one with a pulse; what else a late one finds goes to the next. A small chip's build may say less. */
+/* Samples in a step, and in one with a pulse; further ones wait for the next step. A small chip's build may set less. */
 #ifndef RIG_SAMPLES_MOST
 #define RIG_SAMPLES_MOST 2U
 #endif
@@ -53,18 +53,18 @@ _Static_assert((int)HAL_LOAD_SATURATED == (int)WH_LOAD_SATURATED &&
 
 _Static_assert(RIG_SAMPLES_MOST <= WH_SEEN_SAMPLES, "all are seen");
 
-/* Static, not on the stack: it holds the samples of a turn. */
+/* Static, not on the stack: it contains the samples of a turn. */
 static wh_rig rig;
 static trip_memory memory;
-static wh_seen seen; /* in this control step, or the last */
+static wh_seen seen; /* of this control step, or the last */
 static bool drives;  /* obey.h */
 
-/* What has come since, as far as a step takes it: it goes to `seen`. */
+/* Reads new edges and samples into `seen`, as many as a step takes. */
 static void look(void) {
     hal_slot_edge edge;
     hal_load_sample sample;
-    /* one a step, and the end of one before it: a storm must not hold it up, and stamps do not age; where a sample had to wait
-     * for one, that is first */
+    /* at most one pulse a step, and one end before it: a storm must not delay the step, and stamps stay valid; a sample
+     * that had to wait for a pulse comes first */
     const bool owed = RIG_SAMPLES_WITH_PULSE == 0U && seen.pulsed;
     seen.pulsed = false;
     seen.ended = false;
@@ -94,7 +94,7 @@ static void look(void) {
     seen.inputs.stop_by = stop_was_by();
 }
 
-/* By itself: what it has on the stack is gone when the console has its own there. */
+/* A separate function: its stack is free again when the console needs its own. */
 WH_CALLED static void control(const wh_rig_config *config) {
     look();
 #if HAL_FRAMES
@@ -114,7 +114,7 @@ WH_CALLED static void control(const wh_rig_config *config) {
     obey(&command, &drives);
     trip_memory_keep(&memory, &rig);
     hal_reset_mark(wh_rig_stage(&rig));
-    hal_watchdog_kick(); /* tripped too: a watchdog that resets would start all over */
+    hal_watchdog_kick(); /* also when tripped: a resetting watchdog would restart everything */
 }
 
 static const char *why_no_hardware(void) {
@@ -127,15 +127,15 @@ static const char *why_no_hardware(void) {
     return "the hardware does not answer";
 }
 
-/* Start the hardware, and look whether the arithmetic is that of the tests: by the model's file, which has the flags of all of
- * the image. Why not, by wh_text_add(), the motor off; or NULL. */
+/* Start the hardware, and check that the arithmetic is that of the tests, in the model's file, which has the flags of
+ * the whole image. Returns the reason for a failure, for wh_text_add(), with the motor off; or NULL. */
 static const char *why_not_started(void) {
     if (hal_clock_start() != HAL_STARTED) {
         return why_no_hardware();
     }
     if (wh_arithmetic_wrong(OWN_ARITHMETIC) != WH_PROBED_COUNT) {
         hal_motor_off(HAL_MOTOR_COAST);
-        /* without all other texts of a wh_status */
+        /* without the other texts of a wh_status */
         return "compiled or set up for other arithmetic than IEEE 754";
     }
     return NULL;

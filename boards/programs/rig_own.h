@@ -1,5 +1,4 @@
-/* rig_own.h: the configuration that the rig's programs have by themselves: settings begin with it. A part of such a program, of
- * which there is one in an image. */
+/* rig_own.h: the rig programs' own configuration, before settings. A part of such a program; an image has one. */
 #ifndef PROGRAMS_RIG_OWN_H
 #define PROGRAMS_RIG_OWN_H
 
@@ -10,17 +9,17 @@
 #include "hal/motor.h"
 #include "hal/slots.h"
 
-/* The model that goes with the rotor: rig_fixed of core/models/eccentric.whirl, in control steps (mk/whirl.mk). */
+/* The observer's model: rig_fixed of core/models/eccentric.whirl, in control steps (mk/whirl.mk). */
 extern const wh_scene rig_observed;
 
-/* What the arithmetic is probed by: that of the model, where there is one. */
+/* Probe of the arithmetic: in the model's file, if there is a model. */
 #if WH_RIG_FEEDS
 #define OWN_ARITHMETIC (rig_observed.arithmetic)
 #else
 #define OWN_ARITHMETIC (wh_arithmetic)
 #endif
 
-/* The standard rig with this hardware's cell and sensors. In its place: a copy more is half a kilobyte of stack. */
+/* The standard rig with this hardware's cell and sensors. Written in place: a copy needs half a kilobyte of stack. */
 static void own_configuration(wh_rig_config *config) {
     *config = wh_rig_standard;
     config->measure.cell = (wh_cell_config){.newton_per_count = HAL_LOADCELL_N_PER_COUNT,

@@ -1,4 +1,4 @@
-/* rig_report.h: what the rig's firmware prints of a run. A part of rig.c. */
+/* rig_report.h: the report of a run. A part of rig.c. */
 #ifndef PROGRAMS_RIG_REPORT_H
 #define PROGRAMS_RIG_REPORT_H
 
@@ -48,7 +48,7 @@ static inline void put_force(const char *name, float force_N) {
     put_value(name, force_N, 2, text.bytes);
 }
 
-/* A line of what is known to within an interval. */
+/* A line of a value with its interval. */
 static inline void put_interval(const char *name, float half, unsigned decimals, const char *unit) {
     char bytes[32];
     wh_text text;
@@ -69,7 +69,7 @@ static inline void put_verdict(const wh_measured *force) {
     }
 }
 
-/* Of a speed that did not settle or stay. */
+/* For a speed that did not settle or stay. */
 static inline void put_turns(const wh_run *run) {
     if (run->turns < WH_RUN_TURNS) {
         return;
@@ -84,7 +84,7 @@ static inline void put_turns(const wh_run *run) {
     put_value("  between the slowest and fastest", (most - least) * RPM_PER_RADPS, 2, "rpm");
 }
 
-/* What a run has measured, beside the formula at a nominal speed. */
+/* A run's measurement, beside the formula at a nominal speed. */
 static inline void put_result(const wh_rig_config *config, const wh_rig_result *result,
                               float nominal_radps) {
     const float formula_N = config->measure.rotor.mass_moment_kgm * nominal_radps * nominal_radps;
@@ -125,7 +125,7 @@ static inline void put_place(const char *name, const wh_swung *swung, unsigned s
     put_interval("  known to within", swung->half_rad[sensor] * WH_RIG_DEG_PER_RAD, 2, "deg");
 }
 
-/* What the swing says of the sensors, when the run has ended in one. */
+/* The sensors' positions from the swing, if the run ended in one. */
 static inline void put_swung(const wh_swung *swung) {
     if (swung->why == WH_SWING_NONE) {
         return;

@@ -1,9 +1,9 @@
-/* rig_steps.c: what each control step of the rig's run costs, the hardware's part left out.
+/* rig_steps.c: the cost of each control step of the rig's run, without the hardware's part.
  *
- * The firmware's loop (rig.c) on the virtual rig, for several runs: each step's pulses and samples are taken first, then
- * the controller is counted that is given them. Interval 0 is around nothing. Says on the console
+ * The firmware's loop (rig.c) on the virtual rig, for several runs: it takes each step's pulses and samples first, then
+ * counts the controller that processes them. Interval 0 is empty. Prints on the console
  *
- *     run NAME FIRST LAST TURNS QUALITY    a run's intervals, and what it measured */
+ *     run NAME FIRST LAST TURNS QUALITY    a run's intervals, and its measurement */
 #include <stddef.h>
 
 #include "boards/programs/counted.h"
@@ -26,15 +26,15 @@ static wh_rig rig;
 static wh_rig_config config;
 static unsigned intervals = 1;
 
-/* What goes wrong in the middle of the record. */
+/* Faults in the middle of the record. */
 typedef struct trial {
     const char *name;
     float target_rpm;
     unsigned lose_pulses[2];
     unsigned lose_samples;
     float noise; /* counts, either way */
-    bool fed;    /* gravity forward, though it need not */
-    bool swings; /* at the end, and what that tells is worked on */
+    bool fed;    /* gravity forward, although it is not needed */
+    bool swings; /* at the end, and the swing is evaluated */
 } trial;
 
 static const trial trials[] = {

@@ -2,8 +2,8 @@
  *
  *     scene NAME steps N hash 0x0123456789abcdef ok
  *
- * The same lines must come out on the PC and on every board. A scene that diverges says so in the
- * last words, with the hash of its last good state; the others still run. Fails if none is there. */
+ * The PC and every board must print the same lines. The last words report a scene that diverges, with the hash of its
+ * last good state; the others still run. Fails without scenes. */
 #include "boards/programs/to_the_end.h"
 
 int main(void) { board_exit(run_all_to_the_end()); }

@@ -1,7 +1,7 @@
-/* size.c: the smallest firmware around one scene, whose size is told: it steps, and computes the outputs.
+/* size.c: the smallest firmware around one scene, to measure its size: it steps, and computes the outputs.
  *
- * Built once a scene with PRICE_SCENE its name, and the scene's header included first. Its memory is of a size that does
- * in either number, compensated or not. It is linked, never run. */
+ * Built once a scene with PRICE_SCENE as its name, and the scene's header included first. Its memory suffices for
+ * either number, compensated or not. It is linked, never run. */
 #include "boards/board.h"
 #include "core/scene.h"
 

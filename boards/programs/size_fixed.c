@@ -1,6 +1,7 @@
-/* size_fixed.c: the smallest firmware around one scene in fixed point, whose size is told: it steps (size.c is that of reals).
+/* size_fixed.c: the smallest firmware around one scene in fixed point, to measure its size: it steps (size.c is that of
+ * reals).
  *
- * Built once a scene with FIXED_SCENE its name, and the scene's header included first. It is linked, never run. */
+ * Built once a scene with FIXED_SCENE as its name, and the scene's header included first. It is linked, never run. */
 #include "boards/board.h"
 #include "core/fixed_scene.h"
 

@@ -1,6 +1,6 @@
-/* station.c: the rig's firmware with a console (core/station): whoever is at it gives the orders.
+/* station.c: the rig's firmware with a console (core/station): its user gives the orders.
  *
- * It never ends. Where the model plays the hardware (hal/virtual), the model's time is held to the clock's. */
+ * It never ends. If the model simulates the hardware (hal/virtual), the model's time follows the clock's. */
 #include "core/station/station.h"
 
 #include "boards/board.h"
@@ -13,7 +13,7 @@
 #include "rig_report.h"
 #include "rig_settings.h"
 
-/* What the console may take in a control step: at 115,200 baud 23 bytes come and go. */
+/* Bytes read from the console in a control step: at 115,200 baud 23 bytes come and go. */
 #define BYTES_A_STEP 32U
 
 static wh_station station;
@@ -32,13 +32,13 @@ static void converse(void) {
     wh_station_drop(&station, hal_console_offer(bytes, waiting));
 }
 
-/* A start that nobody has asked for is told, by itself, before anything else. */
+/* An unrequested start is reported first. */
 static void tell_reset(void) {
     char words[200];
     if (hal_reset_cause() != HAL_RESET_POWER_ON) {
         const unsigned count = hal_reset_words(words, sizeof words);
         put("\r\n"
-            "# reset: "); /* whatever line was under way has ended */
+            "# reset: "); /* ends any line in progress */
         hal_console_write(words, count);
         put("\r\n");
     }
@@ -49,7 +49,7 @@ static void tell_reset(void) {
 }
 
 #if HAL_VIRTUAL
-/* A control period of the board's clock. One that was held up for long (a debugger, a laptop that slept) goes on from now. */
+/* A control period of the board's clock. After a long delay (a debugger, a laptop that slept) it goes on from now. */
 static void keep_time(uint32_t *due_ticks) {
     const uint32_t period_ticks = board_ticks_per_s / (HAL_TICKS_PER_S / CONTROL_TICKS);
     *due_ticks += period_ticks;
@@ -60,7 +60,7 @@ static void keep_time(uint32_t *due_ticks) {
 }
 #endif
 
-/* What was held up for long, as by a sector's erase, goes on from now, and does not catch up step by step. */
+/* After a long delay, such as a sector's erase, it goes on from now, without catching up step by step. */
 static uint32_t next_step(uint32_t due_ticks) {
     const uint32_t now = hal_clock_ticks();
     const bool late = (int32_t)(now - due_ticks) > (int32_t)WATCHDOG_TICKS;

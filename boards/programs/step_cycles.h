@@ -1,11 +1,11 @@
-/* step_cycles.h: cycles of a scene's steps, as the processor counts them (board.h): least, median and most. */
+/* step_cycles.h: cycles of a scene's steps, if the processor counts them (board.h): least, median and most. */
 #ifndef PROGRAMS_STEP_CYCLES_H
 #define PROGRAMS_STEP_CYCLES_H
 
 #include "boards/board.h"
 #include "core/scene.h"
 
-/* The median is that of so many steps at most. An AVR counts no cycles. */
+/* Most steps for the median. An AVR counts no cycles. */
 #ifdef __AVR__
 #define STEP_CYCLES_KEPT 1U
 #else
@@ -13,7 +13,7 @@
 #endif
 
 typedef struct step_cycles {
-    uint32_t nothing; /* that an empty measurement takes */
+    uint32_t nothing; /* cycles of an empty measurement */
     uint32_t least;
     uint32_t most;
     unsigned kept;
@@ -43,7 +43,7 @@ static inline wh_status step_counted(step_cycles *c, const wh_scene *scene, wh_s
     return status;
 }
 
-/* Of at least one step. */
+/* For at least one step. */
 static inline uint32_t step_cycles_median(const step_cycles *c) {
     return c->sorted[(c->kept - 1U) / 2U];
 }

@@ -1,7 +1,7 @@
 /* to_the_end.h: runs scenes to their end and prints the hash of their last state, a line each (scenes.c). Built with
  * SCENES_FIXED=1 for scenes in fixed point (fixed_scenes.c).
  *
- * SCENE_STEPS_MOST ends every scene after so many steps, for what is slow. */
+ * SCENE_STEPS_MOST ends every scene after that many steps, for slow machines. */
 #ifndef BOARDS_PROGRAMS_TO_THE_END_H
 #define BOARDS_PROGRAMS_TO_THE_END_H
 

@@ -9,7 +9,7 @@
 
 _Static_assert(WH_TRIP_RECORD_BYTES <= HAL_REMEMBER_BYTES, "it is remembered whole");
 
-/* What a reset would find. */
+/* The copy that a reset would find. */
 typedef struct trip_memory {
     wh_trip_record record;
 } trip_memory;

@@ -1,12 +1,12 @@
-/* worst.c: the most instructions that a step of a scene with contacts takes, over random states.
+/* worst.c: the most instructions of a step of a scene with contacts, over random states.
  *
- * Every scene with stops, friction, holds or crossings runs WORST_STEPS steps. Each RUN steps its state is
- * thrown: angles anywhere, rates times a random factor of up to 2 and inputs of up to 4, either way,
- * positions moved by up to the distance of some steps, modes found anew. All that WORST_SEEDS times over, with
- * other numbers. The counter keeps the largest of the intervals of a scene and seed (count_plugin.c,
- * every=WORST_STEPS). Says on the console what bench.c says, and before that
+ * Every scene with stops, friction, holds or crossings runs WORST_STEPS steps. Every RUN steps its state is randomized:
+ * angles anywhere, rates times a random factor of up to 2 and inputs of up to 4, either way. Positions move by up to
+ * the distance of some steps, and modes are determined again. All of this runs WORST_SEEDS times, with other numbers.
+ * The counter records the largest interval of a scene and seed (count_plugin.c, every=WORST_STEPS). Prints the lines of
+ * bench.c on the console, and before them
  *
- *     declared NAME EVALUATIONS SIGNALS    the most of these that one step of it may take */
+ *     declared NAME EVALUATIONS SIGNALS    the limit of these for one step */
 #include "boards/programs/counted.h"
 #include "core/scene.h"
 
@@ -66,7 +66,7 @@ static void say_declared(const char *name, const wh_scene_bound *most) {
 
 static bool run(const wh_scene *scene, uint32_t first_seed, unsigned group) {
     wh_state state;
-    seed = first_seed * 2654435761U; /* apart from each other from the start */
+    seed = first_seed * 2654435761U; /* different sequences from the start */
     for (unsigned i = 0; i < WORST_STEPS; i++) {
         if (i % 8192U == 0 && wh_scene_start(scene, &state, memory, sizeof memory) != WH_OK) {
             return false;

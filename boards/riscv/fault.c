@@ -1,4 +1,4 @@
-/* fault.c: a trap says what happened and where, then ends the program with a failure. */
+/* fault.c: a trap reports its kind and place, then ends the program with a failure. */
 #include "riscv.h"
 
 #include "boards/board.h"
@@ -6,7 +6,7 @@
 
 _Noreturn void board_fault_report(uint32_t stack_pointer);
 
-/* The report runs on a stack of its own: after an overflow the old one is of no use. mtvec asks for words. */
+/* The report runs on a stack of its own: after an overflow the old one is unusable. mtvec requires word alignment. */
 __attribute__((naked, aligned(4))) void board_fault(void) {
     __asm__ volatile(".option norelax\n\t"
                      "mv a0, sp\n\t"

@@ -1,11 +1,11 @@
-/* guard.c: the strip below the stack that nobody may touch, by physical memory protection (RISC-V Privileged
- * Architecture, 3.7): a locked entry without any right holds for machine mode as well, until the next reset. Chips
- * without it ignore the writes and go without. */
+/* guard.c: the protected strip below the stack, by physical memory protection (RISC-V Privileged Architecture, 3.7). A
+ * locked entry without rights also applies to machine mode, until the next reset. Chips without it ignore the writes
+ * and have no guard. */
 #include "riscv.h"
 
 void board_guard_stack(void) {
     const uint32_t locked = 0x80U;
-    const uint32_t power_of_two = 3U << 3; /* the address' low ones say which */
+    const uint32_t power_of_two = 3U << 3; /* the address's low ones give the size */
     const uint32_t strip = (uint32_t)(uintptr_t)board_stack_guard;
     CSR_WRITE("pmpaddr0", strip >> 2 | (BOARD_STRIP_BYTES / 8U - 1U));
     CSR_WRITE("pmpcfg0", locked | power_of_two);

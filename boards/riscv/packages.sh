@@ -1,4 +1,4 @@
-# packages.sh: what this family takes (mk/setup/deps.sh).
+# packages.sh: the tools of this family (mk/setup/deps.sh).
 have_picolibc() {
     have riscv64-unknown-elf-gcc && [ -e "$(riscv64-unknown-elf-gcc -print-file-name=picolibc.specs)" ]
 }

@@ -1,5 +1,5 @@
-/* riscv.h: what the parts of the RISC-V family share. Boards of the family are data only: boards/NAME/board_data.h
- * (registers), board.ld (memory) and board.mk (flags and source list). */
+/* riscv.h: declarations shared by the parts of the RISC-V family. Boards of the family are data only:
+ * boards/NAME/board_data.h (registers), board.ld (memory) and board.mk (flags and source list). */
 #ifndef BOARDS_RISCV_H
 #define BOARDS_RISCV_H
 
@@ -11,12 +11,12 @@
 #define CSR_WRITE(name, value) \
     __asm__ volatile("csrw " name ", %0" : : "r"((uint32_t)(value)) : "memory")
 
-/* The console's device. uart_start() may be called again at any time, also when a trap is reported before anything
- * else is up. */
+/* The console's device. uart_start() may be called again at any time, also for a trap's report before other parts are
+ * up. */
 void uart_start(void);
 void uart_write(const char *bytes, unsigned count);
 
-/* Where every trap goes: this program uses no interrupt, so each is a fault. Never returns. */
+/* The handler of every trap: this program uses no interrupt, so each is a fault. Never returns. */
 void board_fault(void);
 
 int main(void);

@@ -1,5 +1,5 @@
-# riscv.mk: what the boards of this family share; boards/cortexm/cortexm.mk says what the variables are. The C library is
-# picolibc, of which only the test image takes something. Debian's compiler is named after 64 bits and does 32 as well.
+# riscv.mk: settings shared by the boards of this family; boards/cortexm/cortexm.mk explains the variables. The C library is
+# picolibc, which only the test image uses. Debian's compiler is named after 64 bits and supports 32, too.
 $(call board_needs,BOARD_MACHINE BOARD_CPU BOARD_SECONDS,: it stands before the include of boards/riscv/riscv.mk)
 BOARD_DEPS     := riscv
 BOARD_CROSS    := riscv64-unknown-elf-

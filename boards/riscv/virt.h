@@ -1,4 +1,4 @@
-/* virt.h: what boards on QEMU's machine `virt` share: registers (QEMU, hw/riscv/virt.c, virt_memmap). */
+/* virt.h: registers shared by boards on QEMU's machine `virt` (QEMU, hw/riscv/virt.c, virt_memmap). */
 #ifndef BOARDS_VIRT_H
 #define BOARDS_VIRT_H
 

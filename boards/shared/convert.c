@@ -1,8 +1,7 @@
-/* convert.c: whole numbers of 64 bits as float, rounded to nearest, ties to even.
+/* convert.c: 64-bit integers to float, rounded to nearest, ties to even.
  *
- * The compiler calls these two by their names. Its support library has them too, but where they are not written in
- * assembler, as for RISC-V and Cortex-M0, they take a detour through double-precision arithmetic, of which firmware here
- * has none. */
+ * The compiler calls these two by their names. Its support library has them too. But if they are not written in
+ * assembler there (RISC-V, Cortex-M0), they use double-precision arithmetic, which firmware here does not have. */
 #include <stdint.h>
 
 #if defined(__ARM_EABI__)
@@ -29,8 +28,8 @@ float FROM_UNSIGNED(uint64_t number) {
     if (high == 0) {
         return (float)(uint32_t)number;
     }
-    /* The upper 32 bits that hold something. A float keeps 24 of them: that something below them is lost only decides
-     * between two neighbours, so it may stand in the lowest. */
+    /* The 32 bits from the leading one. A float keeps 24 of them. Lower bits only decide between two neighbours, so one
+     * sticky bit in the lowest place suffices. */
     const unsigned shift = 32U - (unsigned)__builtin_clz(high);
     const uint64_t below = number & ((UINT64_C(1) << shift) - 1U);
     const uint32_t lost = below != 0 ? 1U : 0U;

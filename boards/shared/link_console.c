@@ -1,13 +1,13 @@
-/* link_console.c: hal/link.h over the board's console: on silicon, and where no debugger plays files. What the program
- * prints goes over the same line, between frames, where nobody takes it for one: a zero byte parts it from the next frame.
- * Nobody can tell that the other side is gone: then it waits. */
+/* link_console.c: hal/link.h over the board's console: on silicon, and without a debugger that plays files. The
+ * program's prints use the same line, between frames, and cannot be taken for one: a zero byte separates them from the
+ * next frame. The other side's end cannot be detected: the program then waits. */
 #include "hal/link.h"
 
 #include "boards/board.h"
 
 bool hal_link_open(void) { return board_converse(); }
 
-/* By polling, every 20 us: a byte takes 87 us at 115,200 baud, and a device may keep but one. */
+/* Polls every 20 us: a byte takes 87 us at 115,200 baud, and a device may store only one. */
 #define POLLS_PER_S 50000U
 
 unsigned hal_link_read(uint8_t *bytes, unsigned room) {

@@ -1,4 +1,5 @@
-/* metal.h: what the bare-metal families share: registers, the memory as boards/shared/sections.ld lays it out. */
+/* metal.h: declarations shared by the bare-metal families: registers, and the memory layout of
+ * boards/shared/sections.ld. */
 #ifndef BOARDS_SHARED_METAL_H
 #define BOARDS_SHARED_METAL_H
 
@@ -7,7 +8,8 @@
 /* A 32-bit register by its address. */
 #define REGISTER(address) (*(volatile uint32_t *)(uintptr_t)(address))
 
-/* Access to one; on the PC tests take it over and see every access in its order (tests/host/fake_registers.h, tests/chip). */
+/* Access to one; on the PC, tests replace it and see every access in its order (tests/host/fake_registers.h,
+ * tests/chip). */
 #ifndef BOARD_REGISTERS_FAKED
 #define BOARD_REGISTERS_FAKED 0
 #endif
@@ -19,15 +21,15 @@ static inline uint32_t reg_load(uint32_t address) { return REGISTER(address); }
 static inline void reg_store(uint32_t address, uint32_t value) { REGISTER(address) = value; }
 #endif
 
-extern uint32_t board_stack_guard[]; /* BOARD_STRIP_BYTES below the stack, nobody's */
+extern uint32_t board_stack_guard[]; /* BOARD_STRIP_BYTES below the stack, unused */
 extern uint32_t board_stack_limit[]; /* lowest word of the stack */
 extern uint32_t board_stack_top[];   /* one past its highest word */
 extern uint32_t board_fault_stack_top[];
 
-/* Aligned to its size, as memory protection units ask. */
+/* Aligned to its size, as memory protection units require. */
 #define BOARD_STRIP_BYTES 256U
 
-/* Makes the strip fault when it is touched, where the chip can: a family's guard.c. Once, from its startup code. */
+/* Make accesses to the strip fault, if the chip can: a family's guard.c. Once, from its startup code. */
 void board_guard_stack(void);
 
 /* Words from `low` up to `high`: two symbols of the linker script, which to C are two objects. */
@@ -35,7 +37,7 @@ static inline uint32_t board_words(const uint32_t *low, const uint32_t *high) {
     return (uint32_t)(((uintptr_t)high - (uintptr_t)low) / sizeof *low);
 }
 
-/* Initial values from flash to the variables that have some, zero to the others: before any C that has variables. */
+/* Copy initial values from flash to initialized variables and clear the others: before any C code with variables. */
 static inline void board_fill_memory(void) {
     extern uint32_t board_data_load[];
     extern uint32_t board_data_start[];

@@ -1,9 +1,9 @@
-/* remembered.c: what the program remembers over a reset (hal/reset.h), in memory that nobody clears: twice, of which the older is
- * written.
+/* remembered.c: bytes that survive a reset (hal/reset.h), in memory that is never cleared: two copies, of which the
+ * older is overwritten.
  *
- * Memory holds what chance gave it when the power comes, or, after a short time without, what was there: whoever finds that the
- * power came lets it be forgotten. What counts has the CRC-32 of its bytes behind it: of chance one in
- * 4e9 has. A reset in the middle of writing spoils one of the two, and the other has what was before. */
+ * At power-on the memory has random content, or, after a short power failure, the old one: the caller that detects a
+ * power-on drops it. The CRC-32 of its bytes follows a valid copy: random content passes once in 4e9. A reset in the
+ * middle of writing corrupts one of the two, and the other has the earlier bytes. */
 #include "remembered.h"
 
 #include <stddef.h>
@@ -11,16 +11,16 @@
 #include "core/frame.h"
 #include "hal/reset.h"
 
-/* No more bytes than it takes: a processor of 8 bits needs 150 cycles for each in the CRC. */
+/* As few bytes as possible: an 8-bit processor needs 150 cycles for each in the CRC. */
 typedef struct remembered {
-    uint8_t sequence; /* the other's is one more, or one less */
+    uint8_t sequence; /* the other copy's is one more, or one less */
     uint8_t count;
     uint8_t bytes[HAL_REMEMBER_BYTES];
     uint32_t crc;
 } remembered;
 
 BOARD_KEPT static remembered slots[2];
-BOARD_KEPT static uint32_t kept_state; /* by itself: it is written every control step */
+BOARD_KEPT static uint32_t kept_state; /* separate: it is written every control step */
 
 static uint32_t crc_of(const remembered *slot) {
     return wh_frame_crc(BOARD_KEPT_CRC_START, (const uint8_t *)slot,
@@ -31,7 +31,7 @@ static bool holds(const remembered *slot) {
     return slot->count <= HAL_REMEMBER_BYTES && slot->crc == crc_of(slot);
 }
 
-/* Of two that hold the newer; NULL: neither does. */
+/* The newer valid copy; NULL: none. */
 static const remembered *newest(void) {
     const remembered *found = NULL;
     for (const remembered *slot = slots; slot < slots + 2; slot++) {
@@ -47,7 +47,7 @@ void hal_remember(const void *bytes, unsigned count) {
     const uint8_t *from = bytes;
     const remembered *last = newest();
     remembered *to = last == &slots[0] ? &slots[1] : &slots[0];
-    to->crc = ~to->crc; /* it does not hold while it is written */
+    to->crc = ~to->crc; /* invalid while it is written */
     board_kept_settle();
     to->sequence = last != NULL ? (uint8_t)(last->sequence + 1U) : 0U;
     to->count = (uint8_t)(count < HAL_REMEMBER_BYTES ? count : HAL_REMEMBER_BYTES);

@@ -1,17 +1,17 @@
-/* remembered.h: memory that a reset leaves alone, of families that have some. */
+/* remembered.h: memory that a reset does not clear, on families that have some. */
 #ifndef BOARDS_SHARED_REMEMBERED_H
 #define BOARDS_SHARED_REMEMBERED_H
 
 #include <stdbool.h>
 #include <stdint.h>
 
-/* Nobody clears or fills it. */
+/* Never cleared or filled. */
 #define BOARD_KEPT __attribute__((section(".noinit")))
 
-/* Where CRCs of what is kept there begin: so memory that is all zeros is none. */
+/* Start value of CRCs there: memory that is all zeros is then invalid. */
 #define BOARD_KEPT_CRC_START 0x52494721U
 
-/* Nothing of what is kept may be left for later, or come before what stands before it. */
+/* A barrier: stores to that memory are neither delayed beyond it nor moved before it. */
 static inline void board_kept_settle(void) {
 #if defined(__arm__)
     __asm__ volatile("dmb" ::: "memory");
@@ -23,7 +23,7 @@ static inline void board_kept_settle(void) {
 /* hal_recall() would have something. */
 bool board_remembers(void);
 
-/* The power came: hal_recall() has nothing, until the next hal_remember(). */
+/* Power-on: hal_recall() returns no bytes until the next hal_remember(). */
 void board_forget(void);
 
 /* hal_reset_mark()'s last. */

@@ -1,4 +1,4 @@
-/* reset_words.c: why the processor starts, in words. */
+/* reset_words.c: the cause of the processor's start, in words. */
 #include "reset_words.h"
 
 #include "core/text.h"

@@ -1,4 +1,4 @@
-/* reset_words.h: what a family's fault leaves of itself, for hal_reset_words() of reset_words.c. */
+/* reset_words.h: a family's record of a fault, for hal_reset_words() of reset_words.c. */
 #ifndef BOARDS_SHARED_RESET_WORDS_H
 #define BOARDS_SHARED_RESET_WORDS_H
 
@@ -7,12 +7,12 @@
 #include "core/text.h"
 
 typedef struct board_fault_when {
-    uint32_t ticks;  /* of the board's clock, which begins anew with each start */
+    uint32_t ticks;  /* of the board's clock, which restarts at each start */
     uint32_t state;  /* hal_reset_mark()'s last */
-    uint32_t faults; /* so many since the power came, this one included */
+    uint32_t faults; /* faults since power-on, including this one */
 } board_fault_when;
 
-/* The family's: adds what the fault was that hal_reset_cause() tells of, and returns when. */
+/* The family's: adds the words of the fault that hal_reset_cause() reports, and returns its time. */
 board_fault_when board_fault_told(wh_text *text);
 
 #endif

@@ -1,4 +1,4 @@
-/* rig_time.c: hal/clock.h's time: board_ticks(), and how late who waits for it comes. */
+/* rig_time.c: hal/clock.h's time: board_ticks(), and the lateness of waits. */
 #include "rig_time.h"
 
 #include "boards/board.h"

@@ -1,4 +1,4 @@
-/* stack.c: how much of the stack was used (board.h), by what is left of a pattern. */
+/* stack.c: the used part of the stack (board.h), from the remains of a pattern. */
 #include "boards/shared/metal.h"
 
 #include "boards/board.h"

@@ -1,4 +1,4 @@
-/* wait.c: board.h's waiting, where there is nothing else to do. */
+/* wait.c: board.h's waiting, by polling. */
 #include "boards/board.h"
 
 void board_wait_until(uint32_t ticks) {

@@ -1,12 +1,13 @@
 /* cell.c: load cell and supply by the chip's 12-bit converter (RM0090, 13 and 10).
  *
- * Timer 3 starts 32,000 conversions of the pair a second; DMA lays them down, and interrupts when half of its memory is
- * full: 64 pairs, 2 ms. A sample is their mean, stamped with the middle of them, so that it has no delay left, and comes
- * when the next is there, by which what a mean takes from a crest is made up for. One count of the converter is 109 mN; the
- * mean of 64 has 1.7 mN, if there is noise of half a count, and is handed on in steps of 6.8 mN.
+ * Timer 3 starts 32,000 conversions of the pair a second. DMA stores them, and interrupts when half of its memory is
+ * full: 64 pairs, 2 ms. A sample is their mean, stamped with their middle, so that it has no delay. It is delivered
+ * together with the next mean, because the correction of a mean's attenuation needs both neighbours. One count of the
+ * converter is 109 mN. The error of a mean of 64 is 1.7 mN with noise of half a count; its unit is 6.8 mN.
  *
- * The amplifier puts no force at half of the reference. Near either end it is saturated; a whole sample near the lower one is a
- * broken wire, which is pulled down there, but for what leaks into the pin and the other input has left in the converter. */
+ * The amplifier's output without force is half of the reference. Near either end it is saturated. A whole sample near
+ * the lower end is a broken wire, which a resistor pulls down except for the pin's leakage and the other input's charge
+ * in the converter. */
 #include "hal/averaged.h"
 #include "hal/loadcell.h"
 #include "hal/motor.h"
@@ -21,8 +22,8 @@
 #define PAIRS_TICKS (PAIRS * (BOARD_TICKS_PER_S / 1000U) / (PAIRS_PER_S / 1000U))
 _Static_assert(PAIRS_TICKS == HAL_LOADCELL_PERIOD_TICKS, "a sample each period");
 
-/* From the middle of the forces to the interrupt behind the last pair: half of the pairs less half of one; what is behind the
- * 4 us of sampling, at whose end the force is held, of 9 us that two conversions take. */
+/* From the middle of the forces to the interrupt after the last pair: half of the pairs less half of one. Add the time
+ * after the 4 us of sampling, at whose end the force is held, of the 9 us of two conversions. */
 #define BEHIND_TICKS (PAIRS_TICKS / 2U - (PAIRS_TICKS / PAIRS + 1U) / 2U + 5U)
 
 /* STM32F405's data sheet, table 67. */
@@ -30,10 +31,10 @@ _Static_assert(PAIRS_TICKS == HAL_LOADCELL_PERIOD_TICKS, "a sample each period")
 
 #define FULL 4095U
 #define MIDDLE 2048
-#define RAIL (FULL / 64U)       /* no amplifier is linear nearer to an end: 52 mV */
+#define RAIL (FULL / 64U)       /* margin in which no amplifier is linear: 52 mV */
 #define OPEN_BELOW (FULL / 16U) /* 0.2 V */
 
-/* A mean with a conversion above this is none of the supply's. */
+/* A mean with a conversion above this is not the supply's. */
 #define SUPPLY_END (FULL - RAIL)
 #define SUPPLY_V_PER_COUNT ((float)BOARD_SUPPLY_FULL_mV / 1000.0f / (float)FULL)
 _Static_assert(HAL_MOTOR_SUPPLY_IS_SEEN(BOARD_SUPPLY_MOST_mV,
@@ -42,10 +43,10 @@ _Static_assert(HAL_MOTOR_SUPPLY_IS_SEEN(BOARD_SUPPLY_MOST_mV,
 
 #define SAMPLES_KEPT 8U
 
-/* The status of a mean that there is not: the converter has no such. */
+/* Status of a missing mean: the converter never has this one. */
 #define NO_MEAN HAL_LOAD_REPEATED
 
-/* In memory that DMA reaches: core-coupled memory is none (RM0090, 2.3.1). */
+/* In memory that DMA reaches, which core-coupled memory is not (RM0090, 2.3.1). */
 static volatile uint16_t pair[2][PAIRS][2];
 static hal_load_sample kept_samples[SAMPLES_KEPT];
 static stm32f4_ring_counts sample_counts;
@@ -55,8 +56,8 @@ static volatile uint32_t supply_sum; /* UINT32_MAX: beyond its end */
 
 /* The last mean, */
 static hal_load_sample last;
-static int32_t before_last; /* the counts of the one before, */
-static bool last_follows;   /* and nothing is missing between them */
+static int32_t before_last; /* the counts of the one before it, */
+static bool last_follows;   /* and no mean between them is missing */
 
 static void start_dma(void) {
     stm32f4_clock_on(RCC_PART(RCC_AHB1ENR, RCC_AHB1ENR_DMA2));
@@ -71,7 +72,7 @@ static void start_dma(void) {
     reg_store(DMA2_S0CR, settings | DMA_CR_EN);
 }
 
-/* 84 clocks of 21 MHz for the sampling and 12 for the rest: 4.6 us each; of 8 MHz, the fallback's, 12 us. */
+/* 84 clocks of 21 MHz for the sampling and 12 for the conversion: 4.6 us each; 12 us at 8 MHz, the fallback's. */
 static inline void sample_for(unsigned input) {
     stm32f4_field(input < 10U ? ADC1_SMPR2 : ADC1_SMPR1, 3U, input % 10U, ADC_SMP_84);
 }
@@ -81,7 +82,7 @@ static void start_converter(void) {
     stm32f4_pin_is(BOARD_CELL_PIN, PIN_ANALOGUE);
     stm32f4_pin_is(BOARD_SUPPLY_PIN, PIN_ANALOGUE);
     if (stm32f4_clocks_now()->usart_Hz > 2U * ADC_HZ_MOST) {
-        reg_store(ADC_CCR, ADC_CCR_ADCPRE_4); /* it is half of APB2 without */
+        reg_store(ADC_CCR, ADC_CCR_ADCPRE_4); /* half of APB2 without it */
     }
     sample_for(BOARD_CELL_INPUT);
     sample_for(BOARD_SUPPLY_INPUT);
@@ -108,14 +109,14 @@ void stm32f4_cell_start(void) {
     start_trigger();
 }
 
-/* The means of a converter that went on all the time. */
+/* True for means of a converter without interruption. */
 static bool follows(const hal_load_sample *before, const hal_load_sample *sample) {
     const uint32_t passed = sample->ticks - before->ticks;
     return before->status == HAL_LOAD_OK && sample->status == HAL_LOAD_OK &&
            passed > PAIRS_TICKS / 2U && passed < PAIRS_TICKS + PAIRS_TICKS / 2U;
 }
 
-/* The mean before this one is a sample now. */
+/* Deliver the mean before this one as a sample. */
 static void hand_on(const hal_load_sample *mean) {
     const bool mean_follows = follows(&last, mean);
     if (last.status != NO_MEAN) {
@@ -130,7 +131,7 @@ static void hand_on(const hal_load_sample *mean) {
     last_follows = mean_follows;
 }
 
-/* 64 counts of 12 bits are 18 bits: four to one of ours. */
+/* 64 counts of 12 bits are 18 bits: four to one of hal/loadcell.h's. */
 static void average(unsigned half, uint32_t ticks) {
     uint32_t sum = 0;
     uint32_t supply = 0;
@@ -153,8 +154,7 @@ static void average(unsigned half, uint32_t ticks) {
     hand_on(&mean);
 }
 
-/* How far DMA has come says which half is whole, and since when: an interrupt that was held up takes the newest one, with its
- * own stamp. */
+/* DMA's position shows the complete half and its time: a delayed interrupt takes the newest one, with its own stamp. */
 void on_dma2_stream0(void) {
     const uint32_t now = board_ticks();
     reg_store(DMA2_LIFCR, DMA2_S0_ALL_FLAGS);

@@ -1,6 +1,6 @@
-/* clock.c: the STM32F405's clocks: 168 MHz from the board's crystal (RM0090, 7.2 and 3.5), or the chip's own oscillator, 16
- * MHz within 1 %, when the crystal or the phase-locked loop does not answer. Nothing is waited for without a bound, and no
- * variable is used: memory has no values yet. */
+/* clock.c: the STM32F405's clocks: 168 MHz from the board's crystal (RM0090, 7.2 and 3.5). If the crystal or the
+ * phase-locked loop fails, the chip's own oscillator, 16 MHz within 1 %. Every wait is bounded, and no variable is
+ * used: memory is not initialized yet. */
 #include "stm32f4.h"
 
 #define PLL_OUT_Hz 336000000U
@@ -13,8 +13,8 @@ _Static_assert(BOARD_CRYSTAL_HZ / BOARD_PLL_M * BOARD_PLL_N == PLL_OUT_Hz &&
 _Static_assert(BOARD_PLL_N >= 50U && BOARD_PLL_N <= 432U && BOARD_PLL_M >= 2U && BOARD_PLL_M <= 63U,
                "RM0090, 7.3.2");
 
-/* So often a flag is looked at, at 16 MHz and some ten cycles each. The chip's own oscillator takes 4 us, a switch a few
- * clocks, the loop 0.3 ms; a crystal some milliseconds. */
+/* Polls of a flag, at 16 MHz and some ten cycles each. The chip's own oscillator takes 4 us, a switch a few clocks, the
+ * loop 0.3 ms, a crystal some milliseconds. */
 #define SOON 2000U
 #define PATIENTLY 40000U
 
@@ -33,8 +33,8 @@ void stm32f4_clock_on(unsigned part) {
     (void)reg_load(enable);
 }
 
-/* The chip's own oscillator, whatever a loader in ROM or a crystal that failed has left: the core runs on it. An emulator without
- * this unit reads zeros, which no chip does: then there is nothing to set up. */
+/* Run the core on the chip's own oscillator, after any loader in ROM or failed crystal. An emulator without this unit
+ * reads zeros, which no chip does: then there is no clock to set up. */
 static bool to_own_oscillator(void) {
     reg_set(RCC_CR, RCC_CR_HSION);
     if (!stm32f4_comes(RCC_CR, RCC_CR_HSIRDY, RCC_CR_HSIRDY, SOON)) {
@@ -57,7 +57,7 @@ static board_clock fall_back(void) {
     return BOARD_CLOCK_FALLBACK;
 }
 
-/* Memory that the start-up code does not fill: written before it does. */
+/* Memory that the start-up code does not fill: it is written earlier. */
 __attribute__((section(".noinit"))) board_clock board_clock_is;
 
 static board_clock set_up(void) {
@@ -87,7 +87,7 @@ static board_clock set_up(void) {
     if (!stm32f4_comes(RCC_CFGR, RCC_CFGR_SWS, RCC_CFGR_SWS_PLL, SOON)) {
         return fall_back();
     }
-    /* a crystal that stops: the timer's break at once, then the NMI, which is a fault (7.2.7) */
+    /* if the crystal stops: the timer's break at once, then the NMI, which is a fault (7.2.7) */
     reg_set(RCC_CR, RCC_CR_CSSON);
     return BOARD_CLOCK_CRYSTAL;
 }

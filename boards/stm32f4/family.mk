@@ -1,9 +1,8 @@
-# family.mk: tests of what is flashed.
-# Tests of what is flashed, in the emulator (tests/boards/f405.sh): the same code but for sensors that it does not have.
+# family.mk: tests of flashed images in the emulator (tests/boards/f405.sh): the same code except for sensors, which it does not have.
 ifneq ($(filter boards/stm32f4/%,$(BOARD_FLASHED)),)
-# Not part of what is optimised as a whole: what the compiler itself calls; and the start, into which main() might move, with what
-# needs variables, or the FPU, before there are any. From a compiler's cache they would come without their call graphs, and
-# mk/size/size.sh would not know what stack they take.
+# Excluded from link-time optimisation: functions that the compiler itself calls, and the start-up code. main() might be inlined
+# into the latter, and use variables or the FPU before they are set up. Objects from a compiler cache lack their call graphs,
+# from which mk/size/size.sh computes the stack.
 apart := $(addprefix $(B)/$(FLASHED)/boards/,shared/mem.o cortexm/startup.o)
 $(apart): FILE_FLAGS += -fno-lto
 $(apart): export CCACHE_DISABLE := 1

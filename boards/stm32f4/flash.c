@@ -1,5 +1,5 @@
 /* flash.c: settings in sectors 1 and 2 of the chip's flash, 16 KB each (RM0090, 3.6), which the linker leaves free
- * (stm32f405.ld). An erase takes 0.25 to 0.5 s, and the core waits for its next instruction as long. */
+ * (stm32f405.ld). An erase takes 0.25 to 0.5 s, and stalls the core meanwhile. */
 #include "hal/settings.h"
 
 #include "boards/shared/remembered.h"
@@ -18,14 +18,14 @@ static uint32_t address_of(unsigned slot, unsigned at) {
     return FIRST_ADDRESS + SECTOR_BYTES * slot + at;
 }
 
-/* How what was begun ends. */
+/* The result of the operation in progress. */
 static hal_settings_result ended(void) {
     return stm32f4_flash_rests() && (reg_load(FLASH_SR) & FLASH_SR_ERRORS) == 0
                ? HAL_SETTINGS_DONE
                : HAL_SETTINGS_FAILED;
 }
 
-/* Unlocked for these bytes, if there are such, and the flash is at nothing. */
+/* Unlock for these bytes, if they exist and the flash is idle. */
 static hal_settings_result opened(unsigned slot, unsigned at, unsigned count) {
     if (!within(slot, at, count)) {
         return HAL_SETTINGS_OUTSIDE;
@@ -39,7 +39,7 @@ static hal_settings_result opened(unsigned slot, unsigned at, unsigned count) {
     return HAL_SETTINGS_DONE;
 }
 
-/* What the data cache still has of a sector that was erased is wrong (3.5.2). */
+/* The data cache may hold old data of an erased sector (3.5.2). */
 static void forget_cached(void) {
     reg_clear(FLASH_ACR, FLASH_ACR_DCEN);
     reg_set(FLASH_ACR, FLASH_ACR_DCRST);
@@ -61,7 +61,7 @@ hal_settings_result hal_settings_erase(unsigned slot) {
     return result;
 }
 
-/* Words; the bytes behind the last stay ones. */
+/* Words; the bytes after the last stay ones. */
 hal_settings_result hal_settings_write(unsigned slot, unsigned at, const uint8_t *bytes,
                                        unsigned count) {
     hal_settings_result result = at % 4U == 0 ? opened(slot, at, count) : HAL_SETTINGS_OUTSIDE;
@@ -73,7 +73,7 @@ hal_settings_result hal_settings_write(unsigned slot, unsigned at, const uint8_t
         uint32_t word = UINT32_MAX;
         __builtin_memcpy(&word, bytes + i, count - i < 4U ? count - i : 4U);
         reg_store(address_of(slot, at + i), word);
-        board_kept_settle(); /* before its status is asked for */
+        board_kept_settle(); /* before reading the status */
         result = ended();
     }
     reg_store(FLASH_CR, FLASH_CR_LOCK);

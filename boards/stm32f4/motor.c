@@ -1,9 +1,9 @@
-/* motor.c: the drive stage: TIM1's channel 1 as a PWM of 20 kHz on its complementary output alone (RM0090, 17.3 and table
- * 94), the enable on a pin, and the break input, which takes both stop and the drive stage's fault.
+/* motor.c: the drive stage. TIM1's channel 1 is a PWM of 20 kHz on its complementary output alone (RM0090, 17.3 and
+ * table 94). The enable is on a pin, and the break input takes both stop and the drive stage's fault.
  *
- * The break (active low, pulled down: a broken wire is pressed) clears MOE with no software in the way, so does a crystal
- * that stops; then the output is at its idle level, low. It cannot be set again while the break is there. A core that locks up does
- * not clear it on this chip: that is left to the watchdog.
+ * The break (active low, pulled down: a broken wire counts as pressed) clears MOE without software, and so does a
+ * stopped crystal. The output then has its idle level, low. MOE cannot be set while the break is active. A core lock-up
+ * does not clear it on this chip: the watchdog covers that case.
  *
  * A debugger that halts the core stops TIM1's counter (DBG_TIM1_STOP). Other families' manuals say that the outputs are then
  * disabled; for the F4 this is unproven, and an output could stay high. So the watchdog runs on, and resets the chip. */
@@ -16,15 +16,14 @@
 #define PWM_Hz 20000U
 #define TIM1_FUNCTION 1U
 
-static uint32_t whole; /* the compare value that is always on */
-static volatile bool
-    driving; /* as far as nothing has cut it; also an interrupt may switch it off */
+static uint32_t whole;        /* the compare value that is always on */
+static volatile bool driving; /* unless cut; an interrupt may also clear it */
 
 void stm32f4_motor_start(void) {
     stm32f4_pin_is(BOARD_PIN_ENABLE, PIN_OUTPUT); /* low */
     stm32f4_clock_on(RCC_PART(RCC_APB2ENR, RCC_APB2ENR_TIM1));
     reg_set(DBGMCU_APB2_FZ, DBGMCU_APB2_FZ_TIM1);
-    reg_clear(DBGMCU_APB1_FZ, DBGMCU_APB1_FZ_IWDG); /* a debugger's, which outlives a reset */
+    reg_clear(DBGMCU_APB1_FZ, DBGMCU_APB1_FZ_IWDG); /* set by a debugger, and surviving a reset */
     whole = stm32f4_clocks_now()->timer1_Hz / PWM_Hz;
     stm32f4_pin_is(BOARD_PIN_BREAK, PIN_ALTERNATE(TIM1_FUNCTION) | PULL_DOWN);
     reg_store(TIM_CR1(TIM1), 0);
@@ -32,7 +31,8 @@ void stm32f4_motor_start(void) {
     reg_store(TIM_PSC(TIM1), 0);
     reg_store(TIM_ARR(TIM1), whole - 1U);
     reg_store(TIM_CCR(TIM1, 1U), 0);
-    reg_store(TIM_CCMR(TIM1, 0U), TIM_CCMR_OC1M_PWM_1); /* no preload: a new value counts at once */
+    reg_store(TIM_CCMR(TIM1, 0U), TIM_CCMR_OC1M_PWM_1); /* no preload: a new value takes effect at
+                                                         * once */
     reg_store(TIM_CCER(TIM1), TIM_CCER_CC1NE);
     reg_store(TIM_EGR(TIM1), TIM_EGR_UG);
     reg_store(TIM_BDTR(TIM1), BOARD_MOTOR_BDTR);
@@ -41,10 +41,10 @@ void stm32f4_motor_start(void) {
     driving = false;
 }
 
-/* It stays so: no hardware sets MOE again (AOE is 0). */
+/* Permanent: no hardware sets MOE again (AOE is 0). */
 static bool is_cut(void) { return driving && (reg_load(TIM_BDTR(TIM1)) & TIM_BDTR_MOE) == 0; }
 
-/* NaN, and no supply: 0. */
+/* NaN and a missing supply give 0. */
 static uint32_t compare_of(float volts) {
     const float supply_V = hal_motor_supply_V();
     if (!(volts > 0.0f) || !(supply_V > 0.0f)) {
@@ -54,9 +54,9 @@ static uint32_t compare_of(float volts) {
 }
 
 unsigned hal_motor_start(void) {
-    const uint32_t before = stm32f4_hold(); /* an off that comes now comes behind it */
+    const uint32_t before = stm32f4_hold(); /* an off that comes now takes effect after this */
     if (!driving) {
-        driving = true; /* where stop keeps MOE from being set it is cut */
+        driving = true; /* if stop keeps MOE clear, the motor is cut */
         reg_store(TIM_CCR(TIM1, 1U), 0);
         if (!hal_stop_pressed() && (reg_load(TIM_SR(TIM1)) & TIM_SR_BIF) == 0) {
             stm32f4_pin_set(BOARD_PIN_ENABLE, true);
@@ -67,11 +67,11 @@ unsigned hal_motor_start(void) {
     return hal_motor_status();
 }
 
-/* Where MOE is off the value counts for nothing, and a start begins at 0. */
+/* Without MOE the value has no effect, and a start begins at 0. */
 void hal_motor_set_voltage(float volts) { reg_store(TIM_CCR(TIM1, 1U), compare_of(volts)); }
 
-/* The output first: that store is also a fault's first (BOARD_SAFE_ROWS). From now on a stop, however short, keeps it from
- * starting. */
+/* The output first: that store is also a fault's first (BOARD_SAFE_ROWS). From now on any stop, however short, prevents
+ * a start. */
 void hal_motor_off(hal_motor_off_way way) {
     reg_store(TIM_BDTR(TIM1), BOARD_MOTOR_BDTR);
     stm32f4_pin_set(BOARD_PIN_ENABLE, way == HAL_MOTOR_BRAKE);

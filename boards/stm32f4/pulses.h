@@ -1,5 +1,4 @@
-/* pulses.h: edges of slot pulses on their way from the interrupt that saw them to the control loop. A part of slots.c, or of
- * what is in its place. */
+/* pulses.h: edges of slot pulses between the interrupt and the control loop. A part of slots.c, or of its replacement. */
 #ifndef BOARDS_STM32F4_PULSES_H
 #define BOARDS_STM32F4_PULSES_H
 
@@ -13,8 +12,8 @@ static stm32f4_ring_counts edge_counts;
 static const stm32f4_ring edges = {&edge_counts, kept_edges, EDGES_KEPT, sizeof *kept_edges};
 static volatile uint32_t overruns;
 
-/* For the interrupt. False when there is no room for more, which counts as one overrun: it then looks at nothing until one is
- * taken. */
+/* For the interrupt. Returns false without room, which counts as one overrun: the interrupt then stays off until an
+ * edge is taken. */
 static inline bool keep_edge(const hal_slot_edge *edge) {
     if (stm32f4_ring_put(&edges, edge) && stm32f4_ring_has_room(&edges)) {
         return true;

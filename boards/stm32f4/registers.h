@@ -6,15 +6,15 @@
 
 #if BOARD_REGISTERS_FAKED
 uint32_t reg_address(volatile void *memory);
-/* Interrupts off, and as they were (stm32f4.h). */
+/* Interrupts off, and back to the state before (stm32f4.h). */
 uint32_t reg_hold(void);
 void reg_go_on(uint32_t before);
 #else
-/* Memory as DMA is told of it. */
+/* A memory address for DMA. */
 static inline uint32_t reg_address(volatile void *memory) { return (uint32_t)(uintptr_t)memory; }
 #endif
 
-/* Those bits of `mask` become `bits`, the others stay. Not against an interrupt that does the same. */
+/* The bits of `mask` become `bits`, the others stay. Not safe against an interrupt that does the same. */
 static inline void reg_change(uint32_t address, uint32_t mask, uint32_t bits) {
     reg_store(address, (reg_load(address) & ~mask) | bits);
 }

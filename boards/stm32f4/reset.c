@@ -1,4 +1,4 @@
-/* reset.c: why the chip starts (RM0090, 7.3.21), and what it still knows of before (boards/cortexm/kept.h). */
+/* reset.c: the cause of the chip's start (RM0090, 7.3.21), and the data from before (boards/cortexm/kept.h). */
 #include "hal/reset.h"
 #include "boards/cortexm/kept.h"
 #include "boards/shared/reset_words.h"
@@ -9,8 +9,8 @@
 static hal_reset cause;
 static board_fault_record fault;
 
-/* A start sets the flag of its pin, too: the others come first. Where no flag is set, as in an emulator, memory that still
- * knows of before tells that it is no power-on. */
+/* A start also sets the pin's flag: the others come first. Without a flag, as in an emulator, valid data from before
+ * show that it is no power-on. */
 static hal_reset cause_of(uint32_t flags, bool knows_of_before, bool faulted) {
     if ((flags & (RCC_CSR_IWDGRSTF | RCC_CSR_WWDGRSTF)) != 0) {
         return HAL_RESET_WATCHDOG;
@@ -34,7 +34,7 @@ void stm32f4_reset_start(void) {
     const bool faulted = board_kept_take_fault(&fault);
     cause = cause_of(reg_load(RCC_CSR) & all, knows_of_before, faulted);
     if (cause == HAL_RESET_POWER_ON) {
-        board_kept_forget(); /* memory outlives a short time without power */
+        board_kept_forget(); /* memory survives a short power failure */
     }
     reg_set(RCC_CSR, RCC_CSR_RMVF);
 }

@@ -1,4 +1,4 @@
-/* rm0090.h: the registers of the STM32F405 that the drivers here use. Sections are those of ST's reference manual RM0090,
+/* rm0090.h: the STM32F405's registers used by the drivers here. Sections are those of ST's reference manual RM0090,
  * revision 19; interrupts of its table 62. */
 #ifndef BOARDS_STM32F4_RM0090_H
 #define BOARDS_STM32F4_RM0090_H
@@ -156,8 +156,10 @@
 #define TIM_CCMR(timer, half) ((timer) + 0x18U + 4U * (half)) /* channels 1 and 2; 3 and 4 */
 #define TIM_CCMR_OC1M_PWM_1 (6U << 4)
 #define TIM_CCMR_CAPTURE 1U       /* of its own input, */
-#define TIM_CCMR_CAPTURE_OTHER 2U /* of the other's of the pair, behind that one's filter */
-#define TIM_CCMR_FILTER_SLOWEST (15U << 4) /* 8 samples, each 32nd: an edge holds so long */
+#define TIM_CCMR_CAPTURE_OTHER 2U /* the other input of the pair, after its filter */
+#define TIM_CCMR_FILTER_SLOWEST \
+    (15U << 4) /* 8 samples at a 32nd of the rate: an edge must hold so
+                                            * long */
 #define TIM_CCER(timer) ((timer) + 0x20U)
 #define TIM_CCER_CC1NE (1U << 2)
 #define TIM_CCER_CCE(channel) (1U << (4U * ((channel)-1U)))
@@ -198,13 +200,13 @@
 #define USART_CR1_TXEIE (1U << 7)
 #define USART_CR1_UE (1U << 13)
 
-/* Debug support, 38.16: what stands still while the core is halted. */
+/* Debug support, 38.16: units that stop while the core is halted. */
 #define DBGMCU_APB1_FZ 0xE0042008U
 #define DBGMCU_APB1_FZ_IWDG (1U << 12)
 #define DBGMCU_APB2_FZ 0xE004200CU
 #define DBGMCU_APB2_FZ_TIM1 (1U << 0)
 
-/* Interrupts of the vector table that drivers take: X(number, name). */
+/* Interrupts of the vector table that drivers handle: X(number, name). */
 #define STM32F4_INTERRUPTS 82
 #define STM32F4_VECTOR_ROWS(X) \
     X(6, exti0) \

@@ -1,7 +1,7 @@
-/* slots.c: the slot sensors on two inputs of timer 2, which takes the time of an edge by itself (RM0090, 18.3.5), after a
- * filter of 12 us. Channels 1 and 2, 3 and 4 are pairs, of which each has both inputs (18.3.6): the input's own channel takes
- * rising edges, the other the falling ones, so that a pulse's end never takes the place of its beginning. The interrupt only
- * carries the stamps away. */
+/* slots.c: the slot sensors on two inputs of timer 2, which stamps an edge by itself (RM0090, 18.3.5), after a filter
+ * of 12 us. Channels 1 and 2, 3 and 4 are pairs, in which each channel can use both inputs (18.3.6). The input's own
+ * channel takes rising edges, the other the falling ones, so that a pulse's end never overwrites its beginning. The
+ * interrupt only stores the stamps. */
 #include "hal/slots.h"
 
 #include "pulses.h"
@@ -21,7 +21,7 @@ static const uint8_t inputs[2] = {BOARD_SLOT_CHANNELS};
 #define IN_OTHER_PAIRS(...) OTHER_PAIRS(__VA_ARGS__)
 _Static_assert(IN_OTHER_PAIRS(BOARD_SLOT_CHANNELS), "each sensor takes a pair of channels");
 
-/* Of a sensor the channel that takes this end of its pulses. */
+/* A sensor's channel for this end of its pulses. */
 static unsigned channel_of(unsigned sensor, hal_slot_end end) {
     return ((inputs[sensor] - 1U) ^ (unsigned)end) + 1U;
 }
@@ -43,7 +43,7 @@ void stm32f4_slots_start(void) {
     stm32f4_interrupt(TIM2_IRQ);
 }
 
-/* Of those that came in one go the earlier first. Reading a capture clears its flag; that one was overrun says its other. */
+/* Of simultaneous captures the earlier first. Reading a capture clears its flag; its other flag shows an overrun. */
 void on_tim2(void) {
     const uint32_t status = reg_load(TIM_SR(TIM2));
     hal_slot_edge seen[4];
@@ -73,7 +73,7 @@ void on_tim2(void) {
     }
 }
 
-/* Once one is taken there is room again. What a storm left in the captures meanwhile may be of any age: forgotten. */
+/* Taking an edge makes room again. Captures left by a storm may be of any age: drop them. */
 bool hal_slots_take(hal_slot_edge *edge) {
     const bool there = stm32f4_ring_take(&edges, edge);
     if (there && reg_load(TIM_DIER(TIM2)) == 0) {

@@ -1,6 +1,6 @@
-/* slots_exti.c: the slot sensors as plain external interrupts (RM0090, 12.2), stamped when the interrupt is entered: for
- * pins that no timer captures, and for QEMU, which has these lines and no capture. A stamp is late by what held the
- * interrupt up, some microseconds, and nothing filters. Lines 0 and 1, whatever BOARD_SLOT_PINS are. */
+/* slots_exti.c: the slot sensors as plain external interrupts (RM0090, 12.2), stamped when the interrupt is entered.
+ * For pins without a timer capture, and for QEMU, which has these lines and no capture. A stamp is late by the
+ * interrupt's latency, some microseconds, without a filter. Lines 0 and 1, for any BOARD_SLOT_PINS. */
 #include "hal/slots.h"
 
 #include "boards/board.h"
@@ -23,7 +23,7 @@ void stm32f4_slots_start(void) {
     stm32f4_interrupt(EXTI1_IRQ);
 }
 
-/* QEMU asks for the interrupt at either edge; only a rising one is pending. */
+/* QEMU requests the interrupt at both edges; only a rising one is pending. */
 static void see(uint8_t sensor) {
     const uint32_t ticks = board_ticks();
     if ((reg_load(EXTI_PR) & 1U << sensor) == 0) {

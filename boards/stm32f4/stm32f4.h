@@ -1,4 +1,5 @@
-/* stm32f4.h: what the drivers of the STM32F405 share. Boards are data: boards/NAME/board_data.h says crystal and pins. */
+/* stm32f4.h: declarations shared by the drivers of the STM32F405. Boards are data: boards/NAME/board_data.h has crystal
+ * and pins. */
 #ifndef BOARDS_STM32F4_H
 #define BOARDS_STM32F4_H
 
@@ -17,16 +18,16 @@ typedef struct stm32f4_clocks {
 } stm32f4_clocks;
 const stm32f4_clocks *stm32f4_clocks_now(void);
 
-/* A part, by the bit of the register that gives it a clock; ports are the first of them. */
+/* A peripheral, by the bit of the register that enables its clock; ports are the first of them. */
 #define RCC_PART(enable, bit) (((enable)-RCC_AHB1ENR) * 8U + (unsigned)__builtin_ctz(bit))
 
-/* Its clock on; it counts when this returns (RM0090, 7.3.14; ES0182, 2.1.13). */
+/* Enable its clock; effective when this returns (RM0090, 7.3.14; ES0182, 2.1.13). */
 void stm32f4_clock_on(unsigned part);
 
-/* Those bits of `mask` have become `wanted`, within so many looks of some ten cycles each. */
+/* True if those bits of `mask` become `wanted` within this many polls of some ten cycles each. */
 bool stm32f4_comes(uint32_t address, uint32_t mask, uint32_t wanted, uint32_t looks);
 
-/* What a pin is, and what pulls it. */
+/* A pin's mode and pull resistor. */
 #define PIN_INPUT 0U
 #define PIN_OUTPUT 1U
 #define PIN_ALTERNATE(function) (2U | (function) << 4) /* 0 ... 15 */
@@ -34,9 +35,9 @@ bool stm32f4_comes(uint32_t address, uint32_t mask, uint32_t wanted, uint32_t lo
 #define PULL_UP (1U << 2)
 #define PULL_DOWN (2U << 2)
 
-/* Also gives its port a clock. */
+/* Also enables its port's clock. */
 void stm32f4_pin_is(unsigned pin, unsigned what);
-/* One store: also from a fault's handler. */
+/* One store: also from a fault handler. */
 WH_INLINE void stm32f4_pin_set(unsigned pin, bool high) {
     reg_store(GPIO_BSRR(pin / 16U), 1U << (pin % 16U + (high ? 0U : 16U)));
 }
@@ -44,14 +45,15 @@ static inline bool stm32f4_pin_is_high(unsigned pin) {
     return (reg_load(GPIO_IDR(pin / 16U)) >> (pin % 16U) & 1U) != 0;
 }
 
-/* From register `first` on there are fields of `bits` bits, none across two registers: the one of this number becomes `value`.
+/* From register `first` on there are fields of `bits` bits, each within one register: set the field of this number to
+ * `value`.
  */
 void stm32f4_field(uint32_t first, unsigned bits, unsigned number, uint32_t value);
 
-/* Let an interrupt of the chip through. All have one priority: none interrupts another, and a fault interrupts each. */
+/* Enable an interrupt of the chip. All have one priority: they do not interrupt each other, and faults interrupt all. */
 void stm32f4_interrupt(unsigned number);
 
-/* Interrupts off, from here to stm32f4_go_on(): what was is handed back. */
+/* Interrupts off, from here to stm32f4_go_on(). Returns the state before. */
 static inline uint32_t stm32f4_hold(void) {
 #if BOARD_REGISTERS_FAKED
     return reg_hold();
@@ -69,7 +71,7 @@ static inline void stm32f4_go_on(uint32_t before) {
 #endif
 }
 
-/* The flash interface is at nothing. No erase takes two seconds, at whatever speed this loop goes round. */
+/* The flash interface is idle. An erase takes less than two seconds, at any speed of this loop. */
 static inline bool stm32f4_flash_rests(void) {
     return stm32f4_comes(FLASH_SR, FLASH_SR_BSY, 0, 100000000U);
 }

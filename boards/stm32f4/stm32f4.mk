@@ -1,17 +1,17 @@
-# stm32f4.mk: boards with an STM32F405: what boards/cortexm has, with clocks, console and time base of this chip, and the rig's
-# hardware. Programs that end, with an exit status, are for the emulator; what is flashed never does:
+# stm32f4.mk: boards with an STM32F405: boards/cortexm, with clocks, console and time base of this chip, and the rig's hardware.
+# Programs that end, with an exit status, are for the emulator; a flashed one never ends:
 #
-#   BOARD_FLASHED  the board's code of images that are flashed, the rig's hardware in it, in the place of BOARD_SOURCES
-#                  (may be missing: then the rig's hardware is a model's)
-#   BOARD_FLASHED_FLAGS  what makes it smaller: it is a build of its own (mk/board.mk)
+#   BOARD_FLASHED  the board's code for flashed images, including the rig's hardware, instead of BOARD_SOURCES
+#                  (may be missing: the rig's hardware is then simulated)
+#   BOARD_FLASHED_FLAGS  flags for less flash: it has its own build (mk/board.mk)
 #   BOARD_MOST     of such an image: bytes of flash, and of memory with the worst stack. `make size` fails beyond
 BOARD_MACHINE  := netduinoplus2
 BOARD_CPU      := -mcpu=cortex-m4 -mthumb -mfpu=fpv4-sp-d16 -mfloat-abi=hard
 BOARD_MATH     := -fno-math-errno
 include boards/cortexm/cortexm.mk
 # Small, at the cost of some more instructions a control step (`make rig-steps`, gate-flashed: 1,500 at most).
-# It is optimised as a whole, 1 kB, without what copies code for speed or moves it to where it needs more registers, 1.4 kB.
-# Without that gcc takes values for uninitialized that are not.
+# Link-time optimisation saves 1 kB; no copies of code for speed and no moves that need more registers save 1.4 kB. With these
+# flags gcc wrongly warns of uninitialized values.
 SMALL_BY_LINK  := -Os -g -flto -flto-partition=one -ffat-lto-objects -fno-ipa-cp -fno-early-inlining -fno-reorder-blocks -fno-tree-tail-merge \
                   -fno-thread-jumps -fno-if-conversion -fno-move-loop-invariants -fno-schedule-insns2 -fno-shrink-wrap \
                   -fno-caller-saves -fno-tree-loop-im -fno-hoist-adjacent-loads \
@@ -28,8 +28,8 @@ BOARD_FLASHED  := $(BOARD_COMMON) boards/cortexm/flashed.c boards/cortexm/kept.c
                   $(addprefix boards/shared/,remembered.c reset_words.c rig_time.c) \
                   $(addprefix boards/stm32f4/,brown_out.c cell.c flash.c motor.c reset.c rig_clock.c slots.c stop.c watchdog.c)
 BOARD_MOST     := FLASH_MOST=65536 RAM_MOST=16384
-# The portable suites are larger than its memory: they run on mps2-an386, which has the same processor, and drivers are tested by
-# themselves (tests/chip, gate-flashed).
+# The portable suites are larger than its memory: they run on mps2-an386, which has the same processor. Drivers have tests of their
+# own (tests/chip, gate-flashed).
 BOARD_SUITES   := none
 # Its console is serial interface 6, the emulator's sixth.
 BOARD_SERIALS   = -display none -monitor none -serial null -serial null -serial null -serial null -serial null -serial

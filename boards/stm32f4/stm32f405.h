@@ -1,7 +1,7 @@
-/* stm32f405.h: what all boards with an STM32F405 have in common; a board's data is crystal and pins.
+/* stm32f405.h: data common to all boards with an STM32F405; a board's own data are crystal and pins.
  *
- * TIM1's channel 1 comes out, as its complement alone, on PB13: on each of these boards that pin is on a header, and so are
- * PB14 and PA6, TIM1's break. */
+ * The complement of TIM1's channel 1 is on PB13: on each of these boards that pin is on a header, and so are PB14 and
+ * PA6, TIM1's break. */
 #ifndef BOARDS_STM32F405_H
 #define BOARDS_STM32F405_H
 
@@ -19,10 +19,10 @@
 #define BOARD_PIN_ENABLE PIN('B', 14)
 #define BOARD_PIN_BREAK PIN('A', 6)
 
-/* How TIM1's outputs are held (motor.c); without MOE they are at their idle level, low. */
+/* States of TIM1's outputs (motor.c); without MOE they have their idle level, low. */
 #define BOARD_MOTOR_BDTR (TIM_BDTR_LOCK_2 | TIM_BDTR_OSSI | TIM_BDTR_OSSR | TIM_BDTR_BKE)
 
-/* The divider before the supply's input: 33 V at the converter's end. A supply of 30 V is the highest that is meant. */
+/* The divider before the supply's input: 33 V at the converter's end. The highest intended supply is 30 V. */
 #define BOARD_SUPPLY_FULL_mV 33000U
 #define BOARD_SUPPLY_MOST_mV 31500U
 

@@ -1,4 +1,4 @@
-/* stop.c: the stop input is the break's pin (motor.c), high while all is well: the chain of stop contacts feeds it, the drive
+/* stop.c: the stop input is the break's pin (motor.c), normally high: the chain of stop contacts feeds it, the drive
  * stage's fault output pulls it down. */
 #include "hal/stop.h"
 
@@ -8,5 +8,5 @@ bool hal_stop_pressed(void) { return !stm32f4_pin_is_high(BOARD_PIN_BREAK); }
 
 hal_stop_source hal_stop_source_now(void) { return HAL_STOP_EITHER; }
 
-/* A line that is broken is pressed. */
+/* A broken line counts as pressed. */
 bool hal_stop_heard(void) { return true; }

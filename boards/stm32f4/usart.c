@@ -1,8 +1,8 @@
-/* usart.c: the console on serial interface 6, 115,200 baud, 8 bits, no parity (RM0090, 30): rings both ways, which an
- * interrupt fills and empties; and, for a fault or before anything else is up, by polling.
+/* usart.c: the console on serial interface 6, 115,200 baud, 8 bits, no parity (RM0090, 30). An interrupt fills and
+ * empties rings in both directions. For a fault, or before other parts are up, it polls.
  *
- * Whoever offers feeds the transmitter as long as it is ready, and leaves the rest to the interrupt: so bytes also leave
- * where no interrupt comes of an empty transmitter (QEMU 7.2). */
+ * The writer feeds the transmitter while it is ready; the interrupt sends the other bytes. So bytes also leave if an
+ * empty transmitter raises no interrupt (QEMU 7.2). */
 #include "boards/board.h"
 
 #include "ring.h"
@@ -12,8 +12,8 @@
 #define USART6_IRQ 71U
 #define USART6_FUNCTION 8U
 
-/* Powers of two: indices count on and wrap. A control step of 2 ms takes 23 bytes at most, and in each the console gives out as
- * many as there is room for: its answers wait with itself. */
+/* Powers of two: indices wrap freely. A control step of 2 ms takes at most 23 bytes. In each step the console writes
+ * only as many as there is room for: its answers wait in its own buffer. */
 #define IN_BYTES 128U
 #define OUT_BYTES 128U
 
@@ -21,7 +21,8 @@ static char in_bytes[IN_BYTES];
 static stm32f4_ring_counts in_counts;
 static const stm32f4_ring in = {&in_counts, in_bytes, IN_BYTES, 1};
 static char out_bytes[OUT_BYTES];
-static stm32f4_ring_counts out_counts; /* taken: the interrupt's, and of who holds it off */
+static stm32f4_ring_counts
+    out_counts; /* taken: used by the interrupt, and by code that disables it */
 static const stm32f4_ring out = {&out_counts, out_bytes, OUT_BYTES, 1};
 static bool lost; /* the interrupt's */
 
@@ -34,7 +35,7 @@ void uart_start(void) {
     stm32f4_interrupt(USART6_IRQ);
 }
 
-/* What waits, as long as the transmitter takes it. True: there is more. */
+/* Send waiting bytes while the transmitter takes them. True: more are waiting. */
 static bool feed(void) {
     uint8_t byte;
     while ((reg_load(USART_SR) & USART_SR_TXE) != 0) {
@@ -46,8 +47,8 @@ static bool feed(void) {
     return out_counts.put != out_counts.taken;
 }
 
-/* Reading the status, then the data, clears what both say (30.6.1). Bytes that were overrun, which came behind this one, leave
- * a zero before the next, as those do that found no room: no line with it is obeyed. */
+/* Reading the status, then the data, clears both (30.6.1). Overrun bytes came after this one. They leave a zero before
+ * the next, as do bytes without room: a line with a zero is not executed. */
 static void fetch(void) {
     for (unsigned i = 0; i < IN_BYTES; i++) {
         const uint32_t status = reg_load(USART_SR);
@@ -56,7 +57,7 @@ static void fetch(void) {
         }
         char byte = (char)(reg_load(USART_DR) & 0xFFU);
         if ((status & (USART_SR_FE | USART_SR_NF)) != 0 && byte != HAL_CONSOLE_STOP) {
-            byte = 0; /* what came was another one: wrong speed, a plug, noise */
+            byte = 0; /* a damaged byte: wrong speed, a plug, noise */
         }
         if (lost) {
             lost = !stm32f4_ring_put(&in, "");
@@ -98,7 +99,7 @@ unsigned hal_console_offer(const char *bytes, unsigned count) {
     return taken;
 }
 
-/* Ready within a byte's time, 87 us: one that never gets ready is no reason to hang. */
+/* Ready within a byte's time, 87 us: the wait is bounded, so that a dead device does not hang the program. */
 static void send(char byte) {
     (void)stm32f4_comes(USART_SR, USART_SR_TXE, USART_SR_TXE, 100000U);
     reg_store(USART_DR, (uint8_t)byte);
@@ -111,7 +112,7 @@ void uart_write(const char *bytes, unsigned count) {
     const uint32_t before = stm32f4_hold();
     for (;;) {
         char byte;
-        if (!stm32f4_ring_take(&out, &byte)) { /* what was offered before comes before */
+        if (!stm32f4_ring_take(&out, &byte)) { /* earlier bytes first */
             if (count-- == 0) {
                 break;
             }

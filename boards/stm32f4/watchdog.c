@@ -1,5 +1,6 @@
-/* watchdog.c: the independent watchdog (RM0090, 21), which resets the chip; in a reset the drive is off. Its oscillator has 17
- * to 47 kHz: it never bites before the time, and within 2.8 times of it. It runs on while a debugger halts the core (motor.c). */
+/* watchdog.c: the independent watchdog (RM0090, 21), which resets the chip; in a reset the drive is off. Its oscillator
+ * has 17 to 47 kHz: it never acts before the time, and always within 2.8 times of it. It goes on while a debugger halts
+ * the core (motor.c). */
 #include "hal/watchdog.h"
 
 #include "hal/clock.h"
@@ -10,14 +11,14 @@
 #define LONGEST 4095U
 #define DIVIDERS 7U /* by 4, 8, ... 256 */
 
-/* At its fastest, rounded up. In two parts: as one product it would take the library's division of 64 bits, 750 bytes of
- * flash that nothing else asks for. */
+/* At its fastest, rounded up. In two parts: one product would need the library's 64-bit division, 750 bytes of flash
+ * without another use. */
 static uint32_t clocks_in(uint32_t ticks) {
     const uint32_t rest = FASTEST_KHZ * (ticks % TICKS_PER_MS);
     return FASTEST_KHZ * (ticks / TICKS_PER_MS) + (rest + TICKS_PER_MS - 1U) / TICKS_PER_MS;
 }
 
-/* May be called again, with another time: also in the last moment of the one before. */
+/* May be called again, with another time: also at the last moment of the one before. */
 void hal_watchdog_start(uint32_t timeout_ticks) {
     uint32_t counts = clocks_in(timeout_ticks) / 4U;
     uint32_t divider = 0;
@@ -30,7 +31,7 @@ void hal_watchdog_start(uint32_t timeout_ticks) {
     reg_store(IWDG_KR, IWDG_KR_UNLOCK);
     reg_store(IWDG_PR, divider);
     reg_store(IWDG_RLR, counts < LONGEST ? counts + 1U : LONGEST);
-    /* both values take five of its clocks, 300 us at most, to get there (21.4.4) */
+    /* both values need up to five of its clocks, 300 us, to take effect (21.4.4) */
     (void)stm32f4_comes(IWDG_SR, UINT32_MAX, 0, 100000U);
     reg_store(IWDG_KR, IWDG_KR_RELOAD);
 }

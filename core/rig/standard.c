@@ -5,7 +5,7 @@
 #define RPM(x) (WH_R(x) * WH_RIG_RADPS_PER_RPM)
 
 /* The loop. From voltage to mean speed the rotor is a lag of about 0.24 s with a gain of 60 rad/s for 24 V. The speed
- * over the last turn is some 0.15 s old. The integral's zero cancels the lag, the gain puts the crossover at 2.5 rad/s:
+ * over the last turn is some 0.15 s old. The integral's zero cancels the lag. The gain puts the crossover at 2.5 rad/s:
  * 65 degrees of phase margin. docs/rig.md has the reasons. */
 const wh_rig_config wh_rig_standard = {
     .run = {.step_s = WH_R(0.002),

@@ -2,11 +2,11 @@
  *
  *     avr_run mcu=atmega328p hz=16000000 [counts=FILE [every=N]] PROGRAM.elf
  *
- * What the program sends by its first USART goes to standard output. It ends by falling asleep with its interrupts off;
- * its exit status is then the byte in GPIOR0 (boards/avr/board.c). 125: simavr cannot run it; 123: it crashed, or its
- * stack ran into its variables, which nothing on these chips would tell.
+ * The output of the program's first USART goes to standard output. The program ends by sleeping with its interrupts
+ * off; its exit status is the byte in GPIOR0 (boards/avr/board.c). 125: simavr cannot run it; 123: it crashed, or its
+ * stack ran into its variables, which these chips do not detect.
  *
- * FILE gets what count_plugin.c has in its log, of a program with wh_count_begin() and wh_count_end()
+ * FILE gets the log of count_plugin.c, for a program with wh_count_begin() and wh_count_end()
  * (boards/programs/counted.h), and the cycles:
  *
  *     interval NUMBER INSTRUCTIONS             from the return of wh_count_begin() to that of wh_count_end(), both left out
@@ -16,7 +16,7 @@
  *     unfinished INSTRUCTIONS                  if it ended inside an interval
  *     intervals TOTAL                          always the last line
  *
- * The cycles are those of the data sheet's instruction set, which holds for these chips: no caches, no wait states. */
+ * The cycles are those of the data sheet's instruction set, exact for these chips: no caches, no wait states. */
 #include <simavr/avr_uart.h>
 #include <simavr/sim_avr.h>
 #include <simavr/sim_core.h>
@@ -45,7 +45,7 @@ static void on_byte(struct avr_irq_t *irq, uint32_t value, void *data) {
     putchar((int)(value & 0xFFU));
 }
 
-/* simavr tells of every section it loads; only what went wrong is worth a line. */
+/* simavr logs every section it loads; only errors are shown. */
 static void on_log(avr_t *avr, const int level, const char *format, va_list arguments) {
     (void)avr;
     if (level <= LOG_ERROR) {
@@ -120,14 +120,15 @@ static avr_t *load(const settings *all, elf_firmware_t *firmware) {
     }
     firmware->frequency = all->hz;
     avr_load_firmware(avr, firmware);
-    uint32_t flags = 0; /* not to simavr's own console, and no sleeping while the program polls */
+    uint32_t flags =
+        0; /* no copy to simavr's own console, and no sleeping while the program polls */
     avr_ioctl(avr, AVR_IOCTL_UART_SET_FLAGS('0'), &flags);
     avr_irq_register_notify(avr_io_getirq(avr, AVR_IOCTL_UART_GETIRQ('0'), UART_IRQ_OUTPUT),
                             on_byte, NULL);
     return avr;
 }
 
-/* Where the variables end, or 0 if the program does not say. */
+/* The end of the variables, or 0 if the program does not define it. */
 static uint32_t end_of_variables;
 
 static uint32_t stack_pointer(const avr_t *avr) {
@@ -140,7 +141,8 @@ static _Noreturn void went_wrong(const avr_t *avr, const char *what) {
     exit(WENT_WRONG);
 }
 
-/* The stack pointer is set byte by byte, with the interrupts' flag between: for two instructions it may be anywhere. */
+/* The stack pointer is set byte by byte, with the interrupt flag in between: for two instructions it may have any
+ * value. */
 #define TORN_INSTRUCTIONS 2U
 
 /* One instruction. False when the program has ended. */
@@ -160,7 +162,7 @@ static bool step(avr_t *avr) {
     return state != cpu_Done;
 }
 
-/* Intervals that count as one: the largest of each, and sums. */
+/* Intervals that count as one: the largest values, and sums. */
 typedef struct group {
     uint64_t members;
     uint64_t instructions, cycles;
@@ -234,7 +236,7 @@ static void run_counting(avr_t *avr, const settings *all, const elf_firmware_t *
 int main(int argc, char **argv) {
     const settings all = read_arguments(argc, argv);
     avr_global_logger_set(on_log);
-    (void)setvbuf(stdout, NULL, _IOLBF, BUFSIZ); /* of a program that does not end, too */
+    (void)setvbuf(stdout, NULL, _IOLBF, BUFSIZ); /* also for a program that does not end */
     elf_firmware_t firmware;
     avr_t *avr = load(&all, &firmware);
     avr->run_cycle_limit = 1; /* one instruction a call */
