@@ -1,4 +1,4 @@
-/* angle.c: angles between radians and their stored form, and the table behind the sine. */
+/* angle.c: angles between radians and their stored form, and the sine table. */
 #include "angle.h"
 
 #include "small_turn.h"

@@ -19,7 +19,7 @@
 extern "C" {
 #endif
 
-/* What a frame is. */
+/* Kinds of frames. */
 enum {
     WH_FRAME_HELLO = 1,
     WH_FRAME_ORDERS = 2,

@@ -16,7 +16,7 @@ typedef struct wh_ledger_work {
     wh_real attempt[WH_LEDGER_MAX]; /* of the present try */
     wh_real step[WH_LEDGER_MAX];    /* of the whole step so far */
     wh_real span;                   /* length of the present try, s; zero: no try */
-    const wh_angle *angle;          /* where it begins */
+    const wh_angle *angle;          /* begin of the try */
     unsigned stage;
 } wh_ledger_work;
 

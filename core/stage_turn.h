@@ -322,7 +322,7 @@ WH_INLINE void wh_turned_take(const wh_waves *waves, const wh_turning *t, wh_tur
 
 /* A step of q'' = f(q, q', u) in progress. */
 typedef struct wh_turned_second {
-    const wh_real *linear; /* where it begins */
+    const wh_real *linear; /* at the begin */
     const wh_real *rate;
     const wh_real *input;
     wh_turning t;

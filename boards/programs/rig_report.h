@@ -84,7 +84,7 @@ static inline void put_turns(const wh_run *run) {
     put_value("  between the slowest and fastest", (most - least) * RPM_PER_RADPS, 2, "rpm");
 }
 
-/* A run's measurement, beside the formula at a nominal speed. */
+/* A run's measurement, with the formula's value at a nominal speed. */
 static inline void put_result(const wh_rig_config *config, const wh_rig_result *result,
                               float nominal_radps) {
     const float formula_N = config->measure.rotor.mass_moment_kgm * nominal_radps * nominal_radps;
@@ -139,7 +139,7 @@ static inline void put_swung(const wh_swung *swung) {
     }
 }
 
-/* Beside the formula for a fixed mount. */
+/* With the formula's value for a fixed mount. */
 static inline void put_carriage(const wh_rig_config *config, const wh_carriage *carriage,
                                 float displacement_m) {
     const float part = config->measure.result.mount_factor;

@@ -22,8 +22,8 @@
 #define PAIRS_TICKS (PAIRS * (BOARD_TICKS_PER_S / 1000U) / (PAIRS_PER_S / 1000U))
 _Static_assert(PAIRS_TICKS == HAL_LOADCELL_PERIOD_TICKS, "a sample each period");
 
-/* From the middle of the forces to the interrupt after the last pair: half of the pairs less half of one. Add the time
- * after the 4 us of sampling, at whose end the force is held, of the 9 us of two conversions. */
+/* From the middle of the forces to the interrupt after the last pair. It is half of the pairs less half of one, plus
+ * the remainder of the 9 us of two conversions after the 4 us of sampling, at whose end the force is held. */
 #define BEHIND_TICKS (PAIRS_TICKS / 2U - (PAIRS_TICKS / PAIRS + 1U) / 2U + 5U)
 
 /* STM32F405's data sheet, table 67. */

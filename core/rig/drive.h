@@ -19,7 +19,7 @@ typedef struct wh_drive_config {
 
 typedef struct wh_drive {
     wh_real target_radps;   /* where the ramp goes */
-    wh_real setpoint_radps; /* where it is */
+    wh_real setpoint_radps; /* present value */
     wh_real integral_V;     /* the integral part; from 0 to the supply */
 } wh_drive;
 

@@ -7,7 +7,7 @@
 
 static wh_real square_of(wh_real x) { return x * x; }
 
-/* --- what is kept ----------------------------------------------------------------------------------- */
+/* --- stored pulses ---------------------------------------------------------------------------------- */
 
 static void begin(wh_swing *swing) {
     swing->result = (wh_swung){.why = WH_SWING_SWINGS};

@@ -47,7 +47,7 @@ typedef struct wh_guard_config {
     wh_real climb_start_radps2;  /* or by this while the rotor is taken over, */
     wh_real climb_behind_radps2; /* or by this while it is slower than the set-point by more */
     wh_real behind_radps;        /* than this, */
-    wh_real climb_there_radps2;  /* and else this */
+    wh_real climb_there_radps2;  /* and otherwise this */
     /* speed at the bottom after a fall from rest at the top: 2 sqrt(S g / I) */
     wh_real fall_radps;
     uint32_t lost_max;          /* pulses that may be lost in a run */

@@ -52,7 +52,7 @@ typedef struct wh_observer {
     bool runs;        /* started: the scene follows the rotor */
     bool marked;      /* there was a mark since the restart */
     wh_status status; /* of wh_observer_start(); if not WH_OK, never valid */
-    wh_state state;   /* stands at `ticks` */
+    wh_state state;   /* its time is `ticks` */
     uint64_t memory[(WH_MEMORY_BYTES(1, 2, 0) + 7U) / 8U];
     uint32_t ticks;
     uint32_t step_ticks;    /* of the scene */

@@ -34,7 +34,7 @@ static wh_real early_ticks(const wh_speed *speed, const wh_pulse *pulse, wh_real
     return turn - (wh_real)(pulse->ticks - speed->seen_ticks[pulse->sensor]);
 }
 
-/* --- what is sure -------------------------------------------------------------------------------- */
+/* --- confirmed pulses ---------------------------------------------------------------------------- */
 
 static void release(wh_pulses *pulses) {
     if (pulses->waits && pulses->marks < WH_PULSES_MARKS) {
@@ -60,7 +60,7 @@ bool wh_pulses_sure(wh_pulses *pulses, uint32_t now_ticks, wh_mark *mark) {
     return true;
 }
 
-/* --- what is true -------------------------------------------------------------------------------- */
+/* --- true and false pulses ----------------------------------------------------------------------- */
 
 static bool is_fast(const wh_pulses *pulses, const wh_speed *speed) {
     return pulses->bound_radps > WH_R(0.0) && speed->interval_radps > pulses->bound_radps;

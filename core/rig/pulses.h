@@ -74,7 +74,7 @@ void wh_pulses_take(wh_pulses *pulses, unsigned sensor, uint32_t ticks);
 /* The same if there may be one. */
 bool wh_pulses_sure(wh_pulses *pulses, uint32_t now_ticks, wh_mark *mark);
 
-/* The next mark that is sure by now; false when there is none. To be asked until there is none, each control step. */
+/* The next mark confirmed by now; false without one. Call it until it returns false, each control step. */
 WH_INLINE bool wh_pulses_mark(wh_pulses *pulses, uint32_t now_ticks, wh_mark *mark) {
     return (pulses->waits || pulses->marks > 0) && wh_pulses_sure(pulses, now_ticks, mark);
 }

@@ -76,7 +76,7 @@ typedef struct wh_merge {
     uint32_t outliers;
     uint32_t split_turns; /* turns averaged in at_mark_N[1] */
     wh_real jitter_s2;    /* sum of squares of second differences of marks, */
-    uint32_t jitters;     /* so many */
+    uint32_t jitters;     /* their number */
     uint32_t first_ticks; /* a turn's time: of the first, and of the last that was used */
     uint32_t last_ticks;
     uint32_t split_turn_ticks;

@@ -39,7 +39,7 @@ void wh_rig_start(const wh_rig_config *config, wh_rig *rig, uint32_t now_ticks,
     }
 }
 
-/* --- what comes in ------------------------------------------------------------------------------- */
+/* --- inputs -------------------------------------------------------------------------------------- */
 
 bool wh_rig_post(wh_rig *rig, wh_rig_event event, wh_real value) {
     if (rig->orders == WH_RIG_ORDERS_MOST) {
@@ -90,7 +90,7 @@ void wh_rig_load(const wh_rig_config *config, wh_rig *rig, uint32_t ticks, int32
     }
 }
 
-/* --- what follows from an event ------------------------------------------------------------------ */
+/* --- effects of an event ------------------------------------------------------------------------- */
 
 static void trip(wh_rig *rig, const wh_rig_inputs *inputs) {
     rig->record = (wh_trip_record){.trip = rig->guard.trip,
@@ -456,7 +456,8 @@ wh_rig_command wh_rig_step(const wh_rig_config *config, wh_rig *rig, const wh_ri
     watch(config, rig, inputs);
     if (inputs->stop_pressed) {
         finds(config, rig, inputs, WH_EVENT_STOP);
-        rig->guard.off.released = true; /* releasing the brake switches the enable off in any case */
+        rig->guard.off.released =
+            true; /* releasing the brake switches the enable off in any case */
     }
     take_orders(config, rig, inputs);
     const wh_rig_phase phase = rig->run.phase;

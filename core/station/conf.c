@@ -273,7 +273,7 @@ static bool renew(wh_conf *conf) {
     return true;
 }
 
-/* --- what may be set ----------------------------------------------------------------------------------- */
+/* --- setting one --------------------------------------------------------------------------------------- */
 
 wh_station_error wh_conf_set(wh_conf *conf, wh_conf_id id, wh_real value) {
     const wh_real before = conf->value[id];

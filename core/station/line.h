@@ -29,7 +29,7 @@ typedef struct wh_line {
 } wh_line;
 
 typedef struct wh_words {
-    const char *word[WH_LINE_WORDS]; /* "" where there is none */
+    const char *word[WH_LINE_WORDS]; /* "" for missing ones */
     unsigned count;                  /* also of those beyond */
 } wh_words;
 

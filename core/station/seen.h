@@ -24,7 +24,7 @@ typedef struct wh_seen {
     bool ended; /* a pulse's end came, too: */
     unsigned end_sensor;
     uint32_t end_ticks;
-    unsigned samples; /* so many of: */
+    unsigned samples; /* number of: */
     wh_seen_sample sample[WH_SEEN_SAMPLES];
 } wh_seen;
 

@@ -51,7 +51,7 @@ static void send_answer(request *r, unsigned why) {
     send(r);
 }
 
-/* --- what it can be asked -------------------------------------------------------------------------- */
+/* --- commands -------------------------------------------------------------------------------------- */
 
 /* Each of these returns the reason for refusal, or 0. */
 

@@ -45,7 +45,7 @@ static void ring_told(const wh_tel *tel, wh_text *answer) {
     wh_answer(answer, " trigger=@w ring=@w steps=@c frames=@c", value);
 }
 
-/* --- what a frame holds ---------------------------------------------------------------------------------- */
+/* --- contents of a frame --------------------------------------------------------------------------------- */
 
 /* "load[N]:i2:scale:offset" */
 static void add_load(const wh_cell_config *cell, wh_text *answer) {
@@ -101,7 +101,7 @@ static wh_station_error schema(const wh_tel *tel, const wh_cell_config *cell, co
     return WH_STATION_FINE;
 }
 
-/* --- what it is told --------------------------------------------------------------------------------------- */
+/* --- settings ---------------------------------------------------------------------------------------------- */
 
 /* Text has room for fewer samples a second. */
 static bool is_too_fast(wh_tel_format format, uint32_t per_s) {

@@ -50,7 +50,7 @@ typedef struct hal_virtual_rig {
     const wh_scene *scene;
     wh_state state;
     uint64_t memory[WH_STATE_WORDS(1, 1, 1)];
-    wh_status status;      /* WH_E_DIVERGED: the model diverged; time goes on, the rotor stands
+    wh_status status;      /* WH_E_DIVERGED: the model diverged; time advances, the rotor stands
                             * still */
     uint32_t ticks;        /* now, 1 MHz, wrapping */
     uint32_t step_ticks;   /* one step of the model */
@@ -74,7 +74,7 @@ typedef struct hal_virtual_rig {
     hal_reset cause;   /* why the processor started, */
     bool in_reset;     /* or starting: the plant goes on meanwhile */
     uint8_t remembered[HAL_REMEMBER_BYTES];
-    unsigned remembers; /* so many */
+    unsigned remembers; /* their number */
     hal_virtual_faults faults;
 } hal_virtual_rig;
 
@@ -86,7 +86,7 @@ bool hal_virtual_rig_start(hal_virtual_rig *rig, const wh_scene *scene);
 void hal_virtual_rig_advance(hal_virtual_rig *rig, uint32_t ticks);
 
 /* Reset the processor, for a cause other than power-on. Drive and watchdog are off, pulses and samples not yet taken
- * are lost, and the timer restarts; the rotor goes on. hal_clock_start() then starts no other rig. */
+ * are lost, and the timer restarts; the rotor keeps turning. hal_clock_start() then starts no other rig. */
 void hal_virtual_rig_reset(hal_virtual_rig *rig, hal_reset cause);
 
 /* Input of the drive stage: a voltage, the enable on; or off. As hal_motor_off(), hal_slots_take(), hal_loadcell_take()
