@@ -1,12 +1,11 @@
 /* angle.h: angles as 2^32 steps a turn, and their sine and cosine.
  *
- * An angle that appears only inside sine and cosine is stored as a 64-bit integer: the low 32 bits are the phase within
- * the turn, the high 32 bits count whole turns. It wraps by itself, is as precise after a million turns as in the
- * first, and needs no range reduction. Sums and integer multiples of phases are integer operations. (float32 radians
- * lose a digit every ten turns and freeze at 1 ms steps near 512 rad.)
+ * An angle that appears only inside sine and cosine is stored as a 64-bit integer: the low 32 bits are the phase within the
+ * turn, the high 32 bits count whole turns. It wraps by itself, is as precise after a million turns as in the first, and
+ * needs no range reduction. Sums and integer multiples of phases are integer operations. (float32 radians lose a digit
+ * every ten turns and freeze at 1 ms steps near 512 rad.)
  *
- * The double reference build uses radians: it checks the integer arithmetic instead of sharing it.
- */
+ * The double reference build uses radians: it checks the integer arithmetic instead of sharing it. */
 #ifndef WH_ANGLE_H
 #define WH_ANGLE_H
 

@@ -1,15 +1,14 @@
 /* exchange.h: the payloads of the frames between a controller and the plant that it runs against.
  *
  * The controller speaks first: a `hello` names its inputs and outputs, with units and ranges. Then they take turns. The
- * plant sends the time and the sensors' readings since the last turn (`wh_readings`). The controller sends its new
- * outputs and the time at which it wants the next readings (`wh_orders`). Both sides use this file, so the meaning of a
- * byte is defined once.
+ * plant sends the time and the sensors' readings since the last turn (`wh_readings`). The controller sends its new outputs
+ * and the time at which it wants the next readings (`wh_orders`). Both sides use this file, so the meaning of a byte is
+ * defined once.
  *
- * A controller that is reset sends its hello again. The plant answers with the reset and the bytes that the controller
- * had asked it to remember.
+ * A controller that is reset sends its hello again. The plant answers with the reset and the bytes that the controller had
+ * asked it to remember.
  *
- * Times are ticks of the controller's own timer, 32 bits, wrapping; values are SI, as floats; converters give counts.
- */
+ * Times are ticks of the controller's own timer, 32 bits, wrapping; values are SI, as floats; converters give counts. */
 #ifndef WH_EXCHANGE_H
 #define WH_EXCHANGE_H
 

@@ -4,9 +4,8 @@
  * Generated code keeps numbers within 2^30 in size (host/fixed), so nothing here overflows.
  *
  * The one costly operation is the upper half of a product of two numbers. It is exact (rounded down). It has two
- * implementations with the same bits: one 32 x 32 = 64 bit product if the processor has it, otherwise (Cortex-M0, AVR)
- * four 16 x 16 = 32 bit products.
- */
+ * implementations with the same bits: one 32 x 32 = 64 bit product if the processor has it, otherwise (Cortex-M0, AVR) four
+ * 16 x 16 = 32 bit products. */
 #ifndef WH_FIXED_H
 #define WH_FIXED_H
 

@@ -1,8 +1,8 @@
 /* fixed_scene.h: a scene that steps in fixed point (fixed.h), for processors without floating-point arithmetic.
  *
  * A file made by `whirl derive SCENE --as c --number fixed --name gear --header gear.h` defines one constant `gear`, a
- * `wh_fixed_scene`; its steps have no floating-point operation. The variables live in a `wh_fixed_state` and in memory
- * that the caller owns:
+ * `wh_fixed_scene`; its steps have no floating-point operation. The variables live in a `wh_fixed_state` and in memory that
+ * the caller owns:
  *
  *     static uint64_t memory[gear_MEMORY_WORDS];
  *     wh_fixed_state state;
@@ -14,9 +14,8 @@
  *
  * Each input and each component except turn angles has a range. A value that would leave it stays at its end, and
  * state.saturated counts it. If state.saturated is not 0, the motion is wrong. Inside the ranges nothing overflows; the
- * generator proved it. The increment of a step is rounded to about 2^-30 of the range. Smaller increments than half of
- * that are lost without being counted (`whirl run --number fixed` prints the loss).
- */
+ * generator proved it. The increment of a step is rounded to about 2^-30 of the range. Smaller increments than half of that
+ * are lost without being counted (`whirl run --number fixed` prints the loss). */
 #ifndef WH_FIXED_SCENE_H
 #define WH_FIXED_SCENE_H
 

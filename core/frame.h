@@ -4,12 +4,11 @@
  *
  *     version 1 | kind 1 | sequence 2 | ticks 4 | payload 0 .. | CRC-32 4
  *
- * The CRC is that of IEEE 802.3 over all bytes before it. The frame is coded so that no byte of it is zero, and a zero
- * byte ends it (cobs.h). So a reader that starts in the middle, or has lost bytes, is in step again after the next
- * zero. Bytes that do not end in the right CRC are dropped and counted.
+ * The CRC is that of IEEE 802.3 over all bytes before it. The frame is coded so that no byte of it is zero, and a zero byte
+ * ends it (cobs.h). So a reader that starts in the middle, or has lost bytes, is in step again after the next zero. Bytes
+ * that do not end in the right CRC are dropped and counted.
  *
- * Uses only the caller's memory; the same code on every machine.
- */
+ * Uses only the caller's memory; the same code on every machine. */
 #ifndef WH_FRAME_H
 #define WH_FRAME_H
 

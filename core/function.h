@@ -1,11 +1,9 @@
 /* function.h: the language's functions other than sine, cosine and square root, in the core's own arithmetic.
  *
  * Every operation is an IEEE 754 addition, multiplication, division, root or conversion of wh_real, or an integer
- * operation. So the bits are the same on every machine, and no library is needed. The float build computes in float
- * alone.
+ * operation. So the bits are the same on every machine, and no library is needed. The float build computes in float alone.
  *
- * Special cases as in C's Annex F: infinities, NaN, signed zeros and subnormals included.
- */
+ * Special cases as in C's Annex F: infinities, NaN, signed zeros and subnormals included. */
 #ifndef WH_FUNCTION_H
 #define WH_FUNCTION_H
 

@@ -1,8 +1,7 @@
 /* function_angle_float.c: the inverse circular functions in float.
  *
  * Minimax polynomials in the argument's square, with the first coefficient fixed at one, so that a small argument is
- * returned unchanged.
- */
+ * returned unchanged. */
 #include "function_float.h"
 
 #if !WH_DOUBLE

@@ -1,9 +1,8 @@
 /* function_double.h: the arithmetic of the double functions; private to core/function_*_double.c.
  *
- * A pair holds a number as the sum of two doubles, the second at most half a unit of the first: about a hundred bits.
- * It needs only additions, products and quotients. A result is the rounded sum of a pair, so its error is little more
- * than half a unit in the last place.
- */
+ * A pair holds a number as the sum of two doubles, the second at most half a unit of the first: about a hundred bits. It
+ * needs only additions, products and quotients. A result is the rounded sum of a pair, so its error is little more than
+ * half a unit in the last place. */
 #ifndef WH_FUNCTION_DOUBLE_H
 #define WH_FUNCTION_DOUBLE_H
 

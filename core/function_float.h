@@ -1,11 +1,10 @@
 /* function_float.h: the integer arithmetic of the float functions (included by function_*_float.c only).
  *
  * A number is split into a sign, 32 binary digits and an exponent. The function is computed from these with about 30
- * digits, and one rounding makes a float of it. That is cheaper than pairs of floats, even without floating-point
- * hardware, and compilers have nothing to reorder or fuse.
+ * digits, and one rounding makes a float of it. That is cheaper than pairs of floats, even without floating-point hardware,
+ * and compilers have nothing to reorder or fuse.
  *
- * Fixed point: "Q31" is a uint32_t that counts 2^-31, and so on.
- */
+ * Fixed point: "Q31" is a uint32_t that counts 2^-31, and so on. */
 #ifndef WH_FUNCTION_FLOAT_H
 #define WH_FUNCTION_FLOAT_H
 

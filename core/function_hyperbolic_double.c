@@ -1,6 +1,5 @@
 /* function_hyperbolic_double.c: the hyperbolic functions in double, by e^x and e^-x in pairs. Near zero, where these
- * cancel, by their series.
- */
+ * cancel, by their series. */
 #include "function_double.h"
 
 #if WH_DOUBLE

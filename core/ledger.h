@@ -1,8 +1,8 @@
 /* ledger.h: accounts of the energy and of each momentum of a run, and the entries that changed them.
  *
- * Account 0 is the energy integral sum q_i' dL/dq_i' - L (Goldstein, Classical Mechanics, section 2.7). It equals T + V
- * if T is a quadratic form of the rates and V does not depend on them. Account 1 + i is the generalized momentum
- * dL/dq_i' of coordinate i, in the scene's order, conserved coordinates last.
+ * Account 0 is the energy integral sum q_i' dL/dq_i' - L (Goldstein, Classical Mechanics, section 2.7). It equals T + V if
+ * T is a quadratic form of the rates and V does not depend on them. Account 1 + i is the generalized momentum dL/dq_i' of
+ * coordinate i, in the scene's order, conserved coordinates last.
  *
  * Each entry sums the changes of an account since the start:
  * - the work of each input, the loss of each damper (negative), the impulse of each generalized force;
@@ -11,11 +11,10 @@
  * - last, if the scene asks for it: the energy drift that its steps have given back (stabilize.h).
  *
  * The smooth entries' powers and forces, and the contacts' forces, are integrated with the weights of the method's own
- * stages. So the entries have the method's order, and a step costs one more list of operations a stage. Impacts,
- * captures and assignments are entered as they happen. Sums are compensated. The part of an account's change that no
- * entry explains is the run's numerical drift: wh_ledger_error(). The ledger never touches the state: a run with it has
- * the same bits as without. ledger_step.h fills it.
- */
+ * stages. So the entries have the method's order, and a step costs one more list of operations a stage. Impacts, captures
+ * and assignments are entered as they happen. Sums are compensated. The part of an account's change that no entry explains
+ * is the run's numerical drift: wh_ledger_error(). The ledger never touches the state: a run with it has the same bits as
+ * without. ledger_step.h fills it. */
 #ifndef WH_LEDGER_H
 #define WH_LEDGER_H
 

@@ -1,48 +1,45 @@
 /* method.h: the integration methods, one row each.
  *
- * A row holds every property of its method. The stepping, the ledger, the evaluation counts, the command line, the
- * listings and the tests all read it. To add a method, add its row and its line in docs/dev/numerics.md (a test
- * compares the two).
- */
+ * A row holds every property of its method. The stepping, the ledger, the evaluation counts, the command line, the listings
+ * and the tests all read it. To add a method, add its row and its line in docs/dev/numerics.md (a test compares the two). */
 #ifndef WH_METHOD_H
 #define WH_METHOD_H
 
 #include "real.h"
 
-/* X(name in C, word of command lines, title, order, systems that it takes, stages, its tableau). Enumerators count from
- * 0 in this order; generated code uses their names.
+/* X(name in C, word of command lines, title, order, systems that it takes, stages, its tableau). Enumerators count from 0
+ * in this order; generated code uses their names.
  *
  * A step evaluates the right-hand side once a stage. Stage i is evaluated at
  *
  *     begin + h/parts * sum_j share[j] * (rate of stage j),        .stage[i] = {parts, {share...}}
  *
- * with j before i: a row of Butcher's A, with a common denominator. A share of zero costs nothing in generated code. At
- * the end of the step, with h/parts * sum_i share[i] * (derivative of stage i),
+ * with j before i: a row of Butcher's A, with a common denominator. A share of zero costs nothing in generated code. At the
+ * end of the step, with h/parts * sum_i share[i] * (derivative of stage i),
  *
  *     x' = f(x):        x moves by .rates                             (Butcher's b)
  *     q'' = f(q, q'):   q' moves by .rates, and q by h times q' moved by .positions
  *
- * so a method may have its own weights for positions (Nystroem's, semi-implicit Euler). A Runge-Kutta method has
- * .positions = b A; only such a method takes systems of first order. Both have the same .parts: the sum for positions
- * is part of the sum for rates. The ledger (ledger_step.h) weighs the stages by .rates, too.
+ * so a method may have its own weights for positions (Nystroem's, semi-implicit Euler). A Runge-Kutta method has .positions
+ * = b A; only such a method takes systems of first order. Both have the same .parts: the sum for positions is part of the
+ * sum for rates. The ledger (ledger_step.h) weighs the stages by .rates, too.
  *
  * Nystroem's methods use that rates move positions. Their .places gives the position of stage i:
  *
  *     begin + c h q' + h^2/parts * sum_j share[j] a_j,     .places->reach[i] = {parts, {share...}}, c = .places->node[i],
  *
- * where a_j are the accelerations of the earlier stages; a Runge-Kutta method's reach is A A. The rates of stage i
- * follow from .stage[i]. Two stages with the same node and reach have the same position: a compiler that has inlined a
- * list computes its terms of positions alone (sines, mass matrix, divisions) once. First-order systems, if the row
- * takes them, use .stage alone.
+ * where a_j are the accelerations of the earlier stages; a Runge-Kutta method's reach is A A. The rates of stage i follow
+ * from .stage[i]. Two stages with the same node and reach have the same position: a compiler that has inlined a list
+ * computes its terms of positions alone (sines, mass matrix, divisions) once. First-order systems, if the row takes them,
+ * use .stage alone.
  *
- * Compositions of kicks and drifts are rows of the same columns. With kicks b_i at nodes c_i, .rates = b, .positions =
- * b (1 - c), and .reach[i] has shares b_j (c_i - c_j). They have no .stage: they have no rates for accelerations that
- * depend on rates, which therefore refuse them (WH_NO_RATES). Their first stage need not be at the step's begin.
+ * Compositions of kicks and drifts are rows of the same columns. With kicks b_i at nodes c_i, .rates = b, .positions = b (1
+ * - c), and .reach[i] has shares b_j (c_i - c_j). They have no .stage: they have no rates for accelerations that depend on
+ * rates, which therefore refuse them (WH_NO_RATES). Their first stage need not be at the step's begin.
  *
- * A row of several stages may rotate the sines of the step's begin (stage_turn.h). Its .turns gives the distance of
- * stage i as a multiple of that of stage 1, both extrapolated by the rates at the begin. They follow from the shares
- * (tests/core/test_stage_turn.c). A row without .turns looks its sines up.
- */
+ * A row of several stages may rotate the sines of the step's begin (stage_turn.h). Its .turns gives the distance of stage i
+ * as a multiple of that of stage 1, both extrapolated by the rates at the begin. They follow from the shares
+ * (tests/core/test_stage_turn.c). A row without .turns looks its sines up. */
 /* clang-format off */
 #define WH_SHORT_METHOD_ROWS(X) \
     X(WH_EULER, "euler", "explicit Euler", 1, WH_ANY_SYSTEM, 1, \

@@ -1,8 +1,8 @@
 /* scene.h: a scene is one mechanism, compiled with only the effects it names, ready to step.
  *
- * A generated file (build/gen/NAME.c) defines one constant `wh_scene`, which lives in flash. The variables of a run
- * live in a `wh_state` and in memory that the caller owns. The generated header (build/gen/NAME.h) gives the memory's
- * size and the indices of coordinates, inputs and outputs:
+ * A generated file (build/gen/NAME.c) defines one constant `wh_scene`, which lives in flash. The variables of a run live in
+ * a `wh_state` and in memory that the caller owns. The generated header (build/gen/NAME.h) gives the memory's size and the
+ * indices of coordinates, inputs and outputs:
  *
  *     static uint64_t memory[thomson_a_MEMORY_WORDS];
  *     wh_state state;
@@ -10,8 +10,7 @@
  *     while (wh_scene_step(&thomson_a, &state) == WH_OK) { ... }
  *
  * Verbs follow eFMI's Startup / DoStep. Nothing here allocates, recurses or calls a library. This file, the generated
- * header and their includes are C11 and C++11; generated .c files and the core's own are C.
- */
+ * header and their includes are C11 and C++11; generated .c files and the core's own are C. */
 #ifndef WH_SCENE_H
 #define WH_SCENE_H
 

@@ -1,18 +1,17 @@
 /* sine.h: sine and cosine together, and the phase of radians. Part of angle.h.
  *
- * The turn is cut into 128 sectors. s and c are the sine and cosine of the middle of the angle's sector, and r is the
- * angle from there, at most pi/128:
+ * The turn is cut into 128 sectors. s and c are the sine and cosine of the middle of the angle's sector, and r is the angle
+ * from there, at most pi/128:
  *
  *     sin = s + (s (cos r - 1) + c sin r)        cos = c + (c (cos r - 1) - s sin r)
  *
- * The bracket is below 1/40, so its own round-off hardly matters. The error is that of the table and of the last sum,
- * half a unit in the last place each. There is no quadrant, swap, sign or branch. Quarter turns are exact, and no value
- * is beyond one.
+ * The bracket is below 1/40, so its own round-off hardly matters. The error is that of the table and of the last sum, half
+ * a unit in the last place each. There is no quadrant, swap, sign or branch. Quarter turns are exact, and no value is
+ * beyond one.
  *
- * The usual alternative is a polynomial for an eighth of a turn. It was built and measured in both numbers: it saves
- * the table (640 bytes of flash in float) and is worse in everything else. The sign and the swap cost instructions, and
- * its last steps round numbers near one. docs/dev/numerics.md has the figures.
- */
+ * The usual alternative is a polynomial for an eighth of a turn. It was built and measured in both numbers: it saves the
+ * table (640 bytes of flash in float) and is worse in everything else. The sign and the swap cost instructions, and its
+ * last steps round numbers near one. docs/dev/numerics.md has the figures. */
 #ifndef WH_SINE_H
 #define WH_SINE_H
 
@@ -84,10 +83,9 @@ WH_INLINE void wh_sincos_parts(wh_phase phase, wh_sine_parts *parts) {
     uint64_t bits;
     __builtin_memcpy(&bits, &sum, sizeof bits);
 
-    /* pi/64 in three parts (Cody & Waite, Software Manual for the Elementary Functions, chapter 8). The first two have
-     * 18 and 16 bits, so their products with up to 2^34 sectors are exact, and so are the differences. They are
-     * 0x1.921f8p-5, 0x1.aa22p-24 and 0x1.68c234c4c6629p-44; C++11 has no such literals, and 17 decimal digits give the
-     * same numbers. */
+    /* pi/64 in three parts (Cody & Waite, Software Manual for the Elementary Functions, chapter 8). The first two have 18
+     * and 16 bits, so their products with up to 2^34 sectors are exact, and so are the differences. They are 0x1.921f8p-5,
+     * 0x1.aa22p-24 and 0x1.68c234c4c6629p-44; C++11 has no such literals, and 17 decimal digits give the same numbers. */
     double r = angle - sectors * 0.049087285995483398;
     r = r - sectors * 9.9216777016408741e-08;
     r = r - sectors * 8.0104504737328716e-14;

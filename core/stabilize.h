@@ -1,23 +1,22 @@
-/* stabilize.h: energy stabilization by small corrections along the rates. Part of ledger_step.h. For runs so long that
- * the method's error, or round-off, would add up.
+/* stabilize.h: energy stabilization by small corrections along the rates. Part of ledger_step.h. For runs so long that the
+ * method's error, or round-off, would add up.
  *
  * The ledger gives the drift D: the part of the energy's change that no entry explains (ledger.h), without earlier
- * corrections. If the kinetic energy is a quadratic form of the rates, scaling all rates by 1 + s changes the energy by
- * s P, with P = sum q_i' p_i and the momenta p_i. Directions of motion, zero rates and ratios of momenta do not change.
- * So each step sets
+ * corrections. If the kinetic energy is a quadratic form of the rates, scaling all rates by 1 + s changes the energy by s
+ * P, with P = sum q_i' p_i and the momenta p_i. Directions of motion, zero rates and ratios of momenta do not change. So
+ * each step sets
  *
  *     s = -D / (1024 max P),     at most 2^-20 in size,
  *
  * which is x' = f(x) - g F(x) D(x) with F along the rates (Ascher, Chin & Reich, Stabilization of DAEs and invariant
- * manifolds, Numerische Mathematik 67, 1994). A step corrects only a thousandth of the drift, because a float's D is
- * noise of its last digits. A thousand steps average it, and compensated sums carry the fraction. max P is the largest
- * P so far, so that s does not grow when a swing turns back. With the small P of that moment, the slow parts that still
- * move would get the whole correction.
+ * manifolds, Numerische Mathematik 67, 1994). A step corrects only a thousandth of the drift, because a float's D is noise
+ * of its last digits. A thousand steps average it, and compensated sums carry the fraction. max P is the largest P so far,
+ * so that s does not grow when a swing turns back. With the small P of that moment, the slow parts that still move would
+ * get the whole correction.
  *
- * D does not show where the energy was lost: a loss of the fast motion is returned to all motions. So the correction is
- * an entry of the ledger, and to be read as a loss of that size. It is for motions without drive and damping. In
- * others, D includes the quadrature error of the ledger, which is not an error of the motion.
- */
+ * D does not show where the energy was lost: a loss of the fast motion is returned to all motions. So the correction is an
+ * entry of the ledger, and to be read as a loss of that size. It is for motions without drive and damping. In others, D
+ * includes the quadrature error of the ledger, which is not an error of the motion. */
 #ifndef WH_STABILIZE_H
 #define WH_STABILIZE_H
 

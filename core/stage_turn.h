@@ -1,27 +1,26 @@
 /* stage_turn.h: steps whose stages rotate sines and cosines instead of looking them up.
  *
- * A step looks up the sine and cosine of each angle of its list once, at its begin. With r the angle's rate at the
- * begin and r_j that of stage j, stage s is further on by
+ * A step looks up the sine and cosine of each angle of its list once, at its begin. With r the angle's rate at the begin
+ * and r_j that of stage j, stage s is further on by
  *
  *     c_s h r + h sum_j share_j (r_j - r) / parts,        c_s = sum_j share_j / parts.
  *
- * The first part is a whole multiple of d = c_1 h r, the rotation of the method's first later stage. So one sine and
- * one cosine of a small angle, two short polynomials, serve all stages: p' = p + w, w' = w + b p'. Here p is a sine (or
- * a cosine), w the increment of the last rotation and b = 2 (cos d - 1).
+ * The first part is a whole multiple of d = c_1 h r, the rotation of the method's first later stage. So one sine and one
+ * cosine of a small angle, two short polynomials, serve all stages: p' = p + w, w' = w + b p'. Here p is a sine (or a
+ * cosine), w the increment of the last rotation and b = 2 (cos d - 1).
  *
- * The second part, the lean e, is of order h^2, because r_j - r is of order h. (s, c) leans by half of e in c, by all
- * of it in s and by half in c again. That is a rotation by e except for e^3/6, which is of order h^6. So the stages
- * agree with looked-up ones to a higher order than any method here has. The classic method, with d = h/2 v:
+ * The second part, the lean e, is of order h^2, because r_j - r is of order h. (s, c) leans by half of e in c, by all of it
+ * in s and by half in c again. That is a rotation by e except for e^3/6, which is of order h^6. So the stages agree with
+ * looked-up ones to a higher order than any method here has. The classic method, with d = h/2 v:
  *
  *     stage 2:  one turn     stage 3:  one turn, leaning by h^2 a1/4     stage 4:  two turns, leaning by h^2 a2/2
  *
  * The whole step moves the angle itself as usual (step.h), and the next step looks it up again: nothing drifts.
  *
- * The polynomials are valid up to half a radian, |d| summed over the angles whose sine the list takes; one check
- * decides. Beyond it, d is halved until it is small and the rotation doubled as often (small_turn.h). The stages are
- * then nearly as accurate, and the step takes more instructions. Turning refuses no step that looking up at each stage
- * (step.h) would accept.
- */
+ * The polynomials are valid up to half a radian, |d| summed over the angles whose sine the list takes; one check decides.
+ * Beyond it, d is halved until it is small and the rotation doubled as often (small_turn.h). The stages are then nearly as
+ * accurate, and the step takes more instructions. Turning refuses no step that looking up at each stage (step.h) would
+ * accept. */
 #ifndef WH_STAGE_TURN_H
 #define WH_STAGE_TURN_H
 
@@ -69,8 +68,7 @@ typedef struct wh_waves {
     const void *model;
     /* parts[count] at the angles' phases */
     void (*sines)(const void *model, const wh_phase *phase, wh_sine_parts *parts);
-    /* the waves' rates times `scale`, result[count], from the angles' rates; also for other quantities linear in the
-     * rates */
+    /* the waves' rates times `scale`, result[count], from the angles' rates; also for other quantities linear in the rates */
     void (*rates)(const void *model, wh_real scale, const wh_real *rate, wh_real *result);
     unsigned count; /* <= WH_WAVES */
 } wh_waves;

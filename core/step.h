@@ -2,21 +2,20 @@
  *
  * A generated scene and the host's interpreter both include this file. In a generated scene the counts, the method and
  * `compensated` are constants and the right-hand side is inlined, so the compiler unrolls the loops and drops unused
- * operations. Both have the same order of floating-point operations, and so the same bits. Both are C only: programs
- * that embed a scene include scene.h and the generated header.
+ * operations. Both have the same order of floating-point operations, and so the same bits. Both are C only: programs that
+ * embed a scene include scene.h and the generated header.
  *
  * One loop over a method's row (method.h) steps every method.
  *
- * For q'' = f(q, q', u) the position stages are written out. The result is that of the same method on the first-order
- * form, up to round-off, with fewer operations (Hairer, Norsett & Wanner, Solving Ordinary Differential Equations I,
- * section II.14). The classic method:
+ * For q'' = f(q, q', u) the position stages are written out. The result is that of the same method on the first-order form,
+ * up to round-off, with fewer operations (Hairer, Norsett & Wanner, Solving Ordinary Differential Equations I, section
+ * II.14). The classic method:
  *
  *     v2 = v + h/2 a1          q2 = q + h/2 v          a2 = f(q2, v2)
  *     v3 = v + h/2 a2          q3 = q + h/2 v2         a3 = f(q3, v3)
  *     v4 = v + h a3            q4 = q + h v3           a4 = f(q4, v4)
  *     q+ = q + h (v + h/6 (a1 + (a2 + a3)))
- *     v+ = v + h/6 ((a1 + (a2 + a3)) + ((a2 + a3) + a4))
- */
+ *     v+ = v + h/6 ((a1 + (a2 + a3)) + ((a2 + a3) + a4)) */
 #ifndef WH_STEP_H
 #define WH_STEP_H
 
@@ -198,10 +197,9 @@ WH_INLINE unsigned wh_step_first_stage(const void *model, wh_slope_fn *slope, co
     return angles;
 }
 
-/* One step of x' = f(x, u) with `angles` turn angles and `reals` reals, angles + reals <= WH_COORDS. Returns
- * WH_E_ARGUMENT with the state unchanged for a method that does not take such a system. Semi-implicit Euler does not:
- * it moves rates before positions, and a first-order system does not distinguish them. Otherwise returns as
- * wh_step_second(). */
+/* One step of x' = f(x, u) with `angles` turn angles and `reals` reals, angles + reals <= WH_COORDS. Returns WH_E_ARGUMENT
+ * with the state unchanged for a method that does not take such a system. Semi-implicit Euler does not: it moves rates
+ * before positions, and a first-order system does not distinguish them. Otherwise returns as wh_step_second(). */
 WH_INLINE wh_status wh_step_first(const void *model, wh_slope_fn *slope, wh_method method,
                                   bool compensated, unsigned angles, unsigned reals, wh_span h,
                                   wh_state *state) {

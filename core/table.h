@@ -1,16 +1,15 @@
 /* table.h: functions of one phase as constant tables in flash, interpolated within a cell.
  *
- * The terms of a mechanism's accelerations that depend on its one turn angle, including sines, divisions and roots, are
- * in tables (host/derive/tables.c), and a step reads them there. The turn is cut into 2^bits cells whose middles are
- * whole multiples of a cell. A cell stores the polynomials of all tables one after the other, so that one lookup of the
- * phase finds all of them. y is the distance from the cell's middle, in cells:
+ * The terms of a mechanism's accelerations that depend on its one turn angle, including sines, divisions and roots, are in
+ * tables (host/derive/tables.c), and a step reads them there. The turn is cut into 2^bits cells whose middles are whole
+ * multiples of a cell. A cell stores the polynomials of all tables one after the other, so that one lookup of the phase
+ * finds all of them. y is the distance from the cell's middle, in cells:
  *
  *     linear: a + y b        cubic: a + y (b + y (c + y d)),        -1/2 <= y < 1/2
  *
  * The pieces are continuous, the cubic ones also in their slopes. A cubic cell has four numbers instead of values and
- * slopes at its ends: twice the flash, but six operations instead of eleven, which matters without an FPU. The
- * increment to `a` is small, so that the round-off is little more than that of the result.
- */
+ * slopes at its ends: twice the flash, but six operations instead of eleven, which matters without an FPU. The increment to
+ * `a` is small, so that the round-off is little more than that of the result. */
 #ifndef WH_TABLE_H
 #define WH_TABLE_H
 

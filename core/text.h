@@ -9,8 +9,7 @@
  *
  * Nothing is written beyond the buffer: excess characters are dropped and `truncated` is set. The buffer always ends in
  * NUL. Floats are converted exactly, in integers: a single-precision build needs no double arithmetic for it, and every
- * machine prints the same characters.
- */
+ * machine prints the same characters. */
 #ifndef WH_TEXT_H
 #define WH_TEXT_H
 

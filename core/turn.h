@@ -53,8 +53,7 @@ WH_INLINE wh_phase wh_phase_of(wh_angle angle) { return (wh_phase)(uint64_t)angl
 #define WH_ROUND(result, steps) __asm__("fcvt.w.s %0, %1, rne" : "=r"(result) : "f"(steps))
 #endif
 
-/* A constant angle or phase for generated code: radians for the double build, `units` (2^32 a turn)
- * for the float build. */
+/* A constant angle or phase for generated code: radians for the double build, `units` (2^32 a turn) for the float build. */
 #if WH_DOUBLE
 #define WH_TURN(rad, units) (rad)
 #else

@@ -41,9 +41,8 @@ uint32_t hal_clock_tolerance_ppm(void);
 /* The timer now, in ticks. */
 uint32_t hal_clock_ticks(void);
 
-/* Wait until the timer has reached `ticks` (less than half the timer's range ahead); return at once if it has already.
- * May return late because of interrupts or a model's step: at most 0.1 ms on a real board, a millisecond in simulated
- * time. */
+/* Wait until the timer has reached `ticks` (less than half the timer's range ahead); return at once if it has already. May
+ * return late because of interrupts or a model's step: at most 0.1 ms on a real board, a millisecond in simulated time. */
 void hal_clock_wait_until(uint32_t ticks);
 
 /* The most ticks by which a wait has ended late since the last call, including waits that were called late. */

@@ -1,8 +1,7 @@
 /* loadcell.h: the load cell in the loading train and its converter.
  *
- * Raw counts are proportional to the force that the rig exerts on the cell along the loading-train axis; positive
- * towards the mass at theta = 0, which is straight down. The rig's weight is part of it: the controller removes the
- * tare. */
+ * Raw counts are proportional to the force that the rig exerts on the cell along the loading-train axis; positive towards
+ * the mass at theta = 0, which is straight down. The rig's weight is part of it: the controller removes the tare. */
 #ifndef HAL_LOADCELL_H
 #define HAL_LOADCELL_H
 

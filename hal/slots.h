@@ -1,10 +1,9 @@
 /* slots.h: the two infrared slot sensors on the rotor's slotted disc.
  *
- * Almesallmy (2006), I.1.1 and I.3.3.2: the slot is in line with the arms. Sensor 1 is on the loading-train axis (theta
- * = 0), sensor 2 90 degrees later in the sense of rotation. Amplifier, Schmitt trigger and monostable make one pulse
- * for each passage of the slot, at the slot's leading edge. The arms are then HAL_SLOT_LEAD_DEG before the sensor. A
- * timer captures both edges of the pulse. The leading one gives the rotor's position, the length distinguishes pulses
- * from noise. */
+ * Almesallmy (2006), I.1.1 and I.3.3.2: the slot is in line with the arms. Sensor 1 is on the loading-train axis (theta =
+ * 0), sensor 2 90 degrees later in the sense of rotation. Amplifier, Schmitt trigger and monostable make one pulse for each
+ * passage of the slot, at the slot's leading edge. The arms are then HAL_SLOT_LEAD_DEG before the sensor. A timer captures
+ * both edges of the pulse. The leading one gives the rotor's position, the length distinguishes pulses from noise. */
 #ifndef HAL_SLOTS_H
 #define HAL_SLOTS_H
 

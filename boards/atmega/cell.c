@@ -1,13 +1,12 @@
 /* cell.c: load cell and supply by the chip's 10-bit converter (DS 26).
  *
- * Timer 2 starts a conversion every 200 us: sixteen of the cell, then those of the supply, for a sample each 8 ms. A
- * sample is the mean of its sixteen, stamped with their middle, so that it has no delay. A force that turns at 6 Hz
- * becomes 0.06 % too small. One count of the converter is 0.434 N. The error of a mean of sixteen is 0.03 N if the
- * force moves by some counts meanwhile, and below half a count, 0.22 N, if it does not.
+ * Timer 2 starts a conversion every 200 us: sixteen of the cell, then those of the supply, for a sample each 8 ms. A sample
+ * is the mean of its sixteen, stamped with their middle, so that it has no delay. A force that turns at 6 Hz becomes 0.06 %
+ * too small. One count of the converter is 0.434 N. The error of a mean of sixteen is 0.03 N if the force moves by some
+ * counts meanwhile, and below half a count, 0.22 N, if it does not.
  *
- * The amplifier's output without force is half of the reference, the chip's own supply. Near either end it is
- * saturated. A whole sample near the lower end is a broken wire, which a resistor pulls down except for the pin's
- * leakage. */
+ * The amplifier's output without force is half of the reference, the chip's own supply. Near either end it is saturated. A
+ * whole sample near the lower end is a broken wire, which a resistor pulls down except for the pin's leakage. */
 #include "hal/loadcell.h"
 #include "hal/motor.h"
 
@@ -37,8 +36,7 @@ _Static_assert(F_CPU / 32U == 1000000U / TIMER_COUNT_TICKS, "the prescaler's 32n
 #define REFERENCE _BV(REFS0)
 #define CONVERTER (_BV(ADEN) | _BV(ADPS2) | _BV(ADPS1) | _BV(ADPS0)) /* a 128th: 125 kHz */
 
-/* Measured with each sample of the cell, not in each control step. This bit marks a sum with a conversion beyond its
- * end. */
+/* Measured with each sample of the cell, not in each control step. This bit marks a sum with a conversion beyond its end. */
 #define SUPPLY_END (FULL - RAIL)
 #define SUPPLY_BEYOND 0x8000U
 #define SUPPLY_V_PER_COUNT ((float)ATMEGA_SUPPLY_FULL_mV / 1000.0f / 1024.0f)

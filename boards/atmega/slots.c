@@ -71,9 +71,8 @@ static inline void wait_for_other(volatile uint8_t *control, volatile uint8_t *f
     *flags = _BV(ICF4);
 }
 
-/* The edge that a sensor's timer has captured, as the sensor's bits of kept_edge. Then it waits for the other edge; if
- * that has already passed, for this one again. A burst may go on meanwhile: its remains are checked with each edge
- * taken. */
+/* The edge that a sensor's timer has captured, as the sensor's bits of kept_edge. Then it waits for the other edge; if that
+ * has already passed, for this one again. A burst may go on meanwhile: its remains are checked with each edge taken. */
 static inline uint8_t turn(uint8_t sensor, volatile uint8_t *control, volatile uint8_t *flags) {
     const bool rose = (*control & _BV(ICES4)) != 0;
     wait_for_other(control, flags);

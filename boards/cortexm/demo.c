@@ -1,5 +1,4 @@
-/* demo.c: the end of a program under an emulator or debugger: with an exit status. Flashed images have flashed.c
- * instead. */
+/* demo.c: the end of a program under an emulator or debugger: with an exit status. Flashed images have flashed.c instead. */
 #include "cortexm.h"
 
 #include "boards/board.h"

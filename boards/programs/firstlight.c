@@ -1,6 +1,5 @@
 /* firstlight.c: first light of a board. It runs five scenes to their end, then two seconds of the rig's control loop at
- * rest and the console's self-test. It prints one record of all on the console (core/light_fields.h,
- * docs/firstlight.md).
+ * rest and the console's self-test. It prints one record of all on the console (core/light_fields.h, docs/firstlight.md).
  *
  * The motor is never enabled: the image has no call of hal_motor_start() (checked by boards/check_image.sh). On real
  * hardware it prints the record again for each typed line; in an emulator it ends. */

@@ -11,8 +11,7 @@
 #define CSR_WRITE(name, value) \
     __asm__ volatile("csrw " name ", %0" : : "r"((uint32_t)(value)) : "memory")
 
-/* The console's device. uart_start() may be called again at any time, also for a trap's report before other parts are
- * up. */
+/* The console's device. uart_start() may be called again at any time, also for a trap's report before other parts are up. */
 void uart_start(void);
 void uart_write(const char *bytes, unsigned count);
 

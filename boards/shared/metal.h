@@ -1,5 +1,4 @@
-/* metal.h: declarations shared by the bare-metal families: registers, and the memory layout of
- * boards/shared/sections.ld. */
+/* metal.h: declarations shared by the bare-metal families: registers, and the memory layout of boards/shared/sections.ld. */
 #ifndef BOARDS_SHARED_METAL_H
 #define BOARDS_SHARED_METAL_H
 
@@ -8,8 +7,7 @@
 /* A 32-bit register by its address. */
 #define REGISTER(address) (*(volatile uint32_t *)(uintptr_t)(address))
 
-/* Access to one; on the PC, tests replace it and see every access in its order (tests/host/fake_registers.h,
- * tests/chip). */
+/* Access to one; on the PC, tests replace it and see every access in its order (tests/host/fake_registers.h, tests/chip). */
 #ifndef BOARD_REGISTERS_FAKED
 #define BOARD_REGISTERS_FAKED 0
 #endif

@@ -46,8 +46,7 @@ static inline bool stm32f4_pin_is_high(unsigned pin) {
 }
 
 /* From register `first` on there are fields of `bits` bits, each within one register: set the field of this number to
- * `value`.
- */
+ * `value`. */
 void stm32f4_field(uint32_t first, unsigned bits, unsigned number, uint32_t value);
 
 /* Enable an interrupt of the chip. All have one priority: they do not interrupt each other, and faults interrupt all. */

@@ -2,11 +2,10 @@
  *
  * No quantity of a run distinguishes a misplaced sensor from a force out of line with the masses: both shift the phase
  * equally. The hanging position of the arms does. With the motor's leads open, only gravity and friction move the rotor
- * (free_rotor.h). If q(t) is a motion, -q(t) is one, too. So between two passages of q = 0 it takes as long on the
- * right as on the left, with or without friction, except for the loss from swing to swing. Pulses come at the slot's
- * leading edge: a sensor at p is passed at p - lead to the right and at p + lead to the left. So the lead cancels, and
- * half a swing on the right is shorter than one on the left by 4 p/v, with v the speed at the bottom. A slow rotor
- * shows most.
+ * (free_rotor.h). If q(t) is a motion, -q(t) is one, too. So between two passages of q = 0 it takes as long on the right as
+ * on the left, with or without friction, except for the loss from swing to swing. Pulses come at the slot's leading edge: a
+ * sensor at p is passed at p - lead to the right and at p + lead to the left. So the lead cancels, and half a swing on the
+ * right is shorter than one on the left by 4 p/v, with v the speed at the bottom. A slow rotor shows most.
  *
  * This needs v, and thus an amplitude A. By the pendulum's first integral v^2 = 4 g sin^2(A/2). Half a swing takes 2
  * K(sin(A/2))/sqrt(g), with K the complete elliptic integral of the first kind. The last swings are small: their period
@@ -15,9 +14,9 @@
  *
  * Gauss's regression refines it. The unknowns are q and q' at the first backward passage of the bottom, g, Coulomb and
  * viscous friction over I, and both sensors' positions. The data are the times of all pulses. The equation of motion is
- * integrated forwards over the swings and backwards over the last turns. There, and at amplitudes above 90 deg, the
- * rotor passes sensor 2, which gives a second known angle. Pulses with a large residual end a pass. The first passes
- * give all pulses an uncertainty of some degrees, less from pass to pass: a single pass would not always converge.
+ * integrated forwards over the swings and backwards over the last turns. There, and at amplitudes above 90 deg, the rotor
+ * passes sensor 2, which gives a second known angle. Pulses with a large residual end a pass. The first passes give all
+ * pulses an uncertainty of some degrees, less from pass to pass: a single pass would not always converge.
  *
  * The interval is that of the regression, widened by excess residuals of the pulses and by the floor.
  *

@@ -70,22 +70,20 @@ typedef struct wh_guard_config {
 /* Checks of the pulses while the motor is off, or brakes, independent of the commands. A turn is the time between two
  * pulses of one sensor. Over a turn gravity cancels:
  *
- * - A braked rotor loses 2 pi c/I of its mean speed in a turn. c is the damping of the torque line, I at most six times
- *   the configured inertia. If a turn loses less than half of that, the enable goes off until the next run
- *   (`released`).
+ * - A braked rotor loses 2 pi c/I of its mean speed in a turn. c is the damping of the torque line, I at most six times the
+ *   configured inertia. If a turn loses less than half of that, the enable goes off until the next run (`released`).
  * - With the enable off only friction acts, and turns only get slower.
  *
  * A rotor that swings about its hanging position fires a sensor twice in each swing. The times between these pulses get
  * shorter as the swing decays: they are not turns. Pulses show turns
  *
  * - while both sensors fire alternately. A swing that turns back between the two edges of sensor 2's slot does so once,
- *   too: sensor 1, sensor 2, sensor 1 again on the way back. So for sensor 2 an interval is a turn; for sensor 1 it is
- *   a turn if sensor 2 is next.
- * - if one sensor fires alone (the other is dead) faster than any swing. Two intervals of a swing last a period, at
- *   least 2 pi sqrt(I/S g), so they cannot both appear faster than 2 sqrt(S g/I). The bound allows for half the
- *   inertia.
- * - after `released`, if such a sensor's intervals get longer three times running by at least 2 %. At the end of a
- *   swing stopped by friction only the last two do. */
+ *   too: sensor 1, sensor 2, sensor 1 again on the way back. So for sensor 2 an interval is a turn; for sensor 1 it is a
+ *   turn if sensor 2 is next.
+ * - if one sensor fires alone (the other is dead) faster than any swing. Two intervals of a swing last a period, at least 2
+ *   pi sqrt(I/S g), so they cannot both appear faster than 2 sqrt(S g/I). The bound allows for half the inertia.
+ * - after `released`, if such a sensor's intervals get longer three times running by at least 2 %. At the end of a swing
+ *   stopped by friction only the last two do. */
 typedef struct wh_off {
     bool released;
     bool doubted;      /* by pulses of one sensor alone, */
@@ -138,8 +136,7 @@ bool wh_guard_allows(const wh_guard_config *config, wh_real target_radps, bool f
     WH_R(1.5) /* a rotor of half the configured inertia falls so, with some margin */
 wh_real wh_guard_bound_radps(const wh_guard_config *config, wh_real base_radps, wh_real falls);
 
-/* Limit on the rise of a turn's speed, given how far the speed is below the one it is led to. Above it, the rotor
- * slows. */
+/* Limit on the rise of a turn's speed, given how far the speed is below the one it is led to. Above it, the rotor slows. */
 WH_INLINE wh_real wh_guard_climb_radps2(const wh_guard_config *config, wh_real behind_radps,
                                         bool is_led) {
     if (is_led && behind_radps > config->behind_radps) {
@@ -172,11 +169,10 @@ WH_INLINE void wh_guard_quiet(const wh_guard_config *config, wh_guard *guard, ui
     }
 }
 
-/* Each step, in every state: over-speed. It is a turn above the limit, two successive pulse intervals above the bound,
- * or a turn that at two successive marks is faster than the drive could make it. `reason` is the trip:
- * WH_TRIP_OVERSPEED, or WH_TRIP_RUNS_ON with the motor off. With the motor off, a sensor that fires repeatedly may
- * swing in its slot, and only alternating pulses are turns: at least `alternate` of them running, 0 while the motor
- * drives. */
+/* Each step, in every state: over-speed. It is a turn above the limit, two successive pulse intervals above the bound, or a
+ * turn that at two successive marks is faster than the drive could make it. `reason` is the trip: WH_TRIP_OVERSPEED, or
+ * WH_TRIP_RUNS_ON with the motor off. With the motor off, a sensor that fires repeatedly may swing in its slot, and only
+ * alternating pulses are turns: at least `alternate` of them running, 0 while the motor drives. */
 #define WH_GUARD_BRAKES 1U /* the enable is on: react at once */
 #define WH_GUARD_COASTS 6U /* it is off: the turns that one false pulse corrupts have passed */
 WH_INLINE void wh_guard_speed(const wh_guard_config *config, wh_guard *guard,

@@ -1,13 +1,11 @@
 /* repeats.h: the part of the load's residual that repeats from turn to turn, in harmonics 3 to 6.
  *
- * Synchronous averaging (Braun, Acustica 32 (1975) 69): the residual of orders 0 to 2 is summed by the rotor's angle
- * over the turns of a record. Noise and mains hum average out. The errors of a cell with clipping, backlash or a
- * nonlinear gain do not. Neither does a torque twice a turn, which changes the speed and so gives the force a third
- * harmonic.
+ * Synchronous averaging (Braun, Acustica 32 (1975) 69): the residual of orders 0 to 2 is summed by the rotor's angle over
+ * the turns of a record. Noise and mains hum average out. The errors of a cell with clipping, backlash or a nonlinear gain
+ * do not. Neither does a torque twice a turn, which changes the speed and so gives the force a third harmonic.
  *
- * A rigid rotor on a fixed mount has no such harmonics: w^2 = A + B cos(theta + psi - gamma) gives F = S (w^2 cos theta
- * + w' sin theta) the orders 0, 1 and 2 only. Damping's effect on w^2 and the angle's third order add a little
- * (result.c).
+ * A rigid rotor on a fixed mount has no such harmonics: w^2 = A + B cos(theta + psi - gamma) gives F = S (w^2 cos theta +
+ * w' sin theta) the orders 0, 1 and 2 only. Damping's effect on w^2 and the angle's third order add a little (result.c).
  *
  * The noise is estimated from successive differences, as for the tare: hum and slow changes do not count. */
 #ifndef WH_RIG_REPEATS_H

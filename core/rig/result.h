@@ -157,8 +157,7 @@ void wh_merge_mean(const wh_result_config *config, const wh_rotor_config *rotor,
                    wh_measured *measured);
 
 #define WH_MERGE_MEAN_PIECES (WH_RIG_SMALL_PIECES ? 6U : 2U)
-/* The same in pieces, each once, in their order: 0 ... WH_MERGE_MEAN_PIECES - 1. *measured is incomplete until the
- * last. */
+/* The same in pieces, each once, in their order: 0 ... WH_MERGE_MEAN_PIECES - 1. *measured is incomplete until the last. */
 void wh_merge_mean_piece(const wh_result_config *config, const wh_rotor_config *rotor,
                          const wh_merge *merge, const wh_turn_angle *angle, wh_real tare_N,
                          wh_measured *measured, unsigned piece);

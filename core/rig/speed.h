@@ -1,9 +1,8 @@
 /* speed.h: speed of the rotor from the pulses of the two slot sensors.
  *
- * Sensor 0 is at 0, sensor 1 a quarter turn later. So the pulses of a turning rotor alternate and the rotor advances by
- * 1, 3, 1, 3, ... quarters. If a sensor fires twice running, a pulse of the other was lost in between. Speed is
- * measured from a sensor's pulse to its next one. Over this whole turn gravity's ripple cancels, and two new values
- * come each turn. */
+ * Sensor 0 is at 0, sensor 1 a quarter turn later. So the pulses of a turning rotor alternate and the rotor advances by 1,
+ * 3, 1, 3, ... quarters. If a sensor fires twice running, a pulse of the other was lost in between. Speed is measured from
+ * a sensor's pulse to its next one. Over this whole turn gravity's ripple cancels, and two new values come each turn. */
 #ifndef WH_RIG_SPEED_H
 #define WH_RIG_SPEED_H
 

@@ -1,11 +1,10 @@
 /* tare.h: the load cell's reading at rest, from noisy samples, and a check that the rig was at rest.
  *
- * Motion is slow: a drift, a rotor that swings (1 to 3 Hz), a frame (up to some 10 Hz). Hum is fast, and its mean
- * vanishes. So the check uses means of 40 samples with triangular weights, one every 20 samples. With 2 ms a sample
- * they span 80 ms. They pass at most 1.6 % of hum from 45 to 65 Hz, nothing of 50 Hz, and 87 % of 5 Hz. White noise of
- * variance s^2 leaves s^2/30, and s^2 is half the mean square of successive differences (von Neumann, Annals of
- * Mathematical Statistics 12 (1941) 367). The means may vary by four times that: eleven of them do so in less than one
- * of 10,000 tares. */
+ * Motion is slow: a drift, a rotor that swings (1 to 3 Hz), a frame (up to some 10 Hz). Hum is fast, and its mean vanishes.
+ * So the check uses means of 40 samples with triangular weights, one every 20 samples. With 2 ms a sample they span 80 ms.
+ * They pass at most 1.6 % of hum from 45 to 65 Hz, nothing of 50 Hz, and 87 % of 5 Hz. White noise of variance s^2 leaves
+ * s^2/30, and s^2 is half the mean square of successive differences (von Neumann, Annals of Mathematical Statistics 12
+ * (1941) 367). The means may vary by four times that: eleven of them do so in less than one of 10,000 tares. */
 #ifndef WH_RIG_TARE_H
 #define WH_RIG_TARE_H
 

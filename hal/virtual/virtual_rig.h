@@ -1,9 +1,8 @@
 /* virtual_rig.h: hardware simulated by the core's own model of the eccentric-mass rig.
  *
  * All physics is in core/models/eccentric.whirl (scene rig_fixed). This file has only the sensors around it: slot edges
- * located inside the model's step, the load cell's converter, the timer, the watchdog. One step of the model is one
- * slice of time. Time stops between two calls, so the same calls give the same bits on every machine. Single precision
- * only.
+ * located inside the model's step, the load cell's converter, the timer, the watchdog. One step of the model is one slice
+ * of time. Time stops between two calls, so the same calls give the same bits on every machine. Single precision only.
  *
  * The hal_ functions (clock.h, motor.h, ...) act on one board-wide rig, hal_virtual_rig_instance(); the functions below
  * serve any number of rigs in the caller's memory. */
