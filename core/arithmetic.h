@@ -37,16 +37,14 @@ extern const wh_probes wh_probe;
 typedef enum wh_probed {
     WH_PROBED_PRODUCT,   /* not 0 if products are not rounded before a sum: contraction, x87 */
     WH_PROBED_ORDER,     /* not 0 if a sum is reordered */
-    WH_PROBED_ROUNDING,  /* not one's last place if a sum is not rounded to the nearest, or rounded
-                         * twice */
+    WH_PROBED_ROUNDING,  /* not one's last place if a sum is rounded otherwise, or twice */
     WH_PROBED_SUBNORMAL, /* 0 if subnormal numbers are flushed to zero */
     WH_PROBED_FIVE, /* three thirds, rounded differently if division is a product with a reciprocal */
     WH_PROBED_SEVEN,
     WH_PROBED_TEN,
-    WH_PROBED_THIRD, /* the same, with a divisor known to the compiler */
-    WH_PROBED_ZERO,  /* has a sign if zeros do not keep theirs */
-    WH_PROBED_NAN, /* 0 if the compiler assumes that NaN never occurs: guards against NaN would not
-                    * work */
+    WH_PROBED_THIRD,   /* the same, with a divisor known to the compiler */
+    WH_PROBED_ZERO,    /* has a sign if zeros do not keep theirs */
+    WH_PROBED_NAN,     /* 0 if the compiler assumes that NaN never occurs */
     WH_PROBED_LITERAL, /* seventy, unless a tenth used as divisor was cut to float */
     WH_PROBED_COUNT
 } wh_probed;

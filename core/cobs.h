@@ -42,8 +42,7 @@ unsigned wh_cobs_end(wh_cobs *cobs);
 #define WH_COBS_SHORT_MOST 253U
 unsigned wh_cobs_short(uint8_t *bytes, unsigned count);
 
-/* Decode `length` coded bytes, without their zero, in place: the result is never longer. Returns its length; 0 if the
- * bytes are no valid code. */
+/* Decode `length` bytes (without their zero) in place: the result is shorter. Returns its length; 0 for invalid code. */
 unsigned wh_cobs_decode(uint8_t *bytes, unsigned length);
 
 /* CRC-16/CCITT of bytes[count], polynomial 0x1021, high bit first. `crc` is WH_CRC16_START, or the CRC of the bytes

@@ -41,8 +41,7 @@ typedef enum wh_signal_kind {
     WH_SIGNAL_SAMPLE, /* a converter's counts: every period_ticks the nearest of value / per_count;
                        * the ends of its range are `low` and `high` */
     WH_SIGNAL_EDGE,   /* a pulse when the value enters `low`..`high`; for an angle, in any turn */
-    WH_SIGNAL_NOTE /* a value that the controller reports of itself: its state, a result. No plant
-                    * has it */
+    WH_SIGNAL_NOTE    /* a value that the controller reports of itself. No plant has it */
 } wh_signal_kind;
 
 /* The signals of a kind are its channels, numbered from 0 in their order. */
@@ -77,8 +76,7 @@ typedef struct wh_orders {
     uint32_t busy_timer;  /* counts until these orders were sent */
     uint32_t step_timer;  /* of the longest control step since the last orders; 0: not measured */
     uint32_t
-        watchdog_ticks; /* without WH_ORDER_ALIVE for this long, outputs go to zero permanently; 0:
-                         * never */
+        watchdog_ticks; /* without WH_ORDER_ALIVE for this long, outputs go to zero; 0: never */
     uint8_t flags;
     unsigned outputs;             /* and notes */
     float output[WH_SIGNALS_MAX]; /* by channel: the outputs, then the notes */

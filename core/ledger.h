@@ -38,9 +38,8 @@ struct wh_ledger_form {
      * derivative in the energies, such as th^2 th', drops out of the equations but not out of dL/dth */
     wh_levels_fn *turned;
     const uint8_t *account; /* [smooth] */
-    const uint8_t *input;   /* [inputs] the inputs that the energies name; the last entries are
-                             * theirs */
-    uint16_t smooth;        /* entries of powers and forces */
+    const uint8_t *input; /* [inputs] inputs that the energies name; the last entries are theirs */
+    uint16_t smooth;      /* entries of powers and forces */
     uint16_t
         entries; /* smooth + contacts * (1 + coordinates) + inputs + stabilized, <= WH_LEDGER_MAX */
     uint8_t

@@ -96,8 +96,8 @@ typedef enum wh_method { WH_METHOD_ROWS(WH_METHOD_NAME) } wh_method;
 enum { WH_METHODS = WH_METHOD_ROWS(WH_METHOD_ONE) };
 #undef WH_METHOD_ONE
 
-/* Systems that a method takes: a bit for each wh_form (scene.h), and one for methods whose accelerations must not
- * depend on rates. */
+/* Systems that a method takes: a bit for each wh_form (scene.h), and one for accelerations that must not depend on
+ * rates. */
 enum { WH_SECOND_ORDER_ONLY = 1, WH_ANY_SYSTEM = 3, WH_NO_RATES = 5 };
 
 #ifdef __cplusplus

@@ -4,8 +4,7 @@
 #define WORDS 3U      /* of four uniform numbers each */
 #define MEAN 0x5fffaU /* 12 * 65535 / 2 */
 
-/* x/z of the deviate x as a polynomial in the square of the sum z, in units of 2^-40: a_1 to a_9 of Teichroew over 4,
- * 4^3, ... 4^9. */
+/* x/z of the deviate x, in powers of z^2 (z: the sum), in units of 2^-40: a_1 to a_9 of Teichroew over 4, 4^3, ... 4^9. */
 static const uint64_t polynomial[] = {UINT64_C(1085725439164), UINT64_C(4336349890),
                                       UINT64_C(82187326), UINT64_C(560760), UINT64_C(125409)};
 enum { TERMS = sizeof polynomial / sizeof polynomial[0] };

@@ -1,5 +1,4 @@
-/* scene_set.c: correcting a state from a measurement: one component gets a new value, and contact modes are determined
- * again. */
+/* scene_set.c: correcting a state from a measurement: one component gets a new value, and modes are determined again. */
 #include "driven.h"
 
 /* Limit on an angle's radians: as in contact_crossing.h. */

@@ -68,7 +68,7 @@ typedef struct wh_waves {
     const void *model;
     /* parts[count] at the angles' phases */
     void (*sines)(const void *model, const wh_phase *phase, wh_sine_parts *parts);
-    /* the waves' rates times `scale`, result[count], from the angles' rates; also for other quantities linear in the rates */
+    /* the waves' rates times `scale`, result[count], from the angles' rates; or of other linear quantities */
     void (*rates)(const void *model, wh_real scale, const wh_real *rate, wh_real *result);
     unsigned count; /* <= WH_WAVES */
 } wh_waves;
@@ -156,8 +156,7 @@ WH_INLINE void wh_turning_begin(const wh_waves *waves, const wh_wave *turn, bool
     }
 }
 
-/* Rotate further, up to this total number of rotations. Precise: increments are summed separately, so that each pair is
- * rounded once. */
+/* Rotate further, to this total. Precise: increments are summed separately, so that each pair is rounded once. */
 WH_INLINE void wh_turning_to(const wh_waves *waves, unsigned turns, bool precise, wh_turning *t) {
     WH_UNROLL
     for (unsigned k = 0; k < WH_STAGES; k++) {
@@ -407,8 +406,7 @@ WH_INLINE wh_status wh_turn_second(const void *model, wh_turned_accel_fn *accel,
 typedef struct wh_turned_first {
     wh_turning t;
     wh_real k1[WH_COORDS];                /* derivatives of the first stage */
-    wh_real gained[WH_STAGES][WH_COORDS]; /* derivatives of the angles at later stages less the
-                                           * first's */
+    wh_real gained[WH_STAGES][WH_COORDS]; /* of later stages less the first's, for angles */
     wh_real slopes[WH_STAGES][WH_COORDS]; /* derivatives of the later stages */
     wh_real alike[WH_STAGES][WH_COORDS];  /* sums of stages with equal weights */
 } wh_turned_first;

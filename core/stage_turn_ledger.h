@@ -1,5 +1,4 @@
-/* stage_turn_ledger.h: fills the ledger (ledger.h) while the stages' sines are turned (stage_turn.h). C only, as step.h
- * is. */
+/* stage_turn_ledger.h: fills the ledger (ledger.h) while stages turn their sines (stage_turn.h). C only, as step.h is. */
 #ifndef WH_STAGE_TURN_LEDGER_H
 #define WH_STAGE_TURN_LEDGER_H
 

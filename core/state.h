@@ -60,8 +60,7 @@ typedef struct wh_state {
     wh_real *held; /* [scene->held] holds' values: the value itself of a curved one, the slip so far
                     * of a straight one; SI units */
     wh_real
-        *ledger; /* the ledger's totals, their carries, the levels at the start, the corrections; or
-                 * NULL */
+        *ledger; /* the ledger's totals, carries, levels at the start, and corrections; or NULL */
     /* after WH_E_DIVERGED: the component at fault, angles first, then reals; after WH_E_UNDEFINED or WH_E_SINGULAR: the
      * contact, in the order of contact.h; after WH_E_ARITHMETIC: the failed probe, a wh_probed (arithmetic.h) */
     int fault;

@@ -18,8 +18,8 @@ typedef enum hal_motor_off_way {
 /* Status bits of the drive stage: */
 enum {
     HAL_MOTOR_CUT =
-        1, /* stop or its own fault has cut it or kept it from starting, independent of the
-            * software: off until the next hal_motor_off() */
+        1, /* stop or its own fault has cut it or prevented a start, without software: off until the
+            * next hal_motor_off() */
     HAL_MOTOR_FAULT = 2,    /* stop is pressed, or the drive stage has a fault: it cannot drive */
     HAL_MOTOR_NO_SUPPLY = 4 /* no supply measured: it does not drive */
 };

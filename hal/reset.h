@@ -13,12 +13,10 @@ extern "C" {
 
 typedef enum hal_reset {
     HAL_RESET_POWER_ON, /* the supply came on: no data survive */
-    HAL_RESET_WATCHDOG, /* the watchdog timed out and reset the processor instead of cutting the
-                         * drive */
+    HAL_RESET_WATCHDOG, /* the watchdog timed out and reset the processor */
     HAL_RESET_OTHER,    /* a pin, a debugger; or unknown */
-    HAL_RESET_FAULT, /* a fault of the program or the crystal: the motor was switched off, then the
-                      * fault recorded */
-    HAL_RESET_SUPPLY /* a dip of the processor's supply */
+    HAL_RESET_FAULT,    /* of the program or the crystal: the motor was switched off first */
+    HAL_RESET_SUPPLY    /* a dip of the processor's supply */
 } hal_reset;
 
 /* The cause, after hal_clock_start() (clock.h). */

@@ -19,8 +19,7 @@ extern "C" {
 
 typedef enum hal_settings_result {
     HAL_SETTINGS_DONE,
-    HAL_SETTINGS_OUTSIDE, /* no such slot, no such bytes in it, or no write may begin there: nothing
-                           * was changed */
+    HAL_SETTINGS_OUTSIDE, /* no such slot or bytes, or a wrong begin: nothing was changed */
     HAL_SETTINGS_BUSY,    /* the memory stays busy: nothing was changed */
     HAL_SETTINGS_FAILED   /* the memory reports it: protected, worn out, absent */
 } hal_settings_result;

@@ -21,8 +21,7 @@ bool hal_stop_pressed(void);
 /* The source of a pressed line. A drive stage's fault may share it with the stop contacts: then it is unknown. */
 typedef enum hal_stop_source {
     HAL_STOP_EITHER,
-    HAL_STOP_INPUT, /* the stop contacts: the drive stage has no line, or one of its own that is
-                     * inactive */
+    HAL_STOP_INPUT, /* the stop contacts: the drive stage has no line, or an inactive one */
     HAL_STOP_DRIVE  /* the drive stage's fault, on a line of its own */
 } hal_stop_source;
 hal_stop_source hal_stop_source_now(void);

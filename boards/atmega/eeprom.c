@@ -4,9 +4,7 @@
 
 #include "atmega.h"
 
-#define FIRST \
-    256U /* a failing supply may corrupt the byte in the address register: 0 while no write is in
-          * progress */
+#define FIRST 256U /* a failing supply may corrupt the byte at the address register: 0 while idle */
 #define SLOTS 2U
 #define ERASED 0xFFU
 #define ERASE _BV(EEPM0)

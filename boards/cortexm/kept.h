@@ -1,5 +1,4 @@
-/* kept.h: data that survive a reset (hal/reset.h), in memory that is never cleared (.noinit of
- * boards/shared/sections.ld). */
+/* kept.h: data that survive a reset (hal/reset.h), in memory that is never cleared (.noinit of sections.ld). */
 #ifndef BOARDS_CORTEXM_KEPT_H
 #define BOARDS_CORTEXM_KEPT_H
 

@@ -31,8 +31,7 @@ void stm32f4_motor_start(void) {
     reg_store(TIM_PSC(TIM1), 0);
     reg_store(TIM_ARR(TIM1), whole - 1U);
     reg_store(TIM_CCR(TIM1, 1U), 0);
-    reg_store(TIM_CCMR(TIM1, 0U), TIM_CCMR_OC1M_PWM_1); /* no preload: a new value takes effect at
-                                                         * once */
+    reg_store(TIM_CCMR(TIM1, 0U), TIM_CCMR_OC1M_PWM_1); /* no preload: effective at once */
     reg_store(TIM_CCER(TIM1), TIM_CCER_CC1NE);
     reg_store(TIM_EGR(TIM1), TIM_EGR_UG);
     reg_store(TIM_BDTR(TIM1), BOARD_MOTOR_BDTR);

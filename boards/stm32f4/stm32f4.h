@@ -1,5 +1,5 @@
-/* stm32f4.h: declarations shared by the drivers of the STM32F405. Boards are data: boards/NAME/board_data.h has crystal
- * and pins. */
+/* stm32f4.h: declarations shared by the drivers of the STM32F405. A board's data, crystal and pins, are in its
+ * board_data.h. */
 #ifndef BOARDS_STM32F4_H
 #define BOARDS_STM32F4_H
 

@@ -6,10 +6,8 @@
 #define SETTLE_WINDOW WH_R(0.03)
 #define RAMP_WINDOW WH_R(0.12) /* until the first confirmed mark */
 #define RECORD_PART WH_R(0.8)  /* of the speed error that the record allows */
-#define FIRST_PART \
-    WH_R(0.8)                 /* of the speed the rotor is led to: from rest it takes time to reach
-                                * it */
-#define SLOW_RADPS WH_R(16.0) /* a pulse or two of a braked rotor are slower */
+#define FIRST_PART WH_R(0.8)   /* of the commanded speed: from rest it takes time to reach it */
+#define SLOW_RADPS WH_R(16.0)  /* a pulse or two of a braked rotor are slower */
 
 void wh_expect_pulses(const wh_guard_config *guard, const wh_run_config *running, wh_run *run,
                       wh_pulses *pulses, bool open, uint32_t ticks) {

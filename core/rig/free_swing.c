@@ -231,8 +231,7 @@ static wh_swing_piece move(wh_swing *swing) {
 /* At a pulse: on to the next, or back to the first passage and on to the pulses before it. */
 static void go_on(const wh_swing_config *config, const wh_rotor_config *rotor, wh_swing *swing) {
     const bool later = swing->at > swing->first;
-    const unsigned next = later ? swing->at + 1U : swing->at - 1U; /* before the first: wraps to a
-                                                                    * large number */
+    const unsigned next = later ? swing->at + 1U : swing->at - 1U; /* before the first: wraps */
     if (take(config, rotor, swing) && next < swing->kept) {
         swing->at = next;
     } else if (later && swing->first > 0) {

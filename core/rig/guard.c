@@ -32,8 +32,7 @@ void wh_guard_drives(wh_guard *guard) { guard->off = (wh_off){.released = false}
 /* Pulses of one sensor closer than at 1,000 rpm are not turns: 36 V make 900 rpm at most. */
 #define BOUNCE_TICKS 60000U
 #define LONGER \
-    WH_R(1.02) /* slowing of a coasting turn: at most two intervals of a swing have it, the last
-                * ones */
+    WH_R(1.02) /* slowing of a coasting turn: only the last two intervals of a swing have it */
 #define FASTER WH_R(1.01) /* gain of all faster turns together */
 #define ALTERNATE_PAIR 4U /* alternating pulses over two turns of a sensor, */
 #define ALTERNATE_RISE 6U /* and over three */

@@ -126,8 +126,7 @@ typedef struct wh_guard {
 
 void wh_guard_start(wh_guard *guard, uint32_t now_ticks);
 
-/* True for set-points that the loop can hold, with gravity `fed` forward or not, and that the shaft can bear; false for
- * NaN. */
+/* True for set-points that loop and shaft can bear, with gravity `fed` forward or not; false for NaN. */
 bool wh_guard_allows(const wh_guard_config *config, wh_real target_radps, bool fed);
 
 /* The fastest interval between two pulses of a rotor that is led to at most base_radps. It is faster by `over`, and by

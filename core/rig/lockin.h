@@ -72,7 +72,7 @@ typedef struct wh_lockin_turn {
 } wh_lockin_turn;
 
 typedef enum wh_lockin_stage {
-    WH_LOCKIN_WAITS, /* for a mark; lockin->piece counts the finished pieces of a stage that has
+    WH_LOCKIN_WAITS, /* for a mark; lockin->piece counts a stage's finished pieces, if it has
                       * several */
     WH_LOCKIN_SHAPES,
     WH_LOCKIN_CORRECTS,

@@ -100,9 +100,7 @@ wh_status wh_observer_start(const wh_observer_config *config, wh_observer *obser
  * the last call, a fraction of the rated voltage. A call more than WH_OBSERVER_STEPS_MOST steps of the scene late
  * restarts it. */
 #define WH_OBSERVER_STEPS_MOST 8U
-#define WH_OBSERVER_STEPS_AT_ONCE \
-    2U /* of the scene in one call: a delay is made up over several
-                                      * calls */
+#define WH_OBSERVER_STEPS_AT_ONCE 2U /* steps in one call: several calls make up for a delay */
 void wh_observer_step(const wh_observer_config *config, wh_observer *observer, uint32_t now_ticks,
                       wh_real drive);
 

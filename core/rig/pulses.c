@@ -115,8 +115,7 @@ static WH_CALLED void reject(wh_pulses *pulses, unsigned doubt) {
     pulses->doubt += doubt;
 }
 
-/* The pulse after a suspect: accept the suspect or reject it? Reject if that is likely, and likelier than both being
- * true. */
+/* The pulse after a suspect: accept the suspect? Not if rejecting is likely, and likelier than both being true. */
 static void decide(wh_pulses *pulses, const wh_pulse *pulse) {
     const wh_pulse suspect = pulses->suspect;
     wh_speed without;

@@ -8,7 +8,7 @@
 #include "wave.h"
 
 #define PI WH_R(3.141592653589793)
-/* Remaining part of gravity with feed: above it the feed is wrong or does not reach the arms, and the torque on them is
+/* Remaining part of gravity with feed: above it the feed is wrong or misses the arms, and the torque on them is
  * unknown. */
 #define FED_LEFT_MOST WH_R(0.15)
 

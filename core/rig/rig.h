@@ -49,8 +49,7 @@ typedef struct wh_rig_config {
     wh_real armed_max_s;
     wh_real tripped_max_s; /* longest wait for rest after a trip */
     wh_real rest_max_s;    /* with the motor off, to come to rest */
-    /* the motor brakes at a run's end and after `stop`; otherwise it coasts, as it always does after a trip and the
-     * stop input */
+    /* the motor brakes at a run's end and after `stop`; otherwise it coasts, as after a trip and the stop input */
     bool stop_brakes;
     /* a completed run always coasts, and its swing gives the sensors' positions; `stop` may brake */
     bool swings;

@@ -13,7 +13,7 @@ extern "C" {
 #define wh_swing_leave_top WH_NAME(wh_swing_leave_top)
 #define wh_swing_guess WH_NAME(wh_swing_guess)
 
-/* Near the top, times depend strongly on the amplitude, and guesses of it are useless there: a pass begins after such
+/* Near the top, guesses of the amplitude are useless, because it depends steeply on times: a pass begins after such
  * swings. */
 void wh_swing_leave_top(const wh_swing_config *config, wh_swing *swing);
 

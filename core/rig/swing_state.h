@@ -57,8 +57,7 @@ typedef struct wh_swing_config {
     wh_real rough_rad; /* further error of a pulse, ditto: a coupling's twist */
     wh_real floor_rad; /* calibration, 95 %: slot, lead, friction that differs with the direction */
     wh_real wide_rad;  /* limit of a useful interval */
-    wh_real off_rad;   /* a result becomes doubtful if sensor 1's position error and its interval
-                      * exceed this */
+    wh_real off_rad; /* limit of sensor 1's error and its interval: beyond, results are doubtful */
     unsigned swings_least; /* half ones */
 } wh_swing_config;
 
@@ -91,8 +90,8 @@ typedef struct wh_swing {
     wh_real soft_rad2;                  /* variance added to the pulses' own */
     wh_free_rotor way;                  /* the rotor during a pass */
     uint32_t last_ticks[WH_SWING_LAST]; /* sensor 1's, the newest first */
-    wh_real x[WH_NORMAL_UNKNOWNS]; /* q - place and q' at the first passage, g, f, c, the sensors'
-                               * positions, */
+    wh_real x[WH_NORMAL_UNKNOWNS];      /* q - place and q' at the first passage, g, f, c, sensor
+                                    * positions, */
     wh_real guess[WH_NORMAL_UNKNOWNS];  /* as they were guessed, */
     wh_real within[WH_NORMAL_UNKNOWNS]; /* and their standard deviations */
     uint32_t kept_ticks[WH_SWING_PULSES];

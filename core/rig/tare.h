@@ -29,8 +29,7 @@ typedef struct wh_tare {
     wh_real changes_N2; /* sum of squared differences of successive samples */
     wh_real last_N;
     wh_real
-        rises_N; /* this block's sum with rising weights, and with falling ones; the block before's,
-                  * rising */
+        rises_N; /* this block's sum with rising and with falling weights; the last block's, rising */
     wh_real falls_N;
     wh_real before_N;
     uint32_t means; /* triangular, */

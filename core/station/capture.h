@@ -67,8 +67,7 @@ WH_INLINE bool wh_capture_runs(const wh_capture *capture) {
     return capture->state == WH_CAPTURE_WAITS || capture->state == WH_CAPTURE_TRIGGERED;
 }
 
-/* In that state: record a control step, less than 65 ms after the one before; its flags without 4. `now_ticks`: all 32
- * bits. */
+/* In that state: record a step, less than 65 ms after the last; its flags without 4. `now_ticks`: all 32 bits. */
 void wh_capture_step(wh_capture *capture, const wh_captured *step, uint32_t now_ticks);
 
 /* Stored step i, from the oldest. */

@@ -13,8 +13,7 @@ extern "C" {
 
 #define wh_conf_answer WH_NAME(wh_conf_answer)
 
-/* Answer the words after `conf` into *answer, which is empty; returns the reason if it is refused. `idle`: settings may
- * change. */
+/* Answer the words after `conf` into *answer, which is empty; or return the error. `idle`: settings may change. */
 wh_station_error wh_conf_answer(wh_conf *conf, const wh_words *words, bool idle, wh_text *answer);
 
 #ifdef __cplusplus

@@ -78,8 +78,8 @@ static bool opens(const slice *during, uint32_t edge, bool forward, float *part)
     for (unsigned round = 0; round < 3; round++) {
         float slope;
         const float miss = way_at(during, s, &slope) - gap;
-        if (slope * during->way > 0.0f) { /* otherwise it turns back here: the straight line is
-                                           * accurate enough */
+        if (slope * during->way >
+            0.0f) { /* otherwise it turns back here: a straight line suffices */
             s -= miss / slope;
         }
     }

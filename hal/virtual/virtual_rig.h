@@ -49,8 +49,7 @@ typedef struct hal_virtual_rig {
     const wh_scene *scene;
     wh_state state;
     uint64_t memory[WH_STATE_WORDS(1, 1, 1)];
-    wh_status status;      /* WH_E_DIVERGED: the model diverged; time advances, the rotor stands
-                            * still */
+    wh_status status;      /* WH_E_DIVERGED: the model diverged; the rotor stands still */
     uint32_t ticks;        /* now, 1 MHz, wrapping */
     uint32_t step_ticks;   /* one step of the model */
     float volts;           /* as commanded, */
@@ -67,8 +66,8 @@ typedef struct hal_virtual_rig {
     bool cut;     /* it has cut the motor */
     uint32_t watchdog_ticks;
     uint32_t kicked_ticks;
-    bool stop_cuts; /* a short press of stop has cut the drive, until it is switched off. May be set
-                    * at any time */
+    bool stop_cuts; /* a short press of stop has cut the drive, until it is off. May be set at any
+                     * time */
     bool stop_pressed; /* by a person at the rig: may be set at any time */
     hal_reset cause;   /* why the processor started, */
     bool in_reset;     /* or starting: the plant goes on meanwhile */

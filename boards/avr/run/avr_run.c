@@ -141,8 +141,7 @@ static _Noreturn void went_wrong(const avr_t *avr, const char *what) {
     exit(WENT_WRONG);
 }
 
-/* The stack pointer is set byte by byte, with the interrupt flag in between: for two instructions it may have any
- * value. */
+/* The stack pointer is set byte by byte, with the interrupt flag in between: for two instructions it may be invalid. */
 #define TORN_INSTRUCTIONS 2U
 
 /* One instruction. False when the program has ended. */
