@@ -4,10 +4,10 @@
  * T is a quadratic form of the rates and V does not depend on them. Account 1 + i is the generalized momentum dL/dq_i' of
  * coordinate i, in the scene's order, conserved coordinates last.
  *
- * Each entry sums the changes of an account since the start:
- * - the work of each input, the loss of each damper (negative), the impulse of each generalized force;
- * - for each contact its energy and its impulse along each coordinate;
- * - if the energies name an input: the work -dL/dt of its changes between steps (it is constant within a step);
+ * Each entry sums the changes of an account since the start.
+ * - the work of each input, the loss of each damper (negative), the impulse of each generalized force.
+ * - for each contact its energy and its impulse along each coordinate.
+ * - if the energies name an input: the work -dL/dt of its changes between steps (it is constant within a step).
  * - last, if the scene asks for it: the energy drift that its steps have given back (stabilize.h).
  *
  * The smooth entries' powers and forces, and the contacts' forces, are integrated with the weights of the method's own

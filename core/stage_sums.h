@@ -26,8 +26,7 @@
 #define WH_LATER_STAGES(by, stage) \
     do { \
         WH_UNROLL \
-        for (unsigned s = 1; s < WH_STAGES; \
-             s++) { /* with this bound gcc spills fewer registers */ \
+        for (unsigned s = 1; s < WH_STAGES; s++) { /* with this bound gcc spills less */ \
             if (s >= (by)->stages) { \
                 break; \
             } \

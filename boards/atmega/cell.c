@@ -15,7 +15,7 @@
 #define TICK_TICKS 200U
 #define CELL_TICKS 16U
 #define ALL_TICKS (HAL_LOADCELL_PERIOD_TICKS / TICK_TICKS)
-#define SUPPLY_TICKS 8U /* the last conversion of the supply; most of the others are not used */
+#define SUPPLY_TICKS 8U /* the last conversions, used for the supply; most others are not used */
 _Static_assert(ALL_TICKS *TICK_TICKS == HAL_LOADCELL_PERIOD_TICKS &&
                    ALL_TICKS >= CELL_TICKS + SUPPLY_TICKS && ALL_TICKS <= 255U,
                "a sample each period");
