@@ -20,9 +20,9 @@
  *     x' = f(x):        x moves by .rates                             (Butcher's b)
  *     q'' = f(q, q'):   q' moves by .rates, and q by h times q' moved by .positions
  *
- * so a method may have its own weights for positions (Nystroem's, semi-implicit Euler). A Runge-Kutta method has .positions
- * = b A; only such a method takes systems of first order. Both have the same .parts: the sum for positions is part of the
- * sum for rates. The ledger (ledger_step.h) weighs the stages by .rates, too.
+ * so a method may have its own weights for positions (Nystroem's, semi-implicit Euler). A Runge-Kutta method has
+ * .positions = b A; only such a method takes systems of first order. Both have the same .parts: the sum for positions is
+ * part of the sum for rates. The ledger (ledger_step.h) weighs the stages by .rates, too.
  *
  * Nystroem's methods use that rates move positions. Their .places gives the position of stage i:
  *
@@ -33,9 +33,9 @@
  * computes its terms of positions alone (sines, mass matrix, divisions) once. First-order systems, if the row takes them,
  * use .stage alone.
  *
- * Compositions of kicks and drifts are rows of the same columns. With kicks b_i at nodes c_i, .rates = b, .positions = b (1
- * - c), and .reach[i] has shares b_j (c_i - c_j). They have no .stage: they have no rates for accelerations that depend on
- * rates, which therefore refuse them (WH_NO_RATES). Their first stage need not be at the step's begin.
+ * Compositions of kicks and drifts are rows of the same columns. With kicks b_i at nodes c_i, .positions = b (1 - c),
+ * .rates = b, and .reach[i] has shares b_j (c_i - c_j). They have no .stage, and so no rates for accelerations that depend
+ * on rates: these refuse them (WH_NO_RATES). Their first stage need not be at the step's begin.
  *
  * A row of several stages may rotate the sines of the step's begin (stage_turn.h). Its .turns gives the distance of stage i
  * as a multiple of that of stage 1, both extrapolated by the rates at the begin. They follow from the shares
