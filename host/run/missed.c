@@ -170,11 +170,22 @@ static missed_found or_this(missed_found found, int passed, int what) {
                : found;
 }
 
+/* A hold that would close has nothing to do if its expression rests all the way. */
+static bool is_idle(missed *m, int k) {
+    if (m->image->contact[k].kind != WH_HOLD || m->piece->mode[k] != WH_FREE) {
+        return false;
+    }
+    along_look(m->signals, 2 * k + 1, 0.0, 1.0);
+    const enclosure middle = along_middle(m->signals, 2 * k + 1);
+    return enclosure_size(along_value(m->signals, 2 * k + 1)) <=
+           WIDTHS * (middle.high - middle.low) + DBL_MIN;
+}
+
 /* Does contact k, which is in the same mode at both ends, leave it on the way? */
 static int contact_passes(missed *m, int k) {
     double beyond = 0.0;
     m->size = 0.0;
-    if (margin(m, k, along_glance(m->signals, 2 * k)).low >= 0.0 ||
+    if (is_idle(m, k) || margin(m, k, along_glance(m->signals, 2 * k)).low >= 0.0 ||
         look_contact(m, k, 0.0, 1.0, 0.0) == 0) {
         return 0;
     }
