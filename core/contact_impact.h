@@ -355,6 +355,87 @@ static inline void wh_contact_squeeze(const wh_contact_system *of, wh_contact_wo
     }
 }
 
+/* --- conditions that a hold freezes --------------------------------------------------------------- */
+
+/* A hold whose condition names what it keeps stops that condition where it closes: at its limit. */
+
+/* A share of its terms by which what a hold keeps is moved to see whether its condition follows; and beside which share of
+ * that change the condition is known to rounding. */
+#define WH_EDGE_PROBE (WH_DOUBLE ? WH_R(0x1p-26) : WH_R(0x1p-13))
+#define WH_EDGE (WH_CONTACT_ROUNDING / WH_EDGE_PROBE)
+
+/* By how much the condition of hold k, which is `now`, changes with what it keeps and that rate, each by WH_EDGE_PROBE of its
+ * terms. work->law must belong to the state. */
+static inline wh_real wh_contact_own(const wh_contact_system *of, const wh_contact_work *w,
+                                     unsigned k, const wh_real *input, const wh_contact_state *s,
+                                     wh_real now) {
+    wh_contact_point at;
+    wh_contact_state moved = *s;
+    wh_real signal[2 * WH_CONTACTS_MAX];
+    wh_real *rate = wh_contact_rates(of, &moved);
+    const wh_real *row = wh_contact_law(of, w, k) + WH_LAW_ROWS;
+    const wh_real place = WH_EDGE_PROBE * wh_contact_extent(of, w, k, s);
+    const wh_real speed = WH_EDGE_PROBE * wh_contact_terms(of, w, k, rate);
+    const wh_real square = wh_jacobian_times(of, w, k, row);
+    for (unsigned i = 0; i < of->coordinates; i++) {
+        wh_contact_move(of, i, place * row[i] / square, &moved);
+        rate[i] += speed * row[i] / square;
+    }
+    wh_contact_point_of(of, &moved, &at);
+    wh_contact_signals(of, at.phase, at.linear, at.rate, input, signal);
+    return signal[2 * k] - now;
+}
+
+/* So near to zero hold k's condition, `now`, is at the limit of what it keeps, as near as rounding knows it; 0: it is not. */
+static inline wh_real wh_contact_at_limit(const wh_contact_system *of, const wh_contact_work *w,
+                                          unsigned k, const wh_real *input,
+                                          const wh_contact_state *s, wh_real now) {
+    const wh_real known = WH_EDGE * WH_ABS(wh_contact_own(of, w, k, input, s, now));
+    return WH_ABS(now) <= known ? known : WH_R(0.0);
+}
+
+/* Holds that have just captured, as bits, where the location ended a little short of their own limit: what they keep is moved
+ * as far beyond it. signal[] must belong to the state; rates[]: signals before the capture. */
+WH_APART void wh_contact_over_edge(const wh_contact_system *of, wh_contact_work *w, unsigned holds,
+                                   wh_real h, const wh_real *rates, const wh_real *signal,
+                                   const wh_real *input, wh_contact_state *s) {
+    uint8_t member[WH_CONTACTS_MAX] = {0};
+    wh_real wanted[WH_CONTACTS_MAX] = {WH_R(0.0)};
+    wh_real lambda[WH_CONTACTS_MAX];
+    wh_real way[WH_COORDS] = {WH_R(0.0)};
+    unsigned mover = WH_CONTACTS_MAX;
+    const unsigned count = wh_contact_members(of, w, 0, member);
+    for (unsigned i = 0; i < count; i++) {
+        const unsigned k = member[i];
+        if ((holds >> k & 1U) != 0 && signal[2 * k] < WH_R(0.0)) {
+            const wh_real own = wh_contact_own(of, w, k, input, s, signal[2 * k]);
+            const wh_real by = -(signal[2 * k] + signal[2 * k]) / own *
+                               (WH_EDGE_PROBE * wh_contact_extent(of, w, k, s));
+            if (WH_ABS(by) <=
+                WH_ABS(rates[2 * k + 1]) * h / 64) { /* else it is not its own limit */
+                wanted[i] = by;
+                mover = k;
+            }
+        }
+    }
+    if (mover == WH_CONTACTS_MAX) {
+        return;
+    }
+    (void)wh_delassus_solve(of, w, member, count, NULL, wanted, lambda);
+    wh_books_look(of, w, s, input);
+    for (unsigned i = 0; i < count; i++) {
+        wh_contact_apply(of, w, member[i], lambda[i], way);
+        if (wanted[i] != WH_R(0.0) && wh_contact_slips(of, w, member[i]) &&
+            of->contact[member[i]].direction <= 0) {
+            w->held[of->contact[member[i]].first_set] += wanted[i];
+        }
+    }
+    for (unsigned i = 0; i < of->coordinates; i++) {
+        wh_contact_move(of, i, way[i], s);
+    }
+    wh_books_moved(of, w, s, input, mover);
+}
+
 /* Holds capture, all at once. */
 static inline void wh_contact_captures(const wh_contact_system *of, wh_contact_work *w,
                                        unsigned holds, wh_real h, const wh_real *input,
@@ -377,6 +458,7 @@ static inline void wh_contact_captures(const wh_contact_system *of, wh_contact_w
     wh_contact_point_of(of, s, &at);
     wh_contact_signals(of, at.phase, at.linear, at.rate, input, after);
     wh_contact_passed_on(of, w, 0, h, before, after);
+    wh_contact_over_edge(of, w, holds, h, before, after, input, s);
 }
 
 #endif

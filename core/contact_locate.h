@@ -184,6 +184,19 @@ WH_INLINE unsigned wh_contact_happened(const wh_contact_system *of, const wh_mar
     return bits;
 }
 
+/* Holds that began at the limit of their conditions are let go of beyond their slack alone, and where nothing has let go of
+ * them at the end, not at all: the cubic slips a little. `events`: those at the end. */
+WH_INLINE void wh_contact_slacken(const wh_contact_system *of, const wh_contact_work *w,
+                                  unsigned events, wh_margins *m) {
+    for (unsigned k = 0; k < of->forced; k++) {
+        if (wh_contact_of(of, k, WH_HOLD) && w->slack[k] > WH_R(0.0)) {
+            m->value[k] += w->slack[k];
+            m->value[k] =
+                (events >> k & 1U) == 0 && m->value[k] < WH_R(0.0) ? WH_R(0.0) : m->value[k];
+        }
+    }
+}
+
 /* Several contacts share loads, the deepest calls there are: what the search keeps is not to lie below them. */
 #if WH_CONTACTS_MAX > 1
 #define WH_SEARCH WH_APART
@@ -206,11 +219,13 @@ WH_SEARCH wh_real wh_contact_locate(const wh_contact_system *of, wh_contact_work
     wh_real after[WH_CONTACTS_MAX] = {WH_R(0.0)};  /* and at `high` */
     wh_real low = WH_R(0.0);
     wh_real high = WH_R(1.0);
-    *events = wh_contact_happened(of, at_end);
+    const unsigned at_end_events = wh_contact_happened(of, at_end);
+    *events = at_end_events;
 
     /* A force that is out of bounds already, or a gap: at once. Sliding starts at rate zero. */
     wh_contact_path_of(of, from, to, h, &path);
     wh_contact_margins(of, w, &path.begin, input, &probe);
+    wh_contact_slacken(of, w, *events, &probe);
     unsigned at_once = 0;
     unsigned sliding = 0;
     unsigned loads = 0; /* whose force is looked at */
@@ -292,6 +307,7 @@ WH_SEARCH wh_real wh_contact_locate(const wh_contact_system *of, wh_contact_work
         most *= WH_R(0.5);
         wh_contact_between(of, &path, guess, &at);
         wh_contact_margins(of, w, &at, input, &probe);
+        wh_contact_slacken(of, w, at_end_events, &probe);
         const unsigned found = wh_contact_happened(of, &probe);
         reach = found != 0 ? if_found : if_not;
         if (found != 0) {

@@ -115,6 +115,24 @@ WH_INLINE void wh_contact_attempt_make(const wh_contact_system *of, wh_contact_w
     }
 }
 
+/* Which holds began the try nearer to the limit of their conditions than those are known, beside what they keep? They stay
+ * while that is so: what is held when a condition comes to zero stays held. */
+WH_APART void wh_contact_attempt_frozen(const wh_contact_system *of, wh_contact_work *w,
+                                        const wh_real *input, wh_contact_attempt *a) {
+    wh_contact_point at;
+    wh_real signal[2 * WH_CONTACTS_MAX];
+    wh_contact_point_of(of, &a->now, &at);
+    wh_contact_signals(of, at.phase, at.linear, at.rate, input, signal);
+    for (unsigned k = 0; k < of->forced; k++) {
+        if (wh_contact_of(of, k, WH_HOLD)) {
+            w->slack[k] = w->mode[k] == WH_ACTIVE
+                              ? wh_contact_at_limit(of, w, k, input, &a->now, signal[2 * k])
+                              : WH_R(0.0);
+            a->margins.value[k] += w->slack[k];
+        }
+    }
+}
+
 /* Did it end calmly, with all that was looked at a number? */
 WH_INLINE bool wh_contact_attempt_calm(const wh_contact_system *of, const wh_contact_work *w,
                                        const wh_contact_attempt *a) {
@@ -293,6 +311,9 @@ WH_APART wh_status wh_contact_eventful(const wh_contact_system *of, wh_contact_w
                     round++;
                     continue;
                 }
+            }
+            if (wh_contact_any_of(of, WH_HOLD) && !wh_contact_calm(of, &a->margins)) {
+                wh_contact_attempt_frozen(of, w, state->input, a);
             }
             calm = wh_contact_attempt_calm(of, w, a);
             if (calm || round == WH_EVENTS_MAX || wh_contact_happened(of, &a->margins) == 0) {

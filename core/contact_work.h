@@ -34,7 +34,8 @@ typedef struct wh_contact_work {
     unsigned
         turned; /* frictions whose rate has just come to zero, as bits: whether they stick is open */
     /* frictions that slide on: what the location left of the rate, rad/s or m/s; crossings whose values turn back: how far
-     * beyond zero they have not crossed */
+     * beyond zero they have not crossed; where events are looked for, holds that began the try at the limit of their
+     * conditions: how far beyond that these still count as true, else 0 */
     wh_real slack[WH_CONTACTS_MAX];
     wh_real due
         [WH_CONTACTS_MAX]; /* of these crossings: how far they are to be on their way when the step ends */

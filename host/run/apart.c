@@ -16,6 +16,8 @@ enum { N = IMAGE_COMPONENTS_MAX, HOLDS = WH_CONTACTS_LIMIT, NEWTON_MOST = 50 };
 
 /* An expression that is to be zero is off by more than APART_LEAST, and by less than this share of its terms. */
 #define OFF_MOST 0.5
+/* A moment is this share of a step. */
+#define SOON 1e-6
 
 typedef struct apart {
     const image *im;
@@ -316,7 +318,11 @@ double apart_say(FILE *out, const char *who, const image *im) {
         a.place[i] = image_start(im, i);
         a.rate[i] = image_start(im, a.n + i);
     }
-    evaluator_run(signals, 0.0, a.place, a.place + im->angles, a.rate, a.input, signal);
+    double soon[N]; /* a condition at its limit is false if it is so a moment later */
+    for (int i = 0; i < a.n; i++) {
+        soon[i] = a.place[i] + SOON * im->step_s * a.rate[i];
+    }
+    evaluator_run(signals, 0.0, soon, soon + im->angles, a.rate, a.input, signal);
     for (int k = 0; k < im->forced; k++) {
         if (im->contact[k].kind == WH_HOLD && signal[2 * k] > 0.0) {
             a.hold[a.holds++] = k;
