@@ -387,8 +387,11 @@ static void test_a_hold_stays_at_its_own_limit(void) {
         const double across = dice_between(&d, -2.0, 2.0) * limit / (limit + gap);
         const double turns =
             of->yields > 0.0 ? 0.0 : across * across * (pow(1.0 + gap / limit, 2.0) - 1.0);
+        /* of a potential that bends the way in a step: the location ends short of the limit, or beyond */
+        const double bends = gap > 0.0 && form < LET_GO ? dice_between(&d, 0.0, 2.0) : 0.0;
+        const double work = force * gap + bends * gap / (limit + gap);
         const double speed =
-            sqrt(2.0 * force * fmax(of->yields, 1.0) * gap + turns) + dice_between(&d, 0.3, 2.0);
+            sqrt(2.0 * fmax(of->yields, 1.0) * work + turns) + dice_between(&d, 0.3, 2.0);
         const double until_s = dice_between(&d, 1.2, 1.6);
         const bool flies = begins == 0 && of->yields > 0.0;
         const double rate = flies ? 0.1 : begins == 1 ? 0.0 : -speed;
@@ -400,19 +403,20 @@ static void test_a_hold_stays_at_its_own_limit(void) {
         snprintf(
             text, sizeof text,
             "mechanism m\n%s\ncoordinate d [m]\ncoordinate p [m]\ncoordinate z [m]\ninput L = %.17g [%s]\n"
-            "T = %s + 1 [kg]*(d'^2 + p'^2 + z'^2)/2\nV = 9.81 [N]*z - %.17g [%s]*%s\n"
+            "T = %s + 1 [kg]*(d'^2 + p'^2 + z'^2)/2\nV = 9.81 [N]*z - %.17g [%s]*%s + %.17g [J]*(%.17g [%s])/%s\n"
             "stop z >= 0 restitution 1\nwhen d crosses 0.3 [m] falling { set p = 0 [m] }\nhold %s while %s\noutput off [%s] = %s\n"
             "scene s {\nstart z = 0.05 [m], d = %.17g [m], d' = -1 [m/s], %s\nstep %.17g [ms]\nuntil 2 [s]\n}\n",
-            of->coordinates, limit, of->unit, of->kinetic, force, of->push, of->expression,
-            of->expression, fill(edges[form], of, number, filled[0]), of->unit, of->expression,
-            until_s, fill(of->start, of, number, filled[1]), dice_one_of(&d, 2) == 0 ? 1.0 : 2.5);
+            of->coordinates, limit, of->unit, of->kinetic, force, of->push, of->expression, bends,
+            limit, of->unit, of->expression, of->expression,
+            fill(edges[form], of, number, filled[0]), of->unit, of->expression, until_s,
+            fill(of->start, of, number, filled[1]), dice_one_of(&d, 2) == 0 ? 1.0 : 2.5);
         for (int kind = 0; kind < 2; kind++) {
             motion m;
             motion_open_text(&m, text, (stepping){.kind = KINDS[kind], .method = WH_RK4});
             TEST_ASSERT_EQUAL_INT_MESSAGE(WH_OK, motion_step(&m, m.image->steps), text);
             const double off = fabs(motion_value(&m, "off") - end);
             motion_close(&m);
-            if (!(off < (kind == 0 ? 1e-7 : 1e-3) * (1.0 + end))) {
+            if (!(off < (kind == 1 ? 1e-3 : bends > 0.0 ? 1e-5 : 1e-7) * (1.0 + end))) {
                 printf("off by %g of %g in %s:\n%s", off, end, KINDS[kind]->name, text);
                 failures++;
             }
