@@ -262,10 +262,18 @@ static void say_remedy(FILE *out, const verdict *v, const image *plain,
             v->books->negative_s);
     } else if (is_told(v, FINDING_SINGULAR)) {
         fputs("hint: take coordinates that are not singular there\n", out);
-    } else if (is_told(v, FINDING_MISSED) && v->found[FINDING_MISSED].value < 1.0) {
-        fputs("hint: write it without a pole or a jump on the way, such as 1/x or sign(x): Whirl "
-              "finds no bounds there\n",
-              out);
+    } else if (is_told(v, FINDING_MISSED)) {
+        const double began_s = v->found[FINDING_MISSED].at_s;
+        const double passed_s = v->twins != NULL ? v->twins->jumped_s : -1.0;
+        const double until_s = passed_s >= 0.0 ? number_least(passed_s, began_s) : began_s;
+        if (v->found[FINDING_MISSED].value < 1.0) {
+            fputs("hint: write it without a pole or a jump on the way, such as 1/x or sign(x): "
+                  "Whirl finds no bounds there\n",
+                  out);
+        }
+        if (until_s > 0.0) {
+            fprintf(out, "hint: --until %.12gs ends the run before that\n", until_s);
+        }
     } else if (is_told(v, FINDING_EVENTS)) {
         fputs("hint: restitution 0, or a condition that takes longer to come true again, ends such "
               "events\n",

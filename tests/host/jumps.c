@@ -28,10 +28,14 @@ bool jumps_named(char text[static SAID_SIZE], char *words[static JUMPS_WORDS]) {
     static const char before[] = "\nhint: ";
     char *at = strstr(jumps_said.err, before);
     char *end = at != NULL ? strstr(at, " would do (tried)") : NULL;
+    end = end == NULL && at != NULL ? strstr(at, " ends the run before that") : end;
     if (end == NULL) {
         return false;
     }
     *end = '\0';
+    for (char *next = at; next != NULL; next = strstr(at + 1, before)) {
+        at = next; /* the last in front of it */
+    }
     strcpy(text, at + strlen(before));
     char *next = text;
     for (int i = 0; i < JUMPS_WORDS; i++) {

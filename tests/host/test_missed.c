@@ -191,6 +191,39 @@ static void test_flat_ones(void) {
     TEST_ASSERT_TRUE(told * 4 > cases && met * 10 > cases);
 }
 
+/* The way out that a warning names, pasted, gives a run without it: a step, or where the thing is too thin for one, an end. */
+static void test_ways_out(void) {
+    dice d = dice_of("missed", 7);
+    const unsigned cases = dice_cases(few_or_all(usual_or(26, 13), 130));
+    unsigned ways[2] = {0, 0};
+    for (unsigned k = 0; k < cases; k++) {
+        motion m;
+        char more[TEXT];
+        char from[400];
+        char cure[SAID_SIZE];
+        char *words[JUMPS_WORDS] = {NULL};
+        flight f = flight_draw(&d);
+        f.bounce_s = 0.0;
+        snprintf(from, sizeof from, "V = 100 [N/m]*$y^2/2\n%s", flats[k % FLATS]);
+        place_write(&f, dice_one_of(&d, 2) == 0 ? thickness_m(&d) : 1e-4 * thickness_m(&d), from,
+                    more);
+        const bool is_told = fly(&m, &f, more, 3e-3);
+        motion_close(&m);
+        const char *number = dice_one_of(&d, 2) == 0 ? "double" : "float";
+        if (is_told) {
+            jumps_run(text, number, words);
+        }
+        if (is_told &&
+            strstr(jumps_said.err, "[missed]") != NULL) { /* a float's cosh() overflows */
+            TEST_ASSERT_TRUE_MESSAGE(jumps_named(cure, words), text);
+            ways[strncmp(cure, "--until", 7) == 0]++;
+            jumps_run(text, number, words);
+            TEST_ASSERT_NULL_MESSAGE(strstr(jumps_said.err, "[missed]"), text);
+        }
+    }
+    TEST_ASSERT_TRUE(ways[0] * 6 > cases && ways[1] > 0);
+}
+
 /* A hill behind a place without bounds, the tip of a weak force's cone that the way goes through: told of the tip, or of the hill. */
 static void test_hills_behind_a_tip(void) {
     dice d = dice_of("missed", 5);
@@ -458,6 +491,7 @@ static void test_right_runs(void) {
 void suite_missed(void) {
     RUN_TEST(test_posts);
     RUN_TEST(test_flat_ones);
+    RUN_TEST(test_ways_out);
     RUN_TEST(test_hills_behind_a_tip);
     RUN_TEST(test_narrow_limits_and_crossings);
     RUN_TEST(test_moving_ones);
