@@ -1,4 +1,5 @@
 /* run.c: `whirl run`: simulation, records, and the energy balance. */
+#include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -248,6 +249,9 @@ static bool shows_progress(const simulation_settings *s) {
     return !s->quiet && isatty(STDERR_FILENO);
 }
 
+/* A minute or more, which is said where no progress shows. */
+#define STEPS_MANY 100000000U
+
 static int run_image(run_options *o, const source_model *from, const image *im, const image *plain,
                      double every_s, rating_wish *rated) {
     if (!count_every(o, every_s, im, &o->settings.every)) {
@@ -263,6 +267,10 @@ static int run_image(run_options *o, const source_model *from, const image *im, 
     o->settings.stop = &interrupted;
     o->settings.progress = shows_progress(&o->settings);
     o->settings.plain = plain;
+    if (im->steps >= STEPS_MANY && !o->settings.quiet && !o->settings.progress) {
+        fprintf(stderr, "whirl run: note: %" PRIu64 " steps follow, as --step and --until say\n",
+                im->steps);
+    }
     simulation_trust trust;
     const simulation_result result = simulate(im, &o->settings, &trust);
     if (result == SIMULATION_DONE && !o->settings.quiet && !o->settings.json) {

@@ -16,8 +16,10 @@ stop() {
     code=$?
 }
 
-# said TEXT: standard error has the time of the last record, and nothing else.
+# said TEXT: standard error has the time of the last record, and nothing else but the number of steps, unless --quiet.
 said() {
+    [ "$(grep -c '^whirl run: note: 1000000000 steps follow, ' "$scratch/err")" = "${3:-1}" ] || return 1
+    sed -i '/ steps follow, /d' "$scratch/err"
     last=$(tail -n 1 "$1" | tr -d '\r' | sed 's/[, ].*//')
     printf 'whirl run: interrupted at t = %s s of %s s; the records so far are kept\n' "$last" "$2" >"$scratch/wanted"
     cmp -s "$scratch/wanted" "$scratch/err"
@@ -40,7 +42,7 @@ for signal in INT TERM; do
         name="run, $signal${quiet:+, }$quiet"
         [ "$code" -eq 130 ]
         verdict $? "$name: exit status 130"
-        said "$scratch/r.csv" 1000000
+        said "$scratch/r.csv" 1000000 "${quiet:+0}"
         verdict $? "$name: says at what time, which is the last record's"
         check "$name: the records are whole" whole "$scratch/r.csv" , 0.001
         if [ -n "$quiet" ]; then
