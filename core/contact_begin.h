@@ -4,19 +4,8 @@
 
 #include "contact_resolve.h"
 
-/* Is the condition of hold k true where a run starts? At the limit of what it keeps it is, unless that is on its way out: of
- * `speed`, or at rest. */
-static inline bool wh_contact_holds_first(const wh_contact_system *of, const wh_contact_work *w,
-                                          unsigned k, wh_real value, wh_real speed, bool rests,
-                                          const wh_real *input, const wh_contact_state *s) {
-    if (wh_contact_at_limit(of, w, k, input, s, value) > WH_R(0.0)) {
-        return rests || wh_contact_own(of, w, k, input, s, value) * speed > WH_R(0.0);
-    }
-    return value > WH_R(0.0);
-}
-
 /* Of the contacts at the start of a run, as bits, nothing being hit or captured yet: stops that are touched, as near as
- * their gaps are known, and holds whose conditions are true, if at rest (`still`); those that are not are `moving`.
+ * their gaps are known, and holds whose conditions are true, or at their own limit and not on the way out, if at rest (`still`); those that are not are `moving`.
  * Stops in `pushed`, as bits, are touched by construction. work->law must belong to the state. */
 static inline void wh_contact_first_touch(const wh_contact_system *of, const wh_contact_work *w,
                                           unsigned pushed, const wh_real *signal,
@@ -35,8 +24,11 @@ static inline void wh_contact_first_touch(const wh_contact_system *of, const wh_
         const bool touched =
             stop && (on || value <= WH_CONTACT_TIE * wh_contact_extent(of, w, k, s));
         const bool closes = stop && (on || value <= WH_R(0.0)) && signal[2 * k + 1] <= WH_R(0.0);
-        const bool holds = wh_contact_of(of, k, WH_HOLD) &&
-                           wh_contact_holds_first(of, w, k, value, speed, rests, input, s);
+        const bool hold = wh_contact_of(of, k, WH_HOLD);
+        const wh_real limit = hold ? wh_contact_at_limit(of, w, k, input, s, value) : WH_R(0.0);
+        const bool comes =
+            limit == WH_R(0.0) ? value > WH_R(0.0) : rests || limit * speed > WH_R(0.0);
+        const bool holds = hold && comes;
         *still |= (touched || holds) && rests ? 1U << k : 0U;
         *moving |= (closes || holds) && !rests ? 1U << k : 0U;
     }

@@ -366,9 +366,8 @@ static inline void wh_contact_squeeze(const wh_contact_system *of, wh_contact_wo
 
 /* By how much the condition of hold k, which is `now`, changes with what it keeps and that rate, each by WH_EDGE_PROBE of its
  * terms. work->law must belong to the state. */
-static inline wh_real wh_contact_own(const wh_contact_system *of, const wh_contact_work *w,
-                                     unsigned k, const wh_real *input, const wh_contact_state *s,
-                                     wh_real now) {
+WH_APART wh_real wh_contact_own(const wh_contact_system *of, const wh_contact_work *w, unsigned k,
+                                const wh_real *input, const wh_contact_state *s, wh_real now) {
     wh_contact_point at;
     wh_contact_state moved = *s;
     wh_real signal[2 * WH_CONTACTS_MAX];
@@ -386,12 +385,13 @@ static inline wh_real wh_contact_own(const wh_contact_system *of, const wh_conta
     return signal[2 * k] - now;
 }
 
-/* So near to zero hold k's condition, `now`, is at the limit of what it keeps, as near as rounding knows it; 0: it is not. */
-static inline wh_real wh_contact_at_limit(const wh_contact_system *of, const wh_contact_work *w,
-                                          unsigned k, const wh_real *input,
-                                          const wh_contact_state *s, wh_real now) {
-    const wh_real known = WH_EDGE * WH_ABS(wh_contact_own(of, w, k, input, s, now));
-    return WH_ABS(now) <= known ? known : WH_R(0.0);
+/* So near to zero hold k's condition, `now`, is at the limit of what it keeps, as near as rounding knows it; below zero if the
+ * condition falls with that; 0: it is not at that limit. */
+WH_APART wh_real wh_contact_at_limit(const wh_contact_system *of, const wh_contact_work *w,
+                                     unsigned k, const wh_real *input, const wh_contact_state *s,
+                                     wh_real now) {
+    const wh_real known = WH_EDGE * wh_contact_own(of, w, k, input, s, now);
+    return WH_ABS(now) <= WH_ABS(known) ? known : WH_R(0.0);
 }
 
 /* Holds that have just captured, as bits, where the location ended a little short of their own limit: what they keep is moved

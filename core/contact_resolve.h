@@ -44,10 +44,10 @@ static inline void wh_contact_revise(const wh_contact_system *of, wh_contact_wor
     for (unsigned k = 0; k < of->forced; k++) {
         const bool below = signal[2 * k] < WH_R(0.0);
         passed |= below ? stops & 1U << k : 0U;
-        const bool held = (holds >> k & 1U) != 0;
-        const wh_real slack =
-            held ? wh_contact_at_limit(of, w, k, input, s, signal[2 * k]) : WH_R(0.0);
-        kept |= signal[2 * k] > -slack ? holds & 1U << k : 0U;
+        const wh_real limit = (holds >> k & 1U) != 0
+                                  ? wh_contact_at_limit(of, w, k, input, s, signal[2 * k])
+                                  : WH_R(0.0);
+        kept |= signal[2 * k] > -WH_ABS(limit) ? holds & 1U << k : 0U;
     }
     w->moved = 0;
     wh_contact_set_modes(of, w, holds & ~kept, WH_FREE);

@@ -125,9 +125,9 @@ WH_APART void wh_contact_attempt_frozen(const wh_contact_system *of, wh_contact_
     wh_contact_signals(of, at.phase, at.linear, at.rate, input, signal);
     for (unsigned k = 0; k < of->forced; k++) {
         if (wh_contact_of(of, k, WH_HOLD)) {
-            w->slack[k] = w->mode[k] == WH_ACTIVE
-                              ? wh_contact_at_limit(of, w, k, input, &a->now, signal[2 * k])
-                              : WH_R(0.0);
+            const bool held = w->mode[k] == WH_ACTIVE;
+            const wh_real limit = wh_contact_at_limit(of, w, k, input, &a->now, signal[2 * k]);
+            w->slack[k] = held ? WH_ABS(limit) : WH_R(0.0);
             a->margins.value[k] += w->slack[k];
         }
     }

@@ -104,24 +104,12 @@ static bool has_zero(apart *a, int h) {
     return changes;
 }
 
-/* Solve `matrix` x = b by elimination, x in b; false: it is singular. */
+/* Solve `matrix` x = b, x in b, by elimination: what is positive definite needs no other order; false: it is singular. */
 static bool solve(int n, double matrix[HOLDS][HOLDS], double *b) {
     for (int p = 0; p < n; p++) {
-        int best = p;
-        for (int r = p; r < n; r++) {
-            best = fabs(matrix[r][p]) > fabs(matrix[best][p]) ? r : best;
-        }
-        if (!(fabs(matrix[best][p]) > 1e-12)) {
+        if (!(matrix[p][p] > 1e-12)) {
             return false;
         }
-        for (int c = 0; c < n; c++) {
-            const double other = matrix[p][c];
-            matrix[p][c] = matrix[best][c];
-            matrix[best][c] = other;
-        }
-        const double value = b[p];
-        b[p] = b[best];
-        b[best] = value;
         for (int r = 0; r < n; r++) {
             const double factor = r != p ? matrix[r][p] / matrix[p][p] : 0.0;
             for (int c = p; c < n; c++) {
