@@ -13,20 +13,19 @@
 
 /* Points beyond these are for numbers that no mechanism has. */
 enum { BITS_LEAST = -60, BITS_MOST = 90 };
+#define ROUNDED (1.0 - 0x1p-40)
 
 int fixed_point_of(double size, int digits) {
-    int exponent; /* size <= 2^exponent */
-    const double part = number_split(size, &exponent);
-    if (size == 0.0) {
+    int exponent; /* size <= 2^exponent, but for what outward rounding adds to a power of two */
+    if (number_split(ROUNDED * size, &exponent) == 0.0) {
         return digits;
     }
-    exponent -= part == 0.5 ? 1 : 0;
     const int bits = digits - exponent;
     return bits > BITS_MOST ? BITS_MOST : bits < BITS_LEAST ? BITS_LEAST : bits;
 }
 
 /* The largest number that stands for it, as a double. */
-static double units(const fixed_op *o) { return number_scaled(interval_size(o->range), o->bits); }
+static double units(const fixed_op *o) { return number_scaled(enclosure_size(o->range), o->bits); }
 
 static int least(int a, int b) { return a < b ? a : b; }
 static int most(int a, int b) { return a > b ? a : b; }
@@ -35,7 +34,7 @@ static int most(int a, int b) { return a > b ? a : b; }
 
 /* What the operands of a product can make at most has room, too: then shifts to the left do. */
 static int product_bits(const fixed_list *l, const fixed_op *o) {
-    const double size = interval_size(l->op[o->a.op].range) * interval_size(l->op[o->b.op].range);
+    const double size = enclosure_size(l->op[o->a.op].range) * enclosure_size(l->op[o->b.op].range);
     return fixed_point_of(size, FIXED_DIGITS);
 }
 
@@ -47,7 +46,7 @@ static int sum_bits(const fixed_list *l, const fixed_op *o, int bits) {
     for (int k = 0; k < 2; k++) {
         const bool constant = part[k]->code == FIXED_CONSTANT;
         if (constant || compares) {
-            bits = least(bits, fixed_point_of(interval_size(part[k]->range), FIXED_DIGITS));
+            bits = least(bits, fixed_point_of(enclosure_size(part[k]->range), FIXED_DIGITS));
         }
         finest = constant ? finest : most(finest, part[k]->bits);
     }
@@ -55,7 +54,7 @@ static int sum_bits(const fixed_list *l, const fixed_op *o, int bits) {
 }
 
 static void choose(const fixed_list *l, fixed_op *o, int digits) {
-    const int bits = fixed_point_of(interval_size(o->range), digits);
+    const int bits = fixed_point_of(enclosure_size(o->range), digits);
     switch (o->code) {
     case FIXED_LINEAR:
     case FIXED_RATE:
@@ -182,7 +181,7 @@ static bool finish_quotient(const fixed_list *l, fixed_op *o) {
     const fixed_op *a = &l->op[o->a.op];
     const fixed_op *b = &l->op[o->b.op];
     const bool constant = a->code == FIXED_CONSTANT;
-    const interval size = interval_abs(b->range);
+    const enclosure size = enclosure_call(FN_ABS, b->range, enclosure_of(0.0));
     int smallest;
     int largest;
     (void)number_split(number_scaled((1.0 - MARGIN) * size.low, b->bits), &smallest);
@@ -255,7 +254,7 @@ static bool is_result(const fixed_list *l, int i) {
 
 /* Are there as many zeros in front of |b| as the quotient takes there to be? */
 static bool has_zeros(const fixed_op *o, const fixed_op *b) {
-    const interval size = interval_abs(b->range);
+    const enclosure size = enclosure_call(FN_ABS, b->range, enclosure_of(0.0));
     int smallest;
     int largest;
     (void)number_split(number_scaled(size.low, b->bits), &smallest);
@@ -329,59 +328,75 @@ typedef struct hull {
     fixed_list *list;
     const fixed_leaves *leaves;
     bool bits_known;
-    interval *now;   /* [count] in this cell */
-    interval *angle; /* [angles] */
-    int *cell;       /* [angles] */
-    bool *cut;       /* [angles] is any phase made of it? */
-    int cells;       /* a turn */
-    bool at_middles; /* leaves stay in the middle of what they can be */
+    enclosure *now;   /* [count] in this cell */
+    enclosure *angle; /* [angles] */
+    int *cell;        /* [angles] */
+    bool *cut;        /* [angles] is any phase made of it? */
+    int cells;        /* a turn */
+    bool at_middles;  /* leaves stay in the middle of what they can be */
     bool divides_zero;
     bool unbounded;
 } hull;
 
-static interval phase_of(const hull *h, const fixed_op *o) {
-    interval sum = {o->offset_rad, o->offset_rad};
+static enclosure phase_of(const hull *h, const fixed_op *o) {
+    enclosure sum = {o->offset_rad, o->offset_rad};
     for (int k = 0; k < h->list->angles && o->turns != NULL; k++) {
         const double turns = o->turns[k];
         if (turns != 0.0) {
-            sum = interval_add(sum, interval_mul((interval){turns, turns}, h->angle[k]));
+            sum = enclosure_add(sum, enclosure_mul((enclosure){turns, turns}, h->angle[k]));
         }
     }
     return sum;
 }
 
-static interval leaf_of(const hull *h, interval range) {
+static enclosure leaf_of(const hull *h, enclosure range) {
     const double middle = 0.5 * (range.low + range.high);
-    return h->at_middles ? (interval){middle, middle} : range;
+    return h->at_middles ? (enclosure){middle, middle} : range;
 }
 
-static interval value_of(hull *h, const fixed_op *o) {
-    const interval none = {0.0, 0.0};
-    const interval a = o->a.op >= 0 ? h->now[o->a.op] : none;
-    const interval b = o->b.op >= 0 ? h->now[o->b.op] : none;
+/* Of all angles in a. Tighter than enclosure_sine() of a whole cell; SINE_OFF covers rounding. */
+static enclosure sines(enclosure a, double ahead_rad) {
+    a = (enclosure){a.low + ahead_rad, a.high + ahead_rad};
+    const double one = number_sine(a.low);
+    const double other = number_sine(a.high);
+    enclosure made = {enclosure_lesser(one, other), enclosure_larger(one, other)};
+    for (int side = -1; side <= 1;
+         side += 2) { /* a crest or a trough: 0.25 or -0.25 of a turn and a whole k */
+        const double at = side * 0.25 * TURN;
+        if (at + TURN * number_ceiling((a.low - at) / TURN) <= a.high) {
+            *(side > 0 ? &made.high : &made.low) = side;
+        }
+    }
+    return made;
+}
+
+static enclosure value_of(hull *h, const fixed_op *o) {
+    const enclosure none = {0.0, 0.0};
+    const enclosure a = o->a.op >= 0 ? h->now[o->a.op] : none;
+    const enclosure b = o->b.op >= 0 ? h->now[o->b.op] : none;
     switch (o->code) {
-    case FIXED_CONSTANT: return (interval){o->value, o->value};
+    case FIXED_CONSTANT: return (enclosure){o->value, o->value};
     case FIXED_LINEAR: return leaf_of(h, h->leaves->linear[o->index]);
     case FIXED_RATE: return leaf_of(h, h->leaves->rate[o->index]);
     case FIXED_INPUT: return leaf_of(h, h->leaves->input[o->index]);
     case FIXED_PHASE: return phase_of(h, o);
-    case FIXED_SINE: return interval_widen(interval_sin(a), SINE_OFF);
-    case FIXED_COSINE: return interval_widen(interval_cos(a), SINE_OFF);
-    case FIXED_SUM: return interval_add(a, b);
-    case FIXED_DIFFERENCE: return interval_sub(a, b);
-    case FIXED_PRODUCT: return o->a.op == o->b.op ? interval_square(a) : interval_mul(a, b);
-    case FIXED_SAME: return interval_mul(a, (interval){o->value, o->value});
-    case FIXED_ABS: return interval_abs(a);
-    case FIXED_SIGN: return (interval){a.low > 0.0 ? 1.0 : -1.0, a.high < 0.0 ? -1.0 : 1.0};
-    case FIXED_LEAST: return interval_min(a, b);
-    case FIXED_MOST: return interval_max(a, b);
+    case FIXED_SINE: return enclosure_widened(sines(a, 0.0), SINE_OFF);
+    case FIXED_COSINE: return enclosure_widened(sines(a, 0.25 * TURN), SINE_OFF);
+    case FIXED_SUM: return enclosure_add(a, b);
+    case FIXED_DIFFERENCE: return enclosure_sub(a, b);
+    case FIXED_PRODUCT: return o->a.op == o->b.op ? enclosure_square(a) : enclosure_mul(a, b);
+    case FIXED_SAME: return enclosure_mul(a, (enclosure){o->value, o->value});
+    case FIXED_ABS: return enclosure_call(FN_ABS, a, enclosure_of(0.0));
+    case FIXED_SIGN: return (enclosure){a.low > 0.0 ? 1.0 : -1.0, a.high < 0.0 ? -1.0 : 1.0};
+    case FIXED_LEAST: return enclosure_call(FN_MIN, a, b);
+    case FIXED_MOST: return enclosure_call(FN_MAX, a, b);
     case FIXED_QUOTIENT:
-        if (interval_holds_zero(b)) {
+        if (enclosure_has(b, 0.0)) {
             h->divides_zero = true;
             return none;
         }
-        const interval q = interval_div(a, b);
-        return interval_widen(q, QUOTIENT_OFF * interval_size(q));
+        const enclosure q = enclosure_div(a, b);
+        return enclosure_widened(q, QUOTIENT_OFF * enclosure_size(q));
     }
     return none;
 }
@@ -392,7 +407,7 @@ static double rounding_of(const hull *h, const fixed_op *o) {
     return h->bits_known && rounds ? number_scaled(4.0, -o->bits) : 0.0;
 }
 
-static bool is_bounded(interval a) {
+static bool is_bounded(enclosure a) {
     return a.low >= -FIXED_SIZE_MOST && a.high <= FIXED_SIZE_MOST;
 }
 
@@ -404,14 +419,14 @@ static void enclose(hull *h, bool first) {
     fixed_list *l = h->list;
     for (int k = 0; k < l->angles; k++) {
         const double width = TURN / h->cells;
-        h->angle[k] = (interval){h->cell[k] * width, (h->cell[k] + 1) * width};
+        h->angle[k] = (enclosure){h->cell[k] * width, (h->cell[k] + 1) * width};
     }
     for (int i = 0; i < l->count && goes_on(h); i++) {
         fixed_op *o = &l->op[i];
         if (o->used) {
-            h->now[i] = interval_widen(value_of(h, o), rounding_of(h, o));
+            h->now[i] = enclosure_widened(value_of(h, o), rounding_of(h, o));
             h->unbounded = !is_bounded(h->now[i]);
-            o->range = first ? h->now[i] : interval_hull(o->range, h->now[i]);
+            o->range = first ? h->now[i] : enclosure_hull(o->range, h->now[i]);
         }
     }
 }

@@ -8,7 +8,6 @@
 #define FIXED_FIXED_LIST_H
 
 #include "host/fixed/fixed_range.h"
-#include "host/fixed/interval.h"
 #include "host/image/image.h"
 
 /* Of a value's size, binary digits: values fill 2^29 at most, so that what rounding adds, and twice that, fits; results
@@ -55,9 +54,9 @@ typedef struct fixed_op {
     const int *turns; /* FIXED_PHASE: of the image's list */
     double offset_rad;
     uint32_t offset;
-    double value;   /* FIXED_CONSTANT; FIXED_SAME: the power of two, with its sign */
-    interval range; /* of the values that it can have */
-    int bits;       /* behind the binary point */
+    double value;    /* FIXED_CONSTANT; FIXED_SAME: the power of two, with its sign */
+    enclosure range; /* of the values that it can have */
+    int bits;        /* behind the binary point */
     bool used;
 } fixed_op;
 
@@ -76,9 +75,9 @@ void fixed_list_free(fixed_list *list);
 
 /* What the leaves can be. */
 typedef struct fixed_leaves {
-    const interval *linear;
-    const interval *rate;
-    const interval *input;
+    const enclosure *linear;
+    const enclosure *rate;
+    const enclosure *input;
 } fixed_leaves;
 
 /* The largest size of a value that anything here has to do with: products of two of it are finite, so that intervals are of

@@ -63,7 +63,7 @@ bool fixed_has_step(const image *im, diags *errors) {
 }
 
 /* Does everything start within its range? */
-static bool starts_inside(const image *im, const interval *range, diags *errors) {
+static bool starts_inside(const image *im, const enclosure *range, diags *errors) {
     bool good = true;
     for (int i = 0; i < im->reals + im->inputs; i++) {
         const double value = i < im->reals ? im->start_real[i] : im->input[i - im->reals].value;
@@ -77,10 +77,10 @@ static bool starts_inside(const image *im, const interval *range, diags *errors)
 }
 
 /* Ranges that are no larger than anything may be. */
-static bool ranges_are_bounded(const image *im, const interval *range, diags *errors) {
+static bool ranges_are_bounded(const image *im, const enclosure *range, diags *errors) {
     bool good = true;
     for (int i = 0; i < im->reals + im->inputs; i++) {
-        if (!(interval_size(range[i]) <= FIXED_SIZE_MOST)) {
+        if (!(enclosure_size(range[i]) <= FIXED_SIZE_MOST)) {
             diag_error(errors, im->range[i].at, "declare a narrower one: range NAME = A .. B",
                        "the range of '%s' reaches beyond %.2g", im->range[i].name, FIXED_SIZE_MOST);
             good = false;
@@ -89,11 +89,11 @@ static bool ranges_are_bounded(const image *im, const interval *range, diags *er
     return good;
 }
 
-bool fixed_ranges_hold(const image *im, const interval *range, diags *errors) {
+bool fixed_ranges_hold(const image *im, const enclosure *range, diags *errors) {
     return ranges_are_bounded(im, range, errors) && starts_inside(im, range, errors);
 }
 
-bool fixed_inputs_declared(const image *im, const interval *range, diags *errors) {
+bool fixed_inputs_declared(const image *im, const enclosure *range, diags *errors) {
     bool good = true;
     for (int i = im->reals; i < im->reals + im->inputs; i++) {
         const char *si = im->input[i - im->reals].unit.si;
@@ -118,7 +118,7 @@ bool fixed_inputs_declared(const image *im, const interval *range, diags *errors
 
 /* --- formats -------------------------------------------------------------------------------------------*/
 
-static wh_fixed_format format_of(interval range, int bits) {
+static wh_fixed_format format_of(enclosure range, int bits) {
     return (wh_fixed_format){(int16_t)bits, (int32_t)number_ceiling(number_scaled(range.low, bits)),
                              (int32_t)number_floor(number_scaled(range.high, bits))};
 }
@@ -154,8 +154,8 @@ static fixed_gain short_gain(double factor, int from, int to) {
 
 /* A component of which 2 `by` is the most that a step adds: as fine as there is room for that, and for what is added to it
  * to be finer still. */
-static int kept_bits(interval range, double by, int list_bits) {
-    const int finest = fixed_point_of(interval_size(range) + 2.2 * by, FIXED_KEPT_DIGITS);
+static int kept_bits(enclosure range, double by, int list_bits) {
+    const int finest = fixed_point_of(enclosure_size(range) + 2.2 * by, FIXED_KEPT_DIGITS);
     return finest < list_bits - 1 ? finest : list_bits - 1;
 }
 
@@ -199,8 +199,8 @@ static bool move_place(fixed_plan *p, int i) {
     const wh_fixed_format *rate = &p->format[kept_at(p, i)];
     const double unit = i < im->angles ? PHASE_PER_RAD : 1.0;
     const double half = 0.5 * im->step_s * unit;
-    const double by = half * (interval_size(p->range[kept_at(p, i)]) +
-                              2.0 * interval_size(accel->range)); /* half a step, at most */
+    const double by = half * (enclosure_size(p->range[kept_at(p, i)]) +
+                              2.0 * enclosure_size(accel->range)); /* half a step, at most */
     int bits = 0;
     if (i < im->angles) {
         if (2.0 * by >= 1073741824.0) {
@@ -208,13 +208,13 @@ static bool move_place(fixed_plan *p, int i) {
         }
     } else {
         wh_fixed_format *f = &p->format[i - im->angles];
-        const interval range = p->range[i - im->angles];
+        const enclosure range = p->range[i - im->angles];
         bits = kept_bits(range, by, 1000);
         *f = format_of(range, bits);
     }
     m->guard = room_for(2.0 * by, 1073741824.0) - bits;
     m->guard = m->guard > GUARD_MOST ? GUARD_MOST : m->guard < 0 ? 0 : m->guard;
-    const double rate_size = interval_size((interval){rate->low, rate->high});
+    const double rate_size = enclosure_size((enclosure){rate->low, rate->high});
     const double accel_size = number_scaled(1.0, FIXED_RESULT_DIGITS);
     for (; m->guard >= 0; m->guard--) {
         const int to = bits + m->guard;
@@ -230,7 +230,7 @@ static bool move_place(fixed_plan *p, int i) {
 static bool make_movers(fixed_plan *p) {
     for (int i = 0; i < p->coordinates; i++) {
         const fixed_op *accel = result_of(p, i);
-        const double by = interval_size(accel->range);
+        const double by = enclosure_size(accel->range);
         const int at = kept_at(p, i);
         if (at >= 0) {
             p->format[at] = format_of(p->range[at], kept_bits(p->range[at], by, accel->bits));
@@ -271,14 +271,14 @@ static double most_added(const fixed_plan *p, int at) {
     const image *im = p->image;
     const int linears = p->second ? im->coordinates - im->angles : im->reals;
     if (!p->second) {
-        return 2.0 * interval_size(result_of(p, im->angles + at)->range);
+        return 2.0 * enclosure_size(result_of(p, im->angles + at)->range);
     }
     if (at >= linears) {
-        return 2.0 * interval_size(result_of(p, at - linears)->range);
+        return 2.0 * enclosure_size(result_of(p, at - linears)->range);
     }
     const int i = im->angles + at;
     return im->step_s *
-           (interval_size(p->range[linears + i]) + 2.0 * interval_size(result_of(p, i)->range));
+           (enclosure_size(p->range[linears + i]) + 2.0 * enclosure_size(result_of(p, i)->range));
 }
 
 /* Stages leave the ranges by what is added to them, and that depends on where they are: from nothing on until it is enough.
@@ -290,7 +290,7 @@ static bool widen_stages(fixed_plan *p) {
         const double most = 1.0000001 * most_added(p, at) + number_scaled(4.0, -p->format[at].bits);
         if (!(p->range[at].high + most <= p->stage[at].high &&
               p->range[at].low - most >= p->stage[at].low)) {
-            p->stage[at] = interval_widen(p->range[at], 1.1 * most);
+            p->stage[at] = enclosure_widened(p->range[at], 1.1 * most);
             enough = false;
         }
     }
@@ -402,9 +402,9 @@ static void make_starts(fixed_plan *p) {
 }
 
 /* To begin with: room for where stages are. */
-static wh_fixed_format first_format(interval range, interval stage) {
-    const int bits = fixed_point_of(interval_size(range), FIXED_DIGITS);
-    const int of_stage = fixed_point_of(interval_size(stage), FIXED_KEPT_DIGITS);
+static wh_fixed_format first_format(enclosure range, enclosure stage) {
+    const int bits = fixed_point_of(enclosure_size(range), FIXED_DIGITS);
+    const int of_stage = fixed_point_of(enclosure_size(stage), FIXED_KEPT_DIGITS);
     return format_of(range, of_stage < bits ? of_stage : bits);
 }
 

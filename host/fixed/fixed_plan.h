@@ -6,7 +6,6 @@
 #include "core/fixed_scene.h"
 #include "host/fixed/fixed_list.h"
 #include "host/fixed/fixed_range.h"
-#include "host/fixed/interval.h"
 #include "host/image/image.h"
 
 /* === statements that fixed point refuses, each at its place =================================== */
@@ -15,11 +14,11 @@
 bool fixed_has_step(const image *im, diags *errors);
 
 /* Ranges of the reals and inputs: larger than anything may be, or a start outside its own: false, reported. */
-bool fixed_ranges_hold(const image *im, const interval *range, diags *errors);
+bool fixed_ranges_hold(const image *im, const enclosure *range, diags *errors);
 
 /* Code takes inputs that nobody has run yet: each input without a declared range is reported, with the range that a run
  * takes; false: there is one. */
-bool fixed_inputs_declared(const image *im, const interval *range, diags *errors);
+bool fixed_inputs_declared(const image *im, const enclosure *range, diags *errors);
 
 /* x 2^shift number 2^-(32 + by), rounded: times a constant, to another binary point. */
 typedef struct fixed_gain {
@@ -48,8 +47,8 @@ typedef struct fixed_mover {
 typedef struct fixed_plan {
     const image *image;
     wh_fixed_format *format; /* [reals + inputs] as the scene has them */
-    interval *range;         /* [reals + inputs] where a step begins and ends, and */
-    interval *stage;         /* [reals + inputs] where its stages can be from there */
+    enclosure *range;        /* [reals + inputs] where a step begins and ends, and */
+    enclosure *stage;        /* [reals + inputs] where its stages can be from there */
     bool *declared;          /* [reals + inputs]: else from a reference run */
     bool second;
     int coordinates;    /* or components */

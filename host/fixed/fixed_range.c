@@ -9,15 +9,15 @@
 #include "host/base/room.h"
 #include "host/run/loop.h"
 
-static interval twice(interval seen) {
+static enclosure twice(enclosure seen) {
     if (seen.low == 0.0 && seen.high == 0.0) {
-        return (interval){-1.0, 1.0};
+        return (enclosure){-1.0, 1.0};
     }
     if (seen.low == 0.0 || seen.high == 0.0) { /* begun at rest: either way */
-        return (interval){-2.0 * interval_size(seen), 2.0 * interval_size(seen)};
+        return (enclosure){-2.0 * enclosure_size(seen), 2.0 * enclosure_size(seen)};
     }
-    return (interval){seen.low < 0.0 ? 2.0 * seen.low : 0.5 * seen.low,
-                      seen.high > 0.0 ? 2.0 * seen.high : 0.5 * seen.high};
+    return (enclosure){seen.low < 0.0 ? 2.0 * seen.low : 0.5 * seen.low,
+                       seen.high > 0.0 ? 2.0 * seen.high : 0.5 * seen.high};
 }
 
 bool fixed_watch_stops(const fixed_watch *watch) {
@@ -37,7 +37,7 @@ typedef struct looking {
     void *run;
     double *angle_rad;
     double *real;
-    interval *seen;
+    enclosure *seen;
     const fixed_watch *watch;
 } looking;
 
@@ -46,13 +46,13 @@ static bool see(void *of, uint64_t step) {
     show(at->watch, step, at->image->steps);
     engine_double.state(at->run, at->angle_rad, at->real);
     for (int i = 0; i < at->image->reals; i++) {
-        const interval now = {at->real[i], at->real[i]};
-        at->seen[i] = step == 0 ? now : interval_hull(at->seen[i], now);
+        const enclosure now = {at->real[i], at->real[i]};
+        at->seen[i] = step == 0 ? now : enclosure_hull(at->seen[i], now);
     }
     return true;
 }
 
-static bool look(const image *im, interval *seen, const fixed_watch *watch, diags *errors) {
+static bool look(const image *im, enclosure *seen, const fixed_watch *watch, diags *errors) {
     void *run = engine_double.start(im);
     double *angle = room(im->angles, sizeof *angle);
     double *real = room(im->reals, sizeof *real);
@@ -77,7 +77,7 @@ static bool look(const image *im, interval *seen, const fixed_watch *watch, diag
     return status == WH_OK && !fixed_watch_stops(watch);
 }
 
-bool fixed_ranges(const image *im, interval *range, bool *declared, const fixed_watch *watch,
+bool fixed_ranges(const image *im, enclosure *range, bool *declared, const fixed_watch *watch,
                   diags *errors) {
     bool good = true;
     bool all = true;
@@ -91,12 +91,12 @@ bool fixed_ranges(const image *im, interval *range, bool *declared, const fixed_
     }
     for (int i = 0; i < im->reals + im->inputs && good; i++) {
         if (declared[i]) {
-            range[i] = (interval){im->range[i].low, im->range[i].high};
+            range[i] = (enclosure){im->range[i].low, im->range[i].high};
         } else if (i < im->reals) {
             range[i] = twice(range[i]);
         } else {
             const double value = im->input[i - im->reals].value;
-            range[i] = twice((interval){value, value});
+            range[i] = twice((enclosure){value, value});
         }
     }
     return good;

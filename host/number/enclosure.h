@@ -55,6 +55,10 @@ static inline enclosure enclosure_sub(enclosure a, enclosure b) {
     return enclosure_add(a, enclosure_neg(b));
 }
 
+static inline enclosure enclosure_widened(enclosure a, double by) {
+    return enclosure_add(a, (enclosure){-by, by});
+}
+
 static inline double enclosure_lesser(double a, double b) { return a < b ? a : b; }
 static inline double enclosure_larger(double a, double b) { return a > b ? a : b; }
 

@@ -181,7 +181,7 @@ static void test_outputs_and_inputs(void) {
                                       is[1] * is[2], is[0] + is[1]};
         TEST_ASSERT_TRUE_MESSAGE(fabs(output[0] - wanted[which]) < 1e-13, text);
         TEST_ASSERT_TRUE(which != 1 || output[2] == is[3]); /* a, x, a', x' */
-        const interval range = p->range[im->reals];
+        const enclosure range = p->range[im->reals];
         const double unit = ldexp(1.0, -p->format[im->reals].bits);
         for (int k = 0; k < 20; k++) {
             const double wished = range.low + some(-0.3, 1.3) * (range.high - range.low);
