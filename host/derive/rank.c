@@ -2,8 +2,11 @@
 #include "rank.h"
 
 #include <math.h>
+#include <stdlib.h>
 
+#include "host/base/room.h"
 #include "host/number/functions.h"
+#include "host/number/gauss.h"
 
 /* Passes over rows and columns; each halves what is wrong with the logarithms of the scales. */
 #define PASSES 16
@@ -82,31 +85,6 @@ static void scale_symmetric(double *m, double *error, int n) {
     }
 }
 
-/* Bring the largest of what is left to m[step][step]; its size. */
-static double bring_pivot(double *m, int n, int step) {
-    int row = step;
-    int column = step;
-    for (int i = step; i < n; i++) {
-        for (int j = step; j < n; j++) {
-            if (fabs(m[i * n + j]) > fabs(m[row * n + column])) {
-                row = i;
-                column = j;
-            }
-        }
-    }
-    for (int j = 0; j < n; j++) {
-        const double swap = m[step * n + j];
-        m[step * n + j] = m[row * n + j];
-        m[row * n + j] = swap;
-    }
-    for (int i = 0; i < n; i++) {
-        const double swap = m[i * n + step];
-        m[i * n + step] = m[i * n + column];
-        m[i * n + column] = swap;
-    }
-    return fabs(m[step * n + step]);
-}
-
 int rank_of(double *m, double *error, int n, bool symmetric) {
     if (symmetric && has_positive_diagonal(m, n)) {
         scale_symmetric(m, error, n);
@@ -117,30 +95,13 @@ int rank_of(double *m, double *error, int n, bool symmetric) {
     for (int i = 0; i < n * n; i++) {
         blur = number_most(blur, (double)n * error[i]);
     }
-    int rank = 0;
-    while (rank < n && bring_pivot(m, n, rank) > blur) {
-        for (int i = rank + 1; i < n; i++) {
-            const double part = m[i * n + rank] / m[rank * n + rank];
-            for (int j = rank; j < n; j++) {
-                m[i * n + j] -= part * m[rank * n + j];
-            }
-        }
-        rank++;
-    }
+    int *lead = room(n, sizeof *lead);
+    const int rank = gauss_reduce(m, n, n, n, true, blur, lead);
+    free(lead);
     return rank;
 }
 
 bool rank_is_positive(double *m, int n) {
-    for (int k = 0; k < n; k++) {
-        if (!(m[k * n + k] > 0.0)) {
-            return false;
-        }
-        for (int i = k + 1; i < n; i++) {
-            const double part = m[k * n + i] / m[k * n + k];
-            for (int j = i; j < n; j++) {
-                m[i * n + j] -= part * m[k * n + j];
-            }
-        }
-    }
-    return true;
+    gauss_pivots(m, n);
+    return has_positive_diagonal(m, n);
 }

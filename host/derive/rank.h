@@ -4,7 +4,8 @@
 
 #include <stdbool.h>
 
-/* The rank of m[n * n], by rows, whose entries are known to within error[n * n] >= 0; both are destroyed.
+/* The rank of m[n * n], by rows, whose entries are known to within error[n * n] >= 0. Both are destroyed: of a
+ * regular matrix the pivots are left, one in each row, and zeros.
  *
  * Rows and columns are scaled first, by powers of two: with a positive diagonal and `symmetric`, to a
  * diagonal of about one (van der Sluis, "Condition numbers and equilibration of matrices", 1969: no scaling of

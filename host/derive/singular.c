@@ -235,10 +235,8 @@ typedef enum verdict { NOWHERE_FINITE, SINGULAR, NOT_POSITIVE, SOLVABLE } verdic
 static double blur_of(const double *m, const double *error, int n) {
     double least = (double)INFINITY;
     double most = 0.0;
-    for (int i = 0; i < n; i++) {
-        least = number_least(least, fabs(m[i * n + i]));
-    }
     for (int i = 0; i < n * n; i++) {
+        least = m[i] != 0.0 ? number_least(least, fabs(m[i])) : least;
         most = number_most(most, error[i]);
     }
     return most / least;

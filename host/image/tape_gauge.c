@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "host/base/room.h"
+#include "host/number/gauss.h"
 
 /* === which operations may be multiplied together ============================================== */
 /* The operations of a list that can be multiplied together. Each operation is multiplied by x to an exponent of its
@@ -28,53 +29,11 @@ static matrix matrix_new(int rows, int columns) {
 
 static double *row_of(const matrix *m, int row) { return m->at + (size_t)row * (size_t)m->columns; }
 
-static void swap_rows(const matrix *m, int x, int y) {
-    for (int c = 0; c < m->columns; c++) {
-        const double kept = row_of(m, x)[c];
-        row_of(m, x)[c] = row_of(m, y)[c];
-        row_of(m, y)[c] = kept;
-    }
-}
-
-/* Subtract row `of`, with entry one in column c, from all others to clear that column. */
-static void clear_column(const matrix *m, int of, int c) {
-    for (int r = 0; r < m->rows; r++) {
-        const double factor = r != of ? row_of(m, r)[c] : 0.0;
-        for (int k = 0; k < m->columns && factor != 0.0; k++) {
-            double *entry = &row_of(m, r)[k];
-            *entry -= factor * row_of(m, of)[k];
-            *entry = fabs(*entry) < NOTHING ? 0.0 : *entry;
-        }
-    }
-}
-
-/* Gauss-Jordan elimination: lead[row] is its leading column. Returns the number of nonzero rows. */
-static int reduce(const matrix *m, int *lead) {
-    int rank = 0;
-    for (int c = 0; c < m->columns && rank < m->rows; c++) {
-        int best = rank;
-        for (int r = rank; r < m->rows; r++) {
-            best = fabs(row_of(m, r)[c]) > fabs(row_of(m, best)[c]) ? r : best;
-        }
-        const double pivot = row_of(m, best)[c];
-        if (pivot == 0.0) {
-            continue;
-        }
-        swap_rows(m, best, rank);
-        for (int k = 0; k < m->columns; k++) {
-            row_of(m, rank)[k] /= pivot;
-        }
-        clear_column(m, rank, c);
-        lead[rank++] = c;
-    }
-    return rank;
-}
-
-/* The null space of m, as rows; m is destroyed. */
+/* The vectors that m turns into zero, as rows; m is destroyed. */
 static matrix kernel_of(const matrix *m) {
     int *lead = room((int64_t)m->rows + 1, sizeof *lead);
     bool *leads = room((int64_t)m->columns + 1, sizeof *leads);
-    const int rank = reduce(m, lead);
+    const int rank = gauss_reduce(m->at, m->rows, m->columns, m->columns, false, NOTHING, lead);
     matrix kernel = matrix_new(m->columns - rank, m->columns);
     int made = 0;
     for (int r = 0; r < rank; r++) {
@@ -84,7 +43,8 @@ static matrix kernel_of(const matrix *m) {
         if (!leads[c]) {
             row_of(&kernel, made)[c] = 1.0;
             for (int r = 0; r < rank; r++) {
-                row_of(&kernel, made)[lead[r]] = -row_of(m, r)[c];
+                const double part = -row_of(m, r)[c] / row_of(m, r)[lead[r]];
+                row_of(&kernel, made)[lead[r]] = fabs(part) < NOTHING ? 0.0 : part;
             }
             made++;
         }

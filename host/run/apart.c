@@ -11,6 +11,7 @@
 #include "host/base/room.h"
 #include "host/base/statement.h"
 #include "host/number/functions.h"
+#include "host/number/gauss.h"
 
 enum { N = IMAGE_COMPONENTS_MAX, HOLDS = WH_CONTACTS_LIMIT, NEWTON_MOST = 50 };
 
@@ -104,44 +105,37 @@ static bool has_zero(apart *a, int h) {
     return changes;
 }
 
-/* Solve `matrix` x = b, x in b, by elimination: what is positive definite needs no other order; false: it is singular. */
-static bool solve(int n, double matrix[HOLDS][HOLDS], double *b) {
-    for (int p = 0; p < n; p++) {
-        if (!(matrix[p][p] > 1e-12)) {
-            return false;
-        }
-        for (int r = 0; r < n; r++) {
-            const double factor = r != p ? matrix[r][p] / matrix[p][p] : 0.0;
-            for (int c = p; c < n; c++) {
-                matrix[r][c] -= factor * matrix[p][c];
-            }
-            b[r] -= factor * b[p];
-        }
+/* Solve for n unknowns: of each row, the last entry is the right-hand side, and then the unknown. False: it is singular. */
+static bool solve(int n, double *matrix) {
+    int lead[HOLDS];
+    if (gauss_reduce(matrix, n, n + 1, n, false, 1e-12, lead) < n) {
+        return false;
     }
     for (int p = 0; p < n; p++) {
-        b[p] /= matrix[p][p];
+        matrix[p * (n + 1) + n] /= matrix[p * (n + 1) + p];
     }
     return true;
 }
 
 /* x changes by the least that moves the expressions by `by`: of coordinates that `may`. */
 static bool move(const apart *a, const bool *may, const double *by, double *x) {
-    double matrix[HOLDS][HOLDS] = {{0.0}};
-    double b[HOLDS];
-    for (int r = 0; r < a->holds; r++) {
-        b[r] = by[r];
-        for (int c = 0; c < a->holds; c++) {
+    double matrix[HOLDS * (HOLDS + 1)] = {0.0};
+    const int n = a->holds;
+    for (int r = 0; r < n; r++) {
+        double *row = matrix + (ptrdiff_t)r * (n + 1);
+        row[n] = by[r];
+        for (int c = 0; c < n; c++) {
             for (int i = 0; i < a->n; i++) {
-                matrix[r][c] += may[i] ? row_of(a, r)[i] * row_of(a, c)[i] : 0.0;
+                row[c] += may[i] ? row_of(a, r)[i] * row_of(a, c)[i] : 0.0;
             }
         }
     }
-    if (!solve(a->holds, matrix, b)) {
+    if (!solve(n, matrix)) {
         return false;
     }
     for (int i = 0; i < a->n; i++) {
-        for (int r = 0; r < a->holds && may[i]; r++) {
-            x[i] += row_of(a, r)[i] * b[r];
+        for (int r = 0; r < n && may[i]; r++) {
+            x[i] += row_of(a, r)[i] * matrix[r * (n + 1) + n];
         }
     }
     return true;
@@ -200,20 +194,19 @@ static bool fit(apart *a, int primes, bool (*with)(apart *a, const bool *may)) {
 
 /* The energy that it takes to stop the held expressions: 1/2 w (J M^-1 J^T)^-1 w of its speeds w; NaN where they repeat each other. */
 static double lost_J(const apart *a) {
-    double matrix[HOLDS][HOLDS] = {{0.0}};
-    double impulse[HOLDS];
+    double matrix[HOLDS * (HOLDS + 1)];
+    const int n = a->holds;
     double sum = 0.0;
-    for (int r = 0; r < a->holds; r++) {
-        impulse[r] = along(a, r, a->rate);
-        for (int c = 0; c < a->holds; c++) {
-            matrix[r][c] = along(a, r, row_of(a, c) + a->n);
+    for (int r = 0; r < n; r++) {
+        for (int c = 0; c <= n; c++) {
+            matrix[r * (n + 1) + c] = along(a, r, c < n ? row_of(a, c) + a->n : a->rate);
         }
     }
-    if (!solve(a->holds, matrix, impulse)) {
+    if (!solve(n, matrix)) {
         return (double)NAN;
     }
-    for (int r = 0; r < a->holds; r++) {
-        sum += 0.5 * impulse[r] * along(a, r, a->rate);
+    for (int r = 0; r < n; r++) {
+        sum += 0.5 * matrix[r * (n + 1) + n] * along(a, r, a->rate);
     }
     return sum;
 }

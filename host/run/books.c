@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "host/base/room.h"
+#include "host/number/gauss.h"
 #include "host/number/zero.h"
 
 books *books_open(const image *im) {
@@ -360,8 +361,8 @@ static void find_frame(books *b) {
         return;
     }
     double *a = room((int64_t)rows * n, sizeof *a);
-    int pivot[FRAME_MOST];
-    int rank = 0;
+    int lead[FRAME_MOST];
+    bool leads[FRAME_MOST] = {false};
     double most = 0.0;
     bool known = true;
     for (int r = 0; r < rows && known; r++) {
@@ -370,33 +371,16 @@ static void find_frame(books *b) {
             most = number_most(most, fabs(a[r * n + i]));
         }
     }
-    for (int c = 0; c < n && known; c++) {
-        int best = rank;
-        for (int r = rank; r < rows; r++) {
-            best = fabs(a[r * n + c]) > fabs(a[best * n + c]) ? r : best;
-        }
-        pivot[c] = -1;
-        if (rank < rows && fabs(a[best * n + c]) > FRAME_LEAST * most) {
-            for (int i = 0; i < n; i++) {
-                const double kept = a[rank * n + i];
-                a[rank * n + i] = a[best * n + i];
-                a[best * n + i] = kept;
-            }
-            for (int r = 0; r < rows; r++) {
-                const double factor = r != rank ? a[r * n + c] / a[rank * n + c] : 0.0;
-                for (int i = c; i < n && factor != 0.0; i++) {
-                    a[r * n + i] -= factor * a[rank * n + i];
-                }
-            }
-            pivot[c] = rank++;
-        }
+    const int rank = known ? gauss_reduce(a, rows, n, n, false, FRAME_LEAST * most, lead) : 0;
+    for (int r = 0; r < rank; r++) {
+        leads[lead[r]] = true;
     }
     for (int c = 0; c < n && known; c++) {
-        for (int i = 0; i < n && pivot[c] < 0;
-             i++) { /* momentum c less its share of those with a pivot */
-            const bool takes_part = pivot[i] >= 0 && fabs(a[pivot[i] * n + c]) >
-                                                         FRAME_LEAST * fabs(a[pivot[i] * n + i]);
-            b->frame[i] = b->frame[i] || i == c || takes_part;
+        for (int r = -1; r < rank && !leads[c];
+             r++) { /* momentum c less its share of those with a pivot */
+            const int i = r < 0 ? c : lead[r];
+            const double share = r < 0 ? 1.0 : fabs(a[r * n + c] / a[r * n + i]);
+            b->frame[i] = b->frame[i] || share > FRAME_LEAST;
         }
     }
     free(a);

@@ -7,6 +7,7 @@
 
 #include "host/base/room.h"
 #include "host/number/functions.h"
+#include "host/number/gauss.h"
 
 /* The mass matrix is asked for when the accelerations change so in a step that a rate changes by this part of its range less or more
  * than they said, and by so much more than at any time before. */
@@ -62,18 +63,13 @@ static double least_pivot(watch *w, const double *x, int *row) {
     for (int c = 0; c < rows; c++) {
         w->most[c] = number_most(w->most[c], w->mass[c * rows + c]);
     }
+    gauss_pivots(w->mass, rows);
     for (int c = 0; c < rows; c++) {
         const double pivot = w->mass[c * rows + c];
         const double part = w->most[c] > 0.0 ? fabs(pivot) / w->most[c] : 1.0;
         if (part < least) {
             least = part;
             *row = c;
-        }
-        for (int i = c + 1; i < rows && pivot != 0.0; i++) {
-            const double factor = w->mass[i * rows + c] / pivot;
-            for (int j = c; j < rows; j++) {
-                w->mass[i * rows + j] -= factor * w->mass[c * rows + j];
-            }
         }
     }
     return least;
