@@ -1,8 +1,10 @@
-/* function_double.h: the arithmetic of the double functions; private to core/function_*_double.c.
+/* function_double.h: what the double build of function.h computes with, for core/function_*_double.c.
  *
- * A pair holds a number as the sum of two doubles, the second at most half a unit of the first: about a hundred bits. It
- * needs only additions, products and quotients. A result is the rounded sum of a pair, so its error is little more than
- * half a unit in the last place. */
+ * A pair holds a number as the sum of two doubles, the second at most half a unit of the first: some
+ * hundred bits (the host takes it too: host/number/twofold.h). It is made of additions, products and
+ * quotients alone. Results leave as the rounded sum of a pair, so that they err by little more than half
+ * a unit in the last place.
+ */
 #ifndef WH_FUNCTION_DOUBLE_H
 #define WH_FUNCTION_DOUBLE_H
 
@@ -11,6 +13,23 @@
 #endif
 
 #include "function.h"
+
+typedef struct wh_pair {
+    double high;
+    double low;
+} wh_pair;
+
+/* a + b without loss, for |a| >= |b| and for any two (Dekker, Knuth). */
+WH_INLINE wh_pair wh_pair_of(double a, double b) {
+    const double sum = a + b;
+    return (wh_pair){sum, b - (sum - a)};
+}
+
+WH_INLINE wh_pair wh_pair_sum(double a, double b) {
+    const double sum = a + b;
+    const double of_b = sum - a;
+    return (wh_pair){sum, (a - (sum - of_b)) + (b - of_b)};
+}
 
 #if WH_DOUBLE
 
@@ -23,11 +42,6 @@
 
 #define WH_NAN __builtin_nan("") /* one NaN, with the same bits everywhere */
 #define WH_INFINITY __builtin_inf()
-
-typedef struct wh_pair {
-    double high;
-    double low;
-} wh_pair;
 
 /* Within one unit in the last place for all angles. The core's wh_sincos() has an absolute error, and a range. */
 double wh_sine(double rad);
@@ -65,18 +79,6 @@ WH_INLINE double wh_signed(double size, bool negative) { return negative ? -size
 /* 2^exponent, -1022 to 1023. */
 WH_INLINE double wh_power_of_two(int exponent) {
     return wh_of_bits((uint64_t)(exponent + 1023) << 52);
-}
-
-/* a + b without loss, for |a| >= |b| and for any two (Dekker, Knuth). */
-WH_INLINE wh_pair wh_pair_of(double a, double b) {
-    const double sum = a + b;
-    return (wh_pair){sum, b - (sum - a)};
-}
-
-WH_INLINE wh_pair wh_pair_sum(double a, double b) {
-    const double sum = a + b;
-    const double of_b = sum - a;
-    return (wh_pair){sum, (a - (sum - of_b)) + (b - of_b)};
 }
 
 /* The upper 26 bits of a number's 53. */

@@ -7,25 +7,12 @@
 
 #include "core/span.h"
 
-/* a + b exactly. */
-static twofold two_sum(double a, double b) {
-    const double sum = a + b;
-    const double of_b = sum - a;
-    return (twofold){sum, (a - (sum - of_b)) + (b - of_b)};
-}
-
-/* The same where |a| >= |b|, or a is 0. */
-static twofold quick_sum(double a, double b) {
-    const double sum = a + b;
-    return (twofold){sum, b - (sum - a)};
-}
-
 static twofold two_product(double a, double b) { return (twofold){a * b, wh_product_rest(a, b)}; }
 
 twofold twofold_of(double value) { return (twofold){value, 0.0}; }
 
 static twofold of_whole(uint64_t value) {
-    return two_sum((double)(value >> 32) * 4294967296.0, (double)(uint32_t)value);
+    return wh_pair_sum((double)(value >> 32) * 4294967296.0, (double)(uint32_t)value);
 }
 
 twofold twofold_ratio(uint64_t numerator, uint64_t denominator) {
@@ -39,10 +26,10 @@ twofold twofold_scale(twofold a, double power_of_two) {
 }
 
 twofold twofold_add(twofold a, twofold b) {
-    twofold high = two_sum(a.high, b.high);
-    const twofold low = two_sum(a.low, b.low);
-    high = quick_sum(high.high, high.low + low.high);
-    return quick_sum(high.high, high.low + low.low);
+    twofold high = wh_pair_sum(a.high, b.high);
+    const twofold low = wh_pair_sum(a.low, b.low);
+    high = wh_pair_of(high.high, high.low + low.high);
+    return wh_pair_of(high.high, high.low + low.low);
 }
 
 twofold twofold_sub(twofold a, twofold b) { return twofold_add(a, twofold_neg(b)); }
@@ -52,7 +39,7 @@ twofold twofold_mul(twofold a, twofold b) {
         return twofold_of(0.0);
     }
     const twofold product = two_product(a.high, b.high);
-    return quick_sum(product.high, product.low + (a.high * b.low + a.low * b.high));
+    return wh_pair_of(product.high, product.low + (a.high * b.low + a.low * b.high));
 }
 
 twofold twofold_div(twofold a, twofold b) {
@@ -60,7 +47,7 @@ twofold twofold_div(twofold a, twofold b) {
     const twofold left = twofold_sub(a, twofold_mul(b, twofold_of(first)));
     const double second = left.high / b.high;
     const twofold rest = twofold_sub(left, twofold_mul(b, twofold_of(second)));
-    const twofold quotient = quick_sum(first, second);
+    const twofold quotient = wh_pair_of(first, second);
     return twofold_add(quotient, twofold_of(rest.high / b.high));
 }
 

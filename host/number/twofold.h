@@ -7,11 +7,10 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#include "core/function_double.h"
+
 /* high is the double nearest to the whole, low what is left of it. */
-typedef struct twofold {
-    double high;
-    double low;
-} twofold;
+typedef wh_pair twofold;
 
 twofold twofold_of(double value);
 twofold twofold_ratio(uint64_t numerator, uint64_t denominator);
