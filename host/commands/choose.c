@@ -180,8 +180,21 @@ static int choose_from(pricing *p, choice_wish *w, bool counts) {
     if (code == EXIT_DONE && p->trial.stopped) {
         code = EXIT_INTERRUPTED;
     } else if (code == EXIT_DONE) {
-        choice_print(stdout, &p->trial, made, w, &c, &words);
-        code = c.fastest.row >= 0 ? EXIT_DONE : EXIT_RUN_FAILED;
+        const double horizon_s = trial_horizon_s(&p->trial);
+        const bool is_short = c.fastest.row >= 0 && horizon_s < 0.5 * p->until_s;
+        code = c.fastest.row >= 0 && !is_short ? EXIT_DONE : EXIT_RUN_FAILED;
+        if (p->options->value[PRICING_JSON] != NULL) {
+            choice_json(stdout, &p->trial, made, w, &c, &words, code);
+        } else {
+            choice_print(stdout, &p->trial, made, w, &c, &words);
+        }
+        if (is_short) {
+            fprintf(stderr,
+                    "whirl choose: error: errors are known until t = %.6g s only, less than half "
+                    "of %.6g s\n"
+                    "hint: --horizon %.6gs asks for no more\n",
+                    horizon_s, p->until_s, horizon_s);
+        }
     }
     table_free(made);
     return code;
@@ -229,16 +242,8 @@ static int choose_begun(pricing *p, choice_wish *w) {
     w->prices = b.missing == NULL ? prices_counted
                 : predicts(p)     ? prices_asked
                                   : predicted_since(b.missing, b.told);
-    int done = choose_from(p, w, b.missing == NULL);
+    const int done = choose_from(p, w, b.missing == NULL);
     w->prices = NULL; /* `b` may hold it */
-    if (done == EXIT_DONE && trial_horizon_s(&p->trial) < 0.5 * p->until_s) {
-        fprintf(stderr,
-                "whirl choose: error: errors are known until t = %.6g s only, less than half of "
-                "%.6g s\n"
-                "hint: --horizon %.6gs asks for no more\n",
-                trial_horizon_s(&p->trial), p->until_s, trial_horizon_s(&p->trial));
-        done = EXIT_RUN_FAILED;
-    }
     return done;
 }
 

@@ -58,8 +58,9 @@ static int show(pricing *p, const table *made) {
     const char *const *value = p->options->value;
     const char *csv = value[PRICING_CSV];
     const table_words words = {p->target, p->words, value[PRICING_ALL] != NULL, p->effort};
-    FILE *out = csv != NULL && strcmp(csv, "-") == 0 ? stderr : stdout;
-    if (value[PRICING_QUIET] == NULL) {
+    const bool is_json = value[PRICING_JSON] != NULL;
+    FILE *out = is_json || (csv != NULL && strcmp(csv, "-") == 0) ? stderr : stdout;
+    if (value[PRICING_QUIET] == NULL && !is_json) {
         table_print(out, &p->trial, made, &words);
     }
     if (!p->trial.reliable || made == NULL || made->count == 0) {
@@ -96,6 +97,12 @@ static int price_scene(pricing *p) {
     const char *csv = p->options->value[PRICING_CSV];
     const bool measure = p->options->value[PRICING_MEASURE] != NULL;
     const bool progress = p->options->value[PRICING_QUIET] == NULL && isatty(STDERR_FILENO);
+    if (p->options->value[PRICING_JSON] != NULL && csv != NULL && strcmp(csv, "-") == 0) {
+        fputs("whirl price: error: --json and rows cannot share standard output\n"
+              "hint: --csv rows.csv\n",
+              stderr);
+        return EXIT_BAD_INPUT;
+    }
     if (source_would_be_lost(&p->from, "--csv", csv, "") || !written_can(csv) ||
         (measure && !can_measure(p))) {
         return EXIT_BAD_INPUT;
@@ -119,6 +126,10 @@ static int price_scene(pricing *p) {
         code = EXIT_INTERRUPTED;
     } else if (code == EXIT_DONE) {
         code = show(p, made);
+        if (p->options->value[PRICING_JSON] != NULL) {
+            const table_words words = {p->target, p->words, true, p->effort};
+            table_json(stdout, &p->trial, made, &words, code);
+        }
     }
     table_free(made);
     return code;

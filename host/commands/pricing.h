@@ -35,6 +35,8 @@ enum { PRICING_PRICE = 1, PRICING_CHOOSE = 2, PRICING_BOTH = 3 };
     X(PRICING_CSV, PRICE, "--csv", "FILE", \
       "every row, with the command lines that do it again; - is standard output (the table " \
       "then goes to standard error)") \
+    X(PRICING_JSON, BOTH, "--json", NULL, \
+      "one JSON object on standard output in place of words (docs/warnings.md)") \
     X(PRICING_RATE, CHOOSE, "--rate", "500Hz", \
       "how often the firmware steps: a period takes whole steps (default: any step will do)") \
     X(PRICING_CLOCK, CHOOSE, "--clock", "16MHz", \

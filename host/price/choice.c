@@ -1,6 +1,7 @@
 /* choice.c: see choice.h. */
 #include "choice.h"
 
+#include <math.h>
 #include <stdlib.h>
 
 #include "host/number/functions.h"
@@ -427,4 +428,26 @@ void choice_print(FILE *out, const trials *t, const table *made, const choice_wi
     }
     fputc('\n', out);
     table_print_left(out, made, w->table.operations);
+}
+
+void choice_json(FILE *out, const trials *t, const table *made, const choice_wish *w,
+                 const choice *c, const table_words *words, int status) {
+    const choice_row *const of[] = {&c->fastest, &c->smallest};
+    json j = {.out = out};
+    table_json_begin(&j, "choose", t);
+    json_number(&j, "allowed", w->table.error);
+    json_text(&j, "prices", w->prices);
+    json_open(&j, "answers", '[');
+    for (int i = 0; i < 2; i++) {
+        if (of[i]->row >= 0) {
+            json_open(&j, NULL, '{');
+            json_text(&j, "least", i == 0 ? "cycles" : "flash");
+            json_number(&j, "load_most", of[i]->load_most > 0.0 ? of[i]->load_most : (double)NAN);
+            table_json_row(&j, t, &made->row[of[i]->row], words);
+            json_close(&j, '}');
+        }
+    }
+    json_close(&j, ']');
+    json_whole(&j, "exit", status);
+    json_close(&j, '}');
 }

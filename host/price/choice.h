@@ -58,5 +58,8 @@ measured_end choice_counted(trials *t, table *made, const choice_wish *w, const 
 /* Both answers; or that no row fits, and the nearest one. */
 void choice_print(FILE *out, const trials *t, const table *made, const choice_wish *w,
                   const choice *c, const table_words *words);
+/* The same as one JSON object (docs/warnings.md has the schema), without what would fit; `status`: exit status. */
+void choice_json(FILE *out, const trials *t, const table *made, const choice_wish *w,
+                 const choice *c, const table_words *words, int status);
 
 #endif

@@ -1,11 +1,14 @@
 /* table_text.c: see table_text.h. */
 #include "table_text.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "host/base/room.h"
+#include "host/number/decimal.h"
 #include "host/number/functions.h"
+#include "host/run/run_json.h"
 
 /* --- figures ---------------------------------------------------------------------------------------*/
 
@@ -325,52 +328,108 @@ void table_print(FILE *out, const trials *t, const table *made, const table_word
 
 /* --- for programs ------------------------------------------------------------------------------------*/
 
-static void csv_figure(FILE *out, const cost_figure *f) {
-    if (f->basis == COST_NOT_KNOWN) {
-        fprintf(out, ",,%s", cost_basis_words[f->basis]);
+/* Where a row goes: CSV, its header, or an object in JSON. */
+typedef struct row_sink {
+    FILE *csv;
+    json *json;
+    bool is_head;
+    bool begun;
+} row_sink;
+
+static void put(row_sink *s, const char *name, const char *text, bool is_number) {
+    if (s->json == NULL) {
+        fputs(s->begun ? "," : "", s->csv);
+        figure_field(s->csv, s->is_head ? name : text);
+        s->begun = true;
+    } else if (is_number) {
+        json_number(s->json, name, text[0] != '\0' ? decimal_read(text, NULL) : (double)NAN);
     } else {
-        fprintf(out, ",%.17g,%s", f->value, cost_basis_words[f->basis]);
+        json_text(s->json, name, text);
     }
 }
 
-static void csv_row(FILE *out, const trials *t, const table_row *row, const table_words *words) {
-    char text[TRIAL_NAME];
-    fprintf(out, "%d,%.9g,", row->on_front ? 1 : 0, row->result.error);
-    figure_field(out, trial_unit(t));
-    fprintf(out, ",measured,%d,", row->result.bound ? 1 : 0);
-    figure_field(out, trial_column(t, row->result.column, text));
-    fprintf(out, ",%.9g,%s,%s,%.9g,%.9g,", row->price.value, table_unit_words[row->price.unit],
-            cost_basis_words[row->price.basis], row->price.least, row->price.most);
-    fputs(trial_time(trial_step(t, row->pace), text), out);
-    for (int axis = 0; axis < AXES; axis++) {
-        fprintf(out, ",%s", setting_word(&row->setting, (setting_axis)axis));
+static void put_words(row_sink *s, const char *name, const char *text) {
+    put(s, name, text, false);
+}
+
+static void put_number(row_sink *s, const char *name, int digits, double value) {
+    char text[FIGURE_TEXT];
+    snprintf(text, sizeof text, "%.*g", digits, value);
+    put(s, name, text, true);
+}
+
+static void put_figure(row_sink *s, const char *name, const char *basis, const cost_figure *f) {
+    if (f->basis == COST_NOT_KNOWN) {
+        put(s, name, "", true);
+    } else {
+        put_number(s, name, 17, f->value);
     }
-    csv_figure(out, &row->cost.flash_bytes);
-    csv_figure(out, &row->cost.ram_bytes);
-    csv_figure(out, &row->cost.stack_bytes);
-    csv_figure(out, &row->cost.state_bytes);
+    put_words(s, basis, cost_basis_words[f->basis]);
+}
+
+static void put_row(row_sink *s, const trials *t, const table_row *row, const table_words *words) {
+    char text[TRIAL_NAME];
+    put_number(s, "front", 9, row->on_front ? 1.0 : 0.0);
+    put_number(s, "error", 9, row->result.error);
+    put_words(s, "error_unit", trial_unit(t));
+    put_words(s, "error_basis", "measured");
+    put_number(s, "error_bound", 9, row->result.bound ? 1.0 : 0.0);
+    put_words(s, "component", trial_column(t, row->result.column, text));
+    put_number(s, "price_per_s", 9, row->price.value);
+    put_words(s, "price_of", table_unit_words[row->price.unit]);
+    put_words(s, "price_basis", cost_basis_words[row->price.basis]);
+    put_number(s, "price_least", 9, row->price.least);
+    put_number(s, "price_most", 9, row->price.most);
+    put(s, "step_s", trial_time(trial_step(t, row->pace), text), true);
+    for (int axis = 0; axis < AXES; axis++) {
+        put_words(s, setting_heading((setting_axis)axis),
+                  setting_word(&row->setting, (setting_axis)axis));
+    }
+    put_figure(s, "flash_bytes", "flash_basis", &row->cost.flash_bytes);
+    put_figure(s, "ram_bytes", "ram_basis", &row->cost.ram_bytes);
+    put_figure(s, "stack_bytes", "stack_basis", &row->cost.stack_bytes);
+    put_figure(s, "state_bytes", "state_basis", &row->cost.state_bytes);
     char *run = table_run_line(t, &row->setting, row->pace, row->result.point, words);
     char *derive = table_derive_line(t, &row->setting, row->pace, words);
-    fputc(',', out);
-    figure_field(out, run);
-    fputc(',', out);
-    figure_field(out, derive);
-    fputs("\r\n", out);
+    put_words(s, "run", run);
+    put_words(s, "derive", derive);
     free(run);
     free(derive);
 }
 
 void table_csv(FILE *out, const trials *t, const table *made, const table_words *words) {
-    fputs("front,error,error_unit,error_basis,error_bound,component,price_per_s,price_of,"
-          "price_basis,price_least,price_most,step_s",
-          out);
-    for (int axis = 0; axis < AXES; axis++) {
-        fprintf(out, ",%s", setting_heading((setting_axis)axis));
+    for (int i = made->count > 0 ? -1 : 0; i < made->count; i++) {
+        row_sink s = {.csv = out, .is_head = i < 0};
+        put_row(&s, t, &made->row[i < 0 ? 0 : i], words);
+        fputs("\r\n", out);
     }
-    fputs(",flash_bytes,flash_basis,ram_bytes,ram_basis,stack_bytes,stack_basis,state_bytes,"
-          "state_basis,run,derive\r\n",
-          out);
-    for (int i = 0; i < made->count; i++) {
-        csv_row(out, t, &made->row[i], words);
+}
+
+void table_json_begin(json *j, const char *command, const trials *t) {
+    const image *im = t->image[0];
+    json_begin(j, command, im->name, im->title, NULL, im->settings.method);
+    json_text(j, "board", t->wish.board->name);
+    json_text(j, "reference", t->reference[t->worst]->how);
+    json_number(j, "horizon_s", t->reliable ? trial_horizon_s(t) : (double)NAN);
+    json_whole(j, "places", t->points);
+}
+
+void table_json_row(json *j, const trials *t, const table_row *row, const table_words *words) {
+    row_sink s = {.json = j};
+    put_row(&s, t, row, words);
+}
+
+void table_json(FILE *out, const trials *t, const table *made, const table_words *words,
+                int status) {
+    json j = {.out = out};
+    table_json_begin(&j, "price", t);
+    json_open(&j, "rows", '[');
+    for (int i = 0; made != NULL && i < made->count; i++) {
+        json_open(&j, NULL, '{');
+        table_json_row(&j, t, &made->row[i], words);
+        json_close(&j, '}');
     }
+    json_close(&j, ']');
+    json_whole(&j, "exit", status);
+    json_close(&j, '}');
 }

@@ -4,6 +4,7 @@
 
 #include <stdio.h>
 
+#include "host/base/json.h"
 #include "price_table.h"
 
 enum { FIGURE_TEXT = 64 };
@@ -41,6 +42,12 @@ void table_print_left(FILE *out, const table *made, double operations);
 enum { TABLE_ROWS = 12 };
 void table_print(FILE *out, const trials *t, const table *made, const table_words *words);
 void table_csv(FILE *out, const trials *t, const table *made, const table_words *words);
+/* One JSON object (docs/warnings.md has the schema) with every row, or without a table; `status`: exit status. */
+void table_json(FILE *out, const trials *t, const table *made, const table_words *words,
+                int status);
+/* The keys with which it begins, and those of a row. */
+void table_json_begin(json *j, const char *command, const trials *t);
+void table_json_row(json *j, const trials *t, const table_row *row, const table_words *words);
 
 /* The lines that do a row again: `whirl run ...` at a place, and `whirl derive ... --as c` with the scene's own values, as
  * a product has them. Free them. */

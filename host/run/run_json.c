@@ -17,8 +17,10 @@ void json_begin(json *j, const char *command, const char *scene, const char *tit
     json_text(j, "version", WH_VERSION);
     json_text(j, "scene", scene);
     json_text(j, "title", title);
-    json_text(j, "number", kind->name);
-    json_text(j, "method", wh_methods[method].word);
+    if (kind != NULL) {
+        json_text(j, "number", kind->name);
+        json_text(j, "method", wh_methods[method].word);
+    }
 }
 
 void json_time(json *j, const char *key, double time_s) {

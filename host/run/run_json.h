@@ -21,7 +21,7 @@ void run_json(FILE *out, const run_json_wish *w);
 /* `status`: exit status. */
 void horizon_json(FILE *out, const horizon *h, int status);
 
-/* The keys with which every command's object begins. */
+/* The keys with which every command's object begins. `kind` is NULL of one that compares numbers and methods. */
 void json_begin(json *j, const char *command, const char *scene, const char *title,
                 const engine_kind *kind, wh_method method);
 /* A time, or null below zero. */

@@ -246,6 +246,45 @@ static void test_json_of_trust_and_map(void) {
     TEST_ASSERT_TRUE(told[0] > 1 && told[1] > 1);
 }
 
+/* The table of price in JSON; of choose the lines that run its answers. */
+static void test_json_of_price_and_choose(void) {
+    static const char *const columns[] = {
+        "front",       "error",     "error_unit",  "error_basis", "error_bound", "component",
+        "price_per_s", "price_of",  "price_basis", "price_least", "price_most",  "step_s",
+        "method",      "number",    "angles",      "matrix",      "tables",      "flash_bytes",
+        "flash_basis", "ram_bytes", "ram_basis",   "stack_bytes", "stack_basis", "state_bytes",
+        "state_basis", "run",       "derive",      NULL};
+    const char *price[] = {"two_mass_relative", "--effort=1e5", "--quiet", "--method=rk4", NULL};
+    expect_rows(command_price, price, "rows", columns);
+    const char *within[] = {"two_mass_relative", "--effort=1e5",  "--quiet",
+                            "--method=rk4",      "--error=1e-30", NULL};
+    expect_rows(command_price, within, "rows", columns); /* no row is within it: status 1 */
+    for (unsigned i = 0; i < 2; i++) {
+        static said object;
+        said what;
+        char why[100];
+        const char *words[] = {"two_mass_relative",
+                               "--effort=1e7",
+                               "--predict",
+                               i == 0 ? "--error=1e-4" : "--error=1e-30",
+                               NULL,
+                               NULL};
+        command_say(command_choose, words, &what);
+        words[4] = "--json";
+        command_say(command_choose, words, &object);
+        TEST_ASSERT_EQUAL_INT(i == 0 ? 0 : 1, what.status);
+        TEST_ASSERT_EQUAL_INT(what.status, object.status);
+        TEST_ASSERT_EQUAL_STRING(what.err, object.err);
+        TEST_ASSERT_TRUE_MESSAGE(json_is_valid(object.out, why), why);
+        TEST_ASSERT_EQUAL_INT(what.status, (int)strtol(value_at(&object, "exit"), NULL, 10));
+        TEST_ASSERT_EQUAL_INT(i == 0 ? 2 : 0, json_length(object.out, "answers"));
+        for (int k = 0; k < (i == 0 ? 2 : 0); k++) {
+            TEST_ASSERT_NOT_NULL(
+                strstr(what.out, value_at(&object, k == 0 ? "answers/0/run" : "answers/1/run")));
+        }
+    }
+}
+
 /* Every built-in scene, and a title with all that must be escaped. */
 static void test_json_of_all_scenes(void) {
     said list;
@@ -473,5 +512,6 @@ void suite_verdict(void) {
     RUN_TEST(test_a_limit_is_one_of_the_energy);
     RUN_TEST(test_json_of_all_scenes);
     RUN_TEST(test_json_of_trust_and_map);
+    RUN_TEST(test_json_of_price_and_choose);
     RUN_TEST(test_a_common_speed_changes_nothing);
 }
