@@ -100,7 +100,7 @@ WHIRL_MAIN_C := $(wildcard host/*.c)
 WHIRL_C := $(wildcard host/*/*.c)
 ifeq ($(SYSTEM),none)
 # The commands that need neither processes nor signals nor a serial line, and the folders that do.
-WHIRL_C := $(filter-out host/commands/% $(addprefix host/,map/% monitor/% pil/% plot/% price/% prove/% sweep/%),$(WHIRL_C)) \
+WHIRL_C := $(filter-out host/commands/% $(addprefix host/,monitor/% pil/% plot/% price/% prove/% sweep/%),$(WHIRL_C)) \
     $(addprefix host/commands/,accel.c check.c derive.c describe.c examine.c files.c list.c load.c new.c options.c scenes.c target.c)
 endif
 TEST_C := $(wildcard tests/*.c tests/*/*.c)

@@ -38,13 +38,12 @@ show: algebra base derive lang number
 run: base core image number plot
 emit: base image number
 fixed: base core emit image number run
-sweep: base core derive image lang number run
+sweep: base core derive image lang number plot run
 price: base core derive fixed image lang number plot run sweep
 prove: base core image lang number run
-map: base core derive image lang number plot run sweep
 pil: base core image number run
 monitor: base core number plot
-commands: base derive emit fixed image lang map monitor number pil plot price prove run show sweep
+commands: base derive emit fixed image lang monitor number pil plot price prove run show sweep
 '
 
 # included FILE...: "FILE FOLDER" for each folder of core or host that a file names in an include

@@ -27,6 +27,7 @@ static const pricing_row rows[PRICING_OPTIONS] = {PRICING_OPTION_ROWS(ROW)};
 #undef ROW
 
 enum { TEXT_COLUMN = 23 };
+_Static_assert((int)PRICING_OPTIONS <= (int)OWN_OPTIONS_MOST, "room for all");
 
 pricing_options pricing_defaults(const char *command, int word_count) {
     return (pricing_options){.command = command,
@@ -58,39 +59,17 @@ static void print_help(FILE *out, const pricing_command *c) {
     options_usage(out, &end);
 }
 
-static bool take(int count, char **words, int *at, void *options, bool *bad) {
-    pricing_options *o = options;
-    for (int i = 0; i < PRICING_OPTIONS && !*bad; i++) {
-        const char *value = NULL;
-        if ((rows[i].commands & o->bit) == 0) {
-            continue;
-        }
-        if (rows[i].value != NULL) {
-            value = options_value(count, words, at, rows[i].word, bad);
-        } else if (strcmp(words[*at], rows[i].word) == 0) {
-            value = words[(*at)++];
-        }
-        if (value != NULL) {
-            o->value[i] = value;
-            if (i == PRICING_VARY) {
-                o->vary[o->vary_count++] = value;
-            }
-            return true;
-        }
-    }
-    return false;
-}
-
 static bool read_words(int count, char **words, pricing_options *o) {
-    const char *own[PRICING_OPTIONS + 1] = {NULL};
+    own_option own[PRICING_OPTIONS + 1] = {{.word = NULL}};
     int all = 0;
     for (int i = 0; i < PRICING_OPTIONS; i++) {
         if ((rows[i].commands & o->bit) != 0) {
-            own[all++] = rows[i].word;
+            own[all++] = (own_option){rows[i].word, i == PRICING_VARY ? o->vary : &o->value[i],
+                                      i == PRICING_VARY ? &o->vary_count : NULL,
+                                      rows[i].value == NULL, NULL};
         }
     }
-    const target_reader reader = {
-        .command = o->command, .groups = PRICING_GROUPS, .own = own, .take = take};
+    const target_reader reader = {.command = o->command, .groups = PRICING_GROUPS, .table = own};
     if (!target_read(&reader, count, words, &o->common, o, &o->target)) {
         return false;
     }

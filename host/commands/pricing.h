@@ -73,7 +73,7 @@ typedef struct pricing_options {
     unsigned bit;
     common_options common;
     const char *target;
-    const char *value[PRICING_OPTIONS]; /* NULL: not given; of --vary the last */
+    const char *value[PRICING_OPTIONS]; /* NULL: not given, and of --vary */
     const char **vary;                  /* [word count] */
     int vary_count;
     bool balance; /* overrides.balance */

@@ -1,4 +1,5 @@
-/* sweep.c: `whirl sweep`: a run for every point of a grid, with a row of measures each. */
+/* sweep.c: `whirl sweep`: a run for every point of a grid, a row of measures each; and `whirl map`, a sweep over two axes whose
+ * measure is whether a run stays bounded, keeps its energy and a tolerance. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -6,17 +7,31 @@
 #include <unistd.h>
 
 #include "commands.h"
+#include "files.h"
 #include "host/base/room.h"
+#include "host/base/written.h"
 #include "host/commands/load.h"
 #include "host/lang/builtin.h"
+#include "host/number/functions.h"
+#include "host/plot/gnuplot.h"
+#include "host/run/horizon.h"
 #include "host/run/start.h"
 #include "host/sweep/changes.h"
 #include "host/sweep/jobs.h"
 #include "host/sweep/session.h"
+#include "host/sweep/stability_map.h"
 #include "interrupts.h"
 #include "target.h"
 
-static const command_usage usage = {
+/* Of a map: its axes; pairs that can be looked at; */
+enum { AXES = 2 };
+#define PAIRS_MOST 250000
+/* operations that it may evaluate without --effort; */
+#define EFFORT 1.5e11
+/* what looking, books and comparing take of operations, about, beside those of the step's lists. */
+#define OPERATIONS_A_STEP 200.0
+
+static const command_usage sweep_usage = {
     .head =
         "usage: whirl sweep SCENE|MECHANISM[:SCENE]|FILE[:SCENE] --over NAME=FROM..TO:COUNT[,log] ...\n"
         "                   [options]\n"
@@ -51,23 +66,52 @@ static const command_usage usage = {
         [EXIT_ROW_OF(EXIT_BAD_INPUT)] = "such as the FILE of another sweep",
         [EXIT_ROW_OF(EXIT_INTERRUPTED)] = ""}};
 
+static const command_usage map_usage = {
+    .head =
+        "usage: whirl map SCENE|MECHANISM[:SCENE]|FILE[:SCENE] --over NAME=FROM..TO:COUNT[,log]\n"
+        "                 --over NAME=FROM..TO:COUNT[,log] [options]\n"
+        "\n"
+        "A stability map: the scene is run for each pair of two swept values, one of which may be the\n"
+        "step, and a mark tells what became of it: right to the tolerance, off by more, its energy not\n"
+        "kept, or out of all bounds.\n"
+        "\n"
+        "  whirl map two_mass_relative --over step=5ms..0.5s:21,log --over 'm1=1..100 [kg]:5,log'\n"
+        "\n"
+        "  --over RANGE         twice: COUNT values of a parameter, an input, a start value or the\n"
+        "                       step, even or even in the logarithm; a bare number is SI\n",
+    .groups = OPTIONS_SCENE,
+    .tail =
+        "  --tolerance 1e-3     part of the range that a coordinate has in a run (default: 1e-3)\n"
+        "  --csv FILE           a row for each pair; - is standard output, and the map then goes to\n"
+        "                       standard error\n"
+        "  --json               one JSON object on standard output in place of the map (docs/warnings.md)\n"
+        "  --plot FILE.svg|.png a square for each pair\n"
+        "  --effort 1.5e11      operations that it may evaluate: 1.5e10 take about a minute\n"
+        "  --quiet              no progress, and no map beside --csv or --plot\n",
+    .why = {[EXIT_ROW_OF(EXIT_DONE)] = "whatever became of the runs",
+            [EXIT_ROW_OF(EXIT_RUN_FAILED)] = "no pair has a run",
+            [EXIT_ROW_OF(EXIT_BAD_INPUT)] = "",
+            [EXIT_ROW_OF(EXIT_INTERRUPTED)] = ""}};
+
 /* --- options -----------------------------------------------------------------------------------*/
 
 typedef struct sweep_options {
+    const char *command;
+    const command_usage *usage;
     common_options common;
     const char *target;
     const char **over; /* [word count] */
     int over_count;
     const char **measure; /* [word count] */
     int measure_count;
-    const char *from;
-    const char *csv;
+    /* As they were typed; NULL: not given. */
+    const char *from, *csv, *jobs_text, *shard_text, *plot, *tolerance_text, *effort_text;
+    const char *fresh, *quiet, *json;
     shard part;
     int jobs;
     double strict;
-    bool fresh;
-    bool quiet;
-    bool json;
+    double tolerance;
+    double effort;
 } sweep_options;
 
 /* A whole number from 1 to `limit`, up to the end of the text or `end`. */
@@ -104,68 +148,108 @@ static bool read_shard(const char *text, sweep_options *o) {
     return true;
 }
 
-/* One option with a value; false for another word. */
-static bool take_valued(int count, char **words, int *at, sweep_options *o, bool *bad) {
-    const char *value = NULL;
-    if (!*bad && (value = options_value(count, words, at, "--over", bad)) != NULL) {
-        o->over[o->over_count++] = value;
-    } else if (!*bad && (value = options_value(count, words, at, "--measure", bad)) != NULL) {
-        o->measure[o->measure_count++] = value;
-    } else if (!*bad && (value = options_value(count, words, at, "--from", bad)) != NULL) {
-        o->from = value;
-    } else if (!*bad && (value = options_value(count, words, at, "--csv", bad)) != NULL) {
-        o->csv = value;
-    } else if (!*bad && (value = options_value(count, words, at, "--jobs", bad)) != NULL) {
-        *bad = !read_jobs(value, o);
-    } else if (!*bad && (value = options_value(count, words, at, "--shard", bad)) != NULL) {
-        *bad = !read_shard(value, o);
-    }
-    return value != NULL;
-}
+static bool is_standard(const char *file) { return file != NULL && strcmp(file, "-") == 0; }
 
-static bool take_flag(char **words, int *at, sweep_options *o) {
-    const struct {
-        const char *name;
-        bool *flag;
-    } flags[] = {{"--fresh", &o->fresh}, {"--quiet", &o->quiet}, {"--json", &o->json}};
-    for (size_t i = 0; i < sizeof flags / sizeof flags[0]; i++) {
-        if (strcmp(words[*at], flags[i].name) == 0) {
-            *flags[i].flag = true;
-            ++*at;
-            return true;
-        }
-    }
-    return false;
-}
-
-static bool take_one(int count, char **words, int *at, void *options, bool *bad) {
-    sweep_options *o = options;
-    return take_flag(words, at, o) || options_strict("sweep", words, at, &o->strict, bad) ||
-           take_valued(count, words, at, o, bad);
-}
-
-static bool read_options(int count, char **words, sweep_options *o) {
-    static const char *const own[] = {"--over",   "--measure", "--from",  "--csv",
-                                      "--fresh",  "--jobs",    "--shard", "--json",
-                                      "--strict", "--quiet",   NULL};
-    const target_reader reader = {
-        .command = "sweep", .groups = usage.groups, .own = own, .take = take_one};
-    if (!target_read(&reader, count, words, &o->common, o, &o->target) ||
-        !target_is_there(o->target, &usage)) {
+/* Nothing is missing, and nothing contradicts. */
+static bool is_whole_sweep(sweep_options *o) {
+    if ((o->jobs_text != NULL && !read_jobs(o->jobs_text, o)) ||
+        (o->shard_text != NULL && !read_shard(o->shard_text, o))) {
         return false;
     }
-    if (o->json && strcmp(o->csv, "-") != 0) {
+    if (o->json != NULL && o->csv != NULL && !is_standard(o->csv)) {
         fprintf(stderr, "whirl sweep: error: --json prints the rows that --csv FILE keeps\n"
                         "hint: leave one of them out\n");
         return false;
     }
-    o->csv = o->json ? "/dev/null" : o->csv;
+    o->csv = o->json != NULL ? "/dev/null" : o->csv != NULL ? o->csv : "-";
     if (o->over_count == 0) {
         fprintf(stderr, "whirl sweep: error: nothing to sweep over\n"
                         "hint: such as --over \"r=10..60 [mm]:11\"\n");
+    }
+    return o->over_count > 0;
+}
+
+static bool is_whole_map(sweep_options *o) {
+    const char *problem = NULL;
+    if ((o->tolerance_text != NULL &&
+         !options_number("map", "--tolerance", o->tolerance_text, 1e-15, 1.0,
+                         "a part of the range that a coordinate has: --tolerance 1e-3",
+                         &o->tolerance)) ||
+        (o->effort_text != NULL &&
+         !options_number("map", "--effort", o->effort_text, EFFORT_LEAST, EFFORT_MOST,
+                         "operations: --effort 1e12", &o->effort))) {
         return false;
     }
-    return true;
+    if (o->over_count > AXES) {
+        fprintf(stderr, "whirl map: error: two --over, not also '%.60s'\n", o->over[AXES]);
+        return false;
+    }
+    if (o->over_count < AXES) {
+        fprintf(stderr,
+                "whirl map: error: two --over are wanted, %s\nhint: such as --over "
+                "step=1ms..0.1s:20,log --over 'k=1..100 [N/m]:20,log'\n",
+                o->over_count == 0 ? "there is none" : "there is one");
+        return false;
+    }
+    if (o->plot != NULL && !gnuplot_can_draw_for("map", "--plot", o->plot)) {
+        return false;
+    }
+    if (o->json != NULL && is_standard(o->csv)) {
+        problem = "--json and rows cannot share standard output\nhint: --csv rows.csv";
+    } else if (o->csv != NULL && o->plot != NULL && files_same(o->csv, o->plot)) {
+        problem = "--csv and --plot cannot share a file";
+    }
+    if (problem != NULL) {
+        fprintf(stderr, "whirl map: error: %s\n", problem);
+    }
+    return problem == NULL;
+}
+
+static bool read_options(int count, char **words, sweep_options *o, const own_option *own) {
+    const target_reader reader = {.command = o->command, .groups = o->usage->groups, .table = own};
+    return target_read(&reader, count, words, &o->common, o, &o->target) &&
+           target_is_there(o->target, o->usage);
+}
+
+/* --- what both begin with ------------------------------------------------------------------------*/
+
+static bool read_grid(const sweep_options *o, const mechanism *of, diags *errors, grid *g) {
+    bool good = true;
+    g->command = o->command;
+    for (int i = 0; i < o->over_count && good; i++) {
+        good = grid_add(g, of, o->over[i], errors);
+    }
+    return good;
+}
+
+static int load_base(const sweep_options *o, source_model *from, const sweep *s, loaded *base) {
+    const load_wish wish = {.settings = o->common.integration,
+                            .use = IMAGE_TO_RUN,
+                            .keep = KEEP_INSTANCE,
+                            .conserve = true};
+    return load(base, from, s->mechanism, s->scene, s->changes, &wish);
+}
+
+/* What is wrong with every point is told of the scene as it stands. */
+static bool begins(const sweep *s, const loaded *base, diags *errors) {
+    if (s->kind == &engine_float) {
+        say_float_range(base->image);
+    }
+    const bool good = changes_take_part(s->grid, base->instance) &&
+                      start_has_method(base->image, s->engine.method, errors);
+    diags_flush(errors, stderr);
+    return good;
+}
+
+static sweep sweep_of(const sweep_options *o, const mechanism *of, const scene *in, const grid *g,
+                      const overrides *changes) {
+    return (sweep){.grid = g,
+                   .mechanism = of,
+                   .scene = in,
+                   .changes = changes,
+                   .kind = o->common.number,
+                   .engine = o->common.integration,
+                   .strict = o->strict};
 }
 
 /* --- the sweep ---------------------------------------------------------------------------------*/
@@ -181,13 +265,6 @@ static const char *model_text(const source_model *from) {
 
 static int sweep_loaded(const sweep_options *o, const source_model *from, const loaded *base,
                         sweep *s) {
-    if (!start_has_method(base->image, s->engine.method, from->errors)) {
-        diags_flush(from->errors, stderr);
-        return EXIT_BAD_INPUT;
-    }
-    if (!changes_take_part(s->grid, base->instance)) {
-        return EXIT_BAD_INPUT;
-    }
     s->shared = sweep_can_share(s->grid, base->image) ? base->image : NULL;
     uint64_t first;
     uint64_t end;
@@ -199,9 +276,9 @@ static int sweep_loaded(const sweep_options *o, const source_model *from, const 
                                        .end = end,
                                        .header = o->part.number == 1,
                                        .jobs = o->jobs,
-                                       .fresh = o->fresh,
-                                       .quiet = o->quiet,
-                                       .json = o->json,
+                                       .fresh = o->fresh != NULL,
+                                       .quiet = o->quiet != NULL,
+                                       .json = o->json != NULL,
                                        .stop = &interrupted};
     interrupts_catch();
     const int code = session_run(s, &settings);
@@ -216,61 +293,197 @@ static bool read_from(const sweep_options *o, const mechanism *of, const scene *
     return o->from == NULL || instance_duration(of, in, changes, "from", o->from, errors, from_s);
 }
 
-static int sweep_scene(const sweep_options *o, source_model *from, const mechanism *of,
-                       const scene *in) {
-    grid g = {0};
-    bool good = true;
-    for (int i = 0; i < o->over_count && good; i++) {
-        good = grid_add(&g, of, o->over[i], from->errors);
+static int sweep_measured(const sweep_options *o, source_model *from, sweep *s) {
+    loaded base;
+    int code = load_base(o, from, s, &base);
+    if (code == EXIT_DONE && s->from_s > base.instance->until_s) {
+        fprintf(stderr, "whirl sweep: error: --from %.9g s lies behind the end, %.9g s\n",
+                s->from_s, base.instance->until_s);
+        code = EXIT_BAD_INPUT;
     }
-    overrides changes = options_overrides(&o->common.change);
-    changes.balance = true;
-    sweep s = {.grid = &g,
-               .scene = in,
-               .changes = &changes,
-               .kind = o->common.number,
-               .engine = o->common.integration,
-               .strict = o->strict};
-    good = good && read_from(o, of, in, &changes, from->errors, &s.from_s);
-    measures *wanted = good ? measures_new(of, o->measure, o->measure_count, from->errors) : NULL;
-    diags_flush(from->errors, stderr);
-    int code = EXIT_BAD_INPUT;
-    if (wanted != NULL) {
-        loaded base;
-        s.measures = wanted;
-        const load_wish wish = {.settings = o->common.integration,
-                                .use = IMAGE_TO_RUN,
-                                .keep = KEEP_INSTANCE,
-                                .conserve = true};
-        code = load(&base, from, &wanted->mechanism, in, &changes, &wish);
-        if (code == EXIT_DONE && s.from_s > base.instance->until_s) {
-            fprintf(stderr, "whirl sweep: error: --from %.9g s lies behind the end, %.9g s\n",
-                    s.from_s, base.instance->until_s);
-            code = EXIT_BAD_INPUT;
-        }
-        if (code == EXIT_DONE && !sweep_ends_are_alike(&s, base.instance->until_s)) {
-            code = EXIT_BAD_INPUT;
-        }
-        if (code == EXIT_DONE && !o->quiet) {
-            say_hints(&base);
-        }
-        if (code == EXIT_DONE && o->common.number == &engine_float) {
-            say_float_range(base.image);
-        }
-        if (code == EXIT_DONE) {
-            code = sweep_loaded(o, from, &base, &s);
-        }
-        unload(&base);
+    if (code == EXIT_DONE && !sweep_ends_are_alike(s, base.instance->until_s)) {
+        code = EXIT_BAD_INPUT;
     }
-    measures_free(wanted);
-    grid_free(&g);
+    if (code == EXIT_DONE && o->quiet == NULL) {
+        say_hints(&base);
+    }
+    if (code == EXIT_DONE) {
+        code = begins(s, &base, from->errors) ? sweep_loaded(o, from, &base, s) : EXIT_BAD_INPUT;
+    }
+    unload(&base);
     return code;
 }
 
-/* The rows, and the files beside them (host/sweep/sheet.h). */
-static bool model_would_be_lost(const source_model *from, const char *csv) {
-    return source_would_be_lost(from, "--csv", csv, "") ||
-           source_would_be_lost(from, "--csv", csv, ".sweep");
+static int sweep_scene(const sweep_options *o, source_model *from, const mechanism *of,
+                       const scene *in, grid *g, const overrides *changes) {
+    sweep s = sweep_of(o, of, in, g, changes);
+    const bool good = read_from(o, of, in, changes, from->errors, &s.from_s);
+    measures *wanted = good ? measures_new(of, o->measure, o->measure_count, from->errors) : NULL;
+    int code = EXIT_BAD_INPUT;
+    diags_flush(from->errors, stderr);
+    if (wanted != NULL) {
+        s.measures = wanted;
+        s.mechanism = &wanted->mechanism;
+        code = sweep_measured(o, from, &s);
+    }
+    measures_free(wanted);
+    return code;
+}
+
+/* --- the map -----------------------------------------------------------------------------------*/
+
+static bool write_map(const sweep_options *o, const stability_map *m) {
+    FILE *out = written_open(o->csv);
+    if (out != NULL) {
+        map_csv(out, m);
+    }
+    return out != NULL && written_close(out, o->csv, true);
+}
+
+static int show_map(const sweep_options *o, const stability_map *m, const char *words) {
+    if (o->json == NULL && (o->quiet == NULL || (o->csv == NULL && o->plot == NULL))) {
+        map_print(is_standard(o->csv) ? stderr : stdout, m, words);
+    }
+    int code = o->csv == NULL || write_map(o, m) ? EXIT_DONE : EXIT_BAD_INPUT;
+    if (o->plot != NULL && !map_plot(o->plot, m, words)) {
+        code = EXIT_BAD_INPUT;
+    }
+    if (m->done < m->grid->points) {
+        fprintf(stderr, "whirl map: interrupted after %llu of %llu runs\n",
+                (unsigned long long)m->done, (unsigned long long)m->grid->points);
+        return code == EXIT_DONE ? EXIT_INTERRUPTED : code;
+    }
+    if (map_count(m, MAP_NONE) == m->grid->points) {
+        fputs("whirl map: error: no pair has a run\nhint: `whirl run` with the values of one tells "
+              "why\n",
+              stderr);
+        return code == EXIT_DONE ? EXIT_RUN_FAILED : code;
+    }
+    return code;
+}
+
+static void show_progress(double runs, void *told) {
+    const grid *g = told;
+    fprintf(stderr, "\r%.1f of %llu runs ", runs, (unsigned long long)g->points);
+}
+
+/* Operations of all runs, about: as many steps as each step's length makes of the scene as it stands. */
+static double operations_of(const grid *g, const image *base) {
+    double runs = 0.0;
+    for (int i = 0; i < AXES; i++) {
+        for (uint64_t k = 0; g->axes[i].symbol == NULL && k < g->axes[i].count; k++) {
+            double value[AXES];
+            grid_values(g, i == 0 ? k * g->axes[1].count : k, value);
+            runs += base->step_s / value[i] * (double)g->axes[1 - i].count;
+        }
+    }
+    runs = runs > 0.0 ? runs : (double)g->points;
+    const double operations =
+        twins_operations(base, base) + OPERATIONS_A_STEP * (double)base->steps;
+    return runs * operations;
+}
+
+static bool is_affordable(const sweep_options *o, const grid *g, const image *base) {
+    if (g->points > PAIRS_MOST) {
+        fprintf(stderr, "whirl map: error: %llu pairs, at most %d\nhint: fewer in each --over\n",
+                (unsigned long long)g->points, PAIRS_MOST);
+        return false;
+    }
+    const double wanted = operations_of(g, base);
+    if (wanted <= o->effort) {
+        return true;
+    }
+    fprintf(
+        stderr,
+        "whirl map: error: this would take about %.0f minutes: %llu pairs, two runs beside each "
+        "other for each\nhint: fewer pairs, longer steps, a nearer --until",
+        number_ceiling(wanted / TWINS_OPERATIONS_1S / 60.0), (unsigned long long)g->points);
+    if (wanted <= EFFORT_MOST) {
+        fprintf(stderr, "; or --effort %.2g", 1.1 * wanted);
+    }
+    fputc('\n', stderr);
+    return false;
+}
+
+static int map_loaded(const sweep_options *o, const sweep *s, const image *base) {
+    if (!is_affordable(o, s->grid, base)) {
+        return EXIT_BAD_INPUT;
+    }
+    const map_wish wish = {.of = *s,
+                           .tolerance = o->tolerance,
+                           .stop = &interrupted,
+                           .told = (void *)(uintptr_t)s->grid,
+                           .progress =
+                               o->quiet == NULL && isatty(STDERR_FILENO) ? show_progress : NULL};
+    char *words =
+        room_words("%s: %s%s, %s, tolerance %g", base->title[0] != '\0' ? base->title : base->name,
+                   image_stepper(base), image_sums(base), s->kind->name, o->tolerance);
+    interrupts_catch();
+    stability_map m = map_make(&wish);
+    if (wish.progress != NULL) {
+        fputs("\r                                        \r", stderr);
+    }
+    const int code = show_map(o, &m, words);
+    if (o->json != NULL) {
+        map_json(stdout, &m, base, &wish, code);
+    }
+    map_free(&m);
+    free(words);
+    return code;
+}
+
+static int map_scene(const sweep_options *o, source_model *from, const mechanism *of,
+                     const scene *in, grid *g, const overrides *changes) {
+    const sweep s = sweep_of(o, of, in, g, changes);
+    if (!changes_are_apart(g, changes)) {
+        return EXIT_BAD_INPUT;
+    }
+    loaded base;
+    int code = load_base(o, from, &s, &base);
+    if (code == EXIT_DONE) {
+        code = begins(&s, &base, from->errors) ? map_loaded(o, &s, base.image) : EXIT_BAD_INPUT;
+    }
+    unload(&base);
+    return code;
+}
+
+/* --- the commands ------------------------------------------------------------------------------*/
+
+/* No file of the model is written over: neither by the rows nor by what stands beside them (host/sweep/sheet.h). Of a map before
+ * the work, which else would be in vain. */
+static bool can_write(const sweep_options *o, const source_model *from, bool maps) {
+    if (source_would_be_lost(from, "--csv", o->csv, "") ||
+        source_would_be_lost(from, maps ? "--plot" : "--csv", maps ? o->plot : o->csv,
+                             maps ? "" : ".sweep")) {
+        return false;
+    }
+    return !maps ||
+           (written_can(o->csv) && written_can(o->plot) && (o->plot == NULL || gnuplot_is_there()));
+}
+
+typedef int sweep_work(const sweep_options *o, source_model *from, const mechanism *of,
+                       const scene *in, grid *g, const overrides *changes);
+
+static int work_on(const sweep_options *o, sweep_work *work) {
+    source_model from;
+    const mechanism *of;
+    const scene *in;
+    int code = source_open(&from, o->target);
+    code = code == EXIT_DONE ? source_pick(&from, true, &of, &in) : code;
+    if (code == EXIT_DONE) {
+        overrides changes = options_overrides(&o->common.change);
+        grid g = {0};
+        changes.balance = true;
+        code = EXIT_BAD_INPUT;
+        if (can_write(o, &from, work == map_scene)) {
+            const bool good = read_grid(o, of, from.errors, &g);
+            diags_flush(from.errors, stderr);
+            code = good ? work(o, &from, of, in, &g, &changes) : code;
+        }
+        grid_free(&g);
+    }
+    source_close(&from);
+    return code;
 }
 
 static int processors(void) {
@@ -278,33 +491,60 @@ static int processors(void) {
     return online < 1 ? 1 : online > JOBS_WORKERS_MAX ? JOBS_WORKERS_MAX : (int)online;
 }
 
+static void forget(sweep_options *o) {
+    options_forget(&o->common);
+    free(o->over);
+    free(o->measure);
+}
+
 int command_sweep(int count, char **words) {
-    if (options_help(count, words, &usage)) {
-        return EXIT_DONE;
+    sweep_options o = {.command = "sweep",
+                       .usage = &sweep_usage,
+                       .common = options_defaults(),
+                       .over = room(count, sizeof(const char *)),
+                       .measure = room(count, sizeof(const char *)),
+                       .part = {1, 1},
+                       .jobs = processors()};
+    const own_option own[] = {{.word = "--over", .value = o.over, .count = &o.over_count},
+                              {.word = "--measure", .value = o.measure, .count = &o.measure_count},
+                              {.word = "--from", .value = &o.from},
+                              {.word = "--csv", .value = &o.csv},
+                              {.word = "--fresh", .value = &o.fresh, .is_bare = true},
+                              {.word = "--jobs", .value = &o.jobs_text},
+                              {.word = "--shard", .value = &o.shard_text},
+                              {.word = "--json", .value = &o.json, .is_bare = true},
+                              {.word = "--strict", .strict = &o.strict},
+                              {.word = "--quiet", .value = &o.quiet, .is_bare = true},
+                              {.word = NULL}};
+    int code = EXIT_DONE;
+    if (!options_help(count, words, &sweep_usage)) {
+        code = read_options(count, words, &o, own) && is_whole_sweep(&o) ? work_on(&o, sweep_scene)
+                                                                         : EXIT_BAD_INPUT;
     }
-    sweep_options o = {
-        .csv = "-", .part = {1, 1}, .jobs = processors(), .common = options_defaults()};
-    o.over = room(count, sizeof(const char *));
-    o.measure = room(count, sizeof(const char *));
-    int code = EXIT_BAD_INPUT;
-    if (read_options(count, words, &o)) {
-        source_model from;
-        const mechanism *of;
-        const scene *in;
-        code = source_open(&from, o.target);
-        if (code == EXIT_DONE) {
-            code = source_pick(&from, true, &of, &in);
-        }
-        if (code == EXIT_DONE && model_would_be_lost(&from, o.csv)) {
-            code = EXIT_BAD_INPUT;
-        }
-        if (code == EXIT_DONE) {
-            code = sweep_scene(&o, &from, of, in);
-        }
-        source_close(&from);
+    forget(&o);
+    return code;
+}
+
+int command_map(int count, char **words) {
+    sweep_options o = {.command = "map",
+                       .usage = &map_usage,
+                       .common = options_defaults(),
+                       .over = room(count, sizeof(const char *)),
+                       .tolerance = HORIZON_TOLERANCE,
+                       .effort = EFFORT};
+    const own_option own[] = {{.word = "--over", .value = o.over, .count = &o.over_count},
+                              {.word = "--tolerance", .value = &o.tolerance_text},
+                              {.word = "--effort", .value = &o.effort_text},
+                              {.word = "--csv", .value = &o.csv},
+                              {.word = "--plot", .value = &o.plot},
+                              {.word = "--json", .value = &o.json, .is_bare = true},
+                              {.word = "--quiet", .value = &o.quiet, .is_bare = true},
+                              {.word = NULL}};
+    int code = EXIT_DONE;
+    if (!options_help(count, words, &map_usage)) {
+        code = read_options(count, words, &o, own) && is_whole_map(&o) ? work_on(&o, map_scene)
+                                                                       : EXIT_BAD_INPUT;
     }
-    options_forget(&o.common);
-    free(o.over);
-    free(o.measure);
+    forget(&o);
     return code;
 }

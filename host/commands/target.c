@@ -1,10 +1,39 @@
 #include "target.h"
 
 #include <stdio.h>
+#include <string.h>
+
+static bool take_own(const target_reader *r, int count, char **words, int *at, bool *bad) {
+    for (const own_option *o = r->table; o->word != NULL && !*bad; o++) {
+        const char *value = NULL;
+        if (o->strict != NULL) {
+            if (options_strict(r->command, words, at, o->strict, bad)) {
+                return true;
+            }
+        } else if (!o->is_bare) {
+            value = options_value(count, words, at, o->word, bad);
+        } else if (strcmp(words[*at], o->word) == 0) {
+            value = words[(*at)++];
+        }
+        if (value != NULL) {
+            o->value[o->count != NULL ? (*o->count)++ : 0] = value;
+            return true;
+        }
+    }
+    return false;
+}
+
+static void say_unknown(const target_reader *r, const char *word) {
+    const char *own[OWN_OPTIONS_MOST + 1] = {NULL};
+    for (int i = 0; r->table != NULL && r->table[i].word != NULL; i++) {
+        own[i] = r->table[i].word;
+    }
+    options_unknown(r->command, word, r->groups, r->table != NULL ? own : r->own);
+}
 
 static bool take_target(const target_reader *r, const char *word, const char **target) {
     if (word[0] == '-' && word[1] != '\0') {
-        options_unknown(r->command, word, r->groups, r->own);
+        say_unknown(r, word);
         return false;
     }
     if (*target != NULL) {
@@ -27,7 +56,9 @@ bool target_read(const target_reader *r, int count, char **words, common_options
     *target = NULL;
     for (int at = 0; at < count && !bad;) {
         if (!options_take(r->command, r->groups, count, words, &at, common, &bad) && !bad &&
-            !r->take(count, words, &at, options, &bad) && !bad) {
+            !(r->table != NULL ? take_own(r, count, words, &at, &bad)
+                               : r->take(count, words, &at, options, &bad)) &&
+            !bad) {
             bad = !take_target(r, words[at++], target);
         }
     }

@@ -9,10 +9,22 @@
  */
 typedef bool target_take(int count, char **words, int *at, void *options, bool *bad);
 
+/* One of a command's own options, in a table. */
+typedef struct own_option {
+    const char *word;
+    const char **value; /* gets what follows the word; of a bare option, the word */
+    int *count;         /* may be repeated: value[] gets all; NULL: may not */
+    bool is_bare;
+    double *strict; /* of options_strict(), and nothing else */
+} own_option;
+
+enum { OWN_OPTIONS_MOST = 24 };
+
 typedef struct target_reader {
     const char *command;
-    unsigned groups;        /* groups of common options that it accepts */
-    const char *const *own; /* the words of its own options, ended by NULL */
+    unsigned groups;         /* of the common options that it takes */
+    const own_option *table; /* its own options, one without a word at the end; or NULL, and: */
+    const char *const *own;  /* the words of its own options, NULL at the end */
     target_take *take;
     const char *one; /* the kind of target, of which only one is allowed; NULL: a scene */
     bool derives;    /* accepts other targets than scenes: changes the message for a second one */

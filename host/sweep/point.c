@@ -15,11 +15,12 @@
 #include "host/number/zero.h"
 #include "host/run/belief.h"
 #include "host/run/start.h"
+#include "host/run/twins.h"
 
 /* Ends that differ by this part of the time are alike. */
 #define ENDS_ALIKE 1e-9
 
-static bool has_balance(const sweep *s) { return !s->measures->mechanism.is_system; }
+static bool has_balance(const sweep *s) { return !s->mechanism->is_system; }
 
 int sweep_columns(const sweep *s) {
     return s->measures->count + (has_balance(s) ? 1 : 0) + (grid_step_axis(s->grid) >= 0 ? 1 : 0);
@@ -90,14 +91,31 @@ static channel channel_of(const image *im, const expr *e, int output) {
                             : (channel){FROM_REAL, i - im->angles};
 }
 
-/* The point's image; NULL, reported, when it has none. */
-static image *image_at(const sweep *s, const instance *inst, diags *errors) {
+static image *image_at(const sweep *s, const instance *inst, image **plain, diags *errors) {
+    image_settings other;
     if (s->shared != NULL) {
         return image_again(s->shared, inst, errors);
     }
     equations *e = equations_derive(inst, errors);
     image *im = e == NULL ? NULL : image_make(e, inst->conserve, &s->engine, IMAGE_TO_RUN, errors);
+    if (im != NULL && plain != NULL && twins_plain(&s->engine, &other)) {
+        *plain = image_make(e, inst->conserve, &other, IMAGE_TO_RUN, errors);
+    }
     equations_free(e);
+    return im;
+}
+
+image *sweep_image(const sweep *s, uint64_t point, image **plain, diags *errors) {
+    overrides changes = changes_at(s->grid, s->changes, point);
+    instance *inst = instance_make(s->mechanism, s->scene, &changes, errors);
+    image *im = inst != NULL ? image_at(s, inst, plain, errors) : NULL;
+    instance_free(inst); /* what follows reads the image only */
+    changes_forget(s->changes, &changes);
+    if (im != NULL && !(start_has_method(im, s->engine.method, errors) &&
+                        start_is_possible(im, s->kind, errors))) {
+        image_free(im);
+        im = NULL;
+    }
     return im;
 }
 
@@ -118,18 +136,12 @@ static bool measure_image(const sweep *s, const image *im, bool (*abandon)(void)
 static bool measure_point(const sweep *s, uint64_t point, bool (*abandon)(void), double *value,
                           FILE *reason, point_notes *notes) {
     diags *errors = diags_new();
-    overrides changes = changes_at(s->grid, s->changes, point);
-    instance *inst = instance_make(&s->measures->mechanism, s->scene, &changes, errors);
-    image *im = inst != NULL ? image_at(s, inst, errors) : NULL;
-    instance_free(inst); /* what follows reads the image only */
-    const bool good = im != NULL && start_has_method(im, s->engine.method, errors) &&
-                      start_is_possible(im, s->kind, errors) &&
-                      measure_image(s, im, abandon, value, errors, reason, notes);
+    image *im = sweep_image(s, point, NULL, errors);
+    const bool good = im != NULL && measure_image(s, im, abandon, value, errors, reason, notes);
     if (diags_count(errors) > 0) {
         tell_first(errors, reason);
     }
     image_free(im);
-    changes_forget(s->changes, &changes);
     diags_free(errors);
     return good;
 }

@@ -11,9 +11,10 @@
 /* A sweep in numbers. Everything in it outlives the runs and is not changed by them. */
 typedef struct sweep {
     const grid *grid;
-    const measures *measures;
-    const scene *scene;       /* NULL for a bare mechanism */
-    const overrides *changes; /* the command line's, without what is swept */
+    const mechanism *mechanism; /* with the measures as its outputs, if there are any */
+    const measures *measures;   /* NULL of a map */
+    const scene *scene;         /* NULL for a bare mechanism */
+    const overrides *changes;   /* the command line's, without what is swept */
     const engine_kind *kind;
     image_settings engine;
     double from_s; /* measure from this time on */
@@ -41,6 +42,10 @@ char *sweep_unit(const symbol *of, int primes);
 void sweep_header(const sweep *s, FILE *out);
 char *sweep_swept_value(const axis *a, double si, char text[NUMBER_SIZE]);
 void sweep_swept_fields(const sweep *s, uint64_t point, FILE *out);
+
+/* The image of a point, and if twins_plain() says so the one for the finer run beside it. NULL, reported: it has none that can
+ * start. `plain` may be NULL. */
+image *sweep_image(const sweep *s, uint64_t point, image **plain, diags *errors);
 
 /* Run the point and write its row, line's end included. A run that fails, or has a measure, an energy or a
  * contact's expression that is not a finite number, leaves its columns empty: then the result is false and

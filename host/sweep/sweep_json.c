@@ -36,9 +36,8 @@ void sweep_json_axes(json *j, const grid *g) {
 void sweep_json_begin(json *j, const sweep *s) {
     char unit[DIM_TEXT_SIZE];
     const bool is_scene = s->scene != NULL;
-    json_begin(j, "sweep", is_scene ? s->scene->name : s->measures->mechanism.name,
-               is_scene ? s->scene->title : s->measures->mechanism.title, s->kind,
-               s->engine.method);
+    json_begin(j, "sweep", is_scene ? s->scene->name : s->mechanism->name,
+               is_scene ? s->scene->title : s->mechanism->title, s->kind, s->engine.method);
     json_open(j, "columns", '[');
     for (int i = 0; i < s->grid->count; i++) {
         const axis *a = &s->grid->axes[i];
@@ -49,7 +48,7 @@ void sweep_json_begin(json *j, const sweep *s) {
         put_column(j, m->name, measure_symbol(m), m->of->primes,
                    m->kind == MEASURE_PERIOD ? "s" : dim_symbols(m->of->dim, unit, sizeof unit));
     }
-    if (!s->measures->mechanism.is_system) {
+    if (!s->mechanism->is_system) {
         put_column(j, BELIEF_COLUMN, NULL, 0, "1");
     }
     if (grid_step_axis(s->grid) >= 0) {

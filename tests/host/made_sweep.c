@@ -32,6 +32,7 @@ void made_sweep_open(made_sweep *m, const char *text, const char *const *over, i
     m->d.equations = equations_derive(m->d.instance, m->errors);
     TEST_ASSERT_NOT_NULL(m->d.equations);
     m->sweep = (sweep){.grid = &m->grid,
+                       .mechanism = &m->measures->mechanism,
                        .measures = m->measures,
                        .scene = m->model->scenes[0],
                        .changes = &m->changes,

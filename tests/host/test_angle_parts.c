@@ -173,6 +173,7 @@ static void check_sweep(const sample *s, const engine_kind *kind, int count, con
     snprintf(swept, sizeof swept, "x=%.17g..2:2", s->start[WAVE_ANGLES]);
     must(grid_add(&over, in->mechanism, swept, errors), errors, s->text);
     const sweep of = {.grid = &over,
+                      .mechanism = &taken->mechanism,
                       .measures = taken,
                       .scene = in,
                       .changes = &none,

@@ -10,7 +10,7 @@
 #include "command.h"
 #include "derived.h"
 #include "host/commands/commands.h"
-#include "host/map/map_text.h"
+#include "host/sweep/stability_map.h"
 
 #include "unity.h"
 
@@ -41,12 +41,12 @@ static void open_map(drawn_map *m, const map_asked *a) {
     for (int i = 0; i < 2; i++) {
         TEST_ASSERT_TRUE_MESSAGE(grid_add(&m->grid, of, a->over[i], m->errors), a->over[i]);
     }
-    const map_wish wish = {.grid = &m->grid,
-                           .mechanism = of,
-                           .scene = m->d.model->scenes[0],
-                           .changes = &m->changes,
-                           .kind = &engine_double,
-                           .settings = {.method = a->method},
+    const map_wish wish = {.of = {.grid = &m->grid,
+                                  .mechanism = of,
+                                  .scene = m->d.model->scenes[0],
+                                  .changes = &m->changes,
+                                  .kind = &engine_double,
+                                  .engine = {.method = a->method}},
                            .tolerance = a->tolerance,
                            .stop = a->stop,
                            .progress = a->progress};

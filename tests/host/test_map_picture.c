@@ -8,7 +8,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "host/map/map_plot.h"
+#include "host/sweep/stability_map.h"
 #include "shown_map.h"
 
 #include "unity.h"

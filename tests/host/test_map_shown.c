@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "derived.h"
-#include "host/map/map_text.h"
+#include "host/sweep/stability_map.h"
 #include "shown_map.h"
 
 #include "unity.h"
@@ -188,12 +188,12 @@ static void test_progress_goes_on(void) {
         heard.last = 0.0;
         heard.within = 0;
         heard.points = (double)axes.points;
-        const map_wish wish = {.grid = &axes,
-                               .mechanism = of,
-                               .scene = d.model->scenes[0],
-                               .changes = &changes,
-                               .kind = &engine_double,
-                               .settings = {.method = WH_RK4},
+        const map_wish wish = {.of = {.grid = &axes,
+                                      .mechanism = of,
+                                      .scene = d.model->scenes[0],
+                                      .changes = &changes,
+                                      .kind = &engine_double,
+                                      .engine = {.method = WH_RK4}},
                                .tolerance = 1e-3,
                                .progress = hear,
                                .told = &heard};

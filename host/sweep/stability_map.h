@@ -3,13 +3,12 @@
  *
  * Each run has a finer one beside it (host/run/twins.h), which says until when it is right, and books, which say what of
  * its energy is missing (host/run/belief.h). A map's rows are the values of the axis that is no step. */
-#ifndef MAP_STABILITY_MAP_H
-#define MAP_STABILITY_MAP_H
+#ifndef SWEEP_STABILITY_MAP_H
+#define SWEEP_STABILITY_MAP_H
 
 #include <signal.h>
 
-#include "host/run/engine.h"
-#include "host/sweep/grid.h"
+#include "host/sweep/point.h"
 
 /* A rate that is off by so many times the range that it has in the finest run of its row has left all bounds: what
  * grows step by step passes that long before numbers end. */
@@ -44,12 +43,7 @@ typedef struct map_cell {
 } map_cell;
 
 typedef struct map_wish {
-    const grid *grid; /* two axes */
-    const mechanism *mechanism;
-    const scene *scene; /* NULL for a bare mechanism */
-    const overrides *changes;
-    const engine_kind *kind; /* float or double */
-    image_settings settings;
+    sweep of; /* with two axes, in float or double */
     double tolerance;
     const volatile sig_atomic_t *stop;         /* may be NULL */
     void (*progress)(double runs, void *told); /* so many are done; or NULL */
@@ -75,5 +69,14 @@ uint64_t map_point(const stability_map *m, uint64_t row, uint64_t at);
 /* These values: SI. */
 double map_along(const stability_map *m, uint64_t at);
 double map_row(const stability_map *m, uint64_t row);
+
+/* A row for each row, a mark for each value along it, rising. `words` tell what was run. */
+void map_print(FILE *out, const stability_map *m, const char *words);
+/* A row for each pair that was tried: both values, verdict, times, what is missing of the energy. */
+void map_csv(FILE *out, const stability_map *m);
+/* The same as one JSON object (docs/warnings.md has the schema). `status`: exit status. */
+void map_json(FILE *out, const stability_map *m, const image *of, const map_wish *w, int status);
+/* A rectangle for each pair, to .svg or .png, drawn by gnuplot; `words` stand above. False: told on standard error. */
+bool map_plot(const char *file, const stability_map *m, const char *words);
 
 #endif

@@ -1,5 +1,5 @@
-/* map_plot.c: see map_plot.h. */
-#include "map_plot.h"
+/* map_plot.c: a stability map as a picture. */
+#include "stability_map.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -5,16 +5,10 @@
 #include <stdlib.h>
 
 #include "host/base/room.h"
-#include "host/derive/image_make.h"
-#include "host/derive/lagrange.h"
-#include "host/lang/model.h"
 #include "host/number/functions.h"
 #include "host/run/aliasing.h"
 #include "host/run/belief.h"
 #include "host/run/horizon.h"
-#include "host/run/loop.h"
-#include "host/run/start.h"
-#include "host/sweep/changes.h"
 
 #define MAP_VERDICT_ROW(id, mark, word, words) [id] = {mark, word, words},
 const map_verdict_row map_verdicts[MAP_VERDICTS] = {MAP_VERDICT_ROWS(MAP_VERDICT_ROW)};
@@ -40,52 +34,6 @@ double map_along(const stability_map *m, uint64_t at) {
 
 double map_row(const stability_map *m, uint64_t row) {
     return value_of(m, map_point(m, row, 0), 1 - m->along);
-}
-
-/* --- a point's images ------------------------------------------------------------------------------------*/
-
-typedef struct map_images {
-    image *of;
-    image *plain; /* for the finer run; NULL: the same */
-} map_images;
-
-static map_images images_of(const map_wish *w, const instance *inst, diags *errors) {
-    map_images made = {NULL, NULL};
-    equations *e = equations_derive(inst, errors);
-    if (e != NULL) {
-        made.of = image_make(e, inst->conserve, &w->settings, IMAGE_TO_RUN, errors);
-    }
-    image_settings plain;
-    if (made.of != NULL && twins_plain(&w->settings, &plain)) {
-        made.plain = image_make(e, inst->conserve, &plain, IMAGE_TO_RUN, errors);
-    }
-    equations_free(e);
-    return made;
-}
-
-static void images_free(map_images *made) {
-    image_free(made->of);
-    image_free(made->plain);
-}
-
-/* None where the point has no run: that is a verdict, and `whirl run` tells why. */
-static map_images images_at(const map_wish *w, uint64_t point) {
-    map_images made = {NULL, NULL};
-    diags *errors = diags_new();
-    overrides changes = changes_at(w->grid, w->changes, point);
-    instance *inst = instance_make(w->mechanism, w->scene, &changes, errors);
-    if (inst != NULL) {
-        made = images_of(w, inst, errors);
-    }
-    if (made.of != NULL && (!start_has_method(made.of, w->settings.method, errors) ||
-                            !start_is_possible(made.of, w->kind, errors))) {
-        images_free(&made);
-        made = (map_images){NULL, NULL};
-    }
-    instance_free(inst);
-    changes_forget(w->changes, &changes);
-    diags_free(errors);
-    return made;
 }
 
 /* --- a row ---------------------------------------------------------------------------------------------*/
@@ -136,7 +84,7 @@ static map_cell cell_of(row_runs *p, const twins *t) {
         take_ranges(p, &h);
     }
     if (t->books != NULL) {
-        const belief b = belief_of(t->books, w->kind, t->run);
+        const belief b = belief_of(t->books, w->of.kind, t->run);
         cell.left_over = b.known ? b.ratio : (double)NAN;
     }
     if (is_out_of_bounds(p, &h)) {
@@ -155,16 +103,18 @@ static void show_share(double share, void *told) {
     p->wish->progress((double)p->map->done + share, p->wish->told);
 }
 
-/* Stopped: nothing is known of it. */
+/* Without an image the pair has no run: that is a verdict, and `whirl run` tells why. Stopped: nothing is known of it. */
 static void try_point(row_runs *p, uint64_t point) {
     const map_wish *w = p->wish;
-    map_images made = images_at(w, point);
+    diags *unsaid = diags_new();
+    image *plain = NULL;
+    image *im = sweep_image(&w->of, point, &plain, unsaid);
     map_cell cell = {.verdict = MAP_NONE, .left_over = (double)NAN};
     bool whole = true;
-    if (made.of != NULL) {
-        const twins_wish wish = {.image = made.of,
-                                 .kind = w->kind,
-                                 .plain = made.plain != NULL ? made.plain : made.of,
+    if (im != NULL) {
+        const twins_wish wish = {.image = im,
+                                 .kind = w->of.kind,
+                                 .plain = plain != NULL ? plain : im,
                                  .books = true,
                                  .stop = w->stop,
                                  .progress = w->progress != NULL ? show_share : NULL,
@@ -177,7 +127,9 @@ static void try_point(row_runs *p, uint64_t point) {
         }
         twins_free(t);
     }
-    images_free(&made);
+    image_free(im);
+    image_free(plain);
+    diags_free(unsaid);
     if (whole) {
         p->map->cell[point] = cell;
         p->map->done++;
@@ -188,7 +140,7 @@ static bool is_stopped(const map_wish *w) { return w->stop != NULL && *w->stop; 
 
 static void try_row(const map_wish *w, stability_map *m, uint64_t row) {
     row_runs p = {.wish = w, .map = m};
-    for (uint64_t i = 0; i < w->grid->axes[m->along].count && !is_stopped(w); i++) {
+    for (uint64_t i = 0; i < w->of.grid->axes[m->along].count && !is_stopped(w); i++) {
         const uint64_t point = map_point(m, row, i);
         if (!m->by_step) { /* another scene, not the same in other steps */
             free(p.range);
@@ -205,7 +157,7 @@ static void try_row(const map_wish *w, stability_map *m, uint64_t row) {
 /* --- the map ---------------------------------------------------------------------------------------------*/
 
 stability_map map_make(const map_wish *w) {
-    const grid *g = w->grid;
+    const grid *g = w->of.grid;
     stability_map m = {.grid = g,
                        .along = g->axes[0].symbol == NULL ? 0 : 1,
                        .by_step = g->axes[0].symbol == NULL || g->axes[1].symbol == NULL};

@@ -1,5 +1,5 @@
-/* map_text.c: see map_text.h. */
-#include "map_text.h"
+/* map_text.c: a stability map for people and for programs. */
+#include "stability_map.h"
 
 #include <math.h>
 
@@ -95,7 +95,7 @@ static void put_pair(json *j, const stability_map *m, uint64_t point) {
 
 void map_json(FILE *out, const stability_map *m, const image *of, const map_wish *w, int status) {
     json j = {.out = out};
-    json_begin(&j, "map", of->name, of->title, w->kind, w->settings.method);
+    json_begin(&j, "map", of->name, of->title, w->of.kind, w->of.engine.method);
     json_number(&j, "tolerance", w->tolerance);
     json_open(&j, "columns", '[');
     sweep_json_axes(&j, m->grid);
