@@ -44,17 +44,6 @@ typedef struct effects_options {
     const char *board;
 } effects_options;
 
-static bool take_one(int count, char **words, int *at, void *options, bool *bad) {
-    effects_options *o = options;
-    const char *value = options_value(count, words, at, "--error", bad);
-    if (value != NULL) {
-        o->error = value;
-    } else if (!*bad && (value = options_value(count, words, at, "--board", bad)) != NULL) {
-        o->board = value;
-    }
-    return value != NULL;
-}
-
 /* --- the error -------------------------------------------------------------------------------------*/
 
 static const char primes[] = "''''''''''";
@@ -320,10 +309,11 @@ static int effects_of(const effects_options *o, subsets *s, diags *errors) {
 }
 
 int command_effects(int count, char **words) {
-    static const char *const own[] = {"--error", "--board", NULL};
     effects_options o = {.common = options_defaults(), .board = "mps2-an386"};
-    const target_reader reader = {
-        .command = "effects", .groups = usage.groups, .own = own, .take = take_one};
+    const own_option own[] = {{.word = "--error", .text = &o.error},
+                              {.word = "--board", .text = &o.board},
+                              {.word = NULL}};
+    const target_reader reader = {.command = "effects", .groups = usage.groups, .table = own};
     source_model from = {0};
     subsets s = {0};
     int code = EXIT_BAD_INPUT;

@@ -248,29 +248,6 @@ static const command_usage firstlight_usage = {
             [EXIT_ROW_OF(EXIT_BAD_INPUT)] = "no whole record, too",
             [EXIT_ROW_OF(EXIT_INTERRUPTED)] = ""}};
 
-static bool take_one(int count, char **words, int *at, void *options, bool *bad) {
-    firstlight_options *o = options;
-    const number_option numbers[] = {
-        {"--wait", &o->wait_s, 0.1, 86400.0, false, "in seconds: --wait 60"},
-        {"--baud", &o->baud, 1.0, 1e7, false, "9600 to 230400: --baud 115200"}};
-    const struct {
-        const char *word;
-        const char **value;
-    } files[] = {{"--board", &o->board},
-                 {"--emulated", &o->emulated},
-                 {"--page", &o->page},
-                 {"--keep", &o->keep}};
-    for (size_t i = 0; i < sizeof files / sizeof files[0] && !*bad; i++) {
-        const char *value = options_value(count, words, at, files[i].word, bad);
-        if (value != NULL) {
-            *files[i].value = value;
-            return true;
-        }
-    }
-    return !*bad && options_take_number("firstlight", numbers, sizeof numbers / sizeof numbers[0],
-                                        count, words, at, bad);
-}
-
 /* --- the record ------------------------------------------------------------------------------------------------- */
 
 static double now_s(void) {
@@ -433,11 +410,16 @@ static int compare(const firstlight_options *o) {
 }
 
 int command_firstlight(int count, char **words) {
-    static const char *const own[] = {"--board", "--emulated", "--page", "--keep",
-                                      "--wait",  "--baud",     NULL};
-    const target_reader reader = {
-        .command = "firstlight", .own = own, .take = take_one, .one = "record"};
     firstlight_options o = {.common = options_defaults(), .wait_s = 60.0, .baud = 115200.0};
+    const own_option own[] = {
+        {.word = "--board", .text = &o.board},
+        {.word = "--emulated", .text = &o.emulated},
+        {.word = "--page", .text = &o.page},
+        {.word = "--keep", .text = &o.keep},
+        OWN_NUMBER("--wait", o.wait_s, 0.1, 86400.0, "in seconds: --wait 60"),
+        OWN_NUMBER("--baud", o.baud, 1.0, 1e7, "9600 to 230400: --baud 115200"),
+        {.word = NULL}};
+    const target_reader reader = {.command = "firstlight", .table = own, .one = "record"};
     if (options_help(count, words, &firstlight_usage)) {
         return EXIT_DONE;
     }

@@ -64,35 +64,6 @@ const command_usage monitor_usage = {
 
 static const char *const output_option[OUTPUTS] = {"--csv", "--vcd", "--ring", "--raw", "--plot"};
 
-static bool take_number(int count, char **words, int *at, monitor_options *o, bool *bad) {
-    const number_option rows[] = {
-        {"--rate", &o->rate, 1.0, 100000.0, true, "samples a second: --rate 500"},
-        {"--for", &o->for_s, 0.001, 1e9, false, "in seconds: --for 60"},
-        {"--baud", &o->baud, 1.0, 1e7, false, "9600 to 230400: --baud 115200"}};
-    return options_take_number("monitor", rows, sizeof rows / sizeof rows[0], count, words, at,
-                               bad);
-}
-
-static bool take_one(int count, char **words, int *at, void *options, bool *bad) {
-    monitor_options *o = options;
-    for (int i = 0; i < OUTPUTS && !*bad; i++) {
-        const char *value = options_value(count, words, at, output_option[i], bad);
-        if (value != NULL) {
-            o->output[i] = value;
-            return true;
-        }
-    }
-    if (*bad || take_number(count, words, at, o, bad) || *bad) {
-        return !*bad;
-    }
-    const bool strict = strcmp(words[*at], "--strict") == 0;
-    const bool quiet = strcmp(words[*at], "--quiet") == 0;
-    o->strict = o->strict || strict;
-    o->quiet = o->quiet || quiet;
-    *at += strict || quiet;
-    return strict || quiet;
-}
-
 static bool are_apart(const monitor_options *o) {
     for (int i = 0; i < OUTPUTS; i++) {
         if (o->output[i] == NULL) {
@@ -133,10 +104,19 @@ static bool are_possible(const monitor_options *o) {
 
 /* False, reported, if the options are invalid or incomplete. The caller forgets o->common. */
 static bool monitor_options_read(int count, char **words, monitor_options *o) {
-    static const char *const own[] = {"--csv", "--vcd",  "--ring",   "--plot",  "--raw", "--rate",
-                                      "--for", "--baud", "--strict", "--quiet", NULL};
-    const target_reader reader = {
-        .command = "monitor", .own = own, .take = take_one, .one = "line"};
+    const own_option own[] = {
+        {.word = output_option[CSV], .text = &o->output[CSV]},
+        {.word = output_option[VCD], .text = &o->output[VCD]},
+        {.word = output_option[RING], .text = &o->output[RING]},
+        {.word = output_option[RAW], .text = &o->output[RAW]},
+        {.word = output_option[PLOT], .text = &o->output[PLOT]},
+        OWN_WHOLE("--rate", o->rate, 1.0, 100000.0, "samples a second: --rate 500"),
+        OWN_NUMBER("--for", o->for_s, 0.001, 1e9, "in seconds: --for 60"),
+        OWN_NUMBER("--baud", o->baud, 1.0, 1e7, "9600 to 230400: --baud 115200"),
+        {.word = "--strict", .flag = &o->strict},
+        {.word = "--quiet", .flag = &o->quiet},
+        {.word = NULL}};
+    const target_reader reader = {.command = "monitor", .table = own, .one = "line"};
     return target_read(&reader, count, words, &o->common, o, &o->port) &&
            target_is_there(o->port, &monitor_usage) && are_possible(o);
 }

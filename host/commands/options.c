@@ -333,25 +333,6 @@ bool options_number(const char *command, const char *option, const char *text, d
     return good;
 }
 
-bool options_take_number(const char *command, const number_option *options, size_t options_count,
-                         int count, char **words, int *at, bool *bad) {
-    for (size_t i = 0; i < options_count && !*bad; i++) {
-        const number_option *o = &options[i];
-        const char *value = options_value(count, words, at, o->option, bad);
-        if (value == NULL) {
-            continue;
-        }
-        *bad = !options_number(command, o->option, value, o->least, o->most, o->hint, o->number);
-        if (!*bad && o->whole && number_floor(*o->number) < *o->number) {
-            fprintf(stderr, "whirl %s: error: %s takes a whole number, not '%.40s'\nhint: %s\n",
-                    command, o->option, value, o->hint);
-            *bad = true;
-        }
-        return true;
-    }
-    return false;
-}
-
 bool options_strict(const char *command, char **words, int *at, double *strict, bool *bad) {
     static const char name[] = "--strict";
     const size_t length = sizeof name - 1;

@@ -113,22 +113,7 @@ bool options_strict(const char *command, char **words, int *at, double *strict, 
     "  --strict=off         exit status 0 also if a warning is against a run (default: 1)\n" \
     "  --strict=LIMIT       allow this part of the largest entry of the energy books to be left over\n"
 
-/* An option with a number between two bounds, inclusive. */
-typedef struct number_option {
-    const char *option;
-    double *number; /* its destination */
-    double least;
-    double most;
-    bool whole; /* must be a whole number */
-    const char *hint;
-} number_option;
-
-/* If words[*at] is one of these options, take its number, advance *at past it and return true. An invalid number is
- * reported and sets *bad. */
-bool options_take_number(const char *command, const number_option *options, size_t options_count,
-                         int count, char **words, int *at, bool *bad);
-
-/* Changes to an instance: --set, --start, --with, --without, --step, --until. */
+/* What changes an instance: --set, --start, --with, --without, --step, --until. */
 typedef struct change_options {
     const char **sets;
     int set_count;

@@ -107,50 +107,11 @@ typedef struct pil_options {
 
 /* --- options ------------------------------------------------------------------------------------------------*/
 
-static bool take_words(int count, char **words, int *at, pil_options *o, bool *bad) {
-    const struct {
-        const char *option;
-        const char **value;
-    } rows[] = {{"--firmware", &o->firmware}, {"--board", &o->board}, {"--tape", &o->tape},
-                {"--replay", &o->replay},     {"--read", &o->read},   {"--csv", &o->csv},
-                {"--bind", &o->bind},         {"--place", &o->place}, {"--jitter", &o->jitter},
-                {"--delay", &o->delay},       {"--port", &o->port},   {"--every", &o->every}};
-    for (size_t i = 0; i < sizeof rows / sizeof rows[0] && !*bad; i++) {
-        const char *value = options_value(count, words, at, rows[i].option, bad);
-        if (value != NULL) {
-            *rows[i].value = value;
-            return true;
-        }
-    }
-    return false;
-}
-
-static bool take_numbers(int count, char **words, int *at, pil_options *o, bool *bad) {
-    const number_option rows[] = {
-        {"--seed", &o->seed, 0.0, 4294967295.0, true, "a whole number: --seed 7"},
-        {"--clock", &o->clock_Hz, 1e3, 1e11, false, "in Hz: --clock 16e6"},
-        {"--cycles", &o->cycles, 0.0, 1e4, false, "cycles an instruction: --cycles 1.5"},
-        {"--baud", &o->baud, 1.0, 1e7, true, "a speed of serial lines: --baud 115200"},
-        {"--patience", &o->patience_s, 0.01, 1e6, false, "in seconds: --patience 10"}};
-    return options_take_number("pil", rows, sizeof rows / sizeof rows[0], count, words, at, bad);
-}
-
-static bool take_one(int count, char **words, int *at, void *options, bool *bad) {
+static bool take_fault(int count, char **words, int *at, void *options, bool *bad) {
     pil_options *o = options;
-    if (take_words(count, words, at, o, bad) || (!*bad && take_numbers(count, words, at, o, bad))) {
-        return true;
-    }
-    const char *value = *bad ? NULL : options_value(count, words, at, "--fault", bad);
-    if (value != NULL) {
-        *bad = !fault_read(&o->faults, value);
-        return true;
-    }
-    const bool quiet = !*bad && strcmp(words[*at], "--quiet") == 0;
-    const bool kinds = !*bad && strcmp(words[*at], "--faults") == 0;
-    o->quiet = o->quiet || quiet;
-    o->kinds = o->kinds || kinds;
-    *at += quiet || kinds;
-    return quiet || kinds;
+    const char *value = options_value(count, words, at, "--fault", bad);
+    *bad = *bad || (value != NULL && !fault_read(&o->faults, value));
+    return value != NULL;
 }
 
 /* A tape that is only shown needs no firmware. */
@@ -237,12 +198,30 @@ static bool is_known_board(pil_options *o) {
 }
 
 static bool read_options(int count, char **words, pil_options *o) {
-    static const char *const own[] = {
-        "--firmware", "--board",  "--tape",  "--replay", "--read",  "--csv",    "--bind",
-        "--place",    "--jitter", "--delay", "--seed",   "--clock", "--cycles", "--patience",
-        "--fault",    "--port",   "--baud",  "--faults", "--quiet", "--every",  NULL};
+    static const char *const other[] = {"--fault", NULL};
+    const own_option own[] = {
+        {.word = "--firmware", .text = &o->firmware},
+        {.word = "--board", .text = &o->board},
+        {.word = "--tape", .text = &o->tape},
+        {.word = "--replay", .text = &o->replay},
+        {.word = "--read", .text = &o->read},
+        {.word = "--csv", .text = &o->csv},
+        {.word = "--bind", .text = &o->bind},
+        {.word = "--place", .text = &o->place},
+        {.word = "--jitter", .text = &o->jitter},
+        {.word = "--delay", .text = &o->delay},
+        {.word = "--port", .text = &o->port},
+        {.word = "--every", .text = &o->every},
+        OWN_WHOLE("--seed", o->seed, 0.0, 4294967295.0, "a whole number: --seed 7"),
+        OWN_NUMBER("--clock", o->clock_Hz, 1e3, 1e11, "in Hz: --clock 16e6"),
+        OWN_NUMBER("--cycles", o->cycles, 0.0, 1e4, "cycles an instruction: --cycles 1.5"),
+        OWN_WHOLE("--baud", o->baud, 1.0, 1e7, "a speed of serial lines: --baud 115200"),
+        OWN_NUMBER("--patience", o->patience_s, 0.01, 1e6, "in seconds: --patience 10"),
+        {.word = "--faults", .flag = &o->kinds},
+        {.word = "--quiet", .flag = &o->quiet},
+        {.word = NULL}};
     const target_reader reader = {
-        .command = "pil", .groups = usage.groups, .own = own, .take = take_one};
+        .command = "pil", .groups = usage.groups, .table = own, .take = take_fault, .own = other};
     return target_read(&reader, count, words, &o->common, o, &o->target) && is_known_board(o) &&
            go_together(o);
 }

@@ -64,9 +64,10 @@ static bool read_words(int count, char **words, pricing_options *o) {
     int all = 0;
     for (int i = 0; i < PRICING_OPTIONS; i++) {
         if ((rows[i].commands & o->bit) != 0) {
-            own[all++] = (own_option){rows[i].word, i == PRICING_VARY ? o->vary : &o->value[i],
-                                      i == PRICING_VARY ? &o->vary_count : NULL,
-                                      rows[i].value == NULL, NULL};
+            own[all++] = (own_option){.word = rows[i].word,
+                                      .text = i == PRICING_VARY ? o->vary : &o->value[i],
+                                      .count = i == PRICING_VARY ? &o->vary_count : NULL,
+                                      .is_bare = rows[i].value == NULL};
         }
     }
     const target_reader reader = {.command = o->command, .groups = PRICING_GROUPS, .table = own};

@@ -60,35 +60,15 @@ typedef struct prove_options {
     bool quiet;
 } prove_options;
 
-/* One option, with its value if it has one; false for another word. */
-static bool take_one(int count, char **words, int *at, void *options, bool *bad) {
-    prove_options *o = options;
-    const char *value = NULL;
-    if (!*bad && (value = options_value(count, words, at, "--within", bad)) != NULL) {
-        o->within[o->within_count++] = value;
-    } else if (!*bad && (value = options_value(count, words, at, "--tolerance", bad)) != NULL) {
-        *bad = !options_number("prove", "--tolerance", value, 1e-15, 1.0,
-                               "a part of the range that a coordinate has: --tolerance 1e-3",
-                               &o->tolerance);
-    } else if (!*bad && (value = options_value(count, words, at, "--effort", bad)) != NULL) {
-        *bad = !options_number("prove", "--effort", value, EFFORT_LEAST, EFFORT_MOST,
-                               "operations: --effort 1.5e11", &o->effort);
-    } else if (!*bad && (value = options_value(count, words, at, "--csv", bad)) != NULL) {
-        o->csv = value;
-    } else if (!*bad && strcmp(words[*at], "--quiet") == 0) {
-        o->quiet = true;
-        ++*at;
-        return true;
-    }
-    return value != NULL;
-}
-
 static bool read_options(int count, char **words, prove_options *o) {
-    static const char *const own[] = {"--within", "--tolerance", "--csv",
-                                      "--effort", "--quiet",     NULL};
-    const target_reader reader = {
-        .command = "prove", .groups = usage.groups, .own = own, .take = take_one};
     o->within = room(count, sizeof *o->within);
+    const own_option own[] = {{.word = "--within", .text = o->within, .count = &o->within_count},
+                              OWN_TOLERANCE(o->tolerance),
+                              OWN_EFFORT(o->effort, "1.5e11"),
+                              {.word = "--csv", .text = &o->csv},
+                              {.word = "--quiet", .flag = &o->quiet},
+                              {.word = NULL}};
+    const target_reader reader = {.command = "prove", .groups = usage.groups, .table = own};
     return target_read(&reader, count, words, &o->common, o, &o->target) &&
            target_is_there(o->target, &usage);
 }

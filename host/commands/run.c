@@ -75,46 +75,9 @@ typedef struct run_options {
     simulation_settings settings;
 } run_options;
 
-static bool take_flag(char **words, int *at, const char *name) {
-    if (strcmp(words[*at], name) != 0) {
-        return false;
-    }
-    ++*at;
-    return true;
-}
-
-/* One option, with its value if it has one; false for another word. */
-static bool take_one(int count, char **words, int *at, void *options, bool *bad) {
+static bool take_drawn(int count, char **words, int *at, void *options, bool *bad) {
     run_options *o = options;
-    const char *value = NULL;
-    if (run_take_choice("run", count, words, at, &o->settings.choice, bad) || *bad) {
-        return true;
-    }
-    if (options_strict("run", words, at, &o->settings.strict, bad)) {
-        return true;
-    }
-    if (!*bad && (value = options_value(count, words, at, "--csv", bad)) != NULL) {
-        o->settings.csv = value;
-    } else if (!*bad && (value = options_value(count, words, at, "--columns", bad)) != NULL) {
-        o->settings.columns = value;
-    } else if (!*bad && (value = options_value(count, words, at, "--vcd", bad)) != NULL) {
-        o->settings.vcd = value;
-    } else if (!*bad && (value = options_value(count, words, at, "--every", bad)) != NULL) {
-        o->every = value;
-    } else if (!*bad && (value = options_value(count, words, at, "--plot", bad)) != NULL) {
-        o->settings.plot = value;
-    } else if (!*bad && (value = options_value(count, words, at, "--error", bad)) != NULL) {
-        o->error = value;
-    } else if (!*bad && (value = options_value(count, words, at, "--board", bad)) != NULL) {
-        o->board_word = value;
-    } else if (!*bad && take_flag(words, at, "--json")) {
-        o->settings.json = true;
-        return true;
-    } else if (!*bad && take_flag(words, at, "--quiet")) {
-        o->settings.quiet = true;
-        return true;
-    }
-    return value != NULL;
+    return run_take_choice("run", count, words, at, &o->settings.choice, bad);
 }
 
 bool run_take_choice(const char *command, int count, char **words, int *at, plot_choice *to,
@@ -171,11 +134,21 @@ static bool find_board(run_options *o) {
 }
 
 static bool read_options(int count, char **words, run_options *o) {
-    static const char *const own[] = {"--csv",  "--columns", "--vcd",          "--every",
-                                      "--plot", "--error",   "--board",        "--strict",
-                                      "--json", "--quiet",   RUN_CHOICE_WORDS, NULL};
+    static const char *const drawn[] = {RUN_CHOICE_WORDS, NULL};
+    simulation_settings *to = &o->settings;
+    const own_option own[] = {{.word = "--csv", .text = &to->csv},
+                              {.word = "--columns", .text = &to->columns},
+                              {.word = "--vcd", .text = &to->vcd},
+                              {.word = "--every", .text = &o->every},
+                              {.word = "--plot", .text = &to->plot},
+                              {.word = "--error", .text = &o->error},
+                              {.word = "--board", .text = &o->board_word},
+                              {.word = "--strict", .strict = &to->strict},
+                              {.word = "--json", .flag = &to->json},
+                              {.word = "--quiet", .flag = &to->quiet},
+                              {.word = NULL}};
     const target_reader reader = {
-        .command = "run", .groups = usage.groups, .own = own, .take = take_one};
+        .command = "run", .groups = usage.groups, .table = own, .take = take_drawn, .own = drawn};
     o->common.number = NULL;
     if (!target_read(&reader, count, words, &o->common, o, &o->target) ||
         !target_is_there(o->target, &usage) || !find_board(o)) {

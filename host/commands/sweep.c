@@ -105,13 +105,13 @@ typedef struct sweep_options {
     const char **measure; /* [word count] */
     int measure_count;
     /* As they were typed; NULL: not given. */
-    const char *from, *csv, *jobs_text, *shard_text, *plot, *tolerance_text, *effort_text;
-    const char *fresh, *quiet, *json;
+    const char *from, *csv, *jobs_text, *shard_text, *plot;
     shard part;
     int jobs;
     double strict;
     double tolerance;
     double effort;
+    bool fresh, quiet, json;
 } sweep_options;
 
 /* A whole number from 1 to `limit`, up to the end of the text or `end`. */
@@ -156,12 +156,12 @@ static bool is_whole_sweep(sweep_options *o) {
         (o->shard_text != NULL && !read_shard(o->shard_text, o))) {
         return false;
     }
-    if (o->json != NULL && o->csv != NULL && !is_standard(o->csv)) {
+    if (o->json && o->csv != NULL && !is_standard(o->csv)) {
         fprintf(stderr, "whirl sweep: error: --json prints the rows that --csv FILE keeps\n"
                         "hint: leave one of them out\n");
         return false;
     }
-    o->csv = o->json != NULL ? "/dev/null" : o->csv != NULL ? o->csv : "-";
+    o->csv = o->json ? "/dev/null" : o->csv != NULL ? o->csv : "-";
     if (o->over_count == 0) {
         fprintf(stderr, "whirl sweep: error: nothing to sweep over\n"
                         "hint: such as --over \"r=10..60 [mm]:11\"\n");
@@ -171,15 +171,6 @@ static bool is_whole_sweep(sweep_options *o) {
 
 static bool is_whole_map(sweep_options *o) {
     const char *problem = NULL;
-    if ((o->tolerance_text != NULL &&
-         !options_number("map", "--tolerance", o->tolerance_text, 1e-15, 1.0,
-                         "a part of the range that a coordinate has: --tolerance 1e-3",
-                         &o->tolerance)) ||
-        (o->effort_text != NULL &&
-         !options_number("map", "--effort", o->effort_text, EFFORT_LEAST, EFFORT_MOST,
-                         "operations: --effort 1e12", &o->effort))) {
-        return false;
-    }
     if (o->over_count > AXES) {
         fprintf(stderr, "whirl map: error: two --over, not also '%.60s'\n", o->over[AXES]);
         return false;
@@ -194,7 +185,7 @@ static bool is_whole_map(sweep_options *o) {
     if (o->plot != NULL && !gnuplot_can_draw_for("map", "--plot", o->plot)) {
         return false;
     }
-    if (o->json != NULL && is_standard(o->csv)) {
+    if (o->json && is_standard(o->csv)) {
         problem = "--json and rows cannot share standard output\nhint: --csv rows.csv";
     } else if (o->csv != NULL && o->plot != NULL && files_same(o->csv, o->plot)) {
         problem = "--csv and --plot cannot share a file";
@@ -276,9 +267,9 @@ static int sweep_loaded(const sweep_options *o, const source_model *from, const 
                                        .end = end,
                                        .header = o->part.number == 1,
                                        .jobs = o->jobs,
-                                       .fresh = o->fresh != NULL,
-                                       .quiet = o->quiet != NULL,
-                                       .json = o->json != NULL,
+                                       .fresh = o->fresh,
+                                       .quiet = o->quiet,
+                                       .json = o->json,
                                        .stop = &interrupted};
     interrupts_catch();
     const int code = session_run(s, &settings);
@@ -304,7 +295,7 @@ static int sweep_measured(const sweep_options *o, source_model *from, sweep *s) 
     if (code == EXIT_DONE && !sweep_ends_are_alike(s, base.instance->until_s)) {
         code = EXIT_BAD_INPUT;
     }
-    if (code == EXIT_DONE && o->quiet == NULL) {
+    if (code == EXIT_DONE && !o->quiet) {
         say_hints(&base);
     }
     if (code == EXIT_DONE) {
@@ -341,7 +332,7 @@ static bool write_map(const sweep_options *o, const stability_map *m) {
 }
 
 static int show_map(const sweep_options *o, const stability_map *m, const char *words) {
-    if (o->json == NULL && (o->quiet == NULL || (o->csv == NULL && o->plot == NULL))) {
+    if (!o->json && (!o->quiet || (o->csv == NULL && o->plot == NULL))) {
         map_print(is_standard(o->csv) ? stderr : stdout, m, words);
     }
     int code = o->csv == NULL || write_map(o, m) ? EXIT_DONE : EXIT_BAD_INPUT;
@@ -413,8 +404,7 @@ static int map_loaded(const sweep_options *o, const sweep *s, const image *base)
                            .tolerance = o->tolerance,
                            .stop = &interrupted,
                            .told = (void *)(uintptr_t)s->grid,
-                           .progress =
-                               o->quiet == NULL && isatty(STDERR_FILENO) ? show_progress : NULL};
+                           .progress = !o->quiet && isatty(STDERR_FILENO) ? show_progress : NULL};
     char *words =
         room_words("%s: %s%s, %s, tolerance %g", base->title[0] != '\0' ? base->title : base->name,
                    image_stepper(base), image_sums(base), s->kind->name, o->tolerance);
@@ -424,7 +414,7 @@ static int map_loaded(const sweep_options *o, const sweep *s, const image *base)
         fputs("\r                                        \r", stderr);
     }
     const int code = show_map(o, &m, words);
-    if (o->json != NULL) {
+    if (o->json) {
         map_json(stdout, &m, base, &wish, code);
     }
     map_free(&m);
@@ -505,16 +495,16 @@ int command_sweep(int count, char **words) {
                        .measure = room(count, sizeof(const char *)),
                        .part = {1, 1},
                        .jobs = processors()};
-    const own_option own[] = {{.word = "--over", .value = o.over, .count = &o.over_count},
-                              {.word = "--measure", .value = o.measure, .count = &o.measure_count},
-                              {.word = "--from", .value = &o.from},
-                              {.word = "--csv", .value = &o.csv},
-                              {.word = "--fresh", .value = &o.fresh, .is_bare = true},
-                              {.word = "--jobs", .value = &o.jobs_text},
-                              {.word = "--shard", .value = &o.shard_text},
-                              {.word = "--json", .value = &o.json, .is_bare = true},
+    const own_option own[] = {{.word = "--over", .text = o.over, .count = &o.over_count},
+                              {.word = "--measure", .text = o.measure, .count = &o.measure_count},
+                              {.word = "--from", .text = &o.from},
+                              {.word = "--csv", .text = &o.csv},
+                              {.word = "--fresh", .flag = &o.fresh},
+                              {.word = "--jobs", .text = &o.jobs_text},
+                              {.word = "--shard", .text = &o.shard_text},
+                              {.word = "--json", .flag = &o.json},
                               {.word = "--strict", .strict = &o.strict},
-                              {.word = "--quiet", .value = &o.quiet, .is_bare = true},
+                              {.word = "--quiet", .flag = &o.quiet},
                               {.word = NULL}};
     int code = EXIT_DONE;
     if (!options_help(count, words, &sweep_usage)) {
@@ -532,13 +522,13 @@ int command_map(int count, char **words) {
                        .over = room(count, sizeof(const char *)),
                        .tolerance = HORIZON_TOLERANCE,
                        .effort = EFFORT};
-    const own_option own[] = {{.word = "--over", .value = o.over, .count = &o.over_count},
-                              {.word = "--tolerance", .value = &o.tolerance_text},
-                              {.word = "--effort", .value = &o.effort_text},
-                              {.word = "--csv", .value = &o.csv},
-                              {.word = "--plot", .value = &o.plot},
-                              {.word = "--json", .value = &o.json, .is_bare = true},
-                              {.word = "--quiet", .value = &o.quiet, .is_bare = true},
+    const own_option own[] = {{.word = "--over", .text = o.over, .count = &o.over_count},
+                              OWN_TOLERANCE(o.tolerance),
+                              OWN_EFFORT(o.effort, "1e12"),
+                              {.word = "--csv", .text = &o.csv},
+                              {.word = "--plot", .text = &o.plot},
+                              {.word = "--json", .flag = &o.json},
+                              {.word = "--quiet", .flag = &o.quiet},
                               {.word = NULL}};
     int code = EXIT_DONE;
     if (!options_help(count, words, &map_usage)) {

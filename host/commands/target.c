@@ -3,20 +3,43 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "host/number/functions.h"
+
+/* What follows the word of one of the table's options; false, told: that is wrong. */
+static bool take_value(const char *command, const own_option *o, const char *value) {
+    if (o->number == NULL) {
+        o->text[o->count != NULL ? (*o->count)++ : 0] = value;
+        return true;
+    }
+    if (!options_number(command, o->word, value, o->least, o->most, o->hint, o->number)) {
+        return false;
+    }
+    if (o->whole && number_floor(*o->number) < *o->number) {
+        fprintf(stderr, "whirl %s: error: %s takes a whole number, not '%.40s'\nhint: %s\n",
+                command, o->word, value, o->hint);
+        return false;
+    }
+    return true;
+}
+
 static bool take_own(const target_reader *r, int count, char **words, int *at, bool *bad) {
-    for (const own_option *o = r->table; o->word != NULL && !*bad; o++) {
+    for (const own_option *o = r->table; o != NULL && o->word != NULL && !*bad; o++) {
         const char *value = NULL;
         if (o->strict != NULL) {
             if (options_strict(r->command, words, at, o->strict, bad)) {
                 return true;
             }
-        } else if (!o->is_bare) {
+        } else if (o->flag == NULL && !o->is_bare) {
             value = options_value(count, words, at, o->word, bad);
         } else if (strcmp(words[*at], o->word) == 0) {
             value = words[(*at)++];
         }
+        if (value != NULL && o->flag != NULL) {
+            *o->flag = true;
+        } else if (value != NULL) {
+            *bad = !take_value(r->command, o, value);
+        }
         if (value != NULL) {
-            o->value[o->count != NULL ? (*o->count)++ : 0] = value;
             return true;
         }
     }
@@ -25,10 +48,14 @@ static bool take_own(const target_reader *r, int count, char **words, int *at, b
 
 static void say_unknown(const target_reader *r, const char *word) {
     const char *own[OWN_OPTIONS_MOST + 1] = {NULL};
-    for (int i = 0; r->table != NULL && r->table[i].word != NULL; i++) {
-        own[i] = r->table[i].word;
+    int all = 0;
+    for (int i = 0; r->own != NULL && r->own[i] != NULL; i++) {
+        own[all++] = r->own[i];
     }
-    options_unknown(r->command, word, r->groups, r->table != NULL ? own : r->own);
+    for (const own_option *o = r->table; o != NULL && o->word != NULL; o++) {
+        own[all++] = o->word;
+    }
+    options_unknown(r->command, word, r->groups, own);
 }
 
 static bool take_target(const target_reader *r, const char *word, const char **target) {
@@ -56,9 +83,8 @@ bool target_read(const target_reader *r, int count, char **words, common_options
     *target = NULL;
     for (int at = 0; at < count && !bad;) {
         if (!options_take(r->command, r->groups, count, words, &at, common, &bad) && !bad &&
-            !(r->table != NULL ? take_own(r, count, words, &at, &bad)
-                               : r->take(count, words, &at, options, &bad)) &&
-            !bad) {
+            !take_own(r, count, words, &at, &bad) && !bad &&
+            (r->take == NULL || !r->take(count, words, &at, options, &bad)) && !bad) {
             bad = !take_target(r, words[at++], target);
         }
     }

@@ -9,25 +9,41 @@
  */
 typedef bool target_take(int count, char **words, int *at, void *options, bool *bad);
 
-/* One of a command's own options, in a table. */
+/* One of a command's own options, in a table. What follows its word goes to */
 typedef struct own_option {
     const char *word;
-    const char **value; /* gets what follows the word; of a bare option, the word */
-    int *count;         /* may be repeated: value[] gets all; NULL: may not */
-    bool is_bare;
-    double *strict; /* of options_strict(), and nothing else */
+    const char **text; /* here; */
+    int *count;        /* of a repeatable one, all of it to text[]; */
+    double *number;    /* or here, as a number between two bounds, both allowed, */
+    double least, most;
+    bool whole; /* and a whole one; */
+    const char *hint;
+    double *strict; /* or as options_strict() takes it. */
+    bool *flag;     /* Nothing follows: it is set; */
+    bool is_bare;   /* or text gets the word. */
 } own_option;
+
+/* Rows: a number, and those that several commands have. */
+#define OWN_NUMBER(name, to, from, up_to, such_as) \
+    { .word = name, .number = &(to), .least = from, .most = up_to, .hint = such_as }
+#define OWN_WHOLE(name, to, from, up_to, such_as) \
+    { .word = name, .number = &(to), .least = from, .most = up_to, .hint = such_as, .whole = true }
+#define OWN_TOLERANCE(to) \
+    OWN_NUMBER("--tolerance", to, 1e-15, 1.0, \
+               "a part of the range that a coordinate has: --tolerance 1e-3")
+#define OWN_EFFORT(to, such_as) \
+    OWN_NUMBER("--effort", to, EFFORT_LEAST, EFFORT_MOST, "operations: --effort " such_as)
 
 enum { OWN_OPTIONS_MOST = 24 };
 
 typedef struct target_reader {
     const char *command;
     unsigned groups;         /* of the common options that it takes */
-    const own_option *table; /* its own options, one without a word at the end; or NULL, and: */
-    const char *const *own;  /* the words of its own options, NULL at the end */
-    target_take *take;
-    const char *one; /* the kind of target, of which only one is allowed; NULL: a scene */
-    bool derives;    /* accepts other targets than scenes: changes the message for a second one */
+    const own_option *table; /* its own options, one without a word at the end; or NULL */
+    target_take *take;       /* of those that are in no table; or NULL */
+    const char *const *own;  /* their words, NULL at the end */
+    const char *one;         /* what there is one of at a time; NULL: a scene */
+    bool derives;            /* what is no scene will do, too: another word for a second one */
 } target_reader;
 
 /* Take all options, of both kinds, and the only other word: *target, or NULL. False after an error, reported. */

@@ -57,27 +57,6 @@ typedef struct trust_options {
     bool quiet;
 } trust_options;
 
-/* One option, with its value if it has one; false for another word. */
-static bool take_one(int count, char **words, int *at, void *options, bool *bad) {
-    trust_options *o = options;
-    const char *value = NULL;
-    if (!*bad && (value = options_value(count, words, at, "--tolerance", bad)) != NULL) {
-        *bad = !options_number("trust", "--tolerance", value, 1e-15, 1.0,
-                               "a part of the range that a coordinate has: --tolerance 1e-3",
-                               &o->tolerance);
-    } else if (!*bad && (value = options_value(count, words, at, "--effort", bad)) != NULL) {
-        *bad = !options_number("trust", "--effort", value, EFFORT_LEAST, EFFORT_MOST,
-                               "operations: --effort 1.5e11", &o->effort);
-    } else if (!*bad && (value = options_value(count, words, at, "--csv", bad)) != NULL) {
-        o->csv = value;
-    } else if (!*bad && (strcmp(words[*at], "--quiet") == 0 || strcmp(words[*at], "--json") == 0)) {
-        *(words[*at][2] == 'q' ? &o->quiet : &o->json) = true;
-        ++*at;
-        return true;
-    }
-    return value != NULL;
-}
-
 static bool is_standard(const trust_options *o) {
     return o->csv != NULL && strcmp(o->csv, "-") == 0;
 }
@@ -93,10 +72,15 @@ static bool is_whole(const trust_options *o) {
 }
 
 static bool read_options(int count, char **words, trust_options *o) {
-    static const char *const own[] = {"--proved", "--tolerance", "--csv", "--effort",
-                                      "--json",   "--quiet",     NULL};
+    static const char *const other[] = {"--proved", NULL};
+    const own_option own[] = {OWN_TOLERANCE(o->tolerance),
+                              OWN_EFFORT(o->effort, "1.5e11"),
+                              {.word = "--csv", .text = &o->csv},
+                              {.word = "--json", .flag = &o->json},
+                              {.word = "--quiet", .flag = &o->quiet},
+                              {.word = NULL}};
     const target_reader reader = {
-        .command = "trust", .groups = usage.groups, .own = own, .take = take_one};
+        .command = "trust", .groups = usage.groups, .table = own, .own = other};
     return target_read(&reader, count, words, &o->common, o, &o->target) &&
            target_is_there(o->target, &usage) && is_whole(o);
 }
