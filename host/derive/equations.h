@@ -46,9 +46,9 @@ typedef struct equations {
     int count;         /* unknowns, and equations */
     unknown *unknowns; /* [count] */
     const poly **mass; /* [count * count] row by row */
-    double mass_blur;  /* relative error of accelerations from rounding mass[], at the best of the
-                    * sampled states */
-    folding_notes folding;  /* of the file's numbers */
+    double
+        mass_blur; /* by such a part rounding of mass[] puts accelerations off, at the best of the states tried */
+    folding folding;        /* of the file's numbers */
     const poly **velocity;  /* [count] centrifugal and Coriolis terms; zero for a system */
     const poly **potential; /* [count] dV/dq; for a system all other terms, moved to the left */
     const poly **applied;   /* [count] Q - dF/dq'; zero for a system */

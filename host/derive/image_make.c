@@ -449,13 +449,14 @@ static bool is_alike(const image *im, const image *other) {
 static image *make_otherwise(image *im, const equations *e, const bool *conserve,
                              const image_settings *settings, int way) {
     diags *unsaid = diags_new();
-    const folding before = folding_begin(way, NULL);
+    folding otherwise = {.way = way};
+    folding *const before = folding_use(&otherwise);
     instance *again = instance_again(e->instance);
     im->unbounded = im->unbounded || again == NULL;
     equations *other = again != NULL ? equations_derive(again, unsaid) : NULL;
     image *made =
         other != NULL ? image_once(other, conserve, settings, IMAGE_TO_WRITE, unsaid) : NULL;
-    (void)folding_end(before);
+    (void)folding_use(before);
     equations_free(other);
     instance_free(again);
     diags_free(unsaid);
@@ -468,13 +469,15 @@ static image *make_otherwise(image *im, const equations *e, const bool *conserve
 
 image *image_make(const equations *e, const bool *conserve, const image_settings *settings,
                   image_use use, diags *errors) {
-    const folding before = folding_begin(FOLDING_NEAREST, &e->folding);
+    folding nearest = e->folding;
+    nearest.way = FOLDING_NEAREST;
+    folding *const before = folding_use(&nearest);
     image *im = image_once(e, conserve, settings, use, errors);
-    const double lost = folding_end(before).lost;
+    (void)folding_use(before);
     if (im == NULL) {
         return NULL;
     }
-    const bool asks = use == IMAGE_TO_RUN && lost > FOLDED_MUCH;
+    const bool asks = use == IMAGE_TO_RUN && nearest.lost > FOLDED_MUCH;
     for (int way = FOLDING_OTHER; way < FOLDING_WAYS && asks; way++) {
         image *other = make_otherwise(im, e, conserve, settings, way);
         if (other != NULL) {

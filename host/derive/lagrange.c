@@ -202,8 +202,10 @@ equations *equations_derive_after(const instance *inst, equations_question *befo
                                   diags *errors) {
     const mechanism *m = inst->mechanism;
     const int n = m->coordinate_count;
-    const folding before_it = folding_begin(folding_way(), &inst->folding);
     equations *e = room(1, sizeof *e);
+    e->folding = inst->folding;
+    e->folding.way = folding_way();
+    folding *const before_it = folding_use(&e->folding);
     e->algebra = algebra_new();
     if (before != NULL) {
         before(context, e->algebra, inst);
@@ -240,7 +242,7 @@ equations *equations_derive_after(const instance *inst, equations_question *befo
     if (good) {
         good = equations_check_solvable(e, errors);
     }
-    e->folding = folding_end(before_it);
+    (void)folding_use(before_it);
     if (!good) {
         equations_free(e);
         return NULL;

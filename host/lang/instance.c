@@ -547,16 +547,18 @@ bool instance_duration(const mechanism *of, const scene *from, const overrides *
 
 instance *instance_make(const mechanism *of, const scene *from, const overrides *changes,
                         diags *all) {
-    const size_t before = diags_calls(all);
-    const folding before_it = folding_begin(folding_way(), NULL);
+    const size_t calls = diags_calls(all);
+    folding noted = {.way = folding_way()};
+    folding *const before = folding_use(&noted);
     plan what;
     instance *made = begin(of, from, changes, all, &what);
     evaluate(&what, made);
-    made->folding = folding_end(before_it);
-    if (diags_calls(all) == before) {
+    made->folding = noted;
+    (void)folding_use(before);
+    if (diags_calls(all) == calls) {
         limits_check(made, &what.values);
     }
-    if (diags_calls(all) != before) {
+    if (diags_calls(all) != calls) {
         instance_free(made);
         return NULL;
     }

@@ -280,11 +280,11 @@ typedef struct instance {
     int *start_count;          /* [coordinate_count] entries in start[i] (2 for coordinates) */
     range_value *range;        /* [range_count] */
     int range_count;
-    double step_s;         /* default 1e-3 */
-    double until_s;        /* default 10 */
-    folding_notes folding; /* of the expressions above */
-    whole_ratio step;      /* step_s, exactly as written */
-    uint64_t steps;        /* until_s / step_s rounded to the nearest, at most 2^63 */
+    double step_s;    /* default 1e-3 */
+    double until_s;   /* default 10 */
+    folding folding;  /* of the expressions above */
+    whole_ratio step; /* step_s, as it was written */
+    uint64_t steps;   /* to the end: until_s / step_s to the nearest, at most 2^63 */
     struct arena *arena;
 } instance;
 

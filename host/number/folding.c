@@ -17,24 +17,16 @@
 /* What is but rounding, and more than this in SI units, may be all of a spring. */
 #define REST_COUNTS 1e-12
 
-static folding now;
+static folding plain; /* where nobody asks */
+static folding *now = &plain;
 
-folding folding_begin(int way, const folding_notes *on) {
-    const folding before = now;
-    now = (folding){.way = way};
-    if (on != NULL) {
-        now.notes = *on;
-    }
+folding *folding_use(folding *f) {
+    folding *const before = now;
+    now = f;
     return before;
 }
 
-folding_notes folding_end(folding before) {
-    const folding_notes notes = now.notes;
-    now = before;
-    return notes;
-}
-
-int folding_way(void) { return now.way; }
+int folding_way(void) { return now->way; }
 
 static uint64_t digits_of(double x) {
     uint64_t bits;
@@ -54,12 +46,12 @@ static uint64_t mixed(uint64_t z) {
  * digits, whatever their signs and powers of two, and in whatever order. */
 static int moved_by(double x, double y, bool up) {
     static const signed char some[] = {-2, -1, 1, 2};
-    if (now.way <= FOLDING_APART) {
-        return now.way == FOLDING_APART ? 0 : up ? 2 : -2;
+    if (now->way <= FOLDING_APART) {
+        return now->way == FOLDING_APART ? 0 : up ? 2 : -2;
     }
     const uint64_t a = digits_of(x);
     const uint64_t b = digits_of(y);
-    return some[mixed(mixed(a + b) ^ (a ^ b)) >> 2 * (now.way - FOLDING_SOME) & 3U];
+    return some[mixed(mixed(a + b) ^ (a ^ b)) >> 2 * (now->way - FOLDING_SOME) & 3U];
 }
 
 static double moved(double x, int by) {
@@ -91,12 +83,11 @@ static double other_value(double value, double x) {
 
 /* --- what is noted, of what is rounded to nearest ----------------------------------------------------*/
 
-static void note_lost(double part) { now.notes.lost = number_most(now.notes.lost, part); }
+static void note_lost(double part) { now->lost = number_most(now->lost, part); }
 
 static bool is_rest(double x) {
-    const folding_notes *n = &now.notes;
-    for (int i = 0; i < n->rests; i++) {
-        if (n->rest[i] == fabs(x)) {
+    for (int i = 0; i < now->rests; i++) {
+        if (now->rest[i] == fabs(x)) {
             return true;
         }
     }
@@ -104,9 +95,8 @@ static bool is_rest(double x) {
 }
 
 static void note_rest(double x) {
-    folding_notes *n = &now.notes;
-    if (x != 0.0 && n->rests < FOLDING_RESTS && !is_rest(x)) {
-        n->rest[n->rests++] = fabs(x);
+    if (x != 0.0 && now->rests < FOLDING_RESTS && !is_rest(x)) {
+        now->rest[now->rests++] = fabs(x);
     }
     if (fabs(x) > REST_COUNTS) {
         note_lost(1.0);
@@ -163,7 +153,7 @@ static void note_slope(double value, double x, double slope, bool turns) {
 /* --- what is folded ----------------------------------------------------------------------------------*/
 
 double folding_sum(double x, double y) {
-    if (now.way != FOLDING_NEAREST) {
+    if (now->way != FOLDING_NEAREST) {
         return other_neighbour(twofold_add(twofold_of(x), twofold_of(y)), x, y);
     }
     note_sum(x, y, x + y);
@@ -171,13 +161,15 @@ double folding_sum(double x, double y) {
 }
 
 /* Moved the other way all of them, products and quotients would take back what the sums in them were moved by: (K + k)/K - 1. */
-static bool moves_products(void) { return now.way != FOLDING_NEAREST && now.way != FOLDING_OTHER; }
+static bool moves_products(void) {
+    return now->way != FOLDING_NEAREST && now->way != FOLDING_OTHER;
+}
 
 double folding_product(double x, double y) {
     if (moves_products()) {
         return other_neighbour(twofold_mul(twofold_of(x), twofold_of(y)), x, y);
     }
-    if (now.way == FOLDING_NEAREST && (is_rest(x) || is_rest(y))) {
+    if (now->way == FOLDING_NEAREST && (is_rest(x) || is_rest(y))) {
         note_rest(x * y);
     }
     return x * y;
@@ -187,7 +179,7 @@ double folding_quotient(double x, double y) {
     if (moves_products() && y != 0.0) {
         return other_neighbour(twofold_div(twofold_of(x), twofold_of(y)), x, y);
     }
-    if (now.way == FOLDING_NEAREST) {
+    if (now->way == FOLDING_NEAREST) {
         note_power(y, -1.0, 1.0 / y);
         if (is_rest(x)) {
             note_rest(x / y);
@@ -198,7 +190,7 @@ double folding_quotient(double x, double y) {
 
 double folding_power(double base, double exponent) {
     const double power = number_power(base, exponent);
-    if (now.way != FOLDING_NEAREST) {
+    if (now->way != FOLDING_NEAREST) {
         return is_short(power) || fabs(exponent) == 1.0 ? power : other_value(power, base);
     }
     note_power(base, exponent, power);
@@ -224,10 +216,10 @@ double folding_call(function_id function, double x, double y) {
     const bool turns = function_takes(function) == TAKES_ANGLE;
     const bool rests = turns && fabs(value) <= GHOST * fabs(x);
     const bool exact = is_exact(function, x, value);
-    if (now.way == FOLDING_APART) {
+    if (now->way == FOLDING_APART) {
         return value;
     }
-    if (now.way != FOLDING_NEAREST) {
+    if (now->way != FOLDING_NEAREST) {
         return exact ? value : rests ? -value : other_value(value, x);
     }
     if (rests) {
@@ -241,7 +233,7 @@ double folding_call(function_id function, double x, double y) {
 }
 
 bool folding_cancels(double left, double size, double part) {
-    if (now.way != FOLDING_NEAREST || !(fabs(left) <= part * size)) {
+    if (now->way != FOLDING_NEAREST || !(fabs(left) <= part * size)) {
         return left == 0.0;
     }
     if (fabs(left) > GHOST * size) {

@@ -11,7 +11,8 @@
  *     what is exact, or to either. What is exact stays, and nothing is put onto what is nearly the same. Where several roundings add up, one way may come to the same numbers by chance; hence more
  *     than one (Vignes, A stochastic arithmetic for reliable scientific computation, 1993, has his at run time).
  *
- * Which way, and what was lost, is kept here as the rounding mode is kept in a processor: whoever folds asks nobody. */
+ * Whoever derives has a `folding` of its own: the way, and what was noted. folding_use() puts it in place, as a rounding mode is
+ * put in a processor, and whoever folds below takes that. */
 #ifndef NUMBER_FOLDING_H
 #define NUMBER_FOLDING_H
 
@@ -23,24 +24,18 @@
  * is nearly the same; and then all, products and quotients too, up or down by their digits. */
 enum { FOLDING_NEAREST, FOLDING_OTHER, FOLDING_APART, FOLDING_SOME, FOLDING_WAYS = 7 };
 
-/* What was noted. Of more numbers than there is room for, none is known to be rounding alone. */
+/* Of more rests than there is room for, none is known to be rounding alone. */
 enum { FOLDING_RESTS = 256 };
-typedef struct folding_notes {
+typedef struct folding {
+    int way;
     double lost;                /* the largest part of an addend, or of a sum that cancels */
     int rests;                  /* so many numbers are but the rounding of others */
     double rest[FOLDING_RESTS]; /* without their signs */
-} folding_notes;
-
-typedef struct folding {
-    int way;
-    folding_notes notes;
 } folding;
 
-/* What held before is what folding_end() is to be given; it tells what was noted between the two, and before in what is gone
- * on with, if it is not NULL. */
-folding folding_begin(int way, const folding_notes *on);
-folding_notes folding_end(folding before);
-
+/* Returns what was in place, to be put back before `f` ends. */
+folding *folding_use(folding *f);
+/* Of what is in place. */
 int folding_way(void);
 
 double folding_sum(double x, double y);

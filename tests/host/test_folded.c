@@ -368,13 +368,14 @@ static void test_numbers_beside_a_rest(void) {
     for (unsigned k = 0; k < dice_cases(200); k++) {
         const double angle_rad = 1.5707963267948966 * (1.0 + 2.0 * dice_one_of(&d, 5));
         const double number = power_of_ten(&d, -3.0, 3.0);
-        const folding before = folding_begin(FOLDING_NEAREST, NULL);
+        folding kept = {.way = FOLDING_NEAREST};
+        folding *const before = folding_use(&kept);
         const double rest = folding_product(folding_call(FN_COS, angle_rad, 0.0), number);
         (void)folding_sum(number, rest);
-        const folding_notes kept = folding_end(before);
-        const folding again = folding_begin(FOLDING_NEAREST, &kept);
+        folding lost = kept;
+        (void)folding_use(&lost);
         (void)folding_sum(rest * power_of_ten(&d, -9.0, -7.0), rest);
-        const folding_notes lost = folding_end(again);
+        (void)folding_use(before);
         TEST_ASSERT_TRUE(kept.lost < 1e-9 && lost.lost > 1e-9);
     }
 }

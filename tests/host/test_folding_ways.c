@@ -45,7 +45,8 @@ static int side_of(kind of, double x, double y, double nearest) {
 }
 
 static double folded_by(int way, kind of, double x, double y) {
-    const folding before = folding_begin(way, NULL);
+    folding mine = {.way = way};
+    folding *const before = folding_use(&mine);
     double made = 0.0;
     switch (of) {
     case SUM: made = folding_sum(x, y); break;
@@ -56,7 +57,7 @@ static double folded_by(int way, kind of, double x, double y) {
     case ROOT: made = folding_call(FN_SQRT, fabs(x), 0.0); break;
     case KINDS: break;
     }
-    (void)folding_end(before);
+    (void)folding_use(before);
     return made;
 }
 
@@ -148,7 +149,8 @@ static void test_what_is_exact_stays(void) {
             TEST_ASSERT_TRUE(folded_by(way, QUOTIENT, x * y, x) == y);
             TEST_ASSERT_TRUE(folded_by(way, ROOT, x * x, 0.0) == x);
             TEST_ASSERT_TRUE(folded_by(way, POWER, drawn(&d) * 0.0 + x, 2.0) == x * x);
-            const folding before = folding_begin(way, NULL);
+            folding mine = {.way = way};
+            folding *const before = folding_use(&mine);
             const double size = drawn(&d);
             TEST_ASSERT_TRUE(folding_call(FN_ABS, size, 0.0) == fabs(size));
             TEST_ASSERT_TRUE(folding_power(size, 1.0) == size);
@@ -156,7 +158,7 @@ static void test_what_is_exact_stays(void) {
                 TEST_ASSERT_TRUE(folding_call(begins[k].function, begins[k].x, 0.0) ==
                                  begins[k].value);
             }
-            (void)folding_end(before);
+            (void)folding_use(before);
         }
     }
 }
