@@ -101,3 +101,15 @@ bool written_can(const char *name) {
     FILE *file = name != NULL ? open_as(name, "ab") : stdout;
     return file != NULL && written_close(file, name, false);
 }
+
+void written_field(FILE *out, const char *text) {
+    if (strpbrk(text, ",\"\r\n") == NULL) {
+        fputs(text, out);
+        return;
+    }
+    fputc('"', out);
+    for (; *text != '\0'; text++) {
+        fputs(*text == '"' ? "\"\"" : (char[]){*text, '\0'}, out);
+    }
+    fputc('"', out);
+}

@@ -25,4 +25,7 @@ void written_not_whole(void);
 /* The program's exit status: a failure if an opened file could not be written completely. */
 int written_code(int code);
 
+/* A field of CSV, quoted where RFC 4180 wants it. */
+void written_field(FILE *out, const char *text);
+
 #endif

@@ -98,12 +98,7 @@ static bool space_records(const pricing *p, choice_wish *w, whole_ratio *spacing
         }
     }
     w->table.periods = periods;
-    uint64_t common = periods; /* Euclid's, with the rate's numerator */
-    for (uint64_t rest = rate.numerator; rest != 0;) {
-        const uint64_t left = common % rest;
-        common = rest;
-        rest = left;
-    }
+    const uint64_t common = ratio_divisor(periods, rate.numerator);
     *spacing = (whole_ratio){rate.denominator * (periods / common), rate.numerator / common};
     if (rate.numerator == 0 && w->table.rate_Hz > 1.0) {
         fprintf(stderr, "whirl choose: error: --rate %.9g Hz is more than any step can follow\n",

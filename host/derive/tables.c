@@ -9,6 +9,7 @@
 #include "core/table.h"
 #include "host/base/arena.h"
 #include "host/base/room.h"
+#include "host/number/ratio.h"
 
 /* === functions of one angle, at any part of its turn, with their slopes ======================= */
 /* In double, with the program's own functions: identical on every host. */
@@ -544,14 +545,7 @@ static void refuse(tabling *t, const char *reason, const char *hint, int angle) 
 /* --- which phase is looked up ------------------------------------------------------------------------*/
 
 static int divisor_of(int a, int b) {
-    a = abs(a);
-    b = abs(b);
-    while (b != 0) {
-        const int rest = a % b;
-        a = b;
-        b = rest;
-    }
-    return a;
+    return (int)ratio_divisor((uint64_t)abs(a), (uint64_t)abs(b));
 }
 
 /* The first angle with a part in it. */

@@ -60,7 +60,7 @@ static whole_ratio simplest(double value) {
                    (end){wide_left(wide_of(digits + off), up), down});
 }
 
-static uint64_t common_divisor(uint64_t a, uint64_t b) {
+uint64_t ratio_divisor(uint64_t a, uint64_t b) {
     while (b != 0) {
         const uint64_t rest = a % b;
         a = b;
@@ -97,7 +97,7 @@ static bool decimal(double value, whole_ratio *found, uint64_t *said) {
         if (power != 0 || of >> 63 != 0 || in >> 63 != 0) {
             return false;
         }
-        const uint64_t by = common_divisor(of, in);
+        const uint64_t by = ratio_divisor(of, in);
         *found = (whole_ratio){of / by, in / by};
         return found->numerator >> 60 == 0 && found->denominator >> 60 == 0;
     }

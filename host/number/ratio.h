@@ -34,6 +34,9 @@ bool ratio_count_each(double each_s, whole_ratio step, uint64_t *count);
  * when that is more than 2^63. */
 bool ratio_count_from(double from_s, whole_ratio step, uint64_t *count);
 
+/* The largest number that divides both; 0 of two zeros. */
+uint64_t ratio_divisor(uint64_t a, uint64_t b);
+
 /* count * each, to the nearest double. */
 double ratio_times(uint64_t count, whole_ratio each);
 

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "host/base/room.h"
+#include "host/base/written.h"
 #include "host/number/decimal.h"
 #include "host/number/functions.h"
 #include "host/run/run_json.h"
@@ -116,18 +117,6 @@ void figure_reference(FILE *out, const trials *t) {
     if (t->still != NULL) {
         fprintf(out, "  left out    nothing moves with%.*s\n", (int)strlen(t->still) - 1, t->still);
     }
-}
-
-void figure_field(FILE *out, const char *text) {
-    if (strpbrk(text, ",\"\r\n") == NULL) {
-        fputs(text, out);
-        return;
-    }
-    fputc('"', out);
-    for (; *text != '\0'; text++) {
-        fputs(*text == '"' ? "\"\"" : (char[]){*text, '\0'}, out);
-    }
-    fputc('"', out);
 }
 
 /* --- lines and rows --------------------------------------------------------------------------------*/
@@ -339,7 +328,7 @@ typedef struct row_sink {
 static void put(row_sink *s, const char *name, const char *text, bool is_number) {
     if (s->json == NULL) {
         fputs(s->begun ? "," : "", s->csv);
-        figure_field(s->csv, s->is_head ? name : text);
+        written_field(s->csv, s->is_head ? name : text);
         s->begun = true;
     } else if (is_number) {
         json_number(s->json, name, text[0] != '\0' ? decimal_read(text, NULL) : (double)NAN);

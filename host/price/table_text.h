@@ -22,9 +22,6 @@ const char *figure_words(const cost_figure *f, char text[FIGURE_WORDS]);
 /* What was held against what, in lines that begin with two blanks. */
 void figure_reference(FILE *out, const trials *t);
 
-/* A field of CSV, quoted where RFC 4180 wants it. */
-void figure_field(FILE *out, const char *text);
-
 /* What the command was given, as its words are typed, to build lines from that do a row again. */
 typedef struct table_words {
     const char *target;

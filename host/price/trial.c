@@ -30,19 +30,10 @@ const char *trial_time(whole_ratio time, char text[TRIAL_TIME]) {
     return text;
 }
 
-static uint64_t common_divisor(uint64_t a, uint64_t b) {
-    while (b != 0) {
-        const uint64_t rest = a % b;
-        a = b;
-        b = rest;
-    }
-    return a;
-}
-
 whole_ratio trial_step(const trials *t, deviation_pace pace) {
     whole_ratio s = t->wish.spacing;
-    const uint64_t over = common_divisor(s.numerator, pace.steps);
-    const uint64_t under = common_divisor(pace.records, s.denominator);
+    const uint64_t over = ratio_divisor(s.numerator, pace.steps);
+    const uint64_t under = ratio_divisor(pace.records, s.denominator);
     if (s.denominator / under > UINT64_MAX / (pace.steps / over) ||
         s.numerator / over > UINT64_MAX / (pace.records / under)) {
         return ratio_of(ratio_times(1, s) * (double)pace.records / (double)pace.steps);

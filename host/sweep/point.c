@@ -7,6 +7,7 @@
 
 #include "changes.h"
 #include "host/base/room.h"
+#include "host/base/written.h"
 #include "host/derive/image_make.h"
 #include "host/derive/lagrange.h"
 #include "host/lang/shown.h"
@@ -163,17 +164,10 @@ static double in_unit(const symbol *of, double si) {
                                                   : si * of->declared.divisor / of->declared.scale;
 }
 
-/* A field of a header: quoted where RFC 4180 wants it. */
 static void header_field(FILE *out, const char *name, const symbol *of, int primes) {
     char *unit = sweep_unit(of, primes);
     char *text = room_words("%s%s", name, unit);
-    const bool quoted = strpbrk(text, ",\"\r\n") != NULL;
-    fputs(quoted ? "\"" : "", out);
-    for (const char *at = text; *at != '\0'; at++) {
-        fputs(*at == '"' ? "\"" : "", out);
-        fputc(*at, out);
-    }
-    fputs(quoted ? "\"" : "", out);
+    written_field(out, text);
     free(text);
     free(unit);
 }

@@ -8,6 +8,7 @@
 #include "caught.h"
 #include "command.h"
 #include "host/base/room.h"
+#include "host/base/written.h"
 #include "host/fixed/engine_fixed.h"
 #include "host/price/table_text.h"
 #include "priced.h"
@@ -106,7 +107,7 @@ static void test_fields_come_back(void) {
         }
         text[length] = '\0';
         caught field;
-        figure_field(catch_text(&field), text);
+        written_field(catch_text(&field), text);
         room_text_end(field.to);
         if (strpbrk(text, ",\"\r\n") == NULL) {
             TEST_ASSERT_EQUAL_STRING(text, field.text);
