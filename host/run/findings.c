@@ -113,10 +113,24 @@ static void say_pole(FILE *out, const verdict *v) {
             begin_s, q->what, statement);
 }
 
+/* Did what rested on a stop slide over an edge of it? */
+static bool slid_off(const verdict *v) {
+    double ignored_s;
+    return jumped_through(v->jumped, &ignored_s).edge;
+}
+
 static void say_missed(FILE *out, const verdict *v) {
     const finding *f = &v->found[FINDING_MISSED];
     const image *im = v->image;
     char statement[STATEMENT_SIZE];
+    if (slid_off(v)) {
+        statement_text(im->contact[f->component].at, statement, sizeof statement);
+        fprintf(out,
+                "in the step after t = %.6g s what rests on a stop slides over an edge, and Whirl "
+                "keeps it there: %s",
+                f->at_s, statement);
+        return;
+    }
     fprintf(out, "the step after t = %.6g s %s ", f->at_s,
             f->value < 1.0 ? "may have passed" : "passed");
     if (f->component < im->contacts) {
@@ -197,7 +211,10 @@ static bool is_told(const verdict *v, finding_id id) { return v->found[id].told;
 static bool say_cause(FILE *out, const verdict *v) {
     const belief *b = &v->balance;
     const char *hint = NULL;
-    if (is_told(v, FINDING_MASS)) {
+    if (slid_off(v)) {
+        hint = "round the edge, with e the way of some steps: sqrt(x^2 + e^2) for abs(x), "
+               "(a + b + sqrt((a - b)^2 + e^2))/2 for max(a, b)";
+    } else if (is_told(v, FINDING_MASS)) {
         hint = v->image->has_energies
                    ? "a coordinate that is counted from a light body to a heavy one does that: "
                      "count it from the heavy one"

@@ -260,13 +260,14 @@ static void print_verdict(FILE *out, const horizon *h) {
                 t->overrun_s);
     }
     if (t->jumped_s >= 0.0) {
-        fprintf(out,
-                t->missed
-                    ? "behind t = %.9g s a step passed through a contact or over a force: only a "
-                      "smaller --step meets it\n"
-                    : "behind t = %.9g s a step jumped over a place where an expression grows "
-                      "without bound: no motion gets through there\n",
-                t->jumped_s);
+        fprintf(
+            out,
+            t->missed
+                ? "behind t = %.9g s a step passed through a contact or over an edge or a force: "
+                  "whirl run says which\n"
+                : "behind t = %.9g s a step jumped over a place where an expression grows "
+                  "without bound: no motion gets through there\n",
+            t->jumped_s);
     }
     if (t->aliased.column > 0) {
         fprintf(out, "more goes on between the stages of its steps than they see, so that half the "
@@ -300,7 +301,7 @@ static void print_reason(FILE *out, const horizon *h) {
               out);
     } else if (cut && t->missed && t->jumped_s >= 0.0) {
         fputs(
-            "behind that a step passed through a contact or over a force, of its own or of half its length",
+            "behind that a step passed through a contact or over an edge or a force, of its own or of half its length",
             out);
     } else {
         fprintf(out, "behind that %s is off by %.3g of its range", name_of(h, h->first, name),

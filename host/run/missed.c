@@ -20,12 +20,16 @@
 /* An acceleration that both ends do not show is so many times theirs, and over a step would change the rate by this share. */
 #define HIDDEN 2.0
 #define TURNS 0.05
+/* A gap's slope that changes by this share of its size in 2^-EDGE_HALVINGS of a step has an edge there. */
+#define EDGE 0.05
+#define EDGE_HALVINGS 8
 
 struct missed {
     const image *image;
     along_bounds *signals; /* or NULL */
     along_bounds *accel;   /* where they are asked for, or NULL */
     bool hills;            /* an exponential function is in them */
+    bool edges;            /* a gap may have an edge */
     along_bounds *laws;    /* of the contacts, where a friction's limits move, or NULL */
     double *from;          /* [angles + reals] the state before the step, */
     double *to;            /* and after it */
@@ -45,6 +49,16 @@ static bool has_exponential(const tape *t) {
     return some;
 }
 
+static bool has_edges(const image *im) {
+    const tape *t = im->contacts > 0 ? im->list[IMAGE_SIGNALS] : NULL;
+    bool some = false;
+    for (int i = 0; t != NULL && i < t->count; i++) {
+        const op_code code = t->ops[i].code;
+        some = some || code == OP_ABS || code == OP_SIGN || code == OP_MIN || code == OP_MAX;
+    }
+    return some && im->contact[0].kind == WH_STOP;
+}
+
 /* The result of the contacts' laws that is this row of contact k. */
 static int law_of(const image *im, int k, int row) {
     return k * (WH_LAW_ROWS + 2 * im->coordinates) + row;
@@ -61,7 +75,7 @@ static bool has_moving_limits(const image *im, int k) {
 missed *missed_open(const image *im) {
     const tape *signals = im->contacts > 0 ? im->list[IMAGE_SIGNALS] : NULL;
     const bool hills = im->form == WH_SECOND_ORDER && has_exponential(im->list[IMAGE_STEP]);
-    const tape *laws = NULL;
+    const tape *laws = has_edges(im) ? im->list[IMAGE_FORCES] : NULL;
     for (int k = 0; k < im->forced; k++) {
         laws = has_moving_limits(im, k) ? im->list[IMAGE_FORCES] : laws;
     }
@@ -73,6 +87,7 @@ missed *missed_open(const image *im) {
     m->image = im;
     m->signals = signals != NULL ? along_open(im, signals) : NULL;
     m->hills = hills;
+    m->edges = has_edges(im);
     m->accel = hills || laws != NULL ? along_open(im, im->list[IMAGE_STEP]) : NULL;
     m->laws = laws != NULL ? along_open(im, laws) : NULL;
     m->from = room(2 * all + im->coordinates, sizeof *m->from);
@@ -263,6 +278,58 @@ static int limit_passes(missed *m, int k) {
                            HALVINGS);
 }
 
+/* --- edges ---------------------------------------------------------------------------------------------*/
+
+static double look_width(missed *m, int i, double low, double high) {
+    along_look(m->laws, i, low, high);
+    const enclosure e = along_value(m->laws, i);
+    return enclosure_is_finite(e) ? e.high - e.low : 0.0;
+}
+
+static int look_edge(missed *m, int i, double low, double high, double most) {
+    return look_width(m, i, low, high) <= most                ? 0
+           : high - low <= 1.0 / (double)(1 << EDGE_HALVINGS) ? 1
+                                                              : -1;
+}
+
+/* Does the slope of stop k's gap jump on the way? What lies on an edge all the way slides over none. */
+static bool slope_jumps(missed *m, int k) {
+    bool some = false;
+    for (int c = 0; c < m->image->coordinates && !some; c++) {
+        const int i = law_of(m->image, k, WH_LAW_ROWS + c);
+        const double width[2] = {look_width(m, i, 0.0, 0.0), look_width(m, i, 1.0, 1.0)};
+        const double size = enclosure_size(along_value(m->laws, i));
+        along_look(m->laws, i, 0.0, 0.0);
+        const double most = EDGE * (size + enclosure_size(along_value(m->laws, i)));
+        m->parts = 0;
+        some = (width[0] <= most || width[1] <= most) &&
+               passes(m, look_edge, i, 0.0, 1.0, most, EDGE_HALVINGS) > 0;
+    }
+    return some;
+}
+
+/* A stop that rests is put back onto its face at the end of each step, also where it has slid over an edge. So the way that its
+ * rates at the begin lead is looked at, too. */
+static missed_found edge_passed(missed *m) {
+    const engine_piece *p = m->piece;
+    const int n = m->image->coordinates;
+    double ahead[2 * IMAGE_COMPONENTS_MAX];
+    memcpy(ahead, p->from, 2 * (size_t)n * sizeof *ahead);
+    for (int i = 0; i < n; i++) {
+        ahead[i] += p->span_s * p->from[n + i];
+    }
+    for (int way = 0; way < 2; way++) {
+        along_way(m->laws, p->from, way == 0 ? p->to : ahead, p->span_s);
+        for (int k = 0; k < m->image->forced; k++) {
+            if (m->image->contact[k].kind == WH_STOP && p->mode[k] != WH_FREE &&
+                slope_jumps(m, k)) {
+                return (missed_found){.what = k, .sure = true, .edge = true};
+            }
+        }
+    }
+    return MISSED_NOTHING;
+}
+
 static missed_found contact_passed(missed *m) {
     missed_found found = MISSED_NOTHING;
     for (int k = 0; k < m->image->contacts && !found.sure; k++) {
@@ -318,6 +385,7 @@ static missed_found piece_passed(missed *m, const engine_piece *piece) {
         }
     }
     found = m->signals != NULL ? contact_passed(m) : found;
+    found = found.what < 0 && m->edges ? edge_passed(m) : found;
     return found.what < 0 && m->hills ? force_passed(m) : found;
 }
 

@@ -7,7 +7,10 @@
  * excluded. A contact that stays open after so many parts is reported as open. Accelerations are bounded so if an exponential
  * function is in them: far above those at both ends, and enough to turn the rate, the step has passed over a force. One that
  * stays open is reported as open. A friction's limits are bounded so if they move: it has passed over one if they are far
- * larger than at both ends where it slides, or too small to keep it where it sticks. */
+ * larger than at both ends where it slides, or too small to keep it where it sticks.
+ *
+ * A stop's gap with abs, max, min or sign may have edges. The core keeps what rests on one face there, and does not let it go at
+ * an edge. A step in which the slope of such a gap jumps while the stop rests is reported. */
 #ifndef RUN_MISSED_H
 #define RUN_MISSED_H
 
@@ -23,8 +26,9 @@ void missed_close(missed *m); /* NULL is fine */
 typedef struct missed_found {
     int what;
     bool sure;
+    bool edge; /* a body that rested on the stop slid over an edge of it */
 } missed_found;
-#define MISSED_NOTHING ((missed_found){-1, false})
+#define MISSED_NOTHING ((missed_found){-1, false, false})
 
 /* Enter the state after each step, the start included. `eventful`: the step had events. */
 missed_found missed_enter(missed *m, const engine_kind *kind, const void *run, bool eventful);

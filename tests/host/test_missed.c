@@ -1,5 +1,5 @@
 /* test_missed.c: contacts and forces thinner than the way of a step. Round posts are met, as closed forms have it
- * (core/contact_step.h); of latches, flat walls and hills of potential energy none is passed without a word (host/run/missed.h);
+ * (core/contact_step.h); of latches, flat walls, edges and hills of potential energy none is passed without a word (host/run/missed.h);
  * and of right runs none is told. WHIRL_CASES=2000 WHIRL_SEED=...: so many, others. */
 #include <math.h>
 #include <stdio.h>
@@ -488,6 +488,49 @@ static void test_right_runs(void) {
     TEST_ASSERT_TRUE(told * 20 <= cases);
 }
 
+/* Faces that end at $x = 0; the last ones do not. */
+static const char *const faces[] = {
+    "stop max($x, $y) >= 0 restitution %.3f",
+    "stop max(abs($x + 0.6 [m]) - 0.6 [m], $y) >= 0 restitution %.3f",
+    "stop $y >= -0.7*abs($x + abs($x)) restitution %.3f",
+    "stop $y + 0.01*($x + abs($x)) >= 0 restitution %.3f",
+    "stop max(abs($x) - 9 [m], $y) >= 0 restitution %.3f",
+    "stop $y >= 0.02 [m]*(cos($x/(1 [m])) - 0.5) restitution %.3f\n"
+    "stop abs($x) <= 9 [m] restitution 0",
+};
+
+enum { FACES = sizeof faces / sizeof faces[0], FACES_ENDING = FACES - 2 };
+
+/* A body slides on a face and, in half of the runs, over its edge, from where it flies: it is there, or it is told. What stays on its
+ * face is never told. */
+static void test_edges(void) {
+    dice d = dice_of("missed", 7);
+    const unsigned cases = dice_cases(60);
+    unsigned told = 0;
+    for (unsigned k = 0; k < cases; k++) {
+        motion m;
+        char from[400];
+        char more[TEXT];
+        const unsigned face = k % FACES;
+        const bool goes_over = face < FACES_ENDING && dice_one_of(&d, 2) == 0;
+        flight f = flight_draw(&d);
+        snprintf(from, sizeof from, "V = 9.81 [N]*$y\n");
+        snprintf(from + strlen(from), sizeof from - strlen(from), faces[face],
+                 0.5 * (double)dice_one_of(&d, 3));
+        f.until_s = goes_over || face >= FACES_ENDING ? f.until_s
+                                                      : f.step_s * floor(0.9 / f.v_m_s / f.step_s);
+        place_write(&f, 0.0, from, more);
+        const bool is_told = fly(&m, &f, more, 0.0);
+        const double falls_s = f.until_s + f.start_m / f.v_m_s;
+        const double y_m = f.place_m[1] - (goes_over ? 0.5 * 9.81 * falls_s * falls_s : 0.0);
+        const bool is_right = fabs(motion_value(&m, "y") - y_m) < 1e-6;
+        TEST_ASSERT_TRUE_MESSAGE(goes_over ? is_told || is_right : !is_told, text);
+        told += is_told;
+        motion_close(&m);
+    }
+    TEST_ASSERT_TRUE(told * 5 > cases);
+}
+
 void suite_missed(void) {
     RUN_TEST(test_posts);
     RUN_TEST(test_flat_ones);
@@ -496,4 +539,5 @@ void suite_missed(void) {
     RUN_TEST(test_narrow_limits_and_crossings);
     RUN_TEST(test_moving_ones);
     RUN_TEST(test_right_runs);
+    RUN_TEST(test_edges);
 }
