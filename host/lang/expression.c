@@ -15,8 +15,6 @@
 
 #include "host/lang/cursor.h"
 
-#define PI 3.14159265358979323846
-
 static const char *skip_blanks(const char *text) {
     while (*text == ' ' || *text == '\t') {
         text++;

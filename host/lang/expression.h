@@ -6,6 +6,8 @@
 #include "host/lang/parser.h"
 #include "host/lang/words.h"
 
+#define PI 3.14159265358979323846
+
 /* --- grammar (expression.c, contact_statement.c) --- */
 const expr *parse_expression(parser *in, expr_context context); /* NULL: gave up */
 bool parse_close(parser *in, place open);                       /* the ')' that closes `open` */

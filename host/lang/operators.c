@@ -15,6 +15,41 @@ expr *expr_new(parser *in, expr_op op, place at) {
     return made;
 }
 
+/* Is pi in it? Then it is meant in radians. */
+static bool has_pi(const expr *tree) {
+    return tree != NULL && ((tree->op == EXPR_NUMBER && tree->number == PI) || has_pi(tree->left) ||
+                            has_pi(tree->right));
+}
+
+static const symbol *angle_of(const expr *tree) {
+    const symbol *s = tree->symbol;
+    if (s != NULL && s->kind == SYM_LET && tree->primes == 0) {
+        return s->value != NULL ? angle_of(s->value) : NULL;
+    }
+    const bool is_angle = s != NULL && tree->primes == 0 && dim_is_none(s->dim) &&
+                          (s->is_angle || unit_is_angle(s->unit, strlen(s->unit)));
+    return is_angle && !unit_is_si(s->declared) ? s : tree->angle;
+}
+
+static bool is_factor(const expr *tree) { return tree->uses == 0 && !has_pi(tree); }
+
+static const symbol *angle_in(expr_op op, const expr *left, const expr *right) {
+    const symbol *a = angle_of(left);
+    const symbol *b = right != NULL ? angle_of(right) : NULL;
+    switch (op) {
+    case EXPR_MUL: return is_factor(left) ? b : is_factor(right) ? a : NULL;
+    case EXPR_DIV: return is_factor(right) ? a : NULL;
+    case EXPR_ADD:
+    case EXPR_SUB:
+    case EXPR_NEG: return a != NULL ? a : b;
+    case EXPR_NUMBER:
+    case EXPR_SYMBOL:
+    case EXPR_POW:
+    case EXPR_CALL: break;
+    }
+    return NULL;
+}
+
 static expr *join(parser *in, expr_op op, place at, const expr *left, const expr *right) {
     expr *made = expr_new(in, op, at);
     made->left = left;
@@ -22,6 +57,7 @@ static expr *join(parser *in, expr_op op, place at, const expr *left, const expr
     made->height = left->height + 1;
     made->order = left->order;
     made->uses = left->uses;
+    made->angle = angle_in(op, left, right);
     if (right != NULL) {
         made->height = right->height >= left->height ? right->height + 1 : made->height;
         made->order = right->order > left->order ? right->order : left->order;
@@ -79,6 +115,27 @@ bool check_dimension(parser *in, place at, const expr *value, dimension wanted, 
     return false;
 }
 
+static const char is_declared[] = "'%s' is declared in [%s], and this value has no unit";
+
+/* Report a bare number that is added to, or compared with, an angle that was not declared in radians. */
+static void check_bare(parser *in, const expr *value, const symbol *angle) {
+    const symbol *s = value->symbol;
+    const expr *is = s != NULL && s->kind == SYM_LET && s->value != NULL ? s->value : value;
+    char text[NAME_LENGTH_MAX + 8];
+    char hint[2 * NAME_LENGTH_MAX + 80];
+    double number = 0.0;
+    if (angle == NULL || !expr_constant(is, &number) || number == 0.0 || has_pi(is)) {
+        return;
+    }
+    if (s != NULL) {
+        snprintf(text, sizeof text, "%s*1", s->name);
+    } else {
+        snprintf(text, sizeof text, "%.15g", number);
+    }
+    snprintf(hint, sizeof hint, "write %s [%s], or in SI: %s [rad]", text, angle->unit, text);
+    diag_error(in->diags, value->at, hint, is_declared, angle->name, angle->unit);
+}
+
 /* `with_name`: put the symbol's name before the value, as in a start. */
 static bool has_unit(parser *in, place at, const expr *value, const symbol *of, int primes,
                      bool with_name) {
@@ -115,8 +172,7 @@ static bool has_unit(parser *in, place at, const expr *value, const symbol *of, 
         snprintf(hint, sizeof hint, "write %s [%s], or in SI: %s [%s]", number_text, unit,
                  number_text, si);
     }
-    diag_error(in->diags, at, hint, "'%s' is declared in [%s], and this value has no unit",
-               of->name, of->unit);
+    diag_error(in->diags, at, hint, is_declared, of->name, of->unit);
     free(si);
     free(unit);
     return false;
@@ -137,6 +193,8 @@ static dimension common_dimension(parser *in, place at, const expr *left, const 
     dimension common = left->dim.any ? right->dim : left->dim;
     common.unknown = left->dim.unknown || right->dim.unknown;
     if (dim_fits(left->dim, right->dim)) {
+        check_bare(in, left, angle_of(right));
+        check_bare(in, right, angle_of(left));
         return common;
     }
     char hint[200] = "";
@@ -279,8 +337,14 @@ const expr *expr_call(parser *in, function_id function, place at, const expr *le
         common_dimension(in, at, left, right, words, "and");
         made->uses |= USES_UNIT; /* radians */
         break;
-    case TAKES_CHOICE: made->dim = common_dimension(in, at, left, right, words, "and"); break;
-    case TAKES_SIZE: made->dim = left->dim; break;
+    case TAKES_CHOICE:
+        made->dim = common_dimension(in, at, left, right, words, "and");
+        made->angle = angle_in(EXPR_ADD, left, right);
+        break;
+    case TAKES_SIZE:
+        made->dim = left->dim;
+        made->angle = angle_of(left);
+        break;
     case TAKES_ANY: break;
     case TAKES_SQUARE:
         if (!dim_power(left->dim, 0.5, &made->dim)) {

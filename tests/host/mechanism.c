@@ -69,10 +69,10 @@ static void leaf(writer *w) {
         number(w);
     } else if (w->is_angle[i]) {
         switch (draw(w, 6)) {
-        case 0: put(w, "2*q%u", i); break;
-        case 1: put(w, "q%u/2", i); break;
-        case 2: put(w, "3*q%u", i); break;
-        default: put(w, "q%u", i); break;
+        case 0: put(w, "2*q%u/(1 [rad])", i); break;
+        case 1: put(w, "q%u/2/(1 [rad])", i); break;
+        case 2: put(w, "3*q%u/(1 [rad])", i); break;
+        default: put(w, "q%u/(1 [rad])", i); break;
         }
     } else {
         put(w, "(q%u/l%u)", i, i);

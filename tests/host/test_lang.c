@@ -361,6 +361,69 @@ static void test_a_value_without_its_unit_is_refused(void) {
     TEST_ASSERT_TRUE(refused > 500);
 }
 
+/* A bare number beside an angle in [deg], in every sum and comparison that there is: refused but for 0 and pi, with a hint that can be
+ * pasted; taken of an angle in [rad]. */
+static void test_a_bare_number_beside_an_angle(void) {
+    static const char *const lines[] = {
+        "stop %s >= a restitution 0",
+        "stop a - %s <= 0 restitution 0",
+        "stop abs(a) <= %s restitution 0",
+        "stop 2*a <= %s restitution 0",
+        "stop a/2 <= k + %s restitution 0",
+        "stop b <= %s restitution 0",
+        "let l = %s\nstop a <= l restitution 0",
+        "hold a while a > %s",
+        "hold a while a' > 1 [rad/s] and (%s < a or -a > 2*k)",
+        "when a - %s crosses 0 { set a = 0 }",
+        "V = 1 [J]*(a - %s)^2",
+        "V = 1 [J]*sin(k + a - %s)",
+        "V = 1 [J]*max(a - %s, 0)",
+        "V = 1 [J]*min(%s, -a)",
+        "output o [deg] = a - %s",
+    };
+    static const char *const numbers[] = {"30", "-2*15", "0", "pi/2", "30 [deg]"};
+    enum { LINES = sizeof lines / sizeof lines[0], NUMBERS = sizeof numbers / sizeof numbers[0] };
+    for (int k = 0; k < LINES * NUMBERS * 2; k++) {
+        const bool in_degrees = k % 2 == 0;
+        const int n = k / 2 % NUMBERS;
+        char number[80];
+        snprintf(number, sizeof number, "%s", numbers[n]);
+        for (int again = 0; again < 2; again++) {
+            const bool wanted = again == 1 || !in_degrees || n > 1;
+            char line[200];
+            char text[700];
+            snprintf(line, sizeof line, lines[k / 2 / NUMBERS], number);
+            snprintf(text, sizeof text,
+                     "mechanism m\ncoordinate a [%s]\nparameter k = 20 [%s]\nlet b = 2*a + k\n"
+                     "T = 1 [kg*m^2]*a'^2\n%s\nscene s { until 1 [s] }\n",
+                     in_degrees ? "deg" : "rad", in_degrees ? "deg" : "rad", line);
+            diags *errors = diags_new();
+            whirl_model *model = model_parse("x.whirl", text, strlen(text), errors);
+            char *report = NULL;
+            size_t size = 0;
+            FILE *out = open_memstream(&report, &size);
+            diags_flush(errors, out);
+            fclose(out);
+            const char *hint = strstr(report, "hint: write ");
+            TEST_ASSERT_EQUAL_INT_MESSAGE(!wanted, strstr(report, "this value has no unit") != NULL,
+                                          text);
+            TEST_ASSERT_TRUE_MESSAGE(model != NULL || !wanted, report);
+            const bool is_let = strncmp(line, "let", 3) == 0;
+            if (!wanted) {
+                TEST_ASSERT_NOT_NULL_MESSAGE(hint, report);
+                TEST_ASSERT_NOT_NULL_MESSAGE(strstr(hint, is_let ? "l*1 [deg]" : "30 [deg]"), hint);
+                snprintf(number, sizeof number, "(%.*s)", (int)strcspn(hint + 12, ","), hint + 12);
+            }
+            if (is_let) {
+                snprintf(number, sizeof number, "30 [deg]");
+            }
+            free(report);
+            diags_free(errors);
+            model_free(model);
+        }
+    }
+}
+
 /* The same through a parameter that has none, and not where radians are what a function gives. */
 static void test_units_come_through_names(void) {
     static const char *const good[] = {"X = 2*p", "X = asin(0.5)", "X = q0*1 [deg]"};
@@ -384,6 +447,7 @@ static void test_units_come_through_names(void) {
 
 void suite_lang(void) {
     RUN_TEST(test_a_value_without_its_unit_is_refused);
+    RUN_TEST(test_a_bare_number_beside_an_angle);
     RUN_TEST(test_units_come_through_names);
     RUN_TEST(test_units);
     RUN_TEST(test_a_divided_unit_goes_from_left_to_right);
