@@ -83,6 +83,8 @@ const char *first_word_hint(const char *text, size_t length) {
         {"lookup", TABLE},
         {"interp", TABLE},
         {"constraint", "write: hold x - l*sin(a) while 1 > 0"},
+        {"duration", "write: until 2 [s]"},
+        {"for", "write: until 2 [s]"},
         {"tunable", "what may change while running is an input: input k = 3 [N/m]"}};
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         if (strlen(rows[i].word) == length && memcmp(rows[i].word, text, length) == 0) {
