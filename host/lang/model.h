@@ -77,9 +77,9 @@ struct expr {
     const expr *right;
     place at; /* the operator's or the operand's place, for messages */
     dimension dim;
-    int height;    /* 1 for a leaf; a let or output counts with its expression */
-    int order;     /* most primes on any coordinate or state, through lets too */
-    unsigned uses; /* USES_ bits of its dependencies, through lets too */
+    int height;          /* 1 for a leaf; a let or output counts with its expression */
+    int order;           /* most primes on any coordinate or state, through lets too */
+    unsigned uses;       /* USES_ bits of its dependencies, through lets too */
     const symbol *angle; /* a name of it that is an angle not declared in SI, or NULL */
 };
 
