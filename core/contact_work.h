@@ -226,7 +226,7 @@ WH_INLINE wh_real wh_delassus_diagonal(const wh_contact_system *of, const wh_con
 
 /* Solve sum_l (J_k M^-1 J_l^T) lambda_l = wanted_k for the `count` contacts in member[], by elimination
  * without pivoting: the matrix is positive definite, but for contacts that repeat what others hold
- * already, which get nothing to do. Returns those, as bits of their places in member[]. Those with at[]
+ * already, which get nothing to do (NaN, where what they repeat is no number). Returns those, as bits of their places in member[]. Those with at[]
  * other than zero get nothing, too; at may be NULL. */
 static inline unsigned wh_delassus_eliminate(const wh_contact_system *of, const wh_contact_work *w,
                                              const uint8_t *member, unsigned count,
@@ -260,7 +260,7 @@ static inline unsigned wh_delassus_eliminate(const wh_contact_system *of, const 
         for (unsigned c = p + 1; c < count; c++) {
             sum -= matrix[p][c] * lambda[c];
         }
-        lambda[p] = idle[p] ? WH_R(0.0) : sum / matrix[p][p];
+        lambda[p] = idle[p] ? lambda[p] - lambda[p] : sum / matrix[p][p];
     }
     return repeats;
 }
@@ -275,7 +275,7 @@ WH_INLINE unsigned wh_delassus_solve(const wh_contact_system *of, const wh_conta
     }
     if (of->forced == 1 || count == 1) {
         const wh_real yield = wh_delassus_diagonal(of, w, member[0]);
-        lambda[0] = yield > WH_R(0.0) ? wanted[0] / yield : WH_R(0.0);
+        lambda[0] = yield > WH_R(0.0) ? wanted[0] / yield : wanted[0] - wanted[0];
         return yield > WH_R(0.0) ? 0U : 1U;
     }
     return wh_delassus_eliminate(of, w, member, count, at, wanted, lambda);
