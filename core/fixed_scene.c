@@ -72,12 +72,13 @@ int32_t wh_fixed_of(const wh_fixed_format *format, wh_real value, uint32_t *satu
     const wh_real number = scaled(value, format->bits);
     const wh_real high = (wh_real)format->high; /* error up to 64 in float, beyond 2^24 only */
     const wh_real low = (wh_real)format->low;
+    const wh_real place = WH_DOUBLE ? WH_R(0.0) : WH_R(0x1p-23); /* an end that was rounded, too */
     if (!(number > low)) {
-        *saturated += number == low ? 0U : 1U;
+        *saturated += number >= low - (WH_R(1.0) + place * WH_ABS(low)) ? 0U : 1U;
         return format->low;
     }
     if (number >= high) {
-        *saturated += number == high ? 0U : 1U;
+        *saturated += number <= high + (WH_R(1.0) + place * WH_ABS(high)) ? 0U : 1U;
         return format->high;
     }
     const int32_t near = (int32_t)(WH_ABS(number) < WH_R(0x1p23)

@@ -89,7 +89,8 @@ wh_status wh_fixed_step(const wh_fixed_scene *scene, wh_fixed_state *state);
 uint64_t wh_fixed_hash(const wh_fixed_scene *scene, const wh_fixed_state *state);
 
 /* Conversions, in floating point; no step calls them. A number of this format: to the nearest, halves away from zero.
- * Beyond the range the nearest end, for NaN the low one; *saturated counts both. */
+ * Beyond the range the nearest end, for NaN the low one; *saturated counts both. A range may end between two numbers of
+ * the format: its end, up to a unit (in float also its last place) beyond, is inside. */
 int32_t wh_fixed_of(const wh_fixed_format *format, wh_real value, uint32_t *saturated);
 wh_real wh_fixed_to(const wh_fixed_format *format, int32_t number);
 

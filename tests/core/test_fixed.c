@@ -290,13 +290,31 @@ static void test_edges(void) {
     TEST_ASSERT_EQUAL_INT32(formats[0].high, state.real[0]);
     wh_fixed_set_real(&scene, &state, 0, WH_R(-100.5));
     TEST_ASSERT_EQUAL_INT32(formats[0].low, state.real[0]);
-    TEST_ASSERT_EQUAL_INT(WH_E_ARGUMENT, wh_fixed_set_input(&scene, &state, 0, WH_R(8001.0)));
+    TEST_ASSERT_EQUAL_INT(WH_E_ARGUMENT, wh_fixed_set_input(&scene, &state, 0, WH_R(8009.0)));
     TEST_ASSERT_EQUAL_UINT32(3, state.saturated);
     TEST_ASSERT_EQUAL_INT32(1000, state.input[0]);
-    TEST_ASSERT_EQUAL_INT(WH_E_ARGUMENT, wh_fixed_set_input(&scene, &state, 1, WH_R(0.0)));
-    TEST_ASSERT_EQUAL_INT(WH_E_ARGUMENT, wh_fixed_set_input(&scene, &state, 0, (wh_real)NAN));
-    TEST_ASSERT_EQUAL_INT32(1000, state.input[0]); /* as before, and nothing counted */
-    TEST_ASSERT_EQUAL_UINT32(3, state.saturated);
+    for (long i = 0; i < CASES; i++) { /* ranges of 1 to 7 digits: their ends are inside */
+        double limit = 1.0 + draw() % 9999999U;
+        int16_t bits = 0;
+        for (unsigned places = draw() % 12U; places > 0; places--) {
+            limit /= 10.0;
+        }
+        double end = limit; /* in units, of which there are few or many */
+        for (const double many = 1U << (14U + draw() % 17U); end < many; end += end) {
+            bits++;
+        }
+        const wh_fixed_format format = {bits, -(int32_t)end, (int32_t)end};
+        const wh_real most = (wh_real)limit;
+        uint32_t held = 0;
+        TEST_ASSERT_EQUAL_INT32(format.high, wh_fixed_of(&format, most, &held));
+        TEST_ASSERT_EQUAL_INT32(format.low, wh_fixed_of(&format, -most, &held));
+        TEST_ASSERT_EQUAL_UINT32(0, held);
+        const wh_real more =
+            wh_fixed_to(&format, 2) + (WH_DOUBLE ? WH_R(0.0) : most * WH_R(0x1p-21));
+        TEST_ASSERT_EQUAL_INT32(format.high, wh_fixed_of(&format, most + more, &held));
+        TEST_ASSERT_EQUAL_INT32(format.low, wh_fixed_of(&format, -most - more, &held));
+        TEST_ASSERT_EQUAL_UINT32(2, held);
+    }
     for (long i = 0; i < CASES;
          i++) { /* integers: inside, beyond, and of an input that there is not */
         const int32_t raw = draw_number() >> (draw() % 31U);
