@@ -269,6 +269,7 @@ WH_APART wh_status wh_contact_eventful(const wh_contact_system *of, wh_contact_w
     wh_real reach = h; /* of the next try */
     unsigned round = 0;
     unsigned flat = of->contacts; /* the hold that lost its say */
+    bool overran = false;
 
     log.count = 0;
     wh_contact_work_open(of, w);
@@ -332,6 +333,7 @@ WH_APART wh_status wh_contact_eventful(const wh_contact_system *of, wh_contact_w
                     continue;
                 }
                 if (round == WH_EVENTS_MAX) {
+                    overran = overran || !calm;
                     wh_contact_overrun(of, w, h, state->input, &a->next);
                     calm = false; /* what that looked at must have been a number, too */
                 }
@@ -361,7 +363,11 @@ WH_APART wh_status wh_contact_eventful(const wh_contact_system *of, wh_contact_w
         if (events != 0) {
             const bool last = ++round == WH_EVENTS_MAX;
             const wh_contact_moment moment = {events, 0, h, last};
+            const unsigned rested = last ? wh_contact_which(of, w, WH_STOP, true) : 0U;
             wh_contact_happen(of, w, &moment, h - left, state->input, &a->now, &log);
+            if (last) { /* what rests now might have bounced */
+                overran = (wh_contact_which(of, w, WH_STOP, true) & ~rested) != 0;
+            }
             if (w->undefined >= 0 || w->fault >= 0) {
                 break;
             }
@@ -378,8 +384,8 @@ WH_APART wh_status wh_contact_eventful(const wh_contact_system *of, wh_contact_w
     wh_books_commit(of, w, state);
     wh_contact_commit(of, w, end, state);
     wh_contact_commit_modes(of, w, 0, state);
-    wh_contact_commit_events(&log, round == WH_EVENTS_MAX || (of->forced > 1 && w->capped),
-                             state->contacts);
+    overran = wh_contact_next(of, w) != 0 || overran || (of->forced > 1 && w->capped);
+    wh_contact_commit_events(&log, overran, state->contacts);
     return WH_OK;
 }
 

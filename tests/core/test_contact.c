@@ -101,7 +101,7 @@ static void test_too_many_bounces_are_counted_and_end(void) {
     TEST_ASSERT_TRUE(WH_ABS(hand_state.real[1]) <= WH_R(1.0));
 }
 
-/* Between two walls 1 m apart, n of them hit in each step of 1 ms: all are told, and eight are too many. */
+/* Between two walls 1 m apart, n of them hit in each step of 1 ms: all are told, of more than eight the first, and counted. */
 static void test_a_step_has_room_for_so_many_moments(void) {
     for (unsigned each = 0; each <= 2U * WH_EVENTS_MAX + 4U; each++) {
         const unsigned n = each / 2U;
@@ -113,7 +113,7 @@ static void test_a_step_has_room_for_so_many_moments(void) {
         hand_steps(each % 2U); /* the first one, or a later one */
         hand_state.real[1] = WH_R(1000.0) * (wh_real)n;
         hand_steps(1);
-        const bool many = n >= WH_EVENTS_MAX;
+        const bool many = n > WH_EVENTS_MAX;
         TEST_ASSERT_EQUAL_UINT(many ? WH_EVENTS_MAX : n, hand_state.contacts->events);
         TEST_ASSERT_EQUAL_UINT(many ? WH_EVENTS_MAX : n, hand_state.contacts->logged);
         TEST_ASSERT_EQUAL_UINT(many, hand_state.contacts->overruns);
@@ -126,6 +126,21 @@ static void test_a_step_has_room_for_so_many_moments(void) {
         TEST_ASSERT_TRUE(many || hand_near(hand_state.real[0], WH_R(0.5), 1e-13, 1e-4));
         const wh_real way = n % 2 == 0 ? WH_R(1000.0) : WH_R(-1000.0);
         TEST_ASSERT_TRUE(many || hand_state.real[1] == way * (wh_real)n);
+    }
+}
+
+/* Where something presses, the body rests on the wall that it hits at the eighth moment, and would have left it. */
+static void test_a_rest_at_the_last_moment_is_counted(void) {
+    for (unsigned n = WH_EVENTS_MAX - 1U; n <= WH_EVENTS_MAX; n++) {
+        hand_build(1, WH_R(1.0), WH_R(0.0), WH_R(1.0));
+        hand_now.load[0] = WH_R(-10.0);
+        hand_add(WH_STOP, 0, WH_R(1.0), WH_R(0.0), WH_R(0.0), WH_R(1.0), WH_R(0.0));
+        hand_add(WH_STOP, 0, WH_R(-1.0), WH_R(0.0), WH_R(-1.0), WH_R(1.0), WH_R(0.0));
+        hand_now.start[0] = WH_R(0.5);
+        hand_now.start[1] = WH_R(1000.0) * (wh_real)n;
+        hand_start(false);
+        hand_steps(1);
+        TEST_ASSERT_EQUAL_UINT(n == WH_EVENTS_MAX, hand_state.contacts->overruns);
     }
 }
 
@@ -253,6 +268,7 @@ void suite_contact(void) {
     RUN_TEST(test_coupled_impact_goes_through_the_mass_matrix);
     RUN_TEST(test_too_many_bounces_are_counted_and_end);
     RUN_TEST(test_a_step_has_room_for_so_many_moments);
+    RUN_TEST(test_a_rest_at_the_last_moment_is_counted);
     RUN_TEST(test_block_sticks_on_the_incline);
     RUN_TEST(test_block_slides_when_friction_is_too_small);
     RUN_TEST(test_thrown_block_stops_and_sticks);
