@@ -11,8 +11,8 @@
  * through the step's ends, steps again to just past it, changes the modes (an impact by an
  * impulse through the mass matrix, Newton's restitution), and goes on with what is left of the step,
  * for at most WH_EVENTS_MAX moments. At the last one stops rest, the rest of the step is done, and where that made a
- * difference the state counts an overrun: the cost of a step is bounded, and no step is skipped. (Brogliato, Nonsmooth Mechanics, chapters 1 and 7; Pfeiffer & Glocker, Multibody Dynamics
- * with Unilateral Contacts.)
+ * difference the state counts an overrun: the cost of a step is bounded, and no step is skipped. (Brogliato, Nonsmooth
+ * Mechanics, chapters 1 and 7; Pfeiffer & Glocker, Multibody Dynamics with Unilateral Contacts.)
  *
  * Contacts are numbered stops first, then holds, frictions and crossings, each in order of
  * declaration; what happens at one instant happens to all of a kind together (contact_resolve.h). Friction's normal

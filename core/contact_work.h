@@ -226,7 +226,8 @@ WH_INLINE wh_real wh_delassus_diagonal(const wh_contact_system *of, const wh_con
 
 /* Solve sum_l (J_k M^-1 J_l^T) lambda_l = wanted_k for the `count` contacts in member[], by elimination
  * without pivoting: the matrix is positive definite, but for contacts that repeat what others hold
- * already, which get nothing to do (NaN, where what they repeat is no number). Returns those, as bits of their places in member[]. Those with at[]
+ * already, which get nothing to do (NaN, where what they repeat is no number). Returns those, as bits of their places in
+ * member[]. Those with at[]
  * other than zero get nothing, too; at may be NULL. */
 static inline unsigned wh_delassus_eliminate(const wh_contact_system *of, const wh_contact_work *w,
                                              const uint8_t *member, unsigned count,

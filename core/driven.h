@@ -1,6 +1,6 @@
 /* driven.h: inputs with a rate (`input L rate Lv`). Inside a step they move as coordinates without forces. Part of
  * generated scenes that have one. The caller sets value and rate between steps, or the rate alone. A step starts from
- * both and updates both. */
+ * both and updates both; a refused step leaves the state as it was. */
 #ifndef WH_DRIVEN_H
 #define WH_DRIVEN_H
 
@@ -27,6 +27,13 @@ typedef struct wh_driven {
     uint8_t rate_at;
 } wh_driven;
 
+/* What a refused step restores: the components, the levels at the start and, behind them, the corrections. */
+typedef struct wh_driven_kept {
+    wh_real real[2 * WH_COORDS];
+    wh_real books[2 * WH_ACCOUNTS_MAX];
+    bool booked;
+} wh_driven_kept;
+
 /* The state was corrected, and the levels were `before`: the change is stored as a correction. */
 static inline void wh_ledger_correct(const wh_ledger_form *form, const wh_state *state,
                                      const wh_real *before) {
@@ -46,32 +53,49 @@ static inline void wh_ledger_correct(const wh_ledger_form *form, const wh_state 
 /* Before a step: copy the inputs to the components. With a ledger (`form`, or NULL), the change of the accounts is a
  * correction, as in wh_scene_set_real(). */
 WH_INLINE void wh_driven_begin(const wh_driven *drive, unsigned count, const wh_ledger_form *form,
-                               wh_state *state) {
+                               wh_driven_kept *kept, wh_state *state) {
     wh_real before[WH_ACCOUNTS_MAX];
     bool set = false;
     for (unsigned i = 0; i < count; i++) {
         set = set || state->real[drive[i].value_at] != state->input[drive[i].input] ||
               state->real[drive[i].rate_at] != state->input[drive[i].rate];
     }
-    const bool booked = set && form != NULL && state->steps > 0;
-    if (booked) {
+    kept->booked = set && form != NULL && state->steps > 0;
+    if (kept->booked) {
         wh_ledger_last_levels(form, state, before);
+        for (unsigned i = 0; i < 2U * wh_ledger_level_count(form); i++) {
+            kept->books[i] = state->ledger[2U * form->entries + i];
+        }
     }
     for (unsigned i = 0; i < count; i++) {
+        kept->real[2 * i] = state->real[drive[i].value_at];
+        kept->real[2 * i + 1] = state->real[drive[i].rate_at];
         state->real[drive[i].value_at] = state->input[drive[i].input];
         state->real[drive[i].rate_at] = state->input[drive[i].rate];
     }
-    if (booked) {
+    if (kept->booked) {
         wh_ledger_correct(form, state, before);
     }
 }
 
-/* After a completed step: copy the components to the inputs. */
-WH_INLINE void wh_driven_end(const wh_driven *drive, unsigned count, wh_state *state) {
-    for (unsigned i = 0; i < count; i++) {
+/* After a completed step: copy the components to the inputs. After a refused one: restore components and ledger.
+ * Returns the step's status. */
+WH_INLINE wh_status wh_driven_end(const wh_driven *drive, unsigned count,
+                                  const wh_ledger_form *form, const wh_driven_kept *kept,
+                                  wh_status status, wh_state *state) {
+    for (unsigned i = 0; i < count && status == WH_OK; i++) {
         state->input[drive[i].input] = state->real[drive[i].value_at];
         state->input[drive[i].rate] = state->real[drive[i].rate_at];
     }
+    for (unsigned i = 0; i < count && status != WH_OK; i++) {
+        state->real[drive[i].value_at] = kept->real[2 * i];
+        state->real[drive[i].rate_at] = kept->real[2 * i + 1];
+    }
+    for (unsigned i = 0; kept->booked && status != WH_OK && i < 2U * wh_ledger_level_count(form);
+         i++) {
+        state->ledger[2U * form->entries + i] = kept->books[i];
+    }
+    return status;
 }
 
 #endif

@@ -55,6 +55,7 @@ struct wh_scene {
     uint8_t outputs;  /* computed by observe(), never in the step */
     uint8_t contacts; /* stops, holds, frictions and crossings, <= WH_CONTACTS_LIMIT */
     uint8_t held;     /* holds that could slip: along several coordinates, or curved */
+    uint8_t driven;   /* inputs with a rate; the last positions and the last rates follow them */
     bool compensated; /* sums are compensated for round-off */
     wh_real step_s;   /* fixed step, seconds, > 0 */
     wh_fraction step; /* the same exactly, for wh_scene_time(); {0, 0}: not known */
@@ -138,7 +139,8 @@ wh_status wh_scene_steps(const wh_scene *scene, wh_state *state, uint32_t steps)
  * hold keeps the value it finds. The component's compensation is reset. With a ledger, the change of each account is
  * stored apart (wh_ledger_corrected()). An angle keeps its turns. wh_scene_move_angle() adds to the angle and so keeps
  * all its digits after many turns. Returns WH_OK; or, with the state unchanged, WH_E_ARGUMENT for an index that the
- * scene does not have, a value that is not finite or out of bounds, and a state that was not started. */
+ * scene does not have or that follows an input with a rate (set the input), a value that is not finite or out of
+ * bounds, and a state that was not started. */
 wh_status wh_scene_set_real(const wh_scene *scene, wh_state *state, unsigned real, wh_real value);
 wh_status wh_scene_set_angle(const wh_scene *scene, wh_state *state, unsigned angle, wh_real rad);
 wh_status wh_scene_move_angle(const wh_scene *scene, wh_state *state, unsigned angle,

@@ -38,8 +38,16 @@ static bool is_started(const wh_scene *scene, const wh_state *state) {
     return scene != NULL && state != NULL && state->real != NULL;
 }
 
+/* Does it follow an input with a rate? Then the next step would set it back. */
+static bool is_driven(const wh_scene *scene, unsigned real) {
+    const unsigned linears = (scene->reals - scene->angles) / 2U;
+    const unsigned behind = real < linears ? linears : scene->reals;
+    return real + scene->driven >= behind;
+}
+
 wh_status wh_scene_set_real(const wh_scene *scene, wh_state *state, unsigned real, wh_real value) {
-    if (!is_started(scene, state) || real >= scene->reals || !wh_believable(value, WH_ABSURD)) {
+    if (!is_started(scene, state) || real >= scene->reals || is_driven(scene, real) ||
+        !wh_believable(value, WH_ABSURD)) {
         return WH_E_ARGUMENT;
     }
     replace(scene, state, scene->angles + real, NULL, &value);

@@ -42,9 +42,10 @@ typedef struct wh_event {
 
 /* The variables of the contacts. */
 typedef struct wh_contacts {
-    uint64_t events;   /* since the start */
-    uint64_t overruns; /* steps with more than WH_EVENTS_MAX moments with events, or a stop that rests from the last of these on */
-    uint32_t logged;   /* events of the last step, in log[] */
+    uint64_t events; /* since the start */
+    /* steps with more than WH_EVENTS_MAX moments with events, or a stop that rests from the last of these on */
+    uint64_t overruns;
+    uint32_t logged; /* events of the last step, in log[] */
     wh_event log[WH_EVENT_LOG];
     int8_t mode[WH_CONTACTS_LIMIT]; /* [scene->contacts] are in use */
 } wh_contacts;

@@ -447,6 +447,9 @@ static void write_scene(FILE *out, const image *im) {
     if (im->contacts > 0) {
         fprintf(out, "    .contacts = %d,\n    .held = %d,\n", im->contacts, im->held);
     }
+    if (im->drives > 0) {
+        fprintf(out, "    .driven = %d,\n", im->drives);
+    }
     if (im->ledger.kept) {
         fprintf(out, "    .ledger = &ledger,\n");
     }
@@ -588,6 +591,7 @@ static void write_advance(FILE *out, const image *im) {
     if (im->drives == 0) {
         fputs("    return wh_step_counted(one_step(scene, state), state);\n}\n\n", out);
     } else {
+        const char *books = im->ledger.kept ? "&ledger" : "NULL";
         fprintf(out, "    static const wh_driven drive[%d] = {", im->drives);
         for (int i = 0; i < im->drives; i++) {
             const wh_driven d = core_drive(&im->drive[i]);
@@ -595,11 +599,12 @@ static void write_advance(FILE *out, const image *im) {
                     d.rate_at);
         }
         fprintf(out,
-                "};\n    wh_driven_begin(drive, %dU, %s, state);\n"
+                "};\n    wh_driven_kept kept;\n"
+                "    wh_driven_begin(drive, %dU, %s, &kept, state);\n"
                 "    const wh_status status = one_step(scene, state);\n"
-                "    if (status == WH_OK) {\n        wh_driven_end(drive, %dU, state);\n    }\n"
-                "    return wh_step_counted(status, state);\n}\n\n",
-                im->drives, im->ledger.kept ? "&ledger" : "NULL", im->drives);
+                "    return wh_step_counted(wh_driven_end(drive, %dU, %s, &kept, status, state), "
+                "state);\n}\n\n",
+                im->drives, books, im->drives, books);
     }
     if (has_ahead(im)) {
         fprintf(out,

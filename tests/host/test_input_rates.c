@@ -270,6 +270,86 @@ static void test_a_pendulum_on_a_rope_of_changing_length(void) {
     TEST_ASSERT_TRUE(slipped[0] <= 1e-13 && slipped[1] <= 2e-6);
 }
 
+/* --- refused steps and corrections ---------------------------------------------------------------------------- */
+
+/* Scenes with any step: with books or without; x is free, at a wall that the input moves, or held, by one or several. */
+static void refused_text(dice *d, unsigned i, char text[static 900]) {
+    static const char *const contact[] = {
+        "",
+        "stop x >= L restitution 0.5\n",
+        "hold x - L while 1 > 0\n",
+        "hold x while 1 > 0\n",
+        "friction x static 9 kinetic 9 normal 9 [N]\nhold x while 1 > 0\n",
+        "hold x while 1 > 0\nhold x while 1 > 0\n",
+        "hold x - y while 1 > 0\nhold x while 1 > 0\n"};
+    snprintf(text, 900,
+             "mechanism wall\ncoordinate a [rad]\ncoordinate y [m]\ncoordinate x [m]\n"
+             "input Lv = %.17g [m/s]\ninput L rate Lv = %.17g [m]\ninput M = 0.1 [N*m]\n"
+             "input K rate Kv = 0.2 [m]\ninput Kv rate Ka = 0 [m/s]\ninput Ka = 0.1 [m/s^2]\n"
+             "input P = 0.1 [N]\nT = 1 [kg]*(x'^2 + y'^2)/2 + 0.1 [kg*m^2]*a'^2/2\n"
+             "V = 50 [N/m]*((x - L)^2 + (y - K)^2)/2 - 1 [J]*cos(a)\nQ(a) = M\nQ(x) = P\n%s"
+             "scene s {%s\n start x = %.17g [m]\n step 1 [ms]\n until 1 [s]\n}\n",
+             dice_between(d, -0.2, 0.2), dice_between(d, -0.5, -0.3), contact[i / 2 % 7],
+             i % 2 ? " with ledger" : "", dice_between(d, -0.3, 0.3));
+}
+
+/* A refused step, for whatever input, leaves the state as it was, and then no trace: the run goes on as one that was not asked
+ * for it, also with other inputs than the last good ones. */
+static void test_a_refused_step_leaves_no_trace(void) {
+    static const double bad[] = {NAN, INFINITY, -INFINITY, 1e20,
+                                 1e30}; /* finite forces may be held */
+    dice d = dice_of("input_rates", 4603);
+    for (unsigned i = 0; i < dice_cases(56); i++) {
+        char text[900];
+        motion m[2];
+        double left[2][8] = {{0.0}};
+        refused_text(&d, i, text);
+        for (int k = 0; k < 2; k++) {
+            motion_open_text(
+                &m[k], text,
+                (stepping){.kind = KINDS[i / 14 % 2], .method = WH_RK4, .ledger = i % 2 == 1});
+            TEST_ASSERT_EQUAL_INT(WH_OK, motion_step(&m[k], i % 5 * 30));
+        }
+        for (int input = 0; input < m[0].image->inputs; input++) {
+            const double next = dice_between(&d, -0.4, -0.2);
+            m[0].kind->set_input(m[0].run, input,
+                                 bad[(i + (unsigned)input) % (input == 6 ? 3 : 5)]);
+            TEST_ASSERT_TRUE_MESSAGE(motion_step(&m[0], 1) != WH_OK, text);
+            TEST_ASSERT_EQUAL_UINT64(m[1].kind->hash(m[1].run), m[0].kind->hash(m[0].run));
+            m[0].kind->set_input(m[0].run, input, next);
+            m[1].kind->set_input(m[1].run, input, next);
+        }
+        for (int k = 0; k < 2; k++) {
+            double total[60];
+            TEST_ASSERT_EQUAL_INT_MESSAGE(WH_OK, motion_step(&m[k], 50), text);
+            if (i % 2 == 1) {
+                m[k].kind->ledger(m[k].run, total, left[k]);
+            }
+        }
+        TEST_ASSERT_EQUAL_UINT64(m[1].kind->hash(m[1].run), m[0].kind->hash(m[0].run));
+        TEST_ASSERT_TRUE_MESSAGE(left[0][0] == left[1][0] && fabs(left[0][0]) < 1e-2, text);
+        /* What follows an input is not to be corrected, all else is. */
+        const image *im = m[0].image;
+        wh_real real[8] = {0};
+        wh_contacts contacts;
+        wh_state state = {.real = real, .contacts = &contacts};
+        const wh_scene stepped = {.angles = (uint8_t)im->angles,
+                                  .reals = (uint8_t)im->reals,
+                                  .driven = (uint8_t)im->drives};
+        for (int k = 0; k < im->reals; k++) {
+            bool driven = false;
+            for (int n = 0; n < im->drives; n++) {
+                driven = driven || k == im->drive[n].value_at || k == im->drive[n].rate_at;
+            }
+            TEST_ASSERT_EQUAL_INT(driven ? WH_E_ARGUMENT : WH_OK,
+                                  wh_scene_set_real(&stepped, &state, (unsigned)k, WH_R(0.5)));
+            TEST_ASSERT_TRUE(real[k] == (driven ? WH_R(0.0) : WH_R(0.5)));
+        }
+        motion_close(&m[0]);
+        motion_close(&m[1]);
+    }
+}
+
 /* --- the language -------------------------------------------------------------------------------------------- */
 
 static void test_what_a_rate_may_be(void) {
@@ -313,5 +393,6 @@ void suite_input_rates(void) {
     RUN_TEST(test_a_ball_between_moving_walls);
     RUN_TEST(test_a_ball_on_a_shaking_table);
     RUN_TEST(test_a_pendulum_on_a_rope_of_changing_length);
+    RUN_TEST(test_a_refused_step_leaves_no_trace);
     RUN_TEST(test_what_a_rate_may_be);
 }
