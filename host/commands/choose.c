@@ -5,11 +5,11 @@
 #include <unistd.h>
 
 #include "commands.h"
+#include "host/base/interrupts.h"
 #include "host/number/decimal.h"
 #include "host/number/functions.h"
 #include "host/price/choice.h"
 #include "host/price/table_text.h"
-#include "interrupts.h"
 #include "pricing.h"
 
 /* Records to the horizon: so many to two and a half times as many. */
@@ -254,7 +254,7 @@ static int choose_scene(pricing *p) {
     w.table.progress = shows ? show_progress : NULL;
     w.counting = shows ? show_counting : NULL;
     interrupts_catch();
-    const int code = pricing_begin(p, spacing, &interrupted);
+    const int code = pricing_begin(p, spacing);
     return code == EXIT_DONE ? choose_begun(p, &w) : code;
 }
 

@@ -263,7 +263,7 @@ static bool has_name(const image *im, const source_model *from, const form_row *
 /* The step in fixed point, if requested; *good is false after an error. */
 static fixed_plan *plan_of(const image *im, const source_model *from, const engine_kind *number,
                            bool *good) {
-    fixed_plan *plan = number == &engine_fixed ? fixed_plan_make(im, from->errors) : NULL;
+    fixed_plan *plan = number == &engine_fixed ? fixed_plan_make(im, false, from->errors) : NULL;
     *good = number != &engine_fixed ||
             (plan != NULL && fixed_inputs_declared(im, plan->range, from->errors));
     diags_flush(from->errors, stderr);

@@ -78,7 +78,7 @@ static bool write_fixed(const emission *to, image *im, const setting *s, int num
                         const char *file, const char *target) {
     char options[SETTING_TEXT];
     diags *unsaid = diags_new();
-    fixed_plan *plan = fixed_plan_make(im, unsaid);
+    fixed_plan *plan = fixed_plan_make(im, false, unsaid);
     diags_free(unsaid);
     if (plan == NULL) {
         return true;

@@ -7,11 +7,11 @@
 #include <string.h>
 #include <time.h>
 
+#include "host/base/interrupts.h"
 #include "host/base/room.h"
 #include "host/base/written.h"
 #include "host/commands/commands.h"
 #include "host/commands/files.h"
-#include "host/commands/interrupts.h"
 #include "host/commands/load.h"
 #include "host/commands/target.h"
 #include "host/monitor/light.h"

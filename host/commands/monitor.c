@@ -8,10 +8,10 @@
 #include <time.h>
 #include <unistd.h>
 
+#include "host/base/interrupts.h"
 #include "host/base/written.h"
 #include "host/commands/commands.h"
 #include "host/commands/files.h"
-#include "host/commands/interrupts.h"
 #include "host/commands/options.h"
 #include "host/commands/target.h"
 #include "host/monitor/port.h"

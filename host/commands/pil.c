@@ -7,6 +7,7 @@
 
 #include "commands.h"
 #include "files.h"
+#include "host/base/interrupts.h"
 #include "host/base/room.h"
 #include "host/base/written.h"
 #include "host/commands/load.h"
@@ -17,7 +18,6 @@
 #include "host/pil/report.h"
 #include "host/pil/taped.h"
 #include "host/run/start.h"
-#include "interrupts.h"
 #include "target.h"
 
 #define FINE_STEP "50us"
@@ -251,8 +251,7 @@ static lockstep_wish wish_of(const pil_options *o) {
                                      .board = o->machine[0] != '\0' ? o->machine
                                               : o->board != NULL    ? o->board
                                                                     : "mps2-an386",
-                                     .patience_s = o->patience_s,
-                                     .stop = &interrupted},
+                                     .patience_s = o->patience_s},
                            .plant = {.seed = (uint32_t)o->seed},
                            .renames = o->bind,
                            .until_s = LONGEST_S,

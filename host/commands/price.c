@@ -6,9 +6,9 @@
 
 #include "commands.h"
 #include "files.h"
+#include "host/base/interrupts.h"
 #include "host/base/written.h"
 #include "host/price/measured.h"
-#include "interrupts.h"
 #include "pricing.h"
 
 static const char head[] =
@@ -111,7 +111,7 @@ static int price_scene(pricing *p) {
     if (progress) {
         fputs("\rthe reference   ", stderr);
     }
-    int code = pricing_begin(p, pricing_spacing(p->until_s, PRICING_RECORDS), &interrupted);
+    int code = pricing_begin(p, pricing_spacing(p->until_s, PRICING_RECORDS));
     table *made = NULL;
     if (code == EXIT_DONE && p->trial.reliable && !p->trial.stopped) {
         table_wish wish = pricing_wish(p);

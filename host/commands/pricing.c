@@ -342,7 +342,7 @@ whole_ratio pricing_spacing(double until_s, double count) {
     return ratio_of(spacing_s);
 }
 
-int pricing_begin(pricing *p, whole_ratio spacing, const volatile sig_atomic_t *stop) {
+int pricing_begin(pricing *p, whole_ratio spacing) {
     uint64_t wanted = 0;
     const double each_s = ratio_times(1, spacing);
     if (each_s > 0.0 && p->until_s / each_s < 1e7) {
@@ -357,8 +357,7 @@ int pricing_begin(pricing *p, whole_ratio spacing, const volatile sig_atomic_t *
                              .board = p->board,
                              .of = p->options->value[PRICING_OF],
                              .spacing = spacing,
-                             .records = (int)wanted,
-                             .stop = stop};
+                             .records = (int)wanted};
     p->has_trial = true;
     return trial_begin(&p->trial, &wish) ? EXIT_DONE : EXIT_BAD_INPUT;
 }

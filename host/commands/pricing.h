@@ -122,7 +122,7 @@ bool pricing_quantity(const char *command, const mechanism *of, const char *name
 /* The table that is asked for: by the effort and the methods, on all processors. */
 table_wish pricing_wish(const pricing *p);
 /* Computes the references at records of this spacing up to the horizon: an exit code. */
-int pricing_begin(pricing *p, whole_ratio spacing, const volatile sig_atomic_t *stop);
+int pricing_begin(pricing *p, whole_ratio spacing);
 /* Records of `whirl price` to the horizon: so many to two and a half times as many. */
 #define PRICING_RECORDS 1000.0
 /* A spacing of about so many to two and a half times so many records, 1, 2 or 5 times a power of ten. */

@@ -8,6 +8,7 @@
 #include "commands.h"
 #include "files.h"
 #include "host/base/arena.h"
+#include "host/base/interrupts.h"
 #include "host/base/room.h"
 #include "host/base/written.h"
 #include "host/commands/load.h"
@@ -16,7 +17,6 @@
 #include "host/number/functions.h"
 #include "host/prove/held.h"
 #include "host/run/start.h"
-#include "interrupts.h"
 #include "target.h"
 #include "trusting.h"
 
@@ -76,19 +76,14 @@ static bool read_options(int count, char **words, prove_options *o) {
 /* The cost of two runs, the range's and the compared one; the tube has a limit of its own. */
 static bool is_affordable(const image *im, double effort) {
     const double wanted = twins_operations(im, im);
-    if (wanted <= effort) {
-        return true;
+    if (wanted > effort) {
+        fprintf(stderr,
+                "whirl prove: error: the run alone, of %.3g steps, would take about %.0f minutes\n"
+                "hint: a nearer --until, or a longer --step",
+                (double)im->steps, effort_minutes(wanted));
+        effort_say(wanted);
     }
-    const double minutes = number_ceiling(wanted / TWINS_OPERATIONS_1S / 60.0);
-    fprintf(stderr,
-            "whirl prove: error: the run alone, of %.3g steps, would take about %.0f minutes\n"
-            "hint: a nearer --until, or a longer --step",
-            (double)im->steps, minutes);
-    if (wanted <= EFFORT_MOST) {
-        fprintf(stderr, "; or --effort %.2g", 1.1 * wanted);
-    }
-    fputc('\n', stderr);
-    return false;
+    return wanted <= effort;
 }
 
 /* within[states]: SI, 0 if not given. False: reported. */
@@ -204,8 +199,7 @@ static int answer(const prove_options *o, const image *im, const exact_motion *m
                             .kind = o->common.number,
                             .tolerance = o->tolerance,
                             .within = within,
-                            .products_most = o->effort / TWINS_OPERATIONS_1S * PRODUCTS_1S,
-                            .stop = &interrupted,
+                            .products_most = o->effort / BUDGET_LEAST * PRODUCTS_1S,
                             .see = r.file != NULL ? write_row : NULL,
                             .told = &r,
                             .progress = !o->quiet && isatty(STDERR_FILENO) ? show_progress : NULL};

@@ -47,10 +47,7 @@ static const char *refused(const rating_wish *w) {
                                    : NULL;
 }
 
-/* Limit of operations for the rows: a second, including the turned sines. */
-#define ROWS_OPERATIONS 1e8
-
-static void say_rows(FILE *out, const rating_wish *w, double until_s) {
+static void say_rows(FILE *out, const rating_wish *w, const simulation_trust *trust) {
     const grid none = {0};
     pricing_scene *p = pricing_scene_new(w->of, w->in, w->changes, &none, w->errors);
     const double end_s = ratio_times(w->image->steps, w->image->step);
@@ -66,13 +63,12 @@ static void say_rows(FILE *out, const rating_wish *w, double until_s) {
                             .order = twins_order(w->image),
                             .limit = HORIZON_TOLERANCE,
                             .step = w->image->step,
-                            .priced_step = pricing_spacing(end_s, PRICING_RECORDS),
-                            .stop = w->stop};
-    const double steps = number_floor(until_s / w->image->step_s * (1.0 + 1e-12));
+                            .priced_step = pricing_spacing(end_s, PRICING_RECORDS)};
+    const double steps = number_floor(trust->until_s / w->image->step_s * (1.0 + 1e-12));
     wish.steps = (uint64_t)number_least(steps, (double)w->image->steps);
     if (wish.steps < 2) {
         say_none(out, w, "the run is trusted for less than two steps", "price");
-    } else if (three_rows_operations(&wish, w->image) > ROWS_OPERATIONS) {
+    } else if (three_rows_operations(&wish, w->image) > 0.5 * trust->left) {
         say_none(out, w, "they take more than a second", "price");
     } else {
         three_rows rows;
@@ -107,7 +103,7 @@ void rating_say(FILE *out, const rating_wish *w, const simulation_trust *trust) 
     } else if (trust->until_s < 0.0) {
         say_none(out, w, "no time is known until which the run is trusted", "price");
     } else {
-        say_rows(out, w, trust->until_s);
+        say_rows(out, w, trust);
     }
 }
 
@@ -117,7 +113,7 @@ void rating_say(FILE *out, const rating_wish *w, const simulation_trust *trust) 
 enum { PACES = 32, PACES_LONG = 10 };
 
 /* For all tries together; comparing with the reference takes the same time again. */
-#define TRIES_OPERATIONS (TWINS_OPERATIONS_1S / 2.0)
+#define TRIES_OPERATIONS (BUDGET_LEAST / 2.0)
 
 /* Pace `i`, from long to short steps. */
 static deviation_pace pace_at(int i) {
@@ -215,7 +211,7 @@ static bool is_warned_of(const trials *t, const setting *s, deviation_pace pace)
     trial_time(trial_step(t, pace), text);
     image *im = from->make(from->context, 0, s, text, NULL);
     image *plain = other ? from->make(from->context, 0, &finer, text, NULL) : NULL;
-    const bool warned = im != NULL && !remedy_not_needed(im, plain, s->number, t->wish.stop);
+    const bool warned = im != NULL && !remedy_not_needed(im, plain, s->number);
     image_free(im);
     image_free(plain);
     return warned;
@@ -245,10 +241,9 @@ static bool find_unwarned(trials *t, const setting *s, int at, deviation_pace *p
     return false;
 }
 
-static int choose(pricing *p, const setting *s, const volatile sig_atomic_t *stop, char **step,
-                  char **chosen) {
+static int choose(pricing *p, const setting *s, char **step, char **chosen) {
     char text[TRIAL_TIME];
-    int code = pricing_begin(p, pricing_spacing(p->until_s, PRICING_RECORDS), stop);
+    int code = pricing_begin(p, pricing_spacing(p->until_s, PRICING_RECORDS));
     if (code != EXIT_DONE) {
         return code;
     }
@@ -279,8 +274,7 @@ static int choose(pricing *p, const setting *s, const volatile sig_atomic_t *sto
 }
 
 int rating_choose(const common_options *common, const char *target, const char *error,
-                  const volatile sig_atomic_t *stop, source_model *from, char **step,
-                  char **chosen) {
+                  source_model *from, char **step, char **chosen) {
     const char *equals = strchr(error, '=');
     if (equals == NULL || equals == error || equals[1] == '\0' || common->change.step != NULL) {
         fputs(equals != NULL && common->change.step != NULL
@@ -301,7 +295,7 @@ int rating_choose(const common_options *common, const char *target, const char *
     o.value[PRICING_ERROR] = equals + 1;
     const setting s = {common->integration, common->number};
     int code = pricing_open(&p, &o);
-    code = code == EXIT_DONE ? choose(&p, &s, stop, step, chosen) : code;
+    code = code == EXIT_DONE ? choose(&p, &s, step, chosen) : code;
     *from = p.from;
     p.from = (source_model){0};
     pricing_close(&p);

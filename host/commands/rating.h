@@ -21,7 +21,6 @@ typedef struct rating_wish {
     diags *errors;
     const image *image; /* the run's */
     const image *plain; /* trusting_plain() */
-    const volatile sig_atomic_t *stop;
 } rating_wish;
 
 /* The rows, or a line with the reason for their absence. */
@@ -30,7 +29,6 @@ void rating_say(FILE *out, const rating_wish *w, const simulation_trust *trust);
 /* The largest step of a run that satisfies `--error X=0.1mm`: *step, and *chosen, its description; both to be freed.
  * Opens the target, as source_open() does. Returns an exit status. */
 int rating_choose(const common_options *common, const char *target, const char *error,
-                  const volatile sig_atomic_t *stop, source_model *from, char **step,
-                  char **chosen);
+                  source_model *from, char **step, char **chosen);
 
 #endif

@@ -8,6 +8,7 @@
 
 #include "commands.h"
 #include "files.h"
+#include "host/base/interrupts.h"
 #include "host/base/room.h"
 #include "host/commands/load.h"
 #include "host/fixed/engine_fixed.h"
@@ -16,7 +17,6 @@
 #include "host/run/finding.h"
 #include "host/run/simulate.h"
 #include "host/run/start.h"
-#include "interrupts.h"
 #include "pricing.h"
 #include "pricing_scene.h"
 #include "rating.h"
@@ -237,7 +237,6 @@ static int run_image(run_options *o, const source_model *from, const image *im, 
     }
     apart_say(stderr, "whirl run", im);
     interrupts_catch();
-    o->settings.stop = &interrupted;
     o->settings.progress = shows_progress(&o->settings);
     o->settings.plain = plain;
     if (im->steps >= STEPS_MANY && !o->settings.quiet && !o->settings.progress) {
@@ -257,33 +256,13 @@ static int run_image(run_options *o, const source_model *from, const image *im, 
     return simulation_status(result, &trust);
 }
 
-/* The step in fixed point, stored in the image. Without declared ranges this takes as long as a run. */
-static int plan_of(image *im, const source_model *from, const simulation_settings *s,
-                   fixed_plan **plan) {
-    const fixed_watch watch = {&interrupted, shows_progress(s)};
-    interrupts_catch();
-    *plan = fixed_plan_make_watched(im, &watch, from->errors);
-    im->fixed = *plan;
-    diags_flush(from->errors, stderr);
-    if (*plan != NULL && !s->quiet) {
-        fixed_plan_say(*plan, stderr, "whirl run: note: ");
-    }
-    if (*plan == NULL && interrupted) {
-        fputs("whirl run: interrupted before the run in fixed point began, while its ranges were "
-              "looked for\nhint: range NAME = A .. B of all of them takes no run in double\n",
-              stderr);
-    }
-    return *plan != NULL ? EXIT_DONE : interrupted ? EXIT_INTERRUPTED : EXIT_BAD_INPUT;
-}
-
 /* The model; with --error also the step and its description, to be freed. */
 static int open_source(run_options *o, source_model *from, char **step, char **chosen) {
     if (o->error == NULL) {
         return source_open(from, o->target);
     }
     interrupts_catch();
-    const int code =
-        rating_choose(&o->common, o->target, o->error, &interrupted, from, step, chosen);
+    const int code = rating_choose(&o->common, o->target, o->error, from, step, chosen);
     o->common.change.step = *step;
     o->settings.chosen = *chosen;
     return code;
@@ -325,7 +304,11 @@ static int run_target(run_options *o) {
         }
         fixed_plan *plan = NULL;
         if (code == EXIT_DONE && o->settings.kind == &engine_fixed) {
-            code = plan_of(made.image, &from, &o->settings, &plan);
+            code =
+                trusting_plan("run", made.image, shows_progress(&o->settings), from.errors, &plan);
+            if (plan != NULL && !o->settings.quiet) {
+                fixed_plan_say(plan, stderr, "whirl run: note: ");
+            }
         }
         if (code == EXIT_DONE) {
             rating_wish rated = {.target = o->target,
@@ -336,8 +319,7 @@ static int run_target(run_options *o) {
                                  .changes = &changes,
                                  .of = of,
                                  .in = in,
-                                 .errors = from.errors,
-                                 .stop = &interrupted};
+                                 .errors = from.errors};
             code = run_image(o, &from, made.image, plain, every_s, &rated);
         }
         fixed_plan_free(plan);

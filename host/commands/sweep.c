@@ -8,6 +8,7 @@
 
 #include "commands.h"
 #include "files.h"
+#include "host/base/interrupts.h"
 #include "host/base/room.h"
 #include "host/base/written.h"
 #include "host/commands/load.h"
@@ -20,8 +21,8 @@
 #include "host/sweep/jobs.h"
 #include "host/sweep/session.h"
 #include "host/sweep/stability_map.h"
-#include "interrupts.h"
 #include "target.h"
+#include "trusting.h"
 
 /* Of a map: its axes; pairs that can be looked at; */
 enum { AXES = 2 };
@@ -269,8 +270,7 @@ static int sweep_loaded(const sweep_options *o, const source_model *from, const 
                                        .jobs = o->jobs,
                                        .fresh = o->fresh,
                                        .quiet = o->quiet,
-                                       .json = o->json,
-                                       .stop = &interrupted};
+                                       .json = o->json};
     interrupts_catch();
     const int code = session_run(s, &settings);
     free(fingerprint);
@@ -381,19 +381,14 @@ static bool is_affordable(const sweep_options *o, const grid *g, const image *ba
         return false;
     }
     const double wanted = operations_of(g, base);
-    if (wanted <= o->effort) {
-        return true;
+    if (wanted > o->effort) {
+        fprintf(stderr,
+                "whirl map: error: this would take about %.0f minutes: %llu pairs, two runs beside "
+                "each other for each\nhint: fewer pairs, longer steps, a nearer --until",
+                effort_minutes(wanted), (unsigned long long)g->points);
+        effort_say(wanted);
     }
-    fprintf(
-        stderr,
-        "whirl map: error: this would take about %.0f minutes: %llu pairs, two runs beside each "
-        "other for each\nhint: fewer pairs, longer steps, a nearer --until",
-        number_ceiling(wanted / TWINS_OPERATIONS_1S / 60.0), (unsigned long long)g->points);
-    if (wanted <= EFFORT_MOST) {
-        fprintf(stderr, "; or --effort %.2g", 1.1 * wanted);
-    }
-    fputc('\n', stderr);
-    return false;
+    return wanted <= o->effort;
 }
 
 static int map_loaded(const sweep_options *o, const sweep *s, const image *base) {
@@ -402,7 +397,6 @@ static int map_loaded(const sweep_options *o, const sweep *s, const image *base)
     }
     const map_wish wish = {.of = *s,
                            .tolerance = o->tolerance,
-                           .stop = &interrupted,
                            .told = (void *)(uintptr_t)s->grid,
                            .progress = !o->quiet && isatty(STDERR_FILENO) ? show_progress : NULL};
     char *words =

@@ -5,6 +5,7 @@
 
 #include "commands.h"
 #include "files.h"
+#include "host/base/interrupts.h"
 #include "host/base/written.h"
 #include "host/fixed/engine_fixed.h"
 #include "host/fixed/fixed_plan.h"
@@ -15,7 +16,6 @@
 #include "host/run/run_json.h"
 #include "host/run/start.h"
 #include "host/run/undefined.h"
-#include "interrupts.h"
 #include "target.h"
 #include "trusting.h"
 
@@ -94,26 +94,6 @@ static void show_progress(double share, void *told) {
 
 /* --- refused scenes ---------------------------------------------------------------------------------- */
 
-static bool is_affordable(const image *im, const image *plain, double effort) {
-    const double wanted = twins_operations(im, plain);
-    if (wanted <= effort) {
-        return true;
-    }
-    const double minutes = number_ceiling(wanted / TWINS_OPERATIONS_1S / 60.0);
-    fprintf(
-        stderr,
-        "whirl trust: error: this would take about %.0f minutes: two runs beside each other, of %.3g "
-        "and %.3g steps\n"
-        "hint: a nearer --until tells it of the beginning, where trust ends in a chaotic motion; or "
-        "a longer --step",
-        minutes, (double)im->steps, 2.0 * (double)im->steps);
-    if (wanted <= EFFORT_MOST) {
-        fprintf(stderr, "; or --effort %.2g", 1.1 * wanted);
-    }
-    fputc('\n', stderr);
-    return false;
-}
-
 static bool can_start(const image *im, const engine_kind *kind, diags *errors) {
     const bool good =
         start_has_method(im, im->settings.method, errors) && start_is_possible(im, kind, errors);
@@ -158,7 +138,6 @@ static int answer(const trust_options *o, const image *im, const image *plain) {
                              .kind = kind,
                              .plain = plain,
                              .books = true,
-                             .stop = &interrupted,
                              .progress = shows_progress(o) ? show_progress : NULL};
     if (!written_can(o->csv)) { /* a long run would be in vain */
         return EXIT_BAD_INPUT;
@@ -175,7 +154,7 @@ static int answer(const trust_options *o, const image *im, const image *plain) {
             "of the whole run\n",
             t->end_s, ratio_times(im->steps, im->step));
     } else {
-        aliasing_find(t, &interrupted);
+        (void)aliasing_find(t, NULL);
         horizon h = horizon_of(t, o->tolerance);
         code = write_rows(o, &h);
         if (!o->json && (!o->quiet || o->csv == NULL)) {
@@ -194,32 +173,27 @@ static int answer(const trust_options *o, const image *im, const image *plain) {
     return code;
 }
 
-/* The step in fixed point, stored in the image. Without declared ranges a run in double finds them. */
-static int plan_of(image *im, const trust_options *o, diags *errors, fixed_plan **plan) {
-    const fixed_watch watch = {&interrupted, shows_progress(o)};
-    *plan = fixed_plan_make_watched(im, &watch, errors);
-    im->fixed = *plan;
-    diags_flush(errors, stderr);
-    if (*plan != NULL) {
-        return EXIT_DONE;
-    }
-    if (interrupted) {
-        fputs("whirl trust: interrupted while the ranges for fixed point were looked for\n",
-              stderr);
-    }
-    return interrupted ? EXIT_INTERRUPTED : EXIT_BAD_INPUT;
-}
-
 static int trust_loaded(const trust_options *o, image *im, const image *plain, diags *errors) {
     fixed_plan *plan = NULL;
-    if (!is_affordable(im, plain, o->effort) || !can_start(im, o->common.number, errors)) {
+    const double wanted = twins_operations(im, plain);
+    if (wanted > o->effort) {
+        fprintf(
+            stderr,
+            "whirl trust: error: this would take about %.0f minutes: two runs beside each other, "
+            "of %.3g and %.3g steps\n"
+            "hint: a nearer --until tells it of the beginning, where trust ends in a chaotic "
+            "motion; or a longer --step",
+            effort_minutes(wanted), (double)im->steps, 2.0 * (double)im->steps);
+        effort_say(wanted);
+    }
+    if (wanted > o->effort || !can_start(im, o->common.number, errors)) {
         return EXIT_BAD_INPUT;
     }
     apart_say(stderr, "whirl trust", im);
     interrupts_catch();
     int code = EXIT_DONE;
     if (o->common.number == &engine_fixed) {
-        code = plan_of(im, o, errors, &plan);
+        code = trusting_plan("trust", im, shows_progress(o), errors, &plan);
     }
     if (code == EXIT_DONE) {
         code = answer(o, im, plain);

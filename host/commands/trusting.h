@@ -3,6 +3,7 @@
 #define COMMANDS_TRUSTING_H
 
 #include "host/commands/load.h"
+#include "host/fixed/fixed_plan.h"
 #include "host/run/horizon.h"
 #include "host/run/simulate.h"
 
@@ -10,5 +11,12 @@
 load_keep trusting_keep(const image_settings *settings);
 /* The image of twins_plain(), to be freed. NULL: it is the image itself. */
 image *trusting_plain(const loaded *made);
+/* The scene's step in fixed point, which the image then has: takes as long as a run where ranges are not declared. Returns an exit
+ * code; *plan is to be freed. */
+int trusting_plan(const char *command, image *im, bool progress, diags *errors, fixed_plan **plan);
+
+/* Of an effort that is too much: how long it takes, and the end of its hint, with the --effort that would do. */
+double effort_minutes(double operations);
+void effort_say(double operations);
 
 #endif

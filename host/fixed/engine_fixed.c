@@ -65,6 +65,7 @@ static void look_up(fixed_run *run, int i, const uint32_t *phase) {
 
 static void evaluate(fixed_run *run, fixed_at in, int32_t *result) {
     const fixed_list *l = run->plan->list;
+    engine_operations += (uint64_t)l->count;
     for (int i = 0; i < l->count; i++) {
         const fixed_op *o = &l->op[i];
         int32_t v = 0;

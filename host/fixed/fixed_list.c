@@ -4,6 +4,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "host/base/interrupts.h"
 #include "host/base/room.h"
 #include "host/number/functions.h"
 #include "host/number/phase.h"
@@ -413,8 +414,6 @@ static bool is_bounded(enclosure a) {
 
 static bool goes_on(const hull *h) { return !h->divides_zero && !h->unbounded; }
 
-static bool stops(const hull *h) { return fixed_watch_stops(h->list->watch); }
-
 static void enclose(hull *h, bool first) {
     fixed_list *l = h->list;
     for (int k = 0; k < l->angles; k++) {
@@ -470,7 +469,7 @@ static bool enclose_all(hull *h) {
     do {
         enclose(h, first);
         first = false;
-    } while (goes_on(h) && !stops(h) && next(h));
+    } while (goes_on(h) && !interrupted && next(h));
     return !h->divides_zero;
 }
 
@@ -506,14 +505,14 @@ int fixed_hull(fixed_list *list, const image *im, const fixed_leaves *leaves, bo
         h.cells *= 2;
         good = enclose_all(&h);
     }
-    if (!good && !stops(&h)) {
+    if (!good && !interrupted) {
         say_zero(&h, im, errors);
     }
     free(h.now);
     free(h.angle);
     free(h.cell);
     free(h.cut);
-    return stops(&h)     ? FIXED_HULL_STOPPED
+    return interrupted   ? FIXED_HULL_STOPPED
            : h.unbounded ? FIXED_HULL_UNBOUNDED
            : good        ? h.cells
                          : FIXED_HULL_ZERO;

@@ -66,7 +66,6 @@ typedef struct fixed_list {
     int *result;
     int results;
     int angles;
-    const fixed_watch *watch;
 } fixed_list;
 
 /* The list with its results times scale[results], or NULL: something has no fixed form (reported). */

@@ -408,16 +408,13 @@ static wh_fixed_format first_format(enclosure range, enclosure stage) {
     return format_of(range, of_stage < bits ? of_stage : bits);
 }
 
-static bool make(fixed_plan *p, const fixed_watch *watch, diags *errors) {
+static bool make(fixed_plan *p, bool progress, diags *errors) {
     const image *im = p->image;
     const int numbers = im->reals + im->inputs;
     double scale[IMAGE_COMPONENTS_MAX];
     make_scale(p, scale);
     p->list = fixed_list_make(im, scale, errors);
-    if (p->list != NULL) {
-        p->list->watch = watch;
-    }
-    if (p->list == NULL || !fixed_ranges(im, p->range, p->declared, watch, errors) ||
+    if (p->list == NULL || !fixed_ranges(im, p->range, p->declared, progress, errors) ||
         !fixed_ranges_hold(im, p->range, errors)) {
         return false;
     }
@@ -433,11 +430,7 @@ static bool make(fixed_plan *p, const fixed_watch *watch, diags *errors) {
     return make_all_fit(p, errors);
 }
 
-fixed_plan *fixed_plan_make(const image *im, diags *errors) {
-    return fixed_plan_make_watched(im, NULL, errors);
-}
-
-fixed_plan *fixed_plan_make_watched(const image *im, const fixed_watch *watch, diags *errors) {
+fixed_plan *fixed_plan_make(const image *im, bool progress, diags *errors) {
     if (!fixed_has_step(im, errors)) {
         return NULL;
     }
@@ -451,7 +444,7 @@ fixed_plan *fixed_plan_make_watched(const image *im, const fixed_watch *watch, d
     p->stage = room(numbers, sizeof *p->stage);
     p->declared = room(numbers, sizeof *p->declared);
     p->mover = room(p->coordinates, sizeof *p->mover);
-    if (!make(p, watch, errors)) {
+    if (!make(p, progress, errors)) {
         fixed_plan_free(p);
         return NULL;
     }

@@ -60,10 +60,9 @@ typedef struct fixed_plan {
     int32_t *start_input;
 } fixed_plan;
 
-/* Of an image made with the default method; NULL, reported, where the scene has no such step. */
-fixed_plan *fixed_plan_make(const image *im, diags *errors);
-/* The same, watched; also NULL when it was stopped. */
-fixed_plan *fixed_plan_make_watched(const image *im, const fixed_watch *watch, diags *errors);
+/* Of an image made with the default method; NULL, reported, where the scene has no such step, or after an interrupt. `progress` is
+ * shown on standard error. */
+fixed_plan *fixed_plan_make(const image *im, bool progress, diags *errors);
 void fixed_plan_free(fixed_plan *plan);
 
 /* Ranges that turn angles do not take, and those that were not declared, a line each, begun by `begin`: "the range of theta' is -40 .. 40 [rad/s], ...". */

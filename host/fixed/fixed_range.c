@@ -6,6 +6,7 @@
 
 #include <stdio.h>
 
+#include "host/base/interrupts.h"
 #include "host/base/room.h"
 #include "host/run/loop.h"
 
@@ -20,13 +21,9 @@ static enclosure twice(enclosure seen) {
                        seen.high > 0.0 ? 2.0 * seen.high : 0.5 * seen.high};
 }
 
-bool fixed_watch_stops(const fixed_watch *watch) {
-    return watch != NULL && watch->stop != NULL && *watch->stop != 0;
-}
-
 /* Often enough to be seen, seldom enough to cost nothing. */
-static void show(const fixed_watch *watch, uint64_t step, uint64_t steps) {
-    if (watch != NULL && watch->progress && (step & 0x3fffU) == 0x3fffU) {
+static void show(uint64_t step, uint64_t steps) {
+    if ((step & 0x3fffU) == 0x3fffU) {
         fprintf(stderr, "\rranges, from a run in double: %5.1f %%",
                 100.0 * (double)step / (double)steps);
     }
@@ -38,12 +35,14 @@ typedef struct looking {
     double *angle_rad;
     double *real;
     enclosure *seen;
-    const fixed_watch *watch;
+    bool progress;
 } looking;
 
 static bool see(void *of, uint64_t step) {
     const looking *at = of;
-    show(at->watch, step, at->image->steps);
+    if (at->progress) {
+        show(step, at->image->steps);
+    }
     engine_double.state(at->run, at->angle_rad, at->real);
     for (int i = 0; i < at->image->reals; i++) {
         const enclosure now = {at->real[i], at->real[i]};
@@ -52,19 +51,15 @@ static bool see(void *of, uint64_t step) {
     return true;
 }
 
-static bool look(const image *im, enclosure *seen, const fixed_watch *watch, diags *errors) {
+static bool look(const image *im, enclosure *seen, bool progress, diags *errors) {
     void *run = engine_double.start(im);
     double *angle = room(im->angles, sizeof *angle);
     double *real = room(im->reals, sizeof *real);
-    looking at = {im, run, angle, real, seen, watch};
-    const loop l = {.kind = &engine_double,
-                    .run = run,
-                    .steps = im->steps,
-                    .stop = watch != NULL ? watch->stop : NULL,
-                    .see = {{see, &at}}};
+    looking at = {im, run, angle, real, seen, progress};
+    const loop l = {.kind = &engine_double, .run = run, .steps = im->steps, .see = see, .of = &at};
     wh_status status;
     (void)loop_run(&l, &status);
-    if (watch != NULL && watch->progress) {
+    if (progress) {
         fputs("\r                                      \r", stderr);
     }
     engine_double.stop(run);
@@ -74,11 +69,10 @@ static bool look(const image *im, enclosure *seen, const fixed_watch *watch, dia
         diag_error(errors, im->at, "declare the ranges: range NAME = A .. B",
                    "the run of '%s' in double, from which ranges are taken, diverged", im->name);
     }
-    return status == WH_OK && !fixed_watch_stops(watch);
+    return status == WH_OK && !interrupted;
 }
 
-bool fixed_ranges(const image *im, enclosure *range, bool *declared, const fixed_watch *watch,
-                  diags *errors) {
+bool fixed_ranges(const image *im, enclosure *range, bool *declared, bool progress, diags *errors) {
     bool good = true;
     bool all = true;
     for (int i = 0; i < im->reals + im->inputs; i++) {
@@ -87,7 +81,7 @@ bool fixed_ranges(const image *im, enclosure *range, bool *declared, const fixed
         all = all && (r->declared || i >= im->reals);
     }
     if (!all) {
-        good = look(im, range, watch, errors);
+        good = look(im, range, progress, errors);
     }
     for (int i = 0; i < im->reals + im->inputs && good; i++) {
         if (declared[i]) {

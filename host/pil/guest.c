@@ -9,6 +9,8 @@
 #include <sys/wait.h>
 #include <time.h>
 #include <unistd.h>
+
+#include "host/base/interrupts.h"
 #if defined(__linux__)
 #include <sys/prctl.h>
 #endif
@@ -170,13 +172,11 @@ bool guest_start(guest *g, const guest_wish *wish) {
 
 /* --- the line -----------------------------------------------------------------------------------------------*/
 
-static bool is_stopped(const guest *g) { return g->wish.stop != NULL && *g->wish.stop != 0; }
-
 /* Wait until the line is readable, in short intervals, so that an interrupt from before the wait is noticed. */
 static guest_heard wait_to_read(const guest *g, double end_s) {
     struct pollfd line = {.fd = g->up, .events = POLLIN};
     do {
-        if (is_stopped(g)) {
+        if (interrupted) {
             return GUEST_STOPPED;
         }
         if (poll(&line, 1, POLL_MS) > 0) {
@@ -196,7 +196,7 @@ guest_heard guest_receive(guest *g, wh_frame *frame) {
             }
         }
         if (now_s() > end_s) {
-            return is_stopped(g) ? GUEST_STOPPED : GUEST_SILENT;
+            return interrupted ? GUEST_STOPPED : GUEST_SILENT;
         }
         const guest_heard heard = wait_to_read(g, end_s);
         if (heard != GUEST_FRAME) {
@@ -224,7 +224,7 @@ guest_heard guest_send(guest *g, const uint8_t *bytes, unsigned count) {
             (void)poll(&line, 1, POLL_MS);
         }
         done += more > 0 ? (unsigned)more : 0;
-        if (more < 0 && is_stopped(g)) {
+        if (more < 0 && interrupted) {
             return GUEST_STOPPED;
         }
     }

@@ -4,7 +4,6 @@
 #ifndef PIL_GUEST_H
 #define PIL_GUEST_H
 
-#include <signal.h>
 #include <stdbool.h>
 #include <sys/types.h>
 
@@ -21,11 +20,10 @@
 typedef struct guest_wish {
     bool by_line; /* no process: the firmware is at the other end of the caller's line `line` */
     int line;
-    const char *image;                 /* an ELF file: for Arm, or a program of this machine */
-    const char *board;                 /* QEMU's machine */
-    bool mute;                         /* hide its console */
-    double patience_s;                 /* longest silence, and longest time to exit */
-    const volatile sig_atomic_t *stop; /* NULL: no interrupts */
+    const char *image; /* an ELF file: for Arm, or a program of this machine */
+    const char *board; /* QEMU's machine */
+    bool mute;         /* hide its console */
+    double patience_s; /* longest silence, and longest time to exit */
 } guest_wish;
 
 typedef struct guest {

@@ -4,6 +4,7 @@
 #include <math.h>
 #include <time.h>
 
+#include "host/base/interrupts.h"
 #include "talk.h"
 
 /* A firmware may catch up on missed periods: so many exchanges at the same time. */
@@ -105,7 +106,7 @@ static bool advance(loop *l, double until_ticks) {
             return false;
         }
         let_taps_watch(l);
-        if (wish->guest.stop != NULL && *wish->guest.stop != 0) {
+        if (interrupted) {
             break;
         }
     }

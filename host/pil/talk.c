@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "core/hash.h"
+#include "host/base/interrupts.h"
 
 #define ASK_S 0.25 /* interval between requests for a hello */
 
@@ -34,15 +35,12 @@ static void say_silent(const talk *t) {
 }
 
 /* Ctrl-C reaches all processes in the terminal, and the firmware may end first. */
-static lockstep_end when_ended(const talk *t) {
-    const volatile sig_atomic_t *stop = t->guest.wish.stop;
-    return stop != NULL && *stop ? LOCKSTEP_STOPPED : LOCKSTEP_DONE;
-}
+static lockstep_end when_ended(void) { return interrupted ? LOCKSTEP_STOPPED : LOCKSTEP_DONE; }
 
 static bool hear_frame(talk *t, wh_frame *frame) {
     switch (guest_receive(&t->guest, frame)) {
     case GUEST_FRAME: break;
-    case GUEST_ENDED: t->report->end = when_ended(t); return false;
+    case GUEST_ENDED: t->report->end = when_ended(); return false;
     case GUEST_SILENT:
         say_silent(t);
         t->report->end = LOCKSTEP_FAILED;
@@ -77,7 +75,7 @@ static bool say(talk *t, const wh_frame *frame) {
     case GUEST_ENDED:
     case GUEST_SILENT: break;
     }
-    t->report->end = when_ended(t); /* its end has the details */
+    t->report->end = when_ended(); /* its end has the details */
     return false;
 }
 
@@ -106,7 +104,7 @@ static bool take_end(talk *t, const wh_frame *frame) {
         return fail(t, "an end that is none");
     }
     (void)ask(t);
-    t->report->end = when_ended(t);
+    t->report->end = when_ended();
     return false;
 }
 

@@ -4,6 +4,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "host/base/interrupts.h"
 #include "host/number/functions.h"
 
 #define CHOICE_LIMIT_WORD(id, word) word,
@@ -189,7 +190,7 @@ measured_end choice_counted(trials *t, table *made, const choice_wish *w, const 
                 expect(t, made, row, each);
             }
         }
-        t->stopped = t->stopped || (t->wish.stop != NULL && *t->wish.stop);
+        t->stopped = t->stopped || interrupted;
         *c = choice_make(t, made, w);
     }
     return MEASURED_COUNTED;

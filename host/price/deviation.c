@@ -4,6 +4,7 @@
 #include <math.h>
 #include <stddef.h>
 
+#include "host/base/interrupts.h"
 #include "host/run/loop.h"
 #include "long_list.h"
 
@@ -46,8 +47,7 @@ static bool take_step(const engine_kind *kind, void *run, const image *im, count
 }
 
 deviation deviation_measure(const reference *r, const image *im, const engine_kind *kind,
-                            deviation_pace pace, deviation_of_what what,
-                            const volatile sig_atomic_t *stop) {
+                            deviation_pace pace, deviation_of_what what) {
     deviation d = {.column = what.column};
     counted c = {0.0, 0.0};
     records *now = records_open(NULL, im, kind);
@@ -55,7 +55,7 @@ deviation deviation_measure(const reference *r, const image *im, const engine_ki
     records_read(now, run, 0.0);
     bool good = enter(r, now, 0, what, &d);
     const int each = (int)pace.records;
-    for (int i = each; i <= r->records && good && (stop == NULL || !*stop); i += each) {
+    for (int i = each; i <= r->records && good && !interrupted; i += each) {
         for (uint64_t k = 0; k < pace.steps && good; k++) {
             good = take_step(kind, run, im, &c);
         }

@@ -31,7 +31,6 @@ typedef struct deviation {
 
 /* `im`: the reference's scene, with a step of this pace. */
 deviation deviation_measure(const reference *r, const image *im, const engine_kind *kind,
-                            deviation_pace pace, deviation_of_what what,
-                            const volatile sig_atomic_t *stop);
+                            deviation_pace pace, deviation_of_what what);
 
 #endif

@@ -6,6 +6,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "host/base/interrupts.h"
 #include "host/base/room.h"
 #include "host/number/decimal.h"
 #include "host/number/functions.h"
@@ -212,7 +213,7 @@ static int uncounted(const table *made) {
 measured_end measured_front(const trials *t, table *made, const table_words *words,
                             const table_wish *w) {
     int i = t->image[0]->contacts > 0 ? made->count : uncounted(made);
-    while (i < made->count && !(t->wish.stop != NULL && *t->wish.stop)) {
+    while (i < made->count && !interrupted) {
         if (w->progress != NULL) {
             w->progress(w->context, i, made->count);
         }

@@ -176,8 +176,7 @@ table *table_new(trials *t, const table_wish *w) {
                     .context = &all,
                     .work = work,
                     .deliver = deliver,
-                    .pause = tell_progress,
-                    .stop = t->wish.stop};
+                    .pause = tell_progress};
     t->stopped = jobs_run(&j) != JOBS_DONE || t->stopped;
     free(all.setting);
     table_sort(made);

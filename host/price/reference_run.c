@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "extrapolation.h"
+#include "host/base/interrupts.h"
 #include "host/base/room.h"
 #include "host/number/functions.h"
 #include "host/run/loop.h"
@@ -114,8 +115,7 @@ int fine_steps_run(const reference_wish *w, const records *shape, uint64_t steps
         for (int i = 0; i < shape->columns; i++) {
             row[(size_t)done * (size_t)shape->columns + (size_t)i] = (long double)r->row[i];
         }
-        if (done == w->records || (w->stop != NULL && *w->stop) ||
-            loop_steps(&engine_double, run, steps) != WH_OK) {
+        if (done == w->records || interrupted || loop_steps(&engine_double, run, steps) != WH_OK) {
             break;
         }
     }
@@ -163,7 +163,7 @@ static computed extrapolate(const reference_wish *w, const reference *r,
         if (i < r->wanted) {
             c.status = extrapolation_go(e, spacing_s);
         }
-        if (i == r->wanted || c.status != EXTRAPOLATION_OK || (w->stop != NULL && *w->stop)) {
+        if (i == r->wanted || c.status != EXTRAPOLATION_OK || interrupted) {
             break;
         }
     }
@@ -263,8 +263,6 @@ static reference *begin(const reference_wish *w) {
     return r;
 }
 
-static bool stops(const reference_wish *w) { return w->stop != NULL && *w->stop; }
-
 static reference *by_extrapolation(const reference_wish *w) {
     reference *r = begin(w);
     const computed best = extrapolate(w, r, fine);
@@ -278,7 +276,7 @@ static reference *by_extrapolation(const reference_wish *w) {
     r->broken = r->records >= reached && reached < r->wanted;
     say_extrapolated(w, r, best.status != EXTRAPOLATION_OK ? best.status : other.status, reached);
     free(other.row);
-    r->stopped = stops(w);
+    r->stopped = interrupted != 0;
     return r;
 }
 
@@ -310,7 +308,7 @@ static reference *by_fine_steps(const reference_wish *w) {
     } else if (reached < r->wanted) {
         r->why = room_words("the run fails behind %.9g s", time_of(w, r->records));
     }
-    r->stopped = stops(w);
+    r->stopped = interrupted != 0;
     return r;
 }
 

@@ -7,8 +7,6 @@
 #ifndef PRICE_REFERENCE_RUN_H
 #define PRICE_REFERENCE_RUN_H
 
-#include <signal.h>
-
 #include "host/run/records.h"
 
 /* A cheap reference: a run in double with compensated sums, compared with one of twice its step. */
@@ -25,7 +23,6 @@ typedef struct reference_wish {
     int records;         /* behind the start */
     double operations;   /* most that each of the two computations may evaluate */
     reference_steps by;
-    const volatile sig_atomic_t *stop; /* may be NULL */
 } reference_wish;
 
 typedef enum reference_kind {
@@ -55,7 +52,7 @@ typedef struct reference {
     char *why;    /* what ends the trust before the end, in words; or there is none at all; "" */
     bool broken;  /* it ends early for want of small steps, not because the motion runs apart */
     bool still;   /* there is none, because nothing moves */
-    bool stopped; /* by *stop: it is of no use */
+    bool stopped; /* interrupted: it is of no use */
 } reference;
 
 /* Always succeeds; look at kind and stopped. The image must outlive it. */

@@ -14,7 +14,7 @@ double three_rows_operations(const three_rows_wish *w, const image *im) {
     const double runs = setting_is_fixed(&w->setting) ? 2.0 : 1.0; /* one finds the ranges */
     const double each = ROWS_STEPS * runs * wh_methods[w->setting.image.method].stages +
                         REFERENCE_STEPS * wh_methods[w->method].stages;
-    return (double)w->steps * each * im->list[IMAGE_STEP]->count;
+    return (double)w->steps * each * (double)engine_evaluation(im);
 }
 
 void three_rows_make(three_rows *t, const three_rows_wish *w) {
@@ -28,8 +28,7 @@ void three_rows_make(three_rows *t, const three_rows_wish *w) {
         .records = (int)(pairs / many),
         .by = {.steps = 8 * many, .method = w->method, .order = w->order, .limit = w->limit},
         .plain = &w->plain,
-        .priced_step = w->priced_step,
-        .stop = w->stop};
+        .priced_step = w->priced_step};
     t->trial.reliable = trial_begin(&t->trial, &wish) && t->trial.reliable;
     for (int i = 0; i < THREE_ROWS && t->trial.reliable && !t->trial.stopped; i++) {
         bool own;

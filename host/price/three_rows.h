@@ -20,7 +20,6 @@ typedef struct three_rows_wish {
     whole_ratio step;        /* the run's, s */
     whole_ratio priced_step; /* as of trial_wish */
     uint64_t steps;          /* of it, which are looked at */
-    const volatile sig_atomic_t *stop;
 } three_rows_wish;
 
 typedef struct three_rows {

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "host/base/interrupts.h"
 #include "host/base/nearest.h"
 #include "host/base/room.h"
 #include "host/fixed/fixed_plan.h"
@@ -181,8 +182,7 @@ bool trial_begin(trials *t, const trial_wish *w) {
                                      .spacing = w->spacing,
                                      .records = w->records,
                                      .operations = REFERENCE_OPERATIONS / points,
-                                     .by = w->by,
-                                     .stop = w->stop};
+                                     .by = w->by};
         t->reference[p] = reference_new(&wish);
         t->place[p] = p;
         t->points++;
@@ -215,7 +215,7 @@ static void drop(image *im) {
  * end that command lines are given: it is counted among what was evaluated. */
 static image *in_fixed_point(trials *t, image *im) {
     diags *unsaid = diags_new();
-    im->fixed = fixed_plan_make(im, unsaid);
+    im->fixed = fixed_plan_make(im, false, unsaid);
     diags_free(unsaid);
     t->operations += (double)im->steps * (double)im->list[IMAGE_STEP]->count *
                      wh_methods[im->settings.method].stages;
@@ -303,11 +303,10 @@ trial_result trial_run(trials *t, const setting *s, deviation_pace pace) {
             what.give_up = number_most(
                 t->tolerated, USABLE * (double)t->reference[p]->column[what.column].largest);
         }
-        const deviation d =
-            deviation_measure(t->reference[p], im, s->number, pace, what, t->wish.stop);
+        const deviation d = deviation_measure(t->reference[p], im, s->number, pace, what);
         drop(im);
         t->operations += d.operations;
-        if (t->wish.stop != NULL && *t->wish.stop) {
+        if (interrupted) {
             t->stopped = true;
             return (trial_result){.ran = false};
         }

@@ -27,7 +27,6 @@ typedef struct trial_wish {
     const image_settings *plain; /* of their images; NULL: the default ones */
     whole_ratio
         priced_step; /* whose cost stands for all steps, where it may; 0: each has its own */
-    const volatile sig_atomic_t *stop;
 } trial_wish;
 
 typedef struct trial_planned {

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "host/base/interrupts.h"
 #include "host/base/room.h"
 #include "host/number/decimal.h"
 #include "host/number/functions.h"
@@ -49,8 +50,6 @@ static void read_run(const reading *r, void *run) {
         }
     }
 }
-
-static bool is_stopped(const held_wish *w) { return w->stop != NULL && *w->stop; }
 
 /* --- the tolerances ----------------------------------------------------------------------------------- */
 
@@ -102,11 +101,7 @@ static void find_ranges(const held_wish *w, const reading *r, held_found *h) {
     double *low = room(n, sizeof *low);
     double *high = room(n, sizeof *high);
     ranging at = {r, run, n, low, high};
-    const loop l = {.kind = w->kind,
-                    .run = run,
-                    .steps = w->image->steps,
-                    .stop = w->stop,
-                    .see = {{see, &at}}};
+    const loop l = {.kind = w->kind, .run = run, .steps = w->image->steps, .see = see, .of = &at};
     h->ranged = loop_run(&l, &h->status) != LOOP_INTERRUPTED;
     h->run_steps = w->kind->steps(run);
     w->kind->stop(run);
@@ -216,7 +211,7 @@ static bool go_on(going *g) {
 static held_end ended(const going *g, bool on) {
     const held_wish *w = g->wish;
     const bool spent = w->products_most > 0.0 && tube_products(g->tube) > w->products_most;
-    return is_stopped(w) ? HELD_STOPPED : !on ? HELD_NO_STEP : spent ? HELD_SPENT : HELD_AT_END;
+    return interrupted ? HELD_STOPPED : !on ? HELD_NO_STEP : spent ? HELD_SPENT : HELD_AT_END;
 }
 
 static void hold(going *g) {

@@ -3,7 +3,6 @@
 #ifndef PROVE_HELD_H
 #define PROVE_HELD_H
 
-#include <signal.h>
 #include <stdio.h>
 
 #include "host/prove/tube.h"
@@ -16,9 +15,8 @@ typedef struct held_wish {
     const image *image;
     const engine_kind *kind;
     double tolerance;
-    const double *within;              /* [states] SI; 0: the tolerance times the range */
-    double products_most;              /* limit on products of enclosures; 0: no limit */
-    const volatile sig_atomic_t *stop; /* may be NULL */
+    const double *within; /* [states] SI; 0: the tolerance times the range */
+    double products_most; /* limit on products of enclosures; 0: no limit */
     /* Called at the start and at the end of each step that the tube reaches, with the enclosure of the exact motion,
      * exact[states], and the run, SI. May be NULL. */
     void (*see)(void *told, uint64_t step, const enclosure *exact, const double *run);

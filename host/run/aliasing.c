@@ -8,7 +8,6 @@
 #include "host/base/room.h"
 #include "host/number/functions.h"
 #include "host/run/horizon.h"
-#include "loop.h"
 
 /* Steps of the third run in one of the run's: more than one, so that it is the more accurate, and near no simple ratio. */
 #define STEPS 1.41
@@ -81,27 +80,27 @@ static uint64_t trusted_steps(const twins *t, const horizon *h) {
     return until_s < t->end_s ? (uint64_t)(until_s / im->step_s) : im->steps;
 }
 
-/* Where that many steps of this image end: row[columns]. False where they fail, or are stopped. */
-static bool end_of(const twins *t, const image *im, const volatile sig_atomic_t *stop,
-                   double *row) {
+/* Where all steps of this image end: row[columns]. */
+static loop_end end_of(const twins *t, const image *im, const budget *of, double *row) {
     wh_status status;
     records *r = records_open(NULL, im, &engine_double);
     void *run = engine_double.start(im);
-    const loop l = {.kind = &engine_double, .run = run, .steps = im->steps, .stop = stop};
-    const bool good = loop_run(&l, &status) == LOOP_DONE;
+    const loop l = {.kind = &engine_double, .run = run, .steps = im->steps, .pays = of};
+    const loop_end end = loop_run(&l, &status);
     records_read(r, run, ratio_times(im->steps, im->step));
     memcpy(row, r->row, (size_t)t->columns * sizeof *row);
     engine_double.stop(run);
     records_close(r);
-    return good;
+    return end;
 }
 
-void aliasing_find(twins *t, const volatile sig_atomic_t *stop) {
+bool aliasing_find(twins *t, const budget *of) {
     const image *im = t->shape->image;
     if (t->status != WH_OK || im->steps == 0 || t->shape->kind->steps(t->run) != im->steps) {
-        return; /* it has failed, or was stopped */
+        return true; /* it has failed, or was interrupted */
     }
     image third;
+    loop_end end = LOOP_DONE;
     horizon h = horizon_of(t, HORIZON_TOLERANCE);
     const uint64_t steps = trusted_steps(t, &h);
     if (steps > 0 && im->settings.matrix == MATRIX_NONE && third_image(t, steps, &third)) {
@@ -109,10 +108,17 @@ void aliasing_find(twins *t, const volatile sig_atomic_t *stop) {
         double *row = room(2 * (int64_t)t->columns, sizeof *row);
         finer.steps = steps * t->each;
         const bool whole = steps == im->steps;
-        if (end_of(t, &third, stop, row) && (whole || end_of(t, &finer, stop, row + t->columns))) {
+        const double runs = (double)(third.steps + (whole ? 0 : finer.steps));
+        const double wanted = runs / (double)(im->steps * t->each) * (double)t->operations;
+        end = of != NULL && wanted > budget_left(of) ? LOOP_SPENT : end_of(t, &third, of, row);
+        if (end == LOOP_DONE && !whole) {
+            end = end_of(t, &finer, of, row + t->columns);
+        }
+        if (end == LOOP_DONE) {
             compare(t, &h, whole ? t->finer_end : row + t->columns, row, third.step_s);
         }
         free(row);
     }
     horizon_free(&h);
+    return end == LOOP_DONE || end == LOOP_FAILED;
 }

@@ -10,7 +10,8 @@
 
 #include "twins.h"
 
-/* Once the runs have ended: fills in t->aliased. */
-void aliasing_find(twins *t, const volatile sig_atomic_t *stop);
+/* Once the runs have ended: fills in t->aliased. `of` pays for it; NULL: nobody. False: that is too little, or was
+ * interrupted. */
+bool aliasing_find(twins *t, const budget *of);
 
 #endif

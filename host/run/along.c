@@ -4,6 +4,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "engine.h"
 #include "host/base/room.h"
 #include "host/number/functions.h"
 
@@ -443,9 +444,13 @@ static void go(along_bounds *a, double low, double high) {
     }
 }
 
+/* Bounds of an operation, of a coordinate's way, of a form, and of one of a function take so many operations. */
+enum { BOUNDS = 6, WAY = 10, FORM = 20, CALLED = 200 };
+
 enclosure along_glance(along_bounds *a, int result) {
     if (!a->glanced) {
         a->glanced = true;
+        engine_operations += (uint64_t)(BOUNDS * a->list->count + WAY * a->image->coordinates);
         go(a, 0.0, 1.0);
         for (int i = 0; i < a->list->count; i++) {
             a->natural[i] = natural_of(a, &a->list->ops[i]);
@@ -459,10 +464,13 @@ void along_look(along_bounds *a, int result, double low, double high) {
     const bool *needs = result < 0 ? NULL : a->needs + (ptrdiff_t)result * t->count;
     const int last = result < 0 ? t->count - 1 : t->result[result];
     go(a, low, high);
+    engine_operations += (uint64_t)(WAY * a->image->coordinates);
     for (int i = 0; i <= last; i++) {
         if (needs == NULL || needs[i]) {
+            const op_code code = t->ops[i].code;
             a->of[i] = value_of(a, &t->ops[i]);
-            if (op_rows[t->ops[i].code].kind > OP_IS_LEAF) { /* those are as narrow as can be */
+            if (op_rows[code].kind > OP_IS_LEAF) { /* those are as narrow as can be */
+                engine_operations += code == OP_CALL || code == OP_POW ? CALLED : FORM;
                 cut(&a->of[i], a->half);
             }
         }

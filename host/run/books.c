@@ -352,7 +352,7 @@ static bool momenta_change(books *b, int draw, double *change) {
     return finite;
 }
 
-/* Gauss's elimination of the changes at twice as many places as there are momenta: sums of momenta that change nowhere are what is
+/* Elimination of the changes at twice as many places as there are momenta: sums of momenta that change nowhere are what is
  * left, and who is in one of them is part of a frame. */
 static void find_frame(books *b) {
     const int n = b->image->count;
@@ -468,6 +468,15 @@ void books_enter(books *b, const engine_kind *kind, const void *run) {
         }
         b->kept_J = error;
     }
+}
+
+book_account account_of(const double level[2]) {
+    return (book_account){.level = {level[0], level[1]}, .left = level[1] - level[0]};
+}
+
+void account_enter(book_account *a, double given) {
+    a->left -= given;
+    a->largest = fabs(given) > a->largest ? fabs(given) : a->largest;
 }
 
 book_account books_account(const books *b) {

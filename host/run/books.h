@@ -1,7 +1,7 @@
 /* books.h: the energy and momentum balance of a run, kept in double beside it.
  *
  * What balances is kinetic + stored energy, or the energy integral where that is not their sum (host/derive/equations.h);
- * account.h says how. The powers are those that the ledger (core/ledger.h) keeps by statement, summed; the integration
+ * book_account says how. The powers are those that the ledger (core/ledger.h) keeps by statement, summed; the integration
  * is not the ledger's, on purpose. A ledger is part of the scene: it flies on the board, in the run's numbers, with the
  * method's own stages. These books judge the run, ledger included, and share neither: double, and Simpson's rule on the
  * steps' ends, which is of the same order as Runge-Kutta's. The inputs keep the values that they start with. What is
@@ -9,8 +9,19 @@
 #ifndef RUN_BOOKS_H
 #define RUN_BOOKS_H
 
-#include "account.h"
 #include "engine.h"
+
+/* An account of the energy or of a momentum: what is left over is the level now, less that at the start and the entries. An
+ * entry is positive where it gives (the work of a motor, a push along a coordinate), negative where it takes (a damper, an
+ * impact). An exact solution leaves nothing over. */
+typedef struct book_account {
+    double level[2]; /* at the start, now */
+    double left;     /* left over, with what was entered so far */
+    double largest;  /* size of the largest entry */
+} book_account;
+
+book_account account_of(const double level[2]);
+void account_enter(book_account *a, double given);
 
 /* Mean and spread of a series, by Welford's recurrence, from its first value on. */
 typedef struct spread {

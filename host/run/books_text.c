@@ -4,7 +4,25 @@
 #include <math.h>
 
 #include "host/base/statement.h"
-#include "ledger_read.h"
+#include "host/number/zero.h"
+
+/* The columns that the text of a line gets. */
+#define ACCOUNT_WIDTH 44
+
+static void account_print_level(FILE *out, const char *text, const double level[2]) {
+    fprintf(out, "  %-*s %.9g -> %.9g\n", ACCOUNT_WIDTH, text, level[0], level[1]);
+}
+
+/* `more` stands behind it, or is "". */
+static void account_print_entry(FILE *out, const char *text, double given, const char *more) {
+    fprintf(out, "  %-*s %+.9g%s\n", ACCOUNT_WIDTH, text, number_shown(given), more);
+}
+
+/* The last two lines: the change, and what of it is left over. */
+static void account_print_end(FILE *out, double change, double left) {
+    account_print_entry(out, "change", change, "");
+    fprintf(out, "  %-*s %+.2e (numerical)\n", ACCOUNT_WIDTH, "left over", left);
+}
 
 /* The two energies, and what is booked where that is not their sum. */
 static void print_levels(FILE *out, const books *b) {

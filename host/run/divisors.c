@@ -217,6 +217,7 @@ void divisors_close(divisors *d) {
 void divisors_see(divisors *d, const double *state) {
     const image *im = d->at.image;
     blamed_place(&d->at, state, state + im->angles);
+    engine_operations += (uint64_t)(d->ordered + d->count);
     for (int i = 0; i < d->ordered; i++) {
         d->at.value[d->order[i]] = blamed_node(&d->at, &im->blame.node[d->order[i]]);
     }
@@ -228,6 +229,7 @@ void divisors_see(divisors *d, const double *state) {
 void divisors_see_all(divisors *d, const double *state, double *value) {
     const image *im = d->at.image;
     blamed_place(&d->at, state, state + im->angles);
+    engine_operations += (uint64_t)im->blame.nodes;
     for (int i = 0; i < im->blame.nodes; i++) {
         if ((d->is[i] & MOVES) != 0) {
             d->at.value[i] = blamed_node(&d->at, &im->blame.node[i]);

@@ -70,6 +70,12 @@ typedef struct engine_kind {
     const engine_piece *(*pieces)(const void *run, int *count);
 } engine_kind;
 
+/* What this process has evaluated so far, in operations of lists: the same on every machine. What is none is counted as
+ * so many as take as long, to a third. */
+extern uint64_t engine_operations;
+/* Of these, an evaluation of the accelerations takes so many, with what a method and contacts do for it. */
+uint64_t engine_evaluation(const image *im);
+
 extern const engine_kind engine_float;
 extern const engine_kind engine_double;
 

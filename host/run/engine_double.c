@@ -4,6 +4,14 @@
 #include "host/base/room.h"
 #include "rounding.h"
 
+uint64_t engine_operations;
+
+uint64_t engine_evaluation(const image *im) {
+    const uint64_t of_method = 4U + 2U * (uint64_t)im->count;
+    const uint64_t of_contacts = im->contacts > 0 ? 40U + 20U * (uint64_t)im->contacts : 0U;
+    return (uint64_t)im->list[IMAGE_STEP]->count + EVALUATION + of_method + of_contacts;
+}
+
 struct evaluator {
     const tape *tape;
     registers registers;
@@ -49,6 +57,7 @@ void evaluator_rounding(const evaluator *ev, const double *angle_rad, double lea
     double wrapped[IMAGE_COMPONENTS_MAX];
     const registers *r = &ev->registers;
     const double *phase = phases_of(ev, angle_rad, wrapped);
+    engine_operations += 2U * (uint64_t)ev->tape->count;
     rounding_of(ev->tape, &(rounding_values){r->value, r->sine, r->cosine, phase, angle_rad, least},
                 error);
 }

@@ -8,10 +8,13 @@
 
 #include "apart.h"
 #include "core/contact.h"
+#include "core/refuse.h"
+#include "host/base/diag.h"
 #include "host/base/room.h"
 #include "host/base/statement.h"
 #include "host/number/functions.h"
 #include "host/run/summary.h"
+#include "host/run/undefined.h"
 #include "remedy.h"
 #include "slow.h"
 
@@ -249,8 +252,7 @@ static double first_parts(const verdict *v) {
     return ratio > 0.0 ? number_power(number_least(ratio, 1.0) / 3e-4, 1.0 / row->order) : 1.0;
 }
 
-static void say_remedy(FILE *out, const verdict *v, const image *plain,
-                       const volatile sig_atomic_t *stop) {
+static void say_remedy(FILE *out, const verdict *v) {
     char options[REMEDY_TEXT];
     const image *im = v->image;
     if (im->settings.tables != TABLES_NONE && is_told(v, FINDING_ENERGY)) {
@@ -261,7 +263,7 @@ static void say_remedy(FILE *out, const verdict *v, const image *plain,
         fprintf(out, "hint: the tables may be too coarse (not tried): %sno --tables would tell\n",
                 cells);
     }
-    switch (remedy_find(im, plain, v->kind, first_parts(v), stop, options)) {
+    switch (remedy_find(v, first_parts(v), options)) {
     case REMEDY_DOES: fprintf(out, "hint: %s would do (tried)\n", options); return;
     case REMEDY_DEAR:
         fputs("hint: a smaller --step (not tried to its end: that takes more than a second)\n",
@@ -302,8 +304,7 @@ static void say_remedy(FILE *out, const verdict *v, const image *plain,
     }
 }
 
-void findings_say(FILE *out, const verdict *v, const image *plain,
-                  const volatile sig_atomic_t *stop, bool fails) {
+void findings_say(FILE *out, const verdict *v, bool fails) {
     for (int id = 0; id < FINDINGS; id++) {
         const bool is_error = fails && id == FINDING_ENERGY;
         const bool is_warning = (v->against & FINDING_BIT(id)) != 0;
@@ -315,7 +316,7 @@ void findings_say(FILE *out, const verdict *v, const image *plain,
     }
     if ((fails || (v->against & ~FINDING_OF_SCENE) != 0 || is_told(v, FINDING_MASS)) &&
         !say_cause(out, v)) {
-        say_remedy(out, v, plain, stop);
+        say_remedy(out, v);
     }
     slow_say(out, v->image, v->kind, v->run);
 }
@@ -364,15 +365,89 @@ bool findings_where(const verdict *v, finding_id id, char name[FINDINGS_NAME]) {
     return true;
 }
 
-void findings_say_failed(FILE *out, const verdict *v, const image *plain,
-                         const volatile sig_atomic_t *stop) {
+void findings_say_failed(FILE *out, const verdict *v) {
     char options[REMEDY_TEXT];
     if (v->watch->singular.inertia <= finding_rows[FINDING_SINGULAR].limit) {
         fputs("hint: ", out);
         say_singular(out, v);
         fputs("; coordinates that are not singular there need no smaller step\n", out);
     }
-    if (remedy_find(v->image, plain, v->kind, 2.0, stop, options) == REMEDY_DOES) {
+    if (remedy_find(v, 2.0, options) == REMEDY_DOES) {
         fprintf(out, "hint: %s would do (tried)\n", options);
     }
+}
+
+/* --- why a run has ended before its time ------------------------------------------------------------------*/
+
+static bool starts_beyond(const image *im) {
+    bool found = false;
+    for (int i = 0; i < im->reals; i++) {
+        found = found || !(fabs(im->start_real[i]) < (double)WH_ABSURD);
+    }
+    return found;
+}
+
+/* The first contact that pushes more than one coordinate; -1: none. */
+static int pushing(const image *im) {
+    const int n = im->coordinates;
+    for (int k = 0; k < im->forced; k++) {
+        const tape *t = im->list[IMAGE_FORCES];
+        int entries = 0;
+        for (int i = 0; i < n; i++) {
+            const op *o = &t->ops[t->result[k * (WH_LAW_ROWS + 2 * n) + WH_LAW_ROWS + i]];
+            entries += o->code != OP_CONSTANT || o->value != 0.0;
+        }
+        if (entries > 1) {
+            return k;
+        }
+    }
+    return -1;
+}
+
+void failure_say(FILE *out, wh_status status, const verdict *v) {
+    const engine_kind *kind = v->kind;
+    const void *run = v->run;
+    const image *im = v->image;
+    diags *errors = diags_new();
+    const bool known = undefined_step(im, kind, run, status, errors);
+    diags_flush(errors, out);
+    diags_free(errors);
+    if (known) {
+        /* Where a linkage lies flat, a step that misses the place knows no more of how it goes on. */
+        if (status != WH_E_SINGULAR) {
+            findings_say_failed(out, v);
+        }
+        return;
+    }
+    const int fault = kind->fault(run);
+    const component c = image_component(im, fault < 0 ? 0 : fault);
+    const double time_s = ratio_times(kind->steps(run), im->step);
+    fprintf(out, "whirl run: error: the run diverged in the step after t = %.9g s: %s", time_s,
+            im->unknown[c.unknown].name);
+    for (int k = 0; k < c.primes; k++) {
+        fputc('\'', out);
+    }
+    fputs(" left all bounds\n", out);
+    if (kind->steps(run) == 0 && starts_beyond(im)) {
+        fprintf(
+            out,
+            "hint: it starts beyond them: numbers of a run stay below %g in SI's units; take an "
+            "origin, or units, nearer to it\n",
+            (double)WH_ABSURD);
+        return;
+    }
+    const int k = pushing(im);
+    if (k >= 0) {
+        char statement[STATEMENT_SIZE];
+        statement_text(im->contact[k].at, statement, sizeof statement);
+        fprintf(
+            out,
+            "hint: '%s' pushes all that it names: a clock there needs far more inertia than what "
+            "it meets, or is an input with a rate\n",
+            statement);
+    }
+    fputs("hint: a smaller --step may carry it further; if it fails at the same time, look for a "
+          "singular position there\n",
+          out);
+    findings_say_failed(out, v);
 }

@@ -7,16 +7,16 @@
 #include "host/base/statement.h"
 #include "verdict.h"
 
-/* One line for each finding, "whirl run: warning: ... [word]", then hints. Remedies are tried: `stop` ends that,
- * or is NULL. `fails`: the energy is an error, whatever its limit. */
-void findings_say(FILE *out, const verdict *v, const image *plain,
-                  const volatile sig_atomic_t *stop, bool fails);
+/* One line for each finding, "whirl run: warning: ... [word]", then hints. Remedies are tried. `fails`: the energy is an
+ * error, whatever its limit. */
+void findings_say(FILE *out, const verdict *v, bool fails);
 /* A finding that is told: in words, without its name; and its subject, false if that is the whole run. */
 enum { FINDINGS_NAME = STATEMENT_SIZE };
 void findings_message(FILE *out, const verdict *v, finding_id id);
 bool findings_where(const verdict *v, finding_id id, char name[FINDINGS_NAME]);
 /* Of a run that has ended too early, or whose energies are no numbers: an option with which it goes on, if one is found. */
-void findings_say_failed(FILE *out, const verdict *v, const image *plain,
-                         const volatile sig_atomic_t *stop);
+void findings_say_failed(FILE *out, const verdict *v);
+/* A step came back with `status`: the expression that was no number there, or the coordinate that left all bounds. */
+void failure_say(FILE *out, wh_status status, const verdict *v);
 
 #endif

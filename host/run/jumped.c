@@ -21,6 +21,8 @@ struct jumped {
     double *to;   /* and behind it */
     uint64_t events;
     bool leapt; /* in this step there were some */
+    bool blind; /* the state before it is not known */
+    uint64_t unseen;
     missed *contacts;
     int found; /* a question, or -1 */
     missed_found through;
@@ -167,7 +169,7 @@ void jumped_enter(jumped *j, const engine_kind *kind, const void *run) {
     const uint64_t steps = kind->steps(run);
     bool changed = false;
     j->leapt = had_events(j, kind, run);
-    j->through = missed_enter(j->contacts, kind, run, j->leapt);
+    j->through = missed_enter(j->contacts, kind, run, j->leapt, j->blind);
     j->found_s = j->through.what >= 0 ? ratio_times(steps - 1, j->image->step) : 0.0;
     memcpy(j->from, j->to, (size_t)j->components * sizeof *j->to);
     kind->state(run, j->to, j->to + j->image->angles);
@@ -178,11 +180,23 @@ void jumped_enter(jumped *j, const engine_kind *kind, const void *run) {
         d->now = divisors_value(&j->of, d);
         changed = changed || (changes_sign(d) && counts(j, d));
     }
-    if (steps > 0 && j->through.what < 0 && (changed || may_touch(j))) {
+    const bool looks = steps > 0 && !j->blind;
+    j->unseen += j->blind ? 1U : 0U;
+    j->blind = false;
+    if (looks && j->through.what < 0 && (changed || may_touch(j))) {
         j->found = pole_between(j);
         j->found_s = ratio_times(steps - 1, j->image->step);
     }
 }
+
+void jumped_pass(jumped *j) {
+    if (j != NULL && !jumped_some(j)) { /* the start is no step */
+        j->blind = true;
+        j->unseen++;
+    }
+}
+
+uint64_t jumped_unseen(const jumped *j) { return j != NULL ? j->unseen : 0; }
 
 bool jumped_some(const jumped *j) { return j != NULL && (j->found >= 0 || j->through.what >= 0); }
 

@@ -17,6 +17,9 @@ jumped *jumped_open(const image *im);
 void jumped_close(jumped *j); /* NULL is fine */
 /* Enter the state after each step, the start included. Nothing is looked for behind the first pole. */
 void jumped_enter(jumped *j, const engine_kind *kind, const void *run);
+/* A step that is not looked at; nor is the next one entered. And how many were not. */
+void jumped_pass(jumped *j);
+uint64_t jumped_unseen(const jumped *j);
 /* Has the run jumped over one? */
 bool jumped_some(const jumped *j);
 /* The contact that it passed through, as missed_enter() tells, and when that step began; nothing: it was a pole. */

@@ -3,28 +3,46 @@
 
 #include <stddef.h>
 
-static bool see(const loop *l, uint64_t step) {
-    bool on = true;
-    for (int i = 0; i < LOOP_OBSERVERS; i++) {
-        const loop_observer *each = &l->see[i];
-        on = (each->see == NULL || each->see(each->of, step)) && on;
+#include "host/base/interrupts.h"
+
+void budget_begin(budget *b) {
+    if (b->depth++ == 0) {
+        b->since = engine_operations;
     }
-    return on;
+}
+
+void budget_end(budget *b) {
+    if (--b->depth == 0) {
+        b->spent += engine_operations - b->since;
+    }
+}
+
+double budget_left(const budget *b) {
+    const uint64_t now = b->depth > 0 ? engine_operations - b->since : 0;
+    const double own = (double)b->own;
+    return (own > BUDGET_LEAST ? own : BUDGET_LEAST) - (double)(b->spent + now);
 }
 
 loop_end loop_run(const loop *l, wh_status *status) {
     *status = WH_OK;
     for (uint64_t step = l->kind->steps(l->run);; step++) {
-        if (!see(l, step)) {
+        if (l->see != NULL && !l->see(l->of, step)) {
             return LOOP_ENOUGH;
         }
         if (step == l->steps) {
             return LOOP_DONE;
         }
-        if (l->stop != NULL && *l->stop) {
+        if (interrupted) {
             return LOOP_INTERRUPTED;
         }
+        if (l->pays != NULL && budget_left(l->pays) < 0.0) {
+            return LOOP_SPENT;
+        }
+        const uint64_t before = engine_operations;
         *status = loop_steps(l->kind, l->run, 1);
+        if (l->own != NULL) {
+            l->own->own += engine_operations - before;
+        }
         if (*status != WH_OK) {
             return LOOP_FAILED;
         }

@@ -389,7 +389,8 @@ static missed_found piece_passed(missed *m, const engine_piece *piece) {
     return found.what < 0 && m->hills ? force_passed(m) : found;
 }
 
-missed_found missed_enter(missed *m, const engine_kind *kind, const void *run, bool eventful) {
+missed_found missed_enter(missed *m, const engine_kind *kind, const void *run, bool eventful,
+                          bool blind) {
     missed_found found = MISSED_NOTHING;
     if (m == NULL) {
         return found;
@@ -402,7 +403,7 @@ missed_found missed_enter(missed *m, const engine_kind *kind, const void *run, b
     if (im->contacts > 0) {
         kind->modes(run, m->mode_to);
     }
-    if (kind->steps(run) == 0) {
+    if (kind->steps(run) == 0 || blind) {
         return found;
     }
     const engine_piece *pieces =

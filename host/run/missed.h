@@ -30,7 +30,9 @@ typedef struct missed_found {
 } missed_found;
 #define MISSED_NOTHING ((missed_found){-1, false, false})
 
-/* Enter the state after each step, the start included. `eventful`: the step had events. */
-missed_found missed_enter(missed *m, const engine_kind *kind, const void *run, bool eventful);
+/* Enter the state after each step, the start included. `eventful`: the step had events. `blind`: the state before it was not
+ * entered, and nothing is looked for. */
+missed_found missed_enter(missed *m, const engine_kind *kind, const void *run, bool eventful,
+                          bool blind);
 
 #endif

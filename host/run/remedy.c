@@ -3,9 +3,9 @@
 
 #include <stdio.h>
 
+#include "host/base/interrupts.h"
 #include "host/number/functions.h"
 #include "host/run/summary.h"
-#include "loop.h"
 
 /* A remedy keeps this part of the limit: the lists of a user's run may round a little otherwise. */
 #define LEAVES 0.3
@@ -18,9 +18,10 @@ typedef struct search {
     const image *image;
     const image *plain;
     const engine_kind *kind;
-    const volatile sig_atomic_t *stop;
-    double part;  /* of the limits */
-    double spent; /* operations */
+    budget *budget;
+    double part;   /* of the limits */
+    double a_step; /* operations of one, judged, and stages in them */
+    double stages;
     bool dear;
 } search;
 
@@ -30,8 +31,6 @@ typedef struct wish {
     bool compensated;
     bool in_double;
 } wish;
-
-static bool is_stopped(const search *s) { return s->stop != NULL && *s->stop; }
 
 /* The same scene with it; false where no whole number of steps counts that, or it would be the same run. */
 static bool image_with(const image *im, const wish *w, image *made) {
@@ -49,20 +48,6 @@ static bool image_with(const image *im, const wish *w, image *made) {
     made->step = ratio_of(w->step_s);
     made->step_s = ratio_times(1, made->step);
     return ratio_count(ratio_of(im->until_s), made->step, &made->steps) && made->steps > 0;
-}
-
-/* Operations of an evaluation beside its list, and of the search for events in a step. */
-#define BESIDE 40.0
-#define EVENTS_AS 8.0
-
-/* A run, its books, and the finer run, which has twice as many steps. */
-static double operations(const image *im) {
-    const double events = im->contacts > 0 ? EVENTS_AS : 0.0;
-    const double stages = wh_methods[im->settings.method].stages;
-    const double finer = number_most(stages, wh_methods[WH_METHOD_DEFAULT].stages);
-    const double evaluations = stages + 2.0 * finer + 3.0 * events;
-    return (double)im->steps * (evaluations * (im->list[IMAGE_STEP]->count + BESIDE) +
-                                2.0 * (im->list[IMAGE_BOOKS]->count + BESIDE));
 }
 
 /* Is it wrong from its begin on? A motion that is chaotic is right for longer. */
@@ -90,29 +75,33 @@ static bool see(void *of, uint64_t step) {
     return !jumped_some(v->jumped);
 }
 
+/* What steps with contacts take depends on their events: that is not foreseen. */
+static double operations(const search *s, const image *with) {
+    return with->contacts > 0 ? 0.0
+                              : (double)with->steps * s->a_step *
+                                    wh_methods[with->settings.method].stages / s->stages;
+}
+
 static bool try(search *s, const wish *w) {
     image with;
-    if (is_stopped(s) || !image_with(s->image, w, &with)) {
-        s->dear = s->dear || is_stopped(s);
+    if (!image_with(s->image, w, &with)) {
         return false;
     }
-    if (s->spent + operations(&with) > TWINS_OPERATIONS_1S) {
-        s->dear = true;
+    s->dear = s->dear || interrupted || operations(s, &with) > budget_left(s->budget);
+    if (s->dear) {
         return false;
     }
     const engine_kind *kind = w->in_double ? &engine_double : s->kind;
     void *run = kind->start(&with);
-    verdict *v = verdict_open(&with, s->plain, kind, run);
-    v->stop = s->stop;
+    verdict *v = verdict_open(&with, s->plain, kind, run, s->budget);
     v->part = s->part;
     const loop l = {
-        .kind = kind, .run = run, .steps = with.steps, .stop = s->stop, .see = {{see, v}}};
-    wh_status status;
-    const bool whole = loop_run(&l, &status) == LOOP_DONE;
-    s->spent +=
-        operations(&with) * (double)kind->steps(run) / (double)(with.steps + (with.steps == 0));
+        .kind = kind, .run = run, .steps = with.steps, .pays = s->budget, .see = see, .of = v};
+    wh_status status = WH_OK; /* without a finer run nothing is known of it */
+    const loop_end end = v->twins != NULL ? loop_run(&l, &status) : LOOP_SPENT;
     verdict_end(v, status);
-    const bool good = whole && does(v);
+    const bool good = end == LOOP_DONE && does(v);
+    s->dear = end == LOOP_SPENT || end == LOOP_INTERRUPTED;
     verdict_close(v);
     kind->stop(run);
     return good;
@@ -163,43 +152,55 @@ static bool try_steps(search *s, wish w, double parts, char text[REMEDY_TEXT]) {
     return false;
 }
 
-remedy_outcome remedy_find(const image *im, const image *plain, const engine_kind *kind,
-                           double parts, const volatile sig_atomic_t *stop,
-                           char text[REMEDY_TEXT]) {
-    search s = {.image = im, .plain = plain, .kind = kind, .stop = stop, .part = LEAVES};
+static remedy_outcome find(search *s, double parts, char text[REMEDY_TEXT]) {
+    const image *im = s->image;
     const wh_method own = im->settings.matrix == MATRIX_RK4 ? WH_RK4 : im->settings.method;
     wish w = {im->step_s, own, im->settings.compensated, false};
-    text[0] = '\0';
     if (im->fixed != NULL || im->settings.matrix == MATRIX_EXACT || im->steps == 0) {
         return REMEDY_NONE;
     }
     wish other[2] = {w, w};
     other[0].compensated = true;
     other[1].in_double = true;
-    for (int i = w.compensated ? 1 : 0; i < (kind == &engine_float ? 2 : 1); i++) {
-        if (try(&s, &other[i])) {
-            write_options(&s, &other[i], text);
+    for (int i = w.compensated ? 1 : 0; i < (s->kind == &engine_float ? 2 : 1); i++) {
+        if (try(s, &other[i])) {
+            write_options(s, &other[i], text);
             return REMEDY_DOES;
         }
     }
     if (wh_methods[own].order < wh_methods[WH_METHOD_DEFAULT].order) {
         w.method = WH_METHOD_DEFAULT; /* and with it finer steps */
         wish usual = w;
-        if (try_either(&s, &usual)) {
-            write_options(&s, &usual, text);
+        if (try_either(s, &usual)) {
+            write_options(s, &usual, text);
             return REMEDY_DOES;
         }
         parts = 1.0;
     }
-    if (try_steps(&s, w, parts, text)) {
-        return REMEDY_DOES;
-    }
-    return s.dear ? REMEDY_DEAR : REMEDY_NONE;
+    return try_steps(s, w, parts, text) ? REMEDY_DOES : s->dear ? REMEDY_DEAR : REMEDY_NONE;
 }
 
-bool remedy_not_needed(const image *im, const image *plain, const engine_kind *kind,
-                       const volatile sig_atomic_t *stop) {
-    search s = {.image = im, .plain = plain, .kind = kind, .stop = stop, .part = 1.0};
+remedy_outcome remedy_find(const verdict *v, double parts, char text[REMEDY_TEXT]) {
+    const double steps = number_most((double)v->kind->steps(v->run), 1.0);
+    budget_begin(v->budget);
+    search s = {.image = v->image,
+                .plain = v->plain,
+                .kind = v->kind,
+                .budget = v->budget,
+                .part = LEAVES,
+                .a_step = (double)(v->budget->own + v->budget->spent) / steps,
+                .stages = wh_methods[v->image->settings.method].stages};
+    text[0] = '\0';
+    const remedy_outcome found = find(&s, parts, text);
+    budget_end(v->budget);
+    return found;
+}
+
+bool remedy_not_needed(const image *im, const image *plain, const engine_kind *kind) {
+    budget all = {0};
+    search s = {
+        .image = im, .plain = plain, .kind = kind, .budget = &all, .part = 1.0, .stages = 1.0};
     const wish own = {im->step_s, im->settings.method, im->settings.compensated, false};
+    budget_begin(&all);
     return try(&s, &own);
 }

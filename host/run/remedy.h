@@ -7,17 +7,16 @@
 typedef enum remedy_outcome {
     REMEDY_DOES, /* nothing is found of the run with it */
     REMEDY_NONE, /* of those tried, none does */
-    REMEDY_DEAR  /* it would take too long, or was stopped */
+    REMEDY_DEAR  /* the budget is spent, or it was interrupted */
 } remedy_outcome;
 
 enum { REMEDY_TEXT = 120 };
 
-/* "--step 50us --compensated". `parts`: so many of a step are tried first, 1 or more. `stop` ends the search, or is NULL. */
-remedy_outcome remedy_find(const image *im, const image *plain, const engine_kind *kind,
-                           double parts, const volatile sig_atomic_t *stop, char text[REMEDY_TEXT]);
+/* Of the run that was judged, from what its looks have left: "--step 50us --compensated". `parts`: so many of a step are
+ * tried first, 1 or more. */
+remedy_outcome remedy_find(const verdict *v, double parts, char text[REMEDY_TEXT]);
 
 /* Is nothing found of a run of this image? */
-bool remedy_not_needed(const image *im, const image *plain, const engine_kind *kind,
-                       const volatile sig_atomic_t *stop);
+bool remedy_not_needed(const image *im, const image *plain, const engine_kind *kind);
 
 #endif

@@ -10,7 +10,6 @@
 
 #include "core/contact.h"
 #include "envelope.h"
-#include "failure.h"
 #include "findings.h"
 #include "host/base/exit.h"
 #include "host/base/room.h"
@@ -21,7 +20,6 @@
 #include "host/run/horizon.h"
 #include "host/run/summary.h"
 #include "host/run/undefined.h"
-#include "loop.h"
 #include "records.h"
 #include "run_json.h"
 #include "traces.h"
@@ -98,21 +96,15 @@ static bool open_files(simulation *sim) {
 /* Energies that are no numbers end as a failed run: the motion goes on, and so do its records. */
 static void tell_energies(simulation *sim) {
     const books *b = sim->verdict->books;
-    char when[60];
     if (b == NULL || !b->undefined || sim->energies_told) {
         return;
     }
     sim->energies_told = true;
-    snprintf(when, sizeof when, "at t = %.9g s", b->undefined_s);
-    const undefined_at at = {.image = sim->image,
-                             .angle_rad = b->angle_rad,
-                             .real = b->real,
-                             .turns = sim->settings->kind == &engine_float,
-                             .when = when};
-    if (!undefined_angle(&at, sim->undefined) && !undefined_term(&at, sim->undefined)) {
+    if (!undefined_energies(sim->image, sim->settings->kind, b->angle_rad, b->real, b->undefined_s,
+                            sim->undefined)) {
         diag_error(sim->undefined, sim->image->mechanism_at, NULL,
-                   "%s the energies and powers of '%s' are not finite numbers", when,
-                   sim->image->mechanism);
+                   "at t = %.9g s the energies and powers of '%s' are not finite numbers",
+                   b->undefined_s, sim->image->mechanism);
     }
 }
 
@@ -216,16 +208,17 @@ static bool see(void *of, uint64_t step) {
     return !sim->write_failed;
 }
 
-static wh_status go(simulation *sim, bool *interrupted) {
+static wh_status go(simulation *sim, bool *ended) {
     const simulation_settings *s = sim->settings;
     const loop l = {.kind = s->kind,
                     .run = sim->run,
                     .steps = sim->steps,
-                    .stop = s->stop,
-                    .see = {{see, sim}}};
+                    .own = &sim->verdict->own,
+                    .see = see,
+                    .of = sim};
     wh_status status;
     sim->shown_s = now_s();
-    *interrupted = loop_run(&l, &status) == LOOP_INTERRUPTED;
+    *ended = loop_run(&l, &status) == LOOP_INTERRUPTED;
     if (s->progress) {
         fprintf(stderr, "\r        \r");
     }
@@ -270,11 +263,11 @@ static void say_clamped(const simulation *sim) {
 }
 
 /* What the run came to, and the words for it. */
-static simulation_result judge(simulation *sim, wh_status status, bool interrupted) {
+static simulation_result judge(simulation *sim, wh_status status, bool ended) {
     const simulation_settings *s = sim->settings;
     records_read(sim->records, sim->run, ratio_times(s->kind->steps(sim->run), sim->image->step));
     if (status != WH_OK) { /* which says why the energies are no numbers either */
-        failure_say(stderr, s->kind, sim->run, status, sim->verdict, s->plain, s->stop);
+        failure_say(stderr, status, sim->verdict);
         diags_free(sim->undefined);
         sim->undefined = diags_new();
     } else if (sim->output < 0) { /* an output is watched at the end, too, recorded or not */
@@ -288,7 +281,7 @@ static simulation_result judge(simulation *sim, wh_status status, bool interrupt
     const books *b = sim->verdict->books;
     if (status == WH_OK && b != NULL && b->undefined &&
         sim->output < 0) { /* of outputs a cure knows nothing */
-        findings_say_failed(stderr, sim->verdict, s->plain, s->stop);
+        findings_say_failed(stderr, sim->verdict);
     }
     if (status != WH_OK || undefined) {
         return SIMULATION_FAILED;
@@ -296,10 +289,10 @@ static simulation_result judge(simulation *sim, wh_status status, bool interrupt
     const bool fails = s->strict > 0.0 && belief_lost(&sim->verdict->balance, s->strict);
     size_t length;
     FILE *text = room_text(&sim->said, &length);
-    findings_say(text, sim->verdict, s->plain, s->stop, fails);
+    findings_say(text, sim->verdict, fails);
     room_text_end(text);
     fputs(sim->said, stderr);
-    return interrupted ? SIMULATION_INTERRUPTED : SIMULATION_DONE;
+    return ended ? SIMULATION_INTERRUPTED : SIMULATION_DONE;
 }
 
 /* The quantities' names, as in the records. */
@@ -406,6 +399,17 @@ static void print_summary(simulation *sim, wh_status status, simulation_result r
         fputs("trusted            whirl trust tells until when: it takes more than a second\n",
               out);
     }
+    const uint64_t unseen = jumped_unseen(sim->verdict->jumped);
+    if (result == SIMULATION_DONE && unseen > 0) {
+        fprintf(out,
+                "not looked at      poles and missed contacts in %" PRIu64 " of %" PRIu64
+                " steps: that takes more than a second\n",
+                unseen, sim->steps);
+    }
+    if (result == SIMULATION_DONE && sim->verdict->unaliased) {
+        fputs("not looked at      what is faster than the step: that takes more than a second\n",
+              out);
+    }
     summary_print(out, sim->image, s->kind, sim->run, sim->verdict->books, &sim->verdict->balance);
 }
 
@@ -436,10 +440,9 @@ simulation_result simulate(const image *im, const simulation_settings *s, simula
     name_course(&sim);
     simulation_result result = SIMULATION_BAD_FILE;
     if (open_files(&sim)) {
-        bool interrupted = false;
+        bool ended = false;
         sim.run = s->kind->start(im);
-        sim.verdict = verdict_open(im, s->plain, s->kind, sim.run);
-        sim.verdict->stop = s->stop;
+        sim.verdict = verdict_open(im, s->plain, s->kind, sim.run, NULL);
         sim.undefined = diags_new();
         sim.records->out = sim.csv;
         sim.records->plain = sim.columns;
@@ -447,20 +450,21 @@ simulation_result simulate(const image *im, const simulation_settings *s, simula
         records_read(sim.records, sim.run, 0.0);
         sim.opening = opening_begin(sim.records, sim.steps);
         sim.traces = sim.vcd != NULL ? traces_open(sim.vcd, sim.records, s->every) : NULL;
-        const wh_status status = go(&sim, &interrupted);
+        const wh_status status = go(&sim, &ended);
         verdict_end(sim.verdict, status);
         horizon h;
         const bool known = sim.verdict->twins != NULL && status == WH_OK;
         if (known) {
             trust(&sim, &h, told);
         }
-        result = judge(&sim, status, interrupted);
+        result = judge(&sim, status, ended);
         told->fails = verdict_fails(sim.verdict, s->strict);
         told->dear = sim.verdict->twins == NULL;
+        told->left = budget_left(&sim.verdict->own);
         traces_close(sim.traces);
         sim.course.trusted_s = sim.trusted_s;
         result = close_records(&sim, true) ? result : SIMULATION_BAD_FILE;
-        if (status == WH_OK && interrupted) {
+        if (status == WH_OK && ended) {
             say_interrupted(&sim);
         }
         told->still = !opening_moves(&sim.opening, sim.records);

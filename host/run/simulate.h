@@ -2,7 +2,6 @@
 #ifndef RUN_SIMULATE_H
 #define RUN_SIMULATE_H
 
-#include <signal.h>
 #include <stdio.h>
 
 #include "engine.h"
@@ -25,14 +24,13 @@ typedef struct simulation_settings {
     double strict; /* verdict_fails() */
     bool progress;
     const image *plain; /* of the finer run beside it (twins_plain()); NULL: the image itself */
-    const volatile sig_atomic_t *stop; /* set from outside to end the run cleanly; may be NULL */
 } simulation_settings;
 
 typedef enum simulation_result {
     SIMULATION_DONE,
     SIMULATION_FAILED, /* diverged, or not a number somewhere; said on standard error, the records so
                              * far are kept */
-    SIMULATION_INTERRUPTED, /* by *stop */
+    SIMULATION_INTERRUPTED, /* host/base/interrupts.h */
     SIMULATION_BAD_FILE     /* a file could not be written, or gnuplot failed; said */
 } simulation_result;
 
@@ -43,7 +41,9 @@ FILE *simulation_summary(const simulation_settings *s);
  * is not told. */
 typedef struct simulation_trust {
     unsigned fails;
-    bool dear;  /* it takes too long */
+    bool dear; /* the finer run takes too long */
+    double
+        left; /* of the operations of all looks: the rows of a summary take half of them at most */
     bool still; /* no coordinate moves */
     double until_s;
 } simulation_trust;

@@ -9,7 +9,6 @@
 #include "host/base/room.h"
 #include "host/number/functions.h"
 #include "host/run/undefined.h"
-#include "loop.h"
 
 /* What looking for events takes of evaluations, beside a step's own. */
 #define EVALUATIONS_OF_EVENTS 8.0
@@ -99,13 +98,18 @@ static void make_finer(twins *t, const twins_wish *w) {
     }
 }
 
+double twins_finer_operations(const image *im, const image *plain) {
+    const double each = im->settings.matrix == MATRIX_EXACT ? 1.0 : 2.0;
+    return (double)im->steps * each * wh_methods[twins_method(im)].stages *
+           (double)engine_evaluation(plain);
+}
+
 double twins_operations(const image *im, const image *plain) {
     const double stages = wh_methods[im->settings.method].stages;
-    const double finer = number_most(stages, wh_methods[WH_METHOD_DEFAULT].stages);
     const double events = im->contacts > 0 ? EVALUATIONS_OF_EVENTS : 0.0;
-    const double sides = (stages + events) * im->list[IMAGE_STEP]->count +
-                         2.0 * (finer + events) * plain->list[IMAGE_STEP]->count;
-    return (double)im->steps * sides;
+    const double each = stages + 3.0 * events;
+    return (double)im->steps * each * (double)engine_evaluation(im) +
+           twins_finer_operations(im, plain);
 }
 
 /* --- passages -----------------------------------------------------------------------------------------*/
@@ -310,9 +314,13 @@ static void look(pair *p, double time_s) {
 static bool step_finer(pair *p) {
     bool good = true;
     for (uint64_t i = 0; i < p->to->each && good; i++) {
+        const uint64_t before = engine_operations;
         good = loop_steps(&engine_double, p->finer, 1) == WH_OK;
-        if (good) {
+        p->to->operations += engine_operations - before;
+        if (good && p->to->jumps) {
             jumped_enter(p->finer_jumps, &engine_double, p->finer);
+        } else {
+            jumped_pass(p->finer_jumps);
         }
     }
     return good;
@@ -407,6 +415,7 @@ twins *twins_open(const twins_wish *w, void *run) {
     t->overrun_s = -1.0;
     t->cut_s = -1.0;
     t->jumped_s = -1.0;
+    t->jumps = true;
     t->run = run;
     t->pair = p;
     t->books = w->books ? books_open(w->image) : NULL;
@@ -454,11 +463,7 @@ static bool see(void *of, uint64_t step) {
 
 twins *twins_run(const twins_wish *w) {
     twins *t = twins_open(w, w->kind->start(w->image));
-    const loop l = {.kind = w->kind,
-                    .run = t->run,
-                    .steps = w->image->steps,
-                    .stop = w->stop,
-                    .see = {{see, t}}};
+    const loop l = {.kind = w->kind, .run = t->run, .steps = w->image->steps, .see = see, .of = t};
     wh_status status;
     t->stopped = loop_run(&l, &status) == LOOP_INTERRUPTED;
     twins_end(t, status);

@@ -7,17 +7,13 @@
 #ifndef TRUST_TWINS_H
 #define TRUST_TWINS_H
 
-#include <signal.h>
-
 #include "belief.h"
 #include "jumped.h"
+#include "loop.h"
 #include "records.h"
 
 /* The two are compared at so many evenly spaced ends of steps, at most. */
 enum { TWINS_LOOKS = 20000 };
-
-/* Operations that a second takes, about. */
-#define TWINS_OPERATIONS_1S 2.4e8
 
 typedef struct twins_wish {
     const image *image;
@@ -26,7 +22,6 @@ typedef struct twins_wish {
     bool books;         /* keep the run's books, and tell what they leave over */
     bool watched;       /* the caller owns the run, and what it jumped over: */
     jumped *jumped;     /* NULL: over nothing */
-    const volatile sig_atomic_t *stop;          /* may be NULL */
     void (*progress)(double share, void *told); /* now and then; or NULL */
     void *told;
 } twins_wish;
@@ -80,8 +75,9 @@ typedef struct twins_aliased {
 } twins_aliased;
 
 typedef struct twins {
-    image finer;   /* the other's image; shares its lists */
-    uint64_t each; /* its steps in one of the run's */
+    image finer;         /* the other's image; shares its lists */
+    uint64_t each;       /* its steps in one of the run's */
+    uint64_t operations; /* that all of its steps took */
     double
         left_out; /* of the run's error, as a part of what the two differ by: the finer one's own */
     records *shape; /* names and units of the columns: 0 is the time, outputs come last */
@@ -105,6 +101,7 @@ typedef struct twins {
     twins_aliased aliased;   /* after aliasing_find() */
     bool stopped;
     books *books; /* NULL: none */
+    bool jumps;   /* is the finer run asked for poles and missed contacts now? */
     struct pair *pair;
 } twins;
 
@@ -125,7 +122,8 @@ void twins_enter(twins *t);
 void twins_end(twins *t, wh_status status);
 void twins_free(twins *t); /* NULL is fine */
 
-/* Operations that this evaluates, about. */
+/* Operations that the two take, about; the finer one alone, without its events. */
 double twins_operations(const image *im, const image *plain);
+double twins_finer_operations(const image *im, const image *plain);
 
 #endif

@@ -316,6 +316,18 @@ bool undefined_angle(const undefined_at *at, diags *errors) {
     return true;
 }
 
+bool undefined_energies(const image *im, const engine_kind *kind, const double *angle_rad,
+                        const double *real, double time_s, diags *errors) {
+    char when[60];
+    snprintf(when, sizeof when, "at t = %.9g s", time_s);
+    const undefined_at at = {.image = im,
+                             .angle_rad = angle_rad,
+                             .real = real,
+                             .turns = kind == &engine_float,
+                             .when = when};
+    return undefined_angle(&at, errors) || undefined_term(&at, errors);
+}
+
 /* --- a step that failed ------------------------------------------------------------------------*/
 
 /* Holds that close a linkage leave it more than one motion where it lies flat (core/contact_rank.h). */

@@ -54,6 +54,10 @@ bool undefined_set(const undefined_at *at, diags *errors);
 /* Of contact k. Always reports: when the expression cannot be told, the contact as a whole. */
 void undefined_contact(const undefined_at *at, int k, diags *errors);
 
+/* Why the energies of a run were no numbers at this time. */
+bool undefined_energies(const image *im, const engine_kind *kind, const double *angle_rad,
+                        const double *real, double time_s, diags *errors);
+
 /* Why a step of this run did not come about, if it is for an expression or an angle of the model. */
 bool undefined_step(const image *im, const engine_kind *kind, const void *run, wh_status status,
                     diags *errors);

@@ -10,12 +10,15 @@
 #include "host/number/functions.h"
 #include "slow.h"
 
-verdict *verdict_open(const image *im, const image *plain, const engine_kind *kind, void *run) {
+verdict *verdict_open(const image *im, const image *plain, const engine_kind *kind, void *run,
+                      budget *of) {
     verdict *v = room(1, sizeof *v);
     v->image = im;
     v->kind = kind;
     v->run = run;
     v->part = 1.0;
+    v->plain = plain;
+    v->budget = of != NULL ? of : &v->own;
     v->books = books_open(im);
     v->watch = watch_open(im, kind);
     v->jumped = jumped_open(im);
@@ -24,7 +27,7 @@ verdict *verdict_open(const image *im, const image *plain, const engine_kind *ki
                              .plain = plain != NULL ? plain : im,
                              .watched = true,
                              .jumped = v->jumped};
-    if (im->steps > 0 && twins_operations(im, wish.plain) <= TWINS_OPERATIONS_1S) {
+    if (im->steps > 0 && twins_finer_operations(im, wish.plain) <= budget_left(v->budget)) {
         v->twins = twins_open(&wish, run);
     }
     return v;
@@ -59,18 +62,41 @@ static void watch_events(verdict *v) {
     v->energy_J = energy_J;
 }
 
+/* The part of the budget that is left beyond what the steps to come may take. Below 0, what is less important than the finer run is
+ * not looked at: so it is now and then in all of the run, and not at its begin alone. */
+static double part_left(const verdict *v) {
+    const double come = (double)(v->image->steps - v->kind->steps(v->run));
+    const double share = v->budget == &v->own ? come / (double)(v->image->steps + 1U) : 0.0;
+    return budget_left(v->budget) / BUDGET_LEAST - share;
+}
+
+/* Further below than this the finer run alone takes too much, and would not come to its end. */
+#define BEHIND (-1.0 / 16.0)
+
 void verdict_enter(verdict *v) {
+    budget_begin(v->budget);
     if (v->books != NULL) {
         books_enter(v->books, v->kind, v->run);
     }
     watch_enter(v->watch, v->kind, v->books, v->run);
-    jumped_enter(v->jumped, v->kind, v->run);
     if (v->image->contacts > 0) {
         watch_events(v);
     }
+    const bool jumps = part_left(v) >= 0.0;
+    if (jumps) {
+        jumped_enter(v->jumped, v->kind, v->run);
+    } else {
+        jumped_pass(v->jumped);
+    }
+    if (part_left(v) < BEHIND) {
+        twins_free(v->twins);
+        v->twins = NULL;
+    }
     if (v->twins != NULL) {
+        v->twins->jumps = jumps;
         twins_enter(v->twins);
     }
+    budget_end(v->budget);
 }
 
 /* --- judging -----------------------------------------------------------------------------------------------*/
@@ -239,15 +265,7 @@ static void judge_events(verdict *v) {
     }
 }
 
-void verdict_end(verdict *v, wh_status status) {
-    if (v->twins != NULL) {
-        twins_end(v->twins, status);
-        aliasing_find(v->twins, v->stop);
-    }
-    v->balance = belief_of(v->books, v->kind, v->run);
-    if (status != WH_OK) {
-        return;
-    }
+static void judge(verdict *v) {
     if (v->image->mass_blur > finding_rows[FINDING_MASS].limit) {
         tell(v, FINDING_MASS, v->image->mass_blur, -1.0, -1);
     }
@@ -270,6 +288,19 @@ void verdict_end(verdict *v, wh_status status) {
     if (slow > 0.0) {
         tell(v, FINDING_DIGITS, slow, -1.0, -1);
     }
+}
+
+void verdict_end(verdict *v, wh_status status) {
+    budget_begin(v->budget);
+    if (v->twins != NULL) {
+        twins_end(v->twins, status);
+        v->unaliased = !aliasing_find(v->twins, v->budget);
+    }
+    v->balance = belief_of(v->books, v->kind, v->run);
+    if (status == WH_OK) {
+        judge(v);
+    }
+    budget_end(v->budget);
 }
 
 unsigned verdict_fails(const verdict *v, double strict) {

@@ -7,8 +7,6 @@
 #ifndef RUN_VERDICT_H
 #define RUN_VERDICT_H
 
-#include <signal.h>
-
 #include "belief.h"
 #include "finding.h"
 #include "host/run/horizon.h"
@@ -26,12 +24,15 @@ typedef struct verdict {
     const image *image;
     const engine_kind *kind;
     void *run;
-    const volatile sig_atomic_t *stop; /* an interrupt; NULL, as verdict_open leaves it: none */
-    double part;  /* of the limits of energy and accuracy: 1; a remedy is judged by less */
-    books *books; /* NULL of a system given by its equations */
+    const image *plain; /* of the finer run */
+    budget own;
+    budget *budget; /* pays for all looks: its own, or another's */
+    double part;    /* of the limits of energy and accuracy: 1; a remedy is judged by less */
+    books *books;   /* NULL of a system given by its equations */
     watch *watch;
     jumped *jumped; /* NULL: over nothing */
     twins *twins;   /* NULL: it would take too long */
+    bool unaliased; /* the budget was too small for the third run */
     uint64_t overruns;
     double overran_s;                        /* the first of them began there */
     uint64_t in_overruns[WH_CONTACTS_LIMIT]; /* events of each contact in them */
@@ -42,8 +43,10 @@ typedef struct verdict {
     unsigned against; /* the warnings of the run among them, as bits */
 } verdict;
 
-/* `plain`: the finer run's image (twins_plain()); NULL: the image itself. All must outlive the verdict. */
-verdict *verdict_open(const image *im, const image *plain, const engine_kind *kind, void *run);
+/* `plain`: the finer run's image (twins_plain()); NULL: the image itself. `of` pays for all of it; NULL: the verdict has a
+ * budget of its own, which the loop of the run fills. All must outlive the verdict. */
+verdict *verdict_open(const image *im, const image *plain, const engine_kind *kind, void *run,
+                      budget *of);
 void verdict_close(verdict *v); /* NULL is fine */
 /* Enter the state after each step, the start included. */
 void verdict_enter(verdict *v);

@@ -3,17 +3,21 @@
 
 #include <errno.h>
 #include <poll.h>
+#include <signal.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/time.h>
 #include <sys/types.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "host/base/interrupts.h"
 #include "host/base/room.h"
 
 /* Points handed out beyond the first that has not come back, for each worker. */
 #define AHEAD 8U
-#define PAUSE_MS 200
+#define PAUSE_MS 50
+#define ASK_US 200000
 
 /* What a worker sends before row and reason. */
 typedef struct answer {
@@ -53,7 +57,11 @@ typedef struct pool {
 
 static pid_t parent;
 
-bool jobs_orphaned(void) { return getppid() != parent; }
+/* Without a parent nobody waits for what it does. */
+static void ask_for_parent(int signal_number) {
+    (void)signal_number;
+    interrupted = getppid() != parent;
+}
 
 static bool write_all(int to, const void *bytes, size_t length) {
     const char *at = bytes;
@@ -89,7 +97,7 @@ static void work(const jobs *j, int tickets, int results) {
                           write_all(results, text[1], length[1]);
         free(text[0]);
         free(text[1]);
-        if (!sent || jobs_orphaned()) {
+        if (!sent || interrupted) {
             break;
         }
     }
@@ -114,6 +122,9 @@ static bool start_worker(pool *p, int tickets) {
     if (pid == 0) {
         signal(SIGINT, SIG_IGN); /* the parent says when to end */
         signal(SIGTERM, SIG_DFL);
+        sigaction(SIGALRM,
+                  &(struct sigaction){.sa_handler = ask_for_parent, .sa_flags = SA_RESTART}, NULL);
+        setitimer(ITIMER_REAL, &(struct itimerval){{0, ASK_US}, {0, ASK_US}}, NULL);
         sigprocmask(SIG_SETMASK, &usual, NULL);
         close(p->tickets);
         close(results[0]);
@@ -235,7 +246,7 @@ static jobs_result attend(pool *p) {
         }
         if (!deliver(p) || !j->pause(j->context, p->delivered)) {
             result = JOBS_REFUSED;
-        } else if (j->stop != NULL && *j->stop) {
+        } else if (interrupted) {
             result = p->delivered < j->end ? JOBS_STOPPED : JOBS_DONE;
         } else if (p->delivered == j->end) {
             result = JOBS_DONE;

@@ -7,7 +7,6 @@
 #ifndef SWEEP_JOBS_H
 #define SWEEP_JOBS_H
 
-#include <signal.h>
 #include <stdbool.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -24,12 +23,11 @@ typedef struct jobs {
     bool (*deliver)(void *context, uint64_t point, bool good, const char *row, const char *reason);
     /* In the parent, after some rows or a moment: write out what was delivered, show progress. */
     bool (*pause)(void *context, uint64_t next);
-    const volatile sig_atomic_t *stop; /* set from outside to end it */
 } jobs;
 
 typedef enum jobs_result {
     JOBS_DONE,
-    JOBS_STOPPED,    /* by *stop */
+    JOBS_STOPPED,    /* interrupted */
     JOBS_REFUSED,    /* deliver or pause said so */
     JOBS_WORKER_LOST /* a worker ended early, or none could be started (said) */
 } jobs_result;
@@ -37,8 +35,5 @@ typedef enum jobs_result {
 #define JOBS_WORKERS_MAX 1024
 
 jobs_result jobs_run(const jobs *j);
-
-/* In a worker: has the parent gone? */
-bool jobs_orphaned(void);
 
 #endif

@@ -120,8 +120,8 @@ image *sweep_image(const sweep *s, uint64_t point, image **plain, diags *errors)
     return im;
 }
 
-static bool measure_image(const sweep *s, const image *im, bool (*abandon)(void), double *value,
-                          diags *errors, FILE *reason, point_notes *notes) {
+static bool measure_image(const sweep *s, const image *im, double *value, diags *errors,
+                          FILE *reason, point_notes *notes) {
     const int count = s->measures->count;
     measured *list = room(count, sizeof *list);
     for (int i = 0; i < count; i++) {
@@ -129,16 +129,16 @@ static bool measure_image(const sweep *s, const image *im, bool (*abandon)(void)
         list[i] = (measured){each->kind, each->name, channel_of(im, each->of, i)};
     }
     const measuring wanted = {s->kind, s->from_s, list, count, s->strict};
-    const bool good = stepping_measure(&wanted, im, abandon, value, errors, reason, notes);
+    const bool good = stepping_measure(&wanted, im, value, errors, reason, notes);
     free(list);
     return good;
 }
 
-static bool measure_point(const sweep *s, uint64_t point, bool (*abandon)(void), double *value,
-                          FILE *reason, point_notes *notes) {
+static bool measure_point(const sweep *s, uint64_t point, double *value, FILE *reason,
+                          point_notes *notes) {
     diags *errors = diags_new();
     image *im = sweep_image(s, point, NULL, errors);
-    const bool good = im != NULL && measure_image(s, im, abandon, value, errors, reason, notes);
+    const bool good = im != NULL && measure_image(s, im, value, errors, reason, notes);
     if (diags_count(errors) > 0) {
         tell_first(errors, reason);
     }
@@ -207,11 +207,10 @@ void sweep_swept_fields(const sweep *s, uint64_t point, FILE *out) {
     free(value);
 }
 
-bool sweep_point(const sweep *s, uint64_t point, bool (*abandon)(void), FILE *row, FILE *reason,
-                 point_notes *notes) {
+bool sweep_point(const sweep *s, uint64_t point, FILE *row, FILE *reason, point_notes *notes) {
     double *value = room(s->measures->count + 1, sizeof *value);
     *notes = (point_notes){0};
-    const bool good = measure_point(s, point, abandon, value, reason, notes);
+    const bool good = measure_point(s, point, value, reason, notes);
     sweep_swept_fields(s, point, row);
     for (int i = 0; i < s->measures->count; i++) {
         fputc(',', row);

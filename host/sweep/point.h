@@ -49,9 +49,7 @@ image *sweep_image(const sweep *s, uint64_t point, image **plain, diags *errors)
 
 /* Run the point and write its row, line's end included. A run that fails, or has a measure, an energy or a
  * contact's expression that is not a finite number, leaves its columns empty: then the result is false and
- * one line on `reason` says why. `abandon` (may be NULL) is
- * asked now and then whether to give up; the row is then of no use. */
-bool sweep_point(const sweep *s, uint64_t point, bool (*abandon)(void), FILE *row, FILE *reason,
-                 point_notes *notes);
+ * one line on `reason` says why. After an interrupt the row is of no use. */
+bool sweep_point(const sweep *s, uint64_t point, FILE *row, FILE *reason, point_notes *notes);
 
 #endif

@@ -159,7 +159,7 @@ enum { TOLD_MAX = 20 };
 static bool work(void *context, uint64_t point, FILE *row, FILE *reason) {
     const sitting *s = context;
     point_notes notes;
-    const bool good = sweep_point(s->sweep, point, jobs_orphaned, row, reason, &notes);
+    const bool good = sweep_point(s->sweep, point, row, reason, &notes);
     if (good && (notes.found | notes.fails) != 0) {
         fprintf(reason, "%u %u %u", notes.found, notes.against, notes.fails);
     }
@@ -302,8 +302,7 @@ static int run_points(const session_settings *o, sitting *s) {
                        .context = s,
                        .work = work,
                        .deliver = deliver,
-                       .pause = pause_between,
-                       .stop = o->stop};
+                       .pause = pause_between};
     const jobs_result result = missing > 0 ? jobs_run(&plan) : JOBS_DONE;
     progress_clear(&s->progress);
     if (!sheet_close(&s->sheet)) {

@@ -2,7 +2,6 @@
 #ifndef SWEEP_SESSION_H
 #define SWEEP_SESSION_H
 
-#include <signal.h>
 #include <stdbool.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -48,8 +47,7 @@ typedef struct session_settings {
     int jobs;    /* worker processes */
     bool fresh;
     bool quiet;
-    bool json;                         /* one object on standard output; `csv` is then no file */
-    const volatile sig_atomic_t *stop; /* set from outside to end it cleanly */
+    bool json; /* one object on standard output; `csv` is then no file */
 } session_settings;
 
 /* Returns an exit code (host/base/exit.h): EXIT_RUN_FAILED when points failed or rows could not be written,

@@ -4,6 +4,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "host/base/interrupts.h"
 #include "host/base/room.h"
 #include "host/number/functions.h"
 #include "host/run/aliasing.h"
@@ -116,13 +117,12 @@ static void try_point(row_runs *p, uint64_t point) {
                                  .kind = w->of.kind,
                                  .plain = plain != NULL ? plain : im,
                                  .books = true,
-                                 .stop = w->stop,
                                  .progress = w->progress != NULL ? show_share : NULL,
                                  .told = p};
         twins *t = twins_run(&wish);
         whole = !t->stopped;
         if (whole) {
-            aliasing_find(t, w->stop);
+            (void)aliasing_find(t, NULL);
             cell = cell_of(p, t);
         }
         twins_free(t);
@@ -136,11 +136,9 @@ static void try_point(row_runs *p, uint64_t point) {
     }
 }
 
-static bool is_stopped(const map_wish *w) { return w->stop != NULL && *w->stop; }
-
 static void try_row(const map_wish *w, stability_map *m, uint64_t row) {
     row_runs p = {.wish = w, .map = m};
-    for (uint64_t i = 0; i < w->of.grid->axes[m->along].count && !is_stopped(w); i++) {
+    for (uint64_t i = 0; i < w->of.grid->axes[m->along].count && !interrupted; i++) {
         const uint64_t point = map_point(m, row, i);
         if (!m->by_step) { /* another scene, not the same in other steps */
             free(p.range);
@@ -166,7 +164,7 @@ stability_map map_make(const map_wish *w) {
     for (uint64_t i = 0; i < g->points; i++) {
         m.cell[i] = (map_cell){.verdict = MAP_UNTRIED, .left_over = (double)NAN};
     }
-    for (uint64_t i = 0; i < rows && !is_stopped(w); i++) {
+    for (uint64_t i = 0; i < rows && !interrupted; i++) {
         try_row(w, &m, i);
     }
     return m;

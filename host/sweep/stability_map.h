@@ -6,8 +6,6 @@
 #ifndef SWEEP_STABILITY_MAP_H
 #define SWEEP_STABILITY_MAP_H
 
-#include <signal.h>
-
 #include "host/sweep/point.h"
 
 /* A rate that is off by so many times the range that it has in the finest run of its row has left all bounds: what
@@ -45,7 +43,6 @@ typedef struct map_cell {
 typedef struct map_wish {
     sweep of; /* with two axes, in float or double */
     double tolerance;
-    const volatile sig_atomic_t *stop;         /* may be NULL */
     void (*progress)(double runs, void *told); /* so many are done; or NULL */
     void *told;
 } map_wish;

@@ -7,12 +7,8 @@
 
 #include "host/base/room.h"
 #include "host/number/functions.h"
-#include "host/run/loop.h"
 #include "host/run/undefined.h"
 #include "host/run/verdict.h"
-
-/* Steps between two questions whether to give up. */
-#define ABANDON_STEPS 4096U
 
 typedef struct meter {
     const measuring *wanted;
@@ -28,7 +24,7 @@ typedef struct meter {
 static meter meter_open(const measuring *w, const image *im, void *run) {
     const int count = w->count;
     meter m = {.wanted = w, .image = im, .run = run};
-    m.verdict = verdict_open(im, NULL, w->kind, run);
+    m.verdict = verdict_open(im, NULL, w->kind, run, NULL);
     m.gauges = room(count, sizeof *m.gauges);
     m.output = room(im->outputs, sizeof *m.output);
     for (int i = 0; i < count; i++) {
@@ -80,23 +76,6 @@ static bool keeps_samples(const measuring *w) {
     return false;
 }
 
-/* Why the step or the energies are no numbers, if it can be told. */
-static bool tell_undefined(const meter *m, wh_status status, diags *errors) {
-    const engine_kind *kind = m->wanted->kind;
-    const books *b = m->verdict->books;
-    if (status != WH_OK) {
-        return undefined_step(m->image, kind, m->run, status, errors);
-    }
-    char when[60];
-    snprintf(when, sizeof when, "at t = %.9g s", b->undefined_s);
-    const undefined_at at = {.image = m->image,
-                             .angle_rad = b->angle_rad,
-                             .real = b->real,
-                             .turns = kind == &engine_float,
-                             .when = when};
-    return undefined_angle(&at, errors) || undefined_term(&at, errors);
-}
-
 /* Enter what the run is judged by. False when an energy is not a finite number, said. */
 static bool balance(meter *m, diags *errors, FILE *reason) {
     const books *b = m->verdict->books;
@@ -104,7 +83,8 @@ static bool balance(meter *m, diags *errors, FILE *reason) {
     if (b == NULL || !b->undefined) {
         return true;
     }
-    if (!tell_undefined(m, WH_OK, errors)) {
+    if (!undefined_energies(m->image, m->wanted->kind, b->angle_rad, b->real, b->undefined_s,
+                            errors)) {
         fprintf(reason, "the energies are not finite numbers at t = %.9g s", b->undefined_s);
     }
     return false;
@@ -113,7 +93,6 @@ static bool balance(meter *m, diags *errors, FILE *reason) {
 typedef struct walk {
     meter *meter;
     uint64_t from; /* the step from which series count */
-    bool (*abandon)(void);
     diags *errors;
     FILE *reason;
     bool good;
@@ -125,12 +104,11 @@ static bool see(void *of, uint64_t step) {
     if (w->good && w->meter->series && step >= w->from) {
         meter_enter(w->meter, false);
     }
-    const bool asks = step % ABANDON_STEPS == 0 && step < w->meter->image->steps;
-    return w->good && !(asks && w->abandon != NULL && w->abandon());
+    return w->good;
 }
 
 /* Step to the end. False when the run failed, said on `reason` or reported. */
-static bool run_through(meter *m, bool (*abandon)(void), diags *errors, FILE *reason) {
+static bool run_through(meter *m, diags *errors, FILE *reason) {
     const engine_kind *kind = m->wanted->kind;
     const image *im = m->image;
     const uint64_t steps = im->steps;
@@ -145,10 +123,11 @@ static bool run_through(meter *m, bool (*abandon)(void), diags *errors, FILE *re
                 (double)PERIOD_SAMPLES_MAX);
         return false;
     }
-    walk w = {m, from, abandon, errors, reason, true};
-    const loop l = {.kind = kind, .run = m->run, .steps = steps, .see = {{see, &w}}};
+    walk w = {m, from, errors, reason, true};
+    const loop l = {
+        .kind = kind, .run = m->run, .steps = steps, .own = &m->verdict->own, .see = see, .of = &w};
     wh_status status;
-    if (loop_run(&l, &status) == LOOP_FAILED && !tell_undefined(m, status, errors)) {
+    if (loop_run(&l, &status) == LOOP_FAILED && !undefined_step(im, kind, m->run, status, errors)) {
         fprintf(reason, "diverged in the step after t = %.9g s",
                 ratio_times(kind->steps(m->run), im->step));
     }
@@ -187,13 +166,12 @@ static bool read_measures(const meter *m, double *value, FILE *reason, point_not
     return true;
 }
 
-bool stepping_measure(const measuring *w, const image *im, bool (*abandon)(void), double *value,
-                      diags *errors, FILE *reason, point_notes *notes) {
+bool stepping_measure(const measuring *w, const image *im, double *value, diags *errors,
+                      FILE *reason, point_notes *notes) {
     void *run = w->kind->start(im);
     notes->end_s = ratio_times(im->steps, im->step);
     meter m = meter_open(w, im, run);
-    const bool good =
-        run_through(&m, abandon, errors, reason) && read_measures(&m, value, reason, notes);
+    const bool good = run_through(&m, errors, reason) && read_measures(&m, value, reason, notes);
     meter_close(&m);
     w->kind->stop(run);
     return good;

@@ -36,9 +36,8 @@ typedef struct point_notes {
 } point_notes;
 
 /* Run the image; value[count + 1] gets the measures and how well the energies balance (NAN where that is not known).
- * False when the run failed or something was not a finite number: said on `reason` or reported. `abandon` (may be
- * NULL) is asked now and then whether to give up. */
-bool stepping_measure(const measuring *w, const image *im, bool (*abandon)(void), double *value,
-                      diags *errors, FILE *reason, point_notes *notes);
+ * False when the run failed or something was not a finite number: said on `reason` or reported. */
+bool stepping_measure(const measuring *w, const image *im, double *value, diags *errors,
+                      FILE *reason, point_notes *notes);
 
 #endif

@@ -150,4 +150,46 @@ for kind in file trusted; do # `trusted` is a pipe
     [ $code -eq 130 ] && grep -q '^whirl trust: interrupted at t = ' "$scratch/err" && [ ! -e "$scratch/file" ] && [ -p "$scratch/trusted" ]
     verdict $? "trust to a file, $kind: exit status 130, an ordinary one goes and a pipe stays"
 done
+
+# Whatever goes on, it ends within a tenth of a second of processor time: at drawn moments of dear scenes.
+# Hundredths of a second of processor time, of a process and its children.
+spent_by() {
+    cat /proc/[0-9]*/stat 2>/dev/null | sed 's/^\([0-9]*\) (.*) /\1 /' |
+        awk -v p="$1" '$1 == p || $3 == p { sum += $13 + $14 } END { print sum + 0 }'
+}
+has_spent() { ! kill -0 "$2" 2>/dev/null || [ "$(spent_by "$2")" -ge "$1" ]; }
+
+seed=$(date +%s)
+echo "  moments: seed $seed"
+ends_soon() { # ends_soon WORD...
+    at=$(awk -v seed="$seed" 'BEGIN { srand(seed); print int(2 + 50 * rand()) }')
+    seed=$((seed + 1))
+    rm -f "$scratch/process"
+    # without emulators, which end by themselves
+    sh -c 'PATH=/nowhere "$@" >"$0/out" 2>"$0/err" & echo $! >"$0/process"; wait $!; code=$?; times >"$0/times"; exit $code' \
+        "$scratch" "$whirl" "$@" &
+    shell=$!
+    await test -s "$scratch/process"
+    process=$(cat "$scratch/process")
+    await has_spent "$at" $process
+    kill -STOP $process 2>/dev/null
+    at=$(spent_by $process)
+    kill -INT $process 2>/dev/null
+    kill -CONT $process 2>/dev/null
+    wait $shell
+    code=$?
+    more=$(awk -v at="$at" 'NR == 2 { for (i = 1; i <= 2; i++) { split($i, part, "[ms]"); sum += 60 * part[1] + part[2] }
+        print int(100 * sum) - at }' "$scratch/times")
+    { [ $code -eq 130 ] || [ $code -le 1 ]; } && { [ "$more" -le 15 ] || [ "$at" -eq 0 ]; } # 0: it had ended
+    verdict $? "$*: interrupted after $at hundredths, $more more, exit status $code"
+}
+for moment in 1 2; do
+    ends_soon run tests/reference/stack.whirl
+    ends_soon run halvorson_ground
+    ends_soon sweep tests/reference/stack.whirl --over step=0.2..2[ms]:30 --measure 'max(y15)' --csv -
+    ends_soon trust thomson_plane_b
+    ends_soon map epicyclic_from_rest --over m=1..3:100 --over step=1..10[ms]:10 --effort 1e14
+    ends_soon price epicyclic_from_rest
+    ends_soon choose epicyclic_from_rest --error 1e-3 --effort 1e10
+done
 exit $failed

@@ -84,9 +84,11 @@ background() {
 }
 (long --jobs 1 --csv "$scratch/whole.csv")
 : >"$scratch/killed.csv"
+no_workers() { ! grep -aqs "$(basename "$scratch").[k]illed" /proc/[0-9]*/cmdline; }
 for rows in 20 90; do
     background $rows KILL "$scratch/killed.csv"
     check "killed at row $rows before its end" test "$code" -eq 137
+    check "killed at row $rows: its workers end" await no_workers
     check "killed at row $rows: rows are there" test "$(wc -l <"$scratch/killed.csv")" -ge $rows
 done
 kept=$(wc -l <"$scratch/killed.csv")

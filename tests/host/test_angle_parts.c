@@ -184,7 +184,7 @@ static void check_sweep(const sample *s, const engine_kind *kind, int count, con
     point_notes notes = {0};
     FILE *out = open_memstream(&row, &length);
     TEST_ASSERT_NOT_NULL(out);
-    TEST_ASSERT_TRUE(sweep_point(&of, 0, NULL, out, stdout, &notes));
+    TEST_ASSERT_TRUE(sweep_point(&of, 0, out, stdout, &notes));
     fclose(out);
     const char *at = strchr(row, ',');
     for (int i = 0; i < count; i++) {

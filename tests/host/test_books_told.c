@@ -184,8 +184,8 @@ static void test_ledgers(void) {
             TEST_ASSERT_EQUAL_CHAR(name_of(i), force[0]);
             expect_number(force + 3, wanted / m.until_s, book);
             for (int by = PUSHED; by < KINDS; by++) {
-                const char *giver = strstr(book + 1, givers[by]);
-                const bool told = giver != NULL && giver < change;
+                const char *named = strstr(book + 1, givers[by]);
+                const bool told = named != NULL && named < change;
                 TEST_ASSERT_EQUAL_INT_MESSAGE((int)m.body[i].by == by, told, book);
             }
         }

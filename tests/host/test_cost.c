@@ -250,7 +250,7 @@ static cost priced_line(char *line, const cost_board *board, const char *number)
     TEST_ASSERT_EQUAL_INT(EXIT_DONE, source_pick(&from, true, &of, &in));
     TEST_ASSERT_EQUAL_INT(EXIT_DONE, load(&made, &from, of, in, &changes, &wish));
     const bool fixed = strcmp(number, "fixed") == 0;
-    fixed_plan *plan = fixed ? fixed_plan_make(made.image, from.errors) : NULL;
+    fixed_plan *plan = fixed ? fixed_plan_make(made.image, false, from.errors) : NULL;
     made.image->fixed = plan;
     const cost c = cost_of(made.image, board,
                            fixed                           ? COST_FIXED

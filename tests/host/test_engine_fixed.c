@@ -81,7 +81,7 @@ static fixed_plan *planned(derived *d, const char *text) {
     *d = derived_scene(text, "s");
     derived_expect(d, text);
     diags *errors = diags_new();
-    fixed_plan *p = fixed_plan_make(d->image, errors);
+    fixed_plan *p = fixed_plan_make(d->image, false, errors);
     if (p == NULL) {
         diags_flush(errors, stdout);
     }

@@ -26,7 +26,7 @@ typedef struct outcome {
 static outcome run_of(derived *d, const char *text) {
     outcome end = {.told = 0};
     diags *errors = diags_new();
-    fixed_plan *p = fixed_plan_make(d->image, errors);
+    fixed_plan *p = fixed_plan_make(d->image, false, errors);
     TEST_ASSERT_NOT_NULL_MESSAGE(p, text);
     d->image->fixed = p;
     void *run = engine_fixed.start(d->image);

@@ -20,7 +20,7 @@ void suite_fixed_ranges(void);
 static fixed_plan *plan_of(const image *im, char **report) {
     size_t length;
     diags *errors = diags_new();
-    fixed_plan *p = fixed_plan_make(im, errors);
+    fixed_plan *p = fixed_plan_make(im, false, errors);
     FILE *out = room_text(report, &length);
     diags_flush(errors, out);
     room_text_end(out);

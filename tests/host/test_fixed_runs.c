@@ -128,7 +128,7 @@ static void check_beside_double(const derived *d, bool declared, const char *tex
     double fixed[2 * MOST];
     double exact[2 * MOST];
     diags *errors = diags_new();
-    fixed_plan *p = fixed_plan_make(d->image, errors);
+    fixed_plan *p = fixed_plan_make(d->image, false, errors);
     diags_flush(errors, stderr);
     diags_free(errors);
     TEST_ASSERT_NOT_NULL_MESSAGE(p, text);
@@ -151,7 +151,7 @@ static void check_beside_double(const derived *d, bool declared, const char *tex
 static void check_saturation(const derived *d, const char *text) {
     double end[2 * MOST];
     diags *errors = diags_new();
-    fixed_plan *p = fixed_plan_make(d->image, errors);
+    fixed_plan *p = fixed_plan_make(d->image, false, errors);
     const int refused = diags_count(errors);
     diags_free(errors);
     if (p == NULL) { /* it may start outside */
@@ -211,7 +211,7 @@ static void check_refused(const char *text, const char *why) {
     derived d = derived_scene(text, "s");
     derived_expect(&d, text);
     diags *errors = diags_new();
-    fixed_plan *p = fixed_plan_make(d.image, errors);
+    fixed_plan *p = fixed_plan_make(d.image, false, errors);
     FILE *out = room_text(&report, &length);
     diags_flush(errors, out);
     room_text_end(out);

@@ -68,7 +68,7 @@ static void run_watched(const image *im, const image *plain) {
     static const engine_kind *const kinds[] = {&engine_double, &engine_float};
     for (int k = 0; k < 2; k++) {
         void *run = kinds[k]->start(im);
-        verdict *v = verdict_open(im, plain, kinds[k], run);
+        verdict *v = verdict_open(im, plain, kinds[k], run, NULL);
         wh_status status = WH_OK;
         verdict_enter(v);
         for (uint64_t i = 0; i < im->steps && status == WH_OK; i++) {
@@ -78,8 +78,7 @@ static void run_watched(const image *im, const image *plain) {
         verdict_end(v, status);
         FILE *out = tmpfile();
         TEST_ASSERT_NOT_NULL(out);
-        status == WH_OK ? findings_say(out, v, plain, NULL, true)
-                        : findings_say_failed(out, v, plain, NULL);
+        status == WH_OK ? findings_say(out, v, true) : findings_say_failed(out, v);
         summary_print(out, im, kinds[k], run, v->books, &v->balance);
         fclose(out);
         verdict_close(v);

@@ -6,6 +6,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "host/base/interrupts.h"
 #include "host/pil/fault.h"
 #include "host/pil/lockstep.h"
 #include "motion.h"
@@ -233,10 +234,10 @@ static void test_tapes_of_resets(void) {
 
 /* Somebody asks it to stop: it does, and the process is gone. */
 static void test_interrupt(void) {
-    static volatile sig_atomic_t stop = 1;
     lockstep_wish wish = wish_until(100.0);
-    wish.guest.stop = &stop;
+    interrupted = 1;
     lockstep_run(&wish, cart.image, &report);
+    interrupted = 0;
     TEST_ASSERT_TRUE(report.end == LOCKSTEP_STOPPED);
     TEST_ASSERT_FALSE(report.status.killed);
     TEST_ASSERT_EQUAL_INT(3, report.status.status); /* HAL_LINK_GONE */

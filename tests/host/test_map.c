@@ -9,6 +9,7 @@
 
 #include "command.h"
 #include "derived.h"
+#include "host/base/interrupts.h"
 #include "host/commands/commands.h"
 #include "host/sweep/stability_map.h"
 
@@ -29,7 +30,6 @@ typedef struct map_asked {
     const char *over[2];
     wh_method method;
     double tolerance;
-    const volatile sig_atomic_t *stop;
     void (*progress)(double runs, void *told);
 } map_asked;
 
@@ -48,7 +48,6 @@ static void open_map(drawn_map *m, const map_asked *a) {
                                   .kind = &engine_double,
                                   .engine = {.method = a->method}},
                            .tolerance = a->tolerance,
-                           .stop = a->stop,
                            .progress = a->progress};
     m->map = map_make(&wish);
 }
@@ -225,8 +224,8 @@ static void test_no_limit(void) {
     const wh_method methods[] = {WH_EULER, WH_HEUN};
     for (int i = 0; i < 2; i++) {
         drawn_map m;
-        open_map(&m, &(map_asked){
-                         spring_text, {"step=0.2..2:4", "k=1..4:3"}, methods[i], 1e-3, NULL, NULL});
+        open_map(&m,
+                 &(map_asked){spring_text, {"step=0.2..2:4", "k=1..4:3"}, methods[i], 1e-3, NULL});
         TEST_ASSERT_EQUAL_INT(MAP_DIVERGES, cell_of(&m, 2, 3)->verdict);
         close_map(&m);
     }
@@ -254,7 +253,7 @@ static void test_what_bounds_are(void) {
                 w * w, 0.1 / w, until[i] / w);
             snprintf(over, sizeof over, "step=%.17g..%.17g:2", 0.1 / w, step[i] / w);
             drawn_map m;
-            open_map(&m, &(map_asked){text, {over, "k=1..1:1"}, WH_RK4, 1e-3, NULL, NULL});
+            open_map(&m, &(map_asked){text, {over, "k=1..1:1"}, WH_RK4, 1e-3, NULL});
             TEST_ASSERT_TRUE_MESSAGE(cell_of(&m, 0, 0)->verdict < MAP_LOSES, text);
             TEST_ASSERT_EQUAL_INT_MESSAGE(i == 0 && grown < 100.0 ? MAP_LOSES : MAP_DIVERGES,
                                           cell_of(&m, 0, 1)->verdict, text);
@@ -287,7 +286,7 @@ static void test_where_a_tolerance_and_the_energy_end(void) {
             w * w, 0.1 / w, radians / w);
         snprintf(step, sizeof step, "step=%.17g..%.17g:40,log", 0.03 / w, 0.5 / w);
         drawn_map m;
-        open_map(&m, &(map_asked){text, {step, "k=1..1:1"}, WH_RK4, tolerance, NULL, NULL});
+        open_map(&m, &(map_asked){text, {step, "k=1..1:1"}, WH_RK4, tolerance, NULL});
         for (uint64_t i = 0; i < 40; i++) {
             const double z = map_along(&m.map, i) * w;
             const map_cell *c = cell_of(&m, 0, i);
@@ -317,34 +316,31 @@ static void test_pairs_without_a_run(void) {
         "stop z >= 0 [m] restitution e\n"
         "scene s { start z = 1 [m]; step 1 [ms]; until 0.2 [s] }\n";
     drawn_map m;
-    open_map(&m,
-             &(map_asked){spring_text, {"step=0.01..400:2", "m=0..1:2"}, WH_RK4, 1e-3, NULL, NULL});
+    open_map(&m, &(map_asked){spring_text, {"step=0.01..400:2", "m=0..1:2"}, WH_RK4, 1e-3, NULL});
     TEST_ASSERT_EQUAL_INT(MAP_NONE, cell_of(&m, 0, 0)->verdict);
     TEST_ASSERT_EQUAL_INT(MAP_KEEPS, cell_of(&m, 1, 0)->verdict);
     TEST_ASSERT_EQUAL_INT(MAP_NONE, cell_of(&m, 1, 1)->verdict);
     close_map(&m);
-    open_map(&m, &(map_asked){ball, {"z=-1..1:3", "step=1e-3..2e-3:2"}, WH_RK4, 1e-3, NULL, NULL});
+    open_map(&m, &(map_asked){ball, {"z=-1..1:3", "step=1e-3..2e-3:2"}, WH_RK4, 1e-3, NULL});
     TEST_ASSERT_EQUAL_INT(MAP_NONE, cell_of(&m, 0, 0)->verdict);
     TEST_ASSERT_EQUAL_INT(MAP_KEEPS, cell_of(&m, 2, 1)->verdict);
     close_map(&m);
-    open_map(&m, &(map_asked){ball, {"z=0.5..1:3", "e=0.1..0.9:2"}, WH_RK4, 1e-3, NULL, NULL});
+    open_map(&m, &(map_asked){ball, {"z=0.5..1:3", "e=0.1..0.9:2"}, WH_RK4, 1e-3, NULL});
     TEST_ASSERT_FALSE(m.map.by_step);
     TEST_ASSERT_EQUAL_UINT64(6, map_count(&m.map, MAP_KEEPS));
     close_map(&m);
 }
 
-static volatile sig_atomic_t stop;
 static void stop_after_six(double runs, void *told) {
     (void)told;
-    stop = runs >= 6.0;
+    interrupted = runs >= 6.0;
 }
 
 static void test_stopped_maps_keep_what_is_done(void) {
     drawn_map m;
-    stop = 0;
-    open_map(&m,
-             &(map_asked){
-                 spring_text, {"step=0.1..4:4", "k=1..4:3"}, WH_RK4, 1e-3, &stop, stop_after_six});
+    open_map(
+        &m, &(map_asked){spring_text, {"step=0.1..4:4", "k=1..4:3"}, WH_RK4, 1e-3, stop_after_six});
+    interrupted = 0;
     TEST_ASSERT_EQUAL_UINT64(6, m.map.done);
     TEST_ASSERT_EQUAL_UINT64(6, map_count(&m.map, MAP_UNTRIED));
     char *text = NULL;

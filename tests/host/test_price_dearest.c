@@ -28,7 +28,7 @@ static cost cost_at(priced *p, int point, const setting *s, const char *step) {
     image *im = priced_image(p, point, s, step);
     TEST_ASSERT_NOT_NULL(im);
     diags *errors = diags_new();
-    fixed_plan *plan = s->number == &engine_fixed ? fixed_plan_make(im, errors) : NULL;
+    fixed_plan *plan = s->number == &engine_fixed ? fixed_plan_make(im, false, errors) : NULL;
     im->fixed = plan;
     const cost c = cost_of(im, p->wish.board, setting_cost_number(s));
     fixed_plan_free(plan);

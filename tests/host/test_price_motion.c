@@ -8,6 +8,7 @@
 
 #include "command.h"
 #include "derived.h"
+#include "host/base/interrupts.h"
 #include "host/price/deviation.h"
 #include "host/price/extrapolation.h"
 #include "host/price/long_list.h"
@@ -147,9 +148,8 @@ static void test_fine_steps_are_as_fine_as_they_may(void) {
 static void test_fine_steps_are_a_cosine(void) {
     derived of = derived_scene(spring, "s");
     derived_expect(&of, spring);
-    volatile sig_atomic_t stop = 0;
     const reference_wish w = {
-        .image = of.image, .spacing = {1, 20}, .records = 20, .operations = 1e8, .stop = &stop};
+        .image = of.image, .spacing = {1, 20}, .records = 20, .operations = 1e8};
     of.image->settings.method = WH_EULER; /* which they are not made by */
     records *shape = records_open(NULL, of.image, &engine_double);
     long double row[21 * 4];
@@ -163,8 +163,9 @@ static void test_fine_steps_are_a_cosine(void) {
         TEST_ASSERT_TRUE(fabs((double)r[2] + 1000.0 * sin(4.0 * t)) < 4e-8);
         TEST_ASSERT_TRUE(fabs((double)r[3] - 500.0 * cos(4.0 * t)) < 2e-8);
     }
-    stop = 1;
+    interrupted = 1;
     TEST_ASSERT_EQUAL_INT(0, fine_steps_run(&w, shape, 100, row));
+    interrupted = 0;
     records_close(shape);
     derived_free(&of);
 }
@@ -255,7 +256,7 @@ static void test_deviations_are_the_largest_of_all_records(void) {
             }
             kind->stop(run);
             const deviation d =
-                deviation_measure(r, im, kind, pace, (deviation_of_what){column, give_up}, NULL);
+                deviation_measure(r, im, kind, pace, (deviation_of_what){column, give_up});
             TEST_ASSERT_EQUAL_INT(worst <= give_up, d.usable);
             TEST_ASSERT_TRUE(fabs(d.error - worst) <= 1e-6 * worst + 1e-12);
             TEST_ASSERT_EQUAL_INT(at, d.column);
@@ -267,9 +268,10 @@ static void test_deviations_are_the_largest_of_all_records(void) {
             TEST_ASSERT_TRUE(taken == 0 || fabs(d.evaluations * im->step_s / stages - 1) < 1e-9);
         }
     }
-    volatile sig_atomic_t stop = 1;
-    const deviation none = deviation_measure(r, of.image, &engine_double, paces[0],
-                                             (deviation_of_what){-1, 1.0}, &stop);
+    interrupted = 1;
+    const deviation none =
+        deviation_measure(r, of.image, &engine_double, paces[0], (deviation_of_what){-1, 1.0});
+    interrupted = 0;
     TEST_ASSERT_TRUE(none.operations == 0.0 && none.evaluations == 0.0);
     reference_free(r);
     derived_free(&of);
@@ -299,7 +301,7 @@ static void test_the_step_with_most_evaluations_is_told(void) {
     }
     engine_double.stop(run);
     const deviation d = deviation_measure(r, of.image, &engine_double, (deviation_pace){5, 1},
-                                          (deviation_of_what){-1, 1.0}, NULL);
+                                          (deviation_of_what){-1, 1.0});
     TEST_ASSERT_TRUE(d.usable && d.evaluations_most == most && most > 4.0);
     /* reading each of 19 records evaluates the accelerations once more, and the first how contacts begin: an expense, and none
      * of the steps' */
@@ -308,7 +310,7 @@ static void test_the_step_with_most_evaluations_is_told(void) {
     TEST_ASSERT_TRUE(fabs(d.evaluations - (double)before / 0.9) < 1e-6);
     /* as far as it may be off, and no further */
     const deviation same = deviation_measure(r, of.image, &engine_double, (deviation_pace){5, 1},
-                                             (deviation_of_what){-1, d.error}, NULL);
+                                             (deviation_of_what){-1, d.error});
     TEST_ASSERT_TRUE(same.usable && same.error == d.error);
     reference_free(r);
     derived_free(&of);

@@ -10,6 +10,7 @@
 #include "blocks.h"
 #include "command.h"
 #include "derived.h"
+#include "host/base/interrupts.h"
 #include "host/price/long_list.h"
 #include "host/price/reference_run.h"
 #include "priced.h"
@@ -160,10 +161,9 @@ static void expect_columns(const reference *r) {
     }
 }
 
-static reference *reference_to(const image *im, int count, double operations,
-                               const volatile sig_atomic_t *stop) {
+static reference *reference_to(const image *im, int count, double operations) {
     const reference_wish w = {
-        .image = im, .spacing = {1, 20}, .records = count, .operations = operations, .stop = stop};
+        .image = im, .spacing = {1, 20}, .records = count, .operations = operations};
     return reference_new(&w);
 }
 
@@ -213,7 +213,7 @@ static void test_references_are_of_the_kind_that_can_be_trusted(void) {
         long before = 0;
         for (int round = 0; round < 2; round++) {
             before = blocks_in_use();
-            reference *r = reference_to(d.image, 20, row->operations, NULL);
+            reference *r = reference_to(d.image, 20, row->operations);
             TEST_ASSERT_EQUAL_INT_MESSAGE(row->kind, r->kind, row->text);
             TEST_ASSERT_TRUE_MESSAGE(r->records >= row->least && r->records <= row->most,
                                      row->text);
@@ -251,7 +251,7 @@ static void test_a_root_at_zero_does_not_hide_errors(void) {
                  rate);
         derived of = derived_scene(text, "s");
         derived_expect(&of, text);
-        reference *r = reference_to(of.image, 4, 1e8, NULL);
+        reference *r = reference_to(of.image, 4, 1e8);
         TEST_ASSERT_EQUAL_INT(REFERENCE_EXTRAPOLATED, r->kind);
         TEST_ASSERT_EQUAL_INT(4, r->records);
         for (int i = 0; i <= 4; i++) {
@@ -268,9 +268,10 @@ static void test_references_are_stopped(void) {
     for (int n = 0; n < 2; n++) {
         derived d = derived_scene(n == 0 ? kind_rows[0].text : kind_rows[5].text, "s");
         derived_expect(&d, "a scene");
-        volatile sig_atomic_t stop = 1;
+        interrupted = 1;
         const long before = blocks_in_use();
-        reference *r = reference_to(d.image, 20, 1e7, &stop);
+        reference *r = reference_to(d.image, 20, 1e7);
+        interrupted = 0;
         TEST_ASSERT_TRUE(r->stopped);
         TEST_ASSERT_EQUAL_INT(0, r->records);
         reference_free(r);

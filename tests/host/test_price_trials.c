@@ -308,7 +308,7 @@ static trial_result each_by_itself(priced *p, const setting *s, deviation_pace p
         if (what.column >= 0) {
             what.give_up = fmax(tolerated, (double)ref->column[what.column].largest);
         }
-        const deviation d = deviation_measure(ref, im, s->number, pace, what, NULL);
+        const deviation d = deviation_measure(ref, im, s->number, pace, what);
         image_free(im);
         const double error = d.error < 3.0 * d.known ? d.error + d.known : d.error;
         if (error > r.error || !(error <= r.error)) {

@@ -11,6 +11,7 @@
 #include "blocks.h"
 #include "command.h"
 #include "derived.h"
+#include "host/base/interrupts.h"
 #include "host/run/finding.h"
 #include "host/run/simulate.h"
 #include "unity.h"
@@ -231,22 +232,20 @@ static void test_summary_repeats(void) {
 
 /* --- interrupted -------------------------------------------------------------------------------------------------*/
 
-static volatile sig_atomic_t stop_now = 1;
-
 /* It is asked before each step: the rows are those until then. */
 static void test_interrupted(void) {
     char text[500];
     begin();
     snprintf(text, sizeof text, steady, 0.1, 0.2, 0.3);
     derived d = scene_of(text);
+    interrupted = 1;
     for (unsigned c = 0; c < 6U; c++) {
         const uint64_t every = 1 + dice_one_of(&die, 100);
         const simulation_settings s = {.kind = c < 3U ? &engine_double : &engine_float,
                                        .every = every,
                                        .csv = c % 3U == 1 ? path_of("r.csv") : NULL,
                                        .columns = c % 3U == 2 ? path_of("r.txt") : NULL,
-                                       .quiet = true,
-                                       .stop = &stop_now};
+                                       .quiet = true};
         const char *told = simulated(d.image, &s, SIMULATION_INTERRUPTED);
         TEST_ASSERT_EQUAL_STRING(
             c % 3U == 0 ? "whirl run: interrupted at t = 0 s of 1 s\n"
@@ -261,15 +260,14 @@ static void test_interrupted(void) {
     derived far =
         scene_of("mechanism m\ncoordinate x [m]\nT = 1 [kg]*x'^2/2\nscene s { start x = 1e6 "
                  "[m], x' = 1 [m/s]; step 1 [ms]; until 1 [s] }\n");
-    const simulation_settings float_settings = {
-        .kind = &engine_float, .every = 1, .quiet = true, .stop = &stop_now};
+    const simulation_settings float_settings = {.kind = &engine_float, .every = 1, .quiet = true};
     TEST_ASSERT_EQUAL_STRING("whirl run: interrupted at t = 0 s of 1 s\n",
                              simulated(far.image, &float_settings, SIMULATION_INTERRUPTED));
     derived_free(&far);
     d.image->steps = 0; /* done before anybody asks */
-    const simulation_settings s = {
-        .kind = &engine_double, .every = 1, .quiet = true, .stop = &stop_now};
+    const simulation_settings s = {.kind = &engine_double, .every = 1, .quiet = true};
     TEST_ASSERT_EQUAL_STRING("", simulated(d.image, &s, SIMULATION_DONE));
+    interrupted = 0;
     derived_free(&d);
     end();
 }

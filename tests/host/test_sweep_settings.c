@@ -165,7 +165,7 @@ static void run_points(void) {
                         &engine_double);
         FILE *row = room_text(&text[0], &length[0]);
         FILE *reason = room_text(&text[1], &length[1]);
-        const bool good = sweep_point(&m.sweep, 0, NULL, row, reason, &notes);
+        const bool good = sweep_point(&m.sweep, 0, row, reason, &notes);
         room_text_end(row);
         room_text_end(reason);
         TEST_ASSERT_EQUAL_MESSAGE(points[i].good, good, text[1]);

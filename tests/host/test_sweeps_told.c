@@ -6,6 +6,7 @@
 
 #include "blocks.h"
 #include "host/base/exit.h"
+#include "host/base/interrupts.h"
 #include "made_sweep.h"
 #include "unity.h"
 
@@ -247,8 +248,6 @@ static void test_not_believed(void) {
 
 /* --- stopped, and lost -------------------------------------------------------------------------------------------*/
 
-static volatile sig_atomic_t stop_now = 1;
-
 /* Told to end before anything: what there is stays, and how it goes on is said. */
 static void test_stopped(void) {
     made_sweep m;
@@ -261,8 +260,9 @@ static void test_stopped(void) {
     for (unsigned kept = 0; kept < 9U; kept++) {
         unsigned rows = 0;
         sessions_cut(row_at(whole.rows, kept));
-        settings.stop = &stop_now;
+        interrupted = 1;
         const session_said s = sessions_sit(&m, settings);
+        interrupted = 0;
         for (const char *at = strchr(s.rows, '\n'); at != NULL; at = strchr(at + 1, '\n')) {
             rows += at[1] != '\0' ? 1 : 0;
         }
@@ -278,7 +278,6 @@ static void test_stopped(void) {
         TEST_ASSERT_EQUAL_STRING(wanted, s.err);
         TEST_ASSERT_EQUAL_INT(EXIT_INTERRUPTED, s.code);
         TEST_ASSERT_TRUE(rows >= kept);
-        settings.stop = NULL;
         const session_said on = sessions_sit(&m, settings);
         TEST_ASSERT_EQUAL_STRING(whole.rows, on.rows);
     }

@@ -1,12 +1,12 @@
 /* test_talk.c: a firmware at the other end of a line, as the program hears it (host/pil/talk.h), drawn: what is heard, kept and
  * mixed into the hash, against what the test has written; and each thing that a firmware may say wrong, by its words. */
 #include <math.h>
-#include <signal.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "core/cobs.h"
 #include "drawn_talk.h"
+#include "host/base/interrupts.h"
 #include "host/base/room.h"
 #include "host/pil/talk.h"
 #include "unity.h"
@@ -199,7 +199,6 @@ static void test_hellos(void) {
             "the firmware sent a hello that is none in exchange 0\n", "", ""};
         static const lockstep_end why[] = {LOCKSTEP_BAD, LOCKSTEP_FAILED, LOCKSTEP_FAILED,
                                            LOCKSTEP_DONE, LOCKSTEP_STOPPED};
-        static volatile sig_atomic_t stop;
         talk_draw();
         talk_line.length = 0;
         talk_put_orders(&talk_line, 0, 0);
@@ -211,11 +210,11 @@ static void test_hellos(void) {
             talk_put_hello(&talk_line, &talk_drawn.hello);
         }
         talk_open_line(c != 4);
-        stop = c == 4;
-        talk_wish.guest.stop = &stop;
+        interrupted = c == 4;
         errors_catch();
         const bool good = talk_start(&t, &talk_wish, &talk_report, NULL);
         const char *told = errors_caught();
+        interrupted = 0;
         TEST_ASSERT_TRUE(good == (c == 3));
         TEST_ASSERT_EQUAL_INT(why[c], talk_report.end);
         TEST_ASSERT_NOT_NULL_MESSAGE(strstr(told, words[c]), told);
@@ -229,20 +228,18 @@ static void test_interrupted(void) {
     for (int closed = 0; closed < 2; closed++) {
         static talk t;
         static stream heard;
-        static volatile sig_atomic_t stop;
         wh_orders orders;
         talk_draw();
         talk_say_all(1);
         talk_open_line(closed == 1);
-        stop = 0;
-        talk_wish.guest.stop = &stop;
         talk_wish.guest.patience_s = 20.0;
         errors_catch();
         TEST_ASSERT_TRUE(talk_start(&t, &talk_wish, &talk_report, NULL));
         TEST_ASSERT_TRUE(talk_hear(&t, &orders));
-        stop = 1;
+        interrupted = 1;
         TEST_ASSERT_FALSE(talk_hear(&t, &orders));
         talk_end(&t);
+        interrupted = 0;
         TEST_ASSERT_EQUAL_STRING("", errors_caught());
         TEST_ASSERT_EQUAL_INT(LOCKSTEP_STOPPED, talk_report.end);
         talk_close_line(&heard);

@@ -3,6 +3,7 @@
  * useless, by all methods, and rods that do not fit where they start, of which `whirl trust` says the same: the findings of both
  * are the same, and so are the exit statuses: 1 exactly after a warning, 0 with --strict=off, by the energy's ratio with a limit.
  * The judge has said something of every kind, and nothing of many. */
+#include <glob.h>
 #include <math.h>
 #include <stdbool.h>
 #include <stdio.h>
@@ -10,8 +11,11 @@
 #include <string.h>
 
 #include "command.h"
+#include "derived.h"
 #include "host/commands/commands.h"
-#include "host/run/finding.h"
+#include "host/commands/load.h"
+#include "host/run/loop.h"
+#include "host/run/verdict.h"
 #include "json_check.h"
 #include "unity.h"
 
@@ -507,6 +511,95 @@ static void test_a_common_speed_changes_nothing(void) {
     TEST_ASSERT_TRUE(told > cases / 4);
 }
 
+/* --- what all looks cost -----------------------------------------------------------------------------------*/
+
+/* Operations of `whirl run`, on standard error, behind what it says. */
+static int run_counted(int count, char **words) {
+    const uint64_t before = engine_operations;
+    const int status = command_run(count, words);
+    fprintf(stderr, "\ncounted %.0f\n", (double)(engine_operations - before));
+    return status;
+}
+
+static double total; /* the largest part of what may be spent */
+static void expect_cost(const char *target, double share) {
+    said what;
+    char until[40];
+    loaded made;
+    const mechanism *of;
+    const scene *in;
+    const overrides changes = {.balance = true};
+    const load_wish wish = {.settings = plainly, .use = IMAGE_TO_RUN, .conserve = true};
+    source_model from = {0};
+    TEST_ASSERT_EQUAL_INT_MESSAGE(0, source_open(&from, target), target);
+    TEST_ASSERT_EQUAL_INT_MESSAGE(0, source_pick(&from, true, &of, &in), target);
+    TEST_ASSERT_EQUAL_INT_MESSAGE(0, load(&made, &from, of, in, &changes, &wish), target);
+    const uint64_t steps = (uint64_t)(share * (double)made.image->steps) + 1U;
+    const uint64_t before = engine_operations;
+    void *run = engine_double.start(made.image);
+    (void)loop_steps(&engine_double, run, steps);
+    engine_double.stop(run);
+    const double own = (double)(engine_operations - before);
+    snprintf(until, sizeof until, "%.15g", ratio_times(steps, made.image->step));
+    unload(&made);
+    source_close(&from);
+    command_say(run_counted, (const char *[]){target, "--strict=off", "--until", until, NULL},
+                &what);
+    const char *counted = strstr(what.err, "\ncounted ");
+    TEST_ASSERT_NOT_NULL_MESSAGE(counted, target);
+    const double all = strtod(counted + 9, NULL);
+    const double most = 2.0 * own + BUDGET_LEAST;
+    if (all > most) {
+        printf("%s until %s s: %.3g operations, %.3g of its steps\n%s", target, until, all, own,
+               what.err);
+    }
+    TEST_ASSERT_TRUE_MESSAGE(all <= most, target);
+    total = fmax(total, all / most);
+}
+
+static void expect_costs(const char *target) {
+    static const double shares[] = {0.1, 0.01, 1.0};
+    for (unsigned i = 0; i < few_or_all(1, 3); i++) {
+        expect_cost(target, shares[i]);
+    }
+}
+
+static int built_in(const scene *s) {
+    expect_costs(s->name);
+    return 1;
+}
+
+static int of_files(const char *pattern) {
+    glob_t files;
+    int scenes = 0;
+    TEST_ASSERT_EQUAL_INT_MESSAGE(0, glob(pattern, 0, NULL, &files), pattern);
+    for (size_t i = 0; i < files.gl_pathc; i++) {
+        source_model from = {0};
+        TEST_ASSERT_EQUAL_INT(0, source_open(&from, files.gl_pathv[i]));
+        for (int k = 0; k < from.model->scene_count; k++, scenes++) {
+            char target[200];
+            snprintf(target, sizeof target, "%s:%s", files.gl_pathv[i],
+                     from.model->scenes[k]->name);
+            expect_costs(target);
+        }
+        source_close(&from);
+    }
+    globfree(&files);
+    return scenes;
+}
+
+/* No more than twice its steps and a fixed number of operations: all scenes, built in or of the catalogue, at 10 %
+ * of their time and, with all cases, at 1 and 100 %. */
+static void test_looks_take_what_they_may(void) {
+    expect_cost("cuff_equal", 0.004);
+    expect_cost("tests/reference/stack.whirl", 0.2);
+    expect_cost("tests/reference/stack.whirl", 1.0);
+    TEST_ASSERT_TRUE(total > 0.5); /* of which these balls take a good part */
+    TEST_ASSERT_TRUE(each_builtin_scene(built_in) > 60);
+    TEST_ASSERT_TRUE(of_files("docs/*/*.whirl") + of_files("tests/mechanisms/*.whirl") > 35);
+    printf("  looks: at most %.2f of what they may take\n", total);
+}
+
 void suite_verdict(void) {
     RUN_TEST(test_a_point_is_judged_as_its_run);
     RUN_TEST(test_a_limit_is_one_of_the_energy);
@@ -514,4 +607,5 @@ void suite_verdict(void) {
     RUN_TEST(test_json_of_trust_and_map);
     RUN_TEST(test_json_of_price_and_choose);
     RUN_TEST(test_a_common_speed_changes_nothing);
+    RUN_TEST(test_looks_take_what_they_may);
 }

@@ -12,6 +12,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "host/base/interrupts.h"
 #include "host/base/room.h"
 #include "host/commands/load.h"
 #include "host/commands/options.h"
@@ -22,8 +23,6 @@
 #define JITTER_S 60e-6
 #define INSTRUCTION_S (1.5 / 16e6) /* as whirl pil has it */
 enum { PLANTS_MAX = 16, JOBS_MAX = 64 };
-
-static volatile sig_atomic_t interrupted;
 
 static void on_interrupt(int signal_number) {
     (void)signal_number;
@@ -85,14 +84,11 @@ static bool run_one(const campaign *c, plants *from, unsigned i, verdict *v) {
         return false;
     }
     const image *im = plant_of(from, &plan);
-    lockstep_wish wish = {.guest = {.image = c->firmware,
-                                    .board = c->board,
-                                    .mute = true,
-                                    .patience_s = PATIENCE_S,
-                                    .stop = &interrupted},
-                          .plant = {.seed = one.seed, .jitter_s = JITTER_S},
-                          .until_s = UNTIL_S,
-                          .instruction_s = INSTRUCTION_S};
+    lockstep_wish wish = {
+        .guest = {.image = c->firmware, .board = c->board, .mute = true, .patience_s = PATIENCE_S},
+        .plant = {.seed = one.seed, .jitter_s = JITTER_S},
+        .until_s = UNTIL_S,
+        .instruction_s = INSTRUCTION_S};
     const tap taps[] = {fault_tap(&plan), judge_tap(&j, &one, &plan, &wish.until_s)};
     wish.taps = taps;
     wish.tap_count = 2;

@@ -1,6 +1,6 @@
 /* interrupts.h: Ctrl-C and its like end what is under way in order, with what it has so far. */
-#ifndef COMMANDS_INTERRUPTS_H
-#define COMMANDS_INTERRUPTS_H
+#ifndef BASE_INTERRUPTS_H
+#define BASE_INTERRUPTS_H
 
 #include <signal.h>
 
