@@ -5,6 +5,7 @@
 
 volatile sig_atomic_t interrupted;
 
+#ifndef WHIRL_NO_SYSTEM /* WASI has no signals */
 static void on_interrupt(int signal_number) {
     (void)signal_number;
     interrupted = 1;
@@ -22,3 +23,4 @@ static void catch_with(int flags) {
 void interrupts_catch(void) { catch_with(SA_RESTART | (int)SA_RESETHAND); }
 
 void interrupts_catch_waiting(void) { catch_with((int)SA_RESETHAND); }
+#endif
