@@ -33,7 +33,7 @@ WH_INLINE void wh_angle_move(wh_angle *angle, wh_real steps, bool compensated, w
 }
 
 /* A definition of this macro receives the round-off of the step of turn angle i, h long, in units: the interpreter
- * (host/run/loss.inc) defines it. Elsewhere it costs nothing. */
+ * (host/engine/loss.inc) defines it. Elsewhere it costs nothing. */
 #ifndef WH_ANGLE_LOST
 #define WH_ANGLE_LOST(i, h, lost) ((void)0)
 #endif

@@ -6,12 +6,12 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "commands/commands.h"
 #include "core/arithmetic.h"
 #include "core/version.h"
+#include "host/base/atomic_file.h"
 #include "host/base/nearest.h"
-#include "host/base/written.h"
-#include "host/commands/load.h"
+#include "host/cli/commands.h"
+#include "host/cli/load.h"
 
 typedef struct command {
     const char *name;
@@ -139,7 +139,7 @@ static int after_writing(int code) {
     const bool last_part = fflush(stdout) == 0;
     const int reason = errno;
     if (last_part && ferror(stdout) == 0) {
-        return written_code(code);
+        return atomic_file_code(code);
     }
     fprintf(stderr, "whirl: error: standard output cannot be written%s%s\n", last_part ? "" : ": ",
             last_part ? "" : strerror(reason));

@@ -100,8 +100,9 @@ WHIRL_MAIN_C := $(wildcard host/*.c)
 WHIRL_C := $(wildcard host/*/*.c)
 ifeq ($(SYSTEM),none)
 # The commands that need neither processes nor signals nor a serial line, and the folders that do.
-WHIRL_C := $(filter-out host/commands/% $(addprefix host/,monitor/% pil/% plot/% price/% prove/% sweep/%),$(WHIRL_C)) \
-    $(addprefix host/commands/,accel.c check.c derive.c describe.c examine.c files.c list.c load.c new.c options.c scenes.c target.c)
+WHIRL_C := $(filter-out host/cli/% $(addprefix host/,monitor/% pil/% prove/% study/%) \
+    $(addprefix host/io/,figure_draw.c gnuplot.c panels.c plot.c plot_run.c vcd.c),$(WHIRL_C)) \
+    $(addprefix host/cli/,accel.c check.c derive.c describe.c examine.c files.c list.c load.c new.c options.c scenes.c target.c)
 endif
 TEST_C := $(wildcard tests/*.c tests/*/*.c)
 C_FILES := $(sort $(PORTABLE_C) $(BOARD_C) $(HOST_TOOL_C) $(WHIRL_MAIN_C) $(WHIRL_C) $(TEST_C) \

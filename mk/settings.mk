@@ -1,5 +1,5 @@
-# settings.mk: the same bits on every board with every setting that `whirl price` tries (host/price/setting.h). The program
-# writes some scenes with every setting that each takes, and the interpreter's hashes (host/commands/settings.c); what is
+# settings.mk: the same bits on every board with every setting that `whirl price` tries (host/study/setting.h). The program
+# writes some scenes with every setting that each takes, and the interpreter's hashes (host/cli/emit_settings.c); what is
 # compiled of that, for this machine and for boards, must print the same.
 
 # Between them: a matrix, tables, angles that turn and that are looked up, every method, first order, stops, fixed point.

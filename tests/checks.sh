@@ -42,9 +42,9 @@ await() {
 has_bytes() { [ "$(wc -c 2>/dev/null <"$2" || echo 0)" -ge "$1" ]; }
 has_worked() { ! [ "$(sed 's/.*) //' "/proc/$2/stat" 2>/dev/null | awk '{ print $12 + $13 }')" -lt "$1" ] 2>/dev/null; }
 
-# The rows of host/commands/options.h: "--word VALUE GROUP".
+# The rows of host/cli/options.h: "--word VALUE GROUP".
 option_rows() {
-    tr -d '\n\\' <host/commands/options.h | grep -o 'X(OPTION_[A-Z]*, "--[a-z]*", "[^"]*", OPTIONS_[A-Z]*' |
+    tr -d '\n\\' <host/cli/options.h | grep -o 'X(OPTION_[A-Z]*, "--[a-z]*", "[^"]*", OPTIONS_[A-Z]*' |
         sed 's/X([A-Z_]*, "\(.*\)", "\(.*\)", OPTIONS_\(.*\)/\1 \2 \3/; s/  / - /'
 }
 

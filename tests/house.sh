@@ -29,21 +29,21 @@ arrows='
 core:
 base: core
 number: core
-plot: base number
 lang: base number
 algebra: base lang number
 image: base core number
 derive: algebra base core image lang number
 show: algebra base derive lang number
-run: base core image number plot
+engine: base core image number
 emit: base image number
-fixed: base core emit image number run
-sweep: base core derive image lang number plot run
-price: base core derive fixed image lang number plot run sweep
-prove: base core image lang number run
-pil: base core image number run
-monitor: base core number plot
-commands: base derive emit fixed image lang monitor number pil plot price prove run show sweep
+fixed: base core emit engine image number
+io: base core engine number
+check: base core engine image io number
+prove: base core engine image lang number
+study: base check core derive engine fixed image io lang number
+pil: base core engine image io number
+monitor: base core io number
+cli: base check derive emit engine fixed image io lang monitor number pil prove show study
 '
 
 # included FILE...: "FILE FOLDER" for each folder of core or host that a file names in an include
@@ -93,13 +93,13 @@ arrows_hold
     rule "hal depends on the core only" '^#include "(boards|host|tests|build)/' $hal
     rule "the host's program depends on the core only" '^#include "(hal|boards|tests|build)/' $program
     rule "boards do not depend on the host's program" '^#include "(host|tests)/' $target
-    rule "memory from the heap comes from host/base/room.c" \
+    rule "memory from the heap comes from host/base/alloc.c" \
         '\b(malloc|calloc|realloc|aligned_alloc|strdup|strndup|open_memstream) *\(' \
-        $(files host | grep -v '^host/base/room\.c$')
-    rule "a step of a sweep knows the image only" '^#include "host/(lang|algebra|derive)/' host/sweep/stepping.* \
-        host/sweep/gauge.*
-    rule "runs are stepped by host/run/loop.c alone; host/pil/plant.c is paced by firmware" \
-        '(->|engine_[a-z]+\.)step *\(' $(files host | grep -vxE 'host/(run/loop|pil/plant)\.c')
+        $(files host | grep -v '^host/base/alloc\.c$')
+    rule "a step of a sweep knows the image only" '^#include "host/(lang|algebra|derive)/' host/study/stepping.* \
+        host/study/gauge.*
+    rule "runs are stepped by host/engine/loop.c alone; host/pil/plant.c is paced by firmware" \
+        '(->|engine_[a-z]+\.)step *\(' $(files host | grep -vxE 'host/(engine/loop|pil/plant)\.c')
     rule "white space at a line's end" '[[:space:]]$' $all
     rule "a tab" '	' $all
     twice=$(files core hal host | sed 's/\.[ch]$//' | sort -u | sed 's:.*/::' | sort | uniq -d)

@@ -6,8 +6,8 @@
 #include <string.h>
 
 #include "host/algebra/algebra.h"
+#include "host/base/alloc.h"
 #include "host/base/hashing.h"
-#include "host/base/room.h"
 #include "host/number/folding.h"
 
 /* === the order of the normal form ============================================================= */
@@ -150,7 +150,7 @@ bool power_multiplies_out(const poly *base, double exponent, double kept) {
 static void push(poly_sum *s, const mono *m, double coefficient) {
     if (s->count == s->room) {
         s->room = s->room == 0 ? 64 : s->room * 2;
-        s->items = room_more(s->items, (int64_t)s->room, sizeof *s->items);
+        s->items = alloc_more(s->items, (int64_t)s->room, sizeof *s->items);
     }
     s->items[s->count] = (sum_item){m, coefficient, s->count};
     s->count++;
@@ -233,7 +233,7 @@ static uint64_t bits_of(double value) {
 
 static void table_grow(intern_table *table) {
     const size_t size = table->size == 0 ? 1024 : table->size * 2;
-    intern_slot *slots = room((int64_t)size, sizeof *slots);
+    intern_slot *slots = alloc((int64_t)size, sizeof *slots);
     for (size_t i = 0; i < table->size; i++) {
         if (table->slots[i].object != NULL) {
             size_t at = (size_t)table->slots[i].hash & (size - 1);
@@ -270,8 +270,8 @@ static void count_bytes(algebra *a, size_t bytes) {
 }
 
 char *algebra_limit(const algebra *a) {
-    return a->work > WORK_MAX ? room_words("more than %.0f MB of terms were made", 1e-6 * WORK_MAX)
-                              : room_words("more than %.0f operands", POLY_SIZE_MAX);
+    return a->work > WORK_MAX ? alloc_words("more than %.0f MB of terms were made", 1e-6 * WORK_MAX)
+                              : alloc_words("more than %.0f operands", POLY_SIZE_MAX);
 }
 
 void algebra_work(algebra *a, size_t amount) { count_bytes(a, amount * WORK_OF_TERM); }
@@ -285,7 +285,7 @@ static unsigned next_id(algebra *a, intern_table *table, size_t bytes) {
 /* --- life ----------------------------------------------------------------------------------------*/
 
 algebra *algebra_new(void) {
-    algebra *a = room(1, sizeof *a);
+    algebra *a = alloc(1, sizeof *a);
     a->arena = arena_new();
     a->zero = poly_number(a, 0.0);
     a->one = poly_number(a, 1.0);
@@ -408,7 +408,7 @@ const mono *mono_intern(algebra *a, mono *candidate) {
 }
 
 mono *mono_scratch(int factors) {
-    mono *m = room_tail(sizeof *m, factors, sizeof(mono_factor));
+    mono *m = alloc_tail(sizeof *m, factors, sizeof(mono_factor));
     return m;
 }
 
@@ -470,7 +470,7 @@ const poly *poly_intern(algebra *a, poly *candidate) {
 }
 
 poly *poly_scratch(int terms) {
-    poly *p = room_tail(sizeof *p, terms, sizeof(poly_term));
+    poly *p = alloc_tail(sizeof *p, terms, sizeof(poly_term));
     return p;
 }
 
@@ -763,7 +763,7 @@ static const poly *term_pow(algebra *a, const poly_term *t, double exponent) {
     const mono *m = t->mono;
     const bool whole = exponent_is_whole(exponent);
     if (whole && m->trig == TRIG_NONE) {
-        mono_factor *f = room(m->count, sizeof *f);
+        mono_factor *f = alloc(m->count, sizeof *f);
         const poly *extra = a->one;
         int count = 0;
         for (int i = 0; i < m->count; i++) {

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "room.h"
+#include "alloc.h"
 
 enum { BLOCK_BYTES = 64 * 1024 };
 
@@ -21,7 +21,7 @@ struct arena {
 };
 
 struct arena *arena_new(void) {
-    struct arena *fresh = room(1, sizeof *fresh);
+    struct arena *fresh = alloc(1, sizeof *fresh);
     return fresh;
 }
 
@@ -41,13 +41,13 @@ void arena_free(struct arena *arena) {
 void *arena_alloc(struct arena *arena, size_t size) {
     const size_t grain = alignof(max_align_t);
     if (size > SIZE_MAX - sizeof(block) - grain) {
-        room_none();
+        alloc_none();
     }
     size = (size + grain - 1) / grain * grain;
     block *last = arena->last;
     if (last == NULL || last->size - last->used < size) {
         const size_t whole = size > BLOCK_BYTES ? size : BLOCK_BYTES;
-        block *fresh = room_more(NULL, 1, sizeof *fresh + whole);
+        block *fresh = alloc_more(NULL, 1, sizeof *fresh + whole);
         fresh->before = last;
         fresh->used = 0;
         fresh->size = whole;

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "room.h"
+#include "alloc.h"
 #include "utf8.h"
 
 enum {
@@ -37,8 +37,8 @@ struct diags {
 };
 
 diags *diags_new(void) {
-    diags *all = room(1, sizeof *all);
-    all->entries = room(DIAG_MAX, sizeof *all->entries);
+    diags *all = alloc(1, sizeof *all);
+    all->entries = alloc(DIAG_MAX, sizeof *all->entries);
     return all;
 }
 

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "host/base/room.h"
+#include "host/base/alloc.h"
 #include "host/number/folding.h"
 
 /* A sum below this part of its addends counts as zero, as in host/algebra. Decimal parameters must leave no spurious
@@ -29,25 +29,26 @@ static int column_of(const image *im, const op *o) {
 static bool is_constant(const twofold *c, int columns) {
     bool constant = true;
     for (int i = 0; i < columns - 1; i++) {
-        constant = constant && twofold_is_zero(c[i]);
+        constant = constant && double_double_is_zero(c[i]);
     }
     return constant;
 }
 
 static twofold sum(twofold a, twofold b) {
-    const twofold both = twofold_add(a, b);
-    return folding_cancels(both.high, fabs(a.high) + fabs(b.high), GHOST) ? twofold_of(0.0) : both;
+    const twofold both = double_double_add(a, b);
+    return folding_cancels(both.high, fabs(a.high) + fabs(b.high), GHOST) ? double_double_of(0.0)
+                                                                          : both;
 }
 
 static void add(const twofold *a, const twofold *b, double sign, int columns, twofold *to) {
     for (int i = 0; i < columns; i++) {
-        to[i] = sum(a[i], twofold_scale(b[i], sign));
+        to[i] = sum(a[i], double_double_scale(b[i], sign));
     }
 }
 
 static void multiply(const twofold *a, twofold factor, int columns, twofold *to) {
     for (int i = 0; i < columns; i++) {
-        to[i] = twofold_mul(a[i], factor);
+        to[i] = double_double_mul(a[i], factor);
     }
 }
 
@@ -58,13 +59,13 @@ static bool step(const image *im, const op *o, const twofold *all, twofold *to) 
     const twofold *b = all + (ptrdiff_t)(o->b >= 0 ? o->b : 0) * columns;
     const int last = columns - 1;
     switch (o->code) {
-    case OP_CONSTANT: to[last] = twofold_of(o->value); return true;
+    case OP_CONSTANT: to[last] = double_double_of(o->value); return true;
     case OP_LINEAR:
     case OP_RATE:
-    case OP_INPUT: to[column_of(im, o)] = twofold_of(1.0); return true;
+    case OP_INPUT: to[column_of(im, o)] = double_double_of(1.0); return true;
     case OP_ADD: add(a, b, 1.0, columns, to); return true;
     case OP_SUB: add(a, b, -1.0, columns, to); return true;
-    case OP_NEG: multiply(a, twofold_of(-1.0), columns, to); return true;
+    case OP_NEG: multiply(a, double_double_of(-1.0), columns, to); return true;
     case OP_MUL:
         if (is_constant(a, columns)) {
             multiply(b, a[last], columns, to);
@@ -79,7 +80,7 @@ static bool step(const image *im, const op *o, const twofold *all, twofold *to) 
             return false;
         }
         for (int i = 0; i < columns; i++) {
-            to[i] = twofold_div(a[i], b[last]);
+            to[i] = double_double_div(a[i], b[last]);
         }
         return true;
     case OP_PHASE:
@@ -104,10 +105,10 @@ static bool step(const image *im, const op *o, const twofold *all, twofold *to) 
 }
 
 int affine_rates(const image *im, twofold *rates) {
-    const tape *t = im->list[IMAGE_STEP];
+    const op_list *t = im->list[IMAGE_STEP];
     const int columns = affine_columns(im);
     const size_t row = (size_t)columns * sizeof *rates;
-    twofold *all = room((int64_t)t->count * columns, sizeof *all);
+    twofold *all = alloc((int64_t)t->count * columns, sizeof *all);
     int bad = -1;
     for (int i = 0; i < t->count && bad < 0; i++) {
         bad = step(im, &t->ops[i], all, all + (ptrdiff_t)i * columns) ? -1 : i;
@@ -116,7 +117,7 @@ int affine_rates(const image *im, twofold *rates) {
         const int positions = im->form == WH_SECOND_ORDER ? im->coordinates : 0;
         memset(rates, 0, (size_t)affine_states(im) * row);
         for (int i = 0; i < positions; i++) {
-            rates[i * columns + im->coordinates + i] = twofold_of(1.0);
+            rates[i * columns + im->coordinates + i] = double_double_of(1.0);
         }
         for (int i = 0; i < t->results; i++) {
             memcpy(rates + (ptrdiff_t)(positions + i) * columns,
@@ -128,8 +129,8 @@ int affine_rates(const image *im, twofold *rates) {
 }
 
 void affine_takes(const image *im, int number, bool *taking) {
-    const tape *t = im->list[IMAGE_STEP];
-    bool *needed = room(number + 1, sizeof *needed);
+    const op_list *t = im->list[IMAGE_STEP];
+    bool *needed = alloc(number + 1, sizeof *needed);
     int operand[2];
     needed[number] = true;
     for (int i = number; i >= 0; i--) {
@@ -137,7 +138,7 @@ void affine_takes(const image *im, int number, bool *taking) {
         if (!needed[i]) {
             continue;
         }
-        for (int k = tape_operands(o, operand); k > 0; k--) {
+        for (int k = op_list_operands(o, operand); k > 0; k--) {
             needed[operand[k - 1]] = true;
         }
         const int column = column_of(im, o);

@@ -3,7 +3,7 @@
 #define DERIVE_AFFINE_H
 
 #include "host/image/image.h"
-#include "host/number/twofold.h"
+#include "host/number/double_double.h"
 
 /* The states of a scene, angles first, and the columns: states, inputs, and the constant. */
 int affine_states(const image *im);

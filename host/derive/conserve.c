@@ -5,7 +5,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "host/base/room.h"
+#include "host/base/alloc.h"
 #include "influence.h"
 
 /* --- the start -----------------------------------------------------------------------------------*/
@@ -95,7 +95,7 @@ static const poly *potential_of(const equations *e, const poly *const *mass) {
 static const poly *potential_of_any(const equations *e, const poly *const *mass) {
     const poly *g = potential_of(e, mass);
     if (g == NULL) {
-        const poly **expanded = room(e->count, sizeof(const poly *));
+        const poly **expanded = alloc(e->count, sizeof(const poly *));
         for (int j = 0; j < e->count; j++) {
             expanded[j] = poly_expanded(e->algebra, mass[j]);
         }
@@ -209,7 +209,7 @@ static bool make_law(const equations *e, conservation *c, int k, momentum_law *l
     const int n = e->count;
     const int i = c->unknown[k];
     const poly *momentum = equations_fold(e, e->momentum[i]);
-    law->mass = room(n, sizeof(const poly *));
+    law->mass = alloc(n, sizeof(const poly *));
     law->momentum = at_start(e, momentum);
     for (int j = 0; j < n; j++) {
         double value;
@@ -247,11 +247,11 @@ static void make_potentials(const equations *e, conservation *c, momentum_law *l
 conservation *conservation_make(const equations *e, const bool *wanted, diags *errors) {
     const int n = e->count;
     momentum_law laws[CONSERVED_MAX] = {0};
-    conservation *c = room(1, sizeof *c);
-    c->unknown = room(n, sizeof *c->unknown);
-    c->number = room(n, sizeof *c->number);
-    c->rate = room(CONSERVED_MAX, sizeof(const poly *));
-    c->value = room(CONSERVED_MAX, sizeof(const poly *));
+    conservation *c = alloc(1, sizeof *c);
+    c->unknown = alloc(n, sizeof *c->unknown);
+    c->number = alloc(n, sizeof *c->number);
+    c->rate = alloc(CONSERVED_MAX, sizeof(const poly *));
+    c->value = alloc(CONSERVED_MAX, sizeof(const poly *));
     c->closed = true;
     bool good = true;
     for (int i = 0; i < n; i++) {

@@ -6,7 +6,7 @@
 #include "contacts.h"
 #include "core/contact.h"
 #include "core/hash.h"
-#include "host/base/room.h"
+#include "host/base/alloc.h"
 #include "host/derive/equations.h"
 
 #define SAME_KIND(id, ...) \
@@ -43,10 +43,10 @@ int contact_lists_polys(const equations *e, const conservation *c, const poly **
 }
 
 /* A list that computes `wanted` [count]. */
-static tape *enter(layout *map, const poly *const *wanted, int count) {
-    tape *t = tape_new(map->angles, count);
+static op_list *enter(layout *map, const poly *const *wanted, int count) {
+    op_list *t = op_list_new(map->angles, count);
     lowering l = layout_lowering(map, t);
-    const poly **p = room(count, sizeof(const poly *));
+    const poly **p = alloc(count, sizeof(const poly *));
     for (int i = 0; i < count; i++) {
         p[i] = layout_ready(map, wanted[i]);
     }
@@ -56,47 +56,47 @@ static tape *enter(layout *map, const poly *const *wanted, int count) {
     }
     lower_done(&l);
     free(p);
-    tape_prune(t);
+    op_list_prune(t);
     return t;
 }
 
-static tape *make_signals(layout *map) {
+static op_list *make_signals(layout *map) {
     const contact_laws *laws = map->equations->contacts;
-    const poly **wanted = room(2 * laws->count, sizeof(const poly *));
+    const poly **wanted = alloc(2 * laws->count, sizeof(const poly *));
     for (int k = 0; k < laws->count; k++) {
         wanted[2 * k] = laws->law[k].value;
         wanted[2 * k + 1] = laws->law[k].speed;
     }
-    tape *t = enter(map, wanted, 2 * laws->count);
+    op_list *t = enter(map, wanted, 2 * laws->count);
     free(wanted);
     return t;
 }
 
-static tape *make_sets(layout *map) {
+static op_list *make_sets(layout *map) {
     const contact_laws *laws = map->equations->contacts;
     if (laws->set_count == 0) {
         return NULL;
     }
-    const poly **wanted = room(laws->set_count, sizeof(const poly *));
+    const poly **wanted = alloc(laws->set_count, sizeof(const poly *));
     int count = 0;
     for (int k = laws->forced; k < laws->count; k++) {
         for (int i = 0; i < laws->law[k].from->set_count; i++) {
             wanted[count++] = laws->sets[k].value[i];
         }
     }
-    tape *t = enter(map, wanted, count);
+    op_list *t = enter(map, wanted, count);
     free(wanted);
     return t;
 }
 
 /* The rows and their responses M^-1 J^T, by the same elimination as the accelerations. */
-static tape *make_forces(layout *map, const linear_system *s) {
+static op_list *make_forces(layout *map, const linear_system *s) {
     const contact_laws *laws = map->equations->contacts;
     const int n = map->equations->count;
     const int stride = WH_LAW_ROWS + 2 * map->coordinates;
-    tape *t = tape_new(map->angles, laws->forced * stride);
-    int *pushed = room(n, sizeof *pushed);
-    const poly **row = room(n + 3, sizeof(const poly *));
+    op_list *t = op_list_new(map->angles, laws->forced * stride);
+    int *pushed = alloc(n, sizeof *pushed);
+    const poly **row = alloc(n + 3, sizeof(const poly *));
     linear_system load = *s;
     load.force = row;
     for (int k = 0; k < laws->forced; k++) {
@@ -128,7 +128,7 @@ static tape *make_forces(layout *map, const linear_system *s) {
     }
     free(pushed);
     free(row);
-    tape_prune(t);
+    op_list_prune(t);
     return t;
 }
 
@@ -257,9 +257,9 @@ contact_lists *contact_lists_make(layout *map, const linear_system *s, diags *er
     if (!have_impulses(e, errors) || !have_finite_laws(e, errors)) {
         return NULL;
     }
-    contact_lists *c = room(1, sizeof *c);
-    c->row = room(laws->count, sizeof *c->row);
-    c->target = room(laws->set_count, sizeof *c->target);
+    contact_lists *c = alloc(1, sizeof *c);
+    c->row = alloc(laws->count, sizeof *c->row);
+    c->target = alloc(laws->set_count, sizeof *c->target);
     c->count = laws->count;
     c->forced = laws->forced;
     for (int k = 0; k < laws->count; k++) {
@@ -272,9 +272,9 @@ contact_lists *contact_lists_make(layout *map, const linear_system *s, diags *er
 }
 
 uint64_t contact_lists_hash(const contact_lists *c, uint64_t hash) {
-    hash = wh_hash_u64(hash, tape_hash(c->signals));
-    hash = wh_hash_u64(hash, tape_hash(c->forces));
-    hash = c->sets != NULL ? wh_hash_u64(hash, tape_hash(c->sets)) : hash;
+    hash = wh_hash_u64(hash, op_list_hash(c->signals));
+    hash = wh_hash_u64(hash, op_list_hash(c->forces));
+    hash = c->sets != NULL ? wh_hash_u64(hash, op_list_hash(c->sets)) : hash;
     for (int k = 0; k < c->count; k++) {
         hash = wh_hash_u64(hash, (uint64_t)c->row[k].kind);
         hash = wh_hash_u64(hash, (uint64_t)(c->row[k].direction + 1));
@@ -289,9 +289,9 @@ void contact_lists_free(contact_lists *c) {
     if (c == NULL) {
         return;
     }
-    tape_free(c->signals);
-    tape_free(c->forces);
-    tape_free(c->sets);
+    op_list_free(c->signals);
+    op_list_free(c->forces);
+    op_list_free(c->sets);
     free(c->row);
     free(c->target);
     free(c);

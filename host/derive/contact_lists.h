@@ -21,9 +21,9 @@ typedef struct contact_lists {
     int set_count;
     contact_row *row; /* [count] */
     int *target;      /* [set_count] component of the state, angles first */
-    tape *signals;
-    tape *forces;
-    tape *sets; /* NULL without sets */
+    op_list *signals;
+    op_list *forces;
+    op_list *sets; /* NULL without sets */
 } contact_lists;
 
 /* Every poly of the step of a scene with these laws, folded and settled. Fills p[] (if not NULL) and returns their

@@ -3,7 +3,7 @@
 
 #include <stdlib.h>
 
-#include "host/base/room.h"
+#include "host/base/alloc.h"
 
 /* sum_i d(value)/dq_i q_i'. */
 static const poly *rate_of(algebra *a, const mechanism *m, const poly *value) {
@@ -18,7 +18,7 @@ static const poly *rate_of(algebra *a, const mechanism *m, const poly *value) {
 
 static void make_constraint(algebra *a, const mechanism *m, const poly *held, contact_law *law) {
     const poly *zero = poly_number(a, 0.0);
-    law->row = room(m->coordinate_count, sizeof(const poly *));
+    law->row = alloc(m->coordinate_count, sizeof(const poly *));
     law->speed = rate_of(a, m, held);
     law->bias = zero;
     law->straight = true;
@@ -61,7 +61,7 @@ static void make_law(algebra *a, const mechanism *m, const contact_statement *fr
     }
     case CONTACT_WHEN:
         law->value = poly_from_expr(a, from->value);
-        set->value = room(from->set_count, sizeof(const poly *));
+        set->value = alloc(from->set_count, sizeof(const poly *));
         for (int i = 0; i < from->set_count; i++) {
             set->value[i] = poly_from_expr(a, from->sets[i].value);
         }
@@ -88,7 +88,7 @@ static bool moves(algebra *a, const mechanism *m, const poly *value) {
 /* After all others, a crossing for every friction whose normal force may vanish, as long as there is space. */
 static void make_loosening(algebra *a, const mechanism *m, contact_laws *laws) {
     const int written = laws->count;
-    laws->loose = room(written, sizeof *laws->loose);
+    laws->loose = alloc(written, sizeof *laws->loose);
     for (int k = 0; k < written && laws->count < CONTACTS_MAX; k++) {
         const contact_statement *of = laws->law[k].from;
         if (of->kind == CONTACT_FRICTION && moves(a, m, poly_from_expr(a, of->normal))) {
@@ -108,9 +108,9 @@ contact_laws *contact_laws_make(algebra *a, const instance *inst) {
     const mechanism *m = inst->mechanism;
     const int own = inst->scene != NULL ? inst->scene->when_count : 0;
     const int most = 2 * m->contact_count + own; /* a crossing for each friction */
-    contact_laws *laws = room(1, sizeof *laws);
-    laws->law = room(most, sizeof *laws->law);
-    laws->sets = room(most, sizeof *laws->sets);
+    contact_laws *laws = alloc(1, sizeof *laws);
+    laws->law = alloc(most, sizeof *laws->law);
+    laws->sets = alloc(most, sizeof *laws->sets);
     for (int k = 0; k < CONTACT_KINDS; k++) {
         for (int i = 0; i < m->contact_count + own; i++) {
             const contact_statement *h =

@@ -5,10 +5,10 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "host/base/room.h"
+#include "host/base/alloc.h"
 
 static statement_force force_of(algebra *a, const mechanism *m, const term *t) {
-    statement_force made = {t, room(m->coordinate_count, sizeof(const poly *)),
+    statement_force made = {t, alloc(m->coordinate_count, sizeof(const poly *)),
                             poly_number(a, 0.0)};
     const poly *value = poly_from_expr(a, t->value);
     for (int i = 0; i < m->coordinate_count; i++) {
@@ -26,7 +26,7 @@ static statement_force force_of(algebra *a, const mechanism *m, const term *t) {
 
 statement_force *forces_derive(algebra *a, const instance *inst, int *count) {
     const mechanism *m = inst->mechanism;
-    statement_force *forces = room(m->term_count, sizeof *forces);
+    statement_force *forces = alloc(m->term_count, sizeof *forces);
     *count = 0;
     for (int i = 0; i < m->term_count; i++) {
         const term *t = &m->terms[i];

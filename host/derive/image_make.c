@@ -5,12 +5,12 @@
 #include <string.h>
 
 #include "core/contact.h"
-#include "host/derive/blame.h"
+#include "host/derive/diagnostic_expressions.h"
 #include "host/derive/image_parts.h"
 #include "host/derive/lagrange.h"
 #include "host/derive/matrix_make.h"
 #include "host/derive/program.h"
-#include "host/image/tape_gauge.h"
+#include "host/image/op_list_scaling.h"
 #include "host/lang/lexer.h"
 #include "host/lang/shown.h"
 #include "host/lang/words.h"
@@ -214,8 +214,8 @@ static void *copy(image_draft *d, const void *from, int count, size_t size) {
 }
 
 /* Transfer the list to the image. */
-static tape *take(tape **list) {
-    tape *taken = *list;
+static op_list *take(op_list **list) {
+    op_list *taken = *list;
     *list = NULL;
     return taken;
 }
@@ -333,7 +333,7 @@ static image *with_matrix(image_draft *d, const equations *e, image_use use, dia
     bool wants_blame;
     bool good = matrix_make(d, use == IMAGE_TO_RUN, &wants_blame, errors);
     if (wants_blame) {
-        blame_make(d, e);
+        diagnostics_make(d, e);
         good = matrix_make(d, true, &wants_blame, errors);
     }
     image *made = image_draft_done(d);
@@ -366,7 +366,7 @@ image *image_once(const equations *e, const bool *conserve, const image_settings
      * this is. */
     if (done.compensated && p->contacts == NULL && done.tables == TABLES_NONE &&
         folding_way() == FOLDING_NEAREST) {
-        tape_gauge(&p->step, tape_gauge_price(p->step));
+        op_list_gauge(&p->step, op_list_gauge_price(p->step));
     }
     image_draft d = image_draft_new();
     image *im = d.made;
@@ -387,7 +387,7 @@ image *image_once(const equations *e, const bool *conserve, const image_settings
     copy_ranges(&d, e, &p->layout);
     program_free(p);
     if (use == IMAGE_TO_RUN) {
-        blame_make(&d, e);
+        diagnostics_make(&d, e);
     }
     return im->settings.matrix != MATRIX_NONE ? with_matrix(&d, e, use, errors)
                                               : image_draft_done(&d);
@@ -438,8 +438,8 @@ static bool is_alike(const image *im, const image *other) {
         alike = a.unknown == b.unknown && a.primes == b.primes;
     }
     for (int role = 0; role < IMAGE_ROLES && alike; role++) {
-        const tape *a = im->list[role];
-        const tape *b = other->list[role];
+        const op_list *a = im->list[role];
+        const op_list *b = other->list[role];
         alike = (a == NULL) == (b == NULL) && (a == NULL || a->results == b->results);
     }
     return alike;

@@ -9,7 +9,7 @@
 /* One image, with its numbers folded in the current way (host/number/folding.h). image_make() makes variants, too. */
 
 /* The purpose of an image. One to run also has the expressions that may be undefined, in the spelling of the file, so
- * that a message can quote the failed one (host/run/undefined.h). */
+ * that a message can quote the failed one (host/check/nonfinite.h). */
 typedef enum image_use { IMAGE_TO_WRITE, IMAGE_TO_RUN } image_use;
 
 /* As image_make(), but without the variants of other ways of folding. */

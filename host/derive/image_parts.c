@@ -3,8 +3,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "host/base/alloc.h"
 #include "host/base/arena.h"
-#include "host/base/room.h"
 #include "host/lang/shown.h"
 
 image_draft image_draft_new(void) {
@@ -35,8 +35,8 @@ static source *copy_source(image_draft *d, const source *from) {
     if (from->text != NULL) {
         made->text = arena_copy(d->made->memory, from->text, from->length);
     }
-    d->original = room_more(d->original, d->sources + 1, sizeof(const source *));
-    d->copy = room_more(d->copy, d->sources + 1, sizeof(source *));
+    d->original = alloc_more(d->original, d->sources + 1, sizeof(const source *));
+    d->copy = alloc_more(d->copy, d->sources + 1, sizeof(source *));
     d->original[d->sources] = from;
     d->copy[d->sources++] = made;
     return made;

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "host/base/room.h"
+#include "host/base/alloc.h"
 #include "singular.h"
 
 /* --- energies ------------------------------------------------------------------------------------*/
@@ -120,8 +120,8 @@ static bool derive_system(equations *e, diags *errors) {
     algebra *a = e->algebra;
     const mechanism *m = e->instance->mechanism;
     const int n = e->count;
-    const poly **left = room(n, sizeof *left);
-    const term **term_at = room(n, sizeof *term_at);
+    const poly **left = alloc(n, sizeof *left);
+    const term **term_at = alloc(n, sizeof *term_at);
     bool good = true;
     int rows = 0;
     for (int t = 0; t < m->term_count && rows < n; t++) {
@@ -174,7 +174,7 @@ static bool derive_system(equations *e, diags *errors) {
 
 /* --- both ----------------------------------------------------------------------------------------*/
 
-static const poly **polys(int count) { return room(count, sizeof(const poly *)); }
+static const poly **polys(int count) { return alloc(count, sizeof(const poly *)); }
 
 /* Beyond the limits of the algebra, or of walks through its results? */
 static bool too_large(const equations *e) {
@@ -202,7 +202,7 @@ equations *equations_derive_after(const instance *inst, equations_question *befo
                                   diags *errors) {
     const mechanism *m = inst->mechanism;
     const int n = m->coordinate_count;
-    equations *e = room(1, sizeof *e);
+    equations *e = alloc(1, sizeof *e);
     e->folding = inst->folding;
     e->folding.way = folding_way();
     folding *const before_it = folding_use(&e->folding);
@@ -212,8 +212,8 @@ equations *equations_derive_after(const instance *inst, equations_question *befo
     }
     e->instance = inst;
     e->count = n;
-    e->unknowns = room(n, sizeof *e->unknowns);
-    e->conserved = room(n, sizeof *e->conserved);
+    e->unknowns = alloc(n, sizeof *e->unknowns);
+    e->conserved = alloc(n, sizeof *e->conserved);
     e->mass = polys(n * n);
     e->velocity = polys(n);
     e->potential = polys(n);

@@ -3,7 +3,7 @@
 
 #include <stdlib.h>
 
-#include "host/base/room.h"
+#include "host/base/alloc.h"
 #include "noise_records.h"
 
 _Static_assert((int)COORDINATES_MAX == IMAGE_COMPONENTS_MAX, "the parser's bound is the image's");
@@ -15,19 +15,19 @@ int layout_turn(void *context, const symbol *s) {
 }
 
 /* An input of an inactive effect cannot change: a constant. */
-static int input_leaf(const layout *map, tape *t, const symbol *s) {
+static int input_leaf(const layout *map, op_list *t, const symbol *s) {
     for (int i = 0; i < map->inputs; i++) {
         if (map->input[i] == s->index) {
-            return tape_leaf(t, OP_INPUT, i);
+            return op_list_leaf(t, OP_INPUT, i);
         }
     }
-    return tape_constant(t, map->equations->instance->input[s->index]);
+    return op_list_constant(t, map->equations->instance->input[s->index]);
 }
 
-int layout_leaf(void *context, tape *t, const symbol *s, int primes) {
+int layout_leaf(void *context, op_list *t, const symbol *s, int primes) {
     const layout *map = context;
     if (s == &conservation_time) {
-        return tape_leaf(t, OP_TIME, 0);
+        return op_list_leaf(t, OP_TIME, 0);
     }
     if (s->kind == SYM_INPUT) {
         return input_leaf(map, t, s);
@@ -39,13 +39,13 @@ int layout_leaf(void *context, tape *t, const symbol *s, int primes) {
         return map->highest[s->index];
     }
     if (primes == 0 && map->angle_number[s->index] >= 0) {
-        return tape_leaf(t, OP_RADIANS, map->angle_number[s->index]);
+        return op_list_leaf(t, OP_RADIANS, map->angle_number[s->index]);
     }
     const int real = map->real_number[s->index * map->order_room + primes];
     if (map->form == WH_SECOND_ORDER && primes == 1) {
-        return tape_leaf(t, OP_RATE, map->place[s->index]);
+        return op_list_leaf(t, OP_RATE, map->place[s->index]);
     }
-    return tape_leaf(t, OP_LINEAR, real);
+    return op_list_leaf(t, OP_LINEAR, real);
 }
 
 /* --- arranging the state -------------------------------------------------------------------------*/
@@ -66,7 +66,7 @@ static int add_real(layout *map, int i, int primes) {
 /* Inactive effects leave no trace: their inputs are left out, too. */
 static void arrange_inputs(layout *map, const instance *inst) {
     const mechanism *m = inst->mechanism;
-    map->input = room(m->input_count, sizeof *map->input);
+    map->input = alloc(m->input_count, sizeof *map->input);
     for (int i = 0; i < m->input_count; i++) {
         if (m->inputs[i]->effect < 0 || inst->with[m->inputs[i]->effect]) {
             map->input[map->inputs++] = i;
@@ -92,11 +92,11 @@ bool layout_arrange(layout *map, const equations *e, const conservation *conserv
     if ((second ? n : components) > IMAGE_COMPONENTS_MAX) {
         return false;
     }
-    map->angle = room(components, sizeof *map->angle);
-    map->real = room(components, sizeof *map->real);
-    map->place = room(n, sizeof *map->place);
-    map->angle_number = room(n, sizeof *map->angle_number);
-    map->real_number = room(n * map->order_room, sizeof *map->real_number);
+    map->angle = alloc(components, sizeof *map->angle);
+    map->real = alloc(components, sizeof *map->real);
+    map->place = alloc(n, sizeof *map->place);
+    map->angle_number = alloc(n, sizeof *map->angle_number);
+    map->real_number = alloc(n * map->order_room, sizeof *map->real_number);
     for (int i = 0; i < n; i++) {
         const symbol *s = e->unknowns[i].symbol;
         bool turns = s->is_angle && in_state(map, i, 0);
@@ -144,7 +144,7 @@ const poly *layout_ready(const layout *map, const poly *p) {
     return conservation_settle(map->equations, map->conserved, equations_fold(map->equations, p));
 }
 
-lowering layout_lowering(layout *map, tape *t) {
+lowering layout_lowering(layout *map, op_list *t) {
     return (lowering){.algebra = map->equations->algebra,
                       .tape = t,
                       .leaf = layout_leaf,

@@ -39,8 +39,8 @@ void layout_free(layout *map);
 const poly *layout_ready(const layout *map, const poly *p);
 
 /* `leaf` and `turn` of a lowering whose context is a layout; and such a lowering onto `t`. */
-int layout_leaf(void *context, tape *t, const symbol *s, int primes);
+int layout_leaf(void *context, op_list *t, const symbol *s, int primes);
 int layout_turn(void *context, const symbol *s);
-lowering layout_lowering(layout *map, tape *t);
+lowering layout_lowering(layout *map, op_list *t);
 
 #endif

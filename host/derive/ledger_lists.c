@@ -4,7 +4,7 @@
 #include <stdlib.h>
 
 #include "core/ledger_step.h"
-#include "host/base/room.h"
+#include "host/base/alloc.h"
 #include "host/derive/equations.h"
 
 static void add_entry(ledger_lists *l, const poly **power, ledger_kind kind, const place *at,
@@ -47,9 +47,9 @@ static const poly **smooth_entries(ledger_lists *l, const layout *map) {
     const equations *e = map->equations;
     algebra *a = e->algebra;
     const int most = e->count + e->forces * (1 + e->count);
-    const poly **power = room(most, sizeof(const poly *));
+    const poly **power = alloc(most, sizeof(const poly *));
     const poly *lagrangian = poly_sub(a, e->kinetic, e->stored);
-    l->entry = room(most, sizeof *l->entry);
+    l->entry = alloc(most, sizeof *l->entry);
     for (int account = 1; account < l->accounts; account++) {
         const symbol *q = e->unknowns[l->unknown[account]].symbol;
         if (q->driven != NULL) {
@@ -71,7 +71,7 @@ static void find_inputs(ledger_lists *l, const layout *map) {
     const equations *e = map->equations;
     const poly *kinetic = layout_ready(map, e->kinetic);
     const poly *stored = layout_ready(map, e->stored);
-    l->input = room(map->inputs, sizeof *l->input);
+    l->input = alloc(map->inputs, sizeof *l->input);
     for (int i = 0; i < map->inputs; i++) {
         const symbol *s = e->instance->mechanism->inputs[map->input[i]];
         if (poly_contains(kinetic, s, 0) || poly_contains(stored, s, 0)) {
@@ -80,27 +80,27 @@ static void find_inputs(ledger_lists *l, const layout *map) {
     }
 }
 
-static tape *enter(layout *map, const poly *const *wanted, int count) {
-    tape *t = tape_new(map->angles, count);
+static op_list *enter(layout *map, const poly *const *wanted, int count) {
+    op_list *t = op_list_new(map->angles, count);
     lowering l = layout_lowering(map, t);
     lower_plan(&l, wanted, count);
     for (int i = 0; i < count; i++) {
         t->result[i] = lower(&l, wanted[i]);
     }
     lower_done(&l);
-    tape_prune(t);
+    op_list_prune(t);
     return t;
 }
 
-static tape *make_levels(const ledger_lists *l, const poly *integral, layout *map) {
+static op_list *make_levels(const ledger_lists *l, const poly *integral, layout *map) {
     const equations *e = map->equations;
-    const poly **wanted = room(l->accounts, sizeof(const poly *));
+    const poly **wanted = alloc(l->accounts, sizeof(const poly *));
     wanted[0] = layout_ready(map, integral != NULL ? integral
                                                    : poly_add(e->algebra, e->kinetic, e->stored));
     for (int account = 1; account < l->accounts; account++) {
         wanted[account] = layout_ready(map, e->momentum[l->unknown[account]]);
     }
-    tape *t = enter(map, wanted, l->accounts);
+    op_list *t = enter(map, wanted, l->accounts);
     free(wanted);
     return t;
 }
@@ -127,9 +127,9 @@ ledger_lists *ledger_lists_make(layout *map, const poly *integral, int contacts,
     if (!can_keep(map, errors)) {
         return NULL;
     }
-    ledger_lists *l = room(1, sizeof *l);
+    ledger_lists *l = alloc(1, sizeof *l);
     l->accounts = 1 + e->count;
-    l->unknown = room(l->accounts, sizeof *l->unknown);
+    l->unknown = alloc(l->accounts, sizeof *l->unknown);
     order_accounts(l, map);
     const poly **power = smooth_entries(l, map);
     l->entries = l->smooth + contacts * (1 + map->coordinates);
@@ -140,7 +140,7 @@ ledger_lists *ledger_lists_make(layout *map, const poly *integral, int contacts,
         l->powers = enter(map, power, l->smooth);
         l->levels = make_levels(l, integral, map);
         /* an angle that the equations have only inside sines with whole factors, but a power has elsewhere */
-        l->turned = tape_reads_turns(l->powers);
+        l->turned = op_list_reads_turns(l->powers);
     }
     if (!good) {
         diag_error(errors, e->instance->mechanism->at, "leave out the ledger",
@@ -157,8 +157,8 @@ void ledger_lists_free(ledger_lists *l) {
     if (l == NULL) {
         return;
     }
-    tape_free(l->powers);
-    tape_free(l->levels);
+    op_list_free(l->powers);
+    op_list_free(l->levels);
     free(l->entry);
     free(l->unknown);
     free(l->input);

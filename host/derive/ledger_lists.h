@@ -24,8 +24,8 @@ typedef struct ledger_lists {
     int *input;   /* [inputs] inputs of the program in the energies */
     int inputs;
     bool turned; /* a power has a turn angle outside sines and cosines */
-    tape *powers;
-    tape *levels;
+    op_list *powers;
+    op_list *levels;
 } ledger_lists;
 
 /* Enter the lists of a scene with so many contacts and the energy integral `integral` (NULL: T + V, see equations.h).

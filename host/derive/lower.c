@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "host/base/room.h"
+#include "host/base/alloc.h"
 #include "host/number/folding.h"
 
 /* === powers from multiple angles ============================================================== */
@@ -227,7 +227,7 @@ static int find_squares(algebra *a, const poly *p, bool *used, piece *pieces) {
 }
 
 int pieces_of(algebra *a, const poly *p, piece *pieces) {
-    bool *used = room(p->count, sizeof *used);
+    bool *used = alloc(p->count, sizeof *used);
     int count = find_families(a, p, used, pieces);
     count += find_squares(a, p, used, pieces + count);
     for (int i = 0; i < p->count; i++) {
@@ -280,7 +280,7 @@ static int find(const lowering *l, const poly *angle) {
 static int append(lowering *l, wave w) {
     if (l->wave_count == l->wave_room) {
         l->wave_room = l->wave_room == 0 ? 16 : l->wave_room * 2;
-        l->waves = room_more(l->waves, l->wave_room, sizeof *l->waves);
+        l->waves = alloc_more(l->waves, l->wave_room, sizeof *l->waves);
     }
     w.sine = -1;
     w.cosine = -1;
@@ -377,7 +377,7 @@ static bool waves_turns(const lowering *l, const poly *angle) {
 /* Does it contain a fraction of a turn angle, such as half of one? */
 static bool has_part(const lowering *l, const poly *angle) {
     for (int i = 0; i < angle->count; i++) {
-        if (!tape_is_whole(angle->terms[i].coefficient) && turn_of(l, &angle->terms[i]) >= 0) {
+        if (!op_list_is_whole(angle->terms[i].coefficient) && turn_of(l, &angle->terms[i]) >= 0) {
             return true;
         }
     }
@@ -441,7 +441,7 @@ static void waves_plan(lowering *l, const poly **angles, int count) {
 
 /* The phase of an angle: numbers times turn angles, a fixed offset, and the remaining part in radians. */
 static int phase_of(lowering *l, const poly *angle) {
-    double *multiple = room(l->tape->angles, sizeof *multiple);
+    double *multiple = alloc(l->tape->angles, sizeof *multiple);
     double offset = 0.0;
     const poly *rest = poly_number(l->algebra, 0.0);
     for (int i = 0; i < angle->count; i++) {
@@ -456,7 +456,7 @@ static int phase_of(lowering *l, const poly *angle) {
         }
     }
     const int radians = poly_is_zero(rest) ? -1 : lower(l, rest);
-    const int phase = tape_phase(l->tape, multiple, offset, radians);
+    const int phase = op_list_phase(l->tape, multiple, offset, radians);
     free(multiple);
     return phase;
 }
@@ -467,29 +467,29 @@ static int sine_of(lowering *l, int i);
 
 static int cosine_of(lowering *l, int i) {
     const wave w = l->waves[i];
-    tape *t = l->tape;
+    op_list *t = l->tape;
     if (w.cosine >= 0) {
         return w.cosine;
     }
     int result = -1;
     switch (w.rule) {
-    case WAVE_EVALUATED: result = tape_unary(t, OP_COS, phase_of(l, w.angle)); break;
+    case WAVE_EVALUATED: result = op_list_unary(t, OP_COS, phase_of(l, w.angle)); break;
     case WAVE_DOUBLE: {
         const int c = cosine_of(l, w.p);
-        const int twice = tape_mul(t, tape_constant(t, 2.0), c);
-        const int squares = tape_mul(t, twice, c);
-        result = tape_sub(t, squares, tape_constant(t, 1.0));
+        const int twice = op_list_mul(t, op_list_constant(t, 2.0), c);
+        const int squares = op_list_mul(t, twice, c);
+        result = op_list_sub(t, squares, op_list_constant(t, 1.0));
         break;
     }
     case WAVE_SUM:
     case WAVE_DIFFERENCE: {
         const int cos_p = cosine_of(l, w.p);
         const int cos_q = cosine_of(l, w.q);
-        const int cc = tape_mul(t, cos_p, cos_q);
+        const int cc = op_list_mul(t, cos_p, cos_q);
         const int sin_p = sine_of(l, w.p);
         const int sin_q = sine_of(l, w.q);
-        const int ss = tape_mul(t, sin_p, sin_q);
-        result = w.rule == WAVE_SUM ? tape_sub(t, cc, ss) : tape_add(t, cc, ss);
+        const int ss = op_list_mul(t, sin_p, sin_q);
+        result = w.rule == WAVE_SUM ? op_list_sub(t, cc, ss) : op_list_add(t, cc, ss);
         break;
     }
     }
@@ -499,28 +499,28 @@ static int cosine_of(lowering *l, int i) {
 
 static int sine_of(lowering *l, int i) {
     const wave w = l->waves[i];
-    tape *t = l->tape;
+    op_list *t = l->tape;
     if (w.sine >= 0) {
         return w.sine;
     }
     int result = -1;
     switch (w.rule) {
-    case WAVE_EVALUATED: result = tape_unary(t, OP_SIN, phase_of(l, w.angle)); break;
+    case WAVE_EVALUATED: result = op_list_unary(t, OP_SIN, phase_of(l, w.angle)); break;
     case WAVE_DOUBLE: {
         const int c = cosine_of(l, w.p);
-        const int twice = tape_mul(t, tape_constant(t, 2.0), c);
-        result = tape_mul(t, twice, sine_of(l, w.p));
+        const int twice = op_list_mul(t, op_list_constant(t, 2.0), c);
+        result = op_list_mul(t, twice, sine_of(l, w.p));
         break;
     }
     case WAVE_SUM:
     case WAVE_DIFFERENCE: {
         const int sin_p = sine_of(l, w.p);
         const int cos_q = cosine_of(l, w.q);
-        const int sc = tape_mul(t, sin_p, cos_q);
+        const int sc = op_list_mul(t, sin_p, cos_q);
         const int cos_p = cosine_of(l, w.p);
         const int sin_q = sine_of(l, w.q);
-        const int cs = tape_mul(t, cos_p, sin_q);
-        result = w.rule == WAVE_SUM ? tape_add(t, sc, cs) : tape_sub(t, sc, cs);
+        const int cs = op_list_mul(t, cos_p, sin_q);
+        result = w.rule == WAVE_SUM ? op_list_add(t, sc, cs) : op_list_sub(t, sc, cs);
         break;
     }
     }
@@ -543,7 +543,7 @@ static int waves_cosine(lowering *l, const poly *angle) { return cosine_of(l, pl
 #define SAME 1e-13
 
 static piece *piece_room(const poly *p) {
-    piece *pieces = room(p->count, sizeof *pieces);
+    piece *pieces = alloc(p->count, sizeof *pieces);
     return pieces;
 }
 
@@ -580,7 +580,7 @@ static void collect_angles(const lowering *l, const poly *p, angle_list *list) {
         if (!known) {
             if (list->count == list->room) {
                 list->room = list->room == 0 ? 16 : list->room * 2;
-                list->angles = room_more(list->angles, list->room, sizeof *list->angles);
+                list->angles = alloc_more(list->angles, list->room, sizeof *list->angles);
             }
             list->angles[list->count++] = pieces[i].angle;
         }
@@ -607,7 +607,7 @@ void lower_done(lowering *l) {
 /* --- factoring -----------------------------------------------------------------------------------*/
 
 #define FACTORS_MAX 24
-/* Larger whole exponents are not expanded to products, here or in tape_power(). They are handled first: an int would
+/* Larger whole exponents are not expanded to products, here or in op_list_power(). They are handled first: an int would
  * truncate large ones, and the power would amplify the rounding of a reciprocal. */
 #define EXPONENT_MAX 64.0
 
@@ -624,7 +624,7 @@ typedef struct product {
 
 static void product_multiply(lowering *l, product *p, int node, int exponent) {
     double value;
-    if (tape_is_constant(l->tape, node, &value)) {
+    if (op_list_is_constant(l->tape, node, &value)) {
         p->coefficient = folding_product(p->coefficient, folding_power(value, exponent));
         return;
     }
@@ -636,9 +636,9 @@ static void product_multiply(lowering *l, product *p, int node, int exponent) {
     }
     if (p->count == FACTORS_MAX) { /* never observed, but still correct */
         const int last = FACTORS_MAX - 1;
-        const int first = tape_power(l->tape, p->powers[last].node, p->powers[last].exponent);
-        const int more = tape_power(l->tape, node, exponent);
-        p->powers[last].node = tape_mul(l->tape, first, more);
+        const int first = op_list_power(l->tape, p->powers[last].node, p->powers[last].exponent);
+        const int more = op_list_power(l->tape, node, exponent);
+        p->powers[last].node = op_list_mul(l->tape, first, more);
         p->powers[last].exponent = 1;
         return;
     }
@@ -652,15 +652,15 @@ static int atom_node(lowering *l, const atom *x) {
     /* a phase has 1.5e-9 rad: enough for a turn angle, which has the same digits, but not for a small number */
     if (lower_is_tangent(x) && waves_turns(l, x->argument[0])) {
         const int s = waves_sine(l, x->argument[0]);
-        return tape_div(l->tape, s, waves_cosine(l, x->argument[0]));
+        return op_list_div(l->tape, s, waves_cosine(l, x->argument[0]));
     }
     const int first = lower(l, x->argument[0]);
     const int second = x->argument[1] == NULL ? -1 : lower(l, x->argument[1]);
     switch (x->kind) {
     case ATOM_SYMBOL:
     case ATOM_GROUP: break;
-    case ATOM_POWER: return tape_pow(l->tape, first, second);
-    case ATOM_CALL: return tape_call(l->tape, x->function, first, second);
+    case ATOM_POWER: return op_list_pow(l->tape, first, second);
+    case ATOM_CALL: return op_list_call(l->tape, x->function, first, second);
     }
     return first;
 }
@@ -670,19 +670,19 @@ static void product_factor(lowering *l, product *p, const mono_factor *f) {
     double size = fabs(f->exponent);
     if (size != number_floor(size)) {
         if (2.0 * size == number_floor(2.0 * size) && size < 32.0) {
-            node = tape_unary(l->tape, OP_SQRT, node);
+            node = op_list_unary(l->tape, OP_SQRT, node);
             size *= 2.0;
         } else {
-            node = tape_power(l->tape, node, size);
+            node = op_list_power(l->tape, node, size);
             size = 1.0;
         }
     }
     if (size > EXPONENT_MAX) {
-        node = tape_power(l->tape, node, size);
+        node = op_list_power(l->tape, node, size);
         size = 1.0;
     }
     if (f->exponent < 0.0) {
-        node = tape_div(l->tape, tape_constant(l->tape, 1.0), node);
+        node = op_list_div(l->tape, op_list_constant(l->tape, 1.0), node);
     }
     product_multiply(l, p, node, (int)size);
 }
@@ -690,32 +690,32 @@ static void product_factor(lowering *l, product *p, const mono_factor *f) {
 /* Sum of the products' nodes, with the common size of their coefficients taken out: c (x - y + ...). */
 static int sum_of_like(lowering *l, const product *products, const int *nodes, const bool *member,
                        int count, double size) {
-    tape *t = l->tape;
-    int sum = tape_constant(t, 0.0);
+    op_list *t = l->tape;
+    int sum = op_list_constant(t, 0.0);
     for (int sign = 0; sign < 2; sign++) {
         for (int i = 0; i < count; i++) {
             if (member[i] && (products[i].coefficient < 0.0) == (sign == 1)) {
-                sum = sign == 0 ? tape_add(t, sum, nodes[i]) : tape_sub(t, sum, nodes[i]);
+                sum = sign == 0 ? op_list_add(t, sum, nodes[i]) : op_list_sub(t, sum, nodes[i]);
             }
         }
     }
-    return tape_mul(t, tape_constant(t, size), sum);
+    return op_list_mul(t, op_list_constant(t, size), sum);
 }
 
 /* Products without a common factor: terms with coefficients of the same size are added first. */
 static int sum_flat(lowering *l, const product *products, int count) {
-    tape *t = l->tape;
-    int *nodes = room(count, sizeof *nodes);
-    bool *done = room(count, sizeof *done);
-    bool *member = room(count, sizeof *member);
+    op_list *t = l->tape;
+    int *nodes = alloc(count, sizeof *nodes);
+    bool *done = alloc(count, sizeof *done);
+    bool *member = alloc(count, sizeof *member);
     for (int i = 0; i < count; i++) {
-        nodes[i] = tape_constant(t, 1.0);
+        nodes[i] = op_list_constant(t, 1.0);
         for (int k = 0; k < products[i].count; k++) {
             const power *p = &products[i].powers[k];
-            nodes[i] = tape_mul(t, nodes[i], tape_power(t, p->node, p->exponent));
+            nodes[i] = op_list_mul(t, nodes[i], op_list_power(t, p->node, p->exponent));
         }
     }
-    int sum = tape_constant(t, 0.0);
+    int sum = op_list_constant(t, 0.0);
     for (int i = 0; i < count; i++) {
         if (done[i]) {
             continue;
@@ -730,7 +730,8 @@ static int sum_flat(lowering *l, const product *products, int count) {
         const int part =
             sum_of_like(l, products, nodes, member, count, all_negative ? -size : size);
         /* sum_of_like subtracts negative products; with -size outside they must be added */
-        sum = all_negative ? tape_add(t, sum, tape_unary(t, OP_NEG, part)) : tape_add(t, sum, part);
+        sum = all_negative ? op_list_add(t, sum, op_list_unary(t, OP_NEG, part))
+                           : op_list_add(t, sum, part);
     }
     free(nodes);
     free(done);
@@ -767,7 +768,7 @@ static int *sorted_nodes(const product *products, int count, int *total) {
     for (int i = 0; i < count; i++) {
         *total += products[i].count;
     }
-    int *nodes = room_more(NULL, *total, sizeof *nodes);
+    int *nodes = alloc_more(NULL, *total, sizeof *nodes);
     int at = 0;
     for (int i = 0; i < count; i++) {
         for (int k = 0; k < products[i].count; k++) {
@@ -821,9 +822,9 @@ static int most_shared(const lowering *l, const product *products, int count) {
 
 /* Consumes the products. */
 static int sum_of(lowering *l, product *products, int count) {
-    tape *t = l->tape;
+    op_list *t = l->tape;
     if (count <= 0) {
-        return tape_constant(t, 0.0);
+        return op_list_constant(t, 0.0);
     }
     const int shared = count == 1 ? -1 : most_shared(l, products, count);
     if (shared < 0) {
@@ -837,7 +838,7 @@ static int sum_of(lowering *l, product *products, int count) {
             }
         }
     }
-    product *with = room_more(NULL, count, sizeof *with); /* large: not cleared */
+    product *with = alloc_more(NULL, count, sizeof *with); /* large: not cleared */
     int in = 0;
     int out = 0; /* those without the node move to the front */
     for (int i = 0; i < count; i++) {
@@ -869,14 +870,14 @@ static int sum_of(lowering *l, product *products, int count) {
     const int inside = sum_of(l, with, in);
     free(with);
     const int outside = sum_of(l, products, out);
-    const int part = tape_mul(t, inside, tape_power(t, shared, lowest));
-    return negative ? tape_sub(t, outside, part) : tape_add(t, outside, part);
+    const int part = op_list_mul(t, inside, op_list_power(t, shared, lowest));
+    return negative ? op_list_sub(t, outside, part) : op_list_add(t, outside, part);
 }
 
 int lower(lowering *l, const poly *p) {
     piece *pieces = piece_room(p);
     const int count = pieces_of(l->algebra, p, pieces);
-    product *products = room(count, sizeof *products);
+    product *products = alloc(count, sizeof *products);
     for (int i = 0; i < count; i++) {
         products[i].coefficient = pieces[i].coefficient;
         for (int k = 0; k < pieces[i].mono->count; k++) {

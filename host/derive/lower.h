@@ -3,7 +3,7 @@
 #define DERIVE_LOWER_H
 
 #include "host/algebra/poly.h"
-#include "host/image/tape.h"
+#include "host/image/op_list.h"
 
 /* === powers from multiple angles ============================================================== */
 /* A poly's terms, with the multiple angles of the normal form converted back to powers of sines and cosines. */
@@ -27,9 +27,9 @@ typedef struct wave wave;
 
 typedef struct lowering {
     algebra *algebra;
-    tape *tape;
+    op_list *tape;
     /* The operation for a symbol outside sines (a leaf of the tape). */
-    int (*leaf)(void *context, tape *t, const symbol *sym, int primes);
+    int (*leaf)(void *context, op_list *t, const symbol *sym, int primes);
     /* Index of the symbol's turn angle, or -1. */
     int (*turn)(void *context, const symbol *sym);
     void *context;

@@ -6,11 +6,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "host/base/room.h"
+#include "host/base/alloc.h"
 #include "host/derive/affine.h"
 #include "host/derive/not_linear.h"
+#include "host/number/double_double.h"
 #include "host/number/functions.h"
-#include "host/number/twofold.h"
 
 /* === the change in one step of x' = A x + B u + c, with constant u ============================= */
 /* Scaling, a series, squaring. */
@@ -26,9 +26,10 @@ enum { POWERS = 26 };
 static void product(const twofold *a, const twofold *b, int states, int columns, twofold *to) {
     for (int i = 0; i < states; i++) {
         for (int k = 0; k < columns; k++) {
-            twofold sum = twofold_of(0.0);
+            twofold sum = double_double_of(0.0);
             for (int j = 0; j < states; j++) {
-                sum = twofold_add(sum, twofold_mul(a[i * columns + j], b[j * columns + k]));
+                sum = double_double_add(sum,
+                                        double_double_mul(a[i * columns + j], b[j * columns + k]));
             }
             to[i * columns + k] = sum;
         }
@@ -39,16 +40,16 @@ static void product(const twofold *a, const twofold *b, int states, int columns,
  * stages gives this result for any weights. */
 static void exponential_series(twofold *step, int states, int columns, int order) {
     const int count = states * columns;
-    twofold *power = room(count, sizeof *power);
-    twofold *next = room(count, sizeof *next);
-    twofold *of = room(count, sizeof *of);
+    twofold *power = alloc(count, sizeof *power);
+    twofold *next = alloc(count, sizeof *next);
+    twofold *of = alloc(count, sizeof *of);
     memcpy(of, step, (size_t)count * sizeof *of);
     memcpy(power, step, (size_t)count * sizeof *power);
     for (int k = 2; k <= order; k++) {
         product(of, power, states, columns, next);
         for (int i = 0; i < count; i++) {
-            power[i] = twofold_div(next[i], twofold_of((double)k));
-            step[i] = twofold_add(step[i], power[i]);
+            power[i] = double_double_div(next[i], double_double_of((double)k));
+            step[i] = double_double_add(step[i], power[i]);
         }
     }
     free(power);
@@ -81,10 +82,10 @@ static double off_diagonal(const twofold *a, int i, bool row, int states, int co
 /* State i in units `by` times as large. */
 static void in_units(twofold *a, int i, double by, int states, int columns) {
     for (int j = 0; j < columns; j++) {
-        a[i * columns + j] = twofold_scale(a[i * columns + j], 1.0 / by);
+        a[i * columns + j] = double_double_scale(a[i * columns + j], 1.0 / by);
     }
     for (int j = 0; j < states; j++) {
-        a[j * columns + i] = twofold_scale(a[j * columns + i], by);
+        a[j * columns + i] = double_double_scale(a[j * columns + i], by);
     }
 }
 
@@ -126,7 +127,7 @@ static void drop_least(twofold *step, int states, int columns) {
         }
         for (int j = 0; j < states; j++) {
             if (fabs(step[i * columns + j].high) < LEAST_PART * most) {
-                step[i * columns + j] = twofold_of(0.0);
+                step[i * columns + j] = double_double_of(0.0);
             }
         }
     }
@@ -139,8 +140,8 @@ static void drop_least(twofold *step, int states, int columns) {
  * are so small that digits would be lost: step[] is then invalid. */
 static bool exponential_exact(twofold *step, int states, int columns) {
     const int count = states * columns;
-    double *unit = room(states, sizeof *unit);
-    twofold *square = room(count, sizeof *square);
+    double *unit = alloc(states, sizeof *unit);
+    twofold *square = alloc(count, sizeof *square);
     int halvings = 0;
     balance(step, unit, states, columns);
     double size = norm(step, states, columns);
@@ -149,13 +150,13 @@ static bool exponential_exact(twofold *step, int states, int columns) {
     }
     bool good = size <= 0.5;
     for (int i = 0; i < count; i++) {
-        step[i] = twofold_scale(step[i], number_scaled(1.0, -halvings));
+        step[i] = double_double_scale(step[i], number_scaled(1.0, -halvings));
     }
     exponential_series(step, states, columns, POWERS);
     for (; halvings > 0 && good; halvings--) { /* (1 + E)^2 = 1 + 2 E + E^2 */
         product(step, step, states, columns, square);
         for (int i = 0; i < count; i++) {
-            step[i] = twofold_add(twofold_scale(step[i], 2.0), square[i]);
+            step[i] = double_double_add(double_double_scale(step[i], 2.0), square[i]);
         }
     }
     drop_least(step, states, columns);
@@ -163,7 +164,7 @@ static bool exponential_exact(twofold *step, int states, int columns) {
         in_units(step, i, 1.0 / unit[i], states, columns);
     }
     for (int i = 0; i < count; i++) {
-        good = good && twofold_is_finite(step[i]);
+        good = good && double_double_is_finite(step[i]);
     }
     free(unit);
     free(square);
@@ -204,85 +205,86 @@ static bool is_possible(const image *im, diags *errors) {
 /* --- the list --------------------------------------------------------------------------------------*/
 
 /* The operation for a column: a state, an input or the constant. Columns of turn angles have no entries. */
-static int leaf(const image *im, tape *t, int column) {
+static int leaf(const image *im, op_list *t, int column) {
     const int real = column - im->angles;
     const int linears = im->form == WH_SECOND_ORDER ? im->coordinates - im->angles : im->reals;
     if (real >= im->reals + im->inputs) {
-        return tape_constant(t, 1.0);
+        return op_list_constant(t, 1.0);
     }
     if (real >= im->reals) {
-        return tape_leaf(t, OP_INPUT, real - im->reals);
+        return op_list_leaf(t, OP_INPUT, real - im->reals);
     }
-    return real < linears ? tape_leaf(t, OP_LINEAR, real) : tape_leaf(t, OP_RATE, real - linears);
+    return real < linears ? op_list_leaf(t, OP_LINEAR, real)
+                          : op_list_leaf(t, OP_RATE, real - linears);
 }
 
 /* The sum of a row's entries, each rounded to double, times their columns. */
-static int enter_row(const image *im, tape *t, const twofold *row,
+static int enter_row(const image *im, op_list *t, const twofold *row,
                      double (*constant)(twofold entry)) {
-    int sum = tape_constant(t, 0.0);
+    int sum = op_list_constant(t, 0.0);
     for (int k = 0; k < affine_columns(im); k++) {
         const double entry = constant(row[k]);
         if (entry != 0.0) {
-            sum = tape_add(t, sum, tape_mul(t, tape_constant(t, entry), leaf(im, t, k)));
+            sum = op_list_add(t, sum, op_list_mul(t, op_list_constant(t, entry), leaf(im, t, k)));
         }
     }
     return sum;
 }
 
 /* A row whose entry in column `of` is stored minus 1. If the full entry is nearly 1, only the difference is rounded. */
-static int enter_near(const image *im, tape *t, twofold *row, int of) {
+static int enter_near(const image *im, op_list *t, twofold *row, int of) {
     if (row[of].high < -0.5 || row[of].high > 1.0) {
-        row[of] = twofold_add(row[of], twofold_of(1.0));
-        return enter_row(im, t, row, twofold_constant);
+        row[of] = double_double_add(row[of], double_double_of(1.0));
+        return enter_row(im, t, row, double_double_constant);
     }
-    return tape_add(t, leaf(im, t, of), enter_row(im, t, row, twofold_constant));
+    return op_list_add(t, leaf(im, t, of), enter_row(im, t, row, double_double_constant));
 }
 
 /* The part of an entry beyond a float's digits, if a float can represent that part. */
 static double rest(twofold entry) {
-    const double beyond = twofold_beyond_float(entry);
+    const double beyond = double_double_beyond_float(entry);
     return fits_float(beyond) ? beyond : 0.0;
 }
 
 /* The mean rate of turn angle i over a step of h with the change row[]: nearly its rate, for a coordinate. */
-static int enter_angle(const image *im, tape *t, twofold *row, int i, twofold h) {
+static int enter_angle(const image *im, op_list *t, twofold *row, int i, twofold h) {
     for (int k = 0; k < affine_columns(im); k++) {
-        row[k] = twofold_div(row[k], h);
+        row[k] = double_double_div(row[k], h);
     }
     if (im->form != WH_SECOND_ORDER) {
-        return enter_row(im, t, row, twofold_constant);
+        return enter_row(im, t, row, double_double_constant);
     }
     const int rate = im->coordinates + i;
-    row[rate] = twofold_sub(row[rate], twofold_of(1.0));
+    row[rate] = double_double_sub(row[rate], double_double_of(1.0));
     return enter_near(im, t, row, rate);
 }
 
 /* `change` is the change in a step of h; it is overwritten. */
-static tape *make_list(const image *im, twofold *change, twofold h) {
+static op_list *make_list(const image *im, twofold *change, twofold h) {
     const int states = affine_states(im);
     const bool compensated = im->settings.compensated;
-    tape *t = tape_new(im->angles, states + (compensated ? im->reals : 0));
+    op_list *t = op_list_new(im->angles, states + (compensated ? im->reals : 0));
     for (int i = 0; i < states; i++) {
         twofold *row = change + (ptrdiff_t)i * affine_columns(im);
         if (i < im->angles) {
             t->result[i] = enter_angle(im, t, row, i, h);
         } else if (compensated) {
-            t->result[i] = enter_row(im, t, row, twofold_constant);
+            t->result[i] = enter_row(im, t, row, double_double_constant);
             t->result[im->reals + i] = enter_row(im, t, row, rest);
         } else {
             t->result[i] = enter_near(im, t, row, i);
         }
     }
-    tape_prune(t);
-    tape_order(t);
+    op_list_prune(t);
+    op_list_order(t);
     return t;
 }
 
 /* --- the matrix ------------------------------------------------------------------------------------*/
 
 static twofold step_of(const image *im) {
-    return im->step.denominator != 0 ? twofold_ratio(im->step.numerator, im->step.denominator)
-                                     : twofold_of(im->step_s);
+    return im->step.denominator != 0 ? double_double_ratio(im->step.numerator, im->step.denominator)
+                                     : double_double_of(im->step_s);
 }
 
 static void keep_numbers(image_draft *d, const twofold *change) {
@@ -295,7 +297,7 @@ static void keep_numbers(image_draft *d, const twofold *change) {
         for (int k = 0; k < m->columns; k++) {
             const twofold entry = change[i * m->columns + k];
             m->entry[i * m->columns + k] =
-                k == i ? twofold_add(entry, twofold_of(1.0)).high : entry.high;
+                k == i ? double_double_add(entry, double_double_of(1.0)).high : entry.high;
         }
     }
 }
@@ -308,7 +310,7 @@ static bool make(image_draft *d, twofold *change, diags *errors) {
     const twofold h = step_of(im);
     bool good = true;
     for (int i = 0; i < states * columns; i++) {
-        change[i] = twofold_mul(change[i], h);
+        change[i] = double_double_mul(change[i], h);
     }
     if (im->settings.matrix == MATRIX_EXACT) {
         good = exponential_exact(change, states, columns);
@@ -316,7 +318,7 @@ static bool make(image_draft *d, twofold *change, diags *errors) {
         exponential_series(change, states, columns, wh_methods[WH_RK4].order);
     }
     for (int i = 0; i < states * columns; i++) {
-        good = good && twofold_is_finite(change[i]);
+        good = good && double_double_is_finite(change[i]);
     }
     if (!good) {
         diag_error(errors, im->at, "a smaller --step",
@@ -336,7 +338,7 @@ bool matrix_make(image_draft *d, bool has_blame, bool *wants_blame, diags *error
     if (!is_possible(im, errors)) {
         return false;
     }
-    twofold *change = room((int64_t)affine_states(im) * affine_columns(im), sizeof *change);
+    twofold *change = alloc((int64_t)affine_states(im) * affine_columns(im), sizeof *change);
     const int bad = affine_rates(im, change);
     bool good = bad < 0;
     if (!good && has_blame) {

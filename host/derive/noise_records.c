@@ -4,8 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "host/base/alloc.h"
 #include "host/base/hashing.h"
-#include "host/base/room.h"
 
 /* The noises of outputs with the same seed differ: the hash of the name (FNV-1a) enters the seed. */
 static uint32_t seed_of(const noise *of) {
@@ -14,10 +14,10 @@ static uint32_t seed_of(const noise *of) {
 
 /* The operation that adds noise k to `node`. */
 static int with_noise(const equations *e, lowering *l, const noise *each, int node) {
-    tape *t = l->tape;
+    op_list *t = l->tape;
     const poly *deviation = poly_from_expr(e->algebra, each->deviation);
     const int size = lower(l, equations_fold(e, deviation));
-    return tape_add(t, node, tape_mul(t, size, tape_noise(t, seed_of(each))));
+    return op_list_add(t, node, op_list_mul(t, size, op_list_noise(t, seed_of(each))));
 }
 
 void noise_on_outputs(const equations *e, lowering *l, int *result) {
@@ -66,8 +66,8 @@ noise_records noise_records_find(const equations *e, const conservation *conserv
                                  const poly **wanted, int count) {
     const mechanism *m = e->instance->mechanism;
     recording of = {e, conserved};
-    noise_records r = {room(m->noise_count, sizeof(const poly *)),
-                       room(m->noise_count, sizeof(int)), 0};
+    noise_records r = {alloc(m->noise_count, sizeof(const poly *)),
+                       alloc(m->noise_count, sizeof(int)), 0};
     for (int k = 0; k < m->noise_count; k++) {
         const symbol *record = m->noises[k].record;
         bool named = false;

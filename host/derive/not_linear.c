@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "affine.h"
-#include "host/base/room.h"
+#include "host/base/alloc.h"
 #include "host/base/statement.h"
 #include "host/number/functions.h"
 
@@ -24,9 +24,9 @@ static uint64_t bit(int number) { return UINT64_C(1) << (number % 64); }
 
 static int capped(int degree) { return degree > NO_POWER ? NO_POWER : degree; }
 
-static int power(const image_blame *b, const made_of *of, const blame_node *n) {
-    const blame_node *exponent = &b->node[n->b];
-    const double e = exponent->code == BLAME_NUMBER ? exponent->number : -1.0;
+static int power(const image_blame *b, const made_of *of, const diagnostics_node *n) {
+    const diagnostics_node *exponent = &b->node[n->b];
+    const double e = exponent->code == DIAGNOSTICS_NUMBER ? exponent->number : -1.0;
     if (of[n->a].degree == 0 && of[n->b].degree == 0) {
         return 0;
     }
@@ -39,44 +39,46 @@ static int power(const image_blame *b, const made_of *of, const blame_node *n) {
 }
 
 static made_of node_made_of(const image_blame *b, const made_of *of, int i) {
-    const blame_node *n = &b->node[i];
-    const bool has_a = n->code != BLAME_NUMBER && n->code != BLAME_STATE && n->code != BLAME_INPUT;
+    const diagnostics_node *n = &b->node[i];
+    const bool has_a = n->code != DIAGNOSTICS_NUMBER && n->code != DIAGNOSTICS_STATE &&
+                       n->code != DIAGNOSTICS_INPUT;
     const made_of none = {0, 0, 0};
     const made_of x = has_a ? of[n->a] : none;
     const made_of y =
-        has_a && n->code != BLAME_SAME && n->code != BLAME_NEG && n->b >= 0 ? of[n->b] : none;
+        has_a && n->code != DIAGNOSTICS_SAME && n->code != DIAGNOSTICS_NEG && n->b >= 0 ? of[n->b]
+                                                                                        : none;
     made_of both = {0, x.states | y.states, x.inputs | y.inputs};
     switch (n->code) {
-    case BLAME_NUMBER: break;
-    case BLAME_STATE: both = (made_of){1, bit(n->a), 0}; break;
-    case BLAME_INPUT: both = (made_of){1, 0, bit(n->a)}; break;
-    case BLAME_SAME:
-    case BLAME_NEG: both.degree = x.degree; break;
-    case BLAME_ADD:
-    case BLAME_SUB: both.degree = x.degree > y.degree ? x.degree : y.degree; break;
-    case BLAME_MUL: both.degree = capped(x.degree + y.degree); break;
-    case BLAME_DIV: both.degree = y.degree == 0 ? x.degree : NO_POWER; break;
-    case BLAME_POW: both.degree = capped(power(b, of, n)); break;
-    case BLAME_CALL: both.degree = x.degree == 0 && y.degree == 0 ? 0 : NO_POWER; break;
+    case DIAGNOSTICS_NUMBER: break;
+    case DIAGNOSTICS_STATE: both = (made_of){1, bit(n->a), 0}; break;
+    case DIAGNOSTICS_INPUT: both = (made_of){1, 0, bit(n->a)}; break;
+    case DIAGNOSTICS_SAME:
+    case DIAGNOSTICS_NEG: both.degree = x.degree; break;
+    case DIAGNOSTICS_ADD:
+    case DIAGNOSTICS_SUB: both.degree = x.degree > y.degree ? x.degree : y.degree; break;
+    case DIAGNOSTICS_MUL: both.degree = capped(x.degree + y.degree); break;
+    case DIAGNOSTICS_DIV: both.degree = y.degree == 0 ? x.degree : NO_POWER; break;
+    case DIAGNOSTICS_POW: both.degree = capped(power(b, of, n)); break;
+    case DIAGNOSTICS_CALL: both.degree = x.degree == 0 && y.degree == 0 ? 0 : NO_POWER; break;
     }
     return both;
 }
 
 /* Has the operand next to one of degree `other` the same limit as the whole? If both operands are within their limits,
  * only their combination exceeds it. */
-static bool passes_on(blame_code code, int other) {
+static bool passes_on(diagnostics_code code, int other) {
     switch (code) {
-    case BLAME_SAME:
-    case BLAME_NEG:
-    case BLAME_ADD:
-    case BLAME_SUB: return true;
-    case BLAME_MUL:
-    case BLAME_DIV: return other == 0;
-    case BLAME_POW:
-    case BLAME_CALL:
-    case BLAME_NUMBER:
-    case BLAME_STATE:
-    case BLAME_INPUT: return false;
+    case DIAGNOSTICS_SAME:
+    case DIAGNOSTICS_NEG:
+    case DIAGNOSTICS_ADD:
+    case DIAGNOSTICS_SUB: return true;
+    case DIAGNOSTICS_MUL:
+    case DIAGNOSTICS_DIV: return other == 0;
+    case DIAGNOSTICS_POW:
+    case DIAGNOSTICS_CALL:
+    case DIAGNOSTICS_NUMBER:
+    case DIAGNOSTICS_STATE:
+    case DIAGNOSTICS_INPUT: return false;
     }
     return false;
 }
@@ -84,8 +86,8 @@ static bool passes_on(blame_code code, int other) {
 /* The innermost part of `node` whose degree exceeds `most` while no operand's does. */
 static int innermost(const image_blame *b, const made_of *of, int node, int most) {
     for (;;) {
-        const blame_node *n = &b->node[node];
-        const bool has_b = n->code != BLAME_SAME && n->code != BLAME_NEG && n->b >= 0;
+        const diagnostics_node *n = &b->node[node];
+        const bool has_b = n->code != DIAGNOSTICS_SAME && n->code != DIAGNOSTICS_NEG && n->b >= 0;
         const int degree_a = of[n->a].degree;
         const int degree_b = has_b ? of[n->b].degree : 0;
         if (degree_a > (passes_on(n->code, degree_b) ? most : NO_POWER - 1)) {
@@ -114,33 +116,35 @@ static char *names(const image *im, made_of of) {
             name[count++] = im->input[i].name;
         }
     }
-    FILE *out = room_text(&text, &length);
+    FILE *out = alloc_text(&text, &length);
     for (int i = 0; i < count; i++) {
         fprintf(out, "%s%s", i == 0 ? "" : i + 1 < count ? ", " : " and ", name[i]);
     }
-    room_text_end(out);
+    alloc_text_end(out);
     return text;
 }
 
 static void report(const image *im, const made_of *of, int node, place where, diags *errors) {
-    const blame_node *n = &im->blame.node[node];
+    const diagnostics_node *n = &im->blame.node[node];
     const place at = n->at.source != NULL ? n->at : where;
     char *of_what = names(im, of[node]);
     char line[STATEMENT_SIZE];
     char what[64];
     statement_text(at, line, sizeof line);
     switch (n->code) {
-    case BLAME_CALL: snprintf(what, sizeof what, "%s() of", function_name(n->function)); break;
-    case BLAME_DIV: snprintf(what, sizeof what, "a division by an expression of"); break;
-    case BLAME_POW: snprintf(what, sizeof what, "a power of"); break;
-    case BLAME_NUMBER:
-    case BLAME_STATE:
-    case BLAME_INPUT:
-    case BLAME_SAME:
-    case BLAME_ADD:
-    case BLAME_SUB:
-    case BLAME_MUL:
-    case BLAME_NEG:
+    case DIAGNOSTICS_CALL:
+        snprintf(what, sizeof what, "%s() of", function_name(n->function));
+        break;
+    case DIAGNOSTICS_DIV: snprintf(what, sizeof what, "a division by an expression of"); break;
+    case DIAGNOSTICS_POW: snprintf(what, sizeof what, "a power of"); break;
+    case DIAGNOSTICS_NUMBER:
+    case DIAGNOSTICS_STATE:
+    case DIAGNOSTICS_INPUT:
+    case DIAGNOSTICS_SAME:
+    case DIAGNOSTICS_ADD:
+    case DIAGNOSTICS_SUB:
+    case DIAGNOSTICS_MUL:
+    case DIAGNOSTICS_NEG:
         snprintf(what, sizeof what, "a %s of", strchr(of_what, ' ') != NULL ? "product" : "power");
         break;
     }
@@ -153,8 +157,8 @@ static void report(const image *im, const made_of *of, int node, place where, di
 void not_linear_report(const image *im, int operation, diags *errors) {
     const image_blame *b = &im->blame;
     const int states = affine_states(im);
-    made_of *of = room(b->nodes, sizeof *of);
-    bool *taking = room(affine_columns(im), sizeof *taking);
+    made_of *of = alloc(b->nodes, sizeof *of);
+    bool *taking = alloc(affine_columns(im), sizeof *taking);
     made_of wanted = {0, 0, 0};
     bool found = false;
     affine_takes(im, operation, taking);
@@ -172,7 +176,7 @@ void not_linear_report(const image *im, int operation, diags *errors) {
         of[i] = node_made_of(b, of, i);
     }
     for (int k = 0; k < b->terms && !found; k++) {
-        const blame_question *q = &b->question[k];
+        const diagnostics_question *q = &b->question[k];
         const int node =
             q->derived || of[q->node].degree <= q->power ? -1 : innermost(b, of, q->node, q->power);
         if (node >= 0 && ((of[node].states & wanted.states) | (of[node].inputs & wanted.inputs))) {

@@ -4,13 +4,13 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "host/base/room.h"
+#include "host/base/alloc.h"
 #include "host/number/functions.h"
 
 #define SWEEPS_MOST 60
 
 conditions conditions_none(int columns) {
-    return (conditions){columns, room((int64_t)columns * columns, sizeof(double))};
+    return (conditions){columns, alloc((int64_t)columns * columns, sizeof(double))};
 }
 
 double vector_length(const double *row, int columns) {
@@ -52,7 +52,7 @@ void conditions_take(conditions *c, double *row) {
 }
 
 void conditions_add(conditions *c, const conditions *more) {
-    double *row = room(c->columns, sizeof *row);
+    double *row = alloc(c->columns, sizeof *row);
     for (int i = 0; i < c->columns; i++) {
         for (int k = 0; k < c->columns; k++) {
             row[k] = more->r[i * c->columns + k];
@@ -94,9 +94,9 @@ static bool make_orthogonal(double *m, double *v, int n, int p, int q) {
 
 int null_space(const conditions *c, double zero, double *basis) {
     const int n = c->columns;
-    double *m = room((int64_t)n * n, sizeof *m);
-    double *v = room((int64_t)n * n, sizeof *v);
-    double *size = room(n, sizeof *size);
+    double *m = alloc((int64_t)n * n, sizeof *m);
+    double *v = alloc((int64_t)n * n, sizeof *v);
+    double *size = alloc(n, sizeof *size);
     double most = 0.0;
     int count = 0;
     for (int i = 0; i < n * n; i++) {

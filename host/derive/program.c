@@ -3,7 +3,7 @@
 
 #include <stdlib.h>
 
-#include "host/base/room.h"
+#include "host/base/alloc.h"
 #include "host/derive/equations.h"
 #include "host/derive/tables.h"
 #include "noise_records.h"
@@ -21,15 +21,15 @@ static int slope_of(layout *map, lowering *l, component of, const int *highest) 
     if (up == map->equations->unknowns[of.unknown].order) {
         return highest[of.unknown];
     }
-    return tape_leaf(l->tape, OP_LINEAR, map->real_number[of.unknown * map->order_room + up]);
+    return op_list_leaf(l->tape, OP_LINEAR, map->real_number[of.unknown * map->order_room + up]);
 }
 
-static tape *make_step(layout *map, const linear_system *s) {
+static op_list *make_step(layout *map, const linear_system *s) {
     const int n = map->equations->count;
     const int components = map->angles + map->reals;
     const bool second = map->form == WH_SECOND_ORDER;
-    tape *t = tape_new(map->angles, second ? map->coordinates : components);
-    int *highest = room(n, sizeof *highest);
+    op_list *t = op_list_new(map->angles, second ? map->coordinates : components);
+    int *highest = alloc(n, sizeof *highest);
     lowering l = layout_lowering(map, t);
     linear_system sparing = *s;
     sparing.sparing = map->equations->contacts == NULL;
@@ -45,24 +45,24 @@ static tape *make_step(layout *map, const linear_system *s) {
     }
     lower_done(&l);
     free(highest);
-    tape_prune(t);
+    op_list_prune(t);
     if (sparing.sparing) {
-        tape_share_sums(t);
+        op_list_share_sums(t);
     }
-    tape_order(t);
+    op_list_order(t);
     return t;
 }
 
 /* A list that first solves for the highest derivatives, then computes `wanted`. With `keep`, the
  * highest derivatives are the first results. */
-static tape *make_observer(layout *map, const linear_system *s, const poly *const *wanted,
-                           int count, bool keep) {
+static op_list *make_observer(layout *map, const linear_system *s, const poly *const *wanted,
+                              int count, bool keep) {
     const equations *e = map->equations;
     const int n = e->count;
     const int first = keep ? n : 0;
-    tape *t = tape_new(map->angles, first + count);
-    int *highest = room(n, sizeof *highest);
-    const poly **folded = room(count + e->instance->mechanism->noise_count, sizeof(const poly *));
+    op_list *t = op_list_new(map->angles, first + count);
+    int *highest = alloc(n, sizeof *highest);
+    const poly **folded = alloc(count + e->instance->mechanism->noise_count, sizeof(const poly *));
     lowering l = layout_lowering(map, t);
     solve_highest(&l, s, highest);
     map->highest = highest;
@@ -71,7 +71,7 @@ static tape *make_observer(layout *map, const linear_system *s, const poly *cons
     }
     for (int i = 0; i < n && e->contacts != NULL; i++) {
         if (map->place[i] >= 0) { /* with the contacts' forces: the core has them */
-            highest[i] = tape_leaf(t, OP_ACCEL, map->place[i]);
+            highest[i] = op_list_leaf(t, OP_ACCEL, map->place[i]);
         }
     }
     for (int i = 0; i < count; i++) {
@@ -99,15 +99,15 @@ static tape *make_observer(layout *map, const linear_system *s, const poly *cons
     noise_records_free(&recorded);
     free(highest);
     free(folded);
-    tape_prune(t);
+    op_list_prune(t);
     return t;
 }
 
 /* The mechanism's outputs, then value and rate of each conserved coordinate. */
-static tape *make_observe(const program *p, layout *map, const linear_system *s) {
+static op_list *make_observe(const program *p, layout *map, const linear_system *s) {
     const equations *e = map->equations;
     const int own = e->instance->mechanism->output_count;
-    const poly **wanted = room(p->outputs, sizeof(const poly *));
+    const poly **wanted = alloc(p->outputs, sizeof(const poly *));
     for (int i = 0; i < own; i++) {
         wanted[i] = e->output[i];
     }
@@ -116,16 +116,16 @@ static tape *make_observe(const program *p, layout *map, const linear_system *s)
         wanted[own + 2 * k] = poly_symbol(e->algebra, q, 0);
         wanted[own + 2 * k + 1] = poly_symbol(e->algebra, q, 1);
     }
-    tape *t = make_observer(map, s, wanted, p->outputs, false);
+    op_list *t = make_observer(map, s, wanted, p->outputs, false);
     free(wanted);
     return t;
 }
 
-static tape *make_books(const program *p, layout *map, const linear_system *s) {
+static op_list *make_books(const program *p, layout *map, const linear_system *s) {
     const equations *e = map->equations;
     algebra *a = e->algebra;
     const int n = e->count;
-    const poly **wanted = room(BOOK_MOMENTA + n + 1, sizeof *wanted);
+    const poly **wanted = alloc(BOOK_MOMENTA + n + 1, sizeof *wanted);
     int count = 0;
     if (!e->instance->mechanism->is_system) {
         wanted[BOOK_KINETIC] = e->kinetic;
@@ -146,7 +146,7 @@ static tape *make_books(const program *p, layout *map, const linear_system *s) {
             wanted[count++] = p->integral;
         }
     }
-    tape *t = make_observer(map, s, wanted, count, true);
+    op_list *t = make_observer(map, s, wanted, count, true);
     free(wanted);
     return t;
 }
@@ -158,18 +158,18 @@ static bool lists_finite(const program *p, const equations *e, diags *errors) {
     const mechanism *m = e->instance->mechanism;
     const contact_lists *c = p->contacts;
     const ledger_lists *l = p->ledger;
-    const tape *const lists[] = {p->step,
-                                 p->books,
-                                 c != NULL ? c->signals : NULL,
-                                 c != NULL ? c->forces : NULL,
-                                 c != NULL ? c->sets : NULL,
-                                 l != NULL ? l->powers : NULL,
-                                 l != NULL ? l->levels : NULL};
+    const op_list *const lists[] = {p->step,
+                                    p->books,
+                                    c != NULL ? c->signals : NULL,
+                                    c != NULL ? c->forces : NULL,
+                                    c != NULL ? c->sets : NULL,
+                                    l != NULL ? l->powers : NULL,
+                                    l != NULL ? l->levels : NULL};
     bool finite = true;
     for (size_t i = 0; i < sizeof lists / sizeof lists[0] && finite; i++) {
-        finite = lists[i] == NULL || tape_not_finite(lists[i]) < 0;
+        finite = lists[i] == NULL || op_list_not_finite(lists[i]) < 0;
     }
-    const int output = finite ? tape_not_finite(p->observe) : -1;
+    const int output = finite ? op_list_not_finite(p->observe) : -1;
     if (output >= 0 && output < m->output_count) {
         diag_error(errors, m->outputs[output]->at, hint,
                    "output '%s' contains a number that is not finite", m->outputs[output]->name);
@@ -184,10 +184,10 @@ static bool lists_finite(const program *p, const equations *e, diags *errors) {
  * exception is a factor that grew too large while solving the equations. */
 static bool steps_need_no_turns(const program *p, const equations *e, diags *errors) {
     const contact_lists *c = p->contacts;
-    const tape *const lists[] = {p->step, c != NULL ? c->signals : NULL,
-                                 c != NULL ? c->forces : NULL, c != NULL ? c->sets : NULL};
+    const op_list *const lists[] = {p->step, c != NULL ? c->signals : NULL,
+                                    c != NULL ? c->forces : NULL, c != NULL ? c->sets : NULL};
     for (size_t i = 0; i < sizeof lists / sizeof lists[0]; i++) {
-        if (lists[i] != NULL && tape_reads_turns(lists[i])) {
+        if (lists[i] != NULL && op_list_reads_turns(lists[i])) {
             diag_error(errors, e->instance->mechanism->at, "take smaller multiples of the angles",
                        "the equations of '%s' contain too large a multiple of an angle",
                        e->instance->mechanism->name);
@@ -201,7 +201,7 @@ program *program_make(const equations *e, const bool *conserve, const image_sett
                       diags *errors) {
     const int n = e->count;
     const mechanism *m = e->instance->mechanism;
-    program *p = room(1, sizeof *p);
+    program *p = alloc(1, sizeof *p);
     p->conserved = conservation_make(e, conserve, errors);
     if (p->conserved == NULL) {
         program_free(p);
@@ -209,10 +209,10 @@ program *program_make(const equations *e, const bool *conserve, const image_sett
     }
     const int polys = n * n + n;
     const int more = contact_lists_polys(e, p->conserved, NULL);
-    const poly **dynamics = room(polys + more, sizeof(const poly *));
-    bool *turning = room(n, sizeof *turning);
-    bool *wanted = room(n, sizeof *wanted);
-    const symbol **symbols = room(n, sizeof *symbols);
+    const poly **dynamics = alloc(polys + more, sizeof(const poly *));
+    bool *turning = alloc(n, sizeof *turning);
+    bool *wanted = alloc(n, sizeof *wanted);
+    const symbol **symbols = alloc(n, sizeof *symbols);
     p->count = n;
     p->outputs = m->output_count + 2 * p->conserved->count;
     const linear_system s = {n,       !m->is_system, dynamics, dynamics + n * n,     symbols,
@@ -284,7 +284,7 @@ bool program_look_up(program *p, const equations *e, image_settings *settings, d
                    "--tables: a step with events looks at more than tables hold");
         return false;
     }
-    tape *made = tables_make(p->step, settings->tables, settings->cells, &p->tables, &why);
+    op_list *made = tables_make(p->step, settings->tables, settings->cells, &p->tables, &why);
     if (made == NULL) {
         const symbol *angle =
             why.angle >= 0 ? e->unknowns[p->layout.angle[why.angle].unknown].symbol : NULL;
@@ -295,7 +295,7 @@ bool program_look_up(program *p, const equations *e, image_settings *settings, d
                    e->instance->mechanism->name, why.reason, angle != NULL ? angle->name : "");
         return false;
     }
-    tape_free(p->step);
+    op_list_free(p->step);
     p->step = made;
     return true;
 }
@@ -304,10 +304,10 @@ void program_free(program *p) {
     if (p == NULL) {
         return;
     }
-    tape_free(p->step);
-    tape_free(p->tables);
-    tape_free(p->observe);
-    tape_free(p->books);
+    op_list_free(p->step);
+    op_list_free(p->tables);
+    op_list_free(p->observe);
+    op_list_free(p->books);
     contact_lists_free(p->contacts);
     ledger_lists_free(p->ledger);
     layout_free(&p->layout);
@@ -316,7 +316,7 @@ void program_free(program *p) {
 }
 
 uint64_t program_hash(const program *p) {
-    uint64_t hash = tape_hash(p->step);
+    uint64_t hash = op_list_hash(p->step);
     if (p->contacts != NULL) {
         hash = contact_lists_hash(p->contacts, hash);
     }

@@ -13,17 +13,18 @@ typedef struct program {
     conservation *conserved;
     /* Second order: result[i] is the acceleration of scene coordinate i. First order: the derivative of component i,
      * angles first. */
-    tape *step;
-    tape *tables; /* exact list of the tables' functions; NULL without tables (program_look_up()) */
+    op_list *step;
+    op_list
+        *tables; /* exact list of the tables' functions; NULL without tables (program_look_up()) */
     /* The outputs. */
-    tape *observe;
+    op_list *observe;
     contact_lists *contacts; /* NULL without contacts */
     ledger_lists *ledger;    /* NULL without a ledger */
     bool ledger_asked;       /* by `with ledger`, --stabilized: else it only balances the run */
     const poly *integral; /* the energy integral if it is not T + V, else NULL: see equations.h */
     /* For the host's balance: the highest derivatives (by unknown). For a mechanism then T, V, input power, loss power,
      * the momenta (by unknown) and the integral, if any. */
-    tape *books;
+    op_list *books;
 } program;
 
 /* `conserve` [count] names the coordinates to recover from their momentum, or is NULL. NULL after an error, reported to

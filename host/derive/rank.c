@@ -4,7 +4,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "host/base/room.h"
+#include "host/base/alloc.h"
 #include "host/number/functions.h"
 #include "host/number/gauss.h"
 
@@ -95,7 +95,7 @@ int rank_of(double *m, double *error, int n, bool symmetric) {
     for (int i = 0; i < n * n; i++) {
         blur = number_most(blur, (double)n * error[i]);
     }
-    int *lead = room(n, sizeof *lead);
+    int *lead = alloc(n, sizeof *lead);
     const int rank = gauss_reduce(m, n, n, n, true, blur, lead);
     free(lead);
     return rank;

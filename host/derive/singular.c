@@ -6,7 +6,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "host/base/room.h"
+#include "host/base/alloc.h"
 #include "host/number/functions.h"
 #include "rank.h"
 
@@ -48,7 +48,7 @@ static double generic_value(void *context, const symbol *s, int primes) {
 }
 
 /* Four n by n matrices. */
-static double *room_for(int n) { return room(4 * (int64_t)n * n, sizeof(double)); }
+static double *room_for(int n) { return alloc(4 * (int64_t)n * n, sizeof(double)); }
 
 /* The values of the mass matrix at one try, and how well they are known; false when one is not finite. */
 static bool mass_at(const equations *e, int try, double *m, double *error) {
@@ -229,7 +229,7 @@ static bool energies_finite(const equations *e, generic_state *state) {
 }
 
 /* What the best of the states tried allows. */
-typedef enum verdict { NOWHERE_FINITE, SINGULAR, NOT_POSITIVE, SOLVABLE } verdict;
+typedef enum verdict { NOWHERE_FINITE, SINGULAR, NOT_POSITIVE, SOLVABLE } run_checks;
 
 /* Of a matrix that rank_of() has found to be regular: how little is left of it, and by how much that is off. */
 static double blur_of(const double *m, const double *error, int n) {
@@ -243,7 +243,7 @@ static double blur_of(const double *m, const double *error, int n) {
 }
 
 /* At one try, and of one that is solvable *blur; m is of room_for(n). */
-static verdict verdict_at(const equations *e, int try, double *m, double *blur) {
+static run_checks verdict_at(const equations *e, int try, double *m, double *blur) {
     const int n = e->count;
     generic_state state = {e->instance, (uint64_t)try};
     double *error = m + n * n;
@@ -270,11 +270,11 @@ static verdict verdict_at(const equations *e, int try, double *m, double *blur) 
 bool equations_check_solvable(equations *e, diags *errors) {
     const int n = e->count;
     double *m = room_for(n);
-    verdict best = NOWHERE_FINITE;
+    run_checks best = NOWHERE_FINITE;
     e->mass_blur = (double)INFINITY;
     for (int try = 0; try <= TRY_START && e->mass_blur > MASS_BLUR_FINE; try++) {
         double blur = (double)INFINITY;
-        const verdict found = verdict_at(e, try, m, &blur);
+        const run_checks found = verdict_at(e, try, m, &blur);
         best = found > best ? found : best;
         e->mass_blur = found == SOLVABLE ? number_least(e->mass_blur, blur) : e->mass_blur;
     }

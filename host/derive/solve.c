@@ -2,64 +2,64 @@
  * differ in the scale of the equations, the order of elimination, the evaluated sines, and the symbolic elimination.
  * Coordinates with a constant diagonal may be eliminated symbolically (a carriage's total mass, a body on a hinge): the
  * remaining equations return to normal form and may shrink. Two remaining equations are solved by Cramer's rule, with
- * one division. tape_weight() decides between them. */
+ * one division. op_list_weight() decides between them. */
 #include "host/derive/solve.h"
 
 #include <math.h>
 #include <stdlib.h>
 
-#include "host/base/room.h"
-#include "host/image/tape.h"
+#include "host/base/alloc.h"
+#include "host/image/op_list.h"
 #include "host/number/folding.h"
 
 /* === solving n linear equations by entering operations into a tape ============================ */
 /* Gaussian elimination and Cramer's rule, as operations. */
 
-static int minus_product(tape *t, int from, int x, int y) {
-    return tape_sub(t, from, tape_mul(t, x, y));
+static int minus_product(op_list *t, int from, int x, int y) {
+    return op_list_sub(t, from, op_list_mul(t, x, y));
 }
 
 /* --- symmetric positive definite -----------------------------------------------------------------*/
 
 /* x_k = (f_k - sum over later unknowns of m_kj x_j) / m_kk */
-static void substitute_back(tape *t, int n, const int *mass, const int *force, const int *order,
+static void substitute_back(op_list *t, int n, const int *mass, const int *force, const int *order,
                             int at, int *solution) {
     const int k = order[at];
     int rest = force[k];
     for (int i = at + 1; i < n; i++) {
         rest = minus_product(t, rest, mass[k * n + order[i]], solution[order[i]]);
     }
-    solution[k] = tape_div(t, rest, mass[k * n + k]);
+    solution[k] = op_list_div(t, rest, mass[k * n + k]);
 }
 
-static void solve_pair(tape *t, int n, const int *mass, const int *force, int i, int j,
+static void solve_pair(op_list *t, int n, const int *mass, const int *force, int i, int j,
                        int *solution) {
     const int mixed = mass[i * n + j];
     const int determinant =
-        minus_product(t, tape_mul(t, mass[i * n + i], mass[j * n + j]), mixed, mixed);
-    const int inverse = tape_div(t, tape_constant(t, 1.0), determinant);
-    const int x = minus_product(t, tape_mul(t, force[i], mass[j * n + j]), mixed, force[j]);
-    const int y = minus_product(t, tape_mul(t, force[j], mass[i * n + i]), mixed, force[i]);
-    solution[i] = tape_mul(t, x, inverse);
-    solution[j] = tape_mul(t, y, inverse);
+        minus_product(t, op_list_mul(t, mass[i * n + i], mass[j * n + j]), mixed, mixed);
+    const int inverse = op_list_div(t, op_list_constant(t, 1.0), determinant);
+    const int x = minus_product(t, op_list_mul(t, force[i], mass[j * n + j]), mixed, force[j]);
+    const int y = minus_product(t, op_list_mul(t, force[j], mass[i * n + i]), mixed, force[i]);
+    solution[i] = op_list_mul(t, x, inverse);
+    solution[j] = op_list_mul(t, y, inverse);
 }
 
-static void eliminate_symmetric(tape *t, int n, int *mass, int *force, const int *order, int done,
-                                int *solution) {
+static void eliminate_symmetric(op_list *t, int n, int *mass, int *force, const int *order,
+                                int done, int *solution) {
     int left = n - 1; /* the last place whose value is still needed */
     double value;
     for (int at = done; at < n - 1; at++) {
         const int k = order[at];
-        const bool fixed = tape_is_constant(t, mass[k * n + k], &value);
+        const bool fixed = op_list_is_constant(t, mass[k * n + k], &value);
         if (at == n - 2 && !fixed) {
             solve_pair(t, n, mass, force, k, order[n - 1], solution);
             left = n - 3;
             break;
         }
-        const int inverse = tape_div(t, tape_constant(t, 1.0), mass[k * n + k]);
+        const int inverse = op_list_div(t, op_list_constant(t, 1.0), mass[k * n + k]);
         for (int x = at + 1; x < n; x++) {
             const int i = order[x];
-            const int part = tape_mul(t, inverse, mass[k * n + i]);
+            const int part = op_list_mul(t, inverse, mass[k * n + i]);
             for (int y = x; y < n; y++) {
                 const int j = order[y];
                 mass[i * n + j] = minus_product(t, mass[i * n + j], part, mass[k * n + j]);
@@ -81,8 +81,8 @@ static double generic(double of) {
 }
 
 /* The value of every operation at an artificial generic state: distinguishes vanishing pivots from others. */
-static double *sample(const tape *t) {
-    double *v = room(t->count, sizeof *v);
+static double *sample(const op_list *t) {
+    double *v = alloc(t->count, sizeof *v);
     for (int i = 0; i < t->count; i++) {
         const op *o = &t->ops[i];
         const int values = op_rows[o->code].values;
@@ -126,12 +126,12 @@ static double *sample(const tape *t) {
 }
 
 /* Determinant of the equations rows[] in the unknowns columns[], by cofactors (size <= 3). */
-static int determinant(tape *t, int n, const int *mass, const int *rows, const int *columns,
+static int determinant(op_list *t, int n, const int *mass, const int *rows, const int *columns,
                        int size) {
     if (size == 1) {
         return mass[rows[0] * n + columns[0]];
     }
-    int sum = tape_constant(t, 0.0);
+    int sum = op_list_constant(t, 0.0);
     for (int c = 0; c < size; c++) {
         int rest[3];
         int kept = 0;
@@ -141,17 +141,17 @@ static int determinant(tape *t, int n, const int *mass, const int *rows, const i
             }
         }
         const int minor = determinant(t, n, mass, rows + 1, rest, size - 1);
-        const int product = tape_mul(t, mass[rows[0] * n + columns[c]], minor);
-        sum = c % 2 == 0 ? tape_add(t, sum, product) : tape_sub(t, sum, product);
+        const int product = op_list_mul(t, mass[rows[0] * n + columns[c]], minor);
+        sum = c % 2 == 0 ? op_list_add(t, sum, product) : op_list_sub(t, sum, product);
     }
     return sum;
 }
 
-static void solve_cramer(tape *t, int n, const int *mass, const int *force, const int *rows,
+static void solve_cramer(op_list *t, int n, const int *mass, const int *force, const int *rows,
                          const int *columns, int size, int *solution) {
     const int all = determinant(t, n, mass, rows, columns, size);
-    const int inverse = tape_div(t, tape_constant(t, 1.0), all);
-    int *swapped = room((int64_t)n * n, sizeof *swapped);
+    const int inverse = op_list_div(t, op_list_constant(t, 1.0), all);
+    int *swapped = alloc((int64_t)n * n, sizeof *swapped);
     for (int c = 0; c < size; c++) {
         for (int i = 0; i < n * n; i++) {
             swapped[i] = mass[i];
@@ -160,14 +160,14 @@ static void solve_cramer(tape *t, int n, const int *mass, const int *force, cons
             swapped[rows[r] * n + columns[c]] = force[rows[r]];
         }
         const int top = determinant(t, n, swapped, rows, columns, size);
-        solution[columns[c]] = size == 1 ? tape_div(t, top, all) : tape_mul(t, top, inverse);
+        solution[columns[c]] = size == 1 ? op_list_div(t, top, all) : op_list_mul(t, top, inverse);
     }
     free(swapped);
 }
 
 /* Move the best pivot among the equations and unknowns from `at` on to position `at`. It is a constant one if there is
  * any, else the largest at the sample state. Returns true if it is constant. */
-static bool bring_pivot(const tape *t, int n, const int *mass, int *rows, int *columns, int at) {
+static bool bring_pivot(const op_list *t, int n, const int *mass, int *rows, int *columns, int at) {
     double *v = sample(t);
     double best = -1.0;
     bool best_constant = false;
@@ -196,8 +196,8 @@ static bool bring_pivot(const tape *t, int n, const int *mass, int *rows, int *c
     return best_constant;
 }
 
-static void eliminate_general(tape *t, int n, int *mass, int *force, int *solution) {
-    int *rows = room(2 * (int64_t)n, sizeof *rows);
+static void eliminate_general(op_list *t, int n, int *mass, int *force, int *solution) {
+    int *rows = alloc(2 * (int64_t)n, sizeof *rows);
     int *columns = rows + n;
     for (int i = 0; i < n; i++) {
         rows[i] = columns[i] = i;
@@ -212,7 +212,7 @@ static void eliminate_general(tape *t, int n, int *mass, int *force, int *soluti
         const int pivot = mass[rows[at] * n + columns[at]];
         for (int i = at + 1; i < n; i++) {
             const int r = rows[i];
-            const int part = tape_div(t, mass[r * n + columns[at]], pivot);
+            const int part = op_list_div(t, mass[r * n + columns[at]], pivot);
             for (int j = at + 1; j < n; j++) {
                 const int above = mass[rows[at] * n + columns[j]];
                 mass[r * n + columns[j]] = minus_product(t, mass[r * n + columns[j]], part, above);
@@ -226,7 +226,7 @@ static void eliminate_general(tape *t, int n, int *mass, int *force, int *soluti
         for (int j = at + 1; j < n; j++) {
             rest = minus_product(t, rest, mass[rows[at] * n + columns[j]], solution[columns[j]]);
         }
-        solution[columns[at]] = tape_div(t, rest, mass[rows[at] * n + columns[at]]);
+        solution[columns[at]] = op_list_div(t, rest, mass[rows[at] * n + columns[at]]);
     }
     free(rows);
 }
@@ -236,7 +236,7 @@ static void eliminate_general(tape *t, int n, int *mass, int *force, int *soluti
  * symmetric matrix is assumed to be positive definite. Any other matrix is solved with the largest pivot at a sample
  * state, and by Cramer's rule for the last three equations. So no division by a vanishing pivot occurs if the
  * determinant is nonzero. */
-static void eliminate(tape *t, bool symmetric, int n, int *mass, int *force, const int *order,
+static void eliminate(op_list *t, bool symmetric, int n, int *mass, int *force, const int *order,
                       int done, int *solution) {
     if (symmetric) {
         eliminate_symmetric(t, n, mass, force, order, done, solution);
@@ -584,13 +584,13 @@ static void scale_what_is_left(algebra *a, int n, const poly **mass, const poly 
 
 static arranged arranged_room(int n) {
     arranged w = {.n = n, .polys = n * n + n + n * (n + 1)};
-    w.mass = room(w.polys, sizeof *w.mass);
+    w.mass = alloc(w.polys, sizeof *w.mass);
     w.force = w.mass + n * n;
     w.across = w.force + n;
-    w.inverse = room(n, sizeof *w.inverse);
-    w.scale = room(n, sizeof *w.scale);
-    w.gone = room(n, sizeof *w.gone);
-    w.order = room(n, sizeof *w.order);
+    w.inverse = alloc(n, sizeof *w.inverse);
+    w.scale = alloc(n, sizeof *w.scale);
+    w.gone = alloc(n, sizeof *w.gone);
+    w.order = alloc(n, sizeof *w.order);
     return w;
 }
 
@@ -751,23 +751,24 @@ static bool arrange(algebra *a, const linear_system *s, const arrangement *how, 
 /* --- one arrangement -----------------------------------------------------------------------------*/
 
 /* Add the terms with `across` for one hinge (solve.h). */
-static void add_across(tape *t, int n, const int *across, double inverse, int *mass, int *force) {
-    const int factor = tape_constant(t, inverse);
+static void add_across(op_list *t, int n, const int *across, double inverse, int *mass,
+                       int *force) {
+    const int factor = op_list_constant(t, inverse);
     for (int i = 0; i < n; i++) {
-        const int part = tape_mul(t, factor, across[i]);
+        const int part = op_list_mul(t, factor, across[i]);
         for (int j = 0; j <= i; j++) {
-            const int product = tape_mul(t, part, across[j]);
-            mass[i * n + j] = tape_add(t, mass[i * n + j], product);
+            const int product = op_list_mul(t, part, across[j]);
+            mass[i * n + j] = op_list_add(t, mass[i * n + j], product);
             mass[j * n + i] = mass[i * n + j];
         }
-        const int pull = tape_mul(t, part, across[n]);
-        force[i] = tape_add(t, force[i], pull);
+        const int pull = op_list_mul(t, part, across[n]);
+        force[i] = op_list_add(t, force[i], pull);
     }
 }
 
 /* Enter the solution on `t`; solution[] receives the operations. False, with nothing entered, if this arrangement is
  * impossible. */
-static bool enter(const lowering *like, tape *t, const linear_system *s, const arrangement *how,
+static bool enter(const lowering *like, op_list *t, const linear_system *s, const arrangement *how,
                   int *solution) {
     const int n = s->n;
     lowering l = *like;
@@ -778,7 +779,7 @@ static bool enter(const lowering *like, tape *t, const linear_system *s, const a
     arranged w;
     const bool can = arrange(l.algebra, s, how, &w);
     if (can) {
-        int *node = room(w.polys, sizeof *node);
+        int *node = alloc(w.polys, sizeof *node);
         lower_plan(&l, w.mass, w.polys);
         for (int i = 0; i < w.polys; i++) {
             node[i] = lower(&l, w.mass[i]);
@@ -790,7 +791,7 @@ static bool enter(const lowering *like, tape *t, const linear_system *s, const a
         }
         eliminate(t, s->symmetric, n, node, node + n * n, w.order, w.eliminated, solution);
         for (int i = 0; i < n; i++) {
-            solution[i] = tape_mul(t, tape_constant(t, w.scale[i]), solution[i]);
+            solution[i] = op_list_mul(t, op_list_constant(t, w.scale[i]), solution[i]);
         }
         free(node);
     }
@@ -800,19 +801,19 @@ static bool enter(const lowering *like, tape *t, const linear_system *s, const a
 
 /* -1 if this arrangement is impossible. */
 static int weigh(const lowering *l, const linear_system *s, const arrangement *how) {
-    tape *t = tape_new(l->tape->angles, s->n);
+    op_list *t = op_list_new(l->tape->angles, s->n);
     int weight = -1;
     if (enter(l, t, s, how, t->result)) {
         for (int i = 0; i < s->n; i++) {
-            t->result[i] = s->wanted[i] ? t->result[i] : tape_constant(t, 0.0);
+            t->result[i] = s->wanted[i] ? t->result[i] : op_list_constant(t, 0.0);
         }
-        tape_prune(t);
+        op_list_prune(t);
         if (s->sparing) {
-            tape_share_sums(t);
+            op_list_share_sums(t);
         }
-        weight = tape_weight(t);
+        weight = op_list_weight(t);
     }
-    tape_free(t);
+    op_list_free(t);
     return weight;
 }
 

@@ -3,7 +3,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "host/base/room.h"
+#include "host/base/alloc.h"
 #include "host/number/functions.h"
 #include "null_space.h"
 
@@ -100,8 +100,8 @@ static void take_terms(conditions *s, const poly *const *change) {
     for (int k = 0; k < s->columns; k++) {
         count += change[k]->count;
     }
-    entry *all = room(count, sizeof *all);
-    double *row = room(s->columns, sizeof *row);
+    entry *all = alloc(count, sizeof *all);
+    double *row = alloc(s->columns, sizeof *row);
     int64_t filled = 0;
     for (int k = 0; k < s->columns; k++) {
         for (int i = 0; i < change[k]->count; i++) {
@@ -175,8 +175,8 @@ static double drawn_value(void *context, const symbol *s, int primes) {
 static int count_by_values(const equations *e, const poly *const *change) {
     const int columns = columns_of(e);
     conditions of_values = conditions_none(columns);
-    double *row = room(columns, sizeof *row);
-    double *basis = room((int64_t)columns * columns, sizeof *basis);
+    double *row = alloc(columns, sizeof *row);
+    double *basis = alloc((int64_t)columns * columns, sizeof *basis);
     uint64_t seed = 1;
     bool good = true;
     for (int i = 0; i < 2 * columns && good; i++) {
@@ -212,7 +212,7 @@ const poly *symmetry_along(const equations *e, const symmetry *s, const poly *co
 static symmetry symmetry_of(const equations *e, const double *by) {
     algebra *a = e->algebra;
     const int n = e->count;
-    symmetry s = {.shift = room(n, sizeof(const poly *)), .stored = poly_number(a, 0.0)};
+    symmetry s = {.shift = alloc(n, sizeof(const poly *)), .stored = poly_number(a, 0.0)};
     for (int i = 0; i < n; i++) {
         s.shift[i] = poly_number(a, by[n * n + i]);
         for (int j = 0; j < n; j++) {
@@ -293,7 +293,7 @@ static int find_more(finding *f, const conditions *c, bool of_both, bool conserv
 
 /* Restrict to shifts: every entry of A is zero. */
 static void take_no_turning(conditions *s, int n) {
-    double *row = room(s->columns, sizeof *row);
+    double *row = alloc(s->columns, sizeof *row);
     for (int k = 0; k < n * n; k++) {
         for (int j = 0; j < s->columns; j++) {
             row[j] = j == k ? 1.0 : 0.0;
@@ -316,14 +316,14 @@ symmetries *symmetries_find(const equations *e) {
     algebra *a = e->algebra;
     const int columns = columns_of(e);
     const int64_t square = (int64_t)columns * columns;
-    const poly **change = room(columns, sizeof *change);
+    const poly **change = alloc(columns, sizeof *change);
     const poly *const energy[] = {equations_fold(e, e->kinetic), equations_fold(e, e->stored)};
     conditions of[] = {conditions_none(columns), conditions_none(columns)}; /* T, V */
     conditions of_forces = conditions_none(columns);
-    symmetries *found = room(1, sizeof *found);
+    symmetries *found = alloc(1, sizeof *found);
     *found = (symmetries){
-        .each = room(columns, sizeof *found->each), .complete = true, .flat = is_flat(e)};
-    finding f = {e, found, room(square, sizeof(double)), 0, room(square, sizeof(double))};
+        .each = alloc(columns, sizeof *found->each), .complete = true, .flat = is_flat(e)};
+    finding f = {e, found, alloc(square, sizeof(double)), 0, alloc(square, sizeof(double))};
     for (int which = 0; which < 2 && !algebra_overflow(a); which++) {
         for (int k = 0; k < columns; k++) {
             change[k] = without_phases(a, poly_expanded(a, change_by(e, energy[which], k)));

@@ -7,8 +7,8 @@
 #include <string.h>
 
 #include "core/table.h"
+#include "host/base/alloc.h"
 #include "host/base/arena.h"
-#include "host/base/room.h"
 #include "host/number/ratio.h"
 
 /* === functions of one angle, at any part of its turn, with their slopes ======================= */
@@ -71,7 +71,7 @@ static turn_value of_wave(op_code code, double turns, int multiple) {
 
 /* Evaluate all operations of the list to value[t->count] at an angle of `turns`. Phase i takes multiple[i] of it;
  * entries of other operations are unused. All operations are functions of that angle: no rates or reals. */
-static void turn_evaluate(const tape *t, const int *multiple, double turns, turn_value *value) {
+static void turn_evaluate(const op_list *t, const int *multiple, double turns, turn_value *value) {
     for (int i = 0; i < t->count; i++) {
         const op *o = &t->ops[i];
         const int values = op_rows[o->code].values;
@@ -127,7 +127,7 @@ static void turn_evaluate(const tape *t, const int *multiple, double turns, turn
 
 /* The tabled functions: operations of a list of functions of one angle; its phase i takes multiple[i] of the angle. */
 typedef struct table_functions {
-    const tape *list;
+    const op_list *list;
     const int *multiple; /* [list->count] */
     const int *function; /* [tables] operations */
 } table_functions;
@@ -170,7 +170,7 @@ static void write_cubic(const double *value, const double *slope, int n, int i, 
 }
 
 /* Is table k even or odd in the angle, to the bit? */
-static bool mirrors(const tape_tables *of, int k, bool odd) {
+static bool mirrors(const op_list_tables *of, int k, bool odd) {
     const int n = 1 << of->bits;
     for (int i = 0; i <= n / 2; i++) {
         const double *here = &of->number[(i * of->count + k) * of->terms];
@@ -185,7 +185,7 @@ static bool mirrors(const tape_tables *of, int k, bool odd) {
     return true;
 }
 
-static void find_mirrors(tape_tables *of) {
+static void find_mirrors(op_list_tables *of) {
     of->folds = true;
     for (int k = 0; k < of->count; k++) {
         of->odd[k] = mirrors(of, k, true);
@@ -195,11 +195,11 @@ static void find_mirrors(tape_tables *of) {
 
 /* The error of each table, at `TRIED` places a cell, including its middle and its knots: the largest errors are at or
  * near these. */
-static void measure(const table_functions *f, tape_tables *of) {
+static void measure(const table_functions *f, op_list_tables *of) {
     enum { TRIED = 16 };
-    const tape *c = f->list;
+    const op_list *c = f->list;
     const int n = 1 << of->bits;
-    turn_value *all = room(c->count, sizeof *all);
+    turn_value *all = alloc(c->count, sizeof *all);
     for (int i = 0; i < n * TRIED; i++) {
         const double y = (double)(i % TRIED) / TRIED - 0.5;
         const int cell = i / TRIED;
@@ -219,12 +219,12 @@ static void measure(const table_functions *f, tape_tables *of) {
 }
 
 /* Fill in all fields of the tables except count, bits and terms. */
-static void table_numbers(const table_functions *f, tape_tables *into) {
-    const tape *c = f->list;
+static void table_numbers(const table_functions *f, op_list_tables *into) {
+    const op_list *c = f->list;
     const int n = 1 << into->bits;
-    turn_value *all = room(c->count, sizeof *all);
-    double *value = room((int64_t)into->count * n, sizeof *value);
-    double *slope = room((int64_t)into->count * n, sizeof *slope);
+    turn_value *all = alloc(c->count, sizeof *all);
+    double *value = alloc((int64_t)into->count * n, sizeof *value);
+    double *slope = alloc((int64_t)into->count * n, sizeof *slope);
     for (int i = 0; i < n; i++) {
         turn_evaluate(c, f->multiple, (i - 0.5) / n, all);
         for (int k = 0; k < into->count; k++) {
@@ -257,7 +257,7 @@ static void table_numbers(const table_functions *f, tape_tables *into) {
 
 typedef struct collecting {
     products *made;
-    const tape *list;
+    const op_list *list;
     product_sum *sum; /* [list->count] */
     int *number;      /* [list->count] symbol, or -1 */
     refusal *why;
@@ -271,7 +271,7 @@ static void refuse_product(collecting *c, const char *reason, const char *hint) 
 
 static void find_symbols(collecting *c) {
     products *p = c->made;
-    p->symbol = room(c->list->count, sizeof *p->symbol);
+    p->symbol = alloc(c->list->count, sizeof *p->symbol);
     for (int i = 0; i < c->list->count; i++) {
         const op_code code = c->list->ops[i].code;
         const bool is_symbol = code == OP_LINEAR || code == OP_RATE || code == OP_INPUT;
@@ -287,9 +287,9 @@ static unsigned char *powers_new(const products *p) {
     return arena_alloc(p->memory, (size_t)p->symbols + 1U);
 }
 
-static bool is_zero(const tape *t, int a) {
+static bool is_zero(const op_list *t, int a) {
     double value;
-    return tape_is_constant(t, a, &value) && value == 0.0;
+    return op_list_is_constant(t, a, &value) && value == 0.0;
 }
 
 /* sum += coefficient * powers. Cancelled terms are removed. */
@@ -298,7 +298,7 @@ static void enter(collecting *c, product_sum *sum, const unsigned char *power, i
     for (int i = 0; i < sum->count; i++) {
         term_product *same = &sum->product[i];
         if (memcmp(same->power, power, (size_t)p->symbols) == 0) {
-            same->coefficient = tape_add(p->coefficients, same->coefficient, coefficient);
+            same->coefficient = op_list_add(p->coefficients, same->coefficient, coefficient);
             if (is_zero(p->coefficients, same->coefficient)) {
                 *same = sum->product[--sum->count];
             }
@@ -331,7 +331,7 @@ static bool is_of_angles(collecting *c, product_sum sum, int *coefficient) {
     }
     *coefficient = !alone          ? -1
                    : sum.count > 0 ? sum.product[0].coefficient
-                                   : tape_constant(c->made->coefficients, 0.0);
+                                   : op_list_constant(c->made->coefficients, 0.0);
     return alone;
 }
 
@@ -339,20 +339,20 @@ static product_sum factor_symbol(collecting *c, int i) {
     product_sum sum = {NULL, 0};
     unsigned char *power = powers_new(c->made);
     power[c->number[i]] = 1;
-    enter(c, &sum, power, tape_constant(c->made->coefficients, 1.0));
+    enter(c, &sum, power, op_list_constant(c->made->coefficients, 1.0));
     return sum;
 }
 
 /* x + sign * y */
 static product_sum added(collecting *c, product_sum x, product_sum y, int sign) {
-    tape *t = c->made->coefficients;
+    op_list *t = c->made->coefficients;
     product_sum sum = {NULL, 0};
     for (int i = 0; i < x.count; i++) {
         enter(c, &sum, x.product[i].power, x.product[i].coefficient);
     }
     for (int i = 0; i < y.count; i++) {
         const int with = y.product[i].coefficient;
-        enter(c, &sum, y.product[i].power, sign < 0 ? tape_unary(t, OP_NEG, with) : with);
+        enter(c, &sum, y.product[i].power, sign < 0 ? op_list_unary(t, OP_NEG, with) : with);
     }
     return sum;
 }
@@ -372,7 +372,7 @@ static product_sum multiplied(collecting *c, product_sum x, product_sum y) {
                 }
             }
             enter(c, &sum, power,
-                  tape_mul(p->coefficients, x.product[i].coefficient, y.product[k].coefficient));
+                  op_list_mul(p->coefficients, x.product[i].coefficient, y.product[k].coefficient));
         }
     }
     return sum;
@@ -388,14 +388,14 @@ static product_sum divided(collecting *c, product_sum x, product_sum y) {
     }
     for (int i = 0; i < x.count; i++) {
         enter(c, &sum, x.product[i].power,
-              tape_div(c->made->coefficients, x.product[i].coefficient, by));
+              op_list_div(c->made->coefficients, x.product[i].coefficient, by));
     }
     return sum;
 }
 
 /* A function of one or two operands that depend on the angles alone. */
 static product_sum function_of(collecting *c, const op *o) {
-    tape *t = c->made->coefficients;
+    op_list *t = c->made->coefficients;
     int a;
     int b = -1;
     if (!is_of_angles(c, c->sum[o->a], &a) ||
@@ -411,13 +411,13 @@ static product_sum function_of(collecting *c, const op *o) {
             "between the entries of a table it would be smoothed out: leave --tables out");
         return (product_sum){NULL, 0};
     }
-    return of_angles(c, o->code == OP_CALL  ? tape_call(t, o->function, a, b)
-                        : o->code == OP_POW ? tape_pow(t, a, b)
-                                            : tape_unary(t, o->code, a));
+    return of_angles(c, o->code == OP_CALL  ? op_list_call(t, o->function, a, b)
+                        : o->code == OP_POW ? op_list_pow(t, a, b)
+                                            : op_list_unary(t, o->code, a));
 }
 
 static product_sum wave_of(collecting *c, const op *o) {
-    tape *t = c->made->coefficients;
+    op_list *t = c->made->coefficients;
     const op *phase = &c->list->ops[o->a];
     double *multiple = NULL;
     if (phase->b >= 0 || phase->parts != NULL) {
@@ -427,21 +427,21 @@ static product_sum wave_of(collecting *c, const op *o) {
         return (product_sum){NULL, 0};
     }
     if (phase->turns != NULL) {
-        multiple = room(t->angles, sizeof *multiple);
+        multiple = alloc(t->angles, sizeof *multiple);
         for (int k = 0; k < t->angles; k++) {
             multiple[k] = phase->turns[k];
         }
     }
-    const int copy = tape_phase(t, multiple, phase->value, -1);
+    const int copy = op_list_phase(t, multiple, phase->value, -1);
     free(multiple);
-    return of_angles(c, tape_leaf(t, o->code, copy));
+    return of_angles(c, op_list_leaf(t, o->code, copy));
 }
 
 static product_sum sum_of(collecting *c, int i) {
     const op *o = &c->list->ops[i];
     const product_sum none = {NULL, 0};
     switch (o->code) {
-    case OP_CONSTANT: return of_angles(c, tape_constant(c->made->coefficients, o->value));
+    case OP_CONSTANT: return of_angles(c, op_list_constant(c->made->coefficients, o->value));
     case OP_LINEAR:
     case OP_RATE:
     case OP_INPUT: return factor_symbol(c, i);
@@ -471,13 +471,13 @@ static product_sum sum_of(collecting *c, int i) {
     abort();
 }
 
-products products_of(const tape *list, refusal *why) {
-    products p = {.coefficients = tape_new(list->angles, 0),
-                  .result = room(list->results, sizeof *p.result),
+products products_of(const op_list *list, refusal *why) {
+    products p = {.coefficients = op_list_new(list->angles, 0),
+                  .result = alloc(list->results, sizeof *p.result),
                   .results = list->results,
                   .memory = arena_new()};
-    collecting c = {&p, list, room(list->count, sizeof *c.sum), room(list->count, sizeof *c.number),
-                    why};
+    collecting c = {&p, list, alloc(list->count, sizeof *c.sum),
+                    alloc(list->count, sizeof *c.number), why};
     *why = (refusal){NULL, NULL, -1};
     find_symbols(&c);
     for (int i = 0; i < list->count && why->reason == NULL; i++) {
@@ -492,7 +492,7 @@ products products_of(const tape *list, refusal *why) {
 }
 
 void products_free(products *p) {
-    tape_free(p->coefficients);
+    op_list_free(p->coefficients);
     free(p->symbol);
     free(p->result);
     arena_free(p->memory);
@@ -584,11 +584,11 @@ static int angle_of_other(const int *turns, const int *other, int angles) {
 }
 
 static void find_phase(tabling *t) {
-    const tape *c = t->from->coefficients;
+    const op_list *c = t->from->coefficients;
     bool found = false;
     for (int i = 0; i < c->count && t->why->reason == NULL; i++) {
         const int *turns = c->ops[i].turns;
-        if (!tape_is_wave(&c->ops[i])) {
+        if (!op_list_is_wave(&c->ops[i])) {
             continue;
         }
         if (!found) {
@@ -606,7 +606,7 @@ static void find_phase(tabling *t) {
         return;
     }
     for (int i = 0; i < c->count; i++) {
-        t->multiple[i] = tape_is_wave(&c->ops[i]) ? c->ops[i].turns[k] / t->turns[k] : 0;
+        t->multiple[i] = op_list_is_wave(&c->ops[i]) ? c->ops[i].turns[k] / t->turns[k] : 0;
     }
 }
 
@@ -619,9 +619,9 @@ typedef struct span_of {
 
 /* All of their values, and the poles. */
 static void try_angles(tabling *t) {
-    const tape *c = t->from->coefficients;
-    turn_value *value = room(c->count, sizeof *value);
-    span_of *span = room(c->count, sizeof *span);
+    const op_list *c = t->from->coefficients;
+    turn_value *value = alloc(c->count, sizeof *value);
+    span_of *span = alloc(c->count, sizeof *span);
     bool finite = true;
     for (int s = 0; s < TRIES; s++) {
         turn_evaluate(c, t->multiple, (double)s / TRIES, value);
@@ -686,7 +686,7 @@ static bool is_multiple(const coefficient *c, int peak, const coefficient *of, d
 }
 
 static void sort_out(tabling *t) {
-    int *first = room(t->count, sizeof *first); /* by table */
+    int *first = alloc(t->count, sizeof *first); /* by table */
     for (int k = 0; k < t->count; k++) {
         coefficient *c = &t->coefficient[k];
         const int peak = peak_of(c);
@@ -723,24 +723,24 @@ typedef struct part {
 
 typedef struct writing {
     const products *from;
-    const tape *list;
-    tape *made;
+    const op_list *list;
+    op_list *made;
     bool nested;
 } writing;
 
 static int symbol_of(const writing *w, int symbol) {
     const op *o = &w->list->ops[w->from->symbol[symbol]];
-    return tape_leaf(w->made, o->code, o->a);
+    return op_list_leaf(w->made, o->code, o->a);
 }
 
 static int product_of(const writing *w, const part *p) {
-    int made = tape_constant(w->made, 1.0);
+    int made = op_list_constant(w->made, 1.0);
     for (int s = 0; s < w->from->symbols; s++) {
         if (p->power[s] > 0) {
-            made = tape_mul(w->made, made, tape_power(w->made, symbol_of(w, s), p->power[s]));
+            made = op_list_mul(w->made, made, op_list_power(w->made, symbol_of(w, s), p->power[s]));
         }
     }
-    return tape_mul(w->made, p->coefficient, made);
+    return op_list_mul(w->made, p->coefficient, made);
 }
 
 /* The symbol in the most parts, if it is in more than one; or -1. */
@@ -764,7 +764,7 @@ static int commonest(const writing *w, const part *parts, int count) {
 static int sum_up(const writing *w, part *parts, int count) {
     const int common = w->nested ? commonest(w, parts, count) : -1;
     int with = 0;
-    int sum = tape_constant(w->made, 0.0);
+    int sum = op_list_constant(w->made, 0.0);
     for (int i = 0; i < count && common >= 0; i++) {
         if (parts[i].power[common] > 0) {
             const part first = parts[with];
@@ -775,11 +775,11 @@ static int sum_up(const writing *w, part *parts, int count) {
     }
     if (with > 0) {
         const int inner = sum_up(w, parts, with); /* one power less in each */
-        sum = tape_mul(w->made, symbol_of(w, common), inner);
-        return tape_add(w->made, sum, sum_up(w, parts + with, count - with));
+        sum = op_list_mul(w->made, symbol_of(w, common), inner);
+        return op_list_add(w->made, sum, sum_up(w, parts + with, count - with));
     }
     for (int i = 0; i < count; i++) {
-        sum = tape_add(w->made, sum, product_of(w, &parts[i]));
+        sum = op_list_add(w->made, sum, product_of(w, &parts[i]));
     }
     return sum;
 }
@@ -787,19 +787,20 @@ static int sum_up(const writing *w, part *parts, int count) {
 static int write_result(const tabling *t, const writing *w, int cell, int result, int at) {
     const product_sum *sum = &t->from->result[result];
     const size_t powers = (size_t)t->from->symbols + 1U;
-    part *parts = room(sum->count, sizeof *parts);
-    unsigned char *power = room((int64_t)sum->count, powers);
+    part *parts = alloc(sum->count, sizeof *parts);
+    unsigned char *power = alloc((int64_t)sum->count, powers);
     int count = 0;
     for (int i = 0; i < sum->count; i++) {
         const coefficient *c = &t->coefficient[at + i];
         if (c->kind != IS_NOTHING) {
-            const int factor = tape_constant(w->made, c->factor);
+            const int factor = op_list_constant(w->made, c->factor);
             part *p = &parts[count];
             p->power = power + (size_t)count++ * powers;
             memcpy(p->power, sum->product[i].power, (size_t)t->from->symbols);
-            p->coefficient = c->kind == IS_CONSTANT
-                                 ? factor
-                                 : tape_mul(w->made, factor, tape_look_up(w->made, cell, c->table));
+            p->coefficient =
+                c->kind == IS_CONSTANT
+                    ? factor
+                    : op_list_mul(w->made, factor, op_list_look_up(w->made, cell, c->table));
         }
     }
     const int made = sum_up(w, parts, count);
@@ -808,45 +809,45 @@ static int write_result(const tabling *t, const writing *w, int cell, int result
     return made;
 }
 
-static tape *write_list(const tabling *t, const tape *list, image_tables form, int bits,
-                        bool nested) {
-    tape *made = tape_new(list->angles, list->results);
+static op_list *write_list(const tabling *t, const op_list *list, image_tables form, int bits,
+                           bool nested) {
+    op_list *made = op_list_new(list->angles, list->results);
     const writing w = {t->from, list, made, nested};
-    tape_tables_new(made, t->tables, bits,
-                    (int)(form == TABLES_CUBIC ? WH_TABLE_CUBIC : WH_TABLE_LINEAR));
-    const int cell = tape_cell(made, t->turns);
+    op_list_tables_new(made, t->tables, bits,
+                       (int)(form == TABLES_CUBIC ? WH_TABLE_CUBIC : WH_TABLE_LINEAR));
+    const int cell = op_list_cell(made, t->turns);
     int at = 0;
     for (int i = 0; i < list->results; i++) {
         made->result[i] = write_result(t, &w, cell, i, at);
         at += t->from->result[i].count;
     }
-    tape_prune(made);
+    op_list_prune(made);
     return made;
 }
 
 /* The cheaper of the two forms. */
-static tape *cheaper(const tabling *t, const tape *list, image_tables form, int bits) {
-    tape *made[2];
+static op_list *cheaper(const tabling *t, const op_list *list, image_tables form, int bits) {
+    op_list *made[2];
     for (int k = 0; k < 2; k++) {
         made[k] = write_list(t, list, form, bits, k > 0);
     }
-    const int taken = tape_weight(made[1]) < tape_weight(made[0]);
-    tape_free(made[1 - taken]);
+    const int taken = op_list_weight(made[1]) < op_list_weight(made[0]);
+    op_list_free(made[1 - taken]);
     const table_functions functions = {t->from->coefficients, t->multiple, t->table};
     table_numbers(&functions, &made[taken]->tables);
-    tape_order(made[taken]);
+    op_list_order(made[taken]);
     return made[taken];
 }
 
 /* The coefficients' list becomes the exact list of the tables. */
-static tape *take_exact(tabling *t) {
-    tape *exact = t->from->coefficients;
+static op_list *take_exact(tabling *t) {
+    op_list *exact = t->from->coefficients;
     t->from->coefficients = NULL;
     free(exact->result);
     exact->result = t->table;
     exact->results = t->tables;
     t->table = NULL;
-    tape_prune(exact);
+    op_list_prune(exact);
     return exact;
 }
 
@@ -854,18 +855,19 @@ static void take_coefficients(tabling *t) {
     for (int i = 0; i < t->from->results; i++) {
         t->count += t->from->result[i].count;
     }
-    t->coefficient = room(t->count, sizeof *t->coefficient);
-    t->table = room(t->count, sizeof *t->table);
+    t->coefficient = alloc(t->count, sizeof *t->coefficient);
+    t->table = alloc(t->count, sizeof *t->table);
     for (int i = 0, at = 0; i < t->from->results; i++) {
         for (int k = 0; k < t->from->result[i].count; k++, at++) {
             t->coefficient[at].of = t->from->result[i].product[k].coefficient;
-            t->coefficient[at].value = room(TRIES, sizeof *t->coefficient[at].value);
+            t->coefficient[at].value = alloc(TRIES, sizeof *t->coefficient[at].value);
         }
     }
 }
 
 /* NULL if refused. */
-static tape *make(tabling *t, const tape *list, image_tables form, int bits, tape **exact) {
+static op_list *make(tabling *t, const op_list *list, image_tables form, int bits,
+                     op_list **exact) {
     find_phase(t);
     if (t->why->reason != NULL) {
         return NULL;
@@ -880,22 +882,23 @@ static tape *make(tabling *t, const tape *list, image_tables form, int bits, tap
         refuse(t, "depend on no turn angle: there is nothing to look up", "leave --tables out", -1);
         return NULL;
     }
-    tape *made = cheaper(t, list, form, bits);
+    op_list *made = cheaper(t, list, form, bits);
     *exact = take_exact(t);
     return made;
 }
 
-tape *tables_make(const tape *list, image_tables form, int cells, tape **exact, refusal *why) {
+op_list *tables_make(const op_list *list, image_tables form, int cells, op_list **exact,
+                     refusal *why) {
     products p = products_of(list, why);
     tabling t = {.from = &p,
                  .why = why,
-                 .turns = room(list->angles, sizeof *t.turns),
-                 .multiple = room(p.coefficients->count, sizeof *t.multiple)};
+                 .turns = alloc(list->angles, sizeof *t.turns),
+                 .multiple = alloc(p.coefficients->count, sizeof *t.multiple)};
     int bits = 0;
     while ((1 << bits) < cells) {
         bits++;
     }
-    tape *made = why->reason == NULL ? make(&t, list, form, bits, exact) : NULL;
+    op_list *made = why->reason == NULL ? make(&t, list, form, bits, exact) : NULL;
     for (int k = 0; k < t.count; k++) {
         free(t.coefficient[k].value);
     }

@@ -3,7 +3,7 @@
 #define DERIVE_TABLES_H
 
 #include "host/image/image.h"
-#include "host/image/tape.h"
+#include "host/image/op_list.h"
 
 /* === a list as sums of products =============================================================== */
 /* A step's list as sums of products of rates, inputs and reals, with coefficients that depend on turn angles only. */
@@ -23,8 +23,8 @@ typedef struct product_sum {
 } product_sum;
 
 typedef struct products {
-    tape *coefficients; /* functions of turn angles only: no rate, input or real */
-    int *symbol;        /* [symbols] operations of the list: OP_LINEAR, OP_RATE, OP_INPUT */
+    op_list *coefficients; /* functions of turn angles only: no rate, input or real */
+    int *symbol;           /* [symbols] operations of the list: OP_LINEAR, OP_RATE, OP_INPUT */
     int symbols;
     product_sum *result; /* [results of the list] */
     int results;
@@ -38,7 +38,7 @@ typedef struct refusal {
     int angle; /* the turn angle concerned, or -1 */
 } refusal;
 
-products products_of(const tape *list, refusal *why);
+products products_of(const op_list *list, refusal *why);
 void products_free(products *p);
 
 /* Default number of cells of a table, for one turn. */
@@ -48,7 +48,8 @@ enum { TABLES_CELLS_LINEAR = 256, TABLES_CELLS_CUBIC = 64 };
  * is `list` with a table for each c_k that is not constant. All must be functions of one phase: the one turn angle, or
  * one whole multiple or sum of such. c_k that differ by a factor share a table. *exact is a list of the tables'
  * functions. NULL, with *why, if the list has no such form. */
-tape *tables_make(const tape *list, image_tables form, int cells, tape **exact, refusal *why);
+op_list *tables_make(const op_list *list, image_tables form, int cells, op_list **exact,
+                     refusal *why);
 
 /* The default number of cells of that form. */
 int tables_cells(image_tables form);

@@ -9,8 +9,8 @@
 #include <string.h>
 
 #include "emit.h"
+#include "host/base/alloc.h"
 #include "host/base/hashing.h"
-#include "host/base/room.h"
 #include "host/image/core_rows.h"
 
 /* Length in bytes of the character at `text` if it changes the writing direction, else 0: compilers warn of these
@@ -233,9 +233,9 @@ void c_header_fixed_state(FILE *out, const image *im) {
 static char *linked_name(const char *scene, c_header_body *body, const void *of) {
     char *text;
     size_t length;
-    FILE *out = room_text(&text, &length);
+    FILE *out = alloc_text(&text, &length);
     body(out, of);
-    room_text_end(out);
+    alloc_text_end(out);
     size_t kept = 0;
     for (size_t i = 0; i < length; i++) {
         if (strncmp(text + i, "/*", 2) == 0) {
@@ -244,7 +244,7 @@ static char *linked_name(const char *scene, c_header_body *body, const void *of)
             text[kept++] = text[i];
         }
     }
-    char *name = room_words("%s_HEADER_%08" PRIx32, scene, hash_text(text, kept));
+    char *name = alloc_words("%s_HEADER_%08" PRIx32, scene, hash_text(text, kept));
     free(text);
     return name;
 }

@@ -19,10 +19,10 @@ enum { INLINED_MOST = 150 };
  * this saves 1 % of the instructions of 67 operations but costs 2 % more cycles; of 131 it saves 4 % and 2 %. */
 enum { LONG_LEAST = 100 };
 
-bool c_list_is_long(const tape *t) { return tape_operations(t) >= LONG_LEAST; }
+bool c_list_is_long(const op_list *t) { return op_list_operations(t) >= LONG_LEAST; }
 
 /* An operand; constants are written in place. */
-static const char *operand(const tape *t, int a, char text[static 48]) {
+static const char *operand(const op_list *t, int a, char text[static 48]) {
     if (t->ops[a].code == OP_CONSTANT) {
         const double value = t->ops[a].value;
         char hex[HEX_SIZE];
@@ -46,7 +46,7 @@ static void write_part(FILE *out, int angle, double multiple) {
 }
 
 /* The phase without its part in radians; returns the sign before the next term. */
-static const char *write_turns(FILE *out, const tape *t, const op *o) {
+static const char *write_turns(FILE *out, const op_list *t, const op *o) {
     const char *plus = "";
     if (o->value != 0.0 || (o->turns == NULL && o->parts == NULL && o->b < 0)) {
         char hex[HEX_SIZE];
@@ -65,7 +65,7 @@ static const char *write_turns(FILE *out, const tape *t, const op *o) {
     return plus;
 }
 
-static void write_phase(FILE *out, const tape *t, int i) {
+static void write_phase(FILE *out, const op_list *t, int i) {
     const op *o = &t->ops[i];
     char b[48];
     fprintf(out, "    wh_real s%d;\n    wh_real c%d;\n    wh_sincos(", i, i);
@@ -86,13 +86,13 @@ static void write_phase(FILE *out, const tape *t, int i) {
     }
 }
 
-static void write_operand(FILE *out, const tape *t, int a) {
+static void write_operand(FILE *out, const op_list *t, int a) {
     char text[48];
     fputs(operand(t, a, text), out);
 }
 
 /* Does the list use a sine or cosine of phase i? */
-static bool takes(const tape *t, op_code code, int i) {
+static bool takes(const op_list *t, op_code code, int i) {
     bool found = false;
     for (int k = i + 1; k < t->count; k++) {
         found = found || (t->ops[k].code == code && t->ops[k].a == i);
@@ -101,7 +101,7 @@ static bool takes(const tape *t, op_code code, int i) {
 }
 
 /* The sine and cosine of wave `wave`, which is phase i. */
-static void write_pair(FILE *out, const tape *t, int i, int wave) {
+static void write_pair(FILE *out, const op_list *t, int i, int wave) {
     if (takes(t, OP_SIN, i)) {
         fprintf(out, "    const wh_real s%d = wave[%d].sine;\n", i, wave);
     }
@@ -110,8 +110,8 @@ static void write_pair(FILE *out, const tape *t, int i, int wave) {
     }
 }
 
-static void write_cell(FILE *out, const tape *t, int i) {
-    const tape_tables *of = &t->tables;
+static void write_cell(FILE *out, const op_list *t, int i) {
+    const op_list_tables *of = &t->tables;
     fprintf(out, "    wh_real y%d;\n", i);
     if (of->folds) {
         fprintf(out, "    bool back%d;\n", i);
@@ -127,14 +127,14 @@ static void write_cell(FILE *out, const tape *t, int i) {
 }
 
 /* Is it a look-up in an odd table with folding? */
-static bool is_mirrored(const tape *t, const op *o) {
+static bool is_mirrored(const op_list *t, const op *o) {
     return op_rows[o->code].kind == OP_IS_LOOKUP && t->tables.folds &&
            t->tables.odd[(int)o->value / t->tables.terms];
 }
 
-void c_list_cells(FILE *out, const tape *t) {
+void c_list_cells(FILE *out, const op_list *t) {
     const char *const scales[] = {"WH_R", "WH_TABLE_B(WH_R", "WH_TABLE_C(WH_R", "WH_TABLE_D(WH_R"};
-    const tape_tables *of = &t->tables;
+    const op_list_tables *of = &t->tables;
     const int width = of->count * of->terms;
     const int64_t numbers = (int64_t)width * ((int64_t)1 << of->bits);
     char hex[HEX_SIZE];
@@ -158,7 +158,7 @@ void c_list_cells(FILE *out, const tape *t) {
     fprintf(out, "%s\n};\n\n", of->folds ? "\n#endif" : "");
 }
 
-static void write_operation(FILE *out, const tape *t, int i) {
+static void write_operation(FILE *out, const op_list *t, int i) {
     static const op_style style = {write_operand, NULL, NULL};
     const op *o = &t->ops[i];
     const op_row *row = &op_rows[o->code];
@@ -177,7 +177,7 @@ static void write_operation(FILE *out, const tape *t, int i) {
     }
 }
 
-bool c_list_uses(const tape *t, op_code code) {
+bool c_list_uses(const op_list *t, op_code code) {
     for (int i = 0; i < t->count; i++) {
         if (t->ops[i].code == code) {
             return true;
@@ -186,20 +186,20 @@ bool c_list_uses(const tape *t, op_code code) {
     return false;
 }
 
-bool c_list_uses_phase(const tape *t) {
+bool c_list_uses_phase(const op_list *t) {
     for (int i = 0; i < t->count; i++) {
-        if (tape_is_wave(&t->ops[i]) || t->ops[i].code == OP_CELL) {
+        if (op_list_is_wave(&t->ops[i]) || t->ops[i].code == OP_CELL) {
             return true;
         }
     }
     return false;
 }
 
-void c_list_body(FILE *out, const tape *t, c_angles angles, const char *result) {
+void c_list_body(FILE *out, const op_list *t, c_angles angles, const char *result) {
     char text[48];
     int wave = 0;
     for (int i = 0; i < t->count; i++) {
-        if (angles == C_WAVES && tape_is_wave(&t->ops[i])) {
+        if (angles == C_WAVES && op_list_is_wave(&t->ops[i])) {
             write_pair(out, t, i, wave++);
         } else {
             write_operation(out, t, i);
@@ -217,9 +217,9 @@ void c_list_ignore(FILE *out, bool used, const char *name) {
     }
 }
 
-static void write_function(FILE *out, const tape *t, c_angles angles, const char *name, bool second,
-                           const char *inlined) {
-    const char *linkage = tape_operations(t) > INLINED_MOST ? "static" : inlined;
+static void write_function(FILE *out, const op_list *t, c_angles angles, const char *name,
+                           bool second, const char *inlined) {
+    const char *linkage = op_list_operations(t) > INLINED_MOST ? "static" : inlined;
     const int indent = (int)(strlen(linkage) + sizeof " void (" - 1 + strlen(name));
     fprintf(out, "%s void %s(const void *model, const wh_%s,\n", linkage, name,
             angles == C_WAVES ? "wave *wave" : "phase *phase");
@@ -240,18 +240,18 @@ static void write_function(FILE *out, const tape *t, c_angles angles, const char
     c_list_body(out, t, angles, "result");
 }
 
-void c_list_function(FILE *out, const tape *t, c_angles angles, const char *name, bool second,
+void c_list_function(FILE *out, const op_list *t, c_angles angles, const char *name, bool second,
                      bool by_pointer) {
     write_function(out, t, angles, name, second,
                    by_pointer ? "static inline" : "WH_INLINE_WITH_FPU");
 }
 
-void c_list_matrix(FILE *out, const tape *t) {
+void c_list_matrix(FILE *out, const op_list *t) {
     write_function(out, t, C_PHASES, "step_matrix", true, "WH_INLINE");
 }
 
 /* The rate of a wave times `scale`, summed as in the interpreter. For a single angle, the numbers become one. */
-static void write_rate(FILE *out, const tape *t, const op *o) {
+static void write_rate(FILE *out, const op_list *t, const op *o) {
     const char *plus = "";
     int terms = 0;
     for (int k = 0; k < t->angles; k++) {
@@ -271,7 +271,7 @@ static void write_rate(FILE *out, const tape *t, const op *o) {
     fputs(terms > 1 ? ")" : "", out);
 }
 
-void c_list_waves(FILE *out, const tape *t) {
+void c_list_waves(FILE *out, const op_list *t) {
     const char *const names[] = {"wave_sines", "wave_rates"};
     const char *const from[] = {"const wh_phase *phase, wh_sine_parts *parts",
                                 "wh_real scale, const wh_real *rate, wh_real *result"};
@@ -279,11 +279,11 @@ void c_list_waves(FILE *out, const tape *t) {
         int wave = 0;
         fprintf(out, "static inline void %s(const void *model, %s) {\n    (void)model;\n", names[f],
                 from[f]);
-        c_list_ignore(out, tape_waves(t) > 0, f == 0 ? "phase" : "rate");
-        c_list_ignore(out, tape_waves(t) > 0, f == 0 ? "parts" : "result");
-        c_list_ignore(out, tape_waves(t) > 0 || f == 0, "scale");
+        c_list_ignore(out, op_list_waves(t) > 0, f == 0 ? "phase" : "rate");
+        c_list_ignore(out, op_list_waves(t) > 0, f == 0 ? "parts" : "result");
+        c_list_ignore(out, op_list_waves(t) > 0 || f == 0, "scale");
         for (int i = 0; i < t->count; i++) {
-            if (tape_is_wave(&t->ops[i])) {
+            if (op_list_is_wave(&t->ops[i])) {
                 fprintf(out, f == 0 ? "    wh_sincos_parts(" : "    result[%d] = ", wave);
                 if (f == 0) {
                     write_turns(out, t, &t->ops[i]);
@@ -298,5 +298,5 @@ void c_list_waves(FILE *out, const tape *t) {
         fputs("}\n\n", out);
     }
     fprintf(out, "static const wh_waves waves = {NULL, wave_sines, wave_rates, %dU};\n\n",
-            tape_waves(t));
+            op_list_waves(t));
 }

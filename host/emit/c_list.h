@@ -4,32 +4,32 @@
 
 #include <stdio.h>
 
-#include "host/image/tape.h"
+#include "host/image/op_list.h"
 
-bool c_list_uses(const tape *t, op_code code);
-bool c_list_uses_phase(const tape *t);
+bool c_list_uses(const op_list *t, op_code code);
+bool c_list_uses_phase(const op_list *t);
 /* Has the list so many operations that the compiler should keep their order? */
-bool c_list_is_long(const tape *t);
+bool c_list_is_long(const op_list *t);
 /* "(void)NAME;" unless it is used. */
 void c_list_ignore(FILE *out, bool used, const char *name);
 /* The input of a generated list for its sines: phases to look up, or pairs. */
 typedef enum c_angles { C_PHASES, C_WAVES } c_angles;
 
 /* The statements, the results stored in the array `result`, and the closing brace. */
-void c_list_body(FILE *out, const tape *t, c_angles angles, const char *result);
+void c_list_body(FILE *out, const op_list *t, c_angles angles, const char *result);
 /* A whole wh_accel_fn (second order) or wh_slope_fn, or wh_turned_accel_fn or wh_turned_slope_fn. core/ calls it
  * through a pointer in a constant, so it must not require inlining: gcc -Og resolves the pointer too late for that and
  * reports an error. */
-void c_list_function(FILE *out, const tape *t, c_angles angles, const char *name, bool second,
+void c_list_function(FILE *out, const op_list *t, c_angles angles, const char *name, bool second,
                      bool by_pointer);
 
 /* "step_matrix", the function that wh_step_matrix() calls. It is called once a step, so inlining it takes no flash on
  * any processor. */
-void c_list_matrix(FILE *out, const tape *t);
+void c_list_matrix(FILE *out, const op_list *t);
 /* "cells", the tables of a list; nothing without tables. */
-void c_list_cells(FILE *out, const tape *t);
+void c_list_cells(FILE *out, const op_list *t);
 
 /* "waves", the wh_waves of a list that takes pairs, and their data. */
-void c_list_waves(FILE *out, const tape *t);
+void c_list_waves(FILE *out, const op_list *t);
 
 #endif

@@ -194,14 +194,14 @@ static void put_ledger(json *j, const image *im) {
 static void put_lists(json *j, const image *im) {
     json_open(j, "lists", '{');
     for (int role = 0; role < IMAGE_ROLES; role++) {
-        const tape *t = im->list[role];
+        const op_list *t = im->list[role];
         if (t == NULL) {
             continue;
         }
-        const tape_cost cost = tape_count(t);
+        const op_list_cost cost = op_list_count(t);
         json_open(j, describe_roles[role], '{');
         json_whole(j, "results", t->results);
-        json_whole(j, "operations", tape_operations(t));
+        json_whole(j, "operations", op_list_operations(t));
         json_whole(j, "additions_and_products", cost.arithmetic);
         json_whole(j, "divisions", cost.divisions);
         json_whole(j, "roots", cost.roots);
@@ -215,7 +215,7 @@ static void put_lists(json *j, const image *im) {
 
 /* The table look-ups of a step; null if it computes all functions of angles. */
 static void put_tables(json *j, const image *im) {
-    const tape_tables *of = &im->list[IMAGE_STEP]->tables;
+    const op_list_tables *of = &im->list[IMAGE_STEP]->tables;
     if (of->count == 0) {
         json_null(j, "tables");
         return;

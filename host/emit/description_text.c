@@ -95,7 +95,7 @@ static void put_lists(FILE *out, const image *im) {
     fprintf(out, "\nlist       results   + - *     /  roots  waves  calls\n");
     for (int role = 0; role < IMAGE_ROLES; role++) {
         if (im->list[role] != NULL) {
-            const tape_cost cost = tape_count(im->list[role]);
+            const op_list_cost cost = op_list_count(im->list[role]);
             fprintf(out, "  %-9s %6d  %6d %5d %6d %6d %6d\n", describe_roles[role],
                     im->list[role]->results, cost.arithmetic, cost.divisions, cost.roots,
                     cost.waves, cost.calls);
@@ -104,7 +104,7 @@ static void put_lists(FILE *out, const image *im) {
 }
 
 static void put_tables(FILE *out, const image *im) {
-    const tape_tables *of = &im->list[IMAGE_STEP]->tables;
+    const op_list_tables *of = &im->list[IMAGE_STEP]->tables;
     if (of->count == 0) {
         return;
     }

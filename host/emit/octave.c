@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "emit.h"
-#include "host/base/room.h"
+#include "host/base/alloc.h"
 #include "op_text.h"
 
 /* y(k), k from 1: values first, then rates, and so on. */
@@ -23,7 +23,7 @@ static int y_number(const image *im, component of) {
     return number;
 }
 
-static void write_operand(FILE *out, const tape *t, int a) {
+static void write_operand(FILE *out, const op_list *t, int a) {
     if (t->ops[a].code == OP_CONSTANT) {
         fprintf(out, t->ops[a].value < 0.0 ? "(%.17g)" : "%.17g", t->ops[a].value);
     } else {
@@ -32,7 +32,7 @@ static void write_operand(FILE *out, const tape *t, int a) {
 }
 
 static void write_phase(FILE *out, const image *im, const op *o) {
-    const tape *t = im->list[IMAGE_STEP];
+    const op_list *t = im->list[IMAGE_STEP];
     const char *plus = "";
     if (o->value != 0.0) {
         fprintf(out, "%.17g", o->value);
@@ -68,7 +68,7 @@ static void write_leaf(FILE *out, const void *context, char what, int a) {
 /* The lists of records have operations that no step has; they are not written here. */
 static void write_operation(FILE *out, const image *im, int i) {
     const op_style style = {write_operand, write_leaf, im};
-    const tape *t = im->list[IMAGE_STEP];
+    const op_list *t = im->list[IMAGE_STEP];
     const op *o = &t->ops[i];
     const op_row *row = &op_rows[o->code];
     if (row->kind == OP_IS_CONSTANT) {
@@ -84,7 +84,7 @@ static void write_operation(FILE *out, const image *im, int i) {
 }
 
 /* Does a list contain an operation that gives NaN in C but a complex number in Octave? */
-static bool may_be_complex(const tape *t) {
+static bool may_be_complex(const op_list *t) {
     bool found = false;
     for (int i = 0; i < t->count; i++) {
         const op *o = &t->ops[i];
@@ -97,7 +97,7 @@ static bool may_be_complex(const tape *t) {
 /* y at the start. */
 static void write_start(FILE *out, const image *im) {
     const int components = im->angles + im->reals;
-    double *start = room(components, sizeof *start);
+    double *start = alloc(components, sizeof *start);
     for (int i = 0; i < components; i++) {
         start[y_number(im, image_component(im, i)) - 1] = image_start(im, i);
     }
@@ -109,7 +109,7 @@ static void write_start(FILE *out, const image *im) {
 
 /* The highest derivative of unknown i, as the rate of the derivative below it. */
 static void write_highest(FILE *out, const image *im, int i) {
-    const tape *t = im->list[IMAGE_STEP];
+    const op_list *t = im->list[IMAGE_STEP];
     int c = 0;
     if (im->form == WH_SECOND_ORDER) {
         write_operand(out, t, t->result[im->place[i]]);

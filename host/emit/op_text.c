@@ -1,6 +1,6 @@
 #include "op_text.h"
 
-static void operands(FILE *out, const tape *t, const op *o, const op_style *style) {
+static void operands(FILE *out, const op_list *t, const op *o, const op_style *style) {
     style->operand(out, t, o->a);
     if (o->b >= 0) {
         fputs(", ", out);
@@ -9,7 +9,7 @@ static void operands(FILE *out, const tape *t, const op *o, const op_style *styl
 }
 
 /* The test for a NaN; empty for a constant. */
-static void or_no_number(FILE *out, const tape *t, int b, const op_style *style) {
+static void or_no_number(FILE *out, const op_list *t, int b, const op_style *style) {
     if (t->ops[b].code != OP_CONSTANT) {
         fputs(" || ", out);
         style->operand(out, t, b);
@@ -18,7 +18,7 @@ static void or_no_number(FILE *out, const tape *t, int b, const op_style *style)
     }
 }
 
-void op_text(FILE *out, const tape *t, const op *o, const char *form, const op_style *style) {
+void op_text(FILE *out, const op_list *t, const op *o, const char *form, const op_style *style) {
     for (const char *at = form; *at != '\0'; at++) {
         if (*at != '$') {
             fputc(*at, out);

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 
 #include "fixed_loss.h"
-#include "host/base/room.h"
+#include "host/base/alloc.h"
 #include "host/fixed/fixed_plan.h"
 #include "host/number/functions.h"
 
@@ -238,12 +238,12 @@ static wh_status advance(const wh_fixed_scene *scene, wh_fixed_state *state) {
 
 static void *run_start(const image *im) {
     const fixed_plan *p = im->fixed;
-    fixed_run *run = room(1, sizeof *run);
+    fixed_run *run = alloc(1, sizeof *run);
     run->image = im;
     run->plan = p;
-    run->value = room(p->list->count, sizeof *run->value);
-    run->sine = room(p->list->count, sizeof *run->sine);
-    run->cosine = room(p->list->count, sizeof *run->cosine);
+    run->value = alloc(p->list->count, sizeof *run->value);
+    run->sine = alloc(p->list->count, sizeof *run->sine);
+    run->cosine = alloc(p->list->count, sizeof *run->cosine);
     run->scene = (wh_fixed_scene){.name = im->name,
                                   .angles = (uint8_t)im->angles,
                                   .reals = (uint8_t)im->reals,
@@ -256,7 +256,7 @@ static void *run_start(const image *im) {
                                   .model = run,
                                   .advance = advance};
     const size_t bytes = WH_FIXED_BYTES(im->angles, (size_t)im->reals + (size_t)im->inputs);
-    run->memory = room((int64_t)(bytes + 7U) / 8, sizeof(uint64_t));
+    run->memory = alloc((int64_t)(bytes + 7U) / 8, sizeof(uint64_t));
     if (wh_fixed_start(&run->scene, &run->state, run->memory, bytes) != WH_OK) {
         abort();
     }

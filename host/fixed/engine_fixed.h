@@ -2,7 +2,7 @@
 #ifndef FIXED_ENGINE_FIXED_H
 #define FIXED_ENGINE_FIXED_H
 
-#include "host/run/engine.h"
+#include "host/engine/engine.h"
 
 /* Of images whose `fixed` is set. */
 extern const engine_kind engine_fixed;

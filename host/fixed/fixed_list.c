@@ -4,8 +4,8 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "host/base/alloc.h"
 #include "host/base/interrupts.h"
-#include "host/base/room.h"
 #include "host/number/functions.h"
 #include "host/number/phase.h"
 
@@ -92,7 +92,7 @@ static void wish(const fixed_list *l, int *wanted, int i, const fixed_op *o) {
 
 /* Products and quotients round once by themselves: straight to what their sums take. */
 static void lower(fixed_list *l) {
-    int *wanted = room(l->count, sizeof *wanted);
+    int *wanted = alloc(l->count, sizeof *wanted);
     for (int i = 0; i < l->count; i++) {
         wanted[i] = BITS_LEAST;
     }
@@ -491,10 +491,10 @@ static void say_zero(hull *h, const image *im, diags *errors) {
 int fixed_hull(fixed_list *list, const image *im, const fixed_leaves *leaves, bool bits_known,
                diags *errors) {
     hull h = {.list = list, .leaves = leaves, .bits_known = bits_known, .cells = CELLS};
-    h.now = room(list->count, sizeof *h.now);
-    h.angle = room(list->angles, sizeof *h.angle);
-    h.cell = room(list->angles, sizeof *h.cell);
-    h.cut = room(list->angles, sizeof *h.cut);
+    h.now = alloc(list->count, sizeof *h.now);
+    h.angle = alloc(list->angles, sizeof *h.angle);
+    h.cell = alloc(list->angles, sizeof *h.cell);
+    h.cut = alloc(list->angles, sizeof *h.cut);
     const int cut = count_cut(&h);
     while (h.cells > CELLS_LEAST && all_cells(h.cells, cut) > CELLS_ALL) {
         h.cells /= 2;
@@ -555,7 +555,7 @@ static const char *without_form(const op *o) {
     return NULL;
 }
 
-static bool has_form(const image *im, const tape *t, diags *errors) {
+static bool has_form(const image *im, const op_list *t, diags *errors) {
     for (int i = 0; i < t->count; i++) {
         const char *what = without_form(&t->ops[i]);
         if (what != NULL) {
@@ -571,7 +571,7 @@ static bool has_form(const image *im, const tape *t, diags *errors) {
 /* --- the copy ----------------------------------------------------------------------------------------*/
 
 static int enter(fixed_list *l, fixed_op o) {
-    l->op = room_more(l->op, l->count + 1, sizeof *l->op);
+    l->op = alloc_more(l->op, l->count + 1, sizeof *l->op);
     l->op[l->count] = o;
     return l->count++;
 }
@@ -606,7 +606,7 @@ static int enter_product(fixed_list *l, int a, int b) {
     return enter(l, (fixed_op){.code = FIXED_PRODUCT, .a = {.op = a}, .b = {.op = b}});
 }
 
-static fixed_op copy_of(const tape *t, const op *o, const int *number) {
+static fixed_op copy_of(const op_list *t, const op *o, const int *number) {
     fixed_op made = {.code = FIXED_CONSTANT, .a = {.op = -1}, .b = {.op = -1}};
     switch (o->code) {
     case OP_CONSTANT: made.value = o->value; return made;
@@ -647,7 +647,7 @@ static fixed_op copy_of(const tape *t, const op *o, const int *number) {
     }
     made.index = op_rows[o->code].kind == OP_IS_LEAF ? o->a : 0;
     int operand[2];
-    const int operands = tape_operands(o, operand);
+    const int operands = op_list_operands(o, operand);
     (void)t;
     made.a.op = op_rows[o->code].kind == OP_IS_WAVE ? number[o->a]
                 : operands > 0                      ? number[o->a]
@@ -691,12 +691,12 @@ static void mark(fixed_list *l) {
 }
 
 fixed_list *fixed_list_make(const image *im, const double *scale, diags *errors) {
-    const tape *t = im->list[IMAGE_STEP];
+    const op_list *t = im->list[IMAGE_STEP];
     if (!has_form(im, t, errors)) {
         return NULL;
     }
-    fixed_list *l = room(1, sizeof *l);
-    int *number = room(t->count, sizeof *number);
+    fixed_list *l = alloc(1, sizeof *l);
+    int *number = alloc(t->count, sizeof *number);
     l->angles = im->angles;
     for (int i = 0; i < t->count; i++) {
         const op *o = &t->ops[i];
@@ -704,7 +704,7 @@ fixed_list *fixed_list_make(const image *im, const double *scale, diags *errors)
                                       : enter(l, copy_of(t, o, number));
     }
     l->results = t->results;
-    l->result = room(t->results, sizeof *l->result);
+    l->result = alloc(t->results, sizeof *l->result);
     for (int i = 0; i < t->results; i++) {
         l->result[i] = enter_scaled(l, number[t->result[i]], scale[i]);
     }

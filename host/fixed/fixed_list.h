@@ -1,4 +1,4 @@
-/* fixed_list.h: an operation list in fixed point: what the accelerations' list (host/image/tape.h) becomes when each value is
+/* fixed_list.h: an operation list in fixed point: what the accelerations' list (host/image/op_list.h) becomes when each value is
  * a 32-bit integer with a binary point of its own.
  *
  * Made in three steps: copied (an operation without a fixed form is refused; the step goes into the results), its values

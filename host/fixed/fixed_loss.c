@@ -4,9 +4,9 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "host/base/room.h"
+#include "host/base/alloc.h"
+#include "host/engine/engine.h"
 #include "host/number/functions.h"
-#include "host/run/engine.h"
 
 #define RAD_PER_UNIT (6.283185307179586477 / 4294967296.0)
 
@@ -41,14 +41,14 @@ static double value_of(const fixed_plan *p, const wh_fixed_state *s, int i) {
 
 fixed_loss *fixed_loss_new(const fixed_plan *p, const wh_fixed_state *start) {
     const image *im = p->image;
-    fixed_loss *l = room(1, sizeof *l);
+    fixed_loss *l = alloc(1, sizeof *l);
     l->plan = p;
     l->step = evaluator_new(im->list[IMAGE_STEP]);
     evaluator_wrap(l->step);
-    l->component = room(im->angles + im->reals, sizeof *l->component);
-    l->angle = room(im->angles, sizeof *l->angle);
-    l->real = room(im->reals, sizeof *l->real);
-    l->input = room(im->inputs, sizeof *l->input);
+    l->component = alloc(im->angles + im->reals, sizeof *l->component);
+    l->angle = alloc(im->angles, sizeof *l->angle);
+    l->real = alloc(im->reals, sizeof *l->real);
+    l->input = alloc(im->inputs, sizeof *l->input);
     for (int i = 0; i < im->angles + im->reals; i++) {
         l->component[i].low = value_of(p, start, i);
         l->component[i].high = l->component[i].low;

@@ -1,5 +1,5 @@
 /* fixed_loss.h: what rounding takes from the steps of a run in fixed point: beside each, the same step of RK4 in double, from
- * the same state. What that adds and the run's did not is lost; its sum since the start is told (host/run/slow.h). */
+ * the same state. What that adds and the run's did not is lost; its sum since the start is told (host/check/slow.h). */
 #ifndef FIXED_FIXED_LOSS_H
 #define FIXED_FIXED_LOSS_H
 

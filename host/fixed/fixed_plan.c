@@ -6,11 +6,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "host/base/room.h"
+#include "host/base/alloc.h"
 #include "host/number/functions.h"
 
 static bool has_noise(const image *im) {
-    const tape *t = im->list[IMAGE_OBSERVE];
+    const op_list *t = im->list[IMAGE_OBSERVE];
     for (int i = 0; t != NULL && i < t->count; i++) {
         if (t->ops[i].code == OP_NOISE) {
             return true;
@@ -334,7 +334,7 @@ static bool enclose(fixed_plan *p, diags *errors) {
 static bool make_points(fixed_plan *p, diags *errors) {
     const image *im = p->image;
     const int numbers = im->reals + im->inputs;
-    wh_fixed_format *before = room(numbers, sizeof *before);
+    wh_fixed_format *before = alloc(numbers, sizeof *before);
     bool stands = false;
     bool good = true;
     for (int pass = 0; pass < 8 && good && !stands; pass++) {
@@ -385,9 +385,9 @@ static void make_scale(const fixed_plan *p, double *scale) {
 
 static void make_starts(fixed_plan *p) {
     const image *im = p->image;
-    p->start_angle = room(im->angles, sizeof *p->start_angle);
-    p->start_real = room(im->reals, sizeof *p->start_real);
-    p->start_input = room(im->inputs, sizeof *p->start_input);
+    p->start_angle = alloc(im->angles, sizeof *p->start_angle);
+    p->start_real = alloc(im->reals, sizeof *p->start_real);
+    p->start_input = alloc(im->inputs, sizeof *p->start_input);
     for (int i = 0; i < im->angles; i++) {
         p->start_angle[i] = im->start_turns[i];
     }
@@ -434,16 +434,16 @@ fixed_plan *fixed_plan_make(const image *im, bool progress, diags *errors) {
     if (!fixed_has_step(im, errors)) {
         return NULL;
     }
-    fixed_plan *p = room(1, sizeof *p);
+    fixed_plan *p = alloc(1, sizeof *p);
     const int numbers = im->reals + im->inputs;
     p->image = im;
     p->second = im->form == WH_SECOND_ORDER;
     p->coordinates = p->second ? im->coordinates : im->angles + im->reals;
-    p->format = room(numbers, sizeof *p->format);
-    p->range = room(numbers, sizeof *p->range);
-    p->stage = room(numbers, sizeof *p->stage);
-    p->declared = room(numbers, sizeof *p->declared);
-    p->mover = room(p->coordinates, sizeof *p->mover);
+    p->format = alloc(numbers, sizeof *p->format);
+    p->range = alloc(numbers, sizeof *p->range);
+    p->stage = alloc(numbers, sizeof *p->stage);
+    p->declared = alloc(numbers, sizeof *p->declared);
+    p->mover = alloc(p->coordinates, sizeof *p->mover);
     if (!make(p, progress, errors)) {
         fixed_plan_free(p);
         return NULL;

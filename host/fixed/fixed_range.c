@@ -6,9 +6,9 @@
 
 #include <stdio.h>
 
+#include "host/base/alloc.h"
 #include "host/base/interrupts.h"
-#include "host/base/room.h"
-#include "host/run/loop.h"
+#include "host/engine/loop.h"
 
 static enclosure twice(enclosure seen) {
     if (seen.low == 0.0 && seen.high == 0.0) {
@@ -53,8 +53,8 @@ static bool see(void *of, uint64_t step) {
 
 static bool look(const image *im, enclosure *seen, bool progress, diags *errors) {
     void *run = engine_double.start(im);
-    double *angle = room(im->angles, sizeof *angle);
-    double *real = room(im->reals, sizeof *real);
+    double *angle = alloc(im->angles, sizeof *angle);
+    double *real = alloc(im->reals, sizeof *real);
     looking at = {im, run, angle, real, seen, progress};
     const loop l = {.kind = &engine_double, .run = run, .steps = im->steps, .see = see, .of = &at};
     wh_status status;

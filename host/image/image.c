@@ -9,7 +9,7 @@ void image_free(image *im) {
     }
     for (int role = 0; role < IMAGE_ROLES; role++) {
         if (im->base == NULL || im->list[role] != im->base->list[role]) {
-            tape_free(im->list[role]);
+            op_list_free(im->list[role]);
         }
     }
     for (int k = 0; k < im->ways && im->base == NULL; k++) {
@@ -63,7 +63,7 @@ double image_start(const image *im, int i) {
     return i < im->angles ? im->start_rad[i] : im->start_real[i - im->angles];
 }
 
-static bool list_calls(const tape *t) {
+static bool list_calls(const op_list *t) {
     for (int i = 0; t != NULL && i < t->count; i++) {
         if (op_rows[t->ops[i].code].cost == OP_COSTS_CALL) {
             return true;
@@ -86,8 +86,8 @@ double image_out_of_float(const image *im) {
     const image_role moving[] = {step, IMAGE_SIGNALS, IMAGE_FORCES, IMAGE_SETS};
     double found = 0.0;
     for (size_t k = 0; k < sizeof moving / sizeof moving[0] && found == 0.0; k++) {
-        const tape *t = im->list[moving[k]];
-        found = t != NULL ? tape_out_of_float(t) : 0.0;
+        const op_list *t = im->list[moving[k]];
+        found = t != NULL ? op_list_out_of_float(t) : 0.0;
     }
     for (int i = 0; i < im->inputs && found == 0.0; i++) {
         found = fits_float(im->input[i].value) ? 0.0 : im->input[i].value;

@@ -13,7 +13,7 @@
 #include "core/scene.h"
 #include "host/base/diag.h"
 #include "host/number/ratio.h"
-#include "tape.h"
+#include "op_list.h"
 
 /* Most variants with other ways of folding numbers. */
 enum { IMAGE_WAYS = 6 };
@@ -220,42 +220,42 @@ typedef struct image_ledger {
 
 /* The expressions of the file, operation by operation, in the spelling of the file, so that a message can point at the
  * undefined one. They are not folded, and an expression at two places is not shared. */
-typedef enum blame_code {
-    BLAME_NUMBER, /* number */
-    BLAME_STATE,  /* unknown a, its derivative b */
-    BLAME_INPUT,  /* input a of the image */
-    BLAME_SAME,   /* node a, with a name */
-    BLAME_ADD,
-    BLAME_SUB,
-    BLAME_MUL,
-    BLAME_DIV,
-    BLAME_POW,
-    BLAME_NEG,
-    BLAME_CALL /* function(a) or function(a, b); b < 0: 0 */
-} blame_code;
+typedef enum diagnostics_code {
+    DIAGNOSTICS_NUMBER, /* number */
+    DIAGNOSTICS_STATE,  /* unknown a, its derivative b */
+    DIAGNOSTICS_INPUT,  /* input a of the image */
+    DIAGNOSTICS_SAME,   /* node a, with a name */
+    DIAGNOSTICS_ADD,
+    DIAGNOSTICS_SUB,
+    DIAGNOSTICS_MUL,
+    DIAGNOSTICS_DIV,
+    DIAGNOSTICS_POW,
+    DIAGNOSTICS_NEG,
+    DIAGNOSTICS_CALL /* function(a) or function(a, b); b < 0: 0 */
+} diagnostics_code;
 
-typedef struct blame_node {
-    blame_code code;
+typedef struct diagnostics_node {
+    diagnostics_code code;
     function_id function;
     int a; /* earlier nodes; for states and inputs indices */
     int b;
     double number;
     place at; /* no source in a derived expression */
-} blame_node;
+} diagnostics_node;
 
 /* The check that a number is finite. If not, a message names `what` in the statement at `where`. */
-typedef struct blame_question {
+typedef struct diagnostics_question {
     int node;
     bool derived; /* a derivative: the message can name only the statement, not a part of it */
     int power;    /* highest degree in the state in a linear mechanism; of terms only */
     const char *what;
     place where;
-} blame_question;
+} diagnostics_question;
 
 typedef struct image_blame {
-    blame_node *node; /* [nodes] */
+    diagnostics_node *node; /* [nodes] */
     int nodes;
-    blame_question *question; /* [questions]: those of terms, of sets, then of contacts */
+    diagnostics_question *question; /* [questions]: those of terms, of sets, then of contacts */
     int questions;
     int terms; /* energies, losses, forces, equations, and their derivatives */
     int sets;  /* values that crossings set */
@@ -342,8 +342,8 @@ typedef struct image {
 
     image_matrix matrix; /* empty unless settings.matrix requests one */
 
-    uint64_t hash;           /* of the equations of motion */
-    tape *list[IMAGE_ROLES]; /* NULL for a missing list */
+    uint64_t hash;              /* of the equations of motion */
+    op_list *list[IMAGE_ROLES]; /* NULL for a missing list */
 } image;
 
 void image_free(image *im); /* NULL is allowed */

@@ -3,9 +3,9 @@
  *
  * X(id, kind, cost, C, Octave, meaning)
  *
- *   id      OP_id of tape.h. Model hashes depend on the order: add a new one at the end.
- *   kind    OP_IS_... of tape.h: the meaning of a and b.
- *   cost    OP_COSTS_... of tape.h.
+ *   id      OP_id of op_list.h. Model hashes depend on the order: add a new one at the end.
+ *   kind    OP_IS_... of op_list.h: the meaning of a and b.
+ *   cost    OP_COSTS_... of op_list.h.
  *   C, Octave  its right-hand side in generated code; NULL: not written. A dollar sign marks these:
  *           a, b   the operands.
  *           f      the called function.
@@ -15,8 +15,8 @@
  *           v      the value, a whole number.
  *           l, r, u   in Octave: the linear component, rate, input with the number a.
  *
- * Four more files evaluate each operation: host/run/evaluate.inc, host/run/rounding.c, host/derive/solve.c,
- * host/image/tape_gauge.c, which also multiplies it. */
+ * Four more files evaluate each operation: host/engine/evaluate.inc, host/engine/rounding.c, host/derive/solve.c,
+ * host/image/op_list_gauge.c, which also multiplies it. */
 #ifndef IMAGE_OP_ROWS_H
 #define IMAGE_OP_ROWS_H
 

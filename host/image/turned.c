@@ -20,9 +20,9 @@ _Static_assert(IMAGE_CELLS_LEAST == 1U << WH_TABLE_BITS_LEAST &&
 _Static_assert(TURNED_WAVES_MAX == WH_WAVES, "the core's room is what an image may have");
 
 bool image_turns(const image *im) {
-    const tape *t = im->list[IMAGE_STEP];
+    const op_list *t = im->list[IMAGE_STEP];
     return im->settings.angles == ANGLES_TURNED && im->settings.matrix == MATRIX_NONE &&
            im->contacts == 0 && im->angles > 0 && im->settings.tables == TABLES_NONE &&
-           wh_method_turns(im->settings.method) && tape_takes_waves(t) &&
-           tape_waves(t) <= TURNED_WAVES_MAX;
+           wh_method_turns(im->settings.method) && op_list_takes_waves(t) &&
+           op_list_waves(t) <= TURNED_WAVES_MAX;
 }

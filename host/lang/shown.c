@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "host/base/room.h"
+#include "host/base/alloc.h"
 
 const char *dimension_unit(dimension dim, bool is_angle, char *text, size_t size) {
     bool none = true;
@@ -24,7 +24,7 @@ unit_scale shown_unit(const symbol *s, int primes) {
     return s->unit[0] == '\0' || unit_is_si(s->declared) ? si : s->declared;
 }
 
-static char *copy_of(const char *text) { return room_copy(text, strlen(text)); }
+static char *copy_of(const char *text) { return alloc_copy(text, strlen(text)); }
 
 char *shown_si_name(const symbol *s, int primes) {
     char text[DIM_TEXT_SIZE];
@@ -48,7 +48,7 @@ char *shown_unit_name(const symbol *s, int primes) {
     if (primes > 0) {
         snprintf(per, sizeof per, primes > 1 ? "/s^%d" : "/s", primes);
     }
-    return room_words("%s%s", s->unit, per);
+    return alloc_words("%s%s", s->unit, per);
 }
 
 char *shown_written(const expr *given) {
@@ -66,7 +66,7 @@ char *shown_written(const expr *given) {
         at--;
     }
     at += strspn(text + at, " \t");
-    char *copy = room((int64_t)strlen(text + at) + 1, 1);
+    char *copy = alloc((int64_t)strlen(text + at) + 1, 1);
     size_t length = 0;
     int depth = 0;
     for (; text[at] != '\0'; at++) {
@@ -94,8 +94,8 @@ char *shown_formula(const expr *given) {
 char *shown_assignment(const symbol *s, int primes, const char *number) {
     char *si = shown_si_name(s, primes);
     char *made = unit_is_si(s->declared)
-                     ? room_words("%s%.*s=%s", s->name, primes, "'''''''''", number)
-                     : room_words("%s%.*s=%s [%s]", s->name, primes, "'''''''''", number, si);
+                     ? alloc_words("%s%.*s=%s", s->name, primes, "'''''''''", number)
+                     : alloc_words("%s%.*s=%s [%s]", s->name, primes, "'''''''''", number, si);
     free(si);
     return made;
 }

@@ -4,8 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "host/base/room.h"
-#include "host/plot/plot.h"
+#include "host/base/alloc.h"
+#include "host/io/plot.h"
 
 /* The rig's clock is 1 MHz. */
 #define TICKS_PER_S 1e6
@@ -128,7 +128,7 @@ static void keep_row(recording *r, const double *values) {
     }
     if (r->rows == r->room) {
         r->room = r->room > 0 ? 2 * r->room : 1024;
-        r->row = room_more(r->row, r->room * r->columns, sizeof r->row[0]);
+        r->row = alloc_more(r->row, r->room * r->columns, sizeof r->row[0]);
     }
     memcpy(r->row + (size_t)(r->rows++ * r->columns), values,
            (size_t)r->columns * sizeof values[0]);

@@ -6,8 +6,8 @@
 #include <stdint.h>
 #include <stdio.h>
 
+#include "host/io/vcd.h"
 #include "host/monitor/wire.h"
-#include "host/plot/vcd.h"
 #include "schema.h"
 
 /* Losses, and their places. */

@@ -5,9 +5,9 @@
 #include <stdint.h>
 #include <string.h>
 
+#include "double_double.h"
 #include "enclosure.h"
 #include "functions.h"
-#include "twofold.h"
 
 /* What double is rounded by. */
 #define UNIT 0x1p-53
@@ -67,7 +67,7 @@ static double moved(double x, int by) {
 /* Moved to the other side of what is `exact`, where it goes by that: one double beyond its neighbour, for several roundings may
  * have put a number as far off. Itself where it is a double. */
 static double other_neighbour(twofold exact, double x, double y) {
-    if (!twofold_is_finite(exact) || exact.low == 0.0) {
+    if (!double_double_is_finite(exact) || exact.low == 0.0) {
         return exact.high;
     }
     return moved(exact.high, moved_by(x, y, exact.low > 0.0));
@@ -154,7 +154,7 @@ static void note_slope(double value, double x, double slope, bool turns) {
 
 double folding_sum(double x, double y) {
     if (now->way != FOLDING_NEAREST) {
-        return other_neighbour(twofold_add(twofold_of(x), twofold_of(y)), x, y);
+        return other_neighbour(double_double_add(double_double_of(x), double_double_of(y)), x, y);
     }
     note_sum(x, y, x + y);
     return x + y;
@@ -167,7 +167,7 @@ static bool moves_products(void) {
 
 double folding_product(double x, double y) {
     if (moves_products()) {
-        return other_neighbour(twofold_mul(twofold_of(x), twofold_of(y)), x, y);
+        return other_neighbour(double_double_mul(double_double_of(x), double_double_of(y)), x, y);
     }
     if (now->way == FOLDING_NEAREST && (is_rest(x) || is_rest(y))) {
         note_rest(x * y);
@@ -177,7 +177,7 @@ double folding_product(double x, double y) {
 
 double folding_quotient(double x, double y) {
     if (moves_products() && y != 0.0) {
-        return other_neighbour(twofold_div(twofold_of(x), twofold_of(y)), x, y);
+        return other_neighbour(double_double_div(double_double_of(x), double_double_of(y)), x, y);
     }
     if (now->way == FOLDING_NEAREST) {
         note_power(y, -1.0, 1.0 / y);

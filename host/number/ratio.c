@@ -8,31 +8,32 @@
 
 #include "host/number/decimal.h"
 #include "host/number/functions.h"
-#include "host/number/wide.h"
+#include "host/number/uint128.h"
 
 enum { MANTISSA = 53, DIGITS_MOST = 15 };
 #define TENTH (UINT64_MAX / 10) /* below it, ten times as much fits */
 
 /* A rational number; `in` may be 0: infinity. */
 typedef struct end {
-    wide of, in;
+    uint128 of, in;
 } end;
 
 /* The fraction of least denominator strictly between two ends (Graham, Knuth & Patashnik, Concrete
  * Mathematics, section 4.5): as long as no whole number lies between them, both begin with the same. */
 static whole_ratio between(end low, end high) {
-    wide p = wide_of(1); /* convergents: the last, and the one before */
-    wide q = wide_of(0);
-    wide p_before = wide_of(0);
-    wide q_before = wide_of(1);
+    uint128 p = uint128_of(1); /* convergents: the last, and the one before */
+    uint128 q = uint128_of(0);
+    uint128 p_before = uint128_of(0);
+    uint128 q_before = uint128_of(1);
     for (;;) {
-        wide low_rest;
-        const wide whole = wide_over(low.of, low.in, &low_rest);
-        const wide above = wide_plus(whole, wide_of(1));
-        const bool last = wide_is_zero(high.in) || wide_below(wide_times(above, high.in), high.of);
-        const wide term = last ? above : whole;
-        const wide p_next = wide_plus(wide_times(term, p), p_before);
-        const wide q_next = wide_plus(wide_times(term, q), q_before);
+        uint128 low_rest;
+        const uint128 whole = uint128_over(low.of, low.in, &low_rest);
+        const uint128 above = uint128_plus(whole, uint128_of(1));
+        const bool last =
+            uint128_is_zero(high.in) || uint128_below(uint128_times(above, high.in), high.of);
+        const uint128 term = last ? above : whole;
+        const uint128 p_next = uint128_plus(uint128_times(term, p), p_before);
+        const uint128 q_next = uint128_plus(uint128_times(term, q), q_before);
         if (last) {
             return (whole_ratio){p_next.low, q_next.low};
         }
@@ -40,8 +41,8 @@ static whole_ratio between(end low, end high) {
         q_before = q;
         p = p_next;
         q = q_next;
-        const wide low_in = low.in;
-        low = (end){high.in, wide_minus(high.of, wide_times(whole, high.in))};
+        const uint128 low_in = low.in;
+        low = (end){high.in, uint128_minus(high.of, uint128_times(whole, high.in))};
         high = (end){low_in, low_rest};
     }
 }
@@ -55,9 +56,9 @@ static whole_ratio simplest(double value) {
     const int scale = exponent - MANTISSA; /* value = digits * 2^scale, digits from 2^52 on */
     const uint64_t off = 2;
     const int up = scale > 0 ? scale : 0;
-    const wide down = wide_left(wide_of(1), scale < 0 ? -scale : 0);
-    return between((end){wide_left(wide_of(digits - off), up), down},
-                   (end){wide_left(wide_of(digits + off), up), down});
+    const uint128 down = uint128_left(uint128_of(1), scale < 0 ? -scale : 0);
+    return between((end){uint128_left(uint128_of(digits - off), up), down},
+                   (end){uint128_left(uint128_of(digits + off), up), down});
 }
 
 uint64_t ratio_divisor(uint64_t a, uint64_t b) {
@@ -114,19 +115,19 @@ whole_ratio ratio_of(double value) {
     const whole_ratio fraction = simplest(value);
     const bool shorter =
         decimal(value, &plain, &said) &&
-        !wide_below(wide_times(wide_times(wide_of(10), wide_of(fraction.numerator)),
-                               wide_of(fraction.denominator)),
-                    wide_of(said));
+        !uint128_below(uint128_times(uint128_times(uint128_of(10), uint128_of(fraction.numerator)),
+                                     uint128_of(fraction.denominator)),
+                       uint128_of(said));
     return shorter ? plain : fraction;
 }
 
 bool ratio_count(whole_ratio whole, whole_ratio part, uint64_t *count) {
-    const wide over = wide_times(wide_of(whole.numerator), wide_of(part.denominator));
-    const wide under = wide_times(wide_of(whole.denominator), wide_of(part.numerator));
-    const wide twice = wide_minus(wide_plus(wide_left(over, 1), under), wide_of(1));
-    const wide nearest = wide_over(twice, wide_left(under, 1), NULL);
+    const uint128 over = uint128_times(uint128_of(whole.numerator), uint128_of(part.denominator));
+    const uint128 under = uint128_times(uint128_of(whole.denominator), uint128_of(part.numerator));
+    const uint128 twice = uint128_minus(uint128_plus(uint128_left(over, 1), under), uint128_of(1));
+    const uint128 nearest = uint128_over(twice, uint128_left(under, 1), NULL);
     *count = nearest.low;
-    return !wide_below(wide_left(wide_of(1), 63), nearest);
+    return !uint128_below(uint128_left(uint128_of(1), 63), nearest);
 }
 
 /* As ratio_count() of a time that was read or computed in double. */
@@ -152,19 +153,19 @@ bool ratio_count_from(double from_s, whole_ratio step, uint64_t *count) {
 }
 
 double ratio_times(uint64_t count, whole_ratio each) {
-    wide of = wide_times(wide_of(count), wide_of(each.numerator));
+    uint128 of = uint128_times(uint128_of(count), uint128_of(each.numerator));
     int shift = 0;
-    while (!wide_is_zero(of) &&
+    while (!uint128_is_zero(of) &&
            of.high >> 62 == 0) { /* a denominator has 60 bits at most: 66 are left */
-        of = wide_left(of, 1);
+        of = uint128_left(of, 1);
         shift++;
     }
-    wide rest;
-    wide quotient = wide_over(of, wide_of(each.denominator), &rest);
-    bool below = !wide_is_zero(rest); /* rounded once, so with a mark for what lies below */
+    uint128 rest;
+    uint128 quotient = uint128_over(of, uint128_of(each.denominator), &rest);
+    bool below = !uint128_is_zero(rest); /* rounded once, so with a mark for what lies below */
     while (quotient.high != 0 || quotient.low >> 63 != 0) {
         below = below || (quotient.low & 1U) != 0;
-        quotient = wide_right(quotient, 1);
+        quotient = uint128_right(quotient, 1);
         shift--;
     }
     return number_scaled((double)(quotient.low | (below ? 1U : 0U)), -shift);

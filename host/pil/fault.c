@@ -7,8 +7,8 @@
 
 #include "core/hash.h"
 #include "core/noise.h"
+#include "host/base/alloc.h"
 #include "host/base/nearest.h"
-#include "host/base/room.h"
 #include "host/number/decimal.h"
 #include "host/number/functions.h"
 
@@ -575,8 +575,8 @@ static bool read_kind(words_of_fault *w, fault_case *f) {
             return true;
         }
     }
-    char *hint = search.best != NULL ? room_words("did you mean '%s'?", search.best)
-                                     : room_words("whirl pil --faults lists the kinds");
+    char *hint = search.best != NULL ? alloc_words("did you mean '%s'?", search.best)
+                                     : alloc_words("whirl pil --faults lists the kinds");
     wrong(w, "no kind of fault is called so", hint);
     free(hint);
     return false;
@@ -611,8 +611,8 @@ static bool read_size(words_of_fault *w, fault_case *f) {
     if (!(strcmp(row->unit, "s") == 0 && *w->at != '-' ? read_time(w, &f->size)
                                                        : read_number(w, &f->size)) ||
         !(f->size >= row->least && f->size <= row->most)) {
-        char *hint = room_words("a number from %g to %g%s%s", row->least, row->most,
-                                row->unit[0] != '\0' ? " " : "", row->unit);
+        char *hint = alloc_words("a number from %g to %g%s%s", row->least, row->most,
+                                 row->unit[0] != '\0' ? " " : "", row->unit);
         wrong(w, "no such size", hint);
         free(hint);
         return false;
@@ -681,7 +681,7 @@ bool fault_read(fault_plan *plan, const char *text) {
 char *fault_parameter(const fault_plan *plan, unsigned i) {
     const fault_case *f = &plan->fault[i];
     const fault_row *row = &fault_rows[f->kind];
-    return row->place == FAULT_PARAMETER ? room_words("%s=%.17g", row->word, f->size) : NULL;
+    return row->place == FAULT_PARAMETER ? alloc_words("%s=%.17g", row->word, f->size) : NULL;
 }
 
 void fault_print_kinds(FILE *out) {

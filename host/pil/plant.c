@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "core/noise.h"
-#include "host/base/room.h"
+#include "host/base/alloc.h"
 #include "host/number/decimal.h"
 #include "host/number/functions.h"
 
@@ -64,10 +64,10 @@ void plant_start(plant *p, const image *im, const binding *b, const wh_hello *he
                  .reset = {.at_ticks = (double)INFINITY}};
     p->wish.jitter_s *= (double)hello->ticks_per_s;
     p->wish.delay_s *= (double)hello->ticks_per_s;
-    p->before = room(components(p), sizeof *p->before);
-    p->after = room(components(p), sizeof *p->after);
-    p->output = room(im->outputs, sizeof *p->output);
-    p->output_after = room(im->outputs, sizeof *p->output_after);
+    p->before = alloc(components(p), sizeof *p->before);
+    p->after = alloc(components(p), sizeof *p->after);
+    p->output = alloc(im->outputs, sizeof *p->output);
+    p->output_after = alloc(im->outputs, sizeof *p->output_after);
     for (unsigned i = 0; i < b->count; i++) {
         const bound *one = &b->bound[i];
         p->sees_outputs =

@@ -1,7 +1,7 @@
 /* recorded.c: records of the plant of a run in the loop as comma-separated values. */
 #include "recorded.h"
 
-#include "host/base/written.h"
+#include "host/base/atomic_file.h"
 
 #define EVERY_S 1e-3
 
@@ -18,7 +18,7 @@ bool recorded_open(recorded *r, const char *name, const image *im, double every_
                 every_s, im->step_s);
         return false;
     }
-    r->file = written_open(name);
+    r->file = atomic_file_open(name);
     if (r->file == NULL) {
         return false;
     }
@@ -36,5 +36,5 @@ void recorded_enter(recorded *r, void *run, uint64_t steps) {
 
 bool recorded_close(recorded *r) {
     records_close(r->rows);
-    return written_close(r->file, r->name, true);
+    return atomic_file_close(r->file, r->name, true);
 }

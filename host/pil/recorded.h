@@ -1,9 +1,9 @@
 /* recorded.h: records of the plant of a run in the loop as comma-separated values, in the columns of
- * host/run/records.h. */
+ * host/io/records.h. */
 #ifndef PIL_RECORDED_H
 #define PIL_RECORDED_H
 
-#include "host/run/records.h"
+#include "host/io/records.h"
 
 typedef struct recorded {
     const char *name; /* of the file; "-": standard output */

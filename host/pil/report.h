@@ -71,13 +71,13 @@ typedef struct lockstep_report {
     uint64_t edges;
     uint64_t samples;
     uint64_t lost;
-    bool cut;            /* the watchdog has cut the outputs, */
-    double cut_s;        /* then */
-    unsigned resets;     /* of the firmware's processor, */
-    double reset_s;      /* time of the last one */
-    uint64_t hash;       /* of all orders, without instruction counts */
-    uint64_t tape_hash;  /* of the tape's orders */
-    uint64_t plant_hash; /* of the scene's last state */
+    bool cut;              /* the watchdog has cut the outputs, */
+    double cut_s;          /* then */
+    unsigned resets;       /* of the firmware's processor, */
+    double reset_s;        /* time of the last one */
+    uint64_t hash;         /* of all orders, without instruction counts */
+    uint64_t op_list_hash; /* of the tape's orders */
+    uint64_t plant_hash;   /* of the scene's last state */
 } lockstep_report;
 
 /* === in words ================================================================================= */

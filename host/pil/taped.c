@@ -8,8 +8,8 @@
 
 #include "core/exchange.h"
 #include "core/hash.h"
-#include "host/base/room.h"
-#include "host/base/written.h"
+#include "host/base/alloc.h"
+#include "host/base/atomic_file.h"
 #include "host/pil/guest.h"
 #include "host/pil/lockstep.h"
 #include "host/pil/talk.h"
@@ -337,15 +337,15 @@ static void print_rows(taped *t, FILE *out) {
 
 bool taped_show(const char *name, const char *csv) {
     const bool is_standard = csv == NULL || strcmp(csv, "-") == 0;
-    taped *t = room(1, sizeof *t);
+    taped *t = alloc(1, sizeof *t);
     FILE *out = NULL;
     bool good = taped_open(t, name);
     if (good) {
-        out = written_open(is_standard ? "-" : csv);
+        out = atomic_file_open(is_standard ? "-" : csv);
         if (out != NULL) {
             print_rows(t, out);
         }
-        good = out != NULL && written_close(out, csv, true) && !t->failed;
+        good = out != NULL && atomic_file_close(out, csv, true) && !t->failed;
     }
     taped_close(t);
     free(t);
@@ -393,8 +393,8 @@ static bool play(taped *from, talk *t) {
         r->end = LOCKSTEP_LET_GO;
         return false;
     }
-    r->tape_hash = from->hash;
-    if (r->tape_hash != r->hash) {
+    r->op_list_hash = from->hash;
+    if (r->op_list_hash != r->hash) {
         say_difference(&kept.orders, &now, t);
         r->end = LOCKSTEP_DIFFERENT;
         return false;
@@ -403,9 +403,9 @@ static bool play(taped *from, talk *t) {
 }
 
 void lockstep_replay(const lockstep_wish *wish, const char *file, lockstep_report *report) {
-    taped *from = room(1, sizeof *from);
-    talk *t = room(1, sizeof *t);
-    *report = (lockstep_report){.end = LOCKSTEP_DONE, .tape_hash = WH_HASH_START};
+    taped *from = alloc(1, sizeof *from);
+    talk *t = alloc(1, sizeof *t);
+    *report = (lockstep_report){.end = LOCKSTEP_DONE, .op_list_hash = WH_HASH_START};
     t->guest.up = -1;
     t->guest.down = -1;
     t->report = report;

@@ -3,7 +3,7 @@
 
 #include <stdlib.h>
 
-#include "host/base/room.h"
+#include "host/base/alloc.h"
 #include "reader.h"
 
 typedef struct making {
@@ -187,11 +187,11 @@ static void substitute(making *k, int p, int c, const bool *known) {
 
 static bool solve(making *k) {
     const int n = k->count;
-    bool *row_done = room(n, sizeof *row_done);
-    bool *column_done = room(n, sizeof *column_done);
-    bool *known = room(n, sizeof *known);
-    int *row = room(n, sizeof *row);
-    int *column = room(n, sizeof *column);
+    bool *row_done = alloc(n, sizeof *row_done);
+    bool *column_done = alloc(n, sizeof *column_done);
+    bool *known = alloc(n, sizeof *known);
+    int *row = alloc(n, sizeof *row);
+    int *column = alloc(n, sizeof *column);
     bool good = true;
     for (int s = 0; s < n && good; s++) {
         good = find_pivot(k, row_done, column_done, &row[s], &column[s]) &&
@@ -238,12 +238,12 @@ static void need(const graph *g, bool *needed, int a) {
 }
 
 static void take_nodes(exact_motion *m, const graph *g, const int *rate) {
-    bool *needed = room(g->count, sizeof *needed);
-    int *to = room(g->count, sizeof *to);
+    bool *needed = alloc(g->count, sizeof *needed);
+    int *to = alloc(g->count, sizeof *to);
     for (int i = 0; i < m->states; i++) {
         need(g, needed, rate[i]);
     }
-    m->node = room(g->count + m->states, sizeof *m->node);
+    m->node = alloc(g->count + m->states, sizeof *m->node);
     for (int i = 0; i < m->states; i++) {
         m->node[m->nodes++] = (node){NODE_VARIABLE, i, -1, enclosure_of(0.0)};
     }
@@ -276,9 +276,9 @@ static void number_states(making *k, exact_motion *m) {
     }
     k->symbols.highest = k->states;
     m->states = k->states;
-    m->state = room(k->states, sizeof *m->state);
-    m->start = room(k->states, sizeof *m->start);
-    m->rate = room(k->states, sizeof *m->rate);
+    m->state = alloc(k->states, sizeof *m->state);
+    m->start = alloc(k->states, sizeof *m->start);
+    m->rate = alloc(k->states, sizeof *m->rate);
 }
 
 static bool read_starts(making *k, exact_motion *m) {
@@ -325,7 +325,7 @@ static bool derive(making *k, exact_motion *m) {
                    of->name);
         return false;
     }
-    int *rate = room(k->states, sizeof *rate);
+    int *rate = alloc(k->states, sizeof *rate);
     for (int i = 0; i < k->states; i++) {
         const exact_state s = m->state[i];
         const bool top = s.primes + 1 == k->symbols.order[s.unknown];
@@ -342,10 +342,10 @@ static making begin(const instance *inst, diags *errors) {
     making k = {.graph = graph_new(), .instance = inst, .count = n, .errors = errors};
     k.symbols = (reader_symbols){.graph = k.graph,
                                  .instance = inst,
-                                 .first = room(n, sizeof(int)),
-                                 .order = room(n, sizeof(int)),
-                                 .parameter = room(of->parameter_count, sizeof(int)),
-                                 .let = room(of->let_count, sizeof(int)),
+                                 .first = alloc(n, sizeof(int)),
+                                 .order = alloc(n, sizeof(int)),
+                                 .parameter = alloc(of->parameter_count, sizeof(int)),
+                                 .let = alloc(of->let_count, sizeof(int)),
                                  .errors = errors};
     for (int i = 0; i < of->parameter_count; i++) {
         k.symbols.parameter[i] = -1;
@@ -353,9 +353,9 @@ static making begin(const instance *inst, diags *errors) {
     for (int i = 0; i < of->let_count; i++) {
         k.symbols.let[i] = -1;
     }
-    k.matrix = room((int64_t)n * n, sizeof(int));
-    k.force = room(n, sizeof(int));
-    k.solved = room(n, sizeof(int));
+    k.matrix = alloc((int64_t)n * n, sizeof(int));
+    k.force = alloc(n, sizeof(int));
+    k.solved = alloc(n, sizeof(int));
     return k;
 }
 
@@ -375,7 +375,7 @@ exact_motion *exact_motion_make(const instance *inst, diags *errors) {
         return NULL;
     }
     making k = begin(inst, errors);
-    exact_motion *m = room(1, sizeof *m);
+    exact_motion *m = alloc(1, sizeof *m);
     number_states(&k, m);
     if (!derive(&k, m)) {
         exact_motion_free(m);

@@ -5,12 +5,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "host/base/room.h"
+#include "host/base/alloc.h"
 #include "host/number/functions.h"
 
 /* --- nodes that are one ------------------------------------------------------------------------------*/
 
-graph *graph_new(void) { return room(1, sizeof(graph)); }
+graph *graph_new(void) { return alloc(1, sizeof(graph)); }
 
 void graph_free(graph *g) {
     if (g != NULL) {
@@ -57,9 +57,9 @@ static void make_room(graph *g) {
         return;
     }
     g->room = g->room == 0 ? 256 : 2 * g->room;
-    g->node = room_more(g->node, g->room, sizeof *g->node);
+    g->node = alloc_more(g->node, g->room, sizeof *g->node);
     g->slots = 4 * g->room;
-    g->slot = room_more(g->slot, g->slots, sizeof *g->slot);
+    g->slot = alloc_more(g->slot, g->slots, sizeof *g->slot);
     for (int i = 0; i < g->slots; i++) {
         g->slot[i] = -1;
     }
@@ -281,7 +281,7 @@ typedef struct rewriting {
 } rewriting;
 
 static rewriting begin(graph *g, int variable) {
-    rewriting r = {g, room(g->count, sizeof(int)), variable};
+    rewriting r = {g, alloc(g->count, sizeof(int)), variable};
     for (int i = 0; i < g->count; i++) {
         r.to[i] = -1;
     }

@@ -5,15 +5,15 @@
 #include <stdlib.h>
 
 #include "dual.h"
-#include "host/base/room.h"
+#include "host/base/alloc.h"
 
 taylor *taylor_new(const exact_motion *m, int order, int slopes_to) {
-    taylor *t = room(1, sizeof *t);
+    taylor *t = alloc(1, sizeof *t);
     t->motion = m;
     t->order = order;
     t->slopes_to = slopes_to;
     t->width = slopes_to >= 0 ? 1 + m->states : 1;
-    t->value = room((int64_t)m->nodes * (order + 1) * t->width, sizeof *t->value);
+    t->value = alloc((int64_t)m->nodes * (order + 1) * t->width, sizeof *t->value);
     return t;
 }
 

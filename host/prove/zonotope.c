@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "host/base/room.h"
+#include "host/base/alloc.h"
 #include "host/number/functions.h"
 
 /* === orthogonal =============================================================================== */
@@ -13,7 +13,7 @@
 
 /* The columns of `of` into a[n * n], by their contribution to the box, longest first. */
 static void sorted(int n, const double *of, const double *radii, double *a) {
-    bool *taken = room(n, sizeof *taken);
+    bool *taken = alloc(n, sizeof *taken);
     for (int c = 0; c < n; c++) {
         int best = -1;
         double longest = -1.0;
@@ -57,8 +57,8 @@ static void reflect(int n, double *m, const double *v, int k, int from) {
 /* axes[n * n], a column each: the columns of `of`, orthogonalized in order of their length times radii[n]
  * (Householder's reflections). Doubles suffice: their round-off can only widen the result. */
 static void orthogonal_axes(int n, const double *of, const double *radii, double *axes) {
-    double *a = room((int64_t)n * n, sizeof *a);
-    double *v = room((int64_t)n * n, sizeof *v); /* a row for each reflection */
+    double *a = alloc((int64_t)n * n, sizeof *a);
+    double *v = alloc((int64_t)n * n, sizeof *v); /* a row for each reflection */
     sorted(n, of, radii, a);
     for (int k = 0; k < n; k++) {
         double norm = 0.0;
@@ -135,11 +135,11 @@ static bool orthogonal_inverse(int n, const double *axes, enclosure *inverse) {
 /* === the zonotope ============================================================================= */
 
 zonotope *zonotope_new(int n, int most) {
-    zonotope *z = room(1, sizeof *z);
+    zonotope *z = alloc(1, sizeof *z);
     z->n = n;
     z->most = most > 4 * n ? most : 4 * n;
-    z->drift = room(n, sizeof *z->drift);
-    z->generator = room((int64_t)z->most * n, sizeof *z->generator);
+    z->drift = alloc(n, sizeof *z->drift);
+    z->generator = alloc((int64_t)z->most * n, sizeof *z->generator);
     return z;
 }
 
@@ -171,7 +171,7 @@ void zonotope_box(const zonotope *z, enclosure *box) {
 /* The n longest generators as columns; unit axes fill missing ones. */
 static void longest(const zonotope *z, double *columns, double *radii) {
     const int n = z->n;
-    double *length = room(n, sizeof *length);
+    double *length = alloc(n, sizeof *length);
     for (int i = 0; i < n * n; i++) {
         columns[i] = i % (n + 1) == 0 ? 1.0 : 0.0;
     }
@@ -216,8 +216,8 @@ static void reach(const zonotope *z, const enclosure *inverse, int from, double 
 /* Axes and their inverse; if those of the generators are unsuitable, the unit axes. */
 static void find_axes(const zonotope *z, double *axes, enclosure *inverse) {
     const int n = z->n;
-    double *columns = room((int64_t)n * n, sizeof *columns);
-    double *radii = room(n, sizeof *radii);
+    double *columns = alloc((int64_t)n * n, sizeof *columns);
+    double *radii = alloc(n, sizeof *radii);
     longest(z, columns, radii);
     orthogonal_axes(n, columns, radii, axes);
     if (!orthogonal_inverse(n, axes, inverse)) {
@@ -232,9 +232,9 @@ static void find_axes(const zonotope *z, double *axes, enclosure *inverse) {
 
 void zonotope_frame(const zonotope *z, double *axes, enclosure *off) {
     const int n = z->n;
-    enclosure *inverse = room((int64_t)n * n, sizeof *inverse);
-    enclosure *drift = room(n, sizeof *drift);
-    double *radius = room(n, sizeof *radius);
+    enclosure *inverse = alloc((int64_t)n * n, sizeof *inverse);
+    enclosure *drift = alloc(n, sizeof *drift);
+    double *radius = alloc(n, sizeof *radius);
     find_axes(z, axes, inverse);
     reach(z, inverse, 0, radius);
     for (int i = 0; i < n; i++) {
@@ -264,8 +264,8 @@ static int by_size(const void *a, const void *b) {
 
 static void sort_by_size(zonotope *z) {
     const int n = z->n;
-    ranked *order = room(z->count, sizeof *order);
-    double *sorted = room((int64_t)z->count * n, sizeof *sorted);
+    ranked *order = alloc(z->count, sizeof *order);
+    double *sorted = alloc((int64_t)z->count * n, sizeof *sorted);
     for (int k = 0; k < z->count; k++) {
         order[k].which = k;
         for (int i = 0; i < n; i++) {
@@ -284,9 +284,9 @@ static void sort_by_size(zonotope *z) {
 /* The smaller half becomes one box along axes. The rounding of its corners is added to noise[n]. */
 static void reduce(zonotope *z, double *noise) {
     const int n = z->n;
-    double *axes = room((int64_t)n * n, sizeof *axes);
-    enclosure *inverse = room((int64_t)n * n, sizeof *inverse);
-    double *radius = room(n, sizeof *radius);
+    double *axes = alloc((int64_t)n * n, sizeof *axes);
+    enclosure *inverse = alloc((int64_t)n * n, sizeof *inverse);
+    double *radius = alloc(n, sizeof *radius);
     sort_by_size(z);
     find_axes(z, axes, inverse);
     const int kept = z->most / 2;
@@ -326,8 +326,8 @@ static void map_vector(int n, const enclosure *map, double *vector, const enclos
 
 void zonotope_map(zonotope *z, const enclosure *map, const enclosure *more) {
     const int n = z->n;
-    double *noise = room(n, sizeof *noise);
-    enclosure *to = room(n, sizeof *to);
+    double *noise = alloc(n, sizeof *noise);
+    enclosure *to = alloc(n, sizeof *to);
     map_vector(n, map, z->drift, more, to, noise);
     for (int k = 0; k < z->count; k++) {
         map_vector(n, map, &z->generator[k * n], NULL, to, noise);

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "host/base/room.h"
+#include "host/base/alloc.h"
 #include "host/lang/lexer.h"
 #include "host/number/decimal.h"
 #include "host/number/functions.h"
@@ -383,7 +383,7 @@ typedef struct wave {
 } wave;
 
 static wave common_wave(algebra *a, const poly *p) {
-    piece *pieces = room(p->count, sizeof *pieces);
+    piece *pieces = alloc(p->count, sizeof *pieces);
     const int count = pieces_of(a, p, pieces);
     wave common = {pieces[0].angle, pieces[0].sines, pieces[0].cosines};
     for (int i = 1; i < count; i++) {
@@ -426,7 +426,7 @@ static void show_sum(const show *s, const poly *p, wave without, bool leading) {
         }
         return;
     }
-    piece *pieces = room(p->count, sizeof *pieces);
+    piece *pieces = alloc(p->count, sizeof *pieces);
     const int count = pieces_of(s->algebra, p, pieces);
     for (int i = 0; i < count; i++) {
         pieces[i].sines -= without.sines;
@@ -599,7 +599,7 @@ static void show_group(const show *s, const poly *p, const poly *key, bool leadi
         show_behind(s, key);
         return;
     }
-    piece *pieces = room(p->count, sizeof *pieces);
+    piece *pieces = alloc(p->count, sizeof *pieces);
     const int count = pieces_of(a, p, pieces);
     const double number = show_common_number(pieces, count, false);
     bool negative = true;
@@ -726,7 +726,7 @@ void show_poly(const show *s, const poly *p) {
         fputs("0", s->out);
         return;
     }
-    collected *groups = room(p->count, sizeof *groups);
+    collected *groups = alloc(p->count, sizeof *groups);
     const int count = collect(a, p, groups);
     if (algebra_overflow(a)) { /* products are no longer available: print the terms as they are */
         show_sum(s, p, (wave){NULL, 0, 0}, true);

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "host/base/room.h"
+#include "host/base/alloc.h"
 #include "host/show/show_equations.h"
 
 /* Widths in points of 10 pt type. A line of LaTeX's article is 345 pt wide, including 25 for the equation's number.
@@ -183,7 +183,7 @@ static span widest_group(span s) {
 
 /* s with its widest groups broken, until it has that width or no group is wide enough. */
 static char *narrowed(span s, int limit) {
-    char *text = room_copy(s.from, (size_t)(s.end - s.from));
+    char *text = alloc_copy(s.from, (size_t)(s.end - s.from));
     for (;;) {
         const span all = {text, text + strlen(text)};
         const int excess = width_of(all) - limit;
@@ -197,7 +197,7 @@ static char *narrowed(span s, int limit) {
             free(inside);
             return text;
         }
-        char *longer = room_words("%.*s%s%s", (int)(group.from - text), text, inside, group.end);
+        char *longer = alloc_words("%.*s%s%s", (int)(group.from - text), text, inside, group.end);
         free(inside);
         free(text);
         text = longer;
@@ -208,7 +208,7 @@ static char *narrowed(span s, int limit) {
 static char *rows_of(span s, int limit, bool factors) {
     char *text;
     size_t length;
-    FILE *out = room_text(&text, &length);
+    FILE *out = alloc_text(&text, &length);
     const int indent = factors ? QUAD + SIGN : QUAD; /* of the rows after the first */
     int width = 0;
     for (const char *at = s.from; at < s.end;) {
@@ -226,14 +226,14 @@ static char *rows_of(span s, int limit, bool factors) {
         free(part);
         at = next;
     }
-    room_text_end(out);
+    alloc_text_end(out);
     return text;
 }
 
 /* s within that width: one line, or rows of an aligned. */
 static char *broken(span s, int limit) {
     if (width_of(s) <= limit) {
-        return room_copy(s.from, (size_t)(s.end - s.from));
+        return alloc_copy(s.from, (size_t)(s.end - s.from));
     }
     bool factors = next_break(s, false) == s.end;
     char *rows = NULL;
@@ -245,7 +245,7 @@ static char *broken(span s, int limit) {
         free(line);
     }
     rows = rows_of(s, limit, factors);
-    char *all = room_words("\\begin{aligned}\n    & %s\n  \\end{aligned}", rows);
+    char *all = alloc_words("\\begin{aligned}\n    & %s\n  \\end{aligned}", rows);
     free(rows);
     return all;
 }
@@ -279,14 +279,14 @@ show *show_row_begin(show_row *row, const show *s) {
     row->out = s->out;
     row->inner = *s;
     if (s->style == SHOW_LATEX) {
-        row->inner.out = room_text(&row->text, &row->length);
+        row->inner.out = alloc_text(&row->text, &row->length);
     }
     return &row->inner;
 }
 
 void show_row_end(show_row *row) {
     if (row->inner.style == SHOW_LATEX) {
-        room_text_end(row->inner.out);
+        alloc_text_end(row->inner.out);
         put_row(row->out, row->text);
         free(row->text);
     }

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "host/base/room.h"
+#include "host/base/alloc.h"
 #include "host/lang/shown.h"
 #include "host/number/zero.h"
 #include "host/show/show_events.h"
@@ -289,7 +289,7 @@ bool show_closed_form(const equations *e, const poly **top, const poly **bottom)
 static void reduce(algebra *a, const poly **top, const poly **bottom) {
     const poly *both = poly_add(a, *top, poly_scale(a, *bottom, 0.7390851332151607));
     const poly *inverse = poly_pow(a, show_common(a, both), -1.0);
-    piece *pieces = room((*top)->count + (*bottom)->count, sizeof *pieces);
+    piece *pieces = alloc((*top)->count + (*bottom)->count, sizeof *pieces);
     int count = pieces_of(a, *top, pieces);
     count += pieces_of(a, *bottom, pieces + count);
     const double number = show_common_number(pieces, count, true);
@@ -402,14 +402,14 @@ static void write_first_order(const show *s, const equations *e) {
 
 void show_lets_end(show *s, const char *heading, const char *behind, const char *footing) {
     show_lets *lets = s->lets;
-    char **text = room(lets->count, sizeof *text);
+    char **text = alloc(lets->count, sizeof *text);
     size_t length;
     int used = 0;
     FILE *out = s->out;
     for (int i = lets->count - 1; i >= 0; i--) { /* a definition may use earlier names */
         lets->below = i;
         if (lets->row[i].used) {
-            s->out = room_text(&text[i], &length);
+            s->out = alloc_text(&text[i], &length);
             show_row row;
             const show *to = show_row_begin(&row, s);
             fputs("  ", to->out);
@@ -417,7 +417,7 @@ void show_lets_end(show *s, const char *heading, const char *behind, const char 
             fputs(s->style == SHOW_LATEX ? " &= " : " = ", to->out);
             show_poly(to, lets->row[i].value);
             show_row_end(&row);
-            room_text_end(s->out);
+            alloc_text_end(s->out);
             used++;
         }
     }

@@ -2,7 +2,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "host/base/room.h"
+#include "host/base/alloc.h"
 #include "host/show/show.h"
 #include "host/show/show_equations.h"
 
@@ -17,7 +17,7 @@ static bool shortens(const poly *p) {
 
 void show_lets_begin(show *s, const equations *e) {
     const mechanism *m = e->instance->mechanism;
-    s->lets = room_tail(sizeof *s->lets, m->let_count, sizeof s->lets->row[0]);
+    s->lets = alloc_tail(sizeof *s->lets, m->let_count, sizeof s->lets->row[0]);
     for (int i = 0; i < m->let_count; i++) {
         const symbol *let = m->lets[i];
         const bool takes_part = let->effect < 0 || e->instance->with[let->effect];

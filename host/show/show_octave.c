@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "host/base/room.h"
+#include "host/base/alloc.h"
 #include "host/lang/lexer.h"
 #include "host/lang/shown.h"
 #include "host/show/show.h"
@@ -24,7 +24,7 @@ typedef struct variables {
 
 /* "ddX" for X'', followed by as many underscores as make it unique. */
 static const char *add(variables *all, const symbol *sym, int primes, const char *name) {
-    char *made = room_words("%.*s%s", primes, "ddddddddddddddd", name);
+    char *made = alloc_words("%.*s%s", primes, "ddddddddddddddd", name);
     bool taken = true;
     while (taken) {
         taken = !all->is_free(made);
@@ -32,12 +32,12 @@ static const char *add(variables *all, const symbol *sym, int primes, const char
             taken = strcmp(all->row[i].name, made) == 0;
         }
         if (taken) {
-            char *longer = room_words(made[0] == '_' ? "v%s" : "%s_", made);
+            char *longer = alloc_words(made[0] == '_' ? "v%s" : "%s_", made);
             free(made);
             made = longer;
         }
     }
-    all->row = room_more(all->row, all->count + 1, sizeof *all->row);
+    all->row = alloc_more(all->row, all->count + 1, sizeof *all->row);
     all->row[all->count++] = (variable){sym, primes, made};
     return made;
 }
@@ -91,9 +91,9 @@ static void write_highest(const show *s, const equations *e, variables *all) {
         }
         return;
     }
-    char *A = room_words("%s", add(all, NULL, 0, "A"));
-    char *b = room_words("%s", add(all, NULL, 0, "b"));
-    char *x = room_words("%s", add(all, NULL, 0, "x"));
+    char *A = alloc_words("%s", add(all, NULL, 0, "A"));
+    char *b = alloc_words("%s", add(all, NULL, 0, "b"));
+    char *x = alloc_words("%s", add(all, NULL, 0, "x"));
     fprintf(s->out, "  %s = zeros(%d, %d);\n  %s = zeros(%d, 1);\n", A, n, n, b, n);
     for (int i = 0; i < n; i++) {
         for (int j = 0; j < n; j++) {
@@ -173,10 +173,10 @@ void show_octave(FILE *out, const equations *e, bool (*is_free)(const char *name
     write_state(&s, e, false);
     char *text;
     size_t length;
-    s.out = room_text(&text, &length); /* definitions come before their use */
+    s.out = alloc_text(&text, &length); /* definitions come before their use */
     show_lets_begin(&s, e);
     write_highest(&s, e, &all);
-    room_text_end(s.out);
+    alloc_text_end(s.out);
     s.out = out;
     show_lets_end(&s, "", ";\n", ";\n");
     fputs(text, out);

@@ -1,6 +1,6 @@
 #!/bin/sh
 # figures.sh WHIRL OUT FIGURE.fig...: draw each figure as OUT/FIGURE.svg and OUT/FIGURE.png, from runs
-# of the program WHIRL. `whirl figure` draws (host/plot/figure_draw.c); OUT/data keeps the numbers.
+# of the program WHIRL. `whirl figure` draws (host/io/figure_draw.c); OUT/data keeps the numbers.
 #
 # A .fig file describes one figure, a statement a line, # begins a comment:
 #

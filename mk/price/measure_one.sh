@@ -2,7 +2,7 @@
 # measure_one.sh [--whole-run] BOARD NUMBER FILE[:SCENE] [OPTIONS OF whirl derive...]: what a step of one scene costs, counted.
 #
 # From the tree's root. BOARD is a folder of boards/, or `host`; NUMBER is float, double or fixed. Builds what is missing of the
-# board's core, and prints the header and one row of host/price/cost.h (COST_HEADER). Exit status 2: words are wrong or a
+# board's core, and prints the header and one row of host/study/cost.h (COST_HEADER). Exit status 2: words are wrong or a
 # tool is missing; 1: the scene cannot be derived, does not fit or does not run.
 #
 # --whole-run, of a scene with contacts: all steps to its end (--until) are counted, and it prints what count_run.sh does.

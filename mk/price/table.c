@@ -1,4 +1,4 @@
-/* table.c: the table of figures that prices are predicted from (host/price/cost_rows.h): `make price-table` calls it.
+/* table.c: the table of figures that prices are predicted from (host/study/cost_rows.h): `make price-table` calls it.
  *
  *     price_table ROWS.csv >cost_rows.h    writes the table, and its errors to standard error
  *
@@ -11,11 +11,11 @@
 #include <string.h>
 
 #include "host/base/hashing.h"
-#include "host/commands/load.h"
-#include "host/commands/options.h"
+#include "host/cli/load.h"
+#include "host/cli/options.h"
 #include "host/fixed/fixed_plan.h"
-#include "host/price/cost.h"
-#include "host/price/cost_count.h"
+#include "host/study/cost.h"
+#include "host/study/cost_count.h"
 
 enum { ROWS_MOST = 20000, SWEEPS = 4000, WORDS_MOST = 16 };
 

@@ -3,16 +3,16 @@
 # what is listed is taken, and that what is taken makes a difference.
 . "$(dirname "$0")/../checks.sh"
 
-# What host/commands/commands.h declares, but for what only the project's own build calls.
+# What host/cli/commands.h declares, but for what only the project's own build calls.
 hidden='emit-scenes|emit-settings|hashes'
-sed -n 's/^int command_\([a-z_]*\)(.*/\1/p' host/commands/commands.h | tr _ - | grep -vxE "$hidden" >"$scratch/commands"
+sed -n 's/^int command_\([a-z_]*\)(.*/\1/p' host/cli/commands.h | tr _ - | grep -vxE "$hidden" >"$scratch/commands"
 "$whirl" --help >"$scratch/help" 2>"$scratch/err"
 verdict $? "whirl --help"
 sed -n 's/^  whirl \([a-z-]*\) .*/\1/p' "$scratch/help" | diff "$scratch/commands" - >"$scratch/err"
 verdict $? "whirl --help lists every command, and no other"
 
 option_rows >"$scratch/rows"
-[ "$(wc -l <"$scratch/rows")" -eq "$(grep -c '^ *X(OPTION_' host/commands/options.h)" ]
+[ "$(wc -l <"$scratch/rows")" -eq "$(grep -c '^ *X(OPTION_' host/cli/options.h)" ]
 verdict $? "the rows of options.h are read" "$scratch/rows"
 
 while read -r command; do

@@ -5,7 +5,7 @@
 
 "$whirl" derive --help >"$scratch/help" 2>"$scratch/err"
 sed -n 's/^  --as \([a-z0-9]*\)  *[^ ].*/\1/p' "$scratch/help" >"$scratch/forms"
-sed -n 's/^ *{*\.word = "\(.*\)",$/\1/p; s/^ *{\.word = "\([a-z0-9]*\)", .*/\1/p' host/commands/derive.c |
+sed -n 's/^ *{*\.word = "\(.*\)",$/\1/p; s/^ *{\.word = "\([a-z0-9]*\)", .*/\1/p' host/cli/derive.c |
     diff - "$scratch/forms" >"$scratch/err" && [ -s "$scratch/forms" ]
 verdict $? "help tells of every form"
 "$whirl" derive thomson_a --as x 2>&1 | sed -n 's/^hint: one of //p' | tr -d ',' | tr ' ' '\n' | diff "$scratch/forms" - >"$scratch/err"

@@ -27,7 +27,7 @@ for file in "$scratch"/scenes/*.c; do
     [ "$name" = scenes ] || line "$name" "$file"
 done >"$scratch/now"
 
-# With compensated sums factors are multiplied in, and looked for (host/image/tape_gauge.h).
+# With compensated sums factors are multiplied in, and looked for (host/image/op_list_scaling.h).
 good=0
 for name in $("$whirl" list | tr -d '\r' | awk '$1 == "scene" { print $2 }'); do
     "$whirl" derive "$name" --as c --compensated >"$scratch/made.c" 2>>"$scratch/out" || good=1

@@ -36,7 +36,8 @@ static void see(void *told, uint64_t step, const enclosure *exact, const double 
     }
 }
 
-held_found beside_hold(const char *text, const char *name, const engine_kind *kind, beside *b) {
+containment_found beside_hold(const char *text, const char *name, const engine_kind *kind,
+                              beside *b) {
     derived d = derived_scene(text, name);
     derived_expect(&d, text);
     diags *errors = diags_new();
@@ -46,14 +47,14 @@ held_found beside_hold(const char *text, const char *name, const engine_kind *ki
     double *within = calloc((size_t)m->states, sizeof *within);
     seeing s = {b, m->states};
     b->nearest = 1.0;
-    const held_wish wish = {.motion = m,
-                            .image = d.image,
-                            .kind = kind,
-                            .tolerance = HELD_TOLERANCE,
-                            .within = within,
-                            .see = see,
-                            .told = &s};
-    held_found h = held_run(&wish);
+    const containment_wish wish = {.motion = m,
+                                   .image = d.image,
+                                   .kind = kind,
+                                   .tolerance = CONTAINMENT_TOLERANCE,
+                                   .within = within,
+                                   .see = see,
+                                   .told = &s};
+    containment_found h = containment_run(&wish);
     free(within);
     exact_motion_free(m);
     diags_free(errors);

@@ -1,8 +1,8 @@
-/* beside.h: a tube of `whirl prove` (host/prove/held.h) beside a reference of 113 bits, record by record. */
+/* beside.h: a tube of `whirl prove` (host/prove/containment.h) beside a reference of 113 bits, record by record. */
 #ifndef TESTS_HOST_BESIDE_H
 #define TESTS_HOST_BESIDE_H
 
-#include "host/prove/held.h"
+#include "host/prove/containment.h"
 #include "quad_arms.h"
 
 /* The reference, which is taken along, and what became of it. */
@@ -19,6 +19,7 @@ typedef struct beside {
 } beside;
 
 /* The scene `name` of the text, run by `kind` and held against its tube. */
-held_found beside_hold(const char *text, const char *name, const engine_kind *kind, beside *b);
+containment_found beside_hold(const char *text, const char *name, const engine_kind *kind,
+                              beside *b);
 
 #endif

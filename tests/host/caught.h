@@ -2,9 +2,9 @@
 #ifndef TESTS_HOST_CAUGHT_H
 #define TESTS_HOST_CAUGHT_H
 
-#include "host/base/room.h"
+#include "host/base/alloc.h"
 
-/* `text`, to be freed, is whole behind room_text_end(to). */
+/* `text`, to be freed, is whole behind alloc_text_end(to). */
 typedef struct caught {
     char *text;
     size_t length;
@@ -12,7 +12,7 @@ typedef struct caught {
 } caught;
 
 static inline FILE *catch_text(caught *c) {
-    c->to = room_text(&c->text, &c->length);
+    c->to = alloc_text(&c->text, &c->length);
     return c->to;
 }
 

@@ -9,8 +9,8 @@
 #include <string.h>
 
 #include "host/emit/emit.h"
+#include "host/engine/engine.h"
 #include "host/lang/builtin.h"
-#include "host/run/engine.h"
 #include "host/show/show_equations.h"
 #include "host/show/show_events.h"
 #include "unity.h"
@@ -169,11 +169,11 @@ void random_state(state_values *s, const derived *d, uint64_t *seed) {
     }
 }
 
-void derived_run(const tape *t, const derived *d, const state_values *s, double *result) {
+void derived_run(const op_list *t, const derived *d, const state_values *s, double *result) {
     derived_run_known(t, d, s, result, NULL);
 }
 
-void derived_run_known(const tape *t, const derived *d, const state_values *s, double *result,
+void derived_run_known(const op_list *t, const derived *d, const state_values *s, double *result,
                        double *off) {
     const image *p = d->image;
     double angle_rad[UNKNOWNS] = {0};

@@ -62,10 +62,10 @@ double derived_rest(const derived *d, state_values *s, const double *accel, int 
 void random_state(state_values *s, const derived *d, uint64_t *seed);
 
 /* What a list of the image gives at a state: result[t->results]. */
-void derived_run(const tape *t, const derived *d, const state_values *s, double *result);
-/* And how far off each may be for the rounding of the list's operations, in units of 2^-53 (host/run/rounding.h):
+void derived_run(const op_list *t, const derived *d, const state_values *s, double *result);
+/* And how far off each may be for the rounding of the list's operations, in units of 2^-53 (host/engine/rounding.h):
  * off[t->results]. */
-void derived_run_known(const tape *t, const derived *d, const state_values *s, double *result,
+void derived_run_known(const op_list *t, const derived *d, const state_values *s, double *result,
                        double *off);
 
 /* What one of host/emit's writers makes of an image of x.whirl; to be freed. */

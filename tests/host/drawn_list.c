@@ -36,12 +36,12 @@ static void draw_op(dice *d, drawn_list *l, int i) {
 
 void drawn_list_draw(dice *d, int most, drawn_list *l) {
     *l = (drawn_list){.list = {.count = 0}};
-    l->list = (tape){.ops = l->ops,
-                     .count = 4 + (int)dice_one_of(d, (unsigned)most - 4),
-                     .angles = DRAWN_LIST_ANGLES,
-                     .result = l->result,
-                     .results = 3};
-    l->list.tables = (tape_tables){
+    l->list = (op_list){.ops = l->ops,
+                        .count = 4 + (int)dice_one_of(d, (unsigned)most - 4),
+                        .angles = DRAWN_LIST_ANGLES,
+                        .result = l->result,
+                        .results = 3};
+    l->list.tables = (op_list_tables){
         .count = DRAWN_LIST_TABLES, .terms = 2, .folds = dice_one_of(d, 2) == 1, .odd = l->odd};
     for (int k = 0; k < DRAWN_LIST_TABLES; k++) {
         l->odd[k] = dice_one_of(d, 2) == 1;

@@ -3,7 +3,7 @@
 #define TESTS_HOST_DRAWN_LIST_H
 
 #include "command.h"
-#include "host/image/tape.h"
+#include "host/image/op_list.h"
 
 enum { DRAWN_LIST_MOST = 200, DRAWN_LIST_ANGLES = 3, DRAWN_LIST_TABLES = 4 };
 
@@ -12,7 +12,7 @@ typedef struct drawn_list {
     int turns[DRAWN_LIST_MOST][DRAWN_LIST_ANGLES];
     int result[3];
     bool odd[DRAWN_LIST_TABLES];
-    tape list; /* of the above */
+    op_list list; /* of the above */
 } drawn_list;
 
 /* Of 4 to less than `most` operations. */

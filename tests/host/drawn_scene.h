@@ -25,7 +25,7 @@ typedef struct scene_list {
     int turns[SCENE_OPS][SCENE_UNKNOWNS];
     double parts[SCENE_OPS][SCENE_UNKNOWNS];
     int result[SCENE_RESULTS];
-    tape list;
+    op_list list;
 } scene_list;
 
 typedef struct drawn_scene {

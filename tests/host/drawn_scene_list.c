@@ -104,16 +104,16 @@ static bool draw_op(dice *die, const image *im, scene_list *l, int i, unsigned t
     return false;
 }
 
-static void draw_tables(dice *die, drawn_scene *d, tape_tables *t) {
+static void draw_tables(dice *die, drawn_scene *d, op_list_tables *t) {
     const bool cubic = d->im.settings.tables == TABLES_CUBIC;
-    *t = (tape_tables){.count = 1 + (int)dice_one_of(die, SCENE_FEW),
-                       .bits = 3 + (int)dice_one_of(die, SCENE_BITS - 2),
-                       .terms = cubic ? (int)WH_TABLE_CUBIC : (int)WH_TABLE_LINEAR,
-                       .number = d->number,
-                       .size = d->size,
-                       .off = d->off,
-                       .folds = dice_one_of(die, 2) == 0,
-                       .odd = d->odd};
+    *t = (op_list_tables){.count = 1 + (int)dice_one_of(die, SCENE_FEW),
+                          .bits = 3 + (int)dice_one_of(die, SCENE_BITS - 2),
+                          .terms = cubic ? (int)WH_TABLE_CUBIC : (int)WH_TABLE_LINEAR,
+                          .number = d->number,
+                          .size = d->size,
+                          .off = d->off,
+                          .folds = dice_one_of(die, 2) == 0,
+                          .odd = d->odd};
     for (int i = 0; i < t->count * t->terms << t->bits; i++) {
         d->number[i] = dice_between(die, -9.0, 9.0);
     }
@@ -127,7 +127,7 @@ static void draw_tables(dice *die, drawn_scene *d, tape_tables *t) {
 void drawn_scene_list(drawn_scene *d, dice *die, image_role role, int results, unsigned takes) {
     static const int lengths[] = {99, 100, 101, 149, 150, 151, 152};
     scene_list *l = &d->list[role];
-    l->list = (tape){.ops = l->ops, .angles = d->im.angles, .result = l->result};
+    l->list = (op_list){.ops = l->ops, .angles = d->im.angles, .result = l->result};
     if ((takes & TAKES_TABLES) != 0) {
         draw_tables(die, d, &l->list.tables);
     }
@@ -142,7 +142,7 @@ void drawn_scene_list(drawn_scene *d, dice *die, image_role role, int results, u
         l->list.count = 2;
     }
     for (int tries = 0; tries < 20 * SCENE_OPS && l->list.count < SCENE_OPS - 1; tries++) {
-        if (tape_operations(&l->list) >= wanted) {
+        if (op_list_operations(&l->list) >= wanted) {
             break;
         }
         const bool drawn = draw_op(die, &d->im, l, l->list.count, takes);

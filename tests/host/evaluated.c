@@ -7,7 +7,7 @@
 
 double evaluated_leaf(op_code code, int which) { return 0.6 + 0.3 * which + 0.11 * (int)code; }
 
-static double operation_value(const tape *t, const op *o, const double *v) {
+static double operation_value(const op_list *t, const op *o, const double *v) {
     const double a = op_rows[o->code].values > 0 ? v[o->a] : 0.0;
     const double b = o->b >= 0 ? v[o->b] : 0.0;
     double phase = o->value + b;
@@ -42,11 +42,11 @@ static double operation_value(const tape *t, const op *o, const double *v) {
                                 : (double)NAN;
 }
 
-void evaluated(const tape *t, double *v) {
+void evaluated(const op_list *t, double *v) {
     TEST_ASSERT_TRUE(t->count < EVALUATED_MOST);
     for (int i = 0; i < t->count; i++) {
         int operand[2];
-        for (int k = tape_operands(&t->ops[i], operand); k > 0; k--) {
+        for (int k = op_list_operands(&t->ops[i], operand); k > 0; k--) {
             TEST_ASSERT_TRUE(operand[k - 1] >= 0 && operand[k - 1] < i);
         }
         v[i] = operation_value(t, &t->ops[i], v);

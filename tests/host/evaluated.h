@@ -2,7 +2,7 @@
 #ifndef TESTS_HOST_EVALUATED_H
 #define TESTS_HOST_EVALUATED_H
 
-#include "host/image/tape.h"
+#include "host/image/op_list.h"
 
 enum { EVALUATED_MOST = 2000 };
 
@@ -10,6 +10,6 @@ enum { EVALUATED_MOST = 2000 };
 double evaluated_leaf(op_code code, int which);
 
 /* v[t->count], which is at most EVALUATED_MOST. Fails the test where an operation stands before what it takes. */
-void evaluated(const tape *t, double *v);
+void evaluated(const op_list *t, double *v);
 
 #endif

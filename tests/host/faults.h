@@ -101,7 +101,7 @@ typedef enum outcome {
     OUTCOMES
 } outcome;
 
-typedef struct verdict {
+typedef struct run_checks {
     unsigned run;
     unsigned row;
     int stage; /* in which the fault began; -1: it never did, or was there from the start */

@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "faults.h"
-#include "host/base/room.h"
+#include "host/base/alloc.h"
 
 #define OVERSPEED_SHARE 0.02 /* of all runs, allowed */
 #define CAUGHT_S 0.25        /* a drive that ignores the voltage is off after so long, */
@@ -172,7 +172,7 @@ static unsigned next_worst(const verdict *all, unsigned count, bool (*is)(const 
 static void print_worst(FILE *out, const campaign *c, const verdict *all, unsigned count,
                         const char *what, bool (*is)(const verdict *v),
                         double (*by)(const verdict *v)) {
-    bool *shown = room(count, sizeof *shown);
+    bool *shown = alloc(count, sizeof *shown);
     const unsigned found = count_of(all, count, -1, is);
     fprintf(out, "\n%s: %u of %u runs\n", what, found, count);
     for (unsigned n = 0; n < found && n < WORST; n++) {
@@ -267,7 +267,7 @@ static double by_step(const verdict *v) { return v->most; }
 
 /* Each with the words that repeat its run: mk/count/rig_worst.sh counts them once more. */
 static void print_longest(FILE *out, const campaign *c, const verdict *all, unsigned count) {
-    bool *shown = room(count, sizeof *shown);
+    bool *shown = alloc(count, sizeof *shown);
     fprintf(out, "\nThe longest control steps of %d runs:\n", LONGEST);
     for (unsigned n = 0; n < LONGEST; n++) {
         const unsigned i = next_worst(all, count, has_steps, by_step, shown);

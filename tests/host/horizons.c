@@ -8,8 +8,8 @@
 #include <string.h>
 
 #include "host/lang/builtin.h"
-#include "host/price/extrapolation.h"
-#include "host/price/reference_run.h"
+#include "host/study/extrapolation.h"
+#include "host/study/reference_run.h"
 #include "unity.h"
 
 /* Looks of the reference, at most, and the least steps between two. */
@@ -169,11 +169,11 @@ horizons horizons_of(const char *text, const char *name, horizons_setting how, d
                                      .tables = how.tables,
                                      .matrix = how.matrix};
     image_settings plain;
-    (void)twins_plain(&settings, &plain);
+    (void)step_doubling_plain(&settings, &plain);
     h.image = image_with(&h.made, &settings);
     h.plain = image_with(&h.made, &plain);
-    const twins_wish wish = {.image = h.image, .kind = how.kind, .plain = h.plain};
-    h.twins = twins_run(&wish);
+    const step_doubling_wish wish = {.image = h.image, .kind = how.kind, .plain = h.plain};
+    h.twins = step_doubling_run(&wish);
     h.estimate = horizon_of(h.twins, tolerance);
     h.true_s = calloc((size_t)h.twins->columns, sizeof *h.true_s);
     TEST_ASSERT_NOT_NULL(h.true_s);
@@ -192,7 +192,7 @@ horizons horizons_of(const char *text, const char *name, horizons_setting how, d
 
 void horizons_free(horizons *h) {
     horizon_free(&h->estimate);
-    twins_free(h->twins);
+    step_doubling_free(h->twins);
     image_free(h->plain);
     image_free(h->image);
     free(h->true_s);

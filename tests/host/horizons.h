@@ -1,13 +1,13 @@
 /* horizons.h: until when a run is right, by a reference that shares no step with it: what `whirl trust` estimates.
  *
- * Without contacts the reference is the project's extrapolation in long double (host/price/extrapolation.h), of order 12,
+ * Without contacts the reference is the project's extrapolation in long double (host/study/extrapolation.h), of order 12,
  * beside another of order 10: what the two differ by must be far below the tolerance where the run passes it, or the
  * reference knows nothing. With contacts it is RK4 in double by steps a 32nd of the run's, beside a 16th. */
 #ifndef TESTS_HORIZONS_H
 #define TESTS_HORIZONS_H
 
 #include "derived.h"
-#include "host/run/horizon.h"
+#include "host/check/horizon.h"
 
 typedef struct horizons_setting {
     const engine_kind *kind;
@@ -20,8 +20,9 @@ typedef struct horizons_setting {
 typedef struct horizons {
     derived made;
     image *image; /* with the setting */
-    image *plain; /* as the finer run wants it (host/run/twins.h); for the reference, too */
-    twins *twins;
+    image
+        *plain; /* as the finer run wants it (host/check/step_doubling.h); for the reference, too */
+    step_doubling *twins;
     horizon estimate;
     double *true_s;      /* [columns] last look at which it was right; infinite: to the end */
     double true_until_s; /* the least of them; the end */

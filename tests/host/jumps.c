@@ -4,8 +4,8 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "host/commands/commands.h"
-#include "host/run/jumped.h"
+#include "host/check/pole_crossing.h"
+#include "host/cli/commands.h"
 #include "unity.h"
 
 said jumps_said;
@@ -47,12 +47,12 @@ bool jumps_named(char text[static SAID_SIZE], char *words[static JUMPS_WORDS]) {
 bool jumps_told(void) { return strstr(jumps_said.err, "jumped over a place where") != NULL; }
 
 bool jumps_some(motion *m) {
-    jumped *j = jumped_open(m->image);
+    pole_crossing *j = pole_crossing_open(m->image);
     for (uint64_t step = 0; step <= m->image->steps; step++) {
         TEST_ASSERT_EQUAL_INT(WH_OK, step == 0 ? WH_OK : motion_step(m, 1));
-        jumped_enter(j, m->kind, m->run);
+        pole_crossing_enter(j, m->kind, m->run);
     }
-    const bool some = jumped_some(j);
-    jumped_close(j);
+    const bool some = pole_crossing_some(j);
+    pole_crossing_close(j);
     return some;
 }

@@ -1,4 +1,4 @@
-/* jumps.h: what suites `jumped` and `unjumped` share: runs that may step over a pole (host/run/jumped.h), and what is said of it. */
+/* jumps.h: what suites `jumped` and `unjumped` share: runs that may step over a pole (host/check/pole_crossing.h), and what is said of it. */
 #ifndef TESTS_JUMPS_H
 #define TESTS_JUMPS_H
 

@@ -13,7 +13,7 @@ enum { LATEX_UNKNOWNS = 16, LATEX_PLACES = 1 + LATEX_UNKNOWNS };
  *   - sums: the algebra counts what cancels to less than 1e-14 of its parts as zero;
  *   - rounding, of libm's functions too,
  *
- * carried on by slopes (running error analysis, as host/run/rounding.h): small differences of large terms are known to
+ * carried on by slopes (running error analysis, as host/engine/rounding.h): small differences of large terms are known to
  * be off by parts of these. */
 typedef struct latex_number {
     double value[LATEX_PLACES];

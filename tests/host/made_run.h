@@ -5,7 +5,7 @@
 
 #include "command.h"
 #include "derived.h"
-#include "host/run/engine.h"
+#include "host/engine/engine.h"
 
 enum { STEPS_MOST = 70, X = 0, Y = 1, VX = 2, VY = 3, N = 4 };
 

@@ -5,7 +5,7 @@
 
 #include "command.h"
 #include "derived.h"
-#include "host/sweep/session.h"
+#include "host/study/session.h"
 
 typedef struct made_sweep {
     derived d; /* of the first scene with its measures in the outputs' place */

@@ -7,7 +7,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "host/base/room.h"
+#include "host/base/alloc.h"
 #include "unity.h"
 
 static char root[] = "build/tests/tree-XXXXXX";
@@ -48,8 +48,8 @@ void tree_enter(void) {
               "#!/bin/sh\necho \"$@\" >>made\ncat says\nread status <status\nexit $status\n");
     TEST_ASSERT_EQUAL_INT(0, chmod("make", 0700));
     const char *path = getenv("PATH");
-    char *longer = room_words("%s/%s:%s", before, root, path);
-    path_before = room_words("%s", path);
+    char *longer = alloc_words("%s/%s:%s", before, root, path);
+    path_before = alloc_words("%s", path);
     setenv("PATH", longer, 1);
     free(longer);
     tree_keep("status", "0\n");

@@ -1,5 +1,5 @@
 /* made_up_tree.h: a made-up source tree whose make and measure_one.sh are scripts that keep what they are told, and say what they
- * are given: for what counts prices (host/price/measured.h). */
+ * are given: for what counts prices (host/study/measured.h). */
 #ifndef TESTS_HOST_MADE_UP_TREE_H
 #define TESTS_HOST_MADE_UP_TREE_H
 

@@ -6,7 +6,7 @@
 #define TESTS_MOTION_H
 
 #include "host/derive/image_make.h"
-#include "host/run/engine.h"
+#include "host/engine/engine.h"
 
 typedef struct motion {
     diags *errors;

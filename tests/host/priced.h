@@ -4,7 +4,7 @@
 #define TESTS_HOST_PRICED_H
 
 #include "derived.h"
-#include "host/commands/pricing_scene.h"
+#include "host/cli/pricing_scene.h"
 
 enum { PRICED_POINTS = 3 };
 

@@ -4,7 +4,7 @@
 #define TESTS_SHOWN_MAP_H
 
 #include "command.h"
-#include "host/sweep/stability_map.h"
+#include "host/study/stability_map.h"
 
 enum { SHOWN_MOST = 7 };
 

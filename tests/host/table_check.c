@@ -5,8 +5,8 @@
 #include <stdlib.h>
 
 #include "core/table.h"
-#include "host/base/room.h"
-#include "host/run/engine.h"
+#include "host/base/alloc.h"
+#include "host/engine/engine.h"
 
 #define RAD_PER_PHASE (6.283185307179586477 / 4294967296.0)
 #define ROUNDS 0x1p-24 /* of a float, half a unit of its last place at most */
@@ -18,9 +18,9 @@ static uint32_t scatter(uint32_t x) {
 }
 
 /* As generated code has it. */
-static float *cells_of(const tape_tables *t) {
+static float *cells_of(const op_list_tables *t) {
     const int numbers = t->count * t->terms << t->bits;
-    float *cells = room(numbers, sizeof *cells);
+    float *cells = alloc(numbers, sizeof *cells);
     for (int i = 0; i < numbers; i++) {
         const float x = (float)t->number[i];
         const float scaled[4] = {x, WH_TABLE_B(x), WH_TABLE_C(x), WH_TABLE_D(x)};
@@ -30,7 +30,7 @@ static float *cells_of(const tape_tables *t) {
 }
 
 /* Rounded are the number in a cell's middle and the sum; and what is added, by three roundings of its own and less. */
-static double bound_of(const tape_tables *t, int k) {
+static double bound_of(const op_list_tables *t, int k) {
     double away = 0.0;
     for (int i = 0; i < 1 << t->bits; i++) {
         const double *number = &t->number[(i * t->count + k) * t->terms];
@@ -44,7 +44,7 @@ static double bound_of(const tape_tables *t, int k) {
     return 1.02 * t->off[k] + ROUNDS * (2.0 * t->size[k] + 6.0 * away) + 1e-14 * t->size[k];
 }
 
-static const op *cell_of(const tape *t) {
+static const op *cell_of(const op_list *t) {
     int i = 0;
     while (t->ops[i].code != OP_CELL) {
         i++;
@@ -54,11 +54,11 @@ static const op *cell_of(const tape *t) {
 
 uint64_t table_check(const image *const *im, int images, uint64_t stride,
                      table_error (*error)[TABLE_CHECK_MOST]) {
-    const tape *first = im[0]->list[IMAGE_STEP];
+    const op_list *first = im[0]->list[IMAGE_STEP];
     const int *turns = cell_of(first)->turns;
     double angle_rad[IMAGE_COMPONENTS_MAX] = {0};
     double exact[TABLE_CHECK_MOST];
-    float **cells = room(images, sizeof *cells);
+    float **cells = alloc(images, sizeof *cells);
     evaluator *ev = evaluator_new(im[0]->list[IMAGE_TABLES]);
     uint64_t phases = 0;
     int angle = 0;
@@ -66,7 +66,7 @@ uint64_t table_check(const image *const *im, int images, uint64_t stride,
         angle++;
     }
     for (int m = 0; m < images; m++) {
-        const tape_tables *t = &im[m]->list[IMAGE_STEP]->tables;
+        const op_list_tables *t = &im[m]->list[IMAGE_STEP]->tables;
         cells[m] = cells_of(t);
         for (int k = 0; k < t->count; k++) {
             error[m][k] = (table_error){.bound = bound_of(t, k)};
@@ -78,7 +78,7 @@ uint64_t table_check(const image *const *im, int images, uint64_t stride,
         angle_rad[angle] = (int32_t)phase * RAD_PER_PHASE / turns[angle];
         evaluator_run(ev, 0.0, angle_rad, NULL, NULL, NULL, exact);
         for (int m = 0; m < images; m++) {
-            const tape_tables *t = &im[m]->list[IMAGE_STEP]->tables;
+            const op_list_tables *t = &im[m]->list[IMAGE_STEP]->tables;
             float y;
             const float *row = wh_table_cell(cells[m], (unsigned)t->bits,
                                              (unsigned)(t->count * t->terms), phase, &y);

@@ -11,8 +11,8 @@
 #include <string.h>
 
 #include "derived.h"
-#include "host/run/engine.h"
-#include "host/sweep/point.h"
+#include "host/engine/engine.h"
+#include "host/study/point.h"
 #include "unity.h"
 #include "wave_exprs.h"
 

@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "derived.h"
-#include "host/run/engine.h"
+#include "host/engine/engine.h"
 #include "motion.h"
 #include "parsed.h"
 #include "unity.h"
@@ -84,7 +84,7 @@ static void test_all_that_acts_takes_part(void) {
             derived_expect(&d, text);
             const bool whole = multiples[i].times == floor(multiples[i].times);
             TEST_ASSERT_EQUAL_INT_MESSAGE(whole ? 1 : 0, d.image->angles, text);
-            TEST_ASSERT_FALSE_MESSAGE(tape_reads_turns(d.image->list[IMAGE_STEP]), text);
+            TEST_ASSERT_FALSE_MESSAGE(op_list_reads_turns(d.image->list[IMAGE_STEP]), text);
             if (places[k].list != NOWHERE) {
                 check_place(&d, k, multiples[i].times, text);
             }

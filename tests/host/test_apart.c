@@ -1,4 +1,4 @@
-/* test_apart.c: linkages that holds close and that do not fit where they start (host/run/apart.h): of drawn four-bars, both
+/* test_apart.c: linkages that holds close and that do not fit where they start (host/check/apart.h): of drawn four-bars, both
  * faults are told, with the energy that vanishes, and the values that are named fit when they are pasted. */
 #include <math.h>
 #include <stdio.h>
@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "command.h"
-#include "host/run/apart.h"
+#include "host/check/apart.h"
 #include "motion.h"
 #include "unity.h"
 

@@ -7,7 +7,7 @@
 
 #include "command.h"
 #include "derived.h"
-#include "host/base/room.h"
+#include "host/base/alloc.h"
 #include "unity.h"
 
 void suite_arm(void);
@@ -55,7 +55,7 @@ static char *text_of(const arm *a) {
     char *text;
     size_t length;
     char e[20];
-    FILE *out = room_text(&text, &length);
+    FILE *out = alloc_text(&text, &length);
     fputs("mechanism arm\n", out);
     for (int i = 0; i < JOINTS; i++) {
         fprintf(out, "coordinate q%d [rad]\n", i);
@@ -95,7 +95,7 @@ static char *text_of(const arm *a) {
         fprintf(out, " + %.17g [N]*c%d_2", a->mass[i] * G, i);
     }
     fputs(")\n", out);
-    room_text_end(out);
+    alloc_text_end(out);
     return text;
 }
 

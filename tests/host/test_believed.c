@@ -1,4 +1,4 @@
-/* test_believed.c: whether what is left of a run's energy can be believed (host/run/belief.h), by formulas: of books that are made up,
+/* test_believed.c: whether what is left of a run's energy can be believed (host/check/energy_residual.h), by formulas: of books that are made up,
  * of runs with contacts whose totals are, and of what float loses of powers that are too small for it. */
 #include <math.h>
 #include <stdbool.h>
@@ -8,7 +8,7 @@
 #include "blocks.h"
 #include "command.h"
 #include "derived.h"
-#include "host/run/belief.h"
+#include "host/check/energy_residual.h"
 #include "made_run.h"
 #include "unity.h"
 
@@ -31,8 +31,8 @@ static uint64_t held_values(const void *run) {
 }
 
 /* What explains it, by the root of the steps; the measure, and its part. */
-static void expect_measure(const belief *made, books *b, const engine_kind *kind, double entry_J,
-                           double left_J) {
+static void expect_measure(const energy_residual *made, books *b, const engine_kind *kind,
+                           double entry_J, double left_J) {
     double computing_J = 0.0;
     const double step_J = books_rounding_J(b, kind, NULL, &computing_J);
     double rounding_J = 32.0 * sqrt((double)b->entries) * step_J + 2.0 * computing_J;
@@ -99,7 +99,7 @@ static void test_made_up_books(void) {
         for (int i = 0; i < 5; i++) {
             entry_J = fmax(entry_J, entries[i]);
         }
-        const belief made = belief_of(b, &kind, NULL);
+        const energy_residual made = energy_residual_of(b, &kind, NULL);
         TEST_ASSERT_TRUE(fabs(left_J - made.left_J) <= 1e-14 * entry_J);
         expect_measure(&made, b, &kind, entry_J, made.left_J);
         expect_near(b->input_J, made.inputs_J, "inputs");
@@ -111,7 +111,7 @@ static void test_made_up_books(void) {
         books_close(b);
         derived_free(&d);
     }
-    TEST_ASSERT_FALSE(belief_of(NULL, &made_run_kind, NULL).known);
+    TEST_ASSERT_FALSE(energy_residual_of(NULL, &made_run_kind, NULL).known);
 }
 
 /* --- with contacts ------------------------------------------------------------------------------------------------------*/
@@ -183,7 +183,7 @@ static void test_kept_books(void) {
             left_J -= own;
             most = fmax(most, fabs(own));
         }
-        const belief made = belief_of(b, &kind, NULL);
+        const energy_residual made = energy_residual_of(b, &kind, NULL);
         expect_near(left_J, made.left_J, "left over");
         expect_near(inputs_J, made.inputs_J, "inputs");
         expect_near(losses_J, made.losses_J, "losses");
@@ -195,7 +195,7 @@ static void test_kept_books(void) {
     }
     d.image->ledger.kept = false;
     books *b = books_open(d.image);
-    TEST_ASSERT_FALSE(belief_of(b, &kind, NULL).known);
+    TEST_ASSERT_FALSE(energy_residual_of(b, &kind, NULL).known);
     books_close(b);
     derived_free(&d);
 }
@@ -204,7 +204,7 @@ static void test_kept_books(void) {
 
 /* Of a list's powers, in its bounds with and without what is below the least normal number. */
 static double lost_W(const image *im, const double *real, const double *input) {
-    const tape *t = im->list[IMAGE_BOOKS];
+    const op_list *t = im->list[IMAGE_BOOKS];
     double value[60];
     double off[2][60];
     double lost = 0.0;
@@ -258,7 +258,7 @@ static void test_what_is_too_small(void) {
         const double step_J = books_rounding_J(b, kind, run, &computing_J);
         wanted_J *= kind == &engine_float ? end + 1 : 0;
         expect_near(wanted_J, books_lost_J(b), "lost");
-        const belief made = belief_of(b, kind, run);
+        const energy_residual made = energy_residual_of(b, kind, run);
         expect_near(32.0 * sqrt(end + 1.0) * step_J + 2.0 * computing_J +
                         (made.left_J != 0.0 ? wanted_J : 0.0),
                     made.rounding_J, "rounding, with what is lost");

@@ -36,7 +36,7 @@ static const sample samples[] = {
 static int count_derived(const image *im, int first, int count, const char *text) {
     int derived_ones = 0;
     for (int i = first; i < first + count; i++) {
-        const blame_question *q = &im->blame.question[i];
+        const diagnostics_question *q = &im->blame.question[i];
         TEST_ASSERT_TRUE_MESSAGE(q->node >= 0 && q->node < im->blame.nodes, text);
         derived_ones += q->derived;
     }

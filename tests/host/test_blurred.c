@@ -8,7 +8,7 @@
 
 #include "by_bodies.h"
 #include "command.h"
-#include "host/commands/commands.h"
+#include "host/cli/commands.h"
 #include "motion.h"
 #include "unity.h"
 

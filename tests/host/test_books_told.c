@@ -9,8 +9,8 @@
 
 #include "command.h"
 #include "derived.h"
-#include "host/commands/commands.h"
-#include "host/run/books_text.h"
+#include "host/check/books_text.h"
+#include "host/cli/commands.h"
 #include "unity.h"
 
 void suite_books_told(void);
@@ -227,11 +227,11 @@ static void test_every_line(void) {
         if (dice_one_of(&d, 3) == 0) {
             b->energy_J[1] = (double)NAN;
         }
-        const belief balance = {.known = known,
-                                .inputs_J = dice_between(&d, -9.0, 9.0),
-                                .losses_J = dice_between(&d, -9.0, 0.0),
-                                .contacts_J = dice_between(&d, -9.0, 0.0),
-                                .left_J = dice_between(&d, -9.0, 9.0)};
+        const energy_residual balance = {.known = known,
+                                         .inputs_J = dice_between(&d, -9.0, 9.0),
+                                         .losses_J = dice_between(&d, -9.0, 0.0),
+                                         .contacts_J = dice_between(&d, -9.0, 0.0),
+                                         .left_J = dice_between(&d, -9.0, 9.0)};
         int at = snprintf(
             wanted, sizeof wanted, "energy book [J]\n  %-44s %.9g -> %.9g\n  %-44s %.9g -> %.9g\n",
             "kinetic", b->kinetic_J[0], b->kinetic_J[1], "stored", b->stored_J[0], b->stored_J[1]);

@@ -8,7 +8,7 @@
 #include <string.h>
 
 #include "command.h"
-#include "host/commands/commands.h"
+#include "host/cli/commands.h"
 #include "hybrid.h"
 #include "motion.h"
 #include "rattle.h"

@@ -1,4 +1,4 @@
-/* test_choice.c: both answers of `whirl choose` (host/price/choice.h) for drawn requests, compared with trying everything;
+/* test_choice.c: both answers of `whirl choose` (host/study/choice.h) for drawn requests, compared with trying everything;
  * and the table that they are rows of (price_table.h). */
 #include "derived.h"
 
@@ -8,11 +8,11 @@
 #include <string.h>
 
 #include "command.h"
-#include "host/base/room.h"
-#include "host/commands/pricing_scene.h"
+#include "host/base/alloc.h"
+#include "host/cli/pricing_scene.h"
 #include "host/emit/emit.h"
-#include "host/price/choice.h"
-#include "host/run/start.h"
+#include "host/engine/start.h"
+#include "host/study/choice.h"
 #include "unity.h"
 
 void suite_choice(void);
@@ -68,7 +68,7 @@ static void close_request(request *q) {
 }
 
 /* Does this setting keep everything with so many steps in a period? Its price in *worst: the longest steps' cycles a
- * second, the most promised. By itself: nothing of host/price/choice.c takes part. */
+ * second, the most promised. By itself: nothing of host/study/choice.c takes part. */
 static bool keeps(request *q, const setting *s, uint64_t substeps, double *worst) {
     bool own;
     const deviation_pace pace = {substeps, 1};
@@ -238,9 +238,9 @@ static char *code_of(const request *q, const setting *s, bool *own) {
     if (im == NULL) {
         return NULL;
     }
-    FILE *out = room_text(&text, &length);
+    FILE *out = alloc_text(&text, &length);
     emit_c(out, im, "a file");
-    room_text_end(out);
+    alloc_text_end(out);
     image_free(im);
     return text;
 }
@@ -251,8 +251,8 @@ static void test_settings_of_a_scene_are_those_that_differ(void) {
         request q;
         open_request(&q, texts[n], "mps2-an386", 20.0);
         const int count = setting_count();
-        char **code = room(count, sizeof *code);
-        bool *own = room(count, sizeof *own);
+        char **code = alloc(count, sizeof *code);
+        bool *own = alloc(count, sizeof *own);
         int kinds[3] = {0};
         for (int i = 0; i < count; i++) {
             const setting s = setting_at(i);

@@ -6,7 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "host/commands/commands.h"
+#include "host/cli/commands.h"
 
 #include "unity.h"
 

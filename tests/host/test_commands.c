@@ -9,9 +9,9 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "host/commands/files.h"
-#include "host/commands/load.h"
-#include "host/commands/options.h"
+#include "host/cli/files.h"
+#include "host/cli/load.h"
+#include "host/cli/options.h"
 #include "unity.h"
 
 void suite_commands(void);

@@ -1,4 +1,4 @@
-/* test_cost.c: predicted prices (host/price/cost.h): figures within their bounds, larger for more work, and compared with
+/* test_cost.c: predicted prices (host/study/cost.h): figures within their bounds, larger for more work, and compared with
  * the counted steps of docs/figures/price.csv. */
 #define _POSIX_C_SOURCE 200809L
 #include <stdio.h>
@@ -7,11 +7,11 @@
 
 #include "command.h"
 #include "derived.h"
-#include "host/commands/load.h"
-#include "host/commands/options.h"
+#include "host/cli/load.h"
+#include "host/cli/options.h"
 #include "host/fixed/fixed_plan.h"
 #include "host/lang/model.h"
-#include "host/price/cost.h"
+#include "host/study/cost.h"
 #include "unity.h"
 
 void suite_cost(void);

@@ -11,7 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "host/commands/commands.h"
+#include "host/cli/commands.h"
 #include "motion.h"
 #include "named_cures.h"
 

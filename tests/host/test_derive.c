@@ -188,11 +188,11 @@ static void test_power_balances_in_every_mechanism(void) {
 static void expect_cost(const char *name, int at_least, int at_most, int waves) {
     derived d = derived_builtin(name);
     derived_expect(&d, name);
-    const int operations = tape_operations(d.image->list[IMAGE_STEP]);
+    const int operations = op_list_operations(d.image->list[IMAGE_STEP]);
     printf("  %s: %d operations, %d sine pairs\n", name, operations,
-           tape_count(d.image->list[IMAGE_STEP]).waves);
+           op_list_count(d.image->list[IMAGE_STEP]).waves);
     TEST_ASSERT_TRUE_MESSAGE(operations >= at_least && operations <= at_most, name);
-    TEST_ASSERT_EQUAL_INT_MESSAGE(waves, tape_count(d.image->list[IMAGE_STEP]).waves, name);
+    TEST_ASSERT_EQUAL_INT_MESSAGE(waves, op_list_count(d.image->list[IMAGE_STEP]).waves, name);
     derived_free(&d);
 }
 
@@ -229,7 +229,7 @@ static void test_large_but_tame_expressions_are_derived(void) {
     TEST_ASSERT_TRUE((double)(clock() - began) / CLOCKS_PER_SEC < 20.0);
     TEST_ASSERT_EQUAL_INT(64, d.image->coordinates);
     /* 3 (x_{i+1} - 2 x_i + x_{i-1}) needs some four operations a mass */
-    TEST_ASSERT_TRUE(tape_operations(d.image->list[IMAGE_STEP]) <= 64 * 5);
+    TEST_ASSERT_TRUE(op_list_operations(d.image->list[IMAGE_STEP]) <= 64 * 5);
     derived_free(&d);
     free(front);
     free(energy);

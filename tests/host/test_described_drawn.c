@@ -183,15 +183,15 @@ static void check_lists(const image *im) {
     char value[200];
     char path[80];
     for (int role = 0; role < IMAGE_ROLES; role++) {
-        const tape *t = im->list[role];
+        const op_list *t = im->list[role];
         if (t == NULL) {
             snprintf(path, sizeof path, "lists/%s", drawn_scene_roles[role]);
             TEST_ASSERT_NULL_MESSAGE(json_value(json, path, value), path);
             continue;
         }
-        const tape_cost cost = tape_count(t);
+        const op_list_cost cost = op_list_count(t);
         expect_count(drawn_scene_roles[role], "results", t->results);
-        expect_count(drawn_scene_roles[role], "operations", tape_operations(t));
+        expect_count(drawn_scene_roles[role], "operations", op_list_operations(t));
         expect_count(drawn_scene_roles[role], "additions_and_products", cost.arithmetic);
         expect_count(drawn_scene_roles[role], "divisions", cost.divisions);
         expect_count(drawn_scene_roles[role], "roots", cost.roots);
@@ -202,7 +202,7 @@ static void check_lists(const image *im) {
 }
 
 static void check_tables(const image *im) {
-    const tape_tables *of = &im->list[IMAGE_STEP]->tables;
+    const op_list_tables *of = &im->list[IMAGE_STEP]->tables;
     if (im->settings.tables == TABLES_NONE) {
         expect_text("tables", "null");
         return;

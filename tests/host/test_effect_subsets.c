@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "command.h"
-#include "host/price/subsets.h"
+#include "host/study/subsets.h"
 #include "unity.h"
 
 void suite_effect_subsets(void);

@@ -14,7 +14,7 @@ void suite_emitted_c(void);
 /* --- operations --------------------------------------------------------------------------------------------- */
 
 /* What the operations of a list are, in the values that c_read.h makes up; of pairs, waves[] are numbered. */
-static double phase_value(const tape *t, const op *o, const double *x) {
+static double phase_value(const op_list *t, const op *o, const double *x) {
     double phase = o->value;
     for (int k = 0; k < t->angles; k++) {
         phase += o->turns != NULL ? o->turns[k] * c_leaf("phase", k) : 0.0;
@@ -25,7 +25,7 @@ static double phase_value(const tape *t, const op *o, const double *x) {
     return phase + (o->b >= 0 ? x[o->b] : 0.0);
 }
 
-static double row_value(const tape *t, const op *o, const double *x) {
+static double row_value(const op_list *t, const op *o, const double *x) {
     const double a = x[o->a >= 0 ? o->a : 0];
     const double b = o->b >= 0 ? x[o->b] : 0.0;
     char name[40];
@@ -80,7 +80,7 @@ static void expect_same(double wanted, double got, const char *what) {
     undefined += both_none;
 }
 
-static bool is_taken(const tape *t, op_code code, int i) {
+static bool is_taken(const op_list *t, op_code code, int i) {
     bool found = false;
     for (int k = 0; k < t->count; k++) {
         found = found || (t->ops[k].code == code && t->ops[k].a == i);
@@ -89,7 +89,7 @@ static bool is_taken(const tape *t, op_code code, int i) {
 }
 
 /* A function of the file against the list that it is of; `waves`: its sines are given. */
-static void check_list(const tape *t, const char *function, const char *result, bool waves) {
+static void check_list(const op_list *t, const char *function, const char *result, bool waves) {
     static c_values v;
     double x[SCENE_OPS];
     double sine[SCENE_OPS];
@@ -103,7 +103,7 @@ static void check_list(const tape *t, const char *function, const char *result, 
         x[i] = row_value(t, o, x);
         sine[i] = sin(x[i]);
         cosine[i] = cos(x[i]);
-        if (waves && tape_is_wave(o)) {
+        if (waves && op_list_is_wave(o)) {
             sine[i] = c_leaf("sine", wave);
             cosine[i] = c_leaf("cosine", wave++);
             TEST_ASSERT_EQUAL_MESSAGE(is_taken(t, OP_SIN, i), v.has_s[i], function);
@@ -137,14 +137,14 @@ static void check_list(const tape *t, const char *function, const char *result, 
 }
 
 /* The phase and the rate of each pair, which is what a step turns it on by. */
-static void check_waves(const tape *t) {
+static void check_waves(const op_list *t) {
     static c_values v[2];
     c_run(&emitted.file, "wave_sines", "result", &v[0]);
     c_run(&emitted.file, "wave_rates", "result", &v[1]);
     int wave = 0;
     for (int i = 0; i < t->count; i++) {
         const op *o = &t->ops[i];
-        if (tape_is_wave(o)) {
+        if (op_list_is_wave(o)) {
             double rate = 0.0;
             for (int k = 0; k < t->angles; k++) {
                 rate += o->turns[k] * c_leaf("rate", k);
@@ -243,12 +243,13 @@ static void check_layout(const image *im) {
 static void test_the_layout_is_regular(void) { each_emitted(check_layout); }
 
 /* What is called by a pointer need not be inlined, what is long is not. */
-static void expect_linkage(const char *function, const char *inlined, const tape *t) {
+static void expect_linkage(const char *function, const char *inlined, const op_list *t) {
     char words[100];
-    snprintf(words, sizeof words, "%s void %s (", tape_operations(t) > 150 ? "static" : inlined,
+    snprintf(words, sizeof words, "%s void %s (", op_list_operations(t) > 150 ? "static" : inlined,
              function);
     const int at = c_need(&emitted.file, 0, words);
-    const int head = at - 4 - (strcmp(inlined, "static inline") == 0 && tape_operations(t) <= 150);
+    const int head =
+        at - 4 - (strcmp(inlined, "static inline") == 0 && op_list_operations(t) <= 150);
     const bool first =
         head == 0 || c_is(&emitted.file, head - 1, "}") || c_is(&emitted.file, head - 1, ";");
     TEST_ASSERT_TRUE_MESSAGE(first, words);

@@ -7,7 +7,7 @@
 
 #include "derived.h"
 #include "drawn_scene.h"
-#include "host/base/room.h"
+#include "host/base/alloc.h"
 #include "host/emit/c_header.h"
 #include "host/emit/emit.h"
 #include "unity.h"
@@ -22,9 +22,9 @@ static drawn_scene drawn;
 static char *commented(const char *text) {
     char *written = NULL;
     size_t length = 0;
-    FILE *out = room_text(&written, &length);
+    FILE *out = alloc_text(&written, &length);
     c_comment(out, text);
-    room_text_end(out);
+    alloc_text_end(out);
     return written;
 }
 
@@ -393,9 +393,9 @@ static void test_a_fixed_state_has_every_name(void) {
         drawn_scene_draw(&drawn, &die);
         char *text = NULL;
         size_t length = 0;
-        FILE *out = room_text(&text, &length);
+        FILE *out = alloc_text(&text, &length);
         c_header_fixed_state(out, &drawn.im);
-        room_text_end(out);
+        alloc_text_end(out);
         const char *at = said_state(text, "    /* wh_fixed_angle(): unwrapped */\n",
                                     "    /* wh_fixed_real(), wh_fixed_set_real() */\n",
                                     "    /* wh_fixed_set_input(), between steps */\n");

@@ -10,10 +10,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "host/base/room.h"
+#include "host/base/alloc.h"
+#include "host/check/books.h"
+#include "host/check/books_text.h"
 #include "host/derive/ledger_lists.h"
-#include "host/run/books.h"
-#include "host/run/books_text.h"
 
 #include "unity.h"
 
@@ -407,10 +407,10 @@ static void expect_told(const image *im) {
         books_enter(b, &engine_double, run);
         TEST_ASSERT_EQUAL_INT(WH_OK, (int)engine_double.step(run));
     }
-    const belief balance = belief_of(b, &engine_double, run);
-    FILE *out = room_text(&text, &length);
+    const energy_residual balance = energy_residual_of(b, &engine_double, run);
+    FILE *out = alloc_text(&text, &length);
     books_print(out, b, &balance);
-    room_text_end(out);
+    alloc_text_end(out);
     TEST_ASSERT_NOT_NULL_MESSAGE(strstr(text, "  kinetic "), text);
     TEST_ASSERT_NOT_NULL_MESSAGE(strstr(text, "  stored "), text);
     TEST_ASSERT_TRUE_MESSAGE((strstr(text, "  booked: h = ") != NULL) == im->has_integral, text);

@@ -8,9 +8,9 @@
 
 #include "command.h"
 #include "derived.h"
+#include "host/engine/engine.h"
 #include "host/fixed/engine_fixed.h"
 #include "host/fixed/fixed_plan.h"
-#include "host/run/engine.h"
 #include "unity.h"
 
 void suite_engine_fixed(void);

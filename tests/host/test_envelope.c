@@ -1,6 +1,6 @@
 /* test_envelope.c: the course of a run for its picture: generated signals of every length, compared with all of
  * their values. */
-#include "host/run/envelope.h"
+#include "host/io/minmax_decimation.h"
 
 #include <math.h>
 #include <stdbool.h>
@@ -34,10 +34,10 @@ static double *signal_of(dice *d, unsigned steps) {
     return made;
 }
 
-static envelope *entered(const double *data, unsigned steps) {
-    envelope *v = envelope_new(COLUMNS, false);
+static decimation *entered(const double *data, unsigned steps) {
+    decimation *v = decimation_new(COLUMNS, false);
     for (unsigned k = 0; k < steps; k++) {
-        envelope_enter(v, data + (size_t)k * COLUMNS);
+        decimation_enter(v, data + (size_t)k * COLUMNS);
     }
     return v;
 }
@@ -46,24 +46,24 @@ static void test_short_runs_are_kept_number_by_number(void) {
     dice d = dice_of("short signals", 5101);
     for (unsigned i = 0; i < 20; i++) {
         const unsigned steps = i == 0   ? 1
-                               : i == 1 ? ENVELOPE_ROOM
-                                        : 1 + dice_one_of(&d, ENVELOPE_ROOM);
+                               : i == 1 ? DECIMATION_ROOM
+                                        : 1 + dice_one_of(&d, DECIMATION_ROOM);
         double *data = signal_of(&d, steps);
-        envelope *v = entered(data, steps);
+        decimation *v = entered(data, steps);
         int rows;
-        double *kept = envelope_rows(v, &rows);
+        double *kept = decimation_rows(v, &rows);
         TEST_ASSERT_EQUAL_INT((int)steps, rows);
         TEST_ASSERT_EQUAL_INT(0, memcmp(kept, data, (size_t)steps * COLUMNS * sizeof *data));
         free(kept);
         free(data);
-        envelope_free(v);
+        decimation_free(v);
     }
 }
 
 /* The steps of a bucket: the least power of two that lets all of them in. */
 static unsigned size_of(unsigned steps) {
     unsigned size = 1;
-    while ((uint64_t)size * ENVELOPE_ROOM < steps) {
+    while ((uint64_t)size * DECIMATION_ROOM < steps) {
         size *= 2;
     }
     return size;
@@ -98,17 +98,17 @@ static void test_long_runs_keep_least_and_most_of_every_stretch(void) {
     const unsigned cases = dice_cases(25);
     for (unsigned i = 0; i < cases; i++) {
         const unsigned steps =
-            i == 0   ? ENVELOPE_ROOM + 1
-            : i == 1 ? 2 * ENVELOPE_ROOM
-            : i == 2 ? 2 * ENVELOPE_ROOM + 1
-                     : ENVELOPE_ROOM + 1 + (unsigned)pow(10.0, dice_between(&d, 0.0, 5.3));
+            i == 0   ? DECIMATION_ROOM + 1
+            : i == 1 ? 2 * DECIMATION_ROOM
+            : i == 2 ? 2 * DECIMATION_ROOM + 1
+                     : DECIMATION_ROOM + 1 + (unsigned)pow(10.0, dice_between(&d, 0.0, 5.3));
         double *data = signal_of(&d, steps);
-        envelope *v = entered(data, steps);
+        decimation *v = entered(data, steps);
         const unsigned size = size_of(steps);
         int rows;
-        double *kept = envelope_rows(v, &rows);
+        double *kept = decimation_rows(v, &rows);
         TEST_ASSERT_EQUAL_INT((int)(2 * ((steps + size - 1) / size)), rows);
-        TEST_ASSERT_TRUE(rows > (int)ENVELOPE_ROOM && rows <= 2 * (int)ENVELOPE_ROOM);
+        TEST_ASSERT_TRUE(rows > (int)DECIMATION_ROOM && rows <= 2 * (int)DECIMATION_ROOM);
         for (int k = 0; k < rows / 2; k++) {
             const unsigned from = (unsigned)k * size;
             const unsigned to = from + size < steps ? from + size : steps;
@@ -119,29 +119,30 @@ static void test_long_runs_keep_least_and_most_of_every_stretch(void) {
         }
         free(kept);
         free(data);
-        envelope_free(v);
+        decimation_free(v);
     }
 }
 
 /* Wherever a run is broken off, what there is covers all of it. */
 static void test_at_every_moment_all_is_there(void) {
     dice d = dice_of("broken off", 5103);
-    const unsigned steps = 5 * ENVELOPE_ROOM;
+    const unsigned steps = 5 * DECIMATION_ROOM;
     double *data = signal_of(&d, steps);
-    envelope *v = envelope_new(COLUMNS, false);
+    decimation *v = decimation_new(COLUMNS, false);
     for (unsigned k = 0; k < steps; k++) {
-        envelope_enter(v, data + (size_t)k * COLUMNS);
+        decimation_enter(v, data + (size_t)k * COLUMNS);
         if (k % 97 == 0) {
             int rows;
-            double *kept = envelope_rows(v, &rows);
+            double *kept = decimation_rows(v, &rows);
             TEST_ASSERT_TRUE(kept[0] == data[0]);
             TEST_ASSERT_TRUE(kept[(size_t)(rows - 1) * COLUMNS] == data[(size_t)k * COLUMNS]);
-            TEST_ASSERT_TRUE(k < ENVELOPE_ROOM ? rows == (int)k + 1 : rows > (int)ENVELOPE_ROOM);
+            TEST_ASSERT_TRUE(k < DECIMATION_ROOM ? rows == (int)k + 1
+                                                 : rows > (int)DECIMATION_ROOM);
             free(kept);
         }
     }
     free(data);
-    envelope_free(v);
+    decimation_free(v);
 }
 
 void suite_envelope(void) {

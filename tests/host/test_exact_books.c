@@ -5,8 +5,8 @@
 
 #include "command.h"
 #include "derived.h"
-#include "host/base/room.h"
-#include "host/run/belief.h"
+#include "host/base/alloc.h"
+#include "host/check/energy_residual.h"
 #include "motion.h"
 
 #include "unity.h"
@@ -19,7 +19,7 @@ static char *made_up(uint64_t *seed) {
     for (int i = 0; i < 8; i++) {
         r[i] = random_between(seed, 0.5, 2.0);
     }
-    return room_words(
+    return alloc_words(
         "mechanism m\ncoordinate x [m]\ncoordinate y [m]\ninput u = %.6f [N]\n"
         "T = %.6f [kg]*x'^2/2 + %.6f [kg]*y'^2/2\nV = %.6f [N/m]*x^2/2 + %.6f [N/m]*(x - y)^2/2\n"
         "F = %.6f [N*s/m]*(x' - y')^2/2\nQ(y) = u\n"
@@ -48,8 +48,8 @@ static double try_one(const char *text, const engine_kind *kind, image_matrix_of
     motion_to(&fine, 10.0);
     const double off = fmax(fabs(motion_value(&m, "x") - motion_value(&fine, "x")),
                             fabs(motion_value(&m, "y") - motion_value(&fine, "y")));
-    const belief balance = belief_of(b, kind, m.run);
-    *lost = diverged || belief_lost(&balance, BELIEF_LIMIT);
+    const energy_residual balance = energy_residual_of(b, kind, m.run);
+    *lost = diverged || energy_residual_lost(&balance, ENERGY_RESIDUAL_LIMIT);
     books_close(b);
     motion_close(&m);
     motion_close(&fine);

@@ -7,7 +7,7 @@
 
 #include "command.h"
 #include "core/frame.h"
-#include "host/commands/commands.h"
+#include "host/cli/commands.h"
 #include "host/monitor/light.h"
 #include "unity.h"
 

@@ -5,11 +5,11 @@
 #include <string.h>
 
 #include "derived.h"
-#include "host/base/room.h"
+#include "host/base/alloc.h"
+#include "host/check/energy_residual.h"
+#include "host/check/slow.h"
 #include "host/fixed/engine_fixed.h"
 #include "host/fixed/fixed_plan.h"
-#include "host/run/belief.h"
-#include "host/run/slow.h"
 
 #include "unity.h"
 
@@ -20,7 +20,7 @@ typedef struct outcome {
     double real[4];
     int told;
     bool held;
-    belief belief;
+    energy_residual belief;
 } outcome;
 
 static outcome run_of(derived *d, const char *text) {
@@ -39,7 +39,7 @@ static outcome run_of(derived *d, const char *text) {
     }
     end.told = slow_count(&engine_fixed, d->image, run);
     end.held = engine_fixed.saturated(run) > 0;
-    end.belief = belief_of(b, &engine_fixed, run);
+    end.belief = energy_residual_of(b, &engine_fixed, run);
     TEST_ASSERT_EQUAL_INT(end.held, end.belief.saturated);
     engine_fixed.state(run, end.angle, end.real);
     books_close(b);
@@ -63,8 +63,8 @@ static void try_even_motion(int kind, double value, double times, int step_us, i
         ("state c [m]\ninput v = %.9g [m/s]\nequation c' = v\nscene s { until 2 [s]; step %d [us]\n"
          "range c = -%.9g .. %.9g [m], v = -%.9g .. %.9g [m/s] }\n")};
     const double size = 3.0 * value * times;
-    char *with = room_words(texts[kind], value, step_us, size, size, size, size, size, size);
-    char *text = room_words("mechanism m\n%s", with);
+    char *with = alloc_words(texts[kind], value, step_us, size, size, size, size, size, size);
+    char *text = alloc_words("mechanism m\n%s", with);
     derived d = derived_scene(text, "s");
     derived_expect(&d, text);
     const outcome end = run_of(&d, text);
@@ -114,7 +114,7 @@ static void test_books_believe_what_is_right(void) {
             if (w > 100.0) { /* too coarse a step */
                 continue;
             }
-            char *text = room_words(
+            char *text = alloc_words(
                 "mechanism m\ncoordinate x [m]\nT = 1e%d [kg]*x'^2/2\nV = 1e%d [N/m]*x^2/2\n"
                 "scene s { start x = 1 [m]; step 1 [ms]; until 5 [s] }\n",
                 mass, spring);
@@ -122,7 +122,8 @@ static void test_books_believe_what_is_right(void) {
             derived_expect(&d, text);
             const outcome end = run_of(&d, text);
             if (fabs(end.real[0] - cos(5.0 * w)) < 1e-5) {
-                TEST_ASSERT_FALSE_MESSAGE(belief_lost(&end.belief, BELIEF_LIMIT), text);
+                TEST_ASSERT_FALSE_MESSAGE(energy_residual_lost(&end.belief, ENERGY_RESIDUAL_LIMIT),
+                                          text);
                 right++;
             }
             derived_free(&d);

@@ -7,8 +7,8 @@
 
 #include "command.h"
 #include "derived.h"
-#include "host/base/room.h"
-#include "host/commands/commands.h"
+#include "host/base/alloc.h"
+#include "host/cli/commands.h"
 #include "host/fixed/engine_fixed.h"
 #include "host/fixed/fixed_plan.h"
 
@@ -21,9 +21,9 @@ static fixed_plan *plan_of(const image *im, char **report) {
     size_t length;
     diags *errors = diags_new();
     fixed_plan *p = fixed_plan_make(im, false, errors);
-    FILE *out = room_text(report, &length);
+    FILE *out = alloc_text(report, &length);
     diags_flush(errors, out);
-    room_text_end(out);
+    alloc_text_end(out);
     diags_free(errors);
     return p;
 }
@@ -78,7 +78,7 @@ static void test_ranges_and_steps_of_all_sizes(void) {
     int made = 0;
     int refused = 0;
     for (size_t k = 0; k < sizeof wide / sizeof wide[0]; k++) {
-        char *text = room_words("mechanism m\n%sscene s { until 1 [s] }\n", wide[k]);
+        char *text = alloc_words("mechanism m\n%sscene s { until 1 [s] }\n", wide[k]);
         derived d = derived_scene(text, "s");
         derived_expect(&d, text);
         for (int power = -9; power <= 300;
@@ -150,9 +150,9 @@ static void test_what_has_no_acceleration_moves(void) {
             double real[4] = {0};
             const double value = pow(10.0, random_between(&seed, -2.0, 2.0));
             const double until_s = 2.0;
-            char *with = room_words(kinds[k].text, value);
-            char *text = room_words("mechanism m\n%s; step %d [us]; until 2 [s] }\n", with,
-                                    (int[]){50, 100, 500, 1000, 5000, 20000}[i % 6]);
+            char *with = alloc_words(kinds[k].text, value);
+            char *text = alloc_words("mechanism m\n%s; step %d [us]; until 2 [s] }\n", with,
+                                     (int[]){50, 100, 500, 1000, 5000, 20000}[i % 6]);
             derived d = derived_scene(text, "s");
             char *report;
             derived_expect(&d, text);
@@ -178,10 +178,10 @@ static void test_what_has_no_acceleration_moves(void) {
 static void test_small_swings(void) {
     for (int power = -7; power <= 0; power++) {
         char *report;
-        char *text = room_words("mechanism m\ncoordinate th [rad]\nT = 0.144 [kg*m^2]*th'^2/2\n"
-                                "V = -2.3544 [J]*cos(th)\nF = 0.02 [N*m*s]*th'^2\n"
-                                "scene s { start th = %.9g [rad]; step 1 [ms]; until 2 [s] }\n",
-                                pow(10.0, power));
+        char *text = alloc_words("mechanism m\ncoordinate th [rad]\nT = 0.144 [kg*m^2]*th'^2/2\n"
+                                 "V = -2.3544 [J]*cos(th)\nF = 0.02 [N*m*s]*th'^2\n"
+                                 "scene s { start th = %.9g [rad]; step 1 [ms]; until 2 [s] }\n",
+                                 pow(10.0, power));
         derived d = derived_scene(text, "s");
         derived_expect(&d, text);
         fixed_plan *p = plan_of(d.image, &report);

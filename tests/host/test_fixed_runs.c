@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "derived.h"
-#include "host/base/room.h"
+#include "host/base/alloc.h"
 #include "host/fixed/engine_fixed.h"
 #include "host/fixed/fixed_plan.h"
 
@@ -212,9 +212,9 @@ static void check_refused(const char *text, const char *why) {
     derived_expect(&d, text);
     diags *errors = diags_new();
     fixed_plan *p = fixed_plan_make(d.image, false, errors);
-    FILE *out = room_text(&report, &length);
+    FILE *out = alloc_text(&report, &length);
     diags_flush(errors, out);
-    room_text_end(out);
+    alloc_text_end(out);
     diags_free(errors);
     TEST_ASSERT_NULL_MESSAGE(p, text);
     TEST_ASSERT_NOT_NULL_MESSAGE(strstr(report, why), report);

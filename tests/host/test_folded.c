@@ -10,7 +10,7 @@
 
 #include "by_bodies.h"
 #include "command.h"
-#include "host/commands/commands.h"
+#include "host/cli/commands.h"
 #include "host/number/folding.h"
 #include "host/number/functions.h"
 #include "motion.h"

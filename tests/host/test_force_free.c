@@ -11,7 +11,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "host/run/books.h"
+#include "host/check/books.h"
 
 #include "unity.h"
 

@@ -13,7 +13,7 @@
 
 #include "derived.h"
 #include "host/algebra/algebra.h"
-#include "host/run/engine.h"
+#include "host/engine/engine.h"
 #include "unity.h"
 
 void suite_function_rows(void);
@@ -126,12 +126,12 @@ static void test_range(void) {
 static void test_operations(void) {
     uint64_t seed = SEED + 1;
     for (int f = 0; f < FUNCTIONS; f++) {
-        tape *t = tape_new(0, 1);
-        const int x = tape_leaf(t, OP_LINEAR, 0);
-        const int y = of_two(f) ? tape_leaf(t, OP_LINEAR, 1) : -1;
-        t->result[0] = tape_call(t, at(f), x, y);
-        tape_prune(t);
-        const tape_cost cost = tape_count(t);
+        op_list *t = op_list_new(0, 1);
+        const int x = op_list_leaf(t, OP_LINEAR, 0);
+        const int y = of_two(f) ? op_list_leaf(t, OP_LINEAR, 1) : -1;
+        t->result[0] = op_list_call(t, at(f), x, y);
+        op_list_prune(t);
+        const op_list_cost cost = op_list_count(t);
         TEST_ASSERT_EQUAL_INT(1, cost.arithmetic + cost.divisions + cost.roots + cost.waves +
                                      cost.calls);
         evaluator *ev = evaluator_new(t);
@@ -149,12 +149,12 @@ static void test_operations(void) {
         }
         evaluator_free(ev);
         /* of numbers, an operation is a number, where the list can tell */
-        const int known = tape_call(t, at(f), tape_constant(t, 0.25), of_two(f) ? x : -1);
+        const int known = op_list_call(t, at(f), op_list_constant(t, 0.25), of_two(f) ? x : -1);
         double number;
-        if (tape_is_constant(t, known, &number)) {
+        if (op_list_is_constant(t, known, &number)) {
             expect_near(f, number_call(at(f), 0.25, 0.0), number, 0.0, 0.25, 0.0);
         }
-        tape_free(t);
+        op_list_free(t);
     }
 }
 

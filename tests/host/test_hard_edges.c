@@ -8,7 +8,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "host/commands/commands.h"
+#include "host/cli/commands.h"
 #include "motion.h"
 
 #include "unity.h"

@@ -10,7 +10,7 @@
 #include <string.h>
 
 #include "horizons.h"
-#include "host/commands/commands.h"
+#include "host/cli/commands.h"
 #include "motion.h"
 
 #include "unity.h"

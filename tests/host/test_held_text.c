@@ -1,12 +1,12 @@
-/* test_held_text.c: what `whirl prove` says of drawn findings (host/prove/held.h), read back: numbers that are not less
+/* test_held_text.c: what `whirl prove` says of drawn findings (host/prove/containment.h), read back: numbers that are not less
  * than what was found, nor much more; which state is told of at the end; rows to the last bit. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "drawn_image.h"
-#include "host/base/room.h"
-#include "host/prove/held.h"
+#include "host/base/alloc.h"
+#include "host/prove/containment.h"
 #include "unity.h"
 
 void suite_held_text(void);
@@ -14,10 +14,10 @@ void suite_held_text(void);
 static dice die;
 static drawn_image drawn;
 static exact_state states[DRAWN_STATES];
-static held_state found_states[DRAWN_STATES];
+static containment_state found_states[DRAWN_STATES];
 static exact_motion of;
-static held_wish wish;
-static held_found found;
+static containment_wish wish;
+static containment_found found;
 
 static double drawn_size(void) {
     return dice_one_of(&die, 8) == 0
@@ -29,35 +29,36 @@ static void draw(void) {
     drawn_image_draw(&drawn, &die, MATRIX_NONE);
     drawn.im.settings.method = (wh_method)dice_one_of(&die, 2);
     of = (exact_motion){.states = 2 * drawn.im.count, .state = states};
-    wish = (held_wish){.motion = &of, .image = &drawn.im, .kind = &engine_float};
-    found = (held_found){.state = found_states,
-                         .states = of.states,
-                         .tube_steps = dice_one_of(&die, 1000000),
-                         .tube_s = dice_between(&die, 0.0, 30.0),
-                         .end = (held_end)dice_one_of(&die, HELD_STOPPED + 1)};
+    wish = (containment_wish){.motion = &of, .image = &drawn.im, .kind = &engine_float};
+    found = (containment_found){.state = found_states,
+                                .states = of.states,
+                                .flowpipe_steps = dice_one_of(&die, 1000000),
+                                .tube_s = dice_between(&die, 0.0, 30.0),
+                                .end = (containment_end)dice_one_of(&die, CONTAINMENT_STOPPED + 1)};
     wish.kind = dice_one_of(&die, 2) == 0 ? &engine_float : &engine_double;
     const unsigned likely = 1 + dice_one_of(&die, 4);
     for (int i = 0; i < of.states; i++) {
-        held_state *s = &found_states[i];
+        containment_state *s = &found_states[i];
         states[i] = (exact_state){i / 2, i % 2};
-        *s = (held_state){.verdict = dice_one_of(&die, likely) == 0
-                                         ? HELD_TO_THE_END
-                                         : (held_verdict)dice_one_of(&die, HELD_UNENDED + 1),
-                          .within = drawn_size(),
-                          .until_s = 0.001 * dice_one_of(&die, 20),
-                          .off = drawn_size(),
-                          .radius = drawn_size()};
-        s->begun =
-            s->verdict == HELD_TO_THE_END || s->verdict == HELD_UNENDED || dice_one_of(&die, 3) > 0;
+        *s = (containment_state){
+            .verdict = dice_one_of(&die, likely) == 0
+                           ? CONTAINMENT_TO_THE_END
+                           : (containment_verdict)dice_one_of(&die, CONTAINMENT_UNENDED + 1),
+            .within = drawn_size(),
+            .until_s = 0.001 * dice_one_of(&die, 20),
+            .off = drawn_size(),
+            .radius = drawn_size()};
+        s->begun = s->verdict == CONTAINMENT_TO_THE_END || s->verdict == CONTAINMENT_UNENDED ||
+                   dice_one_of(&die, 3) > 0;
     }
 }
 
 static char *said_of(void) {
     char *text = NULL;
     size_t length = 0;
-    FILE *out = room_text(&text, &length);
-    held_print(out, &found, &wish);
-    room_text_end(out);
+    FILE *out = alloc_text(&text, &length);
+    containment_print(out, &found, &wish);
+    alloc_text_end(out);
     return text;
 }
 
@@ -84,25 +85,25 @@ static const char *read_not_less(const char *at, const image_unit *unit, double 
     return at;
 }
 
-static const char *said_behind(const char *at, const held_state *s) {
+static const char *said_behind(const char *at, const containment_state *s) {
     switch (s->verdict) {
-    case HELD_TO_THE_END: return said_exactly(at, "\n");
-    case HELD_LEFT: return said_exactly(at, "; behind it off by more: proved\n");
-    case HELD_UNTOLD: return said_exactly(at, "; behind it the tube is too wide to tell\n");
-    case HELD_UNENDED: break;
+    case CONTAINMENT_TO_THE_END: return said_exactly(at, "\n");
+    case CONTAINMENT_LEFT: return said_exactly(at, "; behind it off by more: proved\n");
+    case CONTAINMENT_UNTOLD: return said_exactly(at, "; behind it the tube is too wide to tell\n");
+    case CONTAINMENT_UNENDED: break;
     }
     switch (found.end) {
-    case HELD_AT_END: return said_exactly(at, "\n");
-    case HELD_RUN_ENDS: return said_exactly(at, "; there the run fails\n");
-    case HELD_NO_STEP: return said_exactly(at, "; there the tube ends\n");
-    case HELD_SPENT: return said_exactly(at, "; there the effort is spent\n");
-    case HELD_STOPPED: return said_exactly(at, "; there it was interrupted\n");
+    case CONTAINMENT_AT_END: return said_exactly(at, "\n");
+    case CONTAINMENT_RUN_ENDS: return said_exactly(at, "; there the run fails\n");
+    case CONTAINMENT_NO_STEP: return said_exactly(at, "; there the tube ends\n");
+    case CONTAINMENT_SPENT: return said_exactly(at, "; there the effort is spent\n");
+    case CONTAINMENT_STOPPED: return said_exactly(at, "; there it was interrupted\n");
     }
     return at;
 }
 
 static const char *said_state(const char *at, int i, const char *name) {
-    const held_state *s = &found.state[i];
+    const containment_state *s = &found.state[i];
     const image_unit *unit = &drawn.unit[i / 2][i % 2];
     const char *shown = strcmp(unit->shown, "1") == 0 ? "" : unit->shown;
     at = said_exactly(at, "  ");
@@ -114,7 +115,7 @@ static const char *said_state(const char *at, int i, const char *name) {
     TEST_ASSERT_TRUE(*at != ' ');
     if (!s->begun) {
         at = said_words(at, "never ");
-    } else if (s->verdict == HELD_TO_THE_END) {
+    } else if (s->verdict == CONTAINMENT_TO_THE_END) {
         at = said_words(at, "to the end ");
     } else {
         at = read_time(at, s->until_s);
@@ -125,8 +126,9 @@ static const char *said_state(const char *at, int i, const char *name) {
     at = said_exactly(at, shown);
     at = said_exactly(at, ": ");
     if (!s->begun) {
-        return said_exactly(at, s->verdict == HELD_LEFT ? "its start is off by more: proved\n"
-                                                        : "its start is not known so well\n");
+        return said_exactly(at, s->verdict == CONTAINMENT_LEFT
+                                    ? "its start is off by more: proved\n"
+                                    : "its start is not known so well\n");
     }
     at = said_exactly(at, "off by at most ");
     at = read_not_less(at, unit, s->off, 1);
@@ -150,8 +152,8 @@ static int first_that_is_not(void) {
     }
     for (int ms = 0; ms < 20; ms++) {
         for (int i = 0; i < found.states; i++) {
-            const held_state *s = &found.state[i];
-            if (s->verdict != HELD_TO_THE_END && lround(s->until_s * 1000.0) == ms) {
+            const containment_state *s = &found.state[i];
+            if (s->verdict != CONTAINMENT_TO_THE_END && lround(s->until_s * 1000.0) == ms) {
                 return i;
             }
         }
@@ -175,7 +177,7 @@ static const char *said_end(const char *at, double end_s) {
     at = read_time(at, found.state[first].until_s);
     at = said_exactly(at, " s of ");
     at = said_exactly(read_time(at, end_s), " s");
-    if (found.state[first].verdict != HELD_UNENDED) {
+    if (found.state[first].verdict != CONTAINMENT_UNENDED) {
         at = said_exactly(at, ": ");
         at = said_exactly(at, name_of(first, name));
         at = said_exactly(at, " is the first that is not");
@@ -202,7 +204,7 @@ static void test_words(void) {
         at = read_time(at, end_s);
         at = said_exactly(
             at, " s\n  held against a tube round the exact motion: Taylor steps of order 26, ");
-        at = read_time(at, (double)found.tube_steps);
+        at = read_time(at, (double)found.flowpipe_steps);
         at = said_exactly(at, " of them to t = ");
         at = read_time(at, found.tube_s);
         at = said_exactly(at, " s\n\nproved at the end of every step until [s]\n");
@@ -231,14 +233,14 @@ static void test_rows(void) {
         size_t length = 0;
         draw();
         const uint64_t step = dice_one_of(&die, 1000000);
-        FILE *out = room_text(&text, &length);
-        held_rows_head(out, &wish);
+        FILE *out = alloc_text(&text, &length);
+        containment_rows_head(out, &wish);
         for (int i = 0; i < of.states; i++) {
             run[i] = dice_between(&die, -1.0, 1.0) * pow(10.0, dice_between(&die, -200.0, 200.0));
             exact[i] = (enclosure){run[i] - fabs(run[i]) * 1e-15, run[i] * (1.0 / 3.0)};
         }
-        held_row(out, &wish, step, exact, run);
-        room_text_end(out);
+        containment_row(out, &wish, step, exact, run);
+        alloc_text_end(out);
         const char *at = said_exactly(text, "time [s]");
         for (int i = 0; i < of.states; i++) {
             static const char *const parts[] = {" least [", " most [", " run ["};

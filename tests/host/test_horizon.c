@@ -8,7 +8,7 @@
 
 #include "command.h"
 #include "derived.h"
-#include "host/run/horizon.h"
+#include "host/check/horizon.h"
 
 #include "unity.h"
 
@@ -122,7 +122,8 @@ static bool keeps_its_place(const drawn_column *c) {
 }
 
 /* As horizon.h has it. */
-static horizon_column judged(const drawn_column *all, int k, double tolerance, const twins *t) {
+static horizon_column judged(const drawn_column *all, int k, double tolerance,
+                             const step_doubling *t) {
     const double left_out = t->left_out;
     const double end_s = t->end_s;
     const double least = t->shape->kind == &engine_double ? 1e-9 : 1e-3;
@@ -163,14 +164,14 @@ static void test_verdicts_on_drawn_columns(void) {
     unsigned seen[5] = {0};
     for (unsigned n = 0; n < 800; n++) {
         drawn_column drawn[COLUMNS];
-        twins_column column[COLUMNS] = {{0}};
+        step_doubling_column column[COLUMNS] = {{0}};
         const double tolerance = pow(10.0, dice_between(&d, -5.0, -1.0));
         records shape = {.kind = n % 2U == 0 ? &engine_double : &engine_float};
-        twins t = {.shape = &shape,
-                   .column = column,
-                   .columns = COLUMNS,
-                   .end_s = 100.0,
-                   .left_out = dice_between(&d, 1.0, 1.2)};
+        step_doubling t = {.shape = &shape,
+                           .column = column,
+                           .columns = COLUMNS,
+                           .end_s = 100.0,
+                           .left_out = dice_between(&d, 1.0, 1.2)};
         for (int k = 1; k < COLUMNS; k++) {
             drawn[k] = draw_column(&d);
             column[k].low = drawn[k].low;
@@ -243,9 +244,9 @@ static void hold_growth(dice *d, wh_method method, int order, bool events) {
     derived made = derived_scene(text, "s");
     derived_expect(&made, text);
     made.image->settings.method = method;
-    const twins_wish wish = {
+    const step_doubling_wish wish = {
         .image = made.image, .kind = &engine_double, .plain = made.image, .books = events};
-    twins *t = twins_run(&wish);
+    step_doubling *t = step_doubling_run(&wish);
     horizon h = horizon_of(t, tolerance);
     const double rough = factor(order, z);
     const double fine = factor(4, 0.5 * z);
@@ -276,7 +277,7 @@ static void hold_growth(dice *d, wh_method method, int order, bool events) {
         TEST_ASSERT_DOUBLE_WITHIN(1.01 * step_s, until_s, h.until_s);
     }
     horizon_free(&h);
-    twins_free(t);
+    step_doubling_free(t);
     derived_free(&made);
 }
 
@@ -377,17 +378,17 @@ static void expect_words(const horizon *h) {
 static void test_words_and_rows(void) {
     derived made = derived_scene(springs, "s");
     derived_expect(&made, springs);
-    const twins_wish wish = {
+    const step_doubling_wish wish = {
         .image = made.image, .kind = &engine_double, .plain = made.image, .books = true};
-    twins *t = twins_run(&wish);
+    step_doubling *t = step_doubling_run(&wish);
     horizon h = horizon_of(t, 0.01);
     TEST_ASSERT_TRUE(h.first > 0 && t->shape->column[h.first].unknown == 0);
     TEST_ASSERT_TRUE(h.until_s > 0.68 && h.until_s < 0.85);
     expect_csv(&h);
     expect_words(&h);
     horizon_free(&h);
-    twins_free(t);
-    twins_free(NULL);
+    step_doubling_free(t);
+    step_doubling_free(NULL);
     derived_free(&made);
 }
 

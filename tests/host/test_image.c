@@ -10,14 +10,14 @@
 #include <string.h>
 
 #include "derived.h"
+#include "host/check/books_text.h"
+#include "host/check/nonfinite.h"
+#include "host/check/slow.h"
+#include "host/check/summary.h"
 #include "host/emit/description.h"
 #include "host/emit/emit.h"
-#include "host/run/books_text.h"
-#include "host/run/records.h"
-#include "host/run/slow.h"
-#include "host/run/start.h"
-#include "host/run/summary.h"
-#include "host/run/undefined.h"
+#include "host/engine/start.h"
+#include "host/io/records.h"
 #include "unity.h"
 
 void suite_image(void);
@@ -40,11 +40,11 @@ static void write_run(FILE *out, const image *im, const engine_kind *kind) {
             records_read(r, run, 0.0);
             records_write(r);
             if (kind->step(run) != WH_OK) {
-                undefined_step(im, kind, run, WH_E_DIVERGED, errors);
+                nonfinite_step(im, kind, run, WH_E_DIVERGED, errors);
                 break;
             }
         }
-        const belief balance = belief_of(b, kind, run);
+        const energy_residual balance = energy_residual_of(b, kind, run);
         summary_print(out, im, kind, run, b, &balance);
         if (b != NULL && im->ledger.kept) {
             books_print_kept(out, im, kind, run, b);
@@ -68,17 +68,17 @@ static void write_undefined(FILE *out, const image *im) {
     for (int i = 0; i < im->reals; i++) {
         real[i] = (double)NAN;
     }
-    const undefined_at at = {
+    const nonfinite_at at = {
         .image = im, .angle_rad = angle_rad, .real = real, .ahead_steps = 1.0, .when = "here"};
     diags *errors = diags_new();
-    undefined_term(&at, errors);
-    undefined_set(&at, errors);
+    nonfinite_term(&at, errors);
+    nonfinite_set(&at, errors);
     for (int k = 0; k < im->contacts; k++) {
-        undefined_contact(&at, k, errors);
+        nonfinite_contact(&at, k, errors);
     }
     diags_flush(errors, out);
     real[0] = 1e300;
-    undefined_angle(&at, errors);
+    nonfinite_angle(&at, errors);
     diags_flush(errors, out);
     diags_free(errors);
 }

@@ -1,4 +1,4 @@
-/* test_jobs.c: the workers of a sweep (host/sweep/jobs.h): rows in order from any number of them, whichever ends first; one that is
+/* test_jobs.c: the workers of a sweep (host/study/jobs.h): rows in order from any number of them, whichever ends first; one that is
  * lost, rows that are refused, and few files that may be open. */
 #define _POSIX_C_SOURCE 200809L
 #include <math.h>
@@ -11,9 +11,9 @@
 
 #include "blocks.h"
 #include "command.h"
-#include "host/base/room.h"
-#include "host/sweep/jobs.h"
-#include "host/sweep/session.h"
+#include "host/base/alloc.h"
+#include "host/study/jobs.h"
+#include "host/study/session.h"
 #include "unity.h"
 
 void suite_jobs(void);
@@ -232,20 +232,20 @@ static void test_workers_end_when_they_are_told(void) {
 
 /* --- the line of progress --------------------------------------------------------------------- */
 
-/* The line that shows how far a sweep has got (host/sweep/session.h), read again: what is done,
+/* The line that shows how far a sweep has got (host/study/session.h), read again: what is done,
  * the bar, how fast, and how long it will take at that pace. */
 static char *shown;
 static size_t length;
 
 /* As if it had begun so long ago. */
 static progress begun(double ago_s, uint64_t from, uint64_t end) {
-    progress p = progress_start(room_text(&shown, &length), from, end);
+    progress p = progress_start(alloc_text(&shown, &length), from, end);
     p.start_s -= ago_s;
     return p;
 }
 
 static void finish(progress *p) {
-    room_text_end(p->out);
+    alloc_text_end(p->out);
     free(shown);
 }
 

@@ -1,4 +1,4 @@
-/* test_jumped.c: steps that jump over a pole (host/run/jumped.h): of drawn equations and forces whose divisor the motion comes near
+/* test_jumped.c: steps that jump over a pole (host/check/pole_crossing.h): of drawn equations and forces whose divisor the motion comes near
  * to and never reaches, told where the run got through and not where it stayed on its side. What a run did is read from its
  * last state alone. Of what only looks like a pole: test_unjumped.c. */
 #include <math.h>
@@ -8,8 +8,8 @@
 #include <string.h>
 
 #include "blocks.h"
-#include "host/commands/commands.h"
-#include "host/run/jumped.h"
+#include "host/check/pole_crossing.h"
+#include "host/cli/commands.h"
 #include "jumps.h"
 #include "unity.h"
 
@@ -131,21 +131,21 @@ static void test_when(void) {
         knee_text(text, c % KNEES, v, k, v * dice_between(&die, 1.0, 3.0), step_s);
         motion_open_text(&m, text, (stepping){.kind = &engine_double, .method = WH_RK4});
         const long before = blocks_in_use();
-        jumped *j = jumped_open(m.image);
+        pole_crossing *j = pole_crossing_open(m.image);
         TEST_ASSERT_NOT_NULL(j);
         for (uint64_t step = 0; step <= m.image->steps && behind_s < 0.0; step++) {
-            TEST_ASSERT_FALSE(jumped_some(j));
+            TEST_ASSERT_FALSE(pole_crossing_some(j));
             TEST_ASSERT_EQUAL_INT(WH_OK, step == 0 ? WH_OK : motion_step(&m, 1));
-            jumped_enter(j, m.kind, m.run);
+            pole_crossing_enter(j, m.kind, m.run);
             behind_s = motion_value(&m, "s") < -k ? (double)step * step_s : -1.0;
         }
-        TEST_ASSERT_EQUAL_INT_MESSAGE(behind_s >= 0.0, jumped_some(j), text);
+        TEST_ASSERT_EQUAL_INT_MESSAGE(behind_s >= 0.0, pole_crossing_some(j), text);
         if (behind_s >= 0.0) {
-            const blame_question *q = jumped_over(j, &begin_s);
+            const diagnostics_question *q = pole_crossing_over(j, &begin_s);
             TEST_ASSERT_EQUAL_STRING("the equation", q->what);
             TEST_ASSERT_TRUE(fabs(begin_s + step_s - behind_s) < 1e-9);
         }
-        jumped_close(j);
+        pole_crossing_close(j);
         TEST_ASSERT_EQUAL_INT(before, blocks_in_use());
         motion_close(&m);
     }

@@ -246,7 +246,7 @@ static void check_lets(comparison *c, const char *text) {
 /* The highest derivatives that a step takes at the state. False when one is no number there. */
 static bool run_there(comparison *c) {
     const image *im = c->image;
-    const tape *t = im->list[IMAGE_STEP];
+    const op_list *t = im->list[IMAGE_STEP];
     double result[RESULTS_MAX];
     double off[RESULTS_MAX];
     const derived moving = {.instance = c->of->instance,

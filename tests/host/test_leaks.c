@@ -8,13 +8,13 @@
 #include "blocks.h"
 #include "command.h"
 #include "derived.h"
+#include "host/base/alloc.h"
 #include "host/base/exit.h"
-#include "host/base/room.h"
+#include "host/check/findings.h"
+#include "host/check/horizon.h"
+#include "host/check/summary.h"
 #include "host/emit/description.h"
 #include "host/emit/emit.h"
-#include "host/run/findings.h"
-#include "host/run/horizon.h"
-#include "host/run/summary.h"
 #include "unity.h"
 
 void suite_leaks(void);
@@ -68,26 +68,27 @@ static void run_watched(const image *im, const image *plain) {
     static const engine_kind *const kinds[] = {&engine_double, &engine_float};
     for (int k = 0; k < 2; k++) {
         void *run = kinds[k]->start(im);
-        verdict *v = verdict_open(im, plain, kinds[k], run, NULL);
+        run_checks *v = run_checks_open(im, plain, kinds[k], run, NULL);
         wh_status status = WH_OK;
-        verdict_enter(v);
+        run_checks_enter(v);
         for (uint64_t i = 0; i < im->steps && status == WH_OK; i++) {
             status = kinds[k]->step(run);
-            verdict_enter(v);
+            run_checks_enter(v);
         }
-        verdict_end(v, status);
+        run_checks_end(v, status);
         FILE *out = tmpfile();
         TEST_ASSERT_NOT_NULL(out);
         status == WH_OK ? findings_say(out, v, true) : findings_say_failed(out, v);
         summary_print(out, im, kinds[k], run, v->books, &v->balance);
         fclose(out);
-        verdict_close(v);
+        run_checks_close(v);
         kinds[k]->stop(run);
-        const twins_wish wish = {.image = im, .kind = kinds[k], .plain = plain, .books = true};
-        twins *t = twins_run(&wish);
+        const step_doubling_wish wish = {
+            .image = im, .kind = kinds[k], .plain = plain, .books = true};
+        step_doubling *t = step_doubling_run(&wish);
         horizon h = horizon_of(t, HORIZON_TOLERANCE);
         horizon_free(&h);
-        twins_free(t);
+        step_doubling_free(t);
     }
 }
 
@@ -109,7 +110,7 @@ static int make_all_ways(const char *name) {
         image *im = made_in(&d, &ways[i]);
         image_settings finer;
         if (im != NULL) {
-            (void)twins_plain(&ways[i], &finer);
+            (void)step_doubling_plain(&ways[i], &finer);
             image *plain = made_in(&d, &finer);
             im->steps = im->steps < 20 ? im->steps : 20;
             run_watched(im, plain);
@@ -195,15 +196,15 @@ static void test_rooms_of_drawn_sizes(void) {
         const size_t head = dice_one_of(&d, 60);
         const int64_t count = (int64_t)dice_one_of(&d, 100);
         const size_t bytes = size * (size_t)count;
-        unsigned char *plain = room(count, size);
-        unsigned char *tail = room_tail(head + 1, count, size);
+        unsigned char *plain = alloc(count, size);
+        unsigned char *tail = alloc_tail(head + 1, count, size);
         TEST_ASSERT_TRUE(all_are(plain, bytes, 0));
         TEST_ASSERT_TRUE(all_are(tail, head + 1 + bytes, 0));
         memset(plain, 7, bytes);
         memset(tail, 9, head + 1 + bytes);
-        plain = room_more(plain, count + 1 + (int64_t)dice_one_of(&d, 100), size);
+        plain = alloc_more(plain, count + 1 + (int64_t)dice_one_of(&d, 100), size);
         TEST_ASSERT_TRUE(all_are(plain, bytes, 7));
-        char *copy = room_copy((const char *)plain, bytes);
+        char *copy = alloc_copy((const char *)plain, bytes);
         TEST_ASSERT_TRUE(all_are((const unsigned char *)copy, bytes, 7));
         TEST_ASSERT_EQUAL_CHAR('\0', copy[bytes]);
         free(copy);
@@ -214,7 +215,7 @@ static void test_rooms_of_drawn_sizes(void) {
 
 static void test_words_of_any_length(void) {
     for (int length = 0; length < BYTES_MOST; length = length * 5 / 4 + 1) {
-        char *words = room_words("%*s|%d", length, "", length);
+        char *words = alloc_words("%*s|%d", length, "", length);
         TEST_ASSERT_EQUAL_INT('|', words[length]);
         TEST_ASSERT_EQUAL_INT(length, (int)strtol(words + length + 1, NULL, 10));
         TEST_ASSERT_EQUAL_size_t((size_t)length, strspn(words, " "));
@@ -226,9 +227,9 @@ static void test_texts_of_any_length(void) {
     for (int length = 0; length < BYTES_MOST; length = length * 5 / 4 + 1) {
         char *text = NULL;
         size_t bytes = 0;
-        FILE *to = room_text(&text, &bytes);
+        FILE *to = alloc_text(&text, &bytes);
         fprintf(to, "%*s|", length, "");
-        room_text_end(to);
+        alloc_text_end(to);
         TEST_ASSERT_EQUAL_size_t((size_t)length + 1U, bytes);
         TEST_ASSERT_EQUAL_size_t(bytes, strlen(text));
         TEST_ASSERT_EQUAL_INT('|', text[length]);
@@ -252,7 +253,7 @@ static void end_badly(const char *name, const char *mode) {
     FILE *to = fopen(name, mode);
     if (to != NULL) {
         fputs("text", to);
-        room_text_end(to);
+        alloc_text_end(to);
     }
 }
 
@@ -262,19 +263,19 @@ static int ask(int count, char **words) {
     (void)count;
     void *made = NULL;
     switch (words[0][0]) {
-    case 'a': made = room(-1, 8); break;
-    case 'b': made = room_more(NULL, -1, 8); break;
-    case 'c': made = room_tail(8, -1, 8); break;
-    case 'd': made = room_copy("", SIZE_MAX); break;
-    case 'e': made = room_more(NULL, 2, HALF + 4U); break;
-    case 'f': made = room_tail(8, 2, HALF + 4U); break;
-    case 'g': made = room_tail(SIZE_MAX - 7U, 2, 8); break;
+    case 'a': made = alloc(-1, 8); break;
+    case 'b': made = alloc_more(NULL, -1, 8); break;
+    case 'c': made = alloc_tail(8, -1, 8); break;
+    case 'd': made = alloc_copy("", SIZE_MAX); break;
+    case 'e': made = alloc_more(NULL, 2, HALF + 4U); break;
+    case 'f': made = alloc_tail(8, 2, HALF + 4U); break;
+    case 'g': made = alloc_tail(SIZE_MAX - 7U, 2, 8); break;
 #ifndef SANITIZED
-    case 'h': made = room(INT64_MAX, 1); break;
-    case 'i': made = room_more(NULL, INT64_MAX, 1); break;
-    case 'j': made = room_tail(0, INT64_MAX, 1); break;
-    case 'k': made = room_copy("", HALF); break;
-    case 'l': made = room(3, HALF); break;
+    case 'h': made = alloc(INT64_MAX, 1); break;
+    case 'i': made = alloc_more(NULL, INT64_MAX, 1); break;
+    case 'j': made = alloc_tail(0, INT64_MAX, 1); break;
+    case 'k': made = alloc_copy("", HALF); break;
+    case 'l': made = alloc(3, HALF); break;
 #endif
     /* Streams that took not all: one that says so as it is closed, and one that said so before. */
     case 'm': end_badly("/dev/full", "w"); break;

@@ -1,4 +1,4 @@
-/* test_leans.c: what a run is measured by (host/run/belief.h) does not depend on what no motion depends on: where the origin
+/* test_leans.c: what a run is measured by (host/check/energy_residual.h) does not depend on what no motion depends on: where the origin
  * is, and which vector potential stands for a magnetic field, as terms of the kinetic energy that are linear in the rates. */
 #include <math.h>
 #include <stdbool.h>
@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "command.h"
-#include "host/commands/commands.h"
+#include "host/cli/commands.h"
 #include "unity.h"
 
 void suite_leans(void);

@@ -7,7 +7,7 @@
 
 #include "command.h"
 #include "derived.h"
-#include "host/base/room.h"
+#include "host/base/alloc.h"
 #include "host/emit/emit.h"
 #include "unity.h"
 
@@ -26,7 +26,7 @@ static char *keep(char *text) {
     return kept[kept_count++] = text;
 }
 
-#define TEXT(...) keep(room_words(__VA_ARGS__))
+#define TEXT(...) keep(alloc_words(__VA_ARGS__))
 
 static void forget(void) {
     while (kept_count > 0) {
@@ -119,7 +119,7 @@ static void expect_same_numbers(const derived *a, const derived *b, const char *
         double of_b[RESULTS];
         random_state(&s, a, &seed);
         for (int r = 0; r < 2; r++) {
-            const tape *t = a->image->list[roles[r]];
+            const op_list *t = a->image->list[roles[r]];
             TEST_ASSERT_TRUE(t->results <= RESULTS);
             derived_run(t, a, &s, of_a);
             derived_run(b->image->list[roles[r]], b, &s, of_b);

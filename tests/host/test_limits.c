@@ -5,7 +5,7 @@
 #include <stdlib.h>
 
 #include "command.h"
-#include "host/run/summary.h"
+#include "host/check/summary.h"
 #include "motion.h"
 
 #include "unity.h"

@@ -198,7 +198,7 @@ static void tape_of_a_tapped_run(const tap *only, uint64_t exchanges) {
     lockstep_replay(&again, name, &report);
     TEST_ASSERT_EQUAL_INT(0, remove(name));
     TEST_ASSERT_TRUE(report.end == LOCKSTEP_LET_GO);
-    TEST_ASSERT_TRUE(report.hash == hash && report.tape_hash == hash);
+    TEST_ASSERT_TRUE(report.hash == hash && report.op_list_hash == hash);
     TEST_ASSERT_EQUAL_UINT64(exchanges, report.exchanges);
     TEST_ASSERT_TRUE(report.time_s > 0.298 && report.time_s < 0.3);
 }

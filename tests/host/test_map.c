@@ -10,8 +10,8 @@
 #include "command.h"
 #include "derived.h"
 #include "host/base/interrupts.h"
-#include "host/commands/commands.h"
-#include "host/sweep/stability_map.h"
+#include "host/cli/commands.h"
+#include "host/study/stability_map.h"
 
 #include "unity.h"
 

@@ -8,7 +8,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "host/sweep/stability_map.h"
+#include "host/study/stability_map.h"
 #include "shown_map.h"
 
 #include "unity.h"

@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "derived.h"
-#include "host/sweep/stability_map.h"
+#include "host/study/stability_map.h"
 #include "shown_map.h"
 
 #include "unity.h"

@@ -11,7 +11,7 @@
 #include "command.h"
 #include "derived.h"
 #include "host/derive/affine.h"
-#include "host/number/twofold.h"
+#include "host/number/double_double.h"
 #include "linear.h"
 #include "motion.h"
 #include "unity.h"
@@ -30,8 +30,9 @@ static twofold drawn_twofold(uint64_t *seed) {
     const double high =
         number_scaled(random_between(seed, 0.5, 1.0) * (random_bits(seed) % 2 != 0 ? 1.0 : -1.0),
                       (int)(random_bits(seed) % 60) - 30);
-    return twofold_add(twofold_of(high),
-                       twofold_of(number_scaled(high * random_between(seed, -0.5, 0.5), -53)));
+    return double_double_add(
+        double_double_of(high),
+        double_double_of(number_scaled(high * random_between(seed, -0.5, 0.5), -53)));
 }
 
 static void expect_near(quad want, twofold got, quad size) {
@@ -46,9 +47,9 @@ static void test_twice_the_digits(void) {
         const twofold b = drawn_twofold(&seed);
         const quad x = whole_of(a);
         const quad y = whole_of(b);
-        expect_near(x * y, twofold_mul(a, b), quad_size(x * y));
-        expect_near(x / y, twofold_div(a, b), quad_size(x / y));
-        TEST_ASSERT_TRUE(quad_size(whole_of(twofold_add(a, b)) - (x + y)) <=
+        expect_near(x * y, double_double_mul(a, b), quad_size(x * y));
+        expect_near(x / y, double_double_div(a, b), quad_size(x / y));
+        TEST_ASSERT_TRUE(quad_size(whole_of(double_double_add(a, b)) - (x + y)) <=
                          quad_size(x + y) * (quad)0x1p-100 + quad_size(x) * (quad)0x1p-106);
     }
 }
@@ -64,14 +65,14 @@ static void test_constants_are_rounded_once(void) {
             a = (twofold){middle, n % 3 == 0 ? 0.0 : number_scaled(middle, n % 5 == 0 ? -55 : -90)};
             a.low = n % 7 == 0 ? -a.low : a.low;
         }
-        const double constant = twofold_constant(a);
+        const double constant = double_double_constant(a);
         const quad left = whole_of(a) - (quad)(float)constant;
         const float nearest = (float)constant;
         TEST_ASSERT_TRUE(quad_size(left) <=
                          quad_size(whole_of(a) - (quad)nextafterf(nearest, INFINITY)));
         TEST_ASSERT_TRUE(quad_size(left) <=
                          quad_size(whole_of(a) - (quad)nextafterf(nearest, -INFINITY)));
-        TEST_ASSERT_TRUE((double)left == twofold_beyond_float(a));
+        TEST_ASSERT_TRUE((double)left == double_double_beyond_float(a));
         TEST_ASSERT_TRUE(fabs(constant - a.high) <= fabs(a.high) * 0x1p-52);
     }
 }

@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "drawn_image.h"
-#include "host/base/room.h"
+#include "host/base/alloc.h"
 #include "host/emit/matrix.h"
 #include "unity.h"
 
@@ -17,9 +17,9 @@ static drawn_image drawn;
 static char *written(void (*write)(FILE *out, const image *im)) {
     char *text = NULL;
     size_t length = 0;
-    FILE *out = room_text(&text, &length);
+    FILE *out = alloc_text(&text, &length);
     write(out, &drawn.im);
-    room_text_end(out);
+    alloc_text_end(out);
     return text;
 }
 

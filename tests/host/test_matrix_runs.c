@@ -10,7 +10,7 @@
 
 #include "command.h"
 #include "derived.h"
-#include "host/commands/commands.h"
+#include "host/cli/commands.h"
 #include "linear.h"
 #include "motion.h"
 #include "unity.h"

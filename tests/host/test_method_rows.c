@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "core/ledger_step.h"
-#include "host/run/methods.h"
+#include "host/engine/methods.h"
 
 #include "unity.h"
 

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "host/run/start.h"
+#include "host/engine/start.h"
 
 #include "command.h"
 #include "motion.h"

@@ -1,5 +1,5 @@
 /* test_missed.c: contacts and forces thinner than the way of a step. Round posts are met, as closed forms have it
- * (core/contact_step.h); of latches, flat walls, edges and hills of potential energy none is passed without a word (host/run/missed.h);
+ * (core/contact_step.h); of latches, flat walls, edges and hills of potential energy none is passed without a word (host/check/missed.h);
  * and of right runs none is told. WHIRL_CASES=2000 WHIRL_SEED=...: so many, others. */
 #include <math.h>
 #include <stdio.h>
@@ -132,7 +132,7 @@ static void test_posts(void) {
     TEST_ASSERT_TRUE(thin * 3 > cases);
 }
 
-/* Does the energy tell, which every run's balance asks (host/run/belief.h)? Of a hill that is far from both ends. */
+/* Does the energy tell, which every run's balance asks (host/check/energy_residual.h)? Of a hill that is far from both ends. */
 static bool is_unbalanced(const motion *m, const flight *f) {
     const double vx = motion_value(m, "x'");
     const double vy = motion_value(m, "y'");

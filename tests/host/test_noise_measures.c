@@ -9,8 +9,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "host/run/engine.h"
-#include "host/sweep/measures.h"
+#include "host/engine/engine.h"
+#include "host/study/measures.h"
 #include "unity.h"
 
 void suite_noise_measures(void);

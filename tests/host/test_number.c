@@ -12,7 +12,7 @@
 #include "host/lang/units.h"
 #include "host/number/functions.h"
 #include "host/number/ratio.h"
-#include "host/number/wide.h"
+#include "host/number/uint128.h"
 #include "tests/scattered.h"
 #include "unity.h"
 
@@ -170,39 +170,40 @@ enum { NUMBERS = 40000 };
 static uint64_t seed = 20261123;
 
 /* Of any length, with rows of zeros and ones. */
-static wide any_wide(void) {
-    wide n = {random_bits(&seed), random_bits(&seed)};
+static uint128 any_wide(void) {
+    uint128 n = {random_bits(&seed), random_bits(&seed)};
     if (random_bits(&seed) % 3 == 0) {
         n.high = 0;
     }
     if (random_bits(&seed) % 3 == 0) {
         n.low = random_bits(&seed) % 2 == 0 ? 0 : UINT64_MAX;
     }
-    return wide_right(n, (int)(random_bits(&seed) % 128));
+    return uint128_right(n, (int)(random_bits(&seed) % 128));
 }
 
-static bool same_wide(wide a, wide b) { return !wide_below(a, b) && !wide_below(b, a); }
+static bool same_wide(uint128 a, uint128 b) { return !uint128_below(a, b) && !uint128_below(b, a); }
 
 static void test_laws(void) {
     for (int i = 0; i < NUMBERS; i++) {
-        const wide a = any_wide();
-        const wide b = any_wide();
-        const wide c = any_wide();
+        const uint128 a = any_wide();
+        const uint128 b = any_wide();
+        const uint128 c = any_wide();
         const int bits = (int)(random_bits(&seed) % 128);
-        TEST_ASSERT_TRUE(same_wide(wide_minus(wide_plus(a, b), b), a));
-        TEST_ASSERT_TRUE(same_wide(wide_times(a, wide_plus(b, c)),
-                                   wide_plus(wide_times(a, b), wide_times(a, c))));
-        TEST_ASSERT_TRUE(same_wide(wide_left(a, bits), wide_times(a, wide_left(wide_of(1), bits))));
-        if (!wide_is_zero(b)) {
-            wide rest;
-            const wide quotient = wide_over(a, b, &rest);
-            TEST_ASSERT_TRUE(wide_below(rest, b));
-            TEST_ASSERT_TRUE(same_wide(wide_plus(wide_times(quotient, b), rest), a));
-            TEST_ASSERT_TRUE(!wide_below(a, quotient));
+        TEST_ASSERT_TRUE(same_wide(uint128_minus(uint128_plus(a, b), b), a));
+        TEST_ASSERT_TRUE(same_wide(uint128_times(a, uint128_plus(b, c)),
+                                   uint128_plus(uint128_times(a, b), uint128_times(a, c))));
+        TEST_ASSERT_TRUE(
+            same_wide(uint128_left(a, bits), uint128_times(a, uint128_left(uint128_of(1), bits))));
+        if (!uint128_is_zero(b)) {
+            uint128 rest;
+            const uint128 quotient = uint128_over(a, b, &rest);
+            TEST_ASSERT_TRUE(uint128_below(rest, b));
+            TEST_ASSERT_TRUE(same_wide(uint128_plus(uint128_times(quotient, b), rest), a));
+            TEST_ASSERT_TRUE(!uint128_below(a, quotient));
         }
         if (bits > 0) {
-            TEST_ASSERT_TRUE(
-                same_wide(wide_right(a, bits), wide_over(a, wide_left(wide_of(1), bits), NULL)));
+            TEST_ASSERT_TRUE(same_wide(uint128_right(a, bits),
+                                       uint128_over(a, uint128_left(uint128_of(1), bits), NULL)));
         }
     }
 }
@@ -210,21 +211,21 @@ static void test_laws(void) {
 #ifdef __SIZEOF_INT128__
 __extension__ typedef unsigned __int128 native;
 
-static native native_of(wide a) { return (native)a.high << 64 | a.low; }
+static native native_of(uint128 a) { return (native)a.high << 64 | a.low; }
 
 static void test_the_compilers_own(void) {
     for (int i = 0; i < NUMBERS; i++) {
-        const wide a = any_wide();
-        const wide b = any_wide();
+        const uint128 a = any_wide();
+        const uint128 b = any_wide();
         const int bits = (int)(random_bits(&seed) % 128);
-        TEST_ASSERT_TRUE(native_of(wide_plus(a, b)) == native_of(a) + native_of(b));
-        TEST_ASSERT_TRUE(native_of(wide_minus(a, b)) == native_of(a) - native_of(b));
-        TEST_ASSERT_TRUE(native_of(wide_times(a, b)) == native_of(a) * native_of(b));
-        TEST_ASSERT_TRUE(native_of(wide_left(a, bits)) == native_of(a) << bits);
-        TEST_ASSERT_TRUE(native_of(wide_right(a, bits)) == native_of(a) >> bits);
-        TEST_ASSERT_TRUE(wide_below(a, b) == (native_of(a) < native_of(b)));
-        if (!wide_is_zero(b)) {
-            TEST_ASSERT_TRUE(native_of(wide_over(a, b, NULL)) == native_of(a) / native_of(b));
+        TEST_ASSERT_TRUE(native_of(uint128_plus(a, b)) == native_of(a) + native_of(b));
+        TEST_ASSERT_TRUE(native_of(uint128_minus(a, b)) == native_of(a) - native_of(b));
+        TEST_ASSERT_TRUE(native_of(uint128_times(a, b)) == native_of(a) * native_of(b));
+        TEST_ASSERT_TRUE(native_of(uint128_left(a, bits)) == native_of(a) << bits);
+        TEST_ASSERT_TRUE(native_of(uint128_right(a, bits)) == native_of(a) >> bits);
+        TEST_ASSERT_TRUE(uint128_below(a, b) == (native_of(a) < native_of(b)));
+        if (!uint128_is_zero(b)) {
+            TEST_ASSERT_TRUE(native_of(uint128_over(a, b, NULL)) == native_of(a) / native_of(b));
         }
     }
 }

@@ -7,8 +7,8 @@
 #include <string.h>
 
 #include "command.h"
-#include "host/base/room.h"
-#include "host/run/engine.h"
+#include "host/base/alloc.h"
+#include "host/engine/engine.h"
 
 #include "unity.h"
 
@@ -27,51 +27,51 @@ static int some_value(dice *d, const int *value, int values) {
 }
 
 /* A sine or cosine of angles, of a value, or of both. */
-static int some_wave(dice *d, tape *t, const int *value, int values) {
+static int some_wave(dice *d, op_list *t, const int *value, int values) {
     double multiple[ANGLES];
     const bool turns = dice_one_of(d, 4) > 0;
     for (int k = 0; k < ANGLES; k++) {
         multiple[k] = turns ? (double)dice_one_of(d, 5) - 2.0 : 0.0;
     }
     const int radians = dice_one_of(d, 3) > 0 ? -1 : some_value(d, value, values);
-    const int phase = tape_phase(t, multiple, dice_one_of(d, 2) * 0.25, radians);
-    return tape_unary(t, dice_one_of(d, 2) > 0 ? OP_SIN : OP_COS, phase);
+    const int phase = op_list_phase(t, multiple, dice_one_of(d, 2) * 0.25, radians);
+    return op_list_unary(t, dice_one_of(d, 2) > 0 ? OP_SIN : OP_COS, phase);
 }
 
 /* Any function of the language, a new one too. */
-static int some_call(dice *d, tape *t, int a, int b) {
+static int some_call(dice *d, op_list *t, int a, int b) {
     const function_id function = (function_id)dice_one_of(d, FUNCTIONS);
-    return tape_call(t, function, a, function_arguments(function) == 2 ? b : -1);
+    return op_list_call(t, function, a, function_arguments(function) == 2 ? b : -1);
 }
 
-static int some_operation(dice *d, tape *t, const int *value, int values) {
+static int some_operation(dice *d, op_list *t, const int *value, int values) {
     const int a = some_value(d, value, values);
     const int b = some_value(d, value, values);
     switch (dice_one_of(d, 16)) {
-    case 0: return tape_leaf(t, OP_LINEAR, (int)dice_one_of(d, LEAVES));
-    case 1: return tape_leaf(t, OP_RATE, (int)dice_one_of(d, LEAVES));
-    case 2: return tape_leaf(t, OP_INPUT, (int)dice_one_of(d, LEAVES));
-    case 3: return tape_constant(t, dice_between(d, -2.0, 2.0));
+    case 0: return op_list_leaf(t, OP_LINEAR, (int)dice_one_of(d, LEAVES));
+    case 1: return op_list_leaf(t, OP_RATE, (int)dice_one_of(d, LEAVES));
+    case 2: return op_list_leaf(t, OP_INPUT, (int)dice_one_of(d, LEAVES));
+    case 3: return op_list_constant(t, dice_between(d, -2.0, 2.0));
     case 4: return some_wave(d, t, value, values);
-    case 5: return tape_div(t, a, b);
-    case 6: return tape_unary(t, OP_SQRT, tape_unary(t, OP_ABS, a));
+    case 5: return op_list_div(t, a, b);
+    case 6: return op_list_unary(t, OP_SQRT, op_list_unary(t, OP_ABS, a));
     case 7:
     case 8:
     case 9: return some_call(d, t, a, b);
-    case 10: return tape_sub(t, a, b);
-    case 11: return tape_unary(t, OP_NEG, a);
+    case 10: return op_list_sub(t, a, b);
+    case 11: return op_list_unary(t, OP_NEG, a);
     case 12:
-    case 13: return tape_mul(t, a, b);
+    case 13: return op_list_mul(t, a, b);
     }
-    return tape_add(t, a, b);
+    return op_list_add(t, a, b);
 }
 
-static tape *some_list(dice d) {
+static op_list *some_list(dice d) {
     const int size = (int)dice_one_of(&d, SIZE_MOST);
-    tape *t = tape_new(ANGLES, (int)dice_one_of(&d, RESULTS_MOST + 1));
-    int *value = room((int64_t)size + 1, sizeof *value);
+    op_list *t = op_list_new(ANGLES, (int)dice_one_of(&d, RESULTS_MOST + 1));
+    int *value = alloc((int64_t)size + 1, sizeof *value);
     int values = 1;
-    value[0] = tape_leaf(t, OP_RATE, 0);
+    value[0] = op_list_leaf(t, OP_RATE, 0);
     while (values <= size) {
         value[values] = some_operation(&d, t, value, values);
         values++;
@@ -81,7 +81,7 @@ static tape *some_list(dice d) {
     }
     free(value);
     if (dice_one_of(&d, 4) > 0) { /* else with operations that no result needs */
-        tape_prune(t);
+        op_list_prune(t);
     }
     return t;
 }
@@ -95,18 +95,18 @@ static int by_size(const void *x, const void *y) {
 }
 
 /* What each operation computes, wherever it stands: sorted. Phases also as they follow each other, in *phases. */
-static uint64_t *computed_by(const tape *t, uint64_t *phases) {
-    uint64_t *sum = room((int64_t)t->count + 1, sizeof *sum);
+static uint64_t *computed_by(const op_list *t, uint64_t *phases) {
+    uint64_t *sum = alloc((int64_t)t->count + 1, sizeof *sum);
     int operand[2];
     *phases = 1;
     for (int i = 0; i < t->count; i++) {
         op alone = t->ops[i];
-        const int operands = tape_operands(&alone, operand);
+        const int operands = op_list_operands(&alone, operand);
         if (op_rows[alone.code].values > 0) {
             alone.a = -2;
         }
         alone.b = operands > 0 ? -2 : alone.b;
-        sum[i] = tape_op_hash(t, &alone);
+        sum[i] = op_list_op_hash(t, &alone);
         for (int k = 0; k < operands; k++) {
             TEST_ASSERT_TRUE_MESSAGE(operand[k] < i, "an operation before what it takes");
             sum[i] = (sum[i] + sum[operand[k]]) * UINT64_C(0x9e3779b97f4a7c15);
@@ -117,7 +117,7 @@ static uint64_t *computed_by(const tape *t, uint64_t *phases) {
     return sum;
 }
 
-static void expect_same_operations(const tape *entered, const tape *ordered) {
+static void expect_same_operations(const op_list *entered, const op_list *ordered) {
     uint64_t phases[2];
     TEST_ASSERT_EQUAL_INT(entered->count, ordered->count);
     uint64_t *before = computed_by(entered, &phases[0]);
@@ -128,7 +128,7 @@ static void expect_same_operations(const tape *entered, const tape *ordered) {
     free(after);
 }
 
-static void expect_same_bits(dice *d, const tape *entered, const tape *ordered) {
+static void expect_same_bits(dice *d, const op_list *entered, const op_list *ordered) {
     evaluator *one = evaluator_new(entered);
     evaluator *other = evaluator_new(ordered);
     for (int state = 0; state < STATES; state++) {
@@ -155,20 +155,21 @@ static void test_random_lists_compute_the_same(void) {
     int moved = 0;
     for (unsigned i = 0; i < cases; i++) {
         const dice same = {d.state * 2862933555777941757ULL + i};
-        tape *entered = some_list(same);
-        tape *ordered = some_list(same);
-        tape_order(ordered);
+        op_list *entered = some_list(same);
+        op_list *ordered = some_list(same);
+        op_list_order(ordered);
         expect_same_operations(entered, ordered);
         expect_same_bits(&d, entered, ordered);
-        const int carried = tape_carried(entered);
-        const int carried_now = tape_carried(ordered);
+        const int carried = op_list_carried(entered);
+        const int carried_now = op_list_carried(ordered);
         TEST_ASSERT_TRUE_MESSAGE(carried_now <= carried, "values are carried more often");
-        TEST_ASSERT_TRUE((carried_now < carried) == (tape_hash(entered) != tape_hash(ordered)));
+        TEST_ASSERT_TRUE((carried_now < carried) ==
+                         (op_list_hash(entered) != op_list_hash(ordered)));
         moved += carried_now < carried;
         before += carried;
         after += carried_now;
-        tape_free(entered);
-        tape_free(ordered);
+        op_list_free(entered);
+        op_list_free(ordered);
     }
     char told[96];
     snprintf(told, sizeof told, "%d of %u lists reordered; values carried %lld times, were %lld",
@@ -183,22 +184,22 @@ static void test_random_lists_compute_the_same(void) {
  * that 20 registers hold are stored and read again; the last register is where the next square is made. */
 static void test_squares_are_summed_as_they_come(void) {
     for (int n = 1; n <= 200; n++) {
-        tape *t = tape_new(0, 1);
-        int *square = room(n, sizeof *square);
+        op_list *t = op_list_new(0, 1);
+        int *square = alloc(n, sizeof *square);
         for (int i = 0; i < n; i++) {
-            const int leaf = tape_leaf(t, OP_LINEAR, i);
-            square[i] = tape_mul(t, leaf, leaf);
+            const int leaf = op_list_leaf(t, OP_LINEAR, i);
+            square[i] = op_list_mul(t, leaf, leaf);
         }
         int sum = square[0];
         for (int i = 1; i < n; i++) {
-            sum = tape_add(t, sum, square[i]);
+            sum = op_list_add(t, sum, square[i]);
         }
         t->result[0] = sum;
-        TEST_ASSERT_EQUAL_INT(n <= 20 ? n : n + 2 * (n - 20), tape_carried(t));
-        tape_order(t);
-        TEST_ASSERT_EQUAL_INT(n, tape_carried(t));
+        TEST_ASSERT_EQUAL_INT(n <= 20 ? n : n + 2 * (n - 20), op_list_carried(t));
+        op_list_order(t);
+        TEST_ASSERT_EQUAL_INT(n, op_list_carried(t));
         free(square);
-        tape_free(t);
+        op_list_free(t);
     }
 }
 

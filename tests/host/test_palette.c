@@ -1,7 +1,7 @@
-/* test_palette.c: contrast and distance of the colours of pictures (host/plot/palette.h), computed: WCAG 2.1's contrast
+/* test_palette.c: contrast and distance of the colours of pictures (host/io/palette.h), computed: WCAG 2.1's contrast
  * ratio, and CIEDE2000 (Sharma, Wu and Dalal, 2005) between colours as they look to eyes without and with colour
  * blindness (Machado, Oliveira and Fernandes, 2009, severity 1). */
-#include "host/plot/palette.h"
+#include "host/io/palette.h"
 
 #include <math.h>
 #include <stdbool.h>

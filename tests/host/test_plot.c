@@ -1,6 +1,6 @@
 /* test_plot.c: what reaches gnuplot is text and no command, and stands in the picture as it was given: generated
  * names, titles and units of what gnuplot, a shell or XML could take for their own. */
-#include "host/plot/plot.h"
+#include "host/io/plot.h"
 
 #include <stdbool.h>
 #include <stdio.h>
@@ -9,7 +9,7 @@
 #include <unistd.h>
 
 #include "command.h"
-#include "host/plot/gnuplot.h"
+#include "host/io/gnuplot.h"
 #include "unity.h"
 
 void suite_plot(void);

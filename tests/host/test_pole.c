@@ -1,4 +1,4 @@
-/* test_pole.c: poles on a way (host/run/pole.h), of drawn products of powers whose poles are known: whole and broken
+/* test_pole.c: poles on a way (host/check/pole.h), of drawn products of powers whose poles are known: whole and broken
  * exponents, zeros close beside, poles on one side only, differences of which rounding leaves no more than noise, divisors
  * that change their sign twice. */
 #include <math.h>
@@ -6,8 +6,8 @@
 #include <stdio.h>
 
 #include "command.h"
+#include "host/check/pole.h"
 #include "host/number/functions.h"
-#include "host/run/pole.h"
 #include "unity.h"
 
 void suite_pole(void);

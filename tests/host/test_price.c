@@ -33,8 +33,8 @@ __attribute__((format(printf, 1, 2))) static price price_of(const char *format, 
         output);
     derived d = derived_text(text);
     derived_expect(&d, text);
-    const price of = {tape_operations(d.image->list[IMAGE_OBSERVE]),
-                      tape_count(d.image->list[IMAGE_OBSERVE]).waves};
+    const price of = {op_list_operations(d.image->list[IMAGE_OBSERVE]),
+                      op_list_count(d.image->list[IMAGE_OBSERVE]).waves};
     derived_free(&d);
     return of;
 }
@@ -184,7 +184,7 @@ static int price_of_system(int n) {
 #undef PUT
     derived d = derived_text(text);
     derived_expect(&d, text);
-    const int operations = tape_operations(d.image->list[IMAGE_STEP]);
+    const int operations = op_list_operations(d.image->list[IMAGE_STEP]);
     derived_free(&d);
     printf("  %d equations: %d operations\n", n, operations);
     return operations;
@@ -226,8 +226,8 @@ static void test_a_number_is_the_pivot(void) {
         derived d = derived_text(text);
         derived_expect(&d, text);
         /* a quotient, twice a product and a difference, a quotient; back: a product, a difference, a quotient */
-        printf("  pivot %d: %d\n", at, tape_operations(d.image->list[IMAGE_STEP]));
-        TEST_ASSERT_TRUE_MESSAGE(tape_operations(d.image->list[IMAGE_STEP]) <= 9, text);
+        printf("  pivot %d: %d\n", at, op_list_operations(d.image->list[IMAGE_STEP]));
+        TEST_ASSERT_TRUE_MESSAGE(op_list_operations(d.image->list[IMAGE_STEP]) <= 9, text);
         derived_free(&d);
     }
 }
@@ -249,7 +249,7 @@ static void test_decimals_cost_nothing(void) {
                  random_between(&seed, 1.0, 99.0));
         derived d = derived_text(text);
         derived_expect(&d, text);
-        const int operations = tape_operations(d.image->list[IMAGE_STEP]);
+        const int operations = op_list_operations(d.image->list[IMAGE_STEP]);
         least = operations < least ? operations : least;
         most = operations > most ? operations : most;
         derived_free(&d);

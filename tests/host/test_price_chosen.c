@@ -1,4 +1,4 @@
-/* test_price_chosen.c: choices in words (host/price/choice.h), of made-up ones, read back. */
+/* test_price_chosen.c: choices in words (host/study/choice.h), of made-up ones, read back. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -6,9 +6,9 @@
 
 #include "caught.h"
 #include "command.h"
-#include "host/base/room.h"
-#include "host/price/choice.h"
-#include "host/price/table_text.h"
+#include "host/base/alloc.h"
+#include "host/study/choice.h"
+#include "host/study/table_text.h"
 #include "priced.h"
 #include "unity.h"
 
@@ -88,8 +88,8 @@ static const char *expect_near(const char *at, double want, double part) {
 static void expect_options(const char *at, const trials *t, const table_row *r) {
     char options[SETTING_TEXT];
     char step[TRIAL_TIME];
-    char *want = room_words("%s --step %s\n", setting_options(&r->setting, true, options) + 1,
-                            trial_time(trial_step(t, r->pace), step));
+    char *want = alloc_words("%s --step %s\n", setting_options(&r->setting, true, options) + 1,
+                             trial_time(trial_step(t, r->pace), step));
     TEST_ASSERT_EQUAL_STRING_LEN(want, at, strlen(want));
     free(want);
 }
@@ -261,7 +261,7 @@ static void test_both_answers_are_told(void) {
                                                    false)};
         caught out;
         choice_print(catch_text(&out), &p.trial, &made, &w, &c, &words);
-        room_text_end(out.to);
+        alloc_text_end(out.to);
         (void)behind(out.text, "\n  prices      as they are\n");
         char *second = strstr(out.text, "\nleast flash    ");
         TEST_ASSERT_NOT_NULL(second);
@@ -316,7 +316,7 @@ static void test_what_would_fit_is_told(void) {
         c.dearer.load_most = c.any.load_most = 3.7;
         caught out;
         choice_print(catch_text(&out), &p.trial, &made, &w, &c, &words);
-        room_text_end(out.to);
+        alloc_text_end(out.to);
         TEST_ASSERT_EQUAL_INT(made.broken_off == 0,
                               has(out.text, "\nnothing fits: all 50 settings were tried\n"));
         TEST_ASSERT_EQUAL_INT(made.broken_off > 0,
@@ -366,7 +366,7 @@ static void test_why_none_has_a_price_is_told(void) {
     const choice_wish w = {.table = {.error = 1e-3}, .prices = "as they are"};
     caught out;
     choice_print(catch_text(&out), &p.trial, &made, &w, &c, &words);
-    room_text_end(out.to);
+    alloc_text_end(out.to);
     (void)behind(out.text, "\nnothing fits of the steps that were tried\n");
     (void)behind(out.text, "\n9 settings; 9 without a price here: a reason\n");
     TEST_ASSERT_FALSE(has(out.text, "what would fit"));

@@ -1,4 +1,4 @@
-/* test_price_control.c: the steps of the extrapolation (host/price/extrapolation.h): of one equation, by rules and steps of its
+/* test_price_control.c: the steps of the extrapolation (host/study/extrapolation.h): of one equation, by rules and steps of its
  * own, extrapolated by Lagrange's weights and not by a tableau; as many tries, and the same end. */
 #include <float.h>
 #include <math.h>
@@ -8,7 +8,7 @@
 #include "blocks.h"
 #include "command.h"
 #include "derived.h"
-#include "host/price/extrapolation.h"
+#include "host/study/extrapolation.h"
 #include "unity.h"
 
 void suite_price_control(void);

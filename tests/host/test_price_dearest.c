@@ -1,4 +1,4 @@
-/* test_price_dearest.c: what trials say that a setting costs (host/price/trial.h): the dearest of all places against each by
+/* test_price_dearest.c: what trials say that a setting costs (host/study/trial.h): the dearest of all places against each by
  * itself, finer steps where a scene takes no coarse one, and what there is no image of. */
 #include <string.h>
 

@@ -1,11 +1,11 @@
-/* test_price_front.c: rows of error against price (host/price/price_table.h): sorted, and which are on the front, against
+/* test_price_front.c: rows of error against price (host/study/price_table.h): sorted, and which are on the front, against
  * all pairs of drawn rows; the steps that are tried; and what of a price a row is sorted by. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "command.h"
-#include "host/price/price_table.h"
+#include "host/study/price_table.h"
 #include "unity.h"
 
 void suite_price_front(void);

@@ -1,4 +1,4 @@
-/* test_price_measured.c: prices that are counted (host/price/measured.h) and chosen by (choice.h), in a made-up source tree
+/* test_price_measured.c: prices that are counted (host/study/measured.h) and chosen by (choice.h), in a made-up source tree
  * (made_up_tree.h). */
 #include <math.h>
 #include <stdio.h>
@@ -7,9 +7,9 @@
 #include <unistd.h>
 
 #include "command.h"
-#include "host/base/room.h"
+#include "host/base/alloc.h"
 #include "host/fixed/engine_fixed.h"
-#include "host/price/choice.h"
+#include "host/study/choice.h"
 #include "made_up_tree.h"
 #include "priced.h"
 #include "unity.h"
@@ -242,7 +242,7 @@ static void test_whole_runs_are_the_most_of_all_places(void) {
                                           "%s,f,1,1,1,1,1,1,1,e,1,1,1,1\n",
                                           "x%s,f,1,1,1,1,1,1,1,e,1,1,1\n"};
         for (int i = 0; i < 3; i++) {
-            char *row = room_words(bad[i], boards[n]);
+            char *row = alloc_words(bad[i], boards[n]);
             const deviation_pace pace = {(uint64_t)i + 20, 1};
             tree_keep("row2", row);
             table_row rows[2];
@@ -338,19 +338,19 @@ static void test_choices_are_as_if_all_was_counted(void) {
         table_row row[ROWS];
         table_row all[ROWS];
         tree_enter();
-        char *script = room_words("echo . >>asked\ncase \"$*\" in\n");
+        char *script = alloc_words("echo . >>asked\ncase \"$*\" in\n");
         double counted[6];
         for (int i = 0; i < 6; i++) {
             counted[i] = 100 + dice_one_of(&d, 900);
-            char *longer = room_words("%s*%s\\ *) n=%.0f ;;\n", script, wh_methods[methods[i]].word,
-                                      counted[i]);
+            char *longer = alloc_words("%s*%s\\ *) n=%.0f ;;\n", script,
+                                       wh_methods[methods[i]].word, counted[i]);
             free(script);
             script = longer;
         }
         char *whole =
-            room_words("%sesac\necho \"a,g,f,mps2-an386,s,float,rk4,$n,$n,$n,$n,estimated,"
-                       "$n,10,10\"\n",
-                       script);
+            alloc_words("%sesac\necho \"a,g,f,mps2-an386,s,float,rk4,$n,$n,$n,$n,estimated,"
+                        "$n,10,10\"\n",
+                        script);
         tree_keep("mk/price/measure_one.sh", whole);
         free(whole);
         free(script);

@@ -1,4 +1,4 @@
-/* test_price_motion.c: what runs are held against (host/price/extrapolation.h, reference_run.h) by closed forms and by their
+/* test_price_motion.c: what runs are held against (host/study/extrapolation.h, reference_run.h) by closed forms and by their
  * order, and how far off it runs are (deviation.h) by a loop of its own. tests/host/test_price_reference.c asks the same of
  * long motions. */
 #include <float.h>
@@ -9,10 +9,10 @@
 #include "command.h"
 #include "derived.h"
 #include "host/base/interrupts.h"
-#include "host/price/deviation.h"
-#include "host/price/extrapolation.h"
-#include "host/price/long_list.h"
-#include "host/price/reference_run.h"
+#include "host/study/deviation.h"
+#include "host/study/extrapolation.h"
+#include "host/study/long_list.h"
+#include "host/study/reference_run.h"
 #include "unity.h"
 
 void suite_price_motion(void);

@@ -7,8 +7,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "host/price/long_list.h"
-#include "host/price/reference_run.h"
+#include "host/study/long_list.h"
+#include "host/study/reference_run.h"
 #include "unity.h"
 
 void suite_price_reference(void);

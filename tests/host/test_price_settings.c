@@ -1,4 +1,4 @@
-/* test_price_settings.c: the settings that are priced (host/price/setting.h): how many there are, in which order, what their
+/* test_price_settings.c: the settings that are priced (host/study/setting.h): how many there are, in which order, what their
  * options say, read back by a reader of its own, and what they are asked. */
 #include <stdlib.h>
 #include <string.h>

@@ -1,4 +1,4 @@
-/* test_price_states.c: rows of the reference (host/price/reference_run.h), of fine steps, and which of them a
+/* test_price_states.c: rows of the reference (host/study/reference_run.h), of fine steps, and which of them a
  * reference takes, until when, and in what words: against the records of a run, closed forms and a walk over the
  * rows. */
 #include <float.h>
@@ -11,8 +11,8 @@
 #include "command.h"
 #include "derived.h"
 #include "host/base/interrupts.h"
-#include "host/price/long_list.h"
-#include "host/price/reference_run.h"
+#include "host/study/long_list.h"
+#include "host/study/reference_run.h"
 #include "priced.h"
 #include "unity.h"
 

@@ -1,4 +1,4 @@
-/* test_price_trials.c: trials of settings (host/price/trial.h): steps as exact fractions, the worst and the
+/* test_price_trials.c: trials of settings (host/study/trial.h): steps as exact fractions, the worst and the
  * dearest of several places against each place by itself. */
 #include <math.h>
 #include <stdio.h>

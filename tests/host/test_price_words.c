@@ -1,4 +1,4 @@
-/* test_price_words.c: what is printed of prices (host/price/table_text.h): figures with their digits and how
+/* test_price_words.c: what is printed of prices (host/study/table_text.h): figures with their digits and how
  * they are known, rows of a made-up table for people and for programs, read back here. */
 #include <math.h>
 #include <stdio.h>
@@ -7,10 +7,10 @@
 
 #include "caught.h"
 #include "command.h"
-#include "host/base/room.h"
-#include "host/base/written.h"
+#include "host/base/alloc.h"
+#include "host/base/atomic_file.h"
 #include "host/fixed/engine_fixed.h"
-#include "host/price/table_text.h"
+#include "host/study/table_text.h"
 #include "priced.h"
 #include "unity.h"
 
@@ -77,7 +77,7 @@ static void test_legends_have_a_line_for_each_basis_that_is_there(void) {
         }
         caught legend;
         figure_legend(catch_text(&legend), &c);
-        room_text_end(legend.to);
+        alloc_text_end(legend.to);
         const char *at = legend.text;
         for (int b = COST_EXACT; b < COST_BASES; b++) {
             char begin[40];
@@ -107,8 +107,8 @@ static void test_fields_come_back(void) {
         }
         text[length] = '\0';
         caught field;
-        written_field(catch_text(&field), text);
-        room_text_end(field.to);
+        atomic_file_field(catch_text(&field), text);
+        alloc_text_end(field.to);
         if (strpbrk(text, ",\"\r\n") == NULL) {
             TEST_ASSERT_EQUAL_STRING(text, field.text);
         } else {
@@ -206,10 +206,10 @@ static char *line_again(const trials *t, const table_row *r, const table_words *
     if (run) {
         snprintf(where, sizeof where, " --set place=%d", r->result.point);
     }
-    return room_words("whirl %s %s%s%s%s%s --step %s --until 0.4%s", run ? "run" : "derive",
-                      words->target, words->changes, where, options,
-                      !run && setting_is_fixed(&r->setting) ? " --number fixed" : "", step,
-                      run ? "" : " --as c");
+    return alloc_words("whirl %s %s%s%s%s%s --step %s --until 0.4%s", run ? "run" : "derive",
+                       words->target, words->changes, where, options,
+                       !run && setting_is_fixed(&r->setting) ? " --number fixed" : "", step,
+                       run ? "" : " --as c");
 }
 
 static void test_programs_read_what_the_rows_are(void) {
@@ -224,7 +224,7 @@ static void test_programs_read_what_the_rows_are(void) {
         draw_rows(&d, &made, (table_unit)n);
         caught csv;
         table_csv(catch_text(&csv), &p.trial, &made, &words);
-        room_text_end(csv.to);
+        alloc_text_end(csv.to);
         const char *at = csv.text;
         TEST_ASSERT_EQUAL_STRING_LEN("front,error,error_unit,error_basis,error_bound,component,"
                                      "price_per_s,price_of,price_basis,price_least,"
@@ -321,7 +321,7 @@ static void test_people_read_what_the_rows_are(void) {
         made.broken_off = n % 3 ? 5 : 0;
         caught out;
         table_print(catch_text(&out), &p.trial, &made, &words);
-        room_text_end(out.to);
+        alloc_text_end(out.to);
         (void)said_words(out.text, "s on mps2-an386 (Cortex-M4F)\n  error       measured: ");
         TEST_ASSERT_EQUAL_INT(points > 1,
                               strstr(out.text, "the worst of 2 sampled places") != NULL);
@@ -404,7 +404,7 @@ static void test_at_most_twelve_rows_of_a_front_are_shown(void) {
         const table_words words = {"f", "", false, 1e7};
         caught out;
         table_print(catch_text(&out), &p.trial, &made, &words);
-        room_text_end(out.to);
+        alloc_text_end(out.to);
         int shown = 0;
         for (const char *at = strstr(out.text, "\n* "); at != NULL; at = strstr(at + 1, "\n* ")) {
             shown++;
@@ -425,7 +425,7 @@ static char *table_of_nothing(const trials *t, const table *made) {
     const table_words words = {"f", "", false, 1e7};
     caught out;
     table_print(catch_text(&out), t, made, &words);
-    room_text_end(out.to);
+    alloc_text_end(out.to);
     return out.text;
 }
 
@@ -458,7 +458,7 @@ static void test_tables_of_nothing_say_why(void) {
     p.trial.reliable = false;
     p.trial.reference[0]->kind = REFERENCE_NONE;
     free(p.trial.reference[0]->why);
-    p.trial.reference[0]->why = room_words("nobody knows");
+    p.trial.reference[0]->why = alloc_words("nobody knows");
     text = table_of_nothing(&p.trial, NULL);
     (void)behind(text, "\n              none that could be trusted: nobody knows\n");
     (void)behind(text, "\nno front: without a reference no error is known\n");

@@ -71,12 +71,12 @@ static char *text_of(const scene_case *c, double until_s) {
 }
 
 /* The scene until then, beside a reference whose length is off by this part. */
-static held_found hold_scene(const scene_case *c, double until_s, double part, beside *b) {
+static containment_found hold_scene(const scene_case *c, double until_s, double part, beside *b) {
     const quad_arms of = c->by_hand(c->length_m * (1 + (quad)part));
     *b = (beside){.slopes = quad_arms_slopes, .of = &of, .step_s = c->step_s};
     memcpy(b->state, c->start, sizeof c->start);
     char *text = text_of(c, until_s);
-    const held_found h = beside_hold(text, "proved", &engine_double, b);
+    const containment_found h = beside_hold(text, "proved", &engine_double, b);
     free(text);
     return h;
 }
@@ -87,23 +87,23 @@ static void expect_proved(const scene_case *c, double widest) {
 #ifdef QUAD_KNOWN
     beside b;
     const double until_s = few_or_all(0, 1) == 1 ? c->until_s : c->usual_s;
-    held_found h = hold_scene(c, until_s, 0.0, &b);
+    containment_found h = hold_scene(c, until_s, 0.0, &b);
     printf("  %-20s %g s: %u records inside, widest %.2e, %u steps of the tube\n", c->name, until_s,
-           (unsigned)b.records, b.widest, (unsigned)h.tube_steps);
+           (unsigned)b.records, b.widest, (unsigned)h.flowpipe_steps);
     TEST_ASSERT_EQUAL_UINT64_MESSAGE(0, b.outside, c->name);
     TEST_ASSERT_EQUAL_UINT64_MESSAGE(h.run_steps, b.records, c->name);
     TEST_ASSERT_TRUE_MESSAGE(b.widest < widest && b.widest > 1e-15, c->name);
     for (int i = 0; i < h.states; i++) {
-        TEST_ASSERT_EQUAL_INT_MESSAGE(HELD_TO_THE_END, h.state[i].verdict, c->name);
+        TEST_ASSERT_EQUAL_INT_MESSAGE(CONTAINMENT_TO_THE_END, h.state[i].verdict, c->name);
     }
-    held_free(&h);
+    containment_free(&h);
     static const double parts[] = {1e-6, -1e-6, 1e-12};
     for (int i = 0; i < 3; i++) {
         h = hold_scene(c, 0.1, parts[i], &b);
         printf("    off by %.0e: outside from record %u on, widest %.2e\n", parts[i],
                (unsigned)b.outside, b.widest);
         TEST_ASSERT_TRUE_MESSAGE(b.outside > 0 && b.widest < 1e-13, c->name);
-        held_free(&h);
+        containment_free(&h);
     }
 #else
     (void)c;

@@ -127,7 +127,7 @@ static void name_carriage(drawn_arms *d) {
 
 /* The tube, beside the same motion with one of its coefficients off by a part. */
 static beside hold_arms(const drawn_arms *d, const char *text, unsigned which, double part,
-                        held_end *end) {
+                        containment_end *end) {
     quad_arms of = d->arms;
     quad *const coefficient[] = {&of.gravity_mps2, &of.body[0].arm[0].length_m,
                                  &of.body[1].arm[0].length_m, &of.spin_kgm2[0],
@@ -135,10 +135,10 @@ static beside hold_arms(const drawn_arms *d, const char *text, unsigned which, d
     *coefficient[which % (sizeof coefficient / sizeof coefficient[0])] *= 1 + (quad)part;
     beside b = {.slopes = quad_arms_slopes, .of = &of, .step_s = (quad)1 / 500};
     memcpy(b.state, d->start, sizeof b.state);
-    held_found h = beside_hold(text, "drawn", &engine_double, &b);
+    containment_found h = beside_hold(text, "drawn", &engine_double, &b);
     *end = h.end;
-    TEST_ASSERT_TRUE_MESSAGE(h.end != HELD_AT_END || b.records == h.run_steps, text);
-    held_free(&h);
+    TEST_ASSERT_TRUE_MESSAGE(h.end != CONTAINMENT_AT_END || b.records == h.run_steps, text);
+    containment_free(&h);
     return b;
 }
 
@@ -152,12 +152,12 @@ static void test_drawn_arms(void) {
     double widest = 0.0;
     double nearest = 1.0;
     for (unsigned k = 0; k < cases; k++) {
-        held_end end;
+        containment_end end;
         draw_arms(&d, &die);
         name_carriage(&d);
         const beside b = hold_arms(&d, d.text, 0, 0.0, &end);
         TEST_ASSERT_EQUAL_UINT64_MESSAGE(0, b.outside, d.text);
-        to_the_end += end == HELD_AT_END ? 1 : 0;
+        to_the_end += end == CONTAINMENT_AT_END ? 1 : 0;
         widest = fmax(widest, b.widest);
         nearest = fmin(nearest, b.nearest);
         /* the same with a shorter scene: what is off is out soon, or it is not found */
@@ -222,11 +222,11 @@ static void test_drawn_linkages(void) {
             b.state[2 * i] = (quad)of.start[i];
             b.state[2 * i + 1] = (quad)of.start_rate[i];
         }
-        held_found h = beside_hold(text, "linkage_moves", &engine_float, &b);
+        containment_found h = beside_hold(text, "linkage_moves", &engine_float, &b);
         TEST_ASSERT_EQUAL_UINT64_MESSAGE(0, b.outside, text);
-        to_the_end += h.end == HELD_AT_END && b.records == h.run_steps ? 1 : 0;
+        to_the_end += h.end == CONTAINMENT_AT_END && b.records == h.run_steps ? 1 : 0;
         widest = fmax(widest, b.widest);
-        held_free(&h);
+        containment_free(&h);
     }
     printf("  %u drawn linkages, %u to the end, widest %.2e\n", cases, to_the_end, widest);
     TEST_ASSERT_TRUE(10 * to_the_end >= 9 * cases);

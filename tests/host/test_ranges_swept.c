@@ -1,4 +1,4 @@
-/* test_ranges_swept.c: what a sweep varies (host/sweep/grid.h, changes.h), drawn: its values are those of a line or of a
+/* test_ranges_swept.c: what a sweep varies (host/study/grid.h, changes.h), drawn: its values are those of a line or of a
  * geometric series, in the order in which a counter counts; what a point is told of them; each mistake is told in the words
  * of whose option it is and leaves the grid as it was; and everything is given back. */
 #include <math.h>
@@ -8,7 +8,7 @@
 #include "blocks.h"
 #include "command.h"
 #include "host/lang/model.h"
-#include "host/sweep/changes.h"
+#include "host/study/changes.h"
 #include "unity.h"
 
 void suite_ranges_swept(void);

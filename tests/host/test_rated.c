@@ -7,9 +7,9 @@
 #include <string.h>
 
 #include "derived.h"
-#include "host/commands/commands.h"
-#include "host/price/cost.h"
-#include "host/run/methods.h"
+#include "host/cli/commands.h"
+#include "host/engine/methods.h"
+#include "host/study/cost.h"
 #include "rated.h"
 #include "unity.h"
 

@@ -7,7 +7,7 @@
 
 #include "derived.h"
 #include "drawn_graph.h"
-#include "host/base/room.h"
+#include "host/base/alloc.h"
 #include "host/prove/reader.h"
 #include "unity.h"
 
@@ -185,7 +185,7 @@ static void test_worth(void) {
         for (int i = 0; i < LETS; i++) {
             TEST_ASSERT_TRUE(read_node(&r.symbols, r.of->lets[i]->value) >= 0);
         }
-        long double *value = room(g->count, sizeof *value);
+        long double *value = alloc(g->count, sizeof *value);
         drawn_graph_values(g, at, value);
         const int count = g->count;
         for (int i = 0; i < LETS; i++) {
@@ -282,9 +282,9 @@ static void expect_refused(const char *formula, const char *name) {
     open_text(text);
     TEST_ASSERT_EQUAL_INT_MESSAGE(-1, read_node(&r.symbols, r.of->lets[0]->value), formula);
     TEST_ASSERT_EQUAL_size_t_MESSAGE(1, diags_calls(r.errors), formula);
-    FILE *out = room_text(&told, &length);
+    FILE *out = alloc_text(&told, &length);
     diags_flush(r.errors, out);
-    room_text_end(out);
+    alloc_text_end(out);
     snprintf(wanted, sizeof wanted, "x.whirl:6:%d: error: %s of what moves cannot be enclosed\n",
              (int)(strstr(formula, name) - formula) + 9, name);
     TEST_ASSERT_EQUAL_STRING_LEN(wanted, told, strlen(wanted));
@@ -321,9 +321,9 @@ static void test_outputs(void) {
     size_t length = 0;
     open_text(HEAD "output o = a\noutput p = 2*o\n");
     TEST_ASSERT_EQUAL_INT(-1, read_node(&r.symbols, r.of->outputs[1]->value));
-    FILE *out = room_text(&told, &length);
+    FILE *out = alloc_text(&told, &length);
     diags_flush(r.errors, out);
-    room_text_end(out);
+    alloc_text_end(out);
     const char wanted[] = "x.whirl:7:14: error: an output of what moves cannot be enclosed\n";
     TEST_ASSERT_EQUAL_STRING_LEN(wanted, told, strlen(wanted));
     free(told);

@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "command.h"
-#include "host/base/room.h"
+#include "host/base/alloc.h"
 #include "host/monitor/recording.h"
 #include "unity.h"
 
@@ -102,22 +102,22 @@ static void begin(bool files, bool plots) {
     t.s.channel[RECORDING_RING].each[0].size = 2;
     t.s.channel[RECORDING_EVENT].known = true;
     t.sample = (double)NAN;
-    t.to_csv = room_text(&t.wanted_csv, &t.wanted_length[0]);
-    t.to_ring = room_text(&t.wanted_ring, &t.wanted_length[1]);
-    recording_begin(&t.r, files ? room_text(&t.csv, &t.length[0]) : NULL,
-                    files ? room_text(&t.waves, &t.length[1]) : NULL,
-                    files ? room_text(&t.ring, &t.length[2]) : NULL, plots);
+    t.to_csv = alloc_text(&t.wanted_csv, &t.wanted_length[0]);
+    t.to_ring = alloc_text(&t.wanted_ring, &t.wanted_length[1]);
+    recording_begin(&t.r, files ? alloc_text(&t.csv, &t.length[0]) : NULL,
+                    files ? alloc_text(&t.waves, &t.length[1]) : NULL,
+                    files ? alloc_text(&t.ring, &t.length[2]) : NULL, plots);
 }
 
 static void end(void) {
     recording_end(&t.r);
     TEST_ASSERT_TRUE(t.r.vcd == NULL && t.r.row == NULL);
-    room_text_end(t.to_csv);
-    room_text_end(t.to_ring);
+    alloc_text_end(t.to_csv);
+    alloc_text_end(t.to_ring);
     if (t.r.csv != NULL) {
-        room_text_end(t.r.csv);
-        room_text_end(t.r.waves);
-        room_text_end(t.r.ring);
+        alloc_text_end(t.r.csv);
+        alloc_text_end(t.r.waves);
+        alloc_text_end(t.r.ring);
     }
 }
 

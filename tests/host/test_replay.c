@@ -51,7 +51,7 @@ static void test_replayed(void) {
         const lockstep_end end = kind == 1 ? LOCKSTEP_DONE : LOCKSTEP_LET_GO;
         TEST_ASSERT_EQUAL_STRING("", replay(end, kind == 2 ? talk_drawn.turns : all, true));
         talk_expect_report(end, kind == 2 ? talk_drawn.turns : all);
-        TEST_ASSERT_EQUAL_HEX64(talk_hash_of(all), talk_report.tape_hash);
+        TEST_ASSERT_EQUAL_HEX64(talk_hash_of(all), talk_report.op_list_hash);
         TEST_ASSERT_TRUE(fabs(talk_report.time_s - time_of(kind == 0 ? all - 1U : all)) < 1e-9);
         TEST_ASSERT_EQUAL_INT(kind == 1 ? 42 : -1, talk_report.status.status);
     }

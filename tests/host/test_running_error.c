@@ -6,7 +6,7 @@
 #include <stdlib.h>
 
 #include "command.h"
-#include "host/run/rounding.h"
+#include "host/engine/rounding.h"
 
 #include "unity.h"
 
@@ -16,7 +16,7 @@ enum { LEAVES = 6, ANGLES = 2, DRAWN = 14, MOST_OPS = 80 };
 
 /* A list, and what each of its operations comes to at a state. */
 typedef struct drawn_list {
-    tape *list;
+    op_list *list;
     double leaf[LEAVES];
     double phase_rad[ANGLES];
     double angle_rad[ANGLES];
@@ -147,44 +147,44 @@ static void define(const drawn_list *l, double least, double part, double *error
 
 /* --- lists -------------------------------------------------------------------------------------------------*/
 
-static int draw_leaf(dice *d, tape *t) {
+static int draw_leaf(dice *d, op_list *t) {
     static const op_code leaves[] = {OP_LINEAR, OP_RATE, OP_INPUT, OP_ACCEL};
     switch (dice_one_of(d, 8)) {
-    case 0: return tape_constant(t, dice_between(d, -2.0, 2.0)); /* no float */
-    case 1: return tape_constant(t, 0.25 * (1.0 + dice_one_of(d, 9)));
-    case 2: return tape_leaf(t, OP_TIME, 0);
-    case 3: return tape_leaf(t, OP_RADIANS, (int)dice_one_of(d, ANGLES));
-    default: return tape_leaf(t, leaves[dice_one_of(d, 4)], (int)dice_one_of(d, LEAVES));
+    case 0: return op_list_constant(t, dice_between(d, -2.0, 2.0)); /* no float */
+    case 1: return op_list_constant(t, 0.25 * (1.0 + dice_one_of(d, 9)));
+    case 2: return op_list_leaf(t, OP_TIME, 0);
+    case 3: return op_list_leaf(t, OP_RADIANS, (int)dice_one_of(d, ANGLES));
+    default: return op_list_leaf(t, leaves[dice_one_of(d, 4)], (int)dice_one_of(d, LEAVES));
     }
 }
 
-static int draw_wave(dice *d, tape *t, int radians) {
+static int draw_wave(dice *d, op_list *t, int radians) {
     static const double multiples[] = {0.0, 1.0, -2.0, 3.0, 0.5, -1.25};
     const double multiple[ANGLES] = {multiples[dice_one_of(d, 6)], multiples[dice_one_of(d, 6)]};
     const double offset_rad = dice_one_of(d, 2) == 0 ? 0.0 : dice_between(d, -1.0, 1.0);
-    const int phase = tape_phase(t, multiple, offset_rad, dice_one_of(d, 2) == 0 ? radians : -1);
-    return tape_unary(t, dice_one_of(d, 2) == 0 ? OP_SIN : OP_COS, phase);
+    const int phase = op_list_phase(t, multiple, offset_rad, dice_one_of(d, 2) == 0 ? radians : -1);
+    return op_list_unary(t, dice_one_of(d, 2) == 0 ? OP_SIN : OP_COS, phase);
 }
 
-static int draw_op(dice *d, tape *t, int a, int b) {
+static int draw_op(dice *d, op_list *t, int a, int b) {
     static const op_code unary[] = {OP_SQRT, OP_ABS, OP_SIGN, OP_NEG};
     const function_id function = (function_id)dice_one_of(d, FUNCTIONS);
     switch (dice_one_of(d, 9)) {
-    case 0: return tape_add(t, a, b);
-    case 1: return tape_sub(t, a, b);
-    case 2: return tape_mul(t, a, b);
-    case 3: return tape_div(t, a, b);
-    case 4: return tape_unary(t, unary[dice_one_of(d, 4)], a);
-    case 5: return tape_pow(t, a, b);
+    case 0: return op_list_add(t, a, b);
+    case 1: return op_list_sub(t, a, b);
+    case 2: return op_list_mul(t, a, b);
+    case 3: return op_list_div(t, a, b);
+    case 4: return op_list_unary(t, unary[dice_one_of(d, 4)], a);
+    case 5: return op_list_pow(t, a, b);
     case 6: return draw_wave(d, t, a);
-    default: return tape_call(t, function, a, function_arguments(function) == 2 ? b : -1);
+    default: return op_list_call(t, function, a, function_arguments(function) == 2 ? b : -1);
     }
 }
 
 /* Of leaves and of what is made of them; its results are the last operations and some others. */
 static void draw_list(dice *d, drawn_list *l) {
     int made[LEAVES + DRAWN];
-    l->list = tape_new(ANGLES, 4);
+    l->list = op_list_new(ANGLES, 4);
     for (int i = 0; i < LEAVES; i++) {
         l->leaf[i] = dice_between(d, 0.2, 0.95) * (dice_one_of(d, 3) == 0 ? 3.0 : 1.0);
         made[i] = draw_leaf(d, l->list);
@@ -231,7 +231,7 @@ static void test_drawn_lists(void) {
                 of_code[l.list->ops[i].code]++;
             }
         }
-        tape_free(l.list);
+        op_list_free(l.list);
     }
     printf("  %u results\n", held);
     TEST_ASSERT_TRUE(held > 1000);
@@ -244,11 +244,11 @@ static void test_drawn_lists(void) {
 
 /* What rounds a sum or a root of nothing, exactly: nothing, but for what is too small to be a normal number. */
 static void test_nothing_is_off_by_nothing(void) {
-    tape *t = tape_new(0, 2);
-    const int x = tape_leaf(t, OP_LINEAR, 0);
-    const int y = tape_leaf(t, OP_LINEAR, 1);
-    t->result[0] = tape_unary(t, OP_SQRT, tape_mul(t, x, x));
-    t->result[1] = tape_add(t, x, y);
+    op_list *t = op_list_new(0, 2);
+    const int x = op_list_leaf(t, OP_LINEAR, 0);
+    const int y = op_list_leaf(t, OP_LINEAR, 1);
+    t->result[0] = op_list_unary(t, OP_SQRT, op_list_mul(t, x, x));
+    t->result[1] = op_list_add(t, x, y);
     const double value[8] = {0.0};
     const rounding_values at = {value, value, value, NULL, NULL, 0.0};
     double error[2] = {1.0, 1.0};
@@ -258,18 +258,18 @@ static void test_nothing_is_off_by_nothing(void) {
     rounding_of(t, &small, error);
     TEST_ASSERT_EQUAL_DOUBLE(1e-38, error[1]);
     TEST_ASSERT_TRUE(error[0] > 1e-38); /* its root has no slope there */
-    tape_free(t);
+    op_list_free(t);
 }
 
 /* z/(x*y): float has no room for a product beyond its largest number, and all that it divides is lost; double has. */
 static void test_what_is_beyond_float(void) {
     dice d = dice_of("running_error", 2316);
-    tape *t = tape_new(0, 1);
-    const int x = tape_leaf(t, OP_LINEAR, 0);
-    const int y = tape_leaf(t, OP_LINEAR, 1);
-    const int z = tape_leaf(t, OP_LINEAR, 2);
-    const int xy = tape_mul(t, x, y);
-    t->result[0] = tape_div(t, z, xy);
+    op_list *t = op_list_new(0, 1);
+    const int x = op_list_leaf(t, OP_LINEAR, 0);
+    const int y = op_list_leaf(t, OP_LINEAR, 1);
+    const int z = op_list_leaf(t, OP_LINEAR, 2);
+    const int xy = op_list_mul(t, x, y);
+    t->result[0] = op_list_div(t, z, xy);
     for (int k = 0; k < 100; k++) {
         double value[8] = {0.0};
         double error;
@@ -287,21 +287,21 @@ static void test_what_is_beyond_float(void) {
         const double wanted = (beyond ? 0x1p24 * v : v) + (small ? 0x1p-126 : v);
         TEST_ASSERT_DOUBLE_WITHIN(1e-9 * wanted, wanted, error);
     }
-    tape_free(t);
+    op_list_free(t);
 }
 
 /* What has no bound has none behind a division either: z/(y + sqrt(x + w)) where that root is of nothing. */
 static void test_no_bound_stays_none(void) {
     dice d = dice_of("running_error", 2317);
-    tape *t = tape_new(0, 1);
-    const int x = tape_leaf(t, OP_LINEAR, 0);
-    const int w = tape_leaf(t, OP_LINEAR, 1);
-    const int y = tape_leaf(t, OP_LINEAR, 2);
-    const int z = tape_leaf(t, OP_LINEAR, 3);
-    const int twice = tape_mul(t, x, w);
-    const int root = tape_unary(t, OP_SQRT, tape_sub(t, twice, y));
-    const int divisor = tape_add(t, y, root);
-    t->result[0] = tape_div(t, z, divisor);
+    op_list *t = op_list_new(0, 1);
+    const int x = op_list_leaf(t, OP_LINEAR, 0);
+    const int w = op_list_leaf(t, OP_LINEAR, 1);
+    const int y = op_list_leaf(t, OP_LINEAR, 2);
+    const int z = op_list_leaf(t, OP_LINEAR, 3);
+    const int twice = op_list_mul(t, x, w);
+    const int root = op_list_unary(t, OP_SQRT, op_list_sub(t, twice, y));
+    const int divisor = op_list_add(t, y, root);
+    t->result[0] = op_list_div(t, z, divisor);
     for (int k = 0; k < 50; k++) {
         double value[16] = {0.0};
         double error;
@@ -315,7 +315,7 @@ static void test_no_bound_stays_none(void) {
             &error);
         TEST_ASSERT_TRUE(isinf(error));
     }
-    tape_free(t);
+    op_list_free(t);
 }
 
 void suite_running_error(void) {

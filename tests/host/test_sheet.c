@@ -1,4 +1,4 @@
-/* test_sheet.c: a sweep's CSV file (host/sweep/sheet.h): begun, gone on with wherever it was torn off, begun anew, and refused
+/* test_sheet.c: a sweep's CSV file (host/study/resumable_csv.h): begun, gone on with wherever it was torn off, begun anew, and refused
  * where it is another's, which leaves it as it was; drawn, against what the test writes itself. */
 #define _POSIX_C_SOURCE 200809L
 
@@ -10,9 +10,9 @@
 #include <unistd.h>
 
 #include "command.h"
+#include "host/base/alloc.h"
 #include "host/base/exit.h"
-#include "host/base/room.h"
-#include "host/sweep/sheet.h"
+#include "host/study/resumable_csv.h"
 #include "unity.h"
 
 void suite_sheet(void);
@@ -28,7 +28,7 @@ static char path_beside[PATH + 20];
 
 /* A sweep, and its file when it is whole. */
 typedef struct drawn_sheet {
-    sheet_settings settings;
+    resumable_csv_settings settings;
     char whole[TEXT];
     size_t end[ROWS_MOST + 1]; /* of the header, then of each row */
     bool failed[ROWS_MOST];
@@ -96,13 +96,13 @@ static void leave(size_t length) {
 
 /* Opens it, writes the rows that are missing, and closes it: then it is whole. */
 static void expect_gone_on(unsigned rows) {
-    sheet sh;
+    resumable_csv sh;
     unsigned failed = 0;
     for (unsigned i = 0; i < rows; i++) {
         failed += d.failed[i] ? 1 : 0;
     }
     errors_catch();
-    const int code = sheet_open(&sh, &d.settings);
+    const int code = resumable_csv_open(&sh, &d.settings);
     TEST_ASSERT_EQUAL_STRING("", errors_caught());
     TEST_ASSERT_EQUAL_INT(EXIT_DONE, code);
     TEST_ASSERT_TRUE(sh.out != NULL && sh.is_file);
@@ -111,14 +111,14 @@ static void expect_gone_on(unsigned rows) {
     expect_file(path, d.whole, d.end[rows]); /* what was torn off is gone, and the header there */
     expect_file(path_beside, fingerprint, strlen(fingerprint));
     fputs(d.whole + d.end[rows], sh.out);
-    TEST_ASSERT_TRUE(sheet_close(&sh));
-    TEST_ASSERT_TRUE(sheet_close(&sh)); /* again: nothing */
+    TEST_ASSERT_TRUE(resumable_csv_close(&sh));
+    TEST_ASSERT_TRUE(resumable_csv_close(&sh)); /* again: nothing */
     expect_file(path, d.whole, strlen(d.whole));
 }
 
 /* It is refused so, and is as it was. */
 static void expect_refused(const char *text, size_t length, const char *beside, const char *why) {
-    sheet sh;
+    resumable_csv sh;
     char wanted[300];
     put_file(path, text, length);
     (void)remove(path_beside);
@@ -126,7 +126,7 @@ static void expect_refused(const char *text, size_t length, const char *beside, 
         put_file(path_beside, beside, strlen(beside));
     }
     errors_catch();
-    const int code = sheet_open(&sh, &d.settings);
+    const int code = resumable_csv_open(&sh, &d.settings);
     snprintf(wanted, sizeof wanted,
              "%s: error: %s\nhint: another --csv keeps it; --fresh overwrites it\n", path, why);
     const char *told = errors_caught();
@@ -134,7 +134,7 @@ static void expect_refused(const char *text, size_t length, const char *beside, 
     TEST_ASSERT_NULL_MESSAGE(strstr(told + strlen(wanted), "error:"), told); /* once */
     TEST_ASSERT_EQUAL_INT(EXIT_BAD_INPUT, code);
     TEST_ASSERT_NULL(sh.out);
-    TEST_ASSERT_TRUE(sheet_close(&sh));
+    TEST_ASSERT_TRUE(resumable_csv_close(&sh));
     expect_file(path, text, length);
     TEST_ASSERT_EQUAL(beside != NULL, exists(path_beside));
 }
@@ -265,11 +265,11 @@ static void test_settings_of_others(void) {
     open_folder();
     for (int i = 0; i < 6; i++) {
         char wanted[200];
-        sheet sh;
+        resumable_csv sh;
         draw_sheet();
         expect_refused(d.whole, strlen(d.whole), others[i], "it belongs to another sweep");
         errors_catch();
-        (void)sheet_open(&sh, &d.settings);
+        (void)resumable_csv_open(&sh, &d.settings);
         snprintf(wanted, sizeof wanted, "  there: %s\n  here:  %s\n", there[i], here[i]);
         const char *told = errors_caught();
         TEST_ASSERT_EQUAL_STRING(wanted, strstr(told, "  there:"));
@@ -291,17 +291,17 @@ static void test_settings_of_others(void) {
 
 /* While one writes it nobody else can: a process of its own tries. */
 static void test_locked(void) {
-    sheet sh;
+    resumable_csv sh;
     open_folder();
     draw_sheet();
     errors_catch();
-    TEST_ASSERT_EQUAL_INT(EXIT_DONE, sheet_open(&sh, &d.settings));
+    TEST_ASSERT_EQUAL_INT(EXIT_DONE, resumable_csv_open(&sh, &d.settings));
     fflush(NULL);
     const pid_t child = fork();
     TEST_ASSERT_TRUE(child >= 0);
     if (child == 0) {
-        sheet other;
-        const int code = sheet_open(&other, &d.settings);
+        resumable_csv other;
+        const int code = resumable_csv_open(&other, &d.settings);
         fflush(stderr);
         _exit(code == EXIT_BAD_INPUT && other.out == NULL ? 0 : 1);
     }
@@ -310,33 +310,33 @@ static void test_locked(void) {
     const char *told = errors_caught();
     TEST_ASSERT_NOT_NULL_MESSAGE(strstr(told, ": error: another sweep is writing it\n"), told);
     TEST_ASSERT_EQUAL_INT(0, status);
-    TEST_ASSERT_TRUE(sheet_close(&sh));
+    TEST_ASSERT_TRUE(resumable_csv_close(&sh));
     close_folder();
 }
 
 /* Where nothing can be written: no such folder; a device that is full, at once or at the end. */
 static void test_not_written(void) {
-    sheet sh;
+    resumable_csv sh;
     open_folder();
     draw_sheet();
     d.settings.path = "/nowhere/at all/s.csv";
     errors_catch();
-    int code = sheet_open(&sh, &d.settings);
+    int code = resumable_csv_open(&sh, &d.settings);
     const char *told = errors_caught();
     TEST_ASSERT_EQUAL_INT(EXIT_BAD_INPUT, code);
     TEST_ASSERT_TRUE(sh.out == NULL && strstr(told, "/nowhere/at all/s.csv") != NULL);
     d.settings.path = folder; /* no file, and none can be */
     errors_catch();
-    code = sheet_open(&sh, &d.settings);
+    code = resumable_csv_open(&sh, &d.settings);
     told = errors_caught();
     TEST_ASSERT_TRUE(code == EXIT_RUN_FAILED && sh.out == NULL && strstr(told, folder) != NULL);
     if (exists("/dev/full")) {
         d.settings.path = "/dev/full";
         errors_catch();
-        code = sheet_open(&sh, &d.settings);
+        code = resumable_csv_open(&sh, &d.settings);
         const bool opened = code == EXIT_DONE && sh.out != NULL && !sh.is_file;
         const bool put = opened && fputs("1,2,3\r\n", sh.out) >= 0;
-        const bool closed = sheet_close(&sh);
+        const bool closed = resumable_csv_close(&sh);
         told = errors_caught();
         TEST_ASSERT_TRUE(opened && put && !closed && strstr(told, "/dev/full") != NULL);
     }
@@ -344,7 +344,7 @@ static void test_not_written(void) {
     d.settings.path = path;
     TEST_ASSERT_EQUAL_INT(0, mkdir(path_beside, 0777));
     errors_catch();
-    code = sheet_open(&sh, &d.settings);
+    code = resumable_csv_open(&sh, &d.settings);
     told = errors_caught();
     TEST_ASSERT_TRUE(code == EXIT_RUN_FAILED && sh.out == NULL &&
                      strstr(told, path_beside) != NULL);
@@ -357,19 +357,19 @@ static void test_not_written(void) {
 
 /* What cannot be gone on with is written as it comes: a device. */
 static void test_no_file(void) {
-    sheet sh;
+    resumable_csv sh;
     draw_sheet();
     d.settings.path = "/dev/null";
-    TEST_ASSERT_EQUAL_INT(EXIT_DONE, sheet_open(&sh, &d.settings));
+    TEST_ASSERT_EQUAL_INT(EXIT_DONE, resumable_csv_open(&sh, &d.settings));
     TEST_ASSERT_TRUE(!sh.is_file && sh.out != NULL && sh.out != stdout && sh.rows == 0);
-    TEST_ASSERT_TRUE(sheet_close(&sh));
+    TEST_ASSERT_TRUE(resumable_csv_close(&sh));
     TEST_ASSERT_NULL(sh.out);
     TEST_ASSERT_FALSE(exists("/dev/null.sweep"));
     d.settings.path = "-";
     d.settings.header = "";
-    TEST_ASSERT_EQUAL_INT(EXIT_DONE, sheet_open(&sh, &d.settings));
+    TEST_ASSERT_EQUAL_INT(EXIT_DONE, resumable_csv_open(&sh, &d.settings));
     TEST_ASSERT_TRUE(!sh.is_file && sh.out == stdout);
-    TEST_ASSERT_TRUE(sheet_close(&sh));
+    TEST_ASSERT_TRUE(resumable_csv_close(&sh));
     TEST_ASSERT_TRUE(sh.out == NULL && fileno(stdout) >= 0);
     TEST_ASSERT_FALSE(exists("-.sweep"));
 }

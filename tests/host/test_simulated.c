@@ -1,4 +1,4 @@
-/* test_simulated.c: one run from start to end (host/run/simulate.h), in this process: its rows, of scenes in which each is
+/* test_simulated.c: one run from start to end (host/check/simulate.h), in this process: its rows, of scenes in which each is
  * known in closed form; what is said of a run that is interrupted, diverges, has an output that ends, or is not believed; files
  * that cannot be written; and all is given back. */
 #define _POSIX_C_SOURCE 200809L
@@ -12,8 +12,8 @@
 #include "command.h"
 #include "derived.h"
 #include "host/base/interrupts.h"
-#include "host/run/finding.h"
-#include "host/run/simulate.h"
+#include "host/check/finding.h"
+#include "host/check/simulate.h"
 #include "unity.h"
 
 void suite_simulated(void);

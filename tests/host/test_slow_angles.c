@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "host/run/slow.h"
+#include "host/check/slow.h"
 #include "motion.h"
 
 #include "unity.h"

@@ -1,5 +1,5 @@
 /* test_small_told.c: the figures of what is told of numbers that are small: an angle whose steps are a few of its units
- * (host/run/slow.h); and that a motion of a few of the least numbers is told. */
+ * (host/check/slow.h); and that a motion of a few of the least numbers is told. */
 #include <math.h>
 #include <stdbool.h>
 #include <stdio.h>
@@ -8,8 +8,8 @@
 
 #include "command.h"
 #include "derived.h"
-#include "host/commands/commands.h"
-#include "host/run/engine.h"
+#include "host/cli/commands.h"
+#include "host/engine/engine.h"
 #include "unity.h"
 
 void suite_small_told(void);

@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "command.h"
-#include "host/commands/commands.h"
+#include "host/cli/commands.h"
 #include "motion.h"
 #include "unity.h"
 

@@ -8,8 +8,8 @@
 
 #include "command.h"
 #include "derived.h"
-#include "host/run/engine.h"
-#include "host/run/start.h"
+#include "host/engine/engine.h"
+#include "host/engine/start.h"
 
 #include "unity.h"
 

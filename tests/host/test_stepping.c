@@ -1,4 +1,4 @@
-/* test_stepping.c: one run of a sweep, measured (host/sweep/stepping.h): against samples that the test takes of the same steps,
+/* test_stepping.c: one run of a sweep, measured (host/study/stepping.h): against samples that the test takes of the same steps,
  * and closed forms of the motions; which samples count; how a run is given up; and why one has no measures, by its words. */
 #include <math.h>
 #include <stdio.h>
@@ -7,12 +7,12 @@
 
 #include "command.h"
 #include "derived.h"
+#include "host/base/alloc.h"
 #include "host/base/interrupts.h"
-#include "host/base/room.h"
-#include "host/commands/commands.h"
-#include "host/run/slow.h"
-#include "host/run/verdict.h"
-#include "host/sweep/stepping.h"
+#include "host/check/run_checks.h"
+#include "host/check/slow.h"
+#include "host/cli/commands.h"
+#include "host/study/stepping.h"
 #include "unity.h"
 
 void suite_stepping(void);
@@ -35,14 +35,14 @@ typedef struct measured_point {
 static measured_point measure(const measuring *w, const image *im) {
     measured_point p = {.reason = NULL};
     size_t length[2];
-    FILE *reason = room_text(&p.reason, &length[0]);
-    FILE *out = room_text(&p.errors, &length[1]);
+    FILE *reason = alloc_text(&p.reason, &length[0]);
+    FILE *out = alloc_text(&p.errors, &length[1]);
     diags *errors = diags_new();
     p.good = stepping_measure(w, im, p.value, errors, reason, &p.notes);
     diags_flush(errors, out);
     diags_free(errors);
-    room_text_end(reason);
-    room_text_end(out);
+    alloc_text_end(reason);
+    alloc_text_end(out);
     return p;
 }
 
@@ -141,15 +141,15 @@ static void test_samples(void) {
             }
         }
         void *run = kind->start(im);
-        verdict *v = verdict_open(im, NULL, kind, run, NULL);
+        run_checks *v = run_checks_open(im, NULL, kind, run, NULL);
         for (int step = 0; step <= (int)im->steps; step++) {
-            verdict_enter(v);
+            run_checks_enter(v);
             for (int i = 0; i < w.count; i++) {
                 sample[i][step] = sample_of(kind, run, list[i].from);
             }
             TEST_ASSERT_EQUAL_INT(WH_OK, step < (int)im->steps ? kind->step(run) : WH_OK);
         }
-        verdict_end(v, WH_OK);
+        run_checks_end(v, WH_OK);
         measured_point p = measure(&w, im);
         TEST_ASSERT_TRUE_MESSAGE(p.good, p.reason);
         TEST_ASSERT_EQUAL_STRING("", p.reason);
@@ -162,7 +162,7 @@ static void test_samples(void) {
         for (int id = 0; id < FINDINGS; id++) {
             TEST_ASSERT_EQUAL(v->found[id].told, (p.notes.found >> id & 1U) != 0);
         }
-        verdict_close(v);
+        run_checks_close(v);
         kind->stop(run);
         drop(&p);
         derived_free(&s);

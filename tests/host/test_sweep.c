@@ -8,8 +8,8 @@
 #include <string.h>
 
 #include "command.h"
-#include "host/sweep/grid.h"
-#include "host/sweep/measures.h"
+#include "host/study/grid.h"
+#include "host/study/measures.h"
 #include "unity.h"
 
 void suite_sweep(void);

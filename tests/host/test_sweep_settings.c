@@ -5,8 +5,8 @@
 #include <string.h>
 
 #include "blocks.h"
-#include "host/base/room.h"
-#include "host/sweep/session.h"
+#include "host/base/alloc.h"
+#include "host/study/session.h"
 #include "made_sweep.h"
 #include "unity.h"
 
@@ -32,9 +32,9 @@ static void test_headers(void) {
             names[i] = asked[dice_one_of(&die, 8)];
         }
         made_sweep_open(&m, made_sweep_floor, axes, swept, names, count, &engine_double);
-        FILE *out = room_text(&text, &length);
+        FILE *out = alloc_text(&text, &length);
         sweep_header(&m.sweep, out);
-        room_text_end(out);
+        alloc_text_end(out);
         const char *at = text;
         for (int i = 0; i < swept + count + 1; i++) {
             char field[80];
@@ -94,7 +94,7 @@ static void test_settings(void) {
             fingerprint_make(&m.sweep, c % 3U == 0 ? "text" : "other", base, m.image, part);
         char *text = NULL;
         size_t length = 0;
-        FILE *out = room_text(&text, &length);
+        FILE *out = alloc_text(&text, &length);
         fprintf(out, "whirl sweep: settings of the CSV beside this file, format 3\nscene: s\n");
         /* FNV-1a of eight bytes a letter, the first of which is the letter */
         uint64_t hash = 14695981039346656037ULL;
@@ -127,7 +127,7 @@ static void test_settings(void) {
         fprintf(out, "measure: max(x)\n%sshard: %llu/%llu\noperations: 0x%016llx\n",
                 count > 1 ? "measure: a\n" : "", (unsigned long long)part.number,
                 (unsigned long long)part.of, (unsigned long long)m.image->hash);
-        room_text_end(out);
+        alloc_text_end(out);
         TEST_ASSERT_EQUAL_STRING(text, made);
         free(text);
         free(made);
@@ -163,11 +163,11 @@ static void run_points(void) {
         point_notes notes;
         made_sweep_open(&m, points[i].text, &points[i].over, 1, &points[i].measure, 1,
                         &engine_double);
-        FILE *row = room_text(&text[0], &length[0]);
-        FILE *reason = room_text(&text[1], &length[1]);
+        FILE *row = alloc_text(&text[0], &length[0]);
+        FILE *reason = alloc_text(&text[1], &length[1]);
         const bool good = sweep_point(&m.sweep, 0, row, reason, &notes);
-        room_text_end(row);
-        room_text_end(reason);
+        alloc_text_end(row);
+        alloc_text_end(reason);
         TEST_ASSERT_EQUAL_MESSAGE(points[i].good, good, text[1]);
         TEST_ASSERT_EQUAL(good, text[1][0] == '\0');
         TEST_ASSERT_TRUE(strlen(text[0]) > 2 && strchr(text[0], '\r') != NULL);

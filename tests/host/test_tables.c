@@ -10,7 +10,7 @@
 #include "command.h"
 #include "core/table.h"
 #include "derived.h"
-#include "host/run/engine.h"
+#include "host/engine/engine.h"
 #include "table_check.h"
 #include "unity.h"
 
@@ -58,7 +58,7 @@ static int check_scene(const scene *s) {
     for (int f = 0; f < FORMS && has; f++) {
         static table_error error[1][TABLE_CHECK_MOST];
         im = tabled_surely(&d, both[f], f == 0 ? 256 : 64);
-        const tape_tables *t = &im->list[IMAGE_STEP]->tables;
+        const op_list_tables *t = &im->list[IMAGE_STEP]->tables;
         TEST_ASSERT_TRUE(t->count > 0 && t->count <= TABLE_CHECK_MOST);
         table_check((const image *const *)&im, 1, UINT64_C(1) << few_or_all(16, 14), error);
         for (int k = 0; k < t->count; k++) {
@@ -102,7 +102,7 @@ static void test_errors_of_tables_fall_by_their_order(void) {
 
 /* --- pieces meet -------------------------------------------------------------------------------------------- */
 
-static double piece(const tape_tables *t, int k, int cell, double y, int derivative) {
+static double piece(const op_list_tables *t, int k, int cell, double y, int derivative) {
     const double *c = &t->number[((cell & ((1 << t->bits) - 1)) * t->count + k) * t->terms];
     double value = 0.0;
     for (int i = t->terms - 1; i >= derivative; i--) {
@@ -115,7 +115,7 @@ static void test_pieces_meet_in_values_and_cubic_ones_in_slopes(void) {
     derived d = derived_builtin("halvorson_smooth");
     for (int f = 0; f < FORMS; f++) {
         image *im = tabled_surely(&d, both[f], 32);
-        const tape_tables *t = &im->list[IMAGE_STEP]->tables;
+        const op_list_tables *t = &im->list[IMAGE_STEP]->tables;
         double jump[2] = {0.0, 0.0};
         for (int k = 0; k < t->count; k++) {
             for (int i = 0; i < 32; i++) {
@@ -203,7 +203,7 @@ typedef struct comparison {
 } comparison;
 
 static comparison comparison_of(const image *exact, image *im) {
-    tape *t = im->list[IMAGE_STEP];
+    op_list *t = im->list[IMAGE_STEP];
     comparison c = {.exact = evaluator_new(exact->list[IMAGE_STEP]),
                     .tables = evaluator_new(t),
                     .count = t->tables.count};
@@ -273,8 +273,8 @@ static void test_generated_accelerations_are_as_near_as_the_tables(void) {
         for (int f = 0; f < FORMS; f++) {
             uint64_t seed = (uint64_t)n;
             image *im = tabled_surely(&d, both[f], 64);
-            TEST_ASSERT_EQUAL_INT(0, tape_count(im->list[IMAGE_STEP]).divisions);
-            TEST_ASSERT_EQUAL_INT(0, tape_count(im->list[IMAGE_STEP]).waves);
+            TEST_ASSERT_EQUAL_INT(0, op_list_count(im->list[IMAGE_STEP]).divisions);
+            TEST_ASSERT_EQUAL_INT(0, op_list_count(im->list[IMAGE_STEP]).waves);
             comparison c = comparison_of(d.image, im);
             for (int s = 0; s < 20; s++) {
                 worst = fmax(worst, compare(&c, im->coordinates, &seed, text));
@@ -452,7 +452,7 @@ static void test_one_sum_of_angles_is_one_phase(void) {
                              "V = 1 [J]*cos(6*a - 3*b + 1)\n");
     derived_expect(&d, "two angles");
     image *im = tabled_surely(&d, TABLES_CUBIC, 64);
-    const tape *t = im->list[IMAGE_STEP];
+    const op_list *t = im->list[IMAGE_STEP];
     int cells = 0;
     for (int i = 0; i < t->count; i++) {
         if (t->ops[i].code == OP_CELL) {

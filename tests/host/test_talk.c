@@ -6,8 +6,8 @@
 
 #include "core/cobs.h"
 #include "drawn_talk.h"
+#include "host/base/alloc.h"
 #include "host/base/interrupts.h"
-#include "host/base/room.h"
 #include "host/pil/talk.h"
 #include "unity.h"
 
@@ -32,7 +32,7 @@ static void test_heard_and_kept(void) {
         const int status = (int)talk_one_of(256) - 128;
         talk_put_end(&talk_line, status, 4);
         talk_open_line(true);
-        FILE *onto = room_text(&kept, &length);
+        FILE *onto = alloc_text(&kept, &length);
         errors_catch();
         TEST_ASSERT_TRUE(talk_start(&t, &talk_wish, &talk_report, onto));
         TEST_ASSERT_EQUAL_UINT(talk_drawn.outputs, t.outputs);
@@ -56,7 +56,7 @@ static void test_heard_and_kept(void) {
         TEST_ASSERT_EQUAL_STRING("", errors_caught());
         talk_expect_report(LOCKSTEP_DONE, talk_drawn.turns);
         TEST_ASSERT_EQUAL_INT(status, talk_report.status.status);
-        room_text_end(onto);
+        alloc_text_end(onto);
         expect_same(&talk_on_tape, (const uint8_t *)kept,
                     length); /* hello and turns, as they were sent */
         free(kept);

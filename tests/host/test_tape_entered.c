@@ -1,4 +1,4 @@
-/* test_tape_entered.c: operations that are entered at random (host/image/tape.c): they come to what was asked for, by another
+/* test_tape_entered.c: operations that are entered at random (host/image/op_list.c): they come to what was asked for, by another
  * evaluation; none stands there twice, and each is in the one form that there is for it; what is found and what is dropped,
  * by looking at all of them. */
 #include <math.h>
@@ -8,7 +8,7 @@
 #include "blocks.h"
 #include "command.h"
 #include "evaluated.h"
-#include "host/image/tape.h"
+#include "host/image/op_list.h"
 #include "unity.h"
 
 void suite_tape_entered(void);
@@ -16,7 +16,7 @@ void suite_tape_entered(void);
 enum { ANGLES = 2, LEAVES = 3, POOL = 400, ENTERED = 330 };
 
 static dice die;
-static tape *list;
+static op_list *list;
 static int pool[POOL];
 static double meant[POOL];
 static int pooled;
@@ -34,15 +34,15 @@ static int entered_leaf(double *value) {
     if (dice_one_of(&die, 3) == 0) {
         *value = dice_one_of(&die, 3) == 0 ? dice_between(&die, -2.0, 2.0)
                                            : constants[dice_one_of(&die, 7)];
-        return tape_constant(list, *value);
+        return op_list_constant(list, *value);
     }
     if (dice_one_of(&die, 12) == 0) {
         *value = which / 9.0;
-        return tape_noise(list, (uint32_t)which);
+        return op_list_noise(list, (uint32_t)which);
     }
     const op_code code = codes[dice_one_of(&die, 6)];
     *value = evaluated_leaf(code, which);
-    return tape_leaf(list, code, which);
+    return op_list_leaf(list, code, which);
 }
 
 static int entered_wave(int radians, double value, double *wave) {
@@ -56,7 +56,7 @@ static int entered_wave(int radians, double value, double *wave) {
         phase += multiple[k] * evaluated_leaf(OP_PHASE, k);
     }
     phase += radians >= 0 ? value : 0.0;
-    const int entered = tape_phase(list, multiple, offset, radians);
+    const int entered = op_list_phase(list, multiple, offset, radians);
     const op *o = &list->ops[entered];
     for (int k = 0; k < ANGLES; k++) { /* whole numbers are turns, others parts */
         const bool whole = multiple[k] == floor(multiple[k]);
@@ -65,7 +65,7 @@ static int entered_wave(int radians, double value, double *wave) {
     }
     const bool is_sine = dice_one_of(&die, 2) == 0;
     *wave = is_sine ? sin(phase) : cos(phase);
-    return tape_unary(list, is_sine ? OP_SIN : OP_COS, entered);
+    return op_list_unary(list, is_sine ? OP_SIN : OP_COS, entered);
 }
 
 /* One of two values, which are at a and at b of the list. */
@@ -74,22 +74,22 @@ static int entered_operation(int a, double x, int b, double y, double *value) {
     const double e = exponents[dice_one_of(&die, 11)];
     switch (dice_one_of(&die, 14)) {
     case 0:
-    case 1: *value = x + y; return tape_add(list, a, b);
+    case 1: *value = x + y; return op_list_add(list, a, b);
     case 2:
-    case 3: *value = x - y; return tape_sub(list, a, b);
+    case 3: *value = x - y; return op_list_sub(list, a, b);
     case 4:
     case 5:
-    case 6: *value = x * y; return tape_mul(list, a, b);
-    case 7: *value = x / y; return tape_div(list, a, b);
-    case 8: *value = -x; return tape_unary(list, OP_NEG, a);
-    case 9: *value = fabs(x); return tape_unary(list, OP_ABS, a);
-    case 10: *value = sqrt(x); return tape_unary(list, OP_SQRT, a);
-    case 11: *value = pow(x, e); return tape_power(list, a, e);
-    case 12: *value = pow(x, y); return tape_pow(list, a, b);
+    case 6: *value = x * y; return op_list_mul(list, a, b);
+    case 7: *value = x / y; return op_list_div(list, a, b);
+    case 8: *value = -x; return op_list_unary(list, OP_NEG, a);
+    case 9: *value = fabs(x); return op_list_unary(list, OP_ABS, a);
+    case 10: *value = sqrt(x); return op_list_unary(list, OP_SQRT, a);
+    case 11: *value = pow(x, e); return op_list_power(list, a, e);
+    case 12: *value = pow(x, y); return op_list_pow(list, a, b);
     }
     const function_id f = (function_id)dice_one_of(&die, FUNCTIONS);
     *value = number_call(f, x, y);
-    return tape_call(list, f, a, function_arguments(f) == 2 ? b : -1);
+    return op_list_call(list, f, a, function_arguments(f) == 2 ? b : -1);
 }
 
 static void keep(int at, double value) {
@@ -100,7 +100,7 @@ static void keep(int at, double value) {
 }
 
 static void enter_some(void) {
-    list = tape_new(ANGLES, 4);
+    list = op_list_new(ANGLES, 4);
     pooled = 0;
     for (int i = 0; i < 6; i++) {
         double value;
@@ -219,7 +219,7 @@ static void expect_found(void) {
                 wanted = i;
             }
         }
-        TEST_ASSERT_EQUAL_INT(wanted, tape_find_binary(list, code, a, b));
+        TEST_ASSERT_EQUAL_INT(wanted, op_list_find_binary(list, code, a, b));
     }
 }
 
@@ -242,7 +242,7 @@ static void test_entered_operations_come_to_what_was_asked(void) {
         }
         expect_each_once();
         expect_found();
-        tape_free(list);
+        op_list_free(list);
     }
 }
 
@@ -251,7 +251,7 @@ static void test_entered_operations_come_to_what_was_asked(void) {
 static void mark(bool *needed, int i) {
     int operand[2];
     needed[i] = true;
-    for (int k = tape_operands(&list->ops[i], operand); k > 0; k--) {
+    for (int k = op_list_operands(&list->ops[i], operand); k > 0; k--) {
         mark(needed, operand[k - 1]);
     }
 }
@@ -260,7 +260,7 @@ static int uses_of(int i) {
     int uses = 0;
     int operand[2];
     for (int k = 0; k < list->count; k++) {
-        for (int n = tape_operands(&list->ops[k], operand); n > 0; n--) {
+        for (int n = op_list_operands(&list->ops[k], operand); n > 0; n--) {
             uses += operand[n - 1] == i;
         }
     }
@@ -288,7 +288,7 @@ static void test_what_no_result_needs_is_dropped(void) {
             list->result[i] = pool[p];
             wanted[i] = meant[p];
         }
-        tape_prune(list);
+        op_list_prune(list);
         evaluated(list, v);
         for (int i = 0; i < list->results; i++) {
             TEST_ASSERT_TRUE(list->result[i] >= 0 && list->result[i] < list->count);
@@ -301,7 +301,7 @@ static void test_what_no_result_needs_is_dropped(void) {
             TEST_ASSERT_FALSE(o->code == OP_MUL && (is_reciprocal(o->a) || is_reciprocal(o->b)));
         }
         expect_found();
-        tape_free(list);
+        op_list_free(list);
     }
     TEST_ASSERT_TRUE(blocks_in_use() == blocks);
 }
@@ -329,9 +329,9 @@ static void test_powers_take_few_products(void) {
             for (int left = whole; left > 1; left /= 2) {
                 products += 1 + left % 2;
             }
-            list = tape_new(0, 1);
-            const int x = tape_leaf(list, OP_LINEAR, 1);
-            const int at = tape_power(list, x, sign == 0 ? e : -e);
+            list = op_list_new(0, 1);
+            const int x = op_list_leaf(list, OP_LINEAR, 1);
+            const int at = op_list_power(list, x, sign == 0 ? e : -e);
             evaluated(list, v);
             expect_near(pow(v[x], sign == 0 ? e : -e), v[at]);
             const bool plain = by_root || by_products;
@@ -339,7 +339,7 @@ static void test_powers_take_few_products(void) {
             TEST_ASSERT_EQUAL_INT(by_root, count_of(OP_SQRT));
             TEST_ASSERT_EQUAL_INT(!plain, count_of(OP_POW));
             TEST_ASSERT_EQUAL_INT(sign, count_of(OP_DIV));
-            tape_free(list);
+            op_list_free(list);
         }
     }
 }
@@ -349,17 +349,17 @@ static void test_what_turns_a_phase(void) {
     static const double whole[] = {0.0, 1.0, -3.0, 2147483647.0, -2147483647.0};
     static const double not_whole[] = {0.5, -1e-9, 2147483648.0, -2147483648.0, 1e300, 3.0000001};
     for (int i = 0; i < 5; i++) {
-        TEST_ASSERT_TRUE(tape_is_whole(whole[i]));
+        TEST_ASSERT_TRUE(op_list_is_whole(whole[i]));
     }
     for (int i = 0; i < 6; i++) {
-        TEST_ASSERT_FALSE(tape_is_whole(not_whole[i]));
+        TEST_ASSERT_FALSE(op_list_is_whole(not_whole[i]));
     }
 }
 
 /* A function of a constant is one: nothing is left to evaluate. */
 static void test_functions_of_constants(void) {
     die = dice_of("functions of constants", 4133);
-    list = tape_new(ANGLES, 1);
+    list = op_list_new(ANGLES, 1);
     for (int i = 0; i < 200; i++) {
         const double x = dice_between(&die, 0.0, 6.0) * (i % 2 == 0 ? 1.0 : -1.0);
         const struct {
@@ -373,12 +373,12 @@ static void test_functions_of_constants(void) {
         for (unsigned k = 0; k < sizeof rows / sizeof rows[0]; k++) {
             const double from = rows[k].code == OP_SQRT ? fabs(x) : x;
             double is = 0.0;
-            const int made = tape_unary(list, rows[k].code, tape_constant(list, from));
-            TEST_ASSERT_TRUE(tape_is_constant(list, made, &is));
+            const int made = op_list_unary(list, rows[k].code, op_list_constant(list, from));
+            TEST_ASSERT_TRUE(op_list_is_constant(list, made, &is));
             TEST_ASSERT_DOUBLE_WITHIN(1e-15, rows[k].value, is);
         }
     }
-    tape_free(list);
+    op_list_free(list);
 }
 
 void suite_tape_entered(void) {

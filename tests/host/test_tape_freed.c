@@ -1,4 +1,4 @@
-/* test_tape_freed.c: the parts of what tape_gauge() does (host/image/tape_gauge.h), each by itself: what rounded constants make of
+/* test_tape_freed.c: the parts of what op_list_gauge() does (host/image/op_list_gauge.h), each by itself: what rounded constants make of
  * results, to a closed form; lists whose freedoms are known by how they were built; and lists multiplied by whatever a freedom
  * allows, which compute the same. */
 #include <math.h>
@@ -7,7 +7,7 @@
 #include "blocks.h"
 #include "command.h"
 #include "evaluated.h"
-#include "host/image/tape_gauge.h"
+#include "host/image/op_list_scaling.h"
 #include "unity.h"
 
 void suite_tape_freed(void);
@@ -27,7 +27,7 @@ static void test_a_constants_error_is_the_results(void) {
     for (unsigned c = 0; c < dice_cases(200); c++) {
         const int angles = (int)dice_one_of(&die, 3);
         const int results = 1 + (int)dice_one_of(&die, RESULTS_MOST);
-        tape *t = tape_new(angles, results);
+        op_list *t = op_list_new(angles, results);
         double squares = 0.0;
         double entries = 0.0;
         bool read[RESULTS_MOST] = {false};
@@ -40,20 +40,20 @@ static void test_a_constants_error_is_the_results(void) {
             int reads = -1;
             switch (dice_one_of(&die, angles == 2 ? 4 : 3)) {
             case 0: /* a rate of a result counts as reading it */
-                leaf = tape_leaf(t, OP_RATE, k);
+                leaf = op_list_leaf(t, OP_RATE, k);
                 reads = k;
                 break;
             case 1:
-                leaf = tape_leaf(t, OP_LINEAR, k);
+                leaf = op_list_leaf(t, OP_LINEAR, k);
                 reads = angles + k;
                 break;
-            case 2: leaf = tape_leaf(t, OP_INPUT, k); break;
+            case 2: leaf = op_list_leaf(t, OP_INPUT, k); break;
             case 3:
-                leaf = tape_unary(t, OP_COS, tape_phase(t, one, 0.25, -1));
+                leaf = op_list_unary(t, OP_COS, op_list_phase(t, one, 0.25, -1));
                 reads = k == 0 ? 0 : 1;
                 break;
             }
-            t->result[i] = tape_mul(t, tape_constant(t, number), leaf);
+            t->result[i] = op_list_mul(t, op_list_constant(t, number), leaf);
             off[i] = fabs((double)(float)number / number - 1.0);
             if (reads >= 0 && reads < results) {
                 read[reads] = true;
@@ -70,31 +70,32 @@ static void test_a_constants_error_is_the_results(void) {
             entries += (of_rate ? 2.0 : 3.0) * weight * weight;
         }
         const double wanted = sqrt(squares / entries);
-        TEST_ASSERT_DOUBLE_WITHIN(1e-6 * wanted + 1e-13, wanted, tape_bias(t, t));
-        tape_free(t);
+        TEST_ASSERT_DOUBLE_WITHIN(1e-6 * wanted + 1e-13, wanted, op_list_bias(t, t));
+        op_list_free(t);
     }
 }
 
 /* Every operation, at a place where its value is one and the constant beside it is off: as much is the result. */
-static int made_of(tape *t, int x, unsigned what) {
-    const int two = tape_constant(t, 2.0);
+static int made_of(op_list *t, int x, unsigned what) {
+    const int two = op_list_constant(t, 2.0);
     switch (what) {
-    case 0: return tape_unary(t, OP_ABS, x);
-    case 1: return tape_unary(t, OP_SQRT, tape_mul(t, x, x));
-    case 2: return tape_sub(t, tape_mul(t, tape_constant(t, 3.0), x), tape_mul(t, two, x));
-    case 3: return tape_div(t, tape_mul(t, x, x), x);
-    case 4: return tape_call(t, FN_MIN, x, tape_mul(t, two, x));
-    case 5: return tape_call(t, FN_MAX, x, tape_mul(t, tape_constant(t, 0.5), x));
-    case 6: return tape_call(t, FN_LOG, tape_call(t, FN_EXP, x, -1), -1);
-    case 7: return tape_mul(t, x, tape_unary(t, OP_SIGN, x));
-    case 8: return tape_unary(t, OP_NEG, tape_unary(t, OP_NEG, x));
+    case 0: return op_list_unary(t, OP_ABS, x);
+    case 1: return op_list_unary(t, OP_SQRT, op_list_mul(t, x, x));
+    case 2:
+        return op_list_sub(t, op_list_mul(t, op_list_constant(t, 3.0), x), op_list_mul(t, two, x));
+    case 3: return op_list_div(t, op_list_mul(t, x, x), x);
+    case 4: return op_list_call(t, FN_MIN, x, op_list_mul(t, two, x));
+    case 5: return op_list_call(t, FN_MAX, x, op_list_mul(t, op_list_constant(t, 0.5), x));
+    case 6: return op_list_call(t, FN_LOG, op_list_call(t, FN_EXP, x, -1), -1);
+    case 7: return op_list_mul(t, x, op_list_unary(t, OP_SIGN, x));
+    case 8: return op_list_unary(t, OP_NEG, op_list_unary(t, OP_NEG, x));
     case 9:
-        return tape_add(t, tape_mul(t, tape_constant(t, 0.25), x),
-                        tape_mul(t, tape_constant(t, 0.75), x));
-    case 10: return tape_call(t, FN_ATAN, tape_call(t, FN_TAN, x, -1), -1);
+        return op_list_add(t, op_list_mul(t, op_list_constant(t, 0.25), x),
+                           op_list_mul(t, op_list_constant(t, 0.75), x));
+    case 10: return op_list_call(t, FN_ATAN, op_list_call(t, FN_TAN, x, -1), -1);
     }
     /* exponents that a float has */
-    return tape_pow(t, tape_pow(t, x, tape_constant(t, 0.125)), tape_constant(t, 8.0));
+    return op_list_pow(t, op_list_pow(t, x, op_list_constant(t, 0.125)), op_list_constant(t, 8.0));
 }
 
 static void test_errors_go_through_operations(void) {
@@ -103,10 +104,12 @@ static void test_errors_go_through_operations(void) {
             const double number =
                 decimal() / 10.0; /* times an input, from 1 to 3: no more than 3 */
             const double off = fabs((double)(float)number / number - 1.0);
-            tape *t = tape_new(0, 1);
-            const int x = tape_mul(t, tape_constant(t, number), tape_leaf(t, OP_INPUT, tries));
-            t->result[0] = made_of(t, what == 10 ? tape_mul(t, tape_constant(t, 0.5), x) : x, what);
-            const double bias = tape_bias(t, t);
+            op_list *t = op_list_new(0, 1);
+            const int x =
+                op_list_mul(t, op_list_constant(t, number), op_list_leaf(t, OP_INPUT, tries));
+            t->result[0] =
+                made_of(t, what == 10 ? op_list_mul(t, op_list_constant(t, 0.5), x) : x, what);
+            const double bias = op_list_bias(t, t);
             /* three and two times the number, each off by its half unit, stand for once it */
             TEST_ASSERT_TRUE(bias <= 5.0 * 0x1p-24 && bias >= 0.0);
             if (what != 2 && what != 9 && what != 4 && what != 5) {
@@ -114,7 +117,7 @@ static void test_errors_go_through_operations(void) {
                     what == 10 ? fabs((double)(float)(0.5 * number) / (0.5 * number) - 1.0) : off;
                 TEST_ASSERT_DOUBLE_WITHIN(1e-4 * wanted + 1e-13, wanted, bias);
             }
-            tape_free(t);
+            op_list_free(t);
         }
     }
 }
@@ -129,36 +132,36 @@ static void test_errors_go_through_phases(void) {
         const bool is_sine = tries % 2 == 0;
         const double value = is_sine ? sin(angle) : cos(angle);
         const double slope = is_sine ? cos(angle) : -sin(angle);
-        tape *t = tape_new(0, 1);
-        const int phase = tape_phase(t, NULL, offset, tape_constant(t, rad));
-        t->result[0] = tape_unary(t, is_sine ? OP_SIN : OP_COS, phase);
+        op_list *t = op_list_new(0, 1);
+        const int phase = op_list_phase(t, NULL, offset, op_list_constant(t, rad));
+        t->result[0] = op_list_unary(t, is_sine ? OP_SIN : OP_COS, phase);
         const double wanted = fabs(slope * off / value);
-        TEST_ASSERT_DOUBLE_WITHIN(1e-3 * wanted + 1e-13, wanted, tape_bias(t, t));
-        tape_free(t);
+        TEST_ASSERT_DOUBLE_WITHIN(1e-3 * wanted + 1e-13, wanted, op_list_bias(t, t));
+        op_list_free(t);
     }
 }
 
 /* --- lists whose freedoms are known ------------------------------------------------------------------------------ */
 
 /* A sum of products with constants: it can be multiplied for nothing. `which` tells its leaves from those of others. */
-static int free_sum(tape *t, int which) {
-    const int x = tape_leaf(t, OP_LINEAR, which);
-    const int y = tape_leaf(t, OP_RATE, which);
-    const int z = tape_mul(t, tape_constant(t, decimal()), tape_mul(t, x, y));
-    const int w = tape_mul(t, tape_constant(t, decimal()), tape_mul(t, y, y));
-    return tape_add(t, z, w);
+static int free_sum(op_list *t, int which) {
+    const int x = op_list_leaf(t, OP_LINEAR, which);
+    const int y = op_list_leaf(t, OP_RATE, which);
+    const int z = op_list_mul(t, op_list_constant(t, decimal()), op_list_mul(t, x, y));
+    const int w = op_list_mul(t, op_list_constant(t, decimal()), op_list_mul(t, y, y));
+    return op_list_add(t, z, w);
 }
 
 /* That, and so many leaves as they are: multiplying it multiplies them. */
-static int raw_sum(tape *t, int which, int raws) {
+static int raw_sum(op_list *t, int which, int raws) {
     int sum = free_sum(t, which);
     for (int k = 0; k < raws; k++) {
-        sum = tape_add(t, sum, tape_leaf(t, OP_INPUT, 10 * which + k));
+        sum = op_list_add(t, sum, op_list_leaf(t, OP_INPUT, 10 * which + k));
     }
     return sum;
 }
 
-static bool multiplies_raw(const tape_freedoms *f, int k) {
+static bool multiplies_raw(const op_list_freedoms *f, int k) {
     bool any = false;
     for (int i = f->length / 3; i < f->length; i++) {
         any = any || f->exponent[k * f->length + i] != 0.0;
@@ -167,7 +170,7 @@ static bool multiplies_raw(const tape_freedoms *f, int k) {
 }
 
 /* Results of list `made` are those of `t`. */
-static void expect_same_results(const tape *t, const tape *made) {
+static void expect_same_results(const op_list *t, const op_list *made) {
     static double v[EVALUATED_MOST];
     double wanted[8];
     TEST_ASSERT_EQUAL_INT(t->results, made->results);
@@ -183,7 +186,7 @@ static void expect_same_results(const tape *t, const tape *made) {
 
 /* Every freedom, by any number: the same results; and without raw values no operation more, `if_alone`: where no product with
  * a constant is taken twice, in two ways. */
-static void expect_free(const tape *t, const tape_freedoms *f, bool if_alone) {
+static void expect_free(const op_list *t, const op_list_freedoms *f, bool if_alone) {
     double *times = calloc((size_t)f->length, sizeof *times);
     TEST_ASSERT_NOT_NULL(times);
     for (int k = 0; k < f->count; k++) {
@@ -195,17 +198,17 @@ static void expect_free(const tape *t, const tape_freedoms *f, bool if_alone) {
             least = exponent[i] != 0.0 ? fmin(least, fabs(exponent[i])) : least;
         }
         TEST_ASSERT_DOUBLE_WITHIN(1e-12, 1.0, least); /* they begin with one */
-        tape *made = tape_multiplied(t, times);
+        op_list *made = op_list_multiplied(t, times);
         expect_same_results(t, made);
         if (if_alone && !multiplies_raw(f, k)) {
-            TEST_ASSERT_TRUE(tape_operations(made) <= tape_operations(t));
+            TEST_ASSERT_TRUE(op_list_operations(made) <= op_list_operations(t));
         }
-        tape_free(made);
+        op_list_free(made);
     }
     free(times);
 }
 
-static int without_raw(const tape_freedoms *f) {
+static int without_raw(const op_list_freedoms *f) {
     int count = 0;
     for (int k = 0; k < f->count; k++) {
         count += !multiplies_raw(f, k);
@@ -217,7 +220,7 @@ static int without_raw(const tape_freedoms *f) {
 static void test_a_quotient_has_one_freedom(void) {
     for (unsigned c = 0; c < dice_cases(60); c++) {
         const int quotients = 1 + (int)dice_one_of(&die, 4);
-        tape *t = tape_new(0, quotients);
+        op_list *t = op_list_new(0, quotients);
         int above[4];
         int below[4];
         double power[4];
@@ -227,9 +230,9 @@ static void test_a_quotient_has_one_freedom(void) {
             below[k] = free_sum(t, 3 * k + 1);
             power[k] = by_root ? 0.5 : 1.0;
             t->result[k] =
-                tape_div(t, above[k], by_root ? tape_unary(t, OP_SQRT, below[k]) : below[k]);
+                op_list_div(t, above[k], by_root ? op_list_unary(t, OP_SQRT, below[k]) : below[k]);
         }
-        tape_freedoms f = tape_freedoms_of(t);
+        op_list_freedoms f = op_list_freedoms_of(t);
         TEST_ASSERT_EQUAL_INT(3 * t->count, f.length);
         TEST_ASSERT_EQUAL_INT(quotients, without_raw(&f));
         for (int k = 0; k < quotients; k++) {
@@ -242,8 +245,8 @@ static void test_a_quotient_has_one_freedom(void) {
             TEST_ASSERT_TRUE(found);
         }
         expect_free(t, &f, true);
-        tape_freedoms_free(&f);
-        tape_free(t);
+        op_list_freedoms_free(&f);
+        op_list_free(t);
     }
 }
 
@@ -251,11 +254,11 @@ static void test_a_quotient_has_one_freedom(void) {
 static void test_few_raw_values_are_multiplied(void) {
     for (int raws = 0; raws <= 3; raws++) {
         for (int in_denominator = 0; in_denominator < 2; in_denominator++) {
-            tape *t = tape_new(0, 1);
+            op_list *t = op_list_new(0, 1);
             const int one = raw_sum(t, 0, raws);
             const int other = free_sum(t, 1);
-            t->result[0] = in_denominator ? tape_div(t, other, one) : tape_div(t, one, other);
-            tape_freedoms f = tape_freedoms_of(t);
+            t->result[0] = in_denominator ? op_list_div(t, other, one) : op_list_div(t, one, other);
+            op_list_freedoms f = op_list_freedoms_of(t);
             bool whole = false;
             for (int k = 0; k < f.count; k++) {
                 const double *e = f.exponent + k * f.length;
@@ -265,43 +268,44 @@ static void test_few_raw_values_are_multiplied(void) {
             TEST_ASSERT_EQUAL(raws < 3, whole);
             TEST_ASSERT_EQUAL_INT(raws == 0, without_raw(&f));
             expect_free(t, &f, true);
-            tape_freedoms_free(&f);
-            tape_free(t);
+            op_list_freedoms_free(&f);
+            op_list_free(t);
         }
     }
 }
 
 /* --- any list ------------------------------------------------------------------------------------------------------ */
 
-static int some_operation(tape *t, int a, int b) {
+static int some_operation(op_list *t, int a, int b) {
     const double two[2] = {1.0, -0.5};
     switch (dice_one_of(&die, 15)) {
-    case 0: return tape_sub(t, a, b);
+    case 0: return op_list_sub(t, a, b);
     case 1:
-        return tape_div(t, a, tape_add(t, tape_unary(t, OP_ABS, b), tape_constant(t, decimal())));
-    case 2: return tape_unary(t, OP_SQRT, tape_unary(t, OP_ABS, a));
-    case 3: return tape_unary(t, OP_SIN, tape_phase(t, two, 0.5, a));
-    case 4: return tape_unary(t, OP_COS, tape_phase(t, two, 0.0, -1));
-    case 5: return tape_call(t, FN_MIN, a, b);
-    case 6: return tape_call(t, FN_MAX, a, b);
-    case 7: return tape_unary(t, OP_SIGN, a);
-    case 8: return tape_call(t, FN_ATAN2, a, b);
-    case 9: return tape_pow(t, tape_unary(t, OP_ABS, a), tape_constant(t, 0.3));
-    case 10: return tape_unary(t, OP_NEG, a);
-    case 11: return tape_mul(t, tape_constant(t, decimal()), a);
-    case 12: return tape_mul(t, a, b);
-    case 13: return tape_leaf(t, dice_one_of(&die, 2) == 0 ? OP_ACCEL : OP_TIME, 0);
+        return op_list_div(
+            t, a, op_list_add(t, op_list_unary(t, OP_ABS, b), op_list_constant(t, decimal())));
+    case 2: return op_list_unary(t, OP_SQRT, op_list_unary(t, OP_ABS, a));
+    case 3: return op_list_unary(t, OP_SIN, op_list_phase(t, two, 0.5, a));
+    case 4: return op_list_unary(t, OP_COS, op_list_phase(t, two, 0.0, -1));
+    case 5: return op_list_call(t, FN_MIN, a, b);
+    case 6: return op_list_call(t, FN_MAX, a, b);
+    case 7: return op_list_unary(t, OP_SIGN, a);
+    case 8: return op_list_call(t, FN_ATAN2, a, b);
+    case 9: return op_list_pow(t, op_list_unary(t, OP_ABS, a), op_list_constant(t, 0.3));
+    case 10: return op_list_unary(t, OP_NEG, a);
+    case 11: return op_list_mul(t, op_list_constant(t, decimal()), a);
+    case 12: return op_list_mul(t, a, b);
+    case 13: return op_list_leaf(t, dice_one_of(&die, 2) == 0 ? OP_ACCEL : OP_TIME, 0);
     }
-    return tape_add(t, a, b);
+    return op_list_add(t, a, b);
 }
 
-static tape *some_list(void) {
+static op_list *some_list(void) {
     static double v[EVALUATED_MOST];
     int value[60];
     int count = 4;
-    tape *t = tape_new(2, 1 + (int)dice_one_of(&die, 3));
+    op_list *t = op_list_new(2, 1 + (int)dice_one_of(&die, 3));
     for (int k = 0; k < 4; k++) {
-        value[k] = k == 3 ? tape_noise(t, 5) : tape_leaf(t, k == 0 ? OP_RATE : OP_INPUT, k);
+        value[k] = k == 3 ? op_list_noise(t, 5) : op_list_leaf(t, k == 0 ? OP_RATE : OP_INPUT, k);
     }
     const int wanted = 6 + (int)dice_one_of(&die, 20);
     while (count < wanted) {
@@ -315,8 +319,8 @@ static tape *some_list(void) {
     for (int i = 0; i < t->results; i++) {
         t->result[i] = value[count - 1 - (int)dice_one_of(&die, 3)];
     }
-    tape_prune(t);
-    tape_order(t);
+    op_list_prune(t);
+    op_list_order(t);
     return t;
 }
 
@@ -325,38 +329,38 @@ static tape *some_list(void) {
 static void test_multiplied_lists_compute_the_same(void) {
     const long blocks = blocks_in_use();
     for (unsigned c = 0; c < dice_cases(few_or_all(usual_or(60, 20), 400)); c++) {
-        tape *t = some_list();
+        op_list *t = some_list();
         double *times = calloc(3 * (size_t)t->count + 1, sizeof *times);
         TEST_ASSERT_NOT_NULL(times);
         for (int i = 0; i < 3 * t->count; i++) {
             times[i] = 1.0;
         }
-        tape *same = tape_multiplied(t, times);
+        op_list *same = op_list_multiplied(t, times);
         expect_same_results(t, same);
-        TEST_ASSERT_TRUE(tape_operations(same) <= tape_operations(t));
-        tape_free(same);
+        TEST_ASSERT_TRUE(op_list_operations(same) <= op_list_operations(t));
+        op_list_free(same);
         for (int i = 0; i < 3 * t->count; i++) {
             times[i] = exp2((double)dice_one_of(&die, 3) - 1.0);
         }
-        tape *other = tape_multiplied(t, times);
+        op_list *other = op_list_multiplied(t, times);
         expect_same_results(t, other);
-        tape_free(other);
-        tape_freedoms f = tape_freedoms_of(t);
+        op_list_free(other);
+        op_list_freedoms f = op_list_freedoms_of(t);
         expect_free(t, &f, false);
-        tape_freedoms_free(&f);
+        op_list_freedoms_free(&f);
         free(times);
-        TEST_ASSERT_FALSE(tape_bias(t, t) < 0.0); /* or no number, where there is no telling */
-        tape_free(t);
+        TEST_ASSERT_FALSE(op_list_bias(t, t) < 0.0); /* or no number, where there is no telling */
+        op_list_free(t);
     }
     TEST_ASSERT_TRUE(blocks_in_use() == blocks);
 }
 
 /* Where the product with this constant stands. */
-static int place_of(const tape *t, double constant) {
+static int place_of(const op_list *t, double constant) {
     int place = -1;
     double number;
     for (int i = 0; i < t->count; i++) {
-        const bool is = t->ops[i].code == OP_MUL && tape_is_constant(t, t->ops[i].a, &number);
+        const bool is = t->ops[i].code == OP_MUL && op_list_is_constant(t, t->ops[i].a, &number);
         place = is && number == constant ? i : place;
     }
     return place;
@@ -366,28 +370,28 @@ static int place_of(const tape *t, double constant) {
  * arguments of a call, a scene's code and its hash are the same. */
 static void test_operands_are_entered_in_one_order(void) {
     for (int what = 0; what < 6; what++) {
-        tape *t = tape_new(0, 1);
-        const int x = tape_leaf(t, OP_INPUT, 0);
-        const int y = tape_leaf(t, OP_INPUT, 1);
-        const int a = tape_mul(t, tape_constant(t, 0.375), tape_mul(t, x, x));
-        const int b = tape_mul(t, tape_constant(t, 0.75), tape_mul(t, y, y));
-        t->result[0] = what == 0   ? tape_add(t, a, b)
-                       : what == 1 ? tape_sub(t, a, b)
-                       : what == 2 ? tape_call(t, FN_MIN, a, b)
-                       : what == 3 ? tape_call(t, FN_MAX, a, b)
-                       : what == 4 ? tape_call(t, FN_ATAN2, a, b)
-                                   : tape_pow(t, a, b);
-        tape_prune(t);
+        op_list *t = op_list_new(0, 1);
+        const int x = op_list_leaf(t, OP_INPUT, 0);
+        const int y = op_list_leaf(t, OP_INPUT, 1);
+        const int a = op_list_mul(t, op_list_constant(t, 0.375), op_list_mul(t, x, x));
+        const int b = op_list_mul(t, op_list_constant(t, 0.75), op_list_mul(t, y, y));
+        t->result[0] = what == 0   ? op_list_add(t, a, b)
+                       : what == 1 ? op_list_sub(t, a, b)
+                       : what == 2 ? op_list_call(t, FN_MIN, a, b)
+                       : what == 3 ? op_list_call(t, FN_MAX, a, b)
+                       : what == 4 ? op_list_call(t, FN_ATAN2, a, b)
+                                   : op_list_pow(t, a, b);
+        op_list_prune(t);
         double times[3 * 20];
         TEST_ASSERT_TRUE(t->count <= 20);
         for (int i = 0; i < 3 * t->count; i++) {
             times[i] = 1.0;
         }
-        tape *made = tape_multiplied(t, times);
+        op_list *made = op_list_multiplied(t, times);
         TEST_ASSERT_TRUE(place_of(made, 0.75) >= 0);
         TEST_ASSERT_TRUE(place_of(made, 0.75) < place_of(made, 0.375));
-        tape_free(made);
-        tape_free(t);
+        op_list_free(made);
+        op_list_free(t);
     }
 }
 

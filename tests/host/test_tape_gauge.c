@@ -2,7 +2,7 @@
  * no more operations than allowed, and less that rounded constants make of them. Over generated mechanisms: the states here
  * are others than those that the search looks at, and another evaluator's. */
 #include "host/derive/program.h"
-#include "host/image/tape_gauge.h"
+#include "host/image/op_list_scaling.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -80,7 +80,7 @@ static image *compensated_image(const derived *d) {
 }
 
 /* The list with its constants rounded to float. The list's own memory: what it had goes to kept[t->count], and back. */
-static void round_constants(tape *t, double *kept) {
+static void round_constants(op_list *t, double *kept) {
     for (int i = 0; i < t->count; i++) {
         kept[i] = t->ops[i].value;
         if (t->ops[i].code == OP_CONSTANT) {
@@ -89,7 +89,7 @@ static void round_constants(tape *t, double *kept) {
     }
 }
 
-static void put_back(tape *t, const double *kept) {
+static void put_back(op_list *t, const double *kept) {
     for (int i = 0; i < t->count; i++) {
         t->ops[i].value = kept[i];
     }
@@ -99,7 +99,7 @@ enum { RESULTS = 64, OPERATIONS = 4000 };
 
 /* What rounding a list's constants does to its results, of a decimal mechanism to the accelerations of angles, which all
  * lists there depend on: the mean, over many states, beside the mean size, of each; and the mean of these. */
-static double bias_of(tape *t, const tape *like, const derived *d, uint64_t seed) {
+static double bias_of(op_list *t, const op_list *like, const derived *d, uint64_t seed) {
     double kept[OPERATIONS];
     double meant[RESULTS];
     double now[RESULTS];
@@ -127,7 +127,7 @@ static double bias_of(tape *t, const tape *like, const derived *d, uint64_t seed
 }
 
 /* Equal but for what double rounds: each constant may have been moved by 1e-15 of itself, nine units. */
-static void expect_equal(const tape *t, const tape *other, const derived *d, uint64_t seed,
+static void expect_equal(const op_list *t, const op_list *other, const derived *d, uint64_t seed,
                          const char *what) {
     double x[RESULTS];
     double y[RESULTS];
@@ -165,11 +165,11 @@ static bool hold(const char *text, uint64_t seed, tally *all) {
     if (derives) {
         image *im = compensated_image(&d);
         program *p = before_gauge(&d, NULL);
-        tape *plain = p->step;
-        tape *gauged = im->list[IMAGE_STEP];
-        const int more = tape_operations(gauged) - tape_operations(plain);
-        const bool changed = tape_hash(gauged) != tape_hash(plain);
-        TEST_ASSERT_TRUE_MESSAGE(more <= tape_gauge_price(plain), text);
+        op_list *plain = p->step;
+        op_list *gauged = im->list[IMAGE_STEP];
+        const int more = op_list_operations(gauged) - op_list_operations(plain);
+        const bool changed = op_list_hash(gauged) != op_list_hash(plain);
+        TEST_ASSERT_TRUE_MESSAGE(more <= op_list_gauge_price(plain), text);
         expect_equal(plain, gauged, &d, seed, text);
         all->lists++;
         if (changed) {
@@ -231,46 +231,47 @@ static void test_any_mechanism_keeps_its_results(void) {
 
 /* (M - k2 s c w^2)/(k1 - k2 s^2), k1 = 1.08, k2 = 0.36: with the product of M allowed, no constant is off. */
 static void test_a_quotient_gets_whole_numbers(void) {
-    tape *t = tape_new(1, 1);
+    op_list *t = op_list_new(1, 1);
     const double one = 1.0;
-    const int phase = tape_phase(t, &one, 0.0, -1);
-    const int s = tape_unary(t, OP_SIN, phase);
-    const int c = tape_unary(t, OP_COS, phase);
-    const int w = tape_leaf(t, OP_RATE, 0);
-    const int ks = tape_mul(t, tape_constant(t, 0.36), s);
-    const int load = tape_mul(t, ks, tape_mul(t, c, tape_mul(t, w, w)));
-    const int above = tape_sub(t, tape_leaf(t, OP_INPUT, 0), load);
-    t->result[0] = tape_div(t, above, tape_sub(t, tape_constant(t, 1.08), tape_mul(t, ks, s)));
-    tape_prune(t);
-    const int operations = tape_operations(t);
-    TEST_ASSERT_TRUE(tape_bias(t, t) > 1e-8);
-    tape_gauge(&t, 0);
-    TEST_ASSERT_EQUAL_INT(operations, tape_operations(t)); /* nothing is free here */
-    tape_gauge(&t, 1);
-    TEST_ASSERT_EQUAL_INT(operations + 1, tape_operations(t));
-    TEST_ASSERT_TRUE(tape_bias(t, t) < 1e-14);
+    const int phase = op_list_phase(t, &one, 0.0, -1);
+    const int s = op_list_unary(t, OP_SIN, phase);
+    const int c = op_list_unary(t, OP_COS, phase);
+    const int w = op_list_leaf(t, OP_RATE, 0);
+    const int ks = op_list_mul(t, op_list_constant(t, 0.36), s);
+    const int load = op_list_mul(t, ks, op_list_mul(t, c, op_list_mul(t, w, w)));
+    const int above = op_list_sub(t, op_list_leaf(t, OP_INPUT, 0), load);
+    t->result[0] =
+        op_list_div(t, above, op_list_sub(t, op_list_constant(t, 1.08), op_list_mul(t, ks, s)));
+    op_list_prune(t);
+    const int operations = op_list_operations(t);
+    TEST_ASSERT_TRUE(op_list_bias(t, t) > 1e-8);
+    op_list_gauge(&t, 0);
+    TEST_ASSERT_EQUAL_INT(operations, op_list_operations(t)); /* nothing is free here */
+    op_list_gauge(&t, 1);
+    TEST_ASSERT_EQUAL_INT(operations + 1, op_list_operations(t));
+    TEST_ASSERT_TRUE(op_list_bias(t, t) < 1e-14);
     for (int i = 0; i < t->count; i++) {
         const double x = t->ops[i].value;
         TEST_ASSERT_TRUE(t->ops[i].code != OP_CONSTANT || x == (double)(float)x);
     }
-    tape_free(t);
+    op_list_free(t);
 }
 
 /* Nor is anything in two scenes. */
 static void test_scenes_have_no_freedom_for_nothing(void) {
     static const char *const names[] = {"epicyclic_from_rest", "thomson_a_conserved"};
-    static const double left[] = {0.1,
-                                  0.5}; /* of the bias; the second is what tape_gauge() promises */
+    static const double left[] = {
+        0.1, 0.5}; /* of the bias; the second is what op_list_gauge() promises */
     for (int k = 0; k < 2; k++) {
         derived d = derived_builtin(names[k]);
         program *p = before_gauge(&d, names[k]);
-        tape **step = &p->step;
-        const uint64_t hash = tape_hash(*step);
-        const double bias = tape_bias(*step, *step);
-        tape_gauge(step, 0);
-        TEST_ASSERT_TRUE_MESSAGE(tape_hash(*step) == hash, names[k]);
-        tape_gauge(step, tape_gauge_price(*step));
-        TEST_ASSERT_TRUE_MESSAGE(tape_bias(*step, *step) < left[k] * bias, names[k]);
+        op_list **step = &p->step;
+        const uint64_t hash = op_list_hash(*step);
+        const double bias = op_list_bias(*step, *step);
+        op_list_gauge(step, 0);
+        TEST_ASSERT_TRUE_MESSAGE(op_list_hash(*step) == hash, names[k]);
+        op_list_gauge(step, op_list_gauge_price(*step));
+        TEST_ASSERT_TRUE_MESSAGE(op_list_bias(*step, *step) < left[k] * bias, names[k]);
         program_free(p);
         derived_free(&d);
     }
@@ -281,14 +282,14 @@ static void test_scenes_have_no_freedom_for_nothing(void) {
 static void test_what_needs_nothing_stays(void) {
     static const double number[] = {1.0, 0.375, 0.3};
     for (int k = 0; k < 3; k++) {
-        tape *t = tape_new(0, 1);
-        const int w = tape_leaf(t, OP_RATE, 0);
-        t->result[0] = tape_mul(t, tape_constant(t, number[k]), tape_mul(t, w, w));
-        tape_prune(t);
-        const uint64_t hash = tape_hash(t);
-        tape_gauge(&t, number[k] == 0.3 ? 0 : 3);
-        TEST_ASSERT_TRUE(tape_hash(t) == hash);
-        tape_free(t);
+        op_list *t = op_list_new(0, 1);
+        const int w = op_list_leaf(t, OP_RATE, 0);
+        t->result[0] = op_list_mul(t, op_list_constant(t, number[k]), op_list_mul(t, w, w));
+        op_list_prune(t);
+        const uint64_t hash = op_list_hash(t);
+        op_list_gauge(&t, number[k] == 0.3 ? 0 : 3);
+        TEST_ASSERT_TRUE(op_list_hash(t) == hash);
+        op_list_free(t);
     }
 }
 

@@ -1,4 +1,4 @@
-/* test_tape_gauged.c: what tape_gauge() is to find (host/image/tape_gauge.h), in lists that are built so that a number is known
+/* test_tape_gauged.c: what op_list_gauge() is to find (host/image/op_list_gauge.h), in lists that are built so that a number is known
  * after which no constant is off: products of small primes, and constants that vanish. */
 #include <math.h>
 #include <stdlib.h>
@@ -6,7 +6,7 @@
 #include "blocks.h"
 #include "command.h"
 #include "evaluated.h"
-#include "host/image/tape_gauge.h"
+#include "host/image/op_list_scaling.h"
 #include "unity.h"
 
 void suite_tape_gauged(void);
@@ -14,27 +14,27 @@ void suite_tape_gauged(void);
 static dice die;
 
 /* A sum of two products of leaves, with whole numbers below 120 times `unit`. */
-static int sum_of(tape *t, int which, double unit) {
-    const int x = tape_leaf(t, OP_LINEAR, which);
-    const int y = tape_leaf(t, OP_RATE, which);
-    const int one = tape_mul(t, x, x);
-    const int other = tape_mul(t, y, y);
+static int sum_of(op_list *t, int which, double unit) {
+    const int x = op_list_leaf(t, OP_LINEAR, which);
+    const int y = op_list_leaf(t, OP_RATE, which);
+    const int one = op_list_mul(t, x, x);
+    const int other = op_list_mul(t, y, y);
     const double a = 61.0 + 2.0 * dice_one_of(&die, 29);
     const double b = 61.0 + 2.0 * dice_one_of(&die, 29);
-    return tape_add(t, tape_mul(t, tape_constant(t, a * unit), one),
-                    tape_mul(t, tape_constant(t, b * unit), other));
+    return op_list_add(t, op_list_mul(t, op_list_constant(t, a * unit), one),
+                       op_list_mul(t, op_list_constant(t, b * unit), other));
 }
 
 /* A quotient of such sums. */
-static tape *quotient(double unit) {
-    tape *t = tape_new(0, 1);
+static op_list *quotient(double unit) {
+    op_list *t = op_list_new(0, 1);
     const int above = sum_of(t, 0, unit);
-    t->result[0] = tape_div(t, above, sum_of(t, 1, unit));
-    tape_prune(t);
+    t->result[0] = op_list_div(t, above, sum_of(t, 1, unit));
+    op_list_prune(t);
     return t;
 }
 
-static void results_of(const tape *t, double *result) {
+static void results_of(const op_list *t, double *result) {
     static double v[EVALUATED_MOST];
     evaluated(t, v);
     for (int i = 0; i < t->results; i++) {
@@ -43,21 +43,21 @@ static void results_of(const tape *t, double *result) {
 }
 
 /* Gauges the list, which is to be off by nothing then; it computes the same with no operation more. */
-static void expect_none_off(tape *t) {
+static void expect_none_off(op_list *t) {
     double before[1];
     double after[1];
-    const int operations = tape_operations(t);
+    const int operations = op_list_operations(t);
     results_of(t, before);
-    const double bias = tape_bias(t, t);
+    const double bias = op_list_bias(t, t);
     TEST_ASSERT_TRUE(bias > 1e-10);
-    tape_gauge(&t, 0);
-    TEST_ASSERT_TRUE(tape_bias(t, t) <= 1e-6 * bias);
-    TEST_ASSERT_TRUE(tape_operations(t) <= operations);
+    op_list_gauge(&t, 0);
+    TEST_ASSERT_TRUE(op_list_bias(t, t) <= 1e-6 * bias);
+    TEST_ASSERT_TRUE(op_list_operations(t) <= operations);
     results_of(t, after);
     for (int i = 0; i < t->results; i++) {
         TEST_ASSERT_DOUBLE_WITHIN(1e-12 * fabs(before[i]), before[i], after[i]);
     }
-    tape_free(t);
+    op_list_free(t);
 }
 
 static double primes(int fives, int threes, int sevens) {
@@ -83,11 +83,11 @@ static void test_decimals_and_thirds_become_whole(void) {
                 const double unit = primes(fives, threes, sevens);
                 const bool extreme = abs(fives) == 6 || abs(threes) == 3;
                 if (dice_one_of(&die, extreme ? few : 5 * few) == 0 && !is_held(unit)) {
-                    tape *t = quotient(unit);
-                    if (tape_bias(t, t) > 1e-10) {
+                    op_list *t = quotient(unit);
+                    if (op_list_bias(t, t) > 1e-10) {
                         expect_none_off(t);
                     } else {
-                        tape_free(t); /* as it happens */
+                        op_list_free(t); /* as it happens */
                     }
                 }
             }
@@ -100,28 +100,29 @@ static void test_decimals_and_thirds_become_whole(void) {
 static void test_constants_vanish(void) {
     for (int tries = 0; tries < 20; tries++) {
         const double unit = dice_between(&die, 0.1, 10.0);
-        tape *t = tape_new(0, 1);
-        const int x = tape_leaf(t, OP_LINEAR, 0);
-        const int y = tape_leaf(t, OP_RATE, 1);
-        const int times_x = tape_mul(t, tape_constant(t, unit), tape_mul(t, x, x));
+        op_list *t = op_list_new(0, 1);
+        const int x = op_list_leaf(t, OP_LINEAR, 0);
+        const int y = op_list_leaf(t, OP_RATE, 1);
+        const int times_x = op_list_mul(t, op_list_constant(t, unit), op_list_mul(t, x, x));
         const double a =
             61.0 +
             2.0 * dice_one_of(&die, 29); /* no float of 24 bits keeps these ratios by chance */
         const double b = 151.0 + 2.0 * dice_one_of(&die, 29);
-        const int times_y = tape_mul(t, tape_constant(t, a * unit), tape_mul(t, y, y));
-        const int third = tape_mul(t, tape_constant(t, b * unit), tape_mul(t, x, y));
-        t->result[0] = tape_div(t, tape_add(t, times_x, times_y), tape_add(t, third, times_x));
-        tape_prune(t);
-        const int operations = tape_operations(t);
+        const int times_y = op_list_mul(t, op_list_constant(t, a * unit), op_list_mul(t, y, y));
+        const int third = op_list_mul(t, op_list_constant(t, b * unit), op_list_mul(t, x, y));
+        t->result[0] =
+            op_list_div(t, op_list_add(t, times_x, times_y), op_list_add(t, third, times_x));
+        op_list_prune(t);
+        const int operations = op_list_operations(t);
         double before;
         double after;
         results_of(t, &before);
-        tape_gauge(&t, 0);
+        op_list_gauge(&t, 0);
         results_of(t, &after);
         TEST_ASSERT_DOUBLE_WITHIN(1e-12, before, after);
-        TEST_ASSERT_TRUE(tape_operations(t) <= operations);
-        TEST_ASSERT_TRUE(tape_bias(t, t) < 1e-13);
-        tape_free(t);
+        TEST_ASSERT_TRUE(op_list_operations(t) <= operations);
+        TEST_ASSERT_TRUE(op_list_bias(t, t) < 1e-13);
+        op_list_free(t);
     }
 }
 
@@ -129,33 +130,33 @@ static void test_constants_vanish(void) {
 static void test_long_lists_are_left_alone(void) {
     for (int over = 0; over < 2; over++) {
         const double unit = 0.01;
-        tape *longer = tape_new(0, 2);
+        op_list *longer = op_list_new(0, 2);
         const int above = sum_of(longer, 0, unit);
-        longer->result[0] = tape_div(longer, above, sum_of(longer, 1, unit));
-        int sum = tape_leaf(longer, OP_INPUT, 0);
+        longer->result[0] = op_list_div(longer, above, sum_of(longer, 1, unit));
+        int sum = op_list_leaf(longer, OP_INPUT, 0);
         while (longer->count < 250 + over) {
-            sum = tape_unary(longer, OP_ABS, sum);
+            sum = op_list_unary(longer, OP_ABS, sum);
         }
         longer->result[1] = sum;
-        tape_prune(longer);
+        op_list_prune(longer);
         TEST_ASSERT_EQUAL_INT(250 + over, longer->count);
-        const uint64_t hash = tape_hash(longer);
-        tape_gauge(&longer, 0);
-        TEST_ASSERT_EQUAL(over == 1, hash == tape_hash(longer));
-        tape_free(longer);
+        const uint64_t hash = op_list_hash(longer);
+        op_list_gauge(&longer, 0);
+        TEST_ASSERT_EQUAL(over == 1, hash == op_list_hash(longer));
+        op_list_free(longer);
     }
 }
 
 /* One operation more, and one for each forty. */
 static void test_what_a_better_list_may_cost(void) {
-    tape *t = tape_new(0, 1);
-    int sum = tape_leaf(t, OP_INPUT, 0);
+    op_list *t = op_list_new(0, 1);
+    int sum = op_list_leaf(t, OP_INPUT, 0);
     for (int operations = 0; operations < 200; operations++) {
-        TEST_ASSERT_EQUAL_INT(operations, tape_operations(t));
-        TEST_ASSERT_EQUAL_INT((int)(1.0 + floor(operations / 40.0)), tape_gauge_price(t));
-        sum = tape_unary(t, OP_ABS, sum);
+        TEST_ASSERT_EQUAL_INT(operations, op_list_operations(t));
+        TEST_ASSERT_EQUAL_INT((int)(1.0 + floor(operations / 40.0)), op_list_gauge_price(t));
+        sum = op_list_unary(t, OP_ABS, sum);
     }
-    tape_free(t);
+    op_list_free(t);
 }
 
 void suite_tape_gauged(void) {

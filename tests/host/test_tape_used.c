@@ -1,4 +1,4 @@
-/* test_tape_used.c: what is told of finished lists and of images (host/image/tape_use.c, tape_sums.c, image.c): to counts, to
+/* test_tape_used.c: what is told of finished lists and of images (host/image/op_list_use.c, tape_sums.c, image.c): to counts, to
  * ways from operations to results and to comparisons of the tests' own, on lists that are drawn. */
 #include <math.h>
 #include <string.h>
@@ -16,8 +16,8 @@ static drawn_scene drawn;
 
 /* --- counts ------------------------------------------------------------------------------------------------- */
 
-static tape_cost counted(const tape *t) {
-    tape_cost c = {0};
+static op_list_cost counted(const op_list *t) {
+    op_list_cost c = {0};
     for (int i = 0; i < t->count; i++) {
         const op_code code = t->ops[i].code;
         c.arithmetic += code == OP_ADD || code == OP_SUB || code == OP_MUL || code == OP_NEG ||
@@ -37,9 +37,9 @@ static bool is_operation(op_code code) {
            code != OP_CELL; /* in the order of the rows: behind leaves and phases */
 }
 
-static void check_counts(const tape *t) {
-    const tape_cost wanted = counted(t);
-    const tape_cost got = tape_count(t);
+static void check_counts(const op_list *t) {
+    const op_list_cost wanted = counted(t);
+    const op_list_cost got = op_list_count(t);
     int operations = 0;
     int waves = 0;
     bool reads = false;
@@ -53,13 +53,13 @@ static void check_counts(const tape *t) {
         takes =
             takes && (o->code != OP_PHASE || (o->parts == NULL && (o->turns == NULL || o->b < 0)));
     }
-    TEST_ASSERT_EQUAL_INT(operations, tape_operations(t));
-    TEST_ASSERT_EQUAL_INT(waves, tape_waves(t));
-    TEST_ASSERT_EQUAL(reads, tape_reads_turns(t));
-    TEST_ASSERT_EQUAL(takes, tape_takes_waves(t));
+    TEST_ASSERT_EQUAL_INT(operations, op_list_operations(t));
+    TEST_ASSERT_EQUAL_INT(waves, op_list_waves(t));
+    TEST_ASSERT_EQUAL(reads, op_list_reads_turns(t));
+    TEST_ASSERT_EQUAL(takes, op_list_takes_waves(t));
     TEST_ASSERT_EQUAL_INT(got.arithmetic + 14 * got.divisions + 14 * got.roots + 36 * got.waves +
                               100 * got.calls,
-                          tape_weight(t));
+                          op_list_weight(t));
 }
 
 /* Each list of scenes that are drawn. */
@@ -80,21 +80,21 @@ static void test_operations_are_counted(void) { each_list(200, check_list_counts
 /* --- numbers that are none, or none of float ------------------------------------------------------------------- */
 
 /* Does the way from operation i to a result lead through operation `by`? */
-static bool leads_from(const tape *t, int i, int by) {
+static bool leads_from(const op_list *t, int i, int by) {
     int operand[2];
     bool leads = i == by;
-    for (int k = tape_operands(&t->ops[i], operand); k > 0 && !leads; k--) {
+    for (int k = op_list_operands(&t->ops[i], operand); k > 0 && !leads; k--) {
         leads = leads_from(t, operand[k - 1], by);
     }
     return leads;
 }
 
 static void check_finite(scene_list *l) {
-    tape *t = &l->list;
+    op_list *t = &l->list;
     if (t->count > 40) {
         return; /* ways are many */
     }
-    TEST_ASSERT_EQUAL_INT(-1, tape_not_finite(t));
+    TEST_ASSERT_EQUAL_INT(-1, op_list_not_finite(t));
     const int by = (int)dice_one_of(&die, (unsigned)t->count);
     op *o = &l->ops[by];
     const double none = dice_one_of(&die, 2) == 0 ? (double)INFINITY : (double)NAN;
@@ -107,7 +107,7 @@ static void check_finite(scene_list *l) {
     for (int i = t->results - 1; i >= 0; i--) {
         wanted = leads_from(t, t->result[i], by) ? i : wanted;
     }
-    TEST_ASSERT_EQUAL_INT(wanted, tape_not_finite(t));
+    TEST_ASSERT_EQUAL_INT(wanted, op_list_not_finite(t));
     *number = kept;
 }
 
@@ -118,7 +118,7 @@ static const double fits_not[] = {0x1.fffffep-127,   -1e-40,           0x1.fffff
                                   -(double)INFINITY, (double)INFINITY, 5e-324};
 
 static void check_fit(scene_list *l) {
-    tape *t = &l->list;
+    op_list *t = &l->list;
     double wanted = 0.0;
     for (int i = t->count - 1; i >= 0; i--) {
         const bool fitting = dice_one_of(&die, 4) > 0;
@@ -127,7 +127,7 @@ static void check_fit(scene_list *l) {
             wanted = fitting ? wanted : l->ops[i].value;
         }
     }
-    TEST_ASSERT_TRUE(tape_out_of_float(t) == wanted);
+    TEST_ASSERT_TRUE(op_list_out_of_float(t) == wanted);
 }
 
 static void test_what_float_has_no_room_for(void) {
@@ -196,29 +196,29 @@ static void test_images_are_read(void) {
         }
     }
     /* what stays on this machine, the books, calls for nothing */
-    tape *books = tape_new(0, 1);
-    books->result[0] = tape_call(books, FN_EXP, tape_leaf(books, OP_LINEAR, 0), -1);
+    op_list *books = op_list_new(0, 1);
+    books->result[0] = op_list_call(books, FN_EXP, op_list_leaf(books, OP_LINEAR, 0), -1);
     image im = {.list = {[IMAGE_BOOKS] = books}};
     TEST_ASSERT_FALSE(image_calls(&im));
     im.list[IMAGE_LEVELS] = books;
     TEST_ASSERT_TRUE(image_calls(&im));
-    tape_free(books);
+    op_list_free(books);
 }
 
 /* --- hashes ------------------------------------------------------------------------------------------------------- */
 
-static uint64_t hash_changed(const tape *t, double *number) {
+static uint64_t hash_changed(const op_list *t, double *number) {
     const double kept = *number;
     *number = kept + 1.0;
-    const uint64_t hash = tape_hash(t);
+    const uint64_t hash = op_list_hash(t);
     *number = kept;
     return hash;
 }
 
 /* Another number, factor, operand or result is another list. */
 static void check_hash(scene_list *l) {
-    tape *t = &l->list;
-    const uint64_t hash = tape_hash(t);
+    op_list *t = &l->list;
+    const uint64_t hash = op_list_hash(t);
     const int i = (int)dice_one_of(&die, (unsigned)t->count);
     op *o = &l->ops[i];
     TEST_ASSERT_TRUE(hash != hash_changed(t, &o->value));
@@ -228,14 +228,14 @@ static void check_hash(scene_list *l) {
         }
         if (o->turns != NULL) {
             l->turns[i][k]++;
-            TEST_ASSERT_TRUE(hash != tape_hash(t));
+            TEST_ASSERT_TRUE(hash != op_list_hash(t));
             l->turns[i][k]--;
         }
     }
     int *const whole[] = {&o->a, &o->b, t->results > 0 ? &l->result[t->results - 1] : &o->a};
     for (int k = 0; k < 3; k++) {
         ++*whole[k];
-        TEST_ASSERT_TRUE(hash != tape_hash(t));
+        TEST_ASSERT_TRUE(hash != op_list_hash(t));
         --*whole[k];
     }
     const int numbers = t->tables.count * t->tables.terms << t->tables.bits;
@@ -244,7 +244,7 @@ static void check_hash(scene_list *l) {
                          hash_changed(t, &t->tables.number[dice_one_of(&die, (unsigned)numbers)]));
         TEST_ASSERT_TRUE(hash != hash_changed(t, &t->tables.number[numbers - 1]));
     }
-    TEST_ASSERT_TRUE(hash == tape_hash(t));
+    TEST_ASSERT_TRUE(hash == op_list_hash(t));
 }
 
 static void test_a_hash_is_of_everything(void) { each_list(60, check_hash); }
@@ -254,27 +254,27 @@ static void test_a_hash_is_of_everything(void) { each_list(60, check_hash); }
 enum { PAIRS_MOST = 6, WAYS = 8 };
 
 /* Of two leaves, a sum and one that has a part twice; whether it is made of the other, for a product less. */
-static bool enter_pair(tape *t, int k, unsigned way) {
-    const int a = tape_leaf(t, OP_LINEAR, 2 * k);
-    const int b = tape_leaf(t, OP_RATE, 2 * k + 1);
-    const int other = tape_leaf(t, OP_INPUT, k);
+static bool enter_pair(op_list *t, int k, unsigned way) {
+    const int a = op_list_leaf(t, OP_LINEAR, 2 * k);
+    const int b = op_list_leaf(t, OP_RATE, 2 * k + 1);
+    const int other = op_list_leaf(t, OP_INPUT, k);
     const bool late = dice_one_of(&die, 2) == 0;
-    const int times = tape_mul(t, tape_constant(t, way == 6 ? 3.0 : 2.0), b);
+    const int times = op_list_mul(t, op_list_constant(t, way == 6 ? 3.0 : 2.0), b);
     int whole = -1;
     if (late) { /* the half is entered behind it */
-        whole = way == 1   ? tape_sub(t, a, times)
-                : way == 2 ? tape_sub(t, times, a)
-                           : tape_add(t, times, a);
+        whole = way == 1   ? op_list_sub(t, a, times)
+                : way == 2 ? op_list_sub(t, times, a)
+                           : op_list_add(t, times, a);
     }
-    const int half = way == 1   ? tape_sub(t, a, b)
-                     : way == 2 ? tape_sub(t, b, a)
-                     : way == 4 ? tape_add(t, a, other)
-                     : way == 5 ? tape_sub(t, a, b)
-                                : tape_add(t, a, b);
+    const int half = way == 1   ? op_list_sub(t, a, b)
+                     : way == 2 ? op_list_sub(t, b, a)
+                     : way == 4 ? op_list_add(t, a, other)
+                     : way == 5 ? op_list_sub(t, a, b)
+                                : op_list_add(t, a, b);
     if (!late) {
-        whole = way == 1   ? tape_sub(t, a, times)
-                : way == 2 ? tape_sub(t, times, a)
-                           : tape_add(t, times, a);
+        whole = way == 1   ? op_list_sub(t, a, times)
+                : way == 2 ? op_list_sub(t, times, a)
+                           : op_list_add(t, times, a);
     }
     t->result[3 * k] = half;
     t->result[3 * k + 1] = whole;
@@ -282,7 +282,7 @@ static bool enter_pair(tape *t, int k, unsigned way) {
     return way < 3 || way == 7;
 }
 
-static int products(const tape *t) {
+static int products(const op_list *t) {
     int count = 0;
     for (int i = 0; i < t->count; i++) {
         count += t->ops[i].code == OP_MUL;
@@ -295,42 +295,42 @@ static void test_sums_share_their_halves(void) {
     static double after[EVALUATED_MOST];
     for (unsigned c = 0; c < dice_cases(300); c++) {
         const int pairs = 1 + (int)dice_one_of(&die, PAIRS_MOST);
-        tape *t = tape_new(0, 3 * pairs);
+        op_list *t = op_list_new(0, 3 * pairs);
         double wanted[3 * PAIRS_MOST];
         int shared = 0;
         for (int k = 0; k < pairs; k++) {
             shared += enter_pair(t, k, dice_one_of(&die, WAYS));
         }
-        tape_prune(t);
+        op_list_prune(t);
         evaluated(t, before);
         for (int i = 0; i < t->results; i++) {
             wanted[i] = before[t->result[i]];
         }
         const int had = products(t);
-        const int operations = tape_operations(t);
-        tape_share_sums(t);
+        const int operations = op_list_operations(t);
+        op_list_share_sums(t);
         evaluated(t, after);
         TEST_ASSERT_EQUAL_INT(had - shared, products(t));
-        TEST_ASSERT_EQUAL_INT(operations - shared, tape_operations(t));
+        TEST_ASSERT_EQUAL_INT(operations - shared, op_list_operations(t));
         for (int i = 0; i < t->results; i++) {
             TEST_ASSERT_DOUBLE_WITHIN(1e-14, wanted[i], after[t->result[i]]);
         }
-        tape_free(t);
+        op_list_free(t);
     }
 }
 
 /* Where nothing can be shared the list stays as it is, with what no result needs. */
 static void test_other_lists_are_left_alone(void) {
     for (unsigned way = 3; way < 7; way++) {
-        tape *t = tape_new(0, 3);
-        tape_leaf(t, OP_TIME, 0);
+        op_list *t = op_list_new(0, 3);
+        op_list_leaf(t, OP_TIME, 0);
         TEST_ASSERT_FALSE(enter_pair(t, 0, way));
         const int count = t->count;
-        const uint64_t hash = tape_hash(t);
-        tape_share_sums(t);
+        const uint64_t hash = op_list_hash(t);
+        op_list_share_sums(t);
         TEST_ASSERT_EQUAL_INT(count, t->count);
-        TEST_ASSERT_TRUE(hash == tape_hash(t));
-        tape_free(t);
+        TEST_ASSERT_TRUE(hash == op_list_hash(t));
+        op_list_free(t);
     }
 }
 
@@ -338,25 +338,25 @@ static void test_other_lists_are_left_alone(void) {
 static void test_lists_are_given_back(void) {
     const long blocks = blocks_in_use();
     for (int size = 1; size < 600; size *= 2) {
-        tape *t = tape_new(2, 3);
+        op_list *t = op_list_new(2, 3);
         const double multiple[] = {0.5, 2.0};
         const int turns[] = {1, -2};
-        int sum = tape_unary(t, OP_SIN, tape_phase(t, multiple, 0.1, -1));
-        tape_tables_new(t, 2, 3, 2);
-        sum = tape_add(t, sum, tape_look_up(t, tape_cell(t, turns), 1));
+        int sum = op_list_unary(t, OP_SIN, op_list_phase(t, multiple, 0.1, -1));
+        op_list_tables_new(t, 2, 3, 2);
+        sum = op_list_add(t, sum, op_list_look_up(t, op_list_cell(t, turns), 1));
         for (int i = 0; i < size; i++) {
-            sum = tape_add(t, tape_mul(t, sum, sum), tape_leaf(t, OP_LINEAR, i));
+            sum = op_list_add(t, op_list_mul(t, sum, sum), op_list_leaf(t, OP_LINEAR, i));
         }
         for (int i = 0; i < 3; i++) {
             t->result[i] = sum - i;
         }
         enter_pair(t, 0, 0);
-        tape_share_sums(t);
-        tape_order(t);
-        TEST_ASSERT_TRUE(tape_carried(t) >= 0 && tape_not_finite(t) < 0);
-        tape_free(t);
+        op_list_share_sums(t);
+        op_list_order(t);
+        TEST_ASSERT_TRUE(op_list_carried(t) >= 0 && op_list_not_finite(t) < 0);
+        op_list_free(t);
     }
-    tape_free(NULL);
+    op_list_free(NULL);
     TEST_ASSERT_TRUE(blocks_in_use() == blocks);
 }
 
@@ -366,13 +366,13 @@ static void test_images_are_given_back(void) {
     image_free(NULL);
     struct arena *one = arena_new();
     image *first = arena_alloc(one, sizeof *first);
-    *first = (image){.memory = one, .list = {[IMAGE_STEP] = tape_new(0, 1)}};
+    *first = (image){.memory = one, .list = {[IMAGE_STEP] = op_list_new(0, 1)}};
     struct arena *other = arena_new();
     image *again = arena_alloc(other, sizeof *again);
-    *again =
-        (image){.memory = other,
-                .base = first,
-                .list = {[IMAGE_STEP] = first->list[IMAGE_STEP], [IMAGE_BOOKS] = tape_new(0, 1)}};
+    *again = (image){
+        .memory = other,
+        .base = first,
+        .list = {[IMAGE_STEP] = first->list[IMAGE_STEP], [IMAGE_BOOKS] = op_list_new(0, 1)}};
     image_free(again);
     image_free(first);
     TEST_ASSERT_TRUE(blocks_in_use() == blocks);

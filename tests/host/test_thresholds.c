@@ -1,4 +1,4 @@
-/* test_thresholds.c: each finding on both sides of its limit (host/run/finding.h). A scene with one parameter is silent at one end
+/* test_thresholds.c: each finding on both sides of its limit (host/check/finding.h). A scene with one parameter is silent at one end
  * of it and told of at the other. Between them its place is halved until the value stands at the limit: just beyond it the
  * finding is told, by a value that is just beyond, and just within it is not. Where that is is known as well, mostly in closed
  * form, so that a limit moved by a twentieth fails here. Findings that count steps have suites of their own (pole, missed, busy). */
@@ -8,8 +8,8 @@
 #include <string.h>
 
 #include "command.h"
-#include "host/commands/commands.h"
-#include "host/run/finding.h"
+#include "host/check/finding.h"
+#include "host/cli/commands.h"
 #include "json_check.h"
 #include "unity.h"
 

@@ -143,7 +143,7 @@ static const char *said_lists(const char *at, const image *im) {
     at = said_exactly(at, "\nlist       results   + - *     /  roots  waves  calls\n");
     for (int role = 0; role < IMAGE_ROLES; role++) {
         if (im->list[role] != NULL) {
-            const tape_cost cost = tape_count(im->list[role]);
+            const op_list_cost cost = op_list_count(im->list[role]);
             snprintf(words, sizeof words, "  %-9s %6d  %6d %5d %6d %6d %6d\n",
                      drawn_scene_roles[role], im->list[role]->results, cost.arithmetic,
                      cost.divisions, cost.roots, cost.waves, cost.calls);
@@ -154,7 +154,7 @@ static const char *said_lists(const char *at, const image *im) {
 }
 
 static const char *said_step(const char *at, const image *im) {
-    const tape_tables *of = &im->list[IMAGE_STEP]->tables;
+    const op_list_tables *of = &im->list[IMAGE_STEP]->tables;
     const bool matrix = im->settings.matrix != MATRIX_NONE;
     const bool tables = im->settings.tables != TABLES_NONE;
     char words[200];

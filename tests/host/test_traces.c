@@ -1,4 +1,4 @@
-/* test_traces.c: what a run leaves for waveform viewers (host/run/traces.h): its unit of time, to whole numbers that the test
+/* test_traces.c: what a run leaves for waveform viewers (host/io/traces.h): its unit of time, to whole numbers that the test
  * counts; the names and words of its head, of drawn scenes; and moments of contacts that are known in closed form, to a unit. */
 #define _POSIX_C_SOURCE 200809L
 
@@ -10,9 +10,9 @@
 #include "blocks.h"
 #include "command.h"
 #include "derived.h"
-#include "host/base/room.h"
-#include "host/run/simulate.h"
-#include "host/run/traces.h"
+#include "host/base/alloc.h"
+#include "host/check/simulate.h"
+#include "host/io/traces.h"
 #include "unity.h"
 
 void suite_traces(void);
@@ -129,7 +129,7 @@ static void read_dump(const char *path) {
     dump.signals = 0;
     dump.changes = 0;
     dump.end = -1;
-    FILE *head = room_text(&dump.head, &length);
+    FILE *head = alloc_text(&dump.head, &length);
     while (fgets(line, sizeof line, in) != NULL && strstr(line, "$enddefinitions") == NULL) {
         fputs(line, head);
         if (strncmp(line, "$var ", 5) == 0) {
@@ -144,7 +144,7 @@ static void read_dump(const char *path) {
             mark[dump.signals++] = code[0];
         }
     }
-    room_text_end(head);
+    alloc_text_end(head);
     while (fgets(line, sizeof line, in) != NULL) {
         if (line[0] == '#') {
             dump.end = strtoll(line + 1, NULL, 10);

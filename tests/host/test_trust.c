@@ -29,7 +29,7 @@ enum { ARITHMETICS = sizeof arithmetics / sizeof arithmetics[0] };
 #define KNOWN 0.05
 
 static void say(const char *what, const horizons *h) {
-    const twins *t = h->twins;
+    const step_doubling *t = h->twins;
     double least = (double)INFINITY;
     double most = 0.0;
     for (int k = 1; k < t->columns; k++) {

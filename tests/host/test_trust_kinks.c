@@ -9,7 +9,7 @@
 
 #include "command.h"
 #include "horizons.h"
-#include "host/commands/commands.h"
+#include "host/cli/commands.h"
 #include "linear.h"
 #include "unity.h"
 

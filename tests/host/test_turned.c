@@ -10,8 +10,8 @@
 
 #include "command.h"
 #include "derived.h"
+#include "host/engine/engine.h"
 #include "host/image/turned.h"
-#include "host/run/engine.h"
 #include "motion.h"
 
 #include "unity.h"

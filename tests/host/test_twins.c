@@ -1,6 +1,6 @@
-/* test_twins.c: a run and the finer one beside it (host/run/twins.h), by themselves: what the finer one is made of, where
+/* test_twins.c: a run and the finer one beside it (host/check/step_doubling.h), by themselves: what the finer one is made of, where
  * the two end, and what is told of them, of oscillators whose motion is known. */
-#include "host/run/twins.h"
+#include "host/check/step_doubling.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -24,9 +24,9 @@ static void write_spring(char *text, const char *unit, double a, double w, doubl
              unit, w * w, a, step_s, until_s);
 }
 
-static twins *twins_of(const motion *m, const image *im) {
-    const twins_wish w = {.image = im, .kind = m->kind, .plain = m->image};
-    return twins_run(&w);
+static step_doubling *twins_of(const motion *m, const image *im) {
+    const step_doubling_wish w = {.image = im, .kind = m->kind, .plain = m->image};
+    return step_doubling_run(&w);
 }
 
 /* --- what the finer run is ------------------------------------------------------------------------------ */
@@ -57,7 +57,7 @@ static void test_the_finer_run(void) {
                                          {3, UINT64_C(1) << 58}};
             for (unsigned k = 0; k < sizeof steps / sizeof steps[0]; k++) {
                 im.step = steps[k];
-                twins *t = twins_of(&m, &im);
+                step_doubling *t = twins_of(&m, &im);
                 const bool halves = matrix != MATRIX_EXACT;
                 const int order = wh_methods[method].order;
                 const bool own = matrix == MATRIX_NONE && order >= 4;
@@ -78,7 +78,7 @@ static void test_the_finer_run(void) {
                 }
                 TEST_ASSERT_EQUAL_DOUBLE(halves && own ? 1.0 / (1.0 - pow(2.0, -order)) : 1.0,
                                          t->left_out);
-                twins_free(t);
+                step_doubling_free(t);
             }
             motion_close(&m);
         }
@@ -96,7 +96,7 @@ static void test_plain_settings(void) {
                                    .method = i < 12U ? WH_RK4 : WH_LEAPFROG};
         image_settings plain;
         const bool sums = of.compensated || of.matrix == MATRIX_EXACT;
-        const bool other = twins_plain(&of, &plain);
+        const bool other = step_doubling_plain(&of, &plain);
         TEST_ASSERT_EQUAL(i % 2U == 1 || sums != of.compensated, other);
         TEST_ASSERT_EQUAL(TABLES_NONE, plain.tables);
         TEST_ASSERT_EQUAL(0, plain.cells);
@@ -125,13 +125,13 @@ static void test_what_is_told(void) {
         motion_open_text(
             &m, text,
             (stepping){.kind = i % 2U == 0 ? &engine_double : &engine_float, .method = WH_RK4});
-        twins *t = twins_of(&m, m.image);
+        step_doubling *t = twins_of(&m, m.image);
         TEST_ASSERT_EQUAL(WH_OK, t->status);
         TEST_ASSERT_EQUAL_DOUBLE(1.5, t->end_s);
         TEST_ASSERT_TRUE(t->finer_failed_s < 0.0 && t->overrun_s < 0.0 && !t->stopped);
         TEST_ASSERT_EQUAL_INT(3, t->columns);
-        const twins_column *x = &t->column[1];
-        const twins_column *v = &t->column[2];
+        const step_doubling_column *x = &t->column[1];
+        const step_doubling_column *v = &t->column[2];
         TEST_ASSERT_DOUBLE_WITHIN(1e-3 * a * per_m, -a * per_m, x->low);
         TEST_ASSERT_DOUBLE_WITHIN(1e-9 * a * per_m, a * per_m, x->high);
         TEST_ASSERT_DOUBLE_WITHIN(1e-3 * a * w, -a * w, v->low / per_m);
@@ -148,7 +148,7 @@ static void test_what_is_told(void) {
         const double pull = v->rounding - unit * v_size;
         TEST_ASSERT_TRUE(pull > 0.5 * unit * a * w * w * per_m * t->end_s);
         TEST_ASSERT_TRUE(pull < 20.0 * unit * a * w * w * per_m * t->end_s);
-        twins_free(t);
+        step_doubling_free(t);
         motion_close(&m);
     }
 }
@@ -161,10 +161,10 @@ static void test_an_end_from_outside(void) {
     motion_open_text(&m, text, IN_DOUBLE);
     for (int i = 0; i < 2; i++) {
         interrupted = i;
-        twins *t = twins_of(&m, m.image);
+        step_doubling *t = twins_of(&m, m.image);
         TEST_ASSERT_EQUAL(i == 1, t->stopped);
         TEST_ASSERT_EQUAL_DOUBLE(i == 1 ? 0.0 : 1.2, t->end_s);
-        twins_free(t);
+        step_doubling_free(t);
     }
     interrupted = 0;
     motion_close(&m);
@@ -185,10 +185,10 @@ static void test_runs_that_fail(void) {
                  "until 9 [s] }\n",
                  s, s * s / sqrt(2.0));
         motion_open_text(&m, text, i % 2U == 0 ? IN_DOUBLE : IN_FLOAT);
-        twins *t = twins_of(&m, m.image);
+        step_doubling *t = twins_of(&m, m.image);
         TEST_ASSERT_NOT_EQUAL(WH_OK, t->status);
         TEST_ASSERT_TRUE(t->end_s > 0.99 * end_s && t->end_s < 1.05 * end_s + 0.02);
-        twins_free(t);
+        step_doubling_free(t);
         motion_close(&m);
     }
 }
@@ -206,7 +206,7 @@ static void test_what_they_take(void) {
         motion_open_text(
             &m, text,
             (stepping){.kind = i % 2U == 0 ? &engine_double : &engine_float, .method = method});
-        const double told = twins_operations(m.image, m.image);
+        const double told = step_doubling_operations(m.image, m.image);
         const int own = wh_methods[method].order >= 4 ? (int)method : (int)WH_METHOD_DEFAULT;
         const int methods[] = {(int)method, own, own}; /* the finer one takes two */
         double counted = 0.0;

@@ -1,4 +1,4 @@
-/* test_undefined_where.c: which expression is no number, and where it is looked for (host/run/undefined.h): the innermost part of
+/* test_undefined_where.c: which expression is no number, and where it is looked for (host/check/nonfinite.h): the innermost part of
  * drawn formulas, by its column; the places on a step's way at which is looked; and the angle whose sine is not known. */
 #include <math.h>
 #include <stdlib.h>
@@ -7,8 +7,8 @@
 #include "blocks.h"
 #include "command.h"
 #include "derived.h"
-#include "host/base/room.h"
-#include "host/run/undefined.h"
+#include "host/base/alloc.h"
+#include "host/check/nonfinite.h"
 #include "unity.h"
 
 void suite_undefined_where(void);
@@ -18,14 +18,14 @@ enum { FORMULA = 600 };
 static dice die;
 
 /* What is said of it, "" for nothing; to be freed. */
-static char *told_of(const undefined_at *at, bool (*ask)(const undefined_at *, diags *)) {
+static char *told_of(const nonfinite_at *at, bool (*ask)(const nonfinite_at *, diags *)) {
     char *told = NULL;
     size_t length = 0;
     diags *errors = diags_new();
-    FILE *out = room_text(&told, &length);
+    FILE *out = alloc_text(&told, &length);
     const bool found = ask(at, errors);
     diags_flush(errors, out);
-    room_text_end(out);
+    alloc_text_end(out);
     TEST_ASSERT_EQUAL(found, told[0] != '\0');
     diags_free(errors);
     return told;
@@ -76,9 +76,9 @@ static void test_the_innermost_part_is_named(void) {
                  formula);
         derived d = scene_of(text);
         const double real[] = {-dice_between(&die, 2.0, 4.0), dice_between(&die, -1.0, 1.0)};
-        const undefined_at at = {
+        const nonfinite_at at = {
             .image = d.image, .real = real, .angle_rad = real, .when = "now and then"};
-        char *told = told_of(&at, undefined_term);
+        char *told = told_of(&at, nonfinite_term);
         snprintf(wanted, sizeof wanted,
                  "x.whirl:6:%d: error: now and then the stored energy is not a finite number: %s\n",
                  column + 1, formula);
@@ -88,9 +88,9 @@ static void test_the_innermost_part_is_named(void) {
                                           "division by zero, or a number beyond all"));
         free(told);
         const double good[] = {1.1, 0.0};
-        undefined_at elsewhere = at;
+        nonfinite_at elsewhere = at;
         elsewhere.real = good;
-        told = told_of(&elsewhere, undefined_term);
+        told = told_of(&elsewhere, nonfinite_term);
         TEST_ASSERT_EQUAL_STRING("", told);
         free(told);
         derived_free(&d);
@@ -119,7 +119,7 @@ static void test_the_places_on_the_way(void) {
         derived d = scene_of(text);
         const double real[] = {x, v};
         for (int ahead = 0; ahead <= 4; ahead++) {
-            const undefined_at at = {.image = d.image,
+            const nonfinite_at at = {.image = d.image,
                                      .real = real,
                                      .angle_rad = real,
                                      .ahead_steps = 0.25 * ahead,
@@ -129,7 +129,7 @@ static void test_the_places_on_the_way(void) {
                 wanted = wanted || (shares[i] > from && shares[i] < to &&
                                     (i == 0 || shares[i] <= 0.5 * ahead));
             }
-            char *told = told_of(&at, undefined_term);
+            char *told = told_of(&at, nonfinite_term);
             TEST_ASSERT_EQUAL_MESSAGE(wanted, told[0] != '\0', text);
             free(told);
         }
@@ -162,8 +162,8 @@ static void test_what_it_is_made_of(void) {
                    : at.unknown == 1 && at.primes == 1 ? w[2] * real[i]
                                                        : 0.0;
         }
-        const undefined_at at = {.image = d.image, .real = real, .angle_rad = real, .when = "when"};
-        char *told = told_of(&at, undefined_term);
+        const nonfinite_at at = {.image = d.image, .real = real, .angle_rad = real, .when = "when"};
+        char *told = told_of(&at, nonfinite_term);
         TEST_ASSERT_EQUAL_MESSAGE(sum < 0.0, told[0] != '\0', text);
         free(told);
         derived_free(&d);
@@ -207,12 +207,12 @@ static void test_angles_that_it_is_made_of(void) {
                                2.0 * cos(of[1][0] + t * of[1][1]) + (of[2][0] + t * of[2][1]) / 3.0;
             none = none || sum < 0.0;
         }
-        const undefined_at at = {.image = im,
+        const nonfinite_at at = {.image = im,
                                  .real = real,
                                  .angle_rad = angle_rad,
                                  .ahead_steps = ahead,
                                  .when = "when"};
-        char *told = told_of(&at, undefined_term);
+        char *told = told_of(&at, nonfinite_term);
         TEST_ASSERT_EQUAL_MESSAGE(none, told[0] != '\0', text);
         free(told);
         derived_free(&d);
@@ -263,7 +263,7 @@ static void test_the_angle_that_is_too_far(void) {
                 worst = i;
             }
         }
-        const undefined_at at = {.image = im,
+        const nonfinite_at at = {.image = im,
                                  .angle_rad = angle_rad,
                                  .real = real,
                                  .turns = turns,
@@ -275,7 +275,7 @@ static void test_the_angle_that_is_too_far(void) {
                      "known up to %g rad only\n",
                      worst + 2, 'a' + worst, fabs(value[worst]), limit);
         }
-        char *told = told_of(&at, undefined_angle);
+        char *told = told_of(&at, nonfinite_angle);
         TEST_ASSERT_EQUAL(worst >= 0, told[0] != '\0');
         if (worst >= 0) {
             TEST_ASSERT_EQUAL_STRING_LEN(wanted, strchr(told, ':'), strlen(wanted));
@@ -323,12 +323,12 @@ static void test_the_sine_that_is_too_far(void) {
         TEST_ASSERT_EQUAL_INT(1, d.image->angles);
         const double angle_rad = of_angle ? size / factor : 0.3;
         const double real[] = {of_angle ? 0.7 : size / factor, 0.0, 0.0};
-        const undefined_at at = {.image = d.image,
+        const nonfinite_at at = {.image = d.image,
                                  .real = real,
                                  .angle_rad = &angle_rad,
                                  .turns = turns,
                                  .when = "then"};
-        char *told = told_of(&at, undefined_term);
+        char *told = told_of(&at, nonfinite_term);
         const bool wanted = off > 0.0 && !(turns && of_angle);
         TEST_ASSERT_EQUAL_MESSAGE(wanted, told[0] != '\0', text);
         if (wanted) {

@@ -7,7 +7,7 @@
 
 #include "command.h"
 #include "derived.h"
-#include "host/commands/commands.h"
+#include "host/cli/commands.h"
 #include "unity.h"
 
 void suite_underivable(void);

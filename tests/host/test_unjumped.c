@@ -1,4 +1,4 @@
-/* test_unjumped.c: what only looks like a pole that a step jumped over (host/run/jumped.h): limits, tangents, losses, impacts and
+/* test_unjumped.c: what only looks like a pole that a step jumped over (host/check/pole_crossing.h): limits, tangents, losses, impacts and
  * places at events, told of only where there is one. */
 #include <math.h>
 #include <stdbool.h>

@@ -1,6 +1,6 @@
-/* test_vcd.c: value change dumps (host/plot/vcd.h), read back by a reader of the test's own: drawn changes of many signals,
+/* test_vcd.c: value change dumps (host/io/vcd.h), read back by a reader of the test's own: drawn changes of many signals,
  * a little out of order, come out in order, each once; what is too late is counted; notes stand behind their signals. */
-#include "host/plot/vcd.h"
+#include "host/io/vcd.h"
 
 #include <inttypes.h>
 #include <math.h>
@@ -8,7 +8,7 @@
 #include <string.h>
 
 #include "command.h"
-#include "host/base/room.h"
+#include "host/base/alloc.h"
 #include "unity.h"
 
 void suite_vcd(void);
@@ -160,7 +160,7 @@ static void test_changes_come_in_order(void) {
         int64_t now = round % 2U == 0 ? 0 : 1000;
         int64_t end = 0;
         int64_t highest = 0;
-        FILE *out = room_text(&text, &length);
+        FILE *out = alloc_text(&text, &length);
         vcd *v = vcd_new(out, "made up", 6, "top", 4);
         const int count = round < 4U ? (int)round : CHANGES;
         add_signals(v);
@@ -184,7 +184,7 @@ static void test_changes_come_in_order(void) {
             }
         }
         TEST_ASSERT_EQUAL_UINT64(0, vcd_end(v));
-        room_text_end(out);
+        alloc_text_end(out);
         const int wanted = sort_made(count);
         TEST_ASSERT_EQUAL_INT(wanted, read_changes(read_head(text), &end));
         for (int i = 0; i < wanted; i++) {
@@ -204,7 +204,7 @@ static void test_what_is_late_is_counted(void) {
         char *text = NULL;
         size_t length = 0;
         int64_t end = 0;
-        FILE *out = room_text(&text, &length);
+        FILE *out = alloc_text(&text, &length);
         vcd *v = vcd_new(out, "made up", 6, "top", 4);
         const int late = 1 + (int)dice_one_of(&d, 9);
         add_signals(v);
@@ -214,7 +214,7 @@ static void test_what_is_late_is_counted(void) {
             vcd_change(v, 2, (int64_t)dice_one_of(&d, 100), 1.0);
         }
         TEST_ASSERT_EQUAL_UINT64((uint64_t)late, vcd_end(v));
-        room_text_end(out);
+        alloc_text_end(out);
         TEST_ASSERT_EQUAL_INT(1 + late, read_changes(read_head(text), &end));
         TEST_ASSERT_EQUAL_INT64(100, end);
         free(text);

@@ -12,10 +12,10 @@
 
 #include "command.h"
 #include "derived.h"
-#include "host/commands/commands.h"
-#include "host/commands/load.h"
-#include "host/run/loop.h"
-#include "host/run/verdict.h"
+#include "host/check/run_checks.h"
+#include "host/cli/commands.h"
+#include "host/cli/load.h"
+#include "host/engine/loop.h"
 #include "json_check.h"
 #include "unity.h"
 

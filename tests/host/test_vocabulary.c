@@ -10,7 +10,7 @@
 
 #include "core/contact.h"
 #include "derived.h"
-#include "host/image/tape.h"
+#include "host/image/op_list.h"
 #include "host/lang/model.h"
 #include "host/lang/words.h"
 #include "host/number/functions.h"

@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "command.h"
-#include "host/commands/commands.h"
+#include "host/cli/commands.h"
 #include "named_cures.h"
 #include "unity.h"
 

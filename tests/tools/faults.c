@@ -12,10 +12,10 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "host/base/alloc.h"
 #include "host/base/interrupts.h"
-#include "host/base/room.h"
-#include "host/commands/load.h"
-#include "host/commands/options.h"
+#include "host/cli/load.h"
+#include "host/cli/options.h"
 #include "tests/host/faults.h"
 
 #define UNTIL_S 60.0
@@ -57,7 +57,7 @@ static const image *plant_with(plants *p, const char *parameter) {
     if (load(&p->made[p->count], &p->from, p->of, p->in, &changes, &what) != EXIT_DONE) {
         return NULL;
     }
-    p->parameter[p->count] = room_copy(parameter, strlen(parameter));
+    p->parameter[p->count] = alloc_copy(parameter, strlen(parameter));
     return p->made[p->count++].image;
 }
 
@@ -161,7 +161,7 @@ static int run_all(const campaign *c, plants *from) {
     int line[2];
     int worst = 0;
     pid_t worker[JOBS_MAX] = {0};
-    verdict *all = room(c->runs, sizeof *all);
+    verdict *all = alloc(c->runs, sizeof *all);
     if (pipe(line) != 0) {
         return 2;
     }

@@ -60,7 +60,7 @@ static int check(const char *name, uint64_t stride) {
     }
     const uint64_t phases = table_check((const image *const *)im, FORMS, stride, error);
     for (int m = 0; m < FORMS; m++) {
-        const tape_tables *t = &im[m]->list[IMAGE_STEP]->tables;
+        const op_list_tables *t = &im[m]->list[IMAGE_STEP]->tables;
         for (int k = 0; k < t->count; k++) {
             const table_error *e = &error[m][k];
             printf("%s %s %d table %d: size %.4g, interpolation off by %.2e, worst %.3e at phase "

@@ -1,0 +1,33 @@
+/* alloc.h: heap allocation for the whole host. Out of memory ends the program with a message and exit status 1, so no
+ * function returns NULL. free() releases the memory. Counts are of elements, sizes of one element in bytes. A product
+ * above SIZE_MAX or a negative count counts as out of memory. */
+#ifndef BASE_ALLOC_H
+#define BASE_ALLOC_H
+
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+
+/* `count` zeroed elements; for count 0 a pointer that must not be dereferenced. */
+void *alloc(int64_t count, size_t size);
+
+/* Resize `array` to `count` elements and keep its contents; NULL allocates. New elements are uninitialized. */
+void *alloc_more(void *array, int64_t count, size_t size);
+
+/* One structure of `head` bytes followed by `count` zeroed elements. */
+void *alloc_tail(size_t head, int64_t count, size_t size);
+
+/* A copy of `length` bytes with a zero byte after them. */
+char *alloc_copy(const char *text, size_t length);
+
+/* The formatted text, as printf() would print it. */
+char *alloc_words(const char *format, ...) __attribute__((format(printf, 1, 2)));
+
+/* A stream into memory. alloc_text_end() closes it; *text, to be freed, then has its `length` bytes and a zero byte. */
+FILE *alloc_text(char **text, size_t *length);
+void alloc_text_end(FILE *stream);
+
+/* Print "whirl: out of memory" and exit. */
+_Noreturn void alloc_none(void);
+
+#endif

@@ -1,0 +1,333 @@
+/* apart.c: see apart.h. Places by Newton's method with the least change (of coordinates without a start of their own, if these
+ * do), rates by one such step. */
+#include "apart.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/contact.h"
+#include "host/base/alloc.h"
+#include "host/base/statement.h"
+#include "host/engine/engine.h"
+#include "host/number/functions.h"
+#include "host/number/gauss.h"
+
+enum { N = IMAGE_COMPONENTS_MAX, HOLDS = WH_CONTACTS_LIMIT, NEWTON_MOST = 50 };
+
+/* An expression that is to be zero is off by more than APART_LEAST, and by less than this share of its terms. */
+#define OFF_MOST 0.5
+/* A moment is this share of a step. */
+#define SOON 1e-6
+
+typedef struct apart {
+    const image *im;
+    evaluator *forces;
+    double *input;
+    double *law; /* [forced * (WH_LAW_ROWS + 2 n)] */
+    int n;
+    int hold[HOLDS]; /* contacts that hold where the run starts */
+    int holds;
+    bool vanishes[HOLDS]; /* near the start, and changes its sign there: a distance does not */
+    bool closes;          /* one is off zero, by less than OFF_MOST */
+    double place[N];
+    double rate[N];
+} apart;
+
+static const double *law_of(const apart *a, int h) {
+    return a->law + (ptrdiff_t)a->hold[h] * (WH_LAW_ROWS + 2 * a->n);
+}
+static const double *row_of(const apart *a, int h) { return law_of(a, h) + WH_LAW_ROWS; }
+
+static void look(apart *a) {
+    evaluator_run(a->forces, 0.0, a->place, a->place + a->im->angles, a->rate, a->input, a->law);
+}
+
+static double along(const apart *a, int h, const double *x) {
+    double sum = 0.0;
+    for (int i = 0; i < a->n; i++) {
+        sum += row_of(a, h)[i] * x[i];
+    }
+    return sum;
+}
+
+/* The terms of an expression, in size, and of its rate. */
+static double terms(const apart *a, int h, const double *x, bool places) {
+    double sum = 0.0;
+    for (int i = 0; i < a->n; i++) {
+        sum += fabs(row_of(a, h)[i]) * (places && i < a->im->angles ? 1.0 : fabs(x[i]));
+    }
+    return sum;
+}
+
+/* By how much a curved hold is off zero, if that can be meant to be zero; else 0. Where one of several is, so are the others,
+ * however far they are off: they close one linkage. */
+static double off_zero(const apart *a, int h) {
+    const image_contact *c = &a->im->contact[a->hold[h]];
+    const double value = law_of(a, h)[WH_LAW_FIRST];
+    const double size = terms(a, h, a->place, true);
+    const bool is = c->pin < 0 && c->direction <= 0 && a->vanishes[h] &&
+                    fabs(value) > APART_LEAST * size &&
+                    (a->closes || fabs(value) < OFF_MOST * size);
+    return is ? value : 0.0;
+}
+
+/* The expression's value at `place` + share times its row. */
+static double value_at(apart *a, int h, const double *from, const double *row, double share) {
+    for (int i = 0; i < a->n; i++) {
+        a->place[i] = from[i] + share * row[i];
+    }
+    look(a);
+    return law_of(a, h)[WH_LAW_FIRST];
+}
+
+/* Newton's method with the least change, of this expression alone. */
+static bool has_zero(apart *a, int h) {
+    double start[N];
+    double row[N] = {0.0};
+    double value = law_of(a, h)[WH_LAW_FIRST];
+    const double least = 1e-9 * fabs(value);
+    memcpy(start, a->place, sizeof start);
+    for (int k = 0; k < NEWTON_MOST && fabs(value) > least; k++) {
+        double square = 0.0;
+        for (int i = 0; i < a->n; i++) {
+            row[i] = row_of(a, h)[i];
+            square += row[i] * row[i];
+        }
+        value = square > 0.0 ? value_at(a, h, a->place, row, -value / square) : (double)NAN;
+    }
+    double zero[N];
+    memcpy(zero, a->place, sizeof zero);
+    const bool changes = fabs(value) <= least &&
+                         value_at(a, h, zero, row, -1e-4) * value_at(a, h, zero, row, 1e-4) < 0.0;
+    memcpy(a->place, start, sizeof start);
+    look(a);
+    return changes;
+}
+
+/* Solve for n unknowns: of each row, the last entry is the right-hand side, and then the unknown. False: it is singular. */
+static bool solve(int n, double *matrix) {
+    int lead[HOLDS];
+    if (gauss_reduce(matrix, n, n + 1, n, false, 1e-12, lead) < n) {
+        return false;
+    }
+    for (int p = 0; p < n; p++) {
+        matrix[p * (n + 1) + n] /= matrix[p * (n + 1) + p];
+    }
+    return true;
+}
+
+/* x changes by the least that moves the expressions by `by`: of coordinates that `may`. */
+static bool move(const apart *a, const bool *may, const double *by, double *x) {
+    double matrix[HOLDS * (HOLDS + 1)] = {0.0};
+    const int n = a->holds;
+    for (int r = 0; r < n; r++) {
+        double *row = matrix + (ptrdiff_t)r * (n + 1);
+        row[n] = by[r];
+        for (int c = 0; c < n; c++) {
+            for (int i = 0; i < a->n; i++) {
+                row[c] += may[i] ? row_of(a, r)[i] * row_of(a, c)[i] : 0.0;
+            }
+        }
+    }
+    if (!solve(n, matrix)) {
+        return false;
+    }
+    for (int i = 0; i < a->n; i++) {
+        for (int r = 0; r < n && may[i]; r++) {
+            x[i] += row_of(a, r)[i] * matrix[r * (n + 1) + n];
+        }
+    }
+    return true;
+}
+
+static bool fit_places(apart *a, const bool *may) {
+    double worst = 1.0;
+    double wanted[HOLDS]; /* zero for one that is off; the others stay */
+    for (int h = 0; h < a->holds; h++) {
+        const double value = law_of(a, h)[WH_LAW_FIRST];
+        wanted[h] = off_zero(a, h) != 0.0 ? 0.0 : value;
+    }
+    for (int k = 0; k < NEWTON_MOST && worst > 1e-14; k++) {
+        double by[HOLDS];
+        worst = 0.0;
+        for (int h = 0; h < a->holds; h++) {
+            const image_contact *c = &a->im->contact[a->hold[h]];
+            const bool curved = c->pin < 0 && c->direction <= 0;
+            by[h] = curved ? wanted[h] - law_of(a, h)[WH_LAW_FIRST] : 0.0;
+            worst = number_most(worst, fabs(by[h]));
+        }
+        if (worst > 1e-14 && !move(a, may, by, a->place)) {
+            return false;
+        }
+        look(a);
+    }
+    return worst < 1e-9;
+}
+
+static bool fit_rates(apart *a, const bool *may) {
+    double by[HOLDS];
+    for (int h = 0; h < a->holds; h++) {
+        by[h] = -along(a, h, a->rate);
+    }
+    return move(a, may, by, a->rate);
+}
+
+/* Those without a start of their own first, then all. */
+static bool fit(apart *a, int primes, bool (*with)(apart *a, const bool *may)) {
+    const apart before = *a;
+    for (int all = 0; all < 2; all++) {
+        bool may[N];
+        for (int i = 0; i < a->n; i++) {
+            const image_unknown *u = &a->im->unknown[image_component(a->im, i).unknown];
+            may[i] = !u->driven && (all == 1 || u->start_at[primes].source == NULL);
+        }
+        if (with(a, may)) {
+            return true;
+        }
+        memcpy(a->place, before.place, sizeof a->place);
+        memcpy(a->rate, before.rate, sizeof a->rate);
+        look(a);
+    }
+    return false;
+}
+
+/* The energy that it takes to stop the held expressions: 1/2 w (J M^-1 J^T)^-1 w of its speeds w; NaN where they repeat each other. */
+static double lost_J(const apart *a) {
+    double matrix[HOLDS * (HOLDS + 1)];
+    const int n = a->holds;
+    double sum = 0.0;
+    for (int r = 0; r < n; r++) {
+        for (int c = 0; c <= n; c++) {
+            matrix[r * (n + 1) + c] = along(a, r, c < n ? row_of(a, c) + a->n : a->rate);
+        }
+    }
+    if (!solve(n, matrix)) {
+        return (double)NAN;
+    }
+    for (int r = 0; r < n; r++) {
+        sum += 0.5 * matrix[r * (n + 1) + n] * along(a, r, a->rate);
+    }
+    return sum;
+}
+
+static void say_values(FILE *out, const apart *a, const double *was_place, const double *was_rate) {
+    const char *before = "hint: these fit: start ";
+    for (int i = 0; i < 2 * a->n; i++) {
+        const image_unknown *u = &a->im->unknown[image_component(a->im, i % a->n).unknown];
+        const int primes = i / a->n;
+        const double value = primes == 0 ? a->place[i] : a->rate[i - a->n];
+        const double was = primes == 0 ? was_place[i] : was_rate[i - a->n];
+        const char *si = u->unit[primes].si;
+        const bool has_unit = strcmp(si, "1") != 0;
+        if (value != was) {
+            fprintf(out, "%s%s%s = %.17g%s%s%s", before, u->name, primes == 0 ? "" : "'", value,
+                    has_unit ? " [" : "", has_unit ? si : "", has_unit ? "]" : "");
+            before = ", ";
+        }
+    }
+    fputs("\n", out);
+}
+
+/* The rate of a held expression, if that is more than rounding; else 0. */
+static double moving(const apart *a, int h) {
+    const double speed = along(a, h, a->rate);
+    const double least = APART_LEAST * terms(a, h, a->rate, false);
+    return fabs(speed) > least ? speed : 0.0;
+}
+
+static void say(FILE *out, const char *who, apart *a) {
+    char statement[STATEMENT_SIZE];
+    bool off = false;
+    bool moves = false;
+    for (int h = 0; h < a->holds; h++) {
+        const double value = off_zero(a, h);
+        const double speed = moving(a, h);
+        statement_text(a->im->contact[a->hold[h]].at, statement, sizeof statement);
+        if (value != 0.0) {
+            off = true;
+            fprintf(out,
+                    "%s: warning: what a hold holds starts %.6g (SI) off zero, and stays so: %s "
+                    "[apart]\n",
+                    who, value, statement);
+        }
+        if (speed != 0.0) {
+            moves = true;
+            fprintf(out,
+                    "%s: warning: what a hold holds starts at a rate of %.6g (SI): %s [apart]\n",
+                    who, speed, statement);
+        }
+    }
+    if (moves && isfinite(lost_J(a))) {
+        fprintf(out, "%s: warning: an impulse at t = 0 stops that, and takes %.6g J\n", who,
+                lost_J(a));
+    }
+    double was_place[N];
+    double was_rate[N];
+    memcpy(was_place, a->place, sizeof was_place);
+    memcpy(was_rate, a->rate, sizeof was_rate);
+    if ((!off || fit(a, 0, fit_places)) && fit(a, 1, fit_rates)) {
+        say_values(out, a, was_place, was_rate);
+    } else {
+        fputs("hint: no values near these fit: start the linkage elsewhere\n", out);
+    }
+}
+
+/* How far it is off, or moves, by which part of its terms; 0: it fits. */
+static double part_of(const apart *a, int h) {
+    const double off = fabs(off_zero(a, h));
+    const double speed = fabs(moving(a, h));
+    return number_most(off > 0.0 ? off / terms(a, h, a->place, true) : 0.0,
+                       speed > 0.0 ? speed / terms(a, h, a->rate, false) : 0.0);
+}
+
+double apart_say(FILE *out, const char *who, const image *im) {
+    double part = 0.0;
+    if (im->list[IMAGE_FORCES] == NULL || im->list[IMAGE_SIGNALS] == NULL) {
+        return part;
+    }
+    apart a = {.im = im,
+               .forces = evaluator_new(im->list[IMAGE_FORCES]),
+               .input = alloc(im->inputs, sizeof *a.input),
+               .law =
+                   alloc(im->forced * (WH_LAW_ROWS + 2 * (int64_t)im->coordinates), sizeof *a.law),
+               .n = im->coordinates};
+    evaluator *signals = evaluator_new(im->list[IMAGE_SIGNALS]);
+    double *signal = alloc(2 * im->contacts, sizeof *signal);
+    image_inputs(im, a.input);
+    for (int i = 0; i < a.n; i++) {
+        a.place[i] = image_start(im, i);
+        a.rate[i] = image_start(im, a.n + i);
+    }
+    double soon[N]; /* a condition at its limit is false if it is so a moment later */
+    for (int i = 0; i < a.n; i++) {
+        soon[i] = a.place[i] + SOON * im->step_s * a.rate[i];
+    }
+    evaluator_run(signals, 0.0, soon, soon + im->angles, a.rate, a.input, signal);
+    for (int k = 0; k < im->forced; k++) {
+        if (im->contact[k].kind == WH_HOLD && signal[2 * k] > 0.0) {
+            a.hold[a.holds++] = k;
+        }
+    }
+    if (a.holds > 0) {
+        look(&a);
+        for (int h = 0; h < a.holds; h++) {
+            a.vanishes[h] = has_zero(&a, h);
+        }
+        for (int h = 0; h < a.holds; h++) {
+            a.closes = a.closes || off_zero(&a, h) != 0.0;
+        }
+        for (int h = 0; h < a.holds; h++) {
+            part = number_most(part, part_of(&a, h));
+        }
+        if (part > 0.0 && out != NULL) {
+            say(out, who, &a);
+        }
+    }
+    evaluator_free(signals);
+    evaluator_free(a.forces);
+    free(signal);
+    free(a.input);
+    free(a.law);
+    return part;
+}

@@ -1,0 +1,487 @@
+/* books.c: energy and momentum beside a run. */
+#include "books.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "host/base/alloc.h"
+#include "host/number/gauss.h"
+#include "host/number/zero.h"
+
+books *books_open(const image *im) {
+    if (!im->has_energies) {
+        return NULL;
+    }
+    const int results = im->list[IMAGE_BOOKS]->results;
+    books *b = alloc(1, sizeof *b);
+    const size_t count = 2 * (size_t)results + 5 * (size_t)im->count + (size_t)im->inputs;
+    double *numbers = alloc((int64_t)count, sizeof *numbers);
+    b->image = im;
+    b->evaluator = evaluator_new(im->list[IMAGE_BOOKS]);
+    b->value = numbers;
+    b->off = numbers + results;
+    b->momentum = b->off + results;
+    b->drift = b->momentum + im->count;
+    b->momentum_now = b->drift + im->count;
+    b->lean = b->momentum_now + im->count;
+    b->terms = b->lean + im->count;
+    b->input = b->terms + im->count;
+    b->rate = alloc(2 * (int64_t)im->count, sizeof *b->rate);
+    b->push = b->rate + im->count;
+    b->frame = alloc(im->count, sizeof *b->frame);
+    image_inputs(im, b->input);
+    b->step_s = im->step_s;
+    return b;
+}
+
+void books_close(books *b) {
+    if (b != NULL) {
+        evaluator_free(b->evaluator);
+        free(b->value);
+        free(b->rate);
+        free(b->frame);
+        free(b);
+    }
+}
+
+/* --- how far it went to and fro ----------------------------------------------------------------*/
+
+static void spread_enter(spread *s, double value, uint64_t before) {
+    if (before == 0) {
+        s->first = value;
+    }
+    const double off = value - s->first - s->mean;
+    s->mean += off / (double)(before + 1);
+    s->squares += off * (value - s->first - s->mean);
+}
+
+/* sqrt(8) standard deviations: the range of a sine. */
+static double swing(const spread *s, uint64_t entries) {
+    return entries > 0 ? number_root(8.0 * s->squares / (double)entries) : 0.0;
+}
+
+double books_momentum(const books *b, int unknown) {
+    const spread *s = &b->push[unknown];
+    const double mean = b->frame[unknown] ? 0.0 : s->first + s->mean;
+    return b->entries > 0 ? number_root(s->squares / (double)b->entries + mean * mean) : 0.0;
+}
+
+double books_swing_J(const books *b) {
+    double most = number_most(swing(&b->kinetic, b->entries), swing(&b->stored, b->entries));
+    for (int i = 0; i < b->image->count && b->entries > 0; i++) {
+        most = number_most(most, 0.5 * books_momentum(b, i) * swing(&b->rate[i], b->entries));
+    }
+    return most;
+}
+
+/* --- what rounding does ------------------------------------------------------------------------*/
+
+/* The smallest normal float; how often a step rounds each of its entries: at its stages and moments. */
+#define FLOAT_LEAST 0x1p-126
+#define SUMS_OF_A_STEP 8.0
+
+/* A change of a component by which the energy's slope is taken. */
+#define SLOPE_SHARE 0x1p-20
+
+static void evaluate_now(const books *b, const double *angle_rad, const double *real,
+                         double time_s) {
+    const image *im = b->image;
+    evaluator_run(b->evaluator, time_s, angle_rad, real, real + (im->coordinates - im->angles),
+                  b->input, b->value);
+    for (int i = 0; i < im->list[IMAGE_BOOKS]->results; i++) {
+        b->value[i] = number_shown(b->value[i]); /* an energy of nothing has no sign */
+    }
+}
+
+/* Of the values; of what each is off, how far that is off. */
+static double energy_of(const image *im, const double *value) {
+    const double *entry = value + im->count;
+    return im->has_integral ? entry[BOOK_MOMENTA + im->count]
+                            : entry[BOOK_KINETIC] + entry[BOOK_STORED];
+}
+
+static double unit_rounding(const engine_kind *kind) {
+    return kind == &engine_float ? 0x1p-24 : 0x1p-53;
+}
+
+/* How a component of the state is rounded in a step, and a change of it by which the energy's slope is taken. */
+typedef struct state_rounding {
+    double by;
+    double change;
+} state_rounding;
+
+static state_rounding rounding_of_component(const image *im, const engine_kind *kind,
+                                            const void *run, int i, double value) {
+    const bool turns = kind == &engine_float && i < im->angles;
+    if (kind->unit != NULL) { /* once itself, and what is added to it */
+        const double unit = kind->unit(run, i);
+        return (state_rounding){unit, number_most(SLOPE_SHARE * fabs(value), unit)};
+    }
+    return turns ? (state_rounding){0x1p-33 * 6.283185307179586, SLOPE_SHARE}
+                 : (state_rounding){unit_rounding(kind) * fabs(value), SLOPE_SHARE * value};
+}
+
+/* By how much the energy changes when each component of the state is rounded once. */
+static double state_rounding_J(const books *b, const engine_kind *kind, const void *run) {
+    const image *im = b->image;
+    double angle_rad[IMAGE_COMPONENTS_MAX];
+    double real[2 * IMAGE_COMPONENTS_MAX];
+    double sum = 0.0;
+    memcpy(angle_rad, b->angle_rad, sizeof angle_rad);
+    memcpy(real, b->real, sizeof real);
+    for (int i = 0; i < im->angles + im->reals; i++) {
+        double *at = i < im->angles ? &angle_rad[i] : &real[i - im->angles];
+        const double kept = *at;
+        const state_rounding rounding = rounding_of_component(im, kind, run, i, kept);
+        const component c = image_component(im, i);
+        /* a rate that nothing ever changed, as a clock's, was never rounded */
+        const spread *rate = &b->rate[c.unknown];
+        const bool still = c.primes == 1 && !rate->pushed && rate->squares == 0.0;
+        if (rounding.change != 0.0 && !still) {
+            *at = kept + rounding.change;
+            evaluate_now(b, angle_rad, real, b->time_s);
+            sum +=
+                fabs((energy_of(im, b->value) - b->energy_J[1]) * (rounding.by / rounding.change));
+            *at = kept;
+        }
+    }
+    return isfinite(sum) ? sum : 0.0;
+}
+
+/* By how much a step changes the energy that its accelerations are rounded, and the work of a step that the powers
+ * are: small differences of large terms, as of forces that balance, are off by parts of these. */
+static double step_rounding_J(const books *b, const engine_kind *kind) {
+    const image *im = b->image;
+    const double *entry = b->value + im->count;
+    double sum_W = 0.0;
+    for (int i = 0; i < im->count; i++) {
+        const double power_W = entry[BOOK_MOMENTA + i] * b->off[i];
+        sum_W += isfinite(power_W) ? unit_rounding(kind) * fabs(power_W) : 0.0;
+    }
+    for (int k = BOOK_INPUT_POWER; k <= BOOK_LOSS_POWER; k++) {
+        const double off_W = b->off[im->count + k];
+        sum_W += isfinite(off_W) ? 0x1p-53 * off_W : 0.0;
+    }
+    return sum_W * b->step_s;
+}
+
+/* What a step's entries may lose to numbers that end: a run with contacts keeps its own books, in its own number, and
+ * what falls below the smallest normal one is rounded as much as that, or is gone. All of it may go to one side. In
+ * double, in which the books beside the run are, there is nothing below that anybody could mean. */
+static double step_lost_J(const books *b, const engine_kind *kind) {
+    const image *im = b->image;
+    if (im->contacts == 0 || kind != &engine_float) {
+        return 0.0;
+    }
+    double without_W = 0.0;
+    double with_W = 0.0;
+    for (int k = BOOK_INPUT_POWER; k <= BOOK_LOSS_POWER; k++) {
+        without_W += b->off[im->count + k];
+    }
+    evaluator_rounding(b->evaluator, b->angle_rad, FLOAT_LEAST, b->off);
+    for (int k = BOOK_INPUT_POWER; k <= BOOK_LOSS_POWER; k++) {
+        with_W += b->off[im->count + k];
+    }
+    const double lost_W = with_W - without_W;
+    const double entries = im->ledger.smooth + im->contacts + im->inputs;
+    return 0x1p-24 *
+           (SUMS_OF_A_STEP * entries * FLOAT_LEAST + (isfinite(lost_W) ? b->step_s * lost_W : 0.0));
+}
+
+/* Momenta are sums over the rates, and of terms without rates. */
+static void look_at_momenta(books *b) {
+    const image *im = b->image;
+    double real[2 * IMAGE_COMPONENTS_MAX];
+    double sum[IMAGE_COMPONENTS_MAX];
+    memcpy(real, b->real, sizeof real);
+    for (int i = 0; i < im->count; i++) {
+        sum[i] = fabs(b->lean[i]);
+    }
+    for (int k = 0; k < im->reals; k++) {
+        if (im->real[k].primes == 1 && b->real[k] != 0.0) {
+            real[k] = 0.0;
+            evaluate_now(b, b->angle_rad, real, b->time_s);
+            real[k] = b->real[k];
+            for (int i = 0; i < im->count; i++) {
+                sum[i] += fabs(b->momentum_now[i] - b->value[im->count + BOOK_MOMENTA + i]);
+            }
+        }
+    }
+    for (int i = 0; i < im->count; i++) {
+        b->terms[i] = number_most(b->terms[i], sum[i]);
+    }
+}
+
+/* Look at the present state. */
+static void look_at_rounding(books *b, const engine_kind *kind, const void *run) {
+    const double state_J = state_rounding_J(b, kind, run);
+    look_at_momenta(b);
+    evaluate_now(b, b->angle_rad, b->real, b->time_s);
+    evaluator_rounding(b->evaluator, b->angle_rad, 0.0, b->off);
+    const double off_J = energy_of(b->image, b->off);
+    b->rounding_J = number_most(b->rounding_J, state_J + step_rounding_J(b, kind));
+    b->computing_J = number_most(b->computing_J, isfinite(off_J) ? 0x1p-53 * off_J : 0.0);
+    b->lost_J = number_most(b->lost_J, step_lost_J(b, kind));
+}
+
+double books_rounding_J(books *b, const engine_kind *kind, const void *run, double *computing_J) {
+    look_at_rounding(b, kind, run);
+    *computing_J = b->computing_J;
+    return b->rounding_J + 0x1p-52 * b->size_J;
+}
+
+double books_lost_J(const books *b) { return (double)b->entries * b->lost_J; }
+
+/* --- the balance -------------------------------------------------------------------------------*/
+
+/* By how much two steps' work may be off: as Simpson's rule and trapezoids differ where the powers are smooth, else by as much
+ * as they change. */
+static double rule_off_J(double step_s, double begin_W, double middle_W, double end_W) {
+    const double rules_J = fabs(step_s / 6.0 * (2.0 * middle_W - begin_W - end_W));
+    const double change_J = 0.5 * step_s * (fabs(middle_W - begin_W) + fabs(end_W - middle_W));
+    return rules_J > 0.1 * change_J ? change_J : rules_J;
+}
+
+/* Simpson's rule needs pairs of steps: between them, the last step counts as a trapezoid, which the
+ * next entry takes back. */
+static void add_work(books *b, const double power_W[2]) {
+    double *work[2] = {&b->input_J, &b->loss_J};
+    for (int k = 0; k < 2; k++) {
+        if (b->entries % 2 == 1) {
+            *work[k] += 0.5 * b->step_s * (b->power_W[0][k] + power_W[k]);
+            b->power_W[1][k] = power_W[k];
+        } else {
+            *work[k] -= 0.5 * b->step_s * (b->power_W[0][k] + b->power_W[1][k]);
+            const double ends_W = b->power_W[0][k] + power_W[k];
+            const double middle_W = b->power_W[1][k];
+            *work[k] += b->step_s / 3.0 * (ends_W + 4.0 * middle_W);
+            b->rule_J += rule_off_J(b->step_s, b->power_W[0][k], middle_W, power_W[k]);
+            b->power_W[0][k] = power_W[k];
+        }
+    }
+}
+
+/* --- what is linear in the rates -----------------------------------------------------------------*/
+
+/* The kinetic energy at this place with every rate reversed; its momenta into lean[]. */
+static double reversed_J(books *b, const double *angle_rad, const double *from) {
+    const image *im = b->image;
+    double real[2 * IMAGE_COMPONENTS_MAX];
+    for (int i = 0; i < im->reals; i++) {
+        real[i] = im->real[i].primes == 1 ? -from[i] : from[i];
+    }
+    evaluate_now(b, angle_rad, real, b->time_s);
+    memcpy(b->lean, b->value + im->count + BOOK_MOMENTA, (size_t)im->count * sizeof *b->lean);
+    return b->value[im->count + BOOK_KINETIC];
+}
+
+/* Of these momenta and of those of the rates as they are, just evaluated: what the two share. */
+static void take_lean(books *b) {
+    for (int i = 0; i < b->image->count; i++) {
+        b->lean[i] = 0.5 * (b->lean[i] + b->value[b->image->count + BOOK_MOMENTA + i]);
+    }
+}
+
+/* Asked beside the start, at places and rates that nothing singles out. A coordinate that comes from its momentum has no rate to
+ * reverse. */
+static bool find_leans(books *b) {
+    const image *im = b->image;
+    double angle_rad[IMAGE_COMPONENTS_MAX];
+    double real[2 * IMAGE_COMPONENTS_MAX] = {0};
+    bool found = false;
+    for (int k = 1; k <= 3 && im->recovered == 0; k++) {
+        for (int i = 0; i < im->angles; i++) {
+            angle_rad[i] = b->angle_rad[i] + 0.37 * k * (i + 1);
+        }
+        for (int i = 0; i < im->reals; i++) {
+            real[i] = b->real[i] + (0.61 * k * (i + 1)) * (1.0 + fabs(b->real[i]));
+        }
+        (void)reversed_J(b, angle_rad, real);
+        evaluate_now(b, angle_rad, real, b->time_s);
+        take_lean(b);
+        double most = 0.0;
+        for (int i = 0; i < im->count; i++) {
+            most = number_most(most, fabs(b->value[im->count + BOOK_MOMENTA + i]));
+        }
+        for (int i = 0; i < im->count; i++) {
+            found = found || (isfinite(most) && fabs(b->lean[i]) > 1e-9 * most);
+        }
+    }
+    return found;
+}
+
+/* --- what every motion keeps ---------------------------------------------------------------------------*/
+
+/* Larger mechanisms are not asked. */
+enum { FRAME_MOST = 24 };
+/* A place beside a state, in seconds of its motion; and less than this part of the changes of momenta is rounding. */
+#define FRAME_ASIDE_S 1e-5
+#define FRAME_LEAST 1e-6
+
+/* How fast each momentum changes at a drawn place, with drawn rates; false: not known there. */
+static bool momenta_change(books *b, int draw, double *change) {
+    const image *im = b->image;
+    double angle_rad[2][IMAGE_COMPONENTS_MAX];
+    double real[2][2 * IMAGE_COMPONENTS_MAX] = {{0}};
+    double from[3 * IMAGE_COMPONENTS_MAX];
+    bool finite = true;
+    for (int i = 0; i < im->angles + im->reals; i++) {
+        const uint32_t drawn = (uint32_t)(draw * (im->angles + im->reals) + i + 1) * 2654435769U;
+        const double at = i < im->angles ? b->angle_rad[i] : b->real[i - im->angles];
+        from[i] = at + (0x1p-31 * (double)drawn - 1.0) * (1.0 + fabs(at));
+    }
+    evaluate_now(b, from, from + im->angles, b->time_s);
+    for (int i = 0; i < im->angles + im->reals; i++) {
+        const component c = image_component(im, i);
+        const int rate = c.primes == 0 ? image_find_component(im, c.unknown, 1) : -1;
+        const double slope = rate >= 0 ? from[rate] : b->value[c.unknown];
+        for (int k = 0; k < 2; k++) {
+            double *to = i < im->angles ? &angle_rad[k][i] : &real[k][i - im->angles];
+            *to = from[i] + (k == 0 ? -FRAME_ASIDE_S : FRAME_ASIDE_S) * slope;
+        }
+    }
+    for (int k = 0; k < 2; k++) {
+        evaluate_now(b, angle_rad[k], real[k], b->time_s);
+        for (int i = 0; i < im->count; i++) {
+            const double p = b->value[im->count + BOOK_MOMENTA + i];
+            change[i] = k == 0 ? p : change[i] - p;
+            finite = finite && isfinite(change[i]);
+        }
+    }
+    return finite;
+}
+
+/* Elimination of the changes at twice as many places as there are momenta: sums of momenta that change nowhere are what is
+ * left, and who is in one of them is part of a frame. */
+static void find_frame(books *b) {
+    const int n = b->image->count;
+    const int rows = 2 * n;
+    if (n > FRAME_MOST || b->image->recovered > 0) {
+        return;
+    }
+    double *a = alloc((int64_t)rows * n, sizeof *a);
+    int lead[FRAME_MOST];
+    bool leads[FRAME_MOST] = {false};
+    double most = 0.0;
+    bool known = true;
+    for (int r = 0; r < rows && known; r++) {
+        known = momenta_change(b, r, a + r * n);
+        for (int i = 0; i < n && known; i++) {
+            most = number_most(most, fabs(a[r * n + i]));
+        }
+    }
+    const int rank = known ? gauss_reduce(a, rows, n, n, false, FRAME_LEAST * most, lead) : 0;
+    for (int r = 0; r < rank; r++) {
+        leads[lead[r]] = true;
+    }
+    for (int c = 0; c < n && known; c++) {
+        for (int r = -1; r < rank && !leads[c];
+             r++) { /* momentum c less its share of those with a pivot */
+            const int i = r < 0 ? c : lead[r];
+            const double share = r < 0 ? 1.0 : fabs(a[r * n + c] / a[r * n + i]);
+            b->frame[i] = b->frame[i] || share > FRAME_LEAST;
+        }
+    }
+    free(a);
+}
+
+/* A kinetic energy that is negative by this part of all energies is no rounding. */
+#define NEGATIVE 1e-6
+
+/* --- all of a step ---------------------------------------------------------------------------------*/
+
+void books_enter(books *b, const engine_kind *kind, const void *run) {
+    const image *im = b->image;
+    kind->state(run, b->angle_rad, b->real);
+    if (b->entries == 0 && kind == &engine_float) {
+        evaluator_wrap(b->evaluator);
+    }
+    b->time_s = (double)kind->steps(run) * b->step_s;
+    if (b->entries == 0) {
+        b->leans = find_leans(b);
+        find_frame(b);
+        memset(b->lean, 0, (size_t)im->count * sizeof *b->lean);
+    }
+    const double back_J = b->leans ? reversed_J(b, b->angle_rad, b->real) : 0.0;
+    evaluate_now(b, b->angle_rad, b->real, b->time_s);
+    const double *entry = b->value + im->count;
+    b->moving_J[1] = entry[BOOK_KINETIC];
+    if (b->leans) {
+        b->moving_J[1] = 0.5 * (b->moving_J[1] + back_J);
+        take_lean(b);
+    }
+    const double power_W[2] = {entry[BOOK_INPUT_POWER], entry[BOOK_LOSS_POWER]};
+    b->kinetic_J[1] = entry[BOOK_KINETIC];
+    b->stored_J[1] = entry[BOOK_STORED];
+    b->energy_J[1] = energy_of(im, b->value);
+    if (b->entries == 0) {
+        b->kinetic_J[0] = b->kinetic_J[1];
+        b->moving_J[0] = b->moving_J[1];
+        b->stored_J[0] = b->stored_J[1];
+        b->energy_J[0] = b->energy_J[1];
+        for (int k = 0; k < 2; k++) {
+            b->power_W[0][k] = power_W[k];
+        }
+        for (int i = 0; i < im->count; i++) {
+            b->momentum[i] = entry[BOOK_MOMENTA + i];
+        }
+    } else {
+        add_work(b, power_W);
+    }
+    spread_enter(&b->kinetic, b->moving_J[1], b->entries);
+    spread_enter(&b->stored, b->stored_J[1], b->entries);
+    if (!b->negative && b->moving_J[1] < -NEGATIVE * b->size_J) {
+        b->negative = true;
+        b->negative_s = b->time_s;
+    }
+    b->size_J = number_most(b->size_J, fabs(b->kinetic_J[1]) + fabs(b->stored_J[1]));
+    double all = b->energy_J[1] + power_W[0] + power_W[1];
+    for (int i = 0; i < im->reals; i++) {
+        if (im->real[i].primes == 1) {
+            spread_enter(&b->rate[im->real[i].unknown], b->real[i], b->entries);
+        }
+    }
+    for (int i = 0; i < im->count; i++) {
+        b->rate[i].pushed = b->rate[i].pushed || b->value[i] != 0.0;
+        all += entry[BOOK_MOMENTA + i];
+        const double own = entry[BOOK_MOMENTA + i] - b->lean[i];
+        spread_enter(&b->push[i], own, b->entries);
+        b->momentum_now[i] = entry[BOOK_MOMENTA + i];
+        b->drift[i] = number_most(b->drift[i], fabs(entry[BOOK_MOMENTA + i] - b->momentum[i]));
+    }
+    if (!isfinite(all) && !b->undefined) {
+        b->undefined = true;
+        b->undefined_s = b->time_s;
+    }
+    if (b->entries == 0 || ((b->entries & (b->entries - 1)) == 0 && b->entries % 3 == 1)) {
+        /* the start, 1, 4, 16, ...: seldom */
+        look_at_rounding(b, kind, run);
+    }
+    b->entries++;
+    if (b->entries % 2 == 1) { /* Simpson's rule is complete */
+        const double error = books_account(b).left;
+        b->most_J = number_most(b->most_J, fabs(error));
+        if (fabs(error - b->kept_J) > fabs(b->jump_J)) {
+            b->jump_J = error - b->kept_J;
+            b->jump_s = b->time_s;
+        }
+        b->kept_J = error;
+    }
+}
+
+book_account account_of(const double level[2]) {
+    return (book_account){.level = {level[0], level[1]}, .left = level[1] - level[0]};
+}
+
+void account_enter(book_account *a, double given) {
+    a->left -= given;
+    a->largest = fabs(given) > a->largest ? fabs(given) : a->largest;
+}
+
+book_account books_account(const books *b) {
+    book_account a = account_of(b->energy_J);
+    account_enter(&a, b->input_J);
+    account_enter(&a, -b->loss_J);
+    return a;
+}

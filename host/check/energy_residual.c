@@ -1,0 +1,151 @@
+/* energy_residual.c: measuring what is left over. */
+#include "energy_residual.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "host/base/alloc.h"
+#include "slow.h"
+
+/* Roundings of a whole step that a run of one step may be off by. Of N steps it is so many times the root of N:
+ * that is also N of the same sign, as a rate that grows evenly has, for runs of a thousand steps. */
+#define ROUNDINGS 32.0
+
+static double larger(double a, double b) { return fabs(b) > a ? fabs(b) : a; }
+
+/* Enter what the run itself kept. */
+static void enter_kept(const image *im, const engine_kind *kind, const void *run,
+                       energy_residual *made) {
+    kept_account kept = kept_account_read(im, kind, run, 0);
+    for (int i = 0; i < kept.entries; i++) {
+        const kept_entry *e = &kept.entry[i];
+        account_enter(&made->energy, e->given);
+        switch (e->by) {
+        case GIVER_ENERGIES: break; /* none of the energy's */
+        case GIVER_FORCE:
+        case GIVER_INPUT: made->inputs_J += e->given; break;
+        case GIVER_DAMPER: made->losses_J += e->given; break;
+        case GIVER_CONTACT: made->contacts_J += e->given; break;
+        case GIVER_STEPS: break; /* none with contacts */
+        }
+    }
+    kept_account_free(&kept);
+}
+
+/* What steps have given back is what they had lost: it is missing as if it had not been given. Unless they gave what nothing had
+ * lost, for the energy's want of digits: then it is too much. */
+static void enter_given_back(const image *im, const engine_kind *kind, const void *run,
+                             energy_residual *made) {
+    kept_account kept = kept_account_read(im, kind, run, 0);
+    const double lost_J = made->energy.left - kept.entry[kept.entries - 1].given;
+    kept_account_free(&kept);
+    made->stabilized = true;
+    made->lost_J = fabs(lost_J);
+    made->energy.left = fabs(lost_J) >= fabs(made->energy.left) ? lost_J : made->energy.left;
+}
+
+/* The books beside the run see no force of a contact, and across an impact no rule of theirs holds: with contacts
+ * the entries are the run's own. The levels are always those of the books, which have them in double. */
+energy_residual energy_residual_of(books *b, const engine_kind *kind, const void *run) {
+    energy_residual made = {.jump_s = -1.0};
+    if (b == NULL || (b->image->contacts > 0 && !b->image->ledger.kept)) {
+        return made;
+    }
+    if (b->image->contacts > 0) {
+        made.energy = account_of(b->energy_J);
+        enter_kept(b->image, kind, run, &made);
+    } else {
+        made.energy = books_account(b);
+        if (b->image->settings.stabilized) {
+            enter_given_back(b->image, kind, run, &made);
+        }
+        made.inputs_J = b->input_J;
+        made.losses_J = -b->loss_J;
+        made.jump_s = fabs(b->jump_J) > 0.5 * fabs(made.energy.left) ? b->jump_s : -1.0;
+    }
+    made.saturated = kind->saturated != NULL && kind->saturated(run) > 0;
+    made.slow = slow_count(kind, b->image, run) > 0;
+    made.left_J = made.energy.left;
+    made.largest_J = larger(made.energy.largest, b->moving_J[1] - b->moving_J[0]);
+    made.largest_J = larger(made.largest_J, b->stored_J[1] - b->stored_J[0]);
+    made.largest_J = larger(made.largest_J, books_swing_J(b));
+    double computing_J;
+    const double step_J = books_rounding_J(b, kind, run, &computing_J);
+    made.entry_J = made.largest_J;
+    made.size_J = b->size_J;
+    made.computing_J = 2.0 * computing_J;
+    made.rounding_J = ROUNDINGS * number_root((double)b->entries) * step_J + made.computing_J;
+    if (made.left_J != 0.0) { /* else there is nothing to explain */
+        made.rounding_J += books_lost_J(b);
+    }
+    made.exact = b->image->settings.matrix == MATRIX_EXACT;
+    if (made.exact && made.left_J != 0.0) { /* the motion is right where the books are too coarse */
+        made.rounding_J += b->rule_J;
+    }
+    made.rounded = made.rounding_J / ENERGY_RESIDUAL_LIMIT > made.largest_J;
+    made.largest_J = number_most(made.largest_J, made.rounding_J / ENERGY_RESIDUAL_LIMIT);
+    made.known = isfinite(made.left_J);
+    made.ratio = made.left_J == 0.0 ? 0.0 : fabs(made.left_J) / made.largest_J;
+    return made;
+}
+
+bool energy_residual_lost(const energy_residual *b, double limit) {
+    return b->known && fabs(b->left_J) > b->rounding_J && !(b->ratio <= limit);
+}
+
+void energy_residual_print(FILE *out, const energy_residual *b) {
+    if (b->known) {
+        fprintf(out, "energy left over   %.2e of %s, %.3g J\n", b->ratio,
+                b->rounded && b->exact
+                    ? "the least entry that rounding and the books' own integrals let one tell"
+                : b->rounded ? "the least entry that rounding lets one tell"
+                             : "the largest entry of the books",
+                b->largest_J);
+    }
+}
+
+/* === what the run itself kept ================================================================== */
+
+static giver giver_of(ledger_kind kind) {
+    switch (kind) {
+    case LEDGER_ENERGIES: return GIVER_ENERGIES;
+    case LEDGER_WORK:
+    case LEDGER_DRIVE: return GIVER_FORCE;
+    case LEDGER_LOSS:
+    case LEDGER_DAMPING: return GIVER_DAMPER;
+    }
+    return GIVER_ENERGIES;
+}
+
+kept_account kept_account_read(const image *im, const engine_kind *kind, const void *run,
+                               int account) {
+    const image_ledger *l = &im->ledger;
+    const int stabilized = im->settings.stabilized;
+    double *total = alloc(l->entries + l->accounts, sizeof *total);
+    kept_account k = {.entry = alloc(l->entries, sizeof *k.entry)};
+    if (kind->steps(run) > 0) {
+        kind->ledger(run, total, total + l->entries);
+    }
+    for (int i = 0; i < l->smooth; i++) {
+        if (l->entry[i].account == account) {
+            k.entry[k.entries++] =
+                (kept_entry){giver_of(l->entry[i].kind), l->entry[i].at, total[i]};
+        }
+    }
+    for (int i = 0; i < l->inputs && account == 0; i++) {
+        k.entry[k.entries++] = (kept_entry){GIVER_INPUT, im->input[l->input[i]].at,
+                                            total[l->entries - stabilized - l->inputs + i]};
+    }
+    for (int c = 0; c < im->contacts && account <= im->coordinates; c++) {
+        k.entry[k.entries++] = (kept_entry){GIVER_CONTACT, im->contact[c].at,
+                                            total[l->smooth + c * (1 + im->coordinates) + account]};
+    }
+    if (stabilized && account == 0) {
+        k.entry[k.entries++] = (kept_entry){.by = GIVER_STEPS, .given = total[l->entries - 1]};
+    }
+    k.left = total[l->entries + account];
+    free(total);
+    return k;
+}
+
+void kept_account_free(kept_account *k) { free(k->entry); }

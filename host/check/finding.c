@@ -1,0 +1,55 @@
+/* finding.c: see finding.h. */
+#include "finding.h"
+
+#include "apart.h"
+#include "energy_residual.h"
+#include "host/check/horizon.h"
+#include "slow.h"
+
+const finding_row finding_rows[FINDINGS] = {
+    [FINDING_MASS] = {"mass", FINDING_WARNING, 1e-4, "of an acceleration",
+                      "the rounding of the matrix alone: steps are more accurate",
+                      "have a mass matrix that is nearly singular"},
+    [FINDING_CONSTANTS] = {"constants", FINDING_WARNING, 0.0, "numbers",
+                           "rounded otherwise, one of the file's numbers is beyond all bounds",
+                           "have numbers in which a small one is lost beside a large one"},
+    [FINDING_ENERGY] = {"energy", FINDING_WARNING, ENERGY_RESIDUAL_LIMIT, "of the largest entry",
+                        "half of it is the error of an amplitude, which no plot shows",
+                        "cannot be believed: too much of the largest entry of their energy books "
+                        "is left over (" ENERGY_RESIDUAL_COLUMN "), or was missing on the way"},
+    [FINDING_ACCURACY] = {"accuracy", FINDING_WARNING, 0.5, "of the run",
+                          "an error that grows evenly and is 2 % at the end passes 1 % there",
+                          "are right to 0.01 of a range for less than half of the run"},
+    [FINDING_SINGULAR] = {"singular", FINDING_WARNING, 1e-2, "of the largest pivot",
+                          "a coordinate's inertia a hundredth: its rate is ten times as large",
+                          "passed where their coordinates are singular, in steps that do not "
+                          "resolve it"},
+    [FINDING_POLE] = {"pole", FINDING_WARNING, 0.0, "steps", "no motion gets through a pole",
+                      "jumped over a place where an expression grows without bound"},
+    [FINDING_MISSED] = {"missed", FINDING_WARNING, 0.0, "steps",
+                        "a contact or a force that no step met has not acted",
+                        "passed through a contact, or over a force, or may have"},
+    [FINDING_ALIASED] = {"aliased", FINDING_WARNING, HORIZON_TOLERANCE, "of a range",
+                         "as far as a run is trusted; aliasing.h adds what steps alone are off",
+                         "have something faster than the step, of which its stages see too "
+                         "little"},
+    [FINDING_EVENTS] = {"events", FINDING_WARNING, 0.0, "steps",
+                        "what is left of such a step counts as rest or sticking",
+                        "had steps with more events than a step takes"},
+    [FINDING_APART] = {"apart", FINDING_WARNING, APART_LEAST, "of the terms of what is held",
+                       "a start in decimal digits fits to less",
+                       "have holds that do not fit where they start"},
+    [FINDING_DIGITS] = {"digits", FINDING_NOTE, SLOW_SHARE, "of the span asked for",
+                        "what rounding took from the steps, summed",
+                        "have a component that moves too slowly for the units of its steps"},
+};
+
+void finding_say_status(FILE *out, const char *command, unsigned fails) {
+    fprintf(out, "whirl %s: exit status 1 because of", command);
+    for (int id = 0; id < FINDINGS; id++) {
+        if ((fails & FINDING_BIT(id)) != 0) {
+            fprintf(out, " [%s]", finding_rows[id].word);
+        }
+    }
+    fputs("; --strict=off keeps 0\n", out);
+}

@@ -1,0 +1,453 @@
+/* findings.c: see findings.h. */
+#include "findings.h"
+
+#include <inttypes.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "apart.h"
+#include "core/contact.h"
+#include "core/refuse.h"
+#include "host/base/alloc.h"
+#include "host/base/diag.h"
+#include "host/base/statement.h"
+#include "host/check/nonfinite.h"
+#include "host/check/summary.h"
+#include "host/number/functions.h"
+#include "remedy.h"
+#include "slow.h"
+
+enum { NAME_TEXT = 100 };
+
+#define PRIMES "''''''''''"
+
+/* --- each of them ---------------------------------------------------------------------------------------*/
+
+static const char *column_name(const run_checks *v, int k, char text[NAME_TEXT]) {
+    const record_column *c = &v->twins->shape->column[k];
+    snprintf(text, NAME_TEXT, "%.80s%.*s", c->name, c->primes, PRIMES);
+    return text;
+}
+
+static void say_mass(FILE *out, const run_checks *v) {
+    fprintf(out,
+            "%s of '%s' is singular but for a last digit or two: rounding, in double, too, may put "
+            "what it gives %.2g %% off",
+            v->image->has_energies ? "the mass matrix" : "what stands with the highest derivatives",
+            v->image->mechanism, 100.0 * number_least(v->image->mass_blur, 1.0));
+}
+
+static void say_constants(FILE *out, const run_checks *v) {
+    fprintf(out,
+            "numbers of '%s' are computed of sums in which a small one is lost beside a large one: "
+            "rounding them, in double, too, may put one beyond all bounds",
+            v->image->mechanism);
+}
+
+static void say_energy(FILE *out, const run_checks *v) {
+    const energy_residual *b = &v->balance;
+    const double part = v->found[FINDING_ENERGY].value;
+    if (part > 2.0 * b->ratio) {
+        fprintf(out,
+                "this run cannot be believed: up to %.3g J of its energy was missing on the way, "
+                "%.2e of the largest entry of its books",
+                part * b->largest_J, part);
+    } else {
+        fprintf(out,
+                "this run cannot be believed: %.3g J of its energy is left over, %.2e of the "
+                "largest entry of its books",
+                b->left_J, b->ratio);
+    }
+    if (b->jump_s >= 0.0) {
+        fprintf(out, ", most of it lost about t = %.6g s", b->jump_s);
+    }
+}
+
+static void say_accuracy(FILE *out, const run_checks *v) {
+    const finding *f = &v->found[FINDING_ACCURACY];
+    const horizon h = horizon_of(v->twins, RUN_CHECKS_TOLERANCE);
+    const horizon_column *c = &h.column[f->component];
+    const char *unit = v->twins->shape->column[f->component].unit->shown;
+    char name[NAME_TEXT];
+    fprintf(out, "%s is right to %g of its range only until t = %.6g s of %.6g s",
+            column_name(v, f->component, name), RUN_CHECKS_TOLERANCE, f->at_s, v->twins->end_s);
+    if (isfinite(c->off)) {
+        fprintf(out, ": a finer run, in double, ends up to %.2g %s away", c->off, unit);
+        if (c->range > 0.0) {
+            fprintf(out, ", %.2g of the range", c->off / c->range);
+        } else {
+            fputs("; here it stands still", out);
+        }
+    } else {
+        fputs(": a finer run, in double, leaves all bounds", out);
+    }
+    horizon_free((horizon *)&h);
+}
+
+static void say_singular(FILE *out, const run_checks *v) {
+    const run_monitor_singular *s = &v->watch->singular;
+    const image *im = v->image;
+    fprintf(out,
+            "about t = %.6g s these coordinates are singular: the inertia of '%s' falls to %.2g of "
+            "its largest",
+            s->at_s, im->unknown[image_component(im, s->component).unknown].name, s->inertia);
+    if (s->near >= 0) {
+        const component c = image_component(im, s->near);
+        const image_unit *unit = &im->unknown[c.unknown].unit[0];
+        fprintf(out, ", nearest at %s = %.3g %s", im->unknown[c.unknown].name,
+                image_shown(unit, s->near_at), unit->shown);
+    }
+    char name[NAME_TEXT];
+    if (v->twins != NULL && v->found[FINDING_SINGULAR].told) {
+        fprintf(out, "; '%s' is off there",
+                column_name(v, v->found[FINDING_SINGULAR].component, name));
+    }
+}
+
+static void say_pole(FILE *out, const run_checks *v) {
+    double begin_s;
+    char statement[STATEMENT_SIZE];
+    const diagnostics_question *q = pole_crossing_over(v->jumped, &begin_s);
+    statement_text(q->where, statement, sizeof statement);
+    fprintf(out,
+            "the step after t = %.6g s jumped over a place where %s grows without bound: %s; no "
+            "motion gets through there",
+            begin_s, q->what, statement);
+}
+
+/* Did what rested on a stop slide over an edge of it? */
+static bool slid_off(const run_checks *v) {
+    double ignored_s;
+    return pole_crossing_through(v->jumped, &ignored_s).edge;
+}
+
+static void say_missed(FILE *out, const run_checks *v) {
+    const finding *f = &v->found[FINDING_MISSED];
+    const image *im = v->image;
+    char statement[STATEMENT_SIZE];
+    if (slid_off(v)) {
+        statement_text(im->contact[f->component].at, statement, sizeof statement);
+        fprintf(out,
+                "in the step after t = %.6g s what rests on a stop slides over an edge, and Whirl "
+                "keeps it there: %s",
+                f->at_s, statement);
+        return;
+    }
+    fprintf(out, "the step after t = %.6g s %s ", f->at_s,
+            f->value < 1.0 ? "may have passed" : "passed");
+    if (f->component < im->contacts) {
+        statement_text(im->contact[f->component].at, statement, sizeof statement);
+        fprintf(out, "%s: %s",
+                im->contact[f->component].kind == WH_FRICTION ? "over a narrow change of a friction"
+                                                              : "through a contact",
+                statement);
+    } else {
+        const component c = image_component(im, f->component - im->contacts);
+        fprintf(out, "over a force on %s, far larger than at both its ends",
+                im->unknown[c.unknown].name);
+    }
+}
+
+static void say_aliased(FILE *out, const run_checks *v) {
+    const step_doubling_aliased *a = &v->twins->aliased;
+    const char *unit = v->twins->shape->column[a->column].unit->shown;
+    const bool plain = strcmp(unit, "1") == 0;
+    char name[NAME_TEXT];
+    fprintf(out,
+            "more goes on between the stages of a step than they see: with steps of %.4g s, which "
+            "share no period with these, %s is %.6g%s%s at t = %.6g s, not %.6g",
+            a->step_s, column_name(v, a->column, name), a->other, plain ? "" : " ",
+            plain ? "" : unit, a->at_s, a->value);
+}
+
+/* The contact with the most events in such steps, but for `besides`; -1: none had any. */
+static int busiest(const run_checks *v, int besides) {
+    int found = -1;
+    for (int k = 0; k < v->image->contacts; k++) {
+        if (k != besides && v->in_overruns[k] > 0 &&
+            (found < 0 || v->in_overruns[k] > v->in_overruns[found])) {
+            found = k;
+        }
+    }
+    return found;
+}
+
+static void say_events(FILE *out, const run_checks *v) {
+    char statement[STATEMENT_SIZE];
+    const int first = busiest(v, -1);
+    const int second = first < 0 ? -1 : busiest(v, first);
+    fprintf(out,
+            "%" PRIu64 " step%s of %" PRIu64
+            ", the first at t = %.6g s, had more than %d moments with events",
+            v->overruns, v->overruns == 1 ? "" : "s", v->kind->steps(v->run), v->overran_s,
+            WH_EVENTS_MAX);
+    for (int i = 0; i < 2 && (i == 0 ? first : second) >= 0; i++) {
+        statement_text(v->image->contact[i == 0 ? first : second].at, statement, sizeof statement);
+        fprintf(out, "%s'%s'", i == 0 ? ", most of " : " and ", statement);
+    }
+    fprintf(out, ": what was left of %s counts as rest or sticking",
+            v->overruns == 1 ? "it" : "them");
+}
+
+static bool is_without_restitution(const image *im, int k) {
+    const op_list *t = im->list[IMAGE_FORCES];
+    const op *o = k >= 0 && im->contact[k].kind == WH_STOP
+                      ? &t->ops[t->result[k * (WH_LAW_ROWS + 2 * im->coordinates) + WH_LAW_FIRST]]
+                      : NULL;
+    return o != NULL && o->code == OP_CONSTANT && o->value == 0.0;
+}
+
+static void (*const say[FINDINGS])(FILE *, const run_checks *) = {
+    [FINDING_CONSTANTS] = say_constants, [FINDING_MASS] = say_mass,
+    [FINDING_ENERGY] = say_energy,       [FINDING_ACCURACY] = say_accuracy,
+    [FINDING_SINGULAR] = say_singular,   [FINDING_POLE] = say_pole,
+    [FINDING_MISSED] = say_missed,       [FINDING_ALIASED] = say_aliased,
+    [FINDING_EVENTS] = say_events,
+};
+
+/* --- remedies ---------------------------------------------------------------------------------------------*/
+
+static bool is_told(const run_checks *v, finding_id id) { return v->found[id].told; }
+
+/* Causes that no step cures. */
+static bool say_cause(FILE *out, const run_checks *v) {
+    const energy_residual *b = &v->balance;
+    const char *hint = NULL;
+    if (slid_off(v)) {
+        hint = "round the edge, with e the way of some steps: sqrt(x^2 + e^2) for abs(x), "
+               "(a + b + sqrt((a - b)^2 + e^2))/2 for max(a, b)";
+    } else if (is_told(v, FINDING_MASS)) {
+        hint = v->image->has_energies
+                   ? "a coordinate that is counted from a light body to a heavy one does that: "
+                     "count it from the heavy one"
+                   : "two equations say nearly the same: their difference tells more";
+    } else if (is_told(v, FINDING_CONSTANTS)) {
+        hint = "give the small one by itself";
+    } else if (is_told(v, FINDING_ENERGY) && b->stabilized &&
+               number_most(fabs(b->left_J), v->books->most_J) > 1.5 * b->lost_J) {
+        hint = "--stabilized gave back what nothing had lost: its energies have too few digits; "
+               "leave it out";
+    } else if (is_told(v, FINDING_ENERGY) && b->exact) {
+        hint = "the steps of --matrix exact are exact whatever their size: --number double tells "
+               "what rounding does";
+    } else if (is_told(v, FINDING_ENERGY) && b->saturated) {
+        hint = "values were held at an end of their range, which keeps no energy: widen it: "
+               "range NAME = A .. B";
+    } else if (v->against == FINDING_BIT(FINDING_EVENTS) &&
+               is_without_restitution(v->image, busiest(v, -1))) {
+        hint = "rounding parts bodies that nothing presses together, and they meet again: "
+               "restitution 0.01, or a force that presses them, ends such events";
+    }
+    if (hint != NULL) {
+        fprintf(out, "hint: %s\n", hint);
+    }
+    return hint != NULL;
+}
+
+/* So many parts of a step are tried first, by the order of the method. */
+static double first_parts(const run_checks *v) {
+    const wh_method_row *row = &wh_methods[v->image->settings.method];
+    const double ratio = v->found[FINDING_ENERGY].value;
+    return ratio > 0.0 ? number_power(number_least(ratio, 1.0) / 3e-4, 1.0 / row->order) : 1.0;
+}
+
+static void say_remedy(FILE *out, const run_checks *v) {
+    char options[REMEDY_TEXT];
+    const image *im = v->image;
+    if (im->settings.tables != TABLES_NONE && is_told(v, FINDING_ENERGY)) {
+        char cells[40] = "";
+        if (im->settings.cells > 0 && 2 * im->settings.cells <= IMAGE_CELLS_MOST) {
+            snprintf(cells, sizeof cells, "--cells %d, or ", 2 * im->settings.cells);
+        }
+        fprintf(out, "hint: the tables may be too coarse (not tried): %sno --tables would tell\n",
+                cells);
+    }
+    switch (remedy_find(v, first_parts(v), options)) {
+    case REMEDY_DOES: fprintf(out, "hint: %s would do (tried)\n", options); return;
+    case REMEDY_DEAR:
+        fputs("hint: a smaller --step (not tried to its end: that takes more than a second)\n",
+              out);
+        break;
+    case REMEDY_NONE:
+        fputs("hint: no step, no other number and no method that was tried would do\n", out);
+        break;
+    }
+    if (v->books != NULL && v->books->negative) {
+        fprintf(
+            out,
+            "hint: the kinetic energy is negative from t = %.6g s on: no masses move like that; "
+            "end the run before, or correct T\n",
+            v->books->negative_s);
+    } else if (is_told(v, FINDING_SINGULAR)) {
+        fputs("hint: take coordinates that are not singular there\n", out);
+    } else if (is_told(v, FINDING_MISSED)) {
+        const double began_s = v->found[FINDING_MISSED].at_s;
+        const double passed_s = v->twins != NULL ? v->twins->jumped_s : -1.0;
+        const double until_s = passed_s >= 0.0 ? number_least(passed_s, began_s) : began_s;
+        if (v->found[FINDING_MISSED].value < 1.0) {
+            fputs("hint: write it without a pole or a jump on the way, such as 1/x or sign(x): "
+                  "Whirl finds no bounds there\n",
+                  out);
+        }
+        if (until_s > 0.0) {
+            fprintf(out, "hint: --until %.12gs ends the run before that\n", until_s);
+        }
+    } else if (is_told(v, FINDING_EVENTS)) {
+        fputs("hint: restitution 0, or a condition that takes longer to come true again, ends such "
+              "events\n",
+              out);
+    } else if ((v->against & ~FINDING_OF_SCENE) == FINDING_BIT(FINDING_ACCURACY) &&
+               v->found[FINDING_ACCURACY].at_s > 0.0) {
+        fputs("hint: where the motion is chaotic every error grows: --until ends the run before\n",
+              out);
+    }
+}
+
+void findings_say(FILE *out, const run_checks *v, bool fails) {
+    for (int id = 0; id < FINDINGS; id++) {
+        const bool is_error = fails && id == FINDING_ENERGY;
+        const bool is_warning = (v->against & FINDING_BIT(id)) != 0;
+        if (is_error || (is_told(v, (finding_id)id) && say[id] != NULL)) {
+            fprintf(out, "whirl run: %s: ", is_error ? "error" : is_warning ? "warning" : "note");
+            say[id](out, v);
+            fprintf(out, " [%s]\n", finding_rows[id].word);
+        }
+    }
+    if ((fails || (v->against & ~FINDING_OF_SCENE) != 0 || is_told(v, FINDING_MASS)) &&
+        !say_cause(out, v)) {
+        say_remedy(out, v);
+    }
+    slow_say(out, v->image, v->kind, v->run);
+}
+
+void findings_message(FILE *out, const run_checks *v, finding_id id) {
+    static const char *const begins[] = {"note: ", "warning: "};
+    if (say[id] != NULL) {
+        say[id](out, v);
+        return;
+    }
+    char *text = NULL;
+    size_t length;
+    FILE *whole = alloc_text(&text, &length);
+    if (id == FINDING_APART) {
+        (void)apart_say(whole, "whirl run", v->image);
+    } else {
+        slow_say(whole, v->image, v->kind, v->run);
+    }
+    alloc_text_end(whole);
+    const char *begin = begins[id == FINDING_APART];
+    const char *at = strstr(text, begin);
+    if (at != NULL) { /* the first line, without its head and its finding's name */
+        char tail[40];
+        at += strlen(begin);
+        const size_t line = strcspn(at, "\n");
+        const size_t name = (size_t)snprintf(tail, sizeof tail, " [%s]", finding_rows[id].word);
+        const bool is_named = line > name && strncmp(at + line - name, tail, name) == 0;
+        fprintf(out, "%.*s", (int)(is_named ? line - name : line), at);
+    }
+    free(text);
+}
+
+bool findings_where(const run_checks *v, finding_id id, char name[FINDINGS_NAME]) {
+    const int of = v->found[id].component;
+    const image *im = v->image;
+    if (id == FINDING_ACCURACY || id == FINDING_SINGULAR || id == FINDING_ALIASED) {
+        (void)column_name(v, of, name);
+    } else if (id == FINDING_MISSED && of < im->contacts) {
+        statement_text(im->contact[of].at, name, FINDINGS_NAME);
+    } else if (id == FINDING_MISSED) {
+        const component c = image_component(im, of - im->contacts);
+        snprintf(name, FINDINGS_NAME, "%.80s%.*s", im->unknown[c.unknown].name, c.primes, PRIMES);
+    } else {
+        return false;
+    }
+    return true;
+}
+
+void findings_say_failed(FILE *out, const run_checks *v) {
+    char options[REMEDY_TEXT];
+    if (v->watch->singular.inertia <= finding_rows[FINDING_SINGULAR].limit) {
+        fputs("hint: ", out);
+        say_singular(out, v);
+        fputs("; coordinates that are not singular there need no smaller step\n", out);
+    }
+    if (remedy_find(v, 2.0, options) == REMEDY_DOES) {
+        fprintf(out, "hint: %s would do (tried)\n", options);
+    }
+}
+
+/* --- why a run has ended before its time ------------------------------------------------------------------*/
+
+static bool starts_beyond(const image *im) {
+    bool found = false;
+    for (int i = 0; i < im->reals; i++) {
+        found = found || !(fabs(im->start_real[i]) < (double)WH_ABSURD);
+    }
+    return found;
+}
+
+/* The first contact that pushes more than one coordinate; -1: none. */
+static int pushing(const image *im) {
+    const int n = im->coordinates;
+    for (int k = 0; k < im->forced; k++) {
+        const op_list *t = im->list[IMAGE_FORCES];
+        int entries = 0;
+        for (int i = 0; i < n; i++) {
+            const op *o = &t->ops[t->result[k * (WH_LAW_ROWS + 2 * n) + WH_LAW_ROWS + i]];
+            entries += o->code != OP_CONSTANT || o->value != 0.0;
+        }
+        if (entries > 1) {
+            return k;
+        }
+    }
+    return -1;
+}
+
+void failure_say(FILE *out, wh_status status, const run_checks *v) {
+    const engine_kind *kind = v->kind;
+    const void *run = v->run;
+    const image *im = v->image;
+    diags *errors = diags_new();
+    const bool known = nonfinite_step(im, kind, run, status, errors);
+    diags_flush(errors, out);
+    diags_free(errors);
+    if (known) {
+        /* Where a linkage lies flat, a step that misses the place knows no more of how it goes on. */
+        if (status != WH_E_SINGULAR) {
+            findings_say_failed(out, v);
+        }
+        return;
+    }
+    const int fault = kind->fault(run);
+    const component c = image_component(im, fault < 0 ? 0 : fault);
+    const double time_s = ratio_times(kind->steps(run), im->step);
+    fprintf(out, "whirl run: error: the run diverged in the step after t = %.9g s: %s", time_s,
+            im->unknown[c.unknown].name);
+    for (int k = 0; k < c.primes; k++) {
+        fputc('\'', out);
+    }
+    fputs(" left all bounds\n", out);
+    if (kind->steps(run) == 0 && starts_beyond(im)) {
+        fprintf(
+            out,
+            "hint: it starts beyond them: numbers of a run stay below %g in SI's units; take an "
+            "origin, or units, nearer to it\n",
+            (double)WH_ABSURD);
+        return;
+    }
+    const int k = pushing(im);
+    if (k >= 0) {
+        char statement[STATEMENT_SIZE];
+        statement_text(im->contact[k].at, statement, sizeof statement);
+        fprintf(
+            out,
+            "hint: '%s' pushes all that it names: a clock there needs far more inertia than what "
+            "it meets, or is an input with a rate\n",
+            statement);
+    }
+    fputs("hint: a smaller --step may carry it further; if it fails at the same time, look for a "
+          "singular position there\n",
+          out);
+    findings_say_failed(out, v);
+}

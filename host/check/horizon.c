@@ -1,0 +1,365 @@
+/* horizon.c: until when a run is right to a tolerance, coordinate by coordinate, as far as a run with half its step tells
+ * (step_doubling.h): until the first time at which the two differ by more than the tolerance times the range that the coordinate
+ * has in the whole of the finer run. What this is worth is measured in docs/dev/stability.md. */
+#include "host/check/horizon.h"
+
+#include <inttypes.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "host/base/alloc.h"
+#include "host/check/nonfinite.h"
+#include "host/number/functions.h"
+
+/* What the bound of rounding leaves out: roundings of a step's own sums, the library's functions. */
+#define ROUNDING_ROOM 8.0
+/* A rate that hardly varies is measured by this part of its size: of one that stays at 34.56 rad/s within 0.007 float keeps
+ * no thousandth. A place is not, for its origin may be anywhere. */
+#define LEAST_RANGE 1e-3
+#define LEAST_RANGE_DOUBLE 1e-9
+/* A place that stays where it is but for rounding moves by less than this part of its distance from the origin, or of one
+ * metre or radian; or by less than that part of what others of its unit move. */
+#define STAYS 1e-9
+/* In float, a place that moves by less than this part of its distance stands still. */
+#define FLOAT_STAYS 3e-7
+#define BESIDE_OTHERS 1e-3
+/* A place whose start is computed by sums and is this part of a metre or radian, or less, is there by rounding; else by the scene. */
+#define STARTS 1e-12
+/* The bound of rounding is some twenty times what rounding does, eight times where it is alike at all states, as of a root of what
+ * hardly changes. Where it does so much in the finer run, that shares it. */
+#define BOUND_OVER 8.0
+
+static double size_of(const step_doubling_column *c) {
+    return number_most(fabs(c->low), fabs(c->high));
+}
+
+static bool stays(const step_doubling *t, int k) {
+    const step_doubling_column *c = &t->column[t->column[k].place];
+    const double range = c->high - c->low;
+    return range <= STAYS * number_most(size_of(c), c->one) || range <= BESIDE_OTHERS * c->alike;
+}
+
+bool horizon_moves(const step_doubling *t, int k) {
+    const step_doubling_column *c = &t->column[t->column[k].place];
+    const double moved = number_most(c->high - c->low, c->off.most);
+    if (t->shape->kind == &engine_float && moved <= FLOAT_STAYS * size_of(c)) {
+        return false;
+    }
+    return !stays(t, k) || fabs(c->start) > (c->written ? 0.0 : STARTS * c->one);
+}
+
+/* What its size is known to be at least: it stays where the scene puts it, and not by chance at one metre from nothing. */
+static double least_size(const step_doubling_column *c) {
+    const double least = c->written ? 0.0 : STARTS * c->one;
+    return fabs(c->start) > least ? size_of(c) : number_most(size_of(c), c->one);
+}
+
+/* Do both runs share what rounding does? What stays has no range to measure that by: it may stand for want of digits where
+ * rounding might move it by more than its size, or one metre or radian where it starts at none. */
+static bool has_few_digits(const step_doubling *t, int k, double least) {
+    const step_doubling_column *c = &t->column[k];
+    return c->rounding > BOUND_OVER * least && (!stays(t, k) || c->rounding > least_size(c));
+}
+
+/* A double has digits left for what hardly varies. */
+static double least_range(const step_doubling *t) {
+    return t->shape->kind == &engine_double ? LEAST_RANGE_DOUBLE : LEAST_RANGE;
+}
+
+static horizon_column judge(const step_doubling *t, int k, double tolerance) {
+    const step_doubling_column *c = &t->column[k];
+    const double range = c->high - c->low;
+    const double by = number_most(range, c->has_rate ? 0.0 : least_range(t) * size_of(c));
+    const double level = tolerance * by / t->left_out;
+    horizon_column made = {.range = by,
+                           .off = c->off.most * t->left_out,
+                           .rounding = c->rounding,
+                           .until_s = passages_until_s(&c->off, level)};
+    if (t->aliased.column > 0) { /* puts off both alike, nobody knows from when on */
+        made.verdict = HORIZON_UNTIL;
+        made.until_s = 0.0;
+        return made;
+    }
+    const bool passed = isfinite(made.until_s);
+    const bool few = has_few_digits(t, k, tolerance * by);
+    if (passed && !(few && c->rounding > least_size(c)) &&
+        (!t->otherwise || made.off <= ROUNDING_ROOM * c->rounding) &&
+        range <= ROUNDING_ROOM * c->rounding && isfinite(made.off) && stays(t, k)) {
+        made.verdict = HORIZON_ROUNDING;
+        made.until_s = t->end_s;
+    } else if (passed && t->unwrapped && made.until_s >= t->cut_s) {
+        made.verdict = HORIZON_NOT_TOLD;
+    } else if (passed) {
+        made.verdict = HORIZON_UNTIL;
+    } else if (few) {
+        made.verdict = HORIZON_NOT_TOLD;
+        made.until_s = 0.0;
+    } else {
+        made.verdict = range > 0.0 || made.off > 0.0 ? HORIZON_TO_THE_END : HORIZON_STILL;
+        made.until_s = t->end_s;
+    }
+    return made;
+}
+
+horizon horizon_of(const step_doubling *t, double tolerance) {
+    horizon h = {.of = t,
+                 .tolerance = tolerance,
+                 .column = alloc(t->columns, sizeof *h.column),
+                 .to_the_end = true,
+                 .first = -1,
+                 .until_s = t->end_s};
+    for (int k = 1; k < t->columns; k++) {
+        h.column[k] = judge(t, k, tolerance);
+        if (h.column[k].verdict == HORIZON_UNTIL || h.column[k].verdict == HORIZON_NOT_TOLD) {
+            h.to_the_end = false;
+            if (h.first < 0 || h.column[k].until_s < h.until_s) {
+                h.first = k;
+                h.until_s = h.column[k].until_s;
+            }
+        }
+    }
+    return h;
+}
+
+double horizon_trusted_s(const horizon *h) {
+    const bool untold = !h->to_the_end && (h->column[h->first].verdict == HORIZON_NOT_TOLD ||
+                                           h->of->aliased.column > 0);
+    return untold ? -1.0 : h->until_s;
+}
+
+void horizon_free(horizon *h) {
+    free(h->column);
+    h->column = NULL;
+}
+
+/* === in words ================================================================================= */
+
+/* Names of columns in tables; longer ones shift what follows. */
+enum { NAME_WIDTH = 16, NAME_SIZE = 160 };
+
+static const image *image_of(const horizon *h) { return h->of->shape->image; }
+
+static const char *name_of(const horizon *h, int k, char text[NAME_SIZE]) {
+    const record_column *c = &h->of->shape->column[k];
+    snprintf(text, NAME_SIZE, "%.120s%.*s", c->name, c->primes, "''''''''''''''''");
+    return text;
+}
+
+static void print_head(FILE *out, const horizon *h) {
+    const image *im = image_of(h);
+    const image *finer = &h->of->finer;
+    fprintf(out, "%s%s%s\n", im->name, im->title[0] != '\0' ? ": " : "", im->title);
+    fprintf(out, "  %s%s, %s, step %.9g s, %" PRIu64 " steps to t = %.15g s\n", image_stepper(im),
+            image_sums(im), h->of->shape->kind->name, im->step_s, im->steps,
+            ratio_times(im->steps, im->step));
+    fprintf(out, "  beside %s%s, double, step %.9g s\n", image_stepper(finer), image_sums(finer),
+            finer->step_s);
+}
+
+static void print_column(FILE *out, const horizon *h, int k) {
+    const horizon_column *c = &h->column[k];
+    const char *shown = h->of->shape->column[k].unit->shown;
+    const char *unit = strcmp(shown, "1") == 0 ? "" : shown;
+    char name[NAME_SIZE];
+    fprintf(out, "  %-*s ", NAME_WIDTH, name_of(h, k, name));
+    switch (c->verdict) {
+    case HORIZON_TO_THE_END:
+        fprintf(out, "to the end      off by %.2e of its range, %.4g %s\n", c->off / c->range,
+                c->range, unit);
+        break;
+    case HORIZON_UNTIL:
+        fprintf(out, "%-15.9g of its range, %.4g %s, %.2e is %.2g %s\n", c->until_s, c->range, unit,
+                h->tolerance, h->tolerance * c->range, unit);
+        break;
+    case HORIZON_STILL: fputs("to the end      it does not move\n", out); break;
+    case HORIZON_NOT_TOLD:
+        if (h->of->unwrapped && c->until_s >= h->of->cut_s) {
+            fprintf(out, "not to be told  behind %.9g s: double knows no sine of such angles\n",
+                    c->until_s);
+        } else if (c->range > 0.0) {
+            fprintf(
+                out,
+                "not to be told  rounding may move it by %.2e of its range, %.4g %s, in double, "
+                "too\n",
+                c->rounding / c->range, c->range, unit);
+        } else {
+            fprintf(out, "not to be told  rounding may be why it stands still, in double, too\n");
+        }
+        break;
+    case HORIZON_ROUNDING:
+        fprintf(out, "to the end      rounding alone moves it, by %.2e %s\n",
+                c->off > c->range ? c->off : c->range, unit);
+        break;
+    }
+}
+
+/* --- behind the horizon ------------------------------------------------------------------------------*/
+
+static void print_momenta(FILE *out, const horizon *h) {
+    const image *im = image_of(h);
+    const books *b = h->of->books;
+    for (int i = 0; i < im->count; i++) {
+        if (im->unknown[i].conserved) {
+            fprintf(out, "  momentum of %s: drifts by at most %.2e %s\n", im->unknown[i].name,
+                    b->drift[i], im->unknown[i].momentum_si);
+        }
+    }
+}
+
+/* What holds of a run that is not the motion any more: what its books say. */
+static void print_invariants(FILE *out, const horizon *h) {
+    books *b = h->of->books;
+    fputs("behind its end no single value of a coordinate is to be relied on", out);
+    if (b == NULL) {
+        fputs("; a system of equations has no books that tell what still holds\n", out);
+        return;
+    }
+    const energy_residual balance = energy_residual_of(b, h->of->shape->kind, h->of->run);
+    fputs(", but what the books keep, to t = ", out);
+    fprintf(out, "%.9g s:\n", h->of->end_s);
+    if (!balance.known) {
+        fputs("  energy: its balance is not known\n", out);
+    } else if (energy_residual_lost(&balance, ENERGY_RESIDUAL_LIMIT)) {
+        fprintf(out,
+                "  energy: not kept either, %.2e of the largest entry of its books is left over\n",
+                balance.ratio);
+    } else {
+        fprintf(out, "  energy: %.2e of the largest entry of its books is left over\n",
+                balance.ratio);
+    }
+    print_momenta(out, h);
+}
+
+static void print_verdict(FILE *out, const horizon *h) {
+    const step_doubling *t = h->of;
+    char name[NAME_SIZE];
+    if (h->to_the_end) {
+        fprintf(out,
+                t->status == WH_OK ? "trusted to the end, t = %.9g s\n"
+                                   : "trusted to where the run fails, t = %.9g s\n",
+                t->end_s);
+        return;
+    }
+    if (t->unwrapped && h->until_s >= t->cut_s) {
+        fprintf(out, "not to be told behind t = %.9g s: double knows no sine beyond %g rad\n",
+                t->cut_s, ANGLE_SINE_MOST_RAD);
+    } else if (h->column[h->first].verdict == HORIZON_NOT_TOLD) {
+        fprintf(out, "not to be told: double has too few digits for %s, where it is\n",
+                name_of(h, h->first, name));
+    } else {
+        fprintf(out, "trusted until t = %.9g s of %.9g s: %s is off first\n", h->until_s, t->end_s,
+                name_of(h, h->first, name));
+    }
+    if (t->finer_failed_s >= 0.0 && !t->unwrapped) {
+        fprintf(out, "with half the step it leaves all bounds behind t = %.9g s\n",
+                t->finer_failed_s);
+    }
+    if (t->overrun_s >= 0.0) {
+        fprintf(out,
+                "behind t = %.9g s a step had more events than it takes: whether it is right there "
+                "only a smaller --step tells\n",
+                t->overrun_s);
+    }
+    if (t->jumped_s >= 0.0) {
+        fprintf(
+            out,
+            t->missed
+                ? "behind t = %.9g s a step passed through a contact or over an edge or a force: "
+                  "whirl run says which\n"
+                : "behind t = %.9g s a step jumped over a place where an expression grows "
+                  "without bound: no motion gets through there\n",
+            t->jumped_s);
+    }
+    if (t->aliased.column > 0) {
+        fprintf(out, "more goes on between the stages of its steps than they see, so that half the "
+                     "step says nothing\n");
+    }
+    print_invariants(out, h);
+}
+
+void horizon_print(FILE *out, const horizon *h) {
+    print_head(out, h);
+    if (image_of(h)->contacts > 0) {
+        fputs(
+            "  about an event, rates may differ for the steps that it lies in: that does not count\n",
+            out);
+    }
+    fprintf(out, "\nright to %.3g of its range until [s]\n", h->tolerance);
+    for (int k = 1; k < h->of->columns; k++) {
+        print_column(out, h, k);
+    }
+    print_verdict(out, h);
+}
+
+/* Why it ends where it does. */
+static void print_reason(FILE *out, const horizon *h) {
+    const step_doubling *t = h->of;
+    const bool cut = t->cut_s >= 0.0 && h->until_s >= t->cut_s;
+    char name[NAME_SIZE];
+    if (cut && t->overrun_s >= 0.0 && !(t->jumped_s >= 0.0 && t->jumped_s < t->overrun_s) &&
+        !(t->finer_failed_s >= 0.0 && t->finer_failed_s < t->overrun_s)) {
+        fputs("behind that a step had more events than it takes, of its own or of half its length",
+              out);
+    } else if (cut && t->missed && t->jumped_s >= 0.0) {
+        fputs(
+            "behind that a step passed through a contact or over an edge or a force, of its own or of half its length",
+            out);
+    } else {
+        fprintf(out, "behind that %s is off by %.3g of its range", name_of(h, h->first, name),
+                h->tolerance);
+    }
+}
+
+void horizon_print_line(FILE *out, const horizon *h, bool doubted) {
+    char name[NAME_SIZE];
+    if (h->to_the_end && doubted) {
+        fputs(
+            "trusted            not to be told: the runs beside it agree to the end, and may share what was warned of\n",
+            out);
+    } else if (h->to_the_end) {
+        fprintf(out, "trusted            to the end: every coordinate to %.3g of its range\n",
+                h->tolerance);
+    } else if (h->of->unwrapped && h->until_s >= h->of->cut_s) {
+        fprintf(out,
+                "trusted            not to be told behind t = %.6g s: double knows no sine beyond "
+                "%g rad\n",
+                h->of->cut_s, ANGLE_SINE_MOST_RAD);
+    } else if (h->column[h->first].verdict == HORIZON_NOT_TOLD) {
+        const horizon_column *c = &h->column[h->first];
+        fprintf(out,
+                "trusted            not to be told: double has too few digits for %s where it is; ",
+                name_of(h, h->first, name));
+        if (c->range > 0.0) {
+            fprintf(out, "rounding may move it by %.2g of its range\n", c->rounding / c->range);
+        } else {
+            fprintf(out, "rounding may be why it stands still\n");
+        }
+    } else if (h->of->aliased.column > 0) {
+        fputs(
+            "trusted            not to be told: more goes on between the stages of its steps than "
+            "they see\n",
+            out);
+    } else {
+        fprintf(out, "trusted            until t = %.6g s: ", h->until_s);
+        print_reason(out, h);
+        fputs(image_of(h)->has_energies ? "; the books below tell what still holds\n" : "\n", out);
+    }
+}
+
+const char *const horizon_words[] = {[HORIZON_TO_THE_END] = "end",
+                                     [HORIZON_UNTIL] = "until",
+                                     [HORIZON_STILL] = "still",
+                                     [HORIZON_ROUNDING] = "rounding",
+                                     [HORIZON_NOT_TOLD] = "untold"};
+
+void horizon_write(FILE *out, const horizon *h) {
+    char name[NAME_SIZE];
+    fputs("column,unit,verdict,until,range,off\r\n", out);
+    for (int k = 1; k < h->of->columns; k++) {
+        const horizon_column *c = &h->column[k];
+        fprintf(out, "%s,%s,%s,%.15g,%.17g,%.17g\r\n", name_of(h, k, name),
+                h->of->shape->column[k].unit->shown, horizon_words[c->verdict], c->until_s,
+                c->range, c->off);
+    }
+}

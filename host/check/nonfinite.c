@@ -1,0 +1,374 @@
+/* nonfinite.c: finding the expression that is no finite number. */
+#include "host/check/nonfinite.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "core/contact.h"
+#include "host/base/alloc.h"
+#include "host/base/statement.h"
+
+blamed blamed_open(const image *im) {
+    blamed b = {.image = im,
+                .state = alloc(im->count, sizeof *b.state),
+                .input = alloc(im->inputs, sizeof *b.input),
+                .value = alloc(im->blame.nodes, sizeof *b.value)};
+    image_inputs(im, b.input);
+    for (int i = 0; i < im->count; i++) {
+        b.state[i] = alloc(im->unknown[i].order + 1, sizeof **b.state);
+    }
+    return b;
+}
+
+void blamed_close(blamed *b) {
+    for (int i = 0; i < b->image->count; i++) {
+        free(b->state[i]);
+    }
+    free(b->state);
+    free(b->input);
+    free(b->value);
+}
+
+void blamed_place(blamed *b, const double *angle_rad, const double *real) {
+    const image *im = b->image;
+    for (int i = 0; i < im->angles; i++) {
+        b->state[im->angle[i].unknown][0] = angle_rad[i];
+    }
+    for (int i = 0; i < im->reals; i++) {
+        b->state[im->real[i].unknown][im->real[i].primes] = real[i];
+    }
+}
+
+double blamed_node(const blamed *b, const diagnostics_node *n) {
+    const double *value = b->value;
+    switch (n->code) {
+    case DIAGNOSTICS_NUMBER: return n->number;
+    case DIAGNOSTICS_STATE:
+        return n->b <= b->image->unknown[n->a].order ? b->state[n->a][n->b] : 0.0;
+    case DIAGNOSTICS_INPUT: return b->input[n->a];
+    case DIAGNOSTICS_SAME: return value[n->a];
+    case DIAGNOSTICS_ADD: return value[n->a] + value[n->b];
+    case DIAGNOSTICS_SUB: return value[n->a] - value[n->b];
+    case DIAGNOSTICS_MUL: return value[n->a] * value[n->b];
+    case DIAGNOSTICS_DIV: return value[n->a] / value[n->b];
+    case DIAGNOSTICS_POW: return number_power(value[n->a], value[n->b]);
+    case DIAGNOSTICS_NEG: return -value[n->a];
+    case DIAGNOSTICS_CALL:
+        return number_call(n->function, value[n->a], n->b < 0 ? 0.0 : value[n->b]);
+    }
+    return (double)NAN;
+}
+
+int blamed_operands(const diagnostics_node *n, int of[static 2]) {
+    switch (n->code) {
+    case DIAGNOSTICS_NUMBER:
+    case DIAGNOSTICS_STATE:
+    case DIAGNOSTICS_INPUT: return 0;
+    case DIAGNOSTICS_SAME:
+    case DIAGNOSTICS_NEG: of[0] = n->a; return 1;
+    case DIAGNOSTICS_ADD:
+    case DIAGNOSTICS_SUB:
+    case DIAGNOSTICS_MUL:
+    case DIAGNOSTICS_DIV:
+    case DIAGNOSTICS_POW:
+        of[0] = n->a;
+        of[1] = n->b;
+        return 2;
+    case DIAGNOSTICS_CALL:
+        of[0] = n->a;
+        of[1] = n->b;
+        return n->b < 0 ? 1 : 2;
+    }
+    return 0;
+}
+
+bool *blamed_parts(const image *im, int node) {
+    bool *of = alloc((int64_t)node + 1, sizeof *of);
+    of[node] = true;
+    for (int i = node; i >= 0; i--) {
+        int operand[2];
+        const int count = of[i] ? blamed_operands(&im->blame.node[i], operand) : 0;
+        for (int k = 0; k < count; k++) {
+            of[operand[k]] = true;
+        }
+    }
+    return of;
+}
+
+/* === which expression it is =================================================================== */
+
+static const char hint_domain[] =
+    "a root or logarithm of what is below zero, a division by zero, or a number beyond all: keep the motion, or the "
+    "expression, away from it";
+
+/* --- values ------------------------------------------------------------------------------------*/
+
+/* The unknowns at the last good state, and their highest derivatives there. */
+static void look_here(blamed *v, const nonfinite_at *at) {
+    const image *im = at->image;
+    double *result = alloc(im->list[IMAGE_BOOKS]->results, sizeof *result);
+    evaluator *ev = evaluator_new(im->list[IMAGE_BOOKS]);
+    evaluator_run(ev, 0.0, at->angle_rad, at->real, at->real + (im->coordinates - im->angles),
+                  v->input, result);
+    evaluator_free(ev);
+    for (int i = 0; i < im->count; i++) {
+        const image_unknown *u = &im->unknown[i];
+        for (int k = 0; k < u->order && k < u->starts; k++) {
+            v->state[i][k] = u->start[k]; /* of what is recovered from its momentum */
+        }
+        v->state[i][u->order] = isfinite(result[i]) ? result[i] : 0.0;
+    }
+    blamed_place(v, at->angle_rad, at->real);
+    free(result);
+}
+
+static bool is_sine(const diagnostics_node *n) {
+    return n->code == DIAGNOSTICS_CALL && (n->function == FN_SIN || n->function == FN_COS);
+}
+
+static double sine_limit_rad(const nonfinite_at *at) {
+    return at->turns ? ANGLE_SINE_MOST_FLOAT_RAD : ANGLE_SINE_MOST_RAD;
+}
+
+/* Is node i a sine that no run knows (core/sine.h)? In float those of turn angles are known everywhere. */
+static bool sine_beyond(const blamed *v, int i, const nonfinite_at *at, const bool *turning) {
+    const diagnostics_node *n = &v->image->blame.node[i];
+    const double angle_rad = is_sine(n) ? v->value[n->a] : 0.0;
+    const bool beyond = fabs(angle_rad) >= sine_limit_rad(at) && isfinite(angle_rad);
+    return beyond && !(at->turns && turning[n->a]);
+}
+
+/* [blame.nodes]: those with an angle in them that is kept as turns; the caller frees it. */
+static bool *nodes_that_turn(const image *im) {
+    bool *turning = alloc(im->blame.nodes, sizeof *turning);
+    for (int i = 0; i < im->blame.nodes; i++) {
+        const diagnostics_node *n = &im->blame.node[i];
+        int operand[2];
+        const int count = blamed_operands(n, operand);
+        for (int k = 0; k < count; k++) {
+            turning[i] = turning[i] || turning[operand[k]];
+        }
+        for (int k = 0; k < im->angles && n->code == DIAGNOSTICS_STATE; k++) {
+            turning[i] = turning[i] || (im->angle[k].unknown == n->a && n->b == 0);
+        }
+    }
+    return turning;
+}
+
+/* The state moved on by `ahead_s`. */
+static blamed look(const nonfinite_at *at, double ahead_s) {
+    const image *im = at->image;
+    blamed v = blamed_open(im);
+    look_here(&v, at);
+    for (int i = 0; i < im->count; i++) {
+        for (int k = 0; k < im->unknown[i].order; k++) {
+            v.state[i][k] += ahead_s * v.state[i][k + 1];
+        }
+    }
+    bool *turning = nodes_that_turn(im);
+    for (int i = 0; i < im->blame.nodes; i++) {
+        const bool unknown = sine_beyond(&v, i, at, turning);
+        v.value[i] = unknown ? (double)NAN : blamed_node(&v, &im->blame.node[i]);
+    }
+    free(turning);
+    return v;
+}
+
+/* --- questions ---------------------------------------------------------------------------------*/
+
+/* The innermost part that is not finite though its operands are; -1 when the whole is finite. */
+static int innermost(const blamed *v, int node) {
+    const diagnostics_node *n = &v->image->blame.node[node];
+    int part = -1;
+    if (isfinite(v->value[node])) {
+        return -1;
+    }
+    switch (n->code) {
+    case DIAGNOSTICS_NUMBER:
+    case DIAGNOSTICS_STATE:
+    case DIAGNOSTICS_INPUT: break;
+    case DIAGNOSTICS_SAME:
+    case DIAGNOSTICS_NEG: part = innermost(v, n->a); break;
+    case DIAGNOSTICS_ADD:
+    case DIAGNOSTICS_SUB:
+    case DIAGNOSTICS_MUL:
+    case DIAGNOSTICS_DIV:
+    case DIAGNOSTICS_POW:
+    case DIAGNOSTICS_CALL:
+        part = innermost(v, n->a);
+        part = part < 0 && n->b >= 0 ? innermost(v, n->b) : part;
+        break;
+    }
+    return part >= 0 ? part : node;
+}
+
+/* Reports `what` at `part`, where that stands in the line of the statement at `where`. */
+static void report(const nonfinite_at *at, place where, place part, const char *what,
+                   const char *hint, diags *errors) {
+    char text[STATEMENT_SIZE];
+    const bool same = part.source != NULL && part.source == where.source && part.line == where.line;
+    statement_text(where, text, sizeof text);
+    diag_error(errors, same ? part : where, hint, "%s %s is not a finite number: %s", at->when,
+               what, text);
+}
+
+/* Why node i, the innermost, is none. */
+static const char *hint_of(const blamed *v, int i, const nonfinite_at *at) {
+    static char hint[200];
+    const diagnostics_node *n = &v->image->blame.node[i];
+    const bool sine = is_sine(n) && isfinite(v->value[n->a]);
+    snprintf(
+        hint, sizeof hint,
+        "it is %s() of %.6g rad, and sine and cosine are known up to %g rad only: keep what it is taken of "
+        "smaller",
+        function_name(n->function), sine ? v->value[n->a] : 0.0, sine_limit_rad(at));
+    return sine ? hint : hint_domain;
+}
+
+/* The first question whose answer is no finite number is reported. */
+static bool find(const blamed *v, const nonfinite_at *at, int first, int count, diags *errors) {
+    const image_blame *b = &v->image->blame;
+    for (int i = first; i < first + count; i++) {
+        const diagnostics_question *q = &b->question[i];
+        if (!isfinite(v->value[q->node])) {
+            const place none = {.source = NULL};
+            const int inner = innermost(v, q->node);
+            const place part = q->derived ? none : b->node[inner].at;
+            report(at, q->where, part, q->what, hint_of(v, inner, at), errors);
+            return true;
+        }
+    }
+    return false;
+}
+
+/* Tries these questions on the state and on the way that it was about to go. */
+static bool look_ahead(const nonfinite_at *at, int first, int count, diags *errors) {
+    static const double shares[] = {0.0, 0.25, 0.5, 0.75, 1.0, 1.01, 1.5, 2.0};
+    bool found = false;
+    for (size_t i = 0; i < sizeof shares / sizeof shares[0] && !found; i++) {
+        if (shares[i] == 0.0 || shares[i] <= 2.0 * at->ahead_steps) {
+            blamed v = look(at, shares[i] * at->image->step_s);
+            found = find(&v, at, first, count, errors);
+            blamed_close(&v);
+        }
+    }
+    return found;
+}
+
+bool nonfinite_term(const nonfinite_at *at, diags *errors) {
+    return look_ahead(at, 0, at->image->blame.terms, errors);
+}
+
+bool nonfinite_set(const nonfinite_at *at, diags *errors) {
+    const image_blame *b = &at->image->blame;
+    return b->sets > 0 && look_ahead(at, b->terms, b->sets, errors);
+}
+
+void nonfinite_contact(const nonfinite_at *at, int k, diags *errors) {
+    const image_contact *c = &at->image->contact[k];
+    if (!look_ahead(at, c->first_question, c->questions, errors) &&
+        !look_ahead(at, c->first_late, c->late, errors)) {
+        report(at, c->at, (place){.source = NULL}, c->undefined, hint_domain, errors);
+    }
+}
+
+/* --- angles ------------------------------------------------------------------------------------*/
+
+/* The largest angle of which the list takes a sine, among those kept as turn angles. */
+static double largest_phase(const op_list *t, const double *angle_rad) {
+    double most = 0.0;
+    for (int i = 0; i < t->count; i++) {
+        const op *o = &t->ops[i];
+        double sum = o->code == OP_PHASE ? o->value : 0.0;
+        for (int k = 0; k < t->angles && o->code == OP_PHASE && o->turns != NULL; k++) {
+            sum += o->turns[k] * angle_rad[k];
+        }
+        most = number_most(most, fabs(sum));
+    }
+    return most;
+}
+
+bool nonfinite_angle(const nonfinite_at *at, diags *errors) {
+    const image *im = at->image;
+    const double limit = sine_limit_rad(at);
+    const bool phase =
+        !at->turns && largest_phase(im->list[IMAGE_BOOKS], at->angle_rad) >= limit * (1.0 - 1e-6);
+    const image_unknown *worst = NULL;
+    double most = 0.0;
+    for (int i = 0; i < im->angles + im->reals; i++) {
+        const component c = image_component(im, i);
+        const double value = i < im->angles ? at->angle_rad[i] : at->real[i - im->angles];
+        const image_unknown *u = &im->unknown[c.unknown];
+        const bool counts =
+            i < im->angles ? phase : u->is_angle && fabs(value) >= limit * (1.0 - 1e-6);
+        if (c.primes == 0 && counts && fabs(value) > most) {
+            worst = u;
+            most = fabs(value);
+        }
+    }
+    if (worst == NULL) {
+        return false;
+    }
+    diag_error(errors, worst->at,
+               at->turns ? "start it within a turn: whole turns change nothing in a sine"
+                         : "start it within a turn: whole turns change nothing in a sine; or "
+                           "--number float, whose angles count turns as integers",
+               "%s the angle '%s' is at %.9g rad: sine and cosine are known up to %g rad only",
+               at->when, worst->name, most, limit);
+    return true;
+}
+
+bool nonfinite_energies(const image *im, const engine_kind *kind, const double *angle_rad,
+                        const double *real, double time_s, diags *errors) {
+    char when[60];
+    snprintf(when, sizeof when, "at t = %.9g s", time_s);
+    const nonfinite_at at = {.image = im,
+                             .angle_rad = angle_rad,
+                             .real = real,
+                             .turns = kind == &engine_float,
+                             .when = when};
+    return nonfinite_angle(&at, errors) || nonfinite_term(&at, errors);
+}
+
+/* --- a step that failed ------------------------------------------------------------------------*/
+
+/* Holds that close a linkage leave it more than one motion where it lies flat (core/contact_rank.h). */
+static void say_flat(const nonfinite_at *at, place where, diags *errors) {
+    char text[STATEMENT_SIZE];
+    statement_text(where, text, sizeof text);
+    diag_error(
+        errors, where,
+        "give the linkage lengths with which it cannot lie flat, or hold one coordinate more there",
+        "%s the holds leave more than one way to go on, this one says no more than the others: "
+        "%s",
+        at->when, text);
+}
+
+bool nonfinite_step(const image *im, const engine_kind *kind, const void *run, wh_status status,
+                    diags *errors) {
+    double angle_rad[IMAGE_COMPONENTS_MAX];
+    double real[2 * IMAGE_COMPONENTS_MAX];
+    char when[80];
+    const int fault = kind->fault(run);
+    snprintf(when, sizeof when, "in the step after t = %.9g s",
+             ratio_times(kind->steps(run), im->step));
+    kind->state(run, angle_rad, real);
+    const nonfinite_at at = {.image = im,
+                             .angle_rad = angle_rad,
+                             .real = real,
+                             .turns = kind == &engine_float,
+                             .ahead_steps = 1.0,
+                             .when = when};
+    if (nonfinite_angle(&at, errors)) {
+        return true;
+    }
+    if (status == WH_E_UNDEFINED) {
+        nonfinite_contact(&at, fault, errors);
+        return true;
+    }
+    if (status == WH_E_SINGULAR) {
+        say_flat(&at, im->contact[fault].at, errors);
+        return true;
+    }
+    return nonfinite_set(&at, errors) || nonfinite_term(&at, errors);
+}

@@ -1,0 +1,312 @@
+/* run_checks.c: see run_checks.h. */
+#include "run_checks.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "aliasing.h"
+#include "apart.h"
+#include "host/base/alloc.h"
+#include "host/number/functions.h"
+#include "slow.h"
+
+run_checks *run_checks_open(const image *im, const image *plain, const engine_kind *kind, void *run,
+                            budget *of) {
+    run_checks *v = alloc(1, sizeof *v);
+    v->image = im;
+    v->kind = kind;
+    v->run = run;
+    v->part = 1.0;
+    v->plain = plain;
+    v->budget = of != NULL ? of : &v->own;
+    v->books = books_open(im);
+    v->watch = run_monitor_open(im, kind);
+    v->jumped = pole_crossing_open(im);
+    const step_doubling_wish wish = {.image = im,
+                                     .kind = kind,
+                                     .plain = plain != NULL ? plain : im,
+                                     .watched = true,
+                                     .jumped = v->jumped};
+    if (im->steps > 0 && step_doubling_finer_operations(im, wish.plain) <= budget_left(v->budget)) {
+        v->twins = step_doubling_open(&wish, run);
+    }
+    return v;
+}
+
+void run_checks_close(run_checks *v) {
+    if (v != NULL) {
+        step_doubling_free(v->twins);
+        pole_crossing_close(v->jumped);
+        run_monitor_close(v->watch);
+        books_close(v->books);
+        free(v);
+    }
+}
+
+/* Steps with more events than they take, and whose events these were. */
+static void watch_events(run_checks *v) {
+    uint64_t overruns;
+    const double energy_J = v->books != NULL ? v->books->energy_J[1] : 0.0;
+    v->kind->events(v->run, &overruns);
+    if (overruns > v->overruns) {
+        engine_event event[WH_EVENT_LOG];
+        const int count = v->kind->happened(v->run, event);
+        const uint64_t begin = v->kind->steps(v->run) - 1U;
+        v->overran_s = v->overruns == 0 ? ratio_times(begin, v->image->step) : v->overran_s;
+        v->overruns = overruns;
+        v->taken_J += fabs(energy_J - v->energy_J);
+        for (int i = 0; i < count; i++) {
+            v->in_overruns[event[i].contact]++;
+        }
+    }
+    v->energy_J = energy_J;
+}
+
+/* The part of the budget that is left beyond what the steps to come may take. Below 0, what is less important than the finer run is
+ * not looked at: so it is now and then in all of the run, and not at its begin alone. */
+static double part_left(const run_checks *v) {
+    const double come = (double)(v->image->steps - v->kind->steps(v->run));
+    const double share = v->budget == &v->own ? come / (double)(v->image->steps + 1U) : 0.0;
+    return budget_left(v->budget) / BUDGET_LEAST - share;
+}
+
+/* Further below than this the finer run alone takes too much, and would not come to its end. */
+#define BEHIND (-1.0 / 16.0)
+
+void run_checks_enter(run_checks *v) {
+    budget_begin(v->budget);
+    if (v->books != NULL) {
+        books_enter(v->books, v->kind, v->run);
+    }
+    run_monitor_enter(v->watch, v->kind, v->books, v->run);
+    if (v->image->contacts > 0) {
+        watch_events(v);
+    }
+    const bool jumps = part_left(v) >= 0.0;
+    if (jumps) {
+        pole_crossing_enter(v->jumped, v->kind, v->run);
+    } else {
+        pole_crossing_pass(v->jumped);
+    }
+    if (part_left(v) < BEHIND) {
+        step_doubling_free(v->twins);
+        v->twins = NULL;
+    }
+    if (v->twins != NULL) {
+        v->twins->jumps = jumps;
+        step_doubling_enter(v->twins);
+    }
+    budget_end(v->budget);
+}
+
+/* --- judging -----------------------------------------------------------------------------------------------*/
+
+/* An acceleration that rounding moves by less than the tolerance of trust leaves the run right: a note. */
+static void tell(run_checks *v, finding_id id, double value, double at_s, int of) {
+    const bool is_note = finding_rows[id].severity == FINDING_NOTE ||
+                         (id == FINDING_MASS && value <= HORIZON_TOLERANCE);
+    v->found[id] = (finding){true, value, at_s, of};
+    v->against |= is_note ? 0U : FINDING_BIT(id);
+}
+
+static double end_s(const run_checks *v) {
+    return ratio_times(v->kind->steps(v->run), v->image->step);
+}
+
+/* Is it right to the end, as far as the finer run tells? */
+static bool is_right(const run_checks *v) {
+    if (v->twins == NULL) {
+        return false;
+    }
+    horizon h = horizon_of(v->twins, HORIZON_TOLERANCE);
+    const bool right = h.to_the_end;
+    horizon_free(&h);
+    return right;
+}
+
+/* Where the rule that integrates powers may be off by as much as is left over, the finer run decides. */
+static void judge_energy(run_checks *v) {
+    const energy_residual *b = &v->balance;
+    if (!b->known || b->exact) {
+        if (energy_residual_lost(b, v->part * finding_rows[FINDING_ENERGY].limit)) {
+            tell(v, FINDING_ENERGY, b->ratio, -1.0, -1);
+        }
+        return;
+    }
+    const double way_J = v->image->contacts == 0 ? v->books->most_J : 0.0;
+    const bool on_the_way =
+        way_J > v->part * RUN_CHECKS_ON_THE_WAY * b->largest_J && way_J > b->rounding_J;
+    const bool in_doubt = v->kind->steps(v->run) % 2U == 1U || /* half of a pair is a trapezoid */
+                          number_most(fabs(b->left_J), way_J) <= v->books->rule_J;
+    const bool by_the_rule = v->image->contacts == 0 && in_doubt && is_right(v);
+    const bool is_lost = energy_residual_lost(b, v->part * finding_rows[FINDING_ENERGY].limit);
+    const bool is_told = (is_lost || on_the_way) && !by_the_rule;
+    if (is_told) {
+        tell(v, FINDING_ENERGY, number_most(b->ratio, on_the_way ? way_J / b->largest_J : 0.0),
+             b->jump_s, -1);
+    }
+}
+
+/* Less energy than this part of all is that of a speed which float's rounding of the others covers. */
+#define FAINT 0x1p-48
+
+static bool is_faint(const run_checks *v, int unknown) {
+    const step_doubling *t = v->twins;
+    const int rate = image_find_component(v->image, unknown, 1);
+    if (v->books == NULL || v->kind != &engine_float || rate < 0) {
+        return false;
+    }
+    const double own = number_most(fabs(v->watch->low[rate]), fabs(v->watch->high[rate]));
+    double fastest = own; /* of the finer run as well: float's may stand still */
+    for (int k = 1; k < t->columns; k++) {
+        const record_column *c = &t->shape->column[k];
+        if (c->unknown == unknown && c->primes == 1) {
+            fastest = number_most(fastest, t->column[k].off.most / t->column[k].one);
+        }
+    }
+    const double mass = books_momentum(v->books, unknown) / own;
+    return own > 0.0 && mass > 0.0 && mass * fastest * fastest < FAINT * v->books->size_J;
+}
+
+/* An angle of a float run goes by units, and is off by two of them at any time. */
+static bool is_of_units(const run_checks *v, int k, const horizon_column *c) {
+    const step_doubling_column *t = &v->twins->column[k];
+    const int own = image_find_component(v->image, v->twins->shape->column[k].unknown, 0);
+    return v->kind == &engine_float && v->twins->shape->column[k].primes == 0 && own >= 0 &&
+           own < v->image->angles && c->off <= SLOW_LEAST_RAD * t->one;
+}
+
+/* Beside contacts rates jump, and are off for the steps in which two runs do not jump together. */
+static bool is_asked(const run_checks *v, int k) {
+    const record_column *c = &v->twins->shape->column[k];
+    return (v->image->contacts == 0 || c->primes == 0) && horizon_moves(v->twins, k) &&
+           !is_faint(v, c->unknown);
+}
+
+static bool is_worse(const horizon_column *a, const horizon_column *b) {
+    return a->until_s < b->until_s ||
+           (a->until_s == b->until_s && a->off * b->range > b->off * a->range);
+}
+
+/* The column that is right to a hundredth for the shortest time, where its error has grown as a power of the time at most: -1: none.
+ * What a chaotic motion makes of it grows faster, and no step helps; the line of trust tells that. */
+static int first_off(const run_checks *v, const horizon *h) {
+    const step_doubling *t = v->twins;
+    int found = -1;
+    horizon early = horizon_of(t, v->part * RUN_CHECKS_EARLY_TOLERANCE);
+    for (int k = 1; k < t->columns; k++) {
+        const horizon_column *c = &h->column[k];
+        if (c->verdict == HORIZON_UNTIL && is_asked(v, k) && !is_of_units(v, k, c) &&
+            (early.column[k].until_s <= RUN_CHECKS_BEGIN * t->end_s ||
+             c->until_s >= RUN_CHECKS_GROWS * early.column[k].until_s) &&
+            (found < 0 || is_worse(c, &h->column[found]))) {
+            found = k;
+        }
+    }
+    horizon_free(&early);
+    return found;
+}
+
+/* Steps with too many events, and runs cut off for another reason, have findings of their own. */
+static void judge_accuracy(run_checks *v) {
+    const step_doubling *t = v->twins;
+    horizon h = horizon_of(t, v->part * RUN_CHECKS_TOLERANCE);
+    const int k = t->aliased.column > 0 ? -1 : first_off(v, &h);
+    const double until_s = k >= 0 ? h.column[k].until_s : 0.0;
+    const bool is_cut = t->cut_s >= 0.0 && until_s >= t->cut_s && t->finer_failed_s < 0.0;
+    if (k >= 0 && !is_cut && until_s < finding_rows[FINDING_ACCURACY].limit * end_s(v)) {
+        tell(v, FINDING_ACCURACY, until_s / end_s(v), until_s, k);
+    }
+    horizon_free(&h);
+}
+
+/* Where a position goes off, or did before, singular coordinates are the likely reason. */
+static void judge_singular(run_checks *v) {
+    const run_monitor_singular *s = &v->watch->singular;
+    if (s->inertia > finding_rows[FINDING_SINGULAR].limit) {
+        return;
+    }
+    horizon h = horizon_of(v->twins, RUN_CHECKS_NEAR_TOLERANCE);
+    int off = -1;
+    for (int k = 1; k < v->twins->columns; k++) {
+        if (v->twins->shape->column[k].primes == 0 && h.column[k].verdict == HORIZON_UNTIL &&
+            (off < 0 || is_worse(&h.column[k], &h.column[off]))) {
+            off = k;
+        }
+    }
+    if (off >= 0) {
+        tell(v, FINDING_SINGULAR, s->inertia, s->at_s, off);
+    }
+    horizon_free(&h);
+}
+
+static void judge_jumps(run_checks *v) {
+    double begin_s;
+    if (pole_crossing_some(v->jumped)) {
+        const missed_found through = pole_crossing_through(v->jumped, &begin_s);
+        tell(v, through.what >= 0 ? FINDING_MISSED : FINDING_POLE,
+             through.what < 0 || through.sure ? 1.0 : 0.5, begin_s, through.what);
+    }
+}
+
+static void judge_aliasing(run_checks *v) {
+    const step_doubling_aliased *found = &v->twins->aliased;
+    if (found->column > 0) {
+        tell(v, FINDING_ALIASED, found->part, found->at_s, found->column);
+    }
+}
+
+static void judge_events(run_checks *v) {
+    const double steps = (double)v->kind->steps(v->run);
+    const bool rests = v->taken_J <= RUN_CHECKS_RESTS * v->balance.largest_J &&
+                       (double)v->overruns <= 1.0 + RUN_CHECKS_RESTS_STEPS * steps;
+    if (v->overruns > 0 && !(v->balance.known && rests)) {
+        tell(v, FINDING_EVENTS, (double)v->overruns, v->overran_s, -1);
+    }
+}
+
+static void judge(run_checks *v) {
+    if (v->image->mass_blur > finding_rows[FINDING_MASS].limit) {
+        tell(v, FINDING_MASS, v->image->mass_blur, -1.0, -1);
+    }
+    if (v->image->unbounded) {
+        tell(v, FINDING_CONSTANTS, 1.0, -1.0, -1);
+    }
+    judge_energy(v);
+    if (v->twins != NULL && v->kind->steps(v->run) > 0) {
+        judge_accuracy(v);
+        judge_singular(v);
+        judge_aliasing(v);
+    }
+    judge_jumps(v);
+    judge_events(v);
+    const double part = apart_say(NULL, NULL, v->image);
+    if (part > 0.0) {
+        tell(v, FINDING_APART, part, 0.0, -1);
+    }
+    const double slow = slow_share(v->kind, v->image, v->run);
+    if (slow > 0.0) {
+        tell(v, FINDING_DIGITS, slow, -1.0, -1);
+    }
+}
+
+void run_checks_end(run_checks *v, wh_status status) {
+    budget_begin(v->budget);
+    if (v->twins != NULL) {
+        step_doubling_end(v->twins, status);
+        v->unaliased = !aliasing_find(v->twins, v->budget);
+    }
+    v->balance = energy_residual_of(v->books, v->kind, v->run);
+    if (status == WH_OK) {
+        judge(v);
+    }
+    budget_end(v->budget);
+}
+
+unsigned run_checks_fails(const run_checks *v, double strict) {
+    const unsigned energy = FINDING_BIT(FINDING_ENERGY);
+    return strict == STRICT_FINDINGS ? v->against
+           : strict < 0.0
+               ? 0U
+               : (v->against & ~energy) | (energy_residual_lost(&v->balance, strict) ? energy : 0U);
+}

@@ -1,0 +1,30 @@
+/* run_json.h: a run, or until when one is trusted, as one JSON object (docs/warnings.md has the schema). */
+#ifndef CHECK_RUN_JSON_H
+#define CHECK_RUN_JSON_H
+
+#include "host/base/json.h"
+#include "host/check/horizon.h"
+#include "host/io/records.h"
+
+enum { RUN_JSON_FILES = 4 };
+
+typedef struct run_json_wish {
+    const struct run_checks *verdict;
+    const records *records;           /* with the last state */
+    const char *said;                 /* by findings_say(); or NULL */
+    double until_s;                   /* trusted; below 0: not told */
+    int status;                       /* exit status */
+    const char *file[RUN_JSON_FILES]; /* that were asked for; or NULL */
+} run_json_wish;
+
+void run_json(FILE *out, const run_json_wish *w);
+/* `status`: exit status. */
+void horizon_json(FILE *out, const horizon *h, int status);
+
+/* The keys with which every command's object begins. `kind` is NULL of one that compares numbers and methods. */
+void json_begin(json *j, const char *command, const char *scene, const char *title,
+                const engine_kind *kind, wh_method method);
+/* A time, or null below zero. */
+void json_time(json *j, const char *key, double time_s);
+
+#endif

@@ -1,0 +1,500 @@
+/* simulate.c: the loop of a run and what surrounds it. */
+#include "simulate.h"
+
+#include <inttypes.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <time.h>
+
+#include "core/contact.h"
+#include "findings.h"
+#include "host/base/alloc.h"
+#include "host/base/atomic_file.h"
+#include "host/base/exit.h"
+#include "host/base/statement.h"
+#include "host/check/horizon.h"
+#include "host/check/nonfinite.h"
+#include "host/check/summary.h"
+#include "host/io/gnuplot.h"
+#include "host/io/minmax_decimation.h"
+#include "host/io/records.h"
+#include "host/io/traces.h"
+#include "host/number/functions.h"
+#include "run_json.h"
+
+/* Events that a picture marks at most. */
+#define MARKS 400.0
+
+typedef struct simulation {
+    const image *image;
+    const simulation_settings *settings;
+    void *run;
+    records *records;
+    run_checks *verdict;
+    FILE *csv;
+    FILE *columns;
+    FILE *vcd;
+    traces *traces;   /* NULL without --vcd */
+    decimation *plot; /* NULL without a picture */
+    plot_run course;  /* names and marks of a picture, and of the file about the CSV file */
+    opening opening;  /* of the summary */
+    uint64_t steps;   /* wanted */
+    bool write_failed;
+    double shown_s;   /* when progress was, of the clock */
+    char *said;       /* the findings */
+    diags *undefined; /* what was not a finite number beside the motion */
+    bool energies_told;
+    int output;           /* the first output that was not a finite number, or -1, */
+    double output_s;      /* when, */
+    double trusted_s;     /* behind it the plot is shaded; not above 0: nowhere */
+    uint64_t output_rows; /* in how many of the records and points */
+} simulation;
+
+static double now_s(void) {
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+/* True when the file is open or there is none to open. */
+static bool open_records(const char *name, FILE **file) {
+    if (name != NULL) {
+        *file = atomic_file_open(name);
+    }
+    return name == NULL || *file != NULL;
+}
+
+static bool open_files(simulation *sim) {
+    const simulation_settings *s = sim->settings;
+    if (s->plot != NULL && (!gnuplot_can_draw_for("run", "--plot", s->plot) ||
+                            !plot_fits("run", &s->choice, &sim->course, 1))) {
+        return false;
+    }
+    int power;
+    if (s->vcd != NULL && !traces_power(sim->image, s->every, &power)) {
+        fputs("whirl run: error: --vcd counts times in femtoseconds at the finest, up to 2^52 of a "
+              "unit: these records lie closer\n"
+              "hint: a larger --every; --csv has no such limit\n",
+              stderr);
+        return false;
+    }
+    if (!open_records(s->csv, &sim->csv) || !open_records(s->columns, &sim->columns) ||
+        !open_records(s->vcd, &sim->vcd)) {
+        return false;
+    }
+    if (!atomic_file_can(s->plot)) {
+        return false;
+    }
+    if (s->plot != NULL || s->taken != NULL) {
+        sim->plot = decimation_new(sim->records->columns, plot_is_path(&s->choice));
+    }
+    return true;
+}
+
+/* Energies that are no numbers end as a failed run: the motion goes on, and so do its records. */
+static void tell_energies(simulation *sim) {
+    const books *b = sim->verdict->books;
+    if (b == NULL || !b->undefined || sim->energies_told) {
+        return;
+    }
+    sim->energies_told = true;
+    if (!nonfinite_energies(sim->image, sim->settings->kind, b->angle_rad, b->real, b->undefined_s,
+                            sim->undefined)) {
+        diag_error(sim->undefined, sim->image->mechanism_at, NULL,
+                   "at t = %.9g s the energies and powers of '%s' are not finite numbers",
+                   b->undefined_s, sim->image->mechanism);
+    }
+}
+
+/* The same of the outputs, where they are recorded or drawn, and at the end. */
+static void watch_outputs(simulation *sim, double time_s) {
+    const int own = sim->image->own_outputs;
+    const double *value = sim->records->row + (sim->records->columns - own);
+    bool finite = true;
+    for (int i = 0; i < own; i++) {
+        if (!isfinite(value[i])) {
+            finite = false;
+            if (sim->output < 0) {
+                sim->output = i;
+                sim->output_s = time_s;
+            }
+        }
+    }
+    sim->output_rows += finite ? 0 : 1;
+}
+
+static void tell_outputs(simulation *sim) {
+    if (sim->output < 0) {
+        return;
+    }
+    const image_quantity *s = &sim->image->output[sim->output];
+    char text[STATEMENT_SIZE];
+    char rows[80] = "";
+    statement_text(s->at, text, sizeof text);
+    if (sim->output_rows > 1) {
+        snprintf(rows, sizeof rows, " (and in %llu more records)",
+                 (unsigned long long)sim->output_rows - 1);
+    }
+    diag_error(sim->undefined, s->at, "give it a value wherever the run goes",
+               "at t = %.9g s%s the output '%s' is not a finite number: %s", sim->output_s, rows,
+               s->name, text);
+}
+
+static bool has_records(const simulation *sim) {
+    return sim->csv != NULL || sim->columns != NULL || sim->vcd != NULL;
+}
+
+/* An event of the step that was done, unless the last one is as near that no picture shows both. Lifting off a stop is
+ * none. */
+static void mark_events(simulation *sim, uint64_t step) {
+    engine_event list[WH_EVENT_LOG];
+    plot_run *to = &sim->course;
+    const image *im = sim->image;
+    const int count = im->contacts > 0 ? sim->settings->kind->happened(sim->run, list) : 0;
+    for (int i = 0; i < count; i++) {
+        const double at_s = ratio_times(step - 1, im->step) + list[i].at_s;
+        const bool counts = im->contact[list[i].contact].kind != WH_STOP || list[i].strikes;
+        if (counts && (to->marks == 0 || at_s - to->mark_s[to->marks - 1] > im->until_s / MARKS)) {
+            to->mark_s = alloc_more(to->mark_s, to->marks + 1, sizeof *to->mark_s);
+            to->mark_s[to->marks++] = at_s;
+        }
+    }
+}
+
+/* Enter the present state wherever it belongs. */
+static void enter(simulation *sim, uint64_t step) {
+    const bool record =
+        has_records(sim) && (step % sim->settings->every == 0 || step == sim->steps);
+    if (sim->traces != NULL) {
+        traces_step(sim->traces, sim->run, step);
+    }
+    run_checks_enter(sim->verdict);
+    tell_energies(sim);
+    if (step > 0 && (sim->csv != NULL || sim->plot != NULL)) {
+        mark_events(sim, step);
+    }
+    const bool opens = !sim->settings->quiet && step % sim->opening.each == 0;
+    if (!record && sim->plot == NULL && !opens) {
+        return;
+    }
+    records_read(sim->records, sim->run, ratio_times(step, sim->image->step));
+    if (opens) {
+        opening_enter(&sim->opening, sim->records);
+    }
+    if (!record && sim->plot == NULL) {
+        return;
+    }
+    watch_outputs(sim, sim->records->row[0]);
+    if (record) {
+        sim->write_failed = !records_write(sim->records) || sim->write_failed;
+        if (sim->traces != NULL) {
+            sim->write_failed = !traces_record(sim->traces, step) || sim->write_failed;
+        }
+    }
+    if (sim->plot != NULL) {
+        decimation_enter(sim->plot, sim->records->row);
+    }
+}
+
+static bool see(void *of, uint64_t step) {
+    simulation *sim = of;
+    enter(sim, step);
+    if (sim->settings->progress && (step & 255U) == 0 && now_s() - sim->shown_s > 0.2) {
+        sim->shown_s = now_s();
+        fprintf(stderr, "\r%5.1f %%", 100.0 * (double)step / (double)sim->steps);
+    }
+    return !sim->write_failed;
+}
+
+static wh_status go(simulation *sim, bool *ended) {
+    const simulation_settings *s = sim->settings;
+    const loop l = {.kind = s->kind,
+                    .run = sim->run,
+                    .steps = sim->steps,
+                    .own = &sim->verdict->own,
+                    .see = see,
+                    .of = sim};
+    wh_status status;
+    sim->shown_s = now_s();
+    *ended = loop_run(&l, &status) == LOOP_INTERRUPTED;
+    if (s->progress) {
+        fprintf(stderr, "\r        \r");
+    }
+    return status;
+}
+
+/* Said with --quiet, too: what was asked for is not what there is. */
+static void say_interrupted(const simulation *sim) {
+    const uint64_t done = sim->settings->kind->steps(sim->run);
+    const double step_s = sim->image->step_s;
+    fprintf(stderr, "whirl run: interrupted at t = %.9g s of %.9g s%s\n", (double)done * step_s,
+            (double)sim->steps * step_s, has_records(sim) ? "; the records so far are kept" : "");
+}
+
+/* Held at an end of their ranges, which is no error of the run's but hardly what was meant. */
+static void say_saturated(const simulation *sim) {
+    const engine_kind *kind = sim->settings->kind;
+    const uint64_t held = kind->saturated != NULL ? kind->saturated(sim->run) : 0;
+    if (held > 0) {
+        fprintf(stderr,
+                "whirl run: warning: %" PRIu64 " value%s saturated: held at an end of the range\n"
+                "hint: widen it: range NAME = A .. B\n",
+                held, held == 1 ? "" : "s");
+    }
+}
+
+/* A restitution that depends on the motion has left its range. */
+static void say_clamped(const simulation *sim) {
+    const engine_kind *kind = sim->settings->kind;
+    const engine_clamped c =
+        kind->clamped != NULL ? kind->clamped(sim->run) : (engine_clamped){.count = 0};
+    if (c.count > 0) {
+        char statement[STATEMENT_SIZE];
+        statement_text(sim->image->contact[c.contact].at, statement, sizeof statement);
+        fprintf(stderr,
+                "whirl run: warning: the restitution was outside 0 .. 1 in %" PRIu64
+                " impact%s, first %.6g in the step after t = %.6g s, and counted as %d: %s\n"
+                "hint: limit it: restitution max(0, min(1, ...))\n",
+                c.count, c.count == 1 ? "" : "s", c.value, c.begin_s, c.value > 1.0 ? 1 : 0,
+                statement);
+    }
+}
+
+/* What the run came to, and the words for it. */
+static simulation_result judge(simulation *sim, wh_status status, bool ended) {
+    const simulation_settings *s = sim->settings;
+    records_read(sim->records, sim->run, ratio_times(s->kind->steps(sim->run), sim->image->step));
+    if (status != WH_OK) { /* which says why the energies are no numbers either */
+        failure_say(stderr, status, sim->verdict);
+        diags_free(sim->undefined);
+        sim->undefined = diags_new();
+    } else if (sim->output < 0) { /* an output is watched at the end, too, recorded or not */
+        watch_outputs(sim, sim->records->row[0]);
+    }
+    tell_outputs(sim);
+    say_saturated(sim);
+    say_clamped(sim);
+    const bool undefined = diags_count(sim->undefined) > 0;
+    diags_flush(sim->undefined, stderr);
+    const books *b = sim->verdict->books;
+    if (status == WH_OK && b != NULL && b->undefined &&
+        sim->output < 0) { /* of outputs a cure knows nothing */
+        findings_say_failed(stderr, sim->verdict);
+    }
+    if (status != WH_OK || undefined) {
+        return SIMULATION_FAILED;
+    }
+    const bool fails = s->strict > 0.0 && energy_residual_lost(&sim->verdict->balance, s->strict);
+    size_t length;
+    FILE *text = alloc_text(&sim->said, &length);
+    findings_say(text, sim->verdict, fails);
+    alloc_text_end(text);
+    fputs(sim->said, stderr);
+    return ended ? SIMULATION_INTERRUPTED : SIMULATION_DONE;
+}
+
+/* The quantities' names, as in the records. */
+static void name_course(simulation *sim) {
+    const image *im = sim->image;
+    const records *r = sim->records;
+    const char *words = im->title[0] != '\0' ? im->title : im->name;
+    const char *changes = sim->settings->changes != NULL ? sim->settings->changes : "";
+    char *title = alloc_words("%s%s%s", im->name, words != im->name ? ": " : "",
+                              words != im->name ? words : "");
+    char *label = alloc_words("%s%s%s", words, changes[0] != '\0' ? ", " : "", changes);
+    plot_run_open(&sim->course, title, label, r->columns);
+    plot_run_name(&sim->course, 0, "time", "s", "");
+    for (int i = 1; i < r->columns; i++) {
+        const record_column *c = &r->column[i];
+        char *name = records_name(c);
+        plot_run_name(&sim->course, i, name, c->unit->shown,
+                      c->primes > 0     ? ""
+                      : c->unknown >= 0 ? im->unknown[c->unknown].text
+                                        : im->output[i - (r->columns - im->own_outputs)].text);
+        free(name);
+    }
+    free(title);
+    free(label);
+}
+
+/* Beside a CSV file of its own name: what it was run from. */
+static bool write_about(const simulation *sim) {
+    char *facts = about_facts(sim->image, sim->settings->kind, sim->run);
+    char *tables = about_tables(sim->image);
+    const bool written = plot_run_about(sim->settings->csv, &sim->course, facts, tables);
+    free(facts);
+    free(tables);
+    return written;
+}
+
+/* Whether all of it is on its way. Standard output is checked at the program's end. */
+static bool is_taken(FILE *file) {
+    return file == NULL || file == stdout || (fflush(file) == 0 && ferror(file) == 0);
+}
+
+/* All of the records and the file about them, or none, replace the old ones. */
+static bool close_records(simulation *sim, bool keep) {
+    const simulation_settings *s = sim->settings;
+    struct stat there;
+    keep = keep && is_taken(sim->csv) && is_taken(sim->columns) && is_taken(sim->vcd);
+    bool good = !keep || sim->csv == NULL || sim->csv == stdout ||
+                fstat(fileno(sim->csv), &there) != 0 || !S_ISREG(there.st_mode) || write_about(sim);
+    keep = keep && good;
+    good = atomic_file_close(sim->csv, s->csv, keep) && good;
+    good = atomic_file_close(sim->columns, s->columns, keep) && good;
+    return atomic_file_close(sim->vcd, s->vcd, keep) && good;
+}
+
+/* The picture, or what it is made of for the caller. */
+static bool finish_course(simulation *sim) {
+    if (sim->plot != NULL) {
+        sim->course.data = decimation_rows(sim->plot, &sim->course.rows);
+    }
+    bool good = true;
+    if (sim->settings->taken != NULL) {
+        *sim->settings->taken = sim->course;
+        sim->course = (plot_run){0};
+    } else if (sim->settings->plot != NULL) {
+        good = plot_draw("run", sim->settings->plot, &sim->settings->choice, &sim->course, 1);
+    }
+    return good;
+}
+
+FILE *simulation_summary(const simulation_settings *s) {
+    const char *const files[] = {s->csv, s->columns, s->vcd};
+    FILE *out = stdout;
+    for (int i = 0; i < 3; i++) {
+        out = files[i] != NULL && strcmp(files[i], "-") == 0 ? stderr : out;
+    }
+    return out;
+}
+
+/* For a reader: a sentence, the findings, then the numbers. */
+static void print_summary(simulation *sim, wh_status status, simulation_result result,
+                          const horizon *h) {
+    const simulation_settings *s = sim->settings;
+    FILE *out = simulation_summary(s);
+    if (status == WH_OK) {
+        opening_enter(&sim->opening, sim->records);
+        opening_print(out, &sim->opening, sim->records, sim->verdict->books);
+    }
+    if (s->chosen != NULL) {
+        fprintf(out, "%s%s\n", s->chosen,
+                (sim->verdict->against & ~FINDING_OF_SCENE) != 0
+                    ? "; chosen for this error alone, and the warning is about the whole motion"
+                    : "");
+    }
+    summary_head(out, sim->image, s->kind, sim->run);
+    if (s->no_scene) {
+        fputs("  no scene was named: everything starts at zero unless --start sets it\n", out);
+    }
+    if (s->changes != NULL && s->changes[0] != '\0') {
+        fprintf(out, "  changed: %s\n", s->changes);
+    }
+    if (result == SIMULATION_DONE && h != NULL) {
+        horizon_print_line(out, h, (sim->verdict->against & ~FINDING_OF_SCENE) != 0);
+    } else if (result == SIMULATION_DONE && sim->steps > 0) {
+        fputs("trusted            whirl trust tells until when: it takes more than a second\n",
+              out);
+    }
+    const uint64_t unseen = pole_crossing_unseen(sim->verdict->jumped);
+    if (result == SIMULATION_DONE && unseen > 0) {
+        fprintf(out,
+                "not looked at      poles and missed contacts in %" PRIu64 " of %" PRIu64
+                " steps: that takes more than a second\n",
+                unseen, sim->steps);
+    }
+    if (result == SIMULATION_DONE && sim->verdict->unaliased) {
+        fputs("not looked at      what is faster than the step: that takes more than a second\n",
+              out);
+    }
+    summary_print(out, sim->image, s->kind, sim->run, sim->verdict->books, &sim->verdict->balance);
+}
+
+/* Until when the run is trusted; NULL: not known. */
+static void trust(simulation *sim, horizon *h, simulation_trust *to) {
+    const run_checks *v = sim->verdict;
+    *h = horizon_of(v->twins, HORIZON_TOLERANCE);
+    if (!h->to_the_end) {
+        sim->trusted_s = number_most(h->until_s, sim->image->step_s);
+    }
+    const bool doubted = h->to_the_end && (v->against & ~FINDING_OF_SCENE) != 0;
+    to->until_s = doubted ? -1.0 : horizon_trusted_s(h);
+}
+
+int simulation_status(simulation_result result, const simulation_trust *trust) {
+    static const int status[] = {[SIMULATION_DONE] = EXIT_DONE,
+                                 [SIMULATION_FAILED] = EXIT_RUN_FAILED,
+                                 [SIMULATION_INTERRUPTED] = EXIT_INTERRUPTED,
+                                 [SIMULATION_BAD_FILE] = EXIT_BAD_INPUT};
+    return result == SIMULATION_DONE && trust->fails != 0 ? EXIT_RUN_FAILED : status[result];
+}
+
+simulation_result simulate(const image *im, const simulation_settings *s, simulation_trust *told) {
+    *told = (simulation_trust){.until_s = -1.0};
+    simulation sim = {.image = im, .settings = s, .output = -1};
+    sim.steps = im->steps;
+    sim.records = records_open(NULL, im, s->kind);
+    name_course(&sim);
+    simulation_result result = SIMULATION_BAD_FILE;
+    if (open_files(&sim)) {
+        bool ended = false;
+        sim.run = s->kind->start(im);
+        sim.verdict = run_checks_open(im, s->plain, s->kind, sim.run, NULL);
+        sim.undefined = diags_new();
+        sim.records->out = sim.csv;
+        sim.records->plain = sim.columns;
+        records_header(sim.records);
+        records_read(sim.records, sim.run, 0.0);
+        sim.opening = opening_begin(sim.records, sim.steps);
+        sim.traces = sim.vcd != NULL ? traces_open(sim.vcd, sim.records, s->every) : NULL;
+        const wh_status status = go(&sim, &ended);
+        run_checks_end(sim.verdict, status);
+        horizon h;
+        const bool known = sim.verdict->twins != NULL && status == WH_OK;
+        if (known) {
+            trust(&sim, &h, told);
+        }
+        result = judge(&sim, status, ended);
+        told->fails = run_checks_fails(sim.verdict, s->strict);
+        told->dear = sim.verdict->twins == NULL;
+        told->left = budget_left(&sim.verdict->own);
+        traces_close(sim.traces);
+        sim.course.trusted_s = sim.trusted_s;
+        result = close_records(&sim, true) ? result : SIMULATION_BAD_FILE;
+        if (status == WH_OK && ended) {
+            say_interrupted(&sim);
+        }
+        told->still = !opening_moves(&sim.opening, sim.records);
+        if (!s->quiet && !s->json) {
+            print_summary(&sim, status, result, known ? &h : NULL);
+        }
+        if (known) {
+            horizon_free(&h);
+        }
+        opening_end(&sim.opening);
+        if (result != SIMULATION_BAD_FILE && !finish_course(&sim)) {
+            result = SIMULATION_BAD_FILE;
+        }
+        if (s->json) {
+            run_json(stdout, &(run_json_wish){sim.verdict,
+                                              sim.records,
+                                              sim.said,
+                                              told->until_s,
+                                              simulation_status(result, told),
+                                              {s->csv, s->columns, s->vcd, s->plot}});
+        }
+        free(sim.said);
+        run_checks_close(sim.verdict);
+        s->kind->stop(sim.run);
+        diags_free(sim.undefined);
+    } else {
+        (void)close_records(&sim, false);
+    }
+    records_close(sim.records);
+    decimation_free(sim.plot);
+    plot_run_close(&sim.course);
+    return result;
+}

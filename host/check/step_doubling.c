@@ -1,0 +1,490 @@
+/* step_doubling.c: see step_doubling.h. */
+#include "step_doubling.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "constant_sensitivity.h"
+#include "host/base/alloc.h"
+#include "host/check/nonfinite.h"
+#include "host/number/functions.h"
+
+/* What looking for events takes of evaluations, beside a step's own. */
+#define EVALUATIONS_OF_EVENTS 8.0
+
+/* --- the finer run's image ---------------------------------------------------------------------------*/
+
+static whole_ratio half_of(whole_ratio step) {
+    if (step.numerator % 2U == 0) {
+        return (whole_ratio){step.numerator / 2U, step.denominator};
+    }
+    if (step.denominator < (uint64_t)1 << 59) {
+        return (whole_ratio){step.numerator, 2U * step.denominator};
+    }
+    return ratio_of(0.5 * ratio_times(1, step));
+}
+
+/* Do its slopes have kinks, or edges? A step across one is off by where in the step it is, and so is a finer one: no order is left
+ * but the first. */
+static bool has_kinks(const image *im) {
+    const op_list *step = im->list[IMAGE_STEP];
+    bool found = false;
+    for (int i = 0; i < step->count; i++) {
+        const op_code code = step->ops[i].code;
+        found = found || code == OP_ABS || code == OP_SIGN || code == OP_MIN || code == OP_MAX;
+    }
+    return found;
+}
+
+/* The order by which the finer run's error falls, where it shares the run's method; 0 where it does not. */
+static int shared_order(const image *im) {
+    const wh_method_row *row = &wh_methods[im->settings.method];
+    return im->settings.matrix == MATRIX_NONE && row->order >= wh_methods[WH_METHOD_DEFAULT].order
+               ? row->order
+               : 0;
+}
+
+wh_method step_doubling_method(const image *im) {
+    return shared_order(im) > 0 ? im->settings.method : WH_METHOD_DEFAULT;
+}
+
+int step_doubling_order(const image *im) {
+    return has_kinks(im) ? 1 : wh_methods[step_doubling_method(im)].order;
+}
+
+bool step_doubling_plain(const image_settings *of, image_settings *plain) {
+    *plain = *of;
+    plain->tables = TABLES_NONE;
+    plain->cells = 0;
+    plain->compensated = of->compensated || of->matrix == MATRIX_EXACT;
+    return plain->tables != of->tables || plain->compensated != of->compensated;
+}
+
+/* What was lost in folding, both would have lost. */
+static void fold_the_other_way(image *im) {
+    const image *other = constant_sensitivity_furthest(im);
+    for (int role = 0; role < IMAGE_ROLES && other != NULL; role++) {
+        const bool is_its_own = role != IMAGE_MATRIX || im->step_s == other->step_s;
+        im->list[role] = is_its_own ? other->list[role] : im->list[role];
+    }
+    if (other != NULL) {
+        im->start_rad = other->start_rad;
+        im->start_turns = other->start_turns;
+        im->start_real = other->start_real;
+        im->input = other->input;
+    }
+}
+
+static void make_finer(step_doubling *t, const step_doubling_wish *w) {
+    const image *im = w->image;
+    t->finer = *w->plain;
+    t->finer.fixed = NULL;
+    fold_the_other_way(&t->finer);
+    t->finer.settings.compensated = true;
+    t->finer.settings.stabilized = false; /* what is given to the wrong motion would be in both */
+    t->each = 1;
+    t->left_out = 1.0;
+    if (im->settings.matrix == MATRIX_EXACT) {
+        return;
+    }
+    t->finer.settings.method = step_doubling_method(im);
+    t->finer.settings.matrix = MATRIX_NONE;
+    t->finer.list[IMAGE_MATRIX] = NULL;
+    t->finer.step = half_of(im->step);
+    t->finer.step_s = ratio_times(1, t->finer.step);
+    t->finer.steps = 2U * im->steps;
+    t->each = 2;
+    if (shared_order(im) > 0) {
+        t->left_out = 1.0 / (1.0 - number_scaled(1.0, -step_doubling_order(im)));
+    }
+}
+
+double step_doubling_finer_operations(const image *im, const image *plain) {
+    const double each = im->settings.matrix == MATRIX_EXACT ? 1.0 : 2.0;
+    return (double)im->steps * each * wh_methods[step_doubling_method(im)].stages *
+           (double)engine_evaluation(plain);
+}
+
+double step_doubling_operations(const image *im, const image *plain) {
+    const double stages = wh_methods[im->settings.method].stages;
+    const double events = im->contacts > 0 ? EVALUATIONS_OF_EVENTS : 0.0;
+    const double each = stages + 3.0 * events;
+    return (double)im->steps * each * (double)engine_evaluation(im) +
+           step_doubling_finer_operations(im, plain);
+}
+
+/* --- passages -----------------------------------------------------------------------------------------*/
+
+void passages_enter(passages *p, double before_s, double size) {
+    const double now = isfinite(size) ? size : (double)INFINITY;
+    if (!(now > p->most)) {
+        return;
+    }
+    const double told = p->count > 0 ? p->passed[p->count - 1].size : 0.0;
+    p->most = now;
+    if (!(now > told * (1.0 + PASSAGE_GRAIN))) {
+        return;
+    }
+    if (p->count == p->room) {
+        p->room = p->room > 0 ? 2 * p->room : 64;
+        p->passed = alloc_more(p->passed, p->room, sizeof *p->passed);
+    }
+    p->passed[p->count++] = (passage){before_s, now};
+}
+
+void passages_free(passages *p) {
+    free(p->passed);
+    *p = (passages){0};
+}
+
+double passages_until_s(const passages *p, double level) {
+    for (int i = 0; i < p->count; i++) {
+        if (p->passed[i].size > level) {
+            return p->passed[i].time_s;
+        }
+    }
+    return (double)INFINITY;
+}
+
+/* --- what rounding alone can move --------------------------------------------------------------------*/
+
+typedef struct rounded {
+    const image *image;
+    evaluator *evaluator;
+    double *input;
+    double *result;
+    double *off;
+    double *most;   /* [results]: of the looks at which there is a bound, */
+    uint64_t *lost; /* [results]: and at so many there was none, */
+    uint64_t looks; /* of all */
+} rounded;
+
+/* What double is rounded by. */
+#define UNIT 0x1p-53
+
+/* Is result i of a step's list the highest derivative of an unknown, for which equations are solved? */
+static bool is_solved_for(const image *im, int i) {
+    if (im->form == WH_SECOND_ORDER) {
+        return true;
+    }
+    const component c = image_component(im, i);
+    return c.primes + 1 == im->unknown[c.unknown].order;
+}
+
+static rounded rounded_open(const image *im) {
+    const op_list *list = im->list[IMAGE_STEP];
+    rounded r = {im,
+                 evaluator_new(list),
+                 alloc(im->inputs, sizeof(double)),
+                 alloc(list->results, sizeof(double)),
+                 alloc(list->results, sizeof(double)),
+                 alloc(list->results, sizeof(double)),
+                 alloc(list->results, sizeof(uint64_t)),
+                 0};
+    image_inputs(im, r.input);
+    return r;
+}
+
+static void rounded_look(rounded *r, const void *run) {
+    const image *im = r->image;
+    const int linear = im->form == WH_SECOND_ORDER ? im->coordinates - im->angles : im->reals;
+    double angle_rad[IMAGE_COMPONENTS_MAX];
+    double real[2 * IMAGE_COMPONENTS_MAX];
+    engine_double.state(run, angle_rad, real);
+    evaluator_run(r->evaluator, 0.0, angle_rad, real, real + linear, r->input, r->result);
+    evaluator_rounding(r->evaluator, angle_rad, 0.0, r->off);
+    for (int i = 0; i < im->list[IMAGE_STEP]->results; i++) {
+        r->off[i] += is_solved_for(im, i) ? im->mass_blur / UNIT * fabs(r->result[i]) : 0.0;
+        r->most[i] = isfinite(r->off[i]) ? number_most(r->most[i], r->off[i]) : r->most[i];
+        r->lost[i] += isfinite(r->off[i]) ? 0U : 1U;
+    }
+    r->looks++;
+}
+
+static void rounded_close(rounded *r) {
+    evaluator_free(r->evaluator);
+    free(r->input);
+    free(r->result);
+    free(r->off);
+    free(r->most);
+    free(r->lost);
+}
+
+/* The result of the list that is this derivative, or -1. */
+static int result_of(const image *im, int unknown, int primes) {
+    if (im->form == WH_SECOND_ORDER) {
+        return primes == 2 ? im->place[unknown] : -1;
+    }
+    return image_find_component(im, unknown, primes - 1);
+}
+
+/* Each derivative's rounding, the highest first, moves the next lower one for all of the time: in the columns' units. */
+static void take_rounding(step_doubling *t, const rounded *r) {
+    for (int k = t->columns - 1; k > 0; k--) {
+        const record_column *c = &t->shape->column[k];
+        step_doubling_column *to = &t->column[k];
+        double slope = 0.0;
+        for (int i = k + 1; i < t->columns; i++) {
+            const record_column *above = &t->shape->column[i];
+            if (above->unknown == c->unknown && above->primes == c->primes + 1) {
+                slope = t->column[i].rounding * above->unit->scale / above->unit->divisor;
+            }
+        }
+        const int result = result_of(r->image, c->unknown, c->primes + 1);
+        if (result >= 0) {
+            /* a place without a bound is a pole, or a root of next to nothing; most places are none */
+            slope += 2U * r->lost[result] > r->looks ? (double)INFINITY : UNIT * r->most[result];
+        }
+        const double size = number_most(fabs(to->low), fabs(to->high));
+        to->rounding = image_shown(c->unit, slope * t->end_s) + UNIT * size;
+    }
+}
+
+static double range_of(const step_doubling_column *c) { return c->high - c->low; }
+
+static void take_places(step_doubling *t) {
+    for (int k = 1; k < t->columns; k++) {
+        const record_column *c = &t->shape->column[k];
+        step_doubling_column *to = &t->column[k];
+        to->place = k;
+        to->one = image_shown(c->unit, 1.0);
+        to->written = t->finer.unknown[c->unknown].start_written;
+        for (int i = 1; i < t->columns; i++) {
+            const record_column *other = &t->shape->column[i];
+            to->has_rate =
+                to->has_rate || (other->unknown == c->unknown && other->primes == c->primes + 1);
+            to->place = other->unknown == c->unknown && other->primes == 0 ? i : to->place;
+            if (other->primes == 0 && strcmp(other->unit->shown, c->unit->shown) == 0) {
+                to->alike = number_most(to->alike, range_of(&t->column[i]));
+            }
+        }
+    }
+}
+
+/* A step before it fails. */
+#define UNWRAPPED 0.9
+
+/* --- side by side ------------------------------------------------------------------------------------*/
+
+typedef struct pair {
+    step_doubling *to;
+    step_doubling_wish wish;
+    records *finers;
+    void *finer;
+    pole_crossing *our_jumps;
+    pole_crossing *finer_jumps;
+    rounded rounded;
+    uint64_t stride; /* steps between looks */
+    double look_s;   /* the last look, */
+    double before_s; /* and the one before it */
+    uint64_t looks;
+    bool owns; /* the run, and what watches it */
+} pair;
+
+/* Where there are contacts, what differs at one look alone does not count: one of the two has had an event already that
+ * the other has within the step. Of a run of one step it is all there is. */
+static void look(pair *p, double time_s) {
+    step_doubling *t = p->to;
+    const bool events = p->wish.image->contacts > 0 && p->wish.image->steps > 1U;
+    records_read(t->shape, t->run, time_s);
+    records_read(p->finers, p->finer, time_s);
+    for (int k = 1; k < t->columns; k++) {
+        step_doubling_column *c = &t->column[k];
+        const double value = p->finers->row[k];
+        const double off = fabs(t->shape->row[k] - value);
+        const double now = isfinite(off) ? off : (double)INFINITY;
+        const double ranged = t->otherwise ? t->shape->row[k] : value;
+        c->start = p->looks == 0 ? value : c->start;
+        c->low = p->looks == 0 || ranged < c->low ? ranged : c->low;
+        c->high = p->looks == 0 || ranged > c->high ? ranged : c->high;
+        if (events) {
+            passages_enter(&c->off, p->before_s, number_least(now, c->last));
+        } else {
+            passages_enter(&c->off, p->look_s, now);
+        }
+        c->last = now;
+    }
+    if (p->looks % 64U == 0) {
+        rounded_look(&p->rounded, p->finer);
+    }
+    p->looks++;
+    p->before_s = p->look_s;
+    p->look_s = time_s;
+}
+
+static bool step_finer(pair *p) {
+    bool good = true;
+    for (uint64_t i = 0; i < p->to->each && good; i++) {
+        const uint64_t before = engine_operations;
+        good = loop_steps(&engine_double, p->finer, 1) == WH_OK;
+        p->to->operations += engine_operations - before;
+        if (good && p->to->jumps) {
+            pole_crossing_enter(p->finer_jumps, &engine_double, p->finer);
+        } else {
+            pole_crossing_pass(p->finer_jumps);
+        }
+    }
+    return good;
+}
+
+/* Has an angle gone so far that double knows no sine of it? A float's turns on. */
+static bool is_unwrapped(const pair *p) {
+    double angle_rad[IMAGE_COMPONENTS_MAX];
+    double real[2 * IMAGE_COMPONENTS_MAX];
+    bool found = false;
+    engine_double.state(p->finer, angle_rad, real);
+    for (int i = 0; i < p->to->finer.angles && p->wish.kind == &engine_float; i++) {
+        found = found || fabs(angle_rad[i]) > UNWRAPPED * ANGLE_SINE_MOST_RAD;
+    }
+    return found;
+}
+
+/* Behind this time nothing is known. */
+static void end_passages(step_doubling *t, double time_s) {
+    for (int k = 1; k < t->columns; k++) {
+        passages_enter(&t->column[k].off, time_s, (double)INFINITY);
+    }
+    t->cut_s = t->cut_s < 0.0 ? time_s : t->cut_s;
+}
+
+/* A step with more events than it takes lets stops rest that do not: with half the step as well, so that the two agree. */
+static bool has_overrun(const pair *p) {
+    uint64_t ours = 0;
+    uint64_t finers = 0;
+    p->wish.kind->events(p->to->run, &ours);
+    engine_double.events(p->finer, &finers);
+    return ours > 0 || finers > 0;
+}
+
+static bool has_jumped(const pair *p) {
+    return pole_crossing_some(p->our_jumps) || pole_crossing_some(p->finer_jumps);
+}
+
+/* The finer one catches up with the step that the run has just done. */
+static void follow(pair *p, uint64_t begin) {
+    step_doubling *t = p->to;
+    const bool failed = t->finer_failed_s < 0.0 && !step_finer(p);
+    const bool overran = t->overrun_s < 0.0 && has_overrun(p);
+    const bool leapt = t->jumped_s < 0.0 && has_jumped(p);
+    if (!failed && !overran && !leapt) {
+        return;
+    }
+    const double begin_s = ratio_times(begin, p->wish.image->step);
+    end_passages(t, p->look_s);
+    if (failed) {
+        t->finer_failed_s = begin_s;
+        t->unwrapped = is_unwrapped(p);
+    }
+    t->overrun_s = overran ? begin_s : t->overrun_s;
+    if (leapt) {
+        double ignored_s;
+        t->jumped_s = begin_s;
+        t->missed = pole_crossing_through(p->our_jumps, &ignored_s).what >= 0 ||
+                    pole_crossing_through(p->finer_jumps, &ignored_s).what >= 0;
+    }
+}
+
+void step_doubling_enter(step_doubling *t) {
+    pair *p = t->pair;
+    const image *im = p->wish.image;
+    const uint64_t step = p->wish.kind->steps(t->run);
+    if (p->owns) {
+        pole_crossing_enter(p->our_jumps, p->wish.kind, t->run);
+    }
+    if (t->books != NULL) {
+        books_enter(t->books, p->wish.kind, t->run);
+    }
+    if (step == 0) {
+        pole_crossing_enter(p->finer_jumps, &engine_double, p->finer);
+    } else {
+        follow(p, step - 1U);
+    }
+    if (step == 0 || (t->finer_failed_s < 0.0 && (step % p->stride == 0 || step == im->steps))) {
+        look(p, ratio_times(step, im->step));
+    }
+}
+
+step_doubling *step_doubling_open(const step_doubling_wish *w, void *run) {
+    step_doubling *t = alloc(1, sizeof *t);
+    pair *p = alloc(1, sizeof *p);
+    make_finer(t, w);
+    t->otherwise = w->image->ways > 0;
+    t->shape = records_open(NULL, w->image, w->kind);
+    t->columns = t->shape->columns - w->image->own_outputs;
+    t->column = alloc(t->columns, sizeof *t->column);
+    t->finer_failed_s = -1.0;
+    t->overrun_s = -1.0;
+    t->cut_s = -1.0;
+    t->jumped_s = -1.0;
+    t->jumps = true;
+    t->run = run;
+    t->pair = p;
+    t->books = w->books ? books_open(w->image) : NULL;
+    *p = (pair){.to = t,
+                .wish = *w,
+                .finers = records_open(NULL, &t->finer, &engine_double),
+                .finer = engine_double.start(&t->finer),
+                .owns = !w->watched,
+                .our_jumps = w->watched ? w->jumped : pole_crossing_open(w->image),
+                .finer_jumps = pole_crossing_open(&t->finer),
+                .rounded = rounded_open(&t->finer),
+                .stride = 1U + (w->image->steps - (w->image->steps > 0)) / STEP_DOUBLING_LOOKS};
+    return t;
+}
+
+void step_doubling_end(step_doubling *t, wh_status status) {
+    pair *p = t->pair;
+    t->status = status;
+    t->end_s = ratio_times(p->wish.kind->steps(t->run), p->wish.image->step);
+    take_rounding(t, &p->rounded);
+    take_places(t);
+    t->finer_end = p->finers->row;
+}
+
+static void pair_free(pair *p) {
+    rounded_close(&p->rounded);
+    pole_crossing_close(p->finer_jumps);
+    if (p->owns) {
+        pole_crossing_close(p->our_jumps);
+    }
+    records_close(p->finers);
+    engine_double.stop(p->finer);
+    free(p);
+}
+
+static bool see(void *of, uint64_t step) {
+    step_doubling *t = of;
+    const step_doubling_wish *w = &t->pair->wish;
+    step_doubling_enter(t);
+    if ((step & 255U) == 0 && w->progress != NULL) {
+        w->progress((double)step / (double)(w->image->steps + (w->image->steps == 0)), w->told);
+    }
+    return true;
+}
+
+step_doubling *step_doubling_run(const step_doubling_wish *w) {
+    step_doubling *t = step_doubling_open(w, w->kind->start(w->image));
+    const loop l = {.kind = w->kind, .run = t->run, .steps = w->image->steps, .see = see, .of = t};
+    wh_status status;
+    t->stopped = loop_run(&l, &status) == LOOP_INTERRUPTED;
+    step_doubling_end(t, status);
+    return t;
+}
+
+void step_doubling_free(step_doubling *t) {
+    if (t == NULL) {
+        return;
+    }
+    if (t->pair->owns) {
+        t->shape->kind->stop(t->run);
+    }
+    pair_free(t->pair);
+    books_close(t->books);
+    for (int k = 0; k < t->columns; k++) {
+        passages_free(&t->column[k].off);
+    }
+    records_close(t->shape);
+    free(t->column);
+    free(t);
+}

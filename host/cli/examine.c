@@ -1,0 +1,343 @@
+/* examine.c: `whirl examine`: the conserved momenta of a mechanism, and the forces that change the others. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "commands.h"
+#include "host/base/alloc.h"
+#include "host/cli/load.h"
+#include "host/derive/symmetry.h"
+#include "host/show/show_equations.h"
+#include "target.h"
+
+static const command_usage usage = {
+    .head =
+        "usage: whirl examine FILE[:NAME]|SCENE|MECHANISM[:SCENE] [--as text|latex] [options]\n"
+        "\n"
+        "Finds every symmetry q -> q + e*(A q + b) of the kinetic energy, with constant A and b: the\n"
+        "directions and rotations of the mechanism. Prints the momentum of each as a formula, and the\n"
+        "forces that change it. A momentum that no force changes is conserved: nothing inside the\n"
+        "mechanism can push it that way.\n"
+        "  --as text    for readers (default)\n"
+        "  --as latex   for a paper (with amsmath)\n",
+    .groups = OPTIONS_CHANGE,
+    .described = false,
+    .tail = ""};
+
+typedef struct examine_options {
+    common_options common;
+    const char *target;
+    bool latex;
+} examine_options;
+
+/* --- causes of a momentum's change ----------------------------------------------------------------- */
+
+/* The place of a statement, and its effect, after a text. */
+static void say_where(FILE *out, const equations *e, int within, place at) {
+    fprintf(out, ", line %d", at.line);
+    if (within >= 0) {
+        fprintf(out, " (effect %s)", e->instance->mechanism->effects[within].name);
+    }
+}
+
+/* A formula with more terms is not printed; its terms are counted. */
+#define READABLE_TERMS 40
+
+static void print_formula(const show *s, const poly *value) {
+    if (show_size(value) > READABLE_TERMS) {
+        fprintf(s->out, s->style == SHOW_LATEX ? "\\text{%d terms}" : "(%d terms)",
+                show_size(value));
+    } else {
+        show_poly(s, value);
+    }
+}
+
+static void print_source(const show *s, const poly *value) {
+    fputs(": ", s->out);
+    print_formula(s, value);
+    fputc('\n', s->out);
+}
+
+/* The sum of all forces along the symmetry, without contacts. */
+static const poly *force_along(const equations *e, const symmetry *of) {
+    const poly *sum = symmetry_along(e, of, e->applied);
+    return poly_expanded(e->algebra, poly_sub(e->algebra, sum, of->stored));
+}
+
+/* Does a crossing set a symbol of the momentum? */
+static bool crossing_acts(const equations *e, const symmetry *of, const contact_law *law) {
+    for (int k = 0; k < law->from->set_count; k++) {
+        const assignment *set = &law->from->sets[k];
+        const poly *change = poly_derivative(e->algebra, of->momentum, set->symbol, set->primes);
+        if (!poly_is_zero(poly_expanded(e->algebra, change))) {
+            return true;
+        }
+    }
+    return false;
+}
+
+static bool contact_acts(const equations *e, const symmetry *of, int k) {
+    const contact_law *law = &e->contacts->law[k];
+    if (of->conserved) {
+        return false;
+    }
+    return law->row == NULL
+               ? crossing_acts(e, of, law)
+               : !poly_is_zero(poly_expanded(e->algebra, symmetry_along(e, of, law->row)));
+}
+
+static bool any_contact_acts(const equations *e, const symmetry *of) {
+    bool any = false;
+    for (int k = 0; e->contacts != NULL && k < e->contacts->count; k++) {
+        any = any || contact_acts(e, of, k);
+    }
+    return any;
+}
+
+/* The potential energies by statement: -dV along the symmetry. */
+static void print_stored(const show *s, const equations *e, const symmetry *of,
+                         const char *prefix) {
+    algebra *a = e->algebra;
+    const mechanism *m = e->instance->mechanism;
+    const poly **row = alloc(e->count, sizeof *row);
+    for (int k = 0; k < m->term_count; k++) {
+        const term *from = &m->terms[k];
+        if (from->kind != TERM_V || !instance_has_term(e->instance, from)) {
+            continue;
+        }
+        const poly *stored = poly_from_expr(a, from->value);
+        for (int i = 0; i < e->count; i++) {
+            row[i] = poly_scale(a, poly_derivative(a, stored, e->unknowns[i].symbol, 0), -1.0);
+        }
+        const poly *value = symmetry_along(e, of, row);
+        if (!poly_is_zero(value)) {
+            fprintf(s->out, "%spotential energy V", prefix);
+            say_where(s->out, e, from->effect, from->at);
+            print_source(s, value);
+        }
+    }
+    free(row);
+}
+
+/* A shift of lengths by different amounts: two carts pushed the same way conserve the difference of their momenta. */
+static void print_uncommon(const show *s, const equations *e, const symmetry *of,
+                           const char *prefix) {
+    const symbol *moved[2] = {NULL, NULL};
+    double by[2];
+    for (int i = 0; i < e->count && moved[1] == NULL && of->conserved; i++) {
+        const symbol *q = e->unknowns[i].symbol;
+        const int k = moved[0] != NULL;
+        if (q->dim.twelfths[DIM_LENGTH] == DIM_DENOMINATOR && !poly_is_zero(of->shift[i]) &&
+            poly_is_number(of->shift[i], &by[k]) && (k == 0 || by[0] < by[1] || by[0] > by[1])) {
+            moved[k] = q;
+        }
+    }
+    if (moved[1] != NULL) {
+        fprintf(s->out,
+                "%snot a common shift of %s and %s: not the total momentum, unless one is "
+                "measured from the other or in another direction\n",
+                prefix, moved[0]->name, moved[1]->name);
+    }
+}
+
+static void print_sources(const show *s, const equations *e, const symmetry *of,
+                          const char *prefix) {
+    print_uncommon(s, e, of, prefix);
+    if (!poly_is_zero(of->stored)) {
+        print_stored(s, e, of, prefix);
+    }
+    for (int k = 0; k < e->forces; k++) {
+        const term *from = e->force[k].from;
+        const poly *value = symmetry_along(e, of, e->force[k].force);
+        if (!poly_is_zero(value)) {
+            fprintf(s->out, "%s%s", prefix, from->kind == TERM_F ? "dissipation F" : "force Q");
+            say_where(s->out, e, from->effect, from->at);
+            print_source(s, value);
+        }
+    }
+    for (int k = 0; e->contacts != NULL && k < e->contacts->count; k++) {
+        const contact_statement *from = e->contacts->law[k].from;
+        if (contact_acts(e, of, k)) {
+            fprintf(s->out, "%s%s", prefix, contact_called(from->kind));
+            say_where(s->out, e, from->effect, from->at);
+            fputc('\n', s->out);
+        }
+    }
+}
+
+/* --- text and LaTeX -----------------------------------------------------------------------------------*/
+
+static void print_motion(const show *s, const equations *e, const symmetry *of) {
+    bool first = true;
+    for (int i = 0; i < e->count; i++) {
+        double number;
+        if (poly_is_zero(of->shift[i])) {
+            continue;
+        }
+        fputs(first ? "" : ", ", s->out);
+        first = false;
+        show_symbol(s, e->unknowns[i].symbol, 0);
+        fputs(s->style == SHOW_LATEX ? " \\to " : " -> ", s->out);
+        show_symbol(s, e->unknowns[i].symbol, 0);
+        fputs(s->style == SHOW_LATEX ? " + \\varepsilon" : " + e", s->out);
+        if (!poly_is_number(of->shift[i], &number) || number < 1.0 || number > 1.0) {
+            fputs(s->style == SHOW_LATEX ? "\\left(" : "*(", s->out);
+            show_poly(s, of->shift[i]);
+            fputs(s->style == SHOW_LATEX ? "\\right)" : ")", s->out);
+        }
+    }
+}
+
+static void print_text(const show *s, const equations *e, const symmetry *of, int number) {
+    fprintf(s->out, "\n%d  ", number);
+    print_motion(s, e, of);
+    fprintf(s->out, "\n   P%d = ", number);
+    print_formula(s, of->momentum);
+    fprintf(s->out, "\n   dP%d/dt = ", number);
+    print_formula(s, force_along(e, of));
+    fprintf(s->out, "%s%s\n", any_contact_acts(e, of) ? " + contacts" : "",
+            of->conserved ? ": conserved" : "");
+    print_sources(s, e, of, "     ");
+}
+
+static void print_latex(const show *s, const equations *e, const symmetry *of, int number) {
+    fprintf(s->out, "%% ");
+    show plain = *s;
+    plain.style = SHOW_TEXT;
+    print_motion(&plain, e, of);
+    fputs("\n\\begin{align}\n", s->out);
+    const poly *const side[2] = {of->momentum, force_along(e, of)};
+    for (int i = 0; i < 2; i++) {
+        show_row row;
+        const show *to = show_row_begin(&row, s);
+        fprintf(to->out, i == 0 ? "  P_{%d} &= " : "  \\dot{P}_{%d} &= ", number);
+        print_formula(to, side[i]);
+        fputs(i == 1 && any_contact_acts(e, of) ? " + \\text{contacts}" : "", to->out);
+        show_row_end(&row);
+        fputs(i == 0 ? " \\\\\n" : "\n\\end{align}\n", s->out);
+    }
+    print_sources(&plain, e, of, "% ");
+}
+
+/* Coordinates whose own shift changes the kinetic energy: the terms that change. */
+static void print_broken(const show *s, const equations *e, const char *prefix) {
+    for (int i = 0; i < e->count; i++) {
+        const symbol *q = e->unknowns[i].symbol;
+        const poly *change =
+            poly_expanded(e->algebra, poly_derivative(e->algebra, e->kinetic, q, 0));
+        if (!poly_is_zero(change)) {
+            fprintf(s->out, "%s%s alone is no direction: T changes with it, by ", prefix, q->name);
+            print_formula(s, change);
+            fputc('\n', s->out);
+        }
+    }
+}
+
+static void print_all(const equations *e, const symmetries *found, bool latex) {
+    show s = show_start(stdout, latex ? SHOW_LATEX : SHOW_TEXT, e->algebra);
+    show_lets_begin(&s, e);
+    show plain = s;
+    plain.style = SHOW_TEXT;
+    const char *prefix = latex ? "% " : "";
+    const mechanism *m = e->instance->mechanism;
+    printf("%s%s%s%s\n", prefix, m->name, m->title[0] != '\0' ? ": " : "", m->title);
+    for (int i = 0; i < m->effect_count; i++) {
+        if (e->instance->with[i]) {
+            printf("%swith %s: %s\n", prefix, m->effects[i].name, m->effects[i].text);
+        }
+    }
+    for (int i = 0, left_out = 0; i < m->effect_count; i++) {
+        if (!e->instance->with[i]) {
+            printf("%s%s",
+                   left_out++ > 0 ? ", "
+                   : latex        ? "% left out: "
+                                  : "left out: ",
+                   m->effects[i].name);
+        }
+        if (i == m->effect_count - 1 && left_out > 0) {
+            fputc('\n', stdout);
+        }
+    }
+    int conserved = 0;
+    for (int i = 0; i < found->count; i++) {
+        (latex ? print_latex : print_text)(&s, e, &found->each[i], i + 1);
+        conserved += found->each[i].conserved ? 1 : 0;
+    }
+    fputs(latex ? "" : "\n", stdout);
+    print_broken(&plain, e, prefix);
+    printf("%sdirections and rotations found: %d, conserved momenta: %d\n", prefix, found->count,
+           conserved);
+    if (found->broken > 0) {
+        printf("%srotations of T that V does not have: %d\n", prefix, found->broken);
+    }
+    if (!found->complete) {
+        printf("%snot decided: values at drawn states show a symmetry that the formulas do not\n",
+               prefix);
+    }
+    if (!found->flat) {
+        printf("%snot decided: a direction or rotation that is not affine in these coordinates\n",
+               prefix);
+    }
+    show_lets_end(&s, latex ? "% with\n\\begin{align}\n" : "with\n", latex ? " \\\\\n" : "\n",
+                  latex ? "\n\\end{align}\n" : "\n");
+}
+
+/* --- the command ----------------------------------------------------------------------------------------*/
+
+static bool take_one(int count, char **words, int *at, void *options, bool *bad) {
+    static const char *const forms[] = {"text", "latex"};
+    examine_options *o = options;
+    const char *value = options_value(count, words, at, "--as", bad);
+    if (value != NULL) {
+        const int chosen = options_choose("examine", "form", value, forms, sizeof forms[0], 2);
+        *bad = chosen < 0;
+        o->latex = chosen == 1;
+    }
+    return value != NULL;
+}
+
+static int examine_loaded(source_model *from, const examine_options *o) {
+    loaded made;
+    int code = target_load(&made, from, &o->common,
+                           (load_wish){.use = IMAGE_TO_RUN, .keep = KEEP_EQUATIONS});
+    if (code == EXIT_DONE && made.equations->kinetic == NULL) {
+        const mechanism *of = made.equations->instance->mechanism;
+        fprintf(stderr,
+                "%s:%d:%d: error: '%s' is given by equations: its symmetries follow from energies\n"
+                "hint: write T and V\n",
+                from->file, of->at.line, of->at.column, of->name);
+        code = EXIT_BAD_INPUT;
+    }
+    if (code == EXIT_DONE) {
+        symmetries *found = symmetries_find(made.equations);
+        if (found == NULL) {
+            equations_report_growth(made.equations, from->errors);
+            diags_flush(from->errors, stderr);
+            code = EXIT_BAD_INPUT;
+        } else {
+            print_all(made.equations, found, o->latex);
+        }
+        symmetries_free(found);
+    }
+    unload(&made);
+    return code;
+}
+
+int command_examine(int count, char **words) {
+    static const char *const own[] = {"--as", NULL};
+    examine_options o = {.common = options_defaults()};
+    if (options_help(count, words, &usage)) {
+        return EXIT_DONE;
+    }
+    int code = EXIT_BAD_INPUT;
+    if (target_ask("examine", own, take_one, &usage, count, words, &o.common, &o, &o.target)) {
+        source_model from;
+        code = source_open(&from, o.target);
+        if (code == EXIT_DONE) {
+            code = examine_loaded(&from, &o);
+        }
+        source_close(&from);
+    }
+    options_forget(&o.common);
+    return code;
+}

@@ -1,0 +1,270 @@
+/* figure.c: `whirl figure`: a figure of the dissertation, in its original or a varied form. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "commands.h"
+#include "host/base/alloc.h"
+#include "host/base/atomic_file.h"
+#include "host/cli/load.h"
+#include "host/io/figure_draw.h"
+#include "host/io/gnuplot.h"
+#include "host/io/plot_run.h"
+#include "host/lang/builtin.h"
+#include "options.h"
+#include "run.h"
+
+enum { DATA_MOST = 16, WORDS_MOST = 64 };
+
+static const command_usage usage = {
+    .head =
+        "usage: whirl figure NUMBER|FINDING|FILE.fig [options]\n"
+        "\n"
+        "Draws a figure of the dissertation (`whirl list --figures`). Its runs take the options of\n"
+        "`whirl run` that change a scene or how it is integrated: --set m=2kg, --start theta=1,\n"
+        "--with drag, --until 5s, --step 1ms, --method M, ... (`whirl run --help`). A varied figure has\n"
+        "no marks of what the dissertation reads.\n"
+        "\n"
+        "  whirl figure 51 --set=M=-1\n"
+        "\n"
+        "  --out FILE           the picture: .svg, .pdf or .png (default: figNUMBER.svg)\n"
+        "  --data NAME=FILE     the records called NAME, which then need no run (repeatable)\n",
+    .tail = "",
+    .why = OPTIONS_WHY_DRAWS};
+
+typedef struct figure_options {
+    common_options common; /* the runs parse these */
+    const char *name;
+    const char *out;
+    const char *given[DATA_MOST]; /* NAME=FILE */
+    int given_count;
+    char *passed[WORDS_MOST]; /* to every run, */
+    char *varied;             /* and as text, a blank before each word */
+    int passed_count;
+} figure_options;
+
+static bool take_one(int count, char **words, int *at, figure_options *o) {
+    static const char *const own[] = {"--out", "--data", NULL};
+    bool bad = false;
+    const int from = *at;
+    const char *value = options_value(count, words, at, "--out", &bad);
+    if (value != NULL) {
+        o->out = value;
+    } else if (!bad && (value = options_value(count, words, at, "--data", &bad)) != NULL) {
+        bad = o->given_count == DATA_MOST || strchr(value, '=') == NULL;
+        if (bad) {
+            fprintf(stderr, "whirl figure: error: --data NAME=FILE, at most %d\n", DATA_MOST);
+        } else {
+            o->given[o->given_count++] = value;
+        }
+    } else if (!bad && options_take("figure", OPTIONS_SCENE, count, words, at, &o->common, &bad)) {
+        for (int i = from; i < *at && o->passed_count < WORDS_MOST; i++) {
+            o->passed[o->passed_count++] = words[i];
+            char *longer = alloc_words("%s %s", o->varied, words[i]);
+            free(o->varied);
+            o->varied = longer;
+        }
+    } else if (!bad && words[*at][0] == '-') {
+        options_unknown("figure", words[*at], OPTIONS_SCENE, own);
+        bad = true;
+    } else if (!bad && o->name != NULL) {
+        fprintf(stderr, "whirl figure: error: one figure at a time, not also '%.60s'\n",
+                words[*at]);
+        bad = true;
+    } else if (!bad) {
+        o->name = words[(*at)++];
+    }
+    return !bad;
+}
+
+/* --- its records ----------------------------------------------------------------------------------------- */
+
+/* Split a built-in description into words by the shell's rules; in place. */
+static int words_of(char *line, char **word) {
+    int count = 0;
+    char *to = line;
+    for (char *at = line; *at != '\0' && count < WORDS_MOST;) {
+        word[count++] = to;
+        for (char quote = '\0'; *at != '\0' && (quote != '\0' || *at != ' '); at++) {
+            if (*at == quote || (quote == '\0' && (*at == '\'' || *at == '"'))) {
+                quote = quote == '\0' ? *at : '\0';
+            } else {
+                *to++ = *at;
+            }
+        }
+        at += strspn(at, " ");
+        *to++ = '\0';
+    }
+    return count;
+}
+
+static const char *given_for(const figure_options *o, const char *name) {
+    const size_t length = strlen(name);
+    for (int i = 0; i < o->given_count; i++) {
+        if (strncmp(o->given[i], name, length) == 0 && o->given[i][length] == '=') {
+            return o->given[i] + length + 1;
+        }
+    }
+    return NULL;
+}
+
+/* Run `kind NAME WORDS` into a temporary file. */
+static int make_data(const figure_options *o, const char *kind, char **word, int count,
+                     figure_data *data) {
+    char folder[] = "/tmp/whirl-figure-XXXXXX";
+    static char csv_word[] = "--csv";
+    static char strict_word[] = "--strict=off"; /* warnings are printed in any case */
+    if (kind[0] == 't') {
+        fprintf(
+            stderr,
+            "whirl figure: error: the records '%s' are made by mk/figures/%s, which only make runs\n"
+            "hint: make figures, or --data %s=FILE.csv\n",
+            word[0], word[1], word[0]);
+        return EXIT_BAD_INPUT;
+    }
+    if (mkdtemp(folder) == NULL) {
+        perror("whirl figure: error: a temporary folder");
+        return EXIT_RUN_FAILED;
+    }
+    char *file = alloc_words("%s/records.csv", folder);
+    char *all[2 * WORDS_MOST + 4];
+    int n = 0;
+    for (int i = 1; i < count; i++) {
+        all[n++] = word[i];
+    }
+    for (int i = 0; i < o->passed_count; i++) {
+        all[n++] = o->passed[i];
+    }
+    all[n++] = strict_word;
+    all[n++] = csv_word;
+    all[n++] = file;
+    plot_run taken = {0};
+    const int code =
+        kind[0] == 'r' ? run_to_take(n, all, &(plot_choice){0}, &taken) : command_sweep(n, all);
+    data->trusted_s = taken.trusted_s;
+    plot_run_close(&taken);
+    size_t length;
+    data->csv = code == EXIT_DONE ? read_all(file, &length) : NULL;
+    static const char *const ends[] = {"", ".toml", ".sweep"};
+    for (size_t i = 0; i < sizeof ends / sizeof ends[0]; i++) {
+        char *left = alloc_words("%s%s", file, ends[i]);
+        (void)unlink(left);
+        free(left);
+    }
+    (void)rmdir(folder);
+    free(file);
+    return code == EXIT_DONE && data->csv == NULL ? EXIT_RUN_FAILED : code;
+}
+
+static int take_data(const figure_options *o, const char *text, figure_data *data, int *count) {
+    static const char *const kinds[] = {"run", "sweep", "table"};
+    int code = EXIT_DONE;
+    for (size_t k = 0; k < sizeof kinds / sizeof kinds[0]; k++) {
+        const char *at = text;
+        for (char *line;
+             code == EXIT_DONE && *count < DATA_MOST && (line = figure_line(&at, kinds[k])) != NULL;
+             free(line)) {
+            char *word[WORDS_MOST] = {NULL};
+            const int words = words_of(line, word);
+            figure_data *d = &data[(*count)++];
+            d->name = alloc_words("%s", word[0]);
+            const char *given = given_for(o, d->name);
+            size_t length;
+            if (given != NULL) {
+                d->csv = read_all(given, &length);
+                code = d->csv != NULL ? EXIT_DONE : EXIT_BAD_INPUT;
+            } else {
+                code = make_data(o, kinds[k], word, words, d);
+            }
+        }
+    }
+    return code;
+}
+
+/* --- the figure ---------------------------------------------------------------------------------------------- */
+
+/* "51", "fig51" or "finding_spin" of mk/figures. */
+static const struct builtin_model *figure_named(const char *name) {
+    for (size_t i = 0; i < builtin_figure_count; i++) {
+        char *one = alloc_words("/fig%s.fig", name);
+        char *other = alloc_words("/%s.fig", name);
+        const bool is = strstr(builtin_figures[i].file, one) != NULL ||
+                        strstr(builtin_figures[i].file, other) != NULL;
+        free(one);
+        free(other);
+        if (is) {
+            return &builtin_figures[i];
+        }
+    }
+    return NULL;
+}
+
+static int draw(const figure_options *o, const char *where, const char *text) {
+    figure_data data[DATA_MOST] = {{0}};
+    int count = 0;
+    char *out = o->out != NULL                  ? alloc_words("%s", o->out)
+                : strncmp(o->name, "f", 1) == 0 ? alloc_words("%s.svg", o->name)
+                                                : alloc_words("fig%s.svg", o->name);
+    int code =
+        gnuplot_can_draw_for("figure", "--out", out) && atomic_file_can(out) && gnuplot_is_there()
+            ? take_data(o, text, data, &count)
+            : EXIT_BAD_INPUT;
+    if (code == EXIT_DONE && !figure_draw(out, where, text, data, count, o->varied)) {
+        code = EXIT_BAD_INPUT;
+    }
+    if (code == EXIT_DONE && o->out == NULL) {
+        puts(out);
+    }
+    for (int i = 0; i < count; i++) {
+        free(data[i].name);
+        free(data[i].csv);
+    }
+    free(out);
+    return code;
+}
+
+static int draw_named(const figure_options *o) {
+    const size_t length = strlen(o->name);
+    if (length > 4 && strcmp(o->name + length - 4, ".fig") == 0) {
+        size_t size;
+        char *text = read_all(o->name, &size);
+        const int code = text == NULL     ? EXIT_BAD_INPUT
+                         : o->out == NULL ? EXIT_BAD_INPUT
+                                          : draw(o, o->name, text);
+        if (text != NULL && o->out == NULL) {
+            fputs("whirl figure: error: no file for the picture\nhint: --out figure.svg\n", stderr);
+        }
+        free(text);
+        return code;
+    }
+    const struct builtin_model *figure = figure_named(o->name);
+    if (figure == NULL) {
+        fprintf(stderr,
+                "whirl figure: error: no figure is called '%.60s'\n"
+                "hint: `whirl list --figures` lists them\n",
+                o->name);
+        return EXIT_BAD_INPUT;
+    }
+    return draw(o, figure->file, figure->text);
+}
+
+int command_figure(int count, char **words) {
+    if (options_help(count, words, &usage)) {
+        return EXIT_DONE;
+    }
+    figure_options o = {.common = options_defaults(), .varied = alloc_words("%s", "")};
+    bool good = true;
+    for (int at = 0; at < count && good;) {
+        good = take_one(count, words, &at, &o);
+    }
+    int code = EXIT_BAD_INPUT;
+    if (good && o.name == NULL) {
+        options_usage(stderr, &usage);
+    } else if (good) {
+        code = draw_named(&o);
+    }
+    options_forget(&o.common);
+    free(o.varied);
+    return code;
+}

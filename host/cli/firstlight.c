@@ -1,0 +1,437 @@
+/* firstlight.c: `whirl firstlight`: comparison of the record of a board's first light with the interpreter's runs and
+ * the emulator's record; a row for docs/silicon.md. */
+#include <inttypes.h>
+#include <stdbool.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+#include "host/base/alloc.h"
+#include "host/base/atomic_file.h"
+#include "host/base/interrupts.h"
+#include "host/cli/commands.h"
+#include "host/cli/files.h"
+#include "host/cli/load.h"
+#include "host/cli/target.h"
+#include "host/engine/loop.h"
+#include "host/monitor/light.h"
+#include "host/monitor/port.h"
+
+/* === the expected record ====================================================================== */
+/* The interpreter's runs of the scenes, and a board with working crystal, sensors and stop line. */
+
+enum { LIGHT_EXPECTED = 100 };
+
+/* The expected value of each field; "": no expectation. All zeros before light_expect(). */
+typedef struct light_expected {
+    char of[LIGHT_FIELDS][LIGHT_EXPECTED];
+} light_expected;
+
+typedef enum light_verdict {
+    LIGHT_EQUAL,
+    LIGHT_DIFFERS,
+    LIGHT_NONE, /* the board or emulator cannot provide it */
+    LIGHT_TOLD  /* no expectation */
+} light_verdict;
+
+/* Allowed jitter of the beginning of a control period, 2 ms (hal/clock.h). */
+#define PERIOD_LEAST_US 1900
+#define PERIOD_MOST_US 2100
+
+/* The index of the field `name` + `more`, which must exist. */
+static int light_field(const char *name, const char *more) {
+    char whole[LIGHT_EXPECTED];
+    (void)snprintf(whole, sizeof whole, "%s%s", name, more);
+    int i = 0;
+    while (strcmp(light_names[i], whole) != 0) {
+        i++;
+    }
+    return i;
+}
+
+/* The interpreter in float gives the boards' bits. */
+static int run_scene(const char *name, light_expected *e) {
+    static const load_wish wish = {.settings = IMAGE_SETTINGS_DEFAULT,
+                                   .use = IMAGE_TO_WRITE,
+                                   .keep = KEEP_IMAGE,
+                                   .conserve = true};
+    source_model from;
+    const mechanism *of = NULL;
+    const scene *in = NULL;
+    loaded made = {.image = NULL};
+    int code = source_open(&from, name);
+    code = code == EXIT_DONE ? source_pick(&from, true, &of, &in) : code;
+    code = code == EXIT_DONE ? load(&made, &from, of, in, NULL, &wish) : code;
+    if (code == EXIT_DONE) {
+        void *run = engine_float.start(made.image);
+        const wh_status status = loop_steps(&engine_float, run, made.image->steps);
+        (void)snprintf(e->of[light_field("model.", name)], LIGHT_EXPECTED, "0x%016" PRIx64,
+                       made.image->hash);
+        (void)snprintf(e->of[light_field("hash.", name)], LIGHT_EXPECTED,
+                       "0x%016" PRIx64 " %" PRIu64 " steps, %s", engine_float.hash(run),
+                       engine_float.steps(run), wh_status_text(status));
+        engine_float.stop(run);
+    }
+    unload(&made);
+    source_close(&from);
+    return code;
+}
+
+/* Run the scenes. Returns an exit status. */
+static int light_expect(light_expected *e) {
+#define SCENE_NAME(scene) #scene,
+    static const char *const scenes[] = {WH_LIGHT_SCENES(SCENE_NAME)};
+    int code = EXIT_DONE;
+    for (int i = 0; i < LIGHT_SCENES && code == EXIT_DONE; i++) {
+        code = run_scene(scenes[i], e);
+    }
+    static const char *const known[][2] = {
+        {"version", WH_VERSION}, {"clock", "crystal"}, {"stop", "released"}, {"selftest", "good"}};
+    for (size_t i = 0; i < sizeof known / sizeof known[0]; i++) {
+        (void)snprintf(e->of[light_field(known[i][0], "")], LIGHT_EXPECTED, "%s", known[i][1]);
+    }
+    (void)snprintf(e->of[light_field("period_us", "")], LIGHT_EXPECTED, "%d %d", PERIOD_LEAST_US,
+                   PERIOD_MOST_US);
+    return code;
+}
+
+static bool may_be_none(const char *name) {
+    return strncmp(name, "model.", 6) != 0 && strncmp(name, "hash.", 5) != 0 &&
+           strcmp(name, "version") != 0 && strcmp(name, "board") != 0 &&
+           strcmp(name, "compiler") != 0;
+}
+
+static light_verdict light_judge(int field, const char *value, const char *wanted) {
+    const char *name = light_names[field];
+    if (light_is_none(value) && may_be_none(name)) {
+        return LIGHT_NONE;
+    }
+    if (wanted[0] == '\0' || strcmp(name, "stack") == 0) {
+        return LIGHT_TOLD; /* interrupts of silicon use stack, too */
+    }
+    if (strcmp(name, "period_us") == 0) {
+        char *end = NULL;
+        const long least = strtol(value, &end, 10);
+        const bool two = *end == ' ';
+        const long most = two ? strtol(end + 1, &end, 10) : 0;
+        return two && *end == '\0' && least >= PERIOD_LEAST_US && most <= PERIOD_MOST_US &&
+                       least <= most
+                   ? LIGHT_EQUAL
+                   : LIGHT_DIFFERS;
+    }
+    if (strcmp(name, "selftest") == 0) { /* it consists of the next fields */
+        return strncmp(value, "good ", 5) == 0 ? LIGHT_EQUAL : LIGHT_DIFFERS;
+    }
+    return strcmp(value, wanted) == 0 ? LIGHT_EQUAL : LIGHT_DIFFERS;
+}
+
+/* === the page of first lights: a table with a row for each record ============================= */
+
+#define LIGHT_PAGE "docs/silicon.md"
+
+/* Medians of the scenes' steps. */
+static void cycles_of(const light *l, char *cell, size_t size) {
+    size_t used = 0;
+    cell[0] = '\0';
+    for (int i = 0; i < LIGHT_FIELDS; i++) {
+        char median[16] = WH_LIGHT_NONE;
+        if (strncmp(light_names[i], "cycles.", 7) == 0 && used < size) {
+            (void)sscanf(l->value[i], "%*s %15s", median);
+            used +=
+                (size_t)snprintf(cell + used, size - used, "%s%s", used > 0 ? " / " : "", median);
+        }
+    }
+}
+
+/* The record's row, to be freed: `equal` is the number of equal hashes, `differ` the fields that differ. */
+static char *light_row(const light *l, int equal, const char *differ) {
+    char cycles[120];
+    char date[16] = "";
+    const time_t now = time(NULL);
+    const struct tm *day = localtime(&now);
+    if (day != NULL) {
+        (void)strftime(date, sizeof date, "%Y-%m-%d", day);
+    }
+    cycles_of(l, cycles, sizeof cycles);
+#define VALUE(name) l->value[light_field(name, "")]
+    char *row = alloc_words(
+        "| %s | %s | %s | %s | %d of %d | %s | %s | %s | %.4s | %s%s | 0x%08" PRIx32 " |\n", date,
+        VALUE("board"), VALUE("chip"), VALUE("clock"), equal, LIGHT_SCENES, cycles, VALUE("stack"),
+        VALUE("period_us"), VALUE("selftest"), differ[0] != '\0' ? "differs: " : "equal", differ,
+        l->crc);
+#undef VALUE
+    return row;
+}
+
+/* Add the row after the last one of the page's table, unless the page already has this record; reports it. Returns an
+ * exit status. */
+static int light_append(const char *page, const char *row, uint32_t crc) {
+    size_t length = 0;
+    char seen[24];
+    char *text = read_all(page, &length);
+    if (text == NULL) {
+        fputs("hint: --page FILE names it; " LIGHT_PAGE " is there from the project's root\n",
+              stderr);
+        return EXIT_RUN_FAILED;
+    }
+    (void)snprintf(seen, sizeof seen, "| 0x%08" PRIx32 " |", crc);
+    if (strstr(text, seen) != NULL) {
+        printf("row: %s has this record already\n", page);
+        free(text);
+        return EXIT_DONE;
+    }
+    char *behind = NULL; /* the end of a table's last line */
+    for (char *at = text; at != NULL; at = *at != '\0' ? strchr(at + 1, '\n') : NULL) {
+        behind = at[0] == '|' || (at[0] == '\n' && at[1] == '|') ? at + 1 : behind;
+    }
+    behind = behind != NULL ? strchr(behind, '\n') : NULL;
+    if (behind == NULL) {
+        free(text);
+        fprintf(stderr, "%s: error: there is no table for the row\nhint: " LIGHT_PAGE " has one\n",
+                page);
+        return EXIT_RUN_FAILED;
+    }
+    static const char empty[] = "\nno row yet\n";
+    const char *rest = behind + 1;
+    rest += strncmp(rest, empty, sizeof empty - 1) == 0 ? sizeof empty - 1 : 0;
+    FILE *out = atomic_file_open(page);
+    bool good = out != NULL;
+    if (good) {
+        fwrite(text, 1, (size_t)(behind + 1 - text), out);
+        fprintf(out, "%s%s", row, rest);
+        good = atomic_file_close(out, page, true);
+    }
+    if (good) {
+        printf("row: appended to %s\n", page);
+    }
+    free(text);
+    return good ? EXIT_DONE : EXIT_RUN_FAILED;
+}
+
+/* === the command ============================================================================== */
+
+#define ASK_S 3.0
+enum { WAIT_MS = 100, BYTES_MOST = 1 << 20 };
+
+typedef struct firstlight_options {
+    common_options common; /* no common options are accepted */
+    const char *source;
+    const char *page;
+    const char *board;
+    const char *emulated;
+    const char *keep;
+    double wait_s;
+    double baud;
+} firstlight_options;
+
+static const command_usage firstlight_usage = {
+    .head =
+        "usage: whirl firstlight FILE|PORT [options]\n"
+        "\n"
+        "Reads the record that the image firstlight prints, from a file or a serial line. Compares each\n"
+        "field with the interpreter's runs of the same scenes, and appends a row to the table of\n" LIGHT_PAGE
+        ".\n"
+        "A field that the board or emulator cannot give is `none`, and is named.\n"
+        "\n",
+    .tail =
+        "  --board B         the record is to be of this board\n"
+        "  --emulated FILE   the emulator's record of the same image: board, compiler and stack beside it\n"
+        "  --page FILE       the page that gets the row (default: " LIGHT_PAGE
+        ", of silicon alone)\n"
+        "  --keep FILE       the record, as it was read\n"
+        "  --wait S          so many seconds for a record on a line (default: 60)\n"
+        "  --baud B          the line's speed (default: 115200)\n",
+    .why = {[EXIT_ROW_OF(EXIT_DONE)] = "no field differs",
+            [EXIT_ROW_OF(EXIT_RUN_FAILED)] =
+                "a field differs, no record came, or the row could not be written",
+            [EXIT_ROW_OF(EXIT_BAD_INPUT)] = "no whole record, too",
+            [EXIT_ROW_OF(EXIT_INTERRUPTED)] = ""}};
+
+/* --- the record ------------------------------------------------------------------------------------------------- */
+
+static double now_s(void) {
+    struct timespec now;
+    return clock_gettime(CLOCK_MONOTONIC, &now) == 0
+               ? (double)now.tv_sec + (double)now.tv_nsec / 1e9
+               : 0.0;
+}
+
+static int say_wrong(const char *name, const char *why, const char *hint) {
+    fprintf(stderr, "%s: error: %s\nhint: %s\n", name, why, hint);
+    return EXIT_BAD_INPUT;
+}
+
+/* The whole of a file; or from a line the first complete record, requested repeatedly. */
+static int listen(port *line, const firstlight_options *o, const char *from_name, light *l) {
+    static char bytes[BYTES_MOST];
+    size_t count = 0;
+    const double began_s = now_s();
+    double asked_s = began_s - ASK_S;
+    const char *hint = "is it the board's console, is --baud its speed, does firstlight run there?";
+    const char *why = "no record came; --wait S waits longer";
+    int code = EXIT_RUN_FAILED;
+    bool ended = false;
+    while (!ended && code != EXIT_DONE && !interrupted &&
+           (!line->is_line || now_s() - began_s < o->wait_s)) {
+        if (line->is_line && now_s() - asked_s >= ASK_S) {
+            (void)port_write(line, "\r", 1);
+            asked_s = now_s();
+        }
+        const int more =
+            port_read(line, (uint8_t *)bytes + count, BYTES_MOST - count, WAIT_MS, NULL);
+        count += more > 0 ? (size_t)more : 0;
+        ended = more < 0 || (!line->is_line && count == BYTES_MOST);
+        const char *from = line->is_line ? light_begin(bytes, count) : NULL;
+        const char *end = from != NULL ? light_end(from, bytes + count) : NULL;
+        if (ended || end != NULL) {
+            from = from != NULL ? from : bytes;
+            why = light_read(l, from, (size_t)((end != NULL ? end : bytes + count) - from), &hint);
+            code = why == NULL ? EXIT_DONE : ended ? EXIT_BAD_INPUT : EXIT_RUN_FAILED;
+        }
+        count = end != NULL || count == BYTES_MOST ? 0 : count;
+    }
+    if (code != EXIT_DONE && interrupted) {
+        return EXIT_INTERRUPTED;
+    }
+    if (code != EXIT_DONE) {
+        (void)say_wrong(from_name, line->failed != 0 ? strerror(line->failed) : why, hint);
+    }
+    return code;
+}
+
+static int read_record(const firstlight_options *o, const char *from_name, light *l) {
+    port line;
+    if (!port_open(&line, from_name, o->baud)) {
+        port_say_unopened(from_name, "build/BOARD/firstlight.txt is that of make firstlight");
+        return EXIT_BAD_INPUT;
+    }
+    interrupts_catch_waiting();
+    const int code = listen(&line, o, from_name, l);
+    port_close(&line);
+    return code;
+}
+
+/* The emulator's record must be of these scenes, too. Its board, compiler and stack are then the reference. */
+static int expect_emulated(const firstlight_options *o, light_expected *e) {
+    static light emulated;
+    const int code = read_record(o, o->emulated, &emulated);
+    for (int i = 0; code == EXIT_DONE && i < LIGHT_FIELDS; i++) {
+        const bool hash = strncmp(light_names[i], "hash.", 5) == 0;
+        if (hash && strcmp(emulated.value[i], e->of[i]) != 0) {
+            return say_wrong(o->emulated, "the emulator's record is not of these scenes",
+                             "make firstlight BOARD=... makes it again");
+        }
+    }
+    static const char *const same[] = {"board", "compiler", "stack"};
+    for (int i = 0; code == EXIT_DONE && i < 3; i++) {
+        const int field = light_field(same[i], "");
+        (void)snprintf(e->of[field], LIGHT_EXPECTED, "%s", emulated.value[field]);
+    }
+    return code;
+}
+
+/* --- the comparison ------------------------------------------------------------------------------------------------ */
+
+static const char *const verdict_words[] = {[LIGHT_EQUAL] = "equal",
+                                            [LIGHT_DIFFERS] = "differs",
+                                            [LIGHT_NONE] = "none",
+                                            [LIGHT_TOLD] = "-"};
+
+/* The names of fields with this light_verdict, separated by commas, or "". */
+static void list_of(const light_verdict *found, light_verdict which, char *names, size_t size) {
+    size_t used = 0;
+    names[0] = '\0';
+    for (int i = 0; i < LIGHT_FIELDS; i++) {
+        if (found[i] == which && used < size) {
+            used += (size_t)snprintf(names + used, size - used, "%s%s", used > 0 ? ", " : "",
+                                     light_names[i]);
+        }
+    }
+}
+
+static void show(const light *l, const light_expected *e, const light_verdict *found) {
+    printf("%-29s %-8s %s\n", "field", "verdict", "record");
+    for (int i = 0; i < LIGHT_FIELDS; i++) {
+        printf("%-29s %-8s %s\n", light_names[i], verdict_words[found[i]], l->value[i]);
+        if (found[i] == LIGHT_DIFFERS || (found[i] == LIGHT_TOLD && e->of[i][0] != '\0')) {
+            printf("%-29s %-8s %s\n", "", found[i] == LIGHT_DIFFERS ? "expected" : "emulator",
+                   e->of[i]);
+        }
+    }
+}
+
+/* An emulator counts no cycles. */
+static bool is_emulated(const light *l) {
+    return light_is_none(l->value[light_field("period_cycles", "")]);
+}
+
+static bool keep(const char *name, const light *l) {
+    FILE *out = atomic_file_open(name);
+    if (out != NULL) {
+        fwrite(l->text, 1, l->length, out);
+    }
+    return out != NULL && atomic_file_close(out, name, true);
+}
+
+static int compare(const firstlight_options *o) {
+    static light l;
+    static light_expected e;
+    light_verdict found[LIGHT_FIELDS];
+    char names[600];
+    int code = light_expect(&e);
+    code = code == EXIT_DONE && o->emulated != NULL ? expect_emulated(o, &e) : code;
+    if (o->board != NULL) {
+        (void)snprintf(e.of[light_field("board", "")], LIGHT_EXPECTED, "%s", o->board);
+    }
+    code = code == EXIT_DONE ? read_record(o, o->source, &l) : code;
+    if (code != EXIT_DONE || (o->keep != NULL && !keep(o->keep, &l))) {
+        return code != EXIT_DONE ? code : EXIT_RUN_FAILED;
+    }
+    int equal = 0;
+    for (int i = 0; i < LIGHT_FIELDS; i++) {
+        found[i] = light_judge(i, l.value[i], e.of[i]);
+        equal += found[i] == LIGHT_EQUAL && strncmp(light_names[i], "hash.", 5) == 0;
+    }
+    show(&l, &e, found);
+    printf("hashes: %d of %d equal\n", equal, LIGHT_SCENES);
+    list_of(found, LIGHT_NONE, names, sizeof names);
+    printf("none: %s\n", names[0] != '\0' ? names : "-");
+    list_of(found, LIGHT_DIFFERS, names, sizeof names);
+    printf("differs: %s\n", names[0] != '\0' ? names : "-");
+    if (o->page == NULL && is_emulated(&l)) {
+        puts("row: none, for an emulator counts no cycles either; --page FILE appends one");
+    } else {
+        char *row = light_row(&l, equal, names);
+        code = light_append(o->page != NULL ? o->page : LIGHT_PAGE, row, l.crc);
+        free(row);
+    }
+    return code == EXIT_DONE && names[0] != '\0' ? EXIT_RUN_FAILED : code;
+}
+
+int command_firstlight(int count, char **words) {
+    firstlight_options o = {.common = options_defaults(), .wait_s = 60.0, .baud = 115200.0};
+    const own_option own[] = {
+        {.word = "--board", .text = &o.board},
+        {.word = "--emulated", .text = &o.emulated},
+        {.word = "--page", .text = &o.page},
+        {.word = "--keep", .text = &o.keep},
+        OWN_NUMBER("--wait", o.wait_s, 0.1, 86400.0, "in seconds: --wait 60"),
+        OWN_NUMBER("--baud", o.baud, 1.0, 1e7, "9600 to 230400: --baud 115200"),
+        {.word = NULL}};
+    const target_reader reader = {.command = "firstlight", .table = own, .one = "record"};
+    if (options_help(count, words, &firstlight_usage)) {
+        return EXIT_DONE;
+    }
+    int code = EXIT_BAD_INPUT;
+    if (target_read(&reader, count, words, &o.common, &o, &o.source) &&
+        target_is_there(o.source, &firstlight_usage)) {
+        if (!port_has_speed(o.baud)) {
+            (void)say_wrong("whirl firstlight", "--baud: no such speed", PORT_SPEEDS);
+        } else {
+            code = compare(&o);
+        }
+    }
+    options_forget(&o.common);
+    return code;
+}

@@ -1,0 +1,324 @@
+/* list.c: `whirl list`: mechanisms, their effects and scenes. */
+#include <stdio.h>
+#include <string.h>
+
+#include "commands.h"
+#include "hard_rows.h"
+#include "host/cli/load.h"
+#include "host/lang/builtin.h"
+#include "host/lang/units.h"
+#include "options.h"
+
+static const command_usage usage = {
+    .head =
+        "usage: whirl list [FILE ...] [--as text|table]\n"
+        "       whirl list --units|--hard|--figures\n"
+        "\n"
+        "The mechanisms and scenes of FILEs, or the built-in ones:\n"
+        "  --as text    a line each: kind, name, title (default)\n"
+        "  --as table   for programs: also the effects, a line each, fields between tabs, the names of the\n"
+        "               fields first; '-' stands for nothing; \\t, \\n, \\r, \\\\ for what would end a field.\n"
+        "               What it holds is terms, contacts, noise and conserve; lines are those of its\n"
+        "               block, of a mechanism the one of its name.\n"
+        "  --units      every unit that a file may write, what it is in SI and how much of it; a line each,\n"
+        "               fields between tabs\n"
+        "  --hard       the hard cases of docs/hard_cases.md: where the theory ends, and whether Whirl is\n"
+        "               right there; 'told' is a warning, 'refused' an error\n"
+        "  --figures    what `whirl figure` draws: name and title\n",
+    .tail = ""};
+
+enum { OUTSIDE = -1 }; /* outside every effect */
+
+/* --- the table ------------------------------------------------------------------------------------- */
+
+/* Append WORD, with a comma if needed. */
+static void add_word(bool *any, const char *word) {
+    printf("%s%s", *any ? "," : "", word);
+    *any = true;
+}
+
+static void end_words(bool any) { fputs(any ? "\t" : "-\t", stdout); }
+
+static void put_effects(const mechanism *m, const bool *with, bool ledger) {
+    bool any = false;
+    for (int i = 0; i < m->effect_count; i++) {
+        if (with == NULL || with[i]) {
+            add_word(&any, m->effects[i].name);
+        }
+    }
+    if (ledger) {
+        add_word(&any, "ledger");
+    }
+    end_words(any);
+}
+
+/* The kinds of the mechanism's statements in `effect`, or outside every effect. */
+static void put_what_is_in(const mechanism *m, int within) {
+    bool any = false;
+    bool has_terms = false;
+    bool has_contacts = false;
+    bool has_noise = false;
+    for (int i = 0; i < m->term_count; i++) {
+        has_terms = has_terms || m->terms[i].effect == within;
+    }
+    for (int i = 0; i < m->contact_count; i++) {
+        has_contacts = has_contacts || m->contacts[i].effect == within;
+    }
+    for (int i = 0; i < m->noise_count; i++) {
+        has_noise = has_noise || m->noises[i].effect == within;
+    }
+    if (has_terms) {
+        add_word(&any, "terms");
+    }
+    if (has_contacts) {
+        add_word(&any, "contacts");
+    }
+    if (has_noise) {
+        add_word(&any, "noise");
+    }
+    end_words(any);
+}
+
+static void put_what_is_in_scene(const scene *in) {
+    bool any = false;
+    bool conserves = false;
+    if (in->when_count > 0) {
+        add_word(&any, "contacts");
+    }
+    for (int i = 0; i < in->mechanism->coordinate_count; i++) {
+        conserves = conserves || in->conserve[i];
+    }
+    if (conserves) {
+        add_word(&any, "conserve");
+    }
+    end_words(any);
+}
+
+/* An arbitrary text, escaped as in C: it contains no separators of fields or lines. */
+static void put_text(const char *text) {
+    for (const char *at = text; *at != '\0'; at++) {
+        switch (*at) {
+        case '\t': fputs("\\t", stdout); break;
+        case '\n': fputs("\\n", stdout); break;
+        case '\r': fputs("\\r", stdout); break;
+        case '\\': fputs("\\\\", stdout); break;
+        default: putchar(*at); break;
+        }
+    }
+}
+
+static void put_title(const char *title) {
+    put_text(title[0] == '\0' ? "-" : title);
+    putchar('\n');
+}
+
+static void put_place(const char *kind, const char *name, const mechanism *of, const char *file,
+                      int first_line, int last_line) {
+    printf("%s\t%s\t%s\t", kind, name, of->name);
+    put_text(file);
+    printf("\t%d\t%d\t", first_line, last_line);
+}
+
+/* Step and length of a scene, or of the mechanism at rest; false after an error (reported). */
+static bool put_times(const mechanism *of, const scene *in, diags *errors) {
+    instance *made = instance_make(of, in, NULL, errors);
+    if (made == NULL) {
+        return false;
+    }
+    printf("%.15g\t%.15g\t", made->step_s, made->until_s);
+    instance_free(made);
+    return true;
+}
+
+static bool put_rows(const source_model *from, const mechanism *m) {
+    put_place("mechanism", m->name, m, from->file, m->at.line, m->at.line);
+    put_effects(m, NULL, false);
+    put_what_is_in(m, OUTSIDE);
+    fputs("-\t-\t", stdout);
+    put_title(m->title);
+    for (int i = 0; i < m->effect_count; i++) {
+        const effect *each = &m->effects[i];
+        put_place("effect", each->name, m, from->file, each->at.line, each->last_line);
+        fputs("-\t", stdout);
+        put_what_is_in(m, i);
+        fputs("-\t-\t", stdout);
+        put_title(each->text);
+    }
+    for (int i = 0; i < from->model->scene_count; i++) {
+        const scene *each = from->model->scenes[i];
+        if (each->mechanism == m) {
+            put_place("scene", each->name, m, from->file, each->at.line, each->last_line);
+            put_effects(m, each->with, each->ledger);
+            put_what_is_in_scene(each);
+            if (!put_times(m, each, from->errors)) {
+                return false;
+            }
+            put_title(each->title);
+        }
+    }
+    return true;
+}
+
+/* --- the text -------------------------------------------------------------------------------------- */
+
+static bool put_lines(const source_model *from, const mechanism *of) {
+    const whirl_model *m = from->model;
+    printf("mechanism  %-24s %s\n", of->name, of->title);
+    for (int i = 0; i < m->scene_count; i++) {
+        if (m->scenes[i]->mechanism == of) {
+            printf("scene      %-24s %s\n", m->scenes[i]->name, m->scenes[i]->title);
+        }
+    }
+    return true;
+}
+
+/* --- the forms ------------------------------------------------------------------------------------- */
+
+typedef struct form {
+    const char *word;
+    const char *head; /* a line before all others, or NULL */
+    /* The lines of the mechanism and its scenes; false after an error (reported). */
+    bool (*put)(const source_model *from, const mechanism *of);
+} form;
+
+/* The first is the default. */
+static const form forms[] = {
+    {.word = "text", .head = NULL, .put = put_lines},
+    {.word = "table",
+     .head = "kind\tname\tmechanism\tfile\tfirst_line\tlast_line\teffects\tholds\tstep_s\tuntil_s\t"
+             "title",
+     .put = put_rows},
+};
+
+static const form *form_of(const char *word) {
+    for (size_t i = 0; i < sizeof forms / sizeof forms[0]; i++) {
+        if (strcmp(forms[i].word, word) == 0) {
+            return &forms[i];
+        }
+    }
+    fprintf(stderr, "whirl list: error: there is no form '%s'\nhint: text or table\n", word);
+    return NULL;
+}
+
+/* `first`: no entry was listed before. */
+static int list_one(const source_model *from, const form *as, bool first) {
+    bool good = from->model != NULL;
+    if (good && first && as->head != NULL) {
+        puts(as->head);
+    }
+    for (int i = 0; good && i < from->model->mechanism_count; i++) {
+        good = as->put(from, from->model->mechanisms[i]);
+    }
+    diags_flush(from->errors, stderr);
+    return good ? EXIT_DONE : EXIT_BAD_INPUT;
+}
+
+static int list_builtin(const form *as) {
+    int code = EXIT_DONE;
+    for (size_t i = 0; i < builtin_model_count; i++) {
+        const struct builtin_model *b = &builtin_models[i];
+        source_model from = {.file = b->file, .errors = diags_new()};
+        from.model = model_parse(b->file, b->text, b->length, from.errors);
+        const int one = list_one(&from, as, i == 0);
+        code = one > code ? one : code;
+        source_close(&from);
+    }
+    return code;
+}
+
+static int list_file(const char *file, const form *as, bool first) {
+    source_model from;
+    int code = source_open(&from, file);
+    if (code == EXIT_DONE && from.name[0] != '\0') {
+        fprintf(stderr, "whirl list: error: %s is no file\nhint: FILE, of which all is listed\n",
+                file);
+        code = EXIT_BAD_INPUT;
+    }
+    if (code == EXIT_DONE) {
+        code = list_one(&from, as, first);
+    }
+    source_close(&from);
+    return code;
+}
+
+static int list_units(void) {
+    char si[DIM_TEXT_SIZE];
+    double value;
+    puts("unit\tsi\tvalue");
+    for (int i = 0; unit_name(i) != NULL; i++) {
+        unit_in_si(i, &value, si, sizeof si);
+        printf("%s\t%s\t%.17g\n", unit_name(i), si, value);
+    }
+    return EXIT_DONE;
+}
+
+/* The first table of docs/hard_cases.md. */
+static int list_hard(void) {
+#define HARD_WORDS(name, in, limit, verdict) {name, limit, verdict, in},
+    static const char *const rows[][4] = {{"case", "limit of the theory", "verdict", "scenes"},
+                                          HARD_ROWS(HARD_WORDS)};
+#undef HARD_WORDS
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        printf("%-38s  %-54s  %-43s  %s\n", rows[i][0], rows[i][1], rows[i][2], rows[i][3]);
+    }
+    return EXIT_DONE;
+}
+
+/* One line each: the title of its description. A script makes a `table`. */
+static int list_figures(void) {
+    for (size_t i = 0; i < builtin_figure_count; i++) {
+        const char *file = strrchr(builtin_figures[i].file, '/') + 1;
+        const char *name = file + (strncmp(file, "fig", 3) == 0 ? 3 : 0);
+        const char *text = builtin_figures[i].text;
+        const char *title = strstr(text, "title ");
+        printf("%-16.*s %.*s%s\n", (int)strcspn(name, "."), name,
+               title != NULL ? (int)strcspn(title + 6, "\n") : 0, title != NULL ? title + 6 : "",
+               strstr(text, "\ntable ") != NULL ? " (make figures)" : "");
+    }
+    return EXIT_DONE;
+}
+
+int command_list(int count, char **words) {
+    const form *as = &forms[0];
+    int files = 0; /* words[0..files-1] */
+    bool bad = false;
+    int (*other)(void) = NULL; /* --units, --hard or --figures */
+    if (options_help(count, words, &usage)) {
+        return EXIT_DONE;
+    }
+    for (int at = 0; at < count && !bad;) {
+        const char *value = options_value(count, words, &at, "--as", &bad);
+        if (value != NULL) {
+            as = form_of(value);
+            bad = as == NULL;
+        } else if (!bad && strcmp(words[at], "--units") == 0) {
+            other = list_units;
+            at++;
+        } else if (!bad && strcmp(words[at], "--figures") == 0) {
+            other = list_figures;
+            at++;
+        } else if (!bad && strcmp(words[at], "--hard") == 0) {
+            other = list_hard;
+            at++;
+        } else if (!bad && words[at][0] == '-' && words[at][1] != '\0') {
+            options_unknown("list", words[at], 0,
+                            (const char *const[]){"--as", "--units", "--hard", "--figures", NULL});
+            bad = true;
+        } else if (!bad) {
+            words[files++] = words[at++];
+        }
+    }
+    if (!bad && other != NULL && count > 1) {
+        fputs("whirl list: error: --units, --hard and --figures go alone\n", stderr);
+        bad = true;
+    }
+    if (!bad && other != NULL) {
+        return other();
+    }
+    int code = bad ? EXIT_BAD_INPUT : files == 0 ? list_builtin(as) : EXIT_DONE;
+    for (int i = 0; i < files && !bad; i++) {
+        const int one = list_file(words[i], as, i == 0);
+        code = one > code ? one : code;
+    }
+    return code;
+}

@@ -1,0 +1,430 @@
+/* load.c: finding, reading and deriving the target. */
+#include "host/cli/load.h"
+
+#include <errno.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "host/base/alloc.h"
+#include "host/base/nearest.h"
+#include "host/cli/files.h"
+#include "host/derive/lagrange.h"
+#include "host/lang/hints.h"
+#include "host/lang/override.h"
+#include "host/show/show_events.h"
+
+/* The parts of the target. */
+typedef struct sought {
+    const char *mechanism; /* [mechanism_length]; NULL: any */
+    size_t mechanism_length;
+    const char *name; /* of a scene or a mechanism */
+} sought;
+
+static sought wish_of(const char *target) {
+    const char *colon = strrchr(target, ':');
+    return colon == NULL ? (sought){NULL, 0, target}
+                         : (sought){target, (size_t)(colon - target), colon + 1};
+}
+
+static bool is_mechanism(const sought *w, const mechanism *m) {
+    return w->mechanism == NULL || (strlen(m->name) == w->mechanism_length &&
+                                    strncmp(m->name, w->mechanism, w->mechanism_length) == 0);
+}
+
+static bool knows_mechanism(const sought *w, const whirl_model *m) {
+    for (int i = 0; i < m->mechanism_count; i++) {
+        if (is_mechanism(w, m->mechanisms[i])) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* The mechanism in one model that the target names, as source_pick() will find it; or NULL. */
+static const mechanism *find_in(const sought *w, const whirl_model *m) {
+    for (int i = 0; i < m->scene_count; i++) {
+        if (is_mechanism(w, m->scenes[i]->mechanism) && strcmp(m->scenes[i]->name, w->name) == 0) {
+            return m->scenes[i]->mechanism;
+        }
+    }
+    for (int i = 0; i < m->mechanism_count; i++) {
+        if (is_mechanism(w, m->mechanisms[i]) && strcmp(m->mechanisms[i]->name, w->name) == 0) {
+            return m->mechanisms[i];
+        }
+    }
+    return NULL;
+}
+
+static void say_ambiguous(const sought *w, const struct builtin_model *models,
+                          whirl_model *const *read, size_t count) {
+    fprintf(stderr, "whirl: error: '%s' is the name of more than one built-in thing\nhint: one of:",
+            w->name);
+    for (size_t i = 0; i < count; i++) {
+        const mechanism *of = find_in(w, read[i]);
+        if (of != NULL) {
+            fprintf(stderr, " %s:%s (%s)", of->name, w->name, models[i].file);
+        }
+    }
+    fputc('\n', stderr);
+}
+
+/* All scenes of the named mechanism. */
+static void say_scenes(const sought *w, whirl_model *const *read, size_t count) {
+    fputs("hint: one of:", stderr);
+    for (size_t i = 0; i < count; i++) {
+        for (int k = 0; k < read[i]->scene_count; k++) {
+            if (is_mechanism(w, read[i]->scenes[k]->mechanism)) {
+                fprintf(stderr, " %s", read[i]->scenes[k]->name);
+            }
+        }
+    }
+    fputs(", or the mechanism alone\n", stderr);
+}
+
+/* The nearest scene of the named mechanism; without one, the nearest of all names. */
+static void say_unknown(const sought *w, const char *target, whirl_model *const *read,
+                        size_t count) {
+    bool known = false;
+    for (size_t i = 0; i < count && w->mechanism != NULL; i++) {
+        known = known || knows_mechanism(w, read[i]);
+    }
+    const char *meant = known || w->mechanism == NULL ? w->name : w->mechanism;
+    nearest search =
+        nearest_start(meant, meant == w->mechanism ? w->mechanism_length : strlen(meant));
+    for (size_t i = 0; i < count; i++) {
+        const whirl_model *m = read[i];
+        for (int k = 0; k < m->scene_count && meant == w->name; k++) {
+            if (is_mechanism(w, m->scenes[k]->mechanism)) {
+                nearest_offer(&search, m->scenes[k]->name);
+            }
+        }
+        for (int k = 0; k < m->mechanism_count && !known; k++) {
+            nearest_offer(&search, m->mechanisms[k]->name);
+        }
+    }
+    if (known) {
+        fprintf(stderr, "whirl: error: the built-in mechanism '%.*s' has no scene '%s'\n",
+                (int)w->mechanism_length, w->mechanism, w->name);
+    } else {
+        fprintf(stderr, "whirl: error: there is no file and no built-in scene or mechanism '%s'\n",
+                target);
+    }
+    if (search.best != NULL) {
+        fprintf(stderr, "hint: did you mean '%s'? `whirl list` shows all\n", search.best);
+    } else if (known) {
+        say_scenes(w, read, count);
+    } else {
+        fprintf(stderr, "hint: `whirl list` shows the built-in ones\n");
+    }
+}
+
+int find_builtin(const struct builtin_model *models, size_t count, const char *target,
+                 diags *errors, whirl_model **found, const struct builtin_model **from,
+                 const char **name) {
+    const sought w = wish_of(target);
+    whirl_model **read = alloc((int64_t)count, sizeof(whirl_model *));
+    size_t hits = 0;
+    size_t hit = 0;
+    size_t good = 0;
+    for (; good < count; good++) {
+        const struct builtin_model *b = &models[good];
+        read[good] = model_parse(b->file, b->text, b->length, errors);
+        if (read[good] == NULL) {
+            diags_flush(errors, stderr);
+            break;
+        }
+        if (find_in(&w, read[good]) != NULL) {
+            hit = good;
+            hits++;
+        }
+    }
+    const bool one = good == count && hits == 1;
+    if (good == count && hits == 0) {
+        say_unknown(&w, target, read, count);
+    } else if (good == count && hits > 1) {
+        say_ambiguous(&w, models, read, count);
+    } else if (one) {
+        *found = read[hit];
+        *from = &models[hit];
+        *name = w.name;
+    }
+    for (size_t i = 0; i < good; i++) {
+        if (!one || i != hit) {
+            model_free(read[i]);
+        }
+    }
+    free(read);
+    return one ? EXIT_DONE : EXIT_BAD_INPUT;
+}
+
+/* === reading and deriving ===================================================================== */
+
+static char *copy_of(const char *text, size_t length) { return alloc_copy(text, length); }
+
+char *read_all(const char *path, size_t *length) {
+    FILE *in = strcmp(path, "-") == 0 ? stdin : fopen(path, "rb");
+    struct stat about;
+    if (in != NULL && in != stdin && fstat(fileno(in), &about) == 0 && S_ISDIR(about.st_mode)) {
+        fclose(in);
+        in = NULL;
+        errno = EISDIR;
+    }
+    if (in == NULL) {
+        fprintf(stderr, "%s: error: cannot be read: %s\n", path, strerror(errno));
+        return NULL;
+    }
+    size_t size = 1U << 16;
+    char *text = alloc((int64_t)size, 1);
+    *length = 0;
+    for (;;) {
+        *length += fread(text + *length, 1, size - *length - 1, in);
+        if (*length < size - 1 || *length > MODEL_BYTES_MAX) {
+            break; /* the parser reports that it is too long */
+        }
+        size *= 2;
+        text = alloc_more(text, (int64_t)size, 1);
+    }
+    if (ferror(in) != 0) { /* the part that was read may be a valid but different model */
+        fprintf(stderr, "%s: error: cannot be read: %s\n", path, strerror(errno));
+        free(text);
+        text = NULL;
+    } else {
+        text[*length] = '\0';
+    }
+    if (in != stdin) {
+        fclose(in);
+    }
+    return text;
+}
+
+static bool file_exists(const char *path) {
+    struct stat about;
+    return strcmp(path, "-") == 0 || stat(path, &about) == 0;
+}
+
+bool source_would_be_lost(const source_model *s, const char *option, const char *path,
+                          const char *ending) {
+    struct stat about_model;
+    struct stat about_output;
+    if (path == NULL || strcmp(path, "-") == 0 || s->path == NULL) {
+        return false;
+    }
+    const bool from_stdin = strcmp(s->path, "-") == 0;
+    const bool model_known =
+        (from_stdin ? fstat(fileno(stdin), &about_model) : stat(s->path, &about_model)) == 0;
+    bool lost = false;
+    for (int i = 0; i < 2 && !lost; i++) { /* atomic_file.h */
+        char *name = alloc_words("%s%s%s", path, ending, i == 0 ? "" : ".part");
+        lost = model_known && S_ISREG(about_model.st_mode) && stat(name, &about_output) == 0 &&
+               files_are_one(&about_model, from_stdin ? NULL : s->path, &about_output, name);
+        if (lost) {
+            fprintf(stderr,
+                    "%s: error: %s would write over the model, which is read from this file\n"
+                    "hint: give it another name\n",
+                    name, option);
+        }
+        free(name);
+    }
+    return lost;
+}
+
+/* The length of FILE in FILE:NAME, or the whole length. */
+static size_t file_part(const char *target) {
+    const char *colon = strrchr(target, ':');
+    if (colon == NULL || file_exists(target)) {
+        return strlen(target);
+    }
+    return (size_t)(colon - target);
+}
+
+static int open_builtin(source_model *s, const char *target) {
+    const struct builtin_model *from;
+    const char *name;
+    const int code = find_builtin(builtin_models, builtin_model_count, target, s->errors, &s->model,
+                                  &from, &name);
+    if (code == EXIT_DONE) {
+        s->file = from->file;
+        s->name = copy_of(name, strlen(name));
+    }
+    return code;
+}
+
+int source_open(source_model *s, const char *target) {
+    *s = (source_model){.errors = diags_new()};
+    const size_t length = file_part(target);
+    char *path = copy_of(target, length);
+    const bool looks_like_file = strchr(path, '/') != NULL || strstr(path, ".whirl") != NULL;
+    if (!file_exists(path) && !looks_like_file) {
+        free(path);
+        return open_builtin(s, target);
+    }
+    s->path = path;
+    s->file = strcmp(path, "-") == 0 ? "<standard input>" : path;
+    s->name = copy_of(target[length] == ':' ? target + length + 1 : "",
+                      target[length] == ':' ? strlen(target + length + 1) : 0);
+    size_t bytes;
+    s->text = read_all(path, &bytes);
+    if (s->text == NULL) {
+        return EXIT_BAD_INPUT;
+    }
+    s->model = model_parse(s->file, s->text, bytes, s->errors);
+    diags_flush(s->errors, stderr);
+    return s->model == NULL ? EXIT_BAD_INPUT : EXIT_DONE;
+}
+
+void source_forget(source_model *s) {
+    model_free(s->model);
+    free(s->text);
+    s->model = NULL;
+    s->text = NULL;
+}
+
+void source_close(source_model *s) {
+    source_forget(s);
+    diags_free(s->errors);
+    free(s->path);
+    free(s->name);
+}
+
+static bool has_scene(const whirl_model *m, const mechanism *of) {
+    for (int i = 0; i < m->scene_count; i++) {
+        if (m->scenes[i]->mechanism == of) {
+            return true;
+        }
+    }
+    return false;
+}
+
+static void say_choices(const source_model *s, bool scenes) {
+    fprintf(stderr, "hint: name one:");
+    for (int i = 0; scenes && i < s->model->scene_count; i++) {
+        fprintf(stderr, " %s:%s", s->file, s->model->scenes[i]->name);
+    }
+    for (int i = 0; i < s->model->mechanism_count; i++) {
+        if (!scenes || !has_scene(s->model, s->model->mechanisms[i])) {
+            fprintf(stderr, " %s:%s", s->file, s->model->mechanisms[i]->name);
+        }
+    }
+    fprintf(stderr, "\n");
+}
+
+int source_pick(source_model *s, bool prefer_scene, const mechanism **of, const scene **in) {
+    const whirl_model *m = s->model;
+    *in = NULL;
+    *of = NULL;
+    for (int i = 0; i < m->scene_count; i++) {
+        if (strcmp(m->scenes[i]->name, s->name) == 0) {
+            *in = m->scenes[i];
+        }
+    }
+    for (int i = 0; i < m->mechanism_count && *in == NULL; i++) {
+        if (strcmp(m->mechanisms[i]->name, s->name) == 0) {
+            *of = m->mechanisms[i];
+        }
+    }
+    if (s->name[0] == '\0' && prefer_scene && m->scene_count == 1) {
+        *in = m->scenes[0];
+    } else if (s->name[0] == '\0' && m->mechanism_count == 1 &&
+               !(prefer_scene && m->scene_count > 1)) {
+        *of = m->mechanisms[0];
+    }
+    if (*in != NULL) {
+        *of = (*in)->mechanism;
+    }
+    if (*of != NULL) {
+        return EXIT_DONE;
+    }
+    if (s->name[0] == '\0') {
+        fprintf(stderr, "%s: error: it has more than one %s\n", s->file,
+                prefer_scene && m->scene_count > 1 ? "scene" : "mechanism");
+    } else {
+        fprintf(stderr, "%s: error: it has no scene or mechanism '%s'\n", s->file, s->name);
+    }
+    say_choices(s, prefer_scene);
+    return EXIT_BAD_INPUT;
+}
+
+/* A note on dry friction written by hand, or NULL. */
+static char *hint_for(const instance *inst) {
+    const symbol *on = NULL;
+    const term *friction = hint_friction(inst, &on);
+    if (friction == NULL) {
+        return NULL;
+    }
+    const char *name = on->name;
+    return alloc_words(
+        "%s:%d:%d: note: this force changes its sign with %s': at rest it shakes instead of "
+        "sticking\n"
+        "hint: dry friction is: friction %s static EXPR kinetic EXPR normal EXPR\n",
+        friction->at.source->file, friction->at.line, friction->at.column, name, name);
+}
+
+static char *contacts_of(const equations *e, const char *comment) {
+    char *text;
+    size_t length;
+    FILE *out = alloc_text(&text, &length);
+    if (comment != NULL) {
+        show_events(out, e, comment, "The motion between events. Not in this function:");
+    }
+    alloc_text_end(out);
+    return text;
+}
+
+int load(loaded *made, source_model *s, const mechanism *of, const scene *in,
+         const overrides *changes, const load_wish *wish) {
+    *made = (loaded){0};
+    if (wish->settings.cells != 0 && wish->settings.tables == TABLES_NONE) {
+        fputs("whirl: error: --cells without --tables: there is no table\n"
+              "hint: --tables linear or --tables cubic\n",
+              stderr);
+        return EXIT_BAD_INPUT;
+    }
+    made->instance = instance_make(of, in, changes, s->errors);
+    if (made->instance != NULL) {
+        made->equations = equations_derive(made->instance, s->errors);
+    }
+    if (made->equations != NULL) {
+        const bool *conserve = wish->conserve ? made->equations->instance->conserve : NULL;
+        made->image = image_make(made->equations, conserve, &wish->settings, wish->use, s->errors);
+    }
+    diags_flush(s->errors, stderr);
+    if (made->equations != NULL && made->image != NULL) {
+        made->hint = hint_for(made->equations->instance);
+        made->contacts = contacts_of(made->equations, wish->comment);
+    }
+    if (wish->keep < KEEP_EQUATIONS) {
+        equations_free(made->equations);
+        made->equations = NULL;
+    }
+    if (wish->keep < KEEP_INSTANCE) {
+        instance_free(made->instance);
+        made->instance = NULL;
+    }
+    return made->image == NULL ? EXIT_BAD_INPUT : EXIT_DONE;
+}
+
+void say_hints(const loaded *made) { fputs(made->hint != NULL ? made->hint : "", stderr); }
+
+void say_float_range(const image *im) {
+    const double number = image_out_of_float(im);
+    if (number != 0.0) {
+        fprintf(
+            stderr,
+            "warning: float has no room for %.6g, a constant or an input of '%s' in SI units: what "
+            "depends on it is %s\n"
+            "hint: float holds sizes from 1.2e-38 to 3.4e+38, and (s/r)^12 is computed as s^12 times r^-12: "
+            "measure in larger or smaller units, or run in double\n",
+            number, im->name, fabs(number) < 1.0 ? "cut or lost" : "infinite");
+    }
+}
+
+void unload(loaded *made) {
+    image_free(made->image);
+    equations_free(made->equations);
+    instance_free(made->instance);
+    free(made->hint);
+    free(made->contacts);
+}

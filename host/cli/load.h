@@ -1,0 +1,78 @@
+/* load.h: from the target on the command line to an image. */
+#ifndef CLI_LOAD_H
+#define CLI_LOAD_H
+
+#include "host/base/exit.h"
+#include "host/derive/image_make.h"
+#include "host/lang/builtin.h"
+#include "host/lang/model.h"
+
+/* === a built-in scene or mechanism by its name ================================================ */
+
+/* Find `target`, SCENE, MECHANISM or MECHANISM:SCENE, in models [count]. *found is then parsed (free with
+ * model_free()), *from is its entry, and *name, within `target`, is the name for source_pick(). Returns an exit status.
+ * An unknown or ambiguous target is reported on standard error. */
+int find_builtin(const struct builtin_model *models, size_t count, const char *target,
+                 diags *errors, whirl_model **found, const struct builtin_model **from,
+                 const char **name);
+
+/* A .whirl file, or the only built-in model that has the target. Free with source_close(). */
+typedef struct source_model {
+    const char *file; /* its name in messages */
+    char *text;       /* owned; NULL for a built-in model */
+    char *path;       /* owned */
+    char *name;       /* owned: the name after the ':', or the built-in name; "" without a name */
+    whirl_model *model;
+    diags *errors;
+} source_model;
+
+/* `target` is FILE, FILE:NAME, or a built-in SCENE, MECHANISM or MECHANISM:SCENE. Prints errors; returns an exit
+ * status. */
+int source_open(source_model *source, const char *target);
+void source_close(source_model *source);
+/* Free the model and its text when they are no longer needed; names and errors stay until source_close(). */
+void source_forget(source_model *source);
+
+/* Would writing the file `path` + `ending` overwrite the model, by any name or link? This is then reported, with the
+ * option of the file. `path` may be NULL or "-": no file. */
+bool source_would_be_lost(const source_model *source, const char *option, const char *path,
+                          const char *ending);
+
+/* The scene, or the mechanism (scene NULL), of `source->name`. Without a name: with `prefer_scene` the file's only
+ * scene, else its only mechanism. Returns an exit status. */
+int source_pick(source_model *source, bool prefer_scene, const mechanism **of, const scene **in);
+
+/* Data stored beside an image, which needs neither. Text and LaTeX are printed from the equations, and a sweep makes
+ * more instances like the first. */
+typedef enum load_keep { KEEP_IMAGE, KEEP_INSTANCE, KEEP_EQUATIONS } load_keep;
+
+typedef struct load_wish {
+    image_settings settings;
+    image_use use;
+    load_keep keep;
+    bool conserve;       /* recover the coordinates that the scene names from their momentum */
+    const char *comment; /* contacts in words: begins each of their lines; NULL: no words */
+} load_wish;
+
+typedef struct loaded {
+    image *image;
+    instance *instance;   /* NULL unless stored; equations have their own */
+    equations *equations; /* NULL unless stored */
+    char *hint;           /* for a valid model that has a better form; or NULL */
+    char *contacts;       /* in words, whole lines; "" without contacts, and if not requested */
+} loaded;
+
+/* Derive one instance to its image; errors are printed. Other data is freed; call source_forget() when the model is no
+ * longer needed. Returns an exit status; call unload() in any case. */
+int load(loaded *made, source_model *source, const mechanism *of, const scene *in,
+         const overrides *changes, const load_wish *wish);
+/* Print the hint on standard error. */
+void say_hints(const loaded *made);
+/* Warn of values that float cannot represent. */
+void say_float_range(const image *im);
+void unload(loaded *made);
+
+/* The whole of `path` in memory ("-" is standard input), NUL-terminated; NULL, reported. */
+char *read_all(const char *path, size_t *length);
+
+#endif

@@ -1,0 +1,487 @@
+/* monitor.c: `whirl monitor`: a rig's console, and a recorder of its telemetry. */
+#include <errno.h>
+#include <inttypes.h>
+#include <stdbool.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+#include <unistd.h>
+
+#include "host/base/atomic_file.h"
+#include "host/base/interrupts.h"
+#include "host/cli/commands.h"
+#include "host/cli/files.h"
+#include "host/cli/options.h"
+#include "host/cli/target.h"
+#include "host/io/gnuplot.h"
+#include "host/monitor/port.h"
+#include "host/monitor/recording.h"
+#include "host/monitor/wire.h"
+
+/* The outputs, a file each. */
+enum { CSV, VCD, RING, RAW, PLOT, OUTPUTS };
+
+typedef struct monitor_options {
+    common_options common;
+    const char *port;
+    const char *output[OUTPUTS];
+    double rate;
+    double for_s;
+    double baud;
+    bool strict;
+    bool quiet;
+} monitor_options;
+
+extern const command_usage monitor_usage;
+
+const command_usage monitor_usage = {
+    .head =
+        "usage: whirl monitor PORT [options]\n"
+        "\n"
+        "A rig's console on a serial line or a pseudo-terminal: what is typed goes to the rig, what it says\n"
+        "is shown, and its telemetry is recorded, until Ctrl-C. Where the line goes away it is waited for.\n"
+        "PORT may be a file that --raw has kept: what it holds is recorded, and that is all.\n"
+        "\n",
+    .tail =
+        "  --csv FILE           samples, as records: time, then what the rig says it tells, with its units;\n"
+        "                       - is standard output (what the rig says then goes to standard error)\n"
+        "  --vcd FILE           samples as real numbers, slot pulses as wires, for waveform viewers\n"
+        "  --ring FILE          what `tel ring read` brings, as records\n"
+        "  --plot FILE.svg|.png samples over time, drawn by gnuplot at the end\n"
+        "  --raw FILE           all bytes that come, as they come\n"
+        "  --rate N             samples a second (default: 500)\n"
+        "  --for S              end after so many seconds\n"
+        "  --baud B             the line's speed (default: 115200)\n"
+        "  --strict             fail when anything was lost\n"
+        "  --quiet              no summary\n",
+    .why = {[EXIT_ROW_OF(EXIT_DONE)] = "Ctrl-C, --for, or the end of a file",
+            [EXIT_ROW_OF(EXIT_RUN_FAILED)] =
+                "nothing could be recorded, or what was could not be written, or --strict and\n"
+                "       something was lost",
+            [EXIT_ROW_OF(EXIT_BAD_INPUT)] = "",
+            [EXIT_ROW_OF(EXIT_INTERRUPTED)] = NULL}};
+
+static const char *const output_option[OUTPUTS] = {"--csv", "--vcd", "--ring", "--raw", "--plot"};
+
+static bool are_apart(const monitor_options *o) {
+    for (int i = 0; i < OUTPUTS; i++) {
+        if (o->output[i] == NULL) {
+            continue;
+        }
+        if (strcmp(o->output[i], "-") == 0 && i != CSV) {
+            fprintf(stderr, "whirl monitor: error: %s takes a file's name\n", output_option[i]);
+            return false;
+        }
+        if (files_same(o->output[i], o->port)) {
+            fprintf(stderr, "whirl monitor: error: %s would be written over %s\n", output_option[i],
+                    o->port);
+            return false;
+        }
+        for (int k = 0; k < i; k++) {
+            if (o->output[k] != NULL && files_same(o->output[i], o->output[k])) {
+                fprintf(stderr, "whirl monitor: error: %s and %s cannot share a file\n",
+                        output_option[k], output_option[i]);
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
+static bool are_possible(const monitor_options *o) {
+    if (!port_has_speed(o->baud)) {
+        fputs("whirl monitor: error: --baud: no such speed\n"
+              "hint: " PORT_SPEEDS "\n",
+              stderr);
+        return false;
+    }
+    if (o->output[PLOT] != NULL && !gnuplot_can_draw_for("monitor", "--plot", o->output[PLOT])) {
+        return false;
+    }
+    return are_apart(o) && (o->output[PLOT] == NULL || gnuplot_is_there());
+}
+
+/* False, reported, if the options are invalid or incomplete. The caller forgets o->common. */
+static bool monitor_options_read(int count, char **words, monitor_options *o) {
+    const own_option own[] = {
+        {.word = output_option[CSV], .text = &o->output[CSV]},
+        {.word = output_option[VCD], .text = &o->output[VCD]},
+        {.word = output_option[RING], .text = &o->output[RING]},
+        {.word = output_option[RAW], .text = &o->output[RAW]},
+        {.word = output_option[PLOT], .text = &o->output[PLOT]},
+        OWN_WHOLE("--rate", o->rate, 1.0, 100000.0, "samples a second: --rate 500"),
+        OWN_NUMBER("--for", o->for_s, 0.001, 1e9, "in seconds: --for 60"),
+        OWN_NUMBER("--baud", o->baud, 1.0, 1e7, "9600 to 230400: --baud 115200"),
+        {.word = "--strict", .flag = &o->strict},
+        {.word = "--quiet", .flag = &o->quiet},
+        {.word = NULL}};
+    const target_reader reader = {.command = "monitor", .table = own, .one = "line"};
+    return target_read(&reader, count, words, &o->common, o, &o->port) &&
+           target_is_there(o->port, &monitor_usage) && are_possible(o);
+}
+
+/* === the command ============================================================================== */
+
+enum {
+    WAIT_MS = 100,
+    AGAIN_MS = 300,
+    ALIVE_MS = 300,
+    ANSWER_MS = 1500,
+    KEPT_MS = 1000,
+    BYTES = 4096,
+    TYPED = 256
+};
+
+typedef struct monitor {
+    const monitor_options *o;
+    port line;
+    wire wire;
+    schema schema;
+    dialogue dialogue;
+    recording recording;
+    FILE *file[OUTPUTS];
+    FILE *shown; /* the rig's messages */
+    bool open;
+    bool typing;     /* standard input has not ended */
+    bool half_typed; /* the typed text has no end of line yet */
+    bool live;       /* a line, not a recorded file */
+    bool met;        /* the rig has answered at least once */
+    bool begun;      /* and has sent the data left from an earlier time */
+    int unheard;     /* unanswered questions since the line was opened */
+    int64_t asked_ms;
+    int64_t kept_ms;  /* time when all records were last written to their files */
+    int64_t alive_ms; /* time of the last message to the rig */
+    uint64_t times;   /* times the line was opened */
+} monitor;
+
+/* --- the line ------------------------------------------------------------------------------------------------- */
+
+static int64_t now_ms(void) {
+    struct timespec now;
+    if (clock_gettime(CLOCK_MONOTONIC, &now) != 0) {
+        return 0;
+    }
+    return (int64_t)now.tv_sec * 1000 + now.tv_nsec / 1000000;
+}
+
+static void ask(monitor *m) {
+    char line[DIALOGUE_LINE];
+    const char *question = dialogue_question(&m->dialogue, line);
+    if (question != NULL) {
+        (void)port_write(&m->line, question, strlen(question)); /* on failure it is sent again */
+        m->asked_ms = now_ms();
+    }
+}
+
+static void ask_again(monitor *m) {
+    if (++m->unheard == 2 && m->dialogue.asked < DIALOGUE_MET) {
+        fprintf(stderr,
+                "whirl monitor: nobody answers at %s; asking on\n"
+                "hint: is it the rig's console, is --baud its speed, is nobody else at it?\n",
+                m->o->port);
+    }
+    ask(m);
+}
+
+static bool open_line(monitor *m) {
+    if (!port_open(&m->line, m->o->port, m->o->baud)) {
+        return false;
+    }
+    m->open = true;
+    m->times++;
+    m->unheard = 0;
+    port_forget(&m->line);
+    wire_forget(&m->wire);
+    m->dialogue = (dialogue){.rate = (int)m->o->rate};
+    if (m->line.is_line) {
+        (void)port_write(&m->line, "\n",
+                         1); /* text typed by the user must not begin the question */
+        ask(m);
+    }
+    return true;
+}
+
+/* Partial frames and disturbed lines contain control characters that a terminal would obey. Such lines from a rig that
+ * has not answered yet are not shown. */
+static void show(const monitor *m, const char *line) {
+    char shown[WIRE_LINE + 1];
+    size_t count = 0;
+    bool clean = true;
+    for (; line[count] != '\0' && count < WIRE_LINE; count++) {
+        const unsigned char c = (unsigned char)line[count];
+        const bool is_text = (c >= 0x20U && c < 0x7fU) || c == '\t';
+        shown[count] = is_text ? line[count] : '?';
+        clean = clean && is_text;
+    }
+    shown[count] = '\0';
+    if (clean || m->met || !m->line.is_line) {
+        fprintf(m->shown, "%s\n", shown);
+        fflush(m->shown);
+    }
+}
+
+/* Send the next question, or start after the last answer. */
+static void go_on(monitor *m) {
+    m->met = true;
+    if (m->dialogue.asked == DIALOGUE_OFF && !m->begun) {
+        m->begun = true;
+        m->wire.damaged = 0; /* from an earlier time */
+    }
+    if (m->dialogue.asked == DIALOGUE_LISTED && m->dialogue.was_off) {
+        recording_anew(&m->recording);
+    }
+    if (m->dialogue.done && m->dialogue.refused[0] != '\0') {
+        fprintf(stderr, "whirl monitor: the rig refused: %s\n", m->dialogue.refused);
+    }
+    ask(m);
+}
+
+static void take_text(monitor *m, const char *line) {
+    const int asked = m->dialogue.asked;
+    const bool typed = m->dialogue.done || !m->line.is_line;
+    if (typed && strncmp(line, "OK rate=", 8) == 0 && strstr(line, " period_ticks=") != NULL) {
+        recording_asked(&m->recording);
+    }
+    if (schema_take(&m->schema, line) && !m->line.is_line) {
+        return;
+    }
+    if (m->line.is_line && dialogue_answer(&m->dialogue, line)) {
+        if (m->dialogue.asked > asked) {
+            go_on(m);
+        }
+        return;
+    }
+    if (line[0] != '\0') { /* an echo of stay_alive() */
+        show(m, line);
+    }
+}
+
+static void take_frame(monitor *m) {
+    if (m->line.is_line && !m->begun) {
+        return; /* from an earlier time */
+    }
+    recording_frame(&m->recording, &m->schema, &m->wire.frame);
+}
+
+static void take_bytes(monitor *m, const uint8_t *bytes, int count) {
+    if (m->file[RAW] != NULL) {
+        fwrite(bytes, 1, (size_t)count, m->file[RAW]);
+    }
+    for (int i = 0; i < count; i++) {
+        switch (wire_take(&m->wire, bytes[i])) {
+        case WIRE_TEXT: take_text(m, m->wire.line); break;
+        case WIRE_FRAME: take_frame(m); break;
+        case WIRE_NOTHING: break;
+        }
+    }
+}
+
+static void take_typed(monitor *m) {
+    char line[TYPED];
+    const ssize_t count = read(STDIN_FILENO, line, sizeof line);
+    m->typing = count > 0 || (count < 0 && (errno == EAGAIN || errno == EINTR));
+    m->half_typed = count > 0 && line[count - 1] != '\n';
+    if (count > 0) {
+        (void)port_write(&m->line, line, (size_t)count);
+    }
+}
+
+static bool written(const monitor *m) {
+    for (int i = 0; i < OUTPUTS; i++) {
+        if (m->file[i] != NULL && ferror(m->file[i])) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/* However this program ends: data older than a second is in the files. */
+static void keep_records(monitor *m) {
+    const int64_t now = now_ms();
+    if (now - m->kept_ms < KEPT_MS) {
+        return;
+    }
+    m->kept_ms = now;
+    for (int i = 0; i < OUTPUTS; i++) {
+        if (m->file[i] != NULL) {
+            (void)fflush(m->file[i]); /* ferror() is checked later */
+        }
+    }
+}
+
+/* The rig ends a run when it hears nothing for the time of its setting `host`. An empty line is no request. It is not
+ * sent while a line is being typed, which it would split. */
+static void stay_alive(monitor *m) {
+    const int64_t now = now_ms();
+    if (m->line.is_line && m->met && !m->half_typed && now - m->alive_ms >= ALIVE_MS) {
+        m->alive_ms = now;
+        (void)port_write(&m->line, "\n", 1);
+    }
+}
+
+/* Listen until the end. */
+static void listen(monitor *m) {
+    const int64_t began_ms = now_ms();
+    uint8_t bytes[BYTES];
+    while (!interrupted && written(m) &&
+           (m->o->for_s <= 0.0 || (double)(now_ms() - began_ms) < m->o->for_s * 1e3)) {
+        if (!m->open && !open_line(m)) {
+            const struct timespec nap = {.tv_nsec = AGAIN_MS * 1000000L};
+            (void)nanosleep(&nap, NULL);
+            continue;
+        }
+        bool typed = false;
+        const bool types = m->typing && m->line.is_line && m->dialogue.done;
+        const int count = port_read(&m->line, bytes, sizeof bytes, WAIT_MS, types ? &typed : NULL);
+        if (count < 0) {
+            const bool was_line = m->line.is_line;
+            port_close(&m->line);
+            m->open = false;
+            if (!was_line) {
+                return; /* a file's end, or its readable part */
+            }
+            fprintf(stderr, "whirl monitor: %s is gone; waiting for it\n", m->o->port);
+            continue;
+        }
+        take_bytes(m, bytes, count);
+        if (typed) {
+            take_typed(m);
+        }
+        if (m->line.is_line && !m->dialogue.done && now_ms() - m->asked_ms > ANSWER_MS) {
+            ask_again(m);
+        }
+        stay_alive(m);
+        keep_records(m);
+    }
+}
+
+/* --- all of it ---------------------------------------------------------------------------------------------------- */
+
+static bool open_outputs(monitor *m) {
+    for (int i = 0; i < PLOT; i++) {
+        const char *name = m->o->output[i];
+        if (name == NULL) {
+            continue;
+        }
+        m->file[i] = strcmp(name, "-") == 0 ? stdout : fopen(name, "wb");
+        if (m->file[i] == NULL) {
+            write_error_say(name);
+            return false;
+        }
+    }
+    m->shown = m->file[CSV] == stdout ? stderr : stdout;
+    return true;
+}
+
+static bool close_outputs(monitor *m) {
+    bool good = written(m);
+    for (int i = 0; i < PLOT; i++) {
+        if (m->file[i] == NULL || m->file[i] == stdout) {
+            continue;
+        }
+        if (fclose(m->file[i]) != 0 || !good) {
+            write_error_say(m->o->output[i]);
+            good = false;
+        }
+    }
+    return good;
+}
+
+static bool lost_any(const monitor *m) {
+    const recording_counts *c = &m->recording.counts;
+    return c->lost > 0 || c->strange > 0 || m->wire.damaged > 0;
+}
+
+static void tell(const monitor *m) {
+    const recording_counts *c = &m->recording.counts;
+    fprintf(stderr,
+            "whirl monitor: %" PRIu64 " samples, %" PRIu64 " pulses in %" PRIu64
+            " frames; lost: %" PRIu64 " frames (%" PRIu64 " for want of room in the rig), %" PRIu64
+            " samples; damaged: %" PRIu64 "\n",
+            c->samples, c->pulses, c->frames, c->lost, c->dropped, c->lost_samples,
+            m->wire.damaged);
+    if (c->strange > 0) {
+        fprintf(stderr, "whirl monitor: %" PRIu64 " frames that the rig does not describe\n",
+                c->strange);
+    }
+    if (m->times > 1 || c->restarts > 0) {
+        fprintf(stderr,
+                "whirl monitor: the line was opened %" PRIu64 " times, the rig began anew %" PRIu64
+                " times\n",
+                m->times, c->restarts);
+    }
+}
+
+/* False, reported: a line was to be recorded, but no rig was there to send it. */
+static bool has_source(const monitor *m) {
+    bool records = false;
+    for (int i = 0; i < OUTPUTS; i++) {
+        records = records || (i != RAW && m->o->output[i] != NULL);
+    }
+    const bool silent = m->live && (!m->met || m->dialogue.rate_refused);
+    if (!records || !silent || m->recording.counts.samples > 0) {
+        return true;
+    }
+    fprintf(stderr, "whirl monitor: error: nothing was recorded: %s%s\n", m->o->port,
+            m->met ? " sends no samples at this --rate" : " has not answered");
+    return false;
+}
+
+/* False, reported, if a file had more data. */
+static bool was_read(const monitor *m) {
+    if (m->live || m->line.failed == 0) {
+        return true;
+    }
+    fprintf(stderr, "%s: error: cannot be read on: %s\n", m->o->port, strerror(m->line.failed));
+    return false;
+}
+
+static int run(monitor *m) {
+    if (!open_line(m)) {
+        port_say_unopened(m->o->port, "build/rig.tty is that of make rig");
+        return EXIT_BAD_INPUT;
+    }
+    m->live = m->line.is_line;
+    if (!open_outputs(m)) {
+        (void)close_outputs(m);
+        port_close(&m->line);
+        return EXIT_BAD_INPUT;
+    }
+    recording_begin(&m->recording, m->file[CSV], m->file[VCD], m->file[RING],
+                    m->o->output[PLOT] != NULL);
+    interrupts_catch_waiting();
+    listen(m);
+    if (m->open && m->line.is_line) {
+        (void)port_write(&m->line, "tel off\n", 8);
+    }
+    bool good = has_source(m) && was_read(m);
+    port_close(&m->line);
+    good = good && (m->o->output[PLOT] == NULL ||
+                    recording_plot(&m->recording, &m->schema, m->o->output[PLOT]));
+    recording_end(&m->recording);
+    if (!m->o->quiet) {
+        tell(m);
+    }
+    good = close_outputs(m) && good;
+    if (m->o->strict && lost_any(m)) {
+        fputs("whirl monitor: error: something was lost, and --strict\n", stderr);
+        good = false;
+    }
+    return good ? EXIT_DONE : EXIT_RUN_FAILED;
+}
+
+int command_monitor(int count, char **words) {
+    monitor_options o = {.common = options_defaults(), .rate = 500.0, .baud = 115200.0};
+    if (options_help(count, words, &monitor_usage)) {
+        return EXIT_DONE;
+    }
+    int code = EXIT_BAD_INPUT;
+    if (monitor_options_read(count, words, &o)) {
+        static monitor m;
+        m = (monitor){.o = &o, .typing = true};
+        code = run(&m);
+    }
+    options_forget(&o.common);
+    return code;
+}

@@ -1,0 +1,464 @@
+/* options.c: parsing of the command line. */
+#include "options.h"
+
+#include <ctype.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "host/base/alloc.h"
+#include "host/base/nearest.h"
+#include "host/check/finding.h"
+#include "host/engine/methods.h"
+#include "host/fixed/engine_fixed.h"
+#include "host/image/turned.h"
+#include "host/number/decimal.h"
+#include "host/number/functions.h"
+
+typedef struct option_row {
+    const char *word;
+    const char *value; /* the value's name; "" without a value */
+    option_group group;
+    const char *text;
+} option_row;
+
+#define ROW(id, word, value, group, text) [id] = {word, value, group, text},
+static const option_row option_rows[OPTIONS] = {OPTION_ROWS(ROW)};
+
+/* Columns of help texts: the beginning of the description, and the width. */
+enum { TEXT_COLUMN = 23, LINE_COLUMNS = 78 };
+
+void options_text(FILE *out, const char *text, int column, int margin, int width) {
+    for (; *text != '\0'; text++) {
+        const int word = 1 + (int)strcspn(text + 1, " \n"); /* and the blank before it */
+        if (*text == '\n' || (*text == ' ' && column + word > width)) {
+            fprintf(out, "\n%*s", margin, "");
+            column = margin;
+        } else {
+            fputc(*text, out);
+            column++;
+        }
+    }
+    fputc('\n', out);
+}
+
+static void describe(FILE *out, const option_row *row) {
+    char methods[METHODS_TEXT_SIZE];
+    const int width =
+        fprintf(out, "  %s%s%s", row->word, row->value[0] != '\0' ? " " : "", row->value);
+    const char *text = row == &option_rows[OPTION_METHOD] ? methods_in_help(methods) : row->text;
+    fprintf(out, "%*s", TEXT_COLUMN - width, "");
+    options_text(out, text, TEXT_COLUMN, TEXT_COLUMN, TEXT_COLUMN + OPTION_TEXT_WIDTH);
+}
+
+static void put_word(FILE *out, const char *word, int *column) {
+    const int length = (int)strlen(word) + 1;
+    if (*column + length > LINE_COLUMNS) {
+        fprintf(out, "\n ");
+        *column = 1;
+    }
+    *column += fprintf(out, " %s", word);
+}
+
+/* The options' words in lines, and a reference to their description. */
+static void name_them(FILE *out, unsigned groups) {
+    int column = fprintf(out, " ");
+    for (int i = 0; i < OPTIONS; i++) {
+        if ((option_rows[i].group & groups) != 0) {
+            put_word(out, option_rows[i].word, &column);
+        }
+    }
+    put_word(out, "(as for `whirl run`)", &column);
+    fputc('\n', out);
+}
+
+void options_usage(FILE *out, const command_usage *usage) {
+    fputs(usage->head, out);
+    if (usage->described) {
+        for (int i = 0; i < OPTIONS; i++) {
+            if ((option_rows[i].group & usage->groups) != 0) {
+                describe(out, &option_rows[i]);
+            }
+        }
+    } else if (usage->groups != 0) {
+        name_them(out, usage->groups);
+    }
+    fputs(usage->tail, out);
+    if (usage->why[EXIT_ROW_OF(EXIT_DONE)] != NULL) {
+        exit_describe(out, usage->why);
+    }
+}
+
+bool options_wants_help(int count, char **words) {
+    for (int i = 0; i < count; i++) {
+        if (strcmp(words[i], "--help") == 0 || strcmp(words[i], "-h") == 0) {
+            return true;
+        }
+    }
+    return false;
+}
+
+bool options_help(int count, char **words, const command_usage *usage) {
+    const bool wanted = options_wants_help(count, words);
+    if (wanted) {
+        options_usage(stdout, usage);
+    }
+    return wanted;
+}
+
+/* Is it `name`, or `name=VALUE`? */
+static bool is_option(const char *word, const char *name) {
+    const size_t length = strlen(name);
+    return strncmp(word, name, length) == 0 && (word[length] == '\0' || word[length] == '=');
+}
+
+/* The options that may be repeated. */
+static bool may_be_repeated(const char *name) {
+    static const char *const all[] = {"--set",  "--start",  "--with", "--without",
+                                      "--over", "--panel",  "--data", "--measure",
+                                      "--vary", "--within", "--fault"};
+    for (size_t i = 0; i < sizeof all / sizeof all[0]; i++) {
+        if (strcmp(name, all[i]) == 0) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* The value of the option at `at`; "" if it is missing. */
+static const char *value_at(int count, char **words, int at, const char *name) {
+    const size_t length = strlen(name);
+    return words[at][length] == '=' ? words[at] + length + 1 : at + 1 < count ? words[at + 1] : "";
+}
+
+static bool is_new(int count, char **words, int at, const char *name) {
+    for (int i = 0; i < at && !may_be_repeated(name); i++) {
+        if (is_option(words[i], name)) {
+            fprintf(stderr, "whirl: error: %s is there twice: '%s' and '%s'\n", name, words[i],
+                    words[at]);
+            if (strcmp(name, "--y") == 0) { /* a list of quantities */
+                fprintf(stderr, "hint: --y \"%s, %s\"\n", value_at(count, words, i, name),
+                        value_at(count, words, at, name));
+            } else {
+                fputs("hint: leave one out\n", stderr);
+            }
+            return false;
+        }
+    }
+    return true;
+}
+
+const char *options_value(int count, char **words, int *at, const char *name, bool *bad) {
+    const size_t length = strlen(name);
+    const char *word = words[*at];
+    if (!is_option(word, name)) {
+        return NULL;
+    }
+    if (!is_new(count, words, *at, name)) {
+        *bad = true;
+        ++*at;
+        return NULL;
+    }
+    if (word[length] == '=') {
+        ++*at;
+        return word + length + 1;
+    }
+    if (*at + 1 >= count) {
+        fprintf(stderr, "whirl: error: %s needs a value\nhint: %s VALUE, or %s=VALUE\n", name, name,
+                name);
+        *bad = true;
+        ++*at;
+        return NULL;
+    }
+    *at += 2;
+    return words[*at - 1];
+}
+
+static void push(const char ***list, int *count, const char *text) {
+    const char **longer = alloc_more(*list, *count + 1, sizeof **list);
+    *list = longer;
+    longer[(*count)++] = text;
+}
+
+/* A copy of text[length], owned by the options. */
+static const char *keep(change_options *c, const char *text, size_t length) {
+    char *name = alloc_copy(text, length);
+    c->owned = alloc_more(c->owned, c->owned_count + 1, sizeof *c->owned);
+    c->owned[c->owned_count++] = name;
+    return name;
+}
+
+static bool is_in(const char *const *list, int count, const char *name) {
+    for (int i = 0; i < count; i++) {
+        if (strcmp(list[i], name) == 0) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* Each name of "E, E,...", with optional blanks. False, reported, if a name is missing or repeated, in the list or on
+ * the command line. */
+static bool push_names(change_options *c, const char ***list, int *count, const char *option,
+                       const char *text) {
+    static const char blank[] = " \t\r\n";
+    for (const char *at = text;; at++) {
+        const size_t field = strcspn(at, ",");
+        const size_t before = strspn(at, blank);
+        size_t end = field;
+        while (end > before && strchr(blank, at[end - 1]) != NULL) {
+            end--;
+        }
+        if (end <= before) {
+            fprintf(stderr,
+                    "whirl: error: a name is missing in %s \"%s\"\n"
+                    "hint: names with commas between them: %s drag,ledger\n",
+                    option, text, option);
+            return false;
+        }
+        const char *name = keep(c, at + before, end - before);
+        if (strcmp(name, "conserve") == 0 && list == &c->with) {
+            fputs("whirl: error: --with takes effects: a scene says itself what it conserves\n",
+                  stderr);
+            return false;
+        }
+        if (is_in(*list, *count, name)) {
+            fprintf(stderr, "whirl: error: %s names '%s' twice\n", option, name);
+            return false;
+        }
+        push(list, count, name);
+        if (is_in(c->with, c->with_count, "all") && is_in(c->without, c->without_count, "all")) {
+            fputs("whirl: error: --with all and --without all: which?\n", stderr);
+            return false;
+        }
+        at += field;
+        if (*at == '\0') {
+            return true;
+        }
+    }
+}
+
+/* The value of the option `which` at words[*at], "" for an option without a value; NULL for another word. */
+static const char *common_value(common_option which, int count, char **words, int *at, bool *bad) {
+    const option_row *row = &option_rows[which];
+    if (row->value[0] != '\0') {
+        return options_value(count, words, at, row->word, bad);
+    }
+    if (strcmp(words[*at], row->word) != 0) {
+        return NULL;
+    }
+    ++*at;
+    return "";
+}
+
+overrides options_overrides(const change_options *c) {
+    return (overrides){.sets = c->sets,
+                       .set_count = c->set_count,
+                       .starts = c->starts,
+                       .start_count = c->start_count,
+                       .with = c->with,
+                       .with_count = c->with_count,
+                       .without = c->without,
+                       .without_count = c->without_count,
+                       .step = c->step,
+                       .until = c->until,
+                       .name = c->name};
+}
+
+common_options options_defaults(void) {
+    return (common_options){.integration = IMAGE_SETTINGS_DEFAULT, .number = &engine_double};
+}
+
+void options_forget(common_options *options) {
+    change_options *c = &options->change;
+    for (int i = 0; i < c->owned_count; i++) {
+        free(c->owned[i]);
+    }
+    free(c->owned);
+    free(c->sets);
+    free(c->starts);
+    free(c->with);
+    free(c->without);
+}
+
+bool options_same(const char *a, const char *b) {
+    while (*a != '\0' && tolower((unsigned char)*a) == tolower((unsigned char)*b)) {
+        a++;
+        b++;
+    }
+    return *a == '\0' && *b == '\0';
+}
+
+int options_choose(const char *command, const char *what, const char *value, const void *rows,
+                   size_t size, int count) {
+    const char *row = rows;
+    for (int i = 0; i < count; i++) {
+        const char *const *word = (const void *)(row + (size_t)i * size);
+        if (options_same(value, *word)) {
+            return i;
+        }
+    }
+    fprintf(stderr, "whirl %s: error: there is no %s '%s'\nhint: one of", command, what, value);
+    for (int i = 0; i < count; i++) {
+        const char *const *word = (const void *)(row + (size_t)i * size);
+        fprintf(stderr, "%s %s", i > 0 ? "," : "", *word);
+    }
+    fputc('\n', stderr);
+    return -1;
+}
+
+bool options_is_name(const char *command, const char *name, int most) {
+    static const char letters[] = "_ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789";
+    const size_t length = strlen(name);
+    const bool good = length > 0 && length <= (size_t)most && strspn(name, letters) == length &&
+                      !(name[0] >= '0' && name[0] <= '9');
+    if (!good) {
+        fprintf(stderr,
+                "whirl %s: error: '%.70s' is no name\n"
+                "hint: letters, digits and _, no digit first, at most %d of them\n",
+                command, name, most);
+    }
+    return good;
+}
+
+bool options_number(const char *command, const char *option, const char *text, double least,
+                    double most, const char *hint, double *number) {
+    const char *end = text;
+    *number = decimal_read(text, &end);
+    const bool good = end != text && *end == '\0' && *number >= least && *number <= most;
+    if (!good) {
+        fprintf(stderr, "whirl %s: error: %s takes a number from %g to %g, not '%.40s'\nhint: %s\n",
+                command, option, least, most, text, hint);
+    }
+    return good;
+}
+
+bool options_strict(const char *command, char **words, int *at, double *strict, bool *bad) {
+    static const char name[] = "--strict";
+    const size_t length = sizeof name - 1;
+    const char *value = words[*at] + length;
+    if (*bad || strncmp(words[*at], name, length) != 0 || (*value != '\0' && *value != '=')) {
+        return false;
+    }
+    ++*at;
+    *strict = STRICT_FINDINGS;
+    if (strcmp(value, "=off") == 0) {
+        *strict = STRICT_OFF;
+    } else if (*value == '=') {
+        const char *end;
+        *strict = decimal_read(value + 1, &end);
+        *bad = end == value + 1 || *end != '\0' || !(*strict > 0.0 && *strict <= 1.0);
+    }
+    if (*bad) {
+        fprintf(
+            stderr,
+            "whirl %s: error: --strict takes 'off', or a part of the largest entry of the books\n"
+            "hint: --strict=off, or such as --strict=1e-6: above 0, at most 1\n",
+            command);
+    }
+    return true;
+}
+
+static bool take_cells(const char *command, const char *value, int *cells) {
+    const size_t digits = strspn(value, "0123456789");
+    const long least = IMAGE_CELLS_LEAST;
+    const long most = IMAGE_CELLS_MOST;
+    const long number =
+        digits > 0 && digits < 9 && value[digits] == '\0' ? strtol(value, NULL, 10) : 0;
+    const bool good = number >= least && number <= most && (number & (number - 1)) == 0;
+    if (!good) {
+        fprintf(stderr,
+                "whirl %s: error: --cells '%.40s' is no power of two from %ld to %ld\n"
+                "hint: --cells 64, --cells 256, ...\n",
+                command, value, least, most);
+    }
+    *cells = (int)number;
+    return good;
+}
+
+/* Sweeps and prices do not search for ranges. */
+static bool knows_fixed(const char *command) {
+    return strcmp(command, "run") == 0 || strcmp(command, "derive") == 0 ||
+           strcmp(command, "trust") == 0;
+}
+
+static bool take(common_option which, const char *command, const char *value, common_options *to) {
+    static const struct {
+        const char *word;
+        const engine_kind *kind;
+    } numbers[] = {{"double", &engine_double}, {"float", &engine_float}, {"fixed", &engine_fixed}};
+    change_options *c = &to->change;
+    const char *word = option_rows[which].word;
+    int chosen;
+    switch (which) {
+    case OPTION_SET: push(&c->sets, &c->set_count, value); break;
+    case OPTION_START: push(&c->starts, &c->start_count, value); break;
+    case OPTION_WITH: return push_names(c, &c->with, &c->with_count, word, value);
+    case OPTION_WITHOUT: return push_names(c, &c->without, &c->without_count, word, value);
+    case OPTION_STEP: c->step = value; break;
+    case OPTION_UNTIL: c->until = value; break;
+    case OPTION_METHOD:
+        chosen =
+            options_choose(command, "method", value, wh_methods, sizeof wh_methods[0], WH_METHODS);
+        to->integration.method = chosen < 0 ? WH_METHOD_DEFAULT : (wh_method)chosen;
+        return chosen >= 0;
+    case OPTION_COMPENSATED: to->integration.compensated = true; break;
+    case OPTION_STABILIZED: to->integration.stabilized = true; break;
+    case OPTION_ANGLES:
+        chosen = options_choose(command, "form of angles", value, image_angles_words,
+                                sizeof image_angles_words[0], IMAGE_ANGLES);
+        to->integration.angles = chosen < 0 ? ANGLES_TURNED : (image_angles)chosen;
+        return chosen >= 0;
+    case OPTION_MATRIX:
+        chosen = options_choose(command, "matrix", value, image_matrix_words,
+                                sizeof image_matrix_words[0], IMAGE_MATRICES);
+        to->integration.matrix = chosen < 0 ? MATRIX_NONE : (image_matrix_of)chosen;
+        return chosen >= 0;
+    case OPTION_TABLES:
+        chosen = options_choose(command, "form of tables", value, image_tables_words,
+                                sizeof image_tables_words[0], IMAGE_TABLES_FORMS);
+        to->integration.tables = chosen < 0 ? TABLES_NONE : (image_tables)chosen;
+        return chosen >= 0;
+    case OPTION_CELLS: return take_cells(command, value, &to->integration.cells);
+    case OPTION_NUMBER:
+        chosen = options_choose(command, "number", value, numbers, sizeof numbers[0],
+                                (int)(sizeof numbers / sizeof numbers[0]) - !knows_fixed(command));
+        to->number = chosen < 0 ? to->number : numbers[chosen].kind;
+        return chosen >= 0;
+    }
+    return true;
+}
+
+bool options_take(const char *command, unsigned groups, int count, char **words, int *at,
+                  common_options *to, bool *bad) {
+    for (int i = 0; i < OPTIONS && !*bad; i++) {
+        const char *value = (option_rows[i].group & groups) != 0
+                                ? common_value((common_option)i, count, words, at, bad)
+                                : NULL;
+        if (value != NULL) {
+            *bad = *bad || !take((common_option)i, command, value, to);
+            return true;
+        }
+    }
+    return false;
+}
+
+void options_unknown(const char *command, const char *word, unsigned groups,
+                     const char *const *own) {
+    nearest search = nearest_start(word, strlen(word));
+    for (int i = 0; i < OPTIONS; i++) {
+        if ((option_rows[i].group & groups) != 0) {
+            nearest_offer(&search, option_rows[i].word);
+        }
+    }
+    for (int i = 0; own[i] != NULL; i++) {
+        nearest_offer(&search, own[i]);
+    }
+    nearest_offer(&search, "--help");
+    fprintf(stderr, "whirl %s: error: unknown option '%s'\n", command, word);
+    if (search.best != NULL) {
+        fprintf(stderr, "hint: did you mean %s?\n", search.best);
+    } else {
+        fprintf(stderr, "hint: whirl %s --help lists the options\n", command);
+    }
+}

@@ -1,0 +1,168 @@
+/* options.h: parsing of the command line. */
+#ifndef CLI_OPTIONS_H
+#define CLI_OPTIONS_H
+
+#include <stdbool.h>
+#include <stdio.h>
+
+#include "host/base/exit.h"
+#include "host/engine/engine.h"
+#include "host/lang/model.h"
+
+/* Options of several commands, in the order of help texts: X(id, word, value, group, description, broken into lines of
+ * OPTION_TEXT_WIDTH columns). The descriptions of methods are made from core/method.h. */
+#define OPTION_ROWS(X) \
+    X(OPTION_SET, "--set", "NAME=EXPR", OPTIONS_CHANGE, \
+      "a parameter or an input; a bare number is SI, and refused where the\n" \
+      "declared unit is not (repeatable, each name once)") \
+    X(OPTION_START, "--start", "NAME=EXPR", OPTIONS_CHANGE, \
+      "a coordinate or a rate: --start \"theta'=330 [rpm]\" (repeatable)") \
+    X(OPTION_WITH, "--with", "E,...", OPTIONS_CHANGE, \
+      "effects to add, or all; 'ledger': books of energy and momentum") \
+    X(OPTION_WITHOUT, "--without", "E,...", OPTIONS_CHANGE, \
+      "effects to leave out, or all; 'conserve': integrate every coordinate") \
+    X(OPTION_STEP, "--step", "1ms", OPTIONS_STEP, "fixed step") \
+    X(OPTION_UNTIL, "--until", "9s", OPTIONS_CHANGE, "end of the run") \
+    X(OPTION_METHOD, "--method", "M", OPTIONS_ENGINE, "") \
+    X(OPTION_NUMBER, "--number", "N", OPTIONS_NUMBER, \
+      "double (default, the reference) or float (the boards, to the bit); fixed, of " \
+      "`whirl run` and `whirl derive --as c`: 32-bit integers (the boards without " \
+      "an FPU, to the bit)") \
+    X(OPTION_COMPENSATED, "--compensated", "", OPTIONS_ENGINE, \
+      "carry the rounding error of every sum along") \
+    X(OPTION_STABILIZED, "--stabilized", "", OPTIONS_ENGINE, \
+      "give back along the rates, a little each step, what the energy drifts by:\n" \
+      "for very long runs of what nothing drives or damps; keeps the books") \
+    X(OPTION_ANGLES, "--angles", "A", OPTIONS_ENGINE, \
+      "turned (default): sines are looked up once a step where the angles' rates\n" \
+      "allow it; lookup: at each stage, for angles that turn far in a step") \
+    X(OPTION_MATRIX, "--matrix", "M", OPTIONS_ENGINE, \
+      "a whole step as one constant matrix, of a linear mechanism without events:\n" \
+      "exact: the motion itself, inputs held over the step; rk4: what that method " \
+      "makes of it; none (default): stages") \
+    X(OPTION_TABLES, "--tables", "T", OPTIONS_ENGINE, \
+      "linear, cubic: what the accelerations owe to one turn angle, sines and\n" \
+      "divisions, is looked up in tables in flash; none (default): computed") \
+    X(OPTION_CELLS, "--cells", "N", OPTIONS_ENGINE, \
+      "entries of such a table: a power of two (default: linear 256, cubic 64)")
+
+#define OPTION_NAME(which, word, value, group, text) which,
+typedef enum common_option { OPTION_ROWS(OPTION_NAME) } common_option;
+#undef OPTION_NAME
+#define OPTION_ONE(which, word, value, group, text) +1
+enum { OPTIONS = OPTION_ROWS(OPTION_ONE) };
+#undef OPTION_ONE
+
+enum { OPTION_TEXT_WIDTH = 76 };
+
+/* The groups that a command accepts: a sum of these. */
+typedef enum option_group {
+    OPTIONS_CHANGE = 1, /* changes to an instance */
+    OPTIONS_ENGINE = 2, /* the method of integration */
+    OPTIONS_NUMBER = 4, /* the number type and its programs */
+    OPTIONS_STEP = 8,   /* the step, for commands that do not choose it themselves */
+    OPTIONS_SCENE = 15  /* all of them, for commands that run scenes with given settings */
+} option_group;
+
+/* The exit statuses of commands that draw a picture of runs. */
+#define OPTIONS_WHY_DRAWS \
+    { \
+        [EXIT_ROW_OF(EXIT_DONE)] = "", [EXIT_ROW_OF(EXIT_RUN_FAILED)] = "a run failed", \
+        [EXIT_ROW_OF(EXIT_BAD_INPUT)] = "", [EXIT_ROW_OF(EXIT_INTERRUPTED)] = "" \
+    }
+
+/* A command's help text. */
+typedef struct command_usage {
+    const char *head;
+    unsigned groups; /* of options in the help text: */
+    bool described;  /* one line each; else only the words, with a reference to `whirl run` */
+    const char *tail;
+    const char *why
+        [EXITS]; /* [EXITS] the meaning of each exit status (host/base/exit.h); all NULL: omitted */
+} command_usage;
+
+void options_usage(FILE *out, const command_usage *usage);
+
+/* Print a text of a help, which begins at `column`, broken at blanks into lines of at most `width` columns; later lines
+ * are indented by `margin`. */
+void options_text(FILE *out, const char *text, int column, int margin, int width);
+
+/* Is --help or -h among the words? */
+bool options_wants_help(int count, char **words);
+
+/* If --help or -h is among the words, print `usage` and return true. */
+bool options_help(int count, char **words, const command_usage *usage);
+
+/* If words[*at] is `name` (or `name=VALUE`), return its value and advance *at past it. Returns NULL for another word. A
+ * missing value is reported and sets *bad. So is a repeated option, unless it may be repeated: one value would replace
+ * the other. */
+const char *options_value(int count, char **words, int *at, const char *name, bool *bad);
+
+/* A number between two bounds, inclusive, for this option of this command; false, reported with the hint, for other
+ * text. */
+bool options_number(const char *command, const char *option, const char *text, double least,
+                    double most, const char *hint, double *number);
+
+/* The range of --effort, a number of operations. */
+#define EFFORT_LEAST 1e4
+#define EFFORT_MOST 1e15
+
+/* --strict, --strict=off or --strict=LIMIT, for run_checks_fails(); false for another word. */
+bool options_strict(const char *command, char **words, int *at, double *strict, bool *bad);
+#define OPTIONS_STRICT_HELP \
+    "  --strict=off         exit status 0 also if a warning is against a run (default: 1)\n" \
+    "  --strict=LIMIT       allow this part of the largest entry of the energy books to be left over\n"
+
+/* What changes an instance: --set, --start, --with, --without, --step, --until. */
+typedef struct change_options {
+    const char **sets;
+    int set_count;
+    const char **starts;
+    int start_count;
+    const char **with;
+    int with_count;
+    const char **without;
+    int without_count;
+    const char *step;
+    const char *until;
+    const char *name; /* --name, for commands that have it; else NULL */
+    char **owned;     /* pieces of comma lists */
+    int owned_count;
+} change_options;
+
+/* The values of a command's common options. */
+typedef struct common_options {
+    change_options change;
+    image_settings
+        integration; /* --method, --compensated, --stabilized, --angles, --matrix, --tables, --cells */
+    const engine_kind *number; /* --number: the number type and its programs */
+} common_options;
+
+/* The values without any option. */
+common_options options_defaults(void);
+void options_forget(common_options *options);
+
+/* If words[*at] is an option of `groups`, take it, advance *at past it and return true. An invalid value is reported
+ * and sets *bad. */
+bool options_take(const char *command, unsigned groups, int count, char **words, int *at,
+                  common_options *to, bool *bad);
+
+/* A name as in a .whirl file, of at most `most` letters? Any other is reported, with a hint. */
+bool options_is_name(const char *command, const char *name, int most);
+
+overrides options_overrides(const change_options *changes);
+
+/* Equal words, ignoring case? */
+bool options_same(const char *a, const char *b);
+
+/* The index of the row whose word equals `value`, ignoring case. Each of rows[count] has `size` bytes and begins with
+ * its word. -1 if there is no such row: reported, with the words. */
+int options_choose(const char *command, const char *what, const char *value, const void *rows,
+                   size_t size, int count);
+
+/* Report an unknown word, with the nearest of the common options in `groups`, of --help and of the command's `own`
+ * (NULL ends the list). */
+void options_unknown(const char *command, const char *word, unsigned groups,
+                     const char *const *own);
+
+#endif

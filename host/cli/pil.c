@@ -1,0 +1,477 @@
+/* pil.c: `whirl pil`: a firmware image with a scene as its plant, or with a tape. */
+#include <inttypes.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "commands.h"
+#include "files.h"
+#include "host/base/alloc.h"
+#include "host/base/atomic_file.h"
+#include "host/base/interrupts.h"
+#include "host/cli/load.h"
+#include "host/engine/start.h"
+#include "host/monitor/port.h"
+#include "host/number/functions.h"
+#include "host/pil/fault.h"
+#include "host/pil/lockstep.h"
+#include "host/pil/report.h"
+#include "host/pil/taped.h"
+#include "target.h"
+
+#define FINE_STEP "50us"
+#define PATIENCE_S 10.0
+#define BAUD 115200.0
+#define LONGEST_S 3600.0
+#define CLOCK_HZ 16e6
+#define CYCLES 1.5
+
+static const command_usage usage = {
+    .head =
+        "usage: whirl pil SCENE|MECHANISM[:SCENE]|FILE[:SCENE] --firmware IMAGE [options]\n"
+        "       whirl pil ... --port PORT [options], of firmware that is on a board\n"
+        "       whirl pil --replay TAPE --firmware IMAGE [options]\n"
+        "       whirl pil --read TAPE [--csv FILE]\n"
+        "\n"
+        "Processor in the loop: IMAGE runs in QEMU (or here, when it is a program of this machine), the\n"
+        "scene beside it in double, with a step of its own (50us), and each waits while the other\n"
+        "computes. The firmware says what it sets and reads, and when; these are the scene's inputs,\n"
+        "outputs, coordinates and rates of the same names. What it computes with takes the plant's time:\n"
+        "instructions, counted in the guest, times --cycles over --clock. docs/pil.md says more.\n"
+        "\n",
+    .groups = OPTIONS_CHANGE | OPTIONS_STEP | OPTIONS_ENGINE,
+    .tail =
+        "  --firmware IMAGE     the program: build/BOARD/pil_rig.elf, build/pil_rig, or your own\n"
+        "  --port PORT          it is at the other end of a serial line: /dev/ttyUSB0, /dev/pts/3\n"
+        "  --baud N             of that line (default: 115200)\n"
+        "  --board B            the emulated board: mps2-an386 (Cortex-M4F; when left out), mps2-an385\n"
+        "                       (M3), mps2-an500 (M7), mps2-an505 (M33), or a folder of boards/ whose\n"
+        "                       board.mk has a BOARD_MACHINE of qemu-system-arm\n"
+        "  --tape FILE          keep all that goes over the line\n"
+        "  --replay TAPE        no scene: what TAPE has is said to the firmware, whose answers must be\n"
+        "                       those of the tape, to the bit\n"
+        "  --read TAPE          what TAPE has, as rows: each edge and sample that the firmware heard, with\n"
+        "                       its time and value, and each change of its outputs and notes\n"
+        "  --csv FILE           of --read: the rows into FILE; - (when left out) is standard output.\n"
+        "                       Of a run: the plant's records, in the columns of whirl run\n"
+        "  --every 1ms          of a run: spacing of those rows, a whole number of steps (default: 1ms)\n"
+        "  --bind A=B,...       the firmware's A is the scene's B\n"
+        "  --place X,...        so far each edge of the firmware's stands off its place, in its order:\n"
+        "                       degrees of an angle, else SI\n"
+        "  --jitter 20us        standard deviation of the edges' times (default: none)\n"
+        "  --delay 1ms          by which every sample comes late (default: none)\n"
+        "  --fault KIND[:CHANNEL][=SIZE][@WHEN][+DURATION],...\n"
+        "                       what breaks (repeatable): WHEN is a time (1.5s), a note of the firmware's\n"
+        "                       (state=4), or so long after one (state=4~200ms)\n"
+        "  --faults             list the kinds of faults, and end\n"
+        "  --seed N             of the jitter and of faults (default: 1)\n"
+        "  --clock HZ           the processor's clock (default: 16e6)\n"
+        "  --cycles C           cycles an instruction takes (default: 1.5; 0: computing takes no time)\n"
+        "  --patience S         seconds that the firmware may be silent (default: 10)\n"
+        "  --quiet              no report: what the firmware says, and errors\n"
+        "\n"
+        "Without --until it goes on until the firmware ends, for an hour of the plant's time at most.\n",
+    .why = {[EXIT_ROW_OF(EXIT_DONE)] = "the firmware ended with status 0, or --until came",
+            [EXIT_ROW_OF(EXIT_RUN_FAILED)] =
+                "the firmware ended with another status (it is told), died or fell silent, the\n"
+                "       plant left all bounds, or answers differ from the tape's",
+            [EXIT_ROW_OF(EXIT_BAD_INPUT)] = "",
+            [EXIT_ROW_OF(EXIT_INTERRUPTED)] = ""}};
+
+typedef struct pil_options {
+    common_options common;
+    const char *target;
+    const char *firmware;
+    const char *port; /* a serial line to the board */
+    const char *board;
+    char machine[GUEST_MACHINE_BYTES]; /* of its folder; "": without one */
+    const char *tape;
+    const char *replay;
+    const char *read; /* a tape to show */
+    const char *csv;
+    const char *every;
+    const char *bind;
+    const char *place;
+    const char *jitter;
+    const char *delay;
+    fault_plan faults;
+    double seed;
+    double clock_Hz;
+    double cycles;
+    double patience_s;
+    double baud; /* 0: not given */
+    bool quiet;
+    bool kinds; /* list the kinds of faults */
+} pil_options;
+
+/* --- options ------------------------------------------------------------------------------------------------*/
+
+static bool take_fault(int count, char **words, int *at, void *options, bool *bad) {
+    pil_options *o = options;
+    const char *value = options_value(count, words, at, "--fault", bad);
+    *bad = *bad || (value != NULL && !fault_read(&o->faults, value));
+    return value != NULL;
+}
+
+/* A tape that is only shown needs no firmware. */
+static bool is_read_alone(const pil_options *o) {
+    const char *beside = o->target != NULL     ? "scene"
+                         : o->every != NULL    ? "--every"
+                         : o->firmware != NULL ? "--firmware"
+                         : o->tape != NULL     ? "--tape"
+                         : o->replay != NULL   ? "--replay"
+                         : o->faults.count > 0 ? "--fault"
+                                               : NULL;
+    if (beside != NULL) {
+        fprintf(stderr, "whirl pil: error: --read takes no %s: it only shows the tape\n", beside);
+        return false;
+    }
+    if (o->csv != NULL && files_same(o->read, o->csv)) {
+        fputs("whirl pil: error: --csv would be written over the tape\n", stderr);
+        return false;
+    }
+    return true;
+}
+
+static double baud_of(const pil_options *o) { return o->baud > 0.0 ? o->baud : BAUD; }
+
+/* Valid combinations of options. */
+static bool go_together(const pil_options *o) {
+    if (o->kinds) {
+        return true;
+    }
+    if (o->read != NULL) {
+        return is_read_alone(o);
+    }
+    if (o->every != NULL && o->csv == NULL) {
+        fputs("whirl pil: error: --every is the spacing of --csv FILE\n", stderr);
+        return false;
+    }
+    if (o->port == NULL && o->baud > 0.0) {
+        fputs("whirl pil: error: --baud is the speed of a --port\n", stderr);
+        return false;
+    }
+    if (o->port != NULL &&
+        (o->firmware != NULL || o->board != NULL || !port_has_speed(baud_of(o)))) {
+        fprintf(
+            stderr,
+            o->firmware != NULL || o->board != NULL
+                ? "whirl pil: error: --port takes no %s: the firmware is on its board\n"
+                : "whirl pil: error: no %s has the speed of --baud\nhint: 115200, 57600, 9600\n",
+            o->firmware != NULL ? "--firmware"
+            : o->board != NULL  ? "--board"
+                                : "serial line");
+        return false;
+    }
+    if (o->firmware == NULL && o->port == NULL) {
+        fprintf(stderr, "whirl pil: error: no --firmware IMAGE\nhint: make pil-images builds "
+                        "build/mps2-an386/pil_rig.elf, which runs against docs/plants/rig.whirl\n");
+        return false;
+    }
+    if (o->target == NULL && o->replay == NULL) {
+        fprintf(stderr,
+                "whirl pil: error: no scene to be the plant\n"
+                "hint: whirl pil docs/plants/rig.whirl --firmware ...; or a tape: --replay TAPE\n");
+        return false;
+    }
+    if (o->replay != NULL &&
+        (o->target != NULL || o->tape != NULL || o->csv != NULL || o->faults.count > 0)) {
+        fprintf(stderr, "whirl pil: error: --replay takes no %s: the tape is the plant\n",
+                o->target != NULL ? "scene"
+                : o->tape != NULL ? "--tape"
+                : o->csv != NULL  ? "--csv"
+                                  : "--fault");
+        return false;
+    }
+    return true;
+}
+
+/* The program knows the boards even away from their sources. */
+static bool is_known_board(pil_options *o) {
+    static const struct {
+        const char *word;
+    } boards[] = {{"mps2-an386"}, {"mps2-an385"}, {"mps2-an500"}, {"mps2-an505"}};
+    return o->board == NULL || guest_machine_of(o->board, o->machine) ||
+           options_choose("pil", "board", o->board, boards, sizeof boards[0],
+                          (int)(sizeof boards / sizeof boards[0])) >= 0;
+}
+
+static bool read_options(int count, char **words, pil_options *o) {
+    static const char *const other[] = {"--fault", NULL};
+    const own_option own[] = {
+        {.word = "--firmware", .text = &o->firmware},
+        {.word = "--board", .text = &o->board},
+        {.word = "--tape", .text = &o->tape},
+        {.word = "--replay", .text = &o->replay},
+        {.word = "--read", .text = &o->read},
+        {.word = "--csv", .text = &o->csv},
+        {.word = "--bind", .text = &o->bind},
+        {.word = "--place", .text = &o->place},
+        {.word = "--jitter", .text = &o->jitter},
+        {.word = "--delay", .text = &o->delay},
+        {.word = "--port", .text = &o->port},
+        {.word = "--every", .text = &o->every},
+        OWN_WHOLE("--seed", o->seed, 0.0, 4294967295.0, "a whole number: --seed 7"),
+        OWN_NUMBER("--clock", o->clock_Hz, 1e3, 1e11, "in Hz: --clock 16e6"),
+        OWN_NUMBER("--cycles", o->cycles, 0.0, 1e4, "cycles an instruction: --cycles 1.5"),
+        OWN_WHOLE("--baud", o->baud, 1.0, 1e7, "a speed of serial lines: --baud 115200"),
+        OWN_NUMBER("--patience", o->patience_s, 0.01, 1e6, "in seconds: --patience 10"),
+        {.word = "--faults", .flag = &o->kinds},
+        {.word = "--quiet", .flag = &o->quiet},
+        {.word = NULL}};
+    const target_reader reader = {
+        .command = "pil", .groups = usage.groups, .table = own, .take = take_fault, .own = other};
+    return target_read(&reader, count, words, &o->common, o, &o->target) && is_known_board(o) &&
+           go_together(o);
+}
+
+/* --- the settings --------------------------------------------------------------------------------------------- */
+
+static bool read_time(const char *option, const char *text, const mechanism *of, double *time_s) {
+    *time_s = 0.0;
+    if (text == NULL) {
+        return true;
+    }
+    diags *errors = diags_new();
+    const bool good =
+        instance_duration(of, NULL, NULL, option, text, errors, time_s) && *time_s <= LONGEST_S;
+    diags_free(errors); /* a general message is clearer than the parser's */
+    if (!good) {
+        fprintf(stderr,
+                "whirl pil: error: --%s '%s' is not a time, from 0 to an hour\n"
+                "hint: such as 20us, or 1ms\n",
+                option, text);
+    }
+    return good;
+}
+
+static lockstep_wish wish_of(const pil_options *o) {
+    return (lockstep_wish){.guest = {.image = o->firmware,
+                                     .board = o->machine[0] != '\0' ? o->machine
+                                              : o->board != NULL    ? o->board
+                                                                    : "mps2-an386",
+                                     .patience_s = o->patience_s},
+                           .plant = {.seed = (uint32_t)o->seed},
+                           .renames = o->bind,
+                           .until_s = LONGEST_S,
+                           .instruction_s = o->cycles / o->clock_Hz};
+}
+
+static int code_of(const lockstep_report *r) {
+    switch (r->end) {
+    case LOCKSTEP_DONE: return r->status.status == 0 ? EXIT_DONE : EXIT_RUN_FAILED;
+    case LOCKSTEP_LET_GO: return EXIT_DONE;
+    case LOCKSTEP_BAD: return EXIT_BAD_INPUT;
+    case LOCKSTEP_STOPPED: return EXIT_INTERRUPTED;
+    case LOCKSTEP_FAILED:
+    case LOCKSTEP_DIFFERENT: break;
+    }
+    return EXIT_RUN_FAILED;
+}
+
+static int tell(const pil_options *o, const lockstep_wish *wish, const image *im,
+                const lockstep_report *r) {
+    if (r->end == LOCKSTEP_DONE && r->status.status != 0) {
+        fprintf(stderr, "whirl pil: the firmware ended with status %d\n", r->status.status);
+    }
+    if (r->end == LOCKSTEP_STOPPED) {
+        fprintf(stderr, "whirl pil: interrupted after %" PRIu64 " exchanges\n", r->exchanges);
+    }
+    if (!o->quiet && r->end != LOCKSTEP_BAD) {
+        pil_print(o->csv != NULL && strcmp(o->csv, "-") == 0 ? stderr : stdout, wish, im, r);
+    }
+    return code_of(r);
+}
+
+/* The line to a board, if the firmware is there. */
+static bool open_line(const pil_options *o, lockstep_wish *wish, port *line) {
+    if (o->port == NULL) {
+        return true;
+    }
+    if (!port_open(line, o->port, baud_of(o))) {
+        port_say_unopened(o->port, "is the board plugged in? ls /dev/tty*");
+        return false;
+    }
+    if (!line->is_line) {
+        fprintf(stderr, "%s: error: no serial line: nobody answers there\n", o->port);
+        port_close(line);
+        return false;
+    }
+    wish->guest.by_line = true;
+    wish->guest.line = line->file;
+    wish->guest.image = o->port;
+    return true;
+}
+
+static void close_line(const pil_options *o, port *line) {
+    if (o->port != NULL) {
+        port_close(line);
+    }
+}
+
+/* --- against a scene ----------------------------------------------------------------------------------------------*/
+
+static bool would_be_lost(const pil_options *o, const source_model *from, const char *option,
+                          const char *name) {
+    if (name == NULL || source_would_be_lost(from, option, name, "")) {
+        return name != NULL;
+    }
+    const bool lost = o->firmware != NULL && files_same(name, o->firmware);
+    if (lost) {
+        fprintf(stderr, "whirl pil: error: %s would be written over the firmware\n", option);
+    }
+    return lost;
+}
+
+static bool open_tape(const pil_options *o, const source_model *from, FILE **file) {
+    *file = NULL;
+    if (o->tape == NULL) {
+        return true;
+    }
+    if (would_be_lost(o, from, "--tape", o->tape)) {
+        return false;
+    }
+    *file = fopen(o->tape, "wb");
+    if (*file == NULL) {
+        write_error_say(o->tape);
+    }
+    return *file != NULL;
+}
+
+static int run_image(const pil_options *o, const source_model *from, const image *im,
+                     lockstep_wish *wish) {
+    lockstep_report report;
+    recorded rows;
+    if (!start_has_method(im, im->settings.method, from->errors) ||
+        !start_is_possible(im, &engine_double, from->errors)) {
+        diags_flush(from->errors, stderr);
+        return EXIT_BAD_INPUT;
+    }
+    if (would_be_lost(o, from, "--csv", o->csv) || !open_tape(o, from, &wish->tape) ||
+        !recorded_open(&rows, o->csv, im, o->every != NULL ? wish->every_s : -1.0)) {
+        return EXIT_BAD_INPUT;
+    }
+    wish->plant.rows = &rows;
+    if (o->common.change.until != NULL) {
+        wish->until_s = im->until_s;
+    }
+    port line;
+    const bool open = open_line(o, wish, &line);
+    if (open) {
+        interrupts_catch_waiting();
+        lockstep_run(wish, im, &report);
+        close_line(o, &line);
+    }
+    const bool written = recorded_close(&rows);
+    wish->plant.rows = NULL;
+    if (!open) {
+        return EXIT_BAD_INPUT;
+    }
+    if (!written) {
+        report.end = LOCKSTEP_FAILED;
+    }
+    if (wish->tape != NULL && fclose(wish->tape) != 0 && report.end != LOCKSTEP_BAD) {
+        write_error_say(o->tape);
+        report.end = LOCKSTEP_FAILED;
+    }
+    return tell(o, wish, im, &report);
+}
+
+/* Faults that change parameters come last. */
+static int load_plant(const pil_options *o, source_model *from, const mechanism *of,
+                      const scene *in, loaded *made) {
+    char *parameter[FAULTS_MAX];
+    int count = 0;
+    overrides changes = options_overrides(&o->common.change);
+    const char **sets = alloc(changes.set_count + FAULTS_MAX, sizeof *sets);
+    for (int i = 0; i < changes.set_count; i++) {
+        sets[i] = changes.sets[i];
+    }
+    for (unsigned i = 0; i < o->faults.count; i++) {
+        parameter[count] = fault_parameter(&o->faults, i);
+        if (parameter[count] != NULL) {
+            sets[changes.set_count++] = parameter[count++];
+        }
+    }
+    changes.sets = sets;
+    changes.step = changes.step != NULL ? changes.step : FINE_STEP;
+    const load_wish what = {
+        .settings = o->common.integration, .use = IMAGE_TO_RUN, .conserve = true};
+    const int code = load(made, from, of, in, &changes, &what);
+    while (count > 0) {
+        free(parameter[--count]);
+    }
+    free(sets);
+    return code;
+}
+
+static int run_source(pil_options *o, source_model *from) {
+    const mechanism *of;
+    const scene *in;
+    lockstep_wish wish = wish_of(o);
+    int code = source_open(from, o->target);
+    code = code == EXIT_DONE ? source_pick(from, true, &of, &in) : code;
+    if (code != EXIT_DONE) {
+        return code;
+    }
+    if (!read_time("jitter", o->jitter, of, &wish.plant.jitter_s) ||
+        !read_time("delay", o->delay, of, &wish.plant.delay_s) ||
+        !read_time("every", o->every, of, &wish.every_s) ||
+        !plant_read_places(o->place, &wish.plant)) {
+        return EXIT_BAD_INPUT;
+    }
+    loaded made;
+    o->faults.seed = (uint32_t)o->seed;
+    const tap faults = fault_tap(&o->faults);
+    wish.taps = &faults;
+    wish.tap_count = 1;
+    code = load_plant(o, from, of, in, &made);
+    source_forget(from);
+    if (code == EXIT_DONE) {
+        code = run_image(o, from, made.image, &wish);
+    }
+    unload(&made);
+    return code;
+}
+
+static int replay(const pil_options *o) {
+    lockstep_wish wish = wish_of(o);
+    lockstep_report report;
+    port line;
+    if (!open_line(o, &wish, &line)) {
+        return EXIT_BAD_INPUT;
+    }
+    interrupts_catch_waiting();
+    lockstep_replay(&wish, o->replay, &report);
+    close_line(o, &line);
+    return tell(o, &wish, NULL, &report);
+}
+
+int command_pil(int count, char **words) {
+    pil_options o = {.common = options_defaults(),
+                     .seed = 1.0,
+                     .clock_Hz = CLOCK_HZ,
+                     .cycles = CYCLES,
+                     .patience_s = PATIENCE_S};
+    if (options_help(count, words, &usage)) {
+        return EXIT_DONE;
+    }
+    int code = EXIT_BAD_INPUT;
+    if (read_options(count, words, &o)) {
+        if (o.kinds) {
+            fault_print_kinds(stdout);
+            code = EXIT_DONE;
+        } else if (o.read != NULL) {
+            code = taped_show(o.read, o.csv) ? EXIT_DONE : EXIT_BAD_INPUT;
+        } else if (o.replay != NULL) {
+            code = replay(&o);
+        } else {
+            source_model from;
+            code = run_source(&o, &from);
+            source_close(&from);
+        }
+    }
+    options_forget(&o.common);
+    return code;
+}

@@ -1,0 +1,145 @@
+/* price.c: `whirl price`: error against price, for all settings of a scene. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "commands.h"
+#include "files.h"
+#include "host/base/atomic_file.h"
+#include "host/base/interrupts.h"
+#include "host/study/measured.h"
+#include "pricing.h"
+
+static const char head[] =
+    "usage: whirl price SCENE|MECHANISM[:SCENE]|FILE[:SCENE] [options]\n"
+    "\n"
+    "Tries methods, numbers, forms, matrices, tables and many steps on a scene, as far as it takes\n"
+    "them, and prints how far each is off a reference of higher precision, beside what it costs on a\n"
+    "board: cycles a simulated second, or instructions if cycles are not counted there; flash, RAM and\n"
+    "stack. It shows at most 12 rows of the front: no other row is as cheap and errs less. Each figure\n"
+    "has a letter that tells how it is known.\n"
+    "What is run is named as for `whirl run`.\n"
+    "\n";
+static void show_progress(void *context, int done, int of) {
+    (void)context;
+    fprintf(stderr, "\r%3d of %d settings ", done, of);
+}
+
+static bool write_csv(const char *file, const trials *t, const table *made,
+                      const table_words *words) {
+    FILE *out = atomic_file_open(file);
+    if (out != NULL) {
+        table_csv(out, t, made, words);
+    }
+    return out != NULL && atomic_file_close(out, file, true);
+}
+
+/* The cheapest row that keeps the error, in words. */
+static int say_cheapest(FILE *out, const pricing *p, const table *made, const table_words *words) {
+    for (int i = 0; i < made->count; i++) {
+        const table_row *row = &made->row[i];
+        if (trial_error_si(&p->trial, row->result.error) <= p->error_si) {
+            char *line =
+                table_run_line(&p->trial, &row->setting, row->pace, row->result.point, words);
+            fprintf(out, "the cheapest within %s: %.2e %s\n  %s\n",
+                    p->options->value[PRICING_ERROR], row->result.error, trial_unit(&p->trial),
+                    line);
+            free(line);
+            return EXIT_DONE;
+        }
+    }
+    fprintf(stderr, "whirl price: nothing that was tried errs by less than %s\n",
+            p->options->value[PRICING_ERROR]);
+    return EXIT_RUN_FAILED;
+}
+
+static int show(pricing *p, const table *made) {
+    const char *const *value = p->options->value;
+    const char *csv = value[PRICING_CSV];
+    const table_words words = {p->target, p->words, value[PRICING_ALL] != NULL, p->effort};
+    const bool is_json = value[PRICING_JSON] != NULL;
+    FILE *out = is_json || (csv != NULL && strcmp(csv, "-") == 0) ? stderr : stdout;
+    if (value[PRICING_QUIET] == NULL && !is_json) {
+        table_print(out, &p->trial, made, &words);
+    }
+    if (!p->trial.reliable || made == NULL || made->count == 0) {
+        fprintf(stderr, "whirl price: error: no error of '%s' is known%s\n", p->options->target,
+                p->trial.reliable ? ": no setting has a row" : ", without a reference to trust");
+        return EXIT_RUN_FAILED;
+    }
+    if (csv != NULL && !write_csv(csv, &p->trial, made, &words)) {
+        return EXIT_BAD_INPUT;
+    }
+    return p->asks_error ? say_cheapest(out, p, made, &words) : EXIT_DONE;
+}
+
+static int count_front(pricing *p, table *made, const table_wish *w) {
+    const table_words words = {p->target, p->words, false, p->effort};
+    const measured_end end = measured_front(&p->trial, made, &words, w);
+    if (end == MEASURED_MISSING) {
+        pricing_says_missing(p, "a tool is missing");
+    }
+    p->trial.stopped = p->trial.stopped || interrupted;
+    return end == MEASURED_MISSING ? EXIT_BAD_INPUT : EXIT_DONE;
+}
+
+static bool can_measure(const pricing *p) {
+    char text[MEASURED_TEXT];
+    const char *missing = measured_missing(NULL, p->board, text);
+    if (missing != NULL) {
+        pricing_says_missing(p, missing);
+    }
+    return missing == NULL;
+}
+
+static int price_scene(pricing *p) {
+    const char *csv = p->options->value[PRICING_CSV];
+    const bool measure = p->options->value[PRICING_MEASURE] != NULL;
+    const bool progress = p->options->value[PRICING_QUIET] == NULL && isatty(STDERR_FILENO);
+    if (p->options->value[PRICING_JSON] != NULL && csv != NULL && strcmp(csv, "-") == 0) {
+        fputs("whirl price: error: --json and rows cannot share standard output\n"
+              "hint: --csv rows.csv\n",
+              stderr);
+        return EXIT_BAD_INPUT;
+    }
+    if (source_would_be_lost(&p->from, "--csv", csv, "") || !atomic_file_can(csv) ||
+        (measure && !can_measure(p))) {
+        return EXIT_BAD_INPUT;
+    }
+    interrupts_catch();
+    if (progress) {
+        fputs("\rthe reference   ", stderr);
+    }
+    int code = pricing_begin(p, pricing_spacing(p->until_s, PRICING_RECORDS));
+    table *made = NULL;
+    if (code == EXIT_DONE && p->trial.reliable && !p->trial.stopped) {
+        table_wish wish = pricing_wish(p);
+        wish.progress = progress ? show_progress : NULL;
+        made = table_new(&p->trial, &wish);
+        code = measure && !p->trial.stopped ? count_front(p, made, &wish) : code;
+    }
+    if (progress) {
+        fputs("\r                    \r", stderr);
+    }
+    if (code == EXIT_DONE && p->trial.stopped) {
+        code = EXIT_INTERRUPTED;
+    } else if (code == EXIT_DONE) {
+        code = show(p, made);
+        if (p->options->value[PRICING_JSON] != NULL) {
+            const table_words words = {p->target, p->words, true, p->effort};
+            table_json(stdout, &p->trial, made, &words, code);
+        }
+    }
+    table_free(made);
+    return code;
+}
+
+int command_price(int count, char **words) {
+    static const pricing_command price = {
+        "price", PRICING_PRICE, head,
+        "there is no reference that could be trusted, no setting that keeps to the motion,\n"
+        "       none with a price, or none within --error",
+        price_scene};
+    return pricing_run(&price, count, words);
+}

@@ -1,0 +1,131 @@
+/* pricing.h: what `whirl price` and `whirl choose` have in common: their options, the scene, its references. */
+#ifndef CLI_PRICING_H
+#define CLI_PRICING_H
+
+#include "host/cli/load.h"
+#include "host/study/table_text.h"
+#include "options.h"
+#include "pricing_scene.h"
+#include "target.h"
+
+/* Which of the two takes an option. */
+enum { PRICING_PRICE = 1, PRICING_CHOOSE = 2, PRICING_BOTH = 3 };
+
+/* X(id, who takes it, word, its value or NULL for none, text). */
+#define PRICING_OPTION_ROWS(X) \
+    X(PRICING_BOARD, BOTH, "--board", "B", \
+      "whose price: an emulated board of docs/boards.md, or host (default: mps2-an386, a " \
+      "Cortex-M4F, also for an STM32F405)") \
+    X(PRICING_OF, BOTH, "--of", "X", \
+      "the error of one output, coordinate or rate, in its own unit; without it each " \
+      "coordinate and rate as a part of its largest value, the worst of them") \
+    X(PRICING_ERROR, BOTH, "--error", "0.1mm", "the error that is allowed; a bare number is SI") \
+    X(PRICING_HORIZON, BOTH, "--horizon", "T", \
+      "look at errors until then (default: the scene's end)") \
+    X(PRICING_VARY, BOTH, "--vary", "RANGE", \
+      "the worst of sampled places of a parameter, an input or a start value: duty=0.2..0.8 " \
+      "samples three, the ends among them, duty=0.2..0.8:5 five. Repeatable: all " \
+      "combinations. The scene's own values are always sampled too") \
+    X(PRICING_METHOD, BOTH, "--method", "M,...", \
+      "try these methods in place of rk4,nystroem3,nystroem4,nystroem5, beside which others " \
+      "save nothing in the median; all: every one") \
+    X(PRICING_EFFORT, BOTH, "--effort", "1e9", \
+      "operations that all trials may evaluate: 1e9 take about 5 s of a processor") \
+    X(PRICING_ALL, PRICE, "--all", NULL, "every row") \
+    X(PRICING_CSV, PRICE, "--csv", "FILE", \
+      "every row, with the command lines that do it again; - is standard output (the table " \
+      "then goes to standard error)") \
+    X(PRICING_JSON, BOTH, "--json", NULL, \
+      "one JSON object on standard output in place of words (docs/warnings.md)") \
+    X(PRICING_RATE, CHOOSE, "--rate", "500Hz", \
+      "how often the firmware steps: a period takes whole steps (default: any step will do)") \
+    X(PRICING_CLOCK, CHOOSE, "--clock", "16MHz", \
+      "of the processor: the longest steps must fit into the period (default: the board's " \
+      "own, if it has one)") \
+    X(PRICING_FLASH, CHOOSE, "--flash", "32KB", \
+      "what the firmware may take; K, KB and KiB are 1024 bytes (default: what the board has, " \
+      "if it is one chip)") \
+    X(PRICING_RAM, CHOOSE, "--ram", "2KB", "the same of its memory and stack") \
+    X(PRICING_PREDICT, CHOOSE, "--predict", NULL, \
+      "predict what steps take, though it could be counted: a few seconds less") \
+    X(PRICING_MEASURE, BOTH, "--measure", NULL, \
+      "count, or fail where that cannot be: in Whirl's source tree, with the board's compiler " \
+      "and emulator. price counts its front, which takes minutes") \
+    X(PRICING_QUIET, BOTH, "--quiet", NULL, "no progress; of price no table, either")
+#define PRICING_OPTION_ID(id, who, word, value, text) id,
+typedef enum pricing_option {
+    PRICING_OPTION_ROWS(PRICING_OPTION_ID) PRICING_OPTIONS
+} pricing_option;
+#undef PRICING_OPTION_ID
+
+typedef struct pricing pricing;
+
+typedef struct pricing_command {
+    const char *name;   /* "price" */
+    unsigned bit;       /* PRICING_PRICE or PRICING_CHOOSE */
+    const char *head;   /* of its help text */
+    const char *failed; /* why its exit status may be 1 */
+    int (*run)(pricing *p);
+} pricing_command;
+
+typedef struct pricing_options {
+    const char *command; /* "price" */
+    unsigned bit;
+    common_options common;
+    const char *target;
+    const char *value[PRICING_OPTIONS]; /* NULL: not given, and of --vary */
+    const char **vary;                  /* [word count] */
+    int vary_count;
+    bool balance; /* overrides.balance */
+} pricing_options;
+
+enum { PRICING_GROUPS = OPTIONS_CHANGE };
+
+pricing_options pricing_defaults(const char *command, int word_count);
+/* Reads the words, opens the scene, runs the command. */
+int pricing_run(const pricing_command *c, int count, char **words);
+
+/* --- the scene -------------------------------------------------------------------------------------*/
+
+struct pricing {
+    const pricing_options *options;
+    source_model from;
+    const mechanism *of;
+    const scene *in;
+    overrides changes;
+    grid grid;
+    pricing_scene *scene;
+    const cost_board *board;
+    bool asks_error;
+    double error_si; /* what --error allows */
+    double until_s;  /* the horizon, or the scene's end */
+    double step_s;   /* the scene's own */
+    double effort;   /* operations */
+    bool method[WH_METHODS];
+    char *words;  /* its changes, as they are typed */
+    char *target; /* as it is typed again */
+    trials trial;
+    bool has_trial;
+};
+
+/* Reads all that the options say of the scene. Returns an exit code, what is wrong is told; pricing_close() in any case. */
+int pricing_open(pricing *p, const pricing_options *o);
+void pricing_close(pricing *p);
+/* The board of --board, which has prices; NULL is reported. */
+const cost_board *pricing_board(const char *command, const char *value);
+/* That --measure cannot be had, and why. */
+void pricing_says_missing(const pricing *p, const char *why);
+/* A quantity above zero of the command line, in SI: false, told. Its dimension is that of the quantity `name`, or, if that
+ * is NULL, `wanted`. */
+bool pricing_quantity(const char *command, const mechanism *of, const char *name, const char *what,
+                      const char *text, dimension wanted, double *value);
+/* The table that is asked for: by the effort and the methods, on all processors. */
+table_wish pricing_wish(const pricing *p);
+/* Computes the references at records of this spacing up to the horizon: an exit code. */
+int pricing_begin(pricing *p, whole_ratio spacing);
+/* Records of `whirl price` to the horizon: so many to two and a half times as many. */
+#define PRICING_RECORDS 1000.0
+/* A spacing of about so many to two and a half times so many records, 1, 2 or 5 times a power of ten. */
+whole_ratio pricing_spacing(double until_s, double count);
+
+#endif

@@ -1,0 +1,266 @@
+/* pricing_scene.c: see pricing_scene.h. */
+#include "pricing_scene.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "host/base/alloc.h"
+#include "host/derive/lagrange.h"
+#include "host/lang/shown.h"
+
+/* --- a place in words ------------------------------------------------------------------------------*/
+
+char *pricing_quoted(const char *word) {
+    static const char plain[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789"
+                                "_-+.,:/=@%";
+    if (word[0] != '\0' && word[strspn(word, plain)] == '\0') {
+        return alloc_words("%s", word);
+    }
+    if (strpbrk(word, "\"\\$`!") == NULL) {
+        return alloc_words("\"%s\"", word);
+    }
+    char *text;
+    size_t length;
+    FILE *out = alloc_text(&text, &length);
+    fputc('\'', out);
+    for (; *word != '\0'; word++) {
+        fputs(*word == '\'' ? "'\\''" : (char[]){*word, '\0'}, out);
+    }
+    fputc('\'', out);
+    alloc_text_end(out);
+    return text;
+}
+
+char *pricing_words(const overrides *c, bool as_label) {
+    char *text;
+    size_t length;
+    const struct {
+        const char *option;
+        const char *label; /* NULL: stands in no label */
+        const char *const *list;
+        int count;
+    } parts[] = {{"--set ", "", c->sets, c->set_count},
+                 {"--start ", "", c->starts, c->start_count},
+                 {"--with ", "with ", c->with, c->with_count},
+                 {"--without ", "without ", c->without, c->without_count},
+                 {"--step ", NULL, &c->step, c->step != NULL},
+                 {"--until ", NULL, &c->until, c->until != NULL}};
+    const char *separator = as_label ? "" : " ";
+    FILE *out = alloc_text(&text, &length);
+    for (size_t i = 0; i < sizeof parts / sizeof parts[0]; i++) {
+        for (int k = 0; k < parts[i].count && (!as_label || parts[i].label != NULL); k++) {
+            char *word =
+                as_label ? alloc_words("%s", parts[i].list[k]) : pricing_quoted(parts[i].list[k]);
+            fprintf(out, "%s%s%s", separator, as_label ? parts[i].label : parts[i].option, word);
+            separator = as_label ? ", " : " ";
+            free(word);
+        }
+    }
+    alloc_text_end(out);
+    return text;
+}
+
+/* Is there nothing to change at this point? */
+static bool is_own(const pricing_scene *p, int point) {
+    return p->grid->count == 0 || (p->has_own && point == p->source.points - 1);
+}
+
+static bool is_start(const axis *a) {
+    return a->symbol->kind == SYM_COORDINATE || a->symbol->kind == SYM_STATE;
+}
+
+static const char *name_of(void *context, int point) {
+    pricing_scene *p = context;
+    double *value = alloc(p->grid->count, sizeof *value);
+    char number[NUMBER_SIZE];
+    size_t length;
+    free(p->name);
+    FILE *out = alloc_text(&p->name, &length);
+    const int axes = is_own(p, point) ? 0 : p->grid->count;
+    if (axes > 0) {
+        grid_values(p->grid, (uint64_t)point, value);
+    }
+    for (int i = 0; i < axes; i++) {
+        const axis *a = &p->grid->axes[i];
+        char *word = shown_assignment(a->symbol, a->primes, number_shortest(value[i], number));
+        char *quoted = pricing_quoted(word);
+        fprintf(out, " %s %s", is_start(a) ? "--start" : "--set", quoted);
+        free(word);
+        free(quoted);
+    }
+    alloc_text_end(out);
+    free(value);
+    return p->name;
+}
+
+/* --- images ----------------------------------------------------------------------------------------*/
+
+/* The varied values as texts behind the command line's own, and so over them; free with forget(). */
+static overrides changes_at(const pricing_scene *p, int point) {
+    const grid *g = p->grid;
+    overrides changes = *p->changes;
+    double *value = alloc(g->count, sizeof *value);
+    const char **texts = alloc(g->count, sizeof(const char *));
+    const int axes = is_own(p, point) ? 0 : g->count;
+    if (axes > 0) {
+        grid_values(g, (uint64_t)point, value);
+    }
+    for (int i = 0; i < axes; i++) {
+        char number[NUMBER_SIZE];
+        snprintf(number, sizeof number, "%.17g", value[i]);
+        texts[i] = shown_assignment(g->axes[i].symbol, g->axes[i].primes, number);
+    }
+    free(value);
+    changes.values = texts;
+    changes.value_count = axes;
+    return changes;
+}
+
+static void forget(overrides *changes) {
+    for (int i = 0; i < changes->value_count; i++) {
+        free((void *)(uintptr_t)changes->values[i]);
+    }
+    free((void *)(uintptr_t)changes->values);
+}
+
+/* Do these settings make the same lists? The method and the form of angles are read when an image runs. */
+static bool same_lists(const image_settings *a, const image_settings *b) {
+    const bool matrix = a->matrix != MATRIX_NONE;
+    return a->compensated == b->compensated && a->stabilized == b->stabilized &&
+           a->matrix == b->matrix && a->tables == b->tables && a->cells == b->cells &&
+           (!(matrix || a->stabilized) || (a->method == b->method && a->angles == b->angles));
+}
+
+/* What `make` says of a setting that scenes need not take stays unsaid. */
+static diags *diags_of(pricing_scene *p, const image_settings *settings) {
+    return setting_may_be_refused(settings) ? diags_new() : p->errors;
+}
+
+static void forget_diags(pricing_scene *p, diags *of) {
+    if (of != p->errors) {
+        diags_free(of);
+    }
+}
+
+/* The image of a place with the lists of these settings, made once; its step and end are the scene's. NULL: told, or it does not take
+ * them. */
+static const image *base_of(pricing_scene *p, int point, const image_settings *settings) {
+    for (int i = 0; i < p->made_count; i++) {
+        if (p->made[i].point == point && same_lists(&p->made[i].settings, settings)) {
+            return p->made[i].image;
+        }
+    }
+    if (p->equations[point] == NULL) {
+        overrides changes = changes_at(p, point);
+        instance_free(p->instance[point]);
+        instance *inst = instance_make(p->mechanism, p->scene, &changes, p->errors);
+        p->instance[point] = inst;
+        p->equations[point] = inst == NULL ? NULL : equations_derive(inst, p->errors);
+        forget(&changes);
+        if (p->equations[point] == NULL) {
+            return NULL;
+        }
+    }
+    const equations *e = p->equations[point];
+    diags *errors = diags_of(p, settings);
+    image *made = image_make(e, e->instance->conserve, settings, IMAGE_TO_RUN, errors);
+    forget_diags(p, errors);
+    if (made != NULL || setting_may_be_refused(settings)) {
+        p->made = alloc_more(p->made, p->made_count + 1, sizeof *p->made);
+        p->made[p->made_count++] = (pricing_made){point, *settings, made, false};
+    }
+    return made;
+}
+
+static image *make(void *context, int point, const setting *s, const char *step,
+                   const char *until) {
+    pricing_scene *p = context;
+    overrides changes = changes_at(p, point);
+    changes.step = step != NULL ? step : changes.step;
+    changes.until = until != NULL ? until : changes.until;
+    const image *base = base_of(p, point, &s->image);
+    instance *inst =
+        base == NULL ? NULL : instance_make(p->mechanism, p->scene, &changes, p->errors);
+    diags *errors = diags_of(p, &s->image);
+    image *made = inst == NULL ? NULL : image_again(base, inst, errors);
+    if (made != NULL) {
+        made->settings.method = s->image.method;
+        made->settings.angles = s->image.angles;
+    }
+    forget_diags(p, errors);
+    instance_free(inst);
+    forget(&changes);
+    diags_flush(p->errors, stderr);
+    return made;
+}
+
+pricing_scene *pricing_scene_new(const mechanism *of, const scene *in, const overrides *changes,
+                                 const grid *g, diags *errors) {
+    pricing_scene *p = alloc(1, sizeof *p);
+    const int points = g->count > 0 ? (int)g->points : 1;
+    *p =
+        (pricing_scene){.mechanism = of,
+                        .scene = in,
+                        .changes = changes,
+                        .grid = g,
+                        .errors = errors,
+                        .instance = alloc(points + 1, sizeof(instance *)), /* and the scene's own */
+                        .equations = alloc(points + 1, sizeof(equations *)),
+                        .source = {.points = points, .make = make, .name = name_of}};
+    p->source.context = p;
+    return p;
+}
+
+static double own_value(const instance *own, const axis *a) {
+    switch (a->symbol->kind) {
+    case SYM_PARAMETER: return own->parameter[a->symbol->index];
+    case SYM_INPUT: return own->input[a->symbol->index];
+    case SYM_COORDINATE:
+    case SYM_STATE: return own->start[a->symbol->index][a->primes];
+    case SYM_LET:
+    case SYM_OUTPUT:
+    case SYM_RECORD: break; /* no axis */
+    }
+    return 0.0;
+}
+
+void pricing_scene_add_own(pricing_scene *p, const instance *own) {
+    const grid *g = p->grid;
+    double *value = alloc(g->count, sizeof *value);
+    bool among = g->count == 0;
+    for (int point = 0; point < p->source.points && !among; point++) {
+        grid_values(g, (uint64_t)point, value);
+        among = true;
+        for (int i = 0; i < g->count; i++) {
+            among = among && value[i] == own_value(own, &g->axes[i]);
+        }
+    }
+    free(value);
+    p->has_own = !among;
+    p->source.points += !among;
+}
+
+void pricing_scene_lend(pricing_scene *p, const image_settings *settings, const image *lent) {
+    if (lent != NULL) {
+        p->made = alloc_more(p->made, p->made_count + 1, sizeof *p->made);
+        p->made[p->made_count++] = (pricing_made){0, *settings, (image *)(uintptr_t)lent, true};
+    }
+}
+
+void pricing_scene_free(pricing_scene *p) {
+    if (p == NULL) {
+        return;
+    }
+    for (int i = 0; i < p->made_count; i++) {
+        image_free(p->made[i].lent ? NULL : p->made[i].image);
+    }
+    for (int i = 0; i < p->source.points; i++) {
+        equations_free(p->equations[i]);
+        instance_free(p->instance[i]);
+    }
+    free(p->instance);
+    free(p->equations);
+    free(p->made);
+    free(p->name);
+    free(p);
+}

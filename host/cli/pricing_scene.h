@@ -1,0 +1,48 @@
+/* pricing_scene.h: a scene and its varied places as a source of images to try settings on (host/study/trial.h). */
+#ifndef CLI_PRICING_SCENE_H
+#define CLI_PRICING_SCENE_H
+
+#include "host/derive/image_make.h"
+#include "host/study/grid.h"
+#include "host/study/trial.h"
+
+/* Equations and images that were made before: those of one place and setting share their lists. */
+typedef struct pricing_made {
+    int point;
+    image_settings settings;
+    image *image; /* NULL: the scene does not take them */
+    bool lent;
+} pricing_made;
+
+typedef struct pricing_scene {
+    const mechanism *mechanism;
+    const scene *scene;       /* NULL for a bare mechanism */
+    const overrides *changes; /* the command line's, but for what varies */
+    const grid *grid;         /* what varies; no axes: nothing */
+    diags *errors;
+    instance **instance;   /* [points] of: */
+    equations **equations; /* [points] NULL: not yet */
+    pricing_made *made;    /* [made_count] */
+    int made_count;
+    bool has_own; /* the last point is the scene's own place, which is no point of the grid */
+    char *name;   /* of the place that was asked for last */
+    trial_source source;
+} pricing_scene;
+
+/* Places of all that varies: more are refused. */
+enum { PRICING_PLACES_MAX = 64, PRICING_PLACES = 3 };
+
+pricing_scene *pricing_scene_new(const mechanism *of, const scene *in, const overrides *changes,
+                                 const grid *g, diags *errors);
+/* The scene's own values, if they are no point of the grid, become a point. Call it before any image is made. */
+void pricing_scene_add_own(pricing_scene *p, const instance *own);
+/* An image that was made with these settings, and is not the scene's to free. NULL is fine. */
+void pricing_scene_lend(pricing_scene *p, const image_settings *settings, const image *lent);
+void pricing_scene_free(pricing_scene *p); /* NULL is fine */
+
+/* A word of a command line as a shell takes it: in quotes where it must be. To be freed. */
+char *pricing_quoted(const char *word);
+/* The options that make these changes, each behind a blank; or as a label "m=2, with drag", without times. To be freed. */
+char *pricing_words(const overrides *c, bool as_label);
+
+#endif

@@ -1,0 +1,267 @@
+/* prove.c: `whirl prove`: the time until which a run is proved to be within a tolerance of the exact motion. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "commands.h"
+#include "files.h"
+#include "host/base/alloc.h"
+#include "host/base/arena.h"
+#include "host/base/atomic_file.h"
+#include "host/base/interrupts.h"
+#include "host/cli/load.h"
+#include "host/engine/start.h"
+#include "host/lang/override.h"
+#include "host/lang/value.h"
+#include "host/number/functions.h"
+#include "host/prove/containment.h"
+#include "target.h"
+#include "trusting.h"
+
+/* Default limit of operations without --effort, and products of enclosures in a second. */
+#define EFFORT 1.5e10
+#define PRODUCTS_1S 1e8
+
+static const command_usage usage = {
+    .head =
+        "usage: whirl prove SCENE|MECHANISM[:SCENE]|FILE[:SCENE] [options]\n"
+        "\n"
+        "Until when each coordinate and rate of a run is within a tolerance of the exact motion, proved:\n"
+        "a tube in which the exact motion lies is computed from the energies, with parameters as the\n"
+        "decimals that are written, in intervals that are rounded outwards, and every step's end of the\n"
+        "run is held against it. For smooth scenes: no stops, holds, dry friction or whens. The options\n"
+        "are those of `whirl run`, and tell the run that is asked about.\n"
+        "\n",
+    .groups = OPTIONS_SCENE,
+    .tail =
+        "  --within X=1mm       what a coordinate or rate is to be within (repeatable, each name once)\n"
+        "  --tolerance 1e-3     of the others: part of the range that each has in the run (default: 1e-3)\n"
+        "  --csv FILE           a row for each step: the time, and of each coordinate and rate, in SI, the\n"
+        "                       least and the most that the exact motion may be, and the run's; - is\n"
+        "                       standard output, and the words then go to standard error\n"
+        "  --effort 1.5e10      operations that it may evaluate: 1.5e10 take about a minute. When it is\n"
+        "                       spent, what is proved until there is told\n"
+        "  --quiet              no progress, and no words beside --csv\n",
+    .why = {[EXIT_ROW_OF(EXIT_DONE)] = "also where it is proved until some time only",
+            [EXIT_ROW_OF(EXIT_RUN_FAILED)] = "the run diverged: what is proved before that is told",
+            [EXIT_ROW_OF(EXIT_BAD_INPUT)] = "",
+            [EXIT_ROW_OF(EXIT_INTERRUPTED)] = "what is proved until then is told"}};
+
+typedef struct prove_options {
+    common_options common;
+    const char *target;
+    const char **within; /* [within_count] */
+    int within_count;
+    const char *csv;
+    double tolerance;
+    double effort;
+    bool quiet;
+} prove_options;
+
+static bool read_options(int count, char **words, prove_options *o) {
+    o->within = alloc(count, sizeof *o->within);
+    const own_option own[] = {{.word = "--within", .text = o->within, .count = &o->within_count},
+                              OWN_TOLERANCE(o->tolerance),
+                              OWN_EFFORT(o->effort, "1.5e11"),
+                              {.word = "--csv", .text = &o->csv},
+                              {.word = "--quiet", .flag = &o->quiet},
+                              {.word = NULL}};
+    const target_reader reader = {.command = "prove", .groups = usage.groups, .table = own};
+    return target_read(&reader, count, words, &o->common, o, &o->target) &&
+           target_is_there(o->target, &usage);
+}
+
+/* The cost of two runs, the range's and the compared one; the tube has a limit of its own. */
+static bool is_affordable(const image *im, double effort) {
+    const double wanted = step_doubling_operations(im, im);
+    if (wanted > effort) {
+        fprintf(stderr,
+                "whirl prove: error: the run alone, of %.3g steps, would take about %.0f minutes\n"
+                "hint: a nearer --until, or a longer --step",
+                (double)im->steps, effort_minutes(wanted));
+        effort_say(wanted);
+    }
+    return wanted <= effort;
+}
+
+/* within[states]: SI, 0 if not given. False: reported. */
+static bool read_within(const prove_options *o, const mechanism *of, const exact_motion *m,
+                        double *within, diags *errors) {
+    struct arena *memory = arena_new();
+    const size_t before = diags_calls(errors);
+    for (int i = 0; i < o->within_count; i++) {
+        assignment a;
+        if (!override_parse(of, OVERRIDE_START, o->within[i], memory, errors, &a)) {
+            continue;
+        }
+        const double value = expr_value(a.value, NULL);
+        if (!isfinite(value) || !(value > 0.0)) {
+            diag_error(errors, a.at, "--within X=1mm", "a number above zero is wanted");
+        }
+        for (int s = 0; s < m->states; s++) {
+            if (m->state[s].unknown == a.symbol->index && m->state[s].primes == a.primes) {
+                if (within[s] > 0.0) {
+                    diag_error(errors, a.at, "once is enough: leave one of them out",
+                               "'%s%.*s' is given twice on the command line", a.symbol->name,
+                               a.primes, "'''''''''");
+                }
+                within[s] = enclosure_below(value); /* the exact decimal may be below the double */
+            }
+        }
+    }
+    arena_free(memory);
+    return diags_calls(errors) == before;
+}
+
+static void show_progress(double share) { fprintf(stderr, "\r%5.1f %%", 100.0 * share); }
+
+static bool is_standard(const prove_options *o) {
+    return o->csv != NULL && strcmp(o->csv, "-") == 0;
+}
+
+typedef struct rows {
+    FILE *file; /* NULL: no rows */
+    const containment_wish *wish;
+} rows;
+
+static void write_row(void *told, uint64_t step, const enclosure *exact, const double *run) {
+    const rows *r = told;
+    containment_row(r->file, r->wish, step, exact, run);
+}
+
+/* The reason why the tube ended early. */
+static void say_end(const containment_found *h, double end_s) {
+    switch (h->end) {
+    case CONTAINMENT_AT_END:
+    case CONTAINMENT_RUN_ENDS: break;
+    case CONTAINMENT_NO_STEP:
+        fprintf(
+            stderr,
+            "whirl prove: the tube ends at t = %.15g s: behind it the exact motion is not enclosed\n",
+            h->tube_s);
+        break;
+    case CONTAINMENT_SPENT:
+        fprintf(stderr,
+                "whirl prove: the effort is spent at t = %.15g s of %.15g s\n"
+                "hint: a larger --effort goes on\n",
+                h->tube_s, end_s);
+        break;
+    case CONTAINMENT_STOPPED:
+        if (h->ranged) {
+            fprintf(stderr, "whirl prove: interrupted at t = %.15g s of %.15g s\n", h->tube_s,
+                    end_s);
+        } else {
+            fputs("whirl prove: interrupted in the run that tells the range of each coordinate: "
+                  "nothing is proved yet\n",
+                  stderr);
+        }
+        break;
+    }
+}
+
+static int status_of(const containment_found *h, const image *im) {
+    if (h->status != WH_OK) {
+        fprintf(stderr,
+                "whirl prove: error: the run diverged in the step after t = %.15g s\n"
+                "hint: a smaller --step may carry it further\n",
+                ratio_times(h->run_steps, im->step));
+    }
+    return h->end == CONTAINMENT_STOPPED ? EXIT_INTERRUPTED
+           : h->status == WH_OK          ? EXIT_DONE
+                                         : EXIT_RUN_FAILED;
+}
+
+static int held_out(const prove_options *o, const containment_wish *w, const rows *r) {
+    containment_found h = containment_run(w);
+    if (w->progress != NULL) {
+        fprintf(stderr, "\r        \r");
+    }
+    if (h.ranged && (!o->quiet || o->csv == NULL)) {
+        containment_print(is_standard(o) ? stderr : stdout, &h, w);
+    }
+    say_end(&h, ratio_times(w->image->steps, w->image->step));
+    const int code = status_of(&h, w->image);
+    const bool good = atomic_file_close(r->file, o->csv, h.ranged);
+    containment_free(&h);
+    return good || code == EXIT_INTERRUPTED ? code : EXIT_RUN_FAILED;
+}
+
+static int answer(const prove_options *o, const image *im, const exact_motion *m,
+                  const double *within) {
+    rows r = {.file = o->csv == NULL ? NULL : atomic_file_open(o->csv)};
+    if (o->csv != NULL && r.file == NULL) {
+        return EXIT_BAD_INPUT;
+    }
+    const containment_wish wish = {.motion = m,
+                                   .image = im,
+                                   .kind = o->common.number,
+                                   .tolerance = o->tolerance,
+                                   .within = within,
+                                   .products_most = o->effort / BUDGET_LEAST * PRODUCTS_1S,
+                                   .see = r.file != NULL ? write_row : NULL,
+                                   .told = &r,
+                                   .progress =
+                                       !o->quiet && isatty(STDERR_FILENO) ? show_progress : NULL};
+    r.wish = &wish;
+    if (r.file != NULL) {
+        containment_rows_head(r.file, &wish);
+    }
+    interrupts_catch();
+    return held_out(o, &wish, &r);
+}
+
+static int prove_loaded(const prove_options *o, const loaded *made, const mechanism *of,
+                        diags *errors) {
+    const image *im = made->image;
+    exact_motion *m = NULL;
+    if (is_affordable(im, o->effort) && start_has_method(im, im->settings.method, errors) &&
+        start_is_possible(im, o->common.number, errors)) {
+        m = exact_motion_make(made->instance, errors);
+    }
+    double *within = alloc(m != NULL ? m->states : 0, sizeof *within);
+    const bool good = m != NULL && read_within(o, of, m, within, errors);
+    diags_flush(errors, stderr);
+    const int code = good ? answer(o, im, m, within) : EXIT_BAD_INPUT;
+    free(within);
+    exact_motion_free(m);
+    return code;
+}
+
+static int prove_source(const prove_options *o, source_model *from) {
+    const mechanism *of;
+    const scene *in;
+    int code = source_open(from, o->target);
+    code = code == EXIT_DONE ? source_pick(from, true, &of, &in) : code;
+    if (code != EXIT_DONE || source_would_be_lost(from, "--csv", o->csv, "")) {
+        return code != EXIT_DONE ? code : EXIT_BAD_INPUT;
+    }
+    const overrides changes = options_overrides(&o->common.change);
+    const load_wish wish = {.settings = o->common.integration,
+                            .use = IMAGE_TO_RUN,
+                            .keep = KEEP_INSTANCE,
+                            .conserve = true};
+    loaded made;
+    code = load(&made, from, of, in, &changes, &wish);
+    code = code == EXIT_DONE ? prove_loaded(o, &made, of, from->errors) : code;
+    unload(&made);
+    return code;
+}
+
+int command_prove(int count, char **words) {
+    prove_options o = {
+        .common = options_defaults(), .tolerance = CONTAINMENT_TOLERANCE, .effort = EFFORT};
+    source_model from = {0};
+    if (options_help(count, words, &usage)) {
+        return EXIT_DONE;
+    }
+    int code = EXIT_BAD_INPUT;
+    if (read_options(count, words, &o)) {
+        code = prove_source(&o, &from);
+        source_close(&from);
+    }
+    options_forget(&o.common);
+    free(o.within);
+    return code;
+}

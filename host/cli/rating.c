@@ -1,0 +1,305 @@
+#include "rating.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "host/base/alloc.h"
+#include "host/check/remedy.h"
+#include "host/engine/start.h"
+#include "host/fixed/engine_fixed.h"
+#include "host/number/functions.h"
+#include "host/study/three_rows.h"
+#include "pricing.h"
+
+/* --- the rows --------------------------------------------------------------------------------------*/
+
+/* The number type of the board's programs, unless the command line gives one. */
+static const engine_kind *number_of(const rating_wish *w) {
+    const bool pc = strcmp(w->board->name, "host") == 0;
+    return w->number != NULL ? w->number : pc ? &engine_double : &engine_float;
+}
+
+/* The line ends with the command that shows the rows, if there is one. */
+static void say_none(FILE *out, const rating_wish *w, const char *why, const char *command) {
+    fprintf(out, "accuracy and cost  not shown: %s", why);
+    if (command != NULL) {
+        char *target = pricing_quoted(w->target);
+        overrides asked = *w->changes;
+        asked.step = NULL; /* it tries several steps */
+        char *changes = pricing_words(&asked, false);
+        fprintf(out, "; %sthey are shown by: whirl %s %s%s%s%s",
+                strcmp(command, "price") != 0 ? "in Whirl's source tree " : "", command, target,
+                changes, w->board_word != NULL ? " --board " : "",
+                w->board_word != NULL ? w->board_word : "");
+        free(target);
+        free(changes);
+    }
+    fputc('\n', out);
+}
+
+/* The reason why a scene can have no rows, whatever its run gives; NULL: it can. */
+static const char *refused(const rating_wish *w) {
+    diags *unsaid = diags_new();
+    const bool held = number_of(w) == &engine_double || start_angles_are_held(w->image, unsaid);
+    diags_free(unsaid);
+    return w->settings->stabilized ? "the cost of --stabilized is not known"
+           : !held                 ? "a start angle has more turns than float counts"
+                                   : NULL;
+}
+
+static void say_rows(FILE *out, const rating_wish *w, const simulation_trust *trust) {
+    const grid none = {0};
+    pricing_scene *p = pricing_scene_new(w->of, w->in, w->changes, &none, w->errors);
+    const double end_s = ratio_times(w->image->steps, w->image->step);
+    image_settings plain;
+    step_doubling_plain(w->settings, &plain);
+    pricing_scene_lend(p, w->settings, w->image);
+    pricing_scene_lend(p, &plain, w->plain);
+    three_rows_wish wish = {.source = &p->source,
+                            .board = w->board,
+                            .setting = {*w->settings, number_of(w)},
+                            .plain = plain,
+                            .method = step_doubling_method(w->image),
+                            .order = step_doubling_order(w->image),
+                            .limit = HORIZON_TOLERANCE,
+                            .step = w->image->step,
+                            .priced_step = pricing_spacing(end_s, PRICING_RECORDS)};
+    const double steps = number_floor(trust->until_s / w->image->step_s * (1.0 + 1e-12));
+    wish.steps = (uint64_t)number_least(steps, (double)w->image->steps);
+    if (wish.steps < 2) {
+        say_none(out, w, "the run is trusted for less than two steps", "price");
+    } else if (three_rows_operations(&wish, w->image) > 0.5 * trust->left) {
+        say_none(out, w, "they take more than a second", "price");
+    } else {
+        three_rows rows;
+        three_rows_make(&rows, &wish);
+        if (rows.trial.stopped) {
+            say_none(out, w, "interrupted", "price");
+        } else if (!rows.trial.reliable) {
+            say_none(out, w, "there is no reference to compare with", NULL);
+        } else {
+            three_rows_print(out, &rows);
+        }
+        three_rows_end(&rows);
+    }
+    pricing_scene_free(p);
+}
+
+void rating_say(FILE *out, const rating_wish *w, const simulation_trust *trust) {
+    if (w->image->steps == 0) {
+        return;
+    }
+    const char *why = refused(w);
+    const bool on_board = strcmp(w->board->name, "host") != 0;
+    if (trust->still) {
+        say_none(out, w, "nothing moves", NULL);
+    } else if (w->image->contacts > 0) { /* only choose counts them, in emulators */
+        say_none(out, w, "events make the cost of a step depend on the motion",
+                 on_board ? "choose --error 1e-3" : "price");
+    } else if (why != NULL) {
+        say_none(out, w, why, NULL);
+    } else if (trust->dear) {
+        say_none(out, w, "they take more than a second", "price");
+    } else if (trust->until_s < 0.0) {
+        say_none(out, w, "no time is known until which the run is trusted", "price");
+    } else {
+        say_rows(out, w, trust);
+    }
+}
+
+/* --- the step of --error -----------------------------------------------------------------------------*/
+
+/* Steps as fractions and multiples of a record's interval, all decimals; a decade has five. */
+enum { PACES = 32, PACES_LONG = 10 };
+
+/* For all tries together; comparing with the reference takes the same time again. */
+#define TRIES_OPERATIONS (BUDGET_LEAST / 2.0)
+
+/* Pace `i`, from long to short steps. */
+static deviation_pace pace_at(int i) {
+    static const uint64_t spacings[PACES_LONG] = {50, 40, 25, 20, 16, 10, 8, 5, 4, 2};
+    static const uint64_t parts[] = {1, 2, 4, 5, 8};
+    if (i < PACES_LONG) {
+        return (deviation_pace){1, spacings[i]};
+    }
+    uint64_t steps = parts[(i - PACES_LONG) % 5];
+    for (int k = (i - PACES_LONG) / 5; k > 0; k--) {
+        steps *= 10;
+    }
+    return (deviation_pace){steps, 1};
+}
+
+/* Estimate of the operations of a run with the allowed error, from a run with this pace and error. The error is assumed
+ * to fall four orders faster than the method's order, roughly the fastest case. */
+static double operations_for(trials *t, const setting *s, deviation_pace pace, double error) {
+    const double order = wh_methods[s->image.method].order + 4.0;
+    return trial_operations(t, s, pace) * number_power(error / t->tolerated, 1.0 / order);
+}
+
+/* The first pace that satisfies the error, its number; *longest: it is the first one tried. -1, reported, if there is
+ * no such pace. */
+static int find_pace(trials *t, const setting *s, deviation_pace *pace, trial_result *r,
+                     bool *longest) {
+    double least = -1.0;
+    double operations = 0.0; /* of all tried ones, or of the first one above the limit */
+    bool ends_early = false;
+    int falls = 0; /* tries with a smaller error than all before, */
+    int stuck = 0; /* and tries since then: round-off, if errors fell before */
+    *longest = true;
+    for (int i = 0; i < PACES && !t->stopped && !(falls >= 3 && stuck >= 2); i++) {
+        *pace = pace_at(i);
+        if (pace->records > (uint64_t)t->records) {
+            continue;
+        }
+        const double more = trial_operations(t, s, *pace);
+        ends_early = operations + more > TRIES_OPERATIONS;
+        if (ends_early) {
+            operations = more;
+            break;
+        }
+        operations += more;
+        *r = trial_run(t, s, *pace);
+        if (r->ran && r->usable && r->error <= t->tolerated) {
+            return i;
+        }
+        *longest = false;
+        if (r->ran && r->usable && s->image.matrix == MATRIX_NONE &&
+            operations_for(t, s, *pace, r->error) > TRIES_OPERATIONS) {
+            ends_early = true;
+            operations = operations_for(t, s, *pace, r->error);
+            *pace = pace_at(i + 1);
+            least = least < 0.0 || r->error < least ? r->error : least;
+            break;
+        }
+        const bool fell = r->ran && r->usable && (least < 0.0 || r->error < 0.7 * least);
+        falls += fell ? 1 : 0;
+        stuck = fell ? 0 : stuck + 1;
+        least = r->ran && r->usable && (least < 0.0 || r->error < least) ? r->error : least;
+    }
+    if (t->stopped) {
+        fputs("whirl run: interrupted\n", stderr);
+        return -1;
+    }
+    char smallest[60] = "all failed";
+    if (least >= 0.0) {
+        snprintf(smallest, sizeof smallest, "the smallest is %.2e %s", least, trial_unit(t));
+    }
+    char text[TRIAL_TIME];
+    char early[160] = "";
+    const bool rounds = falls >= 3 && stuck >= 2;
+    if (ends_early) {
+        snprintf(
+            early, sizeof early,
+            "; shorter ones than %s s would take %.1e operations or more, of %.1e for all tries",
+            trial_time(trial_step(t, *pace), text), operations, TRIES_OPERATIONS);
+    }
+    fprintf(stderr,
+            "whirl run: error: no step that was tried keeps the error: %s%s\n"
+            "hint: %s%s; `whirl choose` tries every setting\n",
+            smallest, rounds ? ", and shorter steps no longer reduce it: round-off" : early,
+            rounds ? "a larger --error" : "a --method of higher order",
+            s->number == &engine_float ? ", or --number double" : "");
+    return -1;
+}
+
+/* Would `whirl run` print a warning for the whole run at this pace? */
+static bool is_warned_of(const trials *t, const setting *s, deviation_pace pace) {
+    const trial_source *from = t->wish.source;
+    char text[TRIAL_TIME];
+    setting finer = *s;
+    const bool other = step_doubling_plain(&s->image, &finer.image);
+    trial_time(trial_step(t, pace), text);
+    image *im = from->make(from->context, 0, s, text, NULL);
+    image *plain = other ? from->make(from->context, 0, &finer, text, NULL) : NULL;
+    const bool warned = im != NULL && !remedy_not_needed(im, plain, s->number);
+    image_free(im);
+    image_free(plain);
+    return warned;
+}
+
+/* Of the next few paces after number `at` that satisfy the error, the first without a warning; else the pace does not
+ * change. True if it changes. */
+static bool find_unwarned(trials *t, const setting *s, int at, deviation_pace *pace,
+                          trial_result *r) {
+    enum { MORE = 6 };
+    if (setting_is_fixed(s) || s->image.matrix != MATRIX_NONE || !is_warned_of(t, s, *pace)) {
+        return false;
+    }
+    double operations = 0.0;
+    for (int i = at + 1; i < PACES && i <= at + MORE && !t->stopped; i++) {
+        const deviation_pace next = pace_at(i);
+        operations += 4.0 * trial_operations(t, s, next); /* the run, and its finer run */
+        if (next.records <= (uint64_t)t->records && operations <= TRIES_OPERATIONS) {
+            const trial_result one = trial_run(t, s, next);
+            if (one.ran && one.usable && one.error <= t->tolerated && !is_warned_of(t, s, next)) {
+                *pace = next;
+                *r = one;
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
+static int choose(pricing *p, const setting *s, char **step, char **chosen) {
+    char text[TRIAL_TIME];
+    int code = pricing_begin(p, pricing_spacing(p->until_s, PRICING_RECORDS));
+    if (code != EXIT_DONE) {
+        return code;
+    }
+    trials *t = &p->trial;
+    if (!t->reliable && !t->stopped) {
+        fprintf(stderr, "whirl run: error: --error: there is no reference to compare with: %s\n",
+                t->reference[t->worst]->why);
+        return EXIT_RUN_FAILED;
+    }
+    t->tolerated = p->error_si / trial_error_si(t, 1.0);
+    deviation_pace pace;
+    trial_result r;
+    bool longest;
+    const int at = find_pace(t, s, &pace, &r, &longest);
+    if (at < 0) {
+        return t->stopped ? EXIT_INTERRUPTED : EXIT_RUN_FAILED;
+    }
+    trial_time(trial_step(t, pace), text);
+    char *longer = find_unwarned(t, s, at, &pace, &r)
+                       ? alloc_words("; %s s keeps the error, too, but with warnings", text)
+                       : alloc_words("%s", longest ? "; longer ones are not tried" : "");
+    *step = alloc_words("%s", trial_time(trial_step(t, pace), text));
+    *chosen = alloc_words("chosen step        %s s: error of %s at most %.2e %s until t = %.6g s%s",
+                          *step, p->options->value[PRICING_OF], r.error, trial_unit(t),
+                          trial_horizon_s(t), longer);
+    free(longer);
+    return EXIT_DONE;
+}
+
+int rating_choose(const common_options *common, const char *target, const char *error,
+                  source_model *from, char **step, char **chosen) {
+    const char *equals = strchr(error, '=');
+    if (equals == NULL || equals == error || equals[1] == '\0' || common->change.step != NULL) {
+        fputs(equals != NULL && common->change.step != NULL
+                  ? "whirl run: error: --error chooses the step, and --step sets it\n"
+                    "hint: leave one of them out\n"
+                  : "whirl run: error: --error takes a coordinate and the error that is allowed\n"
+                    "hint: such as --error x=0.1mm\n",
+              stderr);
+        return EXIT_BAD_INPUT;
+    }
+    char *of = alloc_copy(error, (size_t)(equals - error));
+    pricing_options o = pricing_defaults("run", 1);
+    pricing p;
+    o.target = target;
+    o.common.change = common->change;
+    o.balance = true; /* the verdict on the run needs it */
+    o.value[PRICING_OF] = of;
+    o.value[PRICING_ERROR] = equals + 1;
+    const setting s = {common->integration, common->number};
+    int code = pricing_open(&p, &o);
+    code = code == EXIT_DONE ? choose(&p, &s, step, chosen) : code;
+    *from = p.from;
+    p.from = (source_model){0};
+    pricing_close(&p);
+    free(o.vary);
+    free(of);
+    return code;
+}

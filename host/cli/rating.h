@@ -1,0 +1,34 @@
+/* rating.h: the rows of accuracy and cost at the end of a run (host/study/three_rows.h), and the step for `--error`. */
+#ifndef CLI_RATING_H
+#define CLI_RATING_H
+
+#include "host/check/horizon.h"
+#include "host/check/simulate.h"
+#include "host/cli/load.h"
+#include "host/study/cost_board.h"
+#include "options.h"
+#include "pricing_scene.h"
+
+typedef struct rating_wish {
+    const char *target;
+    const cost_board *board;
+    const char *board_word;    /* NULL: the default board */
+    const engine_kind *number; /* from the command line; NULL: the board's */
+    const image_settings *settings;
+    const overrides *changes;
+    const mechanism *of;
+    const scene *in;
+    diags *errors;
+    const image *image; /* the run's */
+    const image *plain; /* trusting_plain() */
+} rating_wish;
+
+/* The rows, or a line with the reason for their absence. */
+void rating_say(FILE *out, const rating_wish *w, const simulation_trust *trust);
+
+/* The largest step of a run that satisfies `--error X=0.1mm`: *step, and *chosen, its description; both to be freed.
+ * Opens the target, as source_open() does. Returns an exit status. */
+int rating_choose(const common_options *common, const char *target, const char *error,
+                  source_model *from, char **step, char **chosen);
+
+#endif

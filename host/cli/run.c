@@ -1,0 +1,361 @@
+/* run.c: `whirl run`: simulation, records, and the energy balance. */
+#include <inttypes.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "commands.h"
+#include "files.h"
+#include "host/base/alloc.h"
+#include "host/base/interrupts.h"
+#include "host/check/apart.h"
+#include "host/check/finding.h"
+#include "host/check/simulate.h"
+#include "host/cli/load.h"
+#include "host/engine/start.h"
+#include "host/fixed/engine_fixed.h"
+#include "host/fixed/fixed_plan.h"
+#include "pricing.h"
+#include "pricing_scene.h"
+#include "rating.h"
+#include "run.h"
+#include "target.h"
+#include "trusting.h"
+
+static const command_usage usage = {
+    .head =
+        "usage: whirl run SCENE|MECHANISM[:SCENE]|FILE[:SCENE] [options]\n"
+        "\n"
+        "Simulates a scene and prints a summary: final state, energy and momentum balance, state hash.\n"
+        "SCENE and MECHANISM are built in (`whirl list`), FILE is yours. A mechanism without a scene starts\n"
+        "at rest at zero; of a FILE with one scene, that is run.\n"
+        "\n",
+    .groups = OPTIONS_SCENE,
+    .described = true,
+    .tail =
+        "  --csv FILE           records, and FILE.toml, which says of what run they are; - is standard\n"
+        "                       output (the summary then goes to standard error)\n"
+        "  --columns FILE       the same between spaces, for Octave's load; - as for --csv\n"
+        "  --vcd FILE           the same for waveform viewers, and what contacts do; - as for --csv\n"
+        "  --every 2ms          spacing of the records, a whole number of steps (default: every step);\n"
+        "                       the last state is always recorded\n"
+        "  --plot FILE          a picture, .svg, .pdf or .png, drawn by gnuplot (docs/plot.md); of it:\n" RUN_CHOICE_HELP
+        "  --error X=0.1mm      take the largest step that keeps the error of one coordinate, rate or output\n"
+        "  --board B            whose cost the rows at the end show: an emulated board of docs/boards.md,\n"
+        "                       or host (default: mps2-an386, a Cortex-M4F)\n" OPTIONS_STRICT_HELP
+        "  --quiet              no summary, no progress\n"
+        "\n"
+        "The summary ends with the error and the cost on a board at twice the step, the step and half of\n"
+        "it, in float unless --number says another (docs/price.md), as far as they take a second.\n"
+        "\n"
+        "Standard error warns of what a finer run, the energy books and a few looks find against the\n"
+        "run, with options that were tried and would do (docs/warnings.md). Such a run ends with exit\n"
+        "status 1, after all outputs are written.\n"
+        "\n"
+        "Summary, records and plot are in the units that the file declares; a record's column whose name\n"
+        "has no unit is SI: theta [deg] is in degrees, theta in radians.\n",
+    .why = {
+        [EXIT_ROW_OF(EXIT_DONE)] = "",
+        [EXIT_ROW_OF(EXIT_RUN_FAILED)] =
+            "it diverged, or something was not a finite number (it says when, where and what to\n"
+            "       try; the records so far are kept), or a warning is against it (see --strict)",
+        [EXIT_ROW_OF(EXIT_BAD_INPUT)] = "",
+        [EXIT_ROW_OF(EXIT_INTERRUPTED)] = ""}};
+
+typedef struct run_options {
+    common_options common;
+    const char *target;
+    const char *every;
+    const char *error;
+    const char *board_word;
+    const cost_board *board;
+    const engine_kind *number; /* from the command line; NULL: not given */
+    simulation_settings settings;
+} run_options;
+
+static bool take_drawn(int count, char **words, int *at, void *options, bool *bad) {
+    run_options *o = options;
+    return run_take_choice("run", count, words, at, &o->settings.choice, bad);
+}
+
+bool run_take_choice(const char *command, int count, char **words, int *at, plot_choice *to,
+                     bool *bad) {
+    const struct {
+        const char *option;
+        const char **place;
+    } own[] = {{"--y", &to->y},
+               {"--x", &to->x},
+               {"--title", &to->title},
+               {"--xlabel", &to->xlabel},
+               {"--ylabel", &to->ylabel}};
+    const char *value = NULL;
+    for (size_t i = 0; i < sizeof own / sizeof own[0] && !*bad && value == NULL; i++) {
+        value = options_value(count, words, at, own[i].option, bad);
+        *own[i].place = value != NULL ? value : *own[i].place;
+    }
+    if (value == NULL && !*bad &&
+        (value = options_value(count, words, at, "--panel", bad)) != NULL) {
+        *bad = to->panels == PLOT_PANELS;
+        if (*bad) {
+            fprintf(stderr, "whirl %s: error: at most %d --panel\n", command, PLOT_PANELS);
+        } else {
+            to->panel[to->panels++] = value;
+        }
+    }
+    return value != NULL;
+}
+
+static bool files_are_apart(const simulation_settings *s) {
+    const struct {
+        const char *option;
+        const char *file;
+    } outputs[] = {
+        {"--csv", s->csv}, {"--columns", s->columns}, {"--vcd", s->vcd}, {"--plot", s->plot}};
+    const int count = (int)(sizeof outputs / sizeof outputs[0]);
+    for (int i = 0; i < count; i++) {
+        for (int k = i + 1; k < count; k++) {
+            if (outputs[i].file != NULL && outputs[k].file != NULL &&
+                files_same(outputs[i].file, outputs[k].file)) {
+                fprintf(stderr, "whirl run: error: %s and %s cannot share a file\n",
+                        outputs[i].option, outputs[k].option);
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
+static bool find_board(run_options *o) {
+    const char *word = o->board_word != NULL ? o->board_word : COST_BOARD_DEFAULT;
+    o->board = pricing_board("run", word);
+    return o->board != NULL;
+}
+
+static bool read_options(int count, char **words, run_options *o) {
+    static const char *const drawn[] = {RUN_CHOICE_WORDS, NULL};
+    simulation_settings *to = &o->settings;
+    const own_option own[] = {{.word = "--csv", .text = &to->csv},
+                              {.word = "--columns", .text = &to->columns},
+                              {.word = "--vcd", .text = &to->vcd},
+                              {.word = "--every", .text = &o->every},
+                              {.word = "--plot", .text = &to->plot},
+                              {.word = "--error", .text = &o->error},
+                              {.word = "--board", .text = &o->board_word},
+                              {.word = "--strict", .strict = &to->strict},
+                              {.word = "--json", .flag = &to->json},
+                              {.word = "--quiet", .flag = &to->quiet},
+                              {.word = NULL}};
+    const target_reader reader = {
+        .command = "run", .groups = usage.groups, .table = own, .take = take_drawn, .own = drawn};
+    o->common.number = NULL;
+    if (!target_read(&reader, count, words, &o->common, o, &o->target) ||
+        !target_is_there(o->target, &usage) || !find_board(o)) {
+        return false;
+    }
+    o->number = o->common.number;
+    o->common.number = o->number != NULL ? o->number : &engine_double;
+    o->settings.kind = o->common.number;
+    if (o->settings.plot == NULL && o->settings.taken == NULL &&
+        memcmp(&o->settings.choice, &(plot_choice){0}, sizeof(plot_choice)) != 0) {
+        fputs("whirl run: error: --y, --x and the like choose what --plot draws\n"
+              "hint: --plot picture.svg\n",
+              stderr);
+        return false;
+    }
+    if (o->settings.json && simulation_summary(&o->settings) != stdout) {
+        fputs("whirl run: error: --json and records cannot share standard output\n"
+              "hint: --csv records.csv\n",
+              stderr);
+        return false;
+    }
+    return files_are_apart(&o->settings);
+}
+
+static bool model_would_be_lost(const source_model *from, const simulation_settings *s) {
+    return source_would_be_lost(from, "--csv", s->csv, "") ||
+           (s->csv != NULL && strcmp(s->csv, "-") != 0 &&
+            source_would_be_lost(from, "--csv", s->csv, ".toml")) ||
+           source_would_be_lost(from, "--columns", s->columns, "") ||
+           source_would_be_lost(from, "--vcd", s->vcd, "") ||
+           source_would_be_lost(from, "--plot", s->plot, "");
+}
+
+/* --every in seconds; 0 without it, below 0 if it is not a time. */
+static double read_every_s(const run_options *o, const mechanism *of) {
+    double spacing_s = 0.0;
+    if (o->every != NULL) {
+        diags *errors = diags_new();
+        if (!instance_duration(of, NULL, NULL, "every", o->every, errors, &spacing_s)) {
+            spacing_s = -1.0;
+        }
+        diags_free(errors); /* a general message is clearer than the parser's */
+    }
+    return spacing_s;
+}
+
+/* The same as a number of steps. */
+static bool count_every(const run_options *o, double spacing_s, const image *im, uint64_t *steps) {
+    *steps = 1;
+    if (o->every == NULL) {
+        return true;
+    }
+    if (spacing_s < 0.0) {
+        fprintf(stderr,
+                "whirl run: error: --every %s is not a time\n"
+                "hint: such as 2ms, or 0.002 in seconds; the step is %.9g s\n",
+                o->every, im->step_s);
+        return false;
+    }
+    if (!ratio_count_each(spacing_s, im->step, steps)) {
+        fprintf(stderr,
+                "whirl run: error: --every %s is not a whole number of steps, one or more\n"
+                "hint: the step is %.9g s\n",
+                o->every, im->step_s);
+        return false;
+    }
+    return true;
+}
+
+static bool shows_progress(const simulation_settings *s) {
+    return !s->quiet && isatty(STDERR_FILENO);
+}
+
+/* A minute or more, which is said where no progress shows. */
+#define STEPS_MANY 100000000U
+
+static int run_image(run_options *o, const source_model *from, const image *im, const image *plain,
+                     double every_s, rating_wish *rated) {
+    if (!count_every(o, every_s, im, &o->settings.every)) {
+        return EXIT_BAD_INPUT;
+    }
+    if (!start_has_method(im, im->settings.method, from->errors) ||
+        !start_is_possible(im, o->settings.kind, from->errors)) {
+        diags_flush(from->errors, stderr);
+        return EXIT_BAD_INPUT;
+    }
+    apart_say(stderr, "whirl run", im);
+    interrupts_catch();
+    o->settings.progress = shows_progress(&o->settings);
+    o->settings.plain = plain;
+    if (im->steps >= STEPS_MANY && !o->settings.quiet && !o->settings.progress) {
+        fprintf(stderr, "whirl run: note: %" PRIu64 " steps follow, as --step and --until say\n",
+                im->steps);
+    }
+    simulation_trust trust;
+    const simulation_result result = simulate(im, &o->settings, &trust);
+    if (result == SIMULATION_DONE && !o->settings.quiet && !o->settings.json) {
+        rated->image = im;
+        rated->plain = plain;
+        rating_say(simulation_summary(&o->settings), rated, &trust);
+    }
+    if (result == SIMULATION_DONE && trust.fails != 0) {
+        finding_say_status(stderr, "run", trust.fails);
+    }
+    return simulation_status(result, &trust);
+}
+
+/* The model; with --error also the step and its description, to be freed. */
+static int open_source(run_options *o, source_model *from, char **step, char **chosen) {
+    if (o->error == NULL) {
+        return source_open(from, o->target);
+    }
+    interrupts_catch();
+    const int code = rating_choose(&o->common, o->target, o->error, from, step, chosen);
+    o->common.change.step = *step;
+    o->settings.chosen = *chosen;
+    return code;
+}
+
+static int run_target(run_options *o) {
+    source_model from = {0};
+    const mechanism *of;
+    const scene *in;
+    char *step = NULL;
+    char *chosen = NULL;
+    int code = open_source(o, &from, &step, &chosen);
+    if (code == EXIT_DONE) {
+        code = source_pick(&from, true, &of, &in);
+        o->settings.no_scene = code == EXIT_DONE && in == NULL;
+    }
+    if (code == EXIT_DONE && model_would_be_lost(&from, &o->settings)) {
+        code = EXIT_BAD_INPUT;
+    }
+    if (code == EXIT_DONE) {
+        loaded made;
+        overrides changes = options_overrides(&o->common.change);
+        changes.balance = true;
+        const double every_s = read_every_s(o, of);
+        const load_wish wish = {.settings = o->common.integration,
+                                .use = IMAGE_TO_RUN,
+                                .keep = trusting_keep(&o->common.integration),
+                                .conserve = true};
+        code = load(&made, &from, of, in, &changes, &wish);
+        image *plain = trusting_plain(&made);
+        if (o->settings.quiet) {
+            source_forget(&from);
+        }
+        if (code == EXIT_DONE && !o->settings.quiet) {
+            say_hints(&made);
+        }
+        if (code == EXIT_DONE && o->settings.kind == &engine_float) {
+            say_float_range(made.image);
+        }
+        fixed_plan *plan = NULL;
+        if (code == EXIT_DONE && o->settings.kind == &engine_fixed) {
+            code =
+                trusting_plan("run", made.image, shows_progress(&o->settings), from.errors, &plan);
+            if (plan != NULL && !o->settings.quiet) {
+                fixed_plan_say(plan, stderr, "whirl run: note: ");
+            }
+        }
+        if (code == EXIT_DONE) {
+            rating_wish rated = {.target = o->target,
+                                 .board = o->board,
+                                 .board_word = o->board_word,
+                                 .number = o->number,
+                                 .settings = &o->common.integration,
+                                 .changes = &changes,
+                                 .of = of,
+                                 .in = in,
+                                 .errors = from.errors};
+            code = run_image(o, &from, made.image, plain, every_s, &rated);
+        }
+        fixed_plan_free(plan);
+        image_free(plain);
+        unload(&made);
+    }
+    source_close(&from);
+    free(step);
+    free(chosen);
+    return code;
+}
+
+static int run_words(int count, char **words, run_options *o) {
+    int code = EXIT_BAD_INPUT;
+    if (read_options(count, words, o)) {
+        const overrides asked = options_overrides(&o->common.change);
+        char *changes = pricing_words(&asked, true);
+        o->settings.changes = changes;
+        code = run_target(o);
+        free(changes);
+    }
+    options_forget(&o->common);
+    return code;
+}
+
+int run_to_take(int count, char **words, const plot_choice *choice, plot_run *taken) {
+    run_options o = {.common = options_defaults()};
+    *taken = (plot_run){0};
+    o.settings.taken = taken;
+    o.settings.choice = *choice;
+    o.settings.quiet = true;
+    o.settings.strict = STRICT_OFF; /* a picture shows the end of the trusted time */
+    return run_words(count, words, &o);
+}
+
+int command_run(int count, char **words) {
+    run_options o = {.common = options_defaults()};
+    return options_help(count, words, &usage) ? EXIT_DONE : run_words(count, words, &o);
+}

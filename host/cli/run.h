@@ -1,0 +1,26 @@
+/* run.h: the common part of `whirl run` and `whirl plot`. */
+#ifndef CLI_RUN_H
+#define CLI_RUN_H
+
+#include "host/io/plot.h"
+
+/* The options of the choice of curves, for help texts. */
+#define RUN_CHOICE_HELP \
+    "  --y NAMES            quantities between commas, a panel for each unit: --y \"X', theta\"\n" \
+    "                       (default: coordinates and outputs)\n" \
+    "  --panel NAMES        quantities that share a panel (repeatable)\n" \
+    "  --x NAME             over this quantity in place of the time\n" \
+    "  --title TEXT         above the picture\n" \
+    "  --xlabel TEXT        below it, in place of quantity and unit; --ylabel TEXTS: of the panels,\n" \
+    "                       between commas\n"
+#define RUN_CHOICE_WORDS "--y", "--panel", "--x", "--title", "--xlabel", "--ylabel"
+
+/* If words[*at] is one of these, take it and advance *at past it. An error is reported and sets *bad. */
+bool run_take_choice(const char *command, int count, char **words, int *at, plot_choice *to,
+                     bool *bad);
+
+/* As command_run() with these words and --quiet. The data of a picture goes to *taken, thinned out for this choice, in
+ * place of a picture. Call plot_run_close() in any case. */
+int run_to_take(int count, char **words, const plot_choice *choice, plot_run *taken);
+
+#endif

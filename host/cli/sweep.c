@@ -1,0 +1,534 @@
+/* sweep.c: `whirl sweep`: a run for every point of a grid, a row of measures each; and `whirl map`, a sweep over two axes whose
+ * measure is whether a run stays bounded, keeps its energy and a tolerance. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "commands.h"
+#include "files.h"
+#include "host/base/alloc.h"
+#include "host/base/atomic_file.h"
+#include "host/base/interrupts.h"
+#include "host/check/horizon.h"
+#include "host/cli/load.h"
+#include "host/engine/start.h"
+#include "host/io/gnuplot.h"
+#include "host/lang/builtin.h"
+#include "host/number/functions.h"
+#include "host/study/changes.h"
+#include "host/study/jobs.h"
+#include "host/study/session.h"
+#include "host/study/stability_map.h"
+#include "target.h"
+#include "trusting.h"
+
+/* Of a map: its axes; pairs that can be looked at; */
+enum { AXES = 2 };
+#define PAIRS_MOST 250000
+/* operations that it may evaluate without --effort; */
+#define EFFORT 1.5e11
+/* what looking, books and comparing take of operations, about, beside those of the step's lists. */
+#define OPERATIONS_A_STEP 200.0
+
+static const command_usage sweep_usage = {
+    .head =
+        "usage: whirl sweep SCENE|MECHANISM[:SCENE]|FILE[:SCENE] --over NAME=FROM..TO:COUNT[,log] ...\n"
+        "                   [options]\n"
+        "\n"
+        "Runs a scene at every point of a grid and writes a row of measures for each.\n"
+        "What is run is named as for `whirl run`.\n"
+        "\n"
+        "  --over RANGE         COUNT values of a parameter, an input, a start value or the step;\n"
+        "                       a bare number is SI: \"r=10..60 [mm]:11\", \"theta'=1..4 [rpm]:7\",\n"
+        "                       \"step=0.1..10 [ms]:9,log\". Repeatable: the full grid, the last one\n"
+        "                       fastest\n"
+        "  --measure EXPR       the value at the end; or max(EXPR), min(EXPR), amplitude(EXPR),\n"
+        "                       mean(EXPR), period(EXPR) over the run. Repeatable; without it the\n"
+        "                       final state and the outputs. A quantity stands in its declared\n"
+        "                       unit, an expression in SI\n"
+        "  --from TIME          measure only from then on (final values stay those of the end)\n"
+        "  --csv FILE           rows by rising point; - is standard output (default). The same\n"
+        "                       command goes on with the FILE of a sweep that was broken off\n"
+        "  --fresh              start FILE anew instead\n"
+        "  --jobs N             processes (default: one a processor); the rows do not depend on it\n"
+        "  --shard K/N          the K-th of N parts: their files, in order, are the whole file\n" OPTIONS_STRICT_HELP
+        "  --json               one JSON object on standard output in place of rows (docs/warnings.md)\n"
+        "  --quiet              no progress, no summary\n"
+        "\n",
+    .groups = OPTIONS_SCENE,
+    .tail = "",
+    .why = {
+        [EXIT_ROW_OF(EXIT_DONE)] = "",
+        [EXIT_ROW_OF(EXIT_RUN_FAILED)] =
+            "points did (their measures are empty; the others are there), a warning is against\n"
+            "       one (see --strict), or the file could not be written",
+        [EXIT_ROW_OF(EXIT_BAD_INPUT)] = "such as the FILE of another sweep",
+        [EXIT_ROW_OF(EXIT_INTERRUPTED)] = ""}};
+
+static const command_usage map_usage = {
+    .head =
+        "usage: whirl map SCENE|MECHANISM[:SCENE]|FILE[:SCENE] --over NAME=FROM..TO:COUNT[,log]\n"
+        "                 --over NAME=FROM..TO:COUNT[,log] [options]\n"
+        "\n"
+        "A stability map: the scene is run for each pair of two swept values, one of which may be the\n"
+        "step, and a mark tells what became of it: right to the tolerance, off by more, its energy not\n"
+        "kept, or out of all bounds.\n"
+        "\n"
+        "  whirl map two_mass_relative --over step=5ms..0.5s:21,log --over 'm1=1..100 [kg]:5,log'\n"
+        "\n"
+        "  --over RANGE         twice: COUNT values of a parameter, an input, a start value or the\n"
+        "                       step, even or even in the logarithm; a bare number is SI\n",
+    .groups = OPTIONS_SCENE,
+    .tail =
+        "  --tolerance 1e-3     part of the range that a coordinate has in a run (default: 1e-3)\n"
+        "  --csv FILE           a row for each pair; - is standard output, and the map then goes to\n"
+        "                       standard error\n"
+        "  --json               one JSON object on standard output in place of the map (docs/warnings.md)\n"
+        "  --plot FILE.svg|.png a square for each pair\n"
+        "  --effort 1.5e11      operations that it may evaluate: 1.5e10 take about a minute\n"
+        "  --quiet              no progress, and no map beside --csv or --plot\n",
+    .why = {[EXIT_ROW_OF(EXIT_DONE)] = "whatever became of the runs",
+            [EXIT_ROW_OF(EXIT_RUN_FAILED)] = "no pair has a run",
+            [EXIT_ROW_OF(EXIT_BAD_INPUT)] = "",
+            [EXIT_ROW_OF(EXIT_INTERRUPTED)] = ""}};
+
+/* --- options -----------------------------------------------------------------------------------*/
+
+typedef struct sweep_options {
+    const char *command;
+    const command_usage *usage;
+    common_options common;
+    const char *target;
+    const char **over; /* [word count] */
+    int over_count;
+    const char **measure; /* [word count] */
+    int measure_count;
+    /* As they were typed; NULL: not given. */
+    const char *from, *csv, *jobs_text, *shard_text, *plot;
+    shard part;
+    int jobs;
+    double strict;
+    double tolerance;
+    double effort;
+    bool fresh, quiet, json;
+} sweep_options;
+
+/* A whole number from 1 to `limit`, up to the end of the text or `end`. */
+static bool read_whole(const char *text, char end, unsigned long long limit,
+                       unsigned long long *value, const char **rest) {
+    const size_t digits = strspn(text, "0123456789");
+    *value = digits > 0 && digits < 10 ? strtoull(text, NULL, 10) : 0;
+    *rest = text + digits + (text[digits] == '\0' ? 0 : 1);
+    return *value >= 1 && *value <= limit && text[digits] == end;
+}
+
+static bool read_jobs(const char *text, sweep_options *o) {
+    unsigned long long wanted;
+    const char *rest;
+    if (!read_whole(text, '\0', JOBS_WORKERS_MAX, &wanted, &rest)) {
+        fprintf(stderr, "whirl sweep: error: --jobs takes a number from 1 to %d\n",
+                JOBS_WORKERS_MAX);
+        return false;
+    }
+    o->jobs = (int)wanted;
+    return true;
+}
+
+static bool read_shard(const char *text, sweep_options *o) {
+    unsigned long long number;
+    unsigned long long of;
+    const char *rest;
+    if (!read_whole(text, '/', 1000000, &number, &rest) ||
+        !read_whole(rest, '\0', 1000000, &of, &rest) || number > of) {
+        fprintf(stderr, "whirl sweep: error: --shard takes K/N with 1 <= K <= N <= 1000000\n");
+        return false;
+    }
+    o->part = (shard){number, of};
+    return true;
+}
+
+static bool is_standard(const char *file) { return file != NULL && strcmp(file, "-") == 0; }
+
+/* Nothing is missing, and nothing contradicts. */
+static bool is_whole_sweep(sweep_options *o) {
+    if ((o->jobs_text != NULL && !read_jobs(o->jobs_text, o)) ||
+        (o->shard_text != NULL && !read_shard(o->shard_text, o))) {
+        return false;
+    }
+    if (o->json && o->csv != NULL && !is_standard(o->csv)) {
+        fprintf(stderr, "whirl sweep: error: --json prints the rows that --csv FILE keeps\n"
+                        "hint: leave one of them out\n");
+        return false;
+    }
+    o->csv = o->json ? "/dev/null" : o->csv != NULL ? o->csv : "-";
+    if (o->over_count == 0) {
+        fprintf(stderr, "whirl sweep: error: nothing to sweep over\n"
+                        "hint: such as --over \"r=10..60 [mm]:11\"\n");
+    }
+    return o->over_count > 0;
+}
+
+static bool is_whole_map(sweep_options *o) {
+    const char *problem = NULL;
+    if (o->over_count > AXES) {
+        fprintf(stderr, "whirl map: error: two --over, not also '%.60s'\n", o->over[AXES]);
+        return false;
+    }
+    if (o->over_count < AXES) {
+        fprintf(stderr,
+                "whirl map: error: two --over are wanted, %s\nhint: such as --over "
+                "step=1ms..0.1s:20,log --over 'k=1..100 [N/m]:20,log'\n",
+                o->over_count == 0 ? "there is none" : "there is one");
+        return false;
+    }
+    if (o->plot != NULL && !gnuplot_can_draw_for("map", "--plot", o->plot)) {
+        return false;
+    }
+    if (o->json && is_standard(o->csv)) {
+        problem = "--json and rows cannot share standard output\nhint: --csv rows.csv";
+    } else if (o->csv != NULL && o->plot != NULL && files_same(o->csv, o->plot)) {
+        problem = "--csv and --plot cannot share a file";
+    }
+    if (problem != NULL) {
+        fprintf(stderr, "whirl map: error: %s\n", problem);
+    }
+    return problem == NULL;
+}
+
+static bool read_options(int count, char **words, sweep_options *o, const own_option *own) {
+    const target_reader reader = {.command = o->command, .groups = o->usage->groups, .table = own};
+    return target_read(&reader, count, words, &o->common, o, &o->target) &&
+           target_is_there(o->target, o->usage);
+}
+
+/* --- what both begin with ------------------------------------------------------------------------*/
+
+static bool read_grid(const sweep_options *o, const mechanism *of, diags *errors, grid *g) {
+    bool good = true;
+    g->command = o->command;
+    for (int i = 0; i < o->over_count && good; i++) {
+        good = grid_add(g, of, o->over[i], errors);
+    }
+    return good;
+}
+
+static int load_base(const sweep_options *o, source_model *from, const sweep *s, loaded *base) {
+    const load_wish wish = {.settings = o->common.integration,
+                            .use = IMAGE_TO_RUN,
+                            .keep = KEEP_INSTANCE,
+                            .conserve = true};
+    return load(base, from, s->mechanism, s->scene, s->changes, &wish);
+}
+
+/* What is wrong with every point is told of the scene as it stands. */
+static bool begins(const sweep *s, const loaded *base, diags *errors) {
+    if (s->kind == &engine_float) {
+        say_float_range(base->image);
+    }
+    const bool good = changes_take_part(s->grid, base->instance) &&
+                      start_has_method(base->image, s->engine.method, errors);
+    diags_flush(errors, stderr);
+    return good;
+}
+
+static sweep sweep_of(const sweep_options *o, const mechanism *of, const scene *in, const grid *g,
+                      const overrides *changes) {
+    return (sweep){.grid = g,
+                   .mechanism = of,
+                   .scene = in,
+                   .changes = changes,
+                   .kind = o->common.number,
+                   .engine = o->common.integration,
+                   .strict = o->strict};
+}
+
+/* --- the sweep ---------------------------------------------------------------------------------*/
+
+static const char *model_text(const source_model *from) {
+    for (size_t i = 0; i < builtin_model_count && from->text == NULL; i++) {
+        if (strcmp(builtin_models[i].file, from->file) == 0) {
+            return builtin_models[i].text;
+        }
+    }
+    return from->text != NULL ? from->text : "";
+}
+
+static int sweep_loaded(const sweep_options *o, const source_model *from, const loaded *base,
+                        sweep *s) {
+    s->shared = sweep_can_share(s->grid, base->image) ? base->image : NULL;
+    uint64_t first;
+    uint64_t end;
+    grid_shard(s->grid, o->part.number, o->part.of, &first, &end);
+    char *fingerprint = fingerprint_make(s, model_text(from), base->instance, base->image, o->part);
+    const session_settings settings = {.csv = o->csv,
+                                       .fingerprint = fingerprint,
+                                       .first = first,
+                                       .end = end,
+                                       .header = o->part.number == 1,
+                                       .jobs = o->jobs,
+                                       .fresh = o->fresh,
+                                       .quiet = o->quiet,
+                                       .json = o->json};
+    interrupts_catch();
+    const int code = session_run(s, &settings);
+    free(fingerprint);
+    return code;
+}
+
+/* --from in seconds: parsed like --until, so that it may name parameters, too. */
+static bool read_from(const sweep_options *o, const mechanism *of, const scene *in,
+                      const overrides *changes, diags *errors, double *from_s) {
+    *from_s = 0.0;
+    return o->from == NULL || instance_duration(of, in, changes, "from", o->from, errors, from_s);
+}
+
+static int sweep_measured(const sweep_options *o, source_model *from, sweep *s) {
+    loaded base;
+    int code = load_base(o, from, s, &base);
+    if (code == EXIT_DONE && s->from_s > base.instance->until_s) {
+        fprintf(stderr, "whirl sweep: error: --from %.9g s lies behind the end, %.9g s\n",
+                s->from_s, base.instance->until_s);
+        code = EXIT_BAD_INPUT;
+    }
+    if (code == EXIT_DONE && !sweep_ends_are_alike(s, base.instance->until_s)) {
+        code = EXIT_BAD_INPUT;
+    }
+    if (code == EXIT_DONE && !o->quiet) {
+        say_hints(&base);
+    }
+    if (code == EXIT_DONE) {
+        code = begins(s, &base, from->errors) ? sweep_loaded(o, from, &base, s) : EXIT_BAD_INPUT;
+    }
+    unload(&base);
+    return code;
+}
+
+static int sweep_scene(const sweep_options *o, source_model *from, const mechanism *of,
+                       const scene *in, grid *g, const overrides *changes) {
+    sweep s = sweep_of(o, of, in, g, changes);
+    const bool good = read_from(o, of, in, changes, from->errors, &s.from_s);
+    measures *wanted = good ? measures_new(of, o->measure, o->measure_count, from->errors) : NULL;
+    int code = EXIT_BAD_INPUT;
+    diags_flush(from->errors, stderr);
+    if (wanted != NULL) {
+        s.measures = wanted;
+        s.mechanism = &wanted->mechanism;
+        code = sweep_measured(o, from, &s);
+    }
+    measures_free(wanted);
+    return code;
+}
+
+/* --- the map -----------------------------------------------------------------------------------*/
+
+static bool write_map(const sweep_options *o, const stability_map *m) {
+    FILE *out = atomic_file_open(o->csv);
+    if (out != NULL) {
+        map_csv(out, m);
+    }
+    return out != NULL && atomic_file_close(out, o->csv, true);
+}
+
+static int show_map(const sweep_options *o, const stability_map *m, const char *words) {
+    if (!o->json && (!o->quiet || (o->csv == NULL && o->plot == NULL))) {
+        map_print(is_standard(o->csv) ? stderr : stdout, m, words);
+    }
+    int code = o->csv == NULL || write_map(o, m) ? EXIT_DONE : EXIT_BAD_INPUT;
+    if (o->plot != NULL && !map_plot(o->plot, m, words)) {
+        code = EXIT_BAD_INPUT;
+    }
+    if (m->done < m->grid->points) {
+        fprintf(stderr, "whirl map: interrupted after %llu of %llu runs\n",
+                (unsigned long long)m->done, (unsigned long long)m->grid->points);
+        return code == EXIT_DONE ? EXIT_INTERRUPTED : code;
+    }
+    if (map_count(m, MAP_NONE) == m->grid->points) {
+        fputs("whirl map: error: no pair has a run\nhint: `whirl run` with the values of one tells "
+              "why\n",
+              stderr);
+        return code == EXIT_DONE ? EXIT_RUN_FAILED : code;
+    }
+    return code;
+}
+
+static void show_progress(double runs, void *told) {
+    const grid *g = told;
+    fprintf(stderr, "\r%.1f of %llu runs ", runs, (unsigned long long)g->points);
+}
+
+/* Operations of all runs, about: as many steps as each step's length makes of the scene as it stands. */
+static double operations_of(const grid *g, const image *base) {
+    double runs = 0.0;
+    for (int i = 0; i < AXES; i++) {
+        for (uint64_t k = 0; g->axes[i].symbol == NULL && k < g->axes[i].count; k++) {
+            double value[AXES];
+            grid_values(g, i == 0 ? k * g->axes[1].count : k, value);
+            runs += base->step_s / value[i] * (double)g->axes[1 - i].count;
+        }
+    }
+    runs = runs > 0.0 ? runs : (double)g->points;
+    const double operations =
+        step_doubling_operations(base, base) + OPERATIONS_A_STEP * (double)base->steps;
+    return runs * operations;
+}
+
+static bool is_affordable(const sweep_options *o, const grid *g, const image *base) {
+    if (g->points > PAIRS_MOST) {
+        fprintf(stderr, "whirl map: error: %llu pairs, at most %d\nhint: fewer in each --over\n",
+                (unsigned long long)g->points, PAIRS_MOST);
+        return false;
+    }
+    const double wanted = operations_of(g, base);
+    if (wanted > o->effort) {
+        fprintf(stderr,
+                "whirl map: error: this would take about %.0f minutes: %llu pairs, two runs beside "
+                "each other for each\nhint: fewer pairs, longer steps, a nearer --until",
+                effort_minutes(wanted), (unsigned long long)g->points);
+        effort_say(wanted);
+    }
+    return wanted <= o->effort;
+}
+
+static int map_loaded(const sweep_options *o, const sweep *s, const image *base) {
+    if (!is_affordable(o, s->grid, base)) {
+        return EXIT_BAD_INPUT;
+    }
+    const map_wish wish = {.of = *s,
+                           .tolerance = o->tolerance,
+                           .told = (void *)(uintptr_t)s->grid,
+                           .progress = !o->quiet && isatty(STDERR_FILENO) ? show_progress : NULL};
+    char *words =
+        alloc_words("%s: %s%s, %s, tolerance %g", base->title[0] != '\0' ? base->title : base->name,
+                    image_stepper(base), image_sums(base), s->kind->name, o->tolerance);
+    interrupts_catch();
+    stability_map m = map_make(&wish);
+    if (wish.progress != NULL) {
+        fputs("\r                                        \r", stderr);
+    }
+    const int code = show_map(o, &m, words);
+    if (o->json) {
+        map_json(stdout, &m, base, &wish, code);
+    }
+    map_free(&m);
+    free(words);
+    return code;
+}
+
+static int map_scene(const sweep_options *o, source_model *from, const mechanism *of,
+                     const scene *in, grid *g, const overrides *changes) {
+    const sweep s = sweep_of(o, of, in, g, changes);
+    if (!changes_are_apart(g, changes)) {
+        return EXIT_BAD_INPUT;
+    }
+    loaded base;
+    int code = load_base(o, from, &s, &base);
+    if (code == EXIT_DONE) {
+        code = begins(&s, &base, from->errors) ? map_loaded(o, &s, base.image) : EXIT_BAD_INPUT;
+    }
+    unload(&base);
+    return code;
+}
+
+/* --- the commands ------------------------------------------------------------------------------*/
+
+/* No file of the model is written over: neither by the rows nor by what stands beside them (host/study/resumable_csv.h). Of a map before
+ * the work, which else would be in vain. */
+static bool can_write(const sweep_options *o, const source_model *from, bool maps) {
+    if (source_would_be_lost(from, "--csv", o->csv, "") ||
+        source_would_be_lost(from, maps ? "--plot" : "--csv", maps ? o->plot : o->csv,
+                             maps ? "" : ".sweep")) {
+        return false;
+    }
+    return !maps || (atomic_file_can(o->csv) && atomic_file_can(o->plot) &&
+                     (o->plot == NULL || gnuplot_is_there()));
+}
+
+typedef int sweep_work(const sweep_options *o, source_model *from, const mechanism *of,
+                       const scene *in, grid *g, const overrides *changes);
+
+static int work_on(const sweep_options *o, sweep_work *work) {
+    source_model from;
+    const mechanism *of;
+    const scene *in;
+    int code = source_open(&from, o->target);
+    code = code == EXIT_DONE ? source_pick(&from, true, &of, &in) : code;
+    if (code == EXIT_DONE) {
+        overrides changes = options_overrides(&o->common.change);
+        grid g = {0};
+        changes.balance = true;
+        code = EXIT_BAD_INPUT;
+        if (can_write(o, &from, work == map_scene)) {
+            const bool good = read_grid(o, of, from.errors, &g);
+            diags_flush(from.errors, stderr);
+            code = good ? work(o, &from, of, in, &g, &changes) : code;
+        }
+        grid_free(&g);
+    }
+    source_close(&from);
+    return code;
+}
+
+static int processors(void) {
+    const long online = sysconf(_SC_NPROCESSORS_ONLN);
+    return online < 1 ? 1 : online > JOBS_WORKERS_MAX ? JOBS_WORKERS_MAX : (int)online;
+}
+
+static void forget(sweep_options *o) {
+    options_forget(&o->common);
+    free(o->over);
+    free(o->measure);
+}
+
+int command_sweep(int count, char **words) {
+    sweep_options o = {.command = "sweep",
+                       .usage = &sweep_usage,
+                       .common = options_defaults(),
+                       .over = alloc(count, sizeof(const char *)),
+                       .measure = alloc(count, sizeof(const char *)),
+                       .part = {1, 1},
+                       .jobs = processors()};
+    const own_option own[] = {{.word = "--over", .text = o.over, .count = &o.over_count},
+                              {.word = "--measure", .text = o.measure, .count = &o.measure_count},
+                              {.word = "--from", .text = &o.from},
+                              {.word = "--csv", .text = &o.csv},
+                              {.word = "--fresh", .flag = &o.fresh},
+                              {.word = "--jobs", .text = &o.jobs_text},
+                              {.word = "--shard", .text = &o.shard_text},
+                              {.word = "--json", .flag = &o.json},
+                              {.word = "--strict", .strict = &o.strict},
+                              {.word = "--quiet", .flag = &o.quiet},
+                              {.word = NULL}};
+    int code = EXIT_DONE;
+    if (!options_help(count, words, &sweep_usage)) {
+        code = read_options(count, words, &o, own) && is_whole_sweep(&o) ? work_on(&o, sweep_scene)
+                                                                         : EXIT_BAD_INPUT;
+    }
+    forget(&o);
+    return code;
+}
+
+int command_map(int count, char **words) {
+    sweep_options o = {.command = "map",
+                       .usage = &map_usage,
+                       .common = options_defaults(),
+                       .over = alloc(count, sizeof(const char *)),
+                       .tolerance = HORIZON_TOLERANCE,
+                       .effort = EFFORT};
+    const own_option own[] = {{.word = "--over", .text = o.over, .count = &o.over_count},
+                              OWN_TOLERANCE(o.tolerance),
+                              OWN_EFFORT(o.effort, "1e12"),
+                              {.word = "--csv", .text = &o.csv},
+                              {.word = "--plot", .text = &o.plot},
+                              {.word = "--json", .flag = &o.json},
+                              {.word = "--quiet", .flag = &o.quiet},
+                              {.word = NULL}};
+    int code = EXIT_DONE;
+    if (!options_help(count, words, &map_usage)) {
+        code = read_options(count, words, &o, own) && is_whole_map(&o) ? work_on(&o, map_scene)
+                                                                       : EXIT_BAD_INPUT;
+    }
+    forget(&o);
+    return code;
+}

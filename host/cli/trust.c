@@ -1,0 +1,264 @@
+/* trust.c: `whirl trust`: the time until which each coordinate of a run is within a tolerance. */
+#include <stdio.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "commands.h"
+#include "files.h"
+#include "host/base/atomic_file.h"
+#include "host/base/interrupts.h"
+#include "host/check/aliasing.h"
+#include "host/check/apart.h"
+#include "host/check/horizon.h"
+#include "host/check/nonfinite.h"
+#include "host/check/run_json.h"
+#include "host/engine/start.h"
+#include "host/fixed/engine_fixed.h"
+#include "host/fixed/fixed_plan.h"
+#include "host/number/functions.h"
+#include "target.h"
+#include "trusting.h"
+
+/* Default limit of operations without --effort. */
+#define EFFORT 1.5e10
+
+static const command_usage usage = {
+    .head =
+        "usage: whirl trust SCENE|MECHANISM[:SCENE]|FILE[:SCENE] [options]\n"
+        "\n"
+        "Until when each coordinate and rate of a run is right to a tolerance: the run with half its\n"
+        "step, in double with compensated sums, is run beside it, and the first time is told at which\n"
+        "they differ by more. In a chaotic motion that time comes soon, whatever the step; behind it\n"
+        "energy and momenta are all that a run can be asked for. The options are those of `whirl run`,\n"
+        "and tell the run that is asked about.\n"
+        "\n",
+    .groups = OPTIONS_SCENE,
+    .tail =
+        "  --proved             as `whirl prove`, with its options\n"
+        "  --tolerance 1e-3     part of the range that a coordinate has in the run (default: 1e-3)\n"
+        "  --csv FILE           a row for each coordinate and rate; - is standard output, and the words then\n"
+        "                       go to standard error\n"
+        "  --json               one JSON object on standard output in place of words (docs/warnings.md)\n"
+        "  --effort 1.5e10      operations that it may evaluate: 1.5e10 take about a minute\n"
+        "  --quiet              no progress, and no words beside --csv\n",
+    .why = {[EXIT_ROW_OF(EXIT_DONE)] = "",
+            [EXIT_ROW_OF(EXIT_RUN_FAILED)] =
+                "the run diverged: it says when, and until when it could be trusted",
+            [EXIT_ROW_OF(EXIT_BAD_INPUT)] = "",
+            [EXIT_ROW_OF(EXIT_INTERRUPTED)] = ""}};
+
+typedef struct trust_options {
+    common_options common;
+    const char *target;
+    const char *csv;
+    double tolerance;
+    double effort;
+    bool json;
+    bool quiet;
+} trust_options;
+
+static bool is_standard(const trust_options *o) {
+    return o->csv != NULL && strcmp(o->csv, "-") == 0;
+}
+
+static bool is_whole(const trust_options *o) {
+    if (o->json && is_standard(o)) {
+        fputs("whirl trust: error: --json and rows cannot share standard output\n"
+              "hint: --csv rows.csv\n",
+              stderr);
+        return false;
+    }
+    return true;
+}
+
+static bool read_options(int count, char **words, trust_options *o) {
+    static const char *const other[] = {"--proved", NULL};
+    const own_option own[] = {OWN_TOLERANCE(o->tolerance),
+                              OWN_EFFORT(o->effort, "1.5e11"),
+                              {.word = "--csv", .text = &o->csv},
+                              {.word = "--json", .flag = &o->json},
+                              {.word = "--quiet", .flag = &o->quiet},
+                              {.word = NULL}};
+    const target_reader reader = {
+        .command = "trust", .groups = usage.groups, .table = own, .own = other};
+    return target_read(&reader, count, words, &o->common, o, &o->target) &&
+           target_is_there(o->target, &usage) && is_whole(o);
+}
+
+static bool shows_progress(const trust_options *o) { return !o->quiet && isatty(STDERR_FILENO); }
+
+static void show_progress(double share, void *told) {
+    (void)told;
+    fprintf(stderr, "\r%5.1f %%", 100.0 * share);
+}
+
+/* --- refused scenes ---------------------------------------------------------------------------------- */
+
+static bool can_start(const image *im, const engine_kind *kind, diags *errors) {
+    const bool good =
+        start_has_method(im, im->settings.method, errors) && start_is_possible(im, kind, errors);
+    diags_flush(errors, stderr);
+    return good;
+}
+
+static bool would_be_lost(const source_model *from, const trust_options *o) {
+    return source_would_be_lost(from, "--csv", o->csv, "");
+}
+
+/* --- the answer --------------------------------------------------------------------------------------*/
+
+static void say_failure(const image *im, const engine_kind *kind, const step_doubling *t) {
+    diags *errors = diags_new();
+    const bool known = nonfinite_step(im, kind, t->run, t->status, errors);
+    diags_flush(errors, stderr);
+    diags_free(errors);
+    if (!known) {
+        const int fault = kind->fault(t->run);
+        const component c = image_component(im, fault < 0 ? 0 : fault);
+        fprintf(
+            stderr,
+            "whirl trust: error: the run diverged in the step after t = %.9g s: %s%.*s left all "
+            "bounds\nhint: a smaller --step may carry it further\n",
+            t->end_s, im->unknown[c.unknown].name, c.primes, "''''''''''");
+    }
+}
+
+static int write_rows(const trust_options *o, const horizon *h) {
+    FILE *rows = o->csv != NULL ? atomic_file_open(o->csv) : NULL;
+    if (rows != NULL) {
+        horizon_write(rows, h);
+    }
+    return o->csv == NULL || (rows != NULL && atomic_file_close(rows, o->csv, true))
+               ? EXIT_DONE
+               : EXIT_BAD_INPUT;
+}
+
+static int answer(const trust_options *o, const image *im, const image *plain) {
+    const engine_kind *kind = o->common.number;
+    const step_doubling_wish wish = {.image = im,
+                                     .kind = kind,
+                                     .plain = plain,
+                                     .books = true,
+                                     .progress = shows_progress(o) ? show_progress : NULL};
+    if (!atomic_file_can(o->csv)) { /* a long run would be in vain */
+        return EXIT_BAD_INPUT;
+    }
+    step_doubling *t = step_doubling_run(&wish);
+    if (wish.progress != NULL) {
+        fprintf(stderr, "\r        \r");
+    }
+    int code = EXIT_INTERRUPTED;
+    if (t->stopped) {
+        fprintf(
+            stderr,
+            "whirl trust: interrupted at t = %.9g s of %.9g s: the range of a coordinate is that "
+            "of the whole run\n",
+            t->end_s, ratio_times(im->steps, im->step));
+    } else {
+        (void)aliasing_find(t, NULL);
+        horizon h = horizon_of(t, o->tolerance);
+        code = write_rows(o, &h);
+        if (!o->json && (!o->quiet || o->csv == NULL)) {
+            horizon_print(is_standard(o) ? stderr : stdout, &h);
+        }
+        if (t->status != WH_OK) {
+            say_failure(im, kind, t);
+            code = code == EXIT_DONE ? EXIT_RUN_FAILED : code;
+        }
+        if (o->json) {
+            horizon_json(stdout, &h, code);
+        }
+        horizon_free(&h);
+    }
+    step_doubling_free(t);
+    return code;
+}
+
+static int trust_loaded(const trust_options *o, image *im, const image *plain, diags *errors) {
+    fixed_plan *plan = NULL;
+    const double wanted = step_doubling_operations(im, plain);
+    if (wanted > o->effort) {
+        fprintf(
+            stderr,
+            "whirl trust: error: this would take about %.0f minutes: two runs beside each other, "
+            "of %.3g and %.3g steps\n"
+            "hint: a nearer --until tells it of the beginning, where trust ends in a chaotic "
+            "motion; or a longer --step",
+            effort_minutes(wanted), (double)im->steps, 2.0 * (double)im->steps);
+        effort_say(wanted);
+    }
+    if (wanted > o->effort || !can_start(im, o->common.number, errors)) {
+        return EXIT_BAD_INPUT;
+    }
+    apart_say(stderr, "whirl trust", im);
+    interrupts_catch();
+    int code = EXIT_DONE;
+    if (o->common.number == &engine_fixed) {
+        code = trusting_plan("trust", im, shows_progress(o), errors, &plan);
+    }
+    if (code == EXIT_DONE) {
+        code = answer(o, im, plain);
+    }
+    fixed_plan_free(plan);
+    return code;
+}
+
+static int trust_source(const trust_options *o, source_model *from) {
+    const mechanism *of;
+    const scene *in;
+    int code = source_open(from, o->target);
+    code = code == EXIT_DONE ? source_pick(from, true, &of, &in) : code;
+    if (code != EXIT_DONE || would_be_lost(from, o)) {
+        return code != EXIT_DONE ? code : EXIT_BAD_INPUT;
+    }
+    overrides changes = options_overrides(&o->common.change);
+    changes.balance = true;
+    const load_wish wish = {.settings = o->common.integration,
+                            .use = IMAGE_TO_RUN,
+                            .keep = trusting_keep(&o->common.integration),
+                            .conserve = true};
+    loaded made;
+    code = load(&made, from, of, in, &changes, &wish);
+    image *plain = code == EXIT_DONE ? trusting_plain(&made) : NULL;
+    source_forget(from);
+    if (code == EXIT_DONE && o->common.number == &engine_float) {
+        say_float_range(made.image);
+    }
+    if (code == EXIT_DONE) {
+        code = trust_loaded(o, made.image, plain != NULL ? plain : made.image, from->errors);
+    }
+    image_free(plain);
+    unload(&made);
+    return code;
+}
+
+/* Remove the word --proved; true if it was there. */
+static bool take_proved(int *count, char **words) {
+    for (int i = 0; i < *count; i++) {
+        if (strcmp(words[i], "--proved") == 0) {
+            --*count;
+            memmove(&words[i], &words[i + 1], (size_t)(*count - i) * sizeof *words);
+            return true;
+        }
+    }
+    return false;
+}
+
+int command_trust(int count, char **words) {
+    if (take_proved(&count, words)) {
+        return command_prove(count, words);
+    }
+    trust_options o = {
+        .common = options_defaults(), .tolerance = HORIZON_TOLERANCE, .effort = EFFORT};
+    source_model from = {0};
+    if (options_help(count, words, &usage)) {
+        return EXIT_DONE;
+    }
+    int code = EXIT_BAD_INPUT;
+    if (read_options(count, words, &o)) {
+        code = trust_source(&o, &from);
+        source_close(&from);
+    }
+    options_forget(&o.common);
+    return code;
+}

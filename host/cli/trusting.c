@@ -1,0 +1,49 @@
+#include "trusting.h"
+
+#include "host/base/interrupts.h"
+#include "host/check/step_doubling.h"
+#include "host/number/functions.h"
+#include "options.h"
+
+load_keep trusting_keep(const image_settings *settings) {
+    image_settings plain;
+    return step_doubling_plain(settings, &plain) ? KEEP_EQUATIONS : KEEP_IMAGE;
+}
+
+image *trusting_plain(const loaded *made) {
+    const image *im = made->image;
+    image_settings plain;
+    if (im == NULL || made->equations == NULL || !step_doubling_plain(&im->settings, &plain)) {
+        return NULL;
+    }
+    diags *unsaid = diags_new(); /* already reported for the run's image */
+    image *without = image_make(made->equations, made->equations->instance->conserve, &plain,
+                                IMAGE_TO_RUN, unsaid);
+    diags_free(unsaid);
+    return without;
+}
+
+int trusting_plan(const char *command, image *im, bool progress, diags *errors, fixed_plan **plan) {
+    interrupts_catch();
+    *plan = fixed_plan_make(im, progress, errors);
+    im->fixed = *plan;
+    diags_flush(errors, stderr);
+    if (*plan == NULL && interrupted) {
+        fprintf(stderr,
+                "whirl %s: interrupted before the run in fixed point began, while its ranges were "
+                "looked for\nhint: range NAME = A .. B of all of them takes no run in double\n",
+                command);
+    }
+    return *plan != NULL ? EXIT_DONE : interrupted ? EXIT_INTERRUPTED : EXIT_BAD_INPUT;
+}
+
+double effort_minutes(double operations) {
+    return number_ceiling(operations / BUDGET_LEAST / 60.0);
+}
+
+void effort_say(double operations) {
+    if (operations <= EFFORT_MOST) {
+        fprintf(stderr, "; or --effort %.2g", 1.1 * operations);
+    }
+    fputc('\n', stderr);
+}

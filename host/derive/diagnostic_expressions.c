@@ -1,0 +1,338 @@
+/* diagnostic_expressions.c: the list of expressions in the spelling of the file, and of the derivatives of energies and gaps. */
+#include "diagnostic_expressions.h"
+
+#include <math.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "host/base/alloc.h"
+#include "host/base/arena.h"
+
+/* A poly or an atom entered before. */
+typedef struct known {
+    const void *what;
+    int node;
+} known;
+
+typedef struct maker {
+    image_draft *draft;
+    image *made;
+    const equations *equations;
+    int *input;   /* [inputs of the mechanism] number in the image, or -1 */
+    int *let;     /* [lets of the mechanism] node, or -1 */
+    known *table; /* [table_size] by address */
+    size_t entered;
+    size_t table_size; /* a power of two, or 0 */
+} maker;
+
+static int enter(maker *k, diagnostics_node node) {
+    image_blame *b = &k->made->blame;
+    b->node = arena_room(k->made->memory, b->node, b->nodes, sizeof *b->node);
+    b->node[b->nodes] = node;
+    return b->nodes++;
+}
+
+static int enter_number(maker *k, double value) {
+    return enter(k, (diagnostics_node){.code = DIAGNOSTICS_NUMBER, .number = value});
+}
+
+static int enter_symbol(maker *k, const symbol *s, int primes) {
+    const instance *inst = k->equations->instance;
+    switch (s->kind) {
+    case SYM_PARAMETER: return enter_number(k, inst->parameter[s->index]);
+    case SYM_INPUT:
+        return k->input[s->index] < 0 ? enter_number(k, inst->input[s->index])
+                                      : enter(k, (diagnostics_node){.code = DIAGNOSTICS_INPUT,
+                                                                    .a = k->input[s->index]});
+    case SYM_COORDINATE:
+    case SYM_STATE:
+        return enter(k, (diagnostics_node){.code = DIAGNOSTICS_STATE, .a = s->index, .b = primes});
+    case SYM_LET: /* below */
+    case SYM_OUTPUT:
+    case SYM_RECORD: break; /* not in equations of motion */
+    }
+    return enter_number(k, (double)NAN);
+}
+
+/* --- expressions as they were written ----------------------------------------------------------------*/
+
+static int of_expr(maker *k, const expr *tree);
+
+/* A let may occur at many places; it is entered once. */
+static int of_let(maker *k, const symbol *let) {
+    if (k->let[let->index] < 0) {
+        k->let[let->index] = of_expr(k, let->value);
+    }
+    return k->let[let->index];
+}
+
+static int of_leaf(maker *k, const expr *tree) {
+    if (tree->op == EXPR_NUMBER) {
+        return enter_number(k, tree->number);
+    }
+    if (tree->symbol->kind == SYM_LET) {
+        return enter(k, (diagnostics_node){.code = DIAGNOSTICS_SAME, .a = of_let(k, tree->symbol)});
+    }
+    return enter_symbol(k, tree->symbol, tree->primes);
+}
+
+static int of_expr(maker *k, const expr *tree) {
+    static const diagnostics_code codes[] = {
+        [EXPR_NUMBER] = DIAGNOSTICS_NUMBER, [EXPR_SYMBOL] = DIAGNOSTICS_SAME,
+        [EXPR_ADD] = DIAGNOSTICS_ADD,       [EXPR_SUB] = DIAGNOSTICS_SUB,
+        [EXPR_MUL] = DIAGNOSTICS_MUL,       [EXPR_DIV] = DIAGNOSTICS_DIV,
+        [EXPR_POW] = DIAGNOSTICS_POW,       [EXPR_NEG] = DIAGNOSTICS_NEG,
+        [EXPR_CALL] = DIAGNOSTICS_CALL};
+    int node;
+    if (tree->op == EXPR_NUMBER || tree->op == EXPR_SYMBOL) {
+        node = of_leaf(k, tree);
+    } else {
+        const int a = of_expr(k, tree->left);
+        const int b = tree->right != NULL ? of_expr(k, tree->right) : -1;
+        node = enter(k, (diagnostics_node){
+                            .code = codes[tree->op], .function = tree->function, .a = a, .b = b});
+    }
+    k->made->blame.node[node].at = image_place(k->draft, tree->at);
+    return node;
+}
+
+/* --- derivatives of expressions ------------------------------------------------------------------------ */
+
+static known *find(const maker *k, const void *what) {
+    size_t at = (size_t)(((uintptr_t)what >> 4) * UINT64_C(0x9e3779b97f4a7c15) >> 32);
+    while (k->table[at & (k->table_size - 1)].what != NULL &&
+           k->table[at & (k->table_size - 1)].what != what) {
+        at++;
+    }
+    return &k->table[at & (k->table_size - 1)];
+}
+
+static int remember(maker *k, const void *what, int node) {
+    if (2 * (k->entered + 1) > k->table_size) {
+        known *before = k->table;
+        const size_t size = k->table_size;
+        k->table_size = size == 0 ? 64 : 2 * size;
+        k->table = alloc((int64_t)k->table_size, sizeof *k->table);
+        for (size_t i = 0; i < size; i++) {
+            if (before[i].what != NULL) {
+                *find(k, before[i].what) = before[i];
+            }
+        }
+        free(before);
+    }
+    *find(k, what) = (known){what, node};
+    k->entered++;
+    return node;
+}
+
+static int of_poly(maker *k, const poly *p);
+
+static int of_atom(maker *k, const atom *x) {
+    const known *before = k->table_size > 0 ? find(k, x) : NULL;
+    if (before != NULL && before->what != NULL) {
+        return before->node;
+    }
+    if (x->kind == ATOM_SYMBOL) {
+        return remember(k, x, enter_symbol(k, x->symbol, x->primes));
+    }
+    const int a = of_poly(k, x->argument[0]);
+    const int b = x->argument[1] != NULL ? of_poly(k, x->argument[1]) : -1;
+    switch (x->kind) {
+    case ATOM_GROUP: return remember(k, x, a);
+    case ATOM_POWER:
+        return remember(k, x,
+                        enter(k, (diagnostics_node){.code = DIAGNOSTICS_POW, .a = a, .b = b}));
+    case ATOM_CALL:
+        return remember(
+            k, x,
+            enter(k, (diagnostics_node){
+                         .code = DIAGNOSTICS_CALL, .function = x->function, .a = a, .b = b}));
+    case ATOM_SYMBOL: break; /* above */
+    }
+    return a;
+}
+
+static int times(maker *k, int a, int b) {
+    return enter(k, (diagnostics_node){.code = DIAGNOSTICS_MUL, .a = a, .b = b});
+}
+
+static int of_term(maker *k, const poly_term *t) {
+    const mono *m = t->mono;
+    int node = enter_number(k, t->coefficient);
+    for (int i = 0; i < m->count; i++) {
+        int power = of_atom(k, m->factors[i].atom);
+        if (m->factors[i].exponent != 1.0) {
+            const int exponent = enter_number(k, m->factors[i].exponent);
+            power =
+                enter(k, (diagnostics_node){.code = DIAGNOSTICS_POW, .a = power, .b = exponent});
+        }
+        node = times(k, node, power);
+    }
+    if (m->trig != TRIG_NONE) {
+        const int angle = of_poly(k, m->angle);
+        const function_id wave = m->trig == TRIG_SIN ? FN_SIN : FN_COS;
+        const int value = enter(
+            k, (diagnostics_node){.code = DIAGNOSTICS_CALL, .function = wave, .a = angle, .b = -1});
+        node = times(k, node, value);
+    }
+    return node;
+}
+
+static int of_poly(maker *k, const poly *p) {
+    const known *before = k->table_size > 0 ? find(k, p) : NULL;
+    if (before != NULL && before->what != NULL) {
+        return before->node;
+    }
+    int node = p->count == 0 ? enter_number(k, 0.0) : of_term(k, &p->terms[0]);
+    for (int i = 1; i < p->count; i++) {
+        const int more = of_term(k, &p->terms[i]);
+        node = enter(k, (diagnostics_node){.code = DIAGNOSTICS_ADD, .a = node, .b = more});
+    }
+    return remember(k, p, node);
+}
+
+/* Sums and products of numbers, symbols and waves are differentiable wherever they are defined. */
+static bool has_slopes(const poly *p) {
+    for (int i = 0; i < p->count; i++) {
+        const mono *m = p->terms[i].mono;
+        if (m->angle != NULL && !has_slopes(m->angle)) {
+            return false;
+        }
+        for (int j = 0; j < m->count; j++) {
+            const mono_factor *f = &m->factors[j];
+            const bool whole = f->exponent > 0.0 && f->exponent == number_floor(f->exponent);
+            const bool plain = f->atom->kind == ATOM_SYMBOL ||
+                               (f->atom->kind == ATOM_GROUP && has_slopes(f->atom->argument[0]));
+            if (!whole || !plain) {
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
+/* --- questions -----------------------------------------------------------------------------------------*/
+
+static void ask(maker *k, place where, int node, bool derived, const char *what) {
+    image_blame *b = &k->made->blame;
+    b->question = arena_room(k->made->memory, b->question, b->questions, sizeof *b->question);
+    b->question[b->questions++] = (diagnostics_question){.node = node,
+                                                         .derived = derived,
+                                                         .power = 1,
+                                                         .what = image_text(k->draft, what),
+                                                         .where = where};
+}
+
+static void ask_value(maker *k, place where, const expr *tree, const char *what) {
+    if (tree != NULL) {
+        ask(k, where, of_expr(k, tree), false, what);
+    }
+}
+
+/* The derivatives by the unknowns with so many primes: 0, the coordinates; 1, their rates. */
+static void ask_slopes(maker *k, place where, const expr *tree, const char *what, int primes) {
+    const equations *e = k->equations;
+    const poly *value = poly_from_expr(e->algebra, tree);
+    if (has_slopes(value)) {
+        return;
+    }
+    for (int i = 0; i < e->count; i++) {
+        const poly *slope = poly_derivative(e->algebra, value, e->unknowns[i].symbol, primes);
+        if (!poly_is_zero(slope)) {
+            ask(k, where, of_poly(k, slope), true, what);
+        }
+    }
+}
+
+static void ask_term(maker *k, const term *t) {
+    const char *part = term_part(t->kind);
+    char slope[80];
+    const place where = image_place(k->draft, t->at);
+    const bool differentiated = t->kind == TERM_T || t->kind == TERM_V || t->kind == TERM_F;
+    ask_value(k, where, t->value, part);
+    k->made->blame.question[k->made->blame.questions - 1].power = differentiated ? 2 : 1;
+    ask_value(k, where, t->right, part);
+    if (differentiated) {
+        snprintf(slope, sizeof slope, "the slope of %s", part);
+        if (t->kind != TERM_F) { /* its derivatives by the coordinates are not used */
+            ask_slopes(k, where, t->value, slope, 0);
+        }
+        ask_slopes(k, where, t->value, slope, 1);
+    }
+}
+
+static void ask_contact(maker *k, const contact_statement *h, image_contact *row) {
+    const image_blame *b = &k->made->blame;
+    const place where = row->at;
+    row->first_question = b->questions;
+    switch (h->kind) {
+    case CONTACT_STOP:
+        ask_value(k, where, h->value, "the gap of this stop");
+        ask_slopes(k, where, h->value, "the rate of the gap of this stop", 0);
+        break;
+    case CONTACT_HOLD:
+        ask_value(k, where, h->condition, "the condition of this hold");
+        ask_value(k, where, h->value, "what this hold holds");
+        ask_slopes(k, where, h->value, "the rate of what this hold holds", 0);
+        break;
+    case CONTACT_FRICTION:
+        ask_value(k, where, h->normal, "the normal force of this friction");
+        ask_value(k, where, h->static_friction, "the static coefficient of this friction");
+        ask_value(k, where, h->kinetic_friction, "the kinetic coefficient of this friction");
+        break;
+    case CONTACT_WHEN:
+        ask_value(k, where, h->value,
+                  contact_loosens(h) ? "the normal force of this friction"
+                                     : "the value of this crossing");
+        break;
+    }
+    row->questions = b->questions - row->first_question;
+    row->first_late = b->questions;
+    if (h->kind == CONTACT_STOP) { /* only used at an impact */
+        ask_value(k, where, h->restitution, "the restitution of this stop");
+    }
+    row->late = b->questions - row->first_late;
+}
+
+static void ask_all(maker *k) {
+    const equations *e = k->equations;
+    const mechanism *m = e->instance->mechanism;
+    image *im = k->made;
+    for (int i = 0; i < m->term_count; i++) {
+        if (instance_has_term(e->instance, &m->terms[i])) {
+            ask_term(k, &m->terms[i]);
+        }
+    }
+    im->blame.terms = im->blame.questions;
+    for (int c = 0; c < im->contacts; c++) {
+        const contact_statement *h = e->contacts->law[c].from;
+        for (int i = 0; i < h->set_count && h->kind == CONTACT_WHEN; i++) {
+            ask_value(k, image_place(k->draft, h->sets[i].at), h->sets[i].value,
+                      "the value that is set");
+        }
+    }
+    im->blame.sets = im->blame.questions - im->blame.terms;
+    for (int c = 0; c < im->contacts; c++) {
+        ask_contact(k, e->contacts->law[c].from, &im->contact[c]);
+    }
+}
+
+void diagnostics_make(image_draft *d, const equations *e) {
+    const instance *inst = e->instance;
+    const mechanism *m = inst->mechanism;
+    maker k = {.draft = d,
+               .made = d->made,
+               .equations = e,
+               .input = alloc(m->input_count, sizeof *k.input),
+               .let = alloc(m->let_count, sizeof *k.let)};
+    for (int i = 0, number = 0; i < m->input_count; i++) {
+        k.input[i] = instance_lacks(inst, m->inputs[i]) == NULL ? number++ : -1;
+    }
+    memset(k.let, -1, (size_t)m->let_count * sizeof *k.let);
+    ask_all(&k);
+    free(k.input);
+    free(k.let);
+    free(k.table);
+}

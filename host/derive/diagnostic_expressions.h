@@ -1,0 +1,11 @@
+/* diagnostic_expressions.h: the expressions that may be undefined, for messages (image_blame in host/image/image.h). */
+#ifndef DERIVE_DIAGNOSTIC_EXPRESSIONS_H
+#define DERIVE_DIAGNOSTIC_EXPRESSIONS_H
+
+#include "host/derive/equations.h"
+#include "image_parts.h"
+
+/* Enter them, with the conditions of each contact. The image must have its inputs and contacts. */
+void diagnostics_make(image_draft *d, const equations *e);
+
+#endif

@@ -1,0 +1,63 @@
+/* engine_double.c: the interpreter in the reference arithmetic. */
+#define WH_DOUBLE 1
+#include "engine.inc"
+#include "host/base/alloc.h"
+#include "rounding.h"
+
+uint64_t engine_operations;
+
+uint64_t engine_evaluation(const image *im) {
+    const uint64_t of_method = 4U + 2U * (uint64_t)im->count;
+    const uint64_t of_contacts = im->contacts > 0 ? 40U + 20U * (uint64_t)im->contacts : 0U;
+    return (uint64_t)im->list[IMAGE_STEP]->count + EVALUATION + of_method + of_contacts;
+}
+
+struct evaluator {
+    const op_list *tape;
+    registers registers;
+    bool wraps;
+};
+
+evaluator *evaluator_new(const op_list *t) {
+    evaluator *ev = alloc(1, sizeof *ev);
+    *ev = (evaluator){t, registers_new(t), false};
+    return ev;
+}
+
+void evaluator_free(evaluator *ev) {
+    if (ev != NULL) {
+        registers_free(ev->registers);
+        free(ev);
+    }
+}
+
+void evaluator_wrap(evaluator *ev) { ev->wraps = true; }
+
+/* The angles as the list's phases take them. */
+static const double *phases_of(const evaluator *ev, const double *angle_rad, double *wrapped) {
+    for (int i = 0; i < ev->tape->angles && ev->wraps; i++) {
+        wrapped[i] = number_centred(angle_rad[i], 6.283185307179586477);
+    }
+    return ev->wraps ? wrapped : angle_rad;
+}
+
+void evaluator_run(evaluator *ev, double time_s, const double *angle_rad, const double *linear,
+                   const double *rate, const double *input, double *result) {
+    double wrapped[IMAGE_COMPONENTS_MAX];
+    const double *phase = phases_of(ev, angle_rad, wrapped);
+    evaluate(ev->tape, ev->registers,
+             (leaves){NULL, phase, angle_rad, time_s, linear, rate, input, NULL}, result);
+}
+
+double evaluator_value(const evaluator *ev, int operation) {
+    return ev->registers.value[operation];
+}
+
+void evaluator_rounding(const evaluator *ev, const double *angle_rad, double least, double *error) {
+    double wrapped[IMAGE_COMPONENTS_MAX];
+    const registers *r = &ev->registers;
+    const double *phase = phases_of(ev, angle_rad, wrapped);
+    engine_operations += 2U * (uint64_t)ev->tape->count;
+    rounding_of(ev->tape, &(rounding_values){r->value, r->sine, r->cosine, phase, angle_rad, least},
+                error);
+}

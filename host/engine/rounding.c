@@ -1,0 +1,103 @@
+/* rounding.c: see rounding.h. */
+#include "rounding.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "host/base/alloc.h"
+
+/* What is beyond it is infinite in float; what is divided by that is lost, all of it, in units of float's rounding. */
+#define FLOAT_MOST 0x1.fffffep127
+#define ALL_LOST 0x1p24
+
+static bool is_beyond(const rounding_values *at, double value) {
+    return at->least > 0.0 && fabs(value) > FLOAT_MOST;
+}
+
+/* A constant that float holds is exact in either number. */
+static double of_constant(double value) {
+    return (double)(float)value == value ? 0.0 : fabs(value);
+}
+
+/* The sizes of what is added up, each of which is rounded. */
+static double of_phase(const op_list *t, const op *o, const rounding_values *at, double more) {
+    double size = fabs(o->value);
+    for (int i = 0; i < t->angles; i++) {
+        if (o->turns != NULL) {
+            size += fabs(o->turns[i] * at->phase_rad[i]);
+        }
+        if (o->parts != NULL) {
+            size += fabs(o->parts[i] * at->angle_rad[i]);
+        }
+    }
+    return size + (o->b >= 0 ? fabs(at->value[o->b]) + more : 0.0);
+}
+
+/* By the function's slopes at (x, y), which are off by `a` and `b`. */
+static double of_call(function_id function, double x, double y, double a, double b) {
+    const double by_x = fabs(number_slope(function, 0, x, y)) * a;
+    return function_arguments(function) == 1 ? by_x
+                                             : by_x + fabs(number_slope(function, 1, x, y)) * b;
+}
+
+/* What the operands' errors a and b become; *rounds: is the result rounded, too? */
+static double carried(const op_list *t, const op *o, const rounding_values *at, const double *error,
+                      double v, bool *rounds) {
+    const int values = op_rows[o->code].values;
+    const double x = values > 0 ? at->value[o->a] : 0.0;
+    const double y = values > 1 && o->b >= 0 ? at->value[o->b] : 0.0;
+    const double a = values > 0 ? error[o->a] : 0.0;
+    const double b = values > 1 && o->b >= 0 ? error[o->b] : 0.0;
+    *rounds = false;
+    switch (o->code) {
+    case OP_CONSTANT: return of_constant(o->value);
+    case OP_LINEAR:
+    case OP_RATE:
+    case OP_INPUT:
+    case OP_ACCEL:
+    case OP_TIME:
+    case OP_RADIANS:
+    case OP_NOISE: return 0.0;
+    case OP_PHASE: return of_phase(t, o, at, o->b >= 0 ? error[o->b] : 0.0);
+    case OP_CELL: return 0.0;
+    case OP_LINE: /* as of a sine: for what is looked up, not for what is lost between entries */
+    case OP_CUBIC: *rounds = true; return fabs(v);
+    case OP_SIN: return 1.0 + a * fabs(at->cosine[o->a]);
+    case OP_COS: return 1.0 + a * fabs(at->sine[o->a]);
+    case OP_NEG:
+    case OP_ABS: return a;
+    case OP_SIGN: return 0.0; /* but for where it jumps */
+    case OP_MIN:
+    case OP_MAX: return v == x ? a : b;
+    case OP_ADD:
+    case OP_SUB: *rounds = true; return a + b;
+    case OP_MUL: *rounds = true; return fabs(y) * a + fabs(x) * b;
+    case OP_DIV:
+        *rounds = true;
+        return is_beyond(at, y) ? fabs(v) * ALL_LOST : (a + fabs(v) * b) / fabs(y);
+    case OP_SQRT: *rounds = true; return a == 0.0 ? 0.0 : a / (2.0 * v);
+    case OP_CALL: *rounds = true; return of_call(o->function, x, y, a, b);
+    case OP_POW:
+        *rounds = true;
+        return fabs(v) * ((a == 0.0 ? 0.0 : fabs(y) * a / fabs(x)) +
+                          (b == 0.0 ? 0.0 : fabs(number_call(FN_LOG, fabs(x), 0.0)) * b));
+    }
+    return 0.0;
+}
+
+void rounding_of(const op_list *t, const rounding_values *at, double *error) {
+    double *each = alloc(t->count, sizeof *each);
+    for (int i = 0; i < t->count; i++) {
+        bool rounds;
+        each[i] = carried(t, &t->ops[i], at, each, at->value[i], &rounds);
+        const double size = fabs(at->value[i]);
+        each[i] += !rounds ? 0.0 : size < at->least ? at->least : size;
+        if (is_beyond(at, size)) {
+            each[i] = (double)INFINITY;
+        }
+    }
+    for (int i = 0; i < t->results; i++) {
+        error[i] = each[t->result[i]];
+    }
+    free(each);
+}

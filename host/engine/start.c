@@ -1,0 +1,129 @@
+/* start.c: whether a run can start where its scene says, and by the method that is asked for. */
+#include "start.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/contact.h"
+#include "engine.h"
+#include "host/base/alloc.h"
+#include "host/number/phase.h"
+#include "methods.h"
+
+/* m or rad: what the conversion of a start's units may leave. */
+#define ROUNDING 1e-9
+
+static bool is_apart(const image_contact *stop, double gap, diags *errors) {
+    static const char hint[] = "start on it or apart from it, or leave the stop out";
+    if (stop->kind != WH_STOP || (gap >= -ROUNDING && isfinite(gap))) {
+        return true;
+    }
+    const bool has_unit = strcmp(stop->unit, "1") != 0;
+    if (!isfinite(gap)) {
+        diag_error(errors, stop->at, hint,
+                   "the distance to this stop is not a finite number where the run starts");
+    } else {
+        diag_error(errors, stop->at, hint, "the run starts beyond this stop, by %.6g%s%s", -gap,
+                   has_unit ? " " : "", has_unit ? stop->unit : "");
+    }
+    return false;
+}
+
+bool start_angles_are_held(const image *im, diags *errors) {
+    bool held = true;
+    for (int i = 0; i < im->angles; i++) {
+        const image_unknown *u = &im->unknown[im->angle[i].unknown];
+        if (!phase_holds_start(u->start[0])) {
+            diag_error(errors, u->start_at[0].source != NULL ? u->start_at[0] : u->at,
+                       "start it within a turn: whole turns change nothing in a sine",
+                       "'%s' starts at %.9g rad: float counts turns up to %g rad only", u->name,
+                       u->start[0], PHASE_START_MOST_RAD);
+            held = false;
+        }
+    }
+    return held;
+}
+
+bool start_is_possible(const image *im, const engine_kind *kind, diags *errors) {
+    bool good = kind != &engine_float || start_angles_are_held(im, errors);
+    if (im->contacts == 0 || !good) {
+        return good;
+    }
+    double *signal = alloc(2 * im->contacts, sizeof *signal);
+    evaluator *ev = evaluator_new(im->list[IMAGE_SIGNALS]);
+    double *input = alloc(im->inputs, sizeof *input);
+    image_inputs(im, input);
+    evaluator_run(ev, 0.0, im->start_rad, im->start_real,
+                  im->start_real + (im->coordinates - im->angles), input, signal);
+    for (int k = 0; k < im->contacts; k++) {
+        good = is_apart(&im->contact[k], signal[2 * k], errors) && good;
+    }
+    evaluator_free(ev);
+    free(input);
+    free(signal);
+    return good;
+}
+
+/* Unknown whose rate the accelerations take, or -1. */
+static int rate_taken(const image *im) {
+    const op_list *t = im->list[IMAGE_STEP];
+    for (int k = 0; k < t->count; k++) {
+        for (int i = 0; i < im->count && t->ops[k].code == OP_RATE; i++) {
+            if (im->place[i] == t->ops[k].a) {
+                return i;
+            }
+        }
+    }
+    return -1;
+}
+
+/* The stages of a composition know no rates: neither may accelerations, contacts and books. */
+static bool is_free_of_rates(const image *im, const char *title, diags *errors) {
+    char others[METHODS_TEXT_SIZE];
+    char hint[METHODS_TEXT_SIZE + 160];
+    const int taken = rate_taken(im);
+    snprintf(hint, sizeof hint, "its kicks are at positions, and know no rates; choose --method %s",
+             methods_of_form(im->form, others));
+    if (taken >= 0) {
+        diag_error(errors, im->unknown[taken].at, hint,
+                   "%s is not defined here: accelerations take the rate of '%s'", title,
+                   im->unknown[taken].name);
+    } else if (im->contacts > 0) {
+        diag_error(errors, im->contact[0].at, hint, "%s is not defined here: there are contacts",
+                   title);
+    } else if (im->ledger.kept) {
+        diag_error(errors, im->at, hint, "%s is not defined here: it keeps no books", title);
+    }
+    return taken < 0 && im->contacts == 0 && !im->ledger.kept;
+}
+
+bool start_has_method(const image *im, wh_method method, diags *errors) {
+    const char *title = wh_methods[method].title;
+    if (wh_method_takes(method, im->form)) {
+        return wh_methods[method].takes != WH_NO_RATES || is_free_of_rates(im, title, errors);
+    }
+    char others[METHODS_TEXT_SIZE];
+    char hint[METHODS_TEXT_SIZE + 160];
+    methods_of_form(im->form, others);
+    for (int i = 0; i < im->count; i++) {
+        const image_unknown *u = &im->unknown[i];
+        if (u->order != 2) {
+            snprintf(
+                hint, sizeof hint,
+                "it moves positions in another way than rates: every unknown must be of order 2; "
+                "choose --method %s",
+                others);
+            diag_error(errors, u->at, hint, "%s is not defined here: '%s' is of order %d", title,
+                       u->name, u->order);
+            return false;
+        }
+    }
+    snprintf(hint, sizeof hint,
+             "integrate the coordinate, --without conserve; or choose --method %s", others);
+    diag_error(errors, im->at, hint,
+               "%s is not defined here: '%s', which is conserved, is integrated from its momentum",
+               title, im->unknown[im->from_momentum[0]].name);
+    return false;
+}

@@ -1,0 +1,181 @@
+/* op_list.h: the operation list: a model's right-hand side as a table of elementary operations. One list serves the
+ * interpreter (host/run) and the generated C and Octave (host/emit). Each operation is one IEEE operation on earlier
+ * results, so all of them give the same bits. Equal operations are entered once; constants are folded; signs move
+ * outwards and vanish into subtractions. */
+#ifndef IMAGE_OP_LIST_H
+#define IMAGE_OP_LIST_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "host/number/functions.h"
+
+#include "op_rows.h"
+
+/* OP_CONSTANT, OP_LINEAR, ... */
+#define OP_ID(id, ...) OP_##id,
+typedef enum op_code { OP_ROWS(OP_ID) } op_code;
+#undef OP_ID
+
+#define OP_ONE(...) +1
+enum { OPS = 0 OP_ROWS(OP_ONE) }; /* number of operations */
+#undef OP_ONE
+
+typedef enum op_kind {
+    OP_IS_CONSTANT,
+    OP_IS_LEAF,   /* a is an index, or unused */
+    OP_IS_PHASE,  /* b is an operation or -1 */
+    OP_IS_WAVE,   /* a is a phase */
+    OP_IS_UNARY,  /* a is an operation */
+    OP_IS_BINARY, /* a and b are */
+    OP_IS_CALL,   /* a is; b is, or -1 */
+    OP_IS_CELL,   /* neither is */
+    OP_IS_LOOKUP  /* a is a cell */
+} op_kind;
+
+typedef enum op_cost {
+    OP_COSTS_NOTHING,
+    OP_COSTS_ARITHMETIC,
+    OP_COSTS_DIVISION,
+    OP_COSTS_ROOT,
+    OP_COSTS_WAVE,
+    OP_COSTS_CALL,
+    OP_COSTS_LINE, /* looked up in a table, and interpolated */
+    OP_COSTS_CUBIC
+} op_cost;
+
+typedef struct op_row {
+    op_kind kind;
+    op_cost cost;
+    int values;         /* most earlier values it uses: a, a and b; 0 for a leaf or a phase */
+    const char *c;      /* NULL: not written in C */
+    const char *octave; /* NULL */
+} op_row;
+
+extern const op_row op_rows[OPS]; /* [op_code] */
+
+typedef struct op {
+    op_code code;
+    function_id function; /* OP_CALL */
+    int a;
+    int b;
+    double value;     /* OP_CONSTANT, OP_PHASE, OP_NOISE, OP_LINE, OP_CUBIC */
+    const int *turns; /* OP_PHASE, OP_CELL: [angles] whole factors, or NULL */
+    /* OP_PHASE: [angles] factors of the whole angle, not only its phase; or NULL. For records, never in a step. */
+    const double *parts;
+} op;
+
+/* The tables of a list in the form of core/table.h, except for the scale of float: y counts cells. */
+typedef struct op_list_tables {
+    int count;
+    int bits;       /* 2^bits cells */
+    int terms;      /* numbers in a cell of one table: WH_TABLE_LINEAR, WH_TABLE_CUBIC */
+    double *number; /* [2^bits][count][terms], in the list's arena */
+    double *size;   /* [count]: the largest absolute value of the table, */
+    double *off;    /* [count]: and its largest interpolation error, without round-off */
+    bool folds;     /* each is even or odd: */
+    bool *odd;      /* [count]: odd, else even */
+} op_list_tables;
+
+typedef struct op_list {
+    op *ops;
+    int count;
+    int room;
+    int angles; /* length of every `turns` */
+    int *index; /* hash index of ops */
+    int index_size;
+    int *result; /* operation numbers of the list's results */
+    int results;
+    op_list_tables tables; /* without tables: all zero */
+    struct arena *arena;
+} op_list;
+
+op_list *op_list_new(int angles, int results);
+void op_list_free(op_list *t);
+
+int op_list_constant(op_list *t, double value);
+int op_list_leaf(op_list *t, op_code code, int which);
+int op_list_noise(op_list *t, uint32_t seed);
+/* `multiple` [t->angles] of each turn angle may be NULL. Whole numbers in it multiply phases, others the whole angles.
+ * `radians` is an operation or -1. */
+int op_list_phase(op_list *t, const double *multiple, double offset_rad, int radians);
+/* Can a phase be multiplied by this number? It must be a whole number within bounds. */
+bool op_list_is_whole(double multiple);
+/* Allocate zeroed tables. Enter the cell of the phase with these multiples of the turn angles, [t->angles], and the
+ * look-up in table `which` there. */
+void op_list_tables_new(op_list *t, int count, int bits, int terms);
+int op_list_cell(op_list *t, const int *turns);
+int op_list_look_up(op_list *t, int cell, int which);
+int op_list_unary(op_list *t, op_code code, int a);
+int op_list_add(op_list *t, int a, int b);
+int op_list_sub(op_list *t, int a, int b);
+int op_list_mul(op_list *t, int a, int b);
+int op_list_div(op_list *t, int a, int b);
+/* A function of operations a and b (or -1), as the operation of its own or a call. */
+int op_list_call(op_list *t, function_id function, int a, int b);
+int op_list_pow(op_list *t, int base, int exponent);
+/* base to a fixed power, by products and square roots if possible. */
+int op_list_power(op_list *t, int base, double exponent);
+bool op_list_is_constant(const op_list *t, int a, double *value);
+
+/* The operation with this code and operands a and b, or -1 if there is no such operation yet. */
+int op_list_find_binary(const op_list *t, op_code code, int a, int b);
+
+/* Rebuild the index of equal operations, after operations were moved. */
+void op_list_reindex(op_list *t);
+uint64_t op_list_op_hash(const op_list *t, const op *o);
+
+/* The earlier operations that o uses, a phase's radians too; returns their number. */
+int op_list_operands(const op *o, int operand[static 2]);
+
+/* Remove operations that no result uses, and renumber. */
+void op_list_prune(op_list *t);
+/* Replace a sum that differs from another one in a single part by a sum of that sum and the part, if this saves a
+ * product. Removes operations that are then unused. */
+void op_list_share_sums(op_list *t);
+/* Reorder a finished list so that few values are live at a time, if the estimate of memory traffic falls (op_list_use.c).
+ * The results do not change by a bit; phases stay in their order. */
+void op_list_order(op_list *t);
+/* Estimate of the least number of loads and stores of the list in its order, with some twenty registers. */
+int op_list_carried(const op_list *t);
+/* Reorder the operations: order[t->count] is the operation at each position, number[t->count] its new position. No
+ * operation may precede its operands. */
+void op_list_renumber(op_list *t, const int *order, const int *number);
+
+/* Does the list use whole angles, turns included, and not only their phases? A step has no whole angles. */
+bool op_list_reads_turns(const op_list *t);
+
+/* A wave: a phase made of turn angles, which a step can turn on (core/stage_turn.h). */
+static inline bool op_list_is_wave(const op *o) { return o->code == OP_PHASE && o->turns != NULL; }
+int op_list_waves(const op_list *t);
+/* Is every wave a sum of turn angles and a number? Then the list can receive its pairs of sine and cosine, in the order
+ * of its operations. */
+bool op_list_takes_waves(const op_list *t);
+
+/* The first result that depends on a constant that is not finite, or -1. */
+int op_list_not_finite(const op_list *t);
+
+/* Is a number zero, or within float's normal numbers? */
+bool fits_float(double value);
+/* The first constant that float represents with fewer than its digits, as zero or as infinite; 0 if all fit. */
+double op_list_out_of_float(const op_list *t);
+
+/* The cost of a list. */
+typedef struct op_list_cost {
+    int arithmetic; /* additions, subtractions, products, negations, comparisons */
+    int divisions;
+    int roots;
+    int waves;    /* sines and cosines; those of one phase count once */
+    int calls;    /* calls of core/function.h */
+    int look_ups; /* in tables; the interpolation counts as arithmetic */
+} op_list_cost;
+
+op_list_cost op_list_count(const op_list *t);
+/* A number for comparing lists: rough instructions on a Cortex-M4F. */
+int op_list_weight(const op_list *t);
+/* Operations in the sense of flop counts: every operation except leaves, phases and constants. A sine and a cosine
+ * count one each. */
+int op_list_operations(const op_list *t);
+uint64_t op_list_hash(const op_list *t);
+
+#endif

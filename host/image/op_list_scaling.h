@@ -1,0 +1,44 @@
+/* op_list_gauge.h: the gauge freedom of a list: factors of its values that cancel, as in a numerator and its denominator,
+ * or in the equations of a system. Some factors suit the constants of float better: 1.08 - 0.36 s^2 over M is 27 - 9
+ * s^2 over 25 M, where no constant is rounded. */
+#ifndef IMAGE_OP_LIST_SCALING_H
+#define IMAGE_OP_LIST_SCALING_H
+
+#include "host/image/op_list.h"
+
+/* The relative error of the results of a finished list due to constants rounded to float, with exact operations
+ * otherwise. It is the root mean square over the results and over artificial states with rates of three sizes. Results
+ * that do not feed back into the list have a small weight. The list `like` gives the reference; it is the same list, or
+ * another one with equal results. NaN if undefined. */
+double op_list_bias(const op_list *t, const op_list *like);
+
+/* Most additional operations of a better list: one, and one for each forty operations. */
+int op_list_gauge_price(const op_list *t);
+
+/* Replace *t by a list that gives the same results, except for double's round-off, with at most half the bias. Without
+ * such a list within the allowed number of additional operations, *t stays. */
+void op_list_gauge(op_list **t, int price);
+
+/* --- its parts ----------------------------------------------------------------------------------------------- */
+
+/* Is the value of this operation raw? Multiplying a leaf, a sine or a function costs a product. */
+bool op_list_is_raw(const op *o);
+
+/* Vectors of exponents: all values may be multiplied by x to these, for any x > 0. The first entries are one for each
+ * operation. Then come two for each operation, for its raw operands, which may be used as they are or multiplied. */
+typedef struct op_list_freedoms {
+    double *exponent; /* [count * length] */
+    int count;
+    int length; /* 3 * operations of the list */
+} op_list_freedoms;
+
+/* First the freedoms without an additional product, then those that multiply one raw value, at all places or at some,
+ * then those that multiply two. */
+op_list_freedoms op_list_freedoms_of(const op_list *t);
+void op_list_freedoms_free(op_list_freedoms *f);
+
+/* The list with operations times[3 * count] > 0 as large, in the same order. Constants, and products where constants do
+ * not suffice, keep the results the same. Finished (op_list_prune(), op_list_order()). */
+op_list *op_list_multiplied(const op_list *t, const double *times);
+
+#endif

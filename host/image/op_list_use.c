@@ -1,0 +1,771 @@
+/* op_list_use.c: analysis of a finished list: needed operations, cost, and order. */
+#include <limits.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "host/base/alloc.h"
+#include "host/base/hashing.h"
+#include "host/image/op_list.h"
+
+/* === dependencies between operations ========================================================== */
+/* The cost of a list, and of its order. */
+
+/* Single-precision registers of an Arm or RISC-V FPU for a list: 32, less those of the surrounding step. */
+enum { OP_LIST_REGISTERS = 20 };
+
+/* Dependencies. A phase follows the previous phase: a list numbers its waves in order. */
+typedef struct op_list_needs {
+    const op_list *t;
+    int *before; /* [t->count]: for a phase the previous one; else -1 */
+    bool *given; /* [t->count]: needs no computation */
+    int *first;  /* [t->count + 1]: start of its users in user[], in order */
+    int *user;
+} op_list_needs;
+
+enum { NEEDED_MOST = 3, TAKEN_MOST = 2 };
+
+/* The operations that must precede operation i; returns their number. */
+static int op_list_needed(const op_list_needs *n, int i, int found[static NEEDED_MOST]) {
+    int count = op_list_operands(&n->t->ops[i], found);
+    if (n->before[i] >= 0) {
+        found[count++] = n->before[i];
+    }
+    return count;
+}
+
+/* The values that operation i reads from registers, each once; returns their number. Constants and phases need no
+ * register. */
+static int op_list_taken(const op_list *t, int i, int found[static TAKEN_MOST]) {
+    int operand[TAKEN_MOST];
+    const int operands = op_list_operands(&t->ops[i], operand);
+    int count = 0;
+    for (int k = 0; k < operands; k++) {
+        const op_kind kind = op_rows[t->ops[operand[k]].code].kind;
+        const bool again = k > 0 && operand[k] == operand[0];
+        if (kind != OP_IS_CONSTANT && kind != OP_IS_PHASE && kind != OP_IS_CELL && !again) {
+            found[count++] = operand[k];
+        }
+    }
+    return count;
+}
+
+static bool may_be_given(const op *o) {
+    switch (op_rows[o->code].kind) {
+    case OP_IS_CONSTANT:
+    case OP_IS_LEAF:
+    case OP_IS_PHASE:
+    case OP_IS_CELL:
+    case OP_IS_WAVE: return true;
+    case OP_IS_LOOKUP:
+    case OP_IS_UNARY:
+    case OP_IS_BINARY:
+    case OP_IS_CALL: break;
+    }
+    return false;
+}
+
+static op_list_needs op_list_needs_of(const op_list *t) {
+    op_list_needs n = {.t = t,
+                       .before = alloc(t->count, sizeof *n.before),
+                       .given = alloc(t->count, sizeof *n.given),
+                       .first = alloc((int64_t)t->count + 1, sizeof *n.first)};
+    int found[NEEDED_MOST];
+    int phase = -1;
+    for (int i = 0; i < t->count; i++) {
+        const bool is_phase = t->ops[i].code == OP_PHASE;
+        n.before[i] = is_phase ? phase : -1;
+        phase = is_phase ? i : phase;
+        n.given[i] = may_be_given(&t->ops[i]);
+        for (int k = op_list_needed(&n, i, found); k > 0; k--) {
+            n.given[i] = n.given[i] && n.given[found[k - 1]];
+            n.first[found[k - 1] + 1]++;
+        }
+    }
+    for (int i = 0; i < t->count; i++) {
+        n.first[i + 1] += n.first[i];
+    }
+    n.user = alloc(n.first[t->count], sizeof *n.user);
+    int *next = alloc_more(NULL, t->count, sizeof *next);
+    memcpy(next, n.first, (size_t)t->count * sizeof *next);
+    for (int i = 0; i < t->count; i++) {
+        for (int k = op_list_needed(&n, i, found); k > 0; k--) {
+            n.user[next[found[k - 1]]++] = i;
+        }
+    }
+    free(next);
+    return n;
+}
+
+static void op_list_needs_free(op_list_needs *n) {
+    free(n->before);
+    free(n->given);
+    free(n->first);
+    free(n->user);
+}
+
+/* --- loads and stores of values ------------------------------------------------------------------ */
+
+/* The times of use of each value of a list in a given sequence. */
+typedef struct wanted {
+    int *first; /* [ops + 1]: start of a value's times in time[] */
+    int *time;  /* positions in the sequence; for results after its end */
+    int *next;  /* [ops]: index of the next time */
+} wanted;
+
+/* Value v is used at a time: the first pass counts, the second one enters. */
+static void want(wanted *w, int pass, int v, int time) {
+    if (pass == 0) {
+        w->first[v + 1]++;
+    } else {
+        w->time[w->next[v]++] = time;
+    }
+}
+
+static wanted wanted_of(const op_list *t, const int *sequence, int count) {
+    wanted w = {alloc((int64_t)t->count + 1, sizeof *w.first), NULL,
+                alloc_more(NULL, t->count, sizeof *w.next)};
+    int found[TAKEN_MOST];
+    for (int pass = 0; pass < 2; pass++) {
+        for (int at = 0; at < count; at++) {
+            for (int k = op_list_taken(t, sequence[at], found); k > 0; k--) {
+                want(&w, pass, found[k - 1], at);
+            }
+        }
+        for (int i = 0; i < t->results; i++) {
+            want(&w, pass, t->result[i], count);
+        }
+        for (int i = 0; i < t->count && pass == 0; i++) {
+            w.first[i + 1] += w.first[i];
+        }
+        w.time = pass == 0 ? alloc(w.first[t->count], sizeof *w.time) : w.time;
+        memcpy(w.next, w.first, (size_t)t->count * sizeof *w.next);
+    }
+    return w;
+}
+
+static void wanted_free(wanted *w) {
+    free(w->first);
+    free(w->time);
+    free(w->next);
+}
+
+/* The next use of value v, or INT_MAX. */
+static int next_time(const wanted *w, int v) {
+    return w->next[v] < w->first[v + 1] ? w->time[w->next[v]] : INT_MAX;
+}
+
+/* Values in registers, and the number of loads and stores so far. */
+typedef struct registers {
+    int value[OP_LIST_REGISTERS];
+    int count;
+    bool *stored; /* [ops]: memory has a copy */
+    int carried;
+} registers;
+
+/* Give value v a register, if necessary that of the value with the latest next use. (Operands of the current operation
+ * are in use now.) */
+static void hold(const wanted *w, registers *r, int v) {
+    if (r->count == OP_LIST_REGISTERS) {
+        int last = 0;
+        for (int k = 1; k < OP_LIST_REGISTERS; k++) {
+            last = next_time(w, r->value[k]) > next_time(w, r->value[last]) ? k : last;
+        }
+        const int gone = r->value[last];
+        if (!r->stored[gone]) {
+            r->stored[gone] = true;
+            r->carried++;
+        }
+        r->value[last] = r->value[--r->count];
+    }
+    r->value[r->count++] = v;
+}
+
+static bool is_held(const registers *r, int v) {
+    int k = 0;
+    while (k < r->count && r->value[k] != v) {
+        k++;
+    }
+    return k < r->count;
+}
+
+/* Loads and stores of values in this sequence with the best replacement: that of the value with the latest next use
+ * (Belady, 1966). */
+static int op_list_carried_by(const op_list_needs *n, const int *sequence, int count) {
+    wanted w = wanted_of(n->t, sequence, count);
+    registers r = {.stored = alloc(n->t->count, sizeof *r.stored)};
+    int found[TAKEN_MOST];
+    for (int i = 0; i < n->t->count; i++) {
+        r.stored[i] = n->given[i];
+    }
+    for (int at = 0; at < count; at++) {
+        const int values = op_list_taken(n->t, sequence[at], found);
+        for (int k = 0; k < values; k++) {
+            if (!is_held(&r, found[k])) {
+                hold(&w, &r, found[k]);
+                r.carried++;
+            }
+        }
+        for (int k = 0; k < values; k++) {
+            w.next[found[k]]++;
+        }
+        int kept = 0;
+        for (int k = 0; k < r.count; k++) {
+            if (next_time(&w, r.value[k]) < INT_MAX) {
+                r.value[kept++] = r.value[k];
+            }
+        }
+        r.count = kept;
+        if (next_time(&w, sequence[at]) < INT_MAX) {
+            hold(&w, &r, sequence[at]);
+        }
+    }
+    const int carried = r.carried;
+    free(r.stored);
+    wanted_free(&w);
+    return carried;
+}
+
+/* The operations to compute, in the order of the list; to be freed. */
+static int *op_list_computed(const op_list_needs *n, int *count) {
+    int *sequence = alloc_more(NULL, n->t->count, sizeof *sequence);
+    *count = 0;
+    for (int i = 0; i < n->t->count; i++) {
+        if (!n->given[i]) {
+            sequence[(*count)++] = i;
+        }
+    }
+    return sequence;
+}
+
+int op_list_carried(const op_list *t) {
+    op_list_needs n = op_list_needs_of(t);
+    int count;
+    int *sequence = op_list_computed(&n, &count);
+    const int times = op_list_carried_by(&n, sequence, count);
+    free(sequence);
+    op_list_needs_free(&n);
+    return times;
+}
+
+/* === tape order =============================================================================== */
+/* A reordering of a finished list's operations with few live values. A list starts in order of entry: a whole matrix
+ * before its first row is eliminated. In a large list more values wait than a processor has registers, and a third of
+ * the instructions move them to memory and back. Here the next operation is always one that ends the most lives. Ties
+ * go to the first in order of entry, or to the operation with the earliest last use: two orders. Given values (the
+ * state, the pairs of sine and cosine) are read at their first use. This looks one operation ahead. So both orders are
+ * compared with the order of entry by loads and stores, and the best is taken. A list whose values fit into registers
+ * keeps its order. */
+
+typedef struct schedule {
+    const op_list_needs *needs;
+    int *waits; /* [ops]: dependencies not yet computed */
+    int *uses;  /* [ops]: remaining users, a result included */
+    int *ends;  /* [ops]: number of lives it ends */
+    int *until; /* [ops]: its last user */
+    int *ready; /* operations without pending dependencies, unordered */
+    int count;  /* of them */
+    bool *done; /* [ops] */
+} schedule;
+
+/* Value v has one user less: its last user ends its life. */
+static void use_up(schedule *s, int v) {
+    const op_list_needs *n = s->needs;
+    if (--s->uses[v] != 1) {
+        return;
+    }
+    for (int k = n->first[v]; k < n->first[v + 1]; k++) {
+        const int u = n->user[k];
+        if (!s->done[u] && !n->given[u]) {
+            s->ends[u]++;
+            return;
+        }
+    }
+}
+
+static schedule schedule_of(const op_list_needs *n) {
+    const op_list *t = n->t;
+    schedule s = {.needs = n,
+                  .waits = alloc(t->count, sizeof *s.waits),
+                  .uses = alloc(t->count, sizeof *s.uses),
+                  .ends = alloc(t->count, sizeof *s.ends),
+                  .until = alloc(t->count, sizeof *s.until),
+                  .ready = alloc_more(NULL, t->count, sizeof *s.ready),
+                  .done = alloc(t->count, sizeof *s.done)};
+    int found[NEEDED_MOST];
+    for (int i = 0; i < t->count; i++) {
+        if (n->given[i]) {
+            continue;
+        }
+        for (int k = op_list_needed(n, i, found); k > 0; k--) {
+            s.waits[i] += !n->given[found[k - 1]];
+        }
+        for (int k = op_list_taken(t, i, found); k > 0; k--) {
+            s.uses[found[k - 1]]++;
+        }
+        if (s.waits[i] == 0) {
+            s.ready[s.count++] = i;
+        }
+    }
+    for (int v = 0; v < t->count; v++) {
+        s.until[v] = n->first[v] < n->first[v + 1] ? n->user[n->first[v + 1] - 1] : v;
+    }
+    for (int i = 0; i < t->results; i++) {
+        s.uses[t->result[i]] += 2; /* results stay alive */
+        s.until[t->result[i]] = t->count;
+    }
+    for (int v = 0; v < t->count; v++) {
+        s.uses[v]++;
+        use_up(&s, v);
+    }
+    return s;
+}
+
+static void schedule_free(schedule *s) {
+    free(s->waits);
+    free(s->uses);
+    free(s->ends);
+    free(s->until);
+    free(s->ready);
+    free(s->done);
+}
+
+/* The order of operations that end equally many lives. */
+typedef enum first_of { AS_ENTERED, SOONEST_DONE, FIRST_OF } first_of;
+
+/* Does operation i come before operation j? */
+static bool leads(const schedule *s, first_of way, int i, int j) {
+    if (s->ends[i] != s->ends[j]) {
+        return s->ends[i] > s->ends[j];
+    }
+    const bool soonest = way == SOONEST_DONE && s->until[i] != s->until[j];
+    return soonest ? s->until[i] < s->until[j] : i < j;
+}
+
+/* Remove and return the next ready operation. */
+static int take_best(schedule *s, first_of way) {
+    int best = 0;
+    for (int k = 1; k < s->count; k++) {
+        best = leads(s, way, s->ready[k], s->ready[best]) ? k : best;
+    }
+    const int i = s->ready[best];
+    s->ready[best] = s->ready[--s->count];
+    return i;
+}
+
+/* A sequence of the operations to compute. */
+static int *ending_lives(const op_list_needs *n, int count, first_of way) {
+    schedule s = schedule_of(n);
+    int *sequence = alloc_more(NULL, count, sizeof *sequence);
+    int found[TAKEN_MOST];
+    for (int at = 0; at < count; at++) {
+        const int i = take_best(&s, way);
+        sequence[at] = i;
+        s.done[i] = true;
+        for (int k = op_list_taken(n->t, i, found); k > 0; k--) {
+            use_up(&s, found[k - 1]);
+        }
+        for (int k = n->first[i]; k < n->first[i + 1]; k++) {
+            const int u = n->user[k];
+            if (--s.waits[u] == 0 && !n->given[u]) {
+                s.ready[s.count++] = u;
+            }
+        }
+    }
+    schedule_free(&s);
+    return sequence;
+}
+
+/* --- the list in its new order -------------------------------------------------------------------*/
+
+typedef struct placing {
+    const op_list_needs *needs;
+    int *order;  /* [ops]: operation at each position */
+    int *number; /* [ops]: its position, or -1 */
+    int count;
+} placing;
+
+/* Place operation i, after its given operands that are not placed yet. */
+static void put_next(placing *p, int i) {
+    int found[NEEDED_MOST];
+    const int count = p->number[i] < 0 ? op_list_needed(p->needs, i, found) : 0;
+    for (int k = 0; k < count; k++) {
+        put_next(p, found[k]);
+    }
+    if (p->number[i] < 0) {
+        p->number[i] = p->count;
+        p->order[p->count++] = i;
+    }
+}
+
+static void reorder(op_list *t, const op_list_needs *n, const int *sequence, int count) {
+    placing p = {n, alloc_more(NULL, t->count, sizeof *p.order),
+                 alloc_more(NULL, t->count, sizeof *p.number), 0};
+    memset(p.number, -1, (size_t)t->count * sizeof *p.number);
+    for (int at = 0; at < count; at++) {
+        put_next(&p, sequence[at]);
+    }
+    for (int i = 0; i < t->count; i++) { /* only results, or unused */
+        put_next(&p, i);
+    }
+    op_list_renumber(t, p.order, p.number);
+    free(p.order);
+    free(p.number);
+}
+
+void op_list_order(op_list *t) {
+    if (t->count <= OP_LIST_REGISTERS) {
+        return;
+    }
+    op_list_needs n = op_list_needs_of(t);
+    int count;
+    int *best = op_list_computed(&n, &count);
+    int least = op_list_carried_by(&n, best, count);
+    bool moved = false;
+    for (int way = 0; way < FIRST_OF; way++) {
+        int *tried = ending_lives(&n, count, (first_of)way);
+        const int carried = op_list_carried_by(&n, tried, count);
+        if (carried < least) {
+            int *worse = best;
+            best = tried;
+            tried = worse;
+            least = carried;
+            moved = true;
+        }
+        free(tried);
+    }
+    if (moved) {
+        reorder(t, &n, best, count);
+    }
+    free(best);
+    op_list_needs_free(&n);
+}
+
+/* === existing sums ============================================================================ */
+/* A + 2 b is (a + b) + b if a + b already exists: this saves a product. Kinetic energies produce such pairs: a chain of
+ * two arms moves with sin x + sin y, and its forces have sin x + 2 sin y. */
+
+/* b if operation i is 2 b with a single user; else -1. */
+static int doubled(const op_list *t, const int *uses, int i) {
+    const op *o = &t->ops[i];
+    double two;
+    if (o->code != OP_MUL || uses[i] != 1) {
+        return -1;
+    }
+    if (op_list_is_constant(t, o->a, &two) && two == 2.0) {
+        return o->b;
+    }
+    return op_list_is_constant(t, o->b, &two) && two == 2.0 ? o->a : -1;
+}
+
+/* Half of sum i, with the doubled part once, and that part; false if the list has no such half. */
+static bool half_of(const op_list *t, const int *uses, int i, int *half, int *part) {
+    const op *o = &t->ops[i];
+    const int twice_a = doubled(t, uses, o->a);
+    const int twice_b = doubled(t, uses, o->b);
+    *half = -1;
+    if (twice_b >= 0) {
+        *part = twice_b;
+        *half = op_list_find_binary(t, o->code, o->a, twice_b);
+    }
+    if (*half < 0 && twice_a >= 0) {
+        *part = twice_a;
+        *half = op_list_find_binary(t, o->code, twice_a, o->b);
+    }
+    return *half >= 0;
+}
+
+static int *uses_of(const op_list *t) {
+    int *uses = alloc(t->count, sizeof *uses);
+    int operand[2];
+    for (int i = 0; i < t->count; i++) {
+        for (int k = op_list_operands(&t->ops[i], operand); k > 0; k--) {
+            uses[operand[k - 1]]++;
+        }
+    }
+    for (int i = 0; i < t->results; i++) {
+        uses[t->result[i]]++;
+    }
+    return uses;
+}
+
+typedef struct walk {
+    const op_list *t;
+    int *order;
+    int *number; /* -1: not there yet */
+    int count;
+} walk;
+
+/* Place operation i after all its operands, most of which are already placed. */
+static void put(walk *w, int i) {
+    int operand[2];
+    if (w->number[i] >= 0) {
+        return;
+    }
+    const int count = op_list_operands(&w->t->ops[i], operand);
+    for (int k = 0; k < count; k++) {
+        put(w, operand[k]);
+    }
+    w->number[i] = w->count;
+    w->order[w->count++] = i;
+}
+
+/* A half may come after its new user: restore the order. */
+static void put_in_order(op_list *t) {
+    walk w = {t, alloc(t->count, sizeof *w.order), alloc(t->count, sizeof *w.number), 0};
+    for (int i = 0; i < t->count; i++) {
+        w.number[i] = -1;
+    }
+    for (int i = 0; i < t->count; i++) {
+        put(&w, i);
+    }
+    op_list_renumber(t, w.order, w.number);
+    free(w.order);
+    free(w.number);
+}
+
+void op_list_share_sums(op_list *t) {
+    int *uses = uses_of(t);
+    bool shared = false;
+    for (int i = 0; i < t->count; i++) {
+        op *o = &t->ops[i];
+        int half;
+        int part;
+        if ((o->code == OP_ADD || o->code == OP_SUB) && half_of(t, uses, i, &half, &part)) {
+            /* 2 b - a = (b - a) + b */
+            const op_code code = o->code == OP_SUB && t->ops[half].b == part ? OP_SUB : OP_ADD;
+            *o = (op){.code = code, .function = FUNCTION_NONE, .a = half, .b = part};
+            uses[part] += 1;
+            uses[half] += 1;
+            shared = true;
+        }
+    }
+    free(uses);
+    if (shared) {
+        put_in_order(t);
+        op_list_prune(t);
+    }
+}
+
+/* === needed operations and cost =============================================================== */
+
+int op_list_operands(const op *o, int operand[static 2]) {
+    const bool values = op_rows[o->code].values > 0;
+    int count = 0;
+    if (values && o->a >= 0) {
+        operand[count++] = o->a;
+    }
+    if ((values || o->code == OP_PHASE) && o->b >= 0) {
+        operand[count++] = o->b;
+    }
+    return count;
+}
+
+/* The same, for modification. */
+static void renumber(op *o, const int *number) {
+    const bool values = op_rows[o->code].values > 0;
+    o->a = values && o->a >= 0 ? number[o->a] : o->a;
+    o->b = (values || o->code == OP_PHASE) && o->b >= 0 ? number[o->b] : o->b;
+}
+
+/* x * (1/y) becomes x/y if 1/y has no other use: saves one rounding and one operation. */
+static void fuse_reciprocals(op_list *t) {
+    int *uses = alloc(t->count, sizeof *uses);
+    int operand[2];
+    double one;
+    for (int i = 0; i < t->count; i++) {
+        for (int k = op_list_operands(&t->ops[i], operand); k > 0; k--) {
+            uses[operand[k - 1]]++;
+        }
+    }
+    for (int i = 0; i < t->results; i++) {
+        uses[t->result[i]]++;
+    }
+    for (int i = 0; i < t->count; i++) {
+        op *o = &t->ops[i];
+        for (int k = 0; k < 2 && o->code == OP_MUL; k++) {
+            const int inverse = k == 0 ? o->a : o->b;
+            const int other = k == 0 ? o->b : o->a;
+            if (t->ops[inverse].code == OP_DIV && op_list_is_constant(t, t->ops[inverse].a, &one) &&
+                one == 1.0 && uses[inverse] == 1) {
+                *o = (op){
+                    .code = OP_DIV, .function = FUNCTION_NONE, .a = other, .b = t->ops[inverse].b};
+            }
+        }
+    }
+    free(uses);
+}
+
+static void drop_unused(op_list *t) {
+    int *number = alloc_more(NULL, t->count, sizeof *number);
+    memset(number, -1, (size_t)t->count * sizeof *number);
+    for (int i = 0; i < t->results; i++) {
+        number[t->result[i]] = 0;
+    }
+    int operand[2];
+    for (int i = t->count - 1; i >= 0; i--) {
+        if (number[i] == 0) {
+            const int count = op_list_operands(&t->ops[i], operand);
+            for (int k = 0; k < count; k++) {
+                number[operand[k]] = 0;
+            }
+        }
+    }
+    int kept = 0;
+    for (int i = 0; i < t->count; i++) {
+        if (number[i] < 0) {
+            continue;
+        }
+        op o = t->ops[i];
+        renumber(&o, number);
+        number[i] = kept;
+        t->ops[kept++] = o;
+    }
+    t->count = kept;
+    for (int i = 0; i < t->results; i++) {
+        t->result[i] = number[t->result[i]];
+    }
+    free(number);
+    if (t->room > 0) {
+        op_list_reindex(t);
+    }
+}
+
+void op_list_prune(op_list *t) {
+    drop_unused(t);
+    fuse_reciprocals(t);
+    drop_unused(t);
+}
+
+bool op_list_reads_turns(const op_list *t) {
+    for (int i = 0; i < t->count; i++) {
+        if (t->ops[i].code == OP_RADIANS || t->ops[i].parts != NULL) {
+            return true;
+        }
+    }
+    return false;
+}
+
+int op_list_waves(const op_list *t) {
+    int count = 0;
+    for (int i = 0; i < t->count; i++) {
+        count += op_list_is_wave(&t->ops[i]);
+    }
+    return count;
+}
+
+bool op_list_takes_waves(const op_list *t) {
+    for (int i = 0; i < t->count; i++) {
+        const op *o = &t->ops[i];
+        if (o->code == OP_PHASE && (o->parts != NULL || (o->turns != NULL && o->b >= 0))) {
+            return false;
+        }
+    }
+    return true;
+}
+
+static bool has_finite_numbers(const op_list *t, const op *o) {
+    bool finite = isfinite(o->value);
+    for (int i = 0; i < t->angles && o->parts != NULL; i++) {
+        finite = finite && isfinite(o->parts[i]);
+    }
+    return finite;
+}
+
+int op_list_not_finite(const op_list *t) {
+    bool *tainted = alloc(t->count, sizeof *tainted);
+    int operand[2];
+    for (int i = 0; i < t->count; i++) {
+        tainted[i] = !has_finite_numbers(t, &t->ops[i]);
+        for (int k = op_list_operands(&t->ops[i], operand); k > 0; k--) {
+            tainted[i] = tainted[i] || tainted[operand[k - 1]];
+        }
+    }
+    int found = -1;
+    for (int i = t->results - 1; i >= 0; i--) {
+        found = tainted[t->result[i]] ? i : found;
+    }
+    free(tainted);
+    return found;
+}
+
+bool fits_float(double value) {
+    const double size = fabs(value);
+    return size == 0.0 || (size >= 0x1p-126 && size < 0x1.ffffffp127);
+}
+
+double op_list_out_of_float(const op_list *t) {
+    for (int i = 0; i < t->count; i++) {
+        if (t->ops[i].code == OP_CONSTANT && !fits_float(t->ops[i].value)) {
+            return t->ops[i].value;
+        }
+    }
+    return 0.0;
+}
+
+op_list_cost op_list_count(const op_list *t) {
+    op_list_cost cost = {0};
+    for (int i = 0; i < t->count; i++) {
+        switch (op_rows[t->ops[i].code].cost) {
+        case OP_COSTS_NOTHING: break;
+        case OP_COSTS_ARITHMETIC: cost.arithmetic++; break;
+        case OP_COSTS_DIVISION: cost.divisions++; break;
+        case OP_COSTS_ROOT: cost.roots++; break;
+        case OP_COSTS_WAVE: cost.waves++; break;
+        case OP_COSTS_CALL: cost.calls++; break;
+        case OP_COSTS_LINE:
+            cost.look_ups++;
+            cost.arithmetic += 2;
+            break;
+        case OP_COSTS_CUBIC:
+            cost.look_ups++;
+            cost.arithmetic += 6;
+            break;
+        }
+    }
+    return cost;
+}
+
+int op_list_weight(const op_list *t) {
+    const op_list_cost c = op_list_count(t);
+    return c.arithmetic + 14 * (c.divisions + c.roots) + 36 * c.waves + 100 * c.calls;
+}
+
+int op_list_operations(const op_list *t) {
+    int operations = 0;
+    for (int i = 0; i < t->count; i++) {
+        operations += op_rows[t->ops[i].code].values > 0;
+    }
+    return operations;
+}
+
+void op_list_renumber(op_list *t, const int *order, const int *number) {
+    op *ops = alloc_more(NULL, t->room, sizeof *ops);
+    for (int i = 0; i < t->count; i++) {
+        ops[i] = t->ops[order[i]];
+        renumber(&ops[i], number);
+    }
+    free(t->ops);
+    t->ops = ops;
+    for (int i = 0; i < t->results; i++) {
+        t->result[i] = number[t->result[i]];
+    }
+    op_list_reindex(t);
+}
+
+uint64_t op_list_hash(const op_list *t) {
+    uint64_t hash = WH_HASH_START;
+    for (int i = 0; i < t->count; i++) {
+        hash = hash_of_hashes(hash, op_list_op_hash(t, &t->ops[i]));
+    }
+    for (int i = 0; i < t->results; i++) {
+        hash = hash_of_hashes(hash, (uint64_t)t->result[i]);
+    }
+    const size_t numbers = (size_t)t->tables.count * (size_t)t->tables.terms;
+    for (size_t i = 0; i < numbers << (unsigned)t->tables.bits; i++) {
+        uint64_t bits;
+        memcpy(&bits, &t->tables.number[i], sizeof bits);
+        hash = hash_of_hashes(hash, bits);
+    }
+    return hash;
+}

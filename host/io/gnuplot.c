@@ -1,0 +1,240 @@
+#include "gnuplot.h"
+
+#include <signal.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "host/base/atomic_file.h"
+#include "palette.h"
+
+static const char *ending_of(const char *file) {
+    const char *dot = strrchr(file, '.');
+    return dot == NULL ? "" : dot + 1;
+}
+
+bool gnuplot_can_draw(const char *file) {
+    const char *ending = ending_of(file);
+    return strcmp(ending, "svg") == 0 || strcmp(ending, "png") == 0 || strcmp(ending, "pdf") == 0;
+}
+
+bool gnuplot_can_draw_for(const char *command, const char *option, const char *file) {
+    const bool can = gnuplot_can_draw(file);
+    if (!can) {
+        fprintf(stderr,
+                "whirl %s: error: %s draws .svg, .pdf and .png files, not '%s'\n"
+                "hint: %s picture.svg\n",
+                command, option, file, option);
+    }
+    return can;
+}
+
+/* A character, text[at], between gnuplot's double quotes. Letters and bytes of UTF-8 are literal; other characters are
+ * octal codes, so that they cannot form a `command`, a @macro, an escape or a quote. Digits are octal, too: they could
+ * extend a preceding code. XML has no control characters: each becomes a blank. "]]>" must not occur in XML, and
+ * gnuplot does not escape its >: a zero-width character (U+2060) splits it. */
+void gnuplot_character(FILE *to, const char *text, size_t at) {
+    const unsigned char code = (unsigned char)text[at];
+    const unsigned char lower = code | 0x20;
+    if (code == '>' && at >= 2 && text[at - 1] == ']' && text[at - 2] == ']') {
+        fputs("\xe2\x81\xa0", to);
+    }
+    if (code >= 0x80 || (lower >= 'a' && lower <= 'z')) {
+        fputc(code, to);
+    } else {
+        fprintf(to, "\\%03o", code < 0x20 || code == 0x7f ? (unsigned)' ' : (unsigned)code);
+    }
+}
+
+void gnuplot_quote(FILE *to, const char *text) {
+    fputc('"', to);
+    for (size_t at = 0; text[at] != '\0'; at++) {
+        gnuplot_character(to, text, at);
+    }
+    fputc('"', to);
+}
+
+/* Redirect a stream to the file; put_back() of the result restores it; -1 if the stream was closed. */
+static int put_in_place(FILE *file, int stream) {
+    const int before = dup(stream);
+    if (before >= 0) {
+        dup2(fileno(file), stream);
+    }
+    return before;
+}
+
+static void put_back(int before, int stream) {
+    if (before >= 0) {
+        dup2(before, stream);
+        close(before);
+    }
+}
+
+/* Start gnuplot, which draws to its standard output, the picture. So it never receives the file's name, which could
+ * begin with | or ~. Its messages go to `said`, and are shown only after a failure. */
+static FILE *start_gnuplot(FILE *picture, FILE *said) {
+    fflush(stdout);
+    fflush(stderr);
+    const int output = put_in_place(picture, STDOUT_FILENO);
+    const int errors = said == NULL ? -1 : put_in_place(said, STDERR_FILENO);
+    FILE *to = output < 0 ? NULL : popen("LC_ALL=C.UTF-8 gnuplot", "w");
+    put_back(errors, STDERR_FILENO);
+    put_back(output, STDOUT_FILENO);
+    return to;
+}
+
+static void show_said(FILE *said) {
+    rewind(said);
+    for (int c = fgetc(said); c != EOF; c = fgetc(said)) {
+        fputc(c, stderr);
+    }
+}
+
+bool gnuplot_is_there(void) {
+    const bool there = system("command -v gnuplot >/dev/null 2>&1") == 0;
+    if (!there) {
+        fprintf(stderr, "whirl: error: plots need gnuplot, which is not installed\n"
+                        "hint: make deps installs it (Debian package gnuplot-nox)\n");
+    }
+    return there;
+}
+
+/* The common look of all pictures. */
+static void set_look(gnuplot *g, int height) {
+    const char *ending = ending_of(g->file);
+    if (strcmp(ending, "svg") == 0) {
+        fprintf(g->to, "set terminal svg size 900,%d dynamic font 'sans-serif,14' background rgb ",
+                height);
+    } else if (strcmp(ending, "pdf") == 0) {
+        fprintf(g->to, "set terminal pdfcairo size 9in,%.2fin font 'Sans,12' background rgb ",
+                (double)height / 100.0);
+    } else {
+        fprintf(g->to, "set terminal pngcairo size 900,%d font 'Sans,11' background rgb ", height);
+    }
+    fputs("'" PALETTE_WHITE "'\n"
+          "set encoding utf8\n"
+          "set border lw 1 lc rgb '" PALETTE_FRAME "'\n"
+          "set grid lt 1 lw 0.7 lc rgb '" PALETTE_GRID "'\n"
+          "set tics nomirror textcolor rgb 'black'\n",
+          g->to);
+}
+
+/* The end of a picture that failed to begin. */
+static bool give_up(gnuplot *g) {
+    FILE *const files[] = {g->drawn, g->said};
+    (void)atomic_file_close(g->picture, g->file, false);
+    for (size_t i = 0; i < sizeof files / sizeof files[0]; i++) {
+        if (files[i] != NULL) {
+            fclose(files[i]);
+        }
+    }
+    return false;
+}
+
+bool gnuplot_open(gnuplot *g, const char *file, int height, const char *title, const char *text) {
+    if (!gnuplot_is_there()) {
+        return false;
+    }
+    *g = (gnuplot){.file = file, .title = title, .text = text, .picture = atomic_file_open(file)};
+    if (g->picture == NULL) {
+        return false;
+    }
+    g->drawn = tmpfile();
+    g->said = tmpfile();
+    if (g->drawn == NULL || g->said == NULL) {
+        perror("whirl: error: a temporary file");
+        return give_up(g);
+    }
+    g->before = signal(SIGPIPE, SIG_IGN);
+    g->to = start_gnuplot(g->drawn, g->said);
+    if (g->to == NULL) {
+        perror("whirl: error: gnuplot");
+        signal(SIGPIPE, g->before);
+        return give_up(g);
+    }
+    set_look(g, height);
+    return true;
+}
+
+/* XML text: a control character becomes a blank. */
+static void put_xml(FILE *to, const char *text) {
+    for (const char *at = text; *at != '\0'; at++) {
+        const unsigned char code = (unsigned char)*at;
+        switch (*at) {
+        case '&': fputs("&amp;", to); break;
+        case '<': fputs("&lt;", to); break;
+        case '>': fputs("&gt;", to); break;
+        default: fputc(code < 0x20 || code == 0x7f ? ' ' : code, to); break;
+        }
+    }
+}
+
+/* Text and frames of an SVG follow the reader's page. gnuplot writes colours in exactly these words. */
+static const char dark[] =
+    "<style>@media (prefers-color-scheme:dark){#gnuplot_canvas>rect{fill:" PALETTE_DARK "}"
+    "text{fill:#e6edf3}[color=\"black\"]{color:#e6edf3}"
+    "[stroke='rgb(216, 216, 216)'],[stroke=\"rgb(216, 216, 216)\"]{stroke:#30363d}"
+    "[fill='rgb(228, 228, 228)'],[fill = 'rgb(228, 228, 228)']{fill:#262c36}}</style>\n";
+
+/* gnuplot's picture; in an SVG, a title and alternative text replace gnuplot's words for them. */
+static void copy_picture(const gnuplot *g) {
+    char line[4096];
+    size_t length;
+    rewind(g->drawn);
+    bool head = strcmp(ending_of(g->file), "svg") == 0;
+    while (head && fgets(line, sizeof line, g->drawn) != NULL) {
+        if (strncmp(line, "<title>", 7) == 0) {
+            fputs("<title>", g->picture);
+            put_xml(g->picture, g->title);
+            fputs("</title>\n", g->picture);
+        } else if (strncmp(line, "<desc>", 6) == 0) {
+            fputs("<desc>", g->picture);
+            put_xml(g->picture, g->text);
+            fputs("</desc>\n", g->picture);
+            fputs(dark, g->picture);
+            head = false;
+        } else {
+            const bool begins = strncmp(line, "<svg", 4) == 0;
+            fprintf(g->picture, "%s%s", begins ? "<svg role=\"img\"" : "", line + (begins ? 4 : 0));
+        }
+    }
+    while ((length = fread(line, 1, sizeof line, g->drawn)) > 0) {
+        fwrite(line, 1, length, g->picture);
+    }
+}
+
+/* gnuplot does not notice a full disk. So check for the end that such a picture has. */
+static bool is_whole(const gnuplot *g) {
+    char last[17] = {0};
+    const bool there = fseek(g->drawn, -16, SEEK_END) == 0 && fread(last, 1, 16, g->drawn) == 16;
+    const char *ending = ending_of(g->file);
+    const char *end = strcmp(ending, "svg") == 0   ? "</svg>"
+                      : strcmp(ending, "pdf") == 0 ? "%%EOF"
+                                                   : "IEND";
+    for (size_t i = 0; there && i + strlen(end) <= 16; i++) {
+        if (memcmp(last + i, end, strlen(end)) == 0) {
+            return true;
+        }
+    }
+    return false;
+}
+
+bool gnuplot_close(gnuplot *g) {
+    const bool written = ferror(g->to) == 0;
+    const int code = pclose(g->to);
+    signal(SIGPIPE, g->before);
+    const bool whole = is_whole(g);
+    const bool drawn = written && code == 0 && whole;
+    copy_picture(g);
+    const bool kept = atomic_file_close(g->picture, g->file, drawn);
+    if (!drawn) {
+        atomic_file_not_whole();
+        show_said(g->said);
+        fprintf(stderr, "whirl: error: gnuplot could not draw %s\n%s", g->file,
+                code == 0 && !whole ? "hint: is the disk full?\n" : "");
+    }
+    fclose(g->drawn);
+    fclose(g->said);
+    return drawn && kept;
+}

@@ -1,0 +1,419 @@
+/* containment.c: comparison of a run's records with the tube, step by step. */
+#include "host/prove/containment.h"
+
+#include <inttypes.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "host/base/alloc.h"
+#include "host/base/interrupts.h"
+#include "host/engine/loop.h"
+#include "host/number/decimal.h"
+#include "host/number/functions.h"
+#include "host/number/ratio.h"
+
+/* --- the run's states, SI, in the order of the motion's -----------------------------------------------*/
+
+typedef struct reading {
+    const containment_wish *wish;
+    double *output;
+    double *value; /* [states] */
+} reading;
+
+static void put(const reading *r, int unknown, int primes, double value) {
+    const exact_motion *m = r->wish->motion;
+    for (int i = 0; i < m->states; i++) {
+        if (m->state[i].unknown == unknown && m->state[i].primes == primes) {
+            r->value[i] = value;
+        }
+    }
+}
+
+static void read_run(const reading *r, void *run) {
+    const image *im = r->wish->image;
+    double angle_rad[IMAGE_COMPONENTS_MAX];
+    double real[2 * IMAGE_COMPONENTS_MAX];
+    r->wish->kind->state(run, angle_rad, real);
+    for (int i = 0; i < im->angles; i++) {
+        put(r, im->angle[i].unknown, im->angle[i].primes, angle_rad[i]);
+    }
+    for (int i = 0; i < im->reals; i++) {
+        put(r, im->real[i].unknown, im->real[i].primes, real[i]);
+    }
+    if (im->recovered > 0) {
+        r->wish->kind->outputs(run, r->output);
+        for (int k = 0; k < im->recovered; k++) {
+            const int at = im->own_outputs + 2 * k;
+            put(r, im->from_momentum[k], 0, r->output[at]);
+            put(r, im->from_momentum[k], 1, r->output[at + 1]);
+        }
+    }
+}
+
+/* --- the tolerances ----------------------------------------------------------------------------------- */
+
+/* Relative to a state's size, and to the range of another state of the same unit: a smaller range hardly moves. */
+#define LITTLE 1e-3
+/* SI, replaces the range if neither this state nor another of its unit moves: the tube has a width even there. */
+#define STILL 1e-9
+
+static const char *unit_of(const containment_wish *w, int i) {
+    const exact_state s = w->motion->state[i];
+    return w->image->unknown[s.unknown].unit[s.primes].si;
+}
+
+static void set_within(const containment_wish *w, containment_found *h) {
+    for (int i = 0; i < h->states; i++) {
+        double most = h->state[i].range;
+        for (int j = 0; j < h->states; j++) {
+            if (strcmp(unit_of(w, i), unit_of(w, j)) == 0) {
+                most = number_most(most, LITTLE * h->state[j].range);
+            }
+        }
+        most = most > 0.0 ? most : STILL;
+        h->state[i].within = w->within[i] > 0.0 ? w->within[i] : w->tolerance * most;
+    }
+}
+
+typedef struct ranging {
+    const reading *reading;
+    void *run;
+    int states;
+    double *low;
+    double *high;
+} ranging;
+
+static bool see(void *of, uint64_t step) {
+    const ranging *at = of;
+    const double *value = at->reading->value;
+    read_run(at->reading, at->run);
+    for (int i = 0; i < at->states; i++) {
+        at->low[i] = step == 0 ? value[i] : number_least(at->low[i], value[i]);
+        at->high[i] = step == 0 ? value[i] : number_most(at->high[i], value[i]);
+    }
+    return true;
+}
+
+static void find_ranges(const containment_wish *w, const reading *r, containment_found *h) {
+    void *run = w->kind->start(w->image);
+    const int n = h->states;
+    double *low = alloc(n, sizeof *low);
+    double *high = alloc(n, sizeof *high);
+    ranging at = {r, run, n, low, high};
+    const loop l = {.kind = w->kind, .run = run, .steps = w->image->steps, .see = see, .of = &at};
+    h->ranged = loop_run(&l, &h->status) != LOOP_INTERRUPTED;
+    h->run_steps = w->kind->steps(run);
+    w->kind->stop(run);
+    for (int i = 0; i < n; i++) {
+        h->state[i].open = true;
+        h->state[i].range =
+            number_most(high[i] - low[i], LITTLE * number_most(fabs(low[i]), fabs(high[i])));
+    }
+    set_within(w, h);
+    free(low);
+    free(high);
+}
+
+/* --- record by record --------------------------------------------------------------------------------*/
+
+/* Are all states finished? */
+static bool all_closed(const containment_found *h) {
+    for (int i = 0; i < h->states; i++) {
+        if (h->state[i].open) {
+            return false;
+        }
+    }
+    return true;
+}
+
+static void look(containment_found *h, const double *value, const enclosure *exact, double time_s) {
+    for (int i = 0; i < h->states; i++) {
+        containment_state *s = &h->state[i];
+        const enclosure off = enclosure_sub(enclosure_of(value[i]), exact[i]);
+        const double most = enclosure_size(off);
+        if (!s->open) {
+            continue;
+        }
+        if (enclosure_is_finite(off) && most <= s->within) {
+            s->begun = true;
+            s->until_s = time_s;
+            s->off = number_most(s->off, most);
+            s->radius = number_most(s->radius, enclosure_radius(exact[i]));
+        } else {
+            s->open = false;
+            s->verdict = off.low > s->within || off.high < -s->within ? CONTAINMENT_LEFT
+                                                                      : CONTAINMENT_UNTOLD;
+        }
+    }
+}
+
+typedef struct going {
+    const containment_wish *wish;
+    const reading *reading;
+    containment_found *held;
+    flowpipe *tube;
+    void *run;
+    enclosure step_s; /* the run's step length */
+    enclosure next_s; /* from the tube's time to the run's next record */
+    enclosure *exact; /* [states] */
+    uint64_t done;    /* completed steps of the run */
+} going;
+
+static void look_now(going *g) {
+    const containment_wish *w = g->wish;
+    read_run(g->reading, g->run);
+    look(g->held, g->reading->value, g->exact, ratio_times(g->done, w->image->step));
+    if (w->see != NULL) {
+        w->see(w->told, g->done, g->exact, g->reading->value);
+    }
+}
+
+/* Compare the records within the open step of length h_s; *last_s: the time of the last one in it. Returns their
+ * number. */
+static uint64_t look_within(going *g, double h_s, enclosure *last_s) {
+    uint64_t count = 0;
+    while (g->done < g->held->run_steps && !all_closed(g->held)) {
+        const enclosure tau = enclosure_add(g->next_s, enclosure_times(g->step_s, (double)count));
+        if (!(tau.high <= h_s) || loop_steps(g->wish->kind, g->run, 1) != WH_OK) {
+            break;
+        }
+        g->done++;
+        count++;
+        *last_s = tau;
+        flowpipe_at(g->tube, tau, g->exact);
+        look_now(g);
+    }
+    return count;
+}
+
+/* One step of the tube, and the run's steps that end in it. False: the tube ends. */
+static bool go_on(going *g) {
+    const image *im = g->wish->image;
+    const double left_s = 1.001 * ratio_times(g->held->run_steps - g->done, im->step);
+    const double h_s = flowpipe_open(g->tube, left_s);
+    if (!(h_s > 0.0)) {
+        return false;
+    }
+    enclosure last_s;
+    bool good;
+    if (look_within(g, h_s, &last_s) > 0) {
+        good = flowpipe_on(g->tube, last_s);
+        g->next_s = g->step_s;
+    } else { /* it is shorter than the remaining part of the run's step */
+        const double part_s = number_least(h_s, 0.5 * g->next_s.low);
+        good = flowpipe_on(g->tube, enclosure_of(part_s));
+        g->next_s = enclosure_sub(g->next_s, enclosure_of(part_s));
+    }
+    return good && g->next_s.low > 0.0;
+}
+
+/* The reason for an end now; CONTAINMENT_AT_END if there is none yet and `more` is to come. */
+static containment_end ended(const going *g, bool on) {
+    const containment_wish *w = g->wish;
+    const bool spent = w->products_most > 0.0 && flowpipe_products(g->tube) > w->products_most;
+    return interrupted ? CONTAINMENT_STOPPED
+           : !on       ? CONTAINMENT_NO_STEP
+           : spent     ? CONTAINMENT_SPENT
+                       : CONTAINMENT_AT_END;
+}
+
+static void hold(going *g) {
+    containment_found *h = g->held;
+    for (int i = 0; i < h->states; i++) {
+        g->exact[i] = g->wish->motion->start[i];
+    }
+    look_now(g);
+    while (h->end == CONTAINMENT_AT_END && g->done < h->run_steps && !all_closed(h)) {
+        h->end = ended(g, go_on(g));
+        if (g->wish->progress != NULL && (flowpipe_steps(g->tube) & 7U) == 0) {
+            g->wish->progress((double)g->done / (double)h->run_steps);
+        }
+    }
+    const bool whole = g->done == h->run_steps;
+    h->end = whole ? h->status == WH_OK ? CONTAINMENT_AT_END : CONTAINMENT_RUN_ENDS : h->end;
+    h->flowpipe_steps = flowpipe_steps(g->tube);
+    h->tube_s = ratio_times(g->done, g->wish->image->step);
+    for (int i = 0; i < h->states; i++) {
+        if (h->state[i].open) {
+            h->state[i].verdict =
+                h->end == CONTAINMENT_AT_END ? CONTAINMENT_TO_THE_END : CONTAINMENT_UNENDED;
+        }
+    }
+}
+
+static enclosure counted(uint64_t count) {
+    const double near = (double)count;
+    return near < 0x1p53 ? enclosure_of(near) : enclosure_about(near, 0);
+}
+
+containment_found containment_run(const containment_wish *w) {
+    const image *im = w->image;
+    containment_found h = {.states = w->motion->states, .end = CONTAINMENT_STOPPED};
+    h.state = alloc(h.states, sizeof *h.state);
+    const reading r = {w, alloc(im->outputs, sizeof(double)), alloc(h.states, sizeof(double))};
+    find_ranges(w, &r, &h);
+    if (h.ranged) {
+        h.end = CONTAINMENT_AT_END;
+        going g = {.wish = w,
+                   .reading = &r,
+                   .held = &h,
+                   .tube = flowpipe_new(w->motion, FLOWPIPE_ORDER),
+                   .run = w->kind->start(im),
+                   .exact = alloc(h.states, sizeof(enclosure))};
+        g.step_s = enclosure_div(counted(im->step.numerator), counted(im->step.denominator));
+        g.next_s = g.step_s;
+        hold(&g);
+        w->kind->stop(g.run);
+        flowpipe_free(g.tube);
+        free(g.exact);
+    }
+    free(r.output);
+    free(r.value);
+    return h;
+}
+
+void containment_free(containment_found *h) { free(h->state); }
+
+/* === in words ================================================================================= */
+
+enum { NAME_WIDTH = 16, NAME_SIZE = 160 };
+
+static const char *name_of(const containment_wish *w, int i, char text[NAME_SIZE]) {
+    const exact_state s = w->motion->state[i];
+    snprintf(text, NAME_SIZE, "%.120s%.*s", w->image->unknown[s.unknown].name, s.primes,
+             "''''''''''''''''");
+    return text;
+}
+
+static const image_unit *unit_text_of(const containment_wish *w, int i) {
+    const exact_state s = w->motion->state[i];
+    return &w->image->unknown[s.unknown].unit[s.primes];
+}
+
+static void print_head(FILE *out, const containment_found *h, const containment_wish *w) {
+    const image *im = w->image;
+    fprintf(out, "%s%s%s\n", im->name, im->title[0] != '\0' ? ": " : "", im->title);
+    fprintf(out, "  %s%s, %s, step %.9g s, %" PRIu64 " steps to t = %.15g s\n", image_stepper(im),
+            image_sums(im), w->kind->name, im->step_s, im->steps, ratio_times(im->steps, im->step));
+    fprintf(out,
+            "  held against a tube round the exact motion: Taylor steps of order %d, %" PRIu64
+            " of them to t = %.15g s\n",
+            FLOWPIPE_ORDER, h->flowpipe_steps, h->tube_s);
+}
+
+typedef struct figure {
+    char text[40];
+} figure;
+
+/* Rounded up to so many places: statements proved for x also hold for the printed number. */
+static figure not_less(double x, int places) {
+    figure f;
+    const char *end;
+    double shown = enclosure_above(enclosure_above(x)); /* the conversion to its unit may have
+                                                         * rounded it */
+    snprintf(f.text, sizeof f.text, "%.*e", places, x);
+    while (x > 0.0 && decimal_read(f.text, &end) < x) {
+        shown *= 1.001;
+        snprintf(f.text, sizeof f.text, "%.*e", places, shown);
+    }
+    return f;
+}
+
+/* The reason why the proved time ends. */
+static const char *behind(const containment_found *h, const containment_state *s) {
+    static const char *const ends[] = {[CONTAINMENT_AT_END] = "",
+                                       [CONTAINMENT_RUN_ENDS] = "; there the run fails",
+                                       [CONTAINMENT_NO_STEP] = "; there the tube ends",
+                                       [CONTAINMENT_SPENT] = "; there the effort is spent",
+                                       [CONTAINMENT_STOPPED] = "; there it was interrupted"};
+    switch (s->verdict) {
+    case CONTAINMENT_TO_THE_END: return "";
+    case CONTAINMENT_LEFT: return "; behind it off by more: proved";
+    case CONTAINMENT_UNTOLD: return "; behind it the tube is too wide to tell";
+    case CONTAINMENT_UNENDED: return ends[h->end];
+    }
+    return "";
+}
+
+static void print_state(FILE *out, const containment_found *h, const containment_wish *w, int i) {
+    const containment_state *s = &h->state[i];
+    const image_unit *unit = unit_text_of(w, i);
+    const char *shown = strcmp(unit->shown, "1") == 0 ? "" : unit->shown;
+    char name[NAME_SIZE];
+    const figure within = not_less(image_shown(unit, s->within), 2);
+    char until[40];
+    snprintf(until, sizeof until, "%.15g", s->until_s);
+    fprintf(out, "  %-*s ", NAME_WIDTH, name_of(w, i, name));
+    if (!s->begun) {
+        fprintf(out, "%-12s within %s %s: %s\n", "never", within.text, shown,
+                s->verdict == CONTAINMENT_LEFT ? "its start is off by more: proved"
+                                               : "its start is not known so well");
+        return;
+    }
+    const figure off = not_less(image_shown(unit, s->off), 1);
+    const figure wide = not_less(image_shown(unit, 2.0 * s->radius), 1);
+    fprintf(out, "%-12s within %s %s: off by at most %s, the tube %s wide%s\n",
+            s->verdict == CONTAINMENT_TO_THE_END ? "to the end" : until, within.text, shown,
+            off.text, wide.text, behind(h, s));
+}
+
+/* The state with the shortest proof, or -1 if all are proved to the end. */
+static int first_of(const containment_found *h) {
+    int first = -1;
+    for (int i = 0; i < h->states; i++) {
+        const containment_state *s = &h->state[i];
+        if (s->verdict != CONTAINMENT_TO_THE_END &&
+            (first < 0 || !s->begun ||
+             (h->state[first].begun && s->until_s < h->state[first].until_s))) {
+            first = i;
+            if (!s->begun) {
+                break;
+            }
+        }
+    }
+    return first;
+}
+
+void containment_print(FILE *out, const containment_found *h, const containment_wish *w) {
+    const double end_s = ratio_times(w->image->steps, w->image->step);
+    const int first = first_of(h);
+    char name[NAME_SIZE];
+    print_head(out, h, w);
+    fputs("\nproved at the end of every step until [s]\n", out);
+    for (int i = 0; i < h->states; i++) {
+        print_state(out, h, w, i);
+    }
+    if (first < 0) {
+        fprintf(out, "proved to the end, t = %.15g s\n", end_s);
+    } else if (!h->state[first].begun) {
+        fprintf(out, "nothing is proved: %s is not within at the start\n", name_of(w, first, name));
+    } else {
+        const containment_state *s = &h->state[first];
+        fprintf(out, "proved until t = %.15g s of %.15g s", s->until_s, end_s);
+        fprintf(out, s->verdict == CONTAINMENT_UNENDED ? "\n" : ": %s is the first that is not\n",
+                name_of(w, first, name));
+    }
+}
+
+/* --- rows ----------------------------------------------------------------------------------------------*/
+
+void containment_rows_head(FILE *out, const containment_wish *w) {
+    char name[NAME_SIZE];
+    fputs("time [s]", out);
+    for (int i = 0; i < w->motion->states; i++) {
+        const char *si = unit_text_of(w, i)->si;
+        name_of(w, i, name);
+        fprintf(out, ",%s least [%s],%s most [%s],%s run [%s]", name, si, name, si, name, si);
+    }
+    fputs("\r\n", out);
+}
+
+void containment_row(FILE *out, const containment_wish *w, uint64_t step, const enclosure *exact,
+                     const double *run) {
+    fprintf(out, "%.15g", ratio_times(step, w->image->step));
+    for (int i = 0; i < w->motion->states; i++) {
+        fprintf(out, ",%.17g,%.17g,%.17g", exact[i].low, exact[i].high, run[i]);
+    }
+    fputs("\r\n", out);
+}

@@ -1,0 +1,84 @@
+/* containment.h: comparison of a run's records with a tube around the exact motion. For each coordinate and rate it proves a
+ * time up to which all step ends are within a tolerance. The records are bit-exact, in float or double. */
+#ifndef PROVE_CONTAINMENT_H
+#define PROVE_CONTAINMENT_H
+
+#include <stdio.h>
+
+#include "host/engine/engine.h"
+#include "host/prove/flowpipe.h"
+
+#define CONTAINMENT_TOLERANCE 1e-3 /* of a coordinate's range in the run */
+
+typedef struct containment_wish {
+    const exact_motion *motion;
+    const image *image;
+    const engine_kind *kind;
+    double tolerance;
+    const double *within; /* [states] SI; 0: the tolerance times the range */
+    double products_most; /* limit on products of enclosures; 0: no limit */
+    /* Called at the start and at the end of each step that the tube reaches, with the enclosure of the exact motion,
+     * exact[states], and the run, SI. May be NULL. */
+    void (*see)(void *told, uint64_t step, const enclosure *exact, const double *run);
+    void *told;
+    void (*progress)(double share); /* may be NULL */
+} containment_wish;
+
+typedef enum containment_verdict {
+    CONTAINMENT_TO_THE_END, /* proved within the tolerance at every step's end */
+    CONTAINMENT_LEFT,       /* proved until until_s; at the next step it is proved to be outside */
+    CONTAINMENT_UNTOLD,     /* proved until until_s; after it the tube is too wide to decide */
+    CONTAINMENT_UNENDED /* proved until until_s, the end of the tube or the run: containment_found's `end` has the
+                  * reason */
+} containment_verdict;
+
+/* The reason for the end. */
+typedef enum containment_end {
+    CONTAINMENT_AT_END,   /* the end of the run, or all states have left their tolerances */
+    CONTAINMENT_RUN_ENDS, /* the run failed */
+    CONTAINMENT_NO_STEP,  /* the tube has no further step */
+    CONTAINMENT_SPENT,    /* the limit on products was reached */
+    CONTAINMENT_STOPPED   /* the caller stopped it */
+} containment_end;
+
+/* For a state of the motion; SI. */
+typedef struct containment_state {
+    containment_verdict verdict;
+    bool open;
+    bool begun;   /* within the tolerance at the start: else nothing is proved */
+    double range; /* the largest minus the smallest value in the run, but at least a thousandth of
+                   * its size */
+    double
+        within; /* its tolerance: requested, or the tolerance times its range, or times a thousandth
+                 * of the largest range in its unit */
+    double until_s;
+    double off;    /* upper bound of its error until then */
+    double radius; /* largest radius of the tube until then */
+} containment_state;
+
+typedef struct containment_found {
+    containment_state *state; /* [motion->states] */
+    int states;
+    wh_status status;   /* of the run's last step */
+    uint64_t run_steps; /* completed ones */
+    uint64_t flowpipe_steps;
+    double tube_s; /* the tube's last time */
+    containment_end end;
+    bool ranged; /* the run is complete, so the tolerances are known */
+} containment_found;
+
+containment_found containment_run(const containment_wish *w);
+void containment_free(containment_found *h);
+
+/* === in words ================================================================================= */
+/* The results for a run, in words and in rows. */
+
+void containment_print(FILE *out, const containment_found *h, const containment_wish *w);
+
+/* Rows of comma-separated values, in SI, with all digits: the time, and for each state the least and greatest value of
+ * the exact motion, and the run's value. */
+void containment_rows_head(FILE *out, const containment_wish *w);
+void containment_row(FILE *out, const containment_wish *w, uint64_t step, const enclosure *exact,
+                     const double *run);
+
+#endif

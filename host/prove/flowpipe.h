@@ -1,0 +1,33 @@
+/* flowpipe.h: a tube around the exact motion from its start: at each time a box that provably contains it. The steps are
+ * Lohner's (Enclosing the solutions of ordinary initial and boundary value problems, 1987; Nedialkov, Jackson, Corliss,
+ * Validated solutions of initial value problems, 1999). First, a box is found that contains the motion over [0, h],
+ * since its own Taylor series leads back into it. Then x(t + tau) is a sum of three parts. They are the Taylor
+ * polynomial from the centre of the current set, its derivatives times the deviation from the centre, and the remainder
+ * over that box. The deviation is a box along axes that turn with the motion. All numbers are enclosures: they include
+ * round-off, and parameters that no double represents. */
+#ifndef PROVE_FLOWPIPE_H
+#define PROVE_FLOWPIPE_H
+
+#include <stdint.h>
+
+#include "taylor.h"
+
+enum { FLOWPIPE_ORDER = 26 };
+
+typedef struct flowpipe flowpipe;
+
+/* The motion must outlive it. */
+flowpipe *flowpipe_new(const exact_motion *m, int order);
+void flowpipe_free(flowpipe *t);
+
+/* Open a step of at most `most_s` at the present time. Returns its length, s, or 0 if no step of useful length is
+ * possible. Until flowpipe_on() the tube is known at tau_s in [0, length]: x[states]. */
+double flowpipe_open(flowpipe *t, double most_s);
+void flowpipe_at(const flowpipe *t, enclosure tau_s, enclosure *x);
+/* Move the present time to this time of the open step. False if the tube ends there. */
+bool flowpipe_on(flowpipe *t, enclosure tau_s);
+/* Steps so far, and their estimated cost in products of enclosures. */
+uint64_t flowpipe_steps(const flowpipe *t);
+double flowpipe_products(const flowpipe *t);
+
+#endif

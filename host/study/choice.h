@@ -1,0 +1,65 @@
+/* choice.h: of a table (price_table.h) the rows that keep an error and limits: the fewest cycles, and the least flash. */
+#ifndef STUDY_CHOICE_H
+#define STUDY_CHOICE_H
+
+#include <stdio.h>
+
+#include "measured.h"
+
+/* The limits that a row must keep: X(id, word). */
+#define CHOICE_LIMIT_ROWS(X) \
+    X(CHOICE_ERROR, "error") \
+    X(CHOICE_LOAD, "load") \
+    X(CHOICE_FLASH, "flash") \
+    X(CHOICE_RAM, "RAM")
+#define CHOICE_LIMIT_ID(id, word) id,
+typedef enum choice_limit { CHOICE_LIMIT_ROWS(CHOICE_LIMIT_ID) CHOICE_LIMITS } choice_limit;
+#undef CHOICE_LIMIT_ID
+extern const char *const choice_limit_words[CHOICE_LIMITS];
+
+typedef struct choice_wish {
+    table_wish table;   /* with the error, in the unit of the trial's errors, and the rate */
+    double clock_Hz;    /* 0: not known, and no limit */
+    double flash_bytes; /* 0: no limit */
+    double ram_bytes;   /* with the stack; 0: no limit */
+    bool
+        counts; /* what is named will be counted: a prediction need not keep a limit at the most that it may be */
+    const char *prices;                           /* for people: how they are known */
+    void (*counting)(void *context, int counted); /* may be NULL */
+} choice_wish;
+
+/* A row by the limits. Loads are parts of the period, or of a second without a rate: of the longest step. */
+typedef struct choice_row {
+    int row;      /* of the table; -1: none */
+    double worst; /* cycles, or instructions, of a second of the longest steps, at most */
+    double load;  /* 0: not known */
+    double load_most;
+    bool fails[CHOICE_LIMITS];
+    bool unknown[CHOICE_LIMITS]; /* there is a limit, and no figure */
+} choice_row;
+
+typedef struct choice {
+    choice_row fastest;  /* of those that keep everything: the fewest cycles, */
+    choice_row smallest; /* and the least flash */
+    /* If no row does, the limit that would have to give: */
+    choice_row weaker; /* the least error of those that keep the other limits */
+    choice_row dearer; /* the least load of those that keep the error, flash and RAM */
+    choice_row larger; /* the least flash of those that keep the error and the load */
+    choice_row any;    /* the least load of those that keep the error */
+} choice;
+
+choice choice_make(const trials *t, const table *made, const choice_wish *w);
+
+/* The same, with everything counted that it names: no row that is named is a prediction. With contacts rows that were not
+ * counted are expected to take as many cycles an evaluation as the last counted one in their number. */
+measured_end choice_counted(trials *t, table *made, const choice_wish *w, const table_words *words,
+                            choice *c);
+
+/* Both answers; or that no row fits, and the nearest one. */
+void choice_print(FILE *out, const trials *t, const table *made, const choice_wish *w,
+                  const choice *c, const table_words *words);
+/* The same as one JSON object (docs/warnings.md has the schema), without what would fit; `status`: exit status. */
+void choice_json(FILE *out, const trials *t, const table *made, const choice_wish *w,
+                 const choice *c, const table_words *words, int status);
+
+#endif

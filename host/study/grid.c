@@ -1,0 +1,296 @@
+/* grid.c: reading ranges and numbering points. */
+#include "grid.h"
+
+#include <ctype.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "host/base/alloc.h"
+#include "host/lang/override.h"
+#include "host/lang/value.h"
+#include "host/number/decimal.h"
+#include "host/number/zero.h"
+
+/* A copy of text[length] without blanks at its ends. */
+static char *trimmed(const char *text, size_t length) {
+    while (length > 0 && (*text == ' ' || *text == '\t')) {
+        text++;
+        length--;
+    }
+    while (length > 0 && (text[length - 1] == ' ' || text[length - 1] == '\t')) {
+        length--;
+    }
+    return alloc_copy(text, length);
+}
+
+/* Begins a message: whose option it is, and what it was given. */
+static void say(const grid *g, const char *over) {
+    fprintf(stderr, "whirl %s: error: %s \"%s\"", g->command != NULL ? g->command : "sweep",
+            g->option != NULL ? g->option : "--over", over);
+}
+
+static char *joined(const char *left, const char *right) {
+    return alloc_words("%s%s", left, right);
+}
+
+/* --- the text of a range -----------------------------------------------------------------------*/
+
+typedef struct range_text {
+    char *name;
+    char *from;
+    char *to;
+    char *count;
+} range_text;
+
+static void range_free(range_text *r) {
+    free(r->name);
+    free(r->from);
+    free(r->to);
+    free(r->count);
+}
+
+/* Cut the text at its '=', "..", and last ':'. */
+static bool range_split(const grid *g, const char *text, range_text *r) {
+    const char *equals = strchr(text, '=');
+    const char *colon = strrchr(text, ':');
+    const char *dots = equals != NULL ? strstr(equals, "..") : NULL;
+    const char *problem = NULL;
+    if (equals == NULL || colon == NULL || dots == NULL || dots > colon) {
+        problem = "is not NAME=FROM..TO:COUNT";
+    } else if (dots[2] == '.') {
+        problem = "has three dots in a row";
+    }
+    if (problem != NULL) {
+        const char *option = g->option != NULL ? g->option : "--over";
+        say(g, text);
+        fprintf(
+            stderr,
+            " %s\nhint: such as %s \"r=10..60 [mm]:11\", or ...:11,log for a logarithmic range\n",
+            problem, option);
+        return false;
+    }
+    r->name = trimmed(text, (size_t)(equals - text));
+    r->from = trimmed(equals + 1, (size_t)(dots - equals - 1));
+    r->to = trimmed(dots + 2, (size_t)(colon - dots - 2));
+    r->count = trimmed(colon + 1, strlen(colon + 1));
+    return true;
+}
+
+/* Where the number at the start of the text ends; NULL when there is none. */
+static const char *behind_number(const char *text) {
+    const char *end;
+    (void)decimal_read(text, &end);
+    const bool none = end == text;
+    while (*end == ' ' || *end == '\t') {
+        end++;
+    }
+    return none ? NULL : end;
+}
+
+/* "10..60 [mm]": FROM is meant in TO's unit. */
+static void share_unit(range_text *r) {
+    const char *rest = behind_number(r->from);
+    const char *suffix = behind_number(r->to);
+    const bool from_is_bare = rest != NULL && *rest == '\0';
+    if (from_is_bare && suffix != NULL && (*suffix == '[' || isalpha((unsigned char)*suffix))) {
+        char *with_unit = joined(r->from, suffix);
+        free(r->from);
+        r->from = with_unit;
+    }
+}
+
+static bool read_count(const grid *g, const char *over, const char *text, axis *made) {
+    const size_t digits = strspn(text, "0123456789");
+    const char *rest = text + digits;
+    made->is_log = strcmp(rest, ",log") == 0;
+    if (digits > 0 && digits <= 12 && (made->is_log || *rest == '\0')) {
+        made->count = strtoull(text, NULL, 10);
+    }
+    const char *problem = NULL;
+    if (made->count == 0) {
+        problem =
+            "the COUNT behind the last ':' must be a whole number from 1 to 999999999999, ',log' "
+            "may follow";
+    } else if (made->count == 1 && made->from != made->to) {
+        problem = "a single point needs FROM = TO";
+    } else if (made->is_log && !(made->from * made->to > 0.0)) {
+        problem = "a logarithmic range takes two ends above zero, or two below";
+    }
+    if (problem != NULL) {
+        say(g, over);
+        fprintf(stderr, ": %s\n", problem);
+    }
+    return problem == NULL;
+}
+
+/* --- its values --------------------------------------------------------------------------------*/
+
+/* One end of the range as an expression; fills in the axis's symbol. */
+static const expr *read_end(const mechanism *of, const char *name, const char *text,
+                            struct arena *arena, diags *errors, axis *made) {
+    if (strcmp(name, "step") == 0) {
+        return override_duration(of, "step", text, arena, errors);
+    }
+    char *left = joined(name, "=");
+    char *whole = joined(left, text);
+    assignment change;
+    const bool good = override_parse(of, OVERRIDE_EITHER, whole, arena, errors, &change);
+    free(left);
+    free(whole);
+    if (!good) {
+        return NULL;
+    }
+    made->symbol = change.symbol;
+    made->primes = change.primes;
+    return change.value;
+}
+
+/* False, with a report, when the two ends are no numbers of one kind. */
+static bool take_ends(const grid *g, const char *over, const expr *from, const expr *to,
+                      axis *made) {
+    const char *problem = NULL;
+    if (((from->uses | to->uses) & ~(unsigned)USES_UNIT) != 0) {
+        problem = "FROM and TO must be numbers";
+    } else {
+        made->from = expr_value(from, NULL);
+        made->to = expr_value(to, NULL);
+        if (!isfinite(made->from) || !isfinite(made->to) || !isfinite(made->to - made->from)) {
+            problem = "FROM and TO must be finite numbers";
+        } else if (from->uses != to->uses && made->from != 0.0 && made->to != 0.0) {
+            problem = "one end has a unit and the other has not";
+        } else if (made->symbol == NULL && !(made->from > 0.0 && made->to > 0.0)) {
+            problem = "step must be above zero";
+        }
+    }
+    if (problem != NULL) {
+        say(g, over);
+        fprintf(stderr, ": %s\n", problem);
+    }
+    return problem == NULL;
+}
+
+static bool read_axis(const grid *g, const mechanism *of, const char *over, const range_text *r,
+                      diags *errors, axis *made) {
+    struct arena *arena = arena_new();
+    const expr *from = read_end(of, r->name, r->from, arena, errors, made);
+    const expr *to = from == NULL ? NULL : read_end(of, r->name, r->to, arena, errors, made);
+    diags_flush(errors, stderr);
+    const bool good =
+        to != NULL && take_ends(g, over, from, to, made) && read_count(g, over, r->count, made);
+    arena_free(arena);
+    return good;
+}
+
+static bool fits_in(const grid *g, const char *over, const axis *made) {
+    for (int i = 0; i < g->count; i++) {
+        if (g->axes[i].symbol == made->symbol && g->axes[i].primes == made->primes) {
+            say(g, over);
+            fputs(": it is swept already\n", stderr);
+            return false;
+        }
+    }
+    if (g->count > 0 && made->count > GRID_POINTS_MAX / g->points) {
+        say(g, over);
+        fprintf(stderr, ": more than %.0e points\n", (double)GRID_POINTS_MAX);
+        return false;
+    }
+    return true;
+}
+
+bool grid_add(grid *g, const mechanism *of, const char *text, diags *errors) {
+    range_text r = {0};
+    if (!range_split(g, text, &r)) {
+        return false;
+    }
+    share_unit(&r);
+    axis made = {0};
+    const bool good = read_axis(g, of, text, &r, errors, &made) && fits_in(g, text, &made);
+    if (good) {
+        axis *longer = alloc_more(g->axes, g->count + 1, sizeof *longer);
+        made.name = trimmed(r.name, strlen(r.name));
+        const bool is_start = made.symbol != NULL && (made.symbol->kind == SYM_COORDINATE ||
+                                                      made.symbol->kind == SYM_STATE);
+        char *left = joined(is_start ? "start(" : "", made.name);
+        made.column = joined(left, is_start ? ")" : "");
+        free(left);
+        g->axes = longer;
+        g->axes[g->count] = made;
+        g->points = g->count == 0 ? made.count : g->points * made.count;
+        g->count++;
+    }
+    range_free(&r);
+    return good;
+}
+
+void grid_free(grid *g) {
+    for (int i = 0; i < g->count; i++) {
+        free(g->axes[i].name);
+        free(g->axes[i].column);
+    }
+    free(g->axes);
+    *g = (grid){0};
+}
+
+/* So far on the way between the logarithms; their ends' ratio may be no number though they are. */
+static double log_value(const axis *a, double share) {
+    const double ratio = a->to / a->from;
+    if (isfinite(ratio) && ratio != 0.0) {
+        return a->from * number_power(ratio, share);
+    }
+    const double size = number_power(fabs(a->from), 1.0 - share) * number_power(fabs(a->to), share);
+    return a->from < 0.0 ? -size : size;
+}
+
+static double axis_value(const axis *a, uint64_t i) {
+    if (i == 0) {
+        return a->from;
+    }
+    if (i == a->count - 1) {
+        return a->to;
+    }
+    const double last = (double)(a->count - 1);
+    return a->is_log ? log_value(a, (double)i / last)
+                     : a->from + (a->to - a->from) * (double)i / last;
+}
+
+void grid_values(const grid *g, uint64_t point, double *value) {
+    for (int i = g->count - 1; i >= 0; i--) {
+        value[i] = axis_value(&g->axes[i], point % g->axes[i].count);
+        point /= g->axes[i].count;
+    }
+}
+
+int grid_step_axis(const grid *g) {
+    int found = -1;
+    for (int i = 0; i < g->count; i++) {
+        found = g->axes[i].symbol == NULL ? i : found;
+    }
+    return found;
+}
+
+bool grid_varies_parameters(const grid *g) {
+    for (int i = 0; i < g->count; i++) {
+        if (g->axes[i].symbol != NULL && g->axes[i].symbol->kind == SYM_PARAMETER) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* points * k / n without overflow: points <= 1e12 and n <= 1e6 */
+void grid_shard(const grid *g, uint64_t k, uint64_t n, uint64_t *first, uint64_t *end) {
+    *first = g->points * (k - 1) / n;
+    *end = g->points * k / n;
+}
+
+char *number_shortest(double value, char text[NUMBER_SIZE]) {
+    value = number_shown(value);
+    for (int digits = 15; digits <= 17; digits++) {
+        snprintf(text, NUMBER_SIZE, "%.*g", digits, value);
+        if (decimal_read(text, NULL) == value) {
+            break;
+        }
+    }
+    return text;
+}

@@ -1,0 +1,55 @@
+/* grid.h: the points of a sweep: what is varied, over which range, in which order. */
+#ifndef STUDY_GRID_H
+#define STUDY_GRID_H
+
+#include <stdint.h>
+#include <stdio.h>
+
+#include "host/lang/model.h"
+
+/* One --over: `count` values from `from` to `to` (SI), even, or even in the logarithm. */
+typedef struct axis {
+    char *name;           /* as typed: "r", "theta'", "step" */
+    char *column;         /* its CSV column: the name; "start(theta')" for a start value */
+    const symbol *symbol; /* parameter, input, coordinate or state; NULL: the step */
+    int primes;
+    double from;
+    double to;
+    uint64_t count; /* 1 only when from = to */
+    bool is_log;
+} axis;
+
+/* Every combination; the last axis runs fastest. Starts as {0}; free with grid_free(). */
+typedef struct grid {
+    const char *command; /* in messages; NULL: "sweep" */
+    const char *option;  /* NULL: "--over" */
+    axis *axes;
+    int count;
+    uint64_t points;
+} grid;
+
+#define GRID_POINTS_MAX UINT64_C(1000000000000)
+
+/* "NAME=FROM..TO:COUNT[,log]"; a unit behind TO counts for a bare FROM too. False when it is wrong
+ * (reported on standard error). */
+bool grid_add(grid *g, const mechanism *of, const char *text, diags *errors);
+void grid_free(grid *g);
+
+/* The values of point `point` < g->points, by axis: value[g->count], SI. The ends are exact. */
+void grid_values(const grid *g, uint64_t point, double *value);
+
+/* The axis that varies the step; -1: none does. */
+int grid_step_axis(const grid *g);
+
+/* Does an axis vary a parameter? Then each point has equations of its own. */
+bool grid_varies_parameters(const grid *g);
+
+/* The points of shard k of n (1 <= k <= n): first <= point < end. Shards follow each other without
+ * a gap, so that their rows in the order of k are all the rows. */
+void grid_shard(const grid *g, uint64_t k, uint64_t n, uint64_t *first, uint64_t *end);
+
+/* A number in as few digits as bring it back exactly. Returns text. */
+#define NUMBER_SIZE 40
+char *number_shortest(double value, char text[NUMBER_SIZE]);
+
+#endif

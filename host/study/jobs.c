@@ -1,0 +1,290 @@
+/* jobs.c: workers, their pipes, and rows put back into order. */
+#include "jobs.h"
+
+#include <errno.h>
+#include <poll.h>
+#include <signal.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/time.h>
+#include <sys/types.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "host/base/alloc.h"
+#include "host/base/interrupts.h"
+
+/* Points handed out beyond the first that has not come back, for each worker. */
+#define AHEAD 8U
+#define PAUSE_MS 50
+#define ASK_US 200000
+
+/* What a worker sends before row and reason. */
+typedef struct answer {
+    uint64_t point;
+    uint64_t row_length;
+    uint64_t reason_length;
+    bool good;
+} answer;
+
+typedef struct worker {
+    pid_t pid;
+    int results; /* read end; -1 when it has ended */
+    char *bytes; /* read, not yet taken */
+    size_t length;
+    size_t room;
+} worker;
+
+/* A row that waits for its turn. */
+typedef struct slot {
+    char *row; /* NULL: not yet there; the reason follows behind its zero byte */
+    const char *reason;
+    bool good;
+} slot;
+
+typedef struct pool {
+    const jobs *jobs;
+    worker *workers;
+    int started;
+    int tickets; /* write end */
+    slot *slots; /* [window], by point % window */
+    uint64_t window;
+    uint64_t sent;
+    uint64_t delivered; /* all below this */
+} pool;
+
+/* --- in a worker -------------------------------------------------------------------------------*/
+
+static pid_t parent;
+
+/* Without a parent nobody waits for what it does. */
+static void ask_for_parent(int signal_number) {
+    (void)signal_number;
+    interrupted = getppid() != parent;
+}
+
+static bool write_all(int to, const void *bytes, size_t length) {
+    const char *at = bytes;
+    while (length > 0) {
+        const ssize_t done = write(to, at, length);
+        if (done < 0 && errno != EINTR) {
+            return false;
+        }
+        at += done > 0 ? done : 0;
+        length -= done > 0 ? (size_t)done : 0;
+    }
+    return true;
+}
+
+static void work(const jobs *j, int tickets, int results) {
+    uint64_t point;
+    /* Numbers are written and read whole: eight bytes are far below PIPE_BUF. */
+    while (read(tickets, &point, sizeof point) == (ssize_t)sizeof point) {
+        char *text[2] = {NULL, NULL};
+        size_t length[2] = {0, 0};
+        FILE *row = alloc_text(&text[0], &length[0]);
+        FILE *reason = alloc_text(&text[1], &length[1]);
+        answer a;
+        memset(&a, 0, sizeof a); /* padding too: it goes through a pipe */
+        a.point = point;
+        a.good = j->work(j->context, point, row, reason);
+        alloc_text_end(row);
+        alloc_text_end(reason);
+        a.row_length = length[0];
+        a.reason_length = length[1];
+        const bool sent = write_all(results, &a, sizeof a) &&
+                          write_all(results, text[0], length[0]) &&
+                          write_all(results, text[1], length[1]);
+        free(text[0]);
+        free(text[1]);
+        if (!sent || interrupted) {
+            break;
+        }
+    }
+}
+
+/* --- in the parent -----------------------------------------------------------------------------*/
+
+static bool start_worker(pool *p, int tickets) {
+    int results[2];
+    if (pipe(results) != 0) {
+        return false;
+    }
+    fflush(NULL); /* or the child would have a copy of what is buffered */
+    /* what comes before the child has its own handlers waits until it has */
+    sigset_t both;
+    sigset_t usual;
+    sigemptyset(&both);
+    sigaddset(&both, SIGINT);
+    sigaddset(&both, SIGTERM);
+    sigprocmask(SIG_BLOCK, &both, &usual);
+    const pid_t pid = fork();
+    if (pid == 0) {
+        signal(SIGINT, SIG_IGN); /* the parent says when to end */
+        signal(SIGTERM, SIG_DFL);
+        sigaction(SIGALRM,
+                  &(struct sigaction){.sa_handler = ask_for_parent, .sa_flags = SA_RESTART}, NULL);
+        setitimer(ITIMER_REAL, &(struct itimerval){{0, ASK_US}, {0, ASK_US}}, NULL);
+        sigprocmask(SIG_SETMASK, &usual, NULL);
+        close(p->tickets);
+        close(results[0]);
+        for (int i = 0; i < p->started; i++) {
+            close(p->workers[i].results);
+        }
+        work(p->jobs, tickets, results[1]);
+        _exit(0);
+    }
+    sigprocmask(SIG_SETMASK, &usual, NULL);
+    close(results[1]);
+    if (pid < 0) {
+        close(results[0]);
+        return false;
+    }
+    p->workers[p->started++] = (worker){.pid = pid, .results = results[0]};
+    return true;
+}
+
+static bool start(pool *p) {
+    int tickets[2];
+    if (pipe(tickets) != 0) {
+        return false;
+    }
+    p->tickets = tickets[1];
+    parent = getpid();
+    while (p->started < p->jobs->workers && start_worker(p, tickets[0])) {
+    }
+    close(tickets[0]);
+    if (p->started == 0) {
+        const int why = errno;
+        close(p->tickets);
+        errno = why;
+    }
+    return p->started > 0;
+}
+
+/* Hand out numbers as far as the window reaches. */
+static void send(pool *p) {
+    while (p->sent < p->jobs->end && p->sent < p->delivered + p->window &&
+           write_all(p->tickets, &p->sent, sizeof p->sent)) {
+        p->sent++;
+    }
+}
+
+/* Put the whole answers in a worker's bytes into their slots. */
+static void take_answers(pool *p, worker *w) {
+    size_t at = 0;
+    answer a;
+    while (w->length - at >= sizeof a) {
+        memcpy(&a, w->bytes + at, sizeof a);
+        const size_t row = (size_t)a.row_length;
+        const size_t reason = (size_t)a.reason_length;
+        if (w->length - at - sizeof a < row + reason) {
+            break;
+        }
+        char *text = alloc((int64_t)(row + reason + 2), 1);
+        memcpy(text, w->bytes + at + sizeof a, row);
+        memcpy(text + row + 1, w->bytes + at + sizeof a + row, reason);
+        p->slots[a.point % p->window] = (slot){text, text + row + 1, a.good};
+        at += sizeof a + row + reason;
+    }
+    w->length -= at;
+    memmove(w->bytes, w->bytes + at, w->length);
+}
+
+/* Read what a worker has to say. False when it has ended. */
+static bool listen_to(pool *p, worker *w) {
+    if (w->room - w->length < 65536) {
+        w->room = 2 * w->room + 65536;
+        w->bytes = alloc_more(w->bytes, (int64_t)w->room, 1);
+    }
+    const ssize_t got = read(w->results, w->bytes + w->length, w->room - w->length);
+    if (got < 0 && errno == EINTR) {
+        return true;
+    }
+    if (got <= 0) {
+        close(w->results);
+        w->results = -1;
+        return false;
+    }
+    w->length += (size_t)got;
+    take_answers(p, w);
+    return true;
+}
+
+/* Deliver every row whose turn has come. */
+static bool deliver(pool *p) {
+    for (;;) {
+        slot *next = &p->slots[p->delivered % p->window];
+        if (p->delivered == p->jobs->end || next->row == NULL) {
+            return true;
+        }
+        const bool go_on =
+            p->jobs->deliver(p->jobs->context, p->delivered, next->good, next->row, next->reason);
+        free(next->row);
+        *next = (slot){0};
+        p->delivered++;
+        if (!go_on) {
+            return false;
+        }
+    }
+}
+
+static jobs_result attend(pool *p) {
+    const jobs *j = p->jobs;
+    struct pollfd *ears = alloc(p->started, sizeof *ears);
+    jobs_result result = JOBS_DONE;
+    while (p->delivered < j->end && result == JOBS_DONE) {
+        send(p);
+        for (int i = 0; i < p->started; i++) {
+            ears[i] = (struct pollfd){.fd = p->workers[i].results, .events = POLLIN};
+        }
+        const int heard = poll(ears, (nfds_t)p->started, PAUSE_MS);
+        for (int i = 0; i < p->started && heard > 0; i++) {
+            if (ears[i].revents != 0 && !listen_to(p, &p->workers[i])) {
+                result = JOBS_WORKER_LOST; /* none ends before its numbers do */
+            }
+        }
+        if (!deliver(p) || !j->pause(j->context, p->delivered)) {
+            result = JOBS_REFUSED;
+        } else if (interrupted) {
+            result = p->delivered < j->end ? JOBS_STOPPED : JOBS_DONE;
+        } else if (p->delivered == j->end) {
+            result = JOBS_DONE;
+        }
+    }
+    free(ears);
+    return result;
+}
+
+jobs_result jobs_run(const jobs *j) {
+    pool p = {.jobs = j, .sent = j->first, .delivered = j->first};
+    p.window = AHEAD * (uint64_t)j->workers;
+    p.workers = alloc(j->workers, sizeof *p.workers);
+    p.slots = alloc((int64_t)p.window, sizeof *p.slots);
+    void (*const before)(int) = signal(SIGPIPE, SIG_IGN); /* a write to a lost worker */
+    jobs_result result = JOBS_WORKER_LOST;
+    if (start(&p)) {
+        result = attend(&p);
+        close(p.tickets);
+    } else {
+        fprintf(stderr, "whirl sweep: error: no worker could be started: %s\n", strerror(errno));
+    }
+    for (int i = 0; i < p.started; i++) {
+        if (result != JOBS_DONE) {
+            kill(p.workers[i].pid, SIGTERM);
+        }
+        if (p.workers[i].results >= 0) {
+            close(p.workers[i].results);
+        }
+        while (waitpid(p.workers[i].pid, NULL, 0) < 0 && errno == EINTR) {
+        }
+        free(p.workers[i].bytes);
+    }
+    for (uint64_t i = 0; i < p.window; i++) {
+        free(p.slots[i].row);
+    }
+    signal(SIGPIPE, before);
+    free(p.workers);
+    free(p.slots);
+    return result;
+}

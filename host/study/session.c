@@ -1,0 +1,364 @@
+/* session.c: points to rows to a file, with what is to be said meanwhile. */
+#include "host/study/session.h"
+
+#include <inttypes.h>
+#include <stdlib.h>
+#include <time.h>
+#include <unistd.h>
+
+#include "core/hash.h"
+#include "host/base/alloc.h"
+#include "host/base/exit.h"
+#include "host/check/finding.h"
+#include "host/image/turned.h"
+#include "host/study/jobs.h"
+#include "host/study/resumable_csv.h"
+#include "host/study/sweep_json.h"
+
+static uint64_t hash_text(const char *text) {
+    uint64_t hash = WH_HASH_START;
+    for (; *text != '\0'; text++) {
+        hash = wh_hash_u64(hash, (unsigned char)*text);
+    }
+    return hash;
+}
+
+static void put_instance(FILE *out, const instance *base) {
+    const mechanism *m = base->mechanism;
+    for (int i = 0; i < m->effect_count; i++) {
+        fprintf(out, "effect %s: %s\n", m->effects[i].name, base->with[i] ? "with" : "without");
+    }
+    for (int i = 0; i < m->parameter_count; i++) {
+        fprintf(out, "set %s: %.17g\n", m->parameters[i]->name, base->parameter[i]);
+    }
+    for (int i = 0; i < m->input_count; i++) {
+        fprintf(out, "set %s: %.17g\n", m->inputs[i]->name, base->input[i]);
+    }
+    for (int i = 0; i < m->coordinate_count; i++) {
+        for (int k = 0; k < base->start_count[i]; k++) {
+            fprintf(out, "start %s (%d primes): %.17g\n", m->coordinates[i]->name, k,
+                    base->start[i][k]);
+        }
+    }
+}
+
+char *fingerprint_make(const sweep *s, const char *model_text, const instance *base,
+                       const image *im, shard part) {
+    char *text = NULL;
+    size_t length = 0;
+    FILE *out = alloc_text(&text, &length);
+    fprintf(out, "whirl sweep: settings of the CSV beside this file, format 3\n");
+    fprintf(out, "scene: %s\n", base->name);
+    fprintf(out, "model text: 0x%016" PRIx64 "\n", hash_text(model_text));
+    fprintf(out, "number: %s%s\n", s->kind->name, s->engine.compensated ? ", compensated" : "");
+    if (s->engine.stabilized) {
+        fprintf(out, "stabilized\n");
+    }
+    fprintf(out, "method: %s\n", wh_methods[s->engine.method].word);
+    fprintf(out, "angles: %s\n", image_angles_words[s->engine.angles]);
+    if (s->engine.matrix != MATRIX_NONE) {
+        fprintf(out, "matrix: %s\n", image_matrix_words[s->engine.matrix]);
+    }
+    if (s->engine.tables != TABLES_NONE) {
+        fprintf(out, "tables: %s, %d cells\n", image_tables_words[s->engine.tables],
+                1 << im->list[IMAGE_STEP]->tables.bits);
+    }
+    fprintf(out, "step: %.17g s\nuntil: %.17g s\n", base->step_s, base->until_s);
+    fprintf(out, "measured from: %.17g s\n", s->from_s);
+    put_instance(out, base);
+    for (int i = 0; i < s->grid->count; i++) {
+        const axis *a = &s->grid->axes[i];
+        char *unit = sweep_unit(a->symbol, a->primes);
+        fprintf(out, "over %s%s: %.17g to %.17g, %" PRIu64 " values%s\n", a->name, unit, a->from,
+                a->to, a->count, a->is_log ? ", logarithmic" : "");
+        free(unit);
+    }
+    for (int i = 0; i < s->measures->count; i++) {
+        const measure *m = &s->measures->list[i];
+        char *unit = sweep_unit(measure_symbol(m), m->of->primes);
+        fprintf(out, "measure: %s%s\n", m->name, unit);
+        free(unit);
+    }
+    fprintf(out, "shard: %" PRIu64 "/%" PRIu64 "\n", part.number, part.of);
+    fprintf(out, "operations: 0x%016" PRIx64 "\n", im->hash);
+    alloc_text_end(out);
+    return text;
+}
+
+/* === drawing the progress of a sweep ========================================================== */
+
+enum { BAR_WIDTH = 30 };
+#define SHOW_EVERY_S 0.2
+
+static double now_s(void) {
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+progress progress_start(FILE *out, uint64_t from, uint64_t end) {
+    return (progress){.out = out, .from = from, .end = end, .start_s = now_s()};
+}
+
+double progress_elapsed_s(const progress *p) { return now_s() - p->start_s; }
+
+void progress_show(progress *p, uint64_t done) {
+    const double now = now_s();
+    if (p->out == NULL || now - p->shown_s < SHOW_EVERY_S) {
+        return;
+    }
+    p->shown_s = now;
+    p->drawn = true;
+    const double part = p->end > 0 ? (double)done / (double)p->end : 1.0;
+    const double rate = (double)(done - p->from) / (now - p->start_s);
+    char bar[BAR_WIDTH + 1];
+    for (int i = 0; i < BAR_WIDTH; i++) {
+        bar[i] = (double)i < part * BAR_WIDTH ? '#' : '.';
+    }
+    bar[BAR_WIDTH] = '\0';
+    fprintf(p->out, "\r%5.1f %% [%s] %llu/%llu", 100.0 * part, bar, (unsigned long long)done,
+            (unsigned long long)p->end);
+    if (done > p->from && rate > 0.0) {
+        const double left_s = (double)(p->end - done) / rate;
+        fprintf(p->out, "  %.3g points/s  %.0f:%02.0f:%02.0f to go  ", rate,
+                (double)(long)(left_s / 3600.0), (double)((long)(left_s / 60.0) % 60),
+                (double)((long)left_s % 60));
+    }
+    fflush(p->out);
+}
+
+void progress_clear(progress *p) {
+    if (p->drawn) {
+        fprintf(p->out, "\r%*s\r", BAR_WIDTH + 70, "");
+        fflush(p->out);
+        p->drawn = false;
+    }
+}
+
+/* === the session ============================================================================== */
+
+/* What the parent process knows while rows come in. */
+typedef struct sitting {
+    const sweep *sweep;
+    resumable_csv sheet;
+    json *json; /* or NULL */
+    progress progress;
+    uint64_t first; /* point of the sheet's first row */
+    uint64_t failed;
+    int told;                 /* failures described */
+    uint64_t ran;             /* points delivered, now */
+    uint64_t found[FINDINGS]; /* points of which `whirl run` tells so, */
+    uint64_t found_first[FINDINGS];
+    unsigned against;
+    unsigned fails; /* for these findings the exit status is 1 */
+} sitting;
+
+enum { TOLD_MAX = 20 };
+
+/* Of a point that did not fail, `reason` is its findings, the warnings, and those that count, as bits, if there are any. */
+static bool work(void *context, uint64_t point, FILE *row, FILE *reason) {
+    const sitting *s = context;
+    point_notes notes;
+    const bool good = sweep_point(s->sweep, point, row, reason, &notes);
+    if (good && (notes.found | notes.fails) != 0) {
+        fprintf(reason, "%u %u %u", notes.found, notes.against, notes.fails);
+    }
+    return good;
+}
+
+static bool count_notes(sitting *s, uint64_t point, const char *notes) {
+    char *rest;
+    const unsigned long found = strtoul(notes, &rest, 10);
+    const unsigned long against = strtoul(rest, &rest, 10);
+    const unsigned long fails = strtoul(rest, NULL, 10);
+    bool good = true;
+    s->against |= (unsigned)against;
+    s->fails |= (unsigned)fails;
+    for (int id = 0; id < FINDINGS; id++) {
+        if ((found & FINDING_BIT(id)) != 0) {
+            s->found_first[id] = s->found[id] == 0 ? point : s->found_first[id];
+            s->found[id]++;
+        }
+        if (((against | fails) & FINDING_BIT(id)) != 0) {
+            good = resumable_csv_note(&s->sheet, finding_rows[id].word) && good;
+        }
+    }
+    return good;
+}
+
+/* Findings of rows that were in the file: a sweep that goes on ends as one that was not broken off. */
+static unsigned fails_before(const sitting *s) {
+    unsigned fails = 0;
+    for (int id = 0; id < FINDINGS && s->sweep->strict >= 0.0; id++) {
+        fails |= resumable_csv_has_note(&s->sheet, finding_rows[id].word) ? FINDING_BIT(id) : 0U;
+    }
+    return fails;
+}
+
+/* "point 17 (r=0.02, theta'=31.4)" */
+static void name_point(const sweep *s, uint64_t point) {
+    double *value = alloc(s->grid->count, sizeof *value);
+    char text[NUMBER_SIZE];
+    grid_values(s->grid, point, value);
+    fprintf(stderr, "point %llu (", (unsigned long long)point + 1);
+    for (int i = 0; i < s->grid->count; i++) {
+        const axis *a = &s->grid->axes[i];
+        char *unit = sweep_unit(a->symbol, a->primes);
+        fprintf(stderr, "%s%s=%s%s", i > 0 ? ", " : "", a->name,
+                sweep_swept_value(a, value[i], text), unit);
+        free(unit);
+    }
+    fprintf(stderr, ")");
+    free(value);
+}
+
+static bool deliver(void *context, uint64_t point, bool good, const char *row, const char *reason) {
+    sitting *s = context;
+    s->ran++;
+    if (!good) {
+        s->failed++;
+        if (s->told < TOLD_MAX) {
+            progress_clear(&s->progress);
+            fputs("whirl sweep: error: ", stderr);
+            name_point(s->sweep, point);
+            fprintf(stderr, ": %s\n", reason);
+        } else if (s->told == TOLD_MAX) {
+            fprintf(stderr, "further failures are not listed: their measures are empty\n");
+        }
+        s->told += s->told <= TOLD_MAX ? 1 : 0;
+    } else if (reason[0] != '\0' && !count_notes(s, point, reason)) {
+        return false;
+    }
+    if (s->json != NULL) {
+        char *rest;
+        const unsigned found = good ? (unsigned)strtoul(reason, &rest, 10) : 0U;
+        const unsigned against = good ? (unsigned)strtoul(rest, NULL, 10) : 0U;
+        sweep_json_point(s->json, row, good ? NULL : reason, found, against);
+    }
+    return fputs(row, s->sheet.out) >= 0;
+}
+
+static bool pause_between(void *context, uint64_t next) {
+    sitting *s = context;
+    progress_show(&s->progress, next - s->first);
+    return fflush(s->sheet.out) == 0;
+}
+
+static void swept(const void *context, uint64_t row, FILE *out) {
+    const sitting *s = context;
+    sweep_swept_fields(s->sweep, s->first + row, out);
+}
+
+/* The findings of `whirl run` for them; of the points that ran now, as rows found in the file do not tell. */
+static void say_found(const sitting *s) {
+    for (int id = 0; id < FINDINGS; id++) {
+        if (s->found[id] > 0) {
+            const finding_row *row = &finding_rows[id];
+            fprintf(stderr, "whirl sweep: %s: %llu of %llu points %s [%s]; first: ",
+                    (s->against & FINDING_BIT(id)) == 0 ? "note" : "warning",
+                    (unsigned long long)s->found[id], (unsigned long long)s->ran, row->points,
+                    row->word);
+            name_point(s->sweep, s->found_first[id]);
+            fputs("\nhint: `whirl run` of the point tells what would do\n", stderr);
+        }
+    }
+}
+
+static void say_end(const session_settings *o, const sitting *s, int workers) {
+    const uint64_t rows = o->end - o->first;
+    const double seconds = progress_elapsed_s(&s->progress);
+    const uint64_t done = rows - s->sheet.rows;
+    if (s->failed > 0) {
+        fprintf(stderr,
+                "whirl sweep: error: %llu of %llu points failed: their measures are empty\n",
+                (unsigned long long)s->failed, (unsigned long long)rows);
+    }
+    if (o->quiet) {
+        return;
+    }
+    fprintf(stderr, "%llu points", (unsigned long long)rows);
+    if (s->sheet.rows > 0) {
+        fprintf(stderr, ", %llu of them found in %s", (unsigned long long)s->sheet.rows, o->csv);
+    }
+    if (done > 0) {
+        fprintf(stderr, "; %.3g s, %.3g points/s with --jobs %d", seconds, (double)done / seconds,
+                workers);
+    }
+    fputc('\n', stderr);
+}
+
+/* Run what the sheet lacks. */
+static int run_points(const session_settings *o, sitting *s) {
+    const uint64_t next = s->first + s->sheet.rows;
+    const uint64_t missing = o->end - next;
+    const int workers = missing < (uint64_t)o->jobs ? (int)missing : o->jobs;
+    s->failed = s->sheet.failed;
+    s->fails = fails_before(s);
+    s->progress = progress_start(!o->quiet && isatty(STDERR_FILENO) ? stderr : NULL, s->sheet.rows,
+                                 o->end - o->first);
+    const jobs plan = {.workers = workers,
+                       .first = next,
+                       .end = o->end,
+                       .context = s,
+                       .work = work,
+                       .deliver = deliver,
+                       .pause = pause_between};
+    const jobs_result result = missing > 0 ? jobs_run(&plan) : JOBS_DONE;
+    progress_clear(&s->progress);
+    if (!resumable_csv_close(&s->sheet)) {
+        return EXIT_RUN_FAILED;
+    }
+    say_found(s);
+    const char *hint = s->sheet.is_file ? "hint: the same command goes on from there\n" : "";
+    switch (result) {
+    case JOBS_DONE: say_end(o, s, workers); break;
+    case JOBS_STOPPED:
+        fprintf(stderr, "whirl sweep: interrupted after %llu of %llu points%s\n%s",
+                (unsigned long long)(s->sheet.rows + s->ran),
+                (unsigned long long)(o->end - o->first),
+                s->sheet.is_file ? "; their rows are kept" : "", hint);
+        return EXIT_INTERRUPTED;
+    case JOBS_WORKER_LOST:
+        fprintf(stderr, "whirl sweep: error: a worker process ended early\n%s", hint);
+        return EXIT_RUN_FAILED;
+    case JOBS_REFUSED: return EXIT_RUN_FAILED;
+    }
+    if (s->fails != 0) {
+        finding_say_status(stderr, "sweep", s->fails);
+    }
+    return s->failed > 0 || s->fails != 0 ? EXIT_RUN_FAILED : EXIT_DONE;
+}
+
+int session_run(const sweep *s, const session_settings *o) {
+    sitting here = {.sweep = s, .first = o->first};
+    char *header = NULL;
+    size_t length = 0;
+    FILE *out = alloc_text(&header, &length);
+    if (o->header) {
+        sweep_header(s, out);
+    }
+    alloc_text_end(out);
+    const resumable_csv_settings settings = {.path = o->csv,
+                                             .fingerprint = o->fingerprint,
+                                             .header = header,
+                                             .rows = o->end - o->first,
+                                             .measures = sweep_columns(s),
+                                             .swept = swept,
+                                             .context = &here,
+                                             .fresh = o->fresh};
+    int code = resumable_csv_open(&here.sheet, &settings);
+    json written = {.out = stdout};
+    const bool writes = code == EXIT_DONE && o->json;
+    if (writes) {
+        here.json = &written;
+        sweep_json_begin(&written, s);
+    }
+    if (code == EXIT_DONE) {
+        code = run_points(o, &here);
+    }
+    if (writes) {
+        sweep_json_end(&written, here.failed, code);
+    }
+    free(header);
+    return code;
+}

@@ -1,0 +1,57 @@
+/* session.h: one `whirl sweep` from its first missing row to its last. */
+#ifndef STUDY_SESSION_H
+#define STUDY_SESSION_H
+
+#include <stdbool.h>
+#include <stdint.h>
+#include <stdio.h>
+
+#include "host/study/point.h"
+
+/* === everything that decides the bytes of a sweep's CSV, as lines of text ===================== */
+
+typedef struct shard {
+    uint64_t number; /* from 1 */
+    uint64_t of;
+} shard;
+
+/* `model_text`: the whole .whirl text; `base` and `p`: the instance without what is swept. The
+ * result is the caller's to free. */
+char *fingerprint_make(const sweep *s, const char *model_text, const instance *base,
+                       const image *im, shard part);
+
+/* === a bar with rate and time to go, on one line that is drawn over again ===================== */
+
+typedef struct progress {
+    FILE *out;     /* NULL: nothing is drawn */
+    uint64_t from; /* points done before it began */
+    uint64_t end;
+    double start_s;
+    double shown_s;
+    bool drawn;
+} progress;
+
+progress progress_start(FILE *out, uint64_t from, uint64_t end);
+/* Draw, at most five times a second. */
+void progress_show(progress *p, uint64_t done);
+/* Take the line away, so that something else can be written. */
+void progress_clear(progress *p);
+double progress_elapsed_s(const progress *p);
+
+typedef struct session_settings {
+    const char *csv;         /* file, or "-" for standard output */
+    const char *fingerprint; /* see resumable_csv.h */
+    uint64_t first;          /* points first <= point < end */
+    uint64_t end;
+    bool header; /* the rows have a header */
+    int jobs;    /* worker processes */
+    bool fresh;
+    bool quiet;
+    bool json; /* one object on standard output; `csv` is then no file */
+} session_settings;
+
+/* Returns an exit code (host/base/exit.h): EXIT_RUN_FAILED when points failed or rows could not be written,
+ * EXIT_BAD_INPUT when the file is another sweep's; what is wrong has been said on standard error. */
+int session_run(const sweep *s, const session_settings *settings);
+
+#endif

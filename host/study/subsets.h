@@ -1,0 +1,56 @@
+/* subsets.h: runs of a scene without some of its effects, compared with the run that has all of them.
+ *
+ * All runs step side by side, in double, so no motion is stored. Terms act if leaving them out changes a slope by more
+ * than round-off; stops, holds and crossings if they have an event or are closed. */
+#ifndef STUDY_SUBSETS_H
+#define STUDY_SUBSETS_H
+
+#include "cost.h"
+#include "host/io/records.h"
+#include "host/lang/model.h"
+
+/* Most effects of a scene, and most that act for which all subsets are run. */
+enum { SUBSETS_EFFECTS_MAX = 64, SUBSETS_ALL_MOST = 6 };
+
+/* Figures of a price, in float; NAN: not known. Of contacts the declared worst step alone is known. */
+enum { SUBSET_STEP, SUBSET_WORST, SUBSET_FLASH, SUBSET_RAM, SUBSET_FIGURES };
+
+/* The scene without the effects of the bits in `out`. */
+typedef struct subset {
+    uint64_t out;
+    const char
+        *failed; /* why there is no run to the end, or it stopped there; NULL: there is one */
+    bool same;   /* its records are those of the full run, to the bit */
+    int contacts;
+    double *moved; /* [columns] largest difference over the run, in the column's unit */
+    double figure[SUBSET_FIGURES]; /* cycles of a step without events (or instructions), the most
+                                    * evaluations in a step, bytes without contacts */
+} subset;
+
+typedef struct subsets {
+    const mechanism *of;
+    const scene *in;
+    const overrides *changes;
+    const cost_board *board;
+    image *image;     /* the full scene */
+    records *columns; /* of each run */
+    int effects;
+    int effect[SUBSETS_EFFECTS_MAX]; /* numbers of the mechanism's effects */
+    bool acted[SUBSETS_EFFECTS_MAX]; /* in the full run */
+    double *range;                   /* [columns] in the full run, in the column's unit */
+    double *limit;                   /* [columns] the error that is allowed; INFINITY: any */
+    subset **list; /* [count] 0: the full scene; k + 1: without effect k; then others */
+    int count;
+} subsets;
+
+/* Makes the full scene's image. False, reported: it has none, or too many effects. subsets_close() in any case. */
+bool subsets_open(subsets *s, diags *errors);
+void subsets_close(subsets *s);
+/* Runs the full scene beside those without one effect. False, reported, when the full run diverges. */
+bool subsets_run(subsets *s, diags *errors);
+bool subsets_keeps(const subsets *s, const subset *of);
+/* Runs subsets of the effects that acted: all, or with *greedy one more effect left out at a time. Returns the one that
+ * keeps the limits with the fewest effects; of several, the cheapest. */
+const subset *subsets_smallest(subsets *s, bool *greedy);
+
+#endif

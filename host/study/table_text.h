@@ -1,0 +1,59 @@
+/* table_text.h: figures, each with how it is known, and a table of errors and prices, for people and for programs. */
+#ifndef STUDY_TABLE_TEXT_H
+#define STUDY_TABLE_TEXT_H
+
+#include <stdio.h>
+
+#include "host/base/json.h"
+#include "price_table.h"
+
+enum { FIGURE_TEXT = 64 };
+
+/* "1234 p": a letter for the basis, "-" for what is not known. Returns text. */
+const char *figure_text(const cost_figure *f, char text[FIGURE_TEXT]);
+/* The letter of a basis. */
+char figure_letter(cost_basis basis);
+/* What the letters mean, a line each of those that are in `cost`: "p  predicted: from the image, within a bound". */
+void figure_legend(FILE *out, const cost *c);
+/* "predicted, of simulated figures, within 8 %". Returns text. */
+enum { FIGURE_WORDS = 120 };
+const char *figure_words(const cost_figure *f, char text[FIGURE_WORDS]);
+
+/* What was held against what, in lines that begin with two blanks. */
+void figure_reference(FILE *out, const trials *t);
+
+/* What the command was given, as its words are typed, to build lines from that do a row again. */
+typedef struct table_words {
+    const char *target;
+    const char *changes; /* "" or " --set m=3 ..." */
+    bool all;            /* every row */
+    double operations;   /* of --effort */
+} table_words;
+
+/* "cycles/s", ...: heads of a column of prices, by table_unit. */
+extern const char *const table_heads[];
+
+/* How many settings were tried, and why others were not, or not to the end. */
+void table_print_left(FILE *out, const table *made, double operations);
+/* At most TABLE_ROWS rows of the front, or every row. */
+enum { TABLE_ROWS = 12 };
+void table_print(FILE *out, const trials *t, const table *made, const table_words *words);
+void table_csv(FILE *out, const trials *t, const table *made, const table_words *words);
+/* One JSON object (docs/warnings.md has the schema) with every row, or without a table; `status`: exit status. */
+void table_json(FILE *out, const trials *t, const table *made, const table_words *words,
+                int status);
+/* The keys with which it begins, and those of a row. */
+void table_json_begin(json *j, const char *command, const trials *t);
+void table_json_row(json *j, const trials *t, const table_row *row, const table_words *words);
+
+/* The lines that do a row again: `whirl run ...` at a place, and `whirl derive ... --as c` with the scene's own values, as
+ * a product has them. Free them. */
+char *table_run_line(const trials *t, const setting *s, deviation_pace pace, int point,
+                     const table_words *words);
+char *table_derive_line(const trials *t, const setting *s, deviation_pace pace,
+                        const table_words *words);
+/* Counts the same row's step where a source tree and the board's compiler are: `sh mk/price/measure_one.sh ...`. */
+char *table_measure_line(const trials *t, const setting *s, deviation_pace pace, int point,
+                         const table_words *words);
+
+#endif

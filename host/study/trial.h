@@ -1,0 +1,105 @@
+/* trial.h: trying settings out: how far each is off the references, and what it costs. */
+#ifndef STUDY_TRIAL_H
+#define STUDY_TRIAL_H
+
+#include "cost.h"
+#include "deviation.h"
+#include "setting.h"
+
+/* Where images come from: the scene, varied. */
+typedef struct trial_source {
+    void *context;
+    int points; /* the scene itself, or so many places of its ranges and the scene's own values */
+    /* The image of a place, to run with this setting, step and end ("0.001", seconds; NULL: the scene's own). The caller
+     * frees it. NULL when there is none: told, but where the scene does not take the setting (setting_may_be_refused()). */
+    image *(*make)(void *context, int point, const setting *s, const char *step, const char *until);
+    /* A place as options: " --set duty=0.2"; "" is the scene itself. Valid until the next call. */
+    const char *(*name)(void *context, int point);
+} trial_source;
+
+typedef struct trial_wish {
+    const trial_source *source;
+    const cost_board *board;
+    const char *of;              /* an output, coordinate or rate; NULL: the worst component */
+    whole_ratio spacing;         /* of the records, s */
+    int records;                 /* behind the start */
+    reference_steps by;          /* what the references are computed by */
+    const image_settings *plain; /* of their images; NULL: the default ones */
+    whole_ratio
+        priced_step; /* whose cost stands for all steps, where it may; 0: each has its own */
+} trial_wish;
+
+typedef struct trial_planned {
+    image *image;
+    deviation_pace pace;
+} trial_planned;
+
+typedef struct trials {
+    trial_wish wish;
+    int points; /* the source's places without those where nothing moves, unless nothing moves at all */
+    int *place;    /* [points] their numbers in the source */
+    char *still;   /* the options of the places that were left out: " --set M=0,"; or NULL */
+    image **image; /* [points] of the references */
+    reference **reference;  /* [points] */
+    trial_planned *planned; /* [points] in fixed point: priced and to be run */
+    int worst;              /* the point whose reference ends first, or agrees least */
+    int records;            /* behind the start, that all references are trusted for */
+    deviation_of_what what;
+    double
+        tolerated; /* of one column: a run that is off by no more is of use, however small the values are */
+    double planned_most; /* operations of a run that looks for ranges of fixed point; 0: any */
+    bool reliable;       /* false: some reference is REFERENCE_NONE */
+    bool without_events; /* prices of scenes with contacts are those of a step that has no event */
+    bool stopped;
+    double operations; /* evaluated in trials so far */
+} trials;
+
+/* How one setting does at one step. */
+typedef struct trial_result {
+    bool ran; /* false: stopped, or there is no image */
+    bool
+        usable; /* at all points it came to the end, and was not off by more than the values themselves */
+    double
+        error; /* the worst, in the unit of `of` or as a part of the largest value; what the reference does not know
+                   * of it counts as error */
+    bool bound;         /* it is no more than a bound: the reference does not know better */
+    int point;          /* where it is the worst */
+    int column;         /* which component */
+    double evaluations; /* of the accelerations, a simulated second, at the place that takes most */
+    double evaluations_most; /* in one step */
+} trial_result;
+
+/* Computes the references. False, told on standard error, when `of` is nothing of the scene, or an image is missing. */
+bool trial_begin(trials *t, const trial_wish *w);
+void trial_end(trials *t);
+
+trial_result trial_run(trials *t, const setting *s, deviation_pace pace);
+/* Operations that it is going to evaluate, about, where no event takes more. */
+double trial_operations(const trials *t, const setting *s, deviation_pace pace);
+/* What it costs at the dearest of the points; *own: false where it is no setting of its own (setting_is_own()), or the
+ * scene does not take it. */
+cost trial_cost(trials *t, const setting *s, deviation_pace pace, bool *own);
+/* The same where a scene may take the setting by finer steps alone, as in fixed point: by the first that it takes. */
+cost trial_any_cost(trials *t, const setting *s, deviation_pace pace, bool *own);
+/* Would that take more than t->planned_most? */
+bool trial_is_slow_to_plan(const trials *t, const setting *s, deviation_pace pace);
+
+/* The options of a point: " --set duty=0.2"; "" is the scene itself. Valid until the next call. */
+const char *trial_place(const trials *t, int point);
+whole_ratio trial_step(const trials *t, deviation_pace pace);
+double trial_horizon_s(const trials *t);
+/* The unit of errors: "m", or "" for parts of the largest value. */
+const char *trial_unit(const trials *t);
+/* An error in that unit is so many of SI. */
+double trial_error_si(const trials *t, double error);
+/* The component's name: "X", "theta'". Returns text. */
+enum { TRIAL_NAME = 96 };
+const char *trial_column(const trials *t, int column, char text[TRIAL_NAME]);
+
+/* A time as --step and --until take it: seconds in as few digits as bring back the same fraction. Returns text. */
+enum { TRIAL_TIME = 40 };
+const char *trial_time(whole_ratio time, char text[TRIAL_TIME]);
+/* The end of the motion that is looked at, as --until takes it: ranges in fixed point are those to there. Returns text. */
+const char *trial_until(const trials *t, char text[TRIAL_TIME]);
+
+#endif
