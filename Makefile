@@ -96,11 +96,13 @@ whirl: $(B)/whirl ## the command line program, build/whirl
 # The program, and the core that the C it writes is compiled with: -I $(PREFIX)/share/whirl.
 PREFIX ?= /usr/local
 INSTALLED = $(DESTDIR)$(PREFIX)
+CORE_ROOMS := core core/contact core/number core/step
 .PHONY: install uninstall
 install: $(B)/whirl ## the program and the core's sources into PREFIX (/usr/local), below DESTDIR
-	$(Q)mkdir -p "$(INSTALLED)/bin" "$(INSTALLED)/share/whirl/core" "$(INSTALLED)/share/whirl/boards/shared"
+	$(Q)mkdir -p "$(INSTALLED)/bin" "$(INSTALLED)/share/whirl/boards/shared" \
+	    $(CORE_ROOMS:%="$(INSTALLED)/share/whirl/%")
 	$(Q)install -m 755 $(B)/whirl "$(INSTALLED)/bin/whirl"
-	$(Q)install -m 644 core/*.c core/*.h "$(INSTALLED)/share/whirl/core"
+	$(Q)for room in $(CORE_ROOMS); do install -m 644 $$room/*.[ch] "$(INSTALLED)/share/whirl/$$room" || exit 1; done
 	$(Q)install -m 644 boards/shared/mem.c "$(INSTALLED)/share/whirl/boards/shared"
 	$(Q)install -m 644 LICENSE README.md "$(INSTALLED)/share/whirl"
 uninstall: ## remove what `make install` put there

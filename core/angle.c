@@ -1,7 +1,7 @@
 /* angle.c: angles between radians and their stored form, and the sine table. */
 #include "angle.h"
 
-#include "small_turn.h"
+#include "number/small_turn.h"
 
 /* sin(2 pi i/128) to 17 digits; the nearest number of either build (tests/core/test_angle.c). */
 const wh_real wh_sine_table[(1U << WH_SINE_BITS) + WH_SINE_QUARTER] WH_FLASH = {

@@ -9,8 +9,8 @@
 #ifndef WH_ANGLE_H
 #define WH_ANGLE_H
 
-#include "sine.h"
-#include "turn.h"
+#include "number/sine.h"
+#include "number/turn.h"
 
 #ifdef __cplusplus
 extern "C" {

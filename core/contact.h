@@ -34,8 +34,8 @@
     "core/contact.h is C only, as generated .c files are: C++ includes core/scene.h and generated headers"
 #endif
 
-#include "ledger_step.h"
 #include "step.h"
+#include "step/ledger_step.h"
 
 /* 1: the scene keeps books (ledger.h). A generated scene says. */
 #ifndef WH_LEDGER

@@ -9,7 +9,7 @@
 #ifndef WH_FIXED_H
 #define WH_FIXED_H
 
-#include "flash.h"
+#include "number/flash.h"
 
 #ifdef __cplusplus
 extern "C" {

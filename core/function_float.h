@@ -12,8 +12,8 @@
 #error "core/function_float.h is C only: C++ includes core/function.h"
 #endif
 
-#include "flash.h"
 #include "function.h"
+#include "number/flash.h"
 
 /* Magnitudes of a float as bits: their order as integers is their order as numbers. */
 #define WH_BITS_SIGN UINT32_C(0x80000000)

@@ -18,8 +18,8 @@
 #ifndef WH_LEDGER_H
 #define WH_LEDGER_H
 
+#include "number/sum.h"
 #include "state.h"
-#include "sum.h"
 
 #ifdef __cplusplus
 extern "C" {

@@ -26,7 +26,7 @@
     "core/rk4.h is C only, as generated .c files are: C++ includes core/scene.h and generated headers"
 #endif
 
-#include "step_end.h"
+#include "step/step_end.h"
 
 /* Derivatives of a first-order system: slope[angles + reals], angles first (rad/s). */
 typedef void wh_slope_fn(const void *model, const wh_phase *phase, const wh_real *real,

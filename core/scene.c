@@ -1,10 +1,10 @@
 /* scene.c: starting, stepping and comparing runs. The arithmetic is in step.h. */
 #include "scene.h"
 
-#include "arithmetic.h"
 #include "hash.h"
 #include "ledger.h"
-#include "refuse.h"
+#include "number/arithmetic.h"
+#include "step/refuse.h"
 
 #if WH_DOUBLE
 #define UNIT 0x1p-52

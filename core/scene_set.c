@@ -1,5 +1,5 @@
 /* scene_set.c: correcting a state from a measurement: one component gets a new value, and modes are determined again. */
-#include "driven.h"
+#include "step/driven.h"
 
 /* Limit on an angle's radians: as in contact_crossing.h. */
 #define ANGLE_MOST WH_R(1e9)

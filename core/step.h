@@ -24,11 +24,11 @@
     "core/step.h is C only, as generated .c files are: C++ includes core/scene.h and generated headers"
 #endif
 
-#include "ahead.h"
-#include "arithmetic.h"
+#include "number/arithmetic.h"
 #include "rk4.h"
 #include "root.h"
-#include "step_end.h"
+#include "step/ahead.h"
+#include "step/step_end.h"
 
 /* An angle at a stage whose shares of the rates have `sum`. A stage in the middle of the step moves it by half of the
  * whole step's change. False as wh_phase_move(). */

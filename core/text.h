@@ -13,7 +13,7 @@
 #ifndef WH_TEXT_H
 #define WH_TEXT_H
 
-#include "flash.h"
+#include "number/flash.h"
 
 #ifdef __cplusplus
 extern "C" {

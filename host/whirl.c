@@ -6,7 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "core/arithmetic.h"
+#include "core/number/arithmetic.h"
 #include "core/version.h"
 #include "host/base/atomic_file.h"
 #include "host/base/nearest.h"

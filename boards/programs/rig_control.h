@@ -5,7 +5,7 @@
 
 #include <stddef.h>
 
-#include "core/arithmetic.h"
+#include "core/number/arithmetic.h"
 #include "core/rig/rig.h"
 #include "core/scene.h"
 #include "core/station/seen.h"

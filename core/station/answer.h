@@ -18,7 +18,7 @@ typedef union wh_value {
     uint32_t count;
 } wh_value;
 
-/* All words may stay in flash (core/flash.h), except the one that is searched for. */
+/* All words may stay in flash (core/number/flash.h), except the one that is searched for. */
 
 /* Add a form to the text. An @ and a letter or digit stand for the next value:
  *

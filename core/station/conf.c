@@ -4,8 +4,8 @@
 #include <stddef.h>
 
 #include "answer.h"
-#include "core/flash.h"
 #include "core/frame.h"
+#include "core/number/flash.h"
 #include "core/root.h"
 #include "line.h"
 

@@ -71,7 +71,7 @@ typedef struct wh_conf {
 void wh_conf_start(wh_conf *conf, void (*own)(wh_rig_config *config), const wh_store_memory *memory,
                    wh_rig_config *config);
 
-/* *room is for the row if constants stay in flash (core/flash.h). */
+/* *room is for the row if constants stay in flash (core/number/flash.h). */
 const wh_conf_row *wh_conf_row_of(wh_conf_id id, wh_conf_row *room);
 
 /* WH_CONF_COUNT if no setting has this name. */

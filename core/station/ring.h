@@ -3,7 +3,7 @@
 #ifndef WH_STATION_RING_H
 #define WH_STATION_RING_H
 
-#include "core/flash.h"
+#include "core/number/flash.h"
 
 #ifdef __cplusplus
 extern "C" {

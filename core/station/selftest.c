@@ -4,7 +4,7 @@
 #include <stddef.h>
 
 #include "answer.h"
-#include "core/arithmetic.h"
+#include "core/number/arithmetic.h"
 
 /* A larger part of the range is a load, or an unwired cell. */
 #define LOAD_PART WH_R(0.5)

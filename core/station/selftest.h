@@ -13,7 +13,7 @@ extern "C" {
 
 /* "OK selftest=good|bad", then each part, as of the last control step:
  *
- *   arithmetic  of the observer's scene, if there is one, is that of the tests (core/arithmetic.h)
+ *   arithmetic  of the observer's scene, if there is one, is that of the tests (core/number/arithmetic.h)
  *   clock       not its fallback
  *   watchdog    has not cut the drive
  *   supply      within its range

@@ -8,7 +8,7 @@
 
 #include "apart.h"
 #include "core/contact.h"
-#include "core/refuse.h"
+#include "core/step/refuse.h"
 #include "host/base/alloc.h"
 #include "host/base/diag.h"
 #include "host/base/statement.h"

@@ -130,7 +130,7 @@ static double sine_limit_rad(const nonfinite_at *at) {
     return at->turns ? ANGLE_SINE_MOST_FLOAT_RAD : ANGLE_SINE_MOST_RAD;
 }
 
-/* Is node i a sine that no run knows (core/sine.h)? In float those of turn angles are known everywhere. */
+/* Is node i a sine that no run knows (core/number/sine.h)? In float those of turn angles are known everywhere. */
 static bool sine_beyond(const blamed *v, int i, const nonfinite_at *at, const bool *turning) {
     const diagnostics_node *n = &v->image->blame.node[i];
     const double angle_rad = is_sine(n) ? v->value[n->a] : 0.0;
@@ -332,7 +332,7 @@ bool nonfinite_energies(const image *im, const engine_kind *kind, const double *
 
 /* --- a step that failed ------------------------------------------------------------------------*/
 
-/* Holds that close a linkage leave it more than one motion where it lies flat (core/contact_rank.h). */
+/* Holds that close a linkage leave it more than one motion where it lies flat (core/contact/contact_rank.h). */
 static void say_flat(const nonfinite_at *at, place where, diags *errors) {
     char text[STATEMENT_SIZE];
     statement_text(where, text, sizeof text);

@@ -3,7 +3,7 @@
 
 #include <stdlib.h>
 
-#include "core/ledger_step.h"
+#include "core/step/ledger_step.h"
 #include "host/base/alloc.h"
 #include "host/derive/equations.h"
 

@@ -1,4 +1,4 @@
-/* matrix_make.h: the whole step of a linear scene as one constant matrix (core/matrix_step.h). */
+/* matrix_make.h: the whole step of a linear scene as one constant matrix (core/step/matrix_step.h). */
 #ifndef DERIVE_MATRIX_MAKE_H
 #define DERIVE_MATRIX_MAKE_H
 

@@ -1,4 +1,4 @@
-/* stabilizing.h: the conditions for correcting the energy drift of a scene (--stabilized; core/stabilize.h). */
+/* stabilizing.h: the conditions for correcting the energy drift of a scene (--stabilized; core/step/stabilize.h). */
 #ifndef DERIVE_STABILIZING_H
 #define DERIVE_STABILIZING_H
 

@@ -223,8 +223,10 @@ bool emit_c_name_is_free_in_cpp(const char *name) {
 static void c_contacts_include(FILE *out, const image *im) {
     fprintf(out, "#define WH_CONTACTS_MAX %d\n#define WH_SETS_MAX %d\n", im->contacts,
             im->set_count > 0 ? im->set_count : 1);
-    fprintf(out, "#include \"core/contact.h\"\nstatic const wh_contact_system contacts;\n"
-                 "#define WH_CONTACTS_OF(model) (&contacts)\n#include \"core/contact_step.h\"\n");
+    fprintf(
+        out,
+        "#include \"core/contact.h\"\nstatic const wh_contact_system contacts;\n"
+        "#define WH_CONTACTS_OF(model) (&contacts)\n#include \"core/contact/contact_step.h\"\n");
 }
 
 #define KIND_TEXT(name, is) [name] = #name,
@@ -530,17 +532,17 @@ static void write_includes(FILE *out, const image *im) {
     if (im->contacts > 0) {
         c_contacts_include(out, im);
     } else if (im->list[IMAGE_MATRIX] != NULL) {
-        fputs("#include \"core/matrix_step.h\"\n", out);
+        fputs("#include \"core/step/matrix_step.h\"\n", out);
     } else {
-        const char *const with[2][2] = {{"step", "ledger_step"},
-                                        {"stage_turn", "stage_turn_ledger"}};
+        const char *const with[2][2] = {{"step", "step/ledger_step"},
+                                        {"step/stage_turn", "step/stage_turn_ledger"}};
         fprintf(out, "#include \"core/%s.h\"\n", with[image_turns(im)][im->ledger.kept]);
     }
     if (im->drives > 0) {
-        fprintf(out, "#include \"core/driven.h\"\n");
+        fprintf(out, "#include \"core/step/driven.h\"\n");
     }
     if (im->list[IMAGE_STEP]->tables.count > 0) {
-        fprintf(out, "#include \"core/table.h\"\n");
+        fprintf(out, "#include \"core/step/table.h\"\n");
     }
     if (image_calls(im)) {
         fprintf(out, "#include \"core/function.h\"\n");

@@ -4,8 +4,8 @@
 #define IMAGE_CORE_ROWS_H
 
 #include "core/contact.h"
-#include "core/driven.h"
 #include "core/ledger.h"
+#include "core/step/driven.h"
 #include "core/version.h"
 #include "image.h"
 

@@ -21,7 +21,7 @@ enum { IMAGE_WAYS = 6 };
 /* Most coordinates of a mechanism, or first-order components of a system. */
 #define IMAGE_COMPONENTS_MAX 64
 
-/* The source of a stage's sines of turn angles: looked up once a step and then turned (core/stage_turn.h), if possible,
+/* The source of a stage's sines of turn angles: looked up once a step and then turned (core/step/stage_turn.h), if possible,
  * or looked up at each stage (core/step.h). */
 #define IMAGE_ANGLES_ROWS(X) \
     X(ANGLES_TURNED, "turned") \
@@ -35,7 +35,7 @@ enum { IMAGE_ANGLES = IMAGE_ANGLES_ROWS(IMAGE_ANGLES_ONE) };
 /* Their words in options and descriptions. */
 extern const char *const image_angles_words[IMAGE_ANGLES];
 
-/* A whole step of a linear mechanism as one constant matrix (core/matrix_step.h): none, the exact motion with constant
+/* A whole step of a linear mechanism as one constant matrix (core/step/matrix_step.h): none, the exact motion with constant
  * inputs during the step, or the result of WH_RK4. */
 #define IMAGE_MATRIX_ROWS(X) \
     X(MATRIX_NONE, "none") \
@@ -51,7 +51,7 @@ enum { IMAGE_MATRICES = IMAGE_MATRIX_ROWS(IMAGE_MATRIX_ONE) };
 extern const char *const image_matrix_words[IMAGE_MATRICES];
 
 /* The accelerations' functions of their single turn angle: computed, or interpolated in tables of one turn
- * (core/table.h), linearly or cubically. */
+ * (core/step/table.h), linearly or cubically. */
 #define IMAGE_TABLES_ROWS(X) \
     X(TABLES_NONE, "none") \
     X(TABLES_LINEAR, "linear") \
@@ -71,7 +71,7 @@ enum { IMAGE_CELLS_LEAST = 8, IMAGE_CELLS_MOST = 65536 };
 typedef struct image_settings {
     wh_method method;
     bool compensated;
-    bool stabilized; /* correct the energy drift (core/stabilize.h): needs the ledger */
+    bool stabilized; /* correct the energy drift (core/step/stabilize.h): needs the ledger */
     image_angles angles;
     image_matrix_of matrix;
     image_tables tables;
@@ -96,7 +96,7 @@ typedef enum image_role {
     IMAGE_SETS,
     IMAGE_POWERS, /* of the ledger, for core/ledger.h: the last two */
     IMAGE_LEVELS,
-    IMAGE_MATRIX, /* a whole step, for core/matrix_step.h */
+    IMAGE_MATRIX, /* a whole step, for core/step/matrix_step.h */
     IMAGE_TABLES, /* the exact functions of a step's tables: result[k] is that of table k */
     IMAGE_ROLES
 } image_role;

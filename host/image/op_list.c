@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/table.h"
+#include "core/step/table.h"
 #include "host/base/alloc.h"
 #include "host/base/arena.h"
 #include "host/number/folding.h"

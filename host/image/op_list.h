@@ -65,7 +65,7 @@ typedef struct op {
     const double *parts;
 } op;
 
-/* The tables of a list in the form of core/table.h, except for the scale of float: y counts cells. */
+/* The tables of a list in the form of core/step/table.h, except for the scale of float: y counts cells. */
 typedef struct op_list_tables {
     int count;
     int bits;       /* 2^bits cells */
@@ -145,7 +145,7 @@ void op_list_renumber(op_list *t, const int *order, const int *number);
 /* Does the list use whole angles, turns included, and not only their phases? A step has no whole angles. */
 bool op_list_reads_turns(const op_list *t);
 
-/* A wave: a phase made of turn angles, which a step can turn on (core/stage_turn.h). */
+/* A wave: a phase made of turn angles, which a step can turn on (core/step/stage_turn.h). */
 static inline bool op_list_is_wave(const op *o) { return o->code == OP_PHASE && o->turns != NULL; }
 int op_list_waves(const op_list *t);
 /* Is every wave a sum of turn angles and a number? Then the list can receive its pairs of sine and cosine, in the order

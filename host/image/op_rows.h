@@ -55,7 +55,7 @@
     X(POW, BINARY, CALL, "wh_pow($a, $b)", "$a ^ $b", "a to the b, likewise") \
     X(CELL, CELL, NOTHING, NULL, NULL, "the cell of the list's tables that phase sum turns[i]*phase[i] is in") \
     X(LINE, LOOKUP, LINE, "wh_table_linear(&row$i[$v], y$i)", NULL, \
-      "in cell a, the table whose numbers begin at `value`: linear, core/table.h") \
+      "in cell a, the table whose numbers begin at `value`: linear, core/step/table.h") \
     X(CUBIC, LOOKUP, CUBIC, "wh_table_cubic(&row$i[$v], y$i)", NULL, "likewise, cubic")
 /* clang-format on */
 

@@ -1,8 +1,8 @@
 /* turned.c: the choice of the form of a scene's step. */
 #include "turned.h"
 
-#include "core/stage_turn.h"
-#include "core/table.h"
+#include "core/step/stage_turn.h"
+#include "core/step/table.h"
 
 #define IMAGE_ANGLES_WORD(id, word) word,
 const char *const image_angles_words[IMAGE_ANGLES] = {IMAGE_ANGLES_ROWS(IMAGE_ANGLES_WORD)};

@@ -1,4 +1,4 @@
-/* turned.h: the choice between turning a scene's sines (core/stage_turn.h) and looking them up at each stage
+/* turned.h: the choice between turning a scene's sines (core/step/stage_turn.h) and looking them up at each stage
  * (core/step.h). */
 #ifndef IMAGE_TURNED_H
 #define IMAGE_TURNED_H

@@ -14,7 +14,7 @@
 
 #include "functions.h"
 
-#include "core/real.h" /* refuses compilers set to other arithmetic; whirl's start, processors (core/arithmetic.h) */
+#include "core/real.h" /* refuses compilers set to other arithmetic; whirl's start, processors (core/number/arithmetic.h) */
 
 #if __DBL_MANT_DIG__ != 53 || __DBL_MIN_EXP__ != -1021
 #error "Whirl needs IEEE 754 numbers of 64 bits."

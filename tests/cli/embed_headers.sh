@@ -9,8 +9,8 @@ gen="$(dirname "$whirl")/gen"
 [ -d "$gen" ] || gen=build/gen
 warnings="-Wall -Wextra -Wconversion -Wshadow -Wdouble-promotion -Wundef -pedantic -Werror -ffp-contract=off"
 
-only_c=$(ls core/rk4.h core/step.h core/step_[!t]*.h core/stage_*.h core/ahead.h core/matrix_step.h core/refuse.h core/driven.h core/small_turn.h core/table.h core/unroll.h core/ledger_step.h core/stabilize.h core/arithmetic.h core/contact*.h core/function_*.h)
-public=$( (ls core/*.h core/rig/*.h hal/*.h hal/virtual/*.h boards/board.h; echo "$only_c" "$only_c") |
+only_c=$(ls core/rk4.h core/step.h core/contact.h core/contact/*.h core/step/*.h core/number/arithmetic.h core/number/small_turn.h core/function_*.h)
+public=$( (ls core/*.h core/number/*.h core/rig/*.h hal/*.h hal/virtual/*.h boards/board.h; echo "$only_c" "$only_c") |
     tr ' ' '\n' | sort | uniq -u)
 scenes=$(cd "$gen" && ls ./*.h | sed 's|^\./||')
 
@@ -114,7 +114,7 @@ declared() { # declared REAL KIND: names of this build that a public header has
 for real in float double; do
     [ $real = double ] && double=1 || double=0
     {
-        printf '#include "%s"\n' $(ls core/*.h core/rig/*.h | grep -vxF "$only_c")
+        printf '#include "%s"\n' $(ls core/*.h core/number/*.h core/rig/*.h | grep -vxF "$only_c")
         echo 'typedef void any(); extern const volatile void *const data[]; extern any *const code[];'
         echo 'const volatile void *const data[] = {'
         declared "$real" '[RD]' | sed 's/.*/    \&&,/'

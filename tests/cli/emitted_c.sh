@@ -192,7 +192,7 @@ for method in nystroem3 nystroem4 nystroem5; do
         printf '%s\n' --method "$method" >>"$scratch/$number.options"
     done
 done
-# angles that turn further in a step than is small for a turn (core/stage_turn.h), some 100 times as far
+# angles that turn further in a step than is small for a turn (core/step/stage_turn.h), some 100 times as far
 for more in "" --compensated "--method rk38" "--method nystroem5"; do
     # shellcheck disable=SC2086 # of words, or of none
     add "$scratch/w/offsets.whirl" --start "a'=900" --start "b'=-700" --until 0.3s $more

@@ -9,7 +9,7 @@ cat >"$scratch/main.c" <<'END'
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "core/arithmetic.h"
+#include "core/number/arithmetic.h"
 #include "tests/host/command.h"
 #include "unity.h"
 

@@ -22,7 +22,7 @@ verdict $? "every target that make knows is listed"
 grep -v NAME "$scratch/listed" | comm -23 - "$scratch/known" >"$scratch/err" && [ ! -s "$scratch/err" ]
 verdict $? "every target that is listed is known"
 
-cat README.md CONTRIBUTING.md docs/*.md docs/dev/*.md Makefile mk/*.mk tests/*.sh tests/*/*.sh mk/*/*.sh core/*.h boards/*/*.[ch] |
+cat README.md CONTRIBUTING.md docs/*.md docs/dev/*.md Makefile mk/*.mk tests/*.sh tests/*/*.sh mk/*/*.sh core/*.h core/*/*.h boards/*/*.[ch] |
     grep -oE '(`|^    |^)make [a-z][a-z0-9-]*($|[ `])' | sed 's/.*make //; s/[ `]$//' | sort -u >"$scratch/told"
 sed 's/^gate-.*/gate-NAME/' "$scratch/told" | sort -u | comm -23 - "$scratch/listed" >"$scratch/err" && [ ! -s "$scratch/err" ] &&
     [ "$(wc -l <"$scratch/told")" -ge 15 ]

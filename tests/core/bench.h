@@ -13,7 +13,7 @@
 #define BENCH_CONTACTS 5
 #define WH_CONTACTS_MAX BENCH_CONTACTS
 #define WH_SETS_MAX 1
-#include "core/contact_step.h"
+#include "core/contact/contact_step.h"
 #include "draw.h"
 
 enum { BENCH_COORDS = 3, BENCH_FORCED = 4 };

@@ -12,7 +12,7 @@
 #define HAND_CONTACTS 3
 #define WH_CONTACTS_MAX HAND_CONTACTS
 #define WH_SETS_MAX 1
-#include "core/contact_step.h"
+#include "core/contact/contact_step.h"
 
 typedef struct hand {
     unsigned n;

@@ -2,8 +2,8 @@
  * that say what their length lacks in float, against closed forms. */
 #include "core/scene.h"
 #define WH_COORDS 3
-#include "core/matrix_step.h"
 #include "core/step.h"
+#include "core/step/matrix_step.h"
 
 #include "unity.h"
 

@@ -1,7 +1,7 @@
 /* test_arithmetic.c: a start looks at the arithmetic: of this build, of a file that was compiled with other
  * flags (played by functions that compute otherwise), and of a processor that is set up otherwise. What real
  * flags of real compilers do is tests/flags.sh's. */
-#include "core/arithmetic.h"
+#include "core/number/arithmetic.h"
 #include "core/scene.h"
 
 #include "unity.h"

@@ -1,4 +1,4 @@
-/* test_contact_flat.c: where holds lose their say (core/contact_rank.h): where the rows are asked, what stands for a contact
+/* test_contact_flat.c: where holds lose their say (core/contact/contact_rank.h): where the rows are asked, what stands for a contact
  * that holds nothing, and at which of the places that a step leads to it is lost. */
 #include "bench.h"
 

@@ -1,4 +1,4 @@
-/* test_contact_forces.c: the forces and impulses of core/contact_forces.h, and the elimination that they stand on: against
+/* test_contact_forces.c: the forces and impulses of core/contact/contact_forces.h, and the elimination that they stand on: against
  * dense solves, and, where contacts repeat each other, the sharing that test_contact_pivot.c tests. */
 #include "bench.h"
 

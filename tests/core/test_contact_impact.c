@@ -1,4 +1,4 @@
-/* test_contact_impact.c: what an impact asks before it acts (core/contact_impact.h), function by function: who is
+/* test_contact_impact.c: what an impact asks before it acts (core/contact/contact_impact.h), function by function: who is
  * pressed, who rests, who merely touches, who is hit along with it. Numbers just on either side of each limit. */
 #include "bench.h"
 

@@ -1,4 +1,4 @@
-/* test_contact_margins.c: what the search of core/contact_locate.h knows of each contact, the way it searches on, and who
+/* test_contact_margins.c: what the search of core/contact/contact_locate.h knows of each contact, the way it searches on, and who
  * is told to be no number, of several. */
 #include "bench.h"
 

@@ -1,4 +1,4 @@
-/* test_contact_pivot.c: the pivoting of core/contact_lcp.h, its parts by themselves and the whole against the trial of
+/* test_contact_pivot.c: the pivoting of core/contact/contact_lcp.h, its parts by themselves and the whole against the trial of
  * all cases. */
 #include "bench.h"
 

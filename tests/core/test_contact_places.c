@@ -1,4 +1,4 @@
-/* test_contact_places.c: the functions of core/contact_project.h, each by itself: what has moved, who keeps what, and
+/* test_contact_places.c: the functions of core/contact/contact_project.h, each by itself: what has moved, who keeps what, and
  * the way back to it, against dense solves in the metric of the masses. */
 #include "bench.h"
 

@@ -1,4 +1,4 @@
-/* test_contact_project.c: the way back to where contacts are to be, and their rates to zero (core/contact_project.h):
+/* test_contact_project.c: the way back to where contacts are to be, and their rates to zero (core/contact/contact_project.h):
  * against a dense solve in the metric of the masses, with limits met exactly, and what the books get of it. */
 #include "bench.h"
 

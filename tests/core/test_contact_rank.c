@@ -1,4 +1,4 @@
-/* test_contact_rank.c: which of several holds still say something (core/contact_rank.h): rows made independent in the
+/* test_contact_rank.c: which of several holds still say something (core/contact/contact_rank.h): rows made independent in the
  * metric of M^-1, and which of them was lost between two places. */
 #include "draw.h"
 #include "hand.h"

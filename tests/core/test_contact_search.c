@@ -1,4 +1,4 @@
-/* test_contact_search.c: the search of core/contact_locate.h by itself: bodies on parabolas, whose events come at moments
+/* test_contact_search.c: the search of core/contact/contact_locate.h by itself: bodies on parabolas, whose events come at moments
  * that are known in closed form, of every kind, the first first, and with how many looks. */
 #include "bench.h"
 

@@ -1,4 +1,4 @@
-/* test_lcp.c: the box LCP of core/contact_lcp.h on random problems, also where rows repeat each other: the solution
+/* test_lcp.c: the box LCP of core/contact/contact_lcp.h on random problems, also where rows repeat each other: the solution
  * meets its conditions, and no problem meets the cap of the rounds. */
 #include "draw.h"
 #include "hand.h"

@@ -1,7 +1,7 @@
 /* test_long_runs.c: counts and times of runs of years: nothing wraps, and times are right to one rounding. */
 #include "core/angle.h"
+#include "core/number/sum.h"
 #include "core/rig/speed.h"
-#include "core/sum.h"
 #include "hand.h"
 
 #include "unity.h"

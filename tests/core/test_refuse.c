@@ -1,7 +1,7 @@
 /* test_refuse.c: which component a refused step is blamed with, in all the forms that chips have of it, against the rule as
  * it is written: sizes that sum up to 1e15 or more, or to no number, are no mechanism's; the first that is so large by
  * itself is blamed, or else the last. */
-#include "core/matrix_step.h"
+#include "core/step/matrix_step.h"
 #include "tests/core/draw.h"
 #include "unity.h"
 

@@ -1,6 +1,6 @@
-/* test_stabilize.c: what a step gives back of the drift of its energy (core/stabilize.h), of a body of 1 kg that flies with
+/* test_stabilize.c: what a step gives back of the drift of its energy (core/step/stabilize.h), of a body of 1 kg that flies with
  * two rates, in closed form. Drifts are made by hand: what the books say the start was. */
-#include "core/stabilize.h"
+#include "core/step/stabilize.h"
 
 #include "unity.h"
 

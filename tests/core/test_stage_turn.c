@@ -3,7 +3,7 @@
 #include "core/scene.h"
 #define WH_COORDS 4
 #define WH_WAVES 3
-#include "core/stage_turn.h"
+#include "core/step/stage_turn.h"
 
 #include "unity.h"
 

@@ -1,4 +1,4 @@
-/* test_stage_turn_ledger.c: books that are kept while sines are turned on (core/stage_turn_ledger.h), with stages that are
+/* test_stage_turn_ledger.c: books that are kept while sines are turned on (core/step/stage_turn_ledger.h), with stages that are
  * unrolled by hand, as for compilers that cannot be asked to: the run's bits are those without books, what a torque gives is
  * what its energy says, and a refused step enters nothing. */
 #include "core/scene.h"
@@ -7,7 +7,7 @@
 #define WH_LEDGER_MAX 4
 #define WH_ACCOUNTS_MAX 3
 #define WH_UNROLL
-#include "core/stage_turn_ledger.h"
+#include "core/step/stage_turn_ledger.h"
 
 #include "unity.h"
 

@@ -2,7 +2,7 @@
  * board whose cell is turned round, a memory that cannot be read again, arithmetic that is wrong. */
 #include <string.h>
 
-#include "core/arithmetic.h"
+#include "core/number/arithmetic.h"
 #include "core/station/answer.h"
 #include "draw.h"
 #include "tel_bench.h"

@@ -4,7 +4,7 @@
 #if __STDC_HOSTED__ && !WH_DOUBLE
 #define WH_TABLE_FOLD 1 /* as boards without an FPU have it; else as the board has it */
 #endif
-#include "core/table.h"
+#include "core/step/table.h"
 
 #include "tests/core/draw.h"
 #include "unity.h"

@@ -1,5 +1,5 @@
 /* drawn_scene_list.c: the operations of a drawn scene (drawn_scene.h). */
-#include "core/table.h"
+#include "core/step/table.h"
 #include "drawn_scene.h"
 
 static bool is_value(const op *o) {

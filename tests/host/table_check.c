@@ -4,7 +4,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "core/table.h"
+#include "core/step/table.h"
 #include "host/base/alloc.h"
 #include "host/engine/engine.h"
 

@@ -1,5 +1,5 @@
 /* test_contact_law.c: random mechanisms with a constant mass matrix, whose contacts all act at one moment, against
- * the laws of core/contact_lcp.h and core/contact_resolve.h, solved here another way: every case is tried (which
+ * the laws of core/contact/contact_lcp.h and core/contact/contact_resolve.h, solved here another way: every case is tried (which
  * contacts hold, which are at a limit), and the one that meets all conditions is the answer. Rates, places, and what
  * each contact gives to the energy and to each momentum. */
 #include "command.h"

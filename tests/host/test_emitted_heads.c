@@ -122,16 +122,16 @@ static void check_directives(const image *im) {
     expect_define("WH_CONTACTS_MAX", im->contacts, contacts);
     expect_define("WH_SETS_MAX", im->set_count == 0 ? 1 : im->set_count, contacts);
     emitted_expect_line("#include \"core/contact.h\"", contacts);
-    emitted_expect_line("#include \"core/contact_step.h\"", contacts);
+    emitted_expect_line("#include \"core/contact/contact_step.h\"", contacts);
     emitted_expect_line("static const wh_contact_system contacts;", contacts);
     emitted_expect_line("#define WH_CONTACTS_OF(model) (&contacts)", contacts);
-    emitted_expect_line("#include \"core/matrix_step.h\"", !contacts && matrix);
+    emitted_expect_line("#include \"core/step/matrix_step.h\"", !contacts && matrix);
     const bool staged = !contacts && !matrix;
     emitted_expect_line("#include \"core/step.h\"", staged && !turns && !kept);
-    emitted_expect_line("#include \"core/ledger_step.h\"", staged && !turns && kept);
-    emitted_expect_line("#include \"core/stage_turn.h\"", staged && turns && !kept);
-    emitted_expect_line("#include \"core/stage_turn_ledger.h\"", staged && turns && kept);
-    emitted_expect_line("#include \"core/table.h\"", im->settings.tables != TABLES_NONE);
+    emitted_expect_line("#include \"core/step/ledger_step.h\"", staged && !turns && kept);
+    emitted_expect_line("#include \"core/step/stage_turn.h\"", staged && turns && !kept);
+    emitted_expect_line("#include \"core/step/stage_turn_ledger.h\"", staged && turns && kept);
+    emitted_expect_line("#include \"core/step/table.h\"", im->settings.tables != TABLES_NONE);
     emitted_expect_line("#include \"core/function.h\"", calls);
     emitted_expect_line("#include \"core/noise.h\"", observes_noise(im));
     /* what a header is told stands before it */

@@ -1,5 +1,5 @@
 /* test_energy_kept.c: conservative mechanisms of constant mass, drawn: by every method of order two and up, compensated
- * float keeps their energy as double does. What rounding leaves does not lead one way (core/step_end.h, wh_square_short). */
+ * float keeps their energy as double does. What rounding leaves does not lead one way (core/step/step_end.h, wh_square_short). */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

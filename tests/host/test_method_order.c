@@ -5,7 +5,7 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "core/ledger_step.h"
+#include "core/step/ledger_step.h"
 
 #include "unity.h"
 

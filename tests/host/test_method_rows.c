@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/ledger_step.h"
+#include "core/step/ledger_step.h"
 #include "host/engine/methods.h"
 
 #include "unity.h"

@@ -1,5 +1,5 @@
 /* test_missed.c: contacts and forces thinner than the way of a step. Round posts are met, as closed forms have it
- * (core/contact_step.h); of latches, flat walls, edges and hills of potential energy none is passed without a word (host/check/missed.h);
+ * (core/contact/contact_step.h); of latches, flat walls, edges and hills of potential energy none is passed without a word (host/check/missed.h);
  * and of right runs none is told. WHIRL_CASES=2000 WHIRL_SEED=...: so many, others. */
 #include <math.h>
 #include <stdio.h>

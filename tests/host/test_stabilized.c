@@ -1,4 +1,4 @@
-/* test_stabilized.c: energy that is given back (core/stabilize.h), on drawn chains of pendulums on a cart, whose energy is
+/* test_stabilized.c: energy that is given back (core/step/stabilize.h), on drawn chains of pendulums on a cart, whose energy is
  * computed here from places and velocities; and what is left alone by it. */
 #include <math.h>
 #include <stdio.h>

@@ -8,7 +8,7 @@
 #include <string.h>
 
 #include "command.h"
-#include "core/table.h"
+#include "core/step/table.h"
 #include "derived.h"
 #include "host/engine/engine.h"
 #include "table_check.h"

@@ -6,7 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "core/stage_turn.h"
+#include "core/step/stage_turn.h"
 
 #include "command.h"
 #include "derived.h"

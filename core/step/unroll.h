@@ -4,7 +4,7 @@
 
 #ifdef __cplusplus
 #error \
-    "core/unroll.h is C only, as generated .c files are: C++ includes core/scene.h and generated headers"
+    "core/step/unroll.h is C only, as generated .c files are: C++ includes core/scene.h and generated headers"
 #endif
 
 /* Most coordinates (second order) or components (first order). A generated scene defines its own number and unrolls its

@@ -2,7 +2,7 @@
 #ifndef WH_SUM_H
 #define WH_SUM_H
 
-#include "real.h"
+#include "../real.h"
 
 /* value + increment. When compensated, *carry goes into the sum and is replaced by the sum's rounding
  * error (Kahan; Higham, Accuracy and Stability of Numerical Algorithms, section 4.3). */

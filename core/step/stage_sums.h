@@ -4,12 +4,12 @@
 
 #ifdef __cplusplus
 #error \
-    "core/stage_sums.h is C only, as generated .c files are: C++ includes core/scene.h and generated headers"
+    "core/step/stage_sums.h is C only, as generated .c files are: C++ includes core/scene.h and generated headers"
 #endif
 
 #include <stddef.h>
 
-#include "method.h"
+#include "../method.h"
 #include "unroll.h"
 
 /* Most stages of a method. A generated scene defines its own number: more would spill more registers. */

@@ -8,10 +8,10 @@
 #define WH_ARITHMETIC_H
 
 #ifdef __cplusplus
-#error "core/arithmetic.h is C only: C++ includes core/scene.h"
+#error "core/number/arithmetic.h is C only: C++ includes core/scene.h"
 #endif
 
-#include "real.h"
+#include "../real.h"
 
 /* The numbers, in flash (scene.c). */
 typedef struct wh_probes {

@@ -2,9 +2,9 @@
 #ifndef WH_LEDGER_STEP_H
 #define WH_LEDGER_STEP_H
 
+#include "../step.h"
 #include "driven.h"
 #include "stabilize.h"
-#include "step.h"
 
 /* Most entries. A generated scene defines its own. */
 #ifndef WH_LEDGER_MAX

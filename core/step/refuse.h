@@ -4,10 +4,10 @@
 
 #ifdef __cplusplus
 #error \
-    "core/refuse.h is C only, as generated .c files are: C++ includes core/scene.h and generated headers"
+    "core/step/refuse.h is C only, as generated .c files are: C++ includes core/scene.h and generated headers"
 #endif
 
-#include "state.h"
+#include "../state.h"
 
 /* Limit on linear positions and rates: the step is refused beyond it. */
 #define WH_ABSURD WH_R(1e15)

@@ -2,7 +2,7 @@
 #ifndef WH_CONTACT_WORK_H
 #define WH_CONTACT_WORK_H
 
-#include "contact.h"
+#include "../contact.h"
 
 /* For what is seldom called and would only be in the way. */
 #if defined(__GNUC__)

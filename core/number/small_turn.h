@@ -4,7 +4,7 @@
 
 #ifdef __cplusplus
 #error \
-    "core/small_turn.h is C only, as generated .c files are: C++ includes core/scene.h and generated headers"
+    "core/number/small_turn.h is C only, as generated .c files are: C++ includes core/scene.h and generated headers"
 #endif
 
 #include "sine.h"

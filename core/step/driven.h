@@ -6,12 +6,12 @@
 
 #ifdef __cplusplus
 #error \
-    "core/driven.h is C only, as generated .c files are: C++ includes core/scene.h and generated headers"
+    "core/step/driven.h is C only, as generated .c files are: C++ includes core/scene.h and generated headers"
 #endif
 
-#include "ledger.h"
+#include "../ledger.h"
+#include "../scene.h"
 #include "refuse.h"
-#include "scene.h"
 #include "unroll.h"
 
 /* Most accounts: the energy, and a momentum for each coordinate. A generated scene defines its own. */

@@ -9,11 +9,11 @@
 
 #ifdef __cplusplus
 #error \
-    "core/matrix_step.h is C only, as generated .c files are: C++ includes core/scene.h and generated headers"
+    "core/step/matrix_step.h is C only, as generated .c files are: C++ includes core/scene.h and generated headers"
 #endif
 
+#include "../number/arithmetic.h"
 #include "ahead.h"
-#include "arithmetic.h"
 #include "step_end.h"
 
 /* As wh_all_believable(). Without floating-point hardware, it compares sizes by their bits: on an ATmega328P a tenth of

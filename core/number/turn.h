@@ -2,7 +2,7 @@
 #ifndef WH_TURN_H
 #define WH_TURN_H
 
-#include "real.h"
+#include "../real.h"
 
 #ifdef __cplusplus
 extern "C" {

@@ -15,11 +15,11 @@
 
 #ifdef __cplusplus
 #error \
-    "core/table.h is C only, as generated .c files are: C++ includes core/scene.h and generated headers"
+    "core/step/table.h is C only, as generated .c files are: C++ includes core/scene.h and generated headers"
 #endif
 
-#include "flash.h"
-#include "turn.h"
+#include "../number/flash.h"
+#include "../number/turn.h"
 
 #include <stddef.h>
 
@@ -42,7 +42,7 @@
 #endif
 #endif
 #if WH_TABLE_FOLD && WH_DOUBLE
-#error "core/table.h: WH_TABLE_FOLD is for float"
+#error "core/step/table.h: WH_TABLE_FOLD is for float"
 #endif
 
 /* Cells of such tables. */

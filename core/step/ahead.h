@@ -5,10 +5,10 @@
 
 #ifdef __cplusplus
 #error \
-    "core/ahead.h is C only, as generated .c files are: C++ includes core/scene.h and generated headers"
+    "core/step/ahead.h is C only, as generated .c files are: C++ includes core/scene.h and generated headers"
 #endif
 
-#include "scene.h"
+#include "../scene.h"
 #include "unroll.h"
 
 /* Constants should be loaded before the loop, as many as fit into registers: up to 5 % of the instructions of a small

@@ -22,12 +22,12 @@
 
 #ifdef __cplusplus
 #error \
-    "core/stabilize.h is C only, as generated .c files are: C++ includes core/scene.h and generated headers"
+    "core/step/stabilize.h is C only, as generated .c files are: C++ includes core/scene.h and generated headers"
 #endif
 
 #include <stddef.h>
 
-#include "ledger.h"
+#include "../ledger.h"
 #include "refuse.h"
 
 /* Share of the drift that a step corrects, 2^-10, and the largest relative change of the rates, 2^-20. */

@@ -26,11 +26,11 @@
 
 #ifdef __cplusplus
 #error \
-    "core/stage_turn.h is C only, as generated .c files are: C++ includes core/scene.h and generated headers"
+    "core/step/stage_turn.h is C only, as generated .c files are: C++ includes core/scene.h and generated headers"
 #endif
 
-#include "small_turn.h"
-#include "step.h"
+#include "../number/small_turn.h"
+#include "../step.h"
 
 /* gcc would compute the operands of some branches before the branch: 1 % more instructions on a Cortex-M4F, and up to 3
  * % more cycles. In double, on a PC, this saves instructions. */

@@ -4,14 +4,14 @@
 
 #ifdef __cplusplus
 #error \
-    "core/step_end.h is C only, as generated .c files are: C++ includes core/scene.h and generated headers"
+    "core/step/step_end.h is C only, as generated .c files are: C++ includes core/scene.h and generated headers"
 #endif
 
+#include "../number/span.h"
+#include "../number/sum.h"
+#include "../scene.h"
 #include "refuse.h"
-#include "scene.h"
-#include "span.h"
 #include "stage_sums.h"
-#include "sum.h"
 
 /* Move *angle by `steps` phase units, less than WH_PHASE_STEP_MAX in size, rounded to the nearest: truncation would
  * slow every angle down by half a unit a step. Compensated: *carry is added and becomes the round-off. It is added

@@ -14,7 +14,7 @@
 #ifndef WH_FLASH_H
 #define WH_FLASH_H
 
-#include "real.h"
+#include "../real.h"
 
 #if !defined(__AVR__) || defined(__AVR_TINY__) || WH_DOUBLE
 
