@@ -298,7 +298,7 @@ for matrix in exact rk4; do
     done
 done
 
-# random planar linkages: the interpreter's motions are held to their energies by tests/host/test_linkages.c
+# random planar linkages: the interpreter's motions are held to their energies by tests/host/test_arm.c
 few=8
 [ -z "${WHIRL_FULL:-}" ] || few=16
 [ "${WHIRL_FULL:-rest}" = rest ] || few=40

@@ -1,4 +1,4 @@
-/* test_contact_load.c: the parts of core/contact/contact_lcp.h, each by itself: against a dense solve, sums written out, and what their comments say, with limits met exactly. */
+/* test_contact_holds.c: the parts of core/contact/contact_lcp.h, each by itself: against a dense solve, sums written out, and what their comments say, with limits met exactly. */
 #include "bench.h"
 
 #include "unity.h"

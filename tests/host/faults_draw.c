@@ -151,7 +151,7 @@ typedef struct drawing {
 } drawing;
 
 /* From 0 to below 1. The hash alone is all but linear in the run's number: runs with one draw in common would have them all
- * (Stafford's thirteenth mix; test_campaign.c looks for it). */
+ * (Stafford's thirteenth mix; test_pil.c looks for it). */
 static double draw(drawing *d) {
     uint64_t bits = wh_hash_u64(wh_hash_u64(d->hash, d->count++), 0x64726177U);
     bits = (bits ^ (bits >> 30)) * UINT64_C(0xBF58476D1CE4E5B9);

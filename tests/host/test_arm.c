@@ -1,32 +1,47 @@
 /* test_arm.c: arms of six joints, derived, against the recursion of Newton and Euler (Luh, Walker and Paul 1980) in world
  * coordinates, which knows neither energies nor their derivatives. */
+#define _POSIX_C_SOURCE 200809L
+
 #include <math.h>
+#include <stdarg.h>
+#include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "host/base/alloc.h"
+#include "host/cli/commands.h"
+
 #include "command.h"
 #include "derived.h"
-#include "host/base/alloc.h"
+#include "linkage.h"
+#include "motion.h"
+
 #include "unity.h"
 
 void suite_arm(void);
+void suite_hinged(void);
+void suite_leans(void);
+void suite_linkages(void);
+void suite_never_singular(void);
+
+/* === arm ====================================================================================== */
 
 enum { JOINTS = 6 };
 #define G 9.81
 
-typedef struct arm {
+typedef struct arm_arm {
     int axis[JOINTS];          /* of its joint, in its own frame */
     double offset[JOINTS];     /* of its joint from the one before, along z there, m */
     double centre[JOINTS];     /* of mass, along z, m */
     double mass[JOINTS];       /* kg */
     double inertia[JOINTS][3]; /* about the centre, kg m^2 */
-} arm;
+} arm_arm;
 
-static arm draw_arm(dice *d) {
+static arm_arm draw_arm(dice *d) {
     static const int axes[3][JOINTS] = {{2, 1, 1, 2, 1, 2}, {2, 1, 1, 0, 1, 0}, {2, 0, 1, 2, 0, 2}};
     const int *axis = axes[dice_one_of(d, 3)];
-    arm a;
+    arm_arm a;
     for (int i = 0; i < JOINTS; i++) {
         a.axis[i] = axis[i];
         a.offset[i] = dice_one_of(d, 3) == 0 ? 0.0 : dice_between(d, 0.05, 0.5);
@@ -40,7 +55,7 @@ static arm draw_arm(dice *d) {
 }
 
 /* The entry of the matrix that takes from frame i to the one before: "cos(q1)", "-sin(q1)", "1" or "0". */
-static const char *entry(const arm *a, int i, int row, int column, char text[20]) {
+static const char *entry(const arm_arm *a, int i, int row, int column, char text[20]) {
     const int k = a->axis[i];
     if (row == k || column == k) {
         return row == column ? "1" : "0";
@@ -51,7 +66,7 @@ static const char *entry(const arm *a, int i, int row, int column, char text[20]
 }
 
 /* As people write it who come from SymPy: turned frames, places of the centres in the world, and their derivatives. */
-static char *text_of(const arm *a) {
+static char *text_of(const arm_arm *a) {
     char *text;
     size_t length;
     char e[20];
@@ -119,7 +134,7 @@ static double dot(vector a, vector b) {
 }
 
 /* The torque that each joint must give, N m, with *size what its terms add up to in size. */
-static void torques(const arm *a, const state_values *s, double *torque, double *size) {
+static void torques(const arm_arm *a, const state_values *s, double *torque, double *size) {
     vector frame[JOINTS][3]; /* axes of each link, in the world */
     vector joint[JOINTS];
     vector force[JOINTS]; /* that moves link i, and its moment about the centre */
@@ -173,7 +188,7 @@ static void test_arms_of_six_joints_move_as_newton_and_euler_say(void) {
     dice d = dice_of("arm", 4701);
     double worst = 0.0;
     for (unsigned c = 0; c < few_or_all(1, 4); c++) {
-        const arm a = draw_arm(&d);
+        const arm_arm a = draw_arm(&d);
         char *text = text_of(&a);
         diags *errors = diags_new();
         derived made = {.model = model_parse("arm.whirl", text, strlen(text), errors)};
@@ -209,3 +224,573 @@ static void test_arms_of_six_joints_move_as_newton_and_euler_say(void) {
 }
 
 void suite_arm(void) { RUN_TEST(test_arms_of_six_joints_move_as_newton_and_euler_say); }
+
+/* === hinged =================================================================================== */
+/* Bodies on hinges, which derivation eliminates by what their hinges see (host/derive/solve.c): random
+ * carriages, arms and hinged bodies, whose accelerations must fulfil the equations they were solved from. */
+
+enum { MECHANISMS = 160, STATES = 12, BODIES_MOST = 3 };
+
+static bool chance(uint64_t *seed, int percent) {
+    return random_between(seed, 0.0, 100.0) < percent;
+}
+
+/* Written only where it is wanted. */
+__attribute__((format(printf, 3, 4))) static void maybe(FILE *out, bool wanted, const char *format,
+                                                        ...) {
+    va_list arguments;
+    va_start(arguments, format);
+    if (wanted) {
+        vfprintf(out, format, arguments);
+    }
+    va_end(arguments);
+}
+
+/* A carriage, or two directions of it, an arm or none on it, bodies on the arm's end, on each other or on the carriage;
+ * gravity, springs, dampers, torques, inputs; angles from the vertical or from the body above. */
+static char *written(uint64_t *seed) {
+    char *text;
+    size_t size;
+    FILE *out = open_memstream(&text, &size);
+    const bool plane = chance(seed, 30);
+    const bool fixed = !plane && chance(seed, 25);
+    const bool arm = chance(seed, 60);
+    const int bodies = 1 + (int)random_between(seed, 0.0, BODIES_MOST - 0.001);
+    fputs("mechanism hinged \"Hinged\"\n", out);
+    fputs(fixed ? "" : "coordinate x [m]\n", out);
+    fputs(plane ? "coordinate y [m]\n" : "", out);
+    fprintf(out, "let ux = %s\nlet uy = %s\n", fixed ? "0 [m/s]" : "x'", plane ? "y'" : "0 [m/s]");
+    fputs(arm ? "coordinate b [rad]\n" : "", out);
+    const double turns = chance(seed, 30) ? 2.0 : 1.0;
+    const double reach = arm ? random_between(seed, 0.1, 0.9) : 0.0;
+    if (arm) {
+        fprintf(out, "let ex = ux - %.3f [m]*b'*(sin(b) + %g*sin(%g*b))\n", reach, turns - 1.0,
+                turns);
+        fprintf(out, "let ey = uy + %.3f [m]*b'*(cos(b) + %g*cos(%g*b))\n", reach, turns - 1.0,
+                turns);
+    } else {
+        fputs("let ex = ux\nlet ey = uy\n", out);
+    }
+    int on[BODIES_MOST];
+    bool relative[BODIES_MOST];
+    for (int k = 0; k < bodies; k++) {
+        const double rod = random_between(seed, 0.1, 0.8);
+        on[k] = k > 0 && chance(seed, 40) ? k - 1 : -1;
+        relative[k] = on[k] >= 0 && chance(seed, 30);
+        fprintf(out, "coordinate a%d [rad]\ninput M%d = %.2f [N*m]\n", k, k,
+                random_between(seed, -1, 1));
+        fprintf(out, "let w%d = a%d'%s", k, k, relative[k] ? " + w" : "\n");
+        maybe(out, relative[k], "%d\n", on[k]);
+        fprintf(out, "let t%d = a%d%s", k, k, relative[k] ? " + t" : "\n");
+        maybe(out, relative[k], "%d\n", on[k]);
+        char above[2][8] = {"ex", "ey"};
+        if (on[k] >= 0) {
+            snprintf(above[0], sizeof above[0], "px%d", on[k]);
+            snprintf(above[1], sizeof above[1], "py%d", on[k]);
+        }
+        fprintf(out, "let px%d = %s - %.3f [m]*w%d*sin(t%d)\n", k, above[0], rod, k, k);
+        fprintf(out, "let py%d = %s + %.3f [m]*w%d*cos(t%d)\n", k, above[1], rod, k, k);
+    }
+    fprintf(out, "T = %.2f [kg]*(ux^2 + uy^2)", random_between(seed, 0.5, 3.0));
+    maybe(out, arm, " + %.2f [kg*m^2]*b'^2 + %.2f [kg]*(ex^2 + ey^2)",
+          random_between(seed, 0.01, 0.5), random_between(seed, 0.0, 1.0));
+    for (int k = 0; k < bodies; k++) {
+        fprintf(out, " + %.2f [kg]*(px%d^2 + py%d^2)", random_between(seed, 0.1, 2.0), k, k);
+        maybe(out, chance(seed, 50), " + %.3f [kg*m^2]*w%d^2", random_between(seed, 0.0, 0.1), k);
+    }
+    fputs("\nV = 0 [J]", out);
+    for (int k = 0; k < bodies && chance(seed, 60); k++) {
+        fprintf(out, " + %.2f [J]*sin(t%d)", random_between(seed, 0.5, 9.0), k);
+        maybe(out, chance(seed, 30), " + 1 [J]*a%d^2", k);
+    }
+    fputs(fixed ? "\n" : " + 7 [N/m]*x^2\n", out);
+    for (int k = 0; k < bodies; k++) {
+        fprintf(out, "Q(a%d) = M%d\n", k, k);
+    }
+    maybe(out, chance(seed, 50), "F = %.2f [N*m*s]*a0'^2\n", random_between(seed, 0.1, 1.0));
+    fclose(out);
+    return text;
+}
+
+/* The largest part of an equation that an image's accelerations leave over. */
+static double left_over(const derived *d, uint64_t *seed) {
+    double worst = 0.0;
+    for (int i = 0; i < STATES; i++) {
+        state_values s;
+        double found[UNKNOWNS];
+        double accel[UNKNOWNS];
+        random_state(&s, d, seed);
+        derived_run(d->image->list[IMAGE_STEP], d, &s, found);
+        for (int u = 0; u < d->image->count; u++) {
+            accel[u] = found[d->image->place[u]];
+        }
+        for (int u = 0; u < d->image->count; u++) {
+            double size;
+            const double rest = derived_rest(d, &s, accel, u, &size);
+            worst = fmax(worst, fabs(rest) / size);
+        }
+    }
+    return worst;
+}
+
+static void test_accelerations_fulfil_their_equations(void) {
+    uint64_t seed = 20261122;
+    double worst = 0.0;
+    const unsigned mechanisms = usual_or(MECHANISMS, 40);
+    for (unsigned m = 0; m < mechanisms; m++) {
+        char *text = written(&seed);
+        derived d = derived_text(text);
+        derived_expect(&d, text);
+        const double left = left_over(&d, &seed);
+        TEST_ASSERT_TRUE_MESSAGE(left <= 1e-10, text);
+        worst = fmax(worst, left);
+        derived_free(&d);
+        free(text);
+    }
+    char words[80];
+    snprintf(words, sizeof words, "%u mechanisms: at most %.1e of an equation is left over",
+             mechanisms, worst);
+    TEST_MESSAGE(words);
+    TEST_ASSERT_TRUE(worst > 0.0);
+}
+
+void suite_hinged(void) { RUN_TEST(test_accelerations_fulfil_their_equations); }
+
+/* === leans ==================================================================================== */
+/* What a run is measured by (host/check/energy_residual.h) does not depend on what no motion depends on: where the origin
+ * is, and which vector potential stands for a magnetic field, as terms of the kinetic energy that are linear in the rates. */
+
+typedef struct charge {
+    double mass_kg;
+    double field_kgps;
+    double speed_mps;
+    double spring_Npm; /* to where it starts */
+    const char *method;
+    double step_s;
+} charge;
+
+/* B (x y' - y x')/2, B x y' or -B y x'. */
+static const char *const potentials[] = {"B*(x*y' - y*x')/2", "B*x*y'", "-B*y*x'"};
+enum { POTENTIALS = sizeof potentials / sizeof potentials[0] };
+
+/* What it says is left over, of the largest entry, and whether it warned; all of it where it leaves all bounds. */
+static double left_over_leans(const charge *c, const char *potential, double x0, bool *warned) {
+    char text[700];
+    said what;
+    snprintf(text, sizeof text,
+             "mechanism charge\ncoordinate x [m]\ncoordinate y [m]\nparameter m = %.17g [kg]\n"
+             "parameter B = %.17g [kg/s]\nparameter k = %.17g [N/m]\nparameter a = %.17g [m]\n"
+             "T = m*(x'^2 + y'^2)/2 + %s\nV = k*((x - a)^2 + y^2)/2\n"
+             "scene s { start x = %.17g [m], y' = %.17g [m/s]\nstep %.17g [s]\nuntil %.17g [s] }\n",
+             c->mass_kg, c->field_kgps, c->spring_Npm, x0, potential, x0, c->speed_mps, c->step_s,
+             300.0 * c->step_s);
+    const char *words[] = {model_keep(text), "--method", c->method, NULL};
+    command_say(command_run, words, &what);
+    if (what.status == 1 && strstr(what.err, "the run diverged") != NULL) {
+        *warned = true;
+        return 1.0;
+    }
+    TEST_ASSERT_EQUAL_INT_MESSAGE(said_owes(what.err), what.status, what.err);
+    const char *at = strstr(what.out, "\nenergy left over ");
+    TEST_ASSERT_NOT_NULL_MESSAGE(at, what.out);
+    *warned = strstr(what.err, "cannot be believed") != NULL;
+    return strtod(at + strlen("\nenergy left over "), NULL);
+}
+
+static void test_origins_and_potentials(void) {
+    static const char *const methods[] = {"nystroem5", "rk4", "heun", "semi-implicit-euler"};
+    dice d = dice_of("leans", 61);
+    unsigned told = 0;
+    const unsigned runs = dice_cases(few_or_all(12, 60));
+    for (unsigned k = 0; k < runs; k++) {
+        charge c = {.mass_kg = dice_between(&d, 0.5, 2.0),
+                    .field_kgps = dice_between(&d, 5.0, 40.0),
+                    .speed_mps = dice_between(&d, 0.1, 1.0),
+                    .method = methods[k % 4U]};
+        c.spring_Npm = k % 3U == 0 ? dice_between(&d, 1.0, 50.0) : 0.0;
+        c.step_s = dice_between(&d, 0.1, 0.6) * c.mass_kg / c.field_kgps;
+        bool warned;
+        const double by_itself = left_over_leans(&c, potentials[0], 0.0, &warned);
+        told += warned;
+        for (int i = 0; i < POTENTIALS; i++) {
+            bool too;
+            const double far_m = pow(10.0, dice_between(&d, -1.0, 2.5));
+            const double other = left_over_leans(&c, potentials[i], far_m, &too);
+            TEST_ASSERT_DOUBLE_WITHIN_MESSAGE(2e-3 * by_itself + 1e-9, by_itself, other, c.method);
+            TEST_ASSERT_EQUAL_MESSAGE(warned, too, c.method);
+        }
+    }
+    model_drop();
+    printf("  %u of %u charges told\n", told, runs);
+    TEST_ASSERT_TRUE(told > 0 && told < runs);
+}
+
+void suite_leans(void) { RUN_TEST(test_origins_and_potentials); }
+
+/* === linkages ================================================================================= */
+/* Random planar linkages: what is derived from their energies as text, against the same energies
+ * differentiated in numbers (linkage.h): accelerations, and whole motions; and what must not matter: which way up the
+ * plane is looked at, the order of the file, whether forces stand in the mechanism or in effects. The books balance.
+ * WHIRL_CASES=10000 WHIRL_SEED=...: so many, others. */
+
+enum { LINKAGES_STATES = 10, STEPS = 100 };
+
+static unsigned cases(void) { return dice_cases(few_or_all(usual_or(6, 3), 200)); }
+
+/* What must not matter is asked of every third of them. */
+enum { ONE_IN = 3 };
+
+/* The k-th of a seed's. */
+static linkage drawn_linkage(dice *d, unsigned k) {
+    uint64_t seed = d->state + 1000003U * k;
+    return linkage_draw(&seed);
+}
+
+static const char *text_of_linkages(const linkage *of, linkage_writing how) {
+    static char text[LINKAGE_TEXT];
+    linkage_write(of, "linkage", how, text);
+    return text;
+}
+
+static const linkage_writing as_usual = {.forces = LINKAGE_INSIDE};
+static const linkage_writing backwards = {.forces = LINKAGE_INSIDE, .backwards = true};
+
+/* Fails with the text. */
+static void expect(bool holds, const char *what, double figure, const char *text) {
+    if (!holds) {
+        char line[120];
+        printf("%s\n", text);
+        snprintf(line, sizeof line, "%s: %.3e", what, figure);
+        TEST_FAIL_MESSAGE(line);
+    }
+}
+
+/* --- accelerations ------------------------------------------------------------------------------------------- */
+
+/* Which unknown is q0, q1, ... */
+static int unknown_of(const derived *d, int k) {
+    char name[8];
+    snprintf(name, sizeof name, "q%d", k);
+    for (int i = 0; i < d->equations->count; i++) {
+        if (strcmp(d->equations->unknowns[i].symbol->name, name) == 0) {
+            return i;
+        }
+    }
+    TEST_FAIL_MESSAGE(name);
+    return 0;
+}
+
+/* How far off the list's accelerations are at random states, of the largest. */
+static double worst_acceleration(const linkage *of, linkage_writing how, uint64_t *seed) {
+    derived d = derived_text(text_of_linkages(of, how));
+    double worst = 0.0;
+    derived_expect(&d, text_of_linkages(of, how));
+    for (int i = 0; i < LINKAGES_STATES; i++) {
+        state_values s = {.instance = d.instance};
+        linkage_numbers at;
+        long double q[LINKAGE_BODIES];
+        long double rate[LINKAGE_BODIES];
+        double found[LINKAGE_BODIES];
+        long double wanted[LINKAGE_BODIES];
+        long double most = 0.0L;
+        for (int k = 0; k < of->bodies; k++) {
+            double *value = s.value[unknown_of(&d, k)];
+            q[k] = (long double)(value[0] = random_between(seed, -1.5, 1.5));
+            rate[k] = (long double)(value[1] = random_between(seed, -3.0, 3.0));
+        }
+        derived_run(d.image->list[IMAGE_STEP], &d, &s, found);
+        linkage_evaluate(of, q, rate, &at);
+        linkage_solve(of, &at, at.force, wanted);
+        for (int k = 0; k < of->bodies; k++) {
+            most = fmaxl(most, fabsl(wanted[k]));
+        }
+        for (int k = 0; k < of->bodies; k++) {
+            const long double got = (long double)found[d.image->place[unknown_of(&d, k)]];
+            worst = fmax(worst, (double)(fabsl(got - wanted[k]) / fmaxl(most, 1e-300L)));
+        }
+    }
+    derived_free(&d);
+    return worst;
+}
+
+static void test_accelerations_are_those_of_the_energies(void) {
+    dice d = dice_of("linkages", 14);
+    uint64_t seed = d.state;
+    double worst = 0.0;
+    for (unsigned k = 0; k < cases(); k++) {
+        const linkage of = drawn_linkage(&d, k);
+        const double off = worst_acceleration(&of, k % 2 == 0 ? as_usual : backwards, &seed);
+        expect(off < 1e-10, "off, of the largest acceleration", off,
+               text_of_linkages(&of, as_usual));
+        worst = fmax(worst, off);
+    }
+    printf("  off by at most %.1e of the largest acceleration\n", worst);
+    TEST_ASSERT_TRUE(worst > 0.0);
+}
+
+/* --- motions ------------------------------------------------------------------------------------------------- */
+
+typedef struct moved {
+    double value[2 * LINKAGE_BODIES]; /* values, then rates */
+} moved;
+
+static double apart(const linkage *of, const moved *a, const moved *b) {
+    double most = 0.0;
+    for (int k = 0; k < of->bodies; k++) {
+        most = fmax(most, fabs(a->value[k] - b->value[k]));
+        most = fmax(most, fabs(a->value[LINKAGE_BODIES + k] - b->value[LINKAGE_BODIES + k]));
+    }
+    return most;
+}
+
+static moved run_by(const linkage *of, linkage_writing how, stepping by) {
+    motion m;
+    moved end = {{0}};
+    motion_open_text(&m, text_of_linkages(of, how), by);
+    TEST_ASSERT_EQUAL_INT_MESSAGE(WH_OK, motion_step(&m, STEPS), text_of_linkages(of, how));
+    for (int k = 0; k < of->bodies; k++) {
+        char name[8];
+        snprintf(name, sizeof name, "q%d", k);
+        end.value[k] = motion_value(&m, name);
+        snprintf(name, sizeof name, "q%d'", k);
+        end.value[LINKAGE_BODIES + k] = motion_value(&m, name);
+    }
+    motion_close(&m);
+    return end;
+}
+
+static moved run_of(const linkage *of, linkage_writing how, const engine_kind *kind) {
+    return run_by(of, how, (stepping){.kind = kind, .method = WH_RK4});
+}
+
+static moved integrated(const linkage *of, double step_s, int steps) {
+    linkage_motion wanted;
+    moved end = {{0}};
+    linkage_integrate(of, step_s, steps, &wanted);
+    for (int i = 0; i < 2 * LINKAGE_BODIES; i++) {
+        end.value[i] = (double)wanted.state[i];
+    }
+    return end;
+}
+
+/* Where sines are looked up at each stage a run is the method's, to rounding; where they are turned it is within a
+ * hundredth of what that method errs by itself (docs/dev/numerics.md). */
+static void test_motions_are_those_of_the_energies(void) {
+    dice d = dice_of("linkages", 14);
+    double worst = 0.0;
+    double share = 0.0;
+    for (unsigned k = 0; k < cases(); k++) {
+        const linkage of = drawn_linkage(&d, k);
+        const moved wanted = integrated(&of, 1e-3, STEPS);
+        const moved finer = integrated(&of, 5e-4, 2 * STEPS);
+        const double own = apart(&of, &wanted, &finer);
+        const moved found =
+            run_by(&of, as_usual,
+                   (stepping){.kind = &engine_double, .method = WH_RK4, .angles = ANGLES_LOOKUP});
+        const double off = apart(&of, &found, &wanted);
+        expect(off < 1e-10, "off after 100 steps", off, text_of_linkages(&of, as_usual));
+        worst = fmax(worst, off);
+        const moved turned = run_of(&of, as_usual, &engine_double);
+        const double more = apart(&of, &turned, &wanted);
+        expect(more < 1e-10 + 1e-2 * own, "turned off after 100 steps", more,
+               text_of_linkages(&of, as_usual));
+        share = fmax(share, more / (1e-8 + own));
+    }
+    printf("  off by at most %.1e after %d steps; turned by %.1e of the method's own error\n",
+           worst, STEPS, share);
+    TEST_ASSERT_TRUE(worst > 0.0);
+}
+
+/* --- what must not matter ------------------------------------------------------------------------------------ */
+
+static void test_a_mirror_image_moves_as_the_mirror_image(void) {
+    dice d = dice_of("linkages", 14);
+    double worst = 0.0;
+    for (unsigned k = 0; k < cases(); k += ONE_IN) {
+        const linkage of = drawn_linkage(&d, k);
+        const linkage other = linkage_mirrored(&of);
+        const moved found = run_of(&of, as_usual, &engine_double);
+        moved mirrored = run_of(&other, as_usual, &engine_double);
+        for (int i = 0; i < of.bodies; i++) {
+            const double sign = of.body[i].slides ? 1.0 : -1.0;
+            mirrored.value[i] *= sign;
+            mirrored.value[LINKAGE_BODIES + i] *= sign;
+        }
+        const double off = apart(&of, &found, &mirrored);
+        expect(off < 1e-9, "the mirror image is off", off, text_of_linkages(&of, as_usual));
+        worst = fmax(worst, off);
+    }
+    printf("  the mirror image is off by at most %.1e\n", worst);
+}
+
+static void test_the_order_of_the_file_does_not_matter(void) {
+    dice d = dice_of("linkages", 14);
+    double worst = 0.0;
+    for (unsigned k = 1; k < cases(); k += ONE_IN) {
+        const linkage of = drawn_linkage(&d, k);
+        const moved found = run_of(&of, as_usual, &engine_double);
+        const moved other = run_of(&of, backwards, &engine_double);
+        const double off = apart(&of, &found, &other);
+        expect(off < 1e-9, "written backwards it is off", off, text_of_linkages(&of, as_usual));
+        worst = fmax(worst, off);
+    }
+    printf("  written backwards it is off by at most %.1e\n", worst);
+}
+
+/* What an effect that is off would add leaves no trace, not in a bit; what one adds that is on is the same sum taken in
+ * another order, and so are its coefficients' last bits. */
+static void test_forces_may_stand_in_effects(void) {
+    dice d = dice_of("linkages", 14);
+    double worst = 0.0;
+    for (unsigned k = 2; k < cases(); k += ONE_IN) {
+        const linkage of = drawn_linkage(&d, k);
+        const engine_kind *kind = k % 2 == 0 ? &engine_double : &engine_float;
+        const moved bare = run_of(&of, (linkage_writing){.forces = LINKAGE_BARE}, kind);
+        const moved off = run_of(&of, (linkage_writing){.forces = LINKAGE_EFFECTS_OFF}, kind);
+        expect(memcmp(&bare, &off, sizeof bare) == 0, "other bits with effects that are off",
+               apart(&of, &bare, &off), text_of_linkages(&of, as_usual));
+        const moved inside = run_of(&of, as_usual, &engine_double);
+        const moved on =
+            run_of(&of, (linkage_writing){.forces = LINKAGE_EFFECTS_ON}, &engine_double);
+        const double other = apart(&of, &inside, &on);
+        expect(other < 1e-9, "with its forces in effects it is off", other,
+               text_of_linkages(&of, as_usual));
+        worst = fmax(worst, other);
+    }
+    printf("  with its forces in effects it is off by at most %.1e\n", worst);
+}
+
+/* --- books --------------------------------------------------------------------------------------------------- */
+
+/* What is left over of the energy after 100 ms, and how much went through the books. */
+static double left_over_linkages(const linkage *of, double step_s, double *turnover) {
+    enum { ENTRIES_MAX = 200, ACCOUNTS_MAX = 1 + LINKAGE_BODIES };
+    double total[ENTRIES_MAX] = {0};
+    double left[ACCOUNTS_MAX] = {0};
+    motion m;
+    motion_open_text(
+        &m, text_of_linkages(of, as_usual),
+        (stepping){.kind = &engine_double, .method = WH_RK4, .step_s = step_s, .ledger = true});
+    TEST_ASSERT_TRUE(m.image->ledger.entries <= ENTRIES_MAX);
+    TEST_ASSERT_TRUE(m.image->ledger.accounts <= ACCOUNTS_MAX);
+    motion_to(&m, 0.1);
+    m.kind->ledger(m.run, total, left);
+    *turnover = 1.0; /* J */
+    for (int i = 0; i < m.image->ledger.entries; i++) {
+        *turnover = fmax(*turnover, fabs(total[i]));
+    }
+    motion_close(&m);
+    return fabs(left[0]);
+}
+
+static void test_the_energy_is_accounted_for(void) {
+    dice d = dice_of("linkages", 14);
+    double worst = 0.0;
+    unsigned fell = 0;
+    unsigned known = 0;
+    unsigned fast = 0;
+    for (unsigned k = 0; k < cases(); k++) {
+        const linkage of = drawn_linkage(&d, k);
+        double turnover;
+        const double coarse = left_over_linkages(&of, 2e-3, &turnover);
+        const double fine = left_over_linkages(&of, 5e-4, &turnover);
+        double least = fine;
+        double step_s = 5e-4;
+        while (!(least < 1e-7 * turnover)) { /* too fast for the step: the method's own error */
+            const double coarser = least;
+            step_s /= 4.0;
+            fast += coarser == fine ? 1U : 0U;
+            least = left_over_linkages(&of, step_s, &turnover);
+            expect(least < coarser / 64.0, "left over in a quarter of the step, J", least,
+                   text_of_linkages(&of, as_usual));
+        }
+        worst = fmax(worst, fine / turnover);
+        if (coarse > 1e-9 * turnover) { /* above rounding: it falls with the step */
+            known++;
+            fell += fine < coarse / 64.0 ? 1U : 0U;
+        }
+    }
+    printf("  left over at most %.1e of what went through; of %u above rounding %u fell by 64 and "
+           "more with a quarter of the step\n",
+           worst, known, fell);
+    TEST_ASSERT_TRUE(fell * 10 >= known * 9 && fast * 300 <= cases());
+}
+
+void suite_linkages(void) {
+    RUN_TEST(test_accelerations_are_those_of_the_energies);
+    RUN_TEST(test_motions_are_those_of_the_energies);
+    RUN_TEST(test_a_mirror_image_moves_as_the_mirror_image);
+    RUN_TEST(test_the_order_of_the_file_does_not_matter);
+    RUN_TEST(test_forces_may_stand_in_effects);
+    RUN_TEST(test_the_energy_is_accounted_for);
+}
+
+/* === never singular =========================================================================== */
+/* A mass matrix that is the same everywhere has no singular position, however large and small its masses
+ * are, however fast its motions and dampers for the step: nothing that is said of such a run says so. */
+
+/* Two or three bodies in a row, each counted from the ground or from the one before. */
+static void write_bodies(dice *d, char *text, size_t size) {
+    static const char *const names[] = {"x", "y", "z"};
+    const unsigned bodies = 2U + dice_one_of(d, 2);
+    const double step_s = pow(10.0, dice_between(d, -4.0, 0.0));
+    char rate[80] = "";
+    char coordinates[80] = "";
+    char kinetic[400] = "";
+    char stored[300] = "";
+    char lost[300] = "";
+    double fastest = 0.0;
+    for (unsigned i = 0; i < bodies; i++) {
+        char own[8];
+        const double mass_kg = pow(10.0, dice_between(d, -7.0, 7.0));
+        const double stiffness_Npm = mass_kg * pow(10.0, dice_between(d, -1.0, 6.0));
+        const char *plus = i > 0 ? " + " : "";
+        fastest = fmax(fastest, sqrt(stiffness_Npm / mass_kg));
+        snprintf(own, sizeof own, "%s'", names[i]);
+        if (i > 0 && dice_one_of(d, 2) == 0) {
+            strcat(strcat(rate, " + "), own);
+        } else {
+            strcpy(rate, own);
+        }
+        sprintf(coordinates + strlen(coordinates), "coordinate %s [m]\n", names[i]);
+        sprintf(kinetic + strlen(kinetic), "%s%.9g [kg]*(%s)^2/2", plus, mass_kg, rate);
+        sprintf(stored + strlen(stored), "%s%.9g [N/m]*%s^2/2", plus, stiffness_Npm, names[i]);
+        sprintf(lost + strlen(lost), "%s%.9g [N*s/m]*%s'^2/2", plus,
+                dice_one_of(d, 2) * mass_kg * pow(10.0, dice_between(d, -1.0, 2.0)) / step_s,
+                names[i]);
+    }
+    snprintf(text, size,
+             "mechanism bodies\n%sT = %s\nV = %s\nF = %s\nscene s { start x = %.9g [m], x' = %.9g "
+             "[m/s]\nstep %.9g [s]\nuntil %.9g [s] }\n",
+             coordinates, kinetic, stored, lost, dice_between(d, -1.0, 1.0),
+             fastest * dice_between(d, -1.0, 1.0), step_s, 50.0 * step_s);
+}
+
+static void test_of_the_same_mass_everywhere(void) {
+    static const char *const methods[] = {"rk4", "heun", "euler", "semi-implicit-euler", "rk38"};
+    dice d = dice_of("never singular", 20261129);
+    const unsigned cases = dice_cases(few_or_all(usual_or(30, 15), 400));
+    unsigned told = 0;
+    for (unsigned i = 0; i < cases; i++) {
+        char text[1600];
+        said what;
+        write_bodies(&d, text, sizeof text);
+        const char *words[] = {model_keep(text),
+                               "--quiet",
+                               "--method",
+                               methods[dice_one_of(&d, 5)],
+                               "--number",
+                               dice_one_of(&d, 2) == 0 ? "float" : "double",
+                               NULL};
+        command_say(command_run, words, &what);
+        char about[SAID_SIZE + 1600];
+        snprintf(about, sizeof about, "%s %s\n%s%s", words[3], words[5], text, what.err);
+        TEST_ASSERT_NULL_MESSAGE(strstr(what.err, "coordinates are singular"), about);
+        told += what.err[0] != '\0';
+    }
+    model_drop();
+    printf("  %u rows of bodies, something is said of %u\n", cases, told);
+    TEST_ASSERT_TRUE(told > cases / 4);
+}
+
+void suite_never_singular(void) { RUN_TEST(test_of_the_same_mass_everywhere); }

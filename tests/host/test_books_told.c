@@ -7,13 +7,22 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "command.h"
-#include "derived.h"
+#include "host/base/alloc.h"
+#include "host/check/books.h"
 #include "host/check/books_text.h"
 #include "host/cli/commands.h"
+#include "host/derive/ledger_lists.h"
+
+#include "command.h"
+#include "derived.h"
+#include "motion.h"
+
 #include "unity.h"
 
 void suite_books_told(void);
+void suite_energy_integral(void);
+
+/* === books told =============================================================================== */
 
 enum { COORDINATES_MOST = 4 };
 
@@ -318,4 +327,453 @@ void suite_books_told(void) {
     RUN_TEST(test_ledgers);
     RUN_TEST(test_every_line);
     RUN_TEST(test_contacts_that_gave_nothing);
+}
+
+/* === energy integral ========================================================================== */
+/* The energy book where T + V is not what balances: mechanisms whose T is not a
+ * quadratic form of the rates, whose V has rates, or whose energies name an input that is changed. The
+ * energy integral of each is written down by hand (Goldstein, Classical Mechanics, section 2.7). */
+
+/* A bead on a hoop that turns at the rate w about its upright diameter. */
+#define HOOP(rate) \
+    "mechanism hoop\ncoordinate th [rad]\nparameter m = 0.1 [kg]\n" \
+    "parameter R = 0.2 [m]\nparameter g = 9.81 [m/s^2]\n" rate \
+    "\nT = m*R^2*(th'^2 + w^2*sin(th)^2)/2\nV = -m*g*R*cos(th)\n"
+#define HOOP_AT_10 HOOP("parameter w = 10 [rad/s]")
+/* A charge in a homogeneous magnetic field: a potential with rates. */
+#define FIELD \
+    "mechanism field\ncoordinate x [m]\ncoordinate y [m]\nparameter m = 1 [kg]\n" \
+    "parameter B = 1 [kg/s]\nT = m*(x'^2+y'^2)/2\nV = -B*(x*y'-y*x')/2\n"
+/* A body on a spring, in a slot of a table that turns. */
+#define SLOT \
+    "mechanism slot\ncoordinate x [m]\nparameter m = 1 [kg]\n" \
+    "parameter w = 2 [rad/s]\nparameter k = 9 [N/m]\n" \
+    "T = m*(x'^2 + w^2*x^2)/2\nV = k*x^2/2\n"
+/* A body near the speed of light, here 2 m/s, on a spring. */
+#define FAST \
+    "mechanism fast\ncoordinate x [m]\nparameter m = 1 [kg]\n" \
+    "parameter c = 2 [m/s]\nparameter k = 1 [N/m]\n" \
+    "T = -m*c^2*sqrt(1 - x'^2/c^2)\nV = k*x^2/2\n"
+/* A puck on a turning table, seen from the table: terms linear in the rates, and a wall. */
+#define TABLE \
+    "mechanism table\ncoordinate x [m]\ncoordinate y [m]\nparameter m = 2 [kg]\n" \
+    "parameter w = 1.5 [rad/s]\nT = m*((x' - w*y)^2 + (y' + w*x)^2)/2\n" \
+    "stop x <= 0.5 [m] restitution 0.6\n"
+
+static double square(double x) { return x * x; }
+
+static double hoop_J(const motion *m, double w) {
+    const double th = motion_value(m, "th");
+    return 0.1 * 0.04 * (square(motion_value(m, "th'")) - square(w * sin(th))) / 2.0 -
+           0.1 * 9.81 * 0.2 * cos(th);
+}
+
+static double hoop_at_10(const motion *m) { return hoop_J(m, 10.0); }
+
+static double field_J(const motion *m) {
+    return (square(motion_value(m, "x'")) + square(motion_value(m, "y'"))) / 2.0;
+}
+
+static double slot_J(const motion *m) {
+    const double x = motion_value(m, "x");
+    return (square(motion_value(m, "x'")) - square(2.0 * x) + 9.0 * square(x)) / 2.0;
+}
+
+static double fast_J(const motion *m) {
+    const double v = motion_value(m, "x'");
+    return 4.0 / sqrt(1.0 - square(v) / 4.0) + square(motion_value(m, "x")) / 2.0;
+}
+
+static double table_J(const motion *m) {
+    const double x = motion_value(m, "x");
+    const double y = motion_value(m, "y");
+    return square(motion_value(m, "x'")) + square(motion_value(m, "y'")) -
+           square(1.5) * (square(x) + square(y));
+}
+
+typedef double by_hand(const motion *m);
+
+static const stepping booked = {.kind = &engine_double, .method = WH_RK4, .ledger = true};
+
+/* The largest remainders along a run. */
+typedef struct remainders {
+    double summary_J; /* of the books beside the run */
+    double ledger_J;  /* of the run's own */
+    double change_J;  /* of the integral by hand */
+} remainders;
+
+/* Left over in the ledger's account of the energy, J. */
+static double ledger_left_J(const motion *m) {
+    const image_ledger *l = &m->image->ledger;
+    double *total = calloc((size_t)(l->entries + l->accounts), sizeof *total);
+    TEST_ASSERT_NOT_NULL(total);
+    m->kind->ledger(m->run, total, total + l->entries);
+    const double left_J = total[l->entries];
+    free(total);
+    return left_J;
+}
+
+static remainders book(const char *text, by_hand *energy_J, double step_s) {
+    motion m;
+    stepping how = booked;
+    how.step_s = step_s;
+    motion_open_text(&m, text, how);
+    TEST_ASSERT_TRUE(m.image->has_integral);
+    books *b = books_open(m.image);
+    const uint64_t steps = m.instance->steps;
+    remainders r = {.change_J = -energy_J(&m)};
+    books_enter(b, m.kind, m.run);
+    for (uint64_t step = 1; step <= steps; step++) {
+        TEST_ASSERT_EQUAL_INT(WH_OK, motion_step(&m, 1));
+        books_enter(b, m.kind, m.run);
+        if (step % 2 == 0) { /* Simpson's rule needs pairs of steps */
+            r.summary_J = fmax(r.summary_J, fabs(books_account(b).left));
+        }
+        r.ledger_J = fmax(r.ledger_J, fabs(ledger_left_J(&m)));
+    }
+    r.change_J += energy_J(&m);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-13, r.change_J, b->energy_J[1] - b->energy_J[0]);
+    books_close(b);
+    motion_close(&m);
+    return r;
+}
+
+/* At its step a scene's books leave nothing but the method's error: below 1e-9 J of about 1 J. */
+static void expect_closed(const char *text, by_hand *energy_J) {
+    const remainders r = book(text, energy_J, 0.0);
+    printf("  left over %.1e J in the summary's books, %.1e J in the ledger\n", r.summary_J,
+           r.ledger_J);
+    TEST_ASSERT_TRUE(r.summary_J < 1e-9 && r.ledger_J < 1e-9);
+}
+
+/* And it falls with the step as the method's error does: with the 4th power at least. */
+static void expect_order(const char *text, by_hand *energy_J, double step_s) {
+    remainders r[3];
+    for (int k = 0; k < 3; k++) {
+        r[k] = book(text, energy_J, step_s / (1 << k));
+    }
+    for (int k = 0; k < 2; k++) {
+        const double orders[] = {log2(r[k].summary_J / r[k + 1].summary_J),
+                                 log2(r[k].ledger_J / r[k + 1].ledger_J)};
+        char line[120];
+        snprintf(line, sizeof line, "left over %.2e, %.2e J: orders %.2f, %.2f", r[k].summary_J,
+                 r[k].ledger_J, orders[0], orders[1]);
+        printf("  %s\n", line);
+        TEST_ASSERT_TRUE_MESSAGE(orders[0] > 3.7 && orders[1] > 3.7, line);
+    }
+}
+
+static void test_the_turning_hoop(void) {
+    static const char text[] = HOOP_AT_10 "scene s { start th = 0.1\nuntil 2 [s] }\n";
+    expect_closed(text, hoop_at_10);
+    expect_order(text, hoop_at_10, 4e-3);
+}
+
+/* With a torque and a damper, whose work and loss are entries: of some 1e-2 J. */
+static void test_the_turning_hoop_with_motor_and_drag(void) {
+    static const char text[] =
+        HOOP_AT_10 "input M = 0.06 [N*m]\nQ(th) = M\n"
+                   "F = 1e-3 [N*m*s]*th'^2/2\nscene s { start th = 0.1\nuntil 2 [s] }\n";
+    expect_closed(text, hoop_at_10);
+    expect_order(text, hoop_at_10, 2e-3);
+    TEST_ASSERT_TRUE(fabs(book(text, hoop_at_10, 0.0).change_J) > 1e-2);
+}
+
+static void test_the_potential_with_rates(void) {
+    static const char text[] = FIELD "scene s { start x' = 1 [m/s]\nuntil 1 [s] }\n";
+    expect_closed(text, field_J);
+    expect_order(text, field_J, 0.2);
+}
+
+static void test_the_slot_in_a_turning_table(void) {
+    static const char text[] = SLOT "scene s { start x = 1 [m]\nuntil 1 [s] }\n";
+    expect_closed(text, slot_J);
+    expect_order(text, slot_J, 0.1);
+}
+
+static void test_the_fast_body(void) {
+    static const char text[] = FAST "scene s { start x' = 1.5 [m/s]\nuntil 1 [s] }\n";
+    expect_closed(text, fast_J);
+    expect_order(text, fast_J, 0.1);
+}
+
+/* --- contacts ------------------------------------------------------------------------------------ */
+
+/* Total of a contact in an account: 0 is the energy, 1 + i coordinate i. */
+static double of_contact(const motion *m, int account, double *left_over) {
+    const image_ledger *l = &m->image->ledger;
+    double *total = calloc((size_t)(l->entries + l->accounts), sizeof *total);
+    TEST_ASSERT_NOT_NULL(total);
+    m->kind->ledger(m->run, total, total + l->entries);
+    const double entry = total[l->smooth + account];
+    *left_over = total[l->entries + account];
+    free(total);
+    return entry;
+}
+
+/* The wall on the turning table takes what the integral loses: half the mass times the difference of the
+ * squared speeds, whatever the terms that are linear in the rates. */
+static void test_a_wall_on_the_turning_table(void) {
+    static const char text[] =
+        TABLE "scene s { start x = 0.1 [m], x' = 1 [m/s], y' = 0.4 [m/s]\nuntil 0.5 [s] }\n";
+    motion m;
+    uint64_t overruns;
+    double left_over;
+    motion_open_text(&m, text, booked);
+    TEST_ASSERT_TRUE(m.image->has_integral);
+    const double before_J = table_J(&m);
+    while (m.kind->events(m.run, &overruns) == 0) {
+        TEST_ASSERT_EQUAL_INT(WH_OK, motion_step(&m, 1));
+    }
+    const double took_J = before_J - table_J(&m);
+    TEST_ASSERT_TRUE(took_J > 0.1);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-9, -took_J, of_contact(&m, 0, &left_over));
+    TEST_ASSERT_DOUBLE_WITHIN(1e-9, 0.0, left_over);
+    TEST_ASSERT_TRUE(of_contact(&m, 1, &left_over) < -1.0);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-9, 0.0, left_over);
+    TEST_ASSERT_TRUE(of_contact(&m, 2, &left_over) == 0.0); /* the wall is smooth */
+    TEST_ASSERT_DOUBLE_WITHIN(1e-9, 0.0, left_over);
+    motion_to(&m, 0.5);
+    of_contact(&m, 0, &left_over);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-9, 0.0, left_over);
+    motion_close(&m);
+}
+
+static void test_a_stop_on_the_turning_hoop(void) {
+    static const char text[] = HOOP_AT_10 "stop th <= 0.8 restitution 0.5\n"
+                                          "scene s { start th = 0.1\nuntil 2 [s] }\n";
+    motion m;
+    uint64_t overruns;
+    double left_over;
+    motion_open_text(&m, text, booked);
+    const double before_J = hoop_at_10(&m);
+    motion_to(&m, 2.0);
+    TEST_ASSERT_TRUE(m.kind->events(m.run, &overruns) > 1);
+    const double took_J = before_J - hoop_at_10(&m);
+    TEST_ASSERT_TRUE(took_J > 0.01);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-9, -took_J, of_contact(&m, 0, &left_over));
+    TEST_ASSERT_DOUBLE_WITHIN(1e-9, 0.0, left_over);
+    motion_close(&m);
+}
+
+static image *image_of(const char *text, derived *d) {
+    *d = derived_text(text);
+    TEST_ASSERT_NOT_NULL_MESSAGE(d->equations, d->errors);
+    diags *errors = diags_new();
+    d->instance->ledger = true;
+    image *p = image_make(d->equations, NULL, &plainly, IMAGE_TO_RUN, errors);
+    TEST_ASSERT_TRUE((p == NULL) == (diags_count(errors) > 0));
+    diags_free(errors);
+    return p;
+}
+
+/* An impulse is not mass times the change of the rates where the mass depends on them: refused. What has
+ * no impulse, or no such mass, is not. */
+static void test_impacts_of_fast_bodies_are_refused(void) {
+    static const struct {
+        const char *text;
+        bool kept;
+    } all[] = {{FAST "stop x <= 0.3 [m] restitution 0.5\n", false},
+               {FAST "hold x while x > 0.3 [m]\n", false},
+               {FAST "friction x static 0.2 kinetic 0.1 normal 1 [N]\n", true},
+               {FAST, true},
+               {SLOT "stop x <= 0.3 [m] restitution 0.5\n", true}};
+    for (size_t i = 0; i < sizeof all / sizeof all[0]; i++) {
+        derived d;
+        image *p = image_of(all[i].text, &d);
+        TEST_ASSERT_TRUE_MESSAGE((p != NULL) == all[i].kept, all[i].text);
+        image_free(p);
+        derived_free(&d);
+    }
+}
+
+/* --- inputs in the energies ------------------------------------------------------------------------ */
+
+/* The hoop's rate is an input that is changed after every step, as a stick that is moved: the only entry
+ * is what the changes gave, -dL/dt, which is -m R^2 sin^2 (w2^2 - w1^2)/2 each. */
+static void change_the_hoop(const char *text, bool stops) {
+    motion m;
+    double w = 10.0;
+    double gave_J = 0.0;
+    motion_open_text(&m, text, booked);
+    const image_ledger *l = &m.image->ledger;
+    TEST_ASSERT_EQUAL_INT(1, l->inputs);
+    double *total = calloc((size_t)(l->entries + l->accounts), sizeof *total);
+    TEST_ASSERT_NOT_NULL(total);
+    const double start_J = hoop_J(&m, w);
+    for (int step = 0; step < 1000; step++) {
+        TEST_ASSERT_EQUAL_INT(WH_OK, motion_step(&m, 1));
+        const double next = 10.0 + 3.0 * sin(0.02 * step);
+        gave_J -= 0.002 * square(sin(motion_value(&m, "th"))) * (next * next - w * w);
+        m.kind->set_input(m.run, 0, next); /* input 1 is a motor's, which stands still */
+        w = next;
+    }
+    m.kind->ledger(m.run, total, total + l->entries); /* the last change is not in a step yet */
+    TEST_ASSERT_DOUBLE_WITHIN(1e-9, 0.0, total[l->entries]);
+    TEST_ASSERT_EQUAL_INT(WH_OK, motion_step(&m, 1));
+    m.kind->ledger(m.run, total, total + l->entries);
+    TEST_ASSERT_TRUE(fabs(gave_J) > 1e-3);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, gave_J, total[l->entries - 1]);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-9, 0.0, total[l->entries]);
+    const double took_J = stops ? total[l->smooth] : 0.0;
+    TEST_ASSERT_DOUBLE_WITHIN(1e-9, gave_J + took_J, hoop_J(&m, w) - start_J);
+    TEST_ASSERT_TRUE((took_J < -1e-3) == stops);
+    free(total);
+    motion_close(&m);
+}
+
+static void test_a_hoop_whose_rate_is_changed(void) {
+    static const char run[] = "scene s { start th = 0.1\nuntil 2 [s] }\n";
+    char text[1000];
+    for (int stops = 0; stops < 2; stops++) {
+        snprintf(text, sizeof text, "%s%s%s",
+                 HOOP("input w = 10 [rad/s]") "input M = 0 [N*m]\nQ(th) = M\n",
+                 stops != 0 ? "stop th <= 0.8 restitution 0.5\n" : "", run);
+        change_the_hoop(text, stops != 0);
+    }
+}
+
+/* Two springs whose rates are inputs, one T + V: each has its entry, (k2 - k1) x^2/2; and a step that is
+ * refused loses none of it. */
+static void test_springs_whose_rates_are_changed(void) {
+    static const char text[] =
+        "mechanism springs\ncoordinate x [m]\ncoordinate y [m]\ninput a = 9 [N/m]\n"
+        "input push = 0 [N]\ninput b = 4 [N/m]\nT = 1 [kg]*(x'^2 + y'^2)/2\n"
+        "V = a*x^2/2 + b*y^2/2\nQ(x) = push\nscene s { start x = 1 [m], y = 0.5 [m]\nuntil 1 [s] }\n";
+    motion m;
+    motion_open_text(&m, text, booked);
+    const image_ledger *l = &m.image->ledger;
+    TEST_ASSERT_FALSE(m.image->has_integral);
+    TEST_ASSERT_EQUAL_INT(2, l->inputs);
+    double *total = calloc((size_t)(l->entries + l->accounts), sizeof *total);
+    TEST_ASSERT_NOT_NULL(total);
+    TEST_ASSERT_EQUAL_INT(WH_OK, motion_step(&m, 300));
+    const double x_J = square(motion_value(&m, "x")) / 2.0;
+    const double y_J = square(motion_value(&m, "y")) / 2.0;
+    m.kind->set_input(m.run, 0, 30.0);
+    m.kind->set_input(m.run, 2, (double)NAN);
+    TEST_ASSERT_EQUAL_INT(WH_E_DIVERGED, motion_step(&m, 1));
+    m.kind->set_input(m.run, 2, 1.0);
+    TEST_ASSERT_EQUAL_INT(WH_OK, motion_step(&m, 300));
+    m.kind->ledger(m.run, total, total + l->entries);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-14, 21.0 * x_J, total[l->entries - 2]);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-14, -3.0 * y_J, total[l->entries - 1]);
+    TEST_ASSERT_TRUE(x_J > 1e-3 && y_J > 1e-3);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-9, 0.0, total[l->entries]);
+    free(total);
+    motion_close(&m);
+}
+
+/* Both energies at the start and now, of oscillators whose state says them. */
+static void test_both_energies_at_both_ends(void) {
+    dice d = dice_of("energy_integral", 41);
+    for (int i = 0; i < 20; i++) {
+        const double k = dice_between(&d, 1.0, 20.0);
+        const double mass[2] = {dice_between(&d, 0.5, 3.0), dice_between(&d, 0.5, 3.0)};
+        char text[600];
+        motion m;
+        snprintf(
+            text, sizeof text,
+            "mechanism two\ncoordinate x [m]\ncoordinate y [m]\nparameter k = %.17g [N/m]\n"
+            "T = %.17g [kg]*x'^2/2 + %.17g [kg]*y'^2/2\nV = k*(x - y)^2/2 + k*x^2\n"
+            "scene s { start x = %.17g [m], x' = %.17g [m/s], y' = %.17g [m/s]\nuntil 1 [s] }\n",
+            k, mass[0], mass[1], dice_between(&d, -1.0, 1.0), dice_between(&d, -3.0, 3.0),
+            dice_between(&d, -3.0, 3.0));
+        motion_open_text(&m, text, booked);
+        books *b = books_open(m.image);
+        double kinetic_J[2];
+        double stored_J[2];
+        for (int end = 0; end < 2; end++) {
+            const double x = motion_value(&m, "x");
+            const double y = motion_value(&m, "y");
+            books_enter(b, m.kind, m.run);
+            kinetic_J[end] = (mass[0] * square(motion_value(&m, "x'")) +
+                              mass[1] * square(motion_value(&m, "y'"))) /
+                             2.0;
+            stored_J[end] = k * square(x - y) / 2.0 + k * square(x);
+            TEST_ASSERT_EQUAL_INT(WH_OK, motion_step(&m, end == 0 ? 300 : 1));
+        }
+        for (int end = 0; end < 2; end++) {
+            TEST_ASSERT_DOUBLE_WITHIN(1e-12, kinetic_J[end], b->kinetic_J[end]);
+            TEST_ASSERT_DOUBLE_WITHIN(1e-12, stored_J[end], b->stored_J[end]);
+        }
+        books_close(b);
+        motion_close(&m);
+    }
+}
+
+/* --- which is booked ------------------------------------------------------------------------------- */
+
+static int check_plain(const scene *s) {
+    derived d = derived_builtin(s->name);
+    derived_expect(&d, s->name);
+    TEST_ASSERT_FALSE_MESSAGE(d.image->has_integral, s->name);
+    derived_free(&d);
+    return 1;
+}
+
+/* What is booked is told beside both energies where it is not their sum, and there alone. */
+static void expect_told(const image *im) {
+    char *text;
+    size_t length;
+    void *run = engine_double.start(im);
+    books *b = books_open(im);
+    for (int step = 0; step < 3; step++) {
+        books_enter(b, &engine_double, run);
+        TEST_ASSERT_EQUAL_INT(WH_OK, (int)engine_double.step(run));
+    }
+    const energy_residual balance = energy_residual_of(b, &engine_double, run);
+    FILE *out = alloc_text(&text, &length);
+    books_print(out, b, &balance);
+    alloc_text_end(out);
+    TEST_ASSERT_NOT_NULL_MESSAGE(strstr(text, "  kinetic "), text);
+    TEST_ASSERT_NOT_NULL_MESSAGE(strstr(text, "  stored "), text);
+    TEST_ASSERT_TRUE_MESSAGE((strstr(text, "  booked: h = ") != NULL) == im->has_integral, text);
+    free(text);
+    books_close(b);
+    engine_double.stop(run);
+}
+
+/* T + V is booked where it is the integral: in every built-in scene. */
+static void test_where_the_integral_is_the_energy(void) {
+    static const struct {
+        const char *text;
+        bool integral;
+    } all[] = {{HOOP("parameter w = 0 [rad/s]"), false},
+               {HOOP("parameter w = 1e-7 [rad/s]"), true},
+               {FIELD, true},
+               {"mechanism a\ncoordinate x [m]\nT = 1 [kg]*x'^2/2 + 1 [kg*m/s]*abs(x')\n", true},
+               {"mechanism a\ncoordinate x [m]\nT = 1 [kg]*x'^2/2 + 1 [kg*m/s]*x'\n", true},
+               {"mechanism a\ncoordinate x [m]\nT = 1 [kg]*x'^2/2 + 3 [J]\n", true},
+               {"mechanism a\ncoordinate x [m]\nT = 1 [kg]*x'^2/2\nV = 1e-11 [kg]*x'^2\n", true},
+               {"mechanism a\ncoordinate x [m]\ncoordinate y [m]\ncoordinate a [rad]\n"
+                "let v = (x' + y'*cos(a) + 1 [m]*a'*sin(a + x/1 [m]))\n"
+                "T = 1 [kg]*(v^2 + x'^2 + y'^2)/2 + 1 [kg*m^2]*a'^2\n"
+                "V = 1 [J]*sin(a)*exp(x/1 [m])*sqrt(1 + (y/1 [m])^2)\n",
+                false}};
+    for (size_t i = 0; i < sizeof all / sizeof all[0]; i++) {
+        derived d;
+        image *p = image_of(all[i].text, &d);
+        TEST_ASSERT_NOT_NULL_MESSAGE(p, all[i].text);
+        TEST_ASSERT_TRUE_MESSAGE(p->has_integral == all[i].integral, all[i].text);
+        expect_told(p);
+        image_free(p);
+        derived_free(&d);
+    }
+    TEST_ASSERT_TRUE(each_builtin_scene(check_plain) > 40);
+}
+
+void suite_energy_integral(void) {
+    RUN_TEST(test_the_turning_hoop);
+    RUN_TEST(test_the_turning_hoop_with_motor_and_drag);
+    RUN_TEST(test_the_potential_with_rates);
+    RUN_TEST(test_the_slot_in_a_turning_table);
+    RUN_TEST(test_the_fast_body);
+    RUN_TEST(test_a_wall_on_the_turning_table);
+    RUN_TEST(test_a_stop_on_the_turning_hoop);
+    RUN_TEST(test_impacts_of_fast_bodies_are_refused);
+    RUN_TEST(test_a_hoop_whose_rate_is_changed);
+    RUN_TEST(test_springs_whose_rates_are_changed);
+    RUN_TEST(test_both_energies_at_both_ends);
+    RUN_TEST(test_where_the_integral_is_the_energy);
 }

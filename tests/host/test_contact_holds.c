@@ -1,17 +1,21 @@
 /* test_contact_holds.c: holds keep their place, over 1e5 steps and more: rods, linkages, gears. What they keep is
  * state: an assignment gives it anew. Linkages that lie flat are refused. */
-#include "command.h"
-#include "contacts.h"
-#include "derived.h"
-
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "command.h"
+#include "contacts.h"
+#include "derived.h"
+
 #include "unity.h"
 
 void suite_contact_holds(void);
+void suite_contact_load(void);
+void suite_contact_rest(void);
+
+/* === contact holds ============================================================================ */
 
 static const engine_kind *const KINDS[] = {&engine_double, &engine_float};
 
@@ -433,4 +437,484 @@ void suite_contact_holds(void) {
     RUN_TEST(test_a_flat_linkage_is_refused);
     RUN_TEST(test_gears_keep_their_mesh);
     RUN_TEST(test_an_assignment_gives_it_anew);
+}
+
+/* === contact load ============================================================================= */
+/* Contacts that share one load (core/models/contacts_together.whirl), and resting contacts
+ * that something other than a force disturbs: an assignment, an input. */
+
+#define G 9.81
+
+static const stepping *each_number(int i) {
+    static const stepping ways[] = {{.kind = &engine_double, .method = WH_RK4},
+                                    {.kind = &engine_float, .method = WH_RK4},
+                                    {.kind = &engine_float, .method = WH_RK4, .compensated = true}};
+    return i < 3 ? &ways[i] : NULL;
+}
+
+/* --- who gives way ------------------------------------------------------------------------------------- */
+
+/* The push is beyond the limit of either friction; but what the block's friction can pass on, 4.905 N, is less
+ * than the plank's 5.886 N. */
+static void test_the_weaker_friction_protects_the_other(void) {
+    for (int i = 0; each_number(i) != NULL; i++) {
+        motion m;
+        motion_open(&m, "plank_stays", *each_number(i));
+        motion_to(&m, 1.0);
+        TEST_ASSERT_TRUE(motion_value(&m, "x") == 0.0 && motion_value(&m, "x'") == 0.0);
+        /* closed form: (P/m - mk g) t^2/2; a thousand roundings of a sum */
+        const double bound = each_number(i)->kind == &engine_float ? 1e-4 : 1e-12;
+        expect_between("u over the closed form, less 1", -bound, bound,
+                       motion_value(&m, "u") / (0.5 * (10.0 / 2.0 - 0.2 * G)) - 1.0);
+        motion_close(&m);
+    }
+}
+
+/* Three contacts on two coordinates: the forces are not unique, and no single split of the load may move what
+ * the contacts can hold together. */
+static void test_leaning_blocks_rest_exactly(void) {
+    for (int i = 0; each_number(i) != NULL; i++) {
+        motion m;
+        motion_open(&m, "leaning_rests", *each_number(i));
+        motion_to(&m, 2.0);
+        const double x = motion_value(&m, "x");
+        const double y = motion_value(&m, "y");
+        const uint64_t events = contacts_events(&m);
+        TEST_ASSERT_TRUE(motion_value(&m, "x'") == 0.0 && motion_value(&m, "y'") == 0.0);
+        motion_to(&m, 60.0);
+        TEST_ASSERT_TRUE(motion_value(&m, "x") == x && motion_value(&m, "y") == y);
+        TEST_ASSERT_EQUAL_UINT64(events, contacts_events(&m));
+        TEST_ASSERT_EQUAL_UINT64(0, contacts_overruns(&m));
+        /* apart by the blocks' width, as near as its sum rounds */
+        expect_between("y - x - w", -1e-7, 1e-7, y - x - 0.1);
+        motion_close(&m);
+    }
+}
+
+/* Frictions that only together carry what holds them together: capacities of 3.687 N each, load 6.710 N. */
+static void test_frictions_add_up_through_a_hold(void) {
+    static const char text[] =
+        "mechanism coupled\ncoordinate x [m]\ncoordinate y [m]\nparameter m = 1 [kg]\n"
+        "parameter g = 9.81 [m/s^2]\nparameter mu = 0.4\nparameter a = 20 [deg]\n"
+        "T = m*(x'^2 + y'^2)/2\nV = -m*g*sin(a)*(x + y)\n"
+        "hold y - x while y > -1 [m]\n"
+        "friction x static mu kinetic 0.75*mu normal m*g*cos(a)\n"
+        "friction y static mu kinetic 0.75*mu normal m*g*cos(a)\n"
+        "scene s {\n  start x = 0, y = 10 [cm]\n  step 1 [ms]\n  until 10 [s]\n}\n";
+    for (int i = 0; each_number(i) != NULL; i++) {
+        motion m;
+        stepping how = *each_number(i);
+        motion_open_text(&m, text, how);
+        motion_to(&m, 10.0);
+        TEST_ASSERT_TRUE(motion_value(&m, "x") == 0.0);
+        TEST_ASSERT_EQUAL_UINT64(0, contacts_events(&m));
+        motion_close(&m);
+        how.set = "mu=0.36"; /* 6.637 N together, kinetic 4.978 N: it slides */
+        motion_open_text(&m, text, how);
+        motion_to(&m, 10.0);
+        const double slope = G * (sin(acos(-1.0) / 9.0) - 0.75 * 0.36 * cos(acos(-1.0) / 9.0));
+        const double bound = how.kind == &engine_float ? 6e-4 : 1e-11;
+        expect_between("x over the closed form, less 1", -bound, bound,
+                       motion_value(&m, "x") / (50.0 * slope) - 1.0);
+        motion_close(&m);
+    }
+}
+
+/* --- corners --------------------------------------------------------------------------------------------- */
+
+static const char *const GROOVES[][2] = {
+    {"a=30 [deg]", "b=30 [deg]"}, {"a=45 [deg]", "b=45 [deg]"}, {"a=44 [deg]", "b=45 [deg]"},
+    {"a=10 [deg]", "b=60 [deg]"}, {"a=60 [deg]", "b=60 [deg]"}, {"a=20 [deg]", "b=15 [deg]"}};
+
+static void run_groove(const char *const slopes[2], const char *restitution,
+                       const engine_kind *kind) {
+    char more[300];
+    motion m;
+    snprintf(more, sizeof more,
+             "scene groove_now {\n use groove\n with sides\n set %s, %s, %s\n"
+             " start x = 5 [cm], y = 30 [cm]\n step 1 [ms]\n until 30 [s]\n}\n",
+             slopes[0], slopes[1], restitution);
+    motion_open_more(&m, "contacts_together.whirl", more,
+                     (stepping){.kind = kind, .method = WH_RK4});
+    motion_to(&m, 20.0);
+    const uint64_t events = contacts_events(&m);
+    printf("  %s, %s, %s, %s: %llu events, %llu overruns\n", slopes[0], slopes[1], restitution,
+           kind->name, (unsigned long long)events, (unsigned long long)contacts_overruns(&m));
+    /* at rest in the corner, where gravity and both sides leave nothing but what a product rounds */
+    const double speed = hypot(motion_value(&m, "x'"), motion_value(&m, "y'"));
+    TEST_ASSERT_TRUE(speed < 1e-15);
+    TEST_ASSERT_TRUE(hypot(motion_value(&m, "x"), motion_value(&m, "y")) < 1e-15);
+    TEST_ASSERT_TRUE(contacts_overruns(&m) <= 1);
+    motion_to(&m, 30.0);
+    TEST_ASSERT_EQUAL_UINT64(events, contacts_events(&m));
+    motion_close(&m);
+}
+
+static void test_a_ball_comes_to_rest_in_a_groove(void) {
+    for (unsigned i = 0; i < sizeof GROOVES / sizeof GROOVES[0]; i++) {
+        run_groove(GROOVES[i], "e=0", &engine_double);
+        run_groove(GROOVES[i], "e=0.5", &engine_double);
+        run_groove(GROOVES[i], "e=0.5", &engine_float);
+    }
+}
+
+/* Three carts, one after another, in plastic impacts, and nothing that presses them together. */
+static void test_plastic_impacts_without_a_force(void) {
+    static const char text[] =
+        "mechanism carts\ncoordinate a [m]\ncoordinate b [m]\ncoordinate c [m]\n"
+        "parameter m = 1 [kg]\nparameter w = 0.1 [m]\n"
+        "T = m*(a'^2 + 2*b'^2 + 3*c'^2)/2\n"
+        "stop b - a >= w restitution 0\nstop c - b >= w restitution 0\n"
+        "scene s {\n  start a = 0, b = 0.4 [m], c = 0.8 [m], a' = 1 [m/s]\n"
+        "  step 1 [ms]\n  until 10 [s]\n}\n";
+    motion m;
+    motion_open_text(&m, text, IN_DOUBLE);
+    motion_to(&m, 10.0);
+    TEST_ASSERT_EQUAL_UINT64(2, contacts_events(&m));
+    TEST_ASSERT_EQUAL_UINT64(0, contacts_overruns(&m));
+    expect_between("gap of a and b", -1e-12, 1e-12,
+                   motion_value(&m, "b") - motion_value(&m, "a") - 0.1);
+    expect_between("gap of b and c", -1e-12, 1e-12,
+                   motion_value(&m, "c") - motion_value(&m, "b") - 0.1);
+    expect_between("c' times 6, less 1", -1e-14, 1e-14, 6.0 * motion_value(&m, "c'") - 1.0);
+    motion_close(&m);
+}
+
+/* --- what disturbs resting contacts ----------------------------------------------------------------------- */
+
+#define FLOOR \
+    "mechanism kicked\ncoordinate y [m]\ncoordinate c [rad]\nparameter m = 1 [kg]\n" \
+    "parameter J = 1 [kg*m^2]\nparameter g = 9.81 [m/s^2]\ninput floor = 0 [m]\n" \
+    "input e = 0.5\n" \
+    "T = m*y'^2/2 + J*c'^2/2\nV = m*g*y\nstop y >= floor restitution e\n" \
+    "scene s {\n  start y = 0, c' = 1 [rad/s]\n  with ledger\n  step 1 [ms]\n  until 4 [s]\n"
+
+/* A ball at rest; when the clock c passes 0.5 s, `set`. Its height at `at_s`. */
+static double height_after(const char *set, double at_s, const engine_kind *kind) {
+    char text[600];
+    motion m;
+    snprintf(text, sizeof text, FLOOR "  when c crosses 0.5 rising { set %s }\n}\n", set);
+    motion_open_text(&m, text, (stepping){.kind = kind, .method = WH_RK4});
+    motion_to(&m, at_s);
+    const double y = motion_value(&m, "y");
+    motion_to(&m, 4.0);
+    TEST_ASSERT_TRUE(motion_value(&m, "y") == 0.0 && motion_value(&m, "y'") == 0.0);
+    TEST_ASSERT_EQUAL_UINT64(0, contacts_overruns(&m));
+    motion_close(&m);
+    return y;
+}
+
+static void test_an_assignment_lifts_or_throws_what_rests(void) {
+    for (int i = 0; each_number(i) != NULL; i++) {
+        const engine_kind *kind = each_number(i)->kind;
+        const double bound = kind == &engine_float ? 1e-5 : 1e-9;
+        expect_between("thrown up with 2 m/s, after 0.2 s", -bound, bound,
+                       height_after("y' = 2 [m/s]", 0.7, kind) - (0.4 - 0.5 * G * 0.04));
+        /* thrown down: back up with half of it */
+        expect_between("thrown down with 4 m/s, after 0.2 s", -bound, bound,
+                       height_after("y' = -4 [m/s]", 0.7, kind) - (0.4 - 0.5 * G * 0.04));
+        expect_between("lifted by 1 m, after 0.2 s", -bound, bound,
+                       height_after("y = 1 [m]", 0.7, kind) - (1.0 - 0.5 * G * 0.04));
+        /* beyond the stop: put back onto it at once */
+        expect_between("pushed through, after 0.2 s", 0.0, 0.0,
+                       height_after("y = -1 [m]", 0.7, kind));
+    }
+}
+
+static void test_an_input_moves_a_stop(void) {
+    for (int i = 0; each_number(i) != NULL; i++) {
+        motion m;
+        motion_open_text(&m, FLOOR "}\n", *each_number(i));
+        motion_to(&m, 0.5);
+        m.kind->set_input(m.run, 0, -1.0);
+        motion_to(&m, 0.7);
+        const double bound = each_number(i)->kind == &engine_float ? 1e-5 : 1e-9;
+        expect_between("fallen for 0.2 s", -bound, bound, motion_value(&m, "y") + 0.5 * G * 0.04);
+        motion_to(&m, 3.0);
+        TEST_ASSERT_TRUE(motion_value(&m, "y") == -1.0 && motion_value(&m, "y'") == 0.0);
+        m.kind->set_input(m.run, 0, 0.5);
+        motion_to(&m, 3.1);
+        TEST_ASSERT_TRUE(motion_value(&m, "y") == 0.5 && motion_value(&m, "y'") == 0.0);
+        motion_close(&m);
+    }
+}
+
+/* Restitution beyond 0 ... 1, from an input, counts as the nearer end: no energy from nothing. */
+static void test_restitution_has_its_range_while_running(void) {
+    motion m;
+    stepping how = IN_DOUBLE;
+    how.start = "y=1";
+    motion_open_text(&m, FLOOR "}\n", how);
+    m.kind->set_input(m.run, 1, 1.5);
+    double highest = 0.0;
+    for (int i = 0; i < 4000; i++) {
+        TEST_ASSERT_EQUAL_INT(WH_OK, motion_step(&m, 1));
+        highest = fmax(highest, motion_value(&m, "y"));
+    }
+    expect_between("highest", 0.99, 1.0 + 1e-12, highest);
+    TEST_ASSERT_TRUE(contacts_events(&m) >= 4);
+    motion_close(&m);
+}
+
+/* What a hold keeps is captured again, and booked: momentum m (2 - 0), energy m 2^2/2. */
+static void test_a_hold_takes_what_an_assignment_gives(void) {
+    static const char text[] =
+        "mechanism held\ncoordinate x [m]\ncoordinate z [m]\ncoordinate c [rad]\n"
+        "parameter m = 1 [kg]\nparameter J = 1 [kg*m^2]\nT = m*(x'^2 + z'^2)/2 + J*c'^2/2\n"
+        "hold x - z while c < 2\n"
+        "scene s {\n  with ledger\n  start c' = 1 [rad/s]\n"
+        "  when c crosses 0.5 rising { set x' = 2 [m/s] }\n  step 1 [ms]\n  until 1 [s]\n}\n";
+    motion m;
+    double total[64] = {0.0};
+    double left[8] = {0.0};
+    motion_open_text(&m, text, IN_DOUBLE);
+    motion_to(&m, 1.0);
+    expect_between("x'", 1.0 - 1e-15, 1.0 + 1e-15, motion_value(&m, "x'"));
+    expect_between("z'", 1.0 - 1e-15, 1.0 + 1e-15, motion_value(&m, "z'"));
+    m.kind->ledger(m.run, total, left);
+    expect_between("energy left over", -1e-14, 1e-14, left[0]);
+    bool booked = false; /* what the capture took: half of what the assignment gave */
+    for (int i = 0; i < 64; i++) {
+        booked = booked || fabs(total[i] + 1.0) < 1e-14;
+    }
+    TEST_ASSERT_TRUE(booked);
+    motion_close(&m);
+}
+
+/* Met exactly at a step's end, a crossing is located as well as anywhere: 0.5 = 32 steps of 1/64 s. */
+static void test_a_crossing_at_a_steps_end_is_located(void) {
+    static const char text[] =
+        "mechanism clock\ncoordinate c [rad]\ncoordinate x [m]\nparameter J = 1 [kg*m^2]\n"
+        "parameter m = 1 [kg]\nT = J*c'^2/2 + m*x'^2/2\n"
+        "scene s {\n  start c' = 1 [rad/s], x' = 1 [m/s]\n"
+        "  when x crosses 0.5 [m] rising { set x = 0 }\n  step 15.625 [ms]\n  until 0.875 [s]\n}\n";
+    for (int i = 0; each_number(i) != NULL; i++) {
+        motion m;
+        motion_open_text(&m, text, *each_number(i));
+        motion_to(&m, 0.875);
+        const double bound = each_number(i)->kind == &engine_float ? 1e-7 : 1e-14;
+        expect_between("x, less the closed form", -bound, bound, motion_value(&m, "x") - 0.375);
+        motion_close(&m);
+    }
+}
+
+void suite_contact_load(void) {
+    RUN_TEST(test_the_weaker_friction_protects_the_other);
+    RUN_TEST(test_leaning_blocks_rest_exactly);
+    RUN_TEST(test_frictions_add_up_through_a_hold);
+    RUN_TEST(test_a_ball_comes_to_rest_in_a_groove);
+    RUN_TEST(test_plastic_impacts_without_a_force);
+    RUN_TEST(test_an_assignment_lifts_or_throws_what_rests);
+    RUN_TEST(test_an_input_moves_a_stop);
+    RUN_TEST(test_restitution_has_its_range_while_running);
+    RUN_TEST(test_a_hold_takes_what_an_assignment_gives);
+    RUN_TEST(test_a_crossing_at_a_steps_end_is_located);
+}
+
+/* === contact rest ============================================================================= */
+/* Bodies that come to rest together, pressed upon each other by nothing but their braking: what
+ * static friction can keep stays at rest, whatever rounding leaves of forces and rates there. */
+
+/* x brakes, y pushes it from behind through a straight or curved buffer; the push on one of them is less than that
+ * one's static friction. With `both`, y rubs, too. */
+static void write_wagons(uint64_t *seed, bool curved, bool both, char *text, size_t size) {
+    const double mass[2] = {exp(random_between(seed, -1.0, 1.0)),
+                            exp(random_between(seed, -1.0, 1.0))};
+    const double bend = curved ? random_between(seed, 0.02, 0.3) : 0.0;
+    const double slope = curved ? random_between(seed, 0.5, 1.0) : 1.0;
+    const double speed = random_between(seed, 0.4, 2.0);
+    const double normal = random_between(seed, 8.0, 40.0) * (mass[0] + mass[1]);
+    const double mu = random_between(seed, 0.2, 0.5);
+    const double ratio = random_bits(seed) % 3U != 0 ? random_between(seed, 0.5, 1.0) : 1.0;
+    const double push = random_between(seed, -0.5, 0.5) * mu * ratio * normal;
+    char second[160] = "";
+    if (both) { /* gently: y goes on pushing */
+        const double own = 0.05 * normal * slope * mass[1] / mass[0];
+        snprintf(second, sizeof second, "friction y static %.17g kinetic %.17g normal %.17g [N]\n",
+                 mu, mu * ratio, own);
+    }
+    snprintf(text, size,
+             "mechanism wagons\ncoordinate x [m]\ncoordinate y [m]\n"
+             "T = %.17g [kg]*x'^2/2 + %.17g [kg]*y'^2/2\nV = %.17g [N]*x\n"
+             "stop y <= %.17g*x + %.17g [1/m]*x^2 restitution 0\n"
+             "friction x static %.17g kinetic %.17g normal %.17g [N]\n%s"
+             "scene s {\n  start x' = %.17g [m/s], y' = %.17g [m/s]\n  until 6 [s]\n}\n",
+             mass[0], mass[1], push, slope, bend, mu, mu * ratio, normal, second, speed,
+             slope * speed);
+}
+
+static void check_wagons(bool curved, bool both, const char *words) {
+    static const double steps_s[] = {5e-3, 2e-3, 1e-3, 0.5e-3};
+    uint64_t seed = 31;
+    const int pairs = (int)few_or_all(usual_or(4, 2), 60);
+    for (int i = 0; i < pairs; i++) {
+        char text[1200];
+        double rests[4];
+        write_wagons(&seed, curved, both, text, sizeof text);
+        for (int n = 0; n < 2; n++) {
+            for (int k = 0; k < 4; k++) {
+                motion m;
+                motion_open_text(
+                    &m, text, (stepping){.kind = KINDS[n], .method = WH_RK4, .step_s = steps_s[k]});
+                motion_to(&m, 6.0);
+                const double moves = fabs(motion_value(&m, "x'")) + fabs(motion_value(&m, "y'"));
+                const uint64_t events = contacts_events(&m);
+                rests[k] = motion_value(&m, "x");
+                const double off = fabs(rests[k] - rests[0]);
+                if (moves > 1e-9 || events > 6 || off > (n ? 1e-4 : 1e-6)) {
+                    printf("%sh = %g s, %s: moves with %.2e m/s, %llu events, off by %.1e m\n",
+                           text, steps_s[k], KINDS[n]->name, moves, (unsigned long long)events,
+                           off);
+                }
+                TEST_ASSERT_TRUE_MESSAGE(moves <= 1e-9 && events <= 6 && off <= (n ? 1e-4 : 1e-6),
+                                         words);
+                TEST_ASSERT_EQUAL_UINT64_MESSAGE(0, contacts_overruns(&m), words);
+                motion_close(&m);
+            }
+        }
+    }
+}
+
+static void test_wagons_with_a_straight_buffer(void) { check_wagons(false, false, "straight"); }
+static void test_wagons_with_a_curved_buffer(void) { check_wagons(true, false, "curved"); }
+static void test_wagons_that_both_brake(void) { check_wagons(true, true, "curved, both brake"); }
+
+/* --- rows of wagons ---------------------------------------------------------------------------------------- */
+
+/* Wagons with brakes and plastic buffers, in a row before a wall or without one, pushed by less than static friction
+ * holds: they come to rest, in few events, in the same place for every step, and none beyond another. */
+static void write_row(uint64_t *seed, int wagons, bool wall, char *text, size_t size) {
+    int at = snprintf(text, size, "mechanism row\n");
+    char T[400] = "0";
+    char rest[1200] = "";
+    char start[500] = "start ";
+    double speed = random_between(seed, 0.5, 2.5);
+    for (int i = 0; i < wagons; i++) {
+        const double normal = 10.0 * (double)(1 + random_bits(seed) % 5U);
+        const double mu = 0.05 * (double)(1 + random_bits(seed) % 6U);
+        char more[300];
+        at += snprintf(text + at, size - (size_t)at, "coordinate x%d [m]\n", i);
+        snprintf(more, sizeof more, " + %d [kg]*x%d'^2/2", 1 + (int)(random_bits(seed) % 4U), i);
+        strncat(T, more, sizeof T - strlen(T) - 1);
+        snprintf(more, sizeof more, "friction x%d static %.17g kinetic %.17g normal %.17g [N]\n", i,
+                 1.2 * mu, mu, normal);
+        strncat(rest, more, sizeof rest - strlen(rest) - 1);
+        if (i > 0) {
+            snprintf(more, sizeof more, "stop x%d >= x%d restitution 0\n", i, i - 1);
+            strncat(rest, more, sizeof rest - strlen(rest) - 1);
+        } else {
+            snprintf(more, sizeof more, "Q(x0) = %.17g [N]\n",
+                     random_between(seed, 0.0, 0.9) * mu * normal);
+            strncat(rest, more, sizeof rest - strlen(rest) - 1);
+        }
+        snprintf(more, sizeof more, "%sx%d = %.17g [m], x%d' = %.17g [m/s]", i > 0 ? ", " : "", i,
+                 0.1 * i, i, speed);
+        strncat(start, more, sizeof start - strlen(start) - 1);
+        speed *= random_between(seed, 0.0, 1.0);
+    }
+    if (wall) {
+        char more[100];
+        snprintf(more, sizeof more, "stop %.17g [m] >= x%d restitution 0\n",
+                 0.1 * (wagons - 1) + random_between(seed, 0.0, 0.2), wagons - 1);
+        strncat(rest, more, sizeof rest - strlen(rest) - 1);
+    }
+    snprintf(text + at, size - (size_t)at, "T = 0 [J]*0%s\n%sscene s {\n  %s\n  until 30 [s]\n}\n",
+             T + 1, rest, start);
+}
+
+static void test_rows_of_wagons(void) {
+    uint64_t seed = 41;
+    uint64_t most = 0;
+    int overran = 0;
+    int runs = 0;
+    const int rows = (int)dice_cases(few_or_all(usual_or(3, 2), 18));
+    for (int i = 0; i < rows; i++) {
+        char text[3000];
+        const int wagons = 2 + i % 3;
+        double rests[8] = {0.0};
+        write_row(&seed, wagons, i % 2 != 0, text, sizeof text);
+        for (int n = 0; n < 4; n++) {
+            static const double steps_s[] = {1e-3, 5e-3};
+            motion m;
+            motion_open_text(
+                &m, text,
+                (stepping){.kind = KINDS[n / 2], .method = WH_RK4, .step_s = steps_s[n % 2]});
+            motion_to(&m, 30.0);
+            const bool over = contacts_overruns(&m) > 0;
+            bool good = contacts_events(&m) <= 60;
+            overran += over;
+            double before = -1.0;
+            for (int k = 0; k < wagons; k++) {
+                char name[16];
+                snprintf(name, sizeof name, "x%d", k);
+                const double x = motion_value(&m, name);
+                good = good && x - before >= (n < 2 ? -1e-12 : -1e-6);
+                before = x;
+                rests[k] = n == 0 ? x : rests[k];
+                good = good && fabs(x - rests[k]) < (over ? 1e-2 : 2e-3);
+                snprintf(name, sizeof name, "x%d'", k);
+                good = good && fabs(motion_value(&m, name)) < 1e-12;
+            }
+            runs++;
+            most = contacts_events(&m) > most ? contacts_events(&m) : most;
+            if (!good) {
+                printf("%s%s, h = %g s: %llu events, %llu overruns; ends at", text,
+                       KINDS[n / 2]->name, steps_s[n % 2], (unsigned long long)contacts_events(&m),
+                       (unsigned long long)contacts_overruns(&m));
+                for (int k = 0; k < wagons; k++) {
+                    char name[16];
+                    snprintf(name, sizeof name, "x%d", k);
+                    printf(" %.12g (%.12g)", motion_value(&m, name), rests[k]);
+                }
+                puts("");
+            }
+            TEST_ASSERT_TRUE(good);
+            motion_close(&m);
+        }
+    }
+    printf("  at most %llu events; %d of %d runs overran\n", (unsigned long long)most, overran,
+           runs);
+    TEST_ASSERT_TRUE(overran <= runs / 20);
+}
+
+/* --- a force elsewhere ------------------------------------------------------------------------------------------ */
+
+/* A small body that a growing force pulls off, or along, beside a large force on another that has nothing to do with
+ * it: neither number may mistake the one for the other's rounding. */
+static void test_a_force_elsewhere_holds_nothing(void) {
+    for (int i = 0; i < 8; i++) {
+        char text[700];
+        const int digits = 2 + i / 2;
+        const double large = pow(10.0, digits);
+        snprintf(text, sizeof text,
+                 "mechanism beside\ncoordinate y [m]\ncoordinate z [m]\ncoordinate c [rad]\n"
+                 "T = 0.5 [kg]*y'^2/2 + 2 [kg]*z'^2/2 + 1e6 [kg*m^2]*c'^2/2\n"
+                 "Q(y) = %s\nQ(z) = -%.17g [N]\nstop z >= 0 [m] restitution 0\n%s"
+                 "scene s {\n  start c' = 0.1 [rad/s]\n  until 6 [s]\n}\n",
+                 i % 2 ? "2 [N]*sin(c)" : "2 [N]*sin(c) - 0.5 [N]", large,
+                 i % 2 ? "friction y static 0.5 kinetic 0.5 normal 1 [N]\n"
+                       : "stop y >= 0 [m] restitution 0\n");
+        for (int n = 0; n < 2; n++) {
+            motion m;
+            motion_open_text(&m, text, (stepping){.kind = KINDS[n], .method = WH_RK4});
+            motion_to(&m, 6.0);
+            /* from sin(0.1 t0) = 1/4: m y'' = 2 (sin(0.1 t) - 1/4) */
+            const double c0 = asin(0.25);
+            const double c1 = 0.6;
+            const double y =
+                4.0 * 100.0 *
+                (-sin(c1) + sin(c0) + cos(c0) * (c1 - c0) - 0.25 * (c1 - c0) * (c1 - c0) / 2.0);
+            expect_between("y over the closed form", n ? 0.999 : 1.0 - 1e-9, n ? 1.001 : 1.0 + 1e-9,
+                           motion_value(&m, "y") / y);
+            motion_close(&m);
+        }
+    }
+}
+
+void suite_contact_rest(void) {
+    RUN_TEST(test_rows_of_wagons);
+    RUN_TEST(test_a_force_elsewhere_holds_nothing);
+    RUN_TEST(test_wagons_with_a_straight_buffer);
+    RUN_TEST(test_wagons_with_a_curved_buffer);
+    RUN_TEST(test_wagons_that_both_brake);
 }

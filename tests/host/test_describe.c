@@ -1,18 +1,24 @@
 /* test_describe.c: `whirl describe --json`: declared ranges, a step as a matrix; docs/describe.md has each field; and the checker
- * that says so refuses what is not JSON. (Every field, of drawn scenes: test_described_drawn.c.) */
+ * that says so refuses what is not JSON. (Every field, of drawn scenes: test_image.c.) */
 #define _POSIX_C_SOURCE 200809L
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "derived.h"
 #include "host/emit/description.h"
+#include "host/lang/units.h"
+
+#include "derived.h"
 #include "json_check.h"
 #include "motion.h"
+
 #include "unity.h"
 
 void suite_describe(void);
+void suite_image_rows(void);
+
+/* === describe ================================================================================= */
 
 static char *described(const image *im) { return derived_written(describe_json, im); }
 
@@ -230,4 +236,252 @@ void suite_describe(void) {
     RUN_TEST(test_the_checker_is_strict);
     RUN_TEST(test_ranges_are_described);
     RUN_TEST(test_a_matrix_is_described);
+}
+
+/* === image rows =============================================================================== */
+/* The tables of an image, row by row. Each component, each account, each input stands where the core's
+ * order (core/scene.h, core/ledger.h) has it, once, and means what the file says. A row too few or one place further would
+ * change no motion of the scenes that do not use it. */
+
+/* --- momenta ------------------------------------------------------------------------------------------*/
+
+/* In twelfths: what the unit's text says. */
+static dimension dimension_of(const char *unit) {
+    unit_scale read = {1.0, 1.0, dim_none(), enclosure_of(1.0)};
+    unit_error error = {.offset = 0};
+    if (strcmp(unit, "1") != 0) {
+        TEST_ASSERT_TRUE_MESSAGE(unit_parse(unit, strlen(unit), &read, &error), unit);
+    }
+    TEST_ASSERT_TRUE_MESSAGE(read.scale == read.divisor, unit); /* SI */
+    return read.dim;
+}
+
+/* A momentum is an energy times a time over what its coordinate is in, whatever that is: metres, angles, charges, square
+ * roots of masses. */
+static void test_momenta_are_energy_by_time_over_their_coordinate(void) {
+    static const char *const bases[DIM_BASES][5] = {{"", "*m", "/m", "*m^2", "*m^(1/2)"},
+                                                    {"", "*kg", "/kg", "*kg^2", "*kg^(1/2)"},
+                                                    {"", "*s", "/s", "*s^2", "/s^2"},
+                                                    {"", "*A", "/A", "*A^2", "/A^2"},
+                                                    {"", "*K", "/K", "*K^2", "/K^2"}};
+    uint64_t seed = 20261123;
+    for (int round = 0; round < 60; round++) {
+        char unit[80] = "rad";
+        char text[400];
+        for (int b = 0; b < DIM_BASES; b++) {
+            const unsigned which = round == 0           ? 0U
+                                   : round <= DIM_BASES ? (unsigned)(b + 1 == round)
+                                                        : (unsigned)(random_bits(&seed) % 5);
+            strcat(unit, bases[b][which]);
+        }
+        snprintf(text, sizeof text, "mechanism m\ncoordinate q [%s]\nT = 2 [J*s^2/(%s)^2]*q'^2/2\n",
+                 unit, unit);
+        derived d = derived_text(text);
+        derived_expect(&d, text);
+        const dimension own = dimension_of(unit);
+        const dimension momentum = dimension_of(d.image->unknown[0].momentum_si);
+        for (int b = 0; b < DIM_BASES; b++) {
+            const int of_action = (b == DIM_LENGTH ? 2
+                                   : b == DIM_MASS ? 1
+                                   : b == DIM_TIME ? -1
+                                                   : 0) *
+                                  DIM_DENOMINATOR;
+            TEST_ASSERT_EQUAL_INT_MESSAGE(of_action, own.twelfths[b] + momentum.twelfths[b], text);
+        }
+        derived_free(&d);
+    }
+}
+
+/* --- components ---------------------------------------------------------------------------------------*/
+
+/* angle[] and real[]: of second order the angles, the other positions, all rates; of first order all that there is. Each
+ * unknown that is integrated has one place, those that follow from their momentum none. */
+static void check_components(const image *im, const char *name) {
+    int seen[IMAGE_COMPONENTS_MAX][ORDERS_MAX] = {{0}};
+    for (int i = 0; i < im->angles + im->reals; i++) {
+        const component c = image_component(im, i);
+        TEST_ASSERT_TRUE_MESSAGE(c.unknown >= 0 && c.unknown < im->count, name);
+        TEST_ASSERT_TRUE_MESSAGE(c.primes >= 0 && c.primes < im->unknown[c.unknown].order, name);
+        seen[c.unknown][c.primes]++;
+        TEST_ASSERT_TRUE_MESSAGE(i >= im->angles || c.primes == 0, name);
+        TEST_ASSERT_EQUAL_INT_MESSAGE(i, image_find_component(im, c.unknown, c.primes), name);
+    }
+    int recovered = 0;
+    for (int u = 0; u < im->count; u++) {
+        const bool integrated = im->form == WH_FIRST_ORDER || im->place[u] >= 0;
+        for (int primes = 0; primes < im->unknown[u].order; primes++) {
+            TEST_ASSERT_EQUAL_INT_MESSAGE(integrated ? 1 : 0, seen[u][primes], name);
+        }
+        if (!integrated) {
+            TEST_ASSERT_TRUE_MESSAGE(recovered < im->recovered, name);
+            TEST_ASSERT_EQUAL_INT_MESSAGE(u, im->from_momentum[recovered], name);
+            TEST_ASSERT_TRUE_MESSAGE(im->unknown[u].conserved, name);
+            TEST_ASSERT_EQUAL_INT_MESSAGE(-1, image_find_component(im, u, 0), name);
+            recovered++;
+        } else if (im->form == WH_SECOND_ORDER) {
+            const int at = im->place[u];
+            const int lines = im->coordinates - im->angles;
+            const component position = at < im->angles ? im->angle[at] : im->real[at - im->angles];
+            TEST_ASSERT_TRUE_MESSAGE(position.unknown == u && position.primes == 0, name);
+            TEST_ASSERT_TRUE_MESSAGE(im->real[lines + at].unknown == u, name);
+            TEST_ASSERT_TRUE_MESSAGE(im->real[lines + at].primes == 1, name);
+        }
+    }
+    TEST_ASSERT_EQUAL_INT_MESSAGE(im->recovered, recovered, name);
+}
+
+static void check_starts(const derived *d, const char *name) {
+    const image *im = d->image;
+    for (int i = 0; i < im->angles; i++) {
+        TEST_ASSERT_TRUE_MESSAGE(im->start_rad[i] == d->instance->start[im->angle[i].unknown][0],
+                                 name);
+    }
+    for (int i = 0; i < im->reals; i++) {
+        const component c = im->real[i];
+        TEST_ASSERT_TRUE_MESSAGE(im->start_real[i] == d->instance->start[c.unknown][c.primes],
+                                 name);
+    }
+}
+
+/* --- ledger, crossings, ranges --------------------------------------------------------------------------*/
+
+static void check_ledger(const image *im, const char *name) {
+    const image_ledger *l = &im->ledger;
+    unsigned accounts = 0;
+    int input = -1;
+    if (!l->kept) {
+        return;
+    }
+    TEST_ASSERT_EQUAL_INT_MESSAGE(1 + im->coordinates, l->accounts, name);
+    TEST_ASSERT_EQUAL_INT_MESSAGE(-1, l->unknown[0], name);
+    for (int i = 1; i < l->accounts; i++) { /* the coordinates, in the scene's order */
+        TEST_ASSERT_TRUE_MESSAGE(l->unknown[i] >= 0 && l->unknown[i] < im->count, name);
+        TEST_ASSERT_EQUAL_INT_MESSAGE(i - 1, im->place[l->unknown[i]], name);
+        accounts++;
+    }
+    TEST_ASSERT_EQUAL_INT_MESSAGE(im->coordinates, (int)accounts, name);
+    for (int i = 0; i < l->inputs; i++) {
+        TEST_ASSERT_TRUE_MESSAGE(l->input[i] > input && l->input[i] < im->inputs, name);
+        input = l->input[i];
+    }
+    TEST_ASSERT_EQUAL_INT_MESSAGE(l->smooth + im->contacts * (1 + im->coordinates) + l->inputs,
+                                  l->entries, name);
+}
+
+static int check_targets(const derived *d, const char *name) {
+    const image *im = d->image;
+    int at = 0;
+    for (int k = 0; k < im->contacts; k++) {
+        const contact_statement *from = d->equations->contacts->law[k].from;
+        if (from->kind != CONTACT_WHEN || im->contact[k].sets == 0) {
+            continue;
+        }
+        TEST_ASSERT_EQUAL_INT_MESSAGE(from->set_count, im->contact[k].sets, name);
+        TEST_ASSERT_EQUAL_INT_MESSAGE(at, im->contact[k].first_set, name);
+        for (int i = 0; i < from->set_count; i++) {
+            const component c = image_component(im, im->target[at++]);
+            TEST_ASSERT_EQUAL_STRING_MESSAGE(from->sets[i].symbol->name,
+                                             im->unknown[c.unknown].name, name);
+            TEST_ASSERT_EQUAL_INT_MESSAGE(from->sets[i].primes, c.primes, name);
+        }
+    }
+    TEST_ASSERT_EQUAL_INT_MESSAGE(im->set_count, at, name);
+    return at;
+}
+
+/* Each range that is declared is that of one row, with its bounds, and no other row has one. */
+static int check_ranges(const derived *d, const char *name) {
+    const image *im = d->image;
+    const instance *inst = d->instance;
+    int declared = 0;
+    for (int i = 0; i < im->angles + im->reals + im->inputs; i++) {
+        const bool angle = i < im->angles;
+        const image_range *row = angle ? &im->angle_range[i] : &im->range[i - im->angles];
+        const component c =
+            i < im->angles + im->reals ? image_component(im, i) : (component){-1, 0};
+        const char *quantity = c.unknown >= 0 ? im->unknown[c.unknown].name
+                                              : im->input[i - im->angles - im->reals].name;
+        bool found = false;
+        TEST_ASSERT_EQUAL_INT_MESSAGE(0, strncmp(quantity, row->name, strlen(quantity)), name);
+        TEST_ASSERT_EQUAL_INT_MESSAGE((int)(strlen(quantity) + (size_t)c.primes),
+                                      (int)strlen(row->name), name);
+        for (int k = 0; k < inst->range_count; k++) {
+            const range_value *r = &inst->range[k];
+            if (strcmp(r->symbol->name, quantity) == 0 && r->primes == c.primes) {
+                TEST_ASSERT_TRUE_MESSAGE(row->low == r->low && row->high == r->high, name);
+                found = true;
+            }
+        }
+        TEST_ASSERT_TRUE_MESSAGE(found == row->declared, name);
+        declared += found;
+    }
+    return declared;
+}
+
+static int targets;
+static int ranges;
+
+static int check_scene(const scene *s) {
+    derived d = derived_builtin(s->name);
+    derived_expect(&d, s->name);
+    check_components(d.image, s->name);
+    check_starts(&d, s->name);
+    check_ledger(d.image, s->name);
+    targets += check_targets(&d, s->name);
+    ranges += check_ranges(&d, s->name);
+    derived_free(&d);
+    return 1;
+}
+
+static void test_rows_of_built_in_scenes(void) {
+    targets = 0;
+    ranges = 0;
+    TEST_ASSERT_TRUE(each_builtin_scene(check_scene) > 60);
+    TEST_ASSERT_TRUE(targets > 0);
+}
+
+/* Angles among lines, an effect's input left out, crossings that set several, ranges of each kind, books. */
+static const char of_every_kind[] =
+    "mechanism m\n"
+    "    coordinate x [m]\n"
+    "    coordinate th [rad]\n"
+    "    coordinate y [m]\n"
+    "    coordinate ph [rad]\n"
+    "    input A = 1 [N]\n"
+    "    input B = 2 [N/m]\n"
+    "    T = 1 [kg]*(x'^2 + y'^2)/2 + 1 [kg*m^2]*(th'^2 + ph'^2)/2 + 0.1 [kg*m]*x'*th'*cos(th)\n"
+    "    V = B*y^2/2 + 1 [J]*cos(ph - th)\n"
+    "    Q(x) = A\n"
+    "    effect E \"e\" {\n        input C = 3 [N]\n        Q(y) += C\n    }\n"
+    "    effect G \"g\" {\n        input D = 4 [N]\n        V += D*x\n    }\n"
+    "scene s {\n"
+    "    with G\n    with ledger\n"
+    "    start x = 1 [m]\n    start y = 2 [m]\n    start th = 3 [rad]\n    start ph = 4 [rad]\n"
+    "    start x' = 5 [m/s]\n    start y' = 6 [m/s]\n    start th' = 7 [rad/s]\n"
+    "    start ph' = 8 [rad/s]\n"
+    "    when x crosses 90 [m] { set y' = 1 [m/s]\n set th = 2\n set x = 3 [m] }\n"
+    "    when y crosses 80 [m] { set ph' = 1 [rad/s]\n set y = 2 [m] }\n"
+    "    range x = -1 .. 2 [m]\n    range y' = -3 .. 4 [m/s]\n    range th' = -5 .. 6 [rad/s]\n"
+    "    range A = -7 .. 8 [N]\n    range D = -9 .. 10 [N]\n    range ph = -11 .. 12 [rad]\n"
+    "}\n";
+
+static void test_rows_of_every_kind(void) {
+    derived d = derived_scene(of_every_kind, "s");
+    derived_expect(&d, d.errors);
+    check_components(d.image, "s");
+    check_starts(&d, "s");
+    check_ledger(d.image, "s");
+    TEST_ASSERT_TRUE(d.image->ledger.kept);
+    TEST_ASSERT_EQUAL_INT(2, d.image->ledger.inputs); /* B and D: those that the energies name */
+    TEST_ASSERT_EQUAL_STRING("B", d.image->input[d.image->ledger.input[0]].name);
+    TEST_ASSERT_EQUAL_STRING("D", d.image->input[d.image->ledger.input[1]].name);
+    TEST_ASSERT_EQUAL_INT(5, check_targets(&d, "s"));
+    TEST_ASSERT_EQUAL_INT(6, check_ranges(&d, "s"));
+    derived_free(&d);
+}
+
+void suite_image_rows(void) {
+    RUN_TEST(test_momenta_are_energy_by_time_over_their_coordinate);
+    RUN_TEST(test_rows_of_built_in_scenes);
+    RUN_TEST(test_rows_of_every_kind);
 }

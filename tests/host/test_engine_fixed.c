@@ -1,6 +1,6 @@
 /* test_engine_fixed.c: steps in fixed point (host/fixed/engine_fixed.h) of drawn mechanisms beside the same steps in double: so
  * long steps, and so few, that what tells them apart is rounding, while a stage that is not Runge-Kutta's would be seen; and
- * what else a run is asked. test_fixed_runs.c has whole runs. */
+ * what else a run is asked. test_fixed.c has whole runs. */
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>

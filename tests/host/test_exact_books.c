@@ -1,17 +1,26 @@
 /* test_exact_books.c: steps of --matrix exact are believed however long they are: what the books integrate between them is too
  * coarse there, and the motion is not. */
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
+
+#include "host/base/alloc.h"
+#include "host/check/books.h"
+#include "host/check/energy_residual.h"
+#include "host/derive/ledger_lists.h"
 
 #include "command.h"
 #include "derived.h"
-#include "host/base/alloc.h"
-#include "host/check/energy_residual.h"
 #include "motion.h"
 
 #include "unity.h"
 
 void suite_exact_books(void);
+void suite_force_free(void);
+void suite_ledger_scenes(void);
+
+/* === exact books ============================================================================== */
 
 /* Two masses between springs, driven and damped. */
 static char *made_up(uint64_t *seed) {
@@ -81,3 +90,463 @@ static void test_long_exact_steps_are_believed(void) {
 }
 
 void suite_exact_books(void) { RUN_TEST(test_long_exact_steps_are_believed); }
+
+/* === force free =============================================================================== */
+/* The scenes that feel no force from outside: their momentum and their centre of
+ * mass stay, at the step each scene names, and what is left is the method's error.
+ *
+ * Which scenes these are is not the list's word: a scene belongs here when the deriver finds the
+ * momentum of a length coordinate conserved (no force, potential, loss or contact acts on it), or,
+ * for equations given outright, which have no momenta, when it records its centre of mass. */
+
+/* What the project asks of every such scene: drift of the momenta [kg m/s] and of the centre of mass
+ * [m] over the scene's whole run, in double. */
+#define DRIFT_MOST 1e-8
+
+/* Rounding: some hundred units in the last place of a metre. A drift below that has no order, and a
+ * scene whose design leaves nothing to drift must stay below it. */
+#define ROUNDING 1e-13
+
+typedef struct free_scene {
+    const char *name;
+    /* Where the order is measured: at this step and at a quarter of it, up to a time at which the
+     * motion is not chaotic yet. Zeros: nothing can drift but by rounding. */
+    double step_s;
+    double until_s;
+} free_scene;
+
+static const free_scene FREE[] = {
+    /* no force along x and y, where the speed is a component of the state */
+    {"cartesian_flight", 0.0, 0.0},
+    {"cartesian_near_pole", 0.0, 0.0},
+    {"epicyclic_from_rest", 4e-3, 9.0},
+    {"thomson_a", 0.8e-3, 8.0},
+    {"thomson_b", 0.25e-3, 4.0},
+    {"thomson_a_spin", 1e-3, 8.0},
+    {"thomson_b_spin", 0.25e-3, 4.0},
+    /* the carriage from its momentum */
+    {"epicyclic_conserved", 0.0, 0.0},
+    {"thomson_a_conserved", 0.0, 0.0},
+    {"thomson_b_conserved", 0.0, 0.0},
+    {"thomson_plane_conserved", 0.0, 0.0},
+    {"thomson_plane_a", 2e-3, 8.0},
+    {"thomson_plane_b", 0.5e-3, 4.0},
+    {"thomson_pair_a", 1e-3, 8.0},
+    {"thomson_pair_b", 0.5e-3, 4.0},
+    /* equal weights: their centre of mass rests on the carriage */
+    {"laskowitz_shifted", 0.0, 0.0},
+    {"laskowitz_centred", 0.0, 0.0},
+    {"laskowitz_uneven", 8e-3, 5.0},
+    /* the momentum is a sum of constants times rates */
+    {"laskowitz_shift", 0.0, 0.0},
+    {"cuff_equal", 0.0, 0.0},
+    {"cuff_uneven", 8e-3, 5.0},
+    {"carriage_free", 4e-3, 2.0},
+    {"carriage_ratio", 4e-3, 2.0},
+    /* the fourth-order error comes and goes with every turn; what adds up later is of the fifth */
+    {"halvorson_smooth", 1.6e-3, 1.0},
+    /* the hold acts between disc and carriage */
+    {"thomson_magnet", 1e-3, 5.0},
+    {"thomson_magnet_conserved", 0.0, 0.0},
+    /* the belt's own momentum: it runs on, whatever rubs on it */
+    {"belt_stick_slip", 0.0, 0.0},
+    {"belt_stiffening", 0.0, 0.0},
+};
+
+enum { FREE_COUNT = sizeof FREE / sizeof FREE[0] };
+
+/* --- which scenes are free of outside forces ------------------------------------------------------- */
+
+static bool is_length(const symbol *s) {
+    for (int i = 0; i < DIM_BASES; i++) {
+        if (s->dim.twelfths[i] != (i == DIM_LENGTH ? DIM_DENOMINATOR : 0)) {
+            return false;
+        }
+    }
+    return !s->is_angle;
+}
+
+/* A coordinate along which nothing pushes the mechanism as a whole. */
+static bool is_free_along(const equations *e, int i) {
+    return e->conserved != NULL && e->conserved[i] && is_length(e->unknowns[i].symbol);
+}
+
+/* Is `output` the centre of mass ("x_cm") along a free coordinate ("X" or "x")? */
+static bool is_free_centre(const equations *e, const symbol *output) {
+    if (strcmp(output->name + 1, "_cm") != 0) {
+        return false;
+    }
+    for (int i = 0; i < e->count; i++) {
+        const char *name = e->unknowns[i].symbol->name;
+        if (strlen(name) == 1 && (name[0] | 32) == output->name[0]) {
+            return e->kinetic == NULL || is_free_along(e, i);
+        }
+    }
+    return false;
+}
+
+static bool is_force_free(const equations *e) {
+    const mechanism *m = e->instance->mechanism;
+    bool found = false;
+    for (int i = 0; i < e->count; i++) {
+        found = found || is_free_along(e, i);
+    }
+    for (int i = 0; i < m->output_count; i++) {
+        found = found || is_free_centre(e, m->outputs[i]);
+    }
+    return found;
+}
+
+static bool listed(const char *name) {
+    for (unsigned i = 0; i < FREE_COUNT; i++) {
+        if (strcmp(FREE[i].name, name) == 0) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* 1 if it is force-free. Fails if the list says otherwise. */
+static int check_listed(const scene *s) {
+    diags *errors = diags_new();
+    instance *inst = instance_make(s->mechanism, s, &(overrides){0}, errors);
+    equations *e = inst == NULL ? NULL : equations_derive(inst, errors);
+    if (e == NULL) {
+        TEST_FAIL_MESSAGE(s->name);
+        return 0;
+    }
+    const bool is_free = is_force_free(e);
+    if (is_free != listed(s->name)) {
+        printf("  %s: %s\n", s->name,
+               is_free ? "force-free, but not in the list" : "listed, but feels a force");
+    }
+    TEST_ASSERT_EQUAL_MESSAGE(is_free, listed(s->name), s->name);
+    equations_free(e);
+    instance_free(inst);
+    diags_free(errors);
+    return is_free;
+}
+
+/* The list has every scene that is free of outside forces, and no other. */
+static void test_no_force_free_scene_is_forgotten(void) {
+    TEST_ASSERT_EQUAL_INT(FREE_COUNT, each_builtin_scene(check_listed));
+}
+
+/* --- drift ------------------------------------------------------------------------------------------- */
+
+enum { QUANTITIES_MAX = 8 };
+
+/* The momenta, then the places of the centre of mass, along the free coordinates. */
+typedef struct drifts {
+    unsigned count;
+    unsigned momenta; /* the first so many */
+    char name[QUANTITIES_MAX][32];
+    double drift[QUANTITIES_MAX]; /* largest distance from the start, SI */
+} drifts;
+
+static void look(const motion *m, const char *const *centre, unsigned centres, const double *start,
+                 double *worst) {
+    for (unsigned i = 0; i < centres; i++) {
+        const double value = motion_value(m, centre[i]);
+        TEST_ASSERT_TRUE_MESSAGE(isfinite(value), centre[i]);
+        worst[i] = fmax(worst[i], fabs(value - start[i]));
+    }
+}
+
+/* A run of the scene, looked at every millisecond or at every step, whichever is longer; zeros: the
+ * scene's own step and end. */
+static drifts drifts_of(const char *name, double step_s, double until_s) {
+    motion m;
+    drifts d = {0};
+    const char *centre[QUANTITIES_MAX];
+    double start[QUANTITIES_MAX];
+    double worst[QUANTITIES_MAX] = {0.0};
+    unsigned centres = 0;
+    motion_open(&m, name, IN_DOUBLE_STEP(step_s));
+    const mechanism *of = m.instance->mechanism;
+    for (int i = 0; i < of->output_count; i++) {
+        if (is_free_centre(m.equations, of->outputs[i])) {
+            TEST_ASSERT_TRUE(centres < QUANTITIES_MAX);
+            centre[centres] = of->outputs[i]->name;
+            start[centres] = motion_value(&m, centre[centres]);
+            centres++;
+        }
+    }
+    /* Only the books' momenta are read, which need not be entered at every step. */
+    books *b = books_open(m.image);
+    const double own_step_s = m.instance->step_s;
+    const double end_s = until_s > 0.0 ? until_s : m.instance->until_s;
+    const uint64_t steps = (uint64_t)floor(end_s / own_step_s + 0.5);
+    const uint64_t stride = own_step_s < 1e-3 ? (uint64_t)floor(1e-3 / own_step_s + 0.5) : 1;
+    TEST_ASSERT_TRUE(steps > 100);
+    if (b != NULL) {
+        books_enter(b, m.kind, m.run);
+    }
+    for (uint64_t done = 0; done < steps; done += stride) {
+        TEST_ASSERT_EQUAL_INT(WH_OK, motion_step(&m, stride));
+        look(&m, centre, centres, start, worst);
+        if (b != NULL) {
+            books_enter(b, m.kind, m.run);
+        }
+    }
+    for (int i = 0; i < m.equations->count; i++) {
+        if (b != NULL && is_free_along(m.equations, i)) {
+            TEST_ASSERT_TRUE(d.count + centres < QUANTITIES_MAX);
+            snprintf(d.name[d.count], sizeof d.name[0], "momentum of %.16s",
+                     m.equations->unknowns[i].symbol->name);
+            d.drift[d.count++] = b->drift[i];
+            /* where it is not zero, the centre of mass moves on as it should */
+            TEST_ASSERT_TRUE_MESSAGE(centres == 0 || fabs(b->momentum[i]) <= ROUNDING, name);
+        }
+    }
+    d.momenta = d.count;
+    for (unsigned i = 0; i < centres; i++) {
+        snprintf(d.name[d.count], sizeof d.name[0], "%.31s", centre[i]);
+        d.drift[d.count++] = worst[i];
+    }
+    books_close(b);
+    motion_close(&m);
+    TEST_ASSERT_TRUE_MESSAGE(d.count > 0, name);
+    return d;
+}
+
+static void test_momentum_and_centre_of_mass_stay_at_each_scenes_own_step(void) {
+    for (unsigned i = 0; i < FREE_COUNT; i++) {
+        const double most = FREE[i].step_s > 0.0 ? DRIFT_MOST : ROUNDING;
+        const drifts d = drifts_of(FREE[i].name, 0.0, 0.0);
+        printf("  %-24s", FREE[i].name);
+        for (unsigned k = 0; k < d.count; k++) {
+            printf(" %s %.2g", d.name[k], d.drift[k]);
+        }
+        printf("\n");
+        for (unsigned k = 0; k < d.count; k++) {
+            TEST_ASSERT_TRUE_MESSAGE(d.drift[k] <= most, FREE[i].name);
+        }
+    }
+}
+
+/* Runge-Kutta's error at a step and at a quarter of it: 2^8 lies between, give or take what a sum of
+ * thousands of steps' errors, which partly cancel, makes of it. What is below rounding at the coarse
+ * step already (Y of the mirrored pair) has no order, but must stay there. */
+static void test_drift_falls_at_fourth_order(void) {
+    for (unsigned i = 0; i < FREE_COUNT; i++) {
+        const free_scene *f = &FREE[i];
+        if (f->step_s <= 0.0) {
+            continue;
+        }
+        const drifts coarse = drifts_of(f->name, f->step_s, f->until_s);
+        const drifts fine = drifts_of(f->name, f->step_s / 4.0, f->until_s);
+        unsigned measured = 0;
+        printf("  %-20s %g and %g ms, to %g s:", f->name, 1e3 * f->step_s, 250.0 * f->step_s,
+               f->until_s);
+        for (unsigned k = 0; k < coarse.count; k++) {
+            if (coarse.drift[k] <= ROUNDING) {
+                printf(" %s none", coarse.name[k]);
+                TEST_ASSERT_TRUE_MESSAGE(fine.drift[k] <= ROUNDING, f->name);
+                continue;
+            }
+            const double order = log2(coarse.drift[k] / fine.drift[k]) / 2.0;
+            printf(" %s %.3f", coarse.name[k], order);
+            measured++;
+            TEST_ASSERT_TRUE_MESSAGE(order >= 3.7 && order <= 4.3, f->name);
+        }
+        printf("\n");
+        TEST_ASSERT_TRUE_MESSAGE(measured > 0, f->name);
+    }
+}
+
+void suite_force_free(void) {
+    RUN_TEST(test_no_force_free_scene_is_forgotten);
+    RUN_TEST(test_momentum_and_centre_of_mass_stay_at_each_scenes_own_step);
+    RUN_TEST(test_drift_falls_at_fourth_order);
+}
+
+/* === ledger scenes ============================================================================ */
+/* The books of energy and momentum on the built-in scenes: they close, they say who
+ * gave what, and they leave the run as it is. */
+
+enum { ENTRIES_MAX = 400 };
+
+typedef struct account_book {
+    double smooth; /* of the energies, inputs and dampers */
+    double contact[16];
+    double left_over; /* numerical drift */
+} account_book;
+
+/* The account of the energy (name NULL) or of a coordinate's momentum. */
+static account_book book_of(const motion *m, const char *name) {
+    const image *p = m->image;
+    const image_ledger *l = &p->ledger;
+    static double total[ENTRIES_MAX];
+    static double error[ENTRIES_MAX];
+    TEST_ASSERT_TRUE(l->kept);
+    TEST_ASSERT_TRUE(l->entries <= ENTRIES_MAX);
+    int account = 0;
+    while (name != NULL &&
+           (account == 0 ||
+            strcmp(m->equations->unknowns[l->unknown[account]].symbol->name, name) != 0)) {
+        account++;
+        TEST_ASSERT_TRUE_MESSAGE(account < l->accounts, name);
+    }
+    m->kind->ledger(m->run, total, error);
+    account_book book = {.left_over = error[account]};
+    for (int i = 0; i < l->smooth; i++) {
+        book.smooth += l->entry[i].account == account ? total[i] : 0.0;
+    }
+    for (int k = 0; k < p->contacts; k++) {
+        book.contact[k] = total[l->smooth + k * (1 + p->coordinates) + account];
+    }
+    return book;
+}
+
+static const stepping booked = {.kind = &engine_double, .method = WH_RK4, .ledger = true};
+
+static account_book run_to_end(motion *m, const char *scene_name, const char *account) {
+    motion_open(m, scene_name, booked);
+    motion_to(m, m->instance->until_s);
+    return book_of(m, account);
+}
+
+/* --- smooth scenes ----------------------------------------------------------------------------- */
+
+/* The gear's torque M = 2 N m is constant, so its work is M theta exactly, and all of it is motion; the
+ * momentum of X gets nothing from anybody. */
+static void test_the_gears_torque_gives_what_theta_says(void) {
+    motion m;
+    motion_open(&m, "epicyclic_from_rest", booked);
+    motion_to(&m, 5.0);
+    const account_book energy = book_of(&m, NULL);
+    const account_book momentum = book_of(&m, "X");
+    TEST_ASSERT_DOUBLE_WITHIN(1e-7, 2.0 * motion_value(&m, "theta"), energy.smooth);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-7, 0.0, energy.left_over);
+    TEST_ASSERT_TRUE(momentum.smooth == 0.0);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-9, 0.0, momentum.left_over);
+    motion_close(&m);
+}
+
+/* What the books leave is the method's error: of fourth order. */
+static void test_what_is_left_over_falls_at_fourth_order(void) {
+    double left[3];
+    for (int k = 0; k < 3; k++) {
+        motion m;
+        stepping how = booked;
+        how.step_s = 2e-3 / (1 << k);
+        motion_open(&m, "thomson_a", how);
+        motion_to(&m, 4.0);
+        left[k] = fabs(book_of(&m, NULL).left_over);
+        motion_close(&m);
+    }
+    for (int k = 0; k < 2; k++) {
+        const double order = log2(left[k] / left[k + 1]);
+        char line[100];
+        snprintf(line, sizeof line, "left over %.3e, %.3e J: order %.2f", left[k], left[k + 1],
+                 order);
+        puts(line);
+        TEST_ASSERT_TRUE_MESSAGE(order > 3.7 && order < 4.5, line);
+    }
+}
+
+/* --- scenes with contacts ------------------------------------------------------------------------ */
+
+/* The carriage's net momentum is what the stop and the friction gave it, and nothing else has an entry:
+ * within 1e-9 N s, over 60 s of impacts, slips and sticks. */
+static void test_the_carriages_momentum_is_from_stop_and_friction(void) {
+    motion m;
+    motion_open(&m, "carriage_stop", booked);
+    const double before = motion_value(&m, "momentum");
+    motion_to(&m, m.instance->until_s);
+    const account_book book = book_of(&m, "X");
+    const double net = motion_value(&m, "momentum") - before;
+    TEST_ASSERT_TRUE(book.smooth == 0.0);
+    TEST_ASSERT_TRUE(book.contact[0] > 0.1);  /* the stop pushes away from itself */
+    TEST_ASSERT_TRUE(book.contact[1] < -0.1); /* friction ends the walk */
+    TEST_ASSERT_DOUBLE_WITHIN(1e-9, net, book.contact[0] + book.contact[1]);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-9, 0.0, book.left_over);
+    motion_close(&m);
+}
+
+/* Halvorson's vehicle: the ground gave all of its momentum; without friction there is no entry, and what
+ * momentum there is lies within the drift that the book tells. */
+static void test_the_vehicles_momentum_is_from_the_ground(void) {
+    motion m;
+    account_book book = run_to_end(&m, "halvorson_ground", "X");
+    TEST_ASSERT_TRUE(book.smooth == 0.0);
+    TEST_ASSERT_TRUE(fabs(book.contact[0]) > 1e-3);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-9, motion_value(&m, "momentum"), book.contact[0]);
+    motion_close(&m);
+
+    book = run_to_end(&m, "halvorson_smooth", "X");
+    TEST_ASSERT_TRUE(book.smooth == 0.0);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-9, 0.0, book.left_over);
+    TEST_ASSERT_TRUE(fabs(motion_value(&m, "momentum")) <= fabs(book.left_over) + 1e-15);
+    motion_close(&m);
+}
+
+/* The magnets act between disc and frame: they take energy, but give the carriage no momentum. */
+static void test_the_magnets_give_the_carriage_nothing(void) {
+    motion m;
+    const account_book energy = run_to_end(&m, "thomson_magnet", NULL);
+    const account_book carriage = book_of(&m, "X");
+    TEST_ASSERT_TRUE(energy.contact[0] < -1.0);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-9, 0.0, energy.left_over);
+    TEST_ASSERT_TRUE(carriage.contact[0] == 0.0 && carriage.smooth == 0.0);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-8, 0.0, carriage.left_over);
+    motion_close(&m);
+}
+
+/* --- all scenes ---------------------------------------------------------------------------------- */
+
+static bool has_energies(const scene *of) { return !of->mechanism->is_system; }
+
+static int check_bits_with_books(const scene *s) {
+    static const engine_kind *const kinds[] = {&engine_float, &engine_double};
+    if (!has_energies(s)) {
+        return 0;
+    }
+    for (int k = 0; k < 2; k++) {
+        uint64_t hash[2];
+        for (int with = 0; with < 2; with++) {
+            motion m;
+            motion_open(&m, s->name,
+                        (stepping){.kind = kinds[k], .method = WH_RK4, .ledger = with});
+            TEST_ASSERT_EQUAL_INT(WH_OK, motion_step(&m, 400));
+            hash[with] = m.kind->hash(m.run);
+            motion_close(&m);
+        }
+        TEST_ASSERT_TRUE_MESSAGE(hash[0] == hash[1], s->name);
+    }
+    return 1;
+}
+
+/* With books, every scene runs to the same bits, in float and in double. */
+static void test_books_leave_every_scene_as_it_is(void) {
+    TEST_ASSERT_TRUE(each_builtin_scene(check_bits_with_books) > 40);
+}
+
+/* A system given by equations has no energies: it is refused, not booked as zero. */
+static void test_systems_have_no_books(void) {
+    static const char text[] = "mechanism decay\nstate x\nparameter k = 1 [1/s]\n"
+                               "equation x' = -k*x\nscene d {\n  with ledger\n  start x = 1\n}\n";
+    diags *errors = diags_new();
+    whirl_model *all = model_parse("t", text, strlen(text), errors);
+    TEST_ASSERT_NOT_NULL(all);
+    instance *inst = instance_make(all->mechanisms[0], all->scenes[0], NULL, errors);
+    equations *e = inst != NULL ? equations_derive(inst, errors) : NULL;
+    image *p = e != NULL ? image_make(e, NULL, &plainly, IMAGE_TO_RUN, errors) : NULL;
+    TEST_ASSERT_NULL(p);
+    TEST_ASSERT_TRUE(diags_count(errors) == 1);
+    equations_free(e);
+    instance_free(inst);
+    model_free(all);
+    diags_free(errors);
+}
+
+void suite_ledger_scenes(void) {
+    RUN_TEST(test_the_gears_torque_gives_what_theta_says);
+    RUN_TEST(test_what_is_left_over_falls_at_fourth_order);
+    RUN_TEST(test_the_carriages_momentum_is_from_stop_and_friction);
+    RUN_TEST(test_the_vehicles_momentum_is_from_the_ground);
+    RUN_TEST(test_the_magnets_give_the_carriage_nothing);
+    RUN_TEST(test_books_leave_every_scene_as_it_is);
+    RUN_TEST(test_systems_have_no_books);
+}

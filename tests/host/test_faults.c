@@ -1,14 +1,28 @@
 /* test_faults.c: the campaign of faults judges: what is drawn can be drawn again and read; the judge's truth is that of
  * closed forms, it finds what is wrong and nothing else. */
+#define _POSIX_C_SOURCE 200809L
+
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
+#include "host/base/interrupts.h"
+#include "host/pil/fault.h"
+#include "host/pil/lockstep.h"
+
+#include "drawn_talk.h"
 #include "faults.h"
 #include "motion.h"
+
 #include "unity.h"
 
 void suite_faults(void);
+void suite_lockstep(void);
+void suite_replay(void);
+
+/* === faults =================================================================================== */
 
 /* --- the judge -------------------------------------------------------------------------------------------------------*/
 
@@ -32,11 +46,11 @@ static const wh_signal signals[] = {
     HAL_NOTE_ROWS(NOTE)
 #undef NOTE
 };
-static const wh_hello hello = {.program = "bench",
-                               .board = "here",
-                               .ticks_per_s = 1000000U,
-                               .signal = signals,
-                               .signals = sizeof signals / sizeof signals[0]};
+static const wh_hello hello_faults = {.program = "bench",
+                                      .board = "here",
+                                      .ticks_per_s = 1000000U,
+                                      .signal = signals,
+                                      .signals = sizeof signals / sizeof signals[0]};
 enum { NOTES_AT = 2 };
 
 /* What a made-up controller says from said_s on, and how it ends. */
@@ -108,11 +122,11 @@ static verdict judged(const made_up *m) {
     TEST_ASSERT_TRUE(fault_read(&plan, m->fault));
     snprintf(words, sizeof words, text, m->swing_J, m->rpm);
     motion_open_text(&bench, words, IN_DOUBLE);
-    TEST_ASSERT_TRUE(bind_signals(&b, &hello, bench.image, NULL));
-    plant_start(&on, bench.image, &b, &hello, &wish);
+    TEST_ASSERT_TRUE(bind_signals(&b, &hello_faults, bench.image, NULL));
+    plant_start(&on, bench.image, &b, &hello_faults, &wish);
     const tap taps[] = {fault_tap(&plan), judge_tap(&j, &of, &plan, &until_s)};
-    TEST_ASSERT_TRUE(taps[0].start(taps[0].of, &hello, &on) &&
-                     taps[1].start(taps[1].of, &hello, &on));
+    TEST_ASSERT_TRUE(taps[0].start(taps[0].of, &hello_faults, &on) &&
+                     taps[1].start(taps[1].of, &hello_faults, &on));
     for (int ms = 0; ms < 3000; ms++) {
         const double now_s = ms * 1e-3;
         wh_orders orders = {.outputs = NOTES_AT + HAL_NOTES,
@@ -364,4 +378,403 @@ void suite_faults(void) {
     RUN_TEST(test_resets);
     RUN_TEST(test_cuts);
     RUN_TEST(test_hangs);
+}
+
+/* === lockstep ================================================================================= */
+/* A firmware and a plant in turns, with somebody who listens to them: what taps see and change, and the
+ * tape. The firmware is build/pil_cart, a process of its own. */
+
+static char firmware[512];
+static motion cart;
+static lockstep_report report;
+
+/* Beside the folder of this program. */
+static void find_firmware(void) {
+    const ssize_t length = readlink("/proc/self/exe", firmware, sizeof firmware - 20);
+    firmware[length > 0 ? length : 0] = '\0';
+    for (int up = 0; up < 2; up++) {
+        char *slash = strrchr(firmware, '/');
+        TEST_ASSERT_NOT_NULL(slash);
+        *slash = '\0';
+    }
+    strcat(firmware, "/pil_cart");
+    TEST_ASSERT_EQUAL_INT_MESSAGE(0, access(firmware, X_OK), "make build/pil_cart");
+}
+
+static lockstep_wish wish_until(double until_s) {
+    return (lockstep_wish){.guest = {.image = firmware, .board = "", .patience_s = 20.0},
+                           .plant = {.seed = 1},
+                           .until_s = until_s};
+}
+
+static void run(const lockstep_wish *wish) {
+    lockstep_run(wish, cart.image, &report);
+    TEST_ASSERT_TRUE(report.end == LOCKSTEP_LET_GO);
+}
+
+typedef struct listener {
+    uint64_t orders;
+    uint64_t readings;
+    uint64_t samples;
+    double last_s;
+    float most_N;
+} listener;
+
+static void hear_orders(void *of, double time_s, wh_orders *orders, double *late_s) {
+    listener *l = of;
+    l->orders++;
+    TEST_ASSERT_TRUE(*late_s == 0.0);
+    TEST_ASSERT_TRUE(time_s >= l->last_s);
+    l->last_s = time_s;
+    l->most_N = fmaxf(l->most_N, fabsf(orders->output[0]));
+}
+
+static void hear_readings(void *of, double time_s, wh_readings *readings) {
+    listener *l = of;
+    l->readings++;
+    l->samples += readings->samples;
+    TEST_ASSERT_TRUE(time_s >= l->last_s);
+    l->last_s = time_s;
+}
+
+static void forget_orders(void *of, double time_s, wh_orders *orders, double *late_s) {
+    (void)of;
+    (void)time_s;
+    (void)late_s;
+    orders->output[0] = 0.0F;
+}
+
+static void lose_samples(void *of, double time_s, wh_readings *readings) {
+    (void)of;
+    (void)time_s;
+    readings->samples = 0;
+}
+
+static void take_ten_ms(void *of, double time_s, wh_orders *orders, double *late_s) {
+    (void)of;
+    (void)time_s;
+    (void)orders;
+    *late_s += 10e-3;
+}
+
+static bool see_start(void *of, const wh_hello *hello, plant *on) {
+    listener *l = of;
+    l->last_s = plant_now(on);
+    return strcmp(hello->program, "cart") == 0;
+}
+
+static bool refuse_start(void *of, const wh_hello *hello, plant *on) {
+    (void)of;
+    return hello == NULL || on == NULL;
+}
+
+/* Every millisecond, and no step between. */
+static void see_plant(void *of, double time_s, const plant *on) {
+    listener *l = of;
+    l->readings++;
+    TEST_ASSERT_TRUE(time_s > l->last_s && time_s < l->last_s + 1.1e-3);
+    TEST_ASSERT_TRUE(fabs(plant_now(on) - time_s * 1e6) < 1e-3);
+    l->last_s = time_s;
+}
+
+/* Who only listens hears all of it, and changes nothing. */
+static void test_listening(void) {
+    lockstep_wish wish = wish_until(1.5);
+    run(&wish);
+    const lockstep_report without = report;
+    listener heard = {.orders = 0};
+    const tap taps[] = {{.name = "orders", .of = &heard, .orders = hear_orders},
+                        {.name = "readings", .of = &heard, .readings = hear_readings}};
+    wish.taps = taps;
+    wish.tap_count = 2;
+    run(&wish);
+    TEST_ASSERT_TRUE(report.hash == without.hash && report.plant_hash == without.plant_hash);
+    TEST_ASSERT_EQUAL_UINT64(1500, report.exchanges);
+    TEST_ASSERT_EQUAL_UINT64(1500, heard.orders);
+    TEST_ASSERT_EQUAL_UINT64(1500, heard.readings);
+    TEST_ASSERT_EQUAL_UINT64(2 * 1499, heard.samples); /* the first reading is of the start */
+    TEST_ASSERT_TRUE(heard.most_N > 1.0F && heard.most_N <= 20.0F);
+}
+
+/* Who watches the plant sees it go on and changes nothing, also while the firmware computes for ten milliseconds. */
+static void test_watching(void) {
+    for (int late = 0; late < 2; late++) {
+        lockstep_wish wish = wish_until(1.5);
+        listener seen = {.orders = 0};
+        const tap taps[] = {{.name = "late", .orders = late ? take_ten_ms : NULL},
+                            {.name = "watch", .of = &seen, .start = see_start, .watch = see_plant}};
+        wish.taps = taps;
+        wish.tap_count = 1;
+        run(&wish);
+        const lockstep_report without = report;
+        wish.tap_count = 2;
+        run(&wish);
+        TEST_ASSERT_TRUE(report.hash == without.hash && report.plant_hash == without.plant_hash);
+        TEST_ASSERT_EQUAL_UINT64(1500, seen.readings);
+        TEST_ASSERT_EQUAL_UINT64(late ? 150 : 1500, report.exchanges);
+        TEST_ASSERT_EQUAL_UINT64(late ? 150 : 0, report.overruns);
+    }
+}
+
+static void test_refused_start(void) {
+    lockstep_wish wish = wish_until(1.0);
+    const tap taps[] = {{.name = "no", .start = refuse_start}};
+    wish.taps = taps;
+    wish.tap_count = 1;
+    lockstep_run(&wish, cart.image, &report);
+    TEST_ASSERT_TRUE(report.end == LOCKSTEP_BAD);
+    TEST_ASSERT_EQUAL_UINT64(0, report.exchanges);
+}
+
+/* Whose orders are lost on the way has a plant that moves as if it were alone. */
+static void test_deaf_plant(void) {
+    lockstep_wish wish = wish_until(1.0);
+    const tap taps[] = {{.name = "deaf", .orders = forget_orders}};
+    wish.taps = taps;
+    wish.tap_count = 1;
+    run(&wish);
+    TEST_ASSERT_EQUAL_INT(WH_OK, motion_step(&cart, 20000));
+    TEST_ASSERT_TRUE(report.plant_hash == engine_double.hash(cart.run));
+}
+
+/* A firmware that sees nothing pushes nothing. */
+static void test_blind_firmware(void) {
+    lockstep_wish wish = wish_until(0.2);
+    listener heard = {.orders = 0};
+    const tap taps[] = {{.name = "blind", .readings = lose_samples},
+                        {.name = "orders", .of = &heard, .orders = hear_orders}};
+    wish.taps = taps;
+    wish.tap_count = 2;
+    run(&wish);
+    TEST_ASSERT_EQUAL_UINT64(200, heard.orders);
+    TEST_ASSERT_TRUE(heard.most_N == 0.0F);
+}
+
+/* A tape has what the firmware heard and said, whatever taps made of it: it answers the same again. */
+static void tape_of_a_tapped_run(const tap *only, uint64_t exchanges) {
+    char name[] = "/tmp/whirl_tape_XXXXXX";
+    const int file = mkstemp(name);
+    TEST_ASSERT_TRUE(file >= 0);
+    lockstep_wish wish = wish_until(0.3);
+    wish.taps = only;
+    wish.tap_count = 1;
+    wish.tape = fdopen(file, "wb");
+    TEST_ASSERT_NOT_NULL(wish.tape);
+    run(&wish);
+    TEST_ASSERT_EQUAL_INT(0, fclose(wish.tape));
+    const uint64_t hash = report.hash;
+    TEST_ASSERT_EQUAL_UINT64(exchanges, report.exchanges);
+    const lockstep_wish again = wish_until(0.3);
+    lockstep_replay(&again, name, &report);
+    TEST_ASSERT_EQUAL_INT(0, remove(name));
+    TEST_ASSERT_TRUE(report.end == LOCKSTEP_LET_GO);
+    TEST_ASSERT_TRUE(report.hash == hash && report.op_list_hash == hash);
+    TEST_ASSERT_EQUAL_UINT64(exchanges, report.exchanges);
+    TEST_ASSERT_TRUE(report.time_s > 0.298 && report.time_s < 0.3);
+}
+
+static void test_tapes_of_tapped_runs(void) {
+    const tap taps[] = {{.name = "blind", .readings = lose_samples},
+                        {.name = "deaf", .orders = forget_orders}};
+    tape_of_a_tapped_run(&taps[0], 300);
+    tape_of_a_tapped_run(&taps[1], 300);
+}
+
+/* A processor that is reset says hello again; of the time that it takes no exchange is missed but those in it. */
+static void test_tapes_of_resets(void) {
+    static const struct {
+        const char *words;
+        unsigned resets;
+        uint64_t exchanges;
+    } rows[] = {
+        {"reset=0@0.1005", 1, 301}, /* one at 0.1005 s, and then every millisecond from there */
+        {"reset=5ms@0.1005", 1, 296},
+        {"reset=5ms@0.1005,reset=20ms@0.2001", 2, 276},
+        {"reset=1ms@0.05,reset=1ms@0.0505,reset=1ms@0.0511", 3, 300}, /* one is in another's */
+        {"reset=0@0", 1, 301},                                        /* before its first orders */
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        fault_plan plan = {.seed = 1};
+        TEST_ASSERT_TRUE(fault_read(&plan, rows[i].words));
+        const tap t = fault_tap(&plan);
+        tape_of_a_tapped_run(&t, rows[i].exchanges);
+        TEST_ASSERT_EQUAL_UINT(rows[i].resets, plan.resets);
+    }
+}
+
+/* Somebody asks it to stop: it does, and the process is gone. */
+static void test_interrupt(void) {
+    lockstep_wish wish = wish_until(100.0);
+    interrupted = 1;
+    lockstep_run(&wish, cart.image, &report);
+    interrupted = 0;
+    TEST_ASSERT_TRUE(report.end == LOCKSTEP_STOPPED);
+    TEST_ASSERT_FALSE(report.status.killed);
+    TEST_ASSERT_EQUAL_INT(3, report.status.status); /* HAL_LINK_GONE */
+}
+
+void suite_lockstep(void) {
+    find_firmware();
+    motion_open_file(&cart, "docs/plants/cart.whirl", "", "leaning", IN_DOUBLE_STEP(50e-6));
+    RUN_TEST(test_listening);
+    RUN_TEST(test_watching);
+    RUN_TEST(test_refused_start);
+    RUN_TEST(test_deaf_plant);
+    RUN_TEST(test_blind_firmware);
+    RUN_TEST(test_tapes_of_tapped_runs);
+    RUN_TEST(test_tapes_of_resets);
+    RUN_TEST(test_interrupt);
+    motion_close(&cart);
+}
+
+/* === replay =================================================================================== */
+/* A tape in the plant's place (host/pil/taped.c), drawn: played to its end, or to the firmware's; ended at the
+ * first answer that is not the tape's, which is said; refused where it is another firmware's, or none. */
+
+/* Plays it: ends so, after so many turns; returns what was said. */
+static const char *replay(lockstep_end end, unsigned turns, bool with_hello) {
+    static stream heard;
+    char name[] = "/tmp/whirl-talk-XXXXXX";
+    const int file = mkstemp(name);
+    TEST_ASSERT_TRUE(file >= 0 && write(file, talk_on_tape.bytes, talk_on_tape.length) ==
+                                      (ssize_t)talk_on_tape.length);
+    close(file);
+    talk_open_line(true);
+    errors_catch();
+    lockstep_replay(&talk_wish, name, &talk_report);
+    const char *told = errors_caught();
+    (void)remove(name);
+    TEST_ASSERT_EQUAL_INT_MESSAGE(end, talk_report.end, told);
+    TEST_ASSERT_EQUAL_UINT64(turns, talk_report.exchanges);
+    TEST_ASSERT_TRUE(!with_hello || strcmp(talk_report.program, "drawn") == 0);
+    talk_close_line(&heard);
+    return told;
+}
+
+static double time_of(unsigned turn) {
+    return (double)(talk_drawn.ticks[turn] - talk_drawn.hello.start_ticks) / 1e6;
+}
+
+/* Until the tape's end; or the firmware's, which is the tape's, too; or the tape's last word, which nobody had answered. */
+static void test_replayed(void) {
+    for (unsigned c = 0; c < dice_cases(usual_or(30, 12)); c++) {
+        talk_draw();
+        talk_tape_all(talk_drawn.turns - 1U);
+        const unsigned all = talk_drawn.turns - 1U;
+        const unsigned kind = c % 3;
+        if (kind > 0) {
+            talk_put_readings(&talk_on_tape, all);
+        }
+        talk_say_all(kind == 2 ? talk_drawn.turns : all);
+        talk_put_end(&talk_line, 42, 4);
+        const lockstep_end end = kind == 1 ? LOCKSTEP_DONE : LOCKSTEP_LET_GO;
+        TEST_ASSERT_EQUAL_STRING("", replay(end, kind == 2 ? talk_drawn.turns : all, true));
+        talk_expect_report(end, kind == 2 ? talk_drawn.turns : all);
+        TEST_ASSERT_EQUAL_HEX64(talk_hash_of(all), talk_report.op_list_hash);
+        TEST_ASSERT_TRUE(fabs(talk_report.time_s - time_of(kind == 0 ? all - 1U : all)) < 1e-9);
+        TEST_ASSERT_EQUAL_INT(kind == 1 ? 42 : -1, talk_report.status.status);
+    }
+}
+
+/* Another answer in one turn: there it ends, and says which outputs. What was counted is no matter. */
+static void test_other_orders(void) {
+    unsigned hints = 0;
+    for (unsigned c = 0; c < dice_cases(usual_or(50, 24)); c++) {
+        char words[120];
+        talk_draw();
+        talk_tape_all(talk_drawn.turns);
+        const unsigned turn = talk_one_of(talk_drawn.turns);
+        const unsigned output = talk_one_of(talk_drawn.outputs);
+        wh_orders *o = &talk_drawn.orders[turn];
+        const float before = o->output[output];
+        switch (c % 6) {
+        case 0: o->output[output] += 1.0F; break;
+        case 1: o->until_ticks++; break;
+        case 2: o->watchdog_ticks++; break;
+        case 3: o->flags ^= WH_ORDER_ALIVE; break;
+        case 4: talk_drawn.remembers[turn] = talk_drawn.remembers[turn] == 99 ? 0 : 99; break;
+        default:
+            o->acted_timer++;
+            o->busy_timer++;
+            o->step_timer++;
+        }
+        talk_say_all(talk_drawn.turns);
+        if (c % 6 == 5) {
+            TEST_ASSERT_EQUAL_STRING("", replay(LOCKSTEP_LET_GO, talk_drawn.turns, true));
+            continue;
+        }
+        const char *told = replay(LOCKSTEP_DIFFERENT, turn + 1U, true);
+        snprintf(words, sizeof words,
+                 "whirl pil: error: exchange %u, t = %.6f s: other orders than on the tape\n",
+                 turn + 1U, time_of(turn));
+        told = said_exactly(told, words);
+        if (c % 6 == 0) {
+            snprintf(words, sizeof words, "hint: output %u is %.9g, on the tape %.9g\n",
+                     output + 1U, (double)o->output[output], (double)before);
+            told = said_exactly(told, words);
+            hints++;
+        }
+        TEST_ASSERT_EQUAL_STRING("", told);
+    }
+    TEST_ASSERT_TRUE(hints > 1);
+}
+
+static void test_not_replayed(void) {
+    for (unsigned c = 0; c < 12; c++) {
+        char words[120];
+        talk_draw();
+        talk_tape_all(talk_drawn.turns);
+        const unsigned turns = talk_one_of(talk_drawn.turns);
+        talk_say_all(turns);
+        if (c % 4 == 0) { /* the firmware ends, and the tape goes on */
+            talk_put_end(&talk_line, 0, 4);
+            const char *told = replay(LOCKSTEP_DIFFERENT, turns, true);
+            snprintf(words, sizeof words,
+                     "exchange %u, t = %.6f s: the firmware ended, and the tape goes on\n", turns,
+                     time_of(turns));
+            TEST_ASSERT_NOT_NULL_MESSAGE(strstr(told, words), told);
+        } else if (c % 4 == 1) { /* another firmware's */
+            talk_drawn.hello.program = "another";
+            talk_line.length = 0;
+            talk_put_hello(&talk_line, &talk_drawn.hello);
+            const char *told = replay(LOCKSTEP_BAD, 0, false);
+            TEST_ASSERT_NOT_NULL_MESSAGE(
+                strstr(
+                    told,
+                    "error: it is of 'drawn', whose signals are not those of the firmware 'another'\n"),
+                told);
+        } else if (c % 4 == 2) { /* a broken tape */
+            talk_on_tape.length -= 3;
+            talk_say_all(talk_drawn.turns);
+            const char *told = replay(LOCKSTEP_BAD, talk_drawn.turns - 1U, true);
+            TEST_ASSERT_NOT_NULL_MESSAGE(strstr(told, "error: it is broken after "), told);
+        } else { /* none */
+            talk_on_tape.length = 2;
+            const char *told = replay(LOCKSTEP_BAD, 0, false);
+            TEST_ASSERT_NOT_NULL_MESSAGE(strstr(told, "error: no tape of this version after 0"),
+                                         told);
+        }
+    }
+}
+
+/* A tape on which the firmware was reset: over a line nobody can. */
+static void test_reset_on_tape(void) {
+    uint8_t payload[WH_RESET_BYTES];
+    const wh_reset reset = {.cause = WH_RESET_WATCHDOG};
+    talk_draw();
+    talk_tape_all(2);
+    talk_put_hello(&talk_on_tape, &talk_drawn.hello);
+    talk_put(&talk_on_tape, WH_FRAME_RESET, 0, talk_drawn.ticks[1], payload,
+             wh_reset_put(&reset, payload, sizeof payload));
+    talk_say_all(2);
+    const char *told = replay(LOCKSTEP_FAILED, 2, true);
+    TEST_ASSERT_NOT_NULL_MESSAGE(strstr(told, "nothing that resets it"), told);
+}
+
+void suite_replay(void) {
+    talk_die(dice_of("replay", 50));
+    RUN_TEST(test_replayed);
+    RUN_TEST(test_other_orders);
+    RUN_TEST(test_not_replayed);
+    RUN_TEST(test_reset_on_tape);
 }

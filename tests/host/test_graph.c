@@ -6,28 +6,37 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "drawn_graph.h"
+#include "host/base/alloc.h"
 #include "host/lang/model.h"
 #include "host/prove/reader.h"
+#include "host/prove/taylor.h"
+
+#include "derived.h"
+#include "drawn_graph.h"
+
 #include "unity.h"
 
 void suite_graph(void);
+void suite_reader(void);
+void suite_taylor(void);
+
+/* === graph ==================================================================================== */
 
 enum { NODES_MOST = 4000 };
 
 static dice die;
-static graph *g;
-static int made[DRAWN_STEPS];
+static graph *g_graph;
+static int made_graph[DRAWN_STEPS];
 static drawn_graph drawn;
-static double x[DRAWN_VARIABLES];
+static double x_graph[DRAWN_VARIABLES];
 
 static void draw(void) {
     for (int i = 0; i < DRAWN_VARIABLES; i++) {
-        x[i] = dice_between(&die, -2.0, 2.0);
+        x_graph[i] = dice_between(&die, -2.0, 2.0);
     }
-    drawn_graph_draw(&drawn, &die, x);
-    g = graph_new();
-    drawn_graph_nodes(&drawn, g, made);
+    drawn_graph_draw(&drawn, &die, x_graph);
+    g_graph = graph_new();
+    drawn_graph_nodes(&drawn, g_graph, made_graph);
 }
 
 /* A node's value at x, of which those from `first` on are zero. */
@@ -35,10 +44,10 @@ static long double worth(int which, int first) {
     static long double value[NODES_MOST];
     long double at[DRAWN_VARIABLES];
     for (int i = 0; i < DRAWN_VARIABLES; i++) {
-        at[i] = i < first ? (long double)x[i] : 0.0L;
+        at[i] = i < first ? (long double)x_graph[i] : 0.0L;
     }
-    TEST_ASSERT_TRUE(which >= 0 && which < g->count && g->count <= NODES_MOST);
-    drawn_graph_values(g, at, value);
+    TEST_ASSERT_TRUE(which >= 0 && which < g_graph->count && g_graph->count <= NODES_MOST);
+    drawn_graph_values(g_graph, at, value);
     return value[which];
 }
 
@@ -46,8 +55,8 @@ static long double worth(int which, int first) {
 static void series_at(int first, int moved, series *of) {
     series at[DRAWN_VARIABLES] = {{{0.0L}}};
     for (int i = 0; i < DRAWN_VARIABLES; i++) {
-        at[i].at[0] =
-            drawn_complex(i < first ? (long double)x[i] : 0.0L, i == moved ? DRAWN_TINY : 0.0L);
+        at[i].at[0] = drawn_complex(i < first ? (long double)x_graph[i] : 0.0L,
+                                    i == moved ? DRAWN_TINY : 0.0L);
     }
     drawn_graph_series(&drawn, at, 0, of);
 }
@@ -62,9 +71,9 @@ static void test_worth(void) {
         draw();
         series_at(DRAWN_VARIABLES, -1, of);
         for (int i = 0; i < DRAWN_STEPS; i++) {
-            expect_near("worth", creall(of[i].at[0]), worth(made[i], DRAWN_VARIABLES), 0.0L);
+            expect_near("worth", creall(of[i].at[0]), worth(made_graph[i], DRAWN_VARIABLES), 0.0L);
         }
-        graph_free(g);
+        graph_free(g_graph);
     }
 }
 
@@ -76,11 +85,11 @@ static void test_slopes(void) {
         series_at(DRAWN_VARIABLES, variable, of);
         for (int i = 0; i < DRAWN_STEPS; i++) {
             const long double wanted = cimagl(of[i].at[0]) / DRAWN_TINY;
-            const int slope = graph_slope(g, made[i], variable);
-            TEST_ASSERT_EQUAL_INT(slope, graph_slope(g, made[i], variable));
+            const int slope = graph_slope(g_graph, made_graph[i], variable);
+            TEST_ASSERT_EQUAL_INT(slope, graph_slope(g_graph, made_graph[i], variable));
             expect_near("a slope", wanted, worth(slope, DRAWN_VARIABLES), 0.0L);
         }
-        graph_free(g);
+        graph_free(g_graph);
     }
 }
 
@@ -88,11 +97,11 @@ static void test_slopes(void) {
 static bool reaches(int from, int first) {
     static bool wanted[NODES_MOST];
     bool found = false;
-    for (int i = 0; i < g->count; i++) {
+    for (int i = 0; i < g_graph->count; i++) {
         wanted[i] = i == from;
     }
     for (int i = from; i >= 0; i--) {
-        const node *n = &g->node[i];
+        const node *n = &g_graph->node[i];
         if (!wanted[i] || n->kind == NODE_NUMBER) {
             continue;
         }
@@ -116,16 +125,16 @@ static void test_without(void) {
         const int first = (int)dice_one_of(&die, DRAWN_VARIABLES);
         series_at(first, -1, of);
         for (int i = 0; i < DRAWN_STEPS; i++) {
-            const int without = graph_without(g, made[i], first);
+            const int without = graph_without(g_graph, made_graph[i], first);
             expect_near("without", creall(of[i].at[0]), worth(without, first), 0.0L);
             TEST_ASSERT_FALSE(reaches(without, first));
-            if (reaches(made[i], first)) {
+            if (reaches(made_graph[i], first)) {
                 reached++;
             } else {
-                TEST_ASSERT_EQUAL_INT(made[i], without);
+                TEST_ASSERT_EQUAL_INT(made_graph[i], without);
             }
         }
-        graph_free(g);
+        graph_free(g_graph);
     }
     TEST_ASSERT_TRUE(reached > 100);
 }
@@ -135,74 +144,76 @@ static void test_one_node(void) {
     for (unsigned c = 0; c < dice_cases(usual_or(20, 8)); c++) {
         int again[DRAWN_STEPS];
         draw();
-        const int count = g->count;
-        drawn_graph_nodes(&drawn, g, again);
-        TEST_ASSERT_EQUAL_INT(count, g->count);
-        TEST_ASSERT_EQUAL_INT_ARRAY(made, again, DRAWN_STEPS);
+        const int count = g_graph->count;
+        drawn_graph_nodes(&drawn, g_graph, again);
+        TEST_ASSERT_EQUAL_INT(count, g_graph->count);
+        TEST_ASSERT_EQUAL_INT_ARRAY(made_graph, again, DRAWN_STEPS);
         for (int i = 0; i < count; i++) {
             for (int k = 0; k < i; k++) {
-                const node *a = &g->node[i];
-                const node *b = &g->node[k];
+                const node *a = &g_graph->node[i];
+                const node *b = &g_graph->node[k];
                 TEST_ASSERT_FALSE(a->kind == b->kind && a->left == b->left &&
                                   a->right == b->right && a->number.low == b->number.low &&
                                   a->number.high == b->number.high);
             }
         }
-        graph_free(g);
+        graph_free(g_graph);
     }
-    g = graph_new();
+    g_graph = graph_new();
     int whole[2000];
     for (int i = 0; i < 2000; i++) {
-        whole[i] = graph_whole(g, i - 1000);
+        whole[i] = graph_whole(g_graph, i - 1000);
         TEST_ASSERT_EQUAL_INT(i, whole[i]);
-        TEST_ASSERT_TRUE(g->node[i].number.low == i - 1000.0 && g->room >= g->count &&
-                         g->slots > g->count && (g->slots & (g->slots - 1)) == 0);
+        TEST_ASSERT_TRUE(g_graph->node[i].number.low == i - 1000.0 &&
+                         g_graph->room >= g_graph->count && g_graph->slots > g_graph->count &&
+                         (g_graph->slots & (g_graph->slots - 1)) == 0);
     }
     for (int i = 0; i < 2000; i++) {
-        TEST_ASSERT_EQUAL_INT(whole[i], graph_whole(g, i - 1000));
+        TEST_ASSERT_EQUAL_INT(whole[i], graph_whole(g_graph, i - 1000));
     }
-    TEST_ASSERT_EQUAL_INT(2000, g->count);
+    TEST_ASSERT_EQUAL_INT(2000, g_graph->count);
     /* ends that differ in one place only are two nodes */
-    const int wide = graph_number(g, (enclosure){1.0, 2.0});
-    TEST_ASSERT_TRUE(wide != graph_number(g, (enclosure){1.0, 3.0}) &&
-                     wide != graph_number(g, (enclosure){0.5, 2.0}) && wide != graph_whole(g, 1) &&
-                     wide != graph_whole(g, 2));
-    TEST_ASSERT_FALSE(graph_is_one(g, wide));
-    TEST_ASSERT_EQUAL_INT(graph_whole(g, 0), graph_number(g, enclosure_of(-0.0)));
-    graph_free(g);
+    const int wide = graph_number(g_graph, (enclosure){1.0, 2.0});
+    TEST_ASSERT_TRUE(wide != graph_number(g_graph, (enclosure){1.0, 3.0}) &&
+                     wide != graph_number(g_graph, (enclosure){0.5, 2.0}) &&
+                     wide != graph_whole(g_graph, 1) && wide != graph_whole(g_graph, 2));
+    TEST_ASSERT_FALSE(graph_is_one(g_graph, wide));
+    TEST_ASSERT_EQUAL_INT(graph_whole(g_graph, 0), graph_number(g_graph, enclosure_of(-0.0)));
+    graph_free(g_graph);
     graph_free(NULL);
 }
 
 /* What is true of all values is simplified, and only that. */
 static void expect_simple(int a, int b) {
-    const int zero = graph_whole(g, 0);
-    const int one = graph_whole(g, 1);
-    const int two = graph_whole(g, 2);
-    TEST_ASSERT_TRUE(graph_is_zero(g, zero) && !graph_is_zero(g, one) && graph_is_one(g, one) &&
-                     !graph_is_one(g, zero) && graph_is_number(g, two) && !graph_is_one(g, two));
-    TEST_ASSERT_EQUAL_INT(a, graph_add(g, a, zero));
-    TEST_ASSERT_EQUAL_INT(a, graph_add(g, zero, a));
-    TEST_ASSERT_EQUAL_INT(a, graph_sub(g, a, zero));
-    TEST_ASSERT_EQUAL_INT(graph_neg(g, a), graph_sub(g, zero, a));
-    TEST_ASSERT_EQUAL_INT(zero, graph_sub(g, a, a));
-    TEST_ASSERT_EQUAL_INT(graph_mul(g, two, a), graph_add(g, a, a));
-    TEST_ASSERT_EQUAL_INT(graph_add(g, b, a), graph_add(g, a, b));
-    TEST_ASSERT_EQUAL_INT(graph_mul(g, b, a), graph_mul(g, a, b));
-    TEST_ASSERT_EQUAL_INT(zero, graph_mul(g, zero, a));
-    TEST_ASSERT_EQUAL_INT(zero, graph_mul(g, a, zero));
-    TEST_ASSERT_EQUAL_INT(a, graph_mul(g, one, a));
-    TEST_ASSERT_EQUAL_INT(a, graph_mul(g, a, one));
-    TEST_ASSERT_EQUAL_INT(zero, graph_div(g, zero, a));
-    TEST_ASSERT_EQUAL_INT(one, graph_power(g, a, enclosure_of(0.0)));
-    TEST_ASSERT_EQUAL_INT(a, graph_power(g, a, enclosure_of(1.0)));
-    TEST_ASSERT_EQUAL_INT(graph_mul(g, a, a), graph_power(g, a, enclosure_of(2.0)));
-    TEST_ASSERT_EQUAL_INT(graph_div(g, one, a), graph_power(g, a, enclosure_of(-1.0)));
+    const int zero = graph_whole(g_graph, 0);
+    const int one = graph_whole(g_graph, 1);
+    const int two = graph_whole(g_graph, 2);
+    TEST_ASSERT_TRUE(graph_is_zero(g_graph, zero) && !graph_is_zero(g_graph, one) &&
+                     graph_is_one(g_graph, one) && !graph_is_one(g_graph, zero) &&
+                     graph_is_number(g_graph, two) && !graph_is_one(g_graph, two));
+    TEST_ASSERT_EQUAL_INT(a, graph_add(g_graph, a, zero));
+    TEST_ASSERT_EQUAL_INT(a, graph_add(g_graph, zero, a));
+    TEST_ASSERT_EQUAL_INT(a, graph_sub(g_graph, a, zero));
+    TEST_ASSERT_EQUAL_INT(graph_neg(g_graph, a), graph_sub(g_graph, zero, a));
+    TEST_ASSERT_EQUAL_INT(zero, graph_sub(g_graph, a, a));
+    TEST_ASSERT_EQUAL_INT(graph_mul(g_graph, two, a), graph_add(g_graph, a, a));
+    TEST_ASSERT_EQUAL_INT(graph_add(g_graph, b, a), graph_add(g_graph, a, b));
+    TEST_ASSERT_EQUAL_INT(graph_mul(g_graph, b, a), graph_mul(g_graph, a, b));
+    TEST_ASSERT_EQUAL_INT(zero, graph_mul(g_graph, zero, a));
+    TEST_ASSERT_EQUAL_INT(zero, graph_mul(g_graph, a, zero));
+    TEST_ASSERT_EQUAL_INT(a, graph_mul(g_graph, one, a));
+    TEST_ASSERT_EQUAL_INT(a, graph_mul(g_graph, a, one));
+    TEST_ASSERT_EQUAL_INT(zero, graph_div(g_graph, zero, a));
+    TEST_ASSERT_EQUAL_INT(one, graph_power(g_graph, a, enclosure_of(0.0)));
+    TEST_ASSERT_EQUAL_INT(a, graph_power(g_graph, a, enclosure_of(1.0)));
+    TEST_ASSERT_EQUAL_INT(graph_mul(g_graph, a, a), graph_power(g_graph, a, enclosure_of(2.0)));
+    TEST_ASSERT_EQUAL_INT(graph_div(g_graph, one, a), graph_power(g_graph, a, enclosure_of(-1.0)));
 }
 
 static bool has_kind(node_kind kind) {
     bool has = false;
-    for (int i = 0; i < g->count; i++) {
-        has = has || g->node[i].kind == kind;
+    for (int i = 0; i < g_graph->count; i++) {
+        has = has || g_graph->node[i].kind == kind;
     }
     return has;
 }
@@ -210,39 +221,44 @@ static bool has_kind(node_kind kind) {
 static void test_simple(void) {
     for (unsigned c = 0; c < dice_cases(usual_or(20, 8)); c++) {
         draw();
-        const int steps[] = {made[0], made[1], made[DRAWN_STEPS - 1], made[DRAWN_STEPS - 2]};
+        const int steps[] = {made_graph[0], made_graph[1], made_graph[DRAWN_STEPS - 1],
+                             made_graph[DRAWN_STEPS - 2]};
         for (int i = 0; i < 4; i++) {
-            if (!graph_is_number(g, steps[i])) {
+            if (!graph_is_number(g_graph, steps[i])) {
                 expect_simple(steps[i], steps[(i + 1) % 4]);
             }
         }
-        for (int i = 0; i < g->count; i++) { /* constants are in front of products, and but once */
-            const node *n = &g->node[i];
+        for (int i = 0; i < g_graph->count;
+             i++) { /* constants are in front of products, and but once */
+            const node *n = &g_graph->node[i];
             const node_kind left = n->kind == NODE_NUMBER || n->kind == NODE_VARIABLE
                                        ? NODE_VARIABLE
-                                       : g->node[n->left].kind;
+                                       : g_graph->node[n->left].kind;
             TEST_ASSERT_FALSE(n->kind == NODE_MULTIPLE &&
                               (left == NODE_MULTIPLE || left == NODE_NUMBER));
             TEST_ASSERT_FALSE((n->kind == NODE_PRODUCT || n->kind == NODE_SQUARE) &&
                               (left == NODE_MULTIPLE || left == NODE_NUMBER));
-            TEST_ASSERT_FALSE(n->kind == NODE_PRODUCT &&
-                              (g->node[n->right].kind == NODE_MULTIPLE || n->left == n->right));
-            TEST_ASSERT_FALSE(n->kind == NODE_RATIO && (g->node[n->right].kind == NODE_MULTIPLE ||
-                                                        g->node[n->right].kind == NODE_NUMBER));
+            TEST_ASSERT_FALSE(
+                n->kind == NODE_PRODUCT &&
+                (g_graph->node[n->right].kind == NODE_MULTIPLE || n->left == n->right));
+            TEST_ASSERT_FALSE(n->kind == NODE_RATIO &&
+                              (g_graph->node[n->right].kind == NODE_MULTIPLE ||
+                               g_graph->node[n->right].kind == NODE_NUMBER));
             const bool has_two = n->kind == NODE_SUM || n->kind == NODE_DIFFERENCE ||
                                  n->kind == NODE_PRODUCT || n->kind == NODE_RATIO ||
                                  n->kind == NODE_COSINE;
             TEST_ASSERT_TRUE(has_two ? n->right >= 0 : n->right == -1);
             if (n->kind == NODE_COSINE) {
                 TEST_ASSERT_EQUAL_INT(i - 1, n->right);
-                TEST_ASSERT_TRUE(g->node[i - 1].kind == NODE_SINE &&
-                                 g->node[i - 1].left == n->left);
+                TEST_ASSERT_TRUE(g_graph->node[i - 1].kind == NODE_SINE &&
+                                 g_graph->node[i - 1].left == n->left);
             }
             if (n->kind == NODE_SINE) {
-                TEST_ASSERT_TRUE(i + 1 < g->count && g->node[i + 1].kind == NODE_COSINE);
+                TEST_ASSERT_TRUE(i + 1 < g_graph->count &&
+                                 g_graph->node[i + 1].kind == NODE_COSINE);
             }
         }
-        graph_free(g);
+        graph_free(g_graph);
     }
 }
 
@@ -250,30 +266,30 @@ static void test_simple(void) {
  * number for certain. */
 static void test_whole_powers(void) {
     for (int exponent = -70; exponent <= 70; exponent++) {
-        g = graph_new();
-        const int a = graph_variable(g, 0);
-        const int power = graph_power(g, a, enclosure_of((double)exponent));
+        g_graph = graph_new();
+        const int a = graph_variable(g_graph, 0);
+        const int power = graph_power(g_graph, a, enclosure_of((double)exponent));
         const bool is_out = abs(exponent) <= 64;
         TEST_ASSERT_TRUE(has_kind(NODE_POWER) == !is_out);
-        x[0] = 1.0625;
+        x_graph[0] = 1.0625;
         expect_near("a power", powl(1.0625L, (long double)exponent), worth(power, 1), 0.0L);
-        TEST_ASSERT_TRUE(g->count <= 2 + 2 * 7);
-        graph_free(g);
+        TEST_ASSERT_TRUE(g_graph->count <= 2 + 2 * 7);
+        graph_free(g_graph);
     }
     static const enclosure exponents[] = {{0.5, 0.5}, {2.0, 2.5}, {1.5, 2.0}, {-2.5, -2.5}};
     for (int i = 0; i < 4; i++) {
-        g = graph_new();
-        (void)graph_power(g, graph_variable(g, 0), exponents[i]);
+        g_graph = graph_new();
+        (void)graph_power(g_graph, graph_variable(g_graph, 0), exponents[i]);
         TEST_ASSERT_TRUE(has_kind(NODE_POWER));
-        graph_free(g);
+        graph_free(g_graph);
     }
 }
 
 /* --- numbers -----------------------------------------------------------------------------------------------*/
 
 static void expect_number(const char *what, int at, long double wanted) {
-    TEST_ASSERT_TRUE_MESSAGE(graph_is_number(g, at), what);
-    const enclosure a = g->node[at].number;
+    TEST_ASSERT_TRUE_MESSAGE(graph_is_number(g_graph, at), what);
+    const enclosure a = g_graph->node[at].number;
     const long double slack = 4e-19L * fabsl(wanted);
     TEST_ASSERT_TRUE_MESSAGE(
         (long double)a.low <= wanted + slack && wanted - slack <= (long double)a.high, what);
@@ -288,24 +304,24 @@ static void test_numbers(void) {
         const double b = dice_between(&die, 0.5, 5.0);
         const long double p = (long double)a;
         const long double q = (long double)b;
-        g = graph_new();
-        const int i = graph_number(g, enclosure_of(a));
-        const int k = graph_number(g, enclosure_of(b));
-        expect_number("a sum", graph_add(g, i, k), p + q);
-        expect_number("a difference", graph_sub(g, i, k), p - q);
-        expect_number("a product", graph_mul(g, i, k), p * q);
-        expect_number("a ratio", graph_div(g, i, k), p / q);
-        expect_number("a sign", graph_neg(g, i), -p);
-        expect_number("a sine", graph_sine(g, i), sinl(p));
-        expect_number("a cosine", graph_cosine(g, i), cosl(p));
-        expect_number("an exponential", graph_exp(g, i), expl(p));
-        expect_number("a logarithm", graph_log(g, k), logl(q));
-        expect_number("a power", graph_power(g, k, enclosure_of(a)), powl(q, p));
-        const int variable = graph_variable(g, 0);
-        const int shared = graph_mul(g, k, graph_mul(g, variable, i));
-        TEST_ASSERT_EQUAL_INT(NODE_MULTIPLE, g->node[shared].kind);
-        TEST_ASSERT_EQUAL_INT(variable, g->node[shared].left);
-        graph_free(g);
+        g_graph = graph_new();
+        const int i = graph_number(g_graph, enclosure_of(a));
+        const int k = graph_number(g_graph, enclosure_of(b));
+        expect_number("a sum", graph_add(g_graph, i, k), p + q);
+        expect_number("a difference", graph_sub(g_graph, i, k), p - q);
+        expect_number("a product", graph_mul(g_graph, i, k), p * q);
+        expect_number("a ratio", graph_div(g_graph, i, k), p / q);
+        expect_number("a sign", graph_neg(g_graph, i), -p);
+        expect_number("a sine", graph_sine(g_graph, i), sinl(p));
+        expect_number("a cosine", graph_cosine(g_graph, i), cosl(p));
+        expect_number("an exponential", graph_exp(g_graph, i), expl(p));
+        expect_number("a logarithm", graph_log(g_graph, k), logl(q));
+        expect_number("a power", graph_power(g_graph, k, enclosure_of(a)), powl(q, p));
+        const int variable = graph_variable(g_graph, 0);
+        const int shared = graph_mul(g_graph, k, graph_mul(g_graph, variable, i));
+        TEST_ASSERT_EQUAL_INT(NODE_MULTIPLE, g_graph->node[shared].kind);
+        TEST_ASSERT_EQUAL_INT(variable, g_graph->node[shared].left);
+        graph_free(g_graph);
     }
 }
 
@@ -321,13 +337,14 @@ static enclosure read_number(const char *written) {
     TEST_ASSERT_NOT_NULL_MESSAGE(model, written);
     instance *inst = instance_make(model->mechanisms[0], NULL, NULL, errors);
     int parameters[] = {-1, -1, -1};
-    reader_symbols s = {.graph = g, .instance = inst, .parameter = parameters, .errors = errors};
+    reader_symbols s = {
+        .graph = g_graph, .instance = inst, .parameter = parameters, .errors = errors};
     const int number = read_node(&s, model->mechanisms[0]->parameters[2]->value);
-    TEST_ASSERT_TRUE_MESSAGE(number >= 0 && graph_is_number(g, number), written);
+    TEST_ASSERT_TRUE_MESSAGE(number >= 0 && graph_is_number(g_graph, number), written);
     instance_free(inst);
     model_free(model);
     diags_free(errors);
-    return g->node[number].number;
+    return g_graph->node[number].number;
 }
 
 /* Whole numbers stay whole through sums, products, quotients and powers that are whole. */
@@ -349,16 +366,16 @@ static void test_whole_numbers_stay_whole(void) {
         for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
             char written[60];
             snprintf(written, sizeof written, cases[i].form, a, b); // NOLINT
-            g = graph_new();
+            g_graph = graph_new();
             const enclosure is = read_number(written);
             TEST_ASSERT_TRUE_MESSAGE(enclosure_is_point(is) && is.low == cases[i].value, written);
-            graph_free(g);
+            graph_free(g_graph);
         }
         /* what is no double must not become one */
-        g = graph_new();
-        const int part = graph_div(g, graph_whole(g, a), graph_whole(g, 7));
-        TEST_ASSERT_EQUAL_INT(a % 7 == 0, enclosure_is_point(g->node[part].number));
-        graph_free(g);
+        g_graph = graph_new();
+        const int part = graph_div(g_graph, graph_whole(g_graph, a), graph_whole(g_graph, 7));
+        TEST_ASSERT_EQUAL_INT(a % 7 == 0, enclosure_is_point(g_graph->node[part].number));
+        graph_free(g_graph);
     }
 }
 
@@ -378,14 +395,14 @@ static void test_inverse_functions_of_numbers(void) {
         for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
             char written[80];
             snprintf(written, sizeof written, cases[i].form, i < 2 ? u : v, w); // NOLINT
-            g = graph_new();
+            g_graph = graph_new();
             const enclosure is = read_number(written);
             const long double slack = 0x1p-60L;
             TEST_ASSERT_TRUE_MESSAGE((long double)is.low <= cases[i].value + slack &&
                                          cases[i].value - slack <= (long double)is.high,
                                      written);
             TEST_ASSERT_TRUE_MESSAGE(is.high - is.low <= 1e-6, written);
-            graph_free(g);
+            graph_free(g_graph);
         }
     }
 }
@@ -401,4 +418,578 @@ void suite_graph(void) {
     RUN_TEST(test_numbers);
     RUN_TEST(test_whole_numbers_stay_whole);
     RUN_TEST(test_inverse_functions_of_numbers);
+}
+
+/* === reader =================================================================================== */
+/* A model's expressions as nodes of a graph (host/prove/reader.h): drawn formulas, each worth what long double
+ * makes of the same, in numbers enclosures of it; which variable a derivative is; and what is not enclosed, told once, at its
+ * place. */
+
+enum { LETS = 24, NUMBERS = 4, TEXT_SIZE = 6000, VARIABLES = 7 };
+
+/* A text, read, and the symbols as whoever reads expressions has them. */
+typedef struct reading {
+    whirl_model *model;
+    const mechanism *of;
+    instance *instance;
+    diags *errors;
+    reader_symbols symbols;
+    int first[2];
+    int order[2];
+    int parameter[NUMBERS];
+    int let[LETS + 1];
+} reading;
+
+static reading r;
+
+/* Of states a (second order) and b (first order): a, a', b; then the highest, a'' and b'. */
+static void open_text(const char *text) {
+    r = (reading){.errors = diags_new()};
+    r.model = model_parse("x.whirl", text, strlen(text), r.errors);
+    if (r.model == NULL) {
+        diags_flush(r.errors, stdout);
+    }
+    TEST_ASSERT_NOT_NULL_MESSAGE(r.model, text);
+    r.of = r.model->mechanisms[0];
+    r.instance = instance_make(r.of, NULL, NULL, r.errors);
+    TEST_ASSERT_NOT_NULL_MESSAGE(r.instance, text);
+    TEST_ASSERT_TRUE(r.of->coordinate_count == 2 && r.of->parameter_count <= NUMBERS &&
+                     r.of->let_count <= LETS + 1);
+    r.first[1] = 2;
+    r.order[0] = 2;
+    r.order[1] = 1;
+    r.symbols = (reader_symbols){.graph = graph_new(),
+                                 .instance = r.instance,
+                                 .first = r.first,
+                                 .order = r.order,
+                                 .highest = 3,
+                                 .parameter = r.parameter,
+                                 .let = r.let,
+                                 .errors = r.errors};
+    for (int i = 0; i < NUMBERS; i++) {
+        r.parameter[i] = -1;
+    }
+    for (int i = 0; i <= LETS; i++) {
+        r.let[i] = -1;
+    }
+}
+
+static void close_text(void) {
+    graph_free(r.symbols.graph);
+    instance_free(r.instance);
+    model_free(r.model);
+    diags_free(r.errors);
+}
+
+#define HEAD \
+    "mechanism m\nstate a\nstate b\n" \
+    "equation a'' = 0 [1/s^2]*a\nequation b' = 0 [1/s]*b\n"
+
+/* --- drawn formulas --------------------------------------------------------------------------------------------*/
+
+/* The names of what there is to take: states and their derivatives (times seconds), an input, parameters, lets so far. */
+static const char *const leaves[] = {
+    "a", "(a'*1 [s])", "b", "(a''*1 [s^2])", "(b'*1 [s])", "u", "p0", "p1", "p2", "p3"};
+enum { LEAVES = 10, MOVING = 5 };
+
+typedef struct drawn_text {
+    char text[TEXT_SIZE];
+    size_t length;
+    long double value[LEAVES + LETS];
+    bool is_number[LEAVES + LETS];
+} drawn_text;
+
+static drawn_text d;
+
+#define SAY(...) \
+    (d.length += (size_t)snprintf(d.text + d.length, TEXT_SIZE - d.length, __VA_ARGS__))
+
+static const char *name_of(int i, char name[24]) {
+    if (i < LEAVES) {
+        snprintf(name, 24, "%s", leaves[i]);
+    } else {
+        snprintf(name, 24, "e%d", i - LEAVES);
+    }
+    return name;
+}
+
+enum { FORMULAS = 21 };
+
+/* Formula `which` of u and v, and what it is. Numbers alone may stand in what has corners. */
+static long double write_formula(int which, const char *u, const char *v, long double x,
+                                 long double y, char *text) {
+    const char *form = NULL;
+    long double value = 0.0L;
+    switch (which) {
+    case 0: form = "%s + %s", value = x + y; break;
+    case 1: form = "%s - %s", value = x - y; break;
+    case 2: form = "%s * %s", value = x * y; break;
+    case 3: form = "%s / (3 + sin(%s))", value = x / (3.0L + sinl(y)); break;
+    case 4: form = "-%s + 0.25", value = -x + 0.25L; break;
+    case 5: form = "sin(%s)", value = sinl(x); break;
+    case 6: form = "cos(%s)", value = cosl(x); break;
+    case 7: form = "tan(sin(%s))", value = tanl(sinl(x)); break;
+    case 8: form = "sqrt(1 + %s^2)", value = sqrtl(1.0L + x * x); break;
+    case 9: form = "exp(%s/3)", value = expl(x / 3.0L); break;
+    case 10: form = "log(1.5 + %s^2)", value = logl(1.5L + x * x); break;
+    case 11: form = "sinh(%s/2)", value = sinhl(x / 2.0L); break;
+    case 12: form = "cosh(%s/2)", value = coshl(x / 2.0L); break;
+    case 13: form = "tanh(%s)", value = tanhl(x); break;
+    case 14: form = "(%s)^3", value = x * x * x; break;
+    case 15: form = "(2 + cos(%s))^(%s/2)", value = powl(2.0L + cosl(x), y / 2.0L); break;
+    case 16: form = "(2 + cos(%s))^1.5", value = powl(2.0L + cosl(x), 1.5L); break;
+    case 17: form = "abs(%s)", value = fabsl(x); break;
+    case 18: form = "sign(%s)", value = x > 0.0L ? 1.0L : x < 0.0L ? -1.0L : 0.0L; break;
+    case 19: form = "min(%s, %s)", value = fminl(x, y); break;
+    default: form = "max(%s, %s)", value = fmaxl(x, y);
+    }
+    snprintf(text, 200, form, u, v);
+    return value;
+}
+
+static void draw_text(void) {
+    d.length = 0;
+    SAY("%s", HEAD);
+    for (int i = 0; i < LEAVES; i++) {
+        d.is_number[i] = i >= MOVING;
+        d.value[i] = (long double)dice_between(&die, -2.0, 2.0);
+        if (d.is_number[i]) { /* of hundredths: decimals that no double is */
+            d.value[i] = roundl(d.value[i] * 100.0L) / 100.0L;
+            SAY("%s %s = %.2Lf\n", i == MOVING ? "input" : "parameter", leaves[i], d.value[i]);
+        }
+    }
+    for (int i = LEAVES; i < LEAVES + LETS; i++) {
+        char u[24];
+        char v[24];
+        char formula[200];
+        int left = (int)dice_one_of(&die, (unsigned)i);
+        int right = (int)dice_one_of(&die, (unsigned)i);
+        int which = (i + (int)dice_one_of(&die, 5)) % FORMULAS;
+        if (which >= 17) {
+            left = MOVING + (int)dice_one_of(&die, LEAVES - MOVING);
+            right = MOVING + (int)dice_one_of(&die, LEAVES - MOVING);
+        }
+        d.value[i] = write_formula(which, name_of(left, u), name_of(right, v), d.value[left],
+                                   d.value[right], formula);
+        if (fabsl(d.value[i]) > 6.0L) {
+            which = 13;
+            d.value[i] = write_formula(which, u, v, d.value[left], d.value[right], formula);
+        }
+        const bool has_two = strstr(formula, v) != NULL && (which < 4 || which == 15 || which > 18);
+        d.is_number[i] = d.is_number[left] && (!has_two || d.is_number[right]);
+        SAY("let e%d = %s\n", i - LEAVES, formula);
+    }
+    TEST_ASSERT_TRUE(d.length < TEXT_SIZE);
+}
+
+static void test_worth_reader(void) {
+    unsigned numbers = 0;
+    for (unsigned c = 0; c < dice_cases(usual_or(40, 15)); c++) {
+        draw_text();
+        open_text(d.text);
+        graph *g = r.symbols.graph;
+        long double at[VARIABLES] = {0.0L};
+        for (int i = 0; i < MOVING; i++) {
+            at[i] = d.value[i];
+        }
+        for (int i = 0; i < LETS; i++) {
+            TEST_ASSERT_TRUE(read_node(&r.symbols, r.of->lets[i]->value) >= 0);
+        }
+        long double *value = alloc(g->count, sizeof *value);
+        drawn_graph_values(g, at, value);
+        const int count = g->count;
+        for (int i = 0; i < LETS; i++) {
+            const int made = read_node(&r.symbols, r.of->lets[i]->value);
+            const long double wanted = d.value[LEAVES + i];
+            TEST_ASSERT_TRUE_MESSAGE(made < count, "the same once more");
+            TEST_ASSERT_TRUE_MESSAGE(fabsl(value[made] - wanted) <= 1e-11L * (1.0L + fabsl(wanted)),
+                                     d.text);
+            if (d.is_number[LEAVES + i]) {
+                TEST_ASSERT_TRUE_MESSAGE(graph_is_number(g, made), d.text);
+                const enclosure e = g->node[made].number;
+                TEST_ASSERT_TRUE_MESSAGE((long double)e.low <= wanted + 1e-17L &&
+                                             wanted - 1e-17L <= (long double)e.high,
+                                         d.text);
+                TEST_ASSERT_TRUE_MESSAGE(e.high - e.low <= 1e-10, d.text);
+                numbers++;
+            }
+        }
+        TEST_ASSERT_EQUAL_INT(0, diags_count(r.errors));
+        free(value);
+        close_text();
+    }
+    TEST_ASSERT_TRUE(numbers > 50);
+}
+
+/* Nodes of the derivatives are the variables that were said. */
+static void test_variables(void) {
+    static const char *const words[] = {"a", "a'", "b", "a''", "b'"};
+    for (int i = 0; i < MOVING; i++) {
+        char text[400];
+        snprintf(text, sizeof text, HEAD "let e = %s\n", words[i]);
+        open_text(text);
+        const int made = read_node(&r.symbols, r.of->lets[0]->value);
+        TEST_ASSERT_EQUAL_INT(NODE_VARIABLE, r.symbols.graph->node[made].kind);
+        TEST_ASSERT_EQUAL_INT(i, r.symbols.graph->node[made].left);
+        close_text();
+    }
+}
+
+/* --- corners of what is not quite known -------------------------------------------------------------------------*/
+
+static enclosure number_of(const char *formula) {
+    char text[500];
+    /* z is an enclosure of zero, w one of a tenth */
+    snprintf(text, sizeof text, HEAD "parameter z = 0.1*3 - 0.3\nparameter w = 0.1*1\nlet e = %s\n",
+             formula);
+    open_text(text);
+    const int made = read_node(&r.symbols, r.of->lets[0]->value);
+    TEST_ASSERT_TRUE_MESSAGE(made >= 0 && graph_is_number(r.symbols.graph, made), formula);
+    const enclosure e = r.symbols.graph->node[made].number;
+    close_text();
+    return e;
+}
+
+static void expect_ends(const char *formula, double low, double high) {
+    const enclosure e = number_of(formula);
+    const double slack = strstr(formula, "-w") != NULL ? 4e-17 : 0.0; /* a sign is a product */
+    TEST_ASSERT_TRUE_MESSAGE(e.low <= low && low - e.low <= slack, formula);
+    TEST_ASSERT_TRUE_MESSAGE(e.high >= high && e.high - high <= slack, formula);
+}
+
+static void test_corners(void) {
+    const enclosure z = number_of("z");
+    const enclosure w = number_of("w");
+    TEST_ASSERT_TRUE(z.low < 0.0 && z.high > 0.0 && w.low > 0.09 && w.low < w.high);
+    expect_ends("abs(z)", 0.0, fmax(-z.low, z.high));
+    expect_ends("abs(w)", w.low, w.high);
+    expect_ends("abs(-w)", w.low, w.high);
+    expect_ends("sign(z)", -1.0, 1.0);
+    expect_ends("sign(w)", 1.0, 1.0);
+    expect_ends("sign(-w)", -1.0, -1.0);
+    expect_ends("sign(0)", 0.0, 0.0);
+    expect_ends("sign(abs(z))", 0.0, 1.0);
+    expect_ends("sign(min(z, 0))", -1.0, 0.0);
+    expect_ends("abs(0)", 0.0, 0.0);
+    expect_ends("min(z, w)", z.low, z.high);
+    expect_ends("max(z, w)", w.low, w.high);
+    expect_ends("min(w, z)", z.low, z.high);
+    expect_ends("max(w, z)", w.low, w.high);
+    expect_ends("min(z, 0)", z.low, 0.0);
+    expect_ends("max(z, 0)", 0.0, z.high);
+    expect_ends("max(0, z)", 0.0, z.high);
+}
+
+/* --- what is refused -------------------------------------------------------------------------------------------*/
+
+/* Told once: the function's name, in line 6 at this column. */
+static void expect_refused(const char *formula, const char *name) {
+    char text[500];
+    char wanted[200];
+    char *told = NULL;
+    size_t length = 0;
+    snprintf(text, sizeof text, HEAD "let e = %s\n", formula);
+    open_text(text);
+    TEST_ASSERT_EQUAL_INT_MESSAGE(-1, read_node(&r.symbols, r.of->lets[0]->value), formula);
+    TEST_ASSERT_EQUAL_size_t_MESSAGE(1, diags_calls(r.errors), formula);
+    FILE *out = alloc_text(&told, &length);
+    diags_flush(r.errors, out);
+    alloc_text_end(out);
+    snprintf(wanted, sizeof wanted, "x.whirl:6:%d: error: %s of what moves cannot be enclosed\n",
+             (int)(strstr(formula, name) - formula) + 9, name);
+    TEST_ASSERT_EQUAL_STRING_LEN(wanted, told, strlen(wanted));
+    TEST_ASSERT_NOT_NULL(
+        strstr(told, "hint: only smooth functions that are enclosed can be proved about"));
+    free(told);
+    close_text();
+}
+
+static void test_refused(void) {
+    static const char *const inside[] = {
+        "%s",     "1 + %s",     "%s*2",       "a/(3 + %s)", "sin(%s)",    "tanh(%s)",     "(%s)^2",
+        "2^(%s)", "min(1, %s)", "min(%s, 1)", "-(%s)",      "a*(b - %s)", "sqrt(exp(%s))"};
+    static const char *const refused[][2] = {
+        {"abs(a)", "abs"},        {"sign(b)", "sign"},      {"min(a, 1)", "min"},
+        {"min(1, a)", "min"},     {"max(1, b)", "max"},     {"max(a, b)", "max"},
+        {"asin(a)", "asin"},      {"acos(a)", "acos"},      {"atan(a)", "atan"},
+        {"atan2(a, 1)", "atan2"}, {"atan2(1, b)", "atan2"}, {"asin(b/2)", "asin"}};
+    for (size_t i = 0; i < sizeof refused / sizeof refused[0]; i++) {
+        for (size_t k = 0; k < sizeof inside / sizeof inside[0]; k++) {
+            char formula[200];
+            snprintf(formula, sizeof formula, inside[k], refused[i][0]);
+            const bool is_other = strstr(formula, refused[i][1]) != strstr(formula, refused[i][0]);
+            if (!is_other) { /* else the place is another one's of the same name */
+                expect_refused(formula, refused[i][1]);
+            }
+        }
+    }
+}
+
+/* An output has no value of its own while the motion is proved. */
+static void test_outputs(void) {
+    char *told = NULL;
+    size_t length = 0;
+    open_text(HEAD "output o = a\noutput p = 2*o\n");
+    TEST_ASSERT_EQUAL_INT(-1, read_node(&r.symbols, r.of->outputs[1]->value));
+    FILE *out = alloc_text(&told, &length);
+    diags_flush(r.errors, out);
+    alloc_text_end(out);
+    const char wanted[] = "x.whirl:7:14: error: an output of what moves cannot be enclosed\n";
+    TEST_ASSERT_EQUAL_STRING_LEN(wanted, told, strlen(wanted));
+    free(told);
+    close_text();
+}
+
+void suite_reader(void) {
+    die = dice_of("reader", 53);
+    RUN_TEST(test_worth_reader);
+    RUN_TEST(test_variables);
+    RUN_TEST(test_corners);
+    RUN_TEST(test_refused);
+    RUN_TEST(test_outputs);
+}
+
+/* === taylor =================================================================================== */
+/* Taylor coefficients of drawn motions in enclosures (host/prove/taylor.h), and their slopes by the state,
+ * against series in long double that are found by another way (drawn_graph.h): held, narrowly, at a point; held, whichever
+ * point of a box they begin at. */
+
+static int rate_step[DRAWN_VARIABLES]; /* the step that is a variable's rate */
+
+typedef struct drawn_motion {
+    graph *graph;
+    int rate[DRAWN_VARIABLES];
+    exact_motion of;
+} drawn_motion;
+
+static void draw_taylor(drawn_motion *m) {
+    for (int i = 0; i < DRAWN_VARIABLES; i++) {
+        x_graph[i] = dice_between(&die, -1.5, 1.5);
+    }
+    drawn_graph_draw(&drawn, &die, x_graph);
+    m->graph = graph_new();
+    drawn_graph_nodes(&drawn, m->graph, made_graph);
+    for (int i = 0; i < DRAWN_VARIABLES; i++) {
+        rate_step[i] = DRAWN_STEPS - 1 - i;
+        m->rate[i] = made_graph[rate_step[i]];
+    }
+    m->of = (exact_motion){.states = DRAWN_VARIABLES,
+                           .rate = m->rate,
+                           .node = m->graph->node,
+                           .nodes = m->graph->count};
+}
+
+/* All steps' series along the motion from there, with a tiny imaginary part of state `moved`, if there is one. */
+static void along(const double *from, int moved, int order, series *of) {
+    series at[DRAWN_VARIABLES] = {{{0.0L}}};
+    for (int i = 0; i < DRAWN_VARIABLES; i++) {
+        at[i].at[0] = drawn_complex((long double)from[i], i == moved ? DRAWN_TINY : 0.0L);
+    }
+    for (int k = 0; k <= order; k++) {
+        drawn_graph_series(&drawn, at, k, of);
+        for (int i = 0; i < DRAWN_VARIABLES && k < order; i++) {
+            at[i].at[k + 1] = of[rate_step[i]].at[k] / (long double)(k + 1);
+        }
+    }
+}
+
+static void expect_held(const char *what, enclosure a, long double wanted, long double size) {
+    const long double slack = 1e-15L * size;
+    TEST_ASSERT_TRUE_MESSAGE(
+        (long double)a.low <= wanted + slack && wanted - slack <= (long double)a.high, what);
+}
+
+/* So large are a step's coefficient k and those before it. */
+static long double size_of(const series *s, int k) {
+    long double size = 1.0L;
+    for (int i = 0; i <= k; i++) {
+        size = fmaxl(size, fabsl(creall(s->at[i])));
+    }
+    return size;
+}
+
+static void test_at_a_point(void) {
+    for (unsigned c = 0; c < dice_cases(usual_or(25, 8)); c++) {
+        drawn_motion m;
+        series of[DRAWN_STEPS];
+        enclosure at[DRAWN_VARIABLES];
+        draw_taylor(&m);
+        const int order = 1 + (int)dice_one_of(&die, DRAWN_ORDER);
+        const int slopes_to = (int)dice_one_of(&die, (unsigned)order + 2) - 1;
+        taylor *t = taylor_new(&m.of, order, slopes_to);
+        TEST_ASSERT_EQUAL_INT(slopes_to < 0 ? 1 : 1 + DRAWN_VARIABLES, t->width);
+        for (int i = 0; i < DRAWN_VARIABLES; i++) {
+            at[i] = enclosure_of(x_graph[i]);
+        }
+        for (int again = 0; again < 2;
+             again++) { /* what is left of the last time counts for nothing */
+            TEST_ASSERT_TRUE(taylor_find(t, at));
+        }
+        along(x_graph, -1, order, of);
+        for (int i = 0; i < DRAWN_STEPS; i++) {
+            for (int k = 0; k <= order; k++) {
+                const enclosure got = taylor_of(t, made_graph[i], k)[0];
+                const long double size = size_of(&of[i], k);
+                expect_held("a coefficient", got, creall(of[i].at[k]), size);
+                TEST_ASSERT_TRUE_MESSAGE(
+                    (long double)got.high - (long double)got.low <= 1e-8L * size, "narrow");
+            }
+        }
+        for (int j = 0; j < DRAWN_VARIABLES; j++) {
+            along(x_graph, j, order, of);
+            for (int i = 0; i < DRAWN_STEPS; i++) {
+                for (int k = 0; k <= slopes_to; k++) {
+                    const enclosure got = taylor_of(t, made_graph[i], k)[1 + j];
+                    const long double wanted = cimagl(of[i].at[k]) / DRAWN_TINY;
+                    const long double size = size_of(&of[i], k) + fabsl(wanted);
+                    expect_held("a slope", got, wanted, 10.0L * size);
+                    TEST_ASSERT_TRUE_MESSAGE(
+                        (long double)got.high - (long double)got.low <= 1e-6L * size, "narrow");
+                }
+            }
+        }
+        taylor_free(t);
+        graph_free(m.graph);
+    }
+}
+
+static void test_in_a_box(void) {
+    unsigned finite = 0;
+    const unsigned cases = dice_cases(usual_or(20, 8));
+    for (unsigned c = 0; c < cases; c++) {
+        drawn_motion m;
+        enclosure at[DRAWN_VARIABLES];
+        draw_taylor(&m);
+        const int order = 4;
+        taylor *t = taylor_new(&m.of, order, order);
+        const double radius = pow(10.0, dice_between(&die, -6.0, -2.0));
+        for (int i = 0; i < DRAWN_VARIABLES; i++) {
+            at[i] = (enclosure){x_graph[i] - radius, x_graph[i] + radius};
+        }
+        const bool good = taylor_find(t, at);
+        finite += good ? 1 : 0;
+        for (int p = 0; p < 6 && good; p++) {
+            double from[DRAWN_VARIABLES];
+            series of[DRAWN_STEPS];
+            for (int i = 0; i < DRAWN_VARIABLES; i++) {
+                const unsigned end = dice_one_of(&die, 3);
+                from[i] = end == 0   ? at[i].low
+                          : end == 1 ? at[i].high
+                                     : dice_between(&die, at[i].low, at[i].high);
+            }
+            const int j = (int)dice_one_of(&die, DRAWN_VARIABLES);
+            along(from, j, order, of);
+            for (int i = 0; i < DRAWN_STEPS; i++) {
+                for (int k = 0; k <= order; k++) {
+                    const enclosure *got = taylor_of(t, made_graph[i], k);
+                    const long double slope = cimagl(of[i].at[k]) / DRAWN_TINY;
+                    expect_held("a coefficient of a box", got[0], creall(of[i].at[k]),
+                                size_of(&of[i], k));
+                    expect_held("a slope of a box", got[1 + j], slope,
+                                10.0L * (fabsl(slope) + size_of(&of[i], k)));
+                }
+            }
+        }
+        taylor_free(t);
+        graph_free(m.graph);
+    }
+    TEST_ASSERT_TRUE(10 * finite >= 8 * cases);
+}
+
+/* --- closed forms ------------------------------------------------------------------------------------------*/
+
+/* x' = f(x) of one variable. */
+typedef struct closed {
+    graph *graph;
+    int rate;
+    exact_motion of;
+} closed;
+
+static void close_with(closed *c, int rate) {
+    c->rate = rate;
+    c->of = (exact_motion){
+        .states = 1, .rate = &c->rate, .node = c->graph->node, .nodes = c->graph->count};
+}
+
+/* x' = x^2 from 1/2 on is 1/(2 - t): (1/2)^(k+1), and its slope by the start; all exact in twos. x' = 1/x from 1 on is
+ * sqrt(1 + 2 t). */
+static void test_closed_forms(void) {
+    enum { ORDER = 20 };
+    closed c = {.graph = graph_new()};
+    const int a = graph_variable(c.graph, 0);
+    close_with(&c, graph_mul(c.graph, a, a));
+    taylor *t = taylor_new(&c.of, ORDER, ORDER);
+    enclosure start = enclosure_of(0.5);
+    TEST_ASSERT_TRUE(taylor_find(t, &start));
+    for (int k = 0; k <= ORDER; k++) {
+        const enclosure *got = taylor_of(t, 0, k);
+        expect_held("1/(2 - t)", got[0], ldexpl(1.0L, -(k + 1)), 0.0L);
+        expect_held("its slope", got[1], (long double)(k + 1) * ldexpl(1.0L, -k), 0.0L);
+        TEST_ASSERT_TRUE(got[0].high - got[0].low <= 0x1p-49 * k * got[0].high);
+    }
+    start = (enclosure){-1e200, 1e200};
+    TEST_ASSERT_FALSE(taylor_find(t, &start));
+    taylor_free(t);
+    graph_free(c.graph);
+    c.graph = graph_new();
+    const int root = graph_variable(c.graph, 0);
+    close_with(&c, graph_power(c.graph, root, enclosure_of(-1.0)));
+    t = taylor_new(&c.of, ORDER, -1);
+    start = enclosure_of(1.0);
+    TEST_ASSERT_TRUE(taylor_find(t, &start));
+    long double wanted = 1.0L; /* binomials of 1/2, times 2^k */
+    for (int k = 0; k <= ORDER; k++) {
+        const enclosure got = taylor_of(t, 0, k)[0];
+        expect_held("sqrt(1 + 2 t)", got, wanted, 1e-3L * fabsl(wanted));
+        wanted *= 2.0L * (0.5L - (long double)k) / (long double)(k + 1);
+    }
+    start = (enclosure){-1.0, 1.0};
+    TEST_ASSERT_FALSE(taylor_find(t, &start));
+    taylor_free(t);
+    graph_free(c.graph);
+}
+
+/* What is no number is told, also where nothing is made of it. */
+static void test_no_number(void) {
+    closed c = {.graph = graph_new()};
+    (void)graph_variable(c.graph, 0);
+    close_with(&c, graph_whole(c.graph, 1));
+    taylor *t = taylor_new(&c.of, 2, -1);
+    const enclosure good = enclosure_of(3.0);
+    const enclosure bad = enclosure_of((double)NAN);
+    TEST_ASSERT_TRUE(taylor_find(t, &good));
+    TEST_ASSERT_FALSE(taylor_find(t, &bad));
+    taylor_free(t);
+    taylor_free(NULL);
+    graph_free(c.graph);
+}
+
+/* What it costs grows with the square of the order, and with the slopes: products of a node, counted as they are written. */
+static void test_products(void) {
+    closed c = {.graph = graph_new()};
+    const int a = graph_variable(c.graph, 0);
+    const int both = graph_add(c.graph, graph_sine(c.graph, a), graph_whole(c.graph, 3));
+    close_with(&c, graph_mul(c.graph, both, graph_exp(c.graph, a)));
+    /* a sine, its cosine, an exponential, a product */
+    for (int order = 1; order < 10; order++) {
+        for (int slopes_to = -1; slopes_to <= order; slopes_to++) {
+            double wanted = 0.0;
+            for (int k = 0; k <= order; k++) {
+                wanted += 4.0 * (k + 1.0 + (k <= slopes_to ? 2.0 * (k + 1.0) : 0.0));
+            }
+            taylor *t = taylor_new(&c.of, order, slopes_to);
+            TEST_ASSERT_TRUE(taylor_products(t) == wanted);
+            taylor_free(t);
+        }
+    }
+    graph_free(c.graph);
+}
+
+void suite_taylor(void) {
+    die = dice_of("taylor", 42);
+    RUN_TEST(test_at_a_point);
+    RUN_TEST(test_in_a_box);
+    RUN_TEST(test_closed_forms);
+    RUN_TEST(test_no_number);
+    RUN_TEST(test_products);
 }

@@ -2,14 +2,24 @@
  * the same energies in numbers (linkage.h): a motor too weak for the resonance that it must pass (Sommerfeld), an inertia
  * that all but vanishes, hops on a moving floor that come to an end, a table that falls away faster than what lies on
  * it, fast rotation. */
+#include <float.h>
 #include <math.h>
+#include <stdbool.h>
 #include <stdio.h>
+#include <string.h>
 
+#include "host/cli/commands.h"
+
+#include "command.h"
 #include "linkage.h"
 #include "motion.h"
+
 #include "unity.h"
 
 void suite_hard_cases(void);
+void suite_hard_edges(void);
+
+/* === hard cases =============================================================================== */
 
 #define HARD "docs/hard/"
 
@@ -182,4 +192,368 @@ void suite_hard_cases(void) {
     RUN_TEST(test_hops_on_a_moving_floor_end);
     RUN_TEST(test_a_table_falls_away);
     RUN_TEST(test_fast_rotation);
+}
+
+/* === hard edges =============================================================================== */
+/* Cases at an edge (docs/hard, docs/hard_cases.md), each against a closed form, and each on both sides:
+ * what is off is told of by `whirl run`, and what is right is not. A floor stiffer than the step bears, inputs that jump, amplitudes from subnormal to the end of a number's range, unequal masses. */
+
+/* What `whirl run` says of a file's scene with one parameter set. */
+static void run_with(const char *target, const char *set, bool is_float, const char *step,
+                     said *what) {
+    const char *words[] = {target,   "--quiet", "--number", is_float ? "float" : "double",
+                           "--step", step,      "--set",    set,
+                           NULL};
+    command_say(command_run, words, what);
+}
+
+/* Words a warning or a refusal has; or none. */
+static bool tells(const said *what) { return what->status != 0 || what->err[0] != '\0'; }
+
+/* --- floors ---------------------------------------------------------------------------------------------------- */
+
+/* Of what it starts with, how much of its energy a ball gains or loses in 2 s on a floor of spring. */
+static double floor_off(double hw, const engine_kind *kind) {
+    char set[40];
+    motion m;
+    snprintf(set, sizeof set, "hw=%.17g", hw);
+    motion_open_file(&m, HARD "stiff_stop.whirl", "", "floor_of_spring",
+                     (stepping){.kind = kind, .method = WH_RK4, .set = set});
+    double most = 0.0;
+    for (int i = 0; i < 2000 && isfinite(most); i++) {
+        const bool stepped = motion_step(&m, 1) == WH_OK;
+        const double in = fmin(0.0, motion_value(&m, "z"));
+        const double E = motion_value(&m, "energy") + hw * hw * 1e6 * in * in / 2.0;
+        most = stepped ? fmax(most, fabs(E / (9.81 * 0.1) - 1.0)) : (double)INFINITY;
+    }
+    motion_close(&m);
+    return most;
+}
+
+static void test_a_floor_stiffer_than_the_step_bears(void) {
+    dice d = dice_of("floors", 15002);
+    const unsigned cases = dice_cases(few_or_all(10, 80));
+    unsigned gone = 0;
+    unsigned sound = 0;
+    for (unsigned i = 0; i < cases; i++) {
+        const double hw = pow(10.0, dice_between(&d, -2.0, 2.0));
+        const bool is_float = i % 2 == 1;
+        const double off = floor_off(hw, is_float ? &engine_float : &engine_double);
+        char set[40];
+        char about[SAID_SIZE + 100];
+        said what;
+        snprintf(set, sizeof set, "hw=%.17g", hw);
+        run_with(HARD "stiff_stop.whirl:floor_of_spring", set, is_float, "1ms", &what);
+        snprintf(about, sizeof about, "h w = %.3g, off by %.3g: %s", hw, off, what.err);
+        if (off > 0.02) {
+            gone++;
+            TEST_ASSERT_TRUE_MESSAGE(strstr(what.err, "cannot be believed") != NULL ||
+                                         strstr(what.err, "diverged") != NULL,
+                                     about);
+        } else if (off < 3e-4) {
+            sound++;
+            TEST_ASSERT_EQUAL_STRING_MESSAGE("", what.err, about);
+        }
+    }
+    printf(
+        "  %u floors, h w from 0.01 to 100: %u change the energy by more than 2 %%, all told; %u "
+        "sound\n",
+        cases, gone, sound);
+    TEST_ASSERT_TRUE(gone > cases / 10 && sound > cases / 10);
+}
+
+/* The stop has no stiffness: the height after 2 s of bounces, at any step. */
+static void test_a_stop_has_no_stiffness(void) {
+    static const double steps[] = {1e-2, 5e-3, 1e-3, 1e-4};
+    const double G = 9.81;
+    const double fall = sqrt(0.2 / G);
+    const double phase = fmod(2.0 + fall, 2.0 * fall) - fall;
+    const double wanted = 0.1 - G * phase * phase / 2.0;
+    for (unsigned i = 0; i < 8; i++) {
+        const bool is_float = i % 2 == 1;
+        motion m;
+        motion_open_file(&m, HARD "stiff_stop.whirl", "", "floor_of_stop",
+                         (stepping){.kind = is_float ? &engine_float : &engine_double,
+                                    .method = WH_RK4,
+                                    .step_s = steps[i / 2]});
+        motion_to(&m, 2.0);
+        const double off_m = motion_value(&m, "z") - wanted;
+        printf("  step %g s, %s: off by %.1e m\n", steps[i / 2], m.kind->name, off_m);
+        motion_close(&m);
+        TEST_ASSERT_DOUBLE_WITHIN(is_float ? 2e-4 : 1e-9, 0.0, off_m);
+    }
+}
+
+/* --- inputs that jump ------------------------------------------------------------------------------------------- */
+
+/* x'' + w^2 x = u over t, u constant. */
+static void exactly(double w, double u, double t, double *x, double *v) {
+    const double y = *x - u / (w * w);
+    const double x1 = y * cos(w * t) + *v / w * sin(w * t);
+    *v = -y * w * sin(w * t) + *v * cos(w * t);
+    *x = x1 + u / (w * w);
+}
+
+/* Ten jumps between steps: how far off at the end, m. */
+static double jumps_off_m(dice *d, double step_s, image_matrix_of matrix) {
+    motion m;
+    double x = 0.0;
+    double v = 0.0;
+    motion_open_file(
+        &m, HARD "jump.whirl", "scene drawn { start t' = 1 }\n", "drawn",
+        (stepping){.kind = &engine_double, .method = WH_RK4, .step_s = step_s, .matrix = matrix});
+    for (int i = 0; i < 10; i++) {
+        const double u = dice_between(d, -10.0, 10.0);
+        const int steps = 8 * (10 + (int)dice_one_of(d, 40));
+        m.kind->set_input(m.run, 0, u);
+        TEST_ASSERT_EQUAL_INT(WH_OK,
+                              motion_step(&m, (uint64_t)(steps * (1e-3 / step_s) / 8.0 + 0.5)));
+        exactly(20.0, u, steps * 1e-3 / 8.0, &x, &v);
+    }
+    const double off = fabs(motion_value(&m, "x") - x);
+    motion_close(&m);
+    return off;
+}
+
+static void test_inputs_that_jump_between_steps(void) {
+    double least = 9.0;
+    double most = 0.0;
+    double exact = 0.0;
+    dice d = dice_of("jumps", 15003);
+    for (int k = 0; k < 6; k++) {
+        dice same[2] = {d, d};
+        const double coarse = jumps_off_m(&d, 1e-3, MATRIX_NONE);
+        const double fine = jumps_off_m(&same[0], 0.5e-3, MATRIX_NONE);
+        exact = fmax(exact, jumps_off_m(&same[1], 1e-3, MATRIX_EXACT));
+        least = fmin(least, log2(coarse / fine));
+        most = fmax(most, coarse);
+    }
+    printf("  off by at most %.1e m at 1 ms, order %.2f; --matrix exact %.1e m\n", most, least,
+           exact);
+    TEST_ASSERT_TRUE(most > 1e-12 && most < 1e-7);
+    TEST_ASSERT_TRUE(least > 3.5 && least < 4.5);
+    TEST_ASSERT_TRUE(exact < 1e-13);
+}
+
+static double jump_inside_off_m(double step_s, const engine_kind *kind) {
+    motion m;
+    double x = 0.0;
+    double v = 0.0;
+    motion_open_file(&m, HARD "jump.whirl", "", "jump_inside",
+                     (stepping){.kind = kind, .method = WH_RK4, .step_s = step_s});
+    motion_to(&m, 2.0);
+    exactly(20.0, 8.0, 2.0 - 2.0 / 3.0, &x, &v);
+    const double off = fabs(motion_value(&m, "x") - x);
+    motion_close(&m);
+    return off;
+}
+
+static void test_a_jump_inside_a_step(void) {
+    const double coarse = jump_inside_off_m(1e-3, &engine_double);
+    const double fine = jump_inside_off_m(0.5e-3, &engine_double);
+    const double in_float = jump_inside_off_m(1e-3, &engine_float);
+    printf("  off by %.1e m at 1 ms, %.1e m at 0.5 ms: order %.2f; in float %.1e m\n", coarse, fine,
+           log2(coarse / fine), in_float);
+    TEST_ASSERT_TRUE(coarse > 1e-12 && coarse < 1e-7);
+    TEST_ASSERT_TRUE(log2(coarse / fine) > 3.5);
+    TEST_ASSERT_TRUE(in_float < 1e-3 * 0.04);
+}
+
+/* --- the ends of a number's range -------------------------------------------------------------------------------- */
+
+/* A swing of amplitude A: how far off after 1 s, of A; infinite when it ends. */
+static double swing_off(double A_m, const engine_kind *kind, bool compensated) {
+    char set[60];
+    motion m;
+    double most = 0.0;
+    snprintf(set, sizeof set, "A=%.17g m", A_m);
+    motion_open_file(
+        &m, HARD "scales.whirl", "", "scales_usual",
+        (stepping){.kind = kind, .method = WH_RK4, .compensated = compensated, .set = set});
+    for (int i = 1; i <= 1000 && isfinite(most); i++) {
+        const bool stepped = motion_step(&m, 1) == WH_OK;
+        const double off = fabs(motion_value(&m, "x") / A_m - cos(1e-2 * i));
+        most = stepped && !isnan(off) ? fmax(most, off) : (double)INFINITY;
+    }
+    motion_close(&m);
+    return most;
+}
+
+static void scales(bool is_float, double least, double last) {
+    unsigned told = 0;
+    unsigned right = 0;
+    const double apart = is_float ? 0.5 : 2.5;
+    for (int i = 0; least + apart * i <= last; i++) {
+        const double decade = least + apart * i;
+        const double A_m = pow(10.0, decade);
+        const double off = swing_off(A_m, is_float ? &engine_float : &engine_double, false);
+        char set[60];
+        char about[SAID_SIZE + 100];
+        said what;
+        snprintf(set, sizeof set, "A=%.17g m", A_m);
+        run_with(HARD "scales.whirl:scales_usual", set, is_float, "1ms", &what);
+        snprintf(about, sizeof about, "amplitude %.3g m, off by %.3g: %s", A_m, off, what.err);
+        if (off > 0.03) {
+            TEST_ASSERT_TRUE_MESSAGE(tells(&what), about);
+        }
+        if (off < 1e-4 && decade > (is_float ? -18.0 : -100.0) && decade < 13.0) {
+            TEST_ASSERT_EQUAL_STRING_MESSAGE("", what.err, about);
+        }
+        told += tells(&what) ? 1U : 0U;
+        right += off < 1e-4 ? 1U : 0U;
+    }
+    printf("  %s: right at %u amplitudes, told of %u\n", is_float ? "float" : "double", right,
+           told);
+    TEST_ASSERT_TRUE(right > 20 && told > 2);
+}
+
+static void test_amplitudes_to_the_ends_of_float(void) { scales(true, -45.0, 38.5); }
+static void test_amplitudes_to_the_ends_of_double(void) { scales(false, -305.0, 307.5); }
+
+/* A swing under a cube of the way: x/A at ten moments; the same at every amplitude. */
+static bool cubic(double A_m, const engine_kind *kind, double x[10]) {
+    char set[60];
+    motion m;
+    bool went = true;
+    snprintf(set, sizeof set, "A=%.17g m", A_m);
+    motion_open_file(&m, HARD "scales.whirl", "", "cubic_small",
+                     (stepping){.kind = kind, .method = WH_RK4, .set = set});
+    for (int i = 0; i < 10; i++) {
+        went = went && motion_step(&m, 100) == WH_OK;
+        x[i] = motion_value(&m, "x") / A_m;
+    }
+    motion_close(&m);
+    return went;
+}
+
+/* Its cube falls below what float holds long before the way does: told by that name. */
+static void test_products_that_fall_below_float(void) {
+    double wanted[10];
+    unsigned off_course = 0;
+    unsigned sound = 0;
+    TEST_ASSERT_TRUE(cubic(1.0, &engine_double, wanted));
+    for (int k = 0; k <= 32; k++) {
+        const double A_m = pow(10.0, -8.0 - 0.25 * k);
+        double x[10];
+        double off = cubic(A_m, &engine_float, x) ? 0.0 : (double)INFINITY;
+        for (int i = 0; i < 10; i++) {
+            off = fmax(off, fabs(x[i] - wanted[i]));
+        }
+        char set[60];
+        char about[SAID_SIZE + 100];
+        said what;
+        snprintf(set, sizeof set, "A=%.17g m", A_m);
+        run_with(HARD "scales.whirl:cubic_small", set, true, "1ms", &what);
+        snprintf(about, sizeof about, "%.3g m, off by %.3g: %s", A_m, off, what.err);
+        if (off > 0.03) {
+            off_course++;
+            TEST_ASSERT_NOT_NULL_MESSAGE(strstr(what.err, "--number double would do"), about);
+        } else if (off < 1e-4) {
+            sound++;
+            TEST_ASSERT_EQUAL_STRING_MESSAGE("", what.err, about);
+        }
+    }
+    printf("  cubes of 1e-24 to 1e-48 m^3: %u amplitudes off by a hundredth, all told; %u sound\n",
+           off_course, sound);
+    TEST_ASSERT_TRUE(off_course >= 3 && sound >= 20);
+}
+
+/* Beyond 1e15 no step is believed; beyond 6.28e9 rad no start of an angle in float. */
+static void test_starts_that_are_too_large(void) {
+    static const struct {
+        const char *file, *start;
+        bool is_float;
+        int status;
+    } starts[] = {
+        {HARD "scales.whirl:scales_usual", "x=1e14", false, 1}, /* its rate is 1e15 */
+        {HARD "scales.whirl:scales_usual", "x=9e13", false, 0},
+        {HARD "scales.whirl:scales_usual", "x=1e14", true, 1},
+        {HARD "scales.whirl:scales_usual", "x=9e13", true, 0},
+        {HARD "rotor.whirl:rotor_far", "th=6.281e9", true, 2},
+        {HARD "rotor.whirl:rotor_far", "th=-6.281e9", true, 2},
+        {HARD "rotor.whirl:rotor_far", "th=6.279e9", true, 0},
+        {HARD "rotor.whirl:rotor_fast", "th'=3142", true, 1}, /* half a turn a step */
+        {HARD "rotor.whirl:rotor_fast", "th'=3141", true, 0},
+        {HARD "rotor.whirl:rotor_fast", "th'=3142", false, 1},
+    };
+    for (size_t i = 0; i < sizeof starts / sizeof starts[0]; i++) {
+        said what;
+        const char *words[] = {starts[i].file,
+                               "--quiet",
+                               "--number",
+                               starts[i].is_float ? "float" : "double",
+                               "--start",
+                               starts[i].start,
+                               "--until",
+                               "1s",
+                               NULL};
+        command_say(command_run, words, &what);
+        TEST_ASSERT_EQUAL_INT_MESSAGE(starts[i].status, what.status, starts[i].start);
+        TEST_ASSERT_EQUAL_INT_MESSAGE(starts[i].status != 0, what.err[0] != '\0', what.err);
+    }
+}
+
+/* --- unequal masses ------------------------------------------------------------------------------------------------ */
+
+/* How far both bodies are off after 5 s; 0.1 m is what they swing by. */
+static double unequal_off_m(double mass, const engine_kind *kind) {
+    char more[200];
+    motion m;
+    /* 10 rad/s, whatever the masses */
+    snprintf(more, sizeof more,
+             "scene drawn {\nset m = %.17g [kg], k = %.17g [N/m]\nstart s = 0.1 [m]\n}\n", mass,
+             100.0 * mass / (1.0 + mass));
+    motion_open_file(&m, HARD "masses.whirl", more, "drawn",
+                     (stepping){.kind = kind, .method = WH_RK4});
+    motion_to(&m, 5.0);
+    const double s = 0.1 * cos(50.0);
+    const double x = mass / (1.0 + mass) * (0.1 - s);
+    const double off = fmax(fabs(motion_value(&m, "s") - s), fabs(motion_value(&m, "x") - x));
+    motion_close(&m);
+    return off;
+}
+
+/* Up to 1e8 nothing is seen of it. Of a sum M + m the last place of m is 2^-53 m, which of M is as much as the ratio makes
+ * of it: that is what a phase of 50 rad is off by, up to a ratio of 1e13. Beyond, the matrix is refused. */
+static void test_two_bodies_of_very_different_mass(void) {
+    double worst[2] = {0.0, 0.0};
+    double beyond = 0.0;
+    for (int decade = -12; decade <= 13; decade++) {
+        const double mass = pow(10.0, decade);
+        for (int real = 0; real < 2; real++) {
+            const double off_m = unequal_off_m(mass, real == 0 ? &engine_double : &engine_float);
+            if (decade <= 8) {
+                worst[real] = fmax(worst[real], off_m);
+            } else {
+                beyond = fmax(beyond, off_m);
+                TEST_ASSERT_TRUE(off_m < 0.1 * 50.0 * mass * 0x1p-53 + 1e-5 * real + 1e-9);
+            }
+        }
+    }
+    for (int decade = 14; decade <= 20; decade++) {
+        char set[40];
+        said what;
+        snprintf(set, sizeof set, "m=1e%d", decade);
+        run_with(HARD "masses.whirl", set, decade % 2 == 0, "1ms", &what);
+        TEST_ASSERT_EQUAL_INT_MESSAGE(2, what.status, set);
+        TEST_ASSERT_NOT_NULL_MESSAGE(strstr(what.err, "singular mass matrix"), what.err);
+    }
+    printf(
+        "  masses 1e-12 to 1e8 beside 1 kg: off by at most %.1e m in double, %.1e m in float; to "
+        "1e13: %.1e m\n",
+        worst[0], worst[1], beyond);
+    TEST_ASSERT_TRUE(worst[0] > 1e-12 && worst[0] < 1e-8);
+    TEST_ASSERT_TRUE(worst[1] > 1e-9 && worst[1] < 1e-5);
+}
+
+void suite_hard_edges(void) {
+    RUN_TEST(test_a_floor_stiffer_than_the_step_bears);
+    RUN_TEST(test_a_stop_has_no_stiffness);
+    RUN_TEST(test_inputs_that_jump_between_steps);
+    RUN_TEST(test_a_jump_inside_a_step);
+    RUN_TEST(test_amplitudes_to_the_ends_of_float);
+    RUN_TEST(test_amplitudes_to_the_ends_of_double);
+    RUN_TEST(test_products_that_fall_below_float);
+    RUN_TEST(test_starts_that_are_too_large);
+    RUN_TEST(test_two_bodies_of_very_different_mass);
 }

@@ -1,16 +1,25 @@
 /* test_octave.c: files for Octave: where their values may be complex, and the form with names, read back line by line, whose
  * slopes are the accelerations of the operation lists. (Function files of lists: test_octave_drawn.c.) */
+#define _POSIX_C_SOURCE 200809L
+
+#include <float.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "formula.h"
+#include "latex.h"
+#include "latex_value.h"
 #include "mechanism.h"
 #include "printed.h"
+
 #include "unity.h"
 
 void suite_octave(void);
+void suite_latex_runs(void);
+
+/* === octave =================================================================================== */
 
 enum { STATES = 10, RESULTS_MAX = 128 };
 
@@ -291,4 +300,399 @@ static void test_files_with_names_compute_the_same(void) {
 void suite_octave(void) {
     RUN_TEST(test_files_with_names_compute_the_same);
     RUN_TEST(test_files_stay_real);
+}
+
+/* === latex runs =============================================================================== */
+/* The LaTeX that is printed and what runs are one thing. At random states, the printed equations are
+ * read (latex_value.h), solved for the highest derivatives, and these held against what the step's list of operations
+ * gives, in double; so are the printed closed forms. How far the two may be apart follows from the state: the printed
+ * digits and the roundings of both, carried through their formulas and through the inverse of the matrix. Every built-in
+ * scene, tests/mechanisms, and generated mechanisms; PRINTED_MECHANISMS=N in the environment takes N of these. */
+
+enum { LATEX_RUNS_STATES = 3, SEED = 78, LATEX_RUNS_RESULTS_MAX = 256 };
+
+/* What is known to fewer digits than these tells nothing, and is not counted as compared. */
+#define TELLING 1e-6
+
+/* Errors of second order: products of small ones. */
+#define SLACK 2.0
+
+typedef struct comparison {
+    const char *name;
+    const derived *of;
+    const image *image;
+    state_values s;
+    double runs[UNKNOWNS]; /* highest derivatives of the list, */
+    double off[UNKNOWNS];  /* and how far off they may be */
+    int asked;             /* highest derivatives at states, */
+    int compared;          /* those that could be told to some digits, */
+    int closed;            /* those of them that were printed in closed form */
+    double nearest;        /* the largest part of a bound that was needed */
+} comparison;
+
+static int cases_compared;
+static int cases_closed;
+static int cases_asked;
+static int cases_blocks;
+static int cases_wide;
+static double cases_nearest;
+
+/* --- the printed equations ---------------------------------------------------------------------------*/
+
+/* "theta" and "1" are theta1 or theta_1, "mass" and "" are mass. */
+static bool is_called(const char *name, const char *stem, const char *index) {
+    const size_t length = strlen(stem);
+    const char *rest = name + length;
+    return strncmp(name, stem, length) == 0 &&
+           (strcmp(rest, index) == 0 ||
+            (*rest == '_' && *index != '\0' && strcmp(rest + 1, index) == 0));
+}
+
+static bool symbol_here(void *context, const char *stem, const char *index, int primes,
+                        latex_number *found) {
+    const comparison *c = context;
+    const mechanism *m = c->of->instance->mechanism;
+    const equations *e = c->of->equations;
+    const struct {
+        const symbol **list;
+        int count;
+    } all[] = {{m->coordinates, m->coordinate_count},
+               {m->parameters, m->parameter_count},
+               {m->inputs, m->input_count}};
+    int matches = 0;
+    for (int k = 0; k < 3; k++) {
+        for (int i = 0; i < all[k].count; i++) {
+            const symbol *s = all[k].list[i];
+            if (!is_called(s->name, stem, index) || (k > 0 && primes > 0)) {
+                continue;
+            }
+            matches++;
+            *found = latex_constant(0.0, 0.0);
+            if (k == 0 && primes == e->unknowns[i].order) {
+                found->value[1 + i] = 1.0;
+            } else {
+                found->value[0] = state_value((void *)(uintptr_t)&c->s, s, primes);
+            }
+        }
+    }
+    for (int i = 0; i < m->let_count && primes == 0;
+         i++) { /* check_lets() reads their definitions */
+        if (is_called(m->lets[i]->name, stem, index)) {
+            const poly *value = poly_from_expr(e->algebra, m->lets[i]->value);
+            void *s = (void *)(uintptr_t)&c->s;
+            matches++;
+            *found = latex_constant(poly_evaluate(value, state_value, s),
+                                    1e-13 * poly_magnitude(value, state_value, s));
+        }
+    }
+    return matches == 1;
+}
+
+static latex_number read_side(comparison *c, const char *text, const char **end) {
+    const char *problem;
+    const latex_number n = latex_value(text, end, &problem, symbol_here, c);
+    if (problem != NULL) {
+        printf("  %s: %s: %.60s\n", c->name, problem, *end);
+    }
+    TEST_ASSERT_NULL_MESSAGE(problem, problem != NULL ? problem : c->name);
+    return n;
+}
+
+/* "LEFT &= RIGHT \\": returns the next line. */
+static const char *read_line(comparison *c, const char *line, latex_number *left,
+                             latex_number *right) {
+    const char *end;
+    *left = read_side(c, line, &end);
+    TEST_ASSERT_EQUAL_STRING_LEN_MESSAGE("&= ", end, 3, c->name);
+    *right = read_side(c, end + 3, &end);
+    end += strncmp(end, "\\\\", 2) == 0 ? 2 : 0;
+    TEST_ASSERT_EQUAL_INT_MESSAGE('\n', *end, c->name);
+    return end + 1;
+}
+
+/* --- solving -----------------------------------------------------------------------------------------*/
+
+typedef struct square {
+    int n;
+    double at[UNKNOWNS][UNKNOWNS];
+} square;
+
+/* Gauss and Jordan, with the largest pivot. False when there is none. */
+static bool invert(square a, square *inverse) {
+    const int n = a.n;
+    *inverse = (square){.n = n};
+    for (int i = 0; i < n; i++) {
+        inverse->at[i][i] = 1.0;
+    }
+    for (int k = 0; k < n; k++) {
+        int best = k;
+        for (int i = k + 1; i < n; i++) {
+            best = fabs(a.at[i][k]) > fabs(a.at[best][k]) ? i : best;
+        }
+        const double pivot = a.at[best][k];
+        if (!(fabs(pivot) > 0.0) || !isfinite(pivot)) {
+            return false;
+        }
+        for (int j = 0; j < n; j++) {
+            const double swap[2] = {a.at[k][j], inverse->at[k][j]};
+            a.at[k][j] = a.at[best][j] / pivot;
+            inverse->at[k][j] = inverse->at[best][j] / pivot;
+            if (best != k) {
+                a.at[best][j] = swap[0];
+                inverse->at[best][j] = swap[1];
+            }
+        }
+        for (int i = 0; i < n; i++) {
+            const double times = i != k ? a.at[i][k] : 0.0;
+            for (int j = 0; j < n && times != 0.0; j++) {
+                a.at[i][j] -= times * a.at[k][j];
+                inverse->at[i][j] -= times * inverse->at[k][j];
+            }
+        }
+    }
+    return true;
+}
+
+/* `printed` and what runs must be no further apart than this. */
+static bool hold_against(comparison *c, int i, double printed_value, double bound) {
+    const double apart = fabs(printed_value - c->runs[i]);
+    if (!isfinite(printed_value) || !(bound <= TELLING * fmax(fabs(c->runs[i]), 1e-3))) {
+        return false;
+    }
+    if (!(apart <= bound)) {
+        printf(
+            "  %s: the highest derivative of %s is %.17g as printed, %.17g as it runs, known to %.2g\n",
+            c->name, c->of->equations->unknowns[i].symbol->name, printed_value, c->runs[i], bound);
+    }
+    TEST_ASSERT_TRUE_MESSAGE(apart <= bound, c->name);
+    c->nearest = fmax(c->nearest, apart > 0.0 ? apart / bound : 0.0);
+    return true;
+}
+
+/* A x = b as printed, from "LEFT &= RIGHT" of n lines. Returns what is behind them. */
+static const char *check_equations(comparison *c, const char *line) {
+    const int n = c->of->equations->count;
+    square a = {.n = n};
+    square inverse;
+    double b[UNKNOWNS];
+    double off[UNKNOWNS]; /* of A x - b, at the x that runs */
+    for (int i = 0; i < n; i++) {
+        latex_number left;
+        latex_number right;
+        line = read_line(c, line, &left, &right);
+        b[i] = right.value[0] - left.value[0];
+        off[i] = left.off[0] + right.off[0] + DBL_EPSILON * fabs(b[i]);
+        for (int j = 0; j < n; j++) {
+            a.at[i][j] = left.value[1 + j] - right.value[1 + j];
+            off[i] += (left.off[1 + j] + right.off[1 + j]) * fabs(c->runs[j]);
+        }
+    }
+    const bool solvable = invert(a, &inverse);
+    for (int i = 0; i < n; i++) {
+        double x = 0.0;
+        double bound = c->off[i];
+        for (int j = 0; j < n && solvable; j++) {
+            double size = fabs(b[j]);
+            for (int k = 0; k < n; k++) {
+                size += fabs(a.at[j][k] * c->runs[k]);
+            }
+            x += inverse.at[i][j] * b[j];
+            bound += fabs(inverse.at[i][j]) * (off[j] + n * DBL_EPSILON * size);
+        }
+        c->asked++;
+        c->compared += solvable && hold_against(c, i, x, SLACK * bound);
+    }
+    return line;
+}
+
+static void check_closed_forms(comparison *c, const char *line) {
+    for (int i = 0; i < c->of->equations->count; i++) {
+        latex_number left;
+        latex_number right;
+        line = read_line(c, line, &left, &right);
+        for (int k = 0; k < LATEX_PLACES; k++) {
+            TEST_ASSERT_TRUE_MESSAGE(left.value[k] == (k == 1 + i ? 1.0 : 0.0), c->name);
+            TEST_ASSERT_TRUE_MESSAGE(k == 0 || right.value[k] == 0.0, c->name);
+        }
+        c->closed += hold_against(c, i, right.value[0], SLACK * (right.off[0] + c->off[i]));
+    }
+}
+
+/* "NAME &= FORMULA" of each let that a formula names. */
+static void check_lets(comparison *c, const char *text) {
+    const char *line = strstr(text, "% with\n\\begin{align}\n");
+    line = line == NULL ? "\\end" : strchr(line + 7, '\n') + 1;
+    while (strncmp(line, "\\end", 4) != 0) {
+        latex_number left;
+        latex_number right;
+        line = read_line(c, line, &left, &right);
+        TEST_ASSERT_TRUE_MESSAGE(
+            fabs(left.value[0] - right.value[0]) <= SLACK * (left.off[0] + right.off[0]), c->name);
+    }
+}
+
+/* --- what runs ---------------------------------------------------------------------------------------*/
+
+/* The highest derivatives that a step takes at the state. False when one is no number there. */
+static bool run_there(comparison *c) {
+    const image *im = c->image;
+    const op_list *t = im->list[IMAGE_STEP];
+    double result[LATEX_RUNS_RESULTS_MAX];
+    double off[LATEX_RUNS_RESULTS_MAX];
+    const derived moving = {.instance = c->of->instance,
+                            .equations = c->of->equations,
+                            .image = (image *)(uintptr_t)im};
+    TEST_ASSERT_TRUE(t->results <= LATEX_RUNS_RESULTS_MAX);
+    derived_run_known(t, &moving, &c->s, result, off);
+    bool finite = true;
+    for (int k = 0; k < t->results; k++) {
+        for (int i = 0; i < im->count; i++) {
+            const component slope_of =
+                im->form == WH_SECOND_ORDER ? (component){0, 0} : image_component(im, k);
+            const bool this_one =
+                im->form == WH_SECOND_ORDER
+                    ? im->place[i] == k
+                    : slope_of.unknown == i && slope_of.primes + 1 == im->unknown[i].order;
+            if (this_one) {
+                c->runs[i] = result[k];
+                c->off[i] = 0x1p-53 * off[k];
+                finite = finite && fabs(result[k]) < 1e12;
+            }
+        }
+    }
+    return finite;
+}
+
+/* What stands between begin{align} and end{align} compiles, and is no wider than a page. A wide sine of a sine inside
+ * nested parentheses has no place left to break: few of the generated equations are wider than a line. */
+static void check_widths(const char *name, const char *text) {
+    enum {
+        LINE = 345,
+        PAPER = 455
+    }; /* pt: a line of LaTeX's article at 10 pt, and of A4 with margins of an inch */
+    static const char begin[] = "\\begin{align}";
+    for (const char *at = text; (at = strstr(at, begin)) != NULL;) {
+        at += strlen(begin);
+        const char *end = strstr(at, "\\end{align}");
+        const char *where;
+        char *block = strndup(at, (size_t)(end - at));
+        TEST_ASSERT_NULL_MESSAGE(latex_problem(block, &where), name);
+        const int width = latex_width(block);
+        cases_wide += width > LINE;
+        cases_blocks++;
+        TEST_ASSERT_TRUE_MESSAGE(width <= PAPER, name);
+        free(block);
+    }
+}
+
+/* Returns how many highest derivatives were compared. */
+static int compare_all(const char *name, derived *d) {
+    const equations *e = d->equations;
+    if (e == NULL || e->count > UNKNOWNS) {
+        return 0;
+    }
+    for (int i = 0; i < e->count; i++) {
+        if (e->unknowns[i].order >= ORDERS_MAX) {
+            return 0;
+        }
+    }
+    diags *errors = diags_new();
+    image *im = image_make(e, NULL, &plainly, IMAGE_TO_WRITE, errors);
+    TEST_ASSERT_NOT_NULL_MESSAGE(im, name);
+    char *rows = printed(d, LATEX);
+    check_widths(name, rows);
+    if (!d->instance->mechanism->is_system) {
+        char *steps = printed(d, LATEX_STEPS);
+        check_widths(name, steps);
+        free(steps);
+    }
+    char *text = latex_joined(rows);
+    free(rows);
+    TEST_ASSERT_NOT_NULL(text);
+    comparison c = {.name = name, .of = d, .image = im};
+    uint64_t seed = SEED;
+    static const char begin[] = "\\begin{align}\n";
+    for (int k = 0; k < LATEX_RUNS_STATES; k++) {
+        random_state(&c.s, d, &seed);
+        if (run_there(&c)) {
+            const char *behind = check_equations(&c, strstr(text, begin) + strlen(begin));
+            const char *closed = strstr(behind, begin);
+            check_lets(&c, text);
+            if (closed != NULL && strncmp(closed - 7, "% with\n", 7) != 0) {
+                check_closed_forms(&c, closed + strlen(begin));
+            }
+        }
+    }
+    cases_asked += c.asked;
+    cases_compared += c.compared;
+    cases_closed += c.closed;
+    cases_nearest = fmax(cases_nearest, c.nearest);
+    free(text);
+    image_free(im);
+    diags_free(errors);
+    return c.compared;
+}
+
+static void begin_cases(void) {
+    cases_asked = cases_compared = cases_closed = cases_blocks = cases_wide = 0;
+    cases_nearest = 0.0;
+}
+
+static void end_cases(void) {
+    printf(
+        "  seed %d: of %d highest derivatives %d compared, %d in closed form too; apart by at most %.2g of "
+        "what they may be\n",
+        SEED, cases_asked, cases_compared, cases_closed, cases_nearest);
+    TEST_ASSERT_TRUE(10 * cases_compared >= 9 * cases_asked && cases_closed > 0);
+    printf("  %d of %d blocks wider than a line\n", cases_wide, cases_blocks);
+    TEST_ASSERT_TRUE(100 * cases_wide <= 2 * cases_blocks);
+}
+
+static int compare_scene(const scene *s) {
+    derived d = derived_builtin(s->name);
+    derived_expect(&d, s->name);
+    const int compared = compare_all(s->name, &d);
+    derived_free(&d);
+    return compared > 0;
+}
+
+static void test_scenes_run_as_their_latex_says(void) {
+    begin_cases();
+    TEST_ASSERT_TRUE(each_builtin_scene(compare_scene) > 60);
+    end_cases();
+    TEST_ASSERT_EQUAL_INT(0, cases_wide);
+}
+
+static int files;
+static void compare_file(const char *name, derived *d) { files += compare_all(name, d) > 0; }
+
+static void test_files_run_as_their_latex_says(void) {
+    files = 0;
+    begin_cases();
+    each_mechanism(compare_file);
+    TEST_ASSERT_TRUE(files > 25);
+    end_cases();
+    TEST_ASSERT_EQUAL_INT(0, cases_wide);
+}
+
+static void test_generated_mechanisms_run_as_their_latex_says(void) {
+    const char *more = getenv("PRINTED_MECHANISMS");
+    const int wanted = more != NULL ? (int)strtol(more, NULL, 10) : 60;
+    int compared = 0;
+    begin_cases();
+    for (int i = 0; i < wanted; i++) {
+        char text[MECHANISM_SIZE];
+        mechanism_write((unsigned)i, (uint64_t)(SEED + i), text);
+        derived d = derived_text(text);
+        compared += compare_all(text, &d) > 0;
+        derived_free(&d);
+    }
+    end_cases();
+    TEST_ASSERT_TRUE(10 * compared >= 7 * wanted);
+}
+
+void suite_latex_runs(void) {
+    RUN_TEST(test_scenes_run_as_their_latex_says);
+    RUN_TEST(test_files_run_as_their_latex_says);
+    RUN_TEST(test_generated_mechanisms_run_as_their_latex_says);
 }

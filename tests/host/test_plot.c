@@ -1,18 +1,29 @@
 /* test_plot.c: what reaches gnuplot is text and no command, and stands in the picture as it was given: generated
  * names, titles and units of what gnuplot, a shell or XML could take for their own. */
-#include "host/io/plot.h"
-
+#include <math.h>
 #include <stdbool.h>
+#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
-#include "command.h"
 #include "host/io/gnuplot.h"
+#include "host/io/minmax_decimation.h"
+#include "host/io/palette.h"
+#include "host/io/plot.h"
+#include "host/monitor/recording.h"
+
+#include "command.h"
+
 #include "unity.h"
 
 void suite_plot(void);
+void suite_envelope(void);
+void suite_palette(void);
+void suite_recording_plot(void);
+
+/* === plot ===================================================================================== */
 
 #define PICTURE "build/tests/drawn.svg"
 #define MADE "build/tests/made" /* what a command would make */
@@ -237,4 +248,388 @@ void suite_plot(void) {
     RUN_TEST(test_texts_are_no_commands);
     RUN_TEST(test_a_panel_a_unit);
     RUN_TEST(test_no_picture);
+}
+
+/* === envelope ================================================================================= */
+/* The course of a run for its picture: generated signals of every length, compared with all of
+ * their values. */
+
+enum { COLUMNS = 4 }; /* the time, a swing with peaks of one step, a swing with gaps, noise */
+
+/* A row at each step: [steps * COLUMNS]. */
+static double *signal_of(dice *d, unsigned steps) {
+    double *made = calloc((size_t)steps * COLUMNS, sizeof *made);
+    TEST_ASSERT_NOT_NULL(made);
+    const double h = pow(10.0, dice_between(d, -6.0, 1.0));
+    const double turn = dice_between(d, 0.001, 6.28);
+    const unsigned peak = dice_one_of(d, steps);
+    const unsigned gap = 1 + dice_one_of(d, 400);
+    for (unsigned k = 0; k < steps; k++) {
+        double *row = made + (size_t)k * COLUMNS;
+        row[0] = h * k;
+        row[1] = sin(turn * k) + (k == peak ? 7.0 : 0.0);
+        row[2] = k % gap == 0 ? (double)NAN : cos(turn * k);
+        row[3] = dice_between(d, -1.0, 1.0);
+    }
+    return made;
+}
+
+static decimation *entered(const double *data, unsigned steps) {
+    decimation *v = decimation_new(COLUMNS, false);
+    for (unsigned k = 0; k < steps; k++) {
+        decimation_enter(v, data + (size_t)k * COLUMNS);
+    }
+    return v;
+}
+
+static void test_short_runs_are_kept_number_by_number(void) {
+    dice d = dice_of("short signals", 5101);
+    for (unsigned i = 0; i < 20; i++) {
+        const unsigned steps = i == 0   ? 1
+                               : i == 1 ? DECIMATION_ROOM
+                                        : 1 + dice_one_of(&d, DECIMATION_ROOM);
+        double *data = signal_of(&d, steps);
+        decimation *v = entered(data, steps);
+        int rows;
+        double *kept = decimation_rows(v, &rows);
+        TEST_ASSERT_EQUAL_INT((int)steps, rows);
+        TEST_ASSERT_EQUAL_INT(0, memcmp(kept, data, (size_t)steps * COLUMNS * sizeof *data));
+        free(kept);
+        free(data);
+        decimation_free(v);
+    }
+}
+
+/* The steps of a bucket: the least power of two that lets all of them in. */
+static unsigned size_of(unsigned steps) {
+    unsigned size = 1;
+    while ((uint64_t)size * DECIMATION_ROOM < steps) {
+        size *= 2;
+    }
+    return size;
+}
+
+/* Both numbers drawn of column i are the least and the greatest of the steps [from, to), as they came. */
+static void check_bucket(const double *data, unsigned from, unsigned to, int i, double first,
+                         double second) {
+    unsigned least = UINT32_MAX;
+    unsigned most = UINT32_MAX;
+    for (unsigned k = from; k < to; k++) {
+        const double value = data[(size_t)k * COLUMNS + (size_t)i];
+        if (!isfinite(value)) {
+            continue;
+        }
+        least =
+            least == UINT32_MAX || value < data[(size_t)least * COLUMNS + (size_t)i] ? k : least;
+        most = most == UINT32_MAX || value > data[(size_t)most * COLUMNS + (size_t)i] ? k : most;
+    }
+    if (least == UINT32_MAX) {
+        TEST_ASSERT_TRUE(isnan(first) && isnan(second));
+        return;
+    }
+    const unsigned early = least < most ? least : most;
+    const unsigned late = least < most ? most : least;
+    TEST_ASSERT_TRUE(first == data[(size_t)early * COLUMNS + (size_t)i]);
+    TEST_ASSERT_TRUE(second == data[(size_t)late * COLUMNS + (size_t)i]);
+}
+
+static void test_long_runs_keep_least_and_most_of_every_stretch(void) {
+    dice d = dice_of("long signals", 5102);
+    const unsigned cases = dice_cases(25);
+    for (unsigned i = 0; i < cases; i++) {
+        const unsigned steps =
+            i == 0   ? DECIMATION_ROOM + 1
+            : i == 1 ? 2 * DECIMATION_ROOM
+            : i == 2 ? 2 * DECIMATION_ROOM + 1
+                     : DECIMATION_ROOM + 1 + (unsigned)pow(10.0, dice_between(&d, 0.0, 5.3));
+        double *data = signal_of(&d, steps);
+        decimation *v = entered(data, steps);
+        const unsigned size = size_of(steps);
+        int rows;
+        double *kept = decimation_rows(v, &rows);
+        TEST_ASSERT_EQUAL_INT((int)(2 * ((steps + size - 1) / size)), rows);
+        TEST_ASSERT_TRUE(rows > (int)DECIMATION_ROOM && rows <= 2 * (int)DECIMATION_ROOM);
+        for (int k = 0; k < rows / 2; k++) {
+            const unsigned from = (unsigned)k * size;
+            const unsigned to = from + size < steps ? from + size : steps;
+            for (int c = 0; c < COLUMNS; c++) {
+                const double *at = kept + (size_t)k * 2 * COLUMNS + c;
+                check_bucket(data, from, to, c, at[0], at[COLUMNS]);
+            }
+        }
+        free(kept);
+        free(data);
+        decimation_free(v);
+    }
+}
+
+/* Wherever a run is broken off, what there is covers all of it. */
+static void test_at_every_moment_all_is_there(void) {
+    dice d = dice_of("broken off", 5103);
+    const unsigned steps = 5 * DECIMATION_ROOM;
+    double *data = signal_of(&d, steps);
+    decimation *v = decimation_new(COLUMNS, false);
+    for (unsigned k = 0; k < steps; k++) {
+        decimation_enter(v, data + (size_t)k * COLUMNS);
+        if (k % 97 == 0) {
+            int rows;
+            double *kept = decimation_rows(v, &rows);
+            TEST_ASSERT_TRUE(kept[0] == data[0]);
+            TEST_ASSERT_TRUE(kept[(size_t)(rows - 1) * COLUMNS] == data[(size_t)k * COLUMNS]);
+            TEST_ASSERT_TRUE(k < DECIMATION_ROOM ? rows == (int)k + 1
+                                                 : rows > (int)DECIMATION_ROOM);
+            free(kept);
+        }
+    }
+    free(data);
+    decimation_free(v);
+}
+
+void suite_envelope(void) {
+    RUN_TEST(test_short_runs_are_kept_number_by_number);
+    RUN_TEST(test_long_runs_keep_least_and_most_of_every_stretch);
+    RUN_TEST(test_at_every_moment_all_is_there);
+}
+
+/* === palette ================================================================================== */
+/* Contrast and distance of the colours of pictures (host/io/palette.h), computed: WCAG 2.1's contrast
+ * ratio, and CIEDE2000 (Sharma, Wu and Dalal, 2005) between colours as they look to eyes without and with colour
+ * blindness (Machado, Oliveira and Fernandes, 2009, severity 1). */
+
+#define CONTRAST 3.0
+#define APART 11.0
+
+enum { EYES = 4 };
+static const char *const eye_words[EYES] = {"full sight", "protanopia", "deuteranopia",
+                                            "tritanopia"};
+/* Of linear RGB. */
+static const double eye[EYES][9] = {
+    {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0},
+    {0.152286, 1.052583, -0.204868, 0.114503, 0.786281, 0.099216, -0.003882, -0.048116, 1.051998},
+    {0.367322, 0.860646, -0.227968, 0.280085, 0.672501, 0.047413, -0.011820, 0.042940, 0.968881},
+    {1.255528, -0.076749, -0.178779, -0.078411, 0.930809, 0.147602, 0.004733, 0.691367, 0.303900}};
+
+static void linear_of(const char *colour, double rgb[3]) {
+    unsigned long code = strtoul(colour + 1, NULL, 16);
+    TEST_ASSERT_TRUE(colour[0] == '#' && strlen(colour) == 7);
+    for (int i = 2; i >= 0; i--, code /= 256) {
+        const double c = (double)(code % 256) / 255.0;
+        rgb[i] = c <= 0.04045 ? c / 12.92 : pow((c + 0.055) / 1.055, 2.4);
+    }
+}
+
+static double contrast(const char *a, const char *b) {
+    double light[2];
+    const char *const both[] = {a, b};
+    for (int i = 0; i < 2; i++) {
+        double rgb[3];
+        linear_of(both[i], rgb);
+        light[i] = 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2] + 0.05;
+    }
+    return fmax(light[0], light[1]) / fmin(light[0], light[1]);
+}
+
+static double curve_of(double t) {
+    return t > 216.0 / 24389.0 ? cbrt(t) : (24389.0 / 27.0 * t + 16.0) / 116.0;
+}
+
+static void lab_of(const char *colour, const double m[9], double lab[3]) {
+    double rgb[3];
+    double seen[3];
+    linear_of(colour, rgb);
+    for (int i = 0; i < 3; i++) {
+        const double c = m[3 * i] * rgb[0] + m[3 * i + 1] * rgb[1] + m[3 * i + 2] * rgb[2];
+        seen[i] = fmin(fmax(c, 0.0), 1.0);
+    }
+    const double x =
+        curve_of((0.4124564 * seen[0] + 0.3575761 * seen[1] + 0.1804375 * seen[2]) / 0.95047);
+    const double y = curve_of(0.2126729 * seen[0] + 0.7151522 * seen[1] + 0.0721750 * seen[2]);
+    const double z =
+        curve_of((0.0193339 * seen[0] + 0.1191920 * seen[1] + 0.9503041 * seen[2]) / 1.08883);
+    lab[0] = 116.0 * y - 16.0;
+    lab[1] = 500.0 * (x - y);
+    lab[2] = 200.0 * (y - z);
+}
+
+static double turned(double degrees) { return degrees < 0.0 ? degrees + 360.0 : degrees; }
+
+static double ciede2000(const double a[3], const double b[3]) {
+    const double degree = acos(-1.0) / 180.0;
+    const double mean = (hypot(a[1], a[2]) + hypot(b[1], b[2])) / 2.0;
+    const double g = 0.5 * (1.0 - sqrt(pow(mean, 7) / (pow(mean, 7) + pow(25.0, 7))));
+    const double a1 = (1.0 + g) * a[1];
+    const double b1 = (1.0 + g) * b[1];
+    const double c1 = hypot(a1, a[2]);
+    const double c2 = hypot(b1, b[2]);
+    const double h1 = c1 > 0.0 ? turned(atan2(a[2], a1) / degree) : 0.0;
+    const double h2 = c2 > 0.0 ? turned(atan2(b[2], b1) / degree) : 0.0;
+    const bool both = c1 * c2 > 0.0;
+    const double dh = !both              ? 0.0
+                      : h2 - h1 > 180.0  ? h2 - h1 - 360.0
+                      : h2 - h1 < -180.0 ? h2 - h1 + 360.0
+                                         : h2 - h1;
+    const double h = !both                    ? h1 + h2
+                     : fabs(h1 - h2) <= 180.0 ? (h1 + h2) / 2.0
+                     : h1 + h2 < 360.0        ? (h1 + h2 + 360.0) / 2.0
+                                              : (h1 + h2 - 360.0) / 2.0;
+    const double hue = 2.0 * sqrt(c1 * c2) * sin(dh / 2.0 * degree);
+    const double l = (a[0] + b[0]) / 2.0 - 50.0;
+    const double c = (c1 + c2) / 2.0;
+    const double t = 1.0 - 0.17 * cos((h - 30.0) * degree) + 0.24 * cos(2.0 * h * degree) +
+                     0.32 * cos((3.0 * h + 6.0) * degree) - 0.2 * cos((4.0 * h - 63.0) * degree);
+    const double sl = 1.0 + 0.015 * l * l / sqrt(20.0 + l * l);
+    const double sc = 1.0 + 0.045 * c;
+    const double sh = 1.0 + 0.015 * c * t;
+    const double turn = 30.0 * exp(-pow((h - 275.0) / 25.0, 2));
+    const double rc = 2.0 * sqrt(pow(c, 7) / (pow(c, 7) + pow(25.0, 7)));
+    const double rt = -rc * sin(2.0 * turn * degree);
+    const double dl = (b[0] - a[0]) / sl;
+    const double dc = (c2 - c1) / sc;
+    return sqrt(dl * dl + dc * dc + hue / sh * (hue / sh) + rt * dc * (hue / sh));
+}
+
+/* Pairs 1, 7, 17 and 24 of Sharma, Wu and Dalal's table of test data. */
+static void test_the_distance_is_the_published_one(void) {
+    static const struct {
+        double a[3], b[3], distance;
+    } published[] = {{{50.0, 2.6772, -79.7751}, {50.0, 0.0, -82.7485}, 2.0425},
+                     {{50.0, 0.0, 0.0}, {50.0, -1.0, 2.0}, 2.3669},
+                     {{50.0, 2.5, 0.0}, {73.0, 25.0, -18.0}, 27.1492},
+                     {{50.0, 2.5, 0.0}, {50.0, 3.2592, 0.3350}, 1.0000}};
+    for (size_t i = 0; i < sizeof published / sizeof published[0]; i++) {
+        TEST_ASSERT_DOUBLE_WITHIN(1e-4, published[i].distance,
+                                  ciede2000(published[i].a, published[i].b));
+    }
+}
+
+static void test_lines_stand_out_on_white_and_dark(void) {
+    static const char *const pages[] = {PALETTE_WHITE, PALETTE_DARK};
+    double least = 100.0;
+    TEST_ASSERT_DOUBLE_WITHIN(1e-9, 21.0, contrast("#000000", "#ffffff"));
+    for (int k = 0; k < 2; k++) {
+        TEST_ASSERT_TRUE(contrast(PALETTE_FRAME, pages[k]) >= CONTRAST);
+        for (int i = 0; i < PALETTE_LINES; i++) {
+            const double c = contrast(palette_line(i), pages[k]);
+            least = fmin(least, c);
+            TEST_ASSERT_TRUE_MESSAGE(c >= CONTRAST, palette_line(i));
+        }
+    }
+    printf("# contrast of lines with white and dark: %.2f at least\n", least);
+    /* the yellow that the proof's x_cm once had */
+    TEST_ASSERT_TRUE(contrast("#f0e442", PALETTE_WHITE) < 1.4);
+}
+
+static double distance(const char *a, const char *b, int k) {
+    double one[3];
+    double other[3];
+    lab_of(a, eye[k], one);
+    lab_of(b, eye[k], other);
+    return ciede2000(one, other);
+}
+
+static void test_colours_are_apart_to_every_eye(void) {
+    for (int k = 0; k < EYES; k++) {
+        double least = 1000.0;
+        for (int i = 0; i < PALETTE_LINES; i++) {
+            for (int j = 0; j < i; j++) {
+                const double d = distance(palette_line(i), palette_line(j), k);
+                least = fmin(least, d);
+                TEST_ASSERT_TRUE_MESSAGE(d >= APART, palette_line(i));
+            }
+        }
+        printf("# %s: any two lines differ by %.1f at least\n", eye_words[k], least);
+    }
+    /* red and green of one lightness, which such a test must refuse */
+    TEST_ASSERT_TRUE(distance("#c06030", "#7f8030", 2) < APART);
+}
+
+static void test_areas_darken_from_good_to_bad(void) {
+    for (int k = 0; k < EYES; k++) {
+        for (int i = 1; i < PALETTE_AREAS; i++) {
+            double one[3];
+            double other[3];
+            lab_of(palette_area(i - 1), eye[k], one);
+            lab_of(palette_area(i), eye[k], other);
+            TEST_ASSERT_TRUE_MESSAGE(one[0] > other[0], eye_words[k]);
+            TEST_ASSERT_TRUE_MESSAGE(ciede2000(one, other) >= APART, eye_words[k]);
+        }
+    }
+}
+
+/* Points of nine methods: each has another shape, or another colour. */
+static void test_lines_that_share_a_colour_differ_otherwise(void) {
+    for (int i = 0; i < 3 * PALETTE_LINES; i++) {
+        for (int j = 0; j < i; j++) {
+            TEST_ASSERT_TRUE(strcmp(palette_line(i), palette_line(j)) != 0 ||
+                             palette_dash(i) != palette_dash(j));
+        }
+    }
+    for (int i = 0; i < 9; i++) {
+        for (int j = 0; j < i; j++) {
+            TEST_ASSERT_TRUE(palette_point(i) != palette_point(j));
+        }
+    }
+}
+
+void suite_palette(void) {
+    RUN_TEST(test_the_distance_is_the_published_one);
+    RUN_TEST(test_lines_stand_out_on_white_and_dark);
+    RUN_TEST(test_colours_are_apart_to_every_eye);
+    RUN_TEST(test_areas_darken_from_good_to_bad);
+    RUN_TEST(test_lines_that_share_a_colour_differ_otherwise);
+}
+
+/* === recording plot =========================================================================== */
+/* What a recording keeps of samples for a plot (host/monitor/recording.h): thinned out where it is too
+ * much, evenly, and none of it another sample than it was; and that nothing is drawn of nothing. */
+
+static dice die;
+
+/* A channel of one field, a whole number. */
+static const schema numbers = {
+    .channel[RECORDING_RUN] = {.known = true,
+                               .period_ticks = 1000,
+                               .eaches = 1,
+                               .each[0] = {.name = "n [N]", .size = 4, .scale = 1.0}}};
+
+static void test_thinned_out(void) {
+    recording r;
+    recording_begin(&r, NULL, NULL, NULL, true);
+    const unsigned samples = 230000U + dice_one_of(&die, 20000);
+    for (unsigned i = 0; i < samples; i++) {
+        const uint8_t payload[4] = {(uint8_t)i, (uint8_t)(i >> 8), (uint8_t)(i >> 16), 0};
+        recording_frame(&r, &numbers,
+                        &(wire_frame){.channel = RECORDING_RUN,
+                                      .sequence = (uint16_t)i,
+                                      .ticks = i * 1000U,
+                                      .payload = payload,
+                                      .length = 4});
+        TEST_ASSERT_EQUAL_INT64(i < 100000 ? 1 : i < 200000 ? 2 : 4, r.every);
+        TEST_ASSERT_EQUAL_INT64(i / r.every + 1, r.rows);
+    }
+    TEST_ASSERT_EQUAL_INT(2, r.columns);
+    for (int64_t i = 0; i < r.rows; i++) {
+        TEST_ASSERT_TRUE(fabs(r.row[2 * i] - (double)(4 * i) * 1e-3) < 1e-9 &&
+                         r.row[2 * i + 1] == (double)(4 * i));
+    }
+    TEST_ASSERT_EQUAL_UINT64(samples, r.counts.samples);
+    recording_end(&r);
+    TEST_ASSERT_NULL(r.row);
+}
+
+static void test_nothing_to_plot(void) {
+    recording r;
+    recording_begin(&r, NULL, NULL, NULL, true);
+    errors_catch();
+    const bool drawn = recording_plot(&r, &numbers, "/nowhere/at all.svg");
+    TEST_ASSERT_EQUAL_STRING("whirl monitor: error: nothing to plot: no samples came\n",
+                             errors_caught());
+    TEST_ASSERT_FALSE(drawn);
+    recording_end(&r);
+}
+
+void suite_recording_plot(void) {
+    die = dice_of("recording_plot", 54);
+    RUN_TEST(test_thinned_out);
+    RUN_TEST(test_nothing_to_plot);
 }

@@ -1,14 +1,34 @@
 /* test_price_front.c: rows of error against price (host/study/price_table.h): sorted, and which are on the front, against
  * all pairs of drawn rows; the steps that are tried; and what of a price a row is sorted by. */
+#include <float.h>
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
+
+#include "host/base/alloc.h"
+#include "host/base/interrupts.h"
+#include "host/fixed/engine_fixed.h"
+#include "host/study/choice.h"
+#include "host/study/deviation.h"
+#include "host/study/extrapolation.h"
+#include "host/study/long_list.h"
+#include "host/study/price_table.h"
+#include "host/study/reference_run.h"
 
 #include "command.h"
-#include "host/study/price_table.h"
+#include "derived.h"
+#include "made_up_tree.h"
+#include "priced.h"
+
 #include "unity.h"
 
 void suite_price_front(void);
+void suite_price_measured(void);
+void suite_price_motion(void);
+
+/* === price front ============================================================================== */
 
 enum { ROWS_MOST = 40 };
 
@@ -135,4 +155,722 @@ void suite_price_front(void) {
     RUN_TEST(test_the_ladder_goes_down_by_one_two_five);
     RUN_TEST(test_substeps_rise_as_they_are_told);
     RUN_TEST(test_prices_are_cycles_where_somebody_counts_them);
+}
+
+/* === price measured =========================================================================== */
+/* Prices that are counted (host/study/measured.h) and chosen by (choice.h), in a made-up source tree
+ * (made_up_tree.h). */
+
+/* --- can it be counted? ----------------------------------------------------------------------------------*/
+
+static void test_what_is_missing_is_told(void) {
+    static const struct {
+        const char *says;
+        const char *status;
+        const char *answer; /* NULL: nothing is */
+    } rows[] = {
+        {"", "0\n", NULL},
+        {"a 'tool' is missing\n", "0\n", NULL},
+        {"error: 'arm-none-eabi-gcc' is missing: make deps\n", "2\n",
+         "'arm-none-eabi-gcc' is missing"},
+        {"first\n'one' is missing here\n'two' is missing there\nlast\n", "2\n", "'one' is missing"},
+        {"something\nelse\n", "2\n", "make BOARD=mps2-an386 price-ready-board fails"},
+        {"the tool is missing, 'quoted' behind it\n", "1\n",
+         "make BOARD=mps2-an386 price-ready-board fails"},
+        {"'unfinished\n", "1\n", "make BOARD=mps2-an386 price-ready-board fails"},
+        {"", "127\n", "'make' is missing"}};
+    tree_enter();
+    char text[MEASURED_TEXT];
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        tree_keep("says", rows[i].says);
+        tree_keep("status", rows[i].status);
+        const char *answer = measured_missing(NULL, cost_board_named("mps2-an386"), text);
+        TEST_ASSERT_TRUE((answer == NULL) == (rows[i].answer == NULL));
+        if (answer != NULL) {
+            TEST_ASSERT_EQUAL_STRING(rows[i].answer, answer);
+        }
+        TEST_ASSERT_EQUAL_STRING("-s BOARD=mps2-an386 price-ready-board\n", tree_taken("made"));
+    }
+    tree_keep("status", "3\n");
+    TEST_ASSERT_EQUAL_STRING("make price-ready-host fails",
+                             measured_missing(NULL, cost_board_named("host"), text));
+    TEST_ASSERT_EQUAL_STRING("-s price-ready-host\n", tree_taken("made"));
+    tree_keep("status", "0\n");
+    unlink("mk/price/measure_one.sh");
+    TEST_ASSERT_NOT_NULL(
+        strstr(measured_missing(NULL, cost_board_named("host"), text), "not the root"));
+    TEST_ASSERT_EQUAL_STRING("", tree_taken("made"));
+    tree_leave();
+}
+
+/* --- steps -----------------------------------------------------------------------------------------------*/
+
+#define SPRING(k) \
+    "mechanism m\ncoordinate x [m]\nT = 1 [kg]*x'^2/2\nV = " k " [N/m]*x^2/2\n" \
+    "scene s { start x = 1 [m]; step 1 [ms]; until 1 [s] }\n"
+static const char *const springs[] = {SPRING("9"), SPRING("16"), SPRING("25")};
+#define BALL(h) \
+    "mechanism m\ncoordinate x [m]\nT = 1 [kg]*x'^2/2\nV = 1 [kg]*9.81 [m/s^2]*x\n" \
+    "stop x >= 0 [m] restitution 0.5\n" \
+    "scene s { start x = " h " [m]; step 1 [ms]; until 1 [s] }\n"
+static const char *const balls[] = {BALL("1"), BALL("2"), BALL("0.5")};
+static const whole_ratio spacing = {1, 50};
+static const table_words words = {"a.whirl:s", " --set m=3", false, 0.0};
+
+static void expect_known(double value, cost_basis basis, const cost_figure *f) {
+    TEST_ASSERT_EQUAL_INT(basis, f->basis);
+    TEST_ASSERT_TRUE(f->value == value && f->least == value && f->most == value);
+}
+
+/* Two rows of a setting by two steps. */
+static table table_of(table_row row[2], const setting *s, deviation_pace pace, int point) {
+    for (int i = 0; i < 2; i++) {
+        row[i] = (table_row){.setting = *s, .pace = {pace.steps * ((uint64_t)i + 1), pace.records}};
+        row[i].result.point = point;
+        row[i].cost.state_bytes = cost_known(44, COST_EXACT);
+        row[i].price.value = i;
+    }
+    return (table){.row = row, .count = 2, .why = ""};
+}
+
+static void test_steps_are_counted_and_kept(void) {
+    dice d = dice_of("price_measured steps", 21);
+    priced p;
+    priced_open(&p, springs, 2);
+    TEST_ASSERT_TRUE(priced_begin(&p, "mps2-an386", spacing, 20, NULL));
+    tree_enter();
+    const setting rk4 = priced_setting(WH_RK4, &engine_float);
+    const setting heun = priced_setting(WH_HEUN, &engine_double);
+    const setting in_fixed = priced_setting(WH_RK4, &engine_fixed);
+    char line[300];
+    table_row row[2];
+    for (int n = 0; n < 3; n++) {
+        const setting *s = n == 0 ? &rk4 : n == 1 ? &heun : &in_fixed;
+        const deviation_pace pace = {n == 2 ? 4 : (uint64_t)n + 1, 1};
+        double v[7];
+        for (int i = 0; i < 7; i++) {
+            v[i] = 1 + dice_one_of(&d, 9000);
+        }
+        snprintf(line, sizeof line,
+                 "a line before\nabc,gcc,\"-a, -b\",mps2-an386,s,float,rk4,%.0f,%.0f,%.1f,%.0f,"
+                 "estimated,%.0f,%.0f,%.0f\r\n",
+                 v[0], v[1], v[2] + 0.5, v[3], v[4], v[5], v[6]);
+        tree_keep(n == 1 ? "row0" : "row1", line);
+        tree_keep(n == 1 ? "row1" : "row0", "nothing\n");
+        table made = table_of(row, s, pace, n == 1 ? 0 : 1);
+        TEST_ASSERT_EQUAL_INT(MEASURED_COUNTED, measured_count(&p.trial, &made, 0, &words));
+        static const char *const asked[] = {
+            "mps2-an386 float a.whirl:s --set m=3 --set place=1 --method rk4 --step 0.02\n",
+            "mps2-an386 double a.whirl:s --set m=3 --set place=0 --method heun --step 0.01\n",
+            ("mps2-an386 fixed a.whirl:s --set m=3 --set place=1 --method rk4 --step 0.005 "
+             "--until 0.4\n")};
+        TEST_ASSERT_EQUAL_STRING(asked[n], tree_taken("asked"));
+        /* a price that varies with the step is that of this one */
+        const bool varies = s->number == &engine_fixed;
+        int counted = 0;
+        for (int i = 0; i < 2; i++) {
+            const table_row *r = &made.row[i];
+            const cost *c = &r->cost;
+            const double each_s = ratio_times(1, trial_step(&p.trial, r->pace));
+            counted += r->counted;
+            TEST_ASSERT_TRUE(!(r->run.steps > 0.0));
+            expect_known(44, COST_EXACT, &c->state_bytes);
+            if (r->counted) {
+                expect_known(v[0], COST_MEASURED, &c->instructions);
+                expect_known(v[1], COST_MEASURED, &c->instructions_worst);
+                expect_known(v[2] + 0.5, COST_ESTIMATED, &c->cycles);
+                expect_known(v[3], COST_ESTIMATED, &c->cycles_worst);
+                expect_known(v[4], COST_MEASURED, &c->flash_bytes);
+                expect_known(v[5], COST_MEASURED, &c->ram_bytes);
+                expect_known(v[6], COST_MEASURED, &c->stack_bytes);
+                TEST_ASSERT_TRUE(fabs(r->price.value * each_s / c->cycles.value - 1.0) < 1e-12);
+            }
+        }
+        TEST_ASSERT_EQUAL_INT(varies ? 1 : 2, counted);
+    }
+    /* a missing tool leaves the table as it is; rows that are refused leave it */
+    static const struct {
+        const char *status;
+        const char *row;
+        measured_end end;
+    } rows[] = {
+        {"2\n", "", MEASURED_MISSING},
+        {"1\n", "a,g,\"f\",mps2-an386,s,float,rk4,1,1,1,1,estimated,1,1,1\n", MEASURED_COUNTED},
+        {"0\n", "no row\n", MEASURED_COUNTED},
+        {"0\n", "a,g,\"f\",mps2-an385,s,float,rk4,1,1,1,1,estimated,1,1,1\n", MEASURED_COUNTED}};
+    for (int i = 0; i < 4; i++) {
+        table made = table_of(row, &heun, (deviation_pace){1, 1}, 0);
+        tree_keep("status", rows[i].status);
+        tree_keep("row0", rows[i].row);
+        TEST_ASSERT_EQUAL_INT(rows[i].end, measured_count(&p.trial, &made, 0, &words));
+        TEST_ASSERT_EQUAL_INT(i > 0 ? 0 : 2, made.count);
+        TEST_ASSERT_EQUAL_INT(i > 0, made.unpriced);
+        TEST_ASSERT_EQUAL_STRING(i > 0 ? "it cannot be built, linked or run there" : "", made.why);
+    }
+    tree_leave();
+    priced_close(&p);
+}
+
+/* --- whole runs ------------------------------------------------------------------------------------------*/
+
+enum { COLUMNS = 13, PLACES = 3 };
+
+static void write_run(const char *file, const char *board, const double v[COLUMNS]) {
+    char row[400];
+    snprintf(row, sizeof row, "%s,%s,%.0f,%.2f,%.0f,%.0f,%.2f,%.0f,%.0f,%s,%.0f,%.0f,%.0f\n", board,
+             "float", v[2], v[3], v[4], v[5], v[6], v[7], v[8], "estimated", v[10], v[11], v[12]);
+    tree_keep(file, row);
+}
+
+static void expect_most(double each_least, double each_most, double most, cost_basis basis,
+                        const cost_figure *f) {
+    TEST_ASSERT_EQUAL_INT(basis, f->basis);
+    TEST_ASSERT_TRUE(fabs(f->most - each_most * most) <= 1e-12 * f->most);
+    TEST_ASSERT_TRUE(fabs(f->least - each_least * most) <= 1e-12 * f->most);
+    TEST_ASSERT_TRUE(f->value == (basis == COST_RANGE ? 0.0 : most));
+}
+
+/* Of all places the most of each column, the sum of their steps, and bounds where each place has one. */
+static void test_whole_runs_are_the_most_of_all_places(void) {
+    static const char *const files[] = {"row0", "row1", "row2"};
+    static const char *const boards[] = {"mps2-an386", "mps2-an500", "atmega328p"};
+    dice d = dice_of("price_measured runs", 22);
+    for (int n = 0; n < 3; n++) {
+        priced p;
+        priced_open(&p, balls, PLACES);
+        TEST_ASSERT_TRUE(priced_begin(&p, boards[n], spacing, 10, NULL));
+        const cost_board *b = p.wish.board;
+        const bool range = b->cycles == COST_RANGE;
+        tree_enter();
+        const setting rk4 = priced_setting(WH_RK4, &engine_float);
+        for (int i = 0; i < 6; i++) {
+            double v[PLACES][COLUMNS] = {{0}};
+            double most[COLUMNS] = {0};
+            double steps = 0.0;
+            const int unbounded = i < 4 ? i - 1 : -1; /* a place */
+            for (int k = 0; k < PLACES; k++) {
+                for (int c = 2; c < COLUMNS; c++) {
+                    v[k][c] = c == 5 && k == unbounded ? 0.0 : 1 + dice_one_of(&d, 5000);
+                    most[c] = fmax(most[c], v[k][c]);
+                }
+                steps += v[k][2];
+                write_run(files[k], boards[n], v[k]);
+            }
+            const deviation_pace pace = {(uint64_t)i + 1, 1};
+            table_row row[2];
+            table made = table_of(row, &rk4, pace, 1);
+            TEST_ASSERT_EQUAL_INT(MEASURED_COUNTED, measured_count(&p.trial, &made, 0, &words));
+            const int at = made.row[0].counted ? 0 : 1;
+            TEST_ASSERT_FALSE(made.row[1 - at].counted);
+            const cost c = made.row[at].cost;
+            const counted_run run = made.row[at].run;
+            expect_most(1, 1, most[3], COST_MEASURED, &c.instructions);
+            expect_most(1, 1, most[4], COST_MEASURED, &c.instructions_worst);
+            expect_most(range ? b->cycles_least : 1, range ? b->cycles_most : 1,
+                        most[range ? 3 : 6], b->cycles, &c.cycles);
+            expect_most(range ? b->cycles_least : 1, range ? b->cycles_most : 1,
+                        most[range ? 4 : 7], b->cycles, &c.cycles_worst);
+            expect_most(1, 1, most[10], COST_MEASURED, &c.flash_bytes);
+            expect_most(1, 1, most[11], COST_MEASURED, &c.ram_bytes);
+            expect_most(1, 1, most[12], COST_MEASURED, &c.stack_bytes);
+            TEST_ASSERT_TRUE(run.steps == steps);
+            TEST_ASSERT_TRUE(run.instructions_bound == (unbounded < 0 ? most[5] : 0.0));
+            TEST_ASSERT_TRUE(run.cycles_bound == (unbounded < 0 ? most[8] : 0.0));
+            const char *asked = tree_taken("asked");
+            TEST_ASSERT_EQUAL_STRING_LEN("--whole-run ", asked, 12);
+            TEST_ASSERT_NOT_NULL(strstr(asked, " --until 0.2\n--whole-run "));
+            TEST_ASSERT_NOT_NULL(strstr(asked, "place=0"));
+            TEST_ASSERT_NOT_NULL(strstr(asked, "place=2"));
+        }
+        /* a row too short, too long, of another board; one place that fails */
+        static const char *const bad[] = {"%s,f,1,1,1,1,1,1,1,e,1,1\n",
+                                          "%s,f,1,1,1,1,1,1,1,e,1,1,1,1\n",
+                                          "x%s,f,1,1,1,1,1,1,1,e,1,1,1\n"};
+        for (int i = 0; i < 3; i++) {
+            char *row = alloc_words(bad[i], boards[n]);
+            const deviation_pace pace = {(uint64_t)i + 20, 1};
+            tree_keep("row2", row);
+            table_row rows[2];
+            table made = table_of(rows, &rk4, pace, 1);
+            TEST_ASSERT_EQUAL_INT(MEASURED_COUNTED, measured_count(&p.trial, &made, 0, &words));
+            TEST_ASSERT_EQUAL_INT(1, made.count);
+            TEST_ASSERT_FALSE(made.row[0].counted);
+            free(row);
+        }
+        tree_leave();
+        priced_close(&p);
+    }
+}
+
+/* --- a table's front -------------------------------------------------------------------------------------*/
+
+static void count_progress(void *context, int done, int of) {
+    (void)done;
+    (void)of;
+    ++*(int *)context;
+}
+
+/* Rows that are predicted to cost 100, 200, ...: counted, the first costs more than all, and what is refused is gone. */
+static void test_the_front_is_counted_until_all_of_it_is(void) {
+    priced p;
+    priced_open(&p, springs, 1);
+    TEST_ASSERT_TRUE(priced_begin(&p, "mps2-an386", spacing, 20, NULL));
+    for (int refused = 0; refused < 2; refused++) {
+        tree_enter();
+        tree_keep("mk/price/measure_one.sh",
+                  refused ? "case \"$*\" in *euler*) exit 1 ;; esac\nsed \"s/N/900/g\" row0\n"
+                          : "case \"$*\" in *euler*) n=950 ;; *heun*) n=90 ;; *) n=500 ;; esac\n"
+                            "sed \"s/N/$n/g\" row0\n");
+        tree_keep("row0", "a,g,\"f\",mps2-an386,s,float,rk4,N,N,N,N,estimated,N,N,N\n");
+        static const wh_method methods[] = {WH_EULER, WH_HEUN, WH_RK4, WH_RK38};
+        table_row row[5];
+        for (int i = 0; i < 5; i++) {
+            row[i] = (table_row){.setting = priced_setting(methods[i % 4], &engine_float),
+                                 .pace = {1, i == 4 ? 2 : 1}};
+            row[i].result.error = i == 4 ? 0.9 : 0.1 * (4 - i);
+            row[i].cost.cycles = cost_known(100.0 * (i % 4 + 1), COST_ESTIMATED);
+            row[i].price.value = 100.0 * (i % 4 + 1) * (i == 4 ? 25.0 : 50.0);
+            row[i].price.basis = COST_ESTIMATED;
+        }
+        row[3].result.error = 0.5; /* not on the front, and never counted */
+        table made = {.row = row, .count = 5, .why = ""};
+        table_sort(&made);
+        int told = 0;
+        const table_wish w = {.progress = count_progress, .context = &told};
+        TEST_ASSERT_EQUAL_INT(MEASURED_COUNTED, measured_front(&p.trial, &made, &words, &w));
+        TEST_ASSERT_EQUAL_INT(refused ? 4 : 3, told);
+        TEST_ASSERT_EQUAL_INT(refused ? 3 : 5, made.count);
+        TEST_ASSERT_EQUAL_INT(refused ? 1 : 0, made.unpriced);
+        TEST_ASSERT_EQUAL_STRING(refused ? "it cannot be built, linked or run there" : "",
+                                 made.why);
+        for (int i = 0; i < made.count; i++) {
+            const table_row *r = &made.row[i];
+            const wh_method method = r->setting.image.method;
+            const double each = method == WH_RK38 && !refused ? 400.0
+                                : refused                     ? 900.0
+                                : method == WH_EULER          ? 950.0
+                                : method == WH_HEUN           ? 90.0
+                                                              : 500.0;
+            TEST_ASSERT_TRUE(r->price.value == each * (r->pace.records == 2 ? 25.0 : 50.0));
+            TEST_ASSERT_TRUE(i == 0 || made.row[i - 1].price.value <= r->price.value);
+            TEST_ASSERT_TRUE(!r->on_front || r->counted);
+        }
+        tree_keep("mk/price/measure_one.sh", "exit 2\n");
+        const table_wish quiet = {.progress = NULL};
+        for (int i = 0; i < made.count; i++) {
+            made.row[i].counted = false;
+        }
+        TEST_ASSERT_EQUAL_INT(MEASURED_MISSING, measured_front(&p.trial, &made, &words, &quiet));
+        tree_leave();
+    }
+    priced_close(&p);
+}
+
+/* --- choices -----------------------------------------------------------------------------------------------*/
+
+/* Drawn prices of six settings by three steps. A choice that counts its answers equals the choice from a table that is
+ * counted in all, if no prediction is too high. */
+static void test_choices_are_as_if_all_was_counted(void) {
+    dice d = dice_of("price_measured choices", 23);
+    priced p;
+    priced_open(&p, springs, 1);
+    TEST_ASSERT_TRUE(priced_begin(&p, "mps2-an386", spacing, 20, NULL));
+    int fewer = 0;
+    for (int n = 0; n < 12; n++) {
+        enum { ROWS = 18 };
+        static const wh_method methods[] = {WH_RK4,       WH_NYSTROEM3, WH_NYSTROEM4,
+                                            WH_NYSTROEM5, WH_HEUN,      WH_EULER};
+        table_row row[ROWS];
+        table_row all[ROWS];
+        tree_enter();
+        char *script = alloc_words("echo . >>asked\ncase \"$*\" in\n");
+        double counted[6];
+        for (int i = 0; i < 6; i++) {
+            counted[i] = 100 + dice_one_of(&d, 900);
+            char *longer = alloc_words("%s*%s\\ *) n=%.0f ;;\n", script,
+                                       wh_methods[methods[i]].word, counted[i]);
+            free(script);
+            script = longer;
+        }
+        char *whole =
+            alloc_words("%sesac\necho \"a,g,f,mps2-an386,s,float,rk4,$n,$n,$n,$n,estimated,"
+                        "$n,10,10\"\n",
+                        script);
+        tree_keep("mk/price/measure_one.sh", whole);
+        free(whole);
+        free(script);
+        for (int i = 0; i < ROWS; i++) {
+            row[i] = (table_row){.setting = priced_setting(methods[i % 6], &engine_float),
+                                 .pace = {(uint64_t)(i / 6) + 1, 1}};
+            row[i].result.error = pow(10.0, dice_between(&d, -4.0, 0.0));
+            const double predicted = counted[i % 6] * dice_between(&d, 0.8, 1.0);
+            const double each_s = ratio_times(1, trial_step(&p.trial, row[i].pace));
+            all[i] = row[i];
+            for (int k = 0; k < 2; k++) {
+                table_row *r = k == 0 ? &row[i] : &all[i];
+                const double value = k == 0 ? predicted : counted[i % 6];
+                r->cost.cycles = r->cost.cycles_worst = cost_known(value, COST_ESTIMATED);
+                r->cost.instructions = r->cost.instructions_worst = r->cost.flash_bytes =
+                    cost_known(value, COST_MEASURED);
+                r->cost.ram_bytes = r->cost.stack_bytes = cost_known(10, COST_MEASURED);
+                r->price.value = value / each_s;
+            }
+        }
+        table made = {.row = row, .count = ROWS, .why = ""};
+        table by_all = {.row = all, .count = ROWS, .why = ""};
+        table_sort(&made);
+        table_sort(&by_all);
+        const choice_wish w = {.table = {.error = 1e-1},
+                               .clock_Hz = n % 3 == 2 ? 2e4 : 0.0,
+                               .flash_bytes = n % 2 == 1 ? dice_between(&d, 90, 900) : 0.0};
+        choice c;
+        TEST_ASSERT_EQUAL_INT(MEASURED_COUNTED, choice_counted(&p.trial, &made, &w, &words, &c));
+        const choice wanted = choice_make(&p.trial, &by_all, &w);
+        const choice_row *const is[] = {&c.fastest, &c.smallest, &c.weaker, &c.larger};
+        const choice_row *const should[] = {&wanted.fastest, &wanted.smallest, &wanted.weaker,
+                                            &wanted.larger};
+        for (int i = 0; i < (wanted.fastest.row >= 0 ? 2 : 4); i++) {
+            TEST_ASSERT_EQUAL_INT(should[i]->row < 0, is[i]->row < 0);
+            if (is[i]->row >= 0) {
+                const table_row *a = &made.row[is[i]->row];
+                const table_row *b = &by_all.row[should[i]->row];
+                TEST_ASSERT_TRUE(a->counted);
+                TEST_ASSERT_TRUE(i != 0 || is[i]->worst == should[i]->worst);
+                TEST_ASSERT_TRUE(i != 2 || a->result.error == b->result.error);
+                TEST_ASSERT_TRUE(i % 2 == 0 ||
+                                 a->cost.flash_bytes.value == b->cost.flash_bytes.value);
+            }
+        }
+        int asked = 0;
+        for (const char *at = tree_taken("asked"); *at != '\0'; at++) {
+            asked += *at == '.';
+        }
+        fewer += asked < 6;
+        tree_leave();
+    }
+    TEST_ASSERT_GREATER_THAN_INT(0, fewer);
+    priced_close(&p);
+}
+
+void suite_price_measured(void) {
+    RUN_TEST(test_what_is_missing_is_told);
+    RUN_TEST(test_steps_are_counted_and_kept);
+    RUN_TEST(test_whole_runs_are_the_most_of_all_places);
+    RUN_TEST(test_the_front_is_counted_until_all_of_it_is);
+    RUN_TEST(test_choices_are_as_if_all_was_counted);
+}
+
+/* === price motion ============================================================================= */
+/* What runs are held against (host/study/extrapolation.h, reference_run.h) by closed forms and by their
+ * order, and how far off it runs are (deviation.h) by a loop of its own. tests/host/test_price_reference.c asks the same of
+ * long motions. */
+
+static const char *const spring =
+    "mechanism m\ncoordinate x [mm]\noutput twice [mm] = 2*x\nT = 1 [kg]*x'^2/2\n"
+    "V = 16 [N/m]*x^2/2\nscene s { start x = 250 [mm]; step 10 [ms]; until 1 [s] }\n";
+
+static derived decay_of(double rate, double start) {
+    char text[300];
+    snprintf(text, sizeof text,
+             "mechanism m\nstate y\nequation y' + %.17g [1/s]*y = 0 [1/s]\n"
+             "scene s { start y = %.17g; step 1 [ms]; until 1 [s] }\n",
+             rate, start);
+    derived d = derived_scene(text, "s");
+    derived_expect(&d, text);
+    return d;
+}
+
+/* --- the extrapolation -----------------------------------------------------------------------------------*/
+
+/* Off a decay's exponential after one second by no more than the tolerance allows, whatever the columns; with a finer
+ * tolerance by less, and at more expense. */
+static void test_decays_end_where_they_should(void) {
+    dice d = dice_of("price_motion", 91);
+    for (unsigned n = 0; n < dice_cases(few_or_all(12, 300)); n++) {
+        const double rate = number_scaled(1.0, (int)dice_one_of(&d, 5) - 1);
+        derived of = decay_of(rate, 3.0);
+        double before = 0.0;
+        for (int columns = 3; columns <= 6; columns += 3) {
+            for (int digits = 6; digits <= 15; digits += 3) {
+                const double tolerance = pow(10.0, -digits);
+                extrapolation *e =
+                    extrapolation_new(of.image, (extrapolation_setting){columns, tolerance}, 1e9);
+                TEST_ASSERT_TRUE(extrapolation_state(e)[0] == 3.0L);
+                TEST_ASSERT_TRUE(extrapolation_operations(e) == 0.0);
+                TEST_ASSERT_EQUAL_INT(EXTRAPOLATION_OK, extrapolation_go(e, 0.375L));
+                TEST_ASSERT_EQUAL_INT(EXTRAPOLATION_OK, extrapolation_go(e, 0.625L));
+                const long double want = 3.0L * expl(-(long double)rate);
+                const double off = (double)fabsl(extrapolation_state(e)[0] - want);
+                TEST_ASSERT_TRUE(off <= 30.0 * tolerance);
+                const double took = extrapolation_operations(e);
+                TEST_ASSERT_TRUE(digits == 6 || took >= before);
+                /* a step takes 1 + 1 + 3 + 5 + ... evaluations, and two spans take two steps at least */
+                const double each = of.image->list[IMAGE_STEP]->count * (1.0 + columns * columns);
+                TEST_ASSERT_TRUE(took >= 2.0 * each &&
+                                 fabs(took / each - floor(took / each + 0.5)) < 1e-9);
+                /* the finer it is to be, the shorter its steps, by the power of its order less one */
+                const double finer = pow(tolerance, -1.0 / (2.0 * columns - 1.0));
+                TEST_ASSERT_TRUE(took <= each * (4.0 + 0.25 * (0.3 + rate) * finer));
+                before = took;
+                extrapolation_free(e);
+            }
+        }
+        derived_free(&of);
+    }
+}
+
+/* One step of so many columns of y' = -y is a rational function of the step alone: by its power series, two columns more of
+ * which are right with each further rule. */
+static void test_a_step_is_of_twice_its_columns_order(void) {
+    for (int columns = 2; columns <= 5; columns++) {
+        double off[2];
+        for (int half = 0; half < 2; half++) {
+            derived of = decay_of(1.0, 1.0);
+            /* a tolerance that any step keeps: one step */
+            extrapolation *e =
+                extrapolation_new(of.image, (extrapolation_setting){columns, 1e3}, 1e9);
+            const long double h = half ? 0.5L : 1.0L;
+            TEST_ASSERT_EQUAL_INT(EXTRAPOLATION_OK, extrapolation_go(e, h));
+            off[half] = (double)fabsl(extrapolation_state(e)[0] - expl(-h));
+            extrapolation_free(e);
+            derived_free(&of);
+        }
+        const double order = log2(off[0] / off[1]) - 1.0;
+        TEST_ASSERT_TRUE(fabs(order - 2.0 * columns) < 0.6);
+    }
+}
+
+/* y' = y^2 from 1 is over at 1 s: no step is small enough there; and neither is what may be evaluated without an end. */
+static void test_poles_and_limits_end_it(void) {
+    derived d = derived_scene("mechanism m\nstate y\nequation y' - 1 [1/s]*y^2 = 0 [1/s]\n"
+                              "scene s { start y = 1; step 1 [ms]; until 3 [s] }\n",
+                              "s");
+    derived_expect(&d, "a pole");
+    extrapolation *e = extrapolation_new(d.image, (extrapolation_setting){4, 1e-12}, 1e9);
+    TEST_ASSERT_EQUAL_INT(EXTRAPOLATION_OK, extrapolation_go(e, 0.5L));
+    TEST_ASSERT_TRUE(fabsl(extrapolation_state(e)[0] - 2.0L) < 1e-10L);
+    TEST_ASSERT_EQUAL_INT(EXTRAPOLATION_OK, extrapolation_go(e, 0.25L));
+    TEST_ASSERT_TRUE(fabsl(extrapolation_state(e)[0] - 4.0L) < 1e-9L);
+    TEST_ASSERT_EQUAL_INT(EXTRAPOLATION_SMALL, extrapolation_go(e, 0.5L));
+    const double took = extrapolation_operations(e);
+    extrapolation_free(e);
+    e = extrapolation_new(d.image, (extrapolation_setting){4, 1e-12}, took / 50.0);
+    TEST_ASSERT_EQUAL_INT(EXTRAPOLATION_LONG, extrapolation_go(e, 0.999L));
+    TEST_ASSERT_TRUE(extrapolation_operations(e) > took / 50.0);
+    const double each = d.image->list[IMAGE_STEP]->count * 17.0;
+    TEST_ASSERT_TRUE(extrapolation_operations(e) <= took / 50.0 + each);
+    extrapolation_free(e);
+    extrapolation_free(NULL);
+    derived_free(&d);
+}
+
+/* --- fine steps ------------------------------------------------------------------------------------------*/
+
+/* Sixteen times as fine as the scene, rounded up to an even number, unless that takes more operations than there may be. */
+static void test_fine_steps_are_as_fine_as_they_may(void) {
+    dice d = dice_of("price_motion steps", 92);
+    derived of = derived_scene(spring, "s");
+    derived_expect(&of, spring);
+    const int contacts = of.image->contacts;
+    for (int n = 0; n < 500; n++) {
+        const double spacing_s =
+            (3 + 10 * dice_one_of(&d, 40)) / 1000.0; /* no whole number of steps */
+        of.image->contacts = n % 2;
+        const reference_wish w = {.image = of.image,
+                                  .spacing = ratio_of(spacing_s),
+                                  .records = 1 + (int)dice_one_of(&d, 90),
+                                  .operations = pow(10.0, dice_between(&d, 1.0, 7.0))};
+        const uint64_t have = fine_steps_of(&w);
+        const double each = (n % 2 ? 12.0 : 4.0) * of.image->list[IMAGE_STEP]->count;
+        uint64_t want = 2;
+        while ((double)want * of.image->step_s < 16.0 * spacing_s * (1 - 1e-12) &&
+               (double)(want + 2) * w.records * each <= w.operations) {
+            want += 2;
+        }
+        TEST_ASSERT_EQUAL_UINT64(want, have);
+    }
+    of.image->contacts = contacts;
+    derived_free(&of);
+}
+
+static void test_fine_steps_are_a_cosine(void) {
+    derived of = derived_scene(spring, "s");
+    derived_expect(&of, spring);
+    const reference_wish w = {
+        .image = of.image, .spacing = {1, 20}, .records = 20, .operations = 1e8};
+    of.image->settings.method = WH_EULER; /* which they are not made by */
+    records *shape = records_open(NULL, of.image, &engine_double);
+    long double row[21 * 4];
+    TEST_ASSERT_EQUAL_INT(4, shape->columns);
+    TEST_ASSERT_EQUAL_INT(20, fine_steps_run(&w, shape, 100, row));
+    for (int i = 0; i <= 20; i++) {
+        const double t = i / 20.0;
+        const long double *r = &row[(size_t)i * 4];
+        TEST_ASSERT_TRUE(fabs((double)r[0] - t) < 1e-15);
+        TEST_ASSERT_TRUE(fabs((double)r[1] - 250.0 * cos(4.0 * t)) < 1e-8);
+        TEST_ASSERT_TRUE(fabs((double)r[2] + 1000.0 * sin(4.0 * t)) < 4e-8);
+        TEST_ASSERT_TRUE(fabs((double)r[3] - 500.0 * cos(4.0 * t)) < 2e-8);
+    }
+    interrupted = 1;
+    TEST_ASSERT_EQUAL_INT(0, fine_steps_run(&w, shape, 100, row));
+    interrupted = 0;
+    records_close(shape);
+    derived_free(&of);
+}
+
+/* --- the reference, and runs against it ------------------------------------------------------------------*/
+
+static reference *reference_of(const image *im, int count) {
+    const reference_wish w = {.image = im, .spacing = {1, 20}, .records = count, .operations = 1e8};
+    reference *r = reference_new(&w);
+    TEST_ASSERT_EQUAL_INT(REFERENCE_EXTRAPOLATED, r->kind);
+    TEST_ASSERT_EQUAL_INT(count, r->records);
+    return r;
+}
+
+static void test_references_are_cut_and_their_columns_found(void) {
+    derived of = derived_scene(spring, "s");
+    derived_expect(&of, spring);
+    reference *r = reference_of(of.image, 20);
+    bool noisy = true;
+    TEST_ASSERT_EQUAL_INT(1, reference_find(r, "x", &noisy));
+    TEST_ASSERT_FALSE(noisy);
+    TEST_ASSERT_EQUAL_INT(2, reference_find(r, "x'", &noisy));
+    TEST_ASSERT_EQUAL_INT(3, reference_find(r, "twice", &noisy));
+    TEST_ASSERT_EQUAL_INT(-1, reference_find(r, "x'y", &noisy));
+    TEST_ASSERT_EQUAL_INT(-1, reference_find(r, "twic", &noisy));
+    TEST_ASSERT_TRUE(r->column[1].counts && r->column[2].counts && !r->column[3].counts);
+    for (int i = 0; i <= 20; i++) {
+        const long double t = (long double)i / 20.0L;
+        const long double *row = r->row + (size_t)i * (size_t)r->columns;
+        TEST_ASSERT_TRUE(fabsl(row[1] - 250.0L * cosl(4.0L * t)) < 1e-11L);
+        TEST_ASSERT_TRUE(fabsl(row[2] + 1000.0L * sinl(4.0L * t)) < 4e-11L);
+        TEST_ASSERT_TRUE(fabsl(row[3] - 500.0L * cosl(4.0L * t)) < 2e-11L);
+    }
+    /* the largest rate is that of a quarter of a turn, at 0.39 s: later than the fifth record */
+    TEST_ASSERT_TRUE(fabsl(r->column[2].largest - 1000.0L * sinl(1.6L)) < 1e-9L);
+    r->column[1].off = r->column[1].largest / 8.0L;
+    r->column[2].off = r->column[2].largest / 4.0L;
+    r->column[3].off = r->column[3].largest / 2.0L;
+    TEST_ASSERT_TRUE(fabs(reference_agreement(r) - 0.25) < 1e-15);
+    reference_cut(r, 25);
+    TEST_ASSERT_EQUAL_INT(20, r->records);
+    reference_cut(r, 5);
+    TEST_ASSERT_EQUAL_INT(5, r->records);
+    TEST_ASSERT_TRUE(fabsl(r->column[2].largest - 1000.0L * sinl(1.0L)) < 1e-9L);
+    reference_cut(r, 0); /* no rate has moved yet */
+    TEST_ASSERT_TRUE(r->column[1].counts && !r->column[2].counts);
+    reference_free(r);
+    derived_free(&of);
+}
+
+static void test_deviations_are_the_largest_of_all_records(void) {
+    static const deviation_pace paces[] = {{1, 1}, {3, 1}, {1, 2}, {1, 5}};
+    static const wh_method methods[] = {WH_EULER, WH_HEUN, WH_RK4};
+    derived of = derived_scene(spring, "s");
+    derived_expect(&of, spring);
+    reference *r = reference_of(of.image, 20);
+    for (int column = -1; column < 4; column++) {
+        for (int n = 0; n < 24 && column != 0; n++) {
+            const deviation_pace pace = paces[n % 4];
+            const engine_kind *kind = n < 12 ? &engine_float : &engine_double;
+            image *im = of.image;
+            im->settings.method = methods[n / 4 % 3];
+            im->step = (whole_ratio){pace.records, 20 * pace.steps};
+            im->step_s = (double)pace.records / (20.0 * (double)pace.steps);
+            /* the same steps, and what each record is off; broken off where it is of no use */
+            const double give_up = column < 0 ? 0.3 : 90.0;
+            void *run = kind->start(im);
+            double worst = -1.0;
+            int at = 0;
+            int taken = 0;
+            for (int i = 0; i <= 20 && worst <= give_up; i += (int)pace.records) {
+                double angle[1];
+                double real[2];
+                for (uint64_t k = 0; k < pace.steps && i > 0; k++, taken++) {
+                    TEST_ASSERT_EQUAL_INT(WH_OK, kind->step(run));
+                }
+                kind->state(run, angle, real);
+                for (int c = 1; c < 4; c++) {
+                    const double shown = (c == 3 ? 2.0 * real[0] : real[c - 1]) * 1000.0;
+                    const double is = (double)r->row[(size_t)i * (size_t)r->columns + (size_t)c];
+                    const double off =
+                        fabs(shown - is) / (column < 0 ? (double)r->column[c].largest : 1.0);
+                    if ((column < 0 ? c < 3 : c == column) && off > worst) {
+                        worst = off;
+                        at = c;
+                    }
+                }
+            }
+            kind->stop(run);
+            const deviation d =
+                deviation_measure(r, im, kind, pace, (deviation_of_what){column, give_up});
+            TEST_ASSERT_EQUAL_INT(worst <= give_up, d.usable);
+            TEST_ASSERT_TRUE(fabs(d.error - worst) <= 1e-6 * worst + 1e-12);
+            TEST_ASSERT_EQUAL_INT(at, d.column);
+            const double unit = column < 0 ? (double)r->column[at].largest : 1.0;
+            TEST_ASSERT_TRUE(fabs(d.known - (double)r->column[at].off / unit) < 1e-18);
+            const double stages = wh_methods[im->settings.method].stages;
+            TEST_ASSERT_TRUE(d.evaluations_most == stages);
+            TEST_ASSERT_TRUE(d.operations == taken * stages * im->list[IMAGE_STEP]->count);
+            TEST_ASSERT_TRUE(taken == 0 || fabs(d.evaluations * im->step_s / stages - 1) < 1e-9);
+        }
+    }
+    interrupted = 1;
+    const deviation none =
+        deviation_measure(r, of.image, &engine_double, paces[0], (deviation_of_what){-1, 1.0});
+    interrupted = 0;
+    TEST_ASSERT_TRUE(none.operations == 0.0 && none.evaluations == 0.0);
+    reference_free(r);
+    derived_free(&of);
+}
+
+/* With contacts steps differ: told is the one that took most evaluations. */
+static void test_the_step_with_most_evaluations_is_told(void) {
+    derived of = derived_scene("mechanism m\ncoordinate x [m]\nT = 1 [kg]*x'^2/2\n"
+                               "V = 1 [kg]*9.81 [m/s^2]*x\nstop x >= 0 [m] restitution 0.5\n"
+                               "scene s { start x = 1 [m]; step 10 [ms]; until 1 [s] }\n",
+                               "s");
+    derived_expect(&of, "a ball");
+    const reference_wish w = {
+        .image = of.image, .spacing = {1, 20}, .records = 18, .operations = 1e7};
+    reference *r = reference_new(&w);
+    TEST_ASSERT_EQUAL_INT(REFERENCE_FINE_STEPS, r->kind);
+    TEST_ASSERT_EQUAL_INT(18, r->records);
+    void *run = engine_double.start(of.image);
+    double most = 0.0;
+    uint64_t before = 0;
+    uint64_t declared;
+    for (int i = 0; i < 18 * 5; i++) {
+        TEST_ASSERT_EQUAL_INT(WH_OK, engine_double.step(run));
+        const uint64_t now = engine_double.evaluations(run, &declared);
+        most = fmax(most, (double)(now - before));
+        before = now;
+    }
+    engine_double.stop(run);
+    const deviation d = deviation_measure(r, of.image, &engine_double, (deviation_pace){5, 1},
+                                          (deviation_of_what){-1, 1.0});
+    TEST_ASSERT_TRUE(d.usable && d.evaluations_most == most && most > 4.0);
+    /* reading each of 19 records evaluates the accelerations once more, and the first how contacts begin: an expense, and none
+     * of the steps' */
+    const double evaluations = d.operations / of.image->list[IMAGE_STEP]->count;
+    TEST_ASSERT_TRUE(evaluations == (double)before + 20.0);
+    TEST_ASSERT_TRUE(fabs(d.evaluations - (double)before / 0.9) < 1e-6);
+    /* as far as it may be off, and no further */
+    const deviation same = deviation_measure(r, of.image, &engine_double, (deviation_pace){5, 1},
+                                             (deviation_of_what){-1, d.error});
+    TEST_ASSERT_TRUE(same.usable && same.error == d.error);
+    reference_free(r);
+    derived_free(&of);
+}
+
+void suite_price_motion(void) {
+    RUN_TEST(test_the_step_with_most_evaluations_is_told);
+    RUN_TEST(test_decays_end_where_they_should);
+    RUN_TEST(test_a_step_is_of_twice_its_columns_order);
+    RUN_TEST(test_poles_and_limits_end_it);
+    RUN_TEST(test_fine_steps_are_as_fine_as_they_may);
+    RUN_TEST(test_fine_steps_are_a_cosine);
+    RUN_TEST(test_references_are_cut_and_their_columns_found);
+    RUN_TEST(test_deviations_are_the_largest_of_all_records);
 }

@@ -1,14 +1,28 @@
 /* test_price_settings.c: the settings that are priced (host/study/setting.h): how many there are, in which order, what their
  * options say, read back by a reader of its own, and what they are asked. */
+#include <float.h>
+#include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "command.h"
+#include "host/base/interrupts.h"
 #include "host/fixed/engine_fixed.h"
+#include "host/study/long_list.h"
+#include "host/study/reference_run.h"
+
+#include "blocks.h"
+#include "command.h"
+#include "derived.h"
 #include "priced.h"
+
 #include "unity.h"
 
 void suite_price_settings(void);
+void suite_price_states(void);
+void suite_price_trials(void);
+
+/* === price settings =========================================================================== */
 
 /* What the words of the axes stand for, written once more. */
 static const struct {
@@ -249,4 +263,658 @@ void suite_price_settings(void) {
     RUN_TEST(test_words_are_those_of_the_axes);
     RUN_TEST(test_options_say_the_setting_and_no_more);
     RUN_TEST(test_a_setting_is_its_own_where_it_is_taken);
+}
+
+/* === price states ============================================================================= */
+/* Rows of the reference (host/study/reference_run.h), of fine steps, and which of them a
+ * reference takes, until when, and in what words: against the records of a run, closed forms and a walk over the
+ * rows. */
+
+enum { COMPONENTS = 3 * IMAGE_COMPONENTS_MAX };
+
+/* --- rows ------------------------------------------------------------------------------------------------*/
+
+/* Recovered coordinates, units that are not SI, angles, inputs, outputs of each. */
+static const char *const models[] = {
+    "thomson_a_conserved",
+    "thomson_plane_conserved",
+    "epicyclic_conserved",
+    "spherical_flight",
+    ("mechanism m\ncoordinate a [deg]\ncoordinate x [mm]\ninput u = 2 [N]\n"
+     "output tip [cm] = x + 30 [mm]*sin(a)\noutput turn [deg/s] = a'\noutput push [N] = u\n"
+     "T = 1 [kg]*x'^2/2 + 0.01 [kg*m^2]*a'^2/2\nV = 9 [N/m]*x^2/2 - 1 [J]*cos(a)\nQ(x) = u\n"
+     "scene s { start a = 20 [deg], x = 5 [mm]; step 1 [ms]; until 1 [s] }\n"),
+    ("mechanism m\nstate y\nstate z\nequation 1 [s^2]*y'' + y*z = 1\nequation 1 [s]*z' + z = y\n"
+     "output sum = y + z\nscene s { start y = 2; step 1 [ms]; until 1 [s] }\n")};
+enum { MODELS = sizeof models / sizeof models[0] };
+/* Numbers behind a row, which nobody writes. */
+enum { BEHIND = 4000 };
+
+static derived model_of(int n) {
+    derived d = strncmp(models[n], "mechanism", 9) == 0 ? derived_scene(models[n], "s")
+                                                        : derived_builtin(models[n]);
+    derived_expect(&d, models[n]);
+    return d;
+}
+
+static void test_rows_are_the_records_of_a_run(void) {
+    int recovered = 0;
+    for (int n = 0; n < MODELS; n++) {
+        derived d = model_of(n);
+        const image *im = d.image;
+        recovered += im->recovered;
+        records *r = records_open(NULL, im, &engine_double);
+        const long before = blocks_in_use();
+        long_rows *rows = long_rows_new(r);
+        long double *row = malloc((size_t)(r->columns + BEHIND) * sizeof *row);
+        void *run = engine_double.start(im);
+        for (int step = 0; step < 40; step++) {
+            double angle[COMPONENTS];
+            double real[COMPONENTS];
+            long double state[COMPONENTS];
+            const double time_s = (double)step * im->step_s + 0.125;
+            engine_double.state(run, angle, real);
+            for (int i = 0; i < im->angles + im->reals; i++) {
+                state[i] = (long double)(i < im->angles ? angle[i] : real[i - im->angles]);
+            }
+            records_read(r, run, time_s);
+            for (int i = 0; i < r->columns + BEHIND; i++) {
+                row[i] = 77.0L;
+            }
+            long_rows_read(rows, state, (long double)time_s, row);
+            TEST_ASSERT_TRUE(row[0] == (long double)time_s);
+            for (int i = 0; i < BEHIND; i++) {
+                TEST_ASSERT_TRUE(row[r->columns + i] == 77.0L);
+            }
+            for (int i = 1; i < r->columns; i++) {
+                TEST_ASSERT_TRUE_MESSAGE(
+                    fabs((double)row[i] - r->row[i]) <= 1e-11 * (1.0 + fabs(r->row[i])), models[n]);
+            }
+            TEST_ASSERT_EQUAL_INT(WH_OK, engine_double.step(run));
+        }
+        engine_double.stop(run);
+        free(row);
+        long_rows_free(rows);
+        long_rows_free(NULL);
+        TEST_ASSERT_EQUAL_INT_MESSAGE(before, blocks_in_use(), models[n]);
+        records_close(r);
+        derived_free(&d);
+    }
+    TEST_ASSERT_TRUE(recovered >= 4);
+}
+
+/* --- fine steps ------------------------------------------------------------------------------------------*/
+
+static const char *const flight =
+    "mechanism m\ncoordinate x [m]\nT = 1 [kg]*x'^2/2\n"
+    "scene s { start x = 0.3 [m], x' = 0.1 [m/s]; step 1 [ms]; until 1 [s] }\n";
+
+/* Steps of a flight without a force are off by their roundings alone, which compensated sums carry along; even if the scene's
+ * own settings are others. */
+static void test_fine_steps_keep_what_is_rounded_off(void) {
+    derived d = derived_scene(flight, "s");
+    derived_expect(&d, flight);
+    const reference_wish w = {.image = d.image, .spacing = {1, 3}, .records = 4, .operations = 1e9};
+    records *shape = records_open(NULL, d.image, &engine_double);
+    d.image->settings.method = WH_EULER;
+    long double row[5 * 3];
+    const long before = blocks_in_use();
+    TEST_ASSERT_EQUAL_INT(4, fine_steps_run(&w, shape, 30000, row));
+    TEST_ASSERT_EQUAL_INT(before, blocks_in_use());
+    for (int i = 0; i <= 4; i++) {
+        const long double x = (long double)0.3 + (long double)0.1 * (long double)i / 3.0L;
+        TEST_ASSERT_TRUE(fabsl(row[3 * i + 1] - x) <= 1.5e-16L);
+        TEST_ASSERT_TRUE(row[3 * i + 2] == (long double)0.1);
+    }
+    TEST_ASSERT_EQUAL_INT(WH_EULER, d.image->settings.method); /* the scene's own are not touched */
+    records_close(shape);
+    derived_free(&d);
+}
+
+/* y' = y^2 from 1/t is over at t: records end before it, wherever it is. */
+static void test_fine_steps_end_with_the_motion(void) {
+    for (int tenths = 2; tenths <= 9; tenths++) {
+        char text[300];
+        snprintf(text, sizeof text,
+                 "mechanism m\nstate y\nequation y' = 1 [1/s]*y^2\n"
+                 "scene s { start y = %.17g; step 1 [ms]; until 3 [s] }\n",
+                 1.0 / (0.1 * tenths - 0.05));
+        derived d = derived_scene(text, "s");
+        derived_expect(&d, text);
+        const reference_wish w = {
+            .image = d.image, .spacing = {1, 10}, .records = 12, .operations = 1e9};
+        records *shape = records_open(NULL, d.image, &engine_double);
+        long double row[13 * 2];
+        const int done = fine_steps_run(&w, shape, 2000, row);
+        TEST_ASSERT_EQUAL_INT(tenths - 1, done);
+        for (int i = 0; i <= done; i++) {
+            const double y = 1.0 / (0.1 * tenths - 0.05 - 0.1 * i);
+            TEST_ASSERT_TRUE(fabs((double)row[2 * i + 1] - y) < 1e-6 * y);
+        }
+        records_close(shape);
+        derived_free(&d);
+    }
+}
+
+/* --- the reference ---------------------------------------------------------------------------------------*/
+
+/* Largest values by a walk; a column that is an output, or never anything, does not count. */
+static void expect_columns(const reference *r) {
+    for (int k = 1; k < r->columns; k++) {
+        long double largest = 0.0L;
+        for (int i = 0; i <= r->records; i++) {
+            largest = fmaxl(largest, fabsl(r->row[(size_t)i * (size_t)r->columns + (size_t)k]));
+        }
+        const reference_column *c = &r->column[k];
+        TEST_ASSERT_TRUE(c->largest == largest);
+        TEST_ASSERT_TRUE(c->off >= 0.0L);
+        TEST_ASSERT_TRUE(!c->counts || (largest > 0.0L && r->shape->column[k].unknown >= 0));
+        TEST_ASSERT_TRUE(!c->counts || c->off <= (long double)r->limit * largest);
+    }
+}
+
+static reference *reference_to(const image *im, int count, double operations) {
+    const reference_wish w = {
+        .image = im, .spacing = {1, 20}, .records = count, .operations = operations};
+    return reference_new(&w);
+}
+
+typedef struct kind_row {
+    const char *text;
+    double operations;
+    reference_kind kind;
+    int least, most; /* records */
+    const char *how; /* some of its words; NULL: any */
+    const char *why; /* likewise; NULL: none are said */
+} kind_row;
+
+#define SCENE(start) "scene s { " start "step 1 [ms]; until 1 [s] }\n"
+static const kind_row kind_rows[] = {
+    /* smooth, and small */
+    {"mechanism m\ncoordinate x [m]\noutput twice [m] = 2*x\nT = 1 [kg]*x'^2/2\n"
+     "V = 40 [N/m]*x^2/2\n" SCENE("start x = 0.02 [m];"),
+     1e8, REFERENCE_EXTRAPOLATED, 20, 20, "extrapolation of order 12", NULL},
+    {"mechanism m\ncoordinate x [m]\nT = 1 [kg]*x'^2/2\nV = 40 [N/m]*x^2/2\n" SCENE(
+         "start x = 0.02 [m];"),
+     1e8, REFERENCE_EXTRAPOLATED, 20, 20, "held against order 10", NULL},
+    /* a pole at 0.52 s */
+    {"mechanism m\nstate y\nequation y' = 1 [1/s]*y^2\n" SCENE("start y = 1.923076923;"), 1e8,
+     REFERENCE_EXTRAPOLATED, 10, 10, NULL, "behind 0.5 s no step is small enough"},
+    /* nothing moves; and what moves is no coordinate */
+    {"mechanism m\ncoordinate x [m]\nT = 1 [kg]*x'^2/2\nV = 40 [N/m]*x^2/2\n" SCENE(""), 1e8,
+     REFERENCE_NONE, 0, 20, NULL, "nothing moves"},
+    {"mechanism m\ncoordinate x [m]\nT = 1 [kg]*x'^2/2\n" SCENE("start x = 2 [m];"), 1e8,
+     REFERENCE_EXTRAPOLATED, 20, 20, NULL, NULL},
+    /* with a contact, and a jump that no short step passes */
+    {"mechanism m\ncoordinate x [m]\nT = 1 [kg]*x'^2/2\nV = 1 [kg]*9.81 [m/s^2]*x\n"
+     "stop x >= 0 [m] restitution 0.5\n" SCENE("start x = 0.5 [m];"),
+     1e7, REFERENCE_FINE_STEPS, 1, 20, "rk4 in double with compensated sums", ""},
+    {"mechanism m\nstate y\nstate z\nequation y' = 1 [1/s]*atan2(z - 0.47, -1)\n"
+     "equation z' = 1 [1/s]\n" SCENE("start y = 1000;"),
+     1e7, REFERENCE_FINE_STEPS, 20, 20, "a reference that shares the core's step", NULL},
+    /* too dear, and by few steps nothing is known at all */
+    {"mechanism m\ncoordinate x [m]\nT = 1 [kg]*x'^2/2\nV = 4000 [N/m]*x^2/2\n" SCENE(
+         "start x = 0.02 [m];"),
+     6000.0, REFERENCE_EXTRAPOLATED, 1, 19, NULL, "the reference took too long behind "}};
+
+static void test_references_are_of_the_kind_that_can_be_trusted(void) {
+    for (size_t n = 0; n < sizeof kind_rows / sizeof kind_rows[0]; n++) {
+        const kind_row *row = &kind_rows[n];
+        derived d = derived_scene(row->text, "s");
+        derived_expect(&d, row->text);
+        long before = 0;
+        for (int round = 0; round < 2; round++) {
+            before = blocks_in_use();
+            reference *r = reference_to(d.image, 20, row->operations);
+            TEST_ASSERT_EQUAL_INT_MESSAGE(row->kind, r->kind, row->text);
+            TEST_ASSERT_TRUE_MESSAGE(r->records >= row->least && r->records <= row->most,
+                                     row->text);
+            TEST_ASSERT_EQUAL_INT(20, r->wanted);
+            TEST_ASSERT_FALSE(r->stopped);
+            TEST_ASSERT_TRUE_MESSAGE(row->how == NULL || strstr(r->how, row->how) != NULL,
+                                     row->text);
+            TEST_ASSERT_TRUE_MESSAGE(row->why != NULL || r->why == NULL, row->text);
+            TEST_ASSERT_TRUE_MESSAGE(row->why == NULL || row->why[0] == '\0' ||
+                                         strstr(r->why, row->why) != NULL,
+                                     row->text);
+            TEST_ASSERT_TRUE(r->limit == (row->kind == REFERENCE_FINE_STEPS ? 1e-6
+                                          : LONG_IS_LONGER                  ? 1e-12
+                                                                            : 1e-9));
+            expect_columns(r);
+            reference_free(r);
+        }
+        TEST_ASSERT_EQUAL_INT_MESSAGE(before, blocks_in_use(), row->text);
+        derived_free(&d);
+    }
+    reference_free(NULL);
+}
+
+/* Where rounding might make anything of a slope, as of a root at zero, errors are still parts of the values. */
+static void test_a_root_at_zero_does_not_hide_errors(void) {
+    dice d = dice_of("price_states", 451);
+    for (int n = 0; n < 6; n++) {
+        char text[400];
+        const double rate = dice_between(&d, 60.0, 300.0);
+        snprintf(text, sizeof text,
+                 "mechanism m\nstate y\nstate p\nstate q\nstate r\n"
+                 "equation y' + %.17g [1/s]*y = 1 [1/s]*sqrt(p*q - r)\nequation p' = 0 [1/s]\n"
+                 "equation q' = 0 [1/s]\nequation r' = 0 [1/s]\n"
+                 "scene s { start y = 1, p = 0.5, q = 0.5, r = 0.25; step 1 [ms]; until 1 [s] }\n",
+                 rate);
+        derived of = derived_scene(text, "s");
+        derived_expect(&of, text);
+        reference *r = reference_to(of.image, 4, 1e8);
+        TEST_ASSERT_EQUAL_INT(REFERENCE_EXTRAPOLATED, r->kind);
+        TEST_ASSERT_EQUAL_INT(4, r->records);
+        for (int i = 0; i <= 4; i++) {
+            const long double y = expl(-(long double)rate * (long double)i / 20.0L);
+            TEST_ASSERT_TRUE(fabsl(r->row[i * r->columns + 1] - y) < 1e-15L);
+        }
+        reference_free(r);
+        derived_free(&of);
+    }
+}
+
+/* What is stopped is of no use. */
+static void test_references_are_stopped(void) {
+    for (int n = 0; n < 2; n++) {
+        derived d = derived_scene(n == 0 ? kind_rows[0].text : kind_rows[5].text, "s");
+        derived_expect(&d, "a scene");
+        interrupted = 1;
+        const long before = blocks_in_use();
+        reference *r = reference_to(d.image, 20, 1e7);
+        interrupted = 0;
+        TEST_ASSERT_TRUE(r->stopped);
+        TEST_ASSERT_EQUAL_INT(0, r->records);
+        reference_free(r);
+        TEST_ASSERT_EQUAL_INT(before, blocks_in_use());
+        derived_free(&d);
+    }
+}
+
+void suite_price_states(void) {
+    RUN_TEST(test_rows_are_the_records_of_a_run);
+    RUN_TEST(test_fine_steps_keep_what_is_rounded_off);
+    RUN_TEST(test_fine_steps_end_with_the_motion);
+    RUN_TEST(test_references_are_of_the_kind_that_can_be_trusted);
+    RUN_TEST(test_a_root_at_zero_does_not_hide_errors);
+    RUN_TEST(test_references_are_stopped);
+}
+
+/* === price trials ============================================================================= */
+/* Trials of settings (host/study/trial.h): steps as exact fractions, the worst and the
+ * dearest of several places against each place by itself. */
+
+/* --- steps and times -----------------------------------------------------------------------------------*/
+
+typedef unsigned __int128 wide;
+
+/* By subtracting: the exact quotients' remainders take no part. */
+static bool have_no_divisor(uint64_t a, uint64_t b) {
+    while (a != b && a != 0 && b != 0) {
+        while (a > b && b != 0) {
+            const uint64_t times = a / b;
+            a -= times > 1 ? (times - 1) * b : b;
+        }
+        while (b > a && a != 0) {
+            const uint64_t times = b / a;
+            b -= times > 1 ? (times - 1) * a : a;
+        }
+    }
+    return (a > b ? a : b) == 1;
+}
+
+static uint64_t drawn_up_to(dice *d, unsigned bits) {
+    return 1 + ((uint64_t)dice_one_of(d, 1U << 30U) << 30U | dice_one_of(d, 1U << 30U)) %
+                   ((UINT64_C(1) << (1U + dice_one_of(d, bits))) - 1U);
+}
+
+/* spacing * records / steps, in lowest terms; or as near as a double where 64 bits do not hold it. */
+static void test_steps_are_exact(void) {
+    dice d = dice_of("price_trials steps", 11);
+    int exact = 0;
+    int rounded = 0;
+    for (unsigned n = 0; n < dice_cases(few_or_all(3000, 300000)); n++) {
+        trials t = {.wish.spacing = {drawn_up_to(&d, 50), drawn_up_to(&d, 59)}};
+        const deviation_pace pace =
+            dice_one_of(&d, 2) == 0 ? (deviation_pace){1, drawn_up_to(&d, 30)}
+                                    : (deviation_pace){drawn_up_to(&d, n % 2 == 0 ? 10 : 40), 1};
+        const whole_ratio s = t.wish.spacing;
+        if (!have_no_divisor(s.numerator, s.denominator)) {
+            continue;
+        }
+        const wide left = (wide)s.numerator * pace.records;
+        const wide right = (wide)s.denominator * pace.steps;
+        const bool fits = left >> 64U == 0 && right >> 64U == 0;
+        const double value = (double)left / (double)right;
+        if (value < 1e-12 || value > 1e12) {
+            continue; /* no step */
+        }
+        const whole_ratio step = trial_step(&t, pace);
+        if (fits) {
+            TEST_ASSERT_TRUE(left % step.numerator == 0 && right % step.denominator == 0 &&
+                             left / step.numerator == right / step.denominator);
+            TEST_ASSERT_TRUE(have_no_divisor(step.numerator, step.denominator));
+            exact++;
+        } else {
+            rounded++;
+        }
+        TEST_ASSERT_TRUE(fabs(ratio_times(1, step) / value - 1.0) < 1e-14);
+    }
+    printf("  %d steps exact, %d that may be rounded\n", exact, rounded);
+    TEST_ASSERT_TRUE(exact > 300 && rounded > 30);
+}
+
+/* As a user would write it: no shorter number is the same fraction. */
+static void test_times_have_as_few_digits_as_they_can(void) {
+    dice d = dice_of("price_trials times", 12);
+    for (unsigned n = 0; n < dice_cases(few_or_all(400, 100000)); n++) {
+        const double value = (double)(1 + dice_one_of(&d, 500)) /
+                             (double)(1 + dice_one_of(&d, n % 2 == 0 ? 40 : 99999));
+        const whole_ratio time = ratio_of(value);
+        char text[TRIAL_TIME];
+        char shorter[TRIAL_TIME];
+        TEST_ASSERT_EQUAL_PTR(text, trial_time(time, text));
+        const whole_ratio back = ratio_of(strtod(text, NULL));
+        TEST_ASSERT_EQUAL_UINT64(time.numerator, back.numerator);
+        TEST_ASSERT_EQUAL_UINT64(time.denominator, back.denominator);
+        int digits = 0;
+        while (digits < 17) {
+            digits++;
+            snprintf(shorter, sizeof shorter, "%.*g", digits, value);
+            const whole_ratio other = ratio_of(strtod(shorter, NULL));
+            if (other.numerator == time.numerator && other.denominator == time.denominator) {
+                break;
+            }
+        }
+        TEST_ASSERT_EQUAL_STRING(shorter, text);
+    }
+}
+
+/* --- scenes ----------------------------------------------------------------------------------------------*/
+
+/* A spring and a pendulum, shown in mm and degrees, that differ in their numbers and in what a step computes. */
+static const char *const places[] = {
+    "mechanism m\ncoordinate x [mm]\ncoordinate a [deg]\noutput twice [mm] = 2*x\n"
+    "output heard [mm] = x\nnoise heard deviation 1 [mm] seed 1\n"
+    "T = 1 [kg]*x'^2/2 + 1 [kg*m^2]*a'^2/2\nV = 9 [N/m]*x^2/2 - 8 [J]*cos(a)\n"
+    "scene s { start x = 100 [mm], a = 60 [deg]; step 1 [ms]; until 1 [s] }\n",
+    "mechanism m\ncoordinate x [mm]\ncoordinate a [deg]\noutput twice [mm] = 2*x\n"
+    "output heard [mm] = x\nnoise heard deviation 1 [mm] seed 1\n"
+    "T = 1 [kg]*x'^2/2 + 1 [kg*m^2]*a'^2/2\n"
+    "V = 90 [N/m]*x^2/2 + 900 [N/m^3]*x^4/4 + 3 [N/m^2]*x^3 - 20 [J]*cos(a)\n"
+    "scene s { start x = 100 [mm], a = 60 [deg]; step 1 [ms]; until 1 [s] }\n",
+    "mechanism m\ncoordinate x [mm]\ncoordinate a [deg]\noutput twice [mm] = 2*x\n"
+    "output heard [mm] = x\nnoise heard deviation 1 [mm] seed 1\n"
+    "T = 1 [kg]*x'^2/2 + 1 [kg*m^2]*a'^2/2\nV = 30 [N/m]*x^2/2 - 4 [J]*cos(a)\n"
+    "scene s { start x = 20 [mm], a = 60 [deg]; step 1 [ms]; until 1 [s] }\n"};
+static const whole_ratio spacing = {1, 50};
+enum { RECORDS = 25 };
+
+static void test_operations_are_those_of_all_places(void) {
+    priced p;
+    priced_open(&p, places, 3);
+    TEST_ASSERT_TRUE(priced_begin(&p, "mps2-an386", spacing, RECORDS, NULL));
+    const double each = p.trial.image[0]->list[IMAGE_STEP]->count + 1.0;
+    const setting rk4 = priced_setting(WH_RK4, &engine_float);
+    const setting heun = priced_setting(WH_HEUN, &engine_float);
+    const setting in_fixed = priced_setting(WH_RK4, &engine_fixed);
+    const deviation_pace fine = {7, 1};
+    const deviation_pace coarse = {1, 5};
+    TEST_ASSERT_TRUE(trial_operations(&p.trial, &rk4, fine) == 25.0 * 7.0 * each * 4.0 * 3.0);
+    TEST_ASSERT_TRUE(trial_operations(&p.trial, &heun, coarse) == 5.0 * each * 2.0 * 3.0);
+    TEST_ASSERT_TRUE(trial_operations(&p.trial, &in_fixed, coarse) == 2 * 5.0 * each * 4.0 * 3.0);
+    TEST_ASSERT_TRUE(fabs(trial_horizon_s(&p.trial) - 0.5) < 1e-15);
+    char text[TRIAL_TIME];
+    TEST_ASSERT_EQUAL_STRING("0.5", trial_until(&p.trial, text));
+    const double most = trial_operations(&p.trial, &in_fixed, fine);
+    TEST_ASSERT_FALSE(trial_is_slow_to_plan(&p.trial, &in_fixed, fine)); /* any */
+    p.trial.planned_most = most;
+    TEST_ASSERT_FALSE(trial_is_slow_to_plan(&p.trial, &in_fixed, fine));
+    p.trial.planned_most = most * 0.999;
+    TEST_ASSERT_TRUE(trial_is_slow_to_plan(&p.trial, &in_fixed, fine));
+    p.trial.planned_most = 1.0;
+    TEST_ASSERT_FALSE(trial_is_slow_to_plan(&p.trial, &rk4, fine)); /* looks for no ranges */
+    p.trial.planned_most = -1.0;
+    TEST_ASSERT_FALSE(trial_is_slow_to_plan(&p.trial, &in_fixed, fine));
+    bool own = false;
+    p.trial.planned_most = 1.0;
+    const int asked = p.asked;
+    const cost c = trial_any_cost(&p.trial, &in_fixed, fine, &own);
+    TEST_ASSERT_TRUE(own && c.instructions.basis == COST_NOT_KNOWN && asked == p.asked);
+    TEST_ASSERT_NOT_NULL(strstr(c.why, "--effort"));
+    priced_close(&p);
+}
+
+/* --- which component ------------------------------------------------------------------------------------*/
+
+static void test_errors_have_the_unit_of_what_is_asked(void) {
+    static const struct {
+        const char *of;
+        const char *unit;
+        double si; /* an error of 1 */
+    } rows[] = {{NULL, "", 1.0},       {"x", "mm", 1e-3},
+                {"x'", "mm/s", 1e-3},  {"a", "deg", 0.017453292519943295},
+                {"twice", "mm", 1e-3}, {"a'", "deg/s", 0.017453292519943295}};
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        priced p;
+        priced_open(&p, places, 1);
+        TEST_ASSERT_TRUE(priced_begin(&p, "mps2-an386", spacing, RECORDS, rows[i].of));
+        TEST_ASSERT_EQUAL_STRING(rows[i].unit, trial_unit(&p.trial));
+        TEST_ASSERT_TRUE(fabs(trial_error_si(&p.trial, 3.0) / (3.0 * rows[i].si) - 1.0) < 1e-14);
+        TEST_ASSERT_TRUE(p.trial.what.give_up == 1.0);
+        TEST_ASSERT_EQUAL_INT(rows[i].of == NULL, p.trial.what.column < 0);
+        if (rows[i].of != NULL) {
+            char text[TRIAL_NAME];
+            TEST_ASSERT_EQUAL_STRING(rows[i].of, trial_column(&p.trial, p.trial.what.column, text));
+        }
+        priced_close(&p);
+    }
+}
+
+static int begin_of(int count, char **words) {
+    (void)count;
+    priced p;
+    priced_open(&p, places, 2);
+    const int status = priced_begin(&p, "mps2-an386", spacing, RECORDS, words[0]) ? 0 : 3;
+    priced_close(&p);
+    return status;
+}
+
+static void test_what_is_no_component_is_told(void) {
+    said what;
+    command_say(begin_of, (const char *const[]){"twise", NULL}, &what);
+    TEST_ASSERT_EQUAL_INT(3, what.status);
+    TEST_ASSERT_EQUAL_STRING("whirl: error: twise is no output, coordinate or rate of 's'\n"
+                             "hint: did you mean 'twice'?\n",
+                             what.err);
+    command_say(begin_of, (const char *const[]){"x''", NULL}, &what);
+    TEST_ASSERT_EQUAL_INT(3, what.status);
+    TEST_ASSERT_NOT_NULL(strstr(what.err, "error: x'' is no output"));
+    command_say(begin_of, (const char *const[]){"zzzzzzzzzz", NULL}, &what);
+    TEST_ASSERT_EQUAL_INT(3, what.status);
+    TEST_ASSERT_NULL(strstr(what.err, "hint"));
+    command_say(begin_of, (const char *const[]){"heard", NULL}, &what);
+    TEST_ASSERT_EQUAL_INT(3, what.status);
+    TEST_ASSERT_NOT_NULL(strstr(what.err, "error: heard has noise of its own"));
+    command_say(begin_of, (const char *const[]){"a'", NULL}, &what);
+    TEST_ASSERT_EQUAL_INT(said_owes(what.err), what.status);
+    TEST_ASSERT_EQUAL_STRING("", what.err);
+}
+
+/* --- the horizon -----------------------------------------------------------------------------------------*/
+
+/* y' = y^2 from y(0) is over at 1/y(0): all places end where the first does. */
+static void test_the_horizon_is_that_of_the_place_that_ends_first(void) {
+    static const double from[] = {0.5, 1.25, 0.8};
+    for (int turn = 0; turn < 3; turn++) {
+        char text[3][200];
+        const char *texts[3];
+        for (int k = 0; k < 3; k++) {
+            snprintf(text[k], sizeof text[k],
+                     "mechanism m\nstate y\nequation y' - 1 [1/s]*y^2 = 0 [1/s]\n"
+                     "scene s { start y = %g; step 1 [ms]; until 3 [s] }\n",
+                     from[(k + turn) % 3]);
+            texts[k] = text[k];
+        }
+        priced p;
+        priced_open(&p, texts, 3);
+        TEST_ASSERT_TRUE(priced_begin(&p, "mps2-an386", spacing, 150, NULL));
+        TEST_ASSERT_TRUE(p.trial.reliable);
+        TEST_ASSERT_EQUAL_INT((4 - turn) % 3, p.trial.worst);
+        /* 0.8 s: the pole itself is record 40 */
+        TEST_ASSERT_TRUE(p.trial.records >= 37 && p.trial.records < 40);
+        for (int k = 0; k < 3; k++) {
+            TEST_ASSERT_EQUAL_INT(p.trial.records, p.trial.reference[k]->records);
+        }
+        priced_close(&p);
+    }
+}
+
+/* Places where nothing moves are left out; if nothing moves at all, that is the report. */
+static void test_places_where_nothing_moves_are_left_out(void) {
+    static const char *const texts[] = {"mechanism m\nstate y\nequation y' + 1 [1/s]*y = 0 [1/s]\n"
+                                        "scene s { start y = 1; step 1 [ms]; until 1 [s] }\n",
+                                        "mechanism m\nstate y\nequation y' + 1 [1/s]*y = 0 [1/s]\n"
+                                        "scene s { start y = 0; step 1 [ms]; until 1 [s] }\n"};
+    for (unsigned still = 0; still < 8; still++) {
+        const char *chosen[3];
+        char left_out[80] = "";
+        int moving = 0;
+        int moved[3];
+        for (int k = 0; k < 3; k++) {
+            const unsigned rests = still >> (unsigned)k & 1U;
+            chosen[k] = texts[rests];
+            moved[moving] = k;
+            moving += rests == 0;
+            if (rests != 0) {
+                snprintf(left_out + strlen(left_out), sizeof left_out - strlen(left_out),
+                         " --set place=%d,", k);
+            }
+        }
+        priced p;
+        priced_open(&p, chosen, 3);
+        TEST_ASSERT_TRUE(priced_begin(&p, "mps2-an386", spacing, RECORDS, NULL));
+        TEST_ASSERT_EQUAL_INT(moving == 0 ? 3 : moving, p.trial.points);
+        TEST_ASSERT_TRUE(p.trial.reliable == (moving > 0));
+        for (int k = 0; k < moving; k++) {
+            char name[20];
+            snprintf(name, sizeof name, " --set place=%d", moved[k]);
+            TEST_ASSERT_EQUAL_STRING(name, trial_place(&p.trial, k));
+        }
+        if (moving == 0 || moving == 3) {
+            TEST_ASSERT_NULL(p.trial.still);
+        } else {
+            TEST_ASSERT_EQUAL_STRING(left_out, p.trial.still);
+        }
+        const setting rk4 = priced_setting(WH_RK4, &engine_double);
+        TEST_ASSERT_TRUE(moving == 0 || trial_run(&p.trial, &rk4, (deviation_pace){1, 1}).usable);
+        priced_close(&p);
+    }
+}
+
+static void test_of_places_as_long_the_worst_agrees_least(void) {
+    priced p;
+    priced_open(&p, places, 3);
+    TEST_ASSERT_TRUE(priced_begin(&p, "mps2-an386", spacing, RECORDS, NULL));
+    TEST_ASSERT_EQUAL_INT(RECORDS, p.trial.records);
+    TEST_ASSERT_TRUE(p.trial.reliable && !p.trial.stopped);
+    for (int k = 0; k < 3; k++) {
+        TEST_ASSERT_TRUE(reference_agreement(p.trial.reference[k]) <=
+                         reference_agreement(p.trial.reference[p.trial.worst]));
+    }
+    priced_close(&p);
+}
+
+/* --- errors ----------------------------------------------------------------------------------------------*/
+
+/* The same of each place by itself. */
+static trial_result each_by_itself(priced *p, const setting *s, deviation_pace pace,
+                                   double tolerated, int *looked_at) {
+    trial_result r = {.ran = true, .usable = true, .error = -1.0};
+    for (int k = 0; k < 3 && r.usable; k++) {
+        const reference *ref = p->trial.reference[k];
+        *looked_at = k + 1;
+        char step[TRIAL_TIME];
+        image *im = priced_image(p, k, s, trial_time(trial_step(&p->trial, pace), step));
+        deviation_of_what what = {p->trial.what.column, 1.0};
+        if (what.column >= 0) {
+            what.give_up = fmax(tolerated, (double)ref->column[what.column].largest);
+        }
+        const deviation d = deviation_measure(ref, im, s->number, pace, what);
+        image_free(im);
+        const double error = d.error < 3.0 * d.known ? d.error + d.known : d.error;
+        if (error > r.error || !(error <= r.error)) {
+            r.error = error;
+            r.bound = d.error < 3.0 * d.known;
+            r.point = k;
+            r.column = d.column;
+        }
+        r.evaluations = fmax(r.evaluations, d.evaluations);
+        r.evaluations_most = fmax(r.evaluations_most, d.evaluations_most);
+        r.usable = d.usable;
+    }
+    return r;
+}
+
+static void test_errors_are_the_worst_of_all_places(void) {
+    static const wh_method methods[] = {WH_EULER, WH_HEUN, WH_RK4, WH_LEAPFROG};
+    static const char *const of[] = {NULL, "x", "a'"};
+    dice d = dice_of("price_trials errors", 13);
+    int usable = 0;
+    int useless = 0;
+    int bounds = 0;
+    int at[3] = {0};
+    for (int n = 0; n < 3; n++) {
+        priced p;
+        priced_open(&p, places, 3);
+        TEST_ASSERT_TRUE(priced_begin(&p, "mps2-an386", spacing, RECORDS, of[n]));
+        for (unsigned i = 0; i < dice_cases(few_or_all(24, 400)); i++) {
+            const setting s =
+                priced_setting(methods[dice_one_of(&d, 4)],
+                               dice_one_of(&d, 2) == 0 ? &engine_float : &engine_double);
+            const deviation_pace pace = {1, i % 3 == 0 ? 5 : 1};
+            /* references that know their columns less well than they do */
+            for (int k = 0; k < 3; k++) {
+                reference *r = p.trial.reference[k];
+                for (int c = 1; c < r->columns; c++) {
+                    r->column[c].off =
+                        r->column[c].largest * (long double)pow(10.0, dice_between(&d, -9, -1));
+                }
+            }
+            p.trial.tolerated = dice_one_of(&d, 2) == 0 ? 0.0 : 1e4;
+            const double before = p.trial.operations;
+            const int asked = p.asked;
+            int looked_at;
+            const trial_result r = trial_run(&p.trial, &s, pace);
+            const trial_result want = each_by_itself(&p, &s, pace, p.trial.tolerated, &looked_at);
+            TEST_ASSERT_EQUAL_INT(looked_at, p.asked - asked); /* none behind one of no use */
+            TEST_ASSERT_TRUE(r.ran && r.usable == want.usable && r.bound == want.bound);
+            TEST_ASSERT_TRUE(r.error == want.error && r.point == want.point);
+            TEST_ASSERT_TRUE(r.column == want.column && r.evaluations == want.evaluations);
+            TEST_ASSERT_TRUE(r.evaluations_most == want.evaluations_most);
+            TEST_ASSERT_TRUE(p.trial.operations > before);
+            usable += r.usable;
+            useless += !r.usable;
+            bounds += r.bound;
+            at[r.point]++;
+        }
+        priced_close(&p);
+    }
+    printf("  %d of use, %d of none, %d bounds; worst at %d, %d, %d\n", usable, useless, bounds,
+           at[0], at[1], at[2]);
+    TEST_ASSERT_TRUE(usable > 0 && useless > 0 && bounds > 0 && at[0] > 0 && at[1] > 0 &&
+                     at[2] > 0);
+}
+
+void suite_price_trials(void) {
+    RUN_TEST(test_steps_are_exact);
+    RUN_TEST(test_times_have_as_few_digits_as_they_can);
+    RUN_TEST(test_operations_are_those_of_all_places);
+    RUN_TEST(test_errors_have_the_unit_of_what_is_asked);
+    RUN_TEST(test_what_is_no_component_is_told);
+    RUN_TEST(test_the_horizon_is_that_of_the_place_that_ends_first);
+    RUN_TEST(test_places_where_nothing_moves_are_left_out);
+    RUN_TEST(test_of_places_as_long_the_worst_agrees_least);
+    RUN_TEST(test_errors_are_the_worst_of_all_places);
 }

@@ -5,17 +5,25 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "command.h"
-#include "derived.h"
 #include "host/base/alloc.h"
 #include "host/base/interrupts.h"
 #include "host/check/run_checks.h"
 #include "host/check/slow.h"
 #include "host/cli/commands.h"
+#include "host/study/session.h"
 #include "host/study/stepping.h"
+
+#include "blocks.h"
+#include "command.h"
+#include "derived.h"
+#include "made_sweep.h"
+
 #include "unity.h"
 
 void suite_stepping(void);
+void suite_sweep_settings(void);
+
+/* === stepping ================================================================================= */
 
 #define PI 3.14159265358979323846
 
@@ -32,7 +40,7 @@ typedef struct measured_point {
     char *errors;
 } measured_point;
 
-static measured_point measure(const measuring *w, const image *im) {
+static measured_point measure_stepping(const measuring *w, const image *im) {
     measured_point p = {.reason = NULL};
     size_t length[2];
     FILE *reason = alloc_text(&p.reason, &length[0]);
@@ -150,7 +158,7 @@ static void test_samples(void) {
             TEST_ASSERT_EQUAL_INT(WH_OK, step < (int)im->steps ? kind->step(run) : WH_OK);
         }
         run_checks_end(v, WH_OK);
-        measured_point p = measure(&w, im);
+        measured_point p = measure_stepping(&w, im);
         TEST_ASSERT_TRUE_MESSAGE(p.good, p.reason);
         TEST_ASSERT_EQUAL_STRING("", p.reason);
         for (int i = 0; i < w.count; i++) {
@@ -178,7 +186,7 @@ static void test_period(void) {
                                  {MEASURE_PERIOD, "p", {FROM_OUTPUT, 1}},
                                  {MEASURE_PERIOD, "q", {FROM_REAL, 0}}};
         const measuring w = {.kind = drawn_kind(), .from_s = 0.1, .list = list, .count = 3};
-        measured_point p = measure(&w, s.image);
+        measured_point p = measure_stepping(&w, s.image);
         TEST_ASSERT_TRUE_MESSAGE(p.good, p.reason);
         for (int i = 1; i < 3; i++) {
             TEST_ASSERT_TRUE(fabs(p.value[i] * omega_radps / (2.0 * PI) - 1.0) < 1e-3);
@@ -193,7 +201,7 @@ static void test_period(void) {
     const engine_kind *const kinds[] = {&engine_float, &engine_double};
     for (int i = 0; i < 2; i++) {
         const measuring w = {.kind = kinds[i], .list = &period, .count = 1};
-        measured_point p = measure(&w, little.image);
+        measured_point p = measure_stepping(&w, little.image);
         TEST_ASSERT_TRUE(i == 0 ? isnan(p.value[0])
                                 : fabs(p.value[0] * omega_radps / (2.0 * PI) - 1.0) < 1e-3);
         TEST_ASSERT_TRUE_MESSAGE(p.good, p.reason);
@@ -205,7 +213,7 @@ static void test_period(void) {
     const measured end = {MEASURE_FINAL, "a", {FROM_ANGLE, 0}};
     for (int i = 0; i < 2; i++) {
         const measuring w = {.kind = kinds[i], .list = &end, .count = 1};
-        measured_point p = measure(&w, slow.image);
+        measured_point p = measure_stepping(&w, slow.image);
         TEST_ASSERT_EQUAL(i == 0, (p.notes.found & FINDING_BIT(FINDING_DIGITS)) != 0);
         drop(&p);
     }
@@ -223,7 +231,7 @@ static void test_given_up(void) {
     const measured most = {MEASURE_MAX, "x", {FROM_REAL, 0}};
     const measuring w = {.kind = &engine_double, .list = &most, .count = 1};
     interrupted = 1;
-    measured_point p = measure(&w, longest.image);
+    measured_point p = measure_stepping(&w, longest.image);
     interrupted = 0;
     TEST_ASSERT_TRUE(p.good && p.value[0] == 3.0 && isnan(p.value[1])); /* it has no energies */
     drop(&p);
@@ -234,7 +242,7 @@ static void test_given_up(void) {
 static void expect_failed(const char *text, const measuring *w, const char *reason,
                           const char *error) {
     derived s = scene_of(text);
-    measured_point p = measure(w, s.image);
+    measured_point p = measure_stepping(w, s.image);
     TEST_ASSERT_FALSE(p.good);
     TEST_ASSERT_EQUAL_STRING(reason, p.reason);
     TEST_ASSERT_TRUE_MESSAGE(
@@ -251,12 +259,12 @@ static void test_failed(void) {
                   "--from 1.5 s lies behind the last step", "");
     list.kind = MEASURE_FINAL; /* which takes no series: any time will do */
     derived good = scene_of(CLOCK "scene s { step 1 [ms]; until 1 [s] }\n");
-    measured_point p = measure(&w, good.image);
+    measured_point p = measure_stepping(&w, good.image);
     TEST_ASSERT_TRUE(p.good && fabs(p.value[0] - 1.0) < 1e-12);
     drop(&p);
     w.from_s = 1.0; /* the last step's end is one sample */
     list.kind = MEASURE_MAX;
-    p = measure(&w, good.image);
+    p = measure_stepping(&w, good.image);
     TEST_ASSERT_TRUE(p.good && fabs(p.value[0] - 1.0) < 1e-12);
     drop(&p);
     derived_free(&good);
@@ -290,7 +298,7 @@ static void test_diverged(void) {
                  "scene s { start x = %.17g; step 1 [ms]; until 1 [s] }\n",
                  1.0 / t1_s);
         derived s = scene_of(text);
-        measured_point p = measure(&w, s.image);
+        measured_point p = measure_stepping(&w, s.image);
         double when_s = 0.0;
         TEST_ASSERT_FALSE(p.good);
         (void)said_number(said_exactly(p.reason, "diverged in the step after t = "), &when_s);
@@ -304,7 +312,7 @@ static void test_diverged(void) {
             "equation y' = sqrt(x)/(1 [s])\nscene s { start x = %.17g; step 1 [ms]; until 1 [s] }\n",
             t1_s);
         s = scene_of(text);
-        p = measure(&w, s.image);
+        p = measure_stepping(&w, s.image);
         TEST_ASSERT_TRUE(!p.good && p.reason[0] == '\0');
         const char *at = strstr(p.errors, "in the step after t = ");
         TEST_ASSERT_NOT_NULL_MESSAGE(at, p.errors);
@@ -336,7 +344,7 @@ static void test_contacts(void) {
     const measured list[] = {{MEASURE_MIN, "x", {FROM_REAL, 0}},
                              {MEASURE_MAX, "x'", {FROM_REAL, 1}}};
     const measuring w = {.kind = &engine_double, .list = list, .count = 2};
-    measured_point p = measure(&w, s.image);
+    measured_point p = measure_stepping(&w, s.image);
     TEST_ASSERT_TRUE_MESSAGE(p.good, p.reason);
     TEST_ASSERT_TRUE(fabs(p.value[0]) < 1e-6);
     TEST_ASSERT_TRUE(fabs(p.value[1] - 0.5 * sqrt(2.0 * 9.81)) <
@@ -360,15 +368,16 @@ static void write_free(char *text, size_t size, double a, unsigned steps) {
              a, 0.125 * steps);
 }
 
-static const char *const measures[] = {"x",           "mean(x)",      "max(x)",      "min(twice)",
-                                       "mean(twice)", "amplitude(x)", "mean(x^2/u)", "max(-twice)"};
-enum { MEASURES = sizeof measures / sizeof measures[0] };
+static const char *const measures_stepping[] = {"x",           "mean(x)",     "max(x)",
+                                                "min(twice)",  "mean(twice)", "amplitude(x)",
+                                                "mean(x^2/u)", "max(-twice)"};
+enum { MEASURES = sizeof measures_stepping / sizeof measures_stepping[0] };
 
-static double wanted(int measure, double a, double v, double from_s, double end_s) {
+static double wanted(int measure_stepping, double a, double v, double from_s, double end_s) {
     const double first = a + v * from_s;
     const double last = a + v * end_s;
     const double n = (end_s - from_s) / 0.125;
-    switch (measure) {
+    switch (measure_stepping) {
     case 0: return last;
     case 1: return 0.5 * (first + last);
     case 2: return fmax(first, last);
@@ -404,7 +413,7 @@ static void test_measures_of_whole_runs(void) {
         words[count++] = "--quiet";
         for (int i = 0; i < MEASURES; i++) {
             words[count++] = "--measure";
-            words[count++] = measures[i];
+            words[count++] = measures_stepping[i];
         }
         command_say(command_sweep, words, &what);
         TEST_ASSERT_EQUAL_INT_MESSAGE(said_owes(what.err), what.status, what.err);
@@ -419,7 +428,8 @@ static void test_measures_of_whole_runs(void) {
             for (int i = 0; i < MEASURES; i++) {
                 const double got = strtod(at + 1, &at);
                 const double is = wanted(i, a, v, 0.125 * left_out, 0.125 * steps);
-                TEST_ASSERT_DOUBLE_WITHIN_MESSAGE(1e-11 * (1.0 + fabs(is)), is, got, measures[i]);
+                TEST_ASSERT_DOUBLE_WITHIN_MESSAGE(1e-11 * (1.0 + fabs(is)), is, got,
+                                                  measures_stepping[i]);
             }
             row = strchr(row + 1, '\n');
         }
@@ -437,4 +447,190 @@ void suite_stepping(void) {
     RUN_TEST(test_energies);
     RUN_TEST(test_contacts);
     RUN_TEST(test_measures_of_whole_runs);
+}
+
+/* === sweep settings =========================================================================== */
+/* A sweep's header, the settings that stand beside its file, and its points as workers run them: each
+ * way in which one ends, which gives everything back. */
+
+/* --- headers and settings ----------------------------------------------------------------------------------------*/
+
+/* As RFC 4180 has it: read back, they are the names. */
+static void test_headers(void) {
+    static const char *const asked[] = {"x",      "max(x, y)", "amplitude(x)", " x' ",
+                                        "x\t+ y", "max(x,y)",  "min(y)",       "2*x"};
+    for (unsigned c = 0; c < 30U; c++) {
+        made_sweep m;
+        const char *const axes[] = {"x=1..9:9", "y'=1..9:9", "step=1..2:2"};
+        const char *names[8];
+        const int count = 1 + (int)dice_one_of(&die, 8);
+        const int swept = (int)dice_one_of(&die, 3) + 1;
+        char *text = NULL;
+        size_t length = 0;
+        for (int i = 0; i < count; i++) {
+            names[i] = asked[dice_one_of(&die, 8)];
+        }
+        made_sweep_open(&m, made_sweep_floor, axes, swept, names, count, &engine_double);
+        FILE *out = alloc_text(&text, &length);
+        sweep_header(&m.sweep, out);
+        alloc_text_end(out);
+        const char *at = text;
+        for (int i = 0; i < swept + count + 1; i++) {
+            char field[80];
+            size_t size = 0;
+            const bool quoted = *at == '"';
+            at += quoted ? 1 : 0;
+            while (quoted ? !(at[0] == '"' && at[1] != '"') : strchr(",\r", *at) == NULL) {
+                at += *at == '"' ? 1 : 0;
+                field[size++] = *at++;
+            }
+            field[size] = '\0';
+            at += quoted ? 1 : 0;
+            const char *name = i < swept           ? m.grid.axes[i].column
+                               : i < swept + count ? names[i - swept]
+                                                   : "energy_left_over";
+            TEST_ASSERT_EQUAL_STRING(name + (i < swept ? 0 : strspn(name, " ")), field);
+            TEST_ASSERT_EQUAL(strchr(field, ',') != NULL, quoted);
+            at = said_exactly(at, i < swept + count ? "," : swept == 3 ? ",end_s\r\n" : "\r\n");
+        }
+        TEST_ASSERT_EQUAL_STRING("", at);
+        free(text);
+        made_sweep_close(&m);
+    }
+}
+
+static const char settings_text[] =
+    "mechanism m\ncoordinate x [m]\ncoordinate a [rad]\nparameter m = 2 [kg]\ninput u = 3 [N]\n"
+    "T = m*x'^2/2 + 1 [kg*m^2]*a'^2/2\nQ(x) = u\neffect drag \"d\" { parameter b = 4 [N*s/m]; "
+    "F += b*x'^2/2 }\n"
+    "effect tug { F += 1 [N*s/m]*x'^2 }\nscene s { step 1 [ms]; until 3 [s] }\n";
+
+/* Every setting that decides the rows stands there as it is, to the last digit. */
+static void test_settings(void) {
+    for (unsigned c = 0; c < 60U; c++) {
+        static const char *const axes[] = {"x=1..9:9", "m=0.1..7:70,log"};
+        static const char *const asked[] = {"max(x)", "a"};
+        made_sweep m;
+        const int count = 1 + (int)dice_one_of(&die, 2);
+        const engine_kind *kind = c % 2U == 0 ? &engine_float : &engine_double;
+        made_sweep_open(&m, settings_text, axes, 2, asked, count, kind);
+        instance *base = m.d.instance;
+        base->parameter[0] = dice_between(&die, 1.0, 2.0);
+        base->input[0] = dice_between(&die, 1.0, 2.0);
+        base->start[0][0] = dice_between(&die, 1.0, 2.0);
+        base->start[1][1] = dice_between(&die, 1.0, 2.0);
+        base->with[0] = dice_one_of(&die, 2) == 0;
+        base->step_s = dice_between(&die, 1.0, 2.0);
+        base->until_s = dice_between(&die, 1.0, 2.0);
+        m.sweep.from_s = dice_between(&die, 0.0, 1.0);
+        m.sweep.engine.compensated = dice_one_of(&die, 2) == 0;
+        m.sweep.engine.method = (wh_method)dice_one_of(&die, 3);
+        m.sweep.engine.matrix = dice_one_of(&die, 2) == 0 ? MATRIX_NONE : MATRIX_EXACT;
+        m.sweep.engine.tables = dice_one_of(&die, 2) == 0 ? TABLES_NONE : TABLES_LINEAR;
+        m.image->list[IMAGE_STEP]->tables.bits = (int)dice_one_of(&die, 9);
+        const shard part = {1 + dice_one_of(&die, 9), 10 + dice_one_of(&die, 90)};
+        char *made =
+            fingerprint_make(&m.sweep, c % 3U == 0 ? "text" : "other", base, m.image, part);
+        char *text = NULL;
+        size_t length = 0;
+        FILE *out = alloc_text(&text, &length);
+        fprintf(out, "whirl sweep: settings of the CSV beside this file, format 3\nscene: s\n");
+        /* FNV-1a of eight bytes a letter, the first of which is the letter */
+        uint64_t hash = 14695981039346656037ULL;
+        for (const char *at = c % 3U == 0 ? "text" : "other"; *at != '\0'; at++) {
+            hash = (hash ^ (unsigned char)*at) * 1099511628211ULL;
+            for (int i = 1; i < 8; i++) {
+                hash *= 1099511628211ULL;
+            }
+        }
+        fprintf(out, "model text: 0x%016llx\n", (unsigned long long)hash);
+        fprintf(out, "number: %s%s\n", c % 2U == 0 ? "float" : "double",
+                m.sweep.engine.compensated ? ", compensated" : "");
+        fprintf(out, "method: %s\nangles: turned\n", wh_methods[m.sweep.engine.method].word);
+        if (m.sweep.engine.matrix == MATRIX_EXACT) {
+            fprintf(out, "matrix: exact\n");
+        }
+        if (m.sweep.engine.tables == TABLES_LINEAR) {
+            fprintf(out, "tables: linear, %.0f cells\n",
+                    pow(2.0, m.image->list[IMAGE_STEP]->tables.bits));
+        }
+        fprintf(out, "step: %.17g s\nuntil: %.17g s\nmeasured from: %.17g s\n", base->step_s,
+                base->until_s, m.sweep.from_s);
+        fprintf(out, "effect drag: %s\n", base->with[0] ? "with" : "without");
+        fprintf(out, "effect tug: without\n");
+        fprintf(out, "set m: %.17g\nset b: 4\nset u: %.17g\n", base->parameter[0], base->input[0]);
+        fprintf(out, "start x (0 primes): %.17g\nstart x (1 primes): 0\n", base->start[0][0]);
+        fprintf(out, "start a (0 primes): 0\nstart a (1 primes): %.17g\n", base->start[1][1]);
+        fprintf(out, "over x: 1 to 9, 9 values\n");
+        fprintf(out, "over m: 0.10000000000000001 to 7, 70 values, logarithmic\n");
+        fprintf(out, "measure: max(x)\n%sshard: %llu/%llu\noperations: 0x%016llx\n",
+                count > 1 ? "measure: a\n" : "", (unsigned long long)part.number,
+                (unsigned long long)part.of, (unsigned long long)m.image->hash);
+        alloc_text_end(out);
+        TEST_ASSERT_EQUAL_STRING(text, made);
+        free(text);
+        free(made);
+        made_sweep_close(&m);
+    }
+}
+
+/* --- given back --------------------------------------------------------------------------------------------------*/
+
+/* Points as workers run them, in this process: each way in which they end; and whole sittings. */
+static void run_points(void) {
+    static const struct {
+        const char *text;
+        const char *over;
+        const char *measure;
+        bool good;
+    } points[] = {
+        {made_sweep_floor, "x=-1..1:2", "x", false},        /* refused where it starts */
+        {made_sweep_floor, "x=1..2:2", "period(x)", true},  /* none: kept samples */
+        {made_sweep_floor, "x=0..2:2", "mean(1/x)", false}, /* no number */
+        {settings_text, "m=1..2:2", "max(x)", true},        /* derived anew */
+        {settings_text, "m=0..2:2", "max(x)", false},       /* which cannot be */
+        {"mechanism m\nstate x\nequation x' = 1 [1/s]*x^2\nscene s { step 1 [ms]; until 2 [s] }\n",
+         "x=4..1:2", "x", false}, /* diverges */
+        {"mechanism m\ncoordinate x [m]\nT = 1 [kg]*x'^2/2\nV = 1 [J]*sqrt(x/(1 [m]))\n"
+         "scene s { step 1 [ms]; until 2 [s] }\n",
+         "x=-1..1:2", "x", false}, /* undefined */
+    };
+    for (size_t i = 0; i < sizeof points / sizeof points[0]; i++) {
+        made_sweep m;
+        char *text[2] = {NULL, NULL};
+        size_t length[2];
+        point_notes notes;
+        made_sweep_open(&m, points[i].text, &points[i].over, 1, &points[i].measure, 1,
+                        &engine_double);
+        FILE *row = alloc_text(&text[0], &length[0]);
+        FILE *reason = alloc_text(&text[1], &length[1]);
+        const bool good = sweep_point(&m.sweep, 0, row, reason, &notes);
+        alloc_text_end(row);
+        alloc_text_end(reason);
+        TEST_ASSERT_EQUAL_MESSAGE(points[i].good, good, text[1]);
+        TEST_ASSERT_EQUAL(good, text[1][0] == '\0');
+        TEST_ASSERT_TRUE(strlen(text[0]) > 2 && strchr(text[0], '\r') != NULL);
+        free(text[0]);
+        free(text[1]);
+        made_sweep_close(&m);
+    }
+}
+
+static void test_given_back(void) {
+    static void (*const rounds[])(void) = {run_points, test_headers, test_settings};
+    for (size_t i = 0; i < sizeof rounds / sizeof rounds[0]; i++) {
+        long before = 0;
+        for (int round = 0; round < (i == 0 ? 2 : 1); round++) { /* the others had one before */
+            before = blocks_in_use();
+            rounds[i]();
+        }
+        TEST_ASSERT_TRUE(blocks_in_use() == before);
+    }
+}
+
+void suite_sweep_settings(void) {
+    die = dice_of("sweep_settings", 63);
+    RUN_TEST(test_headers);
+    RUN_TEST(test_settings);
+    RUN_TEST(test_given_back);
 }

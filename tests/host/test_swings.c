@@ -1,15 +1,22 @@
 /* test_swings.c: swings of systems that are not linear: what `whirl run` warns of, against what is kept exactly: predator and
  * prey, whose H = u - ln u + v - ln v stays, in any method, step and number. */
 #include <math.h>
+#include <stdbool.h>
 #include <stdio.h>
 #include <string.h>
 
-#include "command.h"
 #include "host/cli/commands.h"
+
+#include "command.h"
 #include "motion.h"
+#include "named_cures.h"
+
 #include "unity.h"
 
 void suite_swings(void);
+void suite_forced_swing(void);
+
+/* === swings =================================================================================== */
 
 /* More of the swing's energy (H - 2, at a = b = 1) than this is warned of; less than that is not, where u and v are right to
  * so much of their range. */
@@ -120,3 +127,205 @@ static void test_predator_and_prey(void) {
 }
 
 void suite_swings(void) { RUN_TEST(test_predator_and_prey); }
+
+/* === forced swing ============================================================================= */
+/* A body on a spring, with or without damping, that a clock's force swings 0.3 to 1.8 rad in each step:
+ * fast for the rule by which the books integrate its power, and not for the method. The reference is the closed form. What is
+ * right is not warned of, whatever the books' rule leaves over, and what is off is, or is not trusted. */
+
+enum { RECORDS = 20 }; /* which divide the steps */
+
+typedef struct forced_case {
+    bool summed; /* the clock is a sum, which may turn by more than half a turn a step */
+    double swing_radps;
+    double damping; /* of the critical */
+    double force_N; /* on 1 kg */
+    double clock_radps;
+    double step_s;
+    int steps;
+} forced_case;
+
+static const double start_m = 0.05;
+
+static forced_case draw(dice *d) {
+    static const int lengths[] = {40, 100, 400, 2000};
+    static const double dampings[] = {0.0, 0.0, 0.01, 0.1};
+    static const double steps_s[] = {1e-3, 5e-3, 0.02, 0.1, 1.0};
+    forced_case c = {.step_s = steps_s[dice_one_of(d, 5)],
+                     .damping = dampings[dice_one_of(d, 4)],
+                     .steps = lengths[dice_one_of(d, 4)]};
+    c.swing_radps = pow(10.0, dice_between(d, -2.5, -0.2)) / c.step_s;
+    c.clock_radps = dice_between(d, 0.3, 1.8) / c.step_s;
+    c.force_N = start_m * c.swing_radps * c.swing_radps * pow(10.0, dice_between(d, -3.0, 2.0));
+    return c;
+}
+
+static void write(const forced_case *c, char *text, size_t size) {
+    char clock[160];
+    char angle[60];
+    char rate[60];
+    if (c->summed) {
+        snprintf(clock, sizeof clock, "coordinate phi [s]\nT = 1e-9 [J]*phi'^2/2");
+        snprintf(angle, sizeof angle, "%.17g [1/s]*phi", c->clock_radps);
+        snprintf(rate, sizeof rate, "1");
+    } else {
+        snprintf(clock, sizeof clock, "coordinate phi [rad]\nT = 1e-9 [kg*m^2]*phi'^2/2");
+        snprintf(angle, sizeof angle, "phi");
+        snprintf(rate, sizeof rate, "%.17g [rad/s]", c->clock_radps);
+    }
+    snprintf(text, size,
+             "mechanism forced\ncoordinate x [m]\n%s + 1 [kg]*x'^2/2\nV = %.17g [N/m]*x^2/2\n"
+             "F = %.17g [N*s/m]*x'^2/2\nQ(x) = %.17g [N]*sin(%s)\n"
+             "scene s { start x = %.17g [m], phi' = %s\nstep %.17g [s]\nuntil %.15g [s] }\n",
+             clock, c->swing_radps * c->swing_radps, 2.0 * c->damping * c->swing_radps, c->force_N,
+             angle, start_m, rate, c->step_s, c->steps * c->step_s);
+}
+
+/* Place and rate. */
+static void closed_form(const forced_case *c, double time_s, double is[2]) {
+    const double w = c->swing_radps;
+    const double z = c->damping;
+    /* the forced part is p sin + q cos of the clock's angle */
+    const double stiff = w * w - c->clock_radps * c->clock_radps;
+    const double lossy = 2.0 * z * w * c->clock_radps;
+    const double p = c->force_N * stiff / (stiff * stiff + lossy * lossy);
+    const double q = -c->force_N * lossy / (stiff * stiff + lossy * lossy);
+    const double phi = c->clock_radps * time_s;
+    const double way = w * sqrt(1.0 - z * z);
+    const double a = start_m - q;
+    const double b = (z * w * a - c->clock_radps * p) / way;
+    const double left = exp(-z * w * time_s);
+    const double cosine = cos(way * time_s);
+    const double sine = sin(way * time_s);
+    is[0] = p * sin(phi) + q * cos(phi) + left * (a * cosine + b * sine);
+    is[1] = c->clock_radps * (p * cos(phi) - q * sin(phi)) +
+            left * (way * (b * cosine - a * sine) - z * w * (a * cosine + b * sine));
+}
+
+/* The most, of either's range; the columns are the time, both coordinates, x first, and both rates. */
+static double off_by(const forced_case *c, const char *csv) {
+    double low[2] = {(double)INFINITY, (double)INFINITY};
+    double high[2] = {-(double)INFINITY, -(double)INFINITY};
+    double off[2] = {0.0, 0.0};
+    double value[5];
+    for (const char *row = csv; (row = said_row(row, 5, value)) != NULL;) {
+        double is[2];
+        closed_form(c, value[0], is);
+        for (int i = 0; i < 2; i++) {
+            low[i] = fmin(low[i], is[i]);
+            high[i] = fmax(high[i], is[i]);
+            off[i] = fmax(off[i], fabs(value[1 + 2 * i] - is[i]));
+        }
+    }
+    return fmax(off[0] / (high[0] - low[0]), off[1] / (high[1] - low[1]));
+}
+
+typedef struct tally {
+    unsigned right;
+    unsigned wrong;
+    unsigned told;
+    unsigned cured;
+} tally;
+
+static double run_with(const forced_case *c, const char *const *words, said *what) {
+    command_say(command_run, words, what);
+    TEST_ASSERT_EQUAL_INT_MESSAGE(said_owes(what->err), what->status, what->err);
+    return off_by(c, what->out);
+}
+
+/* Right, and nothing is said; or wrong, and not trusted. Of what would do each is done. */
+static void hold_one(const forced_case *c, const char *number, const char *method, tally *t) {
+    char text[900];
+    char every[40];
+    write(c, text, sizeof text);
+    const int steps = c->steps / RECORDS;
+    snprintf(every, sizeof every, "%.15gs", steps * c->step_s);
+    const char *file = model_keep(text);
+    const char *words[] = {file,    "--number", number,    "--method", method,
+                           "--csv", "-",        "--every", every,      NULL};
+    said what;
+    const double off = run_with(c, words, &what);
+    const bool warns = strstr(what.err, "warning: ") != NULL;
+    if (off < 5e-4) {
+        t->right++;
+        TEST_ASSERT_FALSE_MESSAGE(warns, what.err);
+    } else if (off > 0.02) {
+        t->wrong++;
+        t->told += warns ? 1U : 0U;
+        TEST_ASSERT_NULL_MESSAGE(strstr(what.err, "to the end: every"), text);
+    }
+    named_cure list[NAMED_CURES];
+    const int count = warns ? named_cures(what.err, list) : 0;
+    for (int i = 0; i < count; i++) {
+        const char *again[20] = {file, "--csv", "-", "--every", every};
+        said then;
+        if (list[i].tried) {
+            (void)named_words(&list[i], method, number, again, 5);
+            const double left = run_with(c, again, &then);
+            TEST_ASSERT_NULL_MESSAGE(strstr(then.err, "warning: "), then.err);
+            TEST_ASSERT_TRUE_MESSAGE(left < 0.02, text);
+            t->cured++;
+        }
+    }
+}
+
+static void hold(const char *number, const char *method) {
+    dice d = dice_of("forced swings", 4441);
+    const unsigned cases = dice_cases(few_or_all(usual_or(100, 20), 600));
+    tally t = {0};
+    for (unsigned i = 0; i < cases; i++) {
+        const forced_case c = draw(&d);
+        hold_one(&c, number, method, &t);
+    }
+    model_drop();
+    printf("  %s, %s: of %u forced swings %u right, none warned of; %u off, %u warned of, none "
+           "trusted to the end; %u cures, all silent and right\n",
+           method, number, cases, t.right, t.wrong, t.told, t.cured);
+    TEST_ASSERT_TRUE(t.right > cases / 3 &&
+                     (t.wrong > 0 || cases < 100 || strcmp(method, "rk4") != 0));
+}
+
+static void test_in_float(void) { hold("float", "rk4"); }
+static void test_in_double(void) { hold("double", "rk4"); }
+static void test_other_methods(void) {
+    hold("double", "rk38");
+    hold("double", "nystroem5");
+}
+
+/* Whole turns a step, and a little more or less: of the little the run makes a slow force that is not there. */
+static void test_nearly_whole_turns(void) {
+    static const int turns[] = {1, 2, 3, 4, 5, 6, 8, 12, 16};
+    static const char *const methods[] = {"rk4", "nystroem4", "nystroem5", "rk38", "heun"};
+    dice d = dice_of("nearly whole turns", 4457);
+    const unsigned cases = dice_cases(few_or_all(usual_or(60, 20), 400));
+    tally t = {0};
+    for (unsigned i = 0; i < cases; i++) {
+        forced_case c = draw(&d);
+        const double more = pow(10.0, dice_between(&d, -2.5, -0.05));
+        c.summed = true;
+        c.steps = RECORDS * 10 *
+                  (1 + (int)dice_one_of(&d, 3)); /* records of whole numbers of remedies' steps */
+        c.clock_radps = (6.283185307179586 * turns[dice_one_of(&d, 9)] +
+                         (dice_one_of(&d, 2) == 0 ? more : -more)) /
+                        c.step_s;
+        /* what is not there may be met where it swings, or push all */
+        c.swing_radps = dice_one_of(&d, 2) == 0 ? fmin(more, 0.1) / c.step_s : c.swing_radps;
+        c.swing_radps = fmin(c.swing_radps, 0.1 / c.step_s);
+        c.force_N =
+            start_m * c.swing_radps * c.swing_radps * pow(10.0, dice_between(&d, -1.0, 2.0));
+        hold_one(&c, "double", methods[dice_one_of(&d, 5)], &t);
+    }
+    model_drop();
+    printf(
+        "  of %u forces of nearly whole turns a step %u right, none warned of; %u off, %u warned "
+        "of, none trusted to the end; %u cures, all silent and right\n",
+        cases, t.right, t.wrong, t.told, t.cured);
+    TEST_ASSERT_TRUE(t.wrong > cases / 4 && t.cured > cases / 8);
+}
+
+void suite_forced_swing(void) {
+    RUN_TEST(test_in_float);
+    RUN_TEST(test_in_double);
+    RUN_TEST(test_other_methods);
+    RUN_TEST(test_nearly_whole_turns);
+}

@@ -1,15 +1,19 @@
 /* test_trust.c: until when a run can be trusted, as `whirl trust` estimates it, against references in long double that share
  * no step with it: four chaotic systems in float, float with compensated sums and double. */
-#include "horizons.h"
-
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "command.h"
+#include "horizons.h"
+
 #include "unity.h"
 
 void suite_trust(void);
+void suite_trust_scenes(void);
+
+/* === trust ==================================================================================== */
 
 typedef struct arithmetic {
     const char *name;
@@ -100,4 +104,174 @@ void suite_trust(void) {
     RUN_TEST(test_thomson_a);
     RUN_TEST(test_double_pendulum);
     RUN_TEST(test_triple_pendulum);
+}
+
+/* === trust scenes ============================================================================= */
+/* Until when runs of built-in scenes can be trusted: where nothing diverges, to the end; where steps are
+ * too coarse, methods too simple or tables too small, until the reference says so; and with contacts, against steps a 32nd as
+ * long, which find their events anew. */
+
+/* A built-in scene of a file, with its own step, or again with another step and end. */
+static horizons built_in(const char *file, const char *name, horizons_setting how,
+                         double tolerance) {
+    char *text = horizons_builtin(file, "");
+    horizons h = horizons_of(text, name, how, tolerance);
+    free(text);
+    return h;
+}
+
+static void say_trust_scenes(const char *what, const horizons *h) {
+    printf("  %-56s %8.6g s, true %8.6g s of %g s: %.3f\n", what, h->estimate.until_s,
+           h->true_until_s, h->twins->end_s, horizons_ratio(h));
+}
+
+/* --- nothing diverges --------------------------------------------------------------------------------*/
+
+static const horizons_setting in_double = {&engine_double, false, WH_RK4, TABLES_NONE, MATRIX_NONE};
+static const horizons_setting in_float = {&engine_float, false, WH_RK4, TABLES_NONE, MATRIX_NONE};
+static const horizons_setting compensated = {&engine_float, true, WH_RK4, TABLES_NONE, MATRIX_NONE};
+static const horizons_setting in_tables = {&engine_float, false, WH_RK4, TABLES_CUBIC, MATRIX_NONE};
+
+static void expect_the_end(const char *file, const char *name, horizons_setting how) {
+    horizons h = built_in(file, name, how, HORIZON_TOLERANCE);
+    say_trust_scenes(name, &h);
+    TEST_ASSERT_TRUE_MESSAGE(h.true_until_s >= h.twins->end_s, name);
+    TEST_ASSERT_TRUE_MESSAGE(h.estimate.to_the_end, name);
+    TEST_ASSERT_EQUAL_DOUBLE(h.twins->end_s, h.estimate.until_s);
+    horizons_free(&h);
+}
+
+static void test_where_nothing_diverges(void) {
+    expect_the_end("epicyclic.whirl", "epicyclic_from_rest", in_double);
+    expect_the_end("epicyclic.whirl", "epicyclic_from_rest", in_float);
+    expect_the_end("epicyclic.whirl", "epicyclic_conserved", in_float);
+    expect_the_end("epicyclic.whirl", "epicyclic_conserved", in_tables);
+    expect_the_end("eccentric.whirl", "rig_fixed", in_double);
+    expect_the_end("eccentric.whirl", "rig_fixed", in_float);
+    expect_the_end("eccentric.whirl", "rig_fixed", compensated);
+    expect_the_end("spherical_particle.whirl", "spherical_flight", in_float);
+    expect_the_end("cuff.whirl", "cuff_equal", in_float); /* X and Y are rounding alone */
+}
+
+/* --- the step, not chaos, ends it ------------------------------------------------------------------------*/
+
+static const char swing[] = "mechanism swing \"two pendulums that exchange their swing\"\n"
+                            "coordinate a [rad]\ncoordinate b [rad]\n"
+                            "T = 1 [kg*m^2]*(a'^2 + b'^2)/2\n"
+                            "V = -40 [J]*cos(a) - 40 [J]*cos(b) + 3 [J]*(a - b)^2/2\n"
+                            "scene s {\n  start a = 1.1 [rad]\n  step %g [ms]\n  until 60 [s]\n}\n";
+
+static void expect_ratio(const char *what, const horizons *h, double least, double most) {
+    say_trust_scenes(what, h);
+    TEST_ASSERT_TRUE_MESSAGE(h->known < KNOWN, what);
+    TEST_ASSERT_FALSE_MESSAGE(h->estimate.to_the_end, what);
+    TEST_ASSERT_TRUE_MESSAGE(isfinite(h->true_until_s), what);
+    TEST_ASSERT_TRUE_MESSAGE(horizons_ratio(h) >= least && horizons_ratio(h) <= most, what);
+}
+
+/* The error grows evenly here: what is left out of it would show in proportion. */
+static void test_steps_and_methods_that_are_too_coarse(void) {
+    static const struct {
+        wh_method method;
+        double step_ms;
+        double tolerance;
+    } cases[] = {
+        {WH_RK4, 60.0, 1e-3},      {WH_RK4, 40.0, 3e-4},     {WH_RK4, 10.0, 1e-6},
+        {WH_RK4, 5.0, 3e-8},       {WH_RK38, 20.0, 1e-4},    {WH_NYSTROEM5, 20.0, 1e-5},
+        {WH_NYSTROEM3, 5.0, 1e-4}, {WH_HEUN, 1.0, 1e-5},     {WH_LEAPFROG, 5.0, 1e-3},
+        {WH_EULER, 0.1, 1e-2},     {WH_LEAPFROG, 5.0, 3e-4}, {WH_SEMI_IMPLICIT_EULER, 0.5, 1e-4}};
+    const size_t apart = few_or_all(1, 0) == 1 ? 2 : 1; /* every second one, or all */
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i += apart) {
+        char text[500];
+        char what[100];
+        const horizons_setting how = {&engine_double, false, cases[i].method, TABLES_NONE,
+                                      MATRIX_NONE};
+        snprintf(text, sizeof text, swing, cases[i].step_ms);
+        snprintf(what, sizeof what, "swing by %s, %g ms, to %g", wh_methods[cases[i].method].word,
+                 cases[i].step_ms, cases[i].tolerance);
+        horizons h = horizons_of(text, "s", how, cases[i].tolerance);
+        expect_ratio(what, &h, 0.9, 1.1);
+        horizons_free(&h);
+    }
+}
+
+/* Rounding of float, and of tables: against any tolerance. */
+static void test_rounding_and_tables(void) {
+    static const double tolerances[] = {1e-4, 3e-6, 3e-7};
+    static const horizons_setting settings[] = {
+        {&engine_float, false, WH_RK4, TABLES_NONE, MATRIX_NONE},
+        {&engine_float, false, WH_RK4, TABLES_LINEAR, MATRIX_NONE},
+        {&engine_double, false, WH_RK4, TABLES_CUBIC, MATRIX_NONE},
+    };
+    int ended = 0;
+    for (size_t i = 0; i < sizeof settings / sizeof settings[0]; i++) {
+        for (size_t k = 0; k < sizeof tolerances / sizeof tolerances[0]; k++) {
+            horizons h =
+                built_in("epicyclic.whirl", "epicyclic_conserved", settings[i], tolerances[k]);
+            char what[100];
+            snprintf(what, sizeof what, "epicyclic_conserved, %s, tables %s, to %g",
+                     settings[i].kind->name, image_tables_words[settings[i].tables], tolerances[k]);
+            say_trust_scenes(what, &h);
+            TEST_ASSERT_TRUE_MESSAGE(horizons_ratio(&h) >= 0.9 && horizons_ratio(&h) <= 1.1, what);
+            TEST_ASSERT_TRUE_MESSAGE(h.known < KNOWN, what);
+            ended += !h.estimate.to_the_end;
+            horizons_free(&h);
+        }
+    }
+    TEST_ASSERT_TRUE(ended >= 4);
+}
+
+/* --- contacts --------------------------------------------------------------------------------------------*/
+
+/* Near the truth; a tolerance near what float can tell at all may end it earlier. 1: it ended before the run. */
+static unsigned expect_contacts(const char *name, horizons_setting how, double tolerance) {
+    horizons h = built_in(strncmp(name, "thomson", 7) == 0    ? "thomson.whirl"
+                          : strncmp(name, "carriage", 8) == 0 ? "eccentric.whirl"
+                          : strncmp(name, "plank", 5) == 0    ? "contacts_together.whirl"
+                                                              : "contacts.whirl",
+                          name, how, tolerance);
+    char what[100];
+    snprintf(what, sizeof what, "%s, %s, to %g", name, how.kind->name, tolerance);
+    say_trust_scenes(what, &h);
+    const unsigned ended = !h.estimate.to_the_end;
+    const double late_s = h.estimate.until_s - h.true_until_s;
+    const double early = tolerance < HORIZON_TOLERANCE ? 0.6 : 0.9;
+    const bool near = horizons_ratio(&h) >= early && horizons_ratio(&h) <= 1.1;
+    TEST_ASSERT_TRUE_MESSAGE(near || fabs(late_s) <= 4.0 * h.look_s, what);
+    horizons_free(&h);
+    return ended;
+}
+
+static void test_contacts(void) {
+    static const char *const names[] = {"crash_cart",     "belt_stick_slip", "plank_shaken",
+                                        "table_drifts",   "hopper_hops",     "shuttle_buffers",
+                                        "thomson_magnet", "carriage_stop",   "crash_both",
+                                        "ball_in_air",    "belt_stiffening", "escapement_ticks"};
+    static const double tolerances[] = {1e-3, 1e-5, 1e-7};
+    const unsigned count = few_or_all(1, sizeof names / sizeof names[0]);
+    unsigned ended = 0;
+    for (unsigned i = 0; i < count; i++) {
+        for (size_t k = 0; k < sizeof tolerances / sizeof tolerances[0]; k++) {
+            ended += expect_contacts(names[i], in_float, tolerances[k]);
+            ended += expect_contacts(names[i], in_double, tolerances[k]);
+        }
+    }
+    TEST_ASSERT_TRUE(ended >= count);
+}
+
+/* More events than a step takes: both runs let the ball rest, and agree. */
+static void test_steps_with_too_many_events(void) {
+    horizons h = built_in("contacts.whirl", "ball_between", in_double, HORIZON_TOLERANCE);
+    TEST_ASSERT_EQUAL_DOUBLE(0.0, h.twins->overrun_s);
+    TEST_ASSERT_EQUAL_DOUBLE(0.0, h.estimate.until_s);
+    TEST_ASSERT_EQUAL_DOUBLE(0.0, h.true_until_s);
+    horizons_free(&h);
+}
+
+void suite_trust_scenes(void) {
+    RUN_TEST(test_where_nothing_diverges);
+    RUN_TEST(test_steps_and_methods_that_are_too_coarse);
+    RUN_TEST(test_rounding_and_tables);
+    RUN_TEST(test_contacts);
+    RUN_TEST(test_steps_with_too_many_events);
 }

@@ -1,16 +1,162 @@
-/* test_method_rows.c: the rows of core/method.h are what they say: explicit, told apart by their words; docs/dev/numerics.md has a
- * line for each, with its measured stability, which is that of the weights. (Orders: test_method_order.c.) */
+/* test_method.c: the first-order form that `whirl derive` prints, of mechanisms with drawn names: each component's slope
+ * is the one that has its name and a prime, and the components' letter is no coordinate's. And the effects above it. */
+#include <float.h>
 #include <math.h>
+#include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "core/step/ledger_step.h"
+#include "host/cli/commands.h"
 #include "host/engine/methods.h"
+#include "host/show/show_equations.h"
+
+#include "command.h"
+#include "derived.h"
+#include "motion.h"
 
 #include "unity.h"
 
+void suite_first_order(void);
 void suite_method_rows(void);
+void suite_rk4(void);
+
+/* === first order ============================================================================== */
+
+enum { COORDINATES_MOST = 5, NAME = 24, COMPONENTS = 2 * COORDINATES_MOST };
+
+static const char *const names[] = {"a", "y1", "b", "s2", "x", "y", "w3", "s", "y23", "q4", "y1b"};
+enum { NAMES = sizeof names / sizeof names[0] };
+
+/* Writes a mechanism of `count` coordinates with other names each. */
+static void write(dice *d, char *text, size_t size, int count) {
+    const unsigned first = dice_one_of(d, NAMES);
+    size_t at = (size_t)snprintf(text, size, "mechanism m\n");
+    for (int i = 0; i < count; i++) {
+        at += (size_t)snprintf(text + at, size - at, "coordinate %s [m]\n",
+                               names[(first + 4 * (unsigned)i) % NAMES]);
+    }
+    at += (size_t)snprintf(text + at, size - at, "T = 0 [J]");
+    for (int i = 0; i < count; i++) {
+        at += (size_t)snprintf(text + at, size - at, " + %d [kg]*%s'^2/2", 1 + i,
+                               names[(first + 4 * (unsigned)i) % NAMES]);
+    }
+    snprintf(text + at, size - at, "\nscene s { until 1 [s] }\n");
+}
+
+/* A letter and a number, as components are called: the number, or 0. */
+static int number_behind(const char *letter, const char *word) {
+    const size_t length = strlen(letter);
+    const char *digits = word + length;
+    const bool is = strncmp(word, letter, length) == 0 && digits[0] != '\0' &&
+                    strspn(digits, "0123456789") == strlen(digits);
+    return is ? (int)strtol(digits, NULL, 10) : 0;
+}
+
+/* The names between the brackets, in their order. */
+static int read_components(const char *line, char *letter, char part[][NAME]) {
+    int count = 0;
+    TEST_ASSERT_EQUAL_INT(1, sscanf(line, "first-order form, %23s = (", letter));
+    for (const char *at = strchr(line, '(') + 1; count < COMPONENTS;) {
+        const size_t length = strcspn(at, ",)");
+        snprintf(part[count++], NAME, "%.*s", (int)length, at);
+        if (at[length] != ',') {
+            break;
+        }
+        at += length + 2;
+    }
+    return count;
+}
+
+static void check_form(FILE *out, int count) {
+    char line[400];
+    char letter[NAME] = "";
+    char part[COMPONENTS][NAME] = {{0}};
+    int slopes = 0;
+    int all = 0;
+    rewind(out);
+    while (fgets(line, sizeof line, out) != NULL) {
+        int of = 0;
+        char slope[NAME + 1];
+        char name[NAME] = "";
+        char form[40];
+        if (strncmp(line, "first-order form", 16) == 0) {
+            all = read_components(line, letter, part);
+        }
+        snprintf(form, sizeof form, "  %s%%d' = %%23s", letter);
+        if (all == 0 || sscanf(line, form, &of, name) < 2) {
+            continue;
+        }
+        const int is = number_behind(letter, name);
+        TEST_ASSERT_TRUE(of >= 1 && of <= all && is <= all);
+        snprintf(slope, sizeof slope, "%s'", part[of - 1]);
+        TEST_ASSERT_EQUAL_STRING(slope, is > 0 ? part[is - 1] : name);
+        TEST_ASSERT_EQUAL_INT(slopes + 1, of);
+        slopes++;
+    }
+    TEST_ASSERT_EQUAL_INT(2 * count, all);
+    TEST_ASSERT_EQUAL_INT(all, slopes);
+    for (int i = 0; i < count; i++) { /* no coordinate looks like a component */
+        TEST_ASSERT_EQUAL_INT(0, number_behind(letter, part[i]));
+    }
+}
+
+static void test_slopes_of_components(void) {
+    dice d = dice_of("first-order forms", 20261124);
+    const unsigned cases = dice_cases(60);
+    for (unsigned c = 0; c < cases; c++) {
+        char text[1200];
+        const int count = 1 + (int)dice_one_of(&d, COORDINATES_MOST);
+        write(&d, text, sizeof text, count);
+        derived made = derived_scene(text, "s");
+        derived_expect(&made, text);
+        FILE *out = tmpfile();
+        TEST_ASSERT_NOT_NULL(out);
+        show_text(out, made.equations);
+        check_form(out, count);
+        fclose(out);
+        derived_free(&made);
+    }
+}
+
+/* What a scene calls for is told with its own words, and nothing of what it leaves out. */
+static void test_effects_are_told(void) {
+    enum { EFFECTS = 4 };
+    static const char text[] =
+        "mechanism m\ncoordinate x [m]\nT = 1 [kg]*x'^2/2\n"
+        "effect e0 \"word 0\" { V += 1 [N]*x }\neffect e1 \"word 1\" { V += 2 [N]*x }\n"
+        "effect e2 \"word 2\" { F += 1 [N*s/m]*x'^2/2 }\neffect e3 \"word 3\" { V += 3 [N]*x }\n";
+    const char *file = model_keep(text);
+    for (unsigned with = 1; with < 1U << EFFECTS; with++) {
+        char list[40] = "";
+        said what;
+        for (unsigned k = 0; k < EFFECTS; k++) {
+            const size_t length = strlen(list);
+            if ((with >> k & 1U) != 0) {
+                snprintf(list + length, sizeof list - length, "%se%u", length > 0 ? "," : "", k);
+            }
+        }
+        const char *words[] = {file, "--with", list, NULL};
+        command_say(command_derive, words, &what);
+        TEST_ASSERT_EQUAL_INT_MESSAGE(said_owes(what.err), what.status, what.err);
+        for (unsigned k = 0; k < EFFECTS; k++) {
+            char line[60];
+            snprintf(line, sizeof line, "  with       e%u         word %u\n", k, k);
+            TEST_ASSERT_EQUAL((with >> k & 1U) != 0, strstr(what.out, line) != NULL);
+        }
+    }
+    model_drop();
+}
+
+void suite_first_order(void) {
+    RUN_TEST(test_slopes_of_components);
+    RUN_TEST(test_effects_are_told);
+}
+
+/* === method rows ============================================================================== */
+/* The rows of core/method.h are what they say: explicit, told apart by their words; docs/dev/numerics.md has a
+ * line for each, with its measured stability, which is that of the weights. (Orders: test_method_order.c.) */
 
 #define ROUNDING 1e-6 /* of sums of a few shares, which are floats here */
 
@@ -286,4 +432,98 @@ void suite_method_rows(void) {
     RUN_TEST(test_words_are_apart_and_fit_command_lines);
     RUN_TEST(test_documented_stability_is_the_measured_one);
     RUN_TEST(test_sentences_have_each_method_once);
+}
+
+/* === rk4 ====================================================================================== */
+/* The paths of the method `rk4` compared with the plain step of core/rk4.h: one step of each built-in scene
+ * without contacts, from drawn moments of its run, with sines turned on, looked up, and with the books kept. */
+
+enum { DRAWS = 5, VALUES = 3 * IMAGE_COMPONENTS_MAX };
+
+static uint64_t seed;
+static int compared; /* steps */
+
+/* One step in numbers of this kind from a state, angles first, in rad. False: the step is refused. */
+static bool step_from(const motion *m, const engine_kind *kind, const double *from, double *to) {
+    for (int i = 0; i < m->image->angles; i++) {
+        m->image->start_rad[i] = from[i];
+        m->image->start_turns[i] = 0;
+    }
+    for (int i = 0; i < m->image->reals; i++) {
+        m->image->start_real[i] = from[m->image->angles + i];
+    }
+    void *run = kind->start(m->image);
+    TEST_ASSERT_NOT_NULL(run);
+    const bool done = kind->step(run) == WH_OK;
+    kind->state(run, to, to + m->image->angles);
+    kind->stop(run);
+    return done;
+}
+
+static double largest(const double *from, const double *to, int begin, int end) {
+    double size = 0.0;
+    for (int k = begin; k < end; k++) {
+        size = fmax(size, fmax(fabs(from[k]), fabs(to[k])));
+    }
+    return size;
+}
+
+/* The largest size of a component of i's kind, angles, positions or rates, before and after a step, and of a position's
+ * way: where terms cancel, a component is small and its rounding is not. */
+static double size_of(const image *im, int i, const double *from, const double *to) {
+    const int count = im->angles + im->reals;
+    const int rates = im->form == WH_SECOND_ORDER ? im->coordinates : im->angles;
+    const double way = im->step_s * largest(from, to, rates, count);
+    return i < im->angles ? fmax(way, largest(from, to, 0, im->angles))
+           : i < rates    ? fmax(way, largest(from, to, im->angles, rates))
+                          : largest(from, to, rates, count);
+}
+
+static void compare(const motion *path, const motion *plain, const engine_kind *kind,
+                    const double *from, double within, const char *name) {
+    double one[VALUES];
+    double other[VALUES];
+    const bool done = step_from(path, kind, from, one);
+    TEST_ASSERT_EQUAL_INT_MESSAGE(done, step_from(plain, kind, from, other), name);
+    for (int i = 0; i < plain->image->angles + plain->image->reals; i++) {
+        const double size = size_of(plain->image, i, from, other);
+        TEST_ASSERT_TRUE_MESSAGE(fabs(one[i] - other[i]) <= within * size, name);
+    }
+    compared++;
+}
+
+static int paths_of_a_scene(const scene *s) {
+    stepping how = {.kind = &engine_double, .method = WH_RK4_PLAIN};
+    motion plain;
+    motion_open(&plain, s->name, how);
+    how.method = WH_RK4;
+    for (int i = 0; i < 3 && plain.image->contacts == 0; i++) {
+        how.angles = i == 1 ? ANGLES_LOOKUP : ANGLES_TURNED;
+        how.ledger = i == 2;
+        if (how.ledger && !plain.image->has_energies) {
+            continue;
+        }
+        motion path;
+        motion_open(&path, s->name, how);
+        for (int k = 0; k < DRAWS && motion_step(&plain, 1 + random_bits(&seed) % 50) == WH_OK;
+             k++) {
+            double from[VALUES];
+            plain.kind->state(plain.run, from, from + plain.image->angles);
+            compare(&path, &plain, &engine_double, from, 1e-13, s->name);
+            compare(&path, &plain, &engine_float, from, 4.0 * (double)FLT_EPSILON, s->name);
+        }
+        motion_close(&path);
+    }
+    motion_close(&plain);
+    return 1;
+}
+
+static void test_all_paths_step_as_the_plain_one(void) {
+    each_builtin_scene(paths_of_a_scene);
+    TEST_ASSERT_TRUE(compared > 500);
+}
+
+void suite_rk4(void) {
+    seed = 20261129;
+    RUN_TEST(test_all_paths_step_as_the_plain_one);
 }
