@@ -9,7 +9,7 @@
 #include "host/base/alloc.h"
 #include "host/base/nearest.h"
 #include "host/check/finding.h"
-#include "host/engine/methods.h"
+#include "host/engine/start.h"
 #include "host/fixed/engine_fixed.h"
 #include "host/image/turned.h"
 #include "host/number/decimal.h"

@@ -96,7 +96,7 @@ static const char *name_of(void *context, int point) {
 /* --- images ----------------------------------------------------------------------------------------*/
 
 /* The varied values as texts behind the command line's own, and so over them; free with forget(). */
-static overrides changes_at(const pricing_scene *p, int point) {
+static overrides changes_in(const pricing_scene *p, int point) {
     const grid *g = p->grid;
     overrides changes = *p->changes;
     double *value = alloc(g->count, sizeof *value);
@@ -151,7 +151,7 @@ static const image *base_of(pricing_scene *p, int point, const image_settings *s
         }
     }
     if (p->equations[point] == NULL) {
-        overrides changes = changes_at(p, point);
+        overrides changes = changes_in(p, point);
         instance_free(p->instance[point]);
         instance *inst = instance_make(p->mechanism, p->scene, &changes, p->errors);
         p->instance[point] = inst;
@@ -175,7 +175,7 @@ static const image *base_of(pricing_scene *p, int point, const image_settings *s
 static image *make(void *context, int point, const setting *s, const char *step,
                    const char *until) {
     pricing_scene *p = context;
-    overrides changes = changes_at(p, point);
+    overrides changes = changes_in(p, point);
     changes.step = step != NULL ? step : changes.step;
     changes.until = until != NULL ? until : changes.until;
     const image *base = base_of(p, point, &s->image);

@@ -1,4 +1,4 @@
-/* rating.h: the rows of accuracy and cost at the end of a run (host/study/three_rows.h), and the step for `--error`. */
+/* rating.h: the rows of accuracy and cost at the end of a run (host/study/table_text.h), and the step for `--error`. */
 #ifndef CLI_RATING_H
 #define CLI_RATING_H
 

@@ -17,7 +17,7 @@
 #include "host/io/gnuplot.h"
 #include "host/lang/builtin.h"
 #include "host/number/functions.h"
-#include "host/study/changes.h"
+#include "host/study/grid.h"
 #include "host/study/jobs.h"
 #include "host/study/session.h"
 #include "host/study/stability_map.h"

@@ -2,7 +2,23 @@
 #ifndef ENGINE_START_H
 #define ENGINE_START_H
 
-#include "engine.h"
+#include <stddef.h>
+
+#include "core/scene.h"
+#include "host/engine/engine.h"
+
+/* === methods in words ========================================================================= */
+/* The rows of core/method.h as words for users. */
+
+/* Room for the words of all methods in a sentence. */
+enum { METHODS_TEXT_SIZE = 96 + 40 * WH_METHODS };
+
+/* The methods that take every system of this form: "euler, heun or rk4". Returns `text`. */
+const char *methods_of_form(wh_form form, char text[METHODS_TEXT_SIZE]);
+
+/* All of them, the one that stands for itself first and marked, those that do not take systems of first order, or no
+ * rates, behind semicolons. Returns `text`. */
+const char *methods_in_help(char text[METHODS_TEXT_SIZE]);
 
 /* False, reported at each stop that the run would start beyond, by more than rounding, or where
  * it has no value, and at each angle that a run of this kind cannot hold. */

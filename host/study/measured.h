@@ -3,7 +3,7 @@
 #ifndef STUDY_MEASURED_H
 #define STUDY_MEASURED_H
 
-#include "table_text.h"
+#include "host/study/table_text.h"
 
 typedef enum measured_end {
     MEASURED_COUNTED,

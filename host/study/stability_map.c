@@ -1,5 +1,9 @@
-/* stability_map.c: see stability_map.h. */
-#include "stability_map.h"
+/* stability_map.c: what becomes of a scene's run for each pair of two swept values: does it stay bounded, keep its energy,
+ * keep a tolerance?
+ *
+ * Each run has a finer one beside it (host/check/step_doubling.h), which says until when it is right, and books, which say what of
+ * its energy is missing (host/check/energy_residual.h). A map's rows are the values of the axis that is no step. */
+#include "host/study/stability_map.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -9,7 +13,12 @@
 #include "host/check/aliasing.h"
 #include "host/check/energy_residual.h"
 #include "host/check/horizon.h"
+#include "host/check/run_json.h"
+#include "host/io/gnuplot.h"
+#include "host/io/palette.h"
+#include "host/lang/shown.h"
 #include "host/number/functions.h"
+#include "host/study/session.h"
 
 #define MAP_VERDICT_ROW(id, mark, word, words) [id] = {mark, word, words},
 const map_verdict_row map_verdicts[MAP_VERDICTS] = {MAP_VERDICT_ROWS(MAP_VERDICT_ROW)};
@@ -181,4 +190,230 @@ uint64_t map_count(const stability_map *m, map_verdict verdict) {
         count += m->cell[i].verdict == verdict ? 1 : 0;
     }
     return count;
+}
+
+/* === text, CSV and JSON ======================================================================= */
+/* A stability map for people and for programs. */
+
+static const axis *along_of(const stability_map *m) { return &m->grid->axes[m->along]; }
+static const axis *rows_of(const stability_map *m) { return &m->grid->axes[1 - m->along]; }
+
+static map_verdict verdict_at(const stability_map *m, uint64_t row, uint64_t at) {
+    return m->cell[map_point(m, row, at)].verdict;
+}
+
+/* --- for people ------------------------------------------------------------------------------------------*/
+
+static void print_row(FILE *out, const stability_map *m, uint64_t row) {
+    fprintf(out, "  %-12.6g ", map_row(m, row));
+    for (uint64_t i = 0; i < along_of(m)->count; i++) {
+        fputc(map_verdicts[verdict_at(m, row, i)].mark, out);
+    }
+    fputc('\n', out);
+}
+
+/* The largest value of a row on top, as in the picture. */
+void map_print(FILE *out, const stability_map *m, const char *words) {
+    const axis *along = along_of(m);
+    const axis *rows = rows_of(m);
+    fprintf(out, "%s\n\n  %-12.40s %.40s from %.6g to %.6g%s\n", words, rows->column, along->column,
+            map_along(m, 0), map_along(m, along->count - 1), along->is_log ? ", logarithmic" : "");
+    const bool rises = rows->from <= rows->to;
+    for (uint64_t i = 0; i < rows->count; i++) {
+        print_row(out, m, rises ? rows->count - 1 - i : i);
+    }
+    fputc('\n', out);
+    for (int i = 0; i < MAP_VERDICTS; i++) {
+        const uint64_t count = map_count(m, (map_verdict)i);
+        if (count > 0) {
+            fprintf(out, "  %c  %-8s %6llu  %s\n", map_verdicts[i].mark, map_verdicts[i].word,
+                    (unsigned long long)count, map_verdicts[i].words);
+        }
+    }
+}
+
+/* --- for programs ----------------------------------------------------------------------------------------*/
+
+static void field(FILE *out, double value) {
+    char text[NUMBER_SIZE];
+    fprintf(out, ",%s", isfinite(value) ? number_shortest(value, text) : "");
+}
+
+static void write_row(FILE *out, const stability_map *m, uint64_t point) {
+    const map_cell *c = &m->cell[point];
+    const bool known = c->verdict != MAP_NONE;
+    char text[NUMBER_SIZE];
+    double value[2];
+    grid_values(m->grid, point, value);
+    fprintf(out, "%s", number_shortest(value[0], text));
+    field(out, value[1]);
+    fprintf(out, ",%s", map_verdicts[c->verdict].word);
+    field(out, known ? c->until_s : (double)NAN);
+    field(out, known ? c->end_s : (double)NAN);
+    field(out, c->left_over);
+    fputs("\r\n", out);
+}
+
+void map_csv(FILE *out, const stability_map *m) {
+    const grid *g = m->grid;
+    fprintf(out, "%s,%s,verdict,until,end,energy_left_over\r\n", g->axes[0].column,
+            g->axes[1].column);
+    for (uint64_t i = 0; i < g->points; i++) {
+        if (m->cell[i].verdict != MAP_UNTRIED) {
+            write_row(out, m, i);
+        }
+    }
+}
+
+static void put_pair(json *j, const stability_map *m, uint64_t point) {
+    const map_cell *c = &m->cell[point];
+    const bool known = c->verdict != MAP_NONE;
+    double value[2];
+    grid_values(m->grid, point, value);
+    json_open(j, NULL, '{');
+    json_open(j, "values", '[');
+    json_number(j, NULL, value[0]);
+    json_number(j, NULL, value[1]);
+    json_close(j, ']');
+    json_text(j, "verdict", map_verdicts[c->verdict].word);
+    json_time(j, "until_s", known ? c->until_s : -1.0);
+    json_time(j, "end_s", known ? c->end_s : -1.0);
+    json_number(j, "energy_left_over", c->left_over);
+    json_close(j, '}');
+}
+
+void map_json(FILE *out, const stability_map *m, const image *of, const map_wish *w, int status) {
+    json j = {.out = out};
+    json_begin(&j, "map", of->name, of->title, w->of.kind, w->of.engine.method);
+    json_number(&j, "tolerance", w->tolerance);
+    json_open(&j, "columns", '[');
+    sweep_json_axes(&j, m->grid);
+    json_close(&j, ']');
+    json_open(&j, "rows", '[');
+    for (uint64_t i = 0; i < m->grid->points; i++) {
+        if (m->cell[i].verdict != MAP_UNTRIED) {
+            put_pair(&j, m, i);
+        }
+    }
+    json_close(&j, ']');
+    json_whole(&j, "exit", status);
+    json_close(&j, '}');
+}
+
+/* === the picture ============================================================================== */
+/* A stability map as a picture. */
+
+enum { HEIGHT = 620 };
+
+/* A gnuplot axis is logarithmic where its values are above zero: those below are drawn evenly. */
+static bool is_log(const axis *a) { return a->is_log && a->from > 0.0; }
+
+/* The value half a cell further along the axis, down or up. */
+static double edge(const axis *a, double value, bool up) {
+    const double cells = a->count > 1 ? (double)(a->count - 1) : 1.0;
+    if (a->is_log) {
+        const double ratio = a->count > 1 ? number_most(a->to / a->from, a->from / a->to) : 1.1;
+        const double half = number_power(ratio, 0.5 / cells);
+        return up == (value > 0.0) ? value * half : value / half;
+    }
+    const double width = a->count > 1 ? fabs(a->to - a->from) : number_most(fabs(a->from), 1.0);
+    return up ? value + 0.5 * width / cells : value - 0.5 * width / cells;
+}
+
+static void set_axis(FILE *to, const axis *a, char letter) {
+    char *unit = a->symbol == NULL                 ? alloc_words("s")
+                 : unit_is_si(a->symbol->declared) ? shown_unit_name(a->symbol, a->primes)
+                                                   : shown_si_name(a->symbol, a->primes);
+    const double least = number_least(a->from, a->to);
+    const double most = number_most(a->from, a->to);
+    fprintf(to, "set %clabel ", letter);
+    gnuplot_quote(to, a->column);
+    fprintf(to, ".' [%s]' noenhanced\n", unit);
+    free(unit);
+    if (is_log(a)) {
+        fprintf(to, "set logscale %c\n", letter);
+    }
+    fprintf(to, "set %crange [%.17g:%.17g]\n", letter, edge(a, least, false), edge(a, most, true));
+}
+
+/* x, y and the edges of each stretch of cells of a row that have this verdict. */
+static void write_cells(FILE *to, const stability_map *m, map_verdict verdict) {
+    const axis *along = &m->grid->axes[m->along];
+    const axis *rows = &m->grid->axes[1 - m->along];
+    fprintf(to, "$%s << EOD\n", map_verdicts[verdict].word);
+    for (uint64_t row = 0; row < rows->count; row++) {
+        const double y = map_row(m, row);
+        for (uint64_t at = 0; at < along->count; at++) {
+            const uint64_t from = at;
+            while (at < along->count && m->cell[map_point(m, row, at)].verdict == verdict) {
+                at++;
+            }
+            if (at > from) {
+                fprintf(to, "%.9g %.9g %.9g %.9g %.9g %.9g\n", map_along(m, from), y,
+                        edge(along, map_along(m, from), false),
+                        edge(along, map_along(m, at - 1), true), edge(rows, y, false),
+                        edge(rows, y, true));
+            }
+        }
+    }
+    fputs("EOD\n", to);
+}
+
+static bool is_drawn(const stability_map *m, int verdict) {
+    return verdict < PALETTE_AREAS && map_count(m, (map_verdict)verdict) > 0;
+}
+
+static bool draw(const char *file, const stability_map *m, const char *words, const char *text) {
+    gnuplot g;
+    if (!gnuplot_open(&g, file, HEIGHT, words, text)) {
+        return false;
+    }
+    fputs("set title ", g.to);
+    gnuplot_quote(g.to, words);
+    fputs(" noenhanced\n", g.to);
+    set_axis(g.to, &m->grid->axes[m->along], 'x');
+    set_axis(g.to, &m->grid->axes[1 - m->along], 'y');
+    fputs(
+        "set key below left Left reverse maxcols 1 samplen 2\nset tics out\nset style fill solid noborder\n",
+        g.to);
+    for (int i = 0; i < MAP_VERDICTS; i++) {
+        if (is_drawn(m, i)) {
+            write_cells(g.to, m, (map_verdict)i);
+        }
+    }
+    const char *comma = "plot ";
+    for (int i = 0; i < MAP_VERDICTS; i++) {
+        if (is_drawn(m, i)) {
+            fprintf(g.to, "%s$%s with boxxyerror lc rgb '%s' title '%s: %s'", comma,
+                    map_verdicts[i].word, palette_area(i), map_verdicts[i].word,
+                    map_verdicts[i].words);
+            comma = ", ";
+        }
+    }
+    if (*comma == 'p') {
+        fputs("plot NaN notitle", g.to);
+    }
+    fputc('\n', g.to);
+    return gnuplot_close(&g);
+}
+
+/* For readers who do not see the picture; free it. */
+static char *alternative_text(const stability_map *m) {
+    char *text = alloc_words("A map of %s and %s.", m->grid->axes[m->along].column,
+                             m->grid->axes[1 - m->along].column);
+    for (int i = 0; i < PALETTE_AREAS; i++) {
+        char *longer =
+            alloc_words("%s %llu %s: %s.", text, (unsigned long long)map_count(m, (map_verdict)i),
+                        map_verdicts[i].word, map_verdicts[i].words);
+        free(text);
+        text = longer;
+    }
+    return text;
+}
+
+bool map_plot(const char *file, const stability_map *m, const char *words) {
+    char *text = alternative_text(m);
+    const bool drawn = draw(file, m, words, text);
+    free(text);
+    return drawn;
 }

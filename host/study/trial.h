@@ -3,7 +3,7 @@
 #define STUDY_TRIAL_H
 
 #include "cost.h"
-#include "deviation.h"
+#include "host/study/reference_run.h"
 #include "setting.h"
 
 /* Where images come from: the scene, varied. */

@@ -63,7 +63,8 @@ static bool count_row(row *r, char *const column[COST_COLUMNS]) {
         if (source_pick(&from, true, &of, &in) == EXIT_DONE &&
             load(&made, &from, of, in, &changes, &wish) == EXIT_DONE) {
             image *im = made.image;
-            fixed_plan *plan = r->number == COST_FIXED ? fixed_plan_make(im, from.errors) : NULL;
+            fixed_plan *plan =
+                r->number == COST_FIXED ? fixed_plan_make(im, false, from.errors) : NULL;
             im->fixed = plan;
             good = im->contacts == 0 && (r->number != COST_FIXED || plan != NULL);
             if (good) {

@@ -231,7 +231,7 @@ void suite_image(void) {
 
 static dice die;
 static drawn_scene drawn;
-static char *json;
+static char *page;
 
 /* --- JSON ----------------------------------------------------------------------------------------------------- */
 
@@ -246,13 +246,13 @@ static void expect_text(const char *path, const char *wanted) {
         escaped[used++] = *at;
     }
     escaped[used] = '\0';
-    TEST_ASSERT_NOT_NULL_MESSAGE(json_value(json, path, value), path);
+    TEST_ASSERT_NOT_NULL_MESSAGE(json_value(page, path, value), path);
     TEST_ASSERT_EQUAL_STRING_MESSAGE(escaped, value, path);
 }
 
 static void expect_number(const char *path, double wanted) {
     char value[200];
-    TEST_ASSERT_NOT_NULL_MESSAGE(json_value(json, path, value), path);
+    TEST_ASSERT_NOT_NULL_MESSAGE(json_value(page, path, value), path);
     TEST_ASSERT_TRUE_MESSAGE(strtod(value, NULL) == wanted, path);
 }
 
@@ -291,14 +291,14 @@ static void expect_quantities(const char *list, const image_quantity *q, int cou
         if (valued) {
             expect_number(in(list, i, "value"), q[i].value);
         } else {
-            TEST_ASSERT_NULL(json_value(json, in(list, i, "value"), value));
+            TEST_ASSERT_NULL(json_value(page, in(list, i, "value"), value));
         }
     }
 }
 
 static void expect_range(const char *list, int i, const image_range *range) {
     char path[120];
-    TEST_ASSERT_EQUAL_INT(range->declared ? 2 : -1, json_length(json, in(list, i, "range")));
+    TEST_ASSERT_EQUAL_INT(range->declared ? 2 : -1, json_length(page, in(list, i, "range")));
     if (range->declared) {
         snprintf(path, sizeof path, "%s/%d/range/0", list, i);
         expect_number(path, range->low);
@@ -319,11 +319,11 @@ static void expect_component(const char *list, int i, component c) {
 }
 
 static void check_state(const image *im) {
-    TEST_ASSERT_EQUAL_INT(im->angles, json_length(json, "angles"));
-    TEST_ASSERT_EQUAL_INT(im->reals, json_length(json, "reals"));
-    TEST_ASSERT_EQUAL_INT(im->inputs, json_length(json, "inputs"));
-    TEST_ASSERT_EQUAL_INT(im->outputs, json_length(json, "outputs"));
-    TEST_ASSERT_EQUAL_INT(im->parameters, json_length(json, "parameters"));
+    TEST_ASSERT_EQUAL_INT(im->angles, json_length(page, "angles"));
+    TEST_ASSERT_EQUAL_INT(im->reals, json_length(page, "reals"));
+    TEST_ASSERT_EQUAL_INT(im->inputs, json_length(page, "inputs"));
+    TEST_ASSERT_EQUAL_INT(im->outputs, json_length(page, "outputs"));
+    TEST_ASSERT_EQUAL_INT(im->parameters, json_length(page, "parameters"));
     for (int i = 0; i < im->angles; i++) {
         expect_component("angles", i, im->angle[i]);
         expect_number(in("angles", i, "start"), im->start_rad[i]);
@@ -349,7 +349,7 @@ static void check_state(const image *im) {
 }
 
 static void check_contacts(const image *im) {
-    TEST_ASSERT_EQUAL_INT(im->contacts, json_length(json, "contacts"));
+    TEST_ASSERT_EQUAL_INT(im->contacts, json_length(page, "contacts"));
     for (int k = 0; k < im->contacts; k++) {
         const image_contact *c = &im->contact[k];
         expect_number(in("contacts", k, "index"), k);
@@ -370,14 +370,14 @@ static void check_ledger(const image *im) {
     }
     expect_bool("ledger/asked", l->asked);
     expect_number("ledger/entries", l->entries);
-    TEST_ASSERT_EQUAL_INT(l->accounts, json_length(json, "ledger/accounts"));
+    TEST_ASSERT_EQUAL_INT(l->accounts, json_length(page, "ledger/accounts"));
     for (int i = 0; i < l->accounts; i++) {
         const image_unknown *u = i > 0 ? &im->unknown[l->unknown[i]] : NULL;
         expect_number(in("ledger/accounts", i, "index"), i);
         expect_text(in("ledger/accounts", i, "of"), i > 0 ? u->name : "energy");
         expect_text(in("ledger/accounts", i, "si"), i > 0 ? u->momentum_si : "J");
     }
-    TEST_ASSERT_EQUAL_INT(l->smooth, json_length(json, "ledger/rows"));
+    TEST_ASSERT_EQUAL_INT(l->smooth, json_length(page, "ledger/rows"));
     for (int i = 0; i < l->smooth; i++) {
         expect_number(in("ledger/rows", i, "index"), i);
         expect_number(in("ledger/rows", i, "account"), l->entry[i].account);
@@ -399,7 +399,7 @@ static void check_lists(const image *im) {
         const op_list *t = im->list[role];
         if (t == NULL) {
             snprintf(path, sizeof path, "lists/%s", drawn_scene_roles[role]);
-            TEST_ASSERT_NULL_MESSAGE(json_value(json, path, value), path);
+            TEST_ASSERT_NULL_MESSAGE(json_value(page, path, value), path);
             continue;
         }
         const op_list_cost cost = op_list_count(t);
@@ -423,7 +423,7 @@ static void check_tables(const image *im) {
     expect_text("tables/form", im->settings.tables == TABLES_LINEAR ? "linear" : "cubic");
     expect_number("tables/cells", im->settings.cells);
     expect_bool("tables/folds", of->folds);
-    TEST_ASSERT_EQUAL_INT(of->count, json_length(json, "tables/of"));
+    TEST_ASSERT_EQUAL_INT(of->count, json_length(page, "tables/of"));
     for (int k = 0; k < of->count; k++) {
         expect_number(in("tables/of", k, "index"), k);
         expect_number(in("tables/of", k, "size"), of->size[k]);
@@ -437,13 +437,13 @@ static void check_matrix(const image *im) {
     char path[60];
     expect_text("matrix", words[im->settings.matrix]);
     TEST_ASSERT_EQUAL_INT(im->settings.matrix == MATRIX_NONE ? -1 : states,
-                          json_length(json, "phi"));
+                          json_length(page, "phi"));
     for (int i = 0; i < states && im->settings.matrix != MATRIX_NONE; i++) {
         const double *row = im->matrix.entry + i * im->matrix.columns;
         snprintf(path, sizeof path, "phi/%d", i);
-        TEST_ASSERT_EQUAL_INT(states, json_length(json, path));
+        TEST_ASSERT_EQUAL_INT(states, json_length(page, path));
         snprintf(path, sizeof path, "gamma/%d", i);
-        TEST_ASSERT_EQUAL_INT(im->inputs, json_length(json, path));
+        TEST_ASSERT_EQUAL_INT(im->inputs, json_length(page, path));
         for (int k = 0; k < states + im->inputs; k++) {
             const bool of_input = k >= states;
             snprintf(path, sizeof path, "%s/%d/%d", of_input ? "gamma" : "phi", i,
@@ -478,7 +478,7 @@ static void check_head(const image *im) {
     expect_number("step_ratio/denominator", (double)im->step.denominator);
     expect_number("steps", (double)im->steps);
     expect_number("until_s", im->until_s);
-    TEST_ASSERT_EQUAL_INT(im->effects, json_length(json, "effects"));
+    TEST_ASSERT_EQUAL_INT(im->effects, json_length(page, "effects"));
     for (int i = 0; i < im->effects; i++) {
         expect_text(in("effects", i, "name"), im->effect[i].name);
         expect_text(in("effects", i, "text"), im->effect[i].text);
@@ -499,7 +499,7 @@ static void check_head(const image *im) {
 /* Two blanks a bracket that is open; one line a value; nothing behind a comma; a line's end at the end. */
 static void check_layout(void) {
     int depth = 0;
-    for (const char *line = json; *line != '\0';) {
+    for (const char *line = page; *line != '\0';) {
         const size_t length = strcspn(line, "\n");
         const size_t indent = strspn(line, " ");
         const bool closes = line[indent] == '}' || line[indent] == ']';
@@ -518,8 +518,8 @@ static void test_json_has_every_field(void) {
     for (unsigned c = 0; c < dice_cases(few_or_all(usual_or(60, 15), 400)); c++) {
         drawn_scene_draw(&drawn, &die);
         const image *im = &drawn.im;
-        json = derived_written(describe_json, im);
-        TEST_ASSERT_TRUE_MESSAGE(json_is_valid(json, why), why);
+        page = derived_written(describe_json, im);
+        TEST_ASSERT_TRUE_MESSAGE(json_is_valid(page, why), why);
         check_layout();
         check_head(im);
         check_state(im);
@@ -528,7 +528,7 @@ static void test_json_has_every_field(void) {
         check_lists(im);
         check_tables(im);
         check_matrix(im);
-        free(json);
+        free(page);
     }
 }
 
@@ -559,10 +559,10 @@ static void test_any_text_is_told(void) {
         }
         drawn_scene_draw(&drawn, &die);
         drawn.im.title = text;
-        json = derived_written(describe_json, &drawn.im);
-        TEST_ASSERT_NOT_NULL(json_value(json, "title", value));
+        page = derived_written(describe_json, &drawn.im);
+        TEST_ASSERT_NOT_NULL(json_value(page, "title", value));
         TEST_ASSERT_EQUAL_STRING(wanted, value);
-        free(json);
+        free(page);
     }
 }
 
@@ -576,11 +576,11 @@ static void test_what_is_no_number_is_null(void) {
         } while (drawn.im.parameters == 0);
         drawn.parameter[0].value = none[i];
         drawn.im.until_s = none[i];
-        json = derived_written(describe_json, &drawn.im);
-        TEST_ASSERT_TRUE_MESSAGE(json_is_valid(json, why), why);
+        page = derived_written(describe_json, &drawn.im);
+        TEST_ASSERT_TRUE_MESSAGE(json_is_valid(page, why), why);
         expect_text("parameters/0/value", "null");
         expect_text("until_s", "null");
-        free(json);
+        free(page);
     }
 }
 

@@ -9,7 +9,7 @@
 
 #include "core/step/ledger_step.h"
 #include "host/cli/commands.h"
-#include "host/engine/methods.h"
+#include "host/engine/start.h"
 #include "host/show/show_equations.h"
 
 #include "command.h"

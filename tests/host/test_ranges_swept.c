@@ -14,7 +14,7 @@
 #include "host/base/alloc.h"
 #include "host/base/exit.h"
 #include "host/lang/model.h"
-#include "host/study/changes.h"
+#include "host/study/grid.h"
 #include "host/study/resumable_csv.h"
 
 #include "blocks.h"

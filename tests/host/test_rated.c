@@ -8,7 +8,7 @@
 
 #include "derived.h"
 #include "host/cli/commands.h"
-#include "host/engine/methods.h"
+#include "host/engine/start.h"
 #include "host/study/cost.h"
 #include "rated.h"
 #include "unity.h"

@@ -1,4 +1,4 @@
-/* test_stepping.c: one run of a sweep, measured (host/study/stepping.h): against samples that the test takes of the same steps,
+/* test_stepping.c: one run of a sweep, measured (host/study/point.h): against samples that the test takes of the same steps,
  * and closed forms of the motions; which samples count; how a run is given up; and why one has no measures, by its words. */
 #include <math.h>
 #include <stdio.h>
@@ -11,7 +11,7 @@
 #include "host/check/slow.h"
 #include "host/cli/commands.h"
 #include "host/study/session.h"
-#include "host/study/stepping.h"
+#include "host/study/point.h"
 
 #include "blocks.h"
 #include "command.h"
