@@ -4,7 +4,7 @@
 # tests/host   suites of the program's own parts, on this machine
 # tests/chip   drivers of the STM32F405, on a chip that is played from its manual
 # tests/cli    scripts that drive build/whirl; each prints "ok - ..." or "not ok - ..." lines
-# Suites join by themselves: a file tests/*/test_x.c that defines `void suite_x(void)`. A test program takes
+# Suites join by themselves: a file tests/*/test_*.c that defines `void suite_x(void)`. A test program takes
 # names of suites (build/tests/host lang) and runs only those.
 
 CORE_TEST_C := tests/main.c $(sort $(wildcard tests/core/*.c))
@@ -34,9 +34,11 @@ $(UNITY_DIR)/unity.c:
 	@UNITY="$(UNITY)" mk/setup/unity.sh $(UNITY_DIR)
 
 # --- programs -----------------------------------------------------------------------------------
+# suites_of FILES: their suites, a line "test_NAME.c" each: a file has one or several.
+suites_of = sed -n 's|^void suite_\([a-z0-9_]*\)(void) {.*|test_\1.c|p' $(1)
 $(foreach t,core host chip,$(B)/tests/$(t)_suites.list): $(B)/tests/%_suites.list: FORCE
 	@mkdir -p $(@D)
-	@ls tests/$*/ | cmp -s - $@ || ls tests/$*/ >$@
+	@$(call suites_of,tests/$*/test_*.c) | sort >$@.new; cmp -s $@.new $@ || cp $@.new $@
 
 $(B)/tests/quick_suites.list: $(B)/tests/host_suites.list mk/tests.mk
 	@printf 'test_%s.c\n' $(HOST_GATED) | grep -vxFf - $< >$@
