@@ -1,6 +1,6 @@
 /* image.h: the image: one scene with its effects and settings, ready to run, to be written as code, or to be described.
  * It has the complete result of the derivation in numbers, names and operation lists, for both number types. It has
- * pointers only to itself, so the language and the algebra may be freed (host/derive/image_make.h makes it). host/run
+ * pointers only to itself, so the language and the algebra may be freed (host/derive/image_make.h makes it). host/engine
  * and host/emit read only the image.
  *
  * Arrays state their length in brackets; units are SI, angles radians; an `index` counts from 0. Texts are never NULL.

@@ -1,5 +1,5 @@
 /* op_list.h: the operation list: a model's right-hand side as a table of elementary operations. One list serves the
- * interpreter (host/run) and the generated C and Octave (host/emit). Each operation is one IEEE operation on earlier
+ * interpreter (host/engine) and the generated C and Octave (host/emit). Each operation is one IEEE operation on earlier
  * results, so all of them give the same bits. Equal operations are entered once; constants are folded; signs move
  * outwards and vanish into subtractions. */
 #ifndef IMAGE_OP_LIST_H
