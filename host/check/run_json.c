@@ -100,6 +100,19 @@ static void put_hints(json *j, const char *said) {
     json_close(j, ']');
 }
 
+/* The failure's reason: the line with "error: ", without that. */
+static void put_error(json *j, const char *said) {
+    const char *at = said != NULL ? strstr(said, "error: ") : NULL;
+    if (at == NULL) {
+        json_null(j, "error");
+        return;
+    }
+    at += strlen("error: ");
+    char *reason = alloc_copy(at, strcspn(at, "\n"));
+    json_text(j, "error", reason);
+    free(reason);
+}
+
 static void put_files(json *j, const char *const files[RUN_JSON_FILES]) {
     json_open(j, "files", '[');
     for (int i = 0; i < RUN_JSON_FILES; i++) {
@@ -122,6 +135,7 @@ void run_json(FILE *out, const run_json_wish *w) {
     } else {
         json_null(&j, ENERGY_RESIDUAL_COLUMN);
     }
+    put_error(&j, w->failed ? w->said : NULL);
     put_findings(&j, v);
     put_hints(&j, w->said != NULL ? w->said : "");
     put_files(&j, w->file);

@@ -262,12 +262,25 @@ static void say_clamped(const simulation *sim) {
     }
 }
 
+/* Says why the run failed, on standard error and for --json. */
+static void say_failure(simulation *sim, wh_status status) {
+    size_t length;
+    FILE *text = alloc_text(&sim->said, &length);
+    if (status != WH_OK) {
+        failure_say(text, status, sim->verdict);
+    } else {
+        diags_flush(sim->undefined, text);
+    }
+    alloc_text_end(text);
+    fputs(sim->said, stderr);
+}
+
 /* What the run came to, and the words for it. */
 static simulation_result judge(simulation *sim, wh_status status, bool ended) {
     const simulation_settings *s = sim->settings;
     records_read(sim->records, sim->run, ratio_times(s->kind->steps(sim->run), sim->image->step));
     if (status != WH_OK) { /* which says why the energies are no numbers either */
-        failure_say(stderr, status, sim->verdict);
+        say_failure(sim, status);
         diags_free(sim->undefined);
         sim->undefined = diags_new();
     } else if (sim->output < 0) { /* an output is watched at the end, too, recorded or not */
@@ -277,7 +290,9 @@ static simulation_result judge(simulation *sim, wh_status status, bool ended) {
     say_saturated(sim);
     say_clamped(sim);
     const bool undefined = diags_count(sim->undefined) > 0;
-    diags_flush(sim->undefined, stderr);
+    if (undefined) {
+        say_failure(sim, WH_OK);
+    }
     const books *b = sim->verdict->books;
     if (status == WH_OK && b != NULL && b->undefined &&
         sim->output < 0) { /* of outputs a cure knows nothing */
@@ -483,6 +498,7 @@ simulation_result simulate(const image *im, const simulation_settings *s, simula
                                               sim.records,
                                               sim.said,
                                               told->until_s,
+                                              result == SIMULATION_FAILED,
                                               simulation_status(result, told),
                                               {s->csv, s->columns, s->vcd, s->plot}});
         }

@@ -12,6 +12,7 @@
 
 #include "command.h"
 #include "derived.h"
+#include "host/base/alloc.h"
 #include "host/check/run_checks.h"
 #include "host/cli/commands.h"
 #include "host/cli/load.h"
@@ -324,6 +325,30 @@ static void test_json_of_all_scenes(void) {
     model_drop();
 }
 
+/* A failed run has its reason in the object, as on standard error; others have none. */
+static void test_json_of_failures(void) {
+    dice d = dice_of("json_failed", 29112026);
+    for (int i = 0; i < 12; i++) {
+        static const char *const ways[] = {
+            "V = -%.3g [N/m^3]*x^4", "V = %.3g [J]*sqrt(1 - x/(1 [m]))", "V = %.3g [N/m]*x^2"};
+        const bool fails = i % 3 != 2;
+        char energy[80];
+        said what;
+        snprintf(energy, sizeof energy, ways[i % 3], dice_between(&d, 50.0, 90.0)); // NOLINT
+        char *text = alloc_words("mechanism m\ncoordinate x [m]\nT = 1 [kg]*x'^2/2\n%s\n"
+                                 "scene s { start x = 0.5 [m], x' = 4 [m/s]; step 1 [ms]; "
+                                 "until 2 [s] }\n",
+                                 energy);
+        const char *words[] = {model_keep(text), "--json", NULL};
+        command_say(command_run, words, &what);
+        const char *error = value_at(&what, "error");
+        TEST_ASSERT_EQUAL_INT_MESSAGE(fails, strcmp(error, "null") != 0, energy);
+        TEST_ASSERT_TRUE(!fails || (what.status == 1 && strstr(what.err, error) != NULL));
+        model_drop();
+        free(text);
+    }
+}
+
 /* With no option, with --strict=off and with a drawn limit. Returns whether the status is 1 because of a finding. */
 static bool expect_statuses(dice *d, const char **run, const char **sweep, const said *ran,
                             const said *swept, const char *about) {
@@ -604,6 +629,7 @@ void suite_verdict(void) {
     RUN_TEST(test_a_point_is_judged_as_its_run);
     RUN_TEST(test_a_limit_is_one_of_the_energy);
     RUN_TEST(test_json_of_all_scenes);
+    RUN_TEST(test_json_of_failures);
     RUN_TEST(test_json_of_trust_and_map);
     RUN_TEST(test_json_of_price_and_choose);
     RUN_TEST(test_a_common_speed_changes_nothing);
