@@ -50,14 +50,16 @@ static bool image_with(const image *im, const wish *w, image *made) {
     return ratio_count(ratio_of(im->until_s), made->step, &made->steps) && made->steps > 0;
 }
 
-/* Is it wrong from its begin on? A motion that is chaotic is right for longer. */
+/* Is it wrong from its begin on? A motion that is chaotic is right for longer. A float run is to be right to its end: if
+ * it is not, the run in double is tried. */
 static bool is_off_at_once(const run_checks *v) {
     if (v->twins == NULL) {
         return false;
     }
-    horizon h = horizon_of(v->twins, HORIZON_TOLERANCE);
+    const bool whole = v->kind == &engine_float;
+    horizon h = horizon_of(v->twins, whole ? RUN_CHECKS_TOLERANCE : HORIZON_TOLERANCE);
     const bool off = h.first >= 0 && h.column[h.first].verdict == HORIZON_UNTIL &&
-                     h.until_s < RUN_CHECKS_BEGIN * v->twins->end_s;
+                     (whole || h.until_s < RUN_CHECKS_BEGIN * v->twins->end_s);
     horizon_free(&h);
     return off;
 }

@@ -181,7 +181,7 @@ says 'error: --name goes with --as octave or c' derive thomson_a --name other
 sed 1d "$scratch/hard" | awk -F '   *' '{ print $1 >"'"$scratch"'/cases"; n = split($4, scene, " ")
     for (i = 1; i <= n; i++) { print scene[i] "\t" $3 } }' >"$scratch/scenes"
 sort "$scratch/cases" >"$scratch/sorted"
-awk '/^## / { section = substr($0, 4) } /^\*\*Hard\.\*\*/ { print section }' docs/hard_cases.md docs/dev/hard_cases.md | sort |
+awk '/^## / { section = substr($0, 4) } /^\*\*(Hard|Difficulty)\.\*\*/ { print section }' docs/hard_cases.md docs/dev/hard_cases.md | sort |
     diff "$scratch/sorted" - >"$scratch/diff" 2>&1
 verdict $? "--hard: a row for each section of a hard case" "$scratch/diff"
 { grep -v '^thomson_a' "$scratch/scenes" | cut -f1; } | sort >"$scratch/named"
