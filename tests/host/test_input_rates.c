@@ -296,7 +296,7 @@ static void refused_text(dice *d, unsigned i, char text[static 900]) {
 /* A refused step, for whatever input, leaves the state as it was, and then no trace: the run goes on as one that was not asked
  * for it, also with other inputs than the last good ones. */
 static void test_a_refused_step_leaves_no_trace(void) {
-    static const double bad[] = {NAN, INFINITY, -INFINITY, 1e20,
+    static const double bad[] = {(double)NAN, (double)INFINITY, -(double)INFINITY, 1e20,
                                  1e30}; /* finite forces may be held */
     dice d = dice_of("input_rates", 4603);
     for (unsigned i = 0; i < dice_cases(56); i++) {

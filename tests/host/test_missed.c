@@ -495,8 +495,8 @@ static const char *const faces[] = {
     "stop $y >= -0.7*abs($x + abs($x)) restitution %.3f",
     "stop $y + 0.01*($x + abs($x)) >= 0 restitution %.3f",
     "stop max(abs($x) - 9 [m], $y) >= 0 restitution %.3f",
-    "stop $y >= 0.02 [m]*(cos($x/(1 [m])) - 0.5) restitution %.3f\n"
-    "stop abs($x) <= 9 [m] restitution 0",
+    ("stop $y >= 0.02 [m]*(cos($x/(1 [m])) - 0.5) restitution %.3f\n"
+     "stop abs($x) <= 9 [m] restitution 0"),
 };
 
 enum { FACES = sizeof faces / sizeof faces[0], FACES_ENDING = FACES - 2 };
