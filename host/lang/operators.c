@@ -31,7 +31,7 @@ static const symbol *angle_of(const expr *tree) {
     return is_angle && !unit_is_si(s->declared) ? s : tree->angle;
 }
 
-static bool is_factor(const expr *tree) { return tree->uses == 0 && !has_pi(tree); }
+static bool is_factor(const expr *tree) { return tree != NULL && tree->uses == 0 && !has_pi(tree); }
 
 static const symbol *angle_in(expr_op op, const expr *left, const expr *right) {
     const symbol *a = angle_of(left);

@@ -300,7 +300,9 @@ static void test_edges(void) {
             limit /= 10.0;
         }
         double end = limit; /* in units, of which there are few or many */
-        for (const double many = 1U << (14U + draw() % 17U); end < many; end += end) {
+        const double many = 1U << (14U + draw() % 17U);
+        while (end < many) {
+            end += end;
             bits++;
         }
         const wh_fixed_format format = {bits, -(int32_t)end, (int32_t)end};
