@@ -1,5 +1,5 @@
-/* test_jobs.c: the workers of a sweep (host/study/jobs.h): rows in order from any number of them, whichever ends first; one that is
- * lost, rows that are refused, and few files that may be open. */
+/* test_jobs.c: worker processes of a sweep (host/study/jobs.h). Rows stay in order, whichever
+ * worker ends first. Also: a lost worker, refused rows, and a low limit of open files. */
 #define _POSIX_C_SOURCE 200809L
 #include <math.h>
 #include <signal.h>
@@ -25,11 +25,11 @@ typedef struct log_of_rows {
     bool in_order;
     bool as_worked;
     uint64_t failed;
-    uint64_t limit; /* refuse the row behind */
+    uint64_t limit; /* refuse the rows after this */
 } log_of_rows;
 
-/* Point p sleeps the longer the lower p % 8 is, so that they end out of order; its row has up to
- * 200 kB, more than a pipe holds. */
+/* The sleep falls with p % 8, so that points end out of order. A row has up to 200 kB, more than a
+ * pipe can hold. */
 static bool slow_work(void *context, uint64_t point, FILE *row, FILE *reason) {
     (void)context;
     const struct timespec nap = {0, (long)(7 - point % 8) * 300000};
@@ -43,7 +43,8 @@ static bool slow_work(void *context, uint64_t point, FILE *row, FILE *reason) {
     return point % 10 != 3;
 }
 
-/* One of forty takes so long that the others do all that may be done before it is delivered. */
+/* One point of forty takes so long that the other workers reach their limit before its row is
+ * delivered. */
 static bool held_up_work(void *context, uint64_t point, FILE *row, FILE *reason) {
     const struct timespec nap = {0, 30000000L};
     if (point % 40 == 7) {
@@ -88,7 +89,6 @@ static int open_files(void) {
     return count;
 }
 
-/* The result of the rows from FIRST to END; the log begins empty and refuses all after `limit`. */
 static jobs_result run_rows(log_of_rows *log, uint64_t limit, int workers,
                             bool (*work)(void *, uint64_t, FILE *, FILE *)) {
     *log = (log_of_rows){.next = FIRST, .in_order = true, .as_worked = true, .limit = limit};
@@ -102,7 +102,7 @@ static jobs_result run_rows(log_of_rows *log, uint64_t limit, int workers,
     const int before = open_files();
     const long blocks = blocks_in_use();
     const jobs_result result = jobs_run(&plan);
-    TEST_ASSERT_EQUAL_INT(before, open_files()); /* nothing is left open, and all is given back */
+    TEST_ASSERT_EQUAL_INT(before, open_files());
     TEST_ASSERT_TRUE(blocks_in_use() == blocks);
     return result;
 }
@@ -157,8 +157,8 @@ static bool quick_work(void *context, uint64_t point, FILE *row, FILE *reason) {
     return point % 10 != 3;
 }
 
-/* However few files may be open: as many workers as there is room for do it all, or none can, which is said. No file and no
- * block is left over. */
+/* With a low limit of open files, either fewer workers deliver all rows or Whirl reports an error.
+ * No file or block leaks. */
 static void test_few_files(void) {
     struct rlimit usual;
     int done = 0;
@@ -194,7 +194,7 @@ static volatile sig_atomic_t caught;
 
 static void catch (int signal) { caught = signal; }
 
-/* Ctrl-C goes to all of a terminal's processes: the parent says when the others end. */
+/* Ctrl-C reaches all processes of a terminal. The parent decides when the others end. */
 static bool interrupted_work(void *context, uint64_t point, FILE *row, FILE *reason) {
     raise(SIGINT);
     return quick_work(context, point, row, reason);
@@ -216,7 +216,7 @@ static bool endless_work(void *context, uint64_t point, FILE *row, FILE *reason)
     return quick_work(context, point, row, reason);
 }
 
-/* Whatever the parent does with that signal, workers that are told to end do, in the midst of their work. */
+/* Workers end on request in the middle of their work, even if the parent ignores the signal. */
 static void test_workers_end_when_they_are_told(void) {
     log_of_rows log;
     struct timespec begin;
@@ -232,12 +232,11 @@ static void test_workers_end_when_they_are_told(void) {
 
 /* --- the line of progress --------------------------------------------------------------------- */
 
-/* The line that shows how far a sweep has got (host/study/session.h), read again: what is done,
- * the bar, how fast, and how long it will take at that pace. */
+/* The progress line of a sweep (host/study/session.h): percentage, bar, pace, and time left at
+ * that pace. */
 static char *shown;
 static size_t length;
 
-/* As if it had begun so long ago. */
 static progress begun(double ago_s, uint64_t from, uint64_t end) {
     progress p = progress_start(alloc_text(&shown, &length), from, end);
     p.start_s -= ago_s;
@@ -283,7 +282,7 @@ static void test_what_is_shown(void) {
         TEST_ASSERT_EQUAL_STRING_LEN(counts, at, strlen(counts));
         at += strlen(counts);
         if (done == from) {
-            TEST_ASSERT_EQUAL_STRING("", at); /* no pace yet */
+            TEST_ASSERT_EQUAL_STRING("", at);
         } else {
             double rate;
             double hours;
@@ -303,7 +302,8 @@ static void test_what_is_shown(void) {
     }
 }
 
-/* Not again at once; nothing of nothing is all of it; and where nobody looks nothing is drawn. */
+/* The line is not drawn twice in a row. Zero of zero points are 100 %. Without a terminal no line
+ * is drawn. */
 static void test_when_it_is_shown(void) {
     progress p = begun(1.0, 0, 0);
     progress_show(&p, 0);
@@ -317,8 +317,7 @@ static void test_when_it_is_shown(void) {
     TEST_ASSERT_FALSE(p.drawn);
     TEST_ASSERT_TRUE(length > once && shown[length - 1] == '\r');
     TEST_ASSERT_EQUAL_CHAR('\r', shown[once]);
-    TEST_ASSERT_TRUE(strspn(shown + once + 1, " ") >=
-                     once - 1); /* all of the line is blank again */
+    TEST_ASSERT_TRUE(strspn(shown + once + 1, " ") >= once - 1); /* the line is blank again */
     const size_t cleared = length;
     progress_clear(&p);
     fflush(p.out);

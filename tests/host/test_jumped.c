@@ -1,6 +1,7 @@
-/* test_jumped.c: steps that jump over a pole (host/check/pole_crossing.h): of drawn equations and forces whose divisor the motion comes near
- * to and never reaches, told where the run got through and not where it stayed on its side. What a run did is read from its
- * last state alone. Of what only looks like a pole: test_unjumped.c. */
+/* test_jumped.c: steps that jump over a pole (host/check/pole_crossing.h). The divisors of drawn
+ * equations and forces come near zero and never reach it. A warning must appear if the run crossed
+ * the pole, and only then. The last state alone shows whether it crossed. False alarms:
+ * test_unjumped.c. */
 #include <math.h>
 #include <stdbool.h>
 #include <stdio.h>
@@ -19,7 +20,6 @@ static dice die;
 
 static char *no_more[JUMPS_WORDS];
 
-/* The last value of a component, as the summary has it. */
 static double last_of(const char *name) {
     char wanted[40];
     snprintf(wanted, sizeof wanted, "\n  %s ", name);
@@ -28,7 +28,8 @@ static double last_of(const char *name) {
     return strtod(at + strlen(wanted), NULL);
 }
 
-/* How wide a bend is beside what a step goes: mostly jumped over, and mostly not. */
+/* Width of a bend relative to a step: steps jump over most of the narrow ones and few of the wide
+ * ones. */
 static double width(unsigned c) {
     return exp(c % 2 == 0 ? dice_between(&die, -(double)few_or_all(3, 6), -0.7)
                           : dice_between(&die, 0.5, 2.0));
@@ -36,8 +37,8 @@ static double width(unsigned c) {
 
 /* --- poles ---------------------------------------------------------------------------------------------*/
 
-/* What is used up at a rate that falls only where it has nearly gone: s' = -v s/(k + s), in words of several kinds, which
- * never falls below zero. Its pole is at -k, or behind. */
+/* Michaelis-Menten decay in several forms: s' = -v s/(k + s) never falls below zero. Its pole is
+ * at -k or further. */
 static const char *const knees[] = {
     "let d = k + s\nequation s' = -rate*v*s/d\n",
     "equation s' = -rate*v*s*(k + s)^(-1)\n",
@@ -46,21 +47,21 @@ static const char *const knees[] = {
     "equation s' = -rate*v*s/(k/(k/(s + k)))\n",
     "equation s' = -rate*v*s^2/(k + s)^2\n",
     "equation s' = -rate*v*s/(k + s)/(1 + 0.001*cos(s))\n",
-    "equation s' = -rate*v/(1 + k/s)\n", /* which changes its sign twice */
-    "equation (k + s)*s' = -rate*v*s\n", /* which divides nowhere */
-    /* even, and no power: which change no sign */
+    "equation s' = -rate*v/(1 + k/s)\n", /* changes its sign twice */
+    "equation (k + s)*s' = -rate*v*s\n", /* no division */
+    /* even and no power: no change of sign */
     "equation s' = -rate*v*s^2/(s^2 + 2*k*s + k^2)\n",
     "let c = 2*v\nequation s' = -rate*v*s^2/(2*c^2*(1 - cos((s + k)/c)))\n",
     "state p\nequation p' = -rate*p\nequation s' = -rate*v*s^2/((k + s)^2 + p^2)\n",
     "equation (k^2 + 2*k*s + s^2)*s' = -rate*v*s^2\n",
     "equation s' = -rate*v*s^3/(s^3 + 3*k*s^2 + 3*k^2*s + k^3)\n",
-    /* two, at -k and -4 k, which may lie in one step */
+    /* two poles, -k and -4 k, possibly in one step */
     "equation s' = -rate*v*s^2/(4*k^2 + 5*k*s + s^2)\n",
 };
 enum { KNEES = sizeof knees / sizeof knees[0] };
 
-/* How far its zero is from its pole, at least: of 1 - cos(x) no digits are left below 1e-7, and a pole is followed for 1e2 times
- * as far. */
+/* Least distance between zero and pole. 1 - cos(x) has no digits below 1e-7, and a pole is
+ * followed for 1e2 times as far. */
 static double apart(unsigned which, double v, double k) {
     return strstr(knees[which], "cos((") != NULL ? fmax(k, 1e-3 * v) : k;
 }
@@ -89,8 +90,7 @@ static void test_knees(void) {
         knee_text(text, c % KNEES, v, k, s, step_s);
         const char *number = c % 3 == 0 ? "float" : "double";
         jumps_run(text, number, no_more);
-        if (jumps_said.status !=
-            said_owes(jumps_said.err)) { /* it left all bounds on the way, and says so */
+        if (jumps_said.status != said_owes(jumps_said.err)) { /* reported as unbounded on the way */
             TEST_ASSERT_EQUAL_INT(1, jumps_said.status);
             continue;
         }
@@ -118,7 +118,8 @@ static void test_knees(void) {
     TEST_ASSERT_TRUE(6U * told > cases && 6U * kept > cases && 2U * cured > told);
 }
 
-/* Beside a run of the test's own: when the step began, which of the expressions, and all memory given back. */
+/* Compared with a run of the test's own: start of the step and number of the expression. No memory
+ * leaks. */
 static void test_when(void) {
     for (unsigned c = 0; c < dice_cases(few_or_all(2 * KNEES, 8 * KNEES)); c++) {
         char text[JUMPS_TEXT];
@@ -151,7 +152,8 @@ static void test_when(void) {
     }
 }
 
-/* Bends so narrow that half the step jumps over them as well, and the two runs may agree: behind that no run is trusted. */
+/* In bends this narrow, half steps jump too, and the two runs may agree. No result after the jump
+ * is trusted. */
 static void test_trust(void) {
     for (unsigned c = 0; c < jumps_cases(KNEES, 8 * KNEES, 3); c++) {
         char text[JUMPS_TEXT];
@@ -172,7 +174,7 @@ static void test_trust(void) {
     }
 }
 
-/* A brake whose force vanishes with the rate: its energies balance wherever it goes. */
+/* The force of this brake vanishes with the rate, so its energy balances everywhere. */
 static void test_forces(void) {
     static const char *const forces[] = {"-B*x'/(v0 + x')", "-B*x'*(v0 + x')^(-1)",
                                          "-B*(1 - v0/(v0 + x'))"};
@@ -205,8 +207,7 @@ static void test_forces(void) {
                      (cases < 24 || (4U * told > cases && 4U * kept > cases)));
 }
 
-/* An angle that turns past where a cosine, or a tangent, is divided by, with a step that is never near: w is what it has
- * to turn with. */
+/* An angle passes a zero of a dividing cosine or tangent without a step near it. w is its rate. */
 static void test_angles(void) {
     static const char *const poles[] = {"1/cos(th - %.17g [rad])", "tan(th - %.17g [rad])",
                                         "1/tan(th - %.17g [rad])",
@@ -226,12 +227,12 @@ static void test_angles(void) {
             &m, text,
             (stepping){.kind = c % 2 == 0 ? &engine_float : &engine_double, .method = WH_RK4});
         TEST_ASSERT_TRUE_MESSAGE(jumps_some(&m),
-                                 text); /* by itself: no step would do, which takes long to find */
+                                 text); /* alone: the search for a step that works takes long */
         motion_close(&m);
     }
 }
 
-/* Among others, of any order and in any place: the one whose slope is divided by what it comes past is told. */
+/* The warning names the equation with the crossed divisor, among others of any order and place. */
 static void test_which_equation_is_told(void) {
     static const char *const others[] = {"equation p'' = -p*9 [1/s^2]\n",
                                          "equation q' = (1 + p*p)*rate\n"};
@@ -253,7 +254,7 @@ static void test_which_equation_is_told(void) {
                  stands == 2 ? knee : others[1], coming);
         jumps_run(text, "double", no_more);
         TEST_ASSERT_EQUAL_INT_MESSAGE(said_owes(jumps_said.err), jumps_said.status, jumps_said.err);
-        if (last_of("s") > 0.0) { /* stages alone have seen it */
+        if (last_of("s") > 0.0) { /* only stages have crossed */
             continue;
         }
         const char *told = strstr(jumps_said.err, "grows without bound: ");
@@ -263,7 +264,7 @@ static void test_which_equation_is_told(void) {
     }
 }
 
-/* So far from the origin that the way has few digits: what grows and what has a limit. */
+/* Far from the origin positions have few digits: exponential growth and a saturating motion. */
 static void test_far_away(void) {
     static const char *const laws[] = {"1/(s - a)", "sin(s - a)/(s - a)", "(s - a)^(-2)",
                                        "(s^2 - a^2)/(s - a)"};

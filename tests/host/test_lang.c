@@ -1,4 +1,4 @@
-/* test_lang.c: what a .whirl file means: units, dimensions, names, scenes in numbers. */
+/* test_lang.c: meaning of a .whirl file: units, dimensions, names, values of scenes. */
 #define _POSIX_C_SOURCE 200809L
 
 #include <math.h>
@@ -14,7 +14,6 @@ void suite_lang(void);
 
 #define PI 3.14159265358979323846
 
-/* The SI value of an expression as a parameter. */
 static double value_of(const char *expression) {
     char text[300];
     snprintf(text, sizeof text,
@@ -213,7 +212,7 @@ static void test_sets_may_name_later_parameters(void) {
     expect_exactly(121.0, made->start[0][0]);
 }
 
-/* Without memory each of these sixty lets would double the work. */
+/* Without memoization each of these sixty lets would double the work. */
 static void test_lets_are_evaluated_once(void) {
     char text[4000];
     int used = snprintf(text, sizeof text,
@@ -270,8 +269,8 @@ static void test_byte_order_mark_and_line_ends(void) {
 
 enum { IN_SCENE_PLACES = 5, PLACES = 7 };
 
-/* A mechanism with X, p and q in this unit, and a value for one of them in this place; NULL: refused, and *report says why
- * (freed by the caller). */
+/* A mechanism with X, p and q in this unit, and a value for one of them in this place. NULL:
+ * refused; *report (freed by the caller) has the reason. */
 static instance *given_in(const char *unit, int at, const char *assigned, char **report) {
     static const char *const put[IN_SCENE_PLACES] = {"start %s", "start X = 0, %s", "set %s",
                                                      "set %s", "when X crosses 0 { set %s }"};
@@ -300,7 +299,7 @@ static instance *given_in(const char *unit, int at, const char *assigned, char *
     return made;
 }
 
-/* What it came to there, in SI. */
+/* The parsed value in SI. */
 static double value_in(int at) {
     switch (at) {
     case 0:
@@ -312,8 +311,8 @@ static double value_in(int at) {
     }
 }
 
-/* Every unit, each place where a value can be given, values written in several ways: a unit that is not SI must be
- * written. The hint can be pasted, and then the value is in the declared unit. */
+/* Every unit, place and notation: a value must have its unit unless that is SI. The hint can be
+ * pasted and gives the declared unit. */
 static void test_a_value_without_its_unit_is_refused(void) {
     static const char *const name[PLACES] = {"X", "X'", "p", "q", "X", "X", "p"};
     static const struct {
@@ -331,9 +330,7 @@ static void test_a_value_without_its_unit_is_refused(void) {
         for (int k = 0; k < PLACES * (int)(sizeof written / sizeof written[0]); k++) {
             const int at = k % PLACES;
             const int w = k / PLACES;
-            const bool fits =
-                dim_fits(is.dim, at == 1 ? dim_of(0, 0, 1, 0, 0)
-                                         : dim_none()); /* a bare number has the dimension */
+            const bool fits = dim_fits(is.dim, at == 1 ? dim_of(0, 0, 1, 0, 0) : dim_none());
             const bool typed = at >= IN_SCENE_PLACES;
             char assigned[80];
             char *report = NULL;
@@ -361,8 +358,8 @@ static void test_a_value_without_its_unit_is_refused(void) {
     TEST_ASSERT_TRUE(refused > 500);
 }
 
-/* A bare number beside an angle in [deg], in every sum and comparison that there is: refused but for 0 and pi, with a hint that can be
- * pasted; taken of an angle in [rad]. */
+/* A bare number next to an angle in [deg] is refused in every sum and comparison, except 0 and pi.
+ * The hint can be pasted. Next to an angle in [rad] it is accepted. */
 static void test_a_bare_number_beside_an_angle(void) {
     static const char *const lines[] = {
         "stop %s >= a restitution 0",
@@ -424,7 +421,7 @@ static void test_a_bare_number_beside_an_angle(void) {
     }
 }
 
-/* The same through a parameter that has none, and not where radians are what a function gives. */
+/* The same through a parameter. Functions that return radians are accepted. */
 static void test_units_come_through_names(void) {
     static const char *const good[] = {"X = 2*p", "X = asin(0.5)", "X = q0*1 [deg]"};
     for (int i = 0; i < 4; i++) {

@@ -1,5 +1,5 @@
-/* test_leaks.c: what was taken is given back: after deriving a scene, running and writing it in any way, or being refused
- * one, as many blocks are in use as before. Where the C library does not tell, the sanitizers do. */
+/* test_leaks.c: memory leaks. After a scene is derived, run, written or refused, as many blocks
+ * are in use as before. If the C library has no count, the sanitizers check. */
 #include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -19,7 +19,7 @@
 
 void suite_leaks(void);
 
-/* The first may leave what a library keeps for the next. */
+/* The first round may allocate caches of the libraries. */
 enum { ROUNDS = 2 };
 
 static int check_scene(const scene *s) {
@@ -63,7 +63,6 @@ static void write_all(const image *im) {
     fclose(out);
 }
 
-/* A run of some steps with all that is kept, judged and said of it, and until when a finer one beside it says it is right. */
 static void run_watched(const image *im, const image *plain) {
     static const engine_kind *const kinds[] = {&engine_double, &engine_float};
     for (int k = 0; k < 2; k++) {
@@ -100,7 +99,6 @@ static image *made_in(const derived *d, const image_settings *how) {
     return im;
 }
 
-/* How many can be made so. */
 static int make_all_ways(const char *name) {
     int made = 0;
     derived d =
@@ -146,7 +144,7 @@ static void test_what_is_refused_gives_everything_back(void) {
         TWO "T = 1 [kg]*(x'^2 - y'^2)\n",                            /* negative */
         TWO "T = 1 [kg]*(x'^2 + y'^2)/((x - x)/(1 [m]))\n",          /* not finite */
         TWO "T = 1 [kg]*(x'^2 + y'^2)\nV = log(-1)*1 [J]\n",         /* nowhere */
-        TWO "T = 1 [kg]*(x'^2 + y'^2)\nscene s { conserve x, y }\n", /* none is left */
+        TWO "T = 1 [kg]*(x'^2 + y'^2)\nscene s { conserve x, y }\n", /* no coordinates remain */
         TWO "T = 1 [kg]*(x'^2 + y'^2)\nV = 1 [N/m]*x^2\nscene s { conserve x }\n",
         "mechanism m\nstate a\nstate b\nequation 1 [s]*(a' + b') = b\nequation a = b\n", /* a constraint */
         "mechanism m\nstate a\nstate b\nequation 1 [s]*(a' + b') = 1\nequation 2 [s]*(a' + b') = a\n",
@@ -176,8 +174,8 @@ static void test_what_is_refused_gives_everything_back(void) {
 
 /* --- memory that is taken --------------------------------------------------------------------- */
 
-/* Memory of drawn sizes is all there, and zero where it says so; sizes that no memory has end the
- * program with its message, however they come about. */
+/* Allocations have the full size and, where promised, zeros. Impossible sizes end the program with
+ * its message, however they arise. */
 enum { BYTES_MOST = 5000 };
 
 static bool all_are(const unsigned char *bytes, size_t count, unsigned char value) {
@@ -237,10 +235,10 @@ static void test_texts_of_any_length(void) {
     }
 }
 
-/* Half of what the largest size_t is: twice it is none. */
+/* Half of SIZE_MAX, rounded up: twice it overflows to 0. */
 #define HALF (SIZE_MAX / 2U + 1U)
 
-/* The address sanitizer ends a program that asks its heap for what no heap has. */
+/* The address sanitizer itself ends a program that asks for an impossible size. */
 #if defined(__SANITIZE_ADDRESS__)
 #define SANITIZED 1
 #elif defined(__has_feature)
@@ -257,8 +255,8 @@ static void end_badly(const char *name, const char *mode) {
     }
 }
 
-/* What there is no memory for: counts below zero, products and sums that a size_t holds after they overflowed; then what
- * the heap itself refuses. */
+/* Impossible requests: negative counts, products and sums that overflow size_t, and sizes that the
+ * heap refuses. */
 static int ask(int count, char **words) {
     (void)count;
     void *made = NULL;
@@ -277,7 +275,7 @@ static int ask(int count, char **words) {
     case 'k': made = alloc_copy("", HALF); break;
     case 'l': made = alloc(3, HALF); break;
 #endif
-    /* Streams that took not all: one that says so as it is closed, and one that said so before. */
+    /* Streams with a write error, seen on close or before. */
     case 'm': end_badly("/dev/full", "w"); break;
     case 'n': end_badly("/dev/null", "r"); break;
     default: return 0;

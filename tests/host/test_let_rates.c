@@ -1,5 +1,6 @@
-/* test_let_rates.c: x1' and x1'' of `let x1 = ...` against derivatives written by hand. A drawn tree of functions is written
- * down as a let, and its derivatives, by the rules of a textbook, as text: both files must become the same equations. */
+/* test_let_rates.c: x1' and x1'' of `let x1 = ...` compared with derivatives by hand. A drawn tree
+ * of functions is written as a let. Its derivatives are written as text by the textbook rules.
+ * Both files must give the same equations. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -13,7 +14,7 @@
 
 void suite_let_rates(void);
 
-/* A formula with its first and second derivative; "0" where it is none. Never freed before the test ends. */
+/* A formula with its first and second derivative; "0" if zero. Never freed before the test ends. */
 typedef struct formula {
     char *f, *d, *dd;
 } formula;
@@ -49,7 +50,8 @@ static formula leaf(dice *d) {
     }
 }
 
-/* Drawn `deep` levels deep. A quotient has many normal forms inside a power, so it stands in none. */
+/* The tree has `deep` levels. A quotient inside a power has many normal forms, so it is not drawn
+ * there. */
 static formula draw(dice *d, int deep) {
     if (deep == 0) {
         return leaf(d);
@@ -95,9 +97,7 @@ static formula draw(dice *d, int deep) {
     }
 }
 
-/* A mechanism in which a body moves by u and v: with derivatives of lets, or by hand. */
 static derived moved(const formula *u, const formula *v, bool by_hand, char **text) {
-    /* q is a let of lets: its derivative goes through theirs */
     *text =
         TEXT("mechanism m\ncoordinate x [m]\ncoordinate a [rad]\nparameter L = 0.7 [m]\n"
              "parameter k = 2.5\nlet u = %s\nlet v = %s\nlet q = u + 3*v\n"
@@ -108,7 +108,6 @@ static derived moved(const formula *u, const formula *v, bool by_hand, char **te
     return derived_text(*text);
 }
 
-/* Do both give the same numbers, but for rounding, at drawn states? */
 static void expect_same_numbers(const derived *a, const derived *b, const char *text) {
     enum { RESULTS = 64 };
     static const image_role roles[] = {IMAGE_STEP, IMAGE_OBSERVE};
@@ -133,7 +132,8 @@ static void expect_same_numbers(const derived *a, const derived *b, const char *
     }
 }
 
-/* Both give the same numbers, and nine of ten the same C: the normal form of powers of quotients is not unique. */
+/* Both give the same numbers, and nine of ten the same C, because powers of quotients have no
+ * unique normal form. */
 static void test_derivatives_of_lets_are_those_by_hand(void) {
     dice d = dice_of("let_rates", 4601);
     const unsigned cases = dice_cases(usual_or(120, 20));
@@ -163,7 +163,7 @@ static void test_derivatives_of_lets_are_those_by_hand(void) {
     TEST_ASSERT_TRUE(compared >= cases / 2 && 10 * equal >= 9 * compared);
 }
 
-/* A derivative may stand where that of a coordinate may, and is told of as its order says. */
+/* A derivative of a let is allowed where one of a coordinate is. The messages give its order. */
 static void test_derivatives_of_lets_keep_the_rules(void) {
     static const struct {
         const char *line;

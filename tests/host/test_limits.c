@@ -1,5 +1,5 @@
-/* test_limits.c: how long a step may be: measured on the program's own runs, by bisection, against the stability polynomials
- * of the methods, on the imaginary and on the real axis; and the steps that hints name. */
+/* test_limits.c: longest stable step. Bisection on the program's own runs is compared with the
+ * stability polynomials of the methods, on the imaginary and real axis. Also the steps in hints. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -25,7 +25,8 @@ static const char system_swing[] =
     "mechanism m\nstate x [m]\nstate v [m/s]\nequation x' = v\nequation v' = -1 [1/s^2]*x\n"
     "scene s { start x = 1 [m]\nstep 1 [ms]\nuntil 1e6 [s] }\n";
 
-/* In a system of the first order a step's matrix is as normal as the system's, so that the least growth shows. */
+/* In a system of first order the matrix of a step is as normal as the system's, so the least
+ * growth shows. */
 static bool stays(const char *text, wh_method method, double step_s) {
     motion m;
     bool bounded = true;
@@ -59,8 +60,9 @@ static double measured(const char *text, wh_method method) {
     return low;
 }
 
-/* Known: Hairer & Wanner, Solving Ordinary Differential Equations II, section IV.2; of Nystroem's methods by bisection on the
- * polynomials of their rows, as docs/stability.md has them. 0: none; below 0: takes no such system. */
+/* Hairer & Wanner, Solving Ordinary Differential Equations II, section IV.2. Nyström methods: by
+ * bisection on the polynomials of their rows (docs/stability.md). 0: never stable; below 0: the
+ * method takes no such system. */
 static const struct {
     wh_method method;
     double swings;
@@ -78,7 +80,7 @@ static const struct {
              {WH_NYSTROEM5, 2.3905, 3.3865, 0.8523}};
 
 static void hold(const char *text, wh_method method, double limit, const char *what) {
-    if (limit == 0.0) { /* it grows at a quarter of a step as well */
+    if (limit == 0.0) { /* a quarter of the step is unstable too */
         TEST_ASSERT_FALSE_MESSAGE(stays(text, method, 0.5), wh_methods[method].word);
         printf("  %-20s %s: none\n", wh_methods[method].word, what);
     } else if (limit > 0.0) {
@@ -101,7 +103,7 @@ static void test_measured_limits_are_the_known_ones(void) {
     TEST_ASSERT_EQUAL_UINT((1U << WH_METHODS) - 1U, seen);
 }
 
-/* Runge-Kutta 4 takes (h w)^6/72 of the energy a step. */
+/* Runge-Kutta 4 loses (h w)^6/72 of the energy in a step. */
 static void test_what_a_step_takes(void) {
     for (int k = 5; k < 20; k++) {
         const double hw = 0.02 * k;
@@ -116,7 +118,8 @@ static void test_what_a_step_takes(void) {
     }
 }
 
-/* 1, 2 and 5 times powers of ten, from 5000 down to 16 decades lower: none is nearer below. */
+/* 1, 2 and 5 times powers of ten, from 5000 down over 16 decades. Each must be the nearest from
+ * below. */
 static void test_nice_steps(void) {
     dice die = dice_of("nice steps", 68);
     for (unsigned c = 0; c < dice_cases(2000); c++) {
@@ -129,7 +132,7 @@ static void test_nice_steps(void) {
         const double next_s = nice_s * (two ? 2.5 : 2.0);
         TEST_ASSERT_TRUE(nice_s <= most_s * (1.0 + 2e-9));
         TEST_ASSERT_TRUE(next_s > most_s || next_s > 5001.0);
-        /* its own and its next are what they are, though not to the last digit */
+        /* each maps to itself and to its successor, except in the last digit */
         TEST_ASSERT_TRUE(fabs(step_nice_s(nice_s * (1.0 - 1e-13)) / nice_s - 1.0) < 1e-12);
         TEST_ASSERT_TRUE(step_nice_s(nice_s * (1.0 - 1e-7)) < 0.6 * nice_s);
     }

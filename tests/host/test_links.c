@@ -1,5 +1,5 @@
-/* test_links.c: pendulums of one to twelve links, derived from their energies, against their equations written down by
- * hand: the entries of the mass matrix are closed forms, solved in long double. */
+/* test_links.c: pendulums of one to twelve links, derived from their energies, compared with
+ * equations by hand. The mass matrix has closed forms and is solved in long double. */
 #define _POSIX_C_SOURCE 200809L
 
 #include <math.h>
@@ -21,7 +21,8 @@ typedef struct links {
     double length[LINKS_MOST]; /* m */
 } links;
 
-/* Angles from hanging straight down; speeds and heights are those of the link above, and what is added. */
+/* Angles from hanging straight down. Each link adds its own speed and height to those of the link
+ * above. */
 static char *written(const links *of) {
     char *text;
     size_t size;
@@ -51,10 +52,10 @@ static char *written(const links *of) {
     return text;
 }
 
-/* M_ij = mu l_i l_j cos(a_i - a_j), mu being the masses from the later of the two links on. */
+/* M_ij = mu l_i l_j cos(a_i - a_j); mu: sum of the masses from link max(i, j) on. */
 static void by_hand(const links *of, const state_values *s, long double *accel) {
     long double m[LINKS_MOST][LINKS_MOST + 1];
-    long double below[LINKS_MOST + 1]; /* the masses from link k on */
+    long double below[LINKS_MOST + 1]; /* sum of the masses from link k on */
     long double length[LINKS_MOST];
     below[of->n] = 0.0L;
     for (int k = of->n; k-- > 0;) {
@@ -72,7 +73,7 @@ static void by_hand(const links *of, const state_values *s, long double *accel) 
             m[i][of->n] -= both * sinl(between) * rate * rate;
         }
     }
-    for (int c = 0; c < of->n; c++) { /* positive definite: no pivot is looked for */
+    for (int c = 0; c < of->n; c++) { /* positive definite: no pivoting */
         for (int i = 0; i < of->n; i++) {
             const long double share = i != c ? m[i][c] / m[c][c] : 0.0L;
             for (int j = c; j <= of->n && i != c; j++) {

@@ -1,9 +1,10 @@
-/* test_lockin_truth.c: the rig's measurement against the truth, and its intervals against what they promise.
+/* test_lockin_truth.c: the rig's measurement compared with the truth, and the coverage of its
+ * intervals.
  *
- * The truth is the first Fourier coefficient, over the angle, of the force of a rotor integrated finely in double
- * (rig_orbit.c), without noise. The measurement sees it through a cell with noise and marks with jitter. Seeds are fixed;
- * WHIRL_FULL=1 (`make rig-truth`) takes 200 and 1,000 runs of each kind where `make test` takes some, and prints what it
- * found. */
+ * The truth is the first Fourier coefficient, over the angle, of the force of a rotor. It is
+ * integrated finely in double (rig_orbit.c) without noise. The measurement has noise of the cell
+ * and jitter of the marks. Seeds are fixed. WHIRL_FULL=1 (`make rig-truth`) takes 200 and 1,000
+ * runs of each kind, `make test` fewer, and prints the results. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -26,7 +27,7 @@ static void check_below(double bound, double value) {
 
 #define DEG (180.0 / 3.14159265358979323846)
 #define LEAD_RAD (1.0 / DEG)
-#define BEFORE 14U /* turns: what the firmware waits for the speed to settle is more */
+#define BEFORE 14U /* turns; more than the firmware waits for the speed to settle */
 #define TURNS 20U
 
 static bool full(void) { return few_or_all(0, 1) == 1; }
@@ -36,14 +37,13 @@ static wh_rotor_config rotor;
 static wh_cell_config cell;
 static rig_orbit orbit;
 
-/* What many runs found. */
 typedef struct tally {
     unsigned runs;
     unsigned good;
     unsigned covered[2]; /* amplitude, phase */
-    double sum[2];       /* errors: part of the amplitude, and rad */
+    double sum[2];       /* errors: relative in amplitude, rad in phase */
     double square[2];
-    double half[2][1000]; /* half-widths, likewise */
+    double half[2][1000]; /* half-widths, the same units */
 } tally;
 
 static tally found;
@@ -101,7 +101,7 @@ static void print_row(double rpm, const rig_noise *noise) {
 
 /* --- the plant ------------------------------------------------------------------------------------- */
 
-/* Its force is the model's, at states all around; in float, with the tare. */
+/* In float, with the tare, over the whole range of states. */
 static void test_the_plant_is_the_model(void) {
     static uint64_t memory[WH_STATE_WORDS(1, 1, 1)];
     wh_state state;
@@ -124,9 +124,9 @@ static void test_the_plant_is_the_model(void) {
     }
 }
 
-/* Whatever the speed, a rotor on a fixed mount that comes round as it went has its force in line with the masses, and
- * S <w^2> of it: the integrals of F cos and F sin over the angle can be done by parts. With the speed's swing E to the
- * second order that is S W^2 (1 + 3/2 E^2), W the mean speed. */
+/* At any mean speed, a rotor on a fixed mount in a periodic motion has its force in line with the
+ * masses, of size S <w^2>. Proof: integrate F cos and F sin over the angle by parts. With swing E
+ * of the speed, to second order, that is S W^2 (1 + 3/2 E^2), W the mean speed. */
 static void test_the_truth_is_what_theory_says(void) {
     static const double rpm[] = {170.0, 330.0};
     for (unsigned i = 0; i < 2; i++) {
@@ -140,7 +140,7 @@ static void test_the_truth_is_what_theory_says(void) {
     }
 }
 
-/* What is called good is right to its interval and 1 %. */
+/* A measurement marked good is right within its interval plus 1 %. */
 static wh_quality check_no_lie(const rig_noise *noise, uint64_t seed) {
     wh_measured measured;
     rig_measure(&orbit, noise, &rotor, BEFORE, TURNS, seed, &measured);
@@ -155,20 +155,20 @@ static wh_quality check_no_lie(const rig_noise *noise, uint64_t seed) {
 
 /* --- bias and scatter ------------------------------------------------------------------------------- */
 
-/* No more scatter than 1.3 times what the noise of so many samples leaves. Jitter of the marks moves the phase by at least
- * that of the mean of the marks, which is added there: 20 marks, each known to 60 us, do not tell the angle better. It
- * moves the swing E as well, and the amplitude by 3/2 E dE. */
+/* Scatter at most 1.3 times the noise of so many samples. Jitter moves the phase by at least that
+ * of the mean of the marks, which is added: 20 marks, each known to 60 us, give the angle no
+ * better. Jitter also moves the swing E, and the amplitude by 3/2 E dE. */
 static void check_scatter(const rig_noise *noise) {
     const double samples = TURNS * orbit.turn_s / 0.002;
     const double cells = 1.3 * noise->cell_N * sqrt(2.0 / samples) / orbit.amplitude_N;
     const double marks =
         1.3 * noise->jitter_s * 2.0 * 3.14159265358979323846 / (orbit.turn_s * sqrt((double)TURNS));
-    const double few = full() ? 1.0 : 1.3; /* runs: their scatter scatters */
+    const double few = full() ? 1.0 : 1.3; /* the scatter of few runs scatters */
     check_below(fabs(bias(0)) + few * hypot(cells, 1.5 * orbit.swing * marks), rms(0));
     check_below(fabs(bias(1)) + few * hypot(cells, marks), rms(1));
 }
 
-/* At most 0.5 % and 0.5 degrees of bias, and the scatter as above. */
+/* Bias at most 0.5 % and 0.5 degrees. */
 static void test_bias_and_scatter(void) {
     static const double rpm[] = {170.0, 200.0, 260.0, 330.0, 360.0};
     for (unsigned k = 0; k < 5; k++) {
@@ -185,9 +185,9 @@ static void test_bias_and_scatter(void) {
     }
 }
 
-/* The same by a converter of 12 bits, as the STM32F405 has one: 64 conversions in 2 ms, one count 109 mN, noise of half a
- * count. Without any noise of its own a crest stands still for longer than a cell that works: what is then said is still no
- * lie. */
+/* The same with a converter of 12 bits (STM32F405): 64 conversions in 2 ms, one count 109 mN,
+ * noise of half a count. Without noise a crest repeats one value longer than a working cell would.
+ * The result must still be honest. */
 static void test_a_converter_of_twelve_bits(void) {
     static const double rpm[] = {170.0, 200.0, 260.0, 330.0, 360.0};
     for (unsigned k = 0; k < 5; k++) {
@@ -213,7 +213,8 @@ static void test_a_converter_of_twelve_bits(void) {
 
 /* --- intervals -------------------------------------------------------------------------------------- */
 
-/* At 330 rpm: 93 to 97 of a hundred runs in 1,000 within what is said, and no more said than need be. */
+/* At 330 rpm: 93 to 97 % of 1,000 runs lie within their interval, and the intervals are not wider
+ * than needed. */
 static void test_intervals_hold_what_they_promise(void) {
     static const double cells_N[] = {0.5, 1.0, 3.0};
     rig_orbit_find(&rig_plant_nominal, 330.0, LEAD_RAD, &orbit);
@@ -233,7 +234,7 @@ static void test_intervals_hold_what_they_promise(void) {
     }
 }
 
-/* With the cell's own noise the floors rule: at least 95 of a hundred, within 0.1 % and 0.1 degrees. */
+/* With the cell's own noise the floors dominate: at least 95 % lie within 0.1 % and 0.1 degrees. */
 static void test_intervals_where_floors_rule(void) {
     rig_orbit_find(&rig_plant_nominal, 330.0, LEAD_RAD, &orbit);
     for (unsigned i = 0; i < 2; i++) {
@@ -242,7 +243,7 @@ static void test_intervals_where_floors_rule(void) {
         measure_many(&noise, runs, 200000U + 2000U * i);
         print_row(330.0, &noise);
         for (unsigned what = 0; what < 2; what++) {
-            /* with jitter the marks rule the phase, not the floors */
+            /* with jitter the marks dominate the phase, not the floors */
             const double least = !full() ? 0.85 : i == 1 && what == 1 ? 0.93 : 0.95;
             TEST_ASSERT_TRUE((double)found.covered[what] / runs >= least);
         }
@@ -255,7 +256,7 @@ static double drawn(double least, double most) {
     return least + (most - least) * ((double)(scattered() >> 11) + 0.5) * 0x1p-53;
 }
 
-/* Rotors of which nobody knows: inertia and friction drawn within 30 %, at the slowest set-point. */
+/* Inertia and friction are drawn within 30 %, at the slowest set-point. */
 static void test_drawn_rotors(void) {
     for (unsigned i = 0; i < 2; i++) {
         const rig_noise noise = {.cell_N = i == 0 ? 0.07 : 1.0, .jitter_s = i == 0 ? 0.0 : 60e-6};
@@ -283,8 +284,8 @@ static void test_drawn_rotors(void) {
 
 /* --- gravity fed forward --------------------------------------------------------------------------- */
 
-/* What the motor is given of gravity, of another rotor than the controller believes, and the friction that it has for
- * braking. */
+/* The gravity compensation of a rotor with other parameters than the controller assumes, and the
+ * friction that limits braking. */
 typedef struct fed_kind {
     double part;
     double late_rad;
@@ -309,9 +310,10 @@ static void print_fed(const fed_kind *kind, double rpm, const rig_noise *noise) 
     print_row(rpm, noise);
 }
 
-/* At the speed at which the motor just brakes as much as is asked of it, and faster: up to 30 % too much or too little fed,
- * of rotors with half as much inertia more or 30 % less, within 1 % and 1 degree. Slower, where the rotor would not get
- * over the top by itself and the motor cannot brake enough, that holds for the right part. */
+/* From the speed at which the motor can just brake as much as required: compensation wrong by up
+ * to 30 %, inertia 50 % higher or 30 % lower, within 1 % and 1 degree. Slower, the rotor cannot
+ * pass the top by itself and the motor cannot brake enough. There only the right compensation
+ * passes. */
 static void test_what_is_fed_does_not_show(void) {
     static const double rpm[] = {100.0, 107.0, 115.0, 123.0, 130.0, 170.0, 250.0, 330.0};
     static const fed_kind kinds[] = {
@@ -329,7 +331,7 @@ static void test_what_is_fed_does_not_show(void) {
             TEST_ASSERT_DOUBLE_WITHIN(0.01, 0.0, bias(0));
             TEST_ASSERT_DOUBLE_WITHIN(1.0 / DEG, 0.0, bias(1));
             check_scatter(&noise);
-            if (slow) { /* whatever the friction; and what is left of it is said */
+            if (slow) { /* any friction; the residual is reported */
                 TEST_ASSERT_DOUBLE_WITHIN(0.4 / DEG, 0.0, bias(1));
                 TEST_ASSERT_TRUE(found.covered[1] >= found.runs * 9U / 10U);
                 TEST_ASSERT_TRUE(found.covered[0] >= found.runs * 9U / 10U);
@@ -338,8 +340,8 @@ static void test_what_is_fed_does_not_show(void) {
     }
 }
 
-/* Fed at an angle that is off by a normal number, of which the tolerance is two standard deviations: the interval holds
- * the truth as often as it should. */
+/* The angle of the compensation is wrong by a normal number; the tolerance is two standard
+ * deviations. The interval covers the truth as often as promised. */
 static void test_intervals_while_fed(void) {
     const rig_noise noise = {.cell_N = 1.0, .jitter_s = 60e-6};
     rotor.fed_tolerance_rad = (wh_real)0.02;
@@ -353,7 +355,7 @@ static void test_intervals_while_fed(void) {
         kind.part = drawn(0.9, 1.1);
         kind.inertia = drawn(0.8, 1.2);
         kind.drag = drawn(1.0, 5.0);
-        /* the sum of four even ones is normal enough */
+        /* the sum of four uniform numbers is normal enough */
         for (unsigned i = 0; i < 4; i++) {
             kind.late_rad += drawn(-0.0085, 0.0085);
         }
@@ -372,8 +374,9 @@ static void test_intervals_while_fed(void) {
 
 /* --- no healthy lie ---------------------------------------------------------------------------------- */
 
-/* Faults of the cell at all speeds: what is called good is right to its interval and 1 %, but for gains off by less than
- * 5 %, which only calibration tells; and what is called good must not be nothing at all. */
+/* Faults of the cell at all speeds: a result marked good is right within its interval plus 1 %.
+ * Gain errors below 5 % are exempt, because only calibration finds them. Some results must be
+ * good. */
 static void test_no_fault_is_called_good(void) {
     static const rig_noise faults[] = {
         {.cell_N = 0.07, .frozen_s = 0.1},

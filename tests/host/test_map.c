@@ -1,6 +1,6 @@
-/* test_map.c: stability maps of drawn springs, dampers and decays, method by method, held to closed forms on both sides:
- * where runs leave all bounds, where a tolerance ends and where the energy is lost; pairs that have no
- * run, maps that are stopped, and words that are refused. */
+/* test_map.c: stability maps of drawn springs, dampers and decays, per method, compared with
+ * closed forms from both sides. Limits: unbounded runs, tolerance, energy. Also pairs without a
+ * run, interrupted maps and refused words. */
 #include <complex.h>
 #include <math.h>
 #include <stdio.h>
@@ -26,7 +26,7 @@ typedef struct drawn_map {
 } drawn_map;
 
 typedef struct map_asked {
-    const char *text; /* whose scene is s */
+    const char *text; /* its scene is s */
     const char *over[2];
     wh_method method;
     double tolerance;
@@ -65,7 +65,7 @@ static const map_cell *cell_of(const drawn_map *m, uint64_t across, uint64_t at)
 
 /* --- limits ----------------------------------------------------------------------------------------------*/
 
-/* |R(z)| of Runge and Kutta's methods with as many stages as their order: exp() cut off behind z^order. */
+/* |R(z)| of Runge-Kutta methods with as many stages as their order: exp() truncated after z^order. */
 static double growth(int order, double complex z) {
     double complex sum = 1.0;
     double complex next = 1.0;
@@ -76,7 +76,7 @@ static double growth(int order, double complex z) {
     return cabs(sum);
 }
 
-/* Up to which |z| in this direction it does not grow; 0: nowhere. */
+/* Largest |z| in this direction without growth; 0: always grows. */
 static double longest(int order, double complex direction) {
     double low = 0.0;
     double high = 0.0;
@@ -91,9 +91,10 @@ static double longest(int order, double complex direction) {
     return low;
 }
 
-/* `order`: of those whose polynomial is known by that. Else where an undamped oscillation ends: 2 of leapfrog's and
- * semi-implicit Euler's (Hairer, Lubich & Wanner, Geometric Numerical Integration, section I.1), and of Nystroem's methods
- * what docs/stability.md has of runs of 40,000 steps. `steps`: what grows by a hundred, 2 % beyond the limit. */
+/* `order` selects the polynomial. Else the limit of an undamped oscillation: 2 for leapfrog and
+ * semi-implicit Euler (Hairer, Lubich & Wanner, Geometric Numerical Integration, section I.1).
+ * Nyström methods: from runs of 40,000 steps (docs/stability.md). Over `steps`, 2 % beyond the
+ * limit, a run grows a hundredfold. */
 static const struct {
     wh_method method;
     int order;
@@ -111,7 +112,8 @@ typedef struct tally {
     unsigned within, beyond;
 } tally;
 
-/* A scene of size w of `unit` 1/s at scale 1, whose limit is `z` over that times the root of the scale. */
+/* Scene of frequency w in `unit` 1/s at scale 1. Its limit is `z` over w times the root of the
+ * scale. */
 static void hold_to(const map_asked *a, const double *limit_s, double known_to, tally *sum) {
     drawn_map m;
     open_map(&m, a);
@@ -135,8 +137,8 @@ static void hold_to(const map_asked *a, const double *limit_s, double known_to, 
     close_map(&m);
 }
 
-/* Steps from 0.7 to 1.3 of the limit of the first of three places, the last 1.2 of it; the shorter step first, or last,
- * the step's axis the first, or the second. */
+/* Steps from 0.7 to 1.3 of the limit at the first of three places; the last limit is 1.2 times it.
+ * Order of steps and of axes is drawn. */
 static void hold_drawn(dice *d, const char *text, wh_method method, const char *across,
                        const double *limit_s, double known_to, tally *sum) {
     char step[120];
@@ -153,7 +155,7 @@ static void hold_drawn(dice *d, const char *text, wh_method method, const char *
     hold_to(&a, limit_s, known_to, sum);
 }
 
-/* m x'' + c x' + k x = 0, of all masses and stiffnesses, undamped and damped below the critical. */
+/* m x'' + c x' + k x = 0 of any mass and stiffness, undamped and underdamped. */
 static void test_springs_of_all_methods(void) {
     dice d = dice_of("map", 1421);
     const unsigned cases = dice_cases(few_or_all(1, 6) * ROWS);
@@ -161,7 +163,7 @@ static void test_springs_of_all_methods(void) {
     for (unsigned k = 0; k < cases; k++) {
         const wh_method method = rows[k % ROWS].method;
         const int order = rows[k % ROWS].order;
-        const bool must = order == 1 || order == 2; /* nothing else is stable */
+        const bool must = order == 1 || order == 2; /* no other method is stable */
         const double zeta =
             order == 0 || (!must && dice_one_of(&d, 2) == 0) ? 0.0 : dice_between(&d, 0.1, 0.9);
         const double mass_kg = pow(10.0, dice_between(&d, -2.0, 2.0));
@@ -189,7 +191,7 @@ static void test_springs_of_all_methods(void) {
     TEST_ASSERT_TRUE(sum.within > cases * 20 && sum.beyond > cases * 20);
 }
 
-/* x' = -a x, which has no energy. */
+/* x' = -a x, without an energy. */
 static void test_decays_of_all_methods(void) {
     dice d = dice_of("map decays", 1422);
     const unsigned cases = dice_cases(few_or_all(4, 32));
@@ -219,7 +221,7 @@ static const char spring_text[] =
     "mechanism spring\ncoordinate x [m]\nparameter k = 1 [N/m]\nparameter m = 1 [kg]\n"
     "T = m*x'^2/2\nV = k*x^2/2\nscene s { start x = 1 [m]; step 1 [s]; until 200 [s] }\n";
 
-/* Of an undamped oscillation explicit Euler and Heun have none. */
+/* Explicit Euler and Heun are never stable for an undamped oscillation. */
 static void test_no_limit(void) {
     const wh_method methods[] = {WH_EULER, WH_HEUN};
     for (int i = 0; i < 2; i++) {
@@ -231,8 +233,8 @@ static void test_no_limit(void) {
     }
 }
 
-/* What has grown twentyfold is bounded, ten thousandfold is not; and where half the step is too long as well, so that the
- * two runs grow alike, the finest run of the row tells. */
+/* Growth by 20 is bounded, by 1e4 is not. If half the step is too long as well, the two runs grow
+ * alike, and the finest run of the row decides. */
 static void test_what_bounds_are(void) {
     dice d = dice_of("map bounds", 1424);
     for (unsigned k = 0; k < dice_cases(12); k++) {
@@ -264,9 +266,10 @@ static void test_what_bounds_are(void) {
 
 /* --- the tolerance and the energy ------------------------------------------------------------------------*/
 
-/* Runge-Kutta 4's phase is (h w)^5/120 a step off and its energy (h w)^6/72: over w T that is w T z^4/120 of the amplitude,
- * half of which is a part of the range, and w T z^5/72 of the energy. Of its books the largest entry is what changes of
- * speed passed on, half the root mean square of the momentum times the swing of the rate: root 2 of the energy. */
+/* Runge-Kutta 4 has a phase error of (h w)^5/120 a step and an energy error of (h w)^6/72. Over w
+ * T these are w T z^4/120 of the amplitude (half of it relative to the range) and w T z^5/72 of
+ * the energy. The largest entry of its balance is the work on changes of speed. It is half the RMS
+ * momentum times the swing of the rate: root 2 of the energy. */
 static void test_where_a_tolerance_and_the_energy_end(void) {
     dice d = dice_of("map tolerance", 1423);
     const unsigned cases = dice_cases(few_or_all(4, 32));
@@ -309,7 +312,8 @@ static void test_where_a_tolerance_and_the_energy_end(void) {
 
 /* --- no run, no limit, no end ----------------------------------------------------------------------------*/
 
-/* Without mass there is no acceleration; beyond the stop there is no start; a step beyond the end is none. */
+/* Without mass there is no acceleration, beyond the stop no start, and a step longer than the run
+ * is no step. */
 static void test_pairs_without_a_run(void) {
     static const char ball[] =
         "mechanism ball\ncoordinate z [m]\nparameter e = 0.5\nT = 1 [kg]*z'^2/2\nV = 9.81 [N]*z\n"
