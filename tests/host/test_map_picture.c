@@ -1,6 +1,6 @@
-/* test_map_picture.c: drawn maps as pictures: what gnuplot is told, read again and held to what the map was drawn from: which
- * verdict fills which pairs, and where each cell ends. `cat` plays gnuplot, so that its picture is what
- * it was told. */
+/* test_map_picture.c: stability maps as pictures and text. The script for gnuplot is parsed and compared with the
+ * map: which verdict fills which pairs, and where each cell ends. `cat` stands in for gnuplot, so that its "picture"
+ * is the script. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -23,8 +23,8 @@ void suite_map_shown(void);
 #define PICTURE "build/tests/drawn_map.svg"
 #define PLAYERS "build/tests/players"
 
-/* Where cell i of rising values ends, below or above: halfway to its neighbour, in the axis's scale. Of one value alone
- * there is no half way: it lies within. */
+/* Edge of cell i of rising values: halfway to its neighbour in the axis's scale. A single value has no halfway point;
+ * it lies inside. */
 static double end_of(const axis *a, const double *v, uint64_t i, bool up) {
     const uint64_t n = a->count;
     const uint64_t next = up ? (i + 1 < n ? i + 1 : i - 1) : (i > 0 ? i - 1 : i + 1);
@@ -51,7 +51,7 @@ typedef struct box {
     double x, y, left, right, low, high;
 } box;
 
-/* The next stretch of a row from `*i` on that has this verdict; false: there is none. */
+/* The next run of cells of a row, from `*i` on, with this verdict. False: no more. */
 static bool next_stretch(const shown_map *s, uint64_t row, map_verdict verdict, uint64_t *from,
                          uint64_t *end) {
     uint64_t i = *end;
@@ -66,7 +66,7 @@ static bool next_stretch(const shown_map *s, uint64_t row, map_verdict verdict, 
     return *from < *end;
 }
 
-/* One box for each stretch of each row, and none besides, in the file's order of rows. */
+/* Exactly one box for each run of cells of each row, in the file's order. */
 static void expect_boxes(const shown_map *s, map_verdict verdict, const char *text) {
     const axis *along = &s->axes[s->map.along];
     const axis *rows = &s->axes[1 - s->map.along];
@@ -89,7 +89,6 @@ static void expect_boxes(const shown_map *s, map_verdict verdict, const char *te
     TEST_ASSERT_EQUAL_INT(0, strncmp(text, "EOD\n", 4));
 }
 
-/* A range, its logarithm and its label. */
 static void expect_axis(const char *told, const axis *a, const double *v, char letter,
                         double *ends) {
     char what[80];
@@ -149,7 +148,7 @@ static void expect_picture(const shown_map *s) {
 
 /* --- drawn -------------------------------------------------------------------------------------------*/
 
-/* A script of this line in the place of gnuplot, in front of all other folders with programs. */
+/* A script of this line as gnuplot, first in PATH. */
 static char *play_gnuplot(const char *part) {
     const char *path = getenv("PATH");
     char *before = strdup(path != NULL ? path : "");
@@ -187,7 +186,7 @@ static void test_pictures_show_what_maps_hold(void) {
     stop_playing(path);
 }
 
-/* Told, and no picture that is said to be there. */
+/* The error is reported, and no picture is announced. */
 static void test_pictures_that_cannot_be_drawn(void) {
     dice d = dice_of("map_picture", 2320);
     shown_map s;
@@ -204,14 +203,12 @@ void suite_map_picture(void) {
 }
 
 /* === map shown ================================================================================ */
-/* Drawn maps in words and in rows, read again and held to what they were drawn from: what stands at which
- * pair. */
+/* Drawn maps in words and in CSV, parsed and compared cell by cell. */
 
 enum { LINE = 400 };
 
 /* --- in words --------------------------------------------------------------------------------------------*/
 
-/* A row as it should stand. */
 static void marks_of(const shown_map *s, uint64_t row, char *marks) {
     for (uint64_t i = 0; i < shown_map_across(s); i++) {
         *marks++ = ".ox#-?"[s->at[row][i]->verdict];
@@ -231,7 +228,7 @@ static void expect_row(const shown_map *s, uint64_t row, const char *line) {
     TEST_ASSERT_EQUAL_STRING("\n", behind);
 }
 
-/* Each verdict that occurs, from good to bad, and how often. */
+/* Each verdict that occurs, from good to bad, and its count. */
 static void expect_legend(const shown_map *s, FILE *in) {
     char line[LINE];
     for (int verdict = 0; verdict < MAP_VERDICTS; verdict++) {
@@ -287,7 +284,7 @@ static void expect_words(const shown_map *s) {
 
 /* --- in rows ---------------------------------------------------------------------------------------------*/
 
-/* The next field of a line of CSV: empty is NAN. */
+/* The next field of a line of CSV; NAN if empty. */
 static double next_field(char **at) {
     char *end = *at + strcspn(*at, ",\r");
     const double value = end == *at ? (double)NAN : strtod(*at, NULL);
@@ -362,7 +359,7 @@ static void hear(double runs, void *told) {
     heard.last = runs;
 }
 
-/* How many runs are done, with what is done of the one under way: never less than before, and all of them at the end. */
+/* Progress counts finished runs plus the fraction of the current one. It never decreases and ends at the total. */
 static void test_progress_goes_on(void) {
     static const char *const text =
         "mechanism m\ncoordinate x [m]\nparameter k = 1 [N/m]\nT = 1 [kg]*x'^2/2\nV = k*x^2/2\n"

@@ -1,5 +1,5 @@
-/* test_mass_scales.c: whether a mass matrix is singular is a matter of its directions, not of units and mass
- * ratios. Generated matrices, on their own and as mechanisms, against elimination in exact order in long double. */
+/* test_mass_scales.c: singular mass matrices must be found independently of units and mass ratios. Generated
+ * matrices, alone and as mechanisms, are compared with exact-order elimination in long double. */
 #define _POSIX_C_SOURCE 200809L
 
 #include "command.h"
@@ -24,7 +24,7 @@ static int cases(int usual) {
                         : (int)usual_or((unsigned)usual, (unsigned)usual / 4);
 }
 
-/* x of M x = b, with the largest pivots. */
+/* x of M x = b, with full pivoting. */
 static void solve(const long double *mass, const long double *b, int n, long double *x) {
     long double a[MOST][MOST + 1];
     for (int i = 0; i < n; i++) {
@@ -55,13 +55,13 @@ static void solve(const long double *mass, const long double *b, int n, long dou
     }
 }
 
-/* Bodies whose speeds are whole multiples of the coordinates' rates, and how large their masses are. */
+/* Bodies with speeds that are integer combinations of the coordinates' rates, and their masses. */
 typedef struct bodies {
     int n;                /* coordinates */
     int count;            /* bodies */
     int part[ROOM];       /* [count][n] */
     double mass_kg[MOST]; /* [count] */
-    double unit[MOST];    /* [n] a coordinate is measured in so many metres: a power of ten */
+    double unit[MOST];    /* [n] metres per unit of a coordinate: a power of ten */
 } bodies;
 
 static bodies random_bodies(uint64_t *seed, int n, int count, double decades) {
@@ -90,7 +90,6 @@ static void mass_matrix(const bodies *b, long double *mass) {
     }
 }
 
-/* The mechanism, with its forces. */
 static char *text_of(const bodies *b, const double *force) {
     char *text = NULL;
     size_t size = 0;
@@ -122,7 +121,7 @@ static char *text_of(const bodies *b, const double *force) {
     return text;
 }
 
-/* The largest sum of a column of the inverse, units taken out: what rounding is multiplied by. */
+/* One-norm of the inverse without units: the amplification of rounding. */
 static double inverse_size(const long double *mass, int n) {
     long double scaled[ROOM];
     double most = 0.0;
@@ -143,7 +142,7 @@ static double inverse_size(const long double *mass, int n) {
     return most;
 }
 
-/* Accepted, and the accelerations are right to what rounding makes of the matrix: the worst part of that. */
+/* Accelerations are right within the round-off of the matrix. Returns the worst ratio. */
 static double check_right(const bodies *b, uint64_t *seed) {
     long double mass[ROOM];
     long double wanted[MOST];
@@ -180,7 +179,7 @@ static double check_right(const bodies *b, uint64_t *seed) {
     return worst;
 }
 
-/* Mass ratios of up to 1e12, coordinates in units from micrometres to thousands of kilometres. */
+/* Mass ratios up to 1e12, units from micrometres to thousands of kilometres. */
 static void test_mixed_masses_and_units_are_right(void) {
     uint64_t seed = 90210;
     double worst = 0.0;
@@ -193,7 +192,7 @@ static void test_mixed_masses_and_units_are_right(void) {
     printf("  %d mechanisms from seed 90210: at most %.2f of n eps |inverse|\n", all, worst);
 }
 
-/* The ratio of 1e12 itself: the light body rides on the heavy one, or the other way round. */
+/* The light body rides on the heavy one, or the other way round. */
 static void test_a_ratio_of_a_million_millions(void) {
     uint64_t seed = 5;
     for (int way = 0; way < 2; way++) {
@@ -208,13 +207,13 @@ static void test_a_ratio_of_a_million_millions(void) {
     }
 }
 
-/* Fewer bodies than coordinates: singular, whatever rounding leaves. */
+/* Fewer bodies than coordinates: singular, despite round-off. */
 static void test_fewer_bodies_than_coordinates_are_refused(void) {
     uint64_t seed = 77;
     for (int i = 0; i < cases(150); i++) {
         const int n = 2 + (int)(random_bits(&seed) % 4);
         bodies b = random_bodies(&seed, n, n - 1, i % 2 == 0 ? 3.0 : 12.0);
-        for (int k = 0; k < b.count * n; k++) { /* every body moves with every coordinate */
+        for (int k = 0; k < b.count * n; k++) {
             b.part[k] = 1 + (int)(random_bits(&seed) % 7);
         }
         const double force[MOST] = {0};
@@ -227,7 +226,7 @@ static void test_fewer_bodies_than_coordinates_are_refused(void) {
     }
 }
 
-/* The same through sines: a body that moves along a turning line, its speed a sum of two rates with one factor. */
+/* The same through sines: a body on a turning line; its speed is a sum of two rates with one factor. */
 static void test_one_speed_through_sines_is_refused(void) {
     uint64_t seed = 31;
     for (int i = 0; i < 60; i++) {
@@ -247,7 +246,7 @@ static void test_one_speed_through_sines_is_refused(void) {
     }
 }
 
-/* Matrices on their own: D A D and D A E of any scales have the rank of A. */
+/* D A D and D A E of any scales have the rank of A. */
 static void test_scales_do_not_change_the_rank(void) {
     uint64_t seed = 1969;
     const int all = cases(4000);
@@ -282,7 +281,7 @@ static void test_scales_do_not_change_the_rank(void) {
     printf("  %d matrices from seed 1969\n", all);
 }
 
-/* Entries that are known badly hide what is smaller. */
+/* A pivot below the error of uncertain entries counts as zero. */
 static void test_a_pivot_within_the_errors_is_none(void) {
     for (int power = -10; power <= 10; power += 5) {
         const double scale = pow(10.0, power);

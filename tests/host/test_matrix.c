@@ -1,5 +1,5 @@
-/* test_matrix.c: a whole step as one matrix, over generated linear mechanisms and the built-in ones: against the
- * exponential in 113 bits of matrices that the test has written down itself (linear.h), and against the stages of RK4. */
+/* test_matrix.c: a linear step as one matrix, for generated and built-in linear mechanisms. References: the
+ * exponential in 113 bits of the test's own matrices (linear.h), and the stages of RK4. */
 #define _POSIX_C_SOURCE 200809L
 
 #include <float.h>
@@ -62,12 +62,12 @@ static void test_twice_the_digits(void) {
     }
 }
 
-/* Rounded once: to the float that the 113 bits are nearest to, ties between floats and what is beside them included. */
+/* Each constant is the float nearest to its 113 bits, including ties and values next to ties. */
 static void test_constants_are_rounded_once(void) {
     uint64_t seed = 7002;
     for (unsigned n = 0; n < dice_cases(20000); n++) {
         twofold a = drawn_twofold(&seed);
-        if (n % 2 == 0) { /* in the middle between two floats, or hardly beside it */
+        if (n % 2 == 0) { /* a tie between two floats, or next to one */
             const float below = (float)a.high;
             const double middle = ((double)below + (double)nextafterf(below, INFINITY)) / 2.0;
             a = (twofold){middle, n % 3 == 0 ? 0.0 : number_scaled(middle, n % 5 == 0 ? -55 : -90)};
@@ -87,10 +87,10 @@ static void test_constants_are_rounded_once(void) {
 
 /* --- the entries ------------------------------------------------------------------------------------ */
 
-/* Half a unit in the last place of a double: of 0, half the least of them, which is no double. */
+/* Half a unit in the last place of a double. At 0: half the smallest subnormal, which is no double. */
 static quad half_unit(double x) { return (quad)(nextafter(fabs(x), HUGE_VAL) - fabs(x)) / 2; }
 
-/* Most by which an entry is off beyond `share` of what its matrix allows it to be, in units of half its last digit. */
+/* Largest error of an entry beyond `share` of its bound, in half units of the last digit. */
 static double entries_off(const linear *of, const image *im, quad want[][LINEAR_COLUMNS],
                           const quad allowed[][LINEAR_COLUMNS]) {
     double most = 0.0;
@@ -119,7 +119,7 @@ static void set_matrix(motion *m, const char *text, const engine_kind *kind, ima
         (stepping){.kind = kind, .method = WH_RK4, .compensated = compensated, .matrix = matrix});
 }
 
-/* A, B and c of the list, held against those of the test: they are that to the rounding of the list's few constants. */
+/* A, B and c of the operation list. They match the test's up to the rounding of the list's few constants. */
 static void take_rates(const image *im, const char *text, linear *of) {
     static twofold rates[LINEAR_STATES * LINEAR_COLUMNS];
     TEST_ASSERT_EQUAL_INT(of->columns, affine_columns(im));
@@ -135,8 +135,8 @@ static void take_rates(const image *im, const char *text, linear *of) {
     }
 }
 
-/* Every entry is the nearest double to that of the exponential of what the list says, from slack ones to stiff ones: beyond oscillations that a
- * step is longer than, and dampers that stop what moves within a step. */
+/* Every entry is the double nearest to the list's exponential, from soft to stiff: oscillations shorter than a step,
+ * dampers that stop a motion within one. */
 static void test_entries_are_the_nearest_doubles(void) {
     static const int stiff[] = {0, 6, 14, 20};
     uint64_t seed = 7003;
@@ -162,8 +162,7 @@ static void test_entries_are_the_nearest_doubles(void) {
     printf("  entries of generated matrices are off by %.4f of half a unit\n", worst);
 }
 
-/* Where masses move together, the operation list has constants that are rounded: each by half a unit, which the exponential
- * makes as much of as it makes of |A|. */
+/* In coupled masses the list's constants are rounded, each by half a unit. The exponential amplifies that like |A|. */
 static void test_entries_of_full_mass_matrices(void) {
     uint64_t seed = 7004;
     double worst = 0.0;
@@ -186,7 +185,7 @@ static void test_entries_of_full_mass_matrices(void) {
             }
         }
         for (int i = of.coordinates; i < of.states;
-             i++) { /* no entry is known better than its row */
+             i++) { /* no entry is better known than its row */
             for (int k = 0; k < of.columns; k++) {
                 size.rate[i][k] += most;
             }
@@ -207,7 +206,6 @@ static void test_entries_of_full_mass_matrices(void) {
 
 /* --- motions ---------------------------------------------------------------------------------------- */
 
-/* The largest state so far, by coordinates and by rates. */
 static void widen(const linear *of, const quad *x, double *size) {
     for (int i = 0; i < of->states; i++) {
         const int group = i < of->coordinates ? 0 : 1;
@@ -215,8 +213,7 @@ static void widen(const linear *of, const quad *x, double *size) {
     }
 }
 
-/* Runs `steps` with inputs that change every seventh step. The error at the end, relative to the largest position or rate
- * there was. */
+/* Inputs change every seventh step. Returns the final error relative to the largest position or rate. */
 static double run_error(const linear *of, const char *text, motion *m, int order, int steps,
                         uint64_t *seed) {
     static quad step[LINEAR_STATES][LINEAR_COLUMNS];
@@ -248,7 +245,7 @@ static double run_error(const linear *of, const char *text, motion *m, int order
     return most;
 }
 
-/* 1000 steps in both numbers, compensated and not, exact and as RK4: each error is that of rounding, up to `most` units. */
+/* 1000 steps in both numbers, compensated or not, exact or RK4. Each error is round-off, at most `most` units. */
 static void test_motions_are_those_of_the_exponential(void) {
     static const struct {
         const engine_kind *kind;
@@ -269,8 +266,7 @@ static void test_motions_are_those_of_the_exponential(void) {
             linear_draw(&seed, 1 + (int)(n % 4), (linear_kind){n % 3 == 0 ? 6 : 0, n % 2 != 0},
                         text, sizeof text, &of);
             const bool coupled = n % 2 != 0;
-            const bool exact =
-                n % 5 < 3 || n % 3 == 0 || coupled; /* RK4 is not stable everywhere */
+            const bool exact = n % 5 < 3 || n % 3 == 0 || coupled; /* RK4 is not always stable */
             set_matrix(&m, text, ways[w].kind, exact ? MATRIX_EXACT : MATRIX_RK4,
                        ways[w].compensated);
             const double off = run_error(&of, text, &m, exact ? 0 : 4, 1000, &seed) / ways[w].unit;
@@ -283,7 +279,6 @@ static void test_motions_are_those_of_the_exponential(void) {
     }
 }
 
-/* The matrix of RK4 beside RK4's stages. */
 static void test_the_matrix_of_rk4_moves_like_its_stages(void) {
     uint64_t seed = 7006;
     double worst = 0.0;
@@ -322,8 +317,8 @@ void suite_matrix(void) {
 }
 
 /* === matrix printed =========================================================================== */
-/* A step's matrix as tables and as LaTeX (host/emit/matrix.c), drawn: read back from the text, each
- * entry is what it was to the digits that are shown, beside the names of its row and its column. */
+/* A step's matrix as tables and LaTeX (host/emit/matrix.c), parsed again: each entry matches to the printed digits,
+ * with the names of its row and column. */
 
 static dice die;
 static drawn_image drawn;
@@ -346,7 +341,7 @@ static bool has_offset(void) {
     return has;
 }
 
-/* Ten digits of it are there. */
+/* Ten digits are printed. */
 static const char *read_entry(const char *at, int i, int k) {
     const double wanted = drawn.entry[i * drawn.im.matrix.columns + k];
     double number;
@@ -377,7 +372,7 @@ static const char *said_motion(const char *at) {
                                 : "what Runge-Kutta 4 makes of it");
 }
 
-/* Of `first` to before `end`, five columns beside each other at most; all lines of a block end at one column. */
+/* Columns `first` to before `end`, at most five side by side. All lines of a block have equal length. */
 static const char *read_table(const char *at, const char *title, int first, int end) {
     char name[40];
     for (int from = first; from < end; from += 5) {
@@ -388,7 +383,7 @@ static const char *read_table(const char *at, const char *title, int first, int 
         for (int k = from; k < to; k++) {
             at = said_words(at, drawn_image_name(&drawn, k, name));
         }
-        at += strspn(at, " "); /* what is added has no name */
+        at += strspn(at, " "); /* the constant term has no name */
         for (int i = 0; i < drawn.im.matrix.states; i++) {
             at = said_exactly(at, "\n");
             TEST_ASSERT_EQUAL_size_t(wide, strcspn(at, "\n"));

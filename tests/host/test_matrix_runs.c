@@ -1,5 +1,5 @@
-/* test_matrix_runs.c: steps as one matrix where users meet them: the built-in linear scenes over their whole runs, a million
- * steps, turn angles, systems of first order, sweeps over the step, runs that diverge; and what is refused. */
+/* test_matrix_runs.c: steps as one matrix in use: built-in linear scenes over whole runs, a million steps, turn
+ * angles, systems of first order, sweeps over the step, divergence, and refusals. */
 #define _POSIX_C_SOURCE 200809L
 
 #include <float.h>
@@ -23,7 +23,7 @@ static stepping as_matrix(const engine_kind *kind, image_matrix_of matrix, bool 
 
 /* --- S5 ---------------------------------------------------------------------------------------------- */
 
-/* Example 2, case 2 in the dissertation's own pounds and inches, which cancel: X'' and Y'' of the stretches. */
+/* Example 2, case 2 of the dissertation in its own pounds and inches, which cancel: X'' and Y'' of the stretches. */
 static linear two_masses(void) {
     const quad m1 = (quad)72 / 100;
     const quad m2 = (quad)136 / 100;
@@ -39,8 +39,8 @@ static linear two_masses(void) {
     return of;
 }
 
-/* The state at every half second, against exp(S t) of that time; the largest error in units of rounding, relative to what the
- * mass started with. */
+/* Every half second the state is compared with exp(S t). Returns the largest error in units of round-off, relative to
+ * the initial amplitude. */
 static double two_masses_off(stepping how, double unit) {
     static quad step[LINEAR_STATES][LINEAR_COLUMNS];
     linear of = two_masses();
@@ -59,7 +59,7 @@ static double two_masses_off(stepping how, double unit) {
         how.kind->state(m.run, angle, real);
         for (int i = 0; i < 4; i++) {
             const double scale =
-                i < 2 ? 0.0127 : 0.0127 * 8.0; /* the masses swing at some 8 rad/s */
+                i < 2 ? 0.0127 : 0.0127 * 8.0; /* the masses swing at about 8 rad/s */
             worst = fmax(worst, (double)quad_size((quad)real[i] - x[i]) / scale / unit);
         }
     }
@@ -92,12 +92,12 @@ static void test_two_masses_are_their_exponential(void) {
 
 enum { MILLION = 1000000 };
 
-/* The distance from the truth after a million steps of an oscillator and the largest on the way to it, in its own amplitude. */
+/* Error after a million steps of an oscillator, and the largest on the way, relative to its amplitude. */
 static double oscillator_off(const float x, const float v, const quad *truth, double omega) {
     return hypot((double)((quad)x - truth[0]), (double)((quad)v - truth[1]) / omega);
 }
 
-/* x + (Phi - 1) x beside Phi x, every entry rounded once to float. */
+/* x + (Phi - 1) x compared with Phi x, every entry rounded once to float. */
 static void test_rounding_the_change_is_better(void) {
     static const double stiffness[] = {1.5, 39.5, 700.0};
     for (int k = 0; k < 3; k++) {
@@ -153,8 +153,8 @@ static void test_rounding_the_change_is_better(void) {
 
 /* --- turn angles, and systems of first order ------------------------------------------------------- */
 
-/* A rotor with friction that a motor turns, and one that nothing slows down. The first is behind the other's coordinate:
- * neither angle is in any force. */
+/* A rotor with friction and a motor, and a free one. Neither angle appears in a force. The first has the later
+ * coordinate. */
 static const char rotors[] =
     "mechanism rotors\ncoordinate th [rad]\ncoordinate ps [rad]\ncoordinate x [m]\n"
     "input M = 3 [N*m]\nT = 2 [kg*m^2]*th'^2/2 + 1 [kg*m^2]*ps'^2/2 + 1 [kg]*x'^2/2\n"
@@ -163,7 +163,7 @@ static const char rotors[] =
     "scene s { start th = 0.25, th' = 4 [rad/s], ps = 1, ps' = 20 [rad/s], x = 0.5 [m]; step 1 [ms]; "
     "until 100 [s] }\n";
 
-/* After `steps`, relative to rounding: th and x against the exponential in 113 bits, ps against its rate. */
+/* Errors relative to round-off: th and x against the exponential in 113 bits, ps against its rate. */
 static void expect_rotors(const engine_kind *kind, bool compensated, image_matrix_of matrix,
                           double most_rad, double most_free_rad) {
     const int steps = 100000;
@@ -204,15 +204,15 @@ static void expect_rotors(const engine_kind *kind, bool compensated, image_matri
 static void test_turn_angles(void) {
     expect_rotors(&engine_double, false, MATRIX_EXACT, 1e-11, 1e-8);
     expect_rotors(&engine_double, true, MATRIX_EXACT, 1e-12, 1e-12);
-    /* a free rotor moves by as many units, 1.5e-9 rad, in each of 1e5 steps, rounded once; a rate that hardly changes any more
-     * stops at where half its last digit is more than a step changes it, whatever steps it */
+    /* A free rotor moves by the same 1.5e-9 rad in each of 1e5 steps, rounded once. A slow rate stops once a step
+     * changes it by less than half its last digit, with any stepper. */
     expect_rotors(&engine_float, false, MATRIX_NONE, 4e-3, 1.5e-4);
     expect_rotors(&engine_float, false, MATRIX_EXACT, 4e-3, 1.5e-4);
     expect_rotors(&engine_float, true, MATRIX_NONE, 4e-3, 1.5e-4);
     expect_rotors(&engine_float, true, MATRIX_EXACT, 4e-3, 1.5e-4);
 }
 
-/* A system given outright, of orders one and two, with an angle that turns by a state; the truth in closed form. */
+/* A system given as equations of orders one and two, with an angle driven by a state. The reference is a closed form. */
 static void test_systems_of_first_order(void) {
     static const char text[] =
         "mechanism sys\nstate a [rad]\nstate u [V]\ninput d = 2 [V]\n"
@@ -236,7 +236,7 @@ static void test_systems_of_first_order(void) {
     }
 }
 
-/* x' = c y, y' = 0: however weak y is in x, nothing else moves x. Constants of all sizes that stay finite. */
+/* x' = c y, y' = 0: x moves by y alone, however weak c is. Finite constants of all sizes. */
 static void test_weak_couplings(void) {
     for (int exponent = -280; exponent <= 0; exponent += 20) {
         char text[400];
@@ -260,7 +260,7 @@ static void test_weak_couplings(void) {
 
 /* --- bounds, and another step ------------------------------------------------------------------------ */
 
-/* An unstable balance: refused at the step at which RK4's stages are, with the last good state kept. */
+/* An unstable balance ends at the same step as with RK4's stages, in the last good state. */
 static void test_runs_that_diverge_end_alike(void) {
     static const char text[] =
         "mechanism m\ncoordinate b [m]\ncoordinate q [m]\nT = 1 [kg]*(q'^2 + b'^2)/2\n"
@@ -289,7 +289,7 @@ static void test_runs_that_diverge_end_alike(void) {
     }
 }
 
-/* What a sweep does: the lists of one image with another step, which wants another matrix. */
+/* As in a sweep: the same image with another step needs another matrix. */
 static void test_another_step_has_another_matrix(void) {
     motion m;
     motion other;
@@ -329,7 +329,7 @@ static void expect_refused(const char *text, const char *const *more, const char
     model_drop();
 }
 
-/* `line`, the sixth, is refused where `part` of it begins. */
+/* `line`, the sixth, is refused at the position of `part`. */
 static void expect_not_linear(const char *line, const char *part, const char *why) {
     char text[800];
     char wanted[200];

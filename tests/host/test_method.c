@@ -1,5 +1,6 @@
-/* test_method.c: the first-order form that `whirl derive` prints, of mechanisms with drawn names: each component's slope
- * is the one that has its name and a prime, and the components' letter is no coordinate's. And the effects above it. */
+/* test_method.c: the first-order form of `whirl derive`, for mechanisms with drawn names. Each slope has its
+ * component's name and a prime, and the letter of the components is not a coordinate's. Also the effects, the rows of
+ * core/method.h, and the paths of RK4. */
 #include <float.h>
 #include <math.h>
 #include <stdbool.h>
@@ -29,7 +30,6 @@ enum { COORDINATES_MOST = 5, NAME = 24, COMPONENTS = 2 * COORDINATES_MOST };
 static const char *const names[] = {"a", "y1", "b", "s2", "x", "y", "w3", "s", "y23", "q4", "y1b"};
 enum { NAMES = sizeof names / sizeof names[0] };
 
-/* Writes a mechanism of `count` coordinates with other names each. */
 static void write(dice *d, char *text, size_t size, int count) {
     const unsigned first = dice_one_of(d, NAMES);
     size_t at = (size_t)snprintf(text, size, "mechanism m\n");
@@ -45,7 +45,7 @@ static void write(dice *d, char *text, size_t size, int count) {
     snprintf(text + at, size - at, "\nscene s { until 1 [s] }\n");
 }
 
-/* A letter and a number, as components are called: the number, or 0. */
+/* The number of a component's name, or 0. */
 static int number_behind(const char *letter, const char *word) {
     const size_t length = strlen(letter);
     const char *digits = word + length;
@@ -54,7 +54,6 @@ static int number_behind(const char *letter, const char *word) {
     return is ? (int)strtol(digits, NULL, 10) : 0;
 }
 
-/* The names between the brackets, in their order. */
 static int read_components(const char *line, char *letter, char part[][NAME]) {
     int count = 0;
     TEST_ASSERT_EQUAL_INT(1, sscanf(line, "first-order form, %23s = (", letter));
@@ -120,7 +119,7 @@ static void test_slopes_of_components(void) {
     }
 }
 
-/* What a scene calls for is told with its own words, and nothing of what it leaves out. */
+/* A scene's effects are listed in its own words, and no others. */
 static void test_effects_are_told(void) {
     enum { EFFECTS = 4 };
     static const char text[] =
@@ -155,10 +154,10 @@ void suite_first_order(void) {
 }
 
 /* === method rows ============================================================================== */
-/* The rows of core/method.h are what they say: explicit, told apart by their words; docs/dev/numerics.md has a
- * line for each, with its measured stability, which is that of the weights. (Orders: test_method_order.c.) */
+/* The rows of core/method.h: explicit, with unique words, and with a line in docs/dev/numerics.md, whose measured
+ * stability is that of the weights. Orders: test_method_order.c. */
 
-#define ROUNDING 1e-6 /* of sums of a few shares, which are floats here */
+#define ROUNDING 1e-6 /* for sums of a few shares, here in float */
 
 typedef struct butcher {
     int stages;
@@ -201,7 +200,7 @@ static void test_rows_are_explicit(void) {
     }
 }
 
-/* positions = b A is what makes the written-out positions the same method as on x' = f(x). */
+/* positions = b A gives the same method as on x' = f(x). */
 static void test_runge_kutta_methods_have_the_positions_of_their_rates(void) {
     for (int m = 0; m < WH_METHODS; m++) {
         const butcher t = row_of(m);
@@ -275,7 +274,7 @@ static double eigenvalue(double matrix[2][2]) {
     return disc < 0.0 ? sqrt(determinant) : fabs(half_trace) + sqrt(disc);
 }
 
-/* What a step of h multiplies x' = -x by; or, of q'' = -q, the larger size of the step matrix' eigenvalues. */
+/* Growth of x' = -x over a step of h. For q'' = -q: the spectral radius of the step matrix. */
 static double growth_of_decay(wh_method method, double h) {
     wh_real x = WH_R(1.0);
     wh_state state = {.real = &x};
@@ -297,7 +296,7 @@ static double growth_of_spring(wh_method method, double h) {
     return eigenvalue(matrix);
 }
 
-/* The same by the row alone, in double: what its stages make of 1 and of h, step by step. */
+/* The same from the row alone, in double. */
 static double polynomial_of_decay(wh_method method, double h) {
     const butcher t = row_of((int)method);
     double slope[WH_STAGES_MAX];
@@ -313,7 +312,6 @@ static double polynomial_of_decay(wh_method method, double h) {
     return fabs(x);
 }
 
-/* Column of the step matrix of q'' = -q that begins at q, v. */
 static void column_by_row(wh_method method, double h, double q, double v, double result[2]) {
     const wh_tableau *row = wh_tableau_of(method);
     const butcher t = row_of((int)method);
@@ -348,7 +346,7 @@ static double polynomial_of_spring(wh_method method, double h) {
     return eigenvalue(matrix);
 }
 
-/* The largest h, in thousandths, up to which nothing grows by more than float's roundings; 0 when a quarter does. */
+/* The largest stable h, in thousandths, with an allowance for float's rounding. 0: a quarter is unstable. */
 static double interval(double (*growth)(wh_method method, double h), wh_method method) {
     double h = 0.25;
     if (growth(method, h) > 1.0 + 1e-5) {
@@ -390,7 +388,6 @@ static void test_documented_stability_is_the_measured_one(void) {
     free(page);
 }
 
-/* How often a word stands in a sentence. */
 static unsigned times_in(const char *text, const char *word) {
     const char *const signs = " ,;()";
     unsigned times = 0;
@@ -403,7 +400,7 @@ static unsigned times_in(const char *text, const char *word) {
     return times;
 }
 
-/* Each method once, the one that is meant without a word first; and those of a form. Whatever the text held before. */
+/* Each method once, the default first; also only the methods for one form. The buffer's old text does not matter. */
 static void test_sentences_have_each_method_once(void) {
     char text[METHODS_TEXT_SIZE];
     char first[80];
@@ -435,15 +432,15 @@ void suite_method_rows(void) {
 }
 
 /* === rk4 ====================================================================================== */
-/* The paths of the method `rk4` compared with the plain step of core/rk4.h: one step of each built-in scene
- * without contacts, from drawn moments of its run, with sines turned on, looked up, and with the books kept. */
+/* The paths of `rk4` compared with core/rk4.h: one step of each built-in scene without contacts, from drawn moments.
+ * Variants: sines rotated, looked up, with the balance of energy. */
 
 enum { DRAWS = 5, VALUES = 3 * IMAGE_COMPONENTS_MAX };
 
 static uint64_t seed;
 static int compared; /* steps */
 
-/* One step in numbers of this kind from a state, angles first, in rad. False: the step is refused. */
+/* One step in numbers of this kind from a state (angles first, rad). False: refused. */
 static bool step_from(const motion *m, const engine_kind *kind, const double *from, double *to) {
     for (int i = 0; i < m->image->angles; i++) {
         m->image->start_rad[i] = from[i];
@@ -468,8 +465,8 @@ static double largest(const double *from, const double *to, int begin, int end) 
     return size;
 }
 
-/* The largest size of a component of i's kind, angles, positions or rates, before and after a step, and of a position's
- * way: where terms cancel, a component is small and its rounding is not. */
+/* Largest component of i's kind (angles, positions or rates) before and after a step, and the change of position. The
+ * scale of round-off where terms cancel. */
 static double size_of(const image *im, int i, const double *from, const double *to) {
     const int count = im->angles + im->reals;
     const int rates = im->form == WH_SECOND_ORDER ? im->coordinates : im->angles;

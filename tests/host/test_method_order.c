@@ -1,6 +1,5 @@
-/* test_method_order.c: the rows of core/method.h have the order that they say, no more and no less, by the conditions on their
- * weights: for each rooted tree one, in systems of first order, of second order, and of second order without rates. One digit
- * that is wrong in one coefficient breaks one of them. */
+/* test_method_order.c: order of the rows of core/method.h by the order conditions: one per rooted tree, for first
+ * order, second order, and second order without rates. A wrong digit in a coefficient violates one. */
 #define WH_DOUBLE 1
 #include <math.h>
 #include <stdio.h>
@@ -11,7 +10,7 @@
 
 void suite_method_order(void);
 
-#define ROUNDING 4e-15L /* of sums of a few shares, which are doubles here */
+#define ROUNDING 4e-15L /* for sums of a few shares, here in double */
 enum { ORDER_MAX = 6, TREES = 320, STAGES = WH_STAGES_MAX };
 
 /* A row in long double: rates of stage i by a, positions by node and reach. */
@@ -24,13 +23,13 @@ typedef struct weights {
     long double positions[STAGES];
 } weights;
 
-/* A tree: of the derivatives of f(q, q') along the motion. Its order is that of the step to which it adds first. */
+/* A tree of the derivatives of f(q, q') along the motion. Its order is that of the first step term it adds to. */
 typedef struct tree {
     int order;
-    bool by_rates;     /* a branch by f's derivative by rates */
-    bool by_positions; /* one by positions */
+    bool by_rates;     /* a branch by rates */
+    bool by_positions; /* a branch by positions */
     long double density;
-    long double at[STAGES]; /* what the stages make of it */
+    long double at[STAGES]; /* its value at each stage */
 } tree;
 
 typedef struct forest {
@@ -76,7 +75,7 @@ static weights weights_of(int method) {
     return w;
 }
 
-/* `now` with one more branch of weight `weight`, whose stages see `sum` of. */
+/* `now` with one more branch of weight `weight`; its stages see the sums `sum`. */
 static tree branched(const forest *f, tree now, long double (*by)[STAGES], const tree *branch,
                      bool to_position) {
     const int stages = f->of.stages;
@@ -93,8 +92,8 @@ static tree branched(const forest *f, tree now, long double (*by)[STAGES], const
     return now;
 }
 
-/* All trees of `order` that `now`, with `left` to spend, grows into by branches from number `from` on: 0 is the rate at the
- * begin, which moves the position; then come, for each tree, position and rate moved by it. */
+/* All trees of `order` that extend `now` with `left` nodes, using branches from number `from` on. Branch 0 is the
+ * initial rate, which moves the position. Each further tree gives two: the position and the rate moved by it. */
 static void grow(forest *f, int order, int left, int from, tree now) {
     if (left == 0) {
         TEST_ASSERT_TRUE(f->count < TREES);
@@ -132,7 +131,7 @@ static long double off(const forest *f, const long double *by, const tree *t, lo
     return fabsl(sum - 1.0L / density);
 }
 
-/* The highest order for which all conditions hold that such systems have. */
+/* The highest order with all conditions met. */
 static int order_of(const forest *f, kind of) {
     int order = ORDER_MAX;
     for (int k = 0; k < f->count; k++) {
@@ -163,7 +162,8 @@ static void plant(forest *f, int method) {
     }
 }
 
-/* As many trees as there are (Hairer, Norsett & Wanner, I, sections II.2 and II.14): or conditions are missing. */
+/* The number of trees is as published (Hairer, Norsett & Wanner, I, sections II.2 and II.14), so no condition is
+ * missing. */
 static void test_no_tree_is_missing(void) {
     static const int all[ORDER_MAX] = {1, 2, 6, 18, 60, 204};
     static const int first_order[ORDER_MAX] = {1, 1, 2, 4, 9, 20};
@@ -204,7 +204,6 @@ static void test_rows_have_their_order_and_no_more(void) {
     }
 }
 
-/* Each coefficient, moved by a millionth, is noticed. */
 static void test_a_wrong_coefficient_is_noticed(void) {
     static forest f;
     int moved = 0;
@@ -242,7 +241,7 @@ static void test_a_wrong_coefficient_is_noticed(void) {
     printf("  %d coefficients moved\n", moved);
 }
 
-/* A stage's node is where its rates lead, and what stands where another one does has the same shares to the last one. */
+/* A stage's node is the sum of its shares. A stage that reuses another's position has the same shares. */
 static void test_nodes_follow_from_the_shares(void) {
     for (int m = 0; m < WH_METHODS; m++) {
         const wh_tableau *t = wh_tableau_of((wh_method)m);
@@ -260,7 +259,8 @@ static void test_nodes_follow_from_the_shares(void) {
     }
 }
 
-/* Where no rates are known, each step is one of kicks and drifts, which keeps areas; and backwards it undoes itself. */
+/* Without rates in the forces each step is a composition of kicks and drifts, which preserves area, and is its own
+ * reverse. */
 static void test_compositions_are_symplectic_and_symmetric(void) {
     int rows = 0;
     for (int m = 0; m < WH_METHODS; m++) {

@@ -1,5 +1,5 @@
-/* test_methods.c: every method does what its name says, in every form a scene can take, with compensated sums,
- * books and contacts; or it is refused. */
+/* test_methods.c: every method in every form of scene, with compensated sums, energy balance and contacts: right
+ * order, or refused. */
 #define _POSIX_C_SOURCE 200809L
 
 #include <math.h>
@@ -20,13 +20,13 @@ void suite_reference(void);
 
 /* === methods ================================================================================== */
 
-/* A form, by a mechanism that runs in it. `until` is a power of two of seconds, steps are its halves. */
+/* A form and a mechanism for it. `until` is a power of two seconds; steps are its halves. */
 typedef struct form {
     const char *name;
     wh_form form;
     bool ledger;      /* has energies */
     bool no_rates;    /* accelerations take none */
-    const char *kind; /* what a first-order form is refused for, or NULL */
+    const char *kind; /* reason why a first-order form is refused, or NULL */
     const char *text;
 } form;
 
@@ -90,7 +90,6 @@ static const form forms[] = {
 };
 enum { FORMS = sizeof forms / sizeof forms[0], VALUES = 64 };
 
-/* Is the method one for it, and its books? */
 static bool takes(const form *f, wh_method method, bool ledger) {
     return wh_method_takes(method, f->form) &&
            (wh_methods[method].takes != WH_NO_RATES || (f->no_rates && !ledger));
@@ -98,7 +97,7 @@ static bool takes(const form *f, wh_method method, bool ledger) {
 
 /* --- orders ---------------------------------------------------------------------------------------- */
 
-/* The state at the end, by so many halvings of a second. */
+/* The final state with steps of 2^-halvings s. */
 static int end_of(const form *f, stepping how, int halvings, double value[VALUES]) {
     motion m;
     how.step_s = ldexp(1.0, -halvings);
@@ -142,7 +141,7 @@ static void test_orders_are_those_of_the_names(void) {
                                   .compensated = compensated,
                                   .ledger = ledger};
             const int wanted = wh_methods[method].order;
-            /* what is of fifth order feels where in a step a stop is hit: over more halvings less */
+            /* a method of fifth order depends on where in a step the stop is hit: fewer halvings */
             const bool hits = strstr(f->name, "is hit") != NULL;
             const int halvings = wanted < 5 ? 12 - 2 * wanted : hits ? 2 : 3; /* of a second */
             const int more = wanted < 5 ? 1 : 7 - halvings;
@@ -158,7 +157,7 @@ static void test_orders_are_those_of_the_names(void) {
     printf("  %d orders measured\n", measured);
 }
 
-/* The books of energy keep the order, too: what they leave over falls with it, or faster. */
+/* The energy balance has the method's order or more. */
 static void test_books_have_the_order_of_the_name(void) {
     int measured = 0;
     for (int i = 0; i < FORMS; i++) {
@@ -189,7 +188,7 @@ static void test_books_have_the_order_of_the_name(void) {
             snprintf(what, sizeof what, "%s, %s: %.3g J, %.3g J with half the step", forms[i].name,
                      wh_methods[m].word, left_J[0], left_J[1]);
             TEST_ASSERT_TRUE_MESSAGE(log2(left_J[0] / left_J[1]) > wanted - 0.2, what);
-            TEST_ASSERT_TRUE_MESSAGE(left_J[1] > 1e-14, what); /* or it tells nothing */
+            TEST_ASSERT_TRUE_MESSAGE(left_J[1] > 1e-14, what); /* else it is round-off */
             measured++;
         }
     }
@@ -198,7 +197,7 @@ static void test_books_have_the_order_of_the_name(void) {
 
 /* --- Euler's two ----------------------------------------------------------------------------------- */
 
-/* Both are of order one: what tells them apart is which rate moves the position. */
+/* Both Euler methods have order one. They differ in the rate that moves the position. */
 static void test_semi_implicit_euler_moves_by_the_new_rates(void) {
     const double h = 1.0 / 256.0;
     for (int i = 0; i < FORMS; i++) {
@@ -269,14 +268,13 @@ void suite_methods(void) {
 }
 
 /* === reference ================================================================================ */
-/* What `whirl accel` prints, against accelerations derived independently with
- * SymPy and mpmath (tests/reference/accel.txt, made by derive.py).
+/* Output of `whirl accel` compared with accelerations derived by SymPy and mpmath (tests/reference/accel.txt, made by
+ * derive.py).
  *
- * The criterion is relative and the same for every value: |got - want| <= 1e-12 |want|. Only where
- * the true value is zero is there an absolute floor, 1e-12 of the largest acceleration of that state
- * (or 1e-12 itself when all are zero).
+ * The criterion is |got - want| <= 1e-12 |want|. If the reference is zero, it is 1e-12 of the largest acceleration of
+ * that state, or 1e-12 if all are zero.
  *
- * The program is build/whirl, or what the environment variable WHIRL names; run from the root. */
+ * The program is build/whirl or $WHIRL; run from the root. */
 
 #define REFERENCE "tests/reference/accel.txt"
 #define TOLERANCE 1e-12
@@ -296,7 +294,6 @@ typedef struct tally {
     char worst_at[TEXT_MAX];
 } tally;
 
-/* Append to a command line without overrunning it. */
 static void append(char *command, const char *text) {
     const size_t used = strlen(command);
     TEST_ASSERT_TRUE_MESSAGE(used + strlen(text) < TEXT_MAX, "a reference line is too long");
@@ -321,7 +318,7 @@ static void build_command(char command[TEXT_MAX], const char *where, char *given
     append(command, " 2>&1");
 }
 
-/* Split `a''=1 b''=2`; returns how many. */
+/* Splits `a''=1 b''=2`; returns the count. */
 static int parse_wanted(char *text, named_value wanted[VALUES_MAX]) {
     int count = 0;
     char *rest = NULL;
@@ -339,7 +336,7 @@ static int parse_wanted(char *text, named_value wanted[VALUES_MAX]) {
     return count;
 }
 
-/* Read lines `theta'' = 1.25`. Returns how many; the first other line goes to `complaint`. */
+/* Reads lines `theta'' = 1.25`; returns the count. The first other line goes to `complaint`. */
 static int read_answer(FILE *pipe, named_value got[VALUES_MAX], char complaint[TEXT_MAX]) {
     char line[TEXT_MAX];
     int count = 0;
@@ -361,7 +358,7 @@ static int read_answer(FILE *pipe, named_value got[VALUES_MAX], char complaint[T
     return count;
 }
 
-/* True when `got` holds `want` within the tolerance; `scale` is the state's largest acceleration. */
+/* `scale` is the state's largest acceleration. */
 static bool agrees(const named_value *want, double scale, const named_value *got, int got_count,
                    const char *command, tally *score) {
     for (int i = 0; i < got_count; i++) {
@@ -386,7 +383,6 @@ static bool agrees(const named_value *want, double scale, const named_value *got
     return false;
 }
 
-/* Check one line of the reference file. */
 static void check_line(char *line, tally *score) {
     char *rest = NULL;
     const char *where = strtok_r(line, "|", &rest);
@@ -426,7 +422,6 @@ static void check_line(char *line, tally *score) {
     }
 }
 
-/* Check all lines whose file lies in `folder`. */
 static void check_folder(const char *folder, int states_at_least) {
     FILE *file = fopen(REFERENCE, "r");
     TEST_ASSERT_NOT_NULL_MESSAGE(file, REFERENCE " cannot be read: run from the project's root");

@@ -1,4 +1,4 @@
-/* test_mistyped.c: the name that was meant is offered, whichever of them it is and wherever it is declared. */
+/* test_mistyped.c: for a mistyped name the message suggests the declared one, whatever its kind and place. */
 #include <stdio.h>
 #include <string.h>
 

@@ -1,6 +1,5 @@
-/* test_monitor.c: a rig's telemetry as records, waves and counts (host/monitor/recording.h): frames of drawn channels, of
- * which some are lost, of clocks that wrap and of rigs that begin anew, against what the test writes itself of the same
- * numbers. */
+/* test_monitor.c: telemetry as records, waves and counts (host/monitor/recording.h). Frames of drawn channels with
+ * losses, clock wraps and restarts are compared with the test's own files. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -23,7 +22,7 @@ enum { PAYLOAD_MOST = 400, PULSES_MOST = 200 };
 
 static dice die;
 
-/* A rig, and what should come of what it says. */
+/* A rig and the expected recording. */
 typedef struct told {
     schema s;
     recording r;
@@ -37,10 +36,10 @@ typedef struct told {
     FILE *to_csv;
     FILE *to_ring;
     recording_counts counts;
-    int64_t time_us;     /* where the next sample is, */
-    int64_t last_us;     /* and the last frame of a run was */
+    int64_t time_us;     /* of the next sample */
+    int64_t last_us;     /* of the last frame of a run */
     uint32_t ticks_of_0; /* the rig's clock at time 0 */
-    bool begun;          /* something has come since the rig began */
+    bool begun;          /* a frame has arrived since the start */
     bool run_came;
     bool headed; /* the records, */
     bool ring_headed;
@@ -50,14 +49,14 @@ typedef struct told {
     int pulses;
     int64_t pulse_us[PULSES_MOST];
     unsigned pulse_of[PULSES_MOST];
-    int pulse_long[PULSES_MOST]; /* us; 0: nobody knows */
-    bool tells_ends;             /* of pulses; 100 us until one has come */
+    int pulse_long[PULSES_MOST]; /* us; 0: unknown */
+    bool tells_ends;             /* of pulses; 100 us until the first end arrives */
     bool has_ended;
-    int64_t free_from_us[2]; /* the last pulse is over */
+    int64_t free_from_us[2]; /* end of the last pulse */
     int64_t trip_us;
     unsigned trip;
-    int64_t sample_us; /* the last, */
-    double sample;     /* and its first field; NAN: none */
+    int64_t sample_us; /* of the last sample */
+    double sample;     /* its first field; NAN: none */
 } told;
 
 static told t;
@@ -138,7 +137,7 @@ static void drop(void) {
 
 /* --- frames -----------------------------------------------------------------------------------------------------*/
 
-/* A field's bytes, drawn, behind at[]; and how a record writes it. Returns the value, NAN where there is none. */
+/* Draws a field's bytes into at[] and its text in a record. Returns the value, NAN if invalid. */
 static double put_field(const schema_field *f, uint8_t *at, char *words) {
     const uint32_t usual = drawn_32() >> (32U - 8U * f->size);
     const bool none = f->size == 2 && dice_one_of(&die, 5) == 0;
@@ -172,7 +171,7 @@ static void send(unsigned channel, int64_t time_us, const uint8_t *payload, unsi
     }
 }
 
-/* Some frames do not come, of which the rig had dropped some. */
+/* Some frames are lost, of which the rig had dropped some. */
 static void lose(unsigned channel) {
     if (t.any[channel] && dice_one_of(&die, 4) == 0) {
         const unsigned lost =
@@ -185,7 +184,7 @@ static void lose(unsigned channel) {
     }
 }
 
-/* Between the samples, so that nobody need wonder which is first. */
+/* Between the samples, so that the order is clear. */
 static int64_t about_now_us(void) { return t.time_us + 1 + (int64_t)dice_one_of(&die, 900); }
 
 static void send_run(void) {
@@ -201,7 +200,7 @@ static void send_run(void) {
         t.counts.lost_samples += lost;
     }
     const int64_t most_us =
-        c->period_ticks * 9 / 20; /* less than half of one: which it is can be told */
+        c->period_ticks * 9 / 20; /* less than half a period, so that rounding finds it */
     const int64_t jitter_us =
         t.run_came ? (int64_t)dice_one_of(&die, 2U * (unsigned)most_us) - most_us : 0;
     const int64_t begin_us = t.time_us + jitter_us;
@@ -253,7 +252,7 @@ static void send_ring(void) {
     }
     int64_t time_us = begin_us;
     for (unsigned k = 0; k < rows; k++) {
-        time_us += dice_one_of(&die, 60000); /* their low half alone is told */
+        time_us += dice_one_of(&die, 60000); /* only the low half is sent */
         const uint32_t ticks = t.ticks_of_0 + (uint32_t)time_us;
         payload[at++] = (uint8_t)ticks;
         payload[at++] = (uint8_t)(ticks >> 8);
@@ -276,7 +275,7 @@ static void send_event(void) {
     if (payload[0] == 0 && payload[1] < 2) {
         const unsigned sensor = payload[1];
         if (time_us < t.free_from_us[sensor] || t.pulses == PULSES_MOST) {
-            return; /* one at a time */
+            return;
         }
         high_us = t.tells_ends ? 1 + (int)dice_one_of(&die, 2000) : 0;
         t.free_from_us[sensor] = time_us + (high_us > 100 ? high_us : 100) + 1;
@@ -291,11 +290,11 @@ static void send_event(void) {
         t.trip_us = time_us;
         t.trip = payload[1];
     } else if (payload[0] == 3 && payload[1] < 2) {
-        return; /* behind its beginning */
+        return; /* after its beginning */
     }
     lose(RECORDING_EVENT);
     send(RECORDING_EVENT, time_us, payload, 2);
-    if (high_us > 0 && t.has_ended && dice_one_of(&die, 8) == 0) { /* lost: until the next begins */
+    if (high_us > 0 && t.has_ended && dice_one_of(&die, 8) == 0) { /* lost until the next begins */
         t.pulse_long[t.pulses - 1] = 0;
     } else if (high_us > 0) {
         payload[0] = 3;
@@ -305,7 +304,7 @@ static void send_event(void) {
     }
 }
 
-/* What no schema tells of, and what is not as its schema says. */
+/* Frames without a schema, or unlike their schema. */
 static void send_strange(void) {
     static const uint8_t payload[PAYLOAD_MOST];
     const schema_channel *run = &t.s.channel[RECORDING_RUN];
@@ -338,8 +337,8 @@ static void send_strange(void) {
     t.counts.strange--;
 }
 
-/* The rig begins anew: its clock is another, its counts begin at zero; the first sample is where one was expected. Told by
- * its line, or found by a sequence that goes back. */
+/* The rig restarts: another clock, counts from zero, the first sample at the expected time. Shown by its line or by a
+ * sequence number that decreases. */
 static void begin_anew(void) {
     if (!t.begun || !t.run_came) {
         return;
@@ -364,7 +363,7 @@ static void begin_anew(void) {
     send_run();
 }
 
-/* Samples that nobody had asked for are none that are lost. */
+/* Samples not requested do not count as lost. */
 static void ask_anew(void) {
     recording_asked(&t.r);
     t.time_us += dice_one_of(&die, 200000);
@@ -392,7 +391,7 @@ static void send_any(void) {
 
 /* --- waves ------------------------------------------------------------------------------------------------------*/
 
-/* A signal's value at a time, as the dump has it; NAN where it has none yet. `name` is the last word of its line. */
+/* A signal's value at a time in the dump; NAN before the first. `name` is the last word of its line. */
 static double dumped(const char *name, int64_t time_us) {
     char var[80];
     char id[12] = "";
@@ -475,7 +474,6 @@ static void test_streams(void) {
     TEST_ASSERT_TRUE(pulses > 10);
 }
 
-/* Without files it counts all the same. */
 static void test_without_files(void) {
     for (unsigned c = 0; c < dice_cases(usual_or(10, 5)); c++) {
         begin(false, c % 2 == 0);
@@ -496,12 +494,12 @@ void suite_recording(void) {
 }
 
 /* === schema =================================================================================== */
-/* What a rig's telemetry says of itself (host/monitor/schema.h): drawn channels, states and rates are read as
- * they were written; a line that lacks something, or in which one thing is wrong, is refused and changes nothing. */
+/* Schema lines of a rig (host/monitor/schema.h): drawn channels, states and rates are parsed as written. A line with
+ * a missing or wrong part is refused and changes nothing. */
 
 enum { LINE = 600, PIECES = 5 };
 
-/* A channel, and its line in pieces, so that one of them can be left out or be another. */
+/* A channel, and its line in pieces, each of which can be omitted or replaced. */
 typedef struct written {
     schema_channel channel;
     unsigned index;
@@ -516,7 +514,7 @@ static void draw_word(char *to, unsigned longest) {
     to[length] = '\0';
 }
 
-/* Fields between commas; the last of them without an offset now and then. */
+/* Comma-separated fields; the last may lack an offset. */
 static void draw_fields(schema_field *fields, int count, char *text) {
     static const unsigned sizes[] = {1, 2, 4};
     size_t at = strlen(text);
@@ -602,7 +600,6 @@ static void test_channels_are_as_written(void) {
     }
 }
 
-/* Each piece left out, and each in a way that is none. */
 static void test_what_is_wrong_is_refused(void) {
     static const char *const wrong[PIECES][6] = {
         {"channel=8", "channel=-1", "channel=x", "channel=", "channel=1e9", "channel=nan"},
@@ -621,8 +618,7 @@ static void test_what_is_wrong_is_refused(void) {
         static char line[PIECES * LINE];
         draw_channel(&w);
         join(&w, -1, line);
-        TEST_ASSERT_TRUE_MESSAGE(schema_take(&s, line),
-                                 line); /* and the next ones change nothing */
+        TEST_ASSERT_TRUE_MESSAGE(schema_take(&s, line), line); /* later lines change nothing */
         for (int k = 0; k < PIECES; k++) {
             char kept[LINE];
             join(&w, k, line);
@@ -638,7 +634,7 @@ static void test_what_is_wrong_is_refused(void) {
     }
 }
 
-/* Of channel 0, once it is known; nothing else of it changes. */
+/* A rate changes nothing else of its channel. */
 static void test_rates(void) {
     static schema s;
     die = dice_of("schema", 63);
@@ -664,7 +660,6 @@ static void test_rates(void) {
     }
 }
 
-/* Those that are told are all that there are. */
 static void test_states(void) {
     static schema s;
     die = dice_of("schema", 64);

@@ -1,5 +1,5 @@
-/* test_near_zero.c: what is small because it is near its zero keeps its digits, in float too: powers of
- * sums and of sines are not multiplied out into large numbers that cancel. */
+/* test_near_zero.c: precision of small differences, also in float: powers of sums and of sines are not expanded into
+ * large terms that cancel. */
 #include <float.h>
 #include <math.h>
 #include <stdbool.h>
@@ -21,14 +21,13 @@ void suite_tiny_sizes(void);
 
 /* --- powers of sums ------------------------------------------------------------------------------*/
 
-/* Whether p is number * (u - v)^exponent, and nothing else. */
+/* Is p exactly number * (u - v)^exponent? */
 static bool is_power_of_difference(const poly *p, double number, double exponent) {
     return p->count == 1 && p->terms[0].coefficient == number && p->terms[0].mono->count == 1 &&
            p->terms[0].mono->factors[0].atom->kind == ATOM_GROUP &&
            p->terms[0].mono->factors[0].exponent == exponent;
 }
 
-/* v := a number */
 static const poly *replace_by_number(void *context, algebra *a, const symbol *sym, int primes) {
     (void)primes;
     return sym->index == 1 ? poly_number(a, *(const double *)context) : NULL;
@@ -48,7 +47,7 @@ static void test_slopes_of_kept_powers_stay_powers(void) {
     TEST_ASSERT_TRUE(is_power_of_difference(stiffness, 12.0, 2.0));
     TEST_ASSERT_TRUE(poly_derivative(a, stiffness, &u, 0) == poly_scale(a, apart, 24.0));
     TEST_ASSERT_TRUE(poly_is_zero(poly_add(a, force, poly_derivative(a, energy, &v, 0))));
-    /* a number in place of v, and what was written stays: neither multiplied out nor scaled by it */
+    /* replaces v by a number: the power is neither expanded nor scaled */
     double value = 1e-30;
     for (int i = 0; i < 2; i++) {
         const poly *folded =
@@ -61,8 +60,7 @@ static void test_slopes_of_kept_powers_stay_powers(void) {
     algebra_free(a);
 }
 
-/* Roundings of one evaluation, each half a unit: of the constants, the distance, its powers and the sum
- * of what is multiplied with them. */
+/* Roundings of one evaluation, half a unit each: constants, distance, powers and the sum of the factors. */
 #define ROUNDINGS 16.0
 
 static double worst_float;
@@ -74,7 +72,7 @@ static void show_worst(const char *what) {
     worst_float = worst_double = 0.0;
 }
 
-/* The relative error of an output at the start, against its closed form at the start as a float has it. */
+/* Relative error of an output at the start, against a closed form at the start rounded to float. */
 static double error_of(const motion *m, const char *output, double want) {
     const double error = fabs(motion_value(m, output) / want - 1.0);
     double *worst = m->kind == &engine_float ? &worst_float : &worst_double;
@@ -115,7 +113,7 @@ static void test_stiffening_springs_near_their_rest(void) {
             TEST_ASSERT_TRUE(error_of(&m, "push", wall) <= ROUNDINGS * half);
             TEST_ASSERT_TRUE(error_of(&m, "left", -wall - between) <= ROUNDINGS * half);
             motion_close(&m);
-            /* and the other way round: s - r - b near 0 */
+            /* the opposite sign: s - r - b near 0 */
             snprintf(start, sizeof start, "s = %.17g", (double)(float)(1.0 + distances[i]));
             motion_open_text(&m, springs, how);
             const double near = (double)(float)(1.0 + distances[i]) - 1.0; /* exact */
@@ -128,10 +126,10 @@ static void test_stiffening_springs_near_their_rest(void) {
 
 /* --- powers of sines -----------------------------------------------------------------------------*/
 
-/* The same for a sine to the sixth, each with twice its argument's and its own rounding. */
+/* The same for a sine to the sixth, with rounding of the argument (twice) and of the sine. */
 #define WAVE_ROUNDINGS 48.0
 
-/* Two arms on one shaft, whose inertia about it has a pole of order four or six where they lie in it. */
+/* Two arms on one shaft; the inertia has a pole of order four or six when they lie along it. */
 static const char poles[] = "mechanism poles\n"
                             "coordinate th [rad]\n"
                             "coordinate ph [rad]\n"
@@ -152,12 +150,12 @@ static void check_pole(const char *wave, int n, double th, double w, double slop
     motion m;
     motion_open_text(&m, text, how);
     const double half = how.kind == &engine_float ? (double)FLT_EPSILON / 2.0 : DBL_EPSILON / 2.0;
-    /* the double sine errs by as much beside its table's angles (tests/core/test_sine.c) */
+    /* error of the double sine near its table's angles (tests/core/test_sine.c) */
     const double sine = how.kind == &engine_float ? 0.0 : 2.0 * n * 1.4e-16 / w;
     const double tilt = n * pow(w, 2 * n - 1) * slope * 4.0;
     const double spin = 1e-9 / (0.3 * pow(w, 2 * n)) - 2.0 * n * slope / w * 0.01 * 2.0;
     TEST_ASSERT_TRUE(error_of(&m, "tilt", tilt) <= WAVE_ROUNDINGS * half + sine);
-    /* the two parts of spin may cancel, but not by much here */
+    /* the two parts of spin cancel by little here */
     TEST_ASSERT_TRUE(error_of(&m, "spin", spin) <= 2.0 * (WAVE_ROUNDINGS * half + sine));
     motion_close(&m);
 }
@@ -165,7 +163,7 @@ static void check_pole(const char *wave, int n, double th, double w, double slop
 static void test_powers_of_sines_near_their_poles(void) {
     for (int n = 2; n <= 3; n++) {
         for (int bits = 16; bits <= 28; bits += 4) {
-            /* so many units of 2^-32 turns: no rounding of the start, in float either */
+            /* so many units of 2^-32 turns: exact, also in float */
             const double off = ldexp(2.0 * acos(-1.0), bits - 32);
             check_pole("sin", n, off, sin(off), cos(off), IN_FLOAT);
             check_pole("sin", n, off, sin(off), cos(off), IN_DOUBLE);
@@ -182,12 +180,11 @@ void suite_near_zero(void) {
 }
 
 /* === tiny sizes =============================================================================== */
-/* Motions of nanometres and less, whose force is a difference of numbers near 1: sqrt(1 + 2*y/L) - 1. Double
- * keeps of y what is beyond 1e-16 of L; where that is too little, both runs beside each other have the same wrong slopes, and
- * may stand still alike. The force is as good as proportional to y, so the reference is its closed form. Whatever is trusted to
- * the end is right; what double has digits for is trusted. */
+/* Motions of nanometres and less with a force that is a difference near 1: sqrt(1 + 2*y/L) - 1. Double has no digits
+ * of y below 1e-16 L. There a run and its half-step twin have the same wrong slopes and may agree. The force is
+ * nearly linear, so the reference is the closed form. A trusted run must be right, and a run with enough digits must
+ * be trusted. */
 
-/* Each has the slope 1/L at y = 0. */
 static const char *const laws[] = {"sqrt(1 + 2*y/L) - 1",
                                    "exp(y/L) - 1",
                                    "1 - 1/(1 + y/L)",
@@ -202,15 +199,15 @@ typedef struct tiny_case {
     const char *law;
     double length_m;
     double start_m;
-    double swing_radps; /* of what is proportional */
-    double damping;     /* of the critical */
+    double swing_radps; /* of the linearized motion */
+    double damping;     /* relative to critical */
     double step_s;
     double end_s;
 } tiny_case;
 
 static tiny_case draw(dice *d, unsigned i) {
     tiny_case c = {.law = laws[i % LAWS]};
-    const double part = pow(10.0, dice_between(d, -17.5, -7.0)); /* of the length */
+    const double part = pow(10.0, dice_between(d, -17.5, -7.0)); /* relative to the length */
     c.start_m = pow(10.0, dice_between(d, -15.5, -7.5)) * (dice_one_of(d, 2) == 0 ? 1.0 : -1.0);
     c.length_m = fabs(c.start_m) / part;
     c.swing_radps = pow(10.0, dice_between(d, 0.0, 2.0));
@@ -235,7 +232,7 @@ static double closed_form(const tiny_case *c, double time_s) {
            (cos(phase) + c->damping / way * sin(phase));
 }
 
-/* The most, of the size that it starts with. */
+/* Largest error relative to the initial size. */
 static double off_by(const tiny_case *c, const char *csv) {
     double most = 0.0;
     double value[2]; /* the time, and y */
@@ -281,8 +278,7 @@ static void hold(const char *number) {
 static void test_in_float(void) { hold("float"); }
 static void test_in_double(void) { hold("double"); }
 
-/* A start is looked at: is it written as it is? Of parts of parts there are as many as two to the depth, drawn 40 to 90 deep;
- * whoever went through them all would not come back. */
+/* A start is checked by its form. Nested parts number two to the depth, here 40 to 90: visiting each would never end. */
 static void test_starts_of_parts_of_parts(void) {
     static const char *const ways[] = {"%s%u = p%u*p%u\n", "%s%u = p%u/p%u\n",
                                        "%s%u = -p%u*p%u^2\n", "%s%u = p%u^2/-p%u\n"};

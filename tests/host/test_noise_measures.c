@@ -1,5 +1,5 @@
-/* test_noise_measures.c: the noise of an output is that of its name, seed and step: in the records of a run and in
- * whatever a sweep measures, however the measures are grouped. Generated mechanisms and lists of measures. */
+/* test_noise_measures.c: noise depends only on an output's name, the seed and the step, in records and in sweeps,
+ * however the measures are grouped. Mechanisms and lists of measures are generated. */
 #define _POSIX_C_SOURCE 200809L
 
 #include "derived.h"
@@ -19,11 +19,11 @@ enum { OUTPUTS = 6, MEASURES_MAX = 12, STEPS = 25 };
 
 typedef struct made_up {
     char text[4000];
-    bool noisy[OUTPUTS]; /* noise takes part in the scene */
+    bool noisy[OUTPUTS]; /* the scene has noise */
 } made_up;
 
-/* Outputs o0, o1, ... of a pendulum on a carriage, some with noise, of the mechanism or of an effect that the
- * scene names or does not name. */
+/* Outputs o0, o1, ... of a pendulum on a carriage. Some have noise, of the mechanism or of an effect the scene may
+ * name. */
 static made_up make_up(uint64_t *seed) {
     made_up m = {.text = "mechanism noisy\ncoordinate th [rad]\ncoordinate x [m]\n"
                          "parameter l = 0.7 [m]\n"
@@ -61,7 +61,7 @@ static made_up make_up(uint64_t *seed) {
     return m;
 }
 
-/* What is recorded of every output of `of` after every step: [STEPS + 1][count]. */
+/* Every output of `of` after every step: [STEPS + 1][count]. */
 static double *record(const mechanism *of, const scene *in, const engine_kind *kind) {
     diags *errors = diags_new();
     instance *inst = instance_make(of, in, NULL, errors);
@@ -90,7 +90,7 @@ static double *record(const mechanism *of, const scene *in, const engine_kind *k
     return all;
 }
 
-/* A measure, and what it comes to: factor * output a + output b. */
+/* A measure and its formula: factor * output a + output b. */
 typedef struct wanted {
     char text[60];
     double factor;
@@ -148,7 +148,7 @@ static void compare(const made_up *m, const mechanism *of, const scene *in, cons
     free(recorded);
 }
 
-/* The spread of what is measured shows that there is noise at all: recorded with the effect less without. */
+/* The spread of a record with the effect less one without proves that there is noise. */
 static void expect_noise(const made_up *m, const mechanism *of, const scene *in) {
     scene bare = *in;
     mechanism quiet = *of;
@@ -186,7 +186,6 @@ static void test_measures_have_the_noise_of_the_records(void) {
     }
 }
 
-/* Without a list, the same operations in the same order: the same bits. */
 static void test_all_outputs_have_the_bits_of_the_records(void) {
     uint64_t seed = 4711;
     for (int i = 0; i < 10; i++) {

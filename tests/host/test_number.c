@@ -1,5 +1,4 @@
-/* test_number.c: what the host computes numbers with, against the machine's library, whose functions of these
- * are exact. Seeds are fixed. */
+/* test_number.c: number functions of the host, compared with the C library's, which are exact here. Seeds are fixed. */
 #include <inttypes.h>
 #include <math.h>
 #include <stdint.h>
@@ -20,7 +19,7 @@ void suite_number(void);
 
 #define MANY 400000
 
-/* Any bits, small and large whole numbers, halves and what is next to them. */
+/* Any bits, small and large integers, halves and their neighbours. */
 static double any(void) {
     const double half = 0.5 * (double)((int64_t)scattered() >> (scattered() % 64U));
     switch (scattered() % 4U) {
@@ -78,7 +77,7 @@ static void test_exponents(void) {
     }
 }
 
-/* What is left has the sign of x where it is zero, which glibc's remainder() does not keep. */
+/* A zero remainder has the sign of x; glibc's remainder() has not. */
 static void expect_remainders(double x, double y) {
     const double nearest = remainder(x, y);
     expect_same("remainder", number_remainder(x, y), fmod(x, y), x, y);
@@ -104,7 +103,7 @@ static void test_sizes(void) {
     for (int i = 0; i < MANY; i++) {
         const double a = any();
         const double b = any();
-        if (a == b || isnan(a) || isnan(b)) { /* of zeros, libraries take either */
+        if (a == b || isnan(a) || isnan(b)) {
             continue;
         }
         expect_same("least", number_least(a, b), fmin(a, b), a, b);
@@ -117,7 +116,7 @@ static void test_sizes(void) {
     TEST_ASSERT_TRUE(signbit(number_least(-0.0, 0.0)));
 }
 
-/* In the language what is no number goes through, the signs of numbers come out as 1, 0 and -1. */
+/* NaN propagates; sign() gives 1, 0 and -1. */
 static void test_language(void) {
     const double no_number = (double)NAN;
     for (int f = 0; f < FUNCTIONS; f++) {
@@ -137,11 +136,11 @@ static void test_language(void) {
     TEST_ASSERT_TRUE(number_sine(0.0) == 0.0 && number_cosine(0.0) == 1.0);
 }
 
-/* Powers of units that are decimal fractions stay whole over whole: 7 [1/ms^2] is 7 * 1000000 / 1. */
+/* Powers of decimal units stay ratios of integers: 7 [1/ms^2] is 7 * 1000000 / 1. */
 static void test_powers_of_units(void) {
     static const struct {
         const char *name;
-        double in_si; /* of these in one of SI */
+        double in_si;
     } small[] = {{"ms", 1e3}, {"cm", 1e2}, {"us", 1e6}, {"g", 1e3}};
     for (size_t i = 0; i < sizeof small / sizeof small[0]; i++) {
         double power = 1.0;
@@ -163,13 +162,12 @@ static void test_powers_of_units(void) {
 
 /* --- whole numbers of 128 bits ---------------------------------------------------------------- */
 
-/* Whole numbers of 128 bits do as the compiler's own, where it has them, and as schoolbooks say
- * everywhere. */
+/* Integers of 128 bits, compared with the compiler's type if it has one, and with schoolbook arithmetic. */
 enum { NUMBERS = 40000 };
 
 static uint64_t seed = 20261123;
 
-/* Of any length, with rows of zeros and ones. */
+/* Of any length, with runs of zeros and ones. */
 static uint128 any_wide(void) {
     uint128 n = {random_bits(&seed), random_bits(&seed)};
     if (random_bits(&seed) % 3 == 0) {
@@ -233,9 +231,8 @@ static void test_the_compilers_own(void) {
 
 /* --- times as fractions ----------------------------------------------------------------------- */
 
-/* Times as fractions (host/number/ratio.h): what a decimal or a simple fraction is taken for, and
- * how often one goes into another, against whole numbers counted by the test; halves among them.
- * */
+/* Times as fractions (host/number/ratio.h): the fraction for a decimal, and how often one time fits into another. The
+ * reference counts in integers, including halves. */
 static bool same_ratio(whole_ratio r, uint64_t of, uint64_t in) {
     return r.numerator * in == of * r.denominator; /* both below 2^32 */
 }
@@ -258,7 +255,7 @@ static void test_decimals_and_fractions_are_themselves(void) {
     TEST_ASSERT_TRUE(ratio_of(0.0).numerator == 0 && ratio_of((double)NAN).numerator == 0);
 }
 
-/* Any double is within 2^-51 of what it is taken for, and what is beyond the ends of their range, of the nearer end. */
+/* A double's fraction is within 2^-51 of it; out of range, of the nearer end. */
 static void test_nothing_is_far_off(void) {
     dice d = dice_of("ratio", 72);
     for (unsigned k = 0; k < 4000U; k++) {
@@ -281,7 +278,7 @@ static void test_counts_are_nearest(void) {
     for (unsigned k = 0; k < 4000U; k++) {
         whole_ratio whole = {dice_one_of(&d, 1U << 20), 1U + dice_one_of(&d, 1U << 10)};
         const whole_ratio part = {1U + dice_one_of(&d, 1U << 10), 1U + dice_one_of(&d, 1U << 10)};
-        if (k % 2U == 0) { /* a whole number of them and a half, and what is next to it */
+        if (k % 2U == 0) { /* an integer plus a half, and neighbours */
             const uint64_t halves = 1U + dice_one_of(&d, 2000);
             whole =
                 (whole_ratio){halves * part.numerator * 1000U + k % 3U, 2000U * part.denominator};

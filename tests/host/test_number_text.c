@@ -1,6 +1,5 @@
-/* test_number_text.c: decimals are read as the nearest double, hexadecimal ones are written to the bit. What is compared
- * with is the C library's strtod() and printf("%a"), which glibc rounds correctly. WHIRL_NUMBERS is the number of
- * texts of each kind. */
+/* test_number_text.c: decimals are read as the nearest double, and hexadecimal numbers are exact. The reference is
+ * strtod() and printf("%a") of glibc, which round correctly. WHIRL_NUMBERS sets the number of texts of each kind. */
 #include <fenv.h>
 #include <float.h>
 #include <inttypes.h>
@@ -31,7 +30,7 @@ static int count_of(int least) {
 
 static int draw(int bound) { return (int)(random_bits(&seed) % (unsigned)bound); }
 
-/* Where the number lies of the nearest double: the C library, told to round down and up, says between which two it is. */
+/* Side of the nearest double on which the number lies: strtod() rounding down and up gives its neighbours. */
 static int side_of(const char *text, double nearest) {
     fesetround(FE_DOWNWARD);
     const double down = strtod(text, NULL);
@@ -84,7 +83,6 @@ static void test_any_digits(void) {
     }
 }
 
-/* Any double at all, with 1 to 20 digits. */
 static void test_doubles_again(void) {
     for (int i = 0; i < count_of((int)few_or_all(20000, 100000)); i++) {
         const double value = of_bits(random_bits(&seed));
@@ -98,7 +96,7 @@ static void test_doubles_again(void) {
     }
 }
 
-/* Exactly between two doubles, written in full; and just beside it, near and far behind the last digit. */
+/* The exact middle of two doubles, in full, and numbers next to it that differ near the last digit or far after it. */
 static void around_middle(uint64_t lower_bits) {
     char text[TEXT];
     const long double lower = (long double)of_bits(lower_bits);
@@ -116,7 +114,7 @@ static void around_middle(uint64_t lower_bits) {
     agrees(beside);
     last -= text[last] == '.' ? 1 : 0;
     snprintf(beside, sizeof beside, "%s", text);
-    beside[last]++; /* a 5 behind the point; before it, an even digit */
+    beside[last]++; /* a 5 after the point follows an even digit */
     agrees(beside);
     beside[last] = (char)(text[last] - 1);
     if (text[last] > '0') {
@@ -132,10 +130,10 @@ static void around_middle(uint64_t lower_bits) {
 static void test_halfway(void) {
     for (int i = 0; i < count_of((int)few_or_all(800, 4000)); i++) {
         around_middle(random_bits(&seed) % (UINT64_C(0x7ff) << 52));
-        around_middle(random_bits(&seed) >> (12 + draw(52))); /* below 2^-1022 */
+        around_middle(random_bits(&seed) >> (12 + draw(52))); /* subnormal */
         around_middle((UINT64_C(1) << 52) - 3 + (uint64_t)draw(6));
         around_middle((UINT64_C(0x7ff) << 52) - 1 -
-                      (uint64_t)draw(3)); /* next to DBL_MAX, and beyond */
+                      (uint64_t)draw(3)); /* near DBL_MAX, and above */
     }
     around_middle(0);
 }
@@ -186,7 +184,7 @@ static void test_places_and_ends(void) {
         agrees(texts[i]);
     }
     char text[TEXT];
-    snprintf(text, TEXT, "0.%0*d", 400, 1); /* zeros that count for the place only */
+    snprintf(text, TEXT, "0.%0*d", 400, 1); /* zeros that only set the place */
     agrees(text);
     snprintf(text, TEXT, "1%0*de-1400", 1400, 0);
     agrees(text);
@@ -204,7 +202,7 @@ static void hex_agrees(uint64_t bits) {
     char *end;
     const double back = strtod(hex_write(value, text), &end);
     TEST_ASSERT_TRUE_MESSAGE(bits_of(back) == bits && *end == '\0', text);
-#ifdef __GLIBC__ /* the others normalise what is below 2^-1022 */
+#ifdef __GLIBC__ /* other libraries normalise subnormals */
     char wanted[64];
     snprintf(wanted, sizeof wanted, "%a", value);
     TEST_ASSERT_EQUAL_STRING(wanted, text);
@@ -232,12 +230,10 @@ static void test_hexadecimal(void) {
 
 /* --- code points ------------------------------------------------------------------------------ */
 
-/* All pairs of first bytes, with what stands behind them at the limits of their ranges and any
- * number of bytes left, against arithmetic: the code point that the bytes spell, and the shortest
- * spelling of it. */
+/* All pairs of first bytes, followed by the limits of their ranges, in texts of any length. Compared with arithmetic:
+ * the code point, and whether its spelling is the shortest. */
 
-/* Bytes that a code point is spelled with, or 0 for what is none that may be printed: surrogates, what lies behind the last
- * one, and the controls above ASCII. */
+/* Bytes of a printable code point; 0 for surrogates, values above the last one, and controls above ASCII. */
 static unsigned shortest(uint32_t point) {
     if (point > 0x10ffffU || (point >= 0xd800U && point <= 0xdfffU) ||
         (point >= 0x80U && point <= 0x9fU)) {
@@ -251,7 +247,6 @@ static unsigned shortest(uint32_t point) {
     return bytes;
 }
 
-/* What the bytes spell: the ones that the first begins with say how many there are. */
 static unsigned expected(const unsigned char *text, unsigned left) {
     unsigned ones = 0;
     while (ones < 8 && (text[0] & (0x80U >> ones)) != 0) {

@@ -1,5 +1,5 @@
-/* test_octave.c: files for Octave: where their values may be complex, and the form with names, read back line by line, whose
- * slopes are the accelerations of the operation lists. (Function files of lists: test_octave_drawn.c.) */
+/* test_octave.c: files for Octave: where values may become complex, and the named form, parsed line by line, whose
+ * slopes are the accelerations of the operation lists. Function files: test_octave_drawn.c. Also LaTeX. */
 #define _POSIX_C_SOURCE 200809L
 
 #include <float.h>
@@ -23,7 +23,7 @@ void suite_latex_runs(void);
 
 enum { STATES = 10, RESULTS_MAX = 128 };
 
-/* Where a value may be none for real arguments, by analysis: Octave would go on with a complex one. */
+/* Functions that may be undefined for real arguments: Octave would continue with complex values. */
 static void test_files_stay_real(void) {
     static const struct {
         const char *call;
@@ -52,7 +52,7 @@ static void test_files_stay_real(void) {
 
 /* --- the form with names ------------------------------------------------------------------------------------------*/
 
-/* A variable of the file; an element of A or b is one, too. */
+/* A variable of the file, or an element of A or b. */
 typedef struct named_value {
     char name[80];
     double value;
@@ -86,7 +86,7 @@ static void name_value(named_file *f, const char *name, double value) {
     f->row[f->count++].value = value;
 }
 
-/* x = A \ b, by elimination with the largest pivot of a column; elements without a line are 0. */
+/* x = A \ b, by elimination with partial pivoting; elements without a line are 0. */
 static void solve_named(named_file *f, const char *x, const char *A, const char *b, int n) {
     double m[UNKNOWNS][UNKNOWNS + 1];
     char name[80];
@@ -124,7 +124,6 @@ static void solve_named(named_file *f, const char *x, const char *A, const char 
     }
 }
 
-/* Runs the file's lines; slope[]: its dy. */
 static void run_named(const char *what, const char *text, named_file *f, int n, double *slope) {
     for (const char *line = strstr(text, "\n  ") + 1; strncmp(line, "  ", 2) == 0;
          line = strchr(line, '\n') + 1) {
@@ -166,8 +165,8 @@ static void run_named(const char *what, const char *text, named_file *f, int n, 
     }
 }
 
-/* "  I_r = 0.01125; % [kg*m^2] = M_r*R^2/2: ...": the text behind the unit, given with --set, is that value. Returns
- * how many there are. */
+/* "I_r = 0.01125; % [kg*m^2] = M_r*R^2/2: ...": the formula after the unit, given with --set, has that value. Returns
+ * the count. */
 static int check_written(const derived *d, const char *text) {
     int checked = 0;
     const mechanism *m = d->instance->mechanism;
@@ -206,13 +205,13 @@ static int check_written(const derived *d, const char *text) {
     return checked;
 }
 
-static int written; /* values with a text */
+static int written; /* values with a formula */
 
-/* dy(y) of the file with names against the lists of the image at random states. Returns whether states were compared. */
+/* dy(y) of the named file against the lists of the image at random states. Returns whether any state was compared. */
 static bool compare_named(const char *name, derived *d) {
     const equations *e = d->equations;
     if (d->image->recovered > 0) {
-        return false; /* as above */
+        return false;
     }
     char *text = printed(d, OCTAVE);
     bool compared = false;
@@ -261,7 +260,6 @@ static bool compare_named(const char *name, derived *d) {
     return compared;
 }
 
-/* The first scene of each mechanism. */
 static int named_scene(const scene *s) {
     static char last[80];
     if (strcmp(last, s->mechanism->name) == 0) {
@@ -303,18 +301,18 @@ void suite_octave(void) {
 }
 
 /* === latex runs =============================================================================== */
-/* The LaTeX that is printed and what runs are one thing. At random states, the printed equations are
- * read (latex_value.h), solved for the highest derivatives, and these held against what the step's list of operations
- * gives, in double; so are the printed closed forms. How far the two may be apart follows from the state: the printed
- * digits and the roundings of both, carried through their formulas and through the inverse of the matrix. Every built-in
- * scene, tests/mechanisms, and generated mechanisms; PRINTED_MECHANISMS=N in the environment takes N of these. */
+/* The printed LaTeX is the model that runs. At random states the printed equations (latex_value.h) are solved for the
+ * highest derivatives. These, and the printed closed forms, are compared with the operation list in double. The
+ * tolerance follows from the state: printed digits and round-off, carried through the formulas and the inverse
+ * matrix. Covers every built-in scene, tests/mechanisms and generated mechanisms; PRINTED_MECHANISMS=N takes N of
+ * these. */
 
 enum { LATEX_RUNS_STATES = 3, SEED = 78, LATEX_RUNS_RESULTS_MAX = 256 };
 
-/* What is known to fewer digits than these tells nothing, and is not counted as compared. */
+/* A wider tolerance tells nothing; such a value does not count as compared. */
 #define TELLING 1e-6
 
-/* Errors of second order: products of small ones. */
+/* errors of second order */
 #define SLACK 2.0
 
 typedef struct comparison {
@@ -322,12 +320,12 @@ typedef struct comparison {
     const derived *of;
     const image *image;
     state_values s;
-    double runs[UNKNOWNS]; /* highest derivatives of the list, */
-    double off[UNKNOWNS];  /* and how far off they may be */
-    int asked;             /* highest derivatives at states, */
-    int compared;          /* those that could be told to some digits, */
-    int closed;            /* those of them that were printed in closed form */
-    double nearest;        /* the largest part of a bound that was needed */
+    double runs[UNKNOWNS]; /* highest derivatives of the list */
+    double off[UNKNOWNS];  /* and their error bounds */
+    int asked;             /* highest derivatives at states */
+    int compared;          /* those with a useful tolerance */
+    int closed;            /* those of them printed in closed form */
+    double nearest;        /* largest error relative to its bound */
 } comparison;
 
 static int cases_compared;
@@ -339,7 +337,7 @@ static double cases_nearest;
 
 /* --- the printed equations ---------------------------------------------------------------------------*/
 
-/* "theta" and "1" are theta1 or theta_1, "mass" and "" are mass. */
+/* "theta" and "1" match theta1 and theta_1; "mass" and "" match mass. */
 static bool is_called(const char *name, const char *stem, const char *index) {
     const size_t length = strlen(stem);
     const char *rest = name + length;
@@ -398,7 +396,7 @@ static latex_number read_side(comparison *c, const char *text, const char **end)
     return n;
 }
 
-/* "LEFT &= RIGHT \\": returns the next line. */
+/* Reads "LEFT &= RIGHT \\"; returns the next line. */
 static const char *read_line(comparison *c, const char *line, latex_number *left,
                              latex_number *right) {
     const char *end;
@@ -417,7 +415,7 @@ typedef struct square {
     double at[UNKNOWNS][UNKNOWNS];
 } square;
 
-/* Gauss and Jordan, with the largest pivot. False when there is none. */
+/* Gauss-Jordan with pivoting. False: singular. */
 static bool invert(square a, square *inverse) {
     const int n = a.n;
     *inverse = (square){.n = n};
@@ -453,7 +451,6 @@ static bool invert(square a, square *inverse) {
     return true;
 }
 
-/* `printed` and what runs must be no further apart than this. */
 static bool hold_against(comparison *c, int i, double printed_value, double bound) {
     const double apart = fabs(printed_value - c->runs[i]);
     if (!isfinite(printed_value) || !(bound <= TELLING * fmax(fabs(c->runs[i]), 1e-3))) {
@@ -469,13 +466,13 @@ static bool hold_against(comparison *c, int i, double printed_value, double boun
     return true;
 }
 
-/* A x = b as printed, from "LEFT &= RIGHT" of n lines. Returns what is behind them. */
+/* A x = b from n printed lines "LEFT &= RIGHT". Returns the rest of the text. */
 static const char *check_equations(comparison *c, const char *line) {
     const int n = c->of->equations->count;
     square a = {.n = n};
     square inverse;
     double b[UNKNOWNS];
-    double off[UNKNOWNS]; /* of A x - b, at the x that runs */
+    double off[UNKNOWNS]; /* bound of A x - b at the list's x */
     for (int i = 0; i < n; i++) {
         latex_number left;
         latex_number right;
@@ -518,7 +515,7 @@ static void check_closed_forms(comparison *c, const char *line) {
     }
 }
 
-/* "NAME &= FORMULA" of each let that a formula names. */
+/* Each "NAME &= FORMULA" of a let in use. */
 static void check_lets(comparison *c, const char *text) {
     const char *line = strstr(text, "% with\n\\begin{align}\n");
     line = line == NULL ? "\\end" : strchr(line + 7, '\n') + 1;
@@ -533,7 +530,7 @@ static void check_lets(comparison *c, const char *text) {
 
 /* --- what runs ---------------------------------------------------------------------------------------*/
 
-/* The highest derivatives that a step takes at the state. False when one is no number there. */
+/* The highest derivatives of a step at the state. False: one is not finite. */
 static bool run_there(comparison *c) {
     const image *im = c->image;
     const op_list *t = im->list[IMAGE_STEP];
@@ -563,13 +560,13 @@ static bool run_there(comparison *c) {
     return finite;
 }
 
-/* What stands between begin{align} and end{align} compiles, and is no wider than a page. A wide sine of a sine inside
- * nested parentheses has no place left to break: few of the generated equations are wider than a line. */
+/* The text between begin{align} and end{align} compiles and fits the page. A long sine inside nested parentheses
+ * cannot be broken, so a few generated equations are wider. */
 static void check_widths(const char *name, const char *text) {
     enum {
         LINE = 345,
         PAPER = 455
-    }; /* pt: a line of LaTeX's article at 10 pt, and of A4 with margins of an inch */
+    }; /* pt: line width of LaTeX's article at 10 pt, and of A4 with margins of an inch */
     static const char begin[] = "\\begin{align}";
     for (const char *at = text; (at = strstr(at, begin)) != NULL;) {
         at += strlen(begin);
@@ -585,7 +582,7 @@ static void check_widths(const char *name, const char *text) {
     }
 }
 
-/* Returns how many highest derivatives were compared. */
+/* Returns the number of derivatives compared. */
 static int compare_all(const char *name, derived *d) {
     const equations *e = d->equations;
     if (e == NULL || e->count > UNKNOWNS) {

@@ -1,5 +1,5 @@
-/* test_octave_drawn.c: function files for Octave and Matlab of drawn scenes, read from their first to their last line: what a
- * line computes is what the list's operation is, and each y(k) what it should be. */
+/* test_octave_drawn.c: function files for Octave and Matlab of drawn scenes, parsed completely. Each line computes
+ * its operation of the list, and each y(k) is the right component. */
 #include <ctype.h>
 #include <math.h>
 #include <stdio.h>
@@ -18,13 +18,12 @@ void suite_octave_drawn(void);
 
 static dice die;
 static drawn_scene drawn;
-static double x[SCENE_OPS]; /* of the list's operations, so far */
+static double x[SCENE_OPS]; /* results of the list so far */
 static component order[SCENE_STATES + SCENE_UNKNOWNS];
 static int ordered;
 
 /* --- what stands where ------------------------------------------------------------------------------------- */
 
-/* Values first, then rates, and so on. */
 static void make_order(const image *im) {
     ordered = 0;
     for (int level = 0; level < 4; level++) {
@@ -39,7 +38,7 @@ static void make_order(const image *im) {
 static double y_value(component c) { return 0.3 + 0.41 * c.unknown - 0.17 * c.primes; }
 static double input_value(int i) { return 1.1 - 0.7 * i; }
 
-/* What no real number is counts as one: formulas know no other. */
+/* A non-finite value counts as one: formulas have only real numbers. */
 static double tame(double value) { return isfinite(value) ? value : 0.5; }
 
 static double value_of(void *context, const char *name, int length) {
@@ -106,7 +105,7 @@ static double row_value(const image *im, const op *o) {
     case OP_NOISE:
     case OP_CELL:
     case OP_LINE:
-    case OP_CUBIC: break; /* no step for Octave has these */
+    case OP_CUBIC: break; /* never in a step for Octave */
     }
     return (double)NAN;
 }
@@ -135,7 +134,6 @@ static const char *said_operations(const char *at, const image *im) {
     return at;
 }
 
-/* Which result the highest derivative of an unknown is. */
 static int result_of(const image *im, int unknown) {
     if (im->form == WH_SECOND_ORDER) {
         return im->place[unknown];
@@ -176,7 +174,7 @@ static const char *said_slopes(const char *at, const image *im) {
     return at;
 }
 
-/* Octave's complex numbers are no numbers in C: is there an operation that may give one? */
+/* May an operation give a complex number in Octave, which C has not? */
 static bool has_complex(const op_list *t) {
     static const char *const partial[] = {"asin", "acos", "log", "sqrt"};
     bool found = false;
@@ -249,7 +247,7 @@ static const char *said_inputs(const char *at, const image *im) {
     return at;
 }
 
-/* Is there a phase that is nothing? No list that is made has one. */
+/* No generated list has an empty phase. */
 static bool has_empty_phase(const op_list *t) {
     bool found = false;
     for (int i = 0; i < t->count; i++) {

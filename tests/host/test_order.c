@@ -1,6 +1,5 @@
-/* test_order.c: lists that are put into an order with few values live: the same operations, each behind what it takes,
- * and the same bits; values carried to memory and back less often, and as seldom as can be where one can tell.
- * WHIRL_CASES: so many random lists. */
+/* test_order.c: reordering of operation lists for few live values: the same operations after their operands, the same
+ * bits, and fewer stores and loads (the minimum where it is known). WHIRL_CASES: number of random lists. */
 #define _POSIX_C_SOURCE 200809L
 
 #include <math.h>
@@ -27,7 +26,7 @@ enum { ANGLES = 5, LEAVES = 12, STATES = 3, SIZE_MOST = 900, RESULTS_MOST = 12 }
 
 /* --- random lists --------------------------------------------------------------------------------*/
 
-/* One of the earlier operations that are values; late ones are likelier. */
+/* An earlier value; late ones are likelier. */
 static int some_value(dice *d, const int *value, int values) {
     const int near = values < 40 ? values : 40;
     const bool anywhere = dice_one_of(d, 3) == 0;
@@ -47,7 +46,7 @@ static int some_wave(dice *d, op_list *t, const int *value, int values) {
     return op_list_unary(t, dice_one_of(d, 2) > 0 ? OP_SIN : OP_COS, phase);
 }
 
-/* Any function of the language, a new one too. */
+/* Any function of the language, including new ones. */
 static int some_call(dice *d, op_list *t, int a, int b) {
     const function_id function = (function_id)dice_one_of(d, FUNCTIONS);
     return op_list_call(t, function, a, function_arguments(function) == 2 ? b : -1);
@@ -89,7 +88,7 @@ static op_list *some_list(dice d) {
         t->result[i] = some_value(&d, value, values);
     }
     free(value);
-    if (dice_one_of(&d, 4) > 0) { /* else with operations that no result needs */
+    if (dice_one_of(&d, 4) > 0) { /* else some operations are unused */
         op_list_prune(t);
     }
     return t;
@@ -103,7 +102,7 @@ static int by_size(const void *x, const void *y) {
     return (left > right) - (left < right);
 }
 
-/* What each operation computes, wherever it stands: sorted. Phases also as they follow each other, in *phases. */
+/* A hash of each operation's computation, sorted. *phases: the same of the phases, in order. */
 static uint64_t *computed_by(const op_list *t, uint64_t *phases) {
     uint64_t *sum = alloc((int64_t)t->count + 1, sizeof *sum);
     int operand[2];
@@ -189,8 +188,8 @@ static void test_random_lists_compute_the_same(void) {
 
 /* --- as seldom as can be -------------------------------------------------------------------------*/
 
-/* The sum of n squares, first all squares: each leaf has to be read once, and no more. As entered, all but the squares
- * that 20 registers hold are stored and read again; the last register is where the next square is made. */
+/* The sum of n squares, all squares first. The minimum is one load per leaf. In the entered order, squares beyond 20
+ * registers are stored and loaded again; the last register makes the next square. */
 static void test_squares_are_summed_as_they_come(void) {
     for (int n = 1; n <= 200; n++) {
         op_list *t = op_list_new(0, 1);
@@ -218,8 +217,7 @@ void suite_order(void) {
 }
 
 /* === pieces =================================================================================== */
-/* A sum taken apart for lowering: half angles put back where they save a term,
- * and the value stays what it was. */
+/* A sum split for lowering: half angles are restored where that saves a term. The value does not change. */
 
 enum { VARIABLES = 2 };
 
@@ -264,7 +262,7 @@ static void test_squares_of_sines_come_back(void) {
     TEST_ASSERT_EQUAL_INT(1, pieces_of(a, tall, pieces));
     TEST_ASSERT_TRUE(pieces[0].sines == 0 && pieces[0].cosines == 2);
     TEST_ASSERT_TRUE(pieces[0].coefficient == -6.0 && pieces[0].angle == poly_scale(a, u, 2.0));
-    /* other factors, other sizes, or an odd multiple: nothing to put back */
+    /* other factors, sizes, or an odd multiple: nothing to restore */
     TEST_ASSERT_EQUAL_INT(2,
                           pieces_of(a, poly_sub(a, v, poly_cos(a, poly_scale(a, u, 2.0))), pieces));
     TEST_ASSERT_EQUAL_INT(
@@ -275,8 +273,8 @@ static void test_squares_of_sines_come_back(void) {
     algebra_free(a);
 }
 
-/* sin(w)^(2p) cos(w)^(2q) and its slope, of w = 2u - v and times 0.3 v: each comes back as one piece where
- * the slope is one product, else as two. */
+/* sin(w)^(2p) cos(w)^(2q) and its slope, for w = 2u - v, and times 0.3 v. Each is one piece if the slope is one
+ * product, else two. */
 static void test_even_powers_come_back(void) {
     for (int p = 0; p <= 8; p++) {
         for (int q = 0; p + q <= 8; q++) {
@@ -322,7 +320,7 @@ static void test_other_rows_stay_as_they_are(void) {
         poly_add(a, poly_sub(a, poly_scale(a, one, 3.0), poly_scale(a, two, 4.0)), four);
     piece pieces[8];
     TEST_ASSERT_EQUAL_INT(1, pieces_of(a, row, pieces));
-    /* a small part more at the pole is a part more: nothing cancels to less than it */
+    /* with a small term more at the pole nothing cancels below it */
     const poly *more = poly_add(a, row, poly_number(a, 1e-12));
     TEST_ASSERT_EQUAL_INT(3, pieces_of(a, more, pieces));
     /* 3 - 4 cos a + cos 2a = 8 sin(a/2)^4, but a turn angle has no half */
@@ -336,7 +334,7 @@ static void test_other_rows_stay_as_they_are(void) {
     for (int i = 0; i < 3; i++) {
         TEST_ASSERT_TRUE(pieces[i].sines + pieces[i].cosines <= 1);
     }
-    /* products would have to be large, and cancel elsewhere; or there would be more of them */
+    /* the products would be large and cancel elsewhere, or be more */
     const poly *tall = poly_sub(a, poly_cos(a, poly_scale(a, u, 16.0)), one);
     const poly *few = poly_add(a, tall, poly_scale(a, poly_sub(a, two, one), 1e-3));
     TEST_ASSERT_EQUAL_INT(3, pieces_of(a, few, pieces));
@@ -356,7 +354,7 @@ static void test_pieces_have_the_sums_value(void) {
     for (int round = 0; round < 2000; round++) {
         algebra *a = algebra_new();
         const poly *sum = poly_number(a, 0.0);
-        for (int i = 0; i < 3; i++) { /* small whole factors, so that powers do turn up */
+        for (int i = 0; i < 3; i++) { /* small integer factors, so that powers occur */
             const poly *u = poly_symbol(a, &variables[0], 0);
             const poly *v = poly_symbol(a, &variables[1], 0);
             const poly *angle = poly_add(a, poly_scale(a, u, (double)(random_bits(&seed) % 3)),
@@ -386,7 +384,7 @@ static void test_pieces_have_the_sums_value(void) {
     TEST_ASSERT_GREATER_THAN_INT(500, powers);
 }
 
-/* Fourth powers and squares of one wave, each times another factor: each is found, whatever stands beside it. */
+/* Fourth powers and squares of one wave, each times another factor. */
 static void test_each_of_several_comes_back(void) {
     for (unsigned which = 0; which < 64;
          which++) { /* three factors, each none, a square or a fourth power */
@@ -417,7 +415,7 @@ static void test_each_of_several_comes_back(void) {
 
 /* --- sines inside sines ----------------------------------------------------------------------- */
 
-/* Sines of angles that have sines inside: each is found, whichever angles are made from which. */
+/* Sines of angles that contain sines, in any order of definition. */
 enum { MECHANISMS = 300, PIECES_STATES = 3 };
 
 static unsigned draw(uint64_t *seed, unsigned bound) {
@@ -443,7 +441,7 @@ static void angle(FILE *to, int depth, uint64_t *seed) {
     fputs(after[which], to);
 }
 
-/* The accelerations of the operation list solve the equations. Returns how many states had some. */
+/* The list's accelerations solve the equations. Returns the number of regular states. */
 static int check(const derived *d, uint64_t *seed) {
     const equations *e = d->equations;
     int checked = 0;

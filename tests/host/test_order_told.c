@@ -1,6 +1,6 @@
-/* test_order_told.c: what `whirl run` says of a scene, in its summary, its warnings and its hints, does not depend on the order in
- * which coordinates, states and contacts are declared. Of drawn scenes for every kind of warning, each with coordinates that
- * differ by far, all orders are run, and told the same: words to the letter, numbers but for what sums in another order round. */
+/* test_order_told.c: output of `whirl run` (summary, warnings, hints) is independent of the order of declarations.
+ * Drawn scenes for every kind of warning have coordinates of very different size and run in all orders. Words must be
+ * equal, and numbers too, except for reordered sums. */
 #include <ctype.h>
 #include <math.h>
 #include <stdbool.h>
@@ -18,16 +18,16 @@ static dice die;
 
 enum { DECLARED_MOST = 4, WORDS_MOST = 6, LINES_MOST = 80, TEXT_SIZE = 2000 };
 
-/* A number behind an @ is drawn, within a tenth of it. */
+/* A number after @ is drawn within a tenth of it. */
 typedef struct told_scene {
-    const char *told; /* which must be said, whatever the order */
+    const char *told; /* required in the output */
     const char *coordinates[DECLARED_MOST];
     const char *law;
     const char *contacts[DECLARED_MOST];
     const char *scene;
     const char *words[WORDS_MOST];
     int status;
-    double apart; /* numbers may be by this part, where float rounds in another order */
+    double apart; /* relative tolerance for sums that float rounds in another order */
 } told_scene;
 
 #define SPRUNG \
@@ -141,7 +141,7 @@ static size_t add(char *text, size_t at, const char *more) {
     return at + size;
 }
 
-/* The k-th order of so many, by what is left of k at each place. */
+/* The k-th permutation, in the factorial number system. */
 static void order_of(unsigned k, unsigned count, unsigned *place) {
     for (unsigned i = 0; i < count; i++) {
         place[i] = i;
@@ -208,13 +208,13 @@ static int compare(const void *a, const void *b) {
     return strcmp(*left, *right);
 }
 
-/* Its lines in the alphabet's order, but for those that are another each time. */
+/* The sorted lines, without those that differ each time. */
 static unsigned lines_of(char *text, const char *line[LINES_MOST]) {
     unsigned count = 0;
     char *rest = NULL;
     for (char *at = strtok_r(text, "\n", &rest); at != NULL; at = strtok_r(NULL, "\n", &rest)) {
         if (strncmp(at, "accuracy and cost", 17) == 0) {
-            break; /* rows of float's rounding, or the file's name */
+            break; /* rows of float's round-off, or the file's name */
         }
         if (strncmp(at, "state hash", 10) != 0 && strncmp(at, "trusted", 7) != 0) {
             TEST_ASSERT_TRUE(count < LINES_MOST);

@@ -63,7 +63,7 @@ static void test_effects_added_and_taken_away(void) {
         &(overrides){.with = with, .with_count = 1, .without = without, .without_count = 1});
     TEST_ASSERT_FALSE(made->with[0]);
     TEST_ASSERT_TRUE(made->with[1]);
-    expect_exactly(0.5, parameter("b")); /* declared, though nothing uses it */
+    expect_exactly(0.5, parameter("b")); /* declared but unused */
 }
 
 static void test_step_in_all_its_spellings(void) {
@@ -86,7 +86,6 @@ static void test_values_of_either_kind(void) {
     expect_exactly(7.0, made->input[0]);
 }
 
-/* The instance is refused, and the first lines say so. */
 static void expect_refused(const overrides *changes, const char *wanted) {
     parse(sample);
     TEST_ASSERT_NULL(instance_make(parsed->mechanisms[0], parsed->scenes[0], changes, said));
@@ -139,7 +138,7 @@ static void test_wrong_overrides(void) {
     expect_refused(&(overrides){.until = "soon"}, "error: unknown name 'soon'");
 }
 
-/* Less than a step would be no step at all, or one too many; none is what until 0 says. */
+/* A time shorter than a step must give neither no step nor one too many; only `until 0` has none. */
 static void test_until_holds_a_step(void) {
     parse(sample);
     expect_refused(&(overrides){.until = "1s", .step = "3s"},
@@ -155,7 +154,7 @@ static void test_until_holds_a_step(void) {
     expect_exactly(0.3, made->until_s);
 }
 
-/* A time beside the run's own: with the scene's parameters, not held against its step. */
+/* A second duration uses the scene's parameters and ignores its step. */
 static void test_durations_beside_the_run(void) {
     double seconds = -1.0;
     const char *sets[] = {"lag=0.25 [ms]"};
@@ -177,7 +176,7 @@ static void test_durations_beside_the_run(void) {
     expect_said("error: from is time [s], but this is length [m]");
 }
 
-/* Errors are refusals even when they read like one that was told before. */
+/* An error is reported again even with the same text. */
 static void test_the_same_error_again_is_refused_again(void) {
     static const char *const wrong[] = {"m=1 [m]", "m=2 [m]", "m=2 [m]"};
     parse(sample);

@@ -1,4 +1,4 @@
-/* test_pil.c: what a campaign of faults draws, and how fast what it draws may get. */
+/* test_pil.c: processor in the loop: draws of a campaign of faults, the dialogue with a rig, and the faults. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -40,7 +40,7 @@ static void test_draws(void) {
         const char *word = campaign_row_word(one.row);
         const bool twice = strcmp(word, "reset-tripped") == 0 || strcmp(word, "hang-resets") == 0;
         const bool two = !campaign_is_alone(&one);
-        /* noise, set-point, sometimes the feed; then what breaks */
+        /* noise, set-point, sometimes the compensation; then the fault */
         const unsigned dials = 1U + (strstr(one.words, "reads:5=1") != NULL ? 1U : 0U) +
                                (strstr(one.words, "reads:6=1") != NULL ? 1U : 0U);
         const bool share =
@@ -78,8 +78,8 @@ static void test_draws(void) {
     }
 }
 
-/* Runs whose set-points are close have nothing else in common: of pairs within 0.02 rad/s a twentieth has times of the same
- * fault within a twentieth of each other, not most. */
+/* Runs with close set-points share nothing else. Of pairs within 0.02 rad/s, about a twentieth have the same fault at
+ * times within a twentieth. */
 static void test_draws_are_independent(void) {
     enum { RUNS = 4000 };
     static double target[RUNS];
@@ -106,7 +106,7 @@ static void test_draws_are_independent(void) {
     TEST_ASSERT_TRUE(close > pairs / 40 && close < pairs / 10);
 }
 
-/* What cannot be drawn is refused: rows of an emulator's counts, or of an operator's dials. */
+/* Refused: an emulator's counts and an operator's dials. */
 static void test_what_there_is_to_draw(void) {
     const char *const words[] = {NULL, "jam", "slow", "feed-part", "two faults", "nothing"};
     static const bool has[3][6] = {{true, true, false, false, true, false},
@@ -126,7 +126,7 @@ static void test_what_there_is_to_draw(void) {
     TEST_ASSERT_DOUBLE_WITHIN(1e-3, 330.0, one.target_rpm);
 }
 
-/* Until 7/6 of a turn and a control period have passed: from closed forms of the speed and the angle over time. */
+/* Bound: speed after 7/6 of a turn plus a control period, from closed forms of speed and angle over time. */
 static void test_how_fast_a_runaway_may_get(void) {
     TEST_ASSERT_TRUE(rig_caught_rpm(100.0) == 470.0 && rig_caught_rpm(330.0) == 470.0);
     for (int five = 67; five <= 72; five++) {
@@ -152,14 +152,11 @@ void suite_campaign(void) {
 }
 
 /* === dialogue ================================================================================= */
-/* What a rig is asked before it is recorded, whatever stands in the line by then: answers to somebody
- * else, half a line, half a frame, an echo, answers that come late and twice.
- *
- * The rig is a few lines of its own: it answers each line that is whole, in order. */
+/* Questions to a rig before a recording. The line may contain answers for another program, half a line, half a frame,
+ * an echo, or late and repeated answers. The test's rig answers each complete line in order. */
 
 enum { LINES = 64 };
 
-/* What stands in the line, in order, towards whoever asks. */
 typedef struct rig {
     char said[LINES][128];
     int begin;
@@ -167,8 +164,8 @@ typedef struct rig {
     bool echoes;
     bool refuses_rate;
     int heard;     /* questions */
-    char half[16]; /* that somebody has begun to type */
-    char junk[16]; /* the end of a frame, in front of what it says first */
+    char half[16]; /* of a partly typed line */
+    char junk[16]; /* the end of a frame, before its first answer */
 } rig;
 
 static void say(rig *r, const char *line) {
@@ -177,7 +174,7 @@ static void say(rig *r, const char *line) {
     r->junk[0] = '\0';
 }
 
-/* As docs/console.md has them. */
+/* As in docs/console.md. */
 static const char *answer_of(const rig *r, const char *line) {
     static const char *const answers[][2] = {
         {"id\n", "OK program=rig board=none dialogue=1"},
@@ -215,7 +212,7 @@ static void hear(rig *r, const char *line) {
     r->heard++;
 }
 
-/* What somebody before has left. */
+/* Remains of an earlier program. */
 static void leave(rig *r, dice *d) {
     static const char *const left[] = {"OK",
                                        "ERR 101 the line is too long",
@@ -246,7 +243,7 @@ static void question(const dialogue *d, rig *r) {
     }
 }
 
-/* Each line comes, now and then after patience has ended and the question was asked once more. */
+/* Lines sometimes come after the timeout, when the question has been repeated. */
 static void converse(dialogue *talk, rig *r, dice *d) {
     hear(r, "\n");
     question(talk, r);
@@ -271,12 +268,12 @@ static void one_case(dice *d) {
     leave(&r, d);
     converse(&talk, &r, d);
     TEST_ASSERT_TRUE(talk.done);
-    TEST_ASSERT_TRUE(talk.was_off); /* of the rig's own list: those left say otherwise */
+    TEST_ASSERT_TRUE(talk.was_off); /* by the rig's own list; stale answers disagree */
     TEST_ASSERT_EQUAL(r.refuses_rate, talk.rate_refused);
     TEST_ASSERT_EQUAL_STRING(r.refuses_rate ? "tel rate 125: ERR 116 not so many" : "",
                              talk.refused);
     TEST_ASSERT_EQUAL(10, talk.asked);
-    TEST_ASSERT_FALSE(dialogue_answer(&talk, "OK")); /* to somebody else */
+    TEST_ASSERT_FALSE(dialogue_answer(&talk, "OK")); /* for another program */
 }
 
 static void test_it_comes_to_its_end_whatever_was_in_the_line(void) {
@@ -304,15 +301,15 @@ void suite_dialogue(void) {
 }
 
 /* === fault ==================================================================================== */
-/* What breaks in a run in the loop, against what its words say: which pulses and samples are there and which
- * are not, what the plant's inputs are meanwhile and afterwards, when orders count; and words that are none. */
+/* Faults in the loop, compared with their words: missing and extra pulses and samples, inputs of the plant during and
+ * after, when orders count; and wrong words. */
 
 #define TICKS_PER_S 1000000U
 #define PERIOD_TICKS 2000U
 #define READS 500 /* a second of them */
 #define EVENTS_MAX 9000
 
-/* A rotor of two turns a second, and every input that a fault knows, seen as an output. */
+/* A rotor at two turns a second; every input that a fault knows is also an output. */
 static const char *const text =
     "mechanism bench \"what may break\"\n"
     "coordinate a [rad]\n"
@@ -355,10 +352,10 @@ static const wh_hello hello = {.program = "bench",
                                .signal = signals,
                                .signals = sizeof signals / sizeof signals[0]};
 
-/* What was heard in a second, and what the plant's inputs were at each reading. */
+/* Pulses and samples of a second, and the plant's inputs at each reading. */
 typedef struct heard {
     wh_edge edge[EVENTS_MAX];
-    double edge_s[EVENTS_MAX]; /* was told of */
+    double edge_s[EVENTS_MAX]; /* as reported */
     int edges;
     wh_sample sample[EVENTS_MAX];
     double sample_s[EVENTS_MAX];
@@ -429,7 +426,7 @@ static int edges_of(const heard *h, int channel) {
     return count;
 }
 
-/* Well: two turns, four pulses, in turn. */
+/* Healthy: two turns, four alternating pulses. */
 static void test_edges(void) {
     run_with(NULL, &well);
     TEST_ASSERT_EQUAL_INT(4, well.edges);
@@ -437,7 +434,7 @@ static void test_edges(void) {
     TEST_ASSERT_EQUAL_INT(0, ill.edges);
     run_with("edge-dead:2", &ill);
     TEST_ASSERT_TRUE(edges_of(&ill, 0) == 2 && edges_of(&ill, 1) == 0);
-    run_with("edge-dead@0.3+500ms", &ill); /* they are at 0.080, 0.199, 0.580, 0.699 */
+    run_with("edge-dead@0.3+500ms", &ill); /* pulses at 0.080, 0.199, 0.580, 0.699 s */
     TEST_ASSERT_TRUE(ill.edges == 2 && ill.edge[1].ticks == well.edge[1].ticks);
     run_with("edge-lost=3", &ill);
     TEST_ASSERT_TRUE(ill.edges == 1 && ill.edge[0].ticks == well.edge[3].ticks);
@@ -489,11 +486,10 @@ static void test_pulses_of_nothing(void) {
         TEST_ASSERT_TRUE((int32_t)(ill.edge[i].ticks - ill.edge[i - 1].ticks) >= 0);
         TEST_ASSERT_TRUE(ill.edge_s[i] >= second_of(ill.edge[i].ticks));
     }
-    run_with("edge-storm=1e6", &ill); /* no more than there is room for */
+    run_with("edge-storm=1e6", &ill); /* limited by the buffer */
     TEST_ASSERT_TRUE(ill.edges > 4000 && ill.edges <= READS * (int)WH_EDGES_MAX);
 }
 
-/* Of a channel. */
 static int samples_of(const heard *h, int channel, const wh_sample **first) {
     int count = 0;
     *first = &h->sample[0];
@@ -506,7 +502,6 @@ static int samples_of(const heard *h, int channel, const wh_sample **first) {
     return count;
 }
 
-/* The least, the largest and the mean raw of the first channel. */
 static void raws_of(const heard *h, double *least, double *most, double *mean) {
     int count = 0;
     *least = (double)INFINITY;
@@ -536,7 +531,7 @@ static void expect_raws(const char *words, double least, double most, double wit
     TEST_ASSERT_EQUAL_INT32_MESSAGE(1257, other->raw, words);
 }
 
-/* Well: 40 N and 10 N to either side. */
+/* Healthy: 40 N and 10 N to either side. */
 static void test_samples(void) {
     const wh_sample *s;
     expect_raws(NULL, 3000, 5000, 1);
@@ -590,7 +585,7 @@ static void test_spikes(void) {
     TEST_ASSERT_INT_WITHIN(9, READS / 50, spikes);
 }
 
-/* Each input takes its value while the fault is there, is healthy before and after, and no other moves. */
+/* Each input has its fault value during the fault, the healthy one before and after, and no other input moves. */
 static void test_inputs(void) {
     static const struct {
         const char *words;
@@ -648,7 +643,7 @@ static void test_orders(void) {
                      ill.orders[300].watchdog_ticks == 77 && ill.orders[450].watchdog_ticks == 0);
 }
 
-/* What is lost on the line leaves the outputs as they were; somebody still wants to hear at the right time. */
+/* Orders lost on the line leave the outputs unchanged; the next request keeps its time. */
 static void test_line(void) {
     int lost = 0;
     run_with("orders-lost=0.5", &ill);
@@ -662,7 +657,7 @@ static void test_line(void) {
     }
     TEST_ASSERT_INT_WITHIN(60, READS / 2, lost);
     run_with("orders-lost=1",
-             &ill); /* from the first on: there are as many outputs, and none was ever set */
+             &ill); /* lost from the first on: the outputs exist and were never set */
     for (int i = 1; i <= READS; i++) {
         TEST_ASSERT_EQUAL_UINT(2, ill.orders[i].outputs);
         TEST_ASSERT_TRUE(ill.orders[i].output[0] == 0.0f && ill.orders[i].output[1] == 0.0f);
@@ -725,7 +720,7 @@ static void test_words(void) {
         TEST_ASSERT_TRUE(fault_read(&plan, "jam"));
     }
     TEST_ASSERT_FALSE(fault_read(&plan, "jam"));
-    for (int i = 0; i < FAULT_KINDS; i++) { /* each by its word, and within its own bounds */
+    for (int i = 0; i < FAULT_KINDS; i++) { /* each has its word and bounds */
         fault_plan one = {.count = 0};
         TEST_ASSERT_TRUE(fault_read(&one, fault_rows[i].word));
         TEST_ASSERT_EQUAL_INT(i, (int)one.fault[0].kind);

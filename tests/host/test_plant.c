@@ -1,5 +1,5 @@
-/* test_plant.c: the sensors and actuators round a scene, against closed forms: when edges are, what samples say, when
- * orders take effect, when the watchdog cuts; and which of a scene's quantities a signal is. */
+/* test_plant.c: sensors and actuators of a scene, compared with closed forms: times of edges, samples, effect of
+ * orders, watchdog; and the binding of signals to quantities. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -15,7 +15,7 @@ void suite_plant(void);
 #define TICKS_PER_S 1000000U
 #define TURN_RAD 6.283185307179586477
 
-/* A rotor that nothing brakes, a spring, and a mass that is pushed. */
+/* A free rotor, a spring, and a pushed mass. */
 static const char *const text =
     "mechanism bench \"three of them\"\n"
     "coordinate a [rad]\ncoordinate x [m]\ncoordinate y [m]\n"
@@ -59,7 +59,7 @@ static wh_signal edge(const char *name, const char *unit, float low, float high)
         .kind = WH_SIGNAL_EDGE, .name = name, .unit = unit, .low = low, .high = high};
 }
 
-/* Reads every 2 ms until `until_s`; the edges of channel 0, in seconds; returns how many. */
+/* Reads every 2 ms until `until_s`. Returns the number of edges of channel 0, in s. */
 static int edges_until(double until_s, double *at_s, int most) {
     int count = 0;
     const int reads = (int)(until_s * TICKS_PER_S / 2000.0 + 0.5);
@@ -81,7 +81,7 @@ static int edges_until(double until_s, double *at_s, int most) {
     return count;
 }
 
-/* An angle comes into the range in each turn, from below at its lower end, from above at the upper. */
+/* Once a turn the angle enters the range, at the lower end going up, at the upper end going down. */
 static void test_edges_of_an_angle(void) {
     uint64_t seed = 1;
     for (int round = 0; round < 60; round++) {
@@ -104,13 +104,13 @@ static void test_edges_of_an_angle(void) {
         TEST_ASSERT_INT_WITHIN(1, wanted, count); /* one more or less in the last moments */
         for (int i = 0; i < count; i++) {
             const double t = (turns + i) * TURN_RAD / fabs(speed);
-            /* the timer drops what is below a tick */
+            /* the timer truncates to a tick */
             TEST_ASSERT_TRUE(at_s[i] <= t + 1e-9 && at_s[i] > t - 1e-6 - 1e-9);
         }
     }
 }
 
-/* x = cos(10 t) comes into a range twice a period; its double, an output without a rate, too. */
+/* x = cos(10 t) enters a range twice a period. So does its double, an output without a rate. */
 static void test_edges_of_a_length(void) {
     for (int output = 0; output < 2; output++) {
         const float low = 0.2F;
@@ -135,7 +135,7 @@ static void test_edges_of_a_length(void) {
     }
 }
 
-/* Edges scatter as they are told to, and none is handed out before it is there. */
+/* Jitter has the given deviation, and no edge is delivered before its time. */
 static void test_jitter(void) {
     const plant_wish wish = {.jitter_s = 20e-6, .seed = 5};
     const double speed = 100.0;
@@ -152,7 +152,7 @@ static void test_jitter(void) {
         sum += off;
         squares += off * off;
     }
-    /* of 159: the mean within four, the deviation within three and a half of its own deviations */
+    /* of 159: the mean within four of its own deviations, the deviation within three and a half */
     TEST_ASSERT_TRUE(fabs(sum / count) < 4.0 * 20e-6 / sqrt(count));
     TEST_ASSERT_TRUE(fabs(sqrt(squares / count) / 20e-6 - 1.0) < 0.2);
 }
@@ -167,7 +167,7 @@ static wh_signal sample(float per_count, float most, uint32_t period_ticks) {
                        .period_ticks = period_ticks};
 }
 
-/* cos(10 t) in counts, at the instants that were asked for and no other; late by so much when told to be. */
+/* cos(10 t) in counts, at the requested instants only, with the given delay. */
 static void test_samples(void) {
     const double delays_s[] = {0.0, 150e-6, 1.3e-3};
     for (int d = 0; d < 3; d++) {
@@ -200,7 +200,7 @@ static void test_samples(void) {
     }
 }
 
-/* What a range's ends stand for is refused unless 32 bits have it; what is taken reaches both ends, to the last count. */
+/* Counts at both ends of a range must fit 32 bits. An accepted range reaches both ends exactly. */
 static void test_ranges(void) {
     const plant_wish wish = {.seed = 1};
     uint64_t seed = 3;
@@ -245,7 +245,7 @@ static void test_ranges(void) {
     TEST_ASSERT_TRUE(taken > 20 && taken < 80);
 }
 
-/* More than a reading holds: the newest are lost, and counted. */
+/* Beyond a reading's capacity the newest are lost and counted. */
 static void test_too_many(void) {
     const plant_wish wish = {.seed = 1};
     wh_readings r;
@@ -276,7 +276,7 @@ static void add_push(void) {
         .kind = WH_SIGNAL_OUTPUT, .name = "push", .unit = "N", .low = -2.0F, .high = 2.0F});
 }
 
-/* A push of 1 N that takes effect late by so much leaves 1 kg slower by as much; whole steps, or the next one's begin. */
+/* A delayed push of 1 N leaves 1 kg slower by the delay: whole steps, or up to the next step. */
 static void test_late_orders(void) {
     for (int late = 0; late <= 1000; late += 125) {
         const plant_wish wish = {.seed = 1};
@@ -291,7 +291,7 @@ static void test_late_orders(void) {
     }
 }
 
-/* A note is bound to nothing and moves nothing, whatever it says; outputs keep their channels. */
+/* A note is bound to no quantity and moves nothing; outputs keep their channels. */
 static void test_notes(void) {
     const plant_wish wish = {.seed = 1};
     add((wh_signal){.kind = WH_SIGNAL_NOTE, .name = "state", .unit = "1"});
@@ -307,7 +307,7 @@ static void test_notes(void) {
     close_bench();
 }
 
-/* What the firmware declared is what the plant takes; what is no number, at which a run ends (lockstep.c), is the least. */
+/* The plant clamps outputs to the declared range. A NaN, which ends a run (lockstep.c), counts as the minimum. */
 static void test_held_orders(void) {
     const float asked[] = {5.0F, -5.0F, 0.5F, NAN};
     const double taken[] = {2.0, -2.0, 0.5, -2.0};
@@ -323,7 +323,7 @@ static void test_held_orders(void) {
     }
 }
 
-/* Alive at 0 and no more: 10 ms on, and a step, the push is gone for good, and that is told. */
+/* Alive only at 0: after 10 ms and a step the push ends for good, and the report says so. */
 static void test_watchdog(void) {
     const plant_wish wish = {.seed = 1};
     wh_readings r;
@@ -360,7 +360,7 @@ static void test_names(void) {
     const plant_wish wish = {.seed = 1};
     open_bench(0.0, 0.0, 1e-3, &wish);
     TEST_ASSERT_TRUE(binds("x'", "m/s", WH_SIGNAL_SAMPLE, NULL));
-    TEST_ASSERT_TRUE(binds("a'", "1/s", WH_SIGNAL_SAMPLE, NULL)); /* an angle is a number */
+    TEST_ASSERT_TRUE(binds("a'", "1/s", WH_SIGNAL_SAMPLE, NULL));
     TEST_ASSERT_TRUE(binds("twice", "m", WH_SIGNAL_SAMPLE, NULL));
     TEST_ASSERT_TRUE(binds("other", "m", WH_SIGNAL_EDGE, "other=x"));
     TEST_ASSERT_TRUE(binds("x", "rad", WH_SIGNAL_EDGE, "x=a"));
@@ -375,7 +375,7 @@ static void test_names(void) {
     close_bench();
 }
 
-/* Equal orders have equal hashes whatever was counted; each other field moves it. */
+/* Equal orders have equal hashes whatever the counts; each other field changes it. */
 static void test_hash(void) {
     const wh_orders base = {
         .until_ticks = 1, .watchdog_ticks = 2, .flags = 1, .outputs = 2, .output = {1.0F, 2.0F}};

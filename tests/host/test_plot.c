@@ -1,5 +1,5 @@
-/* test_plot.c: what reaches gnuplot is text and no command, and stands in the picture as it was given: generated
- * names, titles and units of what gnuplot, a shell or XML could take for their own. */
+/* test_plot.c: text for gnuplot is never a command and appears unchanged in the picture. Names, titles and units are
+ * generated from characters special to gnuplot, a shell or XML. Also envelopes and colours. */
 #include <math.h>
 #include <stdbool.h>
 #include <stdint.h>
@@ -26,7 +26,7 @@ void suite_recording_plot(void);
 /* === plot ===================================================================================== */
 
 #define PICTURE "build/tests/drawn.svg"
-#define MADE "build/tests/made" /* what a command would make */
+#define MADE "build/tests/made" /* file that an executed command would make */
 
 static const char *const pieces[] = {"`touch build/tests/made`",
                                      "'.system('touch build/tests/made').'",
@@ -71,7 +71,7 @@ static const char *const pieces[] = {"`touch build/tests/made`",
                                      "0",
                                      "12"};
 
-/* A run of these curves: a time column, then one for each, names first. */
+/* A run of these curves: a time column, then one per name. */
 static plot_run run_of(const char *title, const char *const names[], const char *const units[],
                        int curves, const double *data, int rows) {
     plot_run run;
@@ -103,7 +103,7 @@ static void mix(dice *d, char *text, size_t size) {
     strcat(text, "z");
 }
 
-/* As XML has it, with a blank for a control character. */
+/* As in XML, with a blank for a control character. */
 static void escaped(const char *text, char *to) {
     for (; *text != '\0'; text++) {
         const unsigned char code = (unsigned char)*text;
@@ -118,7 +118,7 @@ static void escaped(const char *text, char *to) {
     *to = '\0';
 }
 
-/* The picture, after its alternative text, without its tags and without what parts "]]>". */
+/* The picture after its alternative text, without tags and without the split of "]]>". */
 static char *shown(void) {
     FILE *in = fopen(PICTURE, "rb");
     TEST_ASSERT_NOT_NULL(in);
@@ -129,7 +129,7 @@ static char *shown(void) {
         TEST_ASSERT_NOT_NULL(fgets(head, sizeof head, in));
     }
     bool tag = false;
-    int brackets = 0; /* of them side by side: "]]>" is no XML */
+    int brackets = 0; /* adjacent ones: "]]>" is not XML */
     size_t length = 0;
     for (int c = fgetc(in); c != EOF && length < (1 << 18) - 1; c = fgetc(in)) {
         TEST_ASSERT_FALSE(c == '>' && brackets >= 2);
@@ -187,7 +187,6 @@ static void test_texts_are_no_commands(void) {
     unlink(PICTURE);
 }
 
-/* Where no file can be, or none that can be drawn, a picture is not taken for drawn. */
 static void test_no_picture(void) {
     if (!gnuplot_is_there()) {
         TEST_IGNORE_MESSAGE("no gnuplot here");
@@ -200,7 +199,7 @@ static void test_no_picture(void) {
     unlink(PICTURE);
 }
 
-/* A panel a unit, in the order in which units first stand: each is written once. */
+/* One panel per unit, in order of first use. */
 static void test_a_panel_a_unit(void) {
     enum { CURVES = 6, UNITS = 4 };
     static const char *const units[UNITS] = {"unita", "unitb", "unitc", "unitd"};
@@ -251,12 +250,10 @@ void suite_plot(void) {
 }
 
 /* === envelope ================================================================================= */
-/* The course of a run for its picture: generated signals of every length, compared with all of
- * their values. */
+/* The envelope of a run for its picture: generated signals of every length, compared with all their values. */
 
 enum { COLUMNS = 4 }; /* the time, a swing with peaks of one step, a swing with gaps, noise */
 
-/* A row at each step: [steps * COLUMNS]. */
 static double *signal_of(dice *d, unsigned steps) {
     double *made = calloc((size_t)steps * COLUMNS, sizeof *made);
     TEST_ASSERT_NOT_NULL(made);
@@ -300,7 +297,7 @@ static void test_short_runs_are_kept_number_by_number(void) {
     }
 }
 
-/* The steps of a bucket: the least power of two that lets all of them in. */
+/* Steps per bucket: the least power of two for which all fit. */
 static unsigned size_of(unsigned steps) {
     unsigned size = 1;
     while ((uint64_t)size * DECIMATION_ROOM < steps) {
@@ -309,7 +306,7 @@ static unsigned size_of(unsigned steps) {
     return size;
 }
 
-/* Both numbers drawn of column i are the least and the greatest of the steps [from, to), as they came. */
+/* Both numbers of column i are the minimum and maximum of the steps [from, to), in order of time. */
 static void check_bucket(const double *data, unsigned from, unsigned to, int i, double first,
                          double second) {
     unsigned least = UINT32_MAX;
@@ -363,7 +360,6 @@ static void test_long_runs_keep_least_and_most_of_every_stretch(void) {
     }
 }
 
-/* Wherever a run is broken off, what there is covers all of it. */
 static void test_at_every_moment_all_is_there(void) {
     dice d = dice_of("broken off", 5103);
     const unsigned steps = 5 * DECIMATION_ROOM;
@@ -392,9 +388,9 @@ void suite_envelope(void) {
 }
 
 /* === palette ================================================================================== */
-/* Contrast and distance of the colours of pictures (host/io/palette.h), computed: WCAG 2.1's contrast
- * ratio, and CIEDE2000 (Sharma, Wu and Dalal, 2005) between colours as they look to eyes without and with colour
- * blindness (Machado, Oliveira and Fernandes, 2009, severity 1). */
+/* Contrast and distance of the colours of pictures (host/io/palette.h): WCAG 2.1's contrast ratio, and CIEDE2000
+ * (Sharma, Wu and Dalal, 2005), for eyes without and with colour blindness (Machado, Oliveira and Fernandes, 2009,
+ * severity 1). */
 
 #define CONTRAST 3.0
 #define APART 11.0
@@ -402,7 +398,7 @@ void suite_envelope(void) {
 enum { EYES = 4 };
 static const char *const eye_words[EYES] = {"full sight", "protanopia", "deuteranopia",
                                             "tritanopia"};
-/* Of linear RGB. */
+/* for linear RGB */
 static const double eye[EYES][9] = {
     {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0},
     {0.152286, 1.052583, -0.204868, 0.114503, 0.786281, 0.099216, -0.003882, -0.048116, 1.051998},
@@ -515,7 +511,7 @@ static void test_lines_stand_out_on_white_and_dark(void) {
         }
     }
     printf("# contrast of lines with white and dark: %.2f at least\n", least);
-    /* the yellow that the proof's x_cm once had */
+    /* the former yellow of the proof's x_cm */
     TEST_ASSERT_TRUE(contrast("#f0e442", PALETTE_WHITE) < 1.4);
 }
 
@@ -539,7 +535,7 @@ static void test_colours_are_apart_to_every_eye(void) {
         }
         printf("# %s: any two lines differ by %.1f at least\n", eye_words[k], least);
     }
-    /* red and green of one lightness, which such a test must refuse */
+    /* red and green of one lightness, which the test must refuse */
     TEST_ASSERT_TRUE(distance("#c06030", "#7f8030", 2) < APART);
 }
 
@@ -556,7 +552,7 @@ static void test_areas_darken_from_good_to_bad(void) {
     }
 }
 
-/* Points of nine methods: each has another shape, or another colour. */
+/* Points of nine methods differ in shape or colour. */
 static void test_lines_that_share_a_colour_differ_otherwise(void) {
     for (int i = 0; i < 3 * PALETTE_LINES; i++) {
         for (int j = 0; j < i; j++) {
@@ -580,12 +576,11 @@ void suite_palette(void) {
 }
 
 /* === recording plot =========================================================================== */
-/* What a recording keeps of samples for a plot (host/monitor/recording.h): thinned out where it is too
- * much, evenly, and none of it another sample than it was; and that nothing is drawn of nothing. */
+/* Samples that a recording stores for a plot (host/monitor/recording.h): thinned evenly, never changed, and no plot
+ * without samples. */
 
 static dice die;
 
-/* A channel of one field, a whole number. */
 static const schema numbers = {
     .channel[RECORDING_RUN] = {.known = true,
                                .period_ticks = 1000,

@@ -1,6 +1,5 @@
-/* test_pole.c: poles on a way (host/check/pole.h), of drawn products of powers whose poles are known: whole and broken
- * exponents, zeros close beside, poles on one side only, differences of which rounding leaves no more than noise, divisors
- * that change their sign twice. */
+/* test_pole.c: poles on a path (host/check/pole.h), for drawn products of powers: integer and fractional exponents,
+ * zeros nearby, one-sided poles, differences that are only round-off, divisors with two changes of sign. */
 #include <math.h>
 #include <stdbool.h>
 #include <stdio.h>
@@ -16,16 +15,16 @@ static dice die;
 
 enum { SIGNS = 2, VALUES = 2 };
 
-/* value[0] is smooth, value[1] = sum of c (x - zero)^zeros / |x - place|^order, from one side alone where `side` is not 0. */
+/* value[0] is smooth. value[1] = sum of c (x - zero)^zeros / |x - place|^order, on one side only if `side` is not 0. */
 typedef struct drawn {
     double place;
     double order;
     double zero;
     int zeros;
     double side;
-    double beside; /* what is added */
-    bool touches;  /* what tells of the place is even, too, and not written as a square */
-    int asked;     /* of the way */
+    double beside; /* added constant */
+    bool touches;  /* the function that marks the place is even and not written as a square */
+    int asked;     /* points evaluated */
 } drawn;
 
 static void at(void *of, double share, double *sign, double *value) {
@@ -59,7 +58,7 @@ static void test_powers(void) {
         const bool near = dice_one_of(&die, 2) == 0;
         const bool upon = !near && dice_one_of(&die, 2) == 0;
         d.zeros = (int)dice_one_of(&die, 3);
-        d.beside = near ? 0.0 : d.beside; /* beside which little is left of such a pole */
+        d.beside = near ? 0.0 : d.beside; /* next to which such a pole loses its digits */
         d.zero = upon   ? d.place
                  : near ? d.place + exp(dice_between(&die, -18.0, -2.0))
                         : dice_between(&die, -3.0, -1.0);
@@ -70,7 +69,8 @@ static void test_powers(void) {
     }
 }
 
-/* Found by what touches zero there, and as far from the way's ends as that has digits: 1 - cos(x) as a divisor, too. */
+/* The pole is found by the function that touches zero, as accurately as its digits allow; also 1 - cos(x) as a
+ * divisor. */
 static void test_what_touches(void) {
     static const double orders[] = {0.0, 0.3, 0.5, 0.8, 1.0, 2.0, 3.0, 4.0};
     enum { ORDERS = sizeof orders / sizeof orders[0] };
@@ -87,7 +87,7 @@ static void test_what_touches(void) {
     }
 }
 
-/* Parabolas by what is left at their least, below zero, nothing, and above. */
+/* Parabolas with a minimum below, at and above zero. */
 static void test_what_may_touch(void) {
     for (unsigned c = 0; c < dice_cases(600); c++) {
         const double least = dice_between(&die, 0.01, 3.0) * (c % 3 == 0 ? 1.0 : 0.0);
@@ -99,7 +99,7 @@ static void test_what_may_touch(void) {
             value[k] = size * ((share[k] - place) * (share[k] - place) + least);
         }
         const bool inside = place > 0.0 && place < 1.0;
-        /* what is left of it does not tell it from one that touches, where its tangents meet below zero */
+        /* undecidable near the minimum if its tangents meet below zero */
         const bool may = inside && least - place * (1.0 - place) < 0.0;
         if (fabs(least - place * (1.0 - place)) > 0.01 && fabs(place - 0.5) < 0.98 &&
             fabs(fabs(place - 0.5) - 0.5) > 0.01) {
@@ -110,7 +110,7 @@ static void test_what_may_touch(void) {
 
 /* --- what is no way to a pole, and a place that is known to few digits ------------------------------------*/
 
-/* Grows as a pole on the whole, but in leaps: by 28 and by 4.7 in turn, whose even share is 11. */
+/* Grows like a pole on average, but in jumps of 28 and 4.7 alternately; the even ratio is 11. */
 static void at_leaps(void *of, double share, double *sign, double *value) {
     const drawn *d = of;
     const double x = share - d->place;
@@ -121,7 +121,7 @@ static void at_leaps(void *of, double share, double *sign, double *value) {
     value[1] = number_power(fabs(x), -1.5) * (fmod(floor(turn), 2.0) == 0.0 ? 1.0 : 2.4);
 }
 
-/* What changes its sign does so beside the pole. */
+/* The sign changes next to the pole. */
 static void at_shifted(void *of, double share, double *sign, double *value) {
     const drawn *d = of;
     at(of, share, sign, value);
@@ -195,7 +195,7 @@ static void test_what_rounding_leaves(void) {
     }
 }
 
-/* What touches zero at x = 0, s = a + x, with a limit or less than a pole there. */
+/* Touches zero at x = 0 with s = a + x; the value has a limit or a weak pole there. */
 static void at_touched(void *of, double share, double *sign, double *value) {
     const drawn *d = of;
     const double s = d->place + (share - d->zero) * d->order;
@@ -218,7 +218,7 @@ static void test_what_has_no_digits(void) {
     }
 }
 
-/* What comes near to zero and turns: y^2 + x^2, and 1 + y^2 - cos(x), of which less is left beside its rounding. */
+/* Approaches zero and turns: y^2 + x^2, and 1 + y^2 - cos(x), which has less left above its round-off. */
 static void at_standing(void *of, double share, double *sign, double *value) {
     const drawn *d = of;
     const double x = (share - d->place) * d->order;
@@ -240,7 +240,7 @@ static void test_what_stands_off(void) {
 
 /* --- signs that change twice -----------------------------------------------------------------------------*/
 
-/* 1/(1 + k/x), with x from beyond -k to above zero: of 1 + k/x both ends have the same sign. */
+/* 1/(1 + k/x), x from below -k to above zero: 1 + k/x has the same sign at both ends. */
 static void at_twice(void *of, double share, double *sign, double *value) {
     const drawn *d = of;
     const double x = share - d->place;
@@ -255,7 +255,7 @@ static void test_what_changes_twice(void) {
         drawn d = {.place = dice_between(&die, 0.3, 0.7),
                    .order = exp(dice_between(&die, -15.0, -1.5))};
         TEST_ASSERT_EQUAL_INT(1, pole_of(&d, at_twice, 1.0));
-        d.order = 1.0; /* behind the end */
+        d.order = 1.0; /* after the end */
         TEST_ASSERT_EQUAL_INT(-1, pole_of(&d, at_twice, 1.0));
     }
 }
